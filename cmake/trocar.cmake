@@ -1,0 +1,60 @@
+# The three functions every folder uses. A module is a static library of the sources in its folder; its tests and
+# benchmarks are the *_test.cpp and *_bench.cpp in the folder of the same name under tests/ and bench/.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+
+# Determinism law: no fused multiply-add unless written, no fast-math, errno and traps are nobody's business.
+add_compile_options(-ffp-contract=off -fno-math-errno -fno-trapping-math
+                    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror)
+if(TROCAR_MARCH)
+  add_compile_options(-march=${TROCAR_MARCH})
+endif()
+
+# trocar_module(NAME [DEPENDS module...] [LIBS target...])
+function(trocar_module name)
+  cmake_parse_arguments(arg "" "" "DEPENDS;LIBS" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  set(target trocar_${name})
+  list(TRANSFORM arg_DEPENDS PREPEND trocar_)
+  if(sources)
+    add_library(${target} STATIC ${sources})
+    target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/src)
+    target_link_libraries(${target} PUBLIC ${arg_DEPENDS} ${arg_LIBS})
+  else()
+    add_library(${target} INTERFACE)
+    target_include_directories(${target} INTERFACE ${PROJECT_SOURCE_DIR}/src)
+    target_link_libraries(${target} INTERFACE ${arg_DEPENDS} ${arg_LIBS})
+  endif()
+endfunction()
+
+# trocar_test(NAME DEPENDS module...): tests/NAME/*_test.cpp -> NAME_test, each case known to ctest
+function(trocar_test name)
+  cmake_parse_arguments(arg "" "" "DEPENDS;LIBS" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
+  if(NOT sources)
+    return()
+  endif()
+  list(TRANSFORM arg_DEPENDS PREPEND trocar_)
+  add_executable(${name}_test ${sources})
+  target_link_libraries(${name}_test PRIVATE ${arg_DEPENDS} ${arg_LIBS} GTest::gtest_main)
+  target_compile_definitions(${name}_test PRIVATE TROCAR_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+                                                  TROCAR_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  gtest_discover_tests(${name}_test TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60)
+endfunction()
+
+# trocar_bench(NAME DEPENDS module... [LIBS ...]): bench/NAME/*_bench.cpp -> NAME_bench
+function(trocar_bench name)
+  cmake_parse_arguments(arg "" "" "DEPENDS;LIBS" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_bench.cpp)
+  if(NOT sources)
+    return()
+  endif()
+  list(TRANSFORM arg_DEPENDS PREPEND trocar_)
+  add_executable(${name}_bench ${sources})
+  target_link_libraries(${name}_bench PRIVATE ${arg_DEPENDS} ${arg_LIBS} benchmark::benchmark_main)
+endfunction()

@@ -1,0 +1,37 @@
+// A fixed-partition thread pool: work item i always goes to the same slot, so results never depend on timing.
+// No allocation and no exception once constructed. TROCAR_THREADS bounds the number of workers.
+#pragma once
+
+#include <memory>
+
+namespace trocar::core {
+
+/// Threads the pool may use: TROCAR_THREADS if set (1..64), else the cores less one (kept for drawing), at least 1.
+int default_thread_count() noexcept;
+
+class ThreadPool {
+ public:
+  explicit ThreadPool(int threads);
+  ~ThreadPool();
+  ThreadPool(const ThreadPool&) = delete;
+  ThreadPool& operator=(const ThreadPool&) = delete;
+
+  int threads() const noexcept;
+
+  /// Calls task(context, i) for i in [0, count); item i runs on thread i % threads(). Returns when all are done.
+  using Task = void (*)(void* context, int index) noexcept;
+  void run(int count, Task task, void* context) noexcept;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> m_impl;
+};
+
+/// The same for a callable: run(pool, n, [&](int i) noexcept { ... }).
+template <class F>
+void run(ThreadPool& pool, int count, F&& body) noexcept {
+  pool.run(
+      count, [](void* c, int i) noexcept { (*static_cast<F*>(c))(i); }, &body);
+}
+
+}  // namespace trocar::core
