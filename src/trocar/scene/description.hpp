@@ -1,0 +1,160 @@
+// What a person writes in a scene file, with names and places in the file: editable, no indices, no physics state.
+// compile() turns it into a sim::Model. All lengths are in metres here (files say _mm), angles in radians.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <trocar/core/error.hpp>
+#include <trocar/numerics/vec3.hpp>
+
+namespace trocar::scene {
+
+/// One row of the tissue table. sigma = E eps (1 + P1 |eps| + P2 eps^2), linear beyond strain_cap.  [KCM99 eq.5]
+struct Tissue {
+  std::string name;
+  double density = 1050;         ///< [kg/m^3]
+  double young = 0;              ///< E [Pa]
+  double p1 = 0, p2 = 0;         ///< shape factors
+  double strain_cap = 0.2;       ///< the law continues linearly beyond it
+  double failure_strain = 0;     ///< tears beyond it (0: never)
+  double damping_ms = 2;         ///< stiffness-proportional damping, a time [ms]
+  std::string source;            ///< literature or "ours"
+  core::Location at;
+};
+
+/// A section of a lofted body: a super-ellipse with two half-axis vectors.
+struct Section {
+  Vec3d centre, across, deep;
+  double squareness = 2;  ///< 2 = ellipse
+};
+
+/// A place on a body: the nodes within `radius` of `centre` are fixed (stiffness 0) or sprung to space.
+struct Anchor {
+  Vec3d centre;
+  double radius = 0;
+  double stiffness = 0;  ///< total [N/m]; 0 = rigidly fixed
+  core::Location at;
+};
+
+/// A volumetric organ: spline loft, filled with an elastic lattice of cubic cells.
+struct Solid {
+  std::string name, tissue, look;
+  std::vector<Section> sections;
+  double cell = 0;            ///< lattice edge [m]
+  double skin_edge = 0;       ///< contact skin's edge length [m]
+  double fine_edge = 0;       ///< drawn skin's edge length [m]
+  std::vector<Anchor> anchors;
+  core::Location at, cell_at;
+};
+
+struct StrandStation {
+  double s = 0;       ///< arc length from the start [m]
+  double radius = 0;  ///< outer [m]
+  double lumen = 0;   ///< lumen radius [m], 0 = solid cord
+};
+
+/// Where a strand's end hangs: on a solid organ at a point (its skin nearest to that point), at a fixed point in space,
+/// or free (organ empty and fixed false).
+struct StrandEnd {
+  std::string organ;  ///< empty: not on an organ
+  bool fixed = false;
+  core::Location at;
+};
+
+/// A named stretch of a strand, used by exercises ("isthmus", "ampulla", "fimbria").
+struct Landmark {
+  std::string name;
+  double from = 0, to = 0;  ///< arc length [m]
+};
+
+/// A thin tube or cord: cubic spline centre-line through the points, implicit strand.
+struct Strand {
+  std::string name, tissue, look;
+  std::vector<Vec3d> centreline;          ///< interpolated points [m]
+  std::vector<StrandStation> stations;    ///< radius and lumen along it, linear in between
+  std::vector<Landmark> landmarks;
+  StrandEnd start, end;
+  double spacing = 0.0025;                ///< node distance [m]
+  double foundation = 0;                  ///< elastic foundation per length [N/m^2]: the mesentery's hold
+  double foundation_limit = 0;            ///< displacement at which the foundation's stiffness has doubled [m]; 0: linear
+  bool cuttable = true;
+  bool fimbriated = false;                ///< the end flares into fimbriae
+  core::Location at, spacing_at;
+};
+
+/// A surface that does not move: a NURBS patch from a grid of control points (rows x columns), drawn and touched.
+struct Wall {
+  std::string name, look;
+  int rows = 0, columns = 0;
+  std::vector<Vec3d> net;  ///< rows * columns control points [m], normal = d/drow x d/dcolumn points to the free side
+  double edge = 0.004;     ///< tessellation [m]
+  core::Location at;
+};
+
+/// A thin translucent fold drawn between a strand and a line of points that ride on other bodies or on space.
+/// Mechanically it is the strand's foundation in this version.
+struct Sheet {
+  std::string name, look, strand;
+  double from = 0, to = 0;         ///< the strand's arc length [m]
+  std::vector<Vec3d> base;         ///< polyline of the fold's other border [m]
+  std::string base_organ;          ///< solid or strand that the base rides on; empty: space
+  core::Location at;
+};
+
+struct Port {
+  std::string name;
+  Vec3d position;
+  double diameter = 0.005;
+  core::Location at;
+};
+
+enum class InstrumentKind { grasper, clip_applier, scissors, probe };
+
+/// An instrument's shape and grip. Jaws open symmetrically in the plane of the shaft axis and the opening direction.
+struct Instrument {
+  std::string name;
+  InstrumentKind kind = InstrumentKind::probe;
+  double shaft_radius = 0.0025, shaft_length = 0.310;
+  double jaw_length = 0.020, jaw_width = 0.003, jaw_thickness = 0.0015;
+  double opening = 1.0;           ///< full opening between the jaws [rad], or for parallel jaws
+  double parallel_gap = 0;        ///< clip applier: gap between parallel jaws when open [m] (then opening = 0)
+  double pinch_max = 15;          ///< force between the jaws when the handle is fully closed on tissue [N]
+  double friction = 1.67;         ///< pull the grip bears per pinch force: profiled jaws hold 5 N with 3 N [Heijnsdijk 04]
+  double clip_length = 0.0085;    ///< clip applier: length of a closed clip [m]
+  int clips = 0;                  ///< clips in the magazine
+  core::Location at;
+};
+
+struct Scope {
+  double angle = 0;               ///< 0, 30 or 45 degrees [rad]
+  double field_of_view = 1.22;    ///< full cone [rad]
+  double shaft_radius = 0.005, shaft_length = 0.310;
+};
+
+/// Where an instrument or the scope stands at the start: through which port, aimed at which point, how deep.
+struct Placement {
+  std::string instrument;  ///< empty for the scope
+  std::string port;
+  Vec3d tip;               ///< tip position at the start [m]
+  double roll = 0;
+  core::Location at;
+};
+
+struct Description {
+  std::string name, file;
+  Vec3d gravity{0, 0, -9.81};  ///< [m/s^2], patient frame: tilt included
+  std::vector<Tissue> tissues;
+  std::vector<Solid> solids;
+  std::vector<Strand> strands;
+  std::vector<Wall> walls;
+  std::vector<Sheet> sheets;
+  std::vector<Port> ports;
+  std::vector<Instrument> instruments;
+  std::vector<Placement> placements;  ///< tools, in hand order: [0] left, [1] right, [2] assistant/third
+  Scope scope;
+  Placement scope_placement;
+};
+
+}  // namespace trocar::scene
