@@ -1,0 +1,122 @@
+// One picture to draw: where the camera is, what lights the scene, what is in it, and what the optics do to it.
+// Plain data, made anew each frame by view.
+//
+//   Frame frame;
+//   frame.camera = look_at(scope_tip, target, up);
+//   frame.tick = now;                                  // [ms] simulated time; noise and exposure follow it, no clock
+//   frame.items.push_back({.mesh = pear, .material = liver});
+//   draw_frame(backend, frame, Target::off_screen(800, 600));
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <trocar/numerics/vec3.hpp>
+#include <trocar/render/mat4.hpp>
+#include <trocar/render/material.hpp>
+#include <trocar/render/mesh_data.hpp>
+
+namespace trocar::render {
+
+/// Looks along minus the third column of `rotation` (columns: right, up, backward; a right-handed unit frame).
+struct Camera {
+  Vec3f position;
+  Mat3f rotation = Mat3f::identity();
+  float vertical_fov = 1.05f;  ///< [rad] of the whole picture height
+  float near_plane = 0.003f;   ///< [m]
+  float far_plane = 0.6f;      ///< [m]
+};
+/// A camera at `eye` looking at `target`, the picture's top as near to `up` as can be.
+Camera look_at(Vec3f eye, Vec3f target, Vec3f up);
+/// A camera at the tip of a scope. @param shaft columns right, up, backward along the shaft (tip -> hand)
+/// @param scope_angle [rad] 0 looks along the shaft, 30 degrees looks up from it (towards `up` rolled by `roll`)
+/// @param roll [rad] turn of the scope about its shaft under a camera head that stays upright
+Camera at_scope_tip(Vec3f tip, const Mat3f& shaft, float scope_angle, float roll);
+
+/// One lamp: the ring of the scope (default) or a room lamp.
+struct Light {
+  Vec3f position = {0.0012f, 0.0022f, 0.0008f};  ///< [m] in the camera's frame: slightly off the lens
+  Vec3f colour = {1.0f, 0.97f, 0.98f};
+  float intensity = 1;               ///< irradiance at reference_distance
+  float reference_distance = 0.06f;  ///< [m]
+  bool inverse_square = true;        ///< false: the same everywhere (operating room, analysis views)
+  float bounce = 0.035f;             ///< light that the walls return, as a share
+  Vec3f bounce_colour = {1.0f, 0.36f, 0.30f};
+  float ambient = 0;  ///< white light from everywhere (0 inside a body)
+};
+
+struct EndoscopeLook {
+  // Lens.
+  bool mask = true;            ///< black outside a circle
+  float mask_diameter = 1.0f;  ///< in picture heights
+  float mask_soft_px = 3;      ///< width of its edge [px of the target]
+  float notch = 1;             ///< 0 none .. 1: small orientation notch on the rim
+  float notch_angle = 0;       ///< [rad] clockwise from 12 o'clock (turns with the scope)
+  float barrel = 0.10f;        ///< how much less the rim is magnified than the centre
+  float fringe_px = 0.8f;      ///< chromatic shift at the rim [px of a 600 px high picture]
+  float vignette = 0.6f;       ///< 0 none .. 1 = cos^4 of the field angle
+  // Camera.
+  bool auto_exposure = true;
+  float exposure_ev = 0;          ///< [stops] on top; with auto_exposure off this is all there is
+  float exposure_key = 0.115f;    ///< mean scene level that auto exposure aims at (linear)
+  float exposure_seconds = 0.4f;  ///< time constant
+  float exposure_range_ev = 3;    ///< limits, both ways
+  float bloom = 0.05f;
+  float sharpen = 0.35f;  ///< video sharpening overshoot
+  float noise = 0.006f;   ///< sensor noise at mid grey; more in the dark
+  float saturation = 1;
+  Vec3f white_balance = {1, 1, 1};
+  // Air.
+  float fog = 0;  ///< smoke veil, extinction [1/m]
+  Vec3f fog_colour = {0.62f, 0.47f, 0.37f};
+};
+/// A plain camera: no mask, barrel, fringe, vignette, noise, bloom, or auto exposure.
+EndoscopeLook plain_look();
+
+struct DrawItem {
+  MeshHandle mesh;
+  Material material;
+  Mat4 transform;            ///< mesh -> world; rotation, translation and uniform scale only
+  bool translucent = false;  ///< drawn after the opaque ones, far to near by the middle of its bounds, both sides
+};
+
+/// A soft puff of smoke or mist, drawn facing the eye.
+struct Puff {
+  Vec3f centre;          ///< [m] world
+  float radius = 0.01f;  ///< [m]
+  float density = 0.2f;  ///< opacity in the middle, 0..1
+};
+
+/// What the picture may cost; see governor.hpp.
+struct Quality {
+  float render_scale = 1;  ///< of the scene pass, 0.25..1 (the lens pass is always at full size)
+  int detail = 2;          ///< 2 everything, 1 no second noise scale and no bloom, 0 no vessels or film ripples either
+
+  friend bool operator==(Quality a, Quality b) { return a.render_scale == b.render_scale && a.detail == b.detail; }
+};
+
+struct Frame {
+  Camera camera;
+  Light light;
+  EndoscopeLook look;
+  Quality quality;
+  std::vector<DrawItem> items;
+  std::vector<Puff> puffs;
+  Vec3f background = {0.0015f, 0.0004f, 0.0003f};  ///< linear, where nothing is drawn
+  std::uint64_t tick = 0;                          ///< [ms] simulated
+  int eye = 0;                                     ///< 0..7: each eye or window has its own exposure memory
+  bool metering = true;  ///< false: use the memory of `eye` unchanged (the second picture of a stereo pair)
+};
+
+/// Where the picture goes.
+struct Target {
+  static constexpr unsigned kOwnBuffer = ~0u;
+  unsigned framebuffer = kOwnBuffer;  ///< GL name, 0 = the window
+  int x = 0, y = 0;                   ///< lower left corner [px]
+  int width = 0, height = 0;          ///< [px]
+
+  static Target off_screen(int width, int height) { return {kOwnBuffer, 0, 0, width, height}; }
+  static Target window(int width, int height) { return {0, 0, 0, width, height}; }
+};
+
+}  // namespace trocar::render

@@ -1,0 +1,49 @@
+// Keeps the picture at 20 images a second or more by lowering its quality, never the physics: resolution scale first
+// (what costs is fragments), then effects. Steps down when several frames were late, steps up only after a calm while
+// and only if the better level is predicted to fit; a step up that failed is not tried again for longer and longer.
+//
+//   Governor governor;
+//   frame.quality = governor.quality();
+//   ... draw, measure ...
+//   governor.frame_took(seconds);
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include <trocar/render/frame.hpp>
+
+namespace trocar::render {
+
+/// Best first.
+std::span<const Quality> quality_levels();
+
+class Governor {
+ public:
+  struct Limits {
+    double late = 1.0 / 21;   ///< [s] a frame slower than this is late
+    double roomy = 1.0 / 26;  ///< [s] step up only if the better level is predicted below this
+    int late_frames = 4;      ///< this many late ones in the last 8: step down
+    int calm_frames = 60;     ///< frames without step before a step up is considered
+  };
+  Governor() : Governor(Limits{}) {}
+  explicit Governor(Limits limits, std::size_t start_level = 0);
+
+  /// @param seconds time the last frame took, on the clock that counts for the user; ignored unless finite and > 0
+  void frame_took(double seconds);
+  Quality quality() const { return quality_levels()[m_level]; }
+  std::size_t level() const { return m_level; }
+
+ private:
+  void step_to(std::size_t level);
+
+  Limits m_limits;
+  std::size_t m_level = 0;
+  double m_mean = 0;       ///< [s] smoothed frame time at this level; 0 = unknown
+  unsigned m_history = 0;  ///< bit per frame: late
+  int m_since_step = 0;
+  int m_patience;  ///< frames to wait before stepping up; doubles after a failed step up
+  bool m_came_up = false;
+};
+
+}  // namespace trocar::render
