@@ -1,0 +1,36 @@
+// What the hands do in one tick: the whole input of the simulation, and the content of a recording's input log.
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include <trocar/kinematics/fulcrum.hpp>
+
+namespace trocar::sim {
+
+inline constexpr int kMaxTools = 4;
+
+/// Commanded pose of one instrument through its trocar. Angles [rad], depth port-to-tip [m], handle 0 open .. 1 closed.
+struct ToolInput {
+  float yaw = 0, pitch = 0, roll = 0, depth = 0, handle = 0;
+};
+
+/// The endoscope: `roll` turns the camera head (the picture), `post` the light post (an oblique view's direction).
+struct ScopeInput {
+  float yaw = 0, pitch = 0, roll = 0, depth = 0, post = 0;
+};
+
+struct Input {
+  ScopeInput scope;
+  ToolInput tools[kMaxTools];
+  std::uint32_t pedals = 0;  ///< foot switches, bit 0 = coagulation (no instrument uses it yet)
+};
+static_assert(std::is_trivially_copyable_v<Input> && sizeof(Input) == (1 + kMaxTools) * 20 + 4, "no padding");
+
+inline kinematics::FulcrumPose pose_of(const ToolInput& t) { return {t.yaw, t.pitch, t.roll, t.depth}; }
+inline kinematics::FulcrumPose pose_of(const ScopeInput& s) { return {s.yaw, s.pitch, s.roll, s.depth}; }
+inline ToolInput tool_input(const kinematics::FulcrumPose& p, float handle) {
+  return {float(p.yaw), float(p.pitch), float(p.roll), float(p.depth), handle};
+}
+
+}  // namespace trocar::sim
