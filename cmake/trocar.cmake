@@ -1,18 +1,46 @@
 # The three functions every folder uses. A module is a static library of the sources in its folder; its tests and
-# benchmarks are the *_test.cpp and *_bench.cpp in the folder of the same name under tests/ and bench/.
+# benchmarks are the files in the folder of the same name under tests/ and bench/:
+#   tests/NAME/*_test.cpp  the quick ones, in every run of ctest's `quick` label
+#   tests/NAME/*_soak.cpp  the long ones, label `soak`, run by `./test.sh soak`
+#   bench/NAME/*_bench.cpp
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 if(NOT CMAKE_BUILD_TYPE)
-  set(CMAKE_BUILD_TYPE Release)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+# Optimised and debuggable, with assertions (CMake's own default would add -DNDEBUG).
+set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O2 -g")
+
+find_program(TROCAR_CCACHE ccache)
+if(TROCAR_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${TROCAR_CCACHE})
 endif()
 
 # Determinism law: no fused multiply-add unless written, no fast-math, errno and traps are nobody's business.
 add_compile_options(-ffp-contract=off -fno-math-errno -fno-trapping-math
-                    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror)
+                    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror
+                    -fdiagnostics-color=auto)
 if(TROCAR_MARCH)
   add_compile_options(-march=${TROCAR_MARCH})
+endif()
+if(TROCAR_SANITIZE)
+  add_compile_options(-fsanitize=${TROCAR_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${TROCAR_SANITIZE})
+endif()
+
+# Text output. Debian compiles fmt and spdlog for libstdc++, so with libc++ only their headers are used.
+find_package(Threads REQUIRED)
+find_package(fmt REQUIRED)
+find_package(spdlog REQUIRED)
+add_library(trocar_text INTERFACE)
+if(TROCAR_LIBCXX)
+  add_compile_options(-stdlib=libc++)
+  add_link_options(-stdlib=libc++)
+  target_compile_definitions(trocar_text INTERFACE FMT_HEADER_ONLY=1 SPDLOG_FMT_EXTERNAL)
+else()
+  target_link_libraries(trocar_text INTERFACE fmt::fmt spdlog::spdlog)
 endif()
 
 # trocar_module(NAME [DEPENDS module...] [LIBS target...])
@@ -25,6 +53,7 @@ function(trocar_module name)
     add_library(${target} STATIC ${sources})
     target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/src)
     target_link_libraries(${target} PUBLIC ${arg_DEPENDS} ${arg_LIBS})
+    set_property(GLOBAL APPEND PROPERTY TROCAR_MODULES ${name})
   else()
     add_library(${target} INTERFACE)
     target_include_directories(${target} INTERFACE ${PROJECT_SOURCE_DIR}/src)
@@ -32,19 +61,29 @@ function(trocar_module name)
   endif()
 endfunction()
 
-# trocar_test(NAME DEPENDS module...): tests/NAME/*_test.cpp -> NAME_test, each case known to ctest
+# One executable of GoogleTest cases, each of them known to ctest under LABEL.
+function(trocar_test_executable target prefix label timeout sources depends libs)
+  add_executable(${target} ${sources})
+  target_link_libraries(${target} PRIVATE ${depends} ${libs} GTest::gtest_main)
+  target_compile_definitions(${target} PRIVATE TROCAR_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+                                               TROCAR_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  gtest_discover_tests(${target} TEST_PREFIX ${prefix}. DISCOVERY_TIMEOUT 60
+                       PROPERTIES LABELS ${label} TIMEOUT ${timeout})
+  set_property(GLOBAL APPEND PROPERTY TROCAR_TEST_TARGETS ${target})
+endfunction()
+
+# trocar_test(NAME DEPENDS module... [LIBS target...]): tests/NAME/*_test.cpp -> NAME_test, *_soak.cpp -> NAME_soak
 function(trocar_test name)
   cmake_parse_arguments(arg "" "" "DEPENDS;LIBS" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
-  if(NOT sources)
-    return()
-  endif()
   list(TRANSFORM arg_DEPENDS PREPEND trocar_)
-  add_executable(${name}_test ${sources})
-  target_link_libraries(${name}_test PRIVATE ${arg_DEPENDS} ${arg_LIBS} GTest::gtest_main)
-  target_compile_definitions(${name}_test PRIVATE TROCAR_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
-                                                  TROCAR_BINARY_DIR="${PROJECT_BINARY_DIR}")
-  gtest_discover_tests(${name}_test TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60)
+  file(GLOB quick CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
+  file(GLOB soak CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_soak.cpp)
+  if(quick)
+    trocar_test_executable(${name}_test ${name} quick 300 "${quick}" "${arg_DEPENDS}" "${arg_LIBS}")
+  endif()
+  if(soak)
+    trocar_test_executable(${name}_soak ${name} soak 3600 "${soak}" "${arg_DEPENDS}" "${arg_LIBS}")
+  endif()
 endfunction()
 
 # trocar_bench(NAME DEPENDS module... [LIBS ...]): bench/NAME/*_bench.cpp -> NAME_bench

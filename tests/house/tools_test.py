@@ -1,0 +1,154 @@
+#!/usr/bin/env python3
+"""Proof that the checks in tools/ can fail: each is fed what it forbids, in a folder made for the purpose.
+
+    tools_test.py [CASE...]      without a name: all. Exit 77: something the case needs is missing (said what).
+"""
+import os
+import platform
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+TOOLS = Path(__file__).resolve().parents[2] / "tools"
+
+
+def tool(name, *arguments):
+    done = subprocess.run([sys.executable, TOOLS / name, *map(str, arguments)], capture_output=True, text=True)
+    return done.returncode, done.stdout + done.stderr
+
+
+def put(root, path, text):
+    (root / path).parent.mkdir(parents=True, exist_ok=True)
+    (root / path).write_text(text)
+
+
+def expect(condition, what):
+    if not condition:
+        sys.exit(f"FAILED: {what}")
+
+
+def LayerCheckFindsEachFault():
+    faults = {  # path: (line that must be found, part of the message)
+        "tissue/a.cpp": ("#include <trocar/vessels/x.hpp>", "tissue may not include vessels"),
+        "core/a.hpp": ("#include <trocar/numerics/vec3.hpp>", "core may not include numerics"),
+        "view/a.cpp": ("#include <trocar/training/x.hpp>", "view may not include training"),
+        "training/a.cpp": ("  #  include <trocar/devices/x.hpp>", "training may not include devices"),
+        "view/b.cpp": ("#include <epoxy/gl.h>", "render, app only"),
+        "sim/a.cpp": ("#include <nlohmann/json.hpp>", "scene, training, app only"),
+        "sim/b.cpp": ("double a = std::sin(1.0);", "trocar::portable"),
+        "tissue/b.cpp": ("float a = powf(x, 2);", "libm"),
+        "collision/a.cpp": ("double a = ::exp(x);", "libm"),
+        "scene/a.cpp": ("auto a = std::pow(x, 2);", "trocar::portable"),
+        "sim/c.hpp": ("#include <chrono>", "clocks"),
+        "sim/d.hpp": ("#include <random>", "libraries"),
+        "tissue/c.cpp": ("std::unordered_map<int, int> m;", "iteration order"),
+        "numerics/a.hpp": ("#include <iostream>", "prints"),
+        "sim/e.cpp": ("auto s = std::reduce(a.begin(), a.end());", "summation"),
+        "vessels/a.cpp": ("std::atomic<double> sum;", "additions"),
+        "geometry/a.hpp": ('#include "mesh.hpp"', "must be visible"),
+        "training/b.cpp": ("#include <ranges>", "libc++"),
+        "nowhere/a.cpp": ("int x;", "not in the table"),
+    }
+    harmless = ('// std::sin(x), #include <chrono>\n/* std::pow(1, 2)\n*/\n#include <cmath>\n'
+                'const char* s = "std::sin(1)";\nint big = 1\'000\'000;\ndouble r = std::sqrt(big) + portable::sin(2.0);\n')
+    with tempfile.TemporaryDirectory() as folder:
+        root = Path(folder)
+        put(root, "src/trocar/tissue/harmless.cpp", harmless)
+        put(root, "src/trocar/sim/good.cpp", "#include <trocar/tissue/harmless.hpp>\n")
+        put(root, "app/main.cpp", "#include <chrono>\n#include <imgui.h>\n#include <trocar/view/x.hpp>\n")
+        code, text = tool("check_layers.py", root)
+        expect(code == 0, f"clean files were refused: {text}")
+        for path, (line, _) in faults.items():
+            put(root, f"src/trocar/{path}", f"// one\n// two\n{line}\n")
+        code, text = tool("check_layers.py", root)
+        expect(code == 1, "faults were accepted")
+        for path, (line, message) in faults.items():
+            number = 1 if path.startswith("nowhere") else 3
+            hits = [t for t in text.splitlines() if t.startswith(f"src/trocar/{path}:{number}: ")]
+            expect(any(message in t for t in hits), f"{path}: '{line}' was not found, output:\n{text}")
+        expect("harmless" not in text, f"a harmless line was refused:\n{text}")
+    with tempfile.TemporaryDirectory() as folder:
+        expect(tool("check_layers.py", folder)[0] == 1, "a folder without sources passed")
+
+
+def EquationCheckFindsEachFault():
+    def check(doc, src, test):
+        with tempfile.TemporaryDirectory() as folder:
+            root = Path(folder)
+            put(root, "docs/equations.md", doc)
+            put(root, "src/trocar/tissue/a.cpp", src)
+            put(root, "tests/tissue/a_test.cpp", test)
+            return tool("check_equations.py", root)
+
+    a, b = "[KCM99 eq.1]", "[KCM99 eq.2]"
+    expect(check(a, f"// {a}", f"// {a}")[0] == 0, "a complete set was refused")
+    expect("src/" in check(a, "", a)[1] and check(a, "", a)[0] == 1, "an equation without code passed")
+    expect("tests/" in check(a, a, "")[1] and check(a, a, "")[0] == 1, "an equation without test passed")
+    expect(check(a, f"{a} {b}", f"{a} {b}")[0] == 1, "an unlisted equation passed")
+    expect(check(a, f"{a} [KCM99 eqs. 2-4]", a)[0] == 1, "a badly written tag passed")
+    expect(check("", "", "")[0] == 1, "an empty list passed")
+    with tempfile.TemporaryDirectory() as folder:
+        expect(tool("check_equations.py", folder)[0] == 1, "a missing page passed")
+
+
+def ObjectCodeCheckFindsEachFault():
+    if platform.machine() not in ("x86_64", "AMD64"):
+        print("not an x86-64 machine")
+        sys.exit(77)
+    compiler = os.environ.get("CXX") or shutil.which("c++")
+    cases = {
+        "float f(float a, float b, float c) { return __builtin_fmaf(a, b, c); }": "vfmadd",
+        "#include <immintrin.h>\n__m128 f(__m128 a) { return _mm_rsqrt_ps(a); }": "rsqrtps",
+        "#include <immintrin.h>\n__m128 f(__m128 a) { return _mm_rcp_ss(a); }": "rcpss",
+        "#include <cmath>\ndouble f(double a) { return std::sin(a); }": "calls sin",
+        "#include <cmath>\nfloat f(float a) { return std::pow(a, 1.1f); }": "calls powf",
+    }
+    fine = "#include <cmath>\ndouble f(double a, double b) { return std::sqrt(a * b + 1) / (a + std::floor(b)); }"
+    with tempfile.TemporaryDirectory() as folder:
+        source, target = Path(folder, "a.cpp"), Path(folder, "a.o")
+
+        def compiled(text):
+            source.write_text(text)
+            subprocess.run([compiler, "-O2", "-std=c++20", "-ffp-contract=off", "-fno-math-errno", "-march=x86-64-v3",
+                            "-c", source, "-o", target], check=True)
+            return tool("check_step_object_code.py", target)
+
+        code, text = compiled(fine)
+        expect(code == 0, f"harmless code was refused: {text}")
+        for body, message in cases.items():
+            code, text = compiled(body)
+            expect(code == 1 and message in text, f"'{message}' was not found in:\n{body}\noutput: {text}")
+        expect(compiled("int x;")[0] == 1, "a file without code passed")
+
+
+def EmptyTestExecutableIsFound():
+    with tempfile.TemporaryDirectory() as folder:
+        root = Path(folder)
+
+        def executable(name, listing):
+            put(root, name, f"#!/bin/sh\nprintf '{listing}'\n")
+            (root / name).chmod(0o755)
+            return root / name
+
+        full = executable("tissue_test", "Network.\\n  Holds\\n")
+        empty = executable("vessels_test", "")
+        off = executable("sim_test", "Step.\\n  DISABLED_Holds\\n")
+        expect(tool("check_tests.py", "--modules", "tissue", "--executables", full)[0] == 0, "a good one was refused")
+        for bad in (empty, off):
+            expect(tool("check_tests.py", "--executables", full, bad)[0] == 1, f"{bad.name} passed")
+        expect(tool("check_tests.py", "--modules", "tissue", "core", "--executables", full)[0] == 1,
+               "a module without tests passed")
+
+
+CASES = [LayerCheckFindsEachFault, EquationCheckFindsEachFault, ObjectCodeCheckFindsEachFault, EmptyTestExecutableIsFound]
+
+if __name__ == "__main__":
+    wanted = sys.argv[1:] or [c.__name__ for c in CASES]
+    for case in CASES:
+        if case.__name__ in wanted:
+            case()
+            print(f"{case.__name__}: passed")
+            wanted.remove(case.__name__)
+    expect(not wanted, f"no such case: {wanted}")

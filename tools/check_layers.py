@@ -1,0 +1,153 @@
+#!/usr/bin/env python3
+"""Who may include whom, and what the step may call: the layer law and the determinism law, as far as text shows them.
+
+    tools/check_layers.py [ROOT]      ROOT: a checkout (default: this one). Exit 0 clean, 1 with one line a fault.
+
+Three tables say it all: ALLOWED (folders), FOREIGN (libraries), FORBIDDEN (constructs in folders whose results must
+be the same bits everywhere). An exception is one line in EXCEPTIONS with its reason; one that is no longer needed is
+itself a fault, so the list cannot rot.
+"""
+import re
+import sys
+from pathlib import Path
+
+CORE = ["core"]
+NUMERICS = CORE + ["numerics"]
+GEOMETRY = NUMERICS + ["geometry"]
+BODIES = ["tissue", "kinematics", "vessels", "fluids", "suture", "collision"]
+SIM_BELOW = GEOMETRY + BODIES + ["interactions"]
+
+# folder -> what its files may include from <trocar/...>, besides itself
+ALLOWED = {
+    "core": [],
+    "numerics": CORE,
+    "geometry": NUMERICS,
+    **{body: GEOMETRY for body in BODIES},  # never each other: two bodies meet in interactions
+    "interactions": GEOMETRY + BODIES,
+    "sim": SIM_BELOW,
+    "scene": SIM_BELOW + ["sim"],
+    "studies": GEOMETRY + ["kinematics", "collision", "scene"],
+    "training": SIM_BELOW + ["sim", "scene"],
+    "devices": CORE,
+    "render": GEOMETRY,
+    "view": SIM_BELOW + ["sim", "render"],
+    "modeller": SIM_BELOW + ["sim", "scene", "render", "view"],
+}
+APP_MAY = sorted(set(ALLOWED))
+
+# What a header from outside looks like -> the folders ("app" is one of them) that may include it
+FOREIGN = [
+    (re.compile(r"^(GL|GLES\d*|EGL|KHR|GLFW|epoxy|X11)/"), ["render", "app"]),
+    (re.compile(r"^(imgui|backends/imgui|implot)"), ["render", "modeller", "app"]),
+    (re.compile(r"^(stb/)?stb_"), ["render", "app"]),
+    (re.compile(r"^nlohmann/"), ["scene", "training", "app"]),
+    (re.compile(r"^CLI/"), ["app"]),
+    (re.compile(r"^(Eigen|suitesparse)/|^(cholmod|umfpack)\.h"), ["numerics", "studies", "app"]),
+    (re.compile(r"^(xxhash\.h|spdlog/)"), ["core", "app"]),
+]
+
+STEP = ["numerics", "geometry", "tissue", "kinematics", "vessels", "fluids", "suture", "collision", "interactions", "sim"]
+DETERMINISTIC = STEP + ["scene", "training"]  # the scene compiler and the scripted surgeon count too
+
+LIBM = ("sin|cos|tan|sincos|asin|acos|atan|atan2|sinh|cosh|tanh|asinh|acosh|atanh|exp|exp2|expm1|log|log2|log10|log1p"
+        "|pow|cbrt|hypot|erf|erfc|tgamma|lgamma|fma|lerp")
+
+# (what is found, in which folders, why it is not allowed)
+FORBIDDEN = [
+    (re.compile(rf"\bstd::({LIBM})[fl]?\b(?=\s*[(<])"), DETERMINISTIC, "differs between C libraries; use trocar::portable"),
+    (re.compile(rf"(?<![\w:.>])(::)?({LIBM})[fl]?\s*\((?=[^)])"), DETERMINISTIC, "may be libm's; write portable::... or another name"),
+    (re.compile(r"\bstd::(reduce|transform_reduce|inclusive_scan|exclusive_scan|execution::\w+)"), DETERMINISTIC,
+     "the order of summation is not fixed"),
+    (re.compile(r"\bstd::atomic(_ref)?\s*<\s*(float|double)\b"), DETERMINISTIC, "the order of additions is not fixed"),
+    (re.compile(r"\bstd::unordered_\w+|#\s*include\s*<unordered_(map|set)>"), DETERMINISTIC, "iteration order differs between libraries"),
+    (re.compile(r"#\s*include\s*<random>|\bstd::\w+_distribution\b|\bstd::random_device\b|(?<![\w:.])s?rand\s*\("), DETERMINISTIC,
+     "differs between libraries; use core::Random"),
+    (re.compile(r"#\s*include\s*<(chrono|ctime|time\.h|sys/time\.h)>"), STEP, "the step knows ticks, not clocks"),
+    (re.compile(r"#\s*include\s*<(iostream|cstdio|stdio\.h)>"), STEP, "the step neither prints nor reads"),
+    (re.compile(r"#\s*include\s*<(ranges|format|bit|stop_token|source_location|coroutine)>|\bstd::(jthread|bit_cast|from_chars)\b"),
+     sorted(ALLOWED), "is missing or incomplete in libc++ 13, which everything below app must compile with"),
+]
+
+# (path, text that the faulty line contains) -> why it may stay
+EXCEPTIONS = {
+    ("src/trocar/numerics/portable.hpp", "double "): "declares our own sin, cos, ...: the replacement itself",
+    ("src/trocar/numerics/portable.cpp", ""): "defines our own sin, cos, ... and calls them among each other",
+}
+
+COMMENT_OR_TEXT = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])+\'', re.S)
+INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:<([^>]+)>|"([^"]+)")', re.M)
+
+
+def blank(match):
+    """Spaces in place of a comment or a string, newlines kept, so that line numbers stay."""
+    if match.group(0).startswith("'") and len(match.group(0)) > 6:
+        return match.group(0)  # digit separators: 1'000'000
+    return re.sub(r"[^\n]", " ", match.group(0))
+
+
+def faults_of(path, folder, text):
+    """Yields (line number, message) for one file of `folder`."""
+    may = set(APP_MAY if folder == "app" else ALLOWED[folder] + [folder])
+    includes = [m for m in INCLUDE.finditer(text)]
+    code = COMMENT_OR_TEXT.sub(blank, text)
+    for m in includes:
+        line = text.count("\n", 0, m.start()) + 1
+        if not code[m.start():m.end()].lstrip().startswith("#"):
+            continue  # inside a comment
+        target, quoted = m.group(1) or m.group(2), m.group(2) is not None
+        if target.startswith("trocar/"):
+            other = target.split("/")[1]
+            if other not in may:
+                yield line, f"{folder} may not include {other} (<{target}>)"
+            continue
+        for pattern, folders in FOREIGN:
+            if pattern.search(target):
+                if folder not in folders:
+                    yield line, f"{target} may be included in {', '.join(folders)} only"
+                break
+        else:
+            if quoted and folder != "app":
+                yield line, f'write <trocar/...>, not "{target}": the folder must be visible'
+    for pattern, folders, why in FORBIDDEN:
+        if folder in folders:
+            for m in pattern.finditer(code):
+                yield code.count("\n", 0, m.start()) + 1, f"{m.group(0).strip()}: {why}"
+
+
+def files_of(root):
+    """Yields (path, folder) for every source file under the law."""
+    for path in sorted((root / "src" / "trocar").rglob("*")):
+        if path.suffix in (".hpp", ".cpp", ".h", ".inl"):
+            yield path, path.relative_to(root / "src" / "trocar").parts[0]
+    for path in sorted((root / "app").rglob("*")):
+        if path.suffix in (".hpp", ".cpp", ".h"):
+            yield path, "app"
+
+
+def main():
+    root = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent.parent).resolve()
+    count, found, used = 0, [], set()
+    for path, folder in files_of(root):
+        count += 1
+        name = path.relative_to(root).as_posix()
+        text = path.read_text(encoding="utf-8")
+        if folder != "app" and folder not in ALLOWED:
+            found.append(f"{name}:1: folder '{folder}' is not in the table of allowed includes")
+            continue
+        lines = text.splitlines()
+        for line, message in sorted(set(faults_of(path, folder, text))):
+            key = next((k for k in EXCEPTIONS if k[0] == name and k[1] in lines[line - 1]), None)
+            if key:
+                used.add(key)
+            else:
+                found.append(f"{name}:{line}: {message}")
+    if (root / "tools" / "check_layers.py").resolve() == Path(__file__).resolve():
+        found += [f"{k[0]}: the exception for '{k[1]}' is not needed any more" for k in EXCEPTIONS if k not in used]
+    if count == 0:
+        found.append(f"{root}: no source files found")
+    print("\n".join(found) if found else f"{count} files keep the layers")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
