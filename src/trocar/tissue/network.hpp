@@ -1,0 +1,188 @@
+// Volumetric tissue as a network of mass points, springs and dampers: the paper's full dynamic mesh.
+//
+//   m_i x_i'' + gamma m_i x_i' + g_i = f_i                                               [KCM99 eq.1]
+//   s_k = c_k e_k r_k/|r_k|,  e_k = |r_k| - l_k,  r_k = x_j - x_i,  g_i = -sum_k s_k     [KCM99 eq.2]
+//   h = f - gamma m v - g,  a = B h / m,  v += dt a,  x += dt v (the new v)              [KCM99 eq.3]
+// with c_k the polynomial of [KCM99 eq.5] (law.hpp) and whole sub-steps of a tick from the true limit (stability.hpp).
+// Deviations: the sign of g (as printed a stretched spring would repel); gamma is per mass and taken implicitly; each
+// spring also damps along itself; loads with stiffness are taken implicitly, so that any stiffness is stable; a cell
+// that collapses is driven open again, because its mirror image would satisfy all springs.
+//
+// Every spring is evaluated from both its ends, by whichever node gathers it: no scatter, no colouring, and the same
+// bits for any number of threads and any SIMD width. Nodes are stored as rows in reverse Cuthill-McKee order.
+//
+//   NetworkModel model = build(description, 1e-3);
+//   NetworkState state = rest_state(model);
+//   NetworkWork work = make_work(model);
+//   NodeLoad pull{.node = 7, .k = 200, .x0 = tip};
+//   Vec3f force;
+//   StepReport report = advance(model, {&pull, 1}, {&force, 1}, state, work);
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <trocar/core/hash.hpp>
+#include <trocar/core/parallel.hpp>
+#include <trocar/numerics/vec3.hpp>
+#include <trocar/tissue/report.hpp>
+
+namespace trocar::tissue {
+
+/// Held axes of a node: B of [KCM99 eq.3] is 0 on them. Bits of NetworkDescription::fixed.
+enum Held : std::uint8_t { kFree = 0, kHeldX = 1, kHeldY = 2, kHeldZ = 4, kHeld = 7 };
+
+struct SpringDescription {
+  int a = 0, b = 0;        ///< nodes
+  double rest_length = 0;  ///< l [m] > 0
+  double k = 0;            ///< small-strain stiffness [N/m] >= 0
+  double p1 = 0, p2 = 0;   ///< shape factors of [KCM99 eq.5]
+  double cap = 1;          ///< strain beyond which the law is linear
+  double damping = 0;      ///< along the spring [N s/m]
+};
+
+struct NetworkDescription {
+  std::vector<Vec3d> positions;     ///< drawn shape [m], world frame
+  std::vector<double> mass;         ///< per node [kg] > 0
+  std::vector<std::uint8_t> fixed;  ///< per node, Held bits; empty = all free
+  std::vector<SpringDescription> springs;
+  std::vector<std::array<int, 4>> tets;  ///< cells protected against inversion, positive volume as drawn; may be empty
+  double global_damping = 0;             ///< gamma [1/s], against space; keep <= 1
+  Vec3d gravity{0, 0, 0};                ///< [m/s^2]
+  double max_stiffness_scale = 1;        ///< largest value set_spring_scale may give; enters the time step bound
+};
+
+inline constexpr int kSlice = 16;  ///< rows per slice; every SIMD width divides it
+
+/// 16 half-edges: one column of a slice. Padding has k l = 0 and points at its own row.
+struct alignas(64) HalfEdgePack {
+  std::uint32_t offset[kSlice];  ///< byte offset of the other node in the node array
+  float inv_rest[kSlice];        ///< 1/l [1/m]
+  float stiffness[kSlice];       ///< k l [N]
+  float damping[kSlice];         ///< [N s/m]
+};
+/// Shape factors per half-edge, only where springs of a body differ.
+struct alignas(64) LawPack {
+  float p1[kSlice], p2[kSlice], cap[kSlice], cap_slope[kSlice];
+};
+/// dt B / (m (1 + dt gamma)) per axis, for 16 rows.
+struct alignas(64) RowPack {
+  float wx[kSlice], wy[kSlice], wz[kSlice];
+};
+/// A protected cell: rows, and six times its rest volume.
+struct TetRest {
+  int row[4];
+  float inv_rest6;  ///< 1 / (6 V0) [1/m^3]
+};
+
+/// Const after build(); shared by any number of States.
+struct NetworkModel {
+  int nodes = 0;  ///< as described
+  int rows = 0;   ///< nodes rounded up to whole slices
+  int springs = 0;
+  Vec3d origin{0, 0, 0};         ///< State positions are relative to this point [m]
+  std::vector<int> row_of_node;  ///< (nodes)
+  std::vector<int> node_of_row;  ///< (rows), -1 = padding
+  std::vector<int> slice_begin;  ///< (slices + 1) first pack of each slice
+  std::vector<HalfEdgePack> packs;
+  std::vector<LawPack> law_packs;                ///< empty where one law serves the body
+  float p1 = 0, p2 = 0, cap = 1, cap_slope = 1;  ///< that law
+  std::vector<RowPack> row_packs;                ///< (slices)
+  std::vector<Vec3d> rest;                       ///< (nodes) drawn positions, world frame [m]
+  std::vector<double> mass;                      ///< (nodes) [kg]
+  std::vector<std::uint8_t> fixed;               ///< (nodes) Held bits
+  std::vector<int> spring_nodes;                 ///< (2 springs) a, b
+  std::vector<float> spring_rest;                ///< (springs) l [m]
+  std::vector<int> half_edge;                    ///< (2 springs) places in NetworkState::scale
+  std::vector<TetRest> tets;                     ///< as described
+  std::vector<int> tet_begin;                    ///< (nodes + 1) into tet_of_node
+  std::vector<int> tet_of_node;                  ///< cells at a node
+  double tick = 0;                               ///< [s]
+  int substeps = 1;
+  double dt = 0;        ///< tick / substeps [s]
+  double dt_limit = 0;  ///< sufficient stability limit [s]
+  double gamma = 0;     ///< [1/s]
+  Vec3d gravity{0, 0, 0};
+  float decay = 1;                    ///< 1 / (1 + dt gamma)
+  float gravity_step[3] = {0, 0, 0};  ///< dt g / (1 + dt gamma) [m/s]
+  float max_scale = 1;
+};
+
+/// A node: position relative to the model's origin [m], velocity [m/s]. 32 bytes, loaded whole.
+struct alignas(32) NodeState {
+  float x = 0, y = 0, z = 0, zero0 = 0;
+  float vx = 0, vy = 0, vz = 0, zero1 = 0;
+};
+
+struct NetworkState {
+  std::vector<NodeState> nodes;         ///< (rows)
+  std::vector<float> scale;             ///< per half-edge place: 1 whole, 0 cut
+  std::vector<std::uint8_t> tet_phase;  ///< (tets) 0 idle, 1 being pushed open, 2 gone
+  std::uint32_t version = 0;            ///< counts cuts and changes of scale; 0 = untouched
+  std::uint32_t tick = 0;               ///< ticks made
+};
+
+/// Scratch: its contents between ticks do not matter.
+struct NetworkWork {
+  std::vector<NodeState> other;  ///< (rows) the ping-pong partner
+  std::vector<int> active_tets;  ///< capacity: tets
+};
+
+/// A force on one node during one tick, taken implicitly: f0 - k P (x - x0) - d P v with P = 1, or dir dir^T where dir
+/// is not zero (a unit vector then). Several loads per node add up, in order.
+struct NodeLoad {
+  int node = 0;  ///< Description's numbering
+  Vec3f f0{};    ///< constant part [N]
+  float k = 0;   ///< [N/m] >= 0
+  Vec3f x0{};    ///< rest point, world frame [m]
+  Vec3f dir{};   ///< zero, or unit
+  float d = 0;   ///< [N s/m] >= 0
+};
+
+/// Compiles a network. `tick` [s]. Throws std::invalid_argument naming the first node, spring or cell that is unsound
+/// (mass or rest length not positive, law not monotone, index out of range, negative cell volume).
+NetworkModel build(const NetworkDescription& description, double tick);
+
+NetworkState rest_state(const NetworkModel& model);
+NetworkWork make_work(const NetworkModel& model);
+
+/// One tick. Loads must be sorted by node (otherwise kBadLoad). `reactions` (as long as loads, or empty) receives the
+/// force each load exerted on its node, averaged over the tick [N]; what holds the tissue feels the opposite.
+/// Bits depend neither on the pool nor on the SIMD width.
+StepReport advance(const NetworkModel& model, std::span<const NodeLoad> loads, std::span<Vec3f> reactions,
+                   NetworkState& state, NetworkWork& work, core::ThreadPool* pool = nullptr) noexcept;
+
+/// Position in the world frame [m] and velocity [m/s] of a node.
+Vec3d position(const NetworkModel& model, const NetworkState& state, int node) noexcept;
+Vec3d velocity(const NetworkModel& model, const NetworkState& state, int node) noexcept;
+void set_position(const NetworkModel& model, NetworkState& state, int node, Vec3d x) noexcept;
+void set_velocity(const NetworkModel& model, NetworkState& state, int node, Vec3d v) noexcept;
+
+/// e/l of a spring as it stands [-].
+double spring_strain(const NetworkModel& model, const NetworkState& state, int spring) noexcept;
+/// Scale a spring's stiffness and damping: 0 = cut, 1 = whole; clamped to [0, max_stiffness_scale].
+void set_spring_scale(const NetworkModel& model, NetworkState& state, int spring, float scale) noexcept;
+float spring_scale(const NetworkModel& model, const NetworkState& state, int spring) noexcept;
+/// Cut a spring: both half-edges dead, and the cells that have it as an edge no longer protected.
+void cut_spring(const NetworkModel& model, NetworkState& state, int spring) noexcept;
+
+/// Sum of kinetic, spring and gravity energy [J] (double precision, for tests and reports).
+struct NetworkEnergy {
+  double kinetic = 0, elastic = 0, gravity = 0;
+};
+NetworkEnergy energy(const NetworkModel& model, const NetworkState& state) noexcept;
+
+void add_to_hash(core::Hasher& hasher, const NetworkState& state) noexcept;
+/// Hash of everything in the Model that the step reads.
+void add_to_hash(core::Hasher& hasher, const NetworkModel& model) noexcept;
+
+/// The instruction set advance() uses on this machine: "sse2", "avx2", "avx512" or "generic". TROCAR_SIMD overrides
+/// (read once); a name this machine cannot run falls back to the widest that it can below it.
+const char* simd_name() noexcept;
+/// Choose by hand (tests, benches): returns false and changes nothing where this machine cannot run it.
+bool set_simd(const std::string& name) noexcept;
+
+}  // namespace trocar::tissue
