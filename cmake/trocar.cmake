@@ -22,6 +22,10 @@ endif()
 add_compile_options(-ffp-contract=off -fno-math-errno -fno-trapping-math
                     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror
                     -fdiagnostics-color=auto)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  # gcc 12 warns of members of temporaries in initializer lists (throw BadInput({{{path, 1, 1}, text}})) that are set.
+  add_compile_options(-Wno-maybe-uninitialized)
+endif()
 if(TROCAR_MARCH)
   add_compile_options(-march=${TROCAR_MARCH})
 endif()

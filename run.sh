@@ -1,0 +1,40 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds, and starts Trocar.
+#
+#   ./run.sh                   the sterilisation exercise: in a window, or where there is no display the scripted
+#                              surgeon does it and leaves pictures, a recording and a result under out/first-light
+#   ./run.sh build             stops after the build; the program is build/release/trocar
+#   ./run.sh ARGUMENTS...      starts the program with these (./run.sh --help, ./run.sh list, ...)
+set -euo pipefail
+root=$(cd "$(dirname "$0")" && pwd)
+program=$root/build/release/trocar
+
+"$root/tools/setup.sh" build
+[ -x "$program" ] || echo "run: building (some minutes the first time)" >&2
+"$root/tools/build.sh" trocar
+
+exercise=gynaecology/sterilisation
+if [ $# -gt 0 ]; then
+  [ "$1" = build ] && { echo "run: built build/release/trocar" >&2; exit; }
+  exec "$program" "$@"
+fi
+if [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]; then
+  exec "$program" train "$exercise"
+fi
+
+echo "run: no display, so the scripted surgeon does $exercise" >&2
+cd "$root"
+out=out/first-light
+rm -rf "$out"
+mkdir -p "$out"
+status=0
+"$program" train "$exercise" --input demo --headless --json --record "$out/sterilisation.rec" \
+  --shots "$out/shots" --report "$out/report" >"$out/result.json" || status=$?
+echo
+cat "$out/result.json"
+echo
+echo "pictures:  $out/shots/ ($(find "$out/shots" -name '*.png' | wc -l))"
+echo "recording: $out/sterilisation.rec  (check it: build/release/trocar replay $out/sterilisation.rec --verify)"
+echo "result:    $out/result.json"
+echo "report:    $out/report/"
+exit $status

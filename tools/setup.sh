@@ -1,0 +1,88 @@
+#!/usr/bin/env bash
+# Installs the Debian 12 packages that a job needs and that are not there, as root or through sudo.
+#
+#   tools/setup.sh build            what ./run.sh needs: compiler, libraries of the program
+#   tools/setup.sh test             the same and what ./test.sh needs
+#   tools/setup.sh soak             the same and a second compiler
+#   tools/setup.sh dev              the same and formatter, linter, LLVM's standard library
+#   tools/setup.sh --list JOB       only names the packages
+#
+# Does nothing, quickly, when everything is there. Exit 3: something is missing and cannot be installed from here.
+set -euo pipefail
+
+build=(
+  g++                  # the compiler (12)
+  cmake ninja-build    # the build
+  ccache               # makes the second build quick
+  pkg-config           # finds Dear ImGui
+  libfmt-dev libspdlog-dev  # text and log
+  libxxhash-dev        # hashes of states and recordings
+  nlohmann-json3-dev   # scene files
+  libcli11-dev         # the command line
+  libegl-dev libgl-dev libepoxy-dev    # OpenGL without a window
+  libegl1 libgl1-mesa-dri              # and its driver, on a machine without graphics card too
+  libglfw3-dev libimgui-dev            # the window and its panels
+  libstb-dev           # PNG
+)
+test=(
+  libgtest-dev         # tests
+  libbenchmark-dev     # benchmarks
+  libbullet-dev        # what the spring kernel is measured beside
+  python3              # the checks in tools/
+  binutils             # objdump, nm: the step's machine code
+  xvfb xdotool         # drives the real window without a display
+)
+soak=(clang)           # the same bits from a second compiler
+dev=(clang-format clang-tidy libc++-dev libc++abi-dev)
+
+list_only=false
+[ "${1:-}" = --list ] && { list_only=true; shift; }
+case "${1:-build}" in
+  build) wanted=("${build[@]}") ;;
+  test) wanted=("${build[@]}" "${test[@]}") ;;
+  soak) wanted=("${build[@]}" "${test[@]}" "${soak[@]}") ;;
+  dev) wanted=("${build[@]}" "${test[@]}" "${soak[@]}" "${dev[@]}") ;;
+  *) sed -n '2,10s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+esac
+if $list_only; then
+  printf '%s\n' "${wanted[@]}"
+  exit
+fi
+
+if ! command -v dpkg-query >/dev/null; then
+  echo "setup: this is not a Debian system; make sure that these (or their like) are there: ${wanted[*]}" >&2
+  exit 0
+fi
+# An installed package that Provides a wanted name counts too.
+installed=$(dpkg-query -W -f='${db:Status-Abbrev} ${Package} ${Provides}\n' | sed -n 's/^ii  *//p' \
+            | sed 's/([^)]*)//g; s/[, ][, ]*/\n/g')
+missing=()
+for package in "${wanted[@]}"; do
+  grep -qxF -- "$package" <<<"$installed" || missing+=("$package")
+done
+[ ${#missing[@]} -eq 0 ] && exit 0
+
+as_root=()
+if [ "$(id -u)" != 0 ]; then
+  if command -v sudo >/dev/null; then
+    as_root=(sudo)
+  else
+    echo "setup: missing packages, and this is neither root nor is there sudo. As root, run:" >&2
+    echo "  apt-get update && apt-get install --no-install-recommends ${missing[*]}" >&2
+    exit 3
+  fi
+fi
+echo "setup: installing with ${as_root[*]:+${as_root[*]} }apt-get (for: ${1:-build}; reasons in tools/setup.sh):" >&2
+echo "  ${missing[*]}" >&2
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+quietly() {  # shows what apt said only when it failed
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive "$@" >"$log" 2>&1 || {
+    tail -n 15 "$log" >&2
+    echo "setup: '$*' failed" >&2
+    exit 3
+  }
+}
+quietly apt-get update -q
+quietly apt-get install -q -y --no-install-recommends "${missing[@]}"
+echo "setup: done" >&2
