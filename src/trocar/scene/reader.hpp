@@ -1,0 +1,51 @@
+// Reads a scene file and the tissue, organ and instrument files that it names into a Description. Every fault of every
+// file is found in one pass and told as `path:line:col: expected ..., got ...`.
+//
+//   try {
+//     const Description d = read_scene("scenes/gynaecology/scene.json");
+//   } catch (const core::BadInput& bad) {
+//     std::cerr << bad.what() << '\n';   // one fault a line
+//   }
+//
+// Names are relative: in "tissues", "organs" and "instruments" a file is named by its path from the file that names it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <trocar/scene/description.hpp>
+#include <trocar/scene/shape.hpp>
+
+namespace trocar::scene {
+
+/// Throws core::BadInput with all faults of the scene file and of all files it includes.
+Description read_scene(const std::filesystem::path& path);
+
+/// Checks one file of any kind (scene, organ, instrument, tissue table) by the keys it has. A file that is not a scene
+/// is checked on its own: names that only a scene could resolve (a tissue, another organ) are left open. Returns the
+/// faults; empty means good.
+std::vector<core::Fault> check_file(const std::filesystem::path& path);
+
+struct SceneEntry {
+  std::string name;   ///< what the command line calls it: "gynaecology" for scenes/gynaecology/scene.json
+  std::string title;  ///< its "title", empty where the file cannot be read
+  std::filesystem::path path;
+};
+/// The scenes of a folder: `NAME/scene.json` in it, sorted by name.
+std::vector<SceneEntry> list_scenes(const std::filesystem::path& folder);
+
+struct InstrumentEntry {
+  std::string name, kind, title;
+  std::filesystem::path path;
+};
+/// The readable instrument files (*.json) of a folder, sorted by name.
+std::vector<InstrumentEntry> list_instruments(const std::filesystem::path& folder);
+
+/// The tables of the file formats: the reader obeys them and scenes/schema/ is written from them.
+const Shape& scene_shape();
+const Shape& organ_shape();
+const Shape& instrument_shape();
+const Shape& tissue_shape();
+
+}  // namespace trocar::scene
