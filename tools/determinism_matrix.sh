@@ -1,0 +1,101 @@
+#!/usr/bin/env bash
+# The same bits from every build: the scripted surgeon's exercise, recorded by programs made with gcc and clang for
+# three instruction sets, with one and two threads, drawn and not drawn; then every recording verified by other builds.
+#
+#   tools/determinism_matrix.sh [-k] [WORKDIR]     default build/matrix. About an hour on two cores without ccache.
+#                                                  -k: keep the recordings
+#
+# Exit 0: one hash. 1: they differ, or a recording does not verify. 77: a compiler is missing (ctest: skipped).
+set -euo pipefail
+root=$(cd "$(dirname "$0")/.." && pwd)
+keep=false
+[ "${1:-}" = -k ] && { keep=true; shift; }
+work=${1:-$root/build/matrix}
+exercise=gynaecology/sterilisation
+mkdir -p "$work"
+cd "$root"
+
+command -v clang++ >/dev/null || { echo "matrix: clang++ is missing (tools/setup.sh soak)" >&2; exit 77; }
+
+# x86-64-v3 means AVX2, FMA, BMI2, ... ; the loader knows what this processor has.
+supports() {
+  case $1 in
+    x86-64-v3)
+      local flag
+      for flag in avx2 fma bmi1 bmi2 f16c movbe abm; do
+        grep -qw "$flag" /proc/cpuinfo || return 1
+      done ;;
+  esac
+}
+
+builds=()
+for compiler in g++ clang++; do
+  for march in x86-64 x86-64-v3 native; do
+    if ! supports $march; then
+      echo "matrix: skipping $compiler $march, this processor lacks it" >&2
+      continue
+    fi
+    name=$compiler-$march
+    echo "matrix: building $name" >&2
+    cmake -S . -B "$work/$name" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=$compiler \
+      -DTROCAR_MARCH=$march -DTROCAR_TESTS=OFF -DTROCAR_BENCH=OFF >"$work/$name.log" 2>&1 &&
+      cmake --build "$work/$name" --target trocar >>"$work/$name.log" 2>&1 ||
+      { tail -n 40 "$work/$name.log" >&2; echo "matrix: $name does not build" >&2; exit 1; }
+    builds+=("$name")
+  done
+done
+
+field() {  # field NAME FILE: a top-level value of a JSON object
+  python3 -c 'import json,sys; print(json.load(open(sys.argv[2]))[sys.argv[1]])' "$1" "$2"
+}
+
+failures=0
+hashes=()
+record() {  # record NAME BUILD THREADS [ARGUMENT...]
+  local name=$1 build=$2 threads=$3
+  shift 3
+  local status=0
+  TROCAR_THREADS=$threads "$work/$build/trocar" train $exercise --input demo --headless --json \
+    --record "$work/$name.rec" "$@" >"$work/$name.json" 2>"$work/$name.err" || status=$?
+  if [ $status -gt 1 ]; then  # 1 is "goal not reached": still a run, and still comparable
+    tail -n 5 "$work/$name.err" >&2
+    echo "matrix: $name ended with $status" >&2
+    exit 1
+  fi
+  hashes+=("$(field state_hash "$work/$name.json")")
+  echo "matrix: ${hashes[-1]}  $name"
+}
+
+recordings=()
+for build in "${builds[@]}"; do
+  record "$build-t1" "$build" 1
+  recordings+=("$build-t1")
+done
+record "${builds[0]}-t2" "${builds[0]}" 2
+record "${builds[-1]}-t2" "${builds[-1]}" 2
+record "${builds[0]}-drawn" "${builds[0]}" 2 --shots "$work/shots"
+recordings+=("${builds[0]}-t2")
+
+different=$(printf '%s\n' "${hashes[@]}" | sort -u | wc -l)
+if [ "$different" != 1 ]; then
+  echo "matrix: $different different hashes" >&2
+  failures=1
+fi
+
+# Each recording is verified by the build after its own, so that every build plays somebody else's.
+for i in "${!recordings[@]}"; do
+  build=${builds[$(((i + 1) % ${#builds[@]}))]}
+  for threads in 1 2; do
+    if TROCAR_THREADS=$threads "$work/$build/trocar" replay "$work/${recordings[$i]}.rec" --verify \
+        >"$work/replay.json" 2>"$work/replay.err"; then
+      echo "matrix: verified  ${recordings[$i]} by $build, $threads thread(s)"
+    else
+      tail -n 5 "$work/replay.err" >&2
+      echo "matrix: ${recordings[$i]} does not verify with $build, $threads thread(s)" >&2
+      failures=1
+    fi
+  done
+done
+$keep || rm -rf "$work"/*.rec "$work/shots"
+[ $failures = 0 ] && echo "matrix: ${#hashes[@]} runs of ${#builds[@]} builds, one hash: ${hashes[0]}"
+exit $failures
