@@ -32,8 +32,12 @@ Image read_png(const std::string& path) {
   Image image;
   int channels = 0;
   stbi_uc* data = stbi_load(path.c_str(), &image.width, &image.height, &channels, 3);
-  if (!data)
-    throw core::BadInput({{{path, 0, 0}, std::string("expected a PNG picture, got: ") + stbi_failure_reason()}});
+  if (!data) {
+    core::Fault fault;
+    fault.at.file = path;
+    fault.message = std::string("expected a PNG picture, got: ") + stbi_failure_reason();
+    throw core::BadInput({fault});
+  }
   image.rgb.assign(data, data + std::size_t(3) * image.width * image.height);
   stbi_image_free(data);
   return image;

@@ -1,0 +1,221 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <trocar/render/checked_backend.hpp>
+
+namespace trocar::render {
+
+namespace {
+
+void require(bool good, const char* call, const std::string& what) {
+  if (!good) throw Misuse(std::string(call) + ": " + what);
+}
+
+bool finite(Vec3f v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+void require_finite(std::span<const Vec3f> array, const char* call, const char* name) {
+  for (std::size_t i = 0; i < array.size(); ++i)
+    if (!finite(array[i])) throw Misuse(std::string(call) + ": " + name + "[" + std::to_string(i) + "] is not finite");
+}
+
+void require_size(std::size_t size, std::size_t n, const char* call, const char* name) {
+  require(size == 0 || size == n, call,
+          std::string(name) + " has " + std::to_string(size) + " entries for " + std::to_string(n) + " vertices");
+}
+
+void check_mesh(const MeshData& data, const char* call) {
+  const std::size_t n = data.positions.size();
+  require(n > 0, call, "a mesh needs at least one vertex");
+  require_size(data.normals.size(), n, call, "normals");
+  require_size(data.rest.size(), n, call, "rest");
+  require_size(data.paint.size(), n, call, "paint");
+  require_finite(data.positions, call, "positions");
+  require_finite(data.normals, call, "normals");
+  require_finite(data.rest, call, "rest");
+  const std::size_t corners = data.primitive == Primitive::triangles ? 3 : 2;
+  require(!data.indices.empty() && data.indices.size() % corners == 0, call,
+          std::to_string(data.indices.size()) + " indices are not a whole number of " +
+              (corners == 3 ? "triangles" : "lines") + " (or none)");
+  for (std::size_t i = 0; i < data.indices.size(); ++i)
+    require(data.indices[i] < n, call,
+            "indices[" + std::to_string(i) + "] = " + std::to_string(data.indices[i]) + " with only " +
+                std::to_string(n) + " vertices");
+}
+
+void check_camera(const Camera& camera, const char* call) {
+  require(finite(camera.position), call, "camera position is not finite");
+  for (int j = 0; j < 3; ++j) {
+    const float size = length(camera.rotation.column(j));
+    require(std::fabs(size - 1) < 1e-3f, call, "camera rotation is not a rotation");
+  }
+  require(camera.vertical_fov > 0.01f && camera.vertical_fov < 3.0f, call, "vertical fov is not within 0.01..3 rad");
+  require(camera.near_plane > 0 && camera.far_plane > camera.near_plane && std::isfinite(camera.far_plane), call,
+          "0 < near < far does not hold");
+}
+
+void check_frame(const Frame& frame, const Target& target, const char* call) {
+  require(target.width > 0 && target.height > 0 && target.width <= 16384 && target.height <= 16384, call,
+          "target size " + std::to_string(target.width) + " x " + std::to_string(target.height));
+  check_camera(frame.camera, call);
+  require(frame.quality.render_scale >= 0.25f && frame.quality.render_scale <= 1, call,
+          "render scale is not within 0.25..1");
+  require(frame.quality.detail >= 0 && frame.quality.detail <= 2, call, "detail is not 0, 1 or 2");
+  require(frame.eye >= 0 && frame.eye < 8, call, "eye is not within 0..7");
+  const Light& light = frame.light;
+  require(
+      finite(light.position) && finite(light.colour) && std::isfinite(light.intensity) && light.reference_distance > 0,
+      call, "light is not finite");
+  const EndoscopeLook& look = frame.look;
+  require(look.mask_diameter > 0 && std::isfinite(look.exposure_ev) && look.exposure_seconds > 0 && look.fog >= 0, call,
+          "look holds a value out of range");
+  for (const Puff& puff : frame.puffs)
+    require(finite(puff.centre) && puff.radius > 0 && std::isfinite(puff.density), call, "a puff is not finite");
+}
+
+void check_material(const Material& m, const char* call) {
+  require(finite(m.colour) && finite(m.colour_b) && finite(m.colour_c) && finite(m.tint), call,
+          "a material colour is not finite");
+  require(m.mottle_size > 0 && m.film_size > 0 && m.vessel_tile > 0 && m.lobule_size >= 0, call,
+          "a material length is not positive");
+  require(m.roughness > 0 && m.film_roughness > 0, call, "a material roughness is not positive");
+  require(m.alpha >= 0 && m.alpha <= 1 && m.rim_alpha >= 0 && m.rim_alpha <= 1, call, "alpha is not within 0..1");
+  require(m.fibre_stretch >= 1 && std::fabs(length(m.fibre_axis) - 1) < 1e-3f, call,
+          "fibre axis is not a unit vector, or its stretch is below 1");
+}
+
+}  // namespace
+
+void draw_frame(Backend& backend, const Frame& frame, const Target& target) {
+  backend.begin_frame(frame, target);
+  for (const DrawItem& item : frame.items) backend.draw(item);
+  backend.end_frame();
+}
+
+CheckedBackend::Known& CheckedBackend::known(MeshHandle mesh, const char* call) {
+  const auto found = m_meshes.find(mesh.id);
+  require(found != m_meshes.end(), call, "mesh " + std::to_string(mesh.id) + " does not exist (any more)");
+  return found->second;
+}
+
+void CheckedBackend::store(std::uint32_t id, const MeshData& data) {
+  Known& mesh = m_meshes[id];
+  mesh.vertices = data.positions.size();
+  mesh.indices.assign(data.indices.begin(), data.indices.end());
+  mesh.primitive = data.primitive;
+  mesh.middle = bounds_of(data.positions).middle();
+  m_stats.vertices_uploaded += mesh.vertices;
+  on_store(id, complete(data));
+}
+
+MeshHandle CheckedBackend::create_mesh(const MeshData& data) {
+  const char* call = "create_mesh";
+  require(!m_in_frame, call, "a frame is open");
+  check_mesh(data, call);
+  const std::uint32_t id = m_next_id++;
+  store(id, data);
+  ++m_stats.meshes_alive;
+  return {id};
+}
+
+void CheckedBackend::update_mesh(MeshHandle handle, std::span<const Vec3f> positions, std::span<const Vec3f> normals,
+                                 std::span<const Paint> paint) {
+  const char* call = "update_mesh";
+  require(!m_in_frame, call, "a frame is open");
+  Known& mesh = known(handle, call);
+  require(positions.size() == mesh.vertices, call,
+          std::to_string(positions.size()) + " positions for " + std::to_string(mesh.vertices) + " vertices");
+  require_size(normals.size(), mesh.vertices, call, "normals");
+  require_size(paint.size(), mesh.vertices, call, "paint");
+  require_finite(positions, call, "positions");
+  require_finite(normals, call, "normals");
+  if (normals.empty()) {
+    const std::span<const std::uint32_t> none;
+    vertex_normals(positions, mesh.primitive == Primitive::triangles ? mesh.indices : none, m_normals);
+    normals = m_normals;
+  }
+  mesh.middle = bounds_of(positions).middle();
+  m_stats.vertices_uploaded += mesh.vertices;
+  on_update(handle.id, positions, normals, paint);
+}
+
+void CheckedBackend::replace_mesh(MeshHandle handle, const MeshData& data) {
+  const char* call = "replace_mesh";
+  require(!m_in_frame, call, "a frame is open");
+  known(handle, call);
+  check_mesh(data, call);
+  store(handle.id, data);
+}
+
+void CheckedBackend::destroy_mesh(MeshHandle handle) {
+  const char* call = "destroy_mesh";
+  require(!m_in_frame, call, "a frame is open");
+  known(handle, call);
+  m_meshes.erase(handle.id);
+  --m_stats.meshes_alive;
+  on_destroy(handle.id);
+}
+
+void CheckedBackend::begin_frame(const Frame& frame, const Target& target) {
+  const char* call = "begin_frame";
+  require(!m_in_frame, call, "the frame before was not ended");
+  check_frame(frame, target, call);
+  m_in_frame = true;
+  m_target = target;
+  m_items.clear();
+  m_frame.camera = frame.camera;
+  m_frame.light = frame.light;
+  m_frame.look = frame.look;
+  m_frame.quality = frame.quality;
+  m_frame.puffs = frame.puffs;
+  m_frame.background = frame.background;
+  m_frame.tick = frame.tick;
+  m_frame.eye = frame.eye;
+  m_frame.metering = frame.metering;
+}
+
+void CheckedBackend::draw(const DrawItem& item) {
+  const char* call = "draw";
+  require(m_in_frame, call, "no frame is open");
+  const Known& mesh = known(item.mesh, call);
+  require(is_finite(item.transform), call, "transform is not finite");
+  check_material(item.material, call);
+  m_items.push_back(item);
+  ++m_stats.items;
+  if (mesh.primitive == Primitive::triangles) m_stats.triangles += mesh.indices.size() / 3;
+}
+
+void CheckedBackend::sort_items() {
+  m_opaque.clear();
+  m_translucent.clear();
+  m_depth.assign(m_items.size(), 0);
+  const Vec3f backward = m_frame.camera.rotation.column(2);
+  for (std::size_t i = 0; i < m_items.size(); ++i) {
+    const DrawItem& item = m_items[i];
+    (item.translucent ? m_translucent : m_opaque).push_back(&item);
+    const Vec3f middle = transform_point(item.transform, m_meshes.at(item.mesh.id).middle);
+    m_depth[i] = dot(backward, m_frame.camera.position - middle);
+  }
+  const DrawItem* first = m_items.data();
+  std::stable_sort(m_translucent.begin(), m_translucent.end(), [&](const DrawItem* a, const DrawItem* b) {
+    return m_depth[std::size_t(a - first)] > m_depth[std::size_t(b - first)];
+  });
+}
+
+void CheckedBackend::end_frame() {
+  require(m_in_frame, "end_frame", "no frame is open");
+  m_in_frame = false;
+  sort_items();
+  on_frame(m_frame, m_target, m_opaque, m_translucent);
+  m_has_picture = true;
+  ++m_stats.frames;
+  m_stats.puffs += m_frame.puffs.size();
+}
+
+Image CheckedBackend::read_pixels() {
+  require(!m_in_frame, "read_pixels", "a frame is open");
+  require(m_has_picture, "read_pixels", "no frame was drawn yet");
+  return on_read(m_target);
+}
+
+}  // namespace trocar::render

@@ -1,0 +1,59 @@
+// The half that all backends share: it keeps the books (which meshes live, is a frame open), refuses misuse, counts,
+// and hands what is left to hooks. The null backend is this class with empty hooks, so what passes there passes in GL.
+#pragma once
+
+#include <unordered_map>
+#include <vector>
+
+#include <trocar/render/backend.hpp>
+#include <trocar/render/mesh_arrays.hpp>
+
+namespace trocar::render {
+
+class CheckedBackend : public Backend {
+ public:
+  MeshHandle create_mesh(const MeshData& data) final;
+  void update_mesh(MeshHandle mesh, std::span<const Vec3f> positions, std::span<const Vec3f> normals,
+                   std::span<const Paint> paint) final;
+  void replace_mesh(MeshHandle mesh, const MeshData& data) final;
+  void destroy_mesh(MeshHandle mesh) final;
+  void begin_frame(const Frame& frame, const Target& target) final;
+  void draw(const DrawItem& item) final;
+  void end_frame() final;
+  Image read_pixels() final;
+  BackendStats stats() const final { return m_stats; }
+
+ protected:
+  virtual void on_store(std::uint32_t id, const MeshArrays& mesh) = 0;  ///< new id, or a known one's new topology
+  virtual void on_update(std::uint32_t id, std::span<const Vec3f> positions, std::span<const Vec3f> normals,
+                         std::span<const Paint> paint) = 0;  ///< paint may be empty
+  virtual void on_destroy(std::uint32_t id) = 0;
+  /// @param opaque in the order given, translucent far to near
+  virtual void on_frame(const Frame& frame, const Target& target, std::span<const DrawItem* const> opaque,
+                        std::span<const DrawItem* const> translucent) = 0;
+  virtual Image on_read(const Target& target) = 0;
+
+ private:
+  struct Known {
+    std::size_t vertices = 0;
+    std::vector<std::uint32_t> indices;
+    Primitive primitive = Primitive::triangles;
+    Vec3f middle;
+  };
+  Known& known(MeshHandle mesh, const char* call);
+  void store(std::uint32_t id, const MeshData& data);
+  void sort_items();
+
+  std::unordered_map<std::uint32_t, Known> m_meshes;  // looked up by id only, never iterated
+  std::uint32_t m_next_id = 1;
+  bool m_in_frame = false, m_has_picture = false;
+  Frame m_frame;
+  Target m_target;
+  std::vector<DrawItem> m_items;
+  std::vector<const DrawItem*> m_opaque, m_translucent;
+  std::vector<float> m_depth;
+  std::vector<Vec3f> m_normals;
+  BackendStats m_stats;
+};
+
+}  // namespace trocar::render

@@ -1,0 +1,33 @@
+// Meshes on the GPU: one buffer for what moves (position, normal), one for paint, one for what never changes.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+
+#include <trocar/render/gl_objects.hpp>
+#include <trocar/render/mesh_arrays.hpp>
+
+namespace trocar::render {
+
+class GlMeshes {
+ public:
+  void store(std::uint32_t id, const MeshArrays& mesh);
+  void update(std::uint32_t id, std::span<const Vec3f> positions, std::span<const Vec3f> normals,
+              std::span<const Paint> paint);
+  void destroy(std::uint32_t id) { m_meshes.erase(id); }
+  void draw(std::uint32_t id) const;
+  bool is_lines(std::uint32_t id) const { return m_meshes.at(id).mode == GL_LINES; }
+
+ private:
+  struct Mesh {
+    GlVertexArray layout;
+    GlBuffer moving, paint, fixed, indices;
+    std::size_t vertices = 0;
+    GLsizei index_count = 0;
+    GLenum mode = GL_TRIANGLES;
+  };
+  std::unordered_map<std::uint32_t, Mesh> m_meshes;
+};
+
+}  // namespace trocar::render

@@ -1,0 +1,46 @@
+// Shader programs from the embedded files. A file may say  #include "common.glsl"  on a line of its own; `defines`
+// choose a variant. Compiled when first asked for.
+#pragma once
+
+#include <span>
+#include <string>
+#include <unordered_map>
+
+#include <trocar/numerics/vec3.hpp>
+#include <trocar/render/gl_objects.hpp>
+#include <trocar/render/mat4.hpp>
+
+namespace trocar::render {
+
+class GlProgram {
+ public:
+  /// @param defines comma separated, as "DETAIL=2,VESSELS"
+  /// @throws std::logic_error with the driver's log: a shader of ours is wrong
+  GlProgram(const std::string& vertex_file, const std::string& fragment_file, const std::string& defines);
+
+  void use() const { glUseProgram(m_program.id()); }
+  // Uniforms that a variant does not use are silently skipped, as in GL.
+  void set(const char* name, int value);
+  void set(const char* name, float value);
+  void set(const char* name, float x, float y);
+  void set(const char* name, float x, float y, float z, float w);
+  void set(const char* name, Vec3f value);
+  void set(const char* name, const Mat4& value);
+  void set_vec4s(const char* name, std::span<const float> values);
+
+ private:
+  GLint location(const char* name);
+
+  GlProgramName m_program;
+  std::unordered_map<std::string, GLint> m_locations;
+};
+
+class GlPrograms {
+ public:
+  GlProgram& get(const std::string& vertex_file, const std::string& fragment_file, const std::string& defines = "");
+
+ private:
+  std::unordered_map<std::string, GlProgram> m_programs;
+};
+
+}  // namespace trocar::render

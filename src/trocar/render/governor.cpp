@@ -1,0 +1,59 @@
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include <trocar/render/governor.hpp>
+
+namespace trocar::render {
+
+namespace {
+
+constexpr Quality kLevels[] = {{1.0f, 2}, {0.85f, 2}, {0.7f, 2}, {0.7f, 1}, {0.5f, 1}, {0.5f, 0}};
+constexpr int kLongestPatience = 1800;
+
+/// Share of a frame's cost that the scene pass at this quality is, the lens pass being a constant part.
+double relative_cost(const Quality& q) {
+  const double effects = q.detail == 2 ? 1.0 : (q.detail == 1 ? 0.85 : 0.7);
+  return 0.2 + 0.8 * double(q.render_scale) * double(q.render_scale) * effects;
+}
+
+int count_bits(unsigned x) {
+  int n = 0;
+  for (; x; x &= x - 1) ++n;
+  return n;
+}
+
+}  // namespace
+
+std::span<const Quality> quality_levels() { return kLevels; }
+
+Governor::Governor(Limits limits, std::size_t start_level)
+    : m_limits(limits), m_level(std::min(start_level, std::size(kLevels) - 1)), m_patience(limits.calm_frames) {}
+
+void Governor::step_to(std::size_t level) {
+  m_came_up = level < m_level;
+  m_level = level;
+  m_mean = 0;
+  m_history = 0;
+  m_since_step = 0;
+}
+
+void Governor::frame_took(double seconds) {
+  if (!std::isfinite(seconds) || seconds <= 0) return;
+  ++m_since_step;
+  m_mean = m_mean == 0 ? seconds : m_mean + 0.1 * (seconds - m_mean);
+  m_history = ((m_history << 1) | (seconds > m_limits.late ? 1u : 0u)) & 0xffu;
+
+  const bool worst = m_level + 1 == std::size(kLevels);
+  if (!worst && count_bits(m_history) >= m_limits.late_frames) {
+    // Late soon after a step up: that step was a mistake, wait twice as long before the next.
+    if (m_came_up && m_since_step <= m_patience) m_patience = std::min(2 * m_patience, kLongestPatience);
+    step_to(m_level + 1);
+    return;
+  }
+  if (m_level == 0 || m_since_step < m_patience || m_history != 0) return;
+  const double predicted = m_mean * relative_cost(kLevels[m_level - 1]) / relative_cost(kLevels[m_level]);
+  if (predicted < m_limits.roomy) step_to(m_level - 1);
+}
+
+}  // namespace trocar::render

@@ -1,0 +1,23 @@
+// Draws nothing: what CheckedBackend refuses and counts is all there is to test against.
+#include <trocar/render/checked_backend.hpp>
+
+namespace trocar::render {
+
+namespace {
+
+class NullBackend final : public CheckedBackend {
+  void on_store(std::uint32_t, const MeshArrays&) override {}
+  void on_update(std::uint32_t, std::span<const Vec3f>, std::span<const Vec3f>, std::span<const Paint>) override {}
+  void on_destroy(std::uint32_t) override {}
+  void on_frame(const Frame&, const Target&, std::span<const DrawItem* const>,
+                std::span<const DrawItem* const>) override {}
+  Image on_read(const Target& target) override {
+    return {target.width, target.height, std::vector<std::uint8_t>(std::size_t(3) * target.width * target.height)};
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Backend> make_null_backend() { return std::make_unique<NullBackend>(); }
+
+}  // namespace trocar::render

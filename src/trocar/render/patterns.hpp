@@ -1,0 +1,30 @@
+// The three pictures that shading draws from, made at start from a fixed seed (no files): noise and cells, which tile
+// in space and are sampled in rest coordinates, and a plane of branching vessels.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace trocar::render {
+
+/// Bytes of a texture, x fastest.
+struct Pattern {
+  int size = 0;      ///< texels along each edge
+  int channels = 0;  ///< bytes a texel
+  std::vector<std::uint8_t> texels;
+};
+
+inline constexpr int kNoiseFeatures = 8;     ///< wavelengths per tile of noise_pattern
+inline constexpr int kCellFeatures = 8;      ///< cells per tile edge of cell_pattern
+inline constexpr int kVesselTileWidth = 45;  ///< tile edge / width of the largest vessel
+
+/// 64^3, RGBA: gradient (x y z, 128 = none) and value of two octaves of value noise that tile.
+Pattern noise_pattern();
+/// 64^3, RGBA: vector from the nearest cell centre (128 = none, 255 = one cell edge) and how near the next centre's
+/// territory is (0 on the seam between two cells).   [Worley 96]
+Pattern cell_pattern();
+/// 1024^2, RG: arteries and capillaries, veins; coverage 0..255, tiles. Trees grow as random walks with Murray's law
+/// at forks (r0^3 = r1^3 + r2^3).   [Murray 26]
+Pattern vessel_pattern();
+
+}  // namespace trocar::render
