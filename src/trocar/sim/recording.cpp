@@ -206,7 +206,7 @@ class Reader {
 
   static std::string at_byte(std::uint64_t byte) { return "byte " + std::to_string(byte) + ": "; }
 
-  bool bytes(std::uint8_t* to, std::size_t size) { return std::fread(to, 1, size, m_file.get()) == size; }
+  bool bytes(std::uint8_t* to, std::size_t size) { return size == 0 || std::fread(to, 1, size, m_file.get()) == size; }
 
   RecordingHeader read_header() {
     std::array<std::uint8_t, kSignature.size()> signature{};
@@ -400,10 +400,10 @@ void RecordingWriter::write_block(std::uint32_t kind, std::uint64_t first_tick, 
   put(head, count);
   put(head, std::uint64_t(payload.size()));
   put(head, checksum(head, payload));
-  std::FILE* file = m_file.get();
-  if (std::fwrite(head.data(), 1, head.size(), file) != head.size() ||
-      std::fwrite(payload.data(), 1, payload.size(), file) != payload.size() || std::fflush(file) != 0)
-    fail(std::strerror(errno));
+  const auto wrote = [file = m_file.get()](ConstBytes bytes) {
+    return bytes.empty() || std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
+  };
+  if (!wrote(head) || !wrote(payload) || std::fflush(m_file.get()) != 0) fail(std::strerror(errno));
 }
 
 Recording read_recording(const std::filesystem::path& path) { return Reader(path).read(); }
