@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Looks into the machine code of what the step is made of: no fused multiply-add, no reciprocal estimate, no libm.
+"""Looks into the machine code of what the step is made of: no fused multiply-add, no reciprocal estimate, no libm,
+and no inline function of a wide kernel (network_avx2.cpp) that the linker could give to files for any processor.
 
     tools/check_step_object_code.py LIBRARY.a...                     what a build has made
     tools/check_step_object_code.py --recompile BUILD --march M      the same sources, compiled again for a processor
@@ -19,13 +20,18 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-STEP = ["numerics", "geometry", "tissue", "kinematics", "vessels", "fluids", "suture", "collision", "interactions", "sim"]
+# The folders whose results must be the same bits everywhere: the step's, and the scene compiler's.
+STEP = ["numerics", "geometry", "tissue", "kinematics", "vessels", "fluids", "suture", "collision", "interactions",
+        "sim", "scene"]
 
 # x86: vfmadd213ss and kin, AMD's vfmaddss; rcpps, rsqrtss, vrcp14ps, vrsqrt28sd, vrcpph. Arm: fmadd, fmla, frecpe, ...
 INSTRUCTION = re.compile(
-    r"^(vfn?m(add|sub)\w*|v?rcp(14|28)?[psh][sdh]|v?rsqrt(14|28)?[psh][sdh]|fn?m(add|sub)|fml[as]l?2?|frecp[esx]|frsqrt[es])$")
-LIBM = set("sin cos tan sincos asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp exp2 exp10 expm1 log log2 log10 "
-           "log1p pow cbrt hypot erf erfc tgamma lgamma fma".split())
+    r"^(vfn?m(add|sub)\w*|v?rcp(14|28)?[psh][sdh]|v?rsqrt(14|28)?[psh][sdh]"
+    r"|fn?m(add|sub)|fml[as]l?2?|frecp[esx]|frsqrt[es])$")
+LIBM = set("sin cos tan sincos asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp exp2 exp10 expm1 "
+           "log log2 log10 log1p pow cbrt hypot erf erfc tgamma lgamma fma".split())
+# A file compiled for a wider instruction set than the rest says so in its name: network_avx2.cpp.
+WIDE = re.compile(r"(^|[_.-])(avx\d*\w*|sse\d\w*|neon|sve)([_.-]|$)")
 
 
 def run(*command):
@@ -52,6 +58,10 @@ def look(path):
                 seen += 1
                 if INSTRUCTION.match(words[0]):
                     found.add(f"{member}: {words[0]} in {where}")
+    for line in run("nm", "-A", "-C", "--defined-only", str(path)).splitlines():
+        place, kind, name = re.match(r"(.*?):[0-9a-f ]*([A-Za-z]) (.*)", line).groups()
+        if kind in "WwVv" and WIDE.search(place.split(":")[-1]):
+            found.add(f"{place.split(':')[-1]}: {name} is shared with other files: the linker may keep the wide one")
     for line in run("nm", "-u", "-A", str(path)).splitlines():
         if is_libm(line.split()[-1]):
             found.add(f"{':'.join(line.split()[0].split(':')[1:]) or member} calls {line.split()[-1]} of the C library")
@@ -100,7 +110,8 @@ def main():
             seen += instructions
     if seen == 0:
         found.append("no machine code to look at")
-    print("\n".join(found) if found else f"{len(files)} files, {seen} instructions: none fused, none estimated, no libm")
+    fine = f"{len(files)} files, {seen} instructions: none fused, none estimated, no libm"
+    print("\n".join(found) if found else fine)
     return 1 if found else 0
 
 

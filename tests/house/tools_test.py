@@ -51,8 +51,9 @@ def LayerCheckFindsEachFault():
         "training/b.cpp": ("#include <ranges>", "libc++"),
         "nowhere/a.cpp": ("int x;", "not in the table"),
     }
-    harmless = ('// std::sin(x), #include <chrono>\n/* std::pow(1, 2)\n*/\n#include <cmath>\n'
-                'const char* s = "std::sin(1)";\nint big = 1\'000\'000;\ndouble r = std::sqrt(big) + portable::sin(2.0);\n')
+    harmless = ("// std::sin(x), #include <chrono>\n/* std::pow(1, 2)\n*/\n#include <cmath>\n"
+                "const char* s = \"std::sin(1)\";\nint big = 1'000'000;\n"
+                "double r = std::sqrt(big) + portable::sin(2.0);\n")
     with tempfile.TemporaryDirectory() as folder:
         root = Path(folder)
         put(root, "src/trocar/tissue/harmless.cpp", harmless)
@@ -122,6 +123,13 @@ def ObjectCodeCheckFindsEachFault():
             expect(code == 1 and message in text, f"'{message}' was not found in:\n{body}\noutput: {text}")
         expect(compiled("int x;")[0] == 1, "a file without code passed")
 
+        shared = ("inline __attribute__((noinline)) int g(int a) { return a * a; }\n"
+                  "int f(int a) { return g(a) + g(a + 1); }")
+        expect(compiled(shared)[0] == 0, "an inline function in an ordinary file was refused")
+        target = Path(folder, "kernel_avx2.cpp.o")
+        code, text = compiled(shared)
+        expect(code == 1 and "g(int) is shared" in text, f"a shared inline function of a wide kernel passed: {text}")
+
 
 def EmptyTestExecutableIsFound():
     with tempfile.TemporaryDirectory() as folder:
@@ -142,7 +150,8 @@ def EmptyTestExecutableIsFound():
                "a module without tests passed")
 
 
-CASES = [LayerCheckFindsEachFault, EquationCheckFindsEachFault, ObjectCodeCheckFindsEachFault, EmptyTestExecutableIsFound]
+CASES = [LayerCheckFindsEachFault, EquationCheckFindsEachFault, ObjectCodeCheckFindsEachFault,
+         EmptyTestExecutableIsFound]
 
 if __name__ == "__main__":
     wanted = sys.argv[1:] or [c.__name__ for c in CASES]
