@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The same bits from every build: the scripted surgeon's exercise, recorded by programs made with gcc and clang for
-# three instruction sets, with one and two threads, drawn and not drawn; then every recording verified by other builds.
+# three instruction sets, with one and two threads, every SIMD width, drawn and not drawn; then every recording verified by other builds.
 #
 #   tools/determinism_matrix.sh [-k] [WORKDIR]     default build/matrix. About an hour on two cores without ccache.
 #                                                  -k: keep the recordings
@@ -73,6 +73,9 @@ for build in "${builds[@]}"; do
 done
 record "${builds[0]}-t2" "${builds[0]}" 2
 record "${builds[-1]}-t2" "${builds[-1]}" 2
+for simd in generic sse2 avx2 avx512; do  # one this processor lacks falls back to the next below
+  TROCAR_SIMD=$simd record "${builds[0]}-$simd" "${builds[0]}" 1
+done
 record "${builds[0]}-drawn" "${builds[0]}" 2 --shots "$work/shots"
 recordings+=("${builds[0]}-t2")
 

@@ -16,5 +16,5 @@ mapfile -t laid_out < <(git ls-files '*.hpp' '*.cpp')
 status=0
 clang-format --dry-run -Werror "${laid_out[@]}" || status=1
 printf '%s\n' "${files[@]}" | xargs -P "$(nproc)" -n 4 clang-tidy -p "$build" --quiet \
-  --extra-arg=-Wno-unknown-warning-option || status=1
+  --extra-arg-before=-Wno-unknown-warning-option || status=1
 exit $status
