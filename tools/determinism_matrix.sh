@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # The same bits from every build: the scripted surgeon's exercise, recorded by programs made with gcc and clang for
-# three instruction sets, with one and two threads, every SIMD width, drawn and not drawn; then every recording verified by other builds.
+# three instruction sets, with one and two threads, every SIMD width, drawn and not drawn; then every recording is
+# verified by another build.
 #
 #   tools/determinism_matrix.sh [-k] [WORKDIR]     default build/matrix. About an hour on two cores without ccache.
 #                                                  -k: keep the recordings
