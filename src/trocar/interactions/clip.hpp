@@ -1,0 +1,25 @@
+// A clip applier closes: what lies between its legs is clipped. A clip is a record on its host that closes the lumen
+// (all of it only when the whole cross-section is between the legs) and stiffens the tube there.
+#pragma once
+
+#include <span>
+
+#include <trocar/interactions/grasp.hpp>
+
+namespace trocar::interactions {
+
+struct ClipBook {
+  std::span<Clip> clips;  ///< kMaxClips
+  std::int32_t& count;
+};
+
+/// Arms the applier when its jaws are open, measures the closing time, and sets a clip when they have closed.
+/// @return true when a clip left the magazine this tick (clips[count-1]; strand -1 if it closed on nothing)
+bool update_clip_applier(const ToolModel& model, const ToolShape& shape, int tool_index, const TissueView& view,
+                         std::span<tissue::StrandState> strand_states, bool tips_visible, std::uint64_t tick,
+                         ToolState& tool, ClipBook book) noexcept;
+
+/// Share of a tube of `radius` at `along` that lies between legs from 0 to `length`.
+double leg_cover(double along, double radius, double length) noexcept;
+
+}  // namespace trocar::interactions

@@ -1,0 +1,24 @@
+// Scissors close: every strand between the blades is cut as far as the blades reach over it. A whole cut separates the
+// strand (network and surface); a part of it weakens what is left.
+#pragma once
+
+#include <span>
+
+#include <trocar/interactions/grasp.hpp>
+
+namespace trocar::interactions {
+
+struct CutBook {
+  std::span<Cut> cuts;  ///< kMaxCuts
+  std::int32_t& count;
+};
+
+/// A cross-section counts as cut through from this fraction on.
+inline constexpr double kThrough = 0.99;
+
+/// @return number of strands cut this tick
+int update_scissors(const ToolModel& model, const ToolShape& shape, int tool_index, const TissueView& view,
+                    std::span<tissue::StrandState> strand_states, bool tips_visible, std::uint64_t tick,
+                    ToolState& tool, CutBook book) noexcept;
+
+}  // namespace trocar::interactions

@@ -1,0 +1,180 @@
+#include <algorithm>
+
+#include <trocar/interactions/grasp.hpp>
+#include <trocar/interactions/tool_contact.hpp>
+
+namespace trocar::interactions {
+namespace {
+
+constexpr double kHoldStiffness = 1200;    // [N/m] per held point, implicit
+constexpr double kHoldDamping = 0.5;       // [N s/m]
+constexpr double kFoldThickness = 0.0025;  // [m] a pinched fold of an organ's surface
+constexpr double kCompressed = 0.7;        // thickness of a strand between jaws that just hold it, of its diameter
+
+struct Candidate {
+  Hold hold[kMaxHolds];
+  int count = 0;
+  double thickness = 0, along = 0;
+};
+
+void add(Candidate& c, std::int32_t body, int element, double w, Vec3d local) noexcept {
+  if (c.count == kMaxHolds) return;
+  Hold& h = c.hold[c.count++];
+  h = {};
+  h.body = body;
+  h.element = element;
+  h.weight = float(w);
+  // Jaws that close bring what lies between them to the middle.
+  h.local[0] = 0;
+  h.local[1] = float(local.y);
+  h.local[2] = float(local.z);
+}
+
+/// The strand that lies deepest between the jaws.
+Candidate strand_between(const ToolModel& model, const ToolShape& shape, const TissueView& view) noexcept {
+  Candidate best;
+  for (size_t s = 0; s < view.strands.size(); ++s) {
+    const StrandBody& body = view.strands[s];
+    Candidate c;
+    for (int e = 0; e + 1 < body.nodes(); ++e) {
+      if (!view.strand_states[s].alive[size_t(e)]) continue;
+      const BetweenJaws where = between_jaws(model, shape, body, view.strand_states[s], e);
+      if (!where.inside || where.local.z > model.jaw_length || where.local.z < 0) continue;
+      add(c, std::int32_t(s), e, where.w, where.local);
+      c.thickness = std::max(c.thickness, 2 * kCompressed * body.model.radius[size_t(e)]);
+      c.along += where.local.z;
+    }
+    if (c.count == 0) continue;
+    c.along /= c.count;
+    if (best.count == 0 || c.along < best.along) best = c;
+  }
+  return best;
+}
+
+/// Skin vertices of an organ that stand up between the jaws.
+Candidate fold_between(const ToolModel& model, const ToolShape& shape, const TissueView& view) noexcept {
+  Candidate best;
+  for (size_t o = 0; o < view.solids.size(); ++o) {
+    const Surface& surface = view.solids[o];
+    if (!surface.pose->bounds.near_segment(shape.pivot, shape.frame.tip, 0.01)) continue;
+    Candidate c;
+    for (size_t b = 0; b < surface.pose->block.size(); ++b) {
+      if (!surface.pose->block[b].near_segment(shape.pivot, shape.frame.tip, 0.01)) continue;
+      const int last = std::min(int(b + 1) * tissue::kSkinBlock, surface.skin->size());
+      for (int v = int(b) * tissue::kSkinBlock; v < last; ++v) {
+        const Vec3d local = to_jaw(shape, surface.position(v));
+        if (std::fabs(local.y) > 0.5 * model.jaw_width + 0.0015) continue;
+        if (local.z < 0.25 * model.jaw_length || local.z > model.jaw_length + 0.0005) continue;
+        if (std::fabs(local.x) > shape.half_opening(local.z) + 0.0008) continue;
+        add(c, kSolidBase + std::int32_t(o), v, 0, local);
+        c.along += local.z;
+      }
+    }
+    if (c.count < 2) continue;
+    c.along /= c.count;
+    c.thickness = kFoldThickness;
+    if (c.count > best.count) best = c;
+  }
+  return best;
+}
+
+bool grips(ToolKind kind) noexcept { return kind == ToolKind::grasper; }
+
+}  // namespace
+
+Vec3d held_point(const TissueView& view, const Hold& hold) noexcept {
+  if (hold.body >= kSolidBase) return view.solids[size_t(hold.body - kSolidBase)].position(hold.element);
+  const tissue::StrandState& s = view.strand_states[size_t(hold.body)];
+  const Vec3d a = s.x[size_t(hold.element)], b = s.x[size_t(hold.element) + 1];
+  return a + double(hold.weight) * (b - a);
+}
+
+void update_grip(const ToolModel& model, const ToolShape& shape, const TissueView& view, ToolState& tool) noexcept {
+  const double wanted = 1.0 - tool.handle;
+  if (!grips(model.kind)) {
+    tool.aperture = wanted;
+    tool.pinch = 0;
+    return;
+  }
+  if (tool.holds > 0) {
+    const double thickness =
+        tool.hold[0].body >= kSolidBase
+            ? kFoldThickness
+            : 2 * kCompressed * view.strands[size_t(tool.hold[0].body)].model.radius[size_t(tool.hold[0].element)];
+    const double stop = aperture_at(model, thickness, tool.hold[0].local[2]);
+    if (wanted > stop + 0.06) {
+      tool.holds = 0;
+    } else {
+      tool.aperture = std::max(wanted, stop);
+      tool.pinch = model.pinch_max * std::clamp((stop - wanted) / std::max(stop, 0.05), 0.0, 1.0);
+      return;
+    }
+  }
+  tool.pinch = 0;
+  const bool closing = wanted < tool.aperture;
+  tool.aperture = wanted;
+  if (!closing) return;
+  Candidate c = strand_between(model, shape, view);
+  if (c.count == 0 && wanted < 0.6) c = fold_between(model, shape, view);
+  if (c.count == 0) return;
+  const double stop = aperture_at(model, c.thickness, c.along);
+  if (wanted > stop) return;
+  tool.holds = c.count;
+  for (int i = 0; i < c.count; ++i) tool.hold[i] = c.hold[i];
+  tool.aperture = stop;
+}
+
+void hold_loads(const ToolShape& shape, int tool_index, const TissueView& view, const ToolState& tool,
+                std::span<StrandLoads> strand_loads, std::span<NetworkLoads> solid_loads) noexcept {
+  for (int i = 0; i < tool.holds; ++i) {
+    const Hold& h = tool.hold[i];
+    const Vec3d target = from_jaw(shape, {h.local[0], h.local[1], h.local[2]});
+    const Tag tag{Owner::tool_hold, tool_index, i};
+    if (h.body >= kSolidBase) {
+      const size_t o = size_t(h.body - kSolidBase);
+      const Surface& surface = view.solids[o];
+      SkinLoad load;
+      load.k = kHoldStiffness;
+      load.d = kHoldDamping;
+      load.shift = target - surface.position(h.element);
+      add_skin_load(*surface.network, *surface.skin, *surface.state, h.element, load, tag, solid_loads[o]);
+    } else {
+      tissue::StrandLoad load;
+      load.element = h.element;
+      load.w = h.weight;
+      load.k = kHoldStiffness;
+      load.d = kHoldDamping;
+      load.x0 = target;
+      strand_loads[size_t(h.body)].add(load, tag);
+    }
+  }
+}
+
+void slip(const ToolModel& model, const ToolShape& shape, const TissueView& view, ToolState& tool) noexcept {
+  Vec3d pull{0, 0, 0};
+  for (int i = 0; i < tool.holds; ++i)
+    pull += Vec3d{tool.hold[i].force[0], tool.hold[i].force[1], tool.hold[i].force[2]};
+  for (int k = 0; k < 3; ++k) tool.pull[k] = -pull[k];
+  if (tool.holds == 0) return;
+  const double force = length(pull), bears = model.friction * tool.pinch;
+  if (force <= bears) return;
+  // The tissue slides between the jaws until friction bears the pull again; what slides out is lost.
+  const double give = std::min(0.5, 1.0 - bears / force);
+  int kept = 0;
+  for (int i = 0; i < tool.holds; ++i) {
+    Hold h = tool.hold[i];
+    const Vec3d now = to_jaw(shape, held_point(view, h));
+    h.local[1] += float(give) * float(now.y - double(h.local[1]));
+    h.local[2] += float(give) * float(now.z - double(h.local[2]));
+    const bool out = double(h.local[2]) > model.jaw_length + 0.001 || double(h.local[2]) < -0.002 ||
+                     std::fabs(double(h.local[1])) > 0.5 * model.jaw_width + 0.003;
+    if (!out) tool.hold[kept++] = h;
+  }
+  if (kept == 0) {
+    ++tool.slipped;
+    tool.pull[0] = tool.pull[1] = tool.pull[2] = 0;
+  }
+  tool.holds = kept;
+}
+
+}  // namespace trocar::interactions

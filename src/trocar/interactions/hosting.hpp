@@ -1,0 +1,30 @@
+// A strand's end that grows out of an organ: the end follows a patch of the organ's nodes exactly, and the patch takes
+// the strand's pull, implicitly, so that a light patch under a stiff strand stays stable.
+#pragma once
+
+#include <vector>
+
+#include <trocar/interactions/loads.hpp>
+
+namespace trocar::interactions {
+
+/// Const after compile. Weights sum to 1 and reproduce the drawn end's position for every affine motion of the organ.
+struct HostPatch {
+  std::vector<std::int32_t> node;
+  std::vector<float> weight;
+  Vec3d offset{0, 0, 0};  ///< drawn end minus the patch's weighted mean (zero but for rounding) [m]
+};
+
+/// Smooth weights around `point` over the nodes within `radius`, corrected to be affine-exact.
+/// Throws std::invalid_argument when fewer than four nodes are there.
+HostPatch make_patch(const tissue::NetworkModel& network, Vec3d point, double radius);
+
+/// Where the strand's end is when this tick ends.
+tissue::StrandEnd hosted_end(const HostPatch& patch, const tissue::NetworkModel& network,
+                             const tissue::NetworkState& state, double dt) noexcept;
+
+/// Gives the strand's pull to the patch.
+void host_loads(const HostPatch& patch, const tissue::StrandReaction& reaction, const tissue::NetworkModel& network,
+                const tissue::NetworkState& state, int strand, NetworkLoads& loads) noexcept;
+
+}  // namespace trocar::interactions

@@ -1,0 +1,82 @@
+#include <algorithm>
+
+#include <trocar/interactions/loads.hpp>
+
+namespace trocar::interactions {
+
+void NetworkLoads::reserve(std::size_t capacity) {
+  gathered.reserve(capacity);
+  sorted.reserve(capacity);
+  tag.reserve(capacity);
+  order.reserve(capacity);
+  reaction.reserve(capacity);
+}
+
+void NetworkLoads::clear() noexcept {
+  gathered.clear();
+  tag.clear();
+  overflowed = false;
+}
+
+void NetworkLoads::add(const tissue::NodeLoad& load, Tag t) noexcept {
+  if (gathered.size() == gathered.capacity()) {
+    overflowed = true;
+    return;
+  }
+  gathered.push_back(load);
+  tag.push_back(t);
+}
+
+void NetworkLoads::sort() noexcept {
+  order.clear();
+  for (std::size_t i = 0; i < gathered.size(); ++i) order.push_back(std::int32_t(i));
+  std::sort(order.begin(), order.end(), [this](std::int32_t a, std::int32_t b) {
+    const int na = gathered[std::size_t(a)].node, nb = gathered[std::size_t(b)].node;
+    return na != nb ? na < nb : a < b;
+  });
+  sorted.clear();
+  for (std::int32_t i : order) sorted.push_back(gathered[std::size_t(i)]);
+  reaction.assign(sorted.size(), Vec3f{});
+}
+
+void StrandLoads::reserve(std::size_t capacity) {
+  list.reserve(capacity);
+  tag.reserve(capacity);
+  reaction.reserve(capacity);
+}
+
+void StrandLoads::clear() noexcept {
+  list.clear();
+  tag.clear();
+  overflowed = false;
+}
+
+void StrandLoads::add(const tissue::StrandLoad& load, Tag t) noexcept {
+  if (list.size() == list.capacity()) {
+    overflowed = true;
+    return;
+  }
+  list.push_back(load);
+  tag.push_back(t);
+}
+
+void add_skin_load(const tissue::NetworkModel& network, const tissue::Skin& skin, const tissue::NetworkState& state,
+                   int vertex, const SkinLoad& load, Tag tag, NetworkLoads& loads) noexcept {
+  const tissue::SkinWeights& w = skin.weights[std::size_t(vertex)];
+  const Vec3f origin = vec_cast<float>(network.origin);
+  for (std::size_t j = 0; j < 8; ++j) {
+    const float share = w.weight[j];
+    if (share < 0.01f) continue;
+    const tissue::NodeState& n = state.nodes[std::size_t(w.row[j])];
+    tissue::NodeLoad node;
+    node.node = w.node[j];
+    node.f0 = share * vec_cast<float>(load.f0);
+    node.k = share * float(load.k);
+    node.x0 = Vec3f{n.x, n.y, n.z} + origin + vec_cast<float>(load.shift);
+    node.dir = vec_cast<float>(load.dir);
+    node.d = share * float(load.d);
+    loads.add(node, tag);
+  }
+}
+
+}  // namespace trocar::interactions

@@ -1,0 +1,52 @@
+#include <trocar/interactions/surface.hpp>
+
+namespace trocar::interactions {
+
+Vec3d Surface::normal(int vertex) const noexcept {
+  return network ? tissue::skin_normal(*skin, *pose, vertex) : vec_cast<double>(skin->rest_normal[size_t(vertex)]);
+}
+
+int walk_to_nearest(const Surface& surface, int start, Vec3d p) noexcept {
+  const tissue::Skin& skin = *surface.skin;
+  int here = start;
+  Vec3d d = surface.position(here) - p;
+  double best = dot(d, d);
+  for (int step = 0; step < 64; ++step) {
+    int next = here;
+    for (int k = skin.neighbour_first[size_t(here)]; k < skin.neighbour_first[size_t(here) + 1]; ++k) {
+      const int v = skin.neighbour[size_t(k)];
+      d = surface.position(v) - p;
+      const double n = dot(d, d);
+      if (n < best) {
+        best = n;
+        next = v;
+      }
+    }
+    if (next == here) break;
+    here = next;
+  }
+  return here;
+}
+
+int nearest_vertex(const Surface& surface, Vec3d p) noexcept {
+  int best = 0;
+  double least = 1e30;
+  for (int v = 0; v < surface.skin->size(); ++v) {
+    const Vec3d d = surface.position(v) - p;
+    const double n = dot(d, d);
+    if (n < least) {
+      least = n;
+      best = v;
+    }
+  }
+  return best;
+}
+
+Clearance clearance_at(const Surface& surface, int vertex, Vec3d p) noexcept {
+  Clearance c;
+  c.normal = surface.normal(vertex);
+  c.distance = dot(p - surface.position(vertex), c.normal);
+  return c;
+}
+
+}  // namespace trocar::interactions

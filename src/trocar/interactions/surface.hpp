@@ -1,0 +1,33 @@
+// A surface that others touch: the posed skin of an organ, or a wall that never moves. Depth queries go to the nearest
+// vertex, found by walking downhill over the mesh from where it was last tick (that index is State).
+#pragma once
+
+#include <trocar/tissue/skin.hpp>
+
+namespace trocar::interactions {
+
+/// A surface as it is now. `network`/`state` are null for a wall.
+struct Surface {
+  const tissue::Skin* skin = nullptr;
+  const tissue::SkinPose* pose = nullptr;
+  const tissue::NetworkModel* network = nullptr;
+  const tissue::NetworkState* state = nullptr;
+
+  Vec3d position(int vertex) const noexcept { return vec_cast<double>(pose->position[size_t(vertex)]); }
+  Vec3d normal(int vertex) const noexcept;
+};
+
+/// The vertex nearest to p, reached from `start` by steps to nearer neighbours (a local minimum; at most 64 steps).
+int walk_to_nearest(const Surface& surface, int start, Vec3d p) noexcept;
+
+/// The nearest of all vertices (for compile and first contact).
+int nearest_vertex(const Surface& surface, Vec3d p) noexcept;
+
+/// Signed distance of p above the surface near `vertex` (negative inside) and the outward normal there.
+struct Clearance {
+  double distance = 0;
+  Vec3d normal{0, 0, 1};
+};
+Clearance clearance_at(const Surface& surface, int vertex, Vec3d p) noexcept;
+
+}  // namespace trocar::interactions
