@@ -14,13 +14,13 @@ namespace trocar::scene {
 /// One row of the tissue table. sigma = E eps (1 + P1 |eps| + P2 eps^2), linear beyond strain_cap.  [KCM99 eq.5]
 struct Tissue {
   std::string name;
-  double density = 1050;         ///< [kg/m^3]
-  double young = 0;              ///< E [Pa]
-  double p1 = 0, p2 = 0;         ///< shape factors
-  double strain_cap = 0.2;       ///< the law continues linearly beyond it
-  double failure_strain = 0;     ///< tears beyond it (0: never)
-  double damping_ms = 2;         ///< stiffness-proportional damping, a time [ms]
-  std::string source;            ///< literature or "ours"
+  double density = 1050;      ///< [kg/m^3]
+  double young = 0;           ///< E [Pa]
+  double p1 = 0, p2 = 0;      ///< shape factors
+  double strain_cap = 0.2;    ///< the law continues linearly beyond it
+  double failure_strain = 0;  ///< tears beyond it (0: never)
+  double damping_ms = 2;      ///< stiffness-proportional damping, a time [ms]
+  std::string source;         ///< literature or "ours"
   core::Location at;
 };
 
@@ -42,9 +42,9 @@ struct Anchor {
 struct Solid {
   std::string name, tissue, look;
   std::vector<Section> sections;
-  double cell = 0;            ///< lattice edge [m]
-  double skin_edge = 0;       ///< contact skin's edge length [m]
-  double fine_edge = 0;       ///< drawn skin's edge length [m]
+  double cell = 0;       ///< lattice edge [m]
+  double skin_edge = 0;  ///< contact skin's edge length [m]
+  double fine_edge = 0;  ///< drawn skin's edge length [m]
   std::vector<Anchor> anchors;
   core::Location at, cell_at;
 };
@@ -72,15 +72,15 @@ struct Landmark {
 /// A thin tube or cord: cubic spline centre-line through the points, implicit strand.
 struct Strand {
   std::string name, tissue, look;
-  std::vector<Vec3d> centreline;          ///< interpolated points [m]
-  std::vector<StrandStation> stations;    ///< radius and lumen along it, linear in between
+  std::vector<Vec3d> centreline;        ///< interpolated points [m]
+  std::vector<StrandStation> stations;  ///< radius and lumen along it, linear in between
   std::vector<Landmark> landmarks;
   StrandEnd start, end;
-  double spacing = 0.0025;                ///< node distance [m]
-  double foundation = 0;                  ///< elastic foundation per length [N/m^2]: the mesentery's hold
-  double foundation_limit = 0;            ///< displacement at which the foundation's stiffness has doubled [m]; 0: linear
+  double spacing = 0.0025;      ///< node distance [m]
+  double foundation = 0;        ///< elastic foundation per length [N/m^2]: the mesentery's hold
+  double foundation_limit = 0;  ///< displacement at which the foundation's stiffness has doubled [m]; 0: linear
   bool cuttable = true;
-  bool fimbriated = false;                ///< the end flares into fimbriae
+  bool fimbriated = false;  ///< the end flares into fimbriae
   core::Location at, spacing_at;
 };
 
@@ -97,9 +97,9 @@ struct Wall {
 /// Mechanically it is the strand's foundation in this version.
 struct Sheet {
   std::string name, look, strand;
-  double from = 0, to = 0;         ///< the strand's arc length [m]
-  std::vector<Vec3d> base;         ///< polyline of the fold's other border [m]
-  std::string base_organ;          ///< solid or strand that the base rides on; empty: space
+  double from = 0, to = 0;  ///< the strand's arc length [m]
+  std::vector<Vec3d> base;  ///< polyline of the fold's other border [m]
+  std::string base_organ;   ///< solid or strand that the base rides on; empty: space
   core::Location at;
 };
 
@@ -118,18 +118,18 @@ struct Instrument {
   InstrumentKind kind = InstrumentKind::probe;
   double shaft_radius = 0.0025, shaft_length = 0.310;
   double jaw_length = 0.020, jaw_width = 0.003, jaw_thickness = 0.0015;
-  double opening = 1.0;           ///< full opening between the jaws [rad], or for parallel jaws
-  double parallel_gap = 0;        ///< clip applier: gap between parallel jaws when open [m] (then opening = 0)
-  double pinch_max = 15;          ///< force between the jaws when the handle is fully closed on tissue [N]
-  double friction = 1.67;         ///< pull the grip bears per pinch force: profiled jaws hold 5 N with 3 N [Heijnsdijk 04]
-  double clip_length = 0.0085;    ///< clip applier: length of a closed clip [m]
-  int clips = 0;                  ///< clips in the magazine
+  double opening = 1.0;     ///< full opening between the jaws [rad], or for parallel jaws
+  double parallel_gap = 0;  ///< clip applier: gap between parallel jaws when open [m] (then opening = 0)
+  double pinch_max = 15;    ///< force between the jaws when the handle is fully closed on tissue [N]
+  double friction = 1.67;   ///< pull the grip bears per pinch force: profiled jaws hold 5 N with 3 N [Heijnsdijk 04]
+  double clip_length = 0.0085;  ///< clip applier: length of a closed clip [m]
+  int clips = 0;                ///< clips in the magazine
   core::Location at;
 };
 
 struct Scope {
-  double angle = 0;               ///< 0, 30 or 45 degrees [rad]
-  double field_of_view = 1.22;    ///< full cone [rad]
+  double angle = 0;             ///< 0, 30 or 45 degrees [rad]
+  double field_of_view = 1.22;  ///< full cone [rad]
   double shaft_radius = 0.005, shaft_length = 0.310;
 };
 
@@ -137,13 +137,13 @@ struct Scope {
 struct Placement {
   std::string instrument;  ///< empty for the scope
   std::string port;
-  Vec3d tip;               ///< tip position at the start [m]
+  Vec3d tip;  ///< tip position at the start [m]
   double roll = 0;
   core::Location at;
 };
 
 struct Description {
-  std::string name, file;
+  std::string name, title, file;
   Vec3d gravity{0, 0, -9.81};  ///< [m/s^2], patient frame: tilt included
   std::vector<Tissue> tissues;
   std::vector<Solid> solids;

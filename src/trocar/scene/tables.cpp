@@ -1,0 +1,242 @@
+// The keys of scene, organ, instrument and tissue files: one table per kind of object. Ranges are what a person could
+// mean, wide enough for any organ; they catch slips of units and of the decimal point.
+#include <trocar/scene/reader.hpp>
+
+namespace trocar::scene {
+namespace {
+
+constexpr double kFar = 2000;  // [mm]: no place in a body is further from the umbilicus
+
+const Shape& tissue_row() {
+  static const Shape shape{
+      "tissue",
+      "A material: sigma = E eps (1 + p1 |eps| + p2 eps^2), continued linearly beyond strain_cap.",
+      {needed(keys::name("name", "what solids and strands call it")),
+       needed(keys::number("density_kg_m3", 1, 25000, "mass per volume")),
+       needed(keys::number("young_Pa", 1, 1e9, "Young's modulus E at small strain")),
+       keys::number("p1", -1000, 1000, "first shape factor, default 0; monotone law: p1^2 < 3 p2"),
+       keys::number("p2", 0, 1e6, "second shape factor, default 0"),
+       keys::number("strain_cap", 0.01, 1, "strain beyond which the law is continued linearly, default 0.2"),
+       keys::number("failure_strain", 0, 10, "strain at which it tears, default 0: never"),
+       keys::number("damping_ms", 0, 1000, "stiffness-proportional damping time, default 2"),
+       needed(keys::text("source", "where the figures come from: a publication, or \"ours\""))}};
+  return shape;
+}
+
+const Shape& section() {
+  static const Shape shape{"section",
+                           "A cross-section of a lofted body: a super-ellipse with two half-axis vectors.",
+                           {needed(keys::vec3("centre_mm", -kFar, kFar, "centre")),
+                            needed(keys::vec3("across_mm", -500, 500, "first half axis")),
+                            needed(keys::vec3("deep_mm", -500, 500, "second half axis")),
+                            keys::number("squareness", 1, 10, "exponent of the super-ellipse, default 2: an ellipse")}};
+  return shape;
+}
+
+const Shape& anchor() {
+  static const Shape shape{"anchor",
+                           "The nodes within a ball are held where they are, rigidly or by springs.",
+                           {needed(keys::vec3("centre_mm", -kFar, kFar, "centre of the ball")),
+                            needed(keys::number("radius_mm", 0.1, 500, "radius of the ball")),
+                            keys::number("stiffness_N_m", 0, 1e6, "of all springs together, default 0: rigid")}};
+  return shape;
+}
+
+const Shape& solid() {
+  static const Shape shape{
+      "solid",
+      "A volumetric organ: a smooth loft through its sections, filled with an elastic lattice of cubic cells.",
+      {needed(keys::name("name", "what scenes and exercises call it")), needed(keys::name("tissue", "its material")),
+       keys::name("look", "its surface in the picture, default: its name"),
+       needed(keys::objects("sections", section, 2, "from one end to the other")),
+       needed(keys::number("cell_mm", 0.1, 100, "lattice edge")),
+       keys::number("skin_edge_mm", 0.2, 100, "edge of the touched skin's triangles, default: cell_mm"),
+       keys::number("fine_edge_mm", 0.1, 100, "edge of the drawn skin's triangles, default: half of skin_edge_mm"),
+       keys::objects("anchors", anchor, 0, "what holds it")}};
+  return shape;
+}
+
+const Shape& station() {
+  static const Shape shape{"station",
+                           "Thickness of a strand at one place; linear between stations.",
+                           {needed(keys::number("s_mm", 0, 5000, "arc length from the start")),
+                            needed(keys::number("radius_mm", 0.05, 100, "outer radius")),
+                            keys::number("lumen_mm", 0, 100, "radius of the lumen, default 0: a solid cord")}};
+  return shape;
+}
+
+const Shape& landmark() {
+  static const Shape shape{"landmark",
+                           "A named stretch of a strand, for exercises.",
+                           {needed(keys::name("name", "what exercises call it")),
+                            needed(keys::number("from_mm", 0, 5000, "arc length where it begins")),
+                            needed(keys::number("to_mm", 0, 5000, "arc length where it ends"))}};
+  return shape;
+}
+
+const Shape& strand_end() {
+  static const Shape shape{"strand end",
+                           "Where a strand's end hangs: on a solid, at a fixed place, or nowhere.",
+                           {keys::name("solid", "the solid whose skin next to the end carries it"),
+                            keys::flag("fixed", "true: held where it is")}};
+  return shape;
+}
+
+const Shape& strand() {
+  static const Shape shape{
+      "strand",
+      "A thin tube or cord along a smooth line through points.",
+      {needed(keys::name("name", "what scenes and exercises call it")), needed(keys::name("tissue", "its material")),
+       keys::name("look", "its surface in the picture, default: its name"),
+       needed(keys::points("centreline_mm", -kFar, kFar, 2, "points on its centre line, from start to end")),
+       needed(keys::objects("stations", station, 1, "thickness along it, by rising s_mm")),
+       keys::objects("landmarks", landmark, 0, "named stretches"), keys::object("start", strand_end, "default: free"),
+       keys::object("end", strand_end, "default: free"),
+       keys::number("spacing_mm", 0.2, 50, "distance of its nodes, default 2.5"),
+       keys::number("foundation_N_m2", 0, 1e6, "elastic hold of its fold per length, default 0"),
+       keys::number("foundation_limit_mm", 0, 500, "displacement at which that hold has doubled, default 0: linear"),
+       keys::flag("cuttable", "default true"),
+       keys::flag("fimbriated", "its end flares into fimbriae, default false")}};
+  return shape;
+}
+
+const Shape& wall() {
+  static const Shape shape{
+      "wall",
+      "A surface that does not move: a NURBS patch over a net of control points; d/drow x d/dcolumn points to the free "
+      "side.",
+      {needed(keys::name("name", "what it is called")),
+       keys::name("look", "its surface in the picture, default: its name"),
+       needed(keys::grid("net_mm", -kFar, kFar, 2, "rows of control points")),
+       keys::number("edge_mm", 0.5, 200, "edge of its triangles, default 4")}};
+  return shape;
+}
+
+const Shape& sheet() {
+  static const Shape shape{
+      "sheet",
+      "A thin fold drawn between a strand and a line of points.",
+      {needed(keys::name("name", "what it is called")),
+       keys::name("look", "its surface in the picture, default: its name"),
+       needed(keys::name("strand", "the strand along one border")),
+       needed(keys::number("from_mm", 0, 5000, "arc length on the strand where it begins")),
+       needed(keys::number("to_mm", 0, 5000, "arc length on the strand where it ends")),
+       needed(keys::points("base_mm", -kFar, kFar, 2, "the other border, in the same direction")),
+       keys::name("base_organ", "solid or strand that carries the other border, default: none, it stays in place")}};
+  return shape;
+}
+
+const Shape& organ();
+
+std::vector<Key> organ_keys() {
+  return {keys::name("name", "what it is called"),
+          keys::includes("organs", organ, "organs that belong to it: files or objects"),
+          keys::objects("solids", solid, 0, "volumetric organs"),
+          keys::objects("strands", strand, 0, "tubes and cords"),
+          keys::objects("walls", wall, 0, "surfaces that do not move"),
+          keys::objects("sheets", sheet, 0, "folds")};
+}
+
+const Shape& organ() {
+  static const Shape shape{"organ", "Bodies that belong together, in the scene's frame.", organ_keys()};
+  return shape;
+}
+
+std::vector<Key> instrument_keys() {
+  return {needed(keys::name("name", "what scenes call it")),
+          keys::text("title", "one line for people"),
+          needed(keys::choice("kind", {"grasper", "clip_applier", "scissors", "probe"}, "what it does")),
+          keys::number("shaft_diameter_mm", 1, 30, "default 5"),
+          keys::number("shaft_length_mm", 50, 1000, "from the handle to the jaws' joint, default 310"),
+          keys::number("jaw_length_mm", 1, 100, "default 20"),
+          keys::number("jaw_width_mm", 0.2, 30, "default 3"),
+          keys::number("jaw_thickness_mm", 0.2, 20, "of one jaw, default 1.5"),
+          keys::number("opening_deg", 0, 180, "between the open jaws, default 57"),
+          keys::number("parallel_gap_mm", 0, 50, "between parallel jaws when open, default 0: they turn"),
+          keys::number("pinch_max_N", 0, 200, "between the jaws with the handle closed, default 15"),
+          keys::number("friction", 0, 10, "pull that the grip bears per pinch force, default 1.67"),
+          keys::number("clip_length_mm", 0.5, 50, "of a closed clip, default 8.5"),
+          keys::integer("clips", 0, 1000, "in the magazine, default 0")};
+}
+
+const Shape& instrument() {
+  static const Shape shape{"instrument", "An instrument's shape and grip.", instrument_keys()};
+  return shape;
+}
+
+const Shape& port() {
+  static const Shape shape{"port",
+                           "A trocar: the point about which an instrument turns.",
+                           {needed(keys::name("name", "what tools call it")),
+                            needed(keys::vec3("position_mm", -kFar, kFar, "the pivot, in the abdominal wall")),
+                            keys::number("diameter_mm", 2, 40, "inner diameter, default 5")}};
+  return shape;
+}
+
+std::vector<Key> placement_keys() {
+  return {needed(keys::name("port", "the port it passes")),
+          needed(keys::vec3("tip_mm", -kFar, kFar, "where its tip stands at the start")),
+          keys::number("roll_deg", -360, 360, "turned about its shaft, default 0")};
+}
+
+const Shape& tool() {
+  static const Shape shape = [] {
+    Shape s{"tool", "An instrument in a hand at the start.", placement_keys()};
+    s.keys.insert(s.keys.begin(), needed(keys::name("instrument", "which instrument")));
+    return s;
+  }();
+  return shape;
+}
+
+const Shape& scope() {
+  static const Shape shape = [] {
+    Shape s{"scope", "The endoscope and where it stands at the start.", placement_keys()};
+    s.keys.push_back(keys::number("angle_deg", 0, 90, "between its shaft and its view, default 0"));
+    s.keys.push_back(keys::number("field_of_view_deg", 20, 140, "full cone, default 70"));
+    s.keys.push_back(keys::number("shaft_diameter_mm", 1, 30, "default 10"));
+    s.keys.push_back(keys::number("shaft_length_mm", 50, 1000, "default 310"));
+    return s;
+  }();
+  return shape;
+}
+
+Shape file_shape(std::string name, std::string meaning, std::vector<Key> keys) {
+  Shape shape{std::move(name), std::move(meaning), std::move(keys)};
+  shape.keys.insert(shape.keys.begin(), keys::format(1));
+  return shape;
+}
+
+}  // namespace
+
+const Shape& scene_shape() {
+  static const Shape shape =
+      file_shape("scene", "Organs, instruments and where they stand.",
+                 {needed(keys::name("name", "what exercises call it")), keys::text("title", "one line for people"),
+                  keys::vec3("gravity_m_s2", -100, 100, "in the patient's frame, default (0, 0, -9.81)"),
+                  needed(keys::includes("tissues", tissue_row, "materials: tables in files, or rows")),
+                  needed(keys::includes("organs", organ, "organs: files or objects")),
+                  needed(keys::includes("instruments", instrument, "instruments: files or objects")),
+                  needed(keys::objects("ports", port, 1, "trocars")),
+                  needed(keys::objects("tools", tool, 0, "in the order of the hands: left, right, assistant")),
+                  needed(keys::object("scope", scope, "the endoscope"))});
+  return shape;
+}
+
+const Shape& organ_shape() {
+  static const Shape shape =
+      file_shape("organ file", "Bodies that belong together, in the scene's frame.", organ_keys());
+  return shape;
+}
+
+const Shape& instrument_shape() {
+  static const Shape shape = file_shape("instrument file", "An instrument's shape and grip.", instrument_keys());
+  return shape;
+}
+
+const Shape& tissue_shape() {
+  static const Shape shape = file_shape("tissue table", "Materials.",
+                                        {needed(keys::objects("tissues", tissue_row, 1, "one row per material"))});
+  return shape;
+}
+
+}  // namespace trocar::scene
