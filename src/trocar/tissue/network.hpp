@@ -28,6 +28,7 @@
 #include <trocar/core/hash.hpp>
 #include <trocar/core/parallel.hpp>
 #include <trocar/numerics/vec3.hpp>
+#include <trocar/tissue/network_layout.hpp>
 #include <trocar/tissue/report.hpp>
 
 namespace trocar::tissue {
@@ -55,27 +56,10 @@ struct NetworkDescription {
   double max_stiffness_scale = 1;        ///< largest value set_spring_scale may give; enters the time step bound
 };
 
-inline constexpr int kSlice = 16;  ///< rows per slice; every SIMD width divides it
-
-/// 16 half-edges: one column of a slice. Padding has k l = 0 and points at its own row.
-struct alignas(64) HalfEdgePack {
-  std::uint32_t offset[kSlice];  ///< byte offset of the other node in the node array
-  float inv_rest[kSlice];        ///< 1/l [1/m]
-  float stiffness[kSlice];       ///< k l [N]
-  float damping[kSlice];         ///< [N s/m]
-};
-/// Shape factors per half-edge, only where springs of a body differ.
-struct alignas(64) LawPack {
-  float p1[kSlice], p2[kSlice], cap[kSlice], cap_slope[kSlice];
-};
-/// dt B / (m (1 + dt gamma)) per axis, for 16 rows.
-struct alignas(64) RowPack {
-  float wx[kSlice], wy[kSlice], wz[kSlice];
-};
-/// A protected cell: rows, and six times its rest volume.
+/// A protected cell.
 struct TetRest {
   int row[4];
-  float inv_rest6;  ///< 1 / (6 V0) [1/m^3]
+  float rest6;  ///< six times its volume as drawn [m^3]
 };
 
 /// Const after build(); shared by any number of States.
@@ -98,6 +82,7 @@ struct NetworkModel {
   std::vector<float> spring_rest;                ///< (springs) l [m]
   std::vector<int> half_edge;                    ///< (2 springs) places in NetworkState::scale
   std::vector<TetRest> tets;                     ///< as described
+  std::vector<TetPack> tet_packs;                ///< the same, for the search for collapsed ones
   std::vector<int> tet_begin;                    ///< (nodes + 1) into tet_of_node
   std::vector<int> tet_of_node;                  ///< cells at a node
   double tick = 0;                               ///< [s]
@@ -111,24 +96,20 @@ struct NetworkModel {
   float max_scale = 1;
 };
 
-/// A node: position relative to the model's origin [m], velocity [m/s]. 32 bytes, loaded whole.
-struct alignas(32) NodeState {
-  float x = 0, y = 0, z = 0, zero0 = 0;
-  float vx = 0, vy = 0, vz = 0, zero1 = 0;
-};
-
 struct NetworkState {
   std::vector<NodeState> nodes;         ///< (rows)
   std::vector<float> scale;             ///< per half-edge place: 1 whole, 0 cut
   std::vector<std::uint8_t> tet_phase;  ///< (tets) 0 idle, 1 being pushed open, 2 gone
   std::uint32_t version = 0;            ///< counts cuts and changes of scale; 0 = untouched
+  std::uint32_t open_tets = 0;          ///< cells being pushed open
   std::uint32_t tick = 0;               ///< ticks made
 };
 
 /// Scratch: its contents between ticks do not matter.
 struct NetworkWork {
-  std::vector<NodeState> other;  ///< (rows) the ping-pong partner
-  std::vector<int> active_tets;  ///< capacity: tets
+  std::vector<NodeState> other;      ///< (rows) the ping-pong partner
+  std::vector<int> open_tets;        ///< capacity: tets
+  std::vector<std::uint16_t> below;  ///< (tet packs)
 };
 
 /// A force on one node during one tick, taken implicitly: f0 - k P (x - x0) - d P v with P = 1, or dir dir^T where dir

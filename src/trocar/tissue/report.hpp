@@ -8,9 +8,10 @@ namespace trocar::tissue {
 struct StepReport {
   enum Flag : std::uint32_t {
     kFine = 0,
-    kNonFinite = 1,   ///< a position or velocity is NaN, infinite or beyond 1e6: restore an earlier State
-    kInverted = 2,    ///< volume protection is at work on at least one cell: nothing to do, unless it lasts
-    kBadLoad = 4,     ///< a load names a node or element that does not exist, or is not in order: it was left out
+    kNonFinite = 1,  ///< a position or velocity is NaN, infinite or beyond 1e6: restore an earlier State
+    kInverted = 2,   ///< volume protection is at work on at least one cell: nothing to do, unless it lasts
+    kBadLoad =
+        4,  ///< a load names a node or element that does not exist or is not finite (left out), or is out of order
     kIndefinite = 8,  ///< a strand's matrix lost a pivot (non-finite or negative stiffness given): state not advanced
   };
   std::uint32_t flags = kFine;

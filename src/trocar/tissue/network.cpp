@@ -1,0 +1,314 @@
+// One tick of the network: sub-steps of the chosen kernel, cells pushed open, loads taken implicitly.
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <utility>
+
+#include <trocar/tissue/law.hpp>
+#include <trocar/tissue/network.hpp>
+
+namespace trocar::tissue {
+namespace {
+
+// ---- which instruction set
+
+bool can_run(const KernelSet* set) {
+  if (!set) return false;
+#if defined(__x86_64__)
+  if (std::strcmp(set->name, "avx2") == 0) return __builtin_cpu_supports("avx2");
+  if (std::strcmp(set->name, "avx512") == 0) {
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+           __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw");
+  }
+#endif
+  return true;
+}
+
+/// The widest runnable set not above `wish` (null: no wish).
+const KernelSet* choose(const char* wish) {
+  const KernelSet* sets[] = {kernels_avx512(), kernels_avx2(), kernels_sse2(), kernels_generic()};
+  const char* names[] = {"avx512", "avx2", "sse2", "generic"};
+  int first = 0;
+  for (int i = 0; wish && i < 4; ++i)
+    if (std::strcmp(wish, names[i]) == 0) first = i;
+  for (int i = first; i < 4; ++i)
+    if (can_run(sets[i])) return sets[i];
+  return kernels_generic();
+}
+
+const KernelSet*& kernels() {
+  static const KernelSet* set = choose(std::getenv("TROCAR_SIMD"));
+  return set;
+}
+
+// ---- cells pushed open
+
+constexpr float kReleased = 0.2f;  // share of the rest volume at which a cell is let go
+constexpr float kGoal = 0.25f;     // share it is driven towards
+constexpr float kOpening = 0.02f;  // time constant of that [s]
+constexpr float kFastest = 1.0f;   // largest change of a node's speed that one cell may make in a sub-step [m/s]
+
+Vec3f place(const NodeState& n) { return {n.x, n.y, n.z}; }
+Vec3f speed(const NodeState& n) { return {n.vx, n.vy, n.vz}; }
+
+Vec3f row_weight(const NetworkModel& m, int row) {
+  const RowPack& p = m.row_packs[row / kSlice];
+  return {p.wx[row % kSlice], p.wy[row % kSlice], p.wz[row % kSlice]};
+}
+
+/// x0 + dt v in the kernel's own arithmetic.
+void move_to(NodeState& out, const NodeState& in, Vec3f v, float dt) {
+  out.vx = v.x, out.vy = v.y, out.vz = v.z;
+  out.x = in.x + dt * v.x, out.y = in.y + dt * v.y, out.z = in.z + dt * v.z;
+}
+
+/// A quarter of the cells is looked at each tick; those that collapsed stay on the list until they are open again.
+void find_collapsed(const NetworkModel& m, NetworkState& s, NetworkWork& w) {
+  const int packs = int(m.tet_packs.size());
+  const int quarter = int(s.tick & 3u);
+  const int first = int(std::int64_t(packs) * quarter / 4), last = int(std::int64_t(packs) * (quarter + 1) / 4);
+  kernels()->find_collapsed(s.nodes.data(), m.tet_packs.data(), first, last, w.below.data());
+  for (int p = first; p < last; ++p) {
+    for (unsigned bits = w.below[p - first]; bits; bits &= bits - 1) {
+      const int t = p * kSlice + __builtin_ctz(bits);
+      if (s.tet_phase[t] == 0) s.tet_phase[t] = 1, ++s.open_tets;
+    }
+  }
+}
+
+int list_open(const NetworkState& s, NetworkWork& w) {
+  int n = 0;
+  if (s.open_tets == 0) return 0;
+  const int count = int(s.tet_phase.size());
+  for (int t = 0; t < count; ++t)
+    if (s.tet_phase[t] == 1) w.open_tets[n++] = t;
+  return n;
+}
+
+/// Velocity impulses, cell by cell in order, that make each listed cell's volume grow at its opening rate at least.
+/// They act on what the springs have left at the end of the sub-step, so no spring can hold a cell inside out.
+void push_open(const NetworkModel& m, std::span<const int> open, const NodeState* in, NodeState* out) {
+  const float dt = float(m.dt);
+  for (int t : open) {
+    const TetRest& tet = m.tets[t];
+    const int* r = tet.row;
+    const Vec3f a = place(out[r[1]]) - place(out[r[0]]), b = place(out[r[2]]) - place(out[r[0]]);
+    const Vec3f c = place(out[r[3]]) - place(out[r[0]]);
+    Vec3f grad[4] = {{}, cross(b, c), cross(c, a), cross(a, b)};
+    grad[0] = -((grad[1] + grad[2]) + grad[3]);
+    const float six = dot(a, grad[1]);
+    float rate = 0, give = 0, steepest = 0;
+    Vec3f push[4];
+    for (int i = 0; i < 4; ++i) {
+      const Vec3f w = row_weight(m, r[i]);
+      push[i] = {w.x * grad[i].x, w.y * grad[i].y, w.z * grad[i].z};
+      rate += dot(grad[i], speed(out[r[i]]));
+      give += dot(grad[i], push[i]);
+      const float length = std::sqrt(dot(push[i], push[i]));
+      steepest = steepest > length ? steepest : length;
+    }
+    const float wanted = (kGoal * tet.rest6 - six) / kOpening;
+    if (!(rate < wanted) || !(give > 0)) continue;
+    float impulse = (wanted - rate) / give;
+    if (!(impulse * steepest < kFastest)) impulse = kFastest / steepest;
+    for (int i = 0; i < 4; ++i) move_to(out[r[i]], in[r[i]], speed(out[r[i]]) + impulse * push[i], dt);
+  }
+}
+
+void release_open(const NetworkModel& m, std::span<const int> open, NetworkState& s) {
+  for (int t : open) {
+    const int* r = m.tets[t].row;
+    const Vec3f o = place(s.nodes[r[0]]);
+    const Vec3f a = place(s.nodes[r[1]]) - o, b = place(s.nodes[r[2]]) - o, c = place(s.nodes[r[3]]) - o;
+    if (dot(a, cross(b, c)) > kReleased * m.tets[t].rest6) s.tet_phase[t] = 0, --s.open_tets;
+  }
+}
+
+// ---- loads
+
+bool usable(const NetworkModel& m, const NodeLoad& l) {
+  const float sum = ((std::fabs(l.f0.x) + std::fabs(l.f0.y)) + std::fabs(l.f0.z)) +
+                    ((std::fabs(l.x0.x) + std::fabs(l.x0.y)) + std::fabs(l.x0.z)) +
+                    ((std::fabs(l.dir.x) + std::fabs(l.dir.y)) + std::fabs(l.dir.z));
+  return l.node >= 0 && l.node < m.nodes && l.k >= 0 && l.d >= 0 && l.k < 1e12f && l.d < 1e12f && sum < 1e12f;
+}
+
+/// a x = b for a symmetric positive definite 3x3 matrix given as xx, yy, zz, xy, xz, yz: LDL^T.
+Vec3d solve3(const double a[6], Vec3d b) {
+  const double l10 = a[3] / a[0], l20 = a[4] / a[0];
+  const double d1 = a[1] - l10 * a[3];
+  const double e21 = a[5] - l20 * a[3];
+  const double l21 = e21 / d1;
+  const double d2 = a[2] - l20 * a[4] - l21 * e21;
+  const double y1 = b.y - l10 * b.x, y2 = b.z - l20 * b.x - l21 * y1;
+  const double z = y2 / d2;
+  const double y = y1 / d1 - l21 * z;
+  return {b.x / a[0] - l10 * y - l20 * z, y, z};
+}
+
+bool is_zero(Vec3f a) { return a.x == 0 && a.y == 0 && a.z == 0; }
+
+/// P u of a load.
+Vec3d along(const NodeLoad& l, Vec3d u) {
+  if (is_zero(l.dir)) return u;
+  const Vec3d n = vec_cast<double>(l.dir);
+  return dot(n, u) * n;
+}
+
+/// The loads of one node: (m (1 + dt gamma) + dt D + dt^2 K) v = m (1 + dt gamma) v_free + dt (f0 + K (x0 - x)),
+/// held axes left out. Adds each load's mean force to `reactions`. False where the result is not finite.
+bool apply_loads(const NetworkModel& m, std::span<const NodeLoad> loads, Vec3f* reactions, const NodeState& in,
+                 NodeState& out) {
+  const int node = loads[0].node;
+  const double dt = m.dt, mass = m.mass[node] * (1 + dt * m.gamma);
+  const Vec3d x = vec_cast<double>(place(in)), free_v = vec_cast<double>(speed(out));
+  double a[6] = {mass, mass, mass, 0, 0, 0};
+  Vec3d b = mass * free_v;
+  for (const NodeLoad& l : loads) {
+    const Vec3d reach = (vec_cast<double>(l.x0) - m.origin) - x;
+    const double q = dt * (double(l.d) + dt * double(l.k));
+    b += dt * (vec_cast<double>(l.f0) + double(l.k) * along(l, reach));
+    const Vec3d n = vec_cast<double>(l.dir);
+    if (is_zero(l.dir)) {
+      a[0] += q, a[1] += q, a[2] += q;
+    } else {
+      a[0] += q * n.x * n.x, a[1] += q * n.y * n.y, a[2] += q * n.z * n.z;
+      a[3] += q * n.x * n.y, a[4] += q * n.x * n.z, a[5] += q * n.y * n.z;
+    }
+  }
+  const int held = m.fixed[node];
+  if (held != kFree) {
+    // A held axis keeps its velocity: move its column to the right side, put 1 on its diagonal.
+    const int cross_of[3][2] = {{3, 4}, {3, 5}, {4, 5}}, other[3][2] = {{1, 2}, {0, 2}, {0, 1}};
+    for (int i = 0; i < 3; ++i) {
+      if (!(held & (1 << i))) continue;
+      for (int j = 0; j < 2; ++j) {
+        b[other[i][j]] -= a[cross_of[i][j]] * free_v[i];
+        a[cross_of[i][j]] = 0;
+      }
+      a[i] = 1;
+      b[i] = free_v[i];
+    }
+    for (int i = 0; i < 3; ++i)
+      if (held & (1 << i)) b[i] = free_v[i];
+  }
+  const Vec3d v = solve3(a, b);
+  move_to(out, in, vec_cast<float>(v), float(dt));
+  const bool fine = std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z) < 1e6;
+  if (!reactions) return fine;
+  const double share = 1.0 / m.substeps;
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    const NodeLoad& l = loads[i];
+    const Vec3d reach = (vec_cast<double>(l.x0) - m.origin) - (x + dt * v);
+    const Vec3d force = vec_cast<double>(l.f0) + along(l, double(l.k) * reach - double(l.d) * v);
+    reactions[i] += vec_cast<float>(share * force);
+  }
+  return fine;
+}
+
+bool apply_all_loads(const NetworkModel& m, std::span<const NodeLoad> loads, std::span<Vec3f> reactions,
+                     const NodeState* in, NodeState* out) {
+  bool fine = true;
+  for (std::size_t i = 0; i < loads.size();) {
+    std::size_t end = i + 1;
+    if (!usable(m, loads[i])) {
+      i = end;
+      continue;
+    }
+    while (end < loads.size() && loads[end].node == loads[i].node && usable(m, loads[end])) ++end;
+    const int row = m.row_of_node[loads[i].node];
+    Vec3f* reaction = reactions.empty() ? nullptr : reactions.data() + i;
+    fine = apply_loads(m, loads.subspan(i, end - i), reaction, in[row], out[row]) && fine;
+    i = end;
+  }
+  return fine;
+}
+
+StepReport check_loads(const NetworkModel& m, std::span<const NodeLoad> loads) {
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    if (!usable(m, loads[i]) || (i > 0 && loads[i].node < loads[i - 1].node)) return {StepReport::kBadLoad, int(i)};
+  }
+  return {};
+}
+
+// ---- the tick
+
+KernelArgs kernel_args(const NetworkModel& m, const NetworkState& s) {
+  KernelArgs a;
+  a.packs = m.packs.data();
+  a.laws = m.law_packs.empty() ? nullptr : m.law_packs.data();
+  a.scale = s.version == 0 ? nullptr : s.scale.data();
+  a.rows = m.row_packs.data();
+  a.slice_begin = m.slice_begin.data();
+  a.p1 = m.p1, a.p2 = m.p2, a.cap = m.cap, a.cap_slope = m.cap_slope;
+  a.decay = m.decay;
+  for (int i = 0; i < 3; ++i) a.gravity_step[i] = m.gravity_step[i];
+  a.dt = float(m.dt);
+  return a;
+}
+
+constexpr int kSlicesPerThread = 24;  // below this a thread's wake-up costs more than it saves
+
+bool run_substep(const KernelArgs& a, int slices, core::ThreadPool* pool) {
+  const int parts = pool ? pool->threads() : 1;
+  if (parts < 2 || slices < parts * kSlicesPerThread) return kernels()->substep(a, 0, slices);
+  constexpr int kMost = 64;
+  const int n = parts < kMost ? parts : kMost;
+  bool fine[kMost];
+  core::run(*pool, n, [&](int i) noexcept {
+    fine[i] = kernels()->substep(a, int(std::int64_t(slices) * i / n), int(std::int64_t(slices) * (i + 1) / n));
+  });
+  bool all = true;
+  for (int i = 0; i < n; ++i) all = all && fine[i];
+  return all;
+}
+
+int first_non_finite(const NetworkModel& m, const NetworkState& s) {
+  for (int i = 0; i < m.nodes; ++i) {
+    const NodeState& n = s.nodes[m.row_of_node[i]];
+    const float size =
+        ((std::fabs(n.x) + std::fabs(n.y)) + std::fabs(n.z)) + ((std::fabs(n.vx) + std::fabs(n.vy)) + std::fabs(n.vz));
+    if (!(size < 1e6f)) return i;
+  }
+  return -1;
+}
+
+}  // namespace
+
+const char* simd_name() noexcept { return kernels()->name; }
+
+bool set_simd(const std::string& name) noexcept {
+  for (const KernelSet* set : {kernels_generic(), kernels_sse2(), kernels_avx2(), kernels_avx512()}) {
+    if (set && name == set->name && can_run(set)) {
+      kernels() = set;
+      return true;
+    }
+  }
+  return false;
+}
+
+StepReport advance(const NetworkModel& m, std::span<const NodeLoad> loads, std::span<Vec3f> reactions, NetworkState& s,
+                   NetworkWork& w, core::ThreadPool* pool) noexcept {
+  StepReport report = check_loads(m, loads);
+  for (Vec3f& r : reactions) r = {};
+  find_collapsed(m, s, w);
+  const std::span<const int> open(w.open_tets.data(), std::size_t(list_open(s, w)));
+  if (!open.empty()) report.flags |= StepReport::kInverted;
+
+  KernelArgs args = kernel_args(m, s);
+  bool fine = true;
+  for (int i = 0; i < m.substeps; ++i) {
+    args.in = s.nodes.data();
+    args.out = w.other.data();
+    fine = run_substep(args, m.rows / kSlice, pool) && fine;
+    push_open(m, open, args.in, args.out);
+    fine = apply_all_loads(m, loads, reactions, args.in, args.out) && fine;
+    std::swap(s.nodes, w.other);
+  }
+  release_open(m, open, s);
+  ++s.tick;
+  if (!fine) report = StepReport{StepReport::kNonFinite, first_non_finite(m, s)} | report;
+  return report;
+}
+
+}  // namespace trocar::tissue

@@ -1,0 +1,300 @@
+// The spring network's inner loop, one source for all SIMD widths. Included by network_kernel_<set>.cpp, which defines
+// TROCAR_WIDTH (lanes) and TROCAR_KERNELS (the namespace and the function that hands the kernels out). Everything here
+// lives in that file's own anonymous namespace, so that no other file can end up calling code of this instruction set.
+//
+// Rows of a slice sit in lanes. Each column brings one neighbour per lane: its 32 bytes are loaded whole and transposed
+// in registers (gathering scalars costs ten times as much). Same operations in the same order for every width, exact
+// square root and division, no fused multiply-add: same bits.
+
+#if defined(__x86_64__) || defined(__i386__)
+#include <immintrin.h>
+#endif
+
+#include <trocar/tissue/network_layout.hpp>
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"  // gcc 12's own _mm512_undefined_ps
+#endif
+
+namespace trocar::tissue {
+namespace {
+
+constexpr int W = TROCAR_WIDTH;
+typedef float V __attribute__((vector_size(W * 4)));
+typedef std::int32_t I __attribute__((vector_size(W * 4)));
+
+struct Lanes {
+  V x, y, z, vx, vy, vz;
+};
+
+#define TROCAR_INLINE static inline __attribute__((always_inline))
+
+TROCAR_INLINE V all(float a) { return V{} + a; }
+TROCAR_INLINE V load(const float* p) {
+  V a;
+  __builtin_memcpy(&a, p, sizeof a);
+  return a;
+}
+TROCAR_INLINE V magnitude(V a) { return (V)((I)a & 0x7fffffff); }
+/// The sign of s on the magnitude a >= 0.
+TROCAR_INLINE V with_sign(V a, V s) { return (V)((I)a | ((I)s & (I)(I{} + (std::int32_t)0x80000000u))); }
+TROCAR_INLINE V where(I mask, V a) { return (V)(mask & (I)a); }
+TROCAR_INLINE const float* node_at(const NodeState* nodes, std::uint32_t offset) {
+  return reinterpret_cast<const float*>(reinterpret_cast<const char*>(nodes) + offset);
+}
+
+#if TROCAR_WIDTH == 16 && defined(__AVX512F__)
+
+TROCAR_INLINE V smaller(V a, V b) { return (V)_mm512_min_ps((__m512)a, (__m512)b); }
+TROCAR_INLINE V larger(V a, V b) { return (V)_mm512_max_ps((__m512)a, (__m512)b); }
+TROCAR_INLINE V root(V a) { return (V)_mm512_sqrt_ps((__m512)a); }
+
+TROCAR_INLINE __m512 node_pair(const NodeState* n, std::uint32_t a, std::uint32_t b) {
+  return _mm512_castpd_ps(_mm512_insertf64x4(_mm512_castps_pd(_mm512_castps256_ps512(_mm256_load_ps(node_at(n, a)))),
+                                             _mm256_castps_pd(_mm256_load_ps(node_at(n, b))), 1));
+}
+/// Four pairs of nodes (a b) -> per component the 128-bit lanes position of a, velocity of a, of b, of b.
+TROCAR_INLINE void transpose4(__m512 p, __m512 q, __m512 r, __m512 s, __m512& x, __m512& y, __m512& z) {
+  const __m512d pq = _mm512_castps_pd(_mm512_unpacklo_ps(p, q)), rs = _mm512_castps_pd(_mm512_unpacklo_ps(r, s));
+  const __m512d pqz = _mm512_castps_pd(_mm512_unpackhi_ps(p, q)), rsz = _mm512_castps_pd(_mm512_unpackhi_ps(r, s));
+  x = _mm512_castpd_ps(_mm512_unpacklo_pd(pq, rs));
+  y = _mm512_castpd_ps(_mm512_unpackhi_pd(pq, rs));
+  z = _mm512_castpd_ps(_mm512_unpacklo_pd(pqz, rsz));
+}
+TROCAR_INLINE Lanes load_nodes(const NodeState* n, const std::uint32_t* o) {
+  __m512 xa, ya, za, xb, yb, zb;
+  transpose4(node_pair(n, o[0], o[4]), node_pair(n, o[1], o[5]), node_pair(n, o[2], o[6]), node_pair(n, o[3], o[7]), xa,
+             ya, za);
+  transpose4(node_pair(n, o[8], o[12]), node_pair(n, o[9], o[13]), node_pair(n, o[10], o[14]),
+             node_pair(n, o[11], o[15]), xb, yb, zb);
+  return {(V)_mm512_shuffle_f32x4(xa, xb, 0x88), (V)_mm512_shuffle_f32x4(ya, yb, 0x88),
+          (V)_mm512_shuffle_f32x4(za, zb, 0x88), (V)_mm512_shuffle_f32x4(xa, xb, 0xdd),
+          (V)_mm512_shuffle_f32x4(ya, yb, 0xdd), (V)_mm512_shuffle_f32x4(za, zb, 0xdd)};
+}
+
+#elif TROCAR_WIDTH == 8 && defined(__AVX__)
+
+TROCAR_INLINE V smaller(V a, V b) { return (V)_mm256_min_ps((__m256)a, (__m256)b); }
+TROCAR_INLINE V larger(V a, V b) { return (V)_mm256_max_ps((__m256)a, (__m256)b); }
+TROCAR_INLINE V root(V a) { return (V)_mm256_sqrt_ps((__m256)a); }
+
+/// Four nodes -> per component position in the low lane, velocity in the high lane.
+TROCAR_INLINE void transpose4(__m256 p, __m256 q, __m256 r, __m256 s, __m256& x, __m256& y, __m256& z) {
+  const __m256d pq = _mm256_castps_pd(_mm256_unpacklo_ps(p, q)), rs = _mm256_castps_pd(_mm256_unpacklo_ps(r, s));
+  const __m256d pqz = _mm256_castps_pd(_mm256_unpackhi_ps(p, q)), rsz = _mm256_castps_pd(_mm256_unpackhi_ps(r, s));
+  x = _mm256_castpd_ps(_mm256_unpacklo_pd(pq, rs));
+  y = _mm256_castpd_ps(_mm256_unpackhi_pd(pq, rs));
+  z = _mm256_castpd_ps(_mm256_unpacklo_pd(pqz, rsz));
+}
+TROCAR_INLINE Lanes load_nodes(const NodeState* n, const std::uint32_t* o) {
+  const auto at = [&](int i) { return _mm256_load_ps(node_at(n, o[i])); };
+  __m256 xa, ya, za, xb, yb, zb;
+  transpose4(at(0), at(1), at(2), at(3), xa, ya, za);
+  transpose4(at(4), at(5), at(6), at(7), xb, yb, zb);
+  return {(V)_mm256_permute2f128_ps(xa, xb, 0x20), (V)_mm256_permute2f128_ps(ya, yb, 0x20),
+          (V)_mm256_permute2f128_ps(za, zb, 0x20), (V)_mm256_permute2f128_ps(xa, xb, 0x31),
+          (V)_mm256_permute2f128_ps(ya, yb, 0x31), (V)_mm256_permute2f128_ps(za, zb, 0x31)};
+}
+
+#elif TROCAR_WIDTH == 4 && defined(__SSE2__) && !defined(TROCAR_PORTABLE)
+
+TROCAR_INLINE V smaller(V a, V b) { return (V)_mm_min_ps((__m128)a, (__m128)b); }
+TROCAR_INLINE V larger(V a, V b) { return (V)_mm_max_ps((__m128)a, (__m128)b); }
+TROCAR_INLINE V root(V a) { return (V)_mm_sqrt_ps((__m128)a); }
+
+TROCAR_INLINE void transpose4(__m128 p, __m128 q, __m128 r, __m128 s, V& x, V& y, V& z) {
+  const __m128 pq = _mm_unpacklo_ps(p, q), rs = _mm_unpacklo_ps(r, s);
+  const __m128 pqz = _mm_unpackhi_ps(p, q), rsz = _mm_unpackhi_ps(r, s);
+  x = (V)_mm_movelh_ps(pq, rs);
+  y = (V)_mm_movehl_ps(rs, pq);
+  z = (V)_mm_movelh_ps(pqz, rsz);
+}
+TROCAR_INLINE Lanes load_nodes(const NodeState* n, const std::uint32_t* o) {
+  const auto at = [&](int i, int half) { return _mm_load_ps(node_at(n, o[i]) + half); };
+  Lanes a;
+  transpose4(at(0, 0), at(1, 0), at(2, 0), at(3, 0), a.x, a.y, a.z);
+  transpose4(at(0, 4), at(1, 4), at(2, 4), at(3, 4), a.vx, a.vy, a.vz);
+  return a;
+}
+
+#else  // any other machine: the compiler's own vectors
+
+TROCAR_INLINE V pick(I mask, V a, V b) { return (V)((mask & (I)a) | (~mask & (I)b)); }
+TROCAR_INLINE V smaller(V a, V b) { return pick((I)(a < b), a, b); }
+TROCAR_INLINE V larger(V a, V b) { return pick((I)(a > b), a, b); }
+TROCAR_INLINE V root(V a) {
+  for (int i = 0; i < W; ++i) a[i] = __builtin_sqrtf(a[i]);
+  return a;
+}
+TROCAR_INLINE Lanes load_nodes(const NodeState* n, const std::uint32_t* o) {
+  Lanes a;
+  for (int i = 0; i < W; ++i) {
+    const float* p = node_at(n, o[i]);
+    a.x[i] = p[0], a.y[i] = p[1], a.z[i] = p[2], a.vx[i] = p[4], a.vy[i] = p[5], a.vz[i] = p[6];
+  }
+  return a;
+}
+
+#endif
+
+TROCAR_INLINE Lanes load_rows(const NodeState* n, std::uint32_t row) {
+  std::uint32_t offset[W];
+  for (int i = 0; i < W; ++i) offset[i] = (row + std::uint32_t(i)) * std::uint32_t(sizeof(NodeState));
+  return load_nodes(n, offset);
+}
+
+#if TROCAR_WIDTH == 4 && defined(__SSE2__) && !defined(TROCAR_PORTABLE)
+TROCAR_INLINE void store_half(float* p, V x, V y, V z) {
+  const __m128 zero = _mm_setzero_ps();
+  const __m128 xy = _mm_unpacklo_ps((__m128)x, (__m128)y), XY = _mm_unpackhi_ps((__m128)x, (__m128)y);
+  const __m128 z0 = _mm_unpacklo_ps((__m128)z, zero), Z0 = _mm_unpackhi_ps((__m128)z, zero);
+  _mm_store_ps(p, _mm_movelh_ps(xy, z0));
+  _mm_store_ps(p + 8, _mm_movehl_ps(z0, xy));
+  _mm_store_ps(p + 16, _mm_movelh_ps(XY, Z0));
+  _mm_store_ps(p + 24, _mm_movehl_ps(Z0, XY));
+}
+TROCAR_INLINE void store_rows(NodeState* n, const Lanes& a) {
+  float* p = reinterpret_cast<float*>(n);
+  store_half(p, a.x, a.y, a.z);
+  store_half(p + 4, a.vx, a.vy, a.vz);
+}
+#elif TROCAR_WIDTH >= 8 && defined(__AVX__)
+struct Quad {
+  __m256 n0, n1, n2, n3;
+};
+/// Rows 0..3 in the low lanes and 4..7 in the high lanes of three components -> per row x y z 0.
+TROCAR_INLINE Quad rows_of(__m256 x, __m256 y, __m256 z) {
+  const __m256 zero = _mm256_setzero_ps();
+  const __m256d xy = _mm256_castps_pd(_mm256_unpacklo_ps(x, y)), XY = _mm256_castps_pd(_mm256_unpackhi_ps(x, y));
+  const __m256d z0 = _mm256_castps_pd(_mm256_unpacklo_ps(z, zero)), Z0 = _mm256_castps_pd(_mm256_unpackhi_ps(z, zero));
+  return {_mm256_castpd_ps(_mm256_unpacklo_pd(xy, z0)), _mm256_castpd_ps(_mm256_unpackhi_pd(xy, z0)),
+          _mm256_castpd_ps(_mm256_unpacklo_pd(XY, Z0)), _mm256_castpd_ps(_mm256_unpackhi_pd(XY, Z0))};
+}
+TROCAR_INLINE void store8(float* p, __m256 x, __m256 y, __m256 z, __m256 vx, __m256 vy, __m256 vz) {
+  const Quad a = rows_of(x, y, z), b = rows_of(vx, vy, vz);
+  _mm256_store_ps(p, _mm256_permute2f128_ps(a.n0, b.n0, 0x20));
+  _mm256_store_ps(p + 8, _mm256_permute2f128_ps(a.n1, b.n1, 0x20));
+  _mm256_store_ps(p + 16, _mm256_permute2f128_ps(a.n2, b.n2, 0x20));
+  _mm256_store_ps(p + 24, _mm256_permute2f128_ps(a.n3, b.n3, 0x20));
+  _mm256_store_ps(p + 32, _mm256_permute2f128_ps(a.n0, b.n0, 0x31));
+  _mm256_store_ps(p + 40, _mm256_permute2f128_ps(a.n1, b.n1, 0x31));
+  _mm256_store_ps(p + 48, _mm256_permute2f128_ps(a.n2, b.n2, 0x31));
+  _mm256_store_ps(p + 56, _mm256_permute2f128_ps(a.n3, b.n3, 0x31));
+}
+#if TROCAR_WIDTH == 16
+TROCAR_INLINE __m256 half(V a, int which) {
+  const __m512d d = _mm512_castps_pd((__m512)a);
+  return _mm256_castpd_ps(which ? _mm512_extractf64x4_pd(d, 1) : _mm512_castpd512_pd256(d));
+}
+TROCAR_INLINE void store_rows(NodeState* n, const Lanes& a) {
+  float* p = reinterpret_cast<float*>(n);
+  for (int h = 0; h < 2; ++h)
+    store8(p + 64 * h, half(a.x, h), half(a.y, h), half(a.z, h), half(a.vx, h), half(a.vy, h), half(a.vz, h));
+}
+#else
+TROCAR_INLINE void store_rows(NodeState* n, const Lanes& a) {
+  store8(reinterpret_cast<float*>(n), (__m256)a.x, (__m256)a.y, (__m256)a.z, (__m256)a.vx, (__m256)a.vy, (__m256)a.vz);
+}
+#endif
+#else
+TROCAR_INLINE void store_rows(NodeState* n, const Lanes& a) {
+  for (int i = 0; i < W; ++i) n[i] = {a.x[i], a.y[i], a.z[i], 0, a.vx[i], a.vy[i], a.vz[i], 0};
+}
+#endif
+
+struct Law {
+  V p1, p2, cap, cap_slope;
+};
+
+/// Force along r per length of r [N/m]: the polynomial spring [KCM99 eq.5] in [KCM99 eq.2], and its damper.
+TROCAR_INLINE V force_per_length(V dx, V dy, V dz, V dvx, V dvy, V dvz, V inv_rest, V stiffness, V damping,
+                                 const Law& law) {
+  const V r = root(larger((dx * dx + dy * dy) + dz * dz, all(1e-24f)));
+  const V inv_r = 1.0f / r;
+  const V strain = r * inv_rest - 1.0f;
+  const V a = magnitude(strain);
+  const V am = smaller(a, law.cap);
+  const V shape = (am + am * am * (law.p1 + law.p2 * am)) + law.cap_slope * (a - am);
+  const V rate = ((dvx * dx + dvy * dy) + dvz * dz) * inv_r;
+  return (stiffness * with_sign(shape, strain) + damping * rate) * inv_r;
+}
+
+/// Zero below about 1e-22, so that a body at rest does not sink into denormal numbers.
+TROCAR_INLINE V flushed(V a) { return (a + 1e-15f) - 1e-15f; }
+
+template <bool OneLaw, bool Scaled>
+TROCAR_INLINE bool substep(const KernelArgs& arg, int first, int last) {
+  const Law one{all(arg.p1), all(arg.p2), all(arg.cap), all(arg.cap_slope)};
+  I fine = ~I{};
+  for (int s = first; s < last; ++s) {
+    for (int part = 0; part < kSlice; part += W) {
+      const Lanes own = load_rows(arg.in, std::uint32_t(s * kSlice + part));
+      V fx{}, fy{}, fz{};
+      for (int c = arg.slice_begin[s]; c < arg.slice_begin[s + 1]; ++c) {
+        const HalfEdgePack& e = arg.packs[c];
+        const Lanes far = load_nodes(arg.in, e.offset + part);
+        const V dx = far.x - own.x, dy = far.y - own.y, dz = far.z - own.z;
+        Law law = one;
+        if constexpr (!OneLaw) {
+          const LawPack& l = arg.laws[c];
+          law = {load(l.p1 + part), load(l.p2 + part), load(l.cap + part), load(l.cap_slope + part)};
+        }
+        V q = force_per_length(dx, dy, dz, far.vx - own.vx, far.vy - own.vy, far.vz - own.vz, load(e.inv_rest + part),
+                               load(e.stiffness + part), load(e.damping + part), law);
+        if constexpr (Scaled) q = q * load(arg.scale + c * kSlice + part);
+        fx = fx + q * dx, fy = fy + q * dy, fz = fz + q * dz;
+      }
+      // v += dt B h / m with gamma at the new v, then x += dt v                                   [KCM99 eq.3]
+      const RowPack& row = arg.rows[s];
+      const V wx = load(row.wx + part), wy = load(row.wy + part), wz = load(row.wz + part), none{};
+      Lanes next;
+      next.vx = flushed(arg.decay * own.vx + (wx * fx + where((I)(wx > none), all(arg.gravity_step[0]))));
+      next.vy = flushed(arg.decay * own.vy + (wy * fy + where((I)(wy > none), all(arg.gravity_step[1]))));
+      next.vz = flushed(arg.decay * own.vz + (wz * fz + where((I)(wz > none), all(arg.gravity_step[2]))));
+      next.x = own.x + arg.dt * next.vx;
+      next.y = own.y + arg.dt * next.vy;
+      next.z = own.z + arg.dt * next.vz;
+      const V size = ((magnitude(next.x) + magnitude(next.y)) + magnitude(next.z)) +
+                     ((magnitude(next.vx) + magnitude(next.vy)) + magnitude(next.vz));
+      fine &= (I)(size < all(1e6f));
+      store_rows(arg.out + s * kSlice + part, next);
+    }
+  }
+  std::int32_t ok = -1;
+  for (int i = 0; i < W; ++i) ok &= fine[i];
+  return ok != 0;
+}
+
+bool run_substep(const KernelArgs& arg, int first, int last) noexcept {
+  if (arg.laws) return arg.scale ? substep<false, true>(arg, first, last) : substep<false, false>(arg, first, last);
+  return arg.scale ? substep<true, true>(arg, first, last) : substep<true, false>(arg, first, last);
+}
+
+void run_find_collapsed(const NodeState* nodes, const TetPack* packs, int first, int last,
+                        std::uint16_t* below) noexcept {
+  for (int p = first; p < last; ++p) {
+    std::uint32_t bits = 0;
+    for (int part = 0; part < kSlice; part += W) {
+      const Lanes o = load_nodes(nodes, packs[p].offset[0] + part);
+      const Lanes a = load_nodes(nodes, packs[p].offset[1] + part);
+      const Lanes b = load_nodes(nodes, packs[p].offset[2] + part);
+      const Lanes c = load_nodes(nodes, packs[p].offset[3] + part);
+      const V ax = a.x - o.x, ay = a.y - o.y, az = a.z - o.z;
+      const V bx = b.x - o.x, by = b.y - o.y, bz = b.z - o.z;
+      const V cx = c.x - o.x, cy = c.y - o.y, cz = c.z - o.z;
+      const V six = (ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz)) + az * (bx * cy - by * cx);
+      const I mask = (I)(six < load(packs[p].limit6 + part));
+      for (int i = 0; i < W; ++i) bits |= (mask[i] ? 1u : 0u) << (part + i);
+    }
+    below[p - first] = std::uint16_t(bits);
+  }
+}
+
+}  // namespace
+
+const KernelSet* TROCAR_KERNELS() noexcept {
+  static constexpr KernelSet set{TROCAR_KERNEL_NAME, run_substep, run_find_collapsed};
+  return &set;
+}
+
+}  // namespace trocar::tissue

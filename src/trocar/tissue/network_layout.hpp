@@ -1,0 +1,72 @@
+// The arrays of the spring network as its kernels read them: plain structs, nothing from the standard library but
+// integer names, so that files compiled for other instruction sets share no inline code with the rest.
+#pragma once
+
+#include <cstdint>
+
+namespace trocar::tissue {
+
+inline constexpr int kSlice = 16;  ///< rows per slice; every SIMD width divides it
+
+/// A node: position relative to the model's origin [m], velocity [m/s]. 32 bytes, loaded whole.
+struct alignas(32) NodeState {
+  float x = 0, y = 0, z = 0, zero0 = 0;
+  float vx = 0, vy = 0, vz = 0, zero1 = 0;
+};
+
+/// 16 half-edges: one column of a slice. Padding has k l = 0 and points at its own row.
+struct alignas(64) HalfEdgePack {
+  std::uint32_t offset[kSlice];  ///< byte offset of the other node in the node array
+  float inv_rest[kSlice];        ///< 1/l [1/m]
+  float stiffness[kSlice];       ///< k l [N]
+  float damping[kSlice];         ///< [N s/m]
+};
+
+/// Shape factors per half-edge, only where springs of a body differ.
+struct alignas(64) LawPack {
+  float p1[kSlice], p2[kSlice], cap[kSlice], cap_slope[kSlice];
+};
+
+/// dt B / (m (1 + dt gamma)) per axis, for 16 rows.
+struct alignas(64) RowPack {
+  float wx[kSlice], wy[kSlice], wz[kSlice];
+};
+
+/// 16 protected cells: their corners, and the six-fold volume below which they are pushed open.
+struct alignas(64) TetPack {
+  std::uint32_t offset[4][kSlice];  ///< byte offsets of the corners
+  float limit6[kSlice];             ///< [m^3]; padding: -infinity
+};
+
+/// What one sub-step reads and writes.
+struct KernelArgs {
+  const NodeState* in = nullptr;
+  NodeState* out = nullptr;
+  const HalfEdgePack* packs = nullptr;
+  const LawPack* laws = nullptr;  ///< null: one law, below
+  const float* scale = nullptr;   ///< null: all whole
+  const RowPack* rows = nullptr;
+  const int* slice_begin = nullptr;
+  float p1 = 0, p2 = 0, cap = 1, cap_slope = 1;
+  float decay = 1;
+  float gravity_step[3] = {0, 0, 0};
+  float dt = 0;
+};
+
+/// Kernels of one instruction set.
+struct KernelSet {
+  const char* name = "";
+  /// One sub-step of slices [first, last). False where a result is not finite or beyond 1e6.
+  bool (*substep)(const KernelArgs&, int first, int last) noexcept = nullptr;
+  /// below[i] = bit mask of the cells of pack first + i whose six-fold volume is under their limit.
+  void (*find_collapsed)(const NodeState* nodes, const TetPack* packs, int first, int last,
+                         std::uint16_t* below) noexcept = nullptr;
+};
+
+/// Null where not compiled for this target.
+const KernelSet* kernels_generic() noexcept;
+const KernelSet* kernels_sse2() noexcept;
+const KernelSet* kernels_avx2() noexcept;
+const KernelSet* kernels_avx512() noexcept;
+
+}  // namespace trocar::tissue
