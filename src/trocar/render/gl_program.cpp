@@ -98,6 +98,8 @@ void GlProgram::set_vec4s(const char* name, std::span<const float> values) {
   glUniform4fv(location(name), GLsizei(values.size() / 4), values.data());
 }
 
+void GlProgram::set_seed(const char* name, std::uint32_t value) { glUniform1ui(location(name), value); }
+
 GlProgram& GlPrograms::get(const std::string& vertex_file, const std::string& fragment_file,
                            const std::string& defines) {
   const std::string key = vertex_file + "+" + fragment_file + "+" + defines;

@@ -2,6 +2,7 @@
 // choose a variant. Compiled when first asked for.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -27,6 +28,7 @@ class GlProgram {
   void set(const char* name, Vec3f value);
   void set(const char* name, const Mat4& value);
   void set_vec4s(const char* name, std::span<const float> values);
+  void set_seed(const char* name, std::uint32_t value);
 
  private:
   GLint location(const char* name);

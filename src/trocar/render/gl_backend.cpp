@@ -1,0 +1,428 @@
+// The backend that draws. on_frame is the list of passes; each is one function below it.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include <epoxy/gl.h>
+
+#include <trocar/render/checked_backend.hpp>
+#include <trocar/render/gl_context.hpp>
+#include <trocar/render/gl_meshes.hpp>
+#include <trocar/render/gl_program.hpp>
+#include <trocar/render/gl_targets.hpp>
+#include <trocar/render/patterns.hpp>
+
+namespace trocar::render {
+
+namespace {
+
+enum TextureUnit : int {
+  kUnitPicture = 0,
+  kUnitNoise = 1,
+  kUnitCells = 2,
+  kUnitVessels = 3,
+  kUnitSmall = 4,
+  kUnitSmaller = 5,
+  kUnitExposure = 6
+};
+constexpr int kEyes = 8;
+
+void bind_texture(int unit, GLenum target, GLuint texture) {
+  glActiveTexture(GLenum(GL_TEXTURE0 + unit));
+  glBindTexture(target, texture);
+}
+
+GlTexture volume_texture(const Pattern& pattern) {
+  GlTexture texture = new_texture();
+  glBindTexture(GL_TEXTURE_3D, texture.id());
+  glTexImage3D(GL_TEXTURE_3D, 0, GL_RGBA8, pattern.size, pattern.size, pattern.size, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+               pattern.texels.data());
+  glGenerateMipmap(GL_TEXTURE_3D);
+  glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
+  glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  for (GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+    glTexParameteri(GL_TEXTURE_3D, axis, GL_REPEAT);
+  return texture;
+}
+
+GlTexture plane_texture(const Pattern& pattern) {
+  GlTexture texture = new_texture();
+  glBindTexture(GL_TEXTURE_2D, texture.id());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RG8, pattern.size, pattern.size, 0, GL_RG, GL_UNSIGNED_BYTE, pattern.texels.data());
+  glGenerateMipmap(GL_TEXTURE_2D);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  return texture;
+}
+
+/// Rows of u_material in surface.frag.
+std::array<float, 14 * 4> packed(const Material& m) {
+  const float noise = 1 / (kNoiseFeatures * m.mottle_size);
+  const float rough = m.roughness * m.roughness;
+  const float cells = m.lobule_size > 0 ? 1 / (kCellFeatures * m.lobule_size) : 0;
+  return {m.colour.x,
+          m.colour.y,
+          m.colour.z,
+          m.mottle,
+          m.colour_b.x,
+          m.colour_b.y,
+          m.colour_b.z,
+          noise,
+          m.colour_c.x,
+          m.colour_c.y,
+          m.colour_c.z,
+          m.bump,
+          m.tint.x,
+          m.tint.y,
+          m.tint.z,
+          m.wetness,
+          m.fibre_axis.x,
+          m.fibre_axis.y,
+          m.fibre_axis.z,
+          1 - 1 / m.fibre_stretch,
+          m.vessel_colour.x,
+          m.vessel_colour.y,
+          m.vessel_colour.z,
+          m.vessels,
+          m.wrap.x,
+          m.wrap.y,
+          m.wrap.z,
+          1 / m.vessel_tile,
+          m.glow.x,
+          m.glow.y,
+          m.glow.z,
+          m.glow_amount,
+          rough * rough,
+          m.film_roughness * m.film_roughness,
+          1 / (kNoiseFeatures * m.film_size),
+          m.film_bump,
+          m.fresnel,
+          m.alpha,
+          m.rim_alpha,
+          m.density,
+          cells,
+          m.lobule_depth,
+          m.lobule_contrast,
+          0};
+}
+
+/// Rows of u_frame in common.glsl.
+std::array<float, 8 * 4> packed(const Frame& frame) {
+  const Light& l = frame.light;
+  const Vec3f bounce = l.bounce * l.bounce_colour;
+  const Vec3f fog = frame.look.fog_colour;
+  return {l.position.x, l.position.y, l.position.z, l.intensity,
+          l.colour.x,   l.colour.y,   l.colour.z,   l.reference_distance * l.reference_distance,
+          bounce.x,     bounce.y,     bounce.z,     l.inverse_square ? 1.0f : 0.0f,
+          fog.x,        fog.y,        fog.z,        frame.look.fog,
+          l.ambient};
+}
+
+/// Where the view's circle lies and how large the scene picture is, in pixels of the target.
+struct Layout {
+  float centre_x, centre_y;
+  float radius;          ///< of the mask's circle; without a mask half the diagonal
+  int box_w, box_h;      ///< the part of the target that the scene is drawn for, around the centre
+  int scene_w, scene_h;  ///< texels of the scene picture
+
+  Layout(const Target& target, const EndoscopeLook& look, float scale) {
+    centre_x = float(target.x) + 0.5f * float(target.width);
+    centre_y = float(target.y) + 0.5f * float(target.height);
+    box_w = target.width;
+    box_h = target.height;
+    if (look.mask) {
+      radius = 0.5f * look.mask_diameter * float(target.height);
+      const int side = int(std::ceil(2 * radius));
+      box_w = std::max(1, std::min(box_w, side));
+      box_h = std::max(1, std::min(box_h, side));
+    } else {
+      radius = 0.5f * std::sqrt(float(box_w) * float(box_w) + float(box_h) * float(box_h));
+    }
+    scene_w = std::max(1, int(scale * float(box_w) + 0.5f));
+    scene_h = std::max(1, int(scale * float(box_h) + 0.5f));
+  }
+};
+
+class GlBackend final : public CheckedBackend {
+ public:
+  explicit GlBackend(GlContext& context) {
+    context.make_current();
+    m_noise = volume_texture(noise_pattern());
+    m_cells = volume_texture(cell_pattern());
+    m_vessels = plane_texture(vessel_pattern());
+    m_no_vertices = new_vertex_array();
+  }
+
+ private:
+  void on_store(std::uint32_t id, const MeshArrays& mesh) override { m_meshes.store(id, mesh); }
+  void on_update(std::uint32_t id, std::span<const Vec3f> positions, std::span<const Vec3f> normals,
+                 std::span<const Paint> paint) override {
+    m_meshes.update(id, positions, normals, paint);
+  }
+  void on_destroy(std::uint32_t id) override { m_meshes.destroy(id); }
+
+  void on_frame(const Frame& frame, const Target& target, std::span<const DrawItem* const> opaque,
+                std::span<const DrawItem* const> translucent) override {
+    const Layout layout(target, frame.look, frame.quality.render_scale);
+    begin_scene(frame, target, layout);
+    if (frame.look.mask) mask_pass(layout);
+    scene_pass(frame, opaque, false);
+    scene_pass(frame, translucent, true);
+    puff_pass(frame);
+    shrink_pass();
+    meter_pass(frame, target, layout);
+    lens_pass(frame, target, layout);
+    leave_state_clean();
+  }
+
+  void begin_scene(const Frame& frame, const Target& target, const Layout& layout) {
+    m_scene.resize(layout.scene_w, layout.scene_h, GL_RGBA16F, true, GL_LINEAR);
+    m_scene.bind();
+    const Camera& camera = frame.camera;
+    m_view = view_matrix(camera.rotation, camera.position);
+    const float part = float(layout.box_h) / float(target.height);
+    const float fov = 2 * std::atan(part * std::tan(camera.vertical_fov / 2));
+    m_projection = perspective(fov, float(layout.box_w) / float(layout.box_h), camera.near_plane, camera.far_plane);
+    m_frame_rows = packed(frame);
+
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_BLEND);
+    glDisable(GL_STENCIL_TEST);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LEQUAL);
+    glDepthMask(GL_TRUE);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glFrontFace(GL_CCW);
+    glCullFace(GL_BACK);
+    glClearColor(frame.background.x, frame.background.y, frame.background.z, 1);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    bind_texture(kUnitNoise, GL_TEXTURE_3D, m_noise.id());
+    bind_texture(kUnitCells, GL_TEXTURE_3D, m_cells.id());
+    bind_texture(kUnitVessels, GL_TEXTURE_2D, m_vessels.id());
+  }
+
+  /// Near depth outside the circle, so that early depth tests drop those pixels.
+  void mask_pass(const Layout& layout) {
+    GlProgram& program = m_programs.get("mask.vert", "mask.frag");
+    program.use();
+    program.set("u_radius", 2 * layout.radius / float(layout.box_w), 2 * layout.radius / float(layout.box_h));
+    glDisable(GL_CULL_FACE);
+    glBindVertexArray(m_no_vertices.id());
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 2 * 97);
+  }
+
+  void scene_pass(const Frame& frame, std::span<const DrawItem* const> items, bool blended) {
+    if (items.empty()) return;
+    if (blended) {
+      glEnable(GL_BLEND);
+      glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+      glDepthMask(GL_FALSE);
+    }
+    for (const DrawItem* item : items) draw_item(frame, *item, blended);
+    glDisable(GL_BLEND);
+    glDepthMask(GL_TRUE);
+  }
+
+  void draw_item(const Frame& frame, const DrawItem& item, bool both_sides) {
+    const Material& material = item.material;
+    const bool two_sided = both_sides || material.two_sided;
+    GlProgram& program = program_for(material, frame.quality.detail, two_sided);
+    program.use();
+    program.set("u_model_view", m_view * item.transform);
+    program.set("u_projection", m_projection);
+    program.set_vec4s("u_frame", m_frame_rows);
+    if (material.shading == Shading::vertex_colour || material.shading == Shading::unlit) {
+      program.set("u_tone", 1, 1, 1, material.alpha);
+    } else {
+      program.set_vec4s("u_material", packed(material));
+      program.set("u_noise", kUnitNoise);
+      program.set("u_cells", kUnitCells);
+      program.set("u_vessels", kUnitVessels);
+    }
+    if (two_sided || m_meshes.is_lines(item.mesh.id))
+      glDisable(GL_CULL_FACE);
+    else
+      glEnable(GL_CULL_FACE);
+    m_meshes.draw(item.mesh.id);
+  }
+
+  GlProgram& program_for(const Material& material, int detail, bool two_sided) {
+    if (material.shading == Shading::unlit) return m_programs.get("flat.vert", "flat.frag");
+    if (material.shading == Shading::vertex_colour) return m_programs.get("flat.vert", "flat.frag", "LIT");
+    std::string defines = "SHADING=" + std::to_string(int(material.shading)) + ",DETAIL=" + std::to_string(detail);
+    const bool tissue = material.shading == Shading::tissue;
+    if (tissue && material.vessels > 0 && detail > 0) defines += ",VESSELS";
+    if (tissue && material.lobule_size > 0) defines += ",LOBULES";
+    if (two_sided) defines += ",TWO_SIDED";
+    return m_programs.get("surface.vert", "surface.frag", defines);
+  }
+
+  void puff_pass(const Frame& frame) {
+    if (frame.puffs.empty()) return;
+    m_puffs.clear();
+    for (const Puff& puff : frame.puffs) m_puffs.push_back({transform_point(m_view, puff.centre), &puff});
+    std::stable_sort(m_puffs.begin(), m_puffs.end(),
+                     [](const SeenPuff& a, const SeenPuff& b) { return a.eye.z < b.eye.z; });
+    GlProgram& program = m_programs.get("puff.vert", "puff.frag");
+    program.use();
+    program.set("u_projection", m_projection);
+    program.set_vec4s("u_frame", m_frame_rows);
+    program.set("u_noise", kUnitNoise);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    glDepthMask(GL_FALSE);
+    glDisable(GL_CULL_FACE);
+    glBindVertexArray(m_no_vertices.id());
+    for (const SeenPuff& seen : m_puffs) {
+      const Puff& puff = *seen.puff;
+      program.set("u_puff", seen.eye.x, seen.eye.y, seen.eye.z, puff.radius);
+      // Its own curls, carried along: the pattern belongs to the place it came from only as far as it moves slowly.
+      program.set("u_look", puff.density, 3 * puff.centre.x, 3 * puff.centre.y, 3 * puff.centre.z + puff.radius);
+      glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    }
+    glDisable(GL_BLEND);
+    glDepthMask(GL_TRUE);
+  }
+
+  void shrink(const GlPicture& from, GlPicture& to) {
+    to.resize((from.width + 3) / 4, (from.height + 3) / 4, GL_RGBA16F, false, GL_LINEAR);
+    to.bind();
+    GlProgram& program = m_programs.get("full.vert", "shrink.frag");
+    program.use();
+    program.set("u_picture", kUnitPicture);
+    program.set("u_texel", 1.0f / float(from.width), 1.0f / float(from.height));
+    bind_texture(kUnitPicture, GL_TEXTURE_2D, from.colour.id());
+    draw_full();
+  }
+
+  void shrink_pass() {
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    shrink(m_scene, m_small);
+    shrink(m_small, m_smaller);
+  }
+
+  /// Exposure lives in two pictures of one pixel an eye; this reads one and writes the other.
+  void meter_pass(const Frame& frame, const Target& target, const Layout& layout) {
+    Memory& memory = m_memory[std::size_t(frame.eye)];
+    if (!frame.look.auto_exposure || !frame.metering) return;
+    const double seconds = memory.known && frame.tick >= memory.tick ? 1e-3 * double(frame.tick - memory.tick) : 1e9;
+    const float lag = float(1 - std::exp(-std::min(seconds, 1e3) / double(frame.look.exposure_seconds)));
+    const int next = 1 - memory.current;
+    for (GlPicture& picture : m_exposure) picture.resize(kEyes, 1, GL_R32F, false, GL_NEAREST);
+    m_exposure[std::size_t(next)].bind();
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(frame.eye, 0, 1, 1);
+    GlProgram& program = m_programs.get("full.vert", "meter.frag");
+    program.use();
+    program.set("u_picture", kUnitPicture);
+    program.set("u_memory", kUnitExposure);
+    program.set("u_meter", frame.look.exposure_key, memory.known ? lag : 1.0f, frame.look.exposure_range_ev,
+                float(frame.eye));
+    const float reach = 0.9f * std::min(layout.radius, 0.5f * float(target.height));
+    program.set("u_radius", std::min(0.5f, reach / float(layout.box_w)), std::min(0.5f, reach / float(layout.box_h)));
+    bind_texture(kUnitPicture, GL_TEXTURE_2D, m_smaller.colour.id());
+    bind_texture(kUnitExposure, GL_TEXTURE_2D, m_exposure[std::size_t(memory.current)].colour.id());
+    draw_full();
+    glDisable(GL_SCISSOR_TEST);
+    memory = {next, frame.tick, true};
+  }
+
+  void lens_pass(const Frame& frame, const Target& target, const Layout& layout) {
+    bind_target(target);
+    const EndoscopeLook& look = frame.look;
+    const Memory& memory = m_memory[std::size_t(frame.eye)];
+    std::string defines;
+    if (look.bloom > 0 && frame.quality.detail > 1) defines += "BLOOM,";
+    if (look.fringe_px > 0) defines += "FRINGE,";
+    GlProgram& program = m_programs.get("full.vert", "lens.frag", defines);
+    program.use();
+    program.set("u_scene", kUnitPicture);
+    program.set("u_small", kUnitSmall);
+    program.set("u_smaller", kUnitSmaller);
+    program.set("u_exposure", kUnitExposure);
+    program.set("u_place", layout.centre_x, layout.centre_y, layout.radius, look.mask ? 1.0f : 0.0f);
+    program.set("u_box", float(layout.box_w), float(layout.box_h), 1.0f / float(layout.box_w),
+                1.0f / float(layout.box_h));
+    program.set("u_lens", look.barrel, look.fringe_px * float(target.height) / 600.0f, look.vignette,
+                std::max(look.mask_soft_px, 0.5f));
+    const bool remembered = look.auto_exposure && memory.known;
+    program.set("u_camera", look.exposure_ev, remembered ? float(frame.eye) : -1.0f, look.bloom, look.sharpen);
+    program.set("u_sensor", look.noise, look.saturation, look.notch, look.notch_angle);
+    program.set("u_white", look.white_balance);
+    program.set_seed("u_seed", std::uint32_t(frame.tick * 2654435761u));
+    bind_texture(kUnitPicture, GL_TEXTURE_2D, m_scene.colour.id());
+    bind_texture(kUnitSmall, GL_TEXTURE_2D, m_small.colour.id());
+    bind_texture(kUnitSmaller, GL_TEXTURE_2D, m_smaller.colour.id());
+    bind_texture(kUnitExposure, GL_TEXTURE_2D, m_exposure[std::size_t(memory.current)].colour.id());
+    draw_full();
+  }
+
+  void bind_target(const Target& target) {
+    if (target.framebuffer == Target::kOwnBuffer) {
+      m_own.resize(target.width, target.height, GL_RGBA8, false, GL_NEAREST);
+      m_own.bind();
+    } else {
+      glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
+    }
+    glViewport(target.x, target.y, target.width, target.height);
+  }
+
+  void draw_full() {
+    glBindVertexArray(m_no_vertices.id());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+  }
+
+  /// Others draw into the same context (menus): leave nothing bound that they would trip over.
+  void leave_state_clean() {
+    glBindVertexArray(0);
+    glUseProgram(0);
+    glActiveTexture(GL_TEXTURE0);
+  }
+
+  Image on_read(const Target& target) override {
+    if (target.framebuffer == Target::kOwnBuffer)
+      m_own.bind();
+    else
+      glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
+    Image image{target.width, target.height, {}};
+    std::vector<std::uint8_t> rgba(std::size_t(4) * target.width * target.height);
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
+    glReadPixels(target.x, target.y, target.width, target.height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+    image.rgb.resize(std::size_t(3) * target.width * target.height);
+    for (int y = 0; y < target.height; ++y)
+      for (int x = 0; x < target.width; ++x)
+        for (int c = 0; c < 3; ++c)
+          image.rgb[3 * (std::size_t(y) * target.width + x) + c] =
+              rgba[4 * (std::size_t(target.height - 1 - y) * target.width + x) + c];
+    return image;
+  }
+
+  struct SeenPuff {
+    Vec3f eye;
+    const Puff* puff;
+  };
+  struct Memory {
+    int current = 0;         ///< which of m_exposure holds this eye's value
+    std::uint64_t tick = 0;  ///< when it was written
+    bool known = false;
+  };
+
+  GlMeshes m_meshes;
+  GlPrograms m_programs;
+  GlTexture m_noise, m_cells, m_vessels;
+  GlVertexArray m_no_vertices;
+  GlPicture m_scene, m_small, m_smaller, m_own;
+  std::array<GlPicture, 2> m_exposure;
+  std::array<Memory, kEyes> m_memory;
+  Mat4 m_view, m_projection;
+  std::array<float, 8 * 4> m_frame_rows{};
+  std::vector<SeenPuff> m_puffs;
+};
+
+}  // namespace
+
+std::unique_ptr<Backend> make_gl_backend(GlContext& context) { return std::make_unique<GlBackend>(context); }
+
+}  // namespace trocar::render

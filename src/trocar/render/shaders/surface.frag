@@ -1,0 +1,199 @@
+// Living tissue, metal and pools. Variants: SHADING (0 tissue, 1 metal, 2 fluid), DETAIL (0..2), VESSELS, LOBULES,
+// TWO_SIDED.
+#include "common.glsl"
+
+uniform vec4 u_material[14];
+#define COLOUR_A u_material[0].rgb
+#define MOTTLE u_material[0].w
+#define COLOUR_B u_material[1].rgb
+#define NOISE_SCALE u_material[1].w      /* tiles of the noise volume per metre */
+#define COLOUR_C u_material[2].rgb
+#define BUMP u_material[2].w
+#define TINT u_material[3].rgb
+#define WETNESS u_material[3].w
+#define FIBRE_AXIS u_material[4].xyz
+#define FIBRE_SQUEEZE u_material[4].w    /* 1 - 1 / stretch */
+#define VESSEL_COLOUR u_material[5].rgb
+#define VESSEL_AMOUNT u_material[5].w
+#define WRAP u_material[6].rgb
+#define VESSEL_SCALE u_material[6].w
+#define GLOW u_material[7].rgb
+#define GLOW_AMOUNT u_material[7].w
+#define ROUGH2 u_material[8].x           /* (alpha of the tissue)^2 */
+#define FILM2 u_material[8].y            /* (alpha of the film)^2 */
+#define FILM_SCALE u_material[8].z
+#define FILM_BUMP u_material[8].w
+#define FRESNEL u_material[9].x
+#define ALPHA u_material[9].y
+#define RIM_ALPHA u_material[9].z
+#define DENSITY u_material[9].w
+#define CELL_SCALE u_material[10].x
+#define CELL_DEPTH u_material[10].y
+#define CELL_CONTRAST u_material[10].z
+
+uniform mat4 u_model_view;
+uniform sampler3D u_noise;
+#ifdef LOBULES
+uniform sampler3D u_cells;
+#endif
+#ifdef VESSELS
+uniform sampler2D u_vessels;
+in vec3 v_rest_normal;
+#endif
+
+in vec3 v_eye;
+in vec3 v_normal;
+in vec4 v_paint;
+in vec3 v_rest;
+out vec4 o_colour;
+
+#define OPENNESS v_paint.x
+#define BLOOD v_paint.y
+#define BURN v_paint.z
+
+// Turns axes between octaves of noise so that their lattices do not line up.
+const mat3 kTurn = mat3(0.36, 0.48, -0.8, -0.8, 0.60, 0.0, 0.48, 0.64, 0.60);
+
+vec3 along_surface(vec3 v, vec3 n) { return v - n * dot(n, v); }
+vec3 to_eye(vec3 rest_direction) { return mat3(u_model_view) * rest_direction; }
+
+// Normal distribution of GGX [Walter 07] without its 1/pi (irradiance here carries none either).
+float lobe(float nh, float alpha2) {
+  float d = nh * nh * (alpha2 - 1.0) + 1.0;
+  return alpha2 / (d * d);
+}
+
+#ifdef VESSELS
+// Trees are drawn in the plane that the rest surface faces most and fade out towards the next plane.
+vec2 vessels_at(vec3 p, vec3 n) {
+  vec3 a = abs(n);
+  vec2 uv;
+  float margin;
+  if (a.x > a.y && a.x > a.z) {
+    uv = p.yz + vec2(0.37, 0.11);
+    margin = a.x - max(a.y, a.z);
+  } else if (a.y > a.z) {
+    uv = p.zx + vec2(0.71, 0.53);
+    margin = a.y - max(a.x, a.z);
+  } else {
+    uv = p.xy;
+    margin = a.z - max(a.x, a.y);
+  }
+  return texture(u_vessels, uv * VESSEL_SCALE).rg * smoothstep(0.0, 0.2, margin);
+}
+#endif
+
+void main() {
+  vec3 V = normalize(-v_eye);
+  vec3 N = normalize(v_normal);
+#ifdef TWO_SIDED
+  if (dot(N, V) < 0.0) N = -N;
+#endif
+  Lit lit = light_at(v_eye);
+
+  // Patterns in rest space.
+  vec3 p = v_rest - FIBRE_AXIS * (dot(FIBRE_AXIS, v_rest) * FIBRE_SQUEEZE);
+  vec4 broad = texture(u_noise, p * NOISE_SCALE);
+  vec3 slope = broad.rgb * 2.0 - 1.0;
+#if DETAIL >= 2
+  vec4 fine = texture(u_noise, kTurn * p * (NOISE_SCALE * 5.0));
+  slope += fine.rgb * 2.0 - 1.0;
+#else
+  vec4 fine = broad.gbra;
+#endif
+
+#if SHADING == 1
+  // Brushed steel or titanium: streaks along the axis, grey itself, pink where it mirrors the walls.
+  vec3 n = normalize(N + BUMP * along_surface(to_eye(slope), N));
+  vec3 H = normalize(lit.direction + V);
+  float nh = clamp(dot(n, H), 0.0, 1.0), nv = clamp(dot(n, V), 0.0, 1.0), nl = clamp(dot(n, lit.direction), 0.0, 1.0);
+  float streak = 0.45 + 1.1 * smoothstep(0.3, 0.7, broad.a);
+  vec3 grey = mix(COLOUR_A, COLOUR_B, MOTTLE * fine.a);
+  grey = mix(grey, vec3(0.09, 0.004, 0.006), clamp(BLOOD * (0.6 + 0.8 * broad.a), 0.0, 0.95));
+  grey = mix(grey, TINT, v_paint.w);
+  float ao = OPENNESS;
+  float mirror = 0.35 + 0.65 * (1.0 - nv);
+  float lobes = lobe(nh, ROUGH2) * streak + 0.3 * lobe(nh, 0.35);
+  vec3 light = LIGHT_COLOUR * lit.power * ao * (0.34 * nl + 0.18 * lobes);
+  light += (BOUNCE * 1.7 * mirror + vec3(AMBIENT)) * (lit.bounce * ao);
+  o_colour = vec4(through_air(grey * light, v_eye), 1.0);
+#else
+  vec3 albedo = mix(COLOUR_A, COLOUR_B, MOTTLE * smoothstep(0.3, 0.7, broad.a));
+  albedo = mix(albedo, COLOUR_C, MOTTLE * smoothstep(0.5, 0.85, fine.a));
+  float tint = v_paint.w;
+  albedo = mix(albedo, TINT, tint);
+  vec3 relief = BUMP * slope;
+
+#ifdef LOBULES
+  vec4 cell = texture(u_cells, p * CELL_SCALE + slope * 0.012);
+  float seam = 1.0 - smoothstep(0.0, 0.28, cell.a);
+  relief -= (CELL_DEPTH * 2.6) * (cell.rgb * 2.0 - 1.0);
+  albedo *= 1.0 - CELL_CONTRAST * seam * vec3(0.35, 0.62, 0.62);
+#else
+  float seam = 0.0;
+#endif
+
+#ifdef VESSELS
+  vec2 vessel = vessels_at(v_rest, v_rest_normal) * VESSEL_AMOUNT * (1.0 - BURN);
+  albedo = mix(albedo, albedo * vec3(0.62, 0.5, 0.72), vessel.g);
+  albedo = mix(albedo, VESSEL_COLOUR, vessel.r * 0.85);
+#endif
+
+  // Heat: pale, then a tan crust, then char in specks.
+  float crust = smoothstep(0.35, 0.7, BURN + 0.25 * (fine.a - 0.5));
+  float carbon = smoothstep(0.72, 0.95, BURN + 0.35 * (fine.a - 0.5));
+  albedo = mix(albedo, vec3(0.56, 0.44, 0.36), smoothstep(0.05, 0.4, BURN) * 0.8);
+  albedo = mix(albedo, vec3(0.30, 0.16, 0.075), crust * 0.85);
+  albedo = mix(albedo, vec3(0.014, 0.010, 0.009), carbon);
+  relief *= 1.0 + 2.0 * crust;
+
+  // Blood lies in a film: thin it stains like a filter, thick it hides what is below.
+  float blood = clamp(BLOOD * (0.75 + 0.5 * broad.a), 0.0, 1.0);
+  albedo *= exp(-blood * vec3(0.35, 2.6, 2.2));
+  albedo = mix(albedo, vec3(0.105, 0.006, 0.007), smoothstep(0.45, 0.95, blood));
+
+  vec3 n = normalize(N + along_surface(to_eye(relief), N));
+  float nl = dot(n, lit.direction);
+  float nv = clamp(dot(N, V), 0.0, 1.0);
+
+  // Light wraps past the terminator, red the furthest; crevices keep red longest.
+  vec3 wrapped = clamp((vec3(nl) + WRAP) / (1.0 + WRAP), 0.0, 1.0);
+  float open = clamp(OPENNESS * (1.0 - 0.35 * seam), 0.02, 1.0);
+  vec3 ao = exp2(log2(open) * vec3(0.9, 1.55, 1.5));
+  vec3 direct = LIGHT_COLOUR * lit.power * wrapped * mix(ao, vec3(1.0), 0.35);
+  vec3 indirect = (BOUNCE + vec3(AMBIENT)) * (lit.bounce * ao);
+  float rim = (1.0 - nv) * (1.0 - nv);
+  vec3 thin = GLOW * (GLOW_AMOUNT * lit.power * rim * open);
+  vec3 colour = albedo * (direct + indirect) + thin * albedo.r;
+
+  // The film on top has its own ripples; it is broken where the tissue is dry.
+#if DETAIL >= 1
+  vec4 ripple = texture(u_noise, kTurn * p.zxy * FILM_SCALE);
+  vec3 film_slope = (ripple.rgb * 2.0 - 1.0) * (FILM_BUMP * (1.0 - 0.7 * smoothstep(0.5, 0.9, blood)));
+  float wet_noise = 0.5 * (ripple.a + broad.b);
+#else
+  vec3 film_slope = slope * FILM_BUMP;
+  float wet_noise = broad.b;
+#endif
+  float wet = smoothstep(1.0 - WETNESS - 0.2, 1.0 - WETNESS + 0.2, wet_noise);
+  wet = max(wet, smoothstep(0.1, 0.5, blood)) * (1.0 - 0.55 * crust);
+  vec3 m = normalize(N + along_surface(to_eye(film_slope + relief * 0.6), N));
+  vec3 H = normalize(lit.direction + V);
+  float facing = clamp(nl * 4.0, 0.0, 1.0) * open;
+  float mh = clamp(dot(m, H), 0.0, 1.0), nh = clamp(dot(n, H), 0.0, 1.0);
+  float gloss = 0.25 * FRESNEL * (wet * lobe(mh, FILM2) + (0.35 + 0.65 * wet) * lobe(nh, ROUGH2)) * facing * lit.power;
+  float grazing = FRESNEL + (1.0 - FRESNEL) * rim * rim * (1.0 - nv);
+  vec3 shine = LIGHT_COLOUR * gloss + (BOUNCE * 1.5 + vec3(AMBIENT) * 0.5) * (grazing * wet * lit.bounce * open);
+
+#if SHADING == 2
+  float opaque = 1.0 - exp(-DENSITY * (0.25 + 4.0 * tint));
+  float alpha = mix(opaque, 1.0, 0.6 * rim);
+#else
+  float alpha = mix(ALPHA, RIM_ALPHA, rim);
+  alpha = max(alpha, smoothstep(0.0, 0.5, max(blood, BURN)) * step(0.001, ALPHA));
+#endif
+  vec3 through = through_air(colour + shine, v_eye);
+  vec3 fogged_shine = shine * exp(-FOG * length(v_eye));
+  o_colour = vec4((through - fogged_shine) * alpha + fogged_shine, alpha);
+#endif
+}
