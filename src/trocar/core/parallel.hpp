@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <type_traits>
 
 namespace trocar::core {
 
@@ -30,8 +31,9 @@ class ThreadPool {
 /// The same for a callable: run(pool, n, [&](int i) noexcept { ... }).
 template <class F>
 void run(ThreadPool& pool, int count, F&& body) noexcept {
+  using Body = std::remove_reference_t<F>;
   pool.run(
-      count, [](void* c, int i) noexcept { (*static_cast<F*>(c))(i); }, &body);
+      count, [](void* c, int i) noexcept { (*static_cast<Body*>(c))(i); }, &body);
 }
 
 }  // namespace trocar::core

@@ -1,0 +1,90 @@
+#include <trocar/core/hash.hpp>
+#include <trocar/sim/model.hpp>
+
+namespace trocar::sim {
+namespace {
+
+template <class List>
+int find_name(const List& list, const std::string& name) {
+  for (size_t i = 0; i < list.size(); ++i)
+    if (list[i].name == name) return int(i);
+  return -1;
+}
+
+void add_patch(core::Hasher& h, const StrandEndModel& end) {
+  h.add(std::int32_t(end.kind));
+  h.add(end.solid);
+  h.add(end.patch.node);
+  h.add(end.patch.weight);
+  h.add(end.patch.offset);
+}
+
+void add_tool(core::Hasher& h, const interactions::ToolModel& t) {
+  h.add(std::int32_t(t.kind));
+  h.add(t.port);
+  h.add(t.limits);
+  for (double v : {t.shaft_radius, t.shaft_length, t.jaw_length, t.jaw_width, t.jaw_thickness, t.opening,
+                   t.parallel_gap, t.pinch_max, t.friction, t.clip_length})
+    h.add(v);
+  h.add(t.clips);
+}
+
+}  // namespace
+
+int Model::free_nodes() const {
+  int n = 0;
+  for (const SolidModel& s : solids)
+    for (std::uint8_t held : s.network.fixed) n += held != tissue::kHeld;
+  for (const interactions::StrandBody& b : bodies) n += b.nodes() - int(b.model.prescribed_nodes.size());
+  return n;
+}
+
+int Model::strand_index(const std::string& strand) const { return find_name(strands, strand); }
+int Model::target_index(const std::string& target) const { return find_name(targets, target); }
+
+void seal(Model& model) {
+  core::Hasher h;
+  h.add(model.gravity);
+  for (const SolidModel& s : model.solids) {
+    add_to_hash(h, s.network);
+    add_to_hash(h, s.skin);
+    for (const tissue::Anchor& a : s.anchors) {
+      h.add(a.node);
+      h.add(a.k);
+      h.add(a.x0);
+    }
+  }
+  for (const interactions::StrandBody& b : model.bodies) interactions::add_to_hash(h, b);
+  for (const StrandModel& s : model.strands) {
+    add_patch(h, s.start);
+    add_patch(h, s.end);
+  }
+  for (const WallModel& w : model.walls) add_to_hash(h, w.skin);
+  for (const interactions::ToolModel& t : model.tools) add_tool(h, t);
+  h.add(model.scope.port);
+  h.add(model.scope.limits);
+  h.add(model.scope.angle);
+  h.add(model.scope.field_of_view);
+  h.add(model.start);
+  for (const interactions::SurfacePair& p : model.surface_pairs) {
+    h.add(p.strand);
+    h.add(p.solid);
+    h.add(p.surface);
+    h.add(p.sample);
+    h.add(p.radius);
+    h.add(p.overlap);
+  }
+  for (const interactions::StrandPair& p : model.strand_pairs) {
+    h.add(p.a);
+    h.add(p.b);
+    h.add(p.overlap);
+  }
+  for (const VisibilitySample& s : model.samples) {
+    h.add(s.target);
+    h.add(s.where);
+    h.add(s.w);
+  }
+  model.hash = h.value();
+}
+
+}  // namespace trocar::sim

@@ -1,0 +1,123 @@
+// Everything about a scene that does not change while it runs: compiled once, const, shared by any number of States.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <trocar/interactions/body_contact.hpp>
+#include <trocar/interactions/hosting.hpp>
+#include <trocar/interactions/strand_body.hpp>
+#include <trocar/interactions/surface.hpp>
+#include <trocar/interactions/tool.hpp>
+#include <trocar/sim/input.hpp>
+#include <trocar/tissue/prestress.hpp>
+
+namespace trocar::sim {
+
+inline constexpr double kTick = 1e-3;  ///< [s]
+
+/// A volumetric organ.
+struct SolidModel {
+  std::string name, look, tissue;
+  tissue::NetworkModel network;
+  std::vector<tissue::Anchor> anchors;  ///< springs to space
+  tissue::Skin skin;                    ///< contact and clips
+  tissue::Skin fine;                    ///< drawn: the same surface, more vertices
+};
+
+/// A stretch of a strand with a name: isthmus, ampulla, fimbria.
+struct LandmarkModel {
+  std::string name;
+  double from = 0, to = 0;  ///< arc length [m]
+};
+
+/// What holds a strand's end: nothing, space, or an organ.
+struct StrandEndModel {
+  enum Kind : std::int32_t { free, fixed, hosted } kind = free;
+  std::int32_t solid = -1;
+  interactions::HostPatch patch;
+};
+
+struct StrandModel {
+  std::string name, look, tissue;
+  std::vector<double> outer, inner;  ///< (n) radius and lumen radius at the nodes [m], for drawing and clips
+  StrandEndModel start, end;
+  std::vector<LandmarkModel> landmarks;
+  bool fimbriated = false;
+};
+
+struct WallModel {
+  std::string name, look;
+  tissue::Skin skin;  ///< weights unused
+  tissue::SkinPose pose;
+};
+
+/// A point of a sheet's base line and what it rides on.
+struct BasePoint {
+  Vec3d rest;
+  std::int32_t solid = -1;  ///< rides on this organ's skin vertex ...
+  std::int32_t vertex = -1;
+  std::int32_t strand = -1;  ///< ... or on this strand, or (both -1) on space
+  interactions::StrandPlace place;
+};
+
+/// A thin fold, drawn between a strand and its base; mechanically it is the strand's foundation.
+struct SheetModel {
+  std::string name, look;
+  std::int32_t strand = -1;
+  double from = 0, to = 0;  ///< arc length [m]
+  std::vector<BasePoint> base;
+};
+
+struct ScopeModel {
+  Vec3d port;
+  kinematics::FulcrumLimits limits;
+  double angle = 0;            ///< of the oblique view [rad]
+  double field_of_view = 1.2;  ///< full cone [rad]
+  double shaft_radius = 0.005;
+};
+
+/// Something whose visibility the simulation knows: `visible` when at least half of its samples are seen.
+struct VisibilityTarget {
+  enum Kind : std::int32_t { jaw, strand, solid } kind = jaw;
+  std::string name;                   ///< "left tube.isthmus", "uterus", "grasper.a"
+  std::int32_t index = 0;             ///< tool, strand or solid
+  std::int32_t first = 0, count = 0;  ///< samples
+};
+struct VisibilitySample {
+  std::int32_t target = 0;
+  std::int32_t where = 0;  ///< jaw 0/1, strand element, skin vertex
+  double w = 0;            ///< within the element
+};
+
+/// A Model names things; State and Work have only numbers.
+struct Model {
+  std::string name, file;
+  Vec3d gravity;
+  std::vector<SolidModel> solids;
+  std::vector<StrandModel> strands;
+  std::vector<interactions::StrandBody> bodies;  ///< (strands) their mechanics, side by side as interactions want them
+  std::vector<WallModel> walls;
+  std::vector<SheetModel> sheets;
+  std::vector<interactions::ToolModel> tools;  ///< at most kMaxTools
+  ScopeModel scope;
+  Input start;  ///< everything as placed
+  std::vector<interactions::SurfacePair> surface_pairs;
+  std::vector<interactions::StrandPair> strand_pairs;
+  std::vector<std::int32_t> nearest_at_start;  ///< initial State::nearest
+  std::vector<VisibilityTarget> targets;
+  std::vector<VisibilitySample> samples;
+  std::uint64_t hash = 0;
+
+  int free_nodes() const;  ///< nodes that move, all bodies
+  int surfaces() const { return int(solids.size() + walls.size()); }
+  int strand_index(const std::string& strand) const;  ///< -1 if there is none
+  int target_index(const std::string& target) const;  ///< -1 if there is none
+};
+
+/// Sets Model::hash from everything that the step reads.
+void seal(Model& model);
+
+}  // namespace trocar::sim

@@ -1,0 +1,130 @@
+#include <cstring>
+
+#include <trocar/core/hash.hpp>
+#include <trocar/sim/state.hpp>
+
+namespace trocar::sim {
+
+State initial_state(const Model& model) {
+  State s;
+  for (const SolidModel& solid : model.solids) s.solids.push_back(tissue::rest_state(solid.network));
+  for (const interactions::StrandBody& body : model.bodies) s.strands.push_back(tissue::rest_state(body.model));
+  for (size_t t = 0; t < model.tools.size(); ++t) {
+    interactions::ToolState& tool = s.tools[t];
+    const ToolInput& in = model.start.tools[t];
+    tool.yaw = in.yaw;
+    tool.pitch = in.pitch;
+    tool.roll = in.roll;
+    tool.depth = in.depth;
+    tool.handle = in.handle;
+    tool.aperture = 1.0 - double(in.handle);
+    tool.clips_left = model.tools[t].clips;
+  }
+  s.scope = model.start.scope;
+  s.nearest = model.nearest_at_start;
+  size_t sides = 0;
+  for (const interactions::StrandPair& p : model.strand_pairs) sides += p.overlap.size();
+  s.strand_side.resize(sides);
+  s.tool_side.resize(model.tools.size() * model.strands.size() * size_t(interactions::kToolParts));
+  s.seen.resize(model.samples.size());
+  return s;
+}
+
+std::uint64_t hash_of(const State& s) noexcept {
+  core::Hasher h;
+  h.add(s.tick);
+  for (const auto& solid : s.solids) add_to_hash(h, solid);
+  for (const auto& strand : s.strands) add_to_hash(h, strand);
+  h.add(s.tools);
+  h.add(s.scope);
+  h.add(s.clips);
+  h.add(s.cuts);
+  h.add(s.clip_count);
+  h.add(s.cut_count);
+  h.add(s.nearest);
+  h.add(s.strand_side);
+  h.add(s.tool_side);
+  h.add(s.seen);
+  return h.value();
+}
+
+namespace {
+
+template <class T>
+void put(std::vector<std::uint8_t>& out, const T* data, size_t count) {
+  const auto* bytes = reinterpret_cast<const std::uint8_t*>(data);
+  out.insert(out.end(), bytes, bytes + count * sizeof(T));
+}
+
+/// Reads from a keyframe; remembers whether there was always enough.
+struct Source {
+  const std::vector<std::uint8_t>& bytes;
+  size_t at = 0;
+  bool good = true;
+
+  template <class T>
+  void take(T* data, size_t count) {
+    const size_t n = count * sizeof(T);
+    good = good && bytes.size() - at >= n;
+    if (!good) return;
+    std::memcpy(data, bytes.data() + at, n);
+    at += n;
+  }
+};
+
+}  // namespace
+
+std::vector<std::uint8_t> display_bytes(const Model& model, const State& s) {
+  std::vector<std::uint8_t> out;
+  std::vector<Vec3f> points;
+  put(out, &s.tick, 1);
+  for (size_t i = 0; i < s.solids.size(); ++i) {
+    points.clear();
+    for (int n = 0; n < model.solids[i].network.nodes; ++n)
+      points.push_back(vec_cast<float>(tissue::position(model.solids[i].network, s.solids[i], n)));
+    put(out, points.data(), points.size());
+  }
+  for (const tissue::StrandState& strand : s.strands) {
+    points.clear();
+    for (Vec3d x : strand.x) points.push_back(vec_cast<float>(x));
+    put(out, points.data(), points.size());
+    put(out, strand.alive.data(), strand.alive.size());
+  }
+  put(out, &s.tools, 1);
+  put(out, &s.scope, 1);
+  put(out, &s.clip_count, 1);
+  put(out, s.clips.data(), size_t(s.clip_count));
+  put(out, &s.cut_count, 1);
+  put(out, s.cuts.data(), size_t(s.cut_count));
+  return out;
+}
+
+bool restore_display(const Model& model, const std::vector<std::uint8_t>& bytes, State& s) {
+  Source in{bytes};
+  std::vector<Vec3f> points;
+  in.take(&s.tick, 1);
+  for (size_t i = 0; i < s.solids.size(); ++i) {
+    const tissue::NetworkModel& network = model.solids[i].network;
+    points.assign(size_t(network.nodes), {});
+    in.take(points.data(), points.size());
+    for (int n = 0; in.good && n < network.nodes; ++n)
+      tissue::set_position(network, s.solids[i], n, vec_cast<double>(points[size_t(n)]));
+  }
+  for (tissue::StrandState& strand : s.strands) {
+    points.assign(strand.x.size(), {});
+    in.take(points.data(), points.size());
+    for (size_t n = 0; in.good && n < points.size(); ++n) strand.x[n] = vec_cast<double>(points[n]);
+    in.take(strand.alive.data(), strand.alive.size());
+  }
+  in.take(&s.tools, 1);
+  in.take(&s.scope, 1);
+  in.take(&s.clip_count, 1);
+  in.good = in.good && s.clip_count >= 0 && s.clip_count <= interactions::kMaxClips;
+  if (in.good) in.take(s.clips.data(), size_t(s.clip_count));
+  in.take(&s.cut_count, 1);
+  in.good = in.good && s.cut_count >= 0 && s.cut_count <= interactions::kMaxCuts;
+  if (in.good) in.take(s.cuts.data(), size_t(s.cut_count));
+  return in.good && in.at == bytes.size();
+}
+
+}  // namespace trocar::sim

@@ -1,0 +1,38 @@
+// All that a replay needs, and nothing else: flat arrays, copyable, hashable, saved and restored at any tick.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <trocar/interactions/tool_contact.hpp>
+#include <trocar/sim/model.hpp>
+
+namespace trocar::sim {
+
+struct State {
+  std::uint64_t tick = 0;  ///< ticks made
+  std::vector<tissue::NetworkState> solids;
+  std::vector<tissue::StrandState> strands;
+  std::array<interactions::ToolState, kMaxTools> tools;
+  ScopeInput scope;  ///< where the scope is
+  std::array<interactions::Clip, interactions::kMaxClips> clips;
+  std::array<interactions::Cut, interactions::kMaxCuts> cuts;
+  std::int32_t clip_count = 0, cut_count = 0;
+  std::vector<std::int32_t> nearest;          ///< contact caches: one per sample of each pair, in the Model's order
+  std::vector<Vec3f> strand_side;             ///< per element of each strand pair's first strand
+  std::vector<interactions::Side> tool_side;  ///< (tools x strands x kToolParts)
+  std::vector<std::uint8_t> seen;             ///< (samples) 1 = in view when last looked
+};
+
+State initial_state(const Model& model);
+
+/// 64-bit hash of all of it.
+std::uint64_t hash_of(const State& state) noexcept;
+
+/// What drawing needs of a State, for 10 Hz keyframes that another version of the physics can still show.
+std::vector<std::uint8_t> display_bytes(const Model& model, const State& state);
+/// Puts a keyframe's content into a State made from the same scene; false if it does not fit.
+bool restore_display(const Model& model, const std::vector<std::uint8_t>& bytes, State& state);
+
+}  // namespace trocar::sim

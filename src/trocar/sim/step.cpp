@@ -1,0 +1,296 @@
+#include <algorithm>
+#include <cmath>
+
+#include <trocar/interactions/clip.hpp>
+#include <trocar/interactions/cut.hpp>
+#include <trocar/sim/step.hpp>
+#include <trocar/sim/visibility.hpp>
+
+namespace trocar::sim {
+namespace {
+
+using interactions::Owner;
+
+interactions::TissueView tissue_of(const StepContext& c) noexcept {
+  return {c.model.bodies, c.state.strands, {c.work.surfaces.data(), c.model.solids.size()}};
+}
+
+void tell(StepContext& c, Event::Kind kind, int tool, int index) noexcept {
+  if (c.report.event_count < kMaxEvents) c.report.events[c.report.event_count++] = {kind, tool, index};
+}
+
+bool finite(const ToolInput& t) noexcept {
+  return std::isfinite(t.yaw) && std::isfinite(t.pitch) && std::isfinite(t.roll) && std::isfinite(t.depth) &&
+         std::isfinite(t.handle);
+}
+
+float stepped(float from, float to, float most) noexcept { return from + std::clamp(to - from, -most, most); }
+
+// 1. Hands: instruments and scope follow the input, no faster than hands can.
+void move_hands(StepContext& c) noexcept {
+  for (size_t t = 0; t < c.model.tools.size(); ++t) {
+    const ToolInput& in = c.input.tools[t];
+    if (finite(in))
+      interactions::follow(c.model.tools[t], {pose_of(in), double(in.handle)}, kTick, c.state.tools[t]);
+    else
+      c.report.flags |= StepReport::kBadInput;
+  }
+  const ScopeInput& in = c.input.scope;
+  if (!finite({in.yaw, in.pitch, in.roll, in.depth, in.post})) {
+    c.report.flags |= StepReport::kBadInput;
+    return;
+  }
+  const kinematics::FulcrumPose goal = kinematics::clamped(pose_of(in), c.model.scope.limits);
+  ScopeInput& s = c.state.scope;
+  s.yaw = stepped(s.yaw, float(goal.yaw), 0.004f);
+  s.pitch = stepped(s.pitch, float(goal.pitch), 0.004f);
+  s.roll = stepped(s.roll, float(goal.roll), 0.008f);
+  s.depth = stepped(s.depth, float(goal.depth), 0.0006f);
+  s.post = stepped(s.post, in.post, 0.008f);
+}
+
+// 2. Skins: x = W q, boxes.
+void pose_skins(StepContext& c) noexcept {
+  for (size_t i = 0; i < c.model.solids.size(); ++i) {
+    const SolidModel& solid = c.model.solids[i];
+    tissue::pose_skin(solid.network, solid.skin, c.state.solids[i], c.work.poses[i]);
+    c.work.surfaces[i] = {&solid.skin, &c.work.poses[i], &solid.network, &c.state.solids[i]};
+  }
+  for (size_t i = 0; i < c.model.walls.size(); ++i)
+    c.work.surfaces[c.model.solids.size() + i] = {&c.model.walls[i].skin, &c.model.walls[i].pose, nullptr, nullptr};
+}
+
+// 3. Loads start afresh with the springs that hang organs in space.
+void hang_organs(StepContext& c) noexcept {
+  for (interactions::NetworkLoads& l : c.work.solid_loads) l.clear();
+  for (interactions::StrandLoads& l : c.work.strand_loads) l.clear();
+  for (size_t i = 0; i < c.model.solids.size(); ++i)
+    for (const tissue::Anchor& a : c.model.solids[i].anchors) {
+      tissue::NodeLoad load;
+      load.node = a.node;
+      load.k = float(a.k);
+      load.x0 = vec_cast<float>(a.x0);
+      load.f0 = vec_cast<float>(a.k * (a.x0 - vec_cast<double>(load.x0)));
+      c.work.solid_loads[i].add(load, {Owner::anchor, std::int32_t(i), 0});
+    }
+}
+
+bool tips_visible(const StepContext& c, size_t tool) noexcept {
+  int seen = 0;
+  for (size_t i = 0; i < c.model.targets.size(); ++i) {
+    const VisibilityTarget& t = c.model.targets[i];
+    if (t.kind == VisibilityTarget::jaw && t.index == int(tool)) seen += visible(c.model, c.state, int(i));
+  }
+  return seen == 2;
+}
+
+// 4. Jaws: grip, clip, cut.
+void work_jaws(StepContext& c) noexcept {
+  const interactions::TissueView view = tissue_of(c);
+  State& s = c.state;
+  for (size_t t = 0; t < c.model.tools.size(); ++t) {
+    const interactions::ToolModel& model = c.model.tools[t];
+    interactions::ToolState& tool = s.tools[t];
+    c.work.shapes[t] = interactions::shape_of(model, tool.pose(), tool.aperture);
+    const int held = tool.holds;
+    interactions::update_grip(model, c.work.shapes[t], view, tool);
+    if (held == 0 && tool.holds > 0) tell(c, Event::grasped, int(t), tool.hold[0].body);
+    if (held > 0 && tool.holds == 0) tell(c, Event::released, int(t), -1);
+    c.work.shapes[t] = interactions::shape_of(model, tool.pose(), tool.aperture);
+    if (model.kind == interactions::ToolKind::clip_applier) {
+      const bool fired = update_clip_applier(model, c.work.shapes[t], int(t), view, s.strands, tips_visible(c, t),
+                                             s.tick, tool, {s.clips, s.clip_count});
+      if (fired) {
+        const int clip = s.clip_count - 1;
+        tell(c, s.clips[size_t(clip)].strand < 0 ? Event::dropped_clip : Event::clipped, int(t), clip);
+      }
+    } else if (model.kind == interactions::ToolKind::scissors) {
+      const int made = update_scissors(model, c.work.shapes[t], int(t), view, s.strands, tips_visible(c, t), s.tick,
+                                       tool, {s.cuts, s.cut_count});
+      for (int k = 0; k < made; ++k) tell(c, Event::cut, int(t), s.cut_count - made + k);
+    }
+  }
+}
+
+// 5. Instruments on tissue: contact and hold.
+void touch_tissue(StepContext& c) noexcept {
+  const interactions::TissueView view = tissue_of(c);
+  const size_t strands = c.model.strands.size();
+  for (size_t t = 0; t < c.model.tools.size(); ++t) {
+    const interactions::ToolShape& shape = c.work.shapes[t];
+    for (size_t i = 0; i < c.model.solids.size(); ++i)
+      interactions::tool_on_surface(shape, int(t), c.work.surfaces[i], c.work.solid_loads[i]);
+    for (size_t i = 0; i < strands; ++i) {
+      const std::span<interactions::Side> side{
+          c.state.tool_side.data() + (t * strands + i) * size_t(interactions::kToolParts),
+          size_t(interactions::kToolParts)};
+      interactions::tool_on_strand(c.model.tools[t], shape, c.state.tools[t], int(t), c.model.bodies[i], int(i),
+                                   c.state.strands[i], side, c.work.strand_loads[i]);
+    }
+    interactions::hold_loads(shape, int(t), view, c.state.tools[t], c.work.strand_loads, c.work.solid_loads);
+  }
+}
+
+// 6. Organs on organs.
+void touch_organs(StepContext& c) noexcept {
+  State& s = c.state;
+  size_t at = 0;
+  for (const interactions::SurfacePair& p : c.model.surface_pairs) {
+    const std::span<std::int32_t> nearest{s.nearest.data() + at, p.sample.size()};
+    at += p.sample.size();
+    const interactions::Surface& surface = c.work.surfaces[size_t(p.surface)];
+    interactions::NetworkLoads* back = surface.network ? &c.work.solid_loads[size_t(p.surface)] : nullptr;
+    if (p.strand >= 0) {
+      const size_t i = size_t(p.strand);
+      strand_on_surface(p, c.model.bodies[i], s.strands[i], surface, nearest, c.work.strand_loads[i], back);
+    } else {
+      const size_t i = size_t(p.solid);
+      solid_on_surface(p, c.work.surfaces[i], surface, nearest, c.work.solid_loads[i], back);
+    }
+  }
+  size_t side = 0;
+  for (const interactions::StrandPair& p : c.model.strand_pairs) {
+    const size_t n = p.overlap.size(), a = size_t(p.a), b = size_t(p.b);
+    strand_on_strand(p, c.model.bodies[a], s.strands[a], c.model.bodies[b], s.strands[b], {s.nearest.data() + at, n},
+                     {s.strand_side.data() + side, n}, c.work.strand_loads[a], c.work.strand_loads[b]);
+    at += n;
+    side += n;
+  }
+}
+
+template <class F>
+void for_each(core::ThreadPool* pool, size_t count, F&& body) noexcept {
+  if (pool && pool->threads() > 1) {
+    core::run(*pool, int(count), body);
+    return;
+  }
+  for (size_t i = 0; i < count; ++i) body(int(i));
+}
+
+tissue::StrandEnd end_of(const StepContext& c, const StrandEndModel& end, Vec3d drawn) noexcept {
+  if (end.kind != StrandEndModel::hosted) return {drawn, {0, 0, 0}};
+  const size_t i = size_t(end.solid);
+  return hosted_end(end.patch, c.model.solids[i].network, c.state.solids[i], kTick);
+}
+
+// 7. Strands: implicit, ends where their hosts put them, pulling on them.
+void advance_strands(StepContext& c) noexcept {
+  for_each(c.work.pool, c.model.strands.size(), [&c](int index) noexcept {
+    const size_t i = size_t(index);
+    const StrandModel& strand = c.model.strands[i];
+    const interactions::StrandBody& body = c.model.bodies[i];
+    interactions::StrandLoads& loads = c.work.strand_loads[i];
+    size_t ends = 0;
+    if (strand.start.kind != StrandEndModel::free)
+      c.work.ends[i][ends++] = end_of(c, strand.start, body.model.rest.front());
+    if (strand.end.kind != StrandEndModel::free) c.work.ends[i][ends++] = end_of(c, strand.end, body.model.rest.back());
+    loads.reaction.assign(loads.list.size(), Vec3d{});
+    c.work.strand_reports[i] =
+        tissue::advance(body.model, {c.work.ends[i].data(), ends}, loads.list, {c.work.end_reactions[i].data(), ends},
+                        loads.reaction, c.state.strands[i], c.work.strand_work[i]);
+  });
+  for (size_t i = 0; i < c.model.strands.size(); ++i) {
+    const StrandModel& strand = c.model.strands[i];
+    size_t ends = 0;
+    for (const StrandEndModel* end : {&strand.start, &strand.end}) {
+      if (end->kind == StrandEndModel::free) continue;
+      const tissue::StrandReaction& reaction = c.work.end_reactions[i][ends++];
+      if (end->kind != StrandEndModel::hosted) continue;
+      const size_t host = size_t(end->solid);
+      host_loads(end->patch, reaction, c.model.solids[host].network, c.state.solids[host], int(i),
+                 c.work.solid_loads[host]);
+    }
+  }
+}
+
+// 8. Organs: explicit networks in their own sub-steps.
+void advance_solids(StepContext& c) noexcept {
+  for_each(c.work.pool, c.model.solids.size(), [&c](int index) noexcept {
+    const size_t i = size_t(index);
+    interactions::NetworkLoads& loads = c.work.solid_loads[i];
+    loads.sort();
+    c.work.solid_reports[i] = tissue::advance(c.model.solids[i].network, loads.sorted, loads.reaction,
+                                              c.state.solids[i], c.work.solid_work[i]);
+  });
+}
+
+void add_force(double (&sum)[3], Vec3d f) noexcept {
+  sum[0] += f.x;
+  sum[1] += f.y;
+  sum[2] += f.z;
+}
+
+void account(StepContext& c, interactions::Tag tag, Vec3d force) noexcept {
+  if (tag.owner == Owner::tool_contact) add_force(c.state.tools[size_t(tag.index)].contact_force, -force);
+  if (tag.owner != Owner::tool_hold) return;
+  float(&on_tissue)[3] = c.state.tools[size_t(tag.index)].hold[tag.sub].force;
+  on_tissue[0] += float(force.x);
+  on_tissue[1] += float(force.y);
+  on_tissue[2] += float(force.z);
+}
+
+// 9. What the tissue did to the instruments; slip.
+void feel(StepContext& c) noexcept {
+  for (interactions::ToolState& tool : c.state.tools) {
+    for (double& f : tool.contact_force) f = 0;
+    for (interactions::Hold& h : tool.hold) h.force[0] = h.force[1] = h.force[2] = 0;
+  }
+  for (const interactions::StrandLoads& l : c.work.strand_loads)
+    for (size_t i = 0; i < l.list.size(); ++i) account(c, l.tag[i], l.reaction[i]);
+  for (const interactions::NetworkLoads& l : c.work.solid_loads)
+    for (size_t i = 0; i < l.sorted.size(); ++i) account(c, l.tag[size_t(l.order[i])], vec_cast<double>(l.reaction[i]));
+  const interactions::TissueView view = tissue_of(c);
+  for (size_t t = 0; t < c.model.tools.size(); ++t) {
+    interactions::ToolState& tool = c.state.tools[t];
+    const int slips = tool.slipped;
+    interactions::slip(c.model.tools[t], c.work.shapes[t], view, tool);
+    if (tool.slipped > slips) tell(c, Event::slipped, int(t), -1);
+  }
+}
+
+// 10. Eyes: what the endoscope sees.
+void see(StepContext& c) noexcept { look(c.model, c.state, c.work); }
+
+// 11. Reports.
+void sum_up(StepContext& c) noexcept {
+  const auto take = [&c](const tissue::StepReport& r, int body) {
+    c.report.flags |= r.flags;
+    if (!r.fine() && c.report.first_bad_body < 0) {
+      c.report.first_bad_body = body;
+      c.report.first_bad_index = r.first_bad;
+    }
+  };
+  const int solids = int(c.model.solids.size());
+  for (int i = 0; i < solids; ++i) take(c.work.solid_reports[size_t(i)], i);
+  for (size_t i = 0; i < c.model.strands.size(); ++i) take(c.work.strand_reports[i], solids + int(i));
+  for (const auto& l : c.work.solid_loads) c.report.flags |= l.overflowed ? StepReport::kTooManyLoads : 0u;
+  for (const auto& l : c.work.strand_loads) c.report.flags |= l.overflowed ? StepReport::kTooManyLoads : 0u;
+  ++c.state.tick;
+}
+
+constexpr Stage kStages[] = {
+    {"move hands", move_hands},
+    {"pose skins", pose_skins},
+    {"hang organs", hang_organs},
+    {"work jaws", work_jaws},
+    {"touch tissue", touch_tissue},
+    {"touch organs", touch_organs},
+    {"advance strands", advance_strands},
+    {"advance solids", advance_solids},
+    {"feel", feel},
+    {"see", see},
+    {"sum up", sum_up},
+};
+
+}  // namespace
+
+std::span<const Stage> stages() noexcept { return kStages; }
+
+StepReport step(const Model& model, const Input& input, State& state, Work& work) noexcept {
+  StepReport report;
+  StepContext context{model, input, state, work, report};
+  for (const Stage& stage : kStages) stage.run(context);
+  return report;
+}
+
+}  // namespace trocar::sim

@@ -1,0 +1,50 @@
+// One tick of the whole simulation, as a list of named stages (docs/computation.md says what each does and costs).
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include <trocar/sim/work.hpp>
+
+namespace trocar::sim {
+
+struct Event {
+  enum Kind : std::int32_t { none, grasped, released, slipped, clipped, dropped_clip, cut } kind = none;
+  std::int32_t tool = 0;
+  std::int32_t index = 0;  ///< clip or cut number
+};
+inline constexpr int kMaxEvents = 16;
+
+/// What a tick says about itself. Flags of tissue::StepReport keep their meaning; the others are the step's own.
+struct StepReport {
+  enum Flag : std::uint32_t {
+    kTooManyLoads = 1u << 16,  ///< contacts did not fit the reserved capacity: some were left out this tick
+    kBadInput = 1u << 17,      ///< an input was not finite: the hands stayed where they were
+  };
+  std::uint32_t flags = 0;
+  int first_bad_body = -1;   ///< solids first, then strands
+  int first_bad_index = -1;  ///< node of that body
+  Event events[kMaxEvents];
+  int event_count = 0;
+
+  bool fine() const { return (flags & (tissue::StepReport::kNonFinite | tissue::StepReport::kIndefinite)) == 0; }
+};
+
+/// Advances by one tick (1 ms). No exception, no allocation, no lock, no clock, no I/O; the same bits everywhere.
+StepReport step(const Model& model, const Input& input, State& state, Work& work) noexcept;
+
+/// The stages that step() runs, in order; benchmarks time them one by one.
+struct StepContext {
+  const Model& model;
+  const Input& input;
+  State& state;
+  Work& work;
+  StepReport& report;
+};
+struct Stage {
+  const char* name;
+  void (*run)(StepContext&) noexcept;
+};
+std::span<const Stage> stages() noexcept;
+
+}  // namespace trocar::sim

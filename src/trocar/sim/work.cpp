@@ -1,0 +1,75 @@
+#include <cstring>
+#include <limits>
+
+#include <trocar/sim/work.hpp>
+
+namespace trocar::sim {
+namespace {
+
+constexpr size_t kSolidLoads = 8192, kStrandLoads = 2048;
+
+template <class T>
+void scribble(std::vector<T>& values) noexcept {
+  if (!values.empty()) std::memset(static_cast<void*>(values.data()), 0xff, values.size() * sizeof(T));
+}
+
+}  // namespace
+
+Work make_work(const Model& model, core::ThreadPool* pool) {
+  Work w;
+  w.pool = pool;
+  for (const SolidModel& s : model.solids) {
+    w.poses.push_back(tissue::make_pose(s.skin));
+    w.solid_work.push_back(tissue::make_work(s.network));
+    w.solid_loads.emplace_back().reserve(kSolidLoads);
+  }
+  for (const interactions::StrandBody& b : model.bodies) {
+    w.strand_work.push_back(tissue::make_work(b.model));
+    w.strand_loads.emplace_back().reserve(kStrandLoads);
+  }
+  w.surfaces.resize(size_t(model.surfaces()));
+  w.ends.resize(model.strands.size());
+  w.end_reactions.resize(model.strands.size());
+  w.solid_reports.resize(model.solids.size());
+  w.strand_reports.resize(model.strands.size());
+  return w;
+}
+
+void poison(Work& w) noexcept {
+  // All bits set is NaN for every float and -1 for every index.
+  for (tissue::SkinPose& p : w.poses) {
+    scribble(p.position);
+    scribble(p.block);
+    p.bounds.low = p.bounds.high = {std::numeric_limits<float>::quiet_NaN(), 0, 0};
+  }
+  for (interactions::Surface& s : w.surfaces) s = {};
+  std::memset(static_cast<void*>(&w.shapes), 0xff, sizeof w.shapes);
+  for (interactions::NetworkLoads& l : w.solid_loads) {
+    scribble(l.gathered);
+    scribble(l.sorted);
+    scribble(l.tag);
+    scribble(l.order);
+    scribble(l.reaction);
+  }
+  for (interactions::StrandLoads& l : w.strand_loads) {
+    scribble(l.list);
+    scribble(l.tag);
+    scribble(l.reaction);
+  }
+  for (tissue::NetworkWork& n : w.solid_work) {
+    scribble(n.other);
+  }
+  for (tissue::StrandWork& s : w.strand_work) {
+    scribble(s.matrix);
+    scribble(s.rhs);
+    scribble(s.columns);
+    scribble(s.force);
+    scribble(s.saved);
+  }
+  scribble(w.ends);
+  scribble(w.end_reactions);
+  scribble(w.solid_reports);
+  scribble(w.strand_reports);
+}
+
+}  // namespace trocar::sim

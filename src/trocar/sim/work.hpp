@@ -1,0 +1,32 @@
+// Scratch of the step: reserved once, filled anew in every tick. Overwriting it with NaN between ticks changes nothing.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <trocar/interactions/grasp.hpp>
+#include <trocar/interactions/loads.hpp>
+#include <trocar/sim/state.hpp>
+
+namespace trocar::sim {
+
+struct Work {
+  core::ThreadPool* pool = nullptr;             ///< may be null; never changes a bit of the result
+  std::vector<tissue::SkinPose> poses;          ///< (solids)
+  std::vector<interactions::Surface> surfaces;  ///< (solids + walls)
+  std::array<interactions::ToolShape, kMaxTools> shapes;
+  std::vector<interactions::NetworkLoads> solid_loads;
+  std::vector<interactions::StrandLoads> strand_loads;
+  std::vector<tissue::NetworkWork> solid_work;
+  std::vector<tissue::StrandWork> strand_work;
+  std::vector<std::array<tissue::StrandEnd, 2>> ends;  ///< (strands)
+  std::vector<std::array<tissue::StrandReaction, 2>> end_reactions;
+  std::vector<tissue::StepReport> solid_reports, strand_reports;
+};
+
+Work make_work(const Model& model, core::ThreadPool* pool = nullptr);
+
+/// Overwrites every number in the scratch with NaN or nonsense (tests of the law).
+void poison(Work& work) noexcept;
+
+}  // namespace trocar::sim
