@@ -84,6 +84,10 @@ void check_material(const Material& m, const char* call) {
           "fibre axis is not a unit vector, or its stretch is below 1");
 }
 
+bool any_stain(std::span<const Paint> paint) {
+  return std::any_of(paint.begin(), paint.end(), [](Paint p) { return p.blood > 0 || p.burn > 0; });
+}
+
 }  // namespace
 
 void draw_frame(Backend& backend, const Frame& frame, const Target& target) {
@@ -103,7 +107,8 @@ void CheckedBackend::store(std::uint32_t id, const MeshData& data) {
   mesh.vertices = data.positions.size();
   mesh.indices.assign(data.indices.begin(), data.indices.end());
   mesh.primitive = data.primitive;
-  mesh.middle = bounds_of(data.positions).middle();
+  mesh.bounds = bounds_of(data.positions);
+  mesh.stained = any_stain(data.paint);
   m_stats.vertices_uploaded += mesh.vertices;
   on_store(id, complete(data));
 }
@@ -134,7 +139,8 @@ void CheckedBackend::update_mesh(MeshHandle handle, std::span<const Vec3f> posit
     vertex_normals(positions, mesh.primitive == Primitive::triangles ? mesh.indices : none, m_normals);
     normals = m_normals;
   }
-  mesh.middle = bounds_of(positions).middle();
+  mesh.bounds = bounds_of(positions);
+  if (!paint.empty()) mesh.stained = any_stain(paint);
   m_stats.vertices_uploaded += mesh.vertices;
   on_update(handle.id, positions, normals, paint);
 }
@@ -186,20 +192,24 @@ void CheckedBackend::draw(const DrawItem& item) {
 }
 
 void CheckedBackend::sort_items() {
-  m_opaque.clear();
-  m_translucent.clear();
-  m_depth.assign(m_items.size(), 0);
   const Vec3f backward = m_frame.camera.rotation.column(2);
-  for (std::size_t i = 0; i < m_items.size(); ++i) {
-    const DrawItem& item = m_items[i];
-    (item.translucent ? m_translucent : m_opaque).push_back(&item);
-    const Vec3f middle = transform_point(item.transform, m_meshes.at(item.mesh.id).middle);
-    m_depth[i] = dot(backward, m_frame.camera.position - middle);
-  }
-  const DrawItem* first = m_items.data();
-  std::stable_sort(m_translucent.begin(), m_translucent.end(), [&](const DrawItem* a, const DrawItem* b) {
-    return m_depth[std::size_t(a - first)] > m_depth[std::size_t(b - first)];
-  });
+  const auto sorted = [&](bool translucent, std::vector<const DrawItem*>& out) {
+    m_order.clear();
+    for (const DrawItem& item : m_items) {
+      if (item.translucent != translucent) continue;
+      const Bounds& bounds = m_meshes.at(item.mesh.id).bounds;
+      const Vec3f middle = transform_point(item.transform, bounds.middle());
+      float depth = dot(backward, m_frame.camera.position - middle);
+      // What encloses the scene reaches farthest and comes last; the middle says best what lies on what.
+      if (!translucent) depth += 0.5f * length(transform_direction(item.transform, bounds.high - bounds.low));
+      m_order.push_back({translucent ? -depth : depth, &item});
+    }
+    std::stable_sort(m_order.begin(), m_order.end(), [](Sorted a, Sorted b) { return a.depth < b.depth; });
+    out.clear();
+    for (const Sorted& s : m_order) out.push_back(s.item);
+  };
+  sorted(false, m_opaque);
+  sorted(true, m_translucent);
 }
 
 void CheckedBackend::end_frame() {

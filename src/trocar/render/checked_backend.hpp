@@ -24,11 +24,14 @@ class CheckedBackend : public Backend {
   BackendStats stats() const final { return m_stats; }
 
  protected:
+  /// Whether any vertex's paint says blood or burn: the plainer shader does for the others.
+  bool is_stained(MeshHandle mesh) const { return m_meshes.at(mesh.id).stained; }
+
   virtual void on_store(std::uint32_t id, const MeshArrays& mesh) = 0;  ///< new id, or a known one's new topology
   virtual void on_update(std::uint32_t id, std::span<const Vec3f> positions, std::span<const Vec3f> normals,
                          std::span<const Paint> paint) = 0;  ///< paint may be empty
   virtual void on_destroy(std::uint32_t id) = 0;
-  /// @param opaque in the order given, translucent far to near
+  /// @param opaque near to far (less is shaded twice), translucent far to near
   virtual void on_frame(const Frame& frame, const Target& target, std::span<const DrawItem* const> opaque,
                         std::span<const DrawItem* const> translucent) = 0;
   virtual Image on_read(const Target& target) = 0;
@@ -38,7 +41,12 @@ class CheckedBackend : public Backend {
     std::size_t vertices = 0;
     std::vector<std::uint32_t> indices;
     Primitive primitive = Primitive::triangles;
-    Vec3f middle;
+    Bounds bounds;
+    bool stained = false;  ///< some paint says blood or burn
+  };
+  struct Sorted {
+    float depth;
+    const DrawItem* item;
   };
   Known& known(MeshHandle mesh, const char* call);
   void store(std::uint32_t id, const MeshData& data);
@@ -51,7 +59,7 @@ class CheckedBackend : public Backend {
   Target m_target;
   std::vector<DrawItem> m_items;
   std::vector<const DrawItem*> m_opaque, m_translucent;
-  std::vector<float> m_depth;
+  std::vector<Sorted> m_order;
   std::vector<Vec3f> m_normals;
   BackendStats m_stats;
 };

@@ -172,6 +172,7 @@ class GlBackend final : public CheckedBackend {
     puff_pass(frame);
     shrink_pass();
     meter_pass(frame, target, layout);
+    develop_pass(frame, layout);
     lens_pass(frame, target, layout);
     leave_state_clean();
   }
@@ -227,7 +228,7 @@ class GlBackend final : public CheckedBackend {
   void draw_item(const Frame& frame, const DrawItem& item, bool both_sides) {
     const Material& material = item.material;
     const bool two_sided = both_sides || material.two_sided;
-    GlProgram& program = program_for(material, frame.quality.detail, two_sided);
+    GlProgram& program = program_for(frame, item, two_sided);
     program.use();
     program.set("u_model_view", m_view * item.transform);
     program.set("u_projection", m_projection);
@@ -247,13 +248,17 @@ class GlBackend final : public CheckedBackend {
     m_meshes.draw(item.mesh.id);
   }
 
-  GlProgram& program_for(const Material& material, int detail, bool two_sided) {
+  GlProgram& program_for(const Frame& frame, const DrawItem& item, bool two_sided) {
+    const Material& material = item.material;
+    const int detail = frame.quality.detail;
     if (material.shading == Shading::unlit) return m_programs.get("flat.vert", "flat.frag");
     if (material.shading == Shading::vertex_colour) return m_programs.get("flat.vert", "flat.frag", "LIT");
     std::string defines = "SHADING=" + std::to_string(int(material.shading)) + ",DETAIL=" + std::to_string(detail);
     const bool tissue = material.shading == Shading::tissue;
     if (tissue && material.vessels > 0 && detail > 0) defines += ",VESSELS";
     if (tissue && material.lobule_size > 0) defines += ",LOBULES";
+    if (is_stained(item.mesh)) defines += ",STAINED";
+    if (frame.look.fog > 0) defines += ",FOGGY";
     if (two_sided) defines += ",TWO_SIDED";
     return m_programs.get("surface.vert", "surface.frag", defines);
   }
@@ -329,34 +334,46 @@ class GlBackend final : public CheckedBackend {
     memory = {next, frame.tick, true};
   }
 
-  void lens_pass(const Frame& frame, const Target& target, const Layout& layout) {
-    bind_target(target);
+  static const char* view_shape(const EndoscopeLook& look) { return look.mask ? "disc.vert" : "full.vert"; }
+
+  void develop_pass(const Frame& frame, const Layout& layout) {
+    m_developed.resize(layout.scene_w, layout.scene_h, GL_RGBA8, false, GL_LINEAR);
+    m_developed.bind();
     const EndoscopeLook& look = frame.look;
     const Memory& memory = m_memory[std::size_t(frame.eye)];
-    std::string defines;
-    if (look.bloom > 0 && frame.quality.detail > 1) defines += "BLOOM,";
-    if (look.fringe_px > 0) defines += "FRINGE,";
-    GlProgram& program = m_programs.get("full.vert", "lens.frag", defines);
+    const bool bloom = look.bloom > 0 && frame.quality.detail > 1;
+    GlProgram& program = m_programs.get(view_shape(look), "develop.frag", bloom ? "BLOOM" : "");
     program.use();
     program.set("u_scene", kUnitPicture);
     program.set("u_small", kUnitSmall);
     program.set("u_smaller", kUnitSmaller);
     program.set("u_exposure", kUnitExposure);
-    program.set("u_place", layout.centre_x, layout.centre_y, layout.radius, look.mask ? 1.0f : 0.0f);
-    program.set("u_box", float(layout.box_w), float(layout.box_h), 1.0f / float(layout.box_w),
-                1.0f / float(layout.box_h));
-    program.set("u_lens", look.barrel, look.fringe_px * float(target.height) / 600.0f, look.vignette,
-                std::max(look.mask_soft_px, 0.5f));
     const bool remembered = look.auto_exposure && memory.known;
-    program.set("u_camera", look.exposure_ev, remembered ? float(frame.eye) : -1.0f, look.bloom, look.sharpen);
-    program.set("u_sensor", look.noise, look.saturation, look.notch, look.notch_angle);
+    program.set("u_camera", look.exposure_ev, remembered ? float(frame.eye) : -1.0f, look.bloom, look.saturation);
+    program.set("u_place", layout.radius / float(layout.box_w), layout.radius / float(layout.box_h), look.vignette, 0);
     program.set("u_white", look.white_balance);
-    program.set_seed("u_seed", std::uint32_t(frame.tick * 2654435761u));
     bind_texture(kUnitPicture, GL_TEXTURE_2D, m_scene.colour.id());
     bind_texture(kUnitSmall, GL_TEXTURE_2D, m_small.colour.id());
     bind_texture(kUnitSmaller, GL_TEXTURE_2D, m_smaller.colour.id());
     bind_texture(kUnitExposure, GL_TEXTURE_2D, m_exposure[std::size_t(memory.current)].colour.id());
-    draw_full();
+    draw_view(program, look, layout.radius, float(layout.box_w), float(layout.box_h));
+  }
+
+  void lens_pass(const Frame& frame, const Target& target, const Layout& layout) {
+    bind_target(target);
+    const EndoscopeLook& look = frame.look;
+    GlProgram& program = m_programs.get(view_shape(look), "lens.frag", look.fringe_px > 0 ? "FRINGE" : "");
+    program.use();
+    program.set("u_picture", kUnitPicture);
+    program.set("u_place", layout.centre_x, layout.centre_y, layout.radius, look.mask ? 1.0f : 0.0f);
+    program.set("u_box", float(layout.box_w), float(layout.box_h), 1.0f / float(layout.box_w),
+                1.0f / float(layout.box_h));
+    program.set("u_lens", look.barrel, look.fringe_px * float(target.height) / 600.0f, look.sharpen,
+                std::max(look.mask_soft_px, 0.5f));
+    program.set("u_sensor", look.noise, look.notch, std::sin(look.notch_angle), std::cos(look.notch_angle));
+    program.set_seed("u_seed", std::uint32_t(frame.tick * 2654435761u));
+    bind_texture(kUnitPicture, GL_TEXTURE_2D, m_developed.colour.id());
+    draw_view(program, look, layout.radius, float(target.width), float(target.height));
   }
 
   void bind_target(const Target& target) {
@@ -367,11 +384,24 @@ class GlBackend final : public CheckedBackend {
       glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
     }
     glViewport(target.x, target.y, target.width, target.height);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(target.x, target.y, target.width, target.height);
+    glClearColor(0, 0, 0, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+    glDisable(GL_SCISSOR_TEST);
   }
 
   void draw_full() {
     glBindVertexArray(m_no_vertices.id());
     glDrawArrays(GL_TRIANGLES, 0, 3);
+  }
+
+  /// Only the endoscope's circle of a picture that it is centred in; without a mask all of it.
+  void draw_view(GlProgram& program, const EndoscopeLook& look, float radius, float width, float height) {
+    if (!look.mask) return draw_full();
+    program.set("u_radius", 2 * radius / width, 2 * radius / height);
+    glBindVertexArray(m_no_vertices.id());
+    glDrawArrays(GL_TRIANGLE_FAN, 0, 98);
   }
 
   /// Others draw into the same context (menus): leave nothing bound that they would trip over.
@@ -413,7 +443,7 @@ class GlBackend final : public CheckedBackend {
   GlPrograms m_programs;
   GlTexture m_noise, m_cells, m_vessels;
   GlVertexArray m_no_vertices;
-  GlPicture m_scene, m_small, m_smaller, m_own;
+  GlPicture m_scene, m_small, m_smaller, m_developed, m_own;
   std::array<GlPicture, 2> m_exposure;
   std::array<Memory, kEyes> m_memory;
   Mat4 m_view, m_projection;

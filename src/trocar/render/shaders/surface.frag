@@ -1,5 +1,5 @@
 // Living tissue, metal and pools. Variants: SHADING (0 tissue, 1 metal, 2 fluid), DETAIL (0..2), VESSELS, LOBULES,
-// TWO_SIDED.
+// TWO_SIDED, STAINED (some blood or burn), FOGGY.
 #include "common.glsl"
 
 uniform vec4 u_material[14];
@@ -116,7 +116,11 @@ void main() {
   float lobes = lobe(nh, ROUGH2) * streak + 0.3 * lobe(nh, 0.35);
   vec3 light = LIGHT_COLOUR * lit.power * ao * (0.34 * nl + 0.18 * lobes);
   light += (BOUNCE * 1.7 * mirror + vec3(AMBIENT)) * (lit.bounce * ao);
-  o_colour = vec4(through_air(grey * light, v_eye), 1.0);
+  vec3 colour = grey * light;
+#ifdef FOGGY
+  colour = through_air(colour, v_eye);
+#endif
+  o_colour = vec4(colour, 1.0);
 #else
   vec3 albedo = mix(COLOUR_A, COLOUR_B, MOTTLE * smoothstep(0.3, 0.7, broad.a));
   albedo = mix(albedo, COLOUR_C, MOTTLE * smoothstep(0.5, 0.85, fine.a));
@@ -134,11 +138,12 @@ void main() {
 #endif
 
 #ifdef VESSELS
-  vec2 vessel = vessels_at(v_rest, v_rest_normal) * VESSEL_AMOUNT * (1.0 - BURN);
+  vec2 vessel = vessels_at(v_rest, v_rest_normal) * VESSEL_AMOUNT;
   albedo = mix(albedo, albedo * vec3(0.62, 0.5, 0.72), vessel.g);
   albedo = mix(albedo, VESSEL_COLOUR, vessel.r * 0.85);
 #endif
 
+#ifdef STAINED
   // Heat: pale, then a tan crust, then char in specks.
   float crust = smoothstep(0.35, 0.7, BURN + 0.25 * (fine.a - 0.5));
   float carbon = smoothstep(0.72, 0.95, BURN + 0.35 * (fine.a - 0.5));
@@ -151,6 +156,7 @@ void main() {
   float blood = clamp(BLOOD * (0.75 + 0.5 * broad.a), 0.0, 1.0);
   albedo *= exp(-blood * vec3(0.35, 2.6, 2.2));
   albedo = mix(albedo, vec3(0.105, 0.006, 0.007), smoothstep(0.45, 0.95, blood));
+#endif
 
   vec3 n = normalize(N + along_surface(to_eye(relief), N));
   float nl = dot(n, lit.direction);
@@ -159,7 +165,7 @@ void main() {
   // Light wraps past the terminator, red the furthest; crevices keep red longest.
   vec3 wrapped = clamp((vec3(nl) + WRAP) / (1.0 + WRAP), 0.0, 1.0);
   float open = clamp(OPENNESS * (1.0 - 0.35 * seam), 0.02, 1.0);
-  vec3 ao = exp2(log2(open) * vec3(0.9, 1.55, 1.5));
+  vec3 ao = open * mix(vec3(sqrt(open)), vec3(1.0), vec3(1.0, 0.0, 0.05));
   vec3 direct = LIGHT_COLOUR * lit.power * wrapped * mix(ao, vec3(1.0), 0.35);
   vec3 indirect = (BOUNCE + vec3(AMBIENT)) * (lit.bounce * ao);
   float rim = (1.0 - nv) * (1.0 - nv);
@@ -169,14 +175,17 @@ void main() {
   // The film on top has its own ripples; it is broken where the tissue is dry.
 #if DETAIL >= 1
   vec4 ripple = texture(u_noise, kTurn * p.zxy * FILM_SCALE);
-  vec3 film_slope = (ripple.rgb * 2.0 - 1.0) * (FILM_BUMP * (1.0 - 0.7 * smoothstep(0.5, 0.9, blood)));
+  vec3 film_slope = (ripple.rgb * 2.0 - 1.0) * FILM_BUMP;
   float wet_noise = 0.5 * (ripple.a + broad.b);
 #else
   vec3 film_slope = slope * FILM_BUMP;
   float wet_noise = broad.b;
 #endif
   float wet = smoothstep(1.0 - WETNESS - 0.2, 1.0 - WETNESS + 0.2, wet_noise);
+#ifdef STAINED
+  film_slope *= 1.0 - 0.7 * smoothstep(0.5, 0.9, blood);
   wet = max(wet, smoothstep(0.1, 0.5, blood)) * (1.0 - 0.55 * crust);
+#endif
   vec3 m = normalize(N + along_surface(to_eye(film_slope + relief * 0.6), N));
   vec3 H = normalize(lit.direction + V);
   float facing = clamp(nl * 4.0, 0.0, 1.0) * open;
@@ -190,10 +199,14 @@ void main() {
   float alpha = mix(opaque, 1.0, 0.6 * rim);
 #else
   float alpha = mix(ALPHA, RIM_ALPHA, rim);
+#ifdef STAINED
   alpha = max(alpha, smoothstep(0.0, 0.5, max(blood, BURN)) * step(0.001, ALPHA));
 #endif
-  vec3 through = through_air(colour + shine, v_eye);
-  vec3 fogged_shine = shine * exp(-FOG * length(v_eye));
-  o_colour = vec4((through - fogged_shine) * alpha + fogged_shine, alpha);
+#endif
+#ifdef FOGGY
+  colour = through_air(colour, v_eye);
+  shine *= exp(-FOG * length(v_eye));
+#endif
+  o_colour = vec4(colour * alpha + shine, alpha);
 #endif
 }

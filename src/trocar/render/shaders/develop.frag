@@ -1,0 +1,34 @@
+// Scene light to picture values, before the lens: exposure, veil, camera curve. Variant: BLOOM.
+precision highp float;
+precision highp int;
+uniform sampler2D u_scene;
+uniform sampler2D u_small;     // 1/4 of the scene
+uniform sampler2D u_smaller;   // 1/16
+uniform sampler2D u_exposure;  // stops, one column an eye
+uniform vec4 u_camera;         // exposure on top [stops], memory column or -1, bloom, saturation
+uniform vec4 u_place;          // radius of the view in picture sizes (x, y), vignette
+uniform vec3 u_white;
+in vec2 v_uv;
+out vec4 o_colour;
+
+// Camera curve with the display's gamma in it: toe, straight middle, long shoulder, clipped; each channel on its own,
+// so that what is bright pales [form after Hejl & Burgess-Dawson 10].
+vec3 developed(vec3 x) {
+  return clamp(1.075 * x * (6.2 * x + 0.5) / (x * (6.2 * x + 1.7) + 0.06), 0.0, 1.0);
+}
+
+void main() {
+  vec3 colour = texelFetch(u_scene, ivec2(gl_FragCoord.xy), 0).rgb;
+#ifdef BLOOM
+  vec3 veil = 0.6 * texture(u_small, v_uv).rgb + 0.4 * texture(u_smaller, v_uv).rgb;
+  colour = mix(colour, min(veil, vec3(8.0)), u_camera.z);
+#endif
+  float stops = u_camera.x;
+  if (u_camera.y >= 0.0) stops += texelFetch(u_exposure, ivec2(int(u_camera.y), 0), 0).r;
+  vec2 off = (v_uv - 0.5) / u_place.xy;
+  float cosine2 = 1.0 / (1.0 + 0.30 * dot(off, off));
+  float gain = exp2(stops) * mix(1.0, cosine2 * cosine2, u_place.z);
+  vec3 light = max(colour * u_white * gain, 0.0);
+  light = max(mix(vec3(dot(light, vec3(0.2126, 0.7152, 0.0722))), light, u_camera.w), 0.0);
+  o_colour = vec4(developed(light), 1.0);
+}
