@@ -1,0 +1,117 @@
+// One mouse, one keyboard or one gamepad for several instruments: one hand at a time is led, the others keep pose and
+// grip. Pure logic without a window: the program fills a HandSample from its events, once per picture, and gets what
+// the led instrument or the endoscope should do, in the picture's directions.
+//
+//   HandState state;                                       // lives as long as the session
+//   const HandCommand command = lead(settings, sample, state);
+//   if (command.led == kScope) turn the scope by command.scope;
+//   else move tip[command.led] by in_space(command.tip, camera_right, camera_up, shaft), turn it by command.roll;
+//   handle[i] = state.handle[i]                            // of every instrument, led or not
+//
+// help() is the table of keys that the window and the README show.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace trocar::devices {
+
+inline constexpr int kMaxHands = 4;  ///< instruments that can be led
+inline constexpr int kScope = -1;    ///< in place of an instrument's number: the endoscope
+
+enum class Key : std::uint8_t { tab, one, two, three, four, zero, c, q, e, r, f, space, shift, count };
+const char* name_of(Key key) noexcept;  ///< as help() writes it
+
+class KeySet {
+ public:
+  constexpr bool has(Key key) const noexcept { return (m_bits >> int(key)) & 1; }
+  constexpr void set(Key key, bool on = true) noexcept {
+    m_bits = on ? m_bits | 1u << int(key) : m_bits & ~(1u << int(key));
+  }
+
+ private:
+  std::uint32_t m_bits = 0;
+};
+
+/// Sticks -1..1, right and down positive as consoles report them; triggers 0..1. All 0 without a gamepad.
+struct Gamepad {
+  float left_x = 0, left_y = 0, right_x = 0, right_y = 0, left_trigger = 0, right_trigger = 0;
+  bool left_shoulder = false, right_shoulder = false;
+};
+
+/// What the devices did since the last sample.
+struct HandSample {
+  float dt = 0;          ///< time since the last sample [s]; longer ones count as 0.1
+  float dx = 0, dy = 0;  ///< mouse motion [px], right and down positive
+  float wheel = 0;       ///< notches, away from the user positive
+  bool left_button = false, right_button = false;
+  KeySet held;     ///< down now
+  KeySet pressed;  ///< went down since the last sample, even if up again
+  Gamepad gamepad;
+};
+
+/// Motion of a tip in the picture [m]: to the right, upwards, and along the shaft into the patient.
+struct PictureMotion {
+  float right = 0, up = 0, in = 0;
+};
+
+/// How the endoscope turns about its trocar. Angles [rad], in the picture's directions.
+struct ScopeMotion {
+  float right = 0, up = 0;  ///< where the view goes
+  float in = 0;             ///< towards the organs [m]
+  float head = 0;           ///< roll of the picture, clockwise positive
+  float post = 0;           ///< light post of an oblique scope, clockwise positive
+};
+
+/// For the led one only; everything is a change within this sample.
+struct HandCommand {
+  int led = 0;  ///< instrument 0.., or kScope
+  PictureMotion tip;
+  float roll = 0;  ///< [rad], clockwise seen from the hand positive
+  ScopeMotion scope;
+};
+
+/// How much a device's motion means.  Our choice: 10 cm across a picture of 1000 px.
+struct HandSettings {
+  int instruments = 2;             ///< 1..kMaxHands
+  float metres_per_pixel = 1e-4f;  ///< tip
+  float metres_per_notch = 2e-3f;  ///< tip and scope, along the shaft
+  float roll_per_pixel = 8e-3f;    ///< [rad], dragging with the right button
+  float roll_per_second = 1.6f;    ///< [rad/s], Q and E
+  float view_per_pixel = 1e-3f;    ///< [rad], scope
+  float post_per_second = 1.0f;    ///< [rad/s], R and F
+  float close_per_second = 2.0f;   ///< handle, a share of its way
+  float open_per_second = 4.0f;
+  float stick_speed = 0.05f;  ///< [m/s], stick at its end
+  float stick_roll = 2.0f;    ///< [rad/s]
+  float stick_view = 0.6f;    ///< [rad/s], scope
+  float stick_dead = 0.12f;   ///< share of a stick's way that is rest
+  float fine = 0.25f;         ///< Shift
+};
+
+/// What must be remembered between samples.
+struct HandState {
+  int led = 0;                            ///< instrument or kScope
+  int last_instrument = 0;                ///< the one that Tab returns to
+  std::array<float, kMaxHands> handle{};  ///< 0 open .. 1 closed, of every instrument
+  std::array<bool, kMaxHands> ratchet{};  ///< holds the handle when it is released
+  bool opening = false;  ///< the led handle was let go: it opens. A hand that was only chosen keeps its grip.
+  bool waiting = false;  ///< what was already squeezed when this one was chosen must be let go first
+  Gamepad gamepad;       ///< the last sample's, to notice presses
+};
+
+/// One sample: moves `state` on and tells what the led one does.
+HandCommand lead(const HandSettings& settings, const HandSample& sample, HandState& state) noexcept;
+
+/// A tip's motion in space, from the unit vectors of the picture and of the shaft (port to tip).
+std::array<float, 3> in_space(const PictureMotion& motion, const std::array<float, 3>& right,
+                              const std::array<float, 3>& up, const std::array<float, 3>& shaft) noexcept;
+
+struct HelpLine {
+  const char* keys;
+  const char* action;
+};
+std::span<const HelpLine> help() noexcept;
+
+}  // namespace trocar::devices
