@@ -3,11 +3,13 @@
 // an explicit network would need tens of sub-steps.
 //
 //   stretch     element e: tension EA law(strain), law of [KCM99 eq.5], A = pi (R^2 - r^2) of that element
-//   bending     node i: (EI / l^3) |x_{i-1} - 2 x_i + x_{i+1} - R_i b_i|^2 / 2, b_i as drawn, R_i the rotation that
-//               takes the drawn direction of the chain at i to the present one (lagged, minimal)
+//   bending     node i: (EI / l^3) |P (x_{i-1} - 2 x_i + x_{i+1} - R_i b_i)|^2 / 2, b_i as drawn, R_i the smallest
+//               rotation that takes the drawn direction of the chain at i to the present one, P across that direction
+//               (both lagged by a tick)
 //   foundation  node i: k_i u (1 + c |u|^2), u = x_i - x0_i: what the sheet that carries the strand does
 //   damping     along elements and in bending, stiffness times a time; against space gamma
-//   gravity     the drawn shape is the equilibrium (rest points or rest shape are shifted)
+//   gravity     the drawn shape is the equilibrium: the linear strand's answer to its weight is put into rest lengths,
+//               rest bends and rest points, which balance it exactly where it is drawn
 // The system matrix keeps only the positive part of the geometric stiffness, so that it is positive definite; it has
 // eight diagonals below the main one and is factored by LDL^T in a fixed order. Double precision throughout.
 // Our design; discrete bending after the co-rotational rods of the literature [Bergou et al. 08, Hauth & Strasser 04].
@@ -65,7 +67,6 @@ struct StrandModel {
   std::vector<double> radius, lumen;     ///< (n - 1) [m]
   std::vector<std::uint8_t> prescribed;  ///< (n)
   std::vector<int> prescribed_nodes;     ///< ascending; the order of `ends` and `end_reactions`
-  std::vector<Vec3d> dead_load;          ///< (n) constant force that completes the prestress [N]
   double damping_time = 0, foundation_damping_time = 0, gamma = 0;
   Vec3d gravity{0, 0, 0};
 };
@@ -78,11 +79,11 @@ struct StrandState {
 };
 
 struct StrandWork {
-  std::vector<double> matrix;   ///< (3n x 9) band, lower
-  std::vector<double> rhs;      ///< (3n)
+  std::vector<double> matrix;   ///< (3n x 9) band, lower; then its factor
+  std::vector<double> saved;    ///< (3n x 9) the matrix before nodes were prescribed
+  std::vector<double> rhs;      ///< (3n) right side, then the new velocities
+  std::vector<double> impulse;  ///< (3n) the right side before nodes were prescribed
   std::vector<double> columns;  ///< (3n x 3) for the tangents at prescribed nodes
-  std::vector<double> force;    ///< (3n) unbalanced force, kept for the reactions
-  std::vector<double> saved;    ///< (3n x 9) the matrix before it was factored
 };
 
 /// Where a prescribed node is at the end of this tick.

@@ -1,0 +1,260 @@
+// One tick of a strand: assemble, prescribe, factor, solve, report.
+//
+//   (M (1 + dt gamma) + dt C + dt^2 K) v' = M v + dt (f(x) + f_ext),   x' = x + dt v'
+//
+// which is backward Euler for the equation of motion [KCM99 eq.1] with the forces linearised about x.
+#include <cmath>
+
+#include <trocar/tissue/strand.hpp>
+#include <trocar/tissue/strand_band.hpp>
+
+namespace trocar::tissue {
+namespace {
+
+void push(std::vector<double>& rhs, int node, Vec3d impulse) {
+  for (int axis = 0; axis < 3; ++axis) rhs[3 * node + axis] += impulse[axis];
+}
+Vec3d at(const std::vector<double>& a, int node) { return {a[3 * node], a[3 * node + 1], a[3 * node + 2]}; }
+
+/// The smallest rotation that takes the unit vector a to the unit vector b, applied to r. Fades out where b is nearly
+/// -a, where no smallest rotation is.
+Vec3d turned(Vec3d a, Vec3d b, Vec3d r) {
+  const Vec3d w = cross(a, b);
+  const double c = 1 + dot(a, b);
+  return r + cross(w, r) + (1 / (c > 0.05 ? c : 0.05)) * cross(w, cross(w, r));
+}
+
+/// Masses, weight, drag against space.
+void add_inertia(const StrandModel& m, const StrandState& s, StrandWork& w) {
+  const double dt = m.tick, one[1] = {1};
+  for (int i = 0; i < m.nodes; ++i) {
+    add_term(w.matrix, i, one, 1, isotropic(m.mass[i] * (1 + dt * m.gamma)));
+    push(w.rhs, i, m.mass[i] * (s.v[i] + dt * m.gravity));
+  }
+}
+
+/// Tension EA shape(strain) [KCM99 eq.5]. The slope is the larger of now and a tick ahead, so that a strand that is
+/// being jerked tight meets its later stiffness; slack elements have no sideways stiffness.
+void add_stretch(const StrandModel& m, const StrandState& s, StrandWork& w) {
+  const double dt = m.tick, c[2] = {-1, 1};
+  for (int e = 0; e + 1 < m.nodes; ++e) {
+    if (!s.alive[e]) continue;
+    const Vec3d d = s.x[e + 1] - s.x[e], dv = s.v[e + 1] - s.v[e];
+    const double r = length(d), l = m.rest_length[e], stiffness = m.stretch[e] * s.scale[e];
+    const Vec3d t = normalised(d);
+    const double strain = r / l - 1, ahead = length(d + dt * dv) / l - 1;
+    const double slope_now = m.law.slope(strain), slope_ahead = m.law.slope(ahead);
+    const double slope = slope_now > slope_ahead ? slope_now : slope_ahead;
+    const double tension = stiffness * m.law.shape(strain);
+    const double sideways = tension > 0 ? tension / r : 0;
+    add_term(w.matrix, e, c, 2,
+             along(stiffness / l * (dt * dt * slope + dt * m.damping_time), t) + across(dt * dt * sideways, t));
+    push(w.rhs, e, (dt * tension) * t);
+    push(w.rhs, e + 1, (-dt * tension) * t);
+  }
+}
+
+bool bends(const StrandState& s, int i) { return s.alive[i - 1] && s.alive[i]; }
+double bend_stiffness(const StrandModel& m, const StrandState& s, int i) {
+  return m.bend[i] * 0.5 * (s.scale[i - 1] + s.scale[i]);
+}
+/// What the bend at node i differs from its rest by, across the chain.
+Vec3d bend_error(const StrandModel& m, const StrandState& s, int i, Vec3d t) {
+  const Vec3d q = second_difference(s.x, i) - turned(m.tangent_rest[i], t, m.bend_rest[i]);
+  return q - dot(q, t) * t;
+}
+
+void add_bending(const StrandModel& m, const StrandState& s, StrandWork& w) {
+  const double dt = m.tick;
+  for (int i = 1; i + 1 < m.nodes; ++i) {
+    if (!bends(s, i)) continue;
+    const Vec3d t = chain_direction(s.x, i, m.tangent_rest[i]);
+    const double k = bend_stiffness(m, s, i);
+    add_term(w.matrix, i - 1, kBendStencil, 3, across(k * (dt * dt + dt * m.damping_time), t));
+    const Vec3d impulse = (-dt * k) * bend_error(m, s, i, t);
+    for (int j = 0; j < 3; ++j) push(w.rhs, i - 1 + j, kBendStencil[j] * impulse);
+  }
+}
+
+void add_foundation(const StrandModel& m, const StrandState& s, StrandWork& w) {
+  const double dt = m.tick, one[1] = {1};
+  for (int i = 0; i < m.nodes; ++i) {
+    const double k = m.foundation[i] * s.foundation_scale[i];
+    if (!(k > 0)) continue;
+    const Vec3d u = s.x[i] - m.foundation_point[i];
+    const double more = m.stiffening * dot(u, u);
+    add_term(w.matrix, i, one, 1,
+             isotropic(k * (dt * dt * (1 + more) + dt * m.foundation_damping_time)) +
+                 along(2 * k * dt * dt * m.stiffening, u));
+    push(w.rhs, i, (-dt * k * (1 + more)) * u);
+  }
+}
+
+bool is_zero(Vec3d a) { return a.x == 0 && a.y == 0 && a.z == 0; }
+bool usable(const StrandModel& m, const StrandLoad& l) {
+  const double sum = std::fabs(l.f0.x) + std::fabs(l.f0.y) + std::fabs(l.f0.z) + std::fabs(l.x0.x) + std::fabs(l.x0.y) +
+                     std::fabs(l.x0.z) + std::fabs(l.dir.x) + std::fabs(l.dir.y) + std::fabs(l.dir.z);
+  return l.element >= 0 && l.element + 1 < m.nodes && l.w >= 0 && l.w <= 1 && l.k >= 0 && l.d >= 0 && l.k < 1e12 &&
+         l.d < 1e12 && sum < 1e12;
+}
+Vec3d projected(const StrandLoad& l, Vec3d u) { return is_zero(l.dir) ? u : dot(l.dir, u) * l.dir; }
+
+StepReport add_loads(const StrandModel& m, std::span<const StrandLoad> loads, const StrandState& s, StrandWork& w) {
+  const double dt = m.tick;
+  StepReport report;
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    const StrandLoad& l = loads[i];
+    if (!usable(m, l)) {
+      report = report | StepReport{StepReport::kBadLoad, int(i)};
+      continue;
+    }
+    const int e = l.element;
+    const double c[2] = {1 - l.w, l.w}, q = dt * (l.d + dt * l.k);
+    const Vec3d p = c[0] * s.x[e] + c[1] * s.x[e + 1];
+    add_term(w.matrix, e, c, 2, is_zero(l.dir) ? isotropic(q) : along(q, l.dir));
+    const Vec3d impulse = dt * (l.f0 + l.k * projected(l, l.x0 - p));
+    push(w.rhs, e, c[0] * impulse);
+    push(w.rhs, e + 1, c[1] * impulse);
+  }
+  return report;
+}
+
+/// Force each load exerted, at the velocities found.
+void report_loads(const StrandModel& m, std::span<const StrandLoad> loads, const StrandState& before,
+                  const std::vector<double>& v, std::span<Vec3d> reactions) {
+  if (reactions.empty()) return;
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    const StrandLoad& l = loads[i];
+    reactions[i] = {};
+    if (!usable(m, l)) continue;
+    const int e = l.element;
+    const Vec3d speed = (1 - l.w) * at(v, e) + l.w * at(v, e + 1);
+    const Vec3d p = (1 - l.w) * before.x[e] + l.w * before.x[e + 1] + m.tick * speed;
+    reactions[i] = l.f0 + projected(l, l.k * (l.x0 - p) - l.d * speed);
+  }
+}
+
+/// The row of the untouched system at a prescribed node says what impulse its holder gave; eliminating all free nodes
+/// says how that changes as the holder moves.
+void report_ends(const StrandModel& m, std::span<StrandReaction> reactions, StrandWork& w) {
+  if (reactions.empty()) return;
+  const int rows = 3 * m.nodes;
+  const double dt = m.tick;
+  for (std::size_t k = 0; k < m.prescribed_nodes.size(); ++k) {
+    const int p = m.prescribed_nodes[k];
+    const int first = 3 * p > kStrandBand ? 3 * p - kStrandBand : 0;
+    const int last = 3 * p + 2 + kStrandBand < rows ? 3 * p + 2 + kStrandBand : rows - 1;
+    for (double& c : w.columns) c = 0;
+    for (int j = first; j <= last; ++j)
+      for (int axis = 0; axis < 3; ++axis)
+        if (!m.prescribed[j / 3]) w.columns[3 * j + axis] = band_entry(w.saved, j, 3 * p + axis);
+    numerics::band_solve(rows, kStrandBand, w.matrix.data(), w.columns.data(), 3);
+    for (int axis = 0; axis < 3; ++axis) {
+      const int r = 3 * p + axis;
+      double held = -w.impulse[r];
+      for (int j = first; j <= last; ++j) held += band_entry(w.saved, r, j) * w.rhs[j];
+      reactions[k].force[axis] = -held / dt;
+      for (int other = 0; other < 3; ++other) {
+        double s = band_entry(w.saved, r, 3 * p + other);
+        for (int j = first; j <= last; ++j)
+          if (!m.prescribed[j / 3]) s -= band_entry(w.saved, r, j) * w.columns[3 * j + other];
+        reactions[k].tangent.m[axis][other] = s / (dt * dt);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+StepReport advance(const StrandModel& m, std::span<const StrandEnd> ends, std::span<const StrandLoad> loads,
+                   std::span<StrandReaction> end_reactions, std::span<Vec3d> load_reactions, StrandState& s,
+                   StrandWork& w) noexcept {
+  const double dt = m.tick;
+  const int rows = 3 * m.nodes;
+  for (double& a : w.matrix) a = 0;
+  for (double& a : w.rhs) a = 0;
+  add_inertia(m, s, w);
+  add_stretch(m, s, w);
+  add_bending(m, s, w);
+  add_foundation(m, s, w);
+  StepReport report = add_loads(m, loads, s, w);
+
+  for (std::size_t i = 0; i < w.matrix.size(); ++i) w.saved[i] = w.matrix[i];
+  for (int i = 0; i < rows; ++i) w.impulse[i] = w.rhs[i];
+  for (std::size_t k = 0; k < m.prescribed_nodes.size(); ++k) {
+    const int p = m.prescribed_nodes[k];
+    prescribe(w.matrix, w.rhs, m.nodes, p, ends.empty() ? Vec3d{} : (ends[k].x - s.x[p]) / dt);
+  }
+  const int lost = numerics::band_factor(rows, kStrandBand, w.matrix.data());
+  if (lost >= 0) return report | StepReport{StepReport::kIndefinite, lost / 3};
+  numerics::band_solve(rows, kStrandBand, w.matrix.data(), w.rhs.data());
+  report_ends(m, end_reactions, w);
+  report_loads(m, loads, s, w.rhs, load_reactions);
+
+  for (int i = 0; i < m.nodes; ++i) {
+    s.v[i] = at(w.rhs, i);
+    s.x[i] += dt * s.v[i];
+    const double size = std::fabs(s.x[i].x) + std::fabs(s.x[i].y) + std::fabs(s.x[i].z) + std::fabs(s.v[i].x) +
+                        std::fabs(s.v[i].y) + std::fabs(s.v[i].z);
+    if (!(size < 1e6)) report = report | StepReport{StepReport::kNonFinite, i};
+  }
+  for (std::size_t k = 0; !ends.empty() && k < m.prescribed_nodes.size(); ++k) {
+    s.x[m.prescribed_nodes[k]] = ends[k].x;
+    s.v[m.prescribed_nodes[k]] = ends[k].v;
+  }
+  return report;
+}
+
+void cut_element(StrandState& s, int element) noexcept { s.alive[element] = 0; }
+
+double element_strain(const StrandModel& m, const StrandState& s, int e) noexcept {
+  return s.alive[e] ? length(s.x[e + 1] - s.x[e]) / m.rest_length[e] - 1 : 0;
+}
+
+StrandEnergy energy(const StrandModel& m, const StrandState& s) noexcept {
+  StrandEnergy total;
+  for (int i = 0; i < m.nodes; ++i) {
+    total.kinetic += 0.5 * m.mass[i] * dot(s.v[i], s.v[i]);
+    total.gravity -= m.mass[i] * dot(m.gravity, s.x[i]);
+    const Vec3d u = s.x[i] - m.foundation_point[i];
+    const double u2 = dot(u, u);
+    total.foundation += 0.5 * m.foundation[i] * s.foundation_scale[i] * u2 * (1 + 0.5 * m.stiffening * u2);
+  }
+  for (int e = 0; e + 1 < m.nodes; ++e)
+    if (s.alive[e])
+      total.stretch += m.stretch[e] * s.scale[e] * m.rest_length[e] * m.law.energy(element_strain(m, s, e));
+  for (int i = 1; i + 1 < m.nodes; ++i) {
+    if (!bends(s, i)) continue;
+    const Vec3d q = bend_error(m, s, i, chain_direction(s.x, i, m.tangent_rest[i]));
+    total.bending += 0.5 * bend_stiffness(m, s, i) * dot(q, q);
+  }
+  return total;
+}
+
+void add_to_hash(core::Hasher& h, const StrandState& s) noexcept {
+  h.add(s.x);
+  h.add(s.v);
+  h.add(s.scale);
+  h.add(s.alive);
+  h.add(s.foundation_scale);
+}
+
+void add_to_hash(core::Hasher& h, const StrandModel& m) noexcept {
+  h.add(m.tick);
+  h.add(m.law);
+  h.add(m.mass);
+  h.add(m.rest_length);
+  h.add(m.stretch);
+  h.add(m.bend);
+  h.add(m.bend_rest);
+  h.add(m.tangent_rest);
+  h.add(m.foundation);
+  h.add(m.foundation_point);
+  h.add(m.stiffening);
+  h.add(m.prescribed);
+  const double rest[] = {m.damping_time, m.foundation_damping_time, m.gamma};
+  h.add(rest);
+  h.add(m.gravity);
+}
+
+}  // namespace trocar::tissue
