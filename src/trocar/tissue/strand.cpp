@@ -151,7 +151,7 @@ void report_ends(const StrandModel& m, std::span<StrandReaction> reactions, Stra
     numerics::band_solve(rows, kStrandBand, w.matrix.data(), w.columns.data(), 3);
     for (int axis = 0; axis < 3; ++axis) {
       const int r = 3 * p + axis;
-      double held = -w.impulse[r];
+      double held = -w.force[r];
       for (int j = first; j <= last; ++j) held += band_entry(w.saved, r, j) * w.rhs[j];
       reactions[k].force[axis] = -held / dt;
       for (int other = 0; other < 3; ++other) {
@@ -180,7 +180,7 @@ StepReport advance(const StrandModel& m, std::span<const StrandEnd> ends, std::s
   StepReport report = add_loads(m, loads, s, w);
 
   for (std::size_t i = 0; i < w.matrix.size(); ++i) w.saved[i] = w.matrix[i];
-  for (int i = 0; i < rows; ++i) w.impulse[i] = w.rhs[i];
+  for (int i = 0; i < rows; ++i) w.force[i] = w.rhs[i];
   for (std::size_t k = 0; k < m.prescribed_nodes.size(); ++k) {
     const int p = m.prescribed_nodes[k];
     prescribe(w.matrix, w.rhs, m.nodes, p, ends.empty() ? Vec3d{} : (ends[k].x - s.x[p]) / dt);

@@ -159,7 +159,7 @@ StrandWork make_work(const StrandModel& m) {
   w.matrix.resize(numerics::band_size(rows, kStrandBand));
   w.saved.resize(w.matrix.size());
   w.rhs.resize(rows);
-  w.impulse.resize(rows);
+  w.force.resize(rows);
   w.columns.resize(std::size_t(rows) * 3);
   return w;
 }
