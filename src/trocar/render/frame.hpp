@@ -62,15 +62,18 @@ struct EndoscopeLook {
   float exposure_seconds = 0.4f;  ///< time constant
   float exposure_range_ev = 3;    ///< limits, both ways
   float bloom = 0.05f;
-  float sharpen = 0.35f;  ///< video sharpening overshoot
-  float noise = 0.006f;   ///< sensor noise at mid grey; more in the dark
+  float focus_near = 0.026f;  ///< [m] nearer things are out of focus
+  float defocus = 0.8f;       ///< 0 none .. 1: how much
+  float contact = 0.5f;       ///< 0 none .. 1: darkening behind the edge of nearer things
+  float sharpen = 0.35f;      ///< video sharpening overshoot
+  float noise = 0.0015f;      ///< sensor noise at mid grey; more in the dark
   float saturation = 1;
   Vec3f white_balance = {1, 1, 1};
   // Air.
   float fog = 0;  ///< smoke veil, extinction [1/m]
   Vec3f fog_colour = {0.62f, 0.47f, 0.37f};
 };
-/// A plain camera: no mask, barrel, fringe, vignette, noise, bloom, or auto exposure.
+/// A plain camera: no mask, barrel, fringe, vignette, noise, bloom, defocus, or auto exposure.
 EndoscopeLook plain_look();
 
 struct DrawItem {

@@ -171,6 +171,7 @@ class GlBackend final : public CheckedBackend {
     scene_pass(frame, translucent, true);
     puff_pass(frame);
     shrink_pass();
+    m_small_eye = frame.eye;
     meter_pass(frame, target, layout);
     develop_pass(frame, layout);
     lens_pass(frame, target, layout);
@@ -196,11 +197,15 @@ class GlBackend final : public CheckedBackend {
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glFrontFace(GL_CCW);
     glCullFace(GL_BACK);
-    glClearColor(frame.background.x, frame.background.y, frame.background.z, 1);
+    glClearColor(frame.background.x, frame.background.y, frame.background.z, frame.camera.far_plane);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     bind_texture(kUnitNoise, GL_TEXTURE_3D, m_noise.id());
     bind_texture(kUnitCells, GL_TEXTURE_3D, m_cells.id());
     bind_texture(kUnitVessels, GL_TEXTURE_2D, m_vessels.id());
+    // Mirrors show the picture before, if it was of the same view.
+    const bool same_view = m_small.colour && m_small_eye == frame.eye;
+    bind_texture(kUnitSmall, GL_TEXTURE_2D, same_view ? m_small.colour.id() : 0);
+    m_frame_rows[17] = same_view ? 1.0f : 0.0f;
   }
 
   /// Near depth outside the circle, so that early depth tests drop those pixels.
@@ -217,7 +222,7 @@ class GlBackend final : public CheckedBackend {
     if (items.empty()) return;
     if (blended) {
       glEnable(GL_BLEND);
-      glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+      glBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);  // alpha keeps the distance
       glDepthMask(GL_FALSE);
     }
     for (const DrawItem* item : items) draw_item(frame, *item, blended);
@@ -225,9 +230,9 @@ class GlBackend final : public CheckedBackend {
     glDepthMask(GL_TRUE);
   }
 
-  void draw_item(const Frame& frame, const DrawItem& item, bool both_sides) {
+  void draw_item(const Frame& frame, const DrawItem& item, bool blended) {
     const Material& material = item.material;
-    const bool two_sided = both_sides || material.two_sided;
+    const bool two_sided = blended || material.two_sided;
     GlProgram& program = program_for(frame, item, two_sided);
     program.use();
     program.set("u_model_view", m_view * item.transform);
@@ -240,7 +245,9 @@ class GlBackend final : public CheckedBackend {
       program.set("u_noise", kUnitNoise);
       program.set("u_cells", kUnitCells);
       program.set("u_vessels", kUnitVessels);
+      program.set("u_before", kUnitSmall);
     }
+    program.set("u_blended", blended ? 1.0f : 0.0f);
     if (two_sided || m_meshes.is_lines(item.mesh.id))
       glDisable(GL_CULL_FACE);
     else
@@ -275,7 +282,7 @@ class GlBackend final : public CheckedBackend {
     program.set_vec4s("u_frame", m_frame_rows);
     program.set("u_noise", kUnitNoise);
     glEnable(GL_BLEND);
-    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    glBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);  // alpha keeps the distance
     glDepthMask(GL_FALSE);
     glDisable(GL_CULL_FACE);
     glBindVertexArray(m_no_vertices.id());
@@ -304,6 +311,7 @@ class GlBackend final : public CheckedBackend {
   void shrink_pass() {
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
+    bind_texture(kUnitSmall, GL_TEXTURE_2D, 0);
     shrink(m_scene, m_small);
     shrink(m_small, m_smaller);
   }
@@ -341,8 +349,8 @@ class GlBackend final : public CheckedBackend {
     m_developed.bind();
     const EndoscopeLook& look = frame.look;
     const Memory& memory = m_memory[std::size_t(frame.eye)];
-    const bool bloom = look.bloom > 0 && frame.quality.detail > 1;
-    GlProgram& program = m_programs.get(view_shape(look), "develop.frag", bloom ? "BLOOM" : "");
+    const bool effects = frame.quality.detail > 1 && (look.bloom > 0 || look.defocus > 0 || look.contact > 0);
+    GlProgram& program = m_programs.get(view_shape(look), "develop.frag", effects ? "EFFECTS" : "");
     program.use();
     program.set("u_scene", kUnitPicture);
     program.set("u_small", kUnitSmall);
@@ -351,6 +359,7 @@ class GlBackend final : public CheckedBackend {
     const bool remembered = look.auto_exposure && memory.known;
     program.set("u_camera", look.exposure_ev, remembered ? float(frame.eye) : -1.0f, look.bloom, look.saturation);
     program.set("u_place", layout.radius / float(layout.box_w), layout.radius / float(layout.box_h), look.vignette, 0);
+    program.set("u_depth", look.focus_near, look.defocus, look.contact, 2 * std::tan(frame.camera.vertical_fov / 2));
     program.set("u_white", look.white_balance);
     bind_texture(kUnitPicture, GL_TEXTURE_2D, m_scene.colour.id());
     bind_texture(kUnitSmall, GL_TEXTURE_2D, m_small.colour.id());
@@ -449,6 +458,7 @@ class GlBackend final : public CheckedBackend {
   Mat4 m_view, m_projection;
   std::array<float, 8 * 4> m_frame_rows{};
   std::vector<SeenPuff> m_puffs;
+  int m_small_eye = -1;  ///< whose picture m_small holds
 };
 
 }  // namespace

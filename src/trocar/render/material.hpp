@@ -41,15 +41,15 @@ struct Material {
   // Serosal vessels: branching trees, projected along the rest normal.
   Vec3f vessel_colour = {0.23f, 0.03f, 0.045f};
   float vessels = 0;          ///< amount, 0..1
-  float vessel_tile = 0.04f;  ///< [m] edge of one tile of the vessel picture (largest vessel = tile / 45 wide)
+  float vessel_tile = 0.04f;  ///< [m] edge of one tile of the vessel picture (largest vessel = tile / 85 wide)
 
   // Surface and film.
-  float roughness = 0.45f;       ///< of the tissue under the film
-  float wetness = 0.8f;          ///< 0 dry .. 1 film everywhere
-  float film_roughness = 0.11f;  ///< 0.05..0.3; sharp: broken flecks, blunt: sheen
-  float film_size = 0.0022f;     ///< [m] wavelength of the film's ripples
-  float film_bump = 0.35f;       ///< how much they break highlights up
-  float fresnel = 0.026f;        ///< reflectance at normal incidence
+  float roughness = 0.45f;        ///< of the tissue under the film
+  float wetness = 0.8f;           ///< 0 dry .. 1 film everywhere
+  float film_roughness = 0.065f;  ///< 0.04..0.3; sharp: broken flecks, blunt: sheen
+  float film_size = 0.003f;       ///< [m] wavelength of the film's ripples
+  float film_bump = 0.30f;        ///< how much they break highlights up
+  float fresnel = 0.026f;         ///< reflectance at normal incidence
 
   // Light inside the tissue.
   Vec3f wrap = {0.45f, 0.18f, 0.16f};  ///< how far light wraps past the terminator, per channel (red widest)

@@ -51,6 +51,10 @@ struct Canvas {
   int size;
   std::vector<float> coverage;
 
+  float at(float x, float y) const {
+    return coverage[std::size_t(wrapped(int(std::floor(y)), size)) * size + wrapped(int(std::floor(x)), size)];
+  }
+
   /// A soft-edged disc; the darkest stroke stays.
   void dab(float x, float y, float radius, float strength, float softness) {
     const float reach = radius + softness;
@@ -65,48 +69,71 @@ struct Canvas {
 };
 
 struct Twig {
-  float x, y, heading, radius;  // texels, rad
+  float x, y, goal, radius;  // texels, the direction it strives in [rad]
+  float until_fork;          // texels
 };
 
-/// Grows one tree: a wandering walk that tapers, gives off side branches and forks.
-void grow_tree(Canvas& canvas, Twig root, float strength, float softness, float wander, core::Random& random) {
-  std::vector<Twig> tips{root};
-  constexpr float kThinnest = 0.45f;
-  while (!tips.empty()) {
-    Twig t = tips.back();
-    tips.pop_back();
-    float turn = 0;
-    const float step = std::max(0.8f, 0.7f * t.radius);
-    float until_branch = float(random.uniform(8, 40)) + 9 * t.radius;
-    while (t.radius > kThinnest) {
-      turn = 0.9f * turn + wander * float(random.uniform(-1, 1));
-      t.heading += turn * step / (1 + t.radius);
-      t.x += step * float(portable::cos(t.heading));
-      t.y += step * float(portable::sin(t.heading));
-      canvas.dab(t.x, t.y, t.radius, strength * std::min(1.0f, 0.35f + 0.25f * t.radius), softness);
-      t.radius -= 0.0016f * step;
-      until_branch -= step;
-      if (until_branch > 0) continue;
-      const float share = float(random.uniform(0.12, 0.5));  // of r^3, into the side branch
-      const float side = random.uniform() < 0.5 ? -1.0f : 1.0f;
-      const float child = t.radius * std::cbrt(share);
-      if (child > kThinnest) tips.push_back({t.x, t.y, t.heading + side * float(random.uniform(0.5, 1.2)), child});
-      t.radius *= std::cbrt(1 - share);
-      t.heading -= side * float(random.uniform(0.05, 0.35));
-      until_branch = float(random.uniform(8, 50)) + 9 * t.radius;
-    }
+/// How a kind of vessel grows.
+struct Habit {
+  int trees;
+  float thinnest, thickest;  ///< radius of a root [texels]
+  float strength, softness;  ///< of the stroke
+  float wander;              ///< how much it meanders [rad]
+};
+
+constexpr float kThinnestTwig = 0.5f;
+
+float until_fork(float radius, core::Random& random) { return float(random.uniform(10, 28)) + 11 * radius; }
+
+/// One branch from where it starts to where it thins out or meets another vessel; its forks go onto `tips`.
+/// Murray's law at each fork: r0^3 = r1^3 + r2^3.
+void grow_branch(Canvas& canvas, Twig t, bool is_root, const Habit& habit, std::vector<Twig>& tips,
+                 core::Random& random) {
+  float meander = 0, bend = 0, age = 0;
+  float side = random.uniform() < 0.5 ? -1.0f : 1.0f;
+  const float born_radius = t.radius;
+  while (t.radius > kThinnestTwig) {
+    const float step = std::max(0.7f, 0.4f * t.radius);
+    // The heading swings about the goal (a damped, randomly pushed swing), and the goal itself drifts.
+    const float reach = 5 + 5 * t.radius;
+    bend += (step / reach) * (-1.6f * bend - 1.2f * meander + 2.6f * habit.wander * float(random.uniform(-1, 1)));
+    meander += (step / reach) * bend * 2;
+    t.goal += 0.05f * std::sqrt(step / reach) * float(random.uniform(-1, 1));
+    const float heading = t.goal + meander;
+    t.x += step * float(portable::cos(heading));
+    t.y += step * float(portable::sin(heading));
+    age += step;
+    const float ahead = 2.5f * t.radius + 3;
+    if (age > 3 * born_radius + 14 &&
+        canvas.at(t.x + ahead * float(portable::cos(heading)), t.y + ahead * float(portable::sin(heading))) > 0.15f)
+      return;
+    const float emerging = std::min(1.0f, 0.1f + age / (12 * born_radius));  // a root rises from the depth
+    const float tone = std::min(1.0f, 0.4f + 0.22f * t.radius) * (is_root ? emerging : 1.0f);
+    canvas.dab(t.x, t.y, t.radius * (is_root ? 0.5f + 0.5f * emerging : 1.0f), habit.strength * tone, habit.softness);
+    t.radius -= 0.0022f * step;
+    t.until_fork -= step;
+    if (t.until_fork > 0) continue;
+    const float share = float(random.uniform(0.1, 0.45));  // of r^3, into the side branch
+    const float child = t.radius * std::cbrt(share);
+    side = random.uniform() < 0.25 ? side : -side;
+    if (child > kThinnestTwig)
+      tips.push_back({t.x, t.y, t.goal + side * float(random.uniform(0.5, 1.15)), child, until_fork(child, random)});
+    t.radius *= std::cbrt(1 - share);
+    t.goal -= side * float(random.uniform(0.05, 0.3));
+    t.until_fork = until_fork(t.radius, random);
   }
 }
 
-Canvas grown(int size, int trees, float low_radius, float high_radius, float strength, float softness, float wander,
-             core::Random& random) {
-  Canvas canvas{size, std::vector<float>(std::size_t(size) * size)};
-  for (int i = 0; i < trees; ++i) {
-    const Twig root{float(random.uniform(0, size)), float(random.uniform(0, size)),
-                    float(random.uniform(0, 2 * portable::pi)), float(random.uniform(low_radius, high_radius))};
-    grow_tree(canvas, root, strength, softness, wander, random);
+void grow(Canvas& canvas, const Habit& habit, core::Random& random) {
+  std::vector<Twig> tips;
+  for (int i = 0; i < habit.trees; ++i) {
+    const float radius = float(random.uniform(habit.thinnest, habit.thickest));
+    tips.push_back({float(random.uniform(0, canvas.size)), float(random.uniform(0, canvas.size)),
+                    float(random.uniform(0, 2 * portable::pi)), radius, until_fork(radius, random)});
   }
-  return canvas;
+  // Breadth first, so that the trunks take their ground before the twigs fill what is left.
+  for (std::size_t i = 0; i < tips.size(); ++i)
+    grow_branch(canvas, Twig(tips[i]), i < std::size_t(habit.trees), habit, tips, random);
 }
 
 }  // namespace
@@ -182,11 +209,11 @@ Pattern vessel_pattern() {
   constexpr int size = 1024;
   core::Random random(0x5E55E1);
   constexpr float largest = 0.5f * size / kVesselTileWidth;
-  Canvas red = grown(size, 5, 0.3f * largest, 0.5f * largest, 1.0f, 0.8f, 0.5f, random);
-  const Canvas capillaries = grown(size, 46, 1.0f, 2.0f, 0.8f, 0.7f, 0.6f, random);
-  for (std::size_t i = 0; i < red.coverage.size(); ++i)
-    red.coverage[i] = std::max(red.coverage[i], capillaries.coverage[i]);
-  const Canvas veins = grown(size, 3, 0.6f * largest, largest, 0.9f, 3.0f, 0.35f, random);
+  Canvas red{size, std::vector<float>(std::size_t(size) * size)}, veins = red;
+  grow(red, {3, 0.6f * largest, 0.8f * largest, 1.0f, 0.8f, 1.1f}, random);
+  grow(red, {14, 1.6f, 2.6f, 0.9f, 0.75f, 1.3f}, random);
+  grow(red, {60, 0.8f, 1.3f, 0.75f, 0.7f, 1.4f}, random);
+  grow(veins, {4, 0.7f * largest, largest, 0.9f, 2.0f, 0.8f}, random);
   Pattern pattern{size, 2, std::vector<std::uint8_t>(std::size_t(2) * size * size)};
   for (std::size_t i = 0; i < red.coverage.size(); ++i) {
     pattern.texels[2 * i] = to_byte(red.coverage[i]);

@@ -16,7 +16,7 @@ struct Pattern {
 
 inline constexpr int kNoiseFeatures = 8;     ///< wavelengths per tile of noise_pattern
 inline constexpr int kCellFeatures = 8;      ///< cells per tile edge of cell_pattern
-inline constexpr int kVesselTileWidth = 45;  ///< tile edge / width of the largest vessel
+inline constexpr int kVesselTileWidth = 85;  ///< tile edge / width of the largest vessel
 
 /// 64^3, RGBA: gradient (x y z, 128 = none) and value of two octaves of value noise that tile.
 Pattern noise_pattern();

@@ -12,6 +12,7 @@ uniform vec4 u_frame[8];
 #define FOG_COLOUR u_frame[3].rgb
 #define FOG u_frame[3].w                 /* [1/m] */
 #define AMBIENT u_frame[4].x
+#define MIRRORS u_frame[4].y             /* 1 if the picture before may be used for reflections */
 
 const float kNearestLight2 = 6.0e-5;  // [m^2] the ring is no point: fall-off stops within 8 mm
 

@@ -1,4 +1,5 @@
-// Scene light to picture values, before the lens: exposure, veil, camera curve. Variant: BLOOM.
+// Scene light to picture values, before the lens: focus, contact shade, veil, exposure, camera curve. Variant: EFFECTS.
+// The scene's alpha is the distance of the nearest opaque surface [m].
 precision highp float;
 precision highp int;
 uniform sampler2D u_scene;
@@ -7,6 +8,7 @@ uniform sampler2D u_smaller;   // 1/16
 uniform sampler2D u_exposure;  // stops, one column an eye
 uniform vec4 u_camera;         // exposure on top [stops], memory column or -1, bloom, saturation
 uniform vec4 u_place;          // radius of the view in picture sizes (x, y), vignette
+uniform vec4 u_depth;          // nearest sharp distance [m], defocus, contact, picture height at 1 m [m]
 uniform vec3 u_white;
 in vec2 v_uv;
 out vec4 o_colour;
@@ -18,10 +20,20 @@ vec3 developed(vec3 x) {
 }
 
 void main() {
-  vec3 colour = texelFetch(u_scene, ivec2(gl_FragCoord.xy), 0).rgb;
-#ifdef BLOOM
-  vec3 veil = 0.6 * texture(u_small, v_uv).rgb + 0.4 * texture(u_smaller, v_uv).rgb;
-  colour = mix(colour, min(veil, vec3(8.0)), u_camera.z);
+  vec4 scene = texelFetch(u_scene, ivec2(gl_FragCoord.xy), 0);
+  vec3 colour = scene.rgb;
+#ifdef EFFECTS
+  vec4 soft = texture(u_small, v_uv);
+  vec4 softer = texture(u_smaller, v_uv);
+  float near = min(scene.a, soft.a);
+  colour = mix(colour, soft.rgb, u_depth.y * clamp(1.6 * (u_depth.x / max(near, 0.002) - 1.0), 0.0, 1.0));
+  // Depth darkening [Luft 06]: what lies just behind the mean depth around it sees less light; red stays longest.
+  float unit = scene.a * u_depth.w;  // height of the picture at this distance
+  vec2 behind = (vec2(scene.a) - vec2(soft.a, softer.a)) / (unit * vec2(0.02, 0.05));
+  behind = clamp(behind, 0.0, 1.0) * clamp(3.0 - 0.5 * behind, 0.0, 1.0);
+  float open = 1.0 - u_depth.z * max(0.7 * behind.x, behind.y);
+  colour *= vec3(open, open * open, open * open);
+  colour = mix(colour, min(0.6 * soft.rgb + 0.4 * softer.rgb, vec3(8.0)), u_camera.z);
 #endif
   float stops = u_camera.x;
   if (u_camera.y >= 0.0) stops += texelFetch(u_exposure, ivec2(int(u_camera.y), 0), 0).r;

@@ -1,6 +1,7 @@
 // Colours that were given per vertex: false-colour maps and plastic (LIT), lines and gizmos.
 #include "common.glsl"
 
+uniform float u_blended;  // 1: alpha says how opaque, 0: how far
 uniform vec4 u_tone;  // multiplies colour and alpha
 in vec3 v_eye;
 in vec3 v_normal;
@@ -20,5 +21,5 @@ void main() {
   float gloss = 0.08 * exp2(64.0 * (nh - 1.0));
   colour = colour * (LIGHT_COLOUR * lit.power * wrapped + (BOUNCE + vec3(AMBIENT)) * lit.bounce) + gloss * lit.power;
 #endif
-  o_colour = vec4(colour * alpha, alpha);
+  o_colour = vec4(mix(colour, colour * alpha, u_blended), mix(length(v_eye), alpha, u_blended));
 }

@@ -32,6 +32,10 @@ uniform vec4 u_material[14];
 #define CELL_CONTRAST u_material[10].z
 
 uniform mat4 u_model_view;
+#if SHADING != 0
+uniform mat4 u_projection;
+uniform sampler2D u_before;  // the picture before, small
+#endif
 uniform sampler3D u_noise;
 #ifdef LOBULES
 uniform sampler3D u_cells;
@@ -41,6 +45,7 @@ uniform sampler2D u_vessels;
 in vec3 v_rest_normal;
 #endif
 
+uniform float u_blended;  // 1: alpha says how opaque, 0: how far
 in vec3 v_eye;
 in vec3 v_normal;
 in vec4 v_paint;
@@ -83,6 +88,17 @@ vec2 vessels_at(vec3 p, vec3 n) {
 }
 #endif
 
+#if SHADING != 0
+// What a mirror at v_eye shows in direction r: the picture before where the ray ends up after `reach` metres, the red
+// glow of the walls where that is outside.
+vec3 mirrored(vec3 r, float reach, float bounce) {
+  vec4 clip = u_projection * vec4(v_eye + reach * r, 1.0);
+  vec2 at = clip.xy / max(clip.w, 0.001);
+  float inside = MIRRORS * step(0.0, clip.w) * clamp(4.0 - 4.5 * max(abs(at.x), abs(at.y)), 0.0, 1.0);
+  return mix(BOUNCE * bounce, min(texture(u_before, 0.5 + 0.5 * at).rgb, vec3(4.0)), inside);
+}
+#endif
+
 void main() {
   vec3 V = normalize(-v_eye);
   vec3 N = normalize(v_normal);
@@ -114,18 +130,19 @@ void main() {
   float ao = OPENNESS;
   float mirror = 0.35 + 0.65 * (1.0 - nv);
   float lobes = lobe(nh, ROUGH2) * streak + 0.3 * lobe(nh, 0.35);
-  vec3 light = LIGHT_COLOUR * lit.power * ao * (0.34 * nl + 0.18 * lobes);
-  light += (BOUNCE * 1.7 * mirror + vec3(AMBIENT)) * (lit.bounce * ao);
+  vec3 light = LIGHT_COLOUR * lit.power * ao * (0.30 * nl + 0.18 * lobes);
+  light += mirrored(reflect(-V, n), 0.02, lit.bounce) * (0.55 * mirror * ao) + vec3(AMBIENT) * (lit.bounce * ao);
   vec3 colour = grey * light;
 #ifdef FOGGY
   colour = through_air(colour, v_eye);
 #endif
-  o_colour = vec4(colour, 1.0);
+  o_colour = vec4(colour, length(v_eye));
 #else
   vec3 albedo = mix(COLOUR_A, COLOUR_B, MOTTLE * smoothstep(0.3, 0.7, broad.a));
   albedo = mix(albedo, COLOUR_C, MOTTLE * smoothstep(0.5, 0.85, fine.a));
   float tint = v_paint.w;
   albedo = mix(albedo, TINT, tint);
+  albedo *= 1.0 + vec3(0.0, 0.10, -0.16) * (broad.g - 0.5) * 2.0;  // towards yellow here, mauve there
   vec3 relief = BUMP * slope;
 
 #ifdef LOBULES
@@ -175,7 +192,8 @@ void main() {
   // The film on top has its own ripples; it is broken where the tissue is dry.
 #if DETAIL >= 1
   vec4 ripple = texture(u_noise, kTurn * p.zxy * FILM_SCALE);
-  vec3 film_slope = (ripple.rgb * 2.0 - 1.0) * FILM_BUMP;
+  // Smooth sheets of film here, wrinkled and bubbly there.
+  vec3 film_slope = (ripple.rgb * 2.0 - 1.0) * (FILM_BUMP * (0.35 + 1.3 * smoothstep(0.45, 0.75, broad.b)));
   float wet_noise = 0.5 * (ripple.a + broad.b);
 #else
   vec3 film_slope = slope * FILM_BUMP;
@@ -192,13 +210,18 @@ void main() {
   float mh = clamp(dot(m, H), 0.0, 1.0), nh = clamp(dot(n, H), 0.0, 1.0);
   float gloss = 0.25 * FRESNEL * (wet * lobe(mh, FILM2) + (0.35 + 0.65 * wet) * lobe(nh, ROUGH2)) * facing * lit.power;
   float grazing = FRESNEL + (1.0 - FRESNEL) * rim * rim * (1.0 - nv);
-  vec3 shine = LIGHT_COLOUR * gloss + (BOUNCE * 1.5 + vec3(AMBIENT) * 0.5) * (grazing * wet * lit.bounce * open);
+#if SHADING == 2
+  vec3 around = mirrored(reflect(-V, m), 0.03, lit.bounce);
+#else
+  vec3 around = (BOUNCE * 1.5 + vec3(AMBIENT) * 0.5) * lit.bounce;
+#endif
+  vec3 shine = LIGHT_COLOUR * gloss + around * (grazing * wet * open);
 
 #if SHADING == 2
   float opaque = 1.0 - exp(-DENSITY * (0.25 + 4.0 * tint));
   float alpha = mix(opaque, 1.0, 0.6 * rim);
 #else
-  float alpha = mix(ALPHA, RIM_ALPHA, rim);
+  float alpha = mix(1.0, mix(ALPHA, RIM_ALPHA, rim), u_blended);
 #ifdef STAINED
   alpha = max(alpha, smoothstep(0.0, 0.5, max(blood, BURN)) * step(0.001, ALPHA));
 #endif
@@ -207,6 +230,6 @@ void main() {
   colour = through_air(colour, v_eye);
   shine *= exp(-FOG * length(v_eye));
 #endif
-  o_colour = vec4(colour * alpha + shine, alpha);
+  o_colour = vec4(colour * alpha + shine, mix(length(v_eye), alpha, u_blended));
 #endif
 }
