@@ -16,14 +16,6 @@ void push(std::vector<double>& rhs, int node, Vec3d impulse) {
 }
 Vec3d at(const std::vector<double>& a, int node) { return {a[3 * node], a[3 * node + 1], a[3 * node + 2]}; }
 
-/// The smallest rotation that takes the unit vector a to the unit vector b, applied to r. Fades out where b is nearly
-/// -a, where no smallest rotation is.
-Vec3d turned(Vec3d a, Vec3d b, Vec3d r) {
-  const Vec3d w = cross(a, b);
-  const double c = 1 + dot(a, b);
-  return r + cross(w, r) + (1 / (c > 0.05 ? c : 0.05)) * cross(w, cross(w, r));
-}
-
 /// Masses, weight, drag against space.
 void add_inertia(const StrandModel& m, const StrandState& s, StrandWork& w) {
   const double dt = m.tick, one[1] = {1};
@@ -58,20 +50,85 @@ bool bends(const StrandState& s, int i) { return s.alive[i - 1] && s.alive[i]; }
 double bend_stiffness(const StrandModel& m, const StrandState& s, int i) {
   return m.bend[i] * 0.5 * (s.scale[i - 1] + s.scale[i]);
 }
+/// The node nearest to `first` in [first, last] that is prescribed: its place among the prescribed nodes, or -1.
+int holder_in(const StrandModel& m, int first, int last) {
+  for (std::size_t k = 0; k < m.prescribed_nodes.size(); ++k)
+    if (m.prescribed_nodes[k] >= first && m.prescribed_nodes[k] <= last) return int(k);
+  return -1;
+}
+
+Vec3d direction(const StrandModel& m, const StrandState& s, int i) {
+  return chain_direction(s.x, i, m.tangent_rest[i]);
+}
+
+/// Drawn bend of node i in the frame of direction t and director d.
+Vec3d bend_in_frame(const StrandModel& m, int i, Vec3d t, Vec3d d) {
+  const Vec3d b = m.bend_rest[i], r = m.director_rest[i];
+  return dot(b, r) * d + dot(b, cross(m.tangent_rest[i], r)) * cross(t, d);
+}
+
+/// bend[i] = R_i b_i for the inner nodes of one connected piece, first .. last (nodes). Directors go without twist from
+/// the held node outwards; in a loose piece from its first node, then all spin by the one angle that brings the bends
+/// closest to what they are.
+void turn_bends(const StrandModel& m, const StrandState& s, std::span<const StrandEnd> ends, int first, int last,
+                std::vector<Vec3d>& bend) {
+  if (last - first < 2) return;
+  const int k = holder_in(m, first, last);
+  const int held = k < 0 ? first : m.prescribed_nodes[k];
+  const int base = held < first + 1 ? first + 1 : (held > last - 1 ? last - 1 : held);
+  Vec3d drawn_t = m.tangent_rest[base], drawn_d = m.director_rest[base];
+  if (k >= 0 && !ends.empty() && ends[k].turned) drawn_t = ends[k].turn * drawn_t, drawn_d = ends[k].turn * drawn_d;
+  const Vec3d base_t = direction(m, s, base), base_d = carried(drawn_t, base_t, drawn_d);
+
+  double aligned = 0, across_it = 0;
+  const auto visit = [&](int i, Vec3d t, Vec3d d) {
+    bend[i] = bend_in_frame(m, i, t, d);
+    const Vec3d now = bend_stiffness(m, s, i) * second_difference(s.x, i);
+    aligned += dot(now, bend[i]);
+    across_it += dot(now, cross(t, bend[i]));
+  };
+  visit(base, base_t, base_d);
+  for (int step : {1, -1}) {
+    Vec3d t = base_t, d = base_d;
+    for (int i = base + step; i > first && i < last; i += step) {
+      const Vec3d next = direction(m, s, i);
+      d = carried(t, next, d);
+      t = next;
+      visit(i, t, d);
+    }
+  }
+  const double size = std::sqrt(aligned * aligned + across_it * across_it);
+  if (k >= 0 || !(size > 1e-18)) return;
+  for (int i = first + 1; i < last; ++i)
+    bend[i] = (aligned / size) * bend[i] + (across_it / size) * cross(direction(m, s, i), bend[i]);
+}
+
+void turn_all_bends(const StrandModel& m, const StrandState& s, std::span<const StrandEnd> ends,
+                    std::vector<Vec3d>& bend) {
+  for (Vec3d& b : bend) b = {};
+  for (int first = 0; first < m.nodes;) {
+    int last = first;
+    while (last + 1 < m.nodes && s.alive[last]) ++last;
+    turn_bends(m, s, ends, first, last, bend);
+    first = last + 1;
+  }
+}
+
 /// What the bend at node i differs from its rest by, across the chain.
-Vec3d bend_error(const StrandModel& m, const StrandState& s, int i, Vec3d t) {
-  const Vec3d q = second_difference(s.x, i) - turned(m.tangent_rest[i], t, m.bend_rest[i]);
+Vec3d bend_error(const StrandState& s, int i, Vec3d t, Vec3d bend) {
+  const Vec3d q = second_difference(s.x, i) - bend;
   return q - dot(q, t) * t;
 }
 
-void add_bending(const StrandModel& m, const StrandState& s, StrandWork& w) {
+void add_bending(const StrandModel& m, const StrandState& s, std::span<const StrandEnd> ends, StrandWork& w) {
   const double dt = m.tick;
+  turn_all_bends(m, s, ends, w.bend_now);
   for (int i = 1; i + 1 < m.nodes; ++i) {
     if (!bends(s, i)) continue;
-    const Vec3d t = chain_direction(s.x, i, m.tangent_rest[i]);
+    const Vec3d t = direction(m, s, i);
     const double k = bend_stiffness(m, s, i);
     add_term(w.matrix, i - 1, kBendStencil, 3, across(k * (dt * dt + dt * m.damping_time), t));
-    const Vec3d impulse = (-dt * k) * bend_error(m, s, i, t);
+    const Vec3d impulse = (-dt * k) * bend_error(s, i, t, w.bend_now[i]);
     for (int j = 0; j < 3; ++j) push(w.rhs, i - 1 + j, kBendStencil[j] * impulse);
   }
 }
@@ -175,7 +232,7 @@ StepReport advance(const StrandModel& m, std::span<const StrandEnd> ends, std::s
   for (double& a : w.rhs) a = 0;
   add_inertia(m, s, w);
   add_stretch(m, s, w);
-  add_bending(m, s, w);
+  add_bending(m, s, ends, w);
   add_foundation(m, s, w);
   StepReport report = add_loads(m, loads, s, w);
 
@@ -211,7 +268,7 @@ double element_strain(const StrandModel& m, const StrandState& s, int e) noexcep
   return s.alive[e] ? length(s.x[e + 1] - s.x[e]) / m.rest_length[e] - 1 : 0;
 }
 
-StrandEnergy energy(const StrandModel& m, const StrandState& s) noexcept {
+StrandEnergy energy(const StrandModel& m, const StrandState& s) {
   StrandEnergy total;
   for (int i = 0; i < m.nodes; ++i) {
     total.kinetic += 0.5 * m.mass[i] * dot(s.v[i], s.v[i]);
@@ -223,9 +280,11 @@ StrandEnergy energy(const StrandModel& m, const StrandState& s) noexcept {
   for (int e = 0; e + 1 < m.nodes; ++e)
     if (s.alive[e])
       total.stretch += m.stretch[e] * s.scale[e] * m.rest_length[e] * m.law.energy(element_strain(m, s, e));
+  std::vector<Vec3d> bend(m.nodes);
+  turn_all_bends(m, s, {}, bend);
   for (int i = 1; i + 1 < m.nodes; ++i) {
     if (!bends(s, i)) continue;
-    const Vec3d q = bend_error(m, s, i, chain_direction(s.x, i, m.tangent_rest[i]));
+    const Vec3d q = bend_error(s, i, direction(m, s, i), bend[i]);
     total.bending += 0.5 * bend_stiffness(m, s, i) * dot(q, q);
   }
   return total;
@@ -248,6 +307,7 @@ void add_to_hash(core::Hasher& h, const StrandModel& m) noexcept {
   h.add(m.bend);
   h.add(m.bend_rest);
   h.add(m.tangent_rest);
+  h.add(m.director_rest);
   h.add(m.foundation);
   h.add(m.foundation_point);
   h.add(m.stiffening);

@@ -3,9 +3,10 @@
 // an explicit network would need tens of sub-steps.
 //
 //   stretch     element e: tension EA law(strain), law of [KCM99 eq.5], A = pi (R^2 - r^2) of that element
-//   bending     node i: (EI / l^3) |P (x_{i-1} - 2 x_i + x_{i+1} - R_i b_i)|^2 / 2, b_i as drawn, R_i the smallest
-//               rotation that takes the drawn direction of the chain at i to the present one, P across that direction
-//               (both lagged by a tick)
+//   bending     node i: (EI / l^3) |P (x_{i-1} - 2 x_i + x_{i+1} - R_i b_i)|^2 / 2, b_i as drawn, P across the chain;
+//               the turns R_i follow from one another without twist along the chain, as drawn and as it is (Bishop
+//               frames), from a node that is held; a loose piece takes the spin that suits it best. P and R_i are
+//               those at the start of the tick. Torsion has no stiffness of its own.
 //   foundation  node i: k_i u (1 + c |u|^2), u = x_i - x0_i: what the sheet that carries the strand does
 //   damping     along elements and in bending, stiffness times a time; against space gamma
 //   gravity     the drawn shape is the equilibrium: the linear strand's answer to its weight is put into rest lengths,
@@ -61,6 +62,7 @@ struct StrandModel {
   std::vector<double> bend;              ///< (n) EI / l^3 [N/m], 0 at the ends
   std::vector<Vec3d> bend_rest;          ///< (n) b_i [m], in the drawn frame
   std::vector<Vec3d> tangent_rest;       ///< (n) drawn direction of the chain
+  std::vector<Vec3d> director_rest;      ///< (n) unit, across it, without twist along the chain
   std::vector<double> foundation;        ///< (n) [N/m]
   std::vector<Vec3d> foundation_point;   ///< (n) x0_i [m]
   double stiffening = 0;                 ///< [1/m^2]
@@ -84,12 +86,16 @@ struct StrandWork {
   std::vector<double> rhs;      ///< (3n) right side, then the new velocities
   std::vector<double> force;    ///< (3n) the right side before nodes were prescribed [N s]
   std::vector<double> columns;  ///< (3n x 3) for the tangents at prescribed nodes
+  std::vector<Vec3d> bend_now;  ///< (n) R_i b_i
 };
 
 /// Where a prescribed node is at the end of this tick.
 struct StrandEnd {
-  Vec3d x{0, 0, 0};  ///< [m]
-  Vec3d v{0, 0, 0};  ///< [m/s]
+  Vec3d x{0, 0, 0};                ///< [m]
+  Vec3d v{0, 0, 0};                ///< [m/s]
+  bool turned = false;             ///< the holder says how it has turned since the strand was drawn
+  Mat3d turn = Mat3d::identity();  ///< that rotation; used at the first prescribed node of a connected piece, so that
+                                   ///< a bent strand follows its holder's spin
 };
 
 /// A force at the point (1 - w) x_e + w x_{e+1} during one tick, implicit: f0 - k P (x - x0) - d P v, P as in NodeLoad.
@@ -133,7 +139,8 @@ struct StrandEnergy {
   double kinetic = 0, stretch = 0, bending = 0, foundation = 0, gravity = 0;
   double total() const { return kinetic + stretch + bending + foundation + gravity; }
 };
-StrandEnergy energy(const StrandModel& model, const StrandState& state) noexcept;
+/// For tests and reports (allocates). Bends are turned as without `StrandEnd::turn`.
+StrandEnergy energy(const StrandModel& model, const StrandState& state);
 
 void add_to_hash(core::Hasher& hasher, const StrandState& state) noexcept;
 void add_to_hash(core::Hasher& hasher, const StrandModel& model) noexcept;

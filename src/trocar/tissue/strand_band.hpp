@@ -45,6 +45,19 @@ inline Vec3d chain_direction(const std::vector<Vec3d>& x, int i, Vec3d fallback)
   return normalised(x[i + 1] - x[i - 1], fallback);
 }
 
+/// The smallest rotation that takes the unit vector a to the unit vector b, applied to r. Fades out where b is nearly
+/// -a, where no smallest rotation is.
+inline Vec3d turned(Vec3d a, Vec3d b, Vec3d r) {
+  const Vec3d w = cross(a, b);
+  const double c = 1 + dot(a, b);
+  return r + cross(w, r) + (1 / (c > 0.05 ? c : 0.05)) * cross(w, cross(w, r));
+}
+/// A director across a, carried without twist to one across b; unit.
+inline Vec3d carried(Vec3d a, Vec3d b, Vec3d director) {
+  const Vec3d d = turned(a, b, director);
+  return normalised(d - dot(d, b) * b, any_perpendicular(b));
+}
+
 inline void add_term(std::vector<double>& a, int first, const double* c, int count, const Sym3& s) {
   for (int p = 0; p < count; ++p) {
     for (int q = 0; q <= p; ++q) {

@@ -65,6 +65,10 @@ void fill_shape(StrandModel& m) {
     m.bend_rest[i] = second_difference(m.rest, i);
     m.tangent_rest[i] = chain_direction(m.rest, i, {1, 0, 0});
   }
+  m.director_rest.assign(m.nodes, {0, 1, 0});
+  m.director_rest[1] = any_perpendicular(m.tangent_rest[1]);
+  for (int i = 2; i + 1 < m.nodes; ++i)
+    m.director_rest[i] = carried(m.tangent_rest[i - 1], m.tangent_rest[i], m.director_rest[i - 1]);
 }
 
 /// Puts the linear strand's answer u to gravity into the rest shape: K u = f means that these tensions, bends and
@@ -160,6 +164,7 @@ StrandWork make_work(const StrandModel& m) {
   w.saved.resize(w.matrix.size());
   w.rhs.resize(rows);
   w.force.resize(rows);
+  w.bend_now.resize(m.nodes);
   w.columns.resize(std::size_t(rows) * 3);
   return w;
 }
