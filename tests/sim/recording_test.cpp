@@ -38,6 +38,7 @@ Bytes bytes_of(const fs::path& path) {
 }
 
 void write_bytes(const fs::path& path, const Bytes& bytes) {
+  fs::remove(path);  // a new file: some file systems wait for the disk when an old one is overwritten
   std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
