@@ -1,0 +1,203 @@
+// What a spring costs: ns per spring and sub-step of the network, by body size, mesh and instruction set, and the same
+// mesh as a Bullet soft body in the same run ("times_ours": how many times longer Bullet takes per link and iteration).
+// The minimum over all rounds is what is reported: other work on the machine only ever adds.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <string>
+
+#include <benchmark/benchmark.h>
+
+#include <trocar/core/parallel.hpp>
+#include <trocar/tissue/lattice_springs.hpp>
+#include <trocar/tissue/network.hpp>
+#include <trocar/tissue/strand.hpp>
+
+#ifdef TROCAR_BULLET
+#include <BulletSoftBody/btSoftBody.h>
+#endif
+
+namespace {
+
+using namespace trocar;
+using namespace trocar::tissue;
+
+/// A cube of n^3 nodes joined by the edges of six tetrahedra a cell: about seven springs a node.
+NetworkDescription tetrahedral_cube(int n) {
+  NetworkDescription d;
+  const double h = 0.005;
+  const auto id = [n](int i, int j, int k) { return i + n * (j + n * k); };
+  for (int k = 0; k < n; ++k)
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) d.positions.push_back({i * h, j * h, k * h});
+  const int step[7][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
+  for (int k = 0; k < n; ++k)
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i)
+        for (const auto& s : step) {
+          if (i + s[0] >= n || j + s[1] >= n || k + s[2] >= n) continue;
+          const int a = id(i, j, k), b = id(i + s[0], j + s[1], k + s[2]);
+          d.springs.push_back({.a = a,
+                               .b = b,
+                               .rest_length = length(d.positions[b] - d.positions[a]),
+                               .k = 10,
+                               .p1 = 2,
+                               .p2 = 20,
+                               .cap = 0.3,
+                               .damping = 0.005});
+        }
+  d.mass.assign(d.positions.size(), 1050 * h * h * h);
+  d.fixed.assign(d.positions.size(), kFree);
+  for (int i = 0; i < n * n; ++i) d.fixed[i] = kHeld;
+  d.gravity = {0, 0, -9.81};
+  return d;
+}
+
+double seconds_now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Fastest of `rounds` calls [s].
+template <class F>
+double fastest(int rounds, F&& call) {
+  double best = 1e9;
+  for (int i = 0; i < rounds; ++i) {
+    const double start = seconds_now();
+    call();
+    best = std::min(best, seconds_now() - start);
+  }
+  return best;
+}
+
+struct Body {
+  NetworkModel model;
+  NetworkState state;
+  NetworkWork work;
+  explicit Body(const NetworkDescription& d) : model(build(d, 1e-3)), state(rest_state(model)), work(make_work(model)) {
+    for (int i = 0; i < 20; ++i) advance(model, {}, {}, state, work);
+  }
+  double ns_per_spring(double seconds) const { return 1e9 * seconds / (double(model.springs) * model.substeps); }
+};
+
+void network(benchmark::State& bench, const std::string& simd, int n, int threads) {
+  const std::string before = simd_name();
+  if (!set_simd(simd)) {
+    bench.SkipWithError("this machine does not run it");
+    return;
+  }
+  Body body(tetrahedral_cube(n));
+  core::ThreadPool pool(threads);
+  double best = 1e9;
+  for (auto _ : bench) {
+    const double start = seconds_now();
+    advance(body.model, {}, {}, body.state, body.work, threads > 1 ? &pool : nullptr);
+    best = std::min(best, seconds_now() - start);
+  }
+  bench.counters["nodes"] = body.model.nodes;
+  bench.counters["springs"] = body.model.springs;
+  bench.counters["substeps"] = body.model.substeps;
+  bench.counters["ns_per_spring"] = body.ns_per_spring(best);
+  set_simd(before);
+}
+
+/// A liver-like lattice with its cells protected, as organs are compiled: everything a tick costs.
+void organ(benchmark::State& bench, int cells) {
+  const BoxLattice box = box_lattice(cells, cells, cells, 0.005);
+  LatticeNetwork lattice = lattice_network(
+      box.corners, box.cells, {},
+      {.youngs_modulus = 5.4e3, .density = 1060, .p1 = 2, .p2 = 100, .cap = 0.35, .damping_time = 4e-4});
+  for (int i = 0; i < (cells + 1) * (cells + 1); ++i) lattice.network.fixed[i] = kHeld;
+  Body body(lattice.network);
+  double best = 1e9;
+  for (auto _ : bench) {
+    const double start = seconds_now();
+    advance(body.model, {}, {}, body.state, body.work);
+    best = std::min(best, seconds_now() - start);
+  }
+  bench.counters["nodes"] = body.model.nodes;
+  bench.counters["springs"] = body.model.springs;
+  bench.counters["substeps"] = body.model.substeps;
+  bench.counters["us_per_tick"] = 1e6 * best;
+  bench.counters["ns_per_spring"] = body.ns_per_spring(best);
+}
+
+void strand(benchmark::State& bench) {
+  const int n = int(bench.range(0));
+  StrandDescription d;
+  for (int i = 0; i < n; ++i) d.positions.push_back({0.1 * i / (n - 1), 0.01 * std::sin(3.0 * i / n), 0});
+  d.radius.assign(n - 1, 0.003);
+  d.youngs_modulus = 60e3;
+  d.law = {4, 40, 0.8};
+  d.density = 1050;
+  d.foundation.assign(n, 0.4);
+  d.gravity = {0, 0, -9.81};
+  d.prescribed.assign(n, 0);
+  d.prescribed[0] = d.prescribed[1] = 1;
+  const StrandModel m = build(d, 1e-3);
+  StrandState s = rest_state(m);
+  StrandWork w = make_work(m);
+  std::vector<StrandReaction> ends(2);
+  for (auto _ : bench) advance(m, {}, {}, ends, {}, s, w);
+}
+
+#ifdef TROCAR_BULLET
+void beside_bullet(benchmark::State& bench) {
+  const NetworkDescription d = tetrahedral_cube(22);
+  Body body(d);
+
+  btSoftBodyWorldInfo info;
+  info.m_gravity.setValue(0, 0, btScalar(-9.81));
+  info.m_sparsesdf.Initialize();
+  std::vector<btVector3> x;
+  std::vector<btScalar> mass;
+  for (std::size_t i = 0; i < d.positions.size(); ++i) {
+    x.emplace_back(btScalar(d.positions[i].x), btScalar(d.positions[i].y), btScalar(d.positions[i].z));
+    mass.push_back(d.fixed[i] == kHeld ? btScalar(0) : btScalar(d.mass[i]));
+  }
+  btSoftBody soft(&info, int(x.size()), x.data(), mass.data());
+  for (const auto& e : d.springs) soft.appendLink(e.a, e.b);
+  soft.m_cfg.piterations = 1;
+  soft.m_cfg.collisions = 0;
+  soft.updateLinkConstants();
+
+  double ours = 1e9, links = 1e9, step = 1e9;
+  for (auto _ : bench) {  // turn by turn, so that both see the same machine
+    ours = std::min(ours, fastest(5, [&] { advance(body.model, {}, {}, body.state, body.work); }));
+    step = std::min(step, fastest(3, [&] {
+                      soft.predictMotion(btScalar(1e-3));
+                      soft.solveConstraints();
+                      soft.integrateMotion();
+                    }));
+    links = std::min(links, fastest(5, [&] { btSoftBody::PSolve_Links(&soft, 1, 0); }));
+  }
+  const double per_link = 1e9 * links / double(d.springs.size());
+  const double per_step = 1e9 * step / double(d.springs.size());
+  bench.counters["ours_ns"] = body.ns_per_spring(ours);
+  bench.counters["bullet_link_ns"] = per_link;
+  bench.counters["bullet_step_ns"] = per_step;
+  bench.counters["times_ours"] = per_link / body.ns_per_spring(ours);
+  bench.counters["step_times_ours"] = per_step / body.ns_per_spring(ours);
+}
+BENCHMARK(beside_bullet)->Iterations(50)->Unit(benchmark::kMicrosecond);
+#endif
+
+const int registered = [] {
+  for (const char* simd : {"generic", "sse2", "avx2", "avx512"}) {
+    for (int n : {10, 22, 46}) {
+      benchmark::RegisterBenchmark(("network/" + std::string(simd) + "/" + std::to_string(n * n * n)).c_str(),
+                                   [simd, n](benchmark::State& s) { network(s, simd, n, 1); })
+          ->Unit(benchmark::kMicrosecond);
+    }
+  }
+  benchmark::RegisterBenchmark("network/best/10648/threads:2",
+                               [](benchmark::State& s) { network(s, simd_name(), 22, 2); })
+      ->UseRealTime()
+      ->Unit(benchmark::kMicrosecond);
+  return 0;
+}();
+
+}  // namespace
+
+BENCHMARK_CAPTURE(organ, cells12, 12)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(organ, cells21, 21)->Unit(benchmark::kMicrosecond);
+BENCHMARK(strand)->Arg(20)->Arg(40)->Arg(80)->Unit(benchmark::kMicrosecond);
