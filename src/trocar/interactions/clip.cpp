@@ -13,6 +13,11 @@ constexpr double kShut = 0.04;        // aperture at which the clip is set
 constexpr double kClipStiffness = 6;  // of a clipped element, times its own: titanium holds it straight
 constexpr double kTick = 1e-3;        // [s]
 
+/// The clip sits at the end of the jaws; its bend is this far from a point `along` from the pivot.
+double from_bend(const ToolModel& model, double along) noexcept {
+  return along - (model.jaw_length - model.clip_length);
+}
+
 struct Catch {
   int strand = -1;
   StrandPlace place;
@@ -30,7 +35,7 @@ Catch caught(const ToolModel& model, const ToolShape& shape, const TissueView& v
       const BetweenJaws where = between_jaws(model, shape, body, view.strand_states[s], e);
       if (!where.inside) continue;
       const double off = std::fabs(where.local.y);
-      const double cover = leg_cover(where.local.z, body.model.radius[size_t(e)], model.clip_length);
+      const double cover = leg_cover(from_bend(model, where.local.z), body.model.radius[size_t(e)], model.clip_length);
       if (cover <= 0 || off >= nearest) continue;
       nearest = off;
       best = {int(s), {e, where.w}, where.local, cover};
@@ -80,7 +85,7 @@ bool update_clip_applier(const ToolModel& model, const ToolShape& shape, int too
   clip.s = arc_at(body, c.place);
   clip.cover = c.cover;
   clip.theta = portable::acos(std::min(1.0, std::fabs(dot(shape.frame.normal(), frame.tangent))));
-  clip.reach = c.local.z;
+  clip.reach = from_bend(model, c.local.z);
   store(clip.opening, shape.frame.opening(), frame);
   store(clip.axis, shape.frame.axis(), frame);
   strand_states[size_t(c.strand)].scale[size_t(c.place.element)] = kClipStiffness;

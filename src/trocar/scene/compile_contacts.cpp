@@ -1,0 +1,134 @@
+#include <algorithm>
+
+#include <trocar/collision/segments.hpp>
+#include <trocar/scene/compile_contacts.hpp>
+
+namespace trocar::scene {
+namespace {
+
+constexpr double kReach = 0.045;    // [m] farther apart than this as drawn, two bodies are not tested
+constexpr double kRoot = 0.008;     // [m] of a strand next to its host that takes no part in contact with it
+constexpr int kSolidSamples = 160;  // skin vertices of an organ that are tested against its neighbours
+
+/// Poses of all surfaces as drawn.
+struct Drawn {
+  std::vector<tissue::SkinPose> pose;
+  std::vector<interactions::Surface> surface;
+};
+
+Drawn draw(const sim::Model& model) {
+  Drawn d;
+  d.pose.reserve(size_t(model.surfaces()));
+  for (const sim::SolidModel& s : model.solids) {
+    tissue::SkinPose pose = tissue::make_pose(s.skin);
+    tissue::pose_skin(s.network, s.skin, tissue::rest_state(s.network), pose);
+    d.pose.push_back(std::move(pose));
+  }
+  for (const sim::WallModel& w : model.walls) d.pose.push_back(w.pose);
+  for (size_t i = 0; i < d.pose.size(); ++i) {
+    const bool solid = i < model.solids.size();
+    d.surface.push_back({solid ? &model.solids[i].skin : &model.walls[i - model.solids.size()].skin, &d.pose[i],
+                         solid ? &model.solids[i].network : nullptr, nullptr});
+  }
+  return d;
+}
+
+/// Adds a sample with its start vertex and its overlap as drawn.
+void add_sample(interactions::SurfacePair& pair, const interactions::Surface& surface, int sample, Vec3d p,
+                double radius, std::vector<std::int32_t>& nearest) {
+  const int vertex = interactions::nearest_vertex(surface, p);
+  const interactions::Clearance c = interactions::clearance_at(surface, vertex, p);
+  pair.sample.push_back(sample);
+  pair.radius.push_back(float(radius));
+  pair.overlap.push_back(float(std::max(0.0, radius - c.distance)));
+  nearest.push_back(vertex);
+}
+
+bool rooted(const sim::StrandEndModel& end, int surface) {
+  return end.kind == sim::StrandEndModel::hosted && end.solid == surface;
+}
+
+void pair_strand(sim::Model& model, const Drawn& drawn, int strand, int surface) {
+  const interactions::StrandBody& body = model.bodies[size_t(strand)];
+  const sim::StrandModel& names = model.strands[size_t(strand)];
+  const interactions::Surface& s = drawn.surface[size_t(surface)];
+  interactions::SurfacePair pair;
+  pair.strand = strand;
+  pair.surface = surface;
+  std::vector<std::int32_t> nearest;
+  for (int n = 0; n < body.nodes(); ++n) {
+    const double arc = body.arc[size_t(n)];
+    if (body.model.prescribed[size_t(n)]) continue;
+    if (rooted(names.start, surface) && arc < kRoot) continue;
+    if (rooted(names.end, surface) && body.length() - arc < kRoot) continue;
+    const Vec3d p = body.model.rest[size_t(n)];
+    if (!s.pose->bounds.reaches(p, kReach)) continue;
+    add_sample(pair, s, n, p, names.outer[size_t(n)], nearest);
+  }
+  if (pair.sample.empty()) return;
+  model.surface_pairs.push_back(std::move(pair));
+  model.nearest_at_start.insert(model.nearest_at_start.end(), nearest.begin(), nearest.end());
+}
+
+void pair_solid(sim::Model& model, const Drawn& drawn, int solid, int surface) {
+  const interactions::Surface& samples = drawn.surface[size_t(solid)];
+  const interactions::Surface& s = drawn.surface[size_t(surface)];
+  if (!s.pose->bounds.near_box(samples.pose->bounds, float(kReach) * 0.5f)) return;
+  interactions::SurfacePair pair;
+  pair.solid = solid;
+  pair.surface = surface;
+  std::vector<std::int32_t> nearest;
+  const int n = samples.skin->size(), stride = std::max(1, n / kSolidSamples);
+  for (int v = 0; v < n; v += stride) {
+    const Vec3d p = samples.position(v);
+    if (!s.pose->bounds.reaches(p, kReach * 0.5)) continue;
+    add_sample(pair, s, v, p, 0.0, nearest);
+  }
+  if (pair.sample.empty()) return;
+  model.surface_pairs.push_back(std::move(pair));
+  model.nearest_at_start.insert(model.nearest_at_start.end(), nearest.begin(), nearest.end());
+}
+
+void pair_strands(sim::Model& model, int a, int b) {
+  const interactions::StrandBody &first = model.bodies[size_t(a)], &second = model.bodies[size_t(b)];
+  interactions::StrandPair pair;
+  pair.a = a;
+  pair.b = b;
+  std::vector<std::int32_t> nearest;
+  double closest = 1e9;
+  for (int i = 0; i + 1 < first.nodes(); ++i) {
+    double least = 1e9, overlap = 0;
+    std::int32_t at = 0;
+    for (int j = 0; j + 1 < second.nodes(); ++j) {
+      const collision::SegmentPair p =
+          collision::nearest_segments(first.model.rest[size_t(i)], first.model.rest[size_t(i) + 1],
+                                      second.model.rest[size_t(j)], second.model.rest[size_t(j) + 1]);
+      if (p.distance >= least) continue;
+      least = p.distance;
+      at = j;
+      overlap = std::max(0.0, first.model.radius[size_t(i)] + second.model.radius[size_t(j)] - p.distance);
+    }
+    closest = std::min(closest, least);
+    pair.overlap.push_back(float(overlap));
+    nearest.push_back(at);
+  }
+  if (closest > kReach) return;
+  model.strand_pairs.push_back(std::move(pair));
+  model.nearest_at_start.insert(model.nearest_at_start.end(), nearest.begin(), nearest.end());
+}
+
+}  // namespace
+
+void compile_contacts(sim::Model& model) {
+  const Drawn drawn = draw(model);
+  const int solids = int(model.solids.size()), strands = int(model.strands.size());
+  for (int i = 0; i < strands; ++i)
+    for (int s = 0; s < model.surfaces(); ++s) pair_strand(model, drawn, i, s);
+  for (int i = 0; i < solids; ++i)
+    for (int s = 0; s < model.surfaces(); ++s)
+      if (s >= solids || s < i) pair_solid(model, drawn, i, s);
+  for (int a = 0; a < strands; ++a)
+    for (int b = a + 1; b < strands; ++b) pair_strands(model, a, b);
+}
+
+}  // namespace trocar::scene
