@@ -12,8 +12,9 @@ namespace {
 
 constexpr int kMaxThreads = 64;
 
-// The calling thread looks this often for the last worker before it sleeps: a stage of the step takes 10 to 100 us,
-// a sleep and a wake-up about 10 us each. Not longer, because the worker may be waiting for this very core.
+// Threads look this often for what they wait for before they sleep: the stages of a tick follow each other within a
+// few microseconds, a sleep and a wake-up cost about ten each. Not longer, because the awaited thread may need this
+// core.
 constexpr int kSpins = 2000;
 
 }  // namespace
@@ -47,6 +48,7 @@ struct ThreadPool::Impl {
   void work(int slot) noexcept {
     std::uint32_t seen = 0;
     for (;;) {
+      for (int spin = 0; spin < kSpins && generation.load(std::memory_order_acquire) == seen; ++spin) continue;
       generation.wait(seen, std::memory_order_acquire);
       seen = generation.load(std::memory_order_acquire);
       if (stop.load(std::memory_order_acquire)) return;

@@ -45,6 +45,28 @@ bool clip_to_slab(float origin, float direction, float low, float high, float& e
   return true;
 }
 
+// Narrows [enter, leave] to where the ray is inside the box; false where that is nowhere.
+bool clip_to_box(Vec3f origin, Vec3f direction, const Box& box, float& enter, float& leave) noexcept {
+  return clip_to_slab(origin.x, direction.x, box.low.x, box.high.x, enter, leave) &&
+         clip_to_slab(origin.y, direction.y, box.low.y, box.high.y, enter, leave) &&
+         clip_to_slab(origin.z, direction.z, box.low.z, box.high.z, enter, leave) &&
+         enter <= leave * 1.0000004f;  // two roundings of slack: flat boxes have enter == leave
+}
+
+// Which vertices each block uses, so that a refit looks at each but once a block.
+void list_vertices(TriangleBlocks& blocks) {
+  blocks.vertex_start.push_back(0);
+  for (int block = 0; block < blocks.count(); ++block) {
+    std::vector<int> used;
+    for (int k = blocks.start[block]; k < blocks.start[block + 1]; ++k)
+      used.insert(used.end(), blocks.triangles[k].begin(), blocks.triangles[k].end());
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    blocks.vertices.insert(blocks.vertices.end(), used.begin(), used.end());
+    blocks.vertex_start.push_back(static_cast<int>(blocks.vertices.size()));
+  }
+}
+
 }  // namespace
 
 TriangleBlocks cut_into_blocks(std::span<const Vec3d> rest_positions, std::span<const std::array<int, 3>> triangles,
@@ -63,6 +85,7 @@ TriangleBlocks cut_into_blocks(std::span<const Vec3d> rest_positions, std::span<
   blocks.number = order;
   for (int first = 0; first < total; first += triangles_per_block) blocks.start.push_back(first);
   blocks.start.push_back(total);
+  list_vertices(blocks);
   return blocks;
 }
 
@@ -70,23 +93,28 @@ void refit(const TriangleBlocks& blocks, std::span<const Vec3f> positions, std::
   for (int block = 0; block < blocks.count(); ++block) {
     constexpr float big = std::numeric_limits<float>::max();
     Box box{{big, big, big}, {-big, -big, -big}};
-    for (int k = blocks.start[block]; k < blocks.start[block + 1]; ++k)
-      for (int vertex : blocks.triangles[k]) grow(box, positions[vertex]);
+    for (int k = blocks.vertex_start[block]; k < blocks.vertex_start[block + 1]; ++k)
+      grow(box, positions[blocks.vertices[k]]);
     boxes[block] = box;
   }
 }
 
 bool ray_meets_box(Vec3f origin, Vec3f direction, float t_end, const Box& box) noexcept {
   float enter = 0.0f, leave = t_end;
-  if (!clip_to_slab(origin.x, direction.x, box.low.x, box.high.x, enter, leave)) return false;
-  if (!clip_to_slab(origin.y, direction.y, box.low.y, box.high.y, enter, leave)) return false;
-  if (!clip_to_slab(origin.z, direction.z, box.low.z, box.high.z, enter, leave)) return false;
-  return enter <= leave * 1.0000004f;  // two roundings of slack: flat boxes have enter == leave
+  return clip_to_box(origin, direction, box, enter, leave);
 }
 
-bool near_box(Vec3f a, Vec3f b, float radius, const Box& box) noexcept {
-  const Vec3f margin{radius, radius, radius};
-  return ray_meets_box(a, b - a, 1.0f, {box.low - margin, box.high + margin});
+bool reach_into_box(Vec3f a, Vec3f b, float radius, const Box& box, Box& reach) noexcept {
+  const float generous = 1.0001f * radius;  // rounding must not lose what is barely within the radius
+  const Vec3f margin{generous, generous, generous};
+  const Box grown{box.low - margin, box.high + margin};
+  float enter = 0.0f, leave = 1.0f;
+  if (!clip_to_box(a, b - a, grown, enter, leave)) return false;
+  const Vec3f first = a + enter * (b - a), last = a + leave * (b - a);
+  reach = box_of(first, last, first);
+  reach.low -= margin;
+  reach.high += margin;
+  return true;
 }
 
 SurfaceHit first_hit(const TriangleBlocks& blocks, std::span<const Box> boxes, std::span<const Vec3f> positions,

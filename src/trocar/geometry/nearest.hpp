@@ -93,7 +93,8 @@ SegmentPair<T> closest_segments(Vec3<T> p0, Vec3<T> p1, Vec3<T> q0, Vec3<T> q1) 
   s = closest_on_segment(q0 + t * e, p0, p1);
   SegmentPair<T> best{s, t, p0 + s * d, q0 + t * e, T(0)};
   best.distance2 = distance2(best.on_first, best.on_second);
-  // Nearly parallel segments: rounding may have misplaced s; an end is then as good as any other point.
+  if (spread > T(0.01) * dd * ee) return best;
+  // Nearly parallel (under 6 degrees): rounding may have misplaced s, but then some end is as good as any other point.
   const T ends[2] = {T(0), T(1)};
   for (T end : ends) {
     const Vec3<T> p = p0 + end * d;
