@@ -73,16 +73,19 @@ tissue::StrandEnd hosted_end(const HostPatch& patch, const tissue::NetworkModel&
 }
 
 void host_loads(const HostPatch& patch, const tissue::StrandReaction& reaction, const tissue::NetworkModel& network,
-                const tissue::NetworkState& state, int strand, NetworkLoads& loads) noexcept {
+                const tissue::NetworkState& state, double dt, int strand, NetworkLoads& loads) noexcept {
+  // The reaction was found for the patch flying on freely; where the tick bends that flight, the pull falls by the
+  // tangent. Over one tick that is a resistance of K dt to changes of velocity, and needs no rest point.
   const Mat3d& t = reaction.tangent;
-  const double k = std::max(0.0, (t.m[0][0] + t.m[1][1] + t.m[2][2]) / 3.0);
+  double weights = 0;  // above 1 where the end lies at the rim of its patch: bounds the coupling between nodes
+  for (float w : patch.weight) weights += std::fabs(double(w));
+  const double k = weights * std::max(0.0, t.m[0][0] + t.m[1][1] + t.m[2][2]);
   for (size_t i = 0; i < patch.node.size(); ++i) {
-    const double share = double(patch.weight[i]);
+    const double share = double(patch.weight[i]), d = std::fabs(share) * k * dt;
     tissue::NodeLoad load;
     load.node = patch.node[i];
-    load.f0 = vec_cast<float>(share * reaction.force);
-    load.k = float(std::fabs(share) * k);
-    load.x0 = vec_cast<float>(tissue::position(network, state, patch.node[i]));
+    load.d = float(d);
+    load.f0 = vec_cast<float>(share * reaction.force + d * tissue::velocity(network, state, patch.node[i]));
     loads.add(load, {Owner::strand_end, strand, 0});
   }
 }

@@ -25,6 +25,6 @@ tissue::StrandEnd hosted_end(const HostPatch& patch, const tissue::NetworkModel&
 
 /// Gives the strand's pull to the patch.
 void host_loads(const HostPatch& patch, const tissue::StrandReaction& reaction, const tissue::NetworkModel& network,
-                const tissue::NetworkState& state, int strand, NetworkLoads& loads) noexcept;
+                const tissue::NetworkState& state, double dt, int strand, NetworkLoads& loads) noexcept;
 
 }  // namespace trocar::interactions

@@ -167,10 +167,14 @@ void for_each(core::ThreadPool* pool, size_t count, F&& body) noexcept {
   for (size_t i = 0; i < count; ++i) body(int(i));
 }
 
-tissue::StrandEnd end_of(const StepContext& c, const StrandEndModel& end, Vec3d drawn) noexcept {
+/// Where a strand's end will be. `now` is first put where the host is: the end was placed by prediction last tick, and
+/// taking that error for a velocity would feed it back with a gain of 1/dt.
+tissue::StrandEnd end_of(const StepContext& c, const StrandEndModel& end, Vec3d drawn, Vec3d& now) noexcept {
   if (end.kind != StrandEndModel::hosted) return {drawn, {0, 0, 0}};
   const size_t i = size_t(end.solid);
-  return hosted_end(end.patch, c.model.solids[i].network, c.state.solids[i], kTick);
+  const tissue::StrandEnd next = hosted_end(end.patch, c.model.solids[i].network, c.state.solids[i], kTick);
+  now = next.x - kTick * next.v;
+  return next;
 }
 
 // 7. Strands: implicit, ends where their hosts put them, pulling on them.
@@ -180,14 +184,16 @@ void advance_strands(StepContext& c) noexcept {
     const StrandModel& strand = c.model.strands[i];
     const interactions::StrandBody& body = c.model.bodies[i];
     interactions::StrandLoads& loads = c.work.strand_loads[i];
+    tissue::StrandState& state = c.state.strands[i];
     size_t ends = 0;
     if (strand.start.kind != StrandEndModel::free)
-      c.work.ends[i][ends++] = end_of(c, strand.start, body.model.rest.front());
-    if (strand.end.kind != StrandEndModel::free) c.work.ends[i][ends++] = end_of(c, strand.end, body.model.rest.back());
+      c.work.ends[i][ends++] = end_of(c, strand.start, body.model.rest.front(), state.x.front());
+    if (strand.end.kind != StrandEndModel::free)
+      c.work.ends[i][ends++] = end_of(c, strand.end, body.model.rest.back(), state.x.back());
     loads.reaction.assign(loads.list.size(), Vec3d{});
     c.work.strand_reports[i] =
         tissue::advance(body.model, {c.work.ends[i].data(), ends}, loads.list, {c.work.end_reactions[i].data(), ends},
-                        loads.reaction, c.state.strands[i], c.work.strand_work[i]);
+                        loads.reaction, state, c.work.strand_work[i]);
   });
   for (size_t i = 0; i < c.model.strands.size(); ++i) {
     const StrandModel& strand = c.model.strands[i];
@@ -197,7 +203,7 @@ void advance_strands(StepContext& c) noexcept {
       const tissue::StrandReaction& reaction = c.work.end_reactions[i][ends++];
       if (end->kind != StrandEndModel::hosted) continue;
       const size_t host = size_t(end->solid);
-      host_loads(end->patch, reaction, c.model.solids[host].network, c.state.solids[host], int(i),
+      host_loads(end->patch, reaction, c.model.solids[host].network, c.state.solids[host], kTick, int(i),
                  c.work.solid_loads[host]);
     }
   }
