@@ -60,7 +60,7 @@ def look(path):
                     found.add(f"{member}: {words[0]} in {where}")
     for line in run("nm", "-A", "-C", "--defined-only", str(path)).splitlines():
         place, kind, name = re.match(r"(.*?):[0-9a-f ]*([A-Za-z]) (.*)", line).groups()
-        if kind in "WwVv" and WIDE.search(place.split(":")[-1]):
+        if kind == "W" and WIDE.search(place.split(":")[-1]):
             found.add(f"{place.split(':')[-1]}: {name} is shared with other files: the linker may keep the wide one")
     for line in run("nm", "-u", "-A", str(path)).splitlines():
         if is_libm(line.split()[-1]):
