@@ -1,0 +1,63 @@
+#include <cmath>
+
+#include <trocar/view/cameras.hpp>
+
+namespace trocar::view {
+
+using render::Camera;
+using render::EndoscopeLook;
+using render::Light;
+
+namespace {
+
+Camera shifted(Camera camera, double shift) {
+  camera.position += float(shift) * camera.rotation.column(0);
+  return camera;
+}
+
+}  // namespace
+
+Camera scope_camera(const kinematics::ScopeFrame& scope, double field_of_view, double shift) {
+  Camera camera;
+  camera.position = vec_cast<float>(scope.eye);
+  camera.rotation =
+      Mat3f::from_columns(vec_cast<float>(scope.right), vec_cast<float>(scope.up), vec_cast<float>(-scope.forward));
+  camera.vertical_fov = float(field_of_view);
+  camera.near_plane = 0.002f;
+  camera.far_plane = 0.5f;
+  return shifted(camera, shift);
+}
+
+double notch_angle(const kinematics::ScopeFrame& scope, const kinematics::TipFrame& shaft, double post) {
+  const Vec3d side = std::cos(post) * shaft.normal() + std::sin(post) * shaft.opening();
+  return std::atan2(dot(side, scope.right), dot(side, scope.up));
+}
+
+Camera outside_camera(Vec3d eye, Vec3d target, Vec3d up, double field_of_view, double shift) {
+  Camera camera = render::look_at(vec_cast<float>(eye), vec_cast<float>(target), vec_cast<float>(up));
+  camera.vertical_fov = float(field_of_view);
+  camera.near_plane = 0.01f;
+  camera.far_plane = 3;
+  return shifted(camera, shift);
+}
+
+Light room_light() {
+  Light light;
+  light.position = {0.15f, 0.5f, 0.25f};
+  light.colour = {1, 0.98f, 0.95f};
+  light.inverse_square = false;
+  light.intensity = 0.8f;
+  light.bounce = 0.1f;
+  light.bounce_colour = {1, 0.9f, 0.85f};
+  light.ambient = 0.22f;
+  return light;
+}
+
+EndoscopeLook room_look() {
+  EndoscopeLook look = render::plain_look();
+  look.auto_exposure = true;
+  look.exposure_key = 0.16f;
+  return look;
+}
+
+}  // namespace trocar::view

@@ -1,0 +1,129 @@
+#include <algorithm>
+#include <cmath>
+
+#include <trocar/view/fimbria.hpp>
+
+namespace trocar::view {
+namespace {
+
+constexpr double kPi = 3.14159265358979;
+constexpr int kSides = 10, kRings = 11;
+
+/// One finger: where it grows from, which way, how it curls.
+struct Finger {
+  double angle, along, out;  ///< root on the rim [rad, rim radii along and across]
+  double length, width;      ///< [m]
+  double lean;               ///< from the tube's direction outwards at the root [rad]
+  double curl;               ///< further outwards over its length [rad]
+  double sway;               ///< sideways [rad]
+  int seed;
+};
+
+struct Spine {
+  Vec3d point, along, across, flat;  ///< flat = normal of the petal
+};
+
+/// Width over length: a stalk that swells to a ragged, rounded leaf.
+double leaf(double u, int seed) {
+  const double body = 0.62 + 0.75 * std::sin(kPi * std::min(1.0, 0.2 + 0.8 * u));
+  const double tip = std::sqrt(std::max(0.0, 1 - std::pow(std::max(0.0, (u - 0.72) / 0.28), 2)));
+  const double lobes = 1 + 0.17 * std::sin(9 * u + 6.3 * varied(seed, 1)) + 0.08 * std::sin(21 * u + seed);
+  return body * tip * lobes;
+}
+
+std::vector<Spine> spine_of(const Finger& f, double radius) {
+  std::vector<Spine> spine;
+  const Vec3d out{0, std::cos(f.angle), std::sin(f.angle)}, around{0, -std::sin(f.angle), std::cos(f.angle)};
+  Vec3d p = Vec3d{f.along * radius, 0, 0} + f.out * radius * out;
+  for (int i = 0; i < kRings; ++i) {
+    const double u = double(i) / (kRings - 1);
+    const double lean = f.lean + f.curl * u * (0.4 + 0.6 * u) + 0.15 * std::sin(7 * u + f.seed);
+    const double sway = f.sway * u;
+    Vec3d t = std::cos(lean) * Vec3d{1, 0, 0} + std::sin(lean) * out;
+    t = std::cos(sway) * t + std::sin(sway) * around;
+    const Vec3d across = normalised(around - dot(around, t) * t);
+    spine.push_back({p, t, across, cross(t, across)});
+    p += (f.length / (kRings - 1)) * t;
+  }
+  return spine;
+}
+
+void add_finger(MeshBuffer& b, const Finger& f, double radius) {
+  const std::vector<Spine> spine = spine_of(f, radius);
+  std::uint32_t last = 0;
+  for (int i = 0; i < kRings; ++i) {
+    const double u = double(i) / (kRings - 1);
+    const Spine& s = spine[std::size_t(i)];
+    const bool end = i == 0 || i == kRings - 1;
+    const Paint paint{to_byte(0.72 + 0.28 * u), 0, 0, to_byte(1.0 - 0.22 * u - 0.2 * varied(f.seed, 9))};
+    if (end) {
+      const std::uint32_t pole = b.add(vec_cast<float>(s.point), paint);
+      if (i > 0) join_pole(b, last, kSides, pole, true);
+      continue;
+    }
+    const double half = 0.5 * f.width * leaf(u, f.seed), thick = std::max(0.00022, 0.0005 * (1.15 - 0.55 * u));
+    const std::uint32_t row = b.size();
+    for (int k = 0; k < kSides; ++k) {
+      const double a = 2 * kPi * k / kSides, c = std::cos(a), sn = std::sin(a);
+      // Ruffled: the edges rise and fall along the finger, in turn on either side.
+      const double ruffle = 0.00055 * c * c * std::sin(8 * u + (c > 0 ? 0.0 : 2.1) + 6.3 * varied(f.seed, 2));
+      const double cupped = -0.35 * half * c * c;
+      const Vec3d p = s.point + (half * c) * s.across + (thick * sn + ruffle + cupped) * s.flat;
+      b.add(vec_cast<float>(p), paint);
+    }
+    if (i == 1)
+      join_pole(b, row, kSides, row - 1, false);
+    else
+      join_rows(b, last, row, kSides, true);
+    last = row;
+  }
+}
+
+}  // namespace
+
+MeshBuffer fimbriae(double radius, int seed) {
+  MeshBuffer b;
+  for (int i = 0; i < kRimLobes; ++i) {
+    const int k = 100 * seed + i;
+    Finger f;
+    f.angle = 2 * kPi * (i + 0.35 * (varied(k, 3) - 0.5)) / kRimLobes;
+    f.along = -0.12;
+    f.out = 0.9;
+    f.length = radius * (0.85 + 0.6 * varied(k, 4));
+    f.width = radius * (0.42 + 0.2 * varied(k, 5));
+    f.lean = 0.55 + 0.25 * varied(k, 6);
+    f.curl = 0.5 + 1.2 * varied(k, 7);
+    f.sway = 0.9 * (varied(k, 8) - 0.5);
+    f.seed = k;
+    add_finger(b, f, radius);
+  }
+  constexpr int kInner = 7;
+  for (int i = 0; i < kInner; ++i) {
+    const int k = 100 * seed + 50 + i;
+    Finger f;
+    f.angle = 2 * kPi * (i + 0.5 + 0.4 * (varied(k, 3) - 0.5)) / kInner;
+    f.along = -0.3;
+    f.out = 0.56;
+    f.length = radius * (0.75 + 0.45 * varied(k, 4));
+    f.width = radius * (0.34 + 0.16 * varied(k, 5));
+    f.lean = 0.1 + 0.3 * varied(k, 6);
+    f.curl = 0.3 + 0.8 * varied(k, 7);
+    f.sway = 1.2 * (varied(k, 8) - 0.5);
+    f.seed = k;
+    add_finger(b, f, radius);
+  }
+  return b;
+}
+
+double bell_flare(double before) {
+  const double u = std::clamp(1 - before / kBellLength, 0.0, 1.0);
+  return 1 + (kBellFlare - 1) * u * u * (0.55 + 0.45 * u);
+}
+
+const std::vector<FunnelRow>& funnel() {
+  static const std::vector<FunnelRow> rows{{-0.03, 0.93, 0.8},  {-0.16, 0.74, 0.62}, {-0.34, 0.52, 0.42},
+                                           {-0.52, 0.34, 0.25}, {-0.66, 0.2, 0.12},  {-0.74, 0, 0.05}};
+  return rows;
+}
+
+}  // namespace trocar::view

@@ -1,0 +1,253 @@
+#include <algorithm>
+#include <cmath>
+
+#include <trocar/view/instrument_shapes.hpp>
+#include <trocar/view/shapes.hpp>
+
+namespace trocar::view {
+namespace {
+
+using interactions::ToolKind;
+using interactions::ToolModel;
+using Joint = InstrumentPart::Joint;
+
+constexpr double kPi = 3.14159265358979;
+constexpr int kAround = 32;
+const Paint kClean{255, 0, 0, 0}, kShaded{110, 0, 0, 0}, kHollow{40, 0, 0, 90}, kUsed{225, 34, 0, 0};
+
+void merge(MeshBuffer& to, const MeshBuffer& part) { append(to, part, Mat3f::identity(), {}); }
+
+/// A box along z with rounded edges; half extents along x and y.
+MeshBuffer beam(Vec3d from, Vec3d to, double half_x, double half_y, double roundness, Paint paint = {}) {
+  const Vec3d x{1, 0, 0}, y{0, 1, 0};
+  return bar({{from, half_x * x, half_y * y, paint}, {to, half_x * x, half_y * y, paint}}, roundness);
+}
+
+MeshBuffer pin(double radius, double half_length) {
+  MeshBuffer b;
+  const MeshBuffer upright = turned({{-half_length, 0, kClean},
+                                     {-half_length, 0.8 * radius, kClean},
+                                     {-0.96 * half_length, radius, kClean},
+                                     {0.96 * half_length, radius, kClean},
+                                     {half_length, 0.8 * radius, kClean},
+                                     {half_length, 0, kClean}},
+                                    18);
+  append(b, upright, Mat3f::from_columns({0, 0, 1}, {1, 0, 0}, {0, 1, 0}), {});
+  return b;
+}
+
+/// Fork with a rivet that carries two turning jaws.
+MeshBuffer hinge(double radius) {
+  MeshBuffer b;
+  const double cheek = 0.11 * 2 * radius, at = radius - cheek;
+  merge(b, turned({{-0.0105, radius * 0.99, kClean},
+                   {-0.0105, radius * 0.99, kClean},
+                   {-0.0068, radius * 0.99, kClean},
+                   {-0.0058, radius * 0.86, kClean},
+                   {-0.0058, 0, kShaded}},
+                  kAround));
+  for (const double side : {-1.0, 1.0}) {
+    const Vec3d x{1, 0, 0}, y{0, 1, 0};
+    const auto section = [&](double z, double half) {
+      return BarSection{{0, side * at, z}, half * x, cheek * y, kClean};
+    };
+    merge(b, bar({section(-0.0075, 0.78 * radius), section(-0.003, 0.74 * radius), section(0.0, 0.7 * radius),
+                  section(0.0012, 0.58 * radius), section(0.0019, 0.3 * radius)},
+                 0.25));
+  }
+  merge(b, pin(0.34 * radius, 1.03 * radius));
+  return b;
+}
+
+/// Tube of the shaft, from the handle's side to `end`.
+MeshBuffer shaft(const ToolModel& tool, double end) {
+  const double r = tool.shaft_radius, back = -tool.shaft_length;
+  return turned({{back, 0, kClean},
+                 {back, r, kClean},
+                 {back, r, kClean},
+                 {end - 0.0004, r, kClean},
+                 {end, r - 0.0004, kClean},
+                 {end, r - 0.0004, kClean},
+                 {end, 0, kShaded}},
+                kAround);
+}
+
+/// Straight sides and round ends between z = from and to.
+Outline stadium(double from, double to, double half_width) {
+  return [=](double u) {
+    const double r = std::min(half_width, 0.45 * (to - from)), low = from + r, high = to - r;
+    if (u < 0.4) return Vec3d{0, half_width, low + (high - low) * u / 0.4};
+    if (u < 0.5) {
+      const double a = kPi * (u - 0.4) / 0.1;
+      return Vec3d{0, half_width * std::cos(a), high + r * std::sin(a)};
+    }
+    if (u < 0.9) return Vec3d{0, -half_width, high + (low - high) * (u - 0.5) / 0.4};
+    const double a = kPi * (1 + (u - 0.9) / 0.1);
+    return Vec3d{0, half_width * std::cos(a), low + r * std::sin(a)};
+  };
+}
+
+/// Jaw of a fenestrated grasper: a window in a plate with cross teeth, narrow at the hinge, thinner to the tip.
+MeshBuffer grasper_jaw(const ToolModel& tool) {
+  const double length = tool.jaw_length, half = 0.5 * tool.jaw_width, thick = tool.jaw_thickness;
+  const auto neck = [=](double z) { return 0.56 + 0.44 * smooth(0.003, 0.0075, z); };
+  const Outline plain = stadium(-0.001, length, half);
+  const Outline outer = [=](double u) {
+    Vec3d p = plain(u);
+    p.y *= neck(p.z);
+    return p;
+  };
+  const Outline window = stadium(0.36 * length, 0.84 * length, 0.36 * half);
+  const Height inside = [=](double, double z) {
+    if (z < 0.006) return 0.00012;
+    const double phase = z / 0.0011 - std::floor(z / 0.0011);
+    return 0.00028 * (phase < 0.5 ? 2 * phase : 2 - 2 * phase);
+  };
+  const Height outside = [=](double y, double z) {
+    const double across = std::min(1.0, std::fabs(y) / (half * neck(z)));
+    const double body = thick * (1.25 - 0.25 * smooth(0.002, 0.006, z) - 0.42 * smooth(0.3 * length, length, z));
+    return body * (0.66 + 0.34 * std::sqrt(1 - 0.96 * across * across));
+  };
+  MeshBuffer b = plate(outer, window, inside, outside, 176, 8, [=](bool face, double, double z) {
+    if (!face) return kClean;
+    const double phase = z / 0.0011 - std::floor(z / 0.0011);
+    return Paint{std::uint8_t(150 + (phase < 0.5 ? 1 - phase : phase) * 80), to_byte(0.30 * smooth(0.004, 0.012, z)), 0,
+                 40};
+  });
+  merge(b, beam({0.0009, 0, -0.0045}, {0.0008, 0, 0.0015}, 0.0009, 0.5 * half, 0.4, kShaded));
+  return b;
+}
+
+/// Blade of curved scissors: a wedge beside the middle plane, both blades bent the same way. @param bend along y [m]
+MeshBuffer blade(const ToolModel& tool, double bend) {
+  const double length = tool.jaw_length, high = 0.95 * tool.jaw_width, thick = 0.62 * tool.jaw_thickness;
+  std::vector<BarSection> sections;
+  for (int i = 0; i <= 14; ++i) {
+    const double u = i / 14.0, z = -0.004 + (length + 0.004) * u;
+    const double w = std::max(0.0, z) / length;
+    const double back = high * (0.8 + 0.2 * smooth(-0.004, 0.003, z)) * (1 - 0.78 * std::pow(w, 1.6));
+    const double edge = -0.00035 * smooth(0, 0.004, z) * (1 - 0.5 * w);
+    const double narrow = 1 - 0.45 * w;
+    const double shift = bend * w * w;
+    const Vec3d centre{0.5 * (back + edge), 0.02e-3 + 0.5 * thick * narrow + shift, z};
+    sections.push_back({centre, {0.5 * (back - edge), 0, 0}, {0, 0.5 * thick * narrow, 0}, kUsed});
+  }
+  return bar(sections, 0.22);
+}
+
+/// Jaw of a clip applier: a back with two rails, between which a leg of the clip slides.
+MeshBuffer applier_jaw(const ToolModel& tool) {
+  const double length = tool.jaw_length, half = 0.5 * tool.jaw_width, thick = tool.jaw_thickness;
+  MeshBuffer b;
+  const Vec3d x{1, 0, 0}, y{0, 1, 0};
+  const auto back = [&](double z, double low, double high, double wide) {
+    return BarSection{{0.5 * (low + high), 0, z}, 0.5 * (high - low) * x, wide * y, kClean};
+  };
+  merge(b, bar({back(-0.009, 0.0002, thick, 0.7 * half), back(0, 0.3 * thick, thick, 0.85 * half),
+                back(0.25 * length, 0.42 * thick, thick, half), back(0.9 * length, 0.42 * thick, 0.92 * thick, half),
+                back(0.98 * length, 0.42 * thick, 0.8 * thick, 0.85 * half),
+                back(length, 0.42 * thick, 0.62 * thick, 0.6 * half)},
+               0.3));
+  for (const double side : {-1.0, 1.0}) {
+    const double rail = 0.5 * (half - 0.5 * 0.0013), at = side * (half - rail);
+    const auto section = [&](double z, double low) {
+      return BarSection{{0.5 * (low + 0.6 * thick), at, z}, 0.5 * (0.6 * thick - low) * x, rail * y, kUsed};
+    };
+    merge(b, bar({section(0.1 * length, 0.3 * thick), section(0.25 * length, 0.0001), section(0.95 * length, 0.0001),
+                  section(0.995 * length, 0.0003)},
+                 0.3));
+  }
+  return b;
+}
+
+/// The applier's mouth: a tube, open at its end.
+MeshBuffer open_shaft(const ToolModel& tool, double end) {
+  const double r = tool.shaft_radius, back = -tool.shaft_length, wall = 0.0008;
+  return turned({{back, 0, kClean},
+                 {back, r, kClean},
+                 {back, r, kClean},
+                 {end - 0.0005, r, kClean},
+                 {end, r - 0.0003, kClean},
+                 {end, r - 0.0003, kClean},
+                 {end, r - wall, kClean},
+                 {end, r - wall, kShaded},
+                 {end - 0.008, r - wall, kHollow},
+                 {end - 0.008, 0, kHollow}},
+                kAround);
+}
+
+MeshBuffer blunt_rod(const ToolModel& tool) {
+  const double r = tool.shaft_radius, tip = tool.jaw_length;
+  std::vector<TurnPoint> outline{
+      {-tool.shaft_length, 0, kClean}, {-tool.shaft_length, r, kClean}, {-tool.shaft_length, r, kClean}};
+  for (int i = 0; i <= 8; ++i) {
+    const double a = 0.5 * kPi * i / 8;
+    outline.push_back({tip - r + r * std::sin(a), i == 8 ? 0 : r * std::cos(a), kClean});
+  }
+  return turned(outline, kAround);
+}
+
+}  // namespace
+
+std::vector<InstrumentPart> instrument_parts(const ToolModel& tool) {
+  std::vector<InstrumentPart> parts;
+  switch (tool.kind) {
+    case ToolKind::grasper:
+      parts.push_back({Joint::body, "insulated", shaft(tool, -0.0098)});
+      parts.push_back({Joint::body, "steel", hinge(tool.shaft_radius)});
+      parts.push_back({Joint::jaw_a, "steel", grasper_jaw(tool)});
+      parts.push_back({Joint::jaw_b, "steel", grasper_jaw(tool)});
+      break;
+    case ToolKind::scissors:
+      parts.push_back({Joint::body, "insulated", shaft(tool, -0.0098)});
+      parts.push_back({Joint::body, "steel", hinge(tool.shaft_radius)});
+      parts.push_back({Joint::jaw_a, "steel", blade(tool, 0.0016)});
+      parts.push_back({Joint::jaw_b, "steel", blade(tool, -0.0016)});
+      break;
+    case ToolKind::clip_applier:
+      parts.push_back({Joint::body, "steel", open_shaft(tool, -0.002)});
+      parts.push_back({Joint::jaw_a, "steel", applier_jaw(tool)});
+      parts.push_back({Joint::jaw_b, "steel", applier_jaw(tool)});
+      break;
+    case ToolKind::probe:
+      parts.push_back({Joint::body, "steel", blunt_rod(tool)});
+      break;
+  }
+  return parts;
+}
+
+std::vector<InstrumentPart> scope_parts(double radius) {
+  std::vector<InstrumentPart> parts;
+  const double r = radius;
+  parts.push_back({Joint::body, "steel",
+                   turned({{-0.31, 0, kClean},
+                           {-0.31, r, kClean},
+                           {-0.31, r, kClean},
+                           {-0.0006, r, kClean},
+                           {0, 0.92 * r, kClean},
+                           {0, 0.92 * r, kClean},
+                           {0, 0.5 * r, kClean},
+                           {0, 0.5 * r, kHollow},
+                           {-0.001, 0.48 * r, kHollow},
+                           {-0.001, 0, kHollow}},
+                          kAround)});
+  return parts;
+}
+
+Placement placement_of(Joint joint, const interactions::ToolShape& shape) {
+  const Vec3d axis = shape.frame.axis(), open = shape.frame.opening();
+  const double side = joint == Joint::jaw_b ? -1 : 1;
+  Vec3d x = side * open, z = axis, origin = shape.pivot;
+  if (joint != Joint::body) {
+    const double c = 1 / std::sqrt(1 + shape.tangent * shape.tangent), s = c * shape.tangent;
+    z = c * axis + (side * s) * open;
+    x = side * (c * open) - s * axis;
+    origin += (side * shape.half_gap) * open;
+  }
+  const Vec3d y = cross(z, x);
+  return {Mat3f::from_columns(vec_cast<float>(x), vec_cast<float>(y), vec_cast<float>(z)), vec_cast<float>(origin)};
+}
+
+double clip_seat(const ToolModel&) { return 0; }
+
+}  // namespace trocar::view

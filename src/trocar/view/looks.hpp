@@ -1,0 +1,24 @@
+// What tissues and metals look like: a table of named presets, which scene files ask for by "look".
+//   render::Material m = look("uterus").material;
+// Colours are what calibrated pictures of laparoscopies show, read off as sRGB; sizes of patterns from anatomy.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <trocar/render/material.hpp>
+
+namespace trocar::view {
+
+struct Look {
+  std::string name;
+  render::Material material;
+  bool translucent = false;
+};
+
+/// The preset of that name. An unknown name gives a neutral tissue and is reported once.
+const Look& look(const std::string& name);
+/// All of them, for galleries and tests.
+const std::vector<Look>& all_looks();
+
+}  // namespace trocar::view

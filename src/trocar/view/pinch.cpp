@@ -1,0 +1,93 @@
+#include <algorithm>
+#include <cmath>
+
+#include <trocar/view/mesh_buffer.hpp>
+#include <trocar/view/pinch.hpp>
+
+namespace trocar::view {
+
+using interactions::Clip;
+
+namespace {
+
+Vec3d in_world(const double (&v)[3], const interactions::StrandFrame& f) {
+  return v[0] * f.tangent + v[1] * f.normal + v[2] * f.binormal;
+}
+
+double leg_length(const Clip& clip, const sim::Model& model) {
+  const auto tool = std::size_t(clip.tool);
+  if (clip.tool < 0 || tool >= model.tools.size() || model.tools[tool].clip_length <= 0) return kClipLength;
+  return model.tools[tool].clip_length;
+}
+
+bool holds(const interactions::ToolState& tool, int body) {
+  const int n = std::min(tool.holds, interactions::kMaxHolds);
+  return std::any_of(tool.hold, tool.hold + std::max(0, n), [body](const auto& h) { return h.body == body; });
+}
+
+}  // namespace
+
+ClipPress press_of(const Clip& clip, const sim::Model& model, const sim::State& state) {
+  const std::size_t strand = std::size_t(clip.strand);
+  const interactions::StrandBody& body = model.bodies[strand];
+  const interactions::StrandPlace place = place_at(body, clip.s);
+  const interactions::StrandFrame frame = frame_at(body, state.strands[strand], place);
+  ClipPress press;
+  press.centre = point_at(body, state.strands[strand], place);
+  press.axis = normalised(in_world(clip.axis, frame), frame.binormal);
+  const Vec3d open = in_world(clip.opening, frame);
+  press.open = normalised(open - dot(open, press.axis) * press.axis, any_perpendicular(press.axis));
+  press.normal = cross(press.axis, press.open);
+  press.radius = body.model.radius[std::size_t(place.element)];
+  press.flat = kClipHalfGap / press.radius;
+  press.low = -clip.reach;
+  press.high = leg_length(clip, model) - clip.reach;
+  return press;
+}
+
+std::vector<ClipPress> clips_on(int strand, const sim::Model& model, const sim::State& state) {
+  std::vector<ClipPress> presses;
+  for (int i = 0; i < state.clip_count; ++i)
+    if (state.clips[std::size_t(i)].strand == strand)
+      presses.push_back(press_of(state.clips[std::size_t(i)], model, state));
+  return presses;
+}
+
+std::vector<JawPress> jaws_on(int body, const sim::Model& model, const sim::State& state) {
+  std::vector<JawPress> presses;
+  for (std::size_t t = 0; t < model.tools.size(); ++t) {
+    const interactions::ToolState& tool = state.tools[t];
+    if (!holds(tool, body)) continue;
+    const interactions::ToolModel& m = model.tools[t];
+    presses.push_back({interactions::shape_of(m, tool.pose(), tool.aperture), m.jaw_length, 0.5 * m.jaw_width});
+  }
+  return presses;
+}
+
+Vec3d pressed(Vec3d p, const ClipPress& press) {
+  const Vec3d d = p - press.centre;
+  const double side = std::fabs(dot(d, press.normal));
+  const double fade = 0.8 * press.radius + 0.0006;
+  if (side > 0.5 * kClipLegWidth + fade || dot(d, d) > 9 * press.radius * press.radius) return p;
+  const double x = dot(d, press.open), z = dot(d, press.axis);
+  double amount = smooth(0.5 * kClipLegWidth + fade, 0.5 * kClipLegWidth, side);
+  const double rim = 0.0004;
+  amount *= smooth(press.low - rim, press.low + rim, z) * smooth(press.high + rim, press.high - rim, z);
+  const double flattened = x * (1 + amount * (std::min(1.0, press.flat) - 1));
+  double widened = z * (1 + 0.4 * amount);
+  if (z > press.low) widened = std::max(widened, press.low + 0.5 * rim);
+  return p + (flattened - x) * press.open + (widened - z) * press.axis;
+}
+
+Vec3d pressed(Vec3d p, const JawPress& press) {
+  const Vec3d q = interactions::to_jaw(press.shape, p);
+  const double beyond = std::max({std::fabs(q.y) - press.half_width, q.z - press.length, -q.z, 0.0});
+  if (beyond > 0.006) return p;
+  const double along = std::clamp(q.z, 0.0, press.length);
+  const double limit = std::max(0.0, press.shape.half_opening(along)) + 1e-4 + 0.9 * beyond + 60 * beyond * beyond;
+  if (std::fabs(q.x) <= limit || std::fabs(q.x) > 0.012) return p;
+  const double x = q.x > 0 ? limit : -limit;
+  return p + (x - q.x) * press.shape.frame.opening();
+}
+
+}  // namespace trocar::view

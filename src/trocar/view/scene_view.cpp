@@ -1,0 +1,233 @@
+#include <optional>
+
+#include <trocar/render/mesh_arrays.hpp>
+#include <trocar/render/openness.hpp>
+#include <trocar/sim/visibility.hpp>
+#include <trocar/view/cameras.hpp>
+#include <trocar/view/clip_shape.hpp>
+#include <trocar/view/instrument_shapes.hpp>
+#include <trocar/view/looks.hpp>
+#include <trocar/view/organ_drawing.hpp>
+#include <trocar/view/scene_view.hpp>
+#include <trocar/view/sheet_drawing.hpp>
+#include <trocar/view/tube_drawing.hpp>
+
+namespace trocar::view {
+
+using render::DrawItem;
+using render::Frame;
+
+namespace {
+
+constexpr float kShadeCell = 0.001f, kShadeReach = 0.018f;  // [m] what shades what
+
+/// A rigid part of an instrument and its mesh.
+struct DrawnPart {
+  InstrumentPart::Joint joint;
+  const Look* look;
+  OwnedMesh mesh;
+};
+
+std::vector<DrawnPart> made(std::vector<InstrumentPart> parts, render::Backend& backend) {
+  std::vector<DrawnPart> drawn;
+  for (const InstrumentPart& p : parts) drawn.push_back({p.joint, &look(p.look), {backend, p.mesh.data()}});
+  return drawn;
+}
+
+render::Mat4 to_world(const Placement& p) { return render::placement(p.rotation, p.translation); }
+
+DrawItem item(render::MeshHandle mesh, const Look& look) {
+  DrawItem i;
+  i.mesh = mesh;
+  i.material = look.material;
+  i.translucent = look.translucent;
+  return i;
+}
+
+/// The clip that lies ready in an applier's jaws.
+struct LoadedClip {
+  int tool = -1;
+  OwnedMesh mesh;
+};
+
+}  // namespace
+
+struct SceneView::Parts {
+  const sim::Model& model;
+  std::vector<OrganDrawing> organs;
+  std::vector<TubeDrawing> tubes;
+  std::vector<SheetDrawing> sheets;
+  std::vector<OwnedMesh> walls;
+  std::vector<std::vector<DrawnPart>> tools;
+  std::vector<DrawnPart> scope;
+  std::vector<LoadedClip> loaded;
+  std::vector<OwnedMesh> clips;  ///< closed ones, by the tool that sets them
+  const Look* titanium = &look("titanium");
+
+  Parts(const sim::Model& of, render::Backend& backend);
+  void make_tissues(render::Backend& backend);
+  void make_metal(render::Backend& backend);
+  void update(const sim::State& state);
+  void list_tissues(bool with_walls, Frame& frame) const;
+  void list_clips(const sim::State& state, Frame& frame) const;
+  void list_tools(const sim::State& state, Frame& frame) const;
+  void list_scope(const sim::State& state, Frame& frame) const;
+};
+
+SceneView::Parts::Parts(const sim::Model& of, render::Backend& backend) : model(of) {
+  make_tissues(backend);
+  make_metal(backend);
+}
+
+/// Everything shades everything else, as drawn.
+void SceneView::Parts::make_tissues(render::Backend& backend) {
+  for (int i = 0; i < int(model.strands.size()); ++i) tubes.emplace_back(model, i);
+  std::vector<std::vector<std::uint32_t>> indices;
+  std::vector<render::Occluder> occluders;
+  for (const sim::SolidModel& s : model.solids) indices.push_back(flat_indices(s.fine));
+  for (const sim::WallModel& w : model.walls) indices.push_back(flat_indices(w.skin));
+  for (std::size_t i = 0; i < model.solids.size(); ++i) occluders.push_back({model.solids[i].fine.rest, indices[i]});
+  for (std::size_t i = 0; i < model.walls.size(); ++i)
+    occluders.push_back({model.walls[i].skin.rest, indices[model.solids.size() + i]});
+  for (const TubeDrawing& t : tubes) occluders.push_back({t.drawn().positions, t.drawn().indices});
+  const render::OpennessBaker baker(occluders, kShadeCell, kShadeReach);
+
+  for (const sim::SolidModel& s : model.solids) {
+    std::vector<Paint> paint(s.fine.rest.size());
+    baker.bake(s.fine.rest, s.fine.rest_normal, paint);
+    organs.emplace_back(s, std::move(paint), backend);
+  }
+  for (std::size_t i = 0; i < model.walls.size(); ++i) {
+    const tissue::Skin& skin = model.walls[i].skin;
+    std::vector<Paint> paint(skin.rest.size());
+    baker.bake(skin.rest, skin.rest_normal, paint);
+    walls.emplace_back(backend, render::MeshData{.positions = skin.rest,
+                                                 .normals = skin.rest_normal,
+                                                 .rest = {},
+                                                 .paint = paint,
+                                                 .indices = indices[model.solids.size() + i]});
+  }
+  for (TubeDrawing& t : tubes) {
+    std::vector<Paint> paint(t.drawn().positions.size());
+    baker.bake(t.drawn().positions, t.drawn().normals, paint);
+    t.create(std::move(paint), backend);
+  }
+  for (int i = 0; i < int(model.sheets.size()); ++i) sheets.emplace_back(model, i, backend);
+}
+
+void SceneView::Parts::make_metal(render::Backend& backend) {
+  for (const interactions::ToolModel& tool : model.tools) {
+    tools.push_back(made(instrument_parts(tool), backend));
+    clips.emplace_back(backend, clip_shape(tool.clip_length > 0 ? tool.clip_length : kClipLength, 0).data());
+    if (tool.clip_length > 0 && tool.clips > 0) {
+      const MeshBuffer shape = clip_shape(tool.clip_length, tool.parallel_gap);
+      loaded.push_back({int(tools.size()) - 1, {backend, shape.data()}});
+    }
+  }
+  scope = made(scope_parts(model.scope.shaft_radius), backend);
+}
+
+void SceneView::Parts::update(const sim::State& state) {
+  for (std::size_t i = 0; i < organs.size(); ++i) organs[i].update(state.solids[i]);
+  for (TubeDrawing& t : tubes) t.update(state);
+  for (SheetDrawing& s : sheets) s.update(state);
+  for (LoadedClip& l : loaded) {
+    const interactions::ToolModel& tool = model.tools[std::size_t(l.tool)];
+    const double open = tool.parallel_gap * state.tools[std::size_t(l.tool)].aperture;
+    const MeshBuffer shape = clip_shape(tool.clip_length, std::max(0.0, open - 2 * kClipHalfGap));
+    l.mesh.move(shape.positions, {});
+  }
+}
+
+void SceneView::Parts::list_tissues(bool with_walls, Frame& frame) const {
+  for (std::size_t i = 0; with_walls && i < walls.size(); ++i)
+    frame.items.push_back(item(walls[i].handle(), look(model.walls[i].look)));
+  for (std::size_t i = 0; i < organs.size(); ++i)
+    frame.items.push_back(item(organs[i].mesh(), look(model.solids[i].look)));
+  for (std::size_t i = 0; i < tubes.size(); ++i)
+    frame.items.push_back(item(tubes[i].mesh(), look(model.strands[i].look)));
+  for (std::size_t i = 0; i < sheets.size(); ++i)
+    frame.items.push_back(item(sheets[i].mesh(), look(model.sheets[i].look)));
+}
+
+void SceneView::Parts::list_clips(const sim::State& state, Frame& frame) const {
+  for (int i = 0; i < state.clip_count; ++i) {
+    const interactions::Clip& c = state.clips[std::size_t(i)];
+    if (c.strand < 0 || c.strand >= int(model.strands.size())) continue;
+    if (c.tool < 0 || c.tool >= int(clips.size())) continue;
+    const ClipPress at = press_of(c, model, state);
+    const Mat3f turn =
+        Mat3f::from_columns(vec_cast<float>(at.open), vec_cast<float>(at.normal), vec_cast<float>(at.axis));
+    DrawItem drawn = item(clips[std::size_t(c.tool)].handle(), *titanium);
+    drawn.transform = to_world({turn, vec_cast<float>(at.centre + at.low * at.axis)});
+    frame.items.push_back(drawn);
+  }
+}
+
+void SceneView::Parts::list_tools(const sim::State& state, Frame& frame) const {
+  for (std::size_t t = 0; t < tools.size(); ++t) {
+    const interactions::ToolState& tool = state.tools[t];
+    const interactions::ToolShape shape = shape_of(model.tools[t], tool.pose(), tool.aperture);
+    for (const DrawnPart& part : tools[t]) {
+      DrawItem drawn = item(part.mesh.handle(), *part.look);
+      drawn.transform = to_world(placement_of(part.joint, shape));
+      frame.items.push_back(drawn);
+    }
+    for (const LoadedClip& l : loaded) {
+      if (l.tool != int(t) || tool.clips_left <= 0 || !tool.armed) continue;
+      Placement place = placement_of(InstrumentPart::Joint::body, shape);
+      place.translation += float(clip_seat(model.tools[t])) * place.rotation.column(2);
+      DrawItem drawn = item(l.mesh.handle(), *titanium);
+      drawn.transform = to_world(place);
+      frame.items.push_back(drawn);
+    }
+  }
+}
+
+void SceneView::Parts::list_scope(const sim::State& state, Frame& frame) const {
+  const kinematics::TipFrame tip = kinematics::forward(model.scope.port, pose_of(state.scope));
+  Placement place;
+  const Vec3d x = tip.opening(), z = tip.axis();
+  place.rotation = Mat3f::from_columns(vec_cast<float>(x), vec_cast<float>(cross(z, x)), vec_cast<float>(z));
+  place.translation = vec_cast<float>(tip.tip);
+  for (const DrawnPart& part : scope) {
+    DrawItem drawn = item(part.mesh.handle(), *part.look);
+    drawn.transform = to_world(place);
+    frame.items.push_back(drawn);
+  }
+}
+
+SceneView::SceneView(const sim::Model& model, render::Backend& backend)
+    : m_parts(std::make_unique<Parts>(model, backend)) {}
+SceneView::~SceneView() = default;
+
+Frame SceneView::frame(const sim::State& state, const ViewOptions& options) {
+  Parts& p = *m_parts;
+  p.update(state);
+  Frame frame;
+  frame.tick = state.tick;
+  frame.quality = options.quality;
+  frame.eye = options.eye_index;
+  frame.metering = options.metering;
+  const bool inside = options.camera == ViewOptions::Camera::scope;
+  if (inside) {
+    const kinematics::ScopeFrame scope = sim::scope_of(p.model, state);
+    frame.camera = scope_camera(scope, p.model.scope.field_of_view, options.eye_shift);
+    kinematics::FulcrumPose shaft = pose_of(state.scope);
+    shaft.roll = 0;
+    const kinematics::TipFrame tip = kinematics::forward(p.model.scope.port, shaft);
+    frame.look.notch_angle = float(notch_angle(scope, tip, double(state.scope.post)));
+  } else {
+    frame.camera = outside_camera(options.eye, options.target, options.up, options.outside_fov, options.eye_shift);
+    frame.light = room_light();
+    frame.look = room_look();
+    frame.background = {0.09f, 0.10f, 0.11f};
+  }
+  p.list_tissues(inside || options.walls, frame);
+  p.list_clips(state, frame);
+  if (options.instruments) p.list_tools(state, frame);
+  if (options.instruments && !inside) p.list_scope(state, frame);
+  return frame;
+}
+
+}  // namespace trocar::view

@@ -1,0 +1,189 @@
+#include <algorithm>
+#include <cmath>
+
+#include <trocar/render/mesh_arrays.hpp>
+#include <trocar/view/sheet_drawing.hpp>
+
+namespace trocar::view {
+namespace {
+
+constexpr int kRows = 11;             // strand to base
+constexpr double kStep = 0.0016;      // [m] between columns
+constexpr double kTear = 0.5;         // of the width, how deep a cut's gap goes
+constexpr double kTearReach = 0.012;  // [m] along the strand on either side
+constexpr double kSag = 0.10;         // of the width, where the fold is as drawn
+constexpr double kRipple = 0.0006;    // [m]
+constexpr double kTwoPi = 6.28318530717959;
+
+Vec3d rest_of(const sim::BasePoint& b, const sim::Model& model) {
+  if (b.solid >= 0) return vec_cast<double>(model.solids[std::size_t(b.solid)].skin.rest[std::size_t(b.vertex)]);
+  const interactions::StrandBody& body = model.bodies[std::size_t(b.strand)];
+  const std::size_t e = std::size_t(b.place.element);
+  return body.model.rest[e] + b.place.w * (body.model.rest[e + 1] - body.model.rest[e]);
+}
+
+Vec3d vertex_now(const sim::SolidModel& solid, const tissue::NetworkState& state, int vertex) {
+  const tissue::SkinWeights& w = solid.skin.weights[std::size_t(vertex)];
+  Vec3d x = solid.network.origin;
+  for (std::size_t j = 0; j < 8; ++j) {
+    const tissue::NodeState& n = state.nodes[std::size_t(w.row[j])];
+    x += double(w.weight[j]) * Vec3d{n.x, n.y, n.z};
+  }
+  return x;
+}
+
+}  // namespace
+
+SheetDrawing::SheetDrawing(const sim::Model& model, int sheet, render::Backend& backend)
+    : m_model(&model),
+      m_sheet(&model.sheets[std::size_t(sheet)]),
+      m_body(&model.bodies[std::size_t(m_sheet->strand)]),
+      m_base(m_sheet->base.size()) {
+  double way = 0;
+  for (std::size_t i = 0; i < m_sheet->base.size(); ++i) {
+    if (i > 0) way += length(m_sheet->base[i].rest - m_sheet->base[i - 1].rest);
+    m_base_share.push_back(way);
+  }
+  for (double& share : m_base_share) share /= std::max(way, 1e-9);
+  const sim::State rest = sim::initial_state(model);
+  const auto strand = std::size_t(m_sheet->strand);
+  lay_out(pieces_of(*m_body, tissue::rest_state(m_body->model).alive, {}, int(strand)));
+  place(rest);
+  m_buffer.rest = m_buffer.positions;
+  render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);
+  m_mesh = OwnedMesh(backend, m_buffer.data());
+}
+
+void SheetDrawing::lay_out(std::vector<StrandPiece> pieces) {
+  m_pieces = std::move(pieces);
+  m_columns.clear();
+  for (int i = 0; i < int(m_pieces.size()); ++i) {
+    const StrandPiece& p = m_pieces[std::size_t(i)];
+    const double from = std::max(p.from, m_sheet->from), to = std::min(p.to, m_sheet->to);
+    if (to <= from) continue;
+    const int steps = std::max(1, int(std::ceil((to - from) / kStep)));
+    const bool follows_cut = p.cut_start && from == p.from && !m_columns.empty();
+    if (follows_cut) m_columns.back().twin = int(m_columns.size());
+    for (int k = 0; k <= steps; ++k) {
+      Column c{i, from + (to - from) * k / steps, -1, 1};
+      if (p.cut_start) c.gap = std::min(c.gap, (c.s - p.from) / kTearReach);
+      if (p.cut_end) c.gap = std::min(c.gap, (p.to - c.s) / kTearReach);
+      if (k == 0 && follows_cut) c.twin = int(m_columns.size()) - 1;
+      m_columns.push_back(c);
+    }
+  }
+  m_rest_width.clear();
+  connect();
+}
+
+void SheetDrawing::connect() {
+  m_buffer.paint.clear();
+  m_buffer.indices.clear();
+  m_buffer.positions.clear();
+  for (std::size_t c = 0; c < m_columns.size(); ++c)
+    for (int r = 0; r < kRows; ++r) {
+      const double v = double(r) / (kRows - 1);
+      const double near = std::min(v, 1 - v);
+      m_buffer.add({}, {to_byte(0.62 + 0.38 * smooth(0, 0.25, near)), 0, 0, 0});
+    }
+  for (std::size_t c = 0; c + 1 < m_columns.size(); ++c) {
+    if (m_columns[c].twin == int(c) + 1) continue;
+    join_rows(m_buffer, std::uint32_t(c * kRows), std::uint32_t((c + 1) * kRows), kRows, false);
+  }
+}
+
+Vec3d SheetDrawing::base_point(std::size_t i, const sim::State& state) const {
+  const sim::BasePoint& b = m_sheet->base[i];
+  if (b.solid >= 0) {
+    const std::size_t k = std::size_t(b.solid);
+    return b.rest + vertex_now(m_model->solids[k], state.solids[k], b.vertex) - rest_of(b, *m_model);
+  }
+  if (b.strand < 0) return b.rest;
+  const std::size_t k = std::size_t(b.strand);
+  return b.rest + point_at(m_model->bodies[k], state.strands[k], b.place) - rest_of(b, *m_model);
+}
+
+/// Catmull-Rom through the base points.
+Vec3d SheetDrawing::base_at(double share) const {
+  const std::size_t n = m_base.size();
+  if (n == 1) return m_base[0];
+  std::size_t i = 0;
+  while (i + 2 < n && m_base_share[i + 1] < share) ++i;
+  const double h = std::max(m_base_share[i + 1] - m_base_share[i], 1e-9);
+  const double t = std::clamp((share - m_base_share[i]) / h, 0.0, 1.0), u = 1 - t;
+  const Vec3d a = m_base[i], b = m_base[i + 1];
+  const Vec3d da = i > 0 ? 0.5 * (b - m_base[i - 1]) : b - a, db = i + 2 < n ? 0.5 * (m_base[i + 2] - a) : b - a;
+  return (u * u * (1 + 2 * t)) * a + (t * t * (3 - 2 * t)) * b + (u * u * t) * da - (t * t * u) * db;
+}
+
+void SheetDrawing::place(const sim::State& state) {
+  for (std::size_t i = 0; i < m_base.size(); ++i) m_base[i] = base_point(i, state);
+  const StrandCurve curve(*m_body, state.strands[std::size_t(m_sheet->strand)], m_pieces);
+  std::vector<Vec3d> top(m_columns.size()), base(m_columns.size()), along(m_columns.size());
+  for (std::size_t c = 0; c < m_columns.size(); ++c) {
+    const Column& column = m_columns[c];
+    base[c] = base_at((column.s - m_sheet->from) / std::max(m_sheet->to - m_sheet->from, 1e-9));
+    const CurveFrame f = curve.at(column.piece, column.s);
+    const double radius = m_body->model.radius[std::size_t(place_at(*m_body, column.s).element)];
+    const Vec3d down = base[c] - f.point;
+    top[c] = f.point + 0.7 * radius * normalised(down - dot(down, f.tangent) * f.tangent, f.normal);
+    along[c] = f.tangent;
+  }
+  const bool first = m_rest_width.empty();
+  for (std::size_t c = 0; c < m_columns.size(); ++c) {
+    if (first) m_rest_width.push_back(length(top[c] - base[c]));
+    place_column(c, top[c], base[c], cross(along[c], normalised(base[c] - top[c])));
+  }
+  for (std::size_t c = 0; c + 1 < m_columns.size(); ++c)
+    if (m_columns[c].twin == int(c) + 1) close_tear(c);
+}
+
+/// At a cut the two sides part near the strand and are one below: rows go over from their own shape to the mean, and
+/// the columns nearby follow.
+void SheetDrawing::close_tear(std::size_t c) {
+  for (std::size_t r = 0; r < kRows; ++r) {
+    const Vec3f a = m_buffer.positions[c * kRows + r], b = m_buffer.positions[(c + 1) * kRows + r];
+    const float joined = float(smooth(0, kTear, double(r) / (kRows - 1)));
+    const Vec3f half = (0.5f * joined) * (b - a);
+    const auto moved = [&](std::size_t k, Vec3f by) {
+      m_buffer.positions[k * kRows + r] += float(smooth(1, 0, m_columns[k].gap)) * by;
+    };
+    for (std::size_t k = c + 1; k-- > 0 && m_columns[k].piece == m_columns[c].piece;) moved(k, half);
+    for (std::size_t k = c + 1; k < m_columns.size() && m_columns[k].piece == m_columns[c + 1].piece; ++k)
+      moved(k, -half);
+  }
+}
+
+void SheetDrawing::place_column(std::size_t c, Vec3d top, Vec3d base, Vec3d across) {
+  const double width = length(top - base);
+  const double slack = 1 - smooth(0.98, 1.25, width / std::max(m_rest_width[c], 1e-6));
+  const Vec3d sag = slack * kSag * width * normalised(m_model->gravity, Vec3d{0, 0, -1});
+  const double s = m_columns[c].s;
+  for (std::size_t r = 0; r < kRows; ++r) {
+    const double v = double(r) / (kRows - 1), belly = 4 * v * (1 - v);
+    const double ripple = kRipple * belly * (0.35 + slack) *
+                          (std::sin(kTwoPi * s / 0.011 + 2.1 * v) + 0.6 * std::sin(kTwoPi * s / 0.0047 - 3 * v));
+    const Vec3d p = top + v * (base - top) + (belly * (0.6 + 0.4 * v)) * sag + ripple * across;
+    m_buffer.positions[c * kRows + r] = vec_cast<float>(p);
+  }
+}
+
+void SheetDrawing::update(const sim::State& state) {
+  const auto strand = std::size_t(m_sheet->strand);
+  std::vector<StrandPiece> pieces =
+      pieces_of(*m_body, state.strands[strand].alive, {state.cuts.data(), std::size_t(state.cut_count)}, int(strand));
+  const bool changed = pieces != m_pieces;
+  if (changed) {
+    lay_out(std::move(pieces));
+    place(sim::initial_state(*m_model));
+    m_buffer.rest = m_buffer.positions;
+  }
+  place(state);
+  render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);
+  if (changed)
+    m_mesh.replace(m_buffer.data());
+  else
+    m_mesh.move(m_buffer.positions, m_buffer.normals);
+}
+
+}  // namespace trocar::view

@@ -1,0 +1,47 @@
+// A thin fold between a strand and its base line: a ruled surface that sags and ripples where it is slack, goes flat
+// where it is stretched, and gapes where the strand on its border is cut.
+#pragma once
+
+#include <trocar/sim/state.hpp>
+#include <trocar/view/mesh_buffer.hpp>
+#include <trocar/view/strand_curve.hpp>
+
+namespace trocar::view {
+
+class SheetDrawing {
+ public:
+  SheetDrawing(const sim::Model& model, int sheet, render::Backend& backend);
+
+  void update(const sim::State& state);
+  render::MeshHandle mesh() const { return m_mesh.handle(); }
+  const MeshBuffer& buffer() const { return m_buffer; }
+
+ private:
+  /// A line from the strand to the base.
+  struct Column {
+    int piece = 0;
+    double s = 0;    ///< on the strand [m]
+    int twin = -1;   ///< column on the other side of a cut
+    double gap = 1;  ///< 0 at a cut .. 1 far from it
+  };
+  void lay_out(std::vector<StrandPiece> pieces);
+  void connect();
+  void place(const sim::State& state);
+  void close_tear(std::size_t column);
+  void place_column(std::size_t column, Vec3d top, Vec3d base, Vec3d across);
+  Vec3d base_point(std::size_t i, const sim::State& state) const;
+  Vec3d base_at(double share) const;
+
+  const sim::Model* m_model;
+  const sim::SheetModel* m_sheet;
+  const interactions::StrandBody* m_body;
+  std::vector<StrandPiece> m_pieces;
+  std::vector<Column> m_columns;
+  std::vector<double> m_base_share;  ///< of the drawn base line's length, 0..1
+  std::vector<Vec3d> m_base;         ///< now
+  std::vector<double> m_rest_width;  ///< (columns) drawn
+  MeshBuffer m_buffer;
+  OwnedMesh m_mesh;
+};
+
+}  // namespace trocar::view

@@ -1,0 +1,314 @@
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include <trocar/interactions/cut.hpp>
+#include <trocar/render/mesh_arrays.hpp>
+#include <trocar/view/fimbria.hpp>
+#include <trocar/view/tube_drawing.hpp>
+
+namespace trocar::view {
+
+using interactions::Clip;
+using interactions::Cut;
+
+namespace {
+
+constexpr double kPi = 3.14159265358979;
+constexpr double kStep = 0.0012;      // [m] between rings
+constexpr double kFineStep = 0.0004;  // [m] near a clip
+constexpr double kNearClip = 0.004;   // [m]
+constexpr double kBlanched = 0.0045;  // [m] beside a clip's legs
+constexpr double kBloodied = 0.0025;  // [m] beside a cut
+
+template <class T>
+bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+}  // namespace
+
+bool TubeDrawing::Layout::same(const Layout& other) const {
+  return pieces == other.pieces && same_bytes(clips, other.clips) && same_bytes(nicks, other.nicks);
+}
+
+TubeDrawing::TubeDrawing(const sim::Model& model, int strand)
+    : m_model(&model),
+      m_strand(&model.strands[std::size_t(strand)]),
+      m_body(&model.bodies[std::size_t(strand)]),
+      m_index(strand) {
+  const double thickest = *std::max_element(m_strand->outer.begin(), m_strand->outer.end());
+  m_sides = thickest > 0.0022 ? 16 : 12;
+  if (m_strand->fimbriated) m_fimbriae = fimbriae(kBellFlare * m_strand->outer.back(), strand + 1);
+  const tissue::StrandState rest = tissue::rest_state(m_body->model);
+  Layout whole;
+  whole.pieces = pieces_of(*m_body, rest.alive, {}, m_index);
+  lay_out(whole);
+  place(StrandCurve(*m_body, rest, m_layout.pieces), m_buffer.positions);
+  m_buffer.rest = m_buffer.positions;
+  render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);
+}
+
+void TubeDrawing::create(std::vector<Paint> baked, render::Backend& backend) {
+  m_baked = std::move(baked);
+  m_baked_rows = m_rows;
+  paint();
+  m_mesh = OwnedMesh(backend, m_buffer.data());
+}
+
+TubeDrawing::Layout TubeDrawing::layout_of(const sim::State& state) const {
+  Layout layout;
+  const std::span<const Cut> cuts(state.cuts.data(), std::size_t(state.cut_count));
+  layout.pieces = pieces_of(*m_body, state.strands[std::size_t(m_index)].alive, cuts, m_index);
+  for (int i = 0; i < state.clip_count; ++i)
+    if (state.clips[std::size_t(i)].strand == m_index) layout.clips.push_back(state.clips[std::size_t(i)]);
+  for (const Cut& cut : cuts)
+    if (cut.strand == m_index && cut.fraction < interactions::kThrough) layout.nicks.push_back(cut);
+  return layout;
+}
+
+void TubeDrawing::update(const sim::State& state) {
+  const Layout layout = layout_of(state);
+  const bool changed = !layout.same(m_layout);
+  if (changed) {
+    lay_out(layout);
+    // Rest coordinates come from the drawn strand, cut or not: patterns stay where they were.
+    const tissue::StrandState rest = tissue::rest_state(m_body->model);
+    place(StrandCurve(*m_body, rest, m_layout.pieces), m_buffer.rest);
+  }
+  place(StrandCurve(*m_body, state.strands[std::size_t(m_index)], m_layout.pieces), m_buffer.positions);
+  press(state);
+  render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);
+  if (changed)
+    m_mesh.replace(m_buffer.data());
+  else
+    m_mesh.move(m_buffer.positions, m_buffer.normals);
+}
+
+void TubeDrawing::press(const sim::State& state) {
+  for (const ClipPress& clip : clips_on(m_index, *m_model, state))
+    for (Vec3f& p : m_buffer.positions) p = vec_cast<float>(pressed(vec_cast<double>(p), clip));
+  for (const JawPress& jaws : jaws_on(m_index, *m_model, state))
+    for (Vec3f& p : m_buffer.positions) p = vec_cast<float>(pressed(vec_cast<double>(p), jaws));
+}
+
+double TubeDrawing::radius_at(double s) const {
+  const interactions::StrandPlace at = place_at(*m_body, s);
+  const std::size_t e = std::size_t(at.element), n = m_strand->outer.size();
+  const std::vector<double>& r = m_strand->outer;
+  const double a = r[e > 0 ? e - 1 : 0], b = r[e], c = r[e + 1], d = r[std::min(e + 2, n - 1)], w = at.w;
+  // Uniform cubic B-spline: rounds the corners of the stations.
+  const double u = 1 - w;
+  double radius =
+      (u * u * u * a + (3 * w * w * w - 6 * w * w + 4) * b + (3 * u * u * u - 6 * u * u + 4) * c + w * w * w * d) / 6;
+  if (m_strand->fimbriated) radius *= bell_flare(m_body->length() - s);
+  if (hosted(0)) radius *= 1 + 0.5 * std::exp(-s / (1.3 * r.front()));
+  if (hosted(m_body->nodes() - 1)) radius *= 1 + 0.5 * std::exp(-(m_body->length() - s) / (1.3 * r.back()));
+  return radius;
+}
+
+double TubeDrawing::outline(double s, double angle) const {
+  const double k = 2 * kPi * s, seed = 1.7 * m_index;
+  return 1 + 0.035 * std::sin(k / 0.0093 + 1.6 * std::sin(angle + seed)) +
+         0.03 * std::sin(2 * angle + k / 0.017 + seed) + 0.018 * std::sin(3 * angle - k / 0.0061 + 2 * seed);
+}
+
+bool TubeDrawing::hosted(int node) const {
+  const sim::StrandEndModel& end = node == 0 ? m_strand->start : m_strand->end;
+  return end.kind != sim::StrandEndModel::free;
+}
+
+Paint TubeDrawing::paint_at(const Layout& layout, double s, double angle, Paint own) const {
+  Paint p = own;
+  for (const Clip& clip : layout.clips) {
+    const double d = std::fabs(s - clip.s);
+    const double pale = 0.42 * clip.cover * smooth(kBlanched, 0.0008, d);
+    p.burn = std::max(p.burn, to_byte(pale));
+  }
+  for (const StrandPiece& piece : layout.pieces) {
+    if (piece.cut_start && s >= piece.from)
+      p.blood = std::max(p.blood, to_byte(0.45 * smooth(kBloodied, 0, s - piece.from)));
+    if (piece.cut_end && s <= piece.to) p.blood = std::max(p.blood, to_byte(0.45 * smooth(kBloodied, 0, piece.to - s)));
+  }
+  for (const Cut& nick : layout.nicks) {
+    const double round = 0.5 + 0.5 * std::cos(angle);
+    if (round < nick.fraction + 0.1)
+      p.blood = std::max(p.blood, to_byte(smooth(0.0012, 0.0003, std::fabs(s - nick.s))));
+  }
+  if (m_strand->fimbriated) {
+    const double before = m_body->length() - s;
+    p.tint = std::max(p.tint, to_byte(0.9 * smooth(1.3 * kBellLength, 0.1 * kBellLength, before)));
+  }
+  return p;
+}
+
+std::vector<double> TubeDrawing::stations(const Layout& layout, const StrandPiece& piece) const {
+  std::vector<double> at;
+  const int steps = std::max(2, int(std::ceil((piece.to - piece.from) / kStep)));
+  for (int i = 0; i <= steps; ++i) at.push_back(piece.from + (piece.to - piece.from) * i / steps);
+  for (const Clip& clip : layout.clips)
+    for (double d = -kNearClip; d <= kNearClip; d += kFineStep)
+      if (clip.s + d > piece.from + 1e-5 && clip.s + d < piece.to - 1e-5) at.push_back(clip.s + d);
+  std::sort(at.begin(), at.end());
+  at.erase(std::unique(at.begin(), at.end(), [](double a, double b) { return b - a < 1e-5; }), at.end());
+  at.back() = piece.to;
+  return at;
+}
+
+void TubeDrawing::add_raw_face(int piece, bool at_start) {
+  const StrandPiece& p = m_layout.pieces[std::size_t(piece)];
+  const double s = at_start ? p.from : p.to, sign = at_start ? -1 : 1, r = radius_at(s);
+  const double open = m_strand->inner.empty() ? 0 : m_strand->inner[std::size_t(at_start ? p.first : p.last)];
+  const double lumen = std::max(open, 0.22 * r);
+  const Paint raw{235, 120, 0, 0}, dark{30, 255, 0, 0};
+  std::vector<TubeRow> rows;
+  const auto row = [&](double along, double radius, Paint paint) {
+    rows.push_back({piece, s, sign * along, radius, 0, false, paint});
+  };
+  row(0, r, raw);
+  row(0.10 * r, 0.9 * r, raw);
+  row(0.19 * r, 0.62 * r, raw);
+  row(0.2 * r, 1.25 * lumen, raw);
+  row(0.02 * r, 0.85 * lumen, dark);
+  row(-0.2 * r, 0, dark);
+  rows.front().crease = !at_start;
+  if (at_start) std::reverse(rows.begin(), rows.end());
+  m_rows.insert(m_rows.end(), rows.begin(), rows.end());
+}
+
+void TubeDrawing::add_start(int piece) {
+  const StrandPiece& p = m_layout.pieces[std::size_t(piece)];
+  if (p.cut_start) return add_raw_face(piece, true);
+  const double r = radius_at(p.from);
+  if (hosted(0)) {  // goes on inside the organ
+    m_rows.push_back({piece, p.from, -1.5 * r, 0, 0, false, {120, 0, 0, 0}});
+    m_rows.push_back({piece, p.from, -1.2 * r, 0.8 * r, 0, false, {160, 0, 0, 0}});
+    return;
+  }
+  m_rows.push_back({piece, p.from, -r, 0, 0, false, {}});
+  for (const double a : {0.3, 0.7, 1.1})
+    m_rows.push_back({piece, p.from, -r * std::cos(a), r * std::sin(a), 0, false, {}});
+}
+
+void TubeDrawing::add_end(int piece) {
+  const StrandPiece& p = m_layout.pieces[std::size_t(piece)];
+  if (p.cut_end) return add_raw_face(piece, false);
+  const double r = radius_at(p.to);
+  if (m_strand->fimbriated) {
+    for (const FunnelRow& f : funnel()) {
+      const Paint paint{to_byte(f.openness), 0, 0, 235};
+      m_rows.push_back({piece, p.to, f.along * r, f.radius * r, 0.06, false, paint});
+    }
+  } else if (hosted(m_body->nodes() - 1)) {
+    m_rows.push_back({piece, p.to, 1.2 * r, 0.8 * r, 0, false, {160, 0, 0, 0}});
+    m_rows.push_back({piece, p.to, 1.5 * r, 0, 0, false, {120, 0, 0, 0}});
+  } else {
+    for (const double a : {1.1, 0.7, 0.3})
+      m_rows.push_back({piece, p.to, r * std::cos(a), r * std::sin(a), 0, false, {}});
+    m_rows.push_back({piece, p.to, r, 0, 0, false, {}});
+  }
+}
+
+void TubeDrawing::add_piece(const Layout& layout, int piece) {
+  const StrandPiece& p = layout.pieces[std::size_t(piece)];
+  add_start(piece);
+  bool first = true;
+  for (const double s : stations(layout, p)) {
+    const double scallop = m_strand->fimbriated ? 0.06 * smooth(kBellLength, 0, m_body->length() - s) : 0;
+    m_rows.push_back({piece, s, 0, radius_at(s), scallop, first && p.cut_start, {}});
+    first = false;
+  }
+  add_end(piece);
+}
+
+void TubeDrawing::lay_out(const Layout& layout) {
+  m_layout = layout;
+  m_rows.clear();
+  for (int piece = 0; piece < int(layout.pieces.size()); ++piece) add_piece(layout, piece);
+  connect();
+  paint();
+}
+
+void TubeDrawing::connect() {
+  m_buffer = {};
+  std::uint32_t before = 0;
+  const auto sides = std::uint32_t(m_sides);
+  for (std::size_t i = 0; i < m_rows.size(); ++i) {
+    const TubeRow& row = m_rows[i];
+    const bool pole = row.radius == 0, opens = i == 0 || m_rows[i - 1].piece != row.piece;
+    const std::uint32_t first = m_buffer.size();
+    for (std::uint32_t k = 0; k < (pole ? 1 : sides); ++k) m_buffer.add({});
+    if (!opens && !row.crease) {
+      if (pole)
+        join_pole(m_buffer, before, sides, first, true);
+      else if (m_rows[i - 1].radius == 0)
+        join_pole(m_buffer, first, sides, before, false);
+      else
+        join_rows(m_buffer, before, first, sides, true);
+    }
+    before = first;
+  }
+  if (m_strand->fimbriated) append(m_buffer, m_fimbriae, Mat3f::identity(), {});
+}
+
+void TubeDrawing::paint() {
+  const auto shaded = [](Paint p, Paint baked) {
+    p.openness = std::uint8_t(p.openness * baked.openness / 255);
+    return p;
+  };
+  std::size_t v = 0;
+  for (const TubeRow& row : m_rows) {
+    const bool on_tube = row.along == 0 && row.paint.blood == 0 && !m_baked.empty();
+    const std::size_t baked = on_tube ? nearest_first(row.s) : 0;
+    for (int k = 0; k < (row.radius == 0 ? 1 : m_sides); ++k) {
+      Paint p = paint_at(m_layout, row.s, 2 * kPi * k / m_sides, row.paint);
+      if (on_tube) p = shaded(p, m_baked[baked + std::size_t(k)]);
+      m_buffer.paint[v++] = p;
+    }
+  }
+  const std::size_t fingers = m_fimbriae.paint.size();
+  for (std::size_t i = 0; i < fingers; ++i)
+    m_buffer.paint[v + i] =
+        m_baked.empty() ? m_fimbriae.paint[i] : shaded(m_fimbriae.paint[i], m_baked[m_baked.size() - fingers + i]);
+}
+
+std::size_t TubeDrawing::nearest_first(double s) const {
+  std::size_t best = 0, first = 0;
+  double gap = 1e9;
+  for (const TubeRow& row : m_baked_rows) {
+    if (row.radius > 0 && row.along == 0 && std::fabs(row.s - s) < gap) {
+      gap = std::fabs(row.s - s);
+      best = first;
+    }
+    first += row.radius == 0 ? 1 : std::size_t(m_sides);
+  }
+  return best;
+}
+
+void TubeDrawing::place(const StrandCurve& curve, std::vector<Vec3f>& positions) const {
+  positions.resize(m_buffer.paint.size());
+  std::size_t v = 0;
+  for (const TubeRow& row : m_rows) {
+    const CurveFrame f = curve.at(row.piece, row.s);
+    const Vec3d centre = f.point + row.along * f.tangent;
+    if (row.radius == 0) {
+      positions[v++] = vec_cast<float>(centre);
+      continue;
+    }
+    for (int k = 0; k < m_sides; ++k) {
+      const double a = 2 * kPi * k / m_sides;
+      const double lobes = row.scallop * std::cos(kRimLobes / 2 * a + m_index);
+      const double r = row.radius * (outline(row.s, a) + lobes);
+      const Vec3d p =
+          centre + r * (std::cos(a) * f.normal + std::sin(a) * f.binormal) + (0.3 * lobes * row.radius) * f.tangent;
+      positions[v++] = vec_cast<float>(p);
+    }
+  }
+  if (!m_strand->fimbriated) return;
+  const CurveFrame end = curve.at(int(m_layout.pieces.size()) - 1, m_body->length());
+  for (const Vec3f& q : m_fimbriae.positions)
+    positions[v++] =
+        vec_cast<float>(end.point + double(q.x) * end.tangent + double(q.y) * end.normal + double(q.z) * end.binormal);
+}
+
+}  // namespace trocar::view

@@ -1,0 +1,78 @@
+// A strand as it is drawn: a swept tube of soft, uneven outline, flared where it grows out of an organ, closed by round
+// caps, raw faces where it is cut, or fimbriae; flattened by clips and jaws.
+//
+// A tube is a list of rows (closed rings, poles) that ride on the strand's curve. The list changes only when something
+// is cut or clipped; otherwise a frame moves vertices.
+#pragma once
+
+#include <trocar/render/openness.hpp>
+#include <trocar/view/mesh_buffer.hpp>
+#include <trocar/view/pinch.hpp>
+#include <trocar/view/strand_curve.hpp>
+
+namespace trocar::view {
+
+/// One ring around the curve, or one vertex on it (radius 0).
+struct TubeRow {
+  int piece = 0;
+  double s = 0;      ///< arc length [m]
+  double along = 0;  ///< moved along the tangent from there [m]
+  double radius = 0;
+  double scallop = 0;   ///< of the rim: share of the radius
+  bool crease = false;  ///< a hard edge: not joined to the row before, which lies in the same place
+  Paint paint;
+};
+
+class TubeDrawing {
+ public:
+  TubeDrawing(const sim::Model& model, int strand);
+
+  /// The undeformed, uncut tube, for baking openness; then its mesh is made.
+  const MeshBuffer& drawn() const { return m_buffer; }
+  void create(std::vector<Paint> baked, render::Backend& backend);
+
+  void update(const sim::State& state);
+  render::MeshHandle mesh() const { return m_mesh.handle(); }
+  /// As it was last made: for the folds that hang on it, and for tests.
+  const MeshBuffer& buffer() const { return m_buffer; }
+  int sides() const { return m_sides; }
+
+ private:
+  /// What the list of rows depends on.
+  struct Layout {
+    std::vector<StrandPiece> pieces;
+    std::vector<interactions::Clip> clips;
+    std::vector<interactions::Cut> nicks;  ///< cuts that went only part of the way
+    bool same(const Layout& other) const;
+  };
+  Layout layout_of(const sim::State& state) const;
+  void lay_out(const Layout& layout);
+  void add_piece(const Layout& layout, int piece);
+  void add_start(int piece);
+  void add_end(int piece);
+  void add_raw_face(int piece, bool at_start);
+  void connect();  ///< vertices and triangles of the rows
+  void paint();
+  std::size_t nearest_first(double s) const;  ///< first vertex of the baked row nearest to s
+  void place(const StrandCurve& curve, std::vector<Vec3f>& positions) const;
+  void press(const sim::State& state);
+  Paint paint_at(const Layout& layout, double s, double angle, Paint own) const;
+  double radius_at(double s) const;
+  double outline(double s, double angle) const;
+  bool hosted(int node) const;
+  std::vector<double> stations(const Layout& layout, const StrandPiece& piece) const;
+
+  const sim::Model* m_model;
+  const sim::StrandModel* m_strand;
+  const interactions::StrandBody* m_body;
+  int m_index, m_sides;
+  Layout m_layout;
+  std::vector<TubeRow> m_rows;
+  MeshBuffer m_fimbriae;  ///< in the end's frame
+  MeshBuffer m_buffer;
+  std::vector<TubeRow> m_baked_rows;  ///< of the uncut tube
+  std::vector<Paint> m_baked;
+  OwnedMesh m_mesh;
+};
+
+}  // namespace trocar::view

@@ -1,0 +1,115 @@
+// Draws a scene from a few places, for people to look at; built with the tests, run by hand:
+//   view_sample OUT_DIR [SHOT...]          (all shots without names)
+#include <algorithm>
+#include <cstdio>
+#include <ctime>
+#include <string>
+#include <vector>
+
+#include <trocar/render/gl_context.hpp>
+#include <trocar/scene/compile.hpp>
+#include <trocar/scene/reader.hpp>
+#include <trocar/sim/step.hpp>
+#include <trocar/view/scene_view.hpp>
+
+using namespace trocar;
+
+namespace {
+
+double cpu_ms() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return 1e3 * double(t.tv_sec) + 1e-6 * double(t.tv_nsec);
+}
+
+struct Shot {
+  const char* name;
+  int state;  ///< 0 start, 1 clipped and cut
+  bool outside;
+  Vec3d eye, target;  ///< both zero: where the scope is
+};
+const Shot kShots[] = {
+    {"start", 0, false, {}, {}},
+    {"uterus", 0, false, {0.004, -0.105, -0.045}, {0, -0.158, -0.105}},
+    {"left", 0, false, {0.030, -0.105, -0.062}, {0.045, -0.145, -0.105}},
+    {"right", 0, false, {-0.028, -0.100, -0.066}, {-0.047, -0.142, -0.108}},
+    {"isthmus", 0, false, {0.034, -0.125, -0.068}, {0.038, -0.152, -0.094}},
+    {"fimbria", 0, false, {0.030, -0.095, -0.118}, {0.043, -0.123, -0.1335}},
+    {"ovary", 0, false, {0.022, -0.105, -0.088}, {0.0435, -0.137, -0.117}},
+    {"douglas", 0, false, {0.0, -0.105, -0.085}, {0.0, -0.19, -0.15}},
+    {"bladder", 0, false, {0.0, -0.125, -0.055}, {0.0, -0.19, -0.085}},
+    {"grasper", 0, false, {-0.008, -0.105, -0.045}, {-0.028, -0.116, -0.07}},
+    {"scissors", 0, false, {0.008, -0.105, -0.05}, {0.028, -0.117, -0.07}},
+    {"applier", 0, false, {0.004, -0.105, -0.045}, {0.006, -0.137, -0.055}},
+    {"clipped", 1, false, {0.034, -0.122, -0.072}, {0.038, -0.152, -0.094}},
+    {"cut", 1, false, {0.038, -0.135, -0.075}, {0.040, -0.152, -0.094}},
+    {"outside", 0, true, {0.22, 0.12, 0.18}, {0, -0.14, -0.08}},
+};
+
+/// Two clips on the left tube and a cut between them, ends drawn apart.
+void operate(const sim::Model& model, sim::State& state) {
+  const int strand = std::max(0, model.strand_index("tube_left"));
+  const interactions::StrandBody& body = model.bodies[std::size_t(strand)];
+  tissue::StrandState& tube = state.strands[std::size_t(strand)];
+  for (const double s : {0.016, 0.030}) {
+    interactions::Clip& clip = state.clips[std::size_t(state.clip_count++)];
+    clip.strand = strand;
+    clip.tool = 2;
+    clip.s = s;
+    clip.cover = 1;
+    clip.opening[1] = 1;
+    clip.axis[2] = 1;
+    clip.reach = 0.0042;
+  }
+  interactions::Cut& cut = state.cuts[std::size_t(state.cut_count++)];
+  cut.strand = strand;
+  cut.s = 0.0231;
+  cut.fraction = 1;
+  tissue::cut_element(tube, place_at(body, cut.s).element);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string folder = argc > 1 ? argv[1] : ".";
+  const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/gynaecology/scene.json"));
+  auto context = render::GlContext::off_screen();
+  auto backend = render::make_gl_backend(*context);
+  double before = cpu_ms();
+  view::SceneView view(model, *backend);
+  std::printf("view made in %.0f cpu-ms\n", cpu_ms() - before);
+  std::vector<sim::State> states(2, sim::initial_state(model));
+  operate(model, states[1]);
+  sim::Work work = sim::make_work(model);
+  for (sim::State& state : states)
+    for (int i = 0; i < 300; ++i) sim::step(model, model.start, state, work);
+
+  for (const Shot& shot : kShots) {
+    if (argc > 2 && std::find(argv + 2, argv + argc, std::string(shot.name)) == argv + argc) continue;
+    view::ViewOptions options;
+    if (shot.outside) options.camera = view::ViewOptions::Camera::outside;
+    options.eye = shot.eye;
+    options.target = shot.target;
+    options.walls = !shot.outside;
+    sim::State state = states[std::size_t(shot.state)];
+    double update = 0, draw = 0;
+    for (int i = 0; i < 12; ++i) {
+      state.tick += 100;
+      before = cpu_ms();
+      render::Frame frame = view.frame(state, options);
+      update = cpu_ms() - before;
+      if (length(shot.eye) > 0 && !shot.outside) {
+        const float fov = frame.camera.vertical_fov;
+        frame.camera = render::look_at(vec_cast<float>(shot.eye), vec_cast<float>(shot.target), {0, 0, 1});
+        frame.camera.vertical_fov = fov;
+        frame.camera.near_plane = 0.002f;
+      }
+      before = cpu_ms();
+      render::draw_frame(*backend, frame, render::Target::off_screen(800, 600));
+      const render::Image image = backend->read_pixels();
+      draw = cpu_ms() - before;
+      if (i == 11) render::write_png(folder + "/" + shot.name + ".png", image);
+    }
+    std::printf("%-9s update %.1f draw %.1f cpu-ms\n", shot.name, update, draw);
+  }
+}
