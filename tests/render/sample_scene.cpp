@@ -93,10 +93,10 @@ Material peritoneum() {
   return m;
 }
 Material fat() {
-  Material m = tissue(srgb(216, 160, 104), srgb(224, 176, 118), srgb(204, 136, 92));
-  m.lobule_size = 0.006f;
-  m.lobule_depth = 0.4f;
-  m.lobule_contrast = 0.5f;
+  Material m = tissue(srgb(214, 156, 118), srgb(222, 172, 124), srgb(204, 134, 104));
+  m.lobule_size = 0.0045f;
+  m.lobule_depth = 0.35f;
+  m.lobule_contrast = 0.35f;
   m.vessels = 0.6f;
   m.vessel_tile = 0.03f;
   m.glow_amount = 0.12f;
@@ -196,14 +196,16 @@ std::vector<Piece> pelvis(bool hurt) {
                             {x - 0.02f, -0.045f, -0.028f}, {x + 0.035f, -0.078f, -0.03f}, 60, 0.001f);
     pieces.push_back({tube(loop, radii(60, 0.0105f, 0.011f, 0.04f), 36), i == 2 ? fat() : bowel()});
   }
+  Material shaft_steel = steel();
   const std::vector<Vec3f> shaft{{0.075f, 0.07f, 0.052f}, {0.05f, 0.045f, 0.025f}, {0.031f, 0.026f, 0.004f}};
-  pieces.push_back({tube(shaft, {0.0025f, 0.0025f, 0.0025f}, 32), steel()});
+  shaft_steel.fibre_axis = normalised(shaft.back() - shaft.front());
+  pieces.push_back({tube(shaft, {0.0025f, 0.0025f, 0.0025f}, 32), shaft_steel});
   const std::vector<Vec3f> jaw{{0.031f, 0.026f, 0.004f}, {0.024f, 0.021f, -0.004f}, {0.0165f, 0.0165f, -0.0110f}};
   pieces.push_back({tube(jaw, {0.0022f, 0.0017f, 0.0008f}, 24), steel()});
   if (hurt) {
     Shape pool = sheet(40, 40, [](float u, float v) {
       const float r = 0.024f * std::sqrt(v), a = 2 * kPi * u;
-      return Vec3f{-0.004f + r * std::cos(a) * 1.3f, 0.042f + 0.7f * r * std::sin(a), -0.0455f + 0.0006f * (1 - v)};
+      return Vec3f{-0.004f + r * std::cos(a) * 1.3f, 0.040f + 0.8f * r * std::sin(a), -0.026f + 0.0006f * (1 - v)};
     });
     for (Paint& p : pool.paint) p.tint = 140;
     pieces.push_back({pool, blood_pool(), true});
@@ -227,11 +229,13 @@ std::vector<Piece> upper() {
   for (int i = 0; i < 6; ++i) {
     const float x = -0.06f + 0.024f * float(i);
     pieces.push_back({ball(40, {x, -0.035f - 0.006f * float(i % 3), -0.058f + 0.003f * float(i % 2)},
-                           {0.019f, 0.020f, 0.013f}, 0.0022f, 0.012f),
+                           {0.019f, 0.020f, 0.013f}, 0.0012f, 0.012f),
                       i == 3 ? bowel() : fat()});
   }
+  Material shaft_steel = steel();
   const std::vector<Vec3f> shaft{{0.08f, -0.03f, 0.045f}, {0.045f, -0.012f, -0.005f}, {0.022f, -0.002f, -0.026f}};
-  pieces.push_back({tube(shaft, {0.0025f, 0.0025f, 0.0022f}, 32), steel()});
+  shaft_steel.fibre_axis = normalised(shaft.back() - shaft.front());
+  pieces.push_back({tube(shaft, {0.0025f, 0.0025f, 0.0022f}, 32), shaft_steel});
   return pieces;
 }
 

@@ -37,7 +37,7 @@ Camera at_scope_tip(Vec3f tip, const Mat3f& shaft, float scope_angle, float roll
 struct Light {
   Vec3f position = {0.0012f, 0.0022f, 0.0008f};  ///< [m] in the camera's frame: slightly off the lens
   Vec3f colour = {1.0f, 0.97f, 0.98f};
-  float intensity = 1;               ///< irradiance at reference_distance
+  float intensity = 0.45f;           ///< irradiance at reference_distance; 1 shows white as white
   float reference_distance = 0.06f;  ///< [m]
   bool inverse_square = true;        ///< false: the same everywhere (operating room, analysis views)
   float bounce = 0.035f;             ///< light that the walls return, as a share
@@ -64,9 +64,9 @@ struct EndoscopeLook {
   float bloom = 0.05f;
   float focus_near = 0.026f;  ///< [m] nearer things are out of focus
   float defocus = 0.8f;       ///< 0 none .. 1: how much
-  float contact = 0.5f;       ///< 0 none .. 1: darkening behind the edge of nearer things
+  float contact = 0.35f;      ///< 0 none .. 1: darkening behind the edge of nearer things
   float sharpen = 0.35f;      ///< video sharpening overshoot
-  float noise = 0.0015f;      ///< sensor noise at mid grey; more in the dark
+  float noise = 0.0008f;      ///< sensor noise at mid grey; more in the dark
   float saturation = 1;
   Vec3f white_balance = {1, 1, 1};
   // Air.

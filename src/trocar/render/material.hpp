@@ -14,7 +14,7 @@ Vec3f srgb(float r, float g, float b);
 enum class Shading : std::uint8_t {
   tissue,         ///< wet living surface
   metal,          ///< instrument: neutral, streaked along `fibre_axis`, pink bounce
-  fluid,          ///< pool or drop: smooth, glossy, absorbs by `density` times thickness seen at the rim
+  fluid,          ///< pool or smear: smooth, glossy, mirrors; opaque by `density` times Paint::tint (its depth)
   vertex_colour,  ///< lit by wrap light only, paint is sRGB colour + alpha (false-colour maps, plastic)
   unlit,          ///< paint is sRGB colour + alpha, no light, no fall-off (lines, arrows, gizmos)
 };
@@ -58,7 +58,7 @@ struct Material {
   float alpha = 1;                     ///< of translucent items, facing the eye
   float rim_alpha = 1;                 ///< of translucent items, grazing (a sheet seen edge-on is denser)
 
-  float density = 1;       ///< Shading::fluid: how fast it gets opaque
+  float density = 1;       ///< Shading::fluid: opacity is 1 - exp(-density (1/4 + 4 tint)), tint = Paint::tint / 255
   bool two_sided = false;  ///< light both sides and do not cull (sheets, open surfaces)
 };
 

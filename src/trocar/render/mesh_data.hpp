@@ -20,7 +20,7 @@ struct Paint {
   std::uint8_t openness = 255;  ///< baked ambient occlusion: 255 open, 0 deep crevice (turns red-brown, not black)
   std::uint8_t blood = 0;       ///< blood film: 0 none, 255 opaque pool; darkens, reddens, makes glossy
   std::uint8_t burn = 0;        ///< heat: 0 none, ~100 blanched, ~180 tan crust, 255 char; dries the surface
-  std::uint8_t tint = 0;        ///< mix towards Material::tint (a fimbria's pink, a pale edge, a follicle, a stain)
+  std::uint8_t tint = 0;        ///< mix towards Material::tint (a fimbria's pink, a pale edge, a stain); fluid: depth
 
   friend bool operator==(Paint a, Paint b) {
     return a.openness == b.openness && a.blood == b.blood && a.burn == b.burn && a.tint == b.tint;

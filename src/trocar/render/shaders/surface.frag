@@ -121,16 +121,19 @@ void main() {
 #if SHADING == 1
   // Brushed steel or titanium: streaks along the axis, grey itself, pink where it mirrors the walls.
   vec3 n = normalize(N + BUMP * along_surface(to_eye(slope), N));
+  // Grinding runs along the axis, so a highlight spreads along it.
   vec3 H = normalize(lit.direction + V);
+  vec3 axis = normalize(to_eye(FIBRE_AXIS));
+  H = normalize(H - axis * (0.85 * step(0.01, FIBRE_SQUEEZE) * dot(H, axis)));
   float nh = clamp(dot(n, H), 0.0, 1.0), nv = clamp(dot(n, V), 0.0, 1.0), nl = clamp(dot(n, lit.direction), 0.0, 1.0);
-  float streak = 0.45 + 1.1 * smoothstep(0.3, 0.7, broad.a);
+  float streak = 0.15 + 1.4 * smoothstep(0.35, 0.7, broad.a);
   vec3 grey = mix(COLOUR_A, COLOUR_B, MOTTLE * fine.a);
   grey = mix(grey, vec3(0.09, 0.004, 0.006), clamp(BLOOD * (0.6 + 0.8 * broad.a), 0.0, 0.95));
   grey = mix(grey, TINT, v_paint.w);
   float ao = OPENNESS;
   float mirror = 0.35 + 0.65 * (1.0 - nv);
   float lobes = lobe(nh, ROUGH2) * streak + 0.3 * lobe(nh, 0.35);
-  vec3 light = LIGHT_COLOUR * lit.power * ao * (0.30 * nl + 0.18 * lobes);
+  vec3 light = LIGHT_COLOUR * lit.power * ao * (0.30 * nl + 0.10 * lobes);
   light += mirrored(reflect(-V, n), 0.02, lit.bounce) * (0.55 * mirror * ao) + vec3(AMBIENT) * (lit.bounce * ao);
   vec3 colour = grey * light;
 #ifdef FOGGY
@@ -141,8 +144,10 @@ void main() {
   vec3 albedo = mix(COLOUR_A, COLOUR_B, MOTTLE * smoothstep(0.3, 0.7, broad.a));
   albedo = mix(albedo, COLOUR_C, MOTTLE * smoothstep(0.5, 0.85, fine.a));
   float tint = v_paint.w;
+#if SHADING == 0
   albedo = mix(albedo, TINT, tint);
-  albedo *= 1.0 + vec3(0.0, 0.10, -0.16) * (broad.g - 0.5) * 2.0;  // towards yellow here, mauve there
+#endif
+  albedo *= 1.0 + vec3(0.0, 0.09, -0.13) * (broad.g - 0.5);  // towards yellow here, mauve there
   vec3 relief = BUMP * slope;
 
 #ifdef LOBULES
@@ -169,8 +174,10 @@ void main() {
   albedo = mix(albedo, vec3(0.014, 0.010, 0.009), carbon);
   relief *= 1.0 + 2.0 * crust;
 
-  // Blood lies in a film: thin it stains like a filter, thick it hides what is below.
-  float blood = clamp(BLOOD * (0.75 + 0.5 * broad.a), 0.0, 1.0);
+  // Blood lies in a film with a ragged edge: thin it stains like a filter, thick it hides what is below.
+  float ragged = 0.5 * fine.a + 0.5 * fine.r;
+  float blood = BLOOD * (0.25 + 0.75 * smoothstep(-0.06, 0.10, BLOOD - 0.75 * ragged * (1.0 - BLOOD)));
+  blood = clamp(blood * (0.8 + 0.4 * broad.a), 0.0, 1.0);
   albedo *= exp(-blood * vec3(0.35, 2.6, 2.2));
   albedo = mix(albedo, vec3(0.105, 0.006, 0.007), smoothstep(0.45, 0.95, blood));
 #endif
@@ -193,7 +200,8 @@ void main() {
 #if DETAIL >= 1
   vec4 ripple = texture(u_noise, kTurn * p.zxy * FILM_SCALE);
   // Smooth sheets of film here, wrinkled and bubbly there.
-  vec3 film_slope = (ripple.rgb * 2.0 - 1.0) * (FILM_BUMP * (0.35 + 1.3 * smoothstep(0.45, 0.75, broad.b)));
+  vec3 film_slope = (ripple.rgb * 2.0 - 1.0 + 0.35 * (fine.bra * 2.0 - 1.0)) *
+                    (FILM_BUMP * (0.35 + 1.3 * smoothstep(0.45, 0.75, broad.b)));
   float wet_noise = 0.5 * (ripple.a + broad.b);
 #else
   vec3 film_slope = slope * FILM_BUMP;
@@ -211,7 +219,7 @@ void main() {
   float gloss = 0.25 * FRESNEL * (wet * lobe(mh, FILM2) + (0.35 + 0.65 * wet) * lobe(nh, ROUGH2)) * facing * lit.power;
   float grazing = FRESNEL + (1.0 - FRESNEL) * rim * rim * (1.0 - nv);
 #if SHADING == 2
-  vec3 around = mirrored(reflect(-V, m), 0.03, lit.bounce);
+  vec3 around = 0.7 * mirrored(reflect(-V, m), 0.03, lit.bounce);
 #else
   vec3 around = (BOUNCE * 1.5 + vec3(AMBIENT) * 0.5) * lit.bounce;
 #endif

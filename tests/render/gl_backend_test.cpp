@@ -1,0 +1,302 @@
+// The GL backend on whatever OpenGL this machine has, without a display. A machine without EGL fails here: setup
+// installs Mesa's software driver.
+#include <cmath>
+#include <string>
+
+#include <epoxy/gl.h>
+#include <gtest/gtest.h>
+
+#include <trocar/core/error.hpp>
+#include <trocar/render/backend.hpp>
+#include <trocar/render/gl_context.hpp>
+#include <trocar/render/gl_program.hpp>
+#include <trocar/render/governor.hpp>
+
+#include "sample_scene.hpp"
+
+namespace trocar::render {
+namespace {
+
+class GlBackend : public testing::Test {
+ protected:
+  void SetUp() override {
+    try {
+      context = GlContext::off_screen();
+    } catch (const core::EnvironmentLacks& e) {
+      FAIL() << e.what();
+    }
+    backend = make_gl_backend(*context);
+  }
+  void TearDown() override {
+    backend.reset();
+    context.reset();
+  }
+  MeshHandle ball(Vec3f centre, float radius, int rings = 48) {
+    return sample::create(*backend, sample::sphere(centre, radius, rings));
+  }
+  MeshHandle white_ball(Vec3f centre, float radius) {
+    sample::Shape shape = sample::sphere(centre, radius, 48);
+    shape.paint.assign(shape.paint.size(), Paint{255, 255, 255, 255});
+    return sample::create(*backend, shape);
+  }
+  Image draw(int width, int height) {
+    draw_frame(*backend, frame, Target::off_screen(width, height));
+    return backend->read_pixels();
+  }
+
+  std::unique_ptr<GlContext> context;
+  std::unique_ptr<Backend> backend;
+  Frame frame;
+};
+
+/// A surface that shows its irradiance and a faint gloss that falls off alike.
+Material white() {
+  Material m;
+  m.shading = Shading::vertex_colour;
+  return m;
+}
+
+/// The develop shader's curve, to get back from picture values to light (bisection; the curve rises).
+double light_of(double picture) {
+  double low = 0, high = 1;
+  for (int i = 0; i < 60; ++i) {
+    const double x = 0.5 * (low + high);
+    const double y = 1.075 * x * (6.2 * x + 0.5) / (x * (6.2 * x + 1.7) + 0.06);
+    (y < picture ? low : high) = x;
+  }
+  return 0.5 * (low + high);
+}
+
+double mean_luma(const Image& image) {
+  double sum = 0;
+  for (std::size_t i = 0; i < image.rgb.size(); i += 3)
+    sum += 0.2126 * image.rgb[i] + 0.7152 * image.rgb[i + 1] + 0.0722 * image.rgb[i + 2];
+  return sum / (255.0 * double(image.rgb.size() / 3));
+}
+
+TEST_F(GlBackend, EveryShaderVariantCompilesAndLinks) {
+  GlPrograms programs;
+  for (const char* detail : {"0", "1", "2"})
+    for (const char* shading : {"0", "1", "2"})
+      for (const char* extra : {"", ",VESSELS", ",LOBULES", ",VESSELS,LOBULES,STAINED,FOGGY,TWO_SIDED"})
+        EXPECT_NO_THROW(programs.get("surface.vert", "surface.frag",
+                                     std::string("SHADING=") + shading + ",DETAIL=" + detail + extra));
+  for (const char* extra : {"", "LIT"}) EXPECT_NO_THROW(programs.get("flat.vert", "flat.frag", extra));
+  for (const char* shape : {"full.vert", "disc.vert"}) {
+    for (const char* extra : {"", "EFFECTS"}) EXPECT_NO_THROW(programs.get(shape, "develop.frag", extra));
+    for (const char* extra : {"", "FRINGE"}) EXPECT_NO_THROW(programs.get(shape, "lens.frag", extra));
+  }
+  EXPECT_NO_THROW(programs.get("full.vert", "shrink.frag"));
+  EXPECT_NO_THROW(programs.get("full.vert", "meter.frag"));
+  EXPECT_NO_THROW(programs.get("mask.vert", "mask.frag"));
+  EXPECT_NO_THROW(programs.get("puff.vert", "puff.frag"));
+}
+
+TEST_F(GlBackend, ABrokenShaderNamesItsFile) {
+  try {
+    GlProgram program("surface.vert", "surface.frag", "SHADING=),DETAIL=2");
+    FAIL() << "nonsense was compiled";
+  } catch (const std::logic_error& e) {
+    EXPECT_NE(std::string(e.what()).find("surface.frag"), std::string::npos);
+  }
+}
+
+TEST_F(GlBackend, NoGlErrorInAFullFrame) {
+  frame.camera = look_at({0.012f, -0.012f, 0.070f}, {0, 0.004f, -0.03f}, {0, 1, 0});
+  sample::build(*backend, 2, frame);
+  frame.puffs = {{{0, 0, 0}, 0.02f, 0.4f}, {{0.01f, 0, 0.01f}, 0.01f, 0.4f}};
+  frame.look.fog = 2;
+  while (glGetError() != GL_NO_ERROR) {
+  }
+  for (const Quality& quality : quality_levels()) {
+    frame.quality = quality;
+    frame.tick += 40;
+    draw(160, 120);
+    EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR)) << "scale " << quality.render_scale;
+  }
+}
+
+TEST_F(GlBackend, NearIsBrighterThanFarByInverseSquare) {
+  frame.look = plain_look();
+  frame.light.bounce = 0;
+  frame.light.position = {0, 0, 0};
+  frame.light.intensity = 0.2f;
+  frame.camera.vertical_fov = 0.3f;
+  double light[2];
+  const float distance[2] = {0.06f, 0.12f};
+  for (int i = 0; i < 2; ++i) {
+    frame.items.clear();
+    // The lit point faces the eye: the ball's near pole lies at `distance`.
+    frame.items.push_back({white_ball({0, 0, -(distance[i] + 0.02f)}, 0.02f), white(), {}, false});
+    const Image image = draw(201, 201);
+    light[i] = light_of(image.at(100, 100)[1] / 255.0);
+    backend->destroy_mesh(frame.items[0].mesh);
+  }
+  EXPECT_NEAR(light[0] / light[1], 4.0, 0.25);
+}
+
+TEST_F(GlBackend, BlackOutsideTheMaskAndNotInside) {
+  frame.items.push_back({ball({0, 0, 0}, 0.1f), {}, {}, false});
+  frame.items[0].material.two_sided = true;  // the eye is inside: tissue everywhere
+  const Image image = draw(320, 240);
+  int lit = 0, inside = 0;
+  for (int y = 0; y < 240; ++y)
+    for (int x = 0; x < 320; ++x) {
+      const double r = std::hypot(x + 0.5 - 160, y + 0.5 - 120);
+      const std::uint8_t* p = image.at(x, y);
+      if (r > 120.5) {
+        ASSERT_EQ(p[0] + p[1] + p[2], 0) << x << "," << y;
+      }
+      if (r < 100) {
+        ++inside;
+        lit += p[0] > 10;
+      }
+    }
+  EXPECT_EQ(lit, inside);
+}
+
+TEST_F(GlBackend, WithoutAMaskTheCornersShow) {
+  frame.look = plain_look();
+  frame.items.push_back({ball({0, 0, 0}, 0.1f), {}, {}, false});
+  frame.items[0].material.two_sided = true;
+  const Image image = draw(64, 48);
+  for (int x : {0, 63})
+    for (int y : {0, 47}) EXPECT_GT(image.at(x, y)[0], 10);
+}
+
+TEST_F(GlBackend, OneByOneTargetWorks) {
+  frame.items.push_back({ball({0, 0, -0.05f}, 0.02f), {}, {}, false});
+  const Image image = draw(1, 1);
+  EXPECT_EQ(image.rgb.size(), 3u);
+  EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
+}
+
+TEST_F(GlBackend, AutoExposureEvensOutTheLamp) {
+  frame.items.push_back({ball({0, 0, 0}, 0.08f), {}, {}, false});
+  frame.items[0].material.two_sided = true;
+  double brightness[2];
+  const float lamp[2] = {0.5f, 2.0f};
+  for (int i = 0; i < 2; ++i) {
+    frame.light.intensity = lamp[i];
+    frame.eye = i;
+    brightness[i] = mean_luma(draw(160, 160));
+  }
+  EXPECT_NEAR(brightness[0], brightness[1], 0.02);
+  EXPECT_GT(brightness[0], 0.2);
+  EXPECT_LT(brightness[0], 0.7);
+}
+
+TEST_F(GlBackend, AutoExposureFollowsWithALag) {
+  frame.items.push_back({ball({0, 0, 0}, 0.08f), {}, {}, false});
+  frame.items[0].material.two_sided = true;
+  const double settled = mean_luma(draw(120, 120));
+  frame.light.intensity = 1.5f;
+  frame.tick += 40;
+  const double soon = mean_luma(draw(120, 120));
+  for (int i = 0; i < 60; ++i) {
+    frame.tick += 40;
+    draw(120, 120);
+  }
+  const double late = mean_luma(backend->read_pixels());
+  EXPECT_GT(soon, settled + 0.1);
+  EXPECT_NEAR(late, settled, 0.03);
+}
+
+TEST_F(GlBackend, TheSameFramesGiveTheSamePicture) {
+  frame.camera = look_at({0.012f, -0.012f, 0.070f}, {0, 0.004f, -0.03f}, {0, 1, 0});
+  sample::build(*backend, 0, frame);
+  const Image first = draw(96, 72);
+  auto other = make_gl_backend(*context);
+  Frame again;
+  again.camera = frame.camera;
+  sample::build(*other, 0, again);
+  draw_frame(*other, again, Target::off_screen(96, 72));
+  EXPECT_EQ(first.rgb, other->read_pixels().rgb);
+}
+
+TEST_F(GlBackend, UpdateMeshMovesTheMesh) {
+  frame.look = plain_look();
+  sample::Shape shape = sample::sphere({0, 0, -0.06f}, 0.01f, 24);
+  shape.paint.assign(shape.paint.size(), Paint{255, 255, 255, 255});
+  frame.items.push_back({sample::create(*backend, shape), white(), {}, false});
+  EXPECT_GT(draw(60, 60).at(30, 30)[1], 40);
+  for (Vec3f& p : shape.positions) p.x += 0.03f;
+  backend->update_mesh(frame.items[0].mesh, shape.positions, {}, {});
+  const Image moved = draw(60, 60);
+  EXPECT_LT(moved.at(30, 30)[1], 20);
+  EXPECT_GT(moved.at(56, 30)[1], 20);
+}
+
+TEST_F(GlBackend, BloodReddensAndDarkensWhatItCovers) {
+  frame.look = plain_look();
+  sample::Shape shape = sample::sphere({0, 0, -0.06f}, 0.02f, 32);
+  frame.items.push_back({sample::create(*backend, shape), {}, {}, false});
+  frame.items[0].material.fresnel = 0;  // no highlights: only what is below them
+  const auto share = [](const std::uint8_t* p) { return double(p[0]) / (p[0] + p[1] + p[2]); };
+  const Image clean = draw(60, 60);
+  for (Paint& p : shape.paint) p.blood = 255;
+  backend->update_mesh(frame.items[0].mesh, shape.positions, {}, shape.paint);
+  const Image bloody = draw(60, 60);
+  EXPECT_GT(share(bloody.at(36, 30)), share(clean.at(36, 30)) + 0.2);
+  EXPECT_LT(bloody.at(36, 30)[1], clean.at(36, 30)[1] / 3);
+}
+
+TEST_F(GlBackend, TranslucentItemsShowWhatIsBehind) {
+  frame.look = plain_look();
+  frame.items.push_back({white_ball({0, 0, -0.09f}, 0.02f), white(), {}, false});
+  Material veil;
+  veil.fresnel = 0;
+  veil.alpha = veil.rim_alpha = 0.3f;
+  frame.items.push_back({ball({0, 0, -0.06f}, 0.006f), veil, {}, true});
+  const int both = draw(60, 60).at(30, 30)[2];
+  frame.items.erase(frame.items.begin());
+  const int alone = draw(60, 60).at(30, 30)[2];
+  EXPECT_GT(both, alone + 30);
+}
+
+TEST_F(GlBackend, RestCoordinatesCarryThePattern) {
+  frame.look = plain_look();
+  Material spotted;
+  spotted.mottle = 1;
+  spotted.colour_b = {0, 0, 0};
+  spotted.colour_c = {0, 0, 0};
+  spotted.wetness = 0;
+  spotted.bump = 0;
+  const sample::Shape here = sample::sphere({0, 0, -0.06f}, 0.015f, 48);
+  sample::Shape there = here;
+  for (Vec3f& p : there.positions) p = p + Vec3f{0.3f, 0.2f, 0.1f};
+  MeshData data;
+  data.positions = there.positions;
+  data.rest = here.positions;
+  data.indices = here.triangles;
+  frame.items.push_back({sample::create(*backend, here), spotted, {}, false});
+  const Image a = draw(80, 80);
+  frame.items[0].mesh = backend->create_mesh(data);
+  frame.camera.position = {0.3f, 0.2f, 0.1f};
+  const Image b = draw(80, 80);
+  int worst = 0;
+  for (std::size_t i = 0; i < a.rgb.size(); ++i) worst = std::max(worst, std::abs(a.rgb[i] - b.rgb[i]));
+  EXPECT_LE(worst, 12);  // outlines may differ by a rounding
+  double difference = 0;
+  for (std::size_t i = 0; i < a.rgb.size(); ++i) difference += std::abs(a.rgb[i] - b.rgb[i]);
+  EXPECT_LT(difference / double(a.rgb.size()), 0.2);
+}
+
+TEST_F(GlBackend, SmokePuffsTakeSaturation) {
+  frame.look = plain_look();
+  frame.items.push_back({ball({0, 0, -0.09f}, 0.03f), {}, {}, false});
+  frame.items[0].material.fresnel = 0;
+  const Image clear = draw(60, 60);
+  for (int i = 0; i < 12; ++i) frame.puffs.push_back({{0, 0, -0.05f + 0.001f * float(i)}, 0.02f, 0.3f});
+  const Image smoky = draw(60, 60);
+  const auto saturation = [](const std::uint8_t* p) { return 1 - double(std::min(p[1], p[2])) / p[0]; };
+  EXPECT_LT(saturation(smoky.at(36, 30)), saturation(clear.at(36, 30)) - 0.05);
+}
+
+TEST_F(GlBackend, RefusesWhatTheNullBackendRefuses) {
+  EXPECT_THROW(backend->end_frame(), Misuse);
+  EXPECT_THROW(backend->destroy_mesh({17}), Misuse);
+}
+
+}  // namespace
+}  // namespace trocar::render
