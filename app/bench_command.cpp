@@ -1,0 +1,199 @@
+// trocar bench: what a tick costs, stage by stage, while somebody pulls on the scene's tissue.
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include <trocar/core/error.hpp>
+#include <trocar/core/log.hpp>
+#include <trocar/core/parallel.hpp>
+#include <trocar/tissue/network.hpp>
+
+#include "command.hpp"
+#include "session.hpp"
+#include "sources.hpp"
+
+namespace trocar::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double microseconds(Clock::time_point from, Clock::time_point to) {
+  return std::chrono::duration<double, std::micro>(to - from).count();
+}
+
+struct Summary {
+  double mean = 0, median = 0, p99 = 0, most = 0;
+};
+Summary summary(std::vector<double> us) {
+  Summary s;
+  if (us.empty()) return s;
+  std::sort(us.begin(), us.end());
+  for (const double t : us) s.mean += t / double(us.size());
+  s.median = us[us.size() / 2];
+  s.p99 = us[std::min(us.size() - 1, us.size() * 99 / 100)];
+  s.most = us.back();
+  return s;
+}
+Json as_json(const Summary& s) {
+  return {{"mean_us", s.mean}, {"median_us", s.median}, {"p99_us", s.p99}, {"max_us", s.most}};
+}
+
+/// The inputs of a scripted operation, recorded once, so that every measurement does the same work.
+std::vector<sim::Input> operation(const Lesson& lesson, double seconds) {
+  const std::unique_ptr<InputSource> source = lesson.surgeon();
+  Session session(lesson);
+  std::vector<sim::Input> inputs;
+  sim::Input input = lesson.model.start;
+  while (double(inputs.size()) * sim::kTick < seconds && !session.finished() && source->next(session.state(), input)) {
+    session.advance(input);
+    inputs.push_back(input);
+  }
+  return inputs;
+}
+
+struct Timing {
+  std::vector<double> tick;                ///< [us] per tick
+  std::vector<std::vector<double>> stage;  ///< (stages) the same
+  std::uint64_t hash = 0;
+  std::size_t held = 0;  ///< ticks with tissue between jaws
+};
+
+Timing measure(const sim::Model& model, const std::vector<sim::Input>& inputs, int threads) {
+  core::ThreadPool pool(threads);
+  sim::State state = sim::initial_state(model);
+  sim::Work work = sim::make_work(model, &pool);
+  const auto stages = sim::stages();
+  Timing t;
+  t.stage.resize(stages.size());
+  for (const sim::Input& input : inputs) {
+    sim::StepReport report;
+    sim::StepContext context{model, input, state, work, report};
+    const Clock::time_point start = Clock::now();
+    Clock::time_point before = start;
+    for (size_t i = 0; i < stages.size(); ++i) {
+      stages[i].run(context);
+      const Clock::time_point now = Clock::now();
+      t.stage[i].push_back(microseconds(before, now));
+      before = now;
+    }
+    t.tick.push_back(microseconds(start, before));
+    for (const interactions::ToolState& tool : state.tools) t.held += tool.holds > 0;
+  }
+  t.hash = sim::hash_of(state);
+  return t;
+}
+
+Json bench_scene(const std::string& name, double seconds) {
+  const std::unique_ptr<Lesson> lesson = load_lesson(name);
+  core::log::info("the surgeon operates for up to {:.0f} s, first to record, then to measure", seconds);
+  const std::vector<sim::Input> inputs = operation(*lesson, seconds);
+  Json out{{"name", name},
+           {"free_nodes", lesson->model.free_nodes()},
+           {"simd", tissue::simd_name()},
+           {"ticks", inputs.size()},
+           {"runs", Json::array()}};
+  for (const int threads : {1, 2}) {
+    const Timing t = measure(lesson->model, inputs, threads);
+    Json run{{"threads", threads},
+             {"tick", as_json(summary(t.tick))},
+             {"ticks_with_tissue_held", t.held},
+             {"state_hash", hex(t.hash)},
+             {"stages", Json::object()}};
+    for (size_t i = 0; i < t.stage.size(); ++i) run["stages"][sim::stages()[i].name] = as_json(summary(t.stage[i]));
+    out["runs"].push_back(run);
+  }
+  return out;
+}
+
+/// Cost of one spring in one sub-step: the largest organ of the scene, alone, at rest under gravity.
+Json bench_kernel() {
+  const std::unique_ptr<Lesson> lesson = load_lesson("gynaecology");
+  const auto largest = std::max_element(
+      lesson->model.solids.begin(), lesson->model.solids.end(),
+      [](const sim::SolidModel& a, const sim::SolidModel& b) { return a.network.springs < b.network.springs; });
+  if (largest == lesson->model.solids.end()) throw core::BadInput({{{"gynaecology", 0, 0}, "the scene has no organ"}});
+  const tissue::NetworkModel& network = largest->network;
+  tissue::NetworkState state = tissue::rest_state(network);
+  tissue::NetworkWork work = tissue::make_work(network);
+  std::vector<double> us;
+  for (int i = 0; i < 600; ++i) {
+    const Clock::time_point start = Clock::now();
+    tissue::advance(network, {}, {}, state, work);
+    if (i >= 100) us.push_back(microseconds(start, Clock::now()));
+  }
+  const Summary s = summary(us);
+  const double visits = double(network.springs) * network.substeps;
+  return {{"name", "kernel"},
+          {"organ", largest->name},
+          {"simd", tissue::simd_name()},
+          {"springs", network.springs},
+          {"substeps", network.substeps},
+          {"tick", as_json(s)},
+          {"ns_per_spring_and_substep", 1000 * s.median / visits}};
+}
+
+void print_for_people(const Json& r) {
+  if (r["name"] == "kernel") {
+    fmt::print("kernel ({}): {} springs x {} sub-steps, {:.2f} ns per spring and sub-step\n",
+               r["simd"].get<std::string>(), r["springs"].get<int>(), r["substeps"].get<int>(),
+               r["ns_per_spring_and_substep"].get<double>());
+    return;
+  }
+  fmt::print("{}: {} free nodes, {} ticks, {}\n", r["name"].get<std::string>(), r["free_nodes"].get<int>(),
+             r["ticks"].get<std::size_t>(), r["simd"].get<std::string>());
+  for (const Json& run : r["runs"]) {
+    const auto line = [](const std::string& name, const Json& t) {
+      fmt::print("    {:18} mean {:7.1f}  median {:7.1f}  p99 {:7.1f} us\n", name, t["mean_us"].get<double>(),
+                 t["median_us"].get<double>(), t["p99_us"].get<double>());
+    };
+    fmt::print("  {} thread(s), state {}, tissue held in {} ticks\n", run["threads"].get<int>(),
+               run["state_hash"].get<std::string>(), run["ticks_with_tissue_held"].get<std::size_t>());
+    line("tick", run["tick"]);
+    for (const auto& stage : run["stages"].items()) line(stage.key(), stage.value());
+  }
+}
+
+int bench(std::vector<std::string> names, const std::string& file, double seconds, bool json) {
+  if (names.empty()) names = {"gynaecology", "kernel"};
+  Json results = Json::array();
+  for (const std::string& name : names) {
+    if (name == "kernel")
+      results.push_back(bench_kernel());
+    else  // a scene's name stands for the exercise that the surgeon knows
+      results.push_back(bench_scene(name == "gynaecology" ? "gynaecology/sterilisation" : name, seconds));
+    if (!json) print_for_people(results.back());
+  }
+  const Json all{{"benchmarks", results}};
+  if (!file.empty()) {
+    std::ofstream out(file);
+    out << all.dump(2) << '\n';
+    if (!out.flush()) throw core::EnvironmentLacks(fmt::format("cannot write {}: is the disk full?", file));
+  }
+  if (json) print(all);
+  return core::kDone;
+}
+
+}  // namespace
+
+void add_bench(CLI::App& program, Chosen& chosen) {
+  struct Options {
+    std::vector<std::string> names;
+    std::string file;
+    double seconds = 30;
+    bool json = false;
+  };
+  auto o = std::make_shared<Options>();
+  CLI::App* c = program.add_subcommand("bench", "Measure what a tick costs, stage by stage");
+  c->footer("Example:\n  trocar bench gynaecology --json bench.json");
+  c->add_option("names", o->names, "gynaecology, an exercise, or kernel (one spring); without: gynaecology and kernel");
+  c->add_option("--json", o->file, "write the numbers to this file, or with - to standard output")->expected(0, 1);
+  c->add_option("--seconds", o->seconds, "simulated time at most")->capture_default_str()->check(CLI::PositiveNumber);
+  c->callback([o, c, &chosen] {
+    chosen.json = c->count("--json") > 0 && (o->file.empty() || o->file == "-");
+    chosen.run = [o, &chosen] { return bench(o->names, chosen.json ? "" : o->file, o->seconds, chosen.json); };
+  });
+}
+
+}  // namespace trocar::app

@@ -1,0 +1,186 @@
+// trocar check: what a scene, organ, instrument, tissue table or exercise compiles to, or every fault that it has.
+#include <algorithm>
+#include <chrono>
+
+#include <fmt/format.h>
+#include <malloc.h>
+
+#include <trocar/core/error.hpp>
+#include <trocar/scene/compile.hpp>
+#include <trocar/scene/json.hpp>
+#include <trocar/scene/reader.hpp>
+
+#include "command.hpp"
+#include "lesson.hpp"
+#include "paths.hpp"
+
+namespace trocar::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::size_t bytes_in_use() {
+  const struct mallinfo2 info = mallinfo2();
+  return info.uordblks + info.hblkhd;
+}
+
+Json describe(const scene::BodyReport& b) {
+  Json out{
+      {"name", b.name}, {"kind", b.kind}, {"nodes", b.nodes}, {b.kind == "wall" ? "triangles" : "springs", b.springs}};
+  if (b.mass > 0) out["mass_g"] = b.mass * 1000;
+  if (b.volume > 0) out["volume_ml"] = b.volume * 1e6;
+  if (b.substeps == 0) return out;  // implicit, or does not move
+  out["substeps"] = b.substeps;
+  out["dt_ms"] = 1000 * sim::kTick / b.substeps;
+  out["dt_limit_ms"] = 1000 * b.dt_limit;
+  out["dt_margin"] = b.dt_limit * b.substeps / sim::kTick;
+  out["dt_limit_as_printed_ms"] = 1000 * b.dt_printed;
+  out["residual_mN"] = 1000 * b.residual;
+  out["prestrain"] = b.prestrain;
+  return out;
+}
+
+/// Mean cost of a tick of the scene at rest, on this machine and one thread.
+double resting_tick(const sim::Model& model, sim::State& state, sim::Work& work) {
+  constexpr int kWarm = 50, kTimed = 200;
+  for (int i = 0; i < kWarm; ++i) sim::step(model, model.start, state, work);
+  const auto start = std::chrono::steady_clock::now();
+  for (int i = 0; i < kTimed; ++i) sim::step(model, model.start, state, work);
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / kTimed;
+}
+
+/// What a scene compiles to. `only` names the bodies to list; empty: all.
+Json describe_scene(const fs::path& path, const std::vector<std::string>& only) {
+  scene::CompileReport report;
+  const std::size_t before = bytes_in_use();
+  const sim::Model model = scene::compile(scene::read_scene(path), &report);
+  const std::size_t with_model = bytes_in_use();
+  sim::State state = sim::initial_state(model);
+  const std::size_t with_state = bytes_in_use();
+  sim::Work work = sim::make_work(model);
+  const std::size_t with_work = bytes_in_use();
+  const double tick = resting_tick(model, state, work);
+  Json out{{"scene", path.string()},
+           {"model_hash", hex(model.hash)},
+           {"free_nodes", model.free_nodes()},
+           {"memory_kb",
+            {{"model", (with_model - before) / 1024},
+             {"state", (with_state - with_model) / 1024},
+             {"work", (with_work - with_state) / 1024}}},
+           {"tick_at_rest_us", tick * 1e6},
+           {"bodies", Json::array()}};
+  for (const scene::BodyReport& b : report.bodies)
+    if (only.empty() || std::find(only.begin(), only.end(), b.name) != only.end()) out["bodies"].push_back(describe(b));
+  return out;
+}
+
+std::vector<std::string> names_under(const scene::JsonValue& root, const char* key) {
+  std::vector<std::string> names;
+  const scene::JsonMember* list = root.find(key);
+  if (!list) return names;
+  for (const scene::JsonValue& item : list->value.items)
+    if (const scene::JsonMember* name = item.find("name")) names.push_back(name->value.text);
+  return names;
+}
+
+/// Does the scene's list `organs` name this file?
+bool includes(const fs::path& scene_file, const fs::path& organ) {
+  std::vector<core::Fault> faults;
+  const scene::JsonDocument document = scene::load_json(scene_file, faults);
+  const scene::JsonMember* organs = document.root.find("organs");
+  if (!organs) return false;
+  std::error_code error;
+  return std::any_of(organs->value.items.begin(), organs->value.items.end(), [&](const scene::JsonValue& item) {
+    return item.kind == scene::JsonValue::Kind::string &&
+           fs::equivalent(scene_file.parent_path() / item.text, organ, error);
+  });
+}
+
+/// An organ hangs on others, so its numbers are those in the first scene that uses it.
+Json describe_organ(const fs::path& path, const scene::JsonValue& root) {
+  std::vector<std::string> names;
+  for (const char* key : {"solids", "strands", "walls"})
+    for (std::string& name : names_under(root, key)) names.push_back(std::move(name));
+  for (const scene::SceneEntry& s : scene::list_scenes(scenes_folder()))
+    if (includes(s.path, path)) return describe_scene(s.path, names);
+  return {{"note", "no scene uses this organ, so there is nothing to compile it in"}};
+}
+
+/// @throws core::BadInput with all faults of the file
+Json check_one(const fs::path& path) {
+  std::vector<core::Fault> faults;
+  const scene::JsonDocument document = scene::load_json(path, faults);
+  if (!faults.empty()) throw core::BadInput(std::move(faults));
+  Json out{{"file", path.string()}};
+  const auto has = [&](const char* key) { return document.root.find(key) != nullptr; };
+  if (is_exercise(path)) {
+    const training::Exercise exercise = training::read_exercise(path);
+    out["kind"] = "exercise";
+    out.update(describe_scene(exercise.scene, {}));
+    load_lesson(path.string())->monitor();  // does the scene have what the exercise needs?
+    return out;
+  }
+  faults = scene::check_file(path);
+  if (!faults.empty()) throw core::BadInput(std::move(faults));
+  if (has("organs") || has("scope")) {
+    out["kind"] = "scene";
+    out.update(describe_scene(path, {}));
+  } else if (has("solids") || has("strands") || has("walls")) {
+    out["kind"] = "organ";
+    out.update(describe_organ(path, document.root));
+  } else {
+    out["kind"] = has("kind") ? "instrument" : "tissues";
+  }
+  return out;
+}
+
+void print_for_people(const Json& r) {
+  fmt::print("{}: {}, good\n", r["file"].get<std::string>(), r["kind"].get<std::string>());
+  if (r.contains("note")) fmt::print("  {}\n", r["note"].get<std::string>());
+  if (!r.contains("bodies")) return;
+  fmt::print("  {:24} {:7} {:>7} {:>8} {:>9} {:>13} {:>7} {:>16} {:>9}\n", "body", "kind", "nodes", "springs",
+             "sub-steps", "dt limit [ms]", "margin", "as printed [ms]", "mass [g]");
+  for (const Json& b : r["bodies"]) {
+    const auto number = [&b](const char* key, const char* format) {
+      return b.contains(key) ? fmt::format(fmt::runtime(format), b[key].get<double>()) : std::string("-");
+    };
+    fmt::print("  {:24} {:7} {:>7} {:>8} {:>9} {:>13} {:>7} {:>16} {:>9}\n", b["name"].get<std::string>(),
+               b["kind"].get<std::string>(), number("nodes", "{:.0f}"),
+               number(b.contains("springs") ? "springs" : "triangles", "{:.0f}"), number("substeps", "{:.0f}"),
+               number("dt_limit_ms", "{:.4f}"), number("dt_margin", "{:.2f}"),
+               number("dt_limit_as_printed_ms", "{:.4f}"), number("mass_g", "{:.1f}"));
+  }
+  const Json& m = r["memory_kb"];
+  fmt::print("  {} free nodes; memory {} kB model, {} kB state, {} kB work; a tick at rest takes {:.0f} us here\n",
+             r["free_nodes"].get<int>(), m["model"].get<std::size_t>(), m["state"].get<std::size_t>(),
+             m["work"].get<std::size_t>(), r["tick_at_rest_us"].get<double>());
+}
+
+int check(const std::vector<std::string>& files, bool json) {
+  Json results = Json::array();
+  std::vector<core::Fault> faults;
+  for (const std::string& file : files) {
+    try {
+      results.push_back(check_one(file));
+      if (!json) print_for_people(results.back());
+    } catch (const core::BadInput& bad) {  // go on: all faults of all files in one pass
+      faults.insert(faults.end(), bad.faults().begin(), bad.faults().end());
+    }
+  }
+  if (!faults.empty()) throw core::BadInput(std::move(faults));
+  if (json) print({{"files", results}});
+  return core::kDone;
+}
+
+}  // namespace
+
+void add_check(CLI::App& program, Chosen& chosen) {
+  auto files = std::make_shared<std::vector<std::string>>();
+  CLI::App* c = add_command(program, chosen, "check", "Say what files compile to, or all their faults",
+                            "trocar check scenes/organs/uterus.json scenes/gynaecology/sterilisation.json");
+  c->add_option("files", *files, "scenes, organs, instruments, tissue tables, exercises")->required();
+  c->callback([files, &chosen] { chosen.run = [files, &chosen] { return check(*files, chosen.json); }; });
+}
+
+}  // namespace trocar::app

@@ -1,0 +1,77 @@
+#include "headless.hpp"
+
+#include <chrono>
+
+#include <trocar/core/log.hpp>
+
+#include "pictures.hpp"
+#include "video.hpp"
+
+namespace trocar::app {
+namespace {
+
+/// A line on stderr every few seconds of wall time.
+class Progress {
+ public:
+  void tick(const Session& session) {
+    if (session.state().tick % 256 != 0) return;
+    const Clock::time_point now = Clock::now();
+    if (now - m_last < std::chrono::seconds(5)) return;
+    const double wall = std::chrono::duration<double>(now - m_start).count();
+    const double simulated = double(session.state().tick - m_first) * sim::kTick;
+    core::log::info("{:.1f} s simulated in {:.1f} s (x{:.2f})", simulated, wall, simulated / wall);
+    m_last = now;
+  }
+  explicit Progress(const Session& session) : m_first(session.state().tick) {}
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::uint64_t m_first;
+  Clock::time_point m_start = Clock::now(), m_last = m_start;
+};
+
+constexpr std::uint64_t kTicksPerVideoFrame = 1000 / kVideoRate;
+
+}  // namespace
+
+Leftovers run_headless(Session& session, InputSource& source, const HeadlessOptions& options,
+                       const std::function<bool()>& each_tick) {
+  const sim::Model& model = session.lesson().model;
+  std::unique_ptr<Pictures> pictures;
+  std::unique_ptr<Shots> shots;
+  std::unique_ptr<Video> video;
+  if (!options.shots.empty() || !options.video.empty()) pictures = std::make_unique<Pictures>(model, options.size);
+  if (!options.shots.empty()) {
+    shots = std::make_unique<Shots>(*pictures, options.shots);
+    shots->take(session.state(), "start", "the start");
+  }
+  if (!options.video.empty()) video = Video::open(options.video, options.size);
+
+  const std::uint64_t limit = options.seconds > 0 ? std::uint64_t(options.seconds * 1000) : ~std::uint64_t(0);
+  Progress progress(session);
+  sim::Input input = model.start;
+  const auto goes_on = [&] {
+    return session.broken().empty() && (options.to_the_end || !session.finished()) && session.state().tick < limit;
+  };
+  while (goes_on() && source.next(session.state(), input)) {
+    session.advance(input);
+    source.after(session.state());
+    if (shots)
+      for (const Moment& m : session.moments()) shots->take(session.state(), m.what, m.text);
+    if (video && session.state().tick % kTicksPerVideoFrame == 0) video->add(pictures->draw(session.state()));
+    if (each_tick && !each_tick()) break;
+    progress.tick(session);
+  }
+
+  Leftovers left = Json::object();
+  if (shots) {
+    shots->take(session.state(), "end", "the end");
+    shots->write_index();
+    left["pictures"] = shots->files();
+    left["picture_index"] = shots->index_file();
+  }
+  if (video && video->finish()) left["video"] = video->path();
+  return left;
+}
+
+}  // namespace trocar::app

@@ -1,0 +1,27 @@
+// The loop without a window: ticks as fast as they go, pictures drawn in between on the same thread. `train --headless`
+// and `replay` run it; what is drawn has no influence on what happens.
+#pragma once
+
+#include <functional>
+
+#include "session.hpp"
+
+namespace trocar::app {
+
+struct HeadlessOptions {
+  std::filesystem::path shots;  ///< folder; empty: none
+  std::filesystem::path video;  ///< file; empty: none
+  PictureSize size;
+  double seconds = 0;       ///< stop after so much simulated time; 0: no limit
+  bool to_the_end = false;  ///< go on after the exercise is done, as long as the source has inputs
+};
+
+/// What else a loop left behind, in the result's words: "pictures", "picture_index", "video".
+using Leftovers = Json;
+
+/// Runs until the source has no more, the exercise is done, time is up, or the physics has failed. `each_tick` is
+/// called after every tick and may end the loop by returning false.
+Leftovers run_headless(Session& session, InputSource& source, const HeadlessOptions& options,
+                       const std::function<bool()>& each_tick = {});
+
+}  // namespace trocar::app

@@ -1,0 +1,51 @@
+#include "lesson.hpp"
+
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include <trocar/core/error.hpp>
+#include <trocar/core/log.hpp>
+#include <trocar/scene/compile.hpp>
+#include <trocar/scene/json.hpp>
+#include <trocar/scene/reader.hpp>
+
+#include "paths.hpp"
+
+namespace trocar::app {
+
+std::unique_ptr<training::Monitor> Lesson::monitor() const {
+  return exercise ? std::make_unique<training::Monitor>(*exercise, model) : nullptr;
+}
+
+std::unique_ptr<InputSource> Lesson::surgeon() const {
+  throw core::BadInput({{{name, 0, 0}, "expected an exercise that the scripted surgeon knows, got a bare scene"}});
+}
+
+bool is_exercise(const std::filesystem::path& path) {
+  std::vector<core::Fault> faults;
+  const scene::JsonDocument document = scene::load_json(path, faults);
+  const scene::JsonMember* scene = document.root.find("scene");
+  return scene && scene->value.kind == scene::JsonValue::Kind::string;
+}
+
+std::unique_ptr<Lesson> load_lesson(const std::string& exercise) {
+  const auto started = std::chrono::steady_clock::now();
+  auto lesson = std::make_unique<Lesson>();
+  lesson->name = exercise;
+  lesson->file = lesson->scene = find_exercise(exercise, scenes_folder());
+  if (is_exercise(lesson->file)) {
+    lesson->exercise = training::read_exercise(lesson->file);
+    lesson->scene = lesson->exercise->scene;
+    lesson->title = lesson->exercise->title;
+  }
+  const scene::Description description = scene::read_scene(lesson->scene);
+  if (!lesson->exercise) lesson->title = description.title;
+  core::log::info("compiling {}", lesson->scene.string());
+  lesson->model = scene::compile(description);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - started;
+  core::log::info("compiled in {:.1f} s: {} free nodes", took.count(), lesson->model.free_nodes());
+  return lesson;
+}
+
+}  // namespace trocar::app

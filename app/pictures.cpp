@@ -1,0 +1,81 @@
+#include "pictures.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include <trocar/core/error.hpp>
+#include <trocar/render/gl_context.hpp>
+
+#include "paths.hpp"
+
+namespace trocar::app {
+
+Pictures::Pictures(const sim::Model& model, PictureSize size)
+    : m_size(size),
+      m_context(render::GlContext::off_screen()),
+      m_backend(render::make_gl_backend(*m_context)),
+      m_view(std::make_unique<view::SceneView>(model, *m_backend)) {}
+
+Pictures::~Pictures() = default;
+
+const std::string& Pictures::driver() const { return m_context->description(); }
+
+render::Image Pictures::draw(const sim::State& state, view::ViewOptions options) {
+  const render::Frame frame = m_view->frame(state, options);
+  render::draw_frame(*m_backend, frame, render::Target::off_screen(m_size.width, m_size.height));
+  return m_backend->read_pixels();
+}
+
+render::Image Pictures::still(const sim::State& state, view::ViewOptions options) {
+  // The exposure follows the brightness that it measured in the picture before, by simulated time: pretend seconds.
+  constexpr int kSettling = 3;
+  options.eye_index = 7;  // an exposure memory of its own
+  render::Frame frame = m_view->frame(state, options);
+  for (int i = 0; i <= kSettling; ++i) {
+    frame.tick = state.tick + std::uint64_t(i) * 2000;
+    render::draw_frame(*m_backend, frame, render::Target::off_screen(m_size.width, m_size.height));
+  }
+  return m_backend->read_pixels();
+}
+
+Shots::Shots(Pictures& pictures, const std::filesystem::path& folder) : m_pictures(pictures), m_folder(folder) {
+  make_folder(folder);
+}
+
+namespace {
+
+std::string file_part(std::string text) {
+  for (char& c : text)
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '-';
+  return text;
+}
+
+}  // namespace
+
+void Shots::take(const sim::State& state, const std::string& what, const std::string& text) {
+  take_outside(state, what, text, {});
+}
+
+void Shots::take_outside(const sim::State& state, const std::string& what, const std::string& text,
+                         const view::ViewOptions& options) {
+  if (int(m_files.size()) >= kMaxShots) {
+    ++m_left_out;
+    return;
+  }
+  const std::string name = fmt::format("{:03}-{}.png", m_files.size(), file_part(what));
+  const std::string path = (m_folder / name).string();
+  render::write_png(path, m_pictures.still(state, options));
+  m_files.push_back(path);
+  m_index.push_back({{"file", name}, {"seconds", double(state.tick) * sim::kTick}, {"shows", text}});
+}
+
+void Shots::write_index() const {
+  std::ofstream out(index_file());
+  out << Json{{"pictures", m_index}, {"left_out", m_left_out}}.dump(2) << '\n';
+  if (!out.flush()) throw core::EnvironmentLacks(fmt::format("cannot write {}: is the disk full?", index_file()));
+}
+
+}  // namespace trocar::app

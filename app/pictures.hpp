@@ -1,0 +1,65 @@
+// Pictures of a State without a window: what --shots, --video and gallery draw with.
+//
+//   Pictures pictures(model, {800, 600});
+//   render::write_png("a.png", pictures.draw(state));
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <trocar/render/backend.hpp>
+#include <trocar/view/scene_view.hpp>
+
+#include "command.hpp"
+
+namespace trocar::render {
+class GlContext;
+}
+
+namespace trocar::app {
+
+class Pictures {
+ public:
+  Pictures(const sim::Model& model, PictureSize size);  ///< @throws core::EnvironmentLacks without OpenGL
+  ~Pictures();
+
+  /// The next picture of a stream (exposure follows the scene as a camera's does).
+  render::Image draw(const sim::State& state, view::ViewOptions options = {});
+  /// A single picture: as draw(), with the exposure settled. Does not disturb the stream's exposure.
+  render::Image still(const sim::State& state, view::ViewOptions options = {});
+  const std::string& driver() const;
+
+ private:
+  PictureSize m_size;
+  std::unique_ptr<render::GlContext> m_context;
+  std::unique_ptr<render::Backend> m_backend;
+  std::unique_ptr<view::SceneView> m_view;
+};
+
+/// Numbered PNG files that say what they show, and index.json.
+class Shots {
+ public:
+  /// Creates the folder.  @throws core::EnvironmentLacks
+  Shots(Pictures& pictures, const std::filesystem::path& folder);
+
+  /// "007-clipped.png" or so; `text` goes to the index. Beyond kMaxShots nothing more is drawn (and the index says so).
+  void take(const sim::State& state, const std::string& what, const std::string& text);
+  void take_outside(const sim::State& state, const std::string& what, const std::string& text,
+                    const view::ViewOptions& options);
+  void write_index() const;
+  const std::vector<std::string>& files() const { return m_files; }
+  std::string index_file() const { return (m_folder / "index.json").string(); }
+
+  static constexpr int kMaxShots = 200;
+
+ private:
+  Pictures& m_pictures;
+  std::filesystem::path m_folder;
+  std::vector<std::string> m_files;
+  Json m_index = Json::array();
+  int m_left_out = 0;
+};
+
+}  // namespace trocar::app

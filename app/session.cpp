@@ -1,0 +1,170 @@
+#include "session.hpp"
+
+#include <chrono>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <trocar/core/log.hpp>
+
+namespace trocar::app {
+namespace {
+
+struct FlagName {
+  std::uint32_t bit;
+  const char* name;
+};
+constexpr FlagName kFlags[] = {
+    {tissue::StepReport::kNonFinite, "non_finite"},     {tissue::StepReport::kInverted, "inverted_cells"},
+    {tissue::StepReport::kBadLoad, "bad_load"},         {tissue::StepReport::kIndefinite, "indefinite"},
+    {sim::StepReport::kTooManyLoads, "too_many_loads"}, {sim::StepReport::kBadInput, "bad_input"},
+};
+
+std::string body_name(const sim::Model& model, std::int32_t body) {
+  if (body < 0) return "nothing";
+  if (body >= interactions::kSolidBase) return model.solids[size_t(body - interactions::kSolidBase)].name;
+  return model.strands[size_t(body)].name;
+}
+
+std::string now_text() { return fmt::format("{:%Y-%m-%dT%H:%M:%S}", fmt::localtime(std::time(nullptr))); }
+
+}  // namespace
+
+Vec3d tip_of(const sim::Model& model, const sim::State& state, int tool) {
+  return kinematics::forward(model.tools[size_t(tool)].port, state.tools[size_t(tool)].pose()).tip;
+}
+
+std::vector<std::string> flag_names(std::uint32_t flags) {
+  std::vector<std::string> names;
+  for (const FlagName& f : kFlags)
+    if (flags & f.bit) names.emplace_back(f.name);
+  return names;
+}
+
+Session::Session(const Lesson& lesson, int threads)
+    : m_lesson(lesson),
+      m_pool(threads),
+      m_state(sim::initial_state(lesson.model)),
+      m_work(sim::make_work(lesson.model, &m_pool)),
+      m_monitor(lesson.monitor()) {
+  for (size_t t = 0; t < lesson.model.tools.size(); ++t) m_tip[t] = tip_of(lesson.model, m_state, int(t));
+  if (m_monitor) m_steps_done.resize(m_monitor->steps().size());
+}
+
+void Session::record(const std::filesystem::path& path, const std::string& trainee, const std::string& input) {
+  sim::RecordingHeader header;
+  header.model_hash = m_lesson.model.hash;
+  header.exercise = m_lesson.name;
+  header.program_version = TROCAR_VERSION;
+  header.metadata_json = Json{{"trainee", trainee}, {"input", input}, {"started", now_text()}}.dump();
+  m_writer = std::make_unique<sim::RecordingWriter>(path, header);
+  m_recording = path;
+  m_trainee = trainee;
+  m_input = input;
+  m_writer->hash(m_state.tick, sim::hash_of(m_state));
+  m_writer->keyframe(m_state.tick, sim::display_bytes(m_lesson.model, m_state));
+}
+
+const sim::StepReport& Session::advance(const sim::Input& input) {
+  m_moments.clear();
+  if (!m_broken.empty()) return m_report;
+  if (m_writer) m_writer->tick(m_state.tick, input);
+  m_report = sim::step(m_lesson.model, input, m_state, m_work);
+  m_flags |= m_report.flags;
+  if (!m_report.fine())
+    m_broken = fmt::format("the tissue's motion failed in tick {} (body {}, node {}): a fault of the simulation",
+                           m_state.tick, m_report.first_bad_body, m_report.first_bad_index);
+  for (size_t t = 0; t < m_lesson.model.tools.size(); ++t) {
+    const Vec3d tip = tip_of(m_lesson.model, m_state, int(t));
+    m_path[t] += length(tip - m_tip[t]);
+    m_tip[t] = tip;
+  }
+  if (m_monitor) m_monitor->update(m_lesson.model, m_state, m_report);
+  collect_moments();
+  if (m_writer && m_state.tick % sim::kHashEvery == 0) m_writer->hash(m_state.tick, sim::hash_of(m_state));
+  if (m_writer && m_state.tick % sim::kKeyframeEvery == 0)
+    m_writer->keyframe(m_state.tick, sim::display_bytes(m_lesson.model, m_state));
+  return m_report;
+}
+
+void Session::add_moment(const char* what, int tool, std::string text) {
+  m_moments.push_back({m_state.tick, what, tool, std::move(text)});
+}
+
+void Session::collect_moments() {
+  using Kind = sim::Event::Kind;
+  const sim::Model& model = m_lesson.model;
+  for (int i = 0; i < m_report.event_count; ++i) {
+    const sim::Event& e = m_report.events[i];
+    const std::string& who = model.tools[size_t(e.tool)].name;
+    ++m_counts[size_t(e.kind)];
+    switch (e.kind) {
+      case Kind::none:
+        break;
+      case Kind::grasped:
+        add_moment("grasped", e.tool, fmt::format("{} grasped {}", who, body_name(model, e.index)));
+        break;
+      case Kind::released:
+        add_moment("released", e.tool, who + " let go");
+        break;
+      case Kind::slipped:
+        add_moment("slipped", e.tool, who + " slipped");
+        break;
+      case Kind::clipped:
+        add_moment("clipped", e.tool,
+                   fmt::format("clip on {}", body_name(model, m_state.clips[size_t(e.index)].strand)));
+        break;
+      case Kind::dropped_clip:
+        add_moment("clip-dropped", e.tool, "a clip closed on nothing");
+        break;
+      case Kind::cut:
+        add_moment("cut", e.tool,
+                   fmt::format("{} cut {}", who, body_name(model, m_state.cuts[size_t(e.index)].strand)));
+        break;
+    }
+  }
+  for (size_t i = 0; i < m_steps_done.size(); ++i) {
+    const training::StepStatus& step = m_monitor->steps()[i];
+    if (step.done && !m_steps_done[i]) add_moment("step-done", -1, step.name);
+    m_steps_done[i] = step.done;
+  }
+}
+
+Json Session::result(bool interrupted) const {
+  const sim::Model& model = m_lesson.model;
+  const bool passed = !interrupted && m_broken.empty() && m_monitor && m_monitor->score().passed;
+  Json r;
+  r["exercise"] = m_lesson.name;
+  r["passed"] = m_monitor ? Json(passed) : Json(nullptr);
+  if (!m_broken.empty()) r["failure"] = m_broken;
+  if (interrupted) r["interrupted"] = true;
+  r["seconds"] = double(m_state.tick) * sim::kTick;
+  if (m_monitor) r["assessment"] = Json::parse(m_monitor->result_json());
+  Json tools = Json::array();
+  for (size_t t = 0; t < model.tools.size(); ++t)
+    tools.push_back({{"name", model.tools[t].name},
+                     {"path_length_mm", m_path[t] * 1000},
+                     {"clips_left", m_state.tools[t].clips_left},
+                     {"slips", m_state.tools[t].slipped}});
+  r["instruments"] = tools;
+  r["grasps"] = m_counts[sim::Event::grasped];
+  r["clips"] = m_counts[sim::Event::clipped];
+  r["clips_dropped"] = m_counts[sim::Event::dropped_clip];
+  r["cuts"] = m_counts[sim::Event::cut];
+  r["flags"] = flag_names(m_flags);
+  r["ticks"] = m_state.tick;
+  r["state_hash"] = hex(sim::hash_of(m_state));
+  r["model_hash"] = hex(model.hash);
+  if (m_writer) r["recording"] = m_recording.string();
+  return r;
+}
+
+void Session::finish(const Json& result) {
+  if (!m_writer) return;
+  if (m_state.tick % sim::kHashEvery != 0) m_writer->hash(m_state.tick, sim::hash_of(m_state));
+  m_writer->finish(result.dump());
+  if (!m_writer->failure().empty()) core::log::error("recording {}: {}", m_recording.string(), m_writer->failure());
+  m_writer.reset();
+}
+
+}  // namespace trocar::app

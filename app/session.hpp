@@ -1,0 +1,85 @@
+// One attempt: Model, State and everybody who watches each tick (recorder, judge, path lengths). The window and the
+// headless loop drive the same Session, so that drawing changes nothing.
+//
+//   Session session(lesson, threads);
+//   session.record("a.rec", header);
+//   while (...) session.advance(input);
+//   session.finish(result);                        // also when it was interrupted
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+
+#include <trocar/core/parallel.hpp>
+#include <trocar/sim/recording.hpp>
+#include <trocar/sim/step.hpp>
+
+#include "lesson.hpp"
+
+namespace trocar::app {
+
+/// Something worth a picture or a line in the log.
+struct Moment {
+  std::uint64_t tick = 0;
+  std::string what;  ///< "grasped", "released", "slipped", "clipped", "clip-dropped", "cut", "step-done"
+  int tool = -1;     ///< -1: none
+  std::string text;  ///< for people: "grasper grasped left tube"
+};
+
+class Session {
+ public:
+  Session(const Lesson& lesson, int threads = core::default_thread_count());
+
+  /// From now on every tick goes to this file, too.  @throws core::EnvironmentLacks
+  void record(const std::filesystem::path& path, const std::string& trainee, const std::string& input);
+
+  /// One tick. Does nothing more once the physics has failed (see broken()).
+  const sim::StepReport& advance(const sim::Input& input);
+
+  const Lesson& lesson() const { return m_lesson; }
+  const sim::State& state() const { return m_state; }
+  const training::Monitor* monitor() const { return m_monitor.get(); }  ///< null: free practice
+  /// What happened in the last tick; usually empty.
+  const std::vector<Moment>& moments() const { return m_moments; }
+  /// Empty, or how the physics failed: the State is not to be trusted any more.
+  const std::string& broken() const { return m_broken; }
+  bool finished() const { return !m_broken.empty() || (m_monitor && m_monitor->finished()); }
+  /// Flags of all ticks so far.
+  std::uint32_t flags() const { return m_flags; }
+  double path_length(int tool) const { return m_path[size_t(tool)]; }  ///< of its tip [m]
+
+  /// The whole result as it stands; `interrupted` attempts have not passed.
+  Json result(bool interrupted) const;
+  /// Ends the recording with the result. Says on stderr when the file could not be written.
+  void finish(const Json& result);
+
+ private:
+  void collect_moments();
+  void add_moment(const char* what, int tool, std::string text);
+
+  const Lesson& m_lesson;
+  core::ThreadPool m_pool;
+  sim::State m_state;
+  sim::Work m_work;
+  sim::StepReport m_report;
+  std::unique_ptr<training::Monitor> m_monitor;
+  std::vector<char> m_steps_done;
+  std::unique_ptr<sim::RecordingWriter> m_writer;
+  std::filesystem::path m_recording;
+  std::string m_trainee, m_input;
+  std::vector<Moment> m_moments;
+  std::array<Vec3d, sim::kMaxTools> m_tip;
+  std::array<double, sim::kMaxTools> m_path{};
+  std::array<int, 8> m_counts{};  ///< by sim::Event::Kind
+  std::uint32_t m_flags = 0;
+  std::string m_broken;
+};
+
+/// Tip of an instrument.
+Vec3d tip_of(const sim::Model& model, const sim::State& state, int tool);
+
+/// Names of the flags that are set: "inverted_cells", "too_many_loads", ...
+std::vector<std::string> flag_names(std::uint32_t flags);
+
+}  // namespace trocar::app

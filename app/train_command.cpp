@@ -1,0 +1,77 @@
+// trocar train: an exercise, done by hand in a window, or by a source of inputs with or without one.
+#include <fmt/format.h>
+
+#include <trocar/core/error.hpp>
+
+#include "command.hpp"
+#include "headless.hpp"
+#include "report_page.hpp"
+#include "sources.hpp"
+#include "window_loop.hpp"
+
+namespace trocar::app {
+namespace {
+
+struct Options {
+  std::string exercise, input = "mouse", record, shots, video, report, size = "800x600", trainee, log;
+  double seconds = 0;
+  bool headless = false;
+};
+
+int exit_code(const Json& result, const std::string& input) {
+  if (result.contains("failure")) return core::kGoalNotReached;
+  // A recorded motion knows nothing of the exercise: its goal is to be performed to its end.
+  if (input.rfind("motion:", 0) == 0 || result["passed"].is_null()) return core::kDone;
+  return result["passed"].get<bool>() ? core::kDone : core::kGoalNotReached;
+}
+
+int train(const Options& o, bool json) {
+  const PictureSize size = parse_size(o.size);
+  if (o.headless && o.input == "mouse")
+    throw core::BadInput(
+        {{{"--headless", 0, 0}, "expected --input demo, motion:FILE or replay:FILE with it, got mouse"}});
+  const std::unique_ptr<Lesson> lesson = load_lesson(o.exercise);
+  Json result;
+  if (o.headless) {
+    const std::unique_ptr<InputSource> source = make_source(*lesson, o.input);
+    Session session(*lesson);
+    if (!o.record.empty()) session.record(o.record, o.trainee, o.input);
+    const Leftovers left = run_headless(session, *source, {o.shots, o.video, size, o.seconds, o.input != "demo"});
+    result = session.result(false);
+    result["input"] = o.input;
+    result["slow_motion_share"] = 0.0;
+    result.update(source->describe());
+    session.finish(result);
+    result.update(left);
+  } else {
+    result = run_window(*lesson, {o.record, o.trainee, o.input, o.log, size, o.seconds});
+  }
+  if (!o.report.empty()) result["report"] = write_report(o.report, result);
+  if (json) print(result);
+  return exit_code(result, o.input);
+}
+
+}  // namespace
+
+void add_train(CLI::App& program, Chosen& chosen) {
+  auto options = std::make_shared<Options>();
+  CLI::App* c = add_command(program, chosen, "train", "Do an exercise, in a window or headless",
+                            "trocar train gynaecology/sterilisation\n"
+                            "  trocar train gynaecology/sterilisation --input demo --headless --record a.rec --shots "
+                            "shots --json");
+  c->add_option("exercise", options->exercise, "a name that `trocar list` shows, or a path")->required();
+  c->add_option("--input", options->input, "mouse | demo | motion:FILE[#OPERATOR/TRIAL] | replay:FILE")
+      ->capture_default_str();
+  c->add_flag("--headless", options->headless, "no window, as fast as it goes");
+  c->add_option("--record", options->record, "write the recording to this file");
+  c->add_option("--shots", options->shots, "headless: write pictures to this folder");
+  c->add_option("--video", options->video, "headless: write a film (needs ffmpeg)");
+  c->add_option("--report", options->report, "write an HTML report to this folder");
+  c->add_option("--size", options->size, "of pictures or window")->capture_default_str();
+  c->add_option("--trainee", options->trainee, "name for the recording");
+  c->add_option("--seconds", options->seconds, "stop after so much simulated time")->check(CLI::PositiveNumber);
+  c->add_option("--log", options->log, "write events as JSON lines to this file");
+  c->callback([options, &chosen] { chosen.run = [options, &chosen] { return train(*options, chosen.json); }; });
+}
+
+}  // namespace trocar::app
