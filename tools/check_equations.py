@@ -13,7 +13,7 @@ from pathlib import Path
 
 TAG = re.compile(r"\[([A-Z][A-Za-z]*\d\d) eq\.(\d+[a-z]?)\]")
 NEARLY = re.compile(r"\[[A-Z][A-Za-z]*\s?\d\d,?\s+eqs?[.\s][^\]\n]*\]")
-SOURCES = (".hpp", ".cpp", ".h")
+SOURCES = (".hpp", ".cpp", ".h", ".inl")
 
 
 def tags_in(root, paths):
