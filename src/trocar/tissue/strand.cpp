@@ -191,32 +191,46 @@ void report_loads(const StrandModel& m, std::span<const StrandLoad> loads, const
   }
 }
 
+/// First and last row of the system that a node's rows touch.
+struct Reach {
+  int first, last;
+};
+Reach reach_of(const StrandModel& m, int node) {
+  const int rows = 3 * m.nodes, low = 3 * node - kStrandBand, high = 3 * node + 2 + kStrandBand;
+  return {low > 0 ? low : 0, high < rows ? high : rows - 1};
+}
+
 /// The row of the untouched system at a prescribed node says what impulse its holder gave; eliminating all free nodes
-/// says how that changes as the holder moves.
+/// says how that changes as the holder moves. All prescribed nodes are eliminated for in one go, three columns each.
 void report_ends(const StrandModel& m, std::span<StrandReaction> reactions, StrandWork& w) {
-  if (reactions.empty()) return;
-  const int rows = 3 * m.nodes;
+  const int held = int(m.prescribed_nodes.size());
+  if (reactions.empty() || held == 0) return;
+  const int rows = 3 * m.nodes, wide = 3 * held;
   const double dt = m.tick;
-  for (std::size_t k = 0; k < m.prescribed_nodes.size(); ++k) {
+  for (double& c : w.columns) c = 0;
+  for (int k = 0; k < held; ++k) {
     const int p = m.prescribed_nodes[k];
-    const int first = 3 * p > kStrandBand ? 3 * p - kStrandBand : 0;
-    const int last = 3 * p + 2 + kStrandBand < rows ? 3 * p + 2 + kStrandBand : rows - 1;
-    for (double& c : w.columns) c = 0;
-    for (int j = first; j <= last; ++j)
+    const Reach reach = reach_of(m, p);
+    for (int j = reach.first; j <= reach.last; ++j)
       for (int axis = 0; axis < 3; ++axis)
-        if (!m.prescribed[j / 3]) w.columns[3 * j + axis] = band_entry(w.saved, j, 3 * p + axis);
-    numerics::band_solve(rows, kStrandBand, w.matrix.data(), w.columns.data(), 3);
+        if (!m.prescribed[j / 3]) w.columns[j * wide + 3 * k + axis] = band_entry(w.saved, j, 3 * p + axis);
+  }
+  numerics::band_solve(rows, kStrandBand, w.matrix.data(), w.columns.data(), wide);
+  for (int k = 0; k < held; ++k) {
+    const int p = m.prescribed_nodes[k];
+    const Reach reach = reach_of(m, p);
     for (int axis = 0; axis < 3; ++axis) {
       const int r = 3 * p + axis;
-      double held = -w.force[r];
-      for (int j = first; j <= last; ++j) held += band_entry(w.saved, r, j) * w.rhs[j];
-      reactions[k].force[axis] = -held / dt;
-      for (int other = 0; other < 3; ++other) {
-        double s = band_entry(w.saved, r, 3 * p + other);
-        for (int j = first; j <= last; ++j)
-          if (!m.prescribed[j / 3]) s -= band_entry(w.saved, r, j) * w.columns[3 * j + other];
-        reactions[k].tangent.m[axis][other] = s / (dt * dt);
+      double hold = -w.force[r], s[3];
+      for (int other = 0; other < 3; ++other) s[other] = band_entry(w.saved, r, 3 * p + other);
+      for (int j = reach.first; j <= reach.last; ++j) {
+        const double entry = band_entry(w.saved, r, j);
+        hold += entry * w.rhs[j];
+        if (m.prescribed[j / 3]) continue;
+        for (int other = 0; other < 3; ++other) s[other] -= entry * w.columns[j * wide + 3 * k + other];
       }
+      reactions[k].force[axis] = -hold / dt;
+      for (int other = 0; other < 3; ++other) reactions[k].tangent.m[axis][other] = s[other] / (dt * dt);
     }
   }
 }

@@ -85,7 +85,7 @@ struct StrandWork {
   std::vector<double> saved;    ///< (3n x 9) the matrix before nodes were prescribed
   std::vector<double> rhs;      ///< (3n) right side, then the new velocities
   std::vector<double> force;    ///< (3n) the right side before nodes were prescribed [N s]
-  std::vector<double> columns;  ///< (3n x 3) for the tangents at prescribed nodes
+  std::vector<double> columns;  ///< (3n x 3 per prescribed node) for the tangents there
   std::vector<Vec3d> bend_now;  ///< (n) R_i b_i
 };
 

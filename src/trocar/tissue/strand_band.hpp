@@ -17,10 +17,6 @@ inline constexpr double kBendStencil[3] = {1, -2, 1};
 struct Sym3 {
   double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
 
-  double at(int i, int j) const {
-    const double row[3][3] = {{xx, xy, xz}, {xy, yy, yz}, {xz, yz, zz}};
-    return row[i][j];
-  }
   Vec3d operator*(Vec3d v) const {
     return {xx * v.x + xy * v.y + xz * v.z, xy * v.x + yy * v.y + yz * v.z, xz * v.x + yz * v.y + zz * v.z};
   }
@@ -59,14 +55,13 @@ inline Vec3d carried(Vec3d a, Vec3d b, Vec3d director) {
 }
 
 inline void add_term(std::vector<double>& a, int first, const double* c, int count, const Sym3& s) {
+  const double block[3][3] = {{s.xx, s.xy, s.xz}, {s.xy, s.yy, s.yz}, {s.xz, s.yz, s.zz}};
   for (int p = 0; p < count; ++p) {
-    for (int q = 0; q <= p; ++q) {
-      const double weight = c[p] * c[q];
-      for (int i = 0; i < 3; ++i) {
-        const int last = p == q ? i : 2;
-        for (int j = 0; j <= last; ++j)
-          a[numerics::band_at(kStrandBand, 3 * (first + p) + i, 3 * (first + q) + j)] += weight * s.at(i, j);
-      }
+    for (int i = 0; i < 3; ++i) {
+      double* const row = a.data() + numerics::band_at(kStrandBand, 3 * (first + p) + i, 3 * first);
+      for (int q = 0; q < p; ++q)
+        for (int j = 0; j < 3; ++j) row[3 * q + j] += c[p] * c[q] * block[i][j];
+      for (int j = 0; j <= i; ++j) row[3 * p + j] += c[p] * c[p] * block[i][j];
     }
   }
 }

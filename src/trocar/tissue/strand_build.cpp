@@ -165,7 +165,7 @@ StrandWork make_work(const StrandModel& m) {
   w.rhs.resize(rows);
   w.force.resize(rows);
   w.bend_now.resize(m.nodes);
-  w.columns.resize(std::size_t(rows) * 3);
+  w.columns.resize(std::size_t(rows) * 3 * m.prescribed_nodes.size());
   return w;
 }
 
