@@ -12,7 +12,8 @@ namespace trocar::interactions {
 struct HostPatch {
   std::vector<std::int32_t> node;
   std::vector<float> weight;
-  Vec3d offset{0, 0, 0};  ///< drawn end minus the patch's weighted mean (zero but for rounding) [m]
+  Vec3d offset{0, 0, 0};      ///< drawn end minus the patch's weighted mean (zero but for rounding) [m]
+  Vec3d drawn_pull{0, 0, 0};  ///< of the strand in the drawn shape: the organ is drawn bearing it already [N]
 };
 
 /// Smooth weights around `point` over the nodes within `radius`, corrected to be affine-exact.

@@ -48,6 +48,19 @@ sim::StrandEndModel compile_end(const StrandEnd& end, Vec3d at, const sim::Model
   return out;
 }
 
+/// What the strand does to its hosts in the drawn shape: their prestress knows nothing of it, so it is taken off.
+void note_drawn_pull(const tissue::StrandModel& model, sim::StrandModel& strand) {
+  std::vector<tissue::StrandEnd> ends;
+  for (int node : model.prescribed_nodes) ends.push_back({model.rest[size_t(node)], {0, 0, 0}});
+  std::vector<tissue::StrandReaction> reactions(ends.size());
+  tissue::StrandState state = tissue::rest_state(model);
+  tissue::StrandWork work = tissue::make_work(model);
+  tissue::advance(model, ends, {}, reactions, {}, state, work);
+  size_t i = 0;
+  for (sim::StrandEndModel* end : {&strand.start, &strand.end})
+    if (end->kind != sim::StrandEndModel::free) end->patch.drawn_pull = reactions[i++].force;
+}
+
 constexpr double kStrandDamping = 0.004;      // [s] times stiffness, stretch and bending
 constexpr double kFoundationDamping = 0.030;  // [s] times stiffness: fat and peritoneum yield slowly
 
@@ -105,6 +118,7 @@ void compile_strand(const Strand& strand, const Tissue& tissue, Vec3d gravity, s
     body.model = {};
     return;
   }
+  note_drawn_pull(body.model, out);
   for (const Landmark& l : strand.landmarks)
     out.landmarks.push_back({l.name, std::min(l.from, body.length()), std::min(l.to, body.length())});
   if (report) {

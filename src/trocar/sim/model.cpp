@@ -17,6 +17,7 @@ void add_patch(core::Hasher& h, const StrandEndModel& end) {
   h.add(end.patch.node);
   h.add(end.patch.weight);
   h.add(end.patch.offset);
+  h.add(end.patch.drawn_pull);
 }
 
 void add_tool(core::Hasher& h, const interactions::ToolModel& t) {
