@@ -30,11 +30,15 @@ mkdir -p "$out"
 status=0
 "$program" train "$exercise" --input demo --headless --json --record "$out/sterilisation.rec" \
   --shots "$out/shots" --report "$out/report" >"$out/result.json" || status=$?
+if [ $status -gt 1 ]; then  # 1: the goal was not reached, everything else is there
+  cat "$out/result.json" >&2
+  exit $status
+fi
 echo
 cat "$out/result.json"
 echo
 echo "pictures:  $out/shots/ ($(find "$out/shots" -name '*.png' | wc -l))"
 echo "recording: $out/sterilisation.rec  (check it: build/release/trocar replay $out/sterilisation.rec --verify)"
 echo "result:    $out/result.json"
-echo "report:    $out/report/"
+echo "report:    $(find "$out/report" -name '*.html' | head -n 1)"
 exit $status
