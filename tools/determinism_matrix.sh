@@ -3,14 +3,24 @@
 # three instruction sets, with one and two threads, every SIMD width, drawn and not drawn; then every recording is
 # verified by another build.
 #
-#   tools/determinism_matrix.sh [-k] [WORKDIR]     default build/matrix. About an hour on two cores without ccache.
-#                                                  -k: keep the recordings
+#   tools/determinism_matrix.sh [-k] [-i INPUT] [WORKDIR]
+#       WORKDIR  default build/matrix; about an hour on two cores without ccache
+#       -i       whose hands: demo, or motion:FILE (default demo)
+#       -k       keep the recordings
 #
 # Exit 0: one hash. 1: they differ, or a recording does not verify. 77: a compiler is missing (ctest: skipped).
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 keep=false
-[ "${1:-}" = -k ] && { keep=true; shift; }
+input=demo
+while getopts ki: option; do
+  case $option in
+    k) keep=true ;;
+    i) input=$OPTARG ;;
+    *) exit 2 ;;
+  esac
+done
+shift $((OPTIND - 1))
 work=${1:-$root/build/matrix}
 exercise=gynaecology/sterilisation
 mkdir -p "$work"
@@ -56,7 +66,7 @@ record() {  # record NAME BUILD THREADS [ARGUMENT...]
   local name=$1 build=$2 threads=$3
   shift 3
   local status=0
-  TROCAR_THREADS=$threads "$work/$build/trocar" train $exercise --input demo --headless --json \
+  TROCAR_THREADS=$threads "$work/$build/trocar" train $exercise --input "$input" --headless --json \
     --record "$work/$name.rec" "$@" >"$work/$name.json" 2>"$work/$name.err" || status=$?
   if [ $status -gt 1 ]; then  # 1 is "goal not reached": still a run, and still comparable
     tail -n 5 "$work/$name.err" >&2
