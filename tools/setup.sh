@@ -19,9 +19,9 @@ build=(
   libxxhash-dev        # hashes of states and recordings
   nlohmann-json3-dev   # scene files
   libcli11-dev         # the command line
-  libegl-dev libgl-dev libepoxy-dev    # OpenGL without a window
-  libegl1 libgl1-mesa-dri              # and its driver, on a machine without graphics card too
-  libglfw3-dev libimgui-dev            # the window and its panels
+  libegl-dev libepoxy-dev    # OpenGL, without a window too
+  libgl1-mesa-dri      # and its driver, for machines without graphics card as well
+  libglfw3-dev libimgui-dev  # the window and its panels
   libstb-dev           # PNG
 )
 test=(
