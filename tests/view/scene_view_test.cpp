@@ -1,0 +1,384 @@
+// The drawn scene against the rules of the renderer (the null backend refuses NaN, bad indices, wrong sizes) and
+// against anatomy: tubes stay closed, fimbriae move with their tube, metal lies where the simulation has it.
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include <trocar/geometry/tri_mesh.hpp>
+#include <trocar/render/backend.hpp>
+#include <trocar/scene/compile.hpp>
+#include <trocar/scene/reader.hpp>
+#include <trocar/sim/visibility.hpp>
+#include <trocar/view/clip_shape.hpp>
+#include <trocar/view/fimbria.hpp>
+#include <trocar/view/instrument_shapes.hpp>
+#include <trocar/view/looks.hpp>
+#include <trocar/view/organ_drawing.hpp>
+#include <trocar/view/scene_view.hpp>
+#include <trocar/view/sheet_drawing.hpp>
+#include <trocar/view/tube_drawing.hpp>
+
+namespace trocar::view {
+namespace {
+
+const sim::Model& pelvis() {
+  static const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/gynaecology/scene.json"));
+  return model;
+}
+const render::Target kTarget = render::Target::off_screen(64, 48);
+
+void expect_drawable(SceneView& view, render::Backend& backend, const sim::State& state) {
+  for (const auto camera : {ViewOptions::Camera::scope, ViewOptions::Camera::outside}) {
+    ViewOptions options;
+    options.camera = camera;
+    EXPECT_NO_THROW(render::draw_frame(backend, view.frame(state, options), kTarget));
+  }
+}
+
+int left_tube() { return pelvis().strand_index("tube_left"); }
+
+void cut(sim::State& state, int strand, double s, double fraction = 1) {
+  interactions::Cut& c = state.cuts[std::size_t(state.cut_count++)];
+  c.strand = strand;
+  c.s = s;
+  c.fraction = fraction;
+  if (fraction < 1) return;
+  tissue::cut_element(state.strands[std::size_t(strand)], place_at(pelvis().bodies[std::size_t(strand)], s).element);
+}
+
+void clip(sim::State& state, int strand, double s, double cover = 1) {
+  interactions::Clip& c = state.clips[std::size_t(state.clip_count++)];
+  c.strand = strand;
+  c.s = s;
+  c.cover = cover;
+  c.opening[1] = 1;
+  c.axis[2] = 1;
+  c.reach = 0.004;
+  c.tool = 0;
+}
+
+geometry::TriMesh welded(const MeshBuffer& b) {
+  geometry::TriMesh mesh;
+  for (const Vec3f& p : b.positions) mesh.positions.push_back(vec_cast<double>(p));
+  for (std::size_t i = 0; i + 2 < b.indices.size(); i += 3)
+    mesh.triangles.push_back({int(b.indices[i]), int(b.indices[i + 1]), int(b.indices[i + 2])});
+  return geometry::merged_vertices(mesh, 1e-7);
+}
+
+/// Vertices of the fingers: the last ones of the tube's mesh.
+std::span<const Vec3f> fingers_of(const TubeDrawing& tube) {
+  const sim::StrandModel& strand = pelvis().strands[std::size_t(left_tube())];
+  const std::size_t n = fimbriae(kBellFlare * strand.outer.back(), left_tube() + 1).size();
+  return std::span(tube.buffer().positions).last(n);
+}
+
+TEST(SceneView, EveryFrameIsDrawableFromStartToEnd) {
+  auto backend = render::make_null_backend();
+  SceneView view(pelvis(), *backend);
+  sim::State state = sim::initial_state(pelvis());
+  expect_drawable(view, *backend, state);
+  clip(state, left_tube(), 0.016);
+  clip(state, left_tube(), 0.030, 0.5);
+  expect_drawable(view, *backend, state);
+  cut(state, left_tube(), 0.010, 0.6);
+  cut(state, left_tube(), 0.0231);
+  expect_drawable(view, *backend, state);
+  cut(state, left_tube(), 0.0255);  // the next element: one node between two cuts
+  cut(state, left_tube(), 0.0002);
+  cut(state, left_tube(), pelvis().bodies[std::size_t(left_tube())].length() - 0.0002);
+  expect_drawable(view, *backend, state);
+  expect_drawable(view, *backend, sim::initial_state(pelvis()));  // a replay that starts again
+}
+
+TEST(SceneView, ExtremeDeformationIsDrawable) {
+  auto backend = render::make_null_backend();
+  SceneView view(pelvis(), *backend);
+  sim::State state = sim::initial_state(pelvis());
+  for (tissue::StrandState& strand : state.strands)
+    for (std::size_t i = 0; i < strand.x.size(); ++i)
+      strand.x[i] += 0.05 * Vec3d{varied(int(i), 1) - 0.5, varied(int(i), 2) - 0.5, varied(int(i), 3) - 0.5};
+  for (tissue::NetworkState& solid : state.solids)
+    for (std::size_t i = 0; i < solid.nodes.size(); ++i) solid.nodes[i].x += float(0.03 * varied(int(i), 4));
+  cut(state, left_tube(), 0.03);
+  clip(state, left_tube(), 0.02);
+  expect_drawable(view, *backend, state);
+  for (tissue::StrandState& strand : state.strands)
+    for (Vec3d& x : strand.x) x = Vec3d{0.01, -0.1, -0.1};  // all nodes in one point
+  for (tissue::NetworkState& solid : state.solids)
+    for (tissue::NodeState& node : solid.nodes) node.x = node.y = node.z = 0;
+  expect_drawable(view, *backend, state);
+}
+
+TEST(SceneView, MeshesStayConstantOverAThousandFrames) {
+  auto backend = render::make_null_backend();
+  {
+    SceneView view(pelvis(), *backend);
+    sim::State state = sim::initial_state(pelvis());
+    render::draw_frame(*backend, view.frame(state, {}), kTarget);
+    const render::BackendStats first = backend->stats();
+    const std::size_t items = view.frame(state, {}).items.size();
+    for (int i = 0; i < 1000; ++i) {
+      ++state.tick;
+      state.strands[std::size_t(left_tube())].x[5].z += 1e-6;
+      ASSERT_EQ(view.frame(state, {}).items.size(), items);
+    }
+    render::draw_frame(*backend, view.frame(state, {}), kTarget);
+    EXPECT_EQ(backend->stats().meshes_alive, first.meshes_alive);
+    EXPECT_EQ(backend->stats().triangles, 2 * first.triangles);
+  }
+  EXPECT_EQ(backend->stats().meshes_alive, 0u);
+}
+
+TEST(SceneView, TheScopesConeFillsTheMask) {
+  auto backend = render::make_null_backend();
+  SceneView view(pelvis(), *backend);
+  const sim::State state = sim::initial_state(pelvis());
+  const render::Frame frame = view.frame(state, {});
+  const kinematics::ScopeFrame scope = sim::scope_of(pelvis(), state);
+  EXPECT_FLOAT_EQ(frame.camera.vertical_fov, float(pelvis().scope.field_of_view));
+  EXPECT_FLOAT_EQ(frame.look.mask_diameter, 1);
+  EXPECT_LT(length(vec_cast<double>(frame.camera.position) - scope.eye), 1e-6);
+  EXPECT_LT(length(vec_cast<double>(frame.camera.rotation.column(2)) + scope.forward), 1e-5);
+  EXPECT_LT(length(vec_cast<double>(frame.camera.rotation.column(1)) - scope.up), 1e-5);
+}
+
+TEST(SceneView, AStereoPairLooksFromTwoPlacesAndMetersOnce) {
+  auto backend = render::make_null_backend();
+  SceneView view(pelvis(), *backend);
+  const sim::State state = sim::initial_state(pelvis());
+  ViewOptions left, right;
+  left.eye_shift = -0.0025;
+  right.eye_shift = 0.0025;
+  right.metering = false;
+  const render::Frame a = view.frame(state, left), b = view.frame(state, right);
+  const Vec3f apart = b.camera.position - a.camera.position;
+  EXPECT_NEAR(dot(apart, a.camera.rotation.column(0)), 0.005f, 1e-6f);
+  EXPECT_TRUE(a.metering);
+  EXPECT_FALSE(b.metering);
+}
+
+TEST(SceneView, WithoutInstrumentsNoMetalIsDrawn) {
+  auto backend = render::make_null_backend();
+  SceneView view(pelvis(), *backend);
+  ViewOptions options;
+  options.instruments = false;
+  for (const render::DrawItem& item : view.frame(sim::initial_state(pelvis()), options).items)
+    EXPECT_NE(item.material.shading, render::Shading::metal);
+}
+
+TEST(SceneView, AClipIsDrawnOnItsHostAndADroppedOneIsNot) {
+  auto backend = render::make_null_backend();
+  SceneView view(pelvis(), *backend);
+  sim::State state = sim::initial_state(pelvis());
+  const std::size_t before = view.frame(state, {}).items.size();
+  clip(state, -1, 0);
+  EXPECT_EQ(view.frame(state, {}).items.size(), before);
+  clip(state, left_tube(), 0.02);
+  const render::Frame frame = view.frame(state, {});
+  ASSERT_EQ(frame.items.size(), before + 1);
+  const interactions::StrandBody& body = pelvis().bodies[std::size_t(left_tube())];
+  const Vec3d host = point_at(body, state.strands[std::size_t(left_tube())], place_at(body, 0.02));
+  double nearest = 1;
+  for (const render::DrawItem& item : frame.items) {
+    if (item.material.shading != render::Shading::metal) continue;
+    const auto& m = item.transform.m;
+    const Vec3d centre = Vec3d{m[12], m[13], m[14]} + 0.004 * Vec3d{m[8], m[9], m[10]};
+    nearest = std::min(nearest, length(centre - host));
+  }
+  EXPECT_LT(nearest, 1e-5);
+}
+
+TEST(TubeDrawing, EveryStrandsSurfaceIsClosedAndFacesOut) {
+  for (int i = 0; i < int(pelvis().strands.size()); ++i) {
+    const TubeDrawing tube(pelvis(), i);
+    const geometry::TriMesh mesh = welded(tube.drawn());
+    EXPECT_TRUE(geometry::check_edges(mesh).closed()) << pelvis().strands[std::size_t(i)].name;
+    EXPECT_GT(geometry::volume(mesh), 0);
+  }
+}
+
+TEST(TubeDrawing, BothStumpsOfACutAreClosedAndEndAtTheCut) {
+  auto backend = render::make_null_backend();
+  TubeDrawing tube(pelvis(), left_tube());
+  tube.create(std::vector<Paint>(tube.drawn().positions.size()), *backend);
+  sim::State state = sim::initial_state(pelvis());
+  cut(state, left_tube(), 0.0231);
+  tissue::StrandState& strand = state.strands[std::size_t(left_tube())];
+  const int element = place_at(pelvis().bodies[std::size_t(left_tube())], 0.0231).element;
+  for (std::size_t i = std::size_t(element) + 1; i < strand.x.size(); ++i) strand.x[i].x += 0.02;
+  tube.update(state);
+  const geometry::TriMesh mesh = welded(tube.buffer());
+  EXPECT_TRUE(geometry::check_edges(mesh).closed());
+  double gap = 1;
+  for (const Vec3f& p : tube.buffer().positions) {
+    const double x = double(p.x) - strand.x[std::size_t(element)].x;
+    if (x > 0.006) gap = std::min(gap, x);
+  }
+  EXPECT_GT(gap, 0.014);  // nothing is drawn in the gap
+}
+
+TEST(TubeDrawing, FimbriaeMoveRigidlyWithTheTubesEnd) {
+  auto backend = render::make_null_backend();
+  TubeDrawing tube(pelvis(), left_tube());
+  tube.create(std::vector<Paint>(tube.drawn().positions.size()), *backend);
+  sim::State state = sim::initial_state(pelvis());
+  tube.update(state);
+  const auto before_span = fingers_of(tube);
+  const std::vector<Vec3f> before(before_span.begin(), before_span.end());
+  tissue::StrandState& strand = state.strands[std::size_t(left_tube())];
+  const std::size_t n = strand.x.size();
+  const Vec3d pivot = strand.x[n - 6];
+  for (std::size_t i = n - 5; i < n; ++i) {  // the end turned by 40 degrees about z
+    const Vec3d d = strand.x[i] - pivot;
+    strand.x[i] = pivot + Vec3d{0.766 * d.x - 0.6428 * d.y, 0.6428 * d.x + 0.766 * d.y, d.z};
+  }
+  tube.update(state);
+  const auto after = fingers_of(tube);
+  double moved = 0;
+  for (std::size_t i = 0; i < before.size(); i += 7) {
+    moved = std::max(moved, double(length(after[i] - before[i])));
+    for (std::size_t k = i + 1; k < before.size(); k += 13)
+      ASSERT_NEAR(length(after[i] - after[k]), length(before[i] - before[k]), 2e-6f);
+  }
+  EXPECT_GT(moved, 0.004);
+}
+
+TEST(TubeDrawing, AClipFlattensTheTubeBetweenItsLegs) {
+  auto backend = render::make_null_backend();
+  TubeDrawing tube(pelvis(), left_tube());
+  tube.create(std::vector<Paint>(tube.drawn().positions.size()), *backend);
+  sim::State state = sim::initial_state(pelvis());
+  clip(state, left_tube(), 0.02);
+  tube.update(state);
+  const ClipPress press = press_of(state.clips[0], pelvis(), state);
+  int between = 0;
+  for (const Vec3f& p : tube.buffer().positions) {
+    const Vec3d d = vec_cast<double>(p) - press.centre;
+    if (std::fabs(dot(d, press.normal)) > 0.4 * kClipLegWidth || length(d) > 0.004) continue;
+    ++between;
+    EXPECT_LT(std::fabs(dot(d, press.open)), 1.4 * kClipHalfGap);
+  }
+  EXPECT_GT(between, 10);
+}
+
+TEST(TubeDrawing, RestCoordinatesDoNotMoveWhenTheTubeIsCut) {
+  auto backend = render::make_null_backend();
+  TubeDrawing tube(pelvis(), left_tube());
+  tube.create(std::vector<Paint>(tube.drawn().positions.size()), *backend);
+  const MeshBuffer whole = tube.drawn();
+  sim::State state = sim::initial_state(pelvis());
+  cut(state, left_tube(), 0.0231);
+  for (Vec3d& x : state.strands[std::size_t(left_tube())].x) x.z += 0.01;
+  tube.update(state);
+  // Every rest vertex of the cut tube lies on the drawn, uncut one (to the distance between its rings).
+  for (const Vec3f& p : tube.buffer().rest) {
+    float nearest = 1;
+    for (const Vec3f& q : whole.positions) nearest = std::min(nearest, length(p - q));
+    ASSERT_LT(nearest, 0.0025f);
+  }
+}
+
+TEST(SheetDrawing, TheFoldHangsOnItsTubeAndSplitsWhereThatIsCut) {
+  ASSERT_FALSE(pelvis().sheets.empty());
+  auto backend = render::make_null_backend();
+  const int strand = pelvis().sheets[0].strand;
+  SheetDrawing sheet(pelvis(), 0, *backend);
+  sim::State state = sim::initial_state(pelvis());
+  sheet.update(state);
+  const MeshBuffer before = sheet.buffer();
+  for (Vec3d& x : state.strands[std::size_t(strand)].x) x.z += 0.01;
+  sheet.update(state);
+  ASSERT_EQ(sheet.buffer().positions.size(), before.positions.size());
+  EXPECT_NEAR(sheet.buffer().positions[0].z - before.positions[0].z, 0.01f, 0.002f);  // on the tube
+  const std::size_t base = before.positions.size() - 1;
+  EXPECT_LT(length(sheet.buffer().positions[base] - before.positions[base]), 1e-4f);  // on the base line
+  const double middle = 0.5 * (pelvis().sheets[0].from + pelvis().sheets[0].to);
+  cut(state, strand, middle);
+  sheet.update(state);
+  EXPECT_GT(geometry::check_edges(welded(sheet.buffer())).open, geometry::check_edges(welded(before)).open - 1);
+  EXPECT_NO_THROW(sheet.update(sim::initial_state(pelvis())));
+}
+
+TEST(OrganDrawing, ShowsTheSkinAsTheNodesCarryIt) {
+  auto backend = render::make_null_backend();
+  const sim::SolidModel& solid = pelvis().solids[0];
+  OrganDrawing organ(solid, std::vector<Paint>(solid.fine.rest.size()), *backend);
+  tissue::NetworkState state = tissue::rest_state(solid.network);
+  organ.update(state);
+  const std::uint64_t uploaded = backend->stats().vertices_uploaded;
+  organ.update(state);
+  EXPECT_EQ(backend->stats().vertices_uploaded, uploaded);  // nothing moved, nothing sent
+  for (tissue::NodeState& n : state.nodes) n.x += 0.01f;
+  organ.update(state);
+  EXPECT_EQ(backend->stats().vertices_uploaded, uploaded + solid.fine.rest.size());
+}
+
+TEST(InstrumentShapes, JawsMeetAtTheTipWhenClosedAndStandApartWhenOpen) {
+  for (const interactions::ToolModel& tool : pelvis().tools) {
+    kinematics::FulcrumPose pose;
+    pose.depth = 0.1;
+    for (const double aperture : {0.0, 1.0}) {
+      const interactions::ToolShape shape = shape_of(tool, pose, aperture);
+      const Placement a = placement_of(InstrumentPart::Joint::jaw_a, shape);
+      const Placement b = placement_of(InstrumentPart::Joint::jaw_b, shape);
+      const Vec3f tip{0, 0, float(tool.jaw_length)};
+      const Vec3f gap = a.rotation * tip + a.translation - (b.rotation * tip + b.translation);
+      const double expected = 2 * shape.half_gap + 2 * tool.jaw_length * std::sin(shape.half_angle);
+      EXPECT_NEAR(double(length(gap)), expected, 1e-5) << tool.name;
+      if (aperture > 0) continue;
+      EXPECT_LT(length(a.rotation * tip + a.translation - vec_cast<float>(shape.frame.tip)), 1e-5f);
+    }
+  }
+}
+
+TEST(InstrumentShapes, PartsStayWithinTheirTrocarAndFaceOut) {
+  for (const interactions::ToolModel& tool : pelvis().tools)
+    for (const InstrumentPart& part : instrument_parts(tool)) {
+      EXPECT_NE(look(part.look).name, "neutral") << part.look;
+      const geometry::TriMesh mesh = welded(part.mesh);
+      EXPECT_GT(geometry::volume(mesh), 0) << tool.name;
+      for (const Vec3f& p : part.mesh.positions) {
+        EXPECT_LE(p.z, float(tool.jaw_length) + 1e-6f);
+        if (part.joint != InstrumentPart::Joint::body) continue;
+        EXPECT_LE(std::hypot(p.x, p.y), 1.06f * float(tool.shaft_radius)) << tool.name;
+      }
+    }
+}
+
+TEST(ClipShape, HasTheSameVerticesOpenAndClosed) {
+  const MeshBuffer open = clip_shape(0.0085, 0.006), closed = clip_shape(0.0085, 0);
+  EXPECT_EQ(open.positions.size(), closed.positions.size());
+  EXPECT_EQ(open.indices, closed.indices);
+  EXPECT_TRUE(geometry::check_edges(welded(closed)).closed());
+  float length_of = 0, half = 0;
+  for (const Vec3f& p : closed.positions) {
+    length_of = std::max(length_of, p.z);
+    half = std::max(half, std::fabs(p.x));
+  }
+  EXPECT_NEAR(length_of, 0.0085f, 0.0004f);
+  EXPECT_LT(half, 0.0016f);
+}
+
+TEST(Looks, EveryLookOfTheScenesIsKnown) {
+  const auto known = [](const std::string& name) { return look(name).name == name; };
+  for (const sim::SolidModel& s : pelvis().solids) EXPECT_TRUE(known(s.look)) << s.look;
+  for (const sim::StrandModel& s : pelvis().strands) EXPECT_TRUE(known(s.look)) << s.look;
+  for (const sim::WallModel& w : pelvis().walls) EXPECT_TRUE(known(w.look)) << w.look;
+  for (const sim::SheetModel& s : pelvis().sheets) EXPECT_TRUE(known(s.look)) << s.look;
+}
+
+TEST(Looks, AnUnknownNameIsANeutralTissue) { EXPECT_EQ(look("no such look").name, "neutral"); }
+
+TEST(Looks, TissuesAreRedderThanGreenAndNotGreen) {
+  for (const Look& l : all_looks()) {
+    if (l.material.shading != render::Shading::tissue) continue;
+    for (const Vec3f& c : {l.material.colour, l.material.colour_b, l.material.colour_c, l.material.tint}) {
+      EXPECT_GT(c.x, c.y) << l.name;
+      EXPECT_GT(c.x, c.z) << l.name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace trocar::view
