@@ -95,8 +95,9 @@ Material peritoneum() {
 Material fat() {
   Material m = tissue(srgb(214, 156, 118), srgb(222, 172, 124), srgb(204, 134, 104));
   m.lobule_size = 0.0045f;
-  m.lobule_depth = 0.35f;
-  m.lobule_contrast = 0.35f;
+  m.lobule_depth = 0.3f;
+  m.lobule_contrast = 0.5f;
+  m.wrap = {0.6f, 0.4f, 0.3f};
   m.vessels = 0.6f;
   m.vessel_tile = 0.03f;
   m.glow_amount = 0.12f;
@@ -229,7 +230,7 @@ std::vector<Piece> upper() {
   for (int i = 0; i < 6; ++i) {
     const float x = -0.06f + 0.024f * float(i);
     pieces.push_back({ball(40, {x, -0.035f - 0.006f * float(i % 3), -0.058f + 0.003f * float(i % 2)},
-                           {0.019f, 0.020f, 0.013f}, 0.0012f, 0.012f),
+                           {0.019f, 0.020f, 0.013f}, 0.0008f, 0.02f),
                       i == 3 ? bowel() : fat()});
   }
   Material shaft_steel = steel();

@@ -377,7 +377,7 @@ class GlBackend final : public CheckedBackend {
     program.set("u_place", layout.centre_x, layout.centre_y, layout.radius, look.mask ? 1.0f : 0.0f);
     program.set("u_box", float(layout.box_w), float(layout.box_h), 1.0f / float(layout.box_w),
                 1.0f / float(layout.box_h));
-    program.set("u_lens", look.barrel, look.fringe_px * float(target.height) / 600.0f, look.sharpen,
+    program.set("u_lens", look.barrel, look.fringe_px * float(target.height) / 600.0f, look.sharpen * frame.quality.render_scale,
                 std::max(look.mask_soft_px, 0.5f));
     program.set("u_sensor", look.noise, look.notch, std::sin(look.notch_angle), std::cos(look.notch_angle));
     program.set_seed("u_seed", std::uint32_t(frame.tick * 2654435761u));

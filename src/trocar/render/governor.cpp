@@ -11,10 +11,10 @@ namespace {
 constexpr Quality kLevels[] = {{1.0f, 2}, {0.85f, 2}, {0.7f, 2}, {0.7f, 1}, {0.5f, 1}, {0.5f, 0}};
 constexpr int kLongestPatience = 1800;
 
-/// Share of a frame's cost that the scene pass at this quality is, the lens pass being a constant part.
+/// Cost of a frame against the best quality's: geometry and lens are a constant part (measured on llvmpipe).
 double relative_cost(const Quality& q) {
-  const double effects = q.detail == 2 ? 1.0 : (q.detail == 1 ? 0.85 : 0.7);
-  return 0.2 + 0.8 * double(q.render_scale) * double(q.render_scale) * effects;
+  const double effects = q.detail == 2 ? 1.0 : (q.detail == 1 ? 0.9 : 0.65);
+  return 0.3 + 0.7 * double(q.render_scale) * double(q.render_scale) * effects;
 }
 
 int count_bits(unsigned x) {

@@ -152,9 +152,10 @@ void main() {
 
 #ifdef LOBULES
   vec4 cell = texture(u_cells, p * CELL_SCALE + slope * 0.012);
-  float seam = 1.0 - smoothstep(0.0, 0.28, cell.a);
-  relief -= (CELL_DEPTH * 2.6) * (cell.rgb * 2.0 - 1.0);
-  albedo *= 1.0 - CELL_CONTRAST * seam * vec3(0.35, 0.62, 0.62);
+  float seam = 1.0 - smoothstep(0.0, 0.42, cell.a);
+  seam *= seam;
+  relief += (CELL_DEPTH * 2.6) * (cell.rgb * 2.0 - 1.0);
+  albedo *= 1.0 - CELL_CONTRAST * seam * vec3(0.22, 0.55, 0.60);
 #else
   float seam = 0.0;
 #endif
@@ -175,11 +176,11 @@ void main() {
   relief *= 1.0 + 2.0 * crust;
 
   // Blood lies in a film with a ragged edge: thin it stains like a filter, thick it hides what is below.
-  float ragged = 0.5 * fine.a + 0.5 * fine.r;
-  float blood = BLOOD * (0.25 + 0.75 * smoothstep(-0.06, 0.10, BLOOD - 0.75 * ragged * (1.0 - BLOOD)));
-  blood = clamp(blood * (0.8 + 0.4 * broad.a), 0.0, 1.0);
-  albedo *= exp(-blood * vec3(0.35, 2.6, 2.2));
-  albedo = mix(albedo, vec3(0.105, 0.006, 0.007), smoothstep(0.45, 0.95, blood));
+  float ragged = 0.55 * fine.a + 0.45 * fine.r;
+  float cover = smoothstep(-0.03, 0.07, BLOOD - 0.7 * ragged * (1.0 - BLOOD)) * step(0.004, BLOOD);
+  float blood = clamp(cover * (0.28 + 0.72 * BLOOD) * (0.85 + 0.3 * broad.a), 0.0, 1.0);
+  albedo *= exp(-blood * vec3(0.9, 5.0, 4.2));
+  albedo = mix(albedo, vec3(0.105, 0.006, 0.007), smoothstep(0.4, 0.9, blood));
 #endif
 
   vec3 n = normalize(N + along_surface(to_eye(relief), N));
@@ -210,7 +211,7 @@ void main() {
   float wet = smoothstep(1.0 - WETNESS - 0.2, 1.0 - WETNESS + 0.2, wet_noise);
 #ifdef STAINED
   film_slope *= 1.0 - 0.7 * smoothstep(0.5, 0.9, blood);
-  wet = max(wet, smoothstep(0.1, 0.5, blood)) * (1.0 - 0.55 * crust);
+  wet = max(wet, smoothstep(0.1, 0.3, blood)) * (1.0 - 0.55 * crust);
 #endif
   vec3 m = normalize(N + along_surface(to_eye(film_slope + relief * 0.6), N));
   vec3 H = normalize(lit.direction + V);
