@@ -60,6 +60,8 @@ void pose_skins(StepContext& c) noexcept {
     c.work.surfaces[c.model.solids.size() + i] = {&c.model.walls[i].skin, &c.model.walls[i].pose, nullptr, nullptr};
 }
 
+constexpr double kHangingDamping = 0.02;  // [s] times stiffness: fat and folds that carry an organ yield slowly
+
 // 3. Loads start afresh with the springs that hang organs in space.
 void hang_organs(StepContext& c) noexcept {
   for (interactions::NetworkLoads& l : c.work.solid_loads) l.clear();
@@ -69,6 +71,7 @@ void hang_organs(StepContext& c) noexcept {
       tissue::NodeLoad load;
       load.node = a.node;
       load.k = float(a.k);
+      load.d = float(a.k * kHangingDamping);
       load.x0 = vec_cast<float>(a.x0);
       load.f0 = vec_cast<float>(a.k * (a.x0 - vec_cast<double>(load.x0)));
       c.work.solid_loads[i].add(load, {Owner::anchor, std::int32_t(i), 0});
