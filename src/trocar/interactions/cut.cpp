@@ -8,7 +8,7 @@ namespace trocar::interactions {
 namespace {
 
 constexpr double kOpenEnough = 0.5;  // aperture from which the blades can cut again
-constexpr double kShut = 0.12;       // aperture at which the blades have crossed
+constexpr double kShut = 0.2;        // aperture at which the blades have crossed
 
 }  // namespace
 

@@ -24,8 +24,7 @@ void add(Candidate& c, std::int32_t body, int element, double w, Vec3d local) no
   h.body = body;
   h.element = element;
   h.weight = float(w);
-  // Jaws that close bring what lies between them to the middle.
-  h.local[0] = 0;
+  h.local[0] = float(local.x);
   h.local[1] = float(local.y);
   h.local[2] = float(local.z);
 }
@@ -78,6 +77,8 @@ Candidate fold_between(const ToolModel& model, const ToolShape& shape, const Tis
   return best;
 }
 
+constexpr float kCentring = 0.985f;  // per tick: closing jaws bring what lies between them to the middle
+
 bool grips(ToolKind kind) noexcept { return kind == ToolKind::grasper; }
 
 }  // namespace
@@ -105,6 +106,7 @@ void update_grip(const ToolModel& model, const ToolShape& shape, const TissueVie
     if (wanted > stop + 0.06) {
       tool.holds = 0;
     } else {
+      for (int i = 0; i < tool.holds; ++i) tool.hold[i].local[0] *= kCentring;
       tool.aperture = std::max(wanted, stop);
       tool.pinch = model.pinch_max * std::clamp((stop - wanted) / std::max(stop, 0.05), 0.0, 1.0);
       return;

@@ -110,6 +110,14 @@ void tool_on_strand(const ToolModel& model, const ToolShape& shape, const ToolSt
       if (tool_state.hold[h].body == strand && std::abs(tool_state.hold[h].element - element) <= 1) return true;
     return false;
   };
+  // Next to where the strand runs between the jaws it touches their edges from within: that is the channel's business.
+  constexpr int kEdge = 3;
+  int first_inside = body.nodes(), last_inside = -1;
+  for (int e = 0; e + 1 < body.nodes(); ++e)
+    if (state.alive[size_t(e)] && between_jaws(model, shape, body, state, e).inside) {
+      first_inside = std::min(first_inside, e);
+      last_inside = e;
+    }
   bool near_part[kToolParts] = {false, false, false};
   for (int e = 0; e + 1 < body.nodes(); ++e) {
     if (!state.alive[size_t(e)]) continue;
@@ -123,7 +131,7 @@ void tool_on_strand(const ToolModel& model, const ToolShape& shape, const ToolSt
     const BetweenJaws where = between_jaws(model, shape, body, state, e);
     const bool held = is_held(e);
     for (int part = 0; part < kToolParts; ++part) {
-      if (part != kShaft && (held || where.inside)) continue;
+      if (part != kShaft && (held || (e >= first_inside - kEdge && e <= last_inside + kEdge))) continue;
       const Capsule& rod = shape.part[part];
       const collision::SegmentPair pair = collision::nearest_segments(rod.a, rod.b, a, b);
       const double touch = rod.radius + radius;
