@@ -58,7 +58,7 @@ double leg_cover(double along, double radius, double length) noexcept {
 }
 
 bool update_clip_applier(const ToolModel& model, const ToolShape& shape, int tool_index, const TissueView& view,
-                         std::span<tissue::StrandState> strand_states, bool tips_visible, std::uint64_t tick,
+                         std::span<tissue::StrandState> strand_states, int tips_visible, std::uint64_t tick,
                          ToolState& tool, ClipBook book) noexcept {
   if (tool.aperture > kOpenEnough && tool.clips_left > 0) tool.armed = 1;
   if (tool.aperture > kHalfClosed) tool.closed_for = 0;

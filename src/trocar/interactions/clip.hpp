@@ -16,7 +16,7 @@ struct ClipBook {
 /// Arms the applier when its jaws are open, measures the closing time, and sets a clip when they have closed.
 /// @return true when a clip left the magazine this tick (clips[count-1]; strand -1 if it closed on nothing)
 bool update_clip_applier(const ToolModel& model, const ToolShape& shape, int tool_index, const TissueView& view,
-                         std::span<tissue::StrandState> strand_states, bool tips_visible, std::uint64_t tick,
+                         std::span<tissue::StrandState> strand_states, int tips_visible, std::uint64_t tick,
                          ToolState& tool, ClipBook book) noexcept;
 
 /// Share of a tube of `radius` at `along` that lies between legs from 0 to `length`.

@@ -13,8 +13,8 @@ constexpr double kShut = 0.2;        // aperture at which the blades have crosse
 }  // namespace
 
 int update_scissors(const ToolModel& model, const ToolShape& shape, int tool_index, const TissueView& view,
-                    std::span<tissue::StrandState> strand_states, bool tips_visible, std::uint64_t tick,
-                    ToolState& tool, CutBook book) noexcept {
+                    std::span<tissue::StrandState> strand_states, int tips_visible, std::uint64_t tick, ToolState& tool,
+                    CutBook book) noexcept {
   if (tool.aperture > kOpenEnough) tool.armed = 1;
   if (!tool.armed || tool.aperture > kShut) return 0;
   tool.armed = 0;

@@ -18,7 +18,7 @@ inline constexpr double kThrough = 0.99;
 
 /// @return number of strands cut this tick
 int update_scissors(const ToolModel& model, const ToolShape& shape, int tool_index, const TissueView& view,
-                    std::span<tissue::StrandState> strand_states, bool tips_visible, std::uint64_t tick,
-                    ToolState& tool, CutBook book) noexcept;
+                    std::span<tissue::StrandState> strand_states, int tips_visible, std::uint64_t tick, ToolState& tool,
+                    CutBook book) noexcept;
 
 }  // namespace trocar::interactions

@@ -53,7 +53,7 @@ struct Clip {
   std::uint64_t tick = 0;
   std::int32_t strand = -1;  ///< -1: dropped
   std::int32_t tool = 0;
-  std::int32_t tips_visible = 0;  ///< both jaw tips in view when it closed
+  std::int32_t tips_visible = 0;  ///< jaw tips in view when it closed, 0..2
   std::int32_t reserved = 0;
 };
 

@@ -78,13 +78,14 @@ void hang_organs(StepContext& c) noexcept {
     }
 }
 
-bool tips_visible(const StepContext& c, size_t tool) noexcept {
+/// How many of an instrument's two jaw tips are in view.
+int tips_visible(const StepContext& c, size_t tool) noexcept {
   int seen = 0;
   for (size_t i = 0; i < c.model.targets.size(); ++i) {
     const VisibilityTarget& t = c.model.targets[i];
     if (t.kind == VisibilityTarget::jaw && t.index == int(tool)) seen += visible(c.model, c.state, int(i));
   }
-  return seen == 2;
+  return seen;
 }
 
 // 4. Jaws: grip, clip, cut.

@@ -121,7 +121,7 @@ void Monitor::judge_clip(const interactions::Clip& clip) {
   const Sterilisation& g = m_exercise.goal;
   if (clip.strand < 0) return make_error("E12");
   if (clip.strand != m_tube) return make_error("E11");
-  if (!clip.tips_visible) make_error("E4");
+  if (clip.tips_visible < 2) make_error("E4");
   if (clip.cover < g.clip_cover) make_error("A1.cover");
   if (clip.theta > 2 * g.clip_angle)
     make_error("A1.oblique");
@@ -129,7 +129,7 @@ void Monitor::judge_clip(const interactions::Clip& clip) {
     make_error("A1.angle");
   if (clip.s > kTooFar) make_error("A1.ampulla");
   if (clip.s < kTooNear) make_error("A1.cornu");
-  const bool good = clip.cover >= g.clip_cover && clip.theta <= g.clip_angle && clip.tips_visible &&
+  const bool good = clip.cover >= g.clip_cover && clip.theta <= g.clip_angle && clip.tips_visible == 2 &&
                     clip.closing_time >= g.clip_closing;
   if (!good) return;
   if (m_first_clip < 0 && g.first_clip.holds(clip.s))
@@ -142,7 +142,7 @@ void Monitor::judge_clip(const interactions::Clip& clip) {
 void Monitor::judge_cut(const sim::State& state, const interactions::Cut& cut) {
   const Sterilisation& g = m_exercise.goal;
   if (cut.strand != m_tube) return make_error("E11");
-  if (!cut.tips_visible) make_error("E4");
+  if (cut.tips_visible < 1) make_error("E4");
   bool below = false, above = false, near_clip = false;
   for (int i = 0; i < state.clip_count; ++i) {
     const interactions::Clip& clip = state.clips[size_t(i)];
