@@ -84,7 +84,6 @@ class Monitor {
   double m_seconds = 0, m_straightness = 0, m_over_for = 0;
   int m_clips_judged = 0, m_cuts_judged = 0;
   double m_first_clip = -1, m_second_clip = -1;
-  std::uint64_t m_state_hash = 0;
 };
 
 }  // namespace trocar::training
