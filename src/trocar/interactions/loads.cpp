@@ -4,11 +4,25 @@
 
 namespace trocar::interactions {
 
+namespace {
+
+/// Adds an isotropic load to another on the same node: k1 (x1 - x) + k2 (x2 - x) = (k1 + k2) (mean - x).
+void merge(const tissue::NodeLoad& load, tissue::NodeLoad& into) noexcept {
+  const float k = into.k + load.k;
+  if (k > 0) into.x0 = (into.k / k) * into.x0 + (load.k / k) * load.x0;
+  into.f0 += load.f0;
+  into.k = k;
+  into.d += load.d;
+}
+
+}  // namespace
+
 void NetworkLoads::reserve(std::size_t capacity) {
   gathered.reserve(capacity);
   sorted.reserve(capacity);
   tag.reserve(capacity);
   order.reserve(capacity);
+  owner.reserve(capacity);
   reaction.reserve(capacity);
 }
 
@@ -35,7 +49,18 @@ void NetworkLoads::sort() noexcept {
     return na != nb ? na < nb : a < b;
   });
   sorted.clear();
-  for (std::int32_t i : order) sorted.push_back(gathered[std::size_t(i)]);
+  owner.clear();
+  for (std::int32_t i : order) {
+    const tissue::NodeLoad& load = gathered[std::size_t(i)];
+    const Tag& t = tag[std::size_t(i)];
+    const bool anonymous = t.owner == Owner::anchor || t.owner == Owner::strand_end;
+    if (anonymous && !sorted.empty() && owner.back().owner == Owner::anchor && sorted.back().node == load.node) {
+      merge(load, sorted.back());
+    } else {
+      sorted.push_back(load);
+      owner.push_back(anonymous ? Tag{Owner::anchor, 0, 0} : t);
+    }
+  }
   reaction.assign(sorted.size(), Vec3f{});
 }
 

@@ -38,11 +38,11 @@ sim::StrandEndModel compile_end(const StrandEnd& end, Vec3d at, const sim::Model
     if (model.solids[i].name != end.organ) continue;
     out.kind = sim::StrandEndModel::hosted;
     out.solid = std::int32_t(i);
-    constexpr double kPatch = 0.010;  // [m] over which an organ takes a strand's pull
+    constexpr double kPatch = 0.008;  // [m] over which an organ takes a strand's pull
     try {
       out.patch = interactions::make_patch(model.solids[i].network, at, kPatch);
     } catch (const std::invalid_argument&) {
-      faults.push_back({end.at, "expected the strand's end within 10 mm of '" + end.organ + "', got one farther away"});
+      faults.push_back({end.at, "expected the strand's end within 8 mm of '" + end.organ + "', got one farther away"});
     }
   }
   return out;

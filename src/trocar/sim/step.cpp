@@ -248,7 +248,7 @@ void feel(StepContext& c) noexcept {
   for (const interactions::StrandLoads& l : c.work.strand_loads)
     for (size_t i = 0; i < l.list.size(); ++i) account(c, l.tag[i], l.reaction[i]);
   for (const interactions::NetworkLoads& l : c.work.solid_loads)
-    for (size_t i = 0; i < l.sorted.size(); ++i) account(c, l.tag[size_t(l.order[i])], vec_cast<double>(l.reaction[i]));
+    for (size_t i = 0; i < l.sorted.size(); ++i) account(c, l.owner[i], vec_cast<double>(l.reaction[i]));
   const interactions::TissueView view = tissue_of(c);
   for (size_t t = 0; t < c.model.tools.size(); ++t) {
     interactions::ToolState& tool = c.state.tools[t];
