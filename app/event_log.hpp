@@ -1,0 +1,37 @@
+// What happens in the window as JSON lines, one object a line, flushed at once: for tests that drive the real window,
+// and for people who want to know afterwards.
+//
+//   {"event":"grasped","tick":5120,"tool":"grasper","text":"grasper grasped tube_left"}
+//   {"event":"pose", ...}      ten times a second: where the instruments are and how the picture lies in space
+#pragma once
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include <trocar/kinematics/fulcrum.hpp>
+
+#include "session.hpp"
+
+namespace trocar::app {
+
+class EventLog {
+ public:
+  /// Nothing is logged to an empty path.  @throws core::EnvironmentLacks
+  explicit EventLog(const std::string& path);
+
+  void event(const std::string& name, Json details = Json::object());
+  void moment(const sim::Model& model, const Moment& moment);
+  /// At most ten times a second of simulated time. @param led instrument, or -1 for the scope
+  void pose(const sim::Model& model, const sim::State& state, int led);
+  bool on() const { return m_file != nullptr; }
+
+ private:
+  struct Close {
+    void operator()(std::FILE* f) const { std::fclose(f); }
+  };
+  std::unique_ptr<std::FILE, Close> m_file;
+  std::uint64_t m_next_pose = 0;
+};
+
+}  // namespace trocar::app
