@@ -49,16 +49,19 @@ void poison(Work& w) noexcept {
     scribble(l.sorted);
     scribble(l.tag);
     scribble(l.order);
-    scribble(l.owner);
     scribble(l.reaction);
+    l.overflowed = true;
   }
   for (interactions::StrandLoads& l : w.strand_loads) {
     scribble(l.list);
     scribble(l.tag);
     scribble(l.reaction);
+    l.overflowed = true;
   }
   for (tissue::NetworkWork& n : w.solid_work) {
     scribble(n.other);
+    scribble(n.open_tets);
+    scribble(n.below);
   }
   for (tissue::StrandWork& s : w.strand_work) {
     scribble(s.matrix);
@@ -66,6 +69,7 @@ void poison(Work& w) noexcept {
     scribble(s.columns);
     scribble(s.force);
     scribble(s.saved);
+    scribble(s.bend_now);
   }
   scribble(w.ends);
   scribble(w.end_reactions);
