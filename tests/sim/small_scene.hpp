@@ -1,0 +1,213 @@
+// A body small enough to be stepped thousands of times in a test: an organ, a tube that grows out of it, a cord that
+// must not be cut, a soft pad below, a floor, and three instruments straight above. Drawn in round numbers, so that
+// what the step should find can be worked out by hand.
+//
+//   const sim::Model& model = small::model();
+//   small::Hands hands(model);                 // grasps, lifts, clips twice, cuts
+//   while (!hands.done()) step(model, hands.next(state), state, work);
+#pragma once
+
+#include <trocar/scene/compile.hpp>
+#include <trocar/sim/step.hpp>
+
+namespace trocar::small {
+
+inline constexpr int kGrasper = 0, kScissors = 1, kApplier = 2;
+inline constexpr int kTube = 0, kCord = 1;
+inline constexpr double kTubeRadius = 0.0016;
+inline constexpr double kHeight = 0.10;  ///< of the ports above the tube, which lies along x at y = z = 0 [m]
+
+inline scene::Tissue tissue(const char* name, double young) {
+  scene::Tissue t;
+  t.name = name;
+  t.young = young;
+  t.p1 = 3;
+  t.p2 = 30;
+  t.strain_cap = 0.2;
+  return t;
+}
+
+inline scene::Solid organ() {
+  scene::Solid s;
+  s.name = "organ";
+  s.tissue = "flesh";
+  for (double x : {-0.034, -0.026, -0.018, -0.010}) s.sections.push_back({{x, 0, 0}, {0, 0.016, 0}, {0, 0, 0.012}, 2});
+  s.cell = 0.005;
+  s.skin_edge = 0.004;
+  s.fine_edge = 0.003;
+  s.anchors.push_back({{-0.042, 0, 0}, 0.014, 0, {}});
+  return s;
+}
+
+/// Lies 0.5 mm below the tube, 12 mm thick, on springs.
+inline scene::Solid pad() {
+  scene::Solid s;
+  s.name = "pad";
+  s.tissue = "flesh";
+  for (double x : {0.040, 0.050, 0.060}) s.sections.push_back({{x, 0, -0.0081}, {0, 0.014, 0}, {0, 0, 0.006}, 2});
+  s.cell = 0.004;
+  s.skin_edge = 0.004;
+  s.fine_edge = 0.003;
+  s.anchors.push_back({{0.050, 0, -0.0141}, 0.012, 200, {}});
+  return s;
+}
+
+inline scene::Strand tube() {
+  scene::Strand s;
+  s.name = "tube";
+  s.tissue = "duct";
+  for (double x : {-0.001, 0.020, 0.040, 0.060, 0.080}) s.centreline.push_back({x, 0, 0});
+  s.stations = {{0, kTubeRadius, 0.0005}};
+  s.landmarks = {{"isthmus", 0, 0.035}, {"ampulla", 0.035, 0.081}};
+  s.start.organ = "organ";
+  s.foundation = 800;
+  s.foundation_limit = 0.035;
+  return s;
+}
+
+/// Beside the tube, fixed at both ends, spared by scissors.
+inline scene::Strand cord() {
+  scene::Strand s;
+  s.name = "cord";
+  s.tissue = "duct";
+  for (double x : {0.0, 0.025, 0.050, 0.075}) s.centreline.push_back({x, 0.012, 0});
+  s.stations = {{0, 0.002, 0}};
+  s.start.fixed = s.end.fixed = true;
+  s.foundation = 600;
+  s.cuttable = false;
+  return s;
+}
+
+inline scene::Instrument instrument(const char* name, scene::InstrumentKind kind) {
+  scene::Instrument i;
+  i.name = name;
+  i.kind = kind;
+  return i;
+}
+
+inline scene::Description description() {
+  scene::Description d;
+  d.name = d.title = "small";
+  d.tissues = {tissue("flesh", 20e3), tissue("duct", 60e3)};
+  d.solids = {organ(), pad()};
+  d.strands = {tube(), cord()};
+  scene::Wall floor;
+  floor.name = "floor";
+  floor.rows = floor.columns = 3;
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) floor.net.push_back({-0.05 + 0.075 * c, 0.05 - 0.05 * r, -0.020});
+  d.walls = {floor};
+  d.ports = {{"a", {0.055, 0, kHeight}, 0.005, {}},
+             {"b", {0.026, 0.03, kHeight}, 0.005, {}},
+             {"c", {0.026, -0.03, kHeight}, 0.010, {}},
+             {"eye", {0.03, 0.06, 0.08}, 0.010, {}}};
+  scene::Instrument grasper = instrument("grasper", scene::InstrumentKind::grasper);
+  grasper.jaw_length = 0.022;
+  grasper.jaw_width = 0.004;
+  grasper.jaw_thickness = 0.0018;
+  grasper.opening = 1.05;
+  scene::Instrument scissors = instrument("scissors", scene::InstrumentKind::scissors);
+  scissors.jaw_length = 0.015;
+  scissors.jaw_width = 0.0025;
+  scissors.jaw_thickness = 0.0012;
+  scissors.opening = 0.8;
+  scene::Instrument applier = instrument("clip_applier", scene::InstrumentKind::clip_applier);
+  applier.shaft_radius = 0.005;
+  applier.jaw_length = 0.018;
+  applier.jaw_width = 0.0045;
+  applier.jaw_thickness = 0.002;
+  applier.opening = 0;
+  applier.parallel_gap = 0.006;
+  applier.clips = 20;
+  d.instruments = {grasper, scissors, applier};
+  // A quarter turn: the jaws open along y, across the tube.
+  const double across = 1.57079632679489662;
+  d.placements = {{"grasper", "a", {0.055, 0, 0.04}, across, {}},
+                  {"scissors", "b", {0.026, 0.02, 0.05}, across, {}},
+                  {"clip_applier", "c", {0.026, -0.02, 0.05}, across, {}}};
+  d.scope_placement = {"", "eye", {0.03, 0.05, 0.055}, 0, {}};
+  return d;
+}
+
+inline const sim::Model& model() {
+  static const sim::Model compiled = scene::compile(description());
+  return compiled;
+}
+
+/// Hands that do the whole work in four seconds, faster than anybody should: they look at the State like a surgeon.
+class Hands {
+ public:
+  explicit Hands(const sim::Model& model) : m_model(model), m_input(model.start) {
+    for (size_t t = 0; t < model.tools.size(); ++t)
+      m_tip[t] = kinematics::forward(model.tools[t].port, pose_of(model.start.tools[t])).tip;
+  }
+
+  bool done() const { return m_at >= kTicks; }
+  static constexpr int kTicks = 4400;
+
+  sim::Input next(const sim::State& s) {
+    const int t = m_at++;
+    if (t < 300) aim(s, kGrasper, 0.056, 0.012);
+    if (t >= 300 && t < 700) handle(kGrasper, 0.95, 300);
+    if (t >= 700 && t < 1100) m_tip[kGrasper] += Vec3d{0, 0, 0.008 / 400};
+    clip(s, t - 1100, 0.016);
+    clip(s, t - 2300, 0.026);
+    cut(s, t - 3500, 0.021);
+    for (size_t i = 0; i < m_model.tools.size(); ++i) {
+      const kinematics::FulcrumPose pose = kinematics::inverse(m_model.tools[i].port, m_tip[i], roll(s, i));
+      m_input.tools[i] = sim::tool_input(pose, float(m_handle[i]));
+    }
+    return m_input;
+  }
+
+ private:
+  void move(int tool, Vec3d to) {
+    const Vec3d way = to - m_tip[size_t(tool)];
+    const double far = length(way), most = 0.25 * sim::kTick;
+    m_tip[size_t(tool)] += (far <= most ? 1.0 : most / far) * way;
+  }
+  /// The tube at arc length s comes to lie `inside` from the hinge.
+  void aim(const sim::State& state, int tool, double s, double inside) {
+    const interactions::StrandBody& body = m_model.bodies[kTube];
+    const interactions::ToolModel& t = m_model.tools[size_t(tool)];
+    const Vec3d at = interactions::point_at(body, state.strands[kTube], interactions::place_at(body, s));
+    move(tool, at + (t.jaw_length - inside) * normalised(at - t.port));
+  }
+  void handle(int tool, double to, int ticks) {
+    double& h = m_handle[size_t(tool)];
+    h += std::clamp(to - h, -1.0 / ticks, 1.0 / ticks);
+  }
+  double roll(const sim::State& state, size_t tool) {
+    const interactions::StrandBody& body = m_model.bodies[kTube];
+    const double s = tool == size_t(kGrasper) ? 0.056 : 0.021;
+    const Vec3d along = tangent_at(body, state.strands[kTube], interactions::place_at(body, s));
+    const kinematics::FulcrumPose pose = kinematics::inverse(m_model.tools[tool].port, m_tip[tool], 0);
+    double wanted = kinematics::roll_towards(pose, along);
+    const double half = 3.14159265358979323846, now = double(m_input.tools[tool].roll);
+    while (wanted - now > 0.5 * half) wanted -= half;
+    while (wanted - now < -0.5 * half) wanted += half;
+    return now + std::clamp(wanted - now, -0.004, 0.004);
+  }
+  void clip(const sim::State& s, int t, double arc) {
+    if (t < 0 || t >= 1200) return;
+    if (t < 900) aim(s, kApplier, arc, 0.013);
+    if (t >= 400 && t < 800) handle(kApplier, 1, 350);
+    if (t >= 800) handle(kApplier, 0, 250);
+    if (t >= 900) move(kApplier, {0.026, -0.02, 0.05});
+  }
+  void cut(const sim::State& s, int t, double arc) {
+    if (t < 0) return;
+    if (t < 700) aim(s, kScissors, arc, 0.010);
+    if (t >= 350 && t < 600) handle(kScissors, 1, 200);
+    if (t >= 600) handle(kScissors, 0, 200);
+    if (t >= 700) move(kScissors, {0.026, 0.02, 0.05});
+  }
+
+  const sim::Model& m_model;
+  sim::Input m_input;
+  std::array<Vec3d, sim::kMaxTools> m_tip{};
+  std::array<double, sim::kMaxTools> m_handle{};
+  int m_at = 0;
+};
+
+}  // namespace trocar::small
