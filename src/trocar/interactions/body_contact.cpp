@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include <trocar/collision/segments.hpp>
+#include <trocar/collision/rods.hpp>
 #include <trocar/interactions/body_contact.hpp>
 
 namespace trocar::interactions {
@@ -73,8 +73,32 @@ void solid_on_surface(const SurfacePair& pair, const Surface& samples, const Sur
 
 namespace {
 
-collision::SegmentPair element_pair(const tissue::StrandState& a, int i, const tissue::StrandState& b, int j) noexcept {
-  return collision::nearest_segments(a.x[size_t(i)], a.x[size_t(i) + 1], b.x[size_t(j)], b.x[size_t(j) + 1]);
+collision::Capsule rod(const StrandBody& body, const tissue::StrandState& state, int element) noexcept {
+  const size_t e = size_t(element);
+  return {state.x[e], state.x[e + 1], body.model.radius[e]};
+}
+
+double middle_distance(const tissue::StrandState& a, int i, const tissue::StrandState& b, int j) noexcept {
+  const Vec3d d = a.x[size_t(i)] + a.x[size_t(i) + 1] - b.x[size_t(j)] - b.x[size_t(j) + 1];
+  return dot(d, d);
+}
+
+/// The element of b whose middle is nearest to that of a's element i, downhill from `start`.
+int walk_along(const tissue::StrandState& a, int i, const tissue::StrandState& b, int start, int last) noexcept {
+  int j = std::clamp(start, 0, last);
+  double best = middle_distance(a, i, b, j);
+  for (int step = 0; step < 64; ++step) {
+    const int from = j;
+    for (int next : {from - 1, from + 1}) {
+      if (next < 0 || next > last) continue;
+      const double d = middle_distance(a, i, b, next);
+      if (d >= best) continue;
+      best = d;
+      j = next;
+    }
+    if (j == from) break;
+  }
+  return j;
 }
 
 }  // namespace
@@ -85,45 +109,25 @@ void strand_on_strand(const StrandPair& pair, const StrandBody& a, const tissue:
   const int last = b.nodes() - 2;
   for (int i = 0; i + 1 < a.nodes(); ++i) {
     if (!a_state.alive[size_t(i)]) continue;
-    int j = std::clamp(nearest[size_t(i)], 0, last);
-    collision::SegmentPair best = element_pair(a_state, i, b_state, j);
-    for (int step = 0; step < 64; ++step) {
-      const int down = std::max(j - 1, 0), up = std::min(j + 1, last);
-      const collision::SegmentPair d = element_pair(a_state, i, b_state, down),
-                                   u = element_pair(a_state, i, b_state, up);
-      const int next = d.distance < best.distance && d.distance <= u.distance ? down
-                       : u.distance < best.distance                           ? up
-                                                                              : j;
-      if (next == j) break;
-      best = next == down ? d : u;
-      j = next;
-    }
+    const int j = walk_along(a_state, i, b_state, nearest[size_t(i)], last);
     nearest[size_t(i)] = j;
-    const double touch = a.model.radius[size_t(i)] + b.model.radius[size_t(j)];
-    if (best.distance > touch + 0.002 || !b_state.alive[size_t(j)]) {
+    if (!b_state.alive[size_t(j)]) {
       side[size_t(i)] = {0, 0, 0};
       continue;
     }
-    Vec3d n = best.distance > 1e-9 ? (best.on_first - best.on_second) / best.distance : Vec3d{0, 0, 1};
-    double depth = touch - best.distance;
-    if (dot(n, vec_cast<double>(side[size_t(i)])) < -0.2) {
-      depth = touch + best.distance;
-      n = -n;
-    } else {
-      side[size_t(i)] = vec_cast<float>(n);
-    }
-    depth -= double(pair.overlap[size_t(i)]);
+    const collision::RodContact c = collision::touch(rod(b, b_state, j), rod(a, a_state, i), side[size_t(i)]);
+    const double depth = c.depth - double(pair.overlap[size_t(i)]);
     if (depth <= 0 || depth > kDeepest) continue;
     tissue::StrandLoad on_a, on_b;
     on_a.k = on_b.k = kStiffness;
     on_a.d = on_b.d = kDamping;
-    on_a.dir = on_b.dir = n;
+    on_a.dir = on_b.dir = c.normal;
     on_a.element = i;
-    on_a.w = best.s;
-    on_a.x0 = best.on_first + 0.5 * depth * n;
+    on_a.w = c.t;
+    on_a.x0 = c.on_second + 0.5 * depth * c.normal;
     on_b.element = j;
-    on_b.w = best.t;
-    on_b.x0 = best.on_second - 0.5 * depth * n;
+    on_b.w = c.s;
+    on_b.x0 = c.on_first - 0.5 * depth * c.normal;
     a_loads.add(on_a, {Owner::body, 0, 0});
     b_loads.add(on_b, {Owner::body, 0, 0});
   }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include <trocar/collision/rods.hpp>
 #include <trocar/kinematics/fulcrum.hpp>
 
 namespace trocar::interactions {
@@ -57,10 +58,7 @@ struct ToolState {
 };
 static_assert(sizeof(ToolState) == 14 * 8 + 4 * 4 + kMaxHolds * sizeof(Hold), "no padding");
 
-struct Capsule {
-  Vec3d a, b;
-  double radius = 0;
-};
+using collision::Capsule;
 
 inline constexpr int kShaft = 0, kJawA = 1, kJawB = 2, kToolParts = 3;
 

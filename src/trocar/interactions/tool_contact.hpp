@@ -15,17 +15,12 @@
 
 namespace trocar::interactions {
 
-/// Which side of an instrument's rod a strand lies on: unit vector from rod to strand, zero when apart. State.
-struct Side {
-  double n[3] = {0, 0, 0};
-};
-
 void tool_on_surface(const ToolShape& shape, int tool, const Surface& surface, NetworkLoads& loads) noexcept;
 
-/// @param side  (kToolParts) in/out, this tool's memory for this strand
-/// @param held  elements that the tool holds: no contact with its jaws there
+/// @param side  (elements x kToolParts) State: on which side of each of this tool's rods an element lies
+///              (collision::touch)
 void tool_on_strand(const ToolModel& model, const ToolShape& shape, const ToolState& tool_state, int tool,
-                    const StrandBody& body, int strand, const tissue::StrandState& state, std::span<Side> side,
+                    const StrandBody& body, int strand, const tissue::StrandState& state, std::span<Vec3f> side,
                     StrandLoads& loads) noexcept;
 
 /// How a strand element lies between the jaws.

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include <trocar/collision/segments.hpp>
+#include <trocar/geometry/nearest.hpp>
 #include <trocar/scene/compile_contacts.hpp>
 
 namespace trocar::scene {
@@ -100,13 +100,14 @@ void pair_strands(sim::Model& model, int a, int b) {
     double least = 1e9, overlap = 0;
     std::int32_t at = 0;
     for (int j = 0; j + 1 < second.nodes(); ++j) {
-      const collision::SegmentPair p =
-          collision::nearest_segments(first.model.rest[size_t(i)], first.model.rest[size_t(i) + 1],
-                                      second.model.rest[size_t(j)], second.model.rest[size_t(j) + 1]);
-      if (p.distance >= least) continue;
-      least = p.distance;
+      const Vec3d a0 = first.model.rest[size_t(i)], a1 = first.model.rest[size_t(i) + 1];
+      const Vec3d b0 = second.model.rest[size_t(j)], b1 = second.model.rest[size_t(j) + 1];
+      const auto p = geometry::closest_segments(a0, a1, b0, b1);
+      const double distance = length(a0 + p.s * (a1 - a0) - (b0 + p.t * (b1 - b0)));
+      if (distance >= least) continue;
+      least = distance;
       at = j;
-      overlap = std::max(0.0, first.model.radius[size_t(i)] + second.model.radius[size_t(j)] - p.distance);
+      overlap = std::max(0.0, first.model.radius[size_t(i)] + second.model.radius[size_t(j)] - distance);
     }
     closest = std::min(closest, least);
     pair.overlap.push_back(float(overlap));

@@ -119,17 +119,16 @@ void work_jaws(StepContext& c) noexcept {
 // 5. Instruments on tissue: contact and hold.
 void touch_tissue(StepContext& c) noexcept {
   const interactions::TissueView view = tissue_of(c);
-  const size_t strands = c.model.strands.size();
+  size_t at = 0;
   for (size_t t = 0; t < c.model.tools.size(); ++t) {
     const interactions::ToolShape& shape = c.work.shapes[t];
     for (size_t i = 0; i < c.model.solids.size(); ++i)
       interactions::tool_on_surface(shape, int(t), c.work.surfaces[i], c.work.solid_loads[i]);
-    for (size_t i = 0; i < strands; ++i) {
-      const std::span<interactions::Side> side{
-          c.state.tool_side.data() + (t * strands + i) * size_t(interactions::kToolParts),
-          size_t(interactions::kToolParts)};
+    for (size_t i = 0; i < c.model.strands.size(); ++i) {
+      const size_t sides = size_t(c.model.bodies[i].nodes() - 1) * size_t(interactions::kToolParts);
       interactions::tool_on_strand(c.model.tools[t], shape, c.state.tools[t], int(t), c.model.bodies[i], int(i),
-                                   c.state.strands[i], side, c.work.strand_loads[i]);
+                                   c.state.strands[i], {c.state.tool_side.data() + at, sides}, c.work.strand_loads[i]);
+      at += sides;
     }
     interactions::hold_loads(shape, int(t), view, c.state.tools[t], c.work.strand_loads, c.work.solid_loads);
   }

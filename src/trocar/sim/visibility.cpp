@@ -1,6 +1,7 @@
 #include <algorithm>
 
-#include <trocar/collision/segments.hpp>
+#include <trocar/collision/rods.hpp>
+#include <trocar/geometry/nearest.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/sim/visibility.hpp>
 
@@ -9,15 +10,6 @@ namespace {
 
 constexpr double kMaskShare = 0.97;  // of the field's half angle: what the mask's rim leaves
 constexpr double kSkinEdge = 0.004;  // [m] boxes of vertices are grown by this to hold their triangles
-
-bool hits_triangle(Vec3d from, Vec3d along, Vec3d a, Vec3d b, Vec3d c) noexcept {
-  const Vec3d ab = b - a, ac = c - a, p = cross(along, ac);
-  const double det = dot(ab, p);
-  if (std::fabs(det) < 1e-18) return false;
-  const Vec3d s = from - a, q = cross(s, ab);
-  const double u = dot(s, p) / det, v = dot(along, q) / det, t = dot(ac, q) / det;
-  return u >= 0 && v >= 0 && u + v <= 1 && t > 0 && t < 1;
-}
 
 /// Does the segment meet a triangle of the surface? A triangle is looked at with its lowest vertex's block.
 bool hits_surface(const interactions::Surface& surface, Vec3d from, Vec3d to) noexcept {
@@ -30,15 +22,15 @@ bool hits_surface(const interactions::Surface& surface, Vec3d from, Vec3d to) no
     const Vec3d low = vec_cast<double>(box.low), high = vec_cast<double>(box.high);
     const Vec3d middle = 0.5 * (low + high);
     const double reach = 0.5 * length(high - low) + kSkinEdge;
-    const double s = collision::nearest_on_segment(from, to, middle);
-    if (length(from + s * along - middle) > reach) continue;
+    if (length(collision::nearest_on_axis({from, to, 0}, middle) - middle) > reach) continue;
     const int last = std::min(int(b + 1) * tissue::kSkinBlock, skin.size());
     for (int v = int(b) * tissue::kSkinBlock; v < last; ++v)
       for (int k = skin.face_first[size_t(v)]; k < skin.face_first[size_t(v) + 1]; ++k) {
         const auto& t = skin.triangles[size_t(skin.face[size_t(k)])];
         if (std::min({t[0], t[1], t[2]}) != v) continue;
-        if (hits_triangle(from, along, surface.position(t[0]), surface.position(t[1]), surface.position(t[2])))
-          return true;
+        const auto hit =
+            geometry::ray_triangle(from, along, surface.position(t[0]), surface.position(t[1]), surface.position(t[2]));
+        if (hit.hit && hit.t < 1) return true;
       }
   }
   return false;
