@@ -1,4 +1,6 @@
+#include <cmath>
 #include <cstring>
+#include <utility>
 
 #include <trocar/core/hash.hpp>
 #include <trocar/sim/state.hpp>
@@ -25,9 +27,7 @@ State initial_state(const Model& model) {
   size_t sides = 0;
   for (const interactions::StrandPair& p : model.strand_pairs) sides += p.overlap.size();
   s.strand_side.resize(sides);
-  size_t elements = 0;
-  for (const interactions::StrandBody& body : model.bodies) elements += size_t(body.nodes() - 1);
-  s.tool_side.resize(model.tools.size() * elements * size_t(interactions::kToolParts));
+  s.tool_side.resize(model.tools.size() * model.strands.size() * size_t(interactions::kToolParts));
   s.seen.resize(model.samples.size());
   return s;
 }
@@ -101,20 +101,62 @@ std::vector<std::uint8_t> display_bytes(const Model& model, const State& s) {
   return out;
 }
 
-bool restore_display(const Model& model, const std::vector<std::uint8_t>& bytes, State& s) {
+namespace {
+
+bool finite(Vec3f p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+bool names_tissue(const Model& model, const interactions::Hold& hold) {
+  const std::int32_t b = hold.body, solid = b - interactions::kSolidBase;
+  int elements = 0;
+  if (b >= 0 && size_t(b) < model.bodies.size()) elements = model.bodies[size_t(b)].nodes() - 1;
+  if (solid >= 0 && size_t(solid) < model.solids.size()) elements = model.solids[size_t(solid)].skin.size();
+  return hold.element >= 0 && hold.element < elements;
+}
+
+bool sound(const Model& model, const interactions::ToolState& t) {
+  for (double v : {t.yaw, t.pitch, t.roll, t.depth, t.aperture, t.handle})
+    if (!(std::fabs(v) < 1e3)) return false;
+  if (t.holds < 0 || t.holds > interactions::kMaxHolds) return false;
+  for (int i = 0; i < t.holds; ++i)
+    if (!names_tissue(model, t.hold[i])) return false;
+  return true;
+}
+
+bool sound(const Model& model, const State& s) {
+  for (const interactions::ToolState& t : s.tools)
+    if (!sound(model, t)) return false;
+  for (float v : {s.scope.yaw, s.scope.pitch, s.scope.roll, s.scope.depth, s.scope.post})
+    if (!(std::fabs(v) < 1e3f)) return false;
+  const auto names_strand = [&model](std::int32_t i, double place) {
+    return i >= -1 && i < std::int32_t(model.strands.size()) && std::isfinite(place);
+  };
+  for (int i = 0; i < s.clip_count; ++i)
+    if (!names_strand(s.clips[size_t(i)].strand, s.clips[size_t(i)].s)) return false;
+  for (int i = 0; i < s.cut_count; ++i)
+    if (!names_strand(s.cuts[size_t(i)].strand, s.cuts[size_t(i)].s)) return false;
+  return true;
+}
+
+}  // namespace
+
+bool restore_display(const Model& model, const std::vector<std::uint8_t>& bytes, State& state) {
+  State s = state;
   Source in{bytes};
   std::vector<Vec3f> points;
+  const auto take_points = [&](size_t count) {
+    points.assign(count, {});
+    in.take(points.data(), count);
+    for (Vec3f p : points) in.good = in.good && finite(p);
+  };
   in.take(&s.tick, 1);
   for (size_t i = 0; i < s.solids.size(); ++i) {
     const tissue::NetworkModel& network = model.solids[i].network;
-    points.assign(size_t(network.nodes), {});
-    in.take(points.data(), points.size());
+    take_points(size_t(network.nodes));
     for (int n = 0; in.good && n < network.nodes; ++n)
       tissue::set_position(network, s.solids[i], n, vec_cast<double>(points[size_t(n)]));
   }
   for (tissue::StrandState& strand : s.strands) {
-    points.assign(strand.x.size(), {});
-    in.take(points.data(), points.size());
+    take_points(strand.x.size());
     for (size_t n = 0; in.good && n < points.size(); ++n) strand.x[n] = vec_cast<double>(points[n]);
     in.take(strand.alive.data(), strand.alive.size());
   }
@@ -126,7 +168,9 @@ bool restore_display(const Model& model, const std::vector<std::uint8_t>& bytes,
   in.take(&s.cut_count, 1);
   in.good = in.good && s.cut_count >= 0 && s.cut_count <= interactions::kMaxCuts;
   if (in.good) in.take(s.cuts.data(), size_t(s.cut_count));
-  return in.good && in.at == bytes.size();
+  if (!in.good || in.at != bytes.size() || !sound(model, s)) return false;
+  state = std::move(s);
+  return true;
 }
 
 }  // namespace trocar::sim

@@ -19,10 +19,10 @@ struct State {
   std::array<interactions::Clip, interactions::kMaxClips> clips;
   std::array<interactions::Cut, interactions::kMaxCuts> cuts;
   std::int32_t clip_count = 0, cut_count = 0;
-  std::vector<std::int32_t> nearest;  ///< contact caches: one per sample of each pair, in the Model's order
-  std::vector<Vec3f> strand_side;     ///< per element of each strand pair's first strand
-  std::vector<Vec3f> tool_side;       ///< (tools x elements of all strands x kToolParts)
-  std::vector<std::uint8_t> seen;     ///< (samples) 1 = in view when last looked
+  std::vector<std::int32_t> nearest;          ///< contact caches: one per sample of each pair, in the Model's order
+  std::vector<Vec3f> strand_side;             ///< per element of each strand pair's first strand
+  std::vector<interactions::Side> tool_side;  ///< (tools x strands x kToolParts)
+  std::vector<std::uint8_t> seen;             ///< (samples) 1 = in view when last looked
 };
 
 State initial_state(const Model& model);
@@ -32,7 +32,8 @@ std::uint64_t hash_of(const State& state) noexcept;
 
 /// What drawing needs of a State, for 10 Hz keyframes that another version of the physics can still show.
 std::vector<std::uint8_t> display_bytes(const Model& model, const State& state);
-/// Puts a keyframe's content into a State made from the same scene; false if it does not fit.
+/// Puts a keyframe's content into a State made from the same scene. False, and the State unchanged, where it does not
+/// fit: another length, a place that is not finite, an index that names nothing.
 bool restore_display(const Model& model, const std::vector<std::uint8_t>& bytes, State& state);
 
 }  // namespace trocar::sim
