@@ -38,11 +38,12 @@ sim::StrandEndModel compile_end(const StrandEnd& end, Vec3d at, const sim::Model
     if (model.solids[i].name != end.organ) continue;
     out.kind = sim::StrandEndModel::hosted;
     out.solid = std::int32_t(i);
-    constexpr double kPatch = 0.008;  // [m] over which an organ takes a strand's pull
+    const double reach = std::max(0.005, 2.2 * model.solids[i].cell);  // over which the organ takes the strand's pull
     try {
-      out.patch = interactions::make_patch(model.solids[i].network, at, kPatch);
+      out.patch = interactions::make_patch(model.solids[i].network, at, reach);
     } catch (const std::invalid_argument&) {
-      faults.push_back({end.at, "expected the strand's end within 8 mm of '" + end.organ + "', got one farther away"});
+      faults.push_back(
+          {end.at, "expected the strand's end within a few cells of '" + end.organ + "', got one farther away"});
     }
   }
   return out;

@@ -144,6 +144,7 @@ void compile_solid(const Solid& solid, const Tissue& tissue, Vec3d gravity, sim:
   out.name = solid.name;
   out.look = solid.look;
   out.tissue = solid.tissue;
+  out.cell = solid.cell;
   out.anchors = anchor_nodes(solid, net.network, faults);
   const tissue::PrestressReport prestress = tissue::prestress(net.network, out.anchors);
   if (!prestress.converged || prestress.failed_springs > 0) {

@@ -21,6 +21,7 @@ inline constexpr double kTick = 1e-3;  ///< [s]
 /// A volumetric organ.
 struct SolidModel {
   std::string name, look, tissue;
+  double cell = 0;  ///< lattice edge [m]
   tissue::NetworkModel network;
   std::vector<tissue::Anchor> anchors;  ///< springs to space
   tissue::Skin skin;                    ///< contact and clips
