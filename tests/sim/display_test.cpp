@@ -1,0 +1,142 @@
+// Display keyframes: what drawing needs of a State, out and in again, whatever the bytes.
+#include <cmath>
+#include <cstring>
+
+#include <gtest/gtest.h>
+
+#include <trocar/core/random.hpp>
+
+#include "small_scene.hpp"
+
+using namespace trocar;
+using namespace trocar::sim;
+
+namespace {
+
+/// After the first clip, while the jaws hold the tube.
+const State& at_work() {
+  static const State state = [] {
+    const Model& m = small::model();
+    State s = initial_state(m);
+    Work w = make_work(m);
+    small::Hands hands(m);
+    while (s.tick < 2400) step(m, hands.next(s), s, w);
+    return s;
+  }();
+  return state;
+}
+
+TEST(Display, RoundTripKeepsWhatIsDrawn) {
+  const Model& m = small::model();
+  const State& from = at_work();
+  State to = initial_state(m);
+  ASSERT_TRUE(restore_display(m, display_bytes(m, from), to));
+  EXPECT_EQ(to.tick, from.tick);
+  double worst = 0;
+  for (size_t i = 0; i < m.solids.size(); ++i)
+    for (int n = 0; n < m.solids[i].network.nodes; ++n)
+      worst = std::max(worst, length(tissue::position(m.solids[i].network, to.solids[i], n) -
+                                     tissue::position(m.solids[i].network, from.solids[i], n)));
+  for (size_t i = 0; i < m.strands.size(); ++i)
+    for (size_t n = 0; n < from.strands[i].x.size(); ++n)
+      worst = std::max(worst, length(to.strands[i].x[n] - from.strands[i].x[n]));
+  EXPECT_LT(worst, 3e-8) << "[m]: single precision of tenths of metres";
+  EXPECT_EQ(std::memcmp(&to.tools, &from.tools, sizeof from.tools), 0);
+  EXPECT_EQ(std::memcmp(&to.scope, &from.scope, sizeof from.scope), 0);
+  ASSERT_EQ(to.clip_count, 1);
+  EXPECT_EQ(std::memcmp(&to.clips[0], &from.clips[0], sizeof from.clips[0]), 0);
+}
+
+TEST(Display, CutElementsComeBackCut) {
+  const Model& m = small::model();
+  State from = at_work();
+  tissue::cut_element(from.strands[small::kTube], 5);
+  State to = initial_state(m);
+  ASSERT_TRUE(restore_display(m, display_bytes(m, from), to));
+  EXPECT_EQ(to.strands[small::kTube].alive, from.strands[small::kTube].alive);
+}
+
+TEST(Display, BytesOfTheWrongLengthAreRefusedAndChangeNothing) {
+  const Model& m = small::model();
+  std::vector<std::uint8_t> bytes = display_bytes(m, at_work());
+  State s = initial_state(m);
+  const std::uint64_t before = hash_of(s);
+  for (size_t n = 0; n < bytes.size(); n += 1 + n / 50) {
+    const std::vector<std::uint8_t> torn(bytes.begin(), bytes.begin() + std::ptrdiff_t(n));
+    EXPECT_FALSE(restore_display(m, torn, s)) << n << " of " << bytes.size();
+  }
+  bytes.push_back(0);
+  EXPECT_FALSE(restore_display(m, bytes, s));
+  EXPECT_EQ(hash_of(s), before);
+}
+
+/// Everything a reader indexes by or loops to is in range, everything drawn is finite.
+void expect_drawable(const Model& m, const State& s) {
+  for (size_t i = 0; i < m.solids.size(); ++i)
+    for (int n = 0; n < m.solids[i].network.nodes; ++n)
+      ASSERT_TRUE(std::isfinite(length(tissue::position(m.solids[i].network, s.solids[i], n))));
+  for (const tissue::StrandState& strand : s.strands)
+    for (Vec3d x : strand.x) ASSERT_TRUE(std::isfinite(length(x)));
+  for (const interactions::ToolState& t : s.tools) {
+    ASSERT_TRUE(t.holds >= 0 && t.holds <= interactions::kMaxHolds);
+    for (double v : {t.yaw, t.pitch, t.roll, t.depth, t.aperture}) ASSERT_TRUE(std::isfinite(v));
+    for (int h = 0; h < t.holds; ++h) {
+      const int body = t.hold[h].body;
+      if (body >= interactions::kSolidBase) {
+        ASSERT_LT(body - interactions::kSolidBase, int(m.solids.size()));
+        ASSERT_GE(t.hold[h].element, 0);
+        ASSERT_LT(t.hold[h].element, m.solids[size_t(body - interactions::kSolidBase)].skin.size());
+      } else {
+        ASSERT_TRUE(body >= 0 && body < int(m.strands.size()));
+        ASSERT_GE(t.hold[h].element, 0);
+        ASSERT_LT(t.hold[h].element, m.bodies[size_t(body)].nodes() - 1);
+      }
+    }
+  }
+  ASSERT_TRUE(s.clip_count >= 0 && s.clip_count <= interactions::kMaxClips);
+  ASSERT_TRUE(s.cut_count >= 0 && s.cut_count <= interactions::kMaxCuts);
+  for (int i = 0; i < s.clip_count; ++i) {
+    ASSERT_TRUE(s.clips[size_t(i)].strand >= -1 && s.clips[size_t(i)].strand < int(m.strands.size()));
+    ASSERT_TRUE(std::isfinite(s.clips[size_t(i)].s));
+  }
+  for (int i = 0; i < s.cut_count; ++i)
+    ASSERT_TRUE(s.cuts[size_t(i)].strand >= -1 && s.cuts[size_t(i)].strand < int(m.strands.size()));
+}
+
+TEST(Display, HostileBytesAreRefusedOrDrawable) {
+  const Model& m = small::model();
+  const std::vector<std::uint8_t> good = display_bytes(m, at_work());
+  core::Random random(7);
+  int refused = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    std::vector<std::uint8_t> bytes = good;
+    const int strikes = 1 + int(random.uniform(0, 4));
+    for (int k = 0; k < strikes; ++k) {
+      // Every second strike in the last part, where the counts and indices are.
+      const size_t from = random.uniform() < 0.5 ? 0 : bytes.size() - sizeof(State::tools) - 400;
+      const size_t at = from + size_t(random.uniform() * double(bytes.size() - from - 4));
+      const std::uint32_t value = random.uniform() < 0.3 ? 0x7fc00000u : std::uint32_t(random.next());
+      std::memcpy(bytes.data() + at, &value, sizeof value);
+    }
+    State s = initial_state(m);
+    if (restore_display(m, bytes, s))
+      ASSERT_NO_FATAL_FAILURE(expect_drawable(m, s)) << "trial " << trial;
+    else
+      ++refused;
+  }
+  EXPECT_GT(refused, 0);
+  EXPECT_LT(refused, 3000);
+}
+
+TEST(Display, NoiseOfTheRightLengthIsRefused) {
+  const Model& m = small::model();
+  core::Random random(8);
+  std::vector<std::uint8_t> bytes = display_bytes(m, initial_state(m));
+  State s = initial_state(m);
+  for (int trial = 0; trial < 100; ++trial) {
+    for (std::uint8_t& b : bytes) b = std::uint8_t(random.next());
+    EXPECT_FALSE(restore_display(m, bytes, s));
+  }
+}
+
+}  // namespace
