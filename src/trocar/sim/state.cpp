@@ -27,7 +27,9 @@ State initial_state(const Model& model) {
   size_t sides = 0;
   for (const interactions::StrandPair& p : model.strand_pairs) sides += p.overlap.size();
   s.strand_side.resize(sides);
-  s.tool_side.resize(model.tools.size() * model.strands.size() * size_t(interactions::kToolParts));
+  size_t elements = 0;
+  for (const interactions::StrandBody& body : model.bodies) elements += size_t(body.nodes() - 1);
+  s.tool_side.resize(model.tools.size() * elements * size_t(interactions::kToolParts));
   s.seen.resize(model.samples.size());
   return s;
 }
