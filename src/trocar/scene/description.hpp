@@ -114,7 +114,7 @@ enum class InstrumentKind { grasper, clip_applier, scissors, probe };
 
 /// An instrument's shape and grip. Jaws open symmetrically in the plane of the shaft axis and the opening direction.
 struct Instrument {
-  std::string name;
+  std::string name, title;
   InstrumentKind kind = InstrumentKind::probe;
   double shaft_radius = 0.0025, shaft_length = 0.310;
   double jaw_length = 0.020, jaw_width = 0.003, jaw_thickness = 0.0015;

@@ -79,12 +79,6 @@ bool is_json_number(std::string_view word) {
   return i == word.size();
 }
 
-/// Correctly rounded, whatever the program's locale (floating from_chars is missing in older standard libraries).
-double to_double(const std::string& word) {
-  static const locale_t plain = newlocale(LC_ALL_MASK, "C", locale_t{});
-  return strtod_l(word.c_str(), nullptr, plain);
-}
-
 bool looks_not_finite(std::string_view word) {
   std::string lower;
   for (const char c : word)
@@ -244,15 +238,19 @@ class Parser {
       JsonValue v = made(at, Kind::number);
       v.number = to_double(text);
       if (std::isfinite(v.number)) return v;
-      fault(at, fmt::format("expected a finite number, got {}", shortened(text)));
-    } else if (looks_not_finite(text)) {
-      fault(at, fmt::format("expected a finite number, got {}", text));
-    } else if (is_digit(text[0]) || text[0] == '-' || text[0] == '+' || text[0] == '.') {
-      fault(at, fmt::format("expected a number as JSON writes it (like -0.5 or 2e-3), got {}", shortened(text)));
-    } else {
-      fault(at, fmt::format("expected a value, got {}", shortened(text)));
     }
+    const std::string message = fmt::format("expected {}, got {}", wanted_instead_of(text), shortened(text));
+    if (at_end())
+      lost(at, message);  // a file cut off inside a word: what follows from that is not worth telling
+    else
+      fault(at, message);
     return broken(at);
+  }
+
+  static const char* wanted_instead_of(const std::string& word) {
+    if (is_json_number(word) || looks_not_finite(word)) return "a finite number";
+    const bool numeric = is_digit(word[0]) || word[0] == '-' || word[0] == '+' || word[0] == '.';
+    return numeric ? "a number as JSON writes it (like -0.5 or 2e-3)" : "a value";
   }
 
   JsonValue string() {
@@ -420,6 +418,11 @@ const JsonMember* JsonValue::find(std::string_view key) const {
   for (const JsonMember& m : members)
     if (m.key == key) return &m;
   return nullptr;
+}
+
+double to_double(const std::string& decimal) {
+  static const locale_t plain = newlocale(LC_ALL_MASK, "C", locale_t{});
+  return strtod_l(decimal.c_str(), nullptr, plain);
 }
 
 JsonDocument parse_json(std::string_view text, std::string file, std::vector<core::Fault>& faults) {

@@ -60,6 +60,10 @@ JsonDocument parse_json(std::string_view text, std::string file, std::vector<cor
 /// The same for a file; one that cannot be read is a fault at line 0.
 JsonDocument load_json(const std::filesystem::path& path, std::vector<core::Fault>& faults);
 
+/// A decimal number's nearest double, whatever the program's locale (floating from_chars is missing in older standard
+/// libraries). The text must be a number.
+double to_double(const std::string& decimal);
+
 /// How a fault names a value: `"text"`, `-3`, `an array`, `null` (long strings are shortened).
 std::string shown(const JsonValue& value);
 

@@ -474,6 +474,7 @@ class Reading {
   void instrument(const JsonObject& o) {
     Instrument i;
     i.name = o.text("name");
+    i.title = o.text("title");
     const std::string kind = o.text("kind");
     i.kind = kind == "grasper"        ? InstrumentKind::grasper
              : kind == "clip_applier" ? InstrumentKind::clip_applier
@@ -577,19 +578,6 @@ void sort_faults(std::vector<core::Fault>& faults) {
   });
 }
 
-enum class FileKind { scene, organ, instrument, tissue };
-
-/// A file's kind, by the keys that only this kind has.
-FileKind kind_of(const fs::path& path) {
-  std::vector<core::Fault> ignored;
-  const JsonDocument document = load_json(path, ignored);
-  const auto has = [&](const char* key) { return document.root.find(key) != nullptr; };
-  if (has("scope") || has("ports") || has("tools")) return FileKind::scene;
-  if (has("kind")) return FileKind::instrument;
-  if (has("solids") || has("strands") || has("walls") || has("sheets") || has("organs")) return FileKind::organ;
-  return has("tissues") ? FileKind::tissue : FileKind::scene;
-}
-
 std::vector<fs::path> sorted_entries(const fs::path& folder) {
   std::vector<fs::path> paths;
   std::error_code error;
@@ -611,10 +599,21 @@ Description read_scene(const fs::path& path) {
   return std::move(reading.description);
 }
 
+FileKind kind_of_file(const fs::path& path) {
+  std::vector<core::Fault> ignored;
+  const JsonDocument document = load_json(path, ignored);
+  const auto has = [&](const char* key) { return document.root.find(key) != nullptr; };
+  if (has("scene")) return FileKind::exercise;
+  if (has("scope") || has("ports") || has("tools")) return FileKind::scene;
+  if (has("kind")) return FileKind::instrument;
+  if (has("solids") || has("strands") || has("walls") || has("sheets") || has("organs")) return FileKind::organ;
+  return has("tissues") ? FileKind::tissue : FileKind::scene;
+}
+
 std::vector<core::Fault> check_file(const fs::path& path) {
   std::vector<core::Fault> faults;
   Reading reading(faults);
-  switch (kind_of(path)) {
+  switch (kind_of_file(path)) {
     case FileKind::scene:
       reading.scene_file(path);
       reading.resolve();
@@ -627,6 +626,9 @@ std::vector<core::Fault> check_file(const fs::path& path) {
       break;
     case FileKind::tissue:
       reading.tissue_file(path);
+      break;
+    case FileKind::exercise:
+      load_json(path, faults);
       break;
   }
   reading.check_together();

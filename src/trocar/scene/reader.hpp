@@ -22,9 +22,13 @@ namespace trocar::scene {
 /// Throws core::BadInput with all faults of the scene file and of all files it includes.
 Description read_scene(const std::filesystem::path& path);
 
-/// Checks one file of any kind (scene, organ, instrument, tissue table) by the keys it has. A file that is not a scene
-/// is checked on its own: names that only a scene could resolve (a tissue, another organ) are left open. Returns the
-/// faults; empty means good.
+enum class FileKind { scene, organ, instrument, tissue, exercise };
+/// A file's kind, by the keys that only this kind has; a scene where nothing tells.
+FileKind kind_of_file(const std::filesystem::path& path);
+
+/// Checks one file by its kind. What is not a scene is checked on its own: names that only a scene could resolve (a
+/// tissue, another organ) are left open. Of an exercise only the JSON is checked here; training knows its keys.
+/// Returns the faults; empty means good.
 std::vector<core::Fault> check_file(const std::filesystem::path& path);
 
 struct SceneEntry {

@@ -202,7 +202,8 @@ const Shape& scope() {
 
 Shape file_shape(std::string name, std::string meaning, std::vector<Key> keys) {
   Shape shape{std::move(name), std::move(meaning), std::move(keys)};
-  shape.keys.insert(shape.keys.begin(), keys::format(1));
+  shape.keys.insert(shape.keys.begin(),
+                    {keys::text("$schema", "where editors find this kind of file's schema"), keys::format(1)});
   return shape;
 }
 

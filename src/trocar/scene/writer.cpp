@@ -1,0 +1,252 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <trocar/numerics/portable.hpp>
+#include <trocar/scene/json_text.hpp>
+#include <trocar/scene/writer.hpp>
+
+namespace trocar::scene {
+namespace {
+
+/// The shortest decimal v for which read(v) is exactly `value`; where there is none (reading may skip a double), the
+/// nearest one.
+template <class Read>
+double in_file(double guess, double value, Read&& read) {
+  for (int digits = 1; digits <= 17; ++digits) {
+    const std::string text = fmt::format("{:.{}e}", guess, digits - 1);
+    const double v = to_double(text);
+    if (read(v) == value) return v;
+  }
+  for (const double v : {std::nextafter(guess, -1e300), std::nextafter(guess, 1e300)})
+    if (read(v) == value) return v;
+  return guess;
+}
+
+JsonValue mm(double metres) {
+  return json_number(in_file(metres * 1000, metres, [](double v) { return v / 1000; }));
+}
+JsonValue mm(Vec3d p) { return json_array({mm(p.x), mm(p.y), mm(p.z)}); }
+JsonValue mm(const std::vector<Vec3d>& points) {
+  std::vector<JsonValue> items;
+  for (const Vec3d& p : points) items.push_back(mm(p));
+  return json_array(std::move(items));
+}
+JsonValue diameter_mm(double radius) {
+  return json_number(in_file(radius * 2000, radius, [](double v) { return v / 1000 / 2; }));
+}
+JsonValue deg(double radians) {
+  return json_number(in_file(radians * 180 / portable::pi, radians, [](double v) { return v * portable::pi / 180; }));
+}
+
+template <class T, class Write>
+JsonValue list(const std::vector<T>& things, Write&& write) {
+  std::vector<JsonValue> items;
+  for (const T& thing : things) items.push_back(write(thing));
+  return json_array(std::move(items));
+}
+
+void put_name(JsonValue& o, const char* key, const std::string& name) {
+  if (!name.empty()) put(o, key, json_text(name));
+}
+
+JsonValue written(const Tissue& t) {
+  JsonValue o = json_object();
+  put_name(o, "name", t.name);
+  put(o, "density_kg_m3", json_number(t.density));
+  put(o, "young_Pa", json_number(t.young));
+  put(o, "p1", json_number(t.p1));
+  put(o, "p2", json_number(t.p2));
+  put(o, "strain_cap", json_number(t.strain_cap));
+  put(o, "failure_strain", json_number(t.failure_strain));
+  put(o, "damping_ms", json_number(t.damping_ms));
+  put(o, "source", json_text(t.source));
+  return o;
+}
+
+JsonValue written(const Section& s) {
+  JsonValue o = json_object();
+  put(o, "centre_mm", mm(s.centre));
+  put(o, "across_mm", mm(s.across));
+  put(o, "deep_mm", mm(s.deep));
+  if (s.squareness != 2) put(o, "squareness", json_number(s.squareness));
+  return o;
+}
+
+JsonValue written(const Anchor& a) {
+  JsonValue o = json_object();
+  put(o, "centre_mm", mm(a.centre));
+  put(o, "radius_mm", mm(a.radius));
+  if (a.stiffness > 0) put(o, "stiffness_N_m", json_number(a.stiffness));
+  return o;
+}
+
+JsonValue written(const Solid& s) {
+  JsonValue o = json_object();
+  put_name(o, "name", s.name);
+  put_name(o, "tissue", s.tissue);
+  put_name(o, "look", s.look);
+  put(o, "sections", list(s.sections, [](const Section& x) { return written(x); }));
+  put(o, "cell_mm", mm(s.cell));
+  put(o, "skin_edge_mm", mm(s.skin_edge));
+  put(o, "fine_edge_mm", mm(s.fine_edge));
+  if (!s.anchors.empty()) put(o, "anchors", list(s.anchors, [](const Anchor& x) { return written(x); }));
+  return o;
+}
+
+JsonValue written(const StrandStation& s) {
+  JsonValue o = json_object();
+  put(o, "s_mm", mm(s.s));
+  put(o, "radius_mm", mm(s.radius));
+  if (s.lumen > 0) put(o, "lumen_mm", mm(s.lumen));
+  return o;
+}
+
+JsonValue written(const Landmark& l) {
+  JsonValue o = json_object();
+  put_name(o, "name", l.name);
+  put(o, "from_mm", mm(l.from));
+  put(o, "to_mm", mm(l.to));
+  return o;
+}
+
+void put_end(JsonValue& strand, const char* key, const StrandEnd& end) {
+  if (end.organ.empty() && !end.fixed) return;
+  JsonValue o = json_object();
+  put_name(o, "solid", end.organ);
+  if (end.fixed) put(o, "fixed", json_flag(true));
+  put(strand, key, std::move(o));
+}
+
+JsonValue written(const Strand& s) {
+  JsonValue o = json_object();
+  put_name(o, "name", s.name);
+  put_name(o, "tissue", s.tissue);
+  put_name(o, "look", s.look);
+  put(o, "centreline_mm", mm(s.centreline));
+  put(o, "stations", list(s.stations, [](const StrandStation& x) { return written(x); }));
+  if (!s.landmarks.empty()) put(o, "landmarks", list(s.landmarks, [](const Landmark& x) { return written(x); }));
+  put_end(o, "start", s.start);
+  put_end(o, "end", s.end);
+  put(o, "spacing_mm", mm(s.spacing));
+  put(o, "foundation_N_m2", json_number(s.foundation));
+  put(o, "foundation_limit_mm", mm(s.foundation_limit));
+  put(o, "cuttable", json_flag(s.cuttable));
+  put(o, "fimbriated", json_flag(s.fimbriated));
+  return o;
+}
+
+JsonValue written(const Wall& w) {
+  JsonValue o = json_object();
+  put_name(o, "name", w.name);
+  put_name(o, "look", w.look);
+  std::vector<JsonValue> rows;
+  for (int r = 0; r < w.rows; ++r) {
+    const auto row = w.net.begin() + r * w.columns;
+    rows.push_back(mm(std::vector<Vec3d>(row, row + w.columns)));
+  }
+  put(o, "net_mm", json_array(std::move(rows)));
+  put(o, "edge_mm", mm(w.edge));
+  return o;
+}
+
+JsonValue written(const Sheet& s) {
+  JsonValue o = json_object();
+  put_name(o, "name", s.name);
+  put_name(o, "look", s.look);
+  put_name(o, "strand", s.strand);
+  put(o, "from_mm", mm(s.from));
+  put(o, "to_mm", mm(s.to));
+  put(o, "base_mm", mm(s.base));
+  put_name(o, "base_organ", s.base_organ);
+  return o;
+}
+
+const char* kind_name(InstrumentKind kind) {
+  switch (kind) {
+    case InstrumentKind::grasper:
+      return "grasper";
+    case InstrumentKind::clip_applier:
+      return "clip_applier";
+    case InstrumentKind::scissors:
+      return "scissors";
+    case InstrumentKind::probe:
+      break;
+  }
+  return "probe";
+}
+
+JsonValue written(const Instrument& i) {
+  JsonValue o = json_object();
+  put_name(o, "name", i.name);
+  put_name(o, "title", i.title);
+  put(o, "kind", json_text(kind_name(i.kind)));
+  put(o, "shaft_diameter_mm", diameter_mm(i.shaft_radius));
+  put(o, "shaft_length_mm", mm(i.shaft_length));
+  put(o, "jaw_length_mm", mm(i.jaw_length));
+  put(o, "jaw_width_mm", mm(i.jaw_width));
+  put(o, "jaw_thickness_mm", mm(i.jaw_thickness));
+  if (i.parallel_gap > 0)
+    put(o, "parallel_gap_mm", mm(i.parallel_gap));
+  else
+    put(o, "opening_deg", deg(i.opening));
+  put(o, "pinch_max_N", json_number(i.pinch_max));
+  put(o, "friction", json_number(i.friction));
+  put(o, "clip_length_mm", mm(i.clip_length));
+  if (i.clips > 0) put(o, "clips", json_number(i.clips));
+  return o;
+}
+
+JsonValue written(const Port& p) {
+  JsonValue o = json_object();
+  put_name(o, "name", p.name);
+  put(o, "position_mm", mm(p.position));
+  put(o, "diameter_mm", mm(p.diameter));
+  return o;
+}
+
+JsonValue written(const Placement& p) {
+  JsonValue o = json_object();
+  put_name(o, "instrument", p.instrument);
+  put_name(o, "port", p.port);
+  put(o, "tip_mm", mm(p.tip));
+  put(o, "roll_deg", deg(p.roll));
+  return o;
+}
+
+JsonValue written(const Scope& s, const Placement& p) {
+  JsonValue o = written(p);
+  put(o, "angle_deg", deg(s.angle));
+  put(o, "field_of_view_deg", deg(s.field_of_view));
+  put(o, "shaft_diameter_mm", diameter_mm(s.shaft_radius));
+  put(o, "shaft_length_mm", mm(s.shaft_length));
+  return o;
+}
+
+JsonValue organs(const Description& d) {
+  JsonValue o = json_object();
+  put(o, "solids", list(d.solids, [](const Solid& x) { return written(x); }));
+  put(o, "strands", list(d.strands, [](const Strand& x) { return written(x); }));
+  put(o, "walls", list(d.walls, [](const Wall& x) { return written(x); }));
+  put(o, "sheets", list(d.sheets, [](const Sheet& x) { return written(x); }));
+  return json_array({std::move(o)});
+}
+
+}  // namespace
+
+std::string write_scene(const Description& d) {
+  JsonValue o = json_object();
+  put(o, "format", json_number(1));
+  put_name(o, "name", d.name);
+  put_name(o, "title", d.title);
+  put(o, "gravity_m_s2", json_array({json_number(d.gravity.x), json_number(d.gravity.y), json_number(d.gravity.z)}));
+  put(o, "tissues", list(d.tissues, [](const Tissue& x) { return written(x); }));
+  put(o, "organs", organs(d));
+  put(o, "instruments", list(d.instruments, [](const Instrument& x) { return written(x); }));
+  put(o, "ports", list(d.ports, [](const Port& x) { return written(x); }));
+  put(o, "tools", list(d.placements, [](const Placement& x) { return written(x); }));
+  put(o, "scope", written(d.scope, d.scope_placement));
+  return to_text(o);
+}
+
+}  // namespace trocar::scene
