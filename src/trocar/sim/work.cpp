@@ -49,6 +49,7 @@ void poison(Work& w) noexcept {
     scribble(l.sorted);
     scribble(l.tag);
     scribble(l.order);
+    scribble(l.owner);
     scribble(l.reaction);
     l.overflowed = true;
   }
