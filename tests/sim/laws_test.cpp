@@ -186,6 +186,7 @@ TEST(Step, PoisonReachesEveryArrayOfWork) {
     EXPECT_TRUE(all_set(l.sorted));
     EXPECT_TRUE(all_set(l.tag));
     EXPECT_TRUE(all_set(l.order));
+    EXPECT_TRUE(all_set(l.owner));
     EXPECT_TRUE(all_set(l.reaction));
     EXPECT_TRUE(l.overflowed);
   }

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/collision/segments.hpp>
 #include <trocar/core/random.hpp>
+#include <trocar/geometry/nearest.hpp>
 #include <trocar/sim/visibility.hpp>
 
 #include "small_scene.hpp"
@@ -75,14 +75,14 @@ TEST(Sight, AgreesWithATestOfEveryTriangle) {
         const interactions::Surface& surface = p.work.surfaces[s];
         hit = hit || crosses(from, end, surface.position(t[0]), surface.position(t[1]), surface.position(t[2]));
       }
+    const auto near_axis = [&](Vec3d a, Vec3d b, double radius) {
+      return geometry::closest_segments(from, end, a, b).distance2 < radius * radius;
+    };
     for (size_t s = 0; s < p.model.bodies.size(); ++s)
       for (size_t e = 0; e + 1 < p.state.strands[s].x.size(); ++e)
-        hit = hit ||
-              collision::nearest_segments(from, end, p.state.strands[s].x[e], p.state.strands[s].x[e + 1]).distance <
-                  p.model.bodies[s].model.radius[e];
+        hit = hit || near_axis(p.state.strands[s].x[e], p.state.strands[s].x[e + 1], p.model.bodies[s].model.radius[e]);
     for (size_t t = 0; t < p.model.tools.size(); ++t)
-      for (const interactions::Capsule& c : p.work.shapes[t].part)
-        hit = hit || collision::nearest_segments(from, end, c.a, c.b).distance < c.radius;
+      for (const interactions::Capsule& c : p.work.shapes[t].part) hit = hit || near_axis(c.a, c.b, c.radius);
     hidden += hit;
     different += hit == p.free_sight(from, to);
   }
