@@ -35,6 +35,15 @@ TROCAR_INLINE V load(const float* p) {
   __builtin_memcpy(&a, p, sizeof a);
   return a;
 }
+/// Lanes as numbers.
+struct Plain {
+  std::int32_t lane[W];
+};
+TROCAR_INLINE Plain plain(I a) {
+  Plain p;
+  __builtin_memcpy(&p, &a, sizeof p);
+  return p;
+}
 TROCAR_INLINE V magnitude(V a) { return (V)((I)a & 0x7fffffff); }
 /// The sign of s on the magnitude a >= 0.
 TROCAR_INLINE V with_sign(V a, V s) { return (V)((I)a | ((I)s & (I)(I{} + (std::int32_t)0x80000000u))); }
@@ -123,16 +132,18 @@ TROCAR_INLINE V pick(I mask, V a, V b) { return (V)((mask & (I)a) | (~mask & (I)
 TROCAR_INLINE V smaller(V a, V b) { return pick((I)(a < b), a, b); }
 TROCAR_INLINE V larger(V a, V b) { return pick((I)(a > b), a, b); }
 TROCAR_INLINE V root(V a) {
-  for (int i = 0; i < W; ++i) a[i] = __builtin_sqrtf(a[i]);
-  return a;
+  float lane[W];
+  __builtin_memcpy(lane, &a, sizeof lane);
+  for (int i = 0; i < W; ++i) lane[i] = __builtin_sqrtf(lane[i]);
+  return load(lane);
 }
 TROCAR_INLINE Lanes load_nodes(const NodeState* n, const std::uint32_t* o) {
-  Lanes a;
+  float c[6][W];
   for (int i = 0; i < W; ++i) {
     const float* p = node_at(n, o[i]);
-    a.x[i] = p[0], a.y[i] = p[1], a.z[i] = p[2], a.vx[i] = p[4], a.vy[i] = p[5], a.vz[i] = p[6];
+    for (int k = 0; k < 3; ++k) c[k][i] = p[k], c[3 + k][i] = p[4 + k];
   }
-  return a;
+  return {load(c[0]), load(c[1]), load(c[2]), load(c[3]), load(c[4]), load(c[5])};
 }
 
 #endif
@@ -198,7 +209,10 @@ TROCAR_INLINE void store_rows(NodeState* n, const Lanes& a) {
 #endif
 #else
 TROCAR_INLINE void store_rows(NodeState* n, const Lanes& a) {
-  for (int i = 0; i < W; ++i) n[i] = {a.x[i], a.y[i], a.z[i], 0, a.vx[i], a.vy[i], a.vz[i], 0};
+  float c[6][W];
+  const V all_six[6] = {a.x, a.y, a.z, a.vx, a.vy, a.vz};
+  __builtin_memcpy(c, all_six, sizeof c);
+  for (int i = 0; i < W; ++i) n[i] = {c[0][i], c[1][i], c[2][i], 0, c[3][i], c[4][i], c[5][i], 0};
 }
 #endif
 
@@ -260,8 +274,9 @@ TROCAR_INLINE bool substep(const KernelArgs& arg, int first, int last) {
       store_rows(arg.out + s * kSlice + part, next);
     }
   }
+  const Plain lanes = plain(fine);
   std::int32_t ok = -1;
-  for (int i = 0; i < W; ++i) ok &= fine[i];
+  for (int i = 0; i < W; ++i) ok &= lanes.lane[i];
   return ok != 0;
 }
 
@@ -284,7 +299,8 @@ void run_find_collapsed(const NodeState* nodes, const TetPack* packs, int first,
       const V cx = c.x - o.x, cy = c.y - o.y, cz = c.z - o.z;
       const V six = (ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz)) + az * (bx * cy - by * cx);
       const I mask = (I)(six < load(packs[p].limit6 + part));
-      for (int i = 0; i < W; ++i) bits |= (mask[i] ? 1u : 0u) << (part + i);
+      const Plain lanes = plain(mask);
+      for (int i = 0; i < W; ++i) bits |= (std::uint32_t(lanes.lane[i]) & 1u) << (part + i);
     }
     below[p - first] = std::uint16_t(bits);
   }
