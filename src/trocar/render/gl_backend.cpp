@@ -360,6 +360,11 @@ class GlBackend final : public CheckedBackend {
     program.set("u_camera", look.exposure_ev, remembered ? float(frame.eye) : -1.0f, look.bloom, look.saturation);
     program.set("u_place", layout.radius / float(layout.box_w), layout.radius / float(layout.box_h), look.vignette, 0);
     program.set("u_depth", look.focus_near, look.defocus, look.contact, 2 * std::tan(frame.camera.vertical_fov / 2));
+    const Vec3f lamp = frame.light.position;
+    const float off = std::max(1e-6f, std::sqrt(lamp.x * lamp.x + lamp.y * lamp.y));
+    const float aspect = float(layout.box_h) / float(layout.box_w);
+    const Vec3f to_lamp = off > 1e-5f ? Vec3f{lamp.x / off * aspect, lamp.y / off, 0} : Vec3f{};
+    program.set("u_shadow", 0.008f * to_lamp.x, 0.008f * to_lamp.y, 0.02f * to_lamp.x, 0.02f * to_lamp.y);
     program.set("u_white", look.white_balance);
     bind_texture(kUnitPicture, GL_TEXTURE_2D, m_scene.colour.id());
     bind_texture(kUnitSmall, GL_TEXTURE_2D, m_small.colour.id());
@@ -377,8 +382,8 @@ class GlBackend final : public CheckedBackend {
     program.set("u_place", layout.centre_x, layout.centre_y, layout.radius, look.mask ? 1.0f : 0.0f);
     program.set("u_box", float(layout.box_w), float(layout.box_h), 1.0f / float(layout.box_w),
                 1.0f / float(layout.box_h));
-    program.set("u_lens", look.barrel, look.fringe_px * float(target.height) / 600.0f, look.sharpen * frame.quality.render_scale,
-                std::max(look.mask_soft_px, 0.5f));
+    program.set("u_lens", look.barrel, look.fringe_px * float(target.height) / 600.0f,
+                look.sharpen * frame.quality.render_scale, std::max(look.mask_soft_px, 0.5f));
     program.set("u_sensor", look.noise, look.notch, std::sin(look.notch_angle), std::cos(look.notch_angle));
     program.set_seed("u_seed", std::uint32_t(frame.tick * 2654435761u));
     bind_texture(kUnitPicture, GL_TEXTURE_2D, m_developed.colour.id());

@@ -141,8 +141,8 @@ void main() {
 #endif
   o_colour = vec4(colour, length(v_eye));
 #else
-  vec3 albedo = mix(COLOUR_A, COLOUR_B, MOTTLE * smoothstep(0.3, 0.7, broad.a));
-  albedo = mix(albedo, COLOUR_C, MOTTLE * smoothstep(0.5, 0.85, fine.a));
+  vec3 albedo = mix(COLOUR_A, COLOUR_B, MOTTLE * smoothstep(0.2, 0.8, broad.a));
+  albedo = mix(albedo, COLOUR_C, MOTTLE * smoothstep(0.35, 1.0, fine.a));
   float tint = v_paint.w;
 #if SHADING == 0
   albedo = mix(albedo, TINT, tint);
