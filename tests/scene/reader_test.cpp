@@ -1,0 +1,392 @@
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <trocar/scene/reader.hpp>
+
+#include "files.hpp"
+
+namespace trocar::scene {
+namespace {
+
+using Faults = std::vector<std::string>;
+
+// A small scene, one thing a line, so that a test can replace a line and name the place of the fault.
+const std::vector<std::string> kScene = {
+    "{",                                                                                           // 1
+    "\"format\": 1,",                                                                              // 2
+    "\"name\": \"small\",",                                                                        // 3
+    "\"tissues\": [",                                                                              // 4
+    "{\"name\": \"soft\", \"density_kg_m3\": 1050, \"young_Pa\": 8000, \"source\": \"ours\"}],",   // 5
+    "\"organs\": [{",                                                                              // 6
+    "\"solids\": [{\"name\": \"ball\", \"tissue\": \"soft\", \"cell_mm\": 3, \"sections\": [",     // 7
+    "{\"centre_mm\": [0, 0, -100], \"across_mm\": [10, 0, 0], \"deep_mm\": [0, 8, 0]},",           // 8
+    "{\"centre_mm\": [0, 0, -120], \"across_mm\": [10, 0, 0], \"deep_mm\": [0, 8, 0]}]}],",        // 9
+    "\"strands\": [{\"name\": \"cord\", \"tissue\": \"soft\", \"start\": {\"solid\": \"ball\"},",  // 10
+    "\"centreline_mm\": [[10, 0, -110], [40, 0, -110]],",                                          // 11
+    "\"landmarks\": [{\"name\": \"middle\", \"from_mm\": 10, \"to_mm\": 20}],",                    // 12
+    "\"stations\": [{\"s_mm\": 0, \"radius_mm\": 2, \"lumen_mm\": 1}]}],",                         // 13
+    "\"walls\": [{\"name\": \"floor\", \"net_mm\": [[[0,0,0],[9,0,0]],[[0,9,0],[9,9,0]]]}],",      // 14
+    "\"sheets\": [{\"name\": \"fold\", \"strand\": \"cord\", \"from_mm\": 1, \"to_mm\": 9,",       // 15
+    "\"base_mm\": [[10, 9, -110], [20, 9, -110]], \"base_organ\": \"ball\"}]",                     // 16
+    "}],",                                                                                         // 17
+    "\"instruments\": [{\"name\": \"stick\", \"kind\": \"probe\"}],",                              // 18
+    "\"ports\": [{\"name\": \"navel\", \"position_mm\": [0, 0, 0], \"diameter_mm\": 10}],",        // 19
+    "\"tools\": [{\"instrument\": \"stick\", \"port\": \"navel\", \"tip_mm\": [0, 0, -60]}],",     // 20
+    "\"scope\": {\"port\": \"navel\", \"tip_mm\": [0, 0, -40]}",                                   // 21
+    "}"};                                                                                          // 22
+
+/// The scene with some lines (1-based) replaced.
+std::string scene_with(const std::vector<std::pair<int, std::string>>& changes) {
+  std::vector<std::string> lines = kScene;
+  for (const auto& [line, text] : changes) lines[std::size_t(line - 1)] = text;
+  std::string whole;
+  for (const std::string& line : lines) whole += line + '\n';
+  return whole;
+}
+
+std::vector<core::Fault> faults_of_file(const std::filesystem::path& path) {
+  try {
+    read_scene(path);
+  } catch (const core::BadInput& bad) {
+    return bad.faults();
+  }
+  return {};
+}
+
+/// Tells the faults of the scene with some lines replaced. An '@' in a new line marks where a fault is expected: the
+/// place is left out of what is returned, and "away from @" put in where there is no mark.
+Faults faults_of(const std::vector<std::pair<int, std::string>>& changes) {
+  const Folder folder;
+  std::vector<std::pair<int, std::string>> lines = changes;
+  std::vector<std::pair<int, int>> places;
+  for (auto& [line, text] : lines)
+    for (std::size_t at; (at = text.find('@')) != text.npos; text.erase(at, 1)) places.emplace_back(line, int(at) + 1);
+  Faults messages;
+  std::size_t n = 0;
+  for (const core::Fault& f : faults_of_file(folder.write("scene.json", scene_with(lines)))) {
+    const bool marked = n < places.size() && places[n] == std::pair{f.at.line, f.at.column};
+    messages.push_back(marked ? f.message
+                              : fmt::format("away from @, at {}:{}: {}", f.at.line, f.at.column, f.message));
+    ++n;
+  }
+  return messages;
+}
+Faults one(const std::string& fault) { return {fault}; }
+
+TEST(Reader, AGoodSceneReadsInMetresAndRadians) {
+  const Folder folder;
+  const Description d = read_scene(folder.write("scene.json", scene_with({})));
+  EXPECT_EQ(d.name, "small");
+  ASSERT_EQ(d.solids.size(), 1u);
+  EXPECT_EQ(d.solids[0].sections[1].centre, (Vec3d{0, 0, -0.12}));
+  EXPECT_EQ(d.solids[0].cell, 0.003);
+  EXPECT_EQ(d.solids[0].skin_edge, 0.003);
+  EXPECT_EQ(d.solids[0].fine_edge, 0.0015);
+  EXPECT_EQ(d.solids[0].look, "ball");
+  EXPECT_EQ(d.solids[0].cell_at.line, 7);
+  ASSERT_EQ(d.strands.size(), 1u);
+  EXPECT_EQ(d.strands[0].start.organ, "ball");
+  EXPECT_FALSE(d.strands[0].end.fixed);
+  EXPECT_EQ(d.strands[0].stations[0].lumen, 0.001);
+  EXPECT_EQ(d.strands[0].landmarks[0].to, 0.02);
+  EXPECT_EQ(d.walls[0].rows, 2);
+  EXPECT_EQ(d.walls[0].net[3], (Vec3d{0.009, 0.009, 0}));
+  EXPECT_EQ(d.sheets[0].base_organ, "ball");
+  EXPECT_EQ(d.instruments[0].kind, InstrumentKind::probe);
+  EXPECT_EQ(d.placements[0].instrument, "stick");
+  EXPECT_EQ(d.scope_placement.port, "navel");
+  EXPECT_NEAR(d.scope.field_of_view, 1.2217, 1e-4);
+}
+
+TEST(Reader, FaultsReadPathLineColumnMessage) {
+  const Folder folder;
+  const auto path = folder.write("scene.json", scene_with({{2, "\"format\": 2,"}}));
+  try {
+    read_scene(path);
+    FAIL();
+  } catch (const core::BadInput& bad) {
+    EXPECT_EQ(std::string(bad.what()), path.generic_string() + ":2:11: expected 1 for \"format\", got 2");
+  }
+}
+
+TEST(Reader, AMissingFormatOrKeyIsAFaultAtItsObject) {
+  EXPECT_EQ(faults_of({{1, "@{"}, {2, ""}}),
+            one("expected the key \"format\" (version of this kind of file) in this scene, got none"));
+  EXPECT_EQ(faults_of({{21, R"("scope": @{"port": "navel"})"}}),
+            one("expected the key \"tip_mm\" (where its tip stands at the start) in this scope, got none"));
+}
+
+TEST(Reader, WrongTypesAreLocated) {
+  EXPECT_EQ(faults_of({{3, R"("name": @3,)"}}),
+            one("expected a name (1 to 64 letters, digits, _ or -) for \"name\", got 3"));
+  EXPECT_EQ(faults_of({{8, R"({"centre_mm": @[0, 0], "across_mm": [10, 0, 0], "deep_mm": [0, 8, 0]},)"}}),
+            one("expected an array of three numbers for \"centre_mm\", got 2 items"));
+  EXPECT_EQ(faults_of({{8, R"({"centre_mm": [0, @"x", 0], "across_mm": [10, 0, 0], "deep_mm": [0, 8, 0]},)"}}),
+            one("expected a number in [-2000, 2000] for \"centre_mm\", got \"x\""));
+  EXPECT_EQ(faults_of({{20, R"("tools": [],)"}, {21, R"("scope": @[1])"}}),
+            one("expected a scope in {} for \"scope\", got an array"));
+  EXPECT_EQ(faults_of({{19, R"("ports": [@5, {"name": "navel", "position_mm": [0, 0, 0], "diameter_mm": 10}],)"}}),
+            one("expected a port in {} for \"ports\", got 5"));
+  EXPECT_EQ(faults_of({{18, R"("instruments": [{"name": "stick", "kind": "clip_applier", "clips": @1.5}],)"}}),
+            one("expected a whole number in [0, 1000] for \"clips\", got 1.5"));
+  EXPECT_EQ(faults_of({{12, R"("cuttable": @1,)"}}), one("expected true or false for \"cuttable\", got 1"));
+  EXPECT_EQ(faults_of({{18, R"("instruments": [{"name": "stick", "kind": @"grapser"}],)"}}),
+            one("expected one of grasper, clip_applier, scissors, probe for \"kind\", got \"grapser\" (did you mean "
+                "\"grasper\"?)"));
+}
+
+TEST(Reader, ASceneThatIsNoObjectIsAFault) {
+  const Folder folder;
+  EXPECT_EQ(told(faults_of_file(folder.write("scene.json", "[1]"))), one("1:1 expected a scene in {}, got an array"));
+}
+
+TEST(Reader, NanAndNegativeMassAreFaultsWhereTheyStand) {
+  EXPECT_EQ(faults_of({{5, R"({"name": "soft", "density_kg_m3": @NaN, "young_Pa": 8000, "source": "ours"}],)"}}),
+            one("expected a finite number, got NaN"));
+  EXPECT_EQ(faults_of({{5, R"({"name": "soft", "density_kg_m3": @-3, "young_Pa": 8000, "source": "ours"}],)"}}),
+            one("expected a number in [1, 25000] for \"density_kg_m3\", got -3"));
+}
+
+TEST(Reader, UnknownKeysAreFaultsWithAGuess) {
+  EXPECT_EQ(faults_of({{19, R"("ports": [{"name": "navel", @"positoin_mm": [0, 0, 0], "position_mm": [0, 0, 0], )"
+                            R"("diameter_mm": 10}],)"}}),
+            one("expected a known key of a port (name, position_mm, diameter_mm), got \"positoin_mm\" (did you mean "
+                "\"position_mm\"?)"));
+  EXPECT_EQ(faults_of({{19, R"("ports": [{"name": "navel", "position_mm": [0, 0, 0], "diameter_mm": 10, @"q": 0}],)"}}),
+            one("expected a known key of a port (name, position_mm, diameter_mm), got \"q\""));
+}
+
+TEST(Reader, DanglingNamesAreFaultsWithTheKnownOnes) {
+  EXPECT_EQ(faults_of({{7, R"("solids": [{"name": "ball", "tissue": @"sotf", "cell_mm": 3, "sections": [)"}}),
+            one("expected a known tissue (soft), got \"sotf\" (did you mean \"soft\"?)"));
+  EXPECT_EQ(faults_of({{10, R"("strands": [{"name": "cord", "tissue": "soft", "start": {"solid": @"liver"},)"}}),
+            one("expected a known solid (ball), got \"liver\""));
+  EXPECT_EQ(faults_of({{15, R"("sheets": [{"name": "fold", "strand": @"ball", "from_mm": 1, "to_mm": 9,)"}}),
+            one("expected a known strand (cord), got \"ball\""));
+  EXPECT_EQ(faults_of({{16, R"("base_mm": [[10, 9, -110], [20, 9, -110]], "base_organ": @"x"}])"}}),
+            one("expected a known solid or strand (ball, cord), got \"x\""));
+  EXPECT_EQ(faults_of({{20, R"("tools": [{"instrument": @"sick", "port": @"nave", "tip_mm": [0, 0, -60]}],)"}}),
+            (Faults{"expected a known instrument (stick), got \"sick\" (did you mean \"stick\"?)",
+                    "expected a known port (navel), got \"nave\" (did you mean \"navel\"?)"}));
+}
+
+TEST(Reader, EqualNamesAreAFaultAtTheSecond) {
+  const Faults told =
+      faults_of({{14, R"("walls": [@{"name": "cord", "net_mm": [[[0,0,0],[9,0,0]],[[0,9,0],[9,9,0]]]}],)"}});
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].rfind("expected every organ name once, got \"cord\" again (first in ", 0), 0u) << told[0];
+}
+
+TEST(Reader, TheLawMustBeMonotone) {
+  const auto law = [](const char* p1, const char* p2) {
+    return std::string(R"({"name": "soft", "density_kg_m3": 1050, "young_Pa": 8000, "source": "ours", "p1": )") + p1 +
+           R"(, "p2": )" + p2 + "}],";
+  };
+  EXPECT_EQ(faults_of({{5, law("@5", "8")}}),
+            one("expected p1^2 < 3 p2 so that stress always rises with strain, got p1^2 = 25 and 3 p2 = 24"));
+  EXPECT_EQ(faults_of({{5, law("@-3", "3")}}),
+            one("expected p1^2 < 3 p2 so that stress always rises with strain, got p1^2 = 9 and 3 p2 = 9"));
+  EXPECT_EQ(faults_of({{5, law("5", "9")}}), Faults{});
+  EXPECT_EQ(faults_of({{5, law("0", "0")}}), Faults{});
+}
+
+TEST(Reader, ABodyOfABillionNodesIsRefusedBeforeItIsBuilt) {
+  EXPECT_EQ(faults_of({{7, R"("solids": [{"name": "ball", "tissue": "soft", "cell_mm": @0.1, "sections": [)"},
+                       {8, R"({"centre_mm": [0, 0, -100], "across_mm": [100, 0, 0], "deep_mm": [0, 80, 0]},)"},
+                       {9, R"({"centre_mm": [0, 0, -130], "across_mm": [100, 0, 0], "deep_mm": [0, 80, 0]}]}],)"}}),
+            one("expected a cell that fills the body with at most 200000 nodes, got about 9.8e+08"));
+}
+
+TEST(Reader, TooFineSkinsAndStrandsAreRefused) {
+  EXPECT_EQ(faults_of({{7, R"("solids": [{"name": "ball", "tissue": "soft", "cell_mm": 3, "fine_edge_mm": @0.1,)"},
+                       {8, R"("sections": [{"centre_mm": [0, 0, 0], "across_mm": [10, 0, 0], "deep_mm": [0, 8, 0]},)"},
+                       {9, R"({"centre_mm": [0, 0, -100], "across_mm": [10, 0, 0], "deep_mm": [0, 8, 0]}]}],)"}}),
+            one("expected an edge that gives at most 500000 triangles, got about 1.24e+06"));
+  EXPECT_EQ(faults_of({{11, R"("spacing_mm": @0.2, "centreline_mm": [[10, 0, -110], [1610, 0, -110]],)"}}),
+            one("expected a spacing that gives at most 5000 nodes, got about 8e+03"));
+  EXPECT_EQ(faults_of({{14, R"("walls": [{"name": "floor", "edge_mm": @0.5, "net_mm": )"
+                            R"([[[0,0,0],[999,0,0]],[[0,999,0],[999,999,0]]]}],)"}}),
+            one("expected an edge that gives at most 500000 triangles, got about 9.18e+06"));
+}
+
+TEST(Reader, ShapesMustMakeSense) {
+  EXPECT_EQ(faults_of({{7, R"("solids": [{"name": "ball", "tissue": "soft", "cell_mm": 3, "sections": @[)"},
+                       {8, R"({"centre_mm": [0, 0, 0], "across_mm": [1, 0, 0], "deep_mm": [0, 8, 0]})"},
+                       {9, "]}],"}}),
+            one("expected at least 2 items for \"sections\", got 1"));
+  EXPECT_EQ(faults_of({{8, R"({"centre_mm": [0, 0, -100], "across_mm": @[0, 0, 0], "deep_mm": [0, 8, 0]},)"}}),
+            one("expected a half axis of at least 0.01 mm, got none"));
+  EXPECT_EQ(faults_of({{8, R"({"centre_mm": [0, 0, -100], "across_mm": [0, 9, 1], "deep_mm": @[0, 8, 0]},)"}}),
+            one("expected half axes at least 30 degrees apart, got nearly parallel ones"));
+  EXPECT_EQ(faults_of({{9, R"({"centre_mm": @[0, 0, -100], "across_mm": [10, 0, 0], "deep_mm": [0, 8, 0]}]}],)"}}),
+            one("expected a centre at least 0.01 mm from the section before, got the same place"));
+  EXPECT_EQ(faults_of({{11, R"("centreline_mm": [[10, 0, -110], [40, 0, -110], @[40, 0, -110]],)"}}),
+            one("expected a point at least 0.01 mm from the one before, got the same place"));
+  EXPECT_EQ(
+      faults_of({{14, R"("walls": [{"name": "floor", "net_mm": [[[0,0,0],[9,0,0]],@[[0,9,0],[9,9,0],[9,9,9]]]}],)"}}),
+      one("expected rows of 2 points for \"net_mm\", got a row of 3"));
+}
+
+TEST(Reader, StationsAndLandmarksMustFitTheStrand) {
+  EXPECT_EQ(
+      faults_of({{13, R"("stations": [{"s_mm": 5, "radius_mm": 2, "lumen_mm": @2}, {"s_mm": @5, "radius_mm": 2}, )"
+                      R"({"s_mm": @50, "radius_mm": 2}]}],)"}}),
+      (Faults{"expected less than the outer radius of 2 mm, got 2",
+              "expected more than 5 mm (stations go by rising s_mm), got 5",
+              "expected an arc length on the strand (at most 30.0 mm), got 50"}));
+  EXPECT_EQ(faults_of({{12, R"("landmarks": [{"name": "middle", "from_mm": 10, "to_mm": @10}, )"
+                            R"({"name": @"middle", "from_mm": 10, "to_mm": @90}],)"}}),
+            (Faults{"expected more than from_mm = 10, got 10",
+                    "expected every landmark of a strand once, got \"middle\" again",
+                    "expected an arc length on the strand (at most 30.0 mm), got 90"}));
+  EXPECT_EQ(faults_of({{15, R"("sheets": [{"name": "fold", "strand": "cord", "from_mm": 1, "to_mm": @60,)"}}),
+            one("expected an arc length on \"cord\" (at most 30.0 mm), got 60"));
+  EXPECT_EQ(
+      faults_of(
+          {{10, R"("strands": [{"name": "cord", "tissue": "soft", "start": {"solid": "ball", "fixed": @true},)"}}),
+      one("expected either a solid or \"fixed\": true, got both"));
+}
+
+TEST(Reader, ToolsMustReachAndFit) {
+  EXPECT_EQ(faults_of({{20, R"("tools": [{"instrument": "stick", "port": "navel", "tip_mm": @[0, 0, -900]}],)"}}),
+            one("expected a tip 5 to 330 mm from the port \"navel\", got 900.0 mm"));
+  EXPECT_EQ(faults_of({{19, R"("ports": [{"name": "navel", "position_mm": [0, 0, 0], "diameter_mm": 6}],)"},
+                       {21, R"("scope": {"port": "navel", "tip_mm": @[0, 0, -40]})"}}),
+            one("expected a port of at least 10 mm for this shaft, got \"navel\" of 6 mm"));
+}
+
+TEST(Reader, InstrumentsMustBeOfOneMind) {
+  EXPECT_EQ(faults_of({{18, R"("instruments": [{"name": "stick", "kind": "probe", "clips": @2}],)"}}),
+            one("expected clips only in a clip_applier, got 2 in a probe"));
+  EXPECT_EQ(faults_of({{18, R"("instruments": [{"name": "stick", "kind": "clip_applier", "parallel_gap_mm": 6, )"
+                            R"("opening_deg": @30}],)"}}),
+            one("expected 0 or nothing beside parallel_gap_mm (jaws turn or stay parallel), got an angle"));
+}
+
+TEST(Reader, AllFaultsComeInOnePassInTheOrderOfTheFile) {
+  EXPECT_EQ(
+      faults_of({{3, R"("name": "small", @"titel": "x",)"},
+                 {5, R"({"name": "soft", "density_kg_m3": @-1, "young_Pa": @1e999, "source": "ours"}],)"},
+                 {7, R"("solids": [{"name": "ball", "tissue": @"hard", "cell_mm": @0, "sections": [)"},
+                 {20, R"("tools": [{"instrument": "stick", "port": @"none", "tip_mm": @[0, 0]}],)"}}),
+      (Faults{"expected a known key of a scene ($schema, format, name, title, gravity_m_s2, tissues, organs, "
+              "instruments, ports, tools, scope), got \"titel\" (did you mean \"title\"?)",
+              "expected a number in [1, 25000] for \"density_kg_m3\", got -1", "expected a finite number, got 1e999",
+              "expected a known tissue (soft), got \"hard\"", "expected a number in [0.1, 100] for \"cell_mm\", got 0",
+              "expected a known port (navel), got \"none\"",
+              "expected an array of three numbers for \"tip_mm\", got 2 items"}));
+}
+
+// ---- several files --------------------------------------------------------------------------------------------------
+
+const char* kOrgan =
+    "{\"format\": 1, \"solids\": [{\"name\": \"far\", \"tissue\": \"soft\", \"cell_mm\": 3, \"sections\": [\n"
+    "{\"centre_mm\": [0, 0, -100], \"across_mm\": [10, 0, 0], \"deep_mm\": [0, 8, 0]},\n"
+    "{\"centre_mm\": [0, 0, -120], \"across_mm\": [10, 0, 0], \"deep_mm\": [0, 8, 0]}]}]}\n";
+
+TEST(Reader, OrgansComeFromFilesNamedRelativeToTheirOwn) {
+  const Folder folder;
+  folder.write("organs/a.json", "{\"format\": 1, \"organs\": [\"deeper/b.json\"]}");
+  folder.write("organs/deeper/b.json", kOrgan);
+  const auto path = folder.write("scenes/scene.json", scene_with({{6, "\"organs\": [\"../organs/a.json\", {"}}));
+  EXPECT_EQ(told(faults_of_file(path)), Faults{});
+  const Description d = read_scene(path);
+  ASSERT_EQ(d.solids.size(), 2u);
+  EXPECT_EQ(d.solids[0].name, "far");
+  EXPECT_EQ(d.solids[0].at.file, (folder.path() / "organs/deeper/b.json").generic_string());
+}
+
+TEST(Reader, FaultsOfAllFilesAreToldTogether) {
+  const Folder folder;
+  folder.write("a.json", "{\"format\": 1, \"solids\": 3}");
+  folder.write("b.json", "{\"format\": 1,\n \"strands\": [");
+  const auto path = folder.write(
+      "scene.json", scene_with({{2, "\"format\": 7,"}, {6, "\"organs\": [\"a.json\", \"b.json\", \"c.json\", {"}}));
+  const std::vector<core::Fault> faults = faults_of_file(path);
+  const std::string in = folder.path().generic_string();
+  EXPECT_EQ(told(faults),
+            (Faults{"2:11 expected 1 for \"format\", got 7",
+                    "6:32 expected the name of a file, got \"c.json\" (there is no file " + in + "/c.json)",
+                    "1:25 expected an array for \"solids\", got 3",
+                    "2:14 expected ']' to close the array that began at 2:13, got the end of the file"}));
+  ASSERT_EQ(faults.size(), 4u);
+  EXPECT_EQ(faults[2].at.file, in + "/a.json");
+  EXPECT_EQ(faults[3].at.file, in + "/b.json");
+}
+
+TEST(Reader, FilesThatIncludeEachOtherInACircleAreAFault) {
+  const Folder folder;
+  folder.write("a.json", "{\"format\": 1,\n\"organs\": [\"b.json\"]}");
+  folder.write("b.json", "{\"format\": 1, \"organs\": [\"./x/../a.json\"]}");
+  folder.write("self.json", "{\"format\": 1, \"organs\": [\"self.json\"]}");
+  const std::string in = folder.path().generic_string();
+  const auto path = folder.write("scene.json", scene_with({{6, "\"organs\": [\"a.json\", \"self.json\", {"}}));
+  EXPECT_EQ(told(faults_of_file(path)), (Faults{"1:26 expected files that do not include each other in a circle, got " +
+                                                    in + "/a.json -> " + in + "/b.json -> " + in + "/a.json",
+                                                "1:26 expected files that do not include each other in a circle, got " +
+                                                    in + "/self.json -> " + in + "/self.json"}));
+}
+
+TEST(Reader, EndlessIncludesAreBounded) {
+  const Folder folder;
+  const auto name = [](int i) { return fmt::format("o{}.json", i); };
+  for (int i = 0; i < 20; ++i)
+    folder.write(name(i), fmt::format("{{\"format\": 1, \"organs\": [\"{}\"]}}", name(i + 1)));
+  const auto deep = folder.write("deep.json", scene_with({{6, "\"organs\": [\"o0.json\", {"}}));
+  EXPECT_EQ(told(faults_of_file(deep)), one("1:26 expected at most 16 files inside each other, got more"));
+
+  std::string many = "\"organs\": [";
+  for (int i = 0; i < 300; ++i) many += "\"empty.json\",";
+  folder.write("empty.json", "{\"format\": 1}");
+  const auto wide = folder.write("wide.json", scene_with({{6, many + "{"}}));
+  EXPECT_EQ(faults_of_file(wide).size(), 45u);  // the scene is the first of 256
+}
+
+TEST(Reader, FileNamesMustBeRelative) {
+  EXPECT_EQ(faults_of({{6, "\"organs\": [@\"/etc/passwd\", {"}}),
+            one("expected a file name relative to this file, got \"/etc/passwd\""));
+}
+
+TEST(Reader, AMissingSceneIsAFaultOfTheWholeFile) {
+  const Folder folder;
+  const std::vector<core::Fault> faults = faults_of_file(folder.path() / "none.json");
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(core::to_string(faults[0]),
+            (folder.path() / "none.json").generic_string() + ": expected a file, got none of this name");
+}
+
+TEST(Reader, FilesAreCheckedOnTheirOwnByTheirKind) {
+  const Folder folder;
+  EXPECT_EQ(kind_of_file(folder.write("o.json", kOrgan)), FileKind::organ);
+  EXPECT_EQ(kind_of_file(folder.write("s.json", scene_with({}))), FileKind::scene);
+  EXPECT_EQ(kind_of_file(folder.write("i.json", "{\"kind\": \"probe\"}")), FileKind::instrument);
+  EXPECT_EQ(kind_of_file(folder.write("t.json", "{\"tissues\": []}")), FileKind::tissue);
+  EXPECT_EQ(kind_of_file(folder.write("e.json", "{\"scene\": \"s.json\", \"kind\": \"x\"}")), FileKind::exercise);
+  EXPECT_EQ(told(check_file(folder.path() / "o.json")), Faults{});  // its tissue is a scene's business
+  EXPECT_EQ(told(check_file(folder.path() / "t.json")),
+            (Faults{"1:1 expected the key \"format\" (version of this kind of file) in this tissue table, got none",
+                    "1:13 expected at least 1 items for \"tissues\", got 0"}));
+}
+
+TEST(Reader, ScenesAndInstrumentsAreListedByName) {
+  const Folder folder;
+  folder.write("b/scene.json", scene_with({{3, "\"name\": \"small\", \"title\": \"Second\","}}));
+  folder.write("a/scene.json", "{");
+  folder.write("instruments/p.json", "{\"format\": 1, \"name\": \"p\", \"title\": \"P\", \"kind\": \"probe\"}");
+  folder.write("instruments/q.json", "{\"format\": 1}");
+  const std::vector<SceneEntry> scenes = list_scenes(folder.path());
+  ASSERT_EQ(scenes.size(), 2u);
+  EXPECT_EQ(scenes[0].name, "a");
+  EXPECT_EQ(scenes[1].name, "b");
+  EXPECT_EQ(scenes[1].title, "Second");
+  const std::vector<InstrumentEntry> instruments = list_instruments(folder.path() / "instruments");
+  ASSERT_EQ(instruments.size(), 1u);
+  EXPECT_EQ(instruments[0].title, "P");
+  EXPECT_TRUE(list_scenes(folder.path() / "nowhere").empty());
+}
+
+}  // namespace
+}  // namespace trocar::scene
