@@ -52,4 +52,48 @@ int update_scissors(const ToolModel& model, const ToolShape& shape, int tool_ind
   return made;
 }
 
+namespace {
+
+constexpr double kBlade = 0.0015;  // [m] beside the gap of the closed blades that their edges still reach
+
+/// Does the segment between two points of the jaw frame cross the blades' plane between the blades?
+bool crosses_blades(const ToolModel& model, const ToolShape& shape, Vec3d a, Vec3d b) noexcept {
+  if ((a.y > 0) == (b.y > 0)) return false;
+  const Vec3d at = a + (a.y / (a.y - b.y)) * (b - a);
+  return at.z > 0 && at.z < model.jaw_length && std::fabs(at.x) < shape.half_opening(at.z) + kBlade;
+}
+
+Vec3d skin_point(const tissue::NetworkModel& network, const tissue::Skin& skin, const tissue::NetworkState& state,
+                 int vertex) noexcept {
+  const tissue::SkinWeights& w = skin.weights[size_t(vertex)];
+  Vec3d p = network.origin;
+  for (size_t j = 0; j < 8; ++j) {
+    const tissue::NodeState& n = state.nodes[size_t(w.row[j])];
+    p += double(w.weight[j]) * Vec3d{n.x, n.y, n.z};
+  }
+  return p;
+}
+
+}  // namespace
+
+int cut_organ(const ToolModel& model, const ToolShape& shape, const tissue::NetworkModel& network,
+              const tissue::Skin& fine, tissue::NetworkState& state, std::span<std::uint8_t> parted) noexcept {
+  int severed = 0;
+  for (int s = 0; s < network.springs; ++s) {
+    const Vec3d a = to_jaw(shape, tissue::position(network, state, network.spring_nodes[size_t(2 * s)]));
+    const Vec3d b = to_jaw(shape, tissue::position(network, state, network.spring_nodes[size_t(2 * s) + 1]));
+    if (!crosses_blades(model, shape, a, b) || tissue::spring_scale(network, state, s) <= 0) continue;
+    tissue::cut_spring(network, state, s);
+    ++severed;
+  }
+  if (severed == 0) return 0;
+  for (size_t t = 0; t < fine.triangles.size(); ++t) {
+    Vec3d corner[3];
+    for (size_t k = 0; k < 3; ++k) corner[k] = to_jaw(shape, skin_point(network, fine, state, fine.triangles[t][k]));
+    for (int k = 0; k < 3; ++k)
+      if (crosses_blades(model, shape, corner[k], corner[(k + 1) % 3])) parted[t] = 1;
+  }
+  return severed;
+}
+
 }  // namespace trocar::interactions

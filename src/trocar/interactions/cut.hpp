@@ -21,4 +21,11 @@ int update_scissors(const ToolModel& model, const ToolShape& shape, int tool_ind
                     std::span<tissue::StrandState> strand_states, int tips_visible, std::uint64_t tick, ToolState& tool,
                     CutBook book) noexcept;
 
+/// Parts an organ where the blades have closed in it: springs that cross the blades' plane between them are severed,
+/// and triangles of the drawn skin that cross it are marked in `parted` (one byte a triangle). First form: the blades
+/// take a bite of their own length, nothing is snapped or refined.
+/// @return springs severed
+int cut_organ(const ToolModel& model, const ToolShape& shape, const tissue::NetworkModel& network,
+              const tissue::Skin& fine, tissue::NetworkState& state, std::span<std::uint8_t> parted) noexcept;
+
 }  // namespace trocar::interactions

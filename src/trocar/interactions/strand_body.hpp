@@ -57,7 +57,7 @@ struct Clip {
   std::int32_t reserved = 0;
 };
 
-/// What scissors did to a strand. No padding.
+/// What scissors did to a strand, or (strand -1) to an organ. No padding.
 struct Cut {
   double s = 0;
   double fraction = 0;  ///< of the cross-section, 1 = through
@@ -66,7 +66,7 @@ struct Cut {
   std::int32_t strand = -1;
   std::int32_t tool = 0;
   std::int32_t tips_visible = 0;
-  std::int32_t reserved = 0;
+  std::int32_t solid = -1;  ///< organ whose springs and skin the blades parted
 };
 
 void add_to_hash(core::Hasher& hasher, const StrandBody& body) noexcept;

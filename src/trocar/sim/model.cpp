@@ -49,6 +49,7 @@ void seal(Model& model) {
   for (const SolidModel& s : model.solids) {
     add_to_hash(h, s.network);
     add_to_hash(h, s.skin);
+    add_to_hash(h, s.fine);
     for (const tissue::Anchor& a : s.anchors) {
       h.add(a.node);
       h.add(a.k);

@@ -9,7 +9,10 @@ namespace trocar::sim {
 
 State initial_state(const Model& model) {
   State s;
-  for (const SolidModel& solid : model.solids) s.solids.push_back(tissue::rest_state(solid.network));
+  for (const SolidModel& solid : model.solids) {
+    s.solids.push_back(tissue::rest_state(solid.network));
+    s.parted.emplace_back(solid.fine.triangles.size(), std::uint8_t(0));
+  }
   for (const interactions::StrandBody& body : model.bodies) s.strands.push_back(tissue::rest_state(body.model));
   for (size_t t = 0; t < model.tools.size(); ++t) {
     interactions::ToolState& tool = s.tools[t];
@@ -49,6 +52,7 @@ std::uint64_t hash_of(const State& s) noexcept {
   h.add(s.strand_side);
   h.add(s.tool_side);
   h.add(s.seen);
+  for (const std::vector<std::uint8_t>& parted : s.parted) h.add(parted);
   return h.value();
 }
 
@@ -78,6 +82,18 @@ struct Source {
 
 }  // namespace
 
+namespace {
+
+/// The few triangles that are cut open, by number.
+std::vector<std::uint32_t> open_triangles(const std::vector<std::uint8_t>& parted) {
+  std::vector<std::uint32_t> open;
+  for (size_t t = 0; t < parted.size(); ++t)
+    if (parted[t]) open.push_back(std::uint32_t(t));
+  return open;
+}
+
+}  // namespace
+
 std::vector<std::uint8_t> display_bytes(const Model& model, const State& s) {
   std::vector<std::uint8_t> out;
   std::vector<Vec3f> points;
@@ -100,6 +116,12 @@ std::vector<std::uint8_t> display_bytes(const Model& model, const State& s) {
   put(out, s.clips.data(), size_t(s.clip_count));
   put(out, &s.cut_count, 1);
   put(out, s.cuts.data(), size_t(s.cut_count));
+  for (const std::vector<std::uint8_t>& parted : s.parted) {
+    const std::vector<std::uint32_t> open = open_triangles(parted);
+    const auto n = std::uint32_t(open.size());
+    put(out, &n, 1);
+    put(out, open.data(), open.size());
+  }
   return out;
 }
 
@@ -170,6 +192,17 @@ bool restore_display(const Model& model, const std::vector<std::uint8_t>& bytes,
   in.take(&s.cut_count, 1);
   in.good = in.good && s.cut_count >= 0 && s.cut_count <= interactions::kMaxCuts;
   if (in.good) in.take(s.cuts.data(), size_t(s.cut_count));
+  for (std::vector<std::uint8_t>& parted : s.parted) {
+    std::uint32_t n = 0, triangle = 0;
+    in.take(&n, 1);
+    in.good = in.good && n <= parted.size();
+    parted.assign(parted.size(), 0);
+    for (std::uint32_t k = 0; in.good && k < n; ++k) {
+      in.take(&triangle, 1);
+      in.good = in.good && triangle < parted.size();
+      if (in.good) parted[triangle] = 1;
+    }
+  }
   if (!in.good || in.at != bytes.size() || !sound(model, s)) return false;
   state = std::move(s);
   return true;

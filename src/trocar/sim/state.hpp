@@ -19,10 +19,11 @@ struct State {
   std::array<interactions::Clip, interactions::kMaxClips> clips;
   std::array<interactions::Cut, interactions::kMaxCuts> cuts;
   std::int32_t clip_count = 0, cut_count = 0;
-  std::vector<std::int32_t> nearest;  ///< contact caches: one per sample of each pair, in the Model's order
-  std::vector<Vec3f> strand_side;     ///< per element of each strand pair's first strand
-  std::vector<Vec3f> tool_side;       ///< (tools x elements of all strands x kToolParts)
-  std::vector<std::uint8_t> seen;     ///< (samples) 1 = in view when last looked
+  std::vector<std::int32_t> nearest;              ///< contact caches: one per sample of each pair, in the Model's order
+  std::vector<Vec3f> strand_side;                 ///< per element of each strand pair's first strand
+  std::vector<Vec3f> tool_side;                   ///< (tools x elements of all strands x kToolParts)
+  std::vector<std::vector<std::uint8_t>> parted;  ///< (solids) per triangle of the drawn skin: 1 = cut open
+  std::vector<std::uint8_t> seen;                 ///< (samples) 1 = in view when last looked
 };
 
 State initial_state(const Model& model);

@@ -88,6 +88,25 @@ int tips_visible(const StepContext& c, size_t tool) noexcept {
   return seen;
 }
 
+/// Blades that have just closed part the organs they closed in.
+void cut_organs(StepContext& c, size_t t) noexcept {
+  State& s = c.state;
+  const interactions::ToolShape& shape = c.work.shapes[t];
+  for (size_t i = 0; i < c.model.solids.size(); ++i) {
+    const SolidModel& solid = c.model.solids[i];
+    if (!c.work.poses[i].bounds.near_segment(shape.pivot, shape.frame.tip, 0.005)) continue;
+    const int severed =
+        interactions::cut_organ(c.model.tools[t], shape, solid.network, solid.fine, s.solids[i], s.parted[i]);
+    if (severed == 0 || s.cut_count == interactions::kMaxCuts) continue;
+    interactions::Cut& cut = s.cuts[size_t(s.cut_count++)];
+    cut = {};
+    cut.solid = std::int32_t(i);
+    cut.tool = std::int32_t(t);
+    cut.tips_visible = tips_visible(c, t);
+    cut.tick = s.tick;
+  }
+}
+
 // 4. Jaws: grip, clip, cut.
 void work_jaws(StepContext& c) noexcept {
   const interactions::TissueView view = tissue_of(c);
@@ -109,9 +128,12 @@ void work_jaws(StepContext& c) noexcept {
         tell(c, s.clips[size_t(clip)].strand < 0 ? Event::dropped_clip : Event::clipped, int(t), clip);
       }
     } else if (model.kind == interactions::ToolKind::scissors) {
-      const int made = update_scissors(model, c.work.shapes[t], int(t), view, s.strands, tips_visible(c, t), s.tick,
-                                       tool, {s.cuts, s.cut_count});
-      for (int k = 0; k < made; ++k) tell(c, Event::cut, int(t), s.cut_count - made + k);
+      const int before = s.cut_count;
+      const bool armed = tool.armed != 0;
+      update_scissors(model, c.work.shapes[t], int(t), view, s.strands, tips_visible(c, t), s.tick, tool,
+                      {s.cuts, s.cut_count});
+      if (armed && !tool.armed) cut_organs(c, t);
+      for (int cut = before; cut < s.cut_count; ++cut) tell(c, Event::cut, int(t), cut);
     }
   }
 }

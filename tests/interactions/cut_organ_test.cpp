@@ -1,0 +1,82 @@
+// Scissors in an organ: what the closed blades cross is severed, the network falls apart along it and nowhere else.
+#include <gtest/gtest.h>
+
+#include <trocar/interactions/cut.hpp>
+#include <trocar/tissue/lattice_springs.hpp>
+
+namespace trocar::interactions {
+namespace {
+
+/// A block of 6 x 6 x 4 cells of 3 mm under the origin, its top at z = 0, with a skin of two triangles a top square.
+struct Block {
+  tissue::NetworkModel network;
+  tissue::NetworkState state;
+  tissue::Skin skin;
+  std::vector<std::uint8_t> parted;
+
+  Block() {
+    const tissue::BoxLattice box = tissue::box_lattice(6, 6, 4, 0.003, {-0.009, -0.0105, -0.012});
+    tissue::LatticeMaterial material;
+    material.youngs_modulus = 8e3;
+    material.density = 1050;
+    network = tissue::build(tissue::lattice_network(box.corners, box.cells, {}, material).network, 1e-3);
+    state = tissue::rest_state(network);
+    for (int j = 0; j <= 6; ++j)
+      for (int i = 0; i <= 6; ++i) {
+        const int node = box.corner(i, j, 4);
+        tissue::SkinWeights w;
+        w.node.fill(node);
+        w.row.fill(network.row_of_node[size_t(node)]);
+        w.weight = {1, 0, 0, 0, 0, 0, 0, 0};
+        skin.weights.push_back(w);
+        skin.rest.push_back(vec_cast<float>(box.corners[size_t(node)]));
+        skin.rest_normal.push_back({0, 0, 1});
+      }
+    for (int j = 0; j < 6; ++j)
+      for (int i = 0; i < 6; ++i) {
+        const int a = i + 7 * j;
+        skin.triangles.push_back({a, a + 1, a + 7});
+        skin.triangles.push_back({a + 1, a + 8, a + 7});
+      }
+    parted.assign(skin.triangles.size(), 0);
+  }
+};
+
+ToolModel scissors() {
+  ToolModel t;
+  t.kind = ToolKind::scissors;
+  t.port = {0, 0, 0.1};
+  t.jaw_length = 0.015;
+  t.jaw_width = 0.0025;
+  t.opening = 0.8;
+  return t;
+}
+
+TEST(CutOrgan, BladesInTheTissueSeverOnlyWhatTheyCross) {
+  Block block;
+  // Straight down into the top: the blades' plane is y = 0 (between two rows of nodes), their tips 6 mm deep.
+  const ToolShape shape = shape_of(scissors(), {0, 0, 0, 0.106}, 0.2);
+  const int severed = cut_organ(scissors(), shape, block.network, block.skin, block.state, block.parted);
+  EXPECT_GT(severed, 4);
+  for (int s = 0; s < block.network.springs; ++s) {
+    if (tissue::spring_scale(block.network, block.state, s) > 0) continue;
+    const Vec3d a = block.network.rest[size_t(block.network.spring_nodes[size_t(2 * s)])];
+    const Vec3d b = block.network.rest[size_t(block.network.spring_nodes[size_t(2 * s) + 1])];
+    EXPECT_LT(a.y * b.y, 0) << "a severed spring crosses the blades' plane";
+    EXPECT_GT(std::max(a.z, b.z), -0.0061) << "none below the tips";
+  }
+  int open = 0;
+  for (std::uint8_t p : block.parted) open += p;
+  EXPECT_GE(open, 1);
+  EXPECT_LE(open, 6) << "the skin opens at the blades, not elsewhere";
+}
+
+TEST(CutOrgan, BladesBesideTheOrganCutNothing) {
+  Block block;
+  const ToolShape shape = shape_of(scissors(), {0, 0, 0, 0.095}, 0.2);
+  EXPECT_EQ(cut_organ(scissors(), shape, block.network, block.skin, block.state, block.parted), 0);
+  EXPECT_EQ(block.state.version, 0u);
+}
+
+}  // namespace
+}  // namespace trocar::interactions
