@@ -78,7 +78,7 @@ TEST_F(GlBackend, EveryShaderVariantCompilesAndLinks) {
   GlPrograms programs;
   for (const char* detail : {"0", "1", "2"})
     for (const char* shading : {"0", "1", "2"})
-      for (const char* extra : {"", ",VESSELS", ",LOBULES", ",VESSELS,LOBULES,STAINED,FOGGY,TWO_SIDED"})
+      for (const char* extra : {"", ",FINE", ",VESSELS", ",LOBULES", ",VESSELS,LOBULES,STAINED,FOGGY,TWO_SIDED"})
         EXPECT_NO_THROW(programs.get("surface.vert", "surface.frag",
                                      std::string("SHADING=") + shading + ",DETAIL=" + detail + extra));
   for (const char* extra : {"", "LIT"}) EXPECT_NO_THROW(programs.get("flat.vert", "flat.frag", extra));

@@ -107,6 +107,12 @@ std::array<float, 14 * 4> packed(const Material& m) {
           0};
 }
 
+/// Whether the film's ripples are about as large as the fine flecks, so that one noise fetch can serve both.
+bool film_serves_as_fine(const Material& m) {
+  const float ratio = m.film_size / (0.2f * m.mottle_size);
+  return m.shading != Shading::metal && ratio > 0.4f && ratio < 2.5f;
+}
+
 /// Rows of u_frame in common.glsl.
 std::array<float, 8 * 4> packed(const Frame& frame) {
   const Light& l = frame.light;
@@ -262,6 +268,7 @@ class GlBackend final : public CheckedBackend {
     if (material.shading == Shading::vertex_colour) return m_programs.get("flat.vert", "flat.frag", "LIT");
     std::string defines = "SHADING=" + std::to_string(int(material.shading)) + ",DETAIL=" + std::to_string(detail);
     const bool tissue = material.shading == Shading::tissue;
+    if (detail > 1 && !film_serves_as_fine(material)) defines += ",FINE";
     if (tissue && material.vessels > 0 && detail > 0) defines += ",VESSELS";
     if (tissue && material.lobule_size > 0) defines += ",LOBULES";
     if (is_stained(item.mesh)) defines += ",STAINED";

@@ -1,4 +1,4 @@
-// Living tissue, metal and pools. Variants: SHADING (0 tissue, 1 metal, 2 fluid), DETAIL (0..2), VESSELS, LOBULES,
+// Living tissue, metal and pools. Variants: SHADING (0 tissue, 1 metal, 2 fluid), DETAIL (0..2), FINE, VESSELS, LOBULES,
 // TWO_SIDED, STAINED (some blood or burn), FOGGY.
 #include "common.glsl"
 
@@ -111,12 +111,17 @@ void main() {
   vec3 p = v_rest - FIBRE_AXIS * (dot(FIBRE_AXIS, v_rest) * FIBRE_SQUEEZE);
   vec4 broad = texture(u_noise, p * NOISE_SCALE);
   vec3 slope = broad.rgb * 2.0 - 1.0;
-#if DETAIL >= 2
+#if SHADING != 1 && DETAIL >= 1
+  vec4 ripple = texture(u_noise, kTurn * p.zxy * FILM_SCALE);
+#endif
+#if defined(FINE)
   vec4 fine = texture(u_noise, kTurn * p * (NOISE_SCALE * 5.0));
-  slope += fine.rgb * 2.0 - 1.0;
+#elif SHADING != 1 && DETAIL >= 1
+  vec4 fine = ripple.brga;  // the film's noise is of about that size: one fetch serves both
 #else
   vec4 fine = broad.gbra;
 #endif
+  slope += fine.rgb * 2.0 - 1.0;
 
 #if SHADING == 1
   // Brushed steel or titanium: streaks along the axis, grey itself, pink where it mirrors the walls.
@@ -199,7 +204,6 @@ void main() {
 
   // The film on top has its own ripples; it is broken where the tissue is dry.
 #if DETAIL >= 1
-  vec4 ripple = texture(u_noise, kTurn * p.zxy * FILM_SCALE);
   // Smooth sheets of film here, wrinkled and bubbly there.
   vec3 film_slope = (ripple.rgb * 2.0 - 1.0 + 0.35 * (fine.bra * 2.0 - 1.0)) *
                     (FILM_BUMP * (0.35 + 1.3 * smoothstep(0.45, 0.75, broad.b)));
