@@ -11,6 +11,7 @@
 #include <trocar/tissue/network.hpp>
 
 #include "command.hpp"
+#include "json.hpp"
 #include "session.hpp"
 #include "sources.hpp"
 

@@ -11,6 +11,7 @@
 #include <trocar/scene/reader.hpp>
 
 #include "command.hpp"
+#include "json.hpp"
 #include "lesson.hpp"
 #include "paths.hpp"
 

@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
-#include <trocar/core/log.hpp>
+
+#include "json.hpp"
+#include "picture_size.hpp"
 
 namespace trocar::app {
 

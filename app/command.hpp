@@ -5,11 +5,8 @@
 #include <string>
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 namespace trocar::app {
-
-using Json = nlohmann::ordered_json;  ///< keeps the order in which we say things
 
 /// What the chosen subcommand does; its result is the exit code.
 struct Chosen {
@@ -23,18 +20,6 @@ CLI::App* add_command(CLI::App& program, Chosen& chosen, const std::string& name
 
 /// Runs and maps exceptions: core::BadInput -> 2 with every fault, core::EnvironmentLacks -> 3 with its remedy.
 int run_guarded(const Chosen& chosen);
-
-/// Prints one JSON object and a newline on standard output.
-void print(const Json& object);
-
-/// 16 hex digits.
-std::string hex(std::uint64_t hash);
-
-/// "800x600" -> width, height (64 .. 8192 each).  @throws core::BadInput
-struct PictureSize {
-  int width = 800, height = 600;
-};
-PictureSize parse_size(const std::string& text);
 
 void add_train(CLI::App& program, Chosen& chosen);
 void add_replay(CLI::App& program, Chosen& chosen);

@@ -59,6 +59,7 @@ void EventLog::pose(const sim::Model& model, const sim::State& state, int led) {
                      {"tip_mm", millimetres(frame.tip)},
                      {"shaft", direction(frame.axis())},
                      {"opening", direction(frame.opening())},
+                     {"depth_mm", 1000 * tool.depth},
                      {"jaw_mm", 1000 * model.tools[t].jaw_length},
                      {"aperture", tool.aperture},
                      {"handle", tool.handle},

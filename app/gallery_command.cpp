@@ -5,6 +5,7 @@
 #include <trocar/scene/reader.hpp>
 
 #include "command.hpp"
+#include "json.hpp"
 #include "lesson.hpp"
 #include "paths.hpp"
 #include "pictures.hpp"

@@ -4,6 +4,7 @@
 
 #include <trocar/core/log.hpp>
 
+#include "interrupt.hpp"
 #include "pictures.hpp"
 #include "video.hpp"
 
@@ -37,6 +38,7 @@ constexpr std::uint64_t kTicksPerVideoFrame = 1000 / kVideoRate;
 Leftovers run_headless(Session& session, InputSource& source, const HeadlessOptions& options,
                        const std::function<bool()>& each_tick) {
   const sim::Model& model = session.lesson().model;
+  catch_interrupts();
   std::unique_ptr<Pictures> pictures;
   std::unique_ptr<Shots> shots;
   std::unique_ptr<Video> video;
@@ -51,7 +53,8 @@ Leftovers run_headless(Session& session, InputSource& source, const HeadlessOpti
   Progress progress(session);
   sim::Input input = model.start;
   const auto goes_on = [&] {
-    return session.broken().empty() && (options.to_the_end || !session.finished()) && session.state().tick < limit;
+    return !interrupted() && session.broken().empty() && (options.to_the_end || !session.finished()) &&
+           session.state().tick < limit;
   };
   while (goes_on() && source.next(session.state(), input)) {
     session.advance(input);

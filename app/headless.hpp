@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "picture_size.hpp"
 #include "session.hpp"
 
 namespace trocar::app {

@@ -11,6 +11,7 @@
 #include <trocar/scene/reader.hpp>
 
 #include "paths.hpp"
+#include "sources.hpp"
 
 namespace trocar::app {
 
@@ -19,7 +20,9 @@ std::unique_ptr<training::Monitor> Lesson::monitor() const {
 }
 
 std::unique_ptr<InputSource> Lesson::surgeon() const {
-  throw core::BadInput({{{name, 0, 0}, "expected an exercise that the scripted surgeon knows, got a bare scene"}});
+  if (!exercise)
+    throw core::BadInput({{{name, 0, 0}, "expected an exercise that the scripted surgeon knows, got a bare scene"}});
+  return std::make_unique<SurgeonSource>(*exercise, model);
 }
 
 bool is_exercise(const std::filesystem::path& path) {

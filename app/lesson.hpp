@@ -10,7 +10,7 @@
 #include <trocar/sim/step.hpp>
 #include <trocar/training/monitor.hpp>
 
-#include "command.hpp"
+#include "json.hpp"
 
 namespace trocar::app {
 

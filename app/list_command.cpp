@@ -5,6 +5,7 @@
 #include <trocar/scene/reader.hpp>
 
 #include "command.hpp"
+#include "json.hpp"
 #include "paths.hpp"
 
 namespace trocar::app {

@@ -12,7 +12,8 @@
 #include <trocar/render/backend.hpp>
 #include <trocar/view/scene_view.hpp>
 
-#include "command.hpp"
+#include "json.hpp"
+#include "picture_size.hpp"
 
 namespace trocar::render {
 class GlContext;

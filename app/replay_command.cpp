@@ -9,6 +9,7 @@
 
 #include "command.hpp"
 #include "headless.hpp"
+#include "json.hpp"
 #include "pictures.hpp"
 #include "sources.hpp"
 #include "video.hpp"

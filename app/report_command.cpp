@@ -6,6 +6,7 @@
 #include <trocar/sim/recording.hpp>
 
 #include "command.hpp"
+#include "json.hpp"
 #include "report_page.hpp"
 
 namespace trocar::app {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "command.hpp"
+#include "json.hpp"
 
 namespace trocar::app {
 

@@ -18,6 +18,16 @@ bool ReplaySource::next(const sim::State& state, sim::Input& input) {
   return true;
 }
 
+bool SurgeonSource::next(const sim::State& state, sim::Input& input) {
+  if (m_surgeon.done()) return false;
+  input = m_surgeon.next(m_model, state);
+  return true;
+}
+
+Json SurgeonSource::describe() const {
+  return {{"surgeon", {{"doing", m_surgeon.doing()}, {"done", m_surgeon.done()}, {"gave_up", m_surgeon.gave_up()}}}};
+}
+
 Vec3d HandPlacement::to_scene(const std::array<double, 3>& tip) const {
   return centre + axes * Vec3d{tip[0] - centroid[0], tip[1] - centroid[1], tip[2] - centroid[2]};
 }

@@ -3,6 +3,7 @@
 
 #include <trocar/devices/motion_file.hpp>
 #include <trocar/sim/recording.hpp>
+#include <trocar/training/surgeon.hpp>
 
 #include "lesson.hpp"
 
@@ -29,6 +30,19 @@ class ReplaySource : public InputSource {
 
  private:
   std::vector<sim::Input> m_inputs;
+};
+
+/// The scripted surgeon: reads the State as an eye would and does the exercise.
+class SurgeonSource : public InputSource {
+ public:
+  SurgeonSource(const training::Exercise& exercise, const sim::Model& model)
+      : m_model(model), m_surgeon(exercise, model) {}
+  bool next(const sim::State& state, sim::Input& input) override;
+  Json describe() const override;
+
+ private:
+  const sim::Model& m_model;
+  training::Surgeon m_surgeon;
 };
 
 /// How a hand of a motion file comes into the scene: a rotation and a shift, scale 1.

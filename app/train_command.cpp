@@ -5,6 +5,8 @@
 
 #include "command.hpp"
 #include "headless.hpp"
+#include "interrupt.hpp"
+#include "json.hpp"
 #include "report_page.hpp"
 #include "sources.hpp"
 #include "window_loop.hpp"
@@ -19,7 +21,7 @@ struct Options {
 };
 
 int exit_code(const Json& result, const std::string& input) {
-  if (result.contains("failure")) return core::kGoalNotReached;
+  if (result.contains("failure") || result.contains("interrupted")) return core::kGoalNotReached;
   // A recorded motion knows nothing of the exercise: its goal is to be performed to its end.
   if (input.rfind("motion:", 0) == 0 || result["passed"].is_null()) return core::kDone;
   return result["passed"].get<bool>() ? core::kDone : core::kGoalNotReached;
@@ -37,7 +39,7 @@ int train(const Options& o, bool json) {
     Session session(*lesson);
     if (!o.record.empty()) session.record(o.record, o.trainee, o.input);
     const Leftovers left = run_headless(session, *source, {o.shots, o.video, size, o.seconds, o.input != "demo"});
-    result = session.result(false);
+    result = session.result(interrupted());
     result["input"] = o.input;
     result["slow_motion_share"] = 0.0;
     result.update(source->describe());

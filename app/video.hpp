@@ -9,7 +9,7 @@
 
 #include <trocar/render/image.hpp>
 
-#include "command.hpp"
+#include "picture_size.hpp"
 
 namespace trocar::app {
 

@@ -19,8 +19,6 @@
 namespace trocar::app {
 namespace {
 
-constexpr double kLeastPictureTime =
-    1.0 / 62;  // [s]: where nothing else limits the rate, do not take the simulation's core
 constexpr float kTextHeight = 15;
 
 std::string last_glfw_error() {
@@ -167,7 +165,7 @@ void Window::end_picture() {
 }
 
 void Window::wait_for_turn() {
-  const double left = m_last_time + kLeastPictureTime - glfwGetTime();
+  const double left = m_last_time + m_least_time - glfwGetTime();
   if (left > 0) std::this_thread::sleep_for(std::chrono::duration<double>(left));
   const double now = glfwGetTime();
   m_picture_time = now - m_last_time;

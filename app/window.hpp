@@ -12,7 +12,7 @@
 #include <trocar/devices/mouse_keyboard.hpp>
 #include <trocar/render/image.hpp>
 
-#include "command.hpp"
+#include "picture_size.hpp"
 
 struct GLFWwindow;
 
@@ -32,6 +32,9 @@ class Window {
 
   bool wants_to_close() const;
   void close();
+
+  /// At most so many pictures a second, whatever the display: they cost what the simulation may need.
+  void set_picture_rate(double most) { m_least_time = 1 / most; }
 
   /// Takes in the events; afterwards ImGui's frame is open.
   void begin_picture();
@@ -65,7 +68,7 @@ class Window {
   GLFWwindow* m_window = nullptr;
   devices::HandSample m_sample, m_next;
   WindowKeys m_keys, m_next_keys;
-  double m_cursor_x = 0, m_cursor_y = 0, m_last_time = 0, m_picture_time = 0;
+  double m_cursor_x = 0, m_cursor_y = 0, m_last_time = 0, m_picture_time = 0, m_least_time = 1.0 / 62;
   bool m_captured = false, m_cursor_known = false, m_scale_changed = false;
   int m_width = 0, m_height = 0;
   float m_scale = 1;

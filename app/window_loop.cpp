@@ -14,6 +14,7 @@
 
 #include "event_log.hpp"
 #include "hand_pilot.hpp"
+#include "interrupt.hpp"
 #include "live.hpp"
 #include "panel.hpp"
 #include "paths.hpp"
@@ -25,6 +26,8 @@ namespace trocar::app {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr double kFullRate = 62, kYieldingRate = 24;  // [pictures/s] at most; the second while the simulation lags
 
 /// A software renderer that takes every core would take the simulation's, too. Read by Mesa when the context is made.
 void leave_a_core_to_the_simulation() {
@@ -51,6 +54,7 @@ struct Stage {
       : window("Trocar: " + (lesson.title.empty() ? lesson.name : lesson.title), options.size),
         view(lesson.model, *backend),
         log(log_path(options)) {}
+  bool wants_to_close() const { return window.wants_to_close() || interrupted(); }
 };
 
 /// One attempt, from the first tick to the end of its recording.
@@ -96,13 +100,14 @@ Choice Attempt::run() {
   m_stage.log.event("attempt", {{"exercise", m_lesson.name}, {"recording", m_recording.string()}});
   Live live(m_session, m_source.get(), m_options.seconds > 0 ? std::uint64_t(1000 * m_options.seconds) : 0);
   Choice choice = Choice::none;
-  while (choice != Choice::restart && choice != Choice::quit && !m_stage.window.wants_to_close()) picture(live, choice);
+  while (choice != Choice::restart && choice != Choice::quit && !m_stage.wants_to_close()) picture(live, choice);
   if (!m_over) end(live, true);
-  return m_stage.window.wants_to_close() ? Choice::quit : choice;
+  return m_stage.wants_to_close() ? Choice::quit : choice;
 }
 
 void Attempt::picture(Live& live, Choice& choice) {
   Window& window = m_stage.window;
+  window.set_picture_rate(live.snapshot().speed < 0.97 ? kYieldingRate : kFullRate);
   window.capture_pointer(m_pilot && !m_menu && !m_over);
   window.begin_picture();
   if (window.keys().help) m_stage.help = !m_stage.help;
@@ -176,6 +181,7 @@ void Attempt::end(Live& live, bool interrupted) {
 
 Json run_window(const Lesson& lesson, const WindowOptions& options) {
   leave_a_core_to_the_simulation();
+  catch_interrupts();
   Stage stage(lesson, options);
   core::log::info("drawing with {}", stage.context->description());
   for (int number = 1;; ++number) {

@@ -2,8 +2,8 @@
 // and is never waited for nor skipped. Slow machines show slow motion, and say so.
 #pragma once
 
-#include "command.hpp"
 #include "lesson.hpp"
+#include "picture_size.hpp"
 
 namespace trocar::app {
 
