@@ -41,7 +41,8 @@ void check(const NetworkDescription& d, double tick) {
     if (!inside(e.a) || !inside(e.b) || e.a == e.b) refuse("spring", s, "two different nodes that exist");
     if (!(e.rest_length > 0 && e.rest_length < 1e5)) refuse("rest length of spring", s, "> 0 m");
     if (!(e.k >= 0 && e.damping >= 0 && e.k < 1e15 && e.damping < 1e15)) refuse("spring", s, "k, damping >= 0");
-    if (!SpringLaw{e.p1, e.p2, e.cap}.monotone()) refuse("law of spring", s, "cap > 0 and P1^2 < 3 P2 (force grows)");
+    if (!SpringLaw{e.p1, e.p2, e.cap}.monotone())
+      refuse("law of spring", s, "cap > 0 and P1^2 < 3 P2 or P1, P2 >= 0 (force grows)");
   }
   for (std::size_t t = 0; t < d.tets.size(); ++t) {
     const auto& c = d.tets[t];
@@ -307,6 +308,7 @@ NetworkState rest_state(const NetworkModel& m) {
 }
 
 NetworkWork make_work(const NetworkModel& m) {
+  simd_name();  // chosen now, so that the first tick need not read the environment
   NetworkWork w;
   w.other.resize(m.rows);
   w.open_tets.resize(m.tets.size());

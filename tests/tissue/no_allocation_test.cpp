@@ -1,0 +1,72 @@
+// The step's law: no allocation. Every operator new of this program counts.
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include <gtest/gtest.h>
+
+#include <trocar/tissue/strand.hpp>
+
+#include "test_bodies.hpp"
+
+namespace {
+std::atomic<long> g_allocations{0};
+void* counted(std::size_t size, std::size_t alignment) {
+  ++g_allocations;
+  const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
+  void* p = std::aligned_alloc(alignment, rounded ? rounded : alignment);
+  if (!p) throw std::bad_alloc();
+  return p;
+}
+}  // namespace
+
+void* operator new(std::size_t size) { return counted(size, alignof(std::max_align_t)); }
+void* operator new(std::size_t size, std::align_val_t alignment) { return counted(size, std::size_t(alignment)); }
+void operator delete(void* p) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+
+namespace trocar::tissue {
+namespace {
+
+TEST(NoAllocation, InANetworksTickItsCutsOrItsCollapses) {
+  const NetworkModel m = build(test::wobbly_block(6, 6, 6), 1e-3);
+  NetworkState s = rest_state(m);
+  NetworkWork w = make_work(m);
+  set_position(m, s, m.nodes - 1, m.rest[0]);
+  const NodeLoad load{.node = 100, .k = 500};
+  Vec3f reaction;
+  std::uint32_t flags = 0;
+  const long before = g_allocations;
+  for (int t = 0; t < 20; ++t) {
+    flags |= advance(m, {&load, 1}, {&reaction, 1}, s, w).flags;
+    cut_spring(m, s, 10 * t);
+  }
+  EXPECT_EQ(g_allocations, before);
+  EXPECT_TRUE(flags & StepReport::kInverted);
+}
+
+TEST(NoAllocation, InAStrandsTick) {
+  StrandDescription d;
+  for (int i = 0; i < 12; ++i) d.positions.push_back({0.004 * i, 0, 0.001 * i * i / 12});
+  d.radius.assign(11, 0.002);
+  d.youngs_modulus = 60e3;
+  d.density = 1050;
+  d.prescribed.assign(12, 0);
+  d.prescribed[0] = d.prescribed[1] = 1;
+  const StrandModel m = build(d, 1e-3);
+  StrandState s = rest_state(m);
+  StrandWork w = make_work(m);
+  StrandReaction ends[2];
+  const StrandLoad load{.element = 5, .w = 0.5, .k = 100};
+  const long before = g_allocations;
+  for (int t = 0; t < 20; ++t) {
+    EXPECT_TRUE(advance(m, {}, {&load, 1}, ends, {}, s, w).fine());
+    if (t == 10) cut_element(s, 7);
+  }
+  EXPECT_EQ(g_allocations, before);
+}
+
+}  // namespace
+}  // namespace trocar::tissue
