@@ -40,7 +40,7 @@ TEST(Display, RoundTripKeepsWhatIsDrawn) {
   for (size_t i = 0; i < m.strands.size(); ++i)
     for (size_t n = 0; n < from.strands[i].x.size(); ++n)
       worst = std::max(worst, length(to.strands[i].x[n] - from.strands[i].x[n]));
-  EXPECT_LT(worst, 3e-8) << "[m]: single precision of tenths of metres";
+  EXPECT_LT(worst, 1e-5) << "[m]: places are kept to 0.01 mm";
   EXPECT_EQ(std::memcmp(&to.tools, &from.tools, sizeof from.tools), 0);
   EXPECT_EQ(std::memcmp(&to.scope, &from.scope, sizeof from.scope), 0);
   ASSERT_EQ(to.clip_count, 1);

@@ -64,6 +64,20 @@ void put(std::vector<std::uint8_t>& out, const T* data, size_t count) {
   out.insert(out.end(), bytes, bytes + count * sizeof(T));
 }
 
+constexpr double kStep = 1e-5;  // [m] a picture needs no finer places than 0.01 mm
+
+/// Places as whole steps from where they were drawn, in as few bytes as each takes: most of a scene hardly moves.
+void put_place(std::vector<std::uint8_t>& out, Vec3d place, Vec3d drawn) {
+  for (int k = 0; k < 3; ++k) {
+    double steps = (place[k] - drawn[k]) / kStep;
+    if (!(std::fabs(steps) < 2e9)) steps = 0;  // not a place: the step has flagged it
+    const auto q = std::int64_t(std::floor(steps + 0.5));
+    auto bits = std::uint64_t(q < 0 ? -2 * q - 1 : 2 * q);
+    for (; bits >= 128; bits >>= 7) out.push_back(std::uint8_t(bits | 128u));
+    out.push_back(std::uint8_t(bits));
+  }
+}
+
 /// Reads from a keyframe; remembers whether there was always enough.
 struct Source {
   const std::vector<std::uint8_t>& bytes;
@@ -77,6 +91,23 @@ struct Source {
     if (!good) return;
     std::memcpy(data, bytes.data() + at, n);
     at += n;
+  }
+
+  Vec3d take_place(Vec3d drawn) {
+    for (int k = 0; k < 3; ++k) {
+      std::uint64_t bits = 0;
+      for (int shift = 0;; shift += 7) {
+        std::uint8_t byte = 0;
+        take(&byte, 1);
+        good = good && shift < 35;
+        if (!good) return drawn;
+        bits |= std::uint64_t(byte & 127u) << shift;
+        if (byte < 128) break;
+      }
+      const auto half = std::int64_t(bits >> 1);
+      drawn[k] += kStep * double(bits & 1u ? -half - 1 : half);
+    }
+    return drawn;
   }
 };
 
@@ -96,18 +127,15 @@ std::vector<std::uint32_t> open_triangles(const std::vector<std::uint8_t>& parte
 
 std::vector<std::uint8_t> display_bytes(const Model& model, const State& s) {
   std::vector<std::uint8_t> out;
-  std::vector<Vec3f> points;
   put(out, &s.tick, 1);
   for (size_t i = 0; i < s.solids.size(); ++i) {
-    points.clear();
-    for (int n = 0; n < model.solids[i].network.nodes; ++n)
-      points.push_back(vec_cast<float>(tissue::position(model.solids[i].network, s.solids[i], n)));
-    put(out, points.data(), points.size());
+    const tissue::NetworkModel& network = model.solids[i].network;
+    for (int n = 0; n < network.nodes; ++n)
+      put_place(out, tissue::position(network, s.solids[i], n), network.rest[size_t(n)]);
   }
-  for (const tissue::StrandState& strand : s.strands) {
-    points.clear();
-    for (Vec3d x : strand.x) points.push_back(vec_cast<float>(x));
-    put(out, points.data(), points.size());
+  for (size_t i = 0; i < s.strands.size(); ++i) {
+    const tissue::StrandState& strand = s.strands[i];
+    for (size_t n = 0; n < strand.x.size(); ++n) put_place(out, strand.x[n], model.bodies[i].model.rest[n]);
     put(out, strand.alive.data(), strand.alive.size());
   }
   put(out, &s.tools, 1);
@@ -126,8 +154,6 @@ std::vector<std::uint8_t> display_bytes(const Model& model, const State& s) {
 }
 
 namespace {
-
-bool finite(Vec3f p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
 bool names_tissue(const Model& model, const interactions::Hold& hold) {
   const std::int32_t b = hold.body, solid = b - interactions::kSolidBase;
@@ -166,22 +192,15 @@ bool sound(const Model& model, const State& s) {
 bool restore_display(const Model& model, const std::vector<std::uint8_t>& bytes, State& state) {
   State s = state;
   Source in{bytes};
-  std::vector<Vec3f> points;
-  const auto take_points = [&](size_t count) {
-    points.assign(count, {});
-    in.take(points.data(), count);
-    for (Vec3f p : points) in.good = in.good && finite(p);
-  };
   in.take(&s.tick, 1);
   for (size_t i = 0; i < s.solids.size(); ++i) {
     const tissue::NetworkModel& network = model.solids[i].network;
-    take_points(size_t(network.nodes));
     for (int n = 0; in.good && n < network.nodes; ++n)
-      tissue::set_position(network, s.solids[i], n, vec_cast<double>(points[size_t(n)]));
+      tissue::set_position(network, s.solids[i], n, in.take_place(network.rest[size_t(n)]));
   }
-  for (tissue::StrandState& strand : s.strands) {
-    take_points(strand.x.size());
-    for (size_t n = 0; in.good && n < points.size(); ++n) strand.x[n] = vec_cast<double>(points[n]);
+  for (size_t i = 0; i < s.strands.size(); ++i) {
+    tissue::StrandState& strand = s.strands[i];
+    for (size_t n = 0; in.good && n < strand.x.size(); ++n) strand.x[n] = in.take_place(model.bodies[i].model.rest[n]);
     in.take(strand.alive.data(), strand.alive.size());
   }
   in.take(&s.tools, 1);
