@@ -1,5 +1,6 @@
 // Every claim is held against brute force: many points sampled on both bodies can come close to, never below, what the
 // functions call closest.
+#include <array>
 #include <limits>
 #include <vector>
 
