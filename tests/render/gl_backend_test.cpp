@@ -293,6 +293,26 @@ TEST_F(GlBackend, SmokePuffsTakeSaturation) {
   EXPECT_LT(saturation(smoky.at(36, 30)), saturation(clear.at(36, 30)) - 0.05);
 }
 
+TEST_F(GlBackend, PrepareChangesNoPicture) {
+  frame.camera = look_at({0.012f, -0.012f, 0.070f}, {0, 0.004f, -0.03f}, {0, 1, 0});
+  sample::build(*backend, 0, frame);
+  const Image before = draw(64, 48);
+  backend->prepare(frame.items);
+  EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
+  frame.eye = 1;  // a fresh memory of exposure
+  const Image after = draw(64, 48);
+  // Metal mirrors the picture before; the rest is the same to the bit.
+  int different = 0;
+  for (std::size_t i = 0; i < before.rgb.size(); ++i) different += std::abs(before.rgb[i] - after.rgb[i]) > 2;
+  EXPECT_LT(different, 64 * 48 * 3 / 50);
+}
+
+TEST(GlContext, AdoptingWithoutAContextSaysSo) { EXPECT_THROW(GlContext::adopt_current(), core::EnvironmentLacks); }
+
+TEST_F(GlBackend, AdoptsTheContextThatIsCurrent) {
+  EXPECT_EQ(GlContext::adopt_current()->description(), context->description());
+}
+
 TEST_F(GlBackend, RefusesWhatTheNullBackendRefuses) {
   EXPECT_THROW(backend->end_frame(), Misuse);
   EXPECT_THROW(backend->destroy_mesh({17}), Misuse);

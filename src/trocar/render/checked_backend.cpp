@@ -162,6 +162,16 @@ void CheckedBackend::destroy_mesh(MeshHandle handle) {
   on_destroy(handle.id);
 }
 
+void CheckedBackend::prepare(std::span<const DrawItem> items) {
+  const char* call = "prepare";
+  require(!m_in_frame, call, "a frame is open");
+  for (const DrawItem& item : items) {
+    known(item.mesh, call);
+    check_material(item.material, call);
+  }
+  on_prepare(items);
+}
+
 void CheckedBackend::begin_frame(const Frame& frame, const Target& target) {
   const char* call = "begin_frame";
   require(!m_in_frame, call, "the frame before was not ended");

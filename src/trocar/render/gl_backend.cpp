@@ -168,6 +168,29 @@ class GlBackend final : public CheckedBackend {
   }
   void on_destroy(std::uint32_t id) override { m_meshes.destroy(id); }
 
+  /// Draws each item once at every detail, clean and stained, into a picture of a few pixels.
+  void on_prepare(std::span<const DrawItem> items) override {
+    for (const Quality& quality : {Quality{1, 2}, Quality{1, 1}, Quality{1, 0}}) {
+      Frame frame;
+      frame.quality = quality;
+      const Target target = Target::off_screen(8, 8);
+      const Layout layout(target, frame.look, 1);
+      begin_scene(frame, target, layout);
+      for (bool blended : {false, true}) {
+        set_blending(blended);
+        for (const DrawItem& item : items)
+          if (item.translucent == blended)
+            for (bool stained : {false, true}) draw_item(frame, item, blended, stained);
+      }
+      set_blending(false);
+      shrink_pass();
+      develop_pass(frame, layout);
+      lens_pass(frame, target, layout);
+    }
+    m_small_eye = -1;
+    leave_state_clean();
+  }
+
   void on_frame(const Frame& frame, const Target& target, std::span<const DrawItem* const> opaque,
                 std::span<const DrawItem* const> translucent) override {
     const Layout layout(target, frame.look, frame.quality.render_scale);
@@ -224,22 +247,26 @@ class GlBackend final : public CheckedBackend {
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 2 * 97);
   }
 
-  void scene_pass(const Frame& frame, std::span<const DrawItem* const> items, bool blended) {
-    if (items.empty()) return;
-    if (blended) {
+  /// Translucent things and smoke: premultiplied light over what is there; alpha keeps the opaque distance.
+  static void set_blending(bool on) {
+    if (on)
       glEnable(GL_BLEND);
-      glBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);  // alpha keeps the distance
-      glDepthMask(GL_FALSE);
-    }
-    for (const DrawItem* item : items) draw_item(frame, *item, blended);
-    glDisable(GL_BLEND);
-    glDepthMask(GL_TRUE);
+    else
+      glDisable(GL_BLEND);
+    glBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+    glDepthMask(on ? GL_FALSE : GL_TRUE);
   }
 
-  void draw_item(const Frame& frame, const DrawItem& item, bool blended) {
+  void scene_pass(const Frame& frame, std::span<const DrawItem* const> items, bool blended) {
+    set_blending(blended);
+    for (const DrawItem* item : items) draw_item(frame, *item, blended, is_stained(item->mesh));
+    set_blending(false);
+  }
+
+  void draw_item(const Frame& frame, const DrawItem& item, bool blended, bool stained) {
     const Material& material = item.material;
     const bool two_sided = blended || material.two_sided;
-    GlProgram& program = program_for(frame, item, two_sided);
+    GlProgram& program = program_for(frame, item.material, two_sided, stained);
     program.use();
     program.set("u_model_view", m_view * item.transform);
     program.set("u_projection", m_projection);
@@ -261,8 +288,7 @@ class GlBackend final : public CheckedBackend {
     m_meshes.draw(item.mesh.id);
   }
 
-  GlProgram& program_for(const Frame& frame, const DrawItem& item, bool two_sided) {
-    const Material& material = item.material;
+  GlProgram& program_for(const Frame& frame, const Material& material, bool two_sided, bool stained) {
     const int detail = frame.quality.detail;
     if (material.shading == Shading::unlit) return m_programs.get("flat.vert", "flat.frag");
     if (material.shading == Shading::vertex_colour) return m_programs.get("flat.vert", "flat.frag", "LIT");
@@ -271,7 +297,7 @@ class GlBackend final : public CheckedBackend {
     if (detail > 1 && !film_serves_as_fine(material)) defines += ",FINE";
     if (tissue && material.vessels > 0 && detail > 0) defines += ",VESSELS";
     if (tissue && material.lobule_size > 0) defines += ",LOBULES";
-    if (is_stained(item.mesh)) defines += ",STAINED";
+    if (stained) defines += ",STAINED";
     if (frame.look.fog > 0) defines += ",FOGGY";
     if (two_sided) defines += ",TWO_SIDED";
     return m_programs.get("surface.vert", "surface.frag", defines);
@@ -288,9 +314,7 @@ class GlBackend final : public CheckedBackend {
     program.set("u_projection", m_projection);
     program.set_vec4s("u_frame", m_frame_rows);
     program.set("u_noise", kUnitNoise);
-    glEnable(GL_BLEND);
-    glBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);  // alpha keeps the distance
-    glDepthMask(GL_FALSE);
+    set_blending(true);
     glDisable(GL_CULL_FACE);
     glBindVertexArray(m_no_vertices.id());
     for (const SeenPuff& seen : m_puffs) {
@@ -300,8 +324,7 @@ class GlBackend final : public CheckedBackend {
       program.set("u_look", puff.density, 3 * puff.centre.x, 3 * puff.centre.y, 3 * puff.centre.z + puff.radius);
       glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
     }
-    glDisable(GL_BLEND);
-    glDepthMask(GL_TRUE);
+    set_blending(false);
   }
 
   void shrink(const GlPicture& from, GlPicture& to) {

@@ -1,5 +1,6 @@
 #include <cstring>
 
+#include <dlfcn.h>
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
@@ -87,9 +88,26 @@ class OffScreenContext final : public GlContext {
   EGLContext m_context = EGL_NO_CONTEXT;
 };
 
+/// Asks GLX without needing X's headers: only if its library is loaded can one of its contexts be current.
+bool glx_context_is_current() {
+  for (const char* name : {"libGLX.so.0", "libGL.so.1"}) {
+    void* library = dlopen(name, RTLD_LAZY | RTLD_NOLOAD);
+    if (!library) continue;
+    const auto current = reinterpret_cast<void* (*)()>(dlsym(library, "glXGetCurrentContext"));
+    const bool found = current && current();
+    dlclose(library);
+    if (found) return true;
+  }
+  return false;
+}
+
 class AdoptedContext final : public GlContext {
  public:
-  AdoptedContext() { check_version(); }
+  AdoptedContext() {
+    if (eglGetCurrentContext() == EGL_NO_CONTEXT && !glx_context_is_current())
+      throw core::EnvironmentLacks("no OpenGL context is current; the window has to make its own current first");
+    check_version();
+  }
   void make_current() override {}  // the window's owner does that
 };
 
