@@ -210,4 +210,55 @@ class Hands {
   int m_at = 0;
 };
 
+/// A State and hands that go where a test says.
+struct Table {
+  const sim::Model& model;
+  sim::State state;
+  sim::Work work;
+  sim::Input input;
+  std::uint32_t flags = 0;
+  std::vector<sim::Event> events;
+
+  explicit Table(const sim::Model& m)
+      : model(m), state(sim::initial_state(m)), work(sim::make_work(m)), input(m.start) {}
+
+  void step() {
+    const sim::StepReport report = sim::step(model, input, state, work);
+    flags |= report.flags;
+    events.insert(events.end(), report.events, report.events + report.event_count);
+  }
+  void steps(int n) {
+    for (int i = 0; i < n; ++i) step();
+  }
+  /// Where the tip shall be; the roll stays.
+  void point(int tool, Vec3d tip) {
+    sim::ToolInput& in = input.tools[size_t(tool)];
+    in = sim::tool_input(kinematics::inverse(model.tools[size_t(tool)].port, tip, double(in.roll)), in.handle);
+  }
+  void close(int tool, double handle) { input.tools[size_t(tool)].handle = float(handle); }
+  /// Closes or opens within `ticks`.
+  void close_slowly(int tool, double handle, int ticks) {
+    const double from = double(input.tools[size_t(tool)].handle);
+    for (int i = 1; i <= ticks; ++i) {
+      close(tool, from + (handle - from) * i / ticks);
+      step();
+    }
+  }
+  /// Moves the tip there in a straight line, at `speed` [m/s].
+  void carry(int tool, Vec3d from, Vec3d to, double speed) {
+    const int n = int(length(to - from) / (speed * sim::kTick)) + 1;
+    for (int i = 1; i <= n; ++i) {
+      point(tool, from + double(i) / n * (to - from));
+      step();
+    }
+  }
+  int count(sim::Event::Kind kind) const {
+    int n = 0;
+    for (const sim::Event& e : events) n += e.kind == kind;
+    return n;
+  }
+  const interactions::ToolState& tool(int t) const { return state.tools[size_t(t)]; }
+  Vec3d pull(int t) const { return {tool(t).pull[0], tool(t).pull[1], tool(t).pull[2]}; }
+};
+
 }  // namespace trocar::small
