@@ -70,7 +70,7 @@ inline scene::Strand cord() {
   scene::Strand s;
   s.name = "cord";
   s.tissue = "duct";
-  for (double x : {0.0, 0.025, 0.050, 0.075}) s.centreline.push_back({x, 0.012, 0});
+  for (double x : {0.0, 0.025, 0.050, 0.075}) s.centreline.push_back({x, 0.020, 0});
   s.stations = {{0, 0.002, 0}};
   s.start.fixed = s.end.fixed = true;
   s.foundation = 600;
