@@ -210,12 +210,21 @@ TEST(TubeDrawing, BothStumpsOfACutAreClosedAndEndAtTheCut) {
   tube.update(state);
   const geometry::TriMesh mesh = welded(tube.buffer());
   EXPECT_TRUE(geometry::check_edges(mesh).closed());
-  double gap = 1;
-  for (const Vec3f& p : tube.buffer().positions) {
-    const double x = double(p.x) - strand.x[std::size_t(element)].x;
-    if (x > 0.006) gap = std::min(gap, x);
+  const interactions::StrandBody& body = pelvis().bodies[std::size_t(left_tube())];
+  const auto pieces = pieces_of(body, strand.alive, {state.cuts.data(), 1}, left_tube());
+  ASSERT_EQ(pieces.size(), 2u);
+  const StrandCurve curve(body, strand, pieces);
+  const Vec3d low = curve.at(0, 0.0231).point, high = curve.at(1, 0.0231).point, middle = 0.5 * (low + high);
+  double to_low = 1, to_high = 1, to_middle = 1;
+  for (const Vec3f& f : tube.buffer().positions) {
+    const Vec3d p = vec_cast<double>(f);
+    to_low = std::min(to_low, length(p - low));
+    to_high = std::min(to_high, length(p - high));
+    to_middle = std::min(to_middle, length(p - middle));
   }
-  EXPECT_GT(gap, 0.014);  // nothing is drawn in the gap
+  EXPECT_LT(to_low, 0.001);  // a face there
+  EXPECT_LT(to_high, 0.001);
+  EXPECT_GT(to_middle, 0.5 * length(high - low) - 0.0025);  // and nothing between
 }
 
 TEST(TubeDrawing, FimbriaeMoveRigidlyWithTheTubesEnd) {
@@ -303,7 +312,7 @@ TEST(SheetDrawing, TheFoldHangsOnItsTubeAndSplitsWhereThatIsCut) {
 TEST(OrganDrawing, ShowsTheSkinAsTheNodesCarryIt) {
   auto backend = render::make_null_backend();
   const sim::SolidModel& solid = pelvis().solids[0];
-  OrganDrawing organ(solid, std::vector<Paint>(solid.fine.rest.size()), *backend);
+  OrganDrawing organ(solid, {}, std::vector<Paint>(solid.fine.rest.size()), *backend);
   tissue::NetworkState state = tissue::rest_state(solid.network);
   organ.update(state);
   const std::uint64_t uploaded = backend->stats().vertices_uploaded;

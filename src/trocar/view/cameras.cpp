@@ -46,17 +46,17 @@ Light room_light() {
   light.position = {0.15f, 0.5f, 0.25f};
   light.colour = {1, 0.98f, 0.95f};
   light.inverse_square = false;
-  light.intensity = 0.8f;
-  light.bounce = 0.1f;
+  light.intensity = 0.6f;
+  light.bounce = 0.06f;
   light.bounce_colour = {1, 0.9f, 0.85f};
-  light.ambient = 0.22f;
+  light.ambient = 0.12f;
   return light;
 }
 
 EndoscopeLook room_look() {
   EndoscopeLook look = render::plain_look();
   look.auto_exposure = true;
-  look.exposure_key = 0.16f;
+  look.exposure_key = 0.12f;
   return look;
 }
 

@@ -7,7 +7,7 @@ namespace trocar::view {
 namespace {
 
 constexpr double kPi = 3.14159265358979;
-constexpr int kSides = 10, kRings = 11;
+constexpr int kSides = 8, kRings = 10;
 
 /// One finger: where it grows from, which way, how it curls.
 struct Finger {
@@ -23,11 +23,14 @@ struct Spine {
   Vec3d point, along, across, flat;  ///< flat = normal of the petal
 };
 
+/// Rings stand closer towards the tip, which is round.
+double along_finger(int ring) { return std::sin(0.5 * kPi * ring / (kRings - 1)); }
+
 /// Width over length: a stalk that swells to a ragged, rounded leaf.
 double leaf(double u, int seed) {
-  const double body = 0.62 + 0.75 * std::sin(kPi * std::min(1.0, 0.2 + 0.8 * u));
-  const double tip = std::sqrt(std::max(0.0, 1 - std::pow(std::max(0.0, (u - 0.72) / 0.28), 2)));
-  const double lobes = 1 + 0.17 * std::sin(9 * u + 6.3 * varied(seed, 1)) + 0.08 * std::sin(21 * u + seed);
+  const double body = 0.85 + 0.4 * std::sin(kPi * (0.1 + 0.9 * u));
+  const double tip = std::sqrt(std::max(0.0, 1 - std::pow(std::max(0.0, (u - 0.6) / 0.4), 2)));
+  const double lobes = 1 + 0.22 * std::sin(8 * u + 6.3 * varied(seed, 1)) + 0.1 * std::sin(19 * u + seed);
   return body * tip * lobes;
 }
 
@@ -36,14 +39,14 @@ std::vector<Spine> spine_of(const Finger& f, double radius) {
   const Vec3d out{0, std::cos(f.angle), std::sin(f.angle)}, around{0, -std::sin(f.angle), std::cos(f.angle)};
   Vec3d p = Vec3d{f.along * radius, 0, 0} + f.out * radius * out;
   for (int i = 0; i < kRings; ++i) {
-    const double u = double(i) / (kRings - 1);
+    const double u = along_finger(i);
     const double lean = f.lean + f.curl * u * (0.4 + 0.6 * u) + 0.15 * std::sin(7 * u + f.seed);
     const double sway = f.sway * u;
     Vec3d t = std::cos(lean) * Vec3d{1, 0, 0} + std::sin(lean) * out;
     t = std::cos(sway) * t + std::sin(sway) * around;
     const Vec3d across = normalised(around - dot(around, t) * t);
     spine.push_back({p, t, across, cross(t, across)});
-    p += (f.length / (kRings - 1)) * t;
+    if (i + 1 < kRings) p += (f.length * (along_finger(i + 1) - u)) * t;
   }
   return spine;
 }
@@ -52,22 +55,22 @@ void add_finger(MeshBuffer& b, const Finger& f, double radius) {
   const std::vector<Spine> spine = spine_of(f, radius);
   std::uint32_t last = 0;
   for (int i = 0; i < kRings; ++i) {
-    const double u = double(i) / (kRings - 1);
+    const double u = along_finger(i);
     const Spine& s = spine[std::size_t(i)];
     const bool end = i == 0 || i == kRings - 1;
-    const Paint paint{to_byte(0.72 + 0.28 * u), 0, 0, to_byte(1.0 - 0.22 * u - 0.2 * varied(f.seed, 9))};
+    const Paint paint{to_byte(0.72 + 0.28 * u), 0, 0, to_byte(0.95 - 0.35 * u - 0.25 * varied(f.seed, 9))};
     if (end) {
       const std::uint32_t pole = b.add(vec_cast<float>(s.point), paint);
       if (i > 0) join_pole(b, last, kSides, pole, true);
       continue;
     }
-    const double half = 0.5 * f.width * leaf(u, f.seed), thick = std::max(0.00022, 0.0005 * (1.15 - 0.55 * u));
+    const double half = 0.5 * f.width * leaf(u, f.seed), thick = 0.0006 * (1.2 - 0.6 * u);
     const std::uint32_t row = b.size();
     for (int k = 0; k < kSides; ++k) {
       const double a = 2 * kPi * k / kSides, c = std::cos(a), sn = std::sin(a);
       // Ruffled: the edges rise and fall along the finger, in turn on either side.
-      const double ruffle = 0.00055 * c * c * std::sin(8 * u + (c > 0 ? 0.0 : 2.1) + 6.3 * varied(f.seed, 2));
-      const double cupped = -0.35 * half * c * c;
+      const double ruffle = 0.0005 * c * c * std::sin(8 * u + (c > 0 ? 0.0 : 2.1) + 6.3 * varied(f.seed, 2));
+      const double cupped = -0.45 * half * c * c;
       const Vec3d p = s.point + (half * c) * s.across + (thick * sn + ruffle + cupped) * s.flat;
       b.add(vec_cast<float>(p), paint);
     }
@@ -81,37 +84,39 @@ void add_finger(MeshBuffer& b, const Finger& f, double radius) {
 
 }  // namespace
 
+namespace {
+
+/// One whorl of fingers.
+struct Whorl {
+  int count;
+  double along, out;     ///< roots [rim radii]
+  double length, width;  ///< [rim radii]
+  double lean, curl;     ///< [rad]
+};
+
+}  // namespace
+
 MeshBuffer fimbriae(double radius, int seed) {
+  static const Whorl whorls[] = {{kRimLobes, -0.16, 0.94, 1.0, 0.33, 0.75, 1.5},
+                                 {15, -0.22, 0.80, 1.15, 0.27, 0.42, 1.0},
+                                 {11, -0.32, 0.60, 1.0, 0.25, 0.2, 0.7},
+                                 {6, -0.45, 0.38, 0.85, 0.22, 0.0, 0.5}};
   MeshBuffer b;
-  for (int i = 0; i < kRimLobes; ++i) {
-    const int k = 100 * seed + i;
-    Finger f;
-    f.angle = 2 * kPi * (i + 0.35 * (varied(k, 3) - 0.5)) / kRimLobes;
-    f.along = -0.12;
-    f.out = 0.9;
-    f.length = radius * (0.85 + 0.6 * varied(k, 4));
-    f.width = radius * (0.42 + 0.2 * varied(k, 5));
-    f.lean = 0.55 + 0.25 * varied(k, 6);
-    f.curl = 0.5 + 1.2 * varied(k, 7);
-    f.sway = 0.9 * (varied(k, 8) - 0.5);
-    f.seed = k;
-    add_finger(b, f, radius);
-  }
-  constexpr int kInner = 7;
-  for (int i = 0; i < kInner; ++i) {
-    const int k = 100 * seed + 50 + i;
-    Finger f;
-    f.angle = 2 * kPi * (i + 0.5 + 0.4 * (varied(k, 3) - 0.5)) / kInner;
-    f.along = -0.3;
-    f.out = 0.56;
-    f.length = radius * (0.75 + 0.45 * varied(k, 4));
-    f.width = radius * (0.34 + 0.16 * varied(k, 5));
-    f.lean = 0.1 + 0.3 * varied(k, 6);
-    f.curl = 0.3 + 0.8 * varied(k, 7);
-    f.sway = 1.2 * (varied(k, 8) - 0.5);
-    f.seed = k;
-    add_finger(b, f, radius);
-  }
+  int k = 1000 * seed;
+  for (const Whorl& w : whorls)
+    for (int i = 0; i < w.count; ++i, ++k) {
+      Finger f;
+      f.angle = 2 * kPi * (i + 0.7 * (varied(k, 3) - 0.5)) / w.count;
+      f.along = w.along + 0.08 * (varied(k, 10) - 0.5);
+      f.out = w.out * (1 - 0.08 * varied(k, 11));
+      f.length = radius * w.length * (0.6 + 0.7 * varied(k, 4));
+      f.width = radius * w.width * (0.7 + 0.6 * varied(k, 5));
+      f.lean = w.lean + 0.35 * (varied(k, 6) - 0.5);
+      f.curl = w.curl * (0.3 + 1.1 * varied(k, 7));
+      f.sway = 1.3 * (varied(k, 8) - 0.5);
+      f.seed = k;
+      add_finger(b, f, radius);
+    }
   return b;
 }
 

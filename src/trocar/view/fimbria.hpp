@@ -1,5 +1,5 @@
-// The open end of a uterine tube: a trumpet whose rim frays into a dozen soft fingers, curled and lobed, some of them
-// springing from inside. Made in the frame of the tube's end, with which it moves rigidly.
+// The open end of a uterine tube: a trumpet whose rim frays into whorls of soft fingers, curled and lobed, the inner
+// ones springing from inside. Made in the frame of the tube's end, with which it moves rigidly.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 namespace trocar::view {
 
 inline constexpr double kBellLength = 0.008;  ///< of tube that widens to the rim [m]
-inline constexpr double kBellFlare = 2.0;     ///< rim's radius over the tube's
-inline constexpr int kRimLobes = 12;
+inline constexpr double kBellFlare = 1.85;    ///< rim's radius over the tube's
+inline constexpr int kRimLobes = 17;
 
 /// Fingers around a rim of `radius` [m]. Coordinates: x along the tube's direction from the rim's centre, y and z
 /// along the end frame's normal and binormal. @param seed each tube's own shape

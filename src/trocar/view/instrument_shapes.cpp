@@ -39,7 +39,7 @@ MeshBuffer pin(double radius, double half_length) {
 /// Fork with a rivet that carries two turning jaws.
 MeshBuffer hinge(double radius) {
   MeshBuffer b;
-  const double cheek = 0.11 * 2 * radius, at = radius - cheek;
+  const double cheek = 0.2 * radius, at = 0.64 * radius;
   merge(b, turned({{-0.0105, radius * 0.99, kClean},
                    {-0.0105, radius * 0.99, kClean},
                    {-0.0068, radius * 0.99, kClean},
@@ -51,11 +51,11 @@ MeshBuffer hinge(double radius) {
     const auto section = [&](double z, double half) {
       return BarSection{{0, side * at, z}, half * x, cheek * y, kClean};
     };
-    merge(b, bar({section(-0.0075, 0.78 * radius), section(-0.003, 0.74 * radius), section(0.0, 0.7 * radius),
-                  section(0.0012, 0.58 * radius), section(0.0019, 0.3 * radius)},
+    merge(b, bar({section(-0.0075, 0.52 * radius), section(-0.003, 0.52 * radius), section(0.0, 0.52 * radius),
+                  section(0.0010, 0.44 * radius), section(0.0016, 0.24 * radius)},
                  0.25));
   }
-  merge(b, pin(0.34 * radius, 1.03 * radius));
+  merge(b, pin(0.3 * radius, 0.93 * radius));
   return b;
 }
 
@@ -90,7 +90,7 @@ Outline stadium(double from, double to, double half_width) {
 /// Jaw of a fenestrated grasper: a window in a plate with cross teeth, narrow at the hinge, thinner to the tip.
 MeshBuffer grasper_jaw(const ToolModel& tool) {
   const double length = tool.jaw_length, half = 0.5 * tool.jaw_width, thick = tool.jaw_thickness;
-  const auto neck = [=](double z) { return 0.56 + 0.44 * smooth(0.003, 0.0075, z); };
+  const auto neck = [=](double z) { return 0.46 + 0.54 * smooth(0.003, 0.0075, z); };
   const Outline plain = stadium(-0.001, length, half);
   const Outline outer = [=](double u) {
     Vec3d p = plain(u);

@@ -28,81 +28,100 @@ Material with_vessels(Material m, float amount, float tile) {
 }
 
 Material uterus() {
-  Material m = with_vessels(tissue(srgb(200, 148, 150), srgb(208, 164, 164), srgb(188, 124, 128)), 0.5f, 0.046f);
-  m.mottle_size = 0.013f;
-  m.mottle = 0.4f;
-  m.bump = 0.1f;
-  m.film_bump = 0.28f;
+  Material m = with_vessels(tissue(srgb(204, 146, 150), srgb(212, 168, 162), srgb(186, 116, 124)), 0.6f, 0.046f);
+  m.mottle_size = 0.014f;
+  m.mottle = 0.5f;
+  m.bump = 0.12f;
+  m.film_bump = 0.24f;
   m.film_roughness = 0.13f;
-  m.film_size = 0.0028f;
+  m.film_size = 0.0032f;
   return m;
 }
 
 Material tube() {
-  Material m = with_vessels(tissue(srgb(204, 138, 136), srgb(212, 156, 150), srgb(188, 112, 114)), 0.7f, 0.024f);
+  Material m = with_vessels(tissue(srgb(204, 134, 132), srgb(214, 156, 146), srgb(188, 108, 112)), 0.75f, 0.024f);
   m.mottle_size = 0.007f;
-  m.glow_amount = 0.16f;
-  m.tint = srgb(190, 88, 94);  // fimbriae
-  m.film_size = 0.0018f;
+  m.mottle = 0.6f;
+  m.glow_amount = 0.12f;
+  m.tint = srgb(196, 100, 104);  // fimbriae
+  m.film_size = 0.0019f;
+  m.film_bump = 0.3f;
   return m;
 }
 
 Material ovary() {
-  Material m = with_vessels(tissue(srgb(230, 208, 194), srgb(234, 216, 204), srgb(216, 182, 168)), 0.22f, 0.03f);
-  m.mottle_size = 0.006f;
-  m.mottle = 0.45f;
-  m.lobule_size = 0.0062f;
-  m.lobule_depth = 0.13f;
-  m.lobule_contrast = 0.1f;
-  m.bump = 0.1f;
-  m.film_roughness = 0.1f;
-  m.tint = srgb(206, 176, 170);  // a follicle
+  Material m = with_vessels(tissue(srgb(232, 210, 196), srgb(232, 218, 200), srgb(222, 190, 180)), 0.28f, 0.03f);
+  m.mottle_size = 0.008f;
+  m.mottle = 0.35f;
+  m.bump = 0.14f;
+  m.film_roughness = 0.12f;
+  m.film_bump = 0.22f;
+  m.glow_amount = 0.1f;
+  m.tint = srgb(196, 166, 174);  // a follicle
   return m;
 }
 
 Material ligament(Vec3f main, Vec3f broad, Vec3f fine) {
   Material m = with_vessels(tissue(main, broad, fine), 0.6f, 0.026f);
   m.mottle_size = 0.006f;
-  m.bump = 0.14f;
+  m.mottle = 0.6f;
+  m.bump = 0.16f;
+  m.film_bump = 0.28f;
   m.tint = srgb(206, 128, 122);
   return m;
 }
 
+Material peritoneum() {
+  Material m = with_vessels(tissue(srgb(188, 110, 102), srgb(200, 130, 110), srgb(170, 92, 90)), 1.0f, 0.06f);
+  m.mottle_size = 0.03f;
+  m.mottle = 0.5f;
+  m.wetness = 0.55f;
+  m.film_size = 0.0042f;
+  m.film_bump = 0.2f;
+  m.film_roughness = 0.16f;
+  m.two_sided = true;
+  return m;
+}
+
 Material bladder() {
-  Material m = with_vessels(tissue(srgb(206, 148, 138), srgb(214, 166, 152), srgb(190, 120, 116)), 0.9f, 0.05f);
-  m.mottle_size = 0.016f;
-  m.mottle = 0.45f;
+  Material m = peritoneum();  // it lies below the peritoneum
+  m.two_sided = false;
+  m.colour = srgb(198, 124, 114);
+  m.colour_b = srgb(212, 150, 126);
+  m.colour_c = srgb(182, 104, 102);
+  m.vessel_tile = 0.05f;
+  m.mottle_size = 0.019f;
   return m;
 }
 
 Material bowel() {
-  Material m = with_vessels(tissue(srgb(202, 122, 120), srgb(208, 146, 140), srgb(186, 102, 104)), 0.8f, 0.036f);
+  Material m = with_vessels(tissue(srgb(206, 124, 118), srgb(214, 148, 132), srgb(190, 104, 104)), 0.9f, 0.036f);
   m.mottle_size = 0.012f;
-  m.glow_amount = 0.1f;
-  return m;
-}
-
-Material peritoneum() {
-  Material m = with_vessels(tissue(srgb(182, 116, 110), srgb(190, 136, 124), srgb(166, 94, 92)), 0.95f, 0.06f);
-  m.mottle_size = 0.022f;
   m.mottle = 0.6f;
-  m.two_sided = true;
+  m.glow_amount = 0.1f;
+  m.film_bump = 0.25f;
+  m.film_size = 0.003f;
+  m.tint = srgb(224, 176, 160);  // between two bulges
   return m;
 }
 
 Material fold(float alpha) {
-  Material m = with_vessels(tissue(srgb(206, 148, 142), srgb(214, 168, 158), srgb(192, 122, 118)), 0.95f, 0.03f);
-  m.mottle_size = 0.011f;
+  Material m = with_vessels(tissue(srgb(208, 146, 136), srgb(218, 168, 146), srgb(196, 124, 118)), 1.0f, 0.03f);
+  m.mottle_size = 0.016f;
+  m.mottle = 0.45f;
   m.alpha = alpha;
   m.rim_alpha = 0.92f;
   m.two_sided = true;
   m.glow_amount = 0.12f;
+  m.wetness = 0.6f;
+  m.film_bump = 0.2f;
+  m.film_size = 0.003f;
   return m;
 }
 
 Material fat() {
-  Material m = with_vessels(tissue(srgb(216, 150, 112), srgb(222, 168, 126), srgb(204, 128, 98)), 0.6f, 0.03f);
-  m.lobule_size = 0.006f;
+  Material m = with_vessels(tissue(srgb(224, 164, 104), srgb(230, 184, 122), srgb(212, 138, 92)), 0.6f, 0.03f);
+  m.lobule_size = 0.005f;
   m.lobule_depth = 0.4f;
   m.lobule_contrast = 0.5f;
   m.glow_amount = 0.12f;
@@ -130,29 +149,45 @@ Material insulation() {
 }
 
 std::vector<Look> make_looks() {
-  const Material cord = ligament(srgb(210, 158, 152), srgb(216, 174, 164), srgb(196, 132, 130));
-  const Material pale_cord = ligament(srgb(214, 168, 158), srgb(220, 182, 170), srgb(202, 144, 138));
-  const Material pedicle = ligament(srgb(200, 138, 132), srgb(208, 156, 146), srgb(182, 112, 112));
-  Material neutral = tissue(srgb(196, 134, 130), srgb(204, 150, 142), srgb(182, 112, 112));
+  const Material cord = ligament(srgb(212, 160, 148), srgb(224, 184, 164), srgb(192, 124, 122));
+  const Material pale_cord = ligament(srgb(216, 168, 156), srgb(228, 192, 172), srgb(200, 138, 134));
+  const Material pedicle = ligament(srgb(200, 130, 124), srgb(214, 160, 138), srgb(174, 96, 102));
+  const Material neutral = tissue(srgb(196, 134, 130), srgb(204, 150, 142), srgb(182, 112, 112));
   return {
-      {"neutral", neutral},
-      {"uterus", uterus()},
-      {"tube", tube()},
-      {"fimbria", tube()},
-      {"ovary", ovary()},
-      {"round_ligament", cord},
-      {"ovarian_ligament", pale_cord},
-      {"infundibulopelvic_ligament", pedicle},
-      {"infundibulopelvic", pedicle},
-      {"bladder", bladder()},
-      {"bowel", bowel()},
-      {"fat", fat()},
-      {"peritoneum", peritoneum()},
-      {"mesosalpinx", fold(0.5f), true},
-      {"broad_ligament", fold(0.62f), true},
-      {"steel", metal(srgb(172, 172, 176), srgb(152, 152, 158), 0.36f)},
-      {"insulated", insulation()},
-      {"titanium", metal(srgb(182, 184, 190), srgb(164, 166, 172), 0.3f)},
+      {"neutral", neutral, false, {}},
+      {"uterus", uterus(), false, {.broad = 0.0005, .broad_size = 0.019, .fine = 0.00012, .fine_size = 0.006}},
+      {"tube", tube(), false, {}},
+      {"fimbria", tube(), false, {}},
+      {"ovary",
+       ovary(),
+       false,
+       {.broad = 0.0005,
+        .broad_size = 0.012,
+        .fine = 0.00012,
+        .fine_size = 0.0045,
+        .follicles = 9,
+        .follicle_radius = 0.0035}},
+      {"round_ligament", cord, false, {}},
+      {"ovarian_ligament", pale_cord, false, {}},
+      {"uterosacral_ligament", cord, false, {}},
+      {"infundibulopelvic_ligament", pedicle, false, {}},
+      {"bladder", bladder(), false, {.broad = 0.0012, .broad_size = 0.024, .fine = 0.0003, .fine_size = 0.008}},
+      {"bowel",
+       bowel(),
+       false,
+       {.broad = 0.0005,
+        .broad_size = 0.02,
+        .fine = 0.00015,
+        .fine_size = 0.006,
+        .haustra = 0.0014,
+        .haustra_size = 0.024}},
+      {"fat", fat(), false, {.broad = 0.001, .broad_size = 0.012, .fine = 0.0006, .fine_size = 0.005}},
+      {"peritoneum", peritoneum(), false, {}},
+      {"mesosalpinx", fold(0.5f), true, {}},
+      {"broad_ligament", fold(0.66f), true, {}},
+      {"steel", metal(srgb(142, 142, 147), srgb(124, 124, 130), 0.34f), false, {}},
+      {"insulated", insulation(), false, {}},
+      {"titanium", metal(srgb(160, 162, 168), srgb(142, 144, 150), 0.3f), false, {}},
   };
 }
 

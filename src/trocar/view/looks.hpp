@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <trocar/render/material.hpp>
+#include <trocar/view/relief.hpp>
 
 namespace trocar::view {
 
@@ -14,6 +15,7 @@ struct Look {
   std::string name;
   render::Material material;
   bool translucent = false;
+  Relief relief;  ///< of solids
 };
 
 /// The preset of that name. An unknown name gives a neutral tissue and is reported once.

@@ -4,6 +4,7 @@
 #include <trocar/render/openness.hpp>
 #include <trocar/sim/visibility.hpp>
 #include <trocar/view/cameras.hpp>
+#include <trocar/view/cavity.hpp>
 #include <trocar/view/clip_shape.hpp>
 #include <trocar/view/instrument_shapes.hpp>
 #include <trocar/view/looks.hpp>
@@ -44,6 +45,21 @@ DrawItem item(render::MeshHandle mesh, const Look& look) {
   return i;
 }
 
+/// The look's unevenness, and a rise where each strand grows out.
+Relief relief_of(int solid, const sim::Model& model) {
+  Relief relief = look(model.solids[std::size_t(solid)].look).relief;
+  for (std::size_t i = 0; i < model.strands.size(); ++i) {
+    const sim::StrandModel& strand = model.strands[i];
+    const std::vector<Vec3d>& rest = model.bodies[i].model.rest;
+    const auto hangs = [&](const sim::StrandEndModel& end) {
+      return end.kind == sim::StrandEndModel::hosted && end.solid == solid;
+    };
+    if (hangs(strand.start)) relief.roots.push_back({rest.front(), strand.outer.front()});
+    if (hangs(strand.end)) relief.roots.push_back({rest.back(), strand.outer.back()});
+  }
+  return relief;
+}
+
 /// The clip that lies ready in an applier's jaws.
 struct LoadedClip {
   int tool = -1;
@@ -58,6 +74,7 @@ struct SceneView::Parts {
   std::vector<TubeDrawing> tubes;
   std::vector<SheetDrawing> sheets;
   std::vector<OwnedMesh> walls;
+  OwnedMesh cavity;
   std::vector<std::vector<DrawnPart>> tools;
   std::vector<DrawnPart> scope;
   std::vector<LoadedClip> loaded;
@@ -95,7 +112,7 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
   for (const sim::SolidModel& s : model.solids) {
     std::vector<Paint> paint(s.fine.rest.size());
     baker.bake(s.fine.rest, s.fine.rest_normal, paint);
-    organs.emplace_back(s, std::move(paint), backend);
+    organs.emplace_back(s, relief_of(int(organs.size()), model), std::move(paint), backend);
   }
   for (std::size_t i = 0; i < model.walls.size(); ++i) {
     const tissue::Skin& skin = model.walls[i].skin;
@@ -107,6 +124,7 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
                                                  .paint = paint,
                                                  .indices = indices[model.solids.size() + i]});
   }
+  cavity = OwnedMesh(backend, cavity_around(model).data());
   for (TubeDrawing& t : tubes) {
     std::vector<Paint> paint(t.drawn().positions.size());
     baker.bake(t.drawn().positions, t.drawn().normals, paint);
@@ -144,8 +162,12 @@ void SceneView::Parts::list_tissues(bool with_walls, Frame& frame) const {
     frame.items.push_back(item(walls[i].handle(), look(model.walls[i].look)));
   for (std::size_t i = 0; i < organs.size(); ++i)
     frame.items.push_back(item(organs[i].mesh(), look(model.solids[i].look)));
-  for (std::size_t i = 0; i < tubes.size(); ++i)
-    frame.items.push_back(item(tubes[i].mesh(), look(model.strands[i].look)));
+  for (std::size_t i = 0; i < tubes.size(); ++i) {
+    const sim::StrandModel& strand = model.strands[i];
+    frame.items.push_back(item(tubes[i].mesh(), look(strand.look)));
+    if (strand.start.kind == sim::StrandEndModel::hosted && !strand.fimbriated)
+      frame.items.back().material.tint = look(model.solids[std::size_t(strand.start.solid)].look).material.colour;
+  }
   for (std::size_t i = 0; i < sheets.size(); ++i)
     frame.items.push_back(item(sheets[i].mesh(), look(model.sheets[i].look)));
 }
@@ -223,6 +245,7 @@ Frame SceneView::frame(const sim::State& state, const ViewOptions& options) {
     frame.look = room_look();
     frame.background = {0.09f, 0.10f, 0.11f};
   }
+  if (inside) frame.items.push_back(item(p.cavity.handle(), look("peritoneum")));
   p.list_tissues(inside || options.walls, frame);
   p.list_clips(state, frame);
   if (options.instruments) p.list_tools(state, frame);

@@ -7,12 +7,15 @@
 namespace trocar::view {
 namespace {
 
-constexpr int kRows = 11;             // strand to base
-constexpr double kStep = 0.0016;      // [m] between columns
-constexpr double kTear = 0.5;         // of the width, how deep a cut's gap goes
-constexpr double kTearReach = 0.012;  // [m] along the strand on either side
-constexpr double kSag = 0.10;         // of the width, where the fold is as drawn
-constexpr double kRipple = 0.0006;    // [m]
+constexpr int kRows = 11;                                 // strand to base
+constexpr double kStep = 0.0016;                          // [m] between columns
+constexpr double kTear = 0.5;                             // of the width, how deep a cut's gap goes
+constexpr double kTearReach = 0.012;                      // [m] along the strand on either side
+constexpr double kSag = 0.10;                             // of the width, where the fold is as drawn
+constexpr double kRipple = 0.0006;                        // [m]
+constexpr int kMarginSteps = 4;                           // columns between an edge and what it runs out on
+constexpr double kMarginFar = 0.03, kMarginNear = 0.012;  // [m] reach to walls, to organs
+constexpr double kCrescent = 0.3;  // of the width: the margin's free border starts this far from the strand
 constexpr double kTwoPi = 6.28318530717959;
 
 Vec3d rest_of(const sim::BasePoint& b, const sim::Model& model) {
@@ -48,6 +51,10 @@ SheetDrawing::SheetDrawing(const sim::Model& model, int sheet, render::Backend& 
   const sim::State rest = sim::initial_state(model);
   const auto strand = std::size_t(m_sheet->strand);
   lay_out(pieces_of(*m_body, tissue::rest_state(m_body->model).alive, {}, int(strand)));
+  place(rest);
+  find_margins();
+  connect();
+  m_rest_width.clear();
   place(rest);
   m_buffer.rest = m_buffer.positions;
   render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);
@@ -89,6 +96,58 @@ void SheetDrawing::connect() {
   for (std::size_t c = 0; c + 1 < m_columns.size(); ++c) {
     if (m_columns[c].twin == int(c) + 1) continue;
     join_rows(m_buffer, std::uint32_t(c * kRows), std::uint32_t((c + 1) * kRows), kRows, false);
+  }
+  for (const bool at_end : {false, true}) {
+    if (m_margin[at_end].empty()) continue;
+    std::uint32_t before = at_end ? std::uint32_t((m_columns.size() - 1) * kRows) : 0;
+    for (int k = 1; k <= kMarginSteps; ++k) {
+      const std::uint32_t row = m_buffer.size();
+      for (int r = 0; r < kRows; ++r) m_buffer.add({}, {to_byte(1 - 0.4 * k / kMarginSteps), 0, 0, 0});
+      join_rows(m_buffer, at_end ? before : row, at_end ? row : before, kRows, false);
+      before = row;
+    }
+  }
+}
+
+void SheetDrawing::find_margins() {
+  for (const bool at_end : {false, true}) {
+    const std::size_t c = at_end ? m_columns.size() - 1 : 0, inner = at_end ? c - 1 : 1;
+    std::vector<Margin> margin;
+    for (std::size_t r = 0; r < kRows; ++r) {
+      const std::size_t from = std::max(r, std::size_t(kCrescent * kRows));
+      const Vec3d p = vec_cast<double>(m_buffer.positions[c * kRows + from]);
+      const Vec3d out = normalised(p - vec_cast<double>(m_buffer.positions[inner * kRows + from]));
+      double nearest = kMarginFar;
+      Margin best;
+      const auto look_at = [&](const tissue::Skin& skin, int solid, double reach) {
+        for (std::size_t i = 0; i < skin.rest.size(); ++i) {
+          const Vec3d q = vec_cast<double>(skin.rest[i]), d = q - p;
+          const double far = length(d);
+          if (far >= std::min(nearest, reach) || dot(d, out) < 0.2 * far) continue;
+          nearest = far;
+          best = {solid, int(i), q};
+        }
+      };
+      for (const sim::WallModel& wall : m_model->walls) look_at(wall.skin, -1, kMarginFar);
+      for (std::size_t s = 0; s < m_model->solids.size(); ++s) look_at(m_model->solids[s].skin, int(s), kMarginNear);
+      if (best.vertex >= 0) margin.push_back(best);
+    }
+    if (margin.size() == kRows) m_margin[at_end] = margin;
+  }
+}
+
+void SheetDrawing::place_margin(const sim::State& state, bool at_end) {
+  const std::size_t edge = (at_end ? m_columns.size() - 1 : 0) * kRows;
+  const std::size_t first =
+      (m_columns.size() + (at_end && !m_margin[0].empty() ? std::size_t(kMarginSteps) : 0)) * kRows;
+  for (std::size_t r = 0; r < kRows; ++r) {
+    const Margin& m = m_margin[at_end][r];
+    const Vec3d to =
+        m.solid < 0 ? m.rest
+                    : vertex_now(m_model->solids[std::size_t(m.solid)], state.solids[std::size_t(m.solid)], m.vertex);
+    const Vec3f from = m_buffer.positions[edge + r], step = vec_cast<float>(to) - from;
+    for (int k = 1; k <= kMarginSteps; ++k)
+      m_buffer.positions[first + std::size_t(k - 1) * kRows + r] = from + (float(k) / kMarginSteps) * step;
   }
 }
 
@@ -136,6 +195,8 @@ void SheetDrawing::place(const sim::State& state) {
   }
   for (std::size_t c = 0; c + 1 < m_columns.size(); ++c)
     if (m_columns[c].twin == int(c) + 1) close_tear(c);
+  for (const bool at_end : {false, true})
+    if (!m_margin[at_end].empty()) place_margin(state, at_end);
 }
 
 /// At a cut the two sides part near the strand and are one below: rows go over from their own shape to the mean, and

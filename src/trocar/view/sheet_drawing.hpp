@@ -1,5 +1,5 @@
 // A thin fold between a strand and its base line: a ruled surface that sags and ripples where it is slack, goes flat
-// where it is stretched, and gapes where the strand on its border is cut.
+// where it is stretched, gapes where the strand on its border is cut, and runs out on the wall or organ beside it.
 #pragma once
 
 #include <trocar/sim/state.hpp>
@@ -24,6 +24,13 @@ class SheetDrawing {
     int twin = -1;   ///< column on the other side of a cut
     double gap = 1;  ///< 0 at a cut .. 1 far from it
   };
+  /// What a row of a free edge runs out on: a wall (in space) or an organ's skin.
+  struct Margin {
+    int solid = -1, vertex = -1;
+    Vec3d rest;
+  };
+  void find_margins();
+  void place_margin(const sim::State& state, bool at_end);
   void lay_out(std::vector<StrandPiece> pieces);
   void connect();
   void place(const sim::State& state);
@@ -40,6 +47,7 @@ class SheetDrawing {
   std::vector<double> m_base_share;  ///< of the drawn base line's length, 0..1
   std::vector<Vec3d> m_base;         ///< now
   std::vector<double> m_rest_width;  ///< (columns) drawn
+  std::vector<Margin> m_margin[2];   ///< (rows) at the first and last column; empty: a free edge
   MeshBuffer m_buffer;
   OwnedMesh m_mesh;
 };

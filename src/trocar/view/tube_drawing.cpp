@@ -19,6 +19,9 @@ constexpr double kStep = 0.0012;      // [m] between rings
 constexpr double kFineStep = 0.0004;  // [m] near a clip
 constexpr double kNearClip = 0.004;   // [m]
 constexpr double kBlanched = 0.0045;  // [m] beside a clip's legs
+constexpr double kRootFlare = 0.4;    // how much wider a strand is where it grows out of an organ
+constexpr double kSink = 0.9;         // radii that a strand has sunk into its organ at its end
+constexpr double kRootReach = 0.03;   // [m] a wall farther from a fixed end is not its root
 constexpr double kBloodied = 0.0025;  // [m] beside a cut
 
 template <class T>
@@ -41,6 +44,10 @@ TubeDrawing::TubeDrawing(const sim::Model& model, int strand)
   m_sides = thickest > 0.0022 ? 16 : 12;
   if (m_strand->fimbriated) m_fimbriae = fimbriae(kBellFlare * m_strand->outer.back(), strand + 1);
   const tissue::StrandState rest = tissue::rest_state(m_body->model);
+  const StrandPiece all{0, m_body->nodes() - 1, 0, m_body->length(), false, false};
+  const StrandCurve drawn(*m_body, rest, {&all, 1});
+  m_start_root = root_at(drawn, true);
+  m_end_root = root_at(drawn, false);
   Layout whole;
   whole.pieces = pieces_of(*m_body, rest.alive, {}, m_index);
   lay_out(whole);
@@ -102,8 +109,8 @@ double TubeDrawing::radius_at(double s) const {
   double radius =
       (u * u * u * a + (3 * w * w * w - 6 * w * w + 4) * b + (3 * u * u * u - 6 * u * u + 4) * c + w * w * w * d) / 6;
   if (m_strand->fimbriated) radius *= bell_flare(m_body->length() - s);
-  if (hosted(0)) radius *= 1 + 0.5 * std::exp(-s / (1.3 * r.front()));
-  if (hosted(m_body->nodes() - 1)) radius *= 1 + 0.5 * std::exp(-(m_body->length() - s) / (1.3 * r.back()));
+  if (hosted(0)) radius *= 1 + kRootFlare * std::exp(-s / (0.9 * r.front()));
+  if (hosted(m_body->nodes() - 1)) radius *= 1 + kRootFlare * std::exp(-(m_body->length() - s) / (0.9 * r.back()));
   return radius;
 }
 
@@ -115,29 +122,127 @@ double TubeDrawing::outline(double s, double angle) const {
 
 bool TubeDrawing::hosted(int node) const {
   const sim::StrandEndModel& end = node == 0 ? m_strand->start : m_strand->end;
-  return end.kind != sim::StrandEndModel::free;
+  return end.kind == sim::StrandEndModel::hosted;
+}
+
+TubeRoot TubeDrawing::root_at(const StrandCurve& rest, bool at_start) const {
+  const sim::StrandEndModel& end = at_start ? m_strand->start : m_strand->end;
+  if (end.kind == sim::StrandEndModel::free) return {};
+  const CurveFrame f = rest.at(0, at_start ? 0 : m_body->length());
+  const double radius = at_start ? m_strand->outer.front() : m_strand->outer.back();
+  double nearest = end.kind == sim::StrandEndModel::hosted ? 1 : kRootReach;
+  Vec3d at{}, normal{};
+  const Vec3d onward = at_start ? -f.tangent : f.tangent;
+  const auto search = [&](const tissue::Skin& skin) {
+    for (std::size_t i = 0; i < skin.rest.size(); ++i) {
+      const Vec3d way = vec_cast<double>(skin.rest[i]) - f.point;
+      const double d = length(way);
+      if (d >= nearest || (end.kind == sim::StrandEndModel::fixed && dot(way, onward) < 0.3 * d)) continue;
+      nearest = d;
+      at = vec_cast<double>(skin.rest[i]);
+      normal = vec_cast<double>(skin.rest_normal[i]);
+    }
+  };
+  TubeRoot root;
+  if (end.kind == sim::StrandEndModel::hosted) {
+    search(m_model->solids[std::size_t(end.solid)].fine);
+    const double above = dot(f.point - at, normal);
+    root.sink = std::max(0.0, kSink * radius + above);
+    at = f.point - above * normal;
+  } else {
+    root.in_space = true;
+    for (const sim::WallModel& wall : m_model->walls) search(wall.skin);
+  }
+  if (dot(normal, normal) < 0.5) {  // no wall ahead: on into the dark
+    at = f.point + kRootReach * onward;
+    normal = -onward;
+  }
+  root.there = true;
+  root.target = at - (1.5 * radius) * normal;
+  root.direction = -normal;
+  root.length = length(root.target - f.point);
+  if (root.in_space) return root;
+  const auto local = [&f](Vec3d v) { return Vec3d{dot(v, f.tangent), dot(v, f.normal), dot(v, f.binormal)}; };
+  root.target = local(root.target - f.point);
+  root.direction = local(root.direction);
+  return root;
+}
+
+/// From the end inwards; for a start in reversed order, so that rows always follow the strand.
+void TubeDrawing::add_root(int piece, bool at_start) {
+  const StrandPiece& p = m_layout.pieces[std::size_t(piece)];
+  const TubeRoot& root = at_start ? m_start_root : m_end_root;
+  const double s = at_start ? p.from : p.to, r = radius_at(s), flare = root.in_space ? 1.1 : 0.3;
+  const int steps = std::max(3, int(root.length / 0.0015));
+  std::vector<TubeRow> rows;
+  for (int i = 1; i <= steps; ++i) {
+    const double t = double(i) / steps;
+    rows.push_back({piece, s, 0, r * (1 + flare * t * t), 0, t, false, {to_byte(1 - 0.35 * t), 0, 0, 0}});
+  }
+  rows.push_back({piece, s, 0, 0, 0, 1, false, {120, 0, 0, 0}});
+  if (at_start) std::reverse(rows.begin(), rows.end());
+  m_rows.insert(m_rows.end(), rows.begin(), rows.end());
+}
+
+/// Near an organ the tube lies half in its surface, so that it grows out of it instead of standing on it.
+CurveFrame TubeDrawing::sunk(const TubeRow& row, CurveFrame f, const StrandCurve& curve) const {
+  for (const bool at_start : {true, false}) {
+    const TubeRoot& root = at_start ? m_start_root : m_end_root;
+    if (!root.there || root.in_space) continue;
+    const double end = at_start ? 0 : m_body->length(), far = std::fabs(row.s - end);
+    const int piece = at_start ? 0 : int(m_layout.pieces.size()) - 1;
+    if (row.piece != piece || far > 4 * root.sink) continue;
+    const CurveFrame e = curve.at(piece, end);
+    const Vec3d in = root.direction.x * e.tangent + root.direction.y * e.normal + root.direction.z * e.binormal;
+    f.point += (root.sink * smooth(4 * root.sink, 0, far)) * in;
+  }
+  return f;
+}
+
+/// The curve's frame, or beyond an end that of the way to the root's target.
+CurveFrame TubeDrawing::frame_of(const TubeRow& row, const StrandCurve& curve) const {
+  CurveFrame f = curve.at(row.piece, row.s);
+  if (row.out <= 0) return sunk(row, f, curve);
+  const bool at_start = row.piece == 0 && row.s == curve.pieces().front().from;
+  const TubeRoot& root = at_start ? m_start_root : m_end_root;
+  const double sign = at_start ? -1 : 1;
+  const auto world = [&f](Vec3d v) { return v.x * f.tangent + v.y * f.normal + v.z * f.binormal; };
+  if (!root.in_space) f.point += root.sink * world(root.direction);
+  const Vec3d a = f.point, b = root.in_space ? root.target : a + world(root.target);
+  const Vec3d da = (sign * root.length) * f.tangent,
+              db = root.length * (root.in_space ? root.direction : world(root.direction));
+  const double t = row.out, u = 1 - t;
+  f.point = (u * u * (1 + 2 * t)) * a + (t * t * (3 - 2 * t)) * b + (u * u * t) * da - (t * t * u) * db;
+  const Vec3d along = (6 * t * u) * (b - a) + (u * (1 - 3 * t)) * da + (t * (3 * t - 2)) * db;
+  f.tangent = normalised(sign * along, f.tangent);
+  f.normal = normalised(f.normal - dot(f.normal, f.tangent) * f.tangent, any_perpendicular(f.tangent));
+  f.binormal = cross(f.tangent, f.normal);
+  return f;
 }
 
 Paint TubeDrawing::paint_at(const Layout& layout, double s, double angle, Paint own) const {
   Paint p = own;
   for (const Clip& clip : layout.clips) {
     const double d = std::fabs(s - clip.s);
-    const double pale = 0.42 * clip.cover * smooth(kBlanched, 0.0008, d);
+    const double pale = 0.3 * clip.cover * smooth(kBlanched, 0.0008, d);
     p.burn = std::max(p.burn, to_byte(pale));
   }
   for (const StrandPiece& piece : layout.pieces) {
+    const double stain = kBloodied * (1 + 0.5 * std::sin(angle + 1) + 0.3 * std::sin(3 * angle));
     if (piece.cut_start && s >= piece.from)
-      p.blood = std::max(p.blood, to_byte(0.45 * smooth(kBloodied, 0, s - piece.from)));
-    if (piece.cut_end && s <= piece.to) p.blood = std::max(p.blood, to_byte(0.45 * smooth(kBloodied, 0, piece.to - s)));
+      p.blood = std::max(p.blood, to_byte(0.3 * smooth(stain, 0, s - piece.from)));
+    if (piece.cut_end && s <= piece.to) p.blood = std::max(p.blood, to_byte(0.3 * smooth(stain, 0, piece.to - s)));
   }
   for (const Cut& nick : layout.nicks) {
     const double round = 0.5 + 0.5 * std::cos(angle);
     if (round < nick.fraction + 0.1)
       p.blood = std::max(p.blood, to_byte(smooth(0.0012, 0.0003, std::fabs(s - nick.s))));
   }
+  if (hosted(0) && !m_strand->fimbriated)  // goes over into its organ's colour
+    p.tint = std::max(p.tint, to_byte(0.85 * smooth(4 * m_strand->outer.front(), 0.3 * m_strand->outer.front(), s)));
   if (m_strand->fimbriated) {
     const double before = m_body->length() - s;
-    p.tint = std::max(p.tint, to_byte(0.9 * smooth(1.3 * kBellLength, 0.1 * kBellLength, before)));
+    p.tint = std::max(p.tint, to_byte(0.85 * smooth(0.8 * kBellLength, 0.0, before)));
   }
   return p;
 }
@@ -163,7 +268,7 @@ void TubeDrawing::add_raw_face(int piece, bool at_start) {
   const Paint raw{235, 120, 0, 0}, dark{30, 255, 0, 0};
   std::vector<TubeRow> rows;
   const auto row = [&](double along, double radius, Paint paint) {
-    rows.push_back({piece, s, sign * along, radius, 0, false, paint});
+    rows.push_back({piece, s, sign * along, radius, 0, 0, false, paint});
   };
   row(0, r, raw);
   row(0.10 * r, 0.9 * r, raw);
@@ -180,14 +285,10 @@ void TubeDrawing::add_start(int piece) {
   const StrandPiece& p = m_layout.pieces[std::size_t(piece)];
   if (p.cut_start) return add_raw_face(piece, true);
   const double r = radius_at(p.from);
-  if (hosted(0)) {  // goes on inside the organ
-    m_rows.push_back({piece, p.from, -1.5 * r, 0, 0, false, {120, 0, 0, 0}});
-    m_rows.push_back({piece, p.from, -1.2 * r, 0.8 * r, 0, false, {160, 0, 0, 0}});
-    return;
-  }
-  m_rows.push_back({piece, p.from, -r, 0, 0, false, {}});
+  if (m_start_root.there) return add_root(piece, true);
+  m_rows.push_back({piece, p.from, -r, 0, 0, 0, false, {}});
   for (const double a : {0.3, 0.7, 1.1})
-    m_rows.push_back({piece, p.from, -r * std::cos(a), r * std::sin(a), 0, false, {}});
+    m_rows.push_back({piece, p.from, -r * std::cos(a), r * std::sin(a), 0, 0, false, {}});
 }
 
 void TubeDrawing::add_end(int piece) {
@@ -197,15 +298,14 @@ void TubeDrawing::add_end(int piece) {
   if (m_strand->fimbriated) {
     for (const FunnelRow& f : funnel()) {
       const Paint paint{to_byte(f.openness), 0, 0, 235};
-      m_rows.push_back({piece, p.to, f.along * r, f.radius * r, 0.06, false, paint});
+      m_rows.push_back({piece, p.to, f.along * r, f.radius * r, 0.06, 0, false, paint});
     }
-  } else if (hosted(m_body->nodes() - 1)) {
-    m_rows.push_back({piece, p.to, 1.2 * r, 0.8 * r, 0, false, {160, 0, 0, 0}});
-    m_rows.push_back({piece, p.to, 1.5 * r, 0, 0, false, {120, 0, 0, 0}});
+  } else if (m_end_root.there) {
+    add_root(piece, false);
   } else {
     for (const double a : {1.1, 0.7, 0.3})
-      m_rows.push_back({piece, p.to, r * std::cos(a), r * std::sin(a), 0, false, {}});
-    m_rows.push_back({piece, p.to, r, 0, 0, false, {}});
+      m_rows.push_back({piece, p.to, r * std::cos(a), r * std::sin(a), 0, 0, false, {}});
+    m_rows.push_back({piece, p.to, r, 0, 0, 0, false, {}});
   }
 }
 
@@ -215,7 +315,7 @@ void TubeDrawing::add_piece(const Layout& layout, int piece) {
   bool first = true;
   for (const double s : stations(layout, p)) {
     const double scallop = m_strand->fimbriated ? 0.06 * smooth(kBellLength, 0, m_body->length() - s) : 0;
-    m_rows.push_back({piece, s, 0, radius_at(s), scallop, first && p.cut_start, {}});
+    m_rows.push_back({piece, s, 0, radius_at(s), scallop, 0, first && p.cut_start, {}});
     first = false;
   }
   add_end(piece);
@@ -258,7 +358,7 @@ void TubeDrawing::paint() {
   };
   std::size_t v = 0;
   for (const TubeRow& row : m_rows) {
-    const bool on_tube = row.along == 0 && row.paint.blood == 0 && !m_baked.empty();
+    const bool on_tube = row.along == 0 && row.out == 0 && row.paint.blood == 0 && !m_baked.empty();
     const std::size_t baked = on_tube ? nearest_first(row.s) : 0;
     for (int k = 0; k < (row.radius == 0 ? 1 : m_sides); ++k) {
       Paint p = paint_at(m_layout, row.s, 2 * kPi * k / m_sides, row.paint);
@@ -276,7 +376,7 @@ std::size_t TubeDrawing::nearest_first(double s) const {
   std::size_t best = 0, first = 0;
   double gap = 1e9;
   for (const TubeRow& row : m_baked_rows) {
-    if (row.radius > 0 && row.along == 0 && std::fabs(row.s - s) < gap) {
+    if (row.radius > 0 && row.along == 0 && row.out == 0 && std::fabs(row.s - s) < gap) {
       gap = std::fabs(row.s - s);
       best = first;
     }
@@ -289,7 +389,7 @@ void TubeDrawing::place(const StrandCurve& curve, std::vector<Vec3f>& positions)
   positions.resize(m_buffer.paint.size());
   std::size_t v = 0;
   for (const TubeRow& row : m_rows) {
-    const CurveFrame f = curve.at(row.piece, row.s);
+    const CurveFrame f = frame_of(row, curve);
     const Vec3d centre = f.point + row.along * f.tangent;
     if (row.radius == 0) {
       positions[v++] = vec_cast<float>(centre);
@@ -297,7 +397,7 @@ void TubeDrawing::place(const StrandCurve& curve, std::vector<Vec3f>& positions)
     }
     for (int k = 0; k < m_sides; ++k) {
       const double a = 2 * kPi * k / m_sides;
-      const double lobes = row.scallop * std::cos(kRimLobes / 2 * a + m_index);
+      const double lobes = row.scallop * std::cos(8 * a + m_index);
       const double r = row.radius * (outline(row.s, a) + lobes);
       const Vec3d p =
           centre + r * (std::cos(a) * f.normal + std::sin(a) * f.binormal) + (0.3 * lobes * row.radius) * f.tangent;

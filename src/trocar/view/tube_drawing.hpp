@@ -19,8 +19,18 @@ struct TubeRow {
   double along = 0;  ///< moved along the tangent from there [m]
   double radius = 0;
   double scallop = 0;   ///< of the rim: share of the radius
+  double out = 0;       ///< beyond the end, share of the way to the root's target
   bool crease = false;  ///< a hard edge: not joined to the row before, which lies in the same place
   Paint paint;
+};
+
+/// Where a strand's end goes on below the surface of what holds it. An organ's moves with the strand's end frame, a
+/// wall's stays in space.
+struct TubeRoot {
+  bool there = false, in_space = false;
+  Vec3d target, direction;  ///< [m], unit; (tangent, normal, binormal) of the end frame, or world
+  double length = 0;        ///< of the way [m]
+  double sink = 0;          ///< how deep in the organ's surface the end already lies [m]
 };
 
 class TubeDrawing {
@@ -60,12 +70,17 @@ class TubeDrawing {
   double radius_at(double s) const;
   double outline(double s, double angle) const;
   bool hosted(int node) const;
+  TubeRoot root_at(const StrandCurve& rest, bool at_start) const;
+  void add_root(int piece, bool at_start);
+  CurveFrame sunk(const TubeRow& row, CurveFrame f, const StrandCurve& curve) const;
+  CurveFrame frame_of(const TubeRow& row, const StrandCurve& curve) const;
   std::vector<double> stations(const Layout& layout, const StrandPiece& piece) const;
 
   const sim::Model* m_model;
   const sim::StrandModel* m_strand;
   const interactions::StrandBody* m_body;
   int m_index, m_sides;
+  TubeRoot m_start_root, m_end_root;
   Layout m_layout;
   std::vector<TubeRow> m_rows;
   MeshBuffer m_fimbriae;  ///< in the end's frame

@@ -1,0 +1,35 @@
+// Unevenness of a drawn organ that its mechanics do not have: soft waves of its surface, follicles of an ovary. Heights
+// along the normal, made once at rest, so that they ride on the tissue.
+#pragma once
+
+#include <vector>
+
+#include <trocar/tissue/skin.hpp>
+#include <trocar/view/mesh_buffer.hpp>
+
+namespace trocar::view {
+
+struct Relief {
+  double broad = 0, broad_size = 0.02;      ///< height and wavelength of the larger waves [m]
+  double fine = 0, fine_size = 0.006;       ///< of the smaller ones
+  int follicles = 0;                        ///< blisters at places that a fixed pattern chooses
+  double follicle_radius = 0.003;           ///< the largest [m]
+  double haustra = 0, haustra_size = 0.03;  ///< height and distance of a gut's bulges along its length [m]
+
+  /// Places where a strand grows out: the surface rises to meet it.
+  struct Root {
+    Vec3d at;
+    double radius = 0;  ///< of the strand [m]
+  };
+  std::vector<Root> roots = {};
+
+  bool any() const { return broad > 0 || fine > 0 || follicles > 0 || haustra > 0 || !roots.empty(); }
+};
+
+/// Height over each vertex [m]. Follicles and bulges also paint themselves (Paint::tint).
+std::vector<float> heights(const Relief& relief, const tissue::Skin& skin, std::vector<Paint>& paint);
+
+/// A smooth number in about -1..1 that varies over `size` [m].
+double waves(Vec3d p, double size);
+
+}  // namespace trocar::view
