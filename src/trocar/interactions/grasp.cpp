@@ -106,7 +106,10 @@ void update_grip(const ToolModel& model, const ToolShape& shape, const TissueVie
     if (wanted > stop + 0.06) {
       tool.holds = 0;
     } else {
-      for (int i = 0; i < tool.holds; ++i) tool.hold[i].local[0] *= kCentring;
+      for (int i = 0; i < tool.holds; ++i) {
+        float& off = tool.hold[i].local[0];
+        off = std::fabs(off) > 1e-7f ? off * kCentring : 0.0f;  // ends at 0, not among the denormal numbers
+      }
       tool.aperture = std::max(wanted, stop);
       tool.pinch = model.pinch_max * std::clamp((stop - wanted) / std::max(stop, 0.05), 0.0, 1.0);
       return;
