@@ -86,7 +86,7 @@ TEST_F(GlBackend, EveryShaderVariantCompilesAndLinks) {
     for (const char* extra : {"", "EFFECTS"}) EXPECT_NO_THROW(programs.get(shape, "develop.frag", extra));
     for (const char* extra : {"", "FRINGE"}) EXPECT_NO_THROW(programs.get(shape, "lens.frag", extra));
   }
-  EXPECT_NO_THROW(programs.get("full.vert", "shrink.frag"));
+  EXPECT_NO_THROW(programs.get("full.vert", "shrink.frag", "SPREAD=1.0"));
   EXPECT_NO_THROW(programs.get("full.vert", "meter.frag"));
   EXPECT_NO_THROW(programs.get("mask.vert", "mask.frag"));
   EXPECT_NO_THROW(programs.get("puff.vert", "puff.frag"));

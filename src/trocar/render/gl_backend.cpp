@@ -327,10 +327,9 @@ class GlBackend final : public CheckedBackend {
     set_blending(false);
   }
 
-  void shrink(const GlPicture& from, GlPicture& to) {
-    to.resize((from.width + 3) / 4, (from.height + 3) / 4, GL_RGBA16F, false, GL_LINEAR);
+  void resample(const GlPicture& from, GlPicture& to, const char* spread) {
     to.bind();
-    GlProgram& program = m_programs.get("full.vert", "shrink.frag");
+    GlProgram& program = m_programs.get("full.vert", "shrink.frag", spread);
     program.use();
     program.set("u_picture", kUnitPicture);
     program.set("u_texel", 1.0f / float(from.width), 1.0f / float(from.height));
@@ -338,12 +337,20 @@ class GlBackend final : public CheckedBackend {
     draw_full();
   }
 
+  /// A quarter as wide and high, then smoothed, so that enlarging it shows no steps.
+  void shrink(const GlPicture& from, GlPicture& rough, GlPicture& smooth) {
+    for (GlPicture* picture : {&rough, &smooth})
+      picture->resize((from.width + 3) / 4, (from.height + 3) / 4, GL_RGBA16F, false, GL_LINEAR);
+    resample(from, rough, "SPREAD=1.0");
+    resample(rough, smooth, "SPREAD=0.75");
+  }
+
   void shrink_pass() {
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
     bind_texture(kUnitSmall, GL_TEXTURE_2D, 0);
-    shrink(m_scene, m_small);
-    shrink(m_small, m_smaller);
+    shrink(m_scene, m_rough[0], m_small);
+    shrink(m_small, m_rough[1], m_smaller);
   }
 
   /// Exposure lives in two pictures of one pixel an eye; this reads one and writes the other.
@@ -488,7 +495,7 @@ class GlBackend final : public CheckedBackend {
   GlTexture m_noise, m_cells, m_vessels;
   GlVertexArray m_no_vertices;
   GlPicture m_scene, m_small, m_smaller, m_developed, m_own;
-  std::array<GlPicture, 2> m_exposure;
+  std::array<GlPicture, 2> m_rough, m_exposure;
   std::array<Memory, kEyes> m_memory;
   Mat4 m_view, m_projection;
   std::array<float, 8 * 4> m_frame_rows{};

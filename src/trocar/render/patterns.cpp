@@ -140,14 +140,16 @@ void grow(Canvas& canvas, const Habit& habit, core::Random& random) {
 
 Pattern noise_pattern() {
   core::Random random(0x7e0cA1);
-  const ValueNoise coarse(kNoiseFeatures, random), fine(2 * kNoiseFeatures, random);
-  std::vector<float> value(std::size_t(kVolume) * kVolume * kVolume);
+  const ValueNoise coarse(kNoiseFeatures, random), fine(2 * kNoiseFeatures, random), grit(4 * kNoiseFeatures, random);
+  std::vector<float> value(std::size_t(kVolume) * kVolume * kVolume), rough = value;
   const float cells = float(kNoiseFeatures) / kVolume;
   for (int k = 0; k < kVolume; ++k)
     for (int j = 0; j < kVolume; ++j)
       for (int i = 0; i < kVolume; ++i) {
         const Vec3f p = cells * Vec3f{float(i), float(j), float(k)};
         value[voxel(i, j, k)] = 0.62f * coarse.at(p) + 0.38f * fine.at(2.0f * p);
+        // Slopes have a third octave: it breaks highlights into flecks, which smooth noise would bend into rings.
+        rough[voxel(i, j, k)] = value[voxel(i, j, k)] + 0.16f * grit.at(4.0f * p);
       }
   Pattern pattern{kVolume, 4, std::vector<std::uint8_t>(4 * value.size())};
   constexpr float kSlopeScale = 3.0f;
@@ -156,7 +158,7 @@ Pattern noise_pattern() {
       for (int i = 0; i < kVolume; ++i) {
         const auto slope = [&](int di, int dj, int dk) {
           return signed_byte(kSlopeScale *
-                             (value[voxel(i + di, j + dj, k + dk)] - value[voxel(i - di, j - dj, k - dk)]));
+                             (rough[voxel(i + di, j + dj, k + dk)] - rough[voxel(i - di, j - dj, k - dk)]));
         };
         std::uint8_t* texel = &pattern.texels[4 * voxel(i, j, k)];
         texel[0] = slope(1, 0, 0);

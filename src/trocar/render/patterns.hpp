@@ -18,7 +18,8 @@ inline constexpr int kNoiseFeatures = 8;     ///< wavelengths per tile of noise_
 inline constexpr int kCellFeatures = 8;      ///< cells per tile edge of cell_pattern
 inline constexpr int kVesselTileWidth = 85;  ///< tile edge / width of the largest vessel
 
-/// 64^3, RGBA: gradient (x y z, 128 = none) and value of two octaves of value noise that tile.
+/// 64^3, RGBA: gradient (x y z, 128 = none) of three octaves and value of two octaves of value noise that
+/// tile.
 Pattern noise_pattern();
 /// 64^3, RGBA: vector from the nearest cell centre (128 = none, 255 = one cell edge) and how near the next centre's
 /// territory is (0 on the seam between two cells).   [Worley 96]
