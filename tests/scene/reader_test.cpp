@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <trocar/core/random.hpp>
 #include <trocar/scene/reader.hpp>
 
 #include "files.hpp"
@@ -386,6 +387,33 @@ TEST(Reader, ScenesAndInstrumentsAreListedByName) {
   ASSERT_EQ(instruments.size(), 1u);
   EXPECT_EQ(instruments[0].title, "P");
   EXPECT_TRUE(list_scenes(folder.path() / "nowhere").empty());
+}
+
+TEST(Reader, SpoiledFilesNeverCrashAndFaultsAlwaysHaveAPlace) {
+  const Folder folder;
+  const std::string good = text_of(TROCAR_SOURCE_DIR "/scenes/organs/adnexa_left.json");
+  ASSERT_FALSE(good.empty());
+  core::Random random(11);
+  int faulty = 0;
+  for (int i = 0; i < 1500; ++i) {
+    std::string text = good;
+    for (int slips = 1 + int(random.next() % 4); slips > 0; --slips) {
+      const std::size_t at = random.next() % text.size(), other = random.next() % good.size();
+      const std::size_t n = 1 + random.next() % 12;
+      if (random.next() % 2 == 0)
+        text.erase(at, n);
+      else
+        text.replace(at, n, good, other, n);  // a piece of the file where it does not belong
+    }
+    const std::vector<core::Fault> faults = check_file(folder.write("a.json", text));
+    faulty += faults.empty() ? 0 : 1;
+    for (const core::Fault& f : faults) {
+      ASSERT_GT(f.at.line, 0) << f.message;
+      ASSERT_GT(f.at.column, 0) << f.message;
+      ASSERT_EQ(f.message.rfind("expected ", 0), 0u) << f.message;
+    }
+  }
+  EXPECT_GT(faulty, 1200);
 }
 
 }  // namespace
