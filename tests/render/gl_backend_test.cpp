@@ -84,7 +84,7 @@ TEST_F(GlBackend, EveryShaderVariantCompilesAndLinks) {
   for (const char* extra : {"", "LIT"}) EXPECT_NO_THROW(programs.get("flat.vert", "flat.frag", extra));
   for (const char* shape : {"full.vert", "disc.vert"}) {
     for (const char* extra : {"", "EFFECTS"}) EXPECT_NO_THROW(programs.get(shape, "develop.frag", extra));
-    for (const char* extra : {"", "FRINGE"}) EXPECT_NO_THROW(programs.get(shape, "lens.frag", extra));
+    for (const char* extra : {"", "FRINGE", "FRINGE,SMOOTH"}) EXPECT_NO_THROW(programs.get(shape, "lens.frag", extra));
   }
   EXPECT_NO_THROW(programs.get("full.vert", "shrink.frag", "SPREAD=1.0"));
   EXPECT_NO_THROW(programs.get("full.vert", "meter.frag"));

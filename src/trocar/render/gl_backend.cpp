@@ -413,12 +413,16 @@ class GlBackend final : public CheckedBackend {
   void lens_pass(const Frame& frame, const Target& target, const Layout& layout) {
     bind_target(target);
     const EndoscopeLook& look = frame.look;
-    GlProgram& program = m_programs.get(view_shape(look), "lens.frag", look.fringe_px > 0 ? "FRINGE" : "");
+    std::string defines;
+    if (look.fringe_px > 0) defines += "FRINGE,";
+    if (frame.quality.detail > 0) defines += "SMOOTH,";
+    GlProgram& program = m_programs.get(view_shape(look), "lens.frag", defines);
     program.use();
     program.set("u_picture", kUnitPicture);
     program.set("u_place", layout.centre_x, layout.centre_y, layout.radius, look.mask ? 1.0f : 0.0f);
     program.set("u_box", float(layout.box_w), float(layout.box_h), 1.0f / float(layout.box_w),
                 1.0f / float(layout.box_h));
+    program.set("u_texel", 1.0f / float(layout.scene_w), 1.0f / float(layout.scene_h));
     program.set("u_lens", look.barrel, look.fringe_px * float(target.height) / 600.0f,
                 look.sharpen * frame.quality.render_scale, std::max(look.mask_soft_px, 0.5f));
     program.set("u_sensor", look.noise, look.notch, std::sin(look.notch_angle), std::cos(look.notch_angle));

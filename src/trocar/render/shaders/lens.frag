@@ -1,10 +1,11 @@
-// What lens and camera do to the developed picture. Variant: FRINGE.
+// What lens and camera do to the developed picture. Variants: FRINGE, SMOOTH.
 precision highp float;
 precision highp int;
 uniform sampler2D u_picture;
 uniform vec4 u_place;   // centre of the target [px], radius of the view [px], mask on
 uniform vec4 u_box;     // size of the scene [px of the target], 1 / the same
 uniform vec4 u_lens;    // barrel, fringe [px], sharpening, soft edge [px]
+uniform vec2 u_texel;   // of the picture
 uniform vec4 u_sensor;  // noise, notch, sine and cosine of its angle
 uniform uint u_seed;
 out vec4 o_colour;
@@ -39,11 +40,24 @@ void main() {
   picture.b = texture(u_picture, uv - shift).b;
 #endif
 
-  // Video sharpening: overshoot against the ring around.
-  vec2 px = u_box.zw * 1.1;
-  vec3 around = texture(u_picture, uv + vec2(px.x, px.y)).rgb + texture(u_picture, uv + vec2(-px.x, px.y)).rgb +
-                texture(u_picture, uv + vec2(px.x, -px.y)).rgb + texture(u_picture, uv - vec2(px.x, px.y)).rgb;
-  float step_up = dot(picture - 0.25 * around, vec3(0.3, 0.59, 0.11));
+  // The four diagonal neighbours serve twice: they say where outlines run, and they are the ring to sharpen against.
+  vec2 px = u_texel * 1.05;
+  vec3 a = texture(u_picture, uv + vec2(-px.x, px.y)).rgb, b = texture(u_picture, uv + px).rgb;
+  vec3 c = texture(u_picture, uv - px).rgb, d = texture(u_picture, uv + vec2(px.x, -px.y)).rgb;
+  const vec3 kLuma = vec3(0.3, 0.59, 0.11);
+  vec4 ring = vec4(dot(a, kLuma), dot(b, kLuma), dot(c, kLuma), dot(d, kLuma));
+  float middle = dot(picture, kLuma);
+  float step_up = middle - 0.25 * (ring.x + ring.y + ring.z + ring.w);
+#ifdef SMOOTH
+  // Steps along an outline are blended along it [after Lottes 09].
+  vec2 along_edge = vec2((ring.z + ring.w) - (ring.x + ring.y), (ring.x + ring.z) - (ring.y + ring.w));
+  float strength = smoothstep(0.10, 0.25, max(abs(along_edge.x), abs(along_edge.y)));
+  vec2 walk = clamp(along_edge / (min(abs(along_edge.x), abs(along_edge.y)) + 0.03), -3.0, 3.0) * u_texel;
+  vec3 blended = 0.5 * (texture(u_picture, uv + walk * 0.33).rgb + texture(u_picture, uv - walk * 0.33).rgb);
+  picture = mix(picture, blended, 0.85 * strength);
+  step_up *= 1.0 - 0.7 * strength;
+#endif
+  // Video sharpening: overshoot.
   picture += u_lens.z * clamp(step_up, -0.12, 0.12);
 
   uint seed = scrambled(uint(gl_FragCoord.x) + 8192u * uint(gl_FragCoord.y) + u_seed);
