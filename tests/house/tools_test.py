@@ -150,8 +150,22 @@ def EmptyTestExecutableIsFound():
                "a module without tests passed")
 
 
+def LinkCheckFindsEachFault():
+    with tempfile.TemporaryDirectory() as folder:
+        root = Path(folder)
+        expect(tool("check_links.py", root)[0] == 1, "a folder without pages passed")
+        put(root, "docs/a.md", "[up](../README.md#top) [out](https://example.org/x) `tests/<folder>/x`")
+        put(root, "README.md", "[a](docs/a.md) `docs/a.md` and `docs/a` and `docs/`")
+        code, text = tool("check_links.py", root)
+        expect(code == 0, f"good links were refused: {text}")
+        for bad in ("[b](docs/b.md)", "![b](docs/images/b.png)", "`tools/b.py`"):
+            put(root, "README.md", f"one\n{bad}\n")
+            code, text = tool("check_links.py", root)
+            expect(code == 1 and text.startswith("README.md:2: "), f"{bad} passed: {text}")
+
+
 CASES = [LayerCheckFindsEachFault, EquationCheckFindsEachFault, ObjectCodeCheckFindsEachFault,
-         EmptyTestExecutableIsFound]
+         EmptyTestExecutableIsFound, LinkCheckFindsEachFault]
 
 if __name__ == "__main__":
     wanted = sys.argv[1:] or [c.__name__ for c in CASES]
