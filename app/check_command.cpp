@@ -112,7 +112,7 @@ Json describe_organ(const fs::path& path, const scene::JsonValue& root) {
 Json check_one(const fs::path& path) {
   std::vector<core::Fault> faults;
   const scene::JsonDocument document = scene::load_json(path, faults);
-  if (!faults.empty()) throw core::BadInput(std::move(faults));
+  if (!faults.empty()) throw core::BadInput(scene::check_file(path));  // with what else is wrong beside the JSON
   Json out{{"file", path.string()}};
   const auto has = [&](const char* key) { return document.root.find(key) != nullptr; };
   if (is_exercise(path)) {
