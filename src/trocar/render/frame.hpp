@@ -93,7 +93,8 @@ struct Puff {
 /// What the picture may cost; see governor.hpp.
 struct Quality {
   float render_scale = 1;  ///< of the scene pass, 0.25..1 (the lens pass is always at full size)
-  int detail = 2;          ///< 2 everything, 1 no second noise scale and no bloom, 0 no vessels or film ripples either
+  int detail = 2;  ///< 2 everything; 1 no fine flecks, bloom, fringe, focus or contact shade; 0 no vessels or film
+                   ///< ripples either
 
   friend bool operator==(Quality a, Quality b) { return a.render_scale == b.render_scale && a.detail == b.detail; }
 };

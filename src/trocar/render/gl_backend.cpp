@@ -401,7 +401,7 @@ class GlBackend final : public CheckedBackend {
     const float off = std::max(1e-6f, std::sqrt(lamp.x * lamp.x + lamp.y * lamp.y));
     const float aspect = float(layout.box_h) / float(layout.box_w);
     const Vec3f to_lamp = off > 1e-5f ? Vec3f{lamp.x / off * aspect, lamp.y / off, 0} : Vec3f{};
-    program.set("u_shadow", 0.008f * to_lamp.x, 0.008f * to_lamp.y, 0.02f * to_lamp.x, 0.02f * to_lamp.y);
+    program.set("u_shadow", 0.02f * to_lamp.x, 0.02f * to_lamp.y);
     program.set("u_white", look.white_balance);
     bind_texture(kUnitPicture, GL_TEXTURE_2D, m_scene.colour.id());
     bind_texture(kUnitSmall, GL_TEXTURE_2D, m_small.colour.id());
@@ -414,7 +414,7 @@ class GlBackend final : public CheckedBackend {
     bind_target(target);
     const EndoscopeLook& look = frame.look;
     std::string defines;
-    if (look.fringe_px > 0) defines += "FRINGE,";
+    if (look.fringe_px > 0 && frame.quality.detail > 1) defines += "FRINGE,";
     if (frame.quality.detail > 0) defines += "SMOOTH,";
     GlProgram& program = m_programs.get(view_shape(look), "lens.frag", defines);
     program.use();

@@ -9,7 +9,7 @@ uniform sampler2D u_exposure;  // stops, one column an eye
 uniform vec4 u_camera;         // exposure on top [stops], memory column or -1, bloom, saturation
 uniform vec4 u_place;          // radius of the view in picture sizes (x, y), vignette
 uniform vec4 u_depth;          // nearest sharp distance [m], defocus, contact, picture height at 1 m [m]
-uniform vec4 u_shadow;         // how far towards the lamp to look, near and wide
+uniform vec2 u_shadow;         // how far towards the lamp to look
 uniform vec3 u_white;
 in vec2 v_uv;
 out vec4 o_colour;
@@ -25,13 +25,11 @@ void main() {
   vec3 colour = scene.rgb;
 #ifdef EFFECTS
   vec4 soft = texture(u_small, v_uv);
-  vec4 softer = texture(u_smaller, v_uv);
+  vec4 softer = texture(u_smaller, v_uv + u_shadow);
   float near = min(scene.a, soft.a);
   colour = mix(colour, soft.rgb, u_depth.y * clamp(1.6 * (u_depth.x / max(near, 0.002) - 1.0), 0.0, 1.0));
   // Depth darkening [Luft 06]: what lies just behind the mean depth towards the lamp sees less light: a soft shadow to
   // the side that the ring light is off the lens; red stays longest.
-  soft.a = texture(u_small, v_uv + u_shadow.xy).a;
-  softer.a = texture(u_smaller, v_uv + u_shadow.zw).a;
   float unit = scene.a * u_depth.w;  // height of the picture at this distance
   vec2 behind = (vec2(scene.a) - vec2(soft.a, softer.a)) / (unit * vec2(0.02, 0.05));
   behind = clamp(behind, 0.0, 1.0) * clamp(3.0 - 0.5 * behind, 0.0, 1.0);
