@@ -323,6 +323,22 @@ TEST(OrganDrawing, ShowsTheSkinAsTheNodesCarryIt) {
   EXPECT_EQ(backend->stats().vertices_uploaded, uploaded + solid.fine.rest.size());
 }
 
+TEST(OrganDrawing, ACutOpensTheSkinIntoAClosedWound) {
+  auto backend = render::make_null_backend();
+  SceneView view(pelvis(), *backend);
+  sim::State state = sim::initial_state(pelvis());
+  render::draw_frame(*backend, view.frame(state, {}), kTarget);
+  const std::uint64_t before = backend->stats().triangles;
+  for (std::size_t t = 40; t < 60; ++t) state.parted[0][t] = 1;
+  render::draw_frame(*backend, view.frame(state, {}), kTarget);
+  const std::uint64_t open = backend->stats().triangles - before;
+  EXPECT_GT(open, before);  // walls have come
+  for (tissue::NodeState& n : state.solids[0].nodes) n.x += 0.001f;
+  render::draw_frame(*backend, view.frame(state, {}), kTarget);
+  render::draw_frame(*backend, view.frame(sim::initial_state(pelvis()), {}), kTarget);
+  EXPECT_EQ(backend->stats().triangles, 2 * before + 2 * open);  // and go when the attempt starts again
+}
+
 TEST(InstrumentShapes, JawsMeetAtTheTipWhenClosedAndStandApartWhenOpen) {
   for (const interactions::ToolModel& tool : pelvis().tools) {
     kinematics::FulcrumPose pose;

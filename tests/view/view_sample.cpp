@@ -1,6 +1,7 @@
 // Draws a scene from a few places, for people to look at; built with the tests, run by hand:
 //   view_sample OUT_DIR [SHOT...]          (all shots without names)
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <string>
@@ -43,6 +44,7 @@ const Shot kShots[] = {
     {"applier", 0, false, {0.004, -0.105, -0.045}, {0.006, -0.137, -0.055}},
     {"clipped", 1, false, {0.034, -0.122, -0.072}, {0.038, -0.152, -0.094}},
     {"cut", 1, false, {0.038, -0.135, -0.075}, {0.040, -0.152, -0.094}},
+    {"bite", 1, false, {0.004, -0.122, -0.068}, {0.003, -0.151, -0.096}},
     {"outside", 0, true, {0.22, 0.12, 0.18}, {0, -0.14, -0.08}},
 };
 
@@ -66,6 +68,11 @@ void operate(const sim::Model& model, sim::State& state) {
   cut.s = 0.0231;
   cut.fraction = 1;
   tissue::cut_element(tube, place_at(body, cut.s).element);
+  const tissue::Skin& skin = model.solids[0].fine;  // and a bite out of the uterus
+  for (std::size_t t = 0; t < skin.triangles.size(); ++t) {
+    const Vec3d d = vec_cast<double>(skin.rest[std::size_t(skin.triangles[t][0])]) - Vec3d{0.004, -0.150, -0.094};
+    if (std::fabs(d.x) < 0.007 && std::fabs(d.y + 0.6 * d.x) < 0.0016 && d.z > -0.01) state.parted[0][t] = 1;
+  }
 }
 
 }  // namespace
@@ -94,7 +101,7 @@ int main(int argc, char** argv) {
     sim::State state = states[std::size_t(shot.state)];
     double update = 0, draw = 0;
     for (int i = 0; i < 12; ++i) {
-      state.tick += 100;
+      for (int k = 0; k < 4; ++k) sim::step(model, model.start, state, work);
       before = cpu_ms();
       render::Frame frame = view.frame(state, options);
       update = cpu_ms() - before;

@@ -72,7 +72,9 @@ void add_finger(MeshBuffer& b, const Finger& f, double radius) {
       const double ruffle = 0.0005 * c * c * std::sin(8 * u + (c > 0 ? 0.0 : 2.1) + 6.3 * varied(f.seed, 2));
       const double cupped = -0.45 * half * c * c;
       const Vec3d p = s.point + (half * c) * s.across + (thick * sn + ruffle + cupped) * s.flat;
-      b.add(vec_cast<float>(p), paint);
+      Paint edge = paint;  // thin edges are paler than the crest
+      edge.tint = std::uint8_t(paint.tint * (1 - 0.45 * c * c));
+      b.add(vec_cast<float>(p), edge);
     }
     if (i == 1)
       join_pole(b, row, kSides, row - 1, false);

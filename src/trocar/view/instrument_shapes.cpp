@@ -248,6 +248,6 @@ Placement placement_of(Joint joint, const interactions::ToolShape& shape) {
   return {Mat3f::from_columns(vec_cast<float>(x), vec_cast<float>(y), vec_cast<float>(z)), vec_cast<float>(origin)};
 }
 
-double clip_seat(const ToolModel&) { return 0; }
+double clip_seat(const ToolModel& tool) { return tool.jaw_length - tool.clip_length; }
 
 }  // namespace trocar::view

@@ -75,10 +75,10 @@ Material peritoneum() {
   Material m = with_vessels(tissue(srgb(188, 110, 102), srgb(200, 130, 110), srgb(170, 92, 90)), 1.0f, 0.06f);
   m.mottle_size = 0.03f;
   m.mottle = 0.5f;
-  m.wetness = 0.55f;
-  m.film_size = 0.0042f;
-  m.film_bump = 0.2f;
-  m.film_roughness = 0.16f;
+  m.wetness = 0.5f;
+  m.film_size = 0.005f;
+  m.film_bump = 0.16f;
+  m.film_roughness = 0.2f;
   m.two_sided = true;
   return m;
 }

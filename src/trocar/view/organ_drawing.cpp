@@ -1,7 +1,16 @@
+#include <algorithm>
+#include <map>
+
 #include <trocar/render/mesh_arrays.hpp>
 #include <trocar/view/organ_drawing.hpp>
 
 namespace trocar::view {
+namespace {
+
+constexpr float kWoundDepth = 0.003f;  // [m] of a bite's bed
+constexpr Paint kBed{140, 125, 0, 0}, kLip{190, 80, 0, 0};
+
+}  // namespace
 
 std::vector<std::uint32_t> flat_indices(const tissue::Skin& skin) {
   std::vector<std::uint32_t> indices;
@@ -23,6 +32,7 @@ OrganDrawing::OrganDrawing(const sim::SolidModel& solid, const Relief& relief, s
                                .rest = m_pose.position,
                                .paint = paint,
                                .indices = m_indices});
+  m_paint = std::move(paint);
 }
 
 void OrganDrawing::lift() {
@@ -41,12 +51,99 @@ bool OrganDrawing::moved(const tissue::NetworkState& state) {
   return !all;
 }
 
-void OrganDrawing::update(const tissue::NetworkState& state) {
-  if (!moved(state)) return;
+/// The mesh's new topology: cut triangles go down, walls close the gap, and the skin around is stained.
+void OrganDrawing::open_wounds(std::span<const std::uint8_t> parted) {
+  m_parted.assign(parted.begin(), parted.end());
+  m_wound.clear();
+  m_open = {};
+  m_open.rest = m_solid->fine.rest;
+  m_open.paint = m_paint;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;    // of cut triangles, as they run
+  std::vector<std::uint8_t> at_rim(m_solid->fine.rest.size(), 0);  // touches an uncut triangle
+  for (std::size_t t = 0; 3 * t < m_indices.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = m_indices[3 * t + k], b = m_indices[3 * t + (k + 1) % 3];
+      if (m_parted[t])
+        ++edges[{a, b}];
+      else
+        at_rim[a] = 1;
+    }
+  const auto copy = [&](std::uint32_t of, float depth, Paint paint) {
+    m_wound.push_back({of, depth});
+    m_open.rest.push_back(m_solid->fine.rest[of]);
+    m_open.paint.push_back(paint);
+    return std::uint32_t(m_open.rest.size() - 1);
+  };
+  std::map<std::uint32_t, std::uint32_t> bed;
+  const auto bed_of = [&](std::uint32_t v) {
+    const auto found = bed.find(v);
+    if (found != bed.end()) return found->second;
+    return bed[v] = copy(v, at_rim[v] ? 0.6f * kWoundDepth : kWoundDepth, kBed);
+  };
+  for (std::size_t t = 0; 3 * t < m_indices.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t v = m_indices[3 * t + k];
+      m_open.indices.push_back(m_parted[t] ? bed_of(v) : v);
+      if (m_parted[t]) m_open.paint[v].blood = std::max(m_open.paint[v].blood, std::uint8_t(70));
+    }
+  std::map<std::uint32_t, std::uint32_t> before, after;  // along the border
+  for (const auto& [edge, count] : edges) {
+    if (edges.count({edge.second, edge.first})) continue;  // both its triangles are cut
+    const auto [a, b] = edge;
+    after[a] = b;
+    before[b] = a;
+    const std::uint32_t low_a = bed_of(a), low_b = bed_of(b);
+    const std::uint32_t high_a = copy(a, 0, kLip), high_b = copy(b, 0, kLip);
+    m_open.quad(low_a, high_a, high_b, low_b);
+  }
+  m_rim.clear();
+  for (const auto& [at, next] : after)
+    if (before.count(at)) m_rim.push_back({at, before[at], next});
+}
+
+/// Positions of skin and wounds.
+void OrganDrawing::sink_wounds() {
+  // Whole triangles are cut, so the border runs in teeth: pull it straight.
+  std::vector<Vec3f> straight(m_rim.size());
+  for (int pass = 0; pass < 3; ++pass) {
+    for (std::size_t i = 0; i < m_rim.size(); ++i) {
+      const RimVertex& r = m_rim[i];
+      straight[i] = 0.4f * m_pose.position[r.at] + 0.3f * (m_pose.position[r.before] + m_pose.position[r.after]);
+    }
+    for (std::size_t i = 0; i < m_rim.size(); ++i) m_pose.position[m_rim[i].at] = straight[i];
+  }
+  m_open.positions = m_pose.position;
+  for (const WoundVertex& w : m_wound) m_open.positions.push_back(m_pose.position[w.of] - w.depth * m_normals[w.of]);
+  render::vertex_normals(m_open.positions, m_open.indices, m_open.normals);
+}
+
+void OrganDrawing::update(const tissue::NetworkState& state, std::span<const std::uint8_t> parted) {
+  const auto cut = [](std::uint8_t p) { return p != 0; };
+  const bool was_open = !m_wound.empty(), open = std::any_of(parted.begin(), parted.end(), cut);
+  const bool changed = open ? !std::equal(parted.begin(), parted.end(), m_parted.begin(), m_parted.end()) : was_open;
+  if (!moved(state) && !changed) return;
   tissue::pose_skin(m_solid->network, m_solid->fine, state, m_pose);
   render::vertex_normals(m_pose.position, m_indices, m_normals);
   lift();
-  m_mesh.move(m_pose.position, m_normals);
+  if (!open) {
+    m_wound.clear();
+    m_parted.clear();
+    if (changed)  // a replay that starts again
+      m_mesh.replace({.positions = m_pose.position,
+                      .normals = m_normals,
+                      .rest = m_solid->fine.rest,
+                      .paint = m_paint,
+                      .indices = m_indices});
+    else
+      m_mesh.move(m_pose.position, m_normals);
+    return;
+  }
+  if (changed) open_wounds(parted);
+  sink_wounds();
+  if (changed)
+    m_mesh.replace(m_open.data());
+  else
+    m_mesh.move(m_open.positions, m_open.normals);
 }
 
 }  // namespace trocar::view

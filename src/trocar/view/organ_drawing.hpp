@@ -1,4 +1,5 @@
-// An organ's drawn skin, x = W q, with normals of its present shape.
+// An organ's drawn skin, x = W q, with normals of its present shape, its relief, and wounds where it was cut: there the
+// cut triangles lie deeper, as a raw bed with walls up to the skin around.
 #pragma once
 
 #include <trocar/sim/state.hpp>
@@ -13,17 +14,34 @@ class OrganDrawing {
   OrganDrawing(const sim::SolidModel& solid, const Relief& relief, std::vector<Paint> paint, render::Backend& backend);
 
   /// Moves the mesh; costs nothing where no node has moved since the last time.
-  void update(const tissue::NetworkState& state);
+  /// @param parted one byte a triangle of solid.fine, 1 = cut open (empty: none)
+  void update(const tissue::NetworkState& state, std::span<const std::uint8_t> parted = {});
   render::MeshHandle mesh() const { return m_mesh.handle(); }
 
  private:
   void lift();
+  void open_wounds(std::span<const std::uint8_t> parted);
+  void sink_wounds();
   bool moved(const tissue::NetworkState& state);
 
   const sim::SolidModel* m_solid;
   tissue::SkinPose m_pose;
   std::vector<std::uint32_t> m_indices;
   std::vector<Vec3f> m_normals;
+  /// A vertex of a wound: a copy of a skin vertex, `depth` below it [m].
+  struct WoundVertex {
+    std::uint32_t of = 0;
+    float depth = 0;
+  };
+  /// A vertex on a wound's border and the next ones along it.
+  struct RimVertex {
+    std::uint32_t at = 0, before = 0, after = 0;
+  };
+  std::vector<RimVertex> m_rim;
+  std::vector<std::uint8_t> m_parted;      ///< as drawn
+  std::vector<WoundVertex> m_wound;        ///< they follow the skin's vertices in the mesh
+  std::vector<Paint> m_paint;              ///< of the skin
+  MeshBuffer m_open;                       ///< skin and wounds, where there are any
   std::vector<float> m_height;             ///< relief; empty: none
   std::vector<tissue::NodeState> m_drawn;  ///< the nodes that the mesh shows
   OwnedMesh m_mesh;

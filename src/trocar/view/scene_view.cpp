@@ -146,7 +146,7 @@ void SceneView::Parts::make_metal(render::Backend& backend) {
 }
 
 void SceneView::Parts::update(const sim::State& state) {
-  for (std::size_t i = 0; i < organs.size(); ++i) organs[i].update(state.solids[i]);
+  for (std::size_t i = 0; i < organs.size(); ++i) organs[i].update(state.solids[i], state.parted[i]);
   for (TubeDrawing& t : tubes) t.update(state);
   for (SheetDrawing& s : sheets) s.update(state);
   for (LoadedClip& l : loaded) {
