@@ -52,10 +52,7 @@ Leftovers run_headless(Session& session, InputSource& source, const HeadlessOpti
   const std::uint64_t limit = options.seconds > 0 ? std::uint64_t(options.seconds * 1000) : ~std::uint64_t(0);
   Progress progress(session);
   sim::Input input = model.start;
-  const auto goes_on = [&] {
-    return !interrupted() && session.broken().empty() && (options.to_the_end || !session.finished()) &&
-           session.state().tick < limit;
-  };
+  const auto goes_on = [&] { return !interrupted() && session.broken().empty() && session.state().tick < limit; };
   while (goes_on() && source.next(session.state(), input)) {
     session.advance(input);
     source.after(session.state());

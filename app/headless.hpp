@@ -13,15 +13,15 @@ struct HeadlessOptions {
   std::filesystem::path shots;  ///< folder; empty: none
   std::filesystem::path video;  ///< file; empty: none
   PictureSize size;
-  double seconds = 0;       ///< stop after so much simulated time; 0: no limit
-  bool to_the_end = false;  ///< go on after the exercise is done, as long as the source has inputs
+  double seconds = 0;  ///< stop after so much simulated time; 0: no limit
 };
 
 /// What else a loop left behind, in the result's words: "pictures", "picture_index", "video".
 using Leftovers = Json;
 
-/// Runs until the source has no more, the exercise is done, time is up, or the physics has failed. `each_tick` is
-/// called after every tick and may end the loop by returning false.
+/// Runs until the source has no more, time is up, somebody interrupts, or the physics has failed; an exercise that is
+/// done does not end it, for the source may have instruments to take out. `each_tick` is called after every tick and
+/// may end the loop by returning false.
 Leftovers run_headless(Session& session, InputSource& source, const HeadlessOptions& options,
                        const std::function<bool()>& each_tick = {});
 

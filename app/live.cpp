@@ -10,6 +10,7 @@ namespace {
 constexpr std::uint64_t kPublishEvery = 4;  // ticks: 250 copies a second, above every display's rate
 constexpr auto kTickTime = std::chrono::milliseconds(1);
 constexpr auto kDebt = std::chrono::milliseconds(30);  // that much is caught up with; more becomes slow motion
+constexpr std::uint64_t kAftermath = 1500;             // ticks shown after the last step is done
 constexpr double kSpeedWindow = 0.25;                  // [s]
 constexpr double kSlow = 0.97;
 
@@ -59,7 +60,8 @@ void Live::loop() {
       m_pending.insert(m_pending.end(), m_session.moments().begin(), m_session.moments().end());
       if (m_source) m_source->after(m_session.state());
       const std::uint64_t ticks = m_session.state().tick;
-      m_finished = m_session.finished() || (m_limit > 0 && ticks >= m_limit);
+      if (m_session.finished() && m_end == kNever) m_end = m_session.broken().empty() ? ticks + kAftermath : ticks;
+      m_finished = ticks >= m_end || (m_limit > 0 && ticks >= m_limit);
     }
     pass_moments();
     measure_speed();

@@ -68,7 +68,9 @@ class Live {
 
   // The simulation thread's own.
   sim::Input m_command;
+  static constexpr std::uint64_t kNever = ~std::uint64_t(0);
   bool m_finished = false;
+  std::uint64_t m_end = kNever;  ///< the tick after which it is over
   double m_speed = 1;
   Clock::time_point m_window_start;
   std::uint64_t m_window_ticks = 0, m_slow_ticks = 0, m_ticks = 0;

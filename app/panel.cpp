@@ -100,8 +100,6 @@ void begin_middle(const char* name, float width) {
                    ImGuiWindowFlags_NoSavedSettings);
 }
 
-/// ImGui 1.86 counts keys as GLFW does, and GLFW names letters by their capitals.
-bool key(char letter) { return ImGui::IsKeyPressed(letter, false); }
 bool button(const char* text, float scale) { return ImGui::Button(text, {200 * scale, 32 * scale}); }
 
 }  // namespace
@@ -157,9 +155,9 @@ Choice draw_menu(const std::string& recording, float scale) {
   Choice choice = Choice::none;
   begin_middle("menu", 520 * scale);
   line(kGreen, "Paused");
-  if (button("Resume (Esc)", scale)) choice = Choice::resume;  // the key is the window's
-  if (button("Restart (R)", scale) || key('R')) choice = Choice::restart;
-  if (button("Quit (Q)", scale) || key('Q')) choice = Choice::quit;
+  if (button("Resume (Esc)", scale)) choice = Choice::resume;
+  if (button("Restart (R)", scale)) choice = Choice::restart;
+  if (button("Quit (Q)", scale)) choice = Choice::quit;
   line(kGrey, "recording: " + recording);
   ImGui::End();
   return choice;
@@ -203,8 +201,8 @@ Choice draw_result(const Json& r, float scale) {
     line(kGrey,
          fmt::format("{}: {:.0f} mm", words(tool["name"].get<std::string>()), tool["path_length_mm"].get<double>()));
   if (r.contains("recording")) line(kGrey, "recording: " + r["recording"].get<std::string>());
-  if (button("Again (R)", scale) || key('R')) choice = Choice::restart;
-  if (button("Quit (Q)", scale) || key('Q')) choice = Choice::quit;
+  if (button("Again (R)", scale)) choice = Choice::restart;
+  if (button("Quit (Q)", scale)) choice = Choice::quit;
   ImGui::End();
   return choice;
 }

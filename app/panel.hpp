@@ -28,7 +28,7 @@ inline constexpr float kPanelWidth = 250;  ///< times the display's scale [px]
 void draw_panel(const PanelContent& content, float left, float width, float height, float scale);
 /// All keys; drawn over the picture.
 void draw_help(float scale);
-/// Pause menu. `recording` is said, so that people find it.
+/// Pause menu; the keys that it names are the window's. `recording` is said, so that people find it.
 Choice draw_menu(const std::string& recording, float scale);
 /// After the attempt.
 Choice draw_result(const Json& result, float scale);

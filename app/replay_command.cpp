@@ -22,21 +22,22 @@ struct Options {
   bool verify = false;
 };
 
-/// Compares the State with the recording's hashes as it passes them.
+/// Compares the session with the recording's hashes as it passes them.
 class Verifier {
  public:
   explicit Verifier(const std::vector<sim::HashMark>& marks) : m_marks(marks) {}
 
   /// False at the first difference.
-  bool check(const sim::State& state) {
-    while (m_next < m_marks.size() && m_marks[m_next].tick < state.tick) ++m_next;
-    if (m_next == m_marks.size() || m_marks[m_next].tick != state.tick) return true;
-    if (sim::hash_of(state) != m_marks[m_next].hash) {
-      m_differs_at = state.tick;
+  bool check(const Session& session) {
+    const std::uint64_t tick = session.state().tick;
+    while (m_next < m_marks.size() && m_marks[m_next].tick < tick) ++m_next;
+    if (m_next == m_marks.size() || m_marks[m_next].tick != tick) return true;
+    if (session.mark() != m_marks[m_next].hash) {
+      m_differs_at = tick;
       return false;
     }
     ++m_agreed;
-    m_last_good = state.tick;
+    m_last_good = tick;
     return true;
   }
 
@@ -102,20 +103,22 @@ Json play(const Lesson& lesson, const sim::Recording& recording, const Options& 
   Session session(lesson);
   ReplaySource source(recording.inputs);
   Verifier verifier(recording.hashes);
-  bool good = !o.verify || verifier.check(session.state());
+  bool good = !o.verify || verifier.check(session);
   Leftovers left = Json::object();
-  HeadlessOptions loop{o.shots, o.video, size};
-  loop.to_the_end = true;
   if (good)
-    left = run_headless(session, source, loop, [&] { return good = !o.verify || verifier.check(session.state()); });
+    left = run_headless(session, source, {o.shots, o.video, size},
+                        [&] { return good = !o.verify || verifier.check(session); });
   Json out = session.result(false);
   out["played"] = "inputs";
   if (o.verify) {
-    const bool verified = good && session.broken().empty() && verifier.agreed() > 0;
+    const bool verified = good && session.broken().empty() && verifier.agreed() > 0 && recording.damage.empty();
     out["verified"] = verified;
     verifier.describe(out);
     if (!good) out["difference"] = verifier.difference();
     if (good && verifier.agreed() == 0) out["difference"] = "the recording holds no state hash to compare";
+    if (good && !recording.damage.empty())
+      out["difference"] = fmt::format("the file is damaged ({}); what could be read, until tick {}, agrees",
+                                      recording.damage, recording.inputs.size());
   }
   out.update(left);
   return out;

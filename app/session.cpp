@@ -5,6 +5,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <trocar/core/hash.hpp>
 #include <trocar/core/log.hpp>
 
 namespace trocar::app {
@@ -61,7 +62,7 @@ void Session::record(const std::filesystem::path& path, const std::string& train
   m_recording = path;
   m_trainee = trainee;
   m_input = input;
-  m_writer->hash(m_state.tick, sim::hash_of(m_state));
+  m_writer->hash(m_state.tick, mark());
   m_writer->keyframe(m_state.tick, sim::display_bytes(m_lesson.model, m_state));
 }
 
@@ -69,6 +70,7 @@ const sim::StepReport& Session::advance(const sim::Input& input) {
   m_moments.clear();
   if (!m_broken.empty()) return m_report;
   if (m_writer) m_writer->tick(m_state.tick, input);
+  m_inputs_hash = core::hash_bytes(&input, sizeof input, m_inputs_hash);
   m_report = sim::step(m_lesson.model, input, m_state, m_work);
   m_flags |= m_report.flags;
   if (!m_report.fine())
@@ -81,10 +83,17 @@ const sim::StepReport& Session::advance(const sim::Input& input) {
   }
   if (m_monitor) m_monitor->update(m_lesson.model, m_state, m_report);
   collect_moments();
-  if (m_writer && m_state.tick % sim::kHashEvery == 0) m_writer->hash(m_state.tick, sim::hash_of(m_state));
+  if (m_writer && m_state.tick % sim::kHashEvery == 0) m_writer->hash(m_state.tick, mark());
   if (m_writer && m_state.tick % sim::kKeyframeEvery == 0)
     m_writer->keyframe(m_state.tick, sim::display_bytes(m_lesson.model, m_state));
   return m_report;
+}
+
+std::uint64_t Session::mark() const {
+  core::Hasher hasher;
+  hasher.add(sim::hash_of(m_state));
+  hasher.add(m_inputs_hash);
+  return hasher.value();
 }
 
 void Session::add_moment(const char* what, int tool, std::string text) {
@@ -161,7 +170,7 @@ Json Session::result(bool interrupted) const {
 
 void Session::finish(const Json& result) {
   if (!m_writer) return;
-  if (m_state.tick % sim::kHashEvery != 0) m_writer->hash(m_state.tick, sim::hash_of(m_state));
+  if (m_state.tick % sim::kHashEvery != 0) m_writer->hash(m_state.tick, mark());
   m_writer->finish(result.dump());
   if (!m_writer->failure().empty()) core::log::error("recording {}: {}", m_recording.string(), m_writer->failure());
   m_writer.reset();

@@ -47,6 +47,8 @@ class Session {
   bool finished() const { return !m_broken.empty() || (m_monitor && m_monitor->finished()); }
   /// Flags of all ticks so far.
   std::uint32_t flags() const { return m_flags; }
+  /// What a recording compares: the State's hash and all inputs so far (an input may leave no trace in the State).
+  std::uint64_t mark() const;
   double path_length(int tool) const { return m_path[size_t(tool)]; }  ///< of its tip [m]
 
   /// The whole result as it stands; `interrupted` attempts have not passed.
@@ -73,6 +75,7 @@ class Session {
   std::array<double, sim::kMaxTools> m_path{};
   std::array<int, 8> m_counts{};  ///< by sim::Event::Kind
   std::uint32_t m_flags = 0;
+  std::uint64_t m_inputs_hash = 0;
   std::string m_broken;
 };
 

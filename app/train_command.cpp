@@ -38,7 +38,7 @@ int train(const Options& o, bool json) {
     const std::unique_ptr<InputSource> source = make_source(*lesson, o.input);
     Session session(*lesson);
     if (!o.record.empty()) session.record(o.record, o.trainee, o.input);
-    const Leftovers left = run_headless(session, *source, {o.shots, o.video, size, o.seconds, o.input != "demo"});
+    const Leftovers left = run_headless(session, *source, {o.shots, o.video, size, o.seconds});
     result = session.result(interrupted());
     result["input"] = o.input;
     result["slow_motion_share"] = 0.0;

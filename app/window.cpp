@@ -156,13 +156,14 @@ void Window::begin_picture() {
   ImGui::NewFrame();
 }
 
-void Window::end_picture() {
+void Window::draw_panels() {
   ImGui::Render();
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glViewport(0, 0, m_width, m_height);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-  glfwSwapBuffers(m_window);
 }
+
+void Window::show() { glfwSwapBuffers(m_window); }
 
 void Window::wait_for_turn() {
   const double left = m_last_time + m_least_time - glfwGetTime();
@@ -206,9 +207,11 @@ void Window::read_gamepad() {
 void Window::on_key(GLFWwindow* window, int key, int, int action, int) {
   if (action != GLFW_PRESS) return;
   Window& w = of(window);
-  if (key == GLFW_KEY_F1 || key == GLFW_KEY_H) w.m_next_keys.help = true;
-  if (key == GLFW_KEY_ESCAPE) w.m_next_keys.menu = true;
+  if (key == GLFW_KEY_F1 || key == GLFW_KEY_H) w.m_next_keys.help = !w.m_next_keys.help;
+  if (key == GLFW_KEY_ESCAPE) w.m_next_keys.menu = !w.m_next_keys.menu;
   if (key == GLFW_KEY_F12) w.m_next_keys.picture = true;
+  if (key == GLFW_KEY_R) w.m_next_keys.restart = true;
+  if (key == GLFW_KEY_Q) w.m_next_keys.quit = true;
   for (const KeyPair& k : kKeys)
     if (k.glfw == key) w.m_next.pressed.set(k.key);
 }
@@ -237,7 +240,7 @@ render::Image Window::read_back() const {
   image.height = m_height;
   std::vector<std::uint8_t> below_up(3 * std::size_t(m_width) * std::size_t(m_height));
   glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
-  glReadBuffer(GL_FRONT);
+  glReadBuffer(GL_BACK);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, m_width, m_height, GL_RGB, GL_UNSIGNED_BYTE, below_up.data());
   image.rgb.resize(below_up.size());

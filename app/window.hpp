@@ -3,7 +3,7 @@
 //
 //   Window window("Trocar", {1100, 700});
 //   while (!window.wants_to_close()) {
-//     window.begin_picture();  ...draw, ImGui...  window.end_picture();
+//     window.begin_picture();  ...draw, ImGui...  window.draw_panels();  window.show();
 //   }
 #pragma once
 
@@ -20,7 +20,8 @@ namespace trocar::app {
 
 /// Keys of the window itself; the hands' keys are in devices::Key.
 struct WindowKeys {
-  bool help = false, menu = false, picture = false;  ///< F1 or H, Esc, F12: went down since the last picture
+  bool help = false, menu = false;  ///< F1 or H, Esc: went down an odd number of times since the last picture
+  bool picture = false, restart = false, quit = false;  ///< F12, R, Q: went down
 };
 
 class Window {
@@ -38,7 +39,8 @@ class Window {
 
   /// Takes in the events; afterwards ImGui's frame is open.
   void begin_picture();
-  void end_picture();  ///< ImGui is drawn over what is there, and the picture shown
+  void draw_panels();  ///< ImGui over what is there
+  void show();         ///< the finished picture
 
   /// What the hands did since the last begin_picture(). Nothing while the pointer is free.
   const devices::HandSample& hands() const { return m_sample; }
@@ -52,7 +54,7 @@ class Window {
   int height() const { return m_height; }  ///< [px]
   float scale() const { return m_scale; }  ///< of texts and panels; 1 on an ordinary display
 
-  /// The window's picture as it was last shown.
+  /// The picture that is being made, between draw_panels() and show().
   render::Image read_back() const;
 
  private:

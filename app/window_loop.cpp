@@ -126,9 +126,12 @@ void Attempt::picture(Live& live, Choice& choice) {
   else if (m_menu)
     choice = draw_menu(m_recording.string(), window.scale());
   if (choice == Choice::resume) m_menu = false;
-  window.end_picture();
-  m_stage.governor.frame_took(window.picture_time());
+  if ((m_over || m_menu) && window.keys().restart) choice = Choice::restart;
+  if ((m_over || m_menu) && window.keys().quit) choice = Choice::quit;
+  window.draw_panels();
   if (window.keys().picture) save_picture();
+  window.show();
+  m_stage.governor.frame_took(window.picture_time());
 }
 
 void Attempt::draw_scene(const Snapshot& now) {

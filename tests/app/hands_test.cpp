@@ -1,0 +1,146 @@
+// Hands and their instruments: the led tip goes where the hand goes in the picture.
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include <trocar/sim/visibility.hpp>
+
+#include "hand_pilot.hpp"
+#include "lesson.hpp"
+#include "session.hpp"
+#include "sources.hpp"
+
+namespace trocar::app {
+namespace {
+
+const Lesson& scene() {
+  static const std::unique_ptr<Lesson> lesson = load_lesson("gynaecology");
+  return *lesson;
+}
+
+Vec3d commanded(const sim::Input& input, int tool) {
+  return kinematics::forward(scene().model.tools[size_t(tool)].port, pose_of(input.tools[tool])).tip;
+}
+
+devices::HandSample mouse(float dx, float dy) {
+  devices::HandSample sample;
+  sample.dt = 0.016f;
+  sample.dx = dx;
+  sample.dy = dy;
+  return sample;
+}
+
+TEST(HandPilot, TheLedTipGoesWhereTheMouseGoesInThePicture) {
+  const sim::State state = sim::initial_state(scene().model);
+  const kinematics::ScopeFrame view = sim::scope_of(scene().model, state);
+  HandPilot pilot(scene().model);
+  const Vec3d before = commanded(scene().model.start, 0);
+  const sim::Input input = pilot.lead(mouse(30, -20), state);
+  const Vec3d moved = commanded(input, 0) - before;
+  EXPECT_NEAR(dot(moved, view.right), 0.003, 1e-6);
+  EXPECT_NEAR(dot(moved, view.up), 0.002, 1e-6);
+  EXPECT_NEAR(dot(moved, view.forward), 0, 1e-6);
+}
+
+TEST(HandPilot, TheOthersKeepPoseAndGrip) {
+  const sim::State state = sim::initial_state(scene().model);
+  HandPilot pilot(scene().model);
+  devices::HandSample close = mouse(5, 5);
+  close.left_button = true;
+  for (int i = 0; i < 60; ++i) pilot.lead(close, state);
+  devices::HandSample next = mouse(0, 0);
+  next.pressed.set(devices::Key::two);
+  pilot.lead(next, state);
+  const sim::Input before = pilot.lead(mouse(0, 0), state);
+  const sim::Input after = pilot.lead(mouse(40, 40), state);
+  EXPECT_EQ(after.tools[0].handle, 1.0f);
+  EXPECT_EQ(after.tools[0].yaw, before.tools[0].yaw);
+  EXPECT_EQ(after.tools[0].depth, before.tools[0].depth);
+  EXPECT_NE(after.tools[1].yaw, before.tools[1].yaw);
+}
+
+TEST(HandPilot, EClockwiseSeenFromTheHand) {
+  const sim::State state = sim::initial_state(scene().model);
+  HandPilot pilot(scene().model);
+  devices::HandSample roll = mouse(0, 0);
+  roll.held.set(devices::Key::e);
+  const kinematics::TipFrame before =
+      kinematics::forward(scene().model.tools[0].port, pose_of(scene().model.start.tools[0]));
+  sim::Input input;
+  for (int i = 0; i < 10; ++i) input = pilot.lead(roll, state);
+  const kinematics::TipFrame after = kinematics::forward(scene().model.tools[0].port, pose_of(input.tools[0]));
+  // Looking along the shaft, clockwise is a right-handed turn about it.
+  EXPECT_GT(dot(cross(before.opening(), after.opening()), before.axis()), 0.1);
+}
+
+TEST(HandPilot, TheViewGoesWhereTheMouseGoes) {
+  const sim::Model& model = scene().model;
+  sim::State state = sim::initial_state(model);
+  const kinematics::ScopeFrame before = sim::scope_of(model, state);
+  HandPilot pilot(model);
+  devices::HandSample choose = mouse(0, 0);
+  choose.pressed.set(devices::Key::zero);
+  pilot.lead(choose, state);
+  state.scope = pilot.lead(mouse(50, -80), state).scope;
+  const kinematics::ScopeFrame after = sim::scope_of(model, state);
+  EXPECT_NEAR(dot(after.forward, before.right), 0.05, 2e-3);
+  EXPECT_NEAR(dot(after.forward, before.up), 0.08, 2e-3);
+}
+
+TEST(SmoothInput, ArrivesWithoutOvershoot) {
+  sim::Input target = scene().model.start;
+  SmoothInput smooth(target);
+  target.tools[0].depth += 0.02f;
+  float last = scene().model.start.tools[0].depth;
+  for (int i = 0; i < 300; ++i) {
+    const float now = smooth.step(target).tools[0].depth;
+    ASSERT_GE(now, last);
+    ASSERT_LE(now, target.tools[0].depth);
+    last = now;
+  }
+  EXPECT_NEAR(last, target.tools[0].depth, 1e-6);
+}
+
+TEST(MotionSource, HandsComeIntoTheSceneByARotationWithTheirCentroidWhereTheInstrumentStands) {
+  devices::MotionTrial trial;
+  trial.name = "A/1";
+  for (int i = 0; i < 5; ++i) {
+    devices::MotionSample s;
+    s.time = i;
+    s.hands[0].tip = {0.01 * i, 0.002 * i * i, 0.03 - 0.004 * i};
+    s.hands[1].tip = {-0.02 * i, 0.001, 0.01 * i};
+    trial.samples.push_back(s);
+  }
+  const sim::Model& model = scene().model;
+  const auto hands = place_hands(model, trial);
+  const kinematics::ScopeFrame view = sim::scope_of(model, sim::initial_state(model));
+  for (const HandPlacement& hand : hands) {
+    const interactions::ToolModel& tool = model.tools[size_t(hand.tool)];
+    const Vec3d start = commanded(model.start, hand.tool);
+    EXPECT_NEAR(length(hand.to_scene(hand.centroid) - start), 0, 1e-12);
+    const Vec3d x = hand.axes.column(0), y = hand.axes.column(1), z = hand.axes.column(2);
+    EXPECT_NEAR(dot(cross(x, y), z), 1, 1e-12);
+    EXPECT_NEAR(dot(x, y), 0, 1e-12);
+    EXPECT_GT(dot(x, view.right), 0.5);
+    EXPECT_NEAR(length(z - normalised(start - tool.port)), 0, 1e-12);
+  }
+  // The left hand leads what comes from the picture's left.
+  EXPECT_LT(dot(model.tools[size_t(hands[0].tool)].port - model.tools[size_t(hands[1].tool)].port, view.right), 0);
+}
+
+TEST(Session, DrawingOrNotWatchingOrNotTheSameBits) {
+  Session watched(scene(), 1), alone(scene(), 2);
+  sim::Input input = scene().model.start;
+  for (int i = 0; i < 200; ++i) {
+    input.tools[0].depth += 1e-4f;
+    watched.advance(input);
+    static_cast<void>(watched.result(false));
+    static_cast<void>(sim::display_bytes(scene().model, watched.state()));
+    alone.advance(input);
+  }
+  EXPECT_EQ(sim::hash_of(watched.state()), sim::hash_of(alone.state()));
+  EXPECT_NEAR(watched.path_length(0), 0.02, 1e-4);
+}
+
+}  // namespace
+}  // namespace trocar::app

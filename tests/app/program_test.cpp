@@ -1,0 +1,226 @@
+// The command line as scripts meet it: exit codes, JSON, and recordings that verify or do not.
+#include "program.hpp"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <trocar/core/error.hpp>
+#include <trocar/sim/recording.hpp>
+
+#include "json.hpp"
+
+namespace trocar::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int exit = -1;
+  std::string out, err;
+  Json json() const { return Json::parse(out, nullptr, false); }
+};
+
+Outcome trocar(std::vector<std::string> words) {
+  std::vector<const char*> argv{"trocar"};
+  for (const std::string& w : words) argv.push_back(w.c_str());
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  Outcome o;
+  o.exit = run_program(int(argv.size()), argv.data());
+  o.out = testing::internal::GetCapturedStdout();
+  o.err = testing::internal::GetCapturedStderr();
+  return o;
+}
+
+std::string read(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// A folder of the test's own, gone afterwards.
+class Program : public testing::Test {
+ protected:
+  void SetUp() override {
+    m_folder = fs::temp_directory_path() / ("trocar_app_test_" + std::to_string(getpid()) + "_" +
+                                            testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::create_directories(m_folder);
+  }
+  void TearDown() override { fs::remove_all(m_folder); }
+  std::string file(const std::string& name) const { return (m_folder / name).string(); }
+
+  /// One second of the scene with both hands moving: left.csv-like motion, short enough for a quick test.
+  std::string motion_file() const {
+    std::ofstream out(file("motion.csv"));
+    out << "operator,trial,t_ms,xL,yL,zL,rollL,handleL,xR,yR,zR,rollR,handleR\n";
+    out << "A,1,0,0,0,0,0,0,0,0,0,0,0\n";
+    out << "A,1,1000,8,2,-6,0.3,0.5,-5,3,4,0.1,0.2\n";
+    out << "A,1,2000,3,9,-2,0.1,1,2,-4,-3,0.2,0.9\n";
+    return file("motion.csv");
+  }
+
+ private:
+  fs::path m_folder;
+};
+
+const std::vector<std::string> kCommands{"train", "replay", "check", "gallery", "list", "bench", "report"};
+
+TEST_F(Program, EveryCommandHasHelpWithAnExample) {
+  for (const std::string& command : kCommands) {
+    const Outcome o = trocar({command, "--help"});
+    EXPECT_EQ(o.exit, core::kDone) << command;
+    EXPECT_NE(o.out.find("Example:\n  trocar " + command), std::string::npos) << o.out;
+  }
+}
+
+TEST_F(Program, NoCommandUnknownOnesAndUnknownOptionsAreBadInput) {
+  EXPECT_EQ(trocar({}).exit, core::kBadInput);
+  EXPECT_EQ(trocar({"operate"}).exit, core::kBadInput);
+  EXPECT_EQ(trocar({"list", "--fast"}).exit, core::kBadInput);
+  EXPECT_EQ(trocar({"train"}).exit, core::kBadInput);
+}
+
+TEST_F(Program, ListNamesTheExerciseItsSceneAndTheInstruments) {
+  const Outcome o = trocar({"list", "--json"});
+  ASSERT_EQ(o.exit, core::kDone) << o.err;
+  const std::string text = o.json().dump();
+  for (const char* name : {"gynaecology/sterilisation", "\"gynaecology\"", "\"grasper\"", "\"clip_applier\""})
+    EXPECT_NE(text.find(name), std::string::npos) << name;
+}
+
+TEST_F(Program, AnUnknownExerciseIsBadInputWithTheNearestName) {
+  const Outcome o = trocar({"train", "gynaecology/sterilization", "--input", "demo", "--headless", "--json"});
+  EXPECT_EQ(o.exit, core::kBadInput);
+  EXPECT_NE(o.err.find("gynaecology/sterilisation"), std::string::npos) << o.err;
+  EXPECT_EQ(o.json()["exit"], 2);
+}
+
+TEST_F(Program, CheckTellsAllFaultsOfAllFilesWithTheirPlaces) {
+  std::ofstream(file("a.json")) << "{\n  \"format\": 1,\n  \"name\": \"a\",\n  \"solids\": 7\n}\n";
+  std::ofstream(file("b.json")) << "{\"format\": 1, \"name\": ";
+  const Outcome o = trocar({"check", file("a.json"), file("b.json"), "--json"});
+  EXPECT_EQ(o.exit, core::kBadInput);
+  EXPECT_NE(o.err.find("a.json:4:13"), std::string::npos) << o.err;
+  EXPECT_NE(o.err.find("b.json:1:"), std::string::npos) << o.err;
+  EXPECT_GE(o.json()["faults"].size(), 2u);
+}
+
+TEST_F(Program, CheckSaysWhatTheExerciseCompilesTo) {
+  const Outcome o = trocar({"check", TROCAR_SOURCE_DIR "/scenes/gynaecology/sterilisation.json", "--json"});
+  ASSERT_EQ(o.exit, core::kDone) << o.err;
+  const Json scene = o.json()["files"][0];
+  EXPECT_GE(scene["free_nodes"].get<int>(), 6000);
+  for (const Json& body : scene["bodies"])
+    if (body.contains("substeps")) {
+      EXPECT_GT(body["dt_margin"].get<double>(), 1.0) << body.dump();
+      EXPECT_GT(body["dt_limit_as_printed_ms"].get<double>(), body["dt_limit_ms"].get<double>()) << body.dump();
+    }
+}
+
+TEST_F(Program, AMotionFileIsPerformedToItsLengthAndTheRecordingVerifies) {
+  const std::string recording = file("a.rec");
+  const Outcome o = trocar({"train", "gynaecology/sterilisation", "--input", "motion:" + motion_file(), "--headless",
+                            "--record", recording, "--json"});
+  ASSERT_EQ(o.exit, core::kDone) << o.err;
+  const Json result = o.json();
+  EXPECT_FALSE(result["passed"].get<bool>());
+  for (const Json& hand : result["hands"]) {
+    EXPECT_EQ(hand["unreachable_share"].get<double>(), 0);
+    EXPECT_GT(hand["file_path_length_reachable_mm"].get<double>(), 15);
+    EXPECT_NEAR(hand["path_ratio"].get<double>(), 1, 0.01);
+  }
+  const Outcome verified = trocar({"replay", recording, "--verify", "--json"});
+  EXPECT_EQ(verified.exit, core::kDone) << verified.err;
+  EXPECT_TRUE(verified.json()["verified"].get<bool>());
+  EXPECT_EQ(verified.json()["state_hash"], result["state_hash"]);
+
+  // One bit of one input, which leaves no trace in the State a tick later: does not verify, and says where.
+  // (The instrument is where it is commanded to be and touches nothing.)
+  sim::Recording changed = sim::read_recording(recording);
+  ASSERT_GT(changed.inputs.size(), 650u);
+  float& depth = changed.inputs[650].tools[0].depth;
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &depth, sizeof bits);
+  bits ^= 1;
+  std::memcpy(&depth, &bits, sizeof bits);
+  {
+    sim::RecordingWriter writer(file("b.rec"), changed.header);
+    std::size_t mark = 0;
+    for (std::size_t tick = 0; tick <= changed.inputs.size(); ++tick) {
+      for (; mark < changed.hashes.size() && changed.hashes[mark].tick == tick; ++mark)
+        writer.hash(tick, changed.hashes[mark].hash);
+      if (tick < changed.inputs.size()) writer.tick(tick, changed.inputs[tick]);
+    }
+    writer.finish("{}");
+  }
+  const Outcome refused = trocar({"replay", file("b.rec"), "--verify", "--json"});
+  EXPECT_EQ(refused.exit, core::kGoalNotReached);
+  EXPECT_FALSE(refused.json()["verified"].get<bool>());
+  EXPECT_EQ(refused.json()["differs_between_ticks"], Json::parse("[600, 700]"));
+
+  // One bit of the file itself: its block's checksum tells.
+  std::string bytes = read(recording);
+  bytes[bytes.size() / 2] = char(bytes[bytes.size() / 2] ^ 4);
+  std::ofstream(file("c.rec"), std::ios::binary) << bytes;
+  const Outcome damaged = trocar({"replay", file("c.rec"), "--verify", "--json"});
+  EXPECT_EQ(damaged.exit, core::kGoalNotReached);
+  EXPECT_NE(damaged.json()["difference"].get<std::string>().find("damaged"), std::string::npos) << damaged.out;
+}
+
+TEST_F(Program, AnotherVersionOfThePhysicsRefusesToVerifyAndShowsKeyframes) {
+  const Outcome o = trocar({"train", "gynaecology", "--input", "motion:" + motion_file(), "--headless", "--seconds",
+                            "0.5", "--record", file("a.rec"), "--json"});
+  ASSERT_EQ(o.exit, core::kDone) << o.err;
+  const sim::Recording ours = sim::read_recording(file("a.rec"));
+  sim::RecordingHeader header = ours.header;
+  header.model_hash ^= 1;
+  {
+    sim::RecordingWriter writer(file("b.rec"), header);
+    for (std::size_t tick = 0; tick < ours.inputs.size(); ++tick) writer.tick(tick, ours.inputs[tick]);
+    for (const sim::Keyframe& k : ours.keyframes) writer.keyframe(k.tick, k.bytes);
+    writer.finish("{}");
+  }
+  const Outcome refused = trocar({"replay", file("b.rec"), "--verify", "--json"});
+  EXPECT_EQ(refused.exit, core::kGoalNotReached);
+  EXPECT_NE(refused.json()["difference"].get<std::string>().find("another version"), std::string::npos);
+  const Outcome played = trocar({"replay", file("b.rec"), "--json"});
+  EXPECT_EQ(played.exit, core::kDone) << played.err;
+  EXPECT_EQ(played.json()["played"], "keyframes");
+  EXPECT_EQ(played.json()["keyframes"], ours.keyframes.size());
+}
+
+TEST_F(Program, ADamagedRecordingIsBadInput) {
+  std::ofstream(file("a.rec")) << "this is no recording";
+  EXPECT_EQ(trocar({"replay", file("a.rec"), "--verify"}).exit, core::kBadInput);
+  EXPECT_EQ(trocar({"report", file("a.rec")}).exit, core::kBadInput);
+  EXPECT_EQ(trocar({"replay", file("missing.rec")}).exit, core::kBadInput);
+}
+
+TEST_F(Program, AWindowWithoutADisplayLacksSomethingAndSaysWhat) {
+  const char* display = getenv("DISPLAY");
+  const std::string before = display ? display : "";
+  unsetenv("DISPLAY");
+  unsetenv("WAYLAND_DISPLAY");
+  const Outcome o = trocar({"train", "gynaecology", "--record", file("a.rec")});
+  if (display) setenv("DISPLAY", before.c_str(), 1);
+  EXPECT_EQ(o.exit, core::kEnvironment);
+  EXPECT_NE(o.err.find("--headless"), std::string::npos) << o.err;
+}
+
+TEST_F(Program, AReportIsAPageWithTheResult) {
+  const std::string recording = file("a.rec");
+  ASSERT_EQ(trocar({"train", "gynaecology/sterilisation", "--input", "motion:" + motion_file(), "--headless",
+                    "--seconds", "0.2", "--record", recording, "--trainee", "A <b> & C"})
+                .exit,
+            core::kDone);
+  const Outcome o = trocar({"report", recording, "--out", file("page"), "--json"});
+  ASSERT_EQ(o.exit, core::kDone) << o.err;
+  const std::string page = read(file("page/index.html"));
+  EXPECT_NE(page.find("gynaecology/sterilisation"), std::string::npos);
+  EXPECT_NE(page.find("A &lt;b&gt; &amp; C"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace trocar::app
