@@ -232,6 +232,26 @@ TEST(Anatomy, TheWholeSceneHasSixToSevenAndAHalfThousandFreeNodes) {
   EXPECT_LE(gynaecology().model.free_nodes(), 7500);
 }
 
+TEST(Anatomy, OneNewtonLiftsTheAmpullaByTwentyToThirtyMillimetres) {
+  const sim::Model& m = gynaecology().model;
+  for (const char* name : {"tube_left", "tube_right"})
+    for (const double s : {0.045, 0.060}) {
+      const interactions::StrandBody& body = m.bodies[std::size_t(m.strand_index(name))];
+      const interactions::StrandPlace place = interactions::place_at(body, s);
+      tissue::StrandState state = tissue::rest_state(body.model);
+      tissue::StrandWork work = tissue::make_work(body.model);
+      const Vec3d before = interactions::point_at(body, state, place);
+      tissue::StrandLoad pull;
+      pull.element = place.element;
+      pull.w = place.w;
+      pull.f0 = normalised(Vec3d{0, 0.5, 0.85});  // 1 N towards the ports
+      for (int tick = 0; tick < 2000; ++tick) tissue::advance(body.model, {}, {&pull, 1}, {}, {}, state, work);
+      const double lifted = 1000 * length(interactions::point_at(body, state, place) - before);
+      EXPECT_GT(lifted, 20) << name << " at " << s;
+      EXPECT_LT(lifted, 30) << name << " at " << s;
+    }
+}
+
 // ---- view -----------------------------------------------------------------------------------------------------------
 
 bool in_view(Vec3d p) {
