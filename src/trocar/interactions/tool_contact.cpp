@@ -49,6 +49,7 @@ BetweenJaws between_jaws(const ToolModel& model, const ToolShape& shape, const S
   const double dy = b.y - a.y;
   r.w = std::fabs(dy) > 1e-9 ? std::clamp(-a.y / dy, 0.0, 1.0) : 0.5;
   r.local = a + r.w * (b - a);
+  r.crosses = (a.y > 0) != (b.y > 0);
   const double radius = body.model.radius[e];
   if (std::fabs(r.local.y) > 0.5 * model.jaw_width + 0.001) return r;
   if (r.local.z < -radius || r.local.z > model.jaw_length + 0.5 * radius) return r;
@@ -91,11 +92,13 @@ void tool_on_strand(const ToolModel& model, const ToolShape& shape, const ToolSt
   // Next to where the strand runs between the jaws it touches their edges from within: that is the channel's business.
   constexpr int kEdge = 3;
   int first_inside = body.nodes(), last_inside = -1;
-  for (int e = 0; e + 1 < body.nodes(); ++e)
-    if (state.alive[size_t(e)] && between_jaws(model, shape, body, state, e).inside) {
-      first_inside = std::min(first_inside, e);
-      last_inside = e;
-    }
+  for (int e = 0; e + 1 < body.nodes(); ++e) {
+    if (!state.alive[size_t(e)]) continue;
+    const BetweenJaws where = between_jaws(model, shape, body, state, e);
+    if (!where.inside || !where.crosses) continue;
+    first_inside = std::min(first_inside, e);
+    last_inside = e;
+  }
   const Capsule whole{shape.part[kShaft].a, shape.frame.tip, 0};
   for (int e = 0; e + 1 < body.nodes(); ++e) {
     if (!state.alive[size_t(e)]) continue;
@@ -108,9 +111,9 @@ void tool_on_strand(const ToolModel& model, const ToolShape& shape, const ToolSt
       continue;
     }
     const BetweenJaws where = between_jaws(model, shape, body, state, e);
-    const bool held = is_held(e);
+    const bool held = is_held(e), between = e >= first_inside - kEdge && e <= last_inside + kEdge;
     for (int part = 0; part < kToolParts; ++part) {
-      if (part != kShaft && (held || (e >= first_inside - kEdge && e <= last_inside + kEdge))) {
+      if (part != kShaft && (held || between)) {
         memory[part] = {};
         continue;
       }
@@ -125,7 +128,7 @@ void tool_on_strand(const ToolModel& model, const ToolShape& shape, const ToolSt
       load.x0 = c.on_second + c.depth * c.normal;
       loads.add(load, {Owner::tool_contact, tool, part});
     }
-    if (where.inside && !held) channel(shape, where, radius, e, {Owner::tool_contact, tool, kJawA}, loads);
+    if (where.inside && between && !held) channel(shape, where, radius, e, {Owner::tool_contact, tool, kJawA}, loads);
   }
 }
 

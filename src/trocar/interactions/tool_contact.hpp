@@ -25,9 +25,10 @@ void tool_on_strand(const ToolModel& model, const ToolShape& shape, const ToolSt
 
 /// How a strand element lies between the jaws.
 struct BetweenJaws {
-  bool inside = false;
-  double w = 0;  ///< place within the element nearest to the jaws' mid-plane
-  Vec3d local;   ///< that point in the jaw frame
+  bool inside = false;   ///< in the space between the jaws, or within the jaws' width beside their mid-plane
+  bool crosses = false;  ///< it passes through the jaws' mid-plane: one that lies alongside the jaws does not
+  double w = 0;          ///< place within the element nearest to the jaws' mid-plane
+  Vec3d local;           ///< that point in the jaw frame
 };
 BetweenJaws between_jaws(const ToolModel& model, const ToolShape& shape, const StrandBody& body,
                          const tissue::StrandState& state, int element) noexcept;
