@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kMaxAngularSpeed = 4.0;  // [rad/s] peak of a hand
 constexpr double kMaxRollSpeed = 8.0;     // [rad/s]
-constexpr double kMaxDepthSpeed = 0.6;    // [m/s]
+constexpr double kMaxTipSpeed = 0.6;      // [m/s] along the shaft and across it together
 constexpr double kMaxHandleSpeed = 8.0;   // [1/s]
 constexpr double kShaftInside = 0.14;     // [m] of the shaft behind the jaws that can meet tissue
 
@@ -57,10 +57,22 @@ double aperture_at(const ToolModel& model, double thickness, double along) noexc
 
 void follow(const ToolModel& model, const ToolCommand& command, double dt, ToolState& state) noexcept {
   const kinematics::FulcrumPose goal = kinematics::clamped(command.pose, model.limits);
-  state.yaw = stepped(state.yaw, goal.yaw, kMaxAngularSpeed * dt);
-  state.pitch = stepped(state.pitch, goal.pitch, kMaxAngularSpeed * dt);
+  const double yaw = stepped(state.yaw, goal.yaw, kMaxAngularSpeed * dt) - state.yaw;
+  const double pitch = stepped(state.pitch, goal.pitch, kMaxAngularSpeed * dt) - state.pitch;
+  const double depth = goal.depth - state.depth;
+  const double turn = yaw * yaw + pitch * pitch;  // no less than the angle between the axes before and after
+  const double way = std::sqrt(state.depth * state.depth * turn + depth * depth), most = kMaxTipSpeed * dt;
+  if (way > most) {
+    const double share = most / way;
+    state.yaw += share * yaw;
+    state.pitch += share * pitch;
+    state.depth += share * depth;
+  } else {
+    state.yaw = stepped(state.yaw, goal.yaw, kMaxAngularSpeed * dt);
+    state.pitch = stepped(state.pitch, goal.pitch, kMaxAngularSpeed * dt);
+    state.depth = goal.depth;
+  }
   state.roll = stepped(state.roll, goal.roll, kMaxRollSpeed * dt);
-  state.depth = stepped(state.depth, goal.depth, kMaxDepthSpeed * dt);
   state.handle = stepped(state.handle, std::clamp(command.handle, 0.0, 1.0), kMaxHandleSpeed * dt);
 }
 

@@ -87,7 +87,8 @@ Vec3d direction_from_jaw(const ToolShape& shape, Vec3d local) noexcept;
 /// The aperture at which the jaws touch tissue of `thickness` lying `along` from the pivot.
 double aperture_at(const ToolModel& model, double thickness, double along) noexcept;
 
-/// Moves the instrument towards the commanded pose, no faster than hands can: 4 rad/s, 0.6 m/s, handle 8 /s.
+/// Moves the instrument towards the commanded pose, no faster than hands can: 0.6 m/s at the tip and 4 rad/s, roll 8
+/// rad/s, handle 8 /s.
 struct ToolCommand {
   kinematics::FulcrumPose pose;
   double handle = 0;
