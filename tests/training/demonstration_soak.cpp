@@ -1,0 +1,152 @@
+// The whole exercise by the scripted surgeon in the shipped scene: it passes without an error, its clips and cut are
+// what the exercise asks for, and the laws of the step hold over all of it.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <trocar/core/random.hpp>
+#include <trocar/scene/compile.hpp>
+#include <trocar/scene/reader.hpp>
+#include <trocar/training/monitor.hpp>
+#include <trocar/training/surgeon.hpp>
+
+using namespace trocar;
+using namespace trocar::training;
+
+namespace {
+
+constexpr std::uint64_t kMark = 100;
+
+struct Demonstration {
+  Exercise exercise = read_exercise(TROCAR_SOURCE_DIR "/scenes/gynaecology/sterilisation.json");
+  sim::Model model = scene::compile(scene::read_scene(exercise.scene));
+  std::vector<sim::Input> inputs;
+  std::vector<std::uint64_t> hash;
+  std::uint32_t flags = 0;
+  sim::State end;
+  Monitor monitor{exercise, model};
+  bool gave_up = false;
+
+  Demonstration() {
+    Surgeon surgeon(exercise, model);
+    sim::State s = sim::initial_state(model);
+    sim::Work w = sim::make_work(model);
+    while (!surgeon.done() && inputs.size() < 200000) {
+      inputs.push_back(surgeon.next(model, s));
+      const sim::StepReport report = step(model, inputs.back(), s, w);
+      flags |= report.flags;
+      monitor.update(model, s, report);
+      if (s.tick % kMark == 0) hash.push_back(hash_of(s));
+    }
+    gave_up = surgeon.gave_up();
+    end = s;
+  }
+};
+
+const Demonstration& demonstration() {
+  static const Demonstration made;
+  return made;
+}
+
+template <class Before>
+std::uint64_t first_difference(sim::State& s, sim::Work& w, Before&& before) {
+  const Demonstration& d = demonstration();
+  while (s.tick < d.inputs.size()) {
+    before(s, w);
+    step(d.model, d.inputs[s.tick], s, w);
+    if (s.tick % kMark == 0 && hash_of(s) != d.hash[s.tick / kMark - 1]) return s.tick;
+  }
+  return 0;
+}
+
+TEST(Demonstration, PassesWithoutAnError) {
+  const Demonstration& d = demonstration();
+  EXPECT_FALSE(d.gave_up);
+  EXPECT_TRUE(d.monitor.finished());
+  for (const ErrorMade& e : d.monitor.errors()) ADD_FAILURE() << e.code << " at " << e.at << " s: " << e.meaning;
+  EXPECT_TRUE(d.monitor.score().passed);
+  EXPECT_GT(d.monitor.score().total, 95);
+  EXPECT_TRUE(d.monitor.occluded());
+  EXPECT_EQ(d.flags & ~std::uint32_t(tissue::StepReport::kInverted), 0u);
+}
+
+TEST(Demonstration, ItsClipsAndCutAreAsTheExerciseAsks) {
+  const Demonstration& d = demonstration();
+  const Sterilisation& g = d.exercise.goal;
+  ASSERT_EQ(d.end.clip_count, 2);
+  ASSERT_EQ(d.end.cut_count, 1);
+  for (int i = 0; i < 2; ++i) {
+    const interactions::Clip& c = d.end.clips[size_t(i)];
+    EXPECT_GE(c.cover, g.clip_cover);
+    EXPECT_LE(c.theta, g.clip_angle);
+    EXPECT_EQ(c.tips_visible, 2);
+    EXPECT_GE(c.closing_time, g.clip_closing);
+  }
+  EXPECT_TRUE(g.first_clip.holds(d.end.clips[0].s));
+  EXPECT_TRUE(g.second_clip.holds(d.end.clips[1].s));
+  EXPECT_GE(d.end.cuts[0].fraction, g.cut_fraction);
+}
+
+TEST(Demonstration, PoisonedWorkChangesNoBitOfIt) {
+  sim::State s = sim::initial_state(demonstration().model);
+  sim::Work w = sim::make_work(demonstration().model);
+  EXPECT_EQ(first_difference(s, w, [](sim::State&, sim::Work& work) { poison(work); }), 0u);
+}
+
+TEST(Demonstration, SavedAndRestoredEverySecondItIsTheSame) {
+  sim::State s = sim::initial_state(demonstration().model);
+  sim::Work w = sim::make_work(demonstration().model);
+  EXPECT_EQ(first_difference(s, w,
+                             [](sim::State& state, sim::Work& work) {
+                               if (state.tick % 1000 != 500) return;
+                               const sim::State saved = state;
+                               state = sim::initial_state(demonstration().model);
+                               work = sim::make_work(demonstration().model);
+                               state = saved;
+                             }),
+            0u);
+}
+
+TEST(Demonstration, AnyPoolAndWidthGiveTheSame) {
+  const std::string usual = tissue::simd_name();
+  for (int threads : {2, 3}) {
+    core::ThreadPool pool(threads);
+    tissue::set_simd(threads == 2 ? "generic" : "sse2");
+    sim::State s = sim::initial_state(demonstration().model);
+    sim::Work w = sim::make_work(demonstration().model, &pool);
+    EXPECT_EQ(first_difference(s, w, [](sim::State&, sim::Work&) {}), 0u) << threads << " threads";
+  }
+  tissue::set_simd(usual);
+}
+
+class WildHands : public testing::TestWithParam<int> {};
+
+TEST_P(WildHands, LeaveTheShippedSceneFinite) {
+  const sim::Model& m = demonstration().model;
+  sim::State s = sim::initial_state(m);
+  sim::Work w = sim::make_work(m);
+  core::Random random{std::uint64_t(GetParam())};
+  sim::Input in = m.start;
+  for (int t = 0; t < 30000; ++t) {
+    if (random.uniform() < 0.1)
+      for (size_t i = 0; i < m.tools.size(); ++i) {
+        const Vec3d tip{random.uniform(-0.07, 0.07), random.uniform(-0.20, -0.10), random.uniform(-0.18, -0.05)};
+        in.tools[i] = sim::tool_input(kinematics::inverse(m.tools[i].port, tip, random.uniform(-3, 3)),
+                                      random.uniform() < 0.5 ? 0.0f : 1.0f);
+      }
+    const sim::StepReport report = step(m, in, s, w);
+    ASSERT_TRUE(report.fine()) << "tick " << t << " body " << report.first_bad_body;
+    if (t % 100 != 0) continue;
+    for (size_t i = 0; i < m.bodies.size(); ++i)
+      for (size_t n = 0; n < s.strands[i].x.size(); ++n)
+        ASSERT_LT(length(s.strands[i].x[n] - m.bodies[i].model.rest[n]), 0.15) << m.strands[i].name << " tick " << t;
+    for (size_t i = 0; i < m.solids.size(); ++i)
+      for (int n = 0; n < m.solids[i].network.nodes; ++n)
+        ASSERT_LT(length(tissue::position(m.solids[i].network, s.solids[i], n) - m.solids[i].network.rest[size_t(n)]),
+                  0.15)
+            << m.solids[i].name << " tick " << t;
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Seeds, WildHands, testing::Range(1, 5));
+
+}  // namespace
