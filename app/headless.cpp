@@ -2,6 +2,8 @@
 
 #include <chrono>
 
+#include <fmt/format.h>
+
 #include <trocar/core/log.hpp>
 
 #include "interrupt.hpp"
@@ -32,6 +34,15 @@ class Progress {
 };
 
 constexpr std::uint64_t kTicksPerVideoFrame = 1000 / kVideoRate;
+constexpr std::uint64_t kTicksPerShot = 20'000;  // where nothing happens
+
+/// A picture of everything that happens, and of the time in between.
+void take_shots(Shots& shots, const Session& session) {
+  const std::uint64_t tick = session.state().tick;
+  for (const Moment& m : session.moments()) shots.take(session.state(), m.what, m.text);
+  if (session.moments().empty() && tick % kTicksPerShot == 0)
+    shots.take(session.state(), "time", fmt::format("after {} s", tick / 1000));
+}
 
 }  // namespace
 
@@ -56,8 +67,7 @@ Leftovers run_headless(Session& session, InputSource& source, const HeadlessOpti
   while (goes_on() && source.next(session.state(), input)) {
     session.advance(input);
     source.after(session.state());
-    if (shots)
-      for (const Moment& m : session.moments()) shots->take(session.state(), m.what, m.text);
+    if (shots) take_shots(*shots, session);
     if (video && session.state().tick % kTicksPerVideoFrame == 0) video->add(pictures->draw(session.state()));
     if (each_tick && !each_tick()) break;
     progress.tick(session);

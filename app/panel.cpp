@@ -167,7 +167,7 @@ namespace {
 
 void result_line(const Json& from, const char* key, const char* text, const char* format) {
   if (from.contains(key) && from[key].is_number())
-    line(fmt::format("{:12} {}", text, fmt::format(fmt::runtime(format), from[key].get<double>())));
+    line(fmt::format("{}: {}", text, fmt::format(fmt::runtime(format), from[key].get<double>())));
 }
 
 }  // namespace

@@ -161,6 +161,7 @@ Json Session::result(bool interrupted) const {
   r["clips_dropped"] = m_counts[sim::Event::dropped_clip];
   r["cuts"] = m_counts[sim::Event::cut];
   r["flags"] = flag_names(m_flags);
+  r["tissue_survived"] = m_broken.empty();
   r["ticks"] = m_state.tick;
   r["state_hash"] = hex(sim::hash_of(m_state));
   r["model_hash"] = hex(model.hash);

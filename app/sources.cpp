@@ -35,6 +35,7 @@ Vec3d HandPlacement::to_scene(const std::array<double, 3>& tip) const {
 namespace {
 
 constexpr double kApproachSpeed = 0.03;  // [m/s] mean, on the way to where the trial begins
+constexpr double kTouch = 0.01;          // [N] what counts as touching tissue
 constexpr double kApproachLeast = 0.5;   // [s]
 
 Mat3d from_columns(Vec3d x, Vec3d y, Vec3d z) { return {{{x.x, y.x, z.x}, {x.y, y.y, z.y}, {x.z, y.z, z.z}}}; }
@@ -133,6 +134,8 @@ void MotionSource::after(const sim::State& state) {
     const Vec3d tip = tip_of(m_model, state, hand.place.tool);
     if (m_tick > m_approach + 1) hand.since_row += length(tip - hand.last_tip);
     hand.last_tip = tip;
+    const double(&force)[3] = state.tools[size_t(hand.place.tool)].contact_force;
+    if (m_tick > m_approach && length(Vec3d{force[0], force[1], force[2]}) > kTouch) ++hand.touching;
     const double time = m_tick > m_approach ? double(m_tick - m_approach - 1) * sim::kTick : 0.0;
     if (hand.row + 1 >= m_trial.samples.size() || time < m_trial.samples[hand.row + 1].time) continue;
     if (hand.row_reachable) {
@@ -156,6 +159,7 @@ Json MotionSource::describe() const {
                             {"file_path_length_reachable_mm", 1000 * hand.file_path},
                             {"performed_path_length_mm", 1000 * hand.performed},
                             {"path_ratio", hand.file_path > 0 ? Json(hand.performed / hand.file_path) : Json(nullptr)},
+                            {"touching_tissue_share", done > 0 ? double(hand.touching) / done : 0.0},
                             {"unreachable_share", done > 0 ? double(hand.unreachable) / done : 0.0}});
   }
   return out;

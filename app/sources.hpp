@@ -77,6 +77,7 @@ class MotionSource : public InputSource {
     double since_row = 0;                 ///< way of the tip since that row [m]
     bool row_reachable = true;            ///< everything since that row
     double file_path = 0, performed = 0;  ///< between rows all of whose ticks were reachable [m]
+    std::uint64_t touching = 0;           ///< ticks with tissue on the instrument
     std::uint64_t unreachable = 0;        ///< ticks
   };
   void aim(Hand& hand, devices::Hand which, std::uint64_t tick, sim::ToolInput& input);

@@ -190,7 +190,8 @@ class Reader {
     recording.header = read_header();
     while (m_at < m_size && take(recording)) {
     }
-    if (recording.damage.empty() && !recording.complete)
+    recording.interrupted = recording.damage.empty() && !recording.complete;
+    if (recording.interrupted)
       recording.damage = at_byte(m_at) + "the recording was interrupted: expected an end mark";
     return recording;
   }

@@ -55,9 +55,10 @@ struct Recording {
   std::vector<Input> inputs;  ///< inputs[i] is that of tick i
   std::vector<HashMark> hashes;
   std::vector<Keyframe> keyframes;
-  std::string result_json;  ///< empty if the attempt was interrupted
-  bool complete = false;    ///< an end mark was found and every block was sound
-  std::string damage;       ///< empty, or what was wrong with the tail and from which byte
+  std::string result_json;   ///< empty if the attempt was interrupted
+  bool complete = false;     ///< an end mark was found and every block was sound
+  bool interrupted = false;  ///< every block was sound, but there is no end mark: the program was killed
+  std::string damage;        ///< empty, or what was wrong with the tail and from which byte
 };
 
 /// Writes one recording. In the loop nothing is thrown: the first fault ends the recording and stands in failure().
