@@ -6,16 +6,17 @@
 namespace trocar::interactions {
 namespace {
 
-constexpr double kStiffness = 150;  // [N/m] per sample, implicit on both sides
-constexpr double kDamping = 0.05;   // [N s/m]
-constexpr double kDeepest = 0.010;  // [m] deeper than this is not contact but another side of the body
+constexpr double kStiffness = 150;    // [N/m] per sample, implicit on both sides
+constexpr double kDamping = 0.05;     // [N s/m]
+constexpr double kQuickest = 0.0006;  // [m] a tick that two organs are moved apart
+constexpr double kDeepest = 0.010;    // [m] deeper than this is not contact but another side of the body
 
 /// Pushes surface vertex `v` along -n by the share of the depth that its body takes.
 void push_surface(const Surface& surface, int v, Vec3d n, double depth, NetworkLoads* loads) noexcept {
   if (!loads) return;
   SkinLoad back;
   back.k = kStiffness;
-  back.shift = -0.5 * depth * n;
+  back.shift = -0.5 * std::min(depth, kQuickest) * n;
   back.dir = n;
   back.d = kDamping;
   add_skin_load(*surface.network, *surface.skin, *surface.state, v, back, {Owner::body, 0, 0}, *loads);
@@ -42,7 +43,7 @@ void strand_on_surface(const SurfacePair& pair, const StrandBody& body, const ti
     load.k = kStiffness;
     load.dir = c.normal;
     load.d = kDamping;
-    load.x0 = p + share * depth * c.normal;
+    load.x0 = p + share * std::min(depth, kQuickest) * c.normal;
     strand_loads.add(load, {Owner::body, 0, 0});
     push_surface(surface, nearest[i], c.normal, depth, surface_loads);
   }
@@ -63,7 +64,7 @@ void solid_on_surface(const SurfacePair& pair, const Surface& samples, const Sur
     if (depth <= 0 || depth > kDeepest) continue;
     SkinLoad load;
     load.k = kStiffness;
-    load.shift = share * depth * c.normal;
+    load.shift = share * std::min(depth, kQuickest) * c.normal;
     load.dir = c.normal;
     load.d = kDamping;
     add_skin_load(*samples.network, *samples.skin, *samples.state, v, load, {Owner::body, 0, 0}, sample_loads);
@@ -116,8 +117,9 @@ void strand_on_strand(const StrandPair& pair, const StrandBody& a, const tissue:
       continue;
     }
     const collision::RodContact c = collision::touch(rod(b, b_state, j), rod(a, a_state, i), side[size_t(i)]);
-    const double depth = c.depth - double(pair.overlap[size_t(i)]);
-    if (depth <= 0 || depth > kDeepest) continue;
+    const double deep = c.depth - double(pair.overlap[size_t(i)]);
+    if (deep <= 0 || deep > kDeepest) continue;
+    const double depth = std::min(deep, kQuickest);
     tissue::StrandLoad on_a, on_b;
     on_a.k = on_b.k = kStiffness;
     on_a.d = on_b.d = kDamping;

@@ -7,6 +7,8 @@ namespace {
 
 constexpr double kSurfaceStiffness = 1500;  // [N/m] per skin vertex, implicit: decides how firm, never how stable
 constexpr double kStrandStiffness = 1500;   // [N/m] per strand element
+constexpr double kQuickest = 0.0012;        // [m] a tick that a contact moves a skin: twice the fastest hand, no shots
+constexpr double kQuickestStrand = 0.003;   // [m] the same for a strand, which is light and must not be overtaken
 constexpr double kDamping = 0.3;            // [N s/m] along the contact normal
 constexpr double kBehind = 0.006;           // [m] how deep behind the surface an instrument is still pushed out
 
@@ -31,7 +33,7 @@ void tool_on_surface(const ToolShape& shape, int tool, const Surface& surface, N
         if (push.depth <= 0) continue;
         SkinLoad load;
         load.k = kSurfaceStiffness;
-        load.shift = push.depth * push.direction;
+        load.shift = std::min(push.depth, kQuickest) * push.direction;
         load.dir = push.direction;
         load.d = kDamping;
         add_skin_load(*surface.network, *surface.skin, *surface.state, v, load, {Owner::tool_contact, tool, part},
@@ -67,7 +69,7 @@ void channel(const ToolShape& shape, const BetweenJaws& where, double radius, in
   const double over = std::fabs(where.local.x) + squeezed - half;
   if (over <= 0) return;
   const Vec3d inward = (where.local.x > 0 ? -1.0 : 1.0) * shape.frame.opening();
-  const double depth = std::min(over, std::fabs(where.local.x));
+  const double depth = std::min({over, std::fabs(where.local.x), kQuickestStrand});
   if (depth <= 0) return;
   tissue::StrandLoad load;
   load.element = element;
@@ -125,7 +127,7 @@ void tool_on_strand(const ToolModel& model, const ToolShape& shape, const ToolSt
       load.k = kStrandStiffness;
       load.dir = c.normal;
       load.d = kDamping;
-      load.x0 = c.on_second + c.depth * c.normal;
+      load.x0 = c.on_second + std::min(c.depth, kQuickestStrand) * c.normal;
       loads.add(load, {Owner::tool_contact, tool, part});
     }
     if (where.inside && between && !held) channel(shape, where, radius, e, {Owner::tool_contact, tool, kJawA}, loads);
