@@ -1,6 +1,7 @@
 #include "headless.hpp"
 
 #include <chrono>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -39,7 +40,8 @@ constexpr std::uint64_t kTicksPerShot = 20'000;  // where nothing happens
 /// A picture of everything that happens, and of the time in between.
 void take_shots(Shots& shots, const Session& session) {
   const std::uint64_t tick = session.state().tick;
-  for (const Moment& m : session.moments()) shots.take(session.state(), m.what, m.text);
+  for (const Moment& m : session.moments())
+    if (std::string_view(m.what) != "closed-empty") shots.take(session.state(), m.what, m.text);
   if (session.moments().empty() && tick % kTicksPerShot == 0)
     shots.take(session.state(), "time", fmt::format("after {} s", tick / 1000));
 }

@@ -27,6 +27,21 @@ std::string body_name(const sim::Model& model, std::int32_t body) {
   return model.strands[size_t(body)].name;
 }
 
+std::string cut_name(const sim::Model& model, const interactions::Cut& cut) {
+  return cut.solid >= 0 ? model.solids[size_t(cut.solid)].name : body_name(model, cut.strand);
+}
+
+/// Nobody's recording is lost: one that is there already keeps its content under another name.
+void keep_older(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored) || std::filesystem::file_size(path, ignored) == 0) return;
+  std::filesystem::path kept;
+  for (int n = 1; kept.empty() || std::filesystem::exists(kept, ignored); ++n)
+    kept = path.parent_path() / fmt::format("{}-older-{}{}", path.stem().string(), n, path.extension().string());
+  std::filesystem::rename(path, kept, ignored);
+  if (!ignored) core::log::info("{} was there: it is now {}", path.string(), kept.string());
+}
+
 std::string now_text() { return fmt::format("{:%Y-%m-%dT%H:%M:%S}", fmt::localtime(std::time(nullptr))); }
 
 }  // namespace
@@ -58,6 +73,9 @@ void Session::record(const std::filesystem::path& path, const std::string& train
   header.exercise = m_lesson.name;
   header.program_version = TROCAR_VERSION;
   header.metadata_json = Json{{"trainee", trainee}, {"input", input}, {"started", now_text()}}.dump();
+  std::error_code ignored;  // what cannot be made or renamed is told by the writer
+  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ignored);
+  keep_older(path);
   m_writer = std::make_unique<sim::RecordingWriter>(path, header);
   m_recording = path;
   m_trainee = trainee;
@@ -127,15 +145,26 @@ void Session::collect_moments() {
         add_moment("clip-dropped", e.tool, "a clip closed on nothing");
         break;
       case Kind::cut:
-        add_moment("cut", e.tool,
-                   fmt::format("{} cut {}", who, body_name(model, m_state.cuts[size_t(e.index)].strand)));
+        add_moment("cut", e.tool, fmt::format("{} cut {}", who, cut_name(model, m_state.cuts[size_t(e.index)])));
         break;
     }
   }
+  for (size_t t = 0; t < model.tools.size(); ++t) {
+    const interactions::ToolState& tool = m_state.tools[t];
+    const bool empty =
+        model.tools[t].kind == interactions::ToolKind::grasper && tool.holds == 0 && tool.aperture < 0.05;
+    if (empty && !m_closed_empty[t]) add_moment("closed-empty", int(t), model.tools[t].name + " closed on nothing");
+    m_closed_empty[t] = empty;
+  }
+  if (!m_monitor) return;
   for (size_t i = 0; i < m_steps_done.size(); ++i) {
     const training::StepStatus& step = m_monitor->steps()[i];
     if (step.done && !m_steps_done[i]) add_moment("step-done", -1, step.name);
     m_steps_done[i] = step.done;
+  }
+  for (; m_errors_told < m_monitor->errors().size(); ++m_errors_told) {
+    const training::ErrorMade& error = m_monitor->errors()[m_errors_told];
+    add_moment("error", -1, fmt::format("{}: {}", error.code, error.meaning));
   }
 }
 

@@ -67,6 +67,8 @@ class Session {
   sim::StepReport m_report;
   std::unique_ptr<training::Monitor> m_monitor;
   std::vector<char> m_steps_done;
+  std::size_t m_errors_told = 0;
+  std::array<bool, sim::kMaxTools> m_closed_empty{};
   std::unique_ptr<sim::RecordingWriter> m_writer;
   std::filesystem::path m_recording;
   std::string m_trainee, m_input;

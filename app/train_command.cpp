@@ -1,4 +1,6 @@
 // trocar train: an exercise, done by hand in a window, or by a source of inputs with or without one.
+#include <cstdlib>
+
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
@@ -27,6 +29,34 @@ int exit_code(const Json& result, const std::string& input) {
   return result["passed"].get<bool>() ? core::kDone : core::kGoalNotReached;
 }
 
+/// The result in a few lines, for people.
+void tell(const Json& result) {
+  if (result["passed"].is_null()) {
+    fmt::print("done: {:.1f} s\n", result["seconds"].get<double>());
+  } else {
+    const Json& a = result["assessment"];
+    fmt::print("{}: score {:.0f} of 100 in {:.0f} s\n", result["passed"].get<bool>() ? "passed" : "not passed",
+               a["score"]["total"].get<double>(), a["seconds"].get<double>());
+    for (const Json& step : a["steps"])
+      fmt::print("  [{}] {}\n", step["done"].get<bool>() ? "x" : " ", step["name"].get<std::string>());
+    for (const Json& e : a["errors"])
+      fmt::print("  error {}: {} (-{:.0f})\n", e["code"].get<std::string>(), e["meaning"].get<std::string>(),
+                 e["points"].get<double>());
+  }
+  if (result.contains("failure")) fmt::print("{}\n", result["failure"].get<std::string>());
+  for (const char* key : {"recording", "report"})
+    if (result.contains(key)) fmt::print("{}: {}\n", key, result[key].get<std::string>());
+}
+
+/// A finite number of seconds above 0, at most a day.
+std::string check_seconds(const std::string& text) {
+  char* end = nullptr;
+  const double v = std::strtod(text.c_str(), &end);
+  return end != text.c_str() && *end == 0 && v > 0 && v <= 86400
+             ? ""
+             : "expected seconds above 0, at most 86400, got " + text;
+}
+
 int train(const Options& o, bool json) {
   const PictureSize size = parse_size(o.size);
   if (o.headless && o.input == "mouse")
@@ -49,7 +79,10 @@ int train(const Options& o, bool json) {
     result = run_window(*lesson, {o.record, o.trainee, o.input, o.log, size, o.seconds});
   }
   if (!o.report.empty()) result["report"] = write_report(o.report, result);
-  if (json) print(result);
+  if (json)
+    print(result);
+  else
+    tell(result);
   return exit_code(result, o.input);
 }
 
@@ -71,8 +104,8 @@ void add_train(CLI::App& program, Chosen& chosen) {
   c->add_option("--report", options->report, "write an HTML report to this folder");
   c->add_option("--size", options->size, "of pictures or window")->capture_default_str();
   c->add_option("--trainee", options->trainee, "name for the recording");
-  c->add_option("--seconds", options->seconds, "stop after so much simulated time")->check(CLI::PositiveNumber);
-  c->add_option("--log", options->log, "write events as JSON lines to this file");
+  c->add_option("--seconds", options->seconds, "stop after so much simulated time")->check(check_seconds);
+  c->add_option("--log", options->log, "window: write events as JSON lines to this file");
   c->callback([options, &chosen] { chosen.run = [options, &chosen] { return train(*options, chosen.json); }; });
 }
 

@@ -198,7 +198,7 @@ TEST(Reader, ABodyOfABillionNodesIsRefusedBeforeItIsBuilt) {
   EXPECT_EQ(faults_of({{7, R"("solids": [{"name": "ball", "tissue": "soft", "cell_mm": @0.1, "sections": [)"},
                        {8, R"({"centre_mm": [0, 0, -100], "across_mm": [100, 0, 0], "deep_mm": [0, 80, 0]},)"},
                        {9, R"({"centre_mm": [0, 0, -130], "across_mm": [100, 0, 0], "deep_mm": [0, 80, 0]}]}],)"}}),
-            one("expected a cell that fills the body with at most 200000 nodes, got about 9.8e+08"));
+            one("expected a cell that fills the body with at most 60000 nodes, got about 9.8e+08"));
 }
 
 TEST(Reader, TooFineSkinsAndStrandsAreRefused) {

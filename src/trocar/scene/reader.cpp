@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 using core::Location;
 
-constexpr double kMaxSolidNodes = 200'000;
+constexpr double kMaxSolidNodes = 60'000;  // ten of today's organs: a tick of more is far from real time
 constexpr double kMaxStrandNodes = 5'000;
 constexpr double kMaxTriangles = 500'000;
 constexpr int kMaxFiles = 256;
