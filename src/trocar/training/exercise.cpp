@@ -74,6 +74,10 @@ void read_goal(const scene::JsonObject& o, Sterilisation& g) {
   g.grasper = o.text("grasper");
   g.applier = o.text("clip_applier");
   g.scissors = o.text("scissors");
+  g.tube_at = o.at("tube");
+  g.grasper_at = o.at("grasper");
+  g.applier_at = o.at("clip_applier");
+  g.scissors_at = o.at("scissors");
   g.pull_limit = o.number("pull_limit_N");
   for (const scene::JsonObject& p : o.objects("present")) {
     g.present_pull = range_of(p, "pull_N", 1);

@@ -18,16 +18,17 @@ struct Range {
 
 /// Tubal sterilisation with two clips and a cut, one side (first form).
 struct Sterilisation {
-  std::string tube;                        ///< strand
-  std::string grasper, applier, scissors;  ///< tools
-  Range present_pull;                      ///< [N]
-  double present_straightness = 0;         ///< of the isthmus, chord / length
-  Range first_clip, second_clip;           ///< arc length from the uterus [m]
-  Range clip_distance;                     ///< between the two [m]
-  double clip_angle = 0;                   ///< largest theta [rad]
-  double clip_cover = 0;                   ///< smallest cover
-  double clip_closing = 0;                 ///< shortest closing time [s]
-  double cut_margin = 0;                   ///< smallest distance of the cut from a clip [m]
+  std::string tube;                                             ///< strand
+  std::string grasper, applier, scissors;                       ///< tools
+  core::Location tube_at, grasper_at, applier_at, scissors_at;  ///< where the file names them
+  Range present_pull;                                           ///< [N]
+  double present_straightness = 0;                              ///< of the isthmus, chord / length
+  Range first_clip, second_clip;                                ///< arc length from the uterus [m]
+  Range clip_distance;                                          ///< between the two [m]
+  double clip_angle = 0;                                        ///< largest theta [rad]
+  double clip_cover = 0;                                        ///< smallest cover
+  double clip_closing = 0;                                      ///< shortest closing time [s]
+  double cut_margin = 0;                                        ///< smallest distance of the cut from a clip [m]
   double cut_fraction = 0;
   double cut_beyond = 0;  ///< deepest cut into the mesosalpinx [m]
   double pull_limit = 0;  ///< over-force [N]

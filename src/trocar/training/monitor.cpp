@@ -34,11 +34,22 @@ double norm(const double (&v)[3]) { return length(Vec3d{v[0], v[1], v[2]}); }
 Monitor::Monitor(const Exercise& exercise, const sim::Model& model) : m_exercise(exercise) {
   const Sterilisation& g = exercise.goal;
   std::vector<core::Fault> faults;
+  std::vector<std::string> tubes, tools;
+  for (const sim::StrandModel& strand : model.strands) tubes.push_back(strand.name);
+  for (const interactions::ToolModel& tool : model.tools) tools.push_back(tool.name);
   m_tube = model.strand_index(g.tube);
-  if (m_tube < 0) faults.push_back({{exercise.file.string(), 0, 0}, "expected a strand '" + g.tube + "' in the scene"});
-  for (const std::string& name : {g.grasper, g.applier, g.scissors})
-    if (tool_index(model, name) < 0)
-      faults.push_back({{exercise.file.string(), 0, 0}, "expected an instrument '" + name + "' in the scene"});
+  if (m_tube < 0) faults.push_back({g.tube_at, scene::unknown_name("strand of the scene", g.tube, tubes)});
+  const auto need = [&](const std::string& name, const core::Location& at, interactions::ToolKind kind,
+                        const char* what) {
+    const int tool = tool_index(model, name);
+    if (tool < 0)
+      faults.push_back({at, scene::unknown_name("tool of the scene", name, tools)});
+    else if (model.tools[size_t(tool)].kind != kind)
+      faults.push_back({at, std::string("expected ") + what + ", got \"" + name + "\", which is another kind of tool"});
+  };
+  need(g.grasper, g.grasper_at, interactions::ToolKind::grasper, "a grasper");
+  need(g.applier, g.applier_at, interactions::ToolKind::clip_applier, "a clip applier");
+  need(g.scissors, g.scissors_at, interactions::ToolKind::scissors, "scissors");
   if (!faults.empty()) throw core::BadInput(faults);
   m_grasper = tool_index(model, g.grasper);
   m_tube_arc = model.bodies[size_t(m_tube)].length();
