@@ -1,6 +1,7 @@
 // Scissors in an organ: what the closed blades cross is severed, the network falls apart along it and nowhere else.
 #include <gtest/gtest.h>
 
+#include <trocar/core/random.hpp>
 #include <trocar/interactions/cut.hpp>
 #include <trocar/tissue/lattice_springs.hpp>
 
@@ -13,6 +14,7 @@ struct Block {
   tissue::NetworkState state;
   tissue::Skin skin;
   std::vector<std::uint8_t> parted;
+  std::vector<std::int32_t> scratch;
 
   Block() {
     const tissue::BoxLattice box = tissue::box_lattice(6, 6, 4, 0.003, {-0.009, -0.0105, -0.012});
@@ -39,6 +41,7 @@ struct Block {
         skin.triangles.push_back({a + 1, a + 8, a + 7});
       }
     parted.assign(skin.triangles.size(), 0);
+    scratch.assign(size_t(network.nodes), 0);
   }
 };
 
@@ -56,7 +59,7 @@ TEST(CutOrgan, BladesInTheTissueSeverOnlyWhatTheyCross) {
   Block block;
   // Straight down into the top: the blades' plane is y = 0 (between two rows of nodes), their tips 6 mm deep.
   const ToolShape shape = shape_of(scissors(), {0, 0, 0, 0.106}, 0.2);
-  const int severed = cut_organ(scissors(), shape, block.network, block.skin, block.state, block.parted);
+  const int severed = cut_organ(scissors(), shape, block.network, block.skin, block.state, block.parted, block.scratch);
   EXPECT_GT(severed, 4);
   for (int s = 0; s < block.network.springs; ++s) {
     if (tissue::spring_scale(block.network, block.state, s) > 0) continue;
@@ -74,8 +77,35 @@ TEST(CutOrgan, BladesInTheTissueSeverOnlyWhatTheyCross) {
 TEST(CutOrgan, BladesBesideTheOrganCutNothing) {
   Block block;
   const ToolShape shape = shape_of(scissors(), {0, 0, 0, 0.095}, 0.2);
-  EXPECT_EQ(cut_organ(scissors(), shape, block.network, block.skin, block.state, block.parted), 0);
+  EXPECT_EQ(cut_organ(scissors(), shape, block.network, block.skin, block.state, block.parted, block.scratch), 0);
   EXPECT_EQ(block.state.version, 0u);
+}
+
+TEST(CutOrgan, WhatWouldComeLooseStaysOnAThread) {
+  // Bite after bite, until the block is full of cuts in every direction: it still hangs together.
+  Block block;
+  core::Random random(1);
+  int severed = 0;
+  for (int bite = 0; bite < 300; ++bite) {
+    const kinematics::FulcrumPose pose{random.uniform(-0.08, 0.08), random.uniform(-0.08, 0.08), random.uniform(-3, 3),
+                                       random.uniform(0.100, 0.115)};
+    severed += cut_organ(scissors(), shape_of(scissors(), pose, 0.2), block.network, block.skin, block.state,
+                         block.parted, block.scratch);
+  }
+  EXPECT_GT(severed, block.network.springs / 3);
+  std::vector<int> reached{0};
+  std::vector<bool> seen(size_t(block.network.nodes), false);
+  seen[0] = true;
+  for (size_t i = 0; i < reached.size(); ++i)
+    for (int s = 0; s < block.network.springs; ++s) {
+      if (tissue::spring_scale(block.network, block.state, s) <= 0) continue;
+      const int a = block.network.spring_nodes[size_t(2 * s)], b = block.network.spring_nodes[size_t(2 * s) + 1];
+      const int other = a == reached[i] ? b : b == reached[i] ? a : -1;
+      if (other < 0 || seen[size_t(other)]) continue;
+      seen[size_t(other)] = true;
+      reached.push_back(other);
+    }
+  EXPECT_EQ(int(reached.size()), block.network.nodes);
 }
 
 }  // namespace

@@ -74,15 +74,45 @@ Vec3d skin_point(const tissue::NetworkModel& network, const tissue::Skin& skin, 
   return p;
 }
 
+/// Representative of a node's connected part; shortens the way for the next question.
+std::int32_t part_of(std::span<std::int32_t> parent, std::int32_t node) noexcept {
+  while (parent[size_t(node)] != node) node = parent[size_t(node)] = parent[size_t(parent[size_t(node)])];
+  return node;
+}
+/// Joins the parts of a and b; false where they are one already.
+bool join(std::span<std::int32_t> parent, std::int32_t a, std::int32_t b) noexcept {
+  const std::int32_t pa = part_of(parent, a), pb = part_of(parent, b);
+  parent[size_t(std::max(pa, pb))] = std::min(pa, pb);
+  return pa != pb;
+}
+
 }  // namespace
 
 int cut_organ(const ToolModel& model, const ToolShape& shape, const tissue::NetworkModel& network,
-              const tissue::Skin& fine, tissue::NetworkState& state, std::span<std::uint8_t> parted) noexcept {
-  int severed = 0;
-  for (int s = 0; s < network.springs; ++s) {
+              const tissue::Skin& fine, tissue::NetworkState& state, std::span<std::uint8_t> parted,
+              std::span<std::int32_t> scratch) noexcept {
+  const std::span<std::int32_t> parent = scratch.first(size_t(network.nodes));
+  for (std::int32_t n = 0; n < network.nodes; ++n) parent[size_t(n)] = n;
+  const auto crosses = [&](int s) {
     const Vec3d a = to_jaw(shape, tissue::position(network, state, network.spring_nodes[size_t(2 * s)]));
     const Vec3d b = to_jaw(shape, tissue::position(network, state, network.spring_nodes[size_t(2 * s) + 1]));
-    if (!crosses_blades(model, shape, a, b) || tissue::spring_scale(network, state, s) <= 0) continue;
+    return crosses_blades(model, shape, a, b);
+  };
+  const auto joins = [&](int s) {
+    return join(parent, network.spring_nodes[size_t(2 * s)], network.spring_nodes[size_t(2 * s) + 1]);
+  };
+  bool any = false;
+  for (int s = 0; s < network.springs; ++s) {
+    if (tissue::spring_scale(network, state, s) <= 0) continue;
+    if (crosses(s))
+      any = true;
+    else
+      joins(s);
+  }
+  if (!any) return 0;
+  int severed = 0;
+  for (int s = 0; s < network.springs; ++s) {
+    if (tissue::spring_scale(network, state, s) <= 0 || !crosses(s) || joins(s)) continue;
     tissue::cut_spring(network, state, s);
     ++severed;
   }

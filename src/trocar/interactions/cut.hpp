@@ -23,9 +23,12 @@ int update_scissors(const ToolModel& model, const ToolShape& shape, int tool_ind
 
 /// Parts an organ where the blades have closed in it: springs that cross the blades' plane between them are severed,
 /// and triangles of the drawn skin that cross it are marked in `parted` (one byte a triangle). First form: the blades
-/// take a bite of their own length, nothing is snapped or refined.
+/// take a bite of their own length, nothing is snapped or refined. What they would cut loose stays on a thread of one
+/// spring, so that nothing falls out of the world.
+/// @param scratch  at least as many numbers as the network has nodes; contents of no use
 /// @return springs severed
 int cut_organ(const ToolModel& model, const ToolShape& shape, const tissue::NetworkModel& network,
-              const tissue::Skin& fine, tissue::NetworkState& state, std::span<std::uint8_t> parted) noexcept;
+              const tissue::Skin& fine, tissue::NetworkState& state, std::span<std::uint8_t> parted,
+              std::span<std::int32_t> scratch) noexcept;
 
 }  // namespace trocar::interactions

@@ -95,8 +95,8 @@ void cut_organs(StepContext& c, size_t t) noexcept {
   for (size_t i = 0; i < c.model.solids.size(); ++i) {
     const SolidModel& solid = c.model.solids[i];
     if (!c.work.poses[i].bounds.near_segment(shape.pivot, shape.frame.tip, 0.005)) continue;
-    const int severed =
-        interactions::cut_organ(c.model.tools[t], shape, solid.network, solid.fine, s.solids[i], s.parted[i]);
+    const int severed = interactions::cut_organ(c.model.tools[t], shape, solid.network, solid.fine, s.solids[i],
+                                                s.parted[i], c.work.parts);
     if (severed == 0 || s.cut_count == interactions::kMaxCuts) continue;
     interactions::Cut& cut = s.cuts[size_t(s.cut_count++)];
     cut = {};

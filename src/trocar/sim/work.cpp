@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstring>
 #include <limits>
 
@@ -22,6 +23,7 @@ Work make_work(const Model& model, core::ThreadPool* pool) {
     w.poses.push_back(tissue::make_pose(s.skin));
     w.solid_work.push_back(tissue::make_work(s.network));
     w.solid_loads.emplace_back().reserve(kSolidLoads);
+    w.parts.resize(std::max(w.parts.size(), size_t(s.network.nodes)));
   }
   for (const interactions::StrandBody& b : model.bodies) {
     w.strand_work.push_back(tissue::make_work(b.model));
@@ -72,6 +74,7 @@ void poison(Work& w) noexcept {
     scribble(s.saved);
     scribble(s.bend_now);
   }
+  scribble(w.parts);
   scribble(w.ends);
   scribble(w.end_reactions);
   scribble(w.solid_reports);

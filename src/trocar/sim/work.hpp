@@ -21,6 +21,7 @@ struct Work {
   std::vector<tissue::StrandWork> strand_work;
   std::vector<std::array<tissue::StrandEnd, 2>> ends;  ///< (strands)
   std::vector<std::array<tissue::StrandReaction, 2>> end_reactions;
+  std::vector<std::int32_t> parts;  ///< (nodes of the largest organ) what hangs together, for cuts
   std::vector<tissue::StepReport> solid_reports, strand_reports;
 };
 
