@@ -183,7 +183,9 @@ bool sound(const Model& model, const State& s) {
   for (int i = 0; i < s.clip_count; ++i)
     if (!names_strand(s.clips[size_t(i)].strand, s.clips[size_t(i)].s)) return false;
   for (int i = 0; i < s.cut_count; ++i)
-    if (!names_strand(s.cuts[size_t(i)].strand, s.cuts[size_t(i)].s)) return false;
+    if (!names_strand(s.cuts[size_t(i)].strand, s.cuts[size_t(i)].s) || s.cuts[size_t(i)].solid < -1 ||
+        s.cuts[size_t(i)].solid >= std::int32_t(model.solids.size()))
+      return false;
   return true;
 }
 
