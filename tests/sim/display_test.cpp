@@ -13,14 +13,14 @@ using namespace trocar::sim;
 
 namespace {
 
-/// After the first clip, while the jaws hold the tube.
+/// After two clips and the cut, while the jaws hold the tube.
 const State& at_work() {
   static const State state = [] {
     const Model& m = small::model();
     State s = initial_state(m);
     Work w = make_work(m);
     small::Hands hands(m);
-    while (s.tick < 2400) step(m, hands.next(s), s, w);
+    while (s.tick < 4200) step(m, hands.next(s), s, w);
     return s;
   }();
   return state;
@@ -43,7 +43,9 @@ TEST(Display, RoundTripKeepsWhatIsDrawn) {
   EXPECT_LT(worst, 1e-5) << "[m]: places are kept to 0.01 mm";
   EXPECT_EQ(std::memcmp(&to.tools, &from.tools, sizeof from.tools), 0);
   EXPECT_EQ(std::memcmp(&to.scope, &from.scope, sizeof from.scope), 0);
-  ASSERT_EQ(to.clip_count, 1);
+  ASSERT_EQ(to.clip_count, 2);
+  ASSERT_EQ(to.cut_count, 1);
+  EXPECT_EQ(std::memcmp(&to.cuts[0], &from.cuts[0], sizeof from.cuts[0]), 0);
   EXPECT_EQ(std::memcmp(&to.clips[0], &from.clips[0], sizeof from.clips[0]), 0);
 }
 
@@ -99,8 +101,10 @@ void expect_drawable(const Model& m, const State& s) {
     ASSERT_TRUE(s.clips[size_t(i)].strand >= -1 && s.clips[size_t(i)].strand < int(m.strands.size()));
     ASSERT_TRUE(std::isfinite(s.clips[size_t(i)].s));
   }
-  for (int i = 0; i < s.cut_count; ++i)
+  for (int i = 0; i < s.cut_count; ++i) {
     ASSERT_TRUE(s.cuts[size_t(i)].strand >= -1 && s.cuts[size_t(i)].strand < int(m.strands.size()));
+    ASSERT_TRUE(s.cuts[size_t(i)].solid >= -1 && s.cuts[size_t(i)].solid < int(m.solids.size()));
+  }
 }
 
 TEST(Display, HostileBytesAreRefusedOrDrawable) {

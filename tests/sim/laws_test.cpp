@@ -197,6 +197,7 @@ TEST(Step, PoisonReachesEveryArrayOfWork) {
     EXPECT_TRUE(l.overflowed);
   }
   EXPECT_TRUE(all_set(w.shapes));
+  EXPECT_TRUE(all_set(w.parts));
   EXPECT_TRUE(all_set(w.ends));
   EXPECT_TRUE(all_set(w.end_reactions));
   EXPECT_TRUE(all_set(w.solid_reports));
