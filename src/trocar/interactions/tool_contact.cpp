@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 
+#include <trocar/geometry/nearest.hpp>
 #include <trocar/interactions/tool_contact.hpp>
 
 namespace trocar::interactions {
@@ -14,6 +16,84 @@ constexpr double kBehind = 0.006;           // [m] how deep behind the surface a
 
 bool meets(const tissue::Box& box, const Capsule& rod) noexcept {
   return box.near_segment(rod.a, rod.b, rod.radius + kBehind);
+}
+
+}  // namespace
+
+namespace {
+
+/// The nearest point of the skin to p: a triangle at the nearest vertex.
+struct SkinPoint {
+  std::array<int, 3> vertex{};
+  Vec3d weights, point, normal;
+};
+
+int nearest_vertex_near(const Surface& surface, Vec3d p, double reach) noexcept {
+  const tissue::SkinPose& pose = *surface.pose;
+  int best = -1;
+  double least = reach * reach;
+  for (size_t b = 0; b < pose.block.size(); ++b) {
+    if (!pose.block[b].reaches(p, reach)) continue;
+    const int last = std::min(int(b + 1) * tissue::kSkinBlock, surface.skin->size());
+    for (int v = int(b) * tissue::kSkinBlock; v < last; ++v) {
+      const double d = geometry::distance2(surface.position(v), p);
+      if (d >= least) continue;
+      least = d;
+      best = v;
+    }
+  }
+  return best;
+}
+
+SkinPoint nearest_skin_point(const Surface& surface, int vertex, Vec3d p) noexcept {
+  const tissue::Skin& skin = *surface.skin;
+  SkinPoint best;
+  double least = 1e9;
+  for (int k = skin.face_first[size_t(vertex)]; k < skin.face_first[size_t(vertex) + 1]; ++k) {
+    const auto& t = skin.triangles[size_t(skin.face[size_t(k)])];
+    const auto on =
+        geometry::closest_on_triangle(p, surface.position(t[0]), surface.position(t[1]), surface.position(t[2]));
+    if (on.distance2 >= least) continue;
+    least = on.distance2;
+    best.vertex = t;
+    best.weights = on.weights;
+    best.point = on.point;
+  }
+  for (size_t k = 0; k < 3; ++k) best.normal += best.weights[int(k)] * surface.normal(best.vertex[k]);
+  best.normal = normalised(best.normal, surface.normal(vertex));
+  return best;
+}
+
+/// A ball of the instrument presses the skin in, whatever lies between the skin's vertices.
+void press(const Surface& surface, Vec3d p, double radius, Tag tag, NetworkLoads& loads) noexcept {
+  const int vertex = nearest_vertex_near(surface, p, radius + kBehind);
+  if (vertex < 0) return;
+  const SkinPoint at = nearest_skin_point(surface, vertex, p);
+  const double depth = radius - dot(p - at.point, at.normal);
+  if (depth <= 0 || depth > radius + kBehind) return;
+  for (size_t k = 0; k < 3; ++k) {
+    const double share = at.weights[int(k)];
+    if (share < 0.02) continue;
+    SkinLoad load;
+    load.k = share * kSurfaceStiffness;
+    load.shift = -depth * at.normal;
+    load.dir = -at.normal;
+    load.d = share * kDamping;
+    add_skin_load(*surface.network, *surface.skin, *surface.state, at.vertex[k], load, tag, loads);
+  }
+}
+
+/// Closed jaws are a blunt rod that is thinner than the skin's triangles: points along it are pressed against the skin.
+/// Open jaws are not, so that a fold can rise between them.
+void closed_jaws_on_surface(const ToolShape& shape, int tool, const Surface& surface, NetworkLoads& loads) noexcept {
+  const Capsule &a = shape.part[kJawA], &b = shape.part[kJawB];
+  if (length(a.b - b.b) > 2.5 * (a.radius + b.radius)) return;
+  constexpr double kSpacing = 0.002;
+  const double far = length(shape.frame.tip - shape.pivot);
+  if (!surface.pose->bounds.near_segment(shape.pivot, shape.frame.tip, kBehind + a.radius)) return;
+  for (double back = 0; back < far; back += kSpacing)
+    press(surface, shape.frame.tip - back * shape.frame.axis(), a.radius + b.radius, {Owner::tool_contact, tool, kJawA},
+          loads);
 }
 
 }  // namespace
@@ -41,6 +121,7 @@ void tool_on_surface(const ToolShape& shape, int tool, const Surface& surface, N
       }
     }
   }
+  closed_jaws_on_surface(shape, tool, surface, loads);
 }
 
 BetweenJaws between_jaws(const ToolModel& model, const ToolShape& shape, const StrandBody& body,

@@ -2,8 +2,9 @@
 // from the instrument, implicitly, so the force is the tissue's reaction and not a penalty.
 //
 // Nothing tunnels: hands are bounded to 0.6 m/s at the tip (0.6 mm a tick, less than any radius here); a skin vertex
-// that finds itself behind the instrument's axis is still pushed inwards along its own normal, to a depth of 6 mm; a
-// strand remembers (in State) on which side of each rod it lies, and stays there.
+// that finds itself behind the instrument's axis is still pushed inwards along its own normal, to a depth of 6 mm;
+// closed jaws, thinner than the skin's triangles, are also pressed against those; a strand remembers (in State) on
+// which side of each rod it lies, and stays there.
 #pragma once
 
 #include <span>
