@@ -99,4 +99,81 @@ TEST(Tunnel, ClosedJawsAtTwiceHandSpeedPushTheTubeAheadOfThem) {
   EXPECT_GT(s.least, 0);
 }
 
+constexpr int kOrgan = 0;
+
+/// How deep the grasper's axis lies below the organ's skin as it is now [m]; negative: outside.
+double depth_in_organ(const small::Table& t) {
+  const Surface& surface = t.work.surfaces[kOrgan];
+  const ToolShape& shape = t.work.shapes[kGrasper];
+  double deepest = -1;
+  for (double back = 0; back < 0.05; back += 0.001) {
+    const Vec3d p = shape.frame.tip - back * shape.frame.axis();
+    double least = 1, depth = -1;
+    for (const auto& tri : surface.skin->triangles) {
+      const Vec3d a = surface.position(tri[0]), b = surface.position(tri[1]), c = surface.position(tri[2]);
+      const auto on = geometry::closest_on_triangle(p, a, b, c);
+      if (on.distance2 >= least) continue;
+      least = on.distance2;
+      const Vec3d n = on.weights.x * surface.normal(tri[0]) + on.weights.y * surface.normal(tri[1]) +
+                      on.weights.z * surface.normal(tri[2]);
+      depth = (dot(p - on.point, n) < 0 ? 1 : -1) * std::sqrt(least);
+    }
+    deepest = std::max(deepest, depth);
+  }
+  return deepest;
+}
+
+struct Entry {
+  double on_the_way = -1, at_rest = -1;  ///< deepest of all trials [m]
+};
+
+/// The closed grasper is driven into the organ by 6 to 14 mm: on end through its top, or sideways into its flank.
+Entry drive_into_organ(double speed, bool sideways, int trials, std::uint64_t seed) {
+  core::Random random(seed);
+  Entry r;
+  for (int trial = 0; trial < trials; ++trial) {
+    small::Table t(small::model());
+    t.state.tools[kGrasper].handle = 1;
+    const double flank = random.uniform() < 0.5 ? 1 : -1;
+    const Vec3d end =
+        sideways ? Vec3d{random.uniform(-0.026, -0.016), flank * random.uniform(0.004, 0.009),
+                         random.uniform(-0.030, -0.005)}
+                 : Vec3d{random.uniform(-0.026, -0.014), random.uniform(-0.008, 0.008), random.uniform(0.000, 0.006)};
+    const Vec3d way = sideways ? Vec3d{0, -flank, 0} : normalised(end - t.model.tools[kGrasper].port);
+    const double roll = random.uniform(-3, 3);
+    const int ticks = int(0.025 / (speed * sim::kTick));
+    for (int i = 0; i <= ticks + 300; ++i) {
+      const double left = std::max(0.0, 0.025 - speed * sim::kTick * i);
+      put(t, end - left * way, roll);
+      t.step();
+      if (i % 4 == 0 && left < 0.015 && i < ticks + 20) r.on_the_way = std::max(r.on_the_way, depth_in_organ(t));
+    }
+    r.at_rest = std::max(r.at_rest, depth_in_organ(t));
+    EXPECT_EQ(t.flags & (std::uint32_t(tissue::StepReport::kNonFinite) | sim::StepReport::kTooManyLoads), 0u);
+  }
+  return r;
+}
+
+TEST(Tunnel, DrivenIntoAnOrganOnEndTheInstrumentStaysOutsideItsSkin) {
+  // Ends up to 14 mm below the drawn surface: the organ gives way. In passing the axis sinks in by less than the jaws
+  // are thick.
+  const Entry e = drive_into_organ(kHandSpeed, false, 12, 5);
+  EXPECT_LT(e.on_the_way, 0.0015);
+  EXPECT_LT(e.at_rest, 0.0005);
+}
+
+TEST(Tunnel, DrivenIntoAnOrganSidewaysTheInstrumentStaysOutsideItsSkin) {
+  const Entry e = drive_into_organ(kHandSpeed, true, 12, 6);
+  EXPECT_LT(e.on_the_way, 0.0015);
+  EXPECT_LT(e.at_rest, 0.0005);
+}
+
+TEST(Tunnel, DrivenInAtTwoMetresASecondItComesOutAgain) {
+  for (bool sideways : {false, true}) {
+    const Entry e = drive_into_organ(2.0, sideways, 8, 7);
+    EXPECT_LT(e.on_the_way, 0.005);
+    EXPECT_LT(e.at_rest, 0.0015);
+  }
+}
+
 }  // namespace
