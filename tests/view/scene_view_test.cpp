@@ -1,5 +1,6 @@
 // The drawn scene against the rules of the renderer (the null backend refuses NaN, bad indices, wrong sizes) and
 // against anatomy: tubes stay closed, fimbriae move with their tube, metal lies where the simulation has it.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -11,6 +12,7 @@
 #include <trocar/scene/reader.hpp>
 #include <trocar/sim/visibility.hpp>
 #include <trocar/view/clip_shape.hpp>
+#include <trocar/view/fat_tags.hpp>
 #include <trocar/view/fimbria.hpp>
 #include <trocar/view/instrument_shapes.hpp>
 #include <trocar/view/looks.hpp>
@@ -321,6 +323,26 @@ TEST(OrganDrawing, ShowsTheSkinAsTheNodesCarryIt) {
   for (tissue::NodeState& n : state.nodes) n.x += 0.01f;
   organ.update(state);
   EXPECT_EQ(backend->stats().vertices_uploaded, uploaded + solid.fine.rest.size());
+}
+
+TEST(FatTags, HangOnTheBowelAndMoveWithIt) {
+  auto backend = render::make_null_backend();
+  const auto& solids = pelvis().solids;
+  const auto bowel = std::find_if(solids.begin(), solids.end(), [](const auto& s) { return s.look == "bowel"; });
+  ASSERT_NE(bowel, solids.end());
+  OrganDrawing organ(*bowel, {}, std::vector<Paint>(bowel->fine.rest.size()), *backend);
+  FatTags tags(organ, *bowel, 6, pelvis().gravity, *backend);
+  ASSERT_FALSE(tags.buffer().positions.empty());
+  EXPECT_TRUE(geometry::check_edges(welded(tags.buffer())).closed());
+  tissue::NetworkState state = tissue::rest_state(bowel->network);
+  organ.update(state);
+  tags.update(organ);
+  const std::vector<Vec3f> before = tags.buffer().positions;
+  for (tissue::NodeState& n : state.nodes) n.y += 0.004f;
+  organ.update(state);
+  tags.update(organ);
+  for (std::size_t i = 0; i < before.size(); ++i)
+    ASSERT_LT(length(tags.buffer().positions[i] - before[i] - Vec3f{0, 0.004f, 0}), 2e-5f);
 }
 
 TEST(OrganDrawing, ACutOpensTheSkinIntoAClosedWound) {

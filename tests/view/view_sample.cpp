@@ -25,7 +25,7 @@ double cpu_ms() {
 
 struct Shot {
   const char* name;
-  int state;  ///< 0 start, 1 clipped and cut
+  int state;  ///< 0 start, 1 clipped and cut, 2 grasped
   bool outside;
   Vec3d eye, target;  ///< both zero: where the scope is
 };
@@ -44,6 +44,9 @@ const Shot kShots[] = {
     {"applier", 0, false, {0.004, -0.105, -0.045}, {0.006, -0.137, -0.055}},
     {"clipped", 1, false, {0.034, -0.122, -0.072}, {0.038, -0.152, -0.094}},
     {"cut", 1, false, {0.038, -0.135, -0.075}, {0.040, -0.152, -0.094}},
+    {"grasped", 2, false, {0.020, -0.105, -0.060}, {0.040, -0.145, -0.088}},
+    {"held", 2, false, {0.030, -0.120, -0.060}, {0.042, -0.145, -0.082}},
+    {"sigmoid", 0, false, {0.0, -0.100, -0.115}, {-0.005, -0.135, -0.165}},
     {"bite", 1, false, {0.004, -0.122, -0.068}, {0.003, -0.151, -0.096}},
     {"outside", 0, true, {0.22, 0.12, 0.18}, {0, -0.14, -0.08}},
 };
@@ -75,6 +78,30 @@ void operate(const sim::Model& model, sim::State& state) {
   }
 }
 
+/// The grasper takes the left tube's ampulla and lifts it.
+void grasp(const sim::Model& model, sim::State& state, sim::Work& work) {
+  const int strand = std::max(0, model.strand_index("tube_left"));
+  const interactions::StrandBody& body = model.bodies[std::size_t(strand)];
+  sim::Input input = model.start;
+  const auto go = [&](Vec3d tip, double handle, int ticks) {
+    const kinematics::FulcrumPose pose = kinematics::inverse(model.tools[0].port, tip, double(input.tools[0].roll));
+    const sim::ToolInput from = input.tools[0];
+    sim::ToolInput to = sim::tool_input(pose, float(handle));
+    for (int i = 1; i <= ticks; ++i) {
+      const float w = float(i) / float(ticks);
+      input.tools[0] = {from.yaw + w * (to.yaw - from.yaw), from.pitch + w * (to.pitch - from.pitch), from.roll,
+                        from.depth + w * (to.depth - from.depth), from.handle + w * (to.handle - from.handle)};
+      sim::step(model, input, state, work);
+    }
+  };
+  const auto at = [&] { return point_at(body, state.strands[std::size_t(strand)], place_at(body, 0.034)); };
+  const Vec3d port = model.tools[0].port, before = at() + 0.02 * normalised(port - at());
+  go(before, 0, 400);
+  go(at() + 0.010 * normalised(at() - port), 0, 600);
+  go(at() + 0.010 * normalised(at() - port), 1, 500);
+  go(at() + Vec3d{-0.004, 0.012, 0.016}, 1, 800);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -85,11 +112,13 @@ int main(int argc, char** argv) {
   double before = cpu_ms();
   view::SceneView view(model, *backend);
   std::printf("view made in %.0f cpu-ms\n", cpu_ms() - before);
-  std::vector<sim::State> states(2, sim::initial_state(model));
+  std::vector<sim::State> states(3, sim::initial_state(model));
   operate(model, states[1]);
   sim::Work work = sim::make_work(model);
   for (sim::State& state : states)
     for (int i = 0; i < 300; ++i) sim::step(model, model.start, state, work);
+  grasp(model, states[2], work);
+  std::printf("grasper holds %d points with %.1f N\n", states[2].tools[0].holds, states[2].tools[0].pinch);
 
   for (const Shot& shot : kShots) {
     if (argc > 2 && std::find(argv + 2, argv + argc, std::string(shot.name)) == argv + argc) continue;
@@ -101,7 +130,10 @@ int main(int argc, char** argv) {
     sim::State state = states[std::size_t(shot.state)];
     double update = 0, draw = 0;
     for (int i = 0; i < 12; ++i) {
-      for (int k = 0; k < 4; ++k) sim::step(model, model.start, state, work);
+      if (shot.state < 2)
+        for (int k = 0; k < 4; ++k) sim::step(model, model.start, state, work);
+      else
+        state.tick += 40;
       before = cpu_ms();
       render::Frame frame = view.frame(state, options);
       update = cpu_ms() - before;

@@ -57,7 +57,7 @@ Material ovary() {
   m.film_roughness = 0.12f;
   m.film_bump = 0.22f;
   m.glow_amount = 0.1f;
-  m.tint = srgb(196, 166, 174);  // a follicle
+  m.tint = srgb(206, 178, 178);  // a follicle
   return m;
 }
 
@@ -86,9 +86,9 @@ Material peritoneum() {
 Material bladder() {
   Material m = peritoneum();  // it lies below the peritoneum
   m.two_sided = false;
-  m.colour = srgb(198, 124, 114);
-  m.colour_b = srgb(212, 150, 126);
-  m.colour_c = srgb(182, 104, 102);
+  m.colour = srgb(204, 136, 128);
+  m.colour_b = srgb(214, 158, 142);
+  m.colour_c = srgb(188, 114, 112);
   m.vessel_tile = 0.05f;
   m.mottle_size = 0.019f;
   return m;
@@ -120,11 +120,14 @@ Material fold(float alpha) {
 }
 
 Material fat() {
-  Material m = with_vessels(tissue(srgb(224, 164, 104), srgb(230, 184, 122), srgb(212, 138, 92)), 0.6f, 0.03f);
-  m.lobule_size = 0.005f;
-  m.lobule_depth = 0.4f;
-  m.lobule_contrast = 0.5f;
+  Material m = with_vessels(tissue(srgb(222, 158, 132), srgb(226, 174, 142), srgb(210, 140, 122)), 0.7f, 0.024f);
+  m.mottle_size = 0.006f;
+  m.lobule_size = 0.0042f;
+  m.lobule_depth = 0.1f;
+  m.lobule_contrast = 0.1f;
   m.glow_amount = 0.12f;
+  m.film_bump = 0.25f;
+  m.tint = srgb(206, 126, 118);  // where it grows out of the bowel
   return m;
 }
 
@@ -165,8 +168,8 @@ std::vector<Look> make_looks() {
         .broad_size = 0.012,
         .fine = 0.00012,
         .fine_size = 0.0045,
-        .follicles = 9,
-        .follicle_radius = 0.0035}},
+        .follicles = 14,
+        .follicle_radius = 0.0028}},
       {"round_ligament", cord, false, {}},
       {"ovarian_ligament", pale_cord, false, {}},
       {"uterosacral_ligament", cord, false, {}},
@@ -180,7 +183,8 @@ std::vector<Look> make_looks() {
         .fine = 0.00015,
         .fine_size = 0.006,
         .haustra = 0.0014,
-        .haustra_size = 0.024}},
+        .haustra_size = 0.024},
+       13},
       {"fat", fat(), false, {.broad = 0.001, .broad_size = 0.012, .fine = 0.0006, .fine_size = 0.005}},
       {"peritoneum", peritoneum(), false, {}},
       {"mesosalpinx", fold(0.5f), true, {}},

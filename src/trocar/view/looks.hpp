@@ -15,7 +15,8 @@ struct Look {
   std::string name;
   render::Material material;
   bool translucent = false;
-  Relief relief;  ///< of solids
+  Relief relief;     ///< of solids
+  int fat_tags = 0;  ///< of large bowel
 };
 
 /// The preset of that name. An unknown name gives a neutral tissue and is reported once.

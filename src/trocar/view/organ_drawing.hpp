@@ -17,6 +17,9 @@ class OrganDrawing {
   /// @param parted one byte a triangle of solid.fine, 1 = cut open (empty: none)
   void update(const tissue::NetworkState& state, std::span<const std::uint8_t> parted = {});
   render::MeshHandle mesh() const { return m_mesh.handle(); }
+  /// As drawn now, per vertex of solid.fine.
+  std::span<const Vec3f> positions() const { return m_pose.position; }
+  std::span<const Vec3f> normals() const { return m_normals; }
 
  private:
   void lift();

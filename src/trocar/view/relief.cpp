@@ -26,9 +26,10 @@ Vec3d long_axis(const tissue::Skin& skin) {
 void add_follicles(const Relief& relief, const tissue::Skin& skin, std::vector<float>& height,
                    std::vector<Paint>& paint) {
   std::vector<Vec3f> centres;
+  const int seed = int(std::fabs(skin.rest.front().x) * 1e6f) % 9973 + (skin.rest.front().x < 0 ? 10007 : 0);
   for (int k = 0; k < 40 * relief.follicles && int(centres.size()) < relief.follicles; ++k) {
-    const std::size_t v = std::size_t(varied(k, 71) * double(skin.rest.size() - 1));
-    const double radius = relief.follicle_radius * (0.45 + 0.55 * varied(k, 72));
+    const std::size_t v = std::size_t(varied(seed + k, 71) * double(skin.rest.size() - 1));
+    const double radius = relief.follicle_radius * (0.45 + 0.55 * varied(seed + k, 72));
     const auto close = [&](Vec3f c) { return length(c - skin.rest[v]) < float(1.5 * relief.follicle_radius); };
     if (std::any_of(centres.begin(), centres.end(), close)) continue;
     centres.push_back(skin.rest[v]);
@@ -37,7 +38,7 @@ void add_follicles(const Relief& relief, const tissue::Skin& skin, std::vector<f
       if (d >= 1) continue;
       const double dome = (1 - d * d) * (1 - 0.35 * d * d);
       height[i] += float(0.38 * radius * dome);
-      paint[i].tint = std::max(paint[i].tint, to_byte(0.9 * smooth(1, 0.4, d)));
+      paint[i].tint = std::max(paint[i].tint, to_byte(0.7 * smooth(1, 0.3, d)));
     }
   }
 }

@@ -6,6 +6,7 @@
 #include <trocar/view/cameras.hpp>
 #include <trocar/view/cavity.hpp>
 #include <trocar/view/clip_shape.hpp>
+#include <trocar/view/fat_tags.hpp>
 #include <trocar/view/instrument_shapes.hpp>
 #include <trocar/view/looks.hpp>
 #include <trocar/view/organ_drawing.hpp>
@@ -71,6 +72,8 @@ struct LoadedClip {
 struct SceneView::Parts {
   const sim::Model& model;
   std::vector<OrganDrawing> organs;
+  std::vector<FatTags> fat;
+  std::vector<int> fat_on;  ///< its organ
   std::vector<TubeDrawing> tubes;
   std::vector<SheetDrawing> sheets;
   std::vector<OwnedMesh> walls;
@@ -114,6 +117,13 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
     baker.bake(s.fine.rest, s.fine.rest_normal, paint);
     organs.emplace_back(s, relief_of(int(organs.size()), model), std::move(paint), backend);
   }
+  for (int i = 0; i < int(organs.size()); ++i) {
+    const sim::SolidModel& solid = model.solids[std::size_t(i)];
+    const int count = look(solid.look).fat_tags;
+    if (count == 0) continue;
+    fat.emplace_back(organs[std::size_t(i)], solid, count, model.gravity, backend);
+    fat_on.push_back(i);
+  }
   for (std::size_t i = 0; i < model.walls.size(); ++i) {
     const tissue::Skin& skin = model.walls[i].skin;
     std::vector<Paint> paint(skin.rest.size());
@@ -147,6 +157,7 @@ void SceneView::Parts::make_metal(render::Backend& backend) {
 
 void SceneView::Parts::update(const sim::State& state) {
   for (std::size_t i = 0; i < organs.size(); ++i) organs[i].update(state.solids[i], state.parted[i]);
+  for (std::size_t i = 0; i < fat.size(); ++i) fat[i].update(organs[std::size_t(fat_on[i])]);
   for (TubeDrawing& t : tubes) t.update(state);
   for (SheetDrawing& s : sheets) s.update(state);
   for (LoadedClip& l : loaded) {
@@ -162,6 +173,8 @@ void SceneView::Parts::list_tissues(bool with_walls, Frame& frame) const {
     frame.items.push_back(item(walls[i].handle(), look(model.walls[i].look)));
   for (std::size_t i = 0; i < organs.size(); ++i)
     frame.items.push_back(item(organs[i].mesh(), look(model.solids[i].look)));
+  for (const FatTags& f : fat)
+    if (f.mesh().id) frame.items.push_back(item(f.mesh(), look("fat")));
   for (std::size_t i = 0; i < tubes.size(); ++i) {
     const sim::StrandModel& strand = model.strands[i];
     frame.items.push_back(item(tubes[i].mesh(), look(strand.look)));
