@@ -47,7 +47,7 @@ TEST(Rods, ApartTheyForgetTheirSide) {
   const double gap = 0.004 + kRemember + 1e-5;
   const RodContact c = touch({{-0.05, 0, 0}, {0.05, 0, 0}, 0.0025}, {{0, -0.01, gap}, {0, 0.01, gap}, 0.0015}, side);
   EXPECT_LT(c.depth, 0);
-  EXPECT_EQ(side.z, 0);
+  EXPECT_EQ(side.z, 0.0f);
 }
 
 TEST(Rods, ParallelRodsTouchEverywhereAlongTheirOverlap) {

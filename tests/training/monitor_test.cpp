@@ -225,6 +225,13 @@ const Mistake kMistakes[] = {
        c.strand = small::kCord;
        a.cut(c);
      }},
+    {"E11",
+     [](Attempt& a) {  // into an organ
+       interactions::Cut c = a.good_cut(0);
+       c.strand = -1;
+       c.solid = 0;
+       a.cut(c);
+     }},
     clip_mistake("E12", [](interactions::Clip& c) { c.strand = -1; }),
     clip_mistake("A1.ampulla", [](interactions::Clip& c) { c.s = 0.031; }),
     clip_mistake("A1.cornu", [](interactions::Clip& c) { c.s = 0.009; }),
