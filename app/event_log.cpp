@@ -32,7 +32,7 @@ EventLog::EventLog(const std::string& path) {
   if (!m_file) throw core::EnvironmentLacks(fmt::format("cannot write the log {}: check the folder", path));
 }
 
-void EventLog::event(const std::string& name, Json details) {
+void EventLog::event(const std::string& name, const Json& details) {
   if (!m_file) return;
   Json line{{"event", name}};
   line.update(details);

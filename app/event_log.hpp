@@ -20,7 +20,7 @@ class EventLog {
   /// Nothing is logged to an empty path.  @throws core::EnvironmentLacks
   explicit EventLog(const std::string& path);
 
-  void event(const std::string& name, Json details = Json::object());
+  void event(const std::string& name, const Json& details = Json::object());
   void moment(const sim::Model& model, const Moment& moment);
   /// At most ten times a second of simulated time. @param led instrument, or -1 for the scope
   void pose(const sim::Model& model, const sim::State& state, int led);

@@ -41,7 +41,7 @@ std::unique_ptr<Video> Video::open(const std::filesystem::path& path, PictureSiz
                                  "-pix_fmt",
                                  "yuv420p",
                                  path.string()};
-  if (words.back().rfind("-", 0) == 0) words.back() = "./" + words.back();  // a file, not an option
+  if (words.back().rfind('-', 0) == 0) words.back() = "./" + words.back();  // a file, not an option
   std::vector<char*> arguments;
   for (std::string& w : words) arguments.push_back(w.data());
   arguments.push_back(nullptr);

@@ -4,13 +4,13 @@
 
 namespace trocar::portable {
 
-double sin(double x) noexcept;            ///< |x| <= 1e4
-double cos(double x) noexcept;            ///< |x| <= 1e4
+double sin(double x) noexcept;  ///< |x| <= 1e4
+double cos(double x) noexcept;  ///< |x| <= 1e4
 double atan2(double y, double x) noexcept;
-double acos(double x) noexcept;           ///< clamps |x| > 1
-double asin(double x) noexcept;           ///< clamps |x| > 1
-double exp(double x) noexcept;            ///< 0 below -708, clamps above 709
-double log(double x) noexcept;            ///< x > 0
+double acos(double x) noexcept;  ///< clamps |x| > 1
+double asin(double x) noexcept;  ///< clamps |x| > 1
+double exp(double x) noexcept;   ///< 0 below -708, clamps above 709
+double log(double x) noexcept;   ///< x > 0
 
 inline constexpr double pi = 3.14159265358979323846;
 

@@ -292,7 +292,7 @@ bool JsonObject::flag(std::string_view key, bool fallback) const {
   const JsonValue* v = good(key);
   return v ? v->truth : fallback;
 }
-std::string JsonObject::text(std::string_view key, std::string fallback) const {
+std::string JsonObject::text(std::string_view key, const std::string& fallback) const {
   const JsonValue* v = good(key);
   return v ? v->text : fallback;
 }

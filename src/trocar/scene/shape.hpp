@@ -97,7 +97,7 @@ class JsonObject {
   double number(std::string_view key, double fallback = 0) const;
   int integer(std::string_view key, int fallback = 0) const;
   bool flag(std::string_view key, bool fallback = false) const;
-  std::string text(std::string_view key, std::string fallback = {}) const;  ///< text, name, choice
+  std::string text(std::string_view key, const std::string& fallback = {}) const;  ///< text, name, choice
   std::vector<std::string> texts(std::string_view key) const;
   Vec3d vec3(std::string_view key, Vec3d fallback = {}) const;
   std::vector<Vec3d> points(std::string_view key) const;

@@ -191,8 +191,7 @@ class Reader {
     while (m_at < m_size && take(recording)) {
     }
     recording.interrupted = recording.damage.empty() && !recording.complete;
-    if (recording.interrupted)
-      recording.damage = at_byte(m_at) + "the recording was interrupted: expected an end mark";
+    if (recording.interrupted) recording.damage = at_byte(m_at) + "the recording was interrupted: expected an end mark";
     return recording;
   }
 

@@ -30,7 +30,7 @@ struct DrawnPart {
   OwnedMesh mesh;
 };
 
-std::vector<DrawnPart> made(std::vector<InstrumentPart> parts, render::Backend& backend) {
+std::vector<DrawnPart> made(const std::vector<InstrumentPart>& parts, render::Backend& backend) {
   std::vector<DrawnPart> drawn;
   for (const InstrumentPart& p : parts) drawn.push_back({p.joint, &look(p.look), {backend, p.mesh.data()}});
   return drawn;
