@@ -88,6 +88,10 @@ class MotionReader {
 
   std::vector<MotionTrial> read() {
     std::ifstream file = open();
+    return read(file);
+  }
+
+  std::vector<MotionTrial> read(std::istream& file) {
     std::string line;
     if (next(file, line)) header(line);
     if (m_line == 0) fault(1, 1, "expected a line of column names, got an empty file");
@@ -123,7 +127,7 @@ class MotionReader {
     if (full()) m_faults.push_back({core::Location{m_path.string(), line, 0}, "too many faults, not read further"});
   }
 
-  bool next(std::ifstream& file, std::string& line) {
+  bool next(std::istream& file, std::string& line) {
     if (!std::getline(file, line)) return false;
     ++m_line;
     if (!line.empty() && line.back() == '\r') line.pop_back();
@@ -291,6 +295,7 @@ double distance(const Vector<3>& a, const Vector<3>& b) {
 }  // namespace
 
 std::vector<MotionTrial> read_motion_file(const std::filesystem::path& path) { return MotionReader(path).read(); }
+std::vector<MotionTrial> read_motion(std::istream& in, const std::string& name) { return MotionReader(name).read(in); }
 
 MotionTrial read_motion_trial(const std::string& argument) {
   const std::size_t mark = argument.rfind('#');

@@ -23,6 +23,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,8 @@ inline constexpr double kMaxMotionDuration = 4 * 3600;  ///< of a trial [s]
 
 /// All trials of a file, in its order.  @throws core::BadInput with every fault located, up to kMaxMotionFaults
 std::vector<MotionTrial> read_motion_file(const std::filesystem::path& path);
+/// The same from a stream; faults call it `name`.
+std::vector<MotionTrial> read_motion(std::istream& in, const std::string& name);
 
 /// One trial. `argument` is FILE#OPERATOR/TRIAL, or FILE for the first; a '#' that belongs to the file's name is
 /// understood when such a file exists.  @throws core::BadInput, for an unknown trial with the names that are there

@@ -431,13 +431,19 @@ JsonDocument parse_json(std::string_view text, std::string file, std::vector<cor
   return document;
 }
 
-JsonDocument load_json(const std::filesystem::path& path, std::vector<core::Fault>& faults) {
+JsonDocument load_json(const std::filesystem::path& path, std::vector<core::Fault>& faults,
+                       const MemoryFiles* memory) {
   JsonDocument document{path.generic_string(), {}};
   document.root.kind = Kind::broken;
   const auto unreadable = [&](const std::string& message) {
     faults.push_back({{document.file, 0, 0}, message});
     return document;
   };
+  if (memory) {
+    const auto found = memory->find(path);
+    if (found == memory->end()) return unreadable("expected a file, got none of this name");
+    return parse_json(found->second, document.file, faults);
+  }
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error))
     return unreadable(std::filesystem::exists(path, error) ? "expected a file, got something else"

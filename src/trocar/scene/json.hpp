@@ -13,6 +13,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -57,8 +58,12 @@ inline constexpr std::size_t kMaxJsonKeys = 4096;  ///< in one object
 /// Reads `text`; what is wrong with it is appended to `faults`. Never throws on bad text.
 JsonDocument parse_json(std::string_view text, std::string file, std::vector<core::Fault>& faults);
 
-/// The same for a file; one that cannot be read is a fault at line 0.
-JsonDocument load_json(const std::filesystem::path& path, std::vector<core::Fault>& faults);
+/// Texts that stand in for files, by path as given: lets tests feed readers without a disk.
+using MemoryFiles = std::map<std::filesystem::path, std::string>;
+
+/// The same for a file; one that cannot be read is a fault at line 0. With `memory` files are looked up there only.
+JsonDocument load_json(const std::filesystem::path& path, std::vector<core::Fault>& faults,
+                       const MemoryFiles* memory = nullptr);
 
 /// A decimal number's nearest double, whatever the program's locale (floating from_chars is missing in older standard
 /// libraries). The text must be a number.

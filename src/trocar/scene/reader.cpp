@@ -87,7 +87,8 @@ double curve_length(const std::vector<Vec3d>& p) {
 /// One pass over a scene and its files. Documents live here: objects point into them.
 class Reading {
  public:
-  explicit Reading(std::vector<core::Fault>& faults) : m_faults(faults) {}
+  explicit Reading(std::vector<core::Fault>& faults, const MemoryFiles* memory = nullptr)
+      : m_faults(faults), m_memory(memory) {}
 
   Description description;
 
@@ -127,6 +128,7 @@ class Reading {
 
  private:
   std::vector<core::Fault>& m_faults;
+  const MemoryFiles* m_memory;  ///< where not null, files are looked up there
   std::vector<Reference> m_references;
   std::vector<std::pair<fs::path, std::string>> m_open;  ///< files being read: canonical path, shown name
   std::vector<Placement> m_tools;  ///< tools and scope whose reach is checked when ports and instruments are known
@@ -189,7 +191,7 @@ class Reading {
   void include(const fs::path& path, const Location& from, const Shape& shape, Read&& read) {
     const auto refuse = [&](std::string message) { m_faults.push_back({from, std::move(message)}); };
     std::error_code error;
-    const fs::path canonical = fs::weakly_canonical(path, error);
+    const fs::path canonical = m_memory ? path : fs::weakly_canonical(path, error);
     std::string chain;
     bool cycle = false;
     for (const auto& [open, name] : m_open) {
@@ -202,11 +204,11 @@ class Reading {
     if (m_open.size() >= kMaxIncludeDepth)
       return refuse(fmt::format("expected at most {} files inside each other, got more", kMaxIncludeDepth));
     if (++m_files > kMaxFiles) return refuse(fmt::format("expected at most {} files, got more", kMaxFiles));
-    if (!m_open.empty() && !fs::is_regular_file(path, error))
+    if (!m_open.empty() && !(m_memory ? m_memory->count(path) > 0 : fs::is_regular_file(path, error)))
       return refuse(fmt::format("expected the name of a file, got \"{}\" (there is no file {})",
                                 path.filename().generic_string(), path.generic_string()));
     m_open.emplace_back(canonical, path.generic_string());
-    const JsonDocument document = load_json(path, m_faults);
+    const JsonDocument document = load_json(path, m_faults, m_memory);
     read(JsonObject(document.root, shape, document.file, m_faults), path.parent_path());
     m_open.pop_back();
   }
@@ -588,9 +590,9 @@ std::vector<fs::path> sorted_entries(const fs::path& folder) {
 
 }  // namespace
 
-Description read_scene(const fs::path& path) {
+Description read_scene(const fs::path& path, const MemoryFiles* memory) {
   std::vector<core::Fault> faults;
-  Reading reading(faults);
+  Reading reading(faults, memory);
   reading.scene_file(path);
   reading.resolve();
   reading.check_together();
@@ -599,9 +601,9 @@ Description read_scene(const fs::path& path) {
   return std::move(reading.description);
 }
 
-FileKind kind_of_file(const fs::path& path) {
+FileKind kind_of_file(const fs::path& path, const MemoryFiles* memory) {
   std::vector<core::Fault> ignored;
-  const JsonDocument document = load_json(path, ignored);
+  const JsonDocument document = load_json(path, ignored, memory);
   const auto has = [&](const char* key) { return document.root.find(key) != nullptr; };
   if (has("scene")) return FileKind::exercise;
   if (has("scope") || has("ports") || has("tools")) return FileKind::scene;
@@ -610,10 +612,10 @@ FileKind kind_of_file(const fs::path& path) {
   return has("tissues") ? FileKind::tissue : FileKind::scene;
 }
 
-std::vector<core::Fault> check_file(const fs::path& path) {
+std::vector<core::Fault> check_file(const fs::path& path, const MemoryFiles* memory) {
   std::vector<core::Fault> faults;
-  Reading reading(faults);
-  switch (kind_of_file(path)) {
+  Reading reading(faults, memory);
+  switch (kind_of_file(path, memory)) {
     case FileKind::scene:
       reading.scene_file(path);
       reading.resolve();
@@ -628,7 +630,7 @@ std::vector<core::Fault> check_file(const fs::path& path) {
       reading.tissue_file(path);
       break;
     case FileKind::exercise:
-      load_json(path, faults);
+      load_json(path, faults, memory);
       break;
   }
   reading.check_together();

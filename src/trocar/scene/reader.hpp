@@ -19,17 +19,18 @@
 
 namespace trocar::scene {
 
-/// Throws core::BadInput with all faults of the scene file and of all files it includes.
-Description read_scene(const std::filesystem::path& path);
+/// Throws core::BadInput with all faults of the scene file and of all files it includes. With `memory`, here and below,
+/// files are looked up there instead of on the disk.
+Description read_scene(const std::filesystem::path& path, const MemoryFiles* memory = nullptr);
 
 enum class FileKind { scene, organ, instrument, tissue, exercise };
 /// A file's kind, by the keys that only this kind has; a scene where nothing tells.
-FileKind kind_of_file(const std::filesystem::path& path);
+FileKind kind_of_file(const std::filesystem::path& path, const MemoryFiles* memory = nullptr);
 
 /// Checks one file by its kind. What is not a scene is checked on its own: names that only a scene could resolve (a
 /// tissue, another organ) are left open. Of an exercise only the JSON is checked here; training knows its keys.
 /// Returns the faults; empty means good.
-std::vector<core::Fault> check_file(const std::filesystem::path& path);
+std::vector<core::Fault> check_file(const std::filesystem::path& path, const MemoryFiles* memory = nullptr);
 
 struct SceneEntry {
   std::string name;   ///< what the command line calls it: "gynaecology" for scenes/gynaecology/scene.json

@@ -184,6 +184,11 @@ class Reader {
     m_file.reset(std::fopen(path.c_str(), "rb"));
     if (!m_file) reject(std::strerror(errno));
   }
+  Reader(ConstBytes bytes, const std::string& name) : m_path(name), m_size(bytes.size()) {
+    if (bytes.empty()) reject("expected a Trocar recording, got nothing");
+    m_file.reset(fmemopen(const_cast<std::uint8_t*>(bytes.data()), bytes.size(), "rb"));  // only read from
+    if (!m_file) reject(std::strerror(errno));
+  }
 
   Recording read() {
     Recording recording;
@@ -407,5 +412,6 @@ void RecordingWriter::write_block(std::uint32_t kind, std::uint64_t first_tick, 
 }
 
 Recording read_recording(const std::filesystem::path& path) { return Reader(path).read(); }
+Recording read_recording(ConstBytes bytes, const std::string& name) { return Reader(bytes, name).read(); }
 
 }  // namespace trocar::sim

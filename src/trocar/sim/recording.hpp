@@ -104,5 +104,7 @@ class RecordingWriter {
 /// @throws core::BadInput when the file cannot be read or its header is not a sound recording's of format
 /// kRecordingFormat
 Recording read_recording(const std::filesystem::path& path);
+/// The same from bytes in memory; faults call them `name`.
+Recording read_recording(std::span<const std::uint8_t> bytes, const std::string& name);
 
 }  // namespace trocar::sim

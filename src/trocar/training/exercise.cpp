@@ -134,9 +134,9 @@ const Penalty* Exercise::penalty(const std::string& code) const {
   return nullptr;
 }
 
-Exercise read_exercise(const std::filesystem::path& path) {
+Exercise read_exercise(const std::filesystem::path& path, const scene::MemoryFiles* memory) {
   std::vector<core::Fault> faults;
-  const scene::JsonDocument document = scene::load_json(path, faults);
+  const scene::JsonDocument document = scene::load_json(path, faults, memory);
   Exercise e;
   e.file = path;
   if (document.root.kind != scene::JsonValue::Kind::broken) {

@@ -56,7 +56,8 @@ struct Exercise {
 
 const scene::Shape& exercise_shape();
 
-/// Throws core::BadInput with every fault. Whether the scene has the strand and the tools is checked by bind().
-Exercise read_exercise(const std::filesystem::path& path);
+/// Throws core::BadInput with every fault. Whether the scene has the strand and the tools is checked by bind(). With
+/// `memory` the file is looked up there instead of on the disk.
+Exercise read_exercise(const std::filesystem::path& path, const scene::MemoryFiles* memory = nullptr);
 
 }  // namespace trocar::training
