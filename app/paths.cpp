@@ -78,14 +78,18 @@ void make_folder(const fs::path& folder) {
     throw core::EnvironmentLacks(fmt::format("cannot create the folder {}: {}", folder.string(), error.message()));
 }
 
+fs::path data_folder() {
+  if (const std::string given = environment("TROCAR_DATA"); !given.empty()) return given;
+  if (const std::string data = environment("XDG_DATA_HOME"); !data.empty()) return fs::path(data) / "trocar";
+  const std::string home = environment("HOME");
+  return fs::path(home.empty() ? "." : home) / ".local/share/trocar";
+}
+
 fs::path default_recording(const std::string& exercise) {
-  const std::string data = environment("XDG_DATA_HOME"), home = environment("HOME");
-  const fs::path folder =
-      (!data.empty() ? fs::path(data) : fs::path(home.empty() ? "." : home) / ".local/share") / "trocar/recordings";
   std::string name = exercise;
   std::replace(name.begin(), name.end(), '/', '-');
   const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  return unused(folder / fmt::format("{}-{:%Y-%m-%d-%H%M%S}.rec", name, fmt::localtime(now)));
+  return unused(data_folder() / "recordings" / fmt::format("{}-{:%Y-%m-%d-%H%M%S}.rec", name, fmt::localtime(now)));
 }
 
 fs::path unused(const fs::path& path) {

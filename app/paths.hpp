@@ -26,7 +26,11 @@ std::filesystem::path find_exercise(const std::string& name, const std::filesyst
 /// Creates the folder and those above it.  @throws core::EnvironmentLacks
 void make_folder(const std::filesystem::path& folder);
 
-/// For recordings that nobody named: $XDG_DATA_HOME/trocar/recordings, or ~/.local/share/...
+/// What Trocar keeps for this person (settings, sessions, recordings, reports): $TROCAR_DATA, else
+/// $XDG_DATA_HOME/trocar, else ~/.local/share/trocar. Not made by this.
+std::filesystem::path data_folder();
+
+/// For recordings that nobody named: a new name in data_folder()/recordings.
 std::filesystem::path default_recording(const std::string& exercise);
 
 /// `path` itself if there is no such file, else "NAME-2.EXT", "NAME-3.EXT", ...
