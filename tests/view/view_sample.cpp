@@ -25,7 +25,7 @@ double cpu_ms() {
 
 struct Shot {
   const char* name;
-  int state;  ///< 0 start, 1 clipped and cut, 2 grasped
+  int state;  ///< 0 start, 1 clipped and cut, 2 grasped, 3 to 5 a closed grasper 25, 8 and 0 mm above the uterus
   bool outside;
   Vec3d eye, target;  ///< both zero: where the scope is
 };
@@ -48,6 +48,9 @@ const Shot kShots[] = {
     {"held", 2, false, {0.030, -0.120, -0.060}, {0.042, -0.145, -0.082}},
     {"sigmoid", 0, false, {0.0, -0.100, -0.115}, {-0.005, -0.135, -0.165}},
     {"bite", 1, false, {0.004, -0.122, -0.068}, {0.003, -0.151, -0.096}},
+    {"hover_far", 3, false, {0.004, -0.088, -0.050}, {0.006, -0.150, -0.094}},
+    {"hover_near", 4, false, {0.004, -0.088, -0.050}, {0.006, -0.150, -0.094}},
+    {"touching", 5, false, {0.004, -0.088, -0.050}, {0.006, -0.150, -0.094}},
     {"outside", 0, true, {0.22, 0.12, 0.18}, {0, -0.14, -0.08}},
 };
 
@@ -76,6 +79,15 @@ void operate(const sim::Model& model, sim::State& state) {
     const Vec3d d = vec_cast<double>(skin.rest[std::size_t(skin.triangles[t][0])]) - Vec3d{0.004, -0.150, -0.094};
     if (std::fabs(d.x) < 0.007 && std::fabs(d.y + 0.6 * d.x) < 0.0016 && d.z > -0.01) state.parted[0][t] = 1;
   }
+}
+
+/// The closed grasper `above` the uterus [m].
+void hover(const sim::Model& model, sim::State& state, sim::Work& work, double above) {
+  sim::Input input = model.start;
+  const Vec3d tip = Vec3d{0.008, -0.150, -0.095} + above * normalised(Vec3d{0, 0.55, 0.83});
+  const kinematics::FulcrumPose pose = kinematics::inverse(model.tools[0].port, tip, double(input.tools[0].roll));
+  input.tools[0] = sim::tool_input(pose, 1);
+  for (int i = 0; i < 900; ++i) sim::step(model, input, state, work);
 }
 
 /// The grasper takes the left tube's ampulla and lifts it.
@@ -112,12 +124,15 @@ int main(int argc, char** argv) {
   double before = cpu_ms();
   view::SceneView view(model, *backend);
   std::printf("view made in %.0f cpu-ms\n", cpu_ms() - before);
-  std::vector<sim::State> states(3, sim::initial_state(model));
+  std::vector<sim::State> states(6, sim::initial_state(model));
   operate(model, states[1]);
   sim::Work work = sim::make_work(model);
   for (sim::State& state : states)
     for (int i = 0; i < 300; ++i) sim::step(model, model.start, state, work);
   grasp(model, states[2], work);
+  hover(model, states[3], work, 0.025);
+  hover(model, states[4], work, 0.008);
+  hover(model, states[5], work, -0.004);
   std::printf("grasper holds %d points with %.1f N\n", states[2].tools[0].holds, states[2].tools[0].pinch);
 
   for (const Shot& shot : kShots) {

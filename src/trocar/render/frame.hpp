@@ -35,7 +35,8 @@ Camera at_scope_tip(Vec3f tip, const Mat3f& shaft, float scope_angle, float roll
 
 /// One lamp: the ring of the scope (default) or a room lamp.
 struct Light {
-  Vec3f position = {0.0012f, 0.0022f, 0.0008f};  ///< [m] in the camera's frame: slightly off the lens
+  Vec3f position = {0.0014f, 0.0034f, 0.0006f};  ///< [m] in the camera's frame: the fibres' crescent, off the lens
+  float ring = 0.004f;                           ///< radius of the luminous area [m]: how soft shadows are
   Vec3f colour = {1.0f, 0.97f, 0.98f};
   float intensity = 0.45f;           ///< irradiance at reference_distance; 1 shows white as white
   float reference_distance = 0.06f;  ///< [m]
@@ -83,6 +84,14 @@ struct DrawItem {
   bool translucent = false;  ///< drawn after the opaque ones, far to near by the middle of its bounds, both sides
 };
 
+/// A rod that takes light from what is near and behind it: an instrument's shaft or jaw, for the eye to judge how far
+/// above the tissue it is. Shadows of everything else are the depth darkening's.
+struct Rod {
+  Vec3f from, to;         ///< [m] world
+  float radius = 0.002f;  ///< [m]
+};
+inline constexpr int kMaxRods = 16;  ///< more are left out
+
 /// A soft puff of smoke or mist, drawn facing the eye.
 struct Puff {
   Vec3f centre;          ///< [m] world
@@ -106,6 +115,7 @@ struct Frame {
   Quality quality;
   std::vector<DrawItem> items;
   std::vector<Puff> puffs;
+  std::vector<Rod> rods;
   Vec3f background = {0.0015f, 0.0004f, 0.0003f};  ///< linear, where nothing is drawn
   std::uint64_t tick = 0;                          ///< [ms] simulated
   int eye = 0;                                     ///< 0..7: each eye or window has its own exposure memory

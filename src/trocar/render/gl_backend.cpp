@@ -24,7 +24,8 @@ enum TextureUnit : int {
   kUnitVessels = 3,
   kUnitSmall = 4,
   kUnitSmaller = 5,
-  kUnitExposure = 6
+  kUnitExposure = 6,
+  kUnitArcade = 7
 };
 constexpr int kEyes = 8;
 
@@ -49,8 +50,10 @@ GlTexture volume_texture(const Pattern& pattern) {
 GlTexture plane_texture(const Pattern& pattern) {
   GlTexture texture = new_texture();
   glBindTexture(GL_TEXTURE_2D, texture.id());
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RG8, pattern.size, pattern.size, 0, GL_RG, GL_UNSIGNED_BYTE, pattern.texels.data());
+  const int rows = pattern.rows > 0 ? pattern.rows : pattern.size;
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RG8, pattern.size, rows, 0, GL_RG, GL_UNSIGNED_BYTE, pattern.texels.data());
   glGenerateMipmap(GL_TEXTURE_2D);
+  if (pattern.rows > 0) glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   return texture;
@@ -118,11 +121,16 @@ std::array<float, 8 * 4> packed(const Frame& frame) {
   const Light& l = frame.light;
   const Vec3f bounce = l.bounce * l.bounce_colour;
   const Vec3f fog = frame.look.fog_colour;
-  return {l.position.x, l.position.y, l.position.z, l.intensity,
-          l.colour.x,   l.colour.y,   l.colour.z,   l.reference_distance * l.reference_distance,
-          bounce.x,     bounce.y,     bounce.z,     l.inverse_square ? 1.0f : 0.0f,
-          fog.x,        fog.y,        fog.z,        frame.look.fog,
-          l.ambient};
+  return {l.position.x, l.position.y,
+          l.position.z, l.intensity,
+          l.colour.x,   l.colour.y,
+          l.colour.z,   l.reference_distance * l.reference_distance,
+          bounce.x,     bounce.y,
+          bounce.z,     l.inverse_square ? 1.0f : 0.0f,
+          fog.x,        fog.y,
+          fog.z,        frame.look.fog,
+          l.ambient,    0,
+          l.ring};
 }
 
 /// Where the view's circle lies and how large the scene picture is, in pixels of the target.
@@ -157,6 +165,7 @@ class GlBackend final : public CheckedBackend {
     m_noise = volume_texture(noise_pattern());
     m_cells = volume_texture(cell_pattern());
     m_vessels = plane_texture(vessel_pattern());
+    m_arcade = plane_texture(arcade_pattern());
     m_no_vertices = new_vertex_array();
   }
 
@@ -216,6 +225,7 @@ class GlBackend final : public CheckedBackend {
     const float fov = 2 * std::atan(part * std::tan(camera.vertical_fov / 2));
     m_projection = perspective(fov, float(layout.box_w) / float(layout.box_h), camera.near_plane, camera.far_plane);
     m_frame_rows = packed(frame);
+    pack_rods(frame);
 
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_BLEND);
@@ -231,10 +241,22 @@ class GlBackend final : public CheckedBackend {
     bind_texture(kUnitNoise, GL_TEXTURE_3D, m_noise.id());
     bind_texture(kUnitCells, GL_TEXTURE_3D, m_cells.id());
     bind_texture(kUnitVessels, GL_TEXTURE_2D, m_vessels.id());
+    bind_texture(kUnitArcade, GL_TEXTURE_2D, m_arcade.id());
     // Mirrors show the picture before, if it was of the same view.
     const bool same_view = m_small.colour && m_small_eye == frame.eye;
     bind_texture(kUnitSmall, GL_TEXTURE_2D, same_view ? m_small.colour.id() : 0);
     m_frame_rows[17] = same_view ? 1.0f : 0.0f;
+  }
+
+  /// Rods in the eye's frame, as rows of u_rods: one end and the radius, the way to the other end and 1 / its square.
+  void pack_rods(const Frame& frame) {
+    m_rod_count = frame.quality.detail > 0 ? std::min(int(frame.rods.size()), kMaxRods) : 0;
+    for (int i = 0; i < m_rod_count; ++i) {
+      const Rod& rod = frame.rods[std::size_t(i)];
+      const Vec3f a = transform_point(m_view, rod.from), way = transform_point(m_view, rod.to) - a;
+      const float rows[8] = {a.x, a.y, a.z, rod.radius, way.x, way.y, way.z, 1 / std::max(dot(way, way), 1e-9f)};
+      std::copy(std::begin(rows), std::end(rows), m_rod_rows.begin() + 8 * i);
+    }
   }
 
   /// Near depth outside the circle, so that early depth tests drop those pixels.
@@ -277,8 +299,10 @@ class GlBackend final : public CheckedBackend {
       program.set_vec4s("u_material", packed(material));
       program.set("u_noise", kUnitNoise);
       program.set("u_cells", kUnitCells);
-      program.set("u_vessels", kUnitVessels);
+      program.set("u_vessels", material.arcade ? kUnitArcade : kUnitVessels);
       program.set("u_before", kUnitSmall);
+      program.set("u_rod_count", m_rod_count);
+      if (m_rod_count > 0) program.set_vec4s("u_rods", std::span(m_rod_rows).first(std::size_t(8 * m_rod_count)));
     }
     program.set("u_blended", blended ? 1.0f : 0.0f);
     if (two_sided || m_meshes.is_lines(item.mesh.id))
@@ -295,10 +319,11 @@ class GlBackend final : public CheckedBackend {
     std::string defines = "SHADING=" + std::to_string(int(material.shading)) + ",DETAIL=" + std::to_string(detail);
     const bool tissue = material.shading == Shading::tissue;
     if (detail > 1 && !film_serves_as_fine(material)) defines += ",FINE";
-    if (tissue && material.vessels > 0 && detail > 0) defines += ",VESSELS";
+    if (tissue && material.vessels > 0 && detail > 0) defines += material.arcade ? ",VESSELS,ARCADE" : ",VESSELS";
     if (tissue && material.lobule_size > 0) defines += ",LOBULES";
     if (stained) defines += ",STAINED";
     if (frame.look.fog > 0) defines += ",FOGGY";
+    if (tissue && m_rod_count > 0) defines += ",RODS";
     if (two_sided) defines += ",TWO_SIDED";
     return m_programs.get("surface.vert", "surface.frag", defines);
   }
@@ -496,13 +521,15 @@ class GlBackend final : public CheckedBackend {
 
   GlMeshes m_meshes;
   GlPrograms m_programs;
-  GlTexture m_noise, m_cells, m_vessels;
+  GlTexture m_noise, m_cells, m_vessels, m_arcade;
   GlVertexArray m_no_vertices;
   GlPicture m_scene, m_small, m_smaller, m_developed, m_own;
   std::array<GlPicture, 2> m_rough, m_exposure;
   std::array<Memory, kEyes> m_memory;
   Mat4 m_view, m_projection;
   std::array<float, 8 * 4> m_frame_rows{};
+  std::array<float, 8 * kMaxRods> m_rod_rows{};
+  int m_rod_count = 0;
   std::vector<SeenPuff> m_puffs;
   int m_small_eye = -1;  ///< whose picture m_small holds
 };

@@ -38,10 +38,12 @@ struct Material {
   float fibre_stretch = 1;       ///< >= 1: by this factor (muscle, ligament, brushed steel)
   float bump = 0.15f;            ///< 0..1: fine unevenness of the tissue itself
 
-  // Serosal vessels: branching trees, projected along the rest normal.
+  // Serosal vessels: branching trees, projected along the rest normal; or the arcade of a fold, for meshes whose rest
+  // coordinates are (along the fold, from border to root, 0).
   Vec3f vessel_colour = {0.23f, 0.03f, 0.045f};
   float vessels = 0;          ///< amount, 0..1
   float vessel_tile = 0.04f;  ///< [m] edge of one tile of the vessel picture (largest vessel = tile / 85 wide)
+  bool arcade = false;        ///< vessel_tile is then the length of one bow along the fold, twice the fold's width
 
   // Surface and film.
   float roughness = 0.45f;        ///< of the tissue under the film
@@ -55,7 +57,7 @@ struct Material {
   Vec3f wrap = {0.45f, 0.18f, 0.16f};  ///< how far light wraps past the terminator, per channel (red widest)
   Vec3f glow = {0.9f, 0.25f, 0.18f};   ///< colour of light that comes through a thin rim
   float glow_amount = 0.06f;           ///< 0..1
-  float alpha = 1;                     ///< of translucent items, facing the eye
+  float alpha = 1;                     ///< of translucent items, facing the eye; tint and vessels are denser
   float rim_alpha = 1;                 ///< of translucent items, grazing (a sheet seen edge-on is denser)
 
   float density = 1;       ///< Shading::fluid: opacity is 1 - exp(-density (1/4 + 4 tint)), tint = Paint::tint / 255

@@ -46,13 +46,15 @@ std::size_t voxel(int i, int j, int k) {
          std::size_t(kVolume) * (wrapped(j, kVolume) + std::size_t(kVolume) * wrapped(k, kVolume));
 }
 
-/// Where the vessels are drawn.
+/// Where the vessels are drawn: a picture that tiles.
 struct Canvas {
-  int size;
+  Canvas(int width, int height) : size(width), rows(height), coverage(std::size_t(width) * height) {}
+
+  int size, rows;
   std::vector<float> coverage;
 
   float at(float x, float y) const {
-    return coverage[std::size_t(wrapped(int(std::floor(y)), size)) * size + wrapped(int(std::floor(x)), size)];
+    return coverage[std::size_t(wrapped(int(std::floor(y)), rows)) * size + wrapped(int(std::floor(x)), size)];
   }
 
   /// A soft-edged disc; the darkest stroke stays.
@@ -62,7 +64,7 @@ struct Canvas {
       for (int i = int(std::floor(x - reach)); i <= int(std::ceil(x + reach)); ++i) {
         const float dx = float(i) - x, dy = float(j) - y;
         const float edge = (radius + softness - std::sqrt(dx * dx + dy * dy)) / (2 * softness);
-        float& texel = coverage[std::size_t(wrapped(j, size)) * size + wrapped(i, size)];
+        float& texel = coverage[std::size_t(wrapped(j, rows)) * size + wrapped(i, size)];
         texel = std::max(texel, strength * std::clamp(edge, 0.0f, 1.0f));
       }
   }
@@ -128,12 +130,22 @@ void grow(Canvas& canvas, const Habit& habit, core::Random& random) {
   std::vector<Twig> tips;
   for (int i = 0; i < habit.trees; ++i) {
     const float radius = float(random.uniform(habit.thinnest, habit.thickest));
-    tips.push_back({float(random.uniform(0, canvas.size)), float(random.uniform(0, canvas.size)),
+    tips.push_back({float(random.uniform(0, canvas.size)), float(random.uniform(0, canvas.rows)),
                     float(random.uniform(0, 2 * portable::pi)), radius, until_fork(radius, random)});
   }
   // Breadth first, so that the trunks take their ground before the twigs fill what is left.
   for (std::size_t i = 0; i < tips.size(); ++i)
     grow_branch(canvas, Twig(tips[i]), i < std::size_t(habit.trees), habit, tips, random);
+}
+
+/// Arteries and veins as the two channels of a picture.
+Pattern pattern_of(const Canvas& red, const Canvas& veins, int rows) {
+  Pattern pattern{red.size, 2, std::vector<std::uint8_t>(2 * red.coverage.size()), rows};
+  for (std::size_t i = 0; i < red.coverage.size(); ++i) {
+    pattern.texels[2 * i] = to_byte(red.coverage[i]);
+    pattern.texels[2 * i + 1] = to_byte(veins.coverage[i]);
+  }
+  return pattern;
 }
 
 }  // namespace
@@ -211,17 +223,51 @@ Pattern vessel_pattern() {
   constexpr int size = 1024;
   core::Random random(0x5E55E1);
   constexpr float largest = 0.5f * size / kVesselTileWidth;
-  Canvas red{size, std::vector<float>(std::size_t(size) * size)}, veins = red;
+  Canvas red(size, size), veins = red;
   grow(red, {3, 0.6f * largest, 0.8f * largest, 1.0f, 0.8f, 1.1f}, random);
   grow(red, {14, 1.6f, 2.6f, 0.9f, 0.75f, 1.3f}, random);
   grow(red, {60, 0.8f, 1.3f, 0.75f, 0.7f, 1.4f}, random);
   grow(veins, {4, 0.7f * largest, largest, 0.9f, 2.0f, 0.8f}, random);
-  Pattern pattern{size, 2, std::vector<std::uint8_t>(std::size_t(2) * size * size)};
-  for (std::size_t i = 0; i < red.coverage.size(); ++i) {
-    pattern.texels[2 * i] = to_byte(red.coverage[i]);
-    pattern.texels[2 * i + 1] = to_byte(veins.coverage[i]);
+  return pattern_of(red, veins, 0);
+}
+
+Pattern arcade_pattern() {
+  constexpr int size = 1024, rows = 512;
+  core::Random random(0xA2CADE);
+  Canvas red(size, rows), veins = red;
+  const auto arch = [](float x) {  // where the arcade runs
+    const float k = 2 * float(portable::pi) * x / size;
+    return 0.25f * rows + 26 * float(portable::sin(double(2 * k))) + 12 * float(portable::sin(double(5 * k + 1))) +
+           5 * float(portable::sin(double(17 * k))) + 2.5f * float(portable::sin(double(41 * k + 2)));
+  };
+  for (float x = 0; x < size; x += 0.7f) {
+    red.dab(x, arch(x), 4.2f + float(portable::sin(double(6.28318531f * x / size))), 1, 0.9f);
+    veins.dab(x, arch(x + 6) + 15, 6.5f, 0.9f, 2.2f);
   }
-  return pattern;
+  // Feeders from the root.
+  for (const float foot : {0.08f * size, 0.43f * size, 0.76f * size}) {
+    const float lean = 0.3f * rows * (foot < 0.5f * size ? 1.0f : -1.0f);
+    for (float u = 0; u <= 1; u += 0.002f) {
+      const float sway = 10 * float(portable::sin(double(9 * u + foot))) + 4 * float(portable::sin(double(31 * u)));
+      const float x = foot + lean * (1 - u) * (1 - u) + sway, y = rows + (arch(foot) - rows) * u;
+      red.dab(x, y, 3.8f, 1, 0.9f);
+      veins.dab(x + 13, y, 6, 0.9f, 2.2f);
+    }
+  }
+  // Twigs to the tube, at right angles.
+  for (float x = 0; x < size; x += float(random.uniform(26, 62))) {
+    const float top = arch(x), bow = float(random.uniform(-16, 16)), thick = float(random.uniform(0.9, 2.0));
+    const float fork = float(random.uniform(0.35, 0.8));
+    for (float u = 0; u <= 1; u += 0.004f) {
+      const float way = x + bow * u * u + 2.2f * float(portable::sin(double(15 * u + x)));
+      red.dab(way, top * (1 - u), std::max(0.6f, thick * (1 - 0.5f * u)), 0.95f, 0.8f);
+      if (u > fork) red.dab(way + 34 * (u - fork), top * (1 - u), 0.75f * thick, 0.8f, 0.8f);
+      if (thick > 1.5f) veins.dab(way + 5, top * (1 - u), 2.2f * (1 - 0.4f * u), 0.7f, 1.4f);
+    }
+  }
+  grow(red, {10, 1.3f, 2.2f, 0.8f, 0.75f, 1.3f}, random);
+  grow(red, {26, 0.8f, 1.2f, 0.65f, 0.7f, 1.4f}, random);
+  return pattern_of(red, veins, rows);
 }
 
 }  // namespace trocar::render

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <trocar/view/cameras.hpp>
@@ -58,6 +59,51 @@ EndoscopeLook room_look() {
   look.auto_exposure = true;
   look.exposure_key = 0.12f;
   return look;
+}
+
+namespace {
+
+constexpr double kSteepest = 1.54, kNearest = 0.03, kFarthest = 1.5;  // [rad], [m]
+constexpr double kPi = 3.14159265358979323846;
+
+struct Box {
+  Vec3d low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9};
+  void add(Vec3d p) {
+    for (int k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], p[k]);
+      high[k] = std::max(high[k], p[k]);
+    }
+  }
+};
+
+}  // namespace
+
+Vec3d Orbit::eye() const {
+  return target + distance * Vec3d{std::sin(yaw) * std::cos(pitch), -std::cos(yaw) * std::cos(pitch), std::sin(pitch)};
+}
+
+void Orbit::turn(double by_yaw, double by_pitch) {
+  yaw = std::remainder(yaw + by_yaw, 2 * kPi);
+  pitch = std::clamp(pitch + by_pitch, -kSteepest, kSteepest);
+}
+
+void Orbit::pan(double right, double up) {
+  const Vec3d to_right{std::cos(yaw), std::sin(yaw), 0}, backward = (eye() - target) / distance;
+  target += right * to_right + up * cross(backward, to_right);
+}
+
+void Orbit::zoom(double factor) { distance = std::clamp(distance * factor, kNearest, kFarthest); }
+
+Orbit orbit_around(const sim::Model& model) {
+  Box box;
+  for (const interactions::StrandBody& strand : model.bodies)
+    for (Vec3d p : strand.model.rest) box.add(p);
+  if (model.bodies.empty())
+    for (const sim::SolidModel& solid : model.solids)
+      for (Vec3f p : solid.skin.rest) box.add(vec_cast<double>(p));
+  Orbit orbit;
+  if (box.low.x <= box.high.x) orbit.target = 0.5 * (box.low + box.high);
+  return orbit;
 }
 
 }  // namespace trocar::view

@@ -3,6 +3,7 @@
 
 #include <trocar/kinematics/fulcrum.hpp>
 #include <trocar/render/frame.hpp>
+#include <trocar/sim/model.hpp>
 
 namespace trocar::view {
 
@@ -18,5 +19,21 @@ render::Camera outside_camera(Vec3d eye, Vec3d target, Vec3d up, double field_of
 /// Room light for it: the same everywhere, from above the camera.
 render::Light room_light();
 render::EndoscopeLook room_look();
+
+/// A free camera as hands turn it: it looks at a point from around it, the patient's front (z) always up in the picture.
+struct Orbit {
+  Vec3d target;           ///< [m]
+  double yaw = 0;         ///< [rad] 0: from the feet towards the head; pi/2: from the patient's left
+  double pitch = 0.6;     ///< [rad] above the patient's plane; just short of straight up and down at most
+  double distance = 0.4;  ///< [m] 0.03 .. 1.5
+
+  Vec3d eye() const;
+  void turn(double by_yaw, double by_pitch);  ///< [rad]
+  void pan(double right, double up);          ///< [m] of the target, along the picture
+  void zoom(double factor);                   ///< of the distance
+};
+
+/// Looks at the middle of what a scene's strands and organs are, from the feet and above.
+Orbit orbit_around(const sim::Model& model);
 
 }  // namespace trocar::view

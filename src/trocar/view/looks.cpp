@@ -2,6 +2,7 @@
 #include <set>
 
 #include <trocar/core/log.hpp>
+#include <trocar/view/fold_pattern.hpp>
 #include <trocar/view/looks.hpp>
 
 namespace trocar::view {
@@ -106,16 +107,25 @@ Material bowel() {
 }
 
 Material fold(float alpha) {
-  Material m = with_vessels(tissue(srgb(208, 146, 136), srgb(218, 168, 146), srgb(196, 124, 118)), 1.0f, 0.03f);
+  Material m = with_vessels(tissue(srgb(210, 146, 138), srgb(222, 172, 148), srgb(196, 124, 120)), 1.0f, 0.03f);
   m.mottle_size = 0.016f;
   m.mottle = 0.45f;
   m.alpha = alpha;
-  m.rim_alpha = 0.92f;
+  m.rim_alpha = 0.85f;
   m.two_sided = true;
   m.glow_amount = 0.12f;
-  m.wetness = 0.6f;
-  m.film_bump = 0.2f;
-  m.film_size = 0.003f;
+  m.wetness = 0.55f;
+  m.film_bump = 0.16f;
+  m.film_size = 0.0026f;
+  m.tint = srgb(222, 164, 122);  // fat along its borders
+  return m;
+}
+
+Material mesosalpinx() {
+  Material m = fold(0.4f);
+  m.vessel_colour = srgb(150, 30, 44);
+  m.vessel_tile = float(kFoldTile);
+  m.arcade = true;
   return m;
 }
 
@@ -187,8 +197,8 @@ std::vector<Look> make_looks() {
        13},
       {"fat", fat(), false, {.broad = 0.001, .broad_size = 0.012, .fine = 0.0006, .fine_size = 0.005}},
       {"peritoneum", peritoneum(), false, {}},
-      {"mesosalpinx", fold(0.5f), true, {}},
-      {"broad_ligament", fold(0.66f), true, {}},
+      {"mesosalpinx", mesosalpinx(), true, {}},
+      {"broad_ligament", fold(0.6f), true, {}},
       {"steel", metal(srgb(142, 142, 147), srgb(124, 124, 130), 0.34f), false, {}},
       {"insulated", insulation(), false, {}},
       {"titanium", metal(srgb(160, 162, 168), srgb(142, 144, 150), 0.3f), false, {}},

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <optional>
 
 #include <trocar/render/mesh_arrays.hpp>
@@ -207,6 +208,11 @@ void SceneView::Parts::list_tools(const sim::State& state, Frame& frame) const {
       DrawItem drawn = item(part.mesh.handle(), *part.look);
       drawn.transform = to_world(placement_of(part.joint, shape));
       frame.items.push_back(drawn);
+    }
+    for (int k = 0; k < interactions::kToolParts; ++k) {  // a jaw is wider than it is thick
+      const collision::Capsule& rod = shape.part[k];
+      const double half = k == interactions::kShaft ? rod.radius : std::max(rod.radius, 0.4 * model.tools[t].jaw_width);
+      frame.rods.push_back({vec_cast<float>(rod.a), vec_cast<float>(rod.b), float(half)});
     }
     for (const LoadedClip& l : loaded) {
       if (l.tool != int(t) || tool.clips_left <= 0 || !tool.armed) continue;

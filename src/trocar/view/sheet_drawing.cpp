@@ -2,6 +2,8 @@
 #include <cmath>
 
 #include <trocar/render/mesh_arrays.hpp>
+#include <trocar/view/fold_pattern.hpp>
+#include <trocar/view/looks.hpp>
 #include <trocar/view/sheet_drawing.hpp>
 
 namespace trocar::view {
@@ -56,7 +58,7 @@ SheetDrawing::SheetDrawing(const sim::Model& model, int sheet, render::Backend& 
   connect();
   m_rest_width.clear();
   place(rest);
-  m_buffer.rest = m_buffer.positions;
+  lay_pattern();
   render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);
   m_mesh = OwnedMesh(backend, m_buffer.data());
 }
@@ -162,6 +164,22 @@ Vec3d SheetDrawing::base_point(std::size_t i, const sim::State& state) const {
   return b.rest + point_at(m_model->bodies[k], state.strands[k], b.place) - rest_of(b, *m_model);
 }
 
+/// Rest coordinates: those of a fold with an arcade are its own, others' are where it is drawn.
+void SheetDrawing::lay_pattern() {
+  m_buffer.rest = m_buffer.positions;
+  if (!look(m_sheet->look).material.arcade) return;
+  for (std::size_t i = 0; i < m_buffer.positions.size(); ++i) {
+    const std::size_t c = i / kRows;
+    const double v = double(i % kRows) / (kRows - 1);
+    const bool first = c >= m_columns.size() && c < m_columns.size() + kMarginSteps && !m_margin[0].empty();
+    const std::size_t beyond = c < m_columns.size() ? 0 : 1 + (c - m_columns.size()) % kMarginSteps;
+    const double edge = c < m_columns.size() ? m_columns[c].s : first ? m_columns.front().s : m_columns.back().s;
+    const double s = edge + (first ? -1.0 : 1.0) * kStep * double(beyond);
+    m_buffer.rest[i] = fold_rest(s, v);
+    if (beyond == 0) m_buffer.paint[i] = fold_paint(s, v);
+  }
+}
+
 /// Catmull-Rom through the base points.
 Vec3d SheetDrawing::base_at(double share) const {
   const std::size_t n = m_base.size();
@@ -237,7 +255,7 @@ void SheetDrawing::update(const sim::State& state) {
   if (changed) {
     lay_out(std::move(pieces));
     place(sim::initial_state(*m_model));
-    m_buffer.rest = m_buffer.positions;
+    lay_pattern();
   }
   place(state);
   render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);

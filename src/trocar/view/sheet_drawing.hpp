@@ -33,6 +33,7 @@ class SheetDrawing {
   void place_margin(const sim::State& state, bool at_end);
   void lay_out(std::vector<StrandPiece> pieces);
   void connect();
+  void lay_pattern();
   void place(const sim::State& state);
   void close_tear(std::size_t column);
   void place_column(std::size_t column, Vec3d top, Vec3d base, Vec3d across);
