@@ -20,7 +20,8 @@ render::Camera outside_camera(Vec3d eye, Vec3d target, Vec3d up, double field_of
 render::Light room_light();
 render::EndoscopeLook room_look();
 
-/// A free camera as hands turn it: it looks at a point from around it, the patient's front (z) always up in the picture.
+/// A free camera as hands turn it: it looks at a point from around it, the patient's front (z) always up in the
+/// picture.
 struct Orbit {
   Vec3d target;           ///< [m]
   double yaw = 0;         ///< [rad] 0: from the feet towards the head; pi/2: from the patient's left

@@ -1,5 +1,8 @@
+#include <array>
 #include <cmath>
+#include <map>
 
+#include <trocar/render/mesh_arrays.hpp>
 #include <trocar/view/cavity.hpp>
 #include <trocar/view/relief.hpp>
 
@@ -8,6 +11,7 @@ namespace {
 
 constexpr double kTwoPi = 6.28318530717959;
 constexpr int kAround = 56, kRings = 28;
+constexpr int kMarginRows = 14;  // from a wall's border to the cavity
 
 tissue::Box bounds_of(const sim::Model& model) {
   tissue::Box box;
@@ -20,16 +24,85 @@ tissue::Box bounds_of(const sim::Model& model) {
   return box;
 }
 
+/// An uneven ellipsoid.
+struct Cavity {
+  Vec3d middle, half;
+
+  explicit Cavity(const sim::Model& model) {
+    const tissue::Box box = bounds_of(model);
+    middle = 0.5 * vec_cast<double>(box.low + box.high);
+    half = 0.5 * vec_cast<double>(box.high - box.low) + Vec3d{0.03, 0.03, 0.03};
+  }
+  Vec3d at(Vec3d d) const {
+    const double uneven = 1.22 + 0.05 * waves(0.1 * d, 0.09);
+    return middle + uneven * Vec3d{half.x * d.x, half.y * d.y, half.z * d.z};
+  }
+  Vec3d behind(Vec3d p) const {
+    const Vec3d d = p - middle;
+    return at(normalised(Vec3d{d.x / half.x, d.y / half.y, d.z / half.z}, Vec3d{0, 1, 0}));
+  }
+};
+
+/// The border of a skin as directed edges, in the order of its triangles.
+std::vector<std::array<int, 2>> border_of(const tissue::Skin& skin) {
+  std::map<std::pair<int, int>, int> seen;
+  for (const auto& t : skin.triangles)
+    for (std::size_t k = 0; k < 3; ++k) ++seen[{t[k], t[(k + 1) % 3]}];
+  std::vector<std::array<int, 2>> border;
+  for (const auto& t : skin.triangles)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (const int a = t[k], b = t[(k + 1) % 3]; !seen.count({b, a})) border.push_back({a, b});
+  return border;
+}
+
 }  // namespace
 
+double fat_below(Vec3d p) {
+  return 0.65 * smooth(-0.1, 0.75, 0.75 * waves(p, 0.052) + 0.4 * waves(p + Vec3d{0.3, 0.1, 0.2}, 0.019));
+}
+
+MeshBuffer around_wall(const sim::Model& model, const tissue::Skin& wall, std::span<const Paint> paint) {
+  const Cavity cavity(model);
+  const std::vector<std::array<int, 2>> border = border_of(wall);
+  // Outwards at each border vertex: across the edges, in the surface.
+  std::map<int, Vec3d> outward;
+  for (const auto& [a, b] : border) {
+    const Vec3d edge = vec_cast<double>(wall.rest[std::size_t(b)] - wall.rest[std::size_t(a)]);
+    for (const int v : {a, b}) outward[v] += cross(edge, vec_cast<double>(wall.rest_normal[std::size_t(v)]));
+  }
+  for (int pass = 0; pass < 6; ++pass) {  // corners turn gently
+    std::map<int, Vec3d> even = outward;
+    for (const auto& [a, b] : border) {
+      even[a] += 0.5 * outward[b];
+      even[b] += 0.5 * outward[a];
+    }
+    outward = even;
+  }
+  MeshBuffer m;
+  std::map<int, std::uint32_t> column;
+  for (const auto& [v, away] : outward) {
+    const auto i = std::size_t(v);
+    const Vec3d p = vec_cast<double>(wall.rest[i]), t = normalised(away, vec_cast<double>(wall.rest_normal[i]));
+    const Vec3d q = cavity.behind(p + 0.05 * t), way = q - p;
+    const double reach = 1.1 * length(way);
+    column[v] = m.size();
+    for (int r = 0; r < kMarginRows; ++r) {
+      const double w = double(r) / (kMarginRows - 1), u = w * w, k = 1 - u;
+      const Vec3d x = (k * k * (1 + 2 * u)) * p + (u * u * (3 - 2 * u)) * q + (k * k * u * reach) * t;
+      Paint colour = paint[i];
+      colour.tint = to_byte((1 - w) * colour.tint / 255.0 + w * fat_below(x));
+      m.add(vec_cast<float>(x), colour);
+    }
+  }
+  for (const auto& [a, b] : border) join_rows(m, column[b], column[a], std::uint32_t(kMarginRows), false);
+  render::vertex_normals(m.positions, m.indices, m.normals);
+  for (const auto& [v, first] : column) m.normals[first] = wall.rest_normal[std::size_t(v)];  // no seam
+  return m;
+}
+
 MeshBuffer cavity_around(const sim::Model& model) {
-  const tissue::Box box = bounds_of(model);
-  const Vec3d middle = 0.5 * vec_cast<double>(box.low + box.high);
-  const Vec3d half = 0.5 * vec_cast<double>(box.high - box.low) + Vec3d{0.03, 0.03, 0.03};
-  const auto at = [&](Vec3d d) {
-    const double uneven = 1.22 + 0.05 * waves(0.1 * d, 0.09);
-    return vec_cast<float>(middle + uneven * Vec3d{half.x * d.x, half.y * d.y, half.z * d.z});
-  };
+  const Cavity cavity(model);
+  const auto at = [&](Vec3d d) { return vec_cast<float>(cavity.at(d)); };
   MeshBuffer b;
   b.add(at({0, 0, -1}));
   for (int i = 1; i < kRings; ++i)
@@ -43,6 +116,7 @@ MeshBuffer cavity_around(const sim::Model& model) {
   join_pole(b, row(1), kAround, 0, true);
   for (int i = 1; i + 1 < kRings; ++i) join_rows(b, row(i + 1), row(i), kAround, true);
   join_pole(b, row(kRings - 1), kAround, b.size() - 1, false);
+  for (std::uint32_t i = 0; i < b.size(); ++i) b.paint[i].tint = to_byte(fat_below(vec_cast<double>(b.positions[i])));
   return b;
 }
 

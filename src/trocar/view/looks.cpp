@@ -74,12 +74,13 @@ Material ligament(Vec3f main, Vec3f broad, Vec3f fine) {
 
 Material peritoneum() {
   Material m = with_vessels(tissue(srgb(188, 110, 102), srgb(200, 130, 110), srgb(170, 92, 90)), 1.0f, 0.06f);
-  m.mottle_size = 0.03f;
-  m.mottle = 0.5f;
-  m.wetness = 0.5f;
-  m.film_size = 0.005f;
-  m.film_bump = 0.16f;
-  m.film_roughness = 0.2f;
+  m.mottle_size = 0.024f;
+  m.mottle = 0.6f;
+  m.wetness = 0.55f;
+  m.tint = srgb(218, 148, 104);  // fat below it
+  m.film_size = 0.0036f;
+  m.film_bump = 0.2f;
+  m.film_roughness = 0.14f;
   m.two_sided = true;
   return m;
 }
@@ -130,7 +131,7 @@ Material mesosalpinx() {
 }
 
 Material fat() {
-  Material m = with_vessels(tissue(srgb(222, 158, 132), srgb(226, 174, 142), srgb(210, 140, 122)), 0.7f, 0.024f);
+  Material m = with_vessels(tissue(srgb(224, 162, 112), srgb(228, 178, 124), srgb(210, 140, 98)), 0.7f, 0.024f);
   m.mottle_size = 0.006f;
   m.lobule_size = 0.0042f;
   m.lobule_depth = 0.1f;

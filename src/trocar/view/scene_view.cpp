@@ -77,7 +77,7 @@ struct SceneView::Parts {
   std::vector<int> fat_on;  ///< its organ
   std::vector<TubeDrawing> tubes;
   std::vector<SheetDrawing> sheets;
-  std::vector<OwnedMesh> walls;
+  std::vector<OwnedMesh> walls, margins;
   OwnedMesh cavity;
   std::vector<std::vector<DrawnPart>> tools;
   std::vector<DrawnPart> scope;
@@ -129,6 +129,8 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
     const tissue::Skin& skin = model.walls[i].skin;
     std::vector<Paint> paint(skin.rest.size());
     baker.bake(skin.rest, skin.rest_normal, paint);
+    for (std::size_t v = 0; v < paint.size(); ++v) paint[v].tint = to_byte(fat_below(vec_cast<double>(skin.rest[v])));
+    margins.emplace_back(backend, around_wall(model, skin, paint).data());
     walls.emplace_back(backend, render::MeshData{.positions = skin.rest,
                                                  .normals = skin.rest_normal,
                                                  .rest = {},
@@ -264,7 +266,10 @@ Frame SceneView::frame(const sim::State& state, const ViewOptions& options) {
     frame.look = room_look();
     frame.background = {0.09f, 0.10f, 0.11f};
   }
-  if (inside) frame.items.push_back(item(p.cavity.handle(), look("peritoneum")));
+  if (inside) {
+    frame.items.push_back(item(p.cavity.handle(), look("peritoneum")));
+    for (const OwnedMesh& m : p.margins) frame.items.push_back(item(m.handle(), look("peritoneum")));
+  }
   p.list_tissues(inside || options.walls, frame);
   p.list_clips(state, frame);
   if (options.instruments) p.list_tools(state, frame);
