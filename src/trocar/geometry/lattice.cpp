@@ -13,6 +13,8 @@ namespace {
 // Shifts the rays off the positions that designed shapes prefer (any small irrational would do).
 constexpr double kJitterX = 0.00217391, kJitterY = 0.00131718, kJitterZ = 0.00173205;
 
+constexpr double kMostPlaces = 8e6, kMostRays = 16e6;
+
 struct Crossing {
   double height;
   int leaves;  // +1: the ray leaves the body here, -1: it enters
@@ -81,8 +83,8 @@ Lattice empty_lattice(const TriMesh& mesh, double cell, const Mat3d& frame) {
   for (int k = 0; k < 3; ++k) {
     const double cells = std::max(1.0, std::ceil((box.high[k] - box.low[k]) / cell * (1.0 - 1e-12)));
     places *= cells;
-    if (places > 64e6)
-      throw std::invalid_argument("make_lattice: cell too small for this mesh (over 64 million cells)");
+    if (!(places <= kMostPlaces))
+      throw std::invalid_argument("make_lattice: cell too small for this mesh's box (over 8 million cells)");
     lattice.dims[k] = static_cast<int>(cells);
     low[k] = 0.5 * (box.low[k] + box.high[k]) - 0.5 * cell * cells;
   }
@@ -139,6 +141,8 @@ Lattice make_lattice(const TriMesh& closed, double cell, const LatticeOptions& o
   Lattice lattice = empty_lattice(closed, cell, options.frame);
   const auto& d = lattice.dims;
 
+  if (!(double(d[0]) * d[1] * options.samples * options.samples <= kMostRays))
+    throw std::invalid_argument("make_lattice: cell too small for this mesh's box (over 16 million rays)");
   Columns columns(d[0], d[1], options.samples);
   std::vector<Vec3d> points;
   for (const Vec3d& p : closed.positions) points.push_back(lattice.in_cells(p));

@@ -41,7 +41,7 @@ struct LatticeOptions {
 
 /// The lattice, centred on the mesh's box along the axes. The mesh must be closed and face outwards; where it overlaps
 /// itself, whatever is inside at least once counts as inside. Throws std::invalid_argument for an open mesh, a cell
-/// that is not above 0, or more than 64 million places.
+/// that is not above 0, or too many places (8 million) or rays (16 million, samples^2 a column) for the mesh's box.
 Lattice make_lattice(const TriMesh& closed, double cell, const LatticeOptions& options = {});
 
 /// How many groups of cells hang together by faces; above 1 the body falls apart (or hangs by an edge): refine.

@@ -3,9 +3,12 @@
 
 #include <trocar/geometry/polyline.hpp>
 #include <trocar/numerics/portable.hpp>
+#include <trocar/scene/capacity.hpp>
 #include <trocar/scene/compile.hpp>
 #include <trocar/scene/compile_contacts.hpp>
+#include <trocar/scene/compile_hands.hpp>
 #include <trocar/scene/compile_solid.hpp>
+#include <trocar/scene/compile_targets.hpp>
 
 namespace trocar::scene {
 namespace {
@@ -180,105 +183,12 @@ sim::SheetModel compile_sheet(const Sheet& sheet, const sim::Model& model) {
   return out;
 }
 
-interactions::ToolKind tool_kind(InstrumentKind kind) {
-  switch (kind) {
-    case InstrumentKind::grasper:
-      return interactions::ToolKind::grasper;
-    case InstrumentKind::clip_applier:
-      return interactions::ToolKind::clip_applier;
-    case InstrumentKind::scissors:
-      return interactions::ToolKind::scissors;
-    case InstrumentKind::probe:
-      break;
-  }
-  return interactions::ToolKind::probe;
-}
-
-Vec3d port_position(const Description& d, const std::string& name) {
-  for (const Port& p : d.ports)
-    if (p.name == name) return p.position;
-  return {};
-}
-
-void compile_tools(const Description& d, sim::Model& model, Faults& faults) {
-  for (const Placement& p : d.placements) {
-    if (model.tools.size() == size_t(sim::kMaxTools)) {
-      faults.push_back({p.at, "expected at most " + std::to_string(sim::kMaxTools) + " tools, got another"});
-      return;
-    }
-    for (const Instrument& i : d.instruments) {
-      if (i.name != p.instrument) continue;
-      interactions::ToolModel tool;
-      tool.name = i.name;
-      tool.kind = tool_kind(i.kind);
-      tool.port = port_position(d, p.port);
-      tool.shaft_radius = i.shaft_radius;
-      tool.shaft_length = i.shaft_length;
-      tool.jaw_length = i.jaw_length;
-      tool.jaw_width = i.jaw_width;
-      tool.jaw_thickness = i.jaw_thickness;
-      tool.opening = i.opening;
-      tool.parallel_gap = i.parallel_gap;
-      tool.pinch_max = i.pinch_max;
-      tool.friction = i.friction;
-      tool.clip_length = i.clip_length;
-      tool.clips = i.clips;
-      model.start.tools[model.tools.size()] = sim::tool_input(kinematics::inverse(tool.port, p.tip, p.roll), 0.0f);
-      model.tools.push_back(tool);
-    }
-  }
-  model.scope.port = port_position(d, d.scope_placement.port);
-  model.scope.angle = d.scope.angle;
-  model.scope.field_of_view = d.scope.field_of_view;
-  model.scope.shaft_radius = d.scope.shaft_radius;
-  const kinematics::FulcrumPose pose =
-      kinematics::inverse(model.scope.port, d.scope_placement.tip, d.scope_placement.roll);
-  model.start.scope = {float(pose.yaw), float(pose.pitch), float(pose.roll), float(pose.depth), 0.0f};
-}
-
-void add_target(sim::Model& model, sim::VisibilityTarget target, const std::vector<sim::VisibilitySample>& samples) {
-  target.first = std::int32_t(model.samples.size());
-  target.count = std::int32_t(samples.size());
-  for (sim::VisibilitySample s : samples) {
-    s.target = std::int32_t(model.targets.size());
-    model.samples.push_back(s);
-  }
-  model.targets.push_back(target);
-}
-
-/// What exercises may ask to be seen: jaws, named stretches of strands, organs.
-void compile_targets(sim::Model& model) {
-  for (size_t t = 0; t < model.tools.size(); ++t)
-    for (std::int32_t jaw = 0; jaw < 2; ++jaw)
-      add_target(
-          model,
-          {sim::VisibilityTarget::jaw, model.tools[t].name + (jaw == 0 ? ".jaw_a" : ".jaw_b"), std::int32_t(t), 0, 0},
-          {{0, jaw, 0}});
-  for (size_t i = 0; i < model.strands.size(); ++i)
-    for (const sim::LandmarkModel& l : model.strands[i].landmarks) {
-      std::vector<sim::VisibilitySample> samples;
-      constexpr int kSamples = 5;
-      for (int k = 0; k < kSamples; ++k) {
-        const interactions::StrandPlace p =
-            interactions::place_at(model.bodies[i], l.from + (l.to - l.from) * (k + 0.5) / kSamples);
-        samples.push_back({0, p.element, p.w});
-      }
-      add_target(model, {sim::VisibilityTarget::strand, model.strands[i].name + "." + l.name, std::int32_t(i), 0, 0},
-                 samples);
-    }
-  for (size_t i = 0; i < model.solids.size(); ++i) {
-    std::vector<sim::VisibilitySample> samples;
-    constexpr int kSamples = 16;
-    const int n = model.solids[i].skin.size();
-    for (int k = 0; k < kSamples; ++k) samples.push_back({0, std::int32_t((2 * k + 1) * n / (2 * kSamples)), 0});
-    add_target(model, {sim::VisibilityTarget::solid, model.solids[i].name, std::int32_t(i), 0, 0}, samples);
-  }
-}
-
 }  // namespace
 
 sim::Model compile(const Description& d, CompileReport* report) {
   Faults faults;
+  check_capacity(d, faults);
+  if (!faults.empty()) throw core::BadInput(faults);
   sim::Model model;
   model.name = d.name;
   model.file = d.file;
@@ -294,7 +204,7 @@ sim::Model compile(const Description& d, CompileReport* report) {
   }
   for (const Wall& wall : d.walls) compile_wall(wall, model, report);
   for (const Sheet& sheet : d.sheets) model.sheets.push_back(compile_sheet(sheet, model));
-  compile_tools(d, model, faults);
+  compile_hands(d, model, faults);
   if (!faults.empty()) throw core::BadInput(faults);
   compile_contacts(model);
   compile_targets(model);

@@ -138,7 +138,7 @@ class Parser {
     }
   }
 
-  void fault(Place at, std::string message) { m_faults.push_back({{m_file, at.line, at.column}, std::move(message)}); }
+  void fault(Place at, std::string message) { tell(m_faults, {{m_file, at.line, at.column}, std::move(message)}); }
   void lost(Place at, std::string message) {
     if (!m_lost) fault(at, std::move(message));
     m_lost = true;
@@ -414,6 +414,11 @@ class Parser {
 
 }  // namespace
 
+void tell(std::vector<core::Fault>& faults, core::Fault fault) {
+  if (faults.size() < kMaxFaults) return faults.push_back(std::move(fault));
+  if (faults.size() == kMaxFaults) faults.push_back({fault.at, "expected fewer faults: from here on none is told"});
+}
+
 const JsonMember* JsonValue::find(std::string_view key) const {
   for (const JsonMember& m : members)
     if (m.key == key) return &m;
@@ -431,12 +436,11 @@ JsonDocument parse_json(std::string_view text, std::string file, std::vector<cor
   return document;
 }
 
-JsonDocument load_json(const std::filesystem::path& path, std::vector<core::Fault>& faults,
-                       const MemoryFiles* memory) {
+JsonDocument load_json(const std::filesystem::path& path, std::vector<core::Fault>& faults, const MemoryFiles* memory) {
   JsonDocument document{path.generic_string(), {}};
   document.root.kind = Kind::broken;
   const auto unreadable = [&](const std::string& message) {
-    faults.push_back({{document.file, 0, 0}, message});
+    tell(faults, {{document.file, 0, 0}, message});
     return document;
   };
   if (memory) {

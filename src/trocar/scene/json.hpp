@@ -4,7 +4,7 @@
 // one pass. Event interfaces of JSON libraries stop at the first bad number; this reader goes on after every fault that
 // leaves the structure readable (a number that is not finite, a bad word, a key given twice, a comma too many) and
 // stops only where the structure itself is lost. Grammar: RFC 8259, and comments as in C++. Limits: 16 MiB, 64 levels
-// of nesting, a million values, 4096 keys in one object.
+// of nesting, a million values, 256 keys in one object.
 //
 //   std::vector<core::Fault> faults;
 //   const JsonDocument document = load_json("scenes/tissues.json", faults);
@@ -53,7 +53,11 @@ struct JsonDocument {
 inline constexpr std::size_t kMaxJsonBytes = 16u << 20;
 inline constexpr int kMaxJsonDepth = 64;
 inline constexpr int kMaxJsonValues = 1'000'000;
-inline constexpr std::size_t kMaxJsonKeys = 4096;  ///< in one object
+inline constexpr std::size_t kMaxJsonKeys = 256;  ///< in one object
+inline constexpr std::size_t kMaxFaults = 1000;   ///< told of one reading
+
+/// Appends a fault; where there are kMaxFaults already, only that not all are told.
+void tell(std::vector<core::Fault>& faults, core::Fault fault);
 
 /// Reads `text`; what is wrong with it is appended to `faults`. Never throws on bad text.
 JsonDocument parse_json(std::string_view text, std::string file, std::vector<core::Fault>& faults);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <trocar/numerics/portable.hpp>
+#include <trocar/scene/capacity.hpp>
 #include <trocar/scene/reader.hpp>
 
 namespace trocar::scene {
@@ -112,15 +113,18 @@ class Reading {
 
   /// Every name that something refers to must be known by now.
   void resolve() {
+    if (crowded()) return;
     for (const Reference& reference : m_references) {
       const std::vector<std::string> known = names(reference.to);
       if (std::find(known.begin(), known.end(), reference.name) == known.end())
-        m_faults.push_back({reference.at, unknown_name(noun(reference.to), reference.name, known)});
+        tell(m_faults, {reference.at, unknown_name(noun(reference.to), reference.name, known)});
     }
   }
 
   /// What needs several things to be known.
   void check_together() {
+    if (crowded()) return;
+    if (m_faults.empty()) check_capacity(description, m_faults);
     check_names();
     for (const Placement& tool : m_tools) check_tool(tool);
     for (const SheetEnd& sheet : m_sheet_ends) check_sheet(sheet);
@@ -139,6 +143,13 @@ class Reading {
   };
   std::vector<SheetEnd> m_sheet_ends;
   int m_files = 0;
+  bool m_crowded = false;
+
+  /// Too many bodies to compare all with all; told once.
+  bool crowded() {
+    if (!m_crowded) m_crowded = !check_counts(description, m_faults);
+    return m_crowded;
+  }
 
   std::vector<std::string> names(Reference::To to) const {
     std::vector<std::string> all;
@@ -156,9 +167,9 @@ class Reading {
       for (std::size_t j = 0; j < i; ++j)
         if (!things[i].first.empty() && things[i].first == things[j].first) {
           const Location& first = things[j].second;
-          m_faults.push_back(
-              {things[i].second, fmt::format("expected every {} name once, got \"{}\" again (first in {}:{}:{})", what,
-                                             things[i].first, first.file, first.line, first.column)});
+          tell(m_faults,
+               {things[i].second, fmt::format("expected every {} name once, got \"{}\" again (first in {}:{}:{})", what,
+                                              things[i].first, first.file, first.line, first.column)});
           break;
         }
   }
@@ -189,7 +200,7 @@ class Reading {
   /// Reads the file at `path`, named at `from`, and calls read(object, folder).
   template <class Read>
   void include(const fs::path& path, const Location& from, const Shape& shape, Read&& read) {
-    const auto refuse = [&](std::string message) { m_faults.push_back({from, std::move(message)}); };
+    const auto refuse = [&](std::string message) { tell(m_faults, {from, std::move(message)}); };
     std::error_code error;
     const fs::path canonical = m_memory ? path : fs::weakly_canonical(path, error);
     std::string chain;
@@ -548,19 +559,19 @@ class Reading {
     const double reach = is_scope ? description.scope.shaft_length : instrument->shaft_length + instrument->jaw_length;
     const double depth = length(tool.tip - port->position);
     if (!(depth >= 0.005 && depth <= reach))
-      m_faults.push_back({tool.at, fmt::format("expected a tip 5 to {:.0f} mm from the port \"{}\", got {:.1f} mm",
-                                               reach * 1000, tool.port, depth * 1000)});
+      tell(m_faults, {tool.at, fmt::format("expected a tip 5 to {:.0f} mm from the port \"{}\", got {:.1f} mm",
+                                           reach * 1000, tool.port, depth * 1000)});
     if (2 * radius > port->diameter * 1.000001)
-      m_faults.push_back({tool.at, fmt::format("expected a port of at least {} mm for this shaft, got \"{}\" of {} mm",
-                                               2000 * radius, tool.port, port->diameter * 1000)});
+      tell(m_faults, {tool.at, fmt::format("expected a port of at least {} mm for this shaft, got \"{}\" of {} mm",
+                                           2000 * radius, tool.port, port->diameter * 1000)});
   }
 
   void check_sheet(const SheetEnd& sheet) {
     for (const Strand& strand : description.strands) {
       const double whole = curve_length(strand.centreline);
       if (strand.name == sheet.strand && beyond(sheet.to, whole))
-        m_faults.push_back({sheet.at, fmt::format("expected an arc length on \"{}\" (at most {:.1f} mm), got {}",
-                                                  strand.name, whole * 1000, sheet.to * 1000)});
+        tell(m_faults, {sheet.at, fmt::format("expected an arc length on \"{}\" (at most {:.1f} mm), got {}",
+                                              strand.name, whole * 1000, sheet.to * 1000)});
     }
   }
 };

@@ -102,8 +102,8 @@ class Check {
 
   bool wrong(const JsonValue& value, const std::string& expected) const {
     if (value.kind == Kind::broken) return false;  // told already
-    m_faults.push_back({{m_file, value.line, value.column},
-                        fmt::format("expected {} for \"{}\", got {}", expected, m_key.name, shown(value))});
+    tell(m_faults, {{m_file, value.line, value.column},
+                    fmt::format("expected {} for \"{}\", got {}", expected, m_key.name, shown(value))});
     return false;
   }
 
@@ -126,9 +126,9 @@ class Check {
     if (m_key.choices.empty()) return true;
     if (std::find(m_key.choices.begin(), m_key.choices.end(), value.text) != m_key.choices.end()) return true;
     const std::string guess = nearest(value.text, m_key.choices);
-    m_faults.push_back({{m_file, value.line, value.column},
-                        fmt::format("expected one of {} for \"{}\", got {}{}", joined(m_key.choices), m_key.name,
-                                    shown(value), guess.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", guess))});
+    tell(m_faults, {{m_file, value.line, value.column},
+                    fmt::format("expected one of {} for \"{}\", got {}{}", joined(m_key.choices), m_key.name,
+                                shown(value), guess.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", guess))});
     return false;
   }
   bool name(const JsonValue& value) const {
@@ -138,9 +138,9 @@ class Check {
   bool vec3(const JsonValue& value) const {
     if (value.kind != Kind::array || value.items.size() != 3) {
       if (value.kind != Kind::array) return wrong(value, "an array of three numbers");
-      m_faults.push_back(
-          {{m_file, value.line, value.column},
-           fmt::format("expected an array of three numbers for \"{}\", got {} items", m_key.name, value.items.size())});
+      tell(m_faults, {{m_file, value.line, value.column},
+                      fmt::format("expected an array of three numbers for \"{}\", got {} items", m_key.name,
+                                  value.items.size())});
       return false;
     }
     bool good = true;
@@ -157,9 +157,9 @@ class Check {
     for (const JsonValue& v : value.items) good = item(v) && good;
     if (value.items.size() >= m_key.min_count && value.items.size() <= m_key.max_count) return good;
     const bool few = value.items.size() < m_key.min_count;
-    m_faults.push_back({{m_file, value.line, value.column},
-                        fmt::format("expected at {} {} items for \"{}\", got {}", few ? "least" : "most",
-                                    few ? m_key.min_count : m_key.max_count, m_key.name, value.items.size())});
+    tell(m_faults, {{m_file, value.line, value.column},
+                    fmt::format("expected at {} {} items for \"{}\", got {}", few ? "least" : "most",
+                                few ? m_key.min_count : m_key.max_count, m_key.name, value.items.size())});
     return false;
   }
   bool grid(const JsonValue& value) const {
@@ -169,9 +169,9 @@ class Check {
       bool good = list(line, [this](const JsonValue& v) { return vec3(v); });
       if (columns == 0) columns = line.items.size();
       if (line.items.size() != columns) {
-        m_faults.push_back({{m_file, line.line, line.column},
-                            fmt::format("expected rows of {} points for \"{}\", got a row of {}", columns, m_key.name,
-                                        line.items.size())});
+        tell(m_faults, {{m_file, line.line, line.column},
+                        fmt::format("expected rows of {} points for \"{}\", got a row of {}", columns, m_key.name,
+                                    line.items.size())});
         good = false;
       }
       return good;
@@ -267,6 +267,7 @@ void JsonObject::check_keys() {
 }
 
 void JsonObject::check_unknown(const JsonMember& member) {
+  if (m_faults->size() > kMaxFaults) return;  // looking for what was meant is dear
   std::vector<std::string> known;
   for (const Key& key : m_shape->keys) known.push_back(key.name);
   fault({*m_file, member.line, member.column}, unknown_name("key of " + article(m_shape->name), member.key, known));
@@ -354,7 +355,7 @@ core::Location JsonObject::at(std::string_view key, std::size_t item) const {
   return item < items.size() ? core::Location{*m_file, items[item].line, items[item].column} : at(key);
 }
 void JsonObject::fault(core::Location where, std::string message) const {
-  m_faults->push_back({std::move(where), std::move(message)});
+  tell(*m_faults, {std::move(where), std::move(message)});
 }
 void JsonObject::fault(std::string_view key, std::string message) const { fault(at(key), std::move(message)); }
 

@@ -49,7 +49,7 @@ struct Key {
   double low = 0, high = 0;
   std::vector<std::string> choices;
   const Shape& (*shape)() = nullptr;  ///< a function, so that tables may refer to each other
-  std::size_t min_count = 0, max_count = 100'000;
+  std::size_t min_count = 0, max_count = 1000;
   bool required = false;
 };
 
