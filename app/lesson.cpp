@@ -9,6 +9,10 @@
 #include <trocar/scene/compile.hpp>
 #include <trocar/scene/json.hpp>
 #include <trocar/scene/reader.hpp>
+#if __has_include(<trocar/scene/vary.hpp>)
+#include <trocar/scene/vary.hpp>
+#define TROCAR_HAS_VARY 1
+#endif
 
 #include "paths.hpp"
 #include "sources.hpp"
@@ -32,7 +36,7 @@ bool is_exercise(const std::filesystem::path& path) {
   return scene && scene->value.kind == scene::JsonValue::Kind::string;
 }
 
-std::unique_ptr<Lesson> load_lesson(const std::string& exercise) {
+std::unique_ptr<Lesson> load_lesson(const std::string& exercise, std::uint64_t seed) {
   const auto started = std::chrono::steady_clock::now();
   auto lesson = std::make_unique<Lesson>();
   lesson->name = exercise;
@@ -42,8 +46,16 @@ std::unique_ptr<Lesson> load_lesson(const std::string& exercise) {
     lesson->scene = lesson->exercise->scene;
     lesson->title = lesson->exercise->title;
   }
-  const scene::Description description = scene::read_scene(lesson->scene);
+  scene::Description description = scene::read_scene(lesson->scene);
   if (!lesson->exercise) lesson->title = description.title;
+  lesson->seed = seed;
+  if (seed != 0) {
+#ifdef TROCAR_HAS_VARY
+    scene::vary(description, seed);
+#else
+    throw core::BadInput({{{"--seed", 0, 0}, "expected 0: this build knows no variations of the anatomy"}});
+#endif
+  }
   core::log::info("compiling {}", lesson->scene.string());
   lesson->model = scene::compile(description);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - started;

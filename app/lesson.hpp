@@ -30,6 +30,7 @@ struct Lesson {
   std::string name;  ///< "gynaecology/sterilisation", or the path as given
   std::string title;
   std::filesystem::path file, scene;
+  std::uint64_t seed = 0;  ///< of the anatomy; 0: as drawn
   sim::Model model;
   std::optional<training::Exercise> exercise;  ///< nothing for a bare scene
 
@@ -41,7 +42,8 @@ struct Lesson {
 bool is_exercise(const std::filesystem::path& path);
 
 /// Reads and compiles what EXERCISE names; tells on stderr when that takes a while.
+/// @param seed varies the anatomy within its healthy range; 0: as drawn. A recording's header holds it.
 /// @throws core::BadInput, core::EnvironmentLacks
-std::unique_ptr<Lesson> load_lesson(const std::string& exercise);
+std::unique_ptr<Lesson> load_lesson(const std::string& exercise, std::uint64_t seed = 0);
 
 }  // namespace trocar::app

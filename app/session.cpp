@@ -1,9 +1,11 @@
 #include "session.hpp"
 
-#include <chrono>
+#include <cerrno>
+#include <cstring>
 
-#include <fmt/chrono.h>
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <trocar/core/hash.hpp>
 #include <trocar/core/log.hpp>
@@ -31,23 +33,22 @@ std::string cut_name(const sim::Model& model, const interactions::Cut& cut) {
   return cut.solid >= 0 ? model.solids[size_t(cut.solid)].name : body_name(model, cut.strand);
 }
 
-/// Nobody's recording is lost: one that is there already keeps its content under another name.
-void keep_older(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored) || std::filesystem::file_size(path, ignored) == 0) return;
-  std::filesystem::path kept;
-  for (int n = 1; kept.empty() || std::filesystem::exists(kept, ignored); ++n)
-    kept = path.parent_path() / fmt::format("{}-older-{}{}", path.stem().string(), n, path.extension().string());
-  std::filesystem::rename(path, kept, ignored);
-  if (!ignored) core::log::info("{} was there: it is now {}", path.string(), kept.string());
-}
-
-std::string now_text() { return fmt::format("{:%Y-%m-%dT%H:%M:%S}", fmt::localtime(std::time(nullptr))); }
-
 }  // namespace
 
+std::filesystem::path keep_older(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error) || std::filesystem::file_size(path, error) == 0) return {};
+  std::filesystem::path kept;
+  for (int n = 1; kept.empty() || std::filesystem::exists(kept, error); ++n)
+    kept = path.parent_path() / fmt::format("{}-older-{}{}", path.stem().string(), n, path.extension().string());
+  std::filesystem::rename(path, kept, error);
+  if (error) return {};
+  core::log::info("{} was there: it is now {}", path.string(), kept.string());
+  return kept;
+}
+
 Vec3d tip_of(const sim::Model& model, const sim::State& state, int tool) {
-  return kinematics::forward(model.tools[size_t(tool)].port, state.tools[size_t(tool)].pose()).tip;
+  return kinematics::forward(model.hands[size_t(tool)].port, state.tools[size_t(tool)].pose()).tip;
 }
 
 std::vector<std::string> flag_names(std::uint32_t flags) {
@@ -62,26 +63,31 @@ Session::Session(const Lesson& lesson, int threads)
       m_pool(threads),
       m_state(sim::initial_state(lesson.model)),
       m_work(sim::make_work(lesson.model, &m_pool)),
-      m_monitor(lesson.monitor()) {
-  for (size_t t = 0; t < lesson.model.tools.size(); ++t) m_tip[t] = tip_of(lesson.model, m_state, int(t));
+      m_monitor(lesson.monitor())
+#ifdef TROCAR_HAS_TRACE
+      ,
+      m_trace(lesson.model)
+#endif
+{
+  for (size_t t = 0; t < lesson.model.hands.size(); ++t) m_tip[t] = tip_of(lesson.model, m_state, int(t));
   if (m_monitor) m_steps_done.resize(m_monitor->steps().size());
 }
 
-void Session::record(const std::filesystem::path& path, const std::string& trainee, const std::string& input) {
+void Session::record(const std::filesystem::path& path, const training::Attempt& attempt) {
   sim::RecordingHeader header;
   header.model_hash = m_lesson.model.hash;
+  header.seed = m_lesson.seed;
   header.exercise = m_lesson.name;
   header.program_version = TROCAR_VERSION;
-  header.metadata_json = Json{{"trainee", trainee}, {"input", input}, {"started", now_text()}}.dump();
-  std::error_code ignored;  // what cannot be made or renamed is told by the writer
-  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ignored);
-  keep_older(path);
+  header.metadata_json = Json{{"trainee", attempt.trainee}, {"input", attempt.input},   {"started", attempt.started},
+                              {"uuid", attempt.uuid},       {"number", attempt.number}, {"mode", name_of(attempt.mode)},
+                              {"title", attempt.title}}
+                             .dump(-1, ' ', false, Json::error_handler_t::replace);
   m_writer = std::make_unique<sim::RecordingWriter>(path, header);
   m_recording = path;
-  m_trainee = trainee;
-  m_input = input;
   m_writer->hash(m_state.tick, mark());
   m_writer->keyframe(m_state.tick, sim::display_bytes(m_lesson.model, m_state));
+  m_writer->flush();
 }
 
 const sim::StepReport& Session::advance(const sim::Input& input) {
@@ -94,17 +100,52 @@ const sim::StepReport& Session::advance(const sim::Input& input) {
   if (!m_report.fine())
     m_broken = fmt::format("the tissue's motion failed in tick {} (body {}, node {}): a fault of the simulation",
                            m_state.tick, m_report.first_bad_body, m_report.first_bad_index);
-  for (size_t t = 0; t < m_lesson.model.tools.size(); ++t) {
+  for (size_t t = 0; t < m_lesson.model.hands.size(); ++t) {
     const Vec3d tip = tip_of(m_lesson.model, m_state, int(t));
     m_path[t] += length(tip - m_tip[t]);
     m_tip[t] = tip;
   }
   if (m_monitor) m_monitor->update(m_lesson.model, m_state, m_report);
+#ifdef TROCAR_HAS_TRACE
+  m_trace.update(m_lesson.model, m_state, m_report);
+#endif
   collect_moments();
+  keep_moments();
   if (m_writer && m_state.tick % sim::kHashEvery == 0) m_writer->hash(m_state.tick, mark());
   if (m_writer && m_state.tick % sim::kKeyframeEvery == 0)
     m_writer->keyframe(m_state.tick, sim::display_bytes(m_lesson.model, m_state));
+  note_failure();
   return m_report;
+}
+
+void Session::note_failure() {
+  if (!m_writer || m_writer->failure().empty()) return;
+  const std::lock_guard lock(m_failure_lock);
+  if (!m_recording_failure.empty()) return;
+  m_recording_failure = m_writer->failure();
+  core::log::error("{}", m_recording_failure);
+}
+
+std::string Session::recording_failure() const {
+  const std::lock_guard lock(m_failure_lock);
+  return m_recording_failure;
+}
+
+std::vector<std::uint8_t> Session::trace_bytes() const {
+#ifdef TROCAR_HAS_TRACE
+  return training::to_bytes(m_trace.trace());
+#else
+  return {};
+#endif
+}
+
+void Session::keep_moments() {
+  for (const Moment& m : m_moments) {
+    if (m_kept.size() >= kMaxKept) return;
+    if (m.what == "closed-empty") continue;
+    m_kept.push_back({m, {}});
+    if (m_kept.size() <= kMaxLooks) m_kept.back().display = sim::display_bytes(m_lesson.model, m_state);
+  }
 }
 
 std::uint64_t Session::mark() const {
@@ -123,7 +164,7 @@ void Session::collect_moments() {
   const sim::Model& model = m_lesson.model;
   for (int i = 0; i < m_report.event_count; ++i) {
     const sim::Event& e = m_report.events[i];
-    const std::string& who = model.tools[size_t(e.tool)].name;
+    const std::string& who = model.tool(m_state, size_t(e.tool)).name;
     ++m_counts[size_t(e.kind)];
     switch (e.kind) {
       case Kind::none:
@@ -144,16 +185,20 @@ void Session::collect_moments() {
       case Kind::dropped_clip:
         add_moment("clip-dropped", e.tool, "a clip closed on nothing");
         break;
+      case Kind::exchanged:
+        add_moment("exchanged", e.tool, fmt::format("{}: {}", model.hands[size_t(e.tool)].name, who));
+        break;
       case Kind::cut:
         add_moment("cut", e.tool, fmt::format("{} cut {}", who, cut_name(model, m_state.cuts[size_t(e.index)])));
         break;
     }
   }
-  for (size_t t = 0; t < model.tools.size(); ++t) {
+  for (size_t t = 0; t < model.hands.size(); ++t) {
     const interactions::ToolState& tool = m_state.tools[t];
     const bool empty =
-        model.tools[t].kind == interactions::ToolKind::grasper && tool.holds == 0 && tool.aperture < 0.05;
-    if (empty && !m_closed_empty[t]) add_moment("closed-empty", int(t), model.tools[t].name + " closed on nothing");
+        model.tool(m_state, t).kind == interactions::ToolKind::grasper && tool.holds == 0 && tool.aperture < 0.05;
+    if (empty && !m_closed_empty[t])
+      add_moment("closed-empty", int(t), model.tool(m_state, t).name + " closed on nothing");
     m_closed_empty[t] = empty;
   }
   if (!m_monitor) return;
@@ -173,14 +218,21 @@ Json Session::result(bool interrupted) const {
   const bool passed = !interrupted && m_broken.empty() && m_monitor && m_monitor->score().passed;
   Json r;
   r["exercise"] = m_lesson.name;
-  r["passed"] = m_monitor ? Json(passed) : Json(nullptr);
+  r["seed"] = m_lesson.seed;
+  r["passed"] = m_monitor && m_scored ? Json(passed) : Json(nullptr);
   if (!m_broken.empty()) r["failure"] = m_broken;
   if (interrupted) r["interrupted"] = true;
-  r["seconds"] = double(m_state.tick) * sim::kTick;
-  if (m_monitor) r["assessment"] = Json::parse(m_monitor->result_json());
+  // Two clocks: all that was simulated, and what counts, from the first motion of an instrument to the last goal.
+  r["simulated_seconds"] = double(m_state.tick) * sim::kTick;
+  if (m_monitor) {
+    r["exercise_seconds"] = m_monitor->seconds();
+    r["assessment"] = Json::parse(m_monitor->result_json());
+    if (!m_scored) r["assessment"].erase("score");
+  }
   Json tools = Json::array();
-  for (size_t t = 0; t < model.tools.size(); ++t)
-    tools.push_back({{"name", model.tools[t].name},
+  for (size_t t = 0; t < model.hands.size(); ++t)
+    tools.push_back({{"name", model.tool(m_state, t).name},
+                     {"trocar", model.hands[t].name},
                      {"path_length_mm", m_path[t] * 1000},
                      {"clips_left", m_state.tools[t].clips_left},
                      {"slips", m_state.tools[t].slipped}});
@@ -189,6 +241,10 @@ Json Session::result(bool interrupted) const {
   r["clips"] = m_counts[sim::Event::clipped];
   r["clips_dropped"] = m_counts[sim::Event::dropped_clip];
   r["cuts"] = m_counts[sim::Event::cut];
+  Json moments = Json::array();
+  for (const KeptMoment& k : m_kept)
+    moments.push_back({{"tick", k.moment.tick}, {"what", k.moment.what}, {"text", k.moment.text}});
+  r["moments"] = moments;
   r["flags"] = flag_names(m_flags);
   r["tissue_survived"] = m_broken.empty();
   r["ticks"] = m_state.tick;
@@ -198,12 +254,17 @@ Json Session::result(bool interrupted) const {
   return r;
 }
 
-void Session::finish(const Json& result) {
-  if (!m_writer) return;
+std::string Session::finish(const Json& result) {
+  if (!m_writer) return {};
   if (m_state.tick % sim::kHashEvery != 0) m_writer->hash(m_state.tick, mark());
-  m_writer->finish(result.dump());
-  if (!m_writer->failure().empty()) core::log::error("recording {}: {}", m_recording.string(), m_writer->failure());
+  m_writer->finish(result.dump(-1, ' ', false, Json::error_handler_t::replace));
+  note_failure();
   m_writer.reset();
+  if (const std::string fault = recording_failure(); !fault.empty()) return fault;
+  const int file = open(m_recording.c_str(), O_RDONLY | O_CLOEXEC);  // a power cut takes nothing back
+  const bool safe = file >= 0 && fsync(file) == 0;
+  if (file >= 0) close(file);
+  return safe ? "" : fmt::format("recording {}: {}", m_recording.string(), std::strerror(errno));
 }
 
 }  // namespace trocar::app

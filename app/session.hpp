@@ -2,18 +2,25 @@
 // headless loop drive the same Session, so that drawing changes nothing.
 //
 //   Session session(lesson, threads);
-//   session.record("a.rec", header);
+//   AttemptLog log(&store, session, plan);          // recording and row in the session store
 //   while (...) session.advance(input);
-//   session.finish(result);                        // also when it was interrupted
+//   Json result = session.result(aborted);
+//   log.end(result, how);
 #pragma once
 
 #include <array>
 #include <memory>
+#include <mutex>
 #include <optional>
 
 #include <trocar/core/parallel.hpp>
 #include <trocar/sim/recording.hpp>
 #include <trocar/sim/step.hpp>
+#include <trocar/training/attempt.hpp>
+#if __has_include(<trocar/training/trace.hpp>)
+#include <trocar/training/trace.hpp>
+#define TROCAR_HAS_TRACE 1
+#endif
 
 #include "lesson.hpp"
 
@@ -31,8 +38,11 @@ class Session {
  public:
   Session(const Lesson& lesson, int threads = core::default_thread_count());
 
-  /// From now on every tick goes to this file, too.  @throws core::EnvironmentLacks
-  void record(const std::filesystem::path& path, const std::string& trainee, const std::string& input);
+  /// From now on every tick goes to this file, too; its header says whose attempt it is. AttemptLog calls this.
+  /// @throws core::EnvironmentLacks
+  void record(const std::filesystem::path& path, const training::Attempt& attempt);
+  /// False: getting to know the exercise, without score and verdict.
+  void set_scored(bool scored) { m_scored = scored; }
 
   /// One tick. Does nothing more once the physics has failed (see broken()).
   const sim::StepReport& advance(const sim::Input& input);
@@ -53,11 +63,25 @@ class Session {
 
   /// The whole result as it stands; `interrupted` attempts have not passed.
   Json result(bool interrupted) const;
-  /// Ends the recording with the result. Says on stderr when the file could not be written.
-  void finish(const Json& result);
+  /// Ends the recording with the result, on the disk when this returns. Empty, or why that is not so.
+  std::string finish(const Json& result);
+  /// Empty, or why nothing more is recorded (the disk is full). May be read while another thread advances.
+  std::string recording_failure() const;
+  /// The motion so far, as training::to_bytes() writes it.
+  std::vector<std::uint8_t> trace_bytes() const;
+
+  /// What happened, for report and pictures: at most kMaxKept of the moments with how things looked then.
+  struct KeptMoment {
+    Moment moment;
+    std::vector<std::uint8_t> display;  ///< sim::display_bytes; empty beyond the first kMaxLooks
+  };
+  const std::vector<KeptMoment>& kept_moments() const { return m_kept; }
+  static constexpr std::size_t kMaxKept = 2000, kMaxLooks = 200;
 
  private:
   void collect_moments();
+  void keep_moments();
+  void note_failure();
   void add_moment(const char* what, int tool, std::string text);
 
   const Lesson& m_lesson;
@@ -71,7 +95,13 @@ class Session {
   std::array<bool, sim::kMaxTools> m_closed_empty{};
   std::unique_ptr<sim::RecordingWriter> m_writer;
   std::filesystem::path m_recording;
-  std::string m_trainee, m_input;
+  mutable std::mutex m_failure_lock;
+  std::string m_recording_failure;
+  bool m_scored = true;
+#ifdef TROCAR_HAS_TRACE
+  training::TraceRecorder m_trace;
+#endif
+  std::vector<KeptMoment> m_kept;
   std::vector<Moment> m_moments;
   std::array<Vec3d, sim::kMaxTools> m_tip;
   std::array<double, sim::kMaxTools> m_path{};
@@ -80,6 +110,9 @@ class Session {
   std::uint64_t m_inputs_hash = 0;
   std::string m_broken;
 };
+
+/// Nobody's recording is lost: one that is there keeps its content under another name, which is returned.
+std::filesystem::path keep_older(const std::filesystem::path& path);
 
 /// Tip of an instrument.
 Vec3d tip_of(const sim::Model& model, const sim::State& state, int tool);

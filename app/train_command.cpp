@@ -5,10 +5,12 @@
 
 #include <trocar/core/error.hpp>
 
+#include "attempt_log.hpp"
 #include "command.hpp"
 #include "headless.hpp"
 #include "interrupt.hpp"
 #include "json.hpp"
+#include "paths.hpp"
 #include "report_page.hpp"
 #include "sources.hpp"
 #include "window_loop.hpp"
@@ -17,9 +19,10 @@ namespace trocar::app {
 namespace {
 
 struct Options {
-  std::string exercise, input = "mouse", record, shots, video, report, size = "800x600", trainee, log;
+  std::string exercise, input = "mouse", record, shots, video, report, size, trainee, log;
   double seconds = 0;
-  bool headless = false;
+  std::uint64_t seed = 0;
+  bool headless = false, familiarisation = false, no_store = false;
 };
 
 int exit_code(const Json& result, const std::string& input) {
@@ -32,11 +35,11 @@ int exit_code(const Json& result, const std::string& input) {
 /// The result in a few lines, for people.
 void tell(const Json& result) {
   if (result["passed"].is_null()) {
-    fmt::print("done: {:.1f} s\n", result["seconds"].get<double>());
+    fmt::print("done: {:.1f} s\n", result["simulated_seconds"].get<double>());
   } else {
     const Json& a = result["assessment"];
     fmt::print("{}: score {:.0f} of 100 in {:.0f} s\n", result["passed"].get<bool>() ? "passed" : "not passed",
-               a["score"]["total"].get<double>(), a["seconds"].get<double>());
+               a["score"]["total"].get<double>(), result["exercise_seconds"].get<double>());
     for (const Json& step : a["steps"])
       fmt::print("  [{}] {}\n", step["done"].get<bool>() ? "x" : " ", step["name"].get<std::string>());
     for (const Json& e : a["errors"])
@@ -57,33 +60,64 @@ std::string check_seconds(const std::string& text) {
              : "expected seconds above 0, at most 86400, got " + text;
 }
 
+AttemptPlan plan_of(const Options& o) {
+  AttemptPlan plan;
+  plan.trainee = o.trainee;
+  plan.mode = o.familiarisation ? training::AttemptMode::familiarisation : mode_of_input(o.input);
+  plan.input = o.input;
+  plan.recording = o.record;
+  plan.record = !o.headless;  // a script that wants a recording names it
+  return plan;
+}
+
+Json train_headless(const Options& o, const Lesson& lesson, training::Store* store, PictureSize size) {
+  const std::unique_ptr<InputSource> source = make_source(lesson, o.input);
+  Session session(lesson);
+  AttemptLog log(store, session, plan_of(o));
+  const Leftovers left = run_headless(session, *source, {o.shots, o.video, size, o.seconds});
+  Json result = session.result(interrupted());
+  result["input"] = o.input;
+  result["slow_motion_share"] = 0.0;
+  result.update(source->describe());
+  log.end(result, interrupted() ? training::AttemptState::aborted : training::AttemptState::finished);
+  result.update(left);
+  return result;
+}
+
+WindowOptions window_options(const Options& o, training::Store* store) {
+  WindowOptions w;
+  w.exercise = o.exercise;
+  w.record = o.record;
+  w.trainee = o.trainee;
+  w.input = o.input;
+  w.log = o.log;
+  if (!o.size.empty()) w.size = parse_size(o.size);
+  w.seconds = o.seconds;
+  w.familiarisation = o.familiarisation;
+  w.store = store;
+  return w;
+}
+
 int train(const Options& o, bool json) {
-  const PictureSize size = parse_size(o.size);
-  if (o.headless && o.input == "mouse")
-    throw core::BadInput(
-        {{{"--headless", 0, 0}, "expected --input demo, motion:FILE or replay:FILE with it, got mouse"}});
-  const std::unique_ptr<Lesson> lesson = load_lesson(o.exercise);
-  Json result;
-  if (o.headless) {
-    const std::unique_ptr<InputSource> source = make_source(*lesson, o.input);
-    Session session(*lesson);
-    if (!o.record.empty()) session.record(o.record, o.trainee, o.input);
-    const Leftovers left = run_headless(session, *source, {o.shots, o.video, size, o.seconds});
-    result = session.result(interrupted());
-    result["input"] = o.input;
-    result["slow_motion_share"] = 0.0;
-    result.update(source->describe());
-    session.finish(result);
-    result.update(left);
-  } else {
-    result = run_window(*lesson, {o.record, o.trainee, o.input, o.log, size, o.seconds});
-  }
+  const bool hands = o.input == "mouse" || o.input == "gamepad";
+  if (o.headless && hands)
+    throw core::BadInput({{{"--headless", 0, 0},
+                           fmt::format("expected --input demo, motion:FILE or replay:FILE with it, got {}", o.input)}});
+  if (o.exercise.empty() && (o.headless || !hands))
+    throw core::BadInput({{{"train", 0, 0}, "expected an exercise (see trocar list), got none"}});
+  const PictureSize size = parse_size(o.size.empty() ? "800x600" : o.size);
+  std::unique_ptr<Lesson> lesson = o.exercise.empty() ? nullptr : load_lesson(o.exercise, o.seed);
+  std::unique_ptr<training::Store> store;
+  if (!o.no_store) store = std::make_unique<training::Store>(data_folder());
+  Json result = o.headless ? train_headless(o, *lesson, store.get(), size)
+                           : run_window(std::move(lesson), window_options(o, store.get()));
+  if (result.is_null()) return core::kDone;  // the window was closed before anything was begun
   if (!o.report.empty()) result["report"] = write_report(o.report, result);
   if (json)
     print(result);
   else
     tell(result);
-  return exit_code(result, o.input);
+  return o.exercise.empty() ? int(core::kDone) : exit_code(result, o.input);
 }
 
 }  // namespace
@@ -94,16 +128,20 @@ void add_train(CLI::App& program, Chosen& chosen) {
                             "trocar train gynaecology/sterilisation\n"
                             "  trocar train gynaecology/sterilisation --input demo --headless --record a.rec --shots "
                             "shots --json");
-  c->add_option("exercise", options->exercise, "a name that `trocar list` shows, or a path")->required();
-  c->add_option("--input", options->input, "mouse | demo | motion:FILE[#OPERATOR/TRIAL] | replay:FILE")
+  c->add_option("exercise", options->exercise, "a name that `trocar list` shows, or a path; without one: start screen");
+  c->add_option("--input", options->input,
+                "mouse | gamepad (hands, by any device) | demo | motion:FILE[#OPERATOR/TRIAL] | replay:FILE")
       ->capture_default_str();
   c->add_flag("--headless", options->headless, "no window, as fast as it goes");
   c->add_option("--record", options->record, "write the recording to this file");
   c->add_option("--shots", options->shots, "headless: write pictures to this folder");
   c->add_option("--video", options->video, "headless: write a film (needs ffmpeg)");
   c->add_option("--report", options->report, "write an HTML report to this folder");
-  c->add_option("--size", options->size, "of pictures or window")->capture_default_str();
-  c->add_option("--trainee", options->trainee, "name for the recording");
+  c->add_option("--size", options->size, "of pictures (default 800x600) or window (default: as last time)");
+  c->add_option("--trainee", options->trainee, "whose attempt it is; default: guest");
+  c->add_flag("--familiarisation", options->familiarisation, "getting to know it: no score, no verdict");
+  c->add_option("--seed", options->seed, "vary the anatomy by this number; 0: as drawn")->capture_default_str();
+  c->add_flag("--no-store", options->no_store, "leave nothing in the session store");
   c->add_option("--seconds", options->seconds, "stop after so much simulated time")->check(check_seconds);
   c->add_option("--log", options->log, "window: write events as JSON lines to this file");
   c->callback([options, &chosen] { chosen.run = [options, &chosen] { return train(*options, chosen.json); }; });

@@ -42,6 +42,7 @@ FOREIGN = [
     (re.compile(r"^(stb/)?stb_"), ["render", "app"]),
     (re.compile(r"^nlohmann/"), ["scene", "training", "app"]),
     (re.compile(r"^CLI/"), ["app"]),
+    (re.compile(r"^sqlite3\.h"), ["training"]),
     (re.compile(r"^(Eigen|suitesparse)/|^(cholmod|umfpack)\.h"), ["numerics", "studies", "app"]),
     (re.compile(r"^(xxhash\.h|spdlog/)"), ["core", "app"]),
 ]

@@ -23,6 +23,9 @@ build=(
   libgl1-mesa-dri      # and its driver, for machines without graphics card as well
   libglfw3-dev libimgui-dev  # the window and its panels
   libstb-dev           # PNG
+  libsqlite3-dev       # the session store: attempts and results
+  libopenal-dev        # sounds of the window
+  fonts-dejavu-core    # its text
 )
 test=(
   libgtest-dev         # tests
