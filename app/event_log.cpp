@@ -1,5 +1,7 @@
 #include "event_log.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
@@ -24,6 +26,24 @@ Json landmarks(const sim::Model& model, const sim::State& state) {
   return out;
 }
 
+/// Every strand as points along it: [arc length from its start, x, y, z] [mm], one about every 4 mm.
+Json courses(const sim::Model& model, const sim::State& state) {
+  Json out = Json::object();
+  for (std::size_t i = 0; i < model.strands.size(); ++i) {
+    const interactions::StrandBody& body = model.bodies[i];
+    const double whole = body.length();
+    Json points = Json::array();
+    const int pieces = std::clamp(int(whole / 0.004), 2, 40);
+    for (int p = 0; p <= pieces; ++p) {
+      const double s = whole * double(p) / pieces;
+      const Vec3d x = interactions::point_at(body, state.strands[i], interactions::place_at(body, s));
+      points.push_back({1000 * s, 1000 * x.x, 1000 * x.y, 1000 * x.z});
+    }
+    out[model.strands[i].name] = points;
+  }
+  return out;
+}
+
 }  // namespace
 
 EventLog::EventLog(const std::string& path) {
@@ -43,35 +63,53 @@ void EventLog::event(const std::string& name, const Json& details) {
 
 void EventLog::moment(const sim::Model& model, const Moment& moment) {
   Json details{{"tick", moment.tick}, {"text", moment.text}};
-  if (moment.tool >= 0) details["tool"] = model.tools[size_t(moment.tool)].name;
+  if (moment.tool >= 0) details["tool"] = model.hands[size_t(moment.tool)].name;
   event(moment.what, details);
 }
 
-void EventLog::pose(const sim::Model& model, const sim::State& state, int led) {
-  if (!m_file || state.tick < m_next_pose) return;
+void EventLog::pose(const sim::Model& model, const Snapshot& now, int led) {
+  const sim::State& state = now.state;
+  if (!m_file || (state.tick < m_next_pose && state.tick >= m_last_tick)) return;
+  m_last_tick = state.tick;
   m_next_pose = state.tick + 100;
   const kinematics::ScopeFrame view = sim::scope_of(model, state);
   Json tools = Json::array();
-  for (std::size_t t = 0; t < model.tools.size(); ++t) {
-    const interactions::ToolState& tool = state.tools[t];
-    const kinematics::TipFrame frame = kinematics::forward(model.tools[t].port, tool.pose());
-    tools.push_back({{"name", model.tools[t].name},
+  for (std::size_t h = 0; h < model.hands.size(); ++h) {
+    const interactions::ToolState& tool = state.tools[h];
+    const interactions::ToolModel& held = model.tool(state, h);
+    const kinematics::TipFrame frame = kinematics::forward(held.port, tool.pose());
+    const interactions::ToolShape shape = interactions::shape_of(held, tool.pose(), tool.aperture);
+    Json rack = Json::array();
+    for (const interactions::ToolModel& t : model.hands[h].rack) rack.push_back(t.name);
+    tools.push_back({{"name", model.hands[h].name},
+                     {"instrument", held.name},
+                     {"rack", rack},
+                     {"port_mm", millimetres(held.port)},
                      {"tip_mm", millimetres(frame.tip)},
+                     {"pivot_mm", millimetres(shape.pivot)},
                      {"shaft", direction(frame.axis())},
                      {"opening", direction(frame.opening())},
                      {"depth_mm", 1000 * tool.depth},
-                     {"jaw_mm", 1000 * model.tools[t].jaw_length},
+                     {"jaw_mm", 1000 * held.jaw_length},
                      {"aperture", tool.aperture},
                      {"handle", tool.handle},
                      {"holds", tool.holds},
+                     {"clips_left", tool.clips_left},
                      {"pull_N", length(Vec3d{tool.pull[0], tool.pull[1], tool.pull[2]})}});
   }
-  event("pose",
-        {{"tick", state.tick},
-         {"led", led < 0 ? "scope" : model.tools[size_t(led)].name},
-         {"picture", {{"eye_mm", millimetres(view.eye)}, {"right", direction(view.right)}, {"up", direction(view.up)}}},
-         {"tools", tools},
-         {"landmarks", landmarks(model, state)}});
+  event("pose", {{"tick", state.tick},
+                 {"seconds", now.seconds},
+                 {"speed", now.speed},
+                 {"step", now.current_step},
+                 {"led", led < 0 ? "scope" : model.hands[size_t(led)].name},
+                 {"picture",
+                  {{"eye_mm", millimetres(view.eye)},
+                   {"right", direction(view.right)},
+                   {"up", direction(view.up)},
+                   {"forward", direction(view.forward)}}},
+                 {"tools", tools},
+                 {"landmarks", landmarks(model, state)},
+                 {"strands", courses(model, state)}});
 }
 
 }  // namespace trocar::app

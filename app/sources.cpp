@@ -42,7 +42,7 @@ Mat3d from_columns(Vec3d x, Vec3d y, Vec3d z) { return {{{x.x, y.x, z.x}, {x.y, 
 
 /// The one of the first two instruments whose trocar lies farther to the picture's left, or right.
 int tool_of(const sim::Model& model, Vec3d picture_right, devices::Hand hand) {
-  const bool first_is_left = dot(model.tools[0].port - model.tools[1].port, picture_right) < 0;
+  const bool first_is_left = dot(model.hands[0].port - model.hands[1].port, picture_right) < 0;
   return first_is_left == (hand == devices::Hand::left) ? 0 : 1;
 }
 
@@ -64,7 +64,7 @@ std::array<HandPlacement, 2> place_hands(const sim::Model& model, const devices:
   for (const devices::Hand which : {devices::Hand::left, devices::Hand::right}) {
     HandPlacement& hand = hands[size_t(which)];
     hand.tool = tool_of(model, right, which);
-    const interactions::ToolModel& tool = model.tools[size_t(hand.tool)];
+    const interactions::ToolModel& tool = model.placed(size_t(hand.tool));
     hand.centroid = devices::bounds_of(trial, which).centroid;
     hand.centre = kinematics::forward(tool.port, pose_of(model.start.tools[size_t(hand.tool)])).tip;
     const Vec3d z = normalised(hand.centre - tool.port);
@@ -76,7 +76,7 @@ std::array<HandPlacement, 2> place_hands(const sim::Model& model, const devices:
 
 MotionSource::MotionSource(const sim::Model& model, const std::string& argument)
     : m_model(model), m_trial(devices::read_motion_trial(argument)), m_curve(m_trial) {
-  if (model.tools.size() < 2)
+  if (model.hands.size() < 2)
     throw core::BadInput(
         {{{argument, 0, 0}, "expected a scene with two instruments for two hands, got one with less"}});
   const std::array<HandPlacement, 2> places = place_hands(model, m_trial);
@@ -105,7 +105,7 @@ void MotionSource::aim(Hand& hand, devices::Hand which, std::uint64_t tick, sim:
     tip = hand.start + f * (tip - hand.start);
     closed *= f;
   }
-  const interactions::ToolModel& tool = m_model.tools[size_t(hand.place.tool)];
+  const interactions::ToolModel& tool = m_model.placed(size_t(hand.place.tool));
   const kinematics::FulcrumPose wanted =
       kinematics::inverse(tool.port, tip, hand.start_roll + motion.roll - hand.first_roll);
   const kinematics::FulcrumPose allowed = kinematics::clamped(wanted, tool.limits);
@@ -154,7 +154,7 @@ Json MotionSource::describe() const {
     const Hand& hand = m_hands[size_t(which)];
     const double done = m_tick > m_approach ? double(m_tick - m_approach) : 0.0;
     out["hands"].push_back({{"hand", which == devices::Hand::left ? "left" : "right"},
-                            {"instrument", m_model.tools[size_t(hand.place.tool)].name},
+                            {"instrument", m_model.placed(size_t(hand.place.tool)).name},
                             {"file_path_length_mm", 1000 * hand.bounds.path_length},
                             {"file_path_length_reachable_mm", 1000 * hand.file_path},
                             {"performed_path_length_mm", 1000 * hand.performed},

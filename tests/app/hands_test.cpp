@@ -19,7 +19,7 @@ const Lesson& scene() {
 }
 
 Vec3d commanded(const sim::Input& input, int tool) {
-  return kinematics::forward(scene().model.tools[size_t(tool)].port, pose_of(input.tools[tool])).tip;
+  return kinematics::forward(scene().model.hands[size_t(tool)].port, pose_of(input.tools[tool])).tip;
 }
 
 devices::HandSample mouse(float dx, float dy) {
@@ -65,10 +65,10 @@ TEST(HandPilot, EClockwiseSeenFromTheHand) {
   devices::HandSample roll = mouse(0, 0);
   roll.held.set(devices::Key::e);
   const kinematics::TipFrame before =
-      kinematics::forward(scene().model.tools[0].port, pose_of(scene().model.start.tools[0]));
+      kinematics::forward(scene().model.hands[0].port, pose_of(scene().model.start.tools[0]));
   sim::Input input;
   for (int i = 0; i < 10; ++i) input = pilot.lead(roll, state);
-  const kinematics::TipFrame after = kinematics::forward(scene().model.tools[0].port, pose_of(input.tools[0]));
+  const kinematics::TipFrame after = kinematics::forward(scene().model.hands[0].port, pose_of(input.tools[0]));
   // Looking along the shaft, clockwise is a right-handed turn about it.
   EXPECT_GT(dot(cross(before.opening(), after.opening()), before.axis()), 0.1);
 }
@@ -115,7 +115,7 @@ TEST(MotionSource, HandsComeIntoTheSceneByARotationWithTheirCentroidWhereTheInst
   const auto hands = place_hands(model, trial);
   const kinematics::ScopeFrame view = sim::scope_of(model, sim::initial_state(model));
   for (const HandPlacement& hand : hands) {
-    const interactions::ToolModel& tool = model.tools[size_t(hand.tool)];
+    const interactions::ToolModel& tool = model.placed(size_t(hand.tool));
     const Vec3d start = commanded(model.start, hand.tool);
     EXPECT_NEAR(length(hand.to_scene(hand.centroid) - start), 0, 1e-12);
     const Vec3d x = hand.axes.column(0), y = hand.axes.column(1), z = hand.axes.column(2);
@@ -125,7 +125,7 @@ TEST(MotionSource, HandsComeIntoTheSceneByARotationWithTheirCentroidWhereTheInst
     EXPECT_NEAR(length(z - normalised(start - tool.port)), 0, 1e-12);
   }
   // The left hand leads what comes from the picture's left.
-  EXPECT_LT(dot(model.tools[size_t(hands[0].tool)].port - model.tools[size_t(hands[1].tool)].port, view.right), 0);
+  EXPECT_LT(dot(model.hands[size_t(hands[0].tool)].port - model.hands[size_t(hands[1].tool)].port, view.right), 0);
 }
 
 TEST(Session, DrawingOrNotWatchingOrNotTheSameBits) {

@@ -224,7 +224,7 @@ def operate(log, folder):
     xdo("key", "Tab")
     log.wait("Tab to lead the scissors", lambda: log.pose["led"] == "scissors", 20)
     xdo("key", "1")
-    log.wait("1 to lead the grasper", lambda: log.pose["led"] == "grasper", 20)
+    log.wait("1 to lead the grasper", lambda: log.pose["led"] == "left_lateral", 20)
     hand.settled()
 
     # To a place from which the shaft points at the tube, the jaws turned across it, then in.
@@ -239,14 +239,14 @@ def operate(log, folder):
 
     # Grasp: the left button closes, Space keeps the grip.
     xdo("mousedown", 1)
-    log.wait("the grasper to grasp", lambda: log.happened("grasped", tool="grasper"), 30)
+    log.wait("the grasper to grasp", lambda: log.happened("grasped", tool="left_lateral"), 30)
     log.wait("the handle to close", lambda: hand.tool()["handle"] > 0.98, 30)
     xdo("key", "space")
     xdo("mouseup", 1)
     hand.settled()
     if hand.tool()["holds"] == 0:
         raise Failed("the grip was lost although the ratchet holds")
-    if "tube_left" not in log.happened("grasped", tool="grasper")[-1]["text"]:
+    if "tube_left" not in log.happened("grasped", tool="left_lateral")[-1]["text"]:
         raise Failed("grasped something else: " + log.happened("grasped")[-1]["text"])
 
     # Pull: out along the shaft and up in the picture, and the tube comes along.
@@ -261,7 +261,7 @@ def operate(log, folder):
 
     # Release: the ratchet off, the handle opens by itself.
     xdo("key", "space")
-    log.wait("the grasper to let go", lambda: log.happened("released", tool="grasper"), 30)
+    log.wait("the grasper to let go", lambda: log.happened("released", tool="left_lateral"), 30)
     log.wait("the pull to end", lambda: hand.tool()["pull_N"] == 0, 20)
     print(f"grasped, pulled {moved:.1f} mm with {pull:.2f} N, released; {log.pose['tick']} ticks")
 

@@ -62,7 +62,7 @@ TEST(Grasp, TissueKeepsTheJawsApartAndIsPinched) {
   const double gap = 2 * g.work.shapes[kGrasper].half_opening(double(tool.hold[0].local[2]));
   EXPECT_NEAR(gap, 0.7 * 2 * small::kTubeRadius, 2e-4) << "squeezed to 0.7 of its diameter";
   EXPECT_GT(tool.pinch, 5);
-  EXPECT_LE(tool.pinch, g.model.tools[kGrasper].pinch_max);
+  EXPECT_LE(tool.pinch, g.model.placed(kGrasper).pinch_max);
 }
 
 TEST(Grasp, ClosingBesideTheTissueHoldsNothing) {
@@ -136,7 +136,7 @@ TEST(Grasp, AWeakGripSlipsAndLetsGo) {
   const sim::Model m = with_grasper(1.5, 0.2);
   Grip g(m, 1.0);
   ASSERT_GT(g.tool(kGrasper).holds, 0);
-  const double bears = m.tools[kGrasper].friction * g.tool(kGrasper).pinch;
+  const double bears = m.placed(kGrasper).friction * g.tool(kGrasper).pinch;
   EXPECT_NEAR(bears, 0.3, 0.05);
   double most = 0;
   for (int i = 0; i < 3000 && g.tool(kGrasper).slipped == 0; ++i) {

@@ -33,7 +33,7 @@ double ahead_of_axis(const small::Table& t, Vec3d direction) {
 
 /// Moves the grasper there at any speed, around the limits of hands.
 void put(small::Table& t, Vec3d tip, double roll) {
-  const kinematics::FulcrumPose pose = kinematics::inverse(t.model.tools[kGrasper].port, tip, roll);
+  const kinematics::FulcrumPose pose = kinematics::inverse(t.model.hands[kGrasper].port, tip, roll);
   t.input.tools[kGrasper] = sim::tool_input(pose, 1.0f);
   ToolState& tool = t.state.tools[kGrasper];
   tool.yaw = pose.yaw;
@@ -139,7 +139,7 @@ Entry drive_into_organ(double speed, bool sideways, int trials, std::uint64_t se
         sideways ? Vec3d{random.uniform(-0.026, -0.016), flank * random.uniform(0.004, 0.009),
                          random.uniform(-0.030, -0.005)}
                  : Vec3d{random.uniform(-0.026, -0.014), random.uniform(-0.008, 0.008), random.uniform(0.000, 0.006)};
-    const Vec3d way = sideways ? Vec3d{0, -flank, 0} : normalised(end - t.model.tools[kGrasper].port);
+    const Vec3d way = sideways ? Vec3d{0, -flank, 0} : normalised(end - t.model.hands[kGrasper].port);
     const double roll = random.uniform(-3, 3);
     const int ticks = int(0.025 / (speed * sim::kTick));
     for (int i = 0; i <= ticks + 300; ++i) {

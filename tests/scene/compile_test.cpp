@@ -72,9 +72,9 @@ TEST(Compile, TheModelHasWhatTheDescriptionNames) {
   EXPECT_EQ(m.strand_index("tube"), small::kTube);
   EXPECT_EQ(m.strand_index("cord"), small::kCord);
   EXPECT_EQ(m.strand_index("nothing"), -1);
-  ASSERT_EQ(m.tools.size(), 3u);
-  EXPECT_EQ(m.tools[small::kApplier].kind, interactions::ToolKind::clip_applier);
-  EXPECT_EQ(m.tools[small::kApplier].clips, 20);
+  ASSERT_EQ(m.hands.size(), 3u);
+  EXPECT_EQ(m.placed(small::kApplier).kind, interactions::ToolKind::clip_applier);
+  EXPECT_EQ(m.placed(small::kApplier).clips, 20);
   EXPECT_NEAR(m.bodies[small::kTube].length(), 0.081, 1e-6);
   EXPECT_FALSE(m.bodies[small::kCord].cuttable);
   EXPECT_EQ(m.strands[small::kTube].start.kind, sim::StrandEndModel::hosted);
@@ -82,15 +82,15 @@ TEST(Compile, TheModelHasWhatTheDescriptionNames) {
   EXPECT_EQ(m.strands[small::kCord].start.kind, sim::StrandEndModel::fixed);
   EXPECT_GE(m.target_index("tube.isthmus"), 0);
   EXPECT_GE(m.target_index("organ"), 0);
-  EXPECT_GE(m.target_index("scissors.jaw_b"), 0);
+  EXPECT_GE(m.target_index("b.jaw_b"), 0);
 }
 
 TEST(Compile, ToolsStandWhereTheyWerePlaced) {
   const Description d = small::description();
   const sim::Model& m = small::model();
-  for (size_t t = 0; t < m.tools.size(); ++t) {
-    const Vec3d tip = kinematics::forward(m.tools[t].port, pose_of(m.start.tools[t])).tip;
-    EXPECT_LT(length(tip - d.placements[t].tip), 1e-7) << m.tools[t].name;
+  for (size_t t = 0; t < m.hands.size(); ++t) {
+    const Vec3d tip = kinematics::forward(m.hands[t].port, pose_of(m.start.tools[t])).tip;
+    EXPECT_LT(length(tip - d.placements[t].tip), 1e-7) << m.placed(t).name;
   }
 }
 

@@ -151,11 +151,11 @@ TEST_F(RecordingFile, HeaderComesBack) {
   EXPECT_EQ(read.metadata_json, wrote.metadata_json);
 }
 
-TEST_F(RecordingFile, BytesOfFormatOneStayWhatTheyWere) {
+TEST_F(RecordingFile, BytesOfFormatTwoStayWhatTheyWere) {
   record(file("a"), session(2500, 21));
   const Bytes bytes = bytes_of(file("a"));
   EXPECT_EQ(core::hash_bytes(bytes.data(), bytes.size()),
-            0x4d16d99223873f90ull);  // a change needs another kRecordingFormat
+            0xd8eeb9f138c9fe68ull);  // a change needs another kRecordingFormat
 }
 
 TEST_F(RecordingFile, RestingHandsCostNearlyNothing) {
@@ -221,13 +221,13 @@ TEST_F(RecordingFile, AFolderOrAMissingFileIsRefused) {
 
 TEST_F(RecordingFile, AnotherFormatIsRefusedByNumber) {
   RecordingHeader header = some_header();
-  header.format = 2;
+  header.format = 1;
   { RecordingWriter writer(file("a"), header); }
   try {
     read_recording(file("a"));
     FAIL();
   } catch (const core::BadInput& error) {
-    EXPECT_NE(std::string(error.what()).find("expected recording format 1, got 2"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("expected recording format 2, got 1"), std::string::npos);
   }
 }
 

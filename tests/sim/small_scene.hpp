@@ -138,8 +138,8 @@ inline const sim::Model& model() {
 class Hands {
  public:
   explicit Hands(const sim::Model& model) : m_model(model), m_input(model.start) {
-    for (size_t t = 0; t < model.tools.size(); ++t)
-      m_tip[t] = kinematics::forward(model.tools[t].port, pose_of(model.start.tools[t])).tip;
+    for (size_t t = 0; t < model.hands.size(); ++t)
+      m_tip[t] = kinematics::forward(model.hands[t].port, pose_of(model.start.tools[t])).tip;
   }
 
   bool done() const { return m_at >= kTicks; }
@@ -153,8 +153,8 @@ class Hands {
     clip(s, t - 1100, 0.016);
     clip(s, t - 2300, 0.026);
     cut(s, t - 3500, 0.021);
-    for (size_t i = 0; i < m_model.tools.size(); ++i) {
-      const kinematics::FulcrumPose pose = kinematics::inverse(m_model.tools[i].port, m_tip[i], roll(s, i));
+    for (size_t i = 0; i < m_model.hands.size(); ++i) {
+      const kinematics::FulcrumPose pose = kinematics::inverse(m_model.hands[i].port, m_tip[i], roll(s, i));
       m_input.tools[i] = sim::tool_input(pose, float(m_handle[i]));
     }
     return m_input;
@@ -169,7 +169,7 @@ class Hands {
   /// The tube at arc length s comes to lie `inside` from the hinge.
   void aim(const sim::State& state, int tool, double s, double inside) {
     const interactions::StrandBody& body = m_model.bodies[kTube];
-    const interactions::ToolModel& t = m_model.tools[size_t(tool)];
+    const interactions::ToolModel& t = m_model.placed(size_t(tool));
     const Vec3d at = interactions::point_at(body, state.strands[kTube], interactions::place_at(body, s));
     move(tool, at + (t.jaw_length - inside) * normalised(at - t.port));
   }
@@ -181,7 +181,7 @@ class Hands {
     const interactions::StrandBody& body = m_model.bodies[kTube];
     const double s = tool == size_t(kGrasper) ? 0.056 : 0.021;
     const Vec3d along = tangent_at(body, state.strands[kTube], interactions::place_at(body, s));
-    const kinematics::FulcrumPose pose = kinematics::inverse(m_model.tools[tool].port, m_tip[tool], 0);
+    const kinematics::FulcrumPose pose = kinematics::inverse(m_model.hands[tool].port, m_tip[tool], 0);
     double wanted = kinematics::roll_towards(pose, along);
     const double half = 3.14159265358979323846, now = double(m_input.tools[tool].roll);
     while (wanted - now > 0.5 * half) wanted -= half;
@@ -233,7 +233,7 @@ struct Table {
   /// Where the tip shall be; the roll stays.
   void point(int tool, Vec3d tip) {
     sim::ToolInput& in = input.tools[size_t(tool)];
-    in = sim::tool_input(kinematics::inverse(model.tools[size_t(tool)].port, tip, double(in.roll)), in.handle);
+    in = sim::tool_input(kinematics::inverse(model.hands[size_t(tool)].port, tip, double(in.roll)), in.handle);
   }
   void close(int tool, double handle) { input.tools[size_t(tool)].handle = float(handle); }
   /// Closes or opens within `ticks`.

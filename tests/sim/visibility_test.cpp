@@ -81,7 +81,7 @@ TEST(Sight, AgreesWithATestOfEveryTriangle) {
     for (size_t s = 0; s < p.model.bodies.size(); ++s)
       for (size_t e = 0; e + 1 < p.state.strands[s].x.size(); ++e)
         hit = hit || near_axis(p.state.strands[s].x[e], p.state.strands[s].x[e + 1], p.model.bodies[s].model.radius[e]);
-    for (size_t t = 0; t < p.model.tools.size(); ++t)
+    for (size_t t = 0; t < p.model.hands.size(); ++t)
       for (const interactions::Capsule& c : p.work.shapes[t].part) hit = hit || near_axis(c.a, c.b, c.radius);
     hidden += hit;
     different += hit == p.free_sight(from, to);
@@ -95,9 +95,9 @@ TEST(Visibility, TheTubeAndTheNearJawReachingForItAreSeen) {
   Placed p;
   small::Hands hands(p.model);
   for (int t = 0; t < 320; ++t) step(p.model, hands.next(p.state), p.state, p.work);
-  for (const char* name : {"grasper.jaw_a", "tube.isthmus"})
+  for (const char* name : {"a.jaw_a", "tube.isthmus"})
     EXPECT_TRUE(visible(p.model, p.state, p.model.target_index(name))) << name;
-  EXPECT_FALSE(visible(p.model, p.state, p.model.target_index("clip_applier.jaw_a"))) << "still above the lens";
+  EXPECT_FALSE(visible(p.model, p.state, p.model.target_index("c.jaw_a"))) << "still above the lens";
   EXPECT_FALSE(visible(p.model, p.state, p.model.target_index("no such thing")));
 }
 
@@ -114,7 +114,7 @@ TEST(Visibility, TheConesEdgeIsWhereTheFieldOfViewEnds) {
   Placed p;
   const kinematics::ScopeFrame scope = scope_of(p.model, p.state);
   const double half = 0.5 * 0.97 * p.model.scope.field_of_view;
-  const int target = p.model.target_index("grasper.jaw_a");
+  const int target = p.model.target_index("a.jaw_a");
   const size_t sample = size_t(p.model.targets[size_t(target)].first);
   for (double off : {-0.01, 0.01}) {
     const double angle = half + off;

@@ -81,7 +81,7 @@ TEST(Gynaecology, TheStartPoseShowsTheJawTipsAndTheTube) {
   State s = initial_state(m);
   Work w = make_work(m);
   for (size_t i = 0; i <= m.samples.size() / size_t(kLooksPerTick) + 1; ++i) step(m, m.start, s, w);
-  for (const interactions::ToolModel& tool : m.tools)
+  for (const HandModel& tool : m.hands)
     for (const char* jaw : {".jaw_a", ".jaw_b"})
       EXPECT_TRUE(visible(m, s, m.target_index(tool.name + jaw))) << tool.name << jaw;
   EXPECT_TRUE(visible(m, s, m.target_index("tube_left.isthmus")));
@@ -139,10 +139,10 @@ TEST(Gynaecology, TubeAndUterusComeBackAfterAPull) {
 Input abusive(core::Random& random, const Model& m, const Input& last) {
   Input in = last;
   if (random.uniform() > 0.1) return in;
-  for (size_t i = 0; i < m.tools.size(); ++i) {
+  for (size_t i = 0; i < m.hands.size(); ++i) {
     const Vec3d tip{random.uniform(-0.06, 0.06), random.uniform(-0.19, -0.12), random.uniform(-0.16, -0.06)};
     const double handle = random.uniform() < 0.3 ? (random.uniform() < 0.5 ? 0 : 1) : double(last.tools[i].handle);
-    in.tools[i] = tool_input(kinematics::inverse(m.tools[i].port, tip, random.uniform(-3, 3)), float(handle));
+    in.tools[i] = tool_input(kinematics::inverse(m.hands[i].port, tip, random.uniform(-3, 3)), float(handle));
   }
   return in;
 }

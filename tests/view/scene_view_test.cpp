@@ -57,6 +57,7 @@ void clip(sim::State& state, int strand, double s, double cover = 1) {
   c.opening[1] = 1;
   c.axis[2] = 1;
   c.reach = 0.004;
+  c.length = 0.0085;
   c.tool = 0;
 }
 
@@ -362,35 +363,37 @@ TEST(OrganDrawing, ACutOpensTheSkinIntoAClosedWound) {
 }
 
 TEST(InstrumentShapes, JawsMeetAtTheTipWhenClosedAndStandApartWhenOpen) {
-  for (const interactions::ToolModel& tool : pelvis().tools) {
-    kinematics::FulcrumPose pose;
-    pose.depth = 0.1;
-    for (const double aperture : {0.0, 1.0}) {
-      const interactions::ToolShape shape = shape_of(tool, pose, aperture);
-      const Placement a = placement_of(InstrumentPart::Joint::jaw_a, shape);
-      const Placement b = placement_of(InstrumentPart::Joint::jaw_b, shape);
-      const Vec3f tip{0, 0, float(tool.jaw_length)};
-      const Vec3f gap = a.rotation * tip + a.translation - (b.rotation * tip + b.translation);
-      const double expected = 2 * shape.half_gap + 2 * tool.jaw_length * std::sin(shape.half_angle);
-      EXPECT_NEAR(double(length(gap)), expected, 1e-5) << tool.name;
-      if (aperture > 0) continue;
-      EXPECT_LT(length(a.rotation * tip + a.translation - vec_cast<float>(shape.frame.tip)), 1e-5f);
+  for (const sim::HandModel& hand : pelvis().hands)
+    for (const interactions::ToolModel& tool : hand.rack) {
+      kinematics::FulcrumPose pose;
+      pose.depth = 0.1;
+      for (const double aperture : {0.0, 1.0}) {
+        const interactions::ToolShape shape = shape_of(tool, pose, aperture);
+        const Placement a = placement_of(InstrumentPart::Joint::jaw_a, shape);
+        const Placement b = placement_of(InstrumentPart::Joint::jaw_b, shape);
+        const Vec3f tip{0, 0, float(tool.jaw_length)};
+        const Vec3f gap = a.rotation * tip + a.translation - (b.rotation * tip + b.translation);
+        const double expected = 2 * shape.half_gap + 2 * tool.jaw_length * std::sin(shape.half_angle);
+        EXPECT_NEAR(double(length(gap)), expected, 1e-5) << tool.name;
+        if (aperture > 0) continue;
+        EXPECT_LT(length(a.rotation * tip + a.translation - vec_cast<float>(shape.frame.tip)), 1e-5f);
+      }
     }
-  }
 }
 
 TEST(InstrumentShapes, PartsStayWithinTheirTrocarAndFaceOut) {
-  for (const interactions::ToolModel& tool : pelvis().tools)
-    for (const InstrumentPart& part : instrument_parts(tool)) {
-      EXPECT_NE(look(part.look).name, "neutral") << part.look;
-      const geometry::TriMesh mesh = welded(part.mesh);
-      EXPECT_GT(geometry::volume(mesh), 0) << tool.name;
-      for (const Vec3f& p : part.mesh.positions) {
-        EXPECT_LE(p.z, float(tool.jaw_length) + 1e-6f);
-        if (part.joint != InstrumentPart::Joint::body) continue;
-        EXPECT_LE(std::hypot(p.x, p.y), 1.06f * float(tool.shaft_radius)) << tool.name;
+  for (const sim::HandModel& hand : pelvis().hands)
+    for (const interactions::ToolModel& tool : hand.rack)
+      for (const InstrumentPart& part : instrument_parts(tool)) {
+        EXPECT_NE(look(part.look).name, "neutral") << part.look;
+        const geometry::TriMesh mesh = welded(part.mesh);
+        EXPECT_GT(geometry::volume(mesh), 0) << tool.name;
+        for (const Vec3f& p : part.mesh.positions) {
+          EXPECT_LE(p.z, float(tool.jaw_length) + 1e-6f);
+          if (part.joint != InstrumentPart::Joint::body) continue;
+          EXPECT_LE(std::hypot(p.x, p.y), 1.06f * float(tool.shaft_radius)) << tool.name;
+        }
       }
-    }
 }
 
 TEST(ClipShape, HasTheSameVerticesOpenAndClosed) {

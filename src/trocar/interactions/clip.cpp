@@ -74,6 +74,7 @@ bool update_clip_applier(const ToolModel& model, const ToolShape& shape, int too
   clip = {};
   clip.tick = tick;
   clip.tool = tool_index;
+  clip.length = model.clip_length;
   clip.tips_visible = tips_visible;
   clip.closing_time = tool.closed_for;
   const Catch c = caught(model, shape, view);

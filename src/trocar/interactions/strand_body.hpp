@@ -39,7 +39,7 @@ StrandFrame frame_at(const StrandBody& body, const tissue::StrandState& state, S
 /// Frames of all elements. @param frames (n - 1)
 void frames_of(const StrandBody& body, const tissue::StrandState& state, StrandFrame* frames) noexcept;
 
-inline constexpr int kMaxClips = 16, kMaxCuts = 16;
+inline constexpr int kMaxClips = 32, kMaxCuts = 32;
 
 /// A clip is a record on its host: it closes the lumen and rides on the strand's frame. No padding.
 struct Clip {
@@ -50,6 +50,7 @@ struct Clip {
   double opening[3] = {0, 0, 0};  ///< legs' opening direction in the host's (tangent, normal, binormal)
   double axis[3] = {0, 0, 0};     ///< legs' direction, the same
   double reach = 0;               ///< from the legs' bend to the strand's centre, along the axis [m]
+  double length = 0;              ///< of its legs [m]
   std::uint64_t tick = 0;
   std::int32_t strand = -1;  ///< -1: dropped
   std::int32_t tool = 0;

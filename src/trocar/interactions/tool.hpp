@@ -49,14 +49,16 @@ struct ToolState {
   double pull[3] = {0, 0, 0};                      ///< of the held tissue on the jaws, last tick [N]
   double closed_for = 0;                           ///< how long the jaws took from half to fully closed so far [s]
   std::int32_t clips_left = 0;
-  std::int32_t armed = 0;    ///< jaws have been open since the last clip or cut
-  std::int32_t holds = 0;    ///< used entries of hold[]
-  std::int32_t slipped = 0;  ///< slips so far
+  std::int32_t armed = 0;       ///< jaws have been open since the last clip or cut
+  std::int32_t holds = 0;       ///< used entries of hold[]
+  std::int32_t slipped = 0;     ///< slips so far
+  std::int32_t instrument = 0;  ///< which of the hand's rack this is
+  std::int32_t changes = 0;     ///< instruments changed so far
   Hold hold[kMaxHolds];
 
   kinematics::FulcrumPose pose() const { return {yaw, pitch, roll, depth}; }
 };
-static_assert(sizeof(ToolState) == 14 * 8 + 4 * 4 + kMaxHolds * sizeof(Hold), "no padding");
+static_assert(sizeof(ToolState) == 14 * 8 + 6 * 4 + kMaxHolds * sizeof(Hold), "no padding");
 
 using collision::Capsule;
 

@@ -8,11 +8,14 @@
 
 namespace trocar::sim {
 
-inline constexpr int kMaxTools = 4;
+inline constexpr int kMaxTools = 4;  ///< hands at trocars
+inline constexpr int kMaxRack = 8;   ///< instruments that one hand may choose from
 
-/// Commanded pose of one instrument through its trocar. Angles [rad], depth port-to-tip [m], handle 0 open .. 1 closed.
+/// What one hand at its trocar wants: which instrument of its rack (HandModel::rack) and where. Angles [rad], depth
+/// port-to-tip [m], handle 0 open .. 1 closed.
 struct ToolInput {
   float yaw = 0, pitch = 0, roll = 0, depth = 0, handle = 0;
+  std::int32_t instrument = 0;  ///< 0: the one that it began with
 };
 
 /// The endoscope: `roll` turns the camera head (the picture), `post` the light post (an oblique view's direction).
@@ -25,12 +28,12 @@ struct Input {
   ToolInput tools[kMaxTools];
   std::uint32_t pedals = 0;  ///< foot switches, bit 0 = coagulation (no instrument uses it yet)
 };
-static_assert(std::is_trivially_copyable_v<Input> && sizeof(Input) == (1 + kMaxTools) * 20 + 4, "no padding");
+static_assert(std::is_trivially_copyable_v<Input> && sizeof(Input) == 20 + kMaxTools * 24 + 4, "no padding");
 
 inline kinematics::FulcrumPose pose_of(const ToolInput& t) { return {t.yaw, t.pitch, t.roll, t.depth}; }
 inline kinematics::FulcrumPose pose_of(const ScopeInput& s) { return {s.yaw, s.pitch, s.roll, s.depth}; }
-inline ToolInput tool_input(const kinematics::FulcrumPose& p, float handle) {
-  return {float(p.yaw), float(p.pitch), float(p.roll), float(p.depth), handle};
+inline ToolInput tool_input(const kinematics::FulcrumPose& p, float handle, std::int32_t instrument = 0) {
+  return {float(p.yaw), float(p.pitch), float(p.roll), float(p.depth), handle, instrument};
 }
 
 }  // namespace trocar::sim

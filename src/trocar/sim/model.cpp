@@ -1,5 +1,5 @@
 #include <trocar/core/hash.hpp>
-#include <trocar/sim/model.hpp>
+#include <trocar/sim/state.hpp>
 
 namespace trocar::sim {
 namespace {
@@ -41,6 +41,13 @@ int Model::free_nodes() const {
 }
 
 int Model::strand_index(const std::string& strand) const { return find_name(strands, strand); }
+int Model::hand_index(const std::string& trocar) const { return find_name(hands, trocar); }
+int HandModel::find(const std::string& instrument) const { return find_name(rack, instrument); }
+
+const interactions::ToolModel& Model::tool(const State& state, size_t hand) const noexcept {
+  return hands[hand].rack[size_t(state.tools[hand].instrument)];
+}
+
 int Model::target_index(const std::string& target) const { return find_name(targets, target); }
 
 void seal(Model& model) {
@@ -62,7 +69,10 @@ void seal(Model& model) {
     add_patch(h, s.end);
   }
   for (const WallModel& w : model.walls) add_to_hash(h, w.skin);
-  for (const interactions::ToolModel& t : model.tools) add_tool(h, t);
+  for (const HandModel& hand : model.hands) {
+    h.add(std::int32_t(hand.rack.size()));
+    for (const interactions::ToolModel& t : hand.rack) add_tool(h, t);
+  }
   h.add(model.scope.port);
   h.add(model.scope.limits);
   h.add(model.scope.angle);

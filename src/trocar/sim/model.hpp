@@ -72,6 +72,15 @@ struct SheetModel {
   std::vector<BasePoint> base;
 };
 
+/// A hand at a trocar, and the instruments that go through it.
+struct HandModel {
+  std::string name;                           ///< of the trocar: "left_lateral"
+  Vec3d port;                                 ///< its fulcrum [m]
+  std::vector<interactions::ToolModel> rack;  ///< 1..kMaxRack; the first is in the hand at the start
+
+  int find(const std::string& instrument) const;  ///< number in the rack, -1 if it is not there
+};
+
 struct ScopeModel {
   Vec3d port;
   kinematics::FulcrumLimits limits;
@@ -82,16 +91,18 @@ struct ScopeModel {
 
 /// Something whose visibility the simulation knows: `visible` when at least half of its samples are seen.
 struct VisibilityTarget {
-  enum Kind : std::int32_t { jaw, strand, solid } kind = jaw;
-  std::string name;                   ///< "left tube.isthmus", "uterus", "grasper.a"
-  std::int32_t index = 0;             ///< tool, strand or solid
+  enum Kind : std::int32_t { jaw, shaft, strand, solid } kind = jaw;
+  std::string name;                   ///< "tube_left.isthmus", "uterus", "left_lateral.jaw_a", "left_lateral.shaft"
+  std::int32_t index = 0;             ///< hand, strand or solid
   std::int32_t first = 0, count = 0;  ///< samples
 };
 struct VisibilitySample {
   std::int32_t target = 0;
   std::int32_t where = 0;  ///< jaw 0/1, strand element, skin vertex
-  double w = 0;            ///< within the element
+  double w = 0;            ///< within the element; shaft: share of the way from the trocar to the jaws
 };
+
+struct State;
 
 /// A Model names things; State and Work have only numbers.
 struct Model {
@@ -102,7 +113,7 @@ struct Model {
   std::vector<interactions::StrandBody> bodies;  ///< (strands) their mechanics, side by side as interactions want them
   std::vector<WallModel> walls;
   std::vector<SheetModel> sheets;
-  std::vector<interactions::ToolModel> tools;  ///< at most kMaxTools
+  std::vector<HandModel> hands;  ///< at most kMaxTools
   ScopeModel scope;
   Input start;  ///< everything as placed
   std::vector<interactions::SurfacePair> surface_pairs;
@@ -112,10 +123,16 @@ struct Model {
   std::vector<VisibilitySample> samples;
   std::uint64_t hash = 0;
 
+  /// The instrument that hand `hand` has in its trocar.
+  const interactions::ToolModel& tool(const State& state, size_t hand) const noexcept;
+  /// The one it begins with.
+  const interactions::ToolModel& placed(size_t hand) const noexcept { return hands[hand].rack.front(); }
+
   int free_nodes() const;  ///< nodes that move, all bodies
   int surfaces() const { return int(solids.size() + walls.size()); }
   int strand_index(const std::string& strand) const;  ///< -1 if there is none
   int target_index(const std::string& target) const;  ///< -1 if there is none
+  int hand_index(const std::string& trocar) const;    ///< -1 if there is none
 };
 
 /// Sets Model::hash from everything that the step reads.

@@ -30,7 +30,7 @@ namespace trocar::sim {
 inline constexpr int kHashEvery = 100;      ///< ticks between state hashes
 inline constexpr int kKeyframeEvery = 100;  ///< ticks between display keyframes (10 Hz)
 
-inline constexpr std::uint32_t kRecordingFormat = 1;
+inline constexpr std::uint32_t kRecordingFormat = 2;
 inline constexpr std::uint64_t kMaxTicks = 4 * 3600 * 1000;  ///< a recording's length: four hours (1.5 GB of Input)
 
 struct RecordingHeader {

@@ -14,7 +14,7 @@ State initial_state(const Model& model) {
     s.parted.emplace_back(solid.fine.triangles.size(), std::uint8_t(0));
   }
   for (const interactions::StrandBody& body : model.bodies) s.strands.push_back(tissue::rest_state(body.model));
-  for (size_t t = 0; t < model.tools.size(); ++t) {
+  for (size_t t = 0; t < model.hands.size(); ++t) {
     interactions::ToolState& tool = s.tools[t];
     const ToolInput& in = model.start.tools[t];
     tool.yaw = in.yaw;
@@ -23,7 +23,9 @@ State initial_state(const Model& model) {
     tool.depth = in.depth;
     tool.handle = in.handle;
     tool.aperture = 1.0 - double(in.handle);
-    tool.clips_left = model.tools[t].clips;
+    tool.clips_left = model.placed(t).clips;
+    for (size_t i = 0; i < model.hands[t].rack.size(); ++i)
+      s.magazine[t * size_t(kMaxRack) + i] = model.hands[t].rack[i].clips;
   }
   s.scope = model.start.scope;
   s.nearest = model.nearest_at_start;
@@ -32,7 +34,7 @@ State initial_state(const Model& model) {
   s.strand_side.resize(sides);
   size_t elements = 0;
   for (const interactions::StrandBody& body : model.bodies) elements += size_t(body.nodes() - 1);
-  s.tool_side.resize(model.tools.size() * elements * size_t(interactions::kToolParts));
+  s.tool_side.resize(model.hands.size() * elements * size_t(interactions::kToolParts));
   s.seen.resize(model.samples.size());
   return s;
 }
@@ -43,6 +45,7 @@ std::uint64_t hash_of(const State& s) noexcept {
   for (const auto& solid : s.solids) add_to_hash(h, solid);
   for (const auto& strand : s.strands) add_to_hash(h, strand);
   h.add(s.tools);
+  h.add(s.magazine);
   h.add(s.scope);
   h.add(s.clips);
   h.add(s.cuts);
@@ -163,9 +166,10 @@ bool names_tissue(const Model& model, const interactions::Hold& hold) {
   return hold.element >= 0 && hold.element < elements;
 }
 
-bool sound(const Model& model, const interactions::ToolState& t) {
+bool sound(const Model& model, int rack, const interactions::ToolState& t) {
   for (double v : {t.yaw, t.pitch, t.roll, t.depth, t.aperture, t.handle})
     if (!(std::fabs(v) < 1e3)) return false;
+  if (t.instrument < 0 || t.instrument >= rack) return false;
   if (t.holds < 0 || t.holds > interactions::kMaxHolds) return false;
   for (int i = 0; i < t.holds; ++i)
     if (!names_tissue(model, t.hold[i])) return false;
@@ -173,8 +177,8 @@ bool sound(const Model& model, const interactions::ToolState& t) {
 }
 
 bool sound(const Model& model, const State& s) {
-  for (const interactions::ToolState& t : s.tools)
-    if (!sound(model, t)) return false;
+  for (size_t t = 0; t < s.tools.size(); ++t)
+    if (!sound(model, t < model.hands.size() ? int(model.hands[t].rack.size()) : 1, s.tools[t])) return false;
   for (float v : {s.scope.yaw, s.scope.pitch, s.scope.roll, s.scope.depth, s.scope.post})
     if (!(std::fabs(v) < 1e3f)) return false;
   const auto names_strand = [&model](std::int32_t i, double place) {

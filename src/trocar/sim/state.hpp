@@ -15,7 +15,8 @@ struct State {
   std::vector<tissue::NetworkState> solids;
   std::vector<tissue::StrandState> strands;
   std::array<interactions::ToolState, kMaxTools> tools;
-  ScopeInput scope;  ///< where the scope is
+  std::array<std::int32_t, kMaxTools * kMaxRack> magazine{};  ///< clips in instruments that are put down, hand by hand
+  ScopeInput scope;                                           ///< where the scope is
   std::array<interactions::Clip, interactions::kMaxClips> clips;
   std::array<interactions::Cut, interactions::kMaxCuts> cuts;
   std::int32_t clip_count = 0, cut_count = 0;

@@ -26,12 +26,53 @@ bool finite(const ToolInput& t) noexcept {
 
 float stepped(float from, float to, float most) noexcept { return from + std::clamp(to - from, -most, most); }
 
+constexpr double kParked = 0.012;  // [m] an instrument is changed with its tip this deep: in the trocar's sleeve
+
+/// The memory of which side of each strand the hand's instrument is on.
+std::span<Vec3f> sides_of(StepContext& c, size_t t) noexcept {
+  const size_t each = c.state.tool_side.size() / c.model.hands.size();
+  return {c.state.tool_side.data() + t * each, each};
+}
+
+/// Puts the instrument down and takes number `wanted` of the rack.
+void change_instrument(StepContext& c, size_t t, std::int32_t wanted) noexcept {
+  interactions::ToolState& tool = c.state.tools[t];
+  std::int32_t* magazine = c.state.magazine.data() + t * size_t(kMaxRack);
+  magazine[tool.instrument] = tool.clips_left;
+  interactions::ToolState next;
+  next.yaw = tool.yaw;
+  next.pitch = tool.pitch;
+  next.roll = tool.roll;
+  next.depth = tool.depth;
+  next.slipped = tool.slipped;
+  next.changes = tool.changes + 1;
+  next.instrument = wanted;
+  next.clips_left = magazine[wanted];
+  tool = next;
+  for (Vec3f& side : sides_of(c, t)) side = {};
+  tell(c, Event::exchanged, int(t), wanted);
+}
+
+/// One hand follows its input. While it wants another instrument it lets go of the tissue, draws back and changes.
+void move_hand(StepContext& c, size_t t) noexcept {
+  const ToolInput& in = c.input.tools[t];
+  interactions::ToolState& tool = c.state.tools[t];
+  const bool known = in.instrument >= 0 && size_t(in.instrument) < c.model.hands[t].rack.size();
+  if (!known) c.report.flags |= StepReport::kBadInput;
+  interactions::ToolCommand command{pose_of(in), double(in.handle)};
+  if (known && in.instrument != tool.instrument) {
+    command = {tool.pose(), 0};
+    if (tool.holds == 0) command.pose.depth = kParked;
+    if (tool.holds == 0 && tool.depth <= kParked) change_instrument(c, t, in.instrument);
+  }
+  interactions::follow(c.model.tool(c.state, t), command, kTick, tool);
+}
+
 // 1. Hands: instruments and scope follow the input, no faster than hands can.
 void move_hands(StepContext& c) noexcept {
-  for (size_t t = 0; t < c.model.tools.size(); ++t) {
-    const ToolInput& in = c.input.tools[t];
-    if (finite(in))
-      interactions::follow(c.model.tools[t], {pose_of(in), double(in.handle)}, kTick, c.state.tools[t]);
+  for (size_t t = 0; t < c.model.hands.size(); ++t) {
+    if (finite(c.input.tools[t]))
+      move_hand(c, t);
     else
       c.report.flags |= StepReport::kBadInput;
   }
@@ -95,7 +136,7 @@ void cut_organs(StepContext& c, size_t t) noexcept {
   for (size_t i = 0; i < c.model.solids.size(); ++i) {
     const SolidModel& solid = c.model.solids[i];
     if (!c.work.poses[i].bounds.near_segment(shape.pivot, shape.frame.tip, 0.005)) continue;
-    const int severed = interactions::cut_organ(c.model.tools[t], shape, solid.network, solid.fine, s.solids[i],
+    const int severed = interactions::cut_organ(c.model.tool(s, t), shape, solid.network, solid.fine, s.solids[i],
                                                 s.parted[i], c.work.parts);
     if (severed == 0 || s.cut_count == interactions::kMaxCuts) continue;
     interactions::Cut& cut = s.cuts[size_t(s.cut_count++)];
@@ -111,8 +152,8 @@ void cut_organs(StepContext& c, size_t t) noexcept {
 void work_jaws(StepContext& c) noexcept {
   const interactions::TissueView view = tissue_of(c);
   State& s = c.state;
-  for (size_t t = 0; t < c.model.tools.size(); ++t) {
-    const interactions::ToolModel& model = c.model.tools[t];
+  for (size_t t = 0; t < c.model.hands.size(); ++t) {
+    const interactions::ToolModel& model = c.model.tool(s, t);
     interactions::ToolState& tool = s.tools[t];
     c.work.shapes[t] = interactions::shape_of(model, tool.pose(), tool.aperture);
     const int held = tool.holds;
@@ -142,13 +183,13 @@ void work_jaws(StepContext& c) noexcept {
 void touch_tissue(StepContext& c) noexcept {
   const interactions::TissueView view = tissue_of(c);
   size_t at = 0;
-  for (size_t t = 0; t < c.model.tools.size(); ++t) {
+  for (size_t t = 0; t < c.model.hands.size(); ++t) {
     const interactions::ToolShape& shape = c.work.shapes[t];
     for (size_t i = 0; i < c.model.solids.size(); ++i)
       interactions::tool_on_surface(shape, int(t), c.work.surfaces[i], c.work.solid_loads[i]);
     for (size_t i = 0; i < c.model.strands.size(); ++i) {
       const size_t sides = size_t(c.model.bodies[i].nodes() - 1) * size_t(interactions::kToolParts);
-      interactions::tool_on_strand(c.model.tools[t], shape, c.state.tools[t], int(t), c.model.bodies[i], int(i),
+      interactions::tool_on_strand(c.model.tool(c.state, t), shape, c.state.tools[t], int(t), c.model.bodies[i], int(i),
                                    c.state.strands[i], {c.state.tool_side.data() + at, sides}, c.work.strand_loads[i]);
       at += sides;
     }
@@ -271,10 +312,10 @@ void feel(StepContext& c) noexcept {
   for (const interactions::NetworkLoads& l : c.work.solid_loads)
     for (size_t i = 0; i < l.sorted.size(); ++i) account(c, l.owner[i], vec_cast<double>(l.reaction[i]));
   const interactions::TissueView view = tissue_of(c);
-  for (size_t t = 0; t < c.model.tools.size(); ++t) {
+  for (size_t t = 0; t < c.model.hands.size(); ++t) {
     interactions::ToolState& tool = c.state.tools[t];
     const int slips = tool.slipped;
-    interactions::slip(c.model.tools[t], c.work.shapes[t], view, tool);
+    interactions::slip(c.model.tool(c.state, t), c.work.shapes[t], view, tool);
     if (tool.slipped > slips) tell(c, Event::slipped, int(t), -1);
   }
 }

@@ -9,9 +9,9 @@
 namespace trocar::sim {
 
 struct Event {
-  enum Kind : std::int32_t { none, grasped, released, slipped, clipped, dropped_clip, cut } kind = none;
+  enum Kind : std::int32_t { none, grasped, released, slipped, clipped, dropped_clip, cut, exchanged } kind = none;
   std::int32_t tool = 0;
-  std::int32_t index = 0;  ///< clip or cut number
+  std::int32_t index = 0;  ///< clip or cut number, or the new instrument's number in the rack
 };
 inline constexpr int kMaxEvents = 16;
 

@@ -42,6 +42,10 @@ Vec3d sample_point(const Model& model, const State& state, const Work& work, con
   const VisibilityTarget& target = model.targets[size_t(sample.target)];
   const size_t i = size_t(target.index);
   if (target.kind == VisibilityTarget::jaw) return work.shapes[i].part[interactions::kJawA + sample.where].b;
+  if (target.kind == VisibilityTarget::shaft) {
+    const Vec3d port = model.hands[i].port;
+    return port + sample.w * (work.shapes[i].pivot - port);
+  }
   if (target.kind == VisibilityTarget::solid) return work.surfaces[i].position(sample.where);
   const interactions::StrandBody& body = model.bodies[i];
   const Vec3d centre = point_at(body, state.strands[i], {sample.where, sample.w});
@@ -61,7 +65,8 @@ bool sees(const Model& model, const State& state, const Work& work, const Visibi
   const double half = 0.5 * kMaskShare * model.scope.field_of_view;
   if (dot(normalised(p - scope.eye), scope.forward) < portable::cos(half)) return false;
   if (!faces_eye(model, work, sample, p, scope.eye)) return false;
-  const int tool = target.kind == VisibilityTarget::jaw ? target.index : -1;
+  const bool own = target.kind == VisibilityTarget::jaw || target.kind == VisibilityTarget::shaft;
+  const int tool = own ? target.index : -1;
   const int strand = target.kind == VisibilityTarget::strand ? target.index : -1;
   return unoccluded(model, state, work, scope.eye, p, 0.0015, tool, strand);
 }
@@ -88,7 +93,7 @@ bool unoccluded(const Model& model, const State& state, const Work& work, Vec3d 
           collision::passes_within(eye, end, strand.x[e], strand.x[e + 1], model.bodies[s].model.radius[e]))
         return false;
   }
-  for (size_t t = 0; t < model.tools.size(); ++t) {
+  for (size_t t = 0; t < model.hands.size(); ++t) {
     if (int(t) == skip_tool) continue;
     for (const interactions::Capsule& c : work.shapes[t].part)
       if (collision::passes_within(eye, end, c.a, c.b, c.radius)) return false;

@@ -18,13 +18,13 @@ constexpr double kTooNear = 0.010, kTooFar = 0.030;  // [m] from the uterus
 enum Step { kPresent, kFirstClip, kSecondClip, kCut, kSteps };
 
 int tool_index(const sim::Model& model, const std::string& name) {
-  for (size_t t = 0; t < model.tools.size(); ++t)
-    if (model.tools[t].name == name) return int(t);
+  for (size_t t = 0; t < model.hands.size(); ++t)
+    if (model.placed(t).name == name) return int(t);
   return -1;
 }
 
 Vec3d tip_of(const sim::Model& model, const sim::State& state, size_t tool) {
-  return kinematics::forward(model.tools[tool].port, state.tools[tool].pose()).tip;
+  return kinematics::forward(model.hands[tool].port, state.tools[tool].pose()).tip;
 }
 
 double norm(const double (&v)[3]) { return length(Vec3d{v[0], v[1], v[2]}); }
@@ -36,7 +36,7 @@ Monitor::Monitor(const Exercise& exercise, const sim::Model& model) : m_exercise
   std::vector<core::Fault> faults;
   std::vector<std::string> tubes, tools;
   for (const sim::StrandModel& strand : model.strands) tubes.push_back(strand.name);
-  for (const interactions::ToolModel& tool : model.tools) tools.push_back(tool.name);
+  for (size_t h = 0; h < model.hands.size(); ++h) tools.push_back(model.placed(h).name);
   m_tube = model.strand_index(g.tube);
   if (m_tube < 0) faults.push_back({g.tube_at, scene::unknown_name("strand of the scene", g.tube, tubes)});
   const auto need = [&](const std::string& name, const core::Location& at, interactions::ToolKind kind,
@@ -44,7 +44,7 @@ Monitor::Monitor(const Exercise& exercise, const sim::Model& model) : m_exercise
     const int tool = tool_index(model, name);
     if (tool < 0)
       faults.push_back({at, scene::unknown_name("tool of the scene", name, tools)});
-    else if (model.tools[size_t(tool)].kind != kind)
+    else if (model.placed(size_t(tool)).kind != kind)
       faults.push_back({at, std::string("expected ") + what + ", got \"" + name + "\", which is another kind of tool"});
   };
   need(g.grasper, g.grasper_at, interactions::ToolKind::grasper, "a grasper");
@@ -59,10 +59,10 @@ Monitor::Monitor(const Exercise& exercise, const sim::Model& model) : m_exercise
              {"First clip", "on the isthmus, 12 to 20 mm from the uterus, straight across, close slowly", false, 0},
              {"Second clip", "6 to 12 mm farther out", false, 0},
              {"Cut", "between the clips, 2 mm clear of each", false, 0}};
-  for (size_t t = 0; t < model.tools.size(); ++t) {
-    m_tools.push_back({model.tools[t].name, 0, 0});
+  for (size_t t = 0; t < model.hands.size(); ++t) {
+    m_tools.push_back({model.placed(t).name, 0, 0});
     const kinematics::FulcrumPose start = pose_of(model.start.tools[t]);
-    m_last_tip.push_back(kinematics::forward(model.tools[t].port, start).tip);
+    m_last_tip.push_back(kinematics::forward(model.hands[t].port, start).tip);
   }
 }
 

@@ -11,8 +11,8 @@ constexpr double kPatience = 25;                     // [s] in one phase before 
 constexpr double kBack = 0.022;                      // [m] in front of the tissue where an approach begins
 
 int tool_named(const sim::Model& model, const std::string& name) {
-  for (size_t t = 0; t < model.tools.size(); ++t)
-    if (model.tools[t].name == name) return int(t);
+  for (size_t t = 0; t < model.hands.size(); ++t)
+    if (model.placed(t).name == name) return int(t);
   return -1;
 }
 
@@ -54,9 +54,9 @@ Surgeon::Surgeon(const Exercise& exercise, const sim::Model& model) : m_exercise
   m_grasp_at = 0.040;
   for (const sim::LandmarkModel& l : model.strands[size_t(m_tube)].landmarks)
     if (l.name == "ampulla") m_grasp_at = l.from + 0.35 * (l.to - l.from);
-  for (size_t t = 0; t < model.tools.size(); ++t) {
+  for (size_t t = 0; t < model.hands.size(); ++t) {
     const sim::ToolInput& in = model.start.tools[t];
-    m_hand[t] = {kinematics::forward(model.tools[t].port, pose_of(in)).tip, double(in.roll), double(in.handle)};
+    m_hand[t] = {kinematics::forward(model.hands[t].port, pose_of(in)).tip, double(in.roll), double(in.handle)};
   }
   m_scope = model.start.scope;
   m_scope_tip = kinematics::forward(model.scope.port, pose_of(m_scope)).tip;
@@ -107,7 +107,7 @@ void Surgeon::go(Phase next) {
 
 bool Surgeon::aim(const sim::Model& model, const sim::State& state, int tool, double s, double inside, double back,
                   double speed) {
-  const interactions::ToolModel& t = model.tools[size_t(tool)];
+  const interactions::ToolModel& t = model.placed(size_t(tool));
   Hand& hand = m_hand[size_t(tool)];
   const interactions::StrandBody& tube = model.bodies[size_t(m_tube)];
   const interactions::StrandPlace place = interactions::place_at(tube, s);
@@ -143,7 +143,7 @@ void Surgeon::lift(const sim::Model& model, const sim::State& state) {
   m_hand[size_t(m_grasper)].tip = m_lift_from + m_lifted * up;
   const interactions::StrandPlace place = interactions::place_at(tube, m_cut_at);
   const Vec3d at = interactions::point_at(tube, s, place), tangent = interactions::tangent_at(tube, s, place);
-  const Vec3d axis = normalised(at - model.tools[size_t(m_applier)].port);
+  const Vec3d axis = normalised(at - model.hands[size_t(m_applier)].port);
   const bool across = std::fabs(dot(axis, tangent)) < 0.10;
   const bool enough = pull > 1.3 * m_exercise.goal.present_pull.low;
   if ((across && enough) || m_lifted >= kHighest || pull >= comfortable)
@@ -151,7 +151,7 @@ void Surgeon::lift(const sim::Model& model, const sim::State& state) {
 }
 
 void Surgeon::steer_clip(const sim::Model& model, const sim::State& state) {
-  const interactions::ToolModel& t = model.tools[size_t(m_applier)];
+  const interactions::ToolModel& t = model.placed(size_t(m_applier));
   const double s = m_clip_at[size_t(std::min(m_clips, 1))];
   const double inside = t.jaw_length - 0.5 * t.clip_length;  // the tube in the middle of the clip
   switch (m_phase) {
@@ -181,10 +181,10 @@ void Surgeon::steer_clip(const sim::Model& model, const sim::State& state) {
 }
 
 void Surgeon::steer_cut(const sim::Model& model, const sim::State& state) {
-  const interactions::ToolModel& t = model.tools[size_t(m_scissors)];
+  const interactions::ToolModel& t = model.placed(size_t(m_scissors));
   const double inside = 0.72 * t.jaw_length;  // near the blades' ends: spare the fold behind the tube
   // The applier makes room.
-  const interactions::ToolModel& a = model.tools[size_t(m_applier)];
+  const interactions::ToolModel& a = model.placed(size_t(m_applier));
   Hand& applier = m_hand[size_t(m_applier)];
   applier.tip = moved(applier.tip, a.port + 0.045 * normalised(applier.tip - a.port), kTravel);
   switch (m_phase) {
@@ -213,7 +213,7 @@ void Surgeon::steer_cut(const sim::Model& model, const sim::State& state) {
 }
 
 void Surgeon::steer(const sim::Model& model, const sim::State& state) {
-  const double inside = 0.6 * model.tools[size_t(m_grasper)].jaw_length;
+  const double inside = 0.6 * model.placed(size_t(m_grasper)).jaw_length;
   switch (m_phase) {
     case Phase::look:
       if (m_in_phase > 0.5) go(Phase::reach_ampulla);
@@ -268,9 +268,9 @@ sim::Input Surgeon::next(const sim::Model& model, const sim::State& state) {
   }
   if (!done()) steer(model, state);
   sim::Input input = model.start;
-  for (size_t t = 0; t < model.tools.size(); ++t) {
+  for (size_t t = 0; t < model.hands.size(); ++t) {
     const Hand& h = m_hand[t];
-    input.tools[t] = sim::tool_input(kinematics::inverse(model.tools[t].port, h.tip, h.roll), float(h.handle));
+    input.tools[t] = sim::tool_input(kinematics::inverse(model.hands[t].port, h.tip, h.roll), float(h.handle));
   }
   follow_with_scope(model, state, input);
   return input;

@@ -19,7 +19,7 @@ tissue::Box bounds_of(const sim::Model& model) {
     for (const Vec3f& p : s.skin.rest) box.add(p);
   for (const sim::WallModel& w : model.walls)
     for (const Vec3f& p : w.skin.rest) box.add(p);
-  for (const interactions::ToolModel& t : model.tools) box.add(vec_cast<float>(t.port));
+  for (const sim::HandModel& t : model.hands) box.add(vec_cast<float>(t.port));
   box.add(vec_cast<float>(model.scope.port));
   return box;
 }

@@ -14,11 +14,7 @@ Vec3d in_world(const double (&v)[3], const interactions::StrandFrame& f) {
   return v[0] * f.tangent + v[1] * f.normal + v[2] * f.binormal;
 }
 
-double leg_length(const Clip& clip, const sim::Model& model) {
-  const auto tool = std::size_t(clip.tool);
-  if (clip.tool < 0 || tool >= model.tools.size() || model.tools[tool].clip_length <= 0) return kClipLength;
-  return model.tools[tool].clip_length;
-}
+double leg_length(const Clip& clip) { return clip.length > 0 ? clip.length : kClipLength; }
 
 bool holds(const interactions::ToolState& tool, int body) {
   const int n = std::min(tool.holds, interactions::kMaxHolds);
@@ -41,7 +37,7 @@ ClipPress press_of(const Clip& clip, const sim::Model& model, const sim::State& 
   press.radius = body.model.radius[std::size_t(place.element)];
   press.flat = kClipHalfGap / press.radius;
   press.low = -clip.reach;
-  press.high = leg_length(clip, model) - clip.reach;
+  press.high = leg_length(clip) - clip.reach;
   return press;
 }
 
@@ -55,10 +51,10 @@ std::vector<ClipPress> clips_on(int strand, const sim::Model& model, const sim::
 
 std::vector<JawPress> jaws_on(int body, const sim::Model& model, const sim::State& state) {
   std::vector<JawPress> presses;
-  for (std::size_t t = 0; t < model.tools.size(); ++t) {
+  for (std::size_t t = 0; t < model.hands.size(); ++t) {
     const interactions::ToolState& tool = state.tools[t];
     if (!holds(tool, body)) continue;
-    const interactions::ToolModel& m = model.tools[t];
+    const interactions::ToolModel& m = model.tool(state, t);
     presses.push_back({interactions::shape_of(m, tool.pose(), tool.aperture), m.jaw_length, 0.5 * m.jaw_width});
   }
   return presses;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 #include <optional>
 
 #include <trocar/render/mesh_arrays.hpp>
@@ -7,6 +8,7 @@
 #include <trocar/view/cameras.hpp>
 #include <trocar/view/cavity.hpp>
 #include <trocar/view/clip_shape.hpp>
+#include <trocar/view/drape.hpp>
 #include <trocar/view/fat_tags.hpp>
 #include <trocar/view/instrument_shapes.hpp>
 #include <trocar/view/looks.hpp>
@@ -64,7 +66,7 @@ Relief relief_of(int solid, const sim::Model& model) {
 
 /// The clip that lies ready in an applier's jaws.
 struct LoadedClip {
-  int tool = -1;
+  int hand = -1, instrument = -1;  ///< of the hand's rack
   OwnedMesh mesh;
 };
 
@@ -75,14 +77,16 @@ struct SceneView::Parts {
   std::vector<OrganDrawing> organs;
   std::vector<FatTags> fat;
   std::vector<int> fat_on;  ///< its organ
+  std::vector<Drape> drapes;
+  std::vector<const Look*> drape_look;
   std::vector<TubeDrawing> tubes;
   std::vector<SheetDrawing> sheets;
   std::vector<OwnedMesh> walls, margins;
   OwnedMesh cavity;
-  std::vector<std::vector<DrawnPart>> tools;
+  std::vector<std::vector<std::vector<DrawnPart>>> tools;  ///< (hands, rack)
   std::vector<DrawnPart> scope;
   std::vector<LoadedClip> loaded;
-  std::vector<OwnedMesh> clips;  ///< closed ones, by the tool that sets them
+  std::map<double, OwnedMesh> clips;  ///< closed ones, by their length [m]
   const Look* titanium = &look("titanium");
 
   Parts(const sim::Model& of, render::Backend& backend);
@@ -125,6 +129,12 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
     fat.emplace_back(organs[std::size_t(i)], solid, count, model.gravity, backend);
     fat_on.push_back(i);
   }
+  for (int i = 0; i < int(organs.size()); ++i) {
+    const Look& covered = look(model.solids[std::size_t(i)].look);
+    if (!covered.draped) continue;
+    drapes.emplace_back(model, i, organs, backend);
+    drape_look.push_back(&covered);
+  }
   for (std::size_t i = 0; i < model.walls.size(); ++i) {
     const tissue::Skin& skin = model.walls[i].skin;
     std::vector<Paint> paint(skin.rest.size());
@@ -147,12 +157,15 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
 }
 
 void SceneView::Parts::make_metal(render::Backend& backend) {
-  for (const interactions::ToolModel& tool : model.tools) {
-    tools.push_back(made(instrument_parts(tool), backend));
-    clips.emplace_back(backend, clip_shape(tool.clip_length > 0 ? tool.clip_length : kClipLength, 0).data());
-    if (tool.clip_length > 0 && tool.clips > 0) {
-      const MeshBuffer shape = clip_shape(tool.clip_length, tool.parallel_gap);
-      loaded.push_back({int(tools.size()) - 1, {backend, shape.data()}});
+  for (std::size_t h = 0; h < model.hands.size(); ++h) {
+    auto& drawn = tools.emplace_back();
+    for (const interactions::ToolModel& tool : model.hands[h].rack) {
+      drawn.push_back(made(instrument_parts(tool), backend));
+      if (tool.clip_length <= 0 || tool.clips <= 0) continue;
+      loaded.push_back(
+          {int(h), int(drawn.size()) - 1, {backend, clip_shape(tool.clip_length, tool.parallel_gap).data()}});
+      if (clips.count(tool.clip_length) == 0)
+        clips.emplace(tool.clip_length, OwnedMesh(backend, clip_shape(tool.clip_length, 0).data()));
     }
   }
   scope = made(scope_parts(model.scope.shaft_radius), backend);
@@ -161,11 +174,14 @@ void SceneView::Parts::make_metal(render::Backend& backend) {
 void SceneView::Parts::update(const sim::State& state) {
   for (std::size_t i = 0; i < organs.size(); ++i) organs[i].update(state.solids[i], state.parted[i]);
   for (std::size_t i = 0; i < fat.size(); ++i) fat[i].update(organs[std::size_t(fat_on[i])]);
+  for (Drape& d : drapes) d.update(organs);
   for (TubeDrawing& t : tubes) t.update(state);
   for (SheetDrawing& s : sheets) s.update(state);
   for (LoadedClip& l : loaded) {
-    const interactions::ToolModel& tool = model.tools[std::size_t(l.tool)];
-    const double open = tool.parallel_gap * state.tools[std::size_t(l.tool)].aperture;
+    const interactions::ToolState& now = state.tools[std::size_t(l.hand)];
+    if (now.instrument != l.instrument) continue;
+    const interactions::ToolModel& tool = model.tool(state, std::size_t(l.hand));
+    const double open = tool.parallel_gap * now.aperture;
     const MeshBuffer shape = clip_shape(tool.clip_length, std::max(0.0, open - 2 * kClipHalfGap));
     l.mesh.move(shape.positions, {});
   }
@@ -176,6 +192,10 @@ void SceneView::Parts::list_tissues(bool with_walls, Frame& frame) const {
     frame.items.push_back(item(walls[i].handle(), look(model.walls[i].look)));
   for (std::size_t i = 0; i < organs.size(); ++i)
     frame.items.push_back(item(organs[i].mesh(), look(model.solids[i].look)));
+  for (std::size_t i = 0; i < drapes.size(); ++i) {
+    frame.items.push_back(item(drapes[i].mesh(), *drape_look[i]));
+    frame.items.back().material.two_sided = true;
+  }
   for (const FatTags& f : fat)
     if (f.mesh().id) frame.items.push_back(item(f.mesh(), look("fat")));
   for (std::size_t i = 0; i < tubes.size(); ++i) {
@@ -192,11 +212,12 @@ void SceneView::Parts::list_clips(const sim::State& state, Frame& frame) const {
   for (int i = 0; i < state.clip_count; ++i) {
     const interactions::Clip& c = state.clips[std::size_t(i)];
     if (c.strand < 0 || c.strand >= int(model.strands.size())) continue;
-    if (c.tool < 0 || c.tool >= int(clips.size())) continue;
+    const auto mesh = clips.find(c.length);
+    if (mesh == clips.end()) continue;
     const ClipPress at = press_of(c, model, state);
     const Mat3f turn =
         Mat3f::from_columns(vec_cast<float>(at.open), vec_cast<float>(at.normal), vec_cast<float>(at.axis));
-    DrawItem drawn = item(clips[std::size_t(c.tool)].handle(), *titanium);
+    DrawItem drawn = item(mesh->second.handle(), *titanium);
     drawn.transform = to_world({turn, vec_cast<float>(at.centre + at.low * at.axis)});
     frame.items.push_back(drawn);
   }
@@ -205,21 +226,22 @@ void SceneView::Parts::list_clips(const sim::State& state, Frame& frame) const {
 void SceneView::Parts::list_tools(const sim::State& state, Frame& frame) const {
   for (std::size_t t = 0; t < tools.size(); ++t) {
     const interactions::ToolState& tool = state.tools[t];
-    const interactions::ToolShape shape = shape_of(model.tools[t], tool.pose(), tool.aperture);
-    for (const DrawnPart& part : tools[t]) {
+    const interactions::ToolShape shape = shape_of(model.tool(state, t), tool.pose(), tool.aperture);
+    for (const DrawnPart& part : tools[t][std::size_t(tool.instrument)]) {
       DrawItem drawn = item(part.mesh.handle(), *part.look);
       drawn.transform = to_world(placement_of(part.joint, shape));
       frame.items.push_back(drawn);
     }
     for (int k = 0; k < interactions::kToolParts; ++k) {  // a jaw is wider than it is thick
       const collision::Capsule& rod = shape.part[k];
-      const double half = k == interactions::kShaft ? rod.radius : std::max(rod.radius, 0.4 * model.tools[t].jaw_width);
+      const double half =
+          k == interactions::kShaft ? rod.radius : std::max(rod.radius, 0.4 * model.tool(state, t).jaw_width);
       frame.rods.push_back({vec_cast<float>(rod.a), vec_cast<float>(rod.b), float(half)});
     }
     for (const LoadedClip& l : loaded) {
-      if (l.tool != int(t) || tool.clips_left <= 0 || !tool.armed) continue;
+      if (l.hand != int(t) || l.instrument != tool.instrument || tool.clips_left <= 0 || !tool.armed) continue;
       Placement place = placement_of(InstrumentPart::Joint::body, shape);
-      place.translation += float(clip_seat(model.tools[t])) * place.rotation.column(2);
+      place.translation += float(clip_seat(model.tool(state, t))) * place.rotation.column(2);
       DrawItem drawn = item(l.mesh.handle(), *titanium);
       drawn.transform = to_world(place);
       frame.items.push_back(drawn);

@@ -1,0 +1,51 @@
+#include <trocar/scene/compile_targets.hpp>
+
+namespace trocar::scene {
+namespace {
+
+void add_target(sim::Model& model, sim::VisibilityTarget target, const std::vector<sim::VisibilitySample>& samples) {
+  target.first = std::int32_t(model.samples.size());
+  target.count = std::int32_t(samples.size());
+  for (sim::VisibilitySample s : samples) {
+    s.target = std::int32_t(model.targets.size());
+    model.samples.push_back(s);
+  }
+  model.targets.push_back(target);
+}
+
+/// Both jaw tips, and the shaft between trocar and jaws.
+void add_hand(sim::Model& model, std::int32_t hand) {
+  const std::string& name = model.hands[size_t(hand)].name;
+  for (std::int32_t jaw = 0; jaw < 2; ++jaw)
+    add_target(model, {sim::VisibilityTarget::jaw, name + (jaw == 0 ? ".jaw_a" : ".jaw_b"), hand, 0, 0}, {{0, jaw, 0}});
+  std::vector<sim::VisibilitySample> track;
+  for (double share : {0.4, 0.6, 0.8, 0.95}) track.push_back({0, 0, share});
+  add_target(model, {sim::VisibilityTarget::shaft, name + ".shaft", hand, 0, 0}, track);
+}
+
+}  // namespace
+
+void compile_targets(sim::Model& model) {
+  for (size_t t = 0; t < model.hands.size(); ++t) add_hand(model, std::int32_t(t));
+  for (size_t i = 0; i < model.strands.size(); ++i)
+    for (const sim::LandmarkModel& l : model.strands[i].landmarks) {
+      std::vector<sim::VisibilitySample> samples;
+      constexpr int kSamples = 5;
+      for (int k = 0; k < kSamples; ++k) {
+        const interactions::StrandPlace p =
+            interactions::place_at(model.bodies[i], l.from + (l.to - l.from) * (k + 0.5) / kSamples);
+        samples.push_back({0, p.element, p.w});
+      }
+      add_target(model, {sim::VisibilityTarget::strand, model.strands[i].name + "." + l.name, std::int32_t(i), 0, 0},
+                 samples);
+    }
+  for (size_t i = 0; i < model.solids.size(); ++i) {
+    std::vector<sim::VisibilitySample> samples;
+    constexpr int kSamples = 16;
+    const int n = model.solids[i].skin.size();
+    for (int k = 0; k < kSamples; ++k) samples.push_back({0, std::int32_t((2 * k + 1) * n / (2 * kSamples)), 0});
+    add_target(model, {sim::VisibilityTarget::solid, model.solids[i].name, std::int32_t(i), 0, 0}, samples);
+  }
+}
+
+}  // namespace trocar::scene
