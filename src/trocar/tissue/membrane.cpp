@@ -1,0 +1,180 @@
+// One tick of a sheet: borders on their way, bending as impulses, stretch in the network's sub-steps.
+#include <cmath>
+
+#include <trocar/tissue/membrane.hpp>
+
+namespace trocar::tissue {
+namespace {
+
+NodeState& row_of(const MembraneModel& m, MembraneState& s, int node) {
+  return s.network.nodes[std::size_t(m.network.row_of_node[std::size_t(node)])];
+}
+const NodeState& row_of(const MembraneModel& m, const MembraneState& s, int node) {
+  return s.network.nodes[std::size_t(m.network.row_of_node[std::size_t(node)])];
+}
+
+/// Forces of bending and of its damping on all nodes. Differences from the stencil's first node: no digits are lost,
+/// and the sum of the forces is exactly zero but for rounding.
+void bending_forces(const MembraneModel& m, const MembraneState& s, std::vector<Vec3d>& force) noexcept {
+  for (Vec3d& f : force) f = {};
+  const float tau = float(m.bending_damping_time);
+  for (std::size_t b = 0; b < m.bends.size(); ++b) {
+    if (s.torn[b]) continue;
+    const BendStencil& e = m.bends[b];
+    const NodeState& o = row_of(m, s, e.node[0]);
+    Vec3f q{0, 0, 0};
+    for (std::int32_t j = 1; j < e.count; ++j) {
+      const NodeState& n = row_of(m, s, e.node[std::size_t(j)]);
+      q += e.c[std::size_t(j)] * Vec3f{(n.x - o.x) + tau * (n.vx - o.vx), (n.y - o.y) + tau * (n.vy - o.vy),
+                                       (n.z - o.z) + tau * (n.vz - o.vz)};
+    }
+    const Vec3d pull = -double(e.k) * vec_cast<double>(q);
+    Vec3d back{0, 0, 0};
+    for (std::int32_t j = 1; j < e.count; ++j) {
+      const Vec3d f = double(e.c[std::size_t(j)]) * pull;
+      force[std::size_t(e.node[std::size_t(j)])] += f;
+      back += f;
+    }
+    force[std::size_t(e.node[0])] -= back;
+  }
+}
+
+/// v += dt (f / m - gamma v) on the nodes that are free.
+void kick(const MembraneModel& m, MembraneState& s, const std::vector<Vec3d>& force, double dt) noexcept {
+  const double keep = 1 / (1 + dt * m.gamma);
+  for (int i = 0; i < m.nodes(); ++i) {
+    if (m.network.fixed[std::size_t(i)] == kHeld) continue;
+    const double w = dt / m.network.mass[std::size_t(i)];
+    const Vec3d f = force[std::size_t(i)];
+    NodeState& n = row_of(m, s, i);
+    n.vx = float(keep * (double(n.vx) + w * f.x));
+    n.vy = float(keep * (double(n.vy) + w * f.y));
+    n.vz = float(keep * (double(n.vz) + w * f.z));
+  }
+}
+
+}  // namespace
+
+void border_pulls(const MembraneModel& m, const MembraneState& s, MembraneWork& w,
+                  std::span<BorderPull> pulls) noexcept {
+  bending_forces(m, s, w.force);
+  for (std::size_t h = 0; h < m.held_nodes.size(); ++h) {
+    const int i = m.held_nodes[h];
+    const NodeState& o = row_of(m, s, i);
+    BorderPull p;
+    p.force = w.force[std::size_t(i)];
+    p.k = m.border_bending[h];
+    p.d = m.border_bending[h] * m.bending_damping_time;
+    for (int k = m.border_first[h]; k < m.border_first[h + 1]; ++k) {
+      const BorderSpring& e = m.border_spring[std::size_t(k)];
+      const double scale = double(spring_scale(m.network, s.network, e.spring));
+      if (!(scale > 0)) continue;
+      const NodeState& n = row_of(m, s, e.other);
+      const Vec3d r{double(n.x - o.x), double(n.y - o.y), double(n.z - o.z)};
+      const Vec3d v{double(n.vx - o.vx), double(n.vy - o.vy), double(n.vz - o.vz)};
+      const double now = length(r);
+      if (!(now > 1e-12)) continue;
+      const double strain = now / e.rest - 1;
+      const Vec3d direction = r / now;
+      p.force += (scale * (e.stiffness * m.law.shape(strain) + e.damping * dot(v, direction))) * direction;
+      p.k += scale * e.stiffness / e.rest * m.law.slope(strain);
+      p.d += scale * e.damping;
+    }
+    pulls[h] = p;
+  }
+}
+
+StepReport advance(const MembraneModel& m, std::span<const Vec3d> targets, std::span<const NodeLoad> loads,
+                   std::span<Vec3f> reactions, MembraneState& s, MembraneWork& w) noexcept {
+  for (std::size_t h = 0; h < m.held_nodes.size(); ++h) {
+    const int i = m.held_nodes[h];
+    const Vec3d way = targets.empty() ? Vec3d{} : targets[h] - position(m.network, s.network, i);
+    set_velocity(m.network, s.network, i, way / m.tick);
+  }
+  StepReport report;
+  for (Vec3f& r : reactions) r = {};
+  const double dt = m.tick / m.bend_steps;
+  const float share = 1.0f / float(m.bend_steps);
+  const bool several = m.bend_steps > 1 && reactions.size() <= w.reaction.size();
+  for (int step = 0; step < m.bend_steps; ++step) {
+    bending_forces(m, s, w.force);
+    kick(m, s, w.force, dt);
+    const std::span<Vec3f> part = several ? std::span<Vec3f>(w.reaction.data(), reactions.size()) : reactions;
+    report = report | advance(m.network, loads, part, s.network, w.network);
+    if (!several) continue;
+    for (std::size_t i = 0; i < reactions.size(); ++i) reactions[i] += share * part[i];
+  }
+  for (std::size_t h = 0; h < m.held_nodes.size() && !targets.empty(); ++h)
+    set_position(m.network, s.network, m.held_nodes[h], targets[h]);
+  return report;
+}
+
+void tear_bends(const MembraneModel& m, std::span<const std::uint8_t> parted, MembraneState& s) noexcept {
+  for (std::size_t b = 0; b < m.bends.size(); ++b) {
+    if (s.torn[b]) continue;
+    const BendStencil& e = m.bends[b];
+    int low_column = m.columns, high_column = 0, low_row = m.rows, high_row = 0;
+    for (std::int32_t j = 0; j < e.count; ++j) {
+      const int column = e.node[std::size_t(j)] % m.columns, row = e.node[std::size_t(j)] / m.columns;
+      low_column = column < low_column ? column : low_column, high_column = column > high_column ? column : high_column;
+      low_row = row < low_row ? row : low_row, high_row = row > high_row ? row : high_row;
+    }
+    // Along one line, the cells at both of its sides count.
+    if (low_row == high_row) --low_row, ++high_row;
+    if (low_column == high_column) --low_column, ++high_column;
+    for (int r = low_row; r < high_row; ++r)
+      for (int c = low_column; c < high_column; ++c) {
+        if (r < 0 || c < 0 || r + 1 >= m.rows || c + 1 >= m.columns) continue;
+        const std::size_t t = 2 * std::size_t(r * (m.columns - 1) + c);
+        if (parted[t] || parted[t + 1]) s.torn[b] = 1;
+      }
+  }
+}
+
+MembraneEnergy energy(const MembraneModel& m, const MembraneState& s) {
+  const NetworkEnergy n = energy(m.network, s.network);
+  MembraneEnergy e{n.kinetic, n.elastic, 0, n.gravity};
+  for (std::size_t b = 0; b < m.bends.size(); ++b) {
+    if (s.torn[b]) continue;
+    const BendStencil& t = m.bends[b];
+    const Vec3d o = position(m.network, s.network, t.node[0]);
+    Vec3d q{0, 0, 0};
+    for (std::int32_t j = 1; j < t.count; ++j)
+      q += double(t.c[std::size_t(j)]) * (position(m.network, s.network, t.node[std::size_t(j)]) - o);
+    e.bending += 0.5 * double(t.k) * dot(q, q);
+  }
+  return e;
+}
+
+void add_to_hash(core::Hasher& h, const MembraneState& s) noexcept {
+  add_to_hash(h, s.network);
+  h.add(s.torn);
+}
+
+void add_to_hash(core::Hasher& h, const MembraneModel& m) noexcept {
+  add_to_hash(h, m.network);
+  h.add(m.columns);
+  h.add(m.rows);
+  h.add(m.law);
+  h.add(m.bend_steps);
+  for (const BendStencil& b : m.bends) {
+    h.add(b.count);
+    h.add(b.node);
+    h.add(b.c);
+    h.add(b.k);
+  }
+  h.add(m.held_nodes);
+  h.add(m.border_first);
+  for (const BorderSpring& e : m.border_spring) {
+    h.add(e.spring);
+    h.add(e.other);
+    h.add(e.stiffness);
+    h.add(e.rest);
+    h.add(e.damping);
+  }
+  h.add(m.border_bending);
+  const double rest[] = {m.tick, m.bending_damping_time, m.gamma};
+  h.add(rest);
+}
+
+}  // namespace trocar::tissue
