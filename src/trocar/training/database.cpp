@@ -34,9 +34,10 @@ Database::Database(const std::filesystem::path& path, Access access) : m_path(pa
   bool good = writes ? open(uri_of(absolute, ""), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE)
                      : open(uri_of(absolute, ""), SQLITE_OPEN_READONLY);
   // Without write access beside it the file is readable only to one who promises that nobody changes it meanwhile.
-  if (!writes && good &&
-      sqlite3_exec(m_handle, "SELECT 1 FROM sqlite_master", nullptr, nullptr, nullptr) == SQLITE_CANTOPEN)
-    good = false;
+  if (!writes && good) {
+    const int code = sqlite3_exec(m_handle, "SELECT 1 FROM sqlite_master", nullptr, nullptr, nullptr) & 0xff;
+    good = code != SQLITE_CANTOPEN && code != SQLITE_READONLY;
+  }
   if (!writes && !good) {
     sqlite3_close(m_handle);
     m_handle = nullptr;

@@ -50,6 +50,10 @@ constexpr const char* kColumns =
     "a.number, a.uuid, t.name, a.exercise, a.title, a.mode, a.seed, a.input, a.started, a.ended, a.state, a.score, "
     "a.passed, a.seconds, a.ticks, a.recording, a.result, a.program_version, a.model_hash, "
     "EXISTS (SELECT 1 FROM trace WHERE trace.attempt = a.number)";
+/// The same without the trainee's table, for a database in which that may be gone.
+constexpr const char* kAlone =
+    "a.number, a.uuid, '', a.exercise, a.title, a.mode, a.seed, a.input, a.started, a.ended, a.state, a.score, "
+    "a.passed, a.seconds, a.ticks, a.recording, a.result, a.program_version, a.model_hash, 0";
 constexpr const char* kFrom = " FROM attempt a JOIN trainee t ON t.id = a.trainee ";
 
 constexpr std::size_t kLargestResult = 16 << 20, kLargestTrace = 64 << 20, kLongestText = 4096;
@@ -344,28 +348,56 @@ void Store::repair(const std::string& what) {
   }
 }
 
-/// Rows that can still be read, from both ends towards the damage.
+/// Row by row, since a page that is gone takes only its own rows along.
 void Store::salvage(Database& db, const fs::path& damaged) {
-  int saved = 0;
-  for (const bool forward : {true, false}) {
+  const auto readable = [](const auto& read) {
     try {
-      Database old(damaged, Database::Access::read);
-      Query q(old, fmt::format("SELECT {}{}ORDER BY a.number {}", kColumns, kFrom, forward ? "ASC" : "DESC"));
-      while (q.next()) {
-        Attempt a = row_of(q);
-        if (a.uuid.empty() || state_in(db, a.uuid)) continue;
-        a.trainee = clean_name(a.trainee);
-        Transaction one(db);
-        write_row(db, a);
-        one.commit();
-        ++saved;
-      }
-      break;  // to the end without a fault
-    } catch (const DatabaseFault& fault) {
-      core::log::debug("while saving what can be read: {}", fault.what());
+      read();
+      return true;
+    } catch (const DatabaseFault&) {
+      return false;
     }
-  }
-  if (saved > 0) notice(fmt::format("{} attempts were read from the damaged store", saved));
+  };
+  int saved = 0;
+  std::error_code error;
+  // A row takes far more than 64 bytes, so there cannot be more of them.
+  std::int64_t last = std::int64_t(std::min<std::uintmax_t>(fs::file_size(damaged, error), kLargestChecked) / 64);
+  const bool opened = readable([&] {
+    Database old(damaged, Database::Access::read);
+    readable([&] { last = std::min(last, old.number_of("SELECT seq FROM sqlite_sequence WHERE name = 'attempt'")); });
+    for (std::int64_t number = 1; number <= last; ++number) {
+      Attempt a;
+      std::int64_t trainee = 0;
+      const bool sound = readable([&] {
+        Query q(old, fmt::format("SELECT {}, a.trainee FROM attempt a NOT INDEXED WHERE a.number = ?", kAlone));
+        q.bind(number);
+        if (!q.next()) return;
+        a = row_of(q);
+        trainee = q.integer(20);
+      });
+      if (!sound || a.uuid.empty() || state_in(db, a.uuid)) continue;
+      readable([&] {
+        Query q(old, "SELECT name FROM trainee NOT INDEXED WHERE id = ?");
+        q.bind(trainee);
+        if (q.next()) a.trainee = clean_name(q.text(0));
+      });
+      readable([&] {
+        Query q(old, "SELECT samples FROM trace WHERE attempt = ?");
+        q.bind(number);
+        if (q.next()) a.trace = q.bytes(0);
+      });
+      Attempt from_recording;
+      if (a.trainee.empty() && !a.recording.empty() && fill_from_recording(a.recording, from_recording) &&
+          from_recording.uuid == a.uuid)
+        a.trainee = from_recording.trainee;
+      if (a.trainee.empty()) a.trainee = fmt::format("trainee {}", trainee);
+      Transaction one(db);
+      write_row(db, a);
+      one.commit();
+      ++saved;
+    }
+  });
+  if (opened && saved > 0) notice(fmt::format("{} attempts were read from the damaged store", saved));
 }
 
 void Store::take_in_recordings(Database& db) {
@@ -614,7 +646,7 @@ std::vector<std::string> Store::trainees() const {
 Store::Forgotten Store::forget(const std::string& trainee) {
   Forgotten out;
   std::vector<std::string> recordings;
-  for (const Attempt& a : list({.trainee = trainee, .exercise = {}, .seed = {}, .mode = {}, .limit = 0})) {
+  for (const Attempt& a : list({.trainee = trainee})) {
     ++out.attempts;
     if (!a.recording.empty()) recordings.push_back(a.recording);
   }

@@ -50,9 +50,9 @@ class AttemptLock {
 };
 
 struct AttemptFilter {
-  std::string trainee, exercise;  ///< empty: all
-  std::optional<std::uint64_t> seed;
-  std::optional<AttemptMode> mode;
+  std::string trainee{}, exercise{};  ///< empty: all
+  std::optional<std::uint64_t> seed{};
+  std::optional<AttemptMode> mode{};
   int limit = 0;  ///< the newest so many; 0: all
 };
 

@@ -1,0 +1,512 @@
+// The session store under everything that can go wrong with files: what ended is never lost, what did not end is said.
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <set>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <trocar/core/error.hpp>
+#include <trocar/core/log.hpp>
+#include <trocar/sim/recording.hpp>
+#include <trocar/training/database.hpp>
+#include <trocar/training/store.hpp>
+
+namespace trocar::training {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kResult = R"({"passed":true,"ticks":4200,"assessment":{"score":{"total":87.5}}})";
+
+class StoreTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    core::log::set_level(core::log::Level::off);
+    m_root = fs::temp_directory_path() / ("trocar_store_test_" + std::to_string(getpid()) + "_" +
+                                          testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(m_root);
+    fs::create_directories(m_root / "tmp");
+    fs::permissions(m_root, fs::perms::all);
+    fs::permissions(m_root / "tmp", fs::perms::all);
+    setenv("TMPDIR", (m_root / "tmp").c_str(), 1);  // the last resort, too, is the test's own
+  }
+  void TearDown() override {
+    unsetenv("TMPDIR");
+    core::log::set_level(core::log::Level::info);
+    fs::permissions(folder(), fs::perms::owner_all, m_ignored);
+    fs::remove_all(m_root, m_ignored);
+  }
+  fs::path folder() const { return m_root / "data"; }
+  fs::path database() const { return folder() / "sessions.sqlite"; }
+
+  static Attempt attempt(const std::string& trainee = "ada") {
+    Attempt a;
+    a.trainee = trainee;
+    a.exercise = "gynaecology/sterilisation";
+    a.title = "Sterilisation";
+    a.seed = 7;
+    a.input = "mouse";
+    a.started = "2026-03-01T10:00:00Z";
+    a.program_version = "0.1.0";
+    a.model_hash = 0xfedcba9876543210;
+    return a;
+  }
+  static void finish(Attempt& a) {
+    a.state = AttemptState::finished;
+    a.ended = "2026-03-01T10:05:00Z";
+    fill_from_result(kResult, a);
+  }
+  /// A whole attempt; where it went.
+  static Kept make(Store& store, Attempt& a) {
+    AttemptLock lock = store.begin(a);
+    finish(a);
+    return store.end(a, lock);
+  }
+  /// A recording of `ticks` ticks that says whose it is; with its end mark if there is a result.
+  fs::path record(const Attempt& a, int ticks, const std::string& result = {}) const {
+    fs::create_directories(folder() / "recordings");
+    const fs::path path = folder() / "recordings" / (a.uuid + ".rec");
+    sim::RecordingHeader header;
+    header.exercise = a.exercise;
+    header.seed = a.seed;
+    header.metadata_json = "{\"uuid\":\"" + a.uuid + "\",\"number\":" + std::to_string(a.number) + ",\"trainee\":\"" +
+                           a.trainee + "\",\"input\":\"mouse\",\"started\":\"" + a.started + "\"}";
+    sim::RecordingWriter writer(path, header);
+    for (int t = 0; t < ticks; ++t) writer.tick(std::uint64_t(t), sim::Input{});
+    writer.flush();
+    if (!result.empty()) writer.finish(result);
+    return path;
+  }
+  static std::string bytes_of(const fs::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  /// Runs `body` in a process of its own; what it returned, or -1.
+  template <class Body>
+  static int elsewhere(Body&& body) {
+    const pid_t child = fork();
+    if (child == 0) try {
+        _exit(body());
+      } catch (...) {
+        _exit(99);
+      }
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  /// Gives up root's rights, for which a read-only folder is no obstacle.
+  static bool become_nobody() { return geteuid() != 0 || (setgid(65534) == 0 && setuid(65534) == 0); }
+
+ private:
+  fs::path m_root;
+  std::error_code m_ignored;
+};
+
+TEST_F(StoreTest, WhatEndedIsThereWithAllItsFields) {
+  Attempt a = attempt();
+  a.trace = {1, 2, 3, 0, 255};
+  a.recording = "/somewhere/a.rec";
+  {
+    Store store(folder());
+    EXPECT_TRUE(store.notices().empty());
+    EXPECT_TRUE(make(store, a).in_database);
+  }
+  const Store again(folder());
+  const std::vector<Attempt> all = again.list();
+  ASSERT_EQ(all.size(), 1u);
+  const Attempt b = again.find(a.uuid.substr(0, 8)).value();
+  EXPECT_EQ(b.trainee, "ada");
+  EXPECT_EQ(b.exercise, a.exercise);
+  EXPECT_EQ(b.title, a.title);
+  EXPECT_EQ(b.mode, AttemptMode::assessed);
+  EXPECT_EQ(b.state, AttemptState::finished);
+  EXPECT_EQ(b.seed, 7u);
+  EXPECT_EQ(b.score, 87.5);
+  EXPECT_EQ(b.passed, true);
+  EXPECT_EQ(b.ticks, 4200u);
+  EXPECT_DOUBLE_EQ(b.seconds, 4.2);
+  EXPECT_EQ(b.started, a.started);
+  EXPECT_EQ(b.ended, a.ended);
+  EXPECT_EQ(b.recording, a.recording);
+  EXPECT_EQ(b.result, kResult);
+  EXPECT_EQ(b.model_hash, a.model_hash);
+  EXPECT_EQ(b.trace, a.trace);
+  EXPECT_EQ(again.find("1")->uuid, a.uuid);
+}
+
+TEST_F(StoreTest, OrderIsByNumberAlsoWhenTheClockGoesBack) {
+  Store store(folder());
+  for (const char* clock : {"2026-03-01T10:00:00Z", "2031-01-01T00:00:00Z", "1999-12-31T23:59:59Z"}) {
+    Attempt a = attempt();
+    a.started = clock;
+    make(store, a);
+  }
+  const std::vector<Attempt> all = store.list();
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_EQ(all[1].started.substr(0, 4), "2031");
+  EXPECT_EQ(all[2].started.substr(0, 4), "1999");
+  EXPECT_LT(all[0].number, all[1].number);
+  EXPECT_LT(all[1].number, all[2].number);
+}
+
+TEST_F(StoreTest, ANumberIsNeverUsedTwice) {
+  Store store(folder());
+  Attempt a = attempt("ada"), b = attempt("bob");
+  make(store, a);
+  make(store, b);
+  store.forget("bob");
+  Attempt c = attempt("cem");
+  make(store, c);
+  EXPECT_GT(c.number, b.number);
+}
+
+TEST_F(StoreTest, FamiliarisationHasNoScoreAndNoVerdict) {
+  Store store(folder());
+  Attempt a = attempt();
+  a.mode = AttemptMode::familiarisation;
+  make(store, a);
+  const Attempt b = store.list().front();
+  EXPECT_EQ(b.mode, AttemptMode::familiarisation);
+  EXPECT_FALSE(b.score || b.passed);
+  EXPECT_TRUE(store.list({.mode = AttemptMode::assessed}).empty());
+}
+
+TEST_F(StoreTest, WhatRunsInALivingProgramIsRunningForOthers) {
+  Store store(folder());
+  Attempt a = attempt();
+  const AttemptLock lock = store.begin(a);
+  ASSERT_TRUE(lock.held());
+  const Store other(folder());
+  EXPECT_TRUE(other.notices().empty());
+  EXPECT_EQ(other.list().front().state, AttemptState::running);
+}
+
+TEST_F(StoreTest, WhatRanInADeadProgramWasInterruptedAndItsRecordingSaysHowFarItCame) {
+  const int status = elsewhere([&] {
+    Store store(folder());
+    Attempt a = attempt();
+    const AttemptLock lock = store.begin(a);
+    a.recording = record(a, 2345).string();
+    store.update(a);
+    kill(getpid(), SIGKILL);
+    return 0;
+  });
+  EXPECT_EQ(status, -1);
+  const Store store(folder());
+  ASSERT_EQ(store.notices().size(), 1u);
+  EXPECT_NE(store.notices()[0].find("interrupted"), std::string::npos);
+  const Attempt a = store.list().front();
+  EXPECT_EQ(a.state, AttemptState::interrupted);
+  EXPECT_EQ(a.ticks, 2345u);
+  EXPECT_EQ(a.trainee, "ada");
+  EXPECT_TRUE(fs::is_empty(folder() / "locks"));
+  EXPECT_TRUE(Store(folder()).notices().empty()) << "told once";
+}
+
+TEST_F(StoreTest, KilledBetweenRecordingAndRowItHasEndedAllTheSame) {
+  elsewhere([&] {
+    Store store(folder());
+    Attempt a = attempt();
+    const AttemptLock lock = store.begin(a);
+    a.recording = record(a, 300, kResult).string();
+    store.update(a);
+    kill(getpid(), SIGKILL);
+    return 0;
+  });
+  const Store store(folder());
+  const Attempt a = store.list().front();
+  EXPECT_EQ(a.state, AttemptState::finished);
+  EXPECT_EQ(a.score, 87.5);
+  EXPECT_EQ(a.result, kResult);
+}
+
+TEST_F(StoreTest, AnothersRecordingUnderTheSameNameIsNotTaken) {
+  Attempt a = attempt(), b = attempt("bob");
+  {
+    Store store(folder());
+    { const AttemptLock lock = store.begin(a); }
+    b.uuid = new_uuid();
+    a.recording = record(b, 100, kResult).string();
+    store.update(a);
+  }
+  const Store store(folder());
+  EXPECT_EQ(store.find(a.uuid)->state, AttemptState::interrupted);
+  EXPECT_FALSE(store.find(a.uuid)->score.has_value());
+}
+
+TEST_F(StoreTest, ALockedDatabaseCostsNothing) {
+  Store store(folder());
+  Attempt a = attempt();
+  AttemptLock lock = store.begin(a);
+  a.trace = {9, 8, 7};
+  Kept kept;
+  {
+    Database other(database(), Database::Access::write);
+    const Transaction all(other);
+    finish(a);
+    kept = store.end(a, lock);
+  }
+  EXPECT_FALSE(kept.in_database);
+  EXPECT_TRUE(fs::exists(kept.file));
+  EXPECT_FALSE(store.notices().empty());
+  const Store again(folder());
+  EXPECT_EQ(again.find(a.uuid)->state, AttemptState::finished);
+  EXPECT_EQ(again.find(a.uuid)->score, 87.5);
+  EXPECT_EQ(again.find(a.uuid)->trace, a.trace);
+  EXPECT_FALSE(fs::exists(kept.file)) << "taken in";
+}
+
+TEST_F(StoreTest, AReadOnlyFolderCostsNothingAndCanBeRead) {
+  Attempt old = attempt();
+  {
+    Store store(folder());
+    make(store, old);
+  }
+  fs::permissions(folder(), fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read |
+                                fs::perms::others_exec | fs::perms::group_read | fs::perms::group_exec);
+  fs::permissions(database(), fs::perms::others_read | fs::perms::owner_read);
+  fs::permissions(folder() / "locks", fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_exec);
+  const int failed = elsewhere([&] {
+    if (!become_nobody()) return 77;
+    Store store(folder());
+    if (store.list().size() != 1 || store.list()[0].score != 87.5) return 1;
+    Attempt a = attempt("nobody");
+    AttemptLock lock = store.begin(a);
+    finish(a);
+    const Kept kept = store.end(a, lock);
+    if (kept.in_database || kept.file.empty() || store.notices().empty()) return 2;
+    if (kept.file.string().rfind(getenv("TMPDIR"), 0) != 0) return 3;
+    const std::optional<Attempt> there = attempt_from_json(bytes_of(kept.file));
+    return there && there->score == 87.5 && there->trainee == "nobody" ? 0 : 4;
+  });
+  fs::permissions(folder(), fs::perms::owner_all);
+  if (failed == 77) GTEST_SKIP() << "cannot give up root's rights here";
+  EXPECT_EQ(failed, 0);
+}
+
+TEST_F(StoreTest, AFullDiskCostsNothing) {
+  Attempt a = attempt();
+  const int failed = elsewhere([&] {
+    Store store(folder());
+    for (int i = 0; i < 40; ++i) {
+      Attempt earlier = attempt();
+      make(store, earlier);
+    }
+    AttemptLock lock = store.begin(a);
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit small{16384, 16384};  // no file may grow beyond: the database is larger, a result is not
+    setrlimit(RLIMIT_FSIZE, &small);
+    finish(a);
+    const Kept kept = store.end(a, lock);
+    if (kept.in_database) return 1;
+    return kept.file.empty() ? 2 : store.notices().empty() ? 3 : 0;
+  });
+  EXPECT_EQ(failed, 0);
+  const Store store(folder());
+  EXPECT_EQ(store.list().size(), 41u);
+  const Attempt last = store.list().back();
+  EXPECT_EQ(last.state, AttemptState::finished);
+  EXPECT_EQ(last.score, 87.5);
+}
+
+TEST_F(StoreTest, ADamagedDatabaseIsSetAsideAndBuiltAnewFromTheRecordings) {
+  Attempt a = attempt(), b = attempt("bob");
+  {
+    Store store(folder());
+    make(store, a);
+    make(store, b);
+    record(a, 100, kResult);
+    record(b, 200);
+  }
+  std::ofstream(database(), std::ios::binary) << std::string(20000, 'x');
+  Store store(folder());
+  ASSERT_FALSE(store.notices().empty());
+  EXPECT_NE(store.notices()[0].find("damaged"), std::string::npos);
+  EXPECT_TRUE(fs::exists(folder() / "sessions.sqlite.damaged-1"));
+  const std::vector<Attempt> all = store.list();
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[0].uuid, a.uuid);
+  EXPECT_EQ(all[0].number, a.number);
+  EXPECT_EQ(all[0].state, AttemptState::finished);
+  EXPECT_EQ(all[0].score, 87.5);
+  EXPECT_EQ(all[1].trainee, "bob");
+  EXPECT_EQ(all[1].state, AttemptState::interrupted);
+  Attempt c = attempt("cem");
+  EXPECT_TRUE(make(store, c).in_database);
+  EXPECT_GT(c.number, b.number);
+}
+
+TEST_F(StoreTest, RowsThatCanStillBeReadAreSavedFromADamagedDatabase) {
+  constexpr int kRows = 60;
+  {
+    Store store(folder());
+    for (int i = 0; i < kRows; ++i) {
+      Attempt a = attempt("trainee " + std::to_string(i));
+      make(store, a);
+    }
+  }
+  const auto size = fs::file_size(database());
+  std::fstream file(database(), std::ios::in | std::ios::out | std::ios::binary);
+  file.seekp(std::streamoff(size / 2 / 4096 * 4096));
+  file << std::string(4096, '\xa5');
+  file.close();
+  const Store store(folder());
+  EXPECT_FALSE(store.notices().empty());
+  EXPECT_GT(store.list().size(), std::size_t(kRows / 4)) << "of " << kRows;
+  EXPECT_TRUE(fs::exists(folder() / "sessions.sqlite.damaged-1"));
+}
+
+TEST_F(StoreTest, DamageDuringAnAttemptDoesNotCostIt) {
+  Store store(folder());
+  Attempt a = attempt();
+  AttemptLock lock = store.begin(a);
+  std::ofstream(database(), std::ios::binary) << std::string(20000, 'y');
+  finish(a);
+  EXPECT_TRUE(store.end(a, lock).in_database);
+  EXPECT_EQ(Store(folder()).find(a.uuid)->score, 87.5);
+}
+
+TEST_F(StoreTest, ADeletedDatabaseIsBuiltAnewFromTheRecordings) {
+  Attempt a = attempt();
+  {
+    Store store(folder());
+    make(store, a);
+    record(a, 100, kResult);
+  }
+  fs::remove(database());
+  const Store store(folder());
+  EXPECT_EQ(store.list().front().score, 87.5);
+}
+
+TEST_F(StoreTest, ANewerVersionOfTheTablesIsNotTouched) {
+  {
+    const Store store(folder());
+    Database db(database(), Database::Access::write);
+    db.run("PRAGMA user_version = 99");
+  }
+  const std::string before = bytes_of(database());
+  Store store(folder());
+  EXPECT_FALSE(store.writable());
+  Attempt a = attempt();
+  const Kept kept = make(store, a);
+  EXPECT_FALSE(kept.in_database);
+  EXPECT_TRUE(fs::exists(kept.file));
+  EXPECT_FALSE(fs::exists(folder() / "sessions.sqlite.damaged-1"));
+  EXPECT_EQ(Database(database(), Database::Access::read).number_of("PRAGMA user_version"), 99);
+}
+
+TEST_F(StoreTest, ProgramsShareAStore) {
+  constexpr int kPrograms = 4, kAttempts = 15;
+  std::vector<pid_t> children;
+  for (int p = 0; p < kPrograms; ++p) {
+    children.push_back(fork());
+    if (children.back() != 0) continue;
+    int bad = 0;
+    for (int i = 0; i < kAttempts; ++i) {
+      Store store(folder());
+      Attempt a = attempt("program " + std::to_string(p));
+      bad += !make(store, a).in_database || !store.notices().empty();
+    }
+    _exit(bad);
+  }
+  for (const pid_t child : children) {
+    int status = -1;
+    waitpid(child, &status, 0);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+  }
+  std::set<std::int64_t> numbers;
+  for (const Attempt& a : Store(folder()).list()) {
+    EXPECT_EQ(a.state, AttemptState::finished);
+    numbers.insert(a.number);
+  }
+  EXPECT_EQ(numbers.size(), std::size_t(kPrograms * kAttempts));
+}
+
+TEST_F(StoreTest, WhatIsForgottenIsNowhereInTheFiles) {
+  Attempt a = attempt("Zebedäus"), b = attempt("bob");
+  {
+    Store store(folder());
+    make(store, a);
+    make(store, b);
+  }
+  a.recording = record(a, 100, kResult).string();
+  const fs::path elsewhere = folder().parent_path() / "elsewhere.rec";
+  {
+    Store store(folder());
+    store.update(a);
+    Attempt c = attempt("Zebedäus");
+    std::ofstream(elsewhere) << "x";
+    c.recording = elsewhere.string();
+    make(store, c);
+    const Store::Forgotten gone = store.forget("Zebedäus");
+    EXPECT_EQ(gone.attempts, 2);
+    ASSERT_EQ(gone.deleted.size(), 1u);
+    ASSERT_EQ(gone.left.size(), 1u);
+    EXPECT_EQ(gone.left[0], elsewhere);
+  }
+  for (const fs::directory_entry& file : fs::recursive_directory_iterator(folder()))
+    if (file.is_regular_file()) {
+      EXPECT_EQ(bytes_of(file.path()).find("Zebedäus"), std::string::npos) << file.path();
+    }
+  const std::vector<Attempt> left = Store(folder()).list();
+  ASSERT_EQ(left.size(), 1u);
+  EXPECT_EQ(left[0].trainee, "bob");
+}
+
+TEST_F(StoreTest, NamesAreTextAndNothingElse) {
+  Store store(folder());
+  Attempt a = attempt("Robert'); DROP TABLE attempt;--");
+  make(store, a);
+  EXPECT_EQ(store.list({.trainee = a.trainee}).size(), 1u);
+  EXPECT_TRUE(store.list({.trainee = "' OR 1=1 --"}).empty());
+  EXPECT_FALSE(store.find("%").has_value());
+  EXPECT_FALSE(store.find("").has_value());
+  EXPECT_EQ(clean_name("  Ada\n\tL\x01  "), "Ada L");
+  EXPECT_EQ(clean_name("\xff\xfe"
+                       "a\xc3"),
+            "a");
+  EXPECT_EQ(clean_name(std::string(300, 'a')).size(), 100u);
+  EXPECT_EQ(clean_name("日本"), "日本");
+}
+
+TEST_F(StoreTest, FilesThatAreNoResultsAreLeftAlone) {
+  fs::create_directories(folder() / "waiting");
+  for (const auto& [name, text] : {std::pair("a.attempt.json", "{"),
+                                   {"b.attempt.json", "[1,2]"},
+                                   {"c.attempt.json", R"({"trocar_attempt":1})"},
+                                   {"d.attempt.json", R"({"trocar_attempt":1,"uuid":7,"seed":-1})"},
+                                   {"e.txt", "x"}})
+    std::ofstream(folder() / "waiting" / name) << text;
+  const Store store(folder());
+  EXPECT_TRUE(store.list().empty());
+  EXPECT_TRUE(fs::exists(folder() / "waiting" / "a.attempt.json"));
+}
+
+TEST_F(StoreTest, AResultOfAnotherStoreWaitsForItsOwn) {
+  Attempt a = attempt();
+  a.uuid = new_uuid();
+  a.store = "/another/store";
+  fs::create_directories(folder() / "waiting");
+  std::ofstream(folder() / "waiting" / (a.uuid + ".attempt.json")) << to_json(a);
+  EXPECT_TRUE(Store(folder()).list().empty());
+}
+
+TEST_F(StoreTest, AFolderThatCannotBeMadeIsTold) {
+  std::ofstream(folder()) << "a file where the folder should be";
+  Store store(folder());
+  EXPECT_FALSE(store.writable());
+  EXPECT_FALSE(store.notices().empty());
+  Attempt a = attempt();
+  const Kept kept = make(store, a);
+  EXPECT_TRUE(kept.anywhere()) << "the temporary folder is left";
+  EXPECT_TRUE(store.list().empty());
+  fs::remove(folder());
+}
+
+}  // namespace
+}  // namespace trocar::training
