@@ -96,7 +96,7 @@ void grasp(const sim::Model& model, sim::State& state, sim::Work& work) {
   const interactions::StrandBody& body = model.bodies[std::size_t(strand)];
   sim::Input input = model.start;
   const auto go = [&](Vec3d tip, double handle, int ticks) {
-    const kinematics::FulcrumPose pose = kinematics::inverse(model.tools[0].port, tip, double(input.tools[0].roll));
+    const kinematics::FulcrumPose pose = kinematics::inverse(model.hands[0].port, tip, double(input.tools[0].roll));
     const sim::ToolInput from = input.tools[0];
     sim::ToolInput to = sim::tool_input(pose, float(handle));
     for (int i = 1; i <= ticks; ++i) {
@@ -107,7 +107,7 @@ void grasp(const sim::Model& model, sim::State& state, sim::Work& work) {
     }
   };
   const auto at = [&] { return point_at(body, state.strands[std::size_t(strand)], place_at(body, 0.034)); };
-  const Vec3d port = model.tools[0].port, before = at() + 0.02 * normalised(port - at());
+  const Vec3d port = model.hands[0].port, before = at() + 0.02 * normalised(port - at());
   go(before, 0, 400);
   go(at() + 0.010 * normalised(at() - port), 0, 600);
   go(at() + 0.010 * normalised(at() - port), 1, 500);

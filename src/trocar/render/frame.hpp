@@ -67,7 +67,7 @@ struct EndoscopeLook {
   float defocus = 0.8f;       ///< 0 none .. 1: how much
   float contact = 0.35f;      ///< 0 none .. 1: darkening behind the edge of nearer things
   float sharpen = 0.35f;      ///< video sharpening overshoot
-  float noise = 0.0004f;      ///< sensor noise at mid grey; more in the dark
+  float noise = 0.0006f;      ///< sensor noise at mid grey; more in the dark
   float saturation = 1;
   Vec3f white_balance = {1, 1, 1};
   // Air.

@@ -8,8 +8,8 @@ namespace trocar::view {
 namespace {
 
 constexpr double kTwoPi = 6.28318530717959;
-constexpr double kApart = 0.007;  // [m] between two tags
-constexpr int kSides = 12, kRings = 10;
+constexpr double kApart = 0.0055;  // [m] between two tags
+constexpr int kSides = 12, kRings = 14;
 
 Mat3f frame_at(const OrganDrawing& organ, std::uint32_t at, std::uint32_t beside) {
   const Vec3f n = organ.normals()[at], way = organ.positions()[beside] - organ.positions()[at];
@@ -20,7 +20,7 @@ Mat3f frame_at(const OrganDrawing& organ, std::uint32_t at, std::uint32_t beside
 /// A lobed drop: from below the surface outwards, then hanging over along `down` (unit, in the same frame).
 MeshBuffer drop(Vec3d down, int seed) {
   MeshBuffer b;
-  const double length = 0.008 + 0.007 * varied(seed, 21), wide = 0.003 + 0.0018 * varied(seed, 22);
+  const double length = 0.008 + 0.009 * varied(seed, 21), wide = 0.0022 + 0.0018 * varied(seed, 22);
   Vec3d p{0, 0, -0.001}, along{0, 0, 1};
   std::uint32_t before = 0;
   for (int i = 0; i <= kRings; ++i) {
@@ -37,7 +37,8 @@ MeshBuffer drop(Vec3d down, int seed) {
     } else {
       for (int k = 0; k < kSides; ++k) {
         const double a = kTwoPi * k / kSides;
-        const double lumps = 1 + 0.07 * std::sin(3 * a + 4 * u + seed) + 0.12 * std::sin(2 * a - 7 * u + 2 * seed);
+        const double lumps = 1 + 0.12 * std::sin(3 * a + 5 * u + seed) + 0.16 * std::sin(2 * a - 9 * u + 2 * seed) +
+                             0.1 * std::sin(17 * u + a + 3 * seed);
         b.add(vec_cast<float>(p + (r * lumps) * (std::cos(a) * x + 0.62 * std::sin(a) * y)), paint);
       }
       if (i == 1)

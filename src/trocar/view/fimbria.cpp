@@ -7,7 +7,7 @@ namespace trocar::view {
 namespace {
 
 constexpr double kPi = 3.14159265358979;
-constexpr int kSides = 8, kRings = 10;
+constexpr int kSides = 10, kRings = 16;
 
 /// One finger: where it grows from, which way, how it curls.
 struct Finger {
@@ -26,11 +26,11 @@ struct Spine {
 /// Rings stand closer towards the tip, which is round.
 double along_finger(int ring) { return std::sin(0.5 * kPi * ring / (kRings - 1)); }
 
-/// Width over length: a stalk that swells to a ragged, rounded leaf.
+/// Width over length: a stalk that swells to a frilled, blunt end.
 double leaf(double u, int seed) {
-  const double body = 0.85 + 0.4 * std::sin(kPi * (0.1 + 0.9 * u));
-  const double tip = std::sqrt(std::max(0.0, 1 - std::pow(std::max(0.0, (u - 0.6) / 0.4), 2)));
-  const double lobes = 1 + 0.22 * std::sin(8 * u + 6.3 * varied(seed, 1)) + 0.1 * std::sin(19 * u + seed);
+  const double body = 0.8 + 0.35 * u;
+  const double tip = std::sqrt(std::max(0.0, 1 - std::pow(std::max(0.0, (u - 0.82) / 0.18), 2)));
+  const double lobes = 1 + 0.16 * std::sin(9 * u + 6.3 * varied(seed, 1)) + 0.13 * std::sin(17 * u + seed);
   return body * tip * lobes;
 }
 
@@ -64,13 +64,13 @@ void add_finger(MeshBuffer& b, const Finger& f, double radius) {
       if (i > 0) join_pole(b, last, kSides, pole, true);
       continue;
     }
-    const double half = 0.5 * f.width * leaf(u, f.seed), thick = 0.0006 * (1.2 - 0.6 * u);
+    const double half = 0.5 * f.width * leaf(u, f.seed), thick = 0.00075 * (1.15 - 0.35 * u) * std::sqrt(leaf(u, 1));
     const std::uint32_t row = b.size();
     for (int k = 0; k < kSides; ++k) {
       const double a = 2 * kPi * k / kSides, c = std::cos(a), sn = std::sin(a);
       // Ruffled: the edges rise and fall along the finger, in turn on either side.
-      const double ruffle = 0.0005 * c * c * std::sin(8 * u + (c > 0 ? 0.0 : 2.1) + 6.3 * varied(f.seed, 2));
-      const double cupped = -0.45 * half * c * c;
+      const double ruffle = 0.00055 * c * c * std::sin(14 * u + (c > 0 ? 0.0 : 2.1) + 6.3 * varied(f.seed, 2));
+      const double cupped = (0.5 * varied(f.seed, 12) - 0.4) * half * c * c;
       const Vec3d p = s.point + (half * c) * s.across + (thick * sn + ruffle + cupped) * s.flat;
       Paint edge = paint;  // thin edges are paler than the crest
       edge.tint = std::uint8_t(paint.tint * (1 - 0.45 * c * c));
@@ -99,10 +99,10 @@ struct Whorl {
 }  // namespace
 
 MeshBuffer fimbriae(double radius, int seed) {
-  static const Whorl whorls[] = {{kRimLobes, -0.16, 0.94, 1.0, 0.33, 0.75, 1.5},
-                                 {15, -0.22, 0.80, 1.15, 0.27, 0.42, 1.0},
-                                 {11, -0.32, 0.60, 1.0, 0.25, 0.2, 0.7},
-                                 {6, -0.45, 0.38, 0.85, 0.22, 0.0, 0.5}};
+  static const Whorl whorls[] = {{18, -0.16, 0.96, 0.95, 0.30, 0.95, 1.3},
+                                 {19, -0.20, 0.82, 1.1, 0.25, 0.6, 0.9},
+                                 {14, -0.30, 0.62, 0.95, 0.23, 0.32, 0.6},
+                                 {8, -0.45, 0.38, 0.8, 0.20, 0.1, 0.4}};
   MeshBuffer b;
   int k = 1000 * seed;
   for (const Whorl& w : whorls)
@@ -111,8 +111,8 @@ MeshBuffer fimbriae(double radius, int seed) {
       f.angle = 2 * kPi * (i + 0.7 * (varied(k, 3) - 0.5)) / w.count;
       f.along = w.along + 0.08 * (varied(k, 10) - 0.5);
       f.out = w.out * (1 - 0.08 * varied(k, 11));
-      f.length = radius * w.length * (0.6 + 0.7 * varied(k, 4));
-      f.width = radius * w.width * (0.7 + 0.6 * varied(k, 5));
+      f.length = radius * w.length * (0.5 + 0.75 * varied(k, 4));
+      f.width = radius * w.width * (0.75 + 0.6 * varied(k, 5));
       f.lean = w.lean + 0.35 * (varied(k, 6) - 0.5);
       f.curl = w.curl * (0.3 + 1.1 * varied(k, 7));
       f.sway = 1.3 * (varied(k, 8) - 0.5);

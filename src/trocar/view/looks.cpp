@@ -29,7 +29,7 @@ Material with_vessels(Material m, float amount, float tile) {
 }
 
 Material uterus() {
-  Material m = with_vessels(tissue(srgb(204, 146, 150), srgb(212, 168, 162), srgb(186, 116, 124)), 0.6f, 0.046f);
+  Material m = with_vessels(tissue(srgb(204, 146, 150), srgb(212, 168, 162), srgb(184, 112, 122)), 0.8f, 0.038f);
   m.mottle_size = 0.014f;
   m.mottle = 0.5f;
   m.bump = 0.12f;
@@ -40,25 +40,25 @@ Material uterus() {
 }
 
 Material tube() {
-  Material m = with_vessels(tissue(srgb(204, 134, 132), srgb(214, 156, 146), srgb(188, 108, 112)), 0.75f, 0.024f);
+  Material m = with_vessels(tissue(srgb(200, 118, 120), srgb(212, 144, 132), srgb(184, 96, 106)), 0.7f, 0.024f);
   m.mottle_size = 0.007f;
   m.mottle = 0.6f;
   m.glow_amount = 0.12f;
-  m.tint = srgb(196, 100, 104);  // fimbriae
+  m.tint = srgb(190, 82, 92);  // fimbriae
   m.film_size = 0.0019f;
   m.film_bump = 0.3f;
   return m;
 }
 
 Material ovary() {
-  Material m = with_vessels(tissue(srgb(232, 210, 196), srgb(232, 218, 200), srgb(222, 190, 180)), 0.28f, 0.03f);
+  Material m = with_vessels(tissue(srgb(226, 198, 184), srgb(230, 212, 188), srgb(214, 176, 170)), 0.5f, 0.026f);
   m.mottle_size = 0.008f;
   m.mottle = 0.35f;
   m.bump = 0.14f;
   m.film_roughness = 0.12f;
   m.film_bump = 0.22f;
   m.glow_amount = 0.1f;
-  m.tint = srgb(206, 178, 178);  // a follicle
+  m.tint = srgb(196, 166, 172);  // a follicle
   return m;
 }
 
@@ -73,14 +73,14 @@ Material ligament(Vec3f main, Vec3f broad, Vec3f fine) {
 }
 
 Material peritoneum() {
-  Material m = with_vessels(tissue(srgb(188, 110, 102), srgb(200, 130, 110), srgb(170, 92, 90)), 1.0f, 0.06f);
+  Material m = with_vessels(tissue(srgb(188, 110, 102), srgb(200, 130, 110), srgb(170, 92, 90)), 1.0f, 0.05f);
   m.mottle_size = 0.024f;
   m.mottle = 0.6f;
   m.wetness = 0.55f;
-  m.tint = srgb(218, 148, 104);  // fat below it
+  m.tint = srgb(212, 142, 106);  // fat below it
   m.film_size = 0.0036f;
   m.film_bump = 0.2f;
-  m.film_roughness = 0.14f;
+  m.film_roughness = 0.09f;
   m.two_sided = true;
   return m;
 }
@@ -103,7 +103,7 @@ Material bowel() {
   m.glow_amount = 0.1f;
   m.film_bump = 0.25f;
   m.film_size = 0.003f;
-  m.tint = srgb(224, 176, 160);  // between two bulges
+  m.tint = srgb(228, 178, 158);  // its bands
   return m;
 }
 
@@ -133,9 +133,9 @@ Material mesosalpinx() {
 Material fat() {
   Material m = with_vessels(tissue(srgb(224, 162, 112), srgb(228, 178, 124), srgb(210, 140, 98)), 0.7f, 0.024f);
   m.mottle_size = 0.006f;
-  m.lobule_size = 0.0042f;
-  m.lobule_depth = 0.1f;
-  m.lobule_contrast = 0.1f;
+  m.lobule_size = 0.003f;
+  m.lobule_depth = 0.22f;
+  m.lobule_contrast = 0.22f;
   m.glow_amount = 0.12f;
   m.film_bump = 0.25f;
   m.tint = srgb(206, 126, 118);  // where it grows out of the bowel
@@ -185,7 +185,12 @@ std::vector<Look> make_looks() {
       {"ovarian_ligament", pale_cord, false, {}},
       {"uterosacral_ligament", cord, false, {}},
       {"infundibulopelvic_ligament", pedicle, false, {}},
-      {"bladder", bladder(), false, {.broad = 0.0012, .broad_size = 0.024, .fine = 0.0003, .fine_size = 0.008}},
+      {"bladder",
+       bladder(),
+       false,
+       {.broad = 0.0012, .broad_size = 0.024, .fine = 0.0003, .fine_size = 0.008},
+       0,
+       true},
       {"bowel",
        bowel(),
        false,
@@ -193,9 +198,9 @@ std::vector<Look> make_looks() {
         .broad_size = 0.02,
         .fine = 0.00015,
         .fine_size = 0.006,
-        .haustra = 0.0014,
-        .haustra_size = 0.024},
-       13},
+        .haustra = 0.0024,
+        .haustra_size = 0.023},
+       22},
       {"fat", fat(), false, {.broad = 0.001, .broad_size = 0.012, .fine = 0.0006, .fine_size = 0.005}},
       {"peritoneum", peritoneum(), false, {}},
       {"mesosalpinx", mesosalpinx(), true, {}},

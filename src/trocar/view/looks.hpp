@@ -15,8 +15,9 @@ struct Look {
   std::string name;
   render::Material material;
   bool translucent = false;
-  Relief relief;     ///< of solids
-  int fat_tags = 0;  ///< of large bowel
+  Relief relief;        ///< of solids
+  int fat_tags = 0;     ///< of large bowel
+  bool draped = false;  ///< peritoneum covers it and runs out on what is around
 };
 
 /// The preset of that name. An unknown name gives a neutral tissue and is reported once.

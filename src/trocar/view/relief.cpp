@@ -7,6 +7,8 @@ namespace trocar::view {
 namespace {
 
 constexpr double kTwoPi = 6.28318530717959;
+constexpr std::size_t kSlices = 16;
+constexpr double kBandHalf = 0.0028;  // [m] half the width of a gut's band
 
 /// Longest extent of the body: the direction along which a gut is divided into bulges.
 Vec3d long_axis(const tissue::Skin& skin) {
@@ -43,6 +45,48 @@ void add_follicles(const Relief& relief, const tissue::Skin& skin, std::vector<f
   }
 }
 
+/// Large gut: three flat pale bands of muscle run along it; between them the wall bulges and is drawn in crosswise, in
+/// each third at places of its own.
+void add_haustra(const Relief& relief, const tissue::Skin& skin, std::vector<float>& height,
+                 std::vector<Paint>& paint) {
+  const Vec3d axis = long_axis(skin);
+  double low = 1e9, high = -1e9;
+  for (const Vec3f& p : skin.rest) {
+    low = std::min(low, dot(vec_cast<double>(p), axis));
+    high = std::max(high, dot(vec_cast<double>(p), axis));
+  }
+  // The middle line, as means of slices.
+  const double slice = (high - low) / kSlices;
+  std::vector<Vec3d> middle(kSlices + 1);
+  std::vector<double> count(kSlices + 1, 0.0);
+  for (const Vec3f& q : skin.rest) {
+    const Vec3d p = vec_cast<double>(q);
+    const double at = (dot(p, axis) - low) / slice;
+    for (std::size_t k = 0; k <= kSlices; ++k) {
+      const double share = std::max(0.0, 1.2 - std::fabs(at - double(k)));
+      middle[k] += share * p;
+      count[k] += share;
+    }
+  }
+  for (std::size_t k = 0; k <= kSlices; ++k) middle[k] = (1 / std::max(count[k], 1e-9)) * middle[k];
+  const Vec3d right = any_perpendicular(axis), up = cross(axis, right);
+  for (std::size_t i = 0; i < height.size(); ++i) {
+    const Vec3d p = vec_cast<double>(skin.rest[i]);
+    const double at = std::clamp((dot(p, axis) - low) / slice, 0.0, double(kSlices) - 1e-6);
+    const auto k = std::size_t(at);
+    const Vec3d from = p - (middle[k] + (at - double(k)) * (middle[k + 1] - middle[k]));
+    const double turn = std::atan2(dot(from, up), dot(from, right)) / kTwoPi + 0.5;  // 0..1
+    const double third = 3 * turn + 0.12 * waves(p, 0.05), away = std::fabs(third - std::round(third)) / 3;
+    const double band = smooth(kBandHalf + 0.0022, kBandHalf - 0.0006, away * kTwoPi * length(from));
+    const double along =
+        dot(p, axis) / relief.haustra_size + 0.37 * std::floor(third) + 0.3 * waves(p, 2.5 * relief.haustra_size);
+    const double furrow = std::pow(0.5 + 0.5 * std::cos(kTwoPi * along), 5);
+    height[i] -= float(relief.haustra * (furrow * (1 - band) + 0.35 * band));
+    paint[i].tint = std::max(paint[i].tint, to_byte(0.8 * band));
+    paint[i].openness = std::uint8_t(paint[i].openness * (1 - 0.3 * furrow * (1 - band)));
+  }
+}
+
 /// A cone with rounded flanks around each root.
 void add_roots(const Relief& relief, const tissue::Skin& skin, std::vector<float>& height) {
   for (const Relief::Root& root : relief.roots)
@@ -63,19 +107,12 @@ double waves(Vec3d p, double size) {
 
 std::vector<float> heights(const Relief& relief, const tissue::Skin& skin, std::vector<Paint>& paint) {
   std::vector<float> height(skin.rest.size(), 0.0f);
-  const Vec3d axis = relief.haustra > 0 ? long_axis(skin) : Vec3d{1, 0, 0};
   for (std::size_t i = 0; i < height.size(); ++i) {
     const Vec3d p = vec_cast<double>(skin.rest[i]);
-    double h =
-        relief.broad * waves(p, relief.broad_size) + relief.fine * waves(p + Vec3d{0.1, 0.2, 0.3}, relief.fine_size);
-    if (relief.haustra > 0) {
-      const double along = dot(p, axis) / relief.haustra_size + 0.25 * waves(p, 2 * relief.haustra_size);
-      const double furrow = std::pow(0.5 + 0.5 * std::cos(kTwoPi * along), 4);
-      h -= relief.haustra * furrow;
-      paint[i].tint = std::max(paint[i].tint, to_byte(0.25 * furrow));
-    }
-    height[i] = float(h);
+    height[i] = float(relief.broad * waves(p, relief.broad_size) +
+                      relief.fine * waves(p + Vec3d{0.1, 0.2, 0.3}, relief.fine_size));
   }
+  if (relief.haustra > 0) add_haustra(relief, skin, height, paint);
   if (relief.follicles > 0) add_follicles(relief, skin, height, paint);
   add_roots(relief, skin, height);
   return height;

@@ -14,7 +14,8 @@ struct Relief {
   double fine = 0, fine_size = 0.006;       ///< of the smaller ones
   int follicles = 0;                        ///< blisters at places that a fixed pattern chooses
   double follicle_radius = 0.003;           ///< the largest [m]
-  double haustra = 0, haustra_size = 0.03;  ///< height and distance of a gut's bulges along its length [m]
+  double haustra = 0, haustra_size = 0.03;  ///< height and distance of a large gut's bulges along its length [m];
+                                            ///< three bands run along between them
 
   /// Places where a strand grows out: the surface rises to meet it.
   struct Root {
@@ -26,7 +27,7 @@ struct Relief {
   bool any() const { return broad > 0 || fine > 0 || follicles > 0 || haustra > 0 || !roots.empty(); }
 };
 
-/// Height over each vertex [m]. Follicles and bulges also paint themselves (Paint::tint).
+/// Height over each vertex [m]. Follicles and a gut's bands also paint themselves (Paint::tint).
 std::vector<float> heights(const Relief& relief, const tissue::Skin& skin, std::vector<Paint>& paint);
 
 /// A smooth number in about -1..1 that varies over `size` [m].

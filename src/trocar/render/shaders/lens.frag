@@ -62,7 +62,7 @@ void main() {
 
   uint seed = scrambled(uint(gl_FragCoord.x) + 8192u * uint(gl_FragCoord.y) + u_seed);
   vec3 grain = vec3(float(seed & 1023u), float((seed >> 10u) & 1023u), float((seed >> 20u) & 1023u)) / 1023.0 - 0.5;
-  grain = mix(vec3(grain.g), grain, 0.05);
+  grain = mix(vec3(grain.g), grain, 0.03);
   picture += grain * (u_sensor.x * 3.4 * (1.4 - 0.8 * picture.g));
   o_colour = vec4(picture * edge, 1.0);
 }
