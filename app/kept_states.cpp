@@ -1,0 +1,69 @@
+#include "kept_states.hpp"
+
+#include <algorithm>
+
+namespace trocar::app {
+namespace {
+
+template <class T>
+std::size_t size_of(const std::vector<T>& array) {
+  return array.capacity() * sizeof(T);
+}
+
+}  // namespace
+
+std::size_t bytes_of(const sim::State& s) {
+  std::size_t bytes = sizeof s + size_of(s.nearest) + size_of(s.strand_side) + size_of(s.tool_side) + size_of(s.seen);
+  bytes += size_of(s.solids) + size_of(s.strands) + size_of(s.parted);
+  for (const tissue::NetworkState& solid : s.solids)
+    bytes += size_of(solid.nodes) + size_of(solid.scale) + size_of(solid.tet_phase);
+  for (const tissue::StrandState& strand : s.strands)
+    bytes += size_of(strand.x) + size_of(strand.v) + size_of(strand.scale) + size_of(strand.alive) +
+             size_of(strand.foundation_scale);
+  for (const std::vector<std::uint8_t>& parted : s.parted) bytes += size_of(parted);
+  return bytes;
+}
+
+void KeptStates::keep(const sim::State& state) {
+  if (!wants(state.tick)) return;
+  m_states.push_back(state);
+  m_bytes += bytes_of(m_states.back());
+  while (m_bytes > m_budget && m_states.size() > 1) thin_out();
+}
+
+void KeptStates::thin_out() {
+  m_spacing *= 2;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < m_states.size(); ++i) {
+    if (m_states[i].tick % m_spacing != 0) continue;
+    if (i != kept) m_states[kept] = std::move(m_states[i]);
+    ++kept;
+  }
+  m_states.resize(kept);
+  m_bytes = 0;
+  for (const sim::State& s : m_states) m_bytes += bytes_of(s);
+}
+
+const sim::State* KeptStates::before(std::uint64_t tick) const {
+  const auto after = std::upper_bound(m_states.begin(), m_states.end(), tick,
+                                      [](std::uint64_t t, const sim::State& s) { return t < s.tick; });
+  return after == m_states.begin() ? nullptr : &*std::prev(after);
+}
+
+void RecentStates::keep(const sim::State& state) {
+  for (const sim::State& s : m_states)
+    if (s.tick == state.tick) return;
+  if (m_states.size() < m_most) return m_states.push_back(state);
+  if (m_most == 0) return;
+  m_states[m_oldest] = state;
+  m_oldest = (m_oldest + 1) % m_most;
+}
+
+const sim::State* RecentStates::before(std::uint64_t tick) const {
+  const sim::State* best = nullptr;
+  for (const sim::State& s : m_states)
+    if (s.tick <= tick && (!best || s.tick > best->tick)) best = &s;
+  return best;
+}
+
+}  // namespace trocar::app
