@@ -25,7 +25,7 @@ double cpu_ms() {
 
 struct Shot {
   const char* name;
-  int state;  ///< 0 start, 1 clipped and cut, 2 grasped, 3 to 5 a closed grasper 25, 8 and 0 mm above the uterus
+  int state;  ///< 0 start, 1 clipped and cut, 2 grasped, 3 to 5 a closed grasper 25, 8 and 0 mm above the uterus, 6 as 1, apart
   bool outside;
   Vec3d eye, target;  ///< both zero: where the scope is
 };
@@ -51,6 +51,10 @@ const Shot kShots[] = {
     {"hover_far", 3, false, {0.004, -0.088, -0.050}, {0.006, -0.150, -0.094}},
     {"hover_near", 4, false, {0.004, -0.088, -0.050}, {0.006, -0.150, -0.094}},
     {"touching", 5, false, {0.004, -0.088, -0.050}, {0.006, -0.150, -0.094}},
+    {"sleeve_left", 0, false, {0.045, -0.105, -0.050}, {0.098, -0.082, -0.022}},
+    {"stump", 1, false, {0.044, -0.136, -0.083}, {0.0395, -0.152, -0.094}},
+    {"clip", 1, false, {0.036, -0.130, -0.080}, {0.034, -0.152, -0.096}},
+    {"stumps", 6, false, {0.046, -0.128, -0.074}, {0.041, -0.1525, -0.0925}},
     {"outside", 0, true, {0.22, 0.12, 0.18}, {0, -0.14, -0.08}},
 };
 
@@ -68,6 +72,7 @@ void operate(const sim::Model& model, sim::State& state) {
     clip.opening[1] = 1;
     clip.axis[2] = 1;
     clip.reach = 0.0042;
+    clip.length = 0.0085;
   }
   interactions::Cut& cut = state.cuts[std::size_t(state.cut_count++)];
   cut.strand = strand;
@@ -85,7 +90,7 @@ void operate(const sim::Model& model, sim::State& state) {
 void hover(const sim::Model& model, sim::State& state, sim::Work& work, double above) {
   sim::Input input = model.start;
   const Vec3d tip = Vec3d{0.008, -0.150, -0.095} + above * normalised(Vec3d{0, 0.55, 0.83});
-  const kinematics::FulcrumPose pose = kinematics::inverse(model.tools[0].port, tip, double(input.tools[0].roll));
+  const kinematics::FulcrumPose pose = kinematics::inverse(model.hands[0].port, tip, double(input.tools[0].roll));
   input.tools[0] = sim::tool_input(pose, 1);
   for (int i = 0; i < 900; ++i) sim::step(model, input, state, work);
 }
@@ -124,7 +129,7 @@ int main(int argc, char** argv) {
   double before = cpu_ms();
   view::SceneView view(model, *backend);
   std::printf("view made in %.0f cpu-ms\n", cpu_ms() - before);
-  std::vector<sim::State> states(6, sim::initial_state(model));
+  std::vector<sim::State> states(7, sim::initial_state(model));
   operate(model, states[1]);
   sim::Work work = sim::make_work(model);
   for (sim::State& state : states)
@@ -133,6 +138,15 @@ int main(int argc, char** argv) {
   hover(model, states[3], work, 0.025);
   hover(model, states[4], work, 0.008);
   hover(model, states[5], work, -0.004);
+  states[6] = states[1];
+  if (const int tube = model.strand_index("tube_left"); tube >= 0) {  // the ends drawn apart
+    std::vector<Vec3d>& x = states[6].strands[std::size_t(tube)].x;
+    const auto cut = std::size_t(place_at(model.bodies[std::size_t(tube)], 0.0231).element);
+    for (std::size_t i = cut + 1; i < x.size(); ++i) {
+      const double far = double(i - cut) / 6;
+      x[i] += std::max(0.0, 1 - 0.2 * far) * Vec3d{0.006, 0.004 - 0.003 * far, 0.003};
+    }
+  }
   std::printf("grasper holds %d points with %.1f N\n", states[2].tools[0].holds, states[2].tools[0].pinch);
 
   for (const Shot& shot : kShots) {

@@ -216,6 +216,28 @@ std::vector<InstrumentPart> instrument_parts(const ToolModel& tool) {
   return parts;
 }
 
+std::vector<InstrumentPart> sleeve_parts(double radius, double reach) {
+  constexpr double wall = 0.0009, back = -0.05, slant = 0.7;
+  const double r = radius + wall, end = reach - slant * r;
+  MeshBuffer b = turned({{back, 0, kShaded},
+                         {back, r, kClean},
+                         {back, r, kClean},
+                         {end - 0.03, r, kClean},
+                         {end - 0.0004, r, kClean},
+                         {end, r - 0.0003, kClean},
+                         {end, r - 0.0003, kClean},
+                         {end, radius, kClean},
+                         {end, radius, kShaded},
+                         {end - 0.012, radius, kHollow},
+                         {end - 0.012, 0, kHollow}},
+                        kAround);
+  for (Vec3f& p : b.positions)
+    if (p.z > float(end - 0.02)) p.z += float(slant) * p.x;
+  std::vector<InstrumentPart> parts;
+  parts.push_back({Joint::body, "sleeve", std::move(b)});
+  return parts;
+}
+
 std::vector<InstrumentPart> scope_parts(double radius) {
   std::vector<InstrumentPart> parts;
   const double r = radius;

@@ -20,6 +20,9 @@ struct InstrumentPart {
 };
 
 std::vector<InstrumentPart> instrument_parts(const interactions::ToolModel& tool);
+/// A trocar's sleeve: z forward along whatever lies in it, origin at its fulcrum in the abdominal wall; its end is cut
+/// at a slant. @param radius inside [m] @param reach how far the longer side of the slant reaches in [m]
+std::vector<InstrumentPart> sleeve_parts(double radius, double reach);
 /// The endoscope's shaft: z forward, origin at its tip.
 std::vector<InstrumentPart> scope_parts(double radius);
 

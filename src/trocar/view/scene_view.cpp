@@ -24,6 +24,7 @@ using render::Frame;
 
 namespace {
 
+constexpr double kSleeveShows = 0.018;                      // [m] of a trocar's sleeve inside the wall
 constexpr float kShadeCell = 0.001f, kShadeReach = 0.018f;  // [m] what shades what
 
 /// A rigid part of an instrument and its mesh.
@@ -82,8 +83,10 @@ struct SceneView::Parts {
   std::vector<TubeDrawing> tubes;
   std::vector<SheetDrawing> sheets;
   std::vector<OwnedMesh> walls, margins;
+  std::vector<MeshBuffer> margin_shapes;
   OwnedMesh cavity;
   std::vector<std::vector<std::vector<DrawnPart>>> tools;  ///< (hands, rack)
+  std::vector<std::vector<DrawnPart>> sleeves;             ///< (hands)
   std::vector<DrawnPart> scope;
   std::vector<LoadedClip> loaded;
   std::map<double, OwnedMesh> clips;  ///< closed ones, by their length [m]
@@ -92,6 +95,7 @@ struct SceneView::Parts {
   Parts(const sim::Model& of, render::Backend& backend);
   void make_tissues(render::Backend& backend);
   void make_metal(render::Backend& backend);
+  double depth_of_wall(std::size_t hand) const;
   void update(const sim::State& state);
   void list_tissues(bool with_walls, Frame& frame) const;
   void list_clips(const sim::State& state, Frame& frame) const;
@@ -140,7 +144,8 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
     std::vector<Paint> paint(skin.rest.size());
     baker.bake(skin.rest, skin.rest_normal, paint);
     for (std::size_t v = 0; v < paint.size(); ++v) paint[v].tint = to_byte(fat_below(vec_cast<double>(skin.rest[v])));
-    margins.emplace_back(backend, around_wall(model, skin, paint).data());
+    margin_shapes.push_back(around_wall(model, skin, paint));
+    margins.emplace_back(backend, margin_shapes.back().data());
     walls.emplace_back(backend, render::MeshData{.positions = skin.rest,
                                                  .normals = skin.rest_normal,
                                                  .rest = {},
@@ -156,9 +161,36 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
   for (int i = 0; i < int(model.sheets.size()); ++i) sheets.emplace_back(model, i, backend);
 }
 
+/// From a hand's port to where its instrument comes through the drawn wall [m]; 0 where the port lies before it.
+double SceneView::Parts::depth_of_wall(std::size_t hand) const {
+  const sim::State start = sim::initial_state(model);
+  const Vec3d port = model.hands[hand].port;
+  const interactions::ToolState& tool = start.tools[hand];
+  const Vec3d tip = shape_of(model.tool(start, hand), tool.pose(), tool.aperture).frame.tip;
+  double deepest = 0;
+  const auto look_through = [&](std::span<const Vec3f> points, std::span<const std::uint32_t> triangles) {
+    for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {
+      const Vec3d a = vec_cast<double>(points[triangles[t]]);
+      const Vec3d u = vec_cast<double>(points[triangles[t + 1]]) - a,
+                  v = vec_cast<double>(points[triangles[t + 2]]) - a;
+      const Vec3d way = tip - port, n = cross(u, v), q = cross(port - a, way);
+      const double turn = -dot(n, way);
+      const double at = dot(port - a, n) / turn, along_u = dot(v, q) / turn, along_v = -dot(u, q) / turn;
+      if (turn == 0 || along_u < 0 || along_v < 0 || along_u + along_v > 1 || at < 0 || at > 0.8) continue;
+      deepest = std::max(deepest, at * length(way));
+    }
+  };
+  for (const sim::WallModel& wall : model.walls) look_through(wall.skin.rest, flat_indices(wall.skin));
+  for (const MeshBuffer& m : margin_shapes) look_through(m.positions, m.indices);
+  return deepest;
+}
+
 void SceneView::Parts::make_metal(render::Backend& backend) {
   for (std::size_t h = 0; h < model.hands.size(); ++h) {
     auto& drawn = tools.emplace_back();
+    double widest = 0;
+    for (const interactions::ToolModel& tool : model.hands[h].rack) widest = std::max(widest, tool.shaft_radius);
+    sleeves.push_back(made(sleeve_parts(widest, kSleeveShows + depth_of_wall(h)), backend));
     for (const interactions::ToolModel& tool : model.hands[h].rack) {
       drawn.push_back(made(instrument_parts(tool), backend));
       if (tool.clip_length <= 0 || tool.clips <= 0) continue;
@@ -212,8 +244,8 @@ void SceneView::Parts::list_clips(const sim::State& state, Frame& frame) const {
   for (int i = 0; i < state.clip_count; ++i) {
     const interactions::Clip& c = state.clips[std::size_t(i)];
     if (c.strand < 0 || c.strand >= int(model.strands.size())) continue;
-    const auto mesh = clips.find(c.length);
-    if (mesh == clips.end()) continue;
+    if (clips.empty()) continue;
+    const auto known = clips.find(c.length), mesh = known == clips.end() ? clips.begin() : known;
     const ClipPress at = press_of(c, model, state);
     const Mat3f turn =
         Mat3f::from_columns(vec_cast<float>(at.open), vec_cast<float>(at.normal), vec_cast<float>(at.axis));
@@ -227,6 +259,12 @@ void SceneView::Parts::list_tools(const sim::State& state, Frame& frame) const {
   for (std::size_t t = 0; t < tools.size(); ++t) {
     const interactions::ToolState& tool = state.tools[t];
     const interactions::ToolShape shape = shape_of(model.tool(state, t), tool.pose(), tool.aperture);
+    const Placement axis = placement_of(InstrumentPart::Joint::body, shape);
+    for (const DrawnPart& part : sleeves[t]) {
+      DrawItem drawn = item(part.mesh.handle(), *part.look);
+      drawn.transform = to_world({axis.rotation, vec_cast<float>(model.hands[t].port)});
+      frame.items.push_back(drawn);
+    }
     for (const DrawnPart& part : tools[t][std::size_t(tool.instrument)]) {
       DrawItem drawn = item(part.mesh.handle(), *part.look);
       drawn.transform = to_world(placement_of(part.joint, shape));
