@@ -1,0 +1,25 @@
+// The player's lower edge: buttons, speed, and the timeline with its marks. Dear ImGui; says what was asked for,
+// changes nothing but its own state and what is visible of the time.
+#pragma once
+
+#include "player_keys.hpp"
+#include "player_reel.hpp"
+
+namespace trocar::app {
+
+struct BarContent {
+  const Findings& found;
+  std::uint64_t now = 0;
+  std::uint64_t known_until = 0;
+  std::uint64_t differs_from = Reel::kNowhere;
+  bool playing = false, endoscope = true, inset = true;
+  double speed = 1;
+};
+
+inline constexpr float kBarHeight = 132;  ///< times the display's scale [px]
+
+/// @param seek set to the tick that the pointer asks for; unchanged where it does not
+void draw_bar(const BarContent& content, Timeline& line, float width, float top, float height, PlayerCommands& commands,
+              std::uint64_t& seek);
+
+}  // namespace trocar::app
