@@ -230,6 +230,7 @@ BimanualMetrics bimanual_metrics(const std::vector<HandMetrics>& hands, const st
 Metrics metrics_of(const Trace& trace, const MetricsOptions& options) {
   Metrics m;
   m.rate = trace.rate;
+  m.duration = trace.size() > 0 ? double(trace.size() - 1) / trace.rate : 0;
   m.force_limits = options.force_limits;
   std::vector<Motion> motions;
   for (const TraceHand& hand : trace.hands) motions.push_back(filtered_motion(hand, trace.rate));

@@ -75,6 +75,7 @@ struct BimanualMetrics {
 
 struct Metrics {
   double from = kNoMetric, to = kNoMetric;  ///< the window that all is measured in [s]
+  double duration = 0;                      ///< of the whole trace [s]
   double time = 0;                          ///< its length: first motion of an instrument to the end [s]
   double rate = kTraceRate;                 ///< [Hz]
   std::array<double, kForceKinds> force_limits{};
