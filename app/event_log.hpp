@@ -2,7 +2,10 @@
 // and for people who want to know afterwards.
 //
 //   {"event":"grasped","tick":5120,"tool":"grasper","text":"grasper grasped tube_left"}
-//   {"event":"pose", ...}      ten times a second: where the instruments are and how the picture lies in space
+//   {"event":"screen","name":"start","widgets":{"Start":[640,700],...}}   what can be pressed, and where, when it
+//   changed
+//   {"event":"pose", ...}      ten times a second: what an eye sees: instruments, tubes, clips, and how the picture
+//   lies
 #pragma once
 
 #include <cstdio>
@@ -11,7 +14,7 @@
 
 #include <trocar/kinematics/fulcrum.hpp>
 
-#include "session.hpp"
+#include "live.hpp"
 
 namespace trocar::app {
 
@@ -23,7 +26,7 @@ class EventLog {
   void event(const std::string& name, const Json& details = Json::object());
   void moment(const sim::Model& model, const Moment& moment);
   /// At most ten times a second of simulated time. @param led instrument, or -1 for the scope
-  void pose(const sim::Model& model, const sim::State& state, int led);
+  void pose(const sim::Model& model, const Snapshot& now, int led);
   bool on() const { return m_file != nullptr; }
 
  private:
@@ -31,7 +34,7 @@ class EventLog {
     void operator()(std::FILE* f) const { std::fclose(f); }
   };
   std::unique_ptr<std::FILE, Close> m_file;
-  std::uint64_t m_next_pose = 0;
+  std::uint64_t m_next_pose = 0, m_last_tick = 0;
 };
 
 }  // namespace trocar::app

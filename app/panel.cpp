@@ -4,205 +4,425 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <imgui.h>
+
+#include "hand_names.hpp"
+#include "ui.hpp"
 
 namespace trocar::app {
 namespace {
 
-const ImVec4 kAmber{1.0f, 0.72f, 0.25f, 1}, kGreen{0.45f, 0.85f, 0.5f, 1}, kRed{1.0f, 0.42f, 0.38f, 1},
-    kGrey{0.62f, 0.64f, 0.67f, 1}, kWhite{0.95f, 0.95f, 0.95f, 1};
+using ui::Mark;
 
-void line(const std::string& text) { ImGui::TextUnformatted(text.c_str()); }
-void line(const ImVec4& colour, const std::string& text) {
-  ImGui::PushStyleColor(ImGuiCol_Text, colour);
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::PopStyleColor();
-}
+constexpr float kNarrowest = 250, kWidest = 340, kShare = 0.27f;
 
-/// "clip_applier" -> "clip applier"
-std::string words(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
+std::string clock_text(double seconds) {
+  const int whole = int(std::max(0.0, seconds));
+  return fmt::format("{}:{:02}", whole / 60, whole % 60);
 }
 
 void draw_time(const PanelContent& c) {
-  const int whole = int(c.now.seconds);
-  ImGui::SetWindowFontScale(1.7f);
-  line(fmt::format("{}:{:02}", whole / 60, whole % 60));
-  ImGui::SetWindowFontScale(1);
+  ui::title(clock_text(c.now.seconds));
+  ImGui::SameLine(0, 10 * ui::scale());
+  ImGui::SetCursorPosY(ImGui::GetCursorPosY() + 6 * ui::scale());
   if (c.paused)
-    line(kAmber, "paused");
+    ui::text("paused", ui::kOrange);
   else if (c.now.speed < 0.97)
-    line(kAmber, fmt::format("x{:.2f} slow motion", c.now.speed));
+    ui::text(fmt::format("slow motion x{:.2f}", c.now.speed), ui::kOrange);
   else
-    line(kGrey, "real time");
+    ui::text(c.mode.empty() ? c.trainee : c.mode, ui::kGrey);
 }
 
-void draw_instruments(const PanelContent& c) {
-  const sim::Model& model = c.lesson.model;
-  for (std::size_t t = 0; t < model.tools.size(); ++t) {
-    const interactions::ToolState& tool = c.now.state.tools[t];
-    const bool led = c.hands && c.hands->led == int(t);
-    std::string text = fmt::format("{} {} {}", led ? ">" : " ", t + 1, words(model.tools[t].name));
-    if (model.tools[t].clips > 0) text += fmt::format(", {} clips", tool.clips_left);
-    if (tool.holds > 0) text += ", holds";
-    if (c.hands && c.hands->ratchet[t]) text += ", ratchet";
-    line(led ? kGreen : kWhite, text);
-  }
-  if (!c.hands) return line(kGrey, "led by " + c.input);
-  const bool scope = c.hands->led == devices::kScope;
-  line(scope ? kGreen : kWhite, fmt::format("{} 0 endoscope", scope ? ">" : " "));
-}
-
-/// The pull on the led instrument; beyond the exercise's limit the bar is red.
-void draw_pull(const PanelContent& c, float scale) {
-  double pull = 0;
-  const std::size_t tools = c.lesson.model.tools.size();
-  for (std::size_t t = 0; t < tools; ++t) {
-    const double(&f)[3] = c.now.state.tools[t].pull;
-    pull = std::max(pull, length(Vec3d{f[0], f[1], f[2]}));
-  }
-  const double limit = c.lesson.exercise ? c.lesson.exercise->goal.pull_limit : 5.0;
-  const ImVec4 colour = pull > limit ? kRed : pull > 0.5 * limit ? kAmber : kGreen;
-  line(kGrey, fmt::format("pull (limit {:.0f} N)", limit));
-  ImGui::PushStyleColor(ImGuiCol_PlotHistogram, colour);
-  ImGui::ProgressBar(float(std::min(1.0, pull / (1.25 * limit))), {-1, 18 * scale},
-                     fmt::format("{:.1f} N", pull).c_str());
+/// The step that is to be done now, in a box that is seen first.
+void draw_now(const PanelContent& c) {
+  if (c.steps.empty()) return ui::text("Free practice: no task, no score.", ui::kGrey);
+  const float width = ImGui::GetContentRegionAvail().x, pad = 8 * ui::scale();
+  const bool over = c.now.current_step >= int(c.steps.size());
+  const std::string name = over ? "All steps done" : c.steps[size_t(c.now.current_step)].name;
+  const std::string hint = over ? "" : c.steps[size_t(c.now.current_step)].hint;
+  const float wrap = width - 2 * pad;
+  const float gap = ImGui::GetStyle().ItemSpacing.y, line = ImGui::GetTextLineHeight();
+  const float height = 2 * pad + line + gap +
+                       ImGui::CalcTextSize(name.c_str(), nullptr, false, wrap - 22 * ui::scale()).y +
+                       (hint.empty() ? 0 : gap + ImGui::CalcTextSize(hint.c_str(), nullptr, false, wrap).y);
+  ImGui::PushStyleColor(ImGuiCol_ChildBg, {0.08f, 0.22f, 0.34f, 1});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {pad, pad});
+  ImGui::BeginChild("now", {width, height}, false,
+                    ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysUseWindowPadding |
+                        ImGuiWindowFlags_NoScrollbar);
+  ui::text(over ? "Well done" : fmt::format("Now: step {} of {}", c.now.current_step + 1, c.steps.size()), ui::kBlue);
+  ui::mark(over ? Mark::done : Mark::now);
+  ui::text(name);
+  if (!hint.empty()) ui::text(hint, {0.82f, 0.86f, 0.90f, 1});
+  ImGui::EndChild();
+  ImGui::PopStyleVar();
   ImGui::PopStyleColor();
 }
 
-void draw_guide(const PanelContent& c) {
-  if (c.steps.empty()) return line(kGrey, "free practice");
+void draw_hand(const PanelContent& c, int h) {
+  const interactions::ToolState& tool = c.now.state.tools[size_t(h)];
+  const interactions::ToolModel& held = held_by(c.lesson.model, c.now.state, h);
+  const bool led = c.hands && c.hands->led == h;
+  std::string about = in_words(held.name);
+  if (held.clips > 0) about += fmt::format(", {} clips", tool.clips_left);
+  std::string state;
+  if (tool.holds > 0) state = "holds";
+  if (c.hands && c.hands->ratchet[size_t(h)]) state += state.empty() ? "locked" : ", locked";
+  ui::mark(led ? Mark::now : Mark::note);
+  const std::string where = hand_name(c.lesson.model, h);
+  ui::text(fmt::format("{} {}", h + 1, where == in_words(held.name) ? about : where + ": " + about),
+           led ? ui::kWhite : ui::kGrey);
+  if (state.empty()) return;
+  ImGui::SameLine(0, 8 * ui::scale());
+  ui::text(state, ui::kBlue);
+}
+
+void draw_hands(const PanelContent& c) {
+  for (int h = 0; h < hand_count(c.lesson.model); ++h) draw_hand(c, h);
+  if (!c.hands) return ui::text("led by " + c.input, ui::kGrey);
+  const bool scope = c.hands->led == devices::kScope;
+  ui::mark(scope ? Mark::now : Mark::note);
+  ui::text("0 endoscope", scope ? ui::kWhite : ui::kGrey);
+}
+
+/// The hardest pull of all hands; the limit is a line in the bar, what is beyond it is hatched by a word as well.
+void draw_pull(const PanelContent& c) {
+  double pull = 0;
+  for (int h = 0; h < hand_count(c.lesson.model); ++h) pull = std::max(pull, pull_on(c.now.state, h));
+  const bool over = pull > c.pull_limit, near = pull > 0.8 * c.pull_limit;
+  const float width = ImGui::GetContentRegionAvail().x, height = 20 * ui::scale();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const double most = 1.25 * c.pull_limit;
+  const auto x_of = [&](double f) { return at.x + width * float(std::min(1.0, f / most)); };
+  const ImVec4 colour = over ? ui::kRed : near ? ui::kOrange : ImVec4{0.20f, 0.50f, 0.72f, 1};
+  draw.AddRectFilled(at, {at.x + width, at.y + height}, ImGui::GetColorU32({0.20f, 0.22f, 0.26f, 1}), 3);
+  if (pull > 0) draw.AddRectFilled(at, {x_of(pull), at.y + height}, ImGui::GetColorU32(colour), 3);
+  for (const double limit : {0.8 * c.pull_limit, c.pull_limit})
+    draw.AddLine({x_of(limit), at.y}, {x_of(limit), at.y + height},
+                 ImGui::GetColorU32(limit < c.pull_limit ? ui::kOrange : ui::kWhite), 2 * ui::scale());
+  const std::string label = fmt::format("pull {:.1f} N{}", pull, over ? "  TOO HARD" : near ? "  careful" : "");
+  draw.AddText({at.x + 6 * ui::scale(), at.y + 0.5f * (height - ImGui::GetTextLineHeight())},
+               ImGui::GetColorU32(over || near ? ImVec4{0, 0, 0, 1} : ui::kWhite), label.c_str());
+  ImGui::Dummy({width, height});
+}
+
+void draw_steps(const PanelContent& c, float height) {
+  ImGui::BeginChild("steps", {0, height}, false, ImGuiWindowFlags_NoNav);
   for (std::size_t i = 0; i < c.steps.size(); ++i) {
-    const bool done = i < c.now.step_done.size() && c.now.step_done[i];
-    const bool current = int(i) == c.now.current_step;
-    line(done ? kGreen : current ? kWhite : kGrey, fmt::format("{} {}", done ? "[x]" : "[ ]", c.steps[i].name));
-    if (current && !done) line(kGrey, c.steps[i].hint);
+    const bool done = i < c.now.step_done.size() && c.now.step_done[i], current = int(i) == c.now.current_step;
+    ui::mark(done ? Mark::done : current ? Mark::now : Mark::open);
+    ui::text(c.steps[i].name, done ? ui::kBlue : current ? ui::kWhite : ui::kGrey);
+    if (current) ImGui::SetScrollHereY(0.4f);
   }
+  ImGui::EndChild();
 }
 
-void heading(const char* text) {
-  ImGui::Dummy({0, ImGui::GetStyle().ItemSpacing.y});
-  ImGui::Separator();
-  line(kGrey, text);
+void draw_list(const Feedback& feedback, float height) {
+  ImGui::BeginChild("events", {0, height}, false, ImGuiWindowFlags_NoNav);
+  const std::vector<Notice>& all = feedback.all();
+  for (const Notice& n : all) {
+    ui::mark(n.mark);
+    ui::text(fmt::format("{} {}", clock_text(n.clock), n.text), n.mark == Mark::note ? ui::kGrey : ui::kWhite);
+  }
+  if (!all.empty()) ImGui::SetScrollHereY(1);
+  ImGui::EndChild();
 }
-
-/// A panel in the middle of the window.
-void begin_middle(const char* name, float width) {
-  const ImVec2 size = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({0.5f * size.x, 0.5f * size.y}, ImGuiCond_Always, {0.5f, 0.5f});
-  ImGui::SetNextWindowSizeConstraints({0, 0}, {std::min(width, size.x), 0.95f * size.y});
-  ImGui::SetNextWindowBgAlpha(0.92f);
-  ImGui::Begin(name, nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove |
-                   ImGuiWindowFlags_NoSavedSettings);
-}
-
-bool button(const char* text, float scale) { return ImGui::Button(text, {200 * scale, 32 * scale}); }
 
 }  // namespace
 
-void draw_panel(const PanelContent& c, float left, float width, float height, float scale) {
+float panel_width(float width, float scale) {
+  return std::min(0.5f * width, std::clamp(kShare * width, kNarrowest * scale, kWidest * scale));
+}
+
+void draw_panel(const PanelContent& c, float left, float width, float height) {
   ImGui::SetNextWindowPos({left, 0});
   ImGui::SetNextWindowSize({width, height});
-  ImGui::SetNextWindowBgAlpha(1);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0);
   ImGui::Begin("panel", nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoSavedSettings |
-                   ImGuiWindowFlags_NoBringToFrontOnFocus);
-  line(kWhite, c.lesson.title.empty() ? c.lesson.name : c.lesson.title);
-  draw_time(c);
-  heading("Instruments");
-  draw_instruments(c);
-  ImGui::Dummy({0, 4 * scale});
-  draw_pull(c, scale);
-  heading("Steps");
-  draw_guide(c);
-  if (!c.message.empty()) {
-    heading("Last");
-    line(kWhite, c.message);
-  }
-  const float foot = height - ImGui::GetTextLineHeightWithSpacing() - ImGui::GetStyle().WindowPadding.y;
-  if (foot > ImGui::GetCursorPosY()) ImGui::SetCursorPosY(foot);
-  line(kGrey, "F1 help    Esc menu");
-  ImGui::End();
+               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoFocusOnAppearing);
   ImGui::PopStyleVar();
+  draw_time(c);
+  draw_now(c);
+  ui::heading("Hands");
+  draw_hands(c);
+  ImGui::Dummy({0, 2 * ui::scale()});
+  draw_pull(c);
+  const float line = ImGui::GetTextLineHeightWithSpacing(), foot = line + 2 * ui::scale();
+  ui::heading("Steps");
+  const float left_over = ImGui::GetContentRegionAvail().y - foot - 1.9f * line;
+  const float wanted = line * float(c.steps.size()) + 4 * ui::scale();
+  const float steps = std::max(2 * line, std::min(wanted, 0.55f * left_over));
+  draw_steps(c, steps);
+  ui::heading("What happened");
+  draw_list(c.feedback, std::max(line, ImGui::GetContentRegionAvail().y - foot));
+  ui::text(c.gamepad ? "Y choose   Start pause   Back help" : "X choose   P pause   F1 help", ui::kGrey);
+  ImGui::End();
 }
 
-void draw_help(float scale) {
-  begin_middle("help", 760 * scale);
-  line(kGreen, "Keys");
-  if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
-    const auto row = [](const char* keys, const char* action) {
-      ImGui::TableNextRow();
-      ImGui::TableNextColumn();
-      ImGui::TextColored(kAmber, "%s", keys);
-      ImGui::TableNextColumn();
-      line(action);
-    };
-    for (const devices::HelpLine& h : devices::help()) row(h.keys, h.action);
-    row("F1 H", "this help on or off");
-    row("F12", "save a picture of the window beside the recording");
-    row("Esc", "menu: resume, restart, quit");
-    ImGui::EndTable();
+void draw_notices(const Feedback& feedback, double now, float picture_width, float picture_height) {
+  const std::vector<const Notice*> fresh = feedback.fresh(now);
+  if (fresh.empty()) return;
+  ImGui::SetNextWindowPos({0.5f * picture_width, picture_height - 12 * ui::scale()}, ImGuiCond_Always, {0.5f, 1});
+  const float width = std::min(0.9f * picture_width, 460 * ui::scale());
+  ImGui::SetNextWindowSizeConstraints({width, 0}, {width, picture_height});
+  ImGui::SetNextWindowBgAlpha(0.88f);
+  ImGui::Begin("notices", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_AlwaysAutoResize |
+                   ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoFocusOnAppearing);
+  for (const Notice* n : fresh) {
+    ui::mark(n->mark);
+    ui::text(n->text, n->mark == Mark::note ? ui::kWhite : ui::colour_of(n->mark));
   }
   ImGui::End();
 }
 
-Choice draw_menu(const std::string& recording, float scale) {
+// --- help and hint ---
+
+namespace {
+
+void key_row(const char* keys, const char* action) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ui::text(keys, ui::kOrange);
+  ImGui::TableNextColumn();
+  ui::text(action);
+}
+
+void key_table(devices::Device device, const char* name, float width) {
+  ui::text(name, ui::kBlue);
+  if (!ImGui::BeginTable(name, 2, ImGuiTableFlags_None, {width, 0})) return;
+  ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthStretch, 0.36f);
+  ImGui::TableSetupColumn("action", ImGuiTableColumnFlags_WidthStretch, 0.64f);
+  for (const devices::HelpLine& h : devices::help())
+    if (h.device == device) key_row(h.keys, h.action);
+  if (device == devices::Device::keyboard) {
+    key_row("P Esc", "pause: time stops; menu");
+    key_row("F1, F12", "this help; save a picture");
+  } else if (device == devices::Device::gamepad) {
+    key_row("Start, Back", "pause: time stops; this help");
+  }
+  ImGui::EndTable();
+}
+
+}  // namespace
+
+Choice draw_help(bool gamepad, bool left_handed) {
   Choice choice = Choice::none;
-  begin_middle("menu", 520 * scale);
-  line(kGreen, "Paused");
-  if (button("Resume (Esc)", scale)) choice = Choice::resume;
-  if (button("Restart (R)", scale)) choice = Choice::restart;
-  if (button("Quit (Q)", scale)) choice = Choice::quit;
-  line(kGrey, "recording: " + recording);
+  ui::begin_middle("help", gamepad ? 1120 : 980);
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  const bool columns = size.x > 760 * ui::scale();
+  const float gap = 16 * ui::scale(), whole = ImGui::GetContentRegionAvail().x;
+  const float width = columns ? 0.5f * (whole - gap) : whole;
+  const float room = 0.97f * size.y - 92 * ui::scale();
+  ui::title("Keys and buttons");
+  ImGui::BeginChild("tables", {0, std::min(room - 20 * ui::scale(), (gamepad ? 620.0f : 470.0f) * ui::scale())}, false);
+  ImGui::BeginGroup();
+  key_table(devices::Device::keyboard, "Keyboard", width);
+  ImGui::EndGroup();
+  if (columns) ImGui::SameLine(0, gap);
+  ImGui::BeginGroup();
+  key_table(devices::Device::mouse, "Mouse", width);
+  if (gamepad) key_table(devices::Device::gamepad, "Gamepad", width);
+  ImGui::EndGroup();
+  if (left_handed)
+    ui::text("Left-handed: mouse buttons, gamepad sides and the order of the hands are exchanged.", ui::kGrey);
+  ImGui::EndChild();
+  if (ui::button("Close help", {.width = 180, .primary = true})) choice = Choice::resume;
+  ImGui::SetItemDefaultFocus();
+  ImGui::End();
+  return choice;
+}
+
+Choice draw_hint(bool gamepad, bool& again) {
+  Choice choice = Choice::none;
+  ui::begin_middle("hint", 640);
+  ui::title("Three things to know");
+  ImGui::Dummy({0, 4 * ui::scale()});
+  const auto point = [](const char* number, const char* what, const std::string& how) {
+    ui::title(number, ui::kOrange);
+    ImGui::SameLine(40 * ui::scale());
+    ImGui::BeginGroup();
+    ui::text(what);
+    ui::text(how, ui::kGrey);
+    ImGui::EndGroup();
+    ImGui::Dummy({0, 4 * ui::scale()});
+  };
+  point("1", "You lead one hand at a time; the others stay as they are.",
+        gamepad
+            ? "Shoulder buttons: the previous, the next hand. Left stick moves its tip, right stick goes deeper and "
+              "back and rolls."
+            : "Keys 1, 2, 3 choose it, 0 the endoscope. The mouse or the arrow keys move its tip, the wheel or W and "
+              "S go deeper and back.");
+  point("2", "Close the jaws, and lock them to keep what they hold.",
+        gamepad ? "Right trigger closes, left trigger locks and unlocks. Y: another instrument."
+                : "Left button or G closes, Space locks and unlocks. X or a click with the wheel: another instrument.");
+  point("3", "What to do next stands at the right, in the blue box.",
+        gamepad ? "Start pauses. Back shows all buttons." : "P pauses. F1 shows all keys.");
+  if (ui::button("Begin", {.width = 180, .height = 34, .primary = true})) choice = Choice::resume;
+  ImGui::SetItemDefaultFocus();
+  ImGui::SameLine(0, 20 * ui::scale());
+  ui::checkbox("show this every time", again);
+  ImGui::End();
+  return choice;
+}
+
+// --- rack ---
+
+RackChoice draw_rack(const sim::Model& model, const sim::State& state, const devices::HandState& hands,
+                     float picture_width) {
+  RackChoice choice;
+  const float width = std::min(560 * ui::scale(), 0.97f * picture_width);
+  ImGui::SetNextWindowPos({0.5f * picture_width, 12 * ui::scale()}, ImGuiCond_Always, {0.5f, 0});
+  ImGui::SetNextWindowSizeConstraints({width, 0}, {width, ImGui::GetIO().DisplaySize.y});
+  ImGui::SetNextWindowBgAlpha(0.93f);
+  ImGui::Begin("rack", nullptr,
+               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
+  ui::text("Time goes on. Which hand do you lead?", ui::kGrey);
+  for (int h = 0; h <= hand_count(model); ++h) {
+    const bool scope = h == hand_count(model);
+    const int hand = scope ? devices::kScope : h;
+    const std::string name = scope ? "0 endoscope" : fmt::format("{} {}", h + 1, hand_name(model, h));
+    if (ui::button(name, {.primary = hands.led == hand})) choice.hand = hand;
+    if (!scope) ImGui::SameLine();
+  }
+  if (hands.led != devices::kScope) {
+    const std::vector<Choosable> list = choosable(model, state, hands.led);
+    ui::text(fmt::format("What does it hold?"), ui::kGrey);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      if (i > 0) ImGui::SameLine();
+      if (ui::button(list[i].name, {.primary = list[i].held})) choice.instrument = list[i].index;
+      if (list[i].held) ImGui::SetItemDefaultFocus();
+    }
+    ui::text("And", ui::kGrey);
+    if (ui::button("bring into view (V)")) choice.insert = true;
+    ImGui::SameLine();
+    if (ui::button(hands.ratchet[size_t(hands.led)] ? "unlock jaws (Space)" : "lock jaws (Space)"))
+      choice.ratchet = true;
+    ImGui::SameLine();
+  }
+  if (ui::button("pause (P)")) choice.pause = true;
+  ImGui::SameLine();
+  if (ui::button("go on (Esc)")) choice.close = true;
+  ImGui::End();
+  return choice;
+}
+
+// --- pause and result ---
+
+namespace {
+
+bool wide_button(const char* text, bool primary = false) {
+  return ui::button(text, {.width = 260, .height = 32, .primary = primary});
+}
+
+}  // namespace
+
+Choice draw_pause(const std::string& why, const std::string& recording, bool scored) {
+  Choice choice = Choice::none;
+  ui::begin_middle("pause", 520);
+  ui::title("Paused");
+  if (!why.empty()) {
+    ui::mark(Mark::warning);
+    ui::text(why, ui::kOrange);
+  }
+  ui::text("Time stands still.", ui::kGrey);
+  if (wide_button("Go on", true)) choice = Choice::resume;
+  ImGui::SetItemDefaultFocus();
+  if (wide_button("Finish now")) choice = Choice::finish;
+  ImGui::SameLine();
+  ui::text(scored ? "ends and shows the result" : "ends", ui::kGrey);
+  if (wide_button("Begin again")) choice = Choice::restart;
+  if (wide_button("Keys and buttons")) choice = Choice::help;
+  if (wide_button("Settings")) choice = Choice::settings;
+  if (wide_button("To the start screen")) choice = Choice::start_screen;
+  if (wide_button("Quit Trocar")) choice = Choice::quit;
+  ui::text("recorded in " + recording, ui::kGrey);
   ImGui::End();
   return choice;
 }
 
 namespace {
 
-void result_line(const Json& from, const char* key, const char* text, const char* format) {
-  if (from.contains(key) && from[key].is_number())
-    line(fmt::format("{}: {}", text, fmt::format(fmt::runtime(format), from[key].get<double>())));
+void result_line(const Json& from, const char* key, const char* text, const char* format, double factor = 1) {
+  if (!from.contains(key) || !from[key].is_number()) return;
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ui::text(text, ui::kGrey);
+  ImGui::TableNextColumn();
+  ui::text(fmt::format(fmt::runtime(format), factor * from[key].get<double>()));
+}
+
+void draw_errors(const Json& errors) {
+  ui::heading(errors.empty() ? "No errors" : "Errors");
+  for (const Json& e : errors) {
+    ui::mark(e.value("fail", false) ? Mark::error : Mark::warning);
+    ui::text(fmt::format("{}  {}{}", clock_text(e.value("at_s", e.value("at", 0.0))), e.value("meaning", std::string()),
+                         e.contains("points") && e["points"].get<double>() > 0
+                             ? fmt::format("  (-{:.0f})", e["points"].get<double>())
+                             : std::string()));
+  }
+}
+
+void draw_assessment(const Json& a) {
+  if (ImGui::BeginTable("score", 2, ImGuiTableFlags_SizingFixedFit)) {
+    if (a.contains("score") && a["score"].is_object())
+      for (const auto& [key, value] : a["score"].items())
+        result_line(a["score"], key.c_str(), in_words(key).c_str(), key == "total" ? "{:.0f} of 100" : "{:.2f}");
+    result_line(a, "seconds", "time", "{:.0f} s");
+    ImGui::EndTable();
+  }
+  if (a.contains("steps")) {
+    ui::heading("Steps");
+    for (const Json& s : a["steps"]) {
+      const bool done = s.value("done", false);
+      ui::mark(done ? Mark::done : Mark::open);
+      ui::text(s.value("name", std::string()) + (done ? "" : "  (not done)"), done ? ui::kWhite : ui::kGrey);
+    }
+  }
+  if (a.contains("errors")) draw_errors(a["errors"]);
+}
+
+void draw_verdict(const Json& r, const std::string& mode) {
+  if (r.contains("failure")) return ui::title("The simulation failed", ui::kRed);
+  if (!mode.empty() || r["passed"].is_null()) return ui::title("The end");
+  const bool passed = r["passed"].get<bool>();
+  if (r.contains("interrupted")) return ui::title("Ended early", ui::kOrange);
+  ui::mark(passed ? Mark::done : Mark::warning);
+  ui::title(passed ? "Passed" : "Not passed yet", passed ? ui::kBlue : ui::kOrange);
 }
 
 }  // namespace
 
-Choice draw_result(const Json& r, float scale) {
+Choice draw_result(const Json& r, const std::string& mode, bool report) {
   Choice choice = Choice::none;
-  begin_middle("result", 620 * scale);
-  ImGui::SetWindowFontScale(1.4f);
-  if (r.contains("failure"))
-    line(kRed, "The simulation failed");
-  else if (r["passed"].is_null())
-    line(kWhite, "The end");
-  else
-    line(r["passed"].get<bool>() ? kGreen : kAmber, r["passed"].get<bool>() ? "Passed" : "Not passed");
-  ImGui::SetWindowFontScale(1);
-  if (r.contains("failure")) line(kRed, r["failure"].get<std::string>());
-  if (r.contains("assessment")) {
-    const Json& a = r["assessment"];
-    result_line(a, "seconds", "time", "{:.0f} s");
-    if (a.contains("score")) {
-      result_line(a["score"], "total", "score", "{:.0f} of 100");
-      result_line(a["score"], "quality", "quality", "{:.2f}");
-      result_line(a["score"], "penalties", "penalties", "{:.0f}");
-    }
-    if (a.contains("errors"))
-      for (const Json& e : a["errors"])
-        line(kAmber,
-             fmt::format("{:.0f} s  {}", e.value("at_s", e.value("at", 0.0)), e.value("meaning", std::string())));
-  }
+  ui::begin_middle("result", 680);
+  draw_verdict(r, mode);
+  if (!mode.empty()) ui::text(mode, ui::kGrey);
+  if (r.contains("failure")) ui::text(r["failure"].get<std::string>(), ui::kRed);
+  const float most = 0.97f * ImGui::GetIO().DisplaySize.y - 190 * ui::scale();
+  ImGui::BeginChild("details", {0, std::clamp(most, 60 * ui::scale(), 380 * ui::scale())}, false);
+  if (r.contains("assessment")) draw_assessment(r["assessment"]);
+  ui::heading("Ways of the tips");
   for (const Json& tool : r["instruments"])
-    line(kGrey,
-         fmt::format("{}: {:.0f} mm", words(tool["name"].get<std::string>()), tool["path_length_mm"].get<double>()));
-  if (r.contains("recording")) line(kGrey, "recording: " + r["recording"].get<std::string>());
-  if (button("Again (R)", scale)) choice = Choice::restart;
-  if (button("Quit (Q)", scale)) choice = Choice::quit;
+    ui::text(
+        fmt::format("{}: {:.0f} mm", in_words(tool["name"].get<std::string>()), tool["path_length_mm"].get<double>()),
+        ui::kGrey);
+  if (r.contains("recording")) ui::text("recorded in " + r["recording"].get<std::string>(), ui::kGrey);
+  ImGui::EndChild();
+  if (ui::button("Again", {.width = 140, .height = 32, .primary = true})) choice = Choice::restart;
+  ImGui::SetItemDefaultFocus();
+  ImGui::SameLine();
+  if (report) {
+    if (ui::button("Open the report", {.width = 160, .height = 32})) choice = Choice::report;
+    ImGui::SameLine();
+  }
+  if (ui::button("Start screen", {.width = 140, .height = 32})) choice = Choice::start_screen;
+  ImGui::SameLine();
+  if (ui::button("Quit", {.width = 90, .height = 32})) choice = Choice::quit;
   ImGui::End();
   return choice;
 }

@@ -1,10 +1,12 @@
-// What the window says beside and over the picture: panel, help, menu, result. Dear ImGui; reads everything, changes
-// nothing but its own state.
+// What the window says beside and over the picture while an exercise is done: the panel with the step guide, fresh
+// notices, the rack of hands and instruments, help, first hint, pause menu, result. Dear ImGui; reads everything,
+// changes nothing but its own state.
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "feedback.hpp"
 #include "hand_pilot.hpp"
 #include "live.hpp"
 
@@ -15,22 +17,38 @@ struct PanelContent {
   const Lesson& lesson;
   const Snapshot& now;
   const devices::HandState* hands = nullptr;  ///< null: a source leads, named by `input`
-  std::string input;
+  std::string input, trainee;
+  std::string mode;                         ///< "familiarisation: no score", or empty
   std::vector<training::StepStatus> steps;  ///< names and hints; done and now come from the snapshot
-  std::string message;                      ///< the last event
-  bool paused = false;
+  const Feedback& feedback;
+  bool paused = false, gamepad = false;  ///< gamepad: the keys at its foot are a gamepad's
+  double pull_limit = 5;                 ///< [N]
 };
 
-enum class Choice { none, resume, restart, quit };
+/// Its width beside a window of `width` [px].
+float panel_width(float width, float scale);
+void draw_panel(const PanelContent& content, float left, float width, float height);
+/// Fresh notices over the lower part of the picture.
+void draw_notices(const Feedback& feedback, double now, float picture_width, float picture_height);
 
-inline constexpr float kPanelWidth = 250;  ///< times the display's scale [px]
+enum class Choice { none, resume, restart, finish, settings, help, report, start_screen, quit };
 
-void draw_panel(const PanelContent& content, float left, float width, float height, float scale);
-/// All keys; drawn over the picture.
-void draw_help(float scale);
-/// Pause menu; the keys that it names are the window's. `recording` is said, so that people find it.
-Choice draw_menu(const std::string& recording, float scale);
-/// After the attempt.
-Choice draw_result(const Json& result, float scale);
+/// All keys and buttons of the devices that are there. Resume closes it.
+Choice draw_help(bool gamepad, bool left_handed);
+/// The three things to know. @param again in/out: show it before the next attempt, too
+Choice draw_hint(bool gamepad, bool& again);
+/// Pause menu. `why` is said where it was not asked for; `recording` is said, so that people find it.
+Choice draw_pause(const std::string& why, const std::string& recording, bool scored);
+/// After the attempt. `report`: there is a page to open
+Choice draw_result(const Json& result, const std::string& mode, bool report);
+
+/// The rack: which hand, which instrument in it.
+struct RackChoice {
+  bool close = false, pause = false, insert = false, ratchet = false;
+  int hand = -2;        ///< lead this one (devices::kScope: the endoscope); -2: no choice
+  int instrument = -1;  ///< for the led hand
+};
+RackChoice draw_rack(const sim::Model& model, const sim::State& state, const devices::HandState& hands,
+                     float picture_width);
 
 }  // namespace trocar::app

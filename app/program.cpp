@@ -7,11 +7,15 @@
 namespace trocar::app {
 
 int run_program(int argc, const char* const* argv) {
+  if (argc <= 1) {  // a person who just wants to see it
+    const char* start[] = {"trocar", "train"};
+    return run_program(2, start);
+  }
   CLI::App program{"Trocar: an open real-time trainer for endoscopic surgery", "trocar"};
   program.require_subcommand(1);
   program.set_version_flag("--version", TROCAR_VERSION);
   program.footer(
-      "Example:\n  trocar train gynaecology/sterilisation\n"
+      "Without any arguments: the start screen.\nExample:\n  trocar train gynaecology/sterilisation\n"
       "Exit codes: 0 done, 1 goal not reached or verification failed, 2 bad input, 3 the environment lacks something");
   Chosen chosen;
   add_train(program, chosen);
@@ -21,6 +25,7 @@ int run_program(int argc, const char* const* argv) {
   add_list(program, chosen);
   add_bench(program, chosen);
   add_report(program, chosen);
+  add_trials(program, chosen);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,9 +1,9 @@
 #include "window.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <iterator>
 #include <thread>
+#include <utility>
 
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
@@ -16,10 +16,10 @@
 
 #include <trocar/core/error.hpp>
 
+#include "ui.hpp"
+
 namespace trocar::app {
 namespace {
-
-constexpr float kTextHeight = 15;
 
 std::string last_glfw_error() {
   const char* what = nullptr;
@@ -46,41 +46,72 @@ constexpr KeyPair kKeys[] = {
     {GLFW_KEY_KP_4, devices::Key::four},
     {GLFW_KEY_KP_0, devices::Key::zero},
     {GLFW_KEY_C, devices::Key::c},
+    {GLFW_KEY_LEFT, devices::Key::left},
+    {GLFW_KEY_RIGHT, devices::Key::right},
+    {GLFW_KEY_UP, devices::Key::up},
+    {GLFW_KEY_DOWN, devices::Key::down},
+    {GLFW_KEY_PAGE_UP, devices::Key::page_up},
+    {GLFW_KEY_PAGE_DOWN, devices::Key::page_down},
+    {GLFW_KEY_W, devices::Key::w},
+    {GLFW_KEY_S, devices::Key::s},
     {GLFW_KEY_Q, devices::Key::q},
     {GLFW_KEY_E, devices::Key::e},
     {GLFW_KEY_R, devices::Key::r},
     {GLFW_KEY_F, devices::Key::f},
+    {GLFW_KEY_G, devices::Key::g},
+    {GLFW_KEY_ENTER, devices::Key::enter},
+    {GLFW_KEY_KP_ENTER, devices::Key::enter},
+    {GLFW_KEY_V, devices::Key::v},
+    {GLFW_KEY_X, devices::Key::x},
     {GLFW_KEY_SPACE, devices::Key::space},
     {GLFW_KEY_LEFT_SHIFT, devices::Key::shift},
     {GLFW_KEY_RIGHT_SHIFT, devices::Key::shift},
 };
 
+/// The size that was asked for, or what the monitor has room for.
+PictureSize fitted(PictureSize size) {
+  int x = 0, y = 0, width = 0, height = 0;
+  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  if (!monitor) return size;
+  glfwGetMonitorWorkarea(monitor, &x, &y, &width, &height);
+  float scale = 1, unused = 1;
+  glfwGetMonitorContentScale(monitor, &scale, &unused);
+  scale = std::max(scale, 0.5f);
+  if (width > 0) size.width = std::min(size.width, int(float(width) / scale));
+  if (height > 0) size.height = std::min(size.height, int(float(height) / scale));
+  return size;
+}
+
 }  // namespace
 
-Window::Window(const std::string& title, PictureSize size) {
+Window::Glfw::Glfw() {
   if (!glfwInit())
     throw core::EnvironmentLacks(fmt::format(
-        "cannot open a window: {}. Start it from a desktop (DISPLAY or WAYLAND_DISPLAY set), or use --headless with "
-        "--input demo",
+        "cannot open a window: {}. Start it from a desktop (DISPLAY or WAYLAND_DISPLAY set), or use trocar train "
+        "EXERCISE --headless --input demo",
         last_glfw_error()));
+}
+Window::Glfw::~Glfw() { glfwTerminate(); }
+
+Window::Window(const std::string& title, PictureSize size) {
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+  size = fitted(size);
   m_window = glfwCreateWindow(size.width, size.height, title.c_str(), nullptr, nullptr);
-  if (!m_window) {
-    const std::string why = last_glfw_error();
-    glfwTerminate();
-    throw core::EnvironmentLacks(
-        fmt::format("cannot open a window with OpenGL 3.3: {}. Update the graphics driver, or use --headless", why));
-  }
+  if (!m_window)
+    throw core::EnvironmentLacks(fmt::format(
+        "cannot open a window with OpenGL 3.3: {}. Update the graphics driver, or use --headless", last_glfw_error()));
   glfwSetWindowUserPointer(m_window, this);
+  glfwSetWindowSizeLimits(m_window, 480, 360, GLFW_DONT_CARE, GLFW_DONT_CARE);
   glfwMakeContextCurrent(m_window);
   glfwSwapInterval(1);
   glfwSetKeyCallback(m_window, on_key);
   glfwSetCursorPosCallback(m_window, on_cursor);
   glfwSetScrollCallback(m_window, on_scroll);
+  glfwSetMouseButtonCallback(m_window, on_button);
   glfwSetWindowContentScaleCallback(m_window, on_scale);
   float unused_y = 1;
   glfwGetWindowContentScale(m_window, &m_scale, &unused_y);
@@ -94,7 +125,6 @@ Window::~Window() {
   ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext();
   glfwDestroyWindow(m_window);
-  glfwTerminate();
 }
 
 void Window::set_up_imgui() {
@@ -106,32 +136,22 @@ void Window::set_up_imgui() {
   m_scale_changed = true;
 }
 
-namespace {
-
-/// Text and panels for this display. A system font where there is one; ImGui's own is a 13 px bitmap.
-void apply_scale(float scale) {
-  ImGui::GetStyle() = ImGuiStyle();
-  ImGui::StyleColorsDark();
-  ImGui::GetStyle().WindowRounding = ImGui::GetStyle().FrameRounding = 4;
-  ImGui::GetStyle().ScaleAllSizes(scale);
-  ImGuiIO& io = ImGui::GetIO();
-  io.Fonts->Clear();
-  const char* file = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
-  std::error_code error;
-  if (!std::filesystem::exists(file, error) || !io.Fonts->AddFontFromFileTTF(file, kTextHeight * scale)) {
-    ImFontConfig config;
-    config.SizePixels = kTextHeight * scale;
-    io.Fonts->AddFontDefault(&config);
-  }
-  io.Fonts->Build();
-  ImGui_ImplOpenGL3_DestroyFontsTexture();
-  ImGui_ImplOpenGL3_CreateFontsTexture();
+void Window::set_text_size(double size) {
+  if (float(size) == m_text_size) return;
+  m_text_size = float(size);
+  m_scale_changed = true;
 }
-
-}  // namespace
 
 bool Window::wants_to_close() const { return glfwWindowShouldClose(m_window); }
 void Window::close() { glfwSetWindowShouldClose(m_window, GLFW_TRUE); }
+void Window::set_title(const std::string& title) { glfwSetWindowTitle(m_window, title.c_str()); }
+bool Window::focused() const { return glfwGetWindowAttrib(m_window, GLFW_FOCUSED); }
+
+PictureSize Window::size_to_keep() const {
+  int width = 0, height = 0;
+  glfwGetWindowSize(m_window, &width, &height);
+  return {int(float(width) / m_scale), int(float(height) / m_scale)};
+}
 
 void Window::capture_pointer(bool on) {
   if (on == m_captured) return;
@@ -144,16 +164,49 @@ void Window::capture_pointer(bool on) {
 void Window::begin_picture() {
   wait_for_turn();
   glfwPollEvents();
+  m_gamepads.poll();
   if (m_scale_changed) {
     ImGui_ImplOpenGL3_NewFrame();
-    apply_scale(m_scale);
+    ui::load_fonts(scale());
+    ImGui_ImplOpenGL3_DestroyFontsTexture();
+    ImGui_ImplOpenGL3_CreateFontsTexture();
     m_scale_changed = false;
   }
   glfwGetFramebufferSize(m_window, &m_width, &m_height);
   collect_sample();
+  collect_keys();
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  steer_menus();
   ImGui::NewFrame();
+  m_last_pad = m_gamepads.state();
+}
+
+/// Arrows, Enter and the gamepad lead from button to button. ImGui's own reading of gamepads takes the first joystick
+/// as it comes, without GLFW's mapping; so its input is filled in here.
+void Window::steer_menus() {
+  ImGuiIO& io = ImGui::GetIO();
+  std::fill(std::begin(io.NavInputs), std::end(io.NavInputs), 0.0f);
+  io.ConfigFlags &= ~(ImGuiConfigFlags_NavEnableKeyboard | ImGuiConfigFlags_NavEnableGamepad);
+  if (m_captured) return;
+  io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
+  const bool enter = glfwGetKey(m_window, GLFW_KEY_ENTER) == GLFW_PRESS;
+  if (enter && !io.WantTextInput) io.NavInputs[ImGuiNavInput_Activate] = 1;
+  if (!m_gamepads.present()) return;
+  io.ConfigFlags |= ImGuiConfigFlags_NavEnableGamepad;
+  io.BackendFlags |= ImGuiBackendFlags_HasGamepad;
+  using devices::Button;
+  const devices::Gamepad& pad = m_gamepads.state();
+  const auto feed = [&io](ImGuiNavInput_ to, bool on) {
+    if (on) io.NavInputs[to] = 1;
+  };
+  constexpr float kTilted = 0.5f;
+  feed(ImGuiNavInput_Activate, pad.has(Button::a));
+  feed(ImGuiNavInput_Cancel, pad.has(Button::b));
+  feed(ImGuiNavInput_DpadLeft, pad.has(Button::left) || pad.left_x < -kTilted);
+  feed(ImGuiNavInput_DpadRight, pad.has(Button::right) || pad.left_x > kTilted);
+  feed(ImGuiNavInput_DpadUp, pad.has(Button::up) || pad.left_y < -kTilted);
+  feed(ImGuiNavInput_DpadDown, pad.has(Button::down) || pad.left_y > kTilted);
 }
 
 void Window::draw_panels() {
@@ -175,45 +228,45 @@ void Window::wait_for_turn() {
 
 void Window::collect_sample() {
   m_sample = m_captured ? m_next : devices::HandSample{};
-  m_keys = m_next_keys;
   m_next = {};
-  m_next_keys = {};
   m_sample.dt = float(m_picture_time);
+  m_sample.gamepad = m_gamepads.state();
+  const unsigned pressed = std::exchange(m_buttons_pressed, 0);
   if (!m_captured) return;
-  m_sample.left_button = glfwGetMouseButton(m_window, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS;
-  m_sample.right_button = glfwGetMouseButton(m_window, GLFW_MOUSE_BUTTON_RIGHT) == GLFW_PRESS;
+  const auto down = [&](int button) {
+    return glfwGetMouseButton(m_window, button) == GLFW_PRESS || (pressed >> button & 1);
+  };
+  m_sample.left_button = down(GLFW_MOUSE_BUTTON_LEFT);
+  m_sample.right_button = down(GLFW_MOUSE_BUTTON_RIGHT);
+  m_sample.middle_button = down(GLFW_MOUSE_BUTTON_MIDDLE);
+  m_sample.back_button = down(GLFW_MOUSE_BUTTON_4);
+  m_sample.forward_button = down(GLFW_MOUSE_BUTTON_5);
   for (const KeyPair& k : kKeys)
     if (glfwGetKey(m_window, k.glfw) == GLFW_PRESS) m_sample.held.set(k.key);
-  read_gamepad();
 }
 
-void Window::read_gamepad() {
-  GLFWgamepadstate pad;
-  for (int id = GLFW_JOYSTICK_1; id <= GLFW_JOYSTICK_LAST; ++id) {
-    if (!glfwJoystickIsGamepad(id) || !glfwGetGamepadState(id, &pad)) continue;
-    const auto trigger = [&pad](int axis) { return 0.5f * (pad.axes[axis] + 1); };  // GLFW: -1 released .. 1 pulled
-    m_sample.gamepad = {pad.axes[GLFW_GAMEPAD_AXIS_LEFT_X],
-                        pad.axes[GLFW_GAMEPAD_AXIS_LEFT_Y],
-                        pad.axes[GLFW_GAMEPAD_AXIS_RIGHT_X],
-                        pad.axes[GLFW_GAMEPAD_AXIS_RIGHT_Y],
-                        trigger(GLFW_GAMEPAD_AXIS_LEFT_TRIGGER),
-                        trigger(GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER),
-                        pad.buttons[GLFW_GAMEPAD_BUTTON_LEFT_BUMPER] == GLFW_PRESS,
-                        pad.buttons[GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER] == GLFW_PRESS};
-    return;
-  }
+void Window::collect_keys() {
+  m_keys = std::exchange(m_next_keys, {});
+  if (ImGui::GetIO().WantTextInput) m_keys.pause = m_keys.back = false;
+  const auto went_down = [this](devices::Button b) { return m_gamepads.state().has(b) && !m_last_pad.has(b); };
+  m_keys.help |= went_down(devices::Button::back);
+  m_keys.pause |= went_down(devices::Button::start);
+  m_keys.back |= !m_captured && went_down(devices::Button::b);
 }
 
 void Window::on_key(GLFWwindow* window, int key, int, int action, int) {
   if (action != GLFW_PRESS) return;
   Window& w = of(window);
-  if (key == GLFW_KEY_F1 || key == GLFW_KEY_H) w.m_next_keys.help = !w.m_next_keys.help;
-  if (key == GLFW_KEY_ESCAPE) w.m_next_keys.menu = !w.m_next_keys.menu;
+  if (key == GLFW_KEY_F1) w.m_next_keys.help = !w.m_next_keys.help;
+  if (key == GLFW_KEY_P || key == GLFW_KEY_PAUSE) w.m_next_keys.pause = !w.m_next_keys.pause;
+  if (key == GLFW_KEY_ESCAPE) w.m_next_keys.back = !w.m_next_keys.back;
   if (key == GLFW_KEY_F12) w.m_next_keys.picture = true;
-  if (key == GLFW_KEY_R) w.m_next_keys.restart = true;
-  if (key == GLFW_KEY_Q) w.m_next_keys.quit = true;
   for (const KeyPair& k : kKeys)
     if (k.glfw == key) w.m_next.pressed.set(k.key);
+}
+
+void Window::on_button(GLFWwindow* window, int button, int action, int) {
+  if (action == GLFW_PRESS) of(window).m_buttons_pressed |= 1u << button;
 }
 
 void Window::on_cursor(GLFWwindow* window, double x, double y) {

@@ -12,68 +12,88 @@
 #include <trocar/devices/mouse_keyboard.hpp>
 #include <trocar/render/image.hpp>
 
+#include "gamepads.hpp"
 #include "picture_size.hpp"
 
 struct GLFWwindow;
 
 namespace trocar::app {
 
-/// Keys of the window itself; the hands' keys are in devices::Key.
+/// What was asked of the window itself since the last picture, by whatever device; the hands' keys are in devices::Key.
+/// Nothing while a text is being typed, except help and picture.
 struct WindowKeys {
-  bool help = false, menu = false;  ///< F1 or H, Esc: went down an odd number of times since the last picture
-  bool picture = false, restart = false, quit = false;  ///< F12, R, Q: went down
+  bool help = false;     ///< F1, the gamepad's back button
+  bool pause = false;    ///< P, the gamepad's start button
+  bool back = false;     ///< Esc, in menus the gamepad's B
+  bool picture = false;  ///< F12
 };
 
 class Window {
  public:
-  Window(const std::string& title, PictureSize size);  ///< @throws core::EnvironmentLacks
+  Window(const std::string& title, PictureSize size);  ///< fitted to the monitor  @throws core::EnvironmentLacks
   ~Window();
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
   bool wants_to_close() const;
   void close();
+  void set_title(const std::string& title);
 
   /// At most so many pictures a second, whatever the display: they cost what the simulation may need.
   void set_picture_rate(double most) { m_least_time = 1 / most; }
+  void set_text_size(double size);
 
   /// Takes in the events; afterwards ImGui's frame is open.
   void begin_picture();
   void draw_panels();  ///< ImGui over what is there
   void show();         ///< the finished picture
 
-  /// What the hands did since the last begin_picture(). Nothing while the pointer is free.
+  /// What the hands did since the last begin_picture(). At rest, but for the gamepad, while the pointer is free.
   const devices::HandSample& hands() const { return m_sample; }
+  const Gamepads& gamepads() const { return m_gamepads; }
   const WindowKeys& keys() const { return m_keys; }
   double picture_time() const { return m_picture_time; }  ///< of the last picture, begin to begin [s]
+  bool focused() const;                                   ///< do keys come here?
 
-  /// The pointer belongs to the instrument (hidden, endless), or to menus.
+  /// The pointer belongs to the instrument (hidden, endless), or to menus. In menus arrows and gamepad go from button
+  /// to button; in the instrument's hands they do not.
   void capture_pointer(bool on);
 
-  int width() const { return m_width; }    ///< [px]
-  int height() const { return m_height; }  ///< [px]
-  float scale() const { return m_scale; }  ///< of texts and panels; 1 on an ordinary display
+  int width() const { return m_width; }                  ///< [px]
+  int height() const { return m_height; }                ///< [px]
+  float scale() const { return m_scale * m_text_size; }  ///< of texts and panels; 1 on an ordinary display
+  PictureSize size_to_keep() const;                      ///< for the next time, as at scale 1
 
   /// The picture that is being made, between draw_panels() and show().
   render::Image read_back() const;
 
  private:
+  struct Glfw {  ///< the library, as long as the window
+    Glfw();
+    ~Glfw();
+  };
   static void on_key(GLFWwindow* window, int key, int scancode, int action, int mods);
   static void on_cursor(GLFWwindow* window, double x, double y);
   static void on_scroll(GLFWwindow* window, double x, double y);
   static void on_scale(GLFWwindow* window, float x, float y);
+  static void on_button(GLFWwindow* window, int button, int action, int mods);
   void set_up_imgui();
   void collect_sample();
-  void read_gamepad();
+  void collect_keys();
+  void steer_menus();
   void wait_for_turn();
 
+  Glfw m_glfw;
+  Gamepads m_gamepads;
   GLFWwindow* m_window = nullptr;
   devices::HandSample m_sample, m_next;
+  devices::Gamepad m_last_pad;
   WindowKeys m_keys, m_next_keys;
   double m_cursor_x = 0, m_cursor_y = 0, m_last_time = 0, m_picture_time = 0, m_least_time = 1.0 / 62;
   bool m_captured = false, m_cursor_known = false, m_scale_changed = false;
+  unsigned m_buttons_pressed = 0;  ///< since the last picture, even if up again
   int m_width = 0, m_height = 0;
-  float m_scale = 1;
+  float m_scale = 1, m_text_size = 1;
 };
 
 }  // namespace trocar::app

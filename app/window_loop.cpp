@@ -1,200 +1,224 @@
 #include "window_loop.hpp"
 
-#include <cstdlib>
-#include <thread>
+#include <algorithm>
 
+#include <epoxy/gl.h>
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
 #include <trocar/core/log.hpp>
-#include <trocar/render/backend.hpp>
-#include <trocar/render/gl_context.hpp>
-#include <trocar/render/governor.hpp>
-#include <trocar/view/scene_view.hpp>
 
-#include "event_log.hpp"
-#include "hand_pilot.hpp"
+#include "attempt_window.hpp"
 #include "interrupt.hpp"
-#include "live.hpp"
-#include "panel.hpp"
+#include "lesson_shelf.hpp"
 #include "paths.hpp"
-#include "sources.hpp"
-#include "window.hpp"
+#include "report_page.hpp"
+#include "start_screen.hpp"
+#include "ui.hpp"
 
 namespace trocar::app {
 
-namespace fs = std::filesystem;
+using training::AttemptMode;
 
 namespace {
 
-constexpr double kFullRate = 62, kYieldingRate = 24;  // [pictures/s] at most; the second while the simulation lags
+constexpr double kMenuRate = 30;  // [pictures/s]
+constexpr int kPreviewWidth = 800, kPreviewHeight = 600, kPreviewPictures = 12;
 
-/// A software renderer that takes every core would take the simulation's, too. Read by Mesa when the context is made.
-void leave_a_core_to_the_simulation() {
-  const unsigned cores = std::max(2u, std::thread::hardware_concurrency());
-  setenv("LP_NUM_THREADS", std::to_string(cores - 1).c_str(), 0);
-}
-
-std::string log_path(const WindowOptions& options) {
-  const char* from_environment = std::getenv("TROCAR_WINDOW_LOG");
-  return !options.log.empty() ? options.log : from_environment ? from_environment : "";
-}
-
-/// Everything that lives as long as the window.
-struct Stage {
-  Window window;
-  std::unique_ptr<render::GlContext> context = render::GlContext::adopt_current();
-  std::unique_ptr<render::Backend> backend = render::make_gl_backend(*context);
-  view::SceneView view;
-  render::Governor governor;
-  EventLog log;
-  bool help = false;
-
-  Stage(const Lesson& lesson, const WindowOptions& options)
-      : window("Trocar: " + (lesson.title.empty() ? lesson.name : lesson.title), options.size),
-        view(lesson.model, *backend),
-        log(log_path(options)) {}
-  bool wants_to_close() const { return window.wants_to_close() || interrupted(); }
-};
-
-/// One attempt, from the first tick to the end of its recording.
-class Attempt {
+/// A picture of the scene as the endoscope sees it first, for the start screen.
+class Preview {
  public:
-  Attempt(Stage& stage, const Lesson& lesson, const WindowOptions& options, const fs::path& recording)
-      : m_stage(stage), m_lesson(lesson), m_options(options), m_recording(recording), m_session(lesson) {
-    if (options.input == "mouse")
-      m_pilot = std::make_unique<HandPilot>(lesson.model);
-    else
-      m_source = make_source(lesson, options.input);
-    if (recording.has_parent_path()) make_folder(recording.parent_path());
-    m_session.record(recording, options.trainee, options.input);
-    if (m_session.monitor()) m_steps = m_session.monitor()->steps();
+  ~Preview() {
+    if (m_texture != 0) glDeleteTextures(1, &m_texture);
   }
-
-  /// Until it is over; says what is wanted next.
-  Choice run();
-  const Json& result() const { return m_result; }
+  /// Draws it once per lesson.
+  unsigned of(Stage& stage, const Lesson& lesson) {
+    if (m_lesson == &lesson) return m_texture;
+    m_lesson = &lesson;
+    const sim::State state = sim::initial_state(lesson.model);
+    view::ViewOptions options;
+    options.eye_index = 1;
+    render::Frame frame = stage.view_of(lesson).frame(state, options);
+    for (int i = 0; i < kPreviewPictures; ++i) {  // its exposure settles
+      frame.tick = std::uint64_t(200 * i);
+      render::draw_frame(*stage.backend, frame, render::Target::off_screen(kPreviewWidth, kPreviewHeight));
+    }
+    upload(stage.backend->read_pixels());
+    return m_texture;
+  }
+  void forget() { m_lesson = nullptr; }
 
  private:
-  void picture(Live& live, Choice& choice);
-  void draw_scene(const Snapshot& now);
-  void tell(Live& live);
-  void save_picture();
-  void end(Live& live, bool interrupted);
+  void upload(const render::Image& image) {
+    if (m_texture == 0) glGenTextures(1, &m_texture);
+    glBindTexture(GL_TEXTURE_2D, m_texture);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, image.width, image.height, 0, GL_RGB, GL_UNSIGNED_BYTE, image.rgb.data());
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glBindTexture(GL_TEXTURE_2D, 0);
+  }
 
-  Stage& m_stage;
-  const Lesson& m_lesson;
-  const WindowOptions& m_options;
-  fs::path m_recording;
-  Session m_session;
-  std::unique_ptr<HandPilot> m_pilot;
-  std::unique_ptr<InputSource> m_source;
-  std::vector<training::StepStatus> m_steps;
-  std::string m_message;
-  Json m_result;
-  bool m_menu = false, m_over = false;
-  int m_pictures = 0;
+  const Lesson* m_lesson = nullptr;
+  unsigned m_texture = 0;
 };
 
-Choice Attempt::run() {
-  m_stage.log.event("attempt", {{"exercise", m_lesson.name}, {"recording", m_recording.string()}});
-  Live live(m_session, m_source.get(), m_options.seconds > 0 ? std::uint64_t(1000 * m_options.seconds) : 0);
-  Choice choice = Choice::none;
-  while (choice != Choice::restart && choice != Choice::quit && !m_stage.wants_to_close()) picture(live, choice);
-  if (!m_over) end(live, true);
-  return m_stage.wants_to_close() ? Choice::quit : choice;
-}
-
-void Attempt::picture(Live& live, Choice& choice) {
-  Window& window = m_stage.window;
-  window.set_picture_rate(live.snapshot().speed < 0.97 ? kYieldingRate : kFullRate);
-  window.capture_pointer(m_pilot && !m_menu && !m_over);
-  window.begin_picture();
-  if (window.keys().help) m_stage.help = !m_stage.help;
-  if (window.keys().menu && !m_over) m_menu = !m_menu;
-  live.pause(m_menu);
-  live.refresh();
-  const Snapshot& now = live.snapshot();
-  if (m_pilot && !m_menu && !m_over) live.put(m_pilot->lead(window.hands(), now.state));
-  tell(live);
-  if (now.finished && !m_over) end(live, false);
-
-  draw_scene(now);
-  if (m_stage.help) draw_help(window.scale());
-  if (m_over)
-    choice = draw_result(m_result, window.scale());
-  else if (m_menu)
-    choice = draw_menu(m_recording.string(), window.scale());
-  if (choice == Choice::resume) m_menu = false;
-  if ((m_over || m_menu) && window.keys().restart) choice = Choice::restart;
-  if ((m_over || m_menu) && window.keys().quit) choice = Choice::quit;
-  window.draw_panels();
-  if (window.keys().picture) save_picture();
-  window.show();
-  m_stage.governor.frame_took(window.picture_time());
-}
-
-void Attempt::draw_scene(const Snapshot& now) {
-  const Window& window = m_stage.window;
-  const int panel = std::min(int(kPanelWidth * window.scale()), window.width() / 2);
-  const int width = std::max(1, window.width() - panel), height = std::max(1, window.height());
-  view::ViewOptions options;
-  options.quality = m_stage.governor.quality();
-  render::Target target = render::Target::window(width, height);
-  render::draw_frame(*m_stage.backend, m_stage.view.frame(now.state, options), target);
-  draw_panel({m_lesson, now, m_pilot ? &m_pilot->hands() : nullptr, m_options.input, m_steps, m_message, m_menu},
-             float(width), float(panel), float(height), window.scale());
-}
-
-void Attempt::tell(Live& live) {
-  for (const Moment& m : live.take_moments()) {
-    m_message = m.text;
-    m_stage.log.moment(m_lesson.model, m);
+/// The program of screens.
+class Trainer {
+ public:
+  Trainer(std::unique_ptr<Lesson> lesson, const WindowOptions& options)
+      : m_options(options),
+        m_direct(lesson != nullptr),
+        m_stage(options),
+        m_shelf(std::move(lesson)),
+        m_exercises(list_exercises(scenes_folder())) {
+    const std::string trainee = m_stage.settings.trainee;
+    trainee.copy(m_memory.trainee, kLongestName);
+    for (std::size_t i = 0; i < m_exercises.size(); ++i)
+      if (m_exercises[i].name == options.exercise) m_selected = int(i);
   }
-  m_stage.log.pose(m_lesson.model, live.snapshot().state, m_pilot ? m_pilot->hands().led : 0);
-}
 
-void Attempt::save_picture() {
-  fs::path file = m_recording;
-  file.replace_extension(fmt::format("{:03}.png", m_pictures++));
-  try {
-    render::write_png(file.string(), m_stage.window.read_back());
-    m_message = "saved " + file.string();
-    m_stage.log.event("picture", {{"file", file.string()}});
-  } catch (const core::EnvironmentLacks& lacks) {
-    m_message = lacks.what();
+  Json run() {
+    if (m_direct) {
+      const Lesson& lesson = *m_shelf.poll();
+      if (train(lesson, first_plan()) == Choice::quit) return m_result;
+    }
+    for (;;) {
+      const StartChoice choice = start_screen();
+      if (choice == StartChoice::quit) return m_result;
+      if (train(*m_shelf.poll(), plan_for(choice)) == Choice::quit) return m_result;
+    }
   }
+
+ private:
+  AttemptPlan first_plan() const {
+    AttemptPlan plan;
+    plan.trainee = m_options.trainee;
+    plan.input = m_options.input;
+    plan.mode = m_options.familiarisation ? AttemptMode::familiarisation : mode_of_input(m_options.input);
+    plan.recording = m_options.record;
+    return plan;
+  }
+  AttemptPlan plan_for(StartChoice choice) const {
+    AttemptPlan plan;
+    plan.trainee = m_stage.settings.trainee;
+    plan.mode = choice == StartChoice::familiarise   ? AttemptMode::familiarisation
+                : choice == StartChoice::demonstrate ? AttemptMode::demonstration
+                                                     : AttemptMode::assessed;
+    plan.input = choice == StartChoice::demonstrate           ? "demo"
+                 : touched(m_stage.window.gamepads().state()) ? "gamepad"
+                                                              : "mouse";
+    return plan;
+  }
+
+  /// Attempts at one exercise, until something else is wanted.
+  Choice train(const Lesson& lesson, AttemptPlan plan) {
+    for (;;) {
+      AttemptWindow attempt(m_stage, lesson, plan);
+      const Choice next = attempt.run();
+      m_result = attempt.result();
+      if (next != Choice::restart) return next;
+      if (!plan.recording.empty()) plan.recording = unused(plan.recording);
+    }
+  }
+
+  StartChoice start_screen();
+  ExerciseFacts facts_of(const Lesson* lesson);
+  void take_answer(const StartAnswer& answer);
+  void open_report(std::int64_t number);
+
+  const WindowOptions m_options;
+  bool m_direct;
+  Stage m_stage;
+  LessonShelf m_shelf;
+  std::vector<ExerciseEntry> m_exercises;
+  int m_selected = 0;
+  StartMemory m_memory;
+  Past m_past;
+  Preview m_preview;
+  Json m_result;
+};
+
+ExerciseFacts Trainer::facts_of(const Lesson* lesson) {
+  ExerciseFacts facts;
+  facts.aspect = float(kPreviewWidth) / float(kPreviewHeight);
+  if (!lesson) return facts;
+  facts.picture = m_preview.of(m_stage, *lesson);
+  if (!lesson->exercise) return facts;
+  const training::Exercise& e = *lesson->exercise;
+  facts.facts.push_back(fmt::format("about {:.0f} minutes", std::max(1.0, e.expert_time / 60)));
+  facts.facts.push_back(fmt::format("passed from {:.0f} of 100", e.pass_mark));
+  for (const training::StepStatus& s : lesson->monitor()->steps()) facts.steps.push_back(s.name);
+  return facts;
 }
 
-void Attempt::end(Live& live, bool interrupted) {
-  live.stop();
-  tell(live);
-  // Practice has no goal, so closing the window is its proper end.
-  m_result = m_session.result(interrupted && m_session.monitor());
-  m_result["input"] = m_options.input;
-  m_result["slow_motion_share"] = live.slow_share();
-  if (m_source) m_result.update(m_source->describe());
-  m_session.finish(m_result);
-  m_stage.log.event("end",
-                    {{"interrupted", interrupted}, {"passed", m_result["passed"]}, {"ticks", m_result["ticks"]}});
-  m_over = true;
+void Trainer::open_report(std::int64_t) {}
+
+void Trainer::take_answer(const StartAnswer& answer) {
+  if (answer.selected >= 0) m_selected = answer.selected;
+  if (answer.trainee_changed) {
+    m_stage.settings.trainee = proper_name(m_memory.trainee);
+    m_past = read_past(m_stage.options.store, m_stage.settings.trainee);
+  }
+  if (answer.report_of != 0) open_report(answer.report_of);
+  if (answer.choice == StartChoice::report && !m_past.attempts.empty()) open_report(m_past.attempts.front().number);
+  if (answer.choice == StartChoice::settings) m_stage.open(Stage::Overlay::settings);
+  if (answer.choice == StartChoice::help) m_stage.open(Stage::Overlay::help);
+}
+
+/// Until an exercise is to begin, or the window is closed.
+StartChoice Trainer::start_screen() {
+  m_stage.window.set_title("Trocar");
+  m_stage.window.set_picture_rate(kMenuRate);
+  m_past = read_past(m_stage.options.store, m_stage.settings.trainee);
+  std::vector<std::string> notices = m_past.notices;
+  for (const core::Fault& f : m_stage.setting_faults) notices.push_back(core::to_string(f) + " (left out)");
+  ExerciseFacts facts;
+  const Lesson* shown = nullptr;
+  while (!m_stage.wants_to_close()) {
+    if (!m_exercises.empty()) m_shelf.want(m_exercises[size_t(m_selected)].name);
+    m_stage.begin_picture(false);
+    const Lesson* lesson = m_shelf.poll();
+    if (!lesson && shown) {
+      m_stage.drop_view();
+      m_preview.forget();
+    }
+    if (!lesson || lesson != shown) facts = facts_of(lesson);
+    shown = lesson;
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(0, 0, m_stage.window.width(), m_stage.window.height());
+    glClearColor(0.09f, 0.10f, 0.12f, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+    const StartContent content{m_exercises,
+                               m_selected,
+                               facts,
+                               lesson != nullptr,
+                               m_shelf.failure(),
+                               m_past,
+                               m_stage.window.gamepads().names(),
+                               notices,
+                               m_stage.sound.audible()};
+    StartAnswer answer;
+    if (m_stage.overlay() == Stage::Overlay::none) answer = draw_start(content, m_memory);
+    take_answer(answer);
+    m_stage.end_picture("start", data_folder() / "start");
+    if (answer.choice == StartChoice::quit) return StartChoice::quit;
+    const bool begin = answer.choice == StartChoice::start || answer.choice == StartChoice::familiarise ||
+                       answer.choice == StartChoice::demonstrate;
+    if (begin && lesson) {
+      m_stage.settings.trainee = proper_name(m_memory.trainee);
+      m_stage.keep_settings();
+      return answer.choice;
+    }
+  }
+  return StartChoice::quit;
 }
 
 }  // namespace
 
-Json run_window(const Lesson& lesson, const WindowOptions& options) {
-  leave_a_core_to_the_simulation();
+Json run_window(std::unique_ptr<Lesson> lesson, const WindowOptions& options) {
   catch_interrupts();
-  Stage stage(lesson, options);
-  core::log::info("drawing with {}", stage.context->description());
-  for (int number = 1;; ++number) {
-    fs::path recording = options.record.empty() ? default_recording(lesson.name) : fs::path(options.record);
-    if (number > 1) recording = unused(recording);
-    Attempt attempt(stage, lesson, options, recording);
-    const Choice next = attempt.run();
-    core::log::info("recording: {}", recording.string());
-    if (next != Choice::restart) return attempt.result();
-  }
+  return Trainer(std::move(lesson), options).run();
 }
 
 }  // namespace trocar::app

@@ -1,6 +1,11 @@
-// The trainer's window: endoscope picture, panel, help and menu; the simulation runs on a thread of its own at 1 kHz
-// and is never waited for nor skipped. Slow machines show slow motion, and say so.
+// The trainee's program: start screen, settings, help, and the exercise with picture, panel and result. The simulation
+// runs on a thread of its own at 1 kHz and is never waited for nor skipped. Slow machines show slow motion, and say so.
 #pragma once
+
+#include <memory>
+#include <optional>
+
+#include <trocar/training/store.hpp>
 
 #include "lesson.hpp"
 #include "picture_size.hpp"
@@ -8,17 +13,20 @@
 namespace trocar::app {
 
 struct WindowOptions {
-  std::string record;  ///< file; empty: a name of our own in the user's data folder
-  std::string trainee;
-  std::string input = "mouse";  ///< or a source: see make_source()
-  std::string log;              ///< JSON lines of events; empty: $TROCAR_WINDOW_LOG, or none
-  PictureSize size;
-  double seconds = 0;  ///< 0: no limit
+  std::string exercise;              ///< preselected on the start screen; empty: the first
+  std::string record;                ///< file; empty: a name of our own in the user's data folder
+  std::string trainee;               ///< empty: the last one
+  std::string input = "mouse";       ///< mouse or gamepad: hands, by whatever device; or a source: see make_source()
+  std::string log;                   ///< JSON lines of events; empty: $TROCAR_WINDOW_LOG, or none
+  std::optional<PictureSize> size;   ///< nothing: as last time
+  double seconds = 0;                ///< 0: no limit
+  bool familiarisation = false;      ///< no score
+  training::Store* store = nullptr;  ///< null: nothing is kept but recordings that were asked for
 };
 
-/// Opens the window and returns the last attempt's result when it is closed.
-
+/// Opens the window: with a lesson straight in the exercise, without one on the start screen. Returns the last
+/// attempt's result when it is closed; null where there was none.
 /// @throws core::EnvironmentLacks without a display or OpenGL 3.3
-Json run_window(const Lesson& lesson, const WindowOptions& options);
+Json run_window(std::unique_ptr<Lesson> lesson, const WindowOptions& options);
 
 }  // namespace trocar::app

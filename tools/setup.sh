@@ -35,7 +35,10 @@ test=(
   binutils             # objdump, nm: the step's machine code
   xvfb xdotool         # drives the real window without a display
 )
-soak=(clang)           # the same bits from a second compiler
+soak=(
+  clang                # the same bits from a second compiler
+  libclang-rt-14-dev   # its fuzzer and sanitizers
+)
 dev=(clang-format clang-tidy libc++-dev libc++abi-dev)
 
 list_only=false

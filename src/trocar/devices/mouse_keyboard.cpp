@@ -1,33 +1,46 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <trocar/devices/mouse_keyboard.hpp>
 
 namespace trocar::devices {
 namespace {
 
-constexpr std::array<const char*, std::size_t(Key::count)> kKeyNames = {"Tab", "1", "2", "3", "4",     "0",    "C",
-                                                                        "Q",   "E", "R", "F", "Space", "Shift"};
+constexpr std::array<const char*, std::size_t(Key::count)> kKeyNames = {
+    "Tab", "1", "2", "3", "4", "0", "C", "Left",  "Right", "Up", "Down",  "PageUp", "PageDown",
+    "W",   "S", "Q", "E", "R", "F", "G", "Enter", "V",     "X",  "Space", "Shift"};
 
 constexpr HelpLine kHelp[] = {
-    {"1 2 3 4", "lead this instrument; the others keep pose and grip"},
-    {"Tab", "lead the next instrument"},
-    {"0 C", "lead the endoscope"},
-    {"Mouse", "tip sideways, up and down in the picture; with the endoscope: where it looks"},
-    {"Wheel", "deeper (away from you) and back"},
-    {"Left button", "close the handle as long as it is held; let go: it opens"},
-    {"Space", "ratchet on or off: the handle keeps its grip when let go"},
-    {"Q E, right drag", "roll the instrument; with the endoscope: roll the picture"},
-    {"R F", "turn the light post of an oblique endoscope"},
-    {"Shift", "fine: a quarter of the motion"},
-    {"Gamepad left stick", "tip sideways, up and down; with the endoscope: where it looks"},
-    {"Gamepad right stick", "up and down: deeper and back; sideways: roll"},
-    {"Gamepad right trigger", "close the handle as far as it is pulled; with the endoscope: light post"},
-    {"Gamepad left trigger", "ratchet on or off; with the endoscope: light post the other way"},
-    {"Gamepad shoulders", "lead the previous or the next instrument, the endoscope among them"},
+    {Device::keyboard, "1 2 3 4, Tab", "lead this hand, the next one; the others keep pose and grip"},
+    {Device::keyboard, "0 C", "lead the endoscope; the arrows turn the view"},
+    {Device::keyboard, "Left Right Up Down", "tip sideways, up and down in the picture"},
+    {Device::keyboard, "W S, PageUp PageDown", "deeper (away from you), back"},
+    {Device::keyboard, "Q E", "roll the instrument, or the endoscope's picture"},
+    {Device::keyboard, "G Enter", "close the jaws as long as it is held"},
+    {Device::keyboard, "Space", "lock: jaws stay closed when let go; again: unlock"},
+    {Device::keyboard, "X", "another instrument for this hand, another hand"},
+    {Device::keyboard, "V", "bring the instrument into the view"},
+    {Device::keyboard, "R F", "light post of an oblique endoscope"},
+    {Device::keyboard, "Shift", "fine: a quarter of every motion"},
+    {Device::mouse, "move", "tip sideways, up and down; endoscope: where it looks"},
+    {Device::mouse, "wheel", "deeper (away from you), back"},
+    {Device::mouse, "left button", "close the jaws as long as it is held"},
+    {Device::mouse, "right drag", "roll the instrument, or the endoscope's picture"},
+    {Device::mouse, "left held, right click", "lock the jaws; the same again: unlock"},
+    {Device::mouse, "middle or right click", "choose hand, instrument, pause"},
+    {Device::mouse, "side buttons", "lead the previous, the next hand"},
+    {Device::gamepad, "left stick", "tip sideways, up and down; endoscope: where it looks"},
+    {Device::gamepad, "cross", "the same, fine"},
+    {Device::gamepad, "right stick", "up, down: deeper, back; sideways: roll"},
+    {Device::gamepad, "right trigger", "close the jaws as far as it is pulled; endoscope: light post"},
+    {Device::gamepad, "left trigger", "lock, unlock the jaws; endoscope: light post the other way"},
+    {Device::gamepad, "shoulders", "lead the previous, the next hand, the endoscope among them"},
+    {Device::gamepad, "Y", "another instrument for this hand, another hand"},
+    {Device::gamepad, "X", "bring the instrument into the view"},
 };
 
-constexpr float kLongestSample = 0.1f, kTriggerPressed = 0.5f, kTriggerTouched = 0.02f;
+constexpr float kLongestSample = 0.1f, kTriggerPressed = 0.5f, kTriggerTouched = 0.02f, kFirstSpeed = 0.2f;
 
 /// A broken device may send anything; what is no number is rest.
 float finite(float value) { return std::isfinite(value) ? value : 0.0f; }
@@ -43,15 +56,23 @@ float shaped(float way, float dead) {
 
 float key_axis(const KeySet& held, Key minus, Key plus) { return float(held.has(plus)) - float(held.has(minus)); }
 
-// --- which one is led ---
+// --- left-handed ---
 
-void choose(int led, HandState& state) {
-  if (led == state.led) return;
-  state.led = led;
-  state.opening = false;
-  state.waiting = true;
-  if (led != kScope) state.last_instrument = led;
+/// What a right-handed person would have done.
+HandSample as_right_handed(const HandSettings& settings, HandSample sample) {
+  if (!settings.left_handed) return sample;
+  std::swap(sample.left_button, sample.right_button);
+  Gamepad& pad = sample.gamepad;
+  std::swap(pad.left_x, pad.right_x);
+  std::swap(pad.left_y, pad.right_y);
+  std::swap(pad.left_trigger, pad.right_trigger);
+  const bool left = pad.has(Button::left_shoulder), right = pad.has(Button::right_shoulder);
+  pad.set(Button::left_shoulder, right);
+  pad.set(Button::right_shoulder, left);
+  return sample;
 }
+
+// --- which one is led ---
 
 void choose_next_instrument(int instruments, HandState& state) {
   choose(state.led == kScope ? state.last_instrument : (state.led + 1) % instruments, state);
@@ -64,54 +85,83 @@ void choose_neighbour(int step, int instruments, HandState& state) {
   choose(there == instruments ? kScope : there, state);
 }
 
-void choose_led(int instruments, const HandSample& sample, HandState& state) {
+bool went_down(Button b, const HandSample& now, const HandState& state) {
+  return now.gamepad.has(b) && !state.last.gamepad.has(b);
+}
+
+void choose_led(const HandSettings& settings, int instruments, const HandSample& sample, HandState& state) {
   constexpr Key kNumbers[kMaxHands] = {Key::one, Key::two, Key::three, Key::four};
   for (int i = 0; i < instruments; ++i)
-    if (sample.pressed.has(kNumbers[i])) choose(i, state);
+    if (sample.pressed.has(kNumbers[i])) choose(settings.left_handed ? instruments - 1 - i : i, state);
   if (sample.pressed.has(Key::tab)) choose_next_instrument(instruments, state);
   if (sample.pressed.has(Key::zero) || sample.pressed.has(Key::c)) choose(kScope, state);
-  const Gamepad &now = sample.gamepad, &before = state.gamepad;
-  if (now.left_shoulder && !before.left_shoulder) choose_neighbour(-1, instruments, state);
-  if (now.right_shoulder && !before.right_shoulder) choose_neighbour(+1, instruments, state);
+  const bool previous = sample.back_button && !state.last.back_button;
+  const bool next = sample.forward_button && !state.last.forward_button;
+  if (previous || went_down(Button::left_shoulder, sample, state)) choose_neighbour(-1, instruments, state);
+  if (next || went_down(Button::right_shoulder, sample, state)) choose_neighbour(+1, instruments, state);
 }
 
 // --- what it does ---
 
-/// One sample's rates: pixels, seconds and notches already include Shift.
+/// One sample's motions: pixels and notches already include Shift, keys and sticks are shares of their speeds times
+/// seconds.
 struct Scaled {
   float dx, dy, wheel, seconds;
+  float key_x, key_y, key_in;
   float stick_x, stick_y, stick_in, stick_roll;
 };
 
-Scaled scaled(const HandSettings& settings, const HandSample& sample) {
+/// Arrow keys begin slowly, so that a tap is a small step, and grow quicker while they are held.
+float key_share(const HandSettings& settings, const KeySet& held, float seconds, HandState& state) {
+  bool steering = false;
+  for (const Key key : {Key::left, Key::right, Key::up, Key::down, Key::page_up, Key::page_down, Key::w, Key::s})
+    steering |= held.has(key);
+  state.steered_for = steering ? std::min(state.steered_for + seconds, settings.key_ramp) : 0.0f;
+  return kFirstSpeed + (1 - kFirstSpeed) * state.steered_for / std::max(settings.key_ramp, 1e-3f);
+}
+
+Scaled scaled(const HandSettings& settings, const HandSample& sample, HandState& state) {
   const float fine = sample.held.has(Key::shift) ? settings.fine : 1.0f;
+  const float real = std::clamp(finite(sample.dt), 0.0f, kLongestSample), seconds = fine * real;
+  const KeySet& held = sample.held;
   const Gamepad& pad = sample.gamepad;
-  const auto stick = [&](float way) { return shaped(way, settings.stick_dead); };
-  return {fine * finite(sample.dx),    fine * finite(sample.dy),
-          fine * finite(sample.wheel), fine * std::clamp(finite(sample.dt), 0.0f, kLongestSample),
-          stick(pad.left_x),           stick(pad.left_y),
+  const auto stick = [&](float way) { return seconds * shaped(way, settings.stick_dead); };
+  const auto cross = [&](Button minus, Button plus) {
+    return seconds * settings.fine * (float(pad.has(plus)) - float(pad.has(minus)));
+  };
+  const float keys = seconds * key_share(settings, held, real, state);
+  const float in = key_axis(held, Key::s, Key::w) + key_axis(held, Key::page_down, Key::page_up);
+  return {fine * finite(sample.dx),
+          fine * finite(sample.dy),
+          fine * finite(sample.wheel),
+          seconds,
+          keys * key_axis(held, Key::left, Key::right),
+          keys * key_axis(held, Key::up, Key::down),
+          keys * std::clamp(in, -1.0f, 1.0f),
+          stick(pad.left_x) + cross(Button::left, Button::right),
+          stick(pad.left_y) + cross(Button::up, Button::down),
           -stick(pad.right_y),  // pushed away = deeper
           stick(pad.right_x)};
 }
 
 /// Q and E, the right stick; dragging is added where it applies.
 float roll_of(const HandSettings& settings, const HandSample& sample, const Scaled& s) {
-  return s.seconds *
-             (settings.roll_per_second * key_axis(sample.held, Key::q, Key::e) + settings.stick_roll * s.stick_roll) +
-         (sample.right_button ? settings.roll_per_pixel * s.dx : 0.0f);
+  return s.seconds * settings.roll_per_second * key_axis(sample.held, Key::q, Key::e) +
+         settings.stick_roll * s.stick_roll + (sample.right_button ? settings.roll_per_pixel * s.dx : 0.0f);
 }
 
 float depth_of(const HandSettings& settings, const Scaled& s) {
-  return settings.metres_per_notch * s.wheel + settings.stick_speed * s.stick_in * s.seconds;
+  return settings.metres_per_notch * s.wheel + settings.stick_speed * s.stick_in + settings.key_speed * s.key_in;
 }
 
 ScopeMotion scope_motion(const HandSettings& settings, const HandSample& sample, const Scaled& s) {
-  const float pixels = sample.right_button ? 0.0f : settings.view_per_pixel, stick = settings.stick_view * s.seconds;
+  const float pixels = sample.right_button ? 0.0f : settings.view_per_pixel;
+  const float x = settings.invert_view_x ? -1.0f : 1.0f, y = settings.invert_view_y ? -1.0f : 1.0f;
   const Gamepad& pad = sample.gamepad;
   const float triggers = std::clamp(finite(pad.right_trigger) - finite(pad.left_trigger), -1.0f, 1.0f);
   ScopeMotion motion;
-  motion.right = pixels * s.dx + stick * s.stick_x;
-  motion.up = -pixels * s.dy - stick * s.stick_y;
+  motion.right = x * (pixels * s.dx + settings.stick_view * s.stick_x + settings.key_view * s.key_x);
+  motion.up = -y * (pixels * s.dy + settings.stick_view * s.stick_y + settings.key_view * s.key_y);
   motion.in = depth_of(settings, s);
   motion.head = roll_of(settings, sample, s);
   motion.post = settings.post_per_second * s.seconds * (key_axis(sample.held, Key::f, Key::r) + triggers);
@@ -120,25 +170,35 @@ ScopeMotion scope_motion(const HandSettings& settings, const HandSample& sample,
 
 PictureMotion tip_motion(const HandSettings& settings, const HandSample& sample, const Scaled& s) {
   const float pixels = sample.right_button ? 0.0f : settings.metres_per_pixel;
-  const float stick = settings.stick_speed * s.seconds;
-  return {pixels * s.dx + stick * s.stick_x, -pixels * s.dy - stick * s.stick_y, depth_of(settings, s)};
+  const float x = settings.invert_x ? -1.0f : 1.0f, y = settings.invert_y ? -1.0f : 1.0f;
+  return {x * (pixels * s.dx + settings.stick_speed * s.stick_x + settings.key_speed * s.key_x),
+          -y * (pixels * s.dy + settings.stick_speed * s.stick_y + settings.key_speed * s.key_y),
+          depth_of(settings, s)};
 }
 
-/// Left button closes progressively, the right trigger as far as it is pulled; let go, the handle opens unless the
-/// ratchet holds it.
+/// True when the right button was let go after a short press in one place.
+bool right_tapped(const HandSettings& settings, const HandSample& sample, HandState& state) {
+  const bool was = state.last.right_button;
+  if (sample.right_button) {
+    state.right_for = was ? state.right_for + finite(sample.dt) : 0.0f;
+    state.right_moved = (was ? state.right_moved : 0.0f) + std::abs(finite(sample.dx)) + std::abs(finite(sample.dy));
+    return false;
+  }
+  const bool tapped = was && state.right_for < settings.tap_seconds && state.right_moved < settings.tap_pixels;
+  state.right_for = settings.tap_seconds;
+  return tapped;
+}
+
+/// The left button or G closes progressively, the right trigger as far as it is pulled; let go, the handle opens unless
+/// the ratchet holds it.
 void move_handle(const HandSettings& settings, const HandSample& sample, float seconds, HandState& state) {
   float& handle = state.handle[state.led];
-  bool& ratchet = state.ratchet[state.led];
-  const Gamepad &now = sample.gamepad, &before = state.gamepad;
-  const bool trigger_pressed = now.left_trigger > kTriggerPressed && !(before.left_trigger > kTriggerPressed);
-  if (sample.pressed.has(Key::space) || trigger_pressed) {
-    ratchet = !ratchet;
-    state.opening = true;
-  }
-  const float pulled = std::clamp(finite(now.right_trigger), 0.0f, 1.0f);
-  state.waiting &= sample.left_button || pulled > kTriggerTouched;
+  const bool ratchet = state.ratchet[state.led];
+  const bool squeezed = sample.left_button || sample.held.has(Key::g) || sample.held.has(Key::enter);
+  const float pulled = std::clamp(finite(sample.gamepad.right_trigger), 0.0f, 1.0f);
+  state.waiting &= squeezed || pulled > kTriggerTouched;
   if (state.waiting) return;
-  if (sample.left_button) {
+  if (squeezed) {
     handle = std::min(1.0f, handle + settings.close_per_second * seconds);
     state.opening = true;
   } else if (pulled > kTriggerTouched) {
@@ -156,19 +216,49 @@ void move_handle(const HandSettings& settings, const HandSample& sample, float s
 
 const char* name_of(Key key) noexcept { return kKeyNames[std::size_t(key)]; }
 
-HandCommand lead(const HandSettings& settings, const HandSample& sample, HandState& state) noexcept {
-  choose_led(std::clamp(settings.instruments, 1, kMaxHands), sample, state);
-  const Scaled s = scaled(settings, sample);
+void choose(int led, HandState& state) noexcept {
+  if (led == state.led) return;
+  state.led = led;
+  state.opening = false;
+  state.waiting = true;
+  if (led != kScope) state.last_instrument = led;
+}
+
+void toggle_ratchet(HandState& state) noexcept {
+  if (state.led == kScope) return;
+  state.ratchet[state.led] = !state.ratchet[state.led];
+  state.opening = true;
+}
+
+void take_up(const HandSettings& settings, const HandSample& sample, HandState& state) noexcept {
+  state.last = as_right_handed(settings, sample);
+  state.opening = false;
+  state.waiting = true;
+  state.steered_for = 0;
+  state.right_for = settings.tap_seconds;  // a press from before is no tap
+}
+
+HandCommand lead(const HandSettings& settings, const HandSample& given, HandState& state) noexcept {
+  const HandSample sample = as_right_handed(settings, given);
+  choose_led(settings, std::clamp(settings.instruments, 1, kMaxHands), sample, state);
+  const Scaled s = scaled(settings, sample, state);
+  const bool tapped = right_tapped(settings, sample, state);
+  const bool trigger =
+      sample.gamepad.left_trigger > kTriggerPressed && !(state.last.gamepad.left_trigger > kTriggerPressed);
   HandCommand command;
   command.led = state.led;
+  command.rack = sample.pressed.has(Key::x) || (sample.middle_button && !state.last.middle_button) ||
+                 went_down(Button::y, sample, state) || (tapped && !sample.left_button);
+  command.insert = sample.pressed.has(Key::v) || went_down(Button::x, sample, state);
   if (state.led == kScope) {
     command.scope = scope_motion(settings, sample, s);
   } else {
+    if (sample.pressed.has(Key::space) || trigger || (tapped && sample.left_button)) toggle_ratchet(state);
     command.tip = tip_motion(settings, sample, s);
     command.roll = roll_of(settings, sample, s);
     move_handle(settings, sample, s.seconds, state);
   }
-  state.gamepad = sample.gamepad;
+  state.last = sample;
   return command;
 }
 

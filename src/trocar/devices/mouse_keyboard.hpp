@@ -1,12 +1,13 @@
 // One mouse, one keyboard or one gamepad for several instruments: one hand at a time is led, the others keep pose and
-// grip. Pure logic without a window: the program fills a HandSample from its events, once per picture, and gets what
-// the led instrument or the endoscope should do, in the picture's directions.
+// grip. Each of the three devices is enough alone. Pure logic without a window: the program fills a HandSample from its
+// events, once per picture, and gets what the led instrument or the endoscope should do, in the picture's directions.
 //
 //   HandState state;                                       // lives as long as the session
 //   const HandCommand command = lead(settings, sample, state);
 //   if (command.led == kScope) turn the scope by command.scope;
 //   else move tip[command.led] by in_space(command.tip, camera_right, camera_up, shaft), turn it by command.roll;
 //   handle[i] = state.handle[i]                            // of every instrument, led or not
+//   if (command.rack) show which hands and instruments there are to choose from
 //
 // help() is the table of keys that the window and the README show.
 #pragma once
@@ -20,12 +21,42 @@ namespace trocar::devices {
 inline constexpr int kMaxHands = 4;  ///< instruments that can be led
 inline constexpr int kScope = -1;    ///< in place of an instrument's number: the endoscope
 
-enum class Key : std::uint8_t { tab, one, two, three, four, zero, c, q, e, r, f, space, shift, count };
+enum class Device : std::uint8_t { keyboard, mouse, gamepad };
+
+enum class Key : std::uint8_t {
+  tab,
+  one,
+  two,
+  three,
+  four,
+  zero,
+  c,
+  left,
+  right,
+  up,
+  down,
+  page_up,
+  page_down,
+  w,
+  s,
+  q,
+  e,
+  r,
+  f,
+  g,
+  enter,
+  v,
+  x,
+  space,
+  shift,
+  count
+};
 const char* name_of(Key key) noexcept;  ///< as help() writes it
 
 class KeySet {
  public:
   constexpr bool has(Key key) const noexcept { return (m_bits >> int(key)) & 1; }
+  constexpr bool any() const noexcept { return m_bits != 0; }
   constexpr void set(Key key, bool on = true) noexcept {
     m_bits = on ? m_bits | 1u << int(key) : m_bits & ~(1u << int(key));
   }
@@ -34,10 +65,34 @@ class KeySet {
   std::uint32_t m_bits = 0;
 };
 
+/// Buttons by the names that most pads print on them; `a` is the lower, `b` the right, `x` the left, `y` the upper one.
+enum class Button : std::uint8_t {
+  a,
+  b,
+  x,
+  y,
+  left_shoulder,
+  right_shoulder,
+  back,
+  start,
+  left_stick,
+  right_stick,
+  up,
+  right,
+  down,
+  left,
+  count
+};
+
 /// Sticks -1..1, right and down positive as consoles report them; triggers 0..1. All 0 without a gamepad.
 struct Gamepad {
   float left_x = 0, left_y = 0, right_x = 0, right_y = 0, left_trigger = 0, right_trigger = 0;
-  bool left_shoulder = false, right_shoulder = false;
+  std::uint32_t buttons = 0;
+
+  constexpr bool has(Button b) const noexcept { return (buttons >> int(b)) & 1; }
+  constexpr void set(Button b, bool on = true) noexcept {
+    buttons = on ? buttons | 1u << int(b) : buttons & ~(1u << int(b));
+  }
 };
 
 /// What the devices did since the last sample.
@@ -46,7 +101,8 @@ struct HandSample {
   float dx = 0, dy = 0;  ///< mouse motion [px], right and down positive
   float wheel = 0;       ///< notches, away from the user positive
   bool left_button = false, right_button = false;
-  KeySet held;     ///< down now
+  bool middle_button = false, back_button = false, forward_button = false;  ///< the wheel pressed; the side buttons
+  KeySet held;                                                              ///< down now
   KeySet pressed;  ///< went down since the last sample, even if up again
   Gamepad gamepad;
 };
@@ -70,6 +126,8 @@ struct HandCommand {
   PictureMotion tip;
   float roll = 0;  ///< [rad], clockwise seen from the hand positive
   ScopeMotion scope;
+  bool rack = false;    ///< asked for what there is to choose from: hands, instruments
+  bool insert = false;  ///< asked to bring the led instrument into the view
 };
 
 /// How much a device's motion means.  Our choice: 10 cm across a picture of 1000 px.
@@ -83,11 +141,19 @@ struct HandSettings {
   float post_per_second = 1.0f;    ///< [rad/s], R and F
   float close_per_second = 2.0f;   ///< handle, a share of its way
   float open_per_second = 4.0f;
+  float key_speed = 0.05f;    ///< [m/s], tip, arrow keys held for key_ramp or longer; they begin with a fifth of it
+  float key_view = 0.5f;      ///< [rad/s], scope
+  float key_ramp = 0.7f;      ///< [s]
   float stick_speed = 0.05f;  ///< [m/s], stick at its end
   float stick_roll = 2.0f;    ///< [rad/s]
   float stick_view = 0.6f;    ///< [rad/s], scope
   float stick_dead = 0.12f;   ///< share of a stick's way that is rest
-  float fine = 0.25f;         ///< Shift
+  float fine = 0.25f;         ///< Shift, the gamepad's crossed buttons
+  float tap_seconds = 0.3f;   ///< a right press is a tap when it is shorter than this ...
+  float tap_pixels = 6;       ///< ... and moves less
+  bool left_handed = false;   ///< mouse buttons, gamepad sides and the order of the hands are exchanged
+  bool invert_x = false, invert_y = false;            ///< tip
+  bool invert_view_x = false, invert_view_y = false;  ///< scope
 };
 
 /// What must be remembered between samples.
@@ -96,19 +162,31 @@ struct HandState {
   int last_instrument = 0;                ///< the one that Tab returns to
   std::array<float, kMaxHands> handle{};  ///< 0 open .. 1 closed, of every instrument
   std::array<bool, kMaxHands> ratchet{};  ///< holds the handle when it is released
-  bool opening = false;  ///< the led handle was let go: it opens. A hand that was only chosen keeps its grip.
-  bool waiting = false;  ///< what was already squeezed when this one was chosen must be let go first
-  Gamepad gamepad;       ///< the last sample's, to notice presses
+  bool opening = false;   ///< the led handle was let go: it opens. A hand that was only chosen keeps its grip.
+  bool waiting = false;   ///< what was already squeezed when this one was chosen must be let go first
+  float steered_for = 0;  ///< how long an arrow key has been down [s]
+  float right_for = 0;    ///< how long the right button has been down [s]
+  float right_moved = 0;  ///< and how far the mouse went meanwhile [px]
+  HandSample last;        ///< as used, to notice presses
 };
 
 /// One sample: moves `state` on and tells what the led one does.
 HandCommand lead(const HandSettings& settings, const HandSample& sample, HandState& state) noexcept;
+
+/// Leads hand `hand` from now on (a number, or kScope), as if its key had been pressed.
+void choose(int hand, HandState& state) noexcept;
+/// The ratchet of the led hand on or off, as Space does.
+void toggle_ratchet(HandState& state) noexcept;
+/// After a pause, a menu or a lost device: whatever is held down now counts as old, and every handle keeps its grip
+/// until it is squeezed anew. Call with the sample that begins the new stretch.
+void take_up(const HandSettings& settings, const HandSample& sample, HandState& state) noexcept;
 
 /// A tip's motion in space, from the unit vectors of the picture and of the shaft (port to tip).
 std::array<float, 3> in_space(const PictureMotion& motion, const std::array<float, 3>& right,
                               const std::array<float, 3>& up, const std::array<float, 3>& shaft) noexcept;
 
 struct HelpLine {
+  Device device;
   const char* keys;
   const char* action;
 };

@@ -1,0 +1,261 @@
+#include "attempt_window.hpp"
+
+#include <chrono>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <trocar/core/error.hpp>
+#include <trocar/core/log.hpp>
+
+#include "hand_names.hpp"
+#include "mirror.hpp"
+#include "paths.hpp"
+#include "report_page.hpp"
+#include "sources.hpp"
+#include "ui.hpp"
+
+namespace trocar::app {
+
+using training::AttemptMode;
+using training::AttemptState;
+
+namespace {
+
+constexpr double kFullRate = 62, kYieldingRate = 24;  // [pictures/s] at most; the second while the simulation lags
+
+bool by_hand(const std::string& input) { return input == "mouse" || input == "gamepad"; }
+
+double pull_limit(const Lesson& lesson) { return lesson.exercise ? lesson.exercise->goal.pull_limit : 5.0; }
+
+}  // namespace
+
+AttemptWindow::AttemptWindow(Stage& stage, const Lesson& lesson, const AttemptPlan& plan)
+    : m_stage(stage), m_lesson(lesson), m_plan(plan), m_session(lesson), m_log(stage.options.store, m_session, plan) {
+  if (by_hand(plan.input)) {
+    m_pilot = std::make_unique<HandPilot>(lesson.model);
+    m_pilot->set(hand_settings(stage.settings, 0));
+    m_hint = stage.settings.show_hint;
+  } else {
+    m_source = make_source(lesson, plan.input);
+  }
+  m_gamepad_used = plan.input == "gamepad";
+  if (m_session.monitor()) m_steps = m_session.monitor()->steps();
+  stage.window.set_title("Trocar: " + (lesson.title.empty() ? lesson.name : lesson.title));
+}
+
+double AttemptWindow::now_seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+std::string AttemptWindow::mode_text() const {
+  if (m_plan.mode == AttemptMode::familiarisation) return "familiarisation: no score";
+  if (m_plan.mode == AttemptMode::demonstration) return "demonstration";
+  return m_lesson.exercise ? "" : "free practice";
+}
+
+std::string AttemptWindow::screen_name() const {
+  return m_over ? "result" : m_hint ? "hint" : m_paused ? "pause" : m_rack ? "rack" : "exercise";
+}
+
+Choice AttemptWindow::run() {
+  m_stage.log.event("attempt", {{"exercise", m_lesson.name},
+                                {"mode", name_of(m_plan.mode)},
+                                {"trainee", m_log.attempt().trainee},
+                                {"recording", m_log.attempt().recording}});
+  const double seconds = m_stage.options.seconds;
+  Live live(m_session, m_source.get(), seconds > 0 ? std::uint64_t(1000 * seconds) : 0);
+  Choice choice = Choice::none;
+  const auto goes_on = [&] {
+    return choice != Choice::restart && choice != Choice::start_screen && choice != Choice::quit;
+  };
+  while (goes_on() && !m_stage.wants_to_close()) picture(live, choice);
+  if (!m_over) end(live, Ending::left);
+  return m_stage.wants_to_close() ? Choice::quit : choice;
+}
+
+/// Does time stand still?
+bool AttemptWindow::stands_still() const {
+  return m_paused || m_hint || m_over || m_stage.overlay() != Stage::Overlay::none;
+}
+
+void AttemptWindow::hold(const std::string& why) {
+  if (m_over) return;
+  m_paused = true;
+  m_rack = false;
+  m_why_paused = why;
+}
+
+void AttemptWindow::picture(Live& live, Choice& choice) {
+  Window& window = m_stage.window;
+  const bool hands = m_pilot && !stands_still() && !m_rack;
+  window.set_picture_rate(stands_still() || live.snapshot().speed < 0.97 ? kYieldingRate : kFullRate);
+  m_stage.begin_picture(hands);
+  look_at_keys();
+  live.pause(stands_still());
+  live.refresh();
+  const Snapshot& now = live.snapshot();
+  lead(live, now);
+  tell(live);
+  warn_of_pull(now);
+  if (now.finished && !m_over) end(live, Ending::came_to_its_end);
+  draw_scene(now);
+  draw_over(now, choice);
+  if (choice == Choice::finish) {
+    end(live, Ending::finished_early);
+    choice = Choice::none;
+  }
+  std::filesystem::path pictures = m_log.attempt().recording;
+  if (pictures.empty()) pictures = "trocar";
+  m_stage.end_picture(screen_name(), pictures);
+  m_stage.governor.frame_took(window.picture_time());
+}
+
+void AttemptWindow::look_at_keys() {
+  const Window& window = m_stage.window;
+  if (window.gamepads().lost() && m_gamepad_used)
+    hold("The gamepad is gone: plug it in again, or go on with mouse and keyboard.");
+  if (m_had_focus && !window.focused() && m_pilot && !stands_still()) hold("Another window came to the front.");
+  m_had_focus = window.focused();
+  m_gamepad_used |= touched(window.gamepads().state());
+  if (m_stage.overlay() != Stage::Overlay::none || m_over || m_hint) return;
+  const bool back = window.keys().back, pause = window.keys().pause;
+  if (m_rack && back) {
+    m_rack = false;
+  } else if (back || pause) {
+    m_paused = !m_paused;
+    m_rack = false;
+    m_why_paused.clear();
+  }
+}
+
+void AttemptWindow::lead(Live& live, const Snapshot& now) {
+  if (!m_pilot) return;
+  const devices::HandSample& sample = m_stage.window.hands();
+  const bool still = stands_still() || m_rack;
+  if (still) {
+    if (m_rack && !stands_still()) live.put(m_pilot->rest(sample.dt, now.state));
+  } else {
+    if (m_was_still) {
+      m_pilot->set(hand_settings(m_stage.settings, 0));
+      m_pilot->take_up(sample);
+    }
+    live.put(m_pilot->lead(sample, now.state));
+    if (m_pilot->command().rack) m_rack = true;
+  }
+  m_was_still = still;
+}
+
+void AttemptWindow::tell(Live& live) {
+  const Snapshot& now = live.snapshot();
+  for (const Moment& m : live.take_moments()) {
+    const Notice* notice = m_feedback.add(m, now.seconds, now_seconds());
+    if (notice && notice->tone) m_stage.sound.play(*notice->tone);
+    m_stage.log.moment(m_lesson.model, m);
+  }
+  if (const std::string warning = m_log.warning(); warning != m_told_warning) {
+    m_told_warning = warning;
+    m_feedback.add(ui::Mark::warning, warning, now.seconds, now_seconds());
+  }
+  m_stage.log.pose(m_lesson.model, now, m_pilot ? m_pilot->hands().led : 0);
+}
+
+void AttemptWindow::warn_of_pull(const Snapshot& now) {
+  if (!m_pilot || stands_still()) return;
+  double pull = 0;
+  for (int h = 0; h < hand_count(m_lesson.model); ++h) pull = std::max(pull, pull_on(now.state, h));
+  if (m_pull_warning.due(pull, pull_limit(m_lesson), now_seconds())) m_stage.sound.play(Tone::warning);
+}
+
+void AttemptWindow::draw_scene(const Snapshot& now) {
+  const Window& window = m_stage.window;
+  const float panel = panel_width(float(window.width()), window.scale());
+  const int width = std::max(1, window.width() - int(panel)), height = std::max(1, window.height());
+  view::ViewOptions options;
+  options.quality = m_stage.governor.quality();
+  render::draw_frame(*m_stage.backend, m_stage.view_of(m_lesson).frame(now.state, options),
+                     render::Target::window(width, height));
+  if (m_stage.settings.mirrored_picture) mirror(width, height);
+  const PanelContent content{m_lesson,
+                             now,
+                             m_pilot ? &m_pilot->hands() : nullptr,
+                             m_plan.input == "demo" ? "the scripted surgeon" : m_plan.input,
+                             m_log.attempt().trainee,
+                             mode_text(),
+                             m_steps,
+                             m_feedback,
+                             stands_still(),
+                             m_gamepad_used && m_stage.window.gamepads().present(),
+                             pull_limit(m_lesson)};
+  draw_panel(content, float(width), panel, float(height));
+  if (!stands_still()) draw_notices(m_feedback, now_seconds(), float(width), float(height));
+}
+
+void AttemptWindow::draw_over(const Snapshot& now, Choice& choice) {
+  if (m_stage.overlay() != Stage::Overlay::none) return;
+  const bool gamepad = m_stage.window.gamepads().present();
+  if (m_over) {
+    choice = draw_result(m_result, mode_text(), m_lesson.exercise.has_value());
+  } else if (m_hint) {
+    if (draw_hint(gamepad, m_hint_again) == Choice::resume) {
+      m_hint = false;
+      m_stage.settings.show_hint = m_hint_again;
+      m_stage.keep_settings();
+    }
+  } else if (m_paused) {
+    choice =
+        draw_pause(m_why_paused, m_log.attempt().recording, m_plan.mode == AttemptMode::assessed && !m_steps.empty());
+  } else if (m_rack) {
+    draw_the_rack(now);
+  }
+  if (choice == Choice::resume) m_paused = false, m_why_paused.clear();
+  if (choice == Choice::settings) m_stage.open(Stage::Overlay::settings);
+  if (choice == Choice::help) m_stage.open(Stage::Overlay::help);
+  if (choice == Choice::report) open_report();
+}
+
+void AttemptWindow::draw_the_rack(const Snapshot& now) {
+  const Window& window = m_stage.window;
+  const float picture = float(window.width()) - panel_width(float(window.width()), window.scale());
+  const RackChoice c = draw_rack(m_lesson.model, now.state, m_pilot->hands(), picture);
+  if (c.hand != -2) m_pilot->choose(c.hand);
+  if (c.instrument >= 0) m_pilot->take(c.instrument);
+  if (c.insert) m_pilot->insert();
+  if (c.ratchet) m_pilot->toggle_ratchet();
+  if (c.pause) hold("");
+  if (c.close || c.instrument >= 0 || c.insert || c.ratchet) m_rack = false;
+}
+
+void AttemptWindow::open_report() {
+  try {
+    if (m_report.empty()) m_report = write_report(data_folder() / "reports" / m_log.attempt().uuid, m_result);
+    if (!ui::open_in_browser(m_report.string())) core::log::info("the report: {}", m_report.string());
+    m_stage.log.event("report", {{"file", m_report.string()}});
+  } catch (const core::EnvironmentLacks& lacks) {
+    m_feedback.add(ui::Mark::warning, lacks.what(), 0, now_seconds());
+    core::log::warn("{}", lacks.what());
+  }
+}
+
+void AttemptWindow::end(Live& live, Ending ending) {
+  live.stop();
+  tell(live);
+  // Practice has no goal, so closing the window is its proper end.
+  const bool left = ending == Ending::left && m_session.monitor();
+  m_result = m_session.result(left);
+  if (ending == Ending::finished_early && m_session.monitor() && !m_session.monitor()->finished()) {
+    m_result["finished_early"] = true;
+    if (m_result["passed"].is_boolean()) m_result["passed"] = false;
+  }
+  m_result["input"] = m_plan.input;
+  m_result["slow_motion_share"] = live.slow_share();
+  if (m_source) m_result.update(m_source->describe());
+  m_log.end(m_result, left ? AttemptState::aborted : AttemptState::finished);
+  m_stage.log.event("end", {{"interrupted", left}, {"passed", m_result["passed"]}, {"ticks", m_result["ticks"]}});
+  if (ending == Ending::came_to_its_end) m_stage.sound.play(Tone::finished);
+  if (!m_log.attempt().recording.empty()) core::log::info("recording: {}", m_log.attempt().recording);
+  m_over = true;
+  m_rack = m_paused = m_hint = false;
+}
+
+}  // namespace trocar::app

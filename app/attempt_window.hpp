@@ -1,0 +1,62 @@
+// One attempt in the window, from the first tick to the end of its recording: hands or a source lead, the panel guides,
+// pause, rack, help, result.
+//
+//   AttemptWindow attempt(stage, lesson, plan);
+//   const Choice next = attempt.run();        // restart, start_screen or quit
+#pragma once
+
+#include "attempt_log.hpp"
+#include "feedback.hpp"
+#include "hand_pilot.hpp"
+#include "live.hpp"
+#include "panel.hpp"
+#include "stage.hpp"
+
+namespace trocar::app {
+
+class AttemptWindow {
+ public:
+  /// @param plan.input "mouse" or "gamepad": hands; else a source, see make_source()
+  AttemptWindow(Stage& stage, const Lesson& lesson, const AttemptPlan& plan);
+
+  Choice run();
+  const Json& result() const { return m_result; }
+  const std::string& recording() const { return m_log.attempt().recording; }
+
+ private:
+  enum class Ending { came_to_its_end, finished_early, left };
+
+  void picture(Live& live, Choice& choice);
+  void look_at_keys();
+  void hold(const std::string& why);
+  bool stands_still() const;
+  void lead(Live& live, const Snapshot& now);
+  void tell(Live& live);
+  void warn_of_pull(const Snapshot& now);
+  void draw_scene(const Snapshot& now);
+  void draw_over(const Snapshot& now, Choice& choice);
+  void draw_the_rack(const Snapshot& now);
+  void open_report();
+  void end(Live& live, Ending ending);
+  std::string screen_name() const;
+  std::string mode_text() const;
+  double now_seconds() const;
+
+  Stage& m_stage;
+  const Lesson& m_lesson;
+  AttemptPlan m_plan;
+  Session m_session;
+  AttemptLog m_log;
+  std::unique_ptr<HandPilot> m_pilot;
+  std::unique_ptr<InputSource> m_source;
+  std::vector<training::StepStatus> m_steps;
+  Feedback m_feedback;
+  PullWarning m_pull_warning;
+  std::string m_told_warning, m_why_paused;
+  Json m_result;
+  std::filesystem::path m_report;
+  bool m_hint = false, m_hint_again = false, m_paused = false, m_rack = false, m_over = false;
+  bool m_was_still = true, m_gamepad_used = false, m_had_focus = false;
+};
+
+}  // namespace trocar::app

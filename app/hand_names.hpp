@@ -1,0 +1,31 @@
+// The hands and what they hold, in words for people.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <trocar/sim/state.hpp>
+
+namespace trocar::app {
+
+/// "clip_applier" -> "clip applier"
+std::string in_words(std::string name);
+
+int hand_count(const sim::Model& model);
+/// Where hand `h` comes in: "left lateral".
+std::string hand_name(const sim::Model& model, int h);
+/// The instrument that hand `h` holds now.
+const interactions::ToolModel& held_by(const sim::Model& model, const sim::State& state, int h);
+
+/// An instrument that fits a hand's trocar.
+struct Choosable {
+  int index = -1;  ///< as ToolInput::instrument
+  std::string name;
+  bool held = false;
+};
+std::vector<Choosable> choosable(const sim::Model& model, const sim::State& state, int h);
+
+/// The pull of the tissue on hand `h` [N].
+double pull_on(const sim::State& state, int h);
+
+}  // namespace trocar::app

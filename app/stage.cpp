@@ -1,0 +1,151 @@
+#include "stage.hpp"
+
+#include <cstdlib>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include <trocar/core/log.hpp>
+
+#include "interrupt.hpp"
+#include "panel.hpp"
+#include "start_screen.hpp"
+#include "ui.hpp"
+
+namespace trocar::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A software renderer that takes every core would take the simulation's, too. Read by Mesa when the context is made.
+void leave_a_core_to_the_simulation() {
+  const unsigned cores = std::max(2u, std::thread::hardware_concurrency());
+  setenv("LP_NUM_THREADS", std::to_string(cores - 1).c_str(), 0);
+}
+
+std::string log_path(const WindowOptions& options) {
+  const char* from_environment = std::getenv("TROCAR_WINDOW_LOG");
+  return !options.log.empty() ? options.log : from_environment ? from_environment : "";
+}
+
+PictureSize first_size(const WindowOptions& options, const Settings& settings) {
+  leave_a_core_to_the_simulation();
+  return options.size.value_or(PictureSize{settings.window_width, settings.window_height});
+}
+
+}  // namespace
+
+Stage::Stage(const WindowOptions& o)
+    : options(o),
+      settings(read_settings(settings_file(), setting_faults)),
+      window("Trocar", first_size(o, settings)),
+      context(render::GlContext::adopt_current()),
+      backend(render::make_gl_backend(*context)),
+      log(log_path(o)) {
+  for (const core::Fault& f : setting_faults) core::log::warn("{}", core::to_string(f));
+  if (!o.trainee.empty()) settings.trainee = proper_name(o.trainee);
+  apply_settings();
+  core::log::info("drawing with {}", context->description());
+}
+
+Stage::~Stage() {
+  if (!options.size) {
+    const PictureSize size = window.size_to_keep();
+    settings.window_width = std::clamp(size.width, kLeastWidth, kMostPixels);
+    settings.window_height = std::clamp(size.height, kLeastHeight, kMostPixels);
+  }
+  keep_settings();
+}
+
+bool Stage::wants_to_close() const { return window.wants_to_close() || interrupted(); }
+
+view::SceneView& Stage::view_of(const Lesson& lesson) {
+  if (m_viewed != &lesson) {
+    m_view.reset();
+    m_view = std::make_unique<view::SceneView>(lesson.model, *backend);
+    m_viewed = &lesson;
+  }
+  return *m_view;
+}
+
+void Stage::drop_view() {
+  m_view.reset();
+  m_viewed = nullptr;
+}
+
+void Stage::open(Overlay overlay) {
+  if (overlay == Overlay::settings) m_before = settings;
+  m_overlay = overlay;
+}
+
+void Stage::begin_picture(bool hands) {
+  window.capture_pointer(hands);
+  window.begin_picture();
+  if (window.keys().help) open(m_overlay == Overlay::help ? Overlay::none : Overlay::help);
+}
+
+void Stage::apply_settings() {
+  window.set_text_size(settings.text_size);
+  sound.set_volume(settings.volume);
+}
+
+void Stage::keep_settings() {
+  try {
+    write_settings(settings_file(), settings);
+  } catch (const core::EnvironmentLacks& lacks) {
+    if (!m_told_fault) core::log::warn("{}", lacks.what());
+    m_told_fault = true;
+  }
+}
+
+void Stage::draw_overlay() {
+  if (m_overlay == Overlay::none) return;
+  const bool back = window.keys().back;
+  if (m_overlay == Overlay::help) {
+    if (draw_help(window.gamepads().present(), settings.left_handed) != Choice::none || back) m_overlay = Overlay::none;
+    return;
+  }
+  const bool closed = draw_settings(settings, m_before, sound.audible());
+  apply_settings();
+  if (!closed && !back) return;
+  keep_settings();
+  m_overlay = Overlay::none;
+}
+
+void Stage::end_picture(const std::string& name, const fs::path& pictures) {
+  if (m_overlay != Overlay::none) static_cast<void>(ui::take_widgets());  // what lies under it cannot be reached
+  const std::string shown = m_overlay == Overlay::help ? "help" : m_overlay == Overlay::settings ? "settings" : name;
+  draw_overlay();
+  window.draw_panels();
+  log_widgets(shown);
+  if (window.keys().picture) save_picture(pictures);
+  window.show();
+}
+
+/// What an eye would find on the screen: told when it has changed.
+void Stage::log_widgets(const std::string& screen) {
+  const std::vector<ui::Widget> widgets = ui::take_widgets();
+  if (!log.on()) return;
+  Json list = Json::object();
+  for (const ui::Widget& w : widgets) list[w.id] = {w.x, w.y};
+  const Json line{{"name", screen}, {"widgets", list}, {"focused", window.focused()}};
+  if (std::string text = line.dump(-1, ' ', false, Json::error_handler_t::replace); text != m_logged) {
+    m_logged = std::move(text);
+    log.event("screen", line);
+  }
+}
+
+void Stage::save_picture(const fs::path& stem) {
+  fs::path file = stem;
+  file.replace_extension(fmt::format("{:03}.png", m_pictures++));
+  try {
+    render::write_png(file.string(), window.read_back());
+    core::log::info("saved {}", file.string());
+    log.event("picture", {{"file", file.string()}});
+  } catch (const core::EnvironmentLacks& lacks) {
+    core::log::warn("{}", lacks.what());
+  }
+}
+
+}  // namespace trocar::app

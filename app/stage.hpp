@@ -1,0 +1,68 @@
+// Everything that lives as long as the window: context, settings, sound, log, store, the view of the scene that is
+// there; and what every screen does the same way: begin a picture, show help and settings over it, end it.
+#pragma once
+
+#include <memory>
+
+#include <trocar/render/backend.hpp>
+#include <trocar/render/gl_context.hpp>
+#include <trocar/render/governor.hpp>
+#include <trocar/view/scene_view.hpp>
+
+#include "event_log.hpp"
+#include "settings.hpp"
+#include "sound.hpp"
+#include "window.hpp"
+#include "window_loop.hpp"
+
+namespace trocar::app {
+
+class Stage {
+ public:
+  explicit Stage(const WindowOptions& options);
+  ~Stage();  ///< keeps the window's size
+  Stage(const Stage&) = delete;
+  Stage& operator=(const Stage&) = delete;
+
+  const WindowOptions& options;
+  std::vector<core::Fault> setting_faults;
+  Settings settings;
+  Window window;
+  std::unique_ptr<render::GlContext> context;
+  std::unique_ptr<render::Backend> backend;
+  render::Governor governor;
+  EventLog log;
+  Sound sound;
+
+  bool wants_to_close() const;
+  /// The view of this lesson's scene; made anew where it is another lesson than last time.
+  view::SceneView& view_of(const Lesson& lesson);
+  void drop_view();  ///< the lesson is about to go
+
+  /// Help and settings, over whatever is there.
+  enum class Overlay { none, help, settings };
+  void open(Overlay overlay);
+  Overlay overlay() const { return m_overlay; }
+
+  void begin_picture(bool hands);  ///< hands: the pointer is the instrument's
+  /// Overlays, ImGui, F12, the finished picture. `name` of the screen is for the log.
+  void end_picture(const std::string& name, const std::filesystem::path& pictures);
+
+  void apply_settings();
+  void keep_settings();  ///< writes the file; a fault is told once on stderr
+
+ private:
+  void draw_overlay();
+  void log_widgets(const std::string& screen);
+  void save_picture(const std::filesystem::path& stem);
+
+  std::unique_ptr<view::SceneView> m_view;
+  const Lesson* m_viewed = nullptr;
+  Overlay m_overlay = Overlay::none;
+  Settings m_before;
+  std::string m_logged;
+  int m_pictures = 0;
+  bool m_told_fault = false;
+};
+
+}  // namespace trocar::app
