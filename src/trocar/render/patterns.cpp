@@ -226,7 +226,7 @@ Pattern vessel_pattern() {
   Canvas red(size, size), veins = red;
   grow(red, {3, 0.6f * largest, 0.8f * largest, 1.0f, 0.8f, 1.1f}, random);
   grow(red, {14, 1.6f, 2.6f, 0.9f, 0.75f, 1.3f}, random);
-  grow(red, {120, 0.7f, 1.2f, 0.75f, 0.65f, 1.4f}, random);
+  grow(red, {70, 1.0f, 1.5f, 0.7f, 0.65f, 1.4f}, random);
   grow(veins, {4, 0.7f * largest, largest, 0.9f, 2.0f, 0.8f}, random);
   return pattern_of(red, veins, 0);
 }

@@ -13,9 +13,11 @@ class OrganDrawing {
   /// @param paint one per vertex of solid.fine (baked openness)
   OrganDrawing(const sim::SolidModel& solid, const Relief& relief, std::vector<Paint> paint, render::Backend& backend);
 
-  /// Moves the mesh; costs nothing where no node has moved since the last time.
+  /// Moves the mesh; costs nothing where no node has moved since the last time and no instrument touches it.
   /// @param parted one byte a triangle of solid.fine, 1 = cut open (empty: none)
-  void update(const tissue::NetworkState& state, std::span<const std::uint8_t> parted = {});
+  /// @param rods instruments that may touch it: they leave a dent, finer than the mechanics resolve
+  void update(const tissue::NetworkState& state, std::span<const std::uint8_t> parted = {},
+              std::span<const collision::Capsule> rods = {});
   render::MeshHandle mesh() const { return m_mesh.handle(); }
   /// As drawn now, per vertex of solid.fine.
   std::span<const Vec3f> positions() const { return m_pose.position; }
@@ -26,6 +28,8 @@ class OrganDrawing {
   void open_wounds(std::span<const std::uint8_t> parted);
   void sink_wounds();
   bool moved(const tissue::NetworkState& state);
+  bool near(std::span<const collision::Capsule> rods) const;
+  void dent(std::span<const collision::Capsule> rods);
 
   const sim::SolidModel* m_solid;
   tissue::SkinPose m_pose;
@@ -46,6 +50,8 @@ class OrganDrawing {
   std::vector<Paint> m_paint;              ///< of the skin
   MeshBuffer m_open;                       ///< skin and wounds, where there are any
   std::vector<float> m_height;             ///< relief; empty: none
+  tissue::Box m_box;                       ///< of the drawn vertices
+  bool m_dented = false;                   ///< as drawn
   std::vector<tissue::NodeState> m_drawn;  ///< the nodes that the mesh shows
   OwnedMesh m_mesh;
 };

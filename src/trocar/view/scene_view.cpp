@@ -14,6 +14,7 @@
 #include <trocar/view/looks.hpp>
 #include <trocar/view/organ_drawing.hpp>
 #include <trocar/view/scene_view.hpp>
+#include <trocar/view/membrane_drawing.hpp>
 #include <trocar/view/sheet_drawing.hpp>
 #include <trocar/view/tube_drawing.hpp>
 
@@ -82,6 +83,7 @@ struct SceneView::Parts {
   std::vector<const Look*> drape_look;
   std::vector<TubeDrawing> tubes;
   std::vector<SheetDrawing> sheets;
+  std::vector<MembraneDrawing> membranes;
   std::vector<OwnedMesh> walls, margins;
   std::vector<MeshBuffer> margin_shapes;
   OwnedMesh cavity;
@@ -159,6 +161,7 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
     t.create(std::move(paint), backend);
   }
   for (int i = 0; i < int(model.sheets.size()); ++i) sheets.emplace_back(model, i, backend);
+  for (int i = 0; i < int(model.membranes.size()); ++i) membranes.emplace_back(model, i, backend);
 }
 
 /// From a hand's port to where its instrument comes through the drawn wall [m]; 0 where the port lies before it.
@@ -204,11 +207,18 @@ void SceneView::Parts::make_metal(render::Backend& backend) {
 }
 
 void SceneView::Parts::update(const sim::State& state) {
-  for (std::size_t i = 0; i < organs.size(); ++i) organs[i].update(state.solids[i], state.parted[i]);
+  std::vector<collision::Capsule> rods;  // of instruments that hold nothing: what is held is pressed by its jaws
+  for (std::size_t h = 0; h < model.hands.size(); ++h) {
+    const interactions::ToolState& tool = state.tools[h];
+    const interactions::ToolShape shape = shape_of(model.tool(state, h), tool.pose(), tool.aperture);
+    if (tool.holds == 0) rods.insert(rods.end(), std::begin(shape.part), std::end(shape.part));
+  }
+  for (std::size_t i = 0; i < organs.size(); ++i) organs[i].update(state.solids[i], state.parted[i], rods);
   for (std::size_t i = 0; i < fat.size(); ++i) fat[i].update(organs[std::size_t(fat_on[i])]);
   for (Drape& d : drapes) d.update(organs);
   for (TubeDrawing& t : tubes) t.update(state);
   for (SheetDrawing& s : sheets) s.update(state);
+  for (MembraneDrawing& m : membranes) m.update(state);
   for (LoadedClip& l : loaded) {
     const interactions::ToolState& now = state.tools[std::size_t(l.hand)];
     if (now.instrument != l.instrument) continue;
@@ -238,6 +248,8 @@ void SceneView::Parts::list_tissues(bool with_walls, Frame& frame) const {
   }
   for (std::size_t i = 0; i < sheets.size(); ++i)
     frame.items.push_back(item(sheets[i].mesh(), look(model.sheets[i].look)));
+  for (std::size_t i = 0; i < membranes.size(); ++i)
+    frame.items.push_back(item(membranes[i].mesh(), look(model.membranes[i].look)));
 }
 
 void SceneView::Parts::list_clips(const sim::State& state, Frame& frame) const {

@@ -265,16 +265,19 @@ void TubeDrawing::add_raw_face(int piece, bool at_start) {
   const double s = at_start ? p.from : p.to, sign = at_start ? -1 : 1, r = radius_at(s);
   const double open = m_strand->inner.empty() ? 0 : m_strand->inner[std::size_t(at_start ? p.first : p.last)];
   const double lumen = std::max(open, 0.22 * r);
-  const Paint raw{235, 120, 0, 0}, dark{30, 255, 0, 0};
+  // A pale ring of muscle under the serosa's red rim, the mucosa around the lumen, and blood in that.
+  const Paint raw{235, 70, 0, 0}, muscle{235, 18, 78, 0}, mucosa{190, 60, 0, 230}, dark{40, 190, 0, 255};
   std::vector<TubeRow> rows;
   const auto row = [&](double along, double radius, Paint paint) {
     rows.push_back({piece, s, sign * along, radius, 0, 0, false, paint});
   };
   row(0, r, raw);
   row(0.10 * r, 0.9 * r, raw);
-  row(0.19 * r, 0.62 * r, raw);
-  row(0.2 * r, 1.25 * lumen, raw);
-  row(0.02 * r, 0.85 * lumen, dark);
+  row(0.15 * r, 0.8 * r, muscle);
+  row(0.19 * r, 0.62 * r, muscle);
+  row(0.2 * r, std::min(1.5 * lumen, 0.55 * r), muscle);
+  row(0.17 * r, std::min(1.2 * lumen, 0.46 * r), mucosa);
+  row(0.02 * r, std::min(0.85 * lumen, 0.36 * r), dark);
   row(-0.2 * r, 0, dark);
   rows.front().crease = !at_start;
   if (at_start) std::reverse(rows.begin(), rows.end());

@@ -97,6 +97,9 @@ vec2 vessels_at(vec3 p, vec3 n) {
 uniform vec4 u_rods[32];  // one end and the radius, way to the other end and 1 / its square; eye space
 uniform int u_rod_count;
 
+// The lamp counts as farther off the lens than it is, for shadows: under a true one they hide behind the instrument.
+const float kShadowSpread = 1.8;
+
 struct Shade {
   float lamp;    // share of the lamp that is seen
   float around;  // share of the surroundings that is seen
@@ -108,7 +111,7 @@ struct Shade {
 // height in a picture without parallax. Closest points of two segments as in [Ericson 05, 5.1.9].
 Shade shade_of_rods(vec3 eye, vec3 n, vec3 r) {
   Shade shade = Shade(1.0, 1.0, 0.0);
-  vec3 u = LIGHT_POSITION - eye;
+  vec3 u = kShadowSpread * LIGHT_POSITION - eye;
   float a = dot(u, u);
   for (int i = 0; i < u_rod_count; ++i) {
     vec4 end = u_rods[2 * i], way = u_rods[2 * i + 1];
@@ -126,7 +129,7 @@ Shade shade_of_rods(vec3 eye, vec3 n, vec3 r) {
     vec3 near = clamp(e * way.w, 0.0, 1.0) * way.xyz - w;
     float far2 = max(dot(near, near), end.w * end.w);
     float facing = clamp(0.3 + 0.7 * dot(near, n) * inversesqrt(far2), 0.0, 1.0);
-    float reach = 1.5 * end.w;
+    float reach = 1.2 * end.w + 0.0012;
     shade.around *= 1.0 - 0.85 * facing * min(1.0, reach * reach / far2);
 #if DETAIL >= 2
     float k = dot(r, way.xyz), m = dot(r, w);
@@ -254,7 +257,7 @@ void main() {
 #ifdef RODS
   Shade shade = shade_of_rods(v_eye, N, reflect(-V, N));
   // Light that has gone through tissue fills shadows: red the most.
-  float shaded = shade.lamp * mix(1.0, shade.around, 0.6);
+  float shaded = shade.lamp * mix(1.0, shade.around, 0.75);
   direct *= mix(vec3(shaded), vec3(1.0), vec3(0.22, 0.08, 0.09));
   indirect *= shade.around;
   lit.power *= mix(1.0, shade.lamp, 0.8);
