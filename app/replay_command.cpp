@@ -6,6 +6,7 @@
 #include <trocar/core/log.hpp>
 
 #include "command.hpp"
+#include "player.hpp"
 #include "replay_headless.hpp"
 
 namespace trocar::app {
@@ -52,6 +53,13 @@ int replay(Options o, bool json) {
   const sim::Recording recording = sim::read_recording(o.replay.file);
   if (!recording.damage.empty()) core::log::warn("{}: {}", o.replay.file, recording.damage);
   const std::string& exercise = o.exercise.empty() ? recording.header.exercise : o.exercise;
+  const bool window = !json && !o.headless && !o.replay.verify && o.replay.shots.empty() && o.replay.video.empty();
+  if (window) {
+    PlayerOptions player{o.replay.file, exercise, o.log};
+    if (!o.size.empty()) player.size = o.replay.size;
+    run_player(recording, player);
+    return core::kDone;
+  }
   const std::unique_ptr<Lesson> lesson = load_lesson(exercise, recording.header.seed);
   Json result = head(recording, o.replay);
   result.update(replay_headless(*lesson, recording, o.replay));

@@ -1,0 +1,23 @@
+// `trocar replay FILE` in a window: any moment of a recording, exactly, from any side.
+#pragma once
+
+#include <string>
+
+#include <trocar/sim/recording.hpp>
+
+#include "picture_size.hpp"
+
+namespace trocar::app {
+
+struct PlayerOptions {
+  std::string file;      ///< the recording; pictures and films are saved beside it
+  std::string exercise;  ///< where its exercise is now
+  std::string log;       ///< events as JSON lines; empty: $TROCAR_WINDOW_LOG
+  PictureSize size{1280, 800};
+};
+
+/// Opens the player and returns when it is closed.
+/// @throws core::EnvironmentLacks without a display, core::BadInput for what the recording's scene lacks
+void run_player(const sim::Recording& recording, const PlayerOptions& options);
+
+}  // namespace trocar::app
