@@ -28,5 +28,6 @@ void add_list(CLI::App& program, Chosen& chosen);
 void add_bench(CLI::App& program, Chosen& chosen);
 void add_gallery(CLI::App& program, Chosen& chosen);
 void add_report(CLI::App& program, Chosen& chosen);
+void add_trials(CLI::App& program, Chosen& chosen);
 
 }  // namespace trocar::app

@@ -1,5 +1,6 @@
 // Each metric on motions whose figure can be worked out by hand, and the properties that all of them must have.
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -284,8 +285,13 @@ TEST(Metrics, AreTheSameFromAStoredTrace) {
   Trace trace = wander(6);
   for (TraceHand& hand : trace.hands)
     for (TraceSample& s : hand.samples) s = rounded(s);
+  trace.marks = {{TraceMark::grasped, 0, 400}, {TraceMark::clipped, 1, 1100}, {TraceMark::released, 0, 1500}};
   EXPECT_EQ(metrics_json(trace), metrics_json(trace_from_bytes(to_bytes(trace), "x")));
   EXPECT_EQ(metrics_json(trace), metrics_json(trace_from_csv(to_csv(trace), "x")));
+  if (const char* folder = std::getenv("TROCAR_METRICS_SAMPLE")) {  // for tools/check_metrics.py
+    std::ofstream(std::string(folder) + "/trace.csv") << to_csv(trace);
+    std::ofstream(std::string(folder) + "/metrics.json") << metrics_json(trace);
+  }
 }
 
 TEST(Metrics, SensorNoiseBarelyLengthensThePath) {

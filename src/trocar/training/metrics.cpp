@@ -86,6 +86,7 @@ Vec3d force_of(const TraceSample& s, int kind) {
 
 std::vector<Vec3d> forces_of(const TraceHand& hand, const Window& window, int kind) {
   std::vector<Vec3d> forces;
+  if (!hand.has_forces) return forces;
   forces.reserve(window.count);
   for (std::size_t i = 0; i < window.count; ++i) forces.push_back(force_of(hand.samples[window.first + i], kind));
   return forces;

@@ -41,6 +41,7 @@ struct MetricsOptions {
   std::array<int, 2> pair{-1, -1};                         ///< hands compared; -1: the two with the longest paths
 };
 
+/// All NaN where forces were not measured.
 struct ForceMetrics {
   double max = 0, mean_nonzero = 0, rms = 0;  ///< [N]
   double impulse = 0;                         ///< integral of the size over time [N s]

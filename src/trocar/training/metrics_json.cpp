@@ -17,6 +17,7 @@ Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nul
 Json count(double value) { return std::isfinite(value) ? Json(std::int64_t(value)) : Json(nullptr); }
 
 Json force_json(const ForceMetrics& f, double limit) {
+  if (!std::isfinite(f.max)) return nullptr;  // not measured
   return {{"max_N", number(f.max)},        {"mean_nonzero_N", number(f.mean_nonzero)},
           {"rms_N", number(f.rms)},        {"impulse_Ns", number(f.impulse)},
           {"volume_N3", number(f.volume)}, {"above_limit_s", number(f.above)},
@@ -58,7 +59,8 @@ Json bimanual_json(const Metrics& m) {
 
 std::string metrics_json(const Metrics& m) {
   Json j{{"sampling_hz", number(m.rate)}, {"low_pass_hz", kMotionCutoff}, {"from_s", number(m.from)},
-         {"to_s", number(m.to)},          {"time_s", number(m.time)},     {"hands", Json::array()}};
+         {"to_s", number(m.to)},          {"time_s", number(m.time)},     {"duration_s", number(m.duration)},
+         {"hands", Json::array()}};
   for (const HandMetrics& h : m.hands) j["hands"].push_back(hand_json(h, m.force_limits));
   j["both"] = hand_json(m.both, m.force_limits);
   j["bimanual"] = bimanual_json(m);

@@ -143,13 +143,15 @@ double pearson(std::span<const double> a, std::span<const double> b) {
     bb += y * y;
     ab += x * y;
   }
-  return aa > 0 && bb > 0 ? ab / (std::sqrt(aa) * std::sqrt(bb)) : kNoMetric;
+  // What varies by less than its mean's rounding does not vary.
+  const auto varies = [n](double squares, double mean) { return squares > 1e-24 * n * mean * mean; };
+  return varies(aa, mean_a) && varies(bb, mean_b) ? ab / (std::sqrt(aa) * std::sqrt(bb)) : kNoMetric;
 }
 
 ForceMetrics force_metrics(std::span<const Vec3d> force, double rate, double limit) {
   ForceMetrics m;
   const auto n = double(force.size());
-  if (force.empty()) return m;
+  if (force.empty()) return {kNoMetric, kNoMetric, kNoMetric, kNoMetric, kNoMetric, kNoMetric};
   double squares = 0, sum_nonzero = 0, nonzero = 0;
   Vec3d mean;
   for (const Vec3d& f : force) {

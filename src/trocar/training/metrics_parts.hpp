@@ -36,6 +36,7 @@ std::vector<char> idle_samples(std::span<const std::span<const double>> speeds, 
 
 double pearson(std::span<const double> a, std::span<const double> b);
 
+/// @param force  none: not measured, all NaN
 /// @param limit  of time above it [N]
 ForceMetrics force_metrics(std::span<const Vec3d> force, double rate, double limit);
 

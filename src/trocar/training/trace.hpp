@@ -48,6 +48,7 @@ struct TraceHand {
   std::string name;
   bool has_shaft = true;  ///< false: orientation is only the roll about the shaft, whose direction is not known
   std::vector<TraceSample> samples;
+  bool has_forces = true;  ///< false: pinch, pull and contact were not measured
   bool operator==(const TraceHand&) const = default;
 };
 

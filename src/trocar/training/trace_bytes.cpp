@@ -1,8 +1,7 @@
 // A Trace as bytes, little-endian:
-//   "TRCT", u32 format, f64 rate, f64 start, u32 instruments, a text each, u32 hands, a text and u8 has_shaft each,
-//   u8 scope, u32 marks, (u32 kind, u32 hand, u32 sample) each, u32 samples,
-//   the columns: all samples of one channel after the other, hands first, then the scope,
-//   u64 checksum (XXH3) of everything before.
+//   "TRCT", u32 format, f64 rate, f64 start, u32 instruments, a text each, u32 hands, a text and u8 (1 = has_shaft, 2 =
+//   has_forces) each, u8 scope, u32 marks, (u32 kind, u32 hand, u32 sample) each, u32 samples, the columns: all samples
+//   of one channel after the other, hands first, then the scope, u64 checksum (XXH3) of everything before.
 // A text is u32 length and so many bytes. A column is whole numbers of steps; stored are differences of order 1 or 2,
 // zigzag (0 -1 1 -2 .. as 0 1 2 3 ..) in 7-bit groups, lowest first, with bit 7 = more follows; a 0 is followed by the
 // number of further zeros, at most 1023, so that stillness costs nothing and size stays bounded by the bytes there are.
@@ -90,7 +89,10 @@ class Reader {
     const std::uint64_t hands = count("hands", kMaxTraceHands);
     for (std::uint64_t h = 0; h < hands; ++h) {
       trace.hands.push_back({text(), true, {}});
-      trace.hands.back().has_shaft = integer(1) != 0;
+      const std::uint64_t known = integer(1);
+      if (known > 3) reject("expected 0 to 3 for what is known of a hand");
+      trace.hands.back().has_shaft = (known & 1) != 0;
+      trace.hands.back().has_forces = (known & 2) != 0;
     }
     const bool scope = integer(1) != 0;
     const std::uint64_t marks = count("marks", kMaxTraceMarks);
@@ -225,7 +227,7 @@ std::vector<std::uint8_t> to_bytes(const Trace& trace) {
   w.integer(trace.hands.size(), 4);
   for (const TraceHand& hand : trace.hands) {
     w.text(hand.name);
-    w.integer(hand.has_shaft ? 1 : 0, 1);
+    w.integer((hand.has_shaft ? 1u : 0u) | (hand.has_forces ? 2u : 0u), 1);
   }
   w.integer(trace.scope.empty() ? 0 : 1, 1);
   w.integer(trace.marks.size(), 4);

@@ -2,7 +2,7 @@
 //   # trocar trace 1
 //   # rate_hz 50
 //   # instrument grasper                 one line each, in order
-//   # hand left_lateral shaft            or: roll-only
+//   # hand left_lateral shaft forces     or: roll-only, no-forces
 //   # mark clipped left_lateral 1234     kind, hand, sample
 //   t_s,left_lateral.x_m,...,scope.eye_x_m,...
 //   0.02,...
@@ -136,14 +136,16 @@ class CsvReader {
       m_trace.rate = value_of(number, 1e6);
     else if (what == "instrument" && words.size() == 3 && m_trace.instruments.size() < kMaxTraceNames)
       m_trace.instruments.emplace_back(words[2].substr(0, kMaxName));
-    else if (what == "hand" && words.size() == 4 && m_trace.hands.size() < kMaxTraceHands &&
-             (words[3] == "shaft" || words[3] == "roll-only"))
-      m_trace.hands.push_back({std::string(words[2].substr(0, kMaxName)), words[3] == "shaft", {}});
+    else if (what == "hand" && words.size() == 5 && m_trace.hands.size() < kMaxTraceHands &&
+             (words[3] == "shaft" || words[3] == "roll-only") && (words[4] == "forces" || words[4] == "no-forces"))
+      m_trace.hands.push_back(
+          {std::string(words[2].substr(0, kMaxName)), words[3] == "shaft", {}, words[4] == "forces"});
     else if (what == "mark" && words.size() == 5 && m_trace.marks.size() < kMaxTraceMarks)
       mark(words);
     else
       fault(1,
-            "expected rate_hz (1 to 10000), instrument NAME, hand NAME shaft|roll-only, or mark KIND HAND SAMPLE "
+            "expected rate_hz (1 to 10000), instrument NAME, hand NAME shaft|roll-only forces|no-forces, or mark KIND "
+            "HAND SAMPLE "
             "(not too many), got " +
                 shown(line));
   }
@@ -228,7 +230,8 @@ std::string to_csv(const Trace& trace) {
   std::string text = fmt::format("# trocar trace 1\n# rate_hz {:.6f}\n", trace.rate);
   for (const std::string& name : trace.instruments) text += "# instrument " + plain(name) + '\n';
   for (const TraceHand& hand : trace.hands)
-    text += "# hand " + plain(hand.name) + (hand.has_shaft ? " shaft\n" : " roll-only\n");
+    text += "# hand " + plain(hand.name) + (hand.has_shaft ? " shaft" : " roll-only") +
+            (hand.has_forces ? " forces\n" : " no-forces\n");
   for (const TraceMark& m : trace.marks)
     text +=
         fmt::format("# mark {} {} {}\n", kMarkNames[m.kind], plain(trace.hands[std::size_t(m.hand)].name), m.sample);
