@@ -34,6 +34,10 @@ if(TROCAR_SANITIZE)
   add_link_options(-fsanitize=${TROCAR_SANITIZE})
 endif()
 
+if(TROCAR_FUZZ)  # coverage for libFuzzer in every module; what is undefined in conversions counts, too
+  add_compile_options(-fsanitize=fuzzer-no-link,float-cast-overflow -fno-sanitize-recover=all -D_GLIBCXX_ASSERTIONS)
+endif()
+
 # Text output. Debian compiles fmt and spdlog for libstdc++, so with libc++ only their headers are used.
 find_package(Threads REQUIRED)
 find_package(fmt REQUIRED)

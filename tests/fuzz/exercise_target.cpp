@@ -1,0 +1,31 @@
+// The exercise reader.
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include <trocar/training/exercise.hpp>
+
+#include "archive.hpp"
+#include "targets.hpp"
+
+namespace trocar::fuzz {
+
+void exercise_file(Bytes bytes) {
+  const scene::MemoryFiles files = unpacked(text_of(bytes));
+  try {
+    const training::Exercise e = training::read_exercise(kMainFile, &files);
+    require(!e.name.empty() && !e.scene.empty(), "an exercise that reads well has a name and a scene");
+    require(e.expert_time < e.longest_time && std::isfinite(e.pass_mark), "its thresholds are in order");
+  } catch (const core::BadInput& bad) {
+    require(!bad.faults().empty(), "a refusal has a reason");
+    for (const core::Fault& f : bad.faults()) require(!f.message.empty() && !f.at.file.empty(), "a fault says where");
+  }
+}
+
+std::vector<Seed> exercise_seeds() {
+  std::stringstream text;
+  text << std::ifstream(TROCAR_SOURCE_DIR "/scenes/gynaecology/sterilisation.json", std::ios::binary).rdbuf();
+  return {{"sterilisation", bytes_of(text.str())}};
+}
+
+}  // namespace trocar::fuzz

@@ -1,0 +1,117 @@
+// The readers of scene, organ, instrument and tissue files, and what becomes of a scene that reads well: it is written
+// and read again, and, where it is small, compiled and stepped.
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <trocar/scene/compile.hpp>
+#include <trocar/scene/reader.hpp>
+#include <trocar/scene/writer.hpp>
+#include <trocar/sim/step.hpp>
+
+#include "../sim/small_scene.hpp"
+#include "archive.hpp"
+#include "targets.hpp"
+
+namespace trocar::fuzz {
+namespace {
+
+/// Every fault says where and what.
+void require_told(const std::vector<core::Fault>& faults) {
+  for (const core::Fault& f : faults) {
+    require(!f.message.empty(), "a fault says what was expected");
+    require(!f.at.file.empty() && f.at.line >= 0 && f.at.column >= 0, "a fault says where it stands");
+  }
+}
+
+bool read(const scene::MemoryFiles& files, scene::Description& description) {
+  try {
+    description = scene::read_scene(kMainFile, &files);
+    return true;
+  } catch (const core::BadInput& bad) {
+    require(!bad.faults().empty(), "a refusal has a reason");
+    require_told(bad.faults());
+    return false;
+  }
+}
+
+std::string disk_text(const std::filesystem::path& path) {
+  std::stringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+constexpr const char* kScenes = TROCAR_SOURCE_DIR "/scenes/";
+
+std::vector<Seed> files_of(const char* folder) {
+  std::vector<Seed> seeds;
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(kScenes) + folder))
+    if (entry.path().extension() == ".json")
+      seeds.push_back({entry.path().stem().string(), bytes_of(disk_text(entry.path()))});
+  return seeds;
+}
+
+/// The shipped scene with all its files, the scene file's own text first.
+Seed shipped_scene() {
+  const std::filesystem::path scenes = kScenes;
+  scene::MemoryFiles files{{kMainFile, disk_text(scenes / "gynaecology" / "scene.json")}};
+  for (const char* folder : {"organs", "instruments"})
+    for (const auto& entry : std::filesystem::directory_iterator(scenes / folder))
+      files["../" + (std::filesystem::path(folder) / entry.path().filename()).generic_string()] =
+          disk_text(entry.path());
+  files["../tissues.json"] = disk_text(scenes / "tissues.json");
+  return {"shipped", bytes_of(packed(files))};
+}
+
+}  // namespace
+
+void scene_files(Bytes bytes) {
+  const scene::MemoryFiles files = unpacked(text_of(bytes));
+  for (const auto& [name, text] : files) require_told(scene::check_file(name, &files));
+  scene::Description first;
+  if (!read(files, first)) return;
+  const std::string written = scene::write_scene(first);
+  scene::Description second;
+  require(read({{kMainFile, written}}, second), "what was read can be written and read again");
+  require(scene::write_scene(second) == written, "what was written reads as the same scene");
+}
+
+std::vector<Seed> scene_seeds() {
+  std::vector<Seed> seeds{shipped_scene(), {"small", bytes_of(scene::write_scene(small::description()))}};
+  for (const char* folder : {"organs", "instruments", "."})
+    for (Seed& seed : files_of(folder)) seeds.push_back(std::move(seed));
+  return seeds;
+}
+
+void scene_compiled(Bytes bytes) {
+  scene::Description description;
+  if (!read(unpacked(text_of(bytes)), description) || !quick_to_compile(description)) return;
+  sim::Model model;
+  try {
+    model = scene::compile(description);
+  } catch (const core::BadInput& bad) {
+    return require_told(bad.faults());
+  }
+  require_stepped(model);
+}
+
+std::vector<Seed> compile_seeds() {
+  const scene::Description whole = small::description();
+  scene::Description empty;
+  empty.name = "part";
+  empty.tissues = whole.tissues;
+  empty.ports = whole.ports;
+  empty.instruments = whole.instruments;
+  empty.placements = whole.placements;
+  empty.scope_placement = whole.scope_placement;
+  scene::Description cord = empty, pad = empty;
+  cord.strands = {small::cord()};
+  pad.solids = {small::pad()};
+  pad.walls = whole.walls;
+  return {{"small", bytes_of(scene::write_scene(whole))},
+          {"cord", bytes_of(scene::write_scene(cord))},
+          {"pad", bytes_of(scene::write_scene(pad))}};
+}
+
+}  // namespace trocar::fuzz

@@ -1,0 +1,27 @@
+#include "targets.hpp"
+
+#include <algorithm>
+
+#include "json_mutation.hpp"
+
+namespace trocar::fuzz {
+
+std::span<const Target> targets() {
+  static const Target all[] = {
+      {"scene", scene_files, 50'000, scene_seeds, json_words, mutate_json, cross_json},
+      {"compile", scene_compiled, 12'000, compile_seeds, json_words, mutate_json, cross_json},
+      {"exercise", exercise_file, 8'000, exercise_seeds, json_words, mutate_json, cross_json},
+      {"recording", recording_file, 20'000, recording_seeds, nullptr, mutate_recording},
+      {"motion", motion_file, 4'000, motion_seeds, motion_words},
+      {"display", display_keyframe, 10'000, display_seeds},
+  };
+  return all;
+}
+
+const Target* find(std::string_view name) {
+  const auto all = targets();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Target& t) { return t.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+}  // namespace trocar::fuzz

@@ -1,0 +1,33 @@
+// The targets' functions and what they share.
+#pragma once
+
+#include <trocar/scene/description.hpp>
+#include <trocar/sim/step.hpp>
+
+#include "target.hpp"
+
+namespace trocar::fuzz {
+
+void scene_files(Bytes bytes);
+std::vector<Seed> scene_seeds();
+void scene_compiled(Bytes bytes);
+std::vector<Seed> compile_seeds();
+void exercise_file(Bytes bytes);
+std::vector<Seed> exercise_seeds();
+void recording_file(Bytes bytes);
+std::vector<Seed> recording_seeds();
+std::size_t mutate_recording(std::uint8_t* data, std::size_t size, std::size_t capacity, unsigned seed);
+void motion_file(Bytes bytes);
+std::vector<Seed> motion_seeds();
+std::vector<std::string> motion_words();
+void display_keyframe(Bytes bytes);
+std::vector<Seed> display_seeds();
+
+/// So small that a compile takes milliseconds.
+bool quick_to_compile(const scene::Description& description);
+/// Hands wave over the scene for some ticks; what becomes not finite must be told.
+void require_stepped(const sim::Model& model);
+/// Every place in the State is a number.
+bool finite(const sim::Model& model, const sim::State& state);
+
+}  // namespace trocar::fuzz
