@@ -69,11 +69,11 @@ std::string proper_name(const std::string& typed) {
   return name;
 }
 
-Settings read_settings(const fs::path& file, std::vector<core::Fault>& faults) {
+Settings read_settings(const fs::path& file, std::vector<core::Fault>& faults, const scene::MemoryFiles* memory) {
   Settings s;
   std::error_code error;
-  if (!fs::exists(file, error)) return s;
-  const scene::JsonDocument document = scene::load_json(file, faults);
+  if (!memory && !fs::exists(file, error)) return s;
+  const scene::JsonDocument document = scene::load_json(file, faults, memory);
   const scene::JsonObject o(document.root, settings_shape(), document.file, faults);
   s.left_handed = o.flag("left_handed", s.left_handed);
   s.mouse = o.number("mouse", s.mouse);

@@ -12,6 +12,7 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/devices/mouse_keyboard.hpp>
+#include <trocar/scene/json.hpp>
 
 namespace trocar::app {
 
@@ -36,8 +37,10 @@ inline constexpr std::size_t kLongestName = 60;  ///< of a trainee [bytes]
 
 std::filesystem::path settings_file();  ///< data_folder()/settings.json
 
-/// Everything that is right in the file, defaults for the rest. Never throws for what stands in it.
-Settings read_settings(const std::filesystem::path& file, std::vector<core::Fault>& faults);
+/// Everything that is right in the file, defaults for the rest. Never throws for what stands in it. With `memory` the
+/// file is looked up there instead of on the disk.
+Settings read_settings(const std::filesystem::path& file, std::vector<core::Fault>& faults,
+                       const scene::MemoryFiles* memory = nullptr);
 /// The file's text.
 std::string settings_text(const Settings& settings);
 /// Into a new file that then takes the old one's place.  @throws core::EnvironmentLacks
