@@ -147,7 +147,7 @@ TEST(Cut, MoreCutsThanTheBookHoldsAreNotWrittenPastItsEnd) {
 
 TEST(Cut, AcrossItNothingPulls) {
   // The tube is clipped, cut and held beyond the cut; drawing the held piece away moves nothing of the stump.
-  small::Table t(small::model());
+  small::Table t(small::bare());
   small::Hands hands(t.model);
   while (!hands.done()) {
     t.input = hands.next(t.state);

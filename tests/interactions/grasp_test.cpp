@@ -100,8 +100,8 @@ TEST(Grasp, AGripMovesWithTheInstrument) {
 }
 
 TEST(Grasp, ThePullIsWhatTheFoundationTheOrganAndTheWeightDo) {
-  // At rest the forces on the tube add up to nothing: what the jaws feel is the stretch of the fold it hangs on, its
-  // weight, and the organ it grows out of.
+  // At rest the forces on the tube add up to nothing: what the jaws feel is the stretch of its foundation and of the
+  // fold below it, its weight, and the organ it grows out of.
   Grip g;
   for (double rise : {0.004, 0.004, 0.004}) {
     g.lift({0, 0, rise}, 0.02);
@@ -115,6 +115,10 @@ TEST(Grasp, ThePullIsWhatTheFoundationTheOrganAndTheWeightDo) {
       on_tube -= m.foundation[size_t(i)] * (1 + m.stiffening * dot(u, u)) * u;
     }
     on_tube -= g.work.end_reactions[kTube][0].force;
+    for (size_t h = 0; h < g.model.membranes[0].holds.size(); ++h) {
+      const BorderHold& hold = g.model.membranes[0].holds[h];
+      if (hold.kind == BorderHold::strand) on_tube += g.work.pulls[0][h].force - hold.drawn_pull;
+    }
     const Vec3d pull = g.pull(kGrasper);  // of the tissue on the jaws
     EXPECT_GT(length(pull), 0.05);
     EXPECT_LT(length(pull - on_tube), 0.02 * length(pull)) << "pull " << pull.z << " N, the rest " << on_tube.z << " N";

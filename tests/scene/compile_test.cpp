@@ -115,7 +115,7 @@ TEST(Compile, TheDrawnShapeIsTheEquilibrium) {
 TEST(Compile, TheReportSaysWhatTheBodiesCameTo) {
   CompileReport report;
   const sim::Model m = compile(small::description(), &report);
-  ASSERT_EQ(report.bodies.size(), 5u);
+  ASSERT_EQ(report.bodies.size(), 6u);
   for (const BodyReport& b : report.bodies) {
     EXPECT_GT(b.nodes, 0) << b.name;
     if (b.kind != "solid") continue;

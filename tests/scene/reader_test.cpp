@@ -102,6 +102,51 @@ TEST(Reader, AGoodSceneReadsInMetresAndRadians) {
   EXPECT_NEAR(d.scope.field_of_view, 1.2217, 1e-4);
 }
 
+/// Line 16 of the scene with a membrane after the sheets.
+std::string with_membrane(const std::string& keys) {
+  return "\"base_mm\": [[10, 9, -110], [20, 9, -110]], \"base_organ\": \"ball\"}], \"membranes\": [{" + keys + "}]";
+}
+
+TEST(Reader, AMembraneIsReadWithItsDefaults) {
+  const Folder folder;
+  const std::string text =
+      scene_with({{16, with_membrane(R"("name": "web", "tissue": "soft", "strand": "cord", "from_mm": 1, "to_mm": 9,)"
+                                     R"( "base_mm": [[10, 9, -110], [20, 9, -110]], "base_on": ["ball", "cord"],)"
+                                     R"( "thickness_mm": 0.5)")}});
+  const Description d = read_scene(folder.write("scene.json", text));
+  ASSERT_EQ(d.membranes.size(), 1u);
+  EXPECT_EQ(d.membranes[0].name, "web");
+  EXPECT_EQ(d.membranes[0].look, "web");
+  EXPECT_EQ(d.membranes[0].tissue, "soft");
+  EXPECT_EQ(d.membranes[0].to, 0.009);
+  EXPECT_EQ(d.membranes[0].base[1], (Vec3d{0.02, 0.009, -0.11}));
+  EXPECT_EQ(d.membranes[0].base_on, (std::vector<std::string>{"ball", "cord"}));
+  EXPECT_EQ(d.membranes[0].base_reach, 0.004);
+  EXPECT_EQ(d.membranes[0].thickness, 0.0005);
+  EXPECT_EQ(d.membranes[0].spacing, 0.0025);
+  EXPECT_TRUE(d.membranes[0].cuttable);
+}
+
+TEST(Reader, FaultsOfMembranes) {
+  const auto fault = [](const std::string& keys) { return faults_of({{16, with_membrane(keys)}}); };
+  EXPECT_EQ(fault(R"("name": "web", "tissue": @"sift", "strand": @"ball", "from_mm": 1, "to_mm": 9,)"
+                  R"( "base_mm": [[10, 9, -110], [20, 9, -110]], "base_on": ["ball", @"bull"], "thickness_mm": 1)"),
+            (Faults{"expected a known tissue (soft), got \"sift\" (did you mean \"soft\"?)",
+                    "expected a known strand (cord), got \"ball\"",
+                    "expected a known solid or strand (ball, cord), got \"bull\" (did you mean \"ball\"?)"}));
+  EXPECT_EQ(fault(R"("name": "web", "tissue": "soft", "strand": "cord", "from_mm": 9, "to_mm": @9,)"
+                  R"( "base_mm": [[10, 9, -110], @[10, 9, -110]], "thickness_mm": 1)"),
+            (Faults{"expected more than from_mm = 9, got 9",
+                    "expected a point at least 0.01 mm from the one before, got the same place"}));
+  EXPECT_EQ(fault(R"("name": "web", "tissue": "soft", "strand": "cord", "from_mm": 1, "to_mm": @60,)"
+                  R"( "base_mm": [[10, 9, -110], [20, 9, -110]], "thickness_mm": 1)"),
+            one("expected an arc length on \"cord\" (at most 30.0 mm), got 60"));
+  EXPECT_EQ(fault(R"("name": @"fold", "tissue": "soft", "strand": "cord", "from_mm": 1, "to_mm": 9,)"
+                  R"( "base_mm": [[10, 9, -110], [20, 9, -110]], "thickness_mm": 1)")
+                .size(),
+            1u);
+}
+
 TEST(Reader, FaultsReadPathLineColumnMessage) {
   const Folder folder;
   const auto path = folder.write("scene.json", scene_with({{2, "\"format\": 2,"}}));

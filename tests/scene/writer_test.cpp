@@ -33,6 +33,7 @@ bool same(const Solid& a, const Solid& b);
 bool same(const Strand& a, const Strand& b);
 bool same(const Wall& a, const Wall& b);
 bool same(const Sheet& a, const Sheet& b);
+bool same(const Membrane& a, const Membrane& b);
 bool same(const Port& a, const Port& b);
 bool same(const Instrument& a, const Instrument& b);
 bool same(const Placement& a, const Placement& b);
@@ -61,6 +62,11 @@ bool same(const Sheet& a, const Sheet& b) {
   return a.name == b.name && a.look == b.look && a.strand == b.strand && a.from == b.from && a.to == b.to &&
          a.base == b.base && a.base_organ == b.base_organ;
 }
+bool same(const Membrane& a, const Membrane& b) {
+  return a.name == b.name && a.tissue == b.tissue && a.look == b.look && a.strand == b.strand && a.from == b.from &&
+         a.to == b.to && a.base == b.base && a.base_on == b.base_on && a.base_reach == b.base_reach &&
+         a.thickness == b.thickness && a.spacing == b.spacing && a.cuttable == b.cuttable;
+}
 bool same(const Port& a, const Port& b) {
   return a.name == b.name && a.position == b.position && a.diameter == b.diameter;
 }
@@ -80,8 +86,8 @@ bool same(const Scope& a, const Scope& b) {
 bool same(const Description& a, const Description& b) {
   return a.name == b.name && a.title == b.title && a.gravity == b.gravity && same(a.tissues, b.tissues) &&
          same(a.solids, b.solids) && same(a.strands, b.strands) && same(a.walls, b.walls) && same(a.sheets, b.sheets) &&
-         same(a.ports, b.ports) && same(a.instruments, b.instruments) && same(a.placements, b.placements) &&
-         same(a.scope, b.scope) && same(a.scope_placement, b.scope_placement);
+         same(a.membranes, b.membranes) && same(a.ports, b.ports) && same(a.instruments, b.instruments) &&
+         same(a.placements, b.placements) && same(a.scope, b.scope) && same(a.scope_placement, b.scope_placement);
 }
 
 TEST(Writer, AWrittenSceneReadsBackEqualToTheBit) {

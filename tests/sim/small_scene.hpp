@@ -78,6 +78,20 @@ inline scene::Strand cord() {
   return s;
 }
 
+/// A fold below the tube's first part; its base rides on the organ where that is near.
+inline scene::Membrane fold() {
+  scene::Membrane m;
+  m.name = "fold";
+  m.tissue = "web";
+  m.strand = "tube";
+  m.from = 0.005;
+  m.to = 0.031;
+  m.base = {{0.004, 0.001, -0.012}, {0.017, 0.002, -0.014}, {0.030, 0, -0.014}};
+  m.base_on = {"organ"};
+  m.thickness = 0.0005;
+  return m;
+}
+
 inline scene::Instrument instrument(const char* name, scene::InstrumentKind kind) {
   scene::Instrument i;
   i.name = name;
@@ -88,9 +102,10 @@ inline scene::Instrument instrument(const char* name, scene::InstrumentKind kind
 inline scene::Description description() {
   scene::Description d;
   d.name = d.title = "small";
-  d.tissues = {tissue("flesh", 20e3), tissue("duct", 60e3)};
+  d.tissues = {tissue("flesh", 20e3), tissue("duct", 60e3), tissue("web", 10e3)};
   d.solids = {organ(), pad()};
   d.strands = {tube(), cord()};
+  d.membranes = {fold()};
   scene::Wall floor;
   floor.name = "floor";
   floor.rows = floor.columns = 3;
@@ -131,6 +146,16 @@ inline scene::Description description() {
 
 inline const sim::Model& model() {
   static const sim::Model compiled = scene::compile(description());
+  return compiled;
+}
+
+/// The same without the fold.
+inline const sim::Model& bare() {
+  static const sim::Model compiled = [] {
+    scene::Description d = description();
+    d.membranes.clear();
+    return scene::compile(d);
+  }();
   return compiled;
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include <trocar/interactions/clip.hpp>
 #include <trocar/interactions/cut.hpp>
@@ -124,6 +125,59 @@ int cut_organ(const ToolModel& model, const ToolShape& shape, const tissue::Netw
       if (crosses_blades(model, shape, corner[k], corner[(k + 1) % 3])) parted[t] = 1;
   }
   return severed;
+}
+
+namespace {
+
+/// How deep into the fold the blades' plane crosses the way from node a to node b.
+double depth_at(Vec3d a, Vec3d b, float depth_a, float depth_b) noexcept {
+  return double(depth_a) + a.y / (a.y - b.y) * (double(depth_b) - double(depth_a));
+}
+
+}  // namespace
+
+FoldCut cut_membrane(const ToolModel& model, const ToolShape& shape, const tissue::MembraneModel& sheet,
+                     std::span<const float> depth, tissue::MembraneState& state, std::span<std::uint8_t> parted,
+                     std::span<std::int32_t> scratch) noexcept {
+  const tissue::NetworkModel& network = sheet.network;
+  const std::span<std::int32_t> parent = scratch.first(size_t(network.nodes));
+  for (std::int32_t n = 0; n < network.nodes; ++n) parent[size_t(n)] = n;
+  for (size_t h = 1; h < sheet.held_nodes.size(); ++h) join(parent, sheet.held_nodes[0], sheet.held_nodes[h]);
+  const auto place = [&](int node) { return to_jaw(shape, tissue::position(network, state.network, node)); };
+  const auto ends = [&](int s) {
+    return std::pair{network.spring_nodes[size_t(2 * s)], network.spring_nodes[size_t(2 * s) + 1]};
+  };
+  const auto crosses = [&](int s) {
+    const auto [a, b] = ends(s);
+    return crosses_blades(model, shape, place(a), place(b));
+  };
+  const auto joins = [&](int s) { return join(parent, ends(s).first, ends(s).second); };
+  FoldCut cut;
+  bool any = false;
+  for (int s = 0; s < network.springs; ++s) {
+    if (tissue::spring_scale(network, state.network, s) <= 0) continue;
+    if (crosses(s))
+      any = true;
+    else
+      joins(s);
+  }
+  if (!any) return cut;
+  for (int s = 0; s < network.springs; ++s) {
+    if (tissue::spring_scale(network, state.network, s) <= 0 || !crosses(s)) continue;
+    const auto [a, b] = ends(s);
+    cut.depth = std::max(cut.depth, depth_at(place(a), place(b), depth[size_t(a)], depth[size_t(b)]));
+    if (joins(s)) continue;
+    tissue::cut_spring(network, state.network, s);
+    ++cut.severed;
+  }
+  for (size_t t = 0; t < sheet.triangles.size(); ++t) {
+    Vec3d corner[3];
+    for (size_t k = 0; k < 3; ++k) corner[k] = place(sheet.triangles[t][k]);
+    for (int k = 0; k < 3; ++k)
+      if (crosses_blades(model, shape, corner[k], corner[(k + 1) % 3])) parted[t] = 1;
+  }
+  tear_bends(sheet, parted, state);
+  return cut;
 }
 
 }  // namespace trocar::interactions

@@ -5,6 +5,7 @@
 #include <span>
 
 #include <trocar/interactions/grasp.hpp>
+#include <trocar/tissue/membrane.hpp>
 
 namespace trocar::interactions {
 
@@ -30,5 +31,18 @@ int update_scissors(const ToolModel& model, const ToolShape& shape, int tool_ind
 int cut_organ(const ToolModel& model, const ToolShape& shape, const tissue::NetworkModel& network,
               const tissue::Skin& fine, tissue::NetworkState& state, std::span<std::uint8_t> parted,
               std::span<std::int32_t> scratch) noexcept;
+
+/// What one closing of the blades did to a fold.
+struct FoldCut {
+  int severed = 0;   ///< springs
+  double depth = 0;  ///< how deep the blades went into it [m]
+};
+/// Parts a membrane where the blades have closed in it, as cut_organ() does an organ. What still hangs on a border may
+/// be cut from the other; what would hang on none stays on a thread.
+/// @param depth   (nodes) way from the surface of the strand on its border, as drawn [m]
+/// @param parted  (triangles of the sheet)
+FoldCut cut_membrane(const ToolModel& model, const ToolShape& shape, const tissue::MembraneModel& sheet,
+                     std::span<const float> depth, tissue::MembraneState& state, std::span<std::uint8_t> parted,
+                     std::span<std::int32_t> scratch) noexcept;
 
 }  // namespace trocar::interactions

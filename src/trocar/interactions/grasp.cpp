@@ -77,6 +77,37 @@ Candidate fold_between(const ToolModel& model, const ToolShape& shape, const Tis
   return best;
 }
 
+/// Nodes of a membrane between the jaws. Those of its borders are left to what carries them.
+Candidate sheet_between(const ToolModel& model, const ToolShape& shape, const TissueView& view) noexcept {
+  Candidate best;
+  for (size_t m = 0; m < view.membranes.size(); ++m) {
+    const Surface& surface = view.membranes[m].surface;
+    if (!surface.pose->bounds.near_segment(shape.pivot, shape.frame.tip, 0.01)) continue;
+    Candidate c;
+    for (int v = 0; v < surface.skin->size(); ++v) {
+      if (surface.network->fixed[size_t(v)] == tissue::kHeld) continue;
+      const Vec3d local = to_jaw(shape, surface.position(v));
+      if (std::fabs(local.y) > 0.5 * model.jaw_width + 0.0015) continue;
+      if (local.z < 0 || local.z > model.jaw_length + 0.0005) continue;
+      if (std::fabs(local.x) > shape.half_opening(local.z) + 0.0005) continue;
+      add(c, kMembraneBase + std::int32_t(m), v, 0, local);
+      c.along += local.z;
+    }
+    if (c.count < 2) continue;
+    c.along /= c.count;
+    c.thickness = 2 * view.membranes[m].half_thickness;
+    if (c.count > best.count) best = c;
+  }
+  return best;
+}
+
+/// How thick what is held keeps the jaws apart [m].
+double thickness_of(const Hold& hold, const TissueView& view) noexcept {
+  if (hold.body >= kMembraneBase) return 2 * view.membranes[size_t(hold.body - kMembraneBase)].half_thickness;
+  if (hold.body >= kSolidBase) return kFoldThickness;
+  return 2 * kCompressed * view.strands[size_t(hold.body)].model.radius[size_t(hold.element)];
+}
+
 constexpr float kCentring = 0.985f;  // per tick: closing jaws bring what lies between them to the middle
 
 bool grips(ToolKind kind) noexcept { return kind == ToolKind::grasper; }
@@ -84,6 +115,8 @@ bool grips(ToolKind kind) noexcept { return kind == ToolKind::grasper; }
 }  // namespace
 
 Vec3d held_point(const TissueView& view, const Hold& hold) noexcept {
+  if (hold.body >= kMembraneBase)
+    return view.membranes[size_t(hold.body - kMembraneBase)].surface.position(hold.element);
   if (hold.body >= kSolidBase) return view.solids[size_t(hold.body - kSolidBase)].position(hold.element);
   const tissue::StrandState& s = view.strand_states[size_t(hold.body)];
   const Vec3d a = s.x[size_t(hold.element)], b = s.x[size_t(hold.element) + 1];
@@ -98,11 +131,7 @@ void update_grip(const ToolModel& model, const ToolShape& shape, const TissueVie
     return;
   }
   if (tool.holds > 0) {
-    const double thickness =
-        tool.hold[0].body >= kSolidBase
-            ? kFoldThickness
-            : 2 * kCompressed * view.strands[size_t(tool.hold[0].body)].model.radius[size_t(tool.hold[0].element)];
-    const double stop = aperture_at(model, thickness, tool.hold[0].local[2]);
+    const double stop = aperture_at(model, thickness_of(tool.hold[0], view), tool.hold[0].local[2]);
     if (wanted > stop + 0.06) {
       tool.holds = 0;
     } else {
@@ -121,6 +150,7 @@ void update_grip(const ToolModel& model, const ToolShape& shape, const TissueVie
   if (!closing) return;
   Candidate c = strand_between(model, shape, view);
   if (c.count == 0 && wanted < 0.6) c = fold_between(model, shape, view);
+  if (c.count == 0) c = sheet_between(model, shape, view);
   if (c.count == 0) return;
   const double stop = aperture_at(model, c.thickness, c.along);
   if (wanted > stop) return;
@@ -130,12 +160,20 @@ void update_grip(const ToolModel& model, const ToolShape& shape, const TissueVie
 }
 
 void hold_loads(const ToolShape& shape, int tool_index, const TissueView& view, const ToolState& tool,
-                std::span<StrandLoads> strand_loads, std::span<NetworkLoads> solid_loads) noexcept {
+                std::span<StrandLoads> strand_loads, std::span<NetworkLoads> solid_loads,
+                std::span<NetworkLoads> membrane_loads) noexcept {
   for (int i = 0; i < tool.holds; ++i) {
     const Hold& h = tool.hold[i];
     const Vec3d target = from_jaw(shape, {h.local[0], h.local[1], h.local[2]});
     const Tag tag{Owner::tool_hold, tool_index, i};
-    if (h.body >= kSolidBase) {
+    if (h.body >= kMembraneBase) {
+      tissue::NodeLoad load;
+      load.node = h.element;
+      load.k = float(kHoldStiffness);
+      load.d = float(kHoldDamping);
+      load.x0 = vec_cast<float>(target);
+      membrane_loads[size_t(h.body - kMembraneBase)].add(load, tag);
+    } else if (h.body >= kSolidBase) {
       const size_t o = size_t(h.body - kSolidBase);
       const Surface& surface = view.solids[o];
       SkinLoad load;

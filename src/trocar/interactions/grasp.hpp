@@ -4,6 +4,7 @@
 #include <span>
 
 #include <trocar/interactions/loads.hpp>
+#include <trocar/interactions/membrane_contact.hpp>
 #include <trocar/interactions/strand_body.hpp>
 #include <trocar/interactions/surface.hpp>
 #include <trocar/interactions/tool.hpp>
@@ -15,6 +16,7 @@ struct TissueView {
   std::span<const StrandBody> strands;
   std::span<const tissue::StrandState> strand_states;
   std::span<const Surface> solids;
+  std::span<const SheetView> membranes = {};
 };
 
 /// Opens, keeps or ends the grip, and sets how far the jaws close: tissue between them keeps them apart.
@@ -22,7 +24,8 @@ void update_grip(const ToolModel& model, const ToolShape& shape, const TissueVie
 
 /// Pulls the held points towards their places between the jaws.
 void hold_loads(const ToolShape& shape, int tool_index, const TissueView& view, const ToolState& tool,
-                std::span<StrandLoads> strand_loads, std::span<NetworkLoads> solid_loads) noexcept;
+                std::span<StrandLoads> strand_loads, std::span<NetworkLoads> solid_loads,
+                std::span<NetworkLoads> membrane_loads = {}) noexcept;
 
 /// After the tissue has moved: forces at the jaws, and slip where the pull exceeds friction x pinch.
 /// hold[].force holds the forces on the tissue.

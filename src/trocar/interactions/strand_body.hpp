@@ -58,16 +58,19 @@ struct Clip {
   std::int32_t reserved = 0;
 };
 
-/// What scissors did to a strand, or (strand -1) to an organ. No padding.
+/// What scissors did to a strand, or (strand -1) to an organ or a fold. No padding.
 struct Cut {
   double s = 0;
   double fraction = 0;  ///< of the cross-section, 1 = through
   double beyond = 0;    ///< how far the blades reached past the strand [m]
+  double fold = 0;      ///< how deep the blades went into a membrane: from its strand's surface, as drawn [m]
   std::uint64_t tick = 0;
   std::int32_t strand = -1;
   std::int32_t tool = 0;
   std::int32_t tips_visible = 0;
-  std::int32_t solid = -1;  ///< organ whose springs and skin the blades parted
+  std::int32_t solid = -1;     ///< organ whose springs and skin the blades parted
+  std::int32_t membrane = -1;  ///< fold that the blades parted, alone or with its strand
+  std::int32_t reserved = 0;
 };
 
 void add_to_hash(core::Hasher& hasher, const StrandBody& body) noexcept;

@@ -31,13 +31,13 @@ inline constexpr int kMaxHolds = 12;  ///< tissue points between one pair of jaw
 
 /// A point of tissue held between the jaws, in the jaw frame (opening, normal, axis from the pivot).
 struct Hold {
-  std::int32_t body = -1;    ///< strand index, or solid index + kSolidBase
-  std::int32_t element = 0;  ///< strand element, or skin vertex
+  std::int32_t body = -1;    ///< strand index, solid index + kSolidBase, or membrane index + kMembraneBase
+  std::int32_t element = 0;  ///< strand element, skin vertex, or membrane node
   float weight = 0;          ///< place within the strand element, 0..1
   float local[3] = {0, 0, 0};
   float force[3] = {0, 0, 0};  ///< of this point on the tissue in the last tick [N]
 };
-inline constexpr std::int32_t kSolidBase = 1 << 16;
+inline constexpr std::int32_t kSolidBase = 1 << 16, kMembraneBase = 1 << 17;
 
 /// State of one instrument. Plain old data without padding: hashed and saved as bytes.
 struct ToolState {

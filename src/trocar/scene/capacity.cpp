@@ -107,11 +107,24 @@ Extent extent_of(const Wall& wall) {
   return e;
 }
 
+Extent extent_of(const Membrane& m) {
+  double base = 0;
+  for (std::size_t i = 1; i < m.base.size(); ++i) base += length(m.base[i] - m.base[i - 1]);
+  const double columns = 2 + (m.to - m.from) / m.spacing;
+  // Its width is not known before its strand is: no fold is wider than it is long.
+  const double rows = 3 + std::max(base, m.to - m.from) / m.spacing;
+  Extent e;
+  e.nodes = columns * rows;
+  e.triangles = 2 * columns * rows;
+  return e;
+}
+
 Extent extent_of(const Description& d) {
   Extent sum;
   for (const Solid& solid : d.solids) sum = sum + extent_of(solid);
   for (const Strand& strand : d.strands) sum = sum + extent_of(strand);
   for (const Wall& wall : d.walls) sum = sum + extent_of(wall);
+  for (const Membrane& membrane : d.membranes) sum = sum + extent_of(membrane);
   return sum;
 }
 
@@ -120,6 +133,7 @@ bool check_counts(const Description& d, std::vector<core::Fault>& faults) {
   good = few(d.strands, "strand", faults) && good;
   good = few(d.walls, "wall", faults) && good;
   good = few(d.sheets, "sheet", faults) && good;
+  good = few(d.membranes, "membrane", faults) && good;
   good = few(d.tissues, "tissue", faults) && good;
   good = few(d.instruments, "instrument", faults) && good;
   good = few(d.placements, "tool", faults) && good;
@@ -132,6 +146,7 @@ void check_capacity(const Description& d, std::vector<core::Fault>& faults) {
   check(d.solids, "solid", sum, faults);
   check(d.strands, "strand", sum, faults);
   check(d.walls, "wall", sum, faults);
+  check(d.membranes, "membrane", sum, faults);
 }
 
 }  // namespace trocar::scene

@@ -7,6 +7,7 @@
 #include <trocar/scene/compile.hpp>
 #include <trocar/scene/compile_contacts.hpp>
 #include <trocar/scene/compile_hands.hpp>
+#include <trocar/scene/compile_membrane.hpp>
 #include <trocar/scene/compile_solid.hpp>
 #include <trocar/scene/compile_targets.hpp>
 
@@ -203,6 +204,10 @@ sim::Model compile(const Description& d, CompileReport* report) {
     if (tissue) compile_strand(strand, *tissue, d.gravity, model, faults, report);
   }
   for (const Wall& wall : d.walls) compile_wall(wall, model, report);
+  for (const Membrane& membrane : d.membranes) {
+    const Tissue* tissue = find_tissue(d, membrane.tissue);
+    if (tissue) compile_membrane(membrane, *tissue, d.gravity, model, faults, report);
+  }
   for (const Sheet& sheet : d.sheets) model.sheets.push_back(compile_sheet(sheet, model));
   compile_hands(d, model, faults);
   if (!faults.empty()) throw core::BadInput(faults);

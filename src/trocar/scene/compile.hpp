@@ -15,7 +15,7 @@ namespace trocar::scene {
 
 /// What a body compiled to, for `trocar check`.
 struct BodyReport {
-  std::string name, kind;      ///< "solid", "strand", "wall"
+  std::string name, kind;      ///< "solid", "strand", "membrane", "wall"
   int nodes = 0, springs = 0;  ///< elements for a strand, triangles for a wall
   int substeps = 0;            ///< per tick; 0: implicit or fixed
   double dt_limit = 0;         ///< sufficient stability limit [s]

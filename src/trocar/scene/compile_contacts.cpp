@@ -89,6 +89,34 @@ void pair_solid(sim::Model& model, const Drawn& drawn, int solid, int surface) {
   model.nearest_at_start.insert(model.nearest_at_start.end(), nearest.begin(), nearest.end());
 }
 
+/// What a membrane hangs on, it touches there.
+bool carries(const sim::MembraneModel& membrane, int solid) {
+  for (const interactions::BorderHold& hold : membrane.holds)
+    if (hold.kind == interactions::BorderHold::solid && hold.index == solid) return true;
+  return false;
+}
+
+/// The inner nodes of a membrane against a surface; not next to a base that rides on that surface.
+void pair_membrane(sim::Model& model, const Drawn& drawn, int membrane, int surface) {
+  const sim::MembraneModel& m = model.membranes[size_t(membrane)];
+  const interactions::Surface& s = drawn.surface[size_t(surface)];
+  const bool rides = surface < int(model.solids.size()) && carries(m, surface);
+  interactions::SurfacePair pair;
+  pair.membrane = membrane;
+  pair.surface = surface;
+  std::vector<std::int32_t> nearest;
+  for (int n = 0; n < m.sheet.nodes(); ++n) {
+    const int row = n / m.sheet.columns;
+    if (m.sheet.network.fixed[size_t(n)] == tissue::kHeld || (rides && row + 2 >= m.sheet.rows)) continue;
+    const Vec3d p = m.sheet.network.rest[size_t(n)];
+    if (!s.pose->bounds.reaches(p, kReach)) continue;
+    add_sample(pair, s, n, p, 0.0, nearest);
+  }
+  if (pair.sample.empty()) return;
+  model.surface_pairs.push_back(std::move(pair));
+  model.nearest_at_start.insert(model.nearest_at_start.end(), nearest.begin(), nearest.end());
+}
+
 void pair_strands(sim::Model& model, int a, int b) {
   const interactions::StrandBody &first = model.bodies[size_t(a)], &second = model.bodies[size_t(b)];
   interactions::StrandPair pair;
@@ -128,6 +156,8 @@ void compile_contacts(sim::Model& model) {
   for (int i = 0; i < solids; ++i)
     for (int s = 0; s < model.surfaces(); ++s)
       if (s >= solids || s < i) pair_solid(model, drawn, i, s);
+  for (int i = 0; i < int(model.membranes.size()); ++i)
+    for (int s = 0; s < model.surfaces(); ++s) pair_membrane(model, drawn, i, s);
   for (int a = 0; a < strands; ++a)
     for (int b = a + 1; b < strands; ++b) pair_strands(model, a, b);
 }

@@ -103,6 +103,20 @@ struct Sheet {
   core::Location at;
 };
 
+/// A thin fold that is a body of its own: a membrane between a stretch of a strand and a base line. Points of the base
+/// that lie within `base_reach` of one of the bodies `base_on` ride on it, the others stay in space.
+struct Membrane {
+  std::string name, tissue, look, strand;
+  double from = 0, to = 0;           ///< the strand's arc length [m]
+  std::vector<Vec3d> base;           ///< polyline of the other border, in the same direction [m]
+  std::vector<std::string> base_on;  ///< solids and strands
+  double base_reach = 0.004;         ///< [m]
+  double thickness = 0;              ///< [m]
+  double spacing = 0.0025;           ///< of its nodes [m]
+  bool cuttable = true;
+  core::Location at, spacing_at;
+};
+
 struct Port {
   std::string name;
   Vec3d position;
@@ -150,6 +164,7 @@ struct Description {
   std::vector<Strand> strands;
   std::vector<Wall> walls;
   std::vector<Sheet> sheets;
+  std::vector<Membrane> membranes;
   std::vector<Port> ports;
   std::vector<Instrument> instruments;
   std::vector<Placement> placements;  ///< tools, in hand order: [0] left, [1] right, [2] assistant/third

@@ -183,6 +183,7 @@ class Reading {
       for (const auto& body : list) organs.emplace_back(body.name, body.at);
     };
     add(description.solids), add(description.strands), add(description.walls), add(description.sheets);
+    add(description.membranes);
     check_unique("organ", organs);
   }
 
@@ -305,6 +306,7 @@ class Reading {
     for (const JsonObject& s : o.objects("strands")) strand(s);
     for (const JsonObject& w : o.objects("walls")) wall(w);
     for (const JsonObject& s : o.objects("sheets")) sheet(s);
+    for (const JsonObject& m : o.objects("membranes")) membrane(m);
   }
 
   Section section(const JsonObject& o) {
@@ -484,6 +486,38 @@ class Reading {
     description.sheets.push_back(std::move(s));
   }
 
+  void membrane(const JsonObject& o) {
+    Membrane m;
+    m.name = o.text("name");
+    m.tissue = o.text("tissue");
+    refer(Reference::To::tissue, o, "tissue");
+    m.look = o.text("look", m.name);
+    m.strand = o.text("strand");
+    refer(Reference::To::strand, o, "strand");
+    m.from = from_mm(o.number("from_mm"));
+    m.to = from_mm(o.number("to_mm"));
+    if (o.has("from_mm") && o.has("to_mm") && !(m.from < m.to))
+      o.fault("to_mm", fmt::format("expected more than from_mm = {}, got {}", o.number("from_mm"), o.number("to_mm")));
+    m.base = from_mm(o.points("base_mm"));
+    for (std::size_t i = 1; i < m.base.size(); ++i)
+      if (!(length(m.base[i] - m.base[i - 1]) >= 1e-5))
+        o.fault(o.at("base_mm", i), "expected a point at least 0.01 mm from the one before, got the same place");
+    m.base_on = o.texts("base_on");
+    for (std::size_t i = 0; i < m.base_on.size(); ++i)
+      m_references.push_back({Reference::To::solid_or_strand, m.base_on[i], o.at("base_on", i)});
+    if (o.has("base_reach_mm")) m.base_reach = from_mm(o.number("base_reach_mm"));
+    m.thickness = from_mm(o.number("thickness_mm", 1));
+    if (o.has("spacing_mm")) m.spacing = from_mm(o.number("spacing_mm"));
+    m.cuttable = o.flag("cuttable", m.cuttable);
+    m.at = o.at();
+    m.spacing_at = o.at("spacing_mm");
+    if ((m.to - m.from) / m.spacing > kMaxStrandNodes)
+      o.fault("spacing_mm", fmt::format("expected a spacing that gives at most {} columns, got about {:.3g}",
+                                        kMaxStrandNodes, (m.to - m.from) / m.spacing));
+    m_sheet_ends.push_back({m.strand, m.to, o.at("to_mm")});
+    description.membranes.push_back(std::move(m));
+  }
+
   void instrument(const JsonObject& o) {
     Instrument i;
     i.name = o.text("name");
@@ -619,7 +653,8 @@ FileKind kind_of_file(const fs::path& path, const MemoryFiles* memory) {
   if (has("scene")) return FileKind::exercise;
   if (has("scope") || has("ports") || has("tools")) return FileKind::scene;
   if (has("kind")) return FileKind::instrument;
-  if (has("solids") || has("strands") || has("walls") || has("sheets") || has("organs")) return FileKind::organ;
+  if (has("solids") || has("strands") || has("walls") || has("sheets") || has("membranes") || has("organs"))
+    return FileKind::organ;
   return has("tissues") ? FileKind::tissue : FileKind::scene;
 }
 

@@ -16,7 +16,7 @@ const Shape& tissue_row() {
        needed(keys::number("young_Pa", 1, 1e9, "Young's modulus E at small strain")),
        keys::number("p1", -1000, 1000, "first shape factor, default 0; monotone law: p1^2 < 3 p2"),
        keys::number("p2", 0, 1e6, "second shape factor, default 0"),
-       keys::number("strain_cap", 0.01, 1, "strain beyond which the law is continued linearly, default 0.2"),
+       keys::number("strain_cap", 0.01, 5, "strain beyond which the law is continued linearly, default 0.2"),
        keys::number("failure_strain", 0, 10, "strain at which it tears, default 0: never"),
        keys::number("damping_ms", 0, 1000, "stiffness-proportional damping time, default 2"),
        needed(keys::text("source", "where the figures come from: a publication, or \"ours\""))}};
@@ -126,6 +126,26 @@ const Shape& sheet() {
   return shape;
 }
 
+const Shape& membrane() {
+  static const Shape shape{
+      "membrane",
+      "A thin fold with mechanics of its own, between a stretch of a strand and a line of points.",
+      {needed(keys::name("name", "what scenes and exercises call it")), needed(keys::name("tissue", "its material")),
+       keys::name("look", "its surface in the picture, default: its name"),
+       needed(keys::name("strand", "the strand along one border")),
+       needed(keys::number("from_mm", 0, 5000, "arc length on the strand where it begins")),
+       needed(keys::number("to_mm", 0, 5000, "arc length on the strand where it ends")),
+       needed(keys::points("base_mm", -kFar, kFar, 2, "the other border, in the same direction")),
+       keys::texts("base_on",
+                   "solids and strands that carry the base where it is near them; elsewhere it stays in "
+                   "place"),
+       keys::number("base_reach_mm", 0.1, 100, "how near that is, from a strand's surface or a skin, default 4"),
+       needed(keys::number("thickness_mm", 0.05, 20, "of the fold")),
+       keys::number("spacing_mm", 0.3, 50, "distance of its nodes, default 2.5"),
+       keys::flag("cuttable", "default true")}};
+  return shape;
+}
+
 const Shape& organ();
 
 std::vector<Key> organ_keys() {
@@ -134,7 +154,8 @@ std::vector<Key> organ_keys() {
           keys::objects("solids", solid, 0, "volumetric organs"),
           keys::objects("strands", strand, 0, "tubes and cords"),
           keys::objects("walls", wall, 0, "surfaces that do not move"),
-          keys::objects("sheets", sheet, 0, "folds")};
+          keys::objects("sheets", sheet, 0, "folds that are only drawn"),
+          keys::objects("membranes", membrane, 0, "folds that are bodies")};
 }
 
 const Shape& organ() {

@@ -162,6 +162,23 @@ JsonValue written(const Sheet& s) {
   return o;
 }
 
+JsonValue written(const Membrane& m) {
+  JsonValue o = json_object();
+  put_name(o, "name", m.name);
+  put_name(o, "tissue", m.tissue);
+  put_name(o, "look", m.look);
+  put_name(o, "strand", m.strand);
+  put(o, "from_mm", mm(m.from));
+  put(o, "to_mm", mm(m.to));
+  put(o, "base_mm", mm(m.base));
+  if (!m.base_on.empty()) put(o, "base_on", list(m.base_on, [](const std::string& x) { return json_text(x); }));
+  put(o, "base_reach_mm", mm(m.base_reach));
+  put(o, "thickness_mm", mm(m.thickness));
+  put(o, "spacing_mm", mm(m.spacing));
+  put(o, "cuttable", json_flag(m.cuttable));
+  return o;
+}
+
 const char* kind_name(InstrumentKind kind) {
   switch (kind) {
     case InstrumentKind::grasper:
@@ -229,6 +246,7 @@ JsonValue organs(const Description& d) {
   put(o, "strands", list(d.strands, [](const Strand& x) { return written(x); }));
   put(o, "walls", list(d.walls, [](const Wall& x) { return written(x); }));
   put(o, "sheets", list(d.sheets, [](const Sheet& x) { return written(x); }));
+  if (!d.membranes.empty()) put(o, "membranes", list(d.membranes, [](const Membrane& x) { return written(x); }));
   return json_array({std::move(o)});
 }
 

@@ -37,9 +37,11 @@ int Model::free_nodes() const {
   for (const SolidModel& s : solids)
     for (std::uint8_t held : s.network.fixed) n += held != tissue::kHeld;
   for (const interactions::StrandBody& b : bodies) n += b.nodes() - int(b.model.prescribed_nodes.size());
+  for (const MembraneModel& m : membranes) n += m.sheet.nodes() - int(m.sheet.held_nodes.size());
   return n;
 }
 
+int Model::membrane_index(const std::string& membrane) const { return find_name(membranes, membrane); }
 int Model::strand_index(const std::string& strand) const { return find_name(strands, strand); }
 int Model::hand_index(const std::string& trocar) const { return find_name(hands, trocar); }
 int HandModel::find(const std::string& instrument) const { return find_name(rack, instrument); }
@@ -69,6 +71,14 @@ void seal(Model& model) {
     add_patch(h, s.end);
   }
   for (const WallModel& w : model.walls) add_to_hash(h, w.skin);
+  for (const MembraneModel& m : model.membranes) {
+    add_to_hash(h, m.sheet);
+    add_to_hash(h, m.skin);
+    h.add(m.strand);
+    h.add(std::int32_t(m.cuttable));
+    h.add(m.depth);
+    for (const interactions::BorderHold& hold : m.holds) interactions::add_to_hash(h, hold);
+  }
   for (const HandModel& hand : model.hands) {
     h.add(std::int32_t(hand.rack.size()));
     for (const interactions::ToolModel& t : hand.rack) add_tool(h, t);
@@ -81,6 +91,7 @@ void seal(Model& model) {
   for (const interactions::SurfacePair& p : model.surface_pairs) {
     h.add(p.strand);
     h.add(p.solid);
+    h.add(p.membrane);
     h.add(p.surface);
     h.add(p.sample);
     h.add(p.radius);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <trocar/interactions/body_contact.hpp>
+#include <trocar/interactions/border.hpp>
 #include <trocar/interactions/hosting.hpp>
 #include <trocar/interactions/strand_body.hpp>
 #include <trocar/interactions/surface.hpp>
@@ -72,6 +73,18 @@ struct SheetModel {
   std::vector<BasePoint> base;
 };
 
+/// A thin fold with mechanics of its own: its border hangs on a strand, its base on other bodies and on space.
+struct MembraneModel {
+  std::string name, look, tissue;
+  std::int32_t strand = -1;  ///< on row 0
+  double from = 0, to = 0;   ///< arc length [m]
+  bool cuttable = true;
+  tissue::MembraneModel sheet;
+  tissue::Skin skin;                            ///< the sheet's own nodes and triangles, one skin vertex per node
+  std::vector<float> depth;                     ///< (nodes) way from the strand's surface, as drawn [m]
+  std::vector<interactions::BorderHold> holds;  ///< (held nodes)
+};
+
 /// A hand at a trocar, and the instruments that go through it.
 struct HandModel {
   std::string name;                           ///< of the trocar: "left_lateral"
@@ -113,6 +126,7 @@ struct Model {
   std::vector<interactions::StrandBody> bodies;  ///< (strands) their mechanics, side by side as interactions want them
   std::vector<WallModel> walls;
   std::vector<SheetModel> sheets;
+  std::vector<MembraneModel> membranes;
   std::vector<HandModel> hands;  ///< at most kMaxTools
   ScopeModel scope;
   Input start;  ///< everything as placed
@@ -130,9 +144,10 @@ struct Model {
 
   int free_nodes() const;  ///< nodes that move, all bodies
   int surfaces() const { return int(solids.size() + walls.size()); }
-  int strand_index(const std::string& strand) const;  ///< -1 if there is none
-  int target_index(const std::string& target) const;  ///< -1 if there is none
-  int hand_index(const std::string& trocar) const;    ///< -1 if there is none
+  int strand_index(const std::string& strand) const;      ///< -1 if there is none
+  int membrane_index(const std::string& membrane) const;  ///< -1 if there is none
+  int target_index(const std::string& target) const;      ///< -1 if there is none
+  int hand_index(const std::string& trocar) const;        ///< -1 if there is none
 };
 
 /// Sets Model::hash from everything that the step reads.

@@ -35,6 +35,14 @@ State initial_state(const Model& model) {
   size_t elements = 0;
   for (const interactions::StrandBody& body : model.bodies) elements += size_t(body.nodes() - 1);
   s.tool_side.resize(model.hands.size() * elements * size_t(interactions::kToolParts));
+  size_t triangles = 0;
+  for (const MembraneModel& m : model.membranes) {
+    s.membranes.push_back(tissue::rest_state(m.sheet));
+    s.torn.emplace_back(m.sheet.triangles.size(), std::uint8_t(0));
+    triangles += m.sheet.triangles.size();
+  }
+  s.sheet_side.resize(model.hands.size() * triangles * size_t(interactions::kToolParts));
+  s.sheet_near.resize(model.hands.size() * model.membranes.size());
   s.seen.resize(model.samples.size());
   return s;
 }
@@ -55,6 +63,10 @@ std::uint64_t hash_of(const State& s) noexcept {
   h.add(s.strand_side);
   h.add(s.tool_side);
   h.add(s.seen);
+  for (const auto& membrane : s.membranes) add_to_hash(h, membrane);
+  h.add(s.sheet_side);
+  h.add(s.sheet_near);
+  for (const std::vector<std::uint8_t>& torn : s.torn) h.add(torn);
   for (const std::vector<std::uint8_t>& parted : s.parted) h.add(parted);
   return h.value();
 }
@@ -141,28 +153,35 @@ std::vector<std::uint8_t> display_bytes(const Model& model, const State& s) {
     for (size_t n = 0; n < strand.x.size(); ++n) put_place(out, strand.x[n], model.bodies[i].model.rest[n]);
     put(out, strand.alive.data(), strand.alive.size());
   }
+  for (size_t i = 0; i < s.membranes.size(); ++i) {
+    const tissue::NetworkModel& network = model.membranes[i].sheet.network;
+    for (int n = 0; n < network.nodes; ++n)
+      put_place(out, tissue::position(network, s.membranes[i].network, n), network.rest[size_t(n)]);
+  }
   put(out, &s.tools, 1);
   put(out, &s.scope, 1);
   put(out, &s.clip_count, 1);
   put(out, s.clips.data(), size_t(s.clip_count));
   put(out, &s.cut_count, 1);
   put(out, s.cuts.data(), size_t(s.cut_count));
-  for (const std::vector<std::uint8_t>& parted : s.parted) {
-    const std::vector<std::uint32_t> open = open_triangles(parted);
-    const auto n = std::uint32_t(open.size());
-    put(out, &n, 1);
-    put(out, open.data(), open.size());
-  }
+  for (const auto* bodies : {&s.parted, &s.torn})
+    for (const std::vector<std::uint8_t>& parted : *bodies) {
+      const std::vector<std::uint32_t> open = open_triangles(parted);
+      const auto n = std::uint32_t(open.size());
+      put(out, &n, 1);
+      put(out, open.data(), open.size());
+    }
   return out;
 }
 
 namespace {
 
 bool names_tissue(const Model& model, const interactions::Hold& hold) {
-  const std::int32_t b = hold.body, solid = b - interactions::kSolidBase;
+  const std::int32_t b = hold.body, solid = b - interactions::kSolidBase, fold = b - interactions::kMembraneBase;
   int elements = 0;
   if (b >= 0 && size_t(b) < model.bodies.size()) elements = model.bodies[size_t(b)].nodes() - 1;
   if (solid >= 0 && size_t(solid) < model.solids.size()) elements = model.solids[size_t(solid)].skin.size();
+  if (fold >= 0 && size_t(fold) < model.membranes.size()) elements = model.membranes[size_t(fold)].sheet.nodes();
   return hold.element >= 0 && hold.element < elements;
 }
 
@@ -188,7 +207,8 @@ bool sound(const Model& model, const State& s) {
     if (!names_strand(s.clips[size_t(i)].strand, s.clips[size_t(i)].s)) return false;
   for (int i = 0; i < s.cut_count; ++i)
     if (!names_strand(s.cuts[size_t(i)].strand, s.cuts[size_t(i)].s) || s.cuts[size_t(i)].solid < -1 ||
-        s.cuts[size_t(i)].solid >= std::int32_t(model.solids.size()))
+        s.cuts[size_t(i)].solid >= std::int32_t(model.solids.size()) || s.cuts[size_t(i)].membrane < -1 ||
+        s.cuts[size_t(i)].membrane >= std::int32_t(model.membranes.size()) || !std::isfinite(s.cuts[size_t(i)].fold))
       return false;
   return true;
 }
@@ -209,6 +229,11 @@ bool restore_display(const Model& model, const std::vector<std::uint8_t>& bytes,
     for (size_t n = 0; in.good && n < strand.x.size(); ++n) strand.x[n] = in.take_place(model.bodies[i].model.rest[n]);
     in.take(strand.alive.data(), strand.alive.size());
   }
+  for (size_t i = 0; i < s.membranes.size(); ++i) {
+    const tissue::NetworkModel& network = model.membranes[i].sheet.network;
+    for (int n = 0; in.good && n < network.nodes; ++n)
+      tissue::set_position(network, s.membranes[i].network, n, in.take_place(network.rest[size_t(n)]));
+  }
   in.take(&s.tools, 1);
   in.take(&s.scope, 1);
   in.take(&s.clip_count, 1);
@@ -217,17 +242,18 @@ bool restore_display(const Model& model, const std::vector<std::uint8_t>& bytes,
   in.take(&s.cut_count, 1);
   in.good = in.good && s.cut_count >= 0 && s.cut_count <= interactions::kMaxCuts;
   if (in.good) in.take(s.cuts.data(), size_t(s.cut_count));
-  for (std::vector<std::uint8_t>& parted : s.parted) {
-    std::uint32_t n = 0, triangle = 0;
-    in.take(&n, 1);
-    in.good = in.good && n <= parted.size();
-    parted.assign(parted.size(), 0);
-    for (std::uint32_t k = 0; in.good && k < n; ++k) {
-      in.take(&triangle, 1);
-      in.good = in.good && triangle < parted.size();
-      if (in.good) parted[triangle] = 1;
+  for (auto* bodies : {&s.parted, &s.torn})
+    for (std::vector<std::uint8_t>& parted : *bodies) {
+      std::uint32_t n = 0, triangle = 0;
+      in.take(&n, 1);
+      in.good = in.good && n <= parted.size();
+      parted.assign(parted.size(), 0);
+      for (std::uint32_t k = 0; in.good && k < n; ++k) {
+        in.take(&triangle, 1);
+        in.good = in.good && triangle < parted.size();
+        if (in.good) parted[triangle] = 1;
+      }
     }
-  }
   if (!in.good || in.at != bytes.size() || !sound(model, s)) return false;
   state = std::move(s);
   return true;

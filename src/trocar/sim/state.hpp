@@ -14,6 +14,7 @@ struct State {
   std::uint64_t tick = 0;  ///< ticks made
   std::vector<tissue::NetworkState> solids;
   std::vector<tissue::StrandState> strands;
+  std::vector<tissue::MembraneState> membranes;
   std::array<interactions::ToolState, kMaxTools> tools;
   std::array<std::int32_t, kMaxTools * kMaxRack> magazine{};  ///< clips in instruments that are put down, hand by hand
   ScopeInput scope;                                           ///< where the scope is
@@ -24,6 +25,9 @@ struct State {
   std::vector<Vec3f> strand_side;                 ///< per element of each strand pair's first strand
   std::vector<Vec3f> tool_side;                   ///< (tools x elements of all strands x kToolParts)
   std::vector<std::vector<std::uint8_t>> parted;  ///< (solids) per triangle of the drawn skin: 1 = cut open
+  std::vector<Vec3f> sheet_side;                  ///< (hands x triangles of all membranes x kToolParts)
+  std::vector<std::uint8_t> sheet_near;           ///< (hands x membranes) 1 = something is noted in sheet_side
+  std::vector<std::vector<std::uint8_t>> torn;    ///< (membranes) per triangle: 1 = cut open
   std::vector<std::uint8_t> seen;                 ///< (samples) 1 = in view when last looked
 };
 

@@ -12,7 +12,7 @@ namespace {
 using interactions::Owner;
 
 interactions::TissueView tissue_of(const StepContext& c) noexcept {
-  return {c.model.bodies, c.state.strands, {c.work.surfaces.data(), c.model.solids.size()}};
+  return {c.model.bodies, c.state.strands, {c.work.surfaces.data(), c.model.solids.size()}, c.work.sheets};
 }
 
 void tell(StepContext& c, Event::Kind kind, int tool, int index) noexcept {
@@ -50,6 +50,9 @@ void change_instrument(StepContext& c, size_t t, std::int32_t wanted) noexcept {
   next.clips_left = magazine[wanted];
   tool = next;
   for (Vec3f& side : sides_of(c, t)) side = {};
+  const size_t each = c.state.sheet_side.size() / c.model.hands.size(), membranes = c.model.membranes.size();
+  std::fill_n(c.state.sheet_side.begin() + std::ptrdiff_t(t * each), each, Vec3f{});
+  std::fill_n(c.state.sheet_near.begin() + std::ptrdiff_t(t * membranes), membranes, std::uint8_t(0));
   tell(c, Event::exchanged, int(t), wanted);
 }
 
@@ -90,6 +93,20 @@ void move_hands(StepContext& c) noexcept {
   s.post = stepped(s.post, in.post, 0.008f);
 }
 
+interactions::Holders holders_of(const StepContext& c) noexcept {
+  return {c.model.bodies, c.state.strands, c.work.networks, c.work.skins, c.state.solids};
+}
+
+void pose_sheets(StepContext& c) noexcept {
+  for (size_t i = 0; i < c.model.membranes.size(); ++i) {
+    const MembraneModel& m = c.model.membranes[i];
+    const tissue::NetworkState& state = c.state.membranes[i].network;
+    tissue::pose_skin(m.sheet.network, m.skin, state, c.work.sheet_poses[i]);
+    c.work.sheets[i] = {
+        {&m.skin, &c.work.sheet_poses[i], &m.sheet.network, &state}, c.state.torn[i], 0.5 * m.sheet.thickness};
+  }
+}
+
 // 2. Skins: x = W q, boxes.
 void pose_skins(StepContext& c) noexcept {
   for (size_t i = 0; i < c.model.solids.size(); ++i) {
@@ -99,6 +116,7 @@ void pose_skins(StepContext& c) noexcept {
   }
   for (size_t i = 0; i < c.model.walls.size(); ++i)
     c.work.surfaces[c.model.solids.size() + i] = {&c.model.walls[i].skin, &c.model.walls[i].pose, nullptr, nullptr};
+  pose_sheets(c);
 }
 
 constexpr double kHangingDamping = 0.02;  // [s] times stiffness: fat and folds that carry an organ yield slowly
@@ -107,6 +125,7 @@ constexpr double kHangingDamping = 0.02;  // [s] times stiffness: fat and folds 
 void hang_organs(StepContext& c) noexcept {
   for (interactions::NetworkLoads& l : c.work.solid_loads) l.clear();
   for (interactions::StrandLoads& l : c.work.strand_loads) l.clear();
+  for (interactions::NetworkLoads& l : c.work.membrane_loads) l.clear();
   for (size_t i = 0; i < c.model.solids.size(); ++i)
     for (const tissue::Anchor& a : c.model.solids[i].anchors) {
       tissue::NodeLoad load;
@@ -148,6 +167,38 @@ void cut_organs(StepContext& c, size_t t) noexcept {
   }
 }
 
+/// The record of what these blades cut in this tick of a membrane's strand, or a new one; none when the book is full.
+interactions::Cut* record_of_cut(State& s, size_t t, std::int32_t strand) noexcept {
+  for (int i = 0; i < s.cut_count; ++i) {
+    interactions::Cut& cut = s.cuts[size_t(i)];
+    if (cut.tick == s.tick && cut.tool == std::int32_t(t) && cut.strand == strand) return &cut;
+  }
+  if (s.cut_count == interactions::kMaxCuts) return nullptr;
+  interactions::Cut& cut = s.cuts[size_t(s.cut_count++)];
+  cut = {};
+  cut.tick = s.tick;
+  cut.tool = std::int32_t(t);
+  return &cut;
+}
+
+/// Blades that have just closed part the folds they closed in.
+void cut_folds(StepContext& c, size_t t) noexcept {
+  State& s = c.state;
+  const interactions::ToolShape& shape = c.work.shapes[t];
+  for (size_t i = 0; i < c.model.membranes.size(); ++i) {
+    const MembraneModel& m = c.model.membranes[i];
+    if (!m.cuttable || !c.work.sheet_poses[i].bounds.near_segment(shape.pivot, shape.frame.tip, 0.005)) continue;
+    const interactions::FoldCut fold = interactions::cut_membrane(c.model.tool(s, t), shape, m.sheet, m.depth,
+                                                                  s.membranes[i], s.torn[i], c.work.parts);
+    if (fold.severed == 0) continue;
+    interactions::Cut* cut = record_of_cut(s, t, m.strand);
+    if (!cut) continue;
+    cut->membrane = std::int32_t(i);
+    cut->fold = fold.depth;
+    cut->tips_visible = tips_visible(c, t);
+  }
+}
+
 // 4. Jaws: grip, clip, cut.
 void work_jaws(StepContext& c) noexcept {
   const interactions::TissueView view = tissue_of(c);
@@ -173,9 +224,30 @@ void work_jaws(StepContext& c) noexcept {
       const bool armed = tool.armed != 0;
       update_scissors(model, c.work.shapes[t], int(t), view, s.strands, tips_visible(c, t), s.tick, tool,
                       {s.cuts, s.cut_count});
-      if (armed && !tool.armed) cut_organs(c, t);
+      if (armed && !tool.armed) {
+        cut_organs(c, t);
+        cut_folds(c, t);
+      }
       for (int cut = before; cut < s.cut_count; ++cut) tell(c, Event::cut, int(t), cut);
     }
+  }
+}
+
+/// An instrument on folds. Far from one that it was not near before there is nothing to do, and nothing to forget.
+void touch_sheets(StepContext& c, size_t t) noexcept {
+  size_t triangles = 0;
+  for (const MembraneModel& m : c.model.membranes) triangles += m.sheet.triangles.size();
+  size_t at = t * triangles * size_t(interactions::kToolParts);
+  const interactions::ToolShape& shape = c.work.shapes[t];
+  for (size_t i = 0; i < c.model.membranes.size(); ++i) {
+    const size_t sides = c.model.membranes[i].sheet.triangles.size() * size_t(interactions::kToolParts);
+    std::uint8_t& near = c.state.sheet_near[t * c.model.membranes.size() + i];
+    const tissue::Box& box = c.work.sheet_poses[i].bounds;
+    if (near || box.near_segment(shape.part[interactions::kShaft].a, shape.frame.tip, 0.03))
+      near = interactions::tool_on_sheet(shape, c.state.tools[t], int(t), interactions::kMembraneBase + int(i),
+                                         c.work.sheets[i], {c.state.sheet_side.data() + at, sides},
+                                         c.work.membrane_loads[i]);
+    at += sides;
   }
 }
 
@@ -193,7 +265,9 @@ void touch_tissue(StepContext& c) noexcept {
                                    c.state.strands[i], {c.state.tool_side.data() + at, sides}, c.work.strand_loads[i]);
       at += sides;
     }
-    interactions::hold_loads(shape, int(t), view, c.state.tools[t], c.work.strand_loads, c.work.solid_loads);
+    touch_sheets(c, t);
+    interactions::hold_loads(shape, int(t), view, c.state.tools[t], c.work.strand_loads, c.work.solid_loads,
+                             c.work.membrane_loads);
   }
 }
 
@@ -209,6 +283,9 @@ void touch_organs(StepContext& c) noexcept {
     if (p.strand >= 0) {
       const size_t i = size_t(p.strand);
       strand_on_surface(p, c.model.bodies[i], s.strands[i], surface, nearest, c.work.strand_loads[i], back);
+    } else if (p.membrane >= 0) {
+      const size_t i = size_t(p.membrane);
+      solid_on_surface(p, c.work.sheets[i].surface, surface, nearest, c.work.membrane_loads[i], back);
     } else {
       const size_t i = size_t(p.solid);
       solid_on_surface(p, c.work.surfaces[i], surface, nearest, c.work.solid_loads[i], back);
@@ -243,7 +320,18 @@ tissue::StrandEnd end_of(const StepContext& c, const StrandEndModel& end, Vec3d 
   return next;
 }
 
-// 7. Strands: implicit, ends where their hosts put them, pulling on them.
+// 7. Folds pull on what carries them.
+void pull_on_borders(StepContext& c) noexcept {
+  for_each(c.work.pool, c.model.membranes.size(), [&c](int index) noexcept {
+    const size_t i = size_t(index);
+    tissue::border_pulls(c.model.membranes[i].sheet, c.state.membranes[i], c.work.membrane_work[i], c.work.pulls[i]);
+  });
+  for (size_t i = 0; i < c.model.membranes.size(); ++i)
+    interactions::border_loads(c.model.membranes[i].holds, c.work.pulls[i], c.model.membranes[i].sheet,
+                               c.state.membranes[i], holders_of(c), kTick, c.work.strand_loads, c.work.solid_loads);
+}
+
+// 8. Strands: implicit, ends where their hosts put them, pulling on them.
 void advance_strands(StepContext& c) noexcept {
   for_each(c.work.pool, c.model.strands.size(), [&c](int index) noexcept {
     const size_t i = size_t(index);
@@ -275,7 +363,7 @@ void advance_strands(StepContext& c) noexcept {
   }
 }
 
-// 8. Organs: explicit networks in their own sub-steps.
+// 9. Organs: explicit networks in their own sub-steps.
 void advance_solids(StepContext& c) noexcept {
   for_each(c.work.pool, c.model.solids.size(), [&c](int index) noexcept {
     const size_t i = size_t(index);
@@ -283,6 +371,20 @@ void advance_solids(StepContext& c) noexcept {
     loads.sort();
     c.work.solid_reports[i] = tissue::advance(c.model.solids[i].network, loads.sorted, loads.reaction,
                                               c.state.solids[i], c.work.solid_work[i]);
+  });
+}
+
+// 10. Folds: borders go where their holders have gone.
+void advance_membranes(StepContext& c) noexcept {
+  for_each(c.work.pool, c.model.membranes.size(), [&c](int index) noexcept {
+    const size_t i = size_t(index);
+    const MembraneModel& m = c.model.membranes[i];
+    const interactions::Holders holders = holders_of(c);
+    for (size_t h = 0; h < m.holds.size(); ++h) c.work.targets[i][h] = held_place(m.holds[h], holders);
+    interactions::NetworkLoads& loads = c.work.membrane_loads[i];
+    loads.sort();
+    c.work.membrane_reports[i] = tissue::advance(m.sheet, c.work.targets[i], loads.sorted, loads.reaction,
+                                                 c.state.membranes[i], c.work.membrane_work[i]);
   });
 }
 
@@ -301,7 +403,7 @@ void account(StepContext& c, interactions::Tag tag, Vec3d force) noexcept {
   on_tissue[2] += float(force.z);
 }
 
-// 9. What the tissue did to the instruments; slip.
+// 11. What the tissue did to the instruments; slip.
 void feel(StepContext& c) noexcept {
   for (interactions::ToolState& tool : c.state.tools) {
     for (double& f : tool.contact_force) f = 0;
@@ -310,6 +412,8 @@ void feel(StepContext& c) noexcept {
   for (const interactions::StrandLoads& l : c.work.strand_loads)
     for (size_t i = 0; i < l.list.size(); ++i) account(c, l.tag[i], l.reaction[i]);
   for (const interactions::NetworkLoads& l : c.work.solid_loads)
+    for (size_t i = 0; i < l.sorted.size(); ++i) account(c, l.owner[i], vec_cast<double>(l.reaction[i]));
+  for (const interactions::NetworkLoads& l : c.work.membrane_loads)
     for (size_t i = 0; i < l.sorted.size(); ++i) account(c, l.owner[i], vec_cast<double>(l.reaction[i]));
   const interactions::TissueView view = tissue_of(c);
   for (size_t t = 0; t < c.model.hands.size(); ++t) {
@@ -320,10 +424,10 @@ void feel(StepContext& c) noexcept {
   }
 }
 
-// 10. Eyes: what the endoscope sees.
+// 12. Eyes: what the endoscope sees.
 void see(StepContext& c) noexcept { look(c.model, c.state, c.work); }
 
-// 11. Reports.
+// 13. Reports.
 void sum_up(StepContext& c) noexcept {
   const auto take = [&c](const tissue::StepReport& r, int body) {
     c.report.flags |= r.flags;
@@ -335,6 +439,9 @@ void sum_up(StepContext& c) noexcept {
   const int solids = int(c.model.solids.size());
   for (int i = 0; i < solids; ++i) take(c.work.solid_reports[size_t(i)], i);
   for (size_t i = 0; i < c.model.strands.size(); ++i) take(c.work.strand_reports[i], solids + int(i));
+  const int before = solids + int(c.model.strands.size());
+  for (size_t i = 0; i < c.model.membranes.size(); ++i) take(c.work.membrane_reports[i], before + int(i));
+  for (const auto& l : c.work.membrane_loads) c.report.flags |= l.overflowed ? StepReport::kTooManyLoads : 0u;
   for (const auto& l : c.work.solid_loads) c.report.flags |= l.overflowed ? StepReport::kTooManyLoads : 0u;
   for (const auto& l : c.work.strand_loads) c.report.flags |= l.overflowed ? StepReport::kTooManyLoads : 0u;
   ++c.state.tick;
@@ -347,8 +454,10 @@ constexpr Stage kStages[] = {
     {"work jaws", work_jaws},
     {"touch tissue", touch_tissue},
     {"touch organs", touch_organs},
+    {"pull on borders", pull_on_borders},
     {"advance strands", advance_strands},
     {"advance solids", advance_solids},
+    {"advance membranes", advance_membranes},
     {"feel", feel},
     {"see", see},
     {"sum up", sum_up},

@@ -22,7 +22,7 @@ struct StepReport {
     kBadInput = 1u << 17,      ///< an input was not finite: the hands stayed where they were
   };
   std::uint32_t flags = 0;
-  int first_bad_body = -1;   ///< solids first, then strands
+  int first_bad_body = -1;   ///< solids first, then strands, then membranes
   int first_bad_index = -1;  ///< node of that body
   Event events[kMaxEvents];
   int event_count = 0;

@@ -12,7 +12,9 @@ constexpr double kMaskShare = 0.97;  // of the field's half angle: what the mask
 constexpr double kSkinEdge = 0.004;  // [m] boxes of vertices are grown by this to hold their triangles
 
 /// Does the segment meet a triangle of the surface? A triangle is looked at with its lowest vertex's block.
-bool hits_surface(const interactions::Surface& surface, Vec3d from, Vec3d to) noexcept {
+/// @param open  per triangle: 1 = it is not there; may be empty
+bool hits_surface(const interactions::Surface& surface, Vec3d from, Vec3d to,
+                  std::span<const std::uint8_t> open = {}) noexcept {
   const tissue::SkinPose& pose = *surface.pose;
   if (!pose.bounds.near_segment(from, to, 0)) return false;
   const tissue::Skin& skin = *surface.skin;
@@ -27,6 +29,7 @@ bool hits_surface(const interactions::Surface& surface, Vec3d from, Vec3d to) no
     for (int v = int(b) * tissue::kSkinBlock; v < last; ++v)
       for (int k = skin.face_first[size_t(v)]; k < skin.face_first[size_t(v) + 1]; ++k) {
         const auto& t = skin.triangles[size_t(skin.face[size_t(k)])];
+        if (!open.empty() && open[size_t(skin.face[size_t(k)])]) continue;
         if (std::min({t[0], t[1], t[2]}) != v) continue;
         const auto hit =
             geometry::ray_triangle(from, along, surface.position(t[0]), surface.position(t[1]), surface.position(t[2]));
@@ -58,6 +61,16 @@ bool faces_eye(const Model& model, const Work& work, const VisibilitySample& sam
   return dot(work.surfaces[size_t(target.index)].normal(sample.where), eye - point) > 0;
 }
 
+/// Is no fold between the eye and the point?
+bool before_folds(const Work& work, Vec3d eye, Vec3d point, double margin) noexcept {
+  const double distance = length(point - eye);
+  if (distance <= margin) return true;
+  const Vec3d end = eye + (1.0 - margin / distance) * (point - eye);
+  for (const interactions::SheetView& sheet : work.sheets)
+    if (hits_surface(sheet.surface, eye, end, sheet.parted)) return false;
+  return true;
+}
+
 bool sees(const Model& model, const State& state, const Work& work, const VisibilitySample& sample,
           const kinematics::ScopeFrame& scope) noexcept {
   const VisibilityTarget& target = model.targets[size_t(sample.target)];
@@ -68,7 +81,9 @@ bool sees(const Model& model, const State& state, const Work& work, const Visibi
   const bool own = target.kind == VisibilityTarget::jaw || target.kind == VisibilityTarget::shaft;
   const int tool = own ? target.index : -1;
   const int strand = target.kind == VisibilityTarget::strand ? target.index : -1;
-  return unoccluded(model, state, work, scope.eye, p, 0.0015, tool, strand);
+  // Folds are translucent: an instrument right behind one is seen through it, an organ is not told apart.
+  return unoccluded(model, state, work, scope.eye, p, 0.0015, tool, strand) &&
+         (own || before_folds(work, scope.eye, p, 0.0015));
 }
 
 }  // namespace

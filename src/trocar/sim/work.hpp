@@ -22,7 +22,15 @@ struct Work {
   std::vector<std::array<tissue::StrandEnd, 2>> ends;  ///< (strands)
   std::vector<std::array<tissue::StrandReaction, 2>> end_reactions;
   std::vector<std::int32_t> parts;  ///< (nodes of the largest organ) what hangs together, for cuts
-  std::vector<tissue::StepReport> solid_reports, strand_reports;
+  std::vector<tissue::StepReport> solid_reports, strand_reports, membrane_reports;
+  std::vector<tissue::SkinPose> sheet_poses;    ///< (membranes)
+  std::vector<interactions::SheetView> sheets;  ///< (membranes)
+  std::vector<interactions::NetworkLoads> membrane_loads;
+  std::vector<tissue::MembraneWork> membrane_work;
+  std::vector<std::vector<tissue::BorderPull>> pulls;  ///< (membranes)(held nodes)
+  std::vector<std::vector<Vec3d>> targets;             ///< (membranes)(held nodes)
+  std::vector<const tissue::NetworkModel*> networks;   ///< (solids) of the Model
+  std::vector<const tissue::Skin*> skins;              ///< (solids) of the Model
 };
 
 Work make_work(const Model& model, core::ThreadPool* pool = nullptr);

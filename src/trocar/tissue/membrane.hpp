@@ -10,7 +10,7 @@
 //             that bends without stretching this is Kirchhoff's energy, whichever way it is turned [cf. Wardetzky et
 //             al. 07]). Constant matrices, so it conserves both momenta and its step has a bound. The sheet is flat by
 //             nature. Exact for rectangular cells; skew ones are taken as rectangular.
-//   weight    E t and bending are those of the tissue; the mass is density x thickness x area
+//   weight    density x thickness x area; nodes of small cells (and of corners) are given half the mean mass
 //   time      explicit: bending as impulses once or a few times a tick, stretch in the network's own sub-steps
 // Held nodes (the borders) go in a straight line to where their holders are when the tick ends; border_pulls() says
 // what the sheet does to the holders. With `settle` the sheet is first let hang from its borders: what is then drawn is

@@ -82,6 +82,8 @@ std::vector<Spring> springs_of(const MembraneDescription& m) {
   return out;
 }
 
+constexpr double kLeastMass = 0.5;  // of a node, of the mean
+
 NetworkDescription network_of(const MembraneDescription& m) {
   NetworkDescription d;
   d.positions = m.positions;
@@ -94,6 +96,10 @@ NetworkDescription network_of(const MembraneDescription& m) {
       const Cell e = cell_at(m, c, r);
       for (int i : {e.a, e.b, e.c, e.d}) d.mass[std::size_t(i)] += 0.25 * m.density * m.thickness * e.area;
     }
+  // Nodes of cells that are much smaller than the others would need steps of their own: they get half the mean mass.
+  double mean = 0;
+  for (double each : d.mass) mean += each / double(d.mass.size());
+  for (double& each : d.mass) each = std::max(each, kLeastMass * mean);
   for (const Spring& s : springs_of(m)) {
     SpringDescription e;
     e.a = s.a, e.b = s.b, e.k = s.k;

@@ -1,0 +1,49 @@
+// Where a membrane hangs: every node of its borders rides on a strand, on an organ's skin, or stays in space. The node
+// is exactly where its holder is when the tick ends; the holder bears what the sheet pulls with.
+//
+// Holders step before the sheet does, with its pull at the tick's beginning. Where the tick bends the holder's flight,
+// the pull falls by the border's own stiffness: to the holder that is a resistance to changes of velocity, taken
+// implicitly, so that a light holder under a stiff sheet is stable. What it differs from the sheet's true pull by is of
+// the order of that stiffness times the change of velocity times a tick (a test bounds it).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <trocar/interactions/loads.hpp>
+#include <trocar/interactions/strand_body.hpp>
+#include <trocar/tissue/membrane.hpp>
+
+namespace trocar::interactions {
+
+/// What one held node of a membrane rides on. Const after compile.
+struct BorderHold {
+  enum Kind : std::int32_t { space, strand, solid } kind = space;
+  std::int32_t index = -1;    ///< strand or solid
+  StrandPlace place;          ///< on the strand
+  std::int32_t vertex = -1;   ///< of the solid's skin
+  Vec3d offset{0, 0, 0};      ///< from there to the node as drawn [m]
+  Vec3d drawn_pull{0, 0, 0};  ///< of the sheet in the drawn shape: its holder is drawn bearing it already [N]
+};
+
+/// Bodies that may hold a border, and where their loads go.
+struct Holders {
+  std::span<const StrandBody> strands;
+  std::span<const tissue::StrandState> strand_states;
+  std::span<const tissue::NetworkModel* const> networks;  ///< of the solids
+  std::span<const tissue::Skin* const> skins;
+  std::span<const tissue::NetworkState> solid_states;
+};
+
+/// Where the node shall be: on its holder as that is now.
+Vec3d held_place(const BorderHold& hold, const Holders& holders) noexcept;
+
+/// Gives the sheet's pulls to the holders. `whole` is the share of each border node's springs that are not cut.
+/// @param holds, pulls  (held nodes of the membrane)
+void border_loads(std::span<const BorderHold> holds, std::span<const tissue::BorderPull> pulls,
+                  const tissue::MembraneModel& sheet, const tissue::MembraneState& state, const Holders& holders,
+                  double dt, std::span<StrandLoads> strand_loads, std::span<NetworkLoads> solid_loads) noexcept;
+
+void add_to_hash(core::Hasher& hasher, const BorderHold& hold) noexcept;
+
+}  // namespace trocar::interactions

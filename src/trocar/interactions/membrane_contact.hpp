@@ -1,0 +1,28 @@
+// An instrument touches a thin sheet, from either side. Shaft and jaws are rods against the sheet's triangles; for
+// every rod and triangle State remembers from which side they last were near each other, and the contact pushes the
+// sheet back to there. So nothing passes through it: hands move at most 0.6 mm a tick, and a rod is remembered from 2
+// mm before it touches. What lies between the jaws, a little of the fold or all of it, has a jaw on either side.
+#pragma once
+
+#include <span>
+
+#include <trocar/interactions/loads.hpp>
+#include <trocar/interactions/surface.hpp>
+#include <trocar/interactions/tool.hpp>
+
+namespace trocar::interactions {
+
+/// A membrane as it is now, for hands: a surface with two sides.
+struct SheetView {
+  Surface surface;                       ///< its skin's vertices are its nodes
+  std::span<const std::uint8_t> parted;  ///< (triangles) 1 = cut open
+  double half_thickness = 0;             ///< [m]
+};
+
+/// @param body  how holds name this membrane
+/// @param side  (triangles x kToolParts) State: unit vector from the rod to the sheet when they last were near
+/// @return true while anything is remembered
+bool tool_on_sheet(const ToolShape& shape, const ToolState& tool_state, int tool, int body, const SheetView& sheet,
+                   std::span<Vec3f> side, NetworkLoads& loads) noexcept;
+
+}  // namespace trocar::interactions

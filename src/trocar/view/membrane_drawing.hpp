@@ -1,0 +1,32 @@
+// A fold that is a body: its nodes give the shape, a smooth surface goes through them. Where scissors parted it, it
+// gapes.
+#pragma once
+
+#include <trocar/sim/state.hpp>
+#include <trocar/view/mesh_buffer.hpp>
+
+namespace trocar::view {
+
+class MembraneDrawing {
+ public:
+  MembraneDrawing(const sim::Model& model, int membrane, render::Backend& backend);
+
+  void update(const sim::State& state);
+  render::MeshHandle mesh() const { return m_mesh.handle(); }
+  const MeshBuffer& buffer() const { return m_buffer; }
+
+ private:
+  void lay_pattern();
+  void connect(const std::vector<std::uint8_t>& torn);
+  void place(const tissue::MembraneState& state);
+
+  const sim::MembraneModel* m_membrane;
+  int m_index, m_columns, m_rows;        ///< of the drawn grid
+  std::vector<std::uint8_t> m_torn;      ///< as drawn last
+  std::vector<Vec3d> m_node, m_between;  ///< (columns x rows of the body), (drawn columns x rows of the body)
+  std::vector<double> m_rest_width;      ///< (columns of the body) from border to border, as drawn at rest
+  MeshBuffer m_buffer;
+  OwnedMesh m_mesh;
+};
+
+}  // namespace trocar::view
