@@ -191,7 +191,7 @@ std::string learning(const Study& study) {
 constexpr const char* kStyle =
     "body{font:15px/1.5 system-ui,sans-serif;max-width:78em;margin:2em auto;padding:0 1em;color:#222}"
     "table{border-collapse:collapse;margin:.5em 0}th,td{text-align:left;padding:.2em .7em;border-bottom:1px solid #ddd;"
-    "font-variant-numeric:tabular-nums}figure{display:inline-block;width:26em;margin:.6em;vertical-align:top}"
+    "font-variant-numeric:tabular-nums}figure{display:inline-block;width:24.5em;margin:.5em;vertical-align:top}"
     "figcaption{font-weight:600}svg{width:100%;height:auto}svg text{font:11px system-ui,sans-serif;fill:#555}"
     ".grid{stroke:#e4e4e4;fill:none}.band{fill:#0072b2;opacity:.12}.median{stroke:#333;stroke-width:1.6;fill:none}"
     "small{color:#666}.lead{font-size:1.1em}";
