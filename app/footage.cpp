@@ -10,12 +10,21 @@ T mixed(T a, T b, double f) {
   return T(a + f * (b - a));
 }
 
-void blend_solid(const tissue::NetworkModel& model, const tissue::NetworkState& a, const tissue::NetworkState& b,
-                 double f, tissue::NetworkState& out) {
+void blend_network(const tissue::NetworkModel& model, const tissue::NetworkState& a, const tissue::NetworkState& b,
+                   double f, tissue::NetworkState& out) {
   for (int n = 0; n < model.nodes; ++n) {
     const Vec3d from = tissue::position(model, a, n);
     tissue::set_position(model, out, n, from + f * (tissue::position(model, b, n) - from));
   }
+}
+
+// A template, so that Models with and without folds of their own mechanics are shown.
+template <class Model, class State>
+void blend_folds(const Model& model, const State& a, const State& b, double f, State& out) {
+  if constexpr (requires { a.membranes; })
+    for (std::size_t i = 0; i < model.membranes.size(); ++i)
+      blend_network(model.membranes[i].sheet.network, a.membranes[i].network, b.membranes[i].network, f,
+                    out.membranes[i].network);
 }
 
 void blend_tool(const interactions::ToolState& a, const interactions::ToolState& b, double f,
@@ -43,10 +52,11 @@ void blend(const sim::Model& model, const sim::State& a, const sim::State& b, do
   if (!(f > 0)) return;
   out.tick = a.tick + std::uint64_t(f * double(b.tick - a.tick));
   for (std::size_t i = 0; i < model.solids.size(); ++i)
-    blend_solid(model.solids[i].network, a.solids[i], b.solids[i], f, out.solids[i]);
+    blend_network(model.solids[i].network, a.solids[i], b.solids[i], f, out.solids[i]);
   for (std::size_t i = 0; i < out.strands.size(); ++i)
     for (std::size_t n = 0; n < out.strands[i].x.size(); ++n)
       out.strands[i].x[n] += f * (b.strands[i].x[n] - a.strands[i].x[n]);
+  blend_folds(model, a, b, f, out);
   for (std::size_t t = 0; t < out.tools.size(); ++t) blend_tool(a.tools[t], b.tools[t], f, out.tools[t]);
   blend_scope(a.scope, b.scope, f, out.scope);
 }
