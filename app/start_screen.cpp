@@ -178,7 +178,7 @@ StartAnswer draw_start(const StartContent& c, StartMemory& memory) {
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const float left = std::clamp(0.34f * room.x, std::min(230 * ui::scale(), 0.45f * room.x), 380 * ui::scale());
 
-  ImGui::BeginChild("left", {left, 0}, false);
+  ImGui::BeginChild("left", {left, 0}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
   ui::title("Trocar");
   ui::text("Training in endoscopic surgery", ui::kGrey);
   ImGui::Dummy({0, 4 * ui::scale()});

@@ -188,9 +188,16 @@ void Window::steer_menus() {
   ImGuiIO& io = ImGui::GetIO();
   std::fill(std::begin(io.NavInputs), std::end(io.NavInputs), 0.0f);
   io.ConfigFlags &= ~(ImGuiConfigFlags_NavEnableKeyboard | ImGuiConfigFlags_NavEnableGamepad);
+  // A key that went down and up between two pictures has been down in this one, too.
+  for (const int key : m_keys_shown) io.KeysDown[key] = glfwGetKey(m_window, key) == GLFW_PRESS;
+  m_keys_shown = std::exchange(m_keys_pressed, {});
+  bool enter = glfwGetKey(m_window, GLFW_KEY_ENTER) == GLFW_PRESS;
+  for (const int key : m_keys_shown) {
+    io.KeysDown[key] = true;
+    enter |= key == GLFW_KEY_ENTER || key == GLFW_KEY_KP_ENTER;
+  }
   if (m_captured) return;
   io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
-  const bool enter = glfwGetKey(m_window, GLFW_KEY_ENTER) == GLFW_PRESS;
   if (enter && !io.WantTextInput) io.NavInputs[ImGuiNavInput_Activate] = 1;
   if (!m_gamepads.present()) return;
   io.ConfigFlags |= ImGuiConfigFlags_NavEnableGamepad;
@@ -257,6 +264,7 @@ void Window::collect_keys() {
 void Window::on_key(GLFWwindow* window, int key, int, int action, int) {
   if (action != GLFW_PRESS) return;
   Window& w = of(window);
+  if (key >= 0 && key < int(std::size(ImGui::GetIO().KeysDown))) w.m_keys_pressed.push_back(key);
   if (key == GLFW_KEY_F1) w.m_next_keys.help = !w.m_next_keys.help;
   if (key == GLFW_KEY_P || key == GLFW_KEY_PAUSE) w.m_next_keys.pause = !w.m_next_keys.pause;
   if (key == GLFW_KEY_ESCAPE) w.m_next_keys.back = !w.m_next_keys.back;

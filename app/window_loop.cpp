@@ -148,7 +148,8 @@ ExerciseFacts Trainer::facts_of(const Lesson* lesson) {
   const training::Exercise& e = *lesson->exercise;
   facts.facts.push_back(fmt::format("about {:.0f} minutes", std::max(1.0, e.expert_time / 60)));
   facts.facts.push_back(fmt::format("passed from {:.0f} of 100", e.pass_mark));
-  for (const training::StepStatus& s : lesson->monitor()->steps()) facts.steps.push_back(s.name);
+  const std::unique_ptr<training::Monitor> monitor = lesson->monitor();
+  for (const training::StepStatus& s : monitor->steps()) facts.steps.push_back(s.name);
   return facts;
 }
 
