@@ -1,60 +1,200 @@
-// trocar report: the result that a recording ends with, as JSON or as an HTML page.
+// trocar report: what is known of an attempt as a page; all attempts as a list or a table; forgetting a trainee.
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
 #include <trocar/core/log.hpp>
 #include <trocar/sim/recording.hpp>
+#include <trocar/training/store.hpp>
 
 #include "command.hpp"
+#include "export.hpp"
 #include "json.hpp"
+#include "paths.hpp"
+#include "report.hpp"
 #include "report_page.hpp"
 
 namespace trocar::app {
 namespace {
 
-Json parsed(const std::string& text) {
-  Json value = Json::parse(text, nullptr, false);
-  return value.is_object() ? value : Json::object();
+namespace fs = std::filesystem;
+using training::Attempt;
+using training::Store;
+
+struct Options {
+  std::string what, out, csv, trace, trainee, forget, compare;
+  bool list = false, names = false, no_pictures = false;
+};
+
+void write_text(const std::string& path, const std::string& text) {
+  std::ofstream out(path, std::ios::binary);
+  out << text;
+  if (!out.flush())
+    throw core::EnvironmentLacks(fmt::format("cannot write {}: {}", path, std::strerror(errno ? errno : ENOSPC)));
 }
 
-/// What the file says of itself; the result is that of the attempt's end, or how far an interrupted one came.
-Json summary(const sim::Recording& r, const std::string& file) {
-  Json out{{"recording", file},
-           {"exercise", r.header.exercise},
-           {"program_version", r.header.program_version},
-           {"model_hash", hex(r.header.model_hash)},
-           {"ticks", r.inputs.size()},
-           {"complete", r.complete}};
-  if (!r.damage.empty()) out["damage"] = r.damage;
-  out.update(parsed(r.header.metadata_json));
-  out.update(parsed(r.result_json));
+/// How much of `text` fits into so many columns.
+std::string cut_to(const std::string& text, std::size_t most) {
+  if (text.size() <= most) return text;
+  std::size_t at = most - 1;
+  while (at > 0 && (static_cast<unsigned char>(text[at]) & 0xc0) == 0x80) --at;  // not within a character
+  return text.substr(0, at) + "~";
+}
+
+int list(const Store& store, const Options& o, bool json) {
+  const std::vector<Attempt> attempts = store.list({.trainee = o.trainee});
+  if (json) {
+    Json entries = attempts_json(attempts, true);
+    for (Json& e : entries) e.erase("result");
+    print({{"store", store.folder().string()}, {"attempts", entries}, {"notices", store.notices()}});
+    return core::kDone;
+  }
+  if (attempts.empty()) {
+    fmt::print("no attempts yet in {}\n", store.folder().string());
+    return core::kDone;
+  }
+  fmt::print("{:>5}  {:16}  {:16}  {:28}  {:14}  {:11}  {:>5}  {:>8}\n", "", "begun (UTC)", "trainee", "exercise",
+             "mode", "state", "score", "seconds");
+  for (const Attempt& a : attempts) {
+    std::string begun = a.started.substr(0, std::min<std::size_t>(16, a.started.size()));
+    std::replace(begun.begin(), begun.end(), 'T', ' ');
+    fmt::print("{:>5}  {:16}  {:16}  {:28}  {:14}  {:11}  {:>5}  {:8.1f}\n", a.number, begun, cut_to(a.trainee, 16),
+               cut_to(a.exercise, 28), name_of(a.mode), name_of(a.state),
+               a.score ? fmt::format("{:.0f}", *a.score) : "", a.seconds);
+  }
+  return core::kDone;
+}
+
+int forget(Store& store, const std::string& trainee, bool json) {
+  const Store::Forgotten gone = store.forget(trainee);
+  const auto texts = [](const std::vector<fs::path>& paths) {
+    Json out = Json::array();
+    for (const fs::path& p : paths) out.push_back(p.string());
+    return out;
+  };
+  if (json) {
+    print({{"trainee", trainee},
+           {"attempts_deleted", gone.attempts},
+           {"recordings_deleted", texts(gone.deleted)},
+           {"left", texts(gone.left)}});
+  } else {
+    fmt::print("{}: {} attempts and {} recordings deleted\n", trainee, gone.attempts, gone.deleted.size());
+    for (const fs::path& p : gone.left) fmt::print("left, delete it yourself: {}\n", p.string());
+  }
+  return gone.attempts > 0 ? core::kDone : core::kGoalNotReached;
+}
+
+/// From a file: what it says itself, and what the store knows of the same attempt.
+Attempt from_recording(const Store& store, const std::string& file) {
+  Attempt there;
+  if (!fill_from_recording(file, there)) {
+    sim::read_recording(file);  // says what is wrong with it
+    throw core::BadInput({{{file, 0, 0}, "expected a recording"}});
+  }
+  std::optional<Attempt> kept;
+  try {
+    kept = store.find(there.uuid);
+  } catch (const core::EnvironmentLacks& lacks) {
+    core::log::warn("{}", lacks.what());
+  }
+  if (!kept) return there;
+  kept->recording = there.recording;
+  return *kept;
+}
+
+Attempt chosen(const Store& store, const Options& o) {
+  std::error_code error;
+  if (!o.what.empty() && fs::is_regular_file(o.what, error)) return from_recording(store, o.what);
+  if (!o.what.empty()) {
+    if (std::optional<Attempt> a = store.find(o.what)) return *a;
+    throw core::BadInput(
+        {{{o.what, 0, 0},
+          "expected a recording, or an attempt's number or uuid as `trocar report --list` shows them"}});
+  }
+  const std::vector<Attempt> all = store.list({.trainee = o.trainee, .limit = 1});
+  if (all.empty())
+    throw core::BadInput({{{"report", 0, 0}, "expected an attempt, there is none yet: do one with `trocar train`"}});
+  return *store.find(all.back().uuid);
+}
+
+Json summary(const Report& r) {
+  Json out = attempts_json({r.attempt}, r.names)[0];
+  const Json result = out["result"];
+  out.erase("result");
+  if (!r.names) out.erase("trainee");
+  out.update(result);
+  out["complete"] = r.attempt.state == training::AttemptState::finished;
   return out;
 }
 
-int report(const std::string& file, const std::string& folder, bool json) {
-  const sim::Recording recording = sim::read_recording(file);
-  Json result = summary(recording, file);
-  if (!recording.complete) core::log::warn("{}: the attempt was interrupted or the file is damaged", file);
-  if (!folder.empty()) result["report"] = write_report(folder, result);
-  if (json || folder.empty())
+int report(Store& store, const Options& o, bool json) {
+  Attempt attempt = chosen(store, o);
+  if (!o.compare.empty()) {
+    if (o.compare != "demo") throw core::BadInput({{{"--compare", 0, 0}, "expected demo, got '" + o.compare + "'"}});
+    if (!gather(&store, attempt).scripted) demonstrate(store, attempt.exercise, attempt.seed);
+  }
+  Report r = gather(&store, std::move(attempt));
+  r.names = o.names;
+  if (r.attempt.state != training::AttemptState::finished)
+    core::log::warn("attempt {}: {}", r.attempt.uuid, name_of(r.attempt.state));
+  Json result = summary(r);
+  if (!o.csv.empty()) write_text(o.csv, attempts_csv({r.attempt}, o.names));
+  if (!o.trace.empty()) {
+    if (!r.trace)
+      throw core::BadInput({{{"--trace", 0, 0}, "expected an attempt whose motion is known, this one's is not"}});
+    write_text(o.trace, to_csv(*r.trace));
+  }
+  const bool page = !o.out.empty() || (!json && o.csv.empty() && o.trace.empty());
+  if (page) {
+    const fs::path folder = o.out.empty() ? store.folder() / "reports" / r.attempt.uuid : fs::path(o.out);
+    make_folder(folder);
+    if (!o.no_pictures && !r.attempt.recording.empty()) add_pictures(r, r.attempt.recording, folder);
+    result["report"] = write_report(folder, r);
+  }
+  if (json)
     print(result);
-  else
+  else if (page)
     fmt::print("{}\n", result["report"].get<std::string>());
   return core::kDone;
+}
+
+int run(const Options& o, bool json) {
+  Store store(data_folder());
+  if (!o.forget.empty()) return forget(store, training::clean_name(o.forget), json);
+  if (o.list) return list(store, o, json);
+  if (!o.csv.empty() && o.what.empty()) {
+    const std::vector<Attempt> all = store.list({.trainee = o.trainee});
+    write_text(o.csv, attempts_csv(all, o.names));
+    if (json) print({{"csv", o.csv}, {"attempts", attempts_json(all, o.names)}});
+    return core::kDone;
+  }
+  return report(store, o, json);
 }
 
 }  // namespace
 
 void add_report(CLI::App& program, Chosen& chosen) {
-  struct Options {
-    std::string file, out;
-  };
   auto o = std::make_shared<Options>();
-  CLI::App* c =
-      add_command(program, chosen, "report", "Show the result of a recording", "trocar report a.rec --out report");
-  c->add_option("recording", o->file, "a recording (train --record)")->required();
-  c->add_option("--out", o->out, "write an HTML page to this folder; without it the result is printed as JSON");
-  c->callback([o, &chosen] { chosen.run = [o, &chosen] { return report(o->file, o->out, chosen.json); }; });
+  CLI::App* c = add_command(program, chosen, "report", "Show how an attempt went; list, export and delete attempts",
+                            "trocar report                      the latest attempt as a page\n"
+                            "  trocar report --list\n"
+                            "  trocar report 12 --out report --compare demo\n"
+                            "  trocar report --csv attempts.csv --names");
+  c->add_option("attempt", o->what, "number or uuid from --list, or a recording; default: the latest");
+  c->add_flag("--list", o->list, "all attempts, oldest first");
+  c->add_option("--trainee", o->trainee, "only this trainee's");
+  c->add_option("--out", o->out, "folder of the page; default: reports/UUID in the data folder");
+  c->add_option("--csv", o->csv, "write the attempt, or without one all, as a table");
+  c->add_option("--trace", o->trace, "write the attempt's motion, 50 samples a second, as a table");
+  c->add_option("--compare", o->compare, "demo: with the scripted surgeon, who does it now if need be");
+  c->add_flag("--names", o->names, "name the trainee in page and table");
+  c->add_flag("--no-pictures", o->no_pictures, "without pictures of key moments: quicker");
+  c->add_option("--forget", o->forget, "delete this trainee's attempts and recordings");
+  c->callback([o, &chosen] { chosen.run = [o, &chosen] { return run(*o, chosen.json); }; });
 }
 
 }  // namespace trocar::app

@@ -1,18 +1,22 @@
-// A result as a page for people: one HTML file that needs nothing but its own folder.
+// A report as a page for people: one folder that opens without a network, in any browser, a text browser too.
 #pragma once
 
 #include <filesystem>
 #include <string>
 
-#include "json.hpp"
+#include "report.hpp"
 
 namespace trocar::app {
 
-/// Writes FOLDER/index.html from a result (Session::result) and copies its pictures beside it; returns its path.
+/// Writes FOLDER/index.html; pictures that lie elsewhere are copied beside it. Returns the page's path.
 /// @throws core::EnvironmentLacks when it cannot be written
-std::string write_report(const std::filesystem::path& folder, const Json& result);
+std::string write_report(const std::filesystem::path& folder, const Report& report);
 
-/// The page itself. Pictures are named as in result["pictures"], relative to the page.
-std::string report_html(const Json& result);
+/// From a result alone (Session::result), its attempt's number in "attempt"; with a store also what came before.
+std::string write_report(const std::filesystem::path& folder, const Json& result,
+                         const training::Store* store = nullptr, const Session* session = nullptr);
+
+/// The page itself; pictures are named relative to it.
+std::string report_html(const Report& report);
 
 }  // namespace trocar::app

@@ -1,5 +1,6 @@
 #include "session.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -25,12 +26,15 @@ constexpr FlagName kFlags[] = {
 
 std::string body_name(const sim::Model& model, std::int32_t body) {
   if (body < 0) return "nothing";
+  if (body >= interactions::kMembraneBase) return model.membranes[size_t(body - interactions::kMembraneBase)].name;
   if (body >= interactions::kSolidBase) return model.solids[size_t(body - interactions::kSolidBase)].name;
   return model.strands[size_t(body)].name;
 }
 
 std::string cut_name(const sim::Model& model, const interactions::Cut& cut) {
-  return cut.solid >= 0 ? model.solids[size_t(cut.solid)].name : body_name(model, cut.strand);
+  if (cut.solid >= 0) return model.solids[size_t(cut.solid)].name;
+  if (cut.strand < 0 && cut.membrane >= 0) return model.membranes[size_t(cut.membrane)].name;
+  return body_name(model, cut.strand);
 }
 
 }  // namespace
@@ -63,12 +67,8 @@ Session::Session(const Lesson& lesson, int threads)
       m_pool(threads),
       m_state(sim::initial_state(lesson.model)),
       m_work(sim::make_work(lesson.model, &m_pool)),
-      m_monitor(lesson.monitor())
-#ifdef TROCAR_HAS_TRACE
-      ,
-      m_trace(lesson.model)
-#endif
-{
+      m_monitor(lesson.monitor()),
+      m_trace(lesson.model) {
   for (size_t t = 0; t < lesson.model.hands.size(); ++t) m_tip[t] = tip_of(lesson.model, m_state, int(t));
   if (m_monitor) m_steps_done.resize(m_monitor->steps().size());
 }
@@ -106,9 +106,9 @@ const sim::StepReport& Session::advance(const sim::Input& input) {
     m_tip[t] = tip;
   }
   if (m_monitor) m_monitor->update(m_lesson.model, m_state, m_report);
-#ifdef TROCAR_HAS_TRACE
   m_trace.update(m_lesson.model, m_state, m_report);
-#endif
+  if (m_exercise_from < 0 && m_monitor && m_monitor->seconds() > 0)
+    m_exercise_from = double(m_state.tick) * sim::kTick - m_monitor->seconds();
   collect_moments();
   keep_moments();
   if (m_writer && m_state.tick % sim::kHashEvery == 0) m_writer->hash(m_state.tick, mark());
@@ -131,13 +131,7 @@ std::string Session::recording_failure() const {
   return m_recording_failure;
 }
 
-std::vector<std::uint8_t> Session::trace_bytes() const {
-#ifdef TROCAR_HAS_TRACE
-  return training::to_bytes(m_trace.trace());
-#else
-  return {};
-#endif
-}
+std::vector<std::uint8_t> Session::trace_bytes() const { return training::to_bytes(m_trace.trace()); }
 
 void Session::keep_moments() {
   for (const Moment& m : m_moments) {
@@ -229,6 +223,8 @@ Json Session::result(bool interrupted) const {
     r["assessment"] = Json::parse(m_monitor->result_json());
     if (!m_scored) r["assessment"].erase("score");
   }
+  if (m_exercise_from >= 0) r["exercise_from_s"] = m_exercise_from;
+  r["metrics"] = Json::parse(training::metrics_json(m_trace.trace(), metrics_options()));
   Json tools = Json::array();
   for (size_t t = 0; t < model.hands.size(); ++t)
     tools.push_back({{"name", model.tool(m_state, t).name},
@@ -253,6 +249,18 @@ Json Session::result(bool interrupted) const {
   if (m_writer) r["recording"] = m_recording.string();
   return r;
 }
+
+/// Motion is measured up to the last step that was done; an attempt that is not finished, to its end.
+training::MetricsOptions Session::metrics_options() const {
+  training::MetricsOptions options;
+  if (!m_monitor || !m_monitor->finished() || m_exercise_from < 0) return options;
+  double last = 0;
+  for (const training::StepStatus& step : m_monitor->steps()) last = std::max(last, step.at);
+  options.end = m_exercise_from + last;
+  return options;
+}
+
+void Session::set_scored(bool scored) { m_scored = scored; }
 
 std::string Session::finish(const Json& result) {
   if (!m_writer) return {};

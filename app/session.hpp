@@ -17,10 +17,7 @@
 #include <trocar/sim/recording.hpp>
 #include <trocar/sim/step.hpp>
 #include <trocar/training/attempt.hpp>
-#if __has_include(<trocar/training/trace.hpp>)
-#include <trocar/training/trace.hpp>
-#define TROCAR_HAS_TRACE 1
-#endif
+#include <trocar/training/metrics.hpp>
 
 #include "lesson.hpp"
 
@@ -42,7 +39,7 @@ class Session {
   /// @throws core::EnvironmentLacks
   void record(const std::filesystem::path& path, const training::Attempt& attempt);
   /// False: getting to know the exercise, without score and verdict.
-  void set_scored(bool scored) { m_scored = scored; }
+  void set_scored(bool scored);
 
   /// One tick. Does nothing more once the physics has failed (see broken()).
   const sim::StepReport& advance(const sim::Input& input);
@@ -69,6 +66,7 @@ class Session {
   std::string recording_failure() const;
   /// The motion so far, as training::to_bytes() writes it.
   std::vector<std::uint8_t> trace_bytes() const;
+  const training::Trace& trace() const { return m_trace.trace(); }
 
   /// What happened, for report and pictures: at most kMaxKept of the moments with how things looked then.
   struct KeptMoment {
@@ -82,6 +80,7 @@ class Session {
   void collect_moments();
   void keep_moments();
   void note_failure();
+  training::MetricsOptions metrics_options() const;
   void add_moment(const char* what, int tool, std::string text);
 
   const Lesson& m_lesson;
@@ -98,9 +97,8 @@ class Session {
   mutable std::mutex m_failure_lock;
   std::string m_recording_failure;
   bool m_scored = true;
-#ifdef TROCAR_HAS_TRACE
   training::TraceRecorder m_trace;
-#endif
+  double m_exercise_from = -1;  ///< simulated time at which the exercise's clock began; below 0: not yet [s]
   std::vector<KeptMoment> m_kept;
   std::vector<Moment> m_moments;
   std::array<Vec3d, sim::kMaxTools> m_tip;
