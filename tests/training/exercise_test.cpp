@@ -63,7 +63,9 @@ TEST_F(ExerciseFile, AsShippedItIsReadInMetresRadiansAndSeconds) {
   EXPECT_TRUE(faults().empty());
   const Exercise e = read_exercise(kShipped);
   EXPECT_EQ(e.name, "sterilisation");
-  EXPECT_EQ(e.goal.tube, "tube_left");
+  ASSERT_EQ(e.goal.sides.size(), 2u);
+  EXPECT_EQ(e.goal.sides[0].tube, "tube_left");
+  EXPECT_EQ(e.goal.sides[1].ovary, "ovary_right");
   EXPECT_TRUE(fs::exists(e.scene)) << e.scene;
   EXPECT_DOUBLE_EQ(e.goal.first_clip.low, 0.012);
   EXPECT_DOUBLE_EQ(e.goal.first_clip.high, 0.020);
@@ -71,16 +73,18 @@ TEST_F(ExerciseFile, AsShippedItIsReadInMetresRadiansAndSeconds) {
   EXPECT_DOUBLE_EQ(e.goal.cut_margin, 0.002);
   EXPECT_DOUBLE_EQ(e.goal.pull_limit, 4);
   EXPECT_DOUBLE_EQ(e.goal.present_pull.low, 0.3);
+  EXPECT_EQ(e.text(Task::second_clip).name, "second_clip");
+  EXPECT_FALSE(e.text(Task::second_clip).hint.empty());
   ASSERT_NE(e.penalty("E11"), nullptr);
   EXPECT_TRUE(e.penalty("E11")->fail);
   EXPECT_EQ(e.penalty("E99"), nullptr);
 }
 
 TEST_F(ExerciseFile, AMissingKeyIsLocated) {
-  change("\"pull_limit_N\": 4,", "");
+  change("\"pass_mark\": 80,", "");
   const auto found = faults();
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_NE(found[0].message.find("pull_limit_N"), std::string::npos) << found[0].message;
+  EXPECT_NE(found[0].message.find("pass_mark"), std::string::npos) << found[0].message;
   EXPECT_GT(found[0].at.line, 0);
 }
 
@@ -90,8 +94,41 @@ TEST_F(ExerciseFile, AnUnknownKeyIsLocated) {
 }
 
 TEST_F(ExerciseFile, AWrongTypeIsLocated) {
-  change("\"pull_limit_N\": 4", "\"pull_limit_N\": \"four\"");
+  change("\"pull_limit_N\": {\"value\": 4", "\"pull_limit_N\": {\"value\": \"four\"");
   expect_one_fault("expected");
+}
+
+TEST_F(ExerciseFile, AThresholdBeyondWhatItCanBeIsLocated) {
+  change("\"clip_angle_deg\": {\"value\": 15", "\"clip_angle_deg\": {\"value\": 150");
+  expect_one_fault("clip_angle_deg");
+}
+
+TEST_F(ExerciseFile, AThresholdWithoutASourceIsLocated) {
+  change("\"cut_fraction\": {\"value\": 0.99, \"source\": \"ours\"}", "\"cut_fraction\": {\"value\": 0.99}");
+  expect_one_fault("source");
+}
+
+TEST_F(ExerciseFile, EveryThresholdSaysWhereItComesFrom) {
+  const Exercise e = read_exercise(kShipped);
+  ASSERT_EQ(e.threshold_sources.size(), thresholds().size());
+  for (size_t i = 0; i < thresholds().size(); ++i) EXPECT_FALSE(e.threshold_sources[i].empty()) << thresholds()[i].key;
+}
+
+TEST_F(ExerciseFile, TheSameTubeOnBothSidesIsLocated) {
+  change("\"tube\": \"tube_right\"", "\"tube\": \"tube_left\"");
+  expect_one_fault("another tube");
+}
+
+TEST_F(ExerciseFile, AStepThatIsMissingOrUnknownIsLocated) {
+  change("\"step\": \"check\"", "\"step\": \"chek\"");
+  const auto found = faults();
+  ASSERT_GE(found.size(), 1u);
+  EXPECT_NE(found[0].message.find("chek"), std::string::npos) << found[0].message;
+}
+
+TEST_F(ExerciseFile, AnErrorThatImpliesAnUnknownOneIsLocated) {
+  change("\"may\": [\"E3\"]", "\"may\": [\"E33\"]");
+  expect_one_fault("E33");
 }
 
 TEST_F(ExerciseFile, AnUnknownKindIsLocated) {
@@ -100,7 +137,7 @@ TEST_F(ExerciseFile, AnUnknownKindIsLocated) {
 }
 
 TEST_F(ExerciseFile, AnEmptyIntervalIsLocated) {
-  change("\"first_mm\": {\"from\": 12, \"to\": 20}", "\"first_mm\": {\"from\": 22, \"to\": 20}");
+  change("\"first_clip_mm\": {\"from\": 12", "\"first_clip_mm\": {\"from\": 22");
   expect_one_fault("expected from <= to");
 }
 
@@ -117,7 +154,7 @@ TEST_F(ExerciseFile, ANumberOutOfRangeIsLocated) {
 TEST_F(ExerciseFile, AllFaultsAreFoundInOnePass) {
   change("\"pass_mark\": 80", "\"pass_mark\": 800");
   change("\"kind\": \"sterilisation\"", "\"kind\": \"appendectomy\"");
-  change("\"cover\": 0.98", "\"cover\": \"whole\"");
+  change("\"clip_cover\": {\"value\": 0.98", "\"clip_cover\": {\"value\": \"whole\"");
   EXPECT_EQ(faults().size(), 3u);
 }
 

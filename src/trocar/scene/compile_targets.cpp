@@ -23,6 +23,14 @@ void add_hand(sim::Model& model, std::int32_t hand) {
   add_target(model, {sim::VisibilityTarget::shaft, name + ".shaft", hand, 0, 0}, track);
 }
 
+/// One sample an element, from start to end: for following a tube, and for the stumps where it was cut.
+void add_trace(sim::Model& model, std::int32_t strand) {
+  std::vector<sim::VisibilitySample> samples;
+  for (std::int32_t e = 0; e + 1 < model.bodies[size_t(strand)].nodes(); ++e) samples.push_back({0, e, 0.5});
+  add_target(model, {sim::VisibilityTarget::strand, model.strands[size_t(strand)].name + ".trace", strand, 0, 0},
+             samples);
+}
+
 }  // namespace
 
 void compile_targets(sim::Model& model) {
@@ -39,6 +47,8 @@ void compile_targets(sim::Model& model) {
       add_target(model, {sim::VisibilityTarget::strand, model.strands[i].name + "." + l.name, std::int32_t(i), 0, 0},
                  samples);
     }
+  for (size_t i = 0; i < model.strands.size(); ++i)
+    if (!model.strands[i].landmarks.empty()) add_trace(model, std::int32_t(i));
   for (size_t i = 0; i < model.solids.size(); ++i) {
     std::vector<sim::VisibilitySample> samples;
     constexpr int kSamples = 16;

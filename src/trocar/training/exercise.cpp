@@ -1,100 +1,211 @@
-#include <trocar/numerics/portable.hpp>
+#include <algorithm>
+
+#include <fmt/format.h>
+
 #include <trocar/training/exercise.hpp>
 
 namespace trocar::training {
 namespace {
 
+using scene::JsonObject;
 using scene::needed;
 using scene::Shape;
 namespace keys = scene::keys;
 
-const Shape& range_shape(const char* name, double low, double high) {
-  // One table per unit, made once.
-  static std::vector<std::pair<std::string, Shape>> made;
-  for (const auto& m : made)
-    if (m.first == name) return m.second;
-  made.reserve(8);
-  made.push_back({name, Shape{name,
-                              "A closed interval.",
-                              {needed(keys::number("from", low, high, "lower end")),
-                               needed(keys::number("to", low, high, "upper end"))}}});
-  return made.back().second;
-}
-const Shape& millimetres() { return range_shape("range in millimetres", 0, 1000); }
-const Shape& newtons() { return range_shape("range in newtons", 0, 100); }
+constexpr const char* kTaskNames[kTasks] = {"survey",      "identify", "present", "first_clip",
+                                            "second_clip", "cut",      "check"};
 
-const Shape& present_shape() {
-  static const Shape shape{"present",
-                           "The tube is held up, straight and without strain.",
-                           {needed(keys::object("pull_N", newtons, "pull on the held tissue")),
-                            needed(keys::number("straightness", 0, 1, "chord over length of the isthmus, at least"))}};
+const Shape& value_shape() {
+  static const Shape shape{"threshold",
+                           "A number that decides, and where it comes from.",
+                           {needed(keys::number("value", 0, 1e4, "in the unit that the key's name ends in")),
+                            needed(keys::text("source", "a publication, or \"ours\""))}};
   return shape;
 }
-const Shape& clips_shape() {
+const Shape& range_shape() {
   static const Shape shape{
-      "clips",
-      "Where and how the clips must sit.",
-      {needed(keys::object("first_mm", millimetres, "place of the first clip from the uterus")),
-       needed(keys::object("second_mm", millimetres, "place of the second")),
-       needed(keys::object("distance_mm", millimetres, "between the two")),
-       needed(keys::number("angle_deg", 0, 90, "largest angle from the tube's cross-section")),
-       needed(keys::number("cover", 0, 1, "share of the cross-section between the legs, at least")),
-       needed(keys::number("closing_s", 0, 60, "shortest closing time"))}};
+      "threshold range",
+      "A closed interval that decides, and where it comes from.",
+      {needed(keys::number("from", 0, 1e4, "lower end, in the unit of the key's name")),
+       needed(keys::number("to", 0, 1e4, "upper end")), needed(keys::text("source", "a publication, or \"ours\""))}};
   return shape;
 }
-const Shape& cut_shape() {
-  static const Shape shape{"cut",
-                           "Where and how far the tube must be cut.",
-                           {needed(keys::number("margin_mm", 0, 100, "smallest distance from a clip")),
-                            needed(keys::number("fraction", 0, 1, "of the cross-section, at least")),
-                            needed(keys::number("beyond_mm", 0, 100, "deepest cut into the fold behind the tube"))}};
+const Shape& thresholds_shape() {
+  static const Shape shape = [] {
+    Shape s{"thresholds", "The numbers by which steps and errors are judged.", {}};
+    for (const ThresholdRow& row : thresholds())
+      s.keys.push_back(needed(keys::object(row.key, row.range ? range_shape : value_shape, row.meaning)));
+    return s;
+  }();
+  return shape;
+}
+const Shape& side_shape() {
+  static const Shape shape{"side",
+                           "One side of the patient.",
+                           {needed(keys::name("name", "for results")), needed(keys::text("title", "for people")),
+                            needed(keys::name("tube", "strand to be clipped and cut")),
+                            needed(keys::name("ovary", "organ that the survey must show")),
+                            keys::name("mesosalpinx", "fold that carries the tube, default: none"),
+                            needed(keys::name("grasper_hand", "port of the hand that presents in the demonstration")),
+                            needed(keys::name("scissors_hand", "port of the hand that cuts there"))}};
+  return shape;
+}
+const Shape& named_shape() {
+  static const Shape shape{"named body",
+                           "A body of the scene and what people call it.",
+                           {needed(keys::name("body", "solid, strand or fold")), keys::text("title", "for people")}};
+  return shape;
+}
+const Shape& task_shape() {
+  static const Shape shape{"step",
+                           "What people are told about a step, and what it is worth.",
+                           {needed(keys::choice("step", {kTaskNames, kTaskNames + kTasks}, "which")),
+                            needed(keys::text("title", "for people")), needed(keys::text("hint", "how it is done")),
+                            needed(keys::number("weight", 0, 100, "in the score's quality"))}};
   return shape;
 }
 const Shape& penalty_shape() {
   static const Shape shape{
       "penalty",
-      "What an error costs.",
-      {needed(keys::text("code", "the error's code")), needed(keys::number("points", 0, 100, "taken from the score")),
-       keys::flag("fail", "true: the attempt fails whatever its score"), needed(keys::text("meaning", "for people"))}};
+      "What an error costs, and what follows from it.",
+      {needed(keys::text("code", "the error's code")), needed(keys::text("name", "two or three words")),
+       needed(keys::number("points", 0, 100, "taken from the score")),
+       keys::flag("fail", "true: the attempt fails whatever its score"),
+       needed(keys::text("meaning", "for people: what happened")), keys::text("hint", "for people: how to avoid it"),
+       needed(keys::text("source", "of the penalty: a publication, or \"ours\"")),
+       keys::texts("implies", "codes that always come with it"), keys::texts("may", "codes that can come with it"),
+       keys::texts("leaves", "steps that the act does not complete")}};
+  return shape;
+}
+const Shape& later_shape() {
+  static const Shape shape{"later error",
+                           "An error that cannot be detected yet.",
+                           {needed(keys::text("code", "its code")), needed(keys::text("name", "two or three words")),
+                            needed(keys::text("needs", "what the simulation lacks for it"))}};
+  return shape;
+}
+const Shape& score_shape() {
+  static const Shape shape{
+      "score",
+      "Shares of the score; what cannot be told is left out and the rest renormalised.",
+      {needed(keys::number("quality", 0, 100, "of the weighted share of steps done")),
+       needed(keys::number("time", 0, 100, "of the time, from longest to expert")),
+       needed(keys::number("motion", 0, 100, "of the motion against a reference group, as soon as there is one")),
+       needed(keys::text("source", "where the shares come from"))}};
   return shape;
 }
 
-Range range_of(const scene::JsonObject& o, const char* key, double unit) {
-  const std::vector<scene::JsonObject> found = o.objects(key);
-  if (found.empty()) return {};
-  const Range r{found[0].number("from") * unit, found[0].number("to") * unit};
-  if (r.low > r.high) o.fault(key, "expected from <= to, got an empty interval");
-  return r;
+/// The number of a threshold in SI, within its own bounds.
+double checked(const JsonObject& o, const char* key, const ThresholdRow& row) {
+  const double v = o.number(key);
+  if (o.has(key) && (v < row.low || v > row.high))
+    o.fault(key, fmt::format("expected a number in [{}, {}] for \"{}\", got {}", row.low, row.high, row.key, v));
+  return v * row.unit;
 }
 
-constexpr double kMm = 1e-3;
+void read_thresholds(const JsonObject& all, Exercise& e) {
+  for (const ThresholdRow& row : thresholds()) {
+    std::string source;
+    for (const JsonObject& o : all.objects(row.key)) {
+      source = o.text("source");
+      if (row.value) {
+        e.goal.*row.value = checked(o, "value", row);
+        continue;
+      }
+      Range& range = e.goal.*row.range;
+      range = {checked(o, "from", row), checked(o, "to", row)};
+      if (range.low > range.high) o.fault("from", "expected from <= to, got an empty interval");
+    }
+    e.threshold_sources.push_back(source);
+  }
+}
 
-void read_goal(const scene::JsonObject& o, Sterilisation& g) {
-  g.tube = o.text("tube");
+std::vector<Named> read_named(const JsonObject& o, const char* key) {
+  std::vector<Named> out;
+  for (const JsonObject& n : o.objects(key)) {
+    const std::string name = n.text("body");
+    out.push_back({name, n.has("title") ? n.text("title") : name, n.at("body")});
+  }
+  return out;
+}
+
+void read_goal(const JsonObject& o, Sterilisation& g) {
+  g.uterus = o.text("uterus");
+  g.uterus_at = o.at("uterus");
   g.grasper = o.text("grasper");
   g.applier = o.text("clip_applier");
   g.scissors = o.text("scissors");
-  g.tube_at = o.at("tube");
   g.grasper_at = o.at("grasper");
   g.applier_at = o.at("clip_applier");
   g.scissors_at = o.at("scissors");
-  g.pull_limit = o.number("pull_limit_N");
-  for (const scene::JsonObject& p : o.objects("present")) {
-    g.present_pull = range_of(p, "pull_N", 1);
-    g.present_straightness = p.number("straightness");
+  g.forbidden = read_named(o, "forbidden");
+  g.delicate = read_named(o, "delicate");
+  g.bowel = read_named(o, "bowel");
+  for (const JsonObject& s : o.objects("sides")) {
+    Side side{s.text("name"),        s.text("title"),        s.text("tube"),          s.text("ovary"),
+              s.text("mesosalpinx"), s.text("grasper_hand"), s.text("scissors_hand"), s.at("tube"),
+              s.at("ovary"),         s.at("mesosalpinx"),    s.at("grasper_hand"),    s.at("scissors_hand")};
+    for (const Side& other : g.sides) {
+      if (other.tube == side.tube) s.fault("tube", "expected another tube than the other side's, got the same");
+      if (other.name == side.name) s.fault("name", "expected another name than the other side's, got the same");
+    }
+    g.sides.push_back(side);
   }
-  for (const scene::JsonObject& c : o.objects("clips")) {
-    g.first_clip = range_of(c, "first_mm", kMm);
-    g.second_clip = range_of(c, "second_mm", kMm);
-    g.clip_distance = range_of(c, "distance_mm", kMm);
-    g.clip_angle = c.number("angle_deg") * portable::pi / 180;
-    g.clip_cover = c.number("cover");
-    g.clip_closing = c.number("closing_s");
+  if (g.sides.size() > 2) o.fault("sides", "expected one or two sides, got more");
+}
+
+void read_tasks(const JsonObject& o, Exercise& e) {
+  std::array<bool, kTasks> told{};
+  double weights = 0;
+  for (const JsonObject& t : o.objects("steps")) {
+    const std::string name = t.text("step");
+    for (int i = 0; i < kTasks; ++i) {
+      if (name != kTaskNames[i]) continue;
+      if (told[size_t(i)]) t.fault("step", "expected each step once, got \"" + name + "\" again");
+      told[size_t(i)] = true;
+      e.tasks[size_t(i)] = {name, t.text("title"), t.text("hint"), t.number("weight")};
+      weights += t.number("weight");
+    }
   }
-  for (const scene::JsonObject& c : o.objects("cut")) {
-    g.cut_margin = c.number("margin_mm") * kMm;
-    g.cut_fraction = c.number("fraction");
-    g.cut_beyond = c.number("beyond_mm") * kMm;
+  if (!o.has("steps")) return;
+  for (int i = 0; i < kTasks; ++i)
+    if (!told[size_t(i)]) o.fault("steps", std::string("expected the step \"") + kTaskNames[i] + "\", got none");
+  if (weights <= 0) o.fault("steps", "expected a weight above 0, got none");
+}
+
+void read_penalties(const JsonObject& o, Exercise& e) {
+  const std::vector<JsonObject> rows = o.objects("penalties");
+  for (const JsonObject& p : rows) {
+    Penalty penalty{p.text("code"), p.text("name"),   p.number("points"), p.flag("fail"), p.text("meaning"),
+                    p.text("hint"), p.text("source"), p.texts("implies"), p.texts("may"), p.texts("leaves")};
+    if (e.penalty(penalty.code)) p.fault("code", "expected each code once, got \"" + penalty.code + "\" again");
+    for (const std::string& step : penalty.leaves)
+      if (std::find(kTaskNames, kTaskNames + kTasks, step) == kTaskNames + kTasks)
+        p.fault("leaves", scene::unknown_name("step", step, {kTaskNames, kTaskNames + kTasks}));
+    e.penalties.push_back(penalty);
+  }
+  std::vector<std::string> codes;
+  for (const Penalty& p : e.penalties) codes.push_back(p.code);
+  for (size_t i = 0; i < rows.size(); ++i)
+    for (const char* key : {"implies", "may"})
+      for (const std::string& code : key[0] == 'i' ? e.penalties[i].implies : e.penalties[i].may)
+        if (!e.penalty(code)) rows[i].fault(key, scene::unknown_name("error code", code, codes));
+  for (const JsonObject& l : o.objects("later")) e.later.push_back({l.text("code"), l.text("name"), l.text("needs")});
+}
+
+void read_score(const JsonObject& o, Exercise& e) {
+  e.hold_time = o.number("hold_s");
+  e.expert_time = o.number("expert_s");
+  e.longest_time = o.number("longest_s");
+  if (o.has("expert_s") && o.has("longest_s") && e.expert_time >= e.longest_time)
+    o.fault("longest_s", "expected more than expert_s, got less or the same");
+  e.pass_mark = o.number("pass_mark");
+  for (const JsonObject& s : o.objects("score")) {
+    e.quality_share = s.number("quality");
+    e.time_share = s.number("time");
+    e.motion_share = s.number("motion");
+    if (s.has("quality") && s.has("time") && e.quality_share + e.time_share <= 0)
+      s.fault("quality", "expected quality + time above 0, got none");
   }
 }
 
@@ -105,25 +216,30 @@ const Shape& exercise_shape() {
       "exercise",
       "A task in a scene, and what counts as done well.",
       {
-          keys::format(1),
+          keys::text("$schema", "where editors find this kind of file's schema"),
+          keys::format(2),
           needed(keys::name("name", "what the command line calls it")),
           needed(keys::text("title", "for people")),
           needed(keys::text("scene", "path of the scene file, relative to this one")),
           needed(keys::choice("kind", {"sterilisation"}, "which task")),
-          needed(keys::name("tube", "strand to be clipped and cut")),
-          needed(keys::name("grasper", "instrument that presents the tube")),
+          needed(keys::name("uterus", "organ that the survey must show")),
+          needed(keys::objects("sides", side_shape, 1, "one or two")),
+          keys::objects("forbidden", named_shape, 0, "what looks alike; all but the tubes is a wrong structure"),
+          keys::objects("delicate", named_shape, 0, "bodies that bear less pull, beside the tubes"),
+          keys::objects("bowel", named_shape, 0, "bodies that bear less pinch"),
+          needed(keys::name("grasper", "instrument that presents a tube")),
           needed(keys::name("clip_applier", "instrument that clips")),
           needed(keys::name("scissors", "instrument that cuts")),
-          needed(keys::object("present", present_shape, "step 3")),
-          needed(keys::object("clips", clips_shape, "steps 4 and 5")),
-          needed(keys::object("cut", cut_shape, "step 6")),
-          needed(keys::number("pull_limit_N", 0, 100, "a pull beyond it is an over-force")),
+          needed(keys::objects("steps", task_shape, 1, "each step once")),
+          needed(keys::object("thresholds", thresholds_shape, "what decides")),
+          needed(keys::object("score", score_shape, "how the score is put together")),
           needed(keys::number("hold_s", 0, 10, "a condition counts when it has been true this long")),
           needed(keys::number("expert_s", 1, 36000, "time that earns all points for time")),
           needed(keys::number("longest_s", 1, 36000, "time that earns none")),
           needed(keys::number("pass_mark", 0, 100, "score needed")),
-          needed(keys::objects("penalties", penalty_shape, 1, "what errors cost")),
-          keys::texts("sources", "where the thresholds come from"),
+          needed(keys::objects("penalties", penalty_shape, 1, "what errors cost, and what follows from them")),
+          keys::objects("later", later_shape, 0, "errors that cannot be detected yet"),
+          keys::texts("sources", "the publications that are named"),
       }};
   return shape;
 }
@@ -140,19 +256,15 @@ Exercise read_exercise(const std::filesystem::path& path, const scene::MemoryFil
   Exercise e;
   e.file = path;
   if (document.root.kind != scene::JsonValue::Kind::broken) {
-    const scene::JsonObject o(document.root, exercise_shape(), document.file, faults);
+    const JsonObject o(document.root, exercise_shape(), document.file, faults);
     e.name = o.text("name");
     e.title = o.text("title");
     e.scene = path.parent_path() / o.text("scene");
-    e.hold_time = o.number("hold_s");
-    e.expert_time = o.number("expert_s");
-    e.longest_time = o.number("longest_s");
-    if (o.has("expert_s") && o.has("longest_s") && e.expert_time >= e.longest_time)
-      o.fault("longest_s", "expected more than expert_s, got less or the same");
-    e.pass_mark = o.number("pass_mark");
     read_goal(o, e.goal);
-    for (const scene::JsonObject& p : o.objects("penalties"))
-      e.penalties.push_back({p.text("code"), p.number("points"), p.flag("fail"), p.text("meaning")});
+    read_tasks(o, e);
+    for (const JsonObject& t : o.objects("thresholds")) read_thresholds(t, e);
+    read_score(o, e);
+    read_penalties(o, e);
   }
   if (!faults.empty()) throw core::BadInput(std::move(faults));
   return e;

@@ -1,8 +1,14 @@
 // An exercise: a scene, what the trainee has to do in it, and the thresholds that decide whether it was done well.
-// Thresholds live in the exercise file, each with its origin; nothing here is clinical advice.
+// Thresholds, penalties and what people are told live in the exercise file, each with its origin; nothing here is
+// clinical advice.
+//
+//   const Exercise e = read_exercise("scenes/gynaecology/sterilisation.json");
+//   Monitor monitor(e, model);
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,47 +22,104 @@ struct Range {
   bool holds(double v) const { return v >= low && v <= high; }
 };
 
-/// Tubal sterilisation with two clips and a cut, one side (first form).
-struct Sterilisation {
-  std::string tube;                                             ///< strand
-  std::string grasper, applier, scissors;                       ///< tools
-  core::Location tube_at, grasper_at, applier_at, scissors_at;  ///< where the file names them
-  Range present_pull;                                           ///< [N]
-  double present_straightness = 0;                              ///< of the isthmus, chord / length
-  Range first_clip, second_clip;                                ///< arc length from the uterus [m]
-  Range clip_distance;                                          ///< between the two [m]
-  double clip_angle = 0;                                        ///< largest theta [rad]
-  double clip_cover = 0;                                        ///< smallest cover
-  double clip_closing = 0;                                      ///< shortest closing time [s]
-  double cut_margin = 0;                                        ///< smallest distance of the cut from a clip [m]
-  double cut_fraction = 0;
-  double cut_beyond = 0;  ///< deepest cut into the mesosalpinx [m]
-  double pull_limit = 0;  ///< over-force [N]
+/// What an exercise calls a body of the scene, and what people call it.
+struct Named {
+  std::string name, title;
+  core::Location at;  ///< where the file names it
 };
 
+/// One side of the patient: what has to be clipped and cut there.
+struct Side {
+  std::string name, title;    ///< "left", "Left"
+  std::string tube, ovary;    ///< strand, solid
+  std::string mesosalpinx;    ///< the tube's fold; empty: none
+  std::string grasper_hand;   ///< port whose hand presents the tube in the demonstration
+  std::string scissors_hand;  ///< port whose hand cuts it there
+  core::Location tube_at, ovary_at, mesosalpinx_at, grasper_at, scissors_at;
+};
+
+/// Tubal sterilisation with two clips and a cut between them on each side.
+struct Sterilisation {
+  std::string uterus;
+  std::vector<Side> sides;                 ///< 1 or 2
+  std::vector<Named> forbidden;            ///< look-alikes; whatever is not a tube is a wrong structure as well
+  std::vector<Named> delicate, bowel;      ///< bodies that bear less pull; bodies that bear less pinch
+  std::string grasper, applier, scissors;  ///< instruments
+  core::Location uterus_at, grasper_at, applier_at, scissors_at;
+
+  // Thresholds; kThresholds (thresholds.hpp) says what each means.
+  double survey_time = 0, organ_share = 0;
+  double trace_to = 0, trace_speed = 0, trace_gap = 0, trace_pause = 0, trace_touch = 0;
+  Range present_pull;
+  double present_straightness = 0;
+  Range first_clip, second_clip, clip_distance;
+  double clip_angle = 0, clip_oblique = 0, clip_cover = 0, clip_closing = 0, ampulla_from = 0, cornu_to = 0;
+  double cut_margin = 0, cut_fraction = 0, cut_depth = 0;
+  double check_time = 0;
+  double pull_limit = 0, pull_limit_other = 0, pull_excursion = 0;
+  double pinch_limit = 0, pinch_impulse = 0;
+  double blind_time = 0, blind_speed = 0;
+  double collision_speed = 0, insertion_depth = 0;
+};
+
+/// The steps of a side, in the order in which they are shown; the survey comes before both sides.
+enum class Task { survey, identify, present, first_clip, second_clip, cut, check };
+inline constexpr int kTasks = 7;
+
+struct TaskText {
+  std::string name, title, hint;  ///< "first_clip", "First clip", what to do
+  double weight = 1;              ///< in the score's quality
+};
+
+/// An error: what it costs, and what else follows from it.
 struct Penalty {
-  std::string code;  ///< "E1", "A1.cover" ...
+  std::string code;  ///< "E1", "A1.3" ...
+  std::string name;  ///< "lumen open"
   double points = 0;
   bool fail = false;
-  std::string meaning;
+  std::string meaning, hint, source;
+  std::vector<std::string> implies;  ///< codes that always come with it
+  std::vector<std::string> may;      ///< codes that can come with it
+  std::vector<std::string> leaves;   ///< steps that the act does not complete (names of TaskText)
+};
+
+/// An error that cannot be detected yet.
+struct LaterError {
+  std::string code, name, needs;
 };
 
 struct Exercise {
   std::string name, title;
   std::filesystem::path file, scene;
   Sterilisation goal;
-  double hold_time = 0.2;     ///< a predicate counts when true this long [s]
-  double expert_time = 240;   ///< [s]
-  double longest_time = 900;  ///< [s]
+  std::array<TaskText, kTasks> tasks;
+  double hold_time = 0.2;                                         ///< a predicate counts when true this long [s]
+  double expert_time = 240;                                       ///< [s]
+  double longest_time = 900;                                      ///< [s]
+  double quality_share = 60, time_share = 25, motion_share = 15;  ///< of the score, before renormalising
   double pass_mark = 80;
   std::vector<Penalty> penalties;
+  std::vector<LaterError> later;
+  std::vector<std::string> threshold_sources;  ///< parallel to thresholds()
 
   const Penalty* penalty(const std::string& code) const;
+  const TaskText& text(Task task) const { return tasks[size_t(task)]; }
 };
+
+/// A row of the table of thresholds: its key in the file, unit and bounds there, and the member that it sets.
+struct ThresholdRow {
+  const char* key;
+  double unit;  ///< of the file's number in SI
+  double low, high;
+  double Sterilisation::*value;
+  Range Sterilisation::*range;  ///< one of the two is null
+  const char* meaning;
+};
+std::span<const ThresholdRow> thresholds();
 
 const scene::Shape& exercise_shape();
 
-/// Throws core::BadInput with every fault. Whether the scene has the strand and the tools is checked by bind(). With
+/// Throws core::BadInput with every fault. Whether the scene has what the exercise names is checked by Monitor. With
 /// `memory` the file is looked up there instead of on the disk.
 Exercise read_exercise(const std::filesystem::path& path, const scene::MemoryFiles* memory = nullptr);
 

@@ -1,271 +1,444 @@
 #include <algorithm>
 
-#include <nlohmann/json.hpp>
-
-#include <trocar/numerics/portable.hpp>
 #include <trocar/sim/visibility.hpp>
+#include <trocar/training/hands.hpp>
 #include <trocar/training/monitor.hpp>
-#include <trocar/vessels/lumen.hpp>
 
 namespace trocar::training {
 namespace {
 
-constexpr int kSampleEvery = 20;                     // ticks between tip samples: 50 Hz
-constexpr double kMoving = 0.005;                    // [m/s] slower is not a motion
-constexpr double kOverForce = 0.1;                   // [s] an excursion that counts
-constexpr double kTooNear = 0.010, kTooFar = 0.030;  // [m] from the uterus
+constexpr int kSampleEvery = 20;                       // ticks between looks at steps and tips: 50 Hz
+constexpr int kCollideEvery = 4;                       // ticks between looks at instruments against each other: 250 Hz
+constexpr double kSample = kSampleEvery * sim::kTick;  // [s]
+constexpr double kMoving = 0.005;                      // [m/s] slower is not a motion
+constexpr double kEnough = 1e-9;                       // [s] of rounding in sums of samples
 
-enum Step { kPresent, kFirstClip, kSecondClip, kCut, kSteps };
+using Faults = std::vector<core::Fault>;
 
-int tool_index(const sim::Model& model, const std::string& name) {
-  for (size_t t = 0; t < model.hands.size(); ++t)
-    if (model.placed(t).name == name) return int(t);
+template <class List>
+std::vector<std::string> names_of(const List& list) {
+  std::vector<std::string> names;
+  for (const auto& item : list) names.push_back(item.name);
+  return names;
+}
+
+template <class List>
+int index_of(const List& list, const std::string& name) {
+  for (size_t i = 0; i < list.size(); ++i)
+    if (list[i].name == name) return int(i);
   return -1;
 }
 
-Vec3d tip_of(const sim::Model& model, const sim::State& state, size_t tool) {
-  return kinematics::forward(model.hands[tool].port, state.tools[tool].pose()).tip;
+/// A fold as a hold names it; -1 where it is drawn only and cannot be held.
+template <class Model>
+std::int32_t fold_body(const Model& model, const std::string& name) {
+  if constexpr (requires { model.membranes; }) {
+    const int i = index_of(model.membranes, name);
+    return i < 0 ? -1 : (1 << 17) + i;
+  }
+  return -1;
 }
 
-double norm(const double (&v)[3]) { return length(Vec3d{v[0], v[1], v[2]}); }
+/// Finds what the exercise names in the scene; what is not there is a fault at its place in the exercise file.
+struct Finder {
+  const sim::Model& model;
+  Faults& faults;
+
+  int strand(const std::string& name, const core::Location& at) const {
+    const int i = model.strand_index(name);
+    if (i < 0) faults.push_back({at, scene::unknown_name("strand of the scene", name, names_of(model.strands))});
+    return i;
+  }
+  int solid(const std::string& name, const core::Location& at) const {
+    const int i = index_of(model.solids, name);
+    if (i < 0) faults.push_back({at, scene::unknown_name("organ of the scene", name, names_of(model.solids))});
+    return i;
+  }
+  /// As a hold names it; -1 for a fold that is drawn only.
+  std::int32_t body(const Named& named) const {
+    const int s = model.strand_index(named.name);
+    if (s >= 0) return s;
+    const int o = index_of(model.solids, named.name);
+    if (o >= 0) return interactions::kSolidBase + o;
+    const std::int32_t fold = fold_body(model, named.name);
+    if (fold >= 0) return fold;
+    if (index_of(model.sheets, named.name) < 0) {
+      std::vector<std::string> known = names_of(model.strands);
+      for (const std::string& n : names_of(model.solids)) known.push_back(n);
+      faults.push_back({named.at, scene::unknown_name("body of the scene", named.name, known)});
+    }
+    return -1;
+  }
+  void instrument(const std::string& name, const core::Location& at, interactions::ToolKind kind,
+                  const char* what) const {
+    std::vector<std::string> known;
+    for (const sim::HandModel& hand : model.hands)
+      for (const interactions::ToolModel& tool : hand.rack) {
+        if (tool.name != name) {
+          known.push_back(tool.name);
+          continue;
+        }
+        if (tool.kind != kind)
+          faults.push_back(
+              {at, std::string("expected ") + what + ", got \"" + name + "\", which is another kind of tool"});
+        return;
+      }
+    faults.push_back({at, scene::unknown_name("instrument of the scene", name, known)});
+  }
+  double landmark(int strand, const char* name, bool end, const core::Location& at) const {
+    if (strand < 0) return 0;
+    for (const sim::LandmarkModel& l : model.strands[size_t(strand)].landmarks)
+      if (l.name == name) return end ? l.to : l.from;
+    faults.push_back({at, std::string("expected a tube with the landmark \"") + name + "\", got none"});
+    return 0;
+  }
+};
+
+Vec3d place_on(const sim::Model& model, const sim::State& state, int strand, double s) {
+  const interactions::StrandBody& body = model.bodies[size_t(strand)];
+  return interactions::point_at(body, state.strands[size_t(strand)], interactions::place_at(body, s));
+}
 
 }  // namespace
 
-Monitor::Monitor(const Exercise& exercise, const sim::Model& model) : m_exercise(exercise) {
+Monitor::Monitor(const Exercise& exercise, const sim::Model& model, Mode mode)
+    : m_exercise(exercise), m_mode(mode), m_sight(model) {
   const Sterilisation& g = exercise.goal;
-  std::vector<core::Fault> faults;
-  std::vector<std::string> tubes, tools;
-  for (const sim::StrandModel& strand : model.strands) tubes.push_back(strand.name);
-  for (size_t h = 0; h < model.hands.size(); ++h) tools.push_back(model.placed(h).name);
-  m_tube = model.strand_index(g.tube);
-  if (m_tube < 0) faults.push_back({g.tube_at, scene::unknown_name("strand of the scene", g.tube, tubes)});
-  const auto need = [&](const std::string& name, const core::Location& at, interactions::ToolKind kind,
-                        const char* what) {
-    const int tool = tool_index(model, name);
-    if (tool < 0)
-      faults.push_back({at, scene::unknown_name("tool of the scene", name, tools)});
-    else if (model.placed(size_t(tool)).kind != kind)
-      faults.push_back({at, std::string("expected ") + what + ", got \"" + name + "\", which is another kind of tool"});
+  Faults faults;
+  const Finder find{model, faults};
+  find.instrument(g.grasper, g.grasper_at, interactions::ToolKind::grasper, "a grasper");
+  find.instrument(g.applier, g.applier_at, interactions::ToolKind::clip_applier, "a clip applier");
+  find.instrument(g.scissors, g.scissors_at, interactions::ToolKind::scissors, "scissors");
+  find.solid(g.uterus, g.uterus_at);
+  m_organs.push_back(model.target_index(g.uterus));
+  const auto add_step = [&](const Side* side, Task task) {
+    const TaskText& text = exercise.text(task);
+    m_steps.push_back({side ? side->title + ": " + text.title : text.title, text.hint, text.name,
+                       side ? side->name : std::string(), false, false, 0});
   };
-  need(g.grasper, g.grasper_at, interactions::ToolKind::grasper, "a grasper");
-  need(g.applier, g.applier_at, interactions::ToolKind::clip_applier, "a clip applier");
-  need(g.scissors, g.scissors_at, interactions::ToolKind::scissors, "scissors");
+  add_step(nullptr, Task::survey);
+  for (const Side& side : g.sides) {
+    SideWatch w;
+    w.tube = find.strand(side.tube, side.tube_at);
+    find.solid(side.ovary, side.ovary_at);
+    w.isthmus = find.landmark(w.tube, "isthmus", true, side.tube_at);
+    w.ampulla = find.landmark(w.tube, "fimbria", false, side.tube_at);
+    w.ovary_target = model.target_index(side.ovary);
+    w.trace_target = model.target_index(side.tube + ".trace");
+    m_organs.insert(m_organs.end(), {w.trace_target, w.ovary_target});
+    if (w.tube >= 0) {
+      m_tissues.delicate.push_back(w.tube);
+      w.following = Following(g, model, w.tube);
+      w.lumen = LumenCheck(model, w.tube, g.clip_cover);
+    }
+    m_sides.push_back(std::move(w));
+    for (int task = 1; task < kTasks; ++task) add_step(&side, Task(task));
+  }
+  for (const Named& n : g.forbidden) find.body(n);
+  for (const Named& n : g.delicate) m_tissues.delicate.push_back(find.body(n));
+  for (const Named& n : g.bowel) m_tissues.bowel.push_back(find.body(n));
   if (!faults.empty()) throw core::BadInput(faults);
-  m_grasper = tool_index(model, g.grasper);
-  m_tube_arc = model.bodies[size_t(m_tube)].length();
-  for (const sim::LandmarkModel& l : model.strands[size_t(m_tube)].landmarks)
-    if (l.name == "isthmus") m_isthmus = l.to;
-  m_steps = {{"Present the tube", "grasp the ampulla and lift it until the isthmus is straight, gently", false, 0},
-             {"First clip", "on the isthmus, 12 to 20 mm from the uterus, straight across, close slowly", false, 0},
-             {"Second clip", "6 to 12 mm farther out", false, 0},
-             {"Cut", "between the clips, 2 mm clear of each", false, 0}};
-  for (size_t t = 0; t < model.hands.size(); ++t) {
-    m_tools.push_back({model.placed(t).name, 0, 0});
-    const kinematics::FulcrumPose start = pose_of(model.start.tools[t]);
-    m_last_tip.push_back(kinematics::forward(model.hands[t].port, start).tip);
+  m_true_for.resize(m_steps.size());
+  m_seen_for.resize(m_organs.size());
+  m_errors.reserve(256);
+  const sim::State start = sim::initial_state(model);
+  for (size_t h = 0; h < hands(model); ++h) {
+    m_tools.push_back({model.hands[h].name, 0, 0});
+    m_tip[h] = tip_of(model, start, h);
   }
 }
 
+bool Monitor::finished() const {
+  return std::all_of(m_steps.begin(), m_steps.end(), [](const StepStatus& s) { return s.done || s.missed; });
+}
+
 int Monitor::current() const {
-  for (size_t i = 0; i < m_steps.size(); ++i)
-    if (!m_steps[i].done) return int(i);
+  const auto open = [this](int i) { return !m_steps[size_t(i)].done && !m_steps[size_t(i)].missed; };
+  if (open(0)) return 0;
+  const int sides = int(m_sides.size());
+  for (int k = 0; k < sides; ++k)
+    for (int task = 1; task < kTasks; ++task) {
+      const int i = step_index((m_focus + k) % sides, Task(task));
+      if (open(i)) return i;
+    }
   return int(m_steps.size());
+}
+
+bool Monitor::occluded() const {
+  return std::all_of(m_sides.begin(), m_sides.end(), [](const SideWatch& s) { return s.lumen.occluded(); });
 }
 
 void Monitor::update(const sim::Model& model, const sim::State& state, const sim::StepReport& report) {
   m_now = state.tick;
   if (!finished() && m_moved) m_seconds = double(m_now - m_first_motion) * sim::kTick;
-  if (state.tick % kSampleEvery == 0) measure(model, state);
-  watch_errors(state, report);
-  watch_steps(state);
-  if (report.event_count > 0) check_lumen(model, state);
+  watch_errors(model, state, report);
+  for (; m_clips_judged < state.clip_count; ++m_clips_judged)
+    judge_clip(model, state, state.clips[size_t(m_clips_judged)]);
+  for (; m_cuts_judged < state.cut_count; ++m_cuts_judged) judge_cut(model, state, state.cuts[size_t(m_cuts_judged)]);
+  if (report.event_count > 0)
+    for (SideWatch& side : m_sides) side.lumen.update(model, state);
+  if (state.tick % kSampleEvery != 0) return;
+  measure(model, state);
+  watch_steps(model, state);
 }
 
 void Monitor::measure(const sim::Model& model, const sim::State& state) {
-  for (size_t t = 0; t < m_tools.size(); ++t) {
-    const Vec3d tip = tip_of(model, state, t);
-    const double moved = length(tip - m_last_tip[t]);
-    if (!m_moved && moved > kMoving * kSampleEvery * sim::kTick) {
+  std::array<Vec3d, sim::kMaxTools> now{};
+  for (size_t h = 0; h < m_tools.size(); ++h) {
+    now[h] = tip_of(model, state, h);
+    const double moved = length(now[h] - m_tip[h]);
+    if (!m_moved && moved > kMoving * kSample) {
       m_moved = true;
       m_first_motion = state.tick;
     }
-    m_tools[t].path += moved;
-    m_last_tip[t] = tip;
+    m_tools[h].path += moved;
   }
-  const interactions::StrandBody& tube = model.bodies[size_t(m_tube)];
-  const tissue::StrandState& s = state.strands[size_t(m_tube)];
-  double way = 0;
-  int last = 0;
-  for (int e = 0; e + 1 < tube.nodes() && tube.arc[size_t(e) + 1] <= m_isthmus + 1e-9; ++e) {
-    if (!s.alive[size_t(e)]) break;
-    way += length(s.x[size_t(e) + 1] - s.x[size_t(e)]);
-    last = e + 1;
+  Mishaps mishaps;
+  m_sight.update(m_exercise.goal, model, state, m_tip, now, kSample, mishaps);
+  for (int i = 0; i < mishaps.count; ++i) make_error(mishaps.list[size_t(i)].code, -1, mishaps.list[size_t(i)].where);
+  m_tip = now;
+  for (SideWatch& side : m_sides) measure_side(side, model, state);
+}
+
+void Monitor::measure_side(SideWatch& side, const sim::Model& model, const sim::State& state) {
+  side.facts.straightness = straightness_of(model, state, side.tube, side.isthmus);
+  side.following.update(model, state, {m_tip.data(), m_tools.size()}, kSample);
+  for (size_t h = 0; h < m_tools.size(); ++h) {
+    if (held_arc(model, state, h, side.tube) < 0) continue;
+    m_focus = int(&side - m_sides.data());
+    const double pull = norm(state.tools[h].pull);
+    Range& range = side.facts.pull;
+    range = side.facts.held ? Range{std::min(range.low, pull), std::max(range.high, pull)} : Range{pull, pull};
+    side.facts.held = true;
   }
-  m_straightness = way > 0 ? length(s.x[size_t(last)] - s.x[0]) / way : 0;
 }
 
-void Monitor::complete(int step, bool condition, bool latched) {
-  StepStatus& status = m_steps[size_t(step)];
-  double& held = m_true_for[size_t(step)];
-  held = condition ? held + sim::kTick : 0;
-  if (status.done || held < (latched ? m_exercise.hold_time : 0.5 * sim::kTick)) return;
-  status.done = true;
-  status.at = double(m_now) * sim::kTick;
+int Monitor::side_of(int tube) const {
+  for (size_t i = 0; i < m_sides.size(); ++i)
+    if (m_sides[i].tube == tube) return int(i);
+  return -1;
 }
 
-void Monitor::watch_steps(const sim::State& state) {
+void Monitor::done(int side, Task task) {
+  StepStatus& s = step(side, task);
+  if (s.done || s.missed) return;
+  s.done = true;
+  s.at = double(m_now) * sim::kTick;
+  if (task != Task::survey) m_focus = side;
+}
+
+void Monitor::missed(int side, Task task) {
+  StepStatus& s = step(side, task);
+  if (s.done || s.missed) return;
+  s.missed = true;
+  s.at = double(m_now) * sim::kTick;
+}
+
+void Monitor::latch(int side, Task task, bool condition, double hold) {
+  double& held = m_true_for[size_t(step_index(side, task))];
+  held = condition ? held + kSample : 0;
+  if (condition && held >= hold - kEnough) done(side, task);
+}
+
+bool Monitor::presented(const SideWatch& side, const sim::Model& model, const sim::State& state) const {
   const Sterilisation& g = m_exercise.goal;
-  const interactions::ToolState& grasper = state.tools[size_t(m_grasper)];
-  const bool holds_tube = grasper.holds > 0 && grasper.hold[0].body == m_tube;
-  const bool beyond_isthmus = holds_tube && double(grasper.hold[0].element) * m_tube_arc >=
-                                                m_isthmus * double(state.strands[size_t(m_tube)].alive.size());
-  complete(kPresent,
-           beyond_isthmus && g.present_pull.holds(norm(grasper.pull)) && m_straightness >= g.present_straightness,
-           true);
-  for (; m_clips_judged < state.clip_count; ++m_clips_judged) judge_clip(state.clips[size_t(m_clips_judged)]);
-  for (; m_cuts_judged < state.cut_count; ++m_cuts_judged) judge_cut(state, state.cuts[size_t(m_cuts_judged)]);
-  complete(kFirstClip, m_first_clip >= 0, false);
-  complete(kSecondClip, m_second_clip >= 0, false);
+  if (side.facts.straightness < g.present_straightness) return false;
+  for (size_t h = 0; h < m_tools.size(); ++h) {
+    if (model.tool(state, h).kind != interactions::ToolKind::grasper) continue;
+    const double s = held_arc(model, state, h, side.tube);
+    if (s >= side.isthmus && s <= side.ampulla && g.present_pull.holds(norm(state.tools[h].pull))) return true;
+  }
+  return false;
 }
 
-void Monitor::judge_clip(const interactions::Clip& clip) {
+void Monitor::watch_steps(const sim::Model& model, const sim::State& state) {
   const Sterilisation& g = m_exercise.goal;
-  if (clip.strand < 0) return make_error("E12");
-  if (clip.strand != m_tube) return make_error("E11");
-  if (clip.tips_visible < 2) make_error("E4");
-  if (clip.cover < g.clip_cover) make_error("A1.cover");
-  if (clip.theta > 2 * g.clip_angle)
-    make_error("A1.oblique");
+  bool surveyed = true;
+  for (size_t i = 0; i < m_organs.size(); ++i) {
+    double& seen_for = m_seen_for[i];
+    if (seen_for >= g.survey_time - kEnough) continue;
+    const int target = m_organs[i];
+    const bool organ = target >= 0 && model.targets[size_t(target)].kind == sim::VisibilityTarget::solid;
+    const bool seen = target >= 0 && sim::visible_share(model, state, target) >= (organ ? g.organ_share : 0.5);
+    seen_for = seen ? seen_for + kSample : 0;
+    surveyed = surveyed && seen_for >= g.survey_time - kEnough;
+  }
+  if (surveyed) done(0, Task::survey);
+  for (size_t i = 0; i < m_sides.size(); ++i) {
+    const SideWatch& side = m_sides[i];
+    if (side.following.done()) done(int(i), Task::identify);
+    latch(int(i), Task::present, presented(side, model, state), m_exercise.hold_time);
+    latch(int(i), Task::check,
+          side.lumen.stumps_closed() && stumps_in_view(model, state, side.trace_target, side.lumen.cut_element()),
+          g.check_time);
+    if (step(int(i), Task::present).done && !side.severed)
+      m_sides[i].facts.best_straightness = std::max(side.facts.best_straightness, side.facts.straightness);
+  }
+}
+
+void Monitor::touch_side(SideWatch& side, Vec3d where) {
+  const int i = int(&side - m_sides.data());
+  m_focus = i;
+  missed(0, Task::survey);
+  if (!step(i, Task::identify).done && !side.blamed) {
+    side.blamed = true;
+    make_error("A1.11", i, where);
+  }
+  missed(i, Task::identify);
+}
+
+void Monitor::judge_clip(const sim::Model& model, const sim::State& state, const interactions::Clip& clip) {
+  const Sterilisation& g = m_exercise.goal;
+  const Vec3d tip = tip_of(model, state, size_t(clip.tool));
+  const int i = side_of(clip.strand);
+  if (clip.strand < 0) return make_error("E12", -1, tip);
+  if (i < 0) return make_error("E11", -1, tip, named(model, clip.strand, -1));
+  SideWatch& side = m_sides[size_t(i)];
+  const Vec3d where = place_on(model, state, clip.strand, clip.s);
+  touch_side(side, where);
+  const size_t before = m_errors.size();
+  if (clip.tips_visible < 2) make_error("E4.2", i, where);
+  if (clip.s > g.ampulla_from) make_error("A1.1", i, where);
+  if (clip.s < g.cornu_to) make_error("A1.2", i, where);
+  if (clip.cover < g.clip_cover) make_error("A1.3", i, where);
+  if (clip.theta > g.clip_oblique)
+    make_error("A1.5", i, where);
   else if (clip.theta > g.clip_angle)
-    make_error("A1.angle");
-  if (clip.s > kTooFar) make_error("A1.ampulla");
-  if (clip.s < kTooNear) make_error("A1.cornu");
-  const bool good = clip.cover >= g.clip_cover && clip.theta <= g.clip_angle && clip.tips_visible == 2 &&
-                    clip.closing_time >= g.clip_closing;
-  if (!good) return;
-  if (m_first_clip < 0 && g.first_clip.holds(clip.s))
-    m_first_clip = clip.s;
-  else if (m_first_clip >= 0 && m_second_clip < 0 && g.second_clip.holds(clip.s) &&
-           g.clip_distance.holds(clip.s - m_first_clip))
-    m_second_clip = clip.s;
+    make_error("A1.4", i, where);
+  if (clip.closing_time < g.clip_closing) make_error("A1.8", i, where);
+  SideFacts& f = side.facts;
+  if (f.clip_count == int(f.clips.size())) return;
+  SideFacts::Clip& fact = f.clips[size_t(f.clip_count++)];
+  fact = {clip.s, clip.theta, clip.cover, clip.closing_time, clip.tips_visible, false, double(m_now) * sim::kTick};
+  fact.good = m_errors.size() == before && (g.first_clip.holds(clip.s) || g.second_clip.holds(clip.s));
+  if (m_errors.size() == before) place_clip(side, f.clip_count - 1, clip.s, where);
 }
 
-void Monitor::judge_cut(const sim::State& state, const interactions::Cut& cut) {
+void Monitor::place_clip(SideWatch& side, int index, double s, Vec3d where) {
+  // The two may come in either order: a pair decides, and a clip alone counts for the place that it fits.
   const Sterilisation& g = m_exercise.goal;
-  if (cut.strand != m_tube) return make_error("E11");
-  if (cut.tips_visible < 1) make_error("E4");
+  const int i = int(&side - m_sides.data());
+  const SideFacts& f = side.facts;
+  const auto pair = [&](double inner, double outer) {
+    if (!g.first_clip.holds(inner) || !g.second_clip.holds(outer) || !g.clip_distance.holds(outer - inner))
+      return false;
+    done(i, Task::first_clip);
+    done(i, Task::second_clip);
+    side.clipped[0] = inner;
+    side.clipped[1] = outer;
+    return true;
+  };
+  if (side.clipped[0] >= 0 && side.clipped[1] >= 0) return;  // one more does no harm
+  bool others = false;
+  for (int k = 0; k < index; ++k) {
+    if (!f.clips[size_t(k)].good) continue;
+    others = true;
+    if (pair(f.clips[size_t(k)].s, s) || pair(s, f.clips[size_t(k)].s)) return;
+  }
+  if (others || !f.clips[size_t(index)].good) return make_error("A1.9", i, where);
+  const bool inner = g.first_clip.holds(s);
+  done(i, inner ? Task::first_clip : Task::second_clip);
+  side.clipped[inner ? 0 : 1] = s;
+}
+
+void Monitor::judge_cut(const sim::Model& model, const sim::State& state, const interactions::Cut& cut) {
+  const Sterilisation& g = m_exercise.goal;
+  const Vec3d tip = tip_of(model, state, size_t(cut.tool));
+  const int i = side_of(cut.strand);
+  if (i < 0) return make_error("E11", -1, tip, named(model, cut.strand, cut.solid));
+  SideWatch& side = m_sides[size_t(i)];
+  const Vec3d where = place_on(model, state, cut.strand, cut.s);
+  touch_side(side, where);
+  if (cut.tips_visible < 1) make_error("E4.2", i, where);
   bool below = false, above = false, near_clip = false;
-  for (int i = 0; i < state.clip_count; ++i) {
-    const interactions::Clip& clip = state.clips[size_t(i)];
-    if (clip.strand != m_tube) continue;
-    below = below || clip.s < cut.s;
-    above = above || clip.s > cut.s;
-    near_clip = near_clip || std::fabs(clip.s - cut.s) < g.cut_margin;
+  for (int k = 0; k < side.facts.clip_count; ++k) {
+    const double s = side.facts.clips[size_t(k)].s;
+    below = below || s < cut.s;
+    above = above || s > cut.s;
+    near_clip = near_clip || std::fabs(s - cut.s) < g.cut_margin;
   }
-  if (!below || !above || near_clip) return make_error("A1.outside");
-  complete(kCut,
-           m_second_clip >= 0 && cut.s > m_first_clip && cut.s < m_second_clip && cut.fraction >= g.cut_fraction &&
-               cut.beyond <= g.cut_beyond,
-           false);
+  const bool through = cut.fraction >= g.cut_fraction, between = below && above && !near_clip;
+  if (!between) make_error("A1.6", i, where);
+  if (cut.beyond > g.cut_depth) make_error("A1.7", i, where);
+  if (!through) make_error("A1.10", i, where);
+  SideFacts& f = side.facts;
+  const bool good = through && between && cut.beyond <= g.cut_depth && !side.severed;
+  if (f.cut_count < int(f.cuts.size()))
+    f.cuts[size_t(f.cut_count++)] = {cut.s, cut.fraction, cut.beyond, good, double(m_now) * sim::kTick};
+  if (!through || side.severed) return;
+  side.severed = true;
+  if (good) done(i, Task::cut);
+  for (const Task task : {Task::present, Task::first_clip, Task::second_clip, Task::cut}) missed(i, task);
 }
 
-void Monitor::watch_errors(const sim::State& state, const sim::StepReport& report) {
-  for (size_t t = 0; t < m_tools.size(); ++t)
-    m_tools[t].max_pull = std::max(m_tools[t].max_pull, norm(state.tools[t].pull));
-  const double pull = norm(state.tools[size_t(m_grasper)].pull);
-  m_over_for = pull > m_exercise.goal.pull_limit ? m_over_for + sim::kTick : 0;
-  if (m_over_for == 0) m_over_force = false;
-  if (m_over_for >= kOverForce && !m_over_force) {
-    m_over_force = true;
-    make_error("E1");
+void Monitor::watch_errors(const sim::Model& model, const sim::State& state, const sim::StepReport& report) {
+  for (size_t h = 0; h < m_tools.size(); ++h)
+    m_tools[h].max_pull = std::max(m_tools[h].max_pull, norm(state.tools[h].pull));
+  Mishaps mishaps;
+  m_pull.update(m_exercise.goal, m_tissues, model, state, mishaps);
+  m_pinch.update(m_exercise.goal, m_tissues, model, state, mishaps);
+  if (state.tick % kCollideEvery == 0)
+    m_collision.update(m_exercise.goal, model, state, kCollideEvery * sim::kTick, mishaps);
+  for (int i = 0; i < report.event_count; ++i) {
+    const sim::Event& e = report.events[i];
+    if (e.kind == sim::Event::slipped) mishaps.add({"E3", e.tool, tip_of(model, state, size_t(e.tool)), ""});
+    if (e.kind == sim::Event::exchanged) m_sight.exchanged(e.tool);
   }
-  for (int i = 0; i < report.event_count; ++i)
-    if (report.events[i].kind == sim::Event::slipped) make_error("E3");
+  for (int i = 0; i < mishaps.count; ++i) {
+    const Mishap& m = mishaps.list[size_t(i)];
+    const bool holds = m.hand >= 0 && state.tools[size_t(m.hand)].holds > 0;
+    make_error(m.code, holds ? side_of(state.tools[size_t(m.hand)].hold[0].body) : -1, m.where, m.detail);
+  }
 }
 
-void Monitor::make_error(const std::string& code) {
-  const Penalty* p = m_exercise.penalty(code);
+void Monitor::make_error(const char* code, int side, Vec3d where, std::string detail) {
   ErrorMade e;
   e.code = code;
+  e.detail = std::move(detail);
+  if (side >= 0) e.side = m_exercise.goal.sides[size_t(side)].name;
   e.at = double(m_now) * sim::kTick;
-  if (p) {
+  e.where = where;
+  if (const Penalty* p = m_exercise.penalty(e.code)) {
+    e.name = p->name;
     e.meaning = p->meaning;
+    e.hint = p->hint;
     e.points = p->points;
     e.fail = p->fail;
   }
   m_errors.push_back(e);
 }
 
-void Monitor::check_lumen(const sim::Model& model, const sim::State& state) {
-  // A chain of segments between the strand's nodes; segment e is the element e.
-  const int n = model.bodies[size_t(m_tube)].nodes();
-  std::vector<vessels::LumenSegment> segments;
-  std::vector<vessels::LumenClosure> closures;
-  std::vector<std::int32_t> cuts;
-  for (std::int32_t e = 0; e + 1 < n; ++e) {
-    segments.push_back({e, e + 1});
-    if (!state.strands[size_t(m_tube)].alive[size_t(e)]) cuts.push_back(e);
-  }
-  for (int i = 0; i < state.clip_count; ++i) {
-    const interactions::Clip& clip = state.clips[size_t(i)];
-    if (clip.strand == m_tube)
-      closures.push_back({interactions::place_at(model.bodies[size_t(m_tube)], clip.s).element, float(clip.cover)});
-  }
-  vessels::LumenGraph graph;
-  graph.nodes = n;
-  graph.segments = segments;
-  graph.closures = closures;
-  graph.cuts = cuts;
-  graph.closing_cover = float(m_exercise.goal.clip_cover);
-  std::vector<std::int32_t> scratch(vessels::lumen_scratch_size(graph));
-  m_occluded = !vessels::open_path(graph, 0, n - 1, scratch);
+std::string Monitor::named(const sim::Model& model, int strand, int solid) const {
+  if (strand < 0 && solid < 0) return {};
+  const std::string& name = strand >= 0 ? model.strands[size_t(strand)].name : model.solids[size_t(solid)].name;
+  for (const Named& n : m_exercise.goal.forbidden)
+    if (n.name == name) return n.title;
+  return name;
 }
 
 Score Monitor::score() const {
   Score s;
-  int done = 0;
-  for (const StepStatus& step : m_steps) done += step.done;
-  s.quality = double(done) / double(m_steps.size());
+  double reached = 0, whole = 0;
+  for (size_t i = 0; i < m_steps.size(); ++i) {
+    const int task = i == 0 ? 0 : 1 + int(i - 1) % (kTasks - 1);
+    const double weight = m_exercise.tasks[size_t(task)].weight;
+    whole += weight;
+    reached += m_steps[i].done ? weight : 0;
+  }
+  s.quality = whole > 0 ? reached / whole : 0;
   const double spare = m_exercise.longest_time - m_exercise.expert_time;
   s.time = finished() ? std::clamp((m_exercise.longest_time - m_seconds) / spare, 0.0, 1.0) : 0;
   for (const ErrorMade& e : m_errors) {
     s.penalties += e.points;
     s.failed = s.failed || e.fail;
   }
-  // 60 Q + 25 T + 15 M; M (motion against a reference group) is left out until there is one, the rest renormalised.
-  s.total = std::clamp((60 * s.quality + 25 * s.time) * 100 / 85 - s.penalties, 0.0, 100.0);
-  s.passed = finished() && !s.failed && s.total >= m_exercise.pass_mark;
+  // Motion against a reference group is left out until there is one, and the rest renormalised.
+  const double shares = m_exercise.quality_share + m_exercise.time_share;
+  const double earned = m_exercise.quality_share * s.quality + m_exercise.time_share * s.time;
+  s.total = std::clamp(100 * earned / shares - s.penalties, 0.0, 100.0);
+  s.scored = m_mode == Mode::assessed;
+  s.passed = s.scored && finished() && !s.failed && s.total >= m_exercise.pass_mark;
   return s;
-}
-
-std::string Monitor::result_json() const {
-  const Score s = score();
-  nlohmann::ordered_json j;
-  j["exercise"] = m_exercise.name;
-  j["finished"] = finished();
-  j["passed"] = s.passed;
-  j["score"] = {{"total", s.total},
-                {"quality", s.quality},
-                {"time", s.time},
-                {"penalties", s.penalties},
-                {"failed_by_error", s.failed},
-                {"pass_mark", m_exercise.pass_mark},
-                {"note", "motion component left out: no reference group yet"}};
-  j["seconds"] = m_seconds;
-  j["tube_occluded"] = m_occluded;
-  j["steps"] = nlohmann::ordered_json::array();
-  for (const StepStatus& step : m_steps) {
-    nlohmann::ordered_json o{{"name", step.name}, {"done", step.done}};
-    if (step.done) o["at_s"] = step.at;
-    j["steps"].push_back(o);
-  }
-  j["errors"] = nlohmann::ordered_json::array();
-  for (const ErrorMade& e : m_errors)
-    j["errors"].push_back({{"code", e.code}, {"meaning", e.meaning}, {"points", e.points}, {"at_s", e.at}});
-  j["tools"] = nlohmann::ordered_json::array();
-  for (const ToolMetrics& t : m_tools)
-    j["tools"].push_back({{"name", t.name}, {"path_m", t.path}, {"max_pull_N", t.max_pull}});
-  return j.dump();
 }
 
 }  // namespace trocar::training

@@ -1,278 +1,254 @@
 #include <algorithm>
+#include <cstring>
 
+#include <trocar/sim/visibility.hpp>
+#include <trocar/training/hands.hpp>
 #include <trocar/training/surgeon.hpp>
 
 namespace trocar::training {
 namespace {
 
-constexpr double kTravel = 0.045, kCareful = 0.018;  // [m/s] through the open, and at the tissue
-constexpr double kNear = 0.0006;                     // [m] close enough
-constexpr double kPatience = 25;                     // [s] in one phase before giving up
-constexpr double kBack = 0.022;                      // [m] in front of the tissue where an approach begins
+constexpr double kIdleDepth = 0.042;  // [m] an instrument that waits hangs under its trocar
+constexpr double kTravel = 0.045;     // [m/s]
 
-int tool_named(const sim::Model& model, const std::string& name) {
-  for (size_t t = 0; t < model.hands.size(); ++t)
-    if (model.placed(t).name == name) return int(t);
+int landmark_of(const sim::StrandModel& strand, const char* name) {
+  for (size_t i = 0; i < strand.landmarks.size(); ++i)
+    if (strand.landmarks[i].name == name) return int(i);
   return -1;
 }
 
-/// One tick of a hand that slows down near its goal.
-Vec3d moved(Vec3d from, Vec3d to, double speed) {
-  const Vec3d way = to - from;
-  const double distance = length(way);
-  const double pace = std::min(speed, 0.002 + 6.0 * distance) * sim::kTick;
-  return distance <= pace ? to : from + (pace / distance) * way;
-}
-
-double turned(double from, double to) { return from + std::clamp(to - from, -0.0015, 0.0015); }
-
-/// The jaws look the same after half a turn: the nearest of the equivalent rolls.
-double nearest_roll(double wanted, double now) {
-  constexpr double kHalfTurn = 3.14159265358979323846;
-  while (wanted - now > 0.5 * kHalfTurn) wanted -= kHalfTurn;
-  while (wanted - now < -0.5 * kHalfTurn) wanted += kHalfTurn;
-  return wanted;
-}
-
-double norm(const double (&v)[3]) { return length(Vec3d{v[0], v[1], v[2]}); }
-
 }  // namespace
 
-Surgeon::Surgeon(const Exercise& exercise, const sim::Model& model) : m_exercise(exercise) {
+const Surgeon::Row Surgeon::kRows[] = {
+    {Phase::survey, "look around", &Surgeon::survey, 25, Phase::decide},
+    {Phase::decide, "think", &Surgeon::decide, 1e9, Phase::finished},
+    {Phase::put_down, "draw an instrument back", &Surgeon::put_down, 15, Phase::fetch},
+    {Phase::fetch, "change an instrument", &Surgeon::fetch, 15, Phase::finished},
+    {Phase::bring_in, "bring an instrument in", &Surgeon::bring_in, 15, Phase::decide},
+    {Phase::identify, "follow the tube from its fimbriae", &Surgeon::identify, 30, Phase::decide},
+    {Phase::reach_ampulla, "approach the ampulla", &Surgeon::reach_ampulla, 15, Phase::decide},
+    {Phase::enter_ampulla, "take the ampulla between the jaws", &Surgeon::enter_ampulla, 8, Phase::let_go},
+    {Phase::grasp, "grasp", &Surgeon::grasp, 4, Phase::let_go},
+    {Phase::lift, "lift the tube", &Surgeon::lift, 15, Phase::reach_clip},
+    {Phase::reach_clip, "bring the clip applier", &Surgeon::reach_clip, 15, Phase::leave_clip},
+    {Phase::enter_clip, "take the isthmus between the legs", &Surgeon::enter_clip, 8, Phase::leave_clip},
+    {Phase::inspect_clip, "look whether the legs enclose the tube", &Surgeon::inspect_clip, 8, Phase::leave_clip},
+    {Phase::close_clip, "close the clip slowly", &Surgeon::close_clip, 8, Phase::open_clip},
+    {Phase::open_clip, "open the applier", &Surgeon::open_clip, 4, Phase::leave_clip},
+    {Phase::leave_clip, "draw the applier back", &Surgeon::leave_clip, 6, Phase::decide},
+    {Phase::reach_cut, "bring the scissors", &Surgeon::reach_cut, 15, Phase::leave_cut},
+    {Phase::enter_cut, "take the isthmus between the blades", &Surgeon::enter_cut, 8, Phase::leave_cut},
+    {Phase::close_cut, "cut", &Surgeon::close_cut, 4, Phase::open_cut},
+    {Phase::open_cut, "open the scissors", &Surgeon::open_cut, 4, Phase::leave_cut},
+    {Phase::leave_cut, "draw the scissors back", &Surgeon::leave_cut, 6, Phase::decide},
+    {Phase::check, "look at the stumps", &Surgeon::check, 20, Phase::decide},
+    {Phase::lower, "lay the tube down", &Surgeon::lower, 8, Phase::let_go},
+    {Phase::let_go, "let go", &Surgeon::let_go, 4, Phase::withdraw},
+    {Phase::withdraw, "draw the grasper back", &Surgeon::withdraw, 6, Phase::decide},
+    {Phase::blunder, "make a mistake", &Surgeon::blunder, 30, Phase::decide},
+    {Phase::finished, "done", &Surgeon::finish, 1e9, Phase::finished},
+};
+
+const Surgeon::Row& Surgeon::row(Phase phase) { return kRows[size_t(phase)]; }
+
+const char* Surgeon::doing() const { return row(m_phase).doing; }
+
+Surgeon::Surgeon(const Exercise& exercise, const sim::Model& model, const Manner& manner)
+    : m_exercise(exercise), m_manner(manner), m_arms(model, manner.tremor), m_camera(model) {
   const Sterilisation& g = exercise.goal;
-  m_tube = model.strand_index(g.tube);
-  m_grasper = tool_named(model, g.grasper);
-  m_applier = tool_named(model, g.applier);
-  m_scissors = tool_named(model, g.scissors);
-  if (m_tube < 0 || m_grasper < 0 || m_applier < 0 || m_scissors < 0)
-    throw core::BadInput({{{exercise.file.string(), 0, 0}, "expected the tube and three instruments in the scene"}});
-  // Both clips inside their ranges, symmetric about the place of the cut.
-  m_clip_at[0] = g.first_clip.low + 0.5 * (g.first_clip.high - g.first_clip.low);
-  m_clip_at[1] = std::clamp(m_clip_at[0] + 0.5 * (g.clip_distance.low + g.clip_distance.high), g.second_clip.low,
-                            g.second_clip.high);
-  m_cut_at = 0.5 * (m_clip_at[0] + m_clip_at[1]);
-  m_grasp_at = 0.040;
-  for (const sim::LandmarkModel& l : model.strands[size_t(m_tube)].landmarks)
-    if (l.name == "ampulla") m_grasp_at = l.from + 0.35 * (l.to - l.from);
-  for (size_t t = 0; t < model.hands.size(); ++t) {
-    const sim::ToolInput& in = model.start.tools[t];
-    m_hand[t] = {kinematics::forward(model.hands[t].port, pose_of(in)).tip, double(in.roll), double(in.handle)};
+  std::vector<core::Fault> faults;
+  for (size_t h = 0; h < hands(model); ++h) {
+    const std::string& name = model.hands[h].name;
+    m_eyes[h] = {model.target_index(name + ".jaw_a"), model.target_index(name + ".jaw_b"),
+                 model.target_index(name + ".shaft")};
+    if (model.placed(h).name == g.applier) m_applier = int(h);
   }
-  m_scope = model.start.scope;
-  m_scope_tip = kinematics::forward(model.scope.port, pose_of(m_scope)).tip;
+  if (m_applier < 0) faults.push_back({g.applier_at, "expected a hand that begins with the clip applier, got none"});
+  const auto hand = [&](const std::string& name, const core::Location& at, const std::string& instrument) {
+    const int h = model.hand_index(name);
+    if (h < 0)
+      faults.push_back({at, "expected a trocar with a hand, got \"" + name + "\""});
+    else if (model.hands[size_t(h)].find(instrument) < 0)
+      faults.push_back(
+          {at, "expected a trocar that the instrument \"" + instrument + "\" passes, got \"" + name + "\""});
+    return h;
+  };
+  m_survey.push_back({model.target_index(g.uterus), g.organ_share, 0});
+  for (const Side& s : g.sides) {
+    SideWork w;
+    w.tube = model.strand_index(s.tube);
+    w.grasper = hand(s.grasper_hand, s.grasper_at, g.grasper);
+    w.scissors = hand(s.scissors_hand, s.scissors_at, g.scissors);
+    w.fimbria_target = model.target_index(s.tube + ".fimbria");
+    w.trace_target = model.target_index(s.tube + ".trace");
+    m_survey.push_back({w.trace_target, 0.5, 0});
+    m_survey.push_back({model.target_index(s.ovary), g.organ_share, 0});
+    if (w.tube < 0 || w.trace_target < 0) {
+      faults.push_back({s.tube_at, "expected a tube with landmarks, got \"" + s.tube + "\""});
+    } else {
+      const sim::StrandModel& strand = model.strands[size_t(w.tube)];
+      const int isthmus = landmark_of(strand, "isthmus"), fimbria = landmark_of(strand, "fimbria");
+      const double length = model.bodies[size_t(w.tube)].length();
+      w.ampulla_from = isthmus >= 0 ? strand.landmarks[size_t(isthmus)].to : 0.25 * length;
+      w.ampulla_to = fimbria >= 0 ? strand.landmarks[size_t(fimbria)].from : 0.9 * length;
+      w.following = Following(g, model, w.tube);
+    }
+    m_sides.push_back(std::move(w));
+  }
+  if (!faults.empty()) throw core::BadInput(faults);
 }
 
-const char* Surgeon::doing() const {
-  switch (m_phase) {
-    case Phase::look:
-      return "look around";
-    case Phase::reach_ampulla:
-      return "approach the ampulla";
-    case Phase::enter_ampulla:
-      return "take the ampulla between the jaws";
-    case Phase::grasp:
-      return "grasp";
-    case Phase::lift:
-      return "lift the tube";
-    case Phase::reach_clip:
-      return "bring the clip applier";
-    case Phase::enter_clip:
-      return "take the isthmus between the legs";
-    case Phase::close_clip:
-      return "close the clip slowly";
-    case Phase::open_clip:
-      return "open the applier";
-    case Phase::leave_clip:
-      return "draw the applier back";
-    case Phase::reach_cut:
-      return "bring the scissors";
-    case Phase::enter_cut:
-      return "take the isthmus between the blades";
-    case Phase::close_cut:
-      return "cut";
-    case Phase::open_cut:
-      return "open the scissors";
-    case Phase::leave_cut:
-      return "draw the scissors back";
-    case Phase::finished:
-      break;
-  }
-  return "done";
+Vec3d Surgeon::tube_point(double s) const {
+  const interactions::StrandBody& tube = m_model->bodies[size_t(m_strand)];
+  return interactions::point_at(tube, m_state->strands[size_t(m_strand)], interactions::place_at(tube, s));
 }
+
+Vec3d Surgeon::tube_tangent(double s) const {
+  const interactions::StrandBody& tube = m_model->bodies[size_t(m_strand)];
+  return interactions::tangent_at(tube, m_state->strands[size_t(m_strand)], interactions::place_at(tube, s));
+}
+
+double Surgeon::pull() const { return norm(tool_state(side().grasper).pull); }
+
+bool Surgeon::holding() const {
+  return held_arc(*m_model, *m_state, size_t(side().grasper), side().tube) > side().ampulla_from;
+}
+
+int Surgeon::cut_element() const {
+  const std::vector<std::uint8_t>& alive = m_state->strands[size_t(side().tube)].alive;
+  for (size_t e = 0; e < alive.size(); ++e)
+    if (!alive[e]) return int(e);
+  return -1;
+}
+bool Surgeon::severed() const { return cut_element() >= 0; }
+
+bool Surgeon::sees_tip(int hand) const {
+  const auto& eyes = m_eyes[size_t(hand)];
+  return sim::visible(*m_model, *m_state, eyes[0]) || sim::visible(*m_model, *m_state, eyes[1]);
+}
+bool Surgeon::sees_jaws(int hand) const {
+  const auto& eyes = m_eyes[size_t(hand)];
+  return sim::visible(*m_model, *m_state, eyes[0]) && sim::visible(*m_model, *m_state, eyes[1]);
+}
+
+double Surgeon::slant(int hand, double s) const {
+  return dot(normalised(tube_point(s) - m_arms[hand].port), tube_tangent(s));
+}
+
+double Surgeon::next_clip_at() const {
+  const Sterilisation& g = m_exercise.goal;
+  const double apart = 0.5 * (g.clip_distance.low + g.clip_distance.high);
+  double only = -1;
+  for (int i = 0; i < m_state->clip_count; ++i) {
+    const interactions::Clip& c = m_state->clips[size_t(i)];
+    const bool good = c.strand == side().tube && c.cover >= g.clip_cover && c.theta <= g.clip_angle &&
+                      c.tips_visible == 2 && c.closing_time >= g.clip_closing;
+    if (!good || (!g.first_clip.holds(c.s) && !g.second_clip.holds(c.s))) continue;
+    if (only >= 0 && g.clip_distance.holds(std::fabs(c.s - only))) return -1;
+    if (only < 0) only = c.s;
+  }
+  if (only < 0) return 0.5 * (g.first_clip.low + g.first_clip.high);
+  if (g.first_clip.holds(only)) return std::clamp(only + apart, g.second_clip.low, g.second_clip.high);
+  return std::clamp(only - apart, g.first_clip.low, g.first_clip.high);
+}
+
+double Surgeon::cut_at() const {
+  // Half way between the two clips nearest to each other at a fit distance.
+  const Sterilisation& g = m_exercise.goal;
+  for (int i = 0; i < m_state->clip_count; ++i)
+    for (int j = i + 1; j < m_state->clip_count; ++j) {
+      const interactions::Clip &a = m_state->clips[size_t(i)], &b = m_state->clips[size_t(j)];
+      if (a.strand == side().tube && b.strand == side().tube && g.clip_distance.holds(std::fabs(a.s - b.s)))
+        return 0.5 * (a.s + b.s);
+    }
+  return 0.5 * (g.first_clip.high + g.second_clip.low);
+}
+
+Vec3d Surgeon::centre_of(int target) const {
+  const sim::VisibilityTarget& t = m_model->targets[size_t(target)];
+  Vec3d sum;
+  for (int i = t.first; i < t.first + t.count; ++i) {
+    const sim::VisibilitySample& s = m_model->samples[size_t(i)];
+    if (t.kind == sim::VisibilityTarget::strand)
+      sum +=
+          interactions::point_at(m_model->bodies[size_t(t.index)], m_state->strands[size_t(t.index)], {s.where, s.w});
+    else
+      sum += vec_cast<double>(m_model->solids[size_t(t.index)].skin.rest[size_t(s.where)]);
+  }
+  return sum / std::max(1, t.count);
+}
+
+Vec3d Surgeon::work_place() const { return tube_point(0.5 * (m_clip_place + cut_at())); }
 
 void Surgeon::go(Phase next) {
   m_phase = next;
-  m_in_phase = 0;
+  m_in_phase = m_steady = 0;
 }
 
-bool Surgeon::aim(const sim::Model& model, const sim::State& state, int tool, double s, double inside, double back,
-                  double speed) {
-  const interactions::ToolModel& t = model.placed(size_t(tool));
-  Hand& hand = m_hand[size_t(tool)];
-  const interactions::StrandBody& tube = model.bodies[size_t(m_tube)];
-  const interactions::StrandPlace place = interactions::place_at(tube, s);
-  const Vec3d at = interactions::point_at(tube, state.strands[size_t(m_tube)], place);
-  const Vec3d tangent = interactions::tangent_at(tube, state.strands[size_t(m_tube)], place);
-  const Vec3d axis = normalised(at - t.port);
-  const Vec3d goal = at + (t.jaw_length - inside - back) * axis;
-  hand.tip = moved(hand.tip, goal, speed);
-  const kinematics::FulcrumPose pose = kinematics::inverse(t.port, hand.tip, hand.roll);
-  const double wanted = nearest_roll(kinematics::roll_towards(pose, tangent), hand.roll);
-  hand.roll = turned(hand.roll, wanted);
-  return length(hand.tip - goal) < kNear && std::fabs(wanted - hand.roll) < 0.02;
+bool Surgeon::aim(int hand, double s, double inside, double back, double speed) {
+  const interactions::ToolModel& t = tool(hand);
+  const Vec3d at = tube_point(s), axis = normalised(at - m_arms[hand].port);
+  const bool there = m_arms.move(hand, at + (t.jaw_length - inside - back) * axis, speed);
+  const double offset = hand != m_applier ? 0 : flawed("A1.4") ? 0.39 : flawed("A1.5") ? 0.70 : 0;
+  return m_arms.turn_across(hand, tube_tangent(s), offset) && there;
 }
 
-bool Surgeon::move_handle(int tool, double to, double seconds) {
-  double& handle = m_hand[size_t(tool)].handle;
-  const double pace = sim::kTick / seconds;
-  handle += std::clamp(to - handle, -pace, pace);
-  return std::fabs(handle - to) < 1e-9;
+bool Surgeon::approach(int hand, double s, double inside, double speed) {
+  constexpr double kBack = 0.022;  // [m] in front of the tissue
+  constexpr double kUnseen = 3;    // [s] to wait for the camera
+  want(m_arms[hand].tip);
+  const bool deep = tool_state(hand).depth > kIdleDepth;
+  if (deep && !sees_tip(hand) && m_in_phase < kUnseen) return false;
+  if (!deep && !m_camera.settled() && m_in_phase < kUnseen) return false;
+  return aim(hand, s, inside, kBack, speed);
 }
 
-void Surgeon::lift(const sim::Model& model, const sim::State& state) {
-  // Up and outwards until the isthmus is straight enough for a perpendicular clip, but gently.
-  const double pull = norm(state.tools[size_t(m_grasper)].pull);
-  const double comfortable = 0.6 * m_exercise.goal.present_pull.high;
-  constexpr double kHighest = 0.030;  // [m]
-  const interactions::StrandBody& tube = model.bodies[size_t(m_tube)];
-  const tissue::StrandState& s = state.strands[size_t(m_tube)];
-  const double side = tube.model.rest.back().x > 0 ? 1 : -1;
-  const Vec3d up = normalised(Vec3d{0.35 * side, 0.10, 1.0});
-  if (pull < comfortable && m_lifted < kHighest) m_lifted += 0.012 * sim::kTick;
-  if (pull > 1.1 * comfortable) m_lifted -= 0.006 * sim::kTick;
-  m_hand[size_t(m_grasper)].tip = m_lift_from + m_lifted * up;
-  const interactions::StrandPlace place = interactions::place_at(tube, m_cut_at);
-  const Vec3d at = interactions::point_at(tube, s, place), tangent = interactions::tangent_at(tube, s, place);
-  const Vec3d axis = normalised(at - model.hands[size_t(m_applier)].port);
-  const bool across = std::fabs(dot(axis, tangent)) < 0.10;
-  const bool enough = pull > 1.3 * m_exercise.goal.present_pull.low;
-  if ((across && enough) || m_lifted >= kHighest || pull >= comfortable)
-    if (m_in_phase > 1.5) go(Phase::reach_clip);
+void Surgeon::clear_the_way(int hand) {
+  if (tool_state(hand).depth > kIdleDepth) m_arms.move_to_depth(hand, kIdleDepth, kTravel);
 }
 
-void Surgeon::steer_clip(const sim::Model& model, const sim::State& state) {
-  const interactions::ToolModel& t = model.placed(size_t(m_applier));
-  const double s = m_clip_at[size_t(std::min(m_clips, 1))];
-  const double inside = t.jaw_length - 0.5 * t.clip_length;  // the tube in the middle of the clip
-  switch (m_phase) {
-    case Phase::reach_clip:
-      if (aim(model, state, m_applier, s, inside, kBack, kTravel)) go(Phase::enter_clip);
-      break;
-    case Phase::enter_clip:
-      if (aim(model, state, m_applier, s, inside, 0, kCareful)) go(Phase::close_clip);
-      break;
-    case Phase::close_clip:
-      aim(model, state, m_applier, s, inside, 0, 0.004);
-      if (move_handle(m_applier, 1, 2.6 * m_exercise.goal.clip_closing) && state.clip_count > m_clips) {
-        m_clips = state.clip_count;
-        go(Phase::open_clip);
-      }
-      break;
-    case Phase::open_clip:
-      if (move_handle(m_applier, 0, 0.5)) go(Phase::leave_clip);
-      break;
-    case Phase::leave_clip:
-      if (aim(model, state, m_applier, s, inside, kBack, kCareful))
-        go(m_clips < 2 ? Phase::reach_clip : Phase::reach_cut);
-      break;
-    default:
-      break;
-  }
+void Surgeon::keep_presented() {
+  if (!holding()) return;
+  const Range& range = m_exercise.goal.present_pull;
+  constexpr double kHighest = 0.040, kRise = 0.010;  // [m] [m/s]
+  const double now = pull(), slope = slant(m_applier, m_phase >= Phase::reach_cut ? m_cut_place : m_clip_place);
+  double rate = std::clamp(6 * slope, -1.0, 1.0);  // the outer end dips: up
+  if (std::fabs(slope) < 0.03) rate = 0;
+  if (now < range.low + 0.15) rate = std::max(rate, 0.6);
+  if (now > 0.75 * range.high) rate = std::min(rate, 0.0);
+  if (now > 0.9 * range.high) rate = -1;
+  m_lifted = std::clamp(m_lifted + rate * kRise * sim::kTick, 0.0, kHighest);
+  Arms::Arm& arm = m_arms[side().grasper];
+  arm.tip = m_lift_from + m_lifted * m_lift_up;
 }
 
-void Surgeon::steer_cut(const sim::Model& model, const sim::State& state) {
-  const interactions::ToolModel& t = model.placed(size_t(m_scissors));
-  const double inside = 0.72 * t.jaw_length;  // near the blades' ends: spare the fold behind the tube
-  // The applier makes room.
-  const interactions::ToolModel& a = model.placed(size_t(m_applier));
-  Hand& applier = m_hand[size_t(m_applier)];
-  applier.tip = moved(applier.tip, a.port + 0.045 * normalised(applier.tip - a.port), kTravel);
-  switch (m_phase) {
-    case Phase::reach_cut:
-      if (aim(model, state, m_scissors, m_cut_at, inside, kBack, kTravel)) go(Phase::enter_cut);
-      break;
-    case Phase::enter_cut:
-      if (aim(model, state, m_scissors, m_cut_at, inside, 0, kCareful)) go(Phase::close_cut);
-      break;
-    case Phase::close_cut:
-      aim(model, state, m_scissors, m_cut_at, inside, 0, 0.004);
-      if (move_handle(m_scissors, 1, 0.6)) go(Phase::open_cut);
-      break;
-    case Phase::open_cut:
-      if (move_handle(m_scissors, 0, 0.5)) go(Phase::leave_cut);
-      break;
-    case Phase::leave_cut: {
-      Hand& hand = m_hand[size_t(m_scissors)];
-      hand.tip = moved(hand.tip, hand.tip - kBack * normalised(hand.tip - t.port), kCareful);
-      if (m_in_phase > 2) go(Phase::finished);
-      break;
-    }
-    default:
-      break;
-  }
-}
-
-void Surgeon::steer(const sim::Model& model, const sim::State& state) {
-  const double inside = 0.6 * model.placed(size_t(m_grasper)).jaw_length;
-  switch (m_phase) {
-    case Phase::look:
-      if (m_in_phase > 0.5) go(Phase::reach_ampulla);
-      break;
-    case Phase::reach_ampulla:
-      if (aim(model, state, m_grasper, m_grasp_at, inside, kBack, kTravel)) go(Phase::enter_ampulla);
-      break;
-    case Phase::enter_ampulla:
-      if (aim(model, state, m_grasper, m_grasp_at, inside, 0, kCareful)) go(Phase::grasp);
-      break;
-    case Phase::grasp:
-      if (move_handle(m_grasper, 0.95, 0.8) && m_in_phase > 1.2) {
-        m_lift_from = m_hand[size_t(m_grasper)].tip;
-        go(Phase::lift);
-      }
-      break;
-    case Phase::lift:
-      lift(model, state);
-      break;
-    case Phase::finished:
-      break;
-    default:
-      if (m_phase < Phase::reach_cut)
-        steer_clip(model, state);
-      else
-        steer_cut(model, state);
-  }
-}
-
-void Surgeon::follow_with_scope(const sim::Model& model, const sim::State& state, sim::Input& input) {
-  // The camera comes closer to where the work is and keeps a working distance.
-  if (m_phase >= Phase::lift && m_phase < Phase::finished) {
-    constexpr double kWorking = 0.062;  // [m] lens to tissue
-    const interactions::StrandBody& tube = model.bodies[size_t(m_tube)];
-    const Vec3d at =
-        interactions::point_at(tube, state.strands[size_t(m_tube)], interactions::place_at(tube, m_cut_at));
-    const Vec3d towards = normalised(at - model.scope.port);
-    m_scope_tip = moved(m_scope_tip, at - kWorking * towards, 0.008);
-  }
-  const kinematics::FulcrumPose pose = kinematics::inverse(model.scope.port, m_scope_tip, double(m_scope.roll));
-  m_scope.yaw = float(pose.yaw);
-  m_scope.pitch = float(pose.pitch);
-  m_scope.depth = float(pose.depth);
-  input.scope = m_scope;
+void Surgeon::show() {
+  if (m_point_count == 0) return;
+  m_camera.show({m_points.data(), size_t(m_point_count)}, m_distance);
 }
 
 sim::Input Surgeon::next(const sim::Model& model, const sim::State& state) {
+  m_model = &model;
+  m_state = &state;
   m_in_phase += sim::kTick;
-  if (m_in_phase > kPatience && !done()) {
+  m_on_side += sim::kTick;
+  m_point_count = 0;
+  m_strand = m_target_strand >= 0 ? m_target_strand : side().tube;
+  m_distance = 0.06;
+  m_arms.begin_tick();
+  constexpr double kPatience = 240;  // [s] on one side
+  if (!done() && m_on_side > kPatience) {
     m_gave_up = true;
     go(Phase::finished);
   }
-  if (!done()) steer(model, state);
+  if (m_in_phase > row(m_phase).patience) go(row(m_phase).otherwise);
+  (this->*row(m_phase).run)();
+  show();
   sim::Input input = model.start;
-  for (size_t t = 0; t < model.hands.size(); ++t) {
-    const Hand& h = m_hand[t];
-    input.tools[t] = sim::tool_input(kinematics::inverse(model.hands[t].port, h.tip, h.roll), float(h.handle));
-  }
-  follow_with_scope(model, state, input);
+  m_arms.fill(state.tick, input);
+  m_camera.fill(input);
+  m_model = nullptr;
+  m_state = nullptr;
   return input;
 }
 

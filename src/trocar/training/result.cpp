@@ -1,0 +1,130 @@
+// What is said of an attempt, as one JSON object.
+#include <nlohmann/json.hpp>
+
+#include <trocar/numerics/portable.hpp>
+#include <trocar/training/monitor.hpp>
+
+namespace trocar::training {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json place_mm(Vec3d p) { return {p.x * 1000, p.y * 1000, p.z * 1000}; }
+
+Json score_json(const Exercise& e, const Score& s) {
+  const double shares = e.quality_share + e.time_share;
+  Json j{{"scored", s.scored}};
+  if (s.scored) j["total"] = s.total;
+  j["quality"] = s.quality;
+  j["time"] = s.time;
+  j["motion"] = nullptr;
+  j["penalties"] = s.penalties;
+  j["points"] = {{"quality", 100 * e.quality_share / shares * s.quality},
+                 {"time", 100 * e.time_share / shares * s.time}};
+  j["points_at_most"] = {{"quality", 100 * e.quality_share / shares}, {"time", 100 * e.time_share / shares}};
+  j["failed_by_error"] = s.failed;
+  j["pass_mark"] = e.pass_mark;
+  j["note"] = s.scored ? "motion component left out: no reference group yet"
+                       : "familiarisation: steps and errors are told, nothing is scored";
+  return j;
+}
+
+Json step_json(const StepStatus& s) {
+  Json j{{"name", s.name}, {"step", s.task}};
+  if (!s.side.empty()) j["side"] = s.side;
+  j["done"] = s.done;
+  if (s.missed) j["missed"] = true;
+  if (s.done || s.missed) j["at_s"] = s.at;
+  return j;
+}
+
+Json error_json(const ErrorMade& e) {
+  Json j{{"code", e.code}, {"name", e.name}, {"meaning", e.meaning}};
+  if (!e.detail.empty()) j["detail"] = e.detail;
+  if (!e.side.empty()) j["side"] = e.side;
+  j["points"] = e.points;
+  j["fail"] = e.fail;
+  j["at_s"] = e.at;
+  j["place_mm"] = place_mm(e.where);
+  return j;
+}
+
+Json side_json(const Side& side, const SideFacts& f, const LumenCheck& lumen) {
+  const double degrees = 180 / portable::pi;
+  Json j{{"side", side.name}, {"tube", side.tube}, {"clips", Json::array()}, {"cuts", Json::array()}};
+  const SideFacts::Clip* good[2] = {nullptr, nullptr};
+  for (int i = 0; i < f.clip_count; ++i) {
+    const SideFacts::Clip& c = f.clips[size_t(i)];
+    j["clips"].push_back({{"s_mm", c.s * 1000},
+                          {"angle_deg", c.theta * degrees},
+                          {"cover", c.cover},
+                          {"closing_s", c.closing},
+                          {"tips_visible", c.tips_visible},
+                          {"good", c.good},
+                          {"at_s", c.at}});
+    if (c.good) good[good[0] != nullptr] = &c;
+  }
+  if (good[0] && good[1]) j["clip_distance_mm"] = std::fabs(good[1]->s - good[0]->s) * 1000;
+  for (int i = 0; i < f.cut_count; ++i) {
+    const SideFacts::Cut& c = f.cuts[size_t(i)];
+    j["cuts"].push_back({{"s_mm", c.s * 1000},
+                         {"fraction", c.fraction},
+                         {"depth_mm", c.beyond * 1000},
+                         {"good", c.good},
+                         {"at_s", c.at}});
+  }
+  j["straightness"] = f.best_straightness;
+  if (f.held) j["pull_N"] = {{"from", f.pull.low}, {"to", f.pull.high}};
+  j["lumen"] = lumen.occluded() ? "occluded" : "open";
+  j["stumps"] = !lumen.severed() ? "not cut" : lumen.stumps_closed() ? "closed" : "open";
+  return j;
+}
+
+Json thresholds_json(const Exercise& e) {
+  Json j = Json::object();
+  for (size_t i = 0; i < thresholds().size(); ++i) {
+    const ThresholdRow& row = thresholds()[i];
+    Json t = Json::object();
+    if (row.value) {
+      t["value"] = e.goal.*row.value / row.unit;
+    } else {
+      const Range& range = e.goal.*row.range;
+      t["from"] = range.low / row.unit;
+      t["to"] = range.high / row.unit;
+    }
+    if (i < e.threshold_sources.size()) t["source"] = e.threshold_sources[i];
+    j[row.key] = t;
+  }
+  return j;
+}
+
+}  // namespace
+
+std::string Monitor::result_json() const {
+  const Score s = score();
+  Json j;
+  j["exercise"] = m_exercise.name;
+  j["mode"] = m_mode == Mode::assessed ? "assessed" : "familiarisation";
+  j["finished"] = finished();
+  j["passed"] = s.scored ? Json(s.passed) : Json(nullptr);
+  j["score"] = score_json(m_exercise, s);
+  j["seconds"] = m_seconds;
+  j["tube_occluded"] = occluded();
+  j["steps"] = Json::array();
+  for (const StepStatus& step : m_steps) j["steps"].push_back(step_json(step));
+  j["errors"] = Json::array();
+  for (const ErrorMade& e : m_errors) j["errors"].push_back(error_json(e));
+  j["sides"] = Json::array();
+  for (size_t i = 0; i < m_sides.size(); ++i)
+    j["sides"].push_back(side_json(m_exercise.goal.sides[i], m_sides[i].facts, m_sides[i].lumen));
+  j["tools"] = Json::array();
+  for (const ToolMetrics& t : m_tools)
+    j["tools"].push_back({{"name", t.name}, {"path_m", t.path}, {"max_pull_N", t.max_pull}});
+  j["thresholds"] = thresholds_json(m_exercise);
+  j["not_assessed"] = Json::array();
+  for (const LaterError& l : m_exercise.later)
+    j["not_assessed"].push_back({{"code", l.code}, {"name", l.name}, {"needs", l.needs}});
+  return j.dump();
+}
+
+}  // namespace trocar::training

@@ -1,0 +1,395 @@
+// What the scripted surgeon does in each phase; the table in surgeon.cpp names them.
+#include <algorithm>
+
+#include <trocar/interactions/clip.hpp>
+#include <trocar/numerics/portable.hpp>
+#include <trocar/sim/visibility.hpp>
+#include <trocar/training/hands.hpp>
+#include <trocar/training/surgeon.hpp>
+
+namespace trocar::training {
+namespace {
+
+constexpr double kTravel = 0.045, kCareful = 0.018, kTrack = 0.004;  // [m/s] through the open, at tissue, following it
+constexpr double kIdleDepth = 0.042;                                 // [m] an instrument that waits
+constexpr double kInDepth = 0.085;                                   // [m] one that was brought in
+constexpr int kSampleEvery = 20;                                     // ticks between looks along the tube
+
+}  // namespace
+
+void Surgeon::survey() {
+  constexpr double kGlance = 1.4;  // [s] at the picture as it is
+  const LookedFor* missing = nullptr;
+  for (LookedFor& l : m_survey) {
+    if (l.seen_for >= m_exercise.goal.survey_time + 0.1) continue;
+    const bool seen = l.target >= 0 && sim::visible_share(*m_model, *m_state, l.target) >= l.share;
+    l.seen_for = seen ? l.seen_for + sim::kTick : 0;
+    if (!missing) missing = &l;
+  }
+  if (!missing) return go(Phase::decide);
+  if (m_in_phase < kGlance || missing->target < 0) return;
+  want(centre_of(missing->target));
+  m_distance = 0.07;
+}
+
+void Surgeon::decide() {
+  const Sterilisation& g = m_exercise.goal;
+  SideWork& w = side();
+  m_target_strand = -1;
+  const std::pair<int, const std::string*> needs[] = {{w.grasper, &g.grasper}, {w.scissors, &g.scissors}};
+  for (const auto& [hand, instrument] : needs) {
+    const int number = m_model->hands[size_t(hand)].find(*instrument);
+    if (m_arms[hand].instrument == number) continue;
+    m_fetching = hand;
+    m_wanted = number;
+    return go(Phase::put_down);
+  }
+  if (severed()) {
+    if (!w.looked_at_stumps) return go(Phase::check);
+    if (tool_state(w.grasper).holds > 0) return go(Phase::lower);
+    if (m_side + 1 == int(m_sides.size())) return go(Phase::finished);
+    ++m_side;
+    m_on_side = 0;
+    m_attempts = 0;
+    return;
+  }
+  if (!w.following.done() && !flawed("A1.11")) return go(Phase::identify);
+  for (const char* code : {"E2", "E4.1", "E12"})
+    if (flawed(code)) {
+      m_stage = 0;
+      return go(Phase::blunder);
+    }
+  if (!holding()) return go(tool_state(w.grasper).holds > 0 ? Phase::let_go : Phase::reach_ampulla);
+  if (flawed("E5")) {
+    m_stage = 0;
+    return go(Phase::blunder);
+  }
+  if (next_clip_at() >= 0) return go(Phase::reach_clip);
+  go(Phase::reach_cut);
+}
+
+void Surgeon::put_down() {
+  if (tool_state(m_fetching).holds > 0 || m_arms[m_fetching].handle > 0) {
+    m_arms.grip(m_fetching, 0, 0.4);
+    return;
+  }
+  if (m_arms.move_to_depth(m_fetching, kIdleDepth, 2 * kTravel)) go(Phase::fetch);
+}
+
+void Surgeon::fetch() {
+  Arms::Arm& arm = m_arms[m_fetching];
+  arm.instrument = m_wanted;
+  const Vec3d inwards = normalised(tube_point(side().ampulla_from) - arm.port);
+  arm.tip = arm.port + kIdleDepth * inwards;
+  if (!flawed("E13")) {
+    want(arm.port + 0.055 * inwards);
+    want(arm.port + kInDepth * inwards);
+  } else {
+    want(tube_point(0));
+  }
+  if (tool_state(m_fetching).instrument == m_wanted && m_camera.settled() && m_in_phase > 0.6) go(Phase::bring_in);
+}
+
+void Surgeon::bring_in() {
+  const Arms::Arm& arm = m_arms[m_fetching];
+  const Vec3d inwards = normalised(tube_point(side().ampulla_from) - arm.port);
+  if (!flawed("E13")) {
+    want(arm.tip);
+    want(arm.tip + 0.02 * inwards);
+  } else {
+    want(tube_point(0));
+  }
+  if (!m_arms.move_to_depth(m_fetching, kInDepth, 0.035)) return;
+  m_blundered = m_blundered || flawed("E13");
+  go(Phase::decide);
+}
+
+void Surgeon::identify() {
+  constexpr double kByHand = 9;  // [s] after which the instrument helps the eye
+  SideWork& w = side();
+  std::array<Vec3d, sim::kMaxTools> tips{};
+  for (int h = 0; h < m_arms.count(); ++h) tips[size_t(h)] = tip_of(*m_model, *m_state, size_t(h));
+  if (m_state->tick % kSampleEvery == 0)
+    w.following.update(*m_model, *m_state, {tips.data(), size_t(m_arms.count())}, kSampleEvery * sim::kTick);
+  if (w.following.done()) return go(Phase::decide);
+  const Vec3d front = w.following.begun() ? tube_point(w.following.reached()) : centre_of(w.fimbria_target);
+  want(front);
+  if (w.following.begun()) want(tube_point(std::max(0.0, w.following.reached() - 0.015)));
+  if (m_in_phase < kByHand) return;
+  m_arms.grip(w.grasper, 1, 0.6);
+  want(m_arms[w.grasper].tip);
+  if (sees_tip(w.grasper) || m_in_phase < kByHand + 1)
+    m_arms.move(w.grasper, front + Vec3d{0, 0, 0.0075}, 0.6 * kTravel);
+}
+
+void Surgeon::reach_ampulla() {
+  const SideWork& w = side();
+  const double span = w.ampulla_to - w.ampulla_from;
+  m_grasp_at = w.ampulla_from + span * (0.30 + 0.06 * (m_attempts % 4));
+  want(tube_point(m_grasp_at));
+  clear_the_way(m_applier);
+  clear_the_way(w.scissors);
+  const bool open = m_arms.grip(w.grasper, 0, 0.5);
+  if (approach(w.grasper, m_grasp_at, 0.6 * tool(w.grasper).jaw_length, kTravel) && open) {
+    ++m_attempts;
+    go(Phase::enter_ampulla);
+  }
+}
+
+void Surgeon::enter_ampulla() {
+  want(tube_point(m_grasp_at));
+  want(m_arms[side().grasper].tip);
+  if (aim(side().grasper, m_grasp_at, 0.6 * tool(side().grasper).jaw_length, 0, kCareful)) go(Phase::grasp);
+}
+
+void Surgeon::grasp() {
+  constexpr double kFirm = 0.95;
+  const int hand = side().grasper;
+  want(tube_point(m_grasp_at));
+  if (flawed("E3") && tool_state(hand).holds > 0 && tool_state(hand).pinch > 0.1) {
+    // Hardly closed, and off it goes.
+    if (m_steady == 0) m_lift_from = m_arms[hand].tip;
+    m_steady += sim::kTick;
+    m_arms.move(hand, m_lift_from + Vec3d{0, 0, 0.03}, kCareful);
+    return;
+  }
+  if (flawed("E3") && m_steady > 0) {
+    m_blundered = true;
+    return go(Phase::let_go);
+  }
+  if (!m_arms.grip(hand, kFirm, 0.8) || m_in_phase < 1.2) return;
+  if (!holding()) return go(Phase::let_go);
+  m_lift_from = m_arms[hand].tip;
+  m_lifted = 0;
+  m_lift_up = normalised(Vec3d{tube_point(m_grasp_at).x > 0 ? 0.35 : -0.35, 0.10, 1.0});
+  go(Phase::lift);
+}
+
+void Surgeon::lift() {
+  const Sterilisation& g = m_exercise.goal;
+  const SideWork& w = side();
+  want(tube_point(m_grasp_at));
+  const double next = next_clip_at();
+  m_clip_place = next >= 0 ? next : cut_at();
+  want(tube_point(m_clip_place));
+  if (!holding()) return go(Phase::let_go);
+  if (flawed("E1")) {
+    Arms::Arm& arm = m_arms[w.grasper];
+    const bool hard = pull() > g.pull_limit + 0.2;
+    m_steady += hard ? sim::kTick : 0;
+    if (!hard) m_lifted += kCareful * sim::kTick;
+    arm.tip = m_lift_from + m_lifted * m_lift_up;
+    m_blundered = m_steady > 2 * g.pull_excursion;
+    return;
+  }
+  keep_presented();
+  const bool good = std::fabs(slant(m_applier, m_clip_place)) < 0.10 && pull() > g.present_pull.low + 0.08 &&
+                    pull() < 0.9 * g.present_pull.high &&
+                    straightness_of(*m_model, *m_state, w.tube, w.ampulla_from) > g.present_straightness + 0.002;
+  m_steady = good ? m_steady + sim::kTick : 0;
+  if (m_steady > 2 * m_exercise.hold_time) go(Phase::decide);
+}
+
+double Surgeon::clip_inside() const {
+  // The tube next to the clip's bend, so that both legs' tips come into view beyond it; nearer while they do not.
+  const interactions::ToolModel& t = tool(m_applier);
+  const interactions::StrandBody& tube = m_model->bodies[size_t(m_strand)];
+  const double radius = tube.model.radius[size_t(interactions::place_at(tube, m_clip_place).element)];
+  if (flawed("A1.3")) return t.jaw_length - 0.3 * radius;
+  return t.jaw_length - t.clip_length + radius + m_spare;
+}
+
+double Surgeon::cut_inside() const {
+  const interactions::ToolModel& t = tool(side().scissors);
+  if (flawed("A1.7")) return t.jaw_length - m_exercise.goal.cut_depth - 0.0035;
+  if (flawed("A1.10")) return t.jaw_length;
+  return 0.72 * t.jaw_length;  // near the blades' ends: spare the fold behind the tube
+}
+
+bool Surgeon::clip_fits() const {
+  const Sterilisation& g = m_exercise.goal;
+  const interactions::ToolModel& t = tool(m_applier);
+  const interactions::ToolShape shape =
+      interactions::shape_of(t, tool_state(m_applier).pose(), tool_state(m_applier).aperture);
+  const interactions::StrandBody& tube = m_model->bodies[size_t(m_strand)];
+  const interactions::StrandPlace place = interactions::place_at(tube, m_clip_place);
+  const Vec3d local = interactions::to_jaw(shape, tube_point(m_clip_place));
+  const double radius = tube.model.radius[size_t(place.element)];
+  const double cover = interactions::leg_cover(local.z - (t.jaw_length - t.clip_length), radius, t.clip_length);
+  const double square = std::fabs(dot(shape.frame.normal(), tube_tangent(m_clip_place)));
+  const bool enclosed = flawed("A1.3") || (cover >= g.clip_cover + 0.01 && std::fabs(local.x) < shape.half_gap);
+  const bool across = flawed("A1.4") || flawed("A1.5") || square > portable::cos(g.clip_angle - 0.035);
+  const bool seen = flawed("E4.2") ? !sees_jaws(m_applier) : sees_jaws(m_applier);
+  return enclosed && across && seen;
+}
+
+void Surgeon::reach_clip() {
+  const Sterilisation& g = m_exercise.goal;
+  if (!holding()) return go(Phase::let_go);
+  const double next = next_clip_at();
+  if (next < 0) return go(Phase::decide);
+  m_clip_place = next;
+  if (flawed("A1.1")) m_clip_place = g.ampulla_from + 0.004;
+  if (flawed("A1.2")) m_clip_place = g.cornu_to - 0.003;
+  if (flawed("A1.9")) m_clip_place = g.first_clip.high - 0.001;
+  if (flawed("E11")) {
+    m_target_strand = m_model->strand_index(g.forbidden.front().name);
+    m_clip_place = 0.5 * m_model->bodies[size_t(m_target_strand)].length();
+  }
+  keep_presented();
+  clear_the_way(side().scissors);
+  want(tube_point(m_clip_place));
+  m_spare = 0.0008;
+  const bool open = m_arms.grip(m_applier, 0, 0.5);
+  if (approach(m_applier, m_clip_place, clip_inside(), kTravel) && open) go(Phase::enter_clip);
+}
+
+void Surgeon::enter_clip() {
+  if (!holding()) return go(Phase::leave_clip);
+  keep_presented();
+  want(tube_point(m_clip_place));
+  want(m_arms[m_applier].tip);
+  if (aim(m_applier, m_clip_place, clip_inside(), 0, kCareful)) go(Phase::inspect_clip);
+}
+
+void Surgeon::inspect_clip() {
+  if (!holding()) return go(Phase::leave_clip);
+  keep_presented();
+  want(flawed("E4.2") ? Vec3d{-tube_point(0).x * 3, tube_point(0).y, tube_point(0).z} : tube_point(m_clip_place));
+  // Where a jaw's tip is hidden, another distance may show it, and a tube deeper between the legs.
+  m_distance = 0.052 + 0.008 * double(int(m_in_phase / 1.5) % 4);
+  if (m_in_phase > 0.5 && !sees_jaws(m_applier)) m_spare = std::max(0.0002, m_spare - 0.0006 * sim::kTick);
+  aim(m_applier, m_clip_place, clip_inside(), 0, kTrack);
+  m_steady = clip_fits() ? m_steady + sim::kTick : 0;
+  if (m_steady < 0.15) return;
+  m_clips_before = m_state->clip_count;
+  go(Phase::close_clip);
+}
+
+void Surgeon::close_clip() {
+  want(flawed("E4.2") ? Vec3d{-tube_point(0).x * 3, tube_point(0).y, tube_point(0).z} : tube_point(m_clip_place));
+  aim(m_applier, m_clip_place, clip_inside(), 0, kTrack);
+  const double whole = flawed("A1.8") ? 0.6 : 2.6;  // [share of the closing time] from open to closed
+  const double before = m_arms[m_applier].handle;
+  const bool shut = m_arms.grip(m_applier, 1, whole * m_exercise.goal.clip_closing);
+  const bool half = before < 0.45 && m_arms[m_applier].handle >= 0.45;
+  if (half && !clip_fits()) return go(Phase::open_clip);  // a last look before it bites
+  if (!shut || m_state->clip_count == m_clips_before) return;
+  for (const char* code : {"E4.2", "E11", "A1.1", "A1.2", "A1.3", "A1.4", "A1.5", "A1.8", "A1.11"})
+    m_blundered = m_blundered || flawed(code);
+  if (flawed("A1.9") && m_state->clip_count > 1) m_blundered = true;
+  go(Phase::open_clip);
+}
+
+void Surgeon::open_clip() {
+  want(tube_point(m_clip_place));
+  if (m_arms.grip(m_applier, 0, 0.5)) go(Phase::leave_clip);
+}
+
+void Surgeon::leave_clip() {
+  want(tube_point(m_clip_place));
+  want(m_arms[m_applier].tip);
+  m_arms.grip(m_applier, 0, 0.5);
+  if (aim(m_applier, m_clip_place, clip_inside(), 0.022, kCareful)) go(Phase::decide);
+}
+
+void Surgeon::reach_cut() {
+  if (!holding()) return go(Phase::let_go);
+  m_cut_place = flawed("A1.6") ? m_exercise.goal.second_clip.high + 0.004 : cut_at();
+  keep_presented();
+  clear_the_way(m_applier);
+  want(tube_point(m_cut_place));
+  const int hand = side().scissors;
+  const bool open = m_arms.grip(hand, 0, 0.5);
+  if (approach(hand, m_cut_place, cut_inside(), kTravel) && open) go(Phase::enter_cut);
+}
+
+void Surgeon::enter_cut() {
+  clear_the_way(m_applier);
+  want(tube_point(m_cut_place));
+  want(m_arms[side().scissors].tip);
+  const bool there = aim(side().scissors, m_cut_place, cut_inside(), 0, m_in_phase < 3 ? kCareful : kTrack);
+  m_steady = there && sees_tip(side().scissors) ? m_steady + sim::kTick : 0;
+  if (m_steady > 0.1) go(Phase::close_cut);
+}
+
+void Surgeon::close_cut() {
+  want(tube_point(m_cut_place));
+  aim(side().scissors, m_cut_place, cut_inside(), 0, kTrack);
+  if (!m_arms.grip(side().scissors, 1, 0.6)) return;
+  for (const char* code : {"A1.6", "A1.7", "A1.10"}) m_blundered = m_blundered || flawed(code);
+  go(Phase::open_cut);
+}
+
+void Surgeon::open_cut() {
+  want(tube_point(m_cut_place));
+  if (m_arms.grip(side().scissors, 0, 0.5)) go(Phase::leave_cut);
+}
+
+void Surgeon::leave_cut() {
+  want(tube_point(m_cut_place));
+  want(m_arms[side().scissors].tip);
+  const int hand = side().scissors;
+  m_arms.grip(hand, 0, 0.5);
+  if (m_in_phase < 1.5 * sim::kTick) m_left_from = m_arms[hand].tip;
+  if (length(m_arms[hand].tip - m_left_from) > 0.02 || m_in_phase > 3) return go(Phase::decide);
+  const Vec3d back = normalised(m_arms[hand].port - m_arms[hand].tip);
+  m_arms.move(hand, m_arms[hand].tip + 0.01 * back, kCareful);
+}
+
+void Surgeon::check() {
+  SideWork& w = side();
+  clear_the_way(w.scissors);
+  clear_the_way(m_applier);
+  const int cut = cut_element();
+  const interactions::StrandBody& tube = m_model->bodies[size_t(w.tube)];
+  want(tube_point(std::max(0.0, tube.arc[size_t(cut)] - 0.003)));
+  want(tube_point(tube.arc[size_t(cut) + 1] + 0.003));
+  m_distance = 0.05 + 0.01 * double(int(m_in_phase / 4) % 4);
+  const bool seen = stumps_in_view(*m_model, *m_state, w.trace_target, cut);
+  m_steady = seen ? m_steady + sim::kTick : 0;
+  if (m_steady < m_exercise.goal.check_time + 0.2) return;
+  w.looked_at_stumps = true;
+  go(Phase::decide);
+}
+
+void Surgeon::lower() {
+  want(m_arms[side().grasper].tip);
+  if (m_arms.move(side().grasper, m_lift_from, kCareful)) go(Phase::let_go);
+}
+
+void Surgeon::let_go() {
+  want(m_arms[side().grasper].tip);
+  if (m_arms.grip(side().grasper, 0, 0.4)) go(Phase::withdraw);
+}
+
+void Surgeon::withdraw() {
+  const int hand = side().grasper;
+  want(m_arms[hand].tip);
+  if (m_arms.move_to_depth(hand, kInDepth, kCareful)) go(Phase::decide);
+}
+
+void Surgeon::blunder() {
+  const SideWork& w = side();
+  if (flawed("E12")) {  // the applier closes on nothing
+    want(m_arms[m_applier].tip);
+    if (m_stage == 0 && m_arms.grip(m_applier, 1, 3)) m_stage = 1;
+    if (m_stage == 1 && m_arms.grip(m_applier, 0, 0.5)) m_blundered = true;
+  } else if (flawed("E4.1")) {  // the scissors wander off, the camera stays
+    const Vec3d away{m_arms[w.scissors].port.x * 0.9, -0.150, -0.070};
+    want(tube_point(w.ampulla_from));
+    if (m_arms.move(w.scissors, away, 0.03)) m_blundered = true;
+  } else if (flawed("E5")) {  // the scissors strike the grasper
+    const interactions::ToolShape shape = interactions::shape_of(tool(w.grasper), tool_state(w.grasper).pose(), 0);
+    const Vec3d there = shape.pivot - 0.02 * shape.frame.axis();
+    want(there);
+    want(m_arms[w.scissors].tip);
+    m_steady += sim::kTick;
+    if (m_steady > 1.5 && m_arms.move(w.scissors, there, 0.06)) m_blundered = true;
+  } else if (flawed("E2")) {
+    m_blundered = true;  // bowel: see the soak test's own hands
+  }
+  if (m_blundered) go(Phase::decide);
+}
+
+}  // namespace trocar::training

@@ -1,0 +1,175 @@
+// A scene with a tube on either side, small enough for tests that make up its State: an organ in the middle, two tubes
+// with isthmus, ampulla and fimbria, a cord, and three hands. And an attempt in it whose State a test writes as it
+// goes.
+#pragma once
+
+#include <trocar/training/monitor.hpp>
+
+#include "../sim/small_scene.hpp"
+
+namespace trocar::two_sides {
+
+inline constexpr int kLeft = 0, kRight = 1, kCord = 2;  ///< strands
+inline constexpr int kGrasper = 0, kScissors = 1, kApplier = 2;
+
+inline scene::Strand tube(const char* name, double side) {
+  scene::Strand s = small::tube();
+  s.name = name;
+  s.centreline.clear();
+  for (double x : {0.0, 0.020, 0.040, 0.060, 0.090}) s.centreline.push_back({x, side * 0.05, 0});
+  s.start = {};
+  s.start.fixed = true;
+  s.landmarks = {{"isthmus", 0, 0.025}, {"ampulla", 0.025, 0.075}, {"fimbria", 0.080, 0.090}};
+  return s;
+}
+
+inline const sim::Model& model() {
+  static const sim::Model compiled = [] {
+    scene::Description d = small::description();
+    d.strands = {tube("tube_left", 1), tube("tube_right", -1), small::cord()};
+    [](auto& any) {
+      if constexpr (requires { any.membranes; }) any.membranes.clear();
+    }(d);
+    return scene::compile(d);
+  }();
+  return compiled;
+}
+
+/// The shipped exercise's thresholds, steps and penalties, on the small scene's bodies.
+inline const training::Exercise& exercise() {
+  static const training::Exercise made = [] {
+    training::Exercise e = training::read_exercise(TROCAR_SOURCE_DIR "/scenes/gynaecology/sterilisation.json");
+    e.goal.uterus = "organ";
+    for (training::Side& side : e.goal.sides) side.ovary = "pad";
+    e.goal.forbidden = {{"cord", "the cord", {}}};
+    e.goal.delicate = {};
+    e.goal.bowel = {{"pad", "the pad", {}}};
+    return e;
+  }();
+  return made;
+}
+
+/// An attempt whose State is made up as it goes; everything is in view unless a test looks away.
+struct Attempt {
+  const sim::Model& model = two_sides::model();
+  sim::State state = sim::initial_state(model);
+  training::Monitor monitor;
+
+  explicit Attempt(training::Mode mode = training::Mode::assessed) : monitor(exercise(), model, mode) {
+    for (std::uint8_t& seen : state.seen) seen = 1;
+  }
+
+  void tick(const sim::StepReport& report = {}) {
+    ++state.tick;
+    monitor.update(model, state, report);
+  }
+  void seconds(double s) {
+    for (int i = 0; i < int(s * 1000 + 0.5); ++i) tick();
+  }
+  void event(sim::Event::Kind kind, int tool, int index) {
+    sim::StepReport report;
+    report.events[0] = {kind, tool, index};
+    report.event_count = 1;
+    tick(report);
+  }
+  /// Everything whose target's name begins so comes into view, or goes out of it.
+  void look(const std::string& name, bool seen) {
+    for (const sim::VisibilityTarget& t : model.targets)
+      if (t.name.rfind(name, 0) == 0)
+        for (int i = t.first; i < t.first + t.count; ++i) state.seen[size_t(i)] = seen;
+  }
+  void look_away() {
+    for (std::uint8_t& seen : state.seen) seen = 0;
+  }
+
+  void hold(int body, int element, double pull) {
+    interactions::ToolState& grasper = state.tools[kGrasper];
+    grasper.holds = 1;
+    grasper.hold[0].body = body;
+    grasper.hold[0].element = element;
+    grasper.pull[2] = pull;
+    grasper.pinch = 5;
+  }
+  void hold_tube(int tube, double s, double pull) {
+    hold(tube, interactions::place_at(model.bodies[size_t(tube)], s).element, pull);
+  }
+  void let_go() {
+    state.tools[kGrasper].holds = 0;
+    state.tools[kGrasper].pull[2] = 0;
+  }
+  void survey() {
+    state.tools[kGrasper].depth += 0.002;
+    seconds(1.1);
+  }
+  void identify() { seconds(3); }
+  void present(int tube) {
+    hold_tube(tube, 0.055, 1.0);
+    seconds(0.3);
+  }
+  interactions::Clip good_clip(int tube, double s) const {
+    interactions::Clip c;
+    c.s = s;
+    c.cover = 1;
+    c.closing_time = 2;
+    c.tips_visible = 2;
+    c.strand = tube;
+    c.tool = kApplier;
+    return c;
+  }
+  void clip(const interactions::Clip& c) {
+    state.clips[size_t(state.clip_count++)] = c;
+    event(c.strand < 0 ? sim::Event::dropped_clip : sim::Event::clipped, kApplier, state.clip_count - 1);
+  }
+  void both_clips(int tube) {
+    clip(good_clip(tube, 0.016));
+    clip(good_clip(tube, 0.025));
+  }
+  interactions::Cut good_cut(int tube, double s = 0.0205) const {
+    interactions::Cut c;
+    c.s = s;
+    c.fraction = 1;
+    c.beyond = 0.001;
+    c.tips_visible = 1;
+    c.strand = tube;
+    c.tool = kScissors;
+    return c;
+  }
+  void cut(const interactions::Cut& c) {
+    if (c.strand >= 0 && c.fraction >= 0.99) {
+      const interactions::StrandPlace place = interactions::place_at(model.bodies[size_t(c.strand)], c.s);
+      tissue::cut_element(state.strands[size_t(c.strand)], place.element);
+    }
+    state.cuts[size_t(state.cut_count++)] = c;
+    event(sim::Event::cut, kScissors, state.cut_count - 1);
+  }
+  void up_to_clips(int tube) {
+    survey();
+    identify();
+    present(tube);
+  }
+  void one_side(int tube) {
+    present(tube);
+    both_clips(tube);
+    cut(good_cut(tube));
+    let_go();
+    seconds(2.1);
+  }
+  void all() {
+    survey();
+    identify();
+    one_side(kLeft);
+    one_side(kRight);
+  }
+  bool done(const std::string& task, const std::string& side = "left") const {
+    for (const training::StepStatus& s : monitor.steps())
+      if (s.task == task && (s.side == side || s.side.empty())) return s.done;
+    return false;
+  }
+  std::vector<std::string> codes() const {
+    std::vector<std::string> made;
+    for (const training::ErrorMade& e : monitor.errors()) made.push_back(e.code);
+    return made;
+  }
+};
+
+}  // namespace trocar::two_sides
