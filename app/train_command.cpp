@@ -81,6 +81,7 @@ Json train_headless(const Options& o, const Lesson& lesson, training::Store* sto
   result.update(source->describe());
   log.end(result, interrupted() ? training::AttemptState::aborted : training::AttemptState::finished);
   result.update(left);
+  if (!o.report.empty()) result["report"] = write_report(o.report, result, store, &session);
   return result;
 }
 
@@ -112,7 +113,7 @@ int train(const Options& o, bool json) {
   Json result = o.headless ? train_headless(o, *lesson, store.get(), size)
                            : run_window(std::move(lesson), window_options(o, store.get()));
   if (result.is_null()) return core::kDone;  // the window was closed before anything was begun
-  if (!o.report.empty()) result["report"] = write_report(o.report, result);
+  if (!o.report.empty() && !o.headless) result["report"] = write_report(o.report, result, store.get());
   if (json)
     print(result);
   else
