@@ -254,6 +254,7 @@ void Window::collect_sample() {
 
 void Window::collect_keys() {
   m_keys = std::exchange(m_next_keys, {});
+  m_typed = std::exchange(m_next_typed, {});
   if (ImGui::GetIO().WantTextInput) m_keys.pause = m_keys.back = false;
   const auto went_down = [this](devices::Button b) { return m_gamepads.state().has(b) && !m_last_pad.has(b); };
   m_keys.help |= went_down(devices::Button::back);
@@ -261,7 +262,8 @@ void Window::collect_keys() {
   m_keys.back |= !m_captured && went_down(devices::Button::b);
 }
 
-void Window::on_key(GLFWwindow* window, int key, int, int action, int) {
+void Window::on_key(GLFWwindow* window, int key, int, int action, int mods) {
+  if (action != GLFW_RELEASE) of(window).m_next_typed.push_back({key, mods});
   if (action != GLFW_PRESS) return;
   Window& w = of(window);
   if (key >= 0 && key < int(std::size(ImGui::GetIO().KeysDown))) w.m_keys_pressed.push_back(key);

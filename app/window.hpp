@@ -29,6 +29,11 @@ struct WindowKeys {
   bool picture = false;  ///< F12
 };
 
+struct TypedKey {
+  int key = 0;   ///< GLFW's
+  int mods = 0;  ///< GLFW's
+};
+
 class Window {
  public:
   Window(const std::string& title, PictureSize size);  ///< fitted to the monitor  @throws core::EnvironmentLacks
@@ -53,6 +58,8 @@ class Window {
   const devices::HandSample& hands() const { return m_sample; }
   const Gamepads& gamepads() const { return m_gamepads; }
   const WindowKeys& keys() const { return m_keys; }
+  /// Every key that went down since the last picture, and went up again perhaps; one that is held repeats.
+  const std::vector<TypedKey>& typed() const { return m_typed; }
   double picture_time() const { return m_picture_time; }  ///< of the last picture, begin to begin [s]
   bool focused() const;                                   ///< do keys come here?
 
@@ -90,6 +97,7 @@ class Window {
   devices::HandSample m_sample, m_next;
   devices::Gamepad m_last_pad;
   WindowKeys m_keys, m_next_keys;
+  std::vector<TypedKey> m_typed, m_next_typed;
   double m_cursor_x = 0, m_cursor_y = 0, m_last_time = 0, m_picture_time = 0, m_least_time = 1.0 / 62;
   bool m_captured = false, m_cursor_known = false, m_scale_changed = false;
   unsigned m_buttons_pressed = 0;                 ///< since the last picture, even if up again
