@@ -14,6 +14,9 @@ std::span<const Target> targets() {
       {"recording", recording_file, 20'000, recording_seeds, nullptr, mutate_recording},
       {"motion", motion_file, 4'000, motion_seeds, motion_words},
       {"display", display_keyframe, 10'000, display_seeds},
+      {"settings", settings_file, 4'000, settings_seeds, json_words, mutate_json, cross_json},
+      {"trace", trace_bytes, 4'000, trace_seeds, nullptr, mutate_trace},
+      {"trace_csv", trace_csv, 4'000, trace_csv_seeds},
   };
   return all;
 }

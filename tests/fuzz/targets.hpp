@@ -23,6 +23,14 @@ std::vector<std::string> motion_words();
 void display_keyframe(Bytes bytes);
 std::vector<Seed> display_seeds();
 
+void settings_file(Bytes bytes);
+std::vector<Seed> settings_seeds();
+void trace_bytes(Bytes bytes);
+std::vector<Seed> trace_seeds();
+std::size_t mutate_trace(std::uint8_t* data, std::size_t size, std::size_t capacity, unsigned seed);
+void trace_csv(Bytes bytes);
+std::vector<Seed> trace_csv_seeds();
+
 /// So small that a compile takes milliseconds.
 bool quick_to_compile(const scene::Description& description);
 /// Hands wave over the scene for some ticks; what becomes not finite must be told.

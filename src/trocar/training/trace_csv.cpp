@@ -237,7 +237,9 @@ std::string to_csv(const Trace& trace) {
         fmt::format("# mark {} {} {}\n", kMarkNames[m.kind], plain(trace.hands[std::size_t(m.hand)].name), m.sample);
   text += column_names(trace, !trace.scope.empty()) + '\n';
   for (std::size_t i = 0; i < trace.size(); ++i) {
-    fmt::format_to(std::back_inserter(text), "{:.{}f}", trace.time(i), kTimeDecimals);
+    const double time = trace.time(i);
+    const bool nothing = time < 0 && time > -0.5 / kTimeScale;  // would be written as -0.000000
+    fmt::format_to(std::back_inserter(text), "{:.{}f}", nothing ? 0.0 : time, kTimeDecimals);
     for (const TraceHand& hand : trace.hands) append(text, hand.samples[i], kHandChannels);
     if (!trace.scope.empty()) append(text, trace.scope[i], kScopeChannels);
     text += '\n';

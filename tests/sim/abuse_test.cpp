@@ -1,0 +1,23 @@
+// The short form of the abuse soak: one organ of each kind for a moment, and all come back.
+#include "abuse.hpp"
+
+#include <gtest/gtest.h>
+
+#include <trocar/scene/compile.hpp>
+#include <trocar/scene/reader.hpp>
+
+using namespace trocar;
+
+TEST(Abuse, OrgansBearSomeSecondsAndReturnToTheirShape) {
+  const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/gynaecology/scene.json"));
+  abuse::Attack attack(model, 3);
+  const int tube = model.strand_index("tube_left");
+  ASSERT_GE(tube, 0);
+  const abuse::Round r = attack.round(model.solids.size() + size_t(tube), 3);
+  EXPECT_EQ(r.first_bad_tick, 0u) << "flags " << r.flags;
+  EXPECT_GT(r.grasps, 0);
+  EXPECT_TRUE(r.let_go);
+  EXPECT_GT(r.most_energy, 1e-3) << "[J] something was done to them";
+  EXPECT_LT(r.most_energy, 5) << "[J]";
+  for (const abuse::Left& left : r.left) EXPECT_LT(left.share, 0.01) << left.name << " " << left.distance << " m";
+}
