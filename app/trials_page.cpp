@@ -36,12 +36,20 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-std::string figure(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "–"; }
+/// The minus that is as wide as a digit.
+std::string typeset(std::string number) {
+  for (std::size_t at = 0; (at = number.find('-', at)) != std::string::npos;) number.replace(at, 1, "−");
+  return number;
+}
 
-std::string with_range(const training::Ranged& r) {
-  if (!std::isfinite(r.value)) return "–";
-  if (!std::isfinite(r.low)) return fmt::format("{:.3g}", r.value);
-  return fmt::format("{:.3g} <small>({:.3g} … {:.3g})</small>", r.value, r.low, r.high);
+std::string figure(double value) { return std::isfinite(value) ? typeset(fmt::format("{:.4g}", value)) : "–"; }
+std::string rho(double value) { return std::isfinite(value) ? typeset(fmt::format("{:.2f}", value)) : "–"; }
+std::string slope(double value) { return std::isfinite(value) ? typeset(fmt::format("{:.3g}", value)) : "–"; }
+
+/// The figure and, smaller, its range.
+std::string with_range(const training::Ranged& r, std::string (*shown)(double)) {
+  if (!std::isfinite(r.low)) return shown(r.value);
+  return fmt::format("{} <small>({} … {})</small>", shown(r.value), shown(r.low), shown(r.high));
 }
 
 std::string heading(const MetricStudy& m) {
@@ -150,7 +158,8 @@ std::string spread_table(const Study& study) {
     out += fmt::format(
         "<tr><td>{}</td><td>{}</td><td>{} … {}</td><td>{} … {}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
         heading(m), figure(m.all.median), figure(m.all.lower), figure(m.all.upper), figure(m.all.least),
-        figure(m.all.most), with_range(m.trend.slope), with_range(m.trend.pooled), with_range(m.trend.within));
+        figure(m.all.most), with_range(m.trend.slope, slope), with_range(m.trend.pooled, rho),
+        with_range(m.trend.within, rho));
   }
   return out + "</table>\n";
 }
@@ -164,8 +173,7 @@ std::string person_table(const Study& study) {
     if (m.all.count == 0) continue;
     out += "<tr><td>" + heading(m) + "</td>";
     for (std::size_t p = 0; p < study.persons.size(); ++p)
-      out += fmt::format("<td>{} <small>({})</small></td>", figure(m.by_person[p].median),
-                         std::isfinite(m.person_rho[p]) ? fmt::format("{:.2f}", m.person_rho[p]) : "–");
+      out += fmt::format("<td>{} <small>({})</small></td>", figure(m.by_person[p].median), rho(m.person_rho[p]));
     out += "</tr>\n";
   }
   return out + "</table>\n";
@@ -176,7 +184,7 @@ std::string learning(const Study& study) {
   const MetricStudy& m = study.metrics.front();
   if (m.by_repetition.size() < 2 || m.all.count == 0) return "";
   const Spread &first = m.by_repetition.front(), &last = m.by_repetition.back();
-  const auto better = std::count_if(m.person_rho.begin(), m.person_rho.end(), [](double rho) { return rho < 0; });
+  const auto better = std::count_if(m.person_rho.begin(), m.person_rho.end(), [](double own) { return own < 0; });
   return fmt::format(
       "<p class=\"lead\">Duration changes by <b>{}</b> s with each repetition (each person with an offset of their "
       "own). "
@@ -184,8 +192,8 @@ std::string learning(const Study& study) {
       "when "
       "each person in turn is left out. Median of the first attempts {} s, of the last {} s. {} of {} people became "
       "quicker (ρ &lt; 0).</p>\n",
-      with_range(m.trend.slope), with_range(m.trend.pooled), with_range(m.trend.within), figure(first.median),
-      figure(last.median), better, study.persons.size());
+      with_range(m.trend.slope, slope), with_range(m.trend.pooled, rho), with_range(m.trend.within, rho),
+      figure(first.median), figure(last.median), better, study.persons.size());
 }
 
 constexpr const char* kStyle =
@@ -194,7 +202,7 @@ constexpr const char* kStyle =
     "font-variant-numeric:tabular-nums}figure{display:inline-block;width:24.5em;margin:.5em;vertical-align:top}"
     "figcaption{font-weight:600}svg{width:100%;height:auto}svg text{font:11px system-ui,sans-serif;fill:#555}"
     ".grid{stroke:#e4e4e4;fill:none}.band{fill:#0072b2;opacity:.12}.median{stroke:#333;stroke-width:1.6;fill:none}"
-    "small{color:#666}.lead{font-size:1.1em}";
+    "small{color:#666;white-space:nowrap}.lead{font-size:1.1em}";
 
 }  // namespace
 

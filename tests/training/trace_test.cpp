@@ -179,7 +179,7 @@ TEST(TraceRecorder, TakesFiftySamplesASecondFromTheState) {
   ASSERT_EQ(trace.marks.size(), 1u);
   EXPECT_EQ(trace.marks[0], (TraceMark{TraceMark::clipped, 1, 24})) << "the sample of tick 500";
   const TraceSample& s = trace.hands[0].samples[0];
-  EXPECT_EQ(trace.instruments[std::size_t(s.instrument)], model.tool(state, 0).name);
+  EXPECT_EQ(trace.instruments.at(std::size_t(s.instrument)), model.tool(state, 0).name);
   EXPECT_LT(length(rotate(s.orientation, Vec3d{0, 0, -1}) -
                    kinematics::forward(model.hands[0].port, state.tools[0].pose()).axis()),
             1e-6);

@@ -88,7 +88,10 @@ void TraceRecorder::update(const sim::Model& model, const sim::State& state, con
   if (first)
     m_trace.start = double(state.tick) / 1000;  // not times 0.001: the double nearest to the decimal, as in CSV
   m_next = state.tick + kTraceEvery;
-  for (std::size_t h = 0; h < m_trace.hands.size(); ++h) m_trace.hands[h].samples.push_back(sample_of(model, state, h));
+  for (std::size_t h = 0; h < m_trace.hands.size(); ++h) {
+    m_trace.hands[h].samples.push_back(sample_of(model, state, h));
+    m_trace.hands[h].samples.back().instrument = m_numbers[h][std::size_t(state.tools[h].instrument)];
+  }
   m_trace.scope.push_back(scope_of(model, state));
 }
 
