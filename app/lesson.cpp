@@ -9,18 +9,16 @@
 #include <trocar/scene/compile.hpp>
 #include <trocar/scene/json.hpp>
 #include <trocar/scene/reader.hpp>
-#if __has_include(<trocar/scene/vary.hpp>)
 #include <trocar/scene/vary.hpp>
-#define TROCAR_HAS_VARY 1
-#endif
 
 #include "paths.hpp"
 #include "sources.hpp"
 
 namespace trocar::app {
 
-std::unique_ptr<training::Monitor> Lesson::monitor() const {
-  return exercise ? std::make_unique<training::Monitor>(*exercise, model) : nullptr;
+std::unique_ptr<training::Monitor> Lesson::monitor(bool scored) const {
+  const training::Mode mode = scored ? training::Mode::assessed : training::Mode::familiarisation;
+  return exercise ? std::make_unique<training::Monitor>(*exercise, model, mode) : nullptr;
 }
 
 std::unique_ptr<InputSource> Lesson::surgeon() const {
@@ -49,13 +47,7 @@ std::unique_ptr<Lesson> load_lesson(const std::string& exercise, std::uint64_t s
   scene::Description description = scene::read_scene(lesson->scene);
   if (!lesson->exercise) lesson->title = description.title;
   lesson->seed = seed;
-  if (seed != 0) {
-#ifdef TROCAR_HAS_VARY
-    scene::vary(description, seed);
-#else
-    throw core::BadInput({{{"--seed", 0, 0}, "expected 0: this build knows no variations of the anatomy"}});
-#endif
-  }
+  scene::vary(description, seed);
   core::log::info("compiling {}", lesson->scene.string());
   lesson->model = scene::compile(description);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - started;

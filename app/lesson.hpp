@@ -34,8 +34,8 @@ struct Lesson {
   sim::Model model;
   std::optional<training::Exercise> exercise;  ///< nothing for a bare scene
 
-  std::unique_ptr<training::Monitor> monitor() const;  ///< null for a bare scene
-  std::unique_ptr<InputSource> surgeon() const;        ///< @throws core::BadInput where nobody knows how
+  std::unique_ptr<training::Monitor> monitor(bool scored = true) const;  ///< null for a bare scene
+  std::unique_ptr<InputSource> surgeon() const;  ///< @throws core::BadInput where nobody knows how
 };
 
 /// Exercise files name a scene; scene files do not. False also for what cannot be read.

@@ -15,8 +15,6 @@ using training::Attempt;
 using training::AttemptMode;
 using training::AttemptState;
 
-double Report::clock_offset() const { return number_in(result, "/exercise_from_s").value_or(0); }
-
 std::optional<double> number_in(const Json& result, const std::string& pointer) {
   const Json::json_pointer at(pointer);
   if (!result.contains(at) || !result[at].is_number()) return std::nullopt;

@@ -23,7 +23,7 @@ class Session;
 struct ReportPicture {
   std::filesystem::path file;
   std::string shows;
-  double seconds = 0;  ///< on the exercise's clock
+  double seconds = 0;  ///< since the start
 };
 
 struct Report {
@@ -35,8 +35,6 @@ struct Report {
   std::vector<ReportPicture> pictures;
   std::string pictures_note;  ///< why there are none
   bool names = false;         ///< may the page say whose attempt it is?
-
-  double clock_offset() const;  ///< simulated time at which the exercise's clock began [s]
 };
 
 /// @param store  may be null: then there is only the attempt itself

@@ -38,7 +38,7 @@ svg{width:100%;height:auto;display:block}.legend svg{display:inline-block;width:
 .level{stroke:var(--bad);stroke-width:1;stroke-dasharray:4 4}.frame{fill:none;stroke:var(--line)}
 text{fill:var(--ink);font:12px system-ui,sans-serif}.tick{fill:var(--soft);font-size:11px}.label{fill:var(--soft)}
 .in-bar{font-size:11px}.bar.b0{fill:var(--b0)}.bar.b1{fill:var(--b1)}.bad{fill:var(--bad)}
-.event{stroke:var(--soft);stroke-width:2}
+.clock{stroke:var(--soft);stroke-width:1;stroke-dasharray:1 3}.event{stroke:var(--soft);stroke-width:2}
 #turn{touch-action:none;cursor:grab;border:1px solid var(--line);border-radius:3px;max-width:34rem;margin:0 auto}
 #turn-box{display:none}.scripted #turn-box{display:block}
 button{font:inherit;font-size:.88rem;color:var(--ink);background:var(--panel);border:1px solid var(--line);

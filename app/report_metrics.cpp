@@ -50,6 +50,7 @@ constexpr Row kWhole[] = {
 std::string number(std::optional<double> v, double scale) {
   if (!v || !std::isfinite(*v)) return "–";
   const double x = *v * scale;
+  if (x == std::round(x) && std::fabs(x) < 1e6) return fmt::format("{:.0f}", x);
   return std::fabs(x) >= 100  ? fmt::format("{:.0f}", x)
          : std::fabs(x) >= 10 ? fmt::format("{:.1f}", x)
                               : fmt::format("{:.2f}", x);

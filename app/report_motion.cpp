@@ -108,10 +108,9 @@ std::string turnable(const Trace& trace, const Box& box) {
          json + "</script>\n";
 }
 
-/// From the exercise's clock's zero on.
-std::vector<double> times(const Trace& trace, double offset) {
+std::vector<double> times(const Trace& trace) {
   std::vector<double> t(trace.size());
-  for (std::size_t i = 0; i < t.size(); ++i) t[i] = trace.time(i) - offset;
+  for (std::size_t i = 0; i < t.size(); ++i) t[i] = trace.time(i);
   return t;
 }
 
@@ -129,7 +128,7 @@ std::string speeds(const Report& r, const std::vector<double>& t) {
   Plot p;
   p.id = "speed";
   p.title = "Speed of each instrument's tip";
-  p.x_label = "time since an instrument first moved [s]";
+  p.x_label = "time since the start [s]";
   p.y_label = "speed [mm/s]";
   p.x_from = std::min(0.0, t.front());
   p.x_to = t.back();
@@ -160,7 +159,7 @@ std::string forces(const Report& r, const std::vector<double>& t) {
     Plot p;
     p.id = fmt::format("force-{}", k.key);
     p.title = fmt::format("Force: {}, {}", k.title, k.what);
-    p.x_label = "time since an instrument first moved [s]";
+    p.x_label = "time since the start [s]";
     p.y_label = "force [N]";
     p.x_from = std::min(0.0, t.front());
     p.x_to = t.back();
@@ -192,7 +191,7 @@ std::string motion_section(const Report& r) {
   std::vector<Series> hands;
   for (std::size_t h = 0; h < r.trace->hands.size(); ++h) hands.push_back({r.trace->hands[h].name, {}, {}, int(h % 6)});
   const Box box = box_of(*r.trace);
-  const std::vector<double> t = times(*r.trace, r.clock_offset());
+  const std::vector<double> t = times(*r.trace);
   return "<section><h2>Motion</h2>\n" + legend(hands) + turnable(*r.trace, box) + views(*r.trace, box) + speeds(r, t) +
          forces(r, t) + "</section>\n";
 }

@@ -182,13 +182,14 @@ std::string steps(const Report& r, const Json& list) {
 
 std::string timeline(const Report& r, const Json& step_list, const Json& error_list) {
   Timeline t;
-  t.length = real_in(r.result, "exercise_seconds", r.attempt.seconds);
+  t.length = real_in(r.result, "simulated_seconds", r.attempt.seconds);
+  t.clock_from = real_in(r.result, "exercise_from_s", -1);
   std::vector<std::pair<double, const Json*>> done;
   if (step_list.is_array())
     for (const Json& s : step_list)
       if (true_in(s, "done")) done.emplace_back(real_in(s, "at_s"), &s);
   std::stable_sort(done.begin(), done.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  double before = 0;
+  double before = 0;  // a step may be done before an instrument moved
   for (const auto& [at, s] : done) {
     const std::string side = text_in(*s, "side");
     std::string name = text_in(*s, "step");
@@ -206,13 +207,16 @@ std::string timeline(const Report& r, const Json& step_list, const Json& error_l
     for (const Json& m : moments) {
       const std::string what = text_in(m, "what");
       if (what == "step-done" || what == "error") continue;
-      const double at = real_in(m, "tick") * sim::kTick - r.clock_offset();
+      const double at = real_in(m, "tick") * sim::kTick;
       if (at >= 0) t.events.push_back({at, fmt::format("{} at {}", text_in(m, "text"), minutes(at)), false});
     }
   if (t.bars.empty() && t.errors.empty() && t.events.empty()) return "";
   for (const PlotMark& m : t.errors) t.length = std::max(t.length, m.x);
   return "<section><h2>Over time</h2>\n" + svg(t) +
-         "<p class=\"note\">Each bar ends when its step was done. Triangles are errors, ticks what the hands did; both "
+         "<p class=\"note\">From the first moment of the simulation on; the exercise's clock, whose time counts, "
+         "begins when an "
+         "instrument first moves (the dotted line). Each bar ends when its step was done. Triangles are errors, ticks "
+         "what the hands did; both "
          "say "
          "what they are under the pointer.</p></section>\n";
 }

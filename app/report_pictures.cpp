@@ -70,7 +70,7 @@ std::string draw(Report& report, const sim::Model& model, const std::vector<Look
         state.tick = look.tick;
         const std::filesystem::path file = folder / fmt::format("moment-{:02}.png", report.pictures.size() + 1);
         render::write_png(file.string(), pictures.still(state));
-        report.pictures.push_back({file, look.text, double(look.tick) * sim::kTick - report.clock_offset()});
+        report.pictures.push_back({file, look.text, double(look.tick) * sim::kTick});
       }
     } catch (const std::exception& lacks) {
       failure = lacks.what();

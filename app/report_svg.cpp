@@ -214,7 +214,7 @@ std::string svg(const Plot& p) {
 }
 
 std::string svg(const Timeline& t) {
-  constexpr double kWidth = 760, kLane = 26, kName = 92;
+  constexpr double kWidth = 760, kLane = 26, kName = 84;
   std::vector<std::string> lanes;
   for (const TimelineBar& b : t.bars)
     if (std::find(lanes.begin(), lanes.end(), b.lane) == lanes.end()) lanes.push_back(b.lane);
@@ -230,11 +230,13 @@ std::string svg(const Timeline& t) {
     out += line(f.x(v), f.top, f.x(v), f.bottom, "grid");
     out += text(f.x(v), f.bottom + 16, "tick", "middle", minutes(v));
   }
-  out += text((f.left + f.right) / 2, height - 6, "label", "middle", "time since an instrument first moved [min:s]");
+  out += text((f.left + f.right) / 2, height - 6, "label", "middle", "time since the start [min:s]");
   for (std::size_t i = 0; i < lanes.size(); ++i)
     out += text(kName - 8, kTop + (double(i) + 0.65) * kLane, "tick", "end", lanes[i]);
-  out += text(kName - 8, kTop + bars + 0.65 * kLane, "tick", "end", "done with hands");
+  out += text(kName - 8, kTop + bars + 0.65 * kLane, "tick", "end", "hands");
   out += text(kName - 8, kTop + bars + 1.65 * kLane, "tick", "end", "errors") + "\n";
+  if (t.clock_from > 0 && t.clock_from < length)
+    out += line(f.x(t.clock_from), f.top, f.x(t.clock_from), f.bottom, "clock");
   std::map<std::string, int> shade;
   for (const TimelineBar& b : t.bars) {
     const double y = kTop + double(std::find(lanes.begin(), lanes.end(), b.lane) - lanes.begin()) * kLane;

@@ -52,7 +52,8 @@ struct TimelineBar {
 struct Timeline {
   std::vector<TimelineBar> bars;
   std::vector<PlotMark> errors, events;
-  double length = 0;  ///< [s]
+  double length = 0;       ///< [s]
+  double clock_from = -1;  ///< when the exercise's clock began; below 0: not at all [s]
 };
 std::string svg(const Timeline& timeline);
 

@@ -221,7 +221,6 @@ Json Session::result(bool interrupted) const {
   if (m_monitor) {
     r["exercise_seconds"] = m_monitor->seconds();
     r["assessment"] = Json::parse(m_monitor->result_json());
-    if (!m_scored) r["assessment"].erase("score");
   }
   if (m_exercise_from >= 0) r["exercise_from_s"] = m_exercise_from;
   r["metrics"] = Json::parse(training::metrics_json(m_trace.trace(), metrics_options()));
@@ -254,9 +253,8 @@ Json Session::result(bool interrupted) const {
 training::MetricsOptions Session::metrics_options() const {
   training::MetricsOptions options;
   if (!m_monitor || !m_monitor->finished() || m_exercise_from < 0) return options;
-  double last = 0;
-  for (const training::StepStatus& step : m_monitor->steps()) last = std::max(last, step.at);
-  options.end = m_exercise_from + last;
+  options.end = 0;
+  for (const training::StepStatus& step : m_monitor->steps()) options.end = std::max(options.end, step.at);
   return options;
 }
 

@@ -38,7 +38,7 @@ class Session {
   /// From now on every tick goes to this file, too; its header says whose attempt it is. AttemptLog calls this.
   /// @throws core::EnvironmentLacks
   void record(const std::filesystem::path& path, const training::Attempt& attempt);
-  /// False: getting to know the exercise, without score and verdict.
+  /// False: getting to know the exercise, without score and verdict. Before the first tick.
   void set_scored(bool scored);
 
   /// One tick. Does nothing more once the physics has failed (see broken()).
