@@ -78,12 +78,14 @@ TEST_F(GlBackend, EveryShaderVariantCompilesAndLinks) {
   GlPrograms programs;
   for (const char* detail : {"0", "1", "2"})
     for (const char* shading : {"0", "1", "2"})
-      for (const char* extra : {"", ",FINE", ",VESSELS", ",LOBULES", ",VESSELS,LOBULES,STAINED,FOGGY,TWO_SIDED"})
+      for (const char* extra : {"", ",FINE", ",VESSELS", ",LOBULES", ",VESSELS,ARCADE,RODS",
+                                ",VESSELS,LOBULES,STAINED,FOGGY,TWO_SIDED,RODS"})
         EXPECT_NO_THROW(programs.get("surface.vert", "surface.frag",
                                      std::string("SHADING=") + shading + ",DETAIL=" + detail + extra));
   for (const char* extra : {"", "LIT"}) EXPECT_NO_THROW(programs.get("flat.vert", "flat.frag", extra));
   for (const char* shape : {"full.vert", "disc.vert"}) {
-    for (const char* extra : {"", "EFFECTS"}) EXPECT_NO_THROW(programs.get(shape, "develop.frag", extra));
+    for (const char* extra : {"", "EFFECTS", "RODS", "EFFECTS,RODS"})
+      EXPECT_NO_THROW(programs.get(shape, "develop.frag", extra));
     for (const char* extra : {"", "FRINGE", "FRINGE,SMOOTH"}) EXPECT_NO_THROW(programs.get(shape, "lens.frag", extra));
   }
   EXPECT_NO_THROW(programs.get("full.vert", "shrink.frag", "SPREAD=1.0"));
@@ -280,6 +282,57 @@ TEST_F(GlBackend, RestCoordinatesCarryThePattern) {
   double difference = 0;
   for (std::size_t i = 0; i < a.rgb.size(); ++i) difference += std::abs(a.rgb[i] - b.rgb[i]);
   EXPECT_LT(difference / double(a.rgb.size()), 0.2);
+}
+
+/// A flat floor of tissue 80 mm before the lens, without pattern or gloss, and a rod `above` it [m] across the picture.
+/// @return its red along the middle column, 0..255, from the bottom up
+std::vector<int> under_a_rod(Backend& backend, Frame frame, double above, bool with_rod) {
+  const sample::Shape floor = sample::sheet(40, 40, [](float u, float v) {
+    return Vec3f{0.12f * (u - 0.5f), 0.12f * (v - 0.5f), -0.08f};
+  });
+  DrawItem item;
+  item.mesh = sample::create(backend, floor);
+  item.material.mottle = item.material.bump = item.material.film_bump = item.material.wetness = 0;
+  item.material.colour_b = item.material.colour_c = item.material.colour;
+  frame.items = {item};
+  frame.look = plain_look();
+  frame.look.contact = 0;
+  const float z = -0.08f + 0.0025f + float(above);
+  if (with_rod) frame.rods = {Rod{{-0.04f, 0, z}, {0.04f, 0, z}, 0.0025f}};
+  draw_frame(backend, frame, Target::off_screen(200, 400));
+  const Image image = backend.read_pixels();
+  std::vector<int> column;
+  for (int y = image.height - 1; y >= 0; --y) column.push_back(image.rgb[3 * (std::size_t(y) * 200 + 100)]);
+  return column;
+}
+
+TEST_F(GlBackend, ARodsShadowTellsItsHeight) {
+  const std::vector<int> bare = under_a_rod(*backend, frame, 0, false);
+  std::vector<double> low, steep;  // middle of the shadow below the picture's [px], steepest step between two rows
+  for (const double above : {0.001, 0.01, 0.03}) {
+    const std::vector<int> shaded = under_a_rod(*backend, frame, above, true);
+    double weight = 0, sum = 0, most = 0, before = 0;
+    for (std::size_t y = 0; y < bare.size(); ++y) {
+      const double dark = bare[y] - shaded[y];
+      EXPECT_GE(dark, -1.5) << "row " << y;  // a rod takes light only
+      weight += dark;
+      sum += dark * (200.0 - double(y));
+      most = std::max(most, std::fabs(dark - before));
+      before = dark;
+    }
+    ASSERT_GT(weight, 100) << above;
+    low.push_back(sum / weight);
+    steep.push_back(most);
+  }
+  // The lamp lies above the lens: the higher the rod, the farther below it lies its shadow, and the softer.
+  EXPECT_GT(low[1], low[0] + 1);
+  EXPECT_GT(low[2], low[1] + 3);
+  EXPECT_GT(steep[0], 1.5 * steep[2]);
+}
+
+TEST_F(GlBackend, FarFromItARodShadesNothing) {
+  const std::vector<int> bare = under_a_rod(*backend, frame, 0, false), shaded = under_a_rod(*backend, frame, 0, true);
+  for (std::size_t y = 0; y < 60; ++y) EXPECT_NEAR(bare[y], shaded[y], 3) << y;
 }
 
 TEST_F(GlBackend, SmokePuffsTakeSaturation) {

@@ -184,6 +184,7 @@ void CheckedBackend::begin_frame(const Frame& frame, const Target& target) {
   m_frame.look = frame.look;
   m_frame.quality = frame.quality;
   m_frame.puffs = frame.puffs;
+  m_frame.rods = frame.rods;
   m_frame.background = frame.background;
   m_frame.tick = frame.tick;
   m_frame.eye = frame.eye;

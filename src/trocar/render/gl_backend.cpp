@@ -25,9 +25,12 @@ enum TextureUnit : int {
   kUnitSmall = 4,
   kUnitSmaller = 5,
   kUnitExposure = 6,
-  kUnitArcade = 7
+  kUnitArcade = 7,
+  kUnitShade = 8
 };
 constexpr int kEyes = 8;
+constexpr float kShadowSpread = 1.8f;  // as in shade.glsl
+constexpr float kRodReach = 0.010f;    // [m] beside a rod, as far as it is worth shading
 
 void bind_texture(int unit, GLenum target, GLuint texture) {
   glActiveTexture(GLenum(GL_TEXTURE0 + unit));
@@ -182,6 +185,7 @@ class GlBackend final : public CheckedBackend {
     for (const Quality& quality : {Quality{1, 2}, Quality{1, 1}, Quality{1, 0}}) {
       Frame frame;
       frame.quality = quality;
+      frame.rods = {Rod{{0, 0, -0.01f}, {0, 0, -0.02f}}};  // instruments are in view in most frames
       const Target target = Target::off_screen(8, 8);
       const Layout layout(target, frame.look, 1);
       begin_scene(frame, target, layout);
@@ -192,6 +196,7 @@ class GlBackend final : public CheckedBackend {
             for (bool stained : {false, true}) draw_item(frame, item, blended, stained);
       }
       set_blending(false);
+      shade_pass(frame, layout);
       shrink_pass();
       develop_pass(frame, layout);
       lens_pass(frame, target, layout);
@@ -208,6 +213,7 @@ class GlBackend final : public CheckedBackend {
     scene_pass(frame, opaque, false);
     scene_pass(frame, translucent, true);
     puff_pass(frame);
+    shade_pass(frame, layout);
     shrink_pass();
     m_small_eye = frame.eye;
     meter_pass(frame, target, layout);
@@ -237,7 +243,8 @@ class GlBackend final : public CheckedBackend {
     glFrontFace(GL_CCW);
     glCullFace(GL_BACK);
     glClearColor(frame.background.x, frame.background.y, frame.background.z, frame.camera.far_plane);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    glClearStencil(0);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
     bind_texture(kUnitNoise, GL_TEXTURE_3D, m_noise.id());
     bind_texture(kUnitCells, GL_TEXTURE_3D, m_cells.id());
     bind_texture(kUnitVessels, GL_TEXTURE_2D, m_vessels.id());
@@ -279,16 +286,80 @@ class GlBackend final : public CheckedBackend {
     glDepthMask(on ? GL_FALSE : GL_TRUE);
   }
 
+  /// Metal is marked in the stencil: instruments do not shade themselves.
   void scene_pass(const Frame& frame, std::span<const DrawItem* const> items, bool blended) {
     set_blending(blended);
-    for (const DrawItem* item : items) draw_item(frame, *item, blended, is_stained(item->mesh));
+    if (!blended) glEnable(GL_STENCIL_TEST);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+    for (const DrawItem* item : items) {
+      glStencilFunc(GL_ALWAYS, item->material.shading == Shading::metal ? 1 : 0, 1);
+      draw_item(frame, *item, blended, is_stained(item->mesh));
+    }
+    glDisable(GL_STENCIL_TEST);
     set_blending(false);
+  }
+
+  /// The corners, in clip space, of what a rod may shade: around its picture, and as far as its shadow may lie off it.
+  std::array<float, 8> reach_of(int rod, float aspect, float tan_half) const {
+    const float* row = &m_rod_rows[std::size_t(8 * rod)];
+    Vec3f a{row[0], row[1], row[2]}, b = a + Vec3f{row[4], row[5], row[6]};
+    constexpr float kNear = 0.008f;  // [m]
+    if (a.z > -kNear) std::swap(a, b);
+    if (a.z > -kNear) return {-1, -1, 1, -1, -1, 1, 1, 1};  // at the lens: anywhere
+    if (b.z > -kNear) b = a + ((-kNear - a.z) / (b.z - a.z)) * (b - a);
+    const auto at = [&](Vec3f p) { return std::array<float, 2>{p.x / (-p.z * tan_half), p.y / (-p.z * tan_half)}; };
+    const auto margin = [&](Vec3f p) { return (row[3] + kRodReach) / (std::max(-p.z - 0.006f, 0.004f) * tan_half); };
+    const std::array<float, 2> p = at(a), q = at(b);
+    const float dx = q[0] - p[0], dy = q[1] - p[1], length = std::max(std::sqrt(dx * dx + dy * dy), 1e-6f);
+    const float ex = dx / length, ey = dy / length, m = margin(a), n = margin(b);
+    return {
+        (p[0] - m * (ex - ey)) / aspect, p[1] - m * (ey + ex), (q[0] + n * (ex + ey)) / aspect, q[1] + n * (ey - ex),
+        (p[0] - m * (ex + ey)) / aspect, p[1] - m * (ey - ex), (q[0] + n * (ex - ey)) / aspect, q[1] + n * (ey + ex)};
+  }
+
+  /// What instruments leave of the light on opaque surfaces, each over the part of the picture that it may shade.
+  void shade_pass(const Frame& frame, const Layout& layout) {
+    if (m_rod_count == 0) return;
+    m_shade.resize(layout.scene_w, layout.scene_h, GL_RGBA8, false, GL_NEAREST);
+    m_shade.bind();
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER, m_scene.depth.id());
+    glClearColor(1, 1, 1, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_DST_COLOR, GL_ZERO);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LESS);
+    glDepthMask(GL_FALSE);
+    glEnable(GL_STENCIL_TEST);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+    glStencilFunc(GL_EQUAL, 0, 1);
+    glDisable(GL_CULL_FACE);
+    GlProgram& program = m_programs.get("shade.vert", "shade.frag");
+    program.use();
+    bind_texture(kUnitPicture, GL_TEXTURE_2D, m_scene.colour.id());
+    program.set("u_scene", kUnitPicture);
+    const Vec3f lamp = kShadowSpread * frame.light.position;
+    program.set("u_lamp", lamp.x, lamp.y, lamp.z, frame.light.ring);
+    const float tan_y = 1 / m_projection.m[5], tan_x = 1 / m_projection.m[0];
+    program.set("u_tan", tan_x, tan_y);
+    glBindVertexArray(m_no_vertices.id());
+    for (int i = 0; i < m_rod_count; ++i) {
+      const float* row = &m_rod_rows[std::size_t(8 * i)];
+      program.set("u_rod", row[0], row[1], row[2], row[3]);
+      program.set("u_way", row[4], row[5], row[6], row[7]);
+      program.set_vec4s("u_corners", reach_of(i, tan_x / tan_y, tan_y));
+      glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    }
+    glDisable(GL_BLEND);
+    glDisable(GL_STENCIL_TEST);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_LEQUAL);
   }
 
   void draw_item(const Frame& frame, const DrawItem& item, bool blended, bool stained) {
     const Material& material = item.material;
     const bool two_sided = blended || material.two_sided;
-    GlProgram& program = program_for(frame, item.material, two_sided, stained);
+    GlProgram& program = program_for(frame, item.material, blended, stained);
     program.use();
     program.set("u_model_view", m_view * item.transform);
     program.set("u_projection", m_projection);
@@ -312,7 +383,7 @@ class GlBackend final : public CheckedBackend {
     m_meshes.draw(item.mesh.id);
   }
 
-  GlProgram& program_for(const Frame& frame, const Material& material, bool two_sided, bool stained) {
+  GlProgram& program_for(const Frame& frame, const Material& material, bool blended, bool stained) {
     const int detail = frame.quality.detail;
     if (material.shading == Shading::unlit) return m_programs.get("flat.vert", "flat.frag");
     if (material.shading == Shading::vertex_colour) return m_programs.get("flat.vert", "flat.frag", "LIT");
@@ -323,8 +394,8 @@ class GlBackend final : public CheckedBackend {
     if (tissue && material.lobule_size > 0) defines += ",LOBULES";
     if (stained) defines += ",STAINED";
     if (frame.look.fog > 0) defines += ",FOGGY";
-    if (tissue && m_rod_count > 0) defines += ",RODS";
-    if (two_sided) defines += ",TWO_SIDED";
+    if (tissue && blended && m_rod_count > 0) defines += ",RODS";
+    if (blended || material.two_sided) defines += ",TWO_SIDED";
     return m_programs.get("surface.vert", "surface.frag", defines);
   }
 
@@ -412,12 +483,16 @@ class GlBackend final : public CheckedBackend {
     const EndoscopeLook& look = frame.look;
     const Memory& memory = m_memory[std::size_t(frame.eye)];
     const bool effects = frame.quality.detail > 1 && (look.bloom > 0 || look.defocus > 0 || look.contact > 0);
-    GlProgram& program = m_programs.get(view_shape(look), "develop.frag", effects ? "EFFECTS" : "");
+    const bool rods = m_rod_count > 0;
+    GlProgram& program = m_programs.get(view_shape(look), "develop.frag",
+                                        std::string(effects ? "EFFECTS," : "") + (rods ? "RODS," : ""));
     program.use();
     program.set("u_scene", kUnitPicture);
     program.set("u_small", kUnitSmall);
     program.set("u_smaller", kUnitSmaller);
     program.set("u_exposure", kUnitExposure);
+    program.set("u_rod_shade", kUnitShade);
+    if (rods) bind_texture(kUnitShade, GL_TEXTURE_2D, m_shade.colour.id());
     const bool remembered = look.auto_exposure && memory.known;
     program.set("u_camera", look.exposure_ev, remembered ? float(frame.eye) : -1.0f, look.bloom, look.saturation);
     program.set("u_place", layout.radius / float(layout.box_w), layout.radius / float(layout.box_h), look.vignette, 0);
@@ -523,7 +598,7 @@ class GlBackend final : public CheckedBackend {
   GlPrograms m_programs;
   GlTexture m_noise, m_cells, m_vessels, m_arcade;
   GlVertexArray m_no_vertices;
-  GlPicture m_scene, m_small, m_smaller, m_developed, m_own;
+  GlPicture m_scene, m_shade, m_small, m_smaller, m_developed, m_own;
   std::array<GlPicture, 2> m_rough, m_exposure;
   std::array<Memory, kEyes> m_memory;
   Mat4 m_view, m_projection;

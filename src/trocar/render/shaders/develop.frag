@@ -1,4 +1,4 @@
-// Scene light to picture values, before the lens: focus, contact shade, veil, exposure, camera curve. Variant: EFFECTS.
+// Scene light to picture values, before the lens: focus, contact shade, veil, exposure, camera curve. Variants: EFFECTS, RODS.
 // The scene's alpha is the distance of the nearest opaque surface [m].
 precision highp float;
 precision highp int;
@@ -11,6 +11,10 @@ uniform vec4 u_place;          // radius of the view in picture sizes (x, y), vi
 uniform vec4 u_depth;          // nearest sharp distance [m], defocus, contact, picture height at 1 m [m]
 uniform vec2 u_shadow;         // how far towards the lamp to look
 uniform vec3 u_white;
+#ifdef RODS
+#include "shade.glsl"
+uniform sampler2D u_rod_shade;  // what instruments leave of the light
+#endif
 in vec2 v_uv;
 out vec4 o_colour;
 
@@ -23,6 +27,9 @@ vec3 developed(vec3 x) {
 void main() {
   vec4 scene = texelFetch(u_scene, ivec2(gl_FragCoord.xy), 0);
   vec3 colour = scene.rgb;
+#ifdef RODS
+  colour *= shaded_by(texelFetch(u_rod_shade, ivec2(gl_FragCoord.xy), 0).rg);
+#endif
 #ifdef EFFECTS
   vec4 soft = texture(u_small, v_uv);
   vec4 softer = texture(u_smaller, v_uv + u_shadow);

@@ -1,5 +1,6 @@
 // Living tissue, metal and pools. Variants: SHADING (0 tissue, 1 metal, 2 fluid), DETAIL (0..2), FINE, VESSELS, LOBULES,
-// TWO_SIDED, STAINED (some blood or burn), FOGGY, RODS (instruments shade what is near them).
+// TWO_SIDED, STAINED (some blood or burn), FOGGY, RODS (instruments
+// shade it; opaque surfaces get that afterwards, by shade.frag).
 #include "common.glsl"
 
 uniform vec4 u_material[14];
@@ -94,54 +95,9 @@ vec2 vessels_at(vec3 p, vec3 n) {
 #endif
 
 #ifdef RODS
-uniform vec4 u_rods[32];  // one end and the radius, way to the other end and 1 / its square; eye space
+#include "shade.glsl"
+uniform vec4 u_rods[32];  // two rows a rod
 uniform int u_rod_count;
-
-// The lamp counts as farther off the lens than it is, for shadows: under a true one they hide behind the instrument.
-const float kShadowSpread = 1.8;
-
-struct Shade {
-  float lamp;    // share of the lamp that is seen
-  float around;  // share of the surroundings that is seen
-  float mirror;  // how much of a rod the film shows
-};
-
-// An instrument over tissue. The lamp is a small disc beside the lens, so a shadow is narrow and soft, lies to one side,
-// and moves away from the instrument and widens with its height: together with the darkening right under it, what tells
-// height in a picture without parallax. Closest points of two segments as in [Ericson 05, 5.1.9].
-Shade shade_of_rods(vec3 eye, vec3 n, vec3 r) {
-  Shade shade = Shade(1.0, 1.0, 0.0);
-  vec3 u = kShadowSpread * LIGHT_POSITION - eye;
-  float a = dot(u, u);
-  for (int i = 0; i < u_rod_count; ++i) {
-    vec4 end = u_rods[2 * i], way = u_rods[2 * i + 1];
-    vec3 w = eye - end.xyz;
-    float e = dot(way.xyz, w), b = dot(u, way.xyz), d = dot(u, w);
-    // Towards the lamp.
-    float s = clamp((b * e * way.w - d) / max(a - b * b * way.w, 1.0e-3 * a), 0.0, 1.0);
-    float t = clamp((b * s + e) * way.w, 0.0, 1.0);
-    s = clamp((t * b - d) / a, 0.0, 1.0);
-    float gap = length(w + s * u - t * way.xyz) - end.w;
-    float soft = LIGHT_RING * s + 0.0002;
-    float covered = clamp(0.5 - 0.5 * gap / soft, 0.0, 1.0) * min(1.0, 1.3 * end.w / soft);
-    shade.lamp *= 1.0 - covered;
-    // Right under it.
-    vec3 near = clamp(e * way.w, 0.0, 1.0) * way.xyz - w;
-    float far2 = max(dot(near, near), end.w * end.w);
-    float facing = clamp(0.3 + 0.7 * dot(near, n) * inversesqrt(far2), 0.0, 1.0);
-    float reach = 1.2 * end.w + 0.0012;
-    shade.around *= 1.0 - 0.85 * facing * min(1.0, reach * reach / far2);
-#if DETAIL >= 2
-    float k = dot(r, way.xyz), m = dot(r, w);
-    float along = max((k * e * way.w - m) / max(1.0 - k * k * way.w, 0.02), 0.0);
-    float at = clamp((k * along + e) * way.w, 0.0, 1.0);
-    float off = length(w + along * r - at * way.xyz);
-    shade.mirror += (1.0 - smoothstep(0.5, 1.4, off / (end.w + 0.25 * along))) * step(1.0e-4, along) /
-                    (1.0 + 120.0 * along);
-#endif
-  }
-  return shade;
-}
 #endif
 
 #if SHADING != 0
@@ -255,12 +211,12 @@ void main() {
   vec3 direct = LIGHT_COLOUR * lit.power * wrapped * mix(ao, vec3(1.0), 0.35);
   vec3 indirect = (BOUNCE + vec3(AMBIENT)) * (lit.bounce * ao);
 #ifdef RODS
-  Shade shade = shade_of_rods(v_eye, N, reflect(-V, N));
-  // Light that has gone through tissue fills shadows: red the most.
-  float shaded = shade.lamp * mix(1.0, shade.around, 0.75);
-  direct *= mix(vec3(shaded), vec3(1.0), vec3(0.22, 0.08, 0.09));
-  indirect *= shade.around;
-  lit.power *= mix(1.0, shade.lamp, 0.8);
+  vec2 shade = vec2(1.0);
+  for (int i = 0; i < u_rod_count; ++i)
+    shade *= shade_of_rod(v_eye, kShadowSpread * LIGHT_POSITION, LIGHT_RING, u_rods[2 * i], u_rods[2 * i + 1]);
+  direct *= shaded_by(shade);
+  indirect *= shade.y;
+  lit.power *= mix(1.0, shade.x, 0.8);
 #endif
   float rim = (1.0 - nv) * (1.0 - nv);
   vec3 thin = GLOW * (GLOW_AMOUNT * lit.power * rim * open);
@@ -291,9 +247,6 @@ void main() {
   vec3 around = 0.7 * mirrored(reflect(-V, m), 0.03, lit.bounce);
 #else
   vec3 around = (BOUNCE * 1.5 + vec3(AMBIENT) * 0.5) * lit.bounce;
-#endif
-#ifdef RODS
-  around += vec3(0.75, 0.72, 0.74) * (min(shade.mirror, 1.0) * lit.power);
 #endif
   vec3 shine = LIGHT_COLOUR * gloss + around * (grazing * wet * open);
 

@@ -1,0 +1,16 @@
+// What one instrument leaves of the light on the opaque surfaces that the picture shows: lamp (red), around (green).
+// Blended by multiplying.
+precision highp float;
+#include "shade.glsl"
+uniform sampler2D u_scene;  // alpha: distance [m]
+uniform vec4 u_rod, u_way;
+uniform vec4 u_lamp;  // and the radius of its disc
+uniform vec2 u_tan;   // of half the angles of view
+in vec2 v_at;
+out vec4 o_shade;
+
+void main() {
+  float far = texelFetch(u_scene, ivec2(gl_FragCoord.xy), 0).a;
+  vec3 eye = far * normalize(vec3(v_at * u_tan, -1.0));
+  o_shade = vec4(shade_of_rod(eye, u_lamp.xyz, u_lamp.w, u_rod, u_way), 1.0, 1.0);
+}

@@ -1,0 +1,30 @@
+// An instrument over tissue. The lamp is a small disc beside the lens, so a shadow is narrow and soft, lies to one side,
+// and moves away from the instrument and widens with its height: together with the darkening right under it, what tells
+// height in a picture without parallax. All in eye space [m].
+
+// The lamp counts as farther off the lens than it is, for shadows: under a true one they hide behind the instrument.
+const float kShadowSpread = 1.8;
+
+/// What a rod leaves at a point: of the lamp (x) and of the light from around (y).
+/// Closest points of two segments as in [Ericson 05, 5.1.9].
+/// rod: one end and the radius; way: to the other end and 1 / its square
+vec2 shade_of_rod(vec3 eye, vec3 lamp, float ring, vec4 rod, vec4 way) {
+  vec3 u = lamp - eye, w = eye - rod.xyz;
+  float a = dot(u, u), inverse = 1.0 / a;
+  float e = dot(way.xyz, w), b = dot(u, way.xyz), d = dot(u, w);
+  // Towards the lamp.
+  float s = clamp((b * e * way.w - d) / max(a - b * b * way.w, 1.0e-3 * a), 0.0, 1.0);
+  float t = clamp((b * s + e) * way.w, 0.0, 1.0);
+  s = clamp((t * b - d) * inverse, 0.0, 1.0);
+  float gap = length(w + s * u - t * way.xyz) - rod.w;
+  float soft = 1.0 / (ring * s + 0.0002);
+  float covered = clamp(0.5 - 0.5 * gap * soft, 0.0, 1.0) * min(1.0, 1.3 * rod.w * soft);
+  // Right under it.
+  vec3 near = clamp(e * way.w, 0.0, 1.0) * way.xyz - w;
+  float reach = 1.2 * rod.w + 0.0012;
+  float under = clamp(reach * reach / dot(near, near) - 0.08, 0.0, 1.0);
+  return vec2(1.0 - covered, 1.0 - 0.75 * under);
+}
+
+/// What is left of the light: red the most, which has gone through tissue.
+vec3 shaded_by(vec2 shade) { return mix(vec3(shade.x * mix(1.0, shade.y, 0.75)), vec3(1.0), vec3(0.22, 0.08, 0.09)); }

@@ -1,0 +1,212 @@
+// What is drawn around and between the bodies: peritoneum beyond the walls, the bladder's drape, trocar sleeves, dents,
+// and the patterns of folds and bowel.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include <trocar/render/backend.hpp>
+#include <trocar/scene/compile.hpp>
+#include <trocar/scene/reader.hpp>
+#include <trocar/view/cavity.hpp>
+#include <trocar/view/drape.hpp>
+#include <trocar/view/fold_pattern.hpp>
+#include <trocar/view/instrument_shapes.hpp>
+#include <trocar/view/looks.hpp>
+#include <trocar/view/scene_view.hpp>
+
+namespace trocar::view {
+namespace {
+
+const sim::Model& pelvis() {
+  static const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/gynaecology/scene.json"));
+  return model;
+}
+
+int solid_with_look(const std::string& name) {
+  for (std::size_t i = 0; i < pelvis().solids.size(); ++i)
+    if (pelvis().solids[i].look == name) return int(i);
+  return -1;
+}
+
+std::vector<OrganDrawing> drawn_organs(render::Backend& backend) {
+  std::vector<OrganDrawing> organs;
+  for (const sim::SolidModel& s : pelvis().solids)
+    organs.emplace_back(s, Relief{}, std::vector<Paint>(s.fine.rest.size()), backend);
+  return organs;
+}
+
+float to_nearest(Vec3f p, std::span<const Vec3f> points) {
+  float nearest = 1;
+  for (const Vec3f& q : points) nearest = std::min(nearest, length(p - q));
+  return nearest;
+}
+
+TEST(Cavity, PeritoneumGoesOnFromEveryPointOfAWallsBorder) {
+  for (const sim::WallModel& wall : pelvis().walls) {
+    const MeshBuffer around = around_wall(pelvis(), wall.skin, std::vector<Paint>(wall.skin.rest.size()));
+    const MeshBuffer cavity = cavity_around(pelvis());
+    std::map<std::pair<int, int>, int> edges;
+    for (const auto& t : wall.skin.triangles)
+      for (std::size_t k = 0; k < 3; ++k) ++edges[std::minmax(t[k], t[(k + 1) % 3])];
+    int border = 0;
+    for (const auto& [edge, count] : edges) {
+      if (count != 1) continue;
+      ++border;
+      EXPECT_LT(to_nearest(wall.skin.rest[std::size_t(edge.first)], around.positions), 1e-6f);
+    }
+    ASSERT_GT(border, 10);
+    ASSERT_EQ(around.positions.size() % std::size_t(border), 0u);
+    const std::size_t rows = around.positions.size() / std::size_t(border);
+    for (std::size_t end = rows - 1; end < around.positions.size(); end += rows)
+      EXPECT_LT(to_nearest(around.positions[end], cavity.positions), 0.03f);  // on the egg, between its vertices
+  }
+}
+
+TEST(Drape, EndsBelowWhatIsAroundAndFollowsItsOrgan) {
+  auto backend = render::make_null_backend();
+  const int bladder = solid_with_look("bladder");
+  ASSERT_GE(bladder, 0);
+  ASSERT_TRUE(look("bladder").draped);
+  std::vector<OrganDrawing> organs = drawn_organs(*backend);
+  Drape drape(pelvis(), bladder, organs, *backend);
+  const std::vector<Vec3f> before = drape.buffer().positions;
+  std::size_t under_wall = 0, on_organ = 0;
+  for (const Vec3f& p : before) {
+    on_organ += to_nearest(p, organs[std::size_t(bladder)].positions()) < 0.003f;
+    for (const sim::WallModel& w : pelvis().walls) under_wall += to_nearest(p, w.skin.rest) < 0.008f;
+  }
+  EXPECT_GT(on_organ, 100u);
+  EXPECT_GT(under_wall, 30u);
+  sim::State state = sim::initial_state(pelvis());
+  for (tissue::NodeState& n : state.solids[std::size_t(bladder)].nodes) n.z += 0.005f;
+  for (std::size_t i = 0; i < organs.size(); ++i) organs[i].update(state.solids[i]);
+  drape.update(organs);
+  float most = 0, least = 1;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const float by = length(drape.buffer().positions[i] - before[i]);
+    most = std::max(most, by);
+    least = std::min(least, by);
+  }
+  EXPECT_NEAR(most, 0.005f, 0.0015f);  // over the organ
+  EXPECT_LT(least, 1e-5f);             // at the wall
+}
+
+TEST(OrganDrawing, GivesWayToAnInstrumentAndComesBack) {
+  auto backend = render::make_null_backend();
+  const int uterus = solid_with_look("uterus");
+  ASSERT_GE(uterus, 0);
+  const sim::SolidModel& solid = pelvis().solids[std::size_t(uterus)];
+  OrganDrawing organ(solid, {}, std::vector<Paint>(solid.fine.rest.size()), *backend);
+  const tissue::NetworkState state = tissue::rest_state(solid.network);
+  organ.update(state);
+  const std::vector<Vec3f> before(organ.positions().begin(), organ.positions().end());
+  std::size_t top = 0;
+  for (std::size_t i = 0; i < before.size(); ++i)
+    if (before[i].z > before[top].z) top = i;
+  const Vec3d at = vec_cast<double>(before[top]);
+  const collision::Capsule rod{at + Vec3d{-0.05, 0, 0.0012}, at + Vec3d{0.05, 0, 0.0012}, 0.0025};
+  organ.update(state, {}, {&rod, 1});
+  for (const Vec3f& p : organ.positions()) {
+    const Vec3d q = vec_cast<double>(p);
+    ASSERT_GT(length(q - nearest_on_axis(rod, q)), rod.radius - 1e-4);
+  }
+  EXPECT_GT(length(organ.positions()[top] - before[top]), 0.001f);
+  organ.update(state);
+  for (std::size_t i = 0; i < before.size(); ++i) ASSERT_LT(length(organ.positions()[i] - before[i]), 1e-6f);
+}
+
+TEST(SceneView, EveryInstrumentOfEveryRackIsDrawn) {
+  auto backend = render::make_null_backend();
+  SceneView view(pelvis(), *backend);
+  sim::State state = sim::initial_state(pelvis());
+  for (std::size_t h = 0; h < pelvis().hands.size(); ++h)
+    for (std::size_t i = 0; i < pelvis().hands[h].rack.size(); ++i) {
+      state.tools[h].instrument = int(i);
+      const render::Frame frame = view.frame(state, {});
+      EXPECT_NO_THROW(render::draw_frame(*backend, frame, render::Target::off_screen(64, 48)));
+      const auto metal = std::count_if(frame.items.begin(), frame.items.end(), [](const render::DrawItem& item) {
+        return item.material.shading == render::Shading::metal;
+      });
+      EXPECT_GE(metal, std::ptrdiff_t(2 * pelvis().hands.size())) << pelvis().hands[h].rack[i].name;
+      EXPECT_FALSE(instrument_parts(pelvis().hands[h].rack[i]).empty());
+    }
+}
+
+TEST(SceneView, InstrumentsShadeFromWhereTheyAre) {
+  auto backend = render::make_null_backend();
+  SceneView view(pelvis(), *backend);
+  const sim::State state = sim::initial_state(pelvis());
+  const render::Frame frame = view.frame(state, {});
+  ASSERT_EQ(frame.rods.size(), 3 * pelvis().hands.size());
+  ASSERT_LE(frame.rods.size(), std::size_t(render::kMaxRods));
+  for (std::size_t h = 0; h < pelvis().hands.size(); ++h) {
+    const interactions::ToolState& tool = state.tools[h];
+    const interactions::ToolShape shape = shape_of(pelvis().tool(state, h), tool.pose(), tool.aperture);
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_LT(length(vec_cast<double>(frame.rods[3 * h + k].to) - shape.part[k].b), 1e-6);
+  }
+}
+
+TEST(InstrumentShapes, ASleeveLetsEveryInstrumentOfItsHandThrough) {
+  for (const sim::HandModel& hand : pelvis().hands) {
+    double widest = 0;
+    for (const interactions::ToolModel& tool : hand.rack) widest = std::max(widest, tool.shaft_radius);
+    for (const InstrumentPart& part : sleeve_parts(widest, 0.03)) {
+      EXPECT_NE(look(part.look).name, "neutral");
+      float reach = -1;
+      for (const Vec3f& p : part.mesh.positions) {
+        reach = std::max(reach, p.z);
+        const float far = std::hypot(p.x, p.y);
+        EXPECT_TRUE(far < 1e-6f || far > float(widest) - 1e-6f) << far;
+      }
+      EXPECT_NEAR(reach, 0.03f, 0.001f);
+    }
+  }
+}
+
+TEST(FoldPattern, IsFatAlongTheRootAndSheerBetween) {
+  const render::Material& m = look("mesosalpinx").material;
+  EXPECT_TRUE(m.arcade);
+  EXPECT_FLOAT_EQ(m.vessel_tile, float(kFoldTile));
+  int root = 0, middle = 0, border = 0;
+  for (double s = 0; s < 0.08; s += 0.002) {
+    root += fold_paint(s, 1).tint;
+    middle += fold_paint(s, 0.4).tint;
+    border += fold_paint(s, 0).tint;
+    EXPECT_FLOAT_EQ(fold_rest(s, 0.5).x, float(s));
+  }
+  EXPECT_EQ(middle, 0);
+  EXPECT_GT(root, border);
+  EXPECT_GT(border, 0);
+  EXPECT_FLOAT_EQ(2 * fold_rest(0, 1).y, float(kFoldTile));  // the picture's whole height
+}
+
+TEST(Relief, ABowelHasThreeBandsWithBulgesBetween) {
+  tissue::Skin skin;  // a straight pipe
+  constexpr int kAround = 120, kAlong = 80;
+  for (int j = 0; j < kAlong; ++j)
+    for (int i = 0; i < kAround; ++i) {
+      const double a = 2 * 3.14159265358979 * i / kAround;
+      skin.rest.push_back(vec_cast<float>(Vec3d{0.0012 * j, 0.012 * std::cos(a), 0.012 * std::sin(a)}));
+      skin.rest_normal.push_back(vec_cast<float>(Vec3d{0, std::cos(a), std::sin(a)}));
+    }
+  std::vector<Paint> paint(skin.rest.size());
+  const Relief relief{.haustra = 0.002, .haustra_size = 0.02};
+  const std::vector<float> height = heights(relief, skin, paint);
+  for (int j = 5; j < kAlong - 5; ++j) {
+    int bands = 0;
+    for (int i = 0; i < kAround; ++i) {
+      const auto tint = [&](int k) { return int(paint[std::size_t(j * kAround + k % kAround)].tint); };
+      bands += tint(i) < 100 && tint(i + 1) >= 100;
+    }
+    EXPECT_EQ(bands, 3) << j;
+  }
+  const auto [low, high] = std::minmax_element(height.begin(), height.end());
+  EXPECT_GT(*high - *low, 0.0015f);
+  EXPECT_LE(*high, 1e-6f);
+}
+
+}  // namespace
+}  // namespace trocar::view
