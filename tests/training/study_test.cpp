@@ -11,10 +11,12 @@ using namespace trocar::training;
 
 namespace {
 
+std::string numbered(char letter, int number) { return std::string(1, letter).append(std::to_string(number)); }
+
 StudyAttempt attempt(const std::string& person, int repetition, double seconds) {
   StudyAttempt a;
   a.person = person;
-  a.trial = "T" + std::to_string(repetition);
+  a.trial = numbered('T', repetition);
   a.repetition = repetition;
   a.metrics.duration = seconds;
   return a;
@@ -91,8 +93,7 @@ TEST(Study, ChanceGivesNoTrend) {
   trocar::core::Random random(11);
   std::vector<StudyAttempt> attempts;
   for (int person = 0; person < 10; ++person)
-    for (int r = 1; r <= 30; ++r)
-      attempts.push_back(attempt("P" + std::to_string(person), r, random.uniform(100, 200)));
+    for (int r = 1; r <= 30; ++r) attempts.push_back(attempt(numbered('P', person), r, random.uniform(100, 200)));
   const Trend& trend = durations(study_of(attempts)).trend;
   EXPECT_NEAR(trend.pooled.value, 0, 0.15);
   EXPECT_NEAR(trend.within.value, 0, 0.15);

@@ -94,7 +94,7 @@ class TraceRecorder {
   bool m_full = false;
 };
 
-/// Version, names, columns of differences of integers, checksum: about 2.5 kB a second for three hands.
+/// Version, names, columns of differences of integers, checksum: about 1.5 kB a second for three hands.
 std::vector<std::uint8_t> to_bytes(const Trace& trace);
 /// Memory is bounded by the bytes' number.  @throws core::BadInput, naming `name` and the byte
 Trace trace_from_bytes(std::span<const std::uint8_t> bytes, const std::string& name);
