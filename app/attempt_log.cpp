@@ -79,6 +79,13 @@ AttemptLog::AttemptLog(training::Store* store, Session& session, const AttemptPl
 
 AttemptLog::~AttemptLog() {
   if (m_ended) return;
+  if (m_session.state().tick == 0) {  // never begun: somebody's fault came first, and nothing is worth keeping
+    m_session.finish(Json::object());
+    std::error_code ignored;
+    if (!m_attempt.recording.empty()) fs::remove(m_attempt.recording, ignored);
+    if (m_store) m_store->withdraw(m_attempt, m_lock);
+    return;
+  }
   Json result = m_session.result(true);
   end(result, AttemptState::aborted);
 }

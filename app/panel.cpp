@@ -110,7 +110,8 @@ void draw_steps(const PanelContent& c, float height) {
   ImGui::BeginChild("steps", {0, height}, false, ImGuiWindowFlags_NoNav);
   for (std::size_t i = 0; i < c.steps.size(); ++i) {
     const bool done = i < c.now.step_done.size() && c.now.step_done[i], current = int(i) == c.now.current_step;
-    ui::mark(done ? Mark::done : current ? Mark::now : Mark::open);
+    const bool missed = i < c.now.step_missed.size() && c.now.step_missed[i];
+    ui::mark(done ? Mark::done : missed ? Mark::error : current ? Mark::now : Mark::open);
     ui::text(c.steps[i].name, done ? ui::kBlue : current ? ui::kWhite : ui::kGrey);
     if (current) ImGui::SetScrollHereY(0.4f);
   }
@@ -298,12 +299,14 @@ RackChoice draw_rack(const sim::Model& model, const sim::State& state, const dev
       if (list[i].held) ImGui::SetItemDefaultFocus();
     }
     ui::text("And", ui::kGrey);
-    if (ui::button("bring into view (V)")) choice.insert = true;
+    if (ui::button("into view (V)")) choice.insert = true;
     ImGui::SameLine();
     if (ui::button(hands.ratchet[size_t(hands.led)] ? "unlock jaws (Space)" : "lock jaws (Space)"))
       choice.ratchet = true;
     ImGui::SameLine();
   }
+  if (ui::button(hands.fine ? "fine motion: on" : "fine motion: off")) choice.fine = true;
+  ImGui::SameLine();
   if (ui::button("pause (P)")) choice.pause = true;
   ImGui::SameLine();
   if (ui::button("go on (Esc)")) choice.close = true;
@@ -368,11 +371,13 @@ void draw_errors(const Json& errors) {
 }
 
 void draw_assessment(const Json& a) {
-  if (ImGui::BeginTable("score", 2, ImGuiTableFlags_SizingFixedFit)) {
+  if (ImGui::BeginTable("score", 2)) {
+    ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch, 0.3f);
+    ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 0.7f);
     if (a.contains("score") && a["score"].is_object())
       for (const auto& [key, value] : a["score"].items())
         result_line(a["score"], key.c_str(), in_words(key).c_str(), key == "total" ? "{:.0f} of 100" : "{:.2f}");
-    result_line(a, "seconds", "time", "{:.0f} s");
+    result_line(a, "exercise_seconds", "time", "{:.0f} s");
     ImGui::EndTable();
   }
   if (a.contains("steps")) {
@@ -397,7 +402,7 @@ void draw_verdict(const Json& r, const std::string& mode) {
 
 }  // namespace
 
-Choice draw_result(const Json& r, const std::string& mode, bool report) {
+Choice draw_result(const Json& r, const std::string& mode, bool report, const std::string& say) {
   Choice choice = Choice::none;
   ui::begin_middle("result", 680);
   draw_verdict(r, mode);
@@ -413,6 +418,7 @@ Choice draw_result(const Json& r, const std::string& mode, bool report) {
         ui::kGrey);
   if (r.contains("recording")) ui::text("recorded in " + r["recording"].get<std::string>(), ui::kGrey);
   ImGui::EndChild();
+  if (!say.empty()) ui::text(say, ui::kGrey);
   if (ui::button("Again", {.width = 140, .height = 32, .primary = true})) choice = Choice::restart;
   ImGui::SetItemDefaultFocus();
   ImGui::SameLine();

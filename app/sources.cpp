@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/log.hpp>
 #include <trocar/kinematics/fulcrum.hpp>
 
 #include "session.hpp"
@@ -165,6 +166,25 @@ Json MotionSource::describe() const {
   return out;
 }
 
+namespace {
+
+/// The inputs of a recording; where they were made for something else, what they do here is told to be another story.
+std::unique_ptr<InputSource> replay_source(const Lesson& lesson, const std::string& file) {
+  sim::Recording recording = sim::read_recording(file);
+  if (!recording.damage.empty())
+    core::log::warn("{}: {}; {} ticks are used", file, recording.damage, recording.inputs.size());
+  if (recording.header.exercise != lesson.name)
+    core::log::warn("{}: was made in {}, not in {}", file, recording.header.exercise, lesson.name);
+  if (recording.header.seed != lesson.seed)
+    core::log::warn("{}: was made with --seed {}, not {}", file, recording.header.seed, lesson.seed);
+  else if (recording.header.model_hash != lesson.model.hash)
+    core::log::warn("{}: was made with another version of the physics or scene: the same motions may do other things",
+                    file);
+  return std::make_unique<ReplaySource>(std::move(recording.inputs));
+}
+
+}  // namespace
+
 std::unique_ptr<InputSource> make_source(const Lesson& lesson, const std::string& input) {
   const auto argument = [&input](const std::string& kind) {
     return input.rfind(kind + ":", 0) == 0 ? input.substr(kind.size() + 1) : std::string{};
@@ -172,8 +192,7 @@ std::unique_ptr<InputSource> make_source(const Lesson& lesson, const std::string
   if (input == "demo") return lesson.surgeon();
   if (const std::string file = argument("motion"); !file.empty())
     return std::make_unique<MotionSource>(lesson.model, file);
-  if (const std::string file = argument("replay"); !file.empty())
-    return std::make_unique<ReplaySource>(sim::read_recording(file).inputs);
+  if (const std::string file = argument("replay"); !file.empty()) return replay_source(lesson, file);
   throw core::BadInput(
       {{{"--input", 0, 0}, fmt::format("expected mouse, demo, motion:FILE or replay:FILE, got '{}'", input)}});
 }

@@ -7,6 +7,7 @@
 
 #include "attempt_log.hpp"
 #include "command.hpp"
+#include "event_log.hpp"
 #include "headless.hpp"
 #include "interrupt.hpp"
 #include "json.hpp"
@@ -73,13 +74,19 @@ AttemptPlan plan_of(const Options& o) {
 Json train_headless(const Options& o, const Lesson& lesson, training::Store* store, PictureSize size) {
   const std::unique_ptr<InputSource> source = make_source(lesson, o.input);
   Session session(lesson);
+  EventLog events(o.log);
   AttemptLog log(store, session, plan_of(o));
-  const Leftovers left = run_headless(session, *source, {o.shots, o.video, size, o.seconds});
+  events.event("attempt", {{"exercise", lesson.name}, {"recording", log.attempt().recording}});
+  const Leftovers left = run_headless(session, *source, {o.shots, o.video, size, o.seconds}, [&] {
+    for (const Moment& m : session.moments()) events.moment(lesson.model, m);
+    return true;
+  });
   Json result = session.result(interrupted());
   result["input"] = o.input;
   result["slow_motion_share"] = 0.0;
   result.update(source->describe());
   log.end(result, interrupted() ? training::AttemptState::aborted : training::AttemptState::finished);
+  events.event("end", {{"interrupted", interrupted()}, {"passed", result["passed"]}, {"ticks", result["ticks"]}});
   result.update(left);
   if (!o.report.empty()) result["report"] = write_report(o.report, result, store, &session);
   return result;
@@ -144,7 +151,7 @@ void add_train(CLI::App& program, Chosen& chosen) {
   c->add_option("--seed", options->seed, "vary the anatomy by this number; 0: as drawn")->capture_default_str();
   c->add_flag("--no-store", options->no_store, "leave nothing in the session store");
   c->add_option("--seconds", options->seconds, "stop after so much simulated time")->check(check_seconds);
-  c->add_option("--log", options->log, "window: write events as JSON lines to this file");
+  c->add_option("--log", options->log, "write what happens as JSON lines to this file");
   c->callback([options, &chosen] { chosen.run = [options, &chosen] { return train(*options, chosen.json); }; });
 }
 

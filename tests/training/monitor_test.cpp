@@ -378,7 +378,7 @@ TEST(Monitor, ResultIsJsonThatSaysTheSame) {
   EXPECT_EQ(j["tube_occluded"], true);
   EXPECT_DOUBLE_EQ(j["score"]["total"].get<double>(), a.monitor.score().total);
   EXPECT_TRUE(j["score"]["motion"].is_null());
-  EXPECT_DOUBLE_EQ(j["seconds"].get<double>(), a.monitor.seconds());
+  EXPECT_DOUBLE_EQ(j["exercise_seconds"].get<double>(), a.monitor.seconds());
   ASSERT_EQ(j["steps"].size(), 13u);
   for (const auto& step : j["steps"]) EXPECT_EQ(step["done"], true);
   ASSERT_EQ(j["errors"].size(), 1u);

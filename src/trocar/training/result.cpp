@@ -108,7 +108,7 @@ std::string Monitor::result_json() const {
   j["finished"] = finished();
   j["passed"] = s.scored ? Json(s.passed) : Json(nullptr);
   j["score"] = score_json(m_exercise, s);
-  j["seconds"] = m_seconds;
+  j["exercise_seconds"] = m_seconds;
   j["tube_occluded"] = occluded();
   j["steps"] = Json::array();
   for (const StepStatus& step : m_steps) j["steps"].push_back(step_json(step));

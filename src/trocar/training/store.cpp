@@ -530,6 +530,17 @@ void Store::update(Attempt& attempt) {
   if (m_writable) put(attempt);
 }
 
+void Store::withdraw(const Attempt& attempt, AttemptLock& lock) {
+  try {
+    Database db(database(), Database::Access::write);
+    make_durable(db);
+    Query(db, "DELETE FROM attempt WHERE uuid = ?").bind(attempt.uuid).done();
+  } catch (const DatabaseFault& fault) {
+    core::log::debug("{}", fault.what());
+  }
+  lock = {};
+}
+
 void Store::recording_moved(const fs::path& from, const fs::path& to) {
   try {
     Database db(database(), Database::Access::write);

@@ -75,6 +75,8 @@ class Store {
   AttemptLock begin(Attempt& attempt);
   /// The row as it stands, if the database takes it; otherwise nothing.
   void update(Attempt& attempt);
+  /// An attempt that never began: as if begin() had not been called.
+  void withdraw(const Attempt& attempt, AttemptLock& lock);
   /// A recording got another name.
   void recording_moved(const std::filesystem::path& from, const std::filesystem::path& to);
   /// The row as it stands, in the database or in a file. `number` is set if the database took it.
