@@ -11,7 +11,6 @@
 #include "hand_names.hpp"
 #include "mirror.hpp"
 #include "paths.hpp"
-#include "report_page.hpp"
 #include "sources.hpp"
 #include "ui.hpp"
 
@@ -176,6 +175,7 @@ void AttemptWindow::draw_scene(const Snapshot& now) {
   render::draw_frame(*m_stage.backend, m_stage.view_of(m_lesson).frame(now.state, options),
                      render::Target::window(width, height));
   if (m_stage.settings.mirrored_picture) mirror(width, height);
+  ui::set_middle(float(width));
   const PanelContent content{m_lesson,
                              now,
                              m_pilot ? &m_pilot->hands() : nullptr,
@@ -195,7 +195,7 @@ void AttemptWindow::draw_over(const Snapshot& now, Choice& choice) {
   if (m_stage.overlay() != Stage::Overlay::none) return;
   const bool gamepad = m_stage.window.gamepads().present();
   if (m_over) {
-    choice = draw_result(m_result, mode_text(), m_lesson.exercise.has_value());
+    choice = draw_result(m_result, mode_text(), m_stage.options.store != nullptr, m_stage.reports.say());
   } else if (m_hint) {
     if (draw_hint(gamepad, m_hint_again) == Choice::resume) {
       m_hint = false;
@@ -211,7 +211,7 @@ void AttemptWindow::draw_over(const Snapshot& now, Choice& choice) {
   if (choice == Choice::resume) m_paused = false, m_why_paused.clear();
   if (choice == Choice::settings) m_stage.open(Stage::Overlay::settings);
   if (choice == Choice::help) m_stage.open(Stage::Overlay::help);
-  if (choice == Choice::report) open_report();
+  if (choice == Choice::report) m_stage.reports.open(m_stage.options.store, m_log.attempt().uuid);
 }
 
 void AttemptWindow::draw_the_rack(const Snapshot& now) {
@@ -222,19 +222,9 @@ void AttemptWindow::draw_the_rack(const Snapshot& now) {
   if (c.instrument >= 0) m_pilot->take(c.instrument);
   if (c.insert) m_pilot->insert();
   if (c.ratchet) m_pilot->toggle_ratchet();
+  if (c.fine) m_pilot->toggle_fine();
   if (c.pause) hold("");
-  if (c.close || c.instrument >= 0 || c.insert || c.ratchet) m_rack = false;
-}
-
-void AttemptWindow::open_report() {
-  try {
-    if (m_report.empty()) m_report = write_report(data_folder() / "reports" / m_log.attempt().uuid, m_result);
-    if (!ui::open_in_browser(m_report.string())) core::log::info("the report: {}", m_report.string());
-    m_stage.log.event("report", {{"file", m_report.string()}});
-  } catch (const core::EnvironmentLacks& lacks) {
-    m_feedback.add(ui::Mark::warning, lacks.what(), 0, now_seconds());
-    core::log::warn("{}", lacks.what());
-  }
+  if (c.close || c.instrument >= 0 || c.insert || c.ratchet || c.fine) m_rack = false;
 }
 
 void AttemptWindow::end(Live& live, Ending ending) {

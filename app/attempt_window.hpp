@@ -36,7 +36,6 @@ class AttemptWindow {
   void draw_scene(const Snapshot& now);
   void draw_over(const Snapshot& now, Choice& choice);
   void draw_the_rack(const Snapshot& now);
-  void open_report();
   void end(Live& live, Ending ending);
   std::string screen_name() const;
   std::string mode_text() const;
@@ -54,7 +53,6 @@ class AttemptWindow {
   PullWarning m_pull_warning;
   std::string m_told_warning, m_why_paused;
   Json m_result;
-  std::filesystem::path m_report;
   bool m_hint = false, m_hint_again = false, m_paused = false, m_rack = false, m_over = false;
   bool m_was_still = true, m_gamepad_used = false, m_had_focus = false;
 };

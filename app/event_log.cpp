@@ -21,12 +21,29 @@ Json landmarks(const sim::Model& model, const sim::State& state) {
       const interactions::StrandPlace place = interactions::place_at(model.bodies[i], 0.5 * (l.from + l.to));
       out[model.strands[i].name + "." + l.name] = {
           {"at_mm", millimetres(interactions::point_at(model.bodies[i], state.strands[i], place))},
-          {"along", direction(interactions::tangent_at(model.bodies[i], state.strands[i], place))}};
+          {"along", direction(interactions::tangent_at(model.bodies[i], state.strands[i], place))},
+          {"from_mm", 1000 * l.from},
+          {"to_mm", 1000 * l.to}};
     }
   return out;
 }
 
-/// Every strand as points along it: [arc length from its start, x, y, z] [mm], one about every 4 mm.
+/// Is this jaw in the picture and nothing before it?
+bool seen(const sim::Model& model, const sim::State& state, std::size_t hand, const char* jaw) {
+  return sim::visible(model, state, model.target_index(model.hands[hand].name + jaw));
+}
+
+Json clips(const sim::Model& model, const sim::State& state) {
+  Json out = Json::array();
+  for (int i = 0; i < state.clip_count; ++i) {
+    const interactions::Clip& c = state.clips[size_t(i)];
+    const bool strand = c.strand >= 0 && size_t(c.strand) < model.strands.size();
+    out.push_back({{"on", strand ? model.strands[size_t(c.strand)].name : ""}, {"s_mm", 1000 * c.s}});
+  }
+  return out;
+}
+
+/// Every strand as points along it: [arc length from its start, x, y, z, radius] [mm], one about every 4 mm.
 Json courses(const sim::Model& model, const sim::State& state) {
   Json out = Json::object();
   for (std::size_t i = 0; i < model.strands.size(); ++i) {
@@ -37,7 +54,8 @@ Json courses(const sim::Model& model, const sim::State& state) {
     for (int p = 0; p <= pieces; ++p) {
       const double s = whole * double(p) / pieces;
       const Vec3d x = interactions::point_at(body, state.strands[i], interactions::place_at(body, s));
-      points.push_back({1000 * s, 1000 * x.x, 1000 * x.y, 1000 * x.z});
+      const double radius = body.model.radius[size_t(interactions::place_at(body, s).element)];
+      points.push_back({1000 * s, 1000 * x.x, 1000 * x.y, 1000 * x.z, 1000 * radius});
     }
     out[model.strands[i].name] = points;
   }
@@ -91,6 +109,8 @@ void EventLog::pose(const sim::Model& model, const Snapshot& now, int led) {
                      {"opening", direction(frame.opening())},
                      {"depth_mm", 1000 * tool.depth},
                      {"jaw_mm", 1000 * held.jaw_length},
+                     {"clip_mm", 1000 * held.clip_length},
+                     {"seen", {seen(model, state, h, ".jaw_a"), seen(model, state, h, ".jaw_b")}},
                      {"aperture", tool.aperture},
                      {"handle", tool.handle},
                      {"holds", tool.holds},
@@ -109,7 +129,9 @@ void EventLog::pose(const sim::Model& model, const Snapshot& now, int led) {
                    {"forward", direction(view.forward)}}},
                  {"tools", tools},
                  {"landmarks", landmarks(model, state)},
-                 {"strands", courses(model, state)}});
+                 {"strands", courses(model, state)},
+                 {"clips", clips(model, state)},
+                 {"cuts", state.cut_count}});
 }
 
 }  // namespace trocar::app

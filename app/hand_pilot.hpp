@@ -29,6 +29,7 @@ class HandPilot {
   void take(int instrument);  ///< the led hand wants this one of its rack
   void insert();              ///< the led hand's instrument comes into the view by itself; any motion stops it
   void toggle_ratchet() { devices::toggle_ratchet(m_hands); }
+  void toggle_fine() { m_hands.fine = !m_hands.fine; }
   bool changing(int hand, const sim::State& state) const;  ///< its instrument
   bool inserting(int hand) const { return m_inserting[size_t(hand)]; }
 

@@ -91,8 +91,10 @@ void Live::publish() {
   Snapshot& s = m_published.next();
   s.state = m_session.state();
   if (const training::Monitor* monitor = m_session.monitor()) {
-    for (std::size_t i = 0; i < monitor->steps().size() && i < s.step_done.size(); ++i)
+    for (std::size_t i = 0; i < monitor->steps().size() && i < s.step_done.size(); ++i) {
       s.step_done[i] = monitor->steps()[i].done;
+      s.step_missed[i] = monitor->steps()[i].missed;
+    }
     s.current_step = monitor->current();
     s.seconds = monitor->seconds();
   } else {

@@ -39,12 +39,12 @@ Choice draw_help(bool gamepad, bool left_handed);
 Choice draw_hint(bool gamepad, bool& again);
 /// Pause menu. `why` is said where it was not asked for; `recording` is said, so that people find it.
 Choice draw_pause(const std::string& why, const std::string& recording, bool scored);
-/// After the attempt. `report`: there is a page to open
-Choice draw_result(const Json& result, const std::string& mode, bool report);
+/// After the attempt. `report`: there is a page to open; `say`: how far it is, or empty
+Choice draw_result(const Json& result, const std::string& mode, bool report, const std::string& say);
 
 /// The rack: which hand, which instrument in it.
 struct RackChoice {
-  bool close = false, pause = false, insert = false, ratchet = false;
+  bool close = false, pause = false, insert = false, ratchet = false, fine = false;
   int hand = -2;        ///< lead this one (devices::kScope: the endoscope); -2: no choice
   int instrument = -1;  ///< for the led hand
 };

@@ -117,6 +117,7 @@ void Stage::end_picture(const std::string& name, const fs::path& pictures) {
   if (m_overlay != Overlay::none) static_cast<void>(ui::take_widgets());  // what lies under it cannot be reached
   const std::string shown = m_overlay == Overlay::help ? "help" : m_overlay == Overlay::settings ? "settings" : name;
   draw_overlay();
+  if (const std::string page = reports.poll(); !page.empty()) log.event("report", {{"file", page}});
   window.draw_panels();
   log_widgets(shown);
   if (window.keys().picture) save_picture(pictures);
@@ -128,8 +129,12 @@ void Stage::log_widgets(const std::string& screen) {
   const std::vector<ui::Widget> widgets = ui::take_widgets();
   if (!log.on()) return;
   Json list = Json::object();
-  for (const ui::Widget& w : widgets) list[w.id] = {w.x, w.y};
-  const Json line{{"name", screen}, {"widgets", list}, {"focused", window.focused()}};
+  std::string focus;
+  for (const ui::Widget& w : widgets) {
+    list[w.id] = {w.x, w.y};
+    if (w.focus) focus = w.id;
+  }
+  const Json line{{"name", screen}, {"widgets", list}, {"focus", focus}};
   if (std::string text = line.dump(-1, ' ', false, Json::error_handler_t::replace); text != m_logged) {
     m_logged = std::move(text);
     log.event("screen", line);

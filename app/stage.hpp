@@ -10,6 +10,7 @@
 #include <trocar/view/scene_view.hpp>
 
 #include "event_log.hpp"
+#include "report_opener.hpp"
 #include "settings.hpp"
 #include "sound.hpp"
 #include "window.hpp"
@@ -33,6 +34,7 @@ class Stage {
   render::Governor governor;
   EventLog log;
   Sound sound;
+  ReportOpener reports;
 
   bool wants_to_close() const;
   /// The view of this lesson's scene; made anew where it is another lesson than last time.

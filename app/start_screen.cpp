@@ -187,6 +187,7 @@ StartAnswer draw_start(const StartContent& c, StartMemory& memory) {
   answer.trainee_changed = draw_trainee(c, memory);
   draw_devices(c);
   answer.report_of = draw_past(c);
+  if (!c.say.empty()) ui::text(c.say, ui::kGrey);
   for (const std::string& n : c.notices) {
     ui::mark(Mark::warning);
     ui::text(n, ui::kOrange);

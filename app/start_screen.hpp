@@ -30,6 +30,7 @@ struct StartContent {
   std::vector<std::string> gamepads;
   std::vector<std::string> notices;  ///< faults of settings, of the store
   bool sound = true;
+  std::string say;  ///< how far a report is, or empty
 };
 
 enum class StartChoice { none, start, familiarise, demonstrate, report, settings, help, quit };

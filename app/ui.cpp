@@ -19,7 +19,7 @@ namespace {
 
 constexpr float kTextHeight = 16, kTitleHeight = 25;
 
-float g_scale = 1;
+float g_scale = 1, g_middle = 0;
 ImFont* g_title = nullptr;
 std::vector<Widget> g_widgets;
 
@@ -191,8 +191,11 @@ void begin_screen(const char* name) {
   ImGui::PopStyleVar();
 }
 
+void set_middle(float width) { g_middle = width; }
+
 void begin_middle(const char* name, float width) {
-  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  ImVec2 size = ImGui::GetIO().DisplaySize;
+  if (g_middle > 0 && width * g_scale < 0.97f * g_middle) size.x = g_middle;
   const float most = std::min(width * g_scale, 0.97f * size.x);
   ImGui::SetNextWindowPos({0.5f * size.x, 0.5f * size.y}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowSizeConstraints({most, 0}, {most, 0.97f * size.y});
@@ -208,7 +211,7 @@ void begin_middle(const char* name, float width) {
 void note_widget(const std::string& id) {
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   if (!ImGui::IsItemVisible()) return;
-  g_widgets.push_back({id, int(0.5f * (low.x + high.x)), int(0.5f * (low.y + high.y))});
+  g_widgets.push_back({id, int(0.5f * (low.x + high.x)), int(0.5f * (low.y + high.y)), ImGui::IsItemFocused()});
 }
 
 std::vector<Widget> take_widgets() { return std::exchange(g_widgets, {}); }

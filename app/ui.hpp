@@ -43,7 +43,8 @@ bool button(const std::string& label, const ButtonLook& look = {});
 bool checkbox(const std::string& label, bool& value);
 bool slider(const std::string& label, double& value, double low, double high, const char* format, bool logarithmic);
 
-/// A window that covers everything, or one in the middle; end with ImGui::End().
+/// A window that covers everything, or one in the middle of what is `width` wide; end with ImGui::End().
+void set_middle(float width);  ///< [px]; 0: the whole window
 void begin_screen(const char* name);
 void begin_middle(const char* name, float width);
 
@@ -51,6 +52,7 @@ void begin_middle(const char* name, float width);
 struct Widget {
   std::string id;
   int x = 0, y = 0;
+  bool focus = false;  ///< of keys and gamepad
   friend bool operator==(const Widget&, const Widget&) = default;
 };
 /// The last thing drawn is a widget named `id`.

@@ -10,6 +10,7 @@
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -199,6 +200,9 @@ void Window::steer_menus() {
   if (m_captured) return;
   io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
   if (enter && !io.WantTextInput) io.NavInputs[ImGuiNavInput_Activate] = 1;
+  // ImGui lets a mouse's user press nothing by key before an arrow has shown where the focus is. Here what has the
+  // focus is what anybody would press next.
+  if (enter || touched(m_gamepads.state())) ImGui::GetCurrentContext()->NavDisableHighlight = false;
   if (!m_gamepads.present()) return;
   io.ConfigFlags |= ImGuiConfigFlags_NavEnableGamepad;
   io.BackendFlags |= ImGuiBackendFlags_HasGamepad;

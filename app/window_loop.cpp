@@ -12,7 +12,6 @@
 #include "interrupt.hpp"
 #include "lesson_shelf.hpp"
 #include "paths.hpp"
-#include "report_page.hpp"
 #include "start_screen.hpp"
 #include "ui.hpp"
 
@@ -125,7 +124,6 @@ class Trainer {
   StartChoice start_screen();
   ExerciseFacts facts_of(const Lesson* lesson);
   void take_answer(const StartAnswer& answer);
-  void open_report(std::int64_t number);
 
   const WindowOptions m_options;
   bool m_direct;
@@ -153,16 +151,15 @@ ExerciseFacts Trainer::facts_of(const Lesson* lesson) {
   return facts;
 }
 
-void Trainer::open_report(std::int64_t) {}
-
 void Trainer::take_answer(const StartAnswer& answer) {
   if (answer.selected >= 0) m_selected = answer.selected;
   if (answer.trainee_changed) {
     m_stage.settings.trainee = proper_name(m_memory.trainee);
     m_past = read_past(m_stage.options.store, m_stage.settings.trainee);
   }
-  if (answer.report_of != 0) open_report(answer.report_of);
-  if (answer.choice == StartChoice::report && !m_past.attempts.empty()) open_report(m_past.attempts.front().number);
+  std::int64_t report_of = answer.report_of;
+  if (answer.choice == StartChoice::report && !m_past.attempts.empty()) report_of = m_past.attempts.front().number;
+  if (report_of != 0) m_stage.reports.open(m_stage.options.store, std::to_string(report_of));
   if (answer.choice == StartChoice::settings) m_stage.open(Stage::Overlay::settings);
   if (answer.choice == StartChoice::help) m_stage.open(Stage::Overlay::help);
 }
@@ -170,6 +167,7 @@ void Trainer::take_answer(const StartAnswer& answer) {
 /// Until an exercise is to begin, or the window is closed.
 StartChoice Trainer::start_screen() {
   m_stage.window.set_title("Trocar");
+  ui::set_middle(0);
   m_stage.window.set_picture_rate(kMenuRate);
   m_past = read_past(m_stage.options.store, m_stage.settings.trainee);
   std::vector<std::string> notices = m_past.notices;
@@ -198,7 +196,8 @@ StartChoice Trainer::start_screen() {
                                m_past,
                                m_stage.window.gamepads().names(),
                                notices,
-                               m_stage.sound.audible()};
+                               m_stage.sound.audible(),
+                               m_stage.reports.say()};
     StartAnswer answer;
     if (m_stage.overlay() == Stage::Overlay::none) answer = draw_start(content, m_memory);
     take_answer(answer);

@@ -1,6 +1,7 @@
 // The command line as scripts meet it: exit codes, JSON, and recordings that verify or do not.
 #include "program.hpp"
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -47,6 +48,7 @@ class Program : public testing::Test {
     m_folder = fs::temp_directory_path() / ("trocar_app_test_" + std::to_string(getpid()) + "_" +
                                             testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::create_directories(m_folder);
+    setenv("TROCAR_DATA", (m_folder / "data").c_str(), 1);
   }
   void TearDown() override { fs::remove_all(m_folder); }
   std::string file(const std::string& name) const { return (m_folder / name).string(); }
@@ -75,11 +77,38 @@ TEST_F(Program, EveryCommandHasHelpWithAnExample) {
   }
 }
 
-TEST_F(Program, NoCommandUnknownOnesAndUnknownOptionsAreBadInput) {
-  EXPECT_EQ(trocar({}).exit, core::kBadInput);
+/// As on a machine without a display.
+class NoDisplay {
+ public:
+  NoDisplay() {
+    for (const char* name : kNames) {
+      if (const char* value = std::getenv(name)) m_values.emplace_back(name, value);
+      unsetenv(name);
+    }
+  }
+  ~NoDisplay() {
+    for (const auto& [name, value] : m_values) setenv(name.c_str(), value.c_str(), 1);
+  }
+
+ private:
+  static constexpr const char* kNames[] = {"DISPLAY", "WAYLAND_DISPLAY"};
+  std::vector<std::pair<std::string, std::string>> m_values;
+};
+
+TEST_F(Program, TheStartScreenNeedsADisplayAndSaysSo) {
+  const NoDisplay none;
+  for (const std::vector<std::string>& words : {std::vector<std::string>{}, {"train"}, {"train", "--no-store"}}) {
+    const Outcome o = trocar(words);
+    EXPECT_EQ(o.exit, core::kEnvironment);
+    EXPECT_NE(o.err.find("DISPLAY"), std::string::npos) << o.err;
+  }
+  EXPECT_EQ(trocar({"train", "--headless", "--input", "demo"}).exit, core::kBadInput);
+  EXPECT_EQ(trocar({"train", "--input", "demo"}).exit, core::kBadInput);
+}
+
+TEST_F(Program, UnknownCommandsAndUnknownOptionsAreBadInput) {
   EXPECT_EQ(trocar({"operate"}).exit, core::kBadInput);
   EXPECT_EQ(trocar({"list", "--fast"}).exit, core::kBadInput);
-  EXPECT_EQ(trocar({"train"}).exit, core::kBadInput);
 }
 
 TEST_F(Program, ListNamesTheExerciseItsSceneAndTheInstruments) {

@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
-"""Drives the real window with real mouse and key events: leads the grasper to the tube, grasps, pulls, releases.
+"""Drives the real window with real mouse and key events, or with an emulated gamepad: from the start screen through a
+familiarisation to its end and back, and through a short attempt to its report.
 
-    tools/with_xvfb.sh python3 tests/app/window_test.py PATH/TO/trocar [FOLDER]
+    tools/with_xvfb.sh python3 tests/app/window_test.py PATH/TO/trocar [--gamepad] [FOLDER]
 
-Closed loop, as a person does it: the eyes are the window's event log (--log), which tells ten times a second where the
-instruments and the tube are; the hands are xdotool. Every wait has a limit. Exit: 0 passed, 1 failed, 77 something to
-run it with is missing. FOLDER keeps what was written (default: a temporary one).
+Exit: 0 passed, 1 failed, 77 something to run it with is missing. FOLDER keeps what was written (default: a temporary one).
 """
 import json
 import math
@@ -18,145 +17,9 @@ import tempfile
 import time
 import zlib
 
-TARGET = "tube_left.ampulla"
-METRES_PER_PIXEL = 1e-4   # devices::HandSettings
-METRES_PER_NOTCH = 2e-3
-DEEP_IN_JAWS = 0.55       # of the jaws' length from their tips: where the tube shall lie
-PATIENCE = 240            # [s] for everything
+from trainee import Eyes, Failed, MouseAndKeys, Pad, Trainee, add, xdo
 
-
-class Failed(Exception):
-    pass
-
-
-def add(a, b, f=1.0):
-    return [x + f * y for x, y in zip(a, b)]
-
-
-def dot(a, b):
-    return sum(x * y for x, y in zip(a, b))
-
-
-def cross(a, b):
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-
-
-def unit(a):
-    n = math.sqrt(dot(a, a))
-    return [x / n for x in a]
-
-
-def in_basis(d, a, b, c):
-    """Coordinates of d along a, b, c, which need not be square to each other (Cramer's rule)."""
-    det = dot(a, cross(b, c))
-    return dot(d, cross(b, c)) / det, dot(a, cross(d, c)) / det, dot(a, cross(b, d)) / det
-
-
-class Log:
-    """The window's JSON lines as they come."""
-
-    def __init__(self, path, process):
-        self.path, self.process = path, process
-        self.file, self.rest = None, ""
-        self.events, self.pose = [], None
-
-    def read(self):
-        if self.file is None:
-            if not os.path.exists(self.path):
-                return
-            self.file = open(self.path, encoding="utf-8")
-        self.rest += self.file.read()
-        *lines, self.rest = self.rest.split("\n")
-        for line in lines:
-            entry = json.loads(line)
-            if entry["event"] == "pose":
-                self.pose = entry
-            else:
-                self.events.append(entry)
-
-    def wait(self, what, condition, limit):
-        """Until condition() holds; raises Failed after `limit` seconds or when the program is gone."""
-        end = time.monotonic() + limit
-        while True:
-            gone = self.process.poll() is not None
-            self.read()
-            value = condition()
-            if value:
-                return value
-            if gone:
-                raise Failed(f"the program ended (exit {self.process.returncode}) while waiting for: {what}")
-            if time.monotonic() > end:
-                raise Failed(f"waited {limit} s for: {what}")
-            time.sleep(0.02)
-
-    def happened(self, name, **details):
-        return [e for e in self.events if e["event"] == name and all(e.get(k) == v for k, v in details.items())]
-
-
-def xdo(*words):
-    subprocess.run(["xdotool", *map(str, words)], check=True, stdout=subprocess.DEVNULL)
-
-
-class Hand:
-    """One instrument led by mouse and keys."""
-
-    def __init__(self, log):
-        self.log = log
-
-    def tool(self):
-        return next(t for t in self.log.pose["tools"] if t["name"] == self.log.pose["led"])
-
-    def settled(self, limit=20):
-        """Waits until the instrument has followed: poses from well after now that stand still."""
-        start = self.log.pose["tick"]
-        last = [None]
-
-        def still():
-            tip, tick = self.tool()["tip_mm"], self.log.pose["tick"]
-            if tick < start + 150 or (last[0] and last[0][0] == tick):
-                return False
-            before, last[0] = last[0], (tick, tip)
-            return before is not None and math.dist(before[1], tip) < 0.1
-        self.log.wait("the instrument to come to rest", still, limit)
-
-    def move(self, goal_mm, tolerance_mm, what, limit=60):
-        """Sideways with the mouse and along the shaft with the wheel until the tip is there."""
-        end = time.monotonic() + limit
-        while True:
-            tool, picture = self.tool(), self.log.pose["picture"]
-            way = [1e-3 * x for x in add(goal_mm, tool["tip_mm"], -1)]
-            if 1000 * math.sqrt(dot(way, way)) < tolerance_mm:
-                return
-            if time.monotonic() > end:
-                raise Failed(f"{what}: still {1000 * math.sqrt(dot(way, way)):.1f} mm away after {limit} s")
-            right, up, inwards = in_basis(way, picture["right"], picture["up"], tool["shaft"])
-            reach = 0.008  # the farthest in one go
-            longest = max(abs(right), abs(up), 1e-9)
-            f = min(1.0, reach / longest)
-            px, py = round(f * right / METRES_PER_PIXEL), round(-f * up / METRES_PER_PIXEL)
-            if px or py:
-                xdo("mousemove_relative", "--", px, py)
-            for _ in range(min(4, int(abs(inwards) / METRES_PER_NOTCH + 0.5))):
-                xdo("click", 4 if inwards > 0 else 5)
-            self.settled()
-
-    def roll_across(self, along):
-        """Turns the jaws with Q and E until they open across the direction `along`."""
-        for _ in range(12):
-            tool = self.tool()
-            shaft, opening = tool["shaft"], tool["opening"]
-            flat = unit(add(along, shaft, -dot(along, shaft)))
-            off = math.asin(max(-1.0, min(1.0, dot(opening, flat))))
-            if abs(off) < 0.2:
-                return
-            # Clockwise as the hand sees it (E) turns the opening about the shaft.
-            turned = cross(shaft, opening)
-            key = "e" if dot(turned, flat) * off < 0 else "q"
-            xdo("keydown", key)
-            time.sleep(min(0.5, abs(off) / 1.6))
-            xdo("keyup", key)
-            self.settled()
-        raise Failed("the jaws do not turn across the tube with Q and E")
+PATIENCE = 300            # [s] for everything at the end
 
 
 def read_png(path):
@@ -208,105 +71,184 @@ def check_picture(path):
         raise Failed("the endoscope's circle is not masked in the corner")
 
 
-def landmark(log):
-    return log.pose["landmarks"][TARGET]
+def landmark(eyes):
+    return eyes.pose["landmarks"]["tube_left.ampulla"]
 
 
-def operate(log, folder):
-    log.wait("the first pose", lambda: log.pose, 60)
-    found = subprocess.run(["xdotool", "search", "--name", "^Trocar"], capture_output=True, text=True).stdout.split()
-    if not found:
-        raise Failed("no window named Trocar")
-    xdo("mousemove", 400, 320)
-    hand = Hand(log)
+def begin(eyes, hands, kind):
+    """From the start screen into the exercise; the first time three things are told before it begins."""
+    eyes.on("start", 60)
+    hands.press(kind, 120)
+    eyes.on("hint")
+    tick = eyes.pose["tick"] if eyes.pose else 0
+    time.sleep(0.5)
+    eyes.read()
+    if eyes.pose and eyes.pose["tick"] > tick + 50:
+        raise Failed("time goes on while the hint is read")
+    hands.enter()
+    eyes.on("exercise")
+    eyes.wait("a pose", lambda: eyes.pose, 60)
 
-    # Tab leads the next instrument, 1 the first again.
-    xdo("key", "Tab")
-    log.wait("Tab to lead the scissors", lambda: log.pose["led"] == "scissors", 20)
-    xdo("key", "1")
-    log.wait("1 to lead the grasper", lambda: log.pose["led"] == "left_lateral", 20)
-    hand.settled()
 
-    # To a place from which the shaft points at the tube, the jaws turned across it, then in.
-    def approach(short_mm):
-        tool, at = hand.tool(), landmark(log)["at_mm"]
-        port = add(tool["tip_mm"], tool["shaft"], -tool["depth_mm"])
-        return add(at, unit(add(at, port, -1)), -short_mm)
-    hand.move(approach(20), 3, "going before the tube")
-    hand.roll_across(landmark(log)["along"])
-    deep = -DEEP_IN_JAWS * hand.tool()["jaw_mm"]
-    hand.move(approach(deep), 3, "the tube between the jaws")
-
-    # Grasp: the left button closes, Space keeps the grip.
-    xdo("mousedown", 1)
-    log.wait("the grasper to grasp", lambda: log.happened("grasped", tool="left_lateral"), 30)
-    log.wait("the handle to close", lambda: hand.tool()["handle"] > 0.98, 30)
-    xdo("key", "space")
-    xdo("mouseup", 1)
-    hand.settled()
-    if hand.tool()["holds"] == 0:
-        raise Failed("the grip was lost although the ratchet holds")
-    if "tube_left" not in log.happened("grasped", tool="left_lateral")[-1]["text"]:
-        raise Failed("grasped something else: " + log.happened("grasped")[-1]["text"])
-
-    # Pull: out along the shaft and up in the picture, and the tube comes along.
-    before, tip = landmark(log)["at_mm"], hand.tool()["tip_mm"]
-    hand.move(add(add(tip, hand.tool()["shaft"], -6), log.pose["picture"]["up"], 4), 4, "pulling")
-    moved, pull = math.dist(before, landmark(log)["at_mm"]), hand.tool()["pull_N"]
-    if moved < 2 or pull < 0.02:
+def grasp_and_pull(eyes, trainee, hands):
+    grasper = trainee.names()[0]
+    trainee.lead(grasper)
+    place = landmark(eyes)
+    s = 0.7 * place["from_mm"] + 0.3 * place["to_mm"]
+    trainee.reach(grasper, "tube_left", s, lambda: 0.6 * eyes.tool(grasper)["jaw_mm"], "grasping")
+    trainee.squeeze(lambda: eyes.happened("grasped", tool=grasper), "the grasper to grasp")
+    hands.lock()
+    hands.let_go()
+    trainee.settled()
+    if eyes.tool()["holds"] == 0:
+        raise Failed("the grip was lost although the jaws are locked")
+    before, tip = landmark(eyes)["at_mm"], eyes.tool()["tip_mm"]
+    goal = add(tip, [2, 1, 6])
+    trainee.move(lambda: goal, 3, "pulling")
+    moved, pull = math.dist(before, landmark(eyes)["at_mm"]), eyes.tool()["pull_N"]
+    if moved < 1 or pull < 0.02:
         raise Failed(f"the tube did not come along: it moved {moved:.1f} mm, pull {pull:.2f} N")
+    print(f"grasped, pulled {moved:.1f} mm with {pull:.2f} N; {eyes.pose['tick']} ticks")
+
+
+def time_stands_still(eyes):
+    time.sleep(0.6)
+    eyes.read()
+    tick = eyes.pose["tick"]
+    time.sleep(0.8)
+    eyes.read()
+    return eyes.pose["tick"] == tick
+
+
+def exchange(eyes, trainee, hands):
+    """The second hand takes another instrument; it waits in the trocar and then comes into view."""
+    hand = trainee.names()[1]
+    trainee.lead(hand)
+    held, depth = eyes.tool()["instrument"], eyes.tool()["depth_mm"]
+    other = next(t for t in eyes.tool()["rack"] if t != held)
+    hands.rack()
+    eyes.on("rack")
+    hands.press(other.replace("_", " "))
+    eyes.on("exercise")
+    eyes.wait(f"{other} in the hand", lambda: eyes.tool()["instrument"] == other, 60)
+    trainee.settled()
+    if eyes.tool()["depth_mm"] > 20:
+        raise Failed(f"the new instrument is {eyes.tool()['depth_mm']:.0f} mm deep and nobody brought it in")
+    hands.into_view()
+    eyes.wait("it to come in", lambda: eyes.tool()["depth_mm"] > 30, 60)
+    trainee.settled()
+    if eyes.tool()["depth_mm"] > depth + 1:
+        raise Failed(f"it came in {eyes.tool()['depth_mm']:.0f} mm deep, deeper than it was placed ({depth:.0f} mm)")
+
+
+def operate(eyes, hands, folder):
+    trainee = Trainee(eyes, hands)
+    # Familiarisation: grasp and pull, look at help, pause, a picture; without score.
+    begin(eyes, hands, "Familiarise")
+    grasp_and_pull(eyes, trainee, hands)
     xdo("key", "F12")
-    picture = log.wait("the picture", lambda: log.happened("picture"), 20)[-1]["file"]
+    picture = eyes.wait("the picture", lambda: eyes.happened("picture"), 20)[-1]["file"]
     check_picture(os.path.join(folder, picture))
+    hands.lock()
+    eyes.wait("the grasper to let go", lambda: eyes.happened("released"), 60)
+    exchange(eyes, trainee, hands)
+    hands.pause()
+    eyes.on("pause")
+    if not time_stands_still(eyes):
+        raise Failed("time goes on in the pause")
+    hands.press("Keys and buttons")
+    eyes.on("help")
+    hands.enter()
+    eyes.on("pause")
+    hands.press("Settings")
+    eyes.on("settings")
+    hands.leave_menu()
+    eyes.on("pause")
+    hands.press("Finish now")
+    eyes.on("result")
+    end = eyes.happened("end")[-1]
+    if end["passed"] is not None:
+        raise Failed(f"a familiarisation was judged: {end}")
+    hands.press("Start screen")
 
-    # Release: the ratchet off, the handle opens by itself.
-    xdo("key", "space")
-    log.wait("the grasper to let go", lambda: log.happened("released", tool="left_lateral"), 30)
-    log.wait("the pull to end", lambda: hand.tool()["pull_N"] == 0, 20)
-    print(f"grasped, pulled {moved:.1f} mm with {pull:.2f} N, released; {log.pose['tick']} ticks")
+    # An attempt with a score, ended early: result and report.
+    eyes.on("start", 60)
+    hands.press("Start")
+    eyes.on("exercise")
+    tick = eyes.pose["tick"]
+    eyes.wait("the new attempt to run", lambda: eyes.pose["tick"] not in (tick,) and eyes.pose["tick"] < 100000, 30)
+    hands.pause()
+    eyes.on("pause")
+    hands.press("Finish now")
+    eyes.on("result")
+    if eyes.happened("end")[-1]["passed"] is not False:
+        raise Failed("an attempt that was hardly begun is not 'not passed'")
+    hands.press("Open the report")
+    page = eyes.wait("the report", lambda: eyes.happened("report"), 120)[-1]["file"]
+    text = open(page, encoding="utf-8").read()
+    if "<html" not in text or "terilisation" not in text:
+        raise Failed(f"{page} is no report")
+    hands.press("Again")
 
-    # Help and menu; quit from there.
-    for key in ("F1", "F1", "Escape"):
-        xdo("key", key)
-    tick = log.pose["tick"]
-    time.sleep(0.5)
-    log.read()
-    time.sleep(0.5)
-    ticks = log.pose["tick"]
-    log.read()
-    if log.pose["tick"] != ticks and log.pose["tick"] > tick + 600:
-        raise Failed("time goes on in the menu")
-    xdo("key", "q")
-    log.wait("the end", lambda: log.happened("end"), 20)
+    # Unplugged in the middle: the exercise holds on and says so. The window is closed in the middle: nothing is lost.
+    eyes.on("exercise")
+    eyes.wait("time to go on", lambda: eyes.pose["tick"] < 20000 and len(eyes.happened("attempt")) == 3, 30)
+    if isinstance(hands, Pad):
+        hands.hold(0.3, lx=0.5)
+        before = eyes.tool()["tip_mm"]
+        hands.unplug()
+        eyes.on("pause")
+        if not time_stands_still(eyes) or math.dist(before, eyes.tool()["tip_mm"]) > 12:
+            raise Failed("the instrument moved when the gamepad was unplugged")
+        hands.send()
+        hands.press("Go on")
+        eyes.on("exercise")
+
+
+def check_store(program, folder, environment):
+    listed = subprocess.run([program, "report", "--list", "--json"], cwd=folder, env=environment, capture_output=True,
+                            text=True, timeout=PATIENCE)
+    attempts = json.loads(listed.stdout)["attempts"]
+    found = [(a["mode"], a["state"]) for a in attempts]
+    wanted = [("familiarisation", "finished"), ("assessed", "finished"), ("assessed", "aborted")]
+    if sorted(found) != sorted(wanted):
+        raise Failed(f"the store holds {found}, not {wanted}")
+    for a in attempts:
+        verified = subprocess.run([program, "replay", a["recording"], "--verify"], cwd=folder, timeout=PATIENCE)
+        if verified.returncode != 0:
+            raise Failed(f"the recording {a['recording']} does not verify")
 
 
 def main():
-    if len(sys.argv) < 2:
+    words = [w for w in sys.argv[1:] if w != "--gamepad"]
+    if not words:
         sys.exit(__doc__)
     if not shutil.which("xdotool"):
         print("xdotool is missing: apt-get install xdotool")
         return 77
-    program = os.path.abspath(sys.argv[1])
-    keep = len(sys.argv) > 2
-    folder = os.path.abspath(sys.argv[2]) if keep else tempfile.mkdtemp()
+    program = os.path.abspath(words[0])
+    keep = len(words) > 1
+    folder = os.path.abspath(words[1]) if keep else tempfile.mkdtemp()
     os.makedirs(folder, exist_ok=True)
-    path = os.path.join(folder, "log.jsonl")
+    path, pipe = os.path.join(folder, "log.jsonl"), os.path.join(folder, "pad")
+    environment = dict(os.environ, TROCAR_DATA=os.path.join(folder, "data"), BROWSER="true")
     if os.path.exists(path):
         os.remove(path)
-    process = subprocess.Popen(
-        [program, "train", "gynaecology/sterilisation", "--size", "1000x640", "--record", "attempt.rec", "--log", path,
-         "--trainee", "window test", "--json"], cwd=folder, stdout=subprocess.PIPE, text=True)
+    if "--gamepad" in sys.argv:
+        if not os.path.exists(pipe):
+            os.mkfifo(pipe)
+        environment["TROCAR_GAMEPAD"] = pipe
+    process = subprocess.Popen([program, "train", "--size", "1000x640", "--log", path, "--trainee", "window test"],
+                               cwd=folder, env=environment)
     try:
-        operate(Log(path, process), folder)
-        out, _ = process.communicate(timeout=30)
-        result = json.loads(out)
-        if process.returncode != 1 or not result.get("interrupted") or result["grasps"] < 1:
-            raise Failed(f"exit {process.returncode}, result {out}")
-        verified = subprocess.run([program, "replay", "attempt.rec", "--verify"], cwd=folder, timeout=PATIENCE)
-        if verified.returncode != 0:
-            raise Failed("the recording of the attempt does not verify")
+        eyes = Eyes(path, process)
+        hands = Pad(eyes, pipe) if "--gamepad" in sys.argv else MouseAndKeys(eyes)
+        operate(eyes, hands, folder)
+        process.terminate()  # as closing the window does
+        process.wait(60)
+        check_store(program, folder, environment)
     except (Failed, subprocess.TimeoutExpired) as failure:
-        print(f"FAILED: {failure}")
+        print(f"FAILED ({'gamepad' if '--gamepad' in sys.argv else 'mouse and keys'}): {failure}")
         return 1
     finally:
         if process.poll() is None:

@@ -205,8 +205,8 @@ TEST(Gamepad, RightTriggerIsTheHandleLeftTriggerTheRatchet) {
 TEST(Gamepad, ShouldersGoRoundAllInstrumentsAndTheScope) {
   Session session;
   HandSample right, left;
-  right.gamepad.right_shoulder = true;
-  left.gamepad.left_shoulder = true;
+  right.gamepad.set(Button::right_shoulder);
+  left.gamepad.set(Button::left_shoulder);
   for (const int expected : {1, 2, kScope, 0}) {
     EXPECT_EQ(session.give(right).led, expected);
     EXPECT_EQ(session.give(right).led, expected);  // held is not pressed again
@@ -220,6 +220,129 @@ TEST(MouseKeyboard, InSpaceUsesThePicturesDirections) {
   EXPECT_EQ(moved, (std::array<float, 3>{3, 1, 2}));
 }
 
+TEST(Keyboard, AloneItMovesTheTipInAllDirectionsAndClosesTheJaws) {
+  Session session;
+  for (int i = 0; i < 60; ++i) session.give(Session::holding(Key::up));
+  EXPECT_FLOAT_EQ(session.give(Session::holding(Key::up)).tip.up, kDt * session.settings.key_speed);
+  EXPECT_LT(session.give(Session::holding(Key::left)).tip.right, 0);
+  EXPECT_GT(session.give(Session::holding(Key::w)).tip.in, 0);
+  EXPECT_GT(session.give(Session::holding(Key::page_up)).tip.in, 0);
+  EXPECT_LT(session.give(Session::holding(Key::page_down)).tip.in, 0);
+  for (int i = 0; i < 120; ++i) session.give(Session::holding(Key::g));
+  EXPECT_EQ(session.state.handle[0], 1);
+  session.press(Key::c);
+  EXPECT_GT(session.give(Session::holding(Key::right)).scope.right, 0);
+}
+
+TEST(Keyboard, AnArrowTappedIsASmallStepAndHeldIsAQuickOne) {
+  Session session;
+  const float tapped = session.give(Session::holding(Key::right)).tip.right;
+  for (int i = 0; i < 60; ++i) session.give(Session::holding(Key::right));
+  const float held = session.give(Session::holding(Key::right)).tip.right;
+  EXPECT_GT(held, 4 * tapped);
+  session.rest(1);
+  EXPECT_FLOAT_EQ(session.give(Session::holding(Key::right)).tip.right, tapped);
+}
+
+TEST(Mouse, AloneItLocksTheJawsAndOpensTheRackAndChoosesHands) {
+  Session session;
+  HandSample left, both, right;
+  left.left_button = both.left_button = both.right_button = right.right_button = true;
+  session.give(left);
+  session.give(both);
+  session.give(left);
+  EXPECT_TRUE(session.state.ratchet[0]);
+  const float grip = session.state.handle[0];
+  session.rest(60);
+  EXPECT_EQ(session.state.handle[0], grip);
+  session.give(right);
+  EXPECT_TRUE(session.give({}).rack);
+  HandSample side;
+  side.forward_button = true;
+  EXPECT_EQ(session.give(side).led, 1);
+  EXPECT_EQ(session.give(side).led, 1);
+  HandSample wheel;
+  wheel.middle_button = true;
+  EXPECT_TRUE(session.give(wheel).rack);
+  EXPECT_FALSE(session.give(wheel).rack);
+}
+
+TEST(Mouse, ARightDragIsNoTap) {
+  Session session;
+  HandSample drag = Session::moving(3, 0);
+  drag.right_button = true;
+  for (int i = 0; i < 5; ++i) session.give(drag);
+  EXPECT_FALSE(session.give({}).rack);
+  HandSample slow;
+  slow.right_button = true;
+  for (int i = 0; i < 40; ++i) session.give(slow);
+  EXPECT_FALSE(session.give({}).rack);
+}
+
+TEST(Hands, FineMotionSlowsClosingEnoughForAClip) {
+  Session session;
+  session.state.fine = true;
+  session.squeeze(60);
+  EXPECT_LT(session.state.handle[0], 0.45f);  // half of the way takes more than a second
+  EXPECT_GT(session.state.handle[0], 0.3f);
+}
+
+TEST(Hands, LeftHandedExchangesButtonsSidesAndOrder) {
+  Session session;
+  session.settings.left_handed = true;
+  EXPECT_EQ(session.give(Session::with(Key::one)).led, 2);
+  HandSample right;
+  right.right_button = true;
+  session.give({});
+  for (int i = 0; i < 10; ++i) session.give(right);
+  EXPECT_GT(session.state.handle[2], 0);
+  HandSample stick;
+  stick.gamepad.right_x = 1;
+  EXPECT_GT(session.give(stick).tip.right, 0);
+  stick = {};
+  stick.gamepad.set(Button::right_shoulder);
+  EXPECT_EQ(session.give(stick).led, 1);
+}
+
+TEST(Hands, TurnedDirectionsTurnOnlyWhatTheyName) {
+  Session session;
+  session.settings.invert_x = session.settings.invert_view_y = true;
+  const HandCommand tip = session.give(Session::moving(5, 5));
+  EXPECT_LT(tip.tip.right, 0);
+  EXPECT_LT(tip.tip.up, 0);
+  session.press(Key::c);
+  const HandCommand scope = session.give(Session::moving(5, 5));
+  EXPECT_GT(scope.scope.right, 0);
+  EXPECT_GT(scope.scope.up, 0);
+}
+
+TEST(Hands, AfterAPauseOrALostDeviceEveryGripIsKept) {
+  Session session;
+  HandSample pulled;
+  pulled.gamepad.right_trigger = 0.8f;
+  for (int i = 0; i < 60; ++i) session.give(pulled);
+  take_up(session.settings, {}, session.state);  // unplugged while the trigger was pulled
+  session.rest(120);
+  EXPECT_EQ(session.state.handle[0], 0.8f);
+  session.squeeze(2);
+  session.rest(60);
+  EXPECT_EQ(session.state.handle[0], 0);
+}
+
+TEST(Hands, WhatWasHeldDownInAMenuIsNotPressedAfterIt) {
+  Session session;
+  HandSample held;
+  held.gamepad.set(Button::y);
+  held.gamepad.set(Button::x);
+  held.left_button = true;
+  take_up(session.settings, held, session.state);
+  const HandCommand command = session.give(held);
+  EXPECT_FALSE(command.rack);
+  EXPECT_FALSE(command.insert);
+  session.squeeze(30);
+  EXPECT_EQ(session.state.handle[0], 0);
+}
+
 TEST(MouseKeyboard, ABrokenDeviceCannotBreakTheHand) {
   Session session;
   trocar::core::Random random(1);
@@ -229,7 +352,9 @@ TEST(MouseKeyboard, ABrokenDeviceCannotBreakTheHand) {
     HandSample s;
     s.dt = any(), s.dx = std::isfinite(any()) ? 1.0f : bad[0], s.dy = bad[0], s.wheel = bad[1];
     s.left_button = random.next() & 1, s.right_button = random.next() & 1;
-    s.gamepad = {any(), any(), any(), any(), any(), any(), bool(random.next() & 1), bool(random.next() & 1)};
+    s.middle_button = random.next() & 1, s.back_button = random.next() & 1, s.forward_button = random.next() & 1;
+    s.gamepad = {any(), any(), any(), any(), any(), any(), std::uint32_t(random.next())};
+    session.settings.left_handed = random.next() & 1;
     for (int key = 0; key < int(Key::count); ++key) s.held.set(Key(key), random.next() & 1);
     for (int key = 0; key < int(Key::count); ++key) s.pressed.set(Key(key), random.next() & 1);
     const HandCommand c = lead(session.settings, s, session.state);

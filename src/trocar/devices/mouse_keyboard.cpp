@@ -22,16 +22,16 @@ constexpr HelpLine kHelp[] = {
     {Device::keyboard, "X", "another instrument for this hand, another hand"},
     {Device::keyboard, "V", "bring the instrument into the view"},
     {Device::keyboard, "R F", "light post of an oblique endoscope"},
-    {Device::keyboard, "Shift", "fine: a quarter of every motion"},
+    {Device::keyboard, "Shift", "fine: a quarter of every motion, of closing too: for clips"},
     {Device::mouse, "move", "tip sideways, up and down; endoscope: where it looks"},
     {Device::mouse, "wheel", "deeper (away from you), back"},
     {Device::mouse, "left button", "close the jaws as long as it is held"},
     {Device::mouse, "right drag", "roll the instrument, or the endoscope's picture"},
     {Device::mouse, "left held, right click", "lock the jaws; the same again: unlock"},
-    {Device::mouse, "middle or right click", "choose hand, instrument, pause"},
+    {Device::mouse, "middle or right click", "choose hand, instrument, fine motion, pause"},
     {Device::mouse, "side buttons", "lead the previous, the next hand"},
     {Device::gamepad, "left stick", "tip sideways, up and down; endoscope: where it looks"},
-    {Device::gamepad, "cross", "the same, fine"},
+    {Device::gamepad, "cross, left stick pressed", "the same, fine; everything fine: on, off"},
     {Device::gamepad, "right stick", "up, down: deeper, back; sideways: roll"},
     {Device::gamepad, "right trigger", "close the jaws as far as it is pulled; endoscope: light post"},
     {Device::gamepad, "left trigger", "lock, unlock the jaws; endoscope: light post the other way"},
@@ -121,7 +121,7 @@ float key_share(const HandSettings& settings, const KeySet& held, float seconds,
 }
 
 Scaled scaled(const HandSettings& settings, const HandSample& sample, HandState& state) {
-  const float fine = sample.held.has(Key::shift) ? settings.fine : 1.0f;
+  const float fine = state.fine || sample.held.has(Key::shift) ? settings.fine : 1.0f;
   const float real = std::clamp(finite(sample.dt), 0.0f, kLongestSample), seconds = fine * real;
   const KeySet& held = sample.held;
   const Gamepad& pad = sample.gamepad;
@@ -241,6 +241,7 @@ void take_up(const HandSettings& settings, const HandSample& sample, HandState& 
 HandCommand lead(const HandSettings& settings, const HandSample& given, HandState& state) noexcept {
   const HandSample sample = as_right_handed(settings, given);
   choose_led(settings, std::clamp(settings.instruments, 1, kMaxHands), sample, state);
+  if (went_down(Button::left_stick, sample, state)) state.fine = !state.fine;
   const Scaled s = scaled(settings, sample, state);
   const bool tapped = right_tapped(settings, sample, state);
   const bool trigger =

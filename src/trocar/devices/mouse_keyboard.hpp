@@ -139,7 +139,7 @@ struct HandSettings {
   float roll_per_second = 1.6f;    ///< [rad/s], Q and E
   float view_per_pixel = 1e-3f;    ///< [rad], scope
   float post_per_second = 1.0f;    ///< [rad/s], R and F
-  float close_per_second = 2.0f;   ///< handle, a share of its way
+  float close_per_second = 1.6f;   ///< handle, a share of its way; fine: slow enough for a clip
   float open_per_second = 4.0f;
   float key_speed = 0.05f;    ///< [m/s], tip, arrow keys held for key_ramp or longer; they begin with a fifth of it
   float key_view = 0.5f;      ///< [rad/s], scope
@@ -163,6 +163,7 @@ struct HandState {
   std::array<float, kMaxHands> handle{};  ///< 0 open .. 1 closed, of every instrument
   std::array<bool, kMaxHands> ratchet{};  ///< holds the handle when it is released
   bool opening = false;   ///< the led handle was let go: it opens. A hand that was only chosen keeps its grip.
+  bool fine = false;      ///< every motion is a fine one, as with Shift held
   bool waiting = false;   ///< what was already squeezed when this one was chosen must be let go first
   float steered_for = 0;  ///< how long an arrow key has been down [s]
   float right_for = 0;    ///< how long the right button has been down [s]

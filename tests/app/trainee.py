@@ -1,0 +1,401 @@
+"""A robot trainee for the real window: eyes are the window's event log (--log), which tells what is on the screen and ten
+times a second where tubes and instruments are; hands are a mouse and keys (xdotool) or an emulated gamepad
+(TROCAR_GAMEPAD, the mapping layer's seam: see app/gamepads.hpp). Every wait has a limit.
+"""
+import json
+import math
+import os
+import subprocess
+import time
+
+METRES_PER_PIXEL = 1e-4   # devices::HandSettings
+METRES_PER_NOTCH = 2e-3
+ROLL_PER_PIXEL = 8e-3
+VIEW_PER_PIXEL = 1e-3
+STICK_SPEED, STICK_ROLL, STICK_VIEW = 0.05, 2.0, 0.6
+
+
+class Failed(Exception):
+    pass
+
+
+def add(a, b, f=1.0):
+    return [x + f * y for x, y in zip(a, b)]
+
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+def cross(a, b):
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def unit(a):
+    n = math.sqrt(dot(a, a))
+    return [x / n for x in a]
+
+
+def in_basis(d, a, b, c):
+    """Coordinates of d along a, b, c, which need not be square to each other (Cramer's rule)."""
+    det = dot(a, cross(b, c))
+    return dot(d, cross(b, c)) / det, dot(a, cross(d, c)) / det, dot(a, cross(b, d)) / det
+
+
+class Eyes:
+    """The window's JSON lines as they come."""
+
+    def __init__(self, path, process):
+        self.path, self.process = path, process
+        self.file, self.rest = None, ""
+        self.events, self.pose, self.screen = [], None, None
+
+    def read(self):
+        if self.file is None:
+            if not os.path.exists(self.path):
+                return
+            self.file = open(self.path, encoding="utf-8")
+        self.rest += self.file.read()
+        *lines, self.rest = self.rest.split("\n")
+        for line in lines:
+            entry = json.loads(line)
+            if entry["event"] == "pose":
+                self.pose = entry
+            elif entry["event"] == "screen":
+                self.screen = entry
+            else:
+                self.events.append(entry)
+
+    def wait(self, what, condition, limit):
+        """Until condition() holds; raises Failed after `limit` seconds or when the program is gone."""
+        end = time.monotonic() + limit
+        while True:
+            gone = self.process.poll() is not None
+            self.read()
+            value = condition()
+            if value:
+                return value
+            if gone:
+                raise Failed(f"the program ended (exit {self.process.returncode}) while waiting for: {what}")
+            if time.monotonic() > end:
+                raise Failed(f"waited {limit} s for: {what}; the screen: {self.screen}")
+            time.sleep(0.02)
+
+    def happened(self, name, **details):
+        return [e for e in self.events if e["event"] == name and all(e.get(k) == v for k, v in details.items())]
+
+    def on(self, name, limit=30):
+        self.wait(f"the screen {name}", lambda: self.screen and self.screen["name"] == name, limit)
+
+    def where(self, widget, limit=30):
+        return self.wait(f"'{widget}' on the screen", lambda: self.screen and self.screen["widgets"].get(widget), limit)
+
+    # What is seen of the patient.
+    def tool(self, name=None):
+        return next(t for t in self.pose["tools"] if t["name"] == (name or self.pose["led"]))
+
+    def point(self, tube, s):
+        """Place [mm] and direction of the tube at arc length s [mm], and its radius."""
+        course = self.pose["strands"][tube]
+        for a, b in zip(course, course[1:]):
+            if b[0] >= s or b is course[-1]:
+                f = (s - a[0]) / max(b[0] - a[0], 1e-9)
+                return add(a[1:4], add(b[1:4], a[1:4], -1), f), unit(add(b[1:4], a[1:4], -1)), a[4]
+
+    def straightness(self, tube, to):
+        points = [p for p in self.pose["strands"][tube] if p[0] <= to]
+        way = sum(math.dist(a[1:4], b[1:4]) for a, b in zip(points, points[1:]))
+        return math.dist(points[0][1:4], points[-1][1:4]) / way
+
+
+def xdo(*words):
+    subprocess.run(["xdotool", *map(str, words)], check=True, stdout=subprocess.DEVNULL)
+
+
+class MouseAndKeys:
+    """Screens by mouse and keys, instruments by mouse and keys."""
+    name = "mouse and keys"
+
+    def __init__(self, eyes):
+        self.eyes, self.closed = eyes, False
+
+    def press(self, widget, limit=30):
+        x, y = self.eyes.where(widget, limit)
+        xdo("mousemove", x, y)
+        time.sleep(0.2)
+        xdo("click", 1)
+
+    def key(self, key):
+        xdo("key", key)
+
+    def enter(self):
+        xdo("key", "Return")
+
+    def pause(self):
+        xdo("key", "p")
+
+    def choose(self, number):
+        xdo("key", str(number))
+
+    def rack(self):
+        xdo("key", "x")
+
+    def leave_menu(self):
+        xdo("key", "Escape")
+
+    def sideways(self, right, up):
+        px, py = round(right / METRES_PER_PIXEL), round(-up / METRES_PER_PIXEL)
+        if px or py:
+            xdo("mousemove_relative", "--", px, py)
+
+    def inwards(self, metres):
+        """A tenth of a millimetre with the mouse's wheel and Shift is a quarter of a notch."""
+        notches = round(metres / METRES_PER_NOTCH)
+        if notches:
+            for _ in range(min(6, abs(notches))):
+                xdo("click", 4 if notches > 0 else 5)
+            return
+        fine = round(4 * metres / METRES_PER_NOTCH)
+        if fine:
+            xdo("keydown", "shift")
+            time.sleep(0.15)
+            for _ in range(abs(fine)):
+                xdo("click", 4 if fine > 0 else 5)
+            time.sleep(0.15)
+            xdo("keyup", "shift")
+
+    def look(self, right, up):
+        xdo("mousemove_relative", "--", round(right / VIEW_PER_PIXEL), round(-up / VIEW_PER_PIXEL))
+
+    def roll(self, angle):
+        """Clockwise as the hand sees it: a drag with the right button, held long enough to be no click."""
+        xdo("mousedown", 3)
+        time.sleep(0.35)
+        xdo("mousemove_relative", "--", round(angle / ROLL_PER_PIXEL), 0)
+        time.sleep(0.2)
+        xdo("mouseup", 3)
+        time.sleep(0.1)
+
+    def close(self, slowly=False):
+        if slowly:
+            xdo("keydown", "shift")
+            time.sleep(0.2)
+        xdo("mousedown", 1)
+
+    def let_go(self):
+        xdo("mouseup", 1)
+        xdo("keyup", "shift")
+
+    def lock(self):
+        xdo("key", "space")
+
+    def into_view(self):
+        xdo("key", "v")
+
+
+class Pad:
+    """The same by a gamepad alone. One line a picture is read, so every press lasts at least one picture."""
+    name = "gamepad"
+
+    def __init__(self, eyes, pipe):
+        self.eyes, self.pipe = eyes, open(pipe, "w", buffering=1, encoding="utf-8")
+        self.trigger = 0.0
+        self.send()
+
+    def send(self, lx=0.0, ly=0.0, rx=0.0, ry=0.0, lt=0.0, buttons=""):
+        print(f"{lx:.3f} {ly:.3f} {rx:.3f} {ry:.3f} {lt:.3f} {self.trigger:.3f} {buttons}".strip(), file=self.pipe)
+
+    def tap(self, button):
+        self.send(buttons=button)
+        time.sleep(0.12)
+        self.send()
+        time.sleep(0.12)
+
+    def hold(self, seconds, **sticks):
+        self.send(**sticks)
+        time.sleep(seconds)
+        self.send()
+
+    def unplug(self):
+        print("gone", file=self.pipe)
+
+    def press(self, widget, limit=30):
+        """Goes from button to button by the cross until the focus is there, as told by the log."""
+        self.eyes.where(widget, limit)
+        for _ in range(60):
+            self.eyes.read()
+            at, goal = self.eyes.screen.get("focus"), self.eyes.screen["widgets"][widget]
+            if at == widget:
+                return self.tap("a")
+            here = self.eyes.screen["widgets"].get(at)
+            if here is None:
+                self.tap("down")
+                continue
+            dx, dy = goal[0] - here[0], goal[1] - here[1]
+            self.tap(("down" if dy > 0 else "up") if abs(dy) > 14 else ("right" if dx > 0 else "left"))
+        raise Failed(f"the cross does not lead to '{widget}': {self.eyes.screen}")
+
+    def enter(self):
+        self.tap("a")
+
+    def pause(self):
+        self.tap("start")
+
+    def choose(self, number):
+        """Hands by the right shoulder, one after the other; 0 is the endoscope."""
+        names = [t["name"] for t in self.eyes.pose["tools"]] + ["scope"]
+        goal = names[-1] if number == 0 else names[number - 1]
+        for _ in range(8):
+            if self.eyes.pose["led"] == goal:
+                return
+            tick = self.eyes.pose["tick"]
+            self.tap("right_shoulder")
+            self.eyes.wait("a newer pose", lambda: self.eyes.pose["tick"] > tick + 100, 20)
+        raise Failed(f"the shoulder does not lead to {goal}")
+
+    def rack(self):
+        self.tap("y")
+
+    def leave_menu(self):
+        self.tap("b")
+
+    def sideways(self, right, up):
+        way = math.hypot(right, up)
+        if way < 1e-5:
+            return
+        if way < 0.002:  # the cross is fine: a quarter
+            for d, plus, minus in ((right, "right", "left"), (up, "up", "down")):
+                if abs(d) > 1e-4:
+                    self.hold(abs(d) / (0.25 * STICK_SPEED), buttons=plus if d > 0 else minus)
+            return
+        self.hold(way / STICK_SPEED, lx=math.copysign(self.tilt(abs(right) / way), right),
+                  ly=-math.copysign(self.tilt(abs(up) / way), up))
+
+    @staticmethod
+    def tilt(share):
+        """The stick's way that moves at `share` of its full speed: 12 % rest, then a square."""
+        return 0.0 if share < 1e-3 else 0.12 + 0.88 * math.sqrt(share)
+
+    def inwards(self, metres):
+        if abs(metres) > 2e-4:
+            share = 1.0 if abs(metres) > 0.004 else 0.25
+            self.hold(abs(metres) / (share * STICK_SPEED), ry=-math.copysign(self.tilt(share), metres))
+
+    def look(self, right, up):
+        for angle, axis in ((right, "lx"), (-up, "ly")):
+            if abs(angle) > 0.01:
+                self.hold(abs(angle) / STICK_VIEW, **{axis: math.copysign(1.0, angle)})
+
+    def roll(self, angle):
+        share = 1.0 if abs(angle) > 0.5 else 0.2
+        self.hold(abs(angle) / (share * STICK_ROLL), rx=math.copysign(self.tilt(share), angle))
+
+    def close(self, slowly=False):
+        for i in range(1, 11):
+            self.trigger = i / 10
+            self.send()
+            time.sleep(0.4 if slowly else 0.05)
+
+    def let_go(self):
+        self.trigger = 0.0
+        self.send()
+
+    def lock(self):
+        self.send(lt=1.0)
+        time.sleep(0.15)
+        self.send()
+        time.sleep(0.1)
+
+    def into_view(self):
+        self.tap("x")
+
+
+class Trainee:
+    """What a trainee does with instruments, whatever moves them: look, compare, correct."""
+
+    def __init__(self, eyes, hands):
+        self.eyes, self.hands = eyes, hands
+
+    def names(self):
+        return [t["name"] for t in self.eyes.pose["tools"]]
+
+    def lead(self, hand):
+        if self.eyes.pose["led"] == hand:
+            return
+        self.hands.choose(0 if hand == "scope" else self.names().index(hand) + 1)
+        self.eyes.wait(f"{hand} to be led", lambda: self.eyes.pose["led"] == hand, 30)
+
+    def settled(self, limit=40, still_mm=0.08):
+        """Waits until the instrument has followed: poses from well after now that stand still."""
+        start, last = self.eyes.pose["tick"], [None]
+
+        def still():
+            tip, tick = self.eyes.tool()["tip_mm"], self.eyes.pose["tick"]
+            if tick < start + 120 or (last[0] and last[0][0] == tick):
+                return False
+            before, last[0] = last[0], (tick, tip)
+            return before is not None and math.dist(before[1], tip) < still_mm
+        self.eyes.wait("the instrument to come to rest", still, limit)
+
+    def move(self, goal, tolerance_mm, what, limit=120):
+        """The led tip to goal() [mm], which may itself move: sideways in the picture and along the shaft."""
+        end = time.monotonic() + limit
+        while True:
+            tool, picture = self.eyes.tool(), self.eyes.pose["picture"]
+            way = [1e-3 * x for x in add(goal(), tool["tip_mm"], -1)]
+            off = 1000 * math.sqrt(dot(way, way))
+            if off < tolerance_mm:
+                return
+            if time.monotonic() > end:
+                raise Failed(f"{what}: still {off:.1f} mm away after {limit} s")
+            right, up, inwards = in_basis(way, picture["right"], picture["up"], tool["shaft"])
+            f = min(1.0, 0.012 / max(abs(right), abs(up), 1e-9))  # within what a command may run ahead
+            self.hands.sideways(f * right, f * up)
+            self.hands.inwards(max(-0.010, min(0.010, inwards)))
+            self.settled()
+
+    def roll_across(self, along, tolerance=0.05):
+        """Turns the jaws until they open across the direction along()."""
+        for _ in range(14):
+            tool = self.eyes.tool()
+            shaft, opening = tool["shaft"], tool["opening"]
+            flat = along()
+            flat = unit(add(flat, shaft, -dot(flat, shaft)))
+            off = math.asin(max(-1.0, min(1.0, dot(opening, flat))))
+            if abs(off) < tolerance:
+                return
+            clockwise = dot(cross(shaft, opening), flat) * off < 0
+            self.hands.roll(abs(off) if clockwise else -abs(off))
+            self.settled()
+        raise Failed("the jaws do not turn across the tube")
+
+    def before(self, hand, tube, s, inside_mm, back_mm):
+        """Where the tip belongs so that the tube at s lies `inside` from the hinge, less `back` along the shaft."""
+        def goal():
+            tool = self.eyes.tool(hand)
+            at = self.eyes.point(tube, s)[0]
+            axis = unit(add(at, tool["port_mm"], -1))
+            return add(at, axis, tool["jaw_mm"] - inside_mm() - back_mm)
+        return goal
+
+    def reach(self, hand, tube, s, inside_mm, what):
+        """Before the tissue, jaws across it, then in."""
+        self.lead(hand)
+        self.move(self.before(hand, tube, s, inside_mm, 22), 2.0, f"{what}: going before the tube")
+        self.roll_across(lambda: self.eyes.point(tube, s)[1])
+        self.move(self.before(hand, tube, s, inside_mm, 8), 1.5, f"{what}: nearer")
+        self.roll_across(lambda: self.eyes.point(tube, s)[1])
+        self.move(self.before(hand, tube, s, inside_mm, 0), 0.7, f"{what}: the tube between the jaws")
+
+    def back_off(self, hand, mm):
+        self.lead(hand)
+        tool = self.eyes.tool()
+        goal = add(tool["tip_mm"], tool["shaft"], -mm)
+        self.move(lambda: goal, 3, f"drawing {hand} back")
+
+    def squeeze(self, until, what, slowly=False, limit=60):
+        self.hands.close(slowly)
+        try:
+            return self.eyes.wait(what, until, limit)
+        finally:
+            self.eyes.wait("the handle to close", lambda: self.eyes.tool()["handle"] > 0.97, limit)

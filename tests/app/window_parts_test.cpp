@@ -1,0 +1,178 @@
+// What the window is made of, without a window: settings, gamepad lines, tones, notices.
+#include <cmath>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <trocar/core/error.hpp>
+
+#include "feedback.hpp"
+#include "gamepads.hpp"
+#include "settings.hpp"
+
+namespace trocar::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+class SettingsFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    m_folder = fs::temp_directory_path() / ("trocar_settings_" + std::to_string(getpid()));
+    fs::create_directories(m_folder);
+  }
+  void TearDown() override { fs::remove_all(m_folder); }
+  fs::path file() const { return m_folder / "settings.json"; }
+  void write(const std::string& text) const { std::ofstream(file()) << text; }
+
+  fs::path m_folder;
+};
+
+TEST_F(SettingsFile, WhatIsWrittenIsReadAgain) {
+  Settings s;
+  s.left_handed = s.invert_x = s.mirrored_picture = true;
+  s.mouse = 1.7;
+  s.volume = 0.25;
+  s.text_size = 1.4;
+  s.window_width = 1920;
+  s.trainee = "Zo\u00eb \u0416";
+  s.show_hint = false;
+  write_settings(file(), s);
+  std::vector<core::Fault> faults;
+  EXPECT_EQ(read_settings(file(), faults), s);
+  EXPECT_TRUE(faults.empty());
+}
+
+TEST_F(SettingsFile, NoFileIsTheDefaultsAndNoFault) {
+  std::vector<core::Fault> faults;
+  EXPECT_EQ(read_settings(file(), faults), Settings{});
+  EXPECT_TRUE(faults.empty());
+}
+
+TEST_F(SettingsFile, WhatIsWrongIsToldAndTheRestIsUsed) {
+  write("{\"format\": 1,\n \"left_handed\": true,\n \"mouse\": 900,\n \"volum\": 1,\n \"text_size\": \"big\"}");
+  std::vector<core::Fault> faults;
+  const Settings s = read_settings(file(), faults);
+  EXPECT_TRUE(s.left_handed);
+  EXPECT_EQ(s.mouse, 1);
+  EXPECT_EQ(s.text_size, 1);
+  ASSERT_EQ(faults.size(), 3u);
+  EXPECT_EQ(faults[0].at.line, 3);
+}
+
+TEST_F(SettingsFile, RubbishIsAFaultAndTheDefaults) {
+  for (const char* text : {"", "nonsense", "[1, 2", "{\"format\": 1, \"mouse\": }", "\xff\xfe"}) {
+    write(text);
+    std::vector<core::Fault> faults;
+    EXPECT_EQ(read_settings(file(), faults), Settings{}) << text;
+    EXPECT_FALSE(faults.empty()) << text;
+  }
+}
+
+TEST_F(SettingsFile, WhereItCannotBeWrittenTheOldOneStays) {
+  if (geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+  write_settings(file(), {});
+  chmod(m_folder.c_str(), 0500);
+  Settings other;
+  other.mouse = 2;
+  EXPECT_THROW(write_settings(file(), other), core::EnvironmentLacks);
+  chmod(m_folder.c_str(), 0700);
+  std::vector<core::Fault> faults;
+  EXPECT_EQ(read_settings(file(), faults), Settings{});
+}
+
+TEST_F(SettingsFile, NothingButTheSettingsIsLeftInTheFolder) {
+  for (int i = 0; i < 3; ++i) write_settings(file(), {});
+  EXPECT_EQ(std::distance(fs::directory_iterator(m_folder), fs::directory_iterator{}), 1);
+}
+
+TEST(Settings, SensitivitiesScaleTheirDeviceOnly) {
+  Settings s;
+  s.mouse = 2;
+  s.gamepad = 0.5;
+  const devices::HandSettings usual = hand_settings({}, 3), mine = hand_settings(s, 3);
+  EXPECT_FLOAT_EQ(mine.metres_per_pixel, 2 * usual.metres_per_pixel);
+  EXPECT_FLOAT_EQ(mine.metres_per_notch, usual.metres_per_notch);
+  EXPECT_FLOAT_EQ(mine.key_speed, usual.key_speed);
+  EXPECT_FLOAT_EQ(mine.stick_speed, 0.5f * usual.stick_speed);
+}
+
+TEST(ProperName, HasNoControlCharactersNoBlanksAroundItAndWholeCharacters) {
+  EXPECT_EQ(proper_name("  Ada\tLovelace\n "), "AdaLovelace");
+  EXPECT_EQ(proper_name("Zo\u00eb\xff\xc3"), "Zo\u00eb");
+  std::string longest;
+  for (int i = 0; i < 100; ++i) longest += "\u00e9";
+  EXPECT_EQ(proper_name(longest).size(), kLongestName / 2 * 2);
+  EXPECT_EQ(proper_name(" \n"), "");
+}
+
+TEST(GamepadLine, NumbersAndButtonsAreASample) {
+  bool gone = true;
+  const auto pad = read_gamepad_line("0.5 -1 0 0 0.25 1 y left_shoulder", gone);
+  ASSERT_TRUE(pad.has_value());
+  EXPECT_FALSE(gone);
+  EXPECT_FLOAT_EQ(pad->left_x, 0.5f);
+  EXPECT_FLOAT_EQ(pad->left_y, -1.0f);
+  EXPECT_FLOAT_EQ(pad->left_trigger, 0.25f);
+  EXPECT_TRUE(pad->has(devices::Button::y) && pad->has(devices::Button::left_shoulder));
+  EXPECT_FALSE(pad->has(devices::Button::a));
+}
+
+TEST(GamepadLine, WhatIsNoSampleIsLeftOut) {
+  bool gone = false;
+  for (const char* line : {"", "0 0 0", "0 0 0 0 0 x", "0 0 0 0 0 0 hyperspace", "nan 0 0 0 0 0"})
+    EXPECT_FALSE(read_gamepad_line(line, gone).has_value()) << line;
+  EXPECT_FALSE(gone);
+  EXPECT_FALSE(read_gamepad_line("gone", gone).has_value());
+  EXPECT_TRUE(gone);
+  EXPECT_FLOAT_EQ(read_gamepad_line("7 0 0 0 -3 9", gone)->left_x, 1.0f);
+}
+
+TEST(Tones, BeginAndEndInSilenceAndAreHeard) {
+  for (int t = 0; t < int(Tone::count); ++t) {
+    const std::vector<std::int16_t> sound = samples_of(Tone(t), 44100);
+    ASSERT_GT(sound.size(), 44100u / 25) << t;
+    ASSERT_LT(sound.size(), 44100u) << t;
+    EXPECT_LT(std::abs(sound.front()), 200) << t;
+    EXPECT_LT(std::abs(sound.back()), 200) << t;
+    double power = 0;
+    for (const std::int16_t v : sound) power += double(v) * v;
+    EXPECT_GT(std::sqrt(power / double(sound.size())), 300) << t;
+    EXPECT_EQ(sound, samples_of(Tone(t), 44100)) << t;
+  }
+}
+
+TEST(Feedback, StepsAndErrorsAreShownNearThePictureAndStayInTheList) {
+  Feedback feedback;
+  const Notice* done = feedback.add({100, "step-done", -1, "First clip"}, 12, 50);
+  ASSERT_TRUE(done);
+  EXPECT_EQ(done->mark, ui::Mark::done);
+  EXPECT_EQ(done->tone, Tone::step_done);
+  EXPECT_EQ(feedback.add({101, "error", -1, "E3: slipped"}, 13, 51)->tone, Tone::error);
+  EXPECT_FALSE(feedback.add({102, "something-else", -1, ""}, 14, 52));
+  EXPECT_EQ(feedback.fresh(51).size(), 2u);
+  EXPECT_EQ(feedback.fresh(56).size(), 1u);  // errors stay longer
+  EXPECT_TRUE(feedback.fresh(100).empty());
+  EXPECT_EQ(feedback.all().size(), 2u);
+}
+
+TEST(Feedback, TheListIsBounded) {
+  Feedback feedback;
+  for (int i = 0; i < 1000; ++i) feedback.add({std::uint64_t(i), "grasped", 0, std::to_string(i)}, i, i);
+  EXPECT_EQ(feedback.all().size(), Feedback::kMost);
+  EXPECT_EQ(feedback.all().back().text, "999");
+}
+
+TEST(PullWarning, BeginsNearTheLimitAndRepeatsWhileItLasts) {
+  PullWarning warning;
+  EXPECT_FALSE(warning.due(3.0, 4, 0));
+  EXPECT_TRUE(warning.due(3.3, 4, 1));
+  EXPECT_FALSE(warning.due(3.3, 4, 1.1));
+  EXPECT_TRUE(warning.due(3.0, 4, 2));  // a little less is still near
+  EXPECT_FALSE(warning.due(2.5, 4, 3));
+}
+
+}  // namespace
+}  // namespace trocar::app
