@@ -24,10 +24,10 @@ struct CameraPreset {
   double yaw_deg, pitch_deg, distance_mm;
 };
 inline constexpr CameraPreset kCameraPresets[] = {
-    {"front", "from the feet", 0, 35, 420},
-    {"side", "from the patient's left", 90, 25, 420},
-    {"above", "from over the patient", 0, 88, 450},
-    {"surgeon", "from where a surgeon stands, at the patient's left shoulder", 150, 45, 480},
+    {"front", "from the feet", 0, 58, 340},
+    {"side", "from the patient's left", 90, 32, 360},
+    {"above", "from over the patient", 0, 88, 360},
+    {"surgeon", "from where a surgeon stands, at the patient's left shoulder", 150, 45, 380},
 };
 
 /// endoscope | front | side | above | surgeon | free:YAW,PITCH,DISTANCE in degrees and mm.

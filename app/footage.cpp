@@ -18,15 +18,6 @@ void blend_network(const tissue::NetworkModel& model, const tissue::NetworkState
   }
 }
 
-// A template, so that Models with and without folds of their own mechanics are shown.
-template <class Model, class State>
-void blend_folds(const Model& model, const State& a, const State& b, double f, State& out) {
-  if constexpr (requires { a.membranes; })
-    for (std::size_t i = 0; i < model.membranes.size(); ++i)
-      blend_network(model.membranes[i].sheet.network, a.membranes[i].network, b.membranes[i].network, f,
-                    out.membranes[i].network);
-}
-
 void blend_tool(const interactions::ToolState& a, const interactions::ToolState& b, double f,
                 interactions::ToolState& out) {
   for (double interactions::ToolState::*part :
@@ -56,7 +47,9 @@ void blend(const sim::Model& model, const sim::State& a, const sim::State& b, do
   for (std::size_t i = 0; i < out.strands.size(); ++i)
     for (std::size_t n = 0; n < out.strands[i].x.size(); ++n)
       out.strands[i].x[n] += f * (b.strands[i].x[n] - a.strands[i].x[n]);
-  blend_folds(model, a, b, f, out);
+  for (std::size_t i = 0; i < model.membranes.size(); ++i)
+    blend_network(model.membranes[i].sheet.network, a.membranes[i].network, b.membranes[i].network, f,
+                  out.membranes[i].network);
   for (std::size_t t = 0; t < out.tools.size(); ++t) blend_tool(a.tools[t], b.tools[t], f, out.tools[t]);
   blend_scope(a.scope, b.scope, f, out.scope);
 }

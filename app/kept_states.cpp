@@ -10,19 +10,6 @@ std::size_t size_of(const std::vector<T>& array) {
   return array.capacity() * sizeof(T);
 }
 
-// A template, so that a State with and without folds of their own mechanics is counted.
-template <class State>
-std::size_t bytes_of_folds(const State& s) {
-  std::size_t bytes = 0;
-  if constexpr (requires { s.membranes; }) {
-    bytes += size_of(s.membranes) + size_of(s.sheet_side) + size_of(s.sheet_near) + size_of(s.torn);
-    for (const auto& m : s.membranes)
-      bytes += size_of(m.network.nodes) + size_of(m.network.scale) + size_of(m.network.tet_phase) + size_of(m.torn);
-    for (const auto& torn : s.torn) bytes += size_of(torn);
-  }
-  return bytes;
-}
-
 }  // namespace
 
 std::size_t bytes_of(const sim::State& s) {
@@ -34,7 +21,12 @@ std::size_t bytes_of(const sim::State& s) {
     bytes += size_of(strand.x) + size_of(strand.v) + size_of(strand.scale) + size_of(strand.alive) +
              size_of(strand.foundation_scale);
   for (const std::vector<std::uint8_t>& parted : s.parted) bytes += size_of(parted);
-  return bytes + bytes_of_folds(s);
+  bytes += size_of(s.membranes) + size_of(s.sheet_side) + size_of(s.sheet_near) + size_of(s.torn);
+  for (const tissue::MembraneState& sheet : s.membranes)
+    bytes += size_of(sheet.network.nodes) + size_of(sheet.network.scale) + size_of(sheet.network.tet_phase) +
+             size_of(sheet.torn);
+  for (const std::vector<std::uint8_t>& torn : s.torn) bytes += size_of(torn);
+  return bytes;
 }
 
 void KeptStates::keep(const sim::State& state) {

@@ -283,7 +283,7 @@ void Player::listen(PlayerCommands& commands) {
   const WindowKeys& keys = m_window.keys();
   PlayerCommands ignored;
   if (!overlay()) {
-    read_keys(m_window.picture_time(), commands);
+    read_keys(m_window.typed(), m_window.picture_time(), commands);
     read_pointer(commands);
   }
   m_pad.read(pad, m_window.picture_time(), overlay() ? ignored : commands);

@@ -178,6 +178,8 @@ void draw_buttons(const BarContent& c, float scale, PlayerCommands& commands) {
   ImGui::SameLine();
   commands.faster |= small_button("+", "faster (Up)");
   space(8 * scale);
+  commands.film |= small_button("film", "film of the visible time (X)");
+  ImGui::NewLine();
   if (small_button("endoscope", "through the endoscope (1)", c.endoscope)) commands.preset = 0;
   int number = 1;
   for (const CameraPreset& preset : kCameraPresets) {
@@ -185,7 +187,6 @@ void draw_buttons(const BarContent& c, float scale, PlayerCommands& commands) {
     ++number;
   }
   commands.inset |= small_button("both", "small picture on, off (V)", c.inset);
-  commands.film |= small_button("film", "film of the visible time (X)");
   ImGui::NewLine();
 }
 

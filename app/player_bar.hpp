@@ -16,7 +16,7 @@ struct BarContent {
   double speed = 1;
 };
 
-inline constexpr float kBarHeight = 132;  ///< times the display's scale [px]
+inline constexpr float kBarHeight = 164;  ///< times the display's scale [px]
 
 /// @param seek set to the tick that the pointer asks for; unchanged where it does not
 void draw_bar(const BarContent& content, Timeline& line, float width, float top, float height, PlayerCommands& commands,

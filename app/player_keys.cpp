@@ -18,7 +18,8 @@ constexpr double kDead = 0.15;                                      // share of 
 constexpr double kRepeatAfter = 0.4, kRepeatEvery = 0.08;           // [s]
 constexpr int kSecond = 1000;                                       // [ticks]
 
-bool went_down(int key, bool repeated = false) { return ImGui::IsKeyPressed(key, repeated); }
+constexpr double kTap = 0.05;  // [s] a key that was only tapped counts as held so long
+
 double held(int key) { return ImGui::IsKeyDown(key) ? 1 : 0; }
 
 double beyond_rest(float stick) {
@@ -26,38 +27,118 @@ double beyond_rest(float stick) {
   return size <= kDead ? 0 : std::copysign((size - kDead) / (1 - kDead), double(stick));
 }
 
-void read_camera_keys(double dt, PlayerCommands& c) {
-  c.turn_yaw += kTurnRate * dt * (held(GLFW_KEY_D) - held(GLFW_KEY_A));
-  c.turn_pitch += kTurnRate * dt * (held(GLFW_KEY_W) - held(GLFW_KEY_S));
-  c.pan_right += kPanRate * dt * (held(GLFW_KEY_L) - held(GLFW_KEY_J));
-  c.pan_up += kPanRate * dt * (held(GLFW_KEY_I) - held(GLFW_KEY_K));
-  c.closer += kZoomRate * dt * (held(GLFW_KEY_E) - held(GLFW_KEY_Q));
-  for (int i = 0; i < 5; ++i)
-    if (went_down(GLFW_KEY_1 + i) || went_down(GLFW_KEY_KP_1 + i)) c.preset = i;
-  c.swap |= went_down(GLFW_KEY_C);
-  c.inset |= went_down(GLFW_KEY_V);
+/// The keys that turn, shift and bring near the outside camera. @param amount [s]
+void move_camera(int key, double amount, PlayerCommands& c) {
+  switch (key) {
+    case GLFW_KEY_A:
+      c.turn_yaw -= kTurnRate * amount;
+      break;
+    case GLFW_KEY_D:
+      c.turn_yaw += kTurnRate * amount;
+      break;
+    case GLFW_KEY_W:
+      c.turn_pitch += kTurnRate * amount;
+      break;
+    case GLFW_KEY_S:
+      c.turn_pitch -= kTurnRate * amount;
+      break;
+    case GLFW_KEY_J:
+      c.pan_right -= kPanRate * amount;
+      break;
+    case GLFW_KEY_L:
+      c.pan_right += kPanRate * amount;
+      break;
+    case GLFW_KEY_I:
+      c.pan_up += kPanRate * amount;
+      break;
+    case GLFW_KEY_K:
+      c.pan_up -= kPanRate * amount;
+      break;
+    case GLFW_KEY_E:
+      c.closer += kZoomRate * amount;
+      break;
+    case GLFW_KEY_Q:
+      c.closer -= kZoomRate * amount;
+      break;
+    default:
+      break;
+  }
+}
+constexpr int kCameraKeys[] = {GLFW_KEY_A, GLFW_KEY_D, GLFW_KEY_W, GLFW_KEY_S, GLFW_KEY_J,
+                               GLFW_KEY_L, GLFW_KEY_I, GLFW_KEY_K, GLFW_KEY_E, GLFW_KEY_Q};
+
+void obey_key(TypedKey typed, PlayerCommands& c) {
+  const int step = typed.mods & GLFW_MOD_SHIFT ? kSecond : int(kFrameTicks);
+  switch (typed.key) {
+    case GLFW_KEY_RIGHT:
+      c.ticks += step;
+      break;
+    case GLFW_KEY_LEFT:
+      c.ticks -= step;
+      break;
+    case GLFW_KEY_PERIOD:
+      ++c.ticks;
+      break;
+    case GLFW_KEY_COMMA:
+      --c.ticks;
+      break;
+    case GLFW_KEY_SPACE:
+      c.toggle_play = !c.toggle_play;
+      break;
+    case GLFW_KEY_HOME:
+      c.to_start = true;
+      break;
+    case GLFW_KEY_END:
+      c.to_end = true;
+      break;
+    case GLFW_KEY_PAGE_UP:
+      c.previous_mark = true;
+      break;
+    case GLFW_KEY_PAGE_DOWN:
+      c.next_mark = true;
+      break;
+    case GLFW_KEY_UP:
+      c.faster = true;
+      break;
+    case GLFW_KEY_DOWN:
+      c.slower = true;
+      break;
+    case GLFW_KEY_EQUAL:
+    case GLFW_KEY_KP_ADD:
+      c.zoom_in = true;
+      break;
+    case GLFW_KEY_MINUS:
+    case GLFW_KEY_KP_SUBTRACT:
+      c.zoom_out = true;
+      break;
+    case GLFW_KEY_0:
+    case GLFW_KEY_KP_0:
+      c.show_all = true;
+      break;
+    case GLFW_KEY_C:
+      c.swap = !c.swap;
+      break;
+    case GLFW_KEY_V:
+      c.inset = !c.inset;
+      break;
+    case GLFW_KEY_X:
+      c.film = true;
+      break;
+    default:
+      if (typed.key >= GLFW_KEY_1 && typed.key <= GLFW_KEY_5) c.preset = typed.key - GLFW_KEY_1;
+      if (typed.key >= GLFW_KEY_KP_1 && typed.key <= GLFW_KEY_KP_5) c.preset = typed.key - GLFW_KEY_KP_1;
+  }
 }
 
 }  // namespace
 
-void read_keys(double dt, PlayerCommands& c) {
-  const ImGuiIO& io = ImGui::GetIO();
-  if (io.KeyCtrl || io.KeyAlt || io.KeySuper) return;
-  const int step = io.KeyShift ? kSecond : int(kFrameTicks);
-  c.ticks += step * (int(went_down(GLFW_KEY_RIGHT, true)) - int(went_down(GLFW_KEY_LEFT, true)));
-  c.ticks += int(went_down(GLFW_KEY_PERIOD, true)) - int(went_down(GLFW_KEY_COMMA, true));
-  c.toggle_play |= went_down(GLFW_KEY_SPACE);
-  c.to_start |= went_down(GLFW_KEY_HOME);
-  c.to_end |= went_down(GLFW_KEY_END);
-  c.previous_mark |= went_down(GLFW_KEY_PAGE_UP, true);
-  c.next_mark |= went_down(GLFW_KEY_PAGE_DOWN, true);
-  c.faster |= went_down(GLFW_KEY_UP);
-  c.slower |= went_down(GLFW_KEY_DOWN);
-  c.zoom_in |= went_down(GLFW_KEY_EQUAL, true) || went_down(GLFW_KEY_KP_ADD, true);
-  c.zoom_out |= went_down(GLFW_KEY_MINUS, true) || went_down(GLFW_KEY_KP_SUBTRACT, true);
-  c.show_all |= went_down(GLFW_KEY_0) || went_down(GLFW_KEY_KP_0);
-  c.film |= went_down(GLFW_KEY_X);
-  read_camera_keys(dt, c);
+void read_keys(const std::vector<TypedKey>& typed, double dt, PlayerCommands& c) {
+  for (const TypedKey& key : typed) {
+    if (key.mods & (GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER)) continue;
+    obey_key(key, c);
+    if (!ImGui::IsKeyDown(key.key)) move_camera(key.key, kTap, c);
+  }
+  for (const int key : kCameraKeys) move_camera(key, dt * held(key), c);
 }
 
 void PadReader::read(const devices::Gamepad& pad, double dt, PlayerCommands& c) {

@@ -1,7 +1,11 @@
 // What keys and gamepad ask the player for, one vocabulary for both and for the buttons on the screen.
 #pragma once
 
+#include <vector>
+
 #include <trocar/devices/mouse_keyboard.hpp>
+
+#include "window.hpp"
 
 namespace trocar::app {
 
@@ -19,8 +23,9 @@ struct PlayerCommands {
   double pan_right = 0, pan_up = 0;     ///< in picture heights
 };
 
-/// The keyboard, of ImGui's open frame. @param dt [s] since the last picture
-void read_keys(double dt, PlayerCommands& commands);
+/// The keyboard: what was typed since the last picture, and what is held in ImGui's open frame.
+/// @param dt [s] since the last picture
+void read_keys(const std::vector<TypedKey>& typed, double dt, PlayerCommands& commands);
 
 /// The gamepad. Remembers what was down, and repeats steps that are held.
 class PadReader {

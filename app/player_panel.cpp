@@ -50,10 +50,8 @@ void draw_guide(const PlayerPanelContent& c) {
   for (std::size_t i = 0; i < c.found.steps.size() && i < guide->done.size(); ++i) {
     const bool done = guide->done[i] == GuideState::kDone, missed = guide->done[i] == GuideState::kMissed;
     const bool now = int(i) == guide->current && !missed && !done;
-    const std::string& side = c.found.steps[i].side;
     ui::mark(done ? ui::Mark::done : missed ? ui::Mark::warning : now ? ui::Mark::now : ui::Mark::open);
-    ui::text(c.found.steps[i].name + (side.empty() ? "" : " (" + side + ")") + (missed ? ", missed" : ""),
-             done || now ? ui::kWhite : ui::kGrey);
+    ui::text(c.found.steps[i].name + (missed ? ", missed" : ""), done || now ? ui::kWhite : ui::kGrey);
     if (now && !c.found.steps[i].hint.empty()) ui::text(c.found.steps[i].hint, ui::kGrey);
   }
 }
