@@ -312,6 +312,17 @@ void SceneView::Parts::list_scope(const sim::State& state, Frame& frame) const {
   }
 }
 
+namespace {
+
+/// Seen from outside the walls are drawn where they turn their inner side to the eye: the cavity lies open.
+void cut_open(const std::vector<OwnedMesh>& walls, Frame& frame) {
+  for (DrawItem& drawn : frame.items)
+    for (const OwnedMesh& wall : walls)
+      if (drawn.mesh.id == wall.handle().id) drawn.material.two_sided = false;
+}
+
+}  // namespace
+
 SceneView::SceneView(const sim::Model& model, render::Backend& backend)
     : m_parts(std::make_unique<Parts>(model, backend)) {}
 SceneView::~SceneView() = default;
@@ -343,6 +354,7 @@ Frame SceneView::frame(const sim::State& state, const ViewOptions& options) {
     for (const OwnedMesh& m : p.margins) frame.items.push_back(item(m.handle(), look("peritoneum")));
   }
   p.list_tissues(inside || options.walls, frame);
+  if (!inside) cut_open(p.walls, frame);
   p.list_clips(state, frame);
   if (options.instruments) p.list_tools(state, frame);
   if (options.instruments && !inside) p.list_scope(state, frame);
