@@ -1,9 +1,14 @@
-// trocar gallery: the picture book. In this first form: every scene through its endoscope and from outside.
+// trocar gallery: the picture book. Every scene through its endoscope, close up (organs, what is mistaken for what),
+// every instrument, an exchange, how a shadow tells height, clips and a cut, and from outside.
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
 #include <trocar/scene/reader.hpp>
+#include <trocar/sim/visibility.hpp>
 
+#include "camera_choice.hpp"
 #include "command.hpp"
 #include "json.hpp"
 #include "lesson.hpp"
@@ -13,18 +18,183 @@
 namespace trocar::app {
 namespace {
 
+using view::ViewOptions;
+
+/// The endoscope's optics `distance` [m] before a point, on the side of where the scope is.
+ViewOptions close_up(const sim::Model& model, Vec3d target, double distance) {
+  ViewOptions options;
+  options.camera = ViewOptions::Camera::inside;
+  options.target = target;
+  options.eye = target + distance * normalised(model.scope.port - target, Vec3d{0, 0, 1});
+  return options;
+}
+
+Vec3d on_strand(const sim::Model& model, const sim::State& state, int strand, double s) {
+  const interactions::StrandBody& body = model.bodies[std::size_t(strand)];
+  return point_at(body, state.strands[std::size_t(strand)], place_at(body, s));
+}
+
+void organs(const sim::Model& model, const sim::State& start, Shots& shots) {
+  for (const sim::SolidModel& solid : model.solids) {
+    Vec3d middle{};
+    for (const Vec3f& p : solid.fine.rest) middle += (1.0 / double(solid.fine.rest.size())) * vec_cast<double>(p);
+    shots.take_outside(start, solid.name, fmt::format("{}, close up", solid.name), close_up(model, middle, 0.075));
+  }
+}
+
+/// Along each tube: where it leaves its organ among cords that look like it, its middle, and its open end.
+void tubes(const sim::Model& model, const sim::State& start, Shots& shots) {
+  for (int i = 0; i < int(model.strands.size()); ++i) {
+    const sim::StrandModel& strand = model.strands[std::size_t(i)];
+    if (!strand.fimbriated) continue;
+    const double length = model.bodies[std::size_t(i)].length();
+    const auto take = [&](double s, double distance, const std::string& what, const std::string& text) {
+      shots.take_outside(start, strand.name + " " + what, strand.name + ": " + text,
+                         close_up(model, on_strand(model, start, i, s), distance));
+    };
+    take(0.1 * length, 0.05, "look-alikes",
+         "the tube between round ligament (before it) and ovarian ligament (behind)");
+    take(0.45 * length, 0.065, "fold", "the fold below it with its vessels");
+    take(0.98 * length, 0.045, "fimbria", "its open end");
+  }
+}
+
+/// Each instrument once, half open, from the side.
+void instruments(const sim::Model& model, const sim::State& start, Shots& shots) {
+  std::vector<std::string> shown;
+  for (std::size_t h = 0; h < model.hands.size(); ++h)
+    for (std::size_t i = 0; i < model.hands[h].rack.size(); ++i) {
+      const interactions::ToolModel& tool = model.hands[h].rack[i];
+      if (std::find(shown.begin(), shown.end(), tool.name) != shown.end()) continue;
+      shown.push_back(tool.name);
+      sim::State state = start;
+      state.tools[h].instrument = int(i);
+      state.tools[h].clips_left = tool.clips;
+      state.tools[h].armed = 1;
+      state.tools[h].aperture = 0.6;
+      const interactions::ToolShape shape = shape_of(tool, state.tools[h].pose(), 0.6);
+      ViewOptions options = close_up(model, shape.pivot, 0.05);
+      const Vec3d axis = shape.frame.axis(), off = options.eye - shape.pivot;
+      options.eye = shape.pivot + 0.05 * normalised(off - dot(off, axis) * axis, shape.frame.normal());
+      shots.take_outside(state, tool.name, tool.name, options);
+    }
+}
+
+/// A hand changes its instrument: drawn back, changed at the trocar, and in again.
+void exchange(const sim::Model& model, const sim::State& start, Shots& shots) {
+  const auto hand =
+      std::find_if(model.hands.begin(), model.hands.end(), [](const auto& h) { return h.rack.size() > 1; });
+  if (hand == model.hands.end()) return;
+  const auto h = std::size_t(hand - model.hands.begin());
+  sim::State state = start;
+  sim::Work work = sim::make_work(model);
+  sim::Input input = model.start;
+  input.tools[h].instrument = 1;
+  const kinematics::TipFrame tip = kinematics::forward(hand->port, start.tools[h].pose());
+  const Vec3d entry = hand->port + 0.045 * tip.axis();
+  const auto take = [&](const std::string& what) {
+    ViewOptions options = close_up(model, entry, 0.07);
+    shots.take_outside(state, "exchange " + what, fmt::format("{}: instrument exchange, {}", hand->name, what),
+                       options);
+  };
+  take("before");
+  constexpr int kLongest = 8000;
+  int tick = 0;
+  for (; tick < kLongest && state.tools[h].changes == start.tools[h].changes; ++tick)
+    sim::step(model, input, state, work);
+  take("at the trocar");
+  for (int i = 0; i < 400; ++i) sim::step(model, input, state, work);
+  take("in again");
+  for (int i = 0; i < 3000; ++i) sim::step(model, input, state, work);
+  shots.take(state, "exchanged", "through the endoscope, after the exchange");
+}
+
+/// The first hand's instrument, closed, at three heights over the first organ: its shadow parts from it.
+void heights(const sim::Model& model, const sim::State& start, Shots& shots) {
+  if (model.hands.empty() || model.solids.empty()) return;
+  const kinematics::ScopeFrame scope = sim::scope_of(model, start);
+  const tissue::Skin& skin = model.solids[0].fine;  // its point nearest to the lens
+  std::size_t top = 0;
+  for (std::size_t i = 0; i < skin.rest.size(); ++i)
+    if (length(vec_cast<double>(skin.rest[i]) - scope.eye) < length(vec_cast<double>(skin.rest[top]) - scope.eye))
+      top = i;
+  const Vec3d place = vec_cast<double>(skin.rest[top]), towards = normalised(scope.eye - place);
+  for (const double above : {0.025, 0.008, -0.002}) {
+    sim::State state = start;
+    sim::Work work = sim::make_work(model);
+    sim::Input input = model.start;
+    const kinematics::FulcrumPose pose =
+        kinematics::inverse(model.hands[0].port, place + above * towards, double(input.tools[0].roll));
+    input.tools[0] = sim::tool_input(pose, 1);
+    for (int i = 0; i < 1200; ++i) sim::step(model, input, state, work);
+    const std::string text = above > 0 ? fmt::format("{:.0f} mm above an organ", 1e3 * above) : "touching an organ";
+    shots.take(state, "height " + text, "an instrument " + text);
+  }
+}
+
+/// Two clips on the first tube that can be cut, then a cut between them.
+void clips_and_cut(const sim::Model& model, const sim::State& start, Shots& shots) {
+  const auto tube =
+      std::find_if(model.strands.begin(), model.strands.end(), [](const auto& s) { return s.fimbriated; });
+  double clip_length = 0;
+  for (const sim::HandModel& hand : model.hands)
+    for (const interactions::ToolModel& tool : hand.rack) clip_length = std::max(clip_length, tool.clip_length);
+  if (tube == model.strands.end() || clip_length <= 0) return;
+  const int strand = int(tube - model.strands.begin());
+  sim::State state = start;
+  for (const double s : {0.017, 0.025}) {
+    interactions::Clip& clip = state.clips[std::size_t(state.clip_count++)];
+    clip.strand = strand;
+    clip.s = s;
+    clip.cover = 1;
+    clip.opening[1] = 1;
+    clip.axis[2] = 1;
+    clip.length = clip_length;
+    clip.reach = 0.5 * clip_length;
+  }
+  const ViewOptions options = close_up(model, on_strand(model, start, strand, 0.021), 0.04);
+  shots.take_outside(state, "clips", "two clips on the isthmus", options);
+  interactions::Cut& cut = state.cuts[std::size_t(state.cut_count++)];
+  cut.strand = strand;
+  cut.s = 0.021;
+  cut.fraction = 1;
+  const int element = place_at(model.bodies[std::size_t(strand)], cut.s).element;
+  tissue::cut_element(state.strands[std::size_t(strand)], element);
+  std::vector<Vec3d>& x = state.strands[std::size_t(strand)].x;
+  for (std::size_t i = std::size_t(element) + 1; i < x.size(); ++i) {  // the ends draw apart
+    const double fade = std::max(0.0, 1 - 0.2 * double(i) + 0.2 * (element + 1));
+    x[i] += 0.004 * fade * normalised(x[std::size_t(element) + 1] - x[std::size_t(element)]);
+  }
+  shots.take_outside(state, "cut", "cut between them", options);
+}
+
+void outside(const sim::Model& model, const sim::State& start, Shots& shots) {
+  const view::Orbit around = view::orbit_around(model);
+  for (const CameraPreset& preset : kCameraPresets) {
+    ViewOptions options = view_of(choice_of(preset), around);
+    options.walls = false;
+    shots.take_outside(start, preset.name, fmt::format("from outside, {}, walls left out", preset.meaning), options);
+  }
+  ViewOptions options;
+  options.camera = ViewOptions::Camera::outside;
+  options.walls = options.instruments = false;
+  shots.take_outside(start, "organs", "the organs alone", options);
+}
+
 void add_scene(Json& list, const std::string& name, const std::filesystem::path& folder, PictureSize size) {
   const std::unique_ptr<Lesson> lesson = load_lesson(name);
-  Pictures pictures(lesson->model, size);
+  const sim::Model& model = lesson->model;
+  Pictures pictures(model, size);
   Shots shots(pictures, folder / name);
-  const sim::State state = sim::initial_state(lesson->model);
-  shots.take(state, "endoscope", "through the endoscope, as placed");
-  view::ViewOptions outside;
-  outside.camera = view::ViewOptions::Camera::outside;
-  outside.walls = false;
-  shots.take_outside(state, "outside", "from outside, walls left out", outside);
-  outside.instruments = false;
-  shots.take_outside(state, "organs", "the organs alone", outside);
+  const sim::State start = sim::initial_state(model);
+  shots.take(start, "endoscope", "through the endoscope, as placed");
+  organs(model, start, shots);
+  tubes(model, start, shots);
+  instruments(model, start, shots);
+  exchange(model, start, shots);
+  heights(model, start, shots);
+  clips_and_cut(model, start, shots);
+  outside(model, start, shots);
   shots.write_index();
   for (const std::string& file : shots.files()) list.push_back(file);
 }

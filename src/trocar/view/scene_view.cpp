@@ -12,9 +12,9 @@
 #include <trocar/view/fat_tags.hpp>
 #include <trocar/view/instrument_shapes.hpp>
 #include <trocar/view/looks.hpp>
+#include <trocar/view/membrane_drawing.hpp>
 #include <trocar/view/organ_drawing.hpp>
 #include <trocar/view/scene_view.hpp>
-#include <trocar/view/membrane_drawing.hpp>
 #include <trocar/view/sheet_drawing.hpp>
 #include <trocar/view/tube_drawing.hpp>
 
@@ -335,7 +335,7 @@ Frame SceneView::frame(const sim::State& state, const ViewOptions& options) {
   frame.quality = options.quality;
   frame.eye = options.eye_index;
   frame.metering = options.metering;
-  const bool inside = options.camera == ViewOptions::Camera::scope;
+  const bool inside = options.camera != ViewOptions::Camera::outside;
   if (inside) {
     const kinematics::ScopeFrame scope = sim::scope_of(p.model, state);
     frame.camera = scope_camera(scope, p.model.scope.field_of_view, options.eye_shift);
@@ -343,6 +343,13 @@ Frame SceneView::frame(const sim::State& state, const ViewOptions& options) {
     shaft.roll = 0;
     const kinematics::TipFrame tip = kinematics::forward(p.model.scope.port, shaft);
     frame.look.notch_angle = float(notch_angle(scope, tip, double(state.scope.post)));
+    if (options.camera == ViewOptions::Camera::inside) {
+      const float cone = frame.camera.vertical_fov, near = frame.camera.near_plane, far = frame.camera.far_plane;
+      frame.camera = outside_camera(options.eye, options.target, options.up, double(cone), options.eye_shift);
+      frame.camera.near_plane = near;
+      frame.camera.far_plane = far;
+      frame.look.notch_angle = 0;
+    }
   } else {
     frame.camera = outside_camera(options.eye, options.target, options.up, options.outside_fov, options.eye_shift);
     frame.light = room_light();

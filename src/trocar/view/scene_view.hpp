@@ -19,10 +19,11 @@ namespace trocar::view {
 struct ViewOptions {
   enum class Camera {
     scope,    ///< through the endoscope: circular mask, its light, auto exposure
+    inside,   ///< the same optics, held at `eye` and pointed at `target`: close-ups
     outside,  ///< from `eye` towards `target`, room light, the scope itself drawn: analysis, operating room
   };
   Camera camera = Camera::scope;
-  Vec3d eye{0.05, -0.03, 0.1}, target{0, -0.15, -0.1}, up{0, 0, 1};  ///< outside camera [m]
+  Vec3d eye{0.05, -0.03, 0.1}, target{0, -0.15, -0.1}, up{0, 0, 1};  ///< inside and outside camera [m]
   double outside_fov = 0.7;                                          ///< [rad] of the picture's height
   bool walls = true;  ///< outside: false leaves out what encloses the scene
   bool instruments = true;
