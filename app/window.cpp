@@ -200,9 +200,9 @@ void Window::steer_menus() {
   if (m_captured) return;
   io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
   if (enter && !io.WantTextInput) io.NavInputs[ImGuiNavInput_Activate] = 1;
-  // ImGui lets a mouse's user press nothing by key before an arrow has shown where the focus is. Here what has the
-  // focus is what anybody would press next.
-  if (enter || touched(m_gamepads.state())) ImGui::GetCurrentContext()->NavDisableHighlight = false;
+  // ImGui shows a mouse's user no focus, and gives none, before an arrow was pressed. Here there always is one, and
+  // what has it is what Enter or the gamepad's A will press.
+  ImGui::GetCurrentContext()->NavDisableHighlight = false;
   if (!m_gamepads.present()) return;
   io.ConfigFlags |= ImGuiConfigFlags_NavEnableGamepad;
   io.BackendFlags |= ImGuiBackendFlags_HasGamepad;

@@ -120,6 +120,9 @@ class MouseAndKeys:
         self.eyes, self.closed = eyes, False
 
     def press(self, widget, limit=30):
+        self.eyes.where(widget, limit)
+        time.sleep(0.4)  # a menu that has just appeared finds its size
+        self.eyes.read()
         x, y = self.eyes.where(widget, limit)
         xdo("mousemove", x, y)
         time.sleep(0.2)
