@@ -26,6 +26,8 @@ struct Options {
   bool headless = false, familiarisation = false, no_store = false;
 };
 
+constexpr std::uint64_t kLogTimeEvery = 250;  ///< ticks
+
 int exit_code(const Json& result, const std::string& input) {
   if (result.contains("failure") || result.contains("interrupted")) return core::kGoalNotReached;
   // A recorded motion knows nothing of the exercise: its goal is to be performed to its end.
@@ -79,6 +81,7 @@ Json train_headless(const Options& o, const Lesson& lesson, training::Store* sto
   events.event("attempt", {{"exercise", lesson.name}, {"recording", log.attempt().recording}});
   const Leftovers left = run_headless(session, *source, {o.shots, o.video, size, o.seconds}, [&] {
     for (const Moment& m : session.moments()) events.moment(lesson.model, m);
+    if (session.state().tick % kLogTimeEvery == 0) events.event("time", {{"tick", session.state().tick}});
     return true;
   });
   Json result = session.result(interrupted());
