@@ -117,7 +117,7 @@ std::string band(const MetricStudy& m, const Axes& a) {
     if (s.count == 0) continue;
     const double x = a.x(double(r) + 1);
     upper += fmt::format("{}{:.1f} {:.1f}", upper.empty() ? "M" : "L", x, a.y(s.upper));
-    lower = fmt::format("L{:.1f} {:.1f}", x, a.y(s.lower)) + lower;
+    lower.insert(0, fmt::format("L{:.1f} {:.1f}", x, a.y(s.lower)));
     median += fmt::format("{}{:.1f} {:.1f}", median.empty() ? "M" : "L", x, a.y(s.median));
   }
   return fmt::format("<path class=\"band\" d=\"{}{}Z\"/><path class=\"median\" d=\"{}\"/>\n", upper, lower, median);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 
 #include <trocar/training/trace.hpp>
 
@@ -33,42 +34,58 @@ inline std::int64_t steps_of(double value, double scale) {
 /// Division, so that the value is the double nearest to the decimal number that CSV shows.
 inline double value_of(std::int64_t steps, double scale) { return double(steps) / scale; }
 
-// The accessors are lambdas without captures: plain function pointers.
-#define TROCAR_CHANNEL(type, name, scale, decimals, order, most, member)                \
-  TraceChannel<type> {                                                                  \
-    name, scale, decimals, order, most, [](const type& s) { return double(s.member); }, \
-        [](type& s, double value) { s.member = decltype(s.member)(value); }             \
-  }
+/// How a kind of number is kept: places and directions; forces and the handle; whole numbers.
+struct TraceSteps {
+  double scale;
+  int decimals, order;
+  std::int64_t most = kMaxSteps;
+};
+inline constexpr TraceSteps kPlaces{1e7, 7, 2}, kLoads{1e4, 4, 1}, kNumbers{1, 0, 1, std::int64_t(kMaxTraceNames)};
 
+/// A channel whose number `Access`, a lambda without captures, finds in a sample.
+template <class Sample, class Access>
+TraceChannel<Sample> channel(const char* name, TraceSteps steps, Access) {
+  return {name,
+          steps.scale,
+          steps.decimals,
+          steps.order,
+          steps.most,
+          [](const Sample& s) { return double(Access{}(s)); },
+          [](Sample& s, double value) {
+            auto& number = Access{}(s);
+            number = std::decay_t<decltype(number)>(value);
+          }};
+}
+
+// clang-format off
 inline const std::array<TraceChannel<TraceSample>, 16> kHandChannels = {
-    TROCAR_CHANNEL(TraceSample, "x_m", 1e7, 7, 2, kMaxSteps, tip.x),
-    TROCAR_CHANNEL(TraceSample, "y_m", 1e7, 7, 2, kMaxSteps, tip.y),
-    TROCAR_CHANNEL(TraceSample, "z_m", 1e7, 7, 2, kMaxSteps, tip.z),
-    TROCAR_CHANNEL(TraceSample, "qw", 1e7, 7, 2, kMaxSteps, orientation.w),
-    TROCAR_CHANNEL(TraceSample, "qx", 1e7, 7, 2, kMaxSteps, orientation.x),
-    TROCAR_CHANNEL(TraceSample, "qy", 1e7, 7, 2, kMaxSteps, orientation.y),
-    TROCAR_CHANNEL(TraceSample, "qz", 1e7, 7, 2, kMaxSteps, orientation.z),
-    TROCAR_CHANNEL(TraceSample, "handle", 1e4, 4, 1, kMaxSteps, handle),
-    TROCAR_CHANNEL(TraceSample, "pinch_N", 1e4, 4, 1, kMaxSteps, pinch),
-    TROCAR_CHANNEL(TraceSample, "pull_x_N", 1e4, 4, 1, kMaxSteps, pull.x),
-    TROCAR_CHANNEL(TraceSample, "pull_y_N", 1e4, 4, 1, kMaxSteps, pull.y),
-    TROCAR_CHANNEL(TraceSample, "pull_z_N", 1e4, 4, 1, kMaxSteps, pull.z),
-    TROCAR_CHANNEL(TraceSample, "contact_x_N", 1e4, 4, 1, kMaxSteps, contact.x),
-    TROCAR_CHANNEL(TraceSample, "contact_y_N", 1e4, 4, 1, kMaxSteps, contact.y),
-    TROCAR_CHANNEL(TraceSample, "contact_z_N", 1e4, 4, 1, kMaxSteps, contact.z),
-    TROCAR_CHANNEL(TraceSample, "instrument", 1, 0, 1, std::int64_t(kMaxTraceNames), instrument),
+    channel<TraceSample>("x_m", kPlaces, [](auto& s) -> auto& { return s.tip.x; }),
+    channel<TraceSample>("y_m", kPlaces, [](auto& s) -> auto& { return s.tip.y; }),
+    channel<TraceSample>("z_m", kPlaces, [](auto& s) -> auto& { return s.tip.z; }),
+    channel<TraceSample>("qw", kPlaces, [](auto& s) -> auto& { return s.orientation.w; }),
+    channel<TraceSample>("qx", kPlaces, [](auto& s) -> auto& { return s.orientation.x; }),
+    channel<TraceSample>("qy", kPlaces, [](auto& s) -> auto& { return s.orientation.y; }),
+    channel<TraceSample>("qz", kPlaces, [](auto& s) -> auto& { return s.orientation.z; }),
+    channel<TraceSample>("handle", kLoads, [](auto& s) -> auto& { return s.handle; }),
+    channel<TraceSample>("pinch_N", kLoads, [](auto& s) -> auto& { return s.pinch; }),
+    channel<TraceSample>("pull_x_N", kLoads, [](auto& s) -> auto& { return s.pull.x; }),
+    channel<TraceSample>("pull_y_N", kLoads, [](auto& s) -> auto& { return s.pull.y; }),
+    channel<TraceSample>("pull_z_N", kLoads, [](auto& s) -> auto& { return s.pull.z; }),
+    channel<TraceSample>("contact_x_N", kLoads, [](auto& s) -> auto& { return s.contact.x; }),
+    channel<TraceSample>("contact_y_N", kLoads, [](auto& s) -> auto& { return s.contact.y; }),
+    channel<TraceSample>("contact_z_N", kLoads, [](auto& s) -> auto& { return s.contact.z; }),
+    channel<TraceSample>("instrument", kNumbers, [](auto& s) -> auto& { return s.instrument; }),
 };
 
 inline const std::array<TraceChannel<TraceScope>, 6> kScopeChannels = {
-    TROCAR_CHANNEL(TraceScope, "eye_x_m", 1e7, 7, 2, kMaxSteps, eye.x),
-    TROCAR_CHANNEL(TraceScope, "eye_y_m", 1e7, 7, 2, kMaxSteps, eye.y),
-    TROCAR_CHANNEL(TraceScope, "eye_z_m", 1e7, 7, 2, kMaxSteps, eye.z),
-    TROCAR_CHANNEL(TraceScope, "forward_x", 1e7, 7, 2, kMaxSteps, forward.x),
-    TROCAR_CHANNEL(TraceScope, "forward_y", 1e7, 7, 2, kMaxSteps, forward.y),
-    TROCAR_CHANNEL(TraceScope, "forward_z", 1e7, 7, 2, kMaxSteps, forward.z),
+    channel<TraceScope>("eye_x_m", kPlaces, [](auto& s) -> auto& { return s.eye.x; }),
+    channel<TraceScope>("eye_y_m", kPlaces, [](auto& s) -> auto& { return s.eye.y; }),
+    channel<TraceScope>("eye_z_m", kPlaces, [](auto& s) -> auto& { return s.eye.z; }),
+    channel<TraceScope>("forward_x", kPlaces, [](auto& s) -> auto& { return s.forward.x; }),
+    channel<TraceScope>("forward_y", kPlaces, [](auto& s) -> auto& { return s.forward.y; }),
+    channel<TraceScope>("forward_z", kPlaces, [](auto& s) -> auto& { return s.forward.z; }),
 };
-
-#undef TROCAR_CHANNEL
+// clang-format on
 
 inline constexpr const char* kMarkNames[TraceMark::kinds] = {"grasped", "released", "slipped",
                                                              "clipped", "dropped",  "cut"};
