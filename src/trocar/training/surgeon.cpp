@@ -164,18 +164,26 @@ double Surgeon::cut_at() const {
   return 0.5 * (g.first_clip.high + g.second_clip.low);
 }
 
+Vec3d Surgeon::sample_point(const sim::VisibilitySample& sample) const {
+  const sim::VisibilityTarget& t = m_model->targets[size_t(sample.target)];
+  const size_t i = size_t(t.index);
+  if (t.kind == sim::VisibilityTarget::strand)
+    return interactions::point_at(m_model->bodies[i], m_state->strands[i], {sample.where, sample.w});
+  return vec_cast<double>(m_model->solids[i].skin.rest[size_t(sample.where)]);
+}
+
 Vec3d Surgeon::centre_of(int target) const {
   const sim::VisibilityTarget& t = m_model->targets[size_t(target)];
   Vec3d sum;
-  for (int i = t.first; i < t.first + t.count; ++i) {
-    const sim::VisibilitySample& s = m_model->samples[size_t(i)];
-    if (t.kind == sim::VisibilityTarget::strand)
-      sum +=
-          interactions::point_at(m_model->bodies[size_t(t.index)], m_state->strands[size_t(t.index)], {s.where, s.w});
-    else
-      sum += vec_cast<double>(m_model->solids[size_t(t.index)].skin.rest[size_t(s.where)]);
-  }
+  for (int i = t.first; i < t.first + t.count; ++i) sum += sample_point(m_model->samples[size_t(i)]);
   return sum / std::max(1, t.count);
+}
+
+void Surgeon::want_all_of(int target) {
+  const sim::VisibilityTarget& t = m_model->targets[size_t(target)];
+  constexpr int kPoints = 5;
+  for (int k = 0; k < kPoints; ++k)
+    want(sample_point(m_model->samples[size_t(t.first + k * (t.count - 1) / (kPoints - 1))]));
 }
 
 Vec3d Surgeon::work_place() const { return tube_point(0.5 * (m_clip_place + cut_at())); }
@@ -208,18 +216,24 @@ void Surgeon::clear_the_way(int hand) {
 }
 
 void Surgeon::keep_presented() {
+  // Two things to hold at once: the isthmus across the applier's shaft (raising turns it), and a gentle pull on it
+  // (drawing it outwards stretches it).
   if (!holding()) return;
   const Range& range = m_exercise.goal.present_pull;
-  constexpr double kHighest = 0.040, kRise = 0.010;  // [m] [m/s]
+  constexpr double kHighest = 0.040, kFarthest = 0.020, kPace = 0.010;  // [m] [m] [m/s]
+  constexpr double kLevel = 0.03;                                       // [rad] of slope that is let be
   const double now = pull(), slope = slant(m_applier, m_phase >= Phase::reach_cut ? m_cut_place : m_clip_place);
-  double rate = std::clamp(6 * slope, -1.0, 1.0);  // the outer end dips: up
-  if (std::fabs(slope) < 0.03) rate = 0;
-  if (now < range.low + 0.15) rate = std::max(rate, 0.6);
-  if (now > 0.75 * range.high) rate = std::min(rate, 0.0);
-  if (now > 0.9 * range.high) rate = -1;
-  m_lifted = std::clamp(m_lifted + rate * kRise * sim::kTick, 0.0, kHighest);
-  Arms::Arm& arm = m_arms[side().grasper];
-  arm.tip = m_lift_from + m_lifted * m_lift_up;
+  double rise = std::fabs(slope) < kLevel ? 0 : std::clamp(6 * slope, -1.0, 1.0);  // the outer end dips: up
+  double out = 0;
+  if (now < range.low + 0.15) (slope < -kLevel ? out : rise) = 0.6;
+  if (now > 0.7 * range.high) {
+    rise = std::min(rise, 0.0);
+    out = -0.6;
+  }
+  if (now > 0.9 * range.high) rise = -1;
+  m_lifted = std::clamp(m_lifted + rise * kPace * sim::kTick, 0.0, kHighest);
+  m_drawn = std::clamp(m_drawn + out * kPace * sim::kTick, 0.0, kFarthest);
+  m_arms[side().grasper].tip = m_lift_from + m_lifted * m_lift_up + m_drawn * m_outwards;
 }
 
 void Surgeon::show() {

@@ -139,7 +139,9 @@ class Surgeon {
   double slant(int hand, double s) const;  ///< of the shaft along the tube: sine of the angle, + when it dips outwards
   double next_clip_at() const;             ///< where the next clip belongs; -1 when both are there
   double cut_at() const;
+  Vec3d sample_point(const sim::VisibilitySample& sample) const;
   Vec3d centre_of(int target) const;
+  void want_all_of(int target);  ///< in the picture
   Vec3d work_place() const;
 
   bool clip_fits() const;  ///< whole tube between the legs, across, in view
@@ -176,8 +178,9 @@ class Surgeon {
   int m_wanted = 0;     ///< number in its rack
   int m_attempts = 0;   ///< at the present task
   double m_clip_place = 0, m_cut_place = 0, m_grasp_at = 0;
-  Vec3d m_lift_from, m_lift_up, m_left_from;
-  double m_lifted = 0, m_spare = 0.001;  ///< [m] how far lifted; between the tube and the clip's bend
+  Vec3d m_lift_from, m_lift_up, m_outwards, m_left_from;
+  double m_lifted = 0, m_drawn = 0;  ///< how far the tube was raised and drawn outwards [m]
+  double m_spare = 0.001;            ///< between the tube and the clip's bend [m]
   Arms m_arms;
   CameraHand m_camera;
   std::array<Vec3d, 8> m_points{};  ///< what the camera shall show

@@ -13,6 +13,7 @@ namespace {
 constexpr double kTravel = 0.045, kCareful = 0.018, kTrack = 0.004;  // [m/s] through the open, at tissue, following it
 constexpr double kIdleDepth = 0.042;                                 // [m] an instrument that waits
 constexpr double kInDepth = 0.085;                                   // [m] one that was brought in
+constexpr double kHalf = 0.42;                                       // handle of a half closed applier
 constexpr int kSampleEvery = 20;                                     // ticks between looks along the tube
 
 }  // namespace
@@ -28,8 +29,11 @@ void Surgeon::survey() {
   }
   if (!missing) return go(Phase::decide);
   if (m_in_phase < kGlance || missing->target < 0) return;
-  want(centre_of(missing->target));
+  want_all_of(missing->target);
   m_distance = 0.07;
+  // What instruments hide shows when they are drawn back.
+  if (m_in_phase > kGlance + 2.5)
+    for (int h = 0; h < m_arms.count(); ++h) clear_the_way(h);
 }
 
 void Surgeon::decide() {
@@ -115,6 +119,10 @@ void Surgeon::identify() {
   const Vec3d front = w.following.begun() ? tube_point(w.following.reached()) : centre_of(w.fimbria_target);
   want(front);
   if (w.following.begun()) want(tube_point(std::max(0.0, w.following.reached() - 0.015)));
+  if (m_in_phase > 0.4 * kByHand) {
+    clear_the_way(w.scissors);
+    clear_the_way(m_applier);
+  }
   if (m_in_phase < kByHand) return;
   m_arms.grip(w.grasper, 1, 0.6);
   want(m_arms[w.grasper].tip);
@@ -160,7 +168,9 @@ void Surgeon::grasp() {
   if (!m_arms.grip(hand, kFirm, 0.8) || m_in_phase < 1.2) return;
   if (!holding()) return go(Phase::let_go);
   m_lift_from = m_arms[hand].tip;
-  m_lifted = 0;
+  m_lifted = m_drawn = 0;
+  const Vec3d out = tube_point(m_grasp_at) - tube_point(m_exercise.goal.first_clip.low);
+  m_outwards = normalised(Vec3d{out.x, out.y, 0});
   m_lift_up = normalised(Vec3d{tube_point(m_grasp_at).x > 0 ? 0.35 : -0.35, 0.10, 1.0});
   go(Phase::lift);
 }
@@ -183,7 +193,7 @@ void Surgeon::lift() {
     return;
   }
   keep_presented();
-  const bool good = std::fabs(slant(m_applier, m_clip_place)) < 0.10 && pull() > g.present_pull.low + 0.08 &&
+  const bool good = std::fabs(slant(m_applier, m_clip_place)) < 0.13 && pull() > g.present_pull.low + 0.08 &&
                     pull() < 0.9 * g.present_pull.high &&
                     straightness_of(*m_model, *m_state, w.tube, w.ampulla_from) > g.present_straightness + 0.002;
   m_steady = good ? m_steady + sim::kTick : 0;
@@ -239,7 +249,7 @@ void Surgeon::reach_clip() {
   keep_presented();
   clear_the_way(side().scissors);
   want(tube_point(m_clip_place));
-  m_spare = 0.0008;
+  m_spare = 0.001;
   const bool open = m_arms.grip(m_applier, 0, 0.5);
   if (approach(m_applier, m_clip_place, clip_inside(), kTravel) && open) go(Phase::enter_clip);
 }
@@ -258,8 +268,9 @@ void Surgeon::inspect_clip() {
   want(flawed("E4.2") ? Vec3d{-tube_point(0).x * 3, tube_point(0).y, tube_point(0).z} : tube_point(m_clip_place));
   // Where a jaw's tip is hidden, another distance may show it, and a tube deeper between the legs.
   m_distance = 0.052 + 0.008 * double(int(m_in_phase / 1.5) % 4);
-  if (m_in_phase > 0.5 && !sees_jaws(m_applier)) m_spare = std::max(0.0002, m_spare - 0.0006 * sim::kTick);
+  if (m_in_phase > 0.5 && !sees_jaws(m_applier)) m_spare = std::max(0.0007, m_spare - 0.0003 * sim::kTick);
   aim(m_applier, m_clip_place, clip_inside(), 0, kTrack);
+  if (!m_arms.grip(m_applier, kHalf, 1.6)) return;  // half closed, the legs' tips show beyond the tube
   m_steady = clip_fits() ? m_steady + sim::kTick : 0;
   if (m_steady < 0.15) return;
   m_clips_before = m_state->clip_count;
@@ -270,11 +281,7 @@ void Surgeon::close_clip() {
   want(flawed("E4.2") ? Vec3d{-tube_point(0).x * 3, tube_point(0).y, tube_point(0).z} : tube_point(m_clip_place));
   aim(m_applier, m_clip_place, clip_inside(), 0, kTrack);
   const double whole = flawed("A1.8") ? 0.6 : 2.6;  // [share of the closing time] from open to closed
-  const double before = m_arms[m_applier].handle;
-  const bool shut = m_arms.grip(m_applier, 1, whole * m_exercise.goal.clip_closing);
-  const bool half = before < 0.45 && m_arms[m_applier].handle >= 0.45;
-  if (half && !clip_fits()) return go(Phase::open_clip);  // a last look before it bites
-  if (!shut || m_state->clip_count == m_clips_before) return;
+  if (!m_arms.grip(m_applier, 1, whole * m_exercise.goal.clip_closing) || m_state->clip_count == m_clips_before) return;
   for (const char* code : {"E4.2", "E11", "A1.1", "A1.2", "A1.3", "A1.4", "A1.5", "A1.8", "A1.11"})
     m_blundered = m_blundered || flawed(code);
   if (flawed("A1.9") && m_state->clip_count > 1) m_blundered = true;
