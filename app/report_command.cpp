@@ -70,7 +70,14 @@ int list(const Store& store, const Options& o, bool json) {
 }
 
 int forget(Store& store, const std::string& trainee, bool json) {
+  std::vector<std::string> pages;
+  for (const Attempt& a : store.list({.trainee = trainee})) pages.push_back(a.uuid);
   const Store::Forgotten gone = store.forget(trainee);
+  for (const std::string& uuid : pages) {
+    std::error_code ignored;
+    if (!uuid.empty() && uuid.find('/') == std::string::npos && uuid[0] != '.')
+      fs::remove_all(store.folder() / "reports" / uuid, ignored);
+  }
   const auto texts = [](const std::vector<fs::path>& paths) {
     Json out = Json::array();
     for (const fs::path& p : paths) out.push_back(p.string());
