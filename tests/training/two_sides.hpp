@@ -27,9 +27,7 @@ inline const sim::Model& model() {
   static const sim::Model compiled = [] {
     scene::Description d = small::description();
     d.strands = {tube("tube_left", 1), tube("tube_right", -1), small::cord()};
-    [](auto& any) {
-      if constexpr (requires { any.membranes; }) any.membranes.clear();
-    }(d);
+    d.membranes.clear();
     return scene::compile(d);
   }();
   return compiled;
@@ -40,7 +38,10 @@ inline const training::Exercise& exercise() {
   static const training::Exercise made = [] {
     training::Exercise e = training::read_exercise(TROCAR_SOURCE_DIR "/scenes/gynaecology/sterilisation.json");
     e.goal.uterus = "organ";
-    for (training::Side& side : e.goal.sides) side.ovary = "pad";
+    for (training::Side& side : e.goal.sides) {
+      side.ovary = "pad";
+      side.mesosalpinx.clear();
+    }
     e.goal.forbidden = {{"cord", "the cord", {}}};
     e.goal.delicate = {};
     e.goal.bowel = {{"pad", "the pad", {}}};

@@ -29,16 +29,6 @@ int index_of(const List& list, const std::string& name) {
   return -1;
 }
 
-/// A fold as a hold names it; -1 where it is drawn only and cannot be held.
-template <class Model>
-std::int32_t fold_body(const Model& model, const std::string& name) {
-  if constexpr (requires { model.membranes; }) {
-    const int i = index_of(model.membranes, name);
-    return i < 0 ? -1 : (1 << 17) + i;
-  }
-  return -1;
-}
-
 /// Finds what the exercise names in the scene; what is not there is a fault at its place in the exercise file.
 struct Finder {
   const sim::Model& model;
@@ -60,8 +50,8 @@ struct Finder {
     if (s >= 0) return s;
     const int o = index_of(model.solids, named.name);
     if (o >= 0) return interactions::kSolidBase + o;
-    const std::int32_t fold = fold_body(model, named.name);
-    if (fold >= 0) return fold;
+    const int fold = model.membrane_index(named.name);
+    if (fold >= 0) return interactions::kMembraneBase + fold;
     if (index_of(model.sheets, named.name) < 0) {
       std::vector<std::string> known = names_of(model.strands);
       for (const std::string& n : names_of(model.solids)) known.push_back(n);
@@ -123,6 +113,8 @@ Monitor::Monitor(const Exercise& exercise, const sim::Model& model, Mode mode)
     find.solid(side.ovary, side.ovary_at);
     w.isthmus = find.landmark(w.tube, "isthmus", true, side.tube_at);
     w.ampulla = find.landmark(w.tube, "fimbria", false, side.tube_at);
+    w.mesosalpinx = side.mesosalpinx.empty() ? -1 : model.membrane_index(side.mesosalpinx);
+    if (!side.mesosalpinx.empty()) find.body({side.mesosalpinx, "", side.mesosalpinx_at});
     w.ovary_target = model.target_index(side.ovary);
     w.trace_target = model.target_index(side.tube + ".trace");
     m_organs.insert(m_organs.end(), {w.trace_target, w.ovary_target});
@@ -204,7 +196,7 @@ void Monitor::measure_side(SideWatch& side, const sim::Model& model, const sim::
   side.facts.straightness = straightness_of(model, state, side.tube, side.isthmus);
   side.following.update(model, state, {m_tip.data(), m_tools.size()}, kSample);
   for (size_t h = 0; h < m_tools.size(); ++h) {
-    if (held_arc(model, state, h, side.tube) < 0) continue;
+    if (held_arc(model, state, h, side.tube) < 0 && !holds(side, model, state, h)) continue;
     m_focus = int(&side - m_sides.data());
     const double pull = norm(state.tools[h].pull);
     Range& range = side.facts.pull;
@@ -217,6 +209,20 @@ int Monitor::side_of(int tube) const {
   for (size_t i = 0; i < m_sides.size(); ++i)
     if (m_sides[i].tube == tube) return int(i);
   return -1;
+}
+
+int Monitor::side_of_fold(int membrane) const {
+  for (size_t i = 0; i < m_sides.size(); ++i)
+    if (membrane >= 0 && m_sides[i].mesosalpinx == membrane) return int(i);
+  return -1;
+}
+
+bool Monitor::holds(const SideWatch& side, const sim::Model& model, const sim::State& state, size_t hand) const {
+  const interactions::ToolState& tool = state.tools[hand];
+  if (tool.holds == 0) return false;
+  if (side.mesosalpinx >= 0 && tool.hold[0].body == interactions::kMembraneBase + side.mesosalpinx) return true;
+  const double s = held_arc(model, state, hand, side.tube);
+  return s >= side.isthmus && s <= side.ampulla;
 }
 
 void Monitor::done(int side, Task task) {
@@ -245,8 +251,7 @@ bool Monitor::presented(const SideWatch& side, const sim::Model& model, const si
   if (side.facts.straightness < g.present_straightness) return false;
   for (size_t h = 0; h < m_tools.size(); ++h) {
     if (model.tool(state, h).kind != interactions::ToolKind::grasper) continue;
-    const double s = held_arc(model, state, h, side.tube);
-    if (s >= side.isthmus && s <= side.ampulla && g.present_pull.holds(norm(state.tools[h].pull))) return true;
+    if (holds(side, model, state, h) && g.present_pull.holds(norm(state.tools[h].pull))) return true;
   }
   return false;
 }
@@ -292,7 +297,7 @@ void Monitor::judge_clip(const sim::Model& model, const sim::State& state, const
   const Vec3d tip = tip_of(model, state, size_t(clip.tool));
   const int i = side_of(clip.strand);
   if (clip.strand < 0) return make_error("E12", -1, tip);
-  if (i < 0) return make_error("E11", -1, tip, named(model, clip.strand, -1));
+  if (i < 0) return make_error("E11", -1, tip, named(model.strands[size_t(clip.strand)].name));
   SideWatch& side = m_sides[size_t(i)];
   const Vec3d where = place_on(model, state, clip.strand, clip.s);
   touch_side(side, where);
@@ -345,7 +350,12 @@ void Monitor::judge_cut(const sim::Model& model, const sim::State& state, const 
   const Sterilisation& g = m_exercise.goal;
   const Vec3d tip = tip_of(model, state, size_t(cut.tool));
   const int i = side_of(cut.strand);
-  if (i < 0) return make_error("E11", -1, tip, named(model, cut.strand, cut.solid));
+  if (cut.strand < 0 && cut.solid < 0 && cut.membrane >= 0) return judge_snip(model, state, cut);
+  if (i < 0) {
+    const std::string& body =
+        cut.strand >= 0 ? model.strands[size_t(cut.strand)].name : model.solids[size_t(cut.solid)].name;
+    return make_error("E11", -1, tip, named(body));
+  }
   SideWatch& side = m_sides[size_t(i)];
   const Vec3d where = place_on(model, state, cut.strand, cut.s);
   touch_side(side, where);
@@ -357,18 +367,29 @@ void Monitor::judge_cut(const sim::Model& model, const sim::State& state, const 
     above = above || s > cut.s;
     near_clip = near_clip || std::fabs(s - cut.s) < g.cut_margin;
   }
+  // Where the fold is a body it says how deep it was cut; otherwise the blades' reach beyond the tube stands for it.
+  const double depth = side.mesosalpinx >= 0 ? cut.fold : cut.beyond;
   const bool through = cut.fraction >= g.cut_fraction, between = below && above && !near_clip;
   if (!between) make_error("A1.6", i, where);
-  if (cut.beyond > g.cut_depth) make_error("A1.7", i, where);
+  if (depth > g.cut_depth) make_error("A1.7", i, where);
   if (!through) make_error("A1.10", i, where);
   SideFacts& f = side.facts;
-  const bool good = through && between && cut.beyond <= g.cut_depth && !side.severed;
+  const bool good = through && between && depth <= g.cut_depth && !side.severed;
   if (f.cut_count < int(f.cuts.size()))
-    f.cuts[size_t(f.cut_count++)] = {cut.s, cut.fraction, cut.beyond, good, double(m_now) * sim::kTick};
+    f.cuts[size_t(f.cut_count++)] = {cut.s, cut.fraction, depth, good, double(m_now) * sim::kTick};
   if (!through || side.severed) return;
   side.severed = true;
   if (good) done(i, Task::cut);
   for (const Task task : {Task::present, Task::first_clip, Task::second_clip, Task::cut}) missed(i, task);
+}
+
+void Monitor::judge_snip(const sim::Model& model, const sim::State& state, const interactions::Cut& cut) {
+  // A fold alone: a nick of the mesosalpinx is nothing, a deep cut is; other folds are none of this exercise.
+  const Vec3d tip = tip_of(model, state, size_t(cut.tool));
+  const int i = side_of_fold(cut.membrane);
+  if (i < 0) return make_error("E11", -1, tip, named(model.membranes[size_t(cut.membrane)].name));
+  if (cut.tips_visible < 1) make_error("E4.2", i, tip);
+  if (cut.fold > m_exercise.goal.cut_depth) make_error("A1.7", i, tip);
 }
 
 void Monitor::watch_errors(const sim::Model& model, const sim::State& state, const sim::StepReport& report) {
@@ -408,12 +429,10 @@ void Monitor::make_error(const char* code, int side, Vec3d where, std::string de
   m_errors.push_back(e);
 }
 
-std::string Monitor::named(const sim::Model& model, int strand, int solid) const {
-  if (strand < 0 && solid < 0) return {};
-  const std::string& name = strand >= 0 ? model.strands[size_t(strand)].name : model.solids[size_t(solid)].name;
+std::string Monitor::named(const std::string& body) const {
   for (const Named& n : m_exercise.goal.forbidden)
-    if (n.name == name) return n.title;
-  return name;
+    if (n.name == body) return n.title;
+  return body;
 }
 
 Score Monitor::score() const {

@@ -99,7 +99,8 @@ class Monitor {
  private:
   /// A side as indices, and how far it has come.
   struct SideWatch {
-    int tube = -1, ovary_target = -1, trace_target = -1;
+    int tube = -1, mesosalpinx = -1;  ///< strand; membrane, or -1
+    int ovary_target = -1, trace_target = -1;
     double isthmus = 0, ampulla = 0;  ///< where each ends [m]
     Following following;
     LumenCheck lumen;
@@ -123,11 +124,15 @@ class Monitor {
   StepStatus& step(int side, Task task) { return m_steps[size_t(step_index(side, task))]; }
   int step_index(int side, Task task) const { return task == Task::survey ? 0 : side * (kTasks - 1) + int(task); }
   int side_of(int tube) const;
+  int side_of_fold(int membrane) const;
+  void judge_snip(const sim::Model& model, const sim::State& state, const interactions::Cut& cut);
+  /// Does this hand hold the side's tube beyond the isthmus, or its mesosalpinx?
+  bool holds(const SideWatch& side, const sim::Model& model, const sim::State& state, size_t hand) const;
   void done(int side, Task task);
   void missed(int side, Task task);
   /// Completes a step when `condition` has held for `hold` seconds; asked once a sample.
   void latch(int side, Task task, bool condition, double hold);
-  std::string named(const sim::Model& model, int strand, int solid) const;
+  std::string named(const std::string& body) const;  ///< what people call it
 
   Exercise m_exercise;
   Mode m_mode;

@@ -37,6 +37,7 @@ class Surgeon {
 
   bool done() const { return m_phase == Phase::finished; }
   bool gave_up() const { return m_gave_up; }
+  bool blundered() const { return m_blundered; }  ///< the flaw has been shown
   /// What it is doing, in words: "approach the ampulla".
   const char* doing() const;
 
@@ -121,6 +122,7 @@ class Surgeon {
   void let_go();
   void withdraw();
   void blunder();
+  void pinch_bowel();
   void finish() {}
 
   // What the eye and the fingers tell: surgeon.cpp
@@ -173,7 +175,8 @@ class Surgeon {
   int m_strand = -1;                                        ///< that is worked on in this tick
   int m_target_strand = -1;                                 ///< a wrong one, when that is the flaw
   int m_stage = 0;                                          ///< of a blunder
-  int m_clips_before = 0;
+  Vec3d m_bowel_at;
+  int m_clips_before = -1, m_clip_tries = 0;
   int m_fetching = -1;  ///< hand that changes its instrument
   int m_wanted = 0;     ///< number in its rack
   int m_attempts = 0;   ///< at the present task

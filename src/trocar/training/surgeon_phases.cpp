@@ -68,8 +68,12 @@ void Surgeon::decide() {
     m_stage = 0;
     return go(Phase::blunder);
   }
-  if (next_clip_at() >= 0) return go(Phase::reach_clip);
-  go(Phase::reach_cut);
+  if (next_clip_at() < 0) return go(Phase::reach_cut);
+  if (m_state->clip_count == m_clips_before && ++m_clip_tries > 2) {  // it does not come right here: take it elsewhere
+    m_clip_tries = 0;
+    return go(Phase::lower);
+  }
+  go(Phase::reach_clip);
 }
 
 void Surgeon::put_down() {
@@ -133,7 +137,8 @@ void Surgeon::identify() {
 void Surgeon::reach_ampulla() {
   const SideWork& w = side();
   const double span = w.ampulla_to - w.ampulla_from;
-  m_grasp_at = w.ampulla_from + span * (0.30 + 0.06 * (m_attempts % 4));
+  constexpr double kPlaces[] = {0.42, 0.54, 0.34, 0.62};  // of the ampulla: another one after each failure
+  m_grasp_at = w.ampulla_from + span * kPlaces[m_attempts % 4];
   want(tube_point(m_grasp_at));
   clear_the_way(m_applier);
   clear_the_way(w.scissors);
@@ -246,6 +251,7 @@ void Surgeon::reach_clip() {
     m_target_strand = m_model->strand_index(g.forbidden.front().name);
     m_clip_place = 0.5 * m_model->bodies[size_t(m_target_strand)].length();
   }
+  m_clips_before = m_state->clip_count;
   keep_presented();
   clear_the_way(side().scissors);
   want(tube_point(m_clip_place));
@@ -270,10 +276,12 @@ void Surgeon::inspect_clip() {
   m_distance = 0.052 + 0.008 * double(int(m_in_phase / 1.5) % 4);
   if (m_in_phase > 0.5 && !sees_jaws(m_applier)) m_spare = std::max(0.0007, m_spare - 0.0003 * sim::kTick);
   aim(m_applier, m_clip_place, clip_inside(), 0, kTrack);
-  if (!m_arms.grip(m_applier, kHalf, 1.6)) return;  // half closed, the legs' tips show beyond the tube
+  // Half closed, the legs' tips show beyond the tube; a little further, if not.
+  const double wanted = kHalf + (m_in_phase > 2 && !sees_jaws(m_applier) ? std::min(0.24, 0.06 * (m_in_phase - 2)) : 0);
+  if (!m_arms.grip(m_applier, std::max(wanted, m_arms[m_applier].handle), 1.6)) return;
   m_steady = clip_fits() ? m_steady + sim::kTick : 0;
   if (m_steady < 0.15) return;
-  m_clips_before = m_state->clip_count;
+  m_clip_tries = 0;
   go(Phase::close_clip);
 }
 
@@ -376,6 +384,34 @@ void Surgeon::withdraw() {
   if (m_arms.move_to_depth(hand, kInDepth, kCareful)) go(Phase::decide);
 }
 
+void Surgeon::pinch_bowel() {
+  // The grasper takes a fold of the bowel where it lies nearest, with all strength.
+  const int hand = side().grasper;
+  const interactions::ToolModel& t = tool(hand);
+  const Vec3d port = m_arms[hand].port;
+  if (m_stage == 0) {
+    double least = 1e9;
+    for (const sim::SolidModel& solid : m_model->solids) {
+      if (m_exercise.goal.bowel.empty() || solid.name != m_exercise.goal.bowel.front().name) continue;
+      for (const Vec3f& v : solid.skin.rest) {
+        const double distance = length(vec_cast<double>(v) - port);
+        if (distance >= least) continue;
+        least = distance;
+        m_bowel_at = vec_cast<double>(v);
+      }
+    }
+    m_stage = 1;
+  }
+  const Vec3d axis = normalised(m_bowel_at - port);
+  want(m_bowel_at);
+  want(m_arms[hand].tip);
+  if (m_stage == 1 && m_arms.move(hand, m_bowel_at - 0.015 * axis, kTravel)) m_stage = 2;
+  if (m_stage == 2 && m_arms.move(hand, m_bowel_at + 0.25 * t.jaw_length * axis, kCareful)) m_stage = 3;
+  if (m_stage == 3 && m_arms.grip(hand, 1, 1.0)) m_stage = 4;
+  if (m_stage == 4 && m_arms.grip(hand, 0, 1.0)) m_stage = 5;
+  if (m_stage == 5 && m_arms.move(hand, m_bowel_at - 0.02 * axis, kCareful)) m_blundered = true;
+}
+
 void Surgeon::blunder() {
   const SideWork& w = side();
   if (flawed("E12")) {  // the applier closes on nothing
@@ -394,7 +430,7 @@ void Surgeon::blunder() {
     m_steady += sim::kTick;
     if (m_steady > 1.5 && m_arms.move(w.scissors, there, 0.06)) m_blundered = true;
   } else if (flawed("E2")) {
-    m_blundered = true;  // bowel: see the soak test's own hands
+    pinch_bowel();
   }
   if (m_blundered) go(Phase::decide);
 }

@@ -1,0 +1,130 @@
+// A varied scene is another patient and still a sound one: deterministic, everything attached, nothing beyond what was
+// allowed, at rest as drawn.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <trocar/scene/compile.hpp>
+#include <trocar/scene/reader.hpp>
+#include <trocar/scene/vary.hpp>
+#include <trocar/sim/step.hpp>
+
+namespace trocar::scene {
+namespace {
+
+const Description& drawn() {
+  static const Description read = read_scene(TROCAR_SOURCE_DIR "/scenes/gynaecology/scene.json");
+  return read;
+}
+Description varied(std::uint64_t seed) {
+  Description d = drawn();
+  vary(d, seed);
+  return d;
+}
+
+template <class List>
+const auto& named(const List& list, const std::string& name) {
+  return *std::find_if(list.begin(), list.end(), [&name](const auto& item) { return item.name == name; });
+}
+
+/// Length of the polyline through the points: near enough to tell.
+double way(const Strand& s) {
+  double sum = 0;
+  for (size_t i = 1; i < s.centreline.size(); ++i) sum += length(s.centreline[i] - s.centreline[i - 1]);
+  return sum;
+}
+
+double least_distance(const std::vector<Vec3d>& points, Vec3d p) {
+  double least = 1e9;
+  for (const Vec3d& q : points) least = std::min(least, length(q - p));
+  return least;
+}
+
+TEST(Vary, SeedZeroLeavesEverythingAsDrawn) { EXPECT_EQ(compile(varied(0)).hash, compile(drawn()).hash); }
+
+TEST(Vary, TheSameSeedIsTheSamePatientAndAnotherIsNot) {
+  const std::uint64_t hash = compile(varied(7)).hash;
+  EXPECT_EQ(compile(varied(7)).hash, hash);
+  EXPECT_NE(compile(varied(8)).hash, hash);
+}
+
+TEST(Vary, LengthsAndStiffnessStayWithinAFifthAndUseIt) {
+  double shortest = 9, longest = 0, softest = 9, stiffest = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Description d = varied(seed);
+    for (const char* tube : {"tube_left", "tube_right"}) {
+      const double ratio = way(named(d.strands, tube)) / way(named(drawn().strands, tube));
+      shortest = std::min(shortest, ratio);
+      longest = std::max(longest, ratio);
+    }
+    for (size_t i = 0; i < d.tissues.size(); ++i) {
+      const double ratio = d.tissues[i].young / drawn().tissues[i].young;
+      softest = std::min(softest, ratio);
+      stiffest = std::max(stiffest, ratio);
+    }
+  }
+  EXPECT_GE(softest, 0.8);
+  EXPECT_LE(stiffest, 1.2);
+  EXPECT_LT(softest, 0.85);
+  EXPECT_GT(stiffest, 1.15);
+  EXPECT_GT(shortest, 0.74) << "a fifth, and 3 mm of shift";
+  EXPECT_LT(longest, 1.26);
+  EXPECT_LT(shortest, 0.88);
+  EXPECT_GT(longest, 1.12);
+}
+
+TEST(Vary, LandmarksAndThicknessGoAlongWithTheTube) {
+  for (std::uint64_t seed : {3u, 12u}) {
+    const Description d = varied(seed);
+    for (const char* name : {"tube_left", "tube_right"}) {
+      const Strand &now = named(d.strands, name), &before = named(drawn().strands, name);
+      const double ratio = way(now) / way(before);
+      for (size_t i = 0; i < now.landmarks.size(); ++i) {
+        EXPECT_LE(now.landmarks[i].from, now.landmarks[i].to);
+        EXPECT_NEAR(now.landmarks[i].to, ratio * before.landmarks[i].to, 0.006) << now.landmarks[i].name;
+      }
+      for (size_t i = 1; i < now.stations.size(); ++i) EXPECT_GT(now.stations[i].s, now.stations[i - 1].s);
+    }
+  }
+}
+
+TEST(Vary, WhatHungTogetherStillDoes) {
+  // Roots do not leave the uterus, and no fold's base its organ.
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Description d = varied(seed);
+    for (size_t i = 0; i < d.strands.size(); ++i)
+      if (d.strands[i].start.organ == "uterus") {
+        EXPECT_LT(length(d.strands[i].centreline.front() - drawn().strands[i].centreline.front()), 0.002)
+            << seed << " " << d.strands[i].name;
+      }
+    for (size_t i = 0; i < d.membranes.size(); ++i)
+      for (size_t k = 0; k < d.membranes[i].base.size(); ++k)
+        for (const std::string& on : d.membranes[i].base_on) {
+          const auto strand =
+              std::find_if(d.strands.begin(), d.strands.end(), [&](const Strand& s) { return s.name == on; });
+          if (strand == d.strands.end()) continue;
+          const Strand& before = named(drawn().strands, on);
+          const double was = least_distance(before.centreline, drawn().membranes[i].base[k]);
+          const double is = least_distance(strand->centreline, d.membranes[i].base[k]);
+          if (was < 0.004) {
+            EXPECT_LT(is, was + 0.002) << seed << " " << d.membranes[i].name;
+          }
+        }
+  }
+}
+
+TEST(Vary, AVariedSceneRestsAsDrawn) {
+  for (std::uint64_t seed : {10u, 18u}) {
+    const sim::Model m = compile(varied(seed));
+    sim::State s = sim::initial_state(m);
+    sim::Work w = sim::make_work(m);
+    for (int t = 0; t < 1000; ++t) ASSERT_EQ(step(m, m.start, s, w).flags, 0u) << seed << " tick " << t;
+    for (size_t i = 0; i < m.bodies.size(); ++i)
+      for (size_t n = 0; n < s.strands[i].x.size(); ++n)
+        ASSERT_LT(length(s.strands[i].x[n] - m.bodies[i].model.rest[n]), 2e-4) << seed << " " << m.strands[i].name;
+  }
+}
+
+}  // namespace
+}  // namespace trocar::scene

@@ -1,0 +1,43 @@
+// The scripted surgeon passes, with at least 80 points, whatever the anatomy: tubes up to a fifth longer or shorter,
+// lying elsewhere, tissue up to a fifth softer or stiffer, and with a hand that trembles.
+#include <gtest/gtest.h>
+
+#include <trocar/scene/compile.hpp>
+#include <trocar/scene/reader.hpp>
+#include <trocar/scene/vary.hpp>
+#include <trocar/training/monitor.hpp>
+#include <trocar/training/surgeon.hpp>
+
+using namespace trocar;
+using namespace trocar::training;
+
+namespace {
+
+class Anatomy : public testing::TestWithParam<int> {};
+
+TEST_P(Anatomy, TheSurgeonPassesOnBothSides) {
+  const std::uint64_t seed = std::uint64_t(GetParam());
+  const Exercise e = read_exercise(TROCAR_SOURCE_DIR "/scenes/gynaecology/sterilisation.json");
+  scene::Description d = scene::read_scene(e.scene);
+  scene::vary(d, seed);
+  const sim::Model m = scene::compile(d);
+  Monitor monitor(e, m);
+  Surgeon surgeon(e, m, {{0.0002, seed}, ""});
+  sim::State s = sim::initial_state(m);
+  sim::Work w = sim::make_work(m);
+  while (!surgeon.done() && s.tick < 500000) {
+    const sim::StepReport report = step(m, surgeon.next(m, s), s, w);
+    ASSERT_TRUE(report.fine()) << "tick " << s.tick;
+    monitor.update(m, s, report);
+  }
+  for (const StepStatus& step : monitor.steps()) EXPECT_TRUE(step.done) << step.name;
+  for (const ErrorMade& error : monitor.errors()) std::printf("%s at %.1f s\n", error.code.c_str(), error.at);
+  const Score score = monitor.score();
+  std::printf("seed %d: S %.1f Q %.3f T %.3f penalties %.0f, %.0f s\n", GetParam(), score.total, score.quality,
+              score.time, score.penalties, monitor.seconds());
+  EXPECT_TRUE(score.passed);
+  EXPECT_GE(score.total, 80);
+}
+INSTANTIATE_TEST_SUITE_P(Seeds, Anatomy, testing::Range(1, 21));
+
+}  // namespace
