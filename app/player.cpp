@@ -8,6 +8,7 @@
 #include <iterator>
 #include <thread>
 
+#include <epoxy/gl.h>
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -37,10 +38,12 @@ namespace {
 constexpr double kPlayingRate = 62, kRestingRate = 25;  // [pictures/s] at most
 constexpr double kTurnPerPixel = 0.006;                 // [rad]
 constexpr double kZoomPerNotch = 0.12;
-constexpr float kInset = 0.3f;                              // of the picture's width
-constexpr std::uint64_t kNearEnough = 40;                   // ticks: while playing an exact State so old is shown
-constexpr auto kFilmShare = std::chrono::milliseconds(80);  // of each of the window's pictures goes to the film
-constexpr int kMainEye = 0, kInsetEye = 1, kFilmEye = 2;    // exposure memories
+constexpr float kInset = 0.3f;                               // of the picture's width
+constexpr std::uint64_t kNearEnough = 40;                    // ticks: while playing an exact State so old is shown
+constexpr auto kFilmShare = std::chrono::milliseconds(80);   // of each of the window's pictures goes to the film
+constexpr double kRest = 0.3;                                // [s] without a change: drawn at full quality
+constexpr std::uint64_t kExposureStep = 500;                 // [ms] of a camera's time that a jump takes
+constexpr int kScopeEye = 0, kOutsideEye = 1, kFilmEye = 2;  // exposure memories
 
 /// A software renderer that takes every core would take the simulation's, too. Read by Mesa when the context is made.
 void leave_a_core_to_the_simulation() {
@@ -64,10 +67,60 @@ Window open_window(const PlayerOptions& options) {
   }
 }
 
+/// Where the processor draws, the quick pictures begin at the lowest quality: the governor raises it if there is room.
+std::size_t first_level(const std::string& driver) {
+  return driver.find("llvmpipe") != std::string::npos ? render::quality_levels().size() - 1 : 0;
+}
+
 /// A part of the window [px, from the top left].
 struct Area {
   float x = 0, y = 0, width = 0, height = 0;
   bool holds(ImVec2 p) const { return p.x >= x && p.x < x + width && p.y >= y && p.y < y + height; }
+};
+
+/// What the scene's picture depends on: while it stays the same the picture is not drawn again, so that panel and
+/// timeline answer at once on a machine that draws slowly.
+struct Drawn {
+  std::uint64_t tick = Reel::kNowhere;
+  bool exact = false, endoscope = false, inset = false;
+  double yaw = 0, pitch = 0, distance = 0;
+  Vec3d target;
+  int width = 0, height = 0;
+  render::Quality quality;
+
+  friend bool operator==(const Drawn& a, const Drawn& b) {
+    return a.tick == b.tick && a.exact == b.exact && a.endoscope == b.endoscope && a.inset == b.inset &&
+           a.yaw == b.yaw && a.pitch == b.pitch && a.distance == b.distance && a.target.x == b.target.x &&
+           a.target.y == b.target.y && a.target.z == b.target.z && a.width == b.width && a.height == b.height &&
+           a.quality == b.quality;
+  }
+};
+
+/// A copy of a part of the window's picture, drawn again below the panels.
+class Backdrop {
+ public:
+  ~Backdrop() {
+    if (m_texture != 0) glDeleteTextures(1, &m_texture);
+  }
+  void copy(int x, int y, int width, int height) {  // from the lower left [px]
+    if (m_texture == 0) glGenTextures(1, &m_texture);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+    glReadBuffer(GL_BACK);
+    glBindTexture(GL_TEXTURE_2D, m_texture);
+    glCopyTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, x, y, width, height, 0);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glBindTexture(GL_TEXTURE_2D, 0);
+  }
+  void draw(const Area& area) const {
+    ImGui::GetBackgroundDrawList()->AddImage(reinterpret_cast<ImTextureID>(std::uintptr_t(m_texture)), {area.x, area.y},
+                                             {area.x + area.width, area.y + area.height}, {0, 1}, {1, 0});
+  }
+
+ private:
+  unsigned m_texture = 0;
 };
 
 /// The first "a.000.png", "a.001.png" ... beside the recording that is not there yet.
@@ -101,6 +154,7 @@ class Player {
         m_context(render::GlContext::adopt_current()),
         m_backend(render::make_gl_backend(*m_context)),
         m_view(lesson.model, *m_backend),
+        m_governor(render::Governor::Limits{}, first_level(m_context->description())),
         m_footage(lesson.model, recording.keyframes),
         m_reel(lesson, recording, Reel::Options{}),
         m_line(m_reel.last()),
@@ -123,9 +177,10 @@ class Player {
   void lay_out();
   void read_pointer(PlayerCommands& commands);
   const sim::State& state_to_show();
-  void draw_scene(const sim::State& state);
+  void show_scene(const sim::State& state);
+  void draw_scene(const sim::State& state, const render::Quality& quality);
   void frame_inset();
-  view::ViewOptions view_now(bool endoscope) const;
+  view::ViewOptions view_now(bool endoscope, const render::Quality& quality) const;
   render::Target target(const Area& area) const;
   void draw_overlays();
   void save_picture(const sim::State& state);
@@ -149,6 +204,9 @@ class Player {
   std::unique_ptr<render::Backend> m_backend;
   view::SceneView m_view;
   render::Governor m_governor;
+  Backdrop m_backdrop;
+  Drawn m_drawn;
+  std::uint64_t m_picture_clock = 0;  ///< [ms] what the exposure goes by: a camera's own time, not the recording's
   Footage m_footage;
   Reel m_reel;
   Timeline m_line;
@@ -225,7 +283,9 @@ void Player::obey_cameras(const PlayerCommands& c) {
     m_orbit.zoom(std::exp(-c.closer));
     if (m_endoscope && !m_inset) m_endoscope = false;  // what is turned shall be seen
   }
-  if (turned || preset >= 0 || endoscope != m_endoscope || inset != m_inset) log_camera();
+  if (!turned && preset < 0 && endoscope == m_endoscope && inset == m_inset) return;
+  m_asked_at = Clock::now();
+  log_camera();
 }
 
 void Player::obey(const PlayerCommands& c) {
@@ -309,9 +369,9 @@ const sim::State& Player::state_to_show() {
   return m_exact || m_footage.empty() ? exact : m_footage.at(wanted);
 }
 
-view::ViewOptions Player::view_now(bool endoscope) const {
+view::ViewOptions Player::view_now(bool endoscope, const render::Quality& quality) const {
   view::ViewOptions options = endoscope ? view::ViewOptions{} : view_of(m_orbit);
-  options.quality = m_governor.quality();
+  options.quality = quality;
   return options;
 }
 
@@ -323,14 +383,42 @@ render::Target Player::target(const Area& a) const {
   return t;
 }
 
-void Player::draw_scene(const sim::State& state) {
-  view::ViewOptions options = view_now(m_endoscope);
-  options.eye_index = kMainEye;
-  render::draw_frame(*m_backend, m_view.frame(state, options), target(m_main));
-  if (!m_inset) return;
-  options = view_now(!m_endoscope);
-  options.eye_index = kInsetEye;
-  render::draw_frame(*m_backend, m_view.frame(state, options), target(m_small));
+/// Draws it where it is not what was drawn last: quickly while things move, at full quality once they rest.
+void Player::show_scene(const sim::State& state) {
+  const double rested = std::chrono::duration<double>(Clock::now() - m_asked_at).count();
+  const bool moving = m_playing || m_drag != Drag::none || rested < kRest;
+  Drawn wanted{state.tick,
+               m_exact,
+               m_endoscope,
+               m_inset,
+               m_orbit.yaw,
+               m_orbit.pitch,
+               m_orbit.distance,
+               m_orbit.target,
+               m_window.width(),
+               m_window.height(),
+               moving ? m_governor.quality() : render::Quality{}};
+  if (!(wanted == m_drawn)) {
+    const Clock::time_point start = Clock::now();
+    draw_scene(state, wanted.quality);
+    m_backdrop.copy(0, m_window.height() - int(m_main.height), int(m_main.width), int(m_main.height));
+    m_drawn = wanted;
+    if (moving) m_governor.frame_took(std::chrono::duration<double>(Clock::now() - start).count());
+  }
+  m_backdrop.draw(m_main);
+}
+
+void Player::draw_scene(const sim::State& state, const render::Quality& quality) {
+  m_picture_clock += m_playing ? std::uint64_t(1000 * m_window.picture_time()) : kExposureStep;
+  const auto draw = [&](bool endoscope, int eye, const Area& area) {
+    view::ViewOptions options = view_now(endoscope, quality);
+    options.eye_index = eye;
+    render::Frame frame = m_view.frame(state, options);
+    frame.tick = m_picture_clock;
+    render::draw_frame(*m_backend, frame, target(area));
+  };
+  draw(m_endoscope, m_endoscope ? kScopeEye : kOutsideEye, m_main);
+  if (m_inset) draw(!m_endoscope, m_endoscope ? kOutsideEye : kScopeEye, m_small);
 }
 
 void Player::frame_inset() {
@@ -387,7 +475,7 @@ void Player::picture() {
   }
   const sim::State& state = m_film ? m_reel.exact() : state_to_show();
   if (!m_film) {
-    draw_scene(state);
+    show_scene(state);
     frame_inset();
   }
   draw_player_panel(
@@ -400,15 +488,13 @@ void Player::picture() {
   m_window.show();
   log_widgets();
   if (!m_film) log_shown(state);
-  if (m_playing) m_governor.frame_took(m_window.picture_time());
 }
 
 /// The large picture alone, at full quality.
 void Player::save_picture(const sim::State& state) {
   const fs::path file = free_name(m_options.file, ".png");
-  view::ViewOptions options = view_now(m_endoscope);
-  options.quality = {};
-  options.eye_index = kMainEye;
+  view::ViewOptions options = view_now(m_endoscope, {});
+  options.eye_index = m_endoscope ? kScopeEye : kOutsideEye;
   options.metering = false;
   try {
     render::draw_frame(*m_backend, m_view.frame(state, options),
@@ -426,8 +512,7 @@ void Player::start_film() {
   auto job = std::make_unique<FilmJob>();
   job->plan = {std::uint64_t(m_line.from() + 0.5), std::uint64_t(m_line.to() + 0.5), m_speed};
   job->size = {std::max(2, int(m_main.width) & ~1), std::max(2, int(m_main.height) & ~1)};
-  job->view = view_now(m_endoscope);
-  job->view.quality = {};
+  job->view = view_now(m_endoscope, {});
   job->view.eye_index = kFilmEye;
   try {
     job->video = Video::open(free_name(m_options.file, ".mp4"), job->size);
