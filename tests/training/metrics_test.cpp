@@ -81,7 +81,7 @@ TEST(Metrics, AStraightReachHasItsLengthAndNoDetour) {
   EXPECT_EQ(m.both.path, m.hands[0].path + m.hands[1].path);
 }
 
-TEST(Metrics, EconomyOfAStraightLineAtConstantSpeedIsOneToMachinePrecision) {
+TEST(Metrics, EconomyOfAStraightLineAtConstantSpeedIsOne) {
   const Trace line = traces::make(1, 4, [](int, double t) { return at({0.02 * t, 0, 0}); });
   MetricsOptions options;
   options.waypoints = {{{0, 0, 0}, {0.08, 0, 0}}};
