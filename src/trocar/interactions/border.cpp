@@ -30,6 +30,8 @@ double whole_share(const tissue::MembraneModel& sheet, const tissue::MembraneSta
 
 }  // namespace
 
+double added_damping(const tissue::BorderPull& pull, double dt) noexcept { return 0.35 * pull.k * dt + 0.6 * pull.d; }
+
 Vec3d held_place(const BorderHold& hold, const Holders& holders) noexcept {
   const std::size_t i = std::size_t(hold.index);
   if (hold.kind == BorderHold::strand)
@@ -47,7 +49,7 @@ void border_loads(std::span<const BorderHold> holds, std::span<const tissue::Bor
     if (hold.kind == BorderHold::space) continue;
     const std::size_t i = std::size_t(hold.index);
     const Vec3d force = pulls[h].force - whole_share(sheet, state, h) * hold.drawn_pull;
-    const double d = pulls[h].k * dt + pulls[h].d;
+    const double d = added_damping(pulls[h], dt);
     if (hold.kind == BorderHold::strand) {
       const tissue::StrandState& s = holders.strand_states[i];
       const std::size_t e = std::size_t(hold.place.element);

@@ -1,10 +1,11 @@
 // Where a membrane hangs: every node of its borders rides on a strand, on an organ's skin, or stays in space. The node
 // is exactly where its holder is when the tick ends; the holder bears what the sheet pulls with.
 //
-// Holders step before the sheet does, with its pull at the tick's beginning. Where the tick bends the holder's flight,
-// the pull falls by the border's own stiffness: to the holder that is a resistance to changes of velocity, taken
-// implicitly, so that a light holder under a stiff sheet is stable. What it differs from the sheet's true pull by is of
-// the order of that stiffness times the change of velocity times a tick (a test bounds it).
+// Holders step before the sheet does, with its pull at the tick's beginning. To hold a stiff sheet with a light holder
+// they resist changes of their velocity beside that, implicitly: an inertia of added_damping() x dt. A holder of mass m
+// with the border's own stiffness k and damping d is stable from 1/4 k dt^2 and 1/2 d dt on, however small m; what the
+// inertia differs from the sheet's own is momentum that goes astray while the holder's speed changes (a test bounds
+// it).
 #pragma once
 
 #include <span>
@@ -38,7 +39,10 @@ struct Holders {
 /// Where the node shall be: on its holder as that is now.
 Vec3d held_place(const BorderHold& hold, const Holders& holders) noexcept;
 
-/// Gives the sheet's pulls to the holders. `whole` is the share of each border node's springs that are not cut.
+/// What a border node resists its holder's changes of velocity with [N s/m].
+double added_damping(const tissue::BorderPull& pull, double dt) noexcept;
+
+/// Gives the sheet's pulls to the holders.
 /// @param holds, pulls  (held nodes of the membrane)
 void border_loads(std::span<const BorderHold> holds, std::span<const tissue::BorderPull> pulls,
                   const tissue::MembraneModel& sheet, const tissue::MembraneState& state, const Holders& holders,

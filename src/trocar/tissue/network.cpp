@@ -4,6 +4,7 @@
 #include <cstring>
 #include <utility>
 
+#include <trocar/numerics/quat.hpp>
 #include <trocar/tissue/law.hpp>
 #include <trocar/tissue/network.hpp>
 
@@ -44,10 +45,8 @@ const KernelSet*& kernels() {
 // ---- cells pushed open
 
 constexpr float kReleased = 0.2f;  // share of the rest volume at which a cell is let go
-constexpr float kGoal = 0.25f;     // share it is driven towards
-constexpr float kOpening = 0.02f;  // time constant of that [s]
-constexpr float kFastest = 5.0f;   // largest change of a node's speed that one cell may make in a sub-step [m/s]
-constexpr int kSweeps = 3;         // over the list per sub-step: neighbours' impulses disturb each other
+constexpr float kOpening = 0.002f;  // time constant with which it takes its shape again [s]
+constexpr float kBlend = 0.2f;      // share of its nodes' velocities that one sub-step replaces
 
 Vec3f place(const NodeState& n) { return {n.x, n.y, n.z}; }
 Vec3f speed(const NodeState& n) { return {n.vx, n.vy, n.vz}; }
@@ -86,33 +85,68 @@ int list_open(const NetworkState& s, NetworkWork& w) {
   return n;
 }
 
-/// Velocity impulses, cell by cell in order, that make each listed cell's volume grow at its opening rate at least.
-/// They act on what the springs have left at the end of the sub-step, so no spring can hold a cell inside out.
-void push_open(const NetworkModel& m, std::span<const int> open, const NodeState* in, NodeState* out) {
+/// How the body as a whole has turned since it was drawn: the rotation that fits all nodes best, by mass. Found by
+/// turning the frame against what is left, as in [Muller et al. 2016]; steps normalised instead of exact, which only
+/// changes how soon it converges.
+Mat3d turn_of_body(const NetworkModel& m, const NetworkState& s) {
+  constexpr int kRounds = 20;
+  Vec3d now{}, drawn{};
+  double mass = 0;
+  for (int i = 0; i < m.nodes; ++i) {
+    mass += m.mass[i];
+    now += m.mass[i] * position(m, s, i);
+    drawn += m.mass[i] * m.rest[i];
+  }
+  now = now / mass, drawn = drawn / mass;
+  Vec3d moment[3] = {};  // columns of sum m (x - c) (X - C)^T
+  for (int i = 0; i < m.nodes; ++i) {
+    const Vec3d x = position(m, s, i) - now, at = m.rest[i] - drawn;
+    for (int k = 0; k < 3; ++k) moment[k] += (m.mass[i] * at[k]) * x;
+  }
+  Quatd turn;
+  for (int round = 0; round < kRounds; ++round) {
+    const Mat3d r = to_mat3(turn);
+    Vec3d off{};
+    double fit = 0;
+    for (int k = 0; k < 3; ++k) {
+      off += cross(r.column(k), moment[k]);
+      fit += dot(r.column(k), moment[k]);
+    }
+    const double size = std::fabs(fit) + 1e-30;
+    turn = normalised(Quatd{1, 0.5 * off.x / size, 0.5 * off.y / size, 0.5 * off.z / size} * turn);
+  }
+  return to_mat3(turn);
+}
+
+/// Each listed cell goes back to its drawn shape, turned as the body is: in cell after cell the velocities become those
+/// of a cell that takes its shape within kOpening, whatever the springs want, so that none can hold a cell inside out.
+/// A velocity that is replaced cannot be pumped up, as impulses along the volume's gradient can where a cell is nearly
+/// flat; and as all cells agree on the turn, neighbours do not undo each other's work. Momentum is conserved.
+void push_open(const NetworkModel& m, std::span<const int> open, const Mat3d& turn, const NodeState* in,
+               NodeState* out) {
   const float dt = float(m.dt);
   for (int t : open) {
-    const TetRest& tet = m.tets[t];
-    const int* r = tet.row;
-    const Vec3f a = place(out[r[1]]) - place(out[r[0]]), b = place(out[r[2]]) - place(out[r[0]]);
-    const Vec3f c = place(out[r[3]]) - place(out[r[0]]);
-    Vec3f grad[4] = {{}, cross(b, c), cross(c, a), cross(a, b)};
-    grad[0] = -((grad[1] + grad[2]) + grad[3]);
-    const float six = dot(a, grad[1]);
-    float rate = 0, give = 0, steepest = 0;
-    Vec3f push[4];
+    const int* r = m.tets[t].row;
+    Vec3f centre{}, drift{};
+    Vec3d drawn{};
+    float mass = 0;
     for (int i = 0; i < 4; ++i) {
-      const Vec3f w = row_weight(m, r[i]);
-      push[i] = {w.x * grad[i].x, w.y * grad[i].y, w.z * grad[i].z};
-      rate += dot(grad[i], speed(out[r[i]]));
-      give += dot(grad[i], push[i]);
-      const float length = std::sqrt(dot(push[i], push[i]));
-      steepest = steepest > length ? steepest : length;
+      const int node = m.node_of_row[r[i]];
+      const float w = float(m.mass[node]);
+      centre += w * place(out[r[i]]);
+      drift += w * speed(out[r[i]]);
+      drawn += m.mass[node] * m.rest[node];
+      mass += w;
     }
-    const float wanted = (kGoal * tet.rest6 - six) / kOpening;
-    if (!(rate < wanted) || !(give > 0)) continue;
-    float impulse = (wanted - rate) / give;
-    if (!(impulse * steepest < kFastest)) impulse = kFastest / steepest;
-    for (int i = 0; i < 4; ++i) move_to(out[r[i]], in[r[i]], speed(out[r[i]]) + impulse * push[i], dt);
+    centre = centre / mass, drift = drift / mass, drawn = drawn / double(mass);
+    for (int i = 0; i < 4; ++i) {
+      const Vec3f goal = centre + vec_cast<float>(turn * (m.rest[m.node_of_row[r[i]]] - drawn));
+      const Vec3f wanted = drift + (goal - place(out[r[i]])) / kOpening, w = row_weight(m, r[i]);
+      Vec3f v = speed(out[r[i]]);
+      for (int k = 0; k < 3; ++k)
+        if (w[k] > 0) v[k] += kBlend * (wanted[k] - v[k]);
+      move_to(out[r[i]], in[r[i]], v, dt);
+    }
   }
 }
 
@@ -295,7 +329,11 @@ StepReport advance(const NetworkModel& m, std::span<const NodeLoad> loads, std::
   for (Vec3f& r : reactions) r = {};
   find_collapsed(m, s, w);
   const std::span<const int> open(w.open_tets.data(), std::size_t(list_open(s, w)));
-  if (!open.empty()) report.flags |= StepReport::kInverted;
+  Mat3d turn = Mat3d::identity();
+  if (!open.empty()) {
+    report.flags |= StepReport::kInverted;
+    turn = turn_of_body(m, s);
+  }
 
   KernelArgs args = kernel_args(m, s);
   bool fine = true;
@@ -303,7 +341,7 @@ StepReport advance(const NetworkModel& m, std::span<const NodeLoad> loads, std::
     args.in = s.nodes.data();
     args.out = w.other.data();
     fine = run_substep(args, m.rows / kSlice, pool) && fine;
-    for (int sweep = 0; sweep < kSweeps; ++sweep) push_open(m, open, args.in, args.out);
+    push_open(m, open, turn, args.in, args.out);
     fine = apply_all_loads(m, loads, reactions, args.in, args.out) && fine;
     std::swap(s.nodes, w.other);
   }

@@ -224,7 +224,7 @@ struct Law {
 TROCAR_INLINE V force_per_length(V dx, V dy, V dz, V dvx, V dvy, V dvz, V inv_rest, V stiffness, V damping,
                                  const Law& law) {
   const V r = root(larger((dx * dx + dy * dy) + dz * dz, all(1e-24f)));
-  const V inv_r = 1.0f / r;
+  const V inv_r = smaller(1.0f / r, 2.0f * inv_rest);  // below half its length a spring pushes less: network.hpp
   const V strain = r * inv_rest - 1.0f;
   const V a = magnitude(strain);
   const V am = smaller(a, law.cap);

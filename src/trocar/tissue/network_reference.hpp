@@ -5,6 +5,7 @@
 //   reference.step(dt);
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -82,7 +83,7 @@ class ReferenceNetwork {
       const Vec3<Real> d = m_nodes[e.other].x - m_nodes[row].x, dv = m_nodes[e.other].v - m_nodes[row].v;
       const Real r2 = (d.x * d.x + d.y * d.y) + d.z * d.z;
       const Real r = std::sqrt(r2 > Real(1e-24f) ? r2 : Real(1e-24f));
-      const Real inv_r = Real(1) / r, strain = r * e.inv_rest - Real(1);
+      const Real inv_r = std::min(Real(1) / r, Real(2) * e.inv_rest), strain = r * e.inv_rest - Real(1);
       const Real a = std::fabs(strain), am = a < e.law.cap ? a : e.law.cap;
       const Real shape = (am + am * am * (e.law.p1 + e.law.p2 * am)) + e.cap_slope * (a - am);  // [KCM99 eq.5]
       const Real rate = ((dv.x * d.x + dv.y * d.y) + dv.z * d.z) * inv_r;
