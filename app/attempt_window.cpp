@@ -1,5 +1,6 @@
 #include "attempt_window.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -21,6 +22,7 @@ using training::AttemptState;
 
 namespace {
 
+constexpr double kSlowest = 0.05;
 constexpr double kFullRate = 62, kYieldingRate = 24;  // [pictures/s] at most; the second while the simulation lags
 
 bool by_hand(const std::string& input) { return input == "mouse" || input == "gamepad"; }
@@ -130,7 +132,8 @@ void AttemptWindow::look_at_keys() {
 
 void AttemptWindow::lead(Live& live, const Snapshot& now) {
   if (!m_pilot) return;
-  const devices::HandSample& sample = m_stage.window.hands();
+  devices::HandSample sample = m_stage.window.hands();
+  sample.dt *= float(std::clamp(now.speed, kSlowest, 1.0));  // where time is slow, held keys and sticks are as slow
   const bool still = stands_still() || m_rack;
   if (still) {
     if (m_rack && !stands_still()) live.put(m_pilot->rest(sample.dt, now.state));

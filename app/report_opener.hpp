@@ -1,4 +1,5 @@
-// Makes the page of an attempt on a thread of its own (its pictures take seconds) and opens it in the browser.
+// Makes the page of an attempt and opens it in the browser. The page is made by a second Trocar, `trocar report`: its
+// pictures take seconds, and two renderers in one process are one too many for some drivers.
 //
 //   ReportOpener reports;
 //   reports.open(store, uuid_or_number);
@@ -21,7 +22,7 @@ class ReportOpener {
   const std::string& say() const { return m_say; }  ///< "making the report ...", where it is, or why there is none
 
  private:
-  std::future<std::string> m_page;
+  std::future<std::string> m_page;  ///< empty: it failed
   std::string m_say;
 };
 

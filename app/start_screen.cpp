@@ -178,7 +178,7 @@ StartAnswer draw_start(const StartContent& c, StartMemory& memory) {
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const float left = std::clamp(0.34f * room.x, std::min(230 * ui::scale(), 0.45f * room.x), 380 * ui::scale());
 
-  ImGui::BeginChild("left", {left, 0}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+  ImGui::BeginChild("left", {left, 0}, false, ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NavFlattened);
   ui::title("Trocar");
   ui::text("Training in endoscopic surgery", ui::kGrey);
   ImGui::Dummy({0, 4 * ui::scale()});
@@ -195,7 +195,7 @@ StartAnswer draw_start(const StartContent& c, StartMemory& memory) {
   ImGui::EndChild();
 
   ImGui::SameLine(0, 14 * ui::scale());
-  ImGui::BeginChild("right", {0, 0}, false, ImGuiWindowFlags_NoScrollbar);
+  ImGui::BeginChild("right", {0, 0}, false, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NavFlattened);
   const ImVec2 area = ImGui::GetContentRegionAvail();
   const float buttons = 92 * ui::scale(), picture = std::min(0.62f * (area.y - buttons), area.x / c.facts.aspect);
   draw_picture(c, picture);
@@ -207,7 +207,8 @@ StartAnswer draw_start(const StartContent& c, StartMemory& memory) {
           c.ready ? "Start" : "Start ...",
           {.width = 2 * unit, .height = 42, .primary = true, .enabled = c.ready, .tip = "the exercise, with a score"}),
       StartChoice::start);
-  if (c.ready) ImGui::SetItemDefaultFocus();
+  if (c.ready && !memory.was_ready && !ImGui::GetIO().WantTextInput) ui::take_focus();
+  memory.was_ready = c.ready;
   ImGui::SameLine();
   choose(ui::button("Familiarise",
                     {.width = unit, .height = 42, .enabled = c.ready, .tip = "the same without clock and score"}),
@@ -234,7 +235,7 @@ bool draw_settings(Settings& s, const Settings& before, bool sound) {
   ui::begin_middle("settings", 660);
   ui::title("Settings");
   const float room = 0.97f * ImGui::GetIO().DisplaySize.y - 120 * ui::scale();
-  ImGui::BeginChild("list", {0, std::min(room, 500 * ui::scale())}, false);
+  ImGui::BeginChild("list", {0, std::min(room, 500 * ui::scale())}, false, ImGuiWindowFlags_NavFlattened);
   ui::text("Hands", ui::kBlue);
   ui::checkbox("left-handed: mouse buttons, gamepad sides, order of the hands exchanged", s.left_handed);
   ui::slider("mouse", s.mouse, kLeastSense, kMostSense, "x %.2f", true);

@@ -38,7 +38,8 @@ enum class StartChoice { none, start, familiarise, demonstrate, report, settings
 /// The screen's own memory.
 struct StartMemory {
   char trainee[kLongestName + 1] = {};
-  bool letters = false;  ///< the letters to type with a gamepad or mouse are shown
+  bool was_ready = false;  ///< when it was drawn last
+  bool letters = false;    ///< the letters to type with a gamepad or mouse are shown
 };
 
 struct StartAnswer {

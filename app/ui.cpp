@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <fcntl.h>
+#include <imgui_internal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -179,6 +180,8 @@ bool slider(const std::string& label, double& value, double low, double high, co
   note_widget(label);
   return changed;
 }
+
+void take_focus() { ImGui::SetFocusID(ImGui::GetItemID(), ImGui::GetCurrentWindow()); }
 
 void begin_screen(const char* name) {
   ImGui::SetNextWindowPos({0, 0});

@@ -43,6 +43,9 @@ bool button(const std::string& label, const ButtonLook& look = {});
 bool checkbox(const std::string& label, bool& value);
 bool slider(const std::string& label, double& value, double low, double high, const char* format, bool logarithmic);
 
+/// The last thing drawn takes the focus of keys and gamepad.
+void take_focus();
+
 /// A window that covers everything, or one in the middle of what is `width` wide; end with ImGui::End().
 void set_middle(float width);  ///< [px]; 0: the whole window
 void begin_screen(const char* name);

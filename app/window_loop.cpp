@@ -168,6 +168,7 @@ void Trainer::take_answer(const StartAnswer& answer) {
 StartChoice Trainer::start_screen() {
   m_stage.window.set_title("Trocar");
   ui::set_middle(0);
+  m_memory.was_ready = false;
   m_stage.window.set_picture_rate(kMenuRate);
   m_past = read_past(m_stage.options.store, m_stage.settings.trainee);
   std::vector<std::string> notices = m_past.notices;

@@ -144,6 +144,7 @@ TEST_F(Program, CheckSaysWhatTheExerciseCompilesTo) {
   for (const Json& body : scene["bodies"])
     if (body.contains("substeps")) {
       EXPECT_GT(body["dt_margin"].get<double>(), 1.0) << body.dump();
+      if (body["kind"] == "membrane") continue;  // the limit as printed is one of springs
       EXPECT_GT(body["dt_limit_as_printed_ms"].get<double>(), body["dt_limit_ms"].get<double>()) << body.dump();
     }
 }
@@ -244,11 +245,83 @@ TEST_F(Program, AReportIsAPageWithTheResult) {
                     "--seconds", "0.2", "--record", recording, "--trainee", "A <b> & C"})
                 .exit,
             core::kDone);
-  const Outcome o = trocar({"report", recording, "--out", file("page"), "--json"});
+  const Outcome o = trocar({"report", recording, "--out", file("page"), "--names", "--no-pictures", "--json"});
   ASSERT_EQ(o.exit, core::kDone) << o.err;
   const std::string page = read(file("page/index.html"));
   EXPECT_NE(page.find("gynaecology/sterilisation"), std::string::npos);
   EXPECT_NE(page.find("A &lt;b&gt; &amp; C"), std::string::npos);
+}
+
+TEST_F(Program, AnUnknownCommandIsBadInputWithTheNearestName) {
+  const Outcome o = trocar({"repot", "--json"});
+  EXPECT_EQ(o.exit, core::kBadInput);
+  EXPECT_NE(o.err.find("report"), std::string::npos) << o.err;
+  EXPECT_EQ(o.json()["exit"], 2);
+}
+
+TEST_F(Program, AWrongNumberOfThreadsIsBadInput) {
+  for (const char* wrong : {"many", "0", "-1", "65", "2x", ""}) {
+    setenv("TROCAR_THREADS", wrong, 1);
+    EXPECT_EQ(trocar({"list"}).exit, core::kBadInput) << wrong;
+  }
+  unsetenv("TROCAR_THREADS");
+  EXPECT_EQ(trocar({"list"}).exit, core::kDone);
+}
+
+TEST_F(Program, WhatCannotBeWrittenIsToldBeforeAnythingIsDone) {
+  const Outcome o = trocar(
+      {"train", "gynaecology", "--input", "motion:" + motion_file(), "--headless", "--video", "/nowhere/at/all/a.mp4"});
+  EXPECT_EQ(o.exit, core::kEnvironment) << o.err;
+  EXPECT_EQ(trocar({"report", "--list", "--json"}).json()["attempts"].size(), 0u) << "an attempt that never began";
+}
+
+TEST_F(Program, AttemptsAreListedExportedAndForgotten) {
+  const auto train = [&](std::vector<std::string> more) {
+    std::vector<std::string> words{
+        "train", "gynaecology/sterilisation", "--input", "motion:" + motion_file(), "--headless", "--seconds", "0.3",
+        "--json"};
+    words.insert(words.end(), more.begin(), more.end());
+    return trocar(words);
+  };
+  const Outcome first = train({"--trainee", "Ada"});
+  ASSERT_EQ(first.exit, core::kDone) << first.err;
+  EXPECT_EQ(first.json()["attempt"]["number"], 1);
+  const Outcome second = train({"--trainee", "Bob", "--familiarisation", "--seed", "3", "--record", file("b.rec")});
+  ASSERT_EQ(second.exit, core::kDone) << second.err;
+  EXPECT_TRUE(second.json()["passed"].is_null());
+  EXPECT_NE(second.json()["model_hash"], first.json()["model_hash"]) << "another anatomy";
+  EXPECT_EQ(trocar({"replay", file("b.rec"), "--verify"}).exit, core::kDone) << "a replay makes the same anatomy";
+  train({"--no-store"});
+
+  const Json list = trocar({"report", "--list", "--json"}).json()["attempts"];
+  ASSERT_EQ(list.size(), 2u);
+  EXPECT_EQ(list[0]["trainee"], "Ada");
+  EXPECT_EQ(list[1]["mode"], "familiarisation");
+  EXPECT_EQ(list[1]["seed"], 3);
+  EXPECT_TRUE(list[1]["score"].is_null());
+
+  ASSERT_EQ(trocar({"report", "--csv", file("all.csv")}).exit, core::kDone);
+  EXPECT_NE(read(file("all.csv")).find("both.path_m"), std::string::npos);
+  ASSERT_EQ(trocar({"report", "1", "--trace", file("motion.trace.csv")}).exit, core::kDone);
+  EXPECT_GT(read(file("motion.trace.csv")).size(), 500u);
+
+  EXPECT_EQ(trocar({"report", "--forget", "Ada"}).exit, core::kDone);
+  EXPECT_EQ(trocar({"report", "--forget", "Ada"}).exit, core::kGoalNotReached);
+  EXPECT_EQ(trocar({"report", "--list", "--json"}).json()["attempts"].size(), 1u);
+}
+
+TEST_F(Program, AReplayOfADamagedOrOtherRecordingIsWarnedOf) {
+  ASSERT_EQ(trocar({"train", "gynaecology", "--input", "motion:" + motion_file(), "--headless", "--seconds", "0.3",
+                    "--record", file("a.rec"), "--no-store"})
+                .exit,
+            core::kDone);
+  std::string bytes = read(file("a.rec"));
+  std::ofstream(file("torn.rec"), std::ios::binary) << bytes.substr(0, bytes.size() - 10);
+  const Outcome o = trocar({"train", "gynaecology/sterilisation", "--input", "replay:" + file("torn.rec"), "--headless",
+                            "--log", file("log"), "--no-store", "--json"});
+  EXPECT_NE(o.err.find("torn.rec"), std::string::npos) << o.err;
+  EXPECT_NE(o.err.find("was made in gynaecology"), std::string::npos) << o.err;
+  EXPECT_NE(read(file("log")).find("\"event\":\"end\""), std::string::npos);
 }
 
 }  // namespace

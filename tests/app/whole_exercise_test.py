@@ -83,9 +83,9 @@ class Surgeon(Trainee):
         up = unit([0.35 * side, 0.10, 1.0])
         for _ in range(40):
             slant, pull = self.slant(tube, s_clip), self.eyes.tool(grasper)["pull_N"]
-            if (abs(slant) < 0.12 and 0.36 < pull < 1.8) or (pull > 1.6 and abs(slant) < 0.2):
+            if (abs(slant) < 0.16 and 0.36 < pull < 1.8) or (pull > 1.6 and abs(slant) < 0.2):
                 return
-            rise = max(-2.0, min(2.0, 40 * slant)) if pull > 0.45 else 2.0
+            rise = max(-2.0, min(2.0, 30 * slant)) if pull > 0.38 else 1.5
             if pull > 1.7:
                 rise = -1.0
             if abs(rise) < 0.4:
