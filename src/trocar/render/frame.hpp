@@ -59,7 +59,7 @@ struct EndoscopeLook {
   // Camera.
   bool auto_exposure = true;
   float exposure_ev = 0;          ///< [stops] on top; with auto_exposure off this is all there is
-  float exposure_key = 0.115f;    ///< mean scene level that auto exposure aims at (linear)
+  float exposure_key = 0.122f;    ///< mean scene level that auto exposure aims at (linear)
   float exposure_seconds = 0.4f;  ///< time constant
   float exposure_range_ev = 3;    ///< limits, both ways
   float bloom = 0.05f;

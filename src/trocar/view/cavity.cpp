@@ -96,7 +96,12 @@ MeshBuffer around_wall(const sim::Model& model, const tissue::Skin& wall, std::s
   }
   for (const auto& [a, b] : border) join_rows(m, column[b], column[a], std::uint32_t(kMarginRows), false);
   render::vertex_normals(m.positions, m.indices, m.normals);
-  for (const auto& [v, first] : column) m.normals[first] = wall.rest_normal[std::size_t(v)];  // no seam
+  for (const auto& [v, first] : column) {  // no seam: as the wall's, and on its side
+    const Vec3f n = wall.rest_normal[std::size_t(v)];
+    const float side = dot(m.normals[first + 2], n) < 0 ? -1.0f : 1.0f;
+    for (std::uint32_t r = 0; r < std::uint32_t(kMarginRows); ++r) m.normals[first + r] = side * m.normals[first + r];
+    m.normals[first] = n;
+  }
   return m;
 }
 

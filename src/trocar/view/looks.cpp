@@ -124,7 +124,9 @@ Material fold(float alpha) {
 
 Material mesosalpinx() {
   Material m = fold(0.4f);
-  m.vessel_colour = srgb(150, 30, 44);
+  m.wetness = 0.38f;
+  m.film_bump = 0.12f;
+  m.vessel_colour = srgb(148, 26, 40);
   m.vessel_tile = float(kFoldTile);
   m.arcade = true;
   return m;

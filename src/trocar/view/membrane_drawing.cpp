@@ -10,7 +10,7 @@ namespace trocar::view {
 namespace {
 
 constexpr int kFine = 3;            // drawn cells along each side of a cell of the body
-constexpr double kRipple = 0.0005;  // [m] of a fold that is slack
+constexpr double kRipple = 0.0004;  // [m] of a fold that is slack
 constexpr double kTwoPi = 6.28318530717959;
 
 /// Catmull-Rom between b and c.
@@ -97,7 +97,7 @@ void MembraneDrawing::place(const tissue::MembraneState& state) {
     for (int r = 0; r < m_rows; ++r) {
       const double v = double(r) / (m_rows - 1), belly = 4 * v * (1 - v);
       const double ripple = kRipple * belly * (0.2 + 0.8 * slack) *
-                            (std::sin(kTwoPi * s / 0.011 + 2.1 * v) + 0.6 * std::sin(kTwoPi * s / 0.0047 - 3 * v));
+                            (std::sin(kTwoPi * s / 0.011 + 2.1 * v) + 0.2 * std::sin(kTwoPi * s / 0.0047 - 3 * v));
       const Vec3d p = on_line(r, rows, [&](int i) { return m_between[std::size_t(i * m_columns + c)]; });
       m_buffer.positions[std::size_t(r * m_columns + c)] = vec_cast<float>(p + ripple * across);
     }

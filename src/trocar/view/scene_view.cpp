@@ -289,7 +289,8 @@ void SceneView::Parts::list_tools(const sim::State& state, Frame& frame) const {
       frame.rods.push_back({vec_cast<float>(rod.a), vec_cast<float>(rod.b), float(half)});
     }
     for (const LoadedClip& l : loaded) {
-      if (l.hand != int(t) || l.instrument != tool.instrument || tool.clips_left <= 0 || !tool.armed) continue;
+      if (l.hand != int(t) || l.instrument != tool.instrument || tool.clips_left <= 0) continue;
+      if (!tool.armed && tool.aperture < 0.5) continue;  // the one that was there has just been set
       Placement place = placement_of(InstrumentPart::Joint::body, shape);
       place.translation += float(clip_seat(model.tool(state, t))) * place.rotation.column(2);
       DrawItem drawn = item(l.mesh.handle(), *titanium);

@@ -15,6 +15,7 @@ constexpr double kTear = 0.5;                             // of the width, how d
 constexpr double kTearReach = 0.012;                      // [m] along the strand on either side
 constexpr double kSag = 0.10;                             // of the width, where the fold is as drawn
 constexpr double kRipple = 0.0006;                        // [m]
+constexpr std::size_t kFaded = 6;                         // columns over which a free edge runs out
 constexpr int kMarginSteps = 4;                           // columns between an edge and what it runs out on
 constexpr double kMarginFar = 0.03, kMarginNear = 0.012;  // [m] reach to walls, to organs
 constexpr double kCrescent = 0.3;  // of the width: the margin's free border starts this far from the strand
@@ -93,7 +94,9 @@ void SheetDrawing::connect() {
     for (int r = 0; r < kRows; ++r) {
       const double v = double(r) / (kRows - 1);
       const double near = std::min(v, 1 - v);
-      m_buffer.add({}, {to_byte(0.62 + 0.38 * smooth(0, 0.25, near)), 0, 0, 0});
+      const std::size_t left = m_columns.size() - 1 - c;  // a free edge is not seen as one
+      const double end = m_margin[1].empty() && left < kFaded ? double(left) / kFaded : 1;
+      m_buffer.add({}, {to_byte(end * (0.62 + 0.38 * smooth(0, 0.25, near))), 0, 0, 0});
     }
   for (std::size_t c = 0; c + 1 < m_columns.size(); ++c) {
     if (m_columns[c].twin == int(c) + 1) continue;
@@ -104,7 +107,7 @@ void SheetDrawing::connect() {
     std::uint32_t before = at_end ? std::uint32_t((m_columns.size() - 1) * kRows) : 0;
     for (int k = 1; k <= kMarginSteps; ++k) {
       const std::uint32_t row = m_buffer.size();
-      for (int r = 0; r < kRows; ++r) m_buffer.add({}, {to_byte(1 - 0.4 * k / kMarginSteps), 0, 0, 0});
+      for (int r = 0; r < kRows; ++r) m_buffer.add({}, {to_byte(1 - double(k) / kMarginSteps), 0, 0, 0});
       join_rows(m_buffer, at_end ? before : row, at_end ? row : before, kRows, false);
       before = row;
     }

@@ -164,7 +164,7 @@ void main() {
 #if SHADING == 0
   albedo = mix(albedo, TINT, tint);
 #endif
-  albedo *= 1.0 + vec3(0.0, 0.09, -0.13) * (broad.g - 0.5);  // towards yellow here, mauve there
+  albedo *= 1.0 + vec3(0.0, 0.11, -0.22) * (broad.g - 0.5);  // towards yellow here, mauve there
   vec3 relief = BUMP * slope;
 
 #ifdef LOBULES
@@ -241,7 +241,7 @@ void main() {
   vec3 H = normalize(lit.direction + V);
   float facing = clamp(nl * 4.0, 0.0, 1.0) * open;
   float mh = clamp(dot(m, H), 0.0, 1.0), nh = clamp(dot(n, H), 0.0, 1.0);
-  float gloss = 0.25 * FRESNEL * (wet * lobe(mh, FILM2) + (0.35 + 0.65 * wet) * lobe(nh, ROUGH2)) * facing * lit.power;
+  float gloss = 0.31 * FRESNEL * (wet * lobe(mh, FILM2) + (0.35 + 0.65 * wet) * lobe(nh, ROUGH2)) * facing * lit.power;
   float grazing = FRESNEL + (1.0 - FRESNEL) * rim * rim * (1.0 - nv);
 #if SHADING == 2
   vec3 around = 0.7 * mirrored(reflect(-V, m), 0.03, lit.bounce);
@@ -257,10 +257,12 @@ void main() {
   // A fold is thin as a veil in places; vessels and the fat in it (tint) hide what is behind.
   float sheer = mix(ALPHA, RIM_ALPHA, rim) * (0.55 + 0.9 * smoothstep(0.25, 0.8, broad.a));
   sheer = max(sheer, 0.92 * tint);
+  float ends = smoothstep(0.02, 0.4, OPENNESS);  // a fold may run out into nothing
 #ifdef VESSELS
   sheer = max(sheer, max(0.85 * vessel.r, 0.6 * vessel.g));
 #endif
-  float alpha = mix(1.0, min(sheer, 1.0), u_blended);
+  float alpha = mix(1.0, min(sheer, 1.0) * ends, u_blended);
+  shine *= mix(1.0, ends, u_blended);
 #ifdef STAINED
   alpha = max(alpha, smoothstep(0.0, 0.5, max(blood, BURN)) * step(0.001, ALPHA));
 #endif
