@@ -38,12 +38,13 @@ namespace {
 constexpr double kPlayingRate = 62, kRestingRate = 25;  // [pictures/s] at most
 constexpr double kTurnPerPixel = 0.006;                 // [rad]
 constexpr double kZoomPerNotch = 0.12;
-constexpr float kInset = 0.3f;                               // of the picture's width
-constexpr std::uint64_t kNearEnough = 40;                    // ticks: while playing an exact State so old is shown
-constexpr auto kFilmShare = std::chrono::milliseconds(80);   // of each of the window's pictures goes to the film
-constexpr double kRest = 0.3;                                // [s] without a change: drawn at full quality
-constexpr std::uint64_t kExposureStep = 500;                 // [ms] of a camera's time that a jump takes
-constexpr int kScopeEye = 0, kOutsideEye = 1, kFilmEye = 2;  // exposure memories
+constexpr float kInset = 0.3f;                                // of the picture's width
+constexpr std::uint64_t kNearEnough = 40;                     // ticks: while playing an exact State so old is shown
+constexpr auto kFilmShare = std::chrono::milliseconds(80);    // of each of the window's pictures goes to the film
+constexpr double kRest = 0.3;                                 // [s] without a change: drawn at full quality
+constexpr std::uint64_t kExposureStep = 500;                  // [ms] of a camera's time that a jump takes
+constexpr std::uint64_t kSettling = 4, kSettlingStep = 2000;  // pictures, [ms]: before a film begins
+constexpr int kScopeEye = 0, kOutsideEye = 1, kFilmEye = 2;   // exposure memories
 
 /// A software renderer that takes every core would take the simulation's, too. Read by Mesa when the context is made.
 void leave_a_core_to_the_simulation() {
@@ -140,6 +141,7 @@ struct FilmJob {
   PictureSize size;
   std::unique_ptr<Video> video;
   std::uint64_t next = 0;
+  bool settled = false;  ///< has its exposure found what it will begin with?
 };
 
 class Player {
@@ -225,6 +227,7 @@ class Player {
   std::string m_message;
   std::unique_ptr<FilmJob> m_film;
   std::vector<ui::Widget> m_widgets;
+  std::string m_screen;
   std::uint64_t m_logged_tick = Reel::kNowhere;
   bool m_logged_exact = false;
   Clock::time_point m_asked_at = Clock::now();
@@ -543,8 +546,14 @@ void Player::film_on() {
       continue;
     }
     const sim::State& state = trusted || m_footage.empty() ? m_reel.exact() : m_footage.at(tick);
-    render::draw_frame(*m_backend, m_view.frame(state, job.view),
-                       render::Target::off_screen(job.size.width, job.size.height));
+    render::Frame frame = m_view.frame(state, job.view);
+    const auto draw_at = [&](std::uint64_t clock) {
+      frame.tick = clock;
+      render::draw_frame(*m_backend, frame, render::Target::off_screen(job.size.width, job.size.height));
+    };
+    for (std::uint64_t i = 0; !job.settled && i < kSettling; ++i) draw_at(i * kSettlingStep);
+    job.settled = true;
+    draw_at(kSettling * kSettlingStep + tick - job.plan.from);
     job.video->add(m_backend->read_pixels());
     if (job.video->broken()) return end_film("no film: ffmpeg gave up; is the disk full?");
     if (++job.next < job.plan.pictures()) continue;
@@ -564,15 +573,14 @@ void Player::end_film(const std::string& message) {
 /// What can be pressed, and where, for tests that drive the real window.
 void Player::log_widgets() {
   const std::vector<ui::Widget> widgets = ui::take_widgets();
-  if (!m_log.on() || widgets == m_widgets) return;
+  const char* screen = m_film ? "film" : m_help ? "help" : m_menu ? "menu" : "player";
+  if (!m_log.on() || (widgets == m_widgets && m_screen == screen)) return;
   m_widgets = widgets;
+  m_screen = screen;
   Json places = Json::object();
   for (const ui::Widget& w : widgets) places[w.id] = {w.x, w.y};
   const auto place = [](const Area& a) { return Json{a.x, a.y, a.width, a.height}; };
-  m_log.event("screen", {{"name", m_film   ? "film"
-                                  : m_help ? "help"
-                                  : m_menu ? "menu"
-                                           : "player"},
+  m_log.event("screen", {{"name", screen},
                          {"widgets", places},
                          {"large", place(m_main)},
                          {"small", place(m_small)},

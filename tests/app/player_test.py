@@ -126,7 +126,7 @@ def find_times(player, attempt):
     xdo("mousemove", x - 0.3 * bar[2], y - 14, "mousedown", 1)
     for step in range(12):
         xdo("mousemove", x - (0.3 - 0.05 * step) * bar[2], y - 14)
-        time.sleep(0.1)
+        time.sleep(0.25)
     xdo("mouseup", 1)
     scrubbed = player.shows("the place where scrubbing ended", since)
     time.sleep(0.5)
@@ -149,8 +149,10 @@ def play(player):
     since = player.key("Home", "Next")
     mark = player.wait("Page Down to jump to a mark",
                        lambda e: e["event"] == "shown" and e["exact"] and e["tick"] > 0, since)
+    last = player.shows("End", player.key("End"))["tick"]
     since = player.key("Prior")
-    player.wait("Page Up to jump back", lambda e: e["event"] == "shown" and e["tick"] < mark["tick"], since)
+    player.wait("Page Up to jump back to a mark",
+                lambda e: e["event"] == "shown" and mark["tick"] <= e["tick"] < last, since)
 
 
 def look_around(player):
@@ -243,8 +245,9 @@ def leave(player):
     for key, screen in (("F1", "help"), ("Escape", "player"), ("Escape", "menu")):
         since = player.key(key)
         player.wait(f"{key} for: {screen}", lambda e: e["event"] == "screen" and e["name"] == screen, since)
-    x, y = player.last("screen")["widgets"]["Quit"]
-    player.click(x, y)
+    menu = player.wait("the button to quit", lambda e: e["event"] == "screen" and "Quit" in e["widgets"], since)
+    time.sleep(0.5)  # the menu has found its size and place
+    player.click(*player.last("screen")["widgets"].get("Quit", menu["widgets"]["Quit"]))
     player.process.wait(timeout=30)
     expect(player.process.returncode == 0, f"the player ended with exit {player.process.returncode}")
 
