@@ -54,4 +54,7 @@ training::Attempt demonstrate(training::Store& store, const std::string& exercis
 /// A number in the result, by a path like "/metrics/both/path_m"; nothing where there is none.
 std::optional<double> number_in(const Json& result, const std::string& pointer);
 
+/// A member that is a text; empty where it is something else or not there.
+std::string text_in(const Json& object, const char* key);
+
 }  // namespace trocar::app

@@ -28,6 +28,7 @@ tr.sum td,tr.sum th{font-weight:700;border-top:2px solid var(--ink)}
 .pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(13.5rem,1fr));gap:.9rem}
 figure{margin:0}figure img{width:100%;height:auto;border-radius:3px;display:block;background:#000}
 .views{display:grid;grid-template-columns:repeat(auto-fit,minmax(13rem,1fr));gap:.8rem}
+.curves{grid-template-columns:repeat(auto-fill,minmax(17rem,1fr))}
 svg{width:100%;height:auto;display:block}.legend svg{display:inline-block;width:28px;height:8px;vertical-align:middle}
 .legend span{margin-right:1rem;white-space:nowrap}
 .line{fill:none;stroke-width:1.5;stroke-linejoin:round}

@@ -146,7 +146,7 @@ std::string metrics_section(const Report& r) {
       "range.</caption>\n<thead><tr><th>metric</th>"
       "<th>unit</th>";
   for (std::size_t h = 0; h < hands; ++h)
-    out += fmt::format("<th class=\"n\">{}</th>", escaped(metrics["hands"][h].value("name", std::string("hand"))));
+    out += fmt::format("<th class=\"n\">{}</th>", escaped(text_in(metrics["hands"][h], "name")));
   out += "<th class=\"n\">all</th>";
   if (!earlier.results.empty()) out += fmt::format("<th class=\"n\">before ({})</th>", earlier.results.size());
   if (scripted) out += "<th class=\"n\">scripted surgeon</th>";
@@ -180,7 +180,8 @@ std::string learning_section(const Report& r) {
     const Json result = result_of(a);
     curves[0].values.push_back(a.score.value_or(none));
     // An attempt that did not reach its end has no time to compare.
-    const bool whole = result.value(Json::json_pointer("/assessment/finished"), false);
+    const Json::json_pointer finished("/assessment/finished");
+    const bool whole = result.contains(finished) && result[finished] == true;
     curves[1].values.push_back(whole ? number_in(result, "/exercise_seconds").value_or(none) : none);
     curves[2].values.push_back(whole ? 1000 * number_in(result, "/metrics/both/path_m").value_or(none) : none);
     if (a.uuid == r.attempt.uuid) here = int(i);
@@ -188,7 +189,7 @@ std::string learning_section(const Report& r) {
   std::string out = fmt::format(
       "<section><h2>Learning curve</h2>\n<p>{} attempts at this exercise, in the order in which "
       "they began; this one is ringed. Time and path only where the exercise was done to its end.</p>\n"
-      "<div class=\"views\">\n",
+      "<div class=\"views curves\">\n",
       r.history.size());
   for (const Curve& c : curves) out += curve(r, c, here);
   return out + "</div></section>\n";

@@ -120,7 +120,7 @@ std::vector<PlotMark> error_marks(const Json& result) {
   if (!result.contains(at) || !result[at].is_array()) return marks;
   for (const Json& e : result[at])
     if (e.is_object() && e.contains("at_s") && e["at_s"].is_number())
-      marks.push_back({e["at_s"].get<double>(), e.value("code", std::string("error")), true});
+      marks.push_back({e["at_s"].get<double>(), text_in(e, "code"), true});
   return marks;
 }
 

@@ -22,10 +22,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string text_in(const Json& object, const char* key) {
-  return object.is_object() && object.contains(key) && object[key].is_string() ? object[key].get<std::string>() : "";
-}
-
 double real_in(const Json& object, const char* key, double otherwise = 0) {
   return object.is_object() && object.contains(key) && object[key].is_number() ? object[key].get<double>() : otherwise;
 }
@@ -77,15 +73,15 @@ std::string head(const Report& r) {
   if (!r.attempt.input.empty()) facts.push_back("by " + r.attempt.input.substr(0, r.attempt.input.find(':')));
   if (!r.attempt.started.empty()) facts.push_back(r.attempt.started);
   for (std::size_t i = 0; i < facts.size(); ++i) out += (i ? " · " : "") + escaped(facts[i]);
-  out += fmt::format("</p>\n<div class=\"verdict {}\"><b class=\"word\">{}</b>", kind, word);
+  out += fmt::format("</p>\n<div class=\"verdict {}\"><b class=\"word\">{}</b>\n", kind, word);
   const Json& score = part_of(part_of(r.result, "assessment"), "score");
   if (score.is_object() && score.contains("total"))
-    out += fmt::format("<span><b>{:.1f}</b> of 100, pass mark {:.0f}</span>", real_in(score, "total"),
+    out += fmt::format("<span><b>{:.1f}</b> of 100, pass mark {:.0f}</span>\n", real_in(score, "total"),
                        real_in(score, "pass_mark", 80));
   if (r.result.contains("exercise_seconds"))
-    out += fmt::format("<span><b>{}</b> min:s</span>", minutes(real_in(r.result, "exercise_seconds")));
+    out += fmt::format("<span><b>{}</b> min:s</span>\n", minutes(real_in(r.result, "exercise_seconds")));
   else
-    out += fmt::format("<span><b>{}</b> min:s simulated</span>", minutes(r.attempt.seconds));
+    out += fmt::format("<span><b>{}</b> min:s simulated</span>\n", minutes(r.attempt.seconds));
   if (const Json& errors = part_of(part_of(r.result, "assessment"), "errors"); errors.is_array())
     out += fmt::format("<span><b>{}</b> {}</span>", errors.size(), errors.size() == 1 ? "error" : "errors");
   out += "</div>\n";

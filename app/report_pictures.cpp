@@ -86,8 +86,7 @@ std::vector<Look> moments_of(const Json& result) {
   if (moments == result.end() || !moments->is_array()) return looks;
   for (const Json& m : *moments)
     if (m.is_object() && m.contains("tick") && m["tick"].is_number_unsigned())
-      looks.push_back(
-          {m["tick"].get<std::uint64_t>(), m.value("what", std::string()), m.value("text", std::string()), {}});
+      looks.push_back({m["tick"].get<std::uint64_t>(), text_in(m, "what"), text_in(m, "text"), {}});
   return looks;
 }
 

@@ -487,6 +487,34 @@ TEST_F(StoreTest, FilesThatAreNoResultsAreLeftAlone) {
   EXPECT_TRUE(fs::exists(folder() / "waiting" / "a.attempt.json"));
 }
 
+TEST_F(StoreTest, StrangeResultsAndNumbersAreNoHarm) {
+  Store store(folder());
+  for (const char* result :
+       {"", "[]", "{\"assessment\":[]}", "{\"assessment\":{\"score\":7}}", "{\"ticks\":-1,\"passed\":3}"}) {
+    Attempt a = attempt();
+    AttemptLock lock = store.begin(a);
+    a.state = AttemptState::finished;
+    fill_from_result(result, a);
+    EXPECT_FALSE(a.score || a.passed) << result;
+    EXPECT_TRUE(store.end(a, lock).in_database);
+  }
+  Attempt huge = attempt();
+  huge.uuid = new_uuid();
+  huge.number = std::numeric_limits<std::int64_t>::max();
+  fs::create_directories(folder() / "waiting");
+  std::ofstream(folder() / "waiting" / (huge.uuid + ".attempt.json")) << to_json(huge);
+  EXPECT_EQ(Store(folder()).find(huge.uuid)->number, 6) << "nobody uses up the numbers";
+}
+
+TEST_F(StoreTest, AnAttemptThatNeverBeganLeavesNothing) {
+  Store store(folder());
+  Attempt a = attempt();
+  AttemptLock lock = store.begin(a);
+  store.withdraw(a, lock);
+  EXPECT_FALSE(lock.held());
+  EXPECT_TRUE(Store(folder()).list().empty());
+}
+
 TEST_F(StoreTest, AResultOfAnotherStoreWaitsForItsOwn) {
   Attempt a = attempt();
   a.uuid = new_uuid();

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
-#include <thread>
+#include <tuple>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -164,7 +164,8 @@ std::optional<AttemptState> state_in(Database& db, const std::string& uuid) {
 void write_row(Database& db, Attempt& a) {
   const std::int64_t trainee = trainee_id(db, a.trainee);
   Query taken(db, "SELECT 1 FROM attempt WHERE number = ? AND uuid <> ?");
-  const bool number_is_free = a.number > 0 && !taken.bind(a.number).bind(a.uuid).next();
+  const bool number_is_free =
+      a.number > 0 && std::uint64_t(a.number) < kLargestNumber && !taken.bind(a.number).bind(a.uuid).next();
   Query q(db,
           "INSERT INTO attempt (number, uuid, trainee, exercise, title, mode, seed, input, started, ended, state, "
           "score, passed, seconds, ticks, recording, result, program_version, model_hash) "
@@ -219,8 +220,8 @@ void fill_from_result(const std::string& result, Attempt& a) {
   if (in.contains("passed") && in["passed"].is_boolean()) a.passed = in["passed"].get<bool>();
   if (in.contains("ticks") && in["ticks"].is_number_unsigned()) a.ticks = in["ticks"].get<std::uint64_t>();
   a.seconds = double(a.ticks) * sim::kTick;
-  const Json total = in.value("/assessment/score/total"_json_pointer, Json());
-  if (total.is_number()) a.score = total.get<double>();
+  const Json::json_pointer total("/assessment/score/total");
+  if (in.contains(total) && in[total].is_number()) a.score = in[total].get<double>();
   if (a.mode == AttemptMode::familiarisation) a.score.reset(), a.passed.reset();
 }
 
