@@ -129,9 +129,32 @@ int cut_organ(const ToolModel& model, const ToolShape& shape, const tissue::Netw
 
 namespace {
 
-/// How deep into the fold the blades' plane crosses the way from node a to node b.
-double depth_at(Vec3d a, Vec3d b, float depth_a, float depth_b) noexcept {
-  return double(depth_a) + a.y / (a.y - b.y) * (double(depth_b) - double(depth_a));
+/// A point of a fold in the jaw frame, and how deep in the fold it lies.
+struct FoldPoint {
+  Vec3d at;
+  double depth;
+};
+
+/// How deep the blades reach into a triangle of the fold; 0 where they miss it. The blades' plane crosses it in a
+/// straight line; nine points of that line are asked whether they lie between the blades.
+double reach_into(const ToolModel& model, const ToolShape& shape, const FoldPoint (&corner)[3]) noexcept {
+  FoldPoint line[2];
+  int ends = 0;
+  for (int k = 0; k < 3 && ends < 2; ++k) {
+    const FoldPoint &a = corner[k], &b = corner[(k + 1) % 3];
+    if ((a.at.y > 0) == (b.at.y > 0)) continue;
+    const double w = a.at.y / (a.at.y - b.at.y);
+    line[ends++] = {a.at + w * (b.at - a.at), a.depth + w * (b.depth - a.depth)};
+  }
+  double deepest = 0;
+  constexpr int kPoints = 8;
+  for (int i = 0; ends == 2 && i <= kPoints; ++i) {
+    const double w = double(i) / kPoints;
+    const Vec3d p = line[0].at + w * (line[1].at - line[0].at);
+    const bool between = p.z > 0 && p.z < model.jaw_length && std::fabs(p.x) < shape.half_opening(p.z) + kBlade;
+    if (between) deepest = std::max(deepest, line[0].depth + w * (line[1].depth - line[0].depth));
+  }
+  return deepest;
 }
 
 }  // namespace
@@ -164,17 +187,19 @@ FoldCut cut_membrane(const ToolModel& model, const ToolShape& shape, const tissu
   if (!any) return cut;
   for (int s = 0; s < network.springs; ++s) {
     if (tissue::spring_scale(network, state.network, s) <= 0 || !crosses(s)) continue;
-    const auto [a, b] = ends(s);
-    cut.depth = std::max(cut.depth, depth_at(place(a), place(b), depth[size_t(a)], depth[size_t(b)]));
     if (joins(s)) continue;
     tissue::cut_spring(network, state.network, s);
     ++cut.severed;
   }
   for (size_t t = 0; t < sheet.triangles.size(); ++t) {
-    Vec3d corner[3];
-    for (size_t k = 0; k < 3; ++k) corner[k] = place(sheet.triangles[t][k]);
+    FoldPoint corner[3];
+    for (size_t k = 0; k < 3; ++k) {
+      const int node = sheet.triangles[t][k];
+      corner[k] = {place(node), double(depth[size_t(node)])};
+    }
     for (int k = 0; k < 3; ++k)
-      if (crosses_blades(model, shape, corner[k], corner[(k + 1) % 3])) parted[t] = 1;
+      if (crosses_blades(model, shape, corner[k].at, corner[(k + 1) % 3].at)) parted[t] = 1;
+    cut.depth = std::max(cut.depth, reach_into(model, shape, corner));
   }
   tear_bends(sheet, parted, state);
   return cut;

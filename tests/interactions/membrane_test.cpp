@@ -1,0 +1,229 @@
+// Hands on a fold, in the small scene: it cannot be passed from either side, it can be held, and scissors part it.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <trocar/interactions/cut.hpp>
+
+#include "../sim/small_scene.hpp"
+
+using namespace trocar;
+using namespace trocar::interactions;
+
+namespace {
+
+/// A square sheet in the plane z = 0, held all round, and a rod that goes where a test says.
+struct Drum {
+  tissue::MembraneModel sheet;
+  tissue::MembraneState state;
+  tissue::MembraneWork work;
+  tissue::Skin skin;
+  tissue::SkinPose pose;
+  std::vector<std::uint8_t> torn;
+  std::vector<Vec3f> side;
+  NetworkLoads loads;
+  Vec3d felt{0, 0, 0};  ///< by the rod, last tick [N]
+
+  Drum() {
+    tissue::MembraneDescription d;
+    d.columns = d.rows = 13;
+    for (int r = 0; r < 13; ++r)
+      for (int c = 0; c < 13; ++c) {
+        d.positions.push_back({0.0028 * (c - 6), 0.0028 * (r - 6), 0});
+        d.held.push_back(r == 0 || c == 0 || r == 12 || c == 12);
+      }
+    d.thickness = 0.0005;
+    d.youngs_modulus = 17e3;
+    d.law = {0, 0.15, 2.5};
+    d.density = 1000;
+    d.damping_time = 4e-4;
+    d.bending_damping_time = 5e-4;
+    d.global_damping = 8;
+    sheet = build(d, sim::kTick);
+    state = rest_state(sheet);
+    work = make_work(sheet, 4096);
+    skin.triangles = sheet.triangles;
+    for (int i = 0; i < sheet.nodes(); ++i) {
+      tissue::SkinWeights w;
+      w.node.fill(i);
+      w.row.fill(sheet.network.row_of_node[size_t(i)]);
+      w.weight[0] = 1;
+      skin.weights.push_back(w);
+      skin.rest.push_back(vec_cast<float>(sheet.network.rest[size_t(i)]));
+      skin.rest_normal.push_back({0, 0, 1});
+    }
+    index_skin(skin);
+    pose = make_pose(skin);
+    torn.assign(sheet.triangles.size(), 0);
+    side.resize(sheet.triangles.size() * size_t(kToolParts));
+    loads.reserve(4096);
+  }
+  bool step(Capsule rod) {
+    ToolShape shape;
+    const Capsule away{{1, 1, 1}, {1, 1, 1.01}, 0.001};
+    shape.part[kShaft] = rod;
+    shape.part[kJawA] = shape.part[kJawB] = away;
+    pose_skin(sheet.network, skin, state.network, pose);
+    loads.clear();
+    const SheetView view{{&skin, &pose, &sheet.network, &state.network}, torn, 0.00025};
+    tool_on_sheet(shape, ToolState{}, 0, kMembraneBase, view, side, loads);
+    loads.sort();
+    const bool fine = advance(sheet, {}, loads.sorted, loads.reaction, state, work).fine() && !loads.overflowed;
+    felt = {0, 0, 0};
+    for (const Vec3f& f : loads.reaction) felt -= vec_cast<double>(f);
+    return fine;
+  }
+  double height(int column, int row) const { return position(sheet.network, state.network, row * 13 + column).z; }
+  /// The middle of the sheet; the rod's end comes down on it at `speed` and stops 8 mm below.
+  bool driven(double from, double to, double speed, Vec3d along, double radius) {
+    const int ticks = int(std::fabs(to - from) / (speed * sim::kTick));
+    bool fine = true;
+    for (int i = 0; i < ticks + 200; ++i) {
+      const double z = from + (to - from) * std::min(1.0, double(i) / ticks);
+      const Vec3d tip{0.0003, 0.0004, z};
+      fine = step({tip - 0.08 * along, tip, radius}) && fine;
+    }
+    return fine;
+  }
+};
+
+TEST(Fold, NoRodPassesFromAboveOrBelowAtTheFastestHandsSpeed) {
+  for (double sign : {1.0, -1.0})
+    for (double speed : {0.05, 0.6})
+      for (double radius : {0.0006, 0.0025}) {
+        Drum drum;
+        ASSERT_TRUE(drum.driven(sign * 0.006, -sign * 0.008, speed, {0, 0, -sign}, radius));
+        // The sheet's middle lies before the tip, on the side from which the rod does not come.
+        EXPECT_LT(sign * drum.height(6, 6), -0.0075) << sign << " " << speed << " " << radius;
+        EXPECT_GT(sign * drum.felt.z, 1e-3);  // and pushes back
+      }
+}
+
+TEST(Fold, ARodAcrossItDoesNotPassBetweenItsNodes) {
+  // A thin rod along a column's middle: no node is within its radius, only edges are.
+  for (double sign : {1.0, -1.0}) {
+    Drum drum;
+    for (int i = 0; i <= 60; ++i) {
+      const double z = sign * (0.003 - 0.0002 * i);
+      ASSERT_TRUE(drum.step({{0.0014, -0.05, z}, {0.0014, 0.05, z}, 0.0006}));
+    }
+    for (int row : {4, 6, 8}) {
+      EXPECT_LT(sign * drum.height(6, row), -0.004) << row;
+      EXPECT_LT(sign * drum.height(7, row), -0.004) << row;
+    }
+  }
+}
+
+TEST(Fold, WhatGoesAroundItsEdgeIsForgotten) {
+  Drum drum;
+  for (int i = 0; i <= 40; ++i) ASSERT_TRUE(drum.step({{0, 0, 0.05}, {0, 0, 0.004 - 1e-4 * i}, 0.001}));
+  bool known = false;
+  for (const Vec3f& s : drum.side) known = known || dot(s, s) > 0;
+  EXPECT_TRUE(known);
+  ASSERT_TRUE(drum.step({{0, 0, 0.05}, {0, 0, 0.02}, 0.001}));
+  for (const Vec3f& s : drum.side) EXPECT_EQ(dot(s, s), 0);
+}
+
+/// An instrument of the small scene through a port of the test's own.
+struct Tool {
+  ToolModel model;
+  kinematics::FulcrumPose pose;
+  Tool(int hand, Vec3d port, Vec3d tip, double roll) : model(small::model().hands[size_t(hand)].rack.front()) {
+    model.port = port;
+    pose = kinematics::inverse(port, tip, roll);
+  }
+  ToolShape shape(double aperture) const { return shape_of(model, pose, aperture); }
+};
+
+TEST(Fold, IsGraspedBesideTheTubeAndFollowsTheJaws) {
+  small::Table t(small::model());
+  t.step();
+  Tool grasper(small::kGrasper, {0.017, 0.060, -0.008}, {0.017, -0.004, -0.008}, 0);
+  const TissueView view{t.model.bodies, t.state.strands, {}, t.work.sheets};
+  ToolState tool;
+  for (int i = 0; i <= 400; ++i) {
+    tool.handle = std::min(1.0, i / 300.0);
+    update_grip(grasper.model, grasper.shape(tool.aperture), view, tool);
+  }
+  ASSERT_GE(tool.holds, 2);
+  EXPECT_GT(tool.pinch, 0.5 * grasper.model.pinch_max);
+  for (int h = 0; h < tool.holds; ++h) {
+    ASSERT_EQ(tool.hold[h].body, kMembraneBase);
+    EXPECT_NE(t.model.membranes[0].sheet.network.fixed[size_t(tool.hold[h].element)], tissue::kHeld);
+  }
+  // The jaws draw it 4 mm aside; it comes along and pulls back.
+  Vec3d pull{0, 0, 0};
+  for (int i = 0; i < 400; ++i) {
+    grasper.pose = kinematics::inverse(grasper.model.port, {0.017, -0.004 - 1e-5 * i, -0.008}, 0);
+    std::vector<StrandLoads> strands(2);
+    std::vector<NetworkLoads> solids(2), folds(1);
+    folds[0].reserve(64);
+    hold_loads(grasper.shape(tool.aperture), 0, view, tool, strands, solids, folds);
+    folds[0].sort();
+    const tissue::MembraneModel& sheet = t.model.membranes[0].sheet;
+    ASSERT_TRUE(
+        advance(sheet, {}, folds[0].sorted, folds[0].reaction, t.state.membranes[0], t.work.membrane_work[0]).fine());
+    pose_skin(sheet.network, t.model.membranes[0].skin, t.state.membranes[0].network, t.work.sheet_poses[0]);
+    pull = {0, 0, 0};
+    for (const Vec3f& f : folds[0].reaction) pull -= vec_cast<double>(f);
+  }
+  EXPECT_NEAR(
+      held_point(view, tool.hold[0]).y - small::model().membranes[0].sheet.network.rest[size_t(tool.hold[0].element)].y,
+      -0.004, 0.0015);
+  EXPECT_GT(pull.y, 1e-3);
+}
+
+TEST(Fold, ScissorsPartItAsDeepAsTheyReachAndSayHowDeep) {
+  for (double reach : {0.004, 0.008}) {
+    small::Table t(small::model());
+    const sim::MembraneModel& fold = t.model.membranes[0];
+    const Tool scissors(small::kScissors, {0.017, 0, 0.1}, {0.017, 0, -reach}, 1.57079632679489662);
+    const FoldCut cut = cut_membrane(scissors.model, scissors.shape(0.1), fold.sheet, fold.depth, t.state.membranes[0],
+                                     t.state.torn[0], t.work.parts);
+    EXPECT_GT(cut.severed, 3);
+    EXPECT_NEAR(cut.depth, reach - small::kTubeRadius, 0.0012);
+    int open = 0;
+    for (size_t i = 0; i < fold.sheet.triangles.size(); ++i) {
+      if (!t.state.torn[0][i]) continue;
+      ++open;
+      for (int v : fold.sheet.triangles[i])
+        EXPECT_NEAR(fold.sheet.network.rest[size_t(v)].x, 0.017, 0.0035) << "only where the blades were";
+    }
+    EXPECT_GT(open, 1);
+    // The same blades find nothing more, and what is left is calm.
+    EXPECT_EQ(cut_membrane(scissors.model, scissors.shape(0.1), fold.sheet, fold.depth, t.state.membranes[0],
+                           t.state.torn[0], t.work.parts)
+                  .severed,
+              0);
+    t.steps(500);
+    EXPECT_EQ(t.flags & ~std::uint32_t(tissue::StepReport::kInverted), 0u);
+  }
+}
+
+TEST(Fold, ACutThroughItLetsTheTubeRiseFartherThere) {
+  // Whole, the fold holds the tube down; cut along its middle column it holds it less.
+  const auto lifted = [](bool cut) {
+    small::Table t(small::model());
+    const sim::MembraneModel& fold = t.model.membranes[0];
+    if (cut)
+      for (int s = 0; s < fold.sheet.network.springs; ++s)
+        cut_spring(fold.sheet.network, t.state.membranes[0].network, s);
+    for (int i = 0; i < 600; ++i) {
+      sim::StepReport report;
+      sim::StepContext context{t.model, t.input, t.state, t.work, report};
+      for (const sim::Stage& stage : sim::stages()) {
+        if (std::string(stage.name) == "advance strands") {
+          tissue::StrandLoad pull;
+          pull.element = 8;
+          pull.f0 = {0, 0, 0.1};
+          t.work.strand_loads[small::kTube].add(pull, {});
+        }
+        stage.run(context);
+      }
+    }
+    return t.state.strands[small::kTube].x[8].z;
+  };
+  EXPECT_GT(lifted(true), 1.1 * lifted(false));
+}
+
+}  // namespace
