@@ -155,9 +155,15 @@ class Attack {
   Vec3d somewhere(double radius) {
     return {m_random.uniform(-radius, radius), m_random.uniform(-radius, radius), m_random.uniform(-radius, radius)};
   }
-  Vec3d some_place() {
+  /// Of some places on the organ the one nearest to the hand's trocar: what is behind it is hard to take hold of.
+  Vec3d some_place(size_t h) {
     const std::vector<Vec3d> p = places(m_model, m_state, m_bodies[m_target]);
-    return p[size_t(m_random.next() % p.size())];
+    Vec3d best = p[size_t(m_random.next() % p.size())];
+    for (int i = 0; i < 6; ++i) {
+      const Vec3d other = p[size_t(m_random.next() % p.size())];
+      if (length(other - m_model.hands[h].port) < length(best - m_model.hands[h].port)) best = other;
+    }
+    return best;
   }
   Vec3d axis(size_t h) const { return normalised(m_hands[h].tip - m_model.hands[h].port, Vec3d{0, 0, -1}); }
 
@@ -179,7 +185,7 @@ class Attack {
         break;
       default:
         begin(m_random.next() % 3 == 0 ? int(poke) : int(approach), 500, 900);
-        hand.way = some_place() + 0.006 * axis(h) + somewhere(0.003);
+        hand.way = some_place(h) + 0.006 * axis(h) + somewhere(0.003);
         hand.speed = m_random.uniform(0.15, kSpeed);
         m_input.tools[h].instrument = std::int32_t(m_random.next() % m_model.hands[h].rack.size());
     }

@@ -44,9 +44,9 @@ const KernelSet*& kernels() {
 
 // ---- cells pushed open
 
-constexpr float kReleased = 0.2f;  // share of the rest volume at which a cell is let go
-constexpr float kOpening = 0.002f;  // time constant with which it takes its shape again [s]
-constexpr float kBlend = 0.2f;      // share of its nodes' velocities that one sub-step replaces
+constexpr float kReleased = 0.2f;   // share of the rest volume at which a cell is let go
+constexpr float kOpening = 0.001f;  // time constant with which it takes its shape again [s]
+constexpr float kBlend = 0.3f;      // share of its nodes' velocities that one sub-step replaces
 
 Vec3f place(const NodeState& n) { return {n.x, n.y, n.z}; }
 Vec3f speed(const NodeState& n) { return {n.vx, n.vy, n.vz}; }
@@ -118,10 +118,11 @@ Mat3d turn_of_body(const NetworkModel& m, const NetworkState& s) {
   return to_mat3(turn);
 }
 
-/// Each listed cell goes back to its drawn shape, turned as the body is: in cell after cell the velocities become those
-/// of a cell that takes its shape within kOpening, whatever the springs want, so that none can hold a cell inside out.
-/// A velocity that is replaced cannot be pumped up, as impulses along the volume's gradient can where a cell is nearly
-/// flat; and as all cells agree on the turn, neighbours do not undo each other's work. Momentum is conserved.
+/// Each listed cell goes back to its drawn shape, turned as the body is: in cell after cell the velocities come nearer
+/// to those of a cell that takes its shape within kOpening. That is more than springs withstand, so none can hold a
+/// cell inside out; and as all cells agree on the turn, neighbours do not undo each other's work. A velocity that is
+/// partly replaced cannot be pumped up without end, as impulses along the volume's gradient were where cells are nearly
+/// flat; replaced altogether it would leave the springs no say, which is unstable. Momentum is conserved.
 void push_open(const NetworkModel& m, std::span<const int> open, const Mat3d& turn, const NodeState* in,
                NodeState* out) {
   const float dt = float(m.dt);

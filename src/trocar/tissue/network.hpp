@@ -5,8 +5,10 @@
 //   h = f - gamma m v - g,  a = B h / m,  v += dt a,  x += dt v (the new v)              [KCM99 eq.3]
 // with c_k the polynomial of [KCM99 eq.5] (law.hpp) and whole sub-steps of a tick from the true limit (stability.hpp).
 // Deviations: the sign of g (as printed a stretched spring would repel); gamma is per mass and taken implicitly; each
-// spring also damps along itself; loads with stiffness are taken implicitly, so that any stiffness is stable; a cell
-// that collapses is driven open again, because its mirror image would satisfy all springs.
+// spring also damps along itself; below half its rest length a spring's direction is r/(l/2) instead of r/|r|, because
+// compression's transverse stiffness, force over length, would grow beyond what the step bears; loads with stiffness
+// are taken implicitly, so that any stiffness is stable; a cell that collapses is driven back to its drawn shape, turned
+// as the body is, because its mirror image would satisfy all springs.
 //
 // Every spring is evaluated from both its ends, by whichever node gathers it: no scatter, no colouring, and the same
 // bits for any number of threads and any SIMD width. Nodes are stored as rows in reverse Cuthill-McKee order.
