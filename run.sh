@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and starts Trocar.
 #
-#   ./run.sh                   the sterilisation exercise: in a window, or where there is no display the scripted
-#                              surgeon does it and leaves pictures, a recording and a result under out/first-light
+#   ./run.sh                   the start screen of the trainer; where there is no display the scripted surgeon does the
+#                              sterilisation and leaves pictures, a recording and a result under out/first-light
 #   ./run.sh build             stops after the build; the program is build/release/trocar
 #   ./run.sh ARGUMENTS...      starts the program with these (./run.sh --help, ./run.sh list, ...)
 set -euo pipefail
@@ -19,7 +19,7 @@ if [ $# -gt 0 ]; then
   exec "$program" "$@"
 fi
 if [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]; then
-  exec "$program" train "$exercise"
+  exec "$program" train
 fi
 
 echo "run: no display, so the scripted surgeon does $exercise" >&2

@@ -279,8 +279,8 @@ void Window::on_key(GLFWwindow* window, int key, int, int action, int mods) {
     if (k.glfw == key) w.m_next.pressed.set(k.key);
 }
 
-void Window::on_button(GLFWwindow* window, int button, int action, int) {
-  if (action == GLFW_PRESS) of(window).m_buttons_pressed |= 1u << button;
+void Window::on_button(GLFWwindow* window, int button, int, int) {
+  of(window).m_buttons_pressed |= 1u << button;  // pressed or let go: it was down in this picture's time
 }
 
 void Window::on_cursor(GLFWwindow* window, double x, double y) {

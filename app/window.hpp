@@ -100,7 +100,7 @@ class Window {
   std::vector<TypedKey> m_typed, m_next_typed;
   double m_cursor_x = 0, m_cursor_y = 0, m_last_time = 0, m_picture_time = 0, m_least_time = 1.0 / 62;
   bool m_captured = false, m_cursor_known = false, m_scale_changed = false;
-  unsigned m_buttons_pressed = 0;                 ///< since the last picture, even if up again
+  unsigned m_buttons_pressed = 0;                 ///< down at any time since the last picture
   std::vector<int> m_keys_pressed, m_keys_shown;  ///< the same; those that this picture's menus were told
   int m_width = 0, m_height = 0;
   float m_scale = 1, m_text_size = 1;

@@ -216,7 +216,8 @@ class Pad:
 
     def hold(self, seconds, **sticks):
         self.send(**sticks)
-        time.sleep(seconds)
+        speed = self.eyes.pose["speed"] if self.eyes.pose else 1.0  # in slow motion hands are slow, too
+        time.sleep(seconds / max(0.15, min(1.0, speed)))
         self.send()
 
     def unplug(self):
@@ -333,7 +334,8 @@ class Trainee:
         start, last = self.eyes.pose["tick"], [None]
 
         def still():
-            tip, tick = self.eyes.tool()["tip_mm"], self.eyes.pose["tick"]
+            tool, tick = self.eyes.tool(), self.eyes.pose["tick"]
+            tip = tool["tip_mm"] + [10 * x for x in tool["opening"]]
             if tick < start + 120 or (last[0] and last[0][0] == tick):
                 return False
             before, last[0] = last[0], (tick, tip)
@@ -359,7 +361,7 @@ class Trainee:
 
     def roll_across(self, along, tolerance=0.05):
         """Turns the jaws until they open across the direction along()."""
-        for _ in range(14):
+        for _ in range(25):
             tool = self.eyes.tool()
             shaft, opening = tool["shaft"], tool["opening"]
             flat = along()
