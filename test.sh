@@ -2,28 +2,64 @@
 # Installs what is missing, builds the release preset with its tests, and runs them.
 #
 #   ./test.sh          the quick ones (with the first build under 15 minutes on two cores)
-#   ./test.sh soak     the long ones: abuse, fuzzing, the matrix of compilers, instruction sets and threads
+#   ./test.sh soak     the long ones: abuse, kills, fuzzing, the matrix of compilers, instruction sets and threads
 #
+# TROCAR_FUZZ_SECONDS (default 600) is how long each fuzz target runs in the soak, two at a time.
 # No display and no network (apt aside) needed. Exit 0 only if every test that ran passed and at least one ran.
 set -euo pipefail
 cd "$(dirname "$0")"
 which=${1:-quick}
 case "$which" in
   quick) job=test; filter=(-LE '^soak$') ;;
-  soak) job=soak; filter=(-L '^soak$') ;;
-  *) sed -n '2,8s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+  soak) job=soak; filter=(-L '^soak$' -E '^house\.DeterminismMatrix$') ;;
+  *) sed -n '2,9s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
 esac
 
 tools/setup.sh $job
 echo "test: building (some minutes the first time)" >&2
+begun=$SECONDS
 tools/build.sh --tests
+built=$((SECONDS - begun))
 
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
-status=0
-ctest --test-dir build/release "${filter[@]}" --output-on-failure --no-tests=error -j "$(nproc)" 2>&1 | tee "$log" || status=$?
-skipped=$(grep -c '\*\*\*Skipped' "$log" || true)
-ran=$(grep -cE '^ *[0-9]+/[0-9]+ Test ' "$log" || true)
+tests() {
+  local status=0
+  ctest --test-dir build/release "${filter[@]}" --output-on-failure --no-tests=error -j "$(nproc)" 2>&1 | tee "$log" ||
+    status=$?
+  skipped=$(grep -c '\*\*\*Skipped' "$log" || true)
+  ran=$(grep -cE '^ *[0-9]+/[0-9]+ Test ' "$log" || true)
+  echo
+  echo "test: $ran $which tests, of which $skipped skipped"
+  return $status
+}
+
+if [ "$which" = quick ]; then
+  tests && exit 0 || exit $?
+fi
+
+# The soak: each part to its end, whatever the others found; then a table.
+parts=() results=() times=()
+failed=0
+part() {  # part NAME COMMAND...
+  local name=$1 status=0 start=$SECONDS
+  shift
+  echo "soak: $name begins" >&2
+  "$@" || status=$?
+  parts+=("$name") times+=($((SECONDS - start)))
+  case $status in
+    0) results+=(passed) ;;
+    77) results+=("skipped: something is missing, see above") ;;
+    *) results+=("FAILED ($status)"); failed=1 ;;
+  esac
+  echo "soak: $name ends after ${times[-1]} s: ${results[-1]}" >&2
+}
+part "abuse, kills, exercises" tests
+part "fuzzing" tools/fuzz.sh "${TROCAR_FUZZ_SECONDS:-600}"
+part "determinism matrix" tools/determinism_matrix.sh
+
 echo
-echo "test: $ran $which tests, of which $skipped skipped"
-exit $status
+printf '%-26s %6d s  %s\n' "build" "$built" ""
+for i in "${!parts[@]}"; do printf '%-26s %6d s  %s\n' "${parts[$i]}" "${times[$i]}" "${results[$i]}"; done
+printf '%-26s %6d s\n' "together" "$((SECONDS - begun))"
+exit $failed

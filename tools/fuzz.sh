@@ -43,8 +43,9 @@ mapfile -t lengths < <("$bin/fuzz_seeds" "$build/seeds")  # "TARGET LONGEST"
 targets=("$@")
 [ ${#targets[@]} -gt 0 ] || targets=("${lengths[@]%% *}")
 
-# Memory and time bounds of one input: a file of some kilobytes must not cost more. ASan multiplies both.
-limits=(-timeout=20 -rss_limit_mb=2048 -malloc_limit_mb=1024)
+# Memory and time bounds of one input: a file of some kilobytes must not cost more. The sanitizers multiply both, and
+# the time is the wall's: a busy machine needs room.
+limits=(-timeout=60 -rss_limit_mb=2048 -malloc_limit_mb=1024)
 
 one() {  # one TARGET LONGEST: fuzzes, then minimises its corpus into corpus.TARGET.least
   local target=$1 longest=$2 corpus=$build/corpora/$1 status=0 dictionary=()

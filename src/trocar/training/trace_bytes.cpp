@@ -152,7 +152,9 @@ class Reader {
     if (kind >= TraceMark::kinds || hand >= hands) reject("expected a mark of a hand that is there");
     m.kind = TraceMark::Kind(kind);
     m.hand = std::int32_t(hand);
-    m.sample = std::uint32_t(integer(4));
+    const std::uint64_t sample = integer(4);
+    if (sample > kMaxTraceSamples) reject("expected a mark at a sample");
+    m.sample = std::uint32_t(sample);
     return m;
   }
 
