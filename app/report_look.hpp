@@ -22,7 +22,7 @@ background:var(--panel);border-left:5px solid var(--soft);border-radius:3px}
 table{border-collapse:collapse;width:100%;margin:.4rem 0;font-variant-numeric:tabular-nums}
 caption{text-align:left;padding-bottom:.25rem}
 th,td{text-align:left;padding:.28rem .7rem .28rem 0;border-bottom:1px solid var(--line);vertical-align:top}
-thead th{font-weight:600;font-size:.88rem;color:var(--soft)}td.n,th.n{text-align:right}
+thead th{font-weight:600;font-size:.88rem;color:var(--soft)}td.n,th.n{text-align:right}td.n{white-space:nowrap}
 tr.sum td,tr.sum th{font-weight:700;border-top:2px solid var(--ink)}
 .wide{overflow-x:auto}.bad-text{color:var(--bad)}.good-text{color:var(--good)}
 .pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(13.5rem,1fr));gap:.9rem}

@@ -35,7 +35,18 @@ const Json& part_of(const Json& object, const char* key) {
   return object.is_object() && object.contains(key) ? object[key] : nothing;
 }
 
-std::string points(double p) { return fmt::format("{:.1f}", p); }
+std::string points(double p) { return fmt::format("{:.1f}", std::fabs(p) < 0.05 ? 0.0 : p); }
+
+/// "clip_distance_mm" -> "clip distance [mm]"
+std::string words(std::string key) {
+  std::string unit;
+  const std::size_t last = key.rfind('_');
+  for (const char* known : {"mm", "deg", "s", "N"})
+    if (last != std::string::npos && key.substr(last + 1) == known) unit = fmt::format(" [{}]", known);
+  if (!unit.empty()) key.resize(last);
+  std::replace(key.begin(), key.end(), '_', ' ');
+  return escaped(key + unit);
+}
 
 // --- what it was, and how it ended ---
 
@@ -262,7 +273,7 @@ std::string table(const Json& rows, const std::string& caption) {
     for (const auto& [key, value] : row.items())
       if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
   std::string out = "<div class=\"wide\"><table><caption>" + escaped(caption) + "</caption><thead><tr>";
-  for (const std::string& key : keys) out += "<th>" + escaped(key) + "</th>";
+  for (const std::string& key : keys) out += "<th>" + words(key) + "</th>";
   out += "</tr></thead><tbody>\n";
   for (const Json& row : rows) {
     out += "<tr>";
@@ -288,7 +299,7 @@ std::string sides(const Json& list) {
       if (is_table(value))
         tables += table(value, key);
       else if (!value.is_array())
-        out += fmt::format("{}{}: {}", first ? "" : " · ", escaped(key), shown(value)), first = false;
+        out += fmt::format("{}{}: {}", first ? "" : " · ", words(key), shown(value)), first = false;
     }
     out += "</p>\n" + tables;
   }
@@ -307,7 +318,7 @@ std::string thresholds(const Json& assessment) {
                               : v.contains("from") ? shown(v["from"]) + " to " + shown(part_of(v, "to"))
                                                    : shown(v);
     out +=
-        fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>\n", escaped(key), value, escaped(text_in(v, "source")));
+        fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>\n", words(key), value, escaped(text_in(v, "source")));
   }
   out += "</tbody></table></div>\n";
   if (const Json& n = part_of(assessment, "not_assessed"); is_table(n))
