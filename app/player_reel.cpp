@@ -251,9 +251,14 @@ bool Reel::approach(Explorer& e, std::uint64_t target, bool playing) {
   for (const sim::State* s : {e.kept.before(target), e.recent.before(target)})
     if (s && (!best || s->tick > best->tick)) best = s;
   const sim::State& front = e.session.state();
-  if (front.tick > best->tick && front.tick < target) {  // the first pass is on its way there
+  if (front.tick >= best->tick && front.tick < target) {  // the first pass is on its way there
     m_way.store(target - front.tick, std::memory_order_relaxed);
-    return explore(e);
+    const bool more = explore(e);
+    if (playing && front.tick <= target) {
+      publish(front);
+      e.published = front.tick;
+    }
+    return more;
   }
   if (front.tick == target) best = &front;
   if (playing && target - best->tick > kChaseWhilePlaying) return false;
