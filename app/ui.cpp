@@ -198,7 +198,8 @@ void set_middle(float width) { g_middle = width; }
 
 void begin_middle(const char* name, float width) {
   ImVec2 size = ImGui::GetIO().DisplaySize;
-  if (g_middle > 0 && width * g_scale < 0.97f * g_middle) size.x = g_middle;
+  constexpr float kWide = 700;  // wider ones need the whole window
+  if (g_middle > 0 && width <= kWide) size.x = g_middle;
   const float most = std::min(width * g_scale, 0.97f * size.x);
   ImGui::SetNextWindowPos({0.5f * size.x, 0.5f * size.y}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowSizeConstraints({most, 0}, {most, 0.97f * size.y});

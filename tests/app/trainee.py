@@ -226,17 +226,19 @@ class Pad:
     def press(self, widget, limit=30):
         """Goes from button to button by the cross until the focus is there, as told by the log."""
         self.eyes.where(widget, limit)
+        time.sleep(0.5)
         for _ in range(60):
             self.eyes.read()
             at, goal = self.eyes.screen.get("focus"), self.eyes.screen["widgets"][widget]
             if at == widget:
                 return self.tap("a")
             here = self.eyes.screen["widgets"].get(at)
-            if here is None:
-                self.tap("down")
-                continue
-            dx, dy = goal[0] - here[0], goal[1] - here[1]
+            dx, dy = (0, 99) if here is None else (goal[0] - here[0], goal[1] - here[1])
             self.tap(("down" if dy > 0 else "up") if abs(dy) > 14 else ("right" if dx > 0 else "left"))
+            end = time.monotonic() + 3  # a slow picture shows the focus later: never two presses at once
+            while self.eyes.screen.get("focus") == at and time.monotonic() < end:
+                time.sleep(0.05)
+                self.eyes.read()
         raise Failed(f"the cross does not lead to '{widget}': {self.eyes.screen}")
 
     def enter(self):
