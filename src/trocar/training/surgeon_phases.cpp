@@ -159,7 +159,7 @@ void Surgeon::grasp() {
   constexpr double kFirm = 0.95;
   const int hand = side().grasper;
   want(tube_point(m_grasp_at));
-  if (flawed("E3") && tool_state(hand).holds > 0 && tool_state(hand).pinch > 0.1) {
+  if (flawed("E3") && tool_state(hand).holds > 0 && (m_steady > 0 || tool_state(hand).pinch > 0.1)) {
     // Hardly closed, and off it goes.
     if (m_steady == 0) m_lift_from = m_arms[hand].tip;
     m_steady += sim::kTick;
@@ -244,7 +244,7 @@ void Surgeon::reach_clip() {
   const double next = next_clip_at();
   if (next < 0) return go(Phase::decide);
   m_clip_place = next;
-  if (flawed("A1.1")) m_clip_place = g.ampulla_from + 0.004;
+  if (flawed("A1.1")) m_clip_place = g.ampulla_from + 0.0015;
   if (flawed("A1.2")) m_clip_place = g.cornu_to - 0.003;
   if (flawed("A1.9")) m_clip_place = g.first_clip.high - 0.001;
   if (flawed("E11")) {
@@ -390,15 +390,14 @@ void Surgeon::pinch_bowel() {
   const interactions::ToolModel& t = tool(hand);
   const Vec3d port = m_arms[hand].port;
   if (m_stage == 0) {
+    const int target = m_model->target_index(m_exercise.goal.bowel.front().name);
+    const sim::VisibilityTarget& seen = m_model->targets[size_t(target)];
     double least = 1e9;
-    for (const sim::SolidModel& solid : m_model->solids) {
-      if (m_exercise.goal.bowel.empty() || solid.name != m_exercise.goal.bowel.front().name) continue;
-      for (const Vec3f& v : solid.skin.rest) {
-        const double distance = length(vec_cast<double>(v) - port);
-        if (distance >= least) continue;
-        least = distance;
-        m_bowel_at = vec_cast<double>(v);
-      }
+    for (int i = seen.first; i < seen.first + seen.count; ++i) {
+      const Vec3d at = sample_point(m_model->samples[size_t(i)]);
+      if (!m_state->seen[size_t(i)] || length(at - port) >= least) continue;
+      least = length(at - port);
+      m_bowel_at = at;
     }
     m_stage = 1;
   }
@@ -406,7 +405,7 @@ void Surgeon::pinch_bowel() {
   want(m_bowel_at);
   want(m_arms[hand].tip);
   if (m_stage == 1 && m_arms.move(hand, m_bowel_at - 0.015 * axis, kTravel)) m_stage = 2;
-  if (m_stage == 2 && m_arms.move(hand, m_bowel_at + 0.25 * t.jaw_length * axis, kCareful)) m_stage = 3;
+  if (m_stage == 2 && m_arms.move(hand, m_bowel_at + 0.4 * t.jaw_length * axis, kCareful)) m_stage = 3;
   if (m_stage == 3 && m_arms.grip(hand, 1, 1.0)) m_stage = 4;
   if (m_stage == 4 && m_arms.grip(hand, 0, 1.0)) m_stage = 5;
   if (m_stage == 5 && m_arms.move(hand, m_bowel_at - 0.02 * axis, kCareful)) m_blundered = true;
