@@ -28,6 +28,9 @@ class CheckedBackend : public Backend {
   /// Whether any vertex's paint says blood or burn: the plainer shader does for the others.
   bool is_stained(MeshHandle mesh) const { return m_meshes.at(mesh.id).stained; }
 
+  /// Of the mesh as it is now, in its own coordinates.
+  const Bounds& bounds_of_mesh(MeshHandle mesh) const { return m_meshes.at(mesh.id).bounds; }
+
   virtual void on_store(std::uint32_t id, const MeshArrays& mesh) = 0;  ///< new id, or a known one's new topology
   virtual void on_update(std::uint32_t id, std::span<const Vec3f> positions, std::span<const Vec3f> normals,
                          std::span<const Paint> paint) = 0;  ///< paint may be empty

@@ -30,7 +30,8 @@ enum TextureUnit : int {
 };
 constexpr int kEyes = 8;
 constexpr float kShadowSpread = 1.8f;  // as in shade.glsl
-constexpr float kRodReach = 0.010f;    // [m] beside a rod, as far as it is worth shading
+constexpr float kRodReach = 0.008f;    // [m] beside a rod, as far as it shades
+constexpr float kFoldReach = 0.015f;   // [m] from a fold's box, as far as a rod may be to shade it
 
 void bind_texture(int unit, GLenum target, GLuint texture) {
   glActiveTexture(GLenum(GL_TEXTURE0 + unit));
@@ -299,6 +300,31 @@ class GlBackend final : public CheckedBackend {
     set_blending(false);
   }
 
+  /// Only the rods that come near a fold: each costs at every one of its pixels.
+  void set_rods_near(const Frame& frame, const DrawItem& item, GlProgram& program) {
+    const Bounds& box = bounds_of_mesh(item.mesh);
+    std::array<float, 8 * kMaxRods> rows{};
+    int count = 0;
+    for (int i = 0; i < m_rod_count; ++i) {
+      const Rod& rod = frame.rods[std::size_t(i)];
+      bool near = false;
+      for (int k = 0; k <= 24 && !near; ++k) {
+        const Vec3f p = rod.from + (float(k) / 24) * (rod.to - rod.from);
+        float d2 = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+          const float off = std::max({box.low[axis] - p[axis], p[axis] - box.high[axis], 0.0f});
+          d2 += off * off;
+        }
+        near = d2 < kFoldReach * kFoldReach;
+      }
+      if (!near) continue;
+      std::copy_n(m_rod_rows.begin() + 8 * i, 8, rows.begin() + 8 * count);
+      ++count;
+    }
+    program.set("u_rod_count", count);
+    if (count > 0) program.set_vec4s("u_rods", std::span(rows).first(std::size_t(8 * count)));
+  }
+
   /// The corners, in clip space, of what a rod may shade: around its picture, and as far as its shadow may lie off it.
   std::array<float, 8> reach_of(int rod, float aspect, float tan_half) const {
     const float* row = &m_rod_rows[std::size_t(8 * rod)];
@@ -372,8 +398,7 @@ class GlBackend final : public CheckedBackend {
       program.set("u_cells", kUnitCells);
       program.set("u_vessels", material.arcade ? kUnitArcade : kUnitVessels);
       program.set("u_before", kUnitSmall);
-      program.set("u_rod_count", m_rod_count);
-      if (m_rod_count > 0) program.set_vec4s("u_rods", std::span(m_rod_rows).first(std::size_t(8 * m_rod_count)));
+      if (blended && m_rod_count > 0) set_rods_near(frame, item, program);
     }
     program.set("u_blended", blended ? 1.0f : 0.0f);
     if (two_sided || m_meshes.is_lines(item.mesh.id))

@@ -22,7 +22,7 @@ vec2 shade_of_rod(vec3 eye, vec3 lamp, float ring, vec4 rod, vec4 way) {
   // Right under it.
   vec3 near = clamp(e * way.w, 0.0, 1.0) * way.xyz - w;
   float reach = 1.2 * rod.w + 0.0012;
-  float under = clamp(reach * reach / dot(near, near) - 0.08, 0.0, 1.0);
+  float under = clamp(reach * reach / dot(near, near) - 0.16, 0.0, 1.0);
   return vec2(1.0 - covered, 1.0 - 0.75 * under);
 }
 
