@@ -331,7 +331,7 @@ class GlBackend final : public CheckedBackend {
     Vec3f a{row[0], row[1], row[2]}, b = a + Vec3f{row[4], row[5], row[6]};
     constexpr float kNear = 0.008f;  // [m]
     if (a.z > -kNear) std::swap(a, b);
-    if (a.z > -kNear) return {-1, -1, 1, -1, -1, 1, 1, 1};  // at the lens: anywhere
+    if (a.z > -kNear) return {};  // beside or behind the lens, and so its shadow
     if (b.z > -kNear) b = a + ((-kNear - a.z) / (b.z - a.z)) * (b - a);
     const auto at = [&](Vec3f p) { return std::array<float, 2>{p.x / (-p.z * tan_half), p.y / (-p.z * tan_half)}; };
     const auto margin = [&](Vec3f p) { return (row[3] + kRodReach) / (std::max(-p.z - 0.006f, 0.004f) * tan_half); };
