@@ -25,7 +25,8 @@ double cpu_ms() {
 
 struct Shot {
   const char* name;
-  int state;  ///< 0 start, 1 clipped and cut, 2 grasped, 3 to 5 a closed grasper 25, 8 and 0 mm above the uterus, 6 as 1, apart
+  int state;  ///< 0 start, 1 clipped and cut, 2 grasped, 3 to 5 a closed grasper 25, 8 and 0 mm above the uterus, 6 as
+              ///< 1, apart
   bool outside;
   Vec3d eye, target;  ///< both zero: where the scope is
 };
