@@ -22,8 +22,7 @@ void hush_libraries() {
   void* alsa = dlopen("libasound.so.2", RTLD_NOW | RTLD_GLOBAL);
   if (!alsa) return;
   using SetHandler = int (*)(Handler);
-  if (const auto set = reinterpret_cast<SetHandler>(dlsym(alsa, "snd_lib_error_set_handler")))
-    set(say_nothing);
+  if (const auto set = reinterpret_cast<SetHandler>(dlsym(alsa, "snd_lib_error_set_handler"))) set(say_nothing);
 }
 
 /// An open device with every tone in a buffer.
