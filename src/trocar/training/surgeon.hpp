@@ -175,7 +175,7 @@ class Surgeon {
   int m_strand = -1;                                        ///< that is worked on in this tick
   int m_target_strand = -1;                                 ///< a wrong one, when that is the flaw
   int m_stage = 0;                                          ///< of a blunder
-  Vec3d m_bowel_at;
+  Vec3d m_bowel_at, m_bowel_along;
   int m_clips_before = -1, m_clip_tries = 0;
   int m_fetching = -1;  ///< hand that changes its instrument
   int m_wanted = 0;     ///< number in its rack

@@ -390,21 +390,36 @@ void Surgeon::pinch_bowel() {
   const interactions::ToolModel& t = tool(hand);
   const Vec3d port = m_arms[hand].port;
   if (m_stage == 0) {
-    const int target = m_model->target_index(m_exercise.goal.bowel.front().name);
-    const sim::VisibilityTarget& seen = m_model->targets[size_t(target)];
+    // Where it is seen, between two neighbouring points of its skin, the jaws' width along them.
+    const sim::VisibilityTarget& seen =
+        m_model->targets[size_t(m_model->target_index(m_exercise.goal.bowel.front().name))];
     double least = 1e9;
+    int vertex = -1;
     for (int i = seen.first; i < seen.first + seen.count; ++i) {
       const Vec3d at = sample_point(m_model->samples[size_t(i)]);
       if (!m_state->seen[size_t(i)] || length(at - port) >= least) continue;
       least = length(at - port);
-      m_bowel_at = at;
+      vertex = m_model->samples[size_t(i)].where;
     }
+    if (vertex < 0) return;
+    const tissue::Skin& skin = m_model->solids[size_t(seen.index)].skin;
+    const Vec3d at = vec_cast<double>(skin.rest[size_t(vertex)]);
+    double nearest = 1e9;
+    for (int k = skin.face_first[size_t(vertex)]; k < skin.face_first[size_t(vertex) + 1]; ++k)
+      for (const int other : skin.triangles[size_t(skin.face[size_t(k)])]) {
+        const Vec3d along = vec_cast<double>(skin.rest[size_t(other)]) - at;
+        if (other == vertex || length(along) >= nearest) continue;
+        nearest = length(along);
+        m_bowel_along = along;
+      }
+    m_bowel_at = at + 0.5 * m_bowel_along;
     m_stage = 1;
   }
   const Vec3d axis = normalised(m_bowel_at - port);
   want(m_bowel_at);
   want(m_arms[hand].tip);
-  if (m_stage == 1 && m_arms.move(hand, m_bowel_at - 0.015 * axis, kTravel)) m_stage = 2;
+  const bool turned = m_arms.turn_across(hand, m_bowel_along);
+  if (m_stage == 1 && m_arms.move(hand, m_bowel_at - 0.015 * axis, kTravel) && turned) m_stage = 2;
   if (m_stage == 2 && m_arms.move(hand, m_bowel_at + 0.4 * t.jaw_length * axis, kCareful)) m_stage = 3;
   if (m_stage == 3 && m_arms.grip(hand, 1, 1.0)) m_stage = 4;
   if (m_stage == 4 && m_arms.grip(hand, 0, 1.0)) m_stage = 5;
@@ -427,7 +442,10 @@ void Surgeon::blunder() {
     want(there);
     want(m_arms[w.scissors].tip);
     m_steady += sim::kTick;
-    if (m_steady > 1.5 && m_arms.move(w.scissors, there, 0.06)) m_blundered = true;
+    if (m_steady < 1.5) return;  // the camera first
+    const Vec3d way = there - m_arms[w.scissors].tip;
+    m_arms.move(w.scissors, there + 0.02 * normalised(way), 0.06);
+    m_blundered = length(way) < 0.002;
   } else if (flawed("E2")) {
     pinch_bowel();
   }
