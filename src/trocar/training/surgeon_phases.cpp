@@ -160,10 +160,10 @@ void Surgeon::grasp() {
   const int hand = side().grasper;
   want(tube_point(m_grasp_at));
   if (flawed("E3") && tool_state(hand).holds > 0 && (m_steady > 0 || tool_state(hand).pinch > 0.1)) {
-    // Hardly closed, and off it goes.
+    // Hardly closed, and off it goes along the tube, across the jaws.
     if (m_steady == 0) m_lift_from = m_arms[hand].tip;
     m_steady += sim::kTick;
-    m_arms.move(hand, m_lift_from + Vec3d{0, 0, 0.03}, kCareful);
+    m_arms.move(hand, m_lift_from + 0.03 * tube_tangent(m_grasp_at), kCareful);
     return;
   }
   if (flawed("E3") && m_steady > 0) {
@@ -216,7 +216,7 @@ double Surgeon::clip_inside() const {
 
 double Surgeon::cut_inside() const {
   const interactions::ToolModel& t = tool(side().scissors);
-  if (flawed("A1.7")) return t.jaw_length - m_exercise.goal.cut_depth - 0.0035;
+  if (flawed("A1.7")) return t.jaw_length - m_exercise.goal.cut_depth - 0.0065;
   if (flawed("A1.10")) return t.jaw_length;
   return 0.72 * t.jaw_length;  // near the blades' ends: spare the fold behind the tube
 }
