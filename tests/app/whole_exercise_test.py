@@ -4,7 +4,8 @@
     tools/with_xvfb.sh python3 tests/app/whole_exercise_test.py PATH/TO/trocar [--gamepad] [FOLDER]
 
 The robot looks (the event log), compares and corrects, with mouse and keys or an emulated gamepad: see trainee.py. It leads
-one hand at a time, as every trainee at one mouse does. Exit: 0 passed, 1 failed, 77 something to run it with is missing.
+one hand at a time, as every trainee at one mouse does. It surveys, identifies, grasps, presents and has set the first
+clip; it does not yet get through reliably from there, so ctest does not run it. Exit: 0 passed, 1 failed, 77 something to run it with is missing.
 """
 import json
 import os
