@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <ostream>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -47,6 +48,7 @@ struct Target {
   Mutate mutate = nullptr;                        ///< null: the fuzzer's own
   Cross cross = nullptr;
 };
+inline void PrintTo(const Target& target, std::ostream* out) { *out << target.name; }  // its name in test reports
 std::span<const Target> targets();
 const Target* find(std::string_view name);
 
