@@ -51,6 +51,7 @@ std::unique_ptr<Lesson> load_lesson(const std::string& exercise, std::uint64_t s
   core::log::info("compiling {}", lesson->scene.string());
   lesson->model = scene::compile(description);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - started;
+  lesson->monitor();  // an exercise that does not fit its scene is told here, not when somebody starts it
   core::log::info("compiled in {:.1f} s: {} free nodes", took.count(), lesson->model.free_nodes());
   return lesson;
 }

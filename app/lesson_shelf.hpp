@@ -21,6 +21,7 @@ class LessonShelf {
   /// The wanted lesson when it is ready, else null. Once per picture. A lesson stays where it is until another is
   /// wanted.
   const Lesson* poll();
+  const std::string& wanted() const { return m_wanted; }
   const std::string& failure() const { return m_failure; }  ///< why the wanted one cannot be prepared
 
  private:

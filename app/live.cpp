@@ -74,6 +74,9 @@ void Live::loop() {
       due = now;
   }
   publish();
+  const std::lock_guard last(m_moments_lock);
+  std::move(m_pending.begin(), m_pending.end(), std::back_inserter(m_moments));
+  m_pending.clear();
 }
 
 void Live::measure_speed() {

@@ -7,6 +7,7 @@
 
 #include "attempt_log.hpp"
 #include "headless.hpp"
+#include "interrupt.hpp"
 #include "sources.hpp"
 
 namespace trocar::app {
@@ -60,7 +61,7 @@ Attempt demonstrate(training::Store& store, const std::string& exercise, std::ui
   Json result = session.result(false);
   result["input"] = "demo";
   result.update(source->describe());
-  log.end(result, AttemptState::finished);
+  log.end(result, interrupted() ? AttemptState::aborted : AttemptState::finished);
   return log.attempt();
 }
 

@@ -7,6 +7,8 @@
 #include <spawn.h>
 #include <sys/wait.h>
 
+#include <trocar/core/error.hpp>
+
 #include "ui.hpp"
 
 extern char** environ;
@@ -32,7 +34,13 @@ bool make_page(const std::string& attempt, const std::string& folder) {
 
 void ReportOpener::open(const training::Store* store, const std::string& attempt) {
   if (m_page.valid() || !store) return;
-  const std::optional<training::Attempt> found = store->find(attempt);
+  std::optional<training::Attempt> found;
+  try {
+    found = store->find(attempt);
+  } catch (const core::EnvironmentLacks& lacks) {
+    m_say = std::string("no report: ") + lacks.what();
+    return;
+  }
   if (!found) {
     m_say = "no report: the store does not know this attempt";
     return;

@@ -258,7 +258,10 @@ training::MetricsOptions Session::metrics_options() const {
   return options;
 }
 
-void Session::set_scored(bool scored) { m_scored = scored; }
+void Session::set_scored(bool scored) {
+  m_scored = scored;
+  if (m_state.tick == 0) m_monitor = m_lesson.monitor(scored);
+}
 
 std::string Session::finish(const Json& result) {
   if (!m_writer) return {};

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <trocar/scene/shape.hpp>
+#include <trocar/training/attempt.hpp>
 
 #include "json.hpp"
 #include "paths.hpp"
@@ -38,36 +39,9 @@ const scene::Shape& settings_shape() {
   return shape;
 }
 
-/// One byte sequence of UTF-8 at the front of `text`: its length, 0 where there is none.
-std::size_t character_length(std::string_view text) {
-  const unsigned char first = static_cast<unsigned char>(text[0]);
-  const std::size_t n = first < 0x80                    ? 1
-                        : first >= 0xC2 && first < 0xE0 ? 2
-                        : first >= 0xE0 && first < 0xF0 ? 3
-                        : first >= 0xF0 && first < 0xF5 ? 4
-                                                        : 0;
-  if (n == 0 || n > text.size()) return 0;
-  for (std::size_t i = 1; i < n; ++i)
-    if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) return 0;
-  return n;
-}
-
 }  // namespace
 
 fs::path settings_file() { return data_folder() / "settings.json"; }
-
-std::string proper_name(const std::string& typed) {
-  std::string name;
-  std::string_view rest = typed;
-  while (!rest.empty()) {
-    const std::size_t n = character_length(rest);
-    const bool printable = n > 1 || (n == 1 && rest[0] >= ' ' && rest[0] != 0x7F);
-    if (printable && name.size() + n <= kLongestName && !(name.empty() && rest[0] == ' ')) name += rest.substr(0, n);
-    rest.remove_prefix(std::max<std::size_t>(n, 1));
-  }
-  while (!name.empty() && name.back() == ' ') name.pop_back();
-  return name;
-}
 
 Settings read_settings(const fs::path& file, std::vector<core::Fault>& faults, const scene::MemoryFiles* memory) {
   Settings s;
@@ -89,7 +63,7 @@ Settings read_settings(const fs::path& file, std::vector<core::Fault>& faults, c
   s.text_size = o.number("text_size", s.text_size);
   s.window_width = o.integer("window_width", s.window_width);
   s.window_height = o.integer("window_height", s.window_height);
-  s.trainee = proper_name(o.text("trainee"));
+  s.trainee = training::clean_name(o.text("trainee"));
   s.show_hint = o.flag("show_hint", s.show_hint);
   return s;
 }

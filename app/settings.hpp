@@ -33,7 +33,6 @@ struct Settings {
 
 inline constexpr double kLeastSense = 0.1, kMostSense = 5, kLeastText = 0.7, kMostText = 2.5;
 inline constexpr int kLeastWidth = 640, kLeastHeight = 480, kMostPixels = 8192;
-inline constexpr std::size_t kLongestName = 60;  ///< of a trainee [bytes]
 
 std::filesystem::path settings_file();  ///< data_folder()/settings.json
 
@@ -48,9 +47,5 @@ void write_settings(const std::filesystem::path& file, const Settings& settings)
 
 /// The settings as the hands need them. @param instruments how many hands there are
 devices::HandSettings hand_settings(const Settings& settings, int instruments);
-
-/// A name that may be shown and stored: no control characters, no blanks at its ends, at most kLongestName bytes of
-/// whole UTF-8 characters. May come out empty.
-std::string proper_name(const std::string& typed);
 
 }  // namespace trocar::app

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/log.hpp>
+#include <trocar/training/attempt.hpp>
 
 #include "interrupt.hpp"
 #include "panel.hpp"
@@ -44,7 +45,7 @@ Stage::Stage(const WindowOptions& o)
       backend(render::make_gl_backend(*context)),
       log(log_path(o)) {
   for (const core::Fault& f : setting_faults) core::log::warn("{}", core::to_string(f));
-  if (!o.trainee.empty()) settings.trainee = proper_name(o.trainee);
+  if (!o.trainee.empty()) settings.trainee = training::clean_name(o.trainee);
   apply_settings();
   core::log::info("drawing with {}", context->description());
 }

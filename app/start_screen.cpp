@@ -31,7 +31,7 @@ bool draw_letters(StartMemory& memory) {
   for (std::size_t i = 0; i < letters.size(); ++i) {
     if (i % std::size_t(row) != 0) ImGui::SameLine();
     const std::string label = letters[i] == ' ' ? "_" : std::string(1, letters[i]);
-    if (ImGui::Button(label.c_str(), {size, 0}) && name.size() < kLongestName) {
+    if (ImGui::Button(label.c_str(), {size, 0}) && name.size() < training::kLongestName) {
       const bool first = name.empty() || name.back() == ' ';
       name += first ? letters[i] : char(std::tolower(letters[i]));
       changed = true;

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <trocar/training/attempt.hpp>
+
 #include "past.hpp"
 #include "paths.hpp"
 #include "settings.hpp"
@@ -37,7 +39,7 @@ enum class StartChoice { none, start, familiarise, demonstrate, report, settings
 
 /// The screen's own memory.
 struct StartMemory {
-  char trainee[kLongestName + 1] = {};
+  char trainee[training::kLongestName + 1] = {};
   bool was_ready = false;  ///< when it was drawn last
   bool letters = false;    ///< the letters to type with a gamepad or mouse are shown
 };

@@ -7,6 +7,7 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/core/log.hpp>
+#include <trocar/training/attempt.hpp>
 
 #include "attempt_window.hpp"
 #include "interrupt.hpp"
@@ -72,7 +73,7 @@ class Trainer {
         m_shelf(std::move(lesson)),
         m_exercises(list_exercises(scenes_folder())) {
     const std::string trainee = m_stage.settings.trainee;
-    trainee.copy(m_memory.trainee, kLongestName);
+    trainee.copy(m_memory.trainee, training::kLongestName);
     for (std::size_t i = 0; i < m_exercises.size(); ++i)
       if (m_exercises[i].name == options.exercise) m_selected = int(i);
   }
@@ -154,7 +155,7 @@ ExerciseFacts Trainer::facts_of(const Lesson* lesson) {
 void Trainer::take_answer(const StartAnswer& answer) {
   if (answer.selected >= 0) m_selected = answer.selected;
   if (answer.trainee_changed) {
-    m_stage.settings.trainee = proper_name(m_memory.trainee);
+    m_stage.settings.trainee = training::clean_name(m_memory.trainee);
     m_past = read_past(m_stage.options.store, m_stage.settings.trainee);
   }
   std::int64_t report_of = answer.report_of;
@@ -176,13 +177,13 @@ StartChoice Trainer::start_screen() {
   ExerciseFacts facts;
   const Lesson* shown = nullptr;
   while (!m_stage.wants_to_close()) {
-    if (!m_exercises.empty()) m_shelf.want(m_exercises[size_t(m_selected)].name);
+    if (!m_exercises.empty() && m_exercises[size_t(m_selected)].name != m_shelf.wanted()) {
+      m_stage.drop_view();  // before the lesson that it shows is gone
+      m_preview.forget();
+      m_shelf.want(m_exercises[size_t(m_selected)].name);
+    }
     m_stage.begin_picture(false);
     const Lesson* lesson = m_shelf.poll();
-    if (!lesson && shown) {
-      m_stage.drop_view();
-      m_preview.forget();
-    }
     if (!lesson || lesson != shown) facts = facts_of(lesson);
     shown = lesson;
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -207,7 +208,7 @@ StartChoice Trainer::start_screen() {
     const bool begin = answer.choice == StartChoice::start || answer.choice == StartChoice::familiarise ||
                        answer.choice == StartChoice::demonstrate;
     if (begin && lesson) {
-      m_stage.settings.trainee = proper_name(m_memory.trainee);
+      m_stage.settings.trainee = training::clean_name(m_memory.trainee);
       m_stage.keep_settings();
       return answer.choice;
     }

@@ -289,6 +289,7 @@ TEST_F(Program, AttemptsAreListedExportedAndForgotten) {
   const Outcome second = train({"--trainee", "Bob", "--familiarisation", "--seed", "3", "--record", file("b.rec")});
   ASSERT_EQ(second.exit, core::kDone) << second.err;
   EXPECT_TRUE(second.json()["passed"].is_null());
+  EXPECT_FALSE(second.json()["assessment"]["score"].contains("total")) << "familiarisation is not scored";
   EXPECT_NE(second.json()["model_hash"], first.json()["model_hash"]) << "another anatomy";
   EXPECT_EQ(trocar({"replay", file("b.rec"), "--verify"}).exit, core::kDone) << "a replay makes the same anatomy";
   train({"--no-store"});

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/training/attempt.hpp>
 
 #include "feedback.hpp"
 #include "gamepads.hpp"
@@ -100,12 +101,12 @@ TEST(Settings, SensitivitiesScaleTheirDeviceOnly) {
 }
 
 TEST(ProperName, HasNoControlCharactersNoBlanksAroundItAndWholeCharacters) {
-  EXPECT_EQ(proper_name("  Ada\tLovelace\n "), "AdaLovelace");
-  EXPECT_EQ(proper_name("Zo\u00eb\xff\xc3"), "Zo\u00eb");
+  EXPECT_EQ(training::clean_name("  Ada\tLovelace\n "), "Ada Lovelace");
+  EXPECT_EQ(training::clean_name("Zo\u00eb\xff\xc3"), "Zo\u00eb");
   std::string longest;
   for (int i = 0; i < 100; ++i) longest += "\u00e9";
-  EXPECT_EQ(proper_name(longest).size(), kLongestName / 2 * 2);
-  EXPECT_EQ(proper_name(" \n"), "");
+  EXPECT_EQ(training::clean_name(longest).size(), training::kLongestName / 2 * 2);
+  EXPECT_EQ(training::clean_name(" \n"), "");
 }
 
 TEST(GamepadLine, NumbersAndButtonsAreASample) {

@@ -1,4 +1,6 @@
 // The settings reader. It takes what is right and leaves the rest, so whatever comes out must be within the limits.
+#include <trocar/training/attempt.hpp>
+
 #include "../../app/paths.hpp"
 #include "../../app/settings.hpp"
 #include "archive.hpp"
@@ -32,7 +34,8 @@ void settings_file(Bytes bytes) {
   require(within(s.volume, 0, 1) && within(s.text_size, app::kLeastText, app::kMostText), "so are volume and text");
   require(s.window_width >= app::kLeastWidth && s.window_width <= app::kMostPixels, "so is the window's width");
   require(s.window_height >= app::kLeastHeight && s.window_height <= app::kMostPixels, "and its height");
-  require(s.trainee.size() <= app::kLongestName && app::proper_name(s.trainee) == s.trainee, "a name may be shown");
+  require(s.trainee.size() <= training::kLongestName && training::clean_name(s.trainee) == s.trainee,
+          "a name may be shown");
   faults.clear();
   const app::Settings again = read(app::settings_text(s), faults);
   require(faults.empty() && again == s, "what was read can be written and read again");

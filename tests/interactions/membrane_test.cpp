@@ -190,18 +190,20 @@ TEST(Fold, ScissorsPartItAsDeepAsTheyReachAndSayHowDeep) {
         EXPECT_NEAR(fold.sheet.network.rest[size_t(v)].x, 0.017, 0.0035) << "only where the blades were";
     }
     EXPECT_GT(open, 1);
-    // The same blades find nothing more, and what is left is calm.
+    // The same blades find nothing more and change nothing, and what is left is calm.
+    const std::vector<std::uint8_t> torn = t.state.torn[0];
     EXPECT_EQ(cut_membrane(scissors.model, scissors.shape(0.1), fold.sheet, fold.depth, t.state.membranes[0],
                            t.state.torn[0], t.work.parts)
                   .severed,
               0);
+    EXPECT_EQ(t.state.torn[0], torn);
     t.steps(500);
     EXPECT_EQ(t.flags & ~std::uint32_t(tissue::StepReport::kInverted), 0u);
   }
 }
 
 TEST(Fold, ACutThroughItLetsTheTubeRiseFartherThere) {
-  // Whole, the fold holds the tube down; cut along its middle column it holds it less.
+  // Whole, the fold holds the tube down; cut all through it holds it less.
   const auto lifted = [](bool cut) {
     small::Table t(small::model());
     const sim::MembraneModel& fold = t.model.membranes[0];

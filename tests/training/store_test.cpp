@@ -506,6 +506,22 @@ TEST_F(StoreTest, StrangeResultsAndNumbersAreNoHarm) {
   EXPECT_EQ(Store(folder()).find(huge.uuid)->number, 6) << "nobody uses up the numbers";
 }
 
+TEST_F(StoreTest, AUuidIsNeverAPath) {
+  fs::create_directories(folder() / "waiting");
+  const fs::path precious = folder() / "precious";
+  std::ofstream(precious) << "mine";
+  for (const std::string& uuid : {precious.string(), std::string("../precious"), std::string("A b"), std::string()}) {
+    EXPECT_FALSE(is_uuid(uuid)) << uuid;
+    Attempt a = attempt();
+    a.uuid = uuid;
+    a.state = AttemptState::running;
+    std::ofstream(folder() / "waiting" / "x.attempt.json") << to_json(a);
+    EXPECT_TRUE(Store(folder()).list().empty()) << uuid;
+    EXPECT_TRUE(fs::exists(precious)) << uuid;
+  }
+  EXPECT_TRUE(is_uuid(new_uuid()));
+}
+
 TEST_F(StoreTest, AnAttemptThatNeverBeganLeavesNothing) {
   Store store(folder());
   Attempt a = attempt();

@@ -191,6 +191,7 @@ FoldCut cut_membrane(const ToolModel& model, const ToolShape& shape, const tissu
     tissue::cut_spring(network, state.network, s);
     ++cut.severed;
   }
+  if (cut.severed == 0) return cut;
   for (size_t t = 0; t < sheet.triangles.size(); ++t) {
     FoldPoint corner[3];
     for (size_t k = 0; k < 3; ++k) {

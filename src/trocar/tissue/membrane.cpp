@@ -156,6 +156,7 @@ void add_to_hash(core::Hasher& h, const MembraneModel& m) noexcept {
   h.add(m.columns);
   h.add(m.rows);
   h.add(m.law);
+  h.add(m.thickness);
   h.add(m.bend_steps);
   for (const BendStencil& b : m.bends) {
     h.add(b.count);

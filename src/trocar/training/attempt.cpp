@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -13,7 +14,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kModes[] = {"assessed", "familiarisation", "demonstration"};
 constexpr const char* kStates[] = {"running", "finished", "aborted", "interrupted"};
-constexpr std::size_t kLongestName = 100;
 
 template <class Enum, std::size_t N>
 std::optional<Enum> named(const char* const (&names)[N], const std::string& name) {
@@ -67,6 +67,11 @@ std::string clean_name(const std::string& text) {
   return out;
 }
 
+bool is_uuid(const std::string& text) {
+  const auto plain = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || c == '-'; };
+  return !text.empty() && text.size() <= 64 && std::all_of(text.begin(), text.end(), plain);
+}
+
 std::string new_uuid() {
   std::array<unsigned char, 16> bytes{};
   if (getentropy(bytes.data(), bytes.size()) != 0) {  // no source of chance: the process and its stack have to do
@@ -102,7 +107,7 @@ std::string to_json(const Attempt& a) {
 
 std::optional<Attempt> attempt_from_json(const std::string& text) {
   const Json in = Json::parse(text, nullptr, false);
-  if (!in.is_object() || whole_of(in, "trocar_attempt") != 1 || text_of(in, "uuid").empty()) return std::nullopt;
+  if (!in.is_object() || whole_of(in, "trocar_attempt") != 1 || !is_uuid(text_of(in, "uuid"))) return std::nullopt;
   Attempt a;
   a.number = std::int64_t(whole_of(in, "number"));
   a.uuid = text_of(in, "uuid");

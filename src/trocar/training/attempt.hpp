@@ -50,11 +50,15 @@ struct Attempt {
   std::vector<std::uint8_t> trace;  ///< only where it was asked for
 };
 
+inline constexpr std::size_t kLongestName = 100;  ///< of a trainee [bytes]
+
 /// What a name may be: valid UTF-8 without control characters, without blanks around it, at most 100 bytes.
 std::string clean_name(const std::string& text);
 
 /// 32 hex digits and four dashes, random.
 std::string new_uuid();
+/// Digits, small letters and dashes, at most 64: it names files, so nothing else may come from a file.
+bool is_uuid(const std::string& text);
 
 /// Score, verdict and length from the result that an attempt ended with; a familiarisation has neither of the first
 /// two.

@@ -10,7 +10,7 @@ namespace trocar::training {
 namespace {
 
 std::filesystem::path lock_of(const std::filesystem::path& folder, const std::string& uuid) {
-  return folder / "locks" / uuid;
+  return folder / "locks" / (is_uuid(uuid) ? uuid : "unnamed");  // never a path of its own
 }
 
 }  // namespace

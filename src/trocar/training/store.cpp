@@ -241,7 +241,7 @@ bool fill_from_recording(const fs::path& file, Attempt& a) {
   a.ticks = r.inputs.size();
   a.seconds = double(a.ticks) * sim::kTick;
   if (note.is_object()) {
-    if (a.uuid.empty()) a.uuid = bounded(text_in(note, "uuid"), 64);
+    if (a.uuid.empty() && is_uuid(text_in(note, "uuid"))) a.uuid = text_in(note, "uuid");
     const std::uint64_t number =
         note.contains("number") && note["number"].is_number_unsigned() ? note["number"].get<std::uint64_t>() : 0;
     if (a.number == 0 && number < kLargestNumber) a.number = std::int64_t(number);
@@ -267,8 +267,8 @@ bool fill_from_recording(const fs::path& file, Attempt& a) {
 
 Store::Store(fs::path folder) : m_folder(std::move(folder)) {
   std::error_code error;
-  fs::create_directories(m_folder, error);
-  fs::permissions(m_folder, fs::perms::owner_all, error);  // names are nobody else's business
+  if (fs::create_directories(m_folder, error))
+    fs::permissions(m_folder, fs::perms::owner_all, error);  // names are nobody else's business
   open();
 }
 
@@ -438,8 +438,10 @@ void Store::take_in_files(Database& db) {
       const std::string name = file.path().filename().string();
       if (name.size() < std::strlen(kWaiting) || name.substr(name.size() - std::strlen(kWaiting)) != kWaiting) continue;
       std::optional<Attempt> a = attempt_from_json(read_file(file.path(), 2 * kLargestResult));
-      // The temporary folder is every store's: an attempt says which one it belongs to.
-      if (!a || (!a->store.empty() && a->store != fs::absolute(m_folder).string())) continue;
+      // Other folders are everybody's: there an attempt must say that it belongs to this store.
+      const bool ours =
+          a && (a->store == fs::absolute(m_folder).string() || (a->store.empty() && folder == m_folder / "waiting"));
+      if (!ours) continue;
       if (a->trainee.empty()) a->trainee = "guest";
       const std::string trace =
           read_file(folder / (name.substr(0, name.size() - std::strlen(kWaiting)) + kWaitingTrace), kLargestTrace);
@@ -483,7 +485,7 @@ void Store::settle_running(Database& db) {
     if (state_in(db, a.uuid) == AttemptState::running && !AttemptLock::is_held(m_folder, a.uuid)) write_row(db, a);
     one.commit();
     std::error_code ignored;
-    fs::remove(m_folder / "locks" / a.uuid, ignored);
+    if (is_uuid(a.uuid)) fs::remove(m_folder / "locks" / a.uuid, ignored);
     if (a.state == AttemptState::interrupted)
       notice(fmt::format("attempt {} was interrupted: the program ended without saying so; {}", a.number,
                          a.ticks > 0 ? fmt::format("its recording reaches {:.1f} s", a.seconds)

@@ -42,7 +42,7 @@ constexpr ThresholdRow kRows[] = {
     one("check_s", 1, 0, 60, &S::check_time, "both stumps in view this long"),
     one("pull_limit_N", 1, 0, 100, &S::pull_limit, "a harder pull on delicate tissue is an over-force"),
     one("pull_limit_other_N", 1, 0, 100, &S::pull_limit_other, "the same for other tissue"),
-    one("pull_excursion_s", 1, 0, 10, &S::pull_excursion, "an over-force counts when it lasts this long"),
+    one("pull_excursion_s", 1, 0.001, 10, &S::pull_excursion, "an over-force counts when it lasts this long"),
     one("pinch_limit_N", 1, 0, 200, &S::pinch_limit, "a harder pinch of bowel is an over-force"),
     one("pinch_impulse_N_s", 1, 0, 1e4, &S::pinch_impulse, "pinch times time on bowel, at most"),
     one("blind_s", 1, 0, 60, &S::blind_time, "an instrument may move out of view this long"),
