@@ -2,7 +2,7 @@
 # Installs what is missing, builds, and starts Trocar.
 #
 #   ./run.sh                   the start screen of the trainer; where there is no display the scripted surgeon does the
-#                              sterilisation and leaves pictures, a recording and a result under out/first-light
+#                              exercise and leaves pictures, a film, a recording and a report under out/demonstration
 #   ./run.sh build             stops after the build; the program is build/release/trocar
 #   ./run.sh ARGUMENTS...      starts the program with these (./run.sh --help, ./run.sh list, ...)
 set -euo pipefail
@@ -24,7 +24,7 @@ fi
 
 echo "run: no display, so the scripted surgeon does $exercise" >&2
 cd "$root"
-out=out/first-light
+out=out/demonstration
 rm -rf "$out"
 mkdir -p "$out"
 status=0
@@ -34,10 +34,14 @@ if [ $status -gt 1 ]; then  # 1: the goal was not reached, everything else is th
   cat "$out/result.json" >&2
   exit $status
 fi
+# The left tube is clipped and cut in this part; the whole would take minutes to draw without a graphics card.
+"$program" replay "$out/sterilisation.rec" --video "$out/sterilisation.mp4" --from 14 --to 38 >/dev/null ||
+  echo "run: no film" >&2
 echo
 cat "$out/result.json"
 echo
 echo "pictures:  $out/shots/ ($(find "$out/shots" -name '*.png' | wc -l))"
+[ -e "$out/sterilisation.mp4" ] && echo "film:      $out/sterilisation.mp4"
 echo "recording: $out/sterilisation.rec  (check it: build/release/trocar replay $out/sterilisation.rec --verify)"
 echo "result:    $out/result.json"
 echo "report:    $(find "$out/report" -name '*.html' | head -n 1)"

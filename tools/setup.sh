@@ -26,6 +26,7 @@ build=(
   libsqlite3-dev       # the session store: attempts and results
   libopenal-dev        # sounds of the window
   fonts-dejavu-core    # its text
+  ffmpeg               # films: a program of its own, called for --video and by the player
 )
 test=(
   libgtest-dev         # tests
