@@ -99,6 +99,7 @@ void AttemptWindow::picture(Live& live, Choice& choice) {
   lead(live, now);
   tell(live);
   warn_of_pull(now);
+  ask_for_the_eye(now);
   if (now.finished && !m_over) end(live, Ending::came_to_its_end);
   draw_scene(now);
   draw_over(now, choice);
@@ -167,6 +168,24 @@ void AttemptWindow::warn_of_pull(const Snapshot& now) {
   double pull = 0;
   for (int h = 0; h < hand_count(m_lesson.model); ++h) pull = std::max(pull, pull_on(now.state, h));
   if (m_pull_warning.due(pull, pull_limit(m_lesson), now_seconds())) m_stage.sound.play(Tone::warning);
+}
+
+/// An instrument that comes in waits under its trocar until it is in the picture.
+void AttemptWindow::ask_for_the_eye(const Snapshot& now) {
+  if (!m_pilot || stands_still()) return;
+  int waits = -1;
+  for (int h = 0; h < hand_count(m_lesson.model); ++h)
+    if (m_pilot->waits_for_eye(h)) waits = h;
+  if (waits == m_asked_for_eye) return;
+  m_asked_for_eye = waits;
+  if (waits < 0) return;
+  const std::string name = hand_name(m_lesson.model, waits);
+  const bool gamepad = m_gamepad_used && m_stage.window.gamepads().present();
+  m_feedback.add(ui::Mark::warning,
+                 fmt::format("{}: out of view. Turn the endoscope ({}) towards it, and it comes in", name,
+                             gamepad ? "shoulder button" : "key 0"),
+                 now.seconds, now_seconds());
+  m_stage.log.event("waits-for-eye", {{"tick", now.state.tick}, {"tool", m_lesson.model.hands[size_t(waits)].name}});
 }
 
 void AttemptWindow::draw_scene(const Snapshot& now) {

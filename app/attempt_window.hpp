@@ -33,6 +33,7 @@ class AttemptWindow {
   void lead(Live& live, const Snapshot& now);
   void tell(Live& live);
   void warn_of_pull(const Snapshot& now);
+  void ask_for_the_eye(const Snapshot& now);
   void draw_scene(const Snapshot& now);
   void draw_over(const Snapshot& now, Choice& choice);
   void draw_the_rack(const Snapshot& now);
@@ -55,6 +56,7 @@ class AttemptWindow {
   Json m_result;
   bool m_hint = false, m_hint_again = false, m_paused = false, m_rack = false, m_over = false;
   bool m_was_still = true, m_gamepad_used = false, m_had_focus = false;
+  int m_asked_for_eye = -1;  ///< hand whose insertion waits to be seen, as told
 };
 
 }  // namespace trocar::app

@@ -1,6 +1,7 @@
 #include "event_log.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include <fmt/format.h>
 
@@ -38,7 +39,12 @@ Json clips(const sim::Model& model, const sim::State& state) {
   for (int i = 0; i < state.clip_count; ++i) {
     const interactions::Clip& c = state.clips[size_t(i)];
     const bool strand = c.strand >= 0 && size_t(c.strand) < model.strands.size();
-    out.push_back({{"on", strand ? model.strands[size_t(c.strand)].name : ""}, {"s_mm", 1000 * c.s}});
+    out.push_back({{"on", strand ? model.strands[size_t(c.strand)].name : ""},
+                   {"s_mm", 1000 * c.s},
+                   {"off_square_rad", c.theta},
+                   {"cover", c.cover},
+                   {"closing_s", c.closing_time},
+                   {"tips_seen", c.tips_visible}});
   }
   return out;
 }
@@ -64,6 +70,11 @@ Json courses(const sim::Model& model, const sim::State& state) {
 
 }  // namespace
 
+std::string EventLog::path_of(const std::string& given) {
+  const char* from_environment = std::getenv("TROCAR_WINDOW_LOG");
+  return !given.empty() ? given : from_environment ? from_environment : "";
+}
+
 EventLog::EventLog(const std::string& path) {
   if (path.empty()) return;
   m_file.reset(std::fopen(path.c_str(), "w"));
@@ -82,6 +93,7 @@ void EventLog::event(const std::string& name, const Json& details) {
 void EventLog::moment(const sim::Model& model, const Moment& moment) {
   Json details{{"tick", moment.tick}, {"text", moment.text}};
   if (moment.tool >= 0) details["tool"] = model.hands[size_t(moment.tool)].name;
+  if (!moment.code.empty()) details["code"] = moment.code;
   event(moment.what, details);
 }
 
@@ -123,7 +135,10 @@ void EventLog::pose(const sim::Model& model, const Snapshot& now, int led) {
                  {"step", now.current_step},
                  {"led", led < 0 ? "scope" : model.hands[size_t(led)].name},
                  {"picture",
-                  {{"eye_mm", millimetres(view.eye)},
+                  {{"port_mm", millimetres(model.scope.port)},
+                   {"depth_mm", 1000 * double(state.scope.depth)},
+                   {"field_rad", model.scope.field_of_view},
+                   {"eye_mm", millimetres(view.eye)},
                    {"right", direction(view.right)},
                    {"up", direction(view.up)},
                    {"forward", direction(view.forward)}}},

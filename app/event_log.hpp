@@ -20,6 +20,8 @@ namespace trocar::app {
 
 class EventLog {
  public:
+  /// The path that was given, else TROCAR_WINDOW_LOG.
+  static std::string path_of(const std::string& given);
   /// Nothing is logged to an empty path.  @throws core::EnvironmentLacks
   explicit EventLog(const std::string& path);
 

@@ -12,6 +12,7 @@ constexpr double kTimeConstant = 0.01;  // [s] of the smoothing
 constexpr double kParked = 0.010;       // [m] a changed instrument waits this deep, in the trocar's sleeve
 constexpr double kInsertSpeed = 0.06;   // [m/s]
 constexpr double kInView = 0.012;       // [m] an instrument that comes into the view goes on for this long
+constexpr double kHollow = 0.040;       // [m] as deep as an instrument goes in by itself without being seen
 
 std::array<float, 3> as_array(Vec3d v) { return {float(v.x), float(v.y), float(v.z)}; }
 Vec3d as_vector(const std::array<float, 3>& a) { return {double(a[0]), double(a[1]), double(a[2])}; }
@@ -79,21 +80,24 @@ void HandPilot::go_on(float dt, const sim::State& state) {
 /// Along the shaft as it was placed, until both jaws have been in view for a while or the placed depth is reached: it
 /// was chosen clear of all tissue.
 void HandPilot::move_in(int hand, float dt, const sim::State& state) {
+  m_unseen[size_t(hand)] = false;
   if (changing(hand, state)) return;
   sim::ToolInput& input = m_input.tools[hand];
   const sim::ToolInput& placed = m_model.start.tools[hand];
   const interactions::ToolState& tool = state.tools[size_t(hand)];
   if (tool.depth < 2 * kParked) input.yaw = placed.yaw, input.pitch = placed.pitch;
   const std::string& name = m_model.hands[size_t(hand)].name;
-  const bool seen = sim::visible(m_model, state, m_model.target_index(name + ".jaw_a")) &&
-                    sim::visible(m_model, state, m_model.target_index(name + ".jaw_b"));
+  const auto shows = [&](const char* part) { return sim::visible(m_model, state, m_model.target_index(name + part)); };
+  const bool seen = shows(".jaw_a") && shows(".jaw_b");
+  const bool noticed = seen || shows(".jaw_a") || shows(".jaw_b") || shows(".shaft");
   const double left = seen ? std::min(kInView, double(placed.depth - input.depth)) : double(placed.depth - input.depth);
   const bool ahead = double(input.depth) - tool.depth > kLeash;  // it meets something: do not push on
   if (left <= 0 || (seen && tool.depth > 3 * kParked)) {
     m_inserting[size_t(hand)] = false;
     return;
   }
-  if (!ahead) input.depth += float(std::min(left, kInsertSpeed * double(dt)));
+  m_unseen[size_t(hand)] = !noticed && double(input.depth) >= kHollow;
+  if (!ahead && !m_unseen[size_t(hand)]) input.depth += float(std::min(left, kInsertSpeed * double(dt)));
 }
 
 void HandPilot::move_tool(const devices::HandCommand& command, const kinematics::ScopeFrame& view,

@@ -6,7 +6,8 @@
 //   pilot.take(hand, 2);                                   // another instrument from the rack
 //
 // While a hand changes its instrument its command stays in the trocar, so that the new one is brought in by the
-// trainee: with the wheel or keys, or by insert(), which moves it in until its jaws are in view.
+// trainee: with the wheel or keys, or by insert(), which moves it in until its jaws are in view. Nothing goes in deep
+// that nobody sees: insert() waits within the hollow under the trocar until the endoscope shows it.
 #pragma once
 
 #include <trocar/devices/follower.hpp>
@@ -32,6 +33,8 @@ class HandPilot {
   void toggle_fine() { m_hands.fine = !m_hands.fine; }
   bool changing(int hand, const sim::State& state) const;  ///< its instrument
   bool inserting(int hand) const { return m_inserting[size_t(hand)]; }
+  /// Does its insertion go on only when it is seen?
+  bool waits_for_eye(int hand) const { return m_inserting[size_t(hand)] && m_unseen[size_t(hand)]; }
 
   /// After a pause or a lost device: nothing that is held down now acts, every handle keeps its grip.
   void take_up(const devices::HandSample& sample) { devices::take_up(m_settings, sample, m_hands); }
@@ -51,7 +54,7 @@ class HandPilot {
   devices::HandState m_hands;
   devices::HandCommand m_command;
   sim::Input m_input;
-  std::array<bool, sim::kMaxTools> m_inserting{};
+  std::array<bool, sim::kMaxTools> m_inserting{}, m_unseen{};
 };
 
 /// Commands that come at display rate as smooth motion at 1 kHz: every coordinate of an Input through a critically

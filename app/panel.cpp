@@ -76,8 +76,20 @@ void draw_hand(const PanelContent& c, int h) {
   ui::text(state, ui::kBlue);
 }
 
+/// A clip wants to be closed slowly, and no device does so unasked.
+void draw_slowly(const PanelContent& c, int h) {
+  if (!c.hands || c.hands->led != h || held_by(c.lesson.model, c.now.state, h).clips == 0) return;
+  ui::text(c.hands->fine ? "fine motion is on: the jaws close slowly"
+           : c.gamepad   ? "close slowly: press the left stick, then pull"
+                         : "close slowly: hold Shift, too",
+           ui::kOrange);
+}
+
 void draw_hands(const PanelContent& c) {
-  for (int h = 0; h < hand_count(c.lesson.model); ++h) draw_hand(c, h);
+  for (int h = 0; h < hand_count(c.lesson.model); ++h) {
+    draw_hand(c, h);
+    draw_slowly(c, h);
+  }
   if (!c.hands) return ui::text("led by " + c.input, ui::kGrey);
   const bool scope = c.hands->led == devices::kScope;
   ui::mark(scope ? Mark::now : Mark::note);

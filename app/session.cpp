@@ -22,6 +22,7 @@ constexpr FlagName kFlags[] = {
     {tissue::StepReport::kNonFinite, "non_finite"},     {tissue::StepReport::kInverted, "inverted_cells"},
     {tissue::StepReport::kBadLoad, "bad_load"},         {tissue::StepReport::kIndefinite, "indefinite"},
     {sim::StepReport::kTooManyLoads, "too_many_loads"}, {sim::StepReport::kBadInput, "bad_input"},
+    {sim::StepReport::kBookFull, "book_full"},
 };
 
 std::string body_name(const sim::Model& model, std::int32_t body) {
@@ -204,6 +205,8 @@ void Session::collect_moments() {
   for (; m_errors_told < m_monitor->errors().size(); ++m_errors_told) {
     const training::ErrorMade& error = m_monitor->errors()[m_errors_told];
     add_moment("error", -1, fmt::format("{}: {}", error.code, error.meaning));
+    m_moments.back().code = error.code;
+    m_moments.back().hint = error.hint;
   }
 }
 

@@ -29,6 +29,7 @@ struct Moment {
   std::string what;  ///< "grasped", "released", "slipped", "clipped", "clip-dropped", "cut", "step-done"
   int tool = -1;     ///< -1: none
   std::string text;  ///< for people: "grasper grasped left tube"
+  std::string code = {}, hint = {};  ///< of an error: "A1.8", what to do instead
 };
 
 class Session {
