@@ -1,11 +1,9 @@
 #include "paths.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <system_error>
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
@@ -83,13 +81,6 @@ fs::path data_folder() {
   if (const std::string data = environment("XDG_DATA_HOME"); !data.empty()) return fs::path(data) / "trocar";
   const std::string home = environment("HOME");
   return fs::path(home.empty() ? "." : home) / ".local/share/trocar";
-}
-
-fs::path default_recording(const std::string& exercise) {
-  std::string name = exercise;
-  std::replace(name.begin(), name.end(), '/', '-');
-  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  return unused(data_folder() / "recordings" / fmt::format("{}-{:%Y-%m-%d-%H%M%S}.rec", name, fmt::localtime(now)));
 }
 
 fs::path unused(const fs::path& path) {

@@ -30,9 +30,6 @@ void make_folder(const std::filesystem::path& folder);
 /// $XDG_DATA_HOME/trocar, else ~/.local/share/trocar. Not made by this.
 std::filesystem::path data_folder();
 
-/// For recordings that nobody named: a new name in data_folder()/recordings.
-std::filesystem::path default_recording(const std::string& exercise);
-
 /// `path` itself if there is no such file, else "NAME-2.EXT", "NAME-3.EXT", ...
 std::filesystem::path unused(const std::filesystem::path& path);
 

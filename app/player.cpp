@@ -46,19 +46,7 @@ constexpr std::uint64_t kExposureStep = 500;                  // [ms] of a camer
 constexpr std::uint64_t kSettling = 4, kSettlingStep = 2000;  // pictures, [ms]: before a film begins
 constexpr int kScopeEye = 0, kOutsideEye = 1, kFilmEye = 2;   // exposure memories
 
-/// A software renderer that takes every core would take the simulation's, too. Read by Mesa when the context is made.
-void leave_a_core_to_the_simulation() {
-  const unsigned cores = std::max(2u, std::thread::hardware_concurrency());
-  setenv("LP_NUM_THREADS", std::to_string(cores - 1).c_str(), 0);
-}
-
-std::string log_path(const PlayerOptions& options) {
-  const char* from_environment = std::getenv("TROCAR_WINDOW_LOG");
-  return !options.log.empty() ? options.log : from_environment ? from_environment : "";
-}
-
 Window open_window(const PlayerOptions& options) {
-  leave_a_core_to_the_simulation();
   try {
     return Window("Trocar: " + fs::path(options.file).filename().string(), options.size);
   } catch (const core::EnvironmentLacks& lacks) {
@@ -624,7 +612,7 @@ void run_player(const sim::Recording& recording, const PlayerOptions& options) {
   Window window = open_window(options);
   std::vector<core::Fault> ignored;  // told by the trainer's start screen, where they can be mended
   window.set_text_size(read_settings(settings_file(), ignored).text_size);
-  EventLog log(log_path(options));
+  EventLog log(EventLog::path_of(options.log));
   catch_interrupts();
   const std::unique_ptr<Lesson> lesson = load_in(window, options.exercise, recording.header.seed);
   Player player(window, *lesson, recording, options, log);

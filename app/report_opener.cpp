@@ -1,6 +1,5 @@
 #include "report_opener.hpp"
 
-#include <chrono>
 #include <filesystem>
 
 #include <fcntl.h>
@@ -16,8 +15,8 @@ extern char** environ;
 namespace trocar::app {
 namespace {
 
-/// Waits for `trocar report ATTEMPT --out FOLDER`. False: it could not be started or failed.
-bool make_page(const std::string& attempt, const std::string& folder) {
+/// Starts `trocar report ATTEMPT --out FOLDER`. 0: it could not be started.
+pid_t begin_page(const std::string& attempt, const std::string& folder) {
   std::string words[] = {"trocar", "report", attempt, "--out", folder};
   char* argv[] = {words[0].data(), words[1].data(), words[2].data(), words[3].data(), words[4].data(), nullptr};
   posix_spawn_file_actions_t actions;
@@ -26,14 +25,13 @@ bool make_page(const std::string& attempt, const std::string& folder) {
   pid_t child = 0;
   const int failed = posix_spawn(&child, "/proc/self/exe", &actions, nullptr, argv, environ);
   posix_spawn_file_actions_destroy(&actions);
-  int status = 0;
-  return !failed && waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  return failed ? 0 : child;
 }
 
 }  // namespace
 
 void ReportOpener::open(const training::Store* store, const std::string& attempt) {
-  if (m_page.valid() || !store) return;
+  if (m_child > 0 || !store) return;
   std::optional<training::Attempt> found;
   try {
     found = store->find(attempt);
@@ -45,21 +43,22 @@ void ReportOpener::open(const training::Store* store, const std::string& attempt
     m_say = "no report: the store does not know this attempt";
     return;
   }
-  m_say = "making the report ...";
   const std::string folder = (store->folder() / "reports" / found->uuid).string();
-  m_page = std::async(std::launch::async, [uuid = found->uuid, folder] {
-    return make_page(uuid, folder) ? folder + "/index.html" : std::string();
-  });
+  m_page = folder + "/index.html";
+  m_child = begin_page(found->uuid, folder);
+  m_say = m_child > 0 ? "making the report ..." : "no report: `trocar report` could not be started";
 }
 
 std::string ReportOpener::poll() {
-  if (!m_page.valid() || m_page.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return {};
-  const std::string page = m_page.get();
-  if (page.empty())
+  int status = 0;
+  if (m_child <= 0 || waitpid(m_child, &status, WNOHANG) == 0) return {};
+  m_child = 0;
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
     m_say = "no report: `trocar report` failed, see the messages where Trocar was started";
-  else
-    m_say = (ui::open_in_browser(page) ? "opened in the browser: " : "the report is in ") + page;
-  return page;
+    return {};
+  }
+  m_say = (ui::open_in_browser(m_page) ? "opened in the browser: " : "the report is in ") + m_page;
+  return m_page;
 }
 
 }  // namespace trocar::app

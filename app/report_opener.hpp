@@ -3,12 +3,13 @@
 //
 //   ReportOpener reports;
 //   reports.open(store, uuid_or_number);
-//   if (std::string page = reports.poll(); !page.empty()) ...      // once per picture; it is written, the browser
-//   started show(reports.say());
+//   if (std::string page = reports.poll(); !page.empty()) ...      // once per picture: it is written, the browser has
+//   it show(reports.say());
 #pragma once
 
-#include <future>
 #include <string>
+
+#include <sys/types.h>
 
 #include <trocar/training/store.hpp>
 
@@ -22,8 +23,8 @@ class ReportOpener {
   const std::string& say() const { return m_say; }  ///< "making the report ...", where it is, or why there is none
 
  private:
-  std::future<std::string> m_page;  ///< empty: it failed
-  std::string m_say;
+  pid_t m_child = 0;  ///< makes the page; it goes on by itself if the window closes
+  std::string m_page, m_say;
 };
 
 }  // namespace trocar::app

@@ -106,7 +106,9 @@ void Sound::loop() {
       const Tone tone = m_wanted.front();
       m_wanted.pop_front();
       const float volume = m_volume.load();
+      lock.unlock();  // a device may take its time: the window does not wait for it
       if (player.good() && volume > 0) player.play(tone, volume);
+      lock.lock();
     }
   }
 }

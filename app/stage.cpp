@@ -19,19 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A software renderer that takes every core would take the simulation's, too. Read by Mesa when the context is made.
-void leave_a_core_to_the_simulation() {
-  const unsigned cores = std::max(2u, std::thread::hardware_concurrency());
-  setenv("LP_NUM_THREADS", std::to_string(cores - 1).c_str(), 0);
-}
-
-std::string log_path(const WindowOptions& options) {
-  const char* from_environment = std::getenv("TROCAR_WINDOW_LOG");
-  return !options.log.empty() ? options.log : from_environment ? from_environment : "";
-}
-
 PictureSize first_size(const WindowOptions& options, const Settings& settings) {
-  leave_a_core_to_the_simulation();
   return options.size.value_or(PictureSize{settings.window_width, settings.window_height});
 }
 
@@ -43,7 +31,7 @@ Stage::Stage(const WindowOptions& o)
       window("Trocar", first_size(o, settings)),
       context(render::GlContext::adopt_current()),
       backend(render::make_gl_backend(*context)),
-      log(log_path(o)) {
+      log(EventLog::path_of(o.log)) {
   for (const core::Fault& f : setting_faults) core::log::warn("{}", core::to_string(f));
   if (!o.trainee.empty()) settings.trainee = training::clean_name(o.trainee);
   apply_settings();

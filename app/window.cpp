@@ -1,6 +1,7 @@
 #include "window.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <iterator>
 #include <thread>
 #include <utility>
@@ -83,9 +84,16 @@ PictureSize fitted(PictureSize size) {
   return size;
 }
 
+/// A software renderer that takes every core would take the simulation's, too. Read by Mesa when the context is made.
+void leave_a_core_to_the_simulation() {
+  const unsigned cores = std::max(2u, std::thread::hardware_concurrency());
+  setenv("LP_NUM_THREADS", std::to_string(cores - 1).c_str(), 0);
+}
+
 }  // namespace
 
 Window::Glfw::Glfw() {
+  leave_a_core_to_the_simulation();
   if (!glfwInit())
     throw core::EnvironmentLacks(fmt::format(
         "cannot open a window: {}. Start it from a desktop (DISPLAY or WAYLAND_DISPLAY set), or use trocar train "

@@ -25,6 +25,9 @@ bool finite(const sim::Model& model, const sim::State& state) {
   for (std::size_t i = 0; i < state.solids.size(); ++i)
     for (int n = 0; n < model.solids[i].network.nodes; ++n)
       if (!finite(tissue::position(model.solids[i].network, state.solids[i], n))) return false;
+  for (std::size_t i = 0; i < state.membranes.size(); ++i)
+    for (int n = 0; n < model.membranes[i].sheet.nodes(); ++n)
+      if (!finite(tissue::position(model.membranes[i].sheet.network, state.membranes[i].network, n))) return false;
   for (const tissue::StrandState& strand : state.strands)
     for (Vec3d x : strand.x)
       if (!finite(x)) return false;

@@ -118,6 +118,14 @@ TEST(Compile, TheDrawnShapeIsTheEquilibrium) {
   EXPECT_LT(worst, 2e-5) << "[m] in three seconds";
 }
 
+TEST(Compile, AFoldFarWiderThanLongIsBounded) {
+  Description d = small::description();
+  d.membranes[0].spacing = 0.0005;
+  d.membranes[0].base = {{0.004, 0.001, -5}, {0.017, 0.002, -5}, {0.030, 0, -5}};
+  d.membranes[0].spacing_at = kHere;
+  expect_one_fault_here(d, "at most 20000 nodes");
+}
+
 TEST(Compile, TheReportSaysWhatTheBodiesCameTo) {
   CompileReport report;
   const sim::Model m = compile(small::description(), &report);

@@ -129,6 +129,28 @@ TEST(Step, TheSessionOfTheseTestsGraspsClipsTwiceAndCuts) {
   EXPECT_EQ(session().flags & ~std::uint32_t(tissue::StepReport::kInverted), 0u);
 }
 
+TEST(Step, WhatNoLongerFitsTheBooksIsNeitherCutNorClippedAndIsTold) {
+  const Model& m = small::model();
+  State s = initial_state(m);
+  Work w = make_work(m);
+  s.clip_count = interactions::kMaxClips;
+  s.cut_count = interactions::kMaxCuts;
+  std::uint32_t flags = 0;
+  for (const Input& input : session().inputs) {
+    const StepReport report = step(m, input, s, w);
+    flags |= report.flags;
+    for (int i = 0; i < report.event_count; ++i) {
+      EXPECT_NE(report.events[i].kind, Event::clipped);
+      EXPECT_NE(report.events[i].kind, Event::cut);
+    }
+  }
+  EXPECT_NE(flags & StepReport::kBookFull, 0u);
+  for (const tissue::StrandState& strand : s.strands)
+    EXPECT_EQ(std::count(strand.alive.begin(), strand.alive.end(), 0), 0);
+  for (const auto& torn : s.torn) EXPECT_EQ(std::count(torn.begin(), torn.end(), 1), 0);
+  for (const auto& parted : s.parted) EXPECT_EQ(std::count(parted.begin(), parted.end(), 1), 0);
+}
+
 TEST(Step, TheSameInputsGiveTheSameState) {
   State s = initial_state(small::model());
   Work w = make_work(small::model());

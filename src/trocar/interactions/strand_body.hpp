@@ -39,7 +39,7 @@ StrandFrame frame_at(const StrandBody& body, const tissue::StrandState& state, S
 /// Frames of all elements. @param frames (n - 1)
 void frames_of(const StrandBody& body, const tissue::StrandState& state, StrandFrame* frames) noexcept;
 
-inline constexpr int kMaxClips = 32, kMaxCuts = 32;
+inline constexpr int kMaxClips = 32, kMaxCuts = 128;
 
 /// A clip is a record on its host: it closes the lumen and rides on the strand's frame. No padding.
 struct Clip {
@@ -57,6 +57,7 @@ struct Clip {
   std::int32_t tips_visible = 0;  ///< jaw tips in view when it closed, 0..2
   std::int32_t reserved = 0;
 };
+static_assert(sizeof(Clip) == 12 * 8 + 8 + 4 * 4, "no padding");
 
 /// What scissors did to a strand, or (strand -1) to an organ or a fold. No padding.
 struct Cut {
@@ -72,6 +73,7 @@ struct Cut {
   std::int32_t membrane = -1;  ///< fold that the blades parted, alone or with its strand
   std::int32_t reserved = 0;
 };
+static_assert(sizeof(Cut) == 4 * 8 + 8 + 6 * 4, "no padding");
 
 void add_to_hash(core::Hasher& hasher, const StrandBody& body) noexcept;
 

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include <fmt/format.h>
+
 #include <trocar/geometry/nearest.hpp>
 #include <trocar/geometry/polyline.hpp>
 #include <trocar/scene/compile_membrane.hpp>
@@ -9,8 +11,10 @@ namespace trocar::scene {
 namespace {
 
 constexpr double kStretchDamping = 0.0004;  // [s] times stiffness; a fold is wet, but sub-steps pay for more
-constexpr double kBendingDamping = 0.0005;   // [s] times stiffness
+constexpr double kBendingDamping = 0.0005;  // [s] times stiffness
 constexpr double kDrag = 8;                 // [1/s] against space: fat, fluid and neighbours that are not modelled
+
+constexpr int kMostFoldNodes = 20'000;
 
 struct Grid {
   int columns = 0, rows = 0;
@@ -32,7 +36,7 @@ Grid grid_of(const Membrane& membrane, const interactions::StrandBody& body) {
     g.top.push_back(a + p.w * (b - a));
     height += length(g.base[size_t(c)] - g.top.back()) / g.columns;
   }
-  g.rows = std::max(3, int(height / membrane.spacing + 0.5) + 1);
+  g.rows = std::max(3, int(std::min(1e6, height / membrane.spacing) + 0.5) + 1);
   return g;
 }
 
@@ -150,6 +154,12 @@ void compile_membrane(const Membrane& membrane, const Tissue& tissue, Vec3d grav
   if (out.strand < 0) return;
   const interactions::StrandBody& body = model.bodies[size_t(out.strand)];
   const Grid g = grid_of(membrane, body);
+  if (double(g.rows) * g.columns > kMostFoldNodes) {  // a fold far wider than long: only now is its width known
+    faults.push_back({membrane.spacing_at, fmt::format("membrane '{}': expected a spacing that gives at most {} nodes, "
+                                                       "got {:.3g}",
+                                                       membrane.name, kMostFoldNodes, double(g.rows) * g.columns)});
+    return;
+  }
   out.from = g.arc.front();
   out.to = g.arc.back();
   tissue::MembraneDescription d;

@@ -155,9 +155,10 @@ void cut_organs(StepContext& c, size_t t) noexcept {
   for (size_t i = 0; i < c.model.solids.size(); ++i) {
     const SolidModel& solid = c.model.solids[i];
     if (!c.work.poses[i].bounds.near_segment(shape.pivot, shape.frame.tip, 0.005)) continue;
+    if (s.cut_count == interactions::kMaxCuts) return;  // what cannot be recorded is not cut
     const int severed = interactions::cut_organ(c.model.tool(s, t), shape, solid.network, solid.fine, s.solids[i],
                                                 s.parted[i], c.work.parts);
-    if (severed == 0 || s.cut_count == interactions::kMaxCuts) continue;
+    if (severed == 0) continue;
     interactions::Cut& cut = s.cuts[size_t(s.cut_count++)];
     cut = {};
     cut.solid = std::int32_t(i);
@@ -167,18 +168,13 @@ void cut_organs(StepContext& c, size_t t) noexcept {
   }
 }
 
-/// The record of what these blades cut in this tick of a membrane's strand, or a new one; none when the book is full.
-interactions::Cut* record_of_cut(State& s, size_t t, std::int32_t strand) noexcept {
+/// Where in the book these blades' cut of a membrane's strand stands that was made in this tick; else its end.
+int place_in_book(const State& s, size_t t, std::int32_t strand) noexcept {
   for (int i = 0; i < s.cut_count; ++i) {
-    interactions::Cut& cut = s.cuts[size_t(i)];
-    if (cut.tick == s.tick && cut.tool == std::int32_t(t) && cut.strand == strand) return &cut;
+    const interactions::Cut& cut = s.cuts[size_t(i)];
+    if (cut.tick == s.tick && cut.tool == std::int32_t(t) && cut.strand == strand) return i;
   }
-  if (s.cut_count == interactions::kMaxCuts) return nullptr;
-  interactions::Cut& cut = s.cuts[size_t(s.cut_count++)];
-  cut = {};
-  cut.tick = s.tick;
-  cut.tool = std::int32_t(t);
-  return &cut;
+  return s.cut_count;
 }
 
 /// Blades that have just closed part the folds they closed in.
@@ -188,15 +184,27 @@ void cut_folds(StepContext& c, size_t t) noexcept {
   for (size_t i = 0; i < c.model.membranes.size(); ++i) {
     const MembraneModel& m = c.model.membranes[i];
     if (!m.cuttable || !c.work.sheet_poses[i].bounds.near_segment(shape.pivot, shape.frame.tip, 0.005)) continue;
+    const int place = place_in_book(s, t, m.strand);
+    if (place == interactions::kMaxCuts) continue;  // what cannot be recorded is not cut
     const interactions::FoldCut fold = interactions::cut_membrane(c.model.tool(s, t), shape, m.sheet, m.depth,
                                                                   s.membranes[i], s.torn[i], c.work.parts);
     if (fold.severed == 0) continue;
-    interactions::Cut* cut = record_of_cut(s, t, m.strand);
-    if (!cut) continue;
-    cut->membrane = std::int32_t(i);
-    cut->fold = fold.depth;
-    cut->tips_visible = tips_visible(c, t);
+    interactions::Cut& cut = s.cuts[size_t(place)];
+    if (place == s.cut_count) {
+      ++s.cut_count;
+      cut = {};
+      cut.tick = s.tick;
+      cut.tool = std::int32_t(t);
+    }
+    cut.membrane = std::int32_t(i);
+    cut.fold = fold.depth;
+    cut.tips_visible = tips_visible(c, t);
   }
+}
+
+/// A grip has ended: did it slip, or did the hand let go?
+void tell_lost(StepContext& c, size_t t, int slips_before) noexcept {
+  tell(c, c.state.tools[t].slipped > slips_before ? Event::slipped : Event::released, int(t), -1);
 }
 
 // 4. Jaws: grip, clip, cut.
@@ -207,17 +215,20 @@ void work_jaws(StepContext& c) noexcept {
     const interactions::ToolModel& model = c.model.tool(s, t);
     interactions::ToolState& tool = s.tools[t];
     c.work.shapes[t] = interactions::shape_of(model, tool.pose(), tool.aperture);
-    const int held = tool.holds;
+    const int held = tool.holds, slips = tool.slipped;
     interactions::update_grip(model, c.work.shapes[t], view, tool);
     if (held == 0 && tool.holds > 0) tell(c, Event::grasped, int(t), tool.hold[0].body);
-    if (held > 0 && tool.holds == 0) tell(c, Event::released, int(t), -1);
+    if (held > 0 && tool.holds == 0) tell_lost(c, t, slips);
     c.work.shapes[t] = interactions::shape_of(model, tool.pose(), tool.aperture);
     if (model.kind == interactions::ToolKind::clip_applier) {
+      const int clips = tool.clips_left;
       const bool fired = update_clip_applier(model, c.work.shapes[t], int(t), view, s.strands, tips_visible(c, t),
                                              s.tick, tool, {s.clips, s.clip_count});
       if (fired) {
         const int clip = s.clip_count - 1;
         tell(c, s.clips[size_t(clip)].strand < 0 ? Event::dropped_clip : Event::clipped, int(t), clip);
+      } else if (tool.clips_left < clips) {
+        c.report.flags |= StepReport::kBookFull;
       }
     } else if (model.kind == interactions::ToolKind::scissors) {
       const int before = s.cut_count;
@@ -227,6 +238,7 @@ void work_jaws(StepContext& c) noexcept {
       if (armed && !tool.armed) {
         cut_organs(c, t);
         cut_folds(c, t);
+        if (s.cut_count == interactions::kMaxCuts) c.report.flags |= StepReport::kBookFull;
       }
       for (int cut = before; cut < s.cut_count; ++cut) tell(c, Event::cut, int(t), cut);
     }
@@ -418,9 +430,9 @@ void feel(StepContext& c) noexcept {
   const interactions::TissueView view = tissue_of(c);
   for (size_t t = 0; t < c.model.hands.size(); ++t) {
     interactions::ToolState& tool = c.state.tools[t];
-    const int slips = tool.slipped;
+    const int held = tool.holds, slips = tool.slipped;
     interactions::slip(c.model.tool(c.state, t), c.work.shapes[t], view, tool);
-    if (tool.slipped > slips) tell(c, Event::slipped, int(t), -1);
+    if (held > 0 && tool.holds == 0) tell_lost(c, t, slips);
   }
 }
 

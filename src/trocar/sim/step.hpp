@@ -11,7 +11,9 @@ namespace trocar::sim {
 struct Event {
   enum Kind : std::int32_t { none, grasped, released, slipped, clipped, dropped_clip, cut, exchanged } kind = none;
   std::int32_t tool = 0;
-  std::int32_t index = 0;  ///< clip or cut number, or the new instrument's number in the rack
+  /// The clip's or the cut's number in the State's book; grasped: the body held (interactions::Hold::body);
+  /// exchanged: the new instrument's number in the rack; released and slipped: -1.
+  std::int32_t index = 0;
 };
 inline constexpr int kMaxEvents = 16;
 
@@ -19,7 +21,8 @@ inline constexpr int kMaxEvents = 16;
 struct StepReport {
   enum Flag : std::uint32_t {
     kTooManyLoads = 1u << 16,  ///< contacts did not fit the reserved capacity: some were left out this tick
-    kBadInput = 1u << 17,      ///< an input was not finite: the hands stayed where they were
+    kBadInput = 1u << 17,  ///< an input was not finite, or its instrument not in the rack: that hand stayed as it was
+    kBookFull = 1u << 18,  ///< the book of clips or cuts is full: clips are lost, blades no longer cut
   };
   std::uint32_t flags = 0;
   int first_bad_body = -1;   ///< solids first, then strands, then membranes

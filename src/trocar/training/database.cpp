@@ -26,7 +26,6 @@ std::string uri_of(const std::filesystem::path& path, const char* query) {
 
 DatabaseFault::DatabaseFault(const std::string& what, int code) : std::runtime_error(what), m_code(code & 0xff) {}
 bool DatabaseFault::damaged() const { return m_code == SQLITE_CORRUPT || m_code == SQLITE_NOTADB; }
-bool DatabaseFault::full() const { return m_code == SQLITE_FULL || m_code == SQLITE_IOERR; }
 
 Database::Database(const std::filesystem::path& path, Access access) : m_path(path.string()) {
   const std::filesystem::path absolute = std::filesystem::absolute(path);
@@ -72,9 +71,6 @@ std::int64_t Database::number_of(const std::string& sql) {
   Query query(*this, sql);
   return query.next() ? query.integer(0) : 0;
 }
-
-std::int64_t Database::last_row() const { return sqlite3_last_insert_rowid(m_handle); }
-int Database::changes() const { return sqlite3_changes(m_handle); }
 
 Query::Query(Database& db, const std::string& sql) : m_db(db) {
   check(sqlite3_prepare_v2(db.handle(), sql.c_str(), -1, &m_statement, nullptr));

@@ -25,7 +25,6 @@ class DatabaseFault : public std::runtime_error {
  public:
   DatabaseFault(const std::string& what, int code);
   bool damaged() const;
-  bool full() const;
 
  private:
   int m_code;
@@ -45,8 +44,6 @@ class Database {
 
   void run(const std::string& sql);                ///< any number of statements without values  @throws DatabaseFault
   std::int64_t number_of(const std::string& sql);  ///< the first column of the first row; 0 if there is none
-  std::int64_t last_row() const;
-  int changes() const;
   sqlite3* handle() const { return m_handle; }
   [[noreturn]] void fail(int code) const;
 

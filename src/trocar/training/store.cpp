@@ -58,6 +58,7 @@ constexpr const char* kFrom = " FROM attempt a JOIN trainee t ON t.id = a.traine
 
 constexpr std::size_t kLargestResult = 16 << 20, kLargestTrace = 64 << 20, kLongestText = 4096;
 constexpr std::uintmax_t kLargestChecked = 64 << 20;     ///< [B] a database above this is not checked at every opening
+constexpr int kMostLost = 20'000;                        ///< numbers that are tried one by one where pages are gone
 constexpr std::uint64_t kLargestNumber = 1'000'000'000;  ///< that a file may claim
 constexpr const char* kWaiting = ".attempt.json";        ///< results that the database did not take
 constexpr const char* kWaitingTrace = ".attempt.trace";
@@ -80,6 +81,16 @@ class OpeningLock {
 };
 
 std::string bounded(const std::string& text, std::size_t most = kLongestText) { return text.substr(0, most); }
+
+/// What lies in a folder, by name. What cannot be listed is left out: a folder may vanish or fail while it is read.
+std::vector<fs::path> files_in(const fs::path& folder) {
+  std::vector<fs::path> out;
+  std::error_code error;
+  fs::directory_iterator at(folder, error);
+  for (; !error && at != fs::directory_iterator(); at.increment(error)) out.push_back(at->path());
+  std::sort(out.begin(), out.end());
+  return out;
+}
 
 std::string read_file(const fs::path& path, std::size_t most) {
   std::error_code error;
@@ -313,6 +324,18 @@ void Store::check(Database& db) {
   if (q.next() && q.text(0) != "ok") throw DatabaseFault(database().string() + ": " + q.text(0), 11 /*SQLITE_CORRUPT*/);
 }
 
+bool Store::damaged() {
+  try {
+    Database db(database(), Database::Access::write);
+    make_durable(db);
+    check(db);
+    migrate(db);
+    return false;
+  } catch (const DatabaseFault& fault) {
+    return fault.damaged();
+  }
+}
+
 void Store::migrate(Database& db) {
   if (db.number_of("PRAGMA user_version") == kVersion) return;
   Transaction all(db);
@@ -360,23 +383,30 @@ void Store::salvage(Database& db, const fs::path& damaged) {
     }
   };
   int saved = 0;
-  std::error_code error;
-  // A row takes far more than 64 bytes, so there cannot be more of them.
-  std::int64_t last = std::int64_t(std::min<std::uintmax_t>(fs::file_size(damaged, error), kLargestChecked) / 64);
   const bool opened = readable([&] {
     Database old(damaged, Database::Access::read);
-    readable([&] { last = std::min(last, old.number_of("SELECT seq FROM sqlite_sequence WHERE name = 'attempt'")); });
-    for (std::int64_t number = 1; number <= last; ++number) {
+    int lost = 0;
+    for (std::int64_t number = 0; lost < kMostLost;) {
       Attempt a;
       std::int64_t trainee = 0;
+      bool more = true;
       const bool sound = readable([&] {
-        Query q(old, fmt::format("SELECT {}, a.trainee FROM attempt a NOT INDEXED WHERE a.number = ?", kAlone));
+        Query q(old, fmt::format("SELECT {}, a.trainee FROM attempt a NOT INDEXED WHERE a.number > ? "
+                                 "ORDER BY a.number LIMIT 1",
+                                 kAlone));
         q.bind(number);
-        if (!q.next()) return;
+        more = q.next();
+        if (!more) return;
         a = row_of(q);
         trainee = q.integer(20);
       });
-      if (!sound || a.uuid.empty() || state_in(db, a.uuid)) continue;
+      if (!more) break;
+      if (!sound || a.number <= number) {  // on a page that is gone; or one that is read wrongly
+        ++number, ++lost;
+        continue;
+      }
+      number = a.number;
+      if (a.uuid.empty() || state_in(db, a.uuid)) continue;
       readable([&] {
         Query q(old, "SELECT name FROM trainee NOT INDEXED WHERE id = ?");
         q.bind(trainee);
@@ -403,10 +433,9 @@ void Store::salvage(Database& db, const fs::path& damaged) {
 
 void Store::take_in_recordings(Database& db) {
   std::vector<Attempt> found;
-  std::error_code error;
-  for (const fs::directory_entry& file : fs::directory_iterator(m_folder / "recordings", error)) {
+  for (const fs::path& file : files_in(m_folder / "recordings")) {
     Attempt a;
-    if (file.path().extension() != ".rec" || !fill_from_recording(file.path(), a)) continue;
+    if (file.extension() != ".rec" || !fill_from_recording(file, a)) continue;
     if (state_in(db, a.uuid)) continue;
     if (AttemptLock::is_held(m_folder, a.uuid)) a.state = AttemptState::running;
     if (a.trainee.empty()) a.trainee = "guest";
@@ -432,12 +461,11 @@ void Store::take_in_files(Database& db) {
 
   std::vector<std::pair<Attempt, fs::path>> found;
   for (const fs::path& folder : folders) {
-    std::error_code error;
     if (folder.empty()) continue;
-    for (const fs::directory_entry& file : fs::directory_iterator(folder, error)) {
-      const std::string name = file.path().filename().string();
+    for (const fs::path& file : files_in(folder)) {
+      const std::string name = file.filename().string();
       if (name.size() < std::strlen(kWaiting) || name.substr(name.size() - std::strlen(kWaiting)) != kWaiting) continue;
-      std::optional<Attempt> a = attempt_from_json(read_file(file.path(), 2 * kLargestResult));
+      std::optional<Attempt> a = attempt_from_json(read_file(file, 2 * kLargestResult));
       // Other folders are everybody's: there an attempt must say that it belongs to this store.
       const bool ours =
           a && (a->store == fs::absolute(m_folder).string() || (a->store.empty() && folder == m_folder / "waiting"));
@@ -446,7 +474,7 @@ void Store::take_in_files(Database& db) {
       const std::string trace =
           read_file(folder / (name.substr(0, name.size() - std::strlen(kWaiting)) + kWaitingTrace), kLargestTrace);
       a->trace.assign(trace.begin(), trace.end());
-      found.emplace_back(std::move(*a), file.path());
+      found.emplace_back(std::move(*a), file);
     }
   }
   std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
@@ -511,7 +539,7 @@ std::string Store::put(Attempt& attempt) {
       m_writable = false;
       if (!fault.damaged() || round > 0) return fault.what();
       const OpeningLock lock(m_folder);
-      repair(fault.what());
+      if (damaged()) repair(fault.what());  // unless another program has repaired it meanwhile
     }
   }
   return "the database stays damaged";
@@ -688,8 +716,8 @@ Store::Forgotten Store::forget(const std::string& trainee) {
     else
       out.left.emplace_back(r);
   }
-  for (const fs::directory_entry& file : fs::directory_iterator(m_folder, error))
-    if (file.path().filename().string().rfind("sessions.sqlite.damaged-", 0) == 0) out.left.push_back(file.path());
+  for (const fs::path& file : files_in(m_folder))
+    if (file.filename().string().rfind("sessions.sqlite.damaged-", 0) == 0) out.left.push_back(file);
   return out;
 }
 

@@ -109,6 +109,7 @@ class Store {
   void open();
   void migrate(Database& db);
   void check(Database& db);
+  bool damaged();  ///< still, or again: asked under the opening lock
   void repair(const std::string& what);
   void salvage(Database& db, const std::filesystem::path& damaged);
   void take_in_recordings(Database& db);
