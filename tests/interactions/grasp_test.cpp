@@ -157,6 +157,36 @@ TEST(Grasp, AWeakGripSlipsAndLetsGo) {
   EXPECT_GT(most, 0.8 * bears);
 }
 
+TEST(Grasp, TissueThatSlidesOutBetweenStillJawsHasSlipped) {
+  // Closed until they just touch: drawn up, the tube slides towards the ends, where the jaws stand farther apart.
+  small::Table t(small::model());
+  Vec3d tip = tip_around(0.055);
+  t.carry(kGrasper, {0.055, 0, 0.04}, tip, 0.2);
+  for (int i = 0; i < 2000 && t.tool(kGrasper).pinch < 0.1; ++i) {
+    t.input.tools[kGrasper].handle += 0.0005f;
+    t.step();
+  }
+  ASSERT_GT(t.tool(kGrasper).holds, 0);
+  for (int i = 0; i < 3000 && t.tool(kGrasper).holds > 0; ++i) {
+    tip.z += 0.00002;
+    t.point(kGrasper, tip);
+    t.step();
+  }
+  EXPECT_EQ(t.tool(kGrasper).holds, 0);
+  EXPECT_EQ(t.count(sim::Event::slipped), 1);
+  EXPECT_EQ(t.count(sim::Event::released), 0);
+}
+
+TEST(Grasp, LettingGoUnderTensionIsNoSlip) {
+  Grip g;
+  g.lift({0, 0, 0.015}, 0.05);
+  EXPECT_GT(length(g.pull(kGrasper)), 0.1);
+  g.close_slowly(kGrasper, 0, 4000);
+  EXPECT_EQ(g.tool(kGrasper).holds, 0);
+  EXPECT_EQ(g.count(sim::Event::released), 1);
+  EXPECT_EQ(g.count(sim::Event::slipped), 0);
+}
+
 TEST(Grasp, AFirmGripDoesNotSlip) {
   Grip g;
   g.lift({0, 0, 0.015}, 0.05);

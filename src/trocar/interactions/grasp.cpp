@@ -9,6 +9,7 @@ namespace {
 constexpr double kHoldStiffness = 1200;    // [N/m] per held point, implicit
 constexpr double kHoldDamping = 0.5;       // [N s/m]
 constexpr double kFoldThickness = 0.0025;  // [m] a pinched fold of an organ's surface
+constexpr double kLoose = 0.06;            // aperture beyond the tissue's at which jaws hold it no more
 constexpr double kCompressed = 0.7;        // thickness of a strand between jaws that just hold it, of its diameter
 
 struct Candidate {
@@ -110,6 +111,13 @@ double thickness_of(const Hold& hold, const TissueView& view) noexcept {
 
 constexpr float kCentring = 0.985f;  // per tick: closing jaws bring what lies between them to the middle
 
+/// The grip is gone: a slip, unless the hand has let go.
+void lose(ToolState& tool) noexcept {
+  tool.holds = 0;
+  tool.slipped += !tool.letting_go;
+  for (double& p : tool.pull) p = 0;
+}
+
 bool grips(ToolKind kind) noexcept { return kind == ToolKind::grasper; }
 
 }  // namespace
@@ -132,8 +140,13 @@ void update_grip(const ToolModel& model, const ToolShape& shape, const TissueVie
   }
   if (tool.holds > 0) {
     const double stop = aperture_at(model, thickness_of(tool.hold[0], view), tool.hold[0].local[2]);
-    if (wanted > stop + 0.06) {
-      tool.holds = 0;
+    // Loose jaws are opened by the hand, or the tissue has slid towards their tips, where they stand farther apart.
+    if (wanted <= stop)
+      tool.letting_go = 0;
+    else if (wanted > tool.aperture)
+      tool.letting_go = 1;
+    if (wanted > stop + kLoose) {
+      lose(tool);
     } else {
       for (int i = 0; i < tool.holds; ++i) {
         float& off = tool.hold[i].local[0];
@@ -154,6 +167,7 @@ void update_grip(const ToolModel& model, const ToolShape& shape, const TissueVie
   if (c.count == 0) return;
   const double stop = aperture_at(model, c.thickness, c.along);
   if (wanted > stop) return;
+  tool.letting_go = 0;
   tool.holds = c.count;
   for (int i = 0; i < c.count; ++i) tool.hold[i] = c.hold[i];
   tool.aperture = stop;
@@ -213,11 +227,8 @@ void slip(const ToolModel& model, const ToolShape& shape, const TissueView& view
                      std::fabs(double(h.local[1])) > 0.5 * model.jaw_width + 0.003;
     if (!out) tool.hold[kept++] = h;
   }
-  if (kept == 0) {
-    ++tool.slipped;
-    tool.pull[0] = tool.pull[1] = tool.pull[2] = 0;
-  }
   tool.holds = kept;
+  if (kept == 0) lose(tool);
 }
 
 }  // namespace trocar::interactions

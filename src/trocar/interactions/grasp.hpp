@@ -19,7 +19,8 @@ struct TissueView {
   std::span<const SheetView> membranes = {};
 };
 
-/// Opens, keeps or ends the grip, and sets how far the jaws close: tissue between them keeps them apart.
+/// Opens, keeps or ends the grip, and sets how far the jaws close: tissue between them keeps them apart. A grip that
+/// ends without the hand's opening has slipped: ToolState::slipped counts those.
 void update_grip(const ToolModel& model, const ToolShape& shape, const TissueView& view, ToolState& tool) noexcept;
 
 /// Pulls the held points towards their places between the jaws.
