@@ -135,6 +135,10 @@ double Surgeon::slant(int hand, double s) const {
   return dot(normalised(tube_point(s) - m_arms[hand].port), tube_tangent(s));
 }
 
+double Surgeon::wanted_slant() const {
+  return flawed("A1.4") ? 0.43 : flawed("A1.5") ? 0.72 : 0;  // closing legs straighten some of it
+}
+
 double Surgeon::next_clip_at() const {
   const Sterilisation& g = m_exercise.goal;
   const double apart = 0.5 * (g.clip_distance.low + g.clip_distance.high);
@@ -197,8 +201,7 @@ bool Surgeon::aim(int hand, double s, double inside, double back, double speed) 
   const interactions::ToolModel& t = tool(hand);
   const Vec3d at = tube_point(s), axis = normalised(at - m_arms[hand].port);
   const bool there = m_arms.move(hand, at + (t.jaw_length - inside - back) * axis, speed);
-  const double offset = hand != m_applier ? 0 : flawed("A1.4") ? 0.39 : flawed("A1.5") ? 0.70 : 0;
-  return m_arms.turn_across(hand, tube_tangent(s), offset) && there;
+  return m_arms.turn_across(hand, tube_tangent(s)) && there;
 }
 
 bool Surgeon::approach(int hand, double s, double inside, double speed) {
@@ -219,6 +222,7 @@ void Surgeon::keep_presented() {
   // Two things to hold at once: the isthmus across the applier's shaft (raising turns it), and a gentle pull on it
   // (drawing it outwards stretches it).
   if (!holding()) return;
+  if (wanted_slant() > 0) return hold_askew();
   const Range& range = m_exercise.goal.present_pull;
   constexpr double kHighest = 0.040, kFarthest = 0.020, kPace = 0.010;  // [m] [m] [m/s]
   constexpr double kLevel = 0.03;                                       // [rad] of slope that is let be
@@ -232,11 +236,26 @@ void Surgeon::keep_presented() {
   }
   if (now > 0.9 * range.high) rise = -1;
   m_lifted = std::clamp(m_lifted + rise * kPace * sim::kTick, 0.0, kHighest);
-  m_drawn = std::clamp(m_drawn + out * kPace * sim::kTick, 0.0, kFarthest);
+  m_drawn = std::clamp(m_drawn + out * kPace * sim::kTick, std::min(0.0, m_drawn), kFarthest);
+  m_arms[side().grasper].tip = m_lift_from + m_lifted * m_lift_up + m_drawn * m_outwards;
+}
+
+void Surgeon::hold_askew() {
+  // Raised, and carried towards the uterus instead of away from it: the isthmus climbs steeply and dips outwards.
+  constexpr double kHigh = 0.030, kNearest = -0.045, kPace = 0.010;  // [m] [m] [m/s]
+  const double missing = wanted_slant() - slant(m_applier, m_clip_place);
+  m_lifted = std::min(kHigh, m_lifted + kPace * sim::kTick);
+  if (m_lifted == kHigh) m_drawn += std::clamp(-10 * missing, -1.0, 1.0) * kPace * sim::kTick;
+  m_drawn = std::clamp(m_drawn, kNearest, 0.0);
   m_arms[side().grasper].tip = m_lift_from + m_lifted * m_lift_up + m_drawn * m_outwards;
 }
 
 void Surgeon::show() {
+  if (flawed("A1.11") && m_phase != Phase::survey) {  // has eyes for the isthmus only
+    m_point_count = 0;
+    want(tube_point(m_exercise.goal.first_clip.low));
+    m_distance = 0.035;
+  }
   if (m_point_count == 0) return;
   m_camera.show({m_points.data(), size_t(m_point_count)}, m_distance);
 }

@@ -139,12 +139,16 @@ class Surgeon {
   bool sees_tip(int hand) const;
   bool sees_jaws(int hand) const;          ///< both tips
   double slant(int hand, double s) const;  ///< of the shaft along the tube: sine of the angle, + when it dips outwards
+  double wanted_slant() const;             ///< 0 but for a flaw
   double next_clip_at() const;             ///< where the next clip belongs; -1 when both are there
   double cut_at() const;
+  double outermost_clip() const;
   Vec3d sample_point(const sim::VisibilitySample& sample) const;
   Vec3d centre_of(int target) const;
   void want_all_of(int target);  ///< in the picture
   Vec3d work_place() const;
+  Vec3d other_side() const;             ///< where the eye sees nothing of this side's tube
+  double from_strands(Vec3d at) const;  ///< [m]
 
   bool clip_fits() const;  ///< whole tube between the legs, across, in view
   double clip_inside() const;
@@ -158,6 +162,8 @@ class Surgeon {
   bool approach(int hand, double s, double inside, double speed);
   void clear_the_way(int hand);  ///< an idle instrument goes back to its trocar
   void keep_presented();         ///< pull and angle of the held tube
+  void hold_askew();             ///< a flaw
+  void keep_across();            ///< the same, for the applier
   void show();
   bool flawed(const char* code) const { return !m_blundered && m_manner.flaw == code; }
 

@@ -27,6 +27,10 @@ void Surgeon::survey() {
     l.seen_for = seen ? l.seen_for + sim::kTick : 0;
     if (!missing) missing = &l;
   }
+  if (flawed("A1.11")) {  // a glance to the other side, and straight to work
+    want(other_side());
+    return m_in_phase > 2.5 ? go(Phase::decide) : void();
+  }
   if (!missing) return go(Phase::decide);
   if (m_in_phase < kGlance || missing->target < 0) return;
   want_all_of(missing->target);
@@ -138,7 +142,7 @@ void Surgeon::reach_ampulla() {
   const SideWork& w = side();
   const double span = w.ampulla_to - w.ampulla_from;
   constexpr double kPlaces[] = {0.42, 0.54, 0.34, 0.62};  // of the ampulla: another one after each failure
-  m_grasp_at = w.ampulla_from + span * kPlaces[m_attempts % 4];
+  m_grasp_at = w.ampulla_from + span * (flawed("A1.11") ? 0.1 : kPlaces[m_attempts % 4]);
   want(tube_point(m_grasp_at));
   clear_the_way(m_applier);
   clear_the_way(w.scissors);
@@ -160,10 +164,10 @@ void Surgeon::grasp() {
   const int hand = side().grasper;
   want(tube_point(m_grasp_at));
   if (flawed("E3") && tool_state(hand).holds > 0 && (m_steady > 0 || tool_state(hand).pinch > 0.1)) {
-    // Hardly closed, and off it goes along the tube, across the jaws.
+    // Hardly closed, and drawn back at once: the tube slides out over the jaws' ends.
     if (m_steady == 0) m_lift_from = m_arms[hand].tip;
     m_steady += sim::kTick;
-    m_arms.move(hand, m_lift_from + 0.03 * tube_tangent(m_grasp_at), kCareful);
+    m_arms.move(hand, m_lift_from + 0.035 * normalised(m_arms[hand].port - m_lift_from), kCareful);
     return;
   }
   if (flawed("E3") && m_steady > 0) {
@@ -198,11 +202,17 @@ void Surgeon::lift() {
     return;
   }
   keep_presented();
+  if (wanted_slant() > 0) return slant(m_applier, m_clip_place) > wanted_slant() - 0.02 ? go(Phase::decide) : void();
   const bool good = std::fabs(slant(m_applier, m_clip_place)) < 0.13 && pull() > g.present_pull.low + 0.08 &&
                     pull() < 0.9 * g.present_pull.high &&
                     straightness_of(*m_model, *m_state, w.tube, w.ampulla_from) > g.present_straightness + 0.002;
   m_steady = good ? m_steady + sim::kTick : 0;
   if (m_steady > 2 * m_exercise.hold_time) go(Phase::decide);
+}
+
+Vec3d Surgeon::other_side() const {
+  const Vec3d cornu = tube_point(0);
+  return {-3 * cornu.x, cornu.y, cornu.z};
 }
 
 double Surgeon::clip_inside() const {
@@ -233,8 +243,12 @@ bool Surgeon::clip_fits() const {
   const double cover = interactions::leg_cover(local.z - (t.jaw_length - t.clip_length), radius, t.clip_length);
   const double square = std::fabs(dot(shape.frame.normal(), tube_tangent(m_clip_place)));
   const bool enclosed = flawed("A1.3") || (cover >= g.clip_cover + 0.01 && std::fabs(local.x) < shape.half_gap);
-  const bool across = flawed("A1.4") || flawed("A1.5") || square > portable::cos(g.clip_angle - 0.035);
-  const bool seen = flawed("E4.2") ? !sees_jaws(m_applier) : sees_jaws(m_applier);
+  const double askew = portable::acos(std::min(1.0, square));
+  bool across = askew < g.clip_angle - 0.035;
+  if (flawed("A1.4")) across = askew > g.clip_angle + 0.05 && askew < g.clip_oblique - 0.05;
+  if (flawed("A1.5")) across = askew > g.clip_oblique + 0.05;
+  // Whoever is sure of the wrong structure does not look for the lower leg behind it.
+  const bool seen = flawed("E11") ? sees_tip(m_applier) : sees_jaws(m_applier) != flawed("E4.2");
   return enclosed && across && seen;
 }
 
@@ -262,7 +276,7 @@ void Surgeon::reach_clip() {
 
 void Surgeon::enter_clip() {
   if (!holding()) return go(Phase::leave_clip);
-  keep_presented();
+  keep_across();
   want(tube_point(m_clip_place));
   want(m_arms[m_applier].tip);
   if (aim(m_applier, m_clip_place, clip_inside(), 0, kCareful)) go(Phase::inspect_clip);
@@ -270,8 +284,8 @@ void Surgeon::enter_clip() {
 
 void Surgeon::inspect_clip() {
   if (!holding()) return go(Phase::leave_clip);
-  keep_presented();
-  want(flawed("E4.2") ? Vec3d{-tube_point(0).x * 3, tube_point(0).y, tube_point(0).z} : tube_point(m_clip_place));
+  keep_across();
+  want(flawed("E4.2") ? other_side() : tube_point(m_clip_place));
   // Where a jaw's tip is hidden, another distance may show it, and a tube deeper between the legs.
   m_distance = 0.052 + 0.008 * double(int(m_in_phase / 1.5) % 4);
   if (m_in_phase > 0.5 && !sees_jaws(m_applier)) m_spare = std::max(0.0007, m_spare - 0.0003 * sim::kTick);
@@ -286,7 +300,7 @@ void Surgeon::inspect_clip() {
 }
 
 void Surgeon::close_clip() {
-  want(flawed("E4.2") ? Vec3d{-tube_point(0).x * 3, tube_point(0).y, tube_point(0).z} : tube_point(m_clip_place));
+  want(flawed("E4.2") ? other_side() : tube_point(m_clip_place));
   aim(m_applier, m_clip_place, clip_inside(), 0, kTrack);
   const double whole = flawed("A1.8") ? 0.6 : 2.6;  // [share of the closing time] from open to closed
   if (!m_arms.grip(m_applier, 1, whole * m_exercise.goal.clip_closing) || m_state->clip_count == m_clips_before) return;
@@ -308,9 +322,21 @@ void Surgeon::leave_clip() {
   if (aim(m_applier, m_clip_place, clip_inside(), 0.022, kCareful)) go(Phase::decide);
 }
 
+double Surgeon::outermost_clip() const {
+  double s = 0;
+  for (int i = 0; i < m_state->clip_count; ++i)
+    if (m_state->clips[size_t(i)].strand == side().tube) s = std::max(s, m_state->clips[size_t(i)].s);
+  return s;
+}
+
+void Surgeon::keep_across() {
+  // Whoever clips askew, or something else, does not mind how the tube lies.
+  if (!flawed("A1.4") && !flawed("A1.5") && !flawed("E11")) keep_presented();
+}
+
 void Surgeon::reach_cut() {
   if (!holding()) return go(Phase::let_go);
-  m_cut_place = flawed("A1.6") ? m_exercise.goal.second_clip.high + 0.004 : cut_at();
+  m_cut_place = flawed("A1.6") ? outermost_clip() + 0.003 : cut_at();
   keep_presented();
   clear_the_way(m_applier);
   want(tube_point(m_cut_place));
@@ -384,24 +410,34 @@ void Surgeon::withdraw() {
   if (m_arms.move_to_depth(hand, kInDepth, kCareful)) go(Phase::decide);
 }
 
+double Surgeon::from_strands(Vec3d at) const {
+  double least = 1e9;
+  for (const tissue::StrandState& strand : m_state->strands)
+    for (const Vec3d& x : strand.x) least = std::min(least, length(x - at));
+  return least;
+}
+
 void Surgeon::pinch_bowel() {
   // The grasper takes a fold of the bowel where it lies nearest, with all strength.
   const int hand = side().grasper;
   const interactions::ToolModel& t = tool(hand);
   const Vec3d port = m_arms[hand].port;
+  constexpr double kClear = 0.02;  // [m]
   if (m_stage == 0) {
-    // Where it is seen, between two neighbouring points of its skin, the jaws' width along them.
+    // Where it is seen and no cord lies near, between two neighbouring points of its skin, the jaws' width along them.
     const sim::VisibilityTarget& seen =
         m_model->targets[size_t(m_model->target_index(m_exercise.goal.bowel.front().name))];
     double least = 1e9;
     int vertex = -1;
     for (int i = seen.first; i < seen.first + seen.count; ++i) {
       const Vec3d at = sample_point(m_model->samples[size_t(i)]);
-      if (!m_state->seen[size_t(i)] || length(at - port) >= least) continue;
-      least = length(at - port);
+      const double cost = length(at - port) - 4 * std::min(from_strands(at), kClear);
+      if (!m_state->seen[size_t(i)] || cost >= least) continue;
+      least = cost;
       vertex = m_model->samples[size_t(i)].where;
     }
-    if (vertex < 0) return;
+    want(centre_of(int(&seen - m_model->targets.data())));
+    if (vertex < 0 || m_in_phase < 2) return;
     const tissue::Skin& skin = m_model->solids[size_t(seen.index)].skin;
     const Vec3d at = vec_cast<double>(skin.rest[size_t(vertex)]);
     double nearest = 1e9;
@@ -419,11 +455,17 @@ void Surgeon::pinch_bowel() {
   want(m_bowel_at);
   want(m_arms[hand].tip);
   const bool turned = m_arms.turn_across(hand, m_bowel_along);
-  if (m_stage == 1 && m_arms.move(hand, m_bowel_at - 0.015 * axis, kTravel) && turned) m_stage = 2;
-  if (m_stage == 2 && m_arms.move(hand, m_bowel_at + 0.4 * t.jaw_length * axis, kCareful)) m_stage = 3;
-  if (m_stage == 3 && m_arms.grip(hand, 1, 1.0)) m_stage = 4;
-  if (m_stage == 4 && m_arms.grip(hand, 0, 1.0)) m_stage = 5;
-  if (m_stage == 5 && m_arms.move(hand, m_bowel_at - 0.02 * axis, kCareful)) m_blundered = true;
+  const double deep = 0.4 * t.jaw_length + 0.003 * m_attempts;  // deeper when it did not come at once
+  if (m_stage == 1 && m_arms.move(hand, port + kInDepth * axis, kTravel)) m_stage = 2;
+  if (m_stage == 2 && m_arms.move(hand, m_bowel_at - 0.015 * axis, kTravel) && turned) m_stage = 3;
+  if (m_stage == 3 && m_arms.move(hand, m_bowel_at + deep * axis, kCareful)) m_stage = 4;
+  if (m_stage == 4 && m_arms.grip(hand, 1, 1.0)) m_stage = tool_state(hand).holds > 0 ? 6 : 5;
+  if (m_stage == 5 && m_arms.grip(hand, 0, 0.5)) {
+    ++m_attempts;
+    m_stage = 3;
+  }
+  if (m_stage == 6 && m_arms.grip(hand, 0, 1.0)) m_stage = 7;
+  if (m_stage == 7 && m_arms.move(hand, m_bowel_at - 0.02 * axis, kCareful)) m_blundered = true;
 }
 
 void Surgeon::blunder() {
@@ -442,7 +484,7 @@ void Surgeon::blunder() {
     want(there);
     want(m_arms[w.scissors].tip);
     m_steady += sim::kTick;
-    if (m_steady < 1.5) return;  // the camera first
+    if (!m_arms.grip(w.scissors, 1, 1) || m_steady < 1.5) return;  // closed, and the camera first
     const Vec3d way = there - m_arms[w.scissors].tip;
     m_arms.move(w.scissors, there + 0.02 * normalised(way), 0.06);
     m_blundered = length(way) < 0.002;
