@@ -1,5 +1,7 @@
 #include "feedback.hpp"
 
+#include "hand_names.hpp"
+
 namespace trocar::app {
 namespace {
 
@@ -37,7 +39,8 @@ const Notice* Feedback::add(const Moment& moment, double clock, double now) {
   for (const Kind& k : kKinds) {
     if (moment.what != k.what) continue;
     const double seconds = k.mark == ui::Mark::error ? kErrorSeconds : kSeconds;
-    std::string text = k.mark == ui::Mark::done ? "Done: " + moment.text : moment.text;
+    std::string text = in_words(moment.text);
+    if (k.mark == ui::Mark::done) text = "Done: " + text;
     if (!moment.hint.empty()) text += "\nBetter: " + moment.hint;
     return push({k.mark, text, clock, k.near_picture ? now + seconds : 0, k.tone});
   }

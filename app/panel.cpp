@@ -42,8 +42,8 @@ void draw_now(const PanelContent& c) {
   const float wrap = width - 2 * pad;
   const float gap = ImGui::GetStyle().ItemSpacing.y, line = ImGui::GetTextLineHeight();
   const float height = 2 * pad + line + gap +
-                       ImGui::CalcTextSize(name.c_str(), nullptr, false, wrap - 22 * ui::scale()).y +
-                       (hint.empty() ? 0 : gap + ImGui::CalcTextSize(hint.c_str(), nullptr, false, wrap).y);
+                       ImGui::CalcTextSize(ui::wrapped(name, wrap - 22 * ui::scale()).c_str()).y +
+                       (hint.empty() ? 0 : gap + ImGui::CalcTextSize(ui::wrapped(hint, wrap).c_str()).y);
   ImGui::PushStyleColor(ImGuiCol_ChildBg, {0.08f, 0.22f, 0.34f, 1});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {pad, pad});
   ImGui::BeginChild("now", {width, height}, false,

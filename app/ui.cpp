@@ -71,10 +71,28 @@ void load_fonts(float scale) {
 float scale() { return g_scale; }
 ImFont* title_font() { return g_title; }
 
+std::string wrapped(const std::string& s, float width) {
+  std::string out;
+  std::size_t line = 0;  // where the last line of `out` begins
+  for (std::size_t at = 0; at < s.size();) {
+    const std::size_t end = std::min(s.find_first_of(" \n", at), s.size());
+    const std::string tried = out.substr(line) + s.substr(at, end - at);
+    if (out.size() > line && ImGui::CalcTextSize(tried.c_str()).x > width) {
+      out.back() = '\n';  // the space before this word
+      line = out.size();
+    }
+    out += s.substr(at, end + 1 - at);
+    if (end < s.size() && s[end] == '\n') line = out.size();
+    at = end + 1;
+  }
+  return out;
+}
+
 void text(const std::string& s, const ImVec4& colour) {
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(s.c_str(), s.c_str() + s.size());
+  ImGui::PushTextWrapPos(0);  // for a word that is wider than everything
+  const std::string lines = wrapped(s, ImGui::GetContentRegionAvail().x);
+  ImGui::TextUnformatted(lines.c_str(), lines.c_str() + lines.size());
   ImGui::PopTextWrapPos();
   ImGui::PopStyleColor();
 }

@@ -22,6 +22,8 @@ void load_fonts(float scale);
 float scale();  ///< as given last
 ImFont* title_font();
 
+/// In lines of at most `width` [px], broken at spaces only: Dear ImGui by itself makes two lines of "0." and "3 N".
+std::string wrapped(const std::string& s, float width);
 void text(const std::string& s, const ImVec4& colour = kWhite);  ///< wrapped
 void title(const std::string& s, const ImVec4& colour = kWhite);
 void heading(const std::string& s);  ///< a rule and a grey word

@@ -202,6 +202,23 @@ TEST(Gamepad, RightTriggerIsTheHandleLeftTriggerTheRatchet) {
   EXPECT_EQ(session.state.handle[0], 0.5f);
 }
 
+TEST(Gamepad, ATriggerTakesUpAHandleWhereItWasLeft) {
+  Session session;
+  HandSample pulled;
+  const auto pull = [&](float to) {
+    pulled.gamepad.right_trigger = to;
+    for (int i = 0; i < 100; ++i) session.give(pulled);
+    return session.state.handle[0];
+  };
+  EXPECT_EQ(pull(0.4f), 0.4f);
+  session.press(Key::zero);  // a look with the endoscope, and back
+  session.press(Key::one);
+  EXPECT_EQ(pull(0), 0.4f);
+  EXPECT_EQ(pull(0.2f), 0.4f);
+  EXPECT_EQ(pull(0.5f), 0.5f);
+  EXPECT_EQ(pull(0.2f), 0.2f);
+}
+
 TEST(Gamepad, ShouldersGoRoundAllInstrumentsAndTheScope) {
   Session session;
   HandSample right, left;

@@ -202,6 +202,8 @@ void move_handle(const HandSettings& settings, const HandSample& sample, float s
     handle = std::min(1.0f, handle + settings.close_per_second * seconds);
     state.opening = true;
   } else if (pulled > kTriggerTouched) {
+    // A handle that was left half closed is not opened by a trigger on its way to where it was left.
+    if (!state.opening && pulled < handle - kTriggerTouched) return;
     const float closing = std::min(pulled, handle + settings.close_per_second * seconds);
     const float opening = std::max(pulled, handle - settings.open_per_second * seconds);
     handle = pulled > handle ? closing : ratchet ? handle : opening;
