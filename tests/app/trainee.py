@@ -15,8 +15,15 @@ VIEW_PER_PIXEL = 1e-3
 STICK_SPEED, STICK_ROLL, STICK_VIEW = 0.05, 2.0, 0.6
 
 
+FAR = 4e-3  # [m] nearer than this a hand on a stick slows down
+
+
 class Failed(Exception):
     pass
+
+
+class Over(Exception):
+    """The exercise has come to its end."""
 
 
 def add(a, b, f=1.0):
@@ -49,6 +56,7 @@ class Eyes:
         self.path, self.process = path, process
         self.file, self.rest = None, ""
         self.events, self.pose, self.screen = [], None, None
+        self.operating = False  # then the result's screen raises Over
 
     def read(self):
         if self.file is None:
@@ -72,6 +80,8 @@ class Eyes:
         while True:
             gone = self.process.poll() is not None
             self.read()
+            if self.operating and self.screen and self.screen["name"] == "result":
+                raise Over
             value = condition()
             if value:
                 return value
@@ -89,6 +99,11 @@ class Eyes:
 
     def where(self, widget, limit=30):
         return self.wait(f"'{widget}' on the screen", lambda: self.screen and self.screen["widgets"].get(widget), limit)
+
+    def later(self, seconds):
+        """Waits for simulated time."""
+        tick = self.pose["tick"] + 1000 * seconds
+        self.wait("time to pass", lambda: self.pose["tick"] >= tick, 30 + 60 * seconds)
 
     # What is seen of the patient.
     def tool(self, name=None):
@@ -117,7 +132,7 @@ class MouseAndKeys:
     name = "mouse and keys"
 
     def __init__(self, eyes):
-        self.eyes, self.closed = eyes, False
+        self.eyes, self.locked = eyes, False
 
     def press(self, widget, limit=30):
         self.eyes.where(widget, limit)
@@ -151,6 +166,10 @@ class MouseAndKeys:
         if px or py:
             xdo("mousemove_relative", "--", px, py)
 
+    def tip(self, right, up, inwards):
+        self.sideways(right, up)
+        self.inwards(inwards)
+
     def inwards(self, metres):
         """A tenth of a millimetre with the mouse's wheel and Shift is a quarter of a notch."""
         notches = round(metres / METRES_PER_NOTCH)
@@ -179,11 +198,30 @@ class MouseAndKeys:
         xdo("mouseup", 3)
         time.sleep(0.1)
 
-    def close(self, slowly=False):
-        if slowly:
-            xdo("keydown", "shift")
-            time.sleep(0.2)
+    def close(self):
         xdo("mousedown", 1)
+
+    def close_slowly(self, until):
+        """Shift makes closing fine; the lock keeps what is reached. Opens with open_up()."""
+        xdo("keydown", "shift")
+        time.sleep(0.2)
+        xdo("mousedown", 1)
+        try:
+            self.eyes.wait("the handle to close slowly", lambda: self.eyes.tool()["handle"] > until - 0.03, 120)
+        finally:
+            if not self.locked:
+                xdo("key", "space")
+            self.locked = True
+            xdo("mouseup", 1)
+            xdo("keyup", "shift")
+
+    def take_up(self):
+        """The half closed handle of a hand that was left for another; here the lock keeps it."""
+
+    def open_up(self):
+        if self.locked:
+            xdo("key", "space")
+        self.locked = False
 
     def let_go(self):
         xdo("mouseup", 1)
@@ -265,46 +303,58 @@ class Pad:
     def leave_menu(self):
         self.tap("b")
 
-    def sideways(self, right, up):
-        way = math.hypot(right, up)
-        if way < 1e-5:
-            return
-        if way < 0.002:  # the cross is fine: a quarter
-            for d, plus, minus in ((right, "right", "left"), (up, "up", "down")):
-                if abs(d) > 1e-4:
-                    self.hold(abs(d) / (0.25 * STICK_SPEED), buttons=plus if d > 0 else minus)
-            return
-        self.hold(way / STICK_SPEED, lx=math.copysign(self.tilt(abs(right) / way), right),
-                  ly=-math.copysign(self.tilt(abs(up) / way), up))
-
     @staticmethod
     def tilt(share):
         """The stick's way that moves at `share` of its full speed: 12 % rest, then a square."""
-        return 0.0 if share < 1e-3 else 0.12 + 0.88 * math.sqrt(share)
+        return 0.0 if share < 1e-4 else 0.12 + 0.88 * math.sqrt(min(1.0, share))
+
+    def push(self, most, slow, **ways):
+        """Sticks by these ways, each of a full speed of `most`: for short ways gently, for a third of a second at least."""
+        longest = max(abs(w) for w in ways.values())
+        if longest < 1e-3 * slow:
+            return
+        seconds = max(0.35, longest / most, 0.7 * min(1.0, longest / slow))
+        self.hold(seconds, **{axis: math.copysign(self.tilt(abs(way) / (most * seconds)), way)
+                              for axis, way in ways.items()})
+
+    def tip(self, right, up, inwards):
+        self.push(STICK_SPEED, FAR, lx=right, ly=-up, ry=-inwards)
 
     def inwards(self, metres):
-        if abs(metres) > 2e-4:
-            share = 1.0 if abs(metres) > 0.004 else 0.25
-            self.hold(abs(metres) / (share * STICK_SPEED), ry=-math.copysign(self.tilt(share), metres))
+        self.push(STICK_SPEED, FAR, ry=-metres)
 
     def look(self, right, up):
-        for angle, axis in ((right, "lx"), (-up, "ly")):
-            if abs(angle) > 0.01:
-                self.hold(abs(angle) / STICK_VIEW, **{axis: math.copysign(1.0, angle)})
+        self.push(STICK_VIEW, 0.1, lx=right, ly=-up)
 
     def roll(self, angle):
-        share = 1.0 if abs(angle) > 0.5 else 0.2
-        self.hold(abs(angle) / (share * STICK_ROLL), rx=math.copysign(self.tilt(share), angle))
+        self.push(STICK_ROLL, 0.5, rx=angle)
 
-    def close(self, slowly=False):
-        for i in range(1, 11):
-            self.trigger = i / 10
-            self.send()
-            time.sleep(0.4 if slowly else 0.05)
+    def pull_to(self, to):
+        self.trigger = to
+        self.send()
+
+    def close(self):
+        self.pull_to(1.0)
+
+    def close_slowly(self, until):
+        """A little further with the trigger, and a little more."""
+        while self.trigger < until - 1e-6:
+            self.pull_to(min(until, self.trigger + 0.08))
+            self.eyes.wait("the handle to follow", lambda: self.eyes.tool()["handle"] > self.trigger - 0.02, 60)
+            self.eyes.later(0.15)
+
+    def take_up(self):
+        """The trigger must be let go and come back to where the handle was left."""
+        to = self.trigger
+        self.pull_to(0.0)
+        self.eyes.later(0.1)
+        self.pull_to(to)
+
+    def open_up(self):
+        self.let_go()
 
     def let_go(self):
-        self.trigger = 0.0
-        self.send()
+        self.pull_to(0.0)
 
     def lock(self):
         self.send(lt=1.0)
@@ -331,18 +381,47 @@ class Trainee:
         self.hands.choose(0 if hand == "scope" else self.names().index(hand) + 1)
         self.eyes.wait(f"{hand} to be led", lambda: self.eyes.pose["led"] == hand, 30)
 
-    def settled(self, limit=40, still_mm=0.08):
-        """Waits until the instrument has followed: poses from well after now that stand still."""
+    def settled(self, limit=2.5, still_mm=0.08):
+        """Waits until what is led has followed: poses from well after now that stand still, or `limit` simulated s."""
         start, last = self.eyes.pose["tick"], [None]
 
+        def place():
+            if self.eyes.pose["led"] == "scope":
+                picture = self.eyes.pose["picture"]
+                return picture["eye_mm"] + [100 * x for x in picture["forward"]]
+            tool = self.eyes.tool()
+            return tool["tip_mm"] + [10 * x for x in tool["opening"]]
+
         def still():
-            tool, tick = self.eyes.tool(), self.eyes.pose["tick"]
-            tip = tool["tip_mm"] + [10 * x for x in tool["opening"]]
+            at, tick = place(), self.eyes.pose["tick"]
             if tick < start + 120 or (last[0] and last[0][0] == tick):
                 return False
-            before, last[0] = last[0], (tick, tip)
-            return before is not None and math.dist(before[1], tip) < still_mm
-        self.eyes.wait("the instrument to come to rest", still, limit)
+            before, last[0] = last[0], (tick, at)
+            return tick > start + 1000 * limit or (before is not None and math.dist(before[1], at) < still_mm)
+        self.eyes.wait("what is led to come to rest", still, 120)
+
+    def show(self, points, distance_mm=60.0):
+        """Turns the endoscope until all these points [mm] are well inside its picture, then as near as that allows."""
+        for _ in range(12):
+            picture = self.eyes.pose["picture"]
+            port = picture["port_mm"]
+            ways = [add(p, port, -1) for p in points]
+            wanted = unit([sum(c) for c in zip(*map(unit, ways))])
+            cone = math.tan(0.36 * picture["field_rad"])
+            depth = 130.0
+            for way in ways:
+                ahead = dot(way, wanted)
+                beside = math.sqrt(max(0.0, dot(way, way) - ahead * ahead))
+                depth = min(depth, ahead - beside / cone, ahead - distance_mm)
+            further = max(14.0, depth) - picture["depth_mm"]
+            right, up = (math.asin(max(-1.0, min(1.0, dot(wanted, picture[d])))) for d in ("right", "up"))
+            if max(abs(right), abs(up)) < 0.04 and abs(further) < 5:
+                return
+            self.lead("scope")
+            self.hands.look(right, up)
+            if max(abs(right), abs(up)) < 0.3 and abs(further) > 3:
+                self.hands.inwards(1e-3 * max(-12.0, min(12.0, further)))
+            self.settled()
 
     def move(self, goal, tolerance_mm, what, limit=120):
         """The led tip to goal() [mm], which may itself move: sideways in the picture and along the shaft."""
@@ -357,8 +436,7 @@ class Trainee:
                 raise Failed(f"{what}: still {off:.1f} mm away after {limit} s")
             right, up, inwards = in_basis(way, picture["right"], picture["up"], tool["shaft"])
             f = min(1.0, 0.012 / max(abs(right), abs(up), 1e-9))  # within what a command may run ahead
-            self.hands.sideways(f * right, f * up)
-            self.hands.inwards(max(-0.010, min(0.010, inwards)))
+            self.hands.tip(f * right, f * up, max(-0.010, min(0.010, inwards)))
             self.settled()
 
     def roll_across(self, along, tolerance=0.05):
@@ -385,10 +463,25 @@ class Trainee:
             return add(at, axis, tool["jaw_mm"] - inside_mm() - back_mm)
         return goal
 
-    def reach(self, hand, tube, s, inside_mm, what):
-        """Before the tissue, jaws across it, then in."""
+    def come_into_view(self, hand, goal):
+        """The first part of the way from its trocar, which one picture does not always show together with the goal."""
+        tip = self.eyes.tool(hand)["tip_mm"]
+        way = add(goal(), tip, -1)
+        if dot(way, way) < 60 ** 2:
+            return
+        stop = add(tip, unit(way), 30)
+        self.show([tip, stop])
         self.lead(hand)
-        self.move(self.before(hand, tube, s, inside_mm, 22), 2.0, f"{what}: going before the tube")
+        self.move(lambda: stop, 4, f"bringing {hand} into view")
+
+    def reach(self, hand, tube, s, inside_mm, what):
+        """Before the tissue, jaws across it, then in; the eye goes first."""
+        goal = self.before(hand, tube, s, inside_mm, 22)
+        if not all(self.eyes.tool(hand)["seen"]):
+            self.come_into_view(hand, goal)
+            self.show([self.eyes.tool(hand)["tip_mm"], goal(), self.eyes.point(tube, s)[0]])
+        self.lead(hand)
+        self.move(goal, 2.0, f"{what}: going before the tube")
         self.roll_across(lambda: self.eyes.point(tube, s)[1])
         self.move(self.before(hand, tube, s, inside_mm, 8), 1.5, f"{what}: nearer")
         self.roll_across(lambda: self.eyes.point(tube, s)[1])
@@ -400,8 +493,8 @@ class Trainee:
         goal = add(tool["tip_mm"], tool["shaft"], -mm)
         self.move(lambda: goal, 3, f"drawing {hand} back")
 
-    def squeeze(self, until, what, slowly=False, limit=60):
-        self.hands.close(slowly)
+    def squeeze(self, until, what, limit=60):
+        self.hands.close()
         try:
             return self.eyes.wait(what, until, limit)
         finally:
