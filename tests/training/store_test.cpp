@@ -522,6 +522,19 @@ TEST_F(StoreTest, AUuidIsNeverAPath) {
   EXPECT_TRUE(is_uuid(new_uuid()));
 }
 
+TEST_F(StoreTest, LocksThatNobodyHoldsAreSweptAway) {
+  Store(folder()).list();
+  Attempt living = attempt();
+  Store store(folder());
+  AttemptLock lock = store.begin(living);
+  const fs::path left = folder() / "locks" / new_uuid();  // killed before its row was written
+  std::ofstream(left) << "x";
+  Store(folder()).list();
+  EXPECT_FALSE(fs::exists(left));
+  EXPECT_TRUE(AttemptLock::is_held(folder(), living.uuid));
+  EXPECT_EQ(Store(folder()).find(living.uuid)->state, AttemptState::running);
+}
+
 TEST_F(StoreTest, AnAttemptThatNeverBeganLeavesNothing) {
   Store store(folder());
   Attempt a = attempt();

@@ -305,6 +305,7 @@ void Store::open() {
       if (fresh) take_in_recordings(db);
       take_in_files(db);
       settle_running(db);
+      AttemptLock::sweep(m_folder);
       return;
     } catch (const DatabaseFault& fault) {
       m_writable = false;
@@ -512,8 +513,6 @@ void Store::settle_running(Database& db) {
     Transaction one(db);
     if (state_in(db, a.uuid) == AttemptState::running && !AttemptLock::is_held(m_folder, a.uuid)) write_row(db, a);
     one.commit();
-    std::error_code ignored;
-    if (is_uuid(a.uuid)) fs::remove(m_folder / "locks" / a.uuid, ignored);
     if (a.state == AttemptState::interrupted)
       notice(fmt::format("attempt {} was interrupted: the program ended without saying so; {}", a.number,
                          a.ticks > 0 ? fmt::format("its recording reaches {:.1f} s", a.seconds)

@@ -41,6 +41,9 @@ class AttemptLock {
   /// Is there somebody who holds this attempt's lock?
   static bool is_held(const std::filesystem::path& folder, const std::string& uuid);
 
+  /// Removes the files of locks that nobody holds: left by programs that died.
+  static void sweep(const std::filesystem::path& folder);
+
   static constexpr std::int64_t kRoom = 1 << 20;  ///< [B]
 
  private:
