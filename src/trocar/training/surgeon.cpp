@@ -136,7 +136,7 @@ double Surgeon::slant(int hand, double s) const {
 }
 
 double Surgeon::wanted_slant() const {
-  return flawed("A1.4") ? 0.43 : flawed("A1.5") ? 0.72 : 0;  // closing legs straighten some of it
+  return flawed("A1.4") ? 0.38 : flawed("A1.5") ? 0.58 : 0;
 }
 
 double Surgeon::next_clip_at() const {
@@ -241,13 +241,12 @@ void Surgeon::keep_presented() {
 }
 
 void Surgeon::hold_askew() {
-  // Raised, and carried towards the uterus instead of away from it: the isthmus climbs steeply and dips outwards.
-  constexpr double kHigh = 0.030, kNearest = -0.045, kPace = 0.010;  // [m] [m] [m/s]
+  // Pushed down instead of raised: the isthmus dips outwards, along the applier's shaft instead of across it.
+  constexpr double kLowest = 0.045, kOut = 0.006, kPace = 0.010;  // [m] [m] [m/s]
   const double missing = wanted_slant() - slant(m_applier, m_clip_place);
-  m_lifted = std::min(kHigh, m_lifted + kPace * sim::kTick);
-  if (m_lifted == kHigh) m_drawn += std::clamp(-10 * missing, -1.0, 1.0) * kPace * sim::kTick;
-  m_drawn = std::clamp(m_drawn, kNearest, 0.0);
-  m_arms[side().grasper].tip = m_lift_from + m_lifted * m_lift_up + m_drawn * m_outwards;
+  m_drawn = std::min(kOut, m_drawn + kPace * sim::kTick);
+  m_lifted = std::clamp(m_lifted - std::clamp(10 * missing, -1.0, 1.0) * kPace * sim::kTick, -kLowest, 0.0);
+  m_arms[side().grasper].tip = m_lift_from + Vec3d{0, 0, m_lifted} + m_drawn * m_outwards;
 }
 
 void Surgeon::show() {

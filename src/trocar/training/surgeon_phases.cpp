@@ -247,8 +247,9 @@ bool Surgeon::clip_fits() const {
   bool across = askew < g.clip_angle - 0.035;
   if (flawed("A1.4")) across = askew > g.clip_angle + 0.05 && askew < g.clip_oblique - 0.05;
   if (flawed("A1.5")) across = askew > g.clip_oblique + 0.05;
-  // Whoever is sure of the wrong structure does not look for the lower leg behind it.
-  const bool seen = flawed("E11") ? sees_tip(m_applier) : sees_jaws(m_applier) != flawed("E4.2");
+  // Whoever takes the wrong structure, or this one so askew, does not look for the lower leg behind it.
+  const bool careless = flawed("E11") || flawed("A1.5");
+  const bool seen = careless || sees_jaws(m_applier) != flawed("E4.2");
   return enclosed && across && seen;
 }
 
