@@ -241,6 +241,18 @@ TEST(Errors, EveryCodeThatTheExercisePricesIsMadeHere) {
         << p.code;
 }
 
+TEST(Errors, ASlipBelongsToTheSideThatWasHeld) {
+  Attempt a;
+  a.event(sim::Event::slipped, two_sides::kGrasper, -1);
+  a.hold_tube(kLeft, 0.055, 1);
+  a.seconds(0.1);
+  a.let_go();
+  a.event(sim::Event::slipped, two_sides::kGrasper, -1);
+  ASSERT_EQ(a.monitor.errors().size(), 2u);
+  EXPECT_EQ(a.monitor.errors()[0].side, "") << "nothing was ever held";
+  EXPECT_EQ(a.monitor.errors()[1].side, "left");
+}
+
 TEST(Errors, EachExcursionOfForceCountsOnce) {
   Attempt a;
   a.hold_tube(kLeft, 0.055, 4.5);

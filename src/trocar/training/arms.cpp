@@ -56,10 +56,10 @@ bool Arms::move_to_depth(int hand, double depth, double speed) {
   return move(hand, arm.port + depth * normalised(arm.tip - arm.port), speed);
 }
 
-bool Arms::turn_across(int hand, Vec3d direction, double offset) {
+bool Arms::turn_across(int hand, Vec3d direction) {
   Arm& arm = m_arm[size_t(hand)];
   const kinematics::FulcrumPose pose = kinematics::inverse(arm.port, arm.tip, arm.roll);
-  const double wanted = nearest_roll(kinematics::roll_towards(pose, direction) + offset, arm.roll);
+  const double wanted = nearest_roll(kinematics::roll_towards(pose, direction), arm.roll);
   arm.roll += std::clamp(wanted - arm.roll, -kTurn * sim::kTick, kTurn * sim::kTick);
   return std::fabs(wanted - arm.roll) < kSquare;
 }

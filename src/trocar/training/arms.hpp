@@ -35,8 +35,8 @@ class Arms {
   bool move(int hand, Vec3d goal, double speed);
   /// One tick along the shaft towards `depth` [m from the trocar].
   bool move_to_depth(int hand, double depth, double speed);
-  /// One tick of turning the jaws so that their plane stands across `direction`, plus `offset`. True when they do.
-  bool turn_across(int hand, Vec3d direction, double offset = 0);
+  /// One tick of turning the jaws so that their plane stands across `direction`. True when they do.
+  bool turn_across(int hand, Vec3d direction);
   /// One tick of closing or opening the handle, all the way in `seconds`.
   bool grip(int hand, double to, double seconds);
 

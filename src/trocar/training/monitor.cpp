@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <string_view>
 
 #include <trocar/sim/visibility.hpp>
 #include <trocar/training/hands.hpp>
@@ -133,6 +134,7 @@ Monitor::Monitor(const Exercise& exercise, const sim::Model& model, Mode mode)
   m_true_for.resize(m_steps.size());
   m_seen_for.resize(m_organs.size());
   m_errors.reserve(256);
+  m_held_side.fill(-1);
   const sim::State start = sim::initial_state(model);
   for (size_t h = 0; h < hands(model); ++h) {
     m_tools.push_back({model.hands[h].name, 0, 0});
@@ -215,6 +217,10 @@ int Monitor::side_of_fold(int membrane) const {
   for (size_t i = 0; i < m_sides.size(); ++i)
     if (membrane >= 0 && m_sides[i].mesosalpinx == membrane) return int(i);
   return -1;
+}
+
+int Monitor::side_of_hold(std::int32_t body) const {
+  return body >= interactions::kMembraneBase ? side_of_fold(body - interactions::kMembraneBase) : side_of(body);
 }
 
 bool Monitor::holds(const SideWatch& side, const sim::Model& model, const sim::State& state, size_t hand) const {
@@ -395,6 +401,8 @@ void Monitor::judge_snip(const sim::Model& model, const sim::State& state, const
 void Monitor::watch_errors(const sim::Model& model, const sim::State& state, const sim::StepReport& report) {
   for (size_t h = 0; h < m_tools.size(); ++h)
     m_tools[h].max_pull = std::max(m_tools[h].max_pull, norm(state.tools[h].pull));
+  for (size_t h = 0; h < m_tools.size(); ++h)
+    if (state.tools[h].holds > 0) m_held_side[h] = side_of_hold(state.tools[h].hold[0].body);
   Mishaps mishaps;
   m_pull.update(m_exercise.goal, m_tissues, model, state, mishaps);
   m_pinch.update(m_exercise.goal, m_tissues, model, state, mishaps);
@@ -407,8 +415,8 @@ void Monitor::watch_errors(const sim::Model& model, const sim::State& state, con
   }
   for (int i = 0; i < mishaps.count; ++i) {
     const Mishap& m = mishaps.list[size_t(i)];
-    const bool holds = m.hand >= 0 && state.tools[size_t(m.hand)].holds > 0;
-    make_error(m.code, holds ? side_of(state.tools[size_t(m.hand)].hold[0].body) : -1, m.where, m.detail);
+    const bool held = m.hand >= 0 && (state.tools[size_t(m.hand)].holds > 0 || m.code == std::string_view("E3"));
+    make_error(m.code, held ? m_held_side[size_t(m.hand)] : -1, m.where, m.detail);
   }
 }
 

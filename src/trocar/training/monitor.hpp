@@ -125,6 +125,7 @@ class Monitor {
   int step_index(int side, Task task) const { return task == Task::survey ? 0 : side * (kTasks - 1) + int(task); }
   int side_of(int tube) const;
   int side_of_fold(int membrane) const;
+  int side_of_hold(std::int32_t body) const;  ///< of a tube or its mesosalpinx; -1 for what belongs to no side
   void judge_snip(const sim::Model& model, const sim::State& state, const interactions::Cut& cut);
   /// Does this hand hold the side's tube beyond the isthmus, or its mesosalpinx?
   bool holds(const SideWatch& side, const sim::Model& model, const sim::State& state, size_t hand) const;
@@ -146,9 +147,10 @@ class Monitor {
   SightWatch m_sight;
   CollisionWatch m_collision;
   std::array<Vec3d, sim::kMaxTools> m_tip{};
-  std::vector<double> m_true_for;  ///< (steps) how long each step's condition has held [s]
-  std::vector<int> m_organs;       ///< targets of the survey
-  std::vector<double> m_seen_for;  ///< (m_organs) [s]; at least the survey's time once it was reached
+  std::array<int, sim::kMaxTools> m_held_side{};  ///< of what each hand holds or held last
+  std::vector<double> m_true_for;                 ///< (steps) how long each step's condition has held [s]
+  std::vector<int> m_organs;                      ///< targets of the survey
+  std::vector<double> m_seen_for;                 ///< (m_organs) [s]; at least the survey's time once it was reached
   std::uint64_t m_first_motion = 0, m_now = 0;
   bool m_moved = false;
   double m_seconds = 0;
