@@ -20,7 +20,7 @@ Live::Live(Session& session, InputSource* source, std::uint64_t limit)
     : m_session(session),
       m_source(source),
       m_limit(limit),
-      m_published(Snapshot{session.state(), {}, 0, 0, 1, false}),
+      m_published(Snapshot{.state = session.state()}),
       m_command(session.lesson().model.start),
       m_window_start(Clock::now()),
       m_thread([this] { loop(); }) {}

@@ -1,17 +1,21 @@
 #include "past.hpp"
 
 #include <algorithm>
+#include <ctime>
 
 #include <trocar/core/error.hpp>
 
 namespace trocar::app {
 namespace {
 
-/// "2026-03-01T14:05:09Z" -> "2026-03-01 14:05"
+/// "2026-03-01T14:05:09Z" -> "2026-03-01 15:05" where clocks say so
 std::string day_and_time(const std::string& utc) {
-  std::string out = utc.substr(0, std::min<std::size_t>(utc.size(), 16));
-  std::replace(out.begin(), out.end(), 'T', ' ');
-  return out;
+  std::tm parts{};
+  if (!strptime(utc.c_str(), "%Y-%m-%dT%H:%M:%S", &parts)) return utc.substr(0, 16);
+  const std::time_t when = timegm(&parts);
+  localtime_r(&when, &parts);
+  char out[32];
+  return {out, std::strftime(out, sizeof out, "%Y-%m-%d %H:%M", &parts)};
 }
 
 PastAttempt past_attempt(const training::Attempt& a) {

@@ -162,7 +162,10 @@ void draw_about(const StartContent& c, float height) {
   if (!c.facts.facts.empty()) ui::text(fmt::format("{}", fmt::join(c.facts.facts, "   ")), ui::kGrey);
   if (!c.facts.steps.empty()) {
     ui::text("What you will do:", ui::kGrey);
-    for (std::size_t i = 0; i < c.facts.steps.size(); ++i) ui::text(fmt::format("{}. {}", i + 1, c.facts.steps[i]));
+    for (const std::string& steps : c.facts.steps) {
+      ui::mark(Mark::note);
+      ui::text(steps);
+    }
   }
   ImGui::EndChild();
 }

@@ -16,7 +16,7 @@ namespace trocar::app {
 /// What is known of the selected exercise; empty while its scene is being prepared.
 struct ExerciseFacts {
   std::string summary;             ///< a sentence or two
-  std::vector<std::string> steps;  ///< their names
+  std::vector<std::string> steps;  ///< their names, a line a side
   std::vector<std::string> facts;  ///< "time: about 4 minutes", "pass mark: 80 of 100"
   unsigned picture = 0;            ///< GL texture, 0: none yet
   float aspect = 4.0f / 3;

@@ -138,6 +138,15 @@ class Trainer {
   Json m_result;
 };
 
+/// A step's title without its side, in the middle of a sentence.
+std::string title_of(const training::Exercise& e, const std::string& task) {
+  const auto is_it = [&task](const training::TaskText& t) { return t.name == task; };
+  const auto found = std::find_if(e.tasks.begin(), e.tasks.end(), is_it);
+  std::string title = found == e.tasks.end() ? task : found->title;
+  if (!title.empty() && title[0] >= 'A' && title[0] <= 'Z') title[0] = char(title[0] - 'A' + 'a');
+  return title;
+}
+
 ExerciseFacts Trainer::facts_of(const Lesson* lesson) {
   ExerciseFacts facts;
   facts.aspect = float(kPreviewWidth) / float(kPreviewHeight);
@@ -148,7 +157,15 @@ ExerciseFacts Trainer::facts_of(const Lesson* lesson) {
   facts.facts.push_back(fmt::format("about {:.0f} minutes", std::max(1.0, e.expert_time / 60)));
   facts.facts.push_back(fmt::format("passed from {:.0f} of 100", e.pass_mark));
   const std::unique_ptr<training::Monitor> monitor = lesson->monitor();
-  for (const training::StepStatus& s : monitor->steps()) facts.steps.push_back(s.name);
+  const std::string* side = nullptr;
+  for (const training::StepStatus& s : monitor->steps()) {  // a line for what belongs to both, one for each side
+    if (side && *side == s.side)
+      facts.steps.back() += ", " + title_of(e, s.task);
+    else
+      facts.steps.push_back(s.name);
+    side = &s.side;
+  }
+  facts.summary = e.summary;
   return facts;
 }
 

@@ -220,6 +220,7 @@ const Shape& exercise_shape() {
           keys::format(2),
           needed(keys::name("name", "what the command line calls it")),
           needed(keys::text("title", "for people")),
+          keys::text("summary", "two or three sentences for who chooses an exercise"),
           needed(keys::text("scene", "path of the scene file, relative to this one")),
           needed(keys::choice("kind", {"sterilisation"}, "which task")),
           needed(keys::name("uterus", "organ that the survey must show")),
@@ -259,6 +260,7 @@ Exercise read_exercise(const std::filesystem::path& path, const scene::MemoryFil
     const JsonObject o(document.root, exercise_shape(), document.file, faults);
     e.name = o.text("name");
     e.title = o.text("title");
+    e.summary = o.text("summary");
     e.scene = path.parent_path() / o.text("scene");
     read_goal(o, e.goal);
     read_tasks(o, e);

@@ -89,7 +89,7 @@ struct LaterError {
 };
 
 struct Exercise {
-  std::string name, title;
+  std::string name, title, summary;
   std::filesystem::path file, scene;
   Sterilisation goal;
   std::array<TaskText, kTasks> tasks;
