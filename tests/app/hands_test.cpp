@@ -1,4 +1,5 @@
 // Hands and their instruments: the led tip goes where the hand goes in the picture.
+#include <algorithm>
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -57,6 +58,37 @@ TEST(HandPilot, TheOthersKeepPoseAndGrip) {
   EXPECT_EQ(after.tools[0].yaw, before.tools[0].yaw);
   EXPECT_EQ(after.tools[0].depth, before.tools[0].depth);
   EXPECT_NE(after.tools[1].yaw, before.tools[1].yaw);
+}
+
+TEST(HandPilot, AnInsertionWaitsUnderTheTrocarUntilItIsSeen) {
+  sim::State state = sim::initial_state(scene().model);
+  HandPilot pilot(scene().model);
+  devices::HandSample back = mouse(0, 0);  // out as far as a changed instrument is
+  back.wheel = -60;
+  const auto give = [&](const devices::HandSample& sample) {
+    const double depth = double(pilot.lead(sample, state).tools[0].depth);
+    return state.tools[0].depth = depth;  // it follows at once
+  };
+  for (int i = 0; i < 12; ++i) give(back);
+  ASSERT_LT(state.tools[0].depth, 0.035);
+  std::fill(state.seen.begin(), state.seen.end(), std::uint8_t(0));
+  devices::HandSample insert = mouse(0, 0);
+  insert.pressed.set(devices::Key::v);
+  give(insert);
+  for (int i = 0; i < 200; ++i) give(mouse(0, 0));
+  EXPECT_NEAR(state.tools[0].depth, 0.040, 0.002);
+  EXPECT_TRUE(pilot.waits_for_eye(0));
+  // The endoscope finds its shaft, then its jaws.
+  const sim::VisibilityTarget& shaft =
+      scene().model.targets[size_t(scene().model.target_index(scene().model.hands[0].name + ".shaft"))];
+  std::fill_n(state.seen.begin() + shaft.first, shaft.count, std::uint8_t(1));
+  for (int i = 0; i < 10; ++i) give(mouse(0, 0));
+  EXPECT_GT(state.tools[0].depth, 0.043);
+  EXPECT_FALSE(pilot.waits_for_eye(0));
+  std::fill(state.seen.begin(), state.seen.end(), std::uint8_t(1));
+  for (int i = 0; i < 200; ++i) give(mouse(0, 0));
+  EXPECT_FALSE(pilot.inserting(0));
+  EXPECT_LT(state.tools[0].depth, double(scene().model.start.tools[0].depth));
 }
 
 TEST(HandPilot, EClockwiseSeenFromTheHand) {

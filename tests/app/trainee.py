@@ -105,6 +105,12 @@ class Eyes:
         tick = self.pose["tick"] + 1000 * seconds
         self.wait("time to pass", lambda: self.pose["tick"] >= tick, 30 + 60 * seconds)
 
+    def within(self, seconds, condition):
+        """Whether condition() comes to hold within that much simulated time."""
+        tick = self.pose["tick"] + 1000 * seconds
+        self.wait("time to pass", lambda: condition() or self.pose["tick"] >= tick, 30 + 60 * seconds)
+        return bool(condition())
+
     # What is seen of the patient.
     def tool(self, name=None):
         return next(t for t in self.pose["tools"] if t["name"] == (name or self.pose["led"]))

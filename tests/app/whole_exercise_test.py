@@ -17,7 +17,7 @@ import sys
 import tempfile
 import time
 
-from trainee import Eyes, Failed, MouseAndKeys, Over, Pad, Trainee, add, dot, unit
+from trainee import Eyes, Failed, MouseAndKeys, Over, Pad, Trainee, add, cross, dot, unit
 
 SIDES = [  # tube, who grasps, who cuts, towards which side the tube is lifted
     ("tube_left", "left_lateral", "right_lateral", 1),
@@ -72,10 +72,8 @@ class Surgeon(Trainee):
         for look in (None, whole, whole[len(whole) // 2:]):
             if look:
                 self.show(look)
-            try:
-                return self.eyes.wait("the tube to be identified", lambda: self.step() >= number, 8)
-            except Failed:
-                continue
+            if self.eyes.within(4, lambda: self.step() >= number):
+                return
         self.show([self.eyes.tool(grasper)["tip_mm"], *whole])
         self.lead(grasper)
         s = course[-1][0] - 2
@@ -89,29 +87,32 @@ class Surgeon(Trainee):
         at, along, _ = self.eyes.point(tube, s)
         return dot(unit(add(at, self.eyes.tool(APPLIER)["port_mm"], -1)), along)
 
-    def presented(self, tube, grasper, s):
-        tool = self.eyes.tool(grasper)
-        slant, pull = abs(self.slant(tube, s)), tool["pull_N"]
-        return tool["holds"] > 0 and ((slant < 0.16 and 0.36 < pull < 1.8) or (pull > 1.6 and slant < 0.2))
+    def presented(self, grasper, tube, s):
+        slant, pull = abs(self.slant(tube, s)), self.eyes.tool(grasper)["pull_N"]
+        return (slant < 0.12 and 0.4 < pull < 1.8) or (slant < 0.2 and 1.4 < pull < 1.9)
 
-    def present(self, tube, grasper, side, s_clip):
-        """Raises what the grasper holds until the applier comes square upon the tube and the pull is gentle."""
-        up = unit([0.35 * side, 0.10, 1.0])
+    def present(self, tube, grasper, s_clip):
+        """Raises what the grasper holds until the applier comes square upon the tube, and draws it outwards until it is
+        straight: both from where it was grasped."""
         for _ in range(40):
-            if self.presented(tube, grasper, s_clip) or self.eyes.tool(grasper)["holds"] == 0:
+            if self.eyes.tool(grasper)["holds"] == 0 or self.presented(grasper, tube, s_clip):
                 return
-            self.lead(grasper)
             slant, pull = self.slant(tube, s_clip), self.eyes.tool(grasper)["pull_N"]
-            rise = max(-2.0, min(2.0, 30 * slant)) if pull > 0.38 else 1.5
-            if pull > 1.7:
+            rise, out = max(-1.0, min(1.0, 6 * slant)), 0.0
+            if pull < 0.45:
+                rise, out = (rise, 0.6) if slant < -0.03 else (max(rise, 0.6), 0.0)
+            if pull > 1.4:
+                rise, out = min(rise, 0.0), -0.6
+            if pull > 1.8:
                 rise = -1.0
-            if abs(rise) < 0.4:
-                rise = 0.4 if slant > 0 else -0.4
-            goal = add(self.eyes.tool()["tip_mm"], up, rise)
+            self.raised = max(0.0, min(40.0, self.raised + 2.5 * rise))
+            self.drawn = max(0.0, min(20.0, self.drawn + 2.5 * out))
+            goal = add(add(self.held_at, self.upwards, self.raised), self.outwards, self.drawn)
+            self.lead(grasper)
             self.move(lambda: goal, 0.5, "presenting the tube")
         raise Failed(f"not presented: slant {self.slant(tube, s_clip):.2f}, pull {self.eyes.tool(grasper)['pull_N']:.2f} N")
 
-    def grasp(self, tube, grasper):
+    def grasp(self, tube, grasper, side):
         place = self.eyes.pose["landmarks"][tube + ".ampulla"]
         for attempt in range(4):
             s = place["from_mm"] + (0.30 + 0.06 * attempt) * (place["to_mm"] - place["from_mm"])
@@ -122,6 +123,10 @@ class Surgeon(Trainee):
             self.hands.let_go()
             self.settled()
             if self.eyes.tool()["holds"] > 0:
+                self.held_at, self.raised, self.drawn = self.eyes.tool()["tip_mm"], 0.0, 0.0
+                out = add(self.eyes.point(tube, s)[0], self.eyes.point(tube, 12)[0], -1)
+                self.outwards = unit([out[0], out[1], 0.0])
+                self.upwards = unit([0.35 * side, 0.10, 1.0])
                 return
             self.hands.lock()
             self.back_off(grasper, 15)
@@ -131,6 +136,11 @@ class Surgeon(Trainee):
         """The tube next to the clip's bend: so the legs reach over the whole of it, and their tips show beyond it."""
         tool = self.eyes.tool(APPLIER)
         return tool["jaw_mm"] - tool["clip_mm"] + self.eyes.point(tube, s)[2] + 0.9
+
+    def off_square(self, tube, s):
+        """Angle between the legs' plane and the tube's cross-section."""
+        tool = self.eyes.tool(APPLIER)
+        return math.acos(min(1.0, abs(dot(cross(tool["shaft"], tool["opening"]), self.eyes.point(tube, s)[1]))))
 
     def see_both_tips(self, at):
         """Both legs' tips must be seen when the clip closes: nearer or from farther off, if need be."""
@@ -150,12 +160,11 @@ class Surgeon(Trainee):
         inside = lambda: self.clip_inside(tube, s)
         self.reach(APPLIER, tube, s, inside, "clipping")
         self.hands.close_slowly(0.42)
-        for _ in range(3):
+        for _ in range(4):
             self.roll_across(lambda: self.eyes.point(tube, s)[1], 0.05)
             self.move(self.before(APPLIER, tube, s, inside, 0), 0.6, "the tube between the legs")
-            if self.see_both_tips(self.eyes.point(tube, s)[0]):
+            if self.see_both_tips(self.eyes.point(tube, s)[0]) and self.off_square(tube, s) < 0.21:
                 break
-        self.move(self.before(APPLIER, tube, s, inside, 0), 0.6, "the tube between the legs")
         self.hands.close_slowly(1.0)
         self.eyes.wait("the clip", lambda: len(self.eyes.pose["clips"]) > before, 60)
         self.hands.open_up()
@@ -185,10 +194,8 @@ class Surgeon(Trainee):
         for distance in (None, 60.0, 80.0, 45.0, 70.0):
             if distance:
                 self.show([at], distance)
-            try:
-                return self.eyes.wait("the stumps to be seen", lambda: self.step() >= number, 8)
-            except Failed:
-                continue
+            if self.eyes.within(4, lambda: self.step() >= number):
+                return
         raise Failed("the stumps do not come into view")
 
     def side(self, tube, grasper, scissors, side, first):
@@ -206,9 +213,9 @@ class Surgeon(Trainee):
                 break
             if self.eyes.tool(grasper)["holds"] == 0:
                 self.park(APPLIER)
-                self.grasp(tube, grasper)
+                self.grasp(tube, grasper, side)
             if s:
-                self.present(tube, grasper, side, s)
+                self.present(tube, grasper, s)
             if todo == 1:
                 self.eyes.later(0.5)
             elif todo in (2, 3):
