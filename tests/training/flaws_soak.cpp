@@ -1,6 +1,7 @@
 // One scripted surgeon a code: on the shipped scene it works as always but for one flaw, which must trigger its error
 // and only what the exercise's table says that error implies or may bring with it.
 #include <algorithm>
+#include <cstdio>
 
 #include <gtest/gtest.h>
 
@@ -56,6 +57,7 @@ TEST_P(Flaw, TriggersItsErrorAndOnlyWhatTheTableSaysItImplies) {
   std::vector<std::string> made;
   for (const ErrorMade& error : monitor.errors()) {
     made.push_back(error.code);
+    std::printf("%s: %s at %.1f s\n", code.c_str(), error.code.c_str(), error.at);
     EXPECT_TRUE(error.code == code || has(p.implies, error.code) || has(p.may, error.code))
         << error.code << " at " << error.at << " s is not in the table for " << code;
   }
