@@ -165,6 +165,14 @@ class Attack {
     }
     return best;
   }
+  std::int32_t any_instrument(size_t h) { return std::int32_t(m_random.next() % m_model.hands[h].rack.size()); }
+  /// What this hand has to grasp with; destroying hands take anything.
+  std::int32_t grasper(size_t h) {
+    const auto& rack = m_model.hands[h].rack;
+    for (size_t i = 0; i < rack.size() && !m_destroy; ++i)
+      if (rack[i].kind == interactions::ToolKind::grasper) return std::int32_t(i);
+    return any_instrument(h);
+  }
   Vec3d axis(size_t h) const { return normalised(m_hands[h].tip - m_model.hands[h].port, Vec3d{0, 0, -1}); }
 
   void next_stage(size_t h) {
@@ -187,7 +195,7 @@ class Attack {
         begin(m_random.next() % 3 == 0 ? int(poke) : int(approach), 500, 900);
         hand.way = some_place(h) + 0.006 * axis(h) + somewhere(0.003);
         hand.speed = m_random.uniform(0.15, kSpeed);
-        m_input.tools[h].instrument = std::int32_t(m_random.next() % m_model.hands[h].rack.size());
+        m_input.tools[h].instrument = m_random.next() % 4 == 0 ? any_instrument(h) : grasper(h);
     }
   }
 
@@ -204,7 +212,7 @@ class Attack {
       hand.way = hand.tip + somewhere(0.045);
       hand.speed = m_random.uniform(0.05, kSpeed);
       if (hand.stage == shake && m_random.next() % 8 == 0)  // changes while it holds
-        m_input.tools[h].instrument = std::int32_t(m_random.next() % m_model.hands[h].rack.size());
+        m_input.tools[h].instrument = any_instrument(h);
     }
     if (force_on(m_state.tools[h]) > kForce) {  // gives way, towards where the held tissue pulls
       const double* pull = m_state.tools[h].pull;

@@ -390,6 +390,71 @@ TEST(VolumeProtection, ABlockTurnedInsideOutLocallyUnfolds) {
   }
 }
 
+/// A block of uterus, its middle layers at rest, one corner pushed through its cell to the far side of it: there the
+/// springs balance each other and the corner would stay.
+struct PushedCorner {
+  NetworkModel model;
+  NetworkState state;
+  int corner = 0;
+  explicit PushedCorner(double fill) {
+    const double h = 0.0034;
+    const BoxLattice box = box_lattice(4, 4, 4, h);
+    const std::vector<double> fills(box.cells.size(), fill);
+    NetworkDescription d =
+        lattice_network(
+            box.corners, box.cells, fills,
+            {.youngs_modulus = 30e3, .density = 1050, .p1 = 5, .p2 = 100, .cap = 0.08, .damping_time = 2e-4})
+            .network;
+    d.global_damping = 0.5;
+    for (int k = 0; k <= 4; ++k)
+      for (int j = 0; j <= 4; ++j) d.fixed[size_t(box.corner(4, j, k))] = kHeld;
+    model = build(d, 1e-3);
+    state = rest_state(model);
+    corner = box.corner(0, 0, 0);
+    set_position(model, state, corner, model.rest[size_t(corner)] + Vec3d{0.95 * h, 0.95 * h, 0.95 * h});
+  }
+  double away() const { return length(position(model, state, corner) - model.rest[size_t(corner)]); }
+};
+
+TEST(VolumeProtection, ACornerThatSpringsHoldOnTheFarSideOfItsCellComesBack) {
+  for (double fill : {1.0, 0.15}) {
+    PushedCorner body(fill);
+    NetworkWork w = make_work(body.model);
+    for (int t = 0; t < 100; ++t) ASSERT_TRUE(advance(body.model, {}, {}, body.state, w).fine());
+    EXPECT_GT(body.away(), 0.004) << "it is held there, or this test proves nothing";
+    double most = 0;
+    for (int t = 0; t < 900; ++t) {
+      ASSERT_TRUE(advance(body.model, {}, {}, body.state, w).fine());
+      const NetworkEnergy e = energy(body.model, body.state);
+      most = std::max(most, e.kinetic + e.elastic);
+    }
+    EXPECT_LT(body.away(), 1e-4);
+    EXPECT_EQ(body.state.open_tets, 0u);
+    EXPECT_LT(most, 1e-3) << "[J]";
+  }
+}
+
+TEST(VolumeProtection, AHandThatKeepsCellsFoldedFeedsNoMotion) {
+  const PushedCorner start(0.15);
+  for (int node : {start.corner, start.corner + 6}) {
+    PushedCorner body(0.15);
+    NetworkWork w = make_work(body.model);
+    const Vec3d there = body.model.rest[size_t(node)] + Vec3d{0.006, 0.005, 0.004};
+    NodeLoad hold{.node = node, .k = 1200, .x0 = vec_cast<float>(there), .d = 0.5f};
+    Vec3f force;
+    double most = 0, fastest = 0;
+    for (int t = 0; t < 2000; ++t) {
+      ASSERT_TRUE(advance(body.model, {&hold, 1}, {&force, 1}, body.state, w).fine());
+      const NetworkEnergy e = energy(body.model, body.state);
+      if (t > 20) most = std::max(most, e.kinetic + e.elastic);
+      for (int i = 0; t > 20 && i < body.model.nodes; ++i)
+        fastest = std::max(fastest, length(velocity(body.model, body.state, i)));
+    }
+    EXPECT_LT(most, 5e-3) << "[J]";
+    EXPECT_LT(fastest, 20) << "[m/s] its own way, some millimetres, within a millisecond";
+  }
+}
+
 TEST(VolumeProtection, MomentumIsConservedWhileCellsAreOpened) {
   NetworkDescription d = wobbly_block(3, 3, 3);
   d.fixed.clear();

@@ -10,6 +10,12 @@ constexpr double kStiffness = 150;    // [N/m] per sample, implicit on both side
 constexpr double kDamping = 0.05;     // [N s/m]
 constexpr double kQuickest = 0.0006;  // [m] a tick that two organs are moved apart
 constexpr double kDeepest = 0.010;    // [m] deeper than this is not contact but another side of the body
+constexpr double kBeside = 0.012;     // [m] farther than this from the nearest vertex, its plane says nothing
+constexpr double kJoined = 0.030;     // [m] drawn no farther apart than this, strands are joined by a fold
+
+bool touches(const Surface& surface, int vertex, Vec3d p, double depth) noexcept {
+  return depth > 0 && depth <= kDeepest && length(p - surface.position(vertex)) <= kBeside;
+}
 
 /// Pushes surface vertex `v` along -n by the share of the depth that its body takes.
 void push_surface(const Surface& surface, int v, Vec3d n, double depth, NetworkLoads* loads) noexcept {
@@ -35,7 +41,7 @@ void strand_on_surface(const SurfacePair& pair, const StrandBody& body, const ti
     nearest[i] = walk_to_nearest(surface, nearest[i], p);
     const Clearance c = clearance_at(surface, nearest[i], p);
     const double depth = double(pair.radius[i]) - c.distance - double(pair.overlap[i]);
-    if (depth <= 0 || depth > kDeepest) continue;
+    if (!touches(surface, nearest[i], p, depth)) continue;
     const int e = std::min(node, body.nodes() - 2);
     tissue::StrandLoad load;
     load.element = e;
@@ -61,7 +67,7 @@ void solid_on_surface(const SurfacePair& pair, const Surface& samples, const Sur
     nearest[i] = walk_to_nearest(surface, nearest[i], p);
     const Clearance c = clearance_at(surface, nearest[i], p);
     const double depth = -c.distance - double(pair.overlap[i]);
-    if (depth <= 0 || depth > kDeepest) continue;
+    if (!touches(surface, nearest[i], p, depth)) continue;
     SkinLoad load;
     load.k = kStiffness;
     load.shift = share * std::min(depth, kQuickest) * c.normal;
@@ -102,6 +108,18 @@ int walk_along(const tissue::StrandState& a, int i, const tissue::StrandState& b
   return j;
 }
 
+/// How much a contact counts that pushes element i of a along n from element j of b. Strands that were drawn side by
+/// side are joined there by a fold of peritoneum that is not simulated: one that was dragged to the other side of its
+/// neighbour has nothing to rest on, and must not be kept from going home.
+double share_of(const StrandBody& a, int i, const StrandBody& b, int j, Vec3d n) noexcept {
+  const Vec3d drawn =
+      a.model.rest[size_t(i)] + a.model.rest[size_t(i) + 1] - b.model.rest[size_t(j)] - b.model.rest[size_t(j) + 1];
+  const double apart = length(drawn);
+  if (apart > 2 * kJoined || !(apart > 1e-6)) return 1;
+  const double along = dot(drawn, n) / apart;
+  return std::clamp((along + 0.6) / 0.3, 0.0, 1.0);
+}
+
 }  // namespace
 
 void strand_on_strand(const StrandPair& pair, const StrandBody& a, const tissue::StrandState& a_state,
@@ -119,10 +137,15 @@ void strand_on_strand(const StrandPair& pair, const StrandBody& a, const tissue:
     const collision::RodContact c = collision::touch(rod(b, b_state, j), rod(a, a_state, i), side[size_t(i)]);
     const double deep = c.depth - double(pair.overlap[size_t(i)]);
     if (deep <= 0 || deep > kDeepest) continue;
+    const double counts = share_of(a, i, b, j, c.normal);
+    if (!(counts > 0)) {
+      side[size_t(i)] = {0, 0, 0};
+      continue;
+    }
     const double depth = std::min(deep, kQuickest);
     tissue::StrandLoad on_a, on_b;
-    on_a.k = on_b.k = kStiffness;
-    on_a.d = on_b.d = kDamping;
+    on_a.k = on_b.k = counts * kStiffness;
+    on_a.d = on_b.d = counts * kDamping;
     on_a.dir = on_b.dir = c.normal;
     on_a.element = i;
     on_a.w = c.t;

@@ -44,9 +44,13 @@ const KernelSet*& kernels() {
 
 // ---- cells pushed open
 
-constexpr float kReleased = 0.2f;   // share of the rest volume at which a cell is let go
-constexpr float kOpening = 0.001f;  // time constant with which it takes its shape again [s]
-constexpr float kBlend = 0.3f;      // share of its nodes' velocities that one sub-step replaces
+constexpr float kReleased = 0.2f;     // share of the rest volume at which a cell is let go
+constexpr float kOpening = 0.001f;    // time constant with which it takes its shape again [s]
+constexpr float kBlend = 0.3f;        // share of its nodes' velocities that one sub-step replaces
+constexpr float kStill = 0.02f;       // nodes slower than this are at rest [m/s]
+constexpr int kLong = 100;            // ticks at rest after which a fold is one that springs hold
+constexpr float kUnfolding = 0.005f;  // as kOpening and kReleased, for such a fold
+constexpr float kUnfolded = 0.7f;
 
 Vec3f place(const NodeState& n) { return {n.x, n.y, n.z}; }
 Vec3f speed(const NodeState& n) { return {n.vx, n.vy, n.vz}; }
@@ -81,7 +85,7 @@ int list_open(const NetworkState& s, NetworkWork& w) {
   if (s.open_tets == 0) return 0;
   const int count = int(s.tet_phase.size());
   for (int t = 0; t < count; ++t)
-    if (s.tet_phase[t] == 1) w.open_tets[n++] = t;
+    if (s.tet_phase[t] != 0 && s.tet_phase[t] != kGone) w.open_tets[n++] = t;
   return n;
 }
 
@@ -118,23 +122,29 @@ Mat3d turn_of_body(const NetworkModel& m, const NetworkState& s) {
   return to_mat3(turn);
 }
 
+/// A fold's cells must unfold together, or one pulls the other back: all do so in the last quarter of 256 ticks.
+bool unfolds_now(const NetworkState& s) { return (s.tick & 255u) >= 192; }
+
 /// Each listed cell goes back to its drawn shape, turned as the body is: in cell after cell the velocities come nearer
 /// to those of a cell that takes its shape within kOpening. That is more than springs withstand, so none can hold a
 /// cell inside out; and as all cells agree on the turn, neighbours do not undo each other's work. A velocity that is
 /// partly replaced cannot be pumped up without end, as impulses along the volume's gradient were where cells are nearly
 /// flat; replaced altogether it would leave the springs no say, which is unstable. Momentum is conserved.
-void push_open(const NetworkModel& m, std::span<const int> open, const Mat3d& turn, const NodeState* in,
-               NodeState* out) {
+void push_open(const NetworkModel& m, const NetworkState& s, std::span<const int> open, const Mat3d& turn,
+               const NodeState* in, NodeState* out) {
   const float dt = float(m.dt);
+  const bool unfolding = unfolds_now(s);
   for (int t : open) {
     const int* r = m.tets[t].row;
+    const bool stuck = unfolding && s.tet_phase[t] >= kLong;
+    const float blend = stuck ? 1 : kBlend, opening = stuck ? kUnfolding : kOpening;
     Vec3f centre{}, drift{};
     Vec3d drawn{};
     float mass = 0;
     for (int i = 0; i < 4; ++i) {
       const int node = m.node_of_row[r[i]];
       const float w = float(m.mass[node]);
-      centre += w * place(out[r[i]]);
+      centre += w * place(in[r[i]]);
       drift += w * speed(out[r[i]]);
       drawn += m.mass[node] * m.rest[node];
       mass += w;
@@ -142,21 +152,33 @@ void push_open(const NetworkModel& m, std::span<const int> open, const Mat3d& tu
     centre = centre / mass, drift = drift / mass, drawn = drawn / double(mass);
     for (int i = 0; i < 4; ++i) {
       const Vec3f goal = centre + vec_cast<float>(turn * (m.rest[m.node_of_row[r[i]]] - drawn));
-      const Vec3f wanted = drift + (goal - place(out[r[i]])) / kOpening, w = row_weight(m, r[i]);
+      const Vec3f wanted = drift + (goal - place(in[r[i]])) / opening, w = row_weight(m, r[i]);
       Vec3f v = speed(out[r[i]]);
       for (int k = 0; k < 3; ++k)
-        if (w[k] > 0) v[k] += kBlend * (wanted[k] - v[k]);
+        if (w[k] > 0) v[k] += blend * (wanted[k] - v[k]);
       move_to(out[r[i]], in[r[i]], v, dt);
     }
   }
 }
 
+bool at_rest(const NodeState& n) { return dot(speed(n), speed(n)) < kStill * kStill; }
+
+/// Lets go the cells that are open, and counts for how long the others have been at rest.
 void release_open(const NetworkModel& m, std::span<const int> open, NetworkState& s) {
+  const bool unfolding = unfolds_now(s);
   for (int t : open) {
+    std::uint8_t& phase = s.tet_phase[t];
     const int* r = m.tets[t].row;
     const Vec3f o = place(s.nodes[r[0]]);
     const Vec3f a = place(s.nodes[r[1]]) - o, b = place(s.nodes[r[2]]) - o, c = place(s.nodes[r[3]]) - o;
-    if (dot(a, cross(b, c)) > kReleased * m.tets[t].rest6) s.tet_phase[t] = 0, --s.open_tets;
+    const float enough = unfolding && phase >= kLong ? kUnfolded : kReleased;
+    if (dot(a, cross(b, c)) > enough * m.tets[t].rest6) {
+      phase = 0, --s.open_tets;
+    } else if (!unfolding) {
+      const bool rests =
+          at_rest(s.nodes[r[0]]) && at_rest(s.nodes[r[1]]) && at_rest(s.nodes[r[2]]) && at_rest(s.nodes[r[3]]);
+      phase = !rests ? 1 : (phase < kOldestFold ? std::uint8_t(phase + 1) : phase);
+    }
   }
 }
 
@@ -342,7 +364,7 @@ StepReport advance(const NetworkModel& m, std::span<const NodeLoad> loads, std::
     args.in = s.nodes.data();
     args.out = w.other.data();
     fine = run_substep(args, m.rows / kSlice, pool) && fine;
-    push_open(m, open, turn, args.in, args.out);
+    push_open(m, s, open, turn, args.in, args.out);
     fine = apply_all_loads(m, loads, reactions, args.in, args.out) && fine;
     std::swap(s.nodes, w.other);
   }

@@ -7,8 +7,8 @@
 // Deviations: the sign of g (as printed a stretched spring would repel); gamma is per mass and taken implicitly; each
 // spring also damps along itself; below half its rest length a spring's direction is r/(l/2) instead of r/|r|, because
 // compression's transverse stiffness, force over length, would grow beyond what the step bears; loads with stiffness
-// are taken implicitly, so that any stiffness is stable; a cell that collapses is driven back to its drawn shape, turned
-// as the body is, because its mirror image would satisfy all springs.
+// are taken implicitly, so that any stiffness is stable; a cell that collapses is driven back to its drawn shape,
+// turned as the body is, because its mirror image would satisfy all springs.
 //
 // Every spring is evaluated from both its ends, by whichever node gathers it: no scatter, no colouring, and the same
 // bits for any number of threads and any SIMD width. Nodes are stored as rows in reverse Cuthill-McKee order.
@@ -98,10 +98,13 @@ struct NetworkModel {
   float max_scale = 1;
 };
 
+/// NetworkState::tet_phase of cells that are pushed open counts the ticks for which they have been at rest.
+inline constexpr std::uint8_t kOldestFold = 200, kGone = 255;
+
 struct NetworkState {
   std::vector<NodeState> nodes;         ///< (rows)
   std::vector<float> scale;             ///< per half-edge place: 1 whole, 0 cut
-  std::vector<std::uint8_t> tet_phase;  ///< (tets) 0 idle, 1 being pushed open, 2 gone
+  std::vector<std::uint8_t> tet_phase;  ///< (tets) 0 idle, 1..kOldestFold being pushed open, kGone
   std::uint32_t version = 0;            ///< counts cuts and changes of scale; 0 = untouched
   std::uint32_t open_tets = 0;          ///< cells being pushed open
   std::uint32_t tick = 0;               ///< ticks made

@@ -70,8 +70,8 @@ void cut_spring(const NetworkModel& m, NetworkState& s, int spring) noexcept {
     const int t = m.tet_of_node[i];
     const int* r = m.tets[t].row;
     if (r[0] != row_b && r[1] != row_b && r[2] != row_b && r[3] != row_b) continue;
-    if (s.tet_phase[t] == 1) --s.open_tets;
-    s.tet_phase[t] = 2;
+    if (s.tet_phase[t] != 0 && s.tet_phase[t] != kGone) --s.open_tets;
+    s.tet_phase[t] = kGone;
   }
 }
 
