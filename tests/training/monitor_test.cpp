@@ -397,6 +397,7 @@ TEST(Monitor, SaysAllThatTheSceneLacks) {
   Exercise e = exercise();
   e.goal.sides[0].tube = "no such tube";
   e.goal.sides[1].ovary = "no such ovary";
+  e.goal.sides[1].mesosalpinx = e.goal.sides[1].tube;  // is there, but no fold
   e.goal.scissors = "no such scissors";
   e.goal.forbidden.push_back({"no such ligament", "", {}});
   try {
@@ -405,6 +406,7 @@ TEST(Monitor, SaysAllThatTheSceneLacks) {
   } catch (const core::BadInput& bad) {
     std::string all;
     for (const core::Fault& f : bad.faults()) all += to_string(f) + "\n";
+    EXPECT_NE(all.find("fold of the scene"), std::string::npos);
     for (const char* missing : {"no such tube", "no such ovary", "no such scissors", "no such ligament"})
       EXPECT_NE(all.find(missing), std::string::npos) << missing;
     EXPECT_NE(all.find("sterilisation.json"), std::string::npos);

@@ -60,6 +60,16 @@ struct Finder {
     }
     return -1;
   }
+  /// A membrane; -1 for a fold that is drawn only.
+  int fold(const std::string& name, const core::Location& at) const {
+    const int i = model.membrane_index(name);
+    if (i < 0 && index_of(model.sheets, name) < 0) {
+      std::vector<std::string> known = names_of(model.membranes);
+      for (const std::string& n : names_of(model.sheets)) known.push_back(n);
+      faults.push_back({at, scene::unknown_name("fold of the scene", name, known)});
+    }
+    return i;
+  }
   void instrument(const std::string& name, const core::Location& at, interactions::ToolKind kind,
                   const char* what) const {
     std::vector<std::string> known;
@@ -114,8 +124,7 @@ Monitor::Monitor(const Exercise& exercise, const sim::Model& model, Mode mode)
     find.solid(side.ovary, side.ovary_at);
     w.isthmus = find.landmark(w.tube, "isthmus", true, side.tube_at);
     w.ampulla = find.landmark(w.tube, "fimbria", false, side.tube_at);
-    w.mesosalpinx = side.mesosalpinx.empty() ? -1 : model.membrane_index(side.mesosalpinx);
-    if (!side.mesosalpinx.empty()) find.body({side.mesosalpinx, "", side.mesosalpinx_at});
+    w.mesosalpinx = side.mesosalpinx.empty() ? -1 : find.fold(side.mesosalpinx, side.mesosalpinx_at);
     w.ovary_target = model.target_index(side.ovary);
     w.trace_target = model.target_index(side.tube + ".trace");
     m_organs.insert(m_organs.end(), {w.trace_target, w.ovary_target});

@@ -107,7 +107,6 @@ class Monitor {
     SideFacts facts;
     double clipped[2] = {-1, -1};  ///< places of the clips that completed the steps [m]
     bool blamed = false;           ///< not identified: once a side
-    bool worked_on = false;        ///< something was clipped or cut
     bool severed = false;
   };
 
