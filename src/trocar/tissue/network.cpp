@@ -126,10 +126,14 @@ Mat3d turn_of_body(const NetworkModel& m, const NetworkState& s) {
 bool unfolds_now(const NetworkState& s) { return (s.tick & 255u) >= 192; }
 
 /// Each listed cell goes back to its drawn shape, turned as the body is: in cell after cell the velocities come nearer
-/// to those of a cell that takes its shape within kOpening. That is more than springs withstand, so none can hold a
-/// cell inside out; and as all cells agree on the turn, neighbours do not undo each other's work. A velocity that is
-/// partly replaced cannot be pumped up without end, as impulses along the volume's gradient were where cells are nearly
-/// flat; replaced altogether it would leave the springs no say, which is unstable. Momentum is conserved.
+/// to those of a cell that takes its shape within kOpening. As all cells agree on the turn, neighbours do not undo each
+/// other's work. A velocity that is partly replaced cannot be pumped up without end, as impulses along the volume's
+/// gradient were where cells are nearly flat. Momentum is conserved.
+///
+/// Springs can withstand that: a corner that was pushed through its cell to the far side of it lies in a minimum of
+/// their energy. So a cell that has been folded and at rest for kLong is driven slowly, and with its velocities
+/// replaced altogether: springs then only move it as a whole. Where the way home begins is read before the sub-step;
+/// the place that springs have just predicted overshoots where they are stiff, and driving from there goes astray.
 void push_open(const NetworkModel& m, const NetworkState& s, std::span<const int> open, const Mat3d& turn,
                const NodeState* in, NodeState* out) {
   const float dt = float(m.dt);
