@@ -51,7 +51,7 @@ class Surgeon(Trainee):
         self.show([add(port, inwards, 55), add(port, inwards, 85)])
         self.lead(hand)
         self.hands.into_view()
-        self.eyes.wait("it to come in", lambda: self.eyes.tool()["depth_mm"] > 35, 60)
+        self.eyes.wait("it to come in", lambda: self.eyes.tool()["depth_mm"] > 28, 120)
         self.settled()
         if not any(self.eyes.tool()["seen"]):  # it waits under its trocar: look where it is
             self.show([self.eyes.tool(hand)["tip_mm"]])
