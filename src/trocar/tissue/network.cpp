@@ -192,42 +192,31 @@ constexpr float kLeap = 20;     // faster than anything that hands do to tissue 
 constexpr float kCaught = 2;    // [m/s]
 constexpr int kMostLeaps = 64;  // caught in one tick; more have their turn in the next
 
+/// Was it held to kCaught in the last sub-step? Its speed itself says so; let go for a tick, it would leap again.
+bool is_caught(float square) { return std::fabs(square - kCaught * kCaught) < 1e-4f * kCaught * kCaught; }
+
+/// In the same ticks as folds are unfolded: a node that was merely thrown has come to rest by then.
 int list_fast(const NetworkModel& m, const NetworkState& s, int* rows) {
   int n = 0;
-  for (int r = 0; r < m.rows && n < kMostLeaps; ++r)
-    if (dot(speed(s.nodes[r]), speed(s.nodes[r])) > kLeap * kLeap) rows[n++] = r;
-  return n;
-}
-
-/// Gives the body a momentum [N s], all nodes the same velocity.
-void push_all(const NetworkModel& m, Vec3d momentum, const NodeState* in, NodeState* out) {
-  double mass = 0;
-  for (double one : m.mass) mass += one;
-  const Vec3f more = vec_cast<float>(momentum / mass);
-  for (int r : m.row_of_node) {
-    const Vec3f w = row_weight(m, r);
-    Vec3f v = speed(out[r]);
-    for (int k = 0; k < 3; ++k)
-      if (w[k] > 0) v[k] += more[k];
-    move_to(out[r], in[r], v, float(m.dt));
+  if (!unfolds_now(s)) return 0;
+  for (int r = 0; r < m.rows && n < kMostLeaps; ++r) {
+    const float square = dot(speed(s.nodes[r]), speed(s.nodes[r]));
+    if (square > kLeap * kLeap || is_caught(square)) rows[n++] = r;
   }
+  return n;
 }
 
 /// The time step is stable where springs point as drawn. A light node that was thrown out of its place has all of them
 /// on one side, together stiffer than the step bears: it can leap to and fro for ever, through its neighbours and back.
-/// One that is so fast and turns round within a sub-step is held to steps within which it finds its place again; what
-/// it loses in momentum goes to the body as a whole.
+/// One that is so fast and turns round within a sub-step is held to steps within which it finds its place again. That
+/// only takes energy away; the node's own momentum goes with it, as giving that to its neighbours fed other leaps.
 void catch_leaps(const NetworkModel& m, std::span<const int> rows, const NodeState* in, NodeState* out) {
-  Vec3d lost{};
   for (int r : rows) {
     const Vec3f v = speed(out[r]), before = speed(in[r]);
     const float fast = std::sqrt(dot(v, v));
-    const bool caught = dot(before, before) <= 1.01f * (kCaught * kCaught);
-    if (!(fast > kCaught && (caught || dot(v, before) < 0))) continue;
-    move_to(out[r], in[r], (kCaught / fast) * v, float(m.dt));
-    lost += m.mass[m.node_of_row[r]] * vec_cast<double>(v - speed(out[r]));
+    if (fast > 2 * kCaught && (is_caught(dot(before, before)) || dot(v, before) < 0))
+      move_to(out[r], in[r], (kCaught / fast) * v, float(m.dt));
   }
-  if (dot(lost, lost) > 0) push_all(m, lost, in, out);
 }
 
 // ---- loads
