@@ -135,13 +135,15 @@ double Surgeon::slant(int hand, double s) const {
   return dot(normalised(tube_point(s) - m_arms[hand].port), tube_tangent(s));
 }
 
-double Surgeon::wanted_slant() const {
-  return flawed("A1.4") ? 0.38 : flawed("A1.5") ? 0.58 : 0;
-}
+double Surgeon::wanted_slant() const { return flawed("A1.4") ? 0.38 : flawed("A1.5") ? 0.58 : 0; }
 
 double Surgeon::next_clip_at() const {
   const Sterilisation& g = m_exercise.goal;
-  const double apart = 0.5 * (g.clip_distance.low + g.clip_distance.high);
+  // A little nearer or farther after each failure: elsewhere the lower leg may be seen behind the tube.
+  constexpr double kElsewhere[] = {0, 0.7, -0.7};  // of what the ranges leave
+  const double shift = 0.5 * kElsewhere[m_failed_clips % 3];
+  const double apart =
+      0.5 * (g.clip_distance.low + g.clip_distance.high) + shift * (g.clip_distance.high - g.clip_distance.low);
   double only = -1;
   for (int i = 0; i < m_state->clip_count; ++i) {
     const interactions::Clip& c = m_state->clips[size_t(i)];
@@ -151,7 +153,7 @@ double Surgeon::next_clip_at() const {
     if (only >= 0 && g.clip_distance.holds(std::fabs(c.s - only))) return -1;
     if (only < 0) only = c.s;
   }
-  if (only < 0) return 0.5 * (g.first_clip.low + g.first_clip.high);
+  if (only < 0) return 0.5 * (g.first_clip.low + g.first_clip.high) + shift * (g.first_clip.high - g.first_clip.low);
   if (g.first_clip.holds(only)) return std::clamp(only + apart, g.second_clip.low, g.second_clip.high);
   return std::clamp(only - apart, g.first_clip.low, g.first_clip.high);
 }

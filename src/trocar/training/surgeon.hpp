@@ -164,6 +164,7 @@ class Surgeon {
   void keep_presented();         ///< pull and angle of the held tube
   void hold_askew();             ///< a flaw
   void keep_across();            ///< the same, for the applier
+  void look_at_clip();
   void show();
   bool flawed(const char* code) const { return !m_blundered && m_manner.flaw == code; }
 
@@ -182,7 +183,7 @@ class Surgeon {
   int m_target_strand = -1;                                 ///< a wrong one, when that is the flaw
   int m_stage = 0;                                          ///< of a blunder
   Vec3d m_bowel_at, m_bowel_along;
-  int m_clips_before = -1, m_clip_tries = 0;
+  int m_clips_before = -1, m_clip_tries = 0, m_failed_clips = 0;
   int m_fetching = -1;  ///< hand that changes its instrument
   int m_wanted = 0;     ///< number in its rack
   int m_attempts = 0;   ///< at the present task
@@ -190,6 +191,7 @@ class Surgeon {
   Vec3d m_lift_from, m_lift_up, m_outwards, m_left_from;
   double m_lifted = 0, m_drawn = 0;  ///< how far the tube was raised and drawn outwards [m]
   double m_spare = 0.001;            ///< between the tube and the clip's bend [m]
+  double m_unseen = 0;               ///< for how long the clip's tips have not been seen at this try [s]
   Arms m_arms;
   CameraHand m_camera;
   std::array<Vec3d, 8> m_points{};  ///< what the camera shall show

@@ -73,6 +73,7 @@ void Surgeon::decide() {
     return go(Phase::blunder);
   }
   if (next_clip_at() < 0) return go(Phase::reach_cut);
+  m_failed_clips += m_state->clip_count == m_clips_before;
   if (m_state->clip_count == m_clips_before && ++m_clip_tries > 2) {  // it does not come right here: take it elsewhere
     m_clip_tries = 0;
     return go(Phase::lower);
@@ -271,6 +272,7 @@ void Surgeon::reach_clip() {
   clear_the_way(side().scissors);
   want(tube_point(m_clip_place));
   m_spare = 0.001;
+  m_unseen = 0;
   const bool open = m_arms.grip(m_applier, 0, 0.5);
   if (approach(m_applier, m_clip_place, clip_inside(), kTravel) && open) go(Phase::enter_clip);
 }
@@ -283,11 +285,20 @@ void Surgeon::enter_clip() {
   if (aim(m_applier, m_clip_place, clip_inside(), 0, kCareful)) go(Phase::inspect_clip);
 }
 
+void Surgeon::look_at_clip() {
+  const Vec3d at = tube_point(m_clip_place);
+  if (flawed("E4.2")) return want(other_side());
+  // From the midline, if the legs' tips stay hidden: then they are seen past the tube, beside the picture's middle.
+  constexpr double kPatience = 3, kAside = 0.03;  // [s] [m]
+  want(m_unseen > kPatience ? at - Vec3d{at.x > 0 ? kAside : -kAside, 0, 0} : at);
+}
+
 void Surgeon::inspect_clip() {
   if (!holding()) return go(Phase::leave_clip);
   keep_across();
-  want(flawed("E4.2") ? other_side() : tube_point(m_clip_place));
-  // Where a jaw's tip is hidden, another distance may show it, and a tube deeper between the legs.
+  look_at_clip();
+  // Where a jaw's tip is hidden, another distance or side may show it, and a tube deeper between the legs.
+  m_unseen += sees_jaws(m_applier) ? 0 : sim::kTick;
   m_distance = 0.052 + 0.008 * double(int(m_in_phase / 1.5) % 4);
   if (m_in_phase > 0.5 && !sees_jaws(m_applier)) m_spare = std::max(0.0007, m_spare - 0.0003 * sim::kTick);
   aim(m_applier, m_clip_place, clip_inside(), 0, kTrack);
@@ -296,12 +307,12 @@ void Surgeon::inspect_clip() {
   if (!m_arms.grip(m_applier, std::max(wanted, m_arms[m_applier].handle), 1.6)) return;
   m_steady = clip_fits() ? m_steady + sim::kTick : 0;
   if (m_steady < 0.15) return;
-  m_clip_tries = 0;
+  m_clip_tries = m_failed_clips = 0;
   go(Phase::close_clip);
 }
 
 void Surgeon::close_clip() {
-  want(flawed("E4.2") ? other_side() : tube_point(m_clip_place));
+  look_at_clip();
   aim(m_applier, m_clip_place, clip_inside(), 0, kTrack);
   const double whole = flawed("A1.8") ? 0.6 : 2.6;  // [share of the closing time] from open to closed
   if (!m_arms.grip(m_applier, 1, whole * m_exercise.goal.clip_closing) || m_state->clip_count == m_clips_before) return;
