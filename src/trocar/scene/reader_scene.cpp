@@ -1,0 +1,82 @@
+// Scene files, and the tissue tables that they share: gravity, trocars, what is in the hands at the start, the scope.
+#include <fmt/format.h>
+
+#include <trocar/scene/reader_parts.hpp>
+
+namespace trocar::scene {
+
+namespace fs = std::filesystem;
+
+void Reading::scene(const JsonObject& o, const fs::path& folder) {
+  description.name = o.text("name");
+  description.title = o.text("title");
+  description.file = o.at().file;
+  description.gravity = o.vec3("gravity_m_s2", description.gravity);
+  includes(o, "tissues", folder, tissue_shape(), &Reading::tissue_table, &Reading::tissue);
+  organs(o, folder);
+  includes(o, "instruments", folder, instrument_shape(), &Reading::instrument, &Reading::instrument);
+  for (const JsonObject& p : o.objects("ports")) port(p);
+  for (const JsonObject& t : o.objects("tools")) {
+    refer(Reference::To::instrument, t, "instrument");
+    description.placements.push_back(placement(t));
+    description.placements.back().instrument = t.text("instrument");
+    if (t.has("tip_mm")) m_tools.push_back(description.placements.back());
+  }
+  for (const JsonObject& s : o.objects("scope")) scope(s);
+}
+
+void Reading::tissue_table(const JsonObject& o, const fs::path& folder) {
+  for (const JsonObject& row : o.objects("tissues")) tissue(row, folder);
+}
+
+void Reading::tissue(const JsonObject& o, const fs::path&) {
+  Tissue t;
+  t.name = o.text("name");
+  t.density = o.number("density_kg_m3", t.density);
+  t.young = o.number("young_Pa", 1000);
+  t.p1 = o.number("p1", t.p1);
+  t.p2 = o.number("p2", t.p2);
+  t.strain_cap = o.number("strain_cap", t.strain_cap);
+  t.failure_strain = o.number("failure_strain", t.failure_strain);
+  t.damping_ms = o.number("damping_ms", t.damping_ms);
+  t.source = o.text("source");
+  t.at = o.at();
+  // d sigma / d eps = E (1 + 2 p1 eps + 3 p2 eps^2) has no root  <=>  p1^2 < 3 p2
+  if (t.p1 != 0 && !(t.p1 * t.p1 < 3 * t.p2))
+    o.fault("p1",
+            fmt::format("expected p1^2 < 3 p2 so that stress always rises with strain, got p1^2 = {} and 3 p2 = {}",
+                        t.p1 * t.p1, 3 * t.p2));
+  description.tissues.push_back(std::move(t));
+}
+
+void Reading::port(const JsonObject& o) {
+  Port p;
+  p.name = o.text("name");
+  p.position = from_mm(o.vec3("position_mm"));
+  if (o.has("diameter_mm")) p.diameter = from_mm(o.number("diameter_mm"));
+  p.at = o.at();
+  description.ports.push_back(std::move(p));
+}
+
+Placement Reading::placement(const JsonObject& o) {
+  refer(Reference::To::port, o, "port");
+  Placement p;
+  p.port = o.text("port");
+  p.tip = from_mm(o.vec3("tip_mm"));
+  p.roll = from_deg(o.number("roll_deg"));
+  p.at = o.at("tip_mm");
+  return p;
+}
+
+void Reading::scope(const JsonObject& o) {
+  Scope s;
+  if (o.has("angle_deg")) s.angle = from_deg(o.number("angle_deg"));
+  s.field_of_view = from_deg(o.number("field_of_view_deg", 70));
+  if (o.has("shaft_diameter_mm")) s.shaft_radius = from_mm(o.number("shaft_diameter_mm")) / 2;
+  if (o.has("shaft_length_mm")) s.shaft_length = from_mm(o.number("shaft_length_mm"));
+  description.scope = s;
+  description.scope_placement = placement(o);
+  if (o.has("tip_mm")) m_tools.push_back(description.scope_placement);
+}
+
+}  // namespace trocar::scene
