@@ -49,6 +49,14 @@ double AttemptWindow::now_seconds() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+/// While it is only practice, people are told what their clip would be worth.
+std::optional<training::ClipOutlook> AttemptWindow::outlook(const sim::State& state) const {
+  if (m_plan.mode != AttemptMode::familiarisation || !m_lesson.exercise) return std::nullopt;
+  for (int h = 0; h < hand_count(m_lesson.model); ++h)
+    if (auto o = training::clip_outlook(m_lesson.exercise->goal, m_lesson.model, state, h)) return o;
+  return std::nullopt;
+}
+
 std::string AttemptWindow::mode_text() const {
   if (m_plan.mode == AttemptMode::familiarisation) return "familiarisation: no score";
   if (m_plan.mode == AttemptMode::demonstration) return "demonstration";
@@ -208,7 +216,8 @@ void AttemptWindow::draw_scene(const Snapshot& now) {
                              m_feedback,
                              stands_still(),
                              m_gamepad_used && m_stage.window.gamepads().present(),
-                             pull_limit(m_lesson)};
+                             pull_limit(m_lesson),
+                             outlook(now.state)};
   draw_panel(content, float(width), panel, float(height));
   if (!stands_still()) draw_notices(m_feedback, now_seconds(), float(width), float(height));
 }

@@ -40,6 +40,7 @@ class AttemptWindow {
   void end(Live& live, Ending ending);
   std::string screen_name() const;
   std::string mode_text() const;
+  std::optional<training::ClipOutlook> outlook(const sim::State& state) const;
   double now_seconds() const;
 
   Stage& m_stage;

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <trocar/numerics/portable.hpp>
+
 #include "hand_names.hpp"
 #include "ui.hpp"
 
@@ -13,6 +15,7 @@ namespace {
 
 using ui::Mark;
 
+constexpr double kDegree = portable::pi / 180;
 constexpr float kNarrowest = 250, kWidest = 340, kShare = 0.27f;
 
 std::string clock_text(double seconds) {
@@ -96,6 +99,31 @@ void draw_hands(const PanelContent& c) {
   ui::text("0 endoscope", scope ? ui::kWhite : ui::kGrey);
 }
 
+void draw_finding(bool fits, const std::string& good, const std::string& bad) {
+  ui::mark(fits ? Mark::done : Mark::warning);
+  ui::text(fits ? good : bad, fits ? ui::kWhite : ui::kOrange);
+}
+
+/// What a clip would be worth if it were set now: depth and angle are hard to judge in a flat picture at first.
+void draw_outlook(const PanelContent& c) {
+  if (!c.outlook || !c.lesson.exercise) return;
+  const training::ClipOutlook& o = *c.outlook;
+  const training::Sterilisation& goal = c.lesson.exercise->goal;
+  const auto mm = [](double m) { return fmt::format("{:.0f}", 1e3 * m); };
+  const auto range = [&mm](const training::Range& r) { return mm(r.low) + " to " + mm(r.high); };
+  ui::heading("If you close now");
+  if (!o.tube)
+    return draw_finding(false, "", "between the jaws: " + in_words(c.lesson.model.strands[size_t(o.strand)].name));
+  draw_finding(o.in_place, mm(o.s) + " mm from the uterus",
+               fmt::format("{} mm from the uterus: one clip at {}, one at {}, {} apart", mm(o.s),
+                           range(goal.first_clip), range(goal.second_clip), range(goal.clip_distance)));
+  draw_finding(
+      o.across, "straight across the tube",
+      fmt::format("{:.0f} degrees off straight across: at most {:.0f}", o.theta / kDegree, goal.clip_angle / kDegree));
+  draw_finding(o.encloses, "the whole tube between the jaws", "the tube is not wholly between the jaws: go further");
+  draw_finding(o.seen(), "both jaw tips in view", fmt::format("{} of 2 jaw tips in view", o.tips_visible));
+}
+
 /// The hardest pull of all hands; the limit is a line in the bar, what is beyond it is hatched by a word as well.
 void draw_pull(const PanelContent& c) {
   double pull = 0;
@@ -162,6 +190,7 @@ void draw_panel(const PanelContent& c, float left, float width, float height) {
   draw_hands(c);
   ImGui::Dummy({0, 2 * ui::scale()});
   draw_pull(c);
+  draw_outlook(c);
   const float line = ImGui::GetTextLineHeightWithSpacing(), foot = line + 2 * ui::scale();
   ui::heading("Steps");
   const float left_over = ImGui::GetContentRegionAvail().y - foot - 1.9f * line;

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <trocar/training/clip_outlook.hpp>
+
 #include "feedback.hpp"
 #include "hand_pilot.hpp"
 #include "live.hpp"
@@ -23,6 +25,7 @@ struct PanelContent {
   const Feedback& feedback;
   bool paused = false, gamepad = false;  ///< gamepad: the keys at its foot are a gamepad's
   double pull_limit = 5;                 ///< [N]
+  std::optional<training::ClipOutlook> outlook = {};  ///< of a clip about to be set; told while familiarising
 };
 
 /// Its width beside a window of `width` [px].

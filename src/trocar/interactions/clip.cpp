@@ -57,6 +57,21 @@ double leg_cover(double along, double radius, double length) noexcept {
   return std::clamp((to - from) / (2 * radius), 0.0, 1.0);
 }
 
+StrandPlace fit_clip(const ToolModel& model, const ToolShape& shape, const TissueView& view, Clip& clip) noexcept {
+  const Catch c = caught(model, shape, view);
+  clip.strand = c.strand;
+  if (c.strand < 0) return c.place;
+  const StrandBody& body = view.strands[size_t(c.strand)];
+  const StrandFrame frame = frame_at(body, view.strand_states[size_t(c.strand)], c.place);
+  clip.s = arc_at(body, c.place);
+  clip.cover = c.cover;
+  clip.theta = portable::acos(std::min(1.0, std::fabs(dot(shape.frame.normal(), frame.tangent))));
+  clip.reach = from_bend(model, c.local.z);
+  store(clip.opening, shape.frame.opening(), frame);
+  store(clip.axis, shape.frame.axis(), frame);
+  return c.place;
+}
+
 bool update_clip_applier(const ToolModel& model, const ToolShape& shape, int tool_index, const TissueView& view,
                          std::span<tissue::StrandState> strand_states, int tips_visible, std::uint64_t tick,
                          ToolState& tool, ClipBook book) noexcept {
@@ -77,19 +92,8 @@ bool update_clip_applier(const ToolModel& model, const ToolShape& shape, int too
   clip.length = model.clip_length;
   clip.tips_visible = tips_visible;
   clip.closing_time = tool.closed_for;
-  const Catch c = caught(model, shape, view);
-  if (c.strand < 0) return true;
-  const StrandBody& body = view.strands[size_t(c.strand)];
-  const tissue::StrandState& state = view.strand_states[size_t(c.strand)];
-  const StrandFrame frame = frame_at(body, state, c.place);
-  clip.strand = c.strand;
-  clip.s = arc_at(body, c.place);
-  clip.cover = c.cover;
-  clip.theta = portable::acos(std::min(1.0, std::fabs(dot(shape.frame.normal(), frame.tangent))));
-  clip.reach = from_bend(model, c.local.z);
-  store(clip.opening, shape.frame.opening(), frame);
-  store(clip.axis, shape.frame.axis(), frame);
-  strand_states[size_t(c.strand)].scale[size_t(c.place.element)] = kClipStiffness;
+  const StrandPlace place = fit_clip(model, shape, view, clip);
+  if (clip.strand >= 0) strand_states[size_t(clip.strand)].scale[size_t(place.element)] = kClipStiffness;
   return true;
 }
 

@@ -19,6 +19,11 @@ bool update_clip_applier(const ToolModel& model, const ToolShape& shape, int too
                          std::span<tissue::StrandState> strand_states, int tips_visible, std::uint64_t tick,
                          ToolState& tool, ClipBook book) noexcept;
 
+/// What a clip would hold if it were set with the jaws as they are: strand (-1: nothing), s, theta, cover and how it
+/// lies there; all else of the clip is left alone. Reads the view's strands only.
+/// @return where on the strand
+StrandPlace fit_clip(const ToolModel& model, const ToolShape& shape, const TissueView& view, Clip& clip) noexcept;
+
 /// Share of a tube of `radius` at `along` that lies between legs from 0 to `length`.
 double leg_cover(double along, double radius, double length) noexcept;
 

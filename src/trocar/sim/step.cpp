@@ -138,16 +138,6 @@ void hang_organs(StepContext& c) noexcept {
     }
 }
 
-/// How many of an instrument's two jaw tips are in view.
-int tips_visible(const StepContext& c, size_t tool) noexcept {
-  int seen = 0;
-  for (size_t i = 0; i < c.model.targets.size(); ++i) {
-    const VisibilityTarget& t = c.model.targets[i];
-    if (t.kind == VisibilityTarget::jaw && t.index == int(tool)) seen += visible(c.model, c.state, int(i));
-  }
-  return seen;
-}
-
 /// Blades that have just closed part the organs they closed in.
 void cut_organs(StepContext& c, size_t t) noexcept {
   State& s = c.state;
@@ -163,7 +153,7 @@ void cut_organs(StepContext& c, size_t t) noexcept {
     cut = {};
     cut.solid = std::int32_t(i);
     cut.tool = std::int32_t(t);
-    cut.tips_visible = tips_visible(c, t);
+    cut.tips_visible = jaw_tips_visible(c.model, c.state, int(t));
     cut.tick = s.tick;
   }
 }
@@ -198,7 +188,7 @@ void cut_folds(StepContext& c, size_t t) noexcept {
     }
     cut.membrane = std::int32_t(i);
     cut.fold = fold.depth;
-    cut.tips_visible = tips_visible(c, t);
+    cut.tips_visible = jaw_tips_visible(c.model, c.state, int(t));
   }
 }
 
@@ -222,8 +212,9 @@ void work_jaws(StepContext& c) noexcept {
     c.work.shapes[t] = interactions::shape_of(model, tool.pose(), tool.aperture);
     if (model.kind == interactions::ToolKind::clip_applier) {
       const int clips = tool.clips_left;
-      const bool fired = update_clip_applier(model, c.work.shapes[t], int(t), view, s.strands, tips_visible(c, t),
-                                             s.tick, tool, {s.clips, s.clip_count});
+      const bool fired =
+          update_clip_applier(model, c.work.shapes[t], int(t), view, s.strands,
+                              jaw_tips_visible(c.model, c.state, int(t)), s.tick, tool, {s.clips, s.clip_count});
       if (fired) {
         const int clip = s.clip_count - 1;
         tell(c, s.clips[size_t(clip)].strand < 0 ? Event::dropped_clip : Event::clipped, int(t), clip);
@@ -233,8 +224,8 @@ void work_jaws(StepContext& c) noexcept {
     } else if (model.kind == interactions::ToolKind::scissors) {
       const int before = s.cut_count;
       const bool armed = tool.armed != 0;
-      update_scissors(model, c.work.shapes[t], int(t), view, s.strands, tips_visible(c, t), s.tick, tool,
-                      {s.cuts, s.cut_count});
+      update_scissors(model, c.work.shapes[t], int(t), view, s.strands, jaw_tips_visible(c.model, c.state, int(t)),
+                      s.tick, tool, {s.cuts, s.cut_count});
       if (armed && !tool.armed) {
         cut_organs(c, t);
         cut_folds(c, t);

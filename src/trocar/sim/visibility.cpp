@@ -132,4 +132,13 @@ double visible_share(const Model& model, const State& state, int target) noexcep
   return t.count > 0 ? double(seen) / t.count : 0.0;
 }
 
+int jaw_tips_visible(const Model& model, const State& state, int hand) noexcept {
+  int seen = 0;
+  for (size_t i = 0; i < model.targets.size(); ++i) {
+    const VisibilityTarget& t = model.targets[i];
+    if (t.kind == VisibilityTarget::jaw && t.index == hand) seen += visible(model, state, int(i));
+  }
+  return seen;
+}
+
 }  // namespace trocar::sim
