@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <trocar/training/json_fields.hpp>
+
 #include "footage.hpp"
 
 namespace trocar::app {
@@ -29,11 +31,6 @@ int threads_of(int wanted) {
 std::uint64_t tick_of(const Json& at_seconds) {
   const double seconds = at_seconds.is_number() ? at_seconds.get<double>() : -1;
   return seconds >= 0 && seconds < 1e6 ? std::uint64_t(std::llround(seconds * 1000)) : 0;
-}
-
-std::string text_of(const Json& object, const char* key) {
-  const auto found = object.find(key);
-  return found != object.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
 /// The members of a list that are objects: the result is a file's content, so anything may stand there.
@@ -67,8 +64,8 @@ Findings findings_of_result(const std::string& result_json) {
   std::vector<std::pair<std::uint64_t, std::size_t>> done;
   for (const Json& step : objects(assessment, "steps")) {
     training::StepStatus& status = found.steps.emplace_back();
-    status.name = text_of(step, "name");
-    status.side = text_of(step, "side");
+    status.name = training::text_in(step, "name");
+    status.side = training::text_in(step, "side");
     if (!is_done(step)) continue;
     done.emplace_back(tick_of(step["at_s"]), found.steps.size() - 1);
     found.marks.push_back({TimelineMark::Kind::step, done.back().first, status.name});
@@ -84,7 +81,7 @@ Findings findings_of_result(const std::string& result_json) {
   }
   for (const Json& error : objects(assessment, "errors"))
     found.marks.push_back({TimelineMark::Kind::error, tick_of(error.value("at_s", Json())),
-                           text_of(error, "code") + ": " + text_of(error, "meaning")});
+                           training::text_in(error, "code") + ": " + training::text_in(error, "meaning")});
   sort_marks(found.marks);
   return found;
 }

@@ -22,10 +22,6 @@ std::optional<double> number_in(const Json& result, const std::string& pointer) 
   return result[at].get<double>();
 }
 
-std::string text_in(const Json& object, const char* key) {
-  return object.is_object() && object.contains(key) && object[key].is_string() ? object[key].get<std::string>() : "";
-}
-
 Report gather(const training::Store* store, Attempt attempt) {
   Report r;
   Json result = Json::parse(attempt.result, nullptr, false);

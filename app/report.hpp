@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include <trocar/training/json_fields.hpp>
 #include <trocar/training/store.hpp>
 #include <trocar/training/trace.hpp>
 
@@ -54,7 +55,6 @@ training::Attempt demonstrate(training::Store& store, const std::string& exercis
 /// A number in the result, by a path like "/metrics/both/path_m"; nothing where there is none.
 std::optional<double> number_in(const Json& result, const std::string& pointer);
 
-/// A member that is a text; empty where it is something else or not there.
-std::string text_in(const Json& object, const char* key);
+using training::text_in;
 
 }  // namespace trocar::app

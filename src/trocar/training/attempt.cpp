@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <trocar/training/attempt.hpp>
+#include <trocar/training/json_fields.hpp>
 
 namespace trocar::training {
 namespace {
@@ -30,11 +31,6 @@ std::size_t character_at(const std::string& text, std::size_t at) {
   for (std::size_t i = 1; i < size; ++i)
     if ((static_cast<unsigned char>(text[at + i]) & 0xc0) != 0x80) return 0;
   return size;
-}
-
-std::string text_of(const Json& object, const char* key) {
-  const auto at = object.find(key);
-  return at != object.end() && at->is_string() ? at->get<std::string>() : std::string();
 }
 
 std::uint64_t whole_of(const Json& object, const char* key) {
@@ -107,27 +103,27 @@ std::string to_json(const Attempt& a) {
 
 std::optional<Attempt> attempt_from_json(const std::string& text) {
   const Json in = Json::parse(text, nullptr, false);
-  if (!in.is_object() || whole_of(in, "trocar_attempt") != 1 || !is_uuid(text_of(in, "uuid"))) return std::nullopt;
+  if (!in.is_object() || whole_of(in, "trocar_attempt") != 1 || !is_uuid(text_in(in, "uuid"))) return std::nullopt;
   Attempt a;
   a.number = std::int64_t(whole_of(in, "number"));
-  a.uuid = text_of(in, "uuid");
-  a.trainee = clean_name(text_of(in, "trainee"));
-  a.exercise = text_of(in, "exercise");
-  a.title = text_of(in, "title");
-  a.mode = mode_named(text_of(in, "mode")).value_or(AttemptMode::assessed);
+  a.uuid = text_in(in, "uuid");
+  a.trainee = clean_name(text_in(in, "trainee"));
+  a.exercise = text_in(in, "exercise");
+  a.title = text_in(in, "title");
+  a.mode = mode_named(text_in(in, "mode")).value_or(AttemptMode::assessed);
   a.seed = whole_of(in, "seed");
-  a.input = text_of(in, "input");
-  a.started = text_of(in, "started");
-  a.ended = text_of(in, "ended");
-  a.state = state_named(text_of(in, "state")).value_or(AttemptState::interrupted);
+  a.input = text_in(in, "input");
+  a.started = text_in(in, "started");
+  a.ended = text_in(in, "ended");
+  a.state = state_named(text_in(in, "state")).value_or(AttemptState::interrupted);
   if (in.contains("score") && in["score"].is_number()) a.score = in["score"].get<double>();
   if (in.contains("passed") && in["passed"].is_boolean()) a.passed = in["passed"].get<bool>();
   if (in.contains("seconds") && in["seconds"].is_number()) a.seconds = in["seconds"].get<double>();
   a.ticks = whole_of(in, "ticks");
-  a.recording = text_of(in, "recording");
-  a.program_version = text_of(in, "program_version");
+  a.recording = text_in(in, "recording");
+  a.program_version = text_in(in, "program_version");
   a.model_hash = whole_of(in, "model_hash");
-  a.store = text_of(in, "store");
+  a.store = text_in(in, "store");
   if (in.contains("result") && in["result"].is_object())
     a.result = in["result"].dump(-1, ' ', false, Json::error_handler_t::replace);
   return a;

@@ -1,0 +1,111 @@
+// Questions to the store, and forgetting somebody.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include <trocar/core/error.hpp>
+#include <trocar/training/store_parts.hpp>
+
+namespace trocar::training {
+
+namespace fs = std::filesystem;
+
+std::vector<Attempt> Store::list(const AttemptFilter& filter) const {
+  std::vector<Attempt> out;
+  std::error_code error;
+  if (!fs::exists(database(), error)) return out;
+  try {
+    Database db(database(), Database::Access::read);
+    Query q(db, fmt::format("SELECT {}{}WHERE (?1 = '' OR t.name = ?1) AND (?2 = '' OR a.exercise = ?2) "
+                            "AND (?3 IS NULL OR a.seed = ?3) AND (?4 IS NULL OR a.mode = ?4) "
+                            "ORDER BY a.number DESC LIMIT ?5",
+                            kColumns, kFrom));
+    q.bind(filter.trainee).bind(filter.exercise);
+    q.bind(filter.seed ? std::optional<std::int64_t>(std::int64_t(*filter.seed)) : std::nullopt);
+    q.bind(filter.mode ? std::optional<std::string>(name_of(*filter.mode)) : std::nullopt);
+    q.bind(std::int64_t(filter.limit > 0 ? filter.limit : -1));
+    while (q.next()) out.push_back(row_of(q));
+  } catch (const DatabaseFault& fault) {
+    throw core::EnvironmentLacks(fmt::format("the session store cannot be read: {}", fault.what()));
+  }
+  std::reverse(out.begin(), out.end());
+  return out;
+}
+
+std::optional<Attempt> Store::find(const std::string& name) const {
+  std::error_code error;
+  if (name.empty() || !fs::exists(database(), error)) return std::nullopt;
+  const bool number = name.size() < 10 && name.find_first_not_of("0123456789") == std::string::npos;
+  try {
+    Database db(database(), Database::Access::read);
+    Query q(db, fmt::format("SELECT {}{}WHERE {} LIMIT 2", kColumns, kFrom,
+                            number ? "a.number = ?1" : "substr(a.uuid, 1, length(?1)) = ?1"));
+    if (number)
+      q.bind(std::int64_t(std::stoll(name)));
+    else
+      q.bind(name);
+    if (!q.next()) return std::nullopt;
+    Attempt a = row_of(q);
+    if (q.next()) return std::nullopt;
+    Query t(db, "SELECT samples FROM trace WHERE attempt = ?");
+    t.bind(a.number);
+    if (t.next()) a.trace = t.bytes(0);
+    return a;
+  } catch (const DatabaseFault& fault) {
+    throw core::EnvironmentLacks(fmt::format("the session store cannot be read: {}", fault.what()));
+  }
+}
+
+std::vector<std::string> Store::trainees() const {
+  std::vector<std::string> out;
+  std::error_code error;
+  if (!fs::exists(database(), error)) return out;
+  try {
+    Database db(database(), Database::Access::read);
+    Query q(db,
+            "SELECT t.name FROM attempt a JOIN trainee t ON t.id = a.trainee GROUP BY t.id "
+            "ORDER BY max(a.number) DESC");
+    while (q.next()) out.push_back(q.text(0));
+  } catch (const DatabaseFault& fault) {
+    throw core::EnvironmentLacks(fmt::format("the session store cannot be read: {}", fault.what()));
+  }
+  return out;
+}
+
+Store::Forgotten Store::forget(const std::string& trainee) {
+  Forgotten out;
+  std::vector<std::string> recordings;
+  for (const Attempt& a : list({.trainee = trainee})) {
+    ++out.attempts;
+    if (!a.recording.empty()) recordings.push_back(a.recording);
+  }
+  try {
+    Database db(database(), Database::Access::write);
+    make_durable(db);
+    migrate(db);
+    {
+      Transaction all(db);
+      Query(db, "DELETE FROM attempt WHERE trainee IN (SELECT id FROM trainee WHERE name = ?)").bind(trainee).done();
+      Query(db, "DELETE FROM trainee WHERE name = ?").bind(trainee).done();
+      all.commit();
+    }
+    db.run("VACUUM; PRAGMA wal_checkpoint(TRUNCATE);");
+  } catch (const DatabaseFault& fault) {
+    throw core::EnvironmentLacks(fmt::format("nothing was deleted: {}", fault.what()));
+  }
+  std::error_code error;
+  const fs::path ours = fs::weakly_canonical(m_folder / "recordings", error);
+  for (const std::string& r : recordings) {
+    if (!fs::exists(r, error)) continue;
+    const bool inside = fs::weakly_canonical(fs::path(r).parent_path(), error) == ours;
+    if (inside && fs::remove(r, error))
+      out.deleted.emplace_back(r);
+    else
+      out.left.emplace_back(r);
+  }
+  for (const fs::path& file : files_in(m_folder))
+    if (file.filename().string().rfind("sessions.sqlite.damaged-", 0) == 0) out.left.push_back(file);
+  return out;
+}
+
+}  // namespace trocar::training
