@@ -1,4 +1,5 @@
 #include <trocar/interactions/border.hpp>
+#include <trocar/interactions/skin_point.hpp>
 
 namespace trocar::interactions {
 namespace {
@@ -6,17 +7,6 @@ namespace {
 /// The node of a cut element on whose stump the place lies: 0 lower, 1 upper; within a whole element the place itself.
 double bearing(const StrandPlace& place, const tissue::StrandState& state) noexcept {
   return state.alive[std::size_t(place.element)] ? place.w : (place.w <= 0.5 ? 0.0 : 1.0);
-}
-
-Vec3d skin_point(const tissue::NetworkModel& network, const tissue::Skin& skin, const tissue::NetworkState& state,
-                 int vertex) noexcept {
-  const tissue::SkinWeights& w = skin.weights[std::size_t(vertex)];
-  Vec3d p = network.origin;
-  for (std::size_t j = 0; j < 8; ++j) {
-    const tissue::NodeState& n = state.nodes[std::size_t(w.row[j])];
-    p += double(w.weight[j]) * Vec3d{n.x, n.y, n.z};
-  }
-  return p;
 }
 
 /// Share of a border node's springs that are whole.

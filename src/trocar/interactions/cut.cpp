@@ -3,6 +3,7 @@
 
 #include <trocar/interactions/clip.hpp>
 #include <trocar/interactions/cut.hpp>
+#include <trocar/interactions/skin_point.hpp>
 #include <trocar/interactions/tool_contact.hpp>
 
 namespace trocar::interactions {
@@ -62,17 +63,6 @@ bool crosses_blades(const ToolModel& model, const ToolShape& shape, Vec3d a, Vec
   if ((a.y > 0) == (b.y > 0)) return false;
   const Vec3d at = a + (a.y / (a.y - b.y)) * (b - a);
   return at.z > 0 && at.z < model.jaw_length && std::fabs(at.x) < shape.half_opening(at.z) + kBlade;
-}
-
-Vec3d skin_point(const tissue::NetworkModel& network, const tissue::Skin& skin, const tissue::NetworkState& state,
-                 int vertex) noexcept {
-  const tissue::SkinWeights& w = skin.weights[size_t(vertex)];
-  Vec3d p = network.origin;
-  for (size_t j = 0; j < 8; ++j) {
-    const tissue::NodeState& n = state.nodes[size_t(w.row[j])];
-    p += double(w.weight[j]) * Vec3d{n.x, n.y, n.z};
-  }
-  return p;
 }
 
 /// Representative of a node's connected part; shortens the way for the next question.

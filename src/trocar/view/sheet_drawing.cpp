@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/interactions/skin_point.hpp>
 #include <trocar/render/mesh_arrays.hpp>
 #include <trocar/view/fold_pattern.hpp>
 #include <trocar/view/looks.hpp>
@@ -28,14 +29,9 @@ Vec3d rest_of(const sim::BasePoint& b, const sim::Model& model) {
   return body.model.rest[e] + b.place.w * (body.model.rest[e + 1] - body.model.rest[e]);
 }
 
-Vec3d vertex_now(const sim::SolidModel& solid, const tissue::NetworkState& state, int vertex) {
-  const tissue::SkinWeights& w = solid.skin.weights[std::size_t(vertex)];
-  Vec3d x = solid.network.origin;
-  for (std::size_t j = 0; j < 8; ++j) {
-    const tissue::NodeState& n = state.nodes[std::size_t(w.row[j])];
-    x += double(w.weight[j]) * Vec3d{n.x, n.y, n.z};
-  }
-  return x;
+Vec3d skin_now(const sim::Model& model, const sim::State& state, int solid, int vertex) {
+  const sim::SolidModel& m = model.solids[std::size_t(solid)];
+  return interactions::skin_point(m.network, m.skin, state.solids[std::size_t(solid)], vertex);
 }
 
 }  // namespace
@@ -147,9 +143,7 @@ void SheetDrawing::place_margin(const sim::State& state, bool at_end) {
       (m_columns.size() + (at_end && !m_margin[0].empty() ? std::size_t(kMarginSteps) : 0)) * kRows;
   for (std::size_t r = 0; r < kRows; ++r) {
     const Margin& m = m_margin[at_end][r];
-    const Vec3d to =
-        m.solid < 0 ? m.rest
-                    : vertex_now(m_model->solids[std::size_t(m.solid)], state.solids[std::size_t(m.solid)], m.vertex);
+    const Vec3d to = m.solid < 0 ? m.rest : skin_now(*m_model, state, m.solid, m.vertex);
     const Vec3f from = m_buffer.positions[edge + r], step = vec_cast<float>(to) - from;
     for (int k = 1; k <= kMarginSteps; ++k)
       m_buffer.positions[first + std::size_t(k - 1) * kRows + r] = from + (float(k) / kMarginSteps) * step;
@@ -158,10 +152,7 @@ void SheetDrawing::place_margin(const sim::State& state, bool at_end) {
 
 Vec3d SheetDrawing::base_point(std::size_t i, const sim::State& state) const {
   const sim::BasePoint& b = m_sheet->base[i];
-  if (b.solid >= 0) {
-    const std::size_t k = std::size_t(b.solid);
-    return b.rest + vertex_now(m_model->solids[k], state.solids[k], b.vertex) - rest_of(b, *m_model);
-  }
+  if (b.solid >= 0) return b.rest + skin_now(*m_model, state, b.solid, b.vertex) - rest_of(b, *m_model);
   if (b.strand < 0) return b.rest;
   const std::size_t k = std::size_t(b.strand);
   return b.rest + point_at(m_model->bodies[k], state.strands[k], b.place) - rest_of(b, *m_model);
