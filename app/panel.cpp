@@ -72,10 +72,16 @@ void draw_hand(const PanelContent& c, int h) {
   if (c.hands && c.hands->ratchet[size_t(h)]) state += state.empty() ? "locked" : ", locked";
   ui::mark(led ? Mark::now : Mark::note);
   const std::string where = hand_name(c.lesson.model, h);
-  ui::text(fmt::format("{} {}", h + 1, where == in_words(held.name) ? about : where + ": " + about),
-           led ? ui::kWhite : ui::kGrey);
+  const std::string what = fmt::format("{} {}", h + 1, where == in_words(held.name) ? about : where + ": " + about);
+  const float gap = 8 * ui::scale(), room = ImGui::GetContentRegionAvail().x;
+  const bool beside = ImGui::CalcTextSize((what + state).c_str()).x + gap < room;
+  const float indent = ImGui::GetCursorPosX();
+  ui::text(what, led ? ui::kWhite : ui::kGrey);
   if (state.empty()) return;
-  ImGui::SameLine(0, 8 * ui::scale());
+  if (beside)
+    ImGui::SameLine(0, gap);
+  else
+    ImGui::SetCursorPosX(indent);
   ui::text(state, ui::kBlue);
 }
 

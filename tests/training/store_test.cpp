@@ -16,6 +16,8 @@
 #include <trocar/training/database.hpp>
 #include <trocar/training/store.hpp>
 
+#include "../other_process.hpp"
+
 namespace trocar::training {
 namespace {
 
@@ -86,21 +88,6 @@ class StoreTest : public testing::Test {
     std::ifstream in(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
   }
-  /// Runs `body` in a process of its own; what it returned, or -1.
-  template <class Body>
-  static int elsewhere(Body&& body) {
-    const pid_t child = fork();
-    if (child == 0) try {
-        _exit(body());
-      } catch (...) {
-        _exit(99);
-      }
-    int status = 0;
-    waitpid(child, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-  /// Gives up root's rights, for which a read-only folder is no obstacle.
-  static bool become_nobody() { return geteuid() != 0 || (setgid(65534) == 0 && setuid(65534) == 0); }
 
  private:
   fs::path m_root;
@@ -187,7 +174,7 @@ TEST_F(StoreTest, WhatRunsInALivingProgramIsRunningForOthers) {
 }
 
 TEST_F(StoreTest, WhatRanInADeadProgramWasInterruptedAndItsRecordingSaysHowFarItCame) {
-  const int status = elsewhere([&] {
+  const int status = test::elsewhere([&] {
     Store store(folder());
     Attempt a = attempt();
     const AttemptLock lock = store.begin(a);
@@ -209,7 +196,7 @@ TEST_F(StoreTest, WhatRanInADeadProgramWasInterruptedAndItsRecordingSaysHowFarIt
 }
 
 TEST_F(StoreTest, KilledBetweenRecordingAndRowItHasEndedAllTheSame) {
-  elsewhere([&] {
+  test::elsewhere([&] {
     Store store(folder());
     Attempt a = attempt();
     const AttemptLock lock = store.begin(a);
@@ -271,8 +258,8 @@ TEST_F(StoreTest, AReadOnlyFolderCostsNothingAndCanBeRead) {
                                 fs::perms::others_exec | fs::perms::group_read | fs::perms::group_exec);
   fs::permissions(database(), fs::perms::others_read | fs::perms::owner_read);
   fs::permissions(folder() / "locks", fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_exec);
-  const int failed = elsewhere([&] {
-    if (!become_nobody()) return 77;
+  const int failed = test::elsewhere([&] {
+    if (!test::become_nobody()) return 77;
     Store store(folder());
     if (store.list().size() != 1 || store.list()[0].score != 87.5) return 1;
     Attempt a = attempt("nobody");
@@ -291,7 +278,7 @@ TEST_F(StoreTest, AReadOnlyFolderCostsNothingAndCanBeRead) {
 
 TEST_F(StoreTest, AFullDiskCostsNothing) {
   Attempt a = attempt();
-  const int failed = elsewhere([&] {
+  const int failed = test::elsewhere([&] {
     Store store(folder());
     for (int i = 0; i < 40; ++i) {
       Attempt earlier = attempt();

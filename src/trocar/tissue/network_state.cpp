@@ -111,6 +111,7 @@ void add_to_hash(core::Hasher& h, const NetworkModel& m) noexcept {
   h.add(one);
   h.add(m.row_packs);
   h.add(m.tet_packs);
+  h.add(m.rest);
   h.add(m.mass);
   h.add(m.fixed);
   h.add(m.substeps);
