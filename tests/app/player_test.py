@@ -275,6 +275,21 @@ def check_torn(program, folder, recording, whole, env):
         player.process.wait()
 
 
+def check_closed_early(program, folder, recording, env):
+    """Asked to end while the scene is still being prepared: it ends, and well, and never shows the scene."""
+    player = Player(program, recording, os.path.join(folder, "early.jsonl"), env)
+    try:
+        player.wait("the scene to be prepared", lambda e: e["event"] == "preparing")
+        player.process.terminate()
+        player.process.wait(timeout=PATIENCE)
+        expect(player.process.returncode == 0, f"closed early: exit {player.process.returncode}")
+        expect(player.now() == 1, f"closed early the player went on: {player.events[1:3]}")
+    finally:
+        if player.process.poll() is None:
+            player.process.kill()
+        player.process.wait()
+
+
 def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)
@@ -306,6 +321,7 @@ def main():
         film(player, folder)
         leave(player)
         check_torn(program, folder, recording, last, env)
+        check_closed_early(program, folder, recording, env)
         print(f"{last} ticks; a scrubbed place is on the screen after {took[len(took) // 2]:.0f} ms (median of "
               f"{len(took)}), {took[-1]:.0f} ms at most")
     except (Failed, subprocess.TimeoutExpired, KeyError, json.JSONDecodeError) as failure:

@@ -1,0 +1,41 @@
+#include "player_parts.hpp"
+
+namespace trocar::app {
+
+/// What can be pressed, and where, for tests that drive the real window.
+void Player::log_widgets() {
+  const std::vector<ui::Widget> widgets = ui::take_widgets();
+  const char* screen = m_film ? "film" : m_help ? "help" : m_menu ? "menu" : "player";
+  if (!m_log.on() || (widgets == m_widgets && m_screen == screen)) return;
+  m_widgets = widgets;
+  m_screen = screen;
+  Json places = Json::object();
+  for (const ui::Widget& w : widgets) places[w.id] = {w.x, w.y};
+  const auto place = [](const Area& a) { return Json{a.x, a.y, a.width, a.height}; };
+  m_log.event("screen", {{"name", screen},
+                         {"widgets", places},
+                         {"large", place(m_main)},
+                         {"small", place(m_small)},
+                         {"bar", place(m_bar)}});
+}
+
+void Player::log_shown(const sim::State& state) {
+  if (!m_log.on() || (m_logged_tick == now() && m_logged_exact == m_exact)) return;
+  const double took = std::chrono::duration<double, std::milli>(Clock::now() - m_asked_at).count();
+  Json details{{"tick", now()}, {"state_tick", state.tick}, {"exact", m_exact}, {"playing", m_playing}, {"ms", took}};
+  if (m_exact && !m_playing) details["hash"] = hex(sim::hash_of(state));
+  if (m_logged_tick == Reel::kNowhere) details["last"] = m_line.last();
+  m_log.event("shown", details);
+  m_logged_tick = now();
+  m_logged_exact = m_exact;
+}
+
+void Player::log_camera() {
+  m_log.event("camera", {{"endoscope", m_endoscope},
+                         {"inset", m_inset},
+                         {"yaw", m_orbit.yaw},
+                         {"pitch", m_orbit.pitch},
+                         {"distance", m_orbit.distance}});
+}
+
+}  // namespace trocar::app

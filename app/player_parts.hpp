@@ -1,0 +1,134 @@
+// The player's window, in five files: it opens and goes from picture to picture (player.cpp), what people ask for
+// (player_controls.cpp), the pictures of the scene (player_scene.cpp), films and saved pictures (player_film.cpp), and
+// what it tells tests (player_log.cpp). Private to them.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+
+#include <trocar/render/backend.hpp>
+#include <trocar/render/gl_context.hpp>
+#include <trocar/render/governor.hpp>
+
+#include "camera_choice.hpp"
+#include "event_log.hpp"
+#include "film_plan.hpp"
+#include "footage.hpp"
+#include "player.hpp"
+#include "player_backdrop.hpp"
+#include "player_bar.hpp"
+#include "player_panel.hpp"
+#include "ui.hpp"
+#include "window.hpp"
+
+namespace trocar::app {
+
+inline constexpr int kScopeEye = 0, kOutsideEye = 1, kFilmEye = 2;  ///< exposure memories
+
+/// What the scene's picture depends on: while it stays the same the picture is not drawn again, so that panel and
+/// timeline answer at once on a machine that draws slowly.
+struct Drawn {
+  std::uint64_t tick = Reel::kNowhere;
+  bool exact = false, endoscope = false, inset = false;
+  double yaw = 0, pitch = 0, distance = 0;
+  Vec3d target;
+  int width = 0, height = 0;
+  render::Quality quality;
+
+  friend bool operator==(const Drawn& a, const Drawn& b) {
+    return a.tick == b.tick && a.exact == b.exact && a.endoscope == b.endoscope && a.inset == b.inset &&
+           a.yaw == b.yaw && a.pitch == b.pitch && a.distance == b.distance && a.target.x == b.target.x &&
+           a.target.y == b.target.y && a.target.z == b.target.z && a.width == b.width && a.height == b.height &&
+           a.quality == b.quality;
+  }
+};
+
+/// A film that is being made, a picture at a time, as the reel gets there.
+struct FilmJob {
+  FilmPlan plan;
+  view::ViewOptions view;
+  PictureSize size;
+  std::unique_ptr<Video> video;
+  std::uint64_t next = 0;
+  bool settled = false;  ///< has its exposure found what it will begin with?
+};
+
+class Player {
+ public:
+  Player(Window& window, const Lesson& lesson, const sim::Recording& recording, const PlayerOptions& options,
+         EventLog& log);
+
+  /// Until it is closed, or the program shall end.
+  void run();
+
+ private:
+  void picture();
+  void lay_out();
+  void draw_overlays();
+
+  void listen(PlayerCommands& commands);
+  void read_pointer(PlayerCommands& commands);
+  void obey(const PlayerCommands& commands);
+  void obey_times(const PlayerCommands& commands);
+  void obey_cameras(const PlayerCommands& commands);
+  void seek(std::uint64_t tick);
+  void play_on();
+
+  const sim::State& state_to_show();
+  void show_scene(const sim::State& state);
+  void draw_scene(const sim::State& state, const render::Quality& quality);
+  void frame_inset();
+  view::ViewOptions view_now(bool endoscope, const render::Quality& quality) const;
+  render::Target target(const Area& area) const;
+
+  void save_picture(const sim::State& state);
+  void start_film();
+  void film_on();
+  void end_film(const std::string& message);
+
+  void log_widgets();
+  void log_shown(const sim::State& state);
+  void log_camera();
+
+  std::uint64_t now() const { return std::uint64_t(m_now + 0.5); }
+  bool overlay() const { return m_help || m_menu || m_film; }
+
+  using Clock = std::chrono::steady_clock;
+  Window& m_window;
+  const Lesson& m_lesson;
+  const sim::Recording& m_recording;
+  const PlayerOptions& m_options;
+  EventLog& m_log;
+  std::unique_ptr<render::GlContext> m_context;
+  std::unique_ptr<render::Backend> m_backend;
+  view::SceneView m_view;
+  render::Governor m_governor;
+  Backdrop m_backdrop;
+  Drawn m_drawn;
+  std::uint64_t m_picture_clock = 0;  ///< [ms] what the exposure goes by: a camera's own time, not the recording's
+  Footage m_footage;
+  Reel m_reel;
+  Timeline m_line;
+  Findings m_found;
+  std::uint64_t m_found_version = 0;
+  PadReader m_pad;
+
+  double m_now = 0;  ///< [ticks]
+  double m_speed = 1;
+  bool m_playing = false, m_endoscope = true, m_inset = true, m_exact = false;
+  bool m_help = false, m_menu = false, m_quit = false, m_picture_wanted = false;
+  int m_preset = 1;
+  view::Orbit m_around, m_orbit;
+  Area m_main, m_small, m_bar, m_panel;
+  enum class Drag { none, turn, shift } m_drag = Drag::none;
+  std::string m_message;
+  std::unique_ptr<FilmJob> m_film;
+  std::vector<ui::Widget> m_widgets;
+  std::string m_screen;
+  std::uint64_t m_logged_tick = Reel::kNowhere;
+  bool m_logged_exact = false;
+  Clock::time_point m_asked_at = Clock::now();
+};
+
+}  // namespace trocar::app
