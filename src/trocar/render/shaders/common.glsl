@@ -1,4 +1,4 @@
-// Shared by all scene shaders. The numbers in brackets are the rows that gl_backend.cpp fills; keep both in step.
+// Shared by all scene shaders. The numbers in brackets are the rows that gl_packing.cpp fills; keep both in step.
 precision highp float;
 precision highp sampler3D;
 

@@ -1,0 +1,117 @@
+// The backend that draws, in four files: the frame as a list of passes (gl_backend.cpp), what draws things into the
+// scene picture (gl_scene_passes.cpp), how instruments shade it (gl_rods.cpp), and what makes a camera's picture of it
+// (gl_picture_passes.cpp). Private to them.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <epoxy/gl.h>
+
+#include <trocar/render/checked_backend.hpp>
+#include <trocar/render/gl_meshes.hpp>
+#include <trocar/render/gl_packing.hpp>
+#include <trocar/render/gl_program.hpp>
+#include <trocar/render/gl_targets.hpp>
+
+namespace trocar::render {
+
+enum TextureUnit : int {
+  kUnitPicture = 0,
+  kUnitNoise = 1,
+  kUnitCells = 2,
+  kUnitVessels = 3,
+  kUnitSmall = 4,
+  kUnitSmaller = 5,
+  kUnitExposure = 6,
+  kUnitArcade = 7,
+  kUnitShade = 8
+};
+
+inline void bind_texture(int unit, GLenum target, GLuint texture) {
+  glActiveTexture(GLenum(GL_TEXTURE0 + unit));
+  glBindTexture(target, texture);
+}
+
+class GlBackend final : public CheckedBackend {
+ public:
+  explicit GlBackend(GlContext& context);
+
+ private:
+  static constexpr int kEyes = 8;
+
+  void on_store(std::uint32_t id, const MeshArrays& mesh) override { m_meshes.store(id, mesh); }
+  void on_update(std::uint32_t id, std::span<const Vec3f> positions, std::span<const Vec3f> normals,
+                 std::span<const Paint> paint) override {
+    m_meshes.update(id, positions, normals, paint);
+  }
+  void on_destroy(std::uint32_t id) override { m_meshes.destroy(id); }
+
+  /// Draws each item once at every detail, clean and stained, into a picture of a few pixels.
+  void on_prepare(std::span<const DrawItem> items) override;
+  void on_frame(const Frame& frame, const Target& target, std::span<const DrawItem* const> opaque,
+                std::span<const DrawItem* const> translucent) override;
+  Image on_read(const Target& target) override;
+
+  void begin_scene(const Frame& frame, const Target& target, const Layout& layout);
+  /// Near depth outside the circle, so that early depth tests drop those pixels.
+  void mask_pass(const Layout& layout);
+  /// Translucent things and smoke: premultiplied light over what is there; alpha keeps the opaque distance.
+  static void set_blending(bool on);
+  /// Metal is marked in the stencil: instruments do not shade themselves.
+  void scene_pass(const Frame& frame, std::span<const DrawItem* const> items, bool blended);
+  void draw_item(const Frame& frame, const DrawItem& item, bool blended, bool stained);
+  GlProgram& program_for(const Frame& frame, const Material& material, bool blended, bool stained);
+  void puff_pass(const Frame& frame);
+
+  /// Rods in the eye's frame, as rows of u_rods: one end and the radius, the way to the other end and 1 / its square.
+  void pack_rods(const Frame& frame);
+  /// Only the rods that come near a fold: each costs at every one of its pixels.
+  void set_rods_near(const Frame& frame, const DrawItem& item, GlProgram& program);
+  /// The corners, in clip space, of what a rod may shade: around its picture, and as far as its shadow may lie off it.
+  std::array<float, 8> reach_of(int rod, float aspect, float tan_half) const;
+  /// What instruments leave of the light on opaque surfaces, each over the part of the picture that it may shade.
+  void shade_pass(const Frame& frame, const Layout& layout);
+
+  void resample(const GlPicture& from, GlPicture& to, const char* spread);
+  /// A quarter as wide and high, then smoothed, so that enlarging it shows no steps.
+  void shrink(const GlPicture& from, GlPicture& rough, GlPicture& smooth);
+  void shrink_pass();
+  /// Exposure lives in two pictures of one pixel an eye; this reads one and writes the other.
+  void meter_pass(const Frame& frame, const Target& target, const Layout& layout);
+  void develop_pass(const Frame& frame, const Layout& layout);
+  void lens_pass(const Frame& frame, const Target& target, const Layout& layout);
+  void draw_full();
+  /// Only the endoscope's circle of a picture that it is centred in; without a mask all of it.
+  void draw_view(GlProgram& program, const EndoscopeLook& look, float radius, float width, float height);
+
+  void bind_target(const Target& target);
+  /// Others draw into the same context (menus): leave nothing bound that they would trip over.
+  void leave_state_clean();
+
+  struct SeenPuff {
+    Vec3f eye;
+    const Puff* puff;
+  };
+  struct Memory {
+    int current = 0;         ///< which of m_exposure holds this eye's value
+    std::uint64_t tick = 0;  ///< when it was written
+    bool known = false;
+  };
+
+  GlMeshes m_meshes;
+  GlPrograms m_programs;
+  GlTexture m_noise, m_cells, m_vessels, m_arcade;
+  GlVertexArray m_no_vertices;
+  GlPicture m_scene, m_shade, m_small, m_smaller, m_developed, m_own;
+  std::array<GlPicture, 2> m_rough, m_exposure;
+  std::array<Memory, kEyes> m_memory;
+  Mat4 m_view, m_projection;
+  std::array<float, 8 * 4> m_frame_rows{};
+  std::array<float, 8 * kMaxRods> m_rod_rows{};
+  int m_rod_count = 0;
+  std::vector<SeenPuff> m_puffs;
+  int m_small_eye = -1;  ///< whose picture m_small holds
+};
+
+}  // namespace trocar::render

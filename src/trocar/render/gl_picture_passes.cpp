@@ -1,0 +1,130 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <trocar/render/gl_backend_parts.hpp>
+
+namespace trocar::render {
+namespace {
+
+const char* view_shape(const EndoscopeLook& look) { return look.mask ? "disc.vert" : "full.vert"; }
+
+}  // namespace
+
+void GlBackend::resample(const GlPicture& from, GlPicture& to, const char* spread) {
+  to.bind();
+  GlProgram& program = m_programs.get("full.vert", "shrink.frag", spread);
+  program.use();
+  program.set("u_picture", kUnitPicture);
+  program.set("u_texel", 1.0f / float(from.width), 1.0f / float(from.height));
+  bind_texture(kUnitPicture, GL_TEXTURE_2D, from.colour.id());
+  draw_full();
+}
+
+void GlBackend::shrink(const GlPicture& from, GlPicture& rough, GlPicture& smooth) {
+  for (GlPicture* picture : {&rough, &smooth})
+    picture->resize((from.width + 3) / 4, (from.height + 3) / 4, GL_RGBA16F, false, GL_LINEAR);
+  resample(from, rough, "SPREAD=1.0");
+  resample(rough, smooth, "SPREAD=0.75");
+}
+
+void GlBackend::shrink_pass() {
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  bind_texture(kUnitSmall, GL_TEXTURE_2D, 0);
+  shrink(m_scene, m_rough[0], m_small);
+  shrink(m_small, m_rough[1], m_smaller);
+}
+
+void GlBackend::meter_pass(const Frame& frame, const Target& target, const Layout& layout) {
+  Memory& memory = m_memory[std::size_t(frame.eye)];
+  if (!frame.look.auto_exposure || !frame.metering) return;
+  const double seconds = memory.known && frame.tick >= memory.tick ? 1e-3 * double(frame.tick - memory.tick) : 1e9;
+  const float lag = float(1 - std::exp(-std::min(seconds, 1e3) / double(frame.look.exposure_seconds)));
+  const int next = 1 - memory.current;
+  for (GlPicture& picture : m_exposure) picture.resize(kEyes, 1, GL_R32F, false, GL_NEAREST);
+  m_exposure[std::size_t(next)].bind();
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(frame.eye, 0, 1, 1);
+  GlProgram& program = m_programs.get("full.vert", "meter.frag");
+  program.use();
+  program.set("u_picture", kUnitPicture);
+  program.set("u_memory", kUnitExposure);
+  program.set("u_meter", frame.look.exposure_key, memory.known ? lag : 1.0f, frame.look.exposure_range_ev,
+              float(frame.eye));
+  const float reach = 0.9f * std::min(layout.radius, 0.5f * float(target.height));
+  program.set("u_radius", std::min(0.5f, reach / float(layout.box_w)), std::min(0.5f, reach / float(layout.box_h)));
+  bind_texture(kUnitPicture, GL_TEXTURE_2D, m_smaller.colour.id());
+  bind_texture(kUnitExposure, GL_TEXTURE_2D, m_exposure[std::size_t(memory.current)].colour.id());
+  draw_full();
+  glDisable(GL_SCISSOR_TEST);
+  memory = {next, frame.tick, true};
+}
+
+void GlBackend::develop_pass(const Frame& frame, const Layout& layout) {
+  m_developed.resize(layout.scene_w, layout.scene_h, GL_RGBA8, false, GL_LINEAR);
+  m_developed.bind();
+  const EndoscopeLook& look = frame.look;
+  const Memory& memory = m_memory[std::size_t(frame.eye)];
+  const bool effects = frame.quality.detail > 1 && (look.bloom > 0 || look.defocus > 0 || look.contact > 0);
+  const bool rods = m_rod_count > 0;
+  GlProgram& program =
+      m_programs.get(view_shape(look), "develop.frag", std::string(effects ? "EFFECTS," : "") + (rods ? "RODS," : ""));
+  program.use();
+  program.set("u_scene", kUnitPicture);
+  program.set("u_small", kUnitSmall);
+  program.set("u_smaller", kUnitSmaller);
+  program.set("u_exposure", kUnitExposure);
+  program.set("u_rod_shade", kUnitShade);
+  if (rods) bind_texture(kUnitShade, GL_TEXTURE_2D, m_shade.colour.id());
+  const bool remembered = look.auto_exposure && memory.known;
+  program.set("u_camera", look.exposure_ev, remembered ? float(frame.eye) : -1.0f, look.bloom, look.saturation);
+  program.set("u_place", layout.radius / float(layout.box_w), layout.radius / float(layout.box_h), look.vignette, 0);
+  program.set("u_depth", look.focus_near, look.defocus, look.contact, 2 * std::tan(frame.camera.vertical_fov / 2));
+  const Vec3f lamp = frame.light.position;
+  const float off = std::max(1e-6f, std::sqrt(lamp.x * lamp.x + lamp.y * lamp.y));
+  const float aspect = float(layout.box_h) / float(layout.box_w);
+  const Vec3f to_lamp = off > 1e-5f ? Vec3f{lamp.x / off * aspect, lamp.y / off, 0} : Vec3f{};
+  program.set("u_shadow", 0.02f * to_lamp.x, 0.02f * to_lamp.y);
+  program.set("u_white", look.white_balance);
+  bind_texture(kUnitPicture, GL_TEXTURE_2D, m_scene.colour.id());
+  bind_texture(kUnitSmall, GL_TEXTURE_2D, m_small.colour.id());
+  bind_texture(kUnitSmaller, GL_TEXTURE_2D, m_smaller.colour.id());
+  bind_texture(kUnitExposure, GL_TEXTURE_2D, m_exposure[std::size_t(memory.current)].colour.id());
+  draw_view(program, look, layout.radius, float(layout.box_w), float(layout.box_h));
+}
+
+void GlBackend::lens_pass(const Frame& frame, const Target& target, const Layout& layout) {
+  bind_target(target);
+  const EndoscopeLook& look = frame.look;
+  std::string defines;
+  if (look.fringe_px > 0 && frame.quality.detail > 1) defines += "FRINGE,";
+  if (frame.quality.detail > 0) defines += "SMOOTH,";
+  GlProgram& program = m_programs.get(view_shape(look), "lens.frag", defines);
+  program.use();
+  program.set("u_picture", kUnitPicture);
+  program.set("u_place", layout.centre_x, layout.centre_y, layout.radius, look.mask ? 1.0f : 0.0f);
+  program.set("u_box", float(layout.box_w), float(layout.box_h), 1.0f / float(layout.box_w),
+              1.0f / float(layout.box_h));
+  program.set("u_texel", 1.0f / float(layout.scene_w), 1.0f / float(layout.scene_h));
+  program.set("u_lens", look.barrel, look.fringe_px * float(target.height) / 600.0f,
+              look.sharpen * frame.quality.render_scale, std::max(look.mask_soft_px, 0.5f));
+  program.set("u_sensor", look.noise, look.notch, std::sin(look.notch_angle), std::cos(look.notch_angle));
+  program.set_seed("u_seed", std::uint32_t(frame.tick * 2654435761u));
+  bind_texture(kUnitPicture, GL_TEXTURE_2D, m_developed.colour.id());
+  draw_view(program, look, layout.radius, float(target.width), float(target.height));
+}
+
+void GlBackend::draw_full() {
+  glBindVertexArray(m_no_vertices.id());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void GlBackend::draw_view(GlProgram& program, const EndoscopeLook& look, float radius, float width, float height) {
+  if (!look.mask) return draw_full();
+  program.set("u_radius", 2 * radius / width, 2 * radius / height);
+  glBindVertexArray(m_no_vertices.id());
+  glDrawArrays(GL_TRIANGLE_FAN, 0, 98);
+}
+
+}  // namespace trocar::render

@@ -1,0 +1,147 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <trocar/render/gl_backend_parts.hpp>
+
+namespace trocar::render {
+namespace {
+
+/// Whether the film's ripples are about as large as the fine flecks, so that one noise fetch can serve both.
+bool film_serves_as_fine(const Material& m) {
+  const float ratio = m.film_size / (0.2f * m.mottle_size);
+  return m.shading != Shading::metal && ratio > 0.4f && ratio < 2.5f;
+}
+
+}  // namespace
+
+void GlBackend::begin_scene(const Frame& frame, const Target& target, const Layout& layout) {
+  m_scene.resize(layout.scene_w, layout.scene_h, GL_RGBA16F, true, GL_LINEAR);
+  m_scene.bind();
+  const Camera& camera = frame.camera;
+  m_view = view_matrix(camera.rotation, camera.position);
+  const float part = float(layout.box_h) / float(target.height);
+  const float fov = 2 * std::atan(part * std::tan(camera.vertical_fov / 2));
+  m_projection = perspective(fov, float(layout.box_w) / float(layout.box_h), camera.near_plane, camera.far_plane);
+  m_frame_rows = packed(frame);
+  pack_rods(frame);
+
+  glDisable(GL_SCISSOR_TEST);
+  glDisable(GL_BLEND);
+  glDisable(GL_STENCIL_TEST);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LEQUAL);
+  glDepthMask(GL_TRUE);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glFrontFace(GL_CCW);
+  glCullFace(GL_BACK);
+  glClearColor(frame.background.x, frame.background.y, frame.background.z, frame.camera.far_plane);
+  glClearStencil(0);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+  bind_texture(kUnitNoise, GL_TEXTURE_3D, m_noise.id());
+  bind_texture(kUnitCells, GL_TEXTURE_3D, m_cells.id());
+  bind_texture(kUnitVessels, GL_TEXTURE_2D, m_vessels.id());
+  bind_texture(kUnitArcade, GL_TEXTURE_2D, m_arcade.id());
+  // Mirrors show the picture before, if it was of the same view.
+  const bool same_view = m_small.colour && m_small_eye == frame.eye;
+  bind_texture(kUnitSmall, GL_TEXTURE_2D, same_view ? m_small.colour.id() : 0);
+  m_frame_rows[17] = same_view ? 1.0f : 0.0f;
+}
+
+void GlBackend::mask_pass(const Layout& layout) {
+  GlProgram& program = m_programs.get("mask.vert", "mask.frag");
+  program.use();
+  program.set("u_radius", 2 * layout.radius / float(layout.box_w), 2 * layout.radius / float(layout.box_h));
+  glDisable(GL_CULL_FACE);
+  glBindVertexArray(m_no_vertices.id());
+  glDrawArrays(GL_TRIANGLE_STRIP, 0, 2 * 97);
+}
+
+void GlBackend::set_blending(bool on) {
+  if (on)
+    glEnable(GL_BLEND);
+  else
+    glDisable(GL_BLEND);
+  glBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+  glDepthMask(on ? GL_FALSE : GL_TRUE);
+}
+
+void GlBackend::scene_pass(const Frame& frame, std::span<const DrawItem* const> items, bool blended) {
+  set_blending(blended);
+  if (!blended) glEnable(GL_STENCIL_TEST);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+  for (const DrawItem* item : items) {
+    glStencilFunc(GL_ALWAYS, item->material.shading == Shading::metal ? 1 : 0, 1);
+    draw_item(frame, *item, blended, is_stained(item->mesh));
+  }
+  glDisable(GL_STENCIL_TEST);
+  set_blending(false);
+}
+
+void GlBackend::draw_item(const Frame& frame, const DrawItem& item, bool blended, bool stained) {
+  const Material& material = item.material;
+  const bool two_sided = blended || material.two_sided;
+  GlProgram& program = program_for(frame, item.material, blended, stained);
+  program.use();
+  program.set("u_model_view", m_view * item.transform);
+  program.set("u_projection", m_projection);
+  program.set_vec4s("u_frame", m_frame_rows);
+  if (material.shading == Shading::vertex_colour || material.shading == Shading::unlit) {
+    program.set("u_tone", 1, 1, 1, material.alpha);
+  } else {
+    program.set_vec4s("u_material", packed(material));
+    program.set("u_noise", kUnitNoise);
+    program.set("u_cells", kUnitCells);
+    program.set("u_vessels", material.arcade ? kUnitArcade : kUnitVessels);
+    program.set("u_before", kUnitSmall);
+    if (blended && m_rod_count > 0) set_rods_near(frame, item, program);
+  }
+  program.set("u_blended", blended ? 1.0f : 0.0f);
+  if (two_sided || m_meshes.is_lines(item.mesh.id))
+    glDisable(GL_CULL_FACE);
+  else
+    glEnable(GL_CULL_FACE);
+  m_meshes.draw(item.mesh.id);
+}
+
+GlProgram& GlBackend::program_for(const Frame& frame, const Material& material, bool blended, bool stained) {
+  const int detail = frame.quality.detail;
+  if (material.shading == Shading::unlit) return m_programs.get("flat.vert", "flat.frag");
+  if (material.shading == Shading::vertex_colour) return m_programs.get("flat.vert", "flat.frag", "LIT");
+  std::string defines = "SHADING=" + std::to_string(int(material.shading)) + ",DETAIL=" + std::to_string(detail);
+  const bool tissue = material.shading == Shading::tissue;
+  if (detail > 1 && !film_serves_as_fine(material)) defines += ",FINE";
+  if (tissue && material.vessels > 0 && detail > 0) defines += material.arcade ? ",VESSELS,ARCADE" : ",VESSELS";
+  if (tissue && material.lobule_size > 0) defines += ",LOBULES";
+  if (stained) defines += ",STAINED";
+  if (frame.look.fog > 0) defines += ",FOGGY";
+  if (tissue && blended && m_rod_count > 0) defines += ",RODS";
+  if (blended || material.two_sided) defines += ",TWO_SIDED";
+  return m_programs.get("surface.vert", "surface.frag", defines);
+}
+
+void GlBackend::puff_pass(const Frame& frame) {
+  if (frame.puffs.empty()) return;
+  m_puffs.clear();
+  for (const Puff& puff : frame.puffs) m_puffs.push_back({transform_point(m_view, puff.centre), &puff});
+  std::stable_sort(m_puffs.begin(), m_puffs.end(),
+                   [](const SeenPuff& a, const SeenPuff& b) { return a.eye.z < b.eye.z; });
+  GlProgram& program = m_programs.get("puff.vert", "puff.frag");
+  program.use();
+  program.set("u_projection", m_projection);
+  program.set_vec4s("u_frame", m_frame_rows);
+  program.set("u_noise", kUnitNoise);
+  set_blending(true);
+  glDisable(GL_CULL_FACE);
+  glBindVertexArray(m_no_vertices.id());
+  for (const SeenPuff& seen : m_puffs) {
+    const Puff& puff = *seen.puff;
+    program.set("u_puff", seen.eye.x, seen.eye.y, seen.eye.z, puff.radius);
+    // Its own curls, carried along: the pattern belongs to the place it came from only as far as it moves slowly.
+    program.set("u_look", puff.density, 3 * puff.centre.x, 3 * puff.centre.y, 3 * puff.centre.z + puff.radius);
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  }
+  set_blending(false);
+}
+
+}  // namespace trocar::render
