@@ -1,8 +1,6 @@
 #include "replay_headless.hpp"
 
 #include <algorithm>
-#include <chrono>
-#include <string_view>
 
 #include <fmt/format.h>
 
@@ -13,12 +11,13 @@
 #include "footage.hpp"
 #include "interrupt.hpp"
 #include "pictures.hpp"
+#include "progress.hpp"
 #include "session.hpp"
+#include "shot_moments.hpp"
 
 namespace trocar::app {
 namespace {
 
-constexpr std::uint64_t kTicksPerShot = 20'000;  // where nothing happens
 constexpr std::size_t kKeyframesPerShot = 50;
 
 /// Compares the session with the recording's hashes as it passes them.
@@ -57,24 +56,6 @@ class Verifier {
   const std::vector<sim::HashMark>& m_marks;
   std::size_t m_next = 0, m_agreed = 0;
   std::uint64_t m_last_good = 0, m_differs_at = kNever;
-};
-
-/// A line on stderr every few seconds of wall time.
-class Progress {
- public:
-  explicit Progress(std::uint64_t last) : m_last(last) {}
-  void at(std::uint64_t tick) {
-    if (tick % 256 != 0) return;
-    const Clock::time_point now = Clock::now();
-    if (now - m_told < std::chrono::seconds(5)) return;
-    m_told = now;
-    core::log::info("{:.1f} s of {:.1f} s", double(tick) * sim::kTick, double(m_last) * sim::kTick);
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  std::uint64_t m_last;
-  Clock::time_point m_told = Clock::now();
 };
 
 /// Pictures and a film of a part of the recording, as its States come by.
@@ -132,15 +113,12 @@ class Camera {
   std::uint64_t m_picture = 0;
 };
 
-/// A picture of everything that happens, and of the time in between.
+/// At the part's ends, and of what moments_to_show() tells in between.
 void take_shots(Camera& camera, const Session& session, const FilmPlan& plan) {
   const std::uint64_t tick = session.state().tick;
   if (!camera.shows(tick)) return;
   if (tick == plan.from) camera.shot(session.state(), "start", "the start");
-  for (const Moment& m : session.moments())
-    if (std::string_view(m.what) != "closed-empty") camera.shot(session.state(), m.what, m.text);
-  if (session.moments().empty() && tick > plan.from && tick % kTicksPerShot == 0)
-    camera.shot(session.state(), "time", fmt::format("after {} s", tick / 1000));
+  for (const ShotMoment& m : moments_to_show(session, plan.from)) camera.shot(session.state(), m.what, m.text);
   if (tick == plan.to) camera.shot(session.state(), "end", "the end");
 }
 
@@ -161,7 +139,7 @@ Json play_inputs(const Lesson& lesson, const sim::Recording& recording, const Re
   Camera camera(lesson, o, plan);
   Session session(lesson);
   Verifier verifier(recording.hashes);
-  Progress progress(recording.inputs.size());
+  Progress progress(0, recording.inputs.size());
   const bool to_the_end = o.verify || o.to < 0;
   bool good = !o.verify || verifier.check(session);
   catch_interrupts();
