@@ -262,7 +262,8 @@ void AttemptWindow::end(Live& live, Ending ending) {
   live.stop();
   tell(live);
   // Practice has no goal, so closing the window is its proper end.
-  const bool left = ending == Ending::left && m_session.monitor();
+  // So is closing it in the moment between the last step and the result.
+  const bool left = ending == Ending::left && m_session.monitor() && !m_session.monitor()->finished();
   m_result = m_session.result(left);
   if (ending == Ending::finished_early && m_session.monitor() && !m_session.monitor()->finished()) {
     m_result["finished_early"] = true;

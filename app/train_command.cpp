@@ -84,12 +84,13 @@ Json train_headless(const Options& o, const Lesson& lesson, training::Store* sto
     if (session.state().tick % kLogTimeEvery == 0) events.event("time", {{"tick", session.state().tick}});
     return true;
   });
-  Json result = session.result(interrupted());
+  const bool aborted = interrupted() && !(session.monitor() && session.monitor()->finished());
+  Json result = session.result(aborted);
   result["input"] = o.input;
   result["slow_motion_share"] = 0.0;
   result.update(source->describe());
-  log.end(result, interrupted() ? training::AttemptState::aborted : training::AttemptState::finished);
-  events.event("end", {{"interrupted", interrupted()}, {"passed", result["passed"]}, {"ticks", result["ticks"]}});
+  log.end(result, aborted ? training::AttemptState::aborted : training::AttemptState::finished);
+  events.event("end", {{"interrupted", aborted}, {"passed", result["passed"]}, {"ticks", result["ticks"]}});
   result.update(left);
   if (!o.report.empty()) result["report"] = write_report(o.report, result, store, &session);
   return result;

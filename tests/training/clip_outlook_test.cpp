@@ -90,6 +90,22 @@ TEST(ClipOutlook, ASecondClipBelongsAtItsDistanceFromTheFirst) {
   EXPECT_TRUE(outlook(a)->in_place);
 }
 
+TEST(ClipOutlook, AFaultyClipIsNoPartnerAndTheJudgesPairsAreTheOutlooks) {
+  Attempt a;
+  interactions::Clip oblique = a.good_clip(kLeft, 0.016);
+  oblique.theta = 0.4;
+  a.clip(oblique);
+  reach_around(a, kLeft, 0.017, kInside, 0);
+  ASSERT_TRUE(outlook(a));
+  EXPECT_TRUE(outlook(a)->in_place) << "beside one that does not count";
+
+  Attempt b;
+  b.clip(b.good_clip(kLeft, 0.022));
+  reach_around(b, kLeft, 0.029, kInside, 0);
+  ASSERT_TRUE(outlook(b));
+  EXPECT_FALSE(outlook(b)->in_place) << "two outer clips are no pair";
+}
+
 TEST(ClipOutlook, AWrongStructureIsNamed) {
   Attempt a;
   reach_around(a, kCord, 0.02, kInside, 0);

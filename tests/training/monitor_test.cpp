@@ -304,6 +304,58 @@ TEST(Monitor, TimeCountsFromTheFirstMotionToTheEnd) {
   EXPECT_EQ(a.monitor.seconds(), end);
 }
 
+TEST(Monitor, WhatComesAfterTheLastStepIsJudgedNoMore) {
+  Attempt a;
+  a.all();
+  const double seconds = a.monitor.seconds();
+  interactions::Clip late = a.good_clip(kLeft, 0.05);
+  late.tips_visible = 0;
+  a.clip(late);
+  a.event(sim::Event::slipped, 0, -1);
+  a.seconds(1);
+  EXPECT_EQ(a.codes(), std::vector<std::string>{});
+  EXPECT_DOUBLE_EQ(a.monitor.score().total, 100);
+  EXPECT_DOUBLE_EQ(a.monitor.seconds(), seconds);
+}
+
+TEST(Monitor, AClipBesideTheCutInTheSameElementStillClosesItsStump) {
+  // The closest that a good cut may come to a clip: both within one element of the strand.
+  for (const bool outer : {false, true}) {
+    Attempt a;
+    a.survey();
+    a.identify();
+    a.present(kLeft);
+    const interactions::StrandBody& tube = a.model.bodies[size_t(kLeft)];
+    double cut = 0;
+    for (double s = 0.0185; s < 0.0225; s += 0.0001) {
+      const double clip = s + (outer ? 0.0021 : -0.0021);
+      if (interactions::place_at(tube, s).element == interactions::place_at(tube, clip).element) cut = s;
+    }
+    if (cut == 0) GTEST_FAIL() << "no element is as long as the margin between clip and cut";
+    a.clip(a.good_clip(kLeft, outer ? cut - 0.0055 : cut - 0.0021));
+    a.clip(a.good_clip(kLeft, outer ? cut + 0.0021 : cut + 0.0055));
+    a.cut(a.good_cut(kLeft, cut));
+    a.look("tube_left", true);
+    a.seconds(1.5);
+    const std::string result = a.monitor.result_json();
+    const auto side = nlohmann::json::parse(result)["sides"][0];
+    EXPECT_EQ(side["stumps"], "closed") << (outer ? "outer" : "inner") << " clip beside the cut at " << cut;
+  }
+}
+
+TEST(Monitor, TheDistanceOfTheClipsIsThatOfThePairThatCounts) {
+  Attempt a;
+  a.survey();
+  a.identify();
+  a.present(kLeft);
+  for (const double s : {0.014, 0.019, 0.027}) a.clip(a.good_clip(kLeft, s));
+  const auto side = nlohmann::json::parse(a.monitor.result_json())["sides"][0];
+  EXPECT_NEAR(double(side["clip_distance_mm"]), 8, 1e-9);
+  EXPECT_TRUE(bool(side["clips"][0]["good"]));
+  EXPECT_FALSE(bool(side["clips"][1]["good"])) << "too near to the first: A1.9";
+  EXPECT_TRUE(bool(side["clips"][2]["good"]));
+}
+
 TEST(Score, TimeEarnsInProportionBetweenExpertAndLongest) {
   Attempt a;
   a.survey();
@@ -332,13 +384,15 @@ TEST(Score, AnUnfinishedAttemptEarnsItsStepsByTheirWeightAndNoTime) {
 }
 
 TEST(Score, PenaltiesAddUpAndCannotMakeItNegative) {
-  Attempt a;
-  for (int i = 0; i < 3; ++i) a.event(sim::Event::slipped, two_sides::kGrasper, -1);
-  a.all();
-  EXPECT_DOUBLE_EQ(a.monitor.score().total, 97);
-  for (int i = 0; i < 200; ++i) a.event(sim::Event::slipped, two_sides::kGrasper, -1);
-  EXPECT_DOUBLE_EQ(a.monitor.score().total, 0);
-  EXPECT_FALSE(a.monitor.score().passed);
+  const auto after_slips = [](int slips) {
+    Attempt a;
+    for (int i = 0; i < slips; ++i) a.event(sim::Event::slipped, two_sides::kGrasper, -1);
+    a.all();
+    return a.monitor.score();
+  };
+  EXPECT_DOUBLE_EQ(after_slips(3).total, 97);
+  EXPECT_DOUBLE_EQ(after_slips(200).total, 0);
+  EXPECT_FALSE(after_slips(200).passed);
 }
 
 TEST(Score, AnErrorThatFailsFailsWhateverThePoints) {

@@ -1,20 +1,26 @@
-#include <cmath>
-
 #include <trocar/interactions/clip.hpp>
 #include <trocar/sim/visibility.hpp>
 #include <trocar/training/clip_outlook.hpp>
+#include <trocar/training/clip_places.hpp>
 
 namespace trocar::training {
 namespace {
 
-/// A place of the first or the second clip; beside one that fits, at the distance that a pair needs.
+/// Would the judge take it? One alone in either place; beside others one that makes a pair, or one more than a pair.
 bool belongs(const Sterilisation& goal, const sim::State& state, int strand, double s) {
-  if (!goal.first_clip.holds(s) && !goal.second_clip.holds(s)) return false;
+  bool others = false, fits = false, paired = false;
   for (int i = 0; i < state.clip_count; ++i) {
     const interactions::Clip& c = state.clips[std::size_t(i)];
-    if (c.strand == strand && !goal.clip_distance.holds(std::fabs(c.s - s))) return false;
+    if (c.strand != strand || !well_set(goal, c) || !place_of_a_clip(goal, c.s)) continue;
+    others = true;
+    fits = fits || are_a_pair(goal, c.s, s) || are_a_pair(goal, s, c.s);
+    for (int k = 0; k < i; ++k) {
+      const interactions::Clip& d = state.clips[std::size_t(k)];
+      if (d.strand != strand || !well_set(goal, d)) continue;
+      paired = paired || are_a_pair(goal, c.s, d.s) || are_a_pair(goal, d.s, c.s);
+    }
   }
-  return true;
+  return fits || ((paired || !others) && place_of_a_clip(goal, s));
 }
 
 }  // namespace

@@ -23,13 +23,28 @@ bool LumenCheck::leads(int from, int to, std::int32_t cuts) {
   return vessels::open_path(graph, from, to, m_scratch);
 }
 
+/// The element that a clip closes; -1: none. A clip within an element that is cut closes the next one on its own side
+/// of the cut.
+int LumenCheck::closed_by(const sim::Model& model, const sim::State& state, const interactions::Clip& clip) const {
+  const interactions::StrandBody& body = model.bodies[size_t(m_strand)];
+  const int element = interactions::place_at(body, clip.s).element;
+  if (state.strands[size_t(m_strand)].alive[size_t(element)]) return element;
+  for (int i = 0; i < state.cut_count; ++i) {
+    const interactions::Cut& cut = state.cuts[size_t(i)];
+    if (cut.strand != m_strand || interactions::place_at(body, cut.s).element != element) continue;
+    const int beside = clip.s < cut.s ? element - 1 : element + 1;
+    return beside + 1 < m_nodes ? beside : -1;
+  }
+  return element;
+}
+
 void LumenCheck::update(const sim::Model& model, const sim::State& state) {
   m_closure_count = 0;
   for (int i = 0; i < state.clip_count; ++i) {
     const interactions::Clip& clip = state.clips[size_t(i)];
     if (clip.strand != m_strand) continue;
-    const int element = interactions::place_at(model.bodies[size_t(m_strand)], clip.s).element;
-    m_closures[size_t(m_closure_count++)] = {element, float(clip.cover)};
+    const int element = closed_by(model, state, clip);
+    if (element >= 0) m_closures[size_t(m_closure_count++)] = {element, float(clip.cover)};
   }
   std::int32_t cuts = 0;
   const std::vector<std::uint8_t>& alive = state.strands[size_t(m_strand)].alive;

@@ -23,6 +23,7 @@ class LumenCheck {
   bool stumps_closed() const { return m_closed; }  ///< severed, and a whole clip on either side of every cut
 
  private:
+  int closed_by(const sim::Model& model, const sim::State& state, const interactions::Clip& clip) const;
   bool leads(int from, int to, std::int32_t cuts);
 
   int m_strand = -1, m_nodes = 0, m_cut = -1;

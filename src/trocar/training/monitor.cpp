@@ -2,6 +2,7 @@
 #include <string_view>
 
 #include <trocar/sim/visibility.hpp>
+#include <trocar/training/clip_places.hpp>
 #include <trocar/training/hands.hpp>
 #include <trocar/training/monitor.hpp>
 
@@ -172,8 +173,9 @@ bool Monitor::occluded() const {
 }
 
 void Monitor::update(const sim::Model& model, const sim::State& state, const sim::StepReport& report) {
+  if (finished()) return;  // what comes after the last step is judged no more
   m_now = state.tick;
-  if (!finished() && m_moved) m_seconds = double(m_now - m_first_motion) * sim::kTick;
+  if (m_moved) m_seconds = double(m_now - m_first_motion) * sim::kTick;
   watch_errors(model, state, report);
   for (; m_clips_judged < state.clip_count; ++m_clips_judged)
     judge_clip(model, state, state.clips[size_t(m_clips_judged)]);
@@ -329,9 +331,11 @@ void Monitor::judge_clip(const sim::Model& model, const sim::State& state, const
   SideFacts& f = side.facts;
   if (f.clip_count == int(f.clips.size())) return;
   SideFacts::Clip& fact = f.clips[size_t(f.clip_count++)];
-  fact = {clip.s, clip.theta, clip.cover, clip.closing_time, clip.tips_visible, false, double(m_now) * sim::kTick};
-  fact.good = m_errors.size() == before && (g.first_clip.holds(clip.s) || g.second_clip.holds(clip.s));
+  fact = {
+      clip.s, clip.theta, clip.cover, clip.closing_time, clip.tips_visible, false, false, double(m_now) * sim::kTick};
+  fact.counts = m_errors.size() == before && place_of_a_clip(g, clip.s);
   if (m_errors.size() == before) place_clip(side, f.clip_count - 1, clip.s, where);
+  fact.good = m_errors.size() == before;
 }
 
 void Monitor::place_clip(SideWatch& side, int index, double s, Vec3d where) {
@@ -340,25 +344,23 @@ void Monitor::place_clip(SideWatch& side, int index, double s, Vec3d where) {
   const int i = int(&side - m_sides.data());
   const SideFacts& f = side.facts;
   const auto pair = [&](double inner, double outer) {
-    if (!g.first_clip.holds(inner) || !g.second_clip.holds(outer) || !g.clip_distance.holds(outer - inner))
-      return false;
+    if (!are_a_pair(g, inner, outer)) return false;
     done(i, Task::first_clip);
     done(i, Task::second_clip);
-    side.clipped[0] = inner;
-    side.clipped[1] = outer;
+    side.facts.pair = {inner, outer};
     return true;
   };
-  if (side.clipped[0] >= 0 && side.clipped[1] >= 0) return;  // one more does no harm
+  if (f.pair[0] >= 0 && f.pair[1] >= 0) return;  // one more does no harm
   bool others = false;
   for (int k = 0; k < index; ++k) {
-    if (!f.clips[size_t(k)].good) continue;
+    if (!f.clips[size_t(k)].counts) continue;
     others = true;
     if (pair(f.clips[size_t(k)].s, s) || pair(s, f.clips[size_t(k)].s)) return;
   }
-  if (others || !f.clips[size_t(index)].good) return make_error("A1.9", i, where);
+  if (others || !f.clips[size_t(index)].counts) return make_error("A1.9", i, where);
   const bool inner = g.first_clip.holds(s);
   done(i, inner ? Task::first_clip : Task::second_clip);
-  side.clipped[inner ? 0 : 1] = s;
+  side.facts.pair[inner ? 0 : 1] = s;
 }
 
 void Monitor::judge_cut(const sim::Model& model, const sim::State& state, const interactions::Cut& cut) {

@@ -55,8 +55,9 @@ struct SideFacts {
   struct Clip {
     double s = 0, theta = 0, cover = 0, closing = 0;  ///< [m] [rad] - [s]
     int tips_visible = 0;
-    bool good = false;
-    double at = 0;  ///< when [s]
+    bool counts = false;  ///< rightly set in a place of a clip: a pair may be made with it
+    bool good = false;    ///< made no error
+    double at = 0;        ///< when [s]
   };
   struct Cut {
     double s = 0, fraction = 0, beyond = 0;  ///< [m] - [m]
@@ -66,6 +67,7 @@ struct SideFacts {
   std::array<Clip, interactions::kMaxClips> clips{};
   std::array<Cut, interactions::kMaxCuts> cuts{};
   int clip_count = 0, cut_count = 0;
+  std::array<double, 2> pair{-1, -1};  ///< where the first and the second clip are [m], below 0: not yet
   double straightness = 0, best_straightness = 0;  ///< of the isthmus: now, and the best while presented
   Range pull{0, 0};                                ///< on this tube while held; both 0: never held
   bool held = false;
@@ -105,7 +107,6 @@ class Monitor {
     Following following;
     LumenCheck lumen;
     SideFacts facts;
-    double clipped[2] = {-1, -1};  ///< places of the clips that completed the steps [m]
     bool blamed = false;           ///< not identified: once a side
     bool severed = false;
   };

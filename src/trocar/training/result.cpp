@@ -52,7 +52,6 @@ Json error_json(const ErrorMade& e) {
 Json side_json(const Side& side, const SideFacts& f, const LumenCheck& lumen) {
   const double degrees = 180 / portable::pi;
   Json j{{"side", side.name}, {"tube", side.tube}, {"clips", Json::array()}, {"cuts", Json::array()}};
-  const SideFacts::Clip* good[2] = {nullptr, nullptr};
   for (int i = 0; i < f.clip_count; ++i) {
     const SideFacts::Clip& c = f.clips[size_t(i)];
     j["clips"].push_back({{"s_mm", c.s * 1000},
@@ -62,9 +61,8 @@ Json side_json(const Side& side, const SideFacts& f, const LumenCheck& lumen) {
                           {"tips_visible", c.tips_visible},
                           {"good", c.good},
                           {"at_s", c.at}});
-    if (c.good) good[good[0] != nullptr] = &c;
   }
-  if (good[0] && good[1]) j["clip_distance_mm"] = std::fabs(good[1]->s - good[0]->s) * 1000;
+  if (f.pair[0] >= 0 && f.pair[1] >= 0) j["clip_distance_mm"] = (f.pair[1] - f.pair[0]) * 1000;
   for (int i = 0; i < f.cut_count; ++i) {
     const SideFacts::Cut& c = f.cuts[size_t(i)];
     j["cuts"].push_back({{"s_mm", c.s * 1000},

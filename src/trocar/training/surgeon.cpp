@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include <trocar/sim/visibility.hpp>
+#include <trocar/training/clip_places.hpp>
 #include <trocar/training/hands.hpp>
 #include <trocar/training/surgeon.hpp>
 
@@ -147,9 +148,7 @@ double Surgeon::next_clip_at() const {
   double only = -1;
   for (int i = 0; i < m_state->clip_count; ++i) {
     const interactions::Clip& c = m_state->clips[size_t(i)];
-    const bool good = c.strand == side().tube && c.cover >= g.clip_cover && c.theta <= g.clip_angle &&
-                      c.tips_visible == 2 && c.closing_time >= g.clip_closing;
-    if (!good || (!g.first_clip.holds(c.s) && !g.second_clip.holds(c.s))) continue;
+    if (c.strand != side().tube || !well_set(g, c) || !place_of_a_clip(g, c.s)) continue;
     if (only >= 0 && g.clip_distance.holds(std::fabs(c.s - only))) return -1;
     if (only < 0) only = c.s;
   }
