@@ -101,7 +101,7 @@ bool includes(const fs::path& scene_file, const fs::path& organ) {
 /// An organ hangs on others, so its numbers are those in the first scene that uses it.
 Json describe_organ(const fs::path& path, const scene::JsonValue& root) {
   std::vector<std::string> names;
-  for (const char* key : {"solids", "strands", "walls"})
+  for (const char* key : {"solids", "strands", "walls", "membranes"})
     for (std::string& name : names_under(root, key)) names.push_back(std::move(name));
   for (const scene::SceneEntry& s : scene::list_scenes(scenes_folder()))
     if (includes(s.path, path)) return describe_scene(s.path, names);
@@ -127,7 +127,7 @@ Json check_one(const fs::path& path) {
   if (has("organs") || has("scope")) {
     out["kind"] = "scene";
     out.update(describe_scene(path, {}));
-  } else if (has("solids") || has("strands") || has("walls")) {
+  } else if (has("solids") || has("strands") || has("walls") || has("membranes")) {
     out["kind"] = "organ";
     out.update(describe_organ(path, document.root));
   } else {

@@ -193,4 +193,17 @@ TEST(Clip, StiffensTheTubeWhereItSits) {
     EXPECT_EQ(a.tube.state.scale[size_t(e)] > 1, e == element) << "element " << e;
 }
 
+TEST(Clip, DoesNotHealWhatIsHalfCut) {
+  Applying whole(Applying::over(0.0312, 0.013)), half(Applying::over(0.0312, 0.013));
+  for (Applying* a : {&whole, &half}) {
+    a->model.port.x = 0.0312;
+    a->pose = kinematics::inverse(a->model.port, Applying::over(0.0312, 0.013), a->pose.roll);
+  }
+  for (double& scale : half.tube.state.scale) scale = 0.1;
+  ASSERT_TRUE(whole.close());
+  ASSERT_TRUE(half.close());
+  const size_t element = size_t(place_at(half.tube.body, half.clips[0].s).element);
+  EXPECT_NEAR(half.tube.state.scale[element], 0.1 * whole.tube.state.scale[element], 1e-12);
+}
+
 }  // namespace

@@ -85,6 +85,19 @@ TEST(Grasp, OpeningLetsGo) {
   EXPECT_EQ(length(g.pull(kGrasper)), 0);
 }
 
+TEST(Grasp, JawsThatTheTissueKeepsWideOpenLetGoAllTheSame) {
+  scene::Description d = small::description();
+  for (scene::Instrument& i : d.instruments)
+    if (i.name == "grasper") i.opening = 0.207;  // hardly wider than the tube
+  const sim::Model model = scene::compile(d);
+  Grip g(model);
+  ASSERT_GT(g.tool(kGrasper).holds, 0);
+  ASSERT_GT(g.tool(kGrasper).aperture, 0.95);
+  g.close_slowly(kGrasper, 0, 200);
+  EXPECT_EQ(g.tool(kGrasper).holds, 0);
+  EXPECT_EQ(g.count(sim::Event::slipped), 0);
+}
+
 TEST(Grasp, AGripMovesWithTheInstrument) {
   Grip g;
   for (Vec3d by : {Vec3d{0, 0, 0.008}, Vec3d{0.003, 0.004, 0}, Vec3d{-0.003, 0.002, 0.002}}) {

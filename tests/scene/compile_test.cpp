@@ -150,6 +150,19 @@ TEST(Compile, AnOrganThatNothingHoldsIsALocatedFault) {
   expect_one_fault_here(d, "organ");
 }
 
+TEST(Compile, ABodyThatNeedsCountlessSubStepsIsALocatedFault) {
+  for (const bool fold : {false, true}) {
+    Description d = small::description();
+    d.tissues.push_back(d.tissues[0]);
+    d.tissues.back().name = "board";
+    d.tissues.back().young = 1e9;
+    d.tissues.back().p2 = 1e5;
+    (fold ? d.membranes[0].tissue : d.solids[0].tissue) = "board";
+    (fold ? d.membranes[0].at : d.solids[0].at) = kHere;
+    expect_one_fault_here(d, "sub-steps");
+  }
+}
+
 TEST(Compile, AnAnchorThatReachesNothingIsALocatedFault) {
   Description d = small::description();
   d.solids[1].anchors.push_back({{0.5, 0, 0}, 0.005, 0, kHere});

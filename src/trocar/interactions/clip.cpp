@@ -93,7 +93,10 @@ bool update_clip_applier(const ToolModel& model, const ToolShape& shape, int too
   clip.tips_visible = tips_visible;
   clip.closing_time = tool.closed_for;
   const StrandPlace place = fit_clip(model, shape, view, clip);
-  if (clip.strand >= 0) strand_states[size_t(clip.strand)].scale[size_t(place.element)] = kClipStiffness;
+  if (clip.strand >= 0) {  // what is half cut is not healed
+    double& scale = strand_states[size_t(clip.strand)].scale[size_t(place.element)];
+    scale = std::min(scale, 1.0) * kClipStiffness;
+  }
   return true;
 }
 

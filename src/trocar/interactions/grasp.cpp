@@ -9,6 +9,7 @@ namespace {
 constexpr double kHoldStiffness = 1200;    // [N/m] per held point, implicit
 constexpr double kHoldDamping = 0.5;       // [N s/m]
 constexpr double kFoldThickness = 0.0025;  // [m] a pinched fold of an organ's surface
+constexpr double kOpen = 0.97;             // aperture that the hand asks for when it has opened the jaws
 constexpr double kLoose = 0.06;            // aperture beyond the tissue's at which jaws hold it no more
 constexpr double kCompressed = 0.7;        // thickness of a strand between jaws that just hold it, of its diameter
 
@@ -140,12 +141,14 @@ void update_grip(const ToolModel& model, const ToolShape& shape, const TissueVie
   }
   if (tool.holds > 0) {
     const double stop = aperture_at(model, thickness_of(tool.hold[0], view), tool.hold[0].local[2]);
-    // Loose jaws are opened by the hand, or the tissue has slid towards their tips, where they stand farther apart.
-    if (wanted <= stop)
+    // Loose jaws are opened by the hand, or the tissue has slid towards their tips, where they stand farther apart. An
+    // open hand lets go of whatever keeps the jaws wide open.
+    const double release = std::min(stop + kLoose, kOpen);
+    if (wanted <= std::min(stop, kOpen))
       tool.letting_go = 0;
-    else if (wanted > tool.aperture)
+    else if (wanted > tool.aperture || wanted > kOpen)
       tool.letting_go = 1;
-    if (wanted > stop + kLoose) {
+    if (wanted > release) {
       lose(tool);
     } else {
       for (int i = 0; i < tool.holds; ++i) {

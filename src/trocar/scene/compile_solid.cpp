@@ -153,6 +153,13 @@ void compile_solid(const Solid& solid, const Tissue& tissue, Vec3d gravity, sim:
     return;
   }
   out.network = tissue::build(net.network, sim::kTick);
+  if (out.network.substeps > tissue::kMostSubsteps) {
+    faults.push_back({solid.at, "expected '" + solid.name + "' to need at most " +
+                                    std::to_string(tissue::kMostSubsteps) + " sub-steps a tick, got " +
+                                    std::to_string(out.network.substeps) +
+                                    " (larger cells, a softer tissue or a smaller strain_cap need fewer)"});
+    return;
+  }
   out.skin = embedded_skin(skin, lattice, out.network);
   out.fine = embedded_skin(fine, lattice, out.network);
   if (report) {

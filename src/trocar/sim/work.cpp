@@ -44,7 +44,7 @@ Work make_work(const Model& model, core::ThreadPool* pool) {
   for (const SolidModel& s : model.solids) {
     w.poses.push_back(tissue::make_pose(s.skin));
     w.solid_work.push_back(tissue::make_work(s.network));
-    w.solid_loads.emplace_back().reserve(kSolidLoads);
+    w.solid_loads.emplace_back().reserve(kSolidLoads + s.anchors.size());
     w.parts.resize(std::max(w.parts.size(), size_t(s.network.nodes)));
   }
   for (const interactions::StrandBody& b : model.bodies) {

@@ -318,6 +318,9 @@ MembraneModel build(const MembraneDescription& d, double tick) {
   for (SpringDescription& e : net.springs) e.damping = e.k * damping;
   fill_border(net, m);
   m.network = build(net, tick / m.bend_steps);
+  if (double(m.bend_steps) * m.network.substeps > kMostSubsteps)
+    refuse("at most " + std::to_string(kMostSubsteps) +
+           " sub-steps a tick, which a wider spacing or a softer tissue needs");
   if (d.settle && dot(d.gravity, d.gravity) > 0 && !m.held_nodes.empty()) settle(tick, net, m);
   return m;
 }

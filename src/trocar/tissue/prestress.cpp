@@ -82,6 +82,8 @@ double largest_imbalance(const NetworkDescription& d, std::span<const Anchor> an
   return worst;
 }
 
+constexpr int kMostIterations = 20'000;  // a body that is barely held asks for millions
+
 PrestressReport prestress(NetworkDescription& d, std::span<Anchor> anchors) {
   const int n = 3 * int(d.positions.size());
   const LinearNetwork network(d, anchors);
@@ -92,7 +94,7 @@ PrestressReport prestress(NetworkDescription& d, std::span<Anchor> anchors) {
   numerics::ConjugateGradientWork work(n);
   const auto solved = numerics::conjugate_gradient(
       [&](const double* x, double* y) { network.multiply(x, y); }, numerics::DiagonalPreconditioner{diagonal.data()},
-      f.data(), u.data(), n, {.iterations = 200 + 4 * n, .relative_residual = 1e-10}, work);
+      f.data(), u.data(), n, {.iterations = std::min(200 + 4 * n, kMostIterations), .relative_residual = 1e-10}, work);
 
   PrestressReport report;
   report.iterations = solved.iterations;

@@ -26,6 +26,7 @@ double dt_limit_node(double mass, double k_max, double d_max) noexcept;
 /// Largest eigenvalue of a symmetric 3x3 matrix, given as xx, yy, zz, xy, xz, yz (Jacobi rotations, portable).
 double largest_eigenvalue(double xx, double yy, double zz, double xy, double xz, double yz) noexcept;
 /// Sub-steps a tick needs: the smallest n with tick / n <= safety * limit, at least 1.
+inline constexpr int kMostSubsteps = 500;  ///< in a tick; a scene's body that needs more is refused
 int substeps_for(double tick, double limit, double safety = 0.9) noexcept;
 
 }  // namespace trocar::tissue

@@ -257,6 +257,10 @@ StepReport advance(const StrandModel& m, std::span<const StrandEnd> ends, std::s
     prescribe(w.matrix, w.rhs, m.nodes, p, ends.empty() ? Vec3d{} : (ends[k].x - s.x[p]) / dt);
   }
   const int lost = numerics::band_factor(rows, kStrandBand, w.matrix.data());
+  if (lost >= 0) {
+    std::fill(end_reactions.begin(), end_reactions.end(), StrandReaction{});
+    std::fill(load_reactions.begin(), load_reactions.end(), Vec3d{});
+  }
   if (lost >= 0) return report | StepReport{StepReport::kIndefinite, lost / 3};
   numerics::band_solve(rows, kStrandBand, w.matrix.data(), w.rhs.data());
   report_ends(m, end_reactions, w);
