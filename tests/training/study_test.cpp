@@ -81,7 +81,7 @@ TEST(Study, RangeIsWhatRemainsWhenEachPersonIsLeftOut) {
   for (int person = 0; person < 3; ++person)
     for (int r = 1; r <= 5; ++r)
       attempts.push_back(attempt(std::string(1, char('A' + person)), r, 200 + slopes[person] * r));
-  const Trend& trend = durations(study_of(attempts)).trend;
+  const Trend trend = durations(study_of(attempts)).trend;
   EXPECT_NEAR(trend.slope.value, -3, 1e-12);
   EXPECT_NEAR(trend.slope.low, -4, 1e-12) << "without the first";
   EXPECT_NEAR(trend.slope.high, -1.5, 1e-12) << "without the third";
@@ -94,7 +94,7 @@ TEST(Study, ChanceGivesNoTrend) {
   std::vector<StudyAttempt> attempts;
   for (int person = 0; person < 10; ++person)
     for (int r = 1; r <= 30; ++r) attempts.push_back(attempt(numbered('P', person), r, random.uniform(100, 200)));
-  const Trend& trend = durations(study_of(attempts)).trend;
+  const Trend trend = durations(study_of(attempts)).trend;
   EXPECT_NEAR(trend.pooled.value, 0, 0.15);
   EXPECT_NEAR(trend.within.value, 0, 0.15);
 }
