@@ -459,10 +459,11 @@ Choice draw_result(const Json& r, const std::string& mode, bool report, const st
   ImGui::BeginChild("details", {0, std::clamp(most, 60 * ui::scale(), 380 * ui::scale())}, false);
   if (r.contains("assessment")) draw_assessment(r["assessment"]);
   ui::heading("Ways of the tips");
-  for (const Json& tool : r["instruments"])
-    ui::text(
-        fmt::format("{}: {:.0f} mm", in_words(tool["name"].get<std::string>()), tool["path_length_mm"].get<double>()),
-        ui::kGrey);
+  for (const Json& hand : r["metrics"]["hands"])  // the same figures as in the report: without the hand's tremor
+    if (hand["path_m"].is_number())
+      ui::text(
+          fmt::format("{}: {:.0f} mm", in_words(hand["name"].get<std::string>()), 1000 * hand["path_m"].get<double>()),
+          ui::kGrey);
   if (r.contains("recording")) ui::text("recorded in " + r["recording"].get<std::string>(), ui::kGrey);
   ImGui::EndChild();
   if (!say.empty()) ui::text(say, ui::kGrey);

@@ -99,8 +99,7 @@ std::string head(const Report& r) {
   if (r.attempt.state == training::AttemptState::interrupted)
     out += fmt::format("<p>The program ended without saying so. What is recorded reaches {} (min:s).</p>\n",
                        minutes(r.attempt.seconds));
-  for (const char* key : {"failure"})
-    if (r.result.contains(key)) out += "<p class=\"bad-text\">" + escaped(text_in(r.result, key)) + "</p>\n";
+  if (r.result.contains("failure")) out += "<p class=\"bad-text\">" + escaped(text_in(r.result, "failure")) + "</p>\n";
   return out + "</header>\n";
 }
 
@@ -157,7 +156,7 @@ std::string score(const Report& r) {
 
 // --- steps and errors ---
 
-std::string steps(const Report& r, const Json& list) {
+std::string steps(const Json& list) {
   if (!list.is_array() || list.empty()) return "";
   std::string out =
       "<section><h2>Steps</h2>\n<div class=\"wide\"><table><thead><tr><th>step</th><th>side</th><th>done</th>"
@@ -183,7 +182,6 @@ std::string steps(const Report& r, const Json& list) {
                  : "✗ no",
         at, since);
   }
-  (void)r;
   return out + "</tbody></table></div></section>\n";
 }
 
@@ -380,7 +378,7 @@ std::string report_html(const Report& r) {
   page += head(r);
   page += "<main>\n" + score(r);
   page += timeline(r, part_of(a, "steps"), part_of(a, "errors"));
-  page += steps(r, part_of(a, "steps")) + errors(part_of(a, "errors"));
+  page += steps(part_of(a, "steps")) + errors(part_of(a, "errors"));
   page += pictures(r);
   page += sides(part_of(a, "sides"));
   const std::string motion = motion_section(r);

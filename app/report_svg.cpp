@@ -187,7 +187,7 @@ std::string svg(const Plot& p) {
   }
   for (const double t : ticks(x.low, x.high, p.points ? 10 : 9, p.whole_x)) {
     out += line(f.x(t), f.bottom, f.x(t), f.bottom + 4, "axis");
-    out += text(f.x(t), f.bottom + 16, "tick", "middle", p.whole_x ? number(t) : number(t));
+    out += text(f.x(t), f.bottom + 16, "tick", "middle", number(t));
   }
   out += line(f.left, f.bottom, f.right, f.bottom, "axis") + "\n";
   out += text((f.left + f.right) / 2, p.height - 6, "label", "middle", p.x_label);

@@ -8,6 +8,7 @@
 #include <trocar/core/error.hpp>
 #include <trocar/core/log.hpp>
 #include <trocar/kinematics/fulcrum.hpp>
+#include <trocar/training/hands.hpp>
 
 #include "session.hpp"
 
@@ -132,7 +133,7 @@ bool MotionSource::next(const sim::State&, sim::Input& input) {
 void MotionSource::after(const sim::State& state) {
   for (const devices::Hand which : {devices::Hand::left, devices::Hand::right}) {
     Hand& hand = m_hands[size_t(which)];
-    const Vec3d tip = tip_of(m_model, state, hand.place.tool);
+    const Vec3d tip = training::tip_of(m_model, state, size_t(hand.place.tool));
     if (m_tick > m_approach + 1) hand.since_row += length(tip - hand.last_tip);
     hand.last_tip = tip;
     const double(&force)[3] = state.tools[size_t(hand.place.tool)].contact_force;
