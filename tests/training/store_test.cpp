@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -276,6 +277,35 @@ TEST_F(StoreTest, AReadOnlyFolderCostsNothingAndCanBeRead) {
   EXPECT_EQ(failed, 0);
 }
 
+TEST_F(StoreTest, WithoutARowTheResultIsPutWhereTheNextOpeningLooksNotBesideTheRecording) {
+  fs::create_directories(folder());
+  fs::permissions(folder(),
+                  fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read | fs::perms::others_exec);
+  const fs::path aside = folder().parent_path() / "aside";
+  fs::create_directories(aside);
+  fs::permissions(aside, fs::perms::all);
+  const int failed = test::elsewhere([&] {
+    if (!test::become_nobody()) return 77;
+    Attempt a = attempt("nobody");
+    {
+      Store store(folder());
+      AttemptLock lock = store.begin(a);
+      if (a.number != 0) return 1;
+      a.recording = (aside / "x.rec").string();
+      finish(a);
+      a.trace = {5, 6, 7};
+      if (const Kept kept = store.end(a, lock); !kept.anywhere() || kept.in_database) return 2;
+    }
+    if (!fs::is_empty(aside)) return 3;
+    fs::rename(folder(), folder().parent_path() / "read-only");  // the same name, and now it can be written
+    const std::optional<Attempt> taken_in = Store(folder()).find(a.uuid);
+    return taken_in && taken_in->score == 87.5 && taken_in->trace == a.trace ? 0 : 4;
+  });
+  fs::permissions(folder(), fs::perms::owner_all);
+  if (failed == 77) GTEST_SKIP() << "cannot give up root's rights here";
+  EXPECT_EQ(failed, 0) << "3: it lies beside the recording, where nobody looks; 4: it was not taken in";
+}
+
 TEST_F(StoreTest, AFullDiskCostsNothing) {
   Attempt a = attempt();
   const int failed = test::elsewhere([&] {
@@ -445,6 +475,25 @@ TEST_F(StoreTest, WhatIsForgottenIsNowhereInTheFiles) {
   EXPECT_EQ(left[0].trainee, "bob");
 }
 
+TEST_F(StoreTest, WhatAnotherProgramStillReadsIsForgottenAllTheSameAndSaidToBeInTheFile) {
+  Attempt a = attempt();
+  Store store(folder());
+  make(store, a);
+  a.recording = record(a, 10, kResult).string();
+  store.update(a);
+  {
+    Database other(database(), Database::Access::read);
+    Query reading(other, "SELECT uuid FROM attempt");
+    ASSERT_TRUE(reading.next());
+    const Store::Forgotten gone = store.forget("ada");
+    EXPECT_FALSE(gone.not_overwritten.empty());
+    EXPECT_EQ(gone.attempts, 1);
+    EXPECT_EQ(gone.deleted.size(), 1u) << "recordings go, whatever becomes of the database file";
+  }
+  EXPECT_TRUE(store.list().empty());
+  EXPECT_TRUE(store.forget("ada").not_overwritten.empty()) << "done again when nobody reads it";
+}
+
 TEST_F(StoreTest, NamesAreTextAndNothingElse) {
   Store store(folder());
   Attempt a = attempt("Robert'); DROP TABLE attempt;--");
@@ -507,6 +556,31 @@ TEST_F(StoreTest, AUuidIsNeverAPath) {
     EXPECT_TRUE(fs::exists(precious)) << uuid;
   }
   EXPECT_TRUE(is_uuid(new_uuid()));
+}
+
+TEST_F(StoreTest, AUuidIsNeverTakenForANumberNorForAnothersBeginning) {
+  for (const char* text : {"1", "12", "abc", "0123456789abcde"}) EXPECT_FALSE(is_uuid(text)) << text;
+  Attempt claims = attempt();
+  claims.uuid = "1";
+  Attempt there;
+  ASSERT_TRUE(fill_from_recording(record(claims, 5), there));
+  EXPECT_EQ(there.uuid.rfind("recording-", 0), 0u) << there.uuid;
+  Attempt brief = attempt("brief"), lengthy = attempt("lengthy");
+  brief.uuid = "0123456789abcdef";
+  lengthy.uuid = brief.uuid + "-and-more";
+  Store store(folder());
+  make(store, brief);
+  make(store, lengthy);
+  ASSERT_TRUE(store.find(brief.uuid).has_value()) << "it is a whole uuid and the beginning of another one";
+  EXPECT_EQ(store.find(brief.uuid)->trainee, "brief");
+  EXPECT_FALSE(store.find("01234567-").has_value());
+}
+
+TEST_F(StoreTest, TheFolderBelongsToItsUserAlone) {
+  const mode_t before = umask(022);
+  Store(folder()).list();
+  umask(before);
+  EXPECT_EQ(fs::status(folder()).permissions(), fs::perms::owner_all);
 }
 
 TEST_F(StoreTest, LocksThatNobodyHoldsAreSweptAway) {

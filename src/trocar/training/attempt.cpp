@@ -65,7 +65,7 @@ std::string clean_name(const std::string& text) {
 
 bool is_uuid(const std::string& text) {
   const auto plain = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || c == '-'; };
-  return !text.empty() && text.size() <= 64 && std::all_of(text.begin(), text.end(), plain);
+  return text.size() >= 16 && text.size() <= 64 && std::all_of(text.begin(), text.end(), plain);
 }
 
 std::string new_uuid() {

@@ -57,8 +57,12 @@ std::string clean_name(const std::string& text);
 
 /// 32 hex digits and four dashes, random.
 std::string new_uuid();
-/// Digits, small letters and dashes, at most 64: it names files, so nothing else may come from a file.
+/// Digits, small letters and dashes, 16 to 64: it names files, so nothing else may come from a file, and it cannot be
+/// taken for a number.
 bool is_uuid(const std::string& text);
+
+/// What a recording's header says of its attempt's mode; one that says nothing was assessed.
+AttemptMode mode_in_header(const std::string& metadata_json);
 
 /// Score, verdict and length from the result that an attempt ended with; a familiarisation has neither of the first
 /// two.

@@ -28,6 +28,12 @@ void fill_from_result(const std::string& result, Attempt& a) {
   if (a.mode == AttemptMode::familiarisation) a.score.reset(), a.passed.reset();
 }
 
+AttemptMode mode_in_header(const std::string& metadata_json) {
+  const Json note = Json::parse(metadata_json, nullptr, false);
+  if (!note.is_object()) return AttemptMode::assessed;
+  return mode_named(text_in(note, "mode")).value_or(AttemptMode::assessed);
+}
+
 bool fill_from_recording(const fs::path& file, Attempt& a) {
   sim::Recording r;
   try {

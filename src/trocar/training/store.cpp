@@ -18,9 +18,7 @@ std::string whole_reason(const std::string& what, const fs::path& kept) {
 }  // namespace
 
 Store::Store(fs::path folder) : m_folder(std::move(folder)) {
-  std::error_code error;
-  if (fs::create_directories(m_folder, error))
-    fs::permissions(m_folder, fs::perms::owner_all, error);  // names are nobody else's business
+  make_own_folder(m_folder);  // names are nobody else's business
   open();
 }
 
@@ -113,21 +111,27 @@ Kept Store::end(Attempt& attempt, AttemptLock& lock) {
   return kept;
 }
 
-/// In a file: in the store's folder, beside the recording, or in the user's own temporary folder.
+/// In a file where the next opening looks: in the store's folder, in the user's own temporary folder, or, where a row
+/// says where that is, beside the recording.
 Kept Store::set_down(const Attempt& attempt) {
   const std::string text = to_json(attempt);
   std::vector<fs::path> folders{m_folder / "waiting"};
-  if (!attempt.recording.empty()) folders.push_back(fs::path(attempt.recording).parent_path());
   folders.push_back(own_temporary_folder());
+  if (!attempt.recording.empty()) {
+    // Without a row nobody finds it there, so that comes last; with one it outlives the temporary folder.
+    const auto place = attempt.number > 0 ? folders.end() - 1 : folders.end();
+    folders.insert(place, fs::path(attempt.recording).parent_path());
+  }
   for (const fs::path& folder : folders) {
     if (folder.empty()) continue;
     std::error_code ignored;
     fs::create_directories(folder, ignored);
-    const fs::path file = folder / (attempt.uuid + kWaiting);
-    if (!write_file(file, text.data(), text.size()).empty()) continue;
+    const fs::path file = folder / (attempt.uuid + kWaiting), motion = folder / (attempt.uuid + kWaitingTrace);
+    // The motion first: what is taken in is complete, wherever the program was killed.
     if (!attempt.trace.empty() && attempt.trace.size() <= kLargestTrace)
-      write_file(folder / (attempt.uuid + kWaitingTrace), attempt.trace.data(), attempt.trace.size());
-    return {false, file};
+      write_file(motion, attempt.trace.data(), attempt.trace.size());
+    if (write_file(file, text.data(), text.size()).empty()) return {false, file};
+    fs::remove(motion, ignored);
   }
   return {};
 }

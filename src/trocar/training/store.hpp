@@ -91,12 +91,14 @@ class Store {
   std::optional<Attempt> find(const std::string& name) const;
   std::vector<std::string> trainees() const;  ///< who has attempts, last first
 
-  /// Deletes a trainee's attempts, also from the database file's free pages, and those files of recordings that are in
-  /// the store's folder. @throws core::EnvironmentLacks when that is not possible
+  /// Deletes a trainee's attempts, also from the database file's free pages, and those files of recordings that the
+  /// store placed: in its own folder and in the user's temporary one. @throws core::EnvironmentLacks: nothing is
+  /// deleted
   struct Forgotten {
     int attempts = 0;
     std::vector<std::filesystem::path> deleted;  ///< recordings
     std::vector<std::filesystem::path> left;     ///< recordings elsewhere, and set-aside databases: may hold the name
+    std::string not_overwritten;  ///< empty, or why the database file's free pages still hold what was there
   };
   Forgotten forget(const std::string& trainee);
 
@@ -126,6 +128,14 @@ class Store {
   std::vector<std::string> m_notices;
   bool m_writable = false;
 };
+
+/// Makes a folder that is its user's alone (mode 0700); those above it as usual. One that is there stays as it is.
+/// Nothing is said of failure.
+void make_own_folder(const std::filesystem::path& folder);
+
+/// TMPDIR/trocar-UID, where the store looks for results when it is opened: a real folder that belongs to this user and
+/// that nobody else can enter, or nothing.
+std::filesystem::path own_temporary_folder();
 
 /// Fills what a recording knows of its attempt: everything if it has its end mark, else how far it reaches.
 /// False: the file is no recording.

@@ -62,6 +62,13 @@ std::string write_file(const fs::path& path, const void* bytes, std::size_t size
   return said;
 }
 
+void make_own_folder(const fs::path& folder) {
+  const fs::path plain = folder.has_filename() ? folder : folder.parent_path();  // "data/" is "data"
+  std::error_code ignored;
+  if (plain.has_parent_path()) fs::create_directories(plain.parent_path(), ignored);
+  mkdir(plain.c_str(), 0700);
+}
+
 fs::path own_temporary_folder() {
   std::error_code error;
   const fs::path base = fs::temp_directory_path(error);

@@ -57,7 +57,5 @@ std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder)
 std::string read_file(const std::filesystem::path& path, std::size_t most);
 /// The whole content under its name or nothing, on the disk when this returns. Empty, or what the system said.
 std::string write_file(const std::filesystem::path& path, const void* bytes, std::size_t size);
-/// A folder that only this user can write, or nothing.
-std::filesystem::path own_temporary_folder();
 
 }  // namespace trocar::training

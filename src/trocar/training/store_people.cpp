@@ -38,15 +38,21 @@ std::optional<Attempt> Store::find(const std::string& name) const {
   const bool number = name.size() < 10 && name.find_first_not_of("0123456789") == std::string::npos;
   try {
     Database db(database(), Database::Access::read);
-    Query q(db, fmt::format("SELECT {}{}WHERE {} LIMIT 2", kColumns, kFrom,
-                            number ? "a.number = ?1" : "substr(a.uuid, 1, length(?1)) = ?1"));
-    if (number)
-      q.bind(std::int64_t(std::stoll(name)));
-    else
-      q.bind(name);
-    if (!q.next()) return std::nullopt;
-    Attempt a = row_of(q);
-    if (q.next()) return std::nullopt;
+    Attempt a;
+    Query whole(db, fmt::format("SELECT {}{}WHERE a.uuid = ?1", kColumns, kFrom));
+    if (whole.bind(name).next()) {
+      a = row_of(whole);
+    } else {
+      Query q(db, fmt::format("SELECT {}{}WHERE {} LIMIT 2", kColumns, kFrom,
+                              number ? "a.number = ?1" : "substr(a.uuid, 1, length(?1)) = ?1"));
+      if (number)
+        q.bind(std::int64_t(std::stoll(name)));
+      else
+        q.bind(name);
+      if (!q.next()) return std::nullopt;
+      a = row_of(q);
+      if (q.next()) return std::nullopt;
+    }
     Query t(db, "SELECT samples FROM trace WHERE attempt = ?");
     t.bind(a.number);
     if (t.next()) a.trace = t.bytes(0);
@@ -72,6 +78,21 @@ std::vector<std::string> Store::trainees() const {
   return out;
 }
 
+namespace {
+
+/// Overwrites what is deleted in file and log. Empty, or why that is not so.
+std::string overwrite_deleted(Database& db) {
+  try {
+    db.run("VACUUM");
+    Query checkpoint(db, "PRAGMA wal_checkpoint(TRUNCATE)");
+    return checkpoint.next() && checkpoint.integer(0) == 0 ? "" : "another program is reading the database";
+  } catch (const DatabaseFault& fault) {
+    return fault.what();
+  }
+}
+
+}  // namespace
+
 Store::Forgotten Store::forget(const std::string& trainee) {
   Forgotten out;
   std::vector<std::string> recordings;
@@ -89,15 +110,17 @@ Store::Forgotten Store::forget(const std::string& trainee) {
       Query(db, "DELETE FROM trainee WHERE name = ?").bind(trainee).done();
       all.commit();
     }
-    db.run("VACUUM; PRAGMA wal_checkpoint(TRUNCATE);");
+    out.not_overwritten = overwrite_deleted(db);
   } catch (const DatabaseFault& fault) {
     throw core::EnvironmentLacks(fmt::format("nothing was deleted: {}", fault.what()));
   }
   std::error_code error;
   const fs::path ours = fs::weakly_canonical(m_folder / "recordings", error);
+  const fs::path own = own_temporary_folder(), temporary = own.empty() ? own : fs::weakly_canonical(own, error);
   for (const std::string& r : recordings) {
     if (!fs::exists(r, error)) continue;
-    const bool inside = fs::weakly_canonical(fs::path(r).parent_path(), error) == ours;
+    const fs::path folder = fs::weakly_canonical(fs::path(r).parent_path(), error);
+    const bool inside = !folder.empty() && (folder == ours || folder == temporary);
     if (inside && fs::remove(r, error))
       out.deleted.emplace_back(r);
     else
