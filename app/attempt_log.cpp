@@ -24,6 +24,7 @@ namespace {
 
 /// A new empty file in `folder`: two programs that start in the same second do not share one. Empty path: impossible.
 fs::path new_recording(const fs::path& folder, const training::Attempt& attempt) {
+  if (folder.empty()) return {};
   std::error_code ignored;
   fs::create_directories(folder, ignored);
   std::string name = attempt.exercise;
@@ -52,7 +53,17 @@ std::string demonstrator(const std::string& input) {
 std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
 
 AttemptMode mode_of_input(const std::string& input) {
-  return demonstrator(input).empty() ? AttemptMode::assessed : AttemptMode::demonstration;
+  if (demonstrator(input).empty()) return AttemptMode::assessed;
+  constexpr std::string_view kReplay = "replay:";
+  if (input.rfind(kReplay, 0) != 0) return AttemptMode::demonstration;
+  try {
+    const sim::Recording recording = sim::read_recording(input.substr(kReplay.size()));
+    if (training::mode_in_header(recording.header.metadata_json) == AttemptMode::familiarisation)
+      return AttemptMode::familiarisation;
+  } catch (const core::BadInput&) {  // told by who uses it
+  } catch (const core::EnvironmentLacks&) {
+  }
+  return AttemptMode::demonstration;
 }
 
 AttemptLog::AttemptLog(training::Store* store, Session& session, const AttemptPlan& plan)
@@ -72,7 +83,12 @@ AttemptLog::AttemptLog(training::Store* store, Session& session, const AttemptPl
   m_attempt.model_hash = lesson.model.hash;
   m_session.set_scored(plan.mode != AttemptMode::familiarisation);
   if (m_store) m_lock = m_store->begin(m_attempt);
-  place_recording(plan);
+  try {
+    place_recording(plan);
+  } catch (...) {  // without its recording it does not begin
+    if (m_store) m_store->withdraw(m_attempt, m_lock);
+    throw;
+  }
   if (m_store && !m_attempt.recording.empty()) m_store->update(m_attempt);
   take_notices();
 }
@@ -104,9 +120,7 @@ void AttemptLog::place_recording(const AttemptPlan& plan) {
   }
   if (!plan.record || !m_store) return;
   if (try_to_record(new_recording(m_store->folder() / "recordings", m_attempt))) return;
-  std::error_code error;
-  const fs::path temporary = fs::temp_directory_path(error);
-  if (!error && try_to_record(new_recording(temporary / fmt::format("trocar-recordings-{}", getuid()), m_attempt)))
+  if (try_to_record(new_recording(training::own_temporary_folder(), m_attempt)))
     notice(fmt::format("{} cannot be written: the recording goes to {}", (m_store->folder() / "recordings").string(),
                        m_attempt.recording));
   else

@@ -27,8 +27,8 @@ struct AttemptPlan {
   std::string input = "mouse";
   /// Where the recording goes. Must be writable (exit 3), and what is there already is kept under another name.
   std::filesystem::path recording;
-  /// Without a path: a recording of its own in the store's folder, or where that cannot be written, in the temporary
-  /// one. False: none.
+  /// Without a path: a recording of its own in the store's folder, or where that cannot be written, in the user's
+  /// own temporary one. False: none.
   bool record = true;
 };
 
@@ -67,7 +67,8 @@ class AttemptLog {
   bool m_ended = false;
 };
 
-/// What `--input` means for the attempt: the scripted surgeon and replays demonstrate, all else is the trainee.
+/// What `--input` means for the attempt: the scripted surgeon and replays demonstrate, all else is the trainee. A
+/// familiarisation that is done again stays one.
 training::AttemptMode mode_of_input(const std::string& input);
 
 /// "2026-03-01T14:05:09Z"

@@ -8,8 +8,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <trocar/core/error.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/core/log.hpp>
+#include <trocar/training/hands.hpp>
 
 namespace trocar::app {
 namespace {
@@ -47,13 +49,12 @@ std::filesystem::path keep_older(const std::filesystem::path& path) {
   for (int n = 1; kept.empty() || std::filesystem::exists(kept, error); ++n)
     kept = path.parent_path() / fmt::format("{}-older-{}{}", path.stem().string(), n, path.extension().string());
   std::filesystem::rename(path, kept, error);
-  if (error) return {};
+  if (error)
+    throw core::EnvironmentLacks(
+        fmt::format("{} is there and cannot be kept under another name ({}): record to another file or move that one",
+                    path.string(), error.message()));
   core::log::info("{} was there: it is now {}", path.string(), kept.string());
   return kept;
-}
-
-Vec3d tip_of(const sim::Model& model, const sim::State& state, int tool) {
-  return kinematics::forward(model.hands[size_t(tool)].port, state.tools[size_t(tool)].pose()).tip;
 }
 
 std::vector<std::string> flag_names(std::uint32_t flags) {
@@ -70,7 +71,7 @@ Session::Session(const Lesson& lesson, int threads)
       m_work(sim::make_work(lesson.model, &m_pool)),
       m_monitor(lesson.monitor()),
       m_trace(lesson.model) {
-  for (size_t t = 0; t < lesson.model.hands.size(); ++t) m_tip[t] = tip_of(lesson.model, m_state, int(t));
+  for (size_t t = 0; t < lesson.model.hands.size(); ++t) m_tip[t] = training::tip_of(lesson.model, m_state, t);
   if (m_monitor) m_steps_done.resize(m_monitor->steps().size());
 }
 
@@ -102,7 +103,7 @@ const sim::StepReport& Session::advance(const sim::Input& input) {
     m_broken = fmt::format("the tissue's motion failed in tick {} (body {}, node {}): a fault of the simulation",
                            m_state.tick, m_report.first_bad_body, m_report.first_bad_index);
   for (size_t t = 0; t < m_lesson.model.hands.size(); ++t) {
-    const Vec3d tip = tip_of(m_lesson.model, m_state, int(t));
+    const Vec3d tip = training::tip_of(m_lesson.model, m_state, t);
     m_path[t] += length(tip - m_tip[t]);
     m_tip[t] = tip;
   }
@@ -252,9 +253,14 @@ Json Session::result(bool interrupted) const {
   return r;
 }
 
-/// Motion is measured up to the last step that was done; an attempt that is not finished, to its end.
+/// Motion is measured up to the last step that was done; an attempt that is not finished, to its end. Forces are held
+/// against the limits that its errors are held against.
 training::MetricsOptions Session::metrics_options() const {
   training::MetricsOptions options;
+  if (m_lesson.exercise) {
+    options.force_limits[training::kPull] = m_lesson.exercise->goal.pull_limit;
+    options.force_limits[training::kPinch] = m_lesson.exercise->goal.pinch_limit;
+  }
   if (!m_monitor || !m_monitor->finished() || m_exercise_from < 0) return options;
   options.end = 0;
   for (const training::StepStatus& step : m_monitor->steps()) options.end = std::max(options.end, step.at);

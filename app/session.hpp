@@ -111,10 +111,8 @@ class Session {
 };
 
 /// Nobody's recording is lost: one that is there keeps its content under another name, which is returned.
+/// @throws core::EnvironmentLacks where that is not possible
 std::filesystem::path keep_older(const std::filesystem::path& path);
-
-/// Tip of an instrument.
-Vec3d tip_of(const sim::Model& model, const sim::State& state, int tool);
 
 /// Names of the flags that are set: "inverted_cells", "too_many_loads", ...
 std::vector<std::string> flag_names(std::uint32_t flags);

@@ -160,6 +160,17 @@ TEST(MotionSource, HandsComeIntoTheSceneByARotationWithTheirCentroidWhereTheInst
   EXPECT_LT(dot(model.hands[size_t(hands[0].tool)].port - model.hands[size_t(hands[1].tool)].port, view.right), 0);
 }
 
+TEST(Session, ForcesAreHeldAgainstTheExercisesOwnLimits) {
+  const std::unique_ptr<Lesson> lesson = load_lesson("gynaecology/sterilisation");
+  lesson->exercise->goal.pull_limit = 3.25;
+  lesson->exercise->goal.pinch_limit = 12.5;
+  Session session(*lesson, 1);
+  for (int i = 0; i < 200; ++i) session.advance(lesson->model.start);
+  const Json forces = session.result(false)["metrics"]["both"]["forces"];
+  EXPECT_EQ(forces["pull"]["limit_N"], 3.25);
+  EXPECT_EQ(forces["pinch"]["limit_N"], 12.5);
+}
+
 TEST(Session, DrawingOrNotWatchingOrNotTheSameBits) {
   Session watched(scene(), 1), alone(scene(), 2);
   sim::Input input = scene().model.start;
