@@ -159,6 +159,8 @@ void Reel::publish(const sim::State& state) {
 
 void Reel::loop() {
   Explorer e(m_lesson, m_options);
+  e.session.set_scored(training::mode_in_header(m_recording.header.metadata_json) !=
+                       training::AttemptMode::familiarisation);
   m_spacing.store(e.kept.spacing());
   {
     const std::lock_guard lock(m_lock);

@@ -138,6 +138,8 @@ Json play_inputs(const Lesson& lesson, const sim::Recording& recording, const Re
   const FilmPlan plan = plan_of(o, recording.inputs.size());
   Camera camera(lesson, o, plan);
   Session session(lesson);
+  session.set_scored(training::mode_in_header(recording.header.metadata_json) !=
+                     training::AttemptMode::familiarisation);
   Verifier verifier(recording.hashes);
   Progress progress(0, recording.inputs.size());
   const bool to_the_end = o.verify || o.to < 0;
