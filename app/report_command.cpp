@@ -17,6 +17,7 @@
 #include "paths.hpp"
 #include "report.hpp"
 #include "report_page.hpp"
+#include "settings.hpp"
 
 namespace trocar::app {
 namespace {
@@ -72,11 +73,17 @@ int list(const Store& store, const Options& o, bool json) {
 int forget(Store& store, const std::string& trainee, bool json) {
   std::vector<std::string> pages;
   for (const Attempt& a : store.list({.trainee = trainee})) pages.push_back(a.uuid);
-  const Store::Forgotten gone = store.forget(trainee);
+  Store::Forgotten gone = store.forget(trainee);
   for (const std::string& uuid : pages) {
     std::error_code ignored;
     if (!uuid.empty() && uuid.find('/') == std::string::npos && uuid[0] != '.')
       fs::remove_all(store.folder() / "reports" / uuid, ignored);
+  }
+  try {
+    forget_in_settings(settings_file(), trainee);
+  } catch (const core::EnvironmentLacks& lacks) {
+    core::log::warn("{}", lacks.what());
+    gone.left.push_back(settings_file());
   }
   const auto texts = [](const std::vector<fs::path>& paths) {
     Json out = Json::array();
@@ -87,11 +94,16 @@ int forget(Store& store, const std::string& trainee, bool json) {
     print({{"trainee", trainee},
            {"attempts_deleted", gone.attempts},
            {"recordings_deleted", texts(gone.deleted)},
-           {"left", texts(gone.left)}});
+           {"left", texts(gone.left)},
+           {"not_overwritten", gone.not_overwritten}});
   } else {
     fmt::print("{}: {} attempts and {} recordings deleted\n", trainee, gone.attempts, gone.deleted.size());
     for (const fs::path& p : gone.left) fmt::print("left, delete it yourself: {}\n", p.string());
+    if (!gone.not_overwritten.empty())
+      fmt::print("{} still holds deleted text ({}): end what uses it and do this again\n", store.database().string(),
+                 gone.not_overwritten);
   }
+  if (!gone.not_overwritten.empty()) return core::kEnvironment;
   return gone.attempts > 0 ? core::kDone : core::kGoalNotReached;
 }
 
@@ -108,7 +120,7 @@ Attempt from_recording(const Store& store, const std::string& file) {
   } catch (const core::EnvironmentLacks& lacks) {
     core::log::warn("{}", lacks.what());
   }
-  if (!kept) return there;
+  if (!kept || kept->uuid != there.uuid) return there;  // another one's, whose uuid begins alike
   kept->recording = there.recording;
   return *kept;
 }
@@ -125,7 +137,7 @@ Attempt chosen(const Store& store, const Options& o) {
   const std::vector<Attempt> all = store.list({.trainee = o.trainee, .limit = 1});
   if (all.empty())
     throw core::BadInput({{{"report", 0, 0}, "expected an attempt, there is none yet: do one with `trocar train`"}});
-  return *store.find(all.back().uuid);
+  return store.find(all.back().uuid).value_or(all.back());  // deleted meanwhile: without its motion
 }
 
 Json summary(const Report& r) {

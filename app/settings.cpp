@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include <trocar/scene/shape.hpp>
-#include <trocar/training/attempt.hpp>
+#include <trocar/training/store.hpp>
 
 #include "json.hpp"
 #include "paths.hpp"
@@ -90,6 +90,7 @@ std::string settings_text(const Settings& s) {
 }
 
 void write_settings(const fs::path& file, const Settings& settings) {
+  training::make_own_folder(file.parent_path());  // the data folder: names are nobody else's business
   make_folder(file.parent_path());
   fs::path fresh = file;
   fresh += fmt::format(".{}.new", getpid());  // two programs at once write two files
@@ -105,6 +106,15 @@ void write_settings(const fs::path& file, const Settings& settings) {
   fs::remove(fresh, ignored);
   throw core::EnvironmentLacks(
       fmt::format("cannot write {}: make room or allow writing; the settings hold until the end", file.string()));
+}
+
+bool forget_in_settings(const fs::path& file, const std::string& trainee) {
+  std::vector<core::Fault> ignored;
+  Settings s = read_settings(file, ignored);
+  if (s.trainee.empty() || s.trainee != trainee) return false;
+  s.trainee.clear();
+  write_settings(file, s);
+  return true;
 }
 
 devices::HandSettings hand_settings(const Settings& s, int instruments) {

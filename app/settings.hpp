@@ -45,6 +45,9 @@ std::string settings_text(const Settings& settings);
 /// Into a new file that then takes the old one's place.  @throws core::EnvironmentLacks
 void write_settings(const std::filesystem::path& file, const Settings& settings);
 
+/// Takes the name out if it is the last trainee's; true: it was.  @throws core::EnvironmentLacks
+bool forget_in_settings(const std::filesystem::path& file, const std::string& trainee);
+
 /// The settings as the hands need them. @param instruments how many hands there are
 devices::HandSettings hand_settings(const Settings& settings, int instruments);
 

@@ -292,6 +292,13 @@ TEST_F(Program, AttemptsAreListedExportedAndForgotten) {
   EXPECT_FALSE(second.json()["assessment"]["score"].contains("total")) << "familiarisation is not scored";
   EXPECT_NE(second.json()["model_hash"], first.json()["model_hash"]) << "another anatomy";
   EXPECT_EQ(trocar({"replay", file("b.rec"), "--verify"}).exit, core::kDone) << "a replay makes the same anatomy";
+  const Json again = trocar({"replay", file("b.rec"), "--json"}).json();
+  EXPECT_TRUE(again["passed"].is_null()) << "nor is it scored when it is played again";
+  EXPECT_FALSE(again["assessment"]["score"].contains("total"));
+  const Json repeated = trocar({"train", "gynaecology/sterilisation", "--input", "replay:" + file("b.rec"),
+                                "--headless", "--seed", "3", "--no-store", "--json"})
+                            .json();
+  EXPECT_TRUE(repeated["passed"].is_null()) << "nor when it is done again";
   train({"--no-store"});
 
   const Json list = trocar({"report", "--list", "--json"}).json()["attempts"];
@@ -306,7 +313,10 @@ TEST_F(Program, AttemptsAreListedExportedAndForgotten) {
   ASSERT_EQ(trocar({"report", "1", "--trace", file("motion.trace.csv")}).exit, core::kDone);
   EXPECT_GT(read(file("motion.trace.csv")).size(), 500u);
 
+  fs::create_directories(file("data"));
+  std::ofstream(file("data/settings.json")) << R"({"format": 1, "trainee": "Ada"})";
   EXPECT_EQ(trocar({"report", "--forget", "Ada"}).exit, core::kDone);
+  EXPECT_EQ(read(file("data/settings.json")).find("Ada"), std::string::npos);
   EXPECT_EQ(trocar({"report", "--forget", "Ada"}).exit, core::kGoalNotReached);
   EXPECT_EQ(trocar({"report", "--list", "--json"}).json()["attempts"].size(), 1u);
 }

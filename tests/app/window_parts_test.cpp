@@ -93,6 +93,26 @@ TEST_F(SettingsFile, WhereItCannotBeWrittenTheOldOneStays) {
   EXPECT_EQ(read_settings(file(), faults), Settings{});
 }
 
+TEST_F(SettingsFile, AFolderThatIsMadeForThemBelongsToItsUserAlone) {
+  const mode_t before = umask(022);
+  write_settings(file().parent_path() / "data" / "settings.json", {});
+  umask(before);
+  EXPECT_EQ(fs::status(file().parent_path() / "data").permissions(), fs::perms::owner_all);
+}
+
+TEST_F(SettingsFile, TheLastTraineeIsForgottenAndNobodyElse) {
+  Settings settings;
+  settings.trainee = "Ada";
+  settings.mouse = 2;
+  write_settings(file(), settings);
+  EXPECT_FALSE(forget_in_settings(file(), "Bob"));
+  std::vector<core::Fault> faults;
+  EXPECT_EQ(read_settings(file(), faults), settings);
+  EXPECT_TRUE(forget_in_settings(file(), "Ada"));
+  settings.trainee.clear();
+  EXPECT_EQ(read_settings(file(), faults), settings);
+}
+
 TEST_F(SettingsFile, NothingButTheSettingsIsLeftInTheFolder) {
   for (int i = 0; i < 3; ++i) write_settings(file(), {});
   EXPECT_EQ(std::distance(fs::directory_iterator(m_folder), fs::directory_iterator{}), 1);
