@@ -23,8 +23,8 @@ struct PanelContent {
   std::string mode;                         ///< "familiarisation: no score", or empty
   std::vector<training::StepStatus> steps;  ///< names and hints; done and now come from the snapshot
   const Feedback& feedback;
-  bool paused = false, gamepad = false;  ///< gamepad: the keys at its foot are a gamepad's
-  double pull_limit = 5;                 ///< [N]
+  bool paused = false, gamepad = false;               ///< gamepad: the keys at its foot are a gamepad's
+  double pull_limit = 5;                              ///< [N]
   std::optional<training::ClipOutlook> outlook = {};  ///< of a clip about to be set; told while familiarising
 };
 
