@@ -1,12 +1,11 @@
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <system_error>
 
 #include <fmt/format.h>
-#include <locale.h>
 
+#include <trocar/core/decimal.hpp>
 #include <trocar/scene/json.hpp>
 
 namespace trocar::scene {
@@ -236,7 +235,7 @@ class Parser {
     }
     if (is_json_number(text)) {
       JsonValue v = made(at, Kind::number);
-      v.number = to_double(text);
+      v.number = core::to_double(text);
       if (std::isfinite(v.number)) return v;
     }
     const std::string message = fmt::format("expected {}, got {}", wanted_instead_of(text), shortened(text));
@@ -423,11 +422,6 @@ const JsonMember* JsonValue::find(std::string_view key) const {
   for (const JsonMember& m : members)
     if (m.key == key) return &m;
   return nullptr;
-}
-
-double to_double(const std::string& decimal) {
-  static const locale_t plain = newlocale(LC_ALL_MASK, "C", locale_t{});
-  return strtod_l(decimal.c_str(), nullptr, plain);
 }
 
 JsonDocument parse_json(std::string_view text, std::string file, std::vector<core::Fault>& faults) {

@@ -69,10 +69,6 @@ using MemoryFiles = std::map<std::filesystem::path, std::string>;
 JsonDocument load_json(const std::filesystem::path& path, std::vector<core::Fault>& faults,
                        const MemoryFiles* memory = nullptr);
 
-/// A decimal number's nearest double, whatever the program's locale (floating from_chars is missing in older standard
-/// libraries). The text must be a number.
-double to_double(const std::string& decimal);
-
 /// How a fault names a value: `"text"`, `-3`, `an array`, `null` (long strings are shortened).
 std::string shown(const JsonValue& value);
 

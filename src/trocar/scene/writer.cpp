@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/decimal.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/scene/json_text.hpp>
 #include <trocar/scene/writer.hpp>
@@ -15,7 +16,7 @@ template <class Read>
 double in_file(double guess, double value, Read&& read) {
   for (int digits = 1; digits <= 17; ++digits) {
     const std::string text = fmt::format("{:.{}e}", guess, digits - 1);
-    const double v = to_double(text);
+    const double v = core::to_double(text);
     if (read(v) == value) return v;
   }
   for (const double v : {std::nextafter(guess, -1e300), std::nextafter(guess, 1e300)})
