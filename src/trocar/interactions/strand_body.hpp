@@ -30,7 +30,7 @@ double arc_at(const StrandBody& body, StrandPlace place) noexcept;
 Vec3d point_at(const StrandBody& body, const tissue::StrandState& state, StrandPlace place) noexcept;
 Vec3d tangent_at(const StrandBody& body, const tissue::StrandState& state, StrandPlace place) noexcept;
 
-/// Direction and two normals at a node, transported from the start without twisting (double reflection [Wang 08]).
+/// Direction and two normals at a node, transported from the start without twisting (by smallest rotations).
 struct StrandFrame {
   Vec3d tangent, normal, binormal;
 };

@@ -102,7 +102,7 @@ double damping_time(const tissue::NetworkDescription& undamped, double wanted) {
   return std::min(wanted, tissue::build(undamped, sim::kTick).dt_limit / 7);
 }
 
-/// What (4b) as printed allows with each node's own springs summed up, for the record.     [KCM99 eq.4]
+/// What (4b) as printed allows at each node's stiffest spring, for the record.     [KCM99 eq.4]
 double printed_limit(const tissue::NetworkDescription& n) {
   std::vector<double> k(n.mass.size()), d(n.mass.size());
   for (const tissue::SpringDescription& s : n.springs)

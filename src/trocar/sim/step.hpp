@@ -21,7 +21,8 @@ inline constexpr int kMaxEvents = 16;
 struct StepReport {
   enum Flag : std::uint32_t {
     kTooManyLoads = 1u << 16,  ///< contacts did not fit the reserved capacity: some were left out this tick
-    kBadInput = 1u << 17,  ///< an input was not finite, or its instrument not in the rack: that hand stayed as it was
+    kBadInput =
+        1u << 17,  ///< an input was not finite (that hand stayed), or its instrument not in the rack (not exchanged)
     kBookFull = 1u << 18,  ///< the book of clips or cuts is full: clips are lost, blades no longer cut
   };
   std::uint32_t flags = 0;

@@ -190,7 +190,7 @@ void release_open(const NetworkModel& m, std::span<const int> open, NetworkState
 
 constexpr float kLeap = 20;     // faster than anything that hands do to tissue [m/s]
 constexpr float kCaught = 2;    // [m/s]
-constexpr int kMostLeaps = 64;  // caught in one tick; more have their turn in the next
+constexpr int kMostLeaps = 64;  // caught in one tick, the lowest rows first
 
 /// Was it held to kCaught in the last sub-step? Its speed itself says so; let go for a tick, it would leap again.
 bool is_caught(float square) { return std::fabs(square - kCaught * kCaught) < 1e-4f * kCaught * kCaught; }
