@@ -1,46 +1,15 @@
 // One tick of the network: sub-steps of the chosen kernel, cells pushed open, loads taken implicitly.
 #include <cmath>
-#include <cstdlib>
-#include <cstring>
 #include <utility>
 
 #include <trocar/numerics/quat.hpp>
 #include <trocar/tissue/law.hpp>
 #include <trocar/tissue/network.hpp>
+#include <trocar/tissue/network_kernels.hpp>
+#include <trocar/tissue/network_loads.hpp>
 
 namespace trocar::tissue {
 namespace {
-
-// ---- which instruction set
-
-bool can_run(const KernelSet* set) {
-  if (!set) return false;
-#if defined(__x86_64__)
-  if (std::strcmp(set->name, "avx2") == 0) return __builtin_cpu_supports("avx2");
-  if (std::strcmp(set->name, "avx512") == 0) {
-    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-           __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw");
-  }
-#endif
-  return true;
-}
-
-/// The widest runnable set not above `wish` (null: no wish).
-const KernelSet* choose(const char* wish) {
-  const KernelSet* sets[] = {kernels_avx512(), kernels_avx2(), kernels_sse2(), kernels_generic()};
-  const char* names[] = {"avx512", "avx2", "sse2", "generic"};
-  int first = 0;
-  for (int i = 0; wish && i < 4; ++i)
-    if (std::strcmp(wish, names[i]) == 0) first = i;
-  for (int i = first; i < 4; ++i)
-    if (can_run(sets[i])) return sets[i];
-  return kernels_generic();
-}
-
-const KernelSet*& kernels() {
-  static const KernelSet* set = choose(std::getenv("TROCAR_SIMD"));
-  return set;
-}
 
 // ---- cells pushed open
 
@@ -52,18 +21,9 @@ constexpr int kLong = 100;            // ticks at rest after which a fold is one
 constexpr float kUnfolding = 0.005f;  // as kOpening and kReleased, for such a fold
 constexpr float kUnfolded = 0.7f;
 
-Vec3f place(const NodeState& n) { return {n.x, n.y, n.z}; }
-Vec3f speed(const NodeState& n) { return {n.vx, n.vy, n.vz}; }
-
 Vec3f row_weight(const NetworkModel& m, int row) {
   const RowPack& p = m.row_packs[row / kSlice];
   return {p.wx[row % kSlice], p.wy[row % kSlice], p.wz[row % kSlice]};
-}
-
-/// x0 + dt v in the kernel's own arithmetic.
-void move_to(NodeState& out, const NodeState& in, Vec3f v, float dt) {
-  out.vx = v.x, out.vy = v.y, out.vz = v.z;
-  out.x = in.x + dt * v.x, out.y = in.y + dt * v.y, out.z = in.z + dt * v.z;
 }
 
 /// A quarter of the cells is looked at each tick; those that collapsed stay on the list until they are open again.
@@ -71,7 +31,7 @@ void find_collapsed(const NetworkModel& m, NetworkState& s, NetworkWork& w) {
   const int packs = int(m.tet_packs.size());
   const int quarter = int(s.tick & 3u);
   const int first = int(std::int64_t(packs) * quarter / 4), last = int(std::int64_t(packs) * (quarter + 1) / 4);
-  kernels()->find_collapsed(s.nodes.data(), m.tet_packs.data(), first, last, w.below.data());
+  kernels().find_collapsed(s.nodes.data(), m.tet_packs.data(), first, last, w.below.data());
   for (int p = first; p < last; ++p) {
     for (unsigned bits = w.below[p - first]; bits; bits &= bits - 1) {
       const int t = p * kSlice + __builtin_ctz(bits);
@@ -219,115 +179,11 @@ void catch_leaps(const NetworkModel& m, std::span<const int> rows, const NodeSta
   }
 }
 
-// ---- loads
-
-bool usable(const NetworkModel& m, const NodeLoad& l) {
-  const float sum = ((std::fabs(l.f0.x) + std::fabs(l.f0.y)) + std::fabs(l.f0.z)) +
-                    ((std::fabs(l.x0.x) + std::fabs(l.x0.y)) + std::fabs(l.x0.z)) +
-                    ((std::fabs(l.dir.x) + std::fabs(l.dir.y)) + std::fabs(l.dir.z));
-  return l.node >= 0 && l.node < m.nodes && l.k >= 0 && l.d >= 0 && l.k < 1e12f && l.d < 1e12f && sum < 1e12f;
-}
-
-/// a x = b for a symmetric positive definite 3x3 matrix given as xx, yy, zz, xy, xz, yz: LDL^T.
-Vec3d solve3(const double a[6], Vec3d b) {
-  const double l10 = a[3] / a[0], l20 = a[4] / a[0];
-  const double d1 = a[1] - l10 * a[3];
-  const double e21 = a[5] - l20 * a[3];
-  const double l21 = e21 / d1;
-  const double d2 = a[2] - l20 * a[4] - l21 * e21;
-  const double y1 = b.y - l10 * b.x, y2 = b.z - l20 * b.x - l21 * y1;
-  const double z = y2 / d2;
-  const double y = y1 / d1 - l21 * z;
-  return {b.x / a[0] - l10 * y - l20 * z, y, z};
-}
-
-bool is_zero(Vec3f a) { return a.x == 0 && a.y == 0 && a.z == 0; }
-
-/// P u of a load.
-Vec3d along(const NodeLoad& l, Vec3d u) {
-  if (is_zero(l.dir)) return u;
-  const Vec3d n = vec_cast<double>(l.dir);
-  return dot(n, u) * n;
-}
-
-/// The loads of one node: (m (1 + dt gamma) + dt D + dt^2 K) v = m (1 + dt gamma) v_free + dt (f0 + K (x0 - x)),
-/// held axes left out. Adds each load's mean force to `reactions`. False where the result is not finite.
-bool apply_loads(const NetworkModel& m, std::span<const NodeLoad> loads, Vec3f* reactions, const NodeState& in,
-                 NodeState& out) {
-  const int node = loads[0].node;
-  const double dt = m.dt, mass = m.mass[node] * (1 + dt * m.gamma);
-  const Vec3d x = vec_cast<double>(place(in)), free_v = vec_cast<double>(speed(out));
-  double a[6] = {mass, mass, mass, 0, 0, 0};
-  Vec3d b = mass * free_v;
-  for (const NodeLoad& l : loads) {
-    const Vec3d reach = (vec_cast<double>(l.x0) - m.origin) - x;
-    const double q = dt * (double(l.d) + dt * double(l.k));
-    b += dt * (vec_cast<double>(l.f0) + double(l.k) * along(l, reach));
-    const Vec3d n = vec_cast<double>(l.dir);
-    if (is_zero(l.dir)) {
-      a[0] += q, a[1] += q, a[2] += q;
-    } else {
-      a[0] += q * n.x * n.x, a[1] += q * n.y * n.y, a[2] += q * n.z * n.z;
-      a[3] += q * n.x * n.y, a[4] += q * n.x * n.z, a[5] += q * n.y * n.z;
-    }
-  }
-  const int held = m.fixed[node];
-  if (held != kFree) {
-    // A held axis keeps its velocity: move its column to the right side, put 1 on its diagonal.
-    const int cross_of[3][2] = {{3, 4}, {3, 5}, {4, 5}}, other[3][2] = {{1, 2}, {0, 2}, {0, 1}};
-    for (int i = 0; i < 3; ++i) {
-      if (!(held & (1 << i))) continue;
-      for (int j = 0; j < 2; ++j) {
-        b[other[i][j]] -= a[cross_of[i][j]] * free_v[i];
-        a[cross_of[i][j]] = 0;
-      }
-      a[i] = 1;
-      b[i] = free_v[i];
-    }
-    for (int i = 0; i < 3; ++i)
-      if (held & (1 << i)) b[i] = free_v[i];
-  }
-  const bool isotropic = a[3] == 0 && a[4] == 0 && a[5] == 0;  // most are: spare the elimination
-  const Vec3d v = isotropic ? Vec3d{b.x / a[0], b.y / a[1], b.z / a[2]} : solve3(a, b);
-  move_to(out, in, vec_cast<float>(v), float(dt));
-  const bool fine = std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z) < 1e6;
-  if (!reactions) return fine;
-  const double share = 1.0 / m.substeps;
-  for (std::size_t i = 0; i < loads.size(); ++i) {
-    const NodeLoad& l = loads[i];
-    const Vec3d reach = (vec_cast<double>(l.x0) - m.origin) - (x + dt * v);
-    const Vec3d force = vec_cast<double>(l.f0) + along(l, double(l.k) * reach - double(l.d) * v);
-    reactions[i] += vec_cast<float>(share * force);
-  }
-  return fine;
-}
-
-bool apply_all_loads(const NetworkModel& m, std::span<const NodeLoad> loads, std::span<Vec3f> reactions,
-                     const NodeState* in, NodeState* out) {
-  bool fine = true;
-  for (std::size_t i = 0; i < loads.size();) {
-    std::size_t end = i + 1;
-    if (!usable(m, loads[i])) {
-      i = end;
-      continue;
-    }
-    while (end < loads.size() && loads[end].node == loads[i].node && usable(m, loads[end])) ++end;
-    const int row = m.row_of_node[loads[i].node];
-    Vec3f* reaction = reactions.empty() ? nullptr : reactions.data() + i;
-    fine = apply_loads(m, loads.subspan(i, end - i), reaction, in[row], out[row]) && fine;
-    i = end;
-  }
-  return fine;
-}
-
-StepReport check_loads(const NetworkModel& m, std::span<const NodeLoad> loads) {
-  for (std::size_t i = 0; i < loads.size(); ++i) {
-    if (!usable(m, loads[i]) || (i > 0 && loads[i].node < loads[i - 1].node)) return {StepReport::kBadLoad, int(i)};
-  }
-  return {};
-}
-
 // ---- the tick
+
+LoadedBody loaded(const NetworkModel& m) {
+  return {m.nodes, m.dt, m.gamma, m.substeps, m.origin, m.mass, m.fixed, m.row_of_node};
+}
 
 KernelArgs kernel_args(const NetworkModel& m, const NetworkState& s) {
   KernelArgs a;
@@ -347,12 +203,12 @@ constexpr int kSlicesPerThread = 24;  // below this a thread's wake-up costs mor
 
 bool run_substep(const KernelArgs& a, int slices, core::ThreadPool* pool) {
   const int parts = pool ? pool->threads() : 1;
-  if (parts < 2 || slices < parts * kSlicesPerThread) return kernels()->substep(a, 0, slices);
+  if (parts < 2 || slices < parts * kSlicesPerThread) return kernels().substep(a, 0, slices);
   constexpr int kMost = 64;
   const int n = parts < kMost ? parts : kMost;
   bool fine[kMost];
   core::run(*pool, n, [&](int i) noexcept {
-    fine[i] = kernels()->substep(a, int(std::int64_t(slices) * i / n), int(std::int64_t(slices) * (i + 1) / n));
+    fine[i] = kernels().substep(a, int(std::int64_t(slices) * i / n), int(std::int64_t(slices) * (i + 1) / n));
   });
   bool all = true;
   for (int i = 0; i < n; ++i) all = all && fine[i];
@@ -371,21 +227,10 @@ int first_non_finite(const NetworkModel& m, const NetworkState& s) {
 
 }  // namespace
 
-const char* simd_name() noexcept { return kernels()->name; }
-
-bool set_simd(const std::string& name) noexcept {
-  for (const KernelSet* set : {kernels_generic(), kernels_sse2(), kernels_avx2(), kernels_avx512()}) {
-    if (set && name == set->name && can_run(set)) {
-      kernels() = set;
-      return true;
-    }
-  }
-  return false;
-}
-
 StepReport advance(const NetworkModel& m, std::span<const NodeLoad> loads, std::span<Vec3f> reactions, NetworkState& s,
                    NetworkWork& w, core::ThreadPool* pool) noexcept {
-  StepReport report = check_loads(m, loads);
+  const LoadedBody body = loaded(m);
+  StepReport report = check_loads(body, loads);
   for (Vec3f& r : reactions) r = {};
   find_collapsed(m, s, w);
   const std::span<const int> open(w.open_tets.data(), std::size_t(list_open(s, w)));
@@ -405,7 +250,7 @@ StepReport advance(const NetworkModel& m, std::span<const NodeLoad> loads, std::
     fine = run_substep(args, m.rows / kSlice, pool) && fine;
     push_open(m, s, open, turn, args.in, args.out);
     catch_leaps(m, fast, args.in, args.out);
-    fine = apply_all_loads(m, loads, reactions, args.in, args.out) && fine;
+    fine = apply_loads(body, loads, reactions, args.in, args.out) && fine;
     std::swap(s.nodes, w.other);
   }
   release_open(m, open, s);
