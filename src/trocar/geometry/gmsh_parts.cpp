@@ -47,6 +47,7 @@ void GmshParts::add_node(std::int64_t tag, std::size_t at, Vec3d point) {
 }
 
 bool GmshParts::tet(const GmshType& type, int width, std::int64_t region) {
+  in.begin_value();
   Cell cell{{}, in.at()};
   for (int k = 0; k < type.nodes; ++k) {
     std::int64_t tag = 0;

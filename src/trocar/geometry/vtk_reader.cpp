@@ -19,23 +19,6 @@
 namespace trocar::geometry {
 namespace {
 
-struct CellType {
-  int type;
-  const char* name;
-};
-constexpr CellType kCellTypes[] = {
-    {1, "vertices"},     {2, "vertices"},   {3, "lines"},     {4, "lines"},       {5, "triangles"},
-    {6, "triangles"},    {7, "polygons"},   {8, "pixels"},    {9, "quadrangles"}, {11, "voxels"},
-    {12, "hexahedra"},   {13, "prisms"},    {14, "pyramids"}, {21, "lines"},      {22, "triangles"},
-    {23, "quadrangles"}, {25, "hexahedra"}, {26, "prisms"},   {27, "pyramids"},   {42, "polyhedra"},
-};
-std::string cells_called(std::int64_t type) {
-  for (const CellType& t : kCellTypes)
-    if (t.type == type) return t.name;
-  return fmt::format("cells of type {}", type);
-}
-constexpr std::int64_t kTet = 10, kQuadraticTet = 24, kLagrangeTet = 71;
-
 class VtkReader {
  public:
   VtkReader(MeshSource& in, double scale) : m_in(in), m_values{in}, m_scale(scale) {}
@@ -43,7 +26,6 @@ class VtkReader {
   TetFile read() {
     header();
     while (m_stopped.empty() && !m_in.peek_word().empty()) keyword();
-    m_in.finish();
     assemble();
     m_in.finish();
     m_out.notes = m_left_out.notes();
@@ -119,13 +101,16 @@ class VtkReader {
     if (!m_start.empty()) m_in.lose(at, "expected CELLS once, got them again");
     const bool text = !m_values.binary();
     const std::size_t first = m_in.count("cells", text ? 2 : 1), size = m_in.count("cells' nodes", text ? 2 : 1);
+    m_in.skip_line();
+    const std::size_t values_at = m_in.at();
     if (m_values.next_word() == "offsets") return new_cells(first, size);
+    m_in.go_to(values_at);  // in binary files blanks are values, too
     old_cells(first, size);
   }
 
   /// @param size  of all numbers, those of nodes included
   void old_cells(std::size_t count, std::size_t size) {
-    m_values.begin();
+    m_in.set_form(m_values.form);
     const std::size_t least = m_in.binary() ? 4 : 2;
     if (size > m_in.left() / least || count > size)
       m_in.lose(m_in.at(), fmt::format("expected {} cells in {} numbers, got {} bytes", count, size, m_in.left()));
@@ -228,10 +213,9 @@ class VtkReader {
     const std::int64_t components = m_in.word_on_line() ? m_values.whole(kVtkInt, "the number of components") : 1;
     if (components < 1 || components > 4)
       m_in.lose(m_in.at(), fmt::format("expected 1 to 4 components, got {}", components));
-    if (m_values.next_word() == "lookup_table") {
-      m_in.word();
-      m_in.word();
-    }
+    m_in.skip_line();
+    if (m_values.word() != "lookup_table")
+      m_in.lose(m_in.at(), fmt::format("expected LOOKUP_TABLE of the scalars {}, got none", quoted(name)));
     array(name, *type, std::uint64_t(components), m_tuples);
   }
 
@@ -271,10 +255,12 @@ class VtkReader {
 
   void assemble() {
     const std::size_t cells = m_start.empty() ? 0 : m_start.size() - 1;
-    if (!m_have_points || m_start.empty() || m_types.size() != cells)
+    if (!m_have_points || m_start.empty() || m_types.size() != cells) {
+      m_in.finish();
       m_in.lose(kWholeFile,
                 fmt::format("expected POINTS, CELLS and as many CELL_TYPES, got {} points, {} cells, {} types",
                             m_out.mesh.points.size(), cells, m_types.size()));
+    }
     m_in.set_form(m_values.form);
     for (std::size_t c = 0; c < cells; ++c) cell(c);
     if (m_out.mesh.cells.empty() && m_in.faults() == 0)
@@ -282,13 +268,15 @@ class VtkReader {
   }
 
   void cell(std::size_t c) {
-    const std::int64_t type = m_types[c], nodes = m_start[c + 1] - m_start[c];
-    if (type != kTet && type != kQuadraticTet && type != kLagrangeTet) return m_left_out.cell(cells_called(type));
-    const std::int64_t wanted = type == kTet ? 4 : type == kQuadraticTet ? 10 : std::max<std::int64_t>(nodes, 4);
-    if (nodes != wanted) {
+    const std::int64_t nodes = m_start[c + 1] - m_start[c];
+    const VtkCell* type = vtk_cell(m_types[c]);
+    const bool fits = !type || (type->exactly ? nodes == type->nodes : nodes >= type->nodes);
+    if (!fits) {
       const std::size_t at = m_start[c] < std::int64_t(m_at.size()) ? m_at[m_start[c]] : kWholeFile;
-      return m_in.fault(at, fmt::format("expected {} nodes of a cell of type {}, got {}", wanted, type, nodes));
+      return m_in.fault(at, fmt::format("expected {}{} nodes of a cell of type {}, got {}",
+                                        type->exactly ? "" : "at least ", type->nodes, type->type, nodes));
     }
+    if (!type || !type->is_tet) return m_left_out.cell(type ? type->name : fmt::format("cells of type {}", m_types[c]));
     if (nodes > 4) m_left_out.middle_nodes(int(nodes));
     std::array<int, 4> corners{};
     for (int k = 0; k < 4; ++k) corners[k] = corner(std::size_t(m_start[c] + k));

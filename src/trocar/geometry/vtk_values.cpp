@@ -22,7 +22,24 @@ constexpr VtkType kTypes[] = {
     {"signed_char", 1, true, true},
 };
 
+constexpr VtkCell kCells[] = {
+    {1, 1, true, "vertices", false},    {2, 0, false, "vertices", false},    {3, 2, true, "lines", false},
+    {4, 0, false, "lines", false},      {5, 3, true, "triangles", false},    {6, 0, false, "triangles", false},
+    {7, 0, false, "polygons", false},   {8, 4, true, "pixels", false},       {9, 4, true, "quadrangles", false},
+    {10, 4, true, "tetrahedra", true},  {11, 8, true, "voxels", false},      {12, 8, true, "hexahedra", false},
+    {13, 6, true, "prisms", false},     {14, 5, true, "pyramids", false},    {21, 3, true, "lines", false},
+    {22, 6, true, "triangles", false},  {23, 8, true, "quadrangles", false}, {24, 10, true, "tetrahedra", true},
+    {25, 20, true, "hexahedra", false}, {26, 15, true, "prisms", false},     {27, 13, true, "pyramids", false},
+    {42, 0, false, "polyhedra", false}, {71, 4, false, "tetrahedra", true},
+};
+
 }  // namespace
+
+const VtkCell* vtk_cell(std::int64_t type) {
+  for (const VtkCell& cell : kCells)
+    if (cell.type == type) return &cell;
+  return nullptr;
+}
 
 std::string lower(std::string_view text) {
   std::string out(text);

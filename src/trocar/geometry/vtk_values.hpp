@@ -1,4 +1,5 @@
-// Values in legacy VTK files: their types, and arrays that are passed over. Used by vtk_reader.cpp only.
+// Values in legacy VTK files: their types, and arrays that are passed over; the kinds of cells. Used by vtk_reader.cpp
+// only.
 #pragma once
 
 #include <cstdint>
@@ -18,6 +19,15 @@ struct VtkType {
   bool whole, is_signed;
 };
 inline constexpr VtkType kVtkInt{"int", 4, true, true};
+
+/// How many nodes a cell has, and what such cells are called.
+struct VtkCell {
+  int type, nodes;
+  bool exactly;  ///< or at least so many
+  const char* name;
+  bool is_tet;
+};
+const VtkCell* vtk_cell(std::int64_t type);  ///< null where we know none
 
 struct VtkValues {
   MeshSource& in;
