@@ -1,0 +1,351 @@
+// A tick and a cut of a body that can be cut.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <trocar/tissue/cuttable.hpp>
+#include <trocar/tissue/network_kernels.hpp>
+#include <trocar/tissue/network_loads.hpp>
+#include <trocar/tissue/stability.hpp>
+
+namespace trocar::tissue {
+namespace {
+
+using geometry::CuttableTets;
+using geometry::Tet;
+
+constexpr int kMostSprings = 192;  // of a node; there is no mesh where so many cells meet that this is reached
+constexpr int kFreeColumns = 4;    // of a slice, for springs that a cut adds to a row
+constexpr double kSafety = 0.9;    // of what the time step bears
+
+double volume(const CuttableTets& b, const Tet& c) noexcept {
+  const auto x = [&](int i) { return b.rest[std::size_t(c[std::size_t(i)])]; };
+  return dot(x(1) - x(0), cross(x(2) - x(0), x(3) - x(0))) / 6;
+}
+
+int index_in(const Tet& c, int value) noexcept {
+  for (int i = 0; i < 4; ++i)
+    if (c[std::size_t(i)] == value) return i;
+  return 0;
+}
+
+constexpr int edge_between(int a, int b) noexcept {
+  constexpr int number[4][4] = {{-1, 0, 1, 2}, {0, -1, 3, 4}, {1, 3, -1, 5}, {2, 4, 5, -1}};
+  return number[a][b];
+}
+
+/// The springs of one node, each summed over the cells that bring to it.
+struct Bundle {
+  struct Spring {
+    int other;
+    float share, ratio;
+  };
+  Spring spring[kMostSprings];
+  int count = 0;
+
+  void add(int other, float share, float ratio) noexcept {
+    if (!(share > 0)) return;
+    for (int i = 0; i < count; ++i)
+      if (spring[i].other == other) {
+        spring[i].share += share;
+        return;
+      }
+    if (count < kMostSprings) spring[count++] = {other, share, ratio};
+  }
+};
+
+/// Makes the kernel's arrays for the State's cells.
+class Assembler {
+ public:
+  Assembler(const CuttableModel& model, const CuttableState& state, CuttableWork& work) noexcept
+      : m(model), b(state.tets), w(work) {}
+
+  /// Everything.
+  void make() noexcept {
+    gather_cells();
+    std::fill(w.node_of_row.begin(), w.node_of_row.end(), -1);
+    w.slices = 0;
+    w.slice_begin[0] = 0;
+    for (int i = 0; i < b.nodes; ++i) place(i), weigh(i), bear(i);
+    add_slices();
+  }
+
+  /// What the last cut changed; true if that was possible. A row that has become too long for its slice asks for
+  /// make().
+  bool update() noexcept {
+    gather_cells();
+    mark_changed();
+    for (int i = m.own_nodes; i < b.nodes; ++i) place(i);
+    for (int i = 0; i < b.nodes; ++i) {
+      if (w.changed[std::size_t(i)] != kChanged) continue;
+      weigh(i);
+      const float before = w.bearable[std::size_t(i)];
+      bear(i);
+      if (w.bearable[std::size_t(i)] != before) mark_neighbours(i);
+    }
+    const int there = w.slices;
+    for (int i = 0; i < b.nodes; ++i) {
+      const int row = m.row_of_node[std::size_t(i)];
+      if (w.changed[std::size_t(i)] != kSame && row < there * kSlice && !write_row(row)) return false;
+    }
+    add_slices();
+    return true;
+  }
+
+ private:
+  void gather_cells() noexcept {
+    std::fill(w.begin.begin(), w.begin.end(), 0);
+    for (const Tet& c : b.cells)
+      for (const std::int32_t node : c) ++w.begin[std::size_t(node) + 1];
+    for (std::size_t i = 1; i < w.begin.size(); ++i) w.begin[i] += w.begin[i - 1];
+    for (std::size_t t = 0; t < b.cells.size(); ++t)
+      for (const std::int32_t node : b.cells[t]) w.around[std::size_t(w.begin[std::size_t(node)]++)] = int(t);
+    for (std::size_t i = w.begin.size() - 1; i > 0; --i) w.begin[i] = w.begin[i - 1];
+    w.begin[0] = 0;
+  }
+  std::span<const int> cells_at(int node) const noexcept {
+    const std::size_t first = std::size_t(w.begin[std::size_t(node)]);
+    return {w.around.data() + first, std::size_t(w.begin[std::size_t(node) + 1]) - first};
+  }
+  void place(int node) noexcept { w.node_of_row[std::size_t(m.row_of_node[std::size_t(node)])] = node; }
+  void weigh(int node) noexcept {
+    double mass = 0;
+    for (const int t : cells_at(node)) mass += m.density * volume(b, b.cells[std::size_t(t)]) / 4;
+    w.mass[std::size_t(node)] = mass;
+    w.fixed[std::size_t(node)] = m.fixed[std::size_t(original(node))];
+  }
+
+  enum Change : std::uint8_t { kSame, kNeighbour, kChanged };
+  /// Corners of cells that the cut touched, and of those beyond their faces: springs go that far.
+  void mark_changed() noexcept {
+    std::fill(w.changed.begin(), w.changed.end(), std::uint8_t(kSame));
+    for (std::int32_t k = 0; k < w.cut.touched_count; ++k) {
+      const std::size_t t = std::size_t(w.cut.touched[std::size_t(k)]);
+      for (const std::int32_t node : b.cells[t]) w.changed[std::size_t(node)] = kChanged;
+      for (const std::int32_t u : b.across[t])
+        for (int i = 0; u >= 0 && i < 4; ++i)
+          w.changed[std::size_t(b.cells[std::size_t(u)][std::size_t(i)])] = kChanged;
+    }
+  }
+  void mark_neighbours(int node) noexcept {
+    const Bundle springs = springs_of(node);
+    for (int i = 0; i < springs.count; ++i) {
+      std::uint8_t& mark = w.changed[std::size_t(springs.spring[i].other)];
+      mark = std::max(mark, std::uint8_t(kNeighbour));
+    }
+  }
+
+  /// Cells in ascending order, so that both ends of a spring sum the same numbers in the same order.
+  Bundle springs_of(int node) const noexcept {
+    Bundle out;
+    for (const int t : cells_at(node)) {
+      const Tet& c = b.cells[std::size_t(t)];
+      const CellSprings& brings = m.brings[std::size_t(t)];
+      const int own = index_in(c, node);
+      for (int j = 0; j < 4; ++j) {
+        if (j == own) continue;
+        const int e = edge_between(own, j);
+        out.add(c[std::size_t(j)], brings.edge[e], brings.edge_ratio[e]);
+      }
+      const std::int32_t u = b.across[std::size_t(t)][std::size_t(own)];
+      if (u < 0) continue;
+      const int far = index_in(b.across[std::size_t(u)], t);
+      out.add(b.cells[std::size_t(u)][std::size_t(far)], brings.cross[own] + m.brings[std::size_t(u)].cross[far],
+              brings.cross_ratio[own]);
+    }
+    return out;
+  }
+
+  struct Drawn {
+    Vec3d n;
+    double length, k;
+  };
+  Drawn drawn(int node, const Bundle::Spring& s) const noexcept {
+    const int a = std::min(node, s.other), z = std::max(node, s.other);  // the same bits from either end
+    const Vec3d along = b.rest[std::size_t(z)] - b.rest[std::size_t(a)];
+    const double l = std::max(length(along), 1e-6);
+    return {along / l, l, double(s.share) / (l * l)};
+  }
+
+  /// How much of its springs' stiffness the node's mass bears in a sub-step.
+  void bear(int node) noexcept {
+    const Bundle springs = springs_of(node);
+    double block[6] = {};
+    for (int i = 0; i < springs.count; ++i) {
+      const Drawn d = drawn(node, springs.spring[i]);
+      const Vec3d n = d.n;
+      const double nn[6] = {n.x * n.x, n.y * n.y, n.z * n.z, n.x * n.y, n.x * n.z, n.y * n.z};
+      for (int c = 0; c < 6; ++c) block[c] += d.k * nn[c];
+    }
+    const double k = largest_eigenvalue(block[0], block[1], block[2], block[3], block[4], block[5]);
+    const double asks = m.dt * m.damping_time * k + 0.5 * m.dt * m.dt * k * std::max(1.0, double(m.cap_slope));
+    const double has = kSafety * w.mass[std::size_t(node)];
+    w.bearable[std::size_t(node)] = asks > has ? float(has / asks) : 1.0f;
+  }
+
+  /// Slices for rows that have none yet. Between the last spring and the slice's end a few columns stay free for cuts.
+  void add_slices() noexcept {
+    const int rows = m.own_rows + b.nodes - m.own_nodes, all = (rows + kSlice - 1) / kSlice;
+    for (; w.slices < all; ++w.slices) {
+      const int first = w.slice_begin[std::size_t(w.slices)];
+      int width = 0;
+      for (int lane = 0; lane < kSlice; ++lane) {
+        const int node = w.node_of_row[std::size_t(w.slices * kSlice + lane)];
+        if (node >= 0) width = std::max(width, springs_of(node).count);
+      }
+      // The last slice will take more doubles.
+      if (w.slices == all - 1 && w.slices >= m.own_rows / kSlice) width = std::max(width, m.widest);
+      w.slice_begin[std::size_t(w.slices) + 1] = std::min(first + width + kFreeColumns, m.packs);
+      for (int lane = 0; lane < kSlice; ++lane) write_row(w.slices * kSlice + lane);
+    }
+  }
+
+  /// False where it does not fit into its slice.
+  bool write_row(int row) noexcept {
+    const int s = row / kSlice, lane = row % kSlice, node = w.node_of_row[std::size_t(row)];
+    const int first = w.slice_begin[std::size_t(s)], width = w.slice_begin[std::size_t(s) + 1] - first;
+    RowPack& r = w.row_packs[std::size_t(s)];
+    r.wx[lane] = r.wy[lane] = r.wz[lane] = 0;
+    int used = 0;
+    if (node >= 0) {
+      const float weight = float(m.dt / (w.mass[std::size_t(node)] * (1 + m.dt * m.gamma)));
+      const int held = w.fixed[std::size_t(node)];
+      r.wx[lane] = held & kHeldX ? 0.0f : weight;
+      r.wy[lane] = held & kHeldY ? 0.0f : weight;
+      r.wz[lane] = held & kHeldZ ? 0.0f : weight;
+      const Bundle springs = springs_of(node);
+      if (springs.count > width) return false;
+      for (; used < springs.count; ++used) put(w.packs[std::size_t(first + used)], lane, node, springs.spring[used]);
+    }
+    for (int c = used; c < width; ++c) pad(w.packs[std::size_t(first + c)], row);
+    return true;
+  }
+  int original(int node) const noexcept {
+    while (b.source[std::size_t(node)] != node) node = b.source[std::size_t(node)];
+    return node;
+  }
+  static void pad(HalfEdgePack& p, int row) noexcept {
+    const int lane = row % kSlice;
+    p.offset[lane] = std::uint32_t(row) * std::uint32_t(sizeof(NodeState));
+    p.inv_rest[lane] = p.stiffness[lane] = p.damping[lane] = 0;
+  }
+  void put(HalfEdgePack& p, int lane, int node, const Bundle::Spring& s) const noexcept {
+    const Drawn d = drawn(node, s);
+    const double soft = std::min(w.bearable[std::size_t(node)], w.bearable[std::size_t(s.other)]);
+    const double rest = d.length * double(s.ratio);
+    p.offset[lane] = std::uint32_t(m.row_of_node[std::size_t(s.other)]) * std::uint32_t(sizeof(NodeState));
+    p.inv_rest[lane] = float(1 / rest);
+    p.stiffness[lane] = float(soft * d.k * rest);
+    p.damping[lane] = float(soft * d.k * m.damping_time);
+  }
+
+  const CuttableModel& m;
+  const CuttableTets& b;
+  CuttableWork& w;
+};
+
+void make_current(const CuttableModel& m, const CuttableState& s, CuttableWork& w) noexcept {
+  if (w.made_for == s.version) return;
+  Assembler(m, s, w).make();
+  w.made_for = s.version;
+}
+
+KernelArgs kernel_args(const CuttableModel& m, const CuttableWork& w) noexcept {
+  KernelArgs a;
+  a.packs = w.packs.data();
+  a.rows = w.row_packs.data();
+  a.slice_begin = w.slice_begin.data();
+  a.p1 = m.p1, a.p2 = m.p2, a.cap = m.cap, a.cap_slope = m.cap_slope;
+  const double decay = 1 / (1 + m.dt * m.gamma);
+  a.decay = float(decay);
+  for (int i = 0; i < 3; ++i) a.gravity_step[i] = float(m.dt * m.gravity[i] * decay);
+  a.dt = float(m.dt);
+  return a;
+}
+
+int first_non_finite(const CuttableModel& m, const CuttableState& s) noexcept {
+  for (int i = 0; i < s.tets.nodes; ++i) {
+    const NodeState& n = s.nodes[std::size_t(m.row_of_node[std::size_t(i)])];
+    const float size =
+        ((std::fabs(n.x) + std::fabs(n.y)) + std::fabs(n.z)) + ((std::fabs(n.vx) + std::fabs(n.vy)) + std::fabs(n.vz));
+    if (!(size < 1e6f)) return i;
+  }
+  return -1;
+}
+
+}  // namespace
+
+StepReport advance(const CuttableModel& m, std::span<const NodeLoad> loads, std::span<Vec3f> reactions,
+                   CuttableState& s, CuttableWork& w) noexcept {
+  make_current(m, s, w);
+  const LoadedBody body{s.tets.nodes, m.dt, m.gamma, m.substeps, m.origin, w.mass, w.fixed, m.row_of_node};
+  StepReport report = check_loads(body, loads);
+  for (Vec3f& r : reactions) r = {};
+  KernelArgs args = kernel_args(m, w);
+  bool fine = true;
+  for (int i = 0; i < m.substeps; ++i) {
+    args.in = s.nodes.data();
+    args.out = w.other.data();
+    fine = kernels().substep(args, 0, w.slices) && fine;
+    fine = apply_loads(body, loads, reactions, args.in, args.out) && fine;
+    std::swap(s.nodes, w.other);
+  }
+  std::fill(s.nodes.begin() + std::ptrdiff_t(w.slices) * kSlice, s.nodes.end(), NodeState{});  // not used yet
+  if (!fine) report = StepReport{StepReport::kNonFinite, first_non_finite(m, s)} | report;
+  return report;
+}
+
+geometry::CutBook cut(const CuttableModel& m, const geometry::Blade& blade, CuttableState& s,
+                      CuttableWork& w) noexcept {
+  make_current(m, s, w);
+  for (int i = 0; i < s.tets.nodes; ++i) w.now[std::size_t(i)] = position(m, s, i);
+  const geometry::CutBook book = geometry::cut(s.tets, blade, w.now, w.cut);
+  if (book.snapped + book.parted == 0) return book;
+  for (int i = 0; i < book.first_new; ++i) {
+    if (!w.cut.at_blade[std::size_t(i)]) continue;
+    const Vec3f x = vec_cast<float>(w.now[std::size_t(i)] - m.origin);
+    NodeState& node = s.nodes[std::size_t(m.row_of_node[std::size_t(i)])];
+    node.x = x.x, node.y = x.y, node.z = x.z;
+  }
+  for (int i = book.first_new; i < s.tets.nodes; ++i)
+    s.nodes[std::size_t(m.row_of_node[std::size_t(i)])] =
+        s.nodes[std::size_t(m.row_of_node[std::size_t(s.tets.source[std::size_t(i)])])];
+  s.volume += book.volume;
+  ++s.version;
+  if (Assembler(m, s, w).update()) w.made_for = s.version;
+  return book;
+}
+
+Vec3d position(const CuttableModel& m, const CuttableState& s, int node) noexcept {
+  const NodeState& n = s.nodes[std::size_t(m.row_of_node[std::size_t(node)])];
+  return m.origin + Vec3d{double(n.x), double(n.y), double(n.z)};
+}
+Vec3d velocity(const CuttableModel& m, const CuttableState& s, int node) noexcept {
+  const NodeState& n = s.nodes[std::size_t(m.row_of_node[std::size_t(node)])];
+  return {double(n.vx), double(n.vy), double(n.vz)};
+}
+void set_velocity(const CuttableModel& m, CuttableState& s, int node, Vec3d v) noexcept {
+  NodeState& n = s.nodes[std::size_t(m.row_of_node[std::size_t(node)])];
+  n.vx = float(v.x), n.vy = float(v.y), n.vz = float(v.z);
+}
+
+double mass_of(const CuttableModel& m, const CuttableState& s, int node) noexcept {
+  double mass = 0;
+  for (const Tet& c : s.tets.cells)
+    for (const std::int32_t corner : c)
+      if (corner == node) mass += m.density * volume(s.tets, c) / 4;
+  return mass;
+}
+
+void add_to_hash(core::Hasher& h, const CuttableState& s) noexcept {
+  h.add(s.nodes);
+  h.add(s.tets.rest);
+  h.add(s.tets.source);
+  h.add(s.tets.nodes);
+  h.add(s.tets.cells);
+  h.add(s.tets.across);
+  h.add(s.version);
+  h.add(s.volume);
+}
+
+}  // namespace trocar::tissue
