@@ -1,4 +1,5 @@
-// trocar check: what a scene, organ, instrument, tissue table or exercise compiles to, or every fault that it has.
+// trocar check: what a scene, organ, instrument, tissue table or exercise compiles to, what a mesh of tetrahedra holds,
+// or every fault that they have.
 #include <algorithm>
 #include <chrono>
 
@@ -10,6 +11,7 @@
 #include <trocar/scene/json.hpp>
 #include <trocar/scene/reader.hpp>
 
+#include "check_mesh.hpp"
 #include "command.hpp"
 #include "json.hpp"
 #include "lesson.hpp"
@@ -108,8 +110,10 @@ Json describe_organ(const fs::path& path, const scene::JsonValue& root) {
   return {{"note", "no scene uses this organ, so there is nothing to compile it in"}};
 }
 
+/// @param unit  of meshes, in metres
 /// @throws core::BadInput with all faults of the file
-Json check_one(const fs::path& path) {
+Json check_one(const fs::path& path, double unit) {
+  if (is_mesh_file(path)) return describe_mesh(path, unit);
   std::vector<core::Fault> faults;
   const scene::JsonDocument document = scene::load_json(path, faults);
   if (!faults.empty()) throw core::BadInput(scene::check_file(path));  // with what else is wrong beside the JSON
@@ -137,7 +141,9 @@ Json check_one(const fs::path& path) {
 }
 
 void print_for_people(const Json& r) {
-  fmt::print("{}: {}, good\n", r["file"].get<std::string>(), r["kind"].get<std::string>());
+  const bool to_mend = r.contains("repairs") && !r["repairs"].empty();
+  fmt::print("{}: {}, {}\n", r["file"].get<std::string>(), r["kind"].get<std::string>(), to_mend ? "to mend" : "good");
+  if (r.contains("mesh")) print_mesh(r);
   if (r.contains("note")) fmt::print("  {}\n", r["note"].get<std::string>());
   if (!r.contains("bodies")) return;
   fmt::print("  {:24} {:7} {:>7} {:>8} {:>9} {:>13} {:>7} {:>16} {:>9}\n", "body", "kind", "nodes", "springs",
@@ -158,12 +164,12 @@ void print_for_people(const Json& r) {
              m["work"].get<std::size_t>(), r["tick_at_rest_us"].get<double>());
 }
 
-int check(const std::vector<std::string>& files, bool json) {
+int check(const std::vector<std::string>& files, double unit, bool json) {
   Json results = Json::array();
   std::vector<core::Fault> faults;
   for (const std::string& file : files) {
     try {
-      results.push_back(check_one(file));
+      results.push_back(check_one(file, unit));
       if (!json) print_for_people(results.back());
     } catch (const core::BadInput& bad) {  // go on: all faults of all files in one pass
       faults.insert(faults.end(), bad.faults().begin(), bad.faults().end());
@@ -178,10 +184,16 @@ int check(const std::vector<std::string>& files, bool json) {
 
 void add_check(CLI::App& program, Chosen& chosen) {
   auto files = std::make_shared<std::vector<std::string>>();
-  CLI::App* c = add_command(program, chosen, "check", "Say what files compile to, or all their faults",
-                            "trocar check scenes/organs/uterus.json scenes/gynaecology/sterilisation.json");
-  c->add_option("files", *files, "scenes, organs, instruments, tissue tables, exercises")->required();
-  c->callback([files, &chosen] { chosen.run = [files, &chosen] { return check(*files, chosen.json); }; });
+  auto unit_mm = std::make_shared<double>(1.0);
+  CLI::App* c = add_command(program, chosen, "check", "Say what files compile to or hold, or all their faults",
+                            "trocar check scenes/organs/uterus.json scenes/gynaecology/sterilisation.json liver.msh");
+  c->add_option("files", *files,
+                "scenes, organs, instruments, tissue tables, exercises; meshes of tetrahedra (.msh, .vtk)")
+      ->required();
+  c->add_option("--unit-mm", *unit_mm, "the unit of meshes' coordinates in mm")
+      ->check(CLI::Range(1e-6, 1e6))
+      ->capture_default_str();
+  c->callback([=, &chosen] { chosen.run = [=, &chosen] { return check(*files, *unit_mm * 1e-3, chosen.json); }; });
 }
 
 }  // namespace trocar::app

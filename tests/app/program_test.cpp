@@ -136,6 +136,32 @@ TEST_F(Program, CheckTellsAllFaultsOfAllFilesWithTheirPlaces) {
   EXPECT_GE(o.json()["faults"].size(), 2u);
 }
 
+TEST_F(Program, CheckSaysWhatIsWrongWithAMeshAndWhatCanBeMended) {
+  std::ofstream(file("body.msh")) << "$NOD\n6\n1 0 0 0\n2 10 0 0\n3 0 10 0\n4 0 0 10\n5 0 0 -10\n9 1 1 1\n$ENDNOD\n"
+                                     "$ELM\n2\n1 4 1 1 4 1 2 4 3\n2 4 1 1 4 1 3 2 5\n$ENDELM\n";
+  const Outcome o = trocar({"check", file("body.msh"), "--json"});
+  ASSERT_EQ(o.exit, core::kDone) << o.err;
+  const Json mesh = o.json()["files"][0];
+  EXPECT_EQ(mesh["format"], "Gmsh 1, text");
+  EXPECT_NEAR(mesh["mesh"]["volume_ml"].get<double>(), 1.0 / 3, 1e-9);
+  EXPECT_EQ(mesh["repairs"], (Json{"1 inverted cell turned", "1 node without a cell left out"}));
+  EXPECT_EQ(mesh["repaired"]["nodes"], 5);
+  EXPECT_NE(trocar({"check", file("body.msh")}).out.find("to mend: 1 inverted cell turned"), std::string::npos);
+  const Json metres = trocar({"check", file("body.msh"), "--unit-mm", "1000", "--json"}).json()["files"][0];
+  EXPECT_NEAR(metres["mesh"]["volume_ml"].get<double>(), 1e9 / 3, 1);
+}
+
+TEST_F(Program, CheckTellsEveryFaultOfAMesh) {
+  std::ofstream(file("bad.msh"))
+      << "$NOD\n4\n1 0 0 0\n2 nan 0 0\n3 0 1 0\n4 0 0 1\n$ENDNOD\n$ELM\n1\n1 4 1 1 4 1 2 3 7\n$ENDELM\n";
+  const Outcome o = trocar({"check", file("bad.msh"), file("none.vtk")});
+  EXPECT_EQ(o.exit, core::kBadInput);
+  EXPECT_NE(o.err.find("bad.msh:4:3: expected an x coordinate, got 'nan'"), std::string::npos) << o.err;
+  EXPECT_NE(o.err.find("bad.msh:10:11: expected the number of a node that is there, got 7"), std::string::npos)
+      << o.err;
+  EXPECT_NE(o.err.find("none.vtk: expected a file, got none of this name"), std::string::npos) << o.err;
+}
+
 TEST_F(Program, CheckSaysWhatTheExerciseCompilesTo) {
   const Outcome o = trocar({"check", TROCAR_SOURCE_DIR "/scenes/gynaecology/sterilisation.json", "--json"});
   ASSERT_EQ(o.exit, core::kDone) << o.err;

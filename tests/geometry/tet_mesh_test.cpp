@@ -101,6 +101,7 @@ TEST(TetMesh, InvertedCellsAreTurned) {
   std::swap(mesh.cells[8][1], mesh.cells[8][3]);
   EXPECT_EQ(inspect(mesh).inverted, 2);
   EXPECT_NEAR(inspect(mesh).volume, 8, 1e-12);
+  EXPECT_NEAR(inspect(mesh).smallest_dihedral, 45, 1e-9);
   const TetRepair r = repair(mesh);
   EXPECT_EQ(words(r), Words{"2 inverted cells turned"});
   for (int c = 0; c < int(r.mesh.cells.size()); ++c) EXPECT_GT(volume(r.mesh, c), 0);

@@ -1,10 +1,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
+#include <trocar/geometry/tet_cut.hpp>
 #include <trocar/geometry/tet_faces.hpp>
 #include <trocar/geometry/tet_mesh.hpp>
-#include <trocar/numerics/portable.hpp>
 
 namespace trocar::geometry {
 namespace {
@@ -84,7 +85,10 @@ void measure_cells(const TetMesh& mesh, TetFacts& facts) {
       continue;
     }
     if (v < 0) ++facts.inverted;
-    const double angle = smallest_dihedral(mesh, c);
+    std::array<Vec3d, 4> corner{};
+    for (int k = 0; k < 4; ++k) corner[k] = mesh.points[mesh.cells[c][k]];
+    if (v < 0) std::swap(corner[2], corner[3]);
+    const double angle = least_dihedral(corner);
     facts.smallest_volume = good == 0 ? size : std::min(facts.smallest_volume, size);
     facts.smallest_dihedral = good == 0 ? angle : std::min(facts.smallest_dihedral, angle);
     ++good;
@@ -97,19 +101,6 @@ double volume(const TetMesh& mesh, int cell) {
   const auto& [a, b, c, d] = mesh.cells[cell];
   const Vec3d p = mesh.points[a];
   return dot(mesh.points[b] - p, cross(mesh.points[c] - p, mesh.points[d] - p)) / 6.0;
-}
-
-double smallest_dihedral(const TetMesh& mesh, int cell) {
-  static constexpr int kEdges[6][4] = {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2},
-                                       {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}};
-  const auto point = [&](int k) { return mesh.points[mesh.cells[cell][k]]; };
-  double smallest = portable::pi;
-  for (const auto& [i, j, k, l] : kEdges) {
-    const Vec3d edge = point(j) - point(i);
-    const Vec3d m = cross(edge, point(k) - point(i)), n = cross(edge, point(l) - point(i));
-    smallest = std::min(smallest, portable::atan2(length(cross(m, n)), dot(m, n)));
-  }
-  return smallest * 180.0 / portable::pi;
 }
 
 TetFacts inspect(const TetMesh& mesh, double tolerance) {

@@ -98,7 +98,5 @@ TetSurface surface_of(const TetMesh& mesh);
 
 /// Volume of a cell, negative where it is inverted.
 double volume(const TetMesh& mesh, int cell);
-/// The smallest of the six angles between a cell's faces, degrees.
-double smallest_dihedral(const TetMesh& mesh, int cell);
 
 }  // namespace trocar::geometry
