@@ -41,7 +41,10 @@ soak=(
   clang                # the same bits from a second compiler
   libclang-rt-14-dev   # its fuzzer and sanitizers
 )
-dev=(clang-format clang-tidy libc++-dev libc++abi-dev)
+dev=(
+  clang-format clang-tidy libc++-dev libc++abi-dev
+  libfcl-dev           # what the surface search is measured beside, with Bullet
+)
 
 list_only=false
 [ "${1:-}" = --list ] && { list_only=true; shift; }
