@@ -4,6 +4,7 @@
 #include <string>
 
 #include <trocar/geometry/tet_cut.hpp>
+#include <trocar/geometry/tet_faces.hpp>
 #include <trocar/numerics/portable.hpp>
 
 namespace trocar::geometry {
@@ -294,11 +295,6 @@ class Cutter {
   CutBook m_book;
 };
 
-struct Side {
-  std::array<std::int32_t, 3> corners;  // ascending
-  std::int32_t cell, face;
-};
-
 }  // namespace
 
 double least_dihedral(const std::array<Vec3d, 4>& x) noexcept {
@@ -314,30 +310,22 @@ CuttableTets cuttable(std::span<const Vec3d> points, std::span<const Tet> cells,
   for (std::size_t i = 0; i < b.rest.size(); ++i) b.source.push_back(std::int32_t(i));
   b.cells.assign(cells.begin(), cells.end());
   b.across.assign(cells.size(), {-1, -1, -1, -1});
-  std::vector<Side> sides;
   for (std::size_t t = 0; t < cells.size(); ++t) {
     for (const std::int32_t node : cells[t])
       if (node < 0 || std::size_t(node) >= points.size())
         throw std::invalid_argument("cell " + std::to_string(t) + ": expected corners that exist");
     if (!(volume6(corners(points, cells[t])) > 0))
       throw std::invalid_argument("cell " + std::to_string(t) + ": expected positive volume");
-    for (std::int32_t f = 0; f < 4; ++f) {
-      const Tet& c = cells[t];
-      Side s{
-          {c[std::size_t(kFace[f][0])], c[std::size_t(kFace[f][1])], c[std::size_t(kFace[f][2])]}, std::int32_t(t), f};
-      std::sort(s.corners.begin(), s.corners.end());
-      sides.push_back(s);
-    }
   }
-  std::stable_sort(sides.begin(), sides.end(), [](const Side& p, const Side& q) { return p.corners < q.corners; });
-  for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
-    const Side &p = sides[i], &q = sides[i + 1];
-    if (p.corners != q.corners) continue;
-    if (i + 2 < sides.size() && sides[i + 2].corners == p.corners)
-      throw std::invalid_argument("cell " + std::to_string(p.cell) + ": expected at most two cells at a face");
-    b.across[std::size_t(p.cell)][std::size_t(p.face)] = q.cell;
-    b.across[std::size_t(q.cell)][std::size_t(q.face)] = p.cell;
-  }
+  const TetMesh mesh{{points.begin(), points.end()}, b.cells, {}};
+  for_each_face(sorted_faces(mesh), [&](std::span<const TetFace> same) {
+    if (same.size() > 2)
+      throw std::invalid_argument("cell " + std::to_string(same[2].cell) + ": expected at most two cells at a face");
+    if (same.size() < 2) return;
+    for (int i = 0; i < 2; ++i)
+      b.across[std::size_t(same[std::size_t(i)].cell)][std::size_t(same[std::size_t(i)].opposite)] =
+          same[std::size_t(1 - i)].cell;
+  });
   return b;
 }
 

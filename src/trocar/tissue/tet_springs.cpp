@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <string>
 
+#include <trocar/geometry/tet_cut.hpp>
 #include <trocar/tissue/spring_medium.hpp>
 #include <trocar/tissue/tet_springs.hpp>
 
@@ -33,11 +34,6 @@ struct Spring {
   Vec3d n{};                             // from a to b
   std::array<double, kModes> stretch{};  // l n.(strain n)
   std::array<int, 2> cells{-1, -1};      // of a spring across a face
-};
-
-struct Face {
-  std::array<int, 3> corners;  // ascending
-  int cell, opposite;
 };
 
 [[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument("tetrahedra: expected " + what); }
@@ -118,36 +114,24 @@ std::vector<Spring> edge_springs(std::span<const Vec3d> points, std::span<const 
   return out;
 }
 
-std::vector<Face> sorted_faces(std::span<const Cell> cells) {
-  std::vector<Face> faces;
-  faces.reserve(4 * cells.size());
-  for (std::size_t t = 0; t < cells.size(); ++t)
-    for (int out = 0; out < 4; ++out) {
-      Face f{{}, int(t), cells[t][std::size_t(out)]};
-      for (int i = 0, k = 0; i < 4; ++i)
-        if (i != out) f.corners[std::size_t(k++)] = cells[t][std::size_t(i)];
-      std::sort(f.corners.begin(), f.corners.end());
-      faces.push_back(f);
-    }
-  std::stable_sort(faces.begin(), faces.end(), [](const Face& p, const Face& q) { return p.corners < q.corners; });
-  return faces;
-}
-
 /// One through each inner face, started with a quarter of the stiffness of the two cells beside it.
 void add_cross_springs(std::span<const Vec3d> points, std::span<const Cell> cells, std::span<const double> volume,
                        const Media& media, std::vector<Spring>& springs) {
-  const std::vector<Face> faces = sorted_faces(cells);
-  for (std::size_t i = 0; i + 1 < faces.size(); ++i) {
-    const Face &f = faces[i], &g = faces[i + 1];
-    if (f.corners != g.corners || f.opposite == g.opposite) continue;
-    Spring s = spring(points, f.opposite, g.opposite);
-    s.cells = {f.cell, g.cell};
-    for (const int cell : s.cells) {
-      const SpringMedium medium = media.of(std::size_t(cell));
-      s.start += kCrossShare * volume[std::size_t(cell)] * medium.s * medium.density(s.n) / 4;
+  const std::vector<geometry::Tet> across = geometry::cuttable(points, cells, 0).across;
+  for (std::size_t t = 0; t < cells.size(); ++t)
+    for (std::size_t f = 0; f < 4; ++f) {
+      const int u = across[t][f];
+      if (u < int(t)) continue;  // the surface, or there already
+      const auto& back = across[std::size_t(u)];
+      const auto far = std::size_t(std::find(back.begin(), back.end(), int(t)) - back.begin());
+      Spring s = spring(points, cells[t][f], cells[std::size_t(u)][far]);
+      s.cells = {int(t), u};
+      for (const int cell : s.cells) {
+        const SpringMedium medium = media.of(std::size_t(cell));
+        s.start += kCrossShare * volume[std::size_t(cell)] * medium.s * medium.density(s.n) / 4;
+      }
+      springs.push_back(s);
     }
-    springs.push_back(s);
-  }
 }
 
 /// What the medium asks of every node, with the sign that makes springs less medium the wrong force.
