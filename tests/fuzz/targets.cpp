@@ -17,6 +17,7 @@ std::span<const Target> targets() {
       {"settings", settings_file, 4'000, settings_seeds, json_words, mutate_json, cross_json},
       {"trace", trace_bytes, 4'000, trace_seeds, nullptr, mutate_trace},
       {"trace_csv", trace_csv, 4'000, trace_csv_seeds},
+      {"tet_mesh", tet_mesh_file, 4'000, tet_mesh_seeds, tet_mesh_words},
   };
   return all;
 }

@@ -30,6 +30,9 @@ std::vector<Seed> trace_seeds();
 std::size_t mutate_trace(std::uint8_t* data, std::size_t size, std::size_t capacity, unsigned seed);
 void trace_csv(Bytes bytes);
 std::vector<Seed> trace_csv_seeds();
+void tet_mesh_file(Bytes bytes);
+std::vector<Seed> tet_mesh_seeds();
+std::vector<std::string> tet_mesh_words();
 
 /// So small that a compile takes milliseconds.
 bool quick_to_compile(const scene::Description& description);
