@@ -142,7 +142,7 @@ void strand(benchmark::State& bench) {
 
 #ifdef TROCAR_BULLET
 void beside_bullet(benchmark::State& bench) {
-  const NetworkDescription d = tetrahedral_cube(22);
+  const NetworkDescription d = tetrahedral_cube(int(bench.range(0)));
   Body body(d);
 
   btSoftBodyWorldInfo info;
@@ -178,8 +178,43 @@ void beside_bullet(benchmark::State& bench) {
   bench.counters["times_ours"] = per_link / body.ns_per_spring(ours);
   bench.counters["step_times_ours"] = per_step / body.ns_per_spring(ours);
 }
-BENCHMARK(beside_bullet)->Iterations(50)->Unit(benchmark::kMicrosecond);
+BENCHMARK(beside_bullet)->Arg(10)->Arg(22)->Arg(46)->Iterations(30)->Unit(benchmark::kMicrosecond);
 #endif
+
+/// Bodies of 1,000, 10,648 and 97,336 nodes in turns: does a spring of a large body cost more than one of a small one?
+void sizes(benchmark::State& bench) {
+  Body small(tetrahedral_cube(10)), middle(tetrahedral_cube(22)), large(tetrahedral_cube(46));
+  Body* bodies[] = {&small, &middle, &large};
+  double best[] = {1e9, 1e9, 1e9};
+  for (auto _ : bench)
+    for (int i = 0; i < 3; ++i)
+      best[i] = std::min(best[i], fastest(i < 2 ? 10 : 1, [&] {
+                           advance(bodies[i]->model, {}, {}, bodies[i]->state, bodies[i]->work);
+                         }));
+  double ns[3];
+  for (int i = 0; i < 3; ++i) ns[i] = bodies[i]->ns_per_spring(best[i]);
+  bench.counters["ns_1000"] = ns[0];
+  bench.counters["ns_10648"] = ns[1];
+  bench.counters["ns_97336"] = ns[2];
+  bench.counters["largest_to_middle"] = ns[2] / ns[1];
+  bench.counters["smallest_to_middle"] = ns[0] / ns[1];
+}
+BENCHMARK(sizes)->Iterations(30)->Unit(benchmark::kMillisecond);
+
+/// One and two threads in turns at 97,336 nodes.
+void second_thread(benchmark::State& bench) {
+  Body body(tetrahedral_cube(46));
+  core::ThreadPool pool(2);
+  double one = 1e9, two = 1e9;
+  for (auto _ : bench) {
+    one = std::min(one, fastest(1, [&] { advance(body.model, {}, {}, body.state, body.work); }));
+    two = std::min(two, fastest(1, [&] { advance(body.model, {}, {}, body.state, body.work, &pool); }));
+  }
+  bench.counters["ns_one"] = body.ns_per_spring(one);
+  bench.counters["ns_two"] = body.ns_per_spring(two);
+  bench.counters["gain"] = one / two;
+}
+BENCHMARK(second_thread)->Iterations(30)->UseRealTime()->Unit(benchmark::kMillisecond);
 
 const int registered = [] {
   for (const char* simd : {"generic", "sse2", "avx2", "avx512"}) {
