@@ -82,6 +82,8 @@ std::vector<std::string> tet_mesh_words() {
   return {"$MeshFormat\n",
           "$EndMeshFormat\n",
           "$Nodes\n",
+          "$ParametricNodes\n",
+          "$EndParametricNodes\n",
           "$EndNodes\n",
           "$Elements\n",
           "$EndElements\n",

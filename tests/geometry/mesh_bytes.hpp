@@ -81,14 +81,17 @@ inline std::string gmsh40_binary(bool swapped) {
   f.all<std::int32_t>(2, 3, 4).all<std::uint64_t>(1).all<std::int32_t>(9, 10, 77, 3, 12);
   return f.text("\n$EndElements\n").bytes;
 }
-inline std::string gmsh41_binary(bool swapped) {
+/// @param empty_blocks  of nodes, in front of the full one
+inline std::string gmsh41_binary(bool swapped, int empty_blocks = 0) {
   MeshBytes f{swapped};
   f.text("$MeshFormat\n4.1 1 8\n").all<std::int32_t>(1).text("\n$EndMeshFormat\n$Entities\n");
   f.all<std::uint64_t>(1, 0, 0, 2).all<std::int32_t>(1).all<double>(0, 0, 0).all<std::uint64_t>(0);
   f.all<std::int32_t>(1).all<double>(0, 0, 0, 1, 1, 1).all<std::uint64_t>(1).all<std::int32_t>(5).all<std::uint64_t>(0);
   f.all<std::int32_t>(2).all<double>(0, 0, 0, 1, 1, 1).all<std::uint64_t>(1).all<std::int32_t>(6);
   f.all<std::uint64_t>(1).all<std::int32_t>(-3).text("\n$EndEntities\n$Nodes\n");
-  f.all<std::uint64_t>(1, 5, 3, 77).all<std::int32_t>(3, 1, 0).all<std::uint64_t>(5, 10, 3, 77, 4, 12);
+  f.all<std::uint64_t>(1 + empty_blocks, 5, 3, 77);
+  for (int i = 0; i < empty_blocks; ++i) f.all<std::int32_t>(2, 1, 0).all<std::uint64_t>(0);
+  f.all<std::int32_t>(3, 1, 0).all<std::uint64_t>(5, 10, 3, 77, 4, 12);
   f.all<double>(0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, -1).text("\n$EndNodes\n$Elements\n");
   f.all<std::uint64_t>(3, 3, 2, 9).all<std::int32_t>(2, 1, 2).all<std::uint64_t>(1, 2, 10, 3, 77);
   f.all<std::int32_t>(3, 1, 4).all<std::uint64_t>(1, 3, 10, 3, 77, 4);

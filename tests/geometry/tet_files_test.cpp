@@ -92,6 +92,38 @@ TEST(TetFiles, GmshReadsAsBinaryOfEitherByteOrder) {
   EXPECT_EQ(read_tets(gmsh41_binary(true), "a.msh").format, "Gmsh 4.1, binary, other byte order");
 }
 
+TEST(TetFiles, NumbersThatLookLikeBlanksAreNumbers) {
+  for (const int blocks : {' ', '\n', '\r', '\t', '$'})
+    for (const bool swapped : {false, true})
+      expect_two_cells(read_tets(gmsh41_binary(swapped, blocks - 1), "a.msh"), {5, 6});
+}
+
+TEST(TetFiles, NodesMayHaveParametersOfTheirEntities) {
+  const auto with_parameters = [](std::string text) {
+    text = replaced(text, "10 0 0 0\n", "10 0 0 0 0 4\n");
+    text = replaced(text, "3 1 0 0\n", "3 1 0 0 1 4 0.5\n");
+    text = replaced(text, "77 0 1 0\n", "77 0 1 0 2 4 0.5 -0.5\n");
+    return replaced(text, "4 0 0 1\n", "4 0 0 1 3 4\n");
+  };
+  expect_two_cells(read_tets(with_parameters(kGmsh1), "a.msh"), {5, 6});
+  const std::string text =
+      replaced(with_parameters(replaced(kGmsh2, "12 0 0 -1\n", "12 0 0 -1 0 4\n")), "$Nodes", "$ParametricNodes");
+  expect_two_cells(read_tets(replaced(text, "$EndNodes", "$EndParametricNodes"), "a.msh"), {5, 6});
+  for (const bool swapped : {false, true}) {
+    const std::string good = gmsh2_binary(swapped);
+    const std::size_t nodes = good.find("$Nodes\n5\n") + 9, end = good.find("\n$EndNodes");
+    MeshBytes f{swapped};
+    f.text(replaced(good.substr(0, nodes), "$Nodes", "$ParametricNodes"));
+    f.text(good.substr(nodes, 28)).all<std::int32_t>(0, 1);
+    f.text(good.substr(nodes + 28, 28)).all<std::int32_t>(1, 1).all<double>(0.5);
+    f.text(good.substr(nodes + 56, 28)).all<std::int32_t>(2, 1).all<double>(0.5, 0.5);
+    f.text(good.substr(nodes + 84, 28)).all<std::int32_t>(3, 1);
+    f.text(good.substr(nodes + 112, 28)).all<std::int32_t>(0, 1);
+    f.text(replaced(good.substr(end), "$EndNodes", "$EndParametricNodes"));
+    expect_two_cells(read_tets(f.bytes, "a.msh"), {5, 6});
+  }
+}
+
 TEST(TetFiles, VtkReadsInBothLayoutsAsTextAndBinary) {
   for (const std::string& bytes : {kVtk, kVtk5, vtk_binary(), vtk5_binary()}) {
     const TetFile file = read_tets(bytes, "a.vtk");
@@ -148,8 +180,10 @@ TEST(TetFiles, FaultsSayWhereAndWhatWasExpected) {
   EXPECT_EQ(faults_of(replaced(kGmsh1, "3 1 0 0\n", "3 1 abc 0\n")), "a.msh:4:5: expected a y coordinate, got 'abc'");
   EXPECT_EQ(faults_of(replaced(kGmsh1, "3 1 0 0\n", "3 1 0\n")),
             "a.msh:4:6: expected a z coordinate, got the end of the line");
+  EXPECT_EQ(faults_of(replaced(kGmsh2, "3 1 0 0\n", "3 1 0 0 0\n")),
+            "a.msh:11:9: expected the end of the line, got '0'");
   EXPECT_EQ(faults_of(replaced(kGmsh1, "3 1 0 0\n", "3 1 0 0 0\n")),
-            "a.msh:4:9: expected the end of the line, got '0'");
+            "a.msh:4:10: expected the node's entity, got the end of the line");
   EXPECT_EQ(faults_of(replaced(kGmsh1, "4 0 0 1\n", "3 0 0 1\n")),
             "a.msh:6:1: expected every node's number once, got 3 again\n"
             "a.msh:13:11: expected the number of a node that is there, got 4");

@@ -54,7 +54,6 @@ Block block(GmshParts& g, const char* things, std::size_t least, const char* det
 
 /// Reads what stands in front of the blocks: their number, and the number of things in all of them.
 std::array<std::size_t, 2> blocks_and(GmshParts& g, const char* things, std::size_t least) {
-  g.in.set_form(g.form);
   const std::size_t blocks = g.in.count("blocks", g.binary() ? 20 : 7), all = g.in.count(things, least);
   if (g.version == 41)
     for (const char* end : {"the lowest number", "the highest number"}) whole(g, 8, end);
@@ -106,7 +105,7 @@ void tags_then_points(GmshParts& g, std::size_t count, int parameters) {
 void elements_of(GmshParts& g, const Block& b, int width) {
   const GmshType* t = g.binary() ? &g.known_type(b.at, b.detail) : gmsh_type(b.detail);
   const auto group = g.group.find(b.entity);
-  const std::int64_t region = group == g.group.end() ? b.entity : group->second;
+  const std::int64_t region = group == g.group.end() ? 0 : group->second;
   for (std::size_t i = 0; i < b.count && g.more("elements", i, b.count); ++i) {
     if (!is_tet(t)) {
       g.other(b.detail);
@@ -138,6 +137,7 @@ void read_entities(GmshParts& g) {
 }
 
 void read_node_blocks(GmshParts& g) {
+  g.in.set_form(g.form);  // first of all: in binary, blanks and line ends are numbers, too
   g.in.begin_record();
   const std::size_t at = g.in.at(), before = g.nodes.size();
   const std::size_t least = !g.binary() ? kLeastNodeText : g.version == 40 ? 28 : 32;
@@ -152,6 +152,7 @@ void read_node_blocks(GmshParts& g) {
 }
 
 void read_element_blocks(GmshParts& g) {
+  g.in.set_form(g.form);  // first of all: in binary, blanks and line ends are numbers, too
   g.in.begin_record();
   const std::size_t at = g.in.at();
   std::size_t done = 0;

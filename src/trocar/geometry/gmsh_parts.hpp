@@ -60,7 +60,7 @@ struct GmshParts {
   int index_of(std::int64_t tag, std::size_t at);
 };
 
-void read_plain_nodes(GmshParts& g);  ///< versions 1 and 2
+void read_plain_nodes(GmshParts& g, bool parametric);  ///< versions 1 and 2
 void read_plain_elements(GmshParts& g);
 void read_entities(GmshParts& g);  ///< version 4
 void read_node_blocks(GmshParts& g);

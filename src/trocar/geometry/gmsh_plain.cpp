@@ -17,6 +17,19 @@ bool read_tags(GmshParts& g, std::int64_t tags, std::int64_t& region) {
   return true;
 }
 
+/// Behind a node's place, where nodes have parameters: dimension and number of its entity, and as many parameters as
+/// curves and surfaces have.
+bool read_parameters(GmshParts& g) {
+  std::int64_t dim = 0, entity = 0;
+  if (!g.in.integer(dim, 4, "the dimension of the node's entity") || !g.in.integer(entity, 4, "the node's entity"))
+    return false;
+  double ignored = 0;
+  const std::int64_t parameters = dim == 1 || dim == 2 ? dim : 0;
+  for (std::int64_t i = 0; i < parameters; ++i)
+    if (!g.in.real(ignored, 8, "a node's parameter") && !g.binary()) return false;
+  return true;
+}
+
 /// number type physical elementary nodes node ...: the first two are read.
 bool old_element(GmshParts& g, std::int64_t type) {
   const GmshType* t = gmsh_type(type);
@@ -81,7 +94,7 @@ void packed_elements(GmshParts& g, std::size_t count) {
 
 }  // namespace
 
-void read_plain_nodes(GmshParts& g) {
+void read_plain_nodes(GmshParts& g, bool parametric) {
   g.in.begin_record();
   const std::size_t count = g.in.count("nodes", g.binary() ? 28 : kLeastNodeText);
   g.in.skip_line();
@@ -91,7 +104,9 @@ void read_plain_nodes(GmshParts& g) {
     std::int64_t tag = 0;
     Vec3d point;
     const bool known = g.in.integer(tag, 4, "a node's number");
-    const bool good = known && read_point(g.in, 8, g.scale, point);
+    bool good = known && read_point(g.in, 8, g.scale, point);
+    const bool tail = parametric || (g.version == 10 && good && g.in.word_on_line());  // version 1 does not say
+    if (tail && (good || g.binary())) good = read_parameters(g);
     if (known) g.add_node(tag, at, point);
     good ? g.in.end_record() : g.in.skip_line();
   }

@@ -54,14 +54,21 @@ class GmshReader {
     end_section(name);
   }
 
+  static bool is_read(const std::string& name) {
+    for (const char* known : {"$MeshFormat", "$NOD", "$ELM", "$Nodes", "$ParametricNodes", "$Elements", "$Entities"})
+      if (name == known) return true;
+    return false;
+  }
+
   void contents(const std::string& name, std::size_t at) {
     if (name == "$MeshFormat") return header(at);
-    const bool oldest = name == "$NOD" || name == "$ELM";
-    if (!oldest && name != "$Nodes" && name != "$Elements" && name != "$Entities") return;
+    if (!is_read(name)) return;
+    const bool oldest = name == "$NOD" || name == "$ELM", parametric = name == "$ParametricNodes";
     need(at, name, oldest ? 10 : name == "$Entities" ? 40 : 20);
     const bool blocks = m_parts.version >= 40;
     if (name == "$Entities") return read_entities(m_parts);
-    if (name == "$NOD" || name == "$Nodes") return blocks ? read_node_blocks(m_parts) : read_plain_nodes(m_parts);
+    if (name == "$NOD" || name == "$Nodes" || parametric)
+      return blocks ? read_node_blocks(m_parts) : read_plain_nodes(m_parts, parametric);
     blocks ? read_element_blocks(m_parts) : read_plain_elements(m_parts);
   }
 
@@ -77,9 +84,7 @@ class GmshReader {
     const std::string end = (m_parts.version == 10 ? "$END" : "$End") + name.substr(1);
     m_in.skip_space();
     const std::size_t at = m_in.at();
-    const bool known = name == "$MeshFormat" || name == "$NOD" || name == "$ELM" || name == "$Nodes" ||
-                       name == "$Elements" || name == "$Entities";
-    if (known && m_in.peek_word() != end)
+    if (is_read(name) && m_in.peek_word() != end)
       m_in.fault(at, fmt::format("expected {}, got {}", quoted(end), m_in.shown(at)));
     const std::size_t found = m_in.all().find(end, at);
     if (found == std::string_view::npos)

@@ -31,7 +31,7 @@ struct TetFile {
 };
 
 /// Which format it is shows in the first bytes, not in the name. Tetrahedra of higher order give their corners.
-/// Regions: Gmsh's physical group of the volume (the volume itself where it has none); in VTK the cell array of whole
+/// Regions: Gmsh's physical group of the volume (0 where it has none); in VTK the cell array of whole
 /// numbers that is called region, gmsh:physical or medit:ref.
 /// @param scale  metres in the file's unit, > 0
 /// @throws core::BadInput with all faults, at most kMaxMeshFaults of them, named `file`
