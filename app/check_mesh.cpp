@@ -65,7 +65,9 @@ Json left_as_is(const geometry::TetFacts& mended) {
 }  // namespace
 
 bool is_mesh_file(const fs::path& path) {
-  const std::string extension = path.extension().string();
+  std::string extension = path.extension().string();
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   return extension == ".msh" || extension == ".vtk";
 }
 

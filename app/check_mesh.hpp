@@ -7,7 +7,7 @@
 
 namespace trocar::app {
 
-/// By its name: .msh or .vtk.
+/// By its name: .msh or .vtk, in small or large letters.
 bool is_mesh_file(const std::filesystem::path& path);
 
 /// @param unit  metres in the file's unit, > 0
