@@ -3,8 +3,7 @@
 //   # vtk DataFile Version 3.0 / title / ASCII or BINARY / DATASET UNSTRUCTURED_GRID
 //   POINTS n float, CELLS n size, CELL_TYPES n                     old: each cell its number of nodes, then these
 //   CELLS n+1 size / OFFSETS vtktypeint64 / CONNECTIVITY ...       from 5.0 on
-//   POINT_DATA, CELL_DATA: SCALARS, FIELD, ...                     one of them may be the regions; the others are
-//   passed
+//   POINT_DATA, CELL_DATA                                          vtk_data.hpp
 //
 // [VTK file formats: Simple legacy formats; vtkDataReader of VTK 9 for what these leave open]
 #include <algorithm>
@@ -14,6 +13,7 @@
 
 #include <trocar/core/decimal.hpp>
 #include <trocar/geometry/tet_reader.hpp>
+#include <trocar/geometry/vtk_data.hpp>
 #include <trocar/geometry/vtk_values.hpp>
 
 namespace trocar::geometry {
@@ -21,28 +21,27 @@ namespace {
 
 class VtkReader {
  public:
-  VtkReader(MeshSource& in, double scale) : m_in(in), m_values{in}, m_scale(scale) {}
+  VtkReader(MeshSource& in, double scale) : m_in(in), m_values{in}, m_data(m_values), m_scale(scale) {}
 
   TetFile read() {
     header();
-    while (m_stopped.empty() && !m_in.peek_word().empty()) keyword();
+    while (m_data.stopped().empty() && !m_in.peek_word().empty()) keyword();
     assemble();
     m_in.finish();
     m_out.notes = m_left_out.notes();
-    if (!m_stopped.empty()) m_out.notes.push_back("what comes from " + quoted(m_stopped) + " on is not read");
+    if (!m_data.stopped().empty())
+      m_out.notes.push_back("what comes from " + quoted(m_data.stopped()) + " on is not read");
     return std::move(m_out);
   }
 
  private:
   MeshSource& m_in;
   VtkValues m_values;
+  VtkData m_data;
   double m_scale;
   bool m_have_points = false;
-  std::vector<std::int64_t> m_start, m_nodes, m_types, m_regions;  ///< of cells; start: one more than cells
-  std::vector<std::uint32_t> m_at;                                 ///< of m_nodes, their place in the file
-  bool m_of_cells = false;                                         ///< what comes is data of cells ...
-  std::size_t m_tuples = 0;                                        ///< ... or points, so many
-  std::string m_stopped;                                           ///< the word at which reading ended
+  std::vector<std::int64_t> m_start, m_nodes, m_types;  ///< of cells; start: one more than cells
+  std::vector<std::uint32_t> m_at;                      ///< of m_nodes, their place in the file
   LeftOut m_left_out;
   TetFile m_out;
 
@@ -74,10 +73,10 @@ class VtkReader {
     if (word == "points") return points(at);
     if (word == "cells") return cells(at);
     if (word == "cell_types") return cell_types();
-    if (word == "metadata") return metadata();
+    if (word == "metadata") return m_data.metadata();
     if (word == "point_data" || word == "cell_data") return data_of(word == "cell_data", at);
-    if (word == "field") return field();
-    if (m_have_points && !m_types.empty()) return attribute(word);
+    if (word == "field") return m_data.field();
+    if (m_have_points && !m_types.empty()) return m_data.attribute(word);
     m_in.lose(at, fmt::format("expected POINTS, CELLS or CELL_TYPES, got {}", m_in.shown(at)));
   }
 
@@ -175,80 +174,9 @@ class VtkReader {
     m_values.end();
   }
 
-  // What belongs to points and cells.
-
-  void metadata() {  // up to an empty line
-    m_in.skip_line();
-    while (m_in.left() > 0 && !m_in.line().empty()) {
-    }
-  }
-
   void data_of(bool of_cells, std::size_t at) {
     const std::size_t cells = m_start.empty() ? 0 : m_start.size() - 1;
-    const std::size_t wanted = of_cells ? cells : m_out.mesh.points.size();
-    const std::int64_t count = m_values.whole(kVtkInt, "the number of values");
-    if (count < 0 || std::uint64_t(count) != wanted)
-      m_in.lose(at, fmt::format("expected data of {} {}, got {}", wanted, of_cells ? "cells" : "points", count));
-    m_in.skip_line();
-    m_of_cells = of_cells;
-    m_tuples = wanted;
-  }
-
-  /// A kind of array after POINT_DATA or CELL_DATA. One that we do not know ends the reading: the mesh is complete.
-  void attribute(const std::string& kind) {
-    if (kind == "scalars") return scalars();
-    const int components = kind == "vectors" || kind == "normals" ? 3 : kind == "tensors" ? 9 : 0;
-    m_in.word();
-    const VtkType* type = components > 0 ? m_values.find_type() : nullptr;
-    if (!type) return stop(kind);
-    m_values.pass(std::uint64_t(m_tuples) * std::uint64_t(components), *type);
-  }
-  void stop(const std::string& word) { m_stopped = word.empty() ? "?" : word; }
-
-  /// SCALARS name type [components], LOOKUP_TABLE name, values
-  void scalars() {
-    const std::string name = m_values.word();
-    const VtkType* type = m_values.find_type();
-    if (!type) return stop(name);
-    const std::int64_t components = m_in.word_on_line() ? m_values.whole(kVtkInt, "the number of components") : 1;
-    if (components < 1 || components > 4)
-      m_in.lose(m_in.at(), fmt::format("expected 1 to 4 components, got {}", components));
-    m_in.skip_line();
-    if (m_values.word() != "lookup_table")
-      m_in.lose(m_in.at(), fmt::format("expected LOOKUP_TABLE of the scalars {}, got none", quoted(name)));
-    array(name, *type, std::uint64_t(components), m_tuples);
-  }
-
-  /// FIELD name arrays, then for each: name components tuples type, values
-  void field() {
-    m_in.word();
-    const std::size_t arrays = m_in.count("arrays", 4);
-    for (std::size_t i = 0; i < arrays; ++i) {
-      if (m_values.next_word() == "metadata") {
-        m_in.word();
-        metadata();
-      }
-      const std::string name = m_values.word();
-      const std::size_t components = m_in.count("components", 1), tuples = m_in.count("tuples", 1);
-      const VtkType* type = m_values.find_type();
-      if (!type) return stop(name);
-      array(name, *type, components, tuples);
-    }
-  }
-
-  void array(const std::string& name, const VtkType& type, std::uint64_t components, std::size_t tuples) {
-    const bool names_regions = name == "region" || name == "gmsh:physical" || name == "medit:ref";
-    if (!names_regions || !m_of_cells || components != 1 || !type.whole || tuples != m_tuples)
-      return m_values.pass(components * tuples, type);
-    m_values.begin();
-    m_regions.clear();
-    for (std::size_t i = 0; i < tuples; ++i) {
-      const std::size_t at = m_values.place();
-      m_regions.push_back(m_values.whole(type, "a region"));
-      if (m_regions.back() != std::int64_t(int(m_regions.back())))
-        m_in.fault(at, fmt::format("expected a region of 32 bits, got {}", m_regions.back()));
-    }
-    m_values.end();
+    m_data.begin(of_cells, of_cells ? cells : m_out.mesh.points.size(), at);
   }
 
   // All together.
@@ -281,7 +209,7 @@ class VtkReader {
     std::array<int, 4> corners{};
     for (int k = 0; k < 4; ++k) corners[k] = corner(std::size_t(m_start[c] + k));
     m_out.mesh.cells.push_back(corners);
-    if (!m_regions.empty()) m_out.mesh.region.push_back(int(m_regions[c]));
+    if (!m_data.regions().empty()) m_out.mesh.region.push_back(m_data.regions()[c]);
   }
 
   int corner(std::size_t i) {
