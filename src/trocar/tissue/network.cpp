@@ -146,11 +146,11 @@ void release_open(const NetworkModel& m, std::span<const int> open, NetworkState
   }
 }
 
-// ---- nodes that leap
+// ---- nodes that leap, and parts that flap
 
-constexpr float kLeap = 20;     // faster than anything that hands do to tissue [m/s]
+constexpr float kFlap = 4;      // faster than tissue goes home by itself [m/s]
 constexpr float kCaught = 2;    // [m/s]
-constexpr int kMostLeaps = 64;  // caught in one tick, the lowest rows first
+constexpr int kMostFast = 256;  // slowed in one tick, the lowest rows first
 
 /// Was it held to kCaught in the last sub-step? Its speed itself says so; let go for a tick, it would leap again.
 bool is_caught(float square) { return std::fabs(square - kCaught * kCaught) < 1e-4f * kCaught * kCaught; }
@@ -159,23 +159,27 @@ bool is_caught(float square) { return std::fabs(square - kCaught * kCaught) < 1e
 int list_fast(const NetworkModel& m, const NetworkState& s, int* rows) {
   int n = 0;
   if (!unfolds_now(s)) return 0;
-  for (int r = 0; r < m.rows && n < kMostLeaps; ++r) {
+  for (int r = 0; r < m.rows && n < kMostFast; ++r) {
     const float square = dot(speed(s.nodes[r]), speed(s.nodes[r]));
-    if (square > kLeap * kLeap || is_caught(square)) rows[n++] = r;
+    if (square > kFlap * kFlap || is_caught(square)) rows[n++] = r;
   }
   return n;
 }
 
 /// The time step is stable where springs point as drawn. A light node that was thrown out of its place has all of them
 /// on one side, together stiffer than the step bears: it can leap to and fro for ever, through its neighbours and back.
-/// One that is so fast and turns round within a sub-step is held to steps within which it finds its place again. That
-/// only takes energy away; the node's own momentum goes with it, as giving that to its neighbours fed other leaps.
+/// One that turns round within a sub-step is held to steps within which it finds its place again. And a thin end whose
+/// cells collapse at every swing and are driven open again can flap for ever, at 10 to 17 m/s: whatever is faster than
+/// kFlap is slowed to that. Both only take energy away; the nodes' own momentum goes with it, as giving that to their
+/// neighbours fed other leaps.
 void catch_leaps(const NetworkModel& m, std::span<const int> rows, const NodeState* in, NodeState* out) {
   for (int r : rows) {
     const Vec3f v = speed(out[r]), before = speed(in[r]);
     const float fast = std::sqrt(dot(v, v));
     if (fast > 2 * kCaught && (is_caught(dot(before, before)) || dot(v, before) < 0))
       move_to(out[r], in[r], (kCaught / fast) * v, float(m.dt));
+    else if (fast > kFlap)
+      move_to(out[r], in[r], (kFlap / fast) * v, float(m.dt));
   }
 }
 
@@ -240,7 +244,7 @@ StepReport advance(const NetworkModel& m, std::span<const NodeLoad> loads, std::
     turn = turn_of_body(m, s);
   }
 
-  int fast_rows[kMostLeaps];
+  int fast_rows[kMostFast];
   const std::span<const int> fast(fast_rows, std::size_t(list_fast(m, s, fast_rows)));
   KernelArgs args = kernel_args(m, s);
   bool fine = true;
