@@ -145,7 +145,7 @@ def check_store(trocar, expected):
 
 
 def two_at_once(trocar):
-    runs = [trocar.train(f"both-{i}", 1, f"trainee {i}") for i in range(2)]
+    runs = [trocar.train(f"both-{i}", 8, f"trainee {i}") for i in range(2)]  # long enough to be seen on a busy machine
     seen_running = 0
     while any(run.poll() is None for run in runs):
         seen_running = max(seen_running, sum(a["state"] == "running" for a in trocar.attempts()))

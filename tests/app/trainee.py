@@ -255,7 +255,10 @@ class Pad:
     def tap(self, button):
         self.send(buttons=button)
         time.sleep(0.12)
-        self.send()
+        try:
+            self.send()
+        except BrokenPipeError:  # the button was "Quit"
+            return
         time.sleep(0.12)
 
     def hold(self, seconds, **sticks):
