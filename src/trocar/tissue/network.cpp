@@ -148,12 +148,37 @@ void release_open(const NetworkModel& m, std::span<const int> open, NetworkState
 
 // ---- nodes that leap, and parts that flap
 
-constexpr float kFlap = 4;      // faster than tissue goes home by itself [m/s]
+constexpr float kLeap = 20;     // faster than anything that hands do to tissue [m/s]
 constexpr float kCaught = 2;    // [m/s]
-constexpr int kMostFast = 256;  // slowed in one tick, the lowest rows first
+constexpr int kMostLeaps = 64;  // caught in one tick, the lowest rows first
+constexpr float kCalm = 2;      // [m/s]
 
 /// Was it held to kCaught in the last sub-step? Its speed itself says so; let go for a tick, it would leap again.
 bool is_caught(float square) { return std::fabs(square - kCaught * kCaught) < 1e-4f * kCaught * kCaught; }
+
+/// In the same ticks as folds are unfolded: a node that was merely thrown has come to rest by then.
+int list_fast(const NetworkModel& m, const NetworkState& s, int* rows) {
+  int n = 0;
+  if (!unfolds_now(s)) return 0;
+  for (int r = 0; r < m.rows && n < kMostLeaps; ++r) {
+    const float square = dot(speed(s.nodes[r]), speed(s.nodes[r]));
+    if (square > kLeap * kLeap || is_caught(square)) rows[n++] = r;
+  }
+  return n;
+}
+
+/// The time step is stable where springs point as drawn. A light node that was thrown out of its place has all of them
+/// on one side, together stiffer than the step bears: it can leap to and fro for ever, through its neighbours and back.
+/// One that is so fast and turns round within a sub-step is held to steps within which it finds its place again. That
+/// only takes energy away; the node's own momentum goes with it, as giving that to its neighbours fed other leaps.
+void catch_leaps(const NetworkModel& m, std::span<const int> rows, const NodeState* in, NodeState* out) {
+  for (int r : rows) {
+    const Vec3f v = speed(out[r]), before = speed(in[r]);
+    const float fast = std::sqrt(dot(v, v));
+    if (fast > 2 * kCaught && (is_caught(dot(before, before)) || dot(v, before) < 0))
+      move_to(out[r], in[r], (kCaught / fast) * v, float(m.dt));
+  }
+}
 
 Vec3f drift_of(const NetworkModel& m, const NetworkState& s) {
   Vec3d momentum{};
@@ -165,38 +190,14 @@ Vec3f drift_of(const NetworkModel& m, const NetworkState& s) {
   return vec_cast<float>(momentum / mass);
 }
 
-struct FastNodes {
-  int rows[kMostFast], count = 0;
-  Vec3f drift{};  ///< of the whole body: falling together is no fault
-};
-
-/// In the same ticks as folds are unfolded: a node that was merely thrown has come to rest by then.
-FastNodes list_fast(const NetworkModel& m, const NetworkState& s) {
-  FastNodes fast;
-  if (!unfolds_now(s)) return fast;
-  for (int r = 0; r < m.rows && fast.count < kMostFast; ++r) {
-    const float square = dot(speed(s.nodes[r]), speed(s.nodes[r]));
-    if (square > kFlap * kFlap || is_caught(square)) fast.rows[fast.count++] = r;
-  }
-  if (fast.count > 0) fast.drift = drift_of(m, s);
-  return fast;
-}
-
-/// The time step is stable where springs point as drawn. A light node that was thrown out of its place has all of them
-/// on one side, together stiffer than the step bears: it can leap to and fro for ever, through its neighbours and back.
-/// One that turns round within a sub-step is held to steps within which it finds its place again. And a thin end whose
-/// cells collapse at every swing and are driven open again can flap for ever, at 10 to 17 m/s: whatever is faster than
-/// kFlap beside the body as a whole is slowed to that. Both only take energy away; the nodes' own momentum goes with
-/// it, as giving that to their neighbours fed other leaps.
-void slow_down(const NetworkModel& m, const FastNodes& fast, const NodeState* in, NodeState* out) {
-  for (int k = 0; k < fast.count; ++k) {
-    const int r = fast.rows[k];
-    const Vec3f v = speed(out[r]), before = speed(in[r]), beside = v - fast.drift;
-    const float quick = std::sqrt(dot(v, v)), flap = std::sqrt(dot(beside, beside));
-    if (quick > 2 * kCaught && (is_caught(dot(before, before)) || dot(v, before) < 0))
-      move_to(out[r], in[r], (kCaught / quick) * v, float(m.dt));
-    else if (flap > kFlap)
-      move_to(out[r], in[r], fast.drift + (kFlap / flap) * beside, float(m.dt));
+/// A thin end whose cells collapse at every swing, and are driven open again, can flap for ever: one did at 10 to
+/// 17 m/s. So while cells are open in these ticks, no node is faster than kCalm beside the body as a whole.
+void calm(const NetworkModel& m, Vec3f drift, const NodeState* in, NodeState* out) {
+  for (int r = 0; r < m.rows; ++r) {
+    const Vec3f beside = speed(out[r]) - drift;
+    const float square = dot(beside, beside);
+    if (square > kCalm * kCalm && m.node_of_row[r] >= 0)
+      move_to(out[r], in[r], drift + (kCalm / std::sqrt(square)) * beside, float(m.dt));
   }
 }
 
@@ -261,7 +262,10 @@ StepReport advance(const NetworkModel& m, std::span<const NodeLoad> loads, std::
     turn = turn_of_body(m, s);
   }
 
-  const FastNodes fast = list_fast(m, s);
+  int fast_rows[kMostLeaps];
+  const std::span<const int> fast(fast_rows, std::size_t(list_fast(m, s, fast_rows)));
+  const bool calms = unfolds_now(s) && !open.empty();
+  const Vec3f drift = calms ? drift_of(m, s) : Vec3f{};
   KernelArgs args = kernel_args(m, s);
   bool fine = true;
   for (int i = 0; i < m.substeps; ++i) {
@@ -269,7 +273,8 @@ StepReport advance(const NetworkModel& m, std::span<const NodeLoad> loads, std::
     args.out = w.other.data();
     fine = run_substep(args, m.rows / kSlice, pool) && fine;
     push_open(m, s, open, turn, args.in, args.out);
-    slow_down(m, fast, args.in, args.out);
+    catch_leaps(m, fast, args.in, args.out);
+    if (calms) calm(m, drift, args.in, args.out);
     fine = apply_loads(body, loads, reactions, args.in, args.out) && fine;
     std::swap(s.nodes, w.other);
   }
