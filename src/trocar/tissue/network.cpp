@@ -272,9 +272,9 @@ StepReport advance(const NetworkModel& m, std::span<const NodeLoad> loads, std::
     args.in = s.nodes.data();
     args.out = w.other.data();
     fine = run_substep(args, m.rows / kSlice, pool) && fine;
+    if (calms) calm(m, drift, args.in, args.out);
     push_open(m, s, open, turn, args.in, args.out);
     catch_leaps(m, fast, args.in, args.out);
-    if (calms) calm(m, drift, args.in, args.out);
     fine = apply_loads(body, loads, reactions, args.in, args.out) && fine;
     std::swap(s.nodes, w.other);
   }
