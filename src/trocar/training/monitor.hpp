@@ -67,7 +67,7 @@ struct SideFacts {
   std::array<Clip, interactions::kMaxClips> clips{};
   std::array<Cut, interactions::kMaxCuts> cuts{};
   int clip_count = 0, cut_count = 0;
-  std::array<double, 2> pair{-1, -1};  ///< where the first and the second clip are [m], below 0: not yet
+  std::array<double, 2> pair{-1, -1};              ///< where the first and the second clip are [m], below 0: not yet
   double straightness = 0, best_straightness = 0;  ///< of the isthmus: now, and the best while presented
   Range pull{0, 0};                                ///< on this tube while held; both 0: never held
   bool held = false;
@@ -107,7 +107,7 @@ class Monitor {
     Following following;
     LumenCheck lumen;
     SideFacts facts;
-    bool blamed = false;           ///< not identified: once a side
+    bool blamed = false;  ///< not identified: once a side
     bool severed = false;
   };
 
