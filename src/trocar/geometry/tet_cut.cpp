@@ -81,7 +81,7 @@ class Cutter {
   CutBook run() noexcept {
     w.touched_count = 0;
     if (!m_plane.flat) return m_book;
-    gather_cells();
+    gather_cells(b.cells, w.begin, w.around);
     find_crossings();
     snap();
     take_sides();
@@ -91,17 +91,6 @@ class Cutter {
   }
 
  private:
-  /// Which cells are around each node.
-  void gather_cells() noexcept {
-    std::fill(w.begin.begin(), w.begin.end(), 0);
-    for (const Tet& c : b.cells)
-      for (const std::int32_t node : c) ++w.begin[std::size_t(node) + 1];
-    for (std::size_t i = 1; i < w.begin.size(); ++i) w.begin[i] += w.begin[i - 1];
-    for (std::size_t t = 0; t < b.cells.size(); ++t)
-      for (const std::int32_t node : b.cells[t]) w.around[std::size_t(w.begin[std::size_t(node)]++)] = std::int32_t(t);
-    for (std::size_t i = w.begin.size() - 1; i > 0; --i) w.begin[i] = w.begin[i - 1];
-    w.begin[0] = 0;
-  }
   std::span<const std::int32_t> cells_at(std::int32_t node) const noexcept {
     const std::size_t first = std::size_t(w.begin[std::size_t(node)]);
     return {w.around.data() + first, std::size_t(w.begin[std::size_t(node) + 1]) - first};
@@ -327,6 +316,17 @@ CuttableTets cuttable(std::span<const Vec3d> points, std::span<const Tet> cells,
           same[std::size_t(1 - i)].cell;
   });
   return b;
+}
+
+void gather_cells(std::span<const Tet> cells, std::span<std::int32_t> begin, std::span<std::int32_t> around) noexcept {
+  std::fill(begin.begin(), begin.end(), 0);
+  for (const Tet& c : cells)
+    for (const std::int32_t node : c) ++begin[std::size_t(node) + 1];
+  for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
+  for (std::size_t t = 0; t < cells.size(); ++t)
+    for (const std::int32_t node : cells[t]) around[std::size_t(begin[std::size_t(node)]++)] = std::int32_t(t);
+  for (std::size_t i = begin.size() - 1; i > 0; --i) begin[i] = begin[i - 1];
+  begin[0] = 0;
 }
 
 CutWork make_work(const CuttableTets& body) {

@@ -75,6 +75,10 @@ CutWork make_work(const CuttableTets& body);
 ///             given, doubles are put where their source is
 CutBook cut(CuttableTets& body, const Blade& blade, std::span<Vec3d> now, CutWork& work) noexcept;
 
+/// The cells at each node, ascending: those of node i are around[begin[i]] to around[begin[i + 1] - 1].
+/// @param begin  (nodes + 1)  @param around  (4 cells)
+void gather_cells(std::span<const Tet> cells, std::span<std::int32_t> begin, std::span<std::int32_t> around) noexcept;
+
 /// Smallest dihedral angle of a cell [degrees]; 0 where it has no volume.
 double least_dihedral(const std::array<Vec3d, 4>& x) noexcept;
 

@@ -62,7 +62,7 @@ class Assembler {
 
   /// Everything.
   void make() noexcept {
-    gather_cells();
+    geometry::gather_cells(b.cells, w.begin, w.around);
     std::fill(w.node_of_row.begin(), w.node_of_row.end(), -1);
     w.slices = 0;
     w.slice_begin[0] = 0;
@@ -73,7 +73,7 @@ class Assembler {
   /// What the last cut changed; true if that was possible. A row that has become too long for its slice asks for
   /// make().
   bool update() noexcept {
-    gather_cells();
+    geometry::gather_cells(b.cells, w.begin, w.around);
     mark_changed();
     for (int i = m.own_nodes; i < b.nodes; ++i) place(i);
     for (int i = 0; i < b.nodes; ++i) {
@@ -93,16 +93,6 @@ class Assembler {
   }
 
  private:
-  void gather_cells() noexcept {
-    std::fill(w.begin.begin(), w.begin.end(), 0);
-    for (const Tet& c : b.cells)
-      for (const std::int32_t node : c) ++w.begin[std::size_t(node) + 1];
-    for (std::size_t i = 1; i < w.begin.size(); ++i) w.begin[i] += w.begin[i - 1];
-    for (std::size_t t = 0; t < b.cells.size(); ++t)
-      for (const std::int32_t node : b.cells[t]) w.around[std::size_t(w.begin[std::size_t(node)]++)] = int(t);
-    for (std::size_t i = w.begin.size() - 1; i > 0; --i) w.begin[i] = w.begin[i - 1];
-    w.begin[0] = 0;
-  }
   std::span<const int> cells_at(int node) const noexcept {
     const std::size_t first = std::size_t(w.begin[std::size_t(node)]);
     return {w.around.data() + first, std::size_t(w.begin[std::size_t(node) + 1]) - first};
