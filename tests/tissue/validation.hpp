@@ -32,7 +32,7 @@ inline void record(const std::string& what, const char* format, double a, double
 
 /// Prints and records how far a result is off, and holds it to the tolerance.
 inline void expect_within(const std::string& what, const std::string& real, double off, double tolerance) {
-  record(what + ", " + real, "%.2e (allowed %.0e)", std::fabs(off), tolerance);
+  record(what + ", " + real, "%.2e (allowed %.2g)", std::fabs(off), tolerance);
   EXPECT_LE(std::fabs(off), tolerance) << what << ", " << real;
 }
 
