@@ -36,8 +36,8 @@ inline void expect_within(const std::string& what, const std::string& real, doub
   EXPECT_LE(std::fabs(off), tolerance) << what << ", " << real;
 }
 
-/// For errors each of which belongs to half the step or cell of the one before: the order between the last two is at
-/// least `order` less `slack`; and `slack` is also how much more is taken for the same order.
+/// For errors each of which belongs to half the step or cell of the one before: prints and records them, and holds the
+/// order between the last two to `order`, give or take `slack`.
 inline void expect_order(const std::string& what, const std::string& real, const std::vector<double>& errors,
                          double order, double slack) {
   const std::size_t n = errors.size();
