@@ -1,11 +1,10 @@
 #include "check_mesh.hpp"
 
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include <fmt/format.h>
 
+#include <trocar/core/files.hpp>
 #include <trocar/geometry/tet_files.hpp>
 
 namespace trocar::app {
@@ -13,21 +12,6 @@ namespace trocar::app {
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string bytes_of(const fs::path& path) {
-  const std::string name = path.generic_string();
-  const auto refuse = [&](const std::string& message) { throw core::BadInput({{{name, 0, 0}, message}}); };
-  std::error_code error;
-  if (!fs::exists(path, error)) refuse("expected a file, got none of this name");
-  if (!fs::is_regular_file(path, error)) refuse("expected a file, got something else");
-  const auto size = fs::file_size(path, error);
-  if (!error && size > geometry::kMaxMeshBytes)
-    refuse(fmt::format("expected at most {} bytes, got {}", geometry::kMaxMeshBytes, size));
-  std::ifstream in(path, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  if (!in) refuse("expected a readable file, got an error from the system while reading");
-  return bytes;
-}
 
 Json as_json(Vec3d p) { return {p.x, p.y, p.z}; }
 
@@ -72,7 +56,8 @@ bool is_mesh_file(const fs::path& path) {
 }
 
 Json describe_mesh(const fs::path& path, double unit) {
-  const geometry::TetFile file = geometry::read_tets(bytes_of(path), path.generic_string(), unit);
+  const geometry::TetFile file =
+      geometry::read_tets(core::read_file(path, geometry::kMaxMeshBytes), path.generic_string(), unit);
   const geometry::TetRepair repaired = geometry::repair(file.mesh);
   if (repaired.mesh.cells.empty())
     throw core::BadInput({{{path.generic_string(), 0, 0}, "expected cells with a volume, got flat ones only"}});

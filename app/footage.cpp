@@ -18,6 +18,16 @@ void blend_network(const tissue::NetworkModel& model, const tissue::NetworkState
   }
 }
 
+/// Between a cut and the keyframe before it there is nothing to blend: the body is shown as it was.
+void blend_body(const tissue::CuttableModel& model, const tissue::CuttableState& a, const tissue::CuttableState& b,
+                double f, tissue::CuttableState& out) {
+  if (a.version != b.version) return;
+  for (int n = 0; n < a.tets.nodes; ++n) {
+    const Vec3d from = tissue::position(model, a, n);
+    tissue::set_position(model, out, n, from + f * (tissue::position(model, b, n) - from));
+  }
+}
+
 void blend_tool(const interactions::ToolState& a, const interactions::ToolState& b, double f,
                 interactions::ToolState& out) {
   for (double interactions::ToolState::*part :
@@ -44,6 +54,8 @@ void blend(const sim::Model& model, const sim::State& a, const sim::State& b, do
   out.tick = a.tick + std::uint64_t(f * double(b.tick - a.tick));
   for (std::size_t i = 0; i < model.solids.size(); ++i)
     blend_network(model.solids[i].network, a.solids[i], b.solids[i], f, out.solids[i]);
+  for (std::size_t i = 0; i < model.cuttables.size(); ++i)
+    blend_body(model.cuttables[i].body, a.cuttables[i], b.cuttables[i], f, out.cuttables[i]);
   for (std::size_t i = 0; i < out.strands.size(); ++i)
     for (std::size_t n = 0; n < out.strands[i].x.size(); ++n)
       out.strands[i].x[n] += f * (b.strands[i].x[n] - a.strands[i].x[n]);

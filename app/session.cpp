@@ -30,12 +30,12 @@ constexpr FlagName kFlags[] = {
 std::string body_name(const sim::Model& model, std::int32_t body) {
   if (body < 0) return "nothing";
   if (body >= interactions::kMembraneBase) return model.membranes[size_t(body - interactions::kMembraneBase)].name;
-  if (body >= interactions::kSolidBase) return model.solids[size_t(body - interactions::kSolidBase)].name;
+  if (body >= interactions::kSolidBase) return model.organ_name(body - interactions::kSolidBase);
   return model.strands[size_t(body)].name;
 }
 
 std::string cut_name(const sim::Model& model, const interactions::Cut& cut) {
-  if (cut.solid >= 0) return model.solids[size_t(cut.solid)].name;
+  if (cut.solid >= 0) return model.organ_name(cut.solid);
   if (cut.strand < 0 && cut.membrane >= 0) return model.membranes[size_t(cut.membrane)].name;
   return body_name(model, cut.strand);
 }

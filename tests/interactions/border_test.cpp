@@ -73,7 +73,7 @@ struct Hanging {
     pulls.resize(holds.size());
     targets.resize(holds.size());
   }
-  Holders holders() const { return {bodies, strands, {}, {}, {}}; }
+  Holders holders() const { return {bodies, strands, {}, {}}; }
   bool step() {
     loads[0].clear();
     border_pulls(sheet, state, work, pulls);

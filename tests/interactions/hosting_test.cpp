@@ -28,7 +28,7 @@ const Vec3d kRoot{-0.002, 0.001, -0.0005};  // inside the block, whose front fac
 
 TEST(HostPatch, FollowsEveryAffineMotionExactly) {
   const tissue::NetworkModel network = tissue::build(block(20e3, 1050), kTick);
-  const HostPatch patch = make_patch(network, kRoot, 0.010);
+  const HostPatch patch = make_patch(network.rest, network.mass, kRoot, 0.010);
   core::Random random(1);
   for (int trial = 0; trial < 200; ++trial) {
     Mat3d a = Mat3d::identity();
@@ -41,17 +41,17 @@ TEST(HostPatch, FollowsEveryAffineMotionExactly) {
       tissue::set_position(network, state, n, a * network.rest[size_t(n)] + shift);
       tissue::set_velocity(network, state, n, drift);
     }
-    const tissue::StrandEnd end = hosted_end(patch, network, state, 0);
+    const tissue::StrandEnd end = hosted_end(patch, view_of(network, state), 0);
     EXPECT_LT(length(end.x - (a * kRoot + shift)), 3e-8) << "single precision of tenths of metres";
     EXPECT_LT(length(end.v - drift), 1e-6);
-    const tissue::StrandEnd later = hosted_end(patch, network, state, kTick);
+    const tissue::StrandEnd later = hosted_end(patch, view_of(network, state), kTick);
     EXPECT_LT(length(later.x - (end.x + kTick * end.v)), 1e-12);
   }
 }
 
 TEST(HostPatch, WeightsSumToOneAndNearNodesCarryMore) {
   const tissue::NetworkModel network = tissue::build(block(20e3, 1050), kTick);
-  const HostPatch patch = make_patch(network, kRoot, 0.010);
+  const HostPatch patch = make_patch(network.rest, network.mass, kRoot, 0.010);
   double sum = 0;
   for (float w : patch.weight) sum += double(w);
   EXPECT_NEAR(sum, 1, 1e-6);
@@ -61,7 +61,7 @@ TEST(HostPatch, WeightsSumToOneAndNearNodesCarryMore) {
 
 TEST(HostPatch, TooFarFromTheOrganIsRefused) {
   const tissue::NetworkModel network = tissue::build(block(20e3, 1050), kTick);
-  EXPECT_THROW(make_patch(network, {0.05, 0, 0}, 0.010), std::invalid_argument);
+  EXPECT_THROW(make_patch(network.rest, network.mass, {0.05, 0, 0}, 0.010), std::invalid_argument);
 }
 
 /// A block that floats in space without weight, and a strand of `young` that grows out of it.
@@ -87,8 +87,8 @@ sim::Model floating(double block_young, double block_density, double strand_youn
   sim::StrandModel strand;
   strand.name = "strand";
   strand.start.kind = sim::StrandEndModel::hosted;
-  strand.start.solid = 0;
-  strand.start.patch = make_patch(m.solids[0].network, kRoot, 0.010);
+  strand.start.organ = 0;
+  strand.start.patch = make_patch(m.solids[0].network.rest, m.solids[0].network.mass, kRoot, 0.010);
   m.strands.push_back(strand);
   m.bodies.push_back(body);
   return m;

@@ -63,9 +63,9 @@ struct Drum {
     const Capsule away{{1, 1, 1}, {1, 1, 1.01}, 0.001};
     shape.part[kShaft] = rod;
     shape.part[kJawA] = shape.part[kJawB] = away;
-    pose_skin(sheet.network, skin, state.network, pose);
+    pose_skin(view_of(sheet.network, state.network), skin, pose);
     loads.clear();
-    const SheetView view{{&skin, &pose, &sheet.network, &state.network}, torn, 0.00025};
+    const SheetView view{{&skin, &pose, view_of(sheet.network, state.network)}, torn, sheet.network.fixed, 0.00025};
     tool_on_sheet(shape, ToolState{}, 0, kMembraneBase, view, side, loads);
     loads.sort();
     const bool fine = advance(sheet, {}, loads.sorted, loads.reaction, state, work).fine() && !loads.overflowed;
@@ -163,7 +163,7 @@ TEST(Fold, IsGraspedBesideTheTubeAndFollowsTheJaws) {
     const tissue::MembraneModel& sheet = t.model.membranes[0].sheet;
     ASSERT_TRUE(
         advance(sheet, {}, folds[0].sorted, folds[0].reaction, t.state.membranes[0], t.work.membrane_work[0]).fine());
-    pose_skin(sheet.network, t.model.membranes[0].skin, t.state.membranes[0].network, t.work.sheet_poses[0]);
+    pose_skin(view_of(sheet.network, t.state.membranes[0].network), t.model.membranes[0].skin, t.work.sheet_poses[0]);
     pull = {0, 0, 0};
     for (const Vec3f& f : folds[0].reaction) pull -= vec_cast<double>(f);
   }

@@ -113,8 +113,8 @@ TEST(Anatomy, CordsPassOrgansAndWallsExceptAtTheirRoots) {
     const sim::StrandModel& strand = m.strands[k];
     for (const Ball& ball : balls_of(k)) {
       for (std::size_t j = 0; j < solids.size(); ++j) {
-        const bool start_here = strand.start.solid == std::int32_t(j) && ball.from_start < kRoot;
-        const bool end_here = strand.end.solid == std::int32_t(j) && ball.to_end < kRoot;
+        const bool start_here = strand.start.organ == std::int32_t(j) && ball.from_start < kRoot;
+        const bool end_here = strand.end.organ == std::int32_t(j) && ball.to_end < kRoot;
         if (start_here || end_here) continue;
         EXPECT_GT(height(solids[j], ball.centre) - ball.radius, kGap)
             << strand.name << " at " << ball.from_start * 1000 << " mm and " << solids[j].name;
@@ -144,7 +144,7 @@ TEST(Anatomy, RootsSitOnTheSkinsThatCarryThem) {
   for (std::size_t k = 0; k < m.strands.size(); ++k) {
     const auto check = [&](const sim::StrandEndModel& end, Vec3d at) {
       if (end.kind != sim::StrandEndModel::hosted) return;
-      const double h = height(solids[std::size_t(end.solid)], at);
+      const double h = height(solids[std::size_t(end.organ)], at);
       EXPECT_LT(h, 0.0007) << m.strands[k].name;
       EXPECT_GT(h, -0.0015) << m.strands[k].name;
     };
@@ -280,7 +280,7 @@ TEST(Anatomy, AMesosalpinxHangsFromEachTube) {
     int on[3] = {0, 0, 0};
     for (const interactions::BorderHold& hold : fold.holds) ++on[hold.kind];
     EXPECT_GT(on[interactions::BorderHold::strand], fold.sheet.columns);  // tube and ovarian ligament
-    EXPECT_GT(on[interactions::BorderHold::solid], 2);                    // the ovary
+    EXPECT_GT(on[interactions::BorderHold::organ], 2);                    // the ovary
     double width = 0;
     for (int c = 0; c < fold.sheet.columns; ++c)
       width = std::max(width, double(fold.depth[std::size_t((fold.sheet.rows - 1) * fold.sheet.columns + c)]));

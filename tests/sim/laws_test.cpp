@@ -216,7 +216,7 @@ TEST(Step, PoisonReachesEveryArrayOfWork) {
   for (const auto& p : w.pulls) EXPECT_TRUE(all_set(p));
   for (const auto& t : w.targets) EXPECT_TRUE(all_set(t));
   std::vector<interactions::NetworkLoads*> networks;
-  for (auto* loads : {&w.solid_loads, &w.membrane_loads})
+  for (auto* loads : {&w.organ_loads, &w.membrane_loads})
     for (auto& l : *loads) networks.push_back(&l);
   for (const auto* each : networks) {
     const auto& l = *each;
@@ -238,7 +238,7 @@ TEST(Step, PoisonReachesEveryArrayOfWork) {
   EXPECT_TRUE(all_set(w.parts));
   EXPECT_TRUE(all_set(w.ends));
   EXPECT_TRUE(all_set(w.end_reactions));
-  EXPECT_TRUE(all_set(w.solid_reports));
+  EXPECT_TRUE(all_set(w.organ_reports));
   EXPECT_TRUE(all_set(w.strand_reports));
 }
 

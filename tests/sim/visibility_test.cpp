@@ -136,7 +136,7 @@ TEST(Visibility, TheFarSideOfAnOrganIsNotSeen) {
   for (size_t i = 0; i < p.model.samples.size(); ++i) {
     const VisibilitySample& sample = p.model.samples[i];
     const VisibilityTarget& target = p.model.targets[size_t(sample.target)];
-    if (target.kind != VisibilityTarget::solid) continue;
+    if (target.kind != VisibilityTarget::organ) continue;
     const interactions::Surface& surface = p.work.surfaces[size_t(target.index)];
     const double facing = dot(surface.normal(sample.where), scope.eye - surface.position(sample.where));
     if (facing < 0) {

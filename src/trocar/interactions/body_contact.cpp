@@ -25,7 +25,7 @@ void push_surface(const Surface& surface, int v, Vec3d n, double depth, NetworkL
   back.shift = -0.5 * std::min(depth, kQuickest) * n;
   back.dir = n;
   back.d = kDamping;
-  add_skin_load(*surface.network, *surface.skin, *surface.state, v, back, {Owner::body, 0, 0}, *loads);
+  add_skin_load(surface.nodes, *surface.skin, v, back, {Owner::body, 0, 0}, *loads);
 }
 
 }  // namespace
@@ -73,7 +73,7 @@ void solid_on_surface(const SurfacePair& pair, const Surface& samples, const Sur
     load.shift = share * std::min(depth, kQuickest) * c.normal;
     load.dir = c.normal;
     load.d = kDamping;
-    add_skin_load(*samples.network, *samples.skin, *samples.state, v, load, {Owner::body, 0, 0}, sample_loads);
+    add_skin_load(samples.nodes, *samples.skin, v, load, {Owner::body, 0, 0}, sample_loads);
     push_surface(surface, nearest[i], c.normal, depth, surface_loads);
   }
 }

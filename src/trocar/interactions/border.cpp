@@ -1,5 +1,4 @@
 #include <trocar/interactions/border.hpp>
-#include <trocar/interactions/skin_point.hpp>
 
 namespace trocar::interactions {
 namespace {
@@ -26,14 +25,13 @@ Vec3d held_place(const BorderHold& hold, const Holders& holders) noexcept {
   const std::size_t i = std::size_t(hold.index);
   if (hold.kind == BorderHold::strand)
     return point_at(holders.strands[i], holders.strand_states[i], hold.place) + hold.offset;
-  if (hold.kind == BorderHold::solid)
-    return skin_point(*holders.networks[i], *holders.skins[i], holders.solid_states[i], hold.vertex) + hold.offset;
+  if (hold.kind == BorderHold::organ) return skin_point(holders.nodes[i], *holders.skins[i], hold.vertex) + hold.offset;
   return hold.offset;
 }
 
 void border_loads(std::span<const BorderHold> holds, std::span<const tissue::BorderPull> pulls,
                   const tissue::MembraneModel& sheet, const tissue::MembraneState& state, const Holders& holders,
-                  double dt, std::span<StrandLoads> strand_loads, std::span<NetworkLoads> solid_loads) noexcept {
+                  double dt, std::span<StrandLoads> strand_loads, std::span<NetworkLoads> organ_loads) noexcept {
   for (std::size_t h = 0; h < holds.size(); ++h) {
     const BorderHold& hold = holds[h];
     if (hold.kind == BorderHold::space) continue;
@@ -52,9 +50,8 @@ void border_loads(std::span<const BorderHold> holds, std::span<const tissue::Bor
     } else {
       SkinLoad load;
       load.d = d;
-      load.f0 = force + d * skin_velocity(*holders.skins[i], holders.solid_states[i], hold.vertex);
-      add_skin_load(*holders.networks[i], *holders.skins[i], holders.solid_states[i], hold.vertex, load,
-                    {Owner::strand_end, 0, 0}, solid_loads[i]);
+      load.f0 = force + d * skin_velocity(holders.nodes[i], *holders.skins[i], hold.vertex);
+      add_skin_load(holders.nodes[i], *holders.skins[i], hold.vertex, load, {Owner::strand_end, 0, 0}, organ_loads[i]);
     }
   }
 }

@@ -19,10 +19,10 @@ namespace trocar::interactions {
 
 /// What one held node of a membrane rides on. Const after compile.
 struct BorderHold {
-  enum Kind : std::int32_t { space, strand, solid } kind = space;
-  std::int32_t index = -1;    ///< strand or solid
+  enum Kind : std::int32_t { space, strand, organ } kind = space;
+  std::int32_t index = -1;    ///< strand or organ
   StrandPlace place;          ///< on the strand
-  std::int32_t vertex = -1;   ///< of the solid's skin
+  std::int32_t vertex = -1;   ///< of the organ's skin
   Vec3d offset{0, 0, 0};      ///< from there to the node as drawn [m]
   Vec3d drawn_pull{0, 0, 0};  ///< of the sheet in the drawn shape: its holder is drawn bearing it already [N]
 };
@@ -31,9 +31,8 @@ struct BorderHold {
 struct Holders {
   std::span<const StrandBody> strands;
   std::span<const tissue::StrandState> strand_states;
-  std::span<const tissue::NetworkModel* const> networks;  ///< of the solids
+  std::span<const tissue::NodeView> nodes;  ///< of the organs
   std::span<const tissue::Skin* const> skins;
-  std::span<const tissue::NetworkState> solid_states;
 };
 
 /// Where the node shall be: on its holder as that is now.
@@ -46,7 +45,7 @@ double added_damping(const tissue::BorderPull& pull, double dt) noexcept;
 /// @param holds, pulls  (held nodes of the membrane)
 void border_loads(std::span<const BorderHold> holds, std::span<const tissue::BorderPull> pulls,
                   const tissue::MembraneModel& sheet, const tissue::MembraneState& state, const Holders& holders,
-                  double dt, std::span<StrandLoads> strand_loads, std::span<NetworkLoads> solid_loads) noexcept;
+                  double dt, std::span<StrandLoads> strand_loads, std::span<NetworkLoads> organ_loads) noexcept;
 
 void add_to_hash(core::Hasher& hasher, const BorderHold& hold) noexcept;
 

@@ -3,8 +3,8 @@
 
 #include <trocar/interactions/clip.hpp>
 #include <trocar/interactions/cut.hpp>
-#include <trocar/interactions/skin_point.hpp>
 #include <trocar/interactions/tool_contact.hpp>
+#include <trocar/numerics/portable.hpp>
 
 namespace trocar::interactions {
 namespace {
@@ -108,13 +108,25 @@ int cut_organ(const ToolModel& model, const ToolShape& shape, const tissue::Netw
     ++severed;
   }
   if (severed == 0) return 0;
+  const tissue::NodeView nodes = view_of(network, state);
   for (size_t t = 0; t < fine.triangles.size(); ++t) {
     Vec3d corner[3];
-    for (size_t k = 0; k < 3; ++k) corner[k] = to_jaw(shape, skin_point(network, fine, state, fine.triangles[t][k]));
+    for (size_t k = 0; k < 3; ++k) corner[k] = to_jaw(shape, skin_point(nodes, fine, fine.triangles[t][k]));
     for (int k = 0; k < 3; ++k)
       if (crosses_blades(model, shape, corner[k], corner[(k + 1) % 3])) parted[t] = 1;
   }
   return severed;
+}
+
+geometry::Blade swept_by_blades(const ToolModel& model, const ToolShape& shape) noexcept {
+  const double angle = 0.5 * model.opening * kOpenEnough;
+  const double at_hinge = 0.5 * model.parallel_gap * kOpenEnough + kBlade;
+  const double at_tips = at_hinge + model.jaw_length * portable::sin(angle) / portable::cos(angle);
+  geometry::Blade blade;
+  for (const Vec3d& corner : {Vec3d{-at_hinge, 0, 0}, Vec3d{at_hinge, 0, 0}, Vec3d{at_tips, 0, model.jaw_length},
+                              Vec3d{-at_tips, 0, model.jaw_length}})
+    blade.corner[size_t(blade.corners++)] = from_jaw(shape, corner);
+  return blade;
 }
 
 namespace {

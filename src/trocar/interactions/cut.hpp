@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include <trocar/geometry/tet_cut.hpp>
 #include <trocar/interactions/grasp.hpp>
 #include <trocar/tissue/membrane.hpp>
 
@@ -23,14 +24,17 @@ int update_scissors(const ToolModel& model, const ToolShape& shape, int tool_ind
                     CutBook book) noexcept;
 
 /// Parts an organ where the blades have closed in it: springs that cross the blades' plane between them are severed,
-/// and triangles of the drawn skin that cross it are marked in `parted` (one byte a triangle). First form: the blades
-/// take a bite of their own length, nothing is snapped or refined. What they would cut loose stays on a thread of one
-/// spring, so that nothing falls out of the world.
+/// and triangles of the drawn skin that cross it are marked in `parted` (one byte a triangle). For organs that are not
+/// meant to be cut (those are tissue/cuttable.hpp): the blades take a bite of their own length, nothing is snapped or
+/// refined. What they would cut loose stays on a thread of one spring, so that nothing falls out of the world.
 /// @param scratch  at least as many numbers as the network has nodes; contents of no use
 /// @return springs severed
 int cut_organ(const ToolModel& model, const ToolShape& shape, const tissue::NetworkModel& network,
               const tissue::Skin& fine, tissue::NetworkState& state, std::span<std::uint8_t> parted,
               std::span<std::int32_t> scratch) noexcept;
+
+/// What blades that have closed from half open have swept: a flat strip from the hinge to their tips.
+geometry::Blade swept_by_blades(const ToolModel& model, const ToolShape& shape) noexcept;
 
 /// What one closing of the blades did to a fold.
 struct FoldCut {

@@ -63,6 +63,7 @@ Candidate fold_between(const ToolModel& model, const ToolShape& shape, const Tis
       if (!surface.pose->block[b].near_segment(shape.pivot, shape.frame.tip, 0.01)) continue;
       const int last = std::min(int(b + 1) * tissue::kSkinBlock, surface.skin->size());
       for (int v = int(b) * tissue::kSkinBlock; v < last; ++v) {
+        if (!surface.skin->at_surface(v)) continue;
         const Vec3d local = to_jaw(shape, surface.position(v));
         if (std::fabs(local.y) > 0.5 * model.jaw_width + 0.0015) continue;
         if (local.z < 0.25 * model.jaw_length || local.z > model.jaw_length + 0.0005) continue;
@@ -87,7 +88,7 @@ Candidate sheet_between(const ToolModel& model, const ToolShape& shape, const Ti
     if (!surface.pose->bounds.near_segment(shape.pivot, shape.frame.tip, 0.01)) continue;
     Candidate c;
     for (int v = 0; v < surface.skin->size(); ++v) {
-      if (surface.network->fixed[size_t(v)] == tissue::kHeld) continue;
+      if (view.membranes[m].fixed[size_t(v)] == tissue::kHeld) continue;
       const Vec3d local = to_jaw(shape, surface.position(v));
       if (std::fabs(local.y) > 0.5 * model.jaw_width + 0.0015) continue;
       if (local.z < 0 || local.z > model.jaw_length + 0.0005) continue;
@@ -177,7 +178,7 @@ void update_grip(const ToolModel& model, const ToolShape& shape, const TissueVie
 }
 
 void hold_loads(const ToolShape& shape, int tool_index, const TissueView& view, const ToolState& tool,
-                std::span<StrandLoads> strand_loads, std::span<NetworkLoads> solid_loads,
+                std::span<StrandLoads> strand_loads, std::span<NetworkLoads> organ_loads,
                 std::span<NetworkLoads> membrane_loads) noexcept {
   for (int i = 0; i < tool.holds; ++i) {
     const Hold& h = tool.hold[i];
@@ -197,7 +198,7 @@ void hold_loads(const ToolShape& shape, int tool_index, const TissueView& view, 
       load.k = kHoldStiffness;
       load.d = kHoldDamping;
       load.shift = target - surface.position(h.element);
-      add_skin_load(*surface.network, *surface.skin, *surface.state, h.element, load, tag, solid_loads[o]);
+      add_skin_load(surface.nodes, *surface.skin, h.element, load, tag, organ_loads[o]);
     } else {
       tissue::StrandLoad load;
       load.element = h.element;

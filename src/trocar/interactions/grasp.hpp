@@ -25,7 +25,7 @@ void update_grip(const ToolModel& model, const ToolShape& shape, const TissueVie
 
 /// Pulls the held points towards their places between the jaws.
 void hold_loads(const ToolShape& shape, int tool_index, const TissueView& view, const ToolState& tool,
-                std::span<StrandLoads> strand_loads, std::span<NetworkLoads> solid_loads,
+                std::span<StrandLoads> strand_loads, std::span<NetworkLoads> organ_loads,
                 std::span<NetworkLoads> membrane_loads = {}) noexcept;
 
 /// After the tissue has moved: forces at the jaws, and slip where the pull exceeds friction x pinch.

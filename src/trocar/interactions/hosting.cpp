@@ -26,16 +26,16 @@ bool solve4(double (&a)[4][5], double (&z)[4]) {
 
 }  // namespace
 
-HostPatch make_patch(const tissue::NetworkModel& network, Vec3d point, double radius) {
+HostPatch make_patch(std::span<const Vec3d> rest, std::span<const double> mass, Vec3d point, double radius) {
   HostPatch patch;
   std::vector<double> g;
   std::vector<Vec3d> d;
-  for (int i = 0; i < network.nodes; ++i) {
-    const Vec3d away = (network.rest[size_t(i)] - point) / radius;
+  for (int i = 0; i < int(mass.size()); ++i) {
+    const Vec3d away = (rest[size_t(i)] - point) / radius;
     const double r2 = dot(away, away);
     if (r2 >= 1.0) continue;
     patch.node.push_back(i);
-    g.push_back(network.mass[size_t(i)] * (1 - r2) * (1 - r2));
+    g.push_back(mass[size_t(i)] * (1 - r2) * (1 - r2));
     d.push_back(away);
   }
   if (patch.node.size() < 4) throw std::invalid_argument("fewer than four nodes near the end");
@@ -55,25 +55,24 @@ HostPatch make_patch(const tissue::NetworkModel& network, Vec3d point, double ra
   for (size_t i = 0; i < g.size(); ++i) {
     const double tilt = exact ? z[0] + z[1] * d[i].x + z[2] * d[i].y + z[3] * d[i].z : 1.0;
     patch.weight.push_back(float(g[i] / total * tilt));
-    mean += double(patch.weight.back()) * network.rest[size_t(patch.node[i])];
+    mean += double(patch.weight.back()) * rest[size_t(patch.node[i])];
   }
   patch.offset = point - mean;
   return patch;
 }
 
-tissue::StrandEnd hosted_end(const HostPatch& patch, const tissue::NetworkModel& network,
-                             const tissue::NetworkState& state, double dt) noexcept {
+tissue::StrandEnd hosted_end(const HostPatch& patch, const tissue::NodeView& nodes, double dt) noexcept {
   tissue::StrandEnd end{patch.offset, {0, 0, 0}};
   for (size_t i = 0; i < patch.node.size(); ++i) {
-    end.x += double(patch.weight[i]) * tissue::position(network, state, patch.node[i]);
-    end.v += double(patch.weight[i]) * tissue::velocity(network, state, patch.node[i]);
+    end.x += double(patch.weight[i]) * nodes.position(patch.node[i]);
+    end.v += double(patch.weight[i]) * nodes.velocity(patch.node[i]);
   }
   end.x += dt * end.v;
   return end;
 }
 
-void host_loads(const HostPatch& patch, const tissue::StrandReaction& reaction, const tissue::NetworkModel& network,
-                const tissue::NetworkState& state, double dt, int strand, NetworkLoads& loads) noexcept {
+void host_loads(const HostPatch& patch, const tissue::StrandReaction& reaction, const tissue::NodeView& nodes,
+                double dt, int strand, NetworkLoads& loads) noexcept {
   // The reaction was found for the patch flying on freely; where the tick bends that flight, the pull falls by the
   // tangent. Over one tick that is a resistance of K dt to changes of velocity, and needs no rest point.
   const Mat3d& t = reaction.tangent;
@@ -85,8 +84,7 @@ void host_loads(const HostPatch& patch, const tissue::StrandReaction& reaction, 
     tissue::NodeLoad load;
     load.node = patch.node[i];
     load.d = float(d);
-    load.f0 = vec_cast<float>(share * (reaction.force - patch.drawn_pull) +
-                              d * tissue::velocity(network, state, patch.node[i]));
+    load.f0 = vec_cast<float>(share * (reaction.force - patch.drawn_pull) + d * nodes.velocity(patch.node[i]));
     loads.add(load, {Owner::strand_end, strand, 0});
   }
 }

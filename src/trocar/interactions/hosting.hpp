@@ -2,6 +2,7 @@
 // the strand's pull, implicitly, so that a light patch under a stiff strand stays stable.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include <trocar/interactions/loads.hpp>
@@ -17,15 +18,15 @@ struct HostPatch {
 };
 
 /// Smooth weights around `point` over the nodes within `radius`, corrected to be affine-exact.
+/// @param rest, mass  (nodes) of the organ as drawn [m], [kg]
 /// Throws std::invalid_argument when fewer than four nodes are there.
-HostPatch make_patch(const tissue::NetworkModel& network, Vec3d point, double radius);
+HostPatch make_patch(std::span<const Vec3d> rest, std::span<const double> mass, Vec3d point, double radius);
 
 /// Where the strand's end is when this tick ends.
-tissue::StrandEnd hosted_end(const HostPatch& patch, const tissue::NetworkModel& network,
-                             const tissue::NetworkState& state, double dt) noexcept;
+tissue::StrandEnd hosted_end(const HostPatch& patch, const tissue::NodeView& nodes, double dt) noexcept;
 
 /// Gives the strand's pull to the patch.
-void host_loads(const HostPatch& patch, const tissue::StrandReaction& reaction, const tissue::NetworkModel& network,
-                const tissue::NetworkState& state, double dt, int strand, NetworkLoads& loads) noexcept;
+void host_loads(const HostPatch& patch, const tissue::StrandReaction& reaction, const tissue::NodeView& nodes,
+                double dt, int strand, NetworkLoads& loads) noexcept;
 
 }  // namespace trocar::interactions

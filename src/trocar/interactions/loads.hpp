@@ -54,7 +54,7 @@ struct SkinLoad {
   Vec3d dir{0, 0, 0};    ///< zero or unit
   double d = 0;
 };
-void add_skin_load(const tissue::NetworkModel& network, const tissue::Skin& skin, const tissue::NetworkState& state,
-                   int vertex, const SkinLoad& load, Tag tag, NetworkLoads& loads) noexcept;
+void add_skin_load(const tissue::NodeView& nodes, const tissue::Skin& skin, int vertex, const SkinLoad& load, Tag tag,
+                   NetworkLoads& loads) noexcept;
 
 }  // namespace trocar::interactions

@@ -16,6 +16,7 @@ namespace trocar::interactions {
 struct SheetView {
   Surface surface;                       ///< its skin's vertices are its nodes
   std::span<const std::uint8_t> parted;  ///< (triangles) 1 = cut open
+  std::span<const std::uint8_t> fixed;   ///< (nodes) tissue::Held bits
   double half_thickness = 0;             ///< [m]
 };
 

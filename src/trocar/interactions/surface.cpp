@@ -3,7 +3,7 @@
 namespace trocar::interactions {
 
 Vec3d Surface::normal(int vertex) const noexcept {
-  return network ? tissue::skin_normal(*skin, *pose, vertex) : vec_cast<double>(skin->rest_normal[size_t(vertex)]);
+  return moves() ? tissue::skin_normal(*skin, *pose, vertex) : vec_cast<double>(skin->rest_normal[size_t(vertex)]);
 }
 
 int walk_to_nearest(const Surface& surface, int start, Vec3d p) noexcept {
@@ -34,7 +34,7 @@ int nearest_vertex(const Surface& surface, Vec3d p) noexcept {
   for (int v = 0; v < surface.skin->size(); ++v) {
     const Vec3d d = surface.position(v) - p;
     const double n = dot(d, d);
-    if (n < least) {
+    if (n < least && surface.skin->at_surface(v)) {
       least = n;
       best = v;
     }

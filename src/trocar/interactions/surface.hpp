@@ -6,13 +6,13 @@
 
 namespace trocar::interactions {
 
-/// A surface as it is now. `network`/`state` are null for a wall.
+/// A surface as it is now. A wall has no nodes.
 struct Surface {
   const tissue::Skin* skin = nullptr;
   const tissue::SkinPose* pose = nullptr;
-  const tissue::NetworkModel* network = nullptr;
-  const tissue::NetworkState* state = nullptr;
+  tissue::NodeView nodes;
 
+  bool moves() const noexcept { return !nodes.empty(); }
   Vec3d position(int vertex) const noexcept { return vec_cast<double>(pose->position[size_t(vertex)]); }
   Vec3d normal(int vertex) const noexcept;
 };

@@ -37,7 +37,7 @@ int nearest_vertex_near(const Surface& surface, Vec3d p, double reach) noexcept 
     const int last = std::min(int(b + 1) * tissue::kSkinBlock, surface.skin->size());
     for (int v = int(b) * tissue::kSkinBlock; v < last; ++v) {
       const double d = geometry::distance2(surface.position(v), p);
-      if (d >= least) continue;
+      if (d >= least || !surface.skin->at_surface(v)) continue;
       least = d;
       best = v;
     }
@@ -79,7 +79,7 @@ void press(const Surface& surface, Vec3d p, double radius, Tag tag, NetworkLoads
     load.shift = -depth * at.normal;
     load.dir = -at.normal;
     load.d = share * kDamping;
-    add_skin_load(*surface.network, *surface.skin, *surface.state, at.vertex[k], load, tag, loads);
+    add_skin_load(surface.nodes, *surface.skin, at.vertex[k], load, tag, loads);
   }
 }
 
@@ -107,6 +107,7 @@ void tool_on_surface(const ToolShape& shape, int tool, const Surface& surface, N
       if (!meets(pose.block[b], rod)) continue;
       const int last = std::min(int(b + 1) * tissue::kSkinBlock, surface.skin->size());
       for (int v = int(b) * tissue::kSkinBlock; v < last; ++v) {
+        if (!surface.skin->at_surface(v)) continue;
         const Vec3d p = surface.position(v);
         if (length(p - collision::nearest_on_axis(rod, p)) > rod.radius + kBehind) continue;
         const collision::Push push = collision::push_out(rod, p, surface.normal(v), kBehind);
@@ -116,8 +117,7 @@ void tool_on_surface(const ToolShape& shape, int tool, const Surface& surface, N
         load.shift = std::min(push.depth, kQuickest) * push.direction;
         load.dir = push.direction;
         load.d = kDamping;
-        add_skin_load(*surface.network, *surface.skin, *surface.state, v, load, {Owner::tool_contact, tool, part},
-                      loads);
+        add_skin_load(surface.nodes, *surface.skin, v, load, {Owner::tool_contact, tool, part}, loads);
       }
     }
   }

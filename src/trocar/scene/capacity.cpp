@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kTrianglesPerArea = 2.3;  // of edge 1 in a unit of area
 
+constexpr double kFineParts = 10;  // triangles drawn and touched for a face of a tetrahedron
+
 Extent operator+(Extent a, const Extent& b) {
   return {a.nodes + b.nodes, a.places + b.places, a.triangles + b.triangles, a.strand_nodes + b.strand_nodes};
 }
@@ -66,6 +68,11 @@ bool few(const std::vector<Thing>& things, const char* what, std::vector<core::F
 
 Extent extent_of(const Solid& solid) {
   Extent e;
+  if (solid.tets) {
+    e.nodes = double(solid.tets->mesh.points.size());
+    e.triangles = kFineParts * 6 * std::cbrt(e.nodes * e.nodes);
+    return e;
+  }
   if (solid.sections.empty() || !(solid.cell > 0)) return e;
   double volume = 0;
   for (std::size_t i = 0; i + 1 < solid.sections.size(); ++i) {
@@ -77,7 +84,7 @@ Extent extent_of(const Solid& solid) {
     for (double edge : {solid.skin_edge, solid.fine_edge})
       e.triangles += ring_triangles(height + 0.3 * around / double(solid.sections.size()), around, edge);
   }
-  e.nodes = volume / (solid.cell * solid.cell * solid.cell);
+  e.nodes = (solid.cuttable ? 2 : 1) * volume / (solid.cell * solid.cell * solid.cell);
   add_places(solid, e);
   return e;
 }

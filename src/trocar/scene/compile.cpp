@@ -10,6 +10,7 @@
 #include <trocar/scene/compile_membrane.hpp>
 #include <trocar/scene/compile_solid.hpp>
 #include <trocar/scene/compile_targets.hpp>
+#include <trocar/scene/compile_tets.hpp>
 
 namespace trocar::scene {
 namespace {
@@ -34,21 +35,35 @@ StrandStation station_at(const std::vector<StrandStation>& stations, double s) {
   return stations.back();
 }
 
+/// Over a few cells the organ takes the strand's pull.
+interactions::HostPatch patch_on(const sim::Model& model, int organ, Vec3d at) {
+  const auto reach = [](double cell) { return std::max(0.005, 2.2 * cell); };
+  const size_t i = size_t(organ), solids = model.solids.size();
+  if (i < solids) {
+    const sim::SolidModel& s = model.solids[i];
+    return interactions::make_patch(s.network.rest, s.network.mass, at, reach(s.cell));
+  }
+  const sim::CuttableOrgan& c = model.cuttables[i - solids];
+  const size_t nodes = size_t(c.body.own_nodes);
+  const tissue::CuttableState rest = tissue::rest_state(c.body);
+  std::vector<double> mass;
+  for (size_t n = 0; n < nodes; ++n) mass.push_back(tissue::mass_of(c.body, rest, int(n)));
+  return interactions::make_patch({c.body.drawn.rest.data(), nodes}, mass, at, reach(c.cell));
+}
+
 sim::StrandEndModel compile_end(const StrandEnd& end, Vec3d at, const sim::Model& model, Faults& faults) {
   sim::StrandEndModel out;
   if (end.fixed) out.kind = sim::StrandEndModel::fixed;
   if (end.organ.empty()) return out;
-  for (size_t i = 0; i < model.solids.size(); ++i) {
-    if (model.solids[i].name != end.organ) continue;
-    out.kind = sim::StrandEndModel::hosted;
-    out.solid = std::int32_t(i);
-    const double reach = std::max(0.005, 2.2 * model.solids[i].cell);  // over which the organ takes the strand's pull
-    try {
-      out.patch = interactions::make_patch(model.solids[i].network, at, reach);
-    } catch (const std::invalid_argument&) {
-      faults.push_back(
-          {end.at, "expected the strand's end within a few cells of '" + end.organ + "', got one farther away"});
-    }
+  const int organ = model.organ_index(end.organ);
+  if (organ < 0) return out;
+  out.kind = sim::StrandEndModel::hosted;
+  out.organ = organ;
+  try {
+    out.patch = patch_on(model, organ, at);
+  } catch (const std::invalid_argument&) {
+    faults.push_back(
+        {end.at, "expected the strand's end within a few cells of '" + end.organ + "', got one farther away"});
   }
   return out;
 }
@@ -165,17 +180,14 @@ sim::SheetModel compile_sheet(const Sheet& sheet, const sim::Model& model) {
   for (Vec3d p : sheet.base) {
     sim::BasePoint point;
     point.rest = p;
-    for (size_t i = 0; i < model.solids.size(); ++i) {
-      if (model.solids[i].name != sheet.base_organ) continue;
-      point.solid = std::int32_t(i);
-      double least = 1e30;
-      const tissue::Skin& skin = model.solids[i].skin;
-      for (int v = 0; v < skin.size(); ++v) {
-        const double distance = trocar::length(vec_cast<double>(skin.rest[size_t(v)]) - p);
-        if (distance >= least) continue;
-        least = distance;
-        point.vertex = v;
-      }
+    point.organ = model.organ_index(sheet.base_organ);
+    double least = 1e30;
+    for (int v = 0; point.organ >= 0 && v < model.skin(point.organ).size(); ++v) {
+      const tissue::Skin& skin = model.skin(point.organ);
+      const double distance = trocar::length(vec_cast<double>(skin.rest[size_t(v)]) - p);
+      if (distance >= least || !skin.at_surface(v)) continue;
+      least = distance;
+      point.vertex = v;
     }
     point.strand = model.strand_index(sheet.base_organ);
     if (point.strand >= 0) point.place = nearest_place(model.bodies[size_t(point.strand)], p);
@@ -196,7 +208,7 @@ sim::Model compile(const Description& d, CompileReport* report) {
   model.gravity = d.gravity;
   for (const Solid& solid : d.solids) {
     const Tissue* tissue = find_tissue(d, solid.tissue);
-    if (tissue) compile_solid(solid, *tissue, d.gravity, model, faults, report);
+    if (tissue) (of_tets(solid) ? compile_tets : compile_solid)(solid, *tissue, d.gravity, model, faults, report);
   }
   if (!faults.empty()) throw core::BadInput(faults);
   for (const Strand& strand : d.strands) {

@@ -2,36 +2,38 @@
 
 #include <trocar/geometry/nearest.hpp>
 #include <trocar/scene/compile_contacts.hpp>
+#include <trocar/sim/state.hpp>
 
 namespace trocar::scene {
 namespace {
 
 constexpr double kReach = 0.045;    // [m] farther apart than this as drawn, two bodies are not tested
 constexpr double kRoot = 0.008;     // [m] of a strand next to its host that takes no part in contact with it
-constexpr int kSolidSamples = 160;  // skin vertices of an organ that are tested against its neighbours
+constexpr int kSolidSamples = 160;  // skin vertices of an organ, about, that are tested against its neighbours
 
 /// Poses of all surfaces as drawn.
 struct Drawn {
+  sim::State state;
   std::vector<tissue::SkinPose> pose;
   std::vector<interactions::Surface> surface;
-};
 
-Drawn draw(const sim::Model& model) {
-  Drawn d;
-  d.pose.reserve(size_t(model.surfaces()));
-  for (const sim::SolidModel& s : model.solids) {
-    tissue::SkinPose pose = tissue::make_pose(s.skin);
-    tissue::pose_skin(s.network, s.skin, tissue::rest_state(s.network), pose);
-    d.pose.push_back(std::move(pose));
+  explicit Drawn(const sim::Model& model) {
+    for (const sim::SolidModel& s : model.solids) state.solids.push_back(tissue::rest_state(s.network));
+    for (const sim::CuttableOrgan& c : model.cuttables) state.cuttables.push_back(tissue::rest_state(c.body));
+    pose.reserve(size_t(model.surfaces()));
+    for (int i = 0; i < model.organs(); ++i) {
+      const tissue::NodeView nodes = nodes_of(model, state, i);
+      pose.push_back(tissue::make_pose(model.skin(i)));
+      tissue::pose_skin(nodes, model.skin(i), pose.back());
+      surface.push_back({&model.skin(i), &pose.back(), nodes});
+    }
+    for (const sim::WallModel& w : model.walls) {
+      pose.push_back(w.pose);
+      surface.push_back({&w.skin, &pose.back(), {}});
+    }
   }
-  for (const sim::WallModel& w : model.walls) d.pose.push_back(w.pose);
-  for (size_t i = 0; i < d.pose.size(); ++i) {
-    const bool solid = i < model.solids.size();
-    d.surface.push_back({solid ? &model.solids[i].skin : &model.walls[i - model.solids.size()].skin, &d.pose[i],
-                         solid ? &model.solids[i].network : nullptr, nullptr});
-  }
-  return d;
-}
+  Drawn(const Drawn&) = delete;  // it points into itself
+};
 
 /// Adds a sample with its start vertex and its overlap as drawn.
 void add_sample(interactions::SurfacePair& pair, const interactions::Surface& surface, int sample, Vec3d p,
@@ -45,7 +47,7 @@ void add_sample(interactions::SurfacePair& pair, const interactions::Surface& su
 }
 
 bool rooted(const sim::StrandEndModel& end, int surface) {
-  return end.kind == sim::StrandEndModel::hosted && end.solid == surface;
+  return end.kind == sim::StrandEndModel::hosted && end.organ == surface;
 }
 
 void pair_strand(sim::Model& model, const Drawn& drawn, int strand, int surface) {
@@ -80,6 +82,7 @@ void pair_solid(sim::Model& model, const Drawn& drawn, int solid, int surface) {
   std::vector<std::int32_t> nearest;
   const int n = samples.skin->size(), stride = std::max(1, n / kSolidSamples);
   for (int v = 0; v < n; v += stride) {
+    if (!samples.skin->at_surface(v)) continue;
     const Vec3d p = samples.position(v);
     if (!s.pose->bounds.reaches(p, kReach * 0.5)) continue;
     add_sample(pair, s, v, p, 0.0, nearest);
@@ -90,9 +93,9 @@ void pair_solid(sim::Model& model, const Drawn& drawn, int solid, int surface) {
 }
 
 /// What a membrane hangs on, it touches there.
-bool carries(const sim::MembraneModel& membrane, int solid) {
+bool carries(const sim::MembraneModel& membrane, int organ) {
   for (const interactions::BorderHold& hold : membrane.holds)
-    if (hold.kind == interactions::BorderHold::solid && hold.index == solid) return true;
+    if (hold.kind == interactions::BorderHold::organ && hold.index == organ) return true;
   return false;
 }
 
@@ -100,7 +103,7 @@ bool carries(const sim::MembraneModel& membrane, int solid) {
 void pair_membrane(sim::Model& model, const Drawn& drawn, int membrane, int surface) {
   const sim::MembraneModel& m = model.membranes[size_t(membrane)];
   const interactions::Surface& s = drawn.surface[size_t(surface)];
-  const bool rides = surface < int(model.solids.size()) && carries(m, surface);
+  const bool rides = surface < model.organs() && carries(m, surface);
   interactions::SurfacePair pair;
   pair.membrane = membrane;
   pair.surface = surface;
@@ -149,13 +152,13 @@ void pair_strands(sim::Model& model, int a, int b) {
 }  // namespace
 
 void compile_contacts(sim::Model& model) {
-  const Drawn drawn = draw(model);
-  const int solids = int(model.solids.size()), strands = int(model.strands.size());
+  const Drawn drawn(model);
+  const int organs = model.organs(), strands = int(model.strands.size());
   for (int i = 0; i < strands; ++i)
     for (int s = 0; s < model.surfaces(); ++s) pair_strand(model, drawn, i, s);
-  for (int i = 0; i < solids; ++i)
+  for (int i = 0; i < organs; ++i)
     for (int s = 0; s < model.surfaces(); ++s)
-      if (s >= solids || s < i) pair_solid(model, drawn, i, s);
+      if (s >= organs || s < i) pair_solid(model, drawn, i, s);
   for (int i = 0; i < int(model.membranes.size()); ++i)
     for (int s = 0; s < model.surfaces(); ++s) pair_membrane(model, drawn, i, s);
   for (int a = 0; a < strands; ++a)

@@ -63,15 +63,14 @@ interactions::BorderHold hold_near(const Membrane& membrane, Vec3d p, const sim:
         best.offset = p - at;
       }
     }
-    for (size_t i = 0; i < model.solids.size(); ++i) {
-      if (model.solids[i].name != name) continue;
-      const tissue::Skin& skin = model.solids[i].skin;
+    if (const int i = model.organ_index(name); i >= 0) {
+      const tissue::Skin& skin = model.skin(i);
       for (int v = 0; v < skin.size(); ++v) {
         const Vec3d at = vec_cast<double>(skin.rest[size_t(v)]);
         const double distance = length(p - at);
-        if (distance >= nearest) continue;
+        if (distance >= nearest || !skin.at_surface(v)) continue;
         nearest = distance;
-        best.kind = interactions::BorderHold::solid;
+        best.kind = interactions::BorderHold::organ;
         best.index = std::int32_t(i);
         best.place = {};
         best.vertex = v;
@@ -88,11 +87,7 @@ tissue::Skin skin_of(const tissue::MembraneModel& sheet) {
   const int n = sheet.nodes();
   skin.triangles = sheet.triangles;
   for (int i = 0; i < n; ++i) {
-    tissue::SkinWeights w;
-    w.node.fill(i);
-    w.row.fill(sheet.network.row_of_node[size_t(i)]);
-    w.weight[0] = 1;
-    skin.weights.push_back(w);
+    skin.weights.push_back(tissue::SkinWeights::at(i, sheet.network.row_of_node[size_t(i)]));
     skin.rest.push_back(vec_cast<float>(sheet.network.rest[size_t(i)]));
   }
   std::vector<Vec3d> normal(size_t(n), Vec3d{});

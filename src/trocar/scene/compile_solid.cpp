@@ -4,38 +4,21 @@
 #include <trocar/geometry/embed.hpp>
 #include <trocar/geometry/lattice.hpp>
 #include <trocar/geometry/loft.hpp>
+#include <trocar/scene/compile_parts.hpp>
 #include <trocar/scene/compile_solid.hpp>
 #include <trocar/tissue/lattice_springs.hpp>
-#include <trocar/tissue/stability.hpp>
 
 namespace trocar::scene {
 namespace {
 
-/// Position on a Morton curve through the box: vertices near each other get near numbers.
-std::uint64_t morton(Vec3d p, Vec3d low, double extent) {
-  std::uint64_t code = 0;
-  for (int k = 0; k < 3; ++k) {
-    const double f = std::clamp((p[k] - low[k]) / extent, 0.0, 1.0);
-    const auto cell = std::uint64_t(f * 1023.0);
-    for (int b = 0; b < 10; ++b) code |= ((cell >> b) & 1u) << (3 * b + k);
-  }
-  return code;
-}
-
 /// Renumbers vertices along a Morton curve, so that blocks of neighbours in memory are compact in space.
 geometry::TriMesh ordered(const geometry::TriMesh& mesh) {
-  const geometry::Bounds box = geometry::bounds(mesh.positions);
-  const Vec3d size = box.high - box.low;
-  const double extent = std::max({size.x, size.y, size.z, 1e-9});
-  std::vector<std::pair<std::uint64_t, int>> order;
-  for (size_t i = 0; i < mesh.positions.size(); ++i)
-    order.push_back({morton(mesh.positions[i], box.low, extent), int(i)});
-  std::sort(order.begin(), order.end());
+  const std::vector<int> order = along_curve(mesh.positions);
   std::vector<int> place(order.size());
   geometry::TriMesh out;
   for (size_t i = 0; i < order.size(); ++i) {
-    place[size_t(order[i].second)] = int(i);
-    out.positions.push_back(mesh.positions[size_t(order[i].second)]);
+    place[size_t(order[i])] = int(i);
+    out.positions.push_back(mesh.positions[size_t(order[i])]);
   }
   for (const auto& t : mesh.triangles)
     out.triangles.push_back({place[size_t(t[0])], place[size_t(t[1])], place[size_t(t[2])]});
@@ -73,49 +56,6 @@ tissue::Skin embedded_skin(const geometry::TriMesh& mesh, const geometry::Lattic
   return skin;
 }
 
-/// Nodes within the anchors: held, or hung from space by springs whose stiffnesses add up to the anchor's.
-std::vector<tissue::Anchor> anchor_nodes(const Solid& solid, tissue::NetworkDescription& network,
-                                         std::vector<core::Fault>& faults) {
-  std::vector<tissue::Anchor> hung;
-  network.fixed.assign(network.positions.size(), tissue::kFree);
-  for (const Anchor& a : solid.anchors) {
-    std::vector<int> inside;
-    for (size_t i = 0; i < network.positions.size(); ++i)
-      if (length(network.positions[i] - a.centre) < a.radius) inside.push_back(int(i));
-    if (inside.empty()) {
-      faults.push_back({a.at, "expected an anchor that reaches '" + solid.name + "', got none of its nodes within " +
-                                  std::to_string(a.radius * 1e3) + " mm"});
-      continue;
-    }
-    for (int i : inside) {
-      if (a.stiffness > 0)
-        hung.push_back({i, a.stiffness / double(inside.size()), network.positions[size_t(i)]});
-      else
-        network.fixed[size_t(i)] = tissue::kHeld;
-    }
-  }
-  return hung;
-}
-
-/// Spring damping that costs the time step little: a seventh of the undamped limit, but no more than the tissue's own.
-double damping_time(const tissue::NetworkDescription& undamped, double wanted) {
-  return std::min(wanted, tissue::build(undamped, sim::kTick).dt_limit / 7);
-}
-
-/// What (4b) as printed allows at each node's stiffest spring, for the record.     [KCM99 eq.4]
-double printed_limit(const tissue::NetworkDescription& n) {
-  std::vector<double> k(n.mass.size()), d(n.mass.size());
-  for (const tissue::SpringDescription& s : n.springs)
-    for (int end : {s.a, s.b}) {
-      k[size_t(end)] = std::max(k[size_t(end)], s.k);
-      d[size_t(end)] = std::max(d[size_t(end)], s.damping);
-    }
-  double least = 1e9;
-  for (size_t i = 0; i < k.size(); ++i)
-    if (k[i] > 0) least = std::min(least, tissue::dt_limit_as_printed(n.mass[i], k[i], d[i]));
-  return least;
-}
-
 }  // namespace
 
 void compile_solid(const Solid& solid, const Tissue& tissue, Vec3d gravity, sim::Model& model,
@@ -145,7 +85,7 @@ void compile_solid(const Solid& solid, const Tissue& tissue, Vec3d gravity, sim:
   out.look = solid.look;
   out.tissue = solid.tissue;
   out.cell = solid.cell;
-  out.anchors = anchor_nodes(solid, net.network, faults);
+  out.anchors = anchor_nodes(solid, net.network.positions, net.network.fixed, faults);
   const tissue::PrestressReport prestress = tissue::prestress(net.network, out.anchors);
   if (!prestress.converged || prestress.failed_springs > 0) {
     faults.push_back({solid.at, "expected '" + solid.name + "' to be held against gravity by its anchors, got " +
@@ -153,13 +93,7 @@ void compile_solid(const Solid& solid, const Tissue& tissue, Vec3d gravity, sim:
     return;
   }
   out.network = tissue::build(net.network, sim::kTick);
-  if (out.network.substeps > tissue::kMostSubsteps) {
-    faults.push_back({solid.at, "expected '" + solid.name + "' to need at most " +
-                                    std::to_string(tissue::kMostSubsteps) + " sub-steps a tick, got " +
-                                    std::to_string(out.network.substeps) +
-                                    " (larger cells, a softer tissue or a smaller strain_cap need fewer)"});
-    return;
-  }
+  if (!few_substeps(solid, out.network.substeps, faults)) return;
   out.skin = embedded_skin(skin, lattice, out.network);
   out.fine = embedded_skin(fine, lattice, out.network);
   if (report) {

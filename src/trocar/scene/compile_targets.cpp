@@ -49,12 +49,15 @@ void compile_targets(sim::Model& model) {
     }
   for (size_t i = 0; i < model.strands.size(); ++i)
     if (!model.strands[i].landmarks.empty()) add_trace(model, std::int32_t(i));
-  for (size_t i = 0; i < model.solids.size(); ++i) {
+  for (int i = 0; i < model.organs(); ++i) {
     std::vector<sim::VisibilitySample> samples;
-    constexpr int kSamples = 16;
-    const int n = model.solids[i].skin.size();
-    for (int k = 0; k < kSamples; ++k) samples.push_back({0, std::int32_t((2 * k + 1) * n / (2 * kSamples)), 0});
-    add_target(model, {sim::VisibilityTarget::solid, model.solids[i].name, std::int32_t(i), 0, 0}, samples);
+    std::vector<std::int32_t> outside;
+    for (int v = 0; v < model.skin(i).size(); ++v)
+      if (model.skin(i).at_surface(v)) outside.push_back(v);
+    constexpr size_t kSamples = 16;
+    for (size_t k = 0; k < kSamples; ++k)
+      samples.push_back({0, outside[(2 * k + 1) * outside.size() / (2 * kSamples)], 0});
+    add_target(model, {sim::VisibilityTarget::organ, model.organ_name(i), i, 0, 0}, samples);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <trocar/core/error.hpp>
+#include <trocar/geometry/tet_mesh.hpp>
 #include <trocar/numerics/vec3.hpp>
 
 namespace trocar::scene {
@@ -38,13 +39,28 @@ struct Anchor {
   core::Location at;
 };
 
-/// A volumetric organ: spline loft, filled with an elastic lattice of cubic cells.
+/// Tetrahedra from a file: a mesh, or what fills a label of a voxel volume.
+struct TetSource {
+  std::string file;    ///< as named, relative to the file that names it
+  double unit = 1e-3;  ///< of a mesh's coordinates [m]
+  int label = 0;       ///< of voxels; 0: a mesh
+  int smoothing = 1;   ///< of the label's steps, in passes
+  Vec3d place;         ///< where the file's origin goes [m]
+  geometry::TetMesh mesh;
+};
+
+/// A volumetric organ: a spline loft or tetrahedra from a file. A loft is filled with an elastic lattice of cubic
+/// cells, or with tetrahedra where it can be cut.
 struct Solid {
   std::string name, tissue, look;
-  std::vector<Section> sections;
-  double cell = 0;       ///< lattice edge [m]
-  double skin_edge = 0;  ///< contact skin's edge length [m]
-  double fine_edge = 0;  ///< drawn skin's edge length [m]
+  std::vector<Section> sections;  ///< empty where there are tets
+  std::optional<TetSource> tets;
+  bool cuttable = false;
+  Vec3d fibre{0, 0, 0};    ///< direction, any length; zero: isotropic. Tetrahedra only
+  double fibre_ratio = 1;  ///< E along the fibres over E across
+  double cell = 0;         ///< lattice edge [m]; 0 for a mesh
+  double skin_edge = 0;    ///< contact skin's edge length [m]
+  double fine_edge = 0;    ///< drawn skin's edge length [m]
   std::vector<Anchor> anchors;
   core::Location at, cell_at;
 };

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/decimal.hpp>
+#include <trocar/core/files.hpp>
 #include <trocar/scene/json.hpp>
 
 namespace trocar::scene {
@@ -433,27 +434,20 @@ JsonDocument parse_json(std::string_view text, std::string file, std::vector<cor
 JsonDocument load_json(const std::filesystem::path& path, std::vector<core::Fault>& faults, const MemoryFiles* memory) {
   JsonDocument document{path.generic_string(), {}};
   document.root.kind = Kind::broken;
-  const auto unreadable = [&](const std::string& message) {
-    tell(faults, {{document.file, 0, 0}, message});
-    return document;
-  };
   if (memory) {
     const auto found = memory->find(path);
-    if (found == memory->end()) return unreadable("expected a file, got none of this name");
+    if (found == memory->end()) {
+      tell(faults, {{document.file, 0, 0}, "expected a file, got none of this name"});
+      return document;
+    }
     return parse_json(found->second, document.file, faults);
   }
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error))
-    return unreadable(std::filesystem::exists(path, error) ? "expected a file, got something else"
-                                                           : "expected a file, got none of this name");
-  const auto size = std::filesystem::file_size(path, error);
-  if (!error && size > kMaxJsonBytes)
-    return unreadable(fmt::format("expected at most {} bytes, got {}", kMaxJsonBytes, size));
-  std::ifstream in(path, std::ios::binary);
-  std::stringstream text;
-  text << in.rdbuf();
-  if (!in) return unreadable("expected a readable file, got an error from the system while reading");
-  return parse_json(text.str(), document.file, faults);
+  try {
+    return parse_json(core::read_file(path, kMaxJsonBytes), document.file, faults);
+  } catch (const core::BadInput& e) {
+    tell(faults, e.faults().front());
+    return document;
+  }
 }
 
 std::string shown(const JsonValue& value) {

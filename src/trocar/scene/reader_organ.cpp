@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/files.hpp>
+#include <trocar/geometry/tet_files.hpp>
 #include <trocar/scene/reader_parts.hpp>
 
 namespace trocar::scene {
@@ -11,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kMaxSolidNodes = 60'000;  // ten of today's organs: a tick of more is far from real time
+constexpr int kMaxSolidNodes = 60'000;  // ten of today's organs: a tick of more is far from real time
 
 double area(const Section& s) {
   // of a super-ellipse: pi a b at exponent 2, towards 4 a b for a square (1 % good between)
@@ -33,6 +35,17 @@ Section section(const JsonObject& o) {
   return s;
 }
 
+constexpr int kMaxSolidCells = 200'000;
+
+void take(const JsonObject& o, TetSource source, Solid& s) {
+  if (source.mesh.cells.empty()) return o.fault("file", "expected cells with a volume, got flat ones only");
+  if (source.mesh.points.size() > std::size_t(kMaxSolidNodes) || source.mesh.cells.size() > std::size_t(kMaxSolidCells))
+    return o.fault("file", fmt::format("expected at most {} nodes and {} cells, got {} and {}", kMaxSolidNodes,
+                                       kMaxSolidCells, source.mesh.points.size(), source.mesh.cells.size()));
+  for (Vec3d& p : source.mesh.points) p += source.place;
+  s.tets = std::move(source);
+}
+
 /// Bounds what compile would have to make of it, before it tries.
 void check_size(const JsonObject& o, const Solid& s) {
   double volume = 0, skin = 0;
@@ -52,7 +65,67 @@ void check_size(const JsonObject& o, const Solid& s) {
                                2.3 * skin / (edge * edge)));
 }
 
+/// One shape, and what belongs to it.
+void check_shape(const JsonObject& o, const Solid& s) {
+  int shapes = 0;
+  for (const char* key : {"sections", "mesh", "voxels"}) {
+    shapes += o.names(key);
+    if (o.names(key) && shapes == 2) o.fault(key, "expected one shape, got a second one");
+  }
+  if (shapes == 0) o.fault(o.at(), "expected a shape (sections, mesh or voxels), got none");
+  if (!o.names("mesh") && !o.names("cell_mm")) o.fault(o.at(), "expected \"cell_mm\", got none");
+  if (o.names("mesh") && o.names("cell_mm"))
+    o.fault("cell_mm", "expected no cell_mm beside a mesh, whose cells are as they are, got one");
+  const bool lattice = o.names("sections") && !s.cuttable;
+  for (const char* key : {"fibre", "fibre_ratio"})
+    if (o.names(key) && lattice)
+      o.fault(key, "expected fibres in tetrahedra only (mesh, voxels or cuttable), got some in a lattice");
+  if (o.names("fibre") && !(length(s.fibre) > 1e-6)) o.fault("fibre", "expected a direction, got none");
+  for (const char* key : {"skin_edge_mm", "fine_edge_mm"})
+    if (o.names(key) && !lattice)
+      o.fault(key, "expected skin edges for a lattice only, got one for tetrahedra, whose faces are the skin");
+}
+
 }  // namespace
+
+std::optional<std::string> Reading::bytes_of(const JsonObject& o, const fs::path& folder) {
+  const fs::path named(o.text("file"));
+  if (!o.has("file")) return {};
+  if (named.empty() || named.is_absolute()) {
+    o.fault("file", fmt::format("expected a file name relative to this file, got \"{}\"", named.generic_string()));
+    return {};
+  }
+  const fs::path path = (folder / named).lexically_normal();
+  if (m_memory) {
+    const auto found = m_memory->find(path);
+    if (found != m_memory->end()) return found->second;
+    o.fault("file", fmt::format("expected the name of a file, got \"{}\"", named.generic_string()));
+    return {};
+  }
+  try {
+    return core::read_file(path, geometry::kMaxMeshBytes);
+  } catch (const core::BadInput& e) {
+    o.fault("file", e.faults().front().message + " (" + path.generic_string() + ")");
+    return {};
+  }
+}
+
+void Reading::mesh_of(const JsonObject& o, const fs::path& folder, Solid& s) {
+  TetSource source;
+  source.file = o.text("file");
+  source.unit = from_mm(o.number("unit_mm", 1));
+  source.place = from_mm(o.vec3("place_mm"));
+  const std::optional<std::string> bytes = bytes_of(o, folder);
+  if (!bytes) return;
+  try {
+    const std::string shown = (folder / source.file).lexically_normal().generic_string();
+    source.mesh = geometry::repair(geometry::read_tets(*bytes, shown, source.unit).mesh).mesh;
+  } catch (const core::BadInput& e) {
+    for (const core::Fault& f : e.faults()) tell(m_faults, f);
+    return;
+  }
+  take(o, std::move(source), s);
+}
 
 void Reading::organs(const JsonObject& o, const fs::path& folder) {
   includes(o, "organs", folder, organ_shape(), &Reading::organ, &Reading::organ);
@@ -60,14 +133,14 @@ void Reading::organs(const JsonObject& o, const fs::path& folder) {
 
 void Reading::organ(const JsonObject& o, const fs::path& folder) {
   organs(o, folder);
-  for (const JsonObject& s : o.objects("solids")) solid(s);
+  for (const JsonObject& s : o.objects("solids")) solid(s, folder);
   for (const JsonObject& s : o.objects("strands")) strand(s);
   for (const JsonObject& w : o.objects("walls")) wall(w);
   for (const JsonObject& s : o.objects("sheets")) sheet(s);
   for (const JsonObject& m : o.objects("membranes")) membrane(m);
 }
 
-void Reading::solid(const JsonObject& o) {
+void Reading::solid(const JsonObject& o, const fs::path& folder) {
   Solid s;
   s.name = o.text("name");
   s.tissue = o.text("tissue");
@@ -79,7 +152,12 @@ void Reading::solid(const JsonObject& o) {
     if (n > 1 && part.has("centre_mm") && !(length(s.sections[n - 1].centre - s.sections[n - 2].centre) >= 1e-5))
       part.fault("centre_mm", "expected a centre at least 0.01 mm from the section before, got the same place");
   }
-  s.cell = from_mm(o.number("cell_mm", 5));
+  s.cell = o.has("mesh") ? 0 : from_mm(o.number("cell_mm", 5));
+  s.cuttable = o.flag("cuttable", s.cuttable);
+  s.fibre = o.vec3("fibre");
+  s.fibre_ratio = o.number("fibre_ratio", s.fibre_ratio);
+  check_shape(o, s);
+  for (const JsonObject& mesh : o.objects("mesh")) mesh_of(mesh, folder, s);
   s.skin_edge = o.has("skin_edge_mm") ? from_mm(o.number("skin_edge_mm")) : s.cell;
   s.fine_edge = o.has("fine_edge_mm") ? from_mm(o.number("fine_edge_mm")) : s.skin_edge / 2;
   for (const JsonObject& a : o.objects("anchors"))
@@ -87,7 +165,7 @@ void Reading::solid(const JsonObject& o) {
         {from_mm(a.vec3("centre_mm")), from_mm(a.number("radius_mm", 1)), a.number("stiffness_N_m"), a.at()});
   s.at = o.at();
   s.cell_at = o.at("cell_mm");
-  check_size(o, s);
+  if (!s.tets) check_size(o, s);
   description.solids.push_back(std::move(s));
 }
 

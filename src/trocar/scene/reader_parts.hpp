@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -78,7 +79,11 @@ class Reading {
 
   void organs(const JsonObject& o, const std::filesystem::path& folder);
   void organ(const JsonObject& o, const std::filesystem::path& folder);
-  void solid(const JsonObject& o);
+  void solid(const JsonObject& o, const std::filesystem::path& folder);
+  void mesh_of(const JsonObject& o, const std::filesystem::path& folder, Solid& s);
+  void voxels_of(const JsonObject& o, const std::filesystem::path& folder, Solid& s);
+  /// The bytes of a file that is not JSON, named by o's "file"; none, and a fault, where it cannot be read.
+  std::optional<std::string> bytes_of(const JsonObject& o, const std::filesystem::path& folder);
   void wall(const JsonObject& o);
 
   void strand(const JsonObject& o);

@@ -280,6 +280,7 @@ const JsonValue* JsonObject::good(std::string_view key) const {
 }
 
 bool JsonObject::has(std::string_view key) const { return good(key) != nullptr; }
+bool JsonObject::names(std::string_view key) const { return m_value->find(key) != nullptr; }
 
 double JsonObject::number(std::string_view key, double fallback) const {
   const JsonValue* v = good(key);

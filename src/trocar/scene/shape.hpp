@@ -94,6 +94,8 @@ class JsonObject {
 
   /// Is the key there with a value of the right type, in range? Everything below gives the fallback where it is not.
   bool has(std::string_view key) const;
+  /// Is it there at all, right or wrong?
+  bool names(std::string_view key) const;
   double number(std::string_view key, double fallback = 0) const;
   int integer(std::string_view key, int fallback = 0) const;
   bool flag(std::string_view key, bool fallback = false) const;

@@ -42,14 +42,40 @@ const Shape& anchor() {
   return shape;
 }
 
+const Shape& tet_mesh() {
+  static const Shape shape{"mesh",
+                           "Tetrahedra from a file: Gmsh .msh or legacy VTK.",
+                           {needed(keys::text("file", "its name, relative to this file")),
+                            keys::number("unit_mm", 1e-6, 1e6, "unit of its coordinates, default 1"),
+                            keys::vec3("place_mm", -kFar, kFar, "where its origin goes, default 0, 0, 0")}};
+  return shape;
+}
+
+const Shape& voxel_body() {
+  static const Shape shape{"voxels",
+                           "What fills one label of a segmented volume: NRRD, as 3D Slicer saves it.",
+                           {needed(keys::text("file", "its name, relative to this file")),
+                            needed(keys::integer("label", 1, 65535, "the value of the organ's voxels")),
+                            keys::integer("smoothing", 0, 16, "passes that take away the voxels' steps, default 1"),
+                            keys::vec3("place_mm", -kFar, kFar, "where its origin goes, default 0, 0, 0")}};
+  return shape;
+}
+
 const Shape& solid() {
   static const Shape shape{
       "solid",
-      "A volumetric organ: a smooth loft through its sections, filled with an elastic lattice of cubic cells.",
+      "A volumetric organ. Its shape is one of: sections (a smooth loft), mesh, voxels. A loft is filled with an "
+      "elastic "
+      "lattice of cubic cells, or with tetrahedra where it is cuttable; the others are tetrahedra always.",
       {needed(keys::name("name", "what scenes and exercises call it")), needed(keys::name("tissue", "its material")),
        keys::name("look", "its surface in the picture, default: its name"),
-       needed(keys::objects("sections", section, 2, "from one end to the other")),
-       needed(keys::number("cell_mm", 0.1, 100, "lattice edge")),
+       keys::objects("sections", section, 2, "from one end to the other"),
+       keys::object("mesh", tet_mesh, "tetrahedra from a file"),
+       keys::object("voxels", voxel_body, "a label of a volume, filled with tetrahedra"),
+       keys::number("cell_mm", 0.1, 100, "edge of the lattice's cubes; needed but for a mesh"),
+       keys::flag("cuttable", "can it be cut anywhere, so that pieces come off? default false"),
+       keys::vec3("fibre", -1, 1, "direction of its fibres, default: none; not for a lattice"),
+       keys::number("fibre_ratio", 0.2, 5, "stiffness along the fibres over across, default 1"),
        keys::number("skin_edge_mm", 0.2, 100, "edge of the touched skin's triangles, default: cell_mm"),
        keys::number("fine_edge_mm", 0.1, 100, "edge of the drawn skin's triangles, default: half of skin_edge_mm"),
        keys::objects("anchors", anchor, 0, "what holds it")}};

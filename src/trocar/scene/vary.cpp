@@ -94,6 +94,8 @@ void bend(Solid& solid, const Warp& warp) {
     s.deep = warp.along(s.centre, s.deep);
     s.centre = warp(s.centre);
   }
+  if (solid.tets)
+    for (Vec3d& p : solid.tets->mesh.points) p = warp(p);
   for (Anchor& a : solid.anchors) a.centre = warp(a.centre);
 }
 

@@ -82,15 +82,35 @@ JsonValue written(const Anchor& a) {
   return o;
 }
 
+/// By the file's name: what stands there is not written.
+JsonValue written(const TetSource& t) {
+  JsonValue o = json_object();
+  put_name(o, "file", t.file);
+  if (t.label > 0) {
+    put(o, "label", json_number(t.label));
+    put(o, "smoothing", json_number(t.smoothing));
+  } else {
+    put(o, "unit_mm", mm(t.unit));
+  }
+  put(o, "place_mm", mm(t.place));
+  return o;
+}
+
 JsonValue written(const Solid& s) {
   JsonValue o = json_object();
   put_name(o, "name", s.name);
   put_name(o, "tissue", s.tissue);
   put_name(o, "look", s.look);
-  put(o, "sections", list(s.sections, [](const Section& x) { return written(x); }));
-  put(o, "cell_mm", mm(s.cell));
-  put(o, "skin_edge_mm", mm(s.skin_edge));
-  put(o, "fine_edge_mm", mm(s.fine_edge));
+  if (!s.sections.empty()) put(o, "sections", list(s.sections, [](const Section& x) { return written(x); }));
+  if (s.tets) put(o, s.tets->label > 0 ? "voxels" : "mesh", written(*s.tets));
+  if (s.cell > 0) put(o, "cell_mm", mm(s.cell));
+  const bool lattice = !s.tets && !s.cuttable;
+  if (lattice) put(o, "skin_edge_mm", mm(s.skin_edge));
+  if (lattice) put(o, "fine_edge_mm", mm(s.fine_edge));
+  if (s.cuttable) put(o, "cuttable", json_flag(true));
+  if (length(s.fibre) > 0)
+    put(o, "fibre", json_array({json_number(s.fibre.x), json_number(s.fibre.y), json_number(s.fibre.z)}));
+  if (s.fibre_ratio != 1) put(o, "fibre_ratio", json_number(s.fibre_ratio));
   if (!s.anchors.empty()) put(o, "anchors", list(s.anchors, [](const Anchor& x) { return written(x); }));
   return o;
 }

@@ -13,7 +13,7 @@ int find_name(const List& list, const std::string& name) {
 
 void add_patch(core::Hasher& h, const StrandEndModel& end) {
   h.add(std::int32_t(end.kind));
-  h.add(end.solid);
+  h.add(end.organ);
   h.add(end.patch.node);
   h.add(end.patch.weight);
   h.add(end.patch.offset);
@@ -36,9 +36,29 @@ int Model::free_nodes() const {
   int n = 0;
   for (const SolidModel& s : solids)
     for (std::uint8_t held : s.network.fixed) n += held != tissue::kHeld;
+  for (const CuttableOrgan& c : cuttables)
+    for (int i = 0; i < c.body.own_nodes; ++i) n += c.body.fixed[size_t(i)] != tissue::kHeld;
   for (const interactions::StrandBody& b : bodies) n += b.nodes() - int(b.model.prescribed_nodes.size());
   for (const MembraneModel& m : membranes) n += m.sheet.nodes() - int(m.sheet.held_nodes.size());
   return n;
+}
+
+const std::string& Model::organ_name(int organ) const {
+  const size_t i = size_t(organ), n = solids.size();
+  return i < n ? solids[i].name : cuttables[i - n].name;
+}
+const std::string& Model::organ_look(int organ) const {
+  const size_t i = size_t(organ), n = solids.size();
+  return i < n ? solids[i].look : cuttables[i - n].look;
+}
+const tissue::Skin& Model::skin(int organ) const {
+  const size_t i = size_t(organ), n = solids.size();
+  return i < n ? solids[i].skin : cuttables[i - n].skin.skin;
+}
+int Model::organ_index(const std::string& organ) const {
+  for (int i = 0; i < organs(); ++i)
+    if (organ_name(i) == organ) return i;
+  return -1;
 }
 
 int Model::membrane_index(const std::string& membrane) const { return find_name(membranes, membrane); }
@@ -65,6 +85,7 @@ void seal(Model& model) {
       h.add(a.x0);
     }
   }
+  for (const CuttableOrgan& c : model.cuttables) tissue::add_to_hash(h, c.body);
   for (const interactions::StrandBody& b : model.bodies) interactions::add_to_hash(h, b);
   for (const StrandModel& s : model.strands) {
     add_patch(h, s.start);

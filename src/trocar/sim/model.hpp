@@ -13,6 +13,7 @@
 #include <trocar/interactions/surface.hpp>
 #include <trocar/interactions/tool.hpp>
 #include <trocar/sim/input.hpp>
+#include <trocar/tissue/cuttable_skin.hpp>
 #include <trocar/tissue/prestress.hpp>
 
 namespace trocar::sim {
@@ -29,6 +30,14 @@ struct SolidModel {
   tissue::Skin fine;                    ///< drawn: the same surface, more vertices
 };
 
+/// A volumetric organ that can be cut anywhere. Organs are numbered: solids first, then these.
+struct CuttableOrgan {
+  std::string name, look, tissue;
+  double cell = 0;  ///< a typical edge [m]
+  tissue::CuttableModel body;
+  tissue::CuttableSkin skin;  ///< uncut; what is touched, held and drawn
+};
+
 /// A stretch of a strand with a name: isthmus, ampulla, fimbria.
 struct LandmarkModel {
   std::string name;
@@ -38,7 +47,7 @@ struct LandmarkModel {
 /// What holds a strand's end: nothing, space, or an organ.
 struct StrandEndModel {
   enum Kind : std::int32_t { free, fixed, hosted } kind = free;
-  std::int32_t solid = -1;
+  std::int32_t organ = -1;
   interactions::HostPatch patch;
 };
 
@@ -59,7 +68,7 @@ struct WallModel {
 /// A point of a sheet's base line and what it rides on.
 struct BasePoint {
   Vec3d rest;
-  std::int32_t solid = -1;  ///< rides on this organ's skin vertex ...
+  std::int32_t organ = -1;  ///< rides on this organ's skin vertex ...
   std::int32_t vertex = -1;
   std::int32_t strand = -1;  ///< ... or on this strand, or (both -1) on space
   interactions::StrandPlace place;
@@ -104,9 +113,9 @@ struct ScopeModel {
 
 /// Something whose visibility the simulation knows: `visible` when at least half of its samples are seen.
 struct VisibilityTarget {
-  enum Kind : std::int32_t { jaw, shaft, strand, solid } kind = jaw;
+  enum Kind : std::int32_t { jaw, shaft, strand, organ } kind = jaw;
   std::string name;                   ///< "tube_left.isthmus", "uterus", "left_lateral.jaw_a", "left_lateral.shaft"
-  std::int32_t index = 0;             ///< hand, strand or solid
+  std::int32_t index = 0;             ///< hand, strand or organ
   std::int32_t first = 0, count = 0;  ///< samples
 };
 struct VisibilitySample {
@@ -122,6 +131,7 @@ struct Model {
   std::string name, file;
   Vec3d gravity;
   std::vector<SolidModel> solids;
+  std::vector<CuttableOrgan> cuttables;
   std::vector<StrandModel> strands;
   std::vector<interactions::StrandBody> bodies;  ///< (strands) their mechanics, side by side as interactions want them
   std::vector<WallModel> walls;
@@ -143,7 +153,12 @@ struct Model {
   const interactions::ToolModel& placed(size_t hand) const noexcept { return hands[hand].rack.front(); }
 
   int free_nodes() const;  ///< nodes that move, all bodies
-  int surfaces() const { return int(solids.size() + walls.size()); }
+  int organs() const { return int(solids.size() + cuttables.size()); }
+  int surfaces() const { return organs() + int(walls.size()); }  ///< organs first
+  const std::string& organ_name(int organ) const;
+  const std::string& organ_look(int organ) const;
+  const tissue::Skin& skin(int organ) const;              ///< as drawn
+  int organ_index(const std::string& organ) const;        ///< -1 if there is none
   int strand_index(const std::string& strand) const;      ///< -1 if there is none
   int membrane_index(const std::string& membrane) const;  ///< -1 if there is none
   int target_index(const std::string& target) const;      ///< -1 if there is none

@@ -13,6 +13,7 @@ State initial_state(const Model& model) {
     s.solids.push_back(tissue::rest_state(solid.network));
     s.parted.emplace_back(solid.fine.triangles.size(), std::uint8_t(0));
   }
+  for (const CuttableOrgan& c : model.cuttables) s.cuttables.push_back(tissue::rest_state(c.body));
   for (const interactions::StrandBody& body : model.bodies) s.strands.push_back(tissue::rest_state(body.model));
   for (size_t t = 0; t < model.hands.size(); ++t) {
     interactions::ToolState& tool = s.tools[t];
@@ -47,10 +48,17 @@ State initial_state(const Model& model) {
   return s;
 }
 
+tissue::NodeView nodes_of(const Model& model, const State& s, int organ) noexcept {
+  const size_t i = size_t(organ), n = model.solids.size();
+  return i < n ? view_of(model.solids[i].network, s.solids[i])
+               : view_of(model.cuttables[i - n].body, s.cuttables[i - n]);
+}
+
 std::uint64_t hash_of(const State& s) noexcept {
   core::Hasher h;
   h.add(s.tick);
   for (const auto& solid : s.solids) add_to_hash(h, solid);
+  for (const auto& body : s.cuttables) add_to_hash(h, body);
   for (const auto& strand : s.strands) add_to_hash(h, strand);
   h.add(s.tools);
   h.add(s.magazine);
@@ -138,6 +146,73 @@ std::vector<std::uint32_t> open_triangles(const std::vector<std::uint8_t>& parte
   return open;
 }
 
+/// Numbers that differ from what they were when uncut, each with its place; first how many there are.
+template <class T>
+void put_changes(std::vector<std::uint8_t>& out, const std::vector<T>& now, const std::vector<T>& uncut, size_t count) {
+  std::vector<std::uint32_t> changed;
+  for (size_t i = 0; i < count; ++i)
+    if (!(now[i] == uncut[i])) changed.push_back(std::uint32_t(i));
+  const auto n = std::uint32_t(changed.size());
+  put(out, &n, 1);
+  for (const std::uint32_t i : changed) {
+    put(out, &i, 1);
+    put(out, &now[i], 1);
+  }
+}
+template <class T>
+void take_changes(Source& in, std::vector<T>& now, size_t count) {
+  std::uint32_t n = 0, i = 0;
+  in.take(&n, 1);
+  in.good = in.good && n <= count;
+  for (std::uint32_t k = 0; in.good && k < n; ++k) {
+    in.take(&i, 1);
+    in.good = in.good && i < count;
+    if (in.good) in.take(&now[i], 1);
+  }
+}
+
+/// What a cut has made of a body, and where its nodes are.
+void put_body(std::vector<std::uint8_t>& out, const tissue::CuttableModel& m, const tissue::CuttableState& s) {
+  const size_t nodes = size_t(s.tets.nodes);
+  put(out, &s.tets.nodes, 1);
+  put(out, &s.version, 1);
+  put_changes(out, s.tets.source, m.drawn.source, nodes);
+  put_changes(out, s.tets.rest, m.drawn.rest, nodes);
+  put_changes(out, s.tets.cells, m.drawn.cells, s.tets.cells.size());
+  put_changes(out, s.tets.across, m.drawn.across, s.tets.across.size());
+  for (int n = 0; n < s.tets.nodes; ++n) put_place(out, tissue::position(m, s, n), s.tets.rest[size_t(n)]);
+}
+
+/// Does every number in it name something that is there?
+bool sound(const geometry::CuttableTets& b) {
+  const auto cells = std::int32_t(b.cells.size());
+  for (std::int32_t n = 0; n < b.nodes; ++n) {
+    if (b.source[size_t(n)] < 0 || b.source[size_t(n)] > n) return false;
+    for (int k = 0; k < 3; ++k)
+      if (!(std::fabs(b.rest[size_t(n)][k]) < 1e3)) return false;
+  }
+  for (size_t c = 0; c < b.cells.size(); ++c)
+    for (size_t k = 0; k < 4; ++k)
+      if (b.cells[c][k] < 0 || b.cells[c][k] >= b.nodes || b.across[c][k] < -1 || b.across[c][k] >= cells) return false;
+  return true;
+}
+
+void take_body(Source& in, const tissue::CuttableModel& m, tissue::CuttableState& s) {
+  s.tets = m.drawn;
+  in.take(&s.tets.nodes, 1);
+  in.take(&s.version, 1);
+  in.good = in.good && s.tets.nodes >= m.own_nodes && size_t(s.tets.nodes) <= m.drawn.rest.size();
+  if (!in.good) return;
+  const size_t nodes = size_t(s.tets.nodes);
+  take_changes(in, s.tets.source, nodes);
+  take_changes(in, s.tets.rest, nodes);
+  take_changes(in, s.tets.cells, s.tets.cells.size());
+  take_changes(in, s.tets.across, s.tets.across.size());
+  in.good = in.good && sound(s.tets);
+  for (int n = 0; in.good && n < s.tets.nodes; ++n)
+    tissue::set_position(m, s, n, in.take_place(s.tets.rest[size_t(n)]));
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> display_bytes(const Model& model, const State& s) {
@@ -148,6 +223,7 @@ std::vector<std::uint8_t> display_bytes(const Model& model, const State& s) {
     for (int n = 0; n < network.nodes; ++n)
       put_place(out, tissue::position(network, s.solids[i], n), network.rest[size_t(n)]);
   }
+  for (size_t i = 0; i < s.cuttables.size(); ++i) put_body(out, model.cuttables[i].body, s.cuttables[i]);
   for (size_t i = 0; i < s.strands.size(); ++i) {
     const tissue::StrandState& strand = s.strands[i];
     for (size_t n = 0; n < strand.x.size(); ++n) put_place(out, strand.x[n], model.bodies[i].model.rest[n]);
@@ -180,7 +256,7 @@ bool names_tissue(const Model& model, const interactions::Hold& hold) {
   const std::int32_t b = hold.body, solid = b - interactions::kSolidBase, fold = b - interactions::kMembraneBase;
   int elements = 0;
   if (b >= 0 && size_t(b) < model.bodies.size()) elements = model.bodies[size_t(b)].nodes() - 1;
-  if (solid >= 0 && size_t(solid) < model.solids.size()) elements = model.solids[size_t(solid)].skin.size();
+  if (solid >= 0 && solid < model.organs()) elements = model.skin(solid).size();
   if (fold >= 0 && size_t(fold) < model.membranes.size()) elements = model.membranes[size_t(fold)].sheet.nodes();
   return hold.element >= 0 && hold.element < elements;
 }
@@ -207,7 +283,7 @@ bool sound(const Model& model, const State& s) {
     if (!names_strand(s.clips[size_t(i)].strand, s.clips[size_t(i)].s)) return false;
   for (int i = 0; i < s.cut_count; ++i)
     if (!names_strand(s.cuts[size_t(i)].strand, s.cuts[size_t(i)].s) || s.cuts[size_t(i)].solid < -1 ||
-        s.cuts[size_t(i)].solid >= std::int32_t(model.solids.size()) || s.cuts[size_t(i)].membrane < -1 ||
+        s.cuts[size_t(i)].solid >= model.organs() || s.cuts[size_t(i)].membrane < -1 ||
         s.cuts[size_t(i)].membrane >= std::int32_t(model.membranes.size()) || !std::isfinite(s.cuts[size_t(i)].fold))
       return false;
   return true;
@@ -224,6 +300,7 @@ bool restore_display(const Model& model, const std::vector<std::uint8_t>& bytes,
     for (int n = 0; in.good && n < network.nodes; ++n)
       tissue::set_position(network, s.solids[i], n, in.take_place(network.rest[size_t(n)]));
   }
+  for (size_t i = 0; i < s.cuttables.size(); ++i) take_body(in, model.cuttables[i].body, s.cuttables[i]);
   for (size_t i = 0; i < s.strands.size(); ++i) {
     tissue::StrandState& strand = s.strands[i];
     for (size_t n = 0; in.good && n < strand.x.size(); ++n) strand.x[n] = in.take_place(model.bodies[i].model.rest[n]);

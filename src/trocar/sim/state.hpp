@@ -13,6 +13,7 @@ namespace trocar::sim {
 struct State {
   std::uint64_t tick = 0;  ///< ticks made
   std::vector<tissue::NetworkState> solids;
+  std::vector<tissue::CuttableState> cuttables;
   std::vector<tissue::StrandState> strands;
   std::vector<tissue::MembraneState> membranes;
   std::array<interactions::ToolState, kMaxTools> tools;
@@ -32,6 +33,9 @@ struct State {
 };
 
 State initial_state(const Model& model);
+
+/// Where an organ's nodes are: valid until its next tick.
+tissue::NodeView nodes_of(const Model& model, const State& state, int organ) noexcept;
 
 /// 64-bit hash of all of it.
 std::uint64_t hash_of(const State& state) noexcept;

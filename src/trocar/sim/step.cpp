@@ -12,7 +12,7 @@ namespace {
 using interactions::Owner;
 
 interactions::TissueView tissue_of(const StepContext& c) noexcept {
-  return {c.model.bodies, c.state.strands, {c.work.surfaces.data(), c.model.solids.size()}, c.work.sheets};
+  return {c.model.bodies, c.state.strands, {c.work.surfaces.data(), size_t(c.model.organs())}, c.work.sheets};
 }
 
 void tell(StepContext& c, Event::Kind kind, int tool, int index) noexcept {
@@ -93,62 +93,89 @@ void move_hands(StepContext& c) noexcept {
   s.post = stepped(s.post, in.post, 0.008f);
 }
 
+/// Where organs' nodes are: their States change places when they advance.
+void view_organs(StepContext& c) noexcept {
+  for (int i = 0; i < c.model.organs(); ++i) c.work.nodes[size_t(i)] = nodes_of(c.model, c.state, i);
+}
+
 interactions::Holders holders_of(const StepContext& c) noexcept {
-  return {c.model.bodies, c.state.strands, c.work.networks, c.work.skins, c.state.solids};
+  return {c.model.bodies, c.state.strands, c.work.nodes, c.work.skins};
 }
 
 void pose_sheets(StepContext& c) noexcept {
   for (size_t i = 0; i < c.model.membranes.size(); ++i) {
     const MembraneModel& m = c.model.membranes[i];
-    const tissue::NetworkState& state = c.state.membranes[i].network;
-    tissue::pose_skin(m.sheet.network, m.skin, state, c.work.sheet_poses[i]);
+    const tissue::NodeView nodes = view_of(m.sheet.network, c.state.membranes[i].network);
+    tissue::pose_skin(nodes, m.skin, c.work.sheet_poses[i]);
     c.work.sheets[i] = {
-        {&m.skin, &c.work.sheet_poses[i], &m.sheet.network, &state}, c.state.torn[i], 0.5 * m.sheet.thickness};
+        {&m.skin, &c.work.sheet_poses[i], nodes}, c.state.torn[i], m.sheet.network.fixed, 0.5 * m.sheet.thickness};
   }
 }
 
 // 2. Skins: x = W q, boxes.
 void pose_skins(StepContext& c) noexcept {
-  for (size_t i = 0; i < c.model.solids.size(); ++i) {
-    const SolidModel& solid = c.model.solids[i];
-    tissue::pose_skin(solid.network, solid.skin, c.state.solids[i], c.work.poses[i]);
-    c.work.surfaces[i] = {&solid.skin, &c.work.poses[i], &solid.network, &c.state.solids[i]};
+  view_organs(c);
+  for (size_t i = 0; i < c.model.cuttables.size(); ++i)
+    tissue::update(c.model.cuttables[i].body, c.state.cuttables[i], c.work.cuttable_skins[i]);
+  const size_t organs = size_t(c.model.organs());
+  for (size_t i = 0; i < organs; ++i) {
+    tissue::pose_skin(c.work.nodes[i], *c.work.skins[i], c.work.poses[i]);
+    c.work.surfaces[i] = {c.work.skins[i], &c.work.poses[i], c.work.nodes[i]};
   }
   for (size_t i = 0; i < c.model.walls.size(); ++i)
-    c.work.surfaces[c.model.solids.size() + i] = {&c.model.walls[i].skin, &c.model.walls[i].pose, nullptr, nullptr};
+    c.work.surfaces[organs + i] = {&c.model.walls[i].skin, &c.model.walls[i].pose, {}};
   pose_sheets(c);
 }
 
 constexpr double kHangingDamping = 0.02;  // [s] times stiffness: fat and folds that carry an organ yield slowly
 
+void hang(std::span<const tissue::Anchor> anchors, size_t organ, interactions::NetworkLoads& loads) noexcept {
+  for (const tissue::Anchor& a : anchors) {
+    tissue::NodeLoad load;
+    load.node = a.node;
+    load.k = float(a.k);
+    load.d = float(a.k * kHangingDamping);
+    load.x0 = vec_cast<float>(a.x0);
+    load.f0 = vec_cast<float>(a.k * (a.x0 - vec_cast<double>(load.x0)));
+    loads.add(load, {Owner::anchor, std::int32_t(organ), 0});
+  }
+}
+
 // 3. Loads start afresh with the springs that hang organs in space.
 void hang_organs(StepContext& c) noexcept {
-  for (interactions::NetworkLoads& l : c.work.solid_loads) l.clear();
+  for (interactions::NetworkLoads& l : c.work.organ_loads) l.clear();
   for (interactions::StrandLoads& l : c.work.strand_loads) l.clear();
   for (interactions::NetworkLoads& l : c.work.membrane_loads) l.clear();
-  for (size_t i = 0; i < c.model.solids.size(); ++i)
-    for (const tissue::Anchor& a : c.model.solids[i].anchors) {
-      tissue::NodeLoad load;
-      load.node = a.node;
-      load.k = float(a.k);
-      load.d = float(a.k * kHangingDamping);
-      load.x0 = vec_cast<float>(a.x0);
-      load.f0 = vec_cast<float>(a.k * (a.x0 - vec_cast<double>(load.x0)));
-      c.work.solid_loads[i].add(load, {Owner::anchor, std::int32_t(i), 0});
-    }
+  const size_t solids = c.model.solids.size();
+  for (size_t i = 0; i < solids; ++i) hang(c.model.solids[i].anchors, i, c.work.organ_loads[i]);
+  for (size_t i = 0; i < c.model.cuttables.size(); ++i)
+    hang(c.model.cuttables[i].body.anchors, solids + i, c.work.organ_loads[solids + i]);
+}
+
+/// What the blades of organ `organ` of this State's organs have parted: springs of a lattice, faces between cells.
+int part_organ(StepContext& c, size_t t, size_t organ) noexcept {
+  State& s = c.state;
+  const interactions::ToolModel& tool = c.model.tool(s, t);
+  const interactions::ToolShape& shape = c.work.shapes[t];
+  const size_t solids = c.model.solids.size();
+  if (organ >= solids) {
+    const size_t i = organ - solids;
+    const geometry::Blade blade = interactions::swept_by_blades(tool, shape);
+    return tissue::cut(c.model.cuttables[i].body, blade, s.cuttables[i], c.work.cuttable_work[i]).parted;
+  }
+  const SolidModel& solid = c.model.solids[organ];
+  return interactions::cut_organ(tool, shape, solid.network, solid.fine, s.solids[organ], s.parted[organ],
+                                 c.work.parts);
 }
 
 /// Blades that have just closed part the organs they closed in.
 void cut_organs(StepContext& c, size_t t) noexcept {
   State& s = c.state;
   const interactions::ToolShape& shape = c.work.shapes[t];
-  for (size_t i = 0; i < c.model.solids.size(); ++i) {
-    const SolidModel& solid = c.model.solids[i];
+  for (size_t i = 0; i < size_t(c.model.organs()); ++i) {
     if (!c.work.poses[i].bounds.near_segment(shape.pivot, shape.frame.tip, 0.005)) continue;
     if (s.cut_count == interactions::kMaxCuts) return;  // what cannot be recorded is not cut
-    const int severed = interactions::cut_organ(c.model.tool(s, t), shape, solid.network, solid.fine, s.solids[i],
-                                                s.parted[i], c.work.parts);
-    if (severed == 0) continue;
+    if (part_organ(c, t, i) == 0) continue;
     interactions::Cut& cut = s.cuts[size_t(s.cut_count++)];
     cut = {};
     cut.solid = std::int32_t(i);
@@ -260,8 +287,8 @@ void touch_tissue(StepContext& c) noexcept {
   size_t at = 0;
   for (size_t t = 0; t < c.model.hands.size(); ++t) {
     const interactions::ToolShape& shape = c.work.shapes[t];
-    for (size_t i = 0; i < c.model.solids.size(); ++i)
-      interactions::tool_on_surface(shape, int(t), c.work.surfaces[i], c.work.solid_loads[i]);
+    for (size_t i = 0; i < size_t(c.model.organs()); ++i)
+      interactions::tool_on_surface(shape, int(t), c.work.surfaces[i], c.work.organ_loads[i]);
     for (size_t i = 0; i < c.model.strands.size(); ++i) {
       const size_t sides = size_t(c.model.bodies[i].nodes() - 1) * size_t(interactions::kToolParts);
       interactions::tool_on_strand(c.model.tool(c.state, t), shape, c.state.tools[t], int(t), c.model.bodies[i], int(i),
@@ -269,7 +296,7 @@ void touch_tissue(StepContext& c) noexcept {
       at += sides;
     }
     touch_sheets(c, t);
-    interactions::hold_loads(shape, int(t), view, c.state.tools[t], c.work.strand_loads, c.work.solid_loads,
+    interactions::hold_loads(shape, int(t), view, c.state.tools[t], c.work.strand_loads, c.work.organ_loads,
                              c.work.membrane_loads);
   }
 }
@@ -282,7 +309,7 @@ void touch_organs(StepContext& c) noexcept {
     const std::span<std::int32_t> nearest{s.nearest.data() + at, p.sample.size()};
     at += p.sample.size();
     const interactions::Surface& surface = c.work.surfaces[size_t(p.surface)];
-    interactions::NetworkLoads* back = surface.network ? &c.work.solid_loads[size_t(p.surface)] : nullptr;
+    interactions::NetworkLoads* back = surface.moves() ? &c.work.organ_loads[size_t(p.surface)] : nullptr;
     if (p.strand >= 0) {
       const size_t i = size_t(p.strand);
       strand_on_surface(p, c.model.bodies[i], s.strands[i], surface, nearest, c.work.strand_loads[i], back);
@@ -291,7 +318,7 @@ void touch_organs(StepContext& c) noexcept {
       solid_on_surface(p, c.work.sheets[i].surface, surface, nearest, c.work.membrane_loads[i], back);
     } else {
       const size_t i = size_t(p.solid);
-      solid_on_surface(p, c.work.surfaces[i], surface, nearest, c.work.solid_loads[i], back);
+      solid_on_surface(p, c.work.surfaces[i], surface, nearest, c.work.organ_loads[i], back);
     }
   }
   size_t side = 0;
@@ -317,8 +344,7 @@ void for_each(core::ThreadPool* pool, size_t count, F&& body) noexcept {
 /// taking that error for a velocity would feed it back with a gain of 1/dt.
 tissue::StrandEnd end_of(const StepContext& c, const StrandEndModel& end, Vec3d drawn, Vec3d& now) noexcept {
   if (end.kind != StrandEndModel::hosted) return {drawn, {0, 0, 0}};
-  const size_t i = size_t(end.solid);
-  const tissue::StrandEnd next = hosted_end(end.patch, c.model.solids[i].network, c.state.solids[i], kTick);
+  const tissue::StrandEnd next = hosted_end(end.patch, c.work.nodes[size_t(end.organ)], kTick);
   now = next.x - kTick * next.v;
   return next;
 }
@@ -331,7 +357,7 @@ void pull_on_borders(StepContext& c) noexcept {
   });
   for (size_t i = 0; i < c.model.membranes.size(); ++i)
     interactions::border_loads(c.model.membranes[i].holds, c.work.pulls[i], c.model.membranes[i].sheet,
-                               c.state.membranes[i], holders_of(c), kTick, c.work.strand_loads, c.work.solid_loads);
+                               c.state.membranes[i], holders_of(c), kTick, c.work.strand_loads, c.work.organ_loads);
 }
 
 // 8. Strands: implicit, ends where their hosts put them, pulling on them.
@@ -359,22 +385,24 @@ void advance_strands(StepContext& c) noexcept {
       if (end->kind == StrandEndModel::free) continue;
       const tissue::StrandReaction& reaction = c.work.end_reactions[i][ends++];
       if (end->kind != StrandEndModel::hosted) continue;
-      const size_t host = size_t(end->solid);
-      host_loads(end->patch, reaction, c.model.solids[host].network, c.state.solids[host], kTick, int(i),
-                 c.work.solid_loads[host]);
+      const size_t host = size_t(end->organ);
+      host_loads(end->patch, reaction, c.work.nodes[host], kTick, int(i), c.work.organ_loads[host]);
     }
   }
 }
 
 // 9. Organs: explicit networks in their own sub-steps.
-void advance_solids(StepContext& c) noexcept {
-  for_each(c.work.pool, c.model.solids.size(), [&c](int index) noexcept {
-    const size_t i = size_t(index);
-    interactions::NetworkLoads& loads = c.work.solid_loads[i];
+void advance_organs(StepContext& c) noexcept {
+  for_each(c.work.pool, size_t(c.model.organs()), [&c](int index) noexcept {
+    const size_t i = size_t(index), solids = c.model.solids.size(), k = i - solids;
+    interactions::NetworkLoads& loads = c.work.organ_loads[i];
     loads.sort();
-    c.work.solid_reports[i] = tissue::advance(c.model.solids[i].network, loads.sorted, loads.reaction,
-                                              c.state.solids[i], c.work.solid_work[i]);
+    c.work.organ_reports[i] = i < solids ? tissue::advance(c.model.solids[i].network, loads.sorted, loads.reaction,
+                                                           c.state.solids[i], c.work.solid_work[i])
+                                         : tissue::advance(c.model.cuttables[k].body, loads.sorted, loads.reaction,
+                                                           c.state.cuttables[k], c.work.cuttable_work[k]);
   });
+  view_organs(c);
 }
 
 // 10. Folds: borders go where their holders have gone.
@@ -414,7 +442,7 @@ void feel(StepContext& c) noexcept {
   }
   for (const interactions::StrandLoads& l : c.work.strand_loads)
     for (size_t i = 0; i < l.list.size(); ++i) account(c, l.tag[i], l.reaction[i]);
-  for (const interactions::NetworkLoads& l : c.work.solid_loads)
+  for (const interactions::NetworkLoads& l : c.work.organ_loads)
     for (size_t i = 0; i < l.sorted.size(); ++i) account(c, l.owner[i], vec_cast<double>(l.reaction[i]));
   for (const interactions::NetworkLoads& l : c.work.membrane_loads)
     for (size_t i = 0; i < l.sorted.size(); ++i) account(c, l.owner[i], vec_cast<double>(l.reaction[i]));
@@ -439,13 +467,13 @@ void sum_up(StepContext& c) noexcept {
       c.report.first_bad_index = r.first_bad;
     }
   };
-  const int solids = int(c.model.solids.size());
-  for (int i = 0; i < solids; ++i) take(c.work.solid_reports[size_t(i)], i);
-  for (size_t i = 0; i < c.model.strands.size(); ++i) take(c.work.strand_reports[i], solids + int(i));
-  const int before = solids + int(c.model.strands.size());
+  const int organs = c.model.organs();
+  for (int i = 0; i < organs; ++i) take(c.work.organ_reports[size_t(i)], i);
+  for (size_t i = 0; i < c.model.strands.size(); ++i) take(c.work.strand_reports[i], organs + int(i));
+  const int before = organs + int(c.model.strands.size());
   for (size_t i = 0; i < c.model.membranes.size(); ++i) take(c.work.membrane_reports[i], before + int(i));
   for (const auto& l : c.work.membrane_loads) c.report.flags |= l.overflowed ? StepReport::kTooManyLoads : 0u;
-  for (const auto& l : c.work.solid_loads) c.report.flags |= l.overflowed ? StepReport::kTooManyLoads : 0u;
+  for (const auto& l : c.work.organ_loads) c.report.flags |= l.overflowed ? StepReport::kTooManyLoads : 0u;
   for (const auto& l : c.work.strand_loads) c.report.flags |= l.overflowed ? StepReport::kTooManyLoads : 0u;
   ++c.state.tick;
 }
@@ -459,7 +487,7 @@ constexpr Stage kStages[] = {
     {"touch organs", touch_organs},
     {"pull on borders", pull_on_borders},
     {"advance strands", advance_strands},
-    {"advance solids", advance_solids},
+    {"advance organs", advance_organs},
     {"advance membranes", advance_membranes},
     {"feel", feel},
     {"see", see},

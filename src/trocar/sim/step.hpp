@@ -26,7 +26,7 @@ struct StepReport {
     kBookFull = 1u << 18,  ///< the book of clips or cuts is full: clips are lost, blades no longer cut
   };
   std::uint32_t flags = 0;
-  int first_bad_body = -1;   ///< solids first, then strands, then membranes
+  int first_bad_body = -1;   ///< organs first, then strands, then membranes
   int first_bad_index = -1;  ///< node of that body
   Event events[kMaxEvents];
   int event_count = 0;

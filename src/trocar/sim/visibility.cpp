@@ -49,7 +49,7 @@ Vec3d sample_point(const Model& model, const State& state, const Work& work, con
     const Vec3d port = model.hands[i].port;
     return port + sample.w * (work.shapes[i].pivot - port);
   }
-  if (target.kind == VisibilityTarget::solid) return work.surfaces[i].position(sample.where);
+  if (target.kind == VisibilityTarget::organ) return work.surfaces[i].position(sample.where);
   const interactions::StrandBody& body = model.bodies[i];
   const Vec3d centre = point_at(body, state.strands[i], {sample.where, sample.w});
   return centre + body.model.radius[size_t(sample.where)] * normalised(eye - centre);
@@ -57,7 +57,7 @@ Vec3d sample_point(const Model& model, const State& state, const Work& work, con
 
 bool faces_eye(const Model& model, const Work& work, const VisibilitySample& sample, Vec3d point, Vec3d eye) noexcept {
   const VisibilityTarget& target = model.targets[size_t(sample.target)];
-  if (target.kind != VisibilityTarget::solid) return true;
+  if (target.kind != VisibilityTarget::organ) return true;
   return dot(work.surfaces[size_t(target.index)].normal(sample.where), eye - point) > 0;
 }
 
@@ -98,7 +98,7 @@ bool unoccluded(const Model& model, const State& state, const Work& work, Vec3d 
   const double distance = length(sight);
   if (distance <= margin) return true;
   const Vec3d end = eye + (1.0 - margin / distance) * sight;
-  for (size_t s = 0; s < model.solids.size(); ++s)
+  for (size_t s = 0; s < size_t(model.organs()); ++s)
     if (hits_surface(work.surfaces[s], eye, end)) return false;
   for (size_t s = 0; s < model.bodies.size(); ++s) {
     if (int(s) == skip_strand) continue;

@@ -7,7 +7,7 @@
 namespace trocar::sim {
 namespace {
 
-constexpr size_t kSolidLoads = 8192, kStrandLoads = 2048, kMembraneLoads = 4096;
+constexpr size_t kOrganLoads = 8192, kStrandLoads = 2048, kMembraneLoads = 4096;
 
 template <class T>
 void scribble(std::vector<T>& values) noexcept {
@@ -30,6 +30,23 @@ void scribble(interactions::NetworkLoads& l) noexcept {
   l.overflowed = true;
 }
 
+void scribble(tissue::CuttableWork& c) noexcept {
+  c.made_for = ~0ull;
+  c.slices = -1;
+  scribble(c.other);
+  scribble(c.packs);
+  scribble(c.row_packs);
+  scribble(c.slice_begin);
+  scribble(c.mass);
+  scribble(c.changed);
+  scribble(c.bearable);
+  scribble(c.fixed);
+  scribble(c.begin);
+  scribble(c.around);
+  scribble(c.node_of_row);
+  scribble(c.now);
+}
+
 void scribble(tissue::NetworkWork& n) noexcept {
   scribble(n.other);
   scribble(n.open_tets);
@@ -44,9 +61,19 @@ Work make_work(const Model& model, core::ThreadPool* pool) {
   for (const SolidModel& s : model.solids) {
     w.poses.push_back(tissue::make_pose(s.skin));
     w.solid_work.push_back(tissue::make_work(s.network));
-    w.solid_loads.emplace_back().reserve(kSolidLoads + s.anchors.size());
+    w.organ_loads.emplace_back().reserve(kOrganLoads + s.anchors.size());
     w.parts.resize(std::max(w.parts.size(), size_t(s.network.nodes)));
+    w.skins.push_back(&s.skin);
   }
+  w.cuttable_skins.reserve(model.cuttables.size());
+  for (const CuttableOrgan& c : model.cuttables) {
+    w.cuttable_skins.push_back(tissue::make_skin(c.body));
+    w.skins.push_back(&w.cuttable_skins.back().skin);
+    w.poses.push_back(tissue::make_pose(*w.skins.back()));
+    w.cuttable_work.push_back(tissue::make_work(c.body));
+    w.organ_loads.emplace_back().reserve(kOrganLoads + c.body.anchors.size());
+  }
+  w.nodes.resize(size_t(model.organs()));
   for (const interactions::StrandBody& b : model.bodies) {
     w.strand_work.push_back(tissue::make_work(b.model));
     w.strand_loads.emplace_back().reserve(kStrandLoads);
@@ -54,7 +81,7 @@ Work make_work(const Model& model, core::ThreadPool* pool) {
   w.surfaces.resize(size_t(model.surfaces()));
   w.ends.resize(model.strands.size());
   w.end_reactions.resize(model.strands.size());
-  w.solid_reports.resize(model.solids.size());
+  w.organ_reports.resize(size_t(model.organs()));
   w.strand_reports.resize(model.strands.size());
   for (const MembraneModel& m : model.membranes) {
     w.sheet_poses.push_back(tissue::make_pose(m.skin));
@@ -66,10 +93,6 @@ Work make_work(const Model& model, core::ThreadPool* pool) {
   }
   w.sheets.resize(model.membranes.size());
   w.membrane_reports.resize(model.membranes.size());
-  for (const SolidModel& s : model.solids) {
-    w.networks.push_back(&s.network);
-    w.skins.push_back(&s.skin);
-  }
   return w;
 }
 
@@ -80,7 +103,7 @@ void poison(Work& w) noexcept {
   for (interactions::Surface& s : w.surfaces) s = {};
   std::memset(static_cast<void*>(&w.shapes), 0xff, sizeof w.shapes);
   for (interactions::SheetView& s : w.sheets) s = {};
-  for (interactions::NetworkLoads& l : w.solid_loads) scribble(l);
+  for (interactions::NetworkLoads& l : w.organ_loads) scribble(l);
   for (interactions::NetworkLoads& l : w.membrane_loads) scribble(l);
   for (interactions::StrandLoads& l : w.strand_loads) {
     scribble(l.list);
@@ -89,6 +112,9 @@ void poison(Work& w) noexcept {
     l.overflowed = true;
   }
   for (tissue::NetworkWork& n : w.solid_work) scribble(n);
+  for (tissue::CuttableWork& c : w.cuttable_work) scribble(c);
+  for (tissue::CuttableSkin& s : w.cuttable_skins) s.made_for = ~0ull;
+  for (tissue::NodeView& n : w.nodes) n = {};
   for (tissue::MembraneWork& m : w.membrane_work) {
     scribble(m.network);
     scribble(m.force);
@@ -107,7 +133,7 @@ void poison(Work& w) noexcept {
   scribble(w.parts);
   scribble(w.ends);
   scribble(w.end_reactions);
-  scribble(w.solid_reports);
+  scribble(w.organ_reports);
   scribble(w.strand_reports);
   scribble(w.membrane_reports);
 }

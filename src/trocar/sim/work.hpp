@@ -12,25 +12,27 @@ namespace trocar::sim {
 
 struct Work {
   core::ThreadPool* pool = nullptr;             ///< may be null; never changes a bit of the result
-  std::vector<tissue::SkinPose> poses;          ///< (solids)
-  std::vector<interactions::Surface> surfaces;  ///< (solids + walls)
+  std::vector<tissue::SkinPose> poses;          ///< (organs)
+  std::vector<interactions::Surface> surfaces;  ///< (organs + walls)
   std::array<interactions::ToolShape, kMaxTools> shapes;
-  std::vector<interactions::NetworkLoads> solid_loads;
+  std::vector<interactions::NetworkLoads> organ_loads;  ///< (organs)
   std::vector<interactions::StrandLoads> strand_loads;
   std::vector<tissue::NetworkWork> solid_work;
+  std::vector<tissue::CuttableWork> cuttable_work;
   std::vector<tissue::StrandWork> strand_work;
   std::vector<std::array<tissue::StrandEnd, 2>> ends;  ///< (strands)
   std::vector<std::array<tissue::StrandReaction, 2>> end_reactions;
   std::vector<std::int32_t> parts;  ///< (nodes of the largest organ) what hangs together, for cuts
-  std::vector<tissue::StepReport> solid_reports, strand_reports, membrane_reports;
+  std::vector<tissue::StepReport> organ_reports, strand_reports, membrane_reports;
   std::vector<tissue::SkinPose> sheet_poses;    ///< (membranes)
   std::vector<interactions::SheetView> sheets;  ///< (membranes)
   std::vector<interactions::NetworkLoads> membrane_loads;
   std::vector<tissue::MembraneWork> membrane_work;
   std::vector<std::vector<tissue::BorderPull>> pulls;  ///< (membranes)(held nodes)
   std::vector<std::vector<Vec3d>> targets;             ///< (membranes)(held nodes)
-  std::vector<const tissue::NetworkModel*> networks;   ///< (solids) of the Model
-  std::vector<const tissue::Skin*> skins;              ///< (solids) of the Model
+  std::vector<tissue::NodeView> nodes;                 ///< (organs) of the State; anew in every tick
+  std::vector<tissue::CuttableSkin> cuttable_skins;
+  std::vector<const tissue::Skin*> skins;  ///< (organs) of the Model, or the above
 };
 
 Work make_work(const Model& model, core::ThreadPool* pool = nullptr);

@@ -18,6 +18,14 @@ constexpr int kMostSprings = 192;  // of a node; there is no mesh where so many 
 constexpr int kFreeColumns = 4;    // of a slice, for springs that a cut adds to a row
 constexpr double kSafety = 0.9;    // of what the time step bears
 
+void add_to_hash(core::Hasher& h, const CuttableTets& b) noexcept {
+  h.add(b.rest);
+  h.add(b.source);
+  h.add(b.nodes);
+  h.add(b.cells);
+  h.add(b.across);
+}
+
 double volume(const CuttableTets& b, const Tet& c) noexcept {
   const auto x = [&](int i) { return b.rest[std::size_t(c[std::size_t(i)])]; };
   return dot(x(1) - x(0), cross(x(2) - x(0), x(3) - x(0))) / 6;
@@ -234,6 +242,13 @@ class Assembler {
   CuttableWork& w;
 };
 
+/// Two bodies of one Model that were cut differently never share scratch.
+std::uint64_t version_of(const CuttableTets& b) noexcept {
+  core::Hasher h;
+  add_to_hash(h, b);
+  return h.value();
+}
+
 void make_current(const CuttableModel& m, const CuttableState& s, CuttableWork& w) noexcept {
   if (w.made_for == s.version) return;
   Assembler(m, s, w).make();
@@ -291,17 +306,13 @@ geometry::CutBook cut(const CuttableModel& m, const geometry::Blade& blade, Cutt
   for (int i = 0; i < s.tets.nodes; ++i) w.now[std::size_t(i)] = position(m, s, i);
   const geometry::CutBook book = geometry::cut(s.tets, blade, w.now, w.cut);
   if (book.snapped + book.parted == 0) return book;
-  for (int i = 0; i < book.first_new; ++i) {
-    if (!w.cut.at_blade[std::size_t(i)]) continue;
-    const Vec3f x = vec_cast<float>(w.now[std::size_t(i)] - m.origin);
-    NodeState& node = s.nodes[std::size_t(m.row_of_node[std::size_t(i)])];
-    node.x = x.x, node.y = x.y, node.z = x.z;
-  }
+  for (int i = 0; i < book.first_new; ++i)
+    if (w.cut.at_blade[std::size_t(i)]) set_position(m, s, i, w.now[std::size_t(i)]);
   for (int i = book.first_new; i < s.tets.nodes; ++i)
     s.nodes[std::size_t(m.row_of_node[std::size_t(i)])] =
         s.nodes[std::size_t(m.row_of_node[std::size_t(s.tets.source[std::size_t(i)])])];
   s.volume += book.volume;
-  ++s.version;
+  s.version = version_of(s.tets);
   if (Assembler(m, s, w).update()) w.made_for = s.version;
   return book;
 }
@@ -313,6 +324,11 @@ Vec3d position(const CuttableModel& m, const CuttableState& s, int node) noexcep
 Vec3d velocity(const CuttableModel& m, const CuttableState& s, int node) noexcept {
   const NodeState& n = s.nodes[std::size_t(m.row_of_node[std::size_t(node)])];
   return {double(n.vx), double(n.vy), double(n.vz)};
+}
+void set_position(const CuttableModel& m, CuttableState& s, int node, Vec3d x) noexcept {
+  const Vec3f p = vec_cast<float>(x - m.origin);
+  NodeState& n = s.nodes[std::size_t(m.row_of_node[std::size_t(node)])];
+  n.x = p.x, n.y = p.y, n.z = p.z;
 }
 void set_velocity(const CuttableModel& m, CuttableState& s, int node, Vec3d v) noexcept {
   NodeState& n = s.nodes[std::size_t(m.row_of_node[std::size_t(node)])];
@@ -329,13 +345,25 @@ double mass_of(const CuttableModel& m, const CuttableState& s, int node) noexcep
 
 void add_to_hash(core::Hasher& h, const CuttableState& s) noexcept {
   h.add(s.nodes);
-  h.add(s.tets.rest);
-  h.add(s.tets.source);
-  h.add(s.tets.nodes);
-  h.add(s.tets.cells);
-  h.add(s.tets.across);
+  add_to_hash(h, s.tets);
   h.add(s.version);
   h.add(s.volume);
+}
+
+void add_to_hash(core::Hasher& h, const CuttableModel& m) noexcept {
+  add_to_hash(h, m.drawn);
+  h.add(m.brings);
+  h.add(m.fixed);
+  h.add(m.row_of_node);
+  for (const Anchor& a : m.anchors) {
+    h.add(a.node);
+    h.add(a.k);
+    h.add(a.x0);
+  }
+  for (const int i : {m.own_nodes, m.own_rows, m.rows, m.packs, m.widest, m.substeps}) h.add(i);
+  for (const Vec3d v : {m.origin, m.gravity}) h.add(v);
+  for (const double d : {m.density, m.damping_time, m.gamma, m.tick, m.dt}) h.add(d);
+  for (const float f : {m.p1, m.p2, m.cap, m.cap_slope}) h.add(f);
 }
 
 }  // namespace trocar::tissue

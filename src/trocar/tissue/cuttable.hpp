@@ -68,13 +68,13 @@ struct CuttableModel {
 struct CuttableState {
   std::vector<NodeState> nodes;  ///< (rows)
   geometry::CuttableTets tets;
-  std::uint32_t version = 0;  ///< counts cuts
+  std::uint64_t version = 0;  ///< of tets: a hash of what cuts made of them, 0 while uncut
   double volume = 0;          ///< change of the drawn volume so far [m^3]
 };
 
 /// Scratch.
 struct CuttableWork {
-  std::uint32_t made_for = ~0u;  ///< State::version that the arrays below are for
+  std::uint64_t made_for = ~0ull;  ///< State::version that the arrays below are for
   std::vector<NodeState> other;
   std::vector<HalfEdgePack> packs;
   std::vector<RowPack> row_packs;
@@ -103,12 +103,18 @@ StepReport advance(const CuttableModel& model, std::span<const NodeLoad> loads, 
 geometry::CutBook cut(const CuttableModel& model, const geometry::Blade& blade, CuttableState& state,
                       CuttableWork& work) noexcept;
 
+inline NodeView view_of(const CuttableModel& model, const CuttableState& state) noexcept {
+  return {state.nodes, model.row_of_node, model.origin};
+}
 Vec3d position(const CuttableModel& model, const CuttableState& state, int node) noexcept;
 Vec3d velocity(const CuttableModel& model, const CuttableState& state, int node) noexcept;
+void set_position(const CuttableModel& model, CuttableState& state, int node, Vec3d x) noexcept;
 void set_velocity(const CuttableModel& model, CuttableState& state, int node, Vec3d v) noexcept;
 /// Drawn mass of a node [kg], from its cells.
 double mass_of(const CuttableModel& model, const CuttableState& state, int node) noexcept;
 
 void add_to_hash(core::Hasher& hasher, const CuttableState& state) noexcept;
+/// Of everything that a tick and a cut read.
+void add_to_hash(core::Hasher& hasher, const CuttableModel& model) noexcept;
 
 }  // namespace trocar::tissue

@@ -126,11 +126,7 @@ CuttableState rest_state(const CuttableModel& m) {
   CuttableState s;
   s.tets = m.drawn;
   s.nodes.resize(std::size_t(m.rows));
-  for (int i = 0; i < m.own_nodes; ++i) {
-    const Vec3f x = vec_cast<float>(m.drawn.rest[std::size_t(i)] - m.origin);
-    NodeState& node = s.nodes[std::size_t(m.row_of_node[std::size_t(i)])];
-    node.x = x.x, node.y = x.y, node.z = x.z;
-  }
+  for (int i = 0; i < m.own_nodes; ++i) set_position(m, s, i, m.drawn.rest[std::size_t(i)]);
   return s;
 }
 

@@ -30,7 +30,7 @@
 #include <trocar/core/hash.hpp>
 #include <trocar/core/parallel.hpp>
 #include <trocar/numerics/vec3.hpp>
-#include <trocar/tissue/network_layout.hpp>
+#include <trocar/tissue/node_view.hpp>
 #include <trocar/tissue/report.hpp>
 
 namespace trocar::tissue {
@@ -141,6 +141,9 @@ NetworkWork make_work(const NetworkModel& model);
 StepReport advance(const NetworkModel& model, std::span<const NodeLoad> loads, std::span<Vec3f> reactions,
                    NetworkState& state, NetworkWork& work, core::ThreadPool* pool = nullptr) noexcept;
 
+inline NodeView view_of(const NetworkModel& model, const NetworkState& state) noexcept {
+  return {state.nodes, model.row_of_node, model.origin};
+}
 /// Position in the world frame [m] and velocity [m/s] of a node.
 Vec3d position(const NetworkModel& model, const NetworkState& state, int node) noexcept;
 Vec3d velocity(const NetworkModel& model, const NetworkState& state, int node) noexcept;

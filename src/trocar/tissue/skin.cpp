@@ -26,11 +26,13 @@ SkinPose make_pose(const Skin& skin) {
   return pose;
 }
 
-void pose_skin(const NetworkModel& model, const Skin& skin, const NetworkState& state, SkinPose& pose) noexcept {
-  const Vec3f origin = vec_cast<float>(model.origin);
-  const NodeState* q = state.nodes.data();
+void pose_skin(const NodeView& nodes, const Skin& skin, SkinPose& pose) noexcept {
+  const Vec3f origin = vec_cast<float>(nodes.origin);
+  const NodeState* q = nodes.rows.data();
   Box bounds, block;
   for (int i = 0; i < skin.size(); ++i) {
+    if (i % kSkinBlock == 0) pose.block[size_t(i / kSkinBlock)] = block = {};
+    if (!skin.at_surface(i)) continue;
     const SkinWeights& w = skin.weights[size_t(i)];
     Vec3f x{0, 0, 0};
     for (size_t j = 0; j < 8; ++j) {
@@ -39,7 +41,6 @@ void pose_skin(const NetworkModel& model, const Skin& skin, const NetworkState& 
     }
     x += origin;
     pose.position[size_t(i)] = x;
-    if (i % kSkinBlock == 0) block = {};
     block.add(x);
     bounds.add(x);
     pose.block[size_t(i / kSkinBlock)] = block;
@@ -83,11 +84,21 @@ Vec3d skin_normal(const Skin& skin, const SkinPose& pose, int vertex) noexcept {
   return normalised(sum, vec_cast<double>(skin.rest_normal[size_t(vertex)]));
 }
 
-Vec3d skin_velocity(const Skin& skin, const NetworkState& state, int vertex) noexcept {
+Vec3d skin_point(const NodeView& nodes, const Skin& skin, int vertex) noexcept {
+  const SkinWeights& w = skin.weights[size_t(vertex)];
+  Vec3d p = nodes.origin;
+  for (size_t j = 0; j < 8; ++j) {
+    const NodeState& n = nodes.rows[size_t(w.row[j])];
+    p += double(w.weight[j]) * Vec3d{n.x, n.y, n.z};
+  }
+  return p;
+}
+
+Vec3d skin_velocity(const NodeView& nodes, const Skin& skin, int vertex) noexcept {
   const SkinWeights& w = skin.weights[size_t(vertex)];
   Vec3d v{0, 0, 0};
   for (size_t j = 0; j < 8; ++j) {
-    const NodeState& n = state.nodes[size_t(w.row[j])];
+    const NodeState& n = nodes.rows[size_t(w.row[j])];
     v += double(w.weight[j]) * Vec3d{n.vx, n.vy, n.vz};
   }
   return v;

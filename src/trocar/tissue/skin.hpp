@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <trocar/core/hash.hpp>
-#include <trocar/tissue/network.hpp>
+#include <trocar/tissue/node_view.hpp>
 
 namespace trocar::tissue {
 
@@ -16,8 +16,17 @@ inline constexpr int kSkinBlock = 64;  ///< consecutive vertices that share a bo
 /// W row of one skin vertex: eight nodes and their weights (sum 1).
 struct SkinWeights {
   std::array<int, 8> node{};  ///< Description's numbering
-  std::array<int, 8> row{};   ///< rows of NetworkState
+  std::array<int, 8> row{};   ///< where their State is
   std::array<float, 8> weight{};
+
+  /// Of a vertex that is a node.
+  static SkinWeights at(int node, int row) {
+    SkinWeights w;
+    w.node.fill(node);
+    w.row.fill(row);
+    w.weight[0] = 1;
+    return w;
+  }
 };
 
 /// Const after compile. Vertices are in a spatially coherent order, so that blocks of kSkinBlock are compact.
@@ -30,6 +39,8 @@ struct Skin {
   std::vector<int> face_first, face;            ///< CSR: triangles at a vertex, ascending
 
   int size() const { return int(weights.size()); }
+  /// Has the vertex a triangle? Bodies that can be cut keep vertices for the nodes inside them.
+  bool at_surface(int vertex) const { return face_first[size_t(vertex)] < face_first[size_t(vertex) + 1]; }
 };
 
 struct Box {
@@ -48,7 +59,7 @@ struct Box {
   bool near_box(const Box& other, float margin) const noexcept;
 };
 
-/// Where a skin is now: scratch, refreshed every tick.
+/// Where a skin is now: scratch, refreshed every tick. Vertices that are not at the surface are not refreshed.
 struct SkinPose {
   std::vector<Vec3f> position;  ///< (m) world [m]
   std::vector<Box> block;       ///< per kSkinBlock vertices
@@ -57,7 +68,7 @@ struct SkinPose {
 SkinPose make_pose(const Skin& skin);
 
 /// x = W q for all vertices and the boxes.
-void pose_skin(const NetworkModel& model, const Skin& skin, const NetworkState& state, SkinPose& pose) noexcept;
+void pose_skin(const NodeView& nodes, const Skin& skin, SkinPose& pose) noexcept;
 
 /// Builds the neighbour and face tables from the triangles.
 void index_skin(Skin& skin);
@@ -65,8 +76,10 @@ void index_skin(Skin& skin);
 /// Outward unit normal at a vertex of the posed skin (area weighted over its triangles).
 Vec3d skin_normal(const Skin& skin, const SkinPose& pose, int vertex) noexcept;
 
-/// Velocity of a vertex [m/s].
-Vec3d skin_velocity(const Skin& skin, const NetworkState& state, int vertex) noexcept;
+/// Where a vertex is [m], and its velocity [m/s], straight from the nodes: for those who need a few, not the posed
+/// skin.
+Vec3d skin_point(const NodeView& nodes, const Skin& skin, int vertex) noexcept;
+Vec3d skin_velocity(const NodeView& nodes, const Skin& skin, int vertex) noexcept;
 
 void add_to_hash(core::Hasher& hasher, const Skin& skin) noexcept;
 

@@ -41,22 +41,27 @@ struct Finder {
     if (i < 0) faults.push_back({at, scene::unknown_name("strand of the scene", name, names_of(model.strands))});
     return i;
   }
-  int solid(const std::string& name, const core::Location& at) const {
-    const int i = index_of(model.solids, name);
-    if (i < 0) faults.push_back({at, scene::unknown_name("organ of the scene", name, names_of(model.solids))});
+  std::vector<std::string> organ_names() const {
+    std::vector<std::string> names;
+    for (int i = 0; i < model.organs(); ++i) names.push_back(model.organ_name(i));
+    return names;
+  }
+  int organ(const std::string& name, const core::Location& at) const {
+    const int i = model.organ_index(name);
+    if (i < 0) faults.push_back({at, scene::unknown_name("organ of the scene", name, organ_names())});
     return i;
   }
   /// As a hold names it; -1 for a fold that is drawn only.
   std::int32_t body(const Named& named) const {
     const int s = model.strand_index(named.name);
     if (s >= 0) return s;
-    const int o = index_of(model.solids, named.name);
+    const int o = model.organ_index(named.name);
     if (o >= 0) return interactions::kSolidBase + o;
     const int fold = model.membrane_index(named.name);
     if (fold >= 0) return interactions::kMembraneBase + fold;
     if (index_of(model.sheets, named.name) < 0) {
       std::vector<std::string> known = names_of(model.strands);
-      for (const std::string& n : names_of(model.solids)) known.push_back(n);
+      for (const std::string& n : organ_names()) known.push_back(n);
       faults.push_back({named.at, scene::unknown_name("body of the scene", named.name, known)});
     }
     return -1;
@@ -111,7 +116,7 @@ Monitor::Monitor(const Exercise& exercise, const sim::Model& model, Mode mode)
   find.instrument(g.grasper, g.grasper_at, interactions::ToolKind::grasper, "a grasper");
   find.instrument(g.applier, g.applier_at, interactions::ToolKind::clip_applier, "a clip applier");
   find.instrument(g.scissors, g.scissors_at, interactions::ToolKind::scissors, "scissors");
-  find.solid(g.uterus, g.uterus_at);
+  find.organ(g.uterus, g.uterus_at);
   m_organs.push_back(model.target_index(g.uterus));
   const auto add_step = [&](const Side* side, Task task) {
     const TaskText& text = exercise.text(task);
@@ -122,7 +127,7 @@ Monitor::Monitor(const Exercise& exercise, const sim::Model& model, Mode mode)
   for (const Side& side : g.sides) {
     SideWatch w;
     w.tube = find.strand(side.tube, side.tube_at);
-    find.solid(side.ovary, side.ovary_at);
+    find.organ(side.ovary, side.ovary_at);
     w.isthmus = find.landmark(w.tube, "isthmus", true, side.tube_at);
     w.ampulla = find.landmark(w.tube, "fimbria", false, side.tube_at);
     w.mesosalpinx = side.mesosalpinx.empty() ? -1 : find.fold(side.mesosalpinx, side.mesosalpinx_at);
@@ -280,7 +285,7 @@ void Monitor::watch_steps(const sim::Model& model, const sim::State& state) {
     double& seen_for = m_seen_for[i];
     if (seen_for >= g.survey_time - kEnough) continue;
     const int target = m_organs[i];
-    const bool organ = target >= 0 && model.targets[size_t(target)].kind == sim::VisibilityTarget::solid;
+    const bool organ = target >= 0 && model.targets[size_t(target)].kind == sim::VisibilityTarget::organ;
     const bool seen = target >= 0 && sim::visible_share(model, state, target) >= (organ ? g.organ_share : 0.5);
     seen_for = seen ? seen_for + kSample : 0;
     surveyed = surveyed && seen_for >= g.survey_time - kEnough;
@@ -370,7 +375,7 @@ void Monitor::judge_cut(const sim::Model& model, const sim::State& state, const 
   if (cut.strand < 0 && cut.solid < 0 && cut.membrane >= 0) return judge_snip(model, state, cut);
   if (i < 0) {
     const std::string& body =
-        cut.strand >= 0 ? model.strands[size_t(cut.strand)].name : model.solids[size_t(cut.solid)].name;
+        cut.strand >= 0 ? model.strands[size_t(cut.strand)].name : model.organ_name(cut.solid);
     return make_error("E11", -1, tip, named(body));
   }
   SideWatch& side = m_sides[size_t(i)];

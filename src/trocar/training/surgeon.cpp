@@ -174,7 +174,7 @@ Vec3d Surgeon::sample_point(const sim::VisibilitySample& sample) const {
   const size_t i = size_t(t.index);
   if (t.kind == sim::VisibilityTarget::strand)
     return interactions::point_at(m_model->bodies[i], m_state->strands[i], {sample.where, sample.w});
-  return vec_cast<double>(m_model->solids[i].skin.rest[size_t(sample.where)]);
+  return vec_cast<double>(m_model->skin(t.index).rest[size_t(sample.where)]);
 }
 
 Vec3d Surgeon::centre_of(int target) const {

@@ -450,7 +450,7 @@ void Surgeon::pinch_bowel() {
     }
     want(centre_of(int(&seen - m_model->targets.data())));
     if (vertex < 0 || m_in_phase < 2) return;
-    const tissue::Skin& skin = m_model->solids[size_t(seen.index)].skin;
+    const tissue::Skin& skin = m_model->skin(seen.index);
     const Vec3d at = vec_cast<double>(skin.rest[size_t(vertex)]);
     double nearest = 1e9;
     for (int k = skin.face_first[size_t(vertex)]; k < skin.face_first[size_t(vertex) + 1]; ++k)

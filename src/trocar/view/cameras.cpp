@@ -98,9 +98,9 @@ Orbit orbit_around(const sim::Model& model) {
   Box box;
   for (const interactions::StrandBody& strand : model.bodies)
     for (Vec3d p : strand.model.rest) box.add(p);
-  if (model.bodies.empty())
-    for (const sim::SolidModel& solid : model.solids)
-      for (Vec3f p : solid.skin.rest) box.add(vec_cast<double>(p));
+  for (int i = 0; model.bodies.empty() && i < model.organs(); ++i)
+    for (int v = 0; v < model.skin(i).size(); ++v)
+      if (model.skin(i).at_surface(v)) box.add(vec_cast<double>(model.skin(i).rest[std::size_t(v)]));
   Orbit orbit;
   if (box.low.x <= box.high.x) orbit.target = 0.5 * (box.low + box.high);
   return orbit;

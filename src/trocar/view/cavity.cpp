@@ -15,8 +15,9 @@ constexpr int kMarginRows = 14;  // from a wall's border to the cavity
 
 tissue::Box bounds_of(const sim::Model& model) {
   tissue::Box box;
-  for (const sim::SolidModel& s : model.solids)
-    for (const Vec3f& p : s.skin.rest) box.add(p);
+  for (int i = 0; i < model.organs(); ++i)
+    for (int v = 0; v < model.skin(i).size(); ++v)
+      if (model.skin(i).at_surface(v)) box.add(model.skin(i).rest[std::size_t(v)]);
   for (const sim::WallModel& w : model.walls)
     for (const Vec3f& p : w.skin.rest) box.add(p);
   for (const sim::HandModel& t : model.hands) box.add(vec_cast<float>(t.port));

@@ -107,6 +107,18 @@ Material bowel() {
   return m;
 }
 
+Material liver() {
+  Material m = with_vessels(tissue(srgb(126, 54, 58), srgb(136, 62, 64), srgb(112, 46, 52)), 0.12f, 0.03f);
+  m.mottle_size = 0.0035f;
+  m.mottle = 0.3f;
+  m.bump = 0.06f;
+  m.film_roughness = 0.14f;
+  m.film_bump = 0.2f;
+  m.film_size = 0.004f;
+  m.tint = srgb(166, 104, 100);  // a thin edge
+  return m;
+}
+
 Material fold(float alpha) {
   Material m = with_vessels(tissue(srgb(210, 146, 138), srgb(222, 172, 148), srgb(196, 124, 120)), 1.0f, 0.03f);
   m.mottle_size = 0.016f;
@@ -203,6 +215,7 @@ std::vector<Look> make_looks() {
         .haustra = 0.0024,
         .haustra_size = 0.023},
        22},
+      {"liver", liver(), false, {.broad = 0.0006, .broad_size = 0.024}},
       {"fat", fat(), false, {.broad = 0.001, .broad_size = 0.012, .fine = 0.0006, .fine_size = 0.005}},
       {"peritoneum", peritoneum(), false, {}},
       {"mesosalpinx", mesosalpinx(), true, {}},

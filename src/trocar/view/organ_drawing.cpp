@@ -9,9 +9,6 @@ namespace trocar::view {
 namespace {
 
 constexpr float kWoundDepth = 0.003f;  // [m] of a bite's bed
-constexpr double kDentEdge = 0.0016;   // [m] how softly the skin bends round an instrument
-constexpr double kDentSkirt = 0.0007;  // [m] how far the skin around a touching one sinks ...
-constexpr double kDentReach = 0.0045;  // [m] ... and how wide
 constexpr Paint kBed{140, 125, 0, 0}, kLip{190, 80, 0, 0};
 
 }  // namespace
@@ -43,59 +40,6 @@ void OrganDrawing::lift() {
   if (m_height.empty()) return;
   for (std::size_t i = 0; i < m_height.size(); ++i) m_pose.position[i] += m_height[i] * m_normals[i];
   render::vertex_normals(m_pose.position, m_indices, m_normals);
-}
-
-bool OrganDrawing::moved(const tissue::NetworkState& state) {
-  const auto same = [](const tissue::NodeState& a, const tissue::NodeState& b) {
-    return a.x == b.x && a.y == b.y && a.z == b.z;
-  };
-  bool all = m_drawn.size() == state.nodes.size();
-  for (std::size_t i = 0; all && i < state.nodes.size(); ++i) all = same(m_drawn[i], state.nodes[i]);
-  if (!all) m_drawn = state.nodes;
-  return !all;
-}
-
-bool OrganDrawing::near(std::span<const collision::Capsule> rods) const {
-  return std::any_of(rods.begin(), rods.end(), [this](const collision::Capsule& rod) {
-    const double margin = rod.radius + 2 * kDentReach;
-    for (int k = 0; k < 3; ++k)
-      if (std::max(rod.a[k], rod.b[k]) < double(m_box.low[k]) - margin ||
-          std::min(rod.a[k], rod.b[k]) > double(m_box.high[k]) + margin)
-        return false;
-    return true;
-  });
-}
-
-/// The skin gives way to each instrument, and dips around one that touches it.
-void OrganDrawing::dent(std::span<const collision::Capsule> rods) {
-  m_dented = false;
-  for (const collision::Capsule& rod : rods) {
-    struct Close {
-      std::size_t vertex;
-      double gap;
-      Vec3d away;
-    };
-    std::vector<Close> close;
-    double nearest = 1;
-    for (std::size_t i = 0; i < m_pose.position.size(); ++i) {
-      const Vec3d p = vec_cast<double>(m_pose.position[i]), n = vec_cast<double>(m_normals[i]);
-      const Vec3d from = p - nearest_on_axis(rod, p);
-      const double gap = length(from) - rod.radius;
-      if (gap > 3 * kDentReach) continue;
-      const Vec3d away = normalised(from, -n);
-      close.push_back({i, gap, dot(away, n) < 0 ? away : -n});
-      nearest = std::min(nearest, gap);
-    }
-    const double touch = smooth(0.0012, 0.0002, nearest);
-    for (const Close& c : close) {
-      const double into = kDentEdge - c.gap;
-      const double give = into <= 0 ? 0 : (into < 2 * kDentEdge ? into * into / (4 * kDentEdge) : -c.gap);
-      const double skirt = touch * kDentSkirt * std::exp(-std::max(0.0, c.gap) / kDentReach);
-      m_pose.position[c.vertex] += vec_cast<float>(give * c.away) - float(skirt) * m_normals[c.vertex];
-    }
-    m_dented = m_dented || !close.empty();
-  }
-  if (m_dented) render::vertex_normals(m_pose.position, m_indices, m_normals);
 }
 
 /// The mesh's new topology: cut triangles go down, walls close the gap, and the skin around is stained.
@@ -169,14 +113,14 @@ void OrganDrawing::update(const tissue::NetworkState& state, std::span<const std
   const auto cut = [](std::uint8_t p) { return p != 0; };
   const bool was_open = !m_wound.empty(), open = std::any_of(parted.begin(), parted.end(), cut);
   const bool changed = open ? !std::equal(parted.begin(), parted.end(), m_parted.begin(), m_parted.end()) : was_open;
-  if (!moved(state) && !changed && !m_dented && !near(rods)) return;
-  tissue::pose_skin(m_solid->network, m_solid->fine, state, m_pose);
+  if (!m_moved(state.nodes) && !changed && !m_dented && !near(m_box, rods)) return;
+  tissue::pose_skin(view_of(m_solid->network, state), m_solid->fine, m_pose);
   render::vertex_normals(m_pose.position, m_indices, m_normals);
   lift();
   m_box = {};
   for (const Vec3f& p : m_pose.position) m_box.add(p);
-  m_dented = false;
-  if (near(rods)) dent(rods);
+  m_dented = near(m_box, rods) && dent(rods, m_pose.position, m_normals);
+  if (m_dented) render::vertex_normals(m_pose.position, m_indices, m_normals);
   if (!open) {
     m_wound.clear();
     m_parted.clear();

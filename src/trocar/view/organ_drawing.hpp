@@ -3,6 +3,7 @@
 #pragma once
 
 #include <trocar/sim/state.hpp>
+#include <trocar/view/dent.hpp>
 #include <trocar/view/mesh_buffer.hpp>
 #include <trocar/view/relief.hpp>
 
@@ -27,9 +28,6 @@ class OrganDrawing {
   void lift();
   void open_wounds(std::span<const std::uint8_t> parted);
   void sink_wounds();
-  bool moved(const tissue::NetworkState& state);
-  bool near(std::span<const collision::Capsule> rods) const;
-  void dent(std::span<const collision::Capsule> rods);
 
   const sim::SolidModel* m_solid;
   tissue::SkinPose m_pose;
@@ -45,14 +43,14 @@ class OrganDrawing {
     std::uint32_t at = 0, before = 0, after = 0;
   };
   std::vector<RimVertex> m_rim;
-  std::vector<std::uint8_t> m_parted;      ///< as drawn
-  std::vector<WoundVertex> m_wound;        ///< they follow the skin's vertices in the mesh
-  std::vector<Paint> m_paint;              ///< of the skin
-  MeshBuffer m_open;                       ///< skin and wounds, where there are any
-  std::vector<float> m_height;             ///< relief; empty: none
-  tissue::Box m_box;                       ///< of the drawn vertices
-  bool m_dented = false;                   ///< as drawn
-  std::vector<tissue::NodeState> m_drawn;  ///< the nodes that the mesh shows
+  std::vector<std::uint8_t> m_parted;  ///< as drawn
+  std::vector<WoundVertex> m_wound;    ///< they follow the skin's vertices in the mesh
+  std::vector<Paint> m_paint;          ///< of the skin
+  MeshBuffer m_open;                   ///< skin and wounds, where there are any
+  std::vector<float> m_height;         ///< relief; empty: none
+  tissue::Box m_box;                   ///< of the drawn vertices
+  bool m_dented = false;               ///< as drawn
+  MovedNodes m_moved;
   OwnedMesh m_mesh;
 };
 

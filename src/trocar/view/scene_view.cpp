@@ -8,6 +8,7 @@
 #include <trocar/view/cameras.hpp>
 #include <trocar/view/cavity.hpp>
 #include <trocar/view/clip_shape.hpp>
+#include <trocar/view/cuttable_drawing.hpp>
 #include <trocar/view/drape.hpp>
 #include <trocar/view/fat_tags.hpp>
 #include <trocar/view/instrument_shapes.hpp>
@@ -52,13 +53,13 @@ DrawItem item(render::MeshHandle mesh, const Look& look) {
 }
 
 /// The look's unevenness, and a rise where each strand grows out.
-Relief relief_of(int solid, const sim::Model& model) {
-  Relief relief = look(model.solids[std::size_t(solid)].look).relief;
+Relief relief_of(int organ, const sim::Model& model) {
+  Relief relief = look(model.organ_look(organ)).relief;
   for (std::size_t i = 0; i < model.strands.size(); ++i) {
     const sim::StrandModel& strand = model.strands[i];
     const std::vector<Vec3d>& rest = model.bodies[i].model.rest;
     const auto hangs = [&](const sim::StrandEndModel& end) {
-      return end.kind == sim::StrandEndModel::hosted && end.solid == solid;
+      return end.kind == sim::StrandEndModel::hosted && end.organ == organ;
     };
     if (hangs(strand.start)) relief.roots.push_back({rest.front(), strand.outer.front()});
     if (hangs(strand.end)) relief.roots.push_back({rest.back(), strand.outer.back()});
@@ -76,7 +77,8 @@ struct LoadedClip {
 
 struct SceneView::Parts {
   const sim::Model& model;
-  std::vector<OrganDrawing> organs;
+  std::vector<OrganDrawing> organs;  ///< solids
+  std::vector<CuttableDrawing> cuttables;
   std::vector<FatTags> fat;
   std::vector<int> fat_on;  ///< its organ
   std::vector<Drape> drapes;
@@ -120,9 +122,13 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
   for (std::size_t i = 0; i < model.solids.size(); ++i) occluders.push_back({model.solids[i].fine.rest, indices[i]});
   for (std::size_t i = 0; i < model.walls.size(); ++i)
     occluders.push_back({model.walls[i].skin.rest, indices[model.solids.size() + i]});
+  for (int i = 0; i < int(model.cuttables.size()); ++i)
+    cuttables.emplace_back(model.cuttables[std::size_t(i)], relief_of(int(model.solids.size()) + i, model), backend);
+  for (const CuttableDrawing& c : cuttables) occluders.push_back({c.positions(), c.indices()});
   for (const TubeDrawing& t : tubes) occluders.push_back({t.drawn().positions, t.drawn().indices});
   const render::OpennessBaker baker(occluders, kShadeCell, kShadeReach);
 
+  for (CuttableDrawing& c : cuttables) c.shade(baker);
   for (const sim::SolidModel& s : model.solids) {
     std::vector<Paint> paint(s.fine.rest.size());
     baker.bake(s.fine.rest, s.fine.rest_normal, paint);
@@ -214,6 +220,7 @@ void SceneView::Parts::update(const sim::State& state) {
     if (tool.holds == 0) rods.insert(rods.end(), std::begin(shape.part), std::end(shape.part));
   }
   for (std::size_t i = 0; i < organs.size(); ++i) organs[i].update(state.solids[i], state.parted[i], rods);
+  for (std::size_t i = 0; i < cuttables.size(); ++i) cuttables[i].update(state.cuttables[i], rods);
   for (std::size_t i = 0; i < fat.size(); ++i) fat[i].update(organs[std::size_t(fat_on[i])]);
   for (Drape& d : drapes) d.update(organs);
   for (TubeDrawing& t : tubes) t.update(state);
@@ -234,6 +241,8 @@ void SceneView::Parts::list_tissues(bool with_walls, Frame& frame) const {
     frame.items.push_back(item(walls[i].handle(), look(model.walls[i].look)));
   for (std::size_t i = 0; i < organs.size(); ++i)
     frame.items.push_back(item(organs[i].mesh(), look(model.solids[i].look)));
+  for (std::size_t i = 0; i < cuttables.size(); ++i)
+    frame.items.push_back(item(cuttables[i].mesh(), look(model.cuttables[i].look)));
   for (std::size_t i = 0; i < drapes.size(); ++i) {
     frame.items.push_back(item(drapes[i].mesh(), *drape_look[i]));
     frame.items.back().material.two_sided = true;
@@ -244,7 +253,7 @@ void SceneView::Parts::list_tissues(bool with_walls, Frame& frame) const {
     const sim::StrandModel& strand = model.strands[i];
     frame.items.push_back(item(tubes[i].mesh(), look(strand.look)));
     if (strand.start.kind == sim::StrandEndModel::hosted && !strand.fimbriated)
-      frame.items.back().material.tint = look(model.solids[std::size_t(strand.start.solid)].look).material.colour;
+      frame.items.back().material.tint = look(model.organ_look(strand.start.organ)).material.colour;
   }
   for (std::size_t i = 0; i < sheets.size(); ++i)
     frame.items.push_back(item(sheets[i].mesh(), look(model.sheets[i].look)));

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <trocar/interactions/skin_point.hpp>
 #include <trocar/render/mesh_arrays.hpp>
 #include <trocar/view/fold_pattern.hpp>
 #include <trocar/view/looks.hpp>
@@ -23,15 +22,14 @@ constexpr double kCrescent = 0.3;  // of the width: the margin's free border sta
 constexpr double kTwoPi = 6.28318530717959;
 
 Vec3d rest_of(const sim::BasePoint& b, const sim::Model& model) {
-  if (b.solid >= 0) return vec_cast<double>(model.solids[std::size_t(b.solid)].skin.rest[std::size_t(b.vertex)]);
+  if (b.organ >= 0) return vec_cast<double>(model.skin(b.organ).rest[std::size_t(b.vertex)]);
   const interactions::StrandBody& body = model.bodies[std::size_t(b.strand)];
   const std::size_t e = std::size_t(b.place.element);
   return body.model.rest[e] + b.place.w * (body.model.rest[e + 1] - body.model.rest[e]);
 }
 
-Vec3d skin_now(const sim::Model& model, const sim::State& state, int solid, int vertex) {
-  const sim::SolidModel& m = model.solids[std::size_t(solid)];
-  return interactions::skin_point(m.network, m.skin, state.solids[std::size_t(solid)], vertex);
+Vec3d skin_now(const sim::Model& model, const sim::State& state, int organ, int vertex) {
+  return tissue::skin_point(nodes_of(model, state, organ), model.skin(organ), vertex);
 }
 
 }  // namespace
@@ -120,17 +118,18 @@ void SheetDrawing::find_margins() {
       const Vec3d out = normalised(p - vec_cast<double>(m_buffer.positions[inner * kRows + from]));
       double nearest = kMarginFar;
       Margin best;
-      const auto look_at = [&](const tissue::Skin& skin, int solid, double reach) {
+      const auto look_at = [&](const tissue::Skin& skin, int organ, double reach) {
         for (std::size_t i = 0; i < skin.rest.size(); ++i) {
+          if (!skin.at_surface(int(i))) continue;
           const Vec3d q = vec_cast<double>(skin.rest[i]), d = q - p;
           const double far = length(d);
           if (far >= std::min(nearest, reach) || dot(d, out) < 0.2 * far) continue;
           nearest = far;
-          best = {solid, int(i), q};
+          best = {organ, int(i), q};
         }
       };
       for (const sim::WallModel& wall : m_model->walls) look_at(wall.skin, -1, kMarginFar);
-      for (std::size_t s = 0; s < m_model->solids.size(); ++s) look_at(m_model->solids[s].skin, int(s), kMarginNear);
+      for (int i = 0; i < m_model->organs(); ++i) look_at(m_model->skin(i), i, kMarginNear);
       if (best.vertex >= 0) margin.push_back(best);
     }
     if (margin.size() == kRows) m_margin[at_end] = margin;
@@ -143,7 +142,7 @@ void SheetDrawing::place_margin(const sim::State& state, bool at_end) {
       (m_columns.size() + (at_end && !m_margin[0].empty() ? std::size_t(kMarginSteps) : 0)) * kRows;
   for (std::size_t r = 0; r < kRows; ++r) {
     const Margin& m = m_margin[at_end][r];
-    const Vec3d to = m.solid < 0 ? m.rest : skin_now(*m_model, state, m.solid, m.vertex);
+    const Vec3d to = m.organ < 0 ? m.rest : skin_now(*m_model, state, m.organ, m.vertex);
     const Vec3f from = m_buffer.positions[edge + r], step = vec_cast<float>(to) - from;
     for (int k = 1; k <= kMarginSteps; ++k)
       m_buffer.positions[first + std::size_t(k - 1) * kRows + r] = from + (float(k) / kMarginSteps) * step;
@@ -152,7 +151,7 @@ void SheetDrawing::place_margin(const sim::State& state, bool at_end) {
 
 Vec3d SheetDrawing::base_point(std::size_t i, const sim::State& state) const {
   const sim::BasePoint& b = m_sheet->base[i];
-  if (b.solid >= 0) return b.rest + skin_now(*m_model, state, b.solid, b.vertex) - rest_of(b, *m_model);
+  if (b.organ >= 0) return b.rest + skin_now(*m_model, state, b.organ, b.vertex) - rest_of(b, *m_model);
   if (b.strand < 0) return b.rest;
   const std::size_t k = std::size_t(b.strand);
   return b.rest + point_at(m_model->bodies[k], state.strands[k], b.place) - rest_of(b, *m_model);

@@ -26,7 +26,7 @@ class SheetDrawing {
   };
   /// What a row of a free edge runs out on: a wall (in space) or an organ's skin.
   struct Margin {
-    int solid = -1, vertex = -1;
+    int organ = -1, vertex = -1;
     Vec3d rest;
   };
   void find_margins();

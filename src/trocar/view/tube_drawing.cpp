@@ -135,6 +135,7 @@ TubeRoot TubeDrawing::root_at(const StrandCurve& rest, bool at_start) const {
   const Vec3d onward = at_start ? -f.tangent : f.tangent;
   const auto search = [&](const tissue::Skin& skin) {
     for (std::size_t i = 0; i < skin.rest.size(); ++i) {
+      if (!skin.at_surface(int(i))) continue;
       const Vec3d way = vec_cast<double>(skin.rest[i]) - f.point;
       const double d = length(way);
       if (d >= nearest || (end.kind == sim::StrandEndModel::fixed && dot(way, onward) < 0.3 * d)) continue;
@@ -145,7 +146,8 @@ TubeRoot TubeDrawing::root_at(const StrandCurve& rest, bool at_start) const {
   };
   TubeRoot root;
   if (end.kind == sim::StrandEndModel::hosted) {
-    search(m_model->solids[std::size_t(end.solid)].fine);
+    const std::size_t organ = std::size_t(end.organ);
+    search(organ < m_model->solids.size() ? m_model->solids[organ].fine : m_model->skin(end.organ));
     const double above = dot(f.point - at, normal);
     root.sink = std::max(0.0, kSink * radius + above);
     at = f.point - above * normal;

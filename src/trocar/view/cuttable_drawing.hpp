@@ -1,0 +1,49 @@
+// An organ that can be cut, as drawn: its faces as smooth small triangles (tissue/face_skin.hpp) with the look's
+// relief, and, where a cut has laid its inside bare, raw flesh with sharp rims. A new skin is made after every cut.
+#pragma once
+
+#include <trocar/render/openness.hpp>
+#include <trocar/sim/model.hpp>
+#include <trocar/tissue/face_skin.hpp>
+#include <trocar/view/dent.hpp>
+#include <trocar/view/mesh_buffer.hpp>
+#include <trocar/view/relief.hpp>
+
+namespace trocar::view {
+
+class CuttableDrawing {
+ public:
+  CuttableDrawing(const sim::CuttableOrgan& organ, Relief relief, render::Backend& backend);
+
+  /// How open its own surface lies, from what stands around it; once, before the first picture.
+  void shade(const render::OpennessBaker& baker);
+  /// Moves the mesh, or makes it anew where the State has another cut than the last; nothing where nothing has moved.
+  /// @param rods  instruments that may dent it
+  void update(const tissue::CuttableState& state, std::span<const collision::Capsule> rods = {});
+  render::MeshHandle mesh() const { return m_mesh.handle(); }
+  /// As drawn now.
+  std::span<const Vec3f> positions() const { return m_pose.position; }
+  std::span<const std::uint32_t> indices() const { return m_indices; }
+
+ private:
+  void make_skin(const tissue::CuttableState& state);
+  void paint_skin();
+  void place(const tissue::CuttableState& state, std::span<const collision::Capsule> rods);
+
+  const sim::CuttableOrgan* m_organ;
+  Relief m_relief;
+  tissue::FaceSkin m_skin;
+  std::uint64_t m_version = ~0ull;   ///< CuttableState::version of m_skin
+  std::vector<std::uint8_t> m_open;  ///< (nodes) Paint::openness
+  tissue::SkinPose m_pose;
+  std::vector<Vec3f> m_normals;
+  std::vector<Paint> m_paint;
+  std::vector<float> m_height;  ///< relief
+  std::vector<std::uint32_t> m_indices;
+  tissue::Box m_box;
+  bool m_dented = false;
+  MovedNodes m_moved;
+  OwnedMesh m_mesh;
+};
+
+}  // namespace trocar::view
