@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
@@ -64,26 +65,22 @@ double order(double coarse, double fine) { return std::log2(coarse / fine); }
 
 TEST(Stuffing, BallsAreClosedWellShapedAndTheirVolumeConvergesWithOrderTwo) {
   const double r = 0.03, exact = 4.0 / 3 * M_PI * r * r * r;
-  double last = 0, last_off = 0;
-  for (const double cell : {0.012, 0.006, 0.003, 0.0015}) {
+  std::vector<double> errors, off;
+  for (const double cell : {0.008, 0.004, 0.002}) {
     const Field field = ball(r, {0.001, 0.0007, -0.0004});
-    const TetMesh body = stuffed(field, cell, {1'000'000});
+    const TetMesh body = stuffed(field, cell);
     const StuffingReport report = compare(body, field);
     expect_good_body(body, report);
     EXPECT_LT(report.nodes_off, 1e-8 * cell);
-    const double error = std::fabs(report.volume - exact) / exact;
-    std::printf("cell %.1f mm: %6d cells, angles %.2f to %.2f, volume off %.4f %% (order %.2f), surface off %.4f mm "
-                "(order %.2f)\n",
-                1e3 * cell, report.cells, report.least_dihedral, report.most_dihedral, 100 * error,
-                last > 0 ? order(last, error) : 0.0, 1e3 * report.surface_off,
-                last > 0 ? order(last_off, report.surface_off) : 0.0);
-    if (last > 0) {
-      EXPECT_NEAR(order(last, error), 2, 0.4);
-      EXPECT_NEAR(order(last_off, report.surface_off), 2, 0.6);
-    }
-    last = error;
-    last_off = report.surface_off;
+    errors.push_back(std::fabs(report.volume - exact) / exact);
+    off.push_back(report.surface_off);
+    std::printf("cell %.0f mm: %6d cells, angles %.2f to %.2f, volume off %.4f %%, surface off %.4f mm\n", 1e3 * cell,
+                report.cells, report.least_dihedral, report.most_dihedral, 100 * errors.back(), 1e3 * off.back());
   }
+  std::printf("orders: volume %.2f and %.2f, surface %.2f and %.2f\n", order(errors[0], errors[1]),
+              order(errors[1], errors[2]), order(off[0], off[1]), order(off[1], off[2]));
+  EXPECT_NEAR(order(errors[0], errors[2]) / 2, 2, 0.2);
+  EXPECT_GT(order(off[0], off[2]) / 2, 1.5);
 }
 
 TEST(Stuffing, ATorusKeepsItsHole) {
@@ -106,57 +103,128 @@ TEST(Stuffing, TheLoftedUterusBecomesABody) {
     expect_good_body(body, report);
     EXPECT_LT(report.nodes_off, 1e-6 * cell);
     const double error = 1 - report.volume / report.shape_volume;
-    std::printf("cell %.1f mm: %5d nodes, %6d cells, angles %.2f to %.2f, volume off %.3f %%, surface off %.3f and "
-                "%.3f mm\n",
-                1e3 * cell, report.nodes, report.cells, report.least_dihedral, report.most_dihedral, 100 * error,
-                1e3 * report.surface_off, 1e3 * report.shape_off);
-    if (last > 0) EXPECT_GT(order(last, error), 1.5);
+    std::printf(
+        "cell %.1f mm: %5d nodes, %6d cells, angles %.2f to %.2f, volume off %.3f %%, surface off %.3f and "
+        "%.3f mm\n",
+        1e3 * cell, report.nodes, report.cells, report.least_dihedral, report.most_dihedral, 100 * error,
+        1e3 * report.surface_off, 1e3 * report.shape_off);
+    if (last > 0) {
+      EXPECT_GT(order(last, error), 1.5);
+    }
     last = error;
   }
   EXPECT_LT(last, 0.005);
 }
 
-TEST(Stuffing, SharpEdgesAreCutOffByLessThanHalfACube) {
+TEST(Stuffing, SharpEdgesAreCutOffByAboutHalfACubeAndCornersByLessThanOne) {
   const TriMesh box = box_mesh({0.04, 0.03, 0.02});
   TriMesh turned = box;
   const Mat3d frame{{{0.36, 0.48, -0.8}, {-0.8, 0.6, 0}, {0.48, 0.64, 0.6}}};
   for (Vec3d& p : turned.positions) p = frame * p;
   for (const TriMesh& shape : {box, turned})
-    for (const double cell : {0.004, 0.002}) {
+    for (const double cell : {0.004, 0.0027}) {
       const TetMesh body = stuffed(shape, cell);
       const ShapeReport report = compare(body, shape);
       expect_good_body(body, report);
-      std::printf("cell %.0f mm: corners off %.2f mm, surface off %.2f mm, volume off %.2f %%\n", 1e3 * cell,
-                  1e3 * report.shape_off, 1e3 * report.surface_off,
-                  100 * (1 - report.volume / report.shape_volume));
-      EXPECT_LT(report.shape_off, 0.75 * cell) << "a corner of three edges";
-      EXPECT_LT(report.surface_off, 0.5 * cell);
-      EXPECT_NEAR(report.volume / report.shape_volume, 1, 0.1 * cell / 0.002 * 0.25);
+      const double lost = 1 - report.volume / report.shape_volume;
+      std::printf("cell %.1f mm: corners off %.2f cubes, edges off %.2f cubes, volume lost %.2f %%\n", 1e3 * cell,
+                  report.shape_off / cell, report.surface_off / cell, 100 * lost);
+      EXPECT_LT(report.shape_off, 0.9 * cell);
+      EXPECT_LT(report.surface_off, 0.6 * cell);
+      EXPECT_GT(lost, 0);
+      EXPECT_LT(lost, 0.03);
     }
 }
 
-TEST(Stuffing, WhatFacesFitTheLatticeIsExact) {
-  const TetMesh body = stuffed(box_mesh({0.04, 0.03, 0.02}), 0.005);
-  EXPECT_NEAR(inspect(body).volume, 24e-6, 0.02 * 24e-6);  // but for the edges
+TEST(Stuffing, ABoxWhoseFacesAreOnTheLatticeIsExactEdgesAndAll) {
+  const TriMesh box = box_mesh({0.04, 0.03, 0.02});
+  const ShapeReport report = compare(stuffed(box, 0.005), box);
+  EXPECT_NEAR(report.volume, 24e-6, 1e-13);
+  EXPECT_LT(report.shape_off, 2e-10);
 }
 
-TEST(Stuffing, ARodHoldsTogetherDownToTwoThirdsOfACubeThickAndIsReportedWhereNot) {
-  for (const double share : {2.0, 1.5, 1.0, 0.8, 0.6, 0.4}) {  // thickness in cubes
-    const double cell = 0.003;
+TEST(Stuffing, ARodThickerThanACubeAndAHalfHoldsTogetherAndAThinnerOneIsNotCalledABody) {
+  const double cell = 0.003;
+  for (const double share : {2.0, 1.5, 1.0, 0.8}) {  // thickness in cubes
     const Field field = rod(0.06, 0.5 * share * cell);
-    int parts = 0, odd = 0;
-    double volume_of = 0, least = 180;
+    const double exact = M_PI * 0.25 * share * share * cell * cell * (0.06 + 2.0 / 3 * share * cell);
+    StuffingReport report;
     try {
-      const StuffingReport report = compare(stuffed(field, cell), field);
-      parts = report.parts;
-      odd = report.odd_edges;
-      volume_of = report.volume;
-      least = report.least_dihedral;
-    } catch (const std::invalid_argument&) {
+      const TetMesh body = stuffed(field, cell);
+      report = compare(body, field);
+      if (share >= 1.5) expect_good_body(body, report);
+    } catch (const std::invalid_argument& refused) {
+      EXPECT_LT(share, 1.0) << refused.what();
     }
-    std::printf("rod of %.1f cubes: %d parts, %d odd edges, volume %.2f of it, least angle %.2f\n", share, parts, odd,
-                volume_of / (M_PI * 0.25 * share * share * cell * cell * (0.06 + 2.0 / 3 * share * cell)), least);
+    std::printf("rod of %.1f cubes: %d parts, %.0f %% of its volume\n", share, report.parts,
+                100 * report.volume / exact);
+    EXPECT_EQ(report.parts == 1 && report.volume > 0.5 * exact, share >= 1.5);
   }
+}
+
+// Bounds as measured: where neighbouring points of the lattice lie on different sides at random, points that move
+// towards each other leave thinner cells than the paper's bounds.
+TEST(Stuffing, OfAnyNoiseAllCellsAreUprightAndNoneIsFlat) {
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    core::Random random(seed);
+    Voxels noise;
+    noise.size = {14, 14, 14};
+    const double side = random.uniform(0.3, 2.0);  // of voxels, in cubes of the lattice
+    noise.step = {{{side, 0, 0}, {0, side, 0}, {0, 0, side}}};
+    std::vector<float> values(noise.count());
+    for (float& value : values) value = float(random.uniform(-1, 1));
+    noise.values = values;
+    const Field field = field_above(noise, 0);
+    const TetMesh body = stuffed(field, 1);
+    const StuffingReport report = compare(body, field);
+    const TetFacts facts = inspect(body, 0);
+    EXPECT_EQ(facts.inverted + facts.flat + facts.duplicate_cells + facts.overlapping_faces + facts.crowded_faces, 0);
+    EXPECT_EQ(check_edges(surface_of(body).mesh).open, 0);
+    EXPECT_GT(report.least_dihedral, 9) << seed;
+    EXPECT_LT(report.most_dihedral, kStuffedMostDihedral) << seed;
+    StuffingOptions options;
+    options.largest_part = true;
+    const TetFacts largest = inspect(stuffed(field, 1, options), 0);
+    EXPECT_EQ(largest.parts, 1);
+    EXPECT_EQ(largest.unused_nodes, 0);
+    EXPECT_GE(largest.volume * facts.parts, facts.volume * (1 - 1e-12));
+  }
+}
+
+TEST(Stuffing, NodesAndCellsAreInAnOrderThatKeepsNeighboursTogether) {
+  const TetMesh body = stuffed(ball(0.03), 0.004);
+  double along = 0, far = 0;
+  for (std::size_t i = 1; i < body.points.size(); ++i) along += length(body.points[i] - body.points[i - 1]);
+  for (std::size_t i = 0; i < body.points.size(); ++i)
+    far += length(body.points[i] - body.points[i * 7919 % body.points.size()]);
+  EXPECT_LT(along, 0.3 * far);
+  for (std::size_t c = 1; c < body.cells.size(); ++c)
+    EXPECT_LE(*std::min_element(body.cells[c - 1].begin(), body.cells[c - 1].end()),
+              *std::min_element(body.cells[c].begin(), body.cells[c].end()));
+}
+
+TEST(Stuffing, RefusesWhatIsTooFineTooCoarseOrNothing) {
+  StuffingOptions few;
+  few.most_cells = 1000;
+  EXPECT_THROW(stuffed(ball(0.03), 0), std::invalid_argument);
+  EXPECT_THROW(stuffed(ball(0.03), -1), std::invalid_argument);
+  EXPECT_THROW(stuffed(ball(0.03), 0.005, few), std::invalid_argument);
+  EXPECT_NO_THROW(stuffed(ball(0.03), 0.012, few));
+  EXPECT_THROW(stuffed(ball(0.03), 1e-9), std::invalid_argument);
+  EXPECT_THROW(stuffed(ball(1e-5), 0.1), std::invalid_argument);
+  TriMesh open = sphere_mesh(0.03, 2);
+  open.triangles.pop_back();
+  EXPECT_THROW(stuffed(open, 0.01), std::invalid_argument);
+}
+
+// The value was printed once by gcc 12 on x86-64; every other compiler and machine must find the same.
+TEST(Stuffing, GivesTheSameBitsOnEveryCompiler) {
+  core::Hasher hasher;
+  for (const TetMesh& body : {stuffed(sphere_mesh(0.03, 3), 0.006), stuffed(uterus(0.003), 0.005)}) {
+    hasher.add(body.points);
+    hasher.add(body.cells);
+  }
+  EXPECT_EQ(hasher.value(), 0x2bb153d9c38fae6eull) << std::hex << hasher.value();
 }
 
 }  // namespace trocar::geometry

@@ -24,7 +24,7 @@ struct Field {
 
 /// The distance to the nearest triangle, negative outside. Outside is what no surface goes around: where the mesh
 /// overlaps itself, whatever is inside at least once counts as inside. The sign is right for every point more than
-/// 2^-25 of the box's longest side away from the surface. Throws std::invalid_argument for a mesh that is open, without
+/// 2^-29 of the box's longest side away from the surface. Throws std::invalid_argument for a mesh that is open, without
 /// volume, or that faces inwards.
 Field field_of(const TriMesh& closed);
 

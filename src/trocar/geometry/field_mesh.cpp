@@ -110,7 +110,7 @@ class TriangleTree {
 struct Place {
   std::int64_t x, y;
 };
-constexpr int kGridBits = 26;  // products of two differences then fit in 64 bits with room to spare
+constexpr int kGridBits = 30;  // products of two differences and what lies between two of these fit in 64 bits
 
 /// Twice the signed area of (p, a, b) is above 0; on the line, as if p lay a little further along y, then back along x.
 bool to_the_left(Place p, Place a, Place b) {
