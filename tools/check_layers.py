@@ -43,6 +43,7 @@ FOREIGN = [
     (re.compile(r"^nlohmann/"), ["scene", "training", "app"]),
     (re.compile(r"^CLI/"), ["app"]),
     (re.compile(r"^sqlite3\.h"), ["training"]),
+    (re.compile(r"^zlib\.h"), ["geometry"]),
     (re.compile(r"^(Eigen|suitesparse)/|^(cholmod|umfpack)\.h"), ["numerics", "studies", "app"]),
     (re.compile(r"^(xxhash\.h|spdlog/)"), ["core", "app"]),
 ]

@@ -1,4 +1,4 @@
-// Values in legacy VTK files: their types, and arrays that are passed over; the kinds of cells. Used by vtk_reader.cpp
+// Values in legacy VTK files: their types, and arrays that are passed over; the kinds of cells. Used by the readers
 // only.
 #pragma once
 
