@@ -433,13 +433,15 @@ class Trainee:
             self.settled()
 
     def move(self, goal, tolerance_mm, what, limit=120):
-        """The led tip to goal() [mm], which may itself move: sideways in the picture and along the shaft."""
-        end = time.monotonic() + limit
+        """The led tip to goal() [mm], which may itself move: sideways in the picture and along the shaft. Who has tried
+        for long makes do with twice the tolerance: the tissue, pushed by the jaws, gives way before the last tenths."""
+        begun = time.monotonic()
+        end = begun + limit
         while True:
             tool, picture = self.eyes.tool(), self.eyes.pose["picture"]
             way = [1e-3 * x for x in add(goal(), tool["tip_mm"], -1)]
             off = 1000 * math.sqrt(dot(way, way))
-            if off < tolerance_mm:
+            if off < tolerance_mm * (2 if time.monotonic() > begun + limit / 3 else 1):
                 return
             if time.monotonic() > end:
                 raise Failed(f"{what}: still {off:.1f} mm away after {limit} s")
