@@ -191,7 +191,7 @@ class Stuffing {
           const int cut = cut_along(p, place, way, sign, share);
           if (cut < 0 || !(share < (way < kLongWays ? m_options.snap_long : m_options.snap_short))) continue;
           const Vec3d d = m_cuts[cut].position - m_position[p];
-          if (dot(d, d) < least) {
+          if (dot(d, d) < least * (1 - 1e-6)) {  // of equal ones the first, also where rounding differs
             least = dot(d, d);
             nearest = cut;
           }
@@ -262,7 +262,7 @@ class Stuffing {
       return std::count_if(c.begin(), c.end(), [&](int p) { return m_side[p] == side; });
     };
     const auto inside = count(1), outside = count(-1);
-    const auto [p, q, r, s] = c;
+    const int p = c[0], q = c[1], r = c[2], s = c[3];
     if (inside == 0) return;
     if (outside == 0) return add(turned, p, q, r, s);
     if (inside == 1) {  // the corner that is inside; those outside become cuts
@@ -412,20 +412,6 @@ double dihedral_cosine(const std::array<Vec3d, 4>& x, int i, int j) {
   return dot(normalised(a - dot(a, along) * along), normalised(b - dot(b, along) * along));
 }
 
-/// How far a point is from the field's surface, about.
-double off(const Field& field, Vec3d p, double h) {
-  const double f = field.inside(p);
-  Vec3d slope;
-  for (int k = 0; k < 3; ++k) {
-    Vec3d ahead = p, behind = p;
-    ahead[k] += h;
-    behind[k] -= h;
-    slope[k] = (field.inside(ahead) - field.inside(behind)) / (2 * h);
-  }
-  const double steep = length(slope);
-  return steep > 0 ? std::fabs(f) / steep : 0;
-}
-
 }  // namespace
 
 TetMesh stuffed(const Field& field, double cell, const StuffingOptions& options) {
@@ -469,12 +455,12 @@ StuffingReport compare(const TetMesh& body, const Field& field) {
   report.volume = facts.volume;
   measure_angles(body, report);
   const TriMesh surface = surface_of(body).mesh;
-  const double h = 1e-5 * diagonal(facts.box);
-  for (const Vec3d p : surface.positions) report.nodes_off = std::max(report.nodes_off, off(field, p, h));
+  const auto off = [&](Vec3d p) { return std::fabs(field.inside(p)); };
+  for (const Vec3d p : surface.positions) report.nodes_off = std::max(report.nodes_off, off(p));
   for (const auto& t : surface.triangles) {
     const Vec3d a = surface.positions[t[0]], b = surface.positions[t[1]], c = surface.positions[t[2]];
     for (const Vec3d p : {0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a), (a + b + c) / 3.0})
-      report.surface_off = std::max(report.surface_off, off(field, p, h));
+      report.surface_off = std::max(report.surface_off, off(p));
   }
   return report;
 }
