@@ -18,6 +18,7 @@ std::span<const Target> targets() {
       {"trace", trace_bytes, 4'000, trace_seeds, nullptr, mutate_trace},
       {"trace_csv", trace_csv, 4'000, trace_csv_seeds},
       {"tet_mesh", tet_mesh_file, 4'000, tet_mesh_seeds, tet_mesh_words},
+      {"nrrd", nrrd_file, 2'000, nrrd_seeds, nrrd_words},
   };
   return all;
 }

@@ -33,6 +33,9 @@ std::vector<Seed> trace_csv_seeds();
 void tet_mesh_file(Bytes bytes);
 std::vector<Seed> tet_mesh_seeds();
 std::vector<std::string> tet_mesh_words();
+void nrrd_file(Bytes bytes);
+std::vector<Seed> nrrd_seeds();
+std::vector<std::string> nrrd_words();
 
 /// So small that a compile takes milliseconds.
 bool quick_to_compile(const scene::Description& description);

@@ -1,7 +1,7 @@
 // Tetrahedra that fill a shape: isosurface stuffing [Labelle & Shewchuk 2007]. A body-centred cubic lattice covers the
 // shape; its points near the surface move onto it, and the cells that the surface still crosses are cut by one of a few
-// patterns. Cells inside are all alike, and those at a smooth surface well shaped (on our organs all dihedral angles
-// are between 17 and 147 degrees): so a body of these keeps a long time step.
+// patterns. Cells inside are all alike, and those at a smooth surface well shaped (on organs, dihedral angles of 12
+// to 156 degrees): so a body of these keeps a long time step.
 //
 //   const TetMesh body = stuffed(closed_mesh, 0.003);                  // cubes of 3 mm
 //   const TetMesh liver = stuffed(volume, 5, 0.006);                   // voxels with the label 5
