@@ -108,6 +108,28 @@ TEST(Field, ThroughVerticesAndEdgesNoSignIsLost) {
       }
 }
 
+TEST(Field, OfNeedlesCostsNoMoreThanOfOthers) {
+  TriMesh fan;  // a double cone of 20000 needles, each as long as the box, upright and lying
+  constexpr int n = 10000;
+  fan.positions = {{0, 0, 1}, {0, 0, -1}};
+  for (int i = 0; i < n; ++i) fan.positions.push_back({std::cos(2 * M_PI * i / n), std::sin(2 * M_PI * i / n), 0});
+  for (int i = 0; i < n; ++i) {
+    fan.triangles.push_back({0, 2 + i, 2 + (i + 1) % n});
+    fan.triangles.push_back({1, 2 + (i + 1) % n, 2 + i});
+  }
+  for (Vec3d& p : fan.positions) p = {p.x, p.z, p.y};
+  for (auto& t : fan.triangles) std::swap(t[0], t[1]);
+  const Field field = field_of(fan);
+  core::Random random(9);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3d p = random_point(random, 1.1);
+    const double depth = (1 - std::fabs(p.y) - std::sqrt(p.x * p.x + p.z * p.z)) / std::sqrt(2.0);
+    if (std::fabs(depth) > 1e-3) {
+      EXPECT_EQ(field.inside(p) > 0, depth > 0) << i;
+    }
+  }
+}
+
 TEST(Field, MeshesWithoutAnInsideAreRefused) {
   TriMesh open = sphere_mesh(0.03, 1), inverted = sphere_mesh(0.03, 1);
   open.triangles.pop_back();

@@ -129,8 +129,8 @@ class Turns {
     for (const Vec3d& p : mesh.positions) m_places.push_back(place(p));
     int bits = 0;  // about as many columns as triangles
     while (bits < 10 && (std::size_t(1) << (2 * bits)) < mesh.triangles.size()) ++bits;
-    m_shift = kGridBits - bits;
-    m_side = (1 << bits) + 1;  // the highest place has a column of its own
+    set_columns(bits);
+    while (bits > 0 && listed() > kMostColumns * double(mesh.triangles.size())) set_columns(--bits);
     fill_columns();
   }
 
@@ -151,18 +151,37 @@ class Turns {
   int m_shift, m_side;
   Csr m_columns;  ///< of triangles
 
+  static constexpr double kMostColumns = 32;  ///< of a triangle, in the mean: there are meshes of needles
+
+  void set_columns(int bits) {
+    m_shift = kGridBits - bits;
+    m_side = (1 << bits) + 1;  // the highest place has a column of its own
+  }
+  /// How often triangles stand in columns.
+  double listed() const {
+    double sum = 0;
+    for (int t = 0; t < int(m_mesh.triangles.size()); ++t) {
+      const auto [x0, x1, y0, y1] = columns_of(t);
+      sum += double(x1 - x0 + 1) * double(y1 - y0 + 1);
+    }
+    return sum;
+  }
   Place place(Vec3d p) const {
     return {std::int64_t((p.x - m_box.low.x) / m_step), std::int64_t((p.y - m_box.low.y) / m_step)};
   }
   int column(std::int64_t i, std::int64_t j) const { return int(i) + m_side * int(j); }
 
-  template <class F>
-  void for_each_column(int t, F&& f) const {
+  std::array<std::int64_t, 4> columns_of(int t) const {
     const auto& [a, b, c] = m_mesh.triangles[t];
     const auto [x0, x1] = std::minmax({m_places[a].x, m_places[b].x, m_places[c].x});
     const auto [y0, y1] = std::minmax({m_places[a].y, m_places[b].y, m_places[c].y});
-    for (std::int64_t j = y0 >> m_shift; j <= y1 >> m_shift; ++j)
-      for (std::int64_t i = x0 >> m_shift; i <= x1 >> m_shift; ++i) f(column(i, j));
+    return {x0 >> m_shift, x1 >> m_shift, y0 >> m_shift, y1 >> m_shift};
+  }
+  template <class F>
+  void for_each_column(int t, F&& f) const {
+    const auto [x0, x1, y0, y1] = columns_of(t);
+    for (std::int64_t j = y0; j <= y1; ++j)
+      for (std::int64_t i = x0; i <= x1; ++i) f(column(i, j));
   }
 
   void fill_columns() {
