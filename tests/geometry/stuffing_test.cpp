@@ -203,6 +203,22 @@ TEST(Stuffing, NodesAndCellsAreInAnOrderThatKeepsNeighboursTogether) {
               *std::min_element(body.cells[c].begin(), body.cells[c].end()));
 }
 
+TEST(Stuffing, LookingOnlyNearTheSurfaceChangesNoBit) {
+  const Field near = field_of(uterus(0.002));
+  int looks = 0, all_looks = 0;
+  const auto counted = [&near](int& count) {
+    return [&near, &count](Vec3d p) {
+      ++count;
+      return near.inside(p);
+    };
+  };
+  const TetMesh some = stuffed(Field{counted(looks), near.box, 1.0}, 0.004);
+  const TetMesh all = stuffed(Field{counted(all_looks), near.box}, 0.004);
+  EXPECT_TRUE(some.points == all.points);
+  EXPECT_TRUE(some.cells == all.cells);
+  EXPECT_LT(looks, all_looks);
+}
+
 TEST(Stuffing, RefusesWhatIsTooFineTooCoarseOrNothing) {
   StuffingOptions few;
   few.most_cells = 1000;

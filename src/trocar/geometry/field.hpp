@@ -9,6 +9,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 
 #include <trocar/geometry/tri_mesh.hpp>
 #include <trocar/geometry/voxels.hpp>
@@ -20,6 +21,8 @@ struct Field {
   /// Above 0 inside, 0 on the surface, below 0 outside; near the surface about proportional to the distance.
   std::function<double(Vec3d)> inside;
   Bounds box;  ///< the shape is within
+  /// Within a metre the field changes by at most this; infinite where nobody knows. Spares looking at every place.
+  double steepest = std::numeric_limits<double>::infinity();
 };
 
 /// The distance to the nearest triangle, negative outside. Outside is what no surface goes around: where the mesh

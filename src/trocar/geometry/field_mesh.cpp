@@ -238,7 +238,7 @@ Field field_of(const TriMesh& closed) {
   if (!check_edges(closed).closed()) throw std::invalid_argument("a closed mesh expected, got one with open edges");
   if (!(volume(closed) > 0)) throw std::invalid_argument("a mesh that faces outwards expected, got no volume within");
   const auto distance = std::make_shared<const SignedDistance>(closed);
-  return {[distance](Vec3d p) { return (*distance)(p); }, bounds(closed.positions)};
+  return {[distance](Vec3d p) { return (*distance)(p); }, bounds(closed.positions), 1.0};
 }
 
 }  // namespace trocar::geometry

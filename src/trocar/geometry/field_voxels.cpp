@@ -132,7 +132,7 @@ Field field_of_crop(const Voxels& voxels, Crop crop) {
     corners.push_back(voxels.centre({c & 1 ? last.x : first.x, c & 2 ? last.y : first.y, c & 4 ? last.z : first.z}));
   const auto trilinear =
       std::make_shared<const Trilinear>(Trilinear{std::move(crop), voxels.centre(first), inverse(voxels.step)});
-  return {[trilinear](Vec3d p) { return (*trilinear)(p); }, bounds(corners)};
+  return {[trilinear](Vec3d p) { return (*trilinear)(p); }, bounds(corners), std::numeric_limits<double>::infinity()};
 }
 
 double mean_step(const Voxels& v) {

@@ -113,7 +113,7 @@ struct Cut {
 class Stuffing {
  public:
   Stuffing(const Field& field, double cell, const StuffingOptions& options)
-      : m_field(field), m_options(options), m_lattice(field.box, cell, 4.0 * options.most_cells) {}
+      : m_field(field), m_options(options), m_cell(cell), m_lattice(field.box, cell, 4.0 * options.most_cells) {}
 
   TetMesh run() {
     look_at_points();
@@ -128,6 +128,7 @@ class Stuffing {
  private:
   const Field& m_field;
   StuffingOptions m_options;
+  double m_cell;
   Lattice m_lattice;
   std::vector<double> m_value;                   ///< of points
   std::vector<signed char> m_side;               ///< of points: 1 inside, 0 on the surface, -1 outside
@@ -142,11 +143,38 @@ class Stuffing {
     m_value.resize(n);
     m_side.resize(n);
     m_position.resize(n);
-    for (int p = 0; p < n; ++p) {
-      m_position[p] = m_lattice.position(m_lattice.place(p));
-      m_value[p] = m_field.inside(m_position[p]);
-      m_side[p] = m_value[p] > 0 ? 1 : (m_value[p] == 0 ? 0 : -1);
-    }
+    for (int p = 0; p < n; ++p) m_position[p] = m_lattice.position(m_lattice.place(p));
+    const Place& cubes = m_lattice.cubes();
+    look_at({0, 0, 0}, {2 * cubes[0], 2 * cubes[1], 2 * cubes[2]});
+    for (int p = 0; p < n; ++p) m_side[p] = m_value[p] > 0 ? 1 : (m_value[p] == 0 ? 0 : -1);
+  }
+
+  /// The values of the points between two places, these included. Where the surface is farther from the middle than the
+  /// farthest of them and an edge more, they are all on the middle's side, and no edge from them is cut: then one value
+  /// does for all.
+  void look_at(const Place& low, const Place& high) {
+    const Place extent{high[0] - low[0], high[1] - low[1], high[2] - low[2]};
+    const int axis = int(std::max_element(extent.begin(), extent.end()) - extent.begin());
+    if (extent[axis] < 4) return set_values(low, high, [&](int p) { return m_field.inside(m_position[p]); });
+    const Vec3d a = m_lattice.position(low), b = m_lattice.position(high);
+    const double middle = m_field.inside(0.5 * (a + b));
+    if (std::fabs(middle) > m_field.steepest * (0.5 * length(b - a) + 1.01 * m_cell))
+      return set_values(low, high, [&](int) { return middle; });
+    Place end = high, start = low;
+    end[axis] = low[axis] + extent[axis] / 2;
+    start[axis] = end[axis] + 1;
+    look_at(low, end);
+    look_at(start, high);
+  }
+  template <class F>
+  void set_values(const Place& low, const Place& high, F&& value) {
+    for (int z = low[2]; z <= high[2]; ++z)
+      for (int y = low[1]; y <= high[1]; ++y)
+        for (int x = low[0]; x <= high[0]; ++x) {
+          if (((x ^ y) & 1) != 0 || ((x ^ z) & 1) != 0) continue;
+          const int p = m_lattice.number({x, y, z});
+          m_value[p] = value(p);
+        }
   }
 
   void find_cuts() {
