@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <trocar/geometry/stuffing.hpp>
+#include <trocar/geometry/stuffing_pinches.hpp>
 #include <trocar/geometry/tet_faces.hpp>
 #include <trocar/numerics/portable.hpp>
 
@@ -120,9 +121,12 @@ class Stuffing {
     find_cuts();
     move_points();
     fill();
+    std::vector<Vec3d> points = m_position;
+    for (const Cut& cut : m_cuts) points.push_back(cut.position);
+    leave_out_pinches(points, on_surface(), m_cells);
     if (m_cells.empty())
       throw std::invalid_argument("smaller cells expected: no cell of this lattice is inside the shape");
-    return finished();
+    return finished(points);
   }
 
  private:
@@ -344,7 +348,14 @@ class Stuffing {
     return beyond % 2 == 0;  // symmetric: the parity rule, odd for exactly one of p and q
   }
 
-  TetMesh finished() const;
+  /// Points inside have all their cells, so only the others can be in the surface.
+  std::vector<bool> on_surface() const {
+    std::vector<bool> out(m_position.size() + m_cuts.size(), true);
+    for (int p = 0; p < m_lattice.points(); ++p) out[p] = m_side[p] <= 0;
+    return out;
+  }
+
+  TetMesh finished(const std::vector<Vec3d>& points) const;
 };
 
 /// Position along a Morton curve through the box.
@@ -425,9 +436,7 @@ std::vector<std::array<int, 4>> largest_part(const TetMesh& mesh) {
   return kept;
 }
 
-TetMesh Stuffing::finished() const {
-  std::vector<Vec3d> points = m_position;
-  for (const Cut& cut : m_cuts) points.push_back(cut.position);
+TetMesh Stuffing::finished(const std::vector<Vec3d>& points) const {
   const TetMesh all = in_order(points, m_cells);
   return m_options.largest_part ? in_order(all.points, largest_part(all)) : all;
 }

@@ -8,9 +8,9 @@
 //   const StuffingReport report = compare(body, field_of(closed_mesh));
 //
 // Cells are upright; nodes follow a Morton curve, and cells the lowest of their nodes. A cube of the lattice holds 12
-// cells. Features thinner than about one and a half cubes are lost or fall apart, sharp edges are cut off by up to
-// about half a cube, and a surface that comes closer to itself than a cube may touch itself: compare() tells all of it.
-// The same bits from every compiler.
+// cells. The surface is closed, with two triangles at every edge: cells that would meet others in an edge or a node
+// only are left out. Features thinner than about one and a half cubes are lost or fall apart, sharp edges are cut off
+// by up to about half a cube: compare() tells. The same bits from every compiler.
 #pragma once
 
 #include <trocar/geometry/field.hpp>
@@ -41,7 +41,7 @@ TetMesh stuffed(const Voxels& voxels, int label, double cell, const StuffingOpti
 
 struct StuffingReport {
   int nodes = 0, cells = 0, parts = 0;
-  int odd_edges = 0;  ///< of the surface, where not exactly two triangles meet: it touches itself there
+  int odd_edges = 0;                             ///< of the surface, where not exactly two triangles meet: none
   double least_dihedral = 0, most_dihedral = 0;  ///< [degrees]
   double volume = 0;
   double nodes_off = 0;    ///< farthest of the surface's nodes from the field's surface [m]
