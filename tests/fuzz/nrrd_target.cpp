@@ -42,7 +42,7 @@ void check_body(const Voxels& voxels) {
     const TetFacts facts = inspect(body, 0);
     require(facts.cells > 0 && facts.cells <= options.most_cells, "a body has cells, and not too many");
     require(facts.inverted == 0 && facts.duplicate_cells == 0 && facts.unused_nodes == 0, "its cells are upright");
-    require(check_edges(surface_of(body).mesh).open == 0, "its surface has no border");
+    require(check_edges(surface_of(body).mesh).closed(), "its surface is closed and touches itself in no edge");
   } catch (const std::invalid_argument&) {
   }
 }
