@@ -26,8 +26,8 @@ struct StuffingOptions {
   /// Only the largest group of cells that hang together by faces; otherwise all.
   bool largest_part = false;
 };
-/// The paper's bounds for the default snaps [degrees]. Where the shape is as fine as the lattice they do not hold: two
-/// neighbouring points may then snap towards each other, which leaves 9.3 degrees at worst of what we found.
+/// The paper's bounds for the default snaps [degrees]. In our form they do not hold where the shape is as fine as the
+/// lattice: neighbouring points may then snap towards each other, which leaves 9.3 degrees at worst of what we found.
 inline constexpr double kStuffedLeastDihedral = 10.78, kStuffedMostDihedral = 164.75;
 
 /// @param cell  edge of the lattice's cubes [m]
