@@ -34,11 +34,27 @@ Vec3d on_strand(const sim::Model& model, const sim::State& state, int strand, do
   return point_at(body, state.strands[std::size_t(strand)], place_at(body, s));
 }
 
+/// The places of an organ's skin, as drawn.
+std::vector<Vec3d> skin_of(const sim::Model& model, int organ) {
+  const tissue::Skin& skin = model.skin(organ);
+  std::vector<Vec3d> places;
+  for (int v = 0; v < skin.size(); ++v)
+    if (skin.at_surface(v)) places.push_back(vec_cast<double>(skin.rest[std::size_t(v)]));
+  return places;
+}
+
+Vec3d nearest(const std::vector<Vec3d>& places, Vec3d p) {
+  return *std::min_element(places.begin(), places.end(),
+                           [p](Vec3d a, Vec3d b) { return dot(a - p, a - p) < dot(b - p, b - p); });
+}
+
 void organs(const sim::Model& model, const sim::State& start, Shots& shots) {
-  for (const sim::SolidModel& solid : model.solids) {
+  for (int i = 0; i < model.organs(); ++i) {
+    const std::vector<Vec3d> skin = skin_of(model, i);
     Vec3d middle{};
-    for (const Vec3f& p : solid.fine.rest) middle += (1.0 / double(solid.fine.rest.size())) * vec_cast<double>(p);
-    shots.take_outside(start, solid.name, fmt::format("{}, close up", solid.name), close_up(model, middle, 0.075));
+    for (Vec3d p : skin) middle += p / double(skin.size());
+    const std::string& name = model.organ_name(i);
+    shots.take_outside(start, name, fmt::format("{}, close up", name), close_up(model, middle, 0.075));
   }
 }
 
@@ -111,14 +127,9 @@ void exchange(const sim::Model& model, const sim::State& start, Shots& shots) {
 
 /// The first hand's instrument, closed, at three heights over the first organ: its shadow parts from it.
 void heights(const sim::Model& model, const sim::State& start, Shots& shots) {
-  if (model.hands.empty() || model.solids.empty()) return;
+  if (model.hands.empty() || model.organs() == 0) return;
   const kinematics::ScopeFrame scope = sim::scope_of(model, start);
-  const tissue::Skin& skin = model.solids[0].fine;  // its point nearest to the lens
-  std::size_t top = 0;
-  for (std::size_t i = 0; i < skin.rest.size(); ++i)
-    if (length(vec_cast<double>(skin.rest[i]) - scope.eye) < length(vec_cast<double>(skin.rest[top]) - scope.eye))
-      top = i;
-  const Vec3d place = vec_cast<double>(skin.rest[top]), towards = normalised(scope.eye - place);
+  const Vec3d place = nearest(skin_of(model, 0), scope.eye), towards = normalised(scope.eye - place);
   for (const double above : {0.025, 0.008, -0.002}) {
     sim::State state = start;
     sim::Work work = sim::make_work(model);
@@ -168,6 +179,37 @@ void clips_and_cut(const sim::Model& model, const sim::State& start, Shots& shot
   shots.take_outside(state, "cut", "cut between them", options);
 }
 
+/// Scissors go into the edge of each organ that can be cut, three bites deep; then they draw back.
+void bites(const sim::Model& model, const sim::State& start, Shots& shots) {
+  for (std::size_t h = 0; h < model.hands.size(); ++h) {
+    const interactions::ToolModel& tool = model.placed(h);
+    if (tool.kind != interactions::ToolKind::scissors) continue;
+    for (int organ = int(model.solids.size()); organ < model.organs(); ++organ) {
+      sim::State state = start;
+      sim::Work work = sim::make_work(model);
+      sim::Input input = model.start;
+      const Vec3d port = model.hands[h].port, edge = nearest(skin_of(model, organ), port);
+      const auto go = [&](double beyond, double handle, int ticks) {
+        const Vec3d tip = edge + beyond * normalised(edge - port);
+        input.tools[h] = sim::tool_input(kinematics::inverse(port, tip, double(input.tools[h].roll)), float(handle));
+        for (int i = 0; i < ticks; ++i) sim::step(model, input, state, work);
+      };
+      const std::string& name = model.organ_name(organ);
+      const ViewOptions options = close_up(model, edge, 0.07);
+      go(-0.02, 0, 600);
+      for (int bite = 1; bite <= 3; ++bite) {
+        go(0.009 * bite, 0, 500);
+        if (bite == 1) shots.take_outside(state, name + " between blades", name + " between open blades", options);
+        go(0.009 * bite, 1, 300);
+        go(0.009 * bite, 0, 200);
+      }
+      go(-0.04, 1, 1500);
+      shots.take_outside(state, name + " cut", name + ", cut three times", options);
+      shots.take(state, name + " cut endoscope", "the same through the endoscope");
+    }
+  }
+}
+
 void outside(const sim::Model& model, const sim::State& start, Shots& shots) {
   const view::Orbit around = view::orbit_around(model);
   for (const CameraPreset& preset : kCameraPresets) {
@@ -194,6 +236,7 @@ void add_scene(Json& list, const std::string& name, const std::filesystem::path&
   exchange(model, start, shots);
   heights(model, start, shots);
   clips_and_cut(model, start, shots);
+  bites(model, start, shots);
   outside(model, start, shots);
   shots.write_index();
   for (const std::string& file : shots.files()) list.push_back(file);

@@ -20,7 +20,7 @@ std::size_t bytes_of(const sim::State& s) {
   bytes += size_of(s.cuttables);
   for (const tissue::CuttableState& body : s.cuttables)
     bytes += size_of(body.nodes) + size_of(body.tets.rest) + size_of(body.tets.source) + size_of(body.tets.cells) +
-             size_of(body.tets.across);
+             size_of(body.tets.across) + size_of(body.tet_phase);
   for (const tissue::StrandState& strand : s.strands)
     bytes += size_of(strand.x) + size_of(strand.v) + size_of(strand.scale) + size_of(strand.alive) +
              size_of(strand.foundation_scale);

@@ -129,10 +129,10 @@ TEST(Compile, AFoldFarWiderThanLongIsBounded) {
 TEST(Compile, TheReportSaysWhatTheBodiesCameTo) {
   CompileReport report;
   const sim::Model m = compile(small::description(), &report);
-  ASSERT_EQ(report.bodies.size(), 6u);
+  ASSERT_EQ(report.bodies.size(), 7u);
   for (const BodyReport& b : report.bodies) {
     EXPECT_GT(b.nodes, 0) << b.name;
-    if (b.kind != "solid") continue;
+    if (b.kind != "solid" && b.kind != "cuttable") continue;
     EXPECT_GT(b.mass, 0.5 * 1050 * b.volume) << b.name;
     EXPECT_LT(b.mass, 1.5 * 1050 * b.volume) << b.name;
     EXPECT_GE(b.substeps, 1) << b.name;

@@ -1,5 +1,5 @@
 // The laws of the step (docs/architecture.md): what a tick may depend on, and what it may not do. All on one piece of
-// work in the small scene: approach, grasp, lift, two clips, a cut.
+// work in the small scene: approach, grasp, lift, two clips, a cut through the tube, one through the bar.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -121,10 +121,10 @@ std::uint64_t first_difference(State& s, Work& w) {
   return first_difference(s, w, [](State&, Work&) {});
 }
 
-TEST(Step, TheSessionOfTheseTestsGraspsClipsTwiceAndCuts) {
+TEST(Step, TheSessionOfTheseTestsGraspsClipsTwiceAndCutsTwice) {
   EXPECT_EQ(session().grasped.size(), 1u);
   EXPECT_EQ(session().clipped.size(), 2u);
-  EXPECT_EQ(session().cut.size(), 1u);
+  EXPECT_EQ(session().cut.size(), 2u) << "the tube and the bar";
   EXPECT_GT(session().torn, 0) << "the fold is cut with the tube, so that these laws are tested on that, too";
   EXPECT_EQ(session().flags & ~std::uint32_t(tissue::StepReport::kInverted), 0u);
 }
@@ -243,11 +243,12 @@ TEST(Step, PoisonReachesEveryArrayOfWork) {
 }
 
 TEST(State, SavedAtAnyTickAndGoneOnWithInAnotherWorkIsTheSame) {
-  // Saved before the approach, at first contact, closing, held, between the clips, and after the cut.
+  // Saved before the approach, at first contact, closing, held, between the clips, and around both cuts.
   const Session& r = session();
   const Model& m = small::model();
-  const std::vector<std::uint64_t> saves{1,    250,          r.grasped[0] - 1, r.grasped[0], 1000, r.clipped[0] - 1,
-                                         2500, r.cut[0] - 1, r.cut[0],         4300};
+  const std::vector<std::uint64_t> saves{
+      1,        250,  r.grasped[0] - 1, r.grasped[0], 1000, r.clipped[0] - 1, 2500, r.cut[0] - 1,
+      r.cut[0], 4300, r.cut[1] - 1,     r.cut[1],     5200};
   std::vector<State> saved;
   State s = initial_state(m);
   Work w = make_work(m);

@@ -1,9 +1,9 @@
 // A body small enough to be stepped thousands of times in a test: an organ, a tube that grows out of it, a cord that
-// must not be cut, a soft pad below, a floor, and three instruments straight above. Drawn in round numbers, so that
-// what the step should find can be worked out by hand.
+// must not be cut, a soft pad below, a bar that can be cut through, a floor, and three instruments straight above.
+// Drawn in round numbers, so that what the step should find can be worked out by hand.
 //
 //   const sim::Model& model = small::model();
-//   small::Hands hands(model);                 // grasps, lifts, clips twice, cuts
+//   small::Hands hands(model);                 // grasps, lifts, clips twice, cuts the tube, then the bar
 //   while (!hands.done()) step(model, hands.next(state), state, work);
 #pragma once
 
@@ -14,6 +14,8 @@ namespace trocar::small {
 
 inline constexpr int kGrasper = 0, kScissors = 1, kApplier = 2;
 inline constexpr int kTube = 0, kCord = 1;
+inline constexpr int kBar = 2;          ///< among the organs
+inline constexpr double kBarY = 0.045;  ///< [m]
 inline constexpr double kTubeRadius = 0.0016;
 inline constexpr double kHeight = 0.10;  ///< of the ports above the tube, which lies along x at y = z = 0 [m]
 
@@ -49,6 +51,18 @@ inline scene::Solid pad() {
   s.skin_edge = 0.004;
   s.fine_edge = 0.003;
   s.anchors.push_back({{0.050, 0, -0.0141}, 0.012, 200, {}});
+  return s;
+}
+
+/// A bar that can be cut through, held at one end.
+inline scene::Solid bar() {
+  scene::Solid s;
+  s.name = "bar";
+  s.tissue = "flesh";
+  for (double x : {-0.004, 0.011, 0.026, 0.041}) s.sections.push_back({{x, kBarY, 0}, {0, 0.003, 0}, {0, 0, 0.004}, 2});
+  s.cell = 0.004;
+  s.cuttable = true;
+  s.anchors.push_back({{-0.006, kBarY, 0}, 0.008, 0, {}});
   return s;
 }
 
@@ -103,7 +117,7 @@ inline scene::Description description() {
   scene::Description d;
   d.name = d.title = "small";
   d.tissues = {tissue("flesh", 20e3), tissue("duct", 60e3), tissue("web", 10e3)};
-  d.solids = {organ(), pad()};
+  d.solids = {organ(), pad(), bar()};
   d.strands = {tube(), cord()};
   d.membranes = {fold()};
   scene::Wall floor;
@@ -159,7 +173,7 @@ inline const sim::Model& bare() {
   return compiled;
 }
 
-/// Hands that do the whole work in four seconds, faster than anybody should: they look at the State like a surgeon.
+/// Hands that do the whole work in six seconds, faster than anybody should: they look at the State like a surgeon.
 class Hands {
  public:
   explicit Hands(const sim::Model& model) : m_model(model), m_input(model.start) {
@@ -168,7 +182,7 @@ class Hands {
   }
 
   bool done() const { return m_at >= kTicks; }
-  static constexpr int kTicks = 4400;
+  static constexpr int kTicks = 5800;
 
   sim::Input next(const sim::State& s) {
     const int t = m_at++;
@@ -178,6 +192,7 @@ class Hands {
     clip(s, t - 1100, 0.016);
     clip(s, t - 2300, 0.026);
     cut(s, t - 3500, 0.021);
+    cut_bar(t - 4400);
     for (size_t i = 0; i < m_model.hands.size(); ++i) {
       const kinematics::FulcrumPose pose = kinematics::inverse(m_model.hands[i].port, m_tip[i], roll(s, i));
       m_input.tools[i] = sim::tool_input(pose, float(m_handle[i]));
@@ -205,7 +220,9 @@ class Hands {
   double roll(const sim::State& state, size_t tool) {
     const interactions::StrandBody& body = m_model.bodies[kTube];
     const double s = tool == size_t(kGrasper) ? 0.056 : 0.021;
-    const Vec3d along = tangent_at(body, state.strands[kTube], interactions::place_at(body, s));
+    const bool at_bar = tool == size_t(kScissors) && m_at > 4400;
+    const Vec3d along =
+        at_bar ? Vec3d{1, 0, 0} : tangent_at(body, state.strands[kTube], interactions::place_at(body, s));
     const kinematics::FulcrumPose pose = kinematics::inverse(m_model.hands[tool].port, m_tip[tool], 0);
     double wanted = kinematics::roll_towards(pose, along);
     const double half = 3.14159265358979323846, now = double(m_input.tools[tool].roll);
@@ -224,8 +241,19 @@ class Hands {
     if (t < 0) return;
     if (t < 700) aim(s, kScissors, arc, 0.010);
     if (t >= 350 && t < 600) handle(kScissors, 1, 200);
-    if (t >= 600) handle(kScissors, 0, 200);
-    if (t >= 700) move(kScissors, {0.026, 0.02, 0.05});
+    if (t >= 600 && t < 900) handle(kScissors, 0, 200);
+    if (t >= 700 && t < 900) move(kScissors, {0.026, 0.02, 0.05});
+  }
+
+  /// Down over the bar with open blades, until its middle is well between them.
+  void cut_bar(int t) {
+    if (t < 0) return;
+    const double inside = 0.010, down = m_model.placed(kScissors).jaw_length - inside;
+    if (t < 300) move(kScissors, {0.026, kBarY, 0.030});
+    if (t >= 300 && t < 600) move(kScissors, {0.026, kBarY, -down});
+    if (t >= 600 && t < 800) handle(kScissors, 1, 150);
+    if (t >= 800) handle(kScissors, 0, 150);
+    if (t >= 950) move(kScissors, {0.026, kBarY, 0.040});
   }
 
   const sim::Model& m_model;

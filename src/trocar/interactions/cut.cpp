@@ -9,7 +9,8 @@
 namespace trocar::interactions {
 namespace {
 
-constexpr double kOpenEnough = 0.5;  // aperture from which the blades can cut again
+constexpr double kOpenEnough = 0.5;  // aperture from which the blades can cut again ...
+constexpr double kOpenAgain = 0.9;   // ... and from which they can in a closing that was broken off
 constexpr double kShut = 0.2;        // aperture at which the blades have crossed
 
 }  // namespace
@@ -17,7 +18,7 @@ constexpr double kShut = 0.2;        // aperture at which the blades have crosse
 int update_scissors(const ToolModel& model, const ToolShape& shape, int tool_index, const TissueView& view,
                     std::span<tissue::StrandState> strand_states, int tips_visible, std::uint64_t tick, ToolState& tool,
                     CutBook book) noexcept {
-  if (tool.aperture > kOpenEnough) tool.armed = 1;
+  if (tool.aperture > (tool.armed < 0 ? kOpenAgain : kOpenEnough) && tool.armed <= 0) tool.armed = 1;
   if (!tool.armed || tool.aperture > kShut) return 0;
   tool.armed = 0;
   int made = 0;
@@ -56,6 +57,7 @@ int update_scissors(const ToolModel& model, const ToolShape& shape, int tool_ind
 
 namespace {
 
+constexpr double kInFlesh = 0.75;  // of the widest aperture: the blades are closing
 constexpr double kBlade = 0.0015;  // [m] beside the gap of the closed blades that their edges still reach
 
 /// Does the segment between two points of the jaw frame cross the blades' plane between the blades?
@@ -118,9 +120,14 @@ int cut_organ(const ToolModel& model, const ToolShape& shape, const tissue::Netw
   return severed;
 }
 
-geometry::Blade swept_by_blades(const ToolModel& model, const ToolShape& shape) noexcept {
-  const double angle = 0.5 * model.opening * kOpenEnough;
-  const double at_hinge = 0.5 * model.parallel_gap * kOpenEnough + kBlade;
+std::optional<geometry::Blade> sweep_of_blades(const ToolModel& model, const ToolShape& shape,
+                                               ToolState& tool) noexcept {
+  if (tool.armed <= 0) return {};
+  tool.armed = std::max(tool.armed, std::int16_t(1000 * tool.aperture));
+  const double widest = tool.armed / 1000.0;
+  if (tool.aperture > kInFlesh * widest) return {};
+  tool.armed = -1;
+  const double angle = 0.5 * model.opening * widest, at_hinge = 0.5 * model.parallel_gap * widest + kBlade;
   const double at_tips = at_hinge + model.jaw_length * portable::sin(angle) / portable::cos(angle);
   geometry::Blade blade;
   for (const Vec3d& corner : {Vec3d{-at_hinge, 0, 0}, Vec3d{at_hinge, 0, 0}, Vec3d{at_tips, 0, model.jaw_length},

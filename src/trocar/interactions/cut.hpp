@@ -2,6 +2,7 @@
 // strand (network and surface); a part of it weakens what is left.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include <trocar/geometry/tet_cut.hpp>
@@ -33,8 +34,11 @@ int cut_organ(const ToolModel& model, const ToolShape& shape, const tissue::Netw
               const tissue::Skin& fine, tissue::NetworkState& state, std::span<std::uint8_t> parted,
               std::span<std::int32_t> scratch) noexcept;
 
-/// What blades that have closed from half open have swept: a flat strip from the hinge to their tips.
-geometry::Blade swept_by_blades(const ToolModel& model, const ToolShape& shape) noexcept;
+/// What closing blades are about to sweep in flesh: a flat strip from the hinge to their tips, as wide as they were
+/// open. It comes once for every closing (ToolState::armed is below 0 then, until they open again), and before they
+/// meet: what lies between edges does not slip out ahead of them, as it would ahead of blunt rods.
+std::optional<geometry::Blade> sweep_of_blades(const ToolModel& model, const ToolShape& shape,
+                                               ToolState& tool) noexcept;
 
 /// What one closing of the blades did to a fold.
 struct FoldCut {

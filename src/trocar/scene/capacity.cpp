@@ -70,10 +70,12 @@ Extent extent_of(const Solid& solid) {
   Extent e;
   if (solid.tets) {
     e.nodes = double(solid.tets->mesh.points.size());
-    e.triangles = kFineParts * 6 * std::cbrt(e.nodes * e.nodes);
+    e.triangles = kFineParts * 2 * e.nodes;  // were all of them on its surface
     return e;
   }
   if (solid.sections.empty() || !(solid.cell > 0)) return e;
+  const double touched = solid.cuttable ? solid.cell : solid.skin_edge;
+  const double drawn = solid.cuttable ? solid.cell / 3 : solid.fine_edge;
   double volume = 0;
   for (std::size_t i = 0; i + 1 < solid.sections.size(); ++i) {
     const Section &a = solid.sections[i], &b = solid.sections[i + 1];
@@ -81,7 +83,7 @@ Extent extent_of(const Solid& solid) {
     const double top = 4 * length(cross(a.across, a.deep)), bottom = 4 * length(cross(b.across, b.deep));
     const double around = 3 * std::max(length(a.across) + length(a.deep), length(b.across) + length(b.deep));
     volume += height / 3 * (top + bottom + std::sqrt(top * bottom));
-    for (double edge : {solid.skin_edge, solid.fine_edge})
+    for (double edge : {touched, drawn})
       e.triangles += ring_triangles(height + 0.3 * around / double(solid.sections.size()), around, edge);
   }
   e.nodes = (solid.cuttable ? 2 : 1) * volume / (solid.cell * solid.cell * solid.cell);

@@ -75,16 +75,19 @@ void pair_strand(sim::Model& model, const Drawn& drawn, int strand, int surface)
 void pair_solid(sim::Model& model, const Drawn& drawn, int solid, int surface) {
   const interactions::Surface& samples = drawn.surface[size_t(solid)];
   const interactions::Surface& s = drawn.surface[size_t(surface)];
-  if (!s.pose->bounds.near_box(samples.pose->bounds, float(kReach) * 0.5f)) return;
+  const bool near = s.pose->bounds.near_box(samples.pose->bounds, float(kReach) * 0.5f);
+  if (!near && solid < int(model.solids.size())) return;
   interactions::SurfacePair pair;
   pair.solid = solid;
   pair.surface = surface;
   std::vector<std::int32_t> nearest;
-  const int n = samples.skin->size(), stride = std::max(1, n / kSolidSamples);
+  // Any piece of an organ that can be cut must land on something.
+  const bool cuttable = solid >= int(model.solids.size()) && surface >= model.organs();
+  const int n = samples.skin->size(), stride = cuttable ? 1 : std::max(1, n / kSolidSamples);
   for (int v = 0; v < n; v += stride) {
     if (!samples.skin->at_surface(v)) continue;
     const Vec3d p = samples.position(v);
-    if (!s.pose->bounds.reaches(p, kReach * 0.5)) continue;
+    if (!cuttable && !s.pose->bounds.reaches(p, kReach * 0.5)) continue;
     add_sample(pair, s, v, p, 0.0, nearest);
   }
   if (pair.sample.empty()) return;

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <trocar/core/files.hpp>
+#include <trocar/geometry/nrrd.hpp>
+#include <trocar/geometry/stuffing.hpp>
 #include <trocar/geometry/tet_files.hpp>
 #include <trocar/scene/reader_parts.hpp>
 
@@ -127,6 +129,28 @@ void Reading::mesh_of(const JsonObject& o, const fs::path& folder, Solid& s) {
   take(o, std::move(source), s);
 }
 
+void Reading::voxels_of(const JsonObject& o, const fs::path& folder, Solid& s) {
+  TetSource source;
+  source.file = o.text("file");
+  source.label = o.integer("label", 1);
+  source.smoothing = o.integer("smoothing", source.smoothing);
+  source.place = from_mm(o.vec3("place_mm"));
+  const std::optional<std::string> bytes = bytes_of(o, folder);
+  if (!bytes) return;
+  try {
+    const std::string shown = (folder / source.file).lexically_normal().generic_string();
+    const geometry::Voxels voxels = geometry::read_nrrd(*bytes, shown);
+    source.mesh = geometry::stuffed(geometry::field_of_label(voxels, source.label, source.smoothing), s.cell,
+                                    {.most_cells = kMaxSolidCells, .largest_part = true});
+  } catch (const core::BadInput& e) {
+    for (const core::Fault& f : e.faults()) tell(m_faults, f);
+    return;
+  } catch (const std::invalid_argument& e) {
+    return o.fault("label", fmt::format("expected a label that can be filled with tetrahedra, got: {}", e.what()));
+  }
+  take(o, std::move(source), s);
+}
+
 void Reading::organs(const JsonObject& o, const fs::path& folder) {
   includes(o, "organs", folder, organ_shape(), &Reading::organ, &Reading::organ);
 }
@@ -158,6 +182,7 @@ void Reading::solid(const JsonObject& o, const fs::path& folder) {
   s.fibre_ratio = o.number("fibre_ratio", s.fibre_ratio);
   check_shape(o, s);
   for (const JsonObject& mesh : o.objects("mesh")) mesh_of(mesh, folder, s);
+  for (const JsonObject& voxels : o.objects("voxels")) voxels_of(voxels, folder, s);
   s.skin_edge = o.has("skin_edge_mm") ? from_mm(o.number("skin_edge_mm")) : s.cell;
   s.fine_edge = o.has("fine_edge_mm") ? from_mm(o.number("fine_edge_mm")) : s.skin_edge / 2;
   for (const JsonObject& a : o.objects("anchors"))

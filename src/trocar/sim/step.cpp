@@ -152,36 +152,47 @@ void hang_organs(StepContext& c) noexcept {
     hang(c.model.cuttables[i].body.anchors, solids + i, c.work.organ_loads[solids + i]);
 }
 
-/// What the blades of organ `organ` of this State's organs have parted: springs of a lattice, faces between cells.
-int part_organ(StepContext& c, size_t t, size_t organ) noexcept {
+void record_organ_cut(StepContext& c, size_t t, size_t organ) noexcept {
   State& s = c.state;
-  const interactions::ToolModel& tool = c.model.tool(s, t);
-  const interactions::ToolShape& shape = c.work.shapes[t];
-  const size_t solids = c.model.solids.size();
-  if (organ >= solids) {
-    const size_t i = organ - solids;
-    const geometry::Blade blade = interactions::swept_by_blades(tool, shape);
-    return tissue::cut(c.model.cuttables[i].body, blade, s.cuttables[i], c.work.cuttable_work[i]).parted;
-  }
-  const SolidModel& solid = c.model.solids[organ];
-  return interactions::cut_organ(tool, shape, solid.network, solid.fine, s.solids[organ], s.parted[organ],
-                                 c.work.parts);
+  interactions::Cut& cut = s.cuts[size_t(s.cut_count++)];
+  cut = {};
+  cut.solid = std::int32_t(organ);
+  cut.tool = std::int32_t(t);
+  cut.tips_visible = jaw_tips_visible(c.model, c.state, int(t));
+  cut.tick = s.tick;
 }
 
-/// Blades that have just closed part the organs they closed in.
-void cut_organs(StepContext& c, size_t t) noexcept {
-  State& s = c.state;
+bool blades_near(const StepContext& c, size_t t, size_t organ) noexcept {
   const interactions::ToolShape& shape = c.work.shapes[t];
-  for (size_t i = 0; i < size_t(c.model.organs()); ++i) {
-    if (!c.work.poses[i].bounds.near_segment(shape.pivot, shape.frame.tip, 0.005)) continue;
+  return c.work.poses[organ].bounds.near_segment(shape.pivot, shape.frame.tip, 0.005);
+}
+
+/// Blades that have just closed sever springs of lattices.
+void cut_lattices(StepContext& c, size_t t) noexcept {
+  State& s = c.state;
+  for (size_t i = 0; i < c.model.solids.size(); ++i) {
+    if (!blades_near(c, t, i)) continue;
     if (s.cut_count == interactions::kMaxCuts) return;  // what cannot be recorded is not cut
-    if (part_organ(c, t, i) == 0) continue;
-    interactions::Cut& cut = s.cuts[size_t(s.cut_count++)];
-    cut = {};
-    cut.solid = std::int32_t(i);
-    cut.tool = std::int32_t(t);
-    cut.tips_visible = jaw_tips_visible(c.model, c.state, int(t));
-    cut.tick = s.tick;
+    const SolidModel& solid = c.model.solids[i];
+    const int severed = interactions::cut_organ(c.model.tool(s, t), c.work.shapes[t], solid.network, solid.fine,
+                                                s.solids[i], s.parted[i], c.work.parts);
+    if (severed > 0) record_organ_cut(c, t, i);
+  }
+}
+
+/// Closing blades part the cells of organs that can be cut.
+void cut_cuttables(StepContext& c, size_t t) noexcept {
+  State& s = c.state;
+  const std::optional<geometry::Blade> blade =
+      interactions::sweep_of_blades(c.model.tool(s, t), c.work.shapes[t], s.tools[t]);
+  for (size_t i = 0; blade && i < c.model.cuttables.size(); ++i) {
+    const size_t organ = c.model.solids.size() + i;
+    if (!blades_near(c, t, organ)) continue;
+    if (s.cut_count == interactions::kMaxCuts) return;
+    const geometry::CutBook book =
+        tissue::cut(c.model.cuttables[i].body, *blade, s.cuttables[i], c.work.cuttable_work[i]);
+    if (book.full) c.report.flags |= StepReport::kBookFull;
+    if (book.parted > 0) record_organ_cut(c, t, organ);
   }
 }
 
@@ -250,11 +261,12 @@ void work_jaws(StepContext& c) noexcept {
       }
     } else if (model.kind == interactions::ToolKind::scissors) {
       const int before = s.cut_count;
+      if (!c.model.cuttables.empty()) cut_cuttables(c, t);
       const bool armed = tool.armed != 0;
       update_scissors(model, c.work.shapes[t], int(t), view, s.strands, jaw_tips_visible(c.model, c.state, int(t)),
                       s.tick, tool, {s.cuts, s.cut_count});
       if (armed && !tool.armed) {
-        cut_organs(c, t);
+        cut_lattices(c, t);
         cut_folds(c, t);
         if (s.cut_count == interactions::kMaxCuts) c.report.flags |= StepReport::kBookFull;
       }

@@ -23,7 +23,8 @@ struct StepReport {
     kTooManyLoads = 1u << 16,  ///< contacts did not fit the reserved capacity: some were left out this tick
     kBadInput =
         1u << 17,  ///< an input was not finite (that hand stayed), or its instrument not in the rack (not exchanged)
-    kBookFull = 1u << 18,  ///< the book of clips or cuts is full: clips are lost, blades no longer cut
+    kBookFull = 1u << 18,  ///< the book of clips or cuts, or what an organ keeps for cuts, is full: clips are lost,
+                           ///< blades no longer cut
   };
   std::uint32_t flags = 0;
   int first_bad_body = -1;   ///< organs first, then strands, then membranes

@@ -45,6 +45,11 @@ void scribble(tissue::CuttableWork& c) noexcept {
   scribble(c.around);
   scribble(c.node_of_row);
   scribble(c.now);
+  scribble(c.guarded);
+  scribble(c.guarded_packs);
+  scribble(c.part);
+  scribble(c.open_tets);
+  scribble(c.below);
 }
 
 void scribble(tissue::NetworkWork& n) noexcept {

@@ -76,6 +76,7 @@ class Assembler {
     w.slice_begin[0] = 0;
     for (int i = 0; i < b.nodes; ++i) place(i), weigh(i), bear(i);
     add_slices();
+    guard();
   }
 
   /// What the last cut changed; true if that was possible. A row that has become too long for its slice asks for
@@ -97,10 +98,44 @@ class Assembler {
       if (w.changed[std::size_t(i)] != kSame && row < there * kSlice && !write_row(row)) return false;
     }
     add_slices();
+    guard();
     return true;
   }
 
  private:
+  /// Cells as the guard wants them, and which piece each node belongs to.
+  void guard() noexcept {
+    if (!w.guarded_packs.empty()) w.guarded_packs.back() = empty_pack();
+    for (std::size_t t = 0; t < b.cells.size(); ++t) {
+      TetRest& cell = w.guarded[t];
+      const double six = 6 * volume(b, b.cells[t]);
+      cell.rest6 = float(six);
+      for (std::size_t i = 0; i < 4; ++i) cell.row[i] = m.row_of_node[std::size_t(b.cells[t][i])];
+      put_cell(cell, kCollapsed * six, int(t) % kSlice, w.guarded_packs[t / kSlice]);
+    }
+    for (int i = 0; i < b.nodes; ++i) w.part[std::size_t(i)] = i;
+    for (const Tet& c : b.cells)
+      for (std::size_t i = 1; i < 4; ++i) join(c[0], c[i]);
+    for (int i = 0; i < b.nodes; ++i) w.part[std::size_t(i)] = root(i);
+    std::int32_t parts = 0;  // pieces in the order of their lowest nodes, which are their roots
+    for (int i = 0; i < b.nodes; ++i) {
+      std::int32_t& part = w.part[std::size_t(i)];
+      part = part == i ? parts++ : w.part[std::size_t(part)];
+    }
+  }
+  std::int32_t root(std::int32_t node) noexcept {
+    while (w.part[std::size_t(node)] != node) {
+      std::int32_t& up = w.part[std::size_t(node)];
+      up = w.part[std::size_t(up)];
+      node = up;
+    }
+    return node;
+  }
+  void join(std::int32_t i, std::int32_t j) noexcept {
+    const std::int32_t a = root(i), z = root(j);
+    w.part[std::size_t(std::max(a, z))] = std::min(a, z);
+  }
+
   std::span<const int> cells_at(int node) const noexcept {
     const std::size_t first = std::size_t(w.begin[std::size_t(node)]);
     return {w.around.data() + first, std::size_t(w.begin[std::size_t(node) + 1]) - first};
@@ -268,6 +303,22 @@ KernelArgs kernel_args(const CuttableModel& m, const CuttableWork& w) noexcept {
   return a;
 }
 
+GuardedBody guarded_of(const CuttableModel& m, const CuttableState& s, const CuttableWork& w) noexcept {
+  return {.cells = w.guarded,
+          .packs = w.guarded_packs,
+          .row_of_node = m.row_of_node,
+          .node_of_row = w.node_of_row,
+          .mass = w.mass,
+          .rest = s.tets.rest,
+          .row_packs = w.row_packs,
+          .part = w.part,
+          .nodes = s.tets.nodes,
+          .rows = w.slices * kSlice,
+          .origin = m.origin,
+          .dt = m.dt,
+          .opening = m.opening};
+}
+
 int first_non_finite(const CuttableModel& m, const CuttableState& s) noexcept {
   for (int i = 0; i < s.tets.nodes; ++i) {
     const NodeState& n = s.nodes[std::size_t(m.row_of_node[std::size_t(i)])];
@@ -286,15 +337,21 @@ StepReport advance(const CuttableModel& m, std::span<const NodeLoad> loads, std:
   const LoadedBody body{s.tets.nodes, m.dt, m.gamma, m.substeps, m.origin, w.mass, w.fixed, m.row_of_node};
   StepReport report = check_loads(body, loads);
   for (Vec3f& r : reactions) r = {};
+  const GuardedBody guarded = guarded_of(m, s, w);
+  Guard guard(guarded, {s.tet_phase, s.open_tets, s.tick}, {w.open_tets, w.below}, s.nodes);
+  if (guard.at_work()) report.flags |= StepReport::kInverted;
   KernelArgs args = kernel_args(m, w);
   bool fine = true;
   for (int i = 0; i < m.substeps; ++i) {
     args.in = s.nodes.data();
     args.out = w.other.data();
     fine = kernels().substep(args, 0, w.slices) && fine;
+    guard.mend(args.in, args.out);
     fine = apply_loads(body, loads, reactions, args.in, args.out) && fine;
     std::swap(s.nodes, w.other);
   }
+  guard.release(s.nodes);
+  ++s.tick;
   std::fill(s.nodes.begin() + std::ptrdiff_t(w.slices) * kSlice, s.nodes.end(), NodeState{});  // not used yet
   if (!fine) report = StepReport{StepReport::kNonFinite, first_non_finite(m, s)} | report;
   return report;
@@ -348,6 +405,9 @@ void add_to_hash(core::Hasher& h, const CuttableState& s) noexcept {
   add_to_hash(h, s.tets);
   h.add(s.version);
   h.add(s.volume);
+  h.add(s.tet_phase);
+  h.add(s.open_tets);
+  h.add(s.tick);
 }
 
 void add_to_hash(core::Hasher& h, const CuttableModel& m) noexcept {
@@ -363,7 +423,7 @@ void add_to_hash(core::Hasher& h, const CuttableModel& m) noexcept {
   for (const int i : {m.own_nodes, m.own_rows, m.rows, m.packs, m.widest, m.substeps}) h.add(i);
   for (const Vec3d v : {m.origin, m.gravity}) h.add(v);
   for (const double d : {m.density, m.damping_time, m.gamma, m.tick, m.dt}) h.add(d);
-  for (const float f : {m.p1, m.p2, m.cap, m.cap_slope}) h.add(f);
+  for (const float f : {m.p1, m.p2, m.cap, m.cap_slope, m.opening}) h.add(f);
 }
 
 }  // namespace trocar::tissue

@@ -13,8 +13,7 @@
 //   CuttableWork work = make_work(model);
 //   advance(model, loads, reactions, state, work);            // 1 ms
 //   geometry::CutBook book = cut(model, blade, state, work);
-//
-// Not there yet: cells that collapse are not pushed open as those of a network are.
+// Cells that collapse are pushed open as those of a network are (guard.hpp), piece by piece.
 #pragma once
 
 #include <cstdint>
@@ -61,6 +60,7 @@ struct CuttableModel {
   double density = 0, damping_time = 0, gamma = 0;
   float p1 = 0, p2 = 0, cap = 1, cap_slope = 1;
   double tick = 0, dt = 0, dt_limit = 0;  ///< [s]
+  float opening = kOpeningTime;           ///< within which a collapsed cell is driven open [s]
   int substeps = 1;
   double misfit = 0, residual = 0;  ///< of the springs' fit; of the drawn shape under gravity [N]
 };
@@ -68,8 +68,11 @@ struct CuttableModel {
 struct CuttableState {
   std::vector<NodeState> nodes;  ///< (rows)
   geometry::CuttableTets tets;
-  std::uint64_t version = 0;  ///< of tets: a hash of what cuts made of them, 0 while uncut
-  double volume = 0;          ///< change of the drawn volume so far [m^3]
+  std::uint64_t version = 0;            ///< of tets: a hash of what cuts made of them, 0 while uncut
+  double volume = 0;                    ///< change of the drawn volume so far [m^3]
+  std::vector<std::uint8_t> tet_phase;  ///< (cells) as GuardState::phase
+  std::uint32_t open_tets = 0;          ///< cells being pushed open
+  std::uint32_t tick = 0;               ///< ticks made
 };
 
 /// Scratch.
@@ -87,6 +90,11 @@ struct CuttableWork {
   std::vector<int> begin, around;     ///< cells at each node
   std::vector<int> node_of_row;       ///< (rows) -1: none
   std::vector<Vec3d> now;             ///< (capacity)
+  std::vector<TetRest> guarded;       ///< (cells)
+  std::vector<TetPack> guarded_packs;
+  std::vector<std::int32_t> part;    ///< (capacity) pieces that hang together by faces, in the order of their nodes
+  std::vector<int> open_tets;        ///< (cells)
+  std::vector<std::uint16_t> below;  ///< (packs of cells)
   geometry::CutWork cut;
 };
 

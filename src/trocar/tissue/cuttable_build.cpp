@@ -117,6 +117,7 @@ CuttableModel build(const CuttableDescription& d, double tick) {
   m.tick = tick;
   m.dt = n.dt;
   m.dt_limit = n.dt_limit;
+  m.opening = n.opening;
   m.substeps = n.substeps;
   m.misfit = t.misfit;
   return m;
@@ -126,6 +127,7 @@ CuttableState rest_state(const CuttableModel& m) {
   CuttableState s;
   s.tets = m.drawn;
   s.nodes.resize(std::size_t(m.rows));
+  s.tet_phase.assign(m.drawn.cells.size(), 0);
   for (int i = 0; i < m.own_nodes; ++i) set_position(m, s, i, m.drawn.rest[std::size_t(i)]);
   return s;
 }
@@ -145,6 +147,11 @@ CuttableWork make_work(const CuttableModel& m) {
   w.around.resize(4 * m.drawn.cells.size());
   w.node_of_row.resize(std::size_t(m.rows));
   w.now.resize(nodes);
+  w.part.resize(nodes);
+  w.guarded.resize(m.drawn.cells.size());
+  w.guarded_packs.assign((m.drawn.cells.size() + kSlice - 1) / kSlice, empty_pack());
+  w.open_tets.resize(m.drawn.cells.size());
+  w.below.resize(w.guarded_packs.size());
   w.cut = geometry::make_work(m.drawn);
   return w;
 }

@@ -30,6 +30,7 @@
 #include <trocar/core/hash.hpp>
 #include <trocar/core/parallel.hpp>
 #include <trocar/numerics/vec3.hpp>
+#include <trocar/tissue/guard.hpp>
 #include <trocar/tissue/node_view.hpp>
 #include <trocar/tissue/report.hpp>
 
@@ -55,13 +56,8 @@ struct NetworkDescription {
   std::vector<std::array<int, 4>> tets;  ///< cells protected against inversion, positive volume as drawn; may be empty
   double global_damping = 0;             ///< gamma [1/s], against space; keep <= 1
   Vec3d gravity{0, 0, 0};                ///< [m/s^2]
+  double opening_time = 0;               ///< for collapsed cells to take their shape again [s]; 0: kOpeningTime
   double max_stiffness_scale = 1;        ///< largest value set_spring_scale may give; enters the time step bound
-};
-
-/// A protected cell.
-struct TetRest {
-  int row[4];
-  float rest6;  ///< six times its volume as drawn [m^3]
 };
 
 /// Const after build(); shared by any number of States.
@@ -96,15 +92,13 @@ struct NetworkModel {
   float decay = 1;                    ///< 1 / (1 + dt gamma)
   float gravity_step[3] = {0, 0, 0};  ///< dt g / (1 + dt gamma) [m/s]
   float max_scale = 1;
+  float opening = kOpeningTime;  ///< within which a collapsed cell is driven open [s]
 };
-
-/// NetworkState::tet_phase of cells that are pushed open counts the ticks for which they have been at rest.
-inline constexpr std::uint8_t kOldestFold = 200, kGone = 255;
 
 struct NetworkState {
   std::vector<NodeState> nodes;         ///< (rows)
   std::vector<float> scale;             ///< per half-edge place: 1 whole, 0 cut
-  std::vector<std::uint8_t> tet_phase;  ///< (tets) 0 idle, 1..kOldestFold being pushed open, kGone
+  std::vector<std::uint8_t> tet_phase;  ///< (tets) as GuardState::phase
   std::uint32_t version = 0;            ///< counts cuts and changes of scale; 0 = untouched
   std::uint32_t open_tets = 0;          ///< cells being pushed open
   std::uint32_t tick = 0;               ///< ticks made

@@ -13,8 +13,7 @@
 namespace trocar::tissue {
 namespace {
 
-constexpr int kWindow = 256;        // rows sorted by degree within such windows, so that slices pad little
-constexpr double kCollapsed = 0.1;  // share of the rest volume below which a cell is pushed open
+constexpr int kWindow = 256;  // rows sorted by degree within such windows, so that slices pad little
 
 [[noreturn]] void refuse(const std::string& what, std::size_t index, const std::string& expected) {
   throw std::invalid_argument("network: " + what + " " + std::to_string(index) + ": expected " + expected);
@@ -228,24 +227,18 @@ void fill_rows(NetworkModel& m) {
 
 void fill_tets(NetworkModel& m, const NetworkDescription& d) {
   const int n = int(d.tets.size());
-  m.tet_packs.resize((n + kSlice - 1) / kSlice);
-  for (auto& p : m.tet_packs) {
-    p = TetPack{};
-    for (float& limit : p.limit6) limit = -std::numeric_limits<float>::infinity();
-  }
+  m.tet_packs.assign((n + kSlice - 1) / kSlice, empty_pack());
   m.tet_begin.assign(m.nodes + 1, 0);
   for (int t = 0; t < n; ++t) {
     const auto& c = d.tets[t];
     const double six = volume6(d.positions[c[0]], d.positions[c[1]], d.positions[c[2]], d.positions[c[3]]);
-    TetPack& p = m.tet_packs[t / kSlice];
     TetRest rest{};
     rest.rest6 = float(six);
     for (int i = 0; i < 4; ++i) {
       rest.row[i] = m.row_of_node[c[i]];
-      p.offset[i][t % kSlice] = std::uint32_t(rest.row[i]) * std::uint32_t(sizeof(NodeState));
       ++m.tet_begin[c[i] + 1];
     }
-    p.limit6[t % kSlice] = float(kCollapsed * six);
+    put_cell(rest, kCollapsed * six, t % kSlice, m.tet_packs[t / kSlice]);
     m.tets.push_back(rest);
   }
   std::partial_sum(m.tet_begin.begin(), m.tet_begin.end(), m.tet_begin.begin());
@@ -286,6 +279,7 @@ NetworkModel build(const NetworkDescription& d, double tick) {
   m.gamma = d.global_damping;
   m.gravity = d.gravity;
   m.max_scale = float(d.max_stiffness_scale);
+  m.opening = std::max(kOpeningTime, float(d.opening_time));
   const double decay = 1 / (1 + m.dt * m.gamma);
   m.decay = float(decay);
   for (int i = 0; i < 3; ++i) m.gravity_step[i] = float(m.dt * d.gravity[i] * decay);

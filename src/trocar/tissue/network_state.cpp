@@ -107,7 +107,7 @@ void add_to_hash(core::Hasher& h, const NetworkModel& m) noexcept {
   h.add(m.slice_begin);
   h.add(m.packs);
   h.add(m.law_packs);
-  const float one[] = {m.p1, m.p2, m.cap, m.cap_slope, m.decay, m.max_scale};
+  const float one[] = {m.p1, m.p2, m.cap, m.cap_slope, m.decay, m.max_scale, m.opening};
   h.add(one);
   h.add(m.row_packs);
   h.add(m.tet_packs);

@@ -108,7 +108,7 @@ Material bowel() {
 }
 
 Material liver() {
-  Material m = with_vessels(tissue(srgb(126, 54, 58), srgb(136, 62, 64), srgb(112, 46, 52)), 0.12f, 0.03f);
+  Material m = with_vessels(tissue(srgb(98, 38, 44), srgb(106, 44, 48), srgb(84, 32, 40)), 0.12f, 0.03f);
   m.mottle_size = 0.0035f;
   m.mottle = 0.3f;
   m.bump = 0.06f;
