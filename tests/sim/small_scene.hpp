@@ -58,11 +58,11 @@ inline scene::Solid pad() {
 inline scene::Solid bar() {
   scene::Solid s;
   s.name = "bar";
-  s.tissue = "flesh";
+  s.tissue = "duct";
   for (double x : {-0.004, 0.011, 0.026, 0.041}) s.sections.push_back({{x, kBarY, 0}, {0, 0.003, 0}, {0, 0, 0.004}, 2});
   s.cell = 0.004;
   s.cuttable = true;
-  s.anchors.push_back({{-0.006, kBarY, 0}, 0.008, 0, {}});
+  s.anchors.push_back({{-0.006, kBarY, 0}, 0.018, 0, {}});
   return s;
 }
 

@@ -108,7 +108,7 @@ Material bowel() {
 }
 
 Material liver() {
-  Material m = with_vessels(tissue(srgb(98, 38, 44), srgb(106, 44, 48), srgb(84, 32, 40)), 0.12f, 0.03f);
+  Material m = with_vessels(tissue(srgb(80, 31, 36), srgb(88, 36, 40), srgb(68, 26, 33)), 0.12f, 0.03f);
   m.mottle_size = 0.0035f;
   m.mottle = 0.3f;
   m.bump = 0.06f;
