@@ -23,9 +23,9 @@ inline constexpr double kSpeed = 0.4;  ///< [m/s]
 inline constexpr double kForce = 10;   ///< [N] a hand that feels more draws back
 inline constexpr int kRestTicks = 5000;
 
-/// All deformable bodies as one list: solids, strands, membranes.
+/// All deformable bodies as one list: solids, strands, membranes, what can be cut.
 struct Body {
-  enum Kind { solid, strand, membrane } kind = solid;
+  enum Kind { solid, strand, membrane, cuttable } kind = solid;
   int index = 0;
   std::string name;
 };
@@ -34,6 +34,7 @@ inline std::vector<Body> bodies_of(const sim::Model& m) {
   for (size_t i = 0; i < m.solids.size(); ++i) all.push_back({Body::solid, int(i), m.solids[i].name});
   for (size_t i = 0; i < m.strands.size(); ++i) all.push_back({Body::strand, int(i), m.strands[i].name});
   for (size_t i = 0; i < m.membranes.size(); ++i) all.push_back({Body::membrane, int(i), m.membranes[i].name});
+  for (size_t i = 0; i < m.cuttables.size(); ++i) all.push_back({Body::cuttable, int(i), m.cuttables[i].name});
   return all;
 }
 
@@ -46,7 +47,24 @@ inline std::vector<Vec3d> places(const sim::Model& m, const sim::State& s, const
   if (b.kind == Body::solid) network(m.solids[i].network, s.solids[i]);
   if (b.kind == Body::strand) p = s.strands[i].x;
   if (b.kind == Body::membrane) network(m.membranes[i].sheet.network, s.membranes[i].network);
+  for (int n = 0; b.kind == Body::cuttable && n < m.cuttables[i].body.own_nodes; ++n)
+    p.push_back(tissue::position(m.cuttables[i].body, s.cuttables[i], n));
   return p;
+}
+
+/// Of what can be cut: kinetic and gravity only.
+inline double energy(const tissue::CuttableModel& m, const tissue::CuttableState& s) {
+  std::vector<double> mass(size_t(s.tets.nodes), 0.0);
+  for (const geometry::Tet& c : s.tets.cells) {
+    const auto x = [&](size_t k) { return s.tets.rest[size_t(c[k])]; };
+    for (const int node : c) mass[size_t(node)] += m.density / 24 * dot(x(1) - x(0), cross(x(2) - x(0), x(3) - x(0)));
+  }
+  double sum = 0;
+  for (int n = 0; n < s.tets.nodes; ++n) {
+    const Vec3d v = tissue::velocity(m, s, n);
+    sum += mass[size_t(n)] * (0.5 * dot(v, v) - dot(m.gravity, tissue::position(m, s, n)));
+  }
+  return sum;
 }
 
 /// Kinetic, elastic and gravity energy of everything [J].
@@ -58,6 +76,7 @@ inline double energy(const sim::Model& m, const sim::State& s) {
   }
   for (size_t i = 0; i < m.bodies.size(); ++i) sum += tissue::energy(m.bodies[i].model, s.strands[i]).total();
   for (size_t i = 0; i < m.membranes.size(); ++i) sum += tissue::energy(m.membranes[i].sheet, s.membranes[i]).total();
+  for (size_t i = 0; i < m.cuttables.size(); ++i) sum += energy(m.cuttables[i].body, s.cuttables[i]);
   return sum;
 }
 

@@ -57,4 +57,34 @@ TEST(AbuseSoak, ScissorsAndClipsEverywhereLeaveNumbersFinite) {
   }
 }
 
+const sim::Model& cutting() {
+  static const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/cutting/scene.json"));
+  return model;
+}
+
+TEST(AbuseSoak, ALiverThatCanBeCutBearsTwoMinutesAndReturnsToItsShape) {
+  abuse::Attack attack(cutting(), 6);
+  int grasps = 0;
+  for (size_t round = 0; attack.ticks() < kTicks / 5; ++round) {
+    const abuse::Round r = attack.round(0, 6);
+    report(r, attack.ticks());
+    grasps += r.grasps;
+    ASSERT_EQ(r.first_bad_tick, 0u) << "flags " << r.flags;
+    EXPECT_LT(r.most_energy, kMostEnergy) << "[J]";
+    EXPECT_TRUE(r.let_go);
+    for (const abuse::Left& left : r.left) EXPECT_LT(left.share, 0.01) << left.name << " " << left.distance << " m";
+  }
+  EXPECT_GT(grasps, 10) << "hands that never hold anything prove nothing";
+}
+
+TEST(AbuseSoak, ALiverCutAtRandomForAMinuteStaysFinite) {
+  abuse::Attack attack(cutting(), 7, true);
+  while (attack.ticks() < kTicks / 10) {
+    const abuse::Round r = attack.round(0, 10);
+    report(r, attack.ticks());
+    ASSERT_EQ(r.first_bad_tick, 0u) << "flags " << r.flags;
+    EXPECT_LT(r.most_energy, kMostEnergy) << "[J]";
+  }
+}
+
 }  // namespace

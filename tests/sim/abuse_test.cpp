@@ -21,3 +21,26 @@ TEST(Abuse, OrgansBearSomeSecondsAndReturnToTheirShape) {
   EXPECT_LT(r.most_energy, 5) << "[J]";
   for (const abuse::Left& left : r.left) EXPECT_LT(left.share, 0.01) << left.name << " " << left.distance << " m";
 }
+
+TEST(Abuse, ALiverThatCanBeCutBearsItAndReturnsToItsShape) {
+  const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/cutting/scene.json"));
+  abuse::Attack attack(model, 4);
+  const abuse::Round r = attack.round(0, 4);
+  std::printf("%d grasps, at most %.3f J and %.1f N, %.2f %% off after the rest\n", r.grasps, r.most_energy,
+              r.most_force, 100 * r.worst().share);
+  EXPECT_EQ(r.first_bad_tick, 0u) << "flags " << r.flags;
+  EXPECT_GT(r.most_energy, 1e-3) << "[J] something was done to it";
+  EXPECT_LT(r.most_energy, 5) << "[J]";
+  EXPECT_TRUE(r.let_go);
+  for (const abuse::Left& left : r.left) EXPECT_LT(left.share, 0.01) << left.name << " " << left.distance << " m";
+}
+
+TEST(Abuse, ALiverCutAtRandomStaysFinite) {
+  const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/cutting/scene.json"));
+  abuse::Attack attack(model, 5, true);
+  const abuse::Round r = attack.round(0, 6);
+  std::printf("%d cuts, at most %.3f J and %.1f N\n", attack.state().cut_count, r.most_energy, r.most_force);
+  EXPECT_EQ(r.first_bad_tick, 0u) << "flags " << r.flags;
+  EXPECT_GT(attack.state().cut_count, 0);
+  EXPECT_LT(r.most_energy, 5) << "[J]";
+}
