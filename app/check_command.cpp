@@ -53,6 +53,21 @@ double resting_tick(const sim::Model& model, sim::State& state, sim::Work& work)
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / kTimed;
 }
 
+/// How far an organ's farthest node is from where it was drawn [m].
+double off_drawn(const sim::Model& model, const sim::State& state, int organ) {
+  const std::size_t i = std::size_t(organ), solids = model.solids.size();
+  const std::vector<Vec3d>& rest =
+      i < solids ? model.solids[i].network.rest : model.cuttables[i - solids].body.drawn.rest;
+  const int nodes = i < solids ? model.solids[i].network.nodes : model.cuttables[i - solids].body.own_nodes;
+  const tissue::NodeView now = nodes_of(model, state, organ);
+  double off = 0;
+  for (int n = 0; n < nodes; ++n) off = std::max(off, length(now.position(n) - rest[std::size_t(n)]));
+  return off;
+}
+
+constexpr std::uint64_t kStandTicks = 1000;  // a shape that its springs do not hold falls over within these
+constexpr double kStands = 5e-4;             // [m] off after them: it does not
+
 /// What a scene compiles to. `only` names the bodies to list; empty: all.
 Json describe_scene(const fs::path& path, const std::vector<std::string>& only) {
   scene::CompileReport report;
@@ -64,6 +79,7 @@ Json describe_scene(const fs::path& path, const std::vector<std::string>& only) 
   sim::Work work = sim::make_work(model);
   const std::size_t with_work = bytes_in_use();
   const double tick = resting_tick(model, state, work);
+  while (state.tick < kStandTicks) sim::step(model, model.start, state, work);
   Json out{{"scene", path.string()},
            {"model_hash", hex(model.hash)},
            {"free_nodes", model.free_nodes()},
@@ -73,8 +89,12 @@ Json describe_scene(const fs::path& path, const std::vector<std::string>& only) 
              {"work", (with_work - with_state) / 1024}}},
            {"tick_at_rest_us", tick * 1e6},
            {"bodies", Json::array()}};
-  for (const scene::BodyReport& b : report.bodies)
-    if (only.empty() || std::find(only.begin(), only.end(), b.name) != only.end()) out["bodies"].push_back(describe(b));
+  for (const scene::BodyReport& b : report.bodies) {
+    if (!only.empty() && std::find(only.begin(), only.end(), b.name) == only.end()) continue;
+    out["bodies"].push_back(describe(b));
+    if (const int organ = model.organ_index(b.name); organ >= 0)
+      out["bodies"].back()["off_after_1s_mm"] = 1e3 * off_drawn(model, state, organ);
+  }
   return out;
 }
 
@@ -158,6 +178,12 @@ void print_for_people(const Json& r) {
                number("dt_limit_ms", "{:.4f}"), number("dt_margin", "{:.2f}"),
                number("dt_limit_as_printed_ms", "{:.4f}"), number("mass_g", "{:.1f}"));
   }
+  for (const Json& b : r["bodies"])
+    if (b.value("off_after_1s_mm", 0.0) > 1e3 * kStands)
+      fmt::print(
+          "  {} does not hold its drawn shape: {:.1f} mm off after a second at rest (a stiffer tissue, larger cells "
+          "or more anchors may)\n",
+          b["name"].get<std::string>(), b["off_after_1s_mm"].get<double>());
   const Json& m = r["memory_kb"];
   fmt::print("  {} free nodes; memory {} kB model, {} kB state, {} kB work; a tick at rest takes {:.0f} us here\n",
              r["free_nodes"].get<int>(), m["model"].get<std::size_t>(), m["state"].get<std::size_t>(),
