@@ -59,6 +59,17 @@ std::vector<ExerciseEntry> list_exercises(const fs::path& scenes) {
   return list;
 }
 
+std::vector<ExerciseEntry> list_trainings(const fs::path& scenes) {
+  std::vector<ExerciseEntry> list = list_exercises(scenes);
+  const auto is_in = [&list](const std::string& scene) {
+    return std::any_of(list.begin(), list.end(),
+                       [&](const ExerciseEntry& e) { return e.name.rfind(scene + "/", 0) == 0; });
+  };
+  for (const scene::SceneEntry& s : scene::list_scenes(scenes))
+    if (!is_in(s.name)) list.push_back({s.name, s.title, s.path, false});
+  return list;
+}
+
 fs::path find_exercise(const std::string& name, const fs::path& scenes) {
   std::error_code error;
   for (const fs::path& candidate : {fs::path(name), scenes / (name + ".json"), scenes / name / "scene.json"})

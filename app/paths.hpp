@@ -15,9 +15,12 @@ struct ExerciseEntry {
   std::string name;  ///< "gynaecology/sterilisation"
   std::string title;
   std::filesystem::path path;
+  bool task = true;  ///< false: a bare scene, for free practice
 };
 /// The exercise files in scenes/SCENE/, sorted by name.
 std::vector<ExerciseEntry> list_exercises(const std::filesystem::path& scenes);
+/// The same, and after them the scenes that have no exercise.
+std::vector<ExerciseEntry> list_trainings(const std::filesystem::path& scenes);
 
 /// The file that EXERCISE means: a path, or a name under `scenes` ("gynaecology/sterilisation", or "gynaecology" for
 /// the bare scene).  @throws core::BadInput with what is there

@@ -205,19 +205,24 @@ StartAnswer draw_start(const StartContent& c, StartMemory& memory) {
   ImGui::Dummy({0, 2 * ui::scale()});
   draw_about(c, std::max(20.0f, ImGui::GetContentRegionAvail().y - buttons));
   const float gap = ImGui::GetStyle().ItemSpacing.x, unit = (area.x - 2 * gap) / 4 / ui::scale();
+  const bool task = c.exercises.empty() || c.exercises[std::size_t(c.selected)].task;
   choose(
-      ui::button(
-          c.ready ? "Start" : "Start ...",
-          {.width = 2 * unit, .height = 42, .primary = true, .enabled = c.ready, .tip = "the exercise, with a score"}),
+      ui::button(c.ready ? "Start" : "Start ...", {.width = 2 * unit,
+                                                   .height = 42,
+                                                   .primary = true,
+                                                   .enabled = c.ready,
+                                                   .tip = task ? "the exercise, with a score" : "no task, no score"}),
       StartChoice::start);
   if (c.ready && !memory.was_ready && !ImGui::GetIO().WantTextInput) ui::take_focus();
   memory.was_ready = c.ready;
   ImGui::SameLine();
-  choose(ui::button("Familiarise",
-                    {.width = unit, .height = 42, .enabled = c.ready, .tip = "the same without clock and score"}),
-         StartChoice::familiarise);
+  choose(
+      ui::button("Familiarise",
+                 {.width = unit, .height = 42, .enabled = c.ready && task, .tip = "the same without clock and score"}),
+      StartChoice::familiarise);
   ImGui::SameLine();
-  choose(ui::button("Demonstration", {.width = unit, .height = 42, .enabled = c.ready, .tip = "watch how it is done"}),
+  choose(ui::button("Demonstration",
+                    {.width = unit, .height = 42, .enabled = c.ready && task, .tip = "watch how it is done"}),
          StartChoice::demonstrate);
   const float small = (area.x - 3 * gap) / 4 / ui::scale();
   choose(ui::button("Last report", {.width = small, .height = 32, .enabled = !c.past.attempts.empty()}),

@@ -71,7 +71,7 @@ class Trainer {
         m_direct(lesson != nullptr),
         m_stage(options),
         m_shelf(std::move(lesson)),
-        m_exercises(list_exercises(scenes_folder())) {
+        m_exercises(list_trainings(scenes_folder())) {
     const std::string trainee = m_stage.settings.trainee;
     trainee.copy(m_memory.trainee, training::kLongestName);
     for (std::size_t i = 0; i < m_exercises.size(); ++i)
@@ -152,7 +152,10 @@ ExerciseFacts Trainer::facts_of(const Lesson* lesson) {
   facts.aspect = float(kPreviewWidth) / float(kPreviewHeight);
   if (!lesson) return facts;
   facts.picture = m_preview.of(m_stage, *lesson);
-  if (!lesson->exercise) return facts;
+  if (!lesson->exercise) {
+    facts.summary = "Free practice: no task, no clock, no score. Everything is kept as a recording.";
+    return facts;
+  }
   const training::Exercise& e = *lesson->exercise;
   facts.facts.push_back(fmt::format("about {:.0f} minutes", std::max(1.0, e.expert_time / 60)));
   facts.facts.push_back(fmt::format("passed from {:.0f} of 100", e.pass_mark));
