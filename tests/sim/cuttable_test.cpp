@@ -144,6 +144,23 @@ TEST(CuttableOrgan, AKeyframeShowsTheCut) {
               1e-5);
 }
 
+TEST(CuttableOrgan, AKeyframeWithCellsThatCannotBeIsRefused) {
+  const Model& m = small::model();
+  const auto restores = [&m](void (*spoil)(geometry::CuttableTets&)) {
+    State from = story().end, to = initial_state(m);
+    spoil(from.cuttables[0].tets);
+    return restore_display(m, display_bytes(m, from), to);
+  };
+  EXPECT_TRUE(restores([](geometry::CuttableTets&) {}));
+  EXPECT_FALSE(restores([](geometry::CuttableTets& b) { b.cells[5] = {0, 0, 0, 0}; })) << "no volume";
+  EXPECT_FALSE(restores([](geometry::CuttableTets& b) { std::swap(b.cells[5][0], b.cells[5][1]); })) << "inverted";
+  EXPECT_FALSE(restores([](geometry::CuttableTets& b) { b.cells[5][0] = b.nodes; })) << "no such node";
+  EXPECT_FALSE(restores([](geometry::CuttableTets& b) {
+    for (std::int32_t& u : b.across[5])
+      if (u >= 0) u = u == 7 ? 8 : 7;
+  })) << "neighbours that do not know each other";
+}
+
 TEST(CuttableOrgan, ItsSkinFollowsTheCutAndStaysClosed) {
   const State& s = story().end;
   tissue::CuttableSkin skin = tissue::make_skin(bar());

@@ -236,5 +236,23 @@ TEST(Cuttable, RefusesWhatIsUnsound) {
   EXPECT_THROW(build(d, 1e-3), std::invalid_argument) << "nothing holds it up";
 }
 
+TEST(Cuttable, ANodeWithMoreSpringsThanCutsLeaveRoomForIsRefused) {
+  // A fan of wedges around an axis: all meet at its two ends.
+  constexpr int n = 200;
+  CuttableDescription d;
+  d.points = {{0, 0, 0}, {0, 0, 0.05}};
+  for (int i = 0; i < n; ++i) {
+    const double a = 2 * 3.14159265358979 * i / n;
+    d.points.push_back({0.05 * std::cos(a), 0.05 * std::sin(a), 0.025});
+  }
+  for (int i = 0; i < n; ++i) d.cells.push_back({0, 1, 2 + i, 2 + (i + 1) % n});
+  for (geometry::Tet& c : d.cells) {
+    const auto x = [&](size_t k) { return d.points[size_t(c[k])]; };
+    if (dot(x(1) - x(0), cross(x(2) - x(0), x(3) - x(0))) < 0) std::swap(c[2], c[3]);
+  }
+  d.material = {.youngs_modulus = 5e3, .density = 1000};
+  EXPECT_THROW(build(d, 1e-3), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace trocar::tissue

@@ -1,6 +1,6 @@
 #include <fstream>
-#include <iterator>
 #include <system_error>
+#include <vector>
 
 #include <trocar/core/error.hpp>
 #include <trocar/core/files.hpp>
@@ -15,9 +15,16 @@ std::string read_file(const std::filesystem::path& path, std::uint64_t most) {
                                                 : "expected a file, got none of this name");
   const auto size = std::filesystem::file_size(path, error);
   if (!error && size > most) refuse("expected at most " + std::to_string(most) + " bytes, got " + std::to_string(size));
+  // What the system says of a file's size may be wrong: no more is read than is wanted.
   std::ifstream in(path, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  if (!in) refuse("expected a readable file, got an error from the system while reading");
+  std::string bytes;
+  std::vector<char> part(std::size_t(1) << 16);
+  while (in && bytes.size() <= most) {
+    in.read(part.data(), std::streamsize(part.size()));
+    bytes.append(part.data(), std::size_t(in.gcount()));
+  }
+  if (!in.eof() && !in.good()) refuse("expected a readable file, got an error from the system while reading");
+  if (bytes.size() > most) refuse("expected at most " + std::to_string(most) + " bytes, got more");
   return bytes;
 }
 

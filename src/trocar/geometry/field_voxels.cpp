@@ -53,10 +53,13 @@ Crop room_around(const Voxels& voxels, int border, Wanted&& wanted) {
   });
   if (high[0] < 0) return {};
   Crop crop;
+  constexpr std::size_t most = std::size_t(1) << 28;  // a long thin label with a wide border is more than its file
   std::size_t count = 1;
   for (int a = 0; a < 3; ++a) {
     crop.low[a] = low[a] - border;
     crop.size[a] = high[a] - low[a] + 1 + 2 * border;
+    if (std::size_t(crop.size[a]) > most / count)
+      throw std::invalid_argument("expected a label within at most " + std::to_string(most) + " voxels, got more");
     count *= std::size_t(crop.size[a]);
   }
   crop.values.assign(count, 0.0f);

@@ -62,6 +62,7 @@ void solid_on_surface(const SurfacePair& pair, const Surface& samples, const Sur
   const double share = surface_loads ? 0.5 : 1.0;
   for (size_t i = 0; i < pair.sample.size(); ++i) {
     const int v = pair.sample[i];
+    if (!samples.skin->at_surface(v)) continue;
     const Vec3d p = samples.position(v);
     if (!surface.pose->bounds.reaches(p, 0.004)) continue;
     nearest[i] = walk_to_nearest(surface, nearest[i], p);

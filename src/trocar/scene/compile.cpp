@@ -45,9 +45,12 @@ interactions::HostPatch patch_on(const sim::Model& model, int organ, Vec3d at) {
   }
   const sim::CuttableOrgan& c = model.cuttables[i - solids];
   const size_t nodes = size_t(c.body.own_nodes);
-  const tissue::CuttableState rest = tissue::rest_state(c.body);
-  std::vector<double> mass;
-  for (size_t n = 0; n < nodes; ++n) mass.push_back(tissue::mass_of(c.body, rest, int(n)));
+  std::vector<double> mass(nodes, 0.0);
+  for (const geometry::Tet& cell : c.body.drawn.cells) {
+    const auto x = [&](size_t k) { return c.body.drawn.rest[size_t(cell[k])]; };
+    const double quarter = c.body.density / 24 * dot(x(1) - x(0), cross(x(2) - x(0), x(3) - x(0)));
+    for (const std::int32_t node : cell) mass[size_t(node)] += quarter;
+  }
   return interactions::make_patch({c.body.drawn.rest.data(), nodes}, mass, at, reach(c.cell));
 }
 

@@ -72,25 +72,54 @@ void pair_strand(sim::Model& model, const Drawn& drawn, int strand, int surface)
   model.nearest_at_start.insert(model.nearest_at_start.end(), nearest.begin(), nearest.end());
 }
 
+/// The skin vertices of an organ that are tested: about kSolidSamples of those on its surface.
+std::vector<int> samples_of(const tissue::Skin& skin) {
+  std::vector<int> outside, chosen;
+  for (int v = 0; v < skin.size(); ++v)
+    if (skin.at_surface(v)) outside.push_back(v);
+  const size_t stride = std::max(size_t(1), outside.size() / size_t(kSolidSamples));
+  for (size_t i = 0; i < outside.size(); i += stride) chosen.push_back(outside[i]);
+  return chosen;
+}
+
 void pair_solid(sim::Model& model, const Drawn& drawn, int solid, int surface) {
   const interactions::Surface& samples = drawn.surface[size_t(solid)];
   const interactions::Surface& s = drawn.surface[size_t(surface)];
-  const bool near = s.pose->bounds.near_box(samples.pose->bounds, float(kReach) * 0.5f);
-  if (!near && solid < int(model.solids.size())) return;
+  if (!s.pose->bounds.near_box(samples.pose->bounds, float(kReach) * 0.5f)) return;
   interactions::SurfacePair pair;
   pair.solid = solid;
   pair.surface = surface;
   std::vector<std::int32_t> nearest;
-  // Any piece of an organ that can be cut must land on something.
-  const bool cuttable = solid >= int(model.solids.size()) && surface >= model.organs();
-  const int n = samples.skin->size(), stride = cuttable ? 1 : std::max(1, n / kSolidSamples);
-  for (int v = 0; v < n; v += stride) {
-    if (!samples.skin->at_surface(v)) continue;
+  for (const int v : samples_of(*samples.skin)) {
     const Vec3d p = samples.position(v);
-    if (!cuttable && !s.pose->bounds.reaches(p, kReach * 0.5)) continue;
+    if (!s.pose->bounds.reaches(p, kReach * 0.5)) continue;
     add_sample(pair, s, v, p, 0.0, nearest);
   }
   if (pair.sample.empty()) return;
+  model.surface_pairs.push_back(std::move(pair));
+  model.nearest_at_start.insert(model.nearest_at_start.end(), nearest.begin(), nearest.end());
+}
+
+/// Any piece of an organ that can be cut must land on something: all its nodes are tested against walls, those inside
+/// it and those that cuts will double as soon as they are at its surface. Where they then are nobody knows yet.
+void pair_cuttable(sim::Model& model, const Drawn& drawn, int organ, int wall) {
+  const interactions::Surface& samples = drawn.surface[size_t(organ)];
+  const interactions::Surface& s = drawn.surface[size_t(wall)];
+  interactions::SurfacePair pair;
+  pair.solid = organ;
+  pair.surface = wall;
+  std::vector<std::int32_t> nearest;
+  for (int v = 0; v < samples.skin->size(); ++v) {
+    const Vec3d p = samples.position(v);
+    if (samples.skin->at_surface(v) && s.pose->bounds.reaches(p, kReach * 0.5)) {
+      add_sample(pair, s, v, p, 0.0, nearest);
+      continue;
+    }
+    pair.sample.push_back(v);
+    pair.radius.push_back(0);
+    pair.overlap.push_back(0);
+    nearest.push_back(0);
+  }
   model.surface_pairs.push_back(std::move(pair));
   model.nearest_at_start.insert(model.nearest_at_start.end(), nearest.begin(), nearest.end());
 }
@@ -161,7 +190,10 @@ void compile_contacts(sim::Model& model) {
     for (int s = 0; s < model.surfaces(); ++s) pair_strand(model, drawn, i, s);
   for (int i = 0; i < organs; ++i)
     for (int s = 0; s < model.surfaces(); ++s)
-      if (s >= organs || s < i) pair_solid(model, drawn, i, s);
+      if (s >= organs && i >= int(model.solids.size()))
+        pair_cuttable(model, drawn, i, s);
+      else if (s >= organs || s < i)
+        pair_solid(model, drawn, i, s);
   for (int i = 0; i < int(model.membranes.size()); ++i)
     for (int s = 0; s < model.surfaces(); ++s) pair_membrane(model, drawn, i, s);
   for (int a = 0; a < strands; ++a)

@@ -12,7 +12,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kMaxFiles = 256;
 constexpr std::size_t kMaxIncludeDepth = 16;
 
 /// Faults in the order in which a person meets them: file by file as read, then by place.

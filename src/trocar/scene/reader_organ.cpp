@@ -37,7 +37,7 @@ Section section(const JsonObject& o) {
   return s;
 }
 
-constexpr int kMaxSolidCells = 200'000;
+constexpr int kMaxSolidCells = 100'000;
 
 void take(const JsonObject& o, TetSource source, Solid& s) {
   if (source.mesh.cells.empty()) return o.fault("file", "expected cells with a volume, got flat ones only");
@@ -95,6 +95,10 @@ std::optional<std::string> Reading::bytes_of(const JsonObject& o, const fs::path
   if (!o.has("file")) return {};
   if (named.empty() || named.is_absolute()) {
     o.fault("file", fmt::format("expected a file name relative to this file, got \"{}\"", named.generic_string()));
+    return {};
+  }
+  if (++m_files > kMaxFiles) {
+    o.fault("file", fmt::format("expected at most {} files, got more", kMaxFiles));
     return {};
   }
   const fs::path path = (folder / named).lexically_normal();

@@ -14,6 +14,7 @@
 
 namespace trocar::scene {
 
+inline constexpr int kMaxFiles = 256;             ///< of one scene
 inline constexpr double kMaxTriangles = 500'000;  ///< of a body's surface
 inline constexpr double kMaxStrandNodes = 5'000;  ///< also columns of a membrane
 

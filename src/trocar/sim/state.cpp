@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -175,7 +176,6 @@ void take_changes(Source& in, std::vector<T>& now, size_t count) {
 void put_body(std::vector<std::uint8_t>& out, const tissue::CuttableModel& m, const tissue::CuttableState& s) {
   const size_t nodes = size_t(s.tets.nodes);
   put(out, &s.tets.nodes, 1);
-  put(out, &s.version, 1);
   put_changes(out, s.tets.source, m.drawn.source, nodes);
   put_changes(out, s.tets.rest, m.drawn.rest, nodes);
   put_changes(out, s.tets.cells, m.drawn.cells, s.tets.cells.size());
@@ -183,8 +183,9 @@ void put_body(std::vector<std::uint8_t>& out, const tissue::CuttableModel& m, co
   for (int n = 0; n < s.tets.nodes; ++n) put_place(out, tissue::position(m, s, n), s.tets.rest[size_t(n)]);
 }
 
-/// Does every number in it name something that is there?
+/// Does every number in it name something that is there, have all cells a volume, and know neighbours each other?
 bool sound(const geometry::CuttableTets& b) {
+  constexpr double least6 = 1e-16;  // [m^3]
   const auto cells = std::int32_t(b.cells.size());
   for (std::int32_t n = 0; n < b.nodes; ++n) {
     if (b.source[size_t(n)] < 0 || b.source[size_t(n)] > n) return false;
@@ -194,13 +195,21 @@ bool sound(const geometry::CuttableTets& b) {
   for (size_t c = 0; c < b.cells.size(); ++c)
     for (size_t k = 0; k < 4; ++k)
       if (b.cells[c][k] < 0 || b.cells[c][k] >= b.nodes || b.across[c][k] < -1 || b.across[c][k] >= cells) return false;
+  for (size_t c = 0; c < b.cells.size(); ++c) {
+    const auto x = [&](size_t k) { return b.rest[size_t(b.cells[c][k])]; };
+    if (!(dot(x(1) - x(0), cross(x(2) - x(0), x(3) - x(0))) > least6)) return false;
+    for (const std::int32_t u : b.across[c]) {
+      if (u < 0) continue;
+      const geometry::Tet& back = b.across[size_t(u)];
+      if (std::find(back.begin(), back.end(), std::int32_t(c)) == back.end()) return false;
+    }
+  }
   return true;
 }
 
 void take_body(Source& in, const tissue::CuttableModel& m, tissue::CuttableState& s) {
   s.tets = m.drawn;
   in.take(&s.tets.nodes, 1);
-  in.take(&s.version, 1);
   in.good = in.good && s.tets.nodes >= m.own_nodes && size_t(s.tets.nodes) <= m.drawn.rest.size();
   if (!in.good) return;
   const size_t nodes = size_t(s.tets.nodes);
@@ -209,6 +218,7 @@ void take_body(Source& in, const tissue::CuttableModel& m, tissue::CuttableState
   take_changes(in, s.tets.cells, s.tets.cells.size());
   take_changes(in, s.tets.across, s.tets.across.size());
   in.good = in.good && sound(s.tets);
+  if (in.good) s.version = tissue::version_of(m, s.tets);
   for (int n = 0; in.good && n < s.tets.nodes; ++n)
     tissue::set_position(m, s, n, in.take_place(s.tets.rest[size_t(n)]));
 }

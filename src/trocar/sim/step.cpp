@@ -112,14 +112,21 @@ void pose_sheets(StepContext& c) noexcept {
   }
 }
 
+void pose_cuttable(StepContext& c, size_t i) noexcept {
+  const size_t organ = c.model.solids.size() + i;
+  tissue::update(c.model.cuttables[i].body, c.state.cuttables[i], c.work.cuttable_skins[i]);
+  tissue::pose_skin(c.work.nodes[organ], *c.work.skins[organ], c.work.poses[organ]);
+}
+
 // 2. Skins: x = W q, boxes.
 void pose_skins(StepContext& c) noexcept {
   view_organs(c);
-  for (size_t i = 0; i < c.model.cuttables.size(); ++i)
-    tissue::update(c.model.cuttables[i].body, c.state.cuttables[i], c.work.cuttable_skins[i]);
-  const size_t organs = size_t(c.model.organs());
+  const size_t organs = size_t(c.model.organs()), solids = c.model.solids.size();
   for (size_t i = 0; i < organs; ++i) {
-    tissue::pose_skin(c.work.nodes[i], *c.work.skins[i], c.work.poses[i]);
+    if (i < solids)
+      tissue::pose_skin(c.work.nodes[i], *c.work.skins[i], c.work.poses[i]);
+    else
+      pose_cuttable(c, i - solids);
     c.work.surfaces[i] = {c.work.skins[i], &c.work.poses[i], c.work.nodes[i]};
   }
   for (size_t i = 0; i < c.model.walls.size(); ++i)
@@ -162,16 +169,16 @@ void record_organ_cut(StepContext& c, size_t t, size_t organ) noexcept {
   cut.tick = s.tick;
 }
 
-bool blades_near(const StepContext& c, size_t t, size_t organ) noexcept {
+bool blades_near(const StepContext& c, size_t t, size_t organ, double margin) noexcept {
   const interactions::ToolShape& shape = c.work.shapes[t];
-  return c.work.poses[organ].bounds.near_segment(shape.pivot, shape.frame.tip, 0.005);
+  return c.work.poses[organ].bounds.near_segment(shape.pivot, shape.frame.tip, margin);
 }
 
 /// Blades that have just closed sever springs of lattices.
 void cut_lattices(StepContext& c, size_t t) noexcept {
   State& s = c.state;
   for (size_t i = 0; i < c.model.solids.size(); ++i) {
-    if (!blades_near(c, t, i)) continue;
+    if (!blades_near(c, t, i, 0.005)) continue;
     if (s.cut_count == interactions::kMaxCuts) return;  // what cannot be recorded is not cut
     const SolidModel& solid = c.model.solids[i];
     const int severed = interactions::cut_organ(c.model.tool(s, t), c.work.shapes[t], solid.network, solid.fine,
@@ -187,10 +194,11 @@ void cut_cuttables(StepContext& c, size_t t) noexcept {
       interactions::sweep_of_blades(c.model.tool(s, t), c.work.shapes[t], s.tools[t]);
   for (size_t i = 0; blade && i < c.model.cuttables.size(); ++i) {
     const size_t organ = c.model.solids.size() + i;
-    if (!blades_near(c, t, organ)) continue;
+    if (!blades_near(c, t, organ, c.model.tool(s, t).jaw_length)) continue;
     if (s.cut_count == interactions::kMaxCuts) return;
     const geometry::CutBook book =
         tissue::cut(c.model.cuttables[i].body, *blade, s.cuttables[i], c.work.cuttable_work[i]);
+    if (book.snapped + book.parted > 0) pose_cuttable(c, i);  // nodes have moved to the blade
     if (book.full) c.report.flags |= StepReport::kBookFull;
     if (book.parted > 0) record_organ_cut(c, t, organ);
   }

@@ -14,7 +14,7 @@ namespace {
 using geometry::CuttableTets;
 using geometry::Tet;
 
-constexpr int kMostSprings = 192;  // of a node; there is no mesh where so many cells meet that this is reached
+constexpr int kMostSprings = 192;  // of a node; build() refuses bodies that come near
 constexpr int kFreeColumns = 4;    // of a slice, for springs that a cut adds to a row
 constexpr double kSafety = 0.9;    // of what the time step bears
 
@@ -229,7 +229,8 @@ class Assembler {
       // The last slice will take more doubles.
       if (w.slices == all - 1 && w.slices >= m.own_rows / kSlice) width = std::max(width, m.widest);
       w.slice_begin[std::size_t(w.slices) + 1] = std::min(first + width + kFreeColumns, m.packs);
-      for (int lane = 0; lane < kSlice; ++lane) write_row(w.slices * kSlice + lane);
+      for (int lane = 0; lane < kSlice; ++lane)
+        if (!write_row(w.slices * kSlice + lane)) hold_row(w.slices * kSlice + lane);
     }
   }
 
@@ -252,6 +253,13 @@ class Assembler {
     }
     for (int c = used; c < width; ++c) pad(w.packs[std::size_t(first + c)], row);
     return true;
+  }
+  /// There is no room for its springs, which takes more cuts than there are spare nodes for: it stays where it is.
+  void hold_row(int row) noexcept {
+    RowPack& r = w.row_packs[std::size_t(row / kSlice)];
+    r.wx[row % kSlice] = r.wy[row % kSlice] = r.wz[row % kSlice] = 0;
+    for (int c = w.slice_begin[std::size_t(row / kSlice)]; c < w.slice_begin[std::size_t(row / kSlice) + 1]; ++c)
+      pad(w.packs[std::size_t(c)], row);
   }
   int original(int node) const noexcept {
     while (b.source[std::size_t(node)] != node) node = b.source[std::size_t(node)];
@@ -276,13 +284,6 @@ class Assembler {
   const CuttableTets& b;
   CuttableWork& w;
 };
-
-/// Two bodies of one Model that were cut differently never share scratch.
-std::uint64_t version_of(const CuttableTets& b) noexcept {
-  core::Hasher h;
-  add_to_hash(h, b);
-  return h.value();
-}
 
 void make_current(const CuttableModel& m, const CuttableState& s, CuttableWork& w) noexcept {
   if (w.made_for == s.version) return;
@@ -331,6 +332,15 @@ int first_non_finite(const CuttableModel& m, const CuttableState& s) noexcept {
 
 }  // namespace
 
+std::uint64_t version_of(const CuttableModel& m, const CuttableTets& b) noexcept {
+  // Of all of it: two bodies of one Model that were cut differently never share scratch.
+  if (b.nodes == m.own_nodes && b.across == m.drawn.across && b.rest == m.drawn.rest) return 0;
+  core::Hasher h;
+  add_to_hash(h, b);
+  const std::uint64_t hash = h.value();
+  return hash == 0 || hash == ~0ull ? 1 : hash;
+}
+
 StepReport advance(const CuttableModel& m, std::span<const NodeLoad> loads, std::span<Vec3f> reactions,
                    CuttableState& s, CuttableWork& w) noexcept {
   make_current(m, s, w);
@@ -369,7 +379,7 @@ geometry::CutBook cut(const CuttableModel& m, const geometry::Blade& blade, Cutt
     s.nodes[std::size_t(m.row_of_node[std::size_t(i)])] =
         s.nodes[std::size_t(m.row_of_node[std::size_t(s.tets.source[std::size_t(i)])])];
   s.volume += book.volume;
-  s.version = version_of(s.tets);
+  s.version = version_of(m, s.tets);
   if (Assembler(m, s, w).update()) w.made_for = s.version;
   return book;
 }

@@ -92,7 +92,7 @@ struct CuttableWork {
   std::vector<Vec3d> now;             ///< (capacity)
   std::vector<TetRest> guarded;       ///< (cells)
   std::vector<TetPack> guarded_packs;
-  std::vector<std::int32_t> part;    ///< (capacity) pieces that hang together by faces, in the order of their nodes
+  std::vector<std::int32_t> part;    ///< (capacity) pieces that hang together by nodes, in the order of these
   std::vector<int> open_tets;        ///< (cells)
   std::vector<std::uint16_t> below;  ///< (packs of cells)
   geometry::CutWork cut;
@@ -102,6 +102,9 @@ struct CuttableWork {
 CuttableModel build(const CuttableDescription& description, double tick);
 CuttableState rest_state(const CuttableModel& model);
 CuttableWork make_work(const CuttableModel& model);
+
+/// What CuttableState::version is of these cells.
+std::uint64_t version_of(const CuttableModel& model, const geometry::CuttableTets& tets) noexcept;
 
 /// One tick; loads and reactions as for a network. Nodes are numbered as described, doubles after them.
 StepReport advance(const CuttableModel& model, std::span<const NodeLoad> loads, std::span<Vec3f> reactions,

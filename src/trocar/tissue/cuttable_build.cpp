@@ -9,6 +9,8 @@
 namespace trocar::tissue {
 namespace {
 
+constexpr int kMostSpringsOfNode = 150;  // leaves room for those that cuts double
+
 [[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument("cuttable body: expected " + what); }
 
 double volume(const CuttableDescription& d, int cell) {
@@ -91,6 +93,13 @@ CuttableModel build(const CuttableDescription& d, double tick) {
   t.network.gravity = d.gravity;
   t.network.global_damping = d.global_damping;
   if (!d.fixed.empty()) t.network.fixed = d.fixed;
+
+  std::vector<int> springs_at(d.points.size(), 0);
+  for (const SpringDescription& s : t.network.springs)
+    for (const int node : {s.a, s.b})
+      if (++springs_at[std::size_t(node)] > kMostSpringsOfNode)
+        refuse("at most " + std::to_string(kMostSpringsOfNode) + " springs at node " + std::to_string(node) +
+               ", got more");
 
   CuttableModel m;
   m.drawn = geometry::cuttable(d.points, d.cells, d.spare_nodes);

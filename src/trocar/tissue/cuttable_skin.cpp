@@ -68,6 +68,13 @@ CuttableSkin make_skin(const CuttableModel& m) {
   skin.face_first.resize(nodes + 1);
   skin.neighbour_first.resize(nodes + 1);
   update(m, rest_state(m), out);
+  std::vector<Vec3d> normal(nodes, Vec3d{});
+  for (const auto& t : skin.triangles) {
+    const auto x = [&](std::size_t k) { return m.drawn.rest[std::size_t(t[k])]; };
+    const Vec3d n = cross(x(1) - x(0), x(2) - x(0));
+    for (const int v : t) normal[std::size_t(v)] += n;
+  }
+  for (std::size_t i = 0; i < nodes; ++i) skin.rest_normal[i] = vec_cast<float>(normalised(normal[i], Vec3d{0, 0, 1}));
   return out;
 }
 

@@ -65,11 +65,13 @@ void CuttableDrawing::make_skin(const tissue::CuttableState& state) {
 void CuttableDrawing::paint_skin() {
   const std::size_t n = m_skin.skin.rest.size();
   m_paint.assign(n, Paint{});
+  m_at_rim.clear();
   m_height.clear();
   if (m_relief.any()) m_height = heights(m_relief, m_skin.skin, m_paint);
   const std::vector<std::uint8_t> rim = rim_nodes(m_skin, m_open.size());
   for (std::size_t i = 0; i < n; ++i) {
     const float edge = at_rim(m_skin, rim, i);
+    m_at_rim.push_back(edge > 0.999f);
     if (!m_height.empty()) m_height[i] *= m_skin.bare[i] ? 0 : 1 - edge;
     if (m_skin.bare[i]) {
       m_paint[i] = kFlesh;
@@ -91,7 +93,13 @@ void CuttableDrawing::place(const tissue::CuttableState& state, std::span<const 
     render::vertex_normals(m_pose.position, m_indices, m_normals);
   }
   m_box = m_pose.bounds;
-  m_dented = near(m_box, rods) && dent(rods, m_pose.position, m_normals);
+  m_dented = near(m_box, rods);
+  if (m_dented) {
+    const std::vector<Vec3f> before = m_pose.position;
+    m_dented = dent(rods, m_pose.position, m_normals);
+    for (std::size_t i = 0; i < before.size(); ++i)  // skin and flesh at a rim would part: they have different normals
+      if (m_at_rim[i]) m_pose.position[i] = before[i];
+  }
   if (m_dented) render::vertex_normals(m_pose.position, m_indices, m_normals);
 }
 

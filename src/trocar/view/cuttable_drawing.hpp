@@ -38,7 +38,8 @@ class CuttableDrawing {
   tissue::SkinPose m_pose;
   std::vector<Vec3f> m_normals;
   std::vector<Paint> m_paint;
-  std::vector<float> m_height;  ///< relief
+  std::vector<float> m_height;         ///< relief
+  std::vector<std::uint8_t> m_at_rim;  ///< (vertices) 1: between nodes where the inside is bare
   std::vector<std::uint32_t> m_indices;
   tissue::Box m_box;
   bool m_dented = false;
