@@ -17,7 +17,7 @@ namespace trocar::interactions {
 /// contact distance as drawn [m]; samples that never take part are left out at compile.
 struct SurfacePair {
   std::int32_t strand = -1, solid = -1, membrane = -1;  ///< whose samples: one of the three is set
-  std::int32_t surface = 0;                             ///< which surface: solids first, then walls
+  std::int32_t surface = 0;                             ///< which surface: organs first, then walls
   std::vector<std::int32_t> sample;                     ///< strand nodes, skin vertices, or membrane nodes
   std::vector<float> radius;                            ///< of each sample [m]; 0 for skin vertices
   std::vector<float> overlap;

@@ -31,7 +31,7 @@ inline constexpr int kMaxHolds = 12;  ///< tissue points between one pair of jaw
 
 /// A point of tissue held between the jaws, in the jaw frame (opening, normal, axis from the pivot).
 struct Hold {
-  std::int32_t body = -1;    ///< strand index, solid index + kSolidBase, or membrane index + kMembraneBase
+  std::int32_t body = -1;    ///< strand index, organ index + kSolidBase, or membrane index + kMembraneBase
   std::int32_t element = 0;  ///< strand element, skin vertex, or membrane node
   float weight = 0;          ///< place within the strand element, 0..1
   float local[3] = {0, 0, 0};

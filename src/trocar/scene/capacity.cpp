@@ -5,13 +5,12 @@
 #include <fmt/format.h>
 
 #include <trocar/scene/capacity.hpp>
+#include <trocar/tissue/face_skin.hpp>
 
 namespace trocar::scene {
 namespace {
 
 constexpr double kTrianglesPerArea = 2.3;  // of edge 1 in a unit of area
-
-constexpr double kFineParts = 10;  // triangles drawn and touched for a face of a tetrahedron
 
 Extent operator+(Extent a, const Extent& b) {
   return {a.nodes + b.nodes, a.places + b.places, a.triangles + b.triangles, a.strand_nodes + b.strand_nodes};
@@ -70,7 +69,7 @@ Extent extent_of(const Solid& solid) {
   Extent e;
   if (solid.tets) {
     e.nodes = double(solid.tets->mesh.points.size());
-    e.triangles = kFineParts * 2 * e.nodes;  // were all of them on its surface
+    e.triangles = (1 + tissue::kDrawnParts * tissue::kDrawnParts) * 2 * e.nodes;  // were all on its surface
     return e;
   }
   if (solid.sections.empty() || !(solid.cell > 0)) return e;

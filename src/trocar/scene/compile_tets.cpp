@@ -11,7 +11,6 @@
 namespace trocar::scene {
 namespace {
 
-constexpr int kFineParts = 3;        // of a face's edge, as drawn
 constexpr double kLoftEdge = 0.7;    // of a cell: triangles of a loft that is filled
 constexpr double kSpareShare = 0.5;  // of a body's nodes, for cuts to double
 constexpr int kLeastSpare = 512;
@@ -127,7 +126,7 @@ void add_network(const Solid& solid, Draft& d, tissue::NetworkDescription& n, si
   out.anchors = std::move(d.anchors);
   out.skin = node_skin(d.mesh, out.network);
   const geometry::CuttableTets tets = geometry::cuttable(d.mesh.points, d.mesh.cells, 0);
-  out.fine = tissue::face_skin(tets, tets.across, out.network.row_of_node, kFineParts).skin;
+  out.fine = tissue::face_skin(tets, tets.across, out.network.row_of_node, tissue::kDrawnParts).skin;
   report.substeps = out.network.substeps;
   report.dt_limit = out.network.dt_limit;
   report.residual = prestress.residual;

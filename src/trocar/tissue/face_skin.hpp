@@ -23,6 +23,8 @@ struct FaceSkin {
   std::vector<std::array<float, 3>> between;  ///< ... and how much of each
 };
 
+inline constexpr int kDrawnParts = 3;  ///< of a face's edge, in every scene
+
 /// @param uncut  neighbours of the cells before any cut, as CuttableTets::across; faces that had none are the body's
 /// own
 /// @param parts  of an edge, 1 to 8: a face gives parts^2 triangles

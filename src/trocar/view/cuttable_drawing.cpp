@@ -5,7 +5,6 @@
 namespace trocar::view {
 namespace {
 
-constexpr int kParts = 3;                // of a face's edge
 constexpr Paint kFlesh{200, 105, 0, 0};  // laid bare
 constexpr std::uint8_t kRimBlood = 70;   // on the skin at a cut's rim
 
@@ -52,7 +51,7 @@ void CuttableDrawing::shade(const render::OpennessBaker& baker) {
 
 void CuttableDrawing::make_skin(const tissue::CuttableState& state) {
   const tissue::CuttableModel& body = m_organ->body;
-  m_skin = tissue::face_skin(state.tets, body.drawn.across, body.row_of_node, kParts);
+  m_skin = tissue::face_skin(state.tets, body.drawn.across, body.row_of_node, tissue::kDrawnParts);
   m_version = state.version;
   // A double has the openness of the node that it was made from.
   for (std::int32_t i = body.own_nodes; i < state.tets.nodes; ++i)
