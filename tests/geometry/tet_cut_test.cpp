@@ -1,11 +1,12 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
 #include <trocar/geometry/tet_cut.hpp>
+
+#include "cut_checks.hpp"
 
 namespace trocar::geometry {
 namespace {
@@ -43,13 +44,7 @@ struct Body {
     now = tets.rest;
     volume_before = volume();
   }
-  std::array<Vec3d, 4> corners(const Tet& c) const {
-    return {tets.rest[size_t(c[0])], tets.rest[size_t(c[1])], tets.rest[size_t(c[2])], tets.rest[size_t(c[3])]};
-  }
-  double volume(const Tet& c) const {
-    const auto x = corners(c);
-    return dot(x[1] - x[0], cross(x[2] - x[0], x[3] - x[0])) / 6;
-  }
+  double volume(const Tet& c) const { return drawn_volume(tets, c); }
   double volume() const {
     double v = 0;
     for (const Tet& c : tets.cells) v += volume(c);
@@ -57,7 +52,7 @@ struct Body {
   }
   double least_angle() const {
     double least = 180;
-    for (const Tet& c : tets.cells) least = std::min(least, least_dihedral(corners(c)));
+    for (const Tet& c : tets.cells) least = std::min(least, least_dihedral(drawn_corners(tets, c)));
     return least;
   }
   CutBook cut(const Blade& blade) { return geometry::cut(tets, blade, now, work); }
@@ -82,32 +77,11 @@ struct Body {
   }
   /// What must hold after any cut.
   void expect_sound(const char* when, double least) const {
-    std::map<std::array<std::int32_t, 3>, int> faces;
-    std::map<std::array<std::int32_t, 2>, int> edges;
-    for (size_t t = 0; t < tets.cells.size(); ++t) {
-      const Tet& c = tets.cells[t];
-      ASSERT_GT(volume(c), 0) << when << ", cell " << t;
-      for (int f = 0; f < 4; ++f) {
-        std::array<std::int32_t, 3> face{};
-        for (int i = 0, k = 0; i < 4; ++i)
-          if (i != f) face[size_t(k++)] = c[size_t(i)];
-        std::sort(face.begin(), face.end());
-        const std::int32_t u = tets.across[t][size_t(f)];
-        if (u < 0) {
-          ++edges[{face[0], face[1]}], ++edges[{face[0], face[2]}], ++edges[{face[1], face[2]}];
-          continue;
-        }
-        const Tet& d = tets.cells[size_t(u)];
-        const auto& back = tets.across[size_t(u)];
-        ASSERT_EQ(std::count(back.begin(), back.end(), std::int32_t(t)), 1) << when;
-        for (const std::int32_t node : face)
-          ASSERT_EQ(std::count(d.begin(), d.end(), node), 1) << when << ": joined cells share their face's corners";
-        ++faces[face];
-      }
-    }
-    for (const auto& [face, count] : faces) ASSERT_EQ(count, 2) << when;
-    for (const auto& [edge, count] : edges) ASSERT_EQ(count % 2, 0) << when << ": the surface is closed";
-    EXPECT_GE(least_angle(), least) << when;
+    const Soundness s = soundness(tets);
+    ASSERT_GT(s.least_volume, 0) << when;
+    ASSERT_TRUE(s.linked) << when << ": joined cells share their face's corners";
+    ASSERT_EQ(s.odd_edges, 0) << when << ": the surface is closed";
+    EXPECT_GE(s.least_dihedral, least) << when;
   }
 };
 

@@ -1,0 +1,118 @@
+// A thousand random cuts in a row, while the body lives: what the surgeon who never stops would leave.
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <trocar/core/random.hpp>
+#include <trocar/geometry/stuffing.hpp>
+#include <trocar/tissue/cuttable.hpp>
+
+#include "../geometry/cut_checks.hpp"
+
+namespace trocar::tissue {
+namespace {
+
+using geometry::Blade;
+using geometry::Field;
+
+/// An edge of liver: a lens of 70 x 50 x 24 mm.
+Field liver_like() {
+  Field f;
+  f.box = {{-0.036, -0.026, -0.013}, {0.036, 0.026, 0.013}};
+  f.inside = [](Vec3d p) {
+    const double x = p.x / 0.035, y = p.y / 0.025, z = p.z / 0.012;
+    return 0.012 * (1 - std::sqrt(x * x + y * y + z * z));
+  };
+  return f;
+}
+/// A bowel-like tube, 60 mm long, 12 mm wide, with a wall of 4 mm.
+Field tube() {
+  Field f;
+  f.box = {{-0.031, -0.013, -0.013}, {0.031, 0.013, 0.013}};
+  f.inside = [](Vec3d p) {
+    const double wall = 0.002 - std::fabs(std::sqrt(p.y * p.y + p.z * p.z) - 0.010);
+    return std::min(wall, 0.030 - std::fabs(p.x));
+  };
+  return f;
+}
+/// A membrane as a solid sheet, 60 x 60 x 4 mm.
+Field sheet() {
+  Field f;
+  f.box = {{-0.031, -0.031, -0.003}, {0.031, 0.031, 0.003}};
+  f.inside = [](Vec3d p) { return std::min({0.030 - std::fabs(p.x), 0.030 - std::fabs(p.y), 0.002 - std::fabs(p.z)}); };
+  return f;
+}
+
+struct Campaign {
+  const char* name;
+  Field (*shape)();
+  double cell;
+};
+void PrintTo(const Campaign& c, std::ostream* out) { *out << c.name; }
+
+class ThousandCuts : public testing::TestWithParam<Campaign> {};
+
+TEST_P(ThousandCuts, LeaveAClosedSurfaceBookedVolumeAndMassAndABodyThatLives) {
+  const Field shape = GetParam().shape();
+  const geometry::TetMesh mesh = geometry::stuffed(shape, GetParam().cell);
+  CuttableDescription d;
+  d.points = mesh.points;
+  d.cells = mesh.cells;
+  d.material = {.youngs_modulus = 5.4e3, .density = 1060, .p1 = 2, .p2 = 100, .cap = 0.1, .damping_time = 1e-3};
+  d.global_damping = 0.5;
+  d.gravity = {0, 0, -9.81};
+  d.spare_nodes = 4 * int(mesh.cells.size());
+  d.fixed.assign(d.points.size(), kFree);
+  for (size_t i = 0; i < d.points.size(); ++i)
+    if (d.points[i].x < shape.box.low.x + 0.006) d.fixed[i] = kHeld;
+  const CuttableModel model = build(d, 1e-3);
+  CuttableState state = rest_state(model);
+  CuttableWork work = make_work(model);
+  const geometry::Soundness before = geometry::soundness(state.tets);
+
+  core::Random random(97);
+  const auto any = [&](double size) {
+    return Vec3d{random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)};
+  };
+  int parted = 0;
+  double fastest = 0;
+  for (int i = 0; i < 1000; ++i) {
+    // The blade goes where tissue is: beside a node that is there now.
+    const Vec3d middle = position(model, state, int(random.uniform(0, 1) * (state.tets.nodes - 1)));
+    const Vec3d u = any(0.01), across = any(0.01), v = across - (dot(u, across) / dot(u, u)) * u;
+    Blade blade;
+    blade.corners = 4;
+    blade.corner = {middle - u - v, middle + u - v, middle + u + v, middle - u + v};
+    const geometry::CutBook book = cut(model, blade, state, work);
+    ASSERT_FALSE(book.full) << i;
+    parted += book.parted;
+    for (int tick = 0; tick < 2; ++tick) ASSERT_TRUE(advance(model, {}, {}, state, work).fine()) << i;
+  }
+  for (int i = 0; i < state.tets.nodes; ++i) fastest = std::max(fastest, length(velocity(model, state, i)));
+  const geometry::Soundness after = geometry::soundness(state.tets);
+  double mass = 0;
+  for (int i = 0; i < state.tets.nodes; ++i) mass += work.mass[size_t(i)];
+
+  EXPECT_GT(parted, 1000);
+  EXPECT_TRUE(after.linked);
+  EXPECT_EQ(after.odd_edges, 0) << "the surface is closed";
+  EXPECT_GT(after.least_volume, 0);
+  EXPECT_GE(after.least_dihedral, std::min(before.least_dihedral, geometry::kLeastDihedral) - 1e-9);
+  EXPECT_NEAR(after.volume, before.volume + state.volume, 1e-6 * before.volume);
+  EXPECT_NEAR(mass, model.density * after.volume, 1e-6 * mass);
+  EXPECT_LT(fastest, 9.81 * 2.0 + 5) << "two seconds of falling, and no blow-up";
+  std::cout << GetParam().name << ": " << mesh.cells.size() << " cells, " << parted << " faces parted, "
+            << state.tets.nodes - model.own_nodes << " nodes doubled, smallest dihedral angle " << before.least_dihedral
+            << " then " << after.least_dihedral << " degrees, volume shaved off " << -100 * state.volume / before.volume
+            << " %, " << after.pinched_edges << " pinched edges, fastest " << fastest << " m/s\n";
+  RecordProperty("smallest_dihedral", std::to_string(after.least_dihedral));
+}
+
+INSTANTIATE_TEST_SUITE_P(Bodies, ThousandCuts,
+                         testing::Values(Campaign{"liver_like", liver_like, 0.006}, Campaign{"tube", tube, 0.003},
+                                         Campaign{"membrane", sheet, 0.003}),
+                         [](const auto& body) { return body.param.name; });
+
+}  // namespace
+}  // namespace trocar::tissue
