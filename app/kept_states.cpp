@@ -30,6 +30,10 @@ std::size_t bytes_of(const sim::State& s) {
     bytes += size_of(sheet.network.nodes) + size_of(sheet.network.scale) + size_of(sheet.network.tet_phase) +
              size_of(sheet.torn);
   for (const std::vector<std::uint8_t>& torn : s.torn) bytes += size_of(torn);
+  for (const auto* bodies : {&s.overstretched_organs, &s.overstretched_membranes, &s.overstretched_strands}) {
+    bytes += size_of(*bodies);
+    for (const std::vector<std::uint8_t>& counters : *bodies) bytes += size_of(counters);
+  }
   return bytes;
 }
 

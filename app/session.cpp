@@ -184,6 +184,9 @@ void Session::collect_moments() {
       case Kind::exchanged:
         add_moment("exchanged", e.tool, fmt::format("{}: {}", model.hands[size_t(e.tool)].name, who));
         break;
+      case Kind::torn:
+        add_moment("torn", e.tool, body_name(model, e.index) + " tore");
+        break;
       case Kind::cut:
         add_moment("cut", e.tool, fmt::format("{} cut {}", who, cut_name(model, m_state.cuts[size_t(e.index)])));
         break;
@@ -240,6 +243,7 @@ Json Session::result(bool interrupted) const {
   r["clips"] = m_counts[sim::Event::clipped];
   r["clips_dropped"] = m_counts[sim::Event::dropped_clip];
   r["cuts"] = m_counts[sim::Event::cut];
+  r["tears"] = m_counts[sim::Event::torn];
   Json moments = Json::array();
   for (const KeptMoment& k : m_kept)
     moments.push_back({{"tick", k.moment.tick}, {"what", k.moment.what}, {"text", k.moment.text}});

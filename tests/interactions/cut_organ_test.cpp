@@ -59,7 +59,8 @@ TEST(CutOrgan, BladesInTheTissueSeverOnlyWhatTheyCross) {
   Block block;
   // Straight down into the top: the blades' plane is y = 0 (between two rows of nodes), their tips 6 mm deep.
   const ToolShape shape = shape_of(scissors(), {0, 0, 0, 0.106}, 0.2);
-  const int severed = cut_organ(scissors(), shape, block.network, block.skin, block.state, block.parted, block.scratch);
+  const int severed =
+      cut_organ(closed_blades(scissors(), shape), block.network, block.skin, block.state, block.parted, block.scratch);
   EXPECT_GT(severed, 4);
   for (int s = 0; s < block.network.springs; ++s) {
     if (tissue::spring_scale(block.network, block.state, s) > 0) continue;
@@ -77,7 +78,9 @@ TEST(CutOrgan, BladesInTheTissueSeverOnlyWhatTheyCross) {
 TEST(CutOrgan, BladesBesideTheOrganCutNothing) {
   Block block;
   const ToolShape shape = shape_of(scissors(), {0, 0, 0, 0.095}, 0.2);
-  EXPECT_EQ(cut_organ(scissors(), shape, block.network, block.skin, block.state, block.parted, block.scratch), 0);
+  EXPECT_EQ(
+      cut_organ(closed_blades(scissors(), shape), block.network, block.skin, block.state, block.parted, block.scratch),
+      0);
   EXPECT_EQ(block.state.version, 0u);
 }
 
@@ -89,8 +92,8 @@ TEST(CutOrgan, WhatWouldComeLooseStaysOnAThread) {
   for (int bite = 0; bite < 300; ++bite) {
     const kinematics::FulcrumPose pose{random.uniform(-0.08, 0.08), random.uniform(-0.08, 0.08), random.uniform(-3, 3),
                                        random.uniform(0.100, 0.115)};
-    severed += cut_organ(scissors(), shape_of(scissors(), pose, 0.2), block.network, block.skin, block.state,
-                         block.parted, block.scratch);
+    severed += cut_organ(closed_blades(scissors(), shape_of(scissors(), pose, 0.2)), block.network, block.skin,
+                         block.state, block.parted, block.scratch);
   }
   EXPECT_GT(severed, block.network.springs / 3);
   std::vector<int> reached{0};

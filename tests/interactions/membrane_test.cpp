@@ -178,8 +178,8 @@ TEST(Fold, ScissorsPartItAsDeepAsTheyReachAndSayHowDeep) {
     small::Table t(small::model());
     const sim::MembraneModel& fold = t.model.membranes[0];
     const Tool scissors(small::kScissors, {0.017, 0, 0.1}, {0.017, 0, -reach}, 1.57079632679489662);
-    const FoldCut cut = cut_membrane(scissors.model, scissors.shape(0.1), fold.sheet, fold.depth, t.state.membranes[0],
-                                     t.state.torn[0], t.work.parts);
+    const FoldCut cut = cut_membrane(closed_blades(scissors.model, scissors.shape(0.1)), fold.sheet, fold.depth,
+                                     t.state.membranes[0], t.state.torn[0], t.work.parts);
     EXPECT_GT(cut.severed, 3);
     EXPECT_NEAR(cut.depth, reach - small::kTubeRadius, 0.0012);
     int open = 0;
@@ -192,8 +192,8 @@ TEST(Fold, ScissorsPartItAsDeepAsTheyReachAndSayHowDeep) {
     EXPECT_GT(open, 1);
     // The same blades find nothing more and change nothing, and what is left is calm.
     const std::vector<std::uint8_t> torn = t.state.torn[0];
-    EXPECT_EQ(cut_membrane(scissors.model, scissors.shape(0.1), fold.sheet, fold.depth, t.state.membranes[0],
-                           t.state.torn[0], t.work.parts)
+    EXPECT_EQ(cut_membrane(closed_blades(scissors.model, scissors.shape(0.1)), fold.sheet, fold.depth,
+                           t.state.membranes[0], t.state.torn[0], t.work.parts)
                   .severed,
               0);
     EXPECT_EQ(t.state.torn[0], torn);

@@ -101,13 +101,23 @@ struct Round {
   double energy_left = 0;            ///< after the rest [J]
   double most_speed = 0;             ///< of an instrument's tip [m/s]
   double most_force = 0;             ///< on any instrument, one tick [N]
-  int grasps = 0, exchanges = 0, slips = 0;
+  int grasps = 0, exchanges = 0, slips = 0, tears = 0;
   bool let_go = true;      ///< no instrument held or touched anything during the rest's second half
   std::vector<Left> left;  ///< of every body, after the rest
   const Left& worst() const {
     return *std::max_element(left.begin(), left.end(), [](const Left& a, const Left& b) { return a.share < b.share; });
   }
 };
+
+/// The same scene with tissue that never tears: what is torn does not come back, all else must.
+inline sim::Model untearable(sim::Model model) {
+  for (sim::SolidModel& m : model.solids) m.failure_strain = 0;
+  for (sim::CuttableOrgan& m : model.cuttables) m.failure_strain = 0;
+  for (sim::StrandModel& m : model.strands) m.failure_strain = 0;
+  for (sim::MembraneModel& m : model.membranes) m.failure_strain = 0;
+  sim::seal(model);
+  return model;
+}
 
 class Attack {
  public:
@@ -283,6 +293,7 @@ class Attack {
       r.grasps += report.events[i].kind == sim::Event::grasped;
       r.slips += report.events[i].kind == sim::Event::slipped;
       r.exchanges += report.events[i].kind == sim::Event::exchanged;
+      r.tears += report.events[i].kind == sim::Event::torn;
     }
     for (size_t h = 0; h < m_hands.size(); ++h) {
       r.most_speed = std::max(r.most_speed, length(tip(h) - before[h]) / sim::kTick);

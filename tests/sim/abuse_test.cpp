@@ -9,7 +9,8 @@
 using namespace trocar;
 
 TEST(Abuse, OrgansBearSomeSecondsAndReturnToTheirShape) {
-  const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/gynaecology/scene.json"));
+  const sim::Model model =
+      abuse::untearable(scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/gynaecology/scene.json")));
   abuse::Attack attack(model, 3);
   const int tube = model.strand_index("tube_left");
   ASSERT_GE(tube, 0);
@@ -23,7 +24,8 @@ TEST(Abuse, OrgansBearSomeSecondsAndReturnToTheirShape) {
 }
 
 TEST(Abuse, ALiverThatCanBeCutBearsItAndReturnsToItsShape) {
-  const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/cutting/scene.json"));
+  const sim::Model model =
+      abuse::untearable(scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/cutting/scene.json")));
   abuse::Attack attack(model, 4);
   const abuse::Round r = attack.round(0, 4);
   std::printf("%d grasps, at most %.3f J and %.1f N, %.2f %% off after the rest\n", r.grasps, r.most_energy,
@@ -42,5 +44,15 @@ TEST(Abuse, ALiverCutAtRandomStaysFinite) {
   std::printf("%d cuts, at most %.3f J and %.1f N\n", attack.state().cut_count, r.most_energy, r.most_force);
   EXPECT_EQ(r.first_bad_tick, 0u) << "flags " << r.flags;
   EXPECT_GT(attack.state().cut_count, 0);
+  EXPECT_LT(r.most_energy, 5) << "[J]";
+}
+
+TEST(Abuse, TissueThatTearsStaysFinite) {
+  const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/gynaecology/scene.json"));
+  abuse::Attack attack(model, 3);
+  const abuse::Round r = attack.round(model.solids.size() + size_t(model.strand_index("tube_left")), 4);
+  std::printf("%d tears, at most %.3f J and %.1f N\n", r.tears, r.most_energy, r.most_force);
+  EXPECT_EQ(r.first_bad_tick, 0u) << "flags " << r.flags;
+  EXPECT_GT(r.tears, 0);
   EXPECT_LT(r.most_energy, 5) << "[J]";
 }

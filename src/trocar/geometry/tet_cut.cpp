@@ -44,32 +44,6 @@ int corner_of(const Tet& cell, std::int32_t node) noexcept {
   return -1;
 }
 
-/// The blade's plane, and its edges' inward normals in it.
-struct Plane {
-  Vec3d origin, n;
-  std::array<Vec3d, Blade::kMostCorners> inward;
-  const Blade& blade;
-  bool flat = false;
-
-  explicit Plane(const Blade& b) noexcept : blade(b) {
-    for (int i = 2; i < b.corners; ++i) n += cross(b.corner[i - 1] - b.corner[0], b.corner[i] - b.corner[0]);
-    const double size = length(n);
-    flat = b.corners >= 3 && size > 0;
-    if (!flat) return;
-    n = n / size;
-    for (int i = 0; i < b.corners; ++i) {
-      origin += b.corner[i] / double(b.corners);
-      inward[i] = cross(n, b.corner[(i + 1) % b.corners] - b.corner[i]);
-    }
-  }
-  double height(Vec3d p) const noexcept { return dot(p - origin, n); }
-  bool covers(Vec3d p) const noexcept {
-    for (int i = 0; i < blade.corners; ++i)
-      if (dot(p - blade.corner[i], inward[i]) < 0) return false;
-    return true;
-  }
-};
-
 /// One cut, stage after stage.
 class Cutter {
  public:
@@ -278,7 +252,7 @@ class Cutter {
   }
 
   CuttableTets& b;
-  Plane m_plane;
+  BladePlane m_plane;
   std::span<Vec3d> m_now;
   CutWork& w;
   CutBook m_book;

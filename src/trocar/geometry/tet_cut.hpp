@@ -17,6 +17,7 @@
 #include <span>
 #include <vector>
 
+#include <trocar/geometry/blade.hpp>
 #include <trocar/numerics/vec3.hpp>
 
 namespace trocar::geometry {
@@ -35,13 +36,6 @@ struct CuttableTets {
 /// Throws std::invalid_argument for corners that do not exist, cells without positive volume, or a face of more than
 /// two cells.
 CuttableTets cuttable(std::span<const Vec3d> points, std::span<const Tet> cells, int spare_nodes);
-
-/// A convex flat polygon, corners in order; what a blade sweeps.
-struct Blade {
-  static constexpr int kMostCorners = 8;
-  std::array<Vec3d, kMostCorners> corner{};
-  int corners = 0;
-};
 
 inline constexpr double kLeastDihedral = 10;  ///< no snap makes a smaller angle [degrees]
 

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <utility>
 
 #include <trocar/interactions/clip.hpp>
 #include <trocar/interactions/cut.hpp>
@@ -60,11 +59,13 @@ namespace {
 constexpr double kInFlesh = 0.75;  // of the widest aperture: the blades are closing
 constexpr double kBlade = 0.0015;  // [m] beside the gap of the closed blades that their edges still reach
 
-/// Does the segment between two points of the jaw frame cross the blades' plane between the blades?
-bool crosses_blades(const ToolModel& model, const ToolShape& shape, Vec3d a, Vec3d b) noexcept {
-  if ((a.y > 0) == (b.y > 0)) return false;
-  const Vec3d at = a + (a.y / (a.y - b.y)) * (b - a);
-  return at.z > 0 && at.z < model.jaw_length && std::fabs(at.x) < shape.half_opening(at.z) + kBlade;
+/// A flat strip along the jaws, from their hinge to their tips.
+geometry::Blade strip(const ToolShape& shape, double half_at_hinge, double half_at_tips, double length) noexcept {
+  geometry::Blade blade;
+  for (const Vec3d& corner : {Vec3d{-half_at_hinge, 0, 0}, Vec3d{half_at_hinge, 0, 0}, Vec3d{half_at_tips, 0, length},
+                              Vec3d{-half_at_tips, 0, length}})
+    blade.corner[size_t(blade.corners++)] = from_jaw(shape, corner);
+  return blade;
 }
 
 /// Representative of a node's connected part; shortens the way for the next question.
@@ -79,20 +80,13 @@ bool join(std::span<std::int32_t> parent, std::int32_t a, std::int32_t b) noexce
   return pa != pb;
 }
 
-}  // namespace
-
-int cut_organ(const ToolModel& model, const ToolShape& shape, const tissue::NetworkModel& network,
-              const tissue::Skin& fine, tissue::NetworkState& state, std::span<std::uint8_t> parted,
-              std::span<std::int32_t> scratch) noexcept {
-  const std::span<std::int32_t> parent = scratch.first(size_t(network.nodes));
-  for (std::int32_t n = 0; n < network.nodes; ++n) parent[size_t(n)] = n;
+/// Severs the springs that cross the blade, as long as all hangs together without them.
+/// @param parent  which nodes are joined to begin with
+int sever(const geometry::BladePlane& plane, const tissue::NetworkModel& network, tissue::NetworkState& state,
+          std::span<std::int32_t> parent) noexcept {
+  const auto end = [&](int s, size_t side) { return network.spring_nodes[size_t(2 * s) + side]; };
   const auto crosses = [&](int s) {
-    const Vec3d a = to_jaw(shape, tissue::position(network, state, network.spring_nodes[size_t(2 * s)]));
-    const Vec3d b = to_jaw(shape, tissue::position(network, state, network.spring_nodes[size_t(2 * s) + 1]));
-    return crosses_blades(model, shape, a, b);
-  };
-  const auto joins = [&](int s) {
-    return join(parent, network.spring_nodes[size_t(2 * s)], network.spring_nodes[size_t(2 * s) + 1]);
+    return plane.crosses(tissue::position(network, state, end(s, 0)), tissue::position(network, state, end(s, 1)));
   };
   bool any = false;
   for (int s = 0; s < network.springs; ++s) {
@@ -100,22 +94,37 @@ int cut_organ(const ToolModel& model, const ToolShape& shape, const tissue::Netw
     if (crosses(s))
       any = true;
     else
-      joins(s);
+      join(parent, end(s, 0), end(s, 1));
   }
-  if (!any) return 0;
   int severed = 0;
-  for (int s = 0; s < network.springs; ++s) {
-    if (tissue::spring_scale(network, state, s) <= 0 || !crosses(s) || joins(s)) continue;
+  for (int s = 0; any && s < network.springs; ++s) {
+    if (tissue::spring_scale(network, state, s) <= 0 || !crosses(s) || join(parent, end(s, 0), end(s, 1))) continue;
     tissue::cut_spring(network, state, s);
     ++severed;
   }
+  return severed;
+}
+
+}  // namespace
+
+geometry::Blade closed_blades(const ToolModel& model, const ToolShape& shape) noexcept {
+  return strip(shape, shape.half_opening(0) + kBlade, shape.half_opening(model.jaw_length) + kBlade, model.jaw_length);
+}
+
+int cut_organ(const geometry::Blade& blade, const tissue::NetworkModel& network, const tissue::Skin& fine,
+              tissue::NetworkState& state, std::span<std::uint8_t> parted, std::span<std::int32_t> scratch) noexcept {
+  const geometry::BladePlane plane(blade);
+  if (!plane.flat) return 0;
+  const std::span<std::int32_t> parent = scratch.first(size_t(network.nodes));
+  for (std::int32_t n = 0; n < network.nodes; ++n) parent[size_t(n)] = n;
+  const int severed = sever(plane, network, state, parent);
   if (severed == 0) return 0;
   const tissue::NodeView nodes = view_of(network, state);
   for (size_t t = 0; t < fine.triangles.size(); ++t) {
     Vec3d corner[3];
-    for (size_t k = 0; k < 3; ++k) corner[k] = to_jaw(shape, skin_point(nodes, fine, fine.triangles[t][k]));
+    for (size_t k = 0; k < 3; ++k) corner[k] = skin_point(nodes, fine, fine.triangles[t][k]);
     for (int k = 0; k < 3; ++k)
-      if (crosses_blades(model, shape, corner[k], corner[(k + 1) % 3])) parted[t] = 1;
+      if (plane.crosses(corner[k], corner[(k + 1) % 3])) parted[t] = 1;
   }
   return severed;
 }
@@ -128,88 +137,63 @@ std::optional<geometry::Blade> sweep_of_blades(const ToolModel& model, const Too
   if (tool.aperture > kInFlesh * widest) return {};
   tool.armed = -1;
   const double angle = 0.5 * model.opening * widest, at_hinge = 0.5 * model.parallel_gap * widest + kBlade;
-  const double at_tips = at_hinge + model.jaw_length * portable::sin(angle) / portable::cos(angle);
-  geometry::Blade blade;
-  for (const Vec3d& corner : {Vec3d{-at_hinge, 0, 0}, Vec3d{at_hinge, 0, 0}, Vec3d{at_tips, 0, model.jaw_length},
-                              Vec3d{-at_tips, 0, model.jaw_length}})
-    blade.corner[size_t(blade.corners++)] = from_jaw(shape, corner);
-  return blade;
+  return strip(shape, at_hinge, at_hinge + model.jaw_length * portable::sin(angle) / portable::cos(angle),
+               model.jaw_length);
 }
 
 namespace {
 
-/// A point of a fold in the jaw frame, and how deep in the fold it lies.
+/// A point of a fold, and how deep in the fold it lies.
 struct FoldPoint {
   Vec3d at;
   double depth;
 };
 
-/// How deep the blades reach into a triangle of the fold; 0 where they miss it. The blades' plane crosses it in a
-/// straight line; nine points of that line are asked whether they lie between the blades.
-double reach_into(const ToolModel& model, const ToolShape& shape, const FoldPoint (&corner)[3]) noexcept {
+/// How deep the blade reaches into a triangle of the fold; 0 where it misses it. Its plane crosses the triangle in a
+/// straight line; nine points of that line are asked whether the blade covers them.
+double reach_into(const geometry::BladePlane& plane, const FoldPoint (&corner)[3]) noexcept {
   FoldPoint line[2];
   int ends = 0;
   for (int k = 0; k < 3 && ends < 2; ++k) {
     const FoldPoint &a = corner[k], &b = corner[(k + 1) % 3];
-    if ((a.at.y > 0) == (b.at.y > 0)) continue;
-    const double w = a.at.y / (a.at.y - b.at.y);
+    const double ha = plane.height(a.at), hb = plane.height(b.at);
+    if ((ha > 0) == (hb > 0)) continue;
+    const double w = ha / (ha - hb);
     line[ends++] = {a.at + w * (b.at - a.at), a.depth + w * (b.depth - a.depth)};
   }
   double deepest = 0;
   constexpr int kPoints = 8;
   for (int i = 0; ends == 2 && i <= kPoints; ++i) {
     const double w = double(i) / kPoints;
-    const Vec3d p = line[0].at + w * (line[1].at - line[0].at);
-    const bool between = p.z > 0 && p.z < model.jaw_length && std::fabs(p.x) < shape.half_opening(p.z) + kBlade;
-    if (between) deepest = std::max(deepest, line[0].depth + w * (line[1].depth - line[0].depth));
+    if (plane.covers(line[0].at + w * (line[1].at - line[0].at)))
+      deepest = std::max(deepest, line[0].depth + w * (line[1].depth - line[0].depth));
   }
   return deepest;
 }
 
 }  // namespace
 
-FoldCut cut_membrane(const ToolModel& model, const ToolShape& shape, const tissue::MembraneModel& sheet,
-                     std::span<const float> depth, tissue::MembraneState& state, std::span<std::uint8_t> parted,
+FoldCut cut_membrane(const geometry::Blade& blade, const tissue::MembraneModel& sheet, std::span<const float> depth,
+                     tissue::MembraneState& state, std::span<std::uint8_t> parted,
                      std::span<std::int32_t> scratch) noexcept {
+  const geometry::BladePlane plane(blade);
+  FoldCut cut;
+  if (!plane.flat) return cut;
   const tissue::NetworkModel& network = sheet.network;
   const std::span<std::int32_t> parent = scratch.first(size_t(network.nodes));
   for (std::int32_t n = 0; n < network.nodes; ++n) parent[size_t(n)] = n;
   for (size_t h = 1; h < sheet.held_nodes.size(); ++h) join(parent, sheet.held_nodes[0], sheet.held_nodes[h]);
-  const auto place = [&](int node) { return to_jaw(shape, tissue::position(network, state.network, node)); };
-  const auto ends = [&](int s) {
-    return std::pair{network.spring_nodes[size_t(2 * s)], network.spring_nodes[size_t(2 * s) + 1]};
-  };
-  const auto crosses = [&](int s) {
-    const auto [a, b] = ends(s);
-    return crosses_blades(model, shape, place(a), place(b));
-  };
-  const auto joins = [&](int s) { return join(parent, ends(s).first, ends(s).second); };
-  FoldCut cut;
-  bool any = false;
-  for (int s = 0; s < network.springs; ++s) {
-    if (tissue::spring_scale(network, state.network, s) <= 0) continue;
-    if (crosses(s))
-      any = true;
-    else
-      joins(s);
-  }
-  if (!any) return cut;
-  for (int s = 0; s < network.springs; ++s) {
-    if (tissue::spring_scale(network, state.network, s) <= 0 || !crosses(s)) continue;
-    if (joins(s)) continue;
-    tissue::cut_spring(network, state.network, s);
-    ++cut.severed;
-  }
+  cut.severed = sever(plane, network, state.network, parent);
   if (cut.severed == 0) return cut;
   for (size_t t = 0; t < sheet.triangles.size(); ++t) {
     FoldPoint corner[3];
     for (size_t k = 0; k < 3; ++k) {
       const int node = sheet.triangles[t][k];
-      corner[k] = {place(node), double(depth[size_t(node)])};
+      corner[k] = {tissue::position(network, state.network, node), double(depth[size_t(node)])};
     }
     for (int k = 0; k < 3; ++k)
-      if (crosses_blades(model, shape, corner[k].at, corner[(k + 1) % 3].at)) parted[t] = 1;
-    cut.depth = std::max(cut.depth, reach_into(model, shape, corner));
+      if (plane.crosses(corner[k].at, corner[(k + 1) % 3].at)) parted[t] = 1;
+    cut.depth = std::max(cut.depth, reach_into(plane, corner));
   }
   tear_bends(sheet, parted, state);
   return cut;

@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include <trocar/geometry/tet_cut.hpp>
+#include <trocar/geometry/blade.hpp>
 #include <trocar/interactions/grasp.hpp>
 #include <trocar/tissue/membrane.hpp>
 
@@ -24,15 +24,17 @@ int update_scissors(const ToolModel& model, const ToolShape& shape, int tool_ind
                     std::span<tissue::StrandState> strand_states, int tips_visible, std::uint64_t tick, ToolState& tool,
                     CutBook book) noexcept;
 
-/// Parts an organ where the blades have closed in it: springs that cross the blades' plane between them are severed,
-/// and triangles of the drawn skin that cross it are marked in `parted` (one byte a triangle). For organs that are not
-/// meant to be cut (those are tissue/cuttable.hpp): the blades take a bite of their own length, nothing is snapped or
-/// refined. What they would cut loose stays on a thread of one spring, so that nothing falls out of the world.
+/// The strip that the blades have closed on: from the hinge to the tips, as wide as they are open and a little more.
+geometry::Blade closed_blades(const ToolModel& model, const ToolShape& shape) noexcept;
+
+/// Parts an organ along a blade: springs that cross it are severed, and triangles of the drawn skin that cross it are
+/// marked in `parted` (one byte a triangle). For organs that are not meant to be cut (those are tissue/cuttable.hpp):
+/// nothing is snapped or refined. What would be cut loose stays on a thread of one spring, so that nothing falls out of
+/// the world.
 /// @param scratch  at least as many numbers as the network has nodes; contents of no use
 /// @return springs severed
-int cut_organ(const ToolModel& model, const ToolShape& shape, const tissue::NetworkModel& network,
-              const tissue::Skin& fine, tissue::NetworkState& state, std::span<std::uint8_t> parted,
-              std::span<std::int32_t> scratch) noexcept;
+int cut_organ(const geometry::Blade& blade, const tissue::NetworkModel& network, const tissue::Skin& fine,
+              tissue::NetworkState& state, std::span<std::uint8_t> parted, std::span<std::int32_t> scratch) noexcept;
 
 /// What closing blades are about to sweep in flesh: a flat strip from the hinge to their tips, as wide as they were
 /// open. It comes once for every closing (ToolState::armed is below 0 then, until they open again), and before they
@@ -45,12 +47,12 @@ struct FoldCut {
   int severed = 0;   ///< springs
   double depth = 0;  ///< how deep the blades went into it [m]
 };
-/// Parts a membrane where the blades have closed in it, as cut_organ() does an organ. What still hangs on a border may
-/// be cut from the other; what would hang on none stays on a thread.
+/// Parts a membrane along a blade, as cut_organ() does an organ. What still hangs on a border may be cut from the
+/// other; what would hang on none stays on a thread.
 /// @param depth   (nodes) way from the surface of the strand on its border, as drawn [m]
 /// @param parted  (triangles of the sheet)
-FoldCut cut_membrane(const ToolModel& model, const ToolShape& shape, const tissue::MembraneModel& sheet,
-                     std::span<const float> depth, tissue::MembraneState& state, std::span<std::uint8_t> parted,
+FoldCut cut_membrane(const geometry::Blade& blade, const tissue::MembraneModel& sheet, std::span<const float> depth,
+                     tissue::MembraneState& state, std::span<std::uint8_t> parted,
                      std::span<std::int32_t> scratch) noexcept;
 
 }  // namespace trocar::interactions

@@ -104,6 +104,7 @@ void compile_strand(const Strand& strand, const Tissue& tissue, Vec3d gravity, s
   out.look = strand.look;
   out.tissue = strand.tissue;
   out.fimbriated = strand.fimbriated;
+  out.failure_strain = tissue.failure_strain;
   bool hollow = false;
   for (double s : body.arc) {
     const StrandStation at = station_at(strand.stations, s);

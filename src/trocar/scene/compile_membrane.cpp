@@ -146,6 +146,7 @@ void compile_membrane(const Membrane& membrane, const Tissue& tissue, Vec3d grav
   out.tissue = membrane.tissue;
   out.strand = model.strand_index(membrane.strand);
   out.cuttable = membrane.cuttable;
+  out.failure_strain = tissue.failure_strain;
   if (out.strand < 0) return;
   const interactions::StrandBody& body = model.bodies[size_t(out.strand)];
   const Grid g = grid_of(membrane, body);

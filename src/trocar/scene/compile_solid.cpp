@@ -85,6 +85,7 @@ void compile_solid(const Solid& solid, const Tissue& tissue, Vec3d gravity, sim:
   out.look = solid.look;
   out.tissue = solid.tissue;
   out.cell = solid.cell;
+  out.failure_strain = tissue.failure_strain;
   out.anchors = anchor_nodes(solid, net.network.positions, net.network.fixed, faults);
   const tissue::PrestressReport prestress = tissue::prestress(net.network, out.anchors);
   if (!prestress.converged || prestress.failed_springs > 0) {

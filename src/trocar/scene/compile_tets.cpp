@@ -79,13 +79,14 @@ struct Draft {
   tissue::TetMaterial material;
   tissue::TetNetwork undamped;
   std::vector<tissue::Anchor> anchors;
-  double cell = 0;
+  double cell = 0, failure_strain = 0;
 };
 
 Draft draft_of(const Solid& solid, const Tissue& tissue, Vec3d gravity, std::vector<core::Fault>& faults) {
   Draft d;
   d.mesh = ordered(cells_of(solid));
   d.cell = solid.cell > 0 ? solid.cell : mean_edge(d.mesh);
+  d.failure_strain = tissue.failure_strain;
   d.material = material_of(solid, tissue);
   d.undamped = tissue::tet_network(d.mesh.points, d.mesh.cells, d.material);
   tissue::NetworkDescription& n = d.undamped.network;
@@ -123,6 +124,7 @@ void add_network(const Solid& solid, Draft& d, tissue::NetworkDescription& n, si
   out.look = solid.look;
   out.tissue = solid.tissue;
   out.cell = d.cell;
+  out.failure_strain = d.failure_strain;
   out.anchors = std::move(d.anchors);
   out.skin = node_skin(d.mesh, out.network);
   const geometry::CuttableTets tets = geometry::cuttable(d.mesh.points, d.mesh.cells, 0);
@@ -152,6 +154,7 @@ void add_cuttable(const Solid& solid, Draft& d, sim::Model& model, std::vector<c
   out.look = solid.look;
   out.tissue = solid.tissue;
   out.cell = d.cell;
+  out.failure_strain = d.failure_strain;
   out.skin = tissue::make_skin(out.body);
   report.substeps = out.body.substeps;
   report.dt_limit = out.body.dt_limit;

@@ -79,17 +79,22 @@ void seal(Model& model) {
     add_to_hash(h, s.network);
     add_to_hash(h, s.skin);
     add_to_hash(h, s.fine);
+    h.add(s.failure_strain);
     for (const tissue::Anchor& a : s.anchors) {
       h.add(a.node);
       h.add(a.k);
       h.add(a.x0);
     }
   }
-  for (const CuttableOrgan& c : model.cuttables) tissue::add_to_hash(h, c.body);
+  for (const CuttableOrgan& c : model.cuttables) {
+    tissue::add_to_hash(h, c.body);
+    h.add(c.failure_strain);
+  }
   for (const interactions::StrandBody& b : model.bodies) interactions::add_to_hash(h, b);
   for (const StrandModel& s : model.strands) {
     add_patch(h, s.start);
     add_patch(h, s.end);
+    h.add(s.failure_strain);
   }
   for (const WallModel& w : model.walls) add_to_hash(h, w.skin);
   for (const MembraneModel& m : model.membranes) {
@@ -98,6 +103,7 @@ void seal(Model& model) {
     h.add(m.strand);
     h.add(std::int32_t(m.cuttable));
     h.add(m.depth);
+    h.add(m.failure_strain);
     for (const interactions::BorderHold& hold : m.holds) interactions::add_to_hash(h, hold);
   }
   for (const HandModel& hand : model.hands) {

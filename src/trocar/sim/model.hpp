@@ -28,6 +28,7 @@ struct SolidModel {
   std::vector<tissue::Anchor> anchors;  ///< springs to space
   tissue::Skin skin;                    ///< contact and clips
   tissue::Skin fine;                    ///< drawn: the same surface, more vertices
+  double failure_strain = 0;            ///< 0: it never tears
 };
 
 /// A volumetric organ that can be cut anywhere. Organs are numbered: solids first, then these.
@@ -36,6 +37,7 @@ struct CuttableOrgan {
   double cell = 0;  ///< a typical edge [m]
   tissue::CuttableModel body;
   tissue::CuttableSkin skin;  ///< uncut; what is touched, held and drawn
+  double failure_strain = 0;  ///< 0: it never tears
 };
 
 /// A stretch of a strand with a name: isthmus, ampulla, fimbria.
@@ -57,6 +59,7 @@ struct StrandModel {
   StrandEndModel start, end;
   std::vector<LandmarkModel> landmarks;
   bool fimbriated = false;
+  double failure_strain = 0;  ///< 0: it never tears
 };
 
 struct WallModel {
@@ -92,6 +95,7 @@ struct MembraneModel {
   tissue::Skin skin;                            ///< the sheet's own nodes and triangles, one skin vertex per node
   std::vector<float> depth;                     ///< (nodes) way from the strand's surface, as drawn [m]
   std::vector<interactions::BorderHold> holds;  ///< (held nodes)
+  double failure_strain = 0;                    ///< 0: it never tears
 };
 
 /// A hand at a trocar, and the instruments that go through it.

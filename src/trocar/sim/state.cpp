@@ -8,6 +8,23 @@
 
 namespace trocar::sim {
 
+namespace {
+
+/// Room for the counters of bodies that may tear.
+void make_counters(const Model& model, State& s) {
+  const auto counters = [](double failure, size_t size) { return std::vector<std::uint8_t>(failure > 0 ? size : 0); };
+  for (const SolidModel& m : model.solids)
+    s.overstretched_organs.push_back(counters(m.failure_strain, size_t(m.network.rows)));
+  for (const CuttableOrgan& m : model.cuttables)
+    s.overstretched_organs.push_back(counters(m.failure_strain, size_t(m.body.rows)));
+  for (const MembraneModel& m : model.membranes)
+    s.overstretched_membranes.push_back(counters(m.failure_strain, size_t(m.sheet.network.rows)));
+  for (size_t i = 0; i < model.strands.size(); ++i)
+    s.overstretched_strands.push_back(counters(model.strands[i].failure_strain, size_t(model.bodies[i].nodes())));
+}
+
+}  // namespace
+
 State initial_state(const Model& model) {
   State s;
   for (const SolidModel& solid : model.solids) {
@@ -46,6 +63,7 @@ State initial_state(const Model& model) {
   s.sheet_side.resize(model.hands.size() * triangles * size_t(interactions::kToolParts));
   s.sheet_near.resize(model.hands.size() * model.membranes.size());
   s.seen.resize(model.samples.size());
+  make_counters(model, s);
   return s;
 }
 
@@ -75,6 +93,8 @@ std::uint64_t hash_of(const State& s) noexcept {
   for (const auto& membrane : s.membranes) add_to_hash(h, membrane);
   h.add(s.sheet_side);
   h.add(s.sheet_near);
+  for (const auto* bodies : {&s.overstretched_organs, &s.overstretched_membranes, &s.overstretched_strands})
+    for (const std::vector<std::uint8_t>& counters : *bodies) h.add(counters);
   for (const std::vector<std::uint8_t>& torn : s.torn) h.add(torn);
   for (const std::vector<std::uint8_t>& parted : s.parted) h.add(parted);
   return h.value();

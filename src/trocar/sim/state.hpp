@@ -29,6 +29,9 @@ struct State {
   std::vector<Vec3f> sheet_side;                  ///< (hands x triangles of all membranes x kToolParts)
   std::vector<std::uint8_t> sheet_near;           ///< (hands x membranes) 1 = something is noted in sheet_side
   std::vector<std::vector<std::uint8_t>> torn;    ///< (membranes) per triangle: 1 = cut open
+  /// For how long nodes have been stretched beyond what they bear (tissue/overstretch.hpp): rows of organs and of
+  /// membranes, nodes of strands; empty for bodies that never tear.
+  std::vector<std::vector<std::uint8_t>> overstretched_organs, overstretched_membranes, overstretched_strands;
   std::vector<std::uint8_t> seen;                 ///< (samples) 1 = in view when last looked
 };
 

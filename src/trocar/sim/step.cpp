@@ -4,6 +4,7 @@
 #include <trocar/interactions/clip.hpp>
 #include <trocar/interactions/cut.hpp>
 #include <trocar/sim/step.hpp>
+#include <trocar/sim/tearing.hpp>
 #include <trocar/sim/visibility.hpp>
 
 namespace trocar::sim {
@@ -177,12 +178,13 @@ bool blades_near(const StepContext& c, size_t t, size_t organ, double margin) no
 /// Blades that have just closed sever springs of lattices.
 void cut_lattices(StepContext& c, size_t t) noexcept {
   State& s = c.state;
+  const geometry::Blade blade = interactions::closed_blades(c.model.tool(s, t), c.work.shapes[t]);
   for (size_t i = 0; i < c.model.solids.size(); ++i) {
     if (!blades_near(c, t, i, 0.005)) continue;
     if (s.cut_count == interactions::kMaxCuts) return;  // what cannot be recorded is not cut
     const SolidModel& solid = c.model.solids[i];
-    const int severed = interactions::cut_organ(c.model.tool(s, t), c.work.shapes[t], solid.network, solid.fine,
-                                                s.solids[i], s.parted[i], c.work.parts);
+    const int severed =
+        interactions::cut_organ(blade, solid.network, solid.fine, s.solids[i], s.parted[i], c.work.parts);
     if (severed > 0) record_organ_cut(c, t, i);
   }
 }
@@ -217,13 +219,14 @@ int place_in_book(const State& s, size_t t, std::int32_t strand) noexcept {
 void cut_folds(StepContext& c, size_t t) noexcept {
   State& s = c.state;
   const interactions::ToolShape& shape = c.work.shapes[t];
+  const geometry::Blade blade = interactions::closed_blades(c.model.tool(s, t), shape);
   for (size_t i = 0; i < c.model.membranes.size(); ++i) {
     const MembraneModel& m = c.model.membranes[i];
     if (!m.cuttable || !c.work.sheet_poses[i].bounds.near_segment(shape.pivot, shape.frame.tip, 0.005)) continue;
     const int place = place_in_book(s, t, m.strand);
     if (place == interactions::kMaxCuts) continue;  // what cannot be recorded is not cut
-    const interactions::FoldCut fold = interactions::cut_membrane(c.model.tool(s, t), shape, m.sheet, m.depth,
-                                                                  s.membranes[i], s.torn[i], c.work.parts);
+    const interactions::FoldCut fold =
+        interactions::cut_membrane(blade, m.sheet, m.depth, s.membranes[i], s.torn[i], c.work.parts);
     if (fold.severed == 0) continue;
     interactions::Cut& cut = s.cuts[size_t(place)];
     if (place == s.cut_count) {
@@ -475,10 +478,10 @@ void feel(StepContext& c) noexcept {
   }
 }
 
-// 12. Eyes: what the endoscope sees.
+// 13. Eyes: what the endoscope sees.
 void see(StepContext& c) noexcept { look(c.model, c.state, c.work); }
 
-// 13. Reports.
+// 14. Reports.
 void sum_up(StepContext& c) noexcept {
   const auto take = [&c](const tissue::StepReport& r, int body) {
     c.report.flags |= r.flags;
@@ -510,6 +513,7 @@ constexpr Stage kStages[] = {
     {"advance organs", advance_organs},
     {"advance membranes", advance_membranes},
     {"feel", feel},
+    {"tear", tear_tissue},
     {"see", see},
     {"sum up", sum_up},
 };

@@ -9,10 +9,11 @@
 namespace trocar::sim {
 
 struct Event {
-  enum Kind : std::int32_t { none, grasped, released, slipped, clipped, dropped_clip, cut, exchanged } kind = none;
+  enum Kind : std::int32_t { none, grasped, released, slipped, clipped, dropped_clip, cut, exchanged, torn } kind = none;
   std::int32_t tool = 0;
   /// The clip's or the cut's number in the State's book; grasped: the body held (interactions::Hold::body);
-  /// exchanged: the new instrument's number in the rack; released and slipped: -1.
+  /// torn: the body that tore, likewise, under the hand that pulls or presses most; exchanged: the new instrument's
+  /// number in the rack; released and slipped: -1.
   std::int32_t index = 0;
 };
 inline constexpr int kMaxEvents = 16;

@@ -1,0 +1,82 @@
+#include <trocar/interactions/cut.hpp>
+#include <trocar/sim/tearing.hpp>
+#include <trocar/tissue/overstretch.hpp>
+
+namespace trocar::sim {
+namespace {
+
+double norm(const double (&f)[3]) noexcept { return length(Vec3d{f[0], f[1], f[2]}); }
+
+/// The hand that did it: the one that holds the body, or else the one that presses hardest.
+int culprit(const StepContext& c, std::int32_t body) noexcept {
+  int hardest = 0;
+  for (size_t t = 0; t < c.model.hands.size(); ++t) {
+    const interactions::ToolState& tool = c.state.tools[t];
+    for (int h = 0; h < tool.holds; ++h)
+      if (tool.hold[h].body == body) return int(t);
+    if (norm(tool.contact_force) > norm(c.state.tools[size_t(hardest)].contact_force)) hardest = int(t);
+  }
+  return hardest;
+}
+
+void tell_torn(StepContext& c, std::int32_t body) noexcept {
+  if (c.report.event_count == kMaxEvents || c.model.hands.empty()) return;
+  c.report.events[c.report.event_count++] = {Event::torn, culprit(c, body), body};
+}
+
+bool tear_solid(StepContext& c, size_t i) noexcept {
+  const SolidModel& solid = c.model.solids[i];
+  tissue::NetworkState& state = c.state.solids[i];
+  const tissue::Overstretch tear = tissue::find_overstretch(
+      tissue::springs_of(solid.network, state), solid.failure_strain, c.state.tick, c.state.overstretched_organs[i]);
+  return tear.found &&
+         interactions::cut_organ(tear.blade(), solid.network, solid.fine, state, c.state.parted[i], c.work.parts) > 0;
+}
+
+bool tear_cuttable(StepContext& c, size_t i) noexcept {
+  const CuttableOrgan& organ = c.model.cuttables[i];
+  tissue::CuttableState& state = c.state.cuttables[i];
+  tissue::CuttableWork& work = c.work.cuttable_work[i];
+  const tissue::Overstretch tear =
+      tissue::find_overstretch(tissue::springs_of(organ.body, state, work), organ.failure_strain, c.state.tick,
+                               c.state.overstretched_organs[c.model.solids.size() + i]);
+  if (!tear.found) return false;
+  const geometry::CutBook book = tissue::cut(organ.body, tear.blade(), state, work);
+  if (book.full) c.report.flags |= StepReport::kBookFull;
+  return book.parted > 0;
+}
+
+bool tear_membrane(StepContext& c, size_t i) noexcept {
+  const MembraneModel& m = c.model.membranes[i];
+  tissue::MembraneState& state = c.state.membranes[i];
+  const tissue::Overstretch tear =
+      tissue::find_overstretch(tissue::springs_of(m.sheet.network, state.network), m.failure_strain, c.state.tick,
+                               c.state.overstretched_membranes[i]);
+  return tear.found &&
+         interactions::cut_membrane(tear.blade(), m.sheet, m.depth, state, c.state.torn[i], c.work.parts).severed > 0;
+}
+
+bool tear_strand(StepContext& c, size_t i) noexcept {
+  const int element = tissue::find_overstretch(c.model.bodies[i].model, c.state.strands[i],
+                                               c.model.strands[i].failure_strain, c.state.overstretched_strands[i]);
+  if (element >= 0) tissue::cut_element(c.state.strands[i], element);
+  return element >= 0;
+}
+
+}  // namespace
+
+void tear_tissue(StepContext& c) noexcept {
+  const size_t solids = c.model.solids.size();
+  for (size_t i = 0; i < solids; ++i)
+    if (c.model.solids[i].failure_strain > 0 && tear_solid(c, i)) tell_torn(c, interactions::kSolidBase + int(i));
+  for (size_t i = 0; i < c.model.cuttables.size(); ++i)
+    if (c.model.cuttables[i].failure_strain > 0 && tear_cuttable(c, i))
+      tell_torn(c, interactions::kSolidBase + int(solids + i));
+  for (size_t i = 0; i < c.model.membranes.size(); ++i)
+    if (c.model.membranes[i].failure_strain > 0 && tear_membrane(c, i))
+      tell_torn(c, interactions::kMembraneBase + int(i));
+  for (size_t i = 0; i < c.model.strands.size(); ++i)
+    if (c.model.strands[i].failure_strain > 0 && tear_strand(c, i)) tell_torn(c, std::int32_t(i));
+}
+
+}  // namespace trocar::sim
