@@ -105,6 +105,12 @@ const Mistake kMistakes[] = {
        a.seconds(1);
      },
      "other tissue"},
+    {"E1.2",
+     [](Attempt& a) {
+       a.event(sim::Event::torn, two_sides::kGrasper, kLeft);
+       a.event(sim::Event::torn, two_sides::kGrasper, kLeft);  // the same tear goes on
+     },
+     ""},
     {"E2",
      [](Attempt& a) {
        a.hold(pad(a), 0, 1);

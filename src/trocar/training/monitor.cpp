@@ -421,6 +421,7 @@ void Monitor::watch_errors(const sim::Model& model, const sim::State& state, con
     if (state.tools[h].holds > 0) m_held_side[h] = side_of_hold(state.tools[h].hold[0].body);
   Mishaps mishaps;
   m_pull.update(m_exercise.goal, m_tissues, model, state, mishaps);
+  m_tear.update(model, state, report, mishaps);
   m_pinch.update(m_exercise.goal, m_tissues, model, state, mishaps);
   if (state.tick % kCollideEvery == 0)
     m_collision.update(m_exercise.goal, model, state, kCollideEvery * sim::kTick, mishaps);

@@ -143,6 +143,7 @@ class Monitor {
   std::vector<SideWatch> m_sides;
   Tissues m_tissues;
   PullWatch m_pull;
+  TearWatch m_tear;
   PinchWatch m_pinch;
   SightWatch m_sight;
   CollisionWatch m_collision;

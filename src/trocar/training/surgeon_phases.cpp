@@ -202,6 +202,13 @@ void Surgeon::lift() {
     m_blundered = m_steady > 2 * g.pull_excursion;
     return;
   }
+  if (flawed("E1.2")) {
+    m_lifted += kCareful * sim::kTick;
+    m_arms[w.grasper].tip = m_lift_from + m_lifted * m_lift_up;
+    const std::vector<std::uint8_t>& alive = m_state->strands[size_t(w.tube)].alive;
+    m_blundered = std::find(alive.begin(), alive.end(), 0) != alive.end();
+    return;
+  }
   keep_presented();
   if (wanted_slant() > 0) return slant(m_applier, m_clip_place) > wanted_slant() - 0.02 ? go(Phase::decide) : void();
   const bool good = std::fabs(slant(m_applier, m_clip_place)) < 0.13 && pull() > g.present_pull.low + 0.08 &&

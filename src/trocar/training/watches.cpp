@@ -26,6 +26,21 @@ void PullWatch::update(const Sterilisation& goal, const Tissues& tissues, const 
   }
 }
 
+void TearWatch::update(const sim::Model& model, const sim::State& state, const sim::StepReport& report, Mishaps& out) {
+  constexpr std::uint64_t kGoesOn = 1000;  // [ticks] without a tear, after which the next one is another
+  for (int i = 0; i < report.event_count; ++i) {
+    const sim::Event& e = report.events[i];
+    if (e.kind != sim::Event::torn) continue;
+    const auto known = std::find_if(m_torn.begin(), m_torn.end(), [&e](const Torn& t) { return t.body == e.index; });
+    const bool goes_on = known != m_torn.end() && state.tick - known->tick < kGoesOn;
+    if (known == m_torn.end())
+      m_torn.push_back({e.index, state.tick});
+    else
+      known->tick = state.tick;
+    if (!goes_on) out.add({"E1.2", e.tool, tip_of(model, state, size_t(e.tool)), ""});
+  }
+}
+
 void PinchWatch::update(const Sterilisation& goal, const Tissues& tissues, const sim::Model& model,
                         const sim::State& state, Mishaps& out) {
   for (size_t h = 0; h < hands(model); ++h) {

@@ -42,6 +42,19 @@ class PullWatch {
   std::array<double, sim::kMaxTools> m_over_for{};
 };
 
+/// E1.2: tissue that tears, once a body for as long as it goes on tearing.
+class TearWatch {
+ public:
+  void update(const sim::Model& model, const sim::State& state, const sim::StepReport& report, Mishaps& out);
+
+ private:
+  struct Torn {
+    std::int32_t body = 0;
+    std::uint64_t tick = 0;  ///< when last
+  };
+  std::vector<Torn> m_torn;
+};
+
 /// E2: bowel pinched too hard or too long, each once a hold. Asked every tick.
 class PinchWatch {
  public:
