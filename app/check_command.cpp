@@ -38,7 +38,8 @@ Json describe(const scene::BodyReport& b) {
   out["dt_ms"] = 1000 * sim::kTick / b.substeps;
   out["dt_limit_ms"] = 1000 * b.dt_limit;
   out["dt_margin"] = b.dt_limit * b.substeps / sim::kTick;
-  out["dt_limit_as_printed_ms"] = 1000 * b.dt_printed;
+  if (b.dt_printed > 0) out["dt_limit_as_printed_ms"] = 1000 * b.dt_printed;
+  if (b.dt_printed_summed > 0) out["dt_limit_as_printed_summed_ms"] = 1000 * b.dt_printed_summed;
   out["residual_mN"] = 1000 * b.residual;
   out["prestrain"] = b.prestrain;
   return out;
@@ -51,6 +52,43 @@ double resting_tick(const sim::Model& model, sim::State& state, sim::Work& work)
   const auto start = std::chrono::steady_clock::now();
   for (int i = 0; i < kTimed; ++i) sim::step(model, model.start, state, work);
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / kTimed;
+}
+
+/// What one body takes by itself: memory of its Model, State and Work, and a tick at rest on this machine.
+struct Cost {
+  std::size_t bytes = 0;
+  double seconds = 0;
+};
+template <class BodyModel, class Advance>
+Cost cost_of(const BodyModel& model, Advance&& advance) {
+  constexpr int kWarm = 20, kTimed = 60;
+  const std::size_t before = bytes_in_use();
+  const BodyModel copy = model;
+  auto state = rest_state(copy);
+  auto work = make_work(copy);
+  Cost cost{bytes_in_use() - before, 0};
+  for (int i = 0; i < kWarm; ++i) advance(copy, state, work);
+  const auto start = std::chrono::steady_clock::now();
+  for (int i = 0; i < kTimed; ++i) advance(copy, state, work);
+  cost.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / kTimed;
+  return cost;
+}
+
+/// Of a body of the scene; contacts and loads come on top. Zero for walls, which neither move nor are copied.
+Cost cost_of(const sim::Model& model, const std::string& body) {
+  const auto unloaded = [](const auto& m, auto& s, auto& w) { advance(m, {}, {}, s, w); };
+  if (const int organ = model.organ_index(body); organ >= 0) {
+    const std::size_t i = std::size_t(organ), solids = model.solids.size();
+    return i < solids ? cost_of(model.solids[i].network, unloaded)
+                      : cost_of(model.cuttables[i - solids].body, unloaded);
+  }
+  if (const int i = model.strand_index(body); i >= 0)
+    return cost_of(model.bodies[std::size_t(i)].model,
+                   [](const auto& m, auto& s, auto& w) { advance(m, {}, {}, {}, {}, s, w); });
+  if (const int i = model.membrane_index(body); i >= 0)
+    return cost_of(model.membranes[std::size_t(i)].sheet,
+                   [](const auto& m, auto& s, auto& w) { advance(m, {}, {}, {}, s, w); });
+  return {};
 }
 
 /// How far an organ's farthest node is from where it was drawn [m].
@@ -92,6 +130,10 @@ Json describe_scene(const fs::path& path, const std::vector<std::string>& only) 
   for (const scene::BodyReport& b : report.bodies) {
     if (!only.empty() && std::find(only.begin(), only.end(), b.name) == only.end()) continue;
     out["bodies"].push_back(describe(b));
+    if (const Cost cost = cost_of(model, b.name); cost.bytes > 0) {
+      out["bodies"].back()["memory_kb"] = cost.bytes / 1024;
+      out["bodies"].back()["tick_us"] = cost.seconds * 1e6;
+    }
     if (const int organ = model.organ_index(b.name); organ >= 0)
       out["bodies"].back()["off_after_1s_mm"] = 1e3 * off_drawn(model, state, organ);
   }
@@ -130,6 +172,27 @@ Json describe_organ(const fs::path& path, const scene::JsonValue& root) {
   return {{"note", "no scene uses this organ, so there is nothing to compile it in"}};
 }
 
+Json describe_tissues(const fs::path& path) {
+  Json rows = Json::array();
+  for (const scene::Tissue& t : scene::read_tissues(path)) {
+    Json row{{"name", t.name}, {"figures", Json::object()}};
+    for (std::size_t i = 0; i < scene::kTissueFigures.size(); ++i) {
+      const scene::TissueFigure& f = scene::kTissueFigures[i];
+      row["figures"][f.key] = {{"value", t.*f.value}, {"source", t.source_of[i].empty() ? t.source : t.source_of[i]}};
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+void print_tissues(const Json& tissues) {
+  for (const Json& t : tissues) {
+    fmt::print("  {}\n", t["name"].get<std::string>());
+    for (const auto& [key, figure] : t["figures"].items())
+      fmt::print("    {:15} {:>9}  {}\n", key, figure["value"].get<double>(), figure["source"].get<std::string>());
+  }
+}
+
 /// @param unit  of meshes, in metres
 /// @throws core::BadInput with all faults of the file
 Json check_one(const fs::path& path, double unit) {
@@ -154,8 +217,11 @@ Json check_one(const fs::path& path, double unit) {
   } else if (has("solids") || has("strands") || has("walls") || has("membranes")) {
     out["kind"] = "organ";
     out.update(describe_organ(path, document.root));
+  } else if (has("kind")) {
+    out["kind"] = "instrument";
   } else {
-    out["kind"] = has("kind") ? "instrument" : "tissues";
+    out["kind"] = "tissues";
+    out["tissues"] = describe_tissues(path);
   }
   return out;
 }
@@ -164,19 +230,24 @@ void print_for_people(const Json& r) {
   const bool to_mend = r.contains("repairs") && !r["repairs"].empty();
   fmt::print("{}: {}, {}\n", r["file"].get<std::string>(), r["kind"].get<std::string>(), to_mend ? "to mend" : "good");
   if (r.contains("mesh")) print_mesh(r);
+  if (r.contains("tissues")) print_tissues(r["tissues"]);
   if (r.contains("note")) fmt::print("  {}\n", r["note"].get<std::string>());
   if (!r.contains("bodies")) return;
-  fmt::print("  {:24} {:7} {:>7} {:>8} {:>9} {:>13} {:>7} {:>16} {:>9}\n", "body", "kind", "nodes", "springs",
-             "sub-steps", "dt limit [ms]", "margin", "as printed [ms]", "mass [g]");
+  fmt::print("  {:31} {:8} {:>6} {:>7} {:>9} {:>13} {:>6} {:>18} {:>8} {:>8} {:>6}\n", "body", "kind", "nodes",
+             "springs", "sub-steps", "dt limit [ms]", "margin", "(4b): one k, all k", "mass [g]", "mem [kB]", "us");
   for (const Json& b : r["bodies"]) {
     const auto number = [&b](const char* key, const char* format) {
       return b.contains(key) ? fmt::format(fmt::runtime(format), b[key].get<double>()) : std::string("-");
     };
-    fmt::print("  {:24} {:7} {:>7} {:>8} {:>9} {:>13} {:>7} {:>16} {:>9}\n", b["name"].get<std::string>(),
+    const std::string printed =
+        b.contains("dt_limit_as_printed_ms")
+            ? number("dt_limit_as_printed_ms", "{:.3f}") + ", " + number("dt_limit_as_printed_summed_ms", "{:.3f}")
+            : "-";
+    fmt::print("  {:31} {:8} {:>6} {:>7} {:>9} {:>13} {:>6} {:>18} {:>8} {:>8} {:>6}\n", b["name"].get<std::string>(),
                b["kind"].get<std::string>(), number("nodes", "{:.0f}"),
                number(b.contains("springs") ? "springs" : "triangles", "{:.0f}"), number("substeps", "{:.0f}"),
-               number("dt_limit_ms", "{:.4f}"), number("dt_margin", "{:.2f}"),
-               number("dt_limit_as_printed_ms", "{:.4f}"), number("mass_g", "{:.1f}"));
+               number("dt_limit_ms", "{:.4f}"), number("dt_margin", "{:.2f}"), printed, number("mass_g", "{:.1f}"),
+               number("memory_kb", "{:.0f}"), number("tick_us", "{:.1f}"));
   }
   for (const Json& b : r["bodies"])
     if (b.value("off_after_1s_mm", 0.0) > 1e3 * kStands)
@@ -184,6 +255,7 @@ void print_for_people(const Json& r) {
           "  {} does not hold its drawn shape: {:.1f} mm off after a second at rest (a stiffer tissue, larger cells "
           "or more anchors may)\n",
           b["name"].get<std::string>(), b["off_after_1s_mm"].get<double>());
+  fmt::print("  (4b) is the paper's limit for comparison, with a node's stiffest spring and with all of its springs\n");
   const Json& m = r["memory_kb"];
   fmt::print("  {} free nodes; memory {} kB model, {} kB state, {} kB work; a tick at rest takes {:.0f} us here\n",
              r["free_nodes"].get<int>(), m["model"].get<std::size_t>(), m["state"].get<std::size_t>(),

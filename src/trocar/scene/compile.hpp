@@ -15,15 +15,16 @@ namespace trocar::scene {
 
 /// What a body compiled to, for `trocar check`.
 struct BodyReport {
-  std::string name, kind;      ///< "solid", "strand", "membrane", "wall"
-  int nodes = 0, springs = 0;  ///< elements for a strand, triangles for a wall
-  int substeps = 0;            ///< per tick; 0: implicit or fixed
-  double dt_limit = 0;         ///< sufficient stability limit [s]
-  double dt_printed = 0;       ///< what the paper's (4b) allows, for comparison [s]
-  double mass = 0;             ///< [kg]
-  double volume = 0;           ///< of the surface [m^3]
-  double residual = 0;         ///< unbalanced force left in the drawn shape [N]
-  double prestrain = 0;        ///< largest strain that the prestress put in
+  std::string name, kind;        ///< "solid", "strand", "membrane", "wall"
+  int nodes = 0, springs = 0;    ///< elements for a strand, triangles for a wall
+  int substeps = 0;              ///< per tick; 0: implicit or fixed
+  double dt_limit = 0;           ///< sufficient stability limit [s]
+  double dt_printed = 0;         ///< what the paper's (4b) allows with each node's stiffest spring, for comparison [s]
+  double dt_printed_summed = 0;  ///< and with all its springs [s]
+  double mass = 0;               ///< [kg]
+  double volume = 0;             ///< of the surface [m^3]
+  double residual = 0;           ///< unbalanced force left in the drawn shape [N]
+  double prestrain = 0;          ///< largest strain that the prestress put in
 };
 struct CompileReport {
   std::vector<BodyReport> bodies;

@@ -59,12 +59,13 @@ double damping_time(const tissue::NetworkDescription& undamped, double wanted) {
   return std::min(wanted, tissue::build(undamped, sim::kTick).dt_limit / 7);
 }
 
-double printed_limit(const tissue::NetworkDescription& n) {
+double printed_limit(const tissue::NetworkDescription& n, Dominating dominating) {
   std::vector<double> k(n.mass.size()), d(n.mass.size());
   for (const tissue::SpringDescription& s : n.springs)
     for (int end : {s.a, s.b}) {
-      k[size_t(end)] = std::max(k[size_t(end)], s.k);
-      d[size_t(end)] = std::max(d[size_t(end)], s.damping);
+      const bool sum = dominating == Dominating::all_springs;
+      k[size_t(end)] = sum ? k[size_t(end)] + s.k : std::max(k[size_t(end)], s.k);
+      d[size_t(end)] = sum ? d[size_t(end)] + s.damping : std::max(d[size_t(end)], s.damping);
     }
   double least = 1e9;
   for (size_t i = 0; i < k.size(); ++i)

@@ -18,8 +18,10 @@ std::vector<tissue::Anchor> anchor_nodes(const Solid& solid, const std::vector<V
 /// Spring damping that costs the time step little: a seventh of the undamped limit, but no more than the tissue's own.
 double damping_time(const tissue::NetworkDescription& undamped, double wanted);
 
-/// What (4b) as printed allows at each node's stiffest spring, for the record.     [KCM99 eq.4]
-double printed_limit(const tissue::NetworkDescription& network);
+/// Which k and d (4b) is given at a node: of its stiffest spring ("the dominating spring"), or of all its springs.
+enum class Dominating { stiffest_spring, all_springs };
+/// What (4b) as printed allows, for the record.                                    [KCM99 eq.4]
+double printed_limit(const tissue::NetworkDescription& network, Dominating dominating);
 
 /// False, and a fault, where the organ would need too many.
 bool few_substeps(const Solid& solid, int substeps, std::vector<core::Fault>& faults);

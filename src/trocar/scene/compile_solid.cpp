@@ -105,7 +105,8 @@ void compile_solid(const Solid& solid, const Tissue& tissue, Vec3d gravity, sim:
     r.springs = out.network.springs;
     r.substeps = out.network.substeps;
     r.dt_limit = out.network.dt_limit;
-    r.dt_printed = printed_limit(net.network);
+    r.dt_printed = printed_limit(net.network, Dominating::stiffest_spring);
+    r.dt_printed_summed = printed_limit(net.network, Dominating::all_springs);
     for (double m : net.network.mass) r.mass += m;
     r.volume = geometry::volume(fine);
     r.residual = prestress.residual;

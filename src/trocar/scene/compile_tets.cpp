@@ -103,7 +103,8 @@ BodyReport report_on(const Solid& solid, const Draft& d, const tissue::NetworkDe
   r.kind = solid.cuttable ? "cuttable" : "solid";
   r.nodes = int(d.mesh.points.size());
   r.springs = int(damped.springs.size());
-  r.dt_printed = printed_limit(damped);
+  r.dt_printed = printed_limit(damped, Dominating::stiffest_spring);
+  r.dt_printed_summed = printed_limit(damped, Dominating::all_springs);
   for (double m : damped.mass) r.mass += m;
   for (size_t c = 0; c < d.mesh.cells.size(); ++c) r.volume += geometry::volume(d.mesh, int(c));
   return r;

@@ -2,6 +2,7 @@
 // compile() turns it into a sim::Model. All lengths are in metres here (files say _mm), angles in radians.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,9 +22,22 @@ struct Tissue {
   double strain_cap = 0.2;    ///< the law continues linearly beyond it
   double failure_strain = 0;  ///< tears beyond it (0: never)
   double damping_ms = 2;      ///< stiffness-proportional damping, a time [ms]
-  std::string source;         ///< literature or "ours"
+  std::string source;         ///< literature or "ours": of the figures that have no source of their own below
+  std::array<std::string, 7> source_of;  ///< in the order of kTissueFigures; empty: `source`
   core::Location at;
 };
+/// The figures of a tissue, as files name them.
+struct TissueFigure {
+  const char* key;
+  double Tissue::*value;
+};
+inline constexpr std::array<TissueFigure, 7> kTissueFigures{{{"density_kg_m3", &Tissue::density},
+                                                             {"young_Pa", &Tissue::young},
+                                                             {"p1", &Tissue::p1},
+                                                             {"p2", &Tissue::p2},
+                                                             {"strain_cap", &Tissue::strain_cap},
+                                                             {"failure_strain", &Tissue::failure_strain},
+                                                             {"damping_ms", &Tissue::damping_ms}}};
 
 /// A section of a lofted body: a super-ellipse with two half-axis vectors.
 struct Section {

@@ -101,6 +101,15 @@ FileKind kind_of_file(const fs::path& path, const MemoryFiles* memory) {
   return has("tissues") ? FileKind::tissue : FileKind::scene;
 }
 
+std::vector<Tissue> read_tissues(const fs::path& path) {
+  std::vector<core::Fault> faults;
+  Reading reading(faults, nullptr);
+  reading.tissue_file(path);
+  sort_faults(faults);
+  if (!faults.empty()) throw core::BadInput(std::move(faults));
+  return std::move(reading.description.tissues);
+}
+
 std::vector<core::Fault> check_file(const fs::path& path, const MemoryFiles* memory) {
   std::vector<core::Fault> faults;
   Reading reading(faults, memory);

@@ -23,6 +23,9 @@ namespace trocar::scene {
 /// files are looked up there instead of on the disk.
 Description read_scene(const std::filesystem::path& path, const MemoryFiles* memory = nullptr);
 
+/// Reads a tissue table. Throws core::BadInput with every fault.
+std::vector<Tissue> read_tissues(const std::filesystem::path& path);
+
 enum class FileKind { scene, organ, instrument, tissue, exercise };
 /// A file's kind, by the keys that only this kind has; a scene where nothing tells.
 FileKind kind_of_file(const std::filesystem::path& path, const MemoryFiles* memory = nullptr);

@@ -32,14 +32,11 @@ void Reading::tissue_table(const JsonObject& o, const fs::path& folder) {
 void Reading::tissue(const JsonObject& o, const fs::path&) {
   Tissue t;
   t.name = o.text("name");
-  t.density = o.number("density_kg_m3", t.density);
-  t.young = o.number("young_Pa", 1000);
-  t.p1 = o.number("p1", t.p1);
-  t.p2 = o.number("p2", t.p2);
-  t.strain_cap = o.number("strain_cap", t.strain_cap);
-  t.failure_strain = o.number("failure_strain", t.failure_strain);
-  t.damping_ms = o.number("damping_ms", t.damping_ms);
+  t.young = 1000;
+  for (const TissueFigure& f : kTissueFigures) t.*f.value = o.number(f.key, t.*f.value);
   t.source = o.text("source");
+  for (const JsonObject& sources : o.objects("sources"))
+    for (size_t i = 0; i < kTissueFigures.size(); ++i) t.source_of[i] = sources.text(kTissueFigures[i].key);
   t.at = o.at();
   // d sigma / d eps = E (1 + 2 p1 eps + 3 p2 eps^2) has no root  <=>  p1^2 < 3 p2
   if (t.p1 != 0 && !(t.p1 * t.p1 < 3 * t.p2))

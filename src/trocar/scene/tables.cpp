@@ -7,6 +7,15 @@ namespace {
 
 constexpr double kFar = 2000;  // [mm]: no place in a body is further from the umbilicus
 
+const Shape& tissue_sources() {
+  static const Shape shape = [] {
+    Shape s{"sources", "Where single figures of a tissue come from: a publication, or \"ours\".", {}};
+    for (const TissueFigure& figure : kTissueFigures) s.keys.push_back(keys::text(figure.key, "of this figure"));
+    return s;
+  }();
+  return shape;
+}
+
 const Shape& tissue_row() {
   static const Shape shape{
       "tissue",
@@ -19,7 +28,8 @@ const Shape& tissue_row() {
        keys::number("strain_cap", 0.01, 5, "strain beyond which the law is continued linearly, default 0.2"),
        keys::number("failure_strain", 0, 10, "strain at which it tears, default 0: never"),
        keys::number("damping_ms", 0, 1000, "stiffness-proportional damping time, default 2"),
-       needed(keys::text("source", "where the figures come from: a publication, or \"ours\""))}};
+       needed(keys::text("source", "where the figures come from: a publication, or \"ours\"")),
+       keys::object("sources", tissue_sources, "sources of single figures, where they differ")}};
   return shape;
 }
 

@@ -54,14 +54,11 @@ void put_name(JsonValue& o, const char* key, const std::string& name) {
 JsonValue written(const Tissue& t) {
   JsonValue o = json_object();
   put_name(o, "name", t.name);
-  put(o, "density_kg_m3", json_number(t.density));
-  put(o, "young_Pa", json_number(t.young));
-  put(o, "p1", json_number(t.p1));
-  put(o, "p2", json_number(t.p2));
-  put(o, "strain_cap", json_number(t.strain_cap));
-  put(o, "failure_strain", json_number(t.failure_strain));
-  put(o, "damping_ms", json_number(t.damping_ms));
+  for (const TissueFigure& f : kTissueFigures) put(o, f.key, json_number(t.*f.value));
   put(o, "source", json_text(t.source));
+  JsonValue sources = json_object();
+  for (size_t i = 0; i < kTissueFigures.size(); ++i) put_name(sources, kTissueFigures[i].key, t.source_of[i]);
+  if (!sources.members.empty()) put(o, "sources", std::move(sources));
   return o;
 }
 
