@@ -1,5 +1,9 @@
 // Compiling a Description: the same Model every time, drawn shapes in equilibrium, and faults told with their place.
+#include <algorithm>
+
 #include <gtest/gtest.h>
+
+#include <trocar/scene/reader.hpp>
 
 #include "../sim/small_scene.hpp"
 
@@ -138,6 +142,26 @@ TEST(Compile, TheReportSaysWhatTheBodiesCameTo) {
     EXPECT_GE(b.substeps, 1) << b.name;
     EXPECT_GT(b.dt_limit * 1.0001, 1e-3 / b.substeps) << b.name << ": whole sub-steps within the limit";
     EXPECT_LT(b.residual, 1e-3 * b.mass * 9.81 + 1e-6) << b.name << ": the drawn shape bears its weight";
+  }
+}
+
+TEST(Compile, EveryOrganWeighsWhatItsTissueAndItsVolumeSay) {
+  for (const char* scene : {"gynaecology", "cutting"}) {
+    const Description d = read_scene(std::string(TROCAR_SOURCE_DIR "/scenes/") + scene + "/scene.json");
+    CompileReport report;
+    compile(d, &report);
+    int organs = 0;
+    for (const Solid& solid : d.solids) {
+      const auto is_it = [&solid](const auto& x) { return x.name == solid.name; };
+      const auto body = std::find_if(report.bodies.begin(), report.bodies.end(), is_it);
+      ASSERT_NE(body, report.bodies.end());
+      for (const Tissue& t : d.tissues) {
+        if (t.name != solid.tissue) continue;
+        EXPECT_NEAR(body->mass, t.density * body->volume, 1e-6 * body->mass) << solid.name;
+        ++organs;
+      }
+    }
+    EXPECT_EQ(organs, int(d.solids.size()));
   }
 }
 

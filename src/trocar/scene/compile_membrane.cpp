@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kStretchDamping = 0.0004;  // [s] times stiffness; a fold is wet, but sub-steps pay for more
 constexpr double kBendingDamping = 0.0005;  // [s] times stiffness
-constexpr double kDrag = 8;                 // [1/s] against space: fat, fluid and neighbours that are not modelled
+constexpr double kDrag = 1;                 // [1/s] against space, as solids: more would be honey
 
 constexpr int kMostFoldNodes = 20'000;
 

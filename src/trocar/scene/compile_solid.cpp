@@ -56,6 +56,14 @@ tissue::Skin embedded_skin(const geometry::TriMesh& mesh, const geometry::Lattic
   return skin;
 }
 
+/// Cells at the border weigh at least min_fill, some slivers were left away: the body as a whole weighs what its shape
+/// does.
+void weigh(tissue::NetworkDescription& network, double mass) {
+  double sum = 0;
+  for (const double m : network.mass) sum += m;
+  for (double& m : network.mass) m *= mass / sum;
+}
+
 }  // namespace
 
 void compile_solid(const Solid& solid, const Tissue& tissue, Vec3d gravity, sim::Model& model,
@@ -75,6 +83,7 @@ void compile_solid(const Solid& solid, const Tissue& tissue, Vec3d gravity, sim:
   material.cap = tissue.strain_cap;
   material.min_fill = 0.15;
   tissue::LatticeNetwork net = tissue::lattice_network(lattice.nodes, lattice.cells, lattice.cell_fill, material);
+  weigh(net.network, tissue.density * geometry::volume(fine));
   net.network.gravity = gravity;
   net.network.global_damping = 1.0;
   material.damping_time = damping_time(net.network, tissue.damping_ms * 1e-3);
