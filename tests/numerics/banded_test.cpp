@@ -31,7 +31,7 @@ double entry(const std::vector<double>& a, int half, int i, int j) {
 TEST(Banded, SolutionSatisfiesTheSystemForAnyBandwidthAndColumns) {
   trocar::core::Random random(1);
   for (int n : {1, 2, 5, 40})
-    for (int half : {0, 1, 2, 6, 11})
+    for (int half : {0, 1, 2, 6, 8, 11})
       for (int columns : {1, 3}) {
         const auto a = random_band(n, half, random);
         std::vector<double> b(n * columns), x, factor = a;
@@ -48,6 +48,24 @@ TEST(Banded, SolutionSatisfiesTheSystemForAnyBandwidthAndColumns) {
       }
 }
 
+TEST(Banded, ForwardHalfGivesTheQuadraticFormOfTheInverse) {
+  trocar::core::Random random(3);
+  for (int half : {3, 8}) {
+    const int n = 30, first = 11;
+    auto a = random_band(n, half, random);
+    std::vector<double> b(n, 0.0);
+    for (int i = first; i < n; ++i) b[i] = random.uniform(-1, 1);
+    ASSERT_EQ(band_factor(n, half, a.data()), -1);
+    std::vector<double> x = b, y = b;
+    band_solve(n, half, a.data(), x.data());
+    band_forward(n, half, a.data(), y.data(), 1, first);
+    double expected = 0, form = 0;
+    for (int i = 0; i < n; ++i) expected += b[i] * x[i];
+    for (int i = first; i < n; ++i) form += y[i] * y[i] / a[band_at(half, i, i)];
+    EXPECT_NEAR(form, expected, 1e-13);
+  }
+}
+
 TEST(Banded, ReportsTheFirstPivotThatIsNotPositive) {
   trocar::core::Random random(2);
   auto a = random_band(10, 2, random);
@@ -56,7 +74,7 @@ TEST(Banded, ReportsTheFirstPivotThatIsNotPositive) {
   a = random_band(10, 2, random);
   a[band_at(2, 3, 2)] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(band_factor(10, 2, a.data()), 3);
-  std::vector<double> singular{0, 1, -1, 1};  // [[1,-1],[-1,1]]
+  std::vector<double> singular{1, -1, 1, 0};  // [[1,-1],[-1,1]]
   EXPECT_EQ(band_factor(2, 1, singular.data()), 1);
 }
 

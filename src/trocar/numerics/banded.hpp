@@ -13,11 +13,12 @@
 
 namespace trocar::numerics {
 
-/// Doubles that n rows take. Row i holds the entries (i, i - half) .. (i, i); those left of column 0 are never read.
+/// Doubles that n rows take. Column j holds the entries (j, j) .. (j + half, j); those below row n - 1 are never read.
 constexpr std::size_t band_size(int n, int half) { return std::size_t(n) * std::size_t(half + 1); }
-/// Where the entry (row, column) lies, row - half <= column <= row.
+/// Where the entry (row, column) lies, row - half <= column <= row. Columns lie whole, because that is how factoring
+/// and solving go through them: whole columns at a time, in registers as wide as there are.
 constexpr std::size_t band_at(int half, int row, int column) {
-  return std::size_t(row) * std::size_t(half + 1) + std::size_t(column - row + half);
+  return std::size_t(column) * std::size_t(half + 1) + std::size_t(row - column);
 }
 
 /// Replaces the lower half of A by L (unit diagonal, not stored) and D (in the diagonal's place).
@@ -28,5 +29,9 @@ int band_factor(int n, int half, double* a) noexcept;
 /// x becomes the solution of A x = b, given b in x and the factor from above. x is n rows of `columns` numbers
 /// (right hand sides side by side, as the three coordinates of a node are).
 void band_solve(int n, int half, const double* factor, double* x, int columns = 1) noexcept;
+
+/// The first half of that: x becomes y of L y = b. The rows before `first` are zero and not looked at. With all y
+/// known, b^T A^-1 b is the sum of y_i^2 / d_i, which takes no second half.
+void band_forward(int n, int half, const double* factor, double* x, int columns = 1, int first = 0) noexcept;
 
 }  // namespace trocar::numerics

@@ -3,6 +3,7 @@
 //   (M (1 + dt gamma) + dt C + dt^2 K) v' = M v + dt (f(x) + f_ext),   x' = x + dt v'
 //
 // which is backward Euler for the equation of motion [KCM99 eq.1] with the forces linearised about x.
+#include <algorithm>
 #include <cmath>
 
 #include <trocar/tissue/strand.hpp>
@@ -199,40 +200,64 @@ Reach reach_of(const StrandModel& m, int node) {
   const int rows = 3 * m.nodes, low = 3 * node - kStrandBand, high = 3 * node + 2 + kStrandBand;
   return {low > 0 ? low : 0, high < rows ? high : rows - 1};
 }
+/// Entry (3 node + axis, j) of the matrix as it was before nodes were prescribed, for the k-th of them; j within its
+/// reach.
+double& saved_entry(StrandWork& w, int k, int axis, const Reach& reach, int j) {
+  return w.saved[std::size_t((3 * k + axis) * kStrandReach + j - reach.first)];
+}
 
-/// The row of the untouched system at a prescribed node says what impulse its holder gave; eliminating all free nodes
-/// says how that changes as the holder moves. All prescribed nodes are eliminated for in one go, three columns each.
-void report_ends(const StrandModel& m, std::span<StrandReaction> reactions, StrandWork& w) {
-  const int held = int(m.prescribed_nodes.size());
-  if (reactions.empty() || held == 0) return;
-  const int rows = 3 * m.nodes, wide = 3 * held;
-  const double dt = m.tick;
-  for (double& c : w.columns) c = 0;
-  for (int k = 0; k < held; ++k) {
-    const int p = m.prescribed_nodes[k];
-    const Reach reach = reach_of(m, p);
-    for (int j = reach.first; j <= reach.last; ++j)
-      for (int axis = 0; axis < 3; ++axis)
-        if (!m.prescribed[j / 3]) w.columns[j * wide + 3 * k + axis] = band_entry(w.saved, j, 3 * p + axis);
-  }
-  numerics::band_solve(rows, kStrandBand, w.matrix.data(), w.columns.data(), wide);
-  for (int k = 0; k < held; ++k) {
+void save_prescribed(const StrandModel& m, StrandWork& w) {
+  for (int k = 0; k < int(m.prescribed_nodes.size()); ++k) {
     const int p = m.prescribed_nodes[k];
     const Reach reach = reach_of(m, p);
     for (int axis = 0; axis < 3; ++axis) {
-      const int r = 3 * p + axis;
-      double hold = -w.force[r], s[3];
-      for (int other = 0; other < 3; ++other) s[other] = band_entry(w.saved, r, 3 * p + other);
-      for (int j = reach.first; j <= reach.last; ++j) {
-        const double entry = band_entry(w.saved, r, j);
-        hold += entry * w.rhs[j];
-        if (m.prescribed[j / 3]) continue;
-        for (int other = 0; other < 3; ++other) s[other] -= entry * w.columns[j * wide + 3 * k + other];
-      }
-      reactions[k].force[axis] = -hold / dt;
-      for (int other = 0; other < 3; ++other) reactions[k].tangent.m[axis][other] = s[other] / (dt * dt);
+      for (int j = reach.first; j <= reach.last; ++j)
+        saved_entry(w, k, axis, reach, j) = band_entry(w.matrix, 3 * p + axis, j);
+      w.force[3 * k + axis] = w.rhs[3 * p + axis];
     }
   }
+}
+
+/// The row of the untouched system at a prescribed node says what impulse its holder gave.
+Vec3d force_on_holder(const StrandModel& m, int k, StrandWork& w) {
+  const Reach reach = reach_of(m, m.prescribed_nodes[k]);
+  Vec3d force;
+  for (int axis = 0; axis < 3; ++axis) {
+    double hold = -w.force[3 * k + axis];
+    for (int j = reach.first; j <= reach.last; ++j) hold += saved_entry(w, k, axis, reach, j) * w.rhs[j];
+    force[axis] = -hold / m.tick;
+  }
+  return force;
+}
+
+/// How that changes as the holder moves: what is left of the node's own block when all free nodes are eliminated,
+/// K_pp - K_pf K_ff^-1 K_fp. With L D L^T = K_ff only L y = K_fp has to be solved, from the first row where K_fp is.
+Mat3d tangent_at_holder(const StrandModel& m, int k, StrandWork& w) {
+  const int p = m.prescribed_nodes[k], rows = 3 * m.nodes;
+  const Reach reach = reach_of(m, p);
+  std::fill(w.columns.begin() + 3 * reach.first, w.columns.end(), 0.0);
+  for (int axis = 0; axis < 3; ++axis)
+    for (int j = reach.first; j <= reach.last; ++j)
+      if (!m.prescribed[j / 3]) w.columns[3 * j + axis] = saved_entry(w, k, axis, reach, j);
+  numerics::band_forward(rows, kStrandBand, w.matrix.data(), w.columns.data(), 3, reach.first);
+  Sym3 gone;
+  for (int j = reach.first; j < rows; ++j) {
+    const double* const y = w.columns.data() + 3 * j;
+    gone = gone + along(1 / w.matrix[numerics::band_at(kStrandBand, j, j)], {y[0], y[1], y[2]});
+  }
+  const double eliminated[3][3] = {
+      {gone.xx, gone.xy, gone.xz}, {gone.xy, gone.yy, gone.yz}, {gone.xz, gone.yz, gone.zz}};
+  Mat3d tangent;
+  for (int axis = 0; axis < 3; ++axis)
+    for (int other = 0; other < 3; ++other)
+      tangent.m[axis][other] =
+          (saved_entry(w, k, axis, reach, 3 * p + other) - eliminated[axis][other]) / (m.tick * m.tick);
+  return tangent;
+}
+
+void report_ends(const StrandModel& m, std::span<StrandReaction> reactions, StrandWork& w) {
+  const int held = reactions.empty() ? 0 : int(m.prescribed_nodes.size());
+  for (int k = 0; k < held; ++k) reactions[k] = {force_on_holder(m, k, w), tangent_at_holder(m, k, w)};
 }
 
 }  // namespace
@@ -250,8 +275,7 @@ StepReport advance(const StrandModel& m, std::span<const StrandEnd> ends, std::s
   add_foundation(m, s, w);
   StepReport report = add_loads(m, loads, s, w);
 
-  for (std::size_t i = 0; i < w.matrix.size(); ++i) w.saved[i] = w.matrix[i];
-  for (int i = 0; i < rows; ++i) w.force[i] = w.rhs[i];
+  save_prescribed(m, w);
   for (std::size_t k = 0; k < m.prescribed_nodes.size(); ++k) {
     const int p = m.prescribed_nodes[k];
     prescribe(w.matrix, w.rhs, m.nodes, p, ends.empty() ? Vec3d{} : (ends[k].x - s.x[p]) / dt);

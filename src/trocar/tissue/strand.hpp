@@ -82,10 +82,10 @@ struct StrandState {
 
 struct StrandWork {
   std::vector<double> matrix;   ///< (3n x 9) band, lower; then its factor
-  std::vector<double> saved;    ///< (3n x 9) the matrix before nodes were prescribed
+  std::vector<double> saved;    ///< (prescribed nodes x 3 x 19) their rows of the matrix before they were prescribed
   std::vector<double> rhs;      ///< (3n) right side, then the new velocities
-  std::vector<double> force;    ///< (3n) the right side before nodes were prescribed [N s]
-  std::vector<double> columns;  ///< (3n x 3 per prescribed node) for the tangents there
+  std::vector<double> force;    ///< (3 per prescribed node) their right side before they were prescribed [N s]
+  std::vector<double> columns;  ///< (3n x 3) for the tangent at one of them
   std::vector<Vec3d> bend_now;  ///< (n) R_i b_i
 };
 

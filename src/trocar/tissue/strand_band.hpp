@@ -11,6 +11,7 @@
 namespace trocar::tissue {
 
 inline constexpr int kStrandBand = 8;  ///< diagonals below the main one: three nodes of three coordinates couple
+inline constexpr int kStrandReach = 2 * kStrandBand + 3;  ///< columns that the rows of one node touch
 inline constexpr double kBendStencil[3] = {1, -2, 1};
 
 /// Symmetric 3x3.
@@ -56,12 +57,13 @@ inline Vec3d carried(Vec3d a, Vec3d b, Vec3d director) {
 
 inline void add_term(std::vector<double>& a, int first, const double* c, int count, const Sym3& s) {
   const double block[3][3] = {{s.xx, s.xy, s.xz}, {s.xy, s.yy, s.yz}, {s.xz, s.yz, s.zz}};
-  for (int p = 0; p < count; ++p) {
-    for (int i = 0; i < 3; ++i) {
-      double* const row = a.data() + numerics::band_at(kStrandBand, 3 * (first + p) + i, 3 * first);
-      for (int q = 0; q < p; ++q)
-        for (int j = 0; j < 3; ++j) row[3 * q + j] += c[p] * c[q] * block[i][j];
-      for (int j = 0; j <= i; ++j) row[3 * p + j] += c[p] * c[p] * block[i][j];
+  for (int q = 0; q < count; ++q) {
+    for (int j = 0; j < 3; ++j) {
+      const int diagonal = 3 * (first + q) + j;
+      double* const column = a.data() + numerics::band_at(kStrandBand, diagonal, diagonal);
+      for (int i = j; i < 3; ++i) column[i - j] += c[q] * c[q] * block[i][j];
+      for (int p = q + 1; p < count; ++p)
+        for (int i = 0; i < 3; ++i) column[3 * (p - q) + i - j] += c[p] * c[q] * block[i][j];
     }
   }
 }

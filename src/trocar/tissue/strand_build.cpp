@@ -161,11 +161,11 @@ StrandWork make_work(const StrandModel& m) {
   const int rows = 3 * m.nodes;
   StrandWork w;
   w.matrix.resize(numerics::band_size(rows, kStrandBand));
-  w.saved.resize(w.matrix.size());
+  w.saved.resize(3 * kStrandReach * m.prescribed_nodes.size());
   w.rhs.resize(rows);
-  w.force.resize(rows);
+  w.force.resize(3 * m.prescribed_nodes.size());
   w.bend_now.resize(m.nodes);
-  w.columns.resize(std::size_t(rows) * 3 * m.prescribed_nodes.size());
+  w.columns.resize(m.prescribed_nodes.empty() ? 0 : std::size_t(rows) * 3);
   return w;
 }
 
