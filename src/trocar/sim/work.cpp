@@ -50,12 +50,18 @@ void scribble(tissue::CuttableWork& c) noexcept {
   scribble(c.part);
   scribble(c.open_tets);
   scribble(c.below);
+  scribble(c.loaded);
 }
 
 void scribble(tissue::NetworkWork& n) noexcept {
   scribble(n.other);
+  for (tissue::ForceWork& f : n.forces) {
+    scribble(f.forces);
+    scribble(f.sums);
+  }
   scribble(n.open_tets);
   scribble(n.below);
+  scribble(n.loaded);
 }
 
 }  // namespace

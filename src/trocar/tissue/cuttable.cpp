@@ -113,6 +113,7 @@ class Assembler {
       for (std::size_t i = 0; i < 4; ++i) cell.row[i] = m.row_of_node[std::size_t(b.cells[t][i])];
       put_cell(cell, kCollapsed * six, int(t) % kSlice, w.guarded_packs[t / kSlice]);
     }
+    if (m.impulses > 0) note_volumes(w.guarded, w.volume);
     for (int i = 0; i < b.nodes; ++i) w.part[std::size_t(i)] = i;
     for (const Tet& c : b.cells)
       for (std::size_t i = 1; i < 4; ++i) join(c[0], c[i]);
@@ -346,20 +347,23 @@ StepReport advance(const CuttableModel& m, std::span<const NodeLoad> loads, std:
   make_current(m, s, w);
   const LoadedBody body{s.tets.nodes, m.dt, m.gamma, m.substeps, m.origin, w.mass, w.fixed, m.row_of_node};
   StepReport report = check_loads(body, loads);
-  for (Vec3f& r : reactions) r = {};
+  ImplicitLoads pull(body, loads, w.loaded);
   const GuardedBody guarded = guarded_of(m, s, w);
   Guard guard(guarded, {s.tet_phase, s.open_tets, s.tick}, {w.open_tets, w.below}, s.nodes);
   if (guard.at_work()) report.flags |= StepReport::kInverted;
   KernelArgs args = kernel_args(m, w);
   bool fine = true;
   for (int i = 0; i < m.substeps; ++i) {
+    if (m.impulses > 0 && i % (m.substeps / m.impulses) == 0)
+      push_volumes(w.guarded, {}, m.kappa, m.tick / m.impulses, w.row_packs, m.dt, s.nodes, w.volume);
     args.in = s.nodes.data();
     args.out = w.other.data();
     fine = kernels().substep(args, 0, w.slices) && fine;
     guard.mend(args.in, args.out);
-    fine = apply_loads(body, loads, reactions, args.in, args.out) && fine;
+    fine = pull.apply(args.in, args.out) && fine;
     std::swap(s.nodes, w.other);
   }
+  pull.report(reactions);
   guard.release(s.nodes);
   ++s.tick;
   std::fill(s.nodes.begin() + std::ptrdiff_t(w.slices) * kSlice, s.nodes.end(), NodeState{});  // not used yet
@@ -432,7 +436,7 @@ void add_to_hash(core::Hasher& h, const CuttableModel& m) noexcept {
   }
   for (const int i : {m.own_nodes, m.own_rows, m.rows, m.packs, m.widest, m.substeps}) h.add(i);
   for (const Vec3d v : {m.origin, m.gravity}) h.add(v);
-  for (const double d : {m.density, m.damping_time, m.gamma, m.tick, m.dt}) h.add(d);
+  for (const double d : {m.density, m.damping_time, m.gamma, m.tick, m.dt, m.kappa, double(m.impulses)}) h.add(d);
   for (const float f : {m.p1, m.p2, m.cap, m.cap_slope, m.opening}) h.add(f);
 }
 

@@ -1,4 +1,5 @@
 // One tick of the network: sub-steps of the chosen kernel, collapsed cells mended, loads taken implicitly.
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -41,23 +42,31 @@ KernelArgs kernel_args(const NetworkModel& m, const NetworkState& s) {
   a.decay = m.decay;
   for (int i = 0; i < 3; ++i) a.gravity_step[i] = m.gravity_step[i];
   a.dt = float(m.dt);
+  a.arrivals = m.arrivals.data();
+  a.arrival_begin = m.arrival_begin.data();
+  a.slices = m.rows / kSlice;
+  a.lag = m.lag, a.ring = m.ring;
   return a;
 }
 
 constexpr int kSlicesPerThread = 24;  // below this a thread's wake-up costs more than it saves
 
-bool run_substep(const KernelArgs& a, int slices, core::ThreadPool* pool) {
-  const int parts = pool ? pool->threads() : 1;
-  if (parts < 2 || slices < parts * kSlicesPerThread) return kernels().substep(a, 0, slices);
+bool run_part(KernelArgs a, ForceWork& w, int first, int last) {
+  a.forces = w.forces.data();
+  a.sums = w.sums.data();
+  return kernels().substep(a, first, last);
+}
+
+bool run_substep(const KernelArgs& a, std::vector<ForceWork>& w, core::ThreadPool* pool) {
   constexpr int kMost = 64;
-  const int n = parts < kMost ? parts : kMost;
+  const int threads = pool ? std::min({pool->threads(), int(w.size()), kMost}) : 1;
+  if (threads < 2 || a.slices < threads * kSlicesPerThread) return run_part(a, w[0], 0, a.slices);
   bool fine[kMost];
-  core::run(*pool, n, [&](int i) noexcept {
-    fine[i] = kernels().substep(a, int(std::int64_t(slices) * i / n), int(std::int64_t(slices) * (i + 1) / n));
+  core::run(*pool, threads, [&](int i) noexcept {
+    const auto border = [&](int part) { return int(std::int64_t(a.slices) * part / threads); };
+    fine[i] = run_part(a, w[std::size_t(i)], border(i), border(i + 1));
   });
-  bool all = true;
-  for (int i = 0; i < n; ++i) all = all && fine[i];
-  return all;
+  return std::all_of(fine, fine + threads, [](bool b) { return b; });
 }
 
 int first_non_finite(const NetworkModel& m, const NetworkState& s) {
@@ -76,7 +85,7 @@ StepReport advance(const NetworkModel& m, std::span<const NodeLoad> loads, std::
                    NetworkWork& w, core::ThreadPool* pool) noexcept {
   const LoadedBody body = loaded(m);
   StepReport report = check_loads(body, loads);
-  for (Vec3f& r : reactions) r = {};
+  ImplicitLoads pull(body, loads, w.loaded);
   const GuardedBody guarded = guarded_of(m);
   Guard guard(guarded, {s.tet_phase, s.open_tets, s.tick}, {w.open_tets, w.below}, s.nodes);
   if (guard.at_work()) report.flags |= StepReport::kInverted;
@@ -85,11 +94,12 @@ StepReport advance(const NetworkModel& m, std::span<const NodeLoad> loads, std::
   for (int i = 0; i < m.substeps; ++i) {
     args.in = s.nodes.data();
     args.out = w.other.data();
-    fine = run_substep(args, m.rows / kSlice, pool) && fine;
+    fine = run_substep(args, w.forces, pool) && fine;
     guard.mend(args.in, args.out);
-    fine = apply_loads(body, loads, reactions, args.in, args.out) && fine;
+    fine = pull.apply(args.in, args.out) && fine;
     std::swap(s.nodes, w.other);
   }
+  pull.report(reactions);
   guard.release(s.nodes);
   ++s.tick;
   if (!fine) report = StepReport{StepReport::kNonFinite, first_non_finite(m, s)} | report;

@@ -10,8 +10,10 @@
 // are taken implicitly, so that any stiffness is stable; a cell that collapses is driven back to its drawn shape,
 // turned as the body is, because its mirror image would satisfy all springs.
 //
-// Every spring is evaluated from both its ends, by whichever node gathers it: no scatter, no colouring, and the same
-// bits for any number of threads and any SIMD width. Nodes are stored as rows in reverse Cuthill-McKee order.
+// Every spring is evaluated once, by one of its ends, which leaves the force for the other end to pick up: no scatter,
+// no colouring, and the same bits for any number of threads and any SIMD width. Each node evaluates half of its
+// springs, so that slices of rows pad little. Nodes are stored as rows in reverse Cuthill-McKee order: a force is
+// picked up soon, while it is in the cache.
 //
 //   NetworkModel model = build(description, 1e-3);
 //   NetworkState state = rest_state(model);
@@ -31,6 +33,7 @@
 #include <trocar/core/parallel.hpp>
 #include <trocar/numerics/vec3.hpp>
 #include <trocar/tissue/guard.hpp>
+#include <trocar/tissue/loaded_node.hpp>
 #include <trocar/tissue/node_view.hpp>
 #include <trocar/tissue/report.hpp>
 
@@ -65,11 +68,14 @@ struct NetworkModel {
   int nodes = 0;  ///< as described
   int rows = 0;   ///< nodes rounded up to whole slices
   int springs = 0;
-  Vec3d origin{0, 0, 0};         ///< State positions are relative to this point [m]
-  std::vector<int> row_of_node;  ///< (nodes)
-  std::vector<int> node_of_row;  ///< (rows), -1 = padding
-  std::vector<int> slice_begin;  ///< (slices + 1) first pack of each slice
-  std::vector<HalfEdgePack> packs;
+  Vec3d origin{0, 0, 0};                         ///< State positions are relative to this point [m]
+  std::vector<int> row_of_node;                  ///< (nodes)
+  std::vector<int> node_of_row;                  ///< (rows), -1 = padding
+  std::vector<int> slice_begin;                  ///< (slices + 1) first pack of each slice
+  std::vector<HalfEdgePack> packs;               ///< every spring once, at the row that evaluates it
+  std::vector<int> arrival_begin;                ///< (slices + 1) first pack of each slice
+  std::vector<ArrivalPack> arrivals;             ///< every spring once, at its other end
+  int lag = 0, ring = 1;                         ///< as in KernelArgs
   std::vector<LawPack> law_packs;                ///< empty where one law serves the body
   float p1 = 0, p2 = 0, cap = 1, cap_slope = 1;  ///< that law
   std::vector<RowPack> row_packs;                ///< (slices)
@@ -78,7 +84,7 @@ struct NetworkModel {
   std::vector<std::uint8_t> fixed;               ///< (nodes) Held bits
   std::vector<int> spring_nodes;                 ///< (2 springs) a, b
   std::vector<float> spring_rest;                ///< (springs) l [m]
-  std::vector<int> half_edge;                    ///< (2 springs) places in NetworkState::scale
+  std::vector<int> place;                        ///< (springs) in packs, and in NetworkState::scale
   std::vector<TetRest> tets;                     ///< as described
   std::vector<TetPack> tet_packs;                ///< the same, for the search for collapsed ones
   std::vector<int> tet_begin;                    ///< (nodes + 1) into tet_of_node
@@ -97,16 +103,24 @@ struct NetworkModel {
 
 struct NetworkState {
   std::vector<NodeState> nodes;         ///< (rows)
-  std::vector<float> scale;             ///< per half-edge place: 1 whole, 0 cut
+  std::vector<float> scale;             ///< per place: 1 whole, 0 cut
   std::vector<std::uint8_t> tet_phase;  ///< (tets) as GuardState::phase
   std::uint32_t version = 0;            ///< counts cuts and changes of scale; 0 = untouched
   std::uint32_t open_tets = 0;          ///< cells being pushed open
   std::uint32_t tick = 0;               ///< ticks made
 };
 
+/// Forces on their way from one end of a spring to the other, for one thread.
+struct ForceWork {
+  std::vector<ForcePack> forces;  ///< (1 + ring)
+  std::vector<ForceSum> sums;     ///< (lag + 1)
+};
+
 /// Scratch: its contents between ticks do not matter.
 struct NetworkWork {
   std::vector<NodeState> other;      ///< (rows) the ping-pong partner
+  std::vector<ForceWork> forces;     ///< (threads)
+  std::vector<LoadedNode> loaded;    ///< (nodes)
   std::vector<int> open_tets;        ///< capacity: tets
   std::vector<std::uint16_t> below;  ///< (tet packs)
 };
@@ -127,7 +141,8 @@ struct NodeLoad {
 NetworkModel build(const NetworkDescription& description, double tick);
 
 NetworkState rest_state(const NetworkModel& model);
-NetworkWork make_work(const NetworkModel& model);
+/// @param threads  the most that advance() will use
+NetworkWork make_work(const NetworkModel& model, int threads = 1);
 
 /// One tick. Loads must be sorted by node (otherwise kBadLoad). `reactions` (as long as loads, or empty) receives the
 /// force each load exerted on its node, averaged over the tick [N]; what holds the tissue feels the opposite.

@@ -113,12 +113,39 @@ std::vector<int> cuthill_mckee(const Adjacency& a, int n) {
   return order;
 }
 
-void order_rows(NetworkModel& m, const Adjacency& a) {
+/// Which end evaluates each spring, so that every node has half of its springs, give or take one: springs are walked
+/// until none is left, each node being left as often as it is come to, but for where a walk begins and ends. Walks that
+/// must end elsewhere than they began go first.
+struct Sources {
+  std::vector<int> source;   // (springs) node
+  std::vector<int> out, in;  // (nodes) springs evaluated here, and there
+};
+Sources sources_of(const NetworkDescription& d, const Adjacency& a) {
+  const int n = int(d.positions.size());
+  Sources s{std::vector<int>(d.springs.size(), -1), std::vector<int>(n), std::vector<int>(n)};
+  std::vector<int> next(a.begin.begin(), a.begin.end() - 1);
+  const auto walk_from = [&](int node) {
+    for (;;) {
+      while (next[node] < a.begin[node + 1] && s.source[a.spring[next[node]]] >= 0) ++next[node];
+      if (next[node] == a.begin[node + 1]) return;
+      s.source[a.spring[next[node]]] = node;
+      ++s.out[node];
+      node = a.other[next[node]];
+      ++s.in[node];
+    }
+  };
+  for (int i = 0; i < n; ++i)
+    if ((a.degree(i) - s.out[i] - s.in[i]) % 2 != 0) walk_from(i);
+  for (int i = 0; i < n; ++i) walk_from(i);
+  return s;
+}
+
+void order_rows(NetworkModel& m, const Adjacency& a, const Sources& s) {
   m.rows = (m.nodes + kSlice - 1) / kSlice * kSlice;
   m.node_of_row = cuthill_mckee(a, m.nodes);
   for (int w = 0; w < m.nodes; w += kWindow) {
     std::stable_sort(m.node_of_row.begin() + w, m.node_of_row.begin() + std::min(w + kWindow, m.nodes),
-                     [&](int p, int q) { return a.degree(p) > a.degree(q); });
+                     [&](int p, int q) { return s.out[p] != s.out[q] ? s.out[p] > s.out[q] : s.in[p] > s.in[q]; });
   }
   m.node_of_row.resize(m.rows, -1);
   m.row_of_node.resize(m.nodes);
@@ -132,57 +159,96 @@ bool one_law(const NetworkDescription& d) {
   });
 }
 
-void fill_packs(NetworkModel& m, const NetworkDescription& d, const Adjacency& a) {
-  const int slices = m.rows / kSlice;
+void fill_place(NetworkModel& m, const SpringDescription& e, int other, int place) {
+  const int lane = place % kSlice;
+  HalfEdgePack& p = m.packs[place / kSlice];
+  p.offset[lane] = std::uint32_t(m.row_of_node[other]) * std::uint32_t(sizeof(NodeState));
+  p.inv_rest[lane] = float(1 / e.rest_length);
+  p.stiffness[lane] = float(e.k * e.rest_length);
+  p.damping[lane] = float(e.damping);
+  if (m.law_packs.empty()) return;
+  LawPack& l = m.law_packs[place / kSlice];
+  l.p1[lane] = float(e.p1), l.p2[lane] = float(e.p2), l.cap[lane] = float(e.cap);
+  l.cap_slope[lane] = float(SpringLaw{e.p1, e.p2, e.cap}.cap_slope());
+}
+
+/// Columns of a slice's rows that hold no spring.
+void pad(NetworkModel& m, int slice, int first, bool one_law) {
+  for (int c = first; c < int(m.packs.size()); ++c) {
+    m.packs[c] = {};
+    for (int lane = 0; lane < kSlice; ++lane)
+      m.packs[c].offset[lane] = std::uint32_t(slice * kSlice + lane) * std::uint32_t(sizeof(NodeState));
+  }
+  for (int c = first; c < int(m.packs.size()) && !one_law; ++c)
+    for (int lane = 0; lane < kSlice; ++lane) m.law_packs[c].cap[lane] = m.law_packs[c].cap_slope[lane] = 1;
+}
+
+/// The springs at a node of which it is the source, or is not, as (row of the other end, spring), ascending.
+std::vector<std::pair<int, int>> springs_at(const NetworkModel& m, const Adjacency& a, const Sources& s, int node,
+                                            bool source) {
+  std::vector<std::pair<int, int>> near;
+  for (int h = a.begin[node]; node >= 0 && h < a.begin[node + 1]; ++h)
+    if ((s.source[a.spring[h]] == node) == source) near.emplace_back(m.row_of_node[a.other[h]], a.spring[h]);
+  std::sort(near.begin(), near.end());
+  return near;
+}
+
+void fill_packs(NetworkModel& m, const NetworkDescription& d, const Adjacency& a, const Sources& sources) {
   const bool single = one_law(d);
   if (!d.springs.empty()) {
     const auto& e = d.springs.front();
     m.p1 = float(e.p1), m.p2 = float(e.p2), m.cap = float(e.cap);
     m.cap_slope = float(SpringLaw{e.p1, e.p2, e.cap}.cap_slope());
   }
-  m.half_edge.assign(2 * d.springs.size(), -1);
+  m.place.assign(d.springs.size(), -1);
   m.slice_begin.assign(1, 0);
-  std::vector<std::pair<int, int>> near;  // (row of the other end, spring)
-  for (int s = 0; s < slices; ++s) {
+  for (int s = 0; s < m.rows / kSlice; ++s) {
     int width = 0;
     for (int lane = 0; lane < kSlice; ++lane) {
       const int node = m.node_of_row[s * kSlice + lane];
-      if (node >= 0) width = std::max(width, a.degree(node));
+      if (node >= 0) width = std::max(width, sources.out[node]);
     }
     const int first = int(m.packs.size());
     m.packs.resize(first + width);
     if (!single) m.law_packs.resize(first + width);
+    pad(m, s, first, single);
     for (int lane = 0; lane < kSlice; ++lane) {
-      const int row = s * kSlice + lane, node = m.node_of_row[row];
-      for (int c = 0; c < width; ++c) {
-        HalfEdgePack& p = m.packs[first + c];
-        p.offset[lane] = std::uint32_t(row) * std::uint32_t(sizeof(NodeState));
-        p.inv_rest[lane] = p.stiffness[lane] = p.damping[lane] = 0;
-        if (single) continue;
-        LawPack& l = m.law_packs[first + c];
-        l.p1[lane] = l.p2[lane] = 0, l.cap[lane] = l.cap_slope[lane] = 1;
-      }
-      if (node < 0) continue;
-      near.clear();
-      for (int h = a.begin[node]; h < a.begin[node + 1]; ++h) near.emplace_back(m.row_of_node[a.other[h]], a.spring[h]);
-      std::sort(near.begin(), near.end());
-      for (int c = 0; c < int(near.size()); ++c) {
-        const int spring = near[c].second;
-        const SpringDescription& e = d.springs[spring];
-        HalfEdgePack& p = m.packs[first + c];
-        p.offset[lane] = std::uint32_t(near[c].first) * std::uint32_t(sizeof(NodeState));
-        p.inv_rest[lane] = float(1 / e.rest_length);
-        p.stiffness[lane] = float(e.k * e.rest_length);
-        p.damping[lane] = float(e.damping);
-        if (!single) {
-          LawPack& l = m.law_packs[first + c];
-          l.p1[lane] = float(e.p1), l.p2[lane] = float(e.p2), l.cap[lane] = float(e.cap);
-          l.cap_slope[lane] = float(SpringLaw{e.p1, e.p2, e.cap}.cap_slope());
-        }
-        m.half_edge[2 * spring + (e.a == node ? 0 : 1)] = (first + c) * kSlice + lane;
+      int place = first * kSlice + lane;
+      for (const auto& [row, spring] : springs_at(m, a, sources, m.node_of_row[s * kSlice + lane], true)) {
+        fill_place(m, d.springs[spring], m.node_of_row[row], place);
+        m.place[spring] = place;
+        place += kSlice;
       }
     }
     m.slice_begin.push_back(int(m.packs.size()));
+  }
+}
+
+/// How far apart the slices of a spring's ends are at most, and how many columns may be under way then.
+void find_lag(NetworkModel& m, const NetworkDescription& d) {
+  const int slices = m.rows / kSlice;
+  for (const auto& e : d.springs)
+    m.lag = std::max(m.lag, std::abs(m.row_of_node[e.a] / kSlice - m.row_of_node[e.b] / kSlice));
+  for (int s = 0; s < slices; ++s) {
+    const int oldest = m.slice_begin[std::max(s - m.lag, 0)], newest = m.slice_begin[std::min(s + m.lag + 1, slices)];
+    m.ring = std::max(m.ring, newest - oldest);
+  }
+}
+
+void fill_arrivals(NetworkModel& m, const Adjacency& a, const Sources& sources) {
+  m.arrival_begin.assign(1, 0);
+  for (int s = 0; s < m.rows / kSlice; ++s) {
+    const std::size_t first = m.arrivals.size();
+    for (int lane = 0; lane < kSlice; ++lane) {
+      std::size_t pack = first;
+      for (const auto& [row, spring] : springs_at(m, a, sources, m.node_of_row[s * kSlice + lane], false)) {
+        if (pack == m.arrivals.size()) m.arrivals.push_back({});
+        const int column = m.place[spring] / kSlice, slot = kSlotOfLane[m.place[spring] % kSlice];
+        m.arrivals[pack++].offset[lane] =
+            std::uint32_t((1 + column % m.ring) * kSlice + slot) * std::uint32_t(sizeof(ForcePack) / kSlice);
+      }
+    }
+    m.arrival_begin.push_back(int(m.arrivals.size()));
   }
 }
 
@@ -264,8 +330,11 @@ NetworkModel build(const NetworkDescription& d, double tick) {
   m.origin = (low + high) * 0.5;
 
   const Adjacency a = adjacency_of(d);
-  order_rows(m, a);
-  fill_packs(m, d, a);
+  const Sources sources = sources_of(d, a);
+  order_rows(m, a, sources);
+  fill_packs(m, d, a, sources);
+  find_lag(m, d);
+  fill_arrivals(m, a, sources);
   for (const auto& e : d.springs) {
     m.spring_nodes.push_back(e.a);
     m.spring_nodes.push_back(e.b);
@@ -301,10 +370,16 @@ NetworkState rest_state(const NetworkModel& m) {
   return s;
 }
 
-NetworkWork make_work(const NetworkModel& m) {
+NetworkWork make_work(const NetworkModel& m, int threads) {
   simd_name();  // chosen now, so that the first tick need not read the environment
   NetworkWork w;
+  w.forces.resize(std::size_t(std::max(threads, 1)));
+  for (ForceWork& f : w.forces) {
+    f.forces.resize(std::size_t(1 + m.ring));
+    f.sums.resize(std::size_t(1 + m.lag));
+  }
   w.other.resize(m.rows);
+  w.loaded.resize(m.nodes);
   w.open_tets.resize(m.tets.size());
   w.below.resize(m.tet_packs.size());
   return w;

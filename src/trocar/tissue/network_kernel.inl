@@ -26,9 +26,14 @@ typedef std::int32_t I __attribute__((vector_size(W * 4)));
 struct Lanes {
   V x, y, z, vx, vy, vz;
 };
+struct Force {
+  V x, y, z;
+};
 
 #define TROCAR_INLINE static inline __attribute__((always_inline))
 
+TROCAR_INLINE Force operator+(const Force& a, const Force& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+TROCAR_INLINE Force operator-(const Force& a, const Force& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 TROCAR_INLINE V all(float a) { return V{} + a; }
 TROCAR_INLINE V load(const float* p) {
   V a;
@@ -81,6 +86,34 @@ TROCAR_INLINE Lanes load_nodes(const NodeState* n, const std::uint32_t* o) {
           (V)_mm512_shuffle_f32x4(ya, yb, 0xdd), (V)_mm512_shuffle_f32x4(za, zb, 0xdd)};
 }
 
+TROCAR_INLINE __m512 force_quad(const char* f, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+  const auto at = [f](std::uint32_t o) { return _mm_load_ps(reinterpret_cast<const float*>(f + o)); };
+  const __m256 ab = _mm256_insertf128_ps(_mm256_castps128_ps256(at(a)), at(b), 1);
+  const __m256 cd = _mm256_insertf128_ps(_mm256_castps128_ps256(at(c)), at(d), 1);
+  return _mm512_castpd_ps(_mm512_insertf64x4(_mm512_castps_pd(_mm512_castps256_ps512(ab)), _mm256_castps_pd(cd), 1));
+}
+TROCAR_INLINE Force load_forces(const char* f, const std::uint32_t* o) {
+  __m512 x, y, z;
+  transpose4(force_quad(f, o[0], o[4], o[8], o[12]), force_quad(f, o[1], o[5], o[9], o[13]),
+             force_quad(f, o[2], o[6], o[10], o[14]), force_quad(f, o[3], o[7], o[11], o[15]), x, y, z);
+  return {(V)x, (V)y, (V)z};
+}
+TROCAR_INLINE void store_forces(float* p, const Force& f) {
+  const __m512 none = _mm512_setzero_ps();
+  const auto lower = [](__m512 a, __m512 b) {
+    return _mm512_castpd_ps(_mm512_unpacklo_pd(_mm512_castps_pd(a), _mm512_castps_pd(b)));
+  };
+  const auto upper = [](__m512 a, __m512 b) {
+    return _mm512_castpd_ps(_mm512_unpackhi_pd(_mm512_castps_pd(a), _mm512_castps_pd(b)));
+  };
+  const __m512 xy = _mm512_unpacklo_ps((__m512)f.x, (__m512)f.y), XY = _mm512_unpackhi_ps((__m512)f.x, (__m512)f.y);
+  const __m512 z0 = _mm512_unpacklo_ps((__m512)f.z, none), Z0 = _mm512_unpackhi_ps((__m512)f.z, none);
+  _mm512_store_ps(p, lower(xy, z0));
+  _mm512_store_ps(p + 16, upper(xy, z0));
+  _mm512_store_ps(p + 32, lower(XY, Z0));
+  _mm512_store_ps(p + 48, upper(XY, Z0));
+}
+
 #elif TROCAR_WIDTH == 8 && defined(__AVX__)
 
 TROCAR_INLINE V smaller(V a, V b) { return (V)_mm256_min_ps((__m256)a, (__m256)b); }
@@ -105,6 +138,29 @@ TROCAR_INLINE Lanes load_nodes(const NodeState* n, const std::uint32_t* o) {
           (V)_mm256_permute2f128_ps(ya, yb, 0x31), (V)_mm256_permute2f128_ps(za, zb, 0x31)};
 }
 
+TROCAR_INLINE Force load_forces(const char* f, const std::uint32_t* o) {
+  const auto at = [&](int i) { return _mm_load_ps(reinterpret_cast<const float*>(f + o[i])); };
+  const auto two = [&](int i) { return _mm256_insertf128_ps(_mm256_castps128_ps256(at(i)), at(i + 4), 1); };
+  __m256 x, y, z;
+  transpose4(two(0), two(1), two(2), two(3), x, y, z);
+  return {(V)x, (V)y, (V)z};
+}
+TROCAR_INLINE void store_forces(float* p, const Force& f) {
+  const __m256 none = _mm256_setzero_ps();
+  const auto lower = [](__m256 a, __m256 b) {
+    return _mm256_castpd_ps(_mm256_unpacklo_pd(_mm256_castps_pd(a), _mm256_castps_pd(b)));
+  };
+  const auto upper = [](__m256 a, __m256 b) {
+    return _mm256_castpd_ps(_mm256_unpackhi_pd(_mm256_castps_pd(a), _mm256_castps_pd(b)));
+  };
+  const __m256 xy = _mm256_unpacklo_ps((__m256)f.x, (__m256)f.y), XY = _mm256_unpackhi_ps((__m256)f.x, (__m256)f.y);
+  const __m256 z0 = _mm256_unpacklo_ps((__m256)f.z, none), Z0 = _mm256_unpackhi_ps((__m256)f.z, none);
+  _mm256_store_ps(p, lower(xy, z0));
+  _mm256_store_ps(p + 16, upper(xy, z0));
+  _mm256_store_ps(p + 32, lower(XY, Z0));
+  _mm256_store_ps(p + 48, upper(XY, Z0));
+}
+
 #elif TROCAR_WIDTH == 4 && defined(__SSE2__) && !defined(TROCAR_PORTABLE)
 
 TROCAR_INLINE V smaller(V a, V b) { return (V)_mm_min_ps((__m128)a, (__m128)b); }
@@ -126,6 +182,22 @@ TROCAR_INLINE Lanes load_nodes(const NodeState* n, const std::uint32_t* o) {
   return a;
 }
 
+TROCAR_INLINE Force load_forces(const char* f, const std::uint32_t* o) {
+  const auto at = [&](int i) { return _mm_load_ps(reinterpret_cast<const float*>(f + o[i])); };
+  Force sum;
+  transpose4(at(0), at(1), at(2), at(3), sum.x, sum.y, sum.z);
+  return sum;
+}
+TROCAR_INLINE void store_forces(float* p, const Force& f) {
+  const __m128 none = _mm_setzero_ps();
+  const __m128 xy = _mm_unpacklo_ps((__m128)f.x, (__m128)f.y), XY = _mm_unpackhi_ps((__m128)f.x, (__m128)f.y);
+  const __m128 z0 = _mm_unpacklo_ps((__m128)f.z, none), Z0 = _mm_unpackhi_ps((__m128)f.z, none);
+  _mm_store_ps(p, _mm_movelh_ps(xy, z0));
+  _mm_store_ps(p + 16, _mm_movehl_ps(z0, xy));
+  _mm_store_ps(p + 32, _mm_movelh_ps(XY, Z0));
+  _mm_store_ps(p + 48, _mm_movehl_ps(Z0, XY));
+}
+
 #else  // any other machine: the compiler's own vectors
 
 TROCAR_INLINE V pick(I mask, V a, V b) { return (V)((mask & (I)a) | (~mask & (I)b)); }
@@ -144,6 +216,18 @@ TROCAR_INLINE Lanes load_nodes(const NodeState* n, const std::uint32_t* o) {
     for (int k = 0; k < 3; ++k) c[k][i] = p[k], c[3 + k][i] = p[4 + k];
   }
   return {load(c[0]), load(c[1]), load(c[2]), load(c[3]), load(c[4]), load(c[5])};
+}
+TROCAR_INLINE Force load_forces(const char* f, const std::uint32_t* o) {
+  float c[3][W];
+  for (int i = 0; i < W; ++i)
+    for (int k = 0; k < 3; ++k) __builtin_memcpy(&c[k][i], f + o[i] + 4 * k, 4);
+  return {load(c[0]), load(c[1]), load(c[2])};
+}
+TROCAR_INLINE void store_forces(float* p, const Force& f) {
+  for (int i = 0; i < W; ++i) {
+    float* const slot = p + 4 * kSlotOfLane[i];
+    slot[0] = f.x[i], slot[1] = f.y[i], slot[2] = f.z[i], slot[3] = 0;
+  }
 }
 
 #endif
@@ -220,69 +304,158 @@ struct Law {
   V p1, p2, cap, cap_slope;
 };
 
+/// From one end of a spring to the other, and how that changes.
+struct Reach {
+  V dx, dy, dz, r, inv_r, towards;  ///< towards: dv . d, the rate at which r grows times r
+};
+TROCAR_INLINE Reach reach_of(const KernelArgs& arg, const Lanes& own, int c, int part) {
+  const Lanes far = load_nodes(arg.in, arg.packs[c].offset + part);
+  Reach a;
+  a.dx = far.x - own.x, a.dy = far.y - own.y, a.dz = far.z - own.z;
+  a.r = root(larger((a.dx * a.dx + a.dy * a.dy) + a.dz * a.dz, all(1e-24f)));
+  a.inv_r = 1.0f / a.r;
+  a.towards = ((far.vx - own.vx) * a.dx + (far.vy - own.vy) * a.dy) + (far.vz - own.vz) * a.dz;
+  return a;
+}
+
 /// Force along r per length of r [N/m]: the polynomial spring [KCM99 eq.5] in [KCM99 eq.2], and its damper.
-TROCAR_INLINE V force_per_length(V dx, V dy, V dz, V dvx, V dvy, V dvz, V inv_rest, V stiffness, V damping,
-                                 const Law& law) {
-  const V r = root(larger((dx * dx + dy * dy) + dz * dz, all(1e-24f)));
-  const V inv_r = smaller(1.0f / r, 2.0f * inv_rest);  // below half its length a spring pushes less: network.hpp
-  const V strain = r * inv_rest - 1.0f;
-  const V a = magnitude(strain);
-  const V am = smaller(a, law.cap);
-  const V shape = (am + am * am * (law.p1 + law.p2 * am)) + law.cap_slope * (a - am);
-  const V rate = ((dvx * dx + dvy * dy) + dvz * dz) * inv_r;
-  return (stiffness * with_sign(shape, strain) + damping * rate) * inv_r;
+TROCAR_INLINE V force_per_length(const Reach& a, V inv_rest, V stiffness, V damping, const Law& law) {
+  const V inv_r = smaller(a.inv_r, 2.0f * inv_rest);  // below half its length a spring pushes less: network.hpp
+  const V strain = a.r * inv_rest - 1.0f;
+  const V size = magnitude(strain);
+  const V capped = smaller(size, law.cap);
+  const V shape = (capped + capped * capped * (law.p1 + law.p2 * capped)) + law.cap_slope * (size - capped);
+  return (stiffness * with_sign(shape, strain) + damping * (a.towards * inv_r)) * inv_r;
 }
 
 /// Zero below about 1e-22, so that a body at rest does not sink into denormal numbers.
 TROCAR_INLINE V flushed(V a) { return (a + 1e-15f) - 1e-15f; }
 
+/// What column c of springs does to the rows at their near ends.
 template <bool OneLaw, bool Scaled>
-TROCAR_INLINE bool substep(const KernelArgs& arg, int first, int last) {
-  const Law one{all(arg.p1), all(arg.p2), all(arg.cap), all(arg.cap_slope)};
-  I fine = ~I{};
-  for (int s = first; s < last; ++s) {
-    for (int part = 0; part < kSlice; part += W) {
-      const Lanes own = load_rows(arg.in, std::uint32_t(s * kSlice + part));
-      V fx{}, fy{}, fz{};
-      for (int c = arg.slice_begin[s]; c < arg.slice_begin[s + 1]; ++c) {
-        const HalfEdgePack& e = arg.packs[c];
-        const Lanes far = load_nodes(arg.in, e.offset + part);
-        const V dx = far.x - own.x, dy = far.y - own.y, dz = far.z - own.z;
-        Law law = one;
-        if constexpr (!OneLaw) {
-          const LawPack& l = arg.laws[c];
-          law = {load(l.p1 + part), load(l.p2 + part), load(l.cap + part), load(l.cap_slope + part)};
-        }
-        V q = force_per_length(dx, dy, dz, far.vx - own.vx, far.vy - own.vy, far.vz - own.vz, load(e.inv_rest + part),
-                               load(e.stiffness + part), load(e.damping + part), law);
-        if constexpr (Scaled) q = q * load(arg.scale + c * kSlice + part);
-        fx = fx + q * dx, fy = fy + q * dy, fz = fz + q * dz;
-      }
-      // v += dt B h / m with gamma at the new v, then x += dt v                                   [KCM99 eq.3]
-      const RowPack& row = arg.rows[s];
-      const V wx = load(row.wx + part), wy = load(row.wy + part), wz = load(row.wz + part), none{};
-      Lanes next;
-      next.vx = flushed(arg.decay * own.vx + (wx * fx + where((I)(wx > none), all(arg.gravity_step[0]))));
-      next.vy = flushed(arg.decay * own.vy + (wy * fy + where((I)(wy > none), all(arg.gravity_step[1]))));
-      next.vz = flushed(arg.decay * own.vz + (wz * fz + where((I)(wz > none), all(arg.gravity_step[2]))));
-      next.x = own.x + arg.dt * next.vx;
-      next.y = own.y + arg.dt * next.vy;
-      next.z = own.z + arg.dt * next.vz;
-      const V size = ((magnitude(next.x) + magnitude(next.y)) + magnitude(next.z)) +
-                     ((magnitude(next.vx) + magnitude(next.vy)) + magnitude(next.vz));
-      fine &= (I)(size < all(1e6f));
-      store_rows(arg.out + s * kSlice + part, next);
-    }
+TROCAR_INLINE Force pull(const KernelArgs& arg, const Law& one, const Reach& a, int c, int part) {
+  const HalfEdgePack& e = arg.packs[c];
+  Law law = one;
+  if constexpr (!OneLaw) {
+    const LawPack& l = arg.laws[c];
+    law = {load(l.p1 + part), load(l.p2 + part), load(l.cap + part), load(l.cap_slope + part)};
   }
+  V q = force_per_length(a, load(e.inv_rest + part), load(e.stiffness + part), load(e.damping + part), law);
+  if constexpr (Scaled) q = q * load(arg.scale + c * kSlice + part);
+  return {q * a.dx, q * a.dy, q * a.dz};
+}
+
+/// Hands the forces of columns [first, last) to put(force), in order. The next column's roots are on their way while
+/// this one's law is worked out, so that neither waits for the other.
+template <bool OneLaw, bool Scaled, class Put>
+TROCAR_INLINE void for_columns(const KernelArgs& arg, const Law& one, const Lanes& own, int first, int last, int part,
+                               Put&& put) {
+  if (first == last) return;
+  Reach now = reach_of(arg, own, first, part);
+  for (int c = first; c + 1 < last; ++c) {
+    const Reach next = reach_of(arg, own, c + 1, part);
+    put(pull<OneLaw, Scaled>(arg, one, now, c, part));
+    now = next;
+  }
+  put(pull<OneLaw, Scaled>(arg, one, now, last - 1, part));
+}
+
+/// v += dt B h / m with gamma at the new v, then x += dt v [KCM99 eq.3]. Lanes whose result is beyond 1e6, or no
+/// number, lose their bits in `fine`.
+TROCAR_INLINE void move_rows(const KernelArgs& arg, const Lanes& own, const Force& f, int s, int part, I& fine) {
+  const RowPack& row = arg.rows[s];
+  const V wx = load(row.wx + part), wy = load(row.wy + part), wz = load(row.wz + part), none{};
+  Lanes next;
+  next.vx = flushed(arg.decay * own.vx + (wx * f.x + where((I)(wx > none), all(arg.gravity_step[0]))));
+  next.vy = flushed(arg.decay * own.vy + (wy * f.y + where((I)(wy > none), all(arg.gravity_step[1]))));
+  next.vz = flushed(arg.decay * own.vz + (wz * f.z + where((I)(wz > none), all(arg.gravity_step[2]))));
+  next.x = own.x + arg.dt * next.vx;
+  next.y = own.y + arg.dt * next.vy;
+  next.z = own.z + arg.dt * next.vz;
+  const V size = ((magnitude(next.x) + magnitude(next.y)) + magnitude(next.z)) +
+                 ((magnitude(next.vx) + magnitude(next.vy)) + magnitude(next.vz));
+  fine &= (I)(size < all(1e6f));
+  store_rows(arg.out + s * kSlice + part, next);
+}
+
+TROCAR_INLINE bool all_lanes(I fine) {
   const Plain lanes = plain(fine);
   std::int32_t ok = -1;
   for (int i = 0; i < W; ++i) ok &= lanes.lane[i];
   return ok != 0;
 }
 
+/// Every spring from both its ends.
+bool substep_twice(const KernelArgs& arg, int first, int last) {
+  const Law law{all(arg.p1), all(arg.p2), all(arg.cap), all(arg.cap_slope)};
+  I fine = ~I{};
+  for (int s = first; s < last; ++s) {
+    for (int part = 0; part < kSlice; part += W) {
+      const Lanes own = load_rows(arg.in, std::uint32_t(s * kSlice + part));
+      Force sum{};
+      for_columns<true, false>(arg, law, own, arg.slice_begin[s], arg.slice_begin[s + 1], part,
+                               [&](const Force& f) { sum = sum + f; });
+      move_rows(arg, own, sum, s, part, fine);
+    }
+  }
+  return all_lanes(fine);
+}
+
+/// The springs that the rows of a slice evaluate: their sum stays with the slice, each one's force is put down for its
+/// other end.
+template <bool OneLaw, bool Scaled>
+TROCAR_INLINE void evaluate(const KernelArgs& arg, const Law& one, int s) {
+  const int first = arg.slice_begin[s], last = arg.slice_begin[s + 1], start = first % arg.ring;
+  ForceSum& total = arg.sums[s % (arg.lag + 1)];
+  for (int part = 0; part < kSlice; part += W) {
+    const Lanes own = load_rows(arg.in, std::uint32_t(s * kSlice + part));
+    Force sum{};
+    int at = start;
+    for_columns<OneLaw, Scaled>(arg, one, own, first, last, part, [&](const Force& f) {
+      sum = sum + f;
+      store_forces(arg.forces[1 + at].slot[kSlotOfLane[part]], f);
+      at = at + 1 == arg.ring ? 0 : at + 1;
+    });
+    __builtin_memcpy(total.x + part, &sum.x, sizeof sum.x);
+    __builtin_memcpy(total.y + part, &sum.y, sizeof sum.y);
+    __builtin_memcpy(total.z + part, &sum.z, sizeof sum.z);
+  }
+}
+
+/// The forces of the springs whose other ends have evaluated them; then the rows move.
+TROCAR_INLINE void finish(const KernelArgs& arg, int s, I& fine) {
+  const ForceSum& total = arg.sums[s % (arg.lag + 1)];
+  const char* const forces = reinterpret_cast<const char*>(arg.forces);
+  for (int part = 0; part < kSlice; part += W) {
+    Force sum{load(total.x + part), load(total.y + part), load(total.z + part)};
+    for (int c = arg.arrival_begin[s]; c < arg.arrival_begin[s + 1]; ++c) {
+      sum = sum - load_forces(forces, arg.arrivals[c].offset + part);
+    }
+    move_rows(arg, load_rows(arg.in, std::uint32_t(s * kSlice + part)), sum, s, part, fine);
+  }
+}
+
+/// Every spring once. A slice is finished when all slices that have springs into it are evaluated; a part of the body
+/// evaluates those at its fringes for itself, so that parts need not wait for each other.
+template <bool OneLaw, bool Scaled>
+bool substep_once(const KernelArgs& arg, int first, int last) {
+  const Law one{all(arg.p1), all(arg.p2), all(arg.cap), all(arg.cap_slope)};
+  I fine = ~I{};
+  arg.forces[0] = ForcePack{};
+  int evaluated = first > arg.lag ? first - arg.lag : 0;
+  for (int s = first; s < last; ++s) {
+    for (; evaluated <= s + arg.lag && evaluated < arg.slices; ++evaluated)
+      evaluate<OneLaw, Scaled>(arg, one, evaluated);
+    finish(arg, s, fine);
+  }
+  return all_lanes(fine);
+}
+
 bool run_substep(const KernelArgs& arg, int first, int last) noexcept {
-  if (arg.laws) return arg.scale ? substep<false, true>(arg, first, last) : substep<false, false>(arg, first, last);
-  return arg.scale ? substep<true, true>(arg, first, last) : substep<true, false>(arg, first, last);
+  if (!arg.arrivals) return substep_twice(arg, first, last);
+  if (arg.laws)
+    return arg.scale ? substep_once<false, true>(arg, first, last) : substep_once<false, false>(arg, first, last);
+  return arg.scale ? substep_once<true, true>(arg, first, last) : substep_once<true, false>(arg, first, last);
 }
 
 void run_find_collapsed(const NodeState* nodes, const TetPack* packs, int first, int last,

@@ -14,7 +14,7 @@ struct alignas(32) NodeState {
   float vx = 0, vy = 0, vz = 0, zero1 = 0;
 };
 
-/// 16 half-edges: one column of a slice. Padding has k l = 0 and points at its own row.
+/// 16 springs, each seen from one of its ends: one column of a slice. Padding has k l = 0 and points at its own row.
 struct alignas(64) HalfEdgePack {
   std::uint32_t offset[kSlice];  ///< byte offset of the other node in the node array
   float inv_rest[kSlice];        ///< 1/l [1/m]
@@ -22,7 +22,24 @@ struct alignas(64) HalfEdgePack {
   float damping[kSlice];         ///< [N s/m]
 };
 
-/// Shape factors per half-edge, only where springs of a body differ.
+/// Forces of 16 springs as the kernel leaves them for their other ends [N]; lane i lies in kSlotOfLane[i].
+struct alignas(64) ForcePack {
+  float slot[kSlice][4];  ///< x, y, z, 0
+};
+/// Lanes a quarter apart lie side by side: that is how registers of every width can store them whole.
+constexpr int kSlotOfLane[kSlice] = {0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15};
+
+/// Where 16 rows find the force of a spring that its other end has evaluated. Padding points at 0, where no force is.
+struct alignas(64) ArrivalPack {
+  std::uint32_t offset[kSlice];  ///< byte offset in KernelArgs::forces
+};
+
+/// Sum of the forces of the springs that 16 rows evaluate themselves [N].
+struct alignas(64) ForceSum {
+  float x[kSlice], y[kSlice], z[kSlice];
+};
+
+/// Shape factors per spring, only where springs of a body differ.
 struct alignas(64) LawPack {
   float p1[kSlice], p2[kSlice], cap[kSlice], cap_slope[kSlice];
 };
@@ -51,6 +68,14 @@ struct KernelArgs {
   float decay = 1;
   float gravity_step[3] = {0, 0, 0};
   float dt = 0;
+
+  /// Springs that are evaluated once: in their source's slice, at most `lag` slices before or after that of their other
+  /// end, which picks their force up. Null: `packs` has every spring twice, once for each end.
+  const ArrivalPack* arrivals = nullptr;
+  const int* arrival_begin = nullptr;  ///< (slices + 1) first pack of each slice
+  ForcePack* forces = nullptr;         ///< (1 + ring) scratch: nothing, then column c at 1 + c % ring
+  ForceSum* sums = nullptr;            ///< (lag + 1) scratch: slice s at s % (lag + 1)
+  int slices = 0, lag = 0, ring = 1;
 };
 
 /// Kernels of one instruction set.

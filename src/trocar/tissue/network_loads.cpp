@@ -13,20 +13,23 @@ bool usable(const LoadedBody& m, const NodeLoad& l) {
   return l.node >= 0 && l.node < m.nodes && l.k >= 0 && l.d >= 0 && l.k < 1e12f && l.d < 1e12f && sum < 1e12f;
 }
 
-/// a x = b for a symmetric positive definite 3x3 matrix given as xx, yy, zz, xy, xz, yz: LDL^T.
-Vec3d solve3(const double a[6], Vec3d b) {
-  const double l10 = a[3] / a[0], l20 = a[4] / a[0];
-  const double d1 = a[1] - l10 * a[3];
-  const double e21 = a[5] - l20 * a[3];
-  const double l21 = e21 / d1;
-  const double d2 = a[2] - l20 * a[4] - l21 * e21;
-  const double y1 = b.y - l10 * b.x, y2 = b.z - l20 * b.x - l21 * y1;
-  const double z = y2 / d2;
-  const double y = y1 / d1 - l21 * z;
-  return {b.x / a[0] - l10 * y - l20 * z, y, z};
+bool is_zero(Vec3f a) { return a.x == 0 && a.y == 0 && a.z == 0; }
+
+/// a += k P of a load, P as in NodeLoad.
+void add_along(const NodeLoad& l, double k, Matrix6& a) {
+  if (is_zero(l.dir)) {
+    a.xx += k, a.yy += k, a.zz += k;
+    return;
+  }
+  const Vec3d n = vec_cast<double>(l.dir);
+  a.xx += k * n.x * n.x, a.yy += k * n.y * n.y, a.zz += k * n.z * n.z;
+  a.xy += k * n.x * n.y, a.xz += k * n.x * n.z, a.yz += k * n.y * n.z;
 }
 
-bool is_zero(Vec3f a) { return a.x == 0 && a.y == 0 && a.z == 0; }
+Vec3d operator*(const Matrix6& a, Vec3d v) {
+  return {a.xx * v.x + a.xy * v.y + a.xz * v.z, a.xy * v.x + a.yy * v.y + a.yz * v.z,
+          a.xz * v.x + a.yz * v.y + a.zz * v.z};
+}
 
 /// P u of a load.
 Vec3d along(const NodeLoad& l, Vec3d u) {
@@ -35,76 +38,105 @@ Vec3d along(const NodeLoad& l, Vec3d u) {
   return dot(n, u) * n;
 }
 
-/// The loads of one node: (m (1 + dt gamma) + dt D + dt^2 K) v = m (1 + dt gamma) v_free + dt (f0 + K (x0 - x)),
-/// held axes left out. Adds each load's mean force to `reactions`. False where the result is not finite.
-bool apply_to_node(const LoadedBody& m, std::span<const NodeLoad> loads, Vec3f* reactions, const NodeState& in,
-                   NodeState& out) {
-  const int node = loads[0].node;
-  const double dt = m.dt, mass = m.mass[node] * (1 + dt * m.gamma);
-  const Vec3d x = vec_cast<double>(place(in)), free_v = vec_cast<double>(speed(out));
-  double a[6] = {mass, mass, mass, 0, 0, 0};
-  Vec3d b = mass * free_v;
-  for (const NodeLoad& l : loads) {
-    const Vec3d reach = (vec_cast<double>(l.x0) - m.origin) - x;
-    const double q = dt * (double(l.d) + dt * double(l.k));
-    b += dt * (vec_cast<double>(l.f0) + double(l.k) * along(l, reach));
-    const Vec3d n = vec_cast<double>(l.dir);
-    if (is_zero(l.dir)) {
-      a[0] += q, a[1] += q, a[2] += q;
-    } else {
-      a[0] += q * n.x * n.x, a[1] += q * n.y * n.y, a[2] += q * n.z * n.z;
-      a[3] += q * n.x * n.y, a[4] += q * n.x * n.z, a[5] += q * n.y * n.z;
-    }
-  }
-  const int held = m.fixed[node];
-  if (held != kFree) {
-    // A held axis keeps its velocity: move its column to the right side, put 1 on its diagonal.
-    const int cross_of[3][2] = {{3, 4}, {3, 5}, {4, 5}}, other[3][2] = {{1, 2}, {0, 2}, {0, 1}};
-    for (int i = 0; i < 3; ++i) {
-      if (!(held & (1 << i))) continue;
-      for (int j = 0; j < 2; ++j) {
-        b[other[i][j]] -= a[cross_of[i][j]] * free_v[i];
-        a[cross_of[i][j]] = 0;
-      }
-      a[i] = 1;
-      b[i] = free_v[i];
-    }
-    for (int i = 0; i < 3; ++i)
-      if (held & (1 << i)) b[i] = free_v[i];
-  }
-  const bool isotropic = a[3] == 0 && a[4] == 0 && a[5] == 0;  // most are: spare the elimination
-  const Vec3d v = isotropic ? Vec3d{b.x / a[0], b.y / a[1], b.z / a[2]} : solve3(a, b);
-  move_to(out, in, vec_cast<float>(v), float(dt));
-  const bool fine = std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z) < 1e6;
-  if (!reactions) return fine;
-  const double share = 1.0 / m.substeps;
-  for (std::size_t i = 0; i < loads.size(); ++i) {
-    const NodeLoad& l = loads[i];
-    const Vec3d reach = (vec_cast<double>(l.x0) - m.origin) - (x + dt * v);
-    const Vec3d force = vec_cast<double>(l.f0) + along(l, double(l.k) * reach - double(l.d) * v);
-    reactions[i] += vec_cast<float>(share * force);
-  }
-  return fine;
+/// Of a symmetric positive definite matrix, by cofactors.
+Matrix6 inverse(const Matrix6& a) {
+  if (a.xy == 0 && a.xz == 0 && a.yz == 0) return {1 / a.xx, 1 / a.yy, 1 / a.zz, 0, 0, 0};
+  const double cx = a.yy * a.zz - a.yz * a.yz, cy = a.xz * a.yz - a.xy * a.zz, cz = a.xy * a.yz - a.xz * a.yy;
+  const double scale = 1 / (a.xx * cx + a.xy * cy + a.xz * cz);
+  return {scale * cx, scale * (a.xx * a.zz - a.xz * a.xz), scale * (a.xx * a.yy - a.xy * a.xy), scale * cy,
+          scale * cz, scale * (a.xy * a.xz - a.xx * a.yz)};
+}
+
+/// Held axes keep their velocity: what they couple to the others goes into `coupling`, on the diagonal 1 is left.
+void hold(int held, Matrix6& a, Matrix6& coupling) {
+  double* const diagonal[3] = {&a.xx, &a.yy, &a.zz};
+  for (int i = 0; i < 3; ++i)
+    if (held & (1 << i)) *diagonal[i] = 1;
+  const auto part = [held](int i, int j, double& of, double& into) {
+    if (held & ((1 << i) | (1 << j))) into = of, of = 0;
+  };
+  part(0, 1, a.xy, coupling.xy);
+  part(0, 2, a.xz, coupling.xz);
+  part(1, 2, a.yz, coupling.yz);
+}
+
+Vec3d held_part(int held, Vec3d v) {
+  return {held & kHeldX ? v.x : 0, held & kHeldY ? v.y : 0, held & kHeldZ ? v.z : 0};
 }
 
 }  // namespace
 
-bool apply_loads(const LoadedBody& m, std::span<const NodeLoad> loads, std::span<Vec3f> reactions, const NodeState* in,
-                 NodeState* out) noexcept {
-  bool fine = true;
-  for (std::size_t i = 0; i < loads.size();) {
-    std::size_t end = i + 1;
-    if (!usable(m, loads[i])) {
-      i = end;
-      continue;
+ImplicitLoads::ImplicitLoads(const LoadedBody& body, std::span<const NodeLoad> loads,
+                             std::span<LoadedNode> scratch) noexcept
+    : m(body), m_loads(loads) {
+  std::size_t count = 0;
+  for (int i = 0; i < int(loads.size()) && count < scratch.size();) {
+    int last = i + 1;
+    if (usable(m, loads[std::size_t(i)])) {
+      const auto more = [&](int k) {
+        return k < int(loads.size()) && loads[std::size_t(k)].node == loads[std::size_t(i)].node &&
+               usable(m, loads[std::size_t(k)]);
+      };
+      while (more(last)) ++last;
+      add(i, last, scratch[count++]);
     }
-    while (end < loads.size() && loads[end].node == loads[i].node && usable(m, loads[end])) ++end;
-    const int row = m.row_of_node[loads[i].node];
-    Vec3f* reaction = reactions.empty() ? nullptr : reactions.data() + i;
-    fine = apply_to_node(m, loads.subspan(i, end - i), reaction, in[row], out[row]) && fine;
-    i = end;
+    i = last;
+  }
+  m_nodes = scratch.first(count);
+}
+
+/// (m (1 + dt gamma) + dt D + dt^2 K) v = m (1 + dt gamma) v_free + dt (f0 + K (x0 - x)), held axes left out.
+void ImplicitLoads::add(int first, int last, LoadedNode& n) const noexcept {
+  const std::size_t node = std::size_t(m_loads[std::size_t(first)].node);
+  n = {};
+  n.row = m.row_of_node[node];
+  n.first = first, n.last = last;
+  n.held = m.fixed[node];
+  n.mass = m.mass[node] * (1 + m.dt * m.gamma);
+  Matrix6 a{n.mass, n.mass, n.mass, 0, 0, 0};
+  for (int i = first; i < last; ++i) {
+    const NodeLoad& l = m_loads[std::size_t(i)];
+    const double k = double(l.k);
+    add_along(l, m.dt * (double(l.d) + m.dt * k), a);
+    add_along(l, m.dt * k, n.stiffness);
+    n.impulse += m.dt * (vec_cast<double>(l.f0) + k * along(l, vec_cast<double>(l.x0) - m.origin));
+  }
+  if (n.held != kFree) hold(n.held, a, n.coupling);
+  n.inverse = inverse(a);
+}
+
+bool ImplicitLoads::apply(const NodeState* in, NodeState* out) noexcept {
+  bool fine = true;
+  for (LoadedNode& n : m_nodes) {
+    const Vec3d x = vec_cast<double>(place(in[n.row])), free_v = vec_cast<double>(speed(out[n.row]));
+    Vec3d b = n.mass * free_v + (n.impulse - n.stiffness * x);
+    if (n.held != kFree) {
+      const Vec3d kept = held_part(n.held, free_v);
+      b = b - n.coupling * kept;
+      b = (b - held_part(n.held, b)) + kept;
+    }
+    const Vec3d v = n.inverse * b;
+    move_to(out[n.row], in[n.row], vec_cast<float>(v), float(m.dt));
+    n.places += x + m.dt * v;
+    n.velocities += v;
+    fine = fine && std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z) < 1e6;
   }
   return fine;
+}
+
+void ImplicitLoads::report(std::span<Vec3f> reactions) const noexcept {
+  for (Vec3f& r : reactions) r = {};
+  if (reactions.empty()) return;
+  const double share = 1.0 / m.substeps;
+  for (const LoadedNode& n : m_nodes) {
+    const Vec3d x = share * n.places, v = share * n.velocities;
+    for (int i = n.first; i < n.last; ++i) {
+      const NodeLoad& l = m_loads[std::size_t(i)];
+      const Vec3d reach = (vec_cast<double>(l.x0) - m.origin) - x;
+      reactions[std::size_t(i)] =
+          vec_cast<float>(vec_cast<double>(l.f0) + along(l, double(l.k) * reach - double(l.d) * v));
+    }
+  }
 }
 
 StepReport check_loads(const LoadedBody& m, std::span<const NodeLoad> loads) noexcept {

@@ -1,5 +1,9 @@
 // What bodies of nodes share in a sub-step: reading a node, moving it in the kernel's own arithmetic, and loads taken
 // implicitly. Private to tissue.
+//
+//   ImplicitLoads pull(body, loads, scratch);          // once a tick: what each node's loads add up to
+//   pull.apply(in, out);                               // after each sub-step
+//   pull.report(reactions);                            // when the tick is done
 #pragma once
 
 #include <span>
@@ -31,9 +35,26 @@ struct LoadedBody {
 /// kBadLoad with the first load that is unsound or out of order.
 StepReport check_loads(const LoadedBody& body, std::span<const NodeLoad> loads) noexcept;
 
-/// After the kernel has moved all nodes from `in` to `out`: moves those that carry loads as these ask. Adds each load's
-/// mean force to `reactions` (as long as loads, or empty). False where a result is not finite.
-bool apply_loads(const LoadedBody& body, std::span<const NodeLoad> loads, std::span<Vec3f> reactions,
-                 const NodeState* in, NodeState* out) noexcept;
+/// The loads of one tick. Those of a node are linear in its place and velocity: their sum does not change from sub-step
+/// to sub-step, nor does the matrix that it is solved with, and each load's mean force follows from the node's mean
+/// place and velocity.
+class ImplicitLoads {
+ public:
+  /// @param scratch  (nodes)
+  ImplicitLoads(const LoadedBody& body, std::span<const NodeLoad> loads, std::span<LoadedNode> scratch) noexcept;
+
+  /// After the kernel has moved all nodes from `in` to `out`: moves those that carry loads as these ask. False where a
+  /// result is not finite.
+  bool apply(const NodeState* in, NodeState* out) noexcept;
+  /// The force that each load exerted on its node, averaged over the tick [N]. (loads), or empty
+  void report(std::span<Vec3f> reactions) const noexcept;
+
+ private:
+  void add(int first, int last, LoadedNode& into) const noexcept;
+
+  const LoadedBody& m;
+  std::span<const NodeLoad> m_loads;
+  std::span<LoadedNode> m_nodes;
+};
 
 }  // namespace trocar::tissue

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <trocar/tissue/law.hpp>
@@ -34,24 +35,9 @@ class ReferenceNetwork {
       n.x = vec_cast<Real>(m.rest[i] - m.origin);
       for (int axis = 0; axis < 3; ++axis) m_masses.push_back(m.fixed[i] & (1 << axis) ? 0 : m.mass[i]);
     }
-    // A spring's two half-edges know their place; columns within a row are ascending places.
-    for (int s = 0; s < m.springs; ++s) {
-      for (int end = 0; end < 2; ++end) {
-        const int place = m.half_edge[2 * s + end];
-        int slice = 0;
-        while (m.slice_begin[slice + 1] <= place / kSlice) ++slice;
-        auto& row = m_edges[slice * kSlice + place % kSlice];
-        const std::size_t column = std::size_t(place / kSlice - m.slice_begin[slice]);
-        if (row.size() <= column) row.resize(column + 1);
-        const SpringDescription& e = d.springs[s];
-        row[column] = {m.row_of_node[end == 0 ? e.b : e.a],
-                       Real(1 / e.rest_length),
-                       Real(e.k * e.rest_length),
-                       Real(e.damping),
-                       {Real(e.p1), Real(e.p2), Real(e.cap)},
-                       Real(SpringLaw{e.p1, e.p2, e.cap}.cap_slope())};
-      }
-    }
+    // Each row adds up the springs that it evaluates, then those that are evaluated at their other ends; both by the
+    // rows of their other ends.
+    for (const bool source : {true, false}) add_edges(d, m, source);
   }
 
   Node& node(int i) { return m_nodes[m_rows[i]]; }
@@ -101,6 +87,27 @@ class ReferenceNetwork {
     SpringLawT<Real> law;
     Real cap_slope = 1;
   };
+  void add_edges(const NetworkDescription& d, const NetworkModel& m, bool source) {
+    std::vector<std::vector<std::pair<int, int>>> near(m_edges.size());  // (row of the other end, spring)
+    for (int s = 0; s < m.springs; ++s) {
+      const int a = m.row_of_node[d.springs[s].a], b = m.row_of_node[d.springs[s].b];
+      const int reached = int(m.packs[m.place[s] / kSlice].offset[m.place[s] % kSlice] / sizeof(NodeState));
+      const int other = source ? reached : a + b - reached;
+      near[a + b - other].emplace_back(other, s);
+    }
+    for (std::size_t row = 0; row < near.size(); ++row) {
+      std::sort(near[row].begin(), near[row].end());
+      for (const auto& [other, s] : near[row]) {
+        const SpringDescription& e = d.springs[s];
+        m_edges[row].push_back({other,
+                                Real(1 / e.rest_length),
+                                Real(e.k * e.rest_length),
+                                Real(e.damping),
+                                {Real(e.p1), Real(e.p2), Real(e.cap)},
+                                Real(SpringLaw{e.p1, e.p2, e.cap}.cap_slope())});
+      }
+    }
+  }
   static Real flushed(Real a) { return (a + Real(1e-15f)) - Real(1e-15f); }
 
   std::vector<Node> m_nodes, m_next;

@@ -10,13 +10,13 @@ const NodeState& node_of(const NetworkModel& m, const NetworkState& s, int node)
   return s.nodes[m.row_of_node[node]];
 }
 
-struct HalfEdge {
+struct Placed {
   const HalfEdgePack& pack;
   int lane;
   SpringLaw law;
 };
-HalfEdge half_edge(const NetworkModel& m, int spring) {
-  const int place = m.half_edge[2 * spring], pack = place / kSlice, lane = place % kSlice;
+Placed placed(const NetworkModel& m, int spring) {
+  const int place = m.place[spring], pack = place / kSlice, lane = place % kSlice;
   SpringLaw law{m.p1, m.p2, m.cap};
   if (!m.law_packs.empty()) {
     const LawPack& l = m.law_packs[pack];
@@ -52,14 +52,13 @@ double spring_strain(const NetworkModel& m, const NetworkState& s, int spring) n
 }
 
 float spring_scale(const NetworkModel& m, const NetworkState& s, int spring) noexcept {
-  return s.scale[m.half_edge[2 * spring]];
+  return s.scale[m.place[spring]];
 }
 
 void set_spring_scale(const NetworkModel& m, NetworkState& s, int spring, float scale) noexcept {
   const float most = scale < m.max_scale ? scale : m.max_scale;
   const float value = most > 0 ? most : 0;
-  s.scale[m.half_edge[2 * spring]] = value;
-  s.scale[m.half_edge[2 * spring + 1]] = value;
+  s.scale[m.place[spring]] = value;
   ++s.version;
 }
 
@@ -83,7 +82,7 @@ NetworkEnergy energy(const NetworkModel& m, const NetworkState& s) noexcept {
     e.gravity -= m.mass[i] * dot(m.gravity, position(m, s, i));
   }
   for (int k = 0; k < m.springs; ++k) {
-    const HalfEdge h = half_edge(m, k);
+    const Placed h = placed(m, k);
     const double l = double(m.spring_rest[k]);
     e.elastic +=
         double(spring_scale(m, s, k)) * double(h.pack.stiffness[h.lane]) * l * h.law.energy(spring_strain(m, s, k));
@@ -106,6 +105,8 @@ void add_to_hash(core::Hasher& h, const NetworkModel& m) noexcept {
   h.add(m.row_of_node);
   h.add(m.slice_begin);
   h.add(m.packs);
+  h.add(m.arrival_begin);
+  h.add(m.arrivals);
   h.add(m.law_packs);
   const float one[] = {m.p1, m.p2, m.cap, m.cap_slope, m.decay, m.max_scale, m.opening};
   h.add(one);
