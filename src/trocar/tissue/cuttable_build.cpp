@@ -84,17 +84,6 @@ void place_rows(const NetworkModel& n, int spare, CuttableModel& m) {
             ((m.rows - m.own_rows) / kSlice + 1) * m.widest;
 }
 
-void add_volume_force(const CuttableDescription& d, const NetworkModel& n, CuttableModel& m) {
-  m.kappa = bulk_share(d.material.youngs_modulus, d.material.poisson).kappa;
-  if (!(d.material.poisson > 0.25)) m.kappa = 0;
-  std::vector<double> mass(std::size_t(n.rows), 0.0);
-  for (int i = 0; i < n.nodes; ++i) mass[std::size_t(n.row_of_node[std::size_t(i)])] = n.mass[std::size_t(i)];
-  m.impulses = impulses_for(n.tets, rest_state(n).nodes, mass, m.kappa, m.tick);
-  if (m.impulses < 1) return;
-  m.substeps = (m.substeps + m.impulses - 1) / m.impulses * m.impulses;
-  m.dt = m.tick / m.substeps;
-}
-
 }  // namespace
 
 CuttableModel build(const CuttableDescription& d, double tick) {
@@ -139,7 +128,6 @@ CuttableModel build(const CuttableDescription& d, double tick) {
   m.dt_limit = n.dt_limit;
   m.opening = n.opening;
   m.substeps = n.substeps;
-  add_volume_force(d, n, m);
   m.misfit = t.misfit;
   return m;
 }
@@ -174,7 +162,6 @@ CuttableWork make_work(const CuttableModel& m) {
   w.open_tets.resize(m.drawn.cells.size());
   w.below.resize(w.guarded_packs.size());
   w.loaded.resize(nodes);
-  if (m.impulses > 0) w.volume.resize(std::size_t(m.rows));
   w.cut = geometry::make_work(m.drawn);
   return w;
 }
