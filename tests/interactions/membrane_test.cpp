@@ -23,6 +23,9 @@ struct Drum {
   std::vector<Vec3f> side;
   NetworkLoads loads;
   Vec3d felt{0, 0, 0};  ///< by the rod, last tick [N]
+  ToolShape before;
+  TouchBook book, next;
+  bool moved = false;
 
   Drum() {
     tissue::MembraneDescription d;
@@ -55,18 +58,22 @@ struct Drum {
     index_skin(skin);
     pose = make_pose(skin);
     torn.assign(sheet.triangles.size(), 0);
-    side.resize(sheet.triangles.size() * size_t(kToolParts));
+    side.resize(sheet.triangles.size() * size_t(kSheetParts));
     loads.reserve(4096);
   }
   bool step(Capsule rod) {
     ToolShape shape;
+    shape.pivot = shape.frame.tip = {1, 1, 1};
     const Capsule away{{1, 1, 1}, {1, 1, 1.01}, 0.001};
     shape.part[kShaft] = rod;
     shape.part[kJawA] = shape.part[kJawB] = away;
     pose_skin(view_of(sheet.network, state.network), skin, pose);
     loads.clear();
     const SheetView view{{&skin, &pose, view_of(sheet.network, state.network)}, torn, sheet.network.fixed, 0.00025};
-    tool_on_sheet(shape, ToolState{}, 0, kMembraneBase, view, side, loads);
+    Touching touching(0, moved ? before : shape, shape, 0, book, next);
+    tool_on_sheet(touching, ToolState{}, kMembraneBase, view, side, loads);
+    before = shape;
+    moved = true;
     loads.sort();
     const bool fine = advance(sheet, {}, loads.sorted, loads.reaction, state, work).fine() && !loads.overflowed;
     felt = {0, 0, 0};

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <trocar/collision/rods.hpp>
 #include <trocar/geometry/nearest.hpp>
 
@@ -24,15 +26,41 @@ RodContact touch(const Capsule& first, const Capsule& second, Vec3f& side) noexc
   const double distance = length(apart), sum = first.radius + second.radius;
   if (distance > 1e-9) c.normal = apart / distance;
   c.depth = sum - distance;
-  if (distance > sum + kRemember) {
+  const bool crossed = dot(c.normal, vec_cast<double>(side)) < -0.2;
+  const bool beside = c.s > 0 && c.s < 1;  // not around an end of the first
+  if (distance > sum + kRemember && !(crossed && beside && distance < kLost)) {
     side = {0, 0, 0};
-  } else if (dot(c.normal, vec_cast<double>(side)) < -0.2) {
+  } else if (crossed) {
     c.normal = -c.normal;
     c.depth = sum + distance;
   } else {
     side = vec_cast<float>(c.normal);
   }
   return c;
+}
+
+namespace {
+
+double way_of(const Capsule& from, const Capsule& to) noexcept {
+  return std::max(length(to.a - from.a), length(to.b - from.b));
+}
+Capsule between(const Capsule& from, const Capsule& to, double share) noexcept {
+  return {from.a + share * (to.a - from.a), from.b + share * (to.b - from.b), to.radius};
+}
+
+}  // namespace
+
+RodContact touch(const Capsule& first0, const Capsule& first, const Capsule& second0, const Capsule& second,
+                 Vec3f& side) noexcept {
+  constexpr int kMostPlaces = 16;
+  const double way = way_of(first0, first) + way_of(second0, second);
+  const double most = 0.9 * (first.radius + second.radius + kRemember);
+  const int places = way < kMostPlaces * most ? int(way / most) + 1 : kMostPlaces;
+  for (int i = 1; i < places; ++i) {
+    const double share = double(i) / places;
+    touch(between(first0, first, share), between(second0, second, share), side);
+  }
+  return touch(first, second, side);
 }
 
 Push push_out(const Capsule& rod, Vec3d p, Vec3d n, double behind) noexcept {

@@ -30,12 +30,20 @@ struct RodContact {
 
 /// Distance within which `side` is kept beyond touching [m].
 inline constexpr double kRemember = 0.002;
+/// How far an axis may have gone beyond the other and still be brought back [m].
+inline constexpr double kLost = 0.025;
 
 /// Contact of two rods. `side` is the direction from the first to the second when they last were near, zero when they
 /// were not: if the axes have crossed since, the contact still points to the old side and is as deep as it takes to go
-/// back there. So rods cannot pass through each other as long as they move less than a radius sum plus kRemember
-/// between calls.
+/// back there, up to kLost; around a rod's end they part. So rods cannot pass through each other as long as they move
+/// less than a radius sum plus kRemember between calls.
 RodContact touch(const Capsule& first, const Capsule& second, Vec3f& side) noexcept;
+
+/// The same for rods that have moved in straight lines, however far: they are looked at in as many places as it takes
+/// to move less than that in between.
+/// @param first0, second0  where they were
+RodContact touch(const Capsule& first0, const Capsule& first, const Capsule& second0, const Capsule& second,
+                 Vec3f& side) noexcept;
 
 /// How a surface point p with outward normal n must move to give way to a rod; depth 0 where it need not.
 struct Push {

@@ -86,12 +86,12 @@ void StrandLoads::add(const tissue::StrandLoad& load, Tag t) noexcept {
 }
 
 void add_skin_load(const tissue::NodeView& nodes, const tissue::Skin& skin, int vertex, const SkinLoad& load, Tag tag,
-                   NetworkLoads& loads) noexcept {
+                   NetworkLoads& loads, float least) noexcept {
   const tissue::SkinWeights& w = skin.weights[std::size_t(vertex)];
   const Vec3f origin = vec_cast<float>(nodes.origin);
   for (std::size_t j = 0; j < 8; ++j) {
     const float share = w.weight[j];
-    if (share < 0.01f) continue;
+    if (share < least) continue;
     const tissue::NodeState& n = nodes.rows[std::size_t(w.row[j])];
     tissue::NodeLoad node;
     node.node = w.node[j];

@@ -16,7 +16,7 @@ enum class Owner : std::int32_t { body = 0, tool_contact = 1, tool_hold = 2, str
 struct Tag {
   Owner owner = Owner::body;
   std::int32_t index = 0;  ///< tool, or strand
-  std::int32_t sub = 0;    ///< hold
+  std::int32_t sub = 0;    ///< hold; contact: number in the instrument's book, 0 = none
 };
 
 /// Loads on a network. Capacity is reserved at compile; what does not fit is left out and `overflowed` says so.
@@ -54,7 +54,8 @@ struct SkinLoad {
   Vec3d dir{0, 0, 0};    ///< zero or unit
   double d = 0;
 };
+/// @param least  nodes with a smaller share are left out
 void add_skin_load(const tissue::NodeView& nodes, const tissue::Skin& skin, int vertex, const SkinLoad& load, Tag tag,
-                   NetworkLoads& loads) noexcept;
+                   NetworkLoads& loads, float least = 0.01f) noexcept;
 
 }  // namespace trocar::interactions

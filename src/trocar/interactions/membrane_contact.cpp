@@ -7,11 +7,13 @@
 namespace trocar::interactions {
 namespace {
 
-constexpr double kStiffness = 400;    // [N/m] per triangle, implicit: decides how firm, never how stable
+constexpr double kStiffness = 3000;   // [N/m] per triangle, implicit: decides how firm, never how stable
 constexpr double kDamping = 0.02;     // [N s/m]
-constexpr double kQuickest = 0.0012;  // [m] a tick that a contact moves a sheet: twice the fastest hand
+constexpr double kQuickest = 0.0012;  // [m] a tick that a contact moves a sheet more than the instrument moves
 constexpr double kRemember = 0.002;   // [m] beyond touching, the side is still known
-constexpr double kDeepest = 0.006;    // [m] beyond this a rod is on the other side for good: it went around
+constexpr double kDeepest = 0.006;    // [m] beyond this a rod that is not right over the triangle went around it
+constexpr double kLost = 0.025;       // [m] beyond this it is on the other side for good
+constexpr double kRubbing = 40;       // [N/m] of the spring between tissue and anchor
 
 struct Corners {
   Vec3d a, b, c;
@@ -26,25 +28,27 @@ double poke(const Capsule& rod, const Corners& t, Vec3d side) noexcept {
   return near < 0 ? std::max(0.0, far) : 0.0;
 }
 
-struct Touch {
+struct Meeting {
   double depth = -1;
   Vec3d normal, weights;
 };
 
-Touch touch_triangle(const Capsule& rod, const Corners& t, double half_thickness, Vec3f& side) noexcept {
-  Touch r;
+Meeting meet(const Capsule& rod, const Corners& t, double half_thickness, Vec3f& side) noexcept {
+  Meeting r;
   const auto near = geometry::closest_segment_triangle(rod.a, rod.b, t.a, t.b, t.c);
   const double distance = std::sqrt(near.distance2), sum = rod.radius + half_thickness;
   const Vec3d known = vec_cast<double>(side);
   const bool knows = dot(known, known) > 0.5;
   r.weights = near.weights;
-  if (distance > sum + kRemember) {
+  const bool over = near.weights.x > 0.01 && near.weights.y > 0.01 && near.weights.z > 0.01;
+  if (distance > 1e-7) r.normal = (near.on_triangle - near.on_segment) / distance;
+  const bool passed = knows && dot(r.normal, known) < -0.2;
+  if (distance > sum + kRemember && !(passed && over && distance < kLost)) {
     side = {0, 0, 0};
     return r;
   }
   if (distance > 1e-7) {
-    r.normal = (near.on_triangle - near.on_segment) / distance;
-    if (knows && dot(r.normal, known) < -0.2) {  // it has passed: back to the old side
+    if (passed) {  // back to the old side
       r.normal = -r.normal;
       r.depth = sum + distance;
     } else {
@@ -55,16 +59,53 @@ Touch touch_triangle(const Capsule& rod, const Corners& t, double half_thickness
     r.normal = known;
     r.depth = sum + poke(rod, t, known);
   }
-  if (r.depth > kDeepest) {
+  if (r.depth > (over ? kLost : kDeepest)) {
     side = {0, 0, 0};
     r.depth = -1;
   }
   return r;
 }
 
-void push(const Surface& surface, const std::array<int, 3>& triangle, const Touch& touch, Tag tag,
+/// The same for a rod and a triangle that have moved in straight lines: in as many places as it takes.
+/// @param most  [m] to move in between
+Meeting meet_on_the_way(const Capsule& rod0, const Capsule& rod, const Corners& t0, const Corners& t,
+                        double half_thickness, double most, Vec3f& side) noexcept {
+  constexpr int kMostPlaces = 16;
+  const double rod_way = std::max(length(rod.a - rod0.a), length(rod.b - rod0.b));
+  const double sheet_way = std::max({length(t.a - t0.a), length(t.b - t0.b), length(t.c - t0.c)});
+  const double way = rod_way + sheet_way;
+  const int places = way < kMostPlaces * most ? int(way / most) + 1 : kMostPlaces;
+  for (int i = 1; i < places; ++i) {
+    const double share = double(i) / places;
+    const auto mixed = [share](Vec3d from, Vec3d to) { return from + share * (to - from); };
+    meet({mixed(rod0.a, rod.a), mixed(rod0.b, rod.b), rod.radius},
+         {mixed(t0.a, t.a), mixed(t0.b, t.b), mixed(t0.c, t.c)}, half_thickness, side);
+  }
+  return meet(rod, t, half_thickness, side);
+}
+
+Vec3d place(const Corners& t, double b, double c) noexcept { return t.a + b * (t.b - t.a) + c * (t.c - t.a); }
+
+void rub(Touching& c, std::int32_t number, const Touch* was, const Surface& surface, const std::array<int, 3>& triangle,
+         const Corners& t, const Meeting& touch, double depth, NetworkLoads& loads) noexcept {
+  const double weight[2] = {touch.weights.y, touch.weights.z};
+  const Vec3d now = place(t, weight[0], weight[1]);
+  const Rub r = c.rub(number, touch.normal, kRubbing, now, weight,
+                      was ? place(t, double(was->weight[0]), double(was->weight[1])) : now);
+  if (!r.rubs) return;
+  const double shares[3] = {1 - r.weight[0] - r.weight[1], r.weight[0], r.weight[1]};
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (shares[k] < 0.05) continue;
+    tissue::NodeLoad load;
+    load.node = triangle[k];
+    load.k = float(shares[k] * kRubbing);
+    load.x0 = vec_cast<float>(surface.position(triangle[k]) + r.to + depth * touch.normal);
+    loads.add(load, {Owner::tool_contact, c.tool, number});
+  }
+}
+
+void push(const Surface& surface, const std::array<int, 3>& triangle, const Meeting& touch, double depth, Tag tag,
           NetworkLoads& loads) noexcept {
-  const double depth = std::min(touch.depth, kQuickest);
   for (std::size_t k = 0; k < 3; ++k) {
     const double share = touch.weights[int(k)];
     if (share < 0.02) continue;
@@ -78,10 +119,26 @@ void push(const Surface& surface, const std::array<int, 3>& triangle, const Touc
   }
 }
 
+/// Closed jaws as one rod; of no radius while a fold may lie between them.
+Capsule both_jaws(const ToolShape& shape, double half_thickness) noexcept {
+  const Capsule &a = shape.part[kJawA], &b = shape.part[kJawB];
+  const double apart = length(a.b - b.b) - a.radius - b.radius, radius = 0.85 * (a.radius + b.radius);
+  const Vec3d axis = shape.frame.axis();
+  return {shape.pivot, shape.frame.tip + (a.radius - radius) * axis, apart < 2 * half_thickness ? radius : 0};
+}
+
+/// What closing jaws have between them is not to be pushed out: a triangle is known from outside or not at all.
+bool begins_inside(const Capsule& rod, const Corners& t, Vec3f side) noexcept {
+  if (dot(side, side) > 0) return false;
+  const double inside = 0.9 * rod.radius;
+  return geometry::closest_segment_triangle(rod.a, rod.b, t.a, t.b, t.c).distance2 < inside * inside;
+}
+
 }  // namespace
 
-bool tool_on_sheet(const ToolShape& shape, const ToolState& tool_state, int tool, int body, const SheetView& sheet,
-                   std::span<Vec3f> side, NetworkLoads& loads) noexcept {
+bool tool_on_sheet(Touching& c, const ToolState& tool_state, int body, const SheetView& sheet, std::span<Vec3f> side,
+                   NetworkLoads& loads) noexcept {
+  const ToolShape& shape = c.shape;
   const Surface& surface = sheet.surface;
   const tissue::Skin& skin = *surface.skin;
   const auto held = [&](const std::array<int, 3>& t) {
@@ -91,15 +148,22 @@ bool tool_on_sheet(const ToolShape& shape, const ToolState& tool_state, int tool
           if (tool_state.hold[h].element == v) return true;
     return false;
   };
+  constexpr double kTick = 1e-3;
+  const auto before = [&surface](int node) { return surface.position(node) - kTick * surface.nodes.velocity(node); };
   bool remembers = false;
-  for (int part = 0; part < kToolParts; ++part) {
-    const Capsule& rod = shape.part[part];
-    const double reach = rod.radius + sheet.half_thickness + kRemember;
-    const bool near_at_all = surface.pose->bounds.near_segment(rod.a, rod.b, reach);
+  for (const int part : {kShaft, kBothJaws, kJawA, kJawB}) {
+    const bool both = part == kBothJaws;
+    const Capsule rod = both ? both_jaws(shape, sheet.half_thickness) : shape.part[part];
+    const Capsule rod0 = both ? both_jaws(c.before, sheet.half_thickness) : c.before.part[part];
+    const double way = c.way(both ? kJawA : part), reach = rod.radius + sheet.half_thickness + kRemember + way;
+    const double most = 0.9 * (both ? kRemember : rod.radius + sheet.half_thickness + kRemember);
+    const bool near_at_all = surface.pose->bounds.near_segment(rod.a, rod.b, std::max(reach, kLost));
     for (std::size_t i = 0; i < skin.triangles.size(); ++i) {
-      Vec3f& memory = side[i * std::size_t(kToolParts) + std::size_t(part)];
+      Vec3f& memory = side[i * std::size_t(kSheetParts) + std::size_t(part)];
       const auto& t = skin.triangles[i];
-      if (!near_at_all || sheet.parted[i]) {
+      const Vec3f together = side[i * std::size_t(kSheetParts) + std::size_t(kBothJaws)];
+      const bool by_both = (part == kJawA || part == kJawB) && dot(together, together) > 0;
+      if (!near_at_all || sheet.parted[i] || rod.radius == 0 || by_both) {
         memory = {};
         continue;
       }
@@ -108,7 +172,8 @@ bool tool_on_sheet(const ToolShape& shape, const ToolState& tool_state, int tool
       const double size2 = std::max({geometry::distance2(middle, corners.a), geometry::distance2(middle, corners.b),
                                      geometry::distance2(middle, corners.c)});
       const double way2 = geometry::distance2(middle, collision::nearest_on_axis(rod, middle));
-      if (way2 > 2 * (size2 + reach * reach)) {  // (r + s)^2 <= 2 (r^2 + s^2)
+      const double far = dot(memory, memory) > 0 ? kLost : reach;
+      if (way2 > 2 * (size2 + far * far)) {  // (r + s)^2 <= 2 (r^2 + s^2)
         memory = {};
         continue;
       }
@@ -116,9 +181,18 @@ bool tool_on_sheet(const ToolShape& shape, const ToolState& tool_state, int tool
         memory = {};
         continue;
       }
-      const Touch touch = touch_triangle(rod, corners, sheet.half_thickness, memory);
+      const Corners corners0{before(t[0]), before(t[1]), before(t[2])};
+      if (both && (rod0.radius == 0 || begins_inside(rod0, corners0, memory))) {
+        memory = {};
+        continue;
+      }
+      const Meeting touch = meet_on_the_way(rod0, rod, corners0, corners, sheet.half_thickness, most, memory);
       remembers = remembers || dot(memory, memory) > 0;
-      if (touch.depth > 0) push(surface, t, touch, {Owner::tool_contact, tool, part}, loads);
+      if (touch.depth <= 0) continue;
+      const std::int32_t number = c.note(body, int(i), part);
+      const double depth = std::min(touch.depth, kQuickest + way);
+      rub(c, number, c.anchored(body, int(i), part), surface, t, corners, touch, depth, loads);
+      push(surface, t, touch, depth, {Owner::tool_contact, c.tool, number}, loads);
     }
   }
   return remembers;

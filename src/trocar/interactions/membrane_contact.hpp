@@ -1,14 +1,15 @@
 // An instrument touches a thin sheet, from either side. Shaft and jaws are rods against the sheet's triangles; for
 // every rod and triangle State remembers from which side they last were near each other, and the contact pushes the
-// sheet back to there. So nothing passes through it: hands move at most 0.6 mm a tick, and a rod is remembered from 2
-// mm before it touches. What lies between the jaws, a little of the fold or all of it, has a jaw on either side.
+// sheet back to there, as far in a tick as the rod has moved and some more. So nothing passes through it: a rod is
+// remembered from 2 mm before it touches, and where it or the sheet moves farther than that in a tick it is looked at
+// in between. What lies between the jaws, a little of the fold or all of it, has a jaw on either side.
 #pragma once
 
 #include <span>
 
 #include <trocar/interactions/loads.hpp>
 #include <trocar/interactions/surface.hpp>
-#include <trocar/interactions/tool.hpp>
+#include <trocar/interactions/touch.hpp>
 
 namespace trocar::interactions {
 
@@ -21,9 +22,9 @@ struct SheetView {
 };
 
 /// @param body  how holds name this membrane
-/// @param side  (triangles x kToolParts) State: unit vector from the rod to the sheet when they last were near
+/// @param side  (triangles x kSheetParts) State: unit vector from the rod to the sheet when they last were near
 /// @return true while anything is remembered
-bool tool_on_sheet(const ToolShape& shape, const ToolState& tool_state, int tool, int body, const SheetView& sheet,
+bool tool_on_sheet(Touching& touching, const ToolState& tool_state, int body, const SheetView& sheet,
                    std::span<Vec3f> side, NetworkLoads& loads) noexcept;
 
 }  // namespace trocar::interactions

@@ -23,6 +23,7 @@ struct ToolModel {
   double parallel_gap = 0;  ///< > 0: parallel jaws with this gap when open [m]
   double pinch_max = 15;    ///< force between the jaws, handle closed on tissue [N]
   double friction = 1.67;   ///< pull borne per pinch
+  double rubbing = 0;       ///< Coulomb's coefficient of shaft and closed jaws on tissue
   double clip_length = 0;   ///< [m]
   std::int32_t clips = 0;   ///< in the magazine at the start
 };
@@ -64,6 +65,8 @@ static_assert(sizeof(ToolState) == 14 * 8 + 6 * 4 + kMaxHolds * sizeof(Hold), "n
 using collision::Capsule;
 
 inline constexpr int kShaft = 0, kJawA = 1, kJawB = 2, kToolParts = 3;
+/// For folds, too, both jaws together: closed ones are a blunt rod, and nothing gets between them.
+inline constexpr int kBothJaws = kToolParts, kSheetParts = kToolParts + 1;
 
 /// Where an instrument is in space this tick.
 struct ToolShape {

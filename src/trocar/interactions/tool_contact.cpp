@@ -9,10 +9,14 @@ namespace {
 
 constexpr double kSurfaceStiffness = 1500;  // [N/m] per skin vertex, implicit: decides how firm, never how stable
 constexpr double kStrandStiffness = 1500;   // [N/m] per strand element
-constexpr double kQuickest = 0.0012;        // [m] a tick that a contact moves a skin: twice the fastest hand, no shots
-constexpr double kQuickestStrand = 0.003;   // [m] the same for a strand, which is light and must not be overtaken
+constexpr double kQuickest = 0.0012;        // [m] a tick that a contact moves a skin more than the instrument moves
+constexpr double kQuickestStrand = 0.003;   // [m] the same for a strand, which is light
 constexpr double kDamping = 0.3;            // [N s/m] along the contact normal
-constexpr double kBehind = 0.006;           // [m] how deep behind the surface an instrument is still pushed out
+constexpr double kBehind = 0.006;           // [m] how deep behind the surface an instrument is looked for
+constexpr double kDeepest = 0.025;          // [m] ... and still pushed out, if it is known to have come from outside
+constexpr double kNear = 0.0025;            // [m] from the instrument: noted
+constexpr double kRubbing = 100;            // [N/m] of the spring between tissue and anchor: how far it gives, sticking
+constexpr float kLeast = 0.05f;             // share of a contact below which a node feels no friction
 
 bool meets(const tissue::Box& box, const Capsule& rod) noexcept {
   return box.near_segment(rod.a, rod.b, rod.radius + kBehind);
@@ -64,64 +68,177 @@ SkinPoint nearest_skin_point(const Surface& surface, int vertex, Vec3d p) noexce
   return best;
 }
 
-/// A ball of the instrument presses the skin in, whatever lies between the skin's vertices.
-void press(const Surface& surface, Vec3d p, double radius, Tag tag, NetworkLoads& loads) noexcept {
-  const int vertex = nearest_vertex_near(surface, p, radius + kBehind);
+/// A skin vertex is pushed by `depth` along n, and held back across it.
+void push_vertex(const Touching& c, std::int32_t number, const Surface& surface, int v, double depth, Vec3d n,
+                 double share, NetworkLoads& loads) noexcept {
+  SkinLoad load;
+  load.k = share * kSurfaceStiffness;
+  load.shift = depth * n;
+  load.dir = n;
+  load.d = share * kDamping;
+  add_skin_load(surface.nodes, *surface.skin, v, load, {Owner::tool_contact, c.tool, number}, loads);
+}
+
+void rub_vertex(Touching& c, std::int32_t number, const Surface& surface, int v, double depth, Vec3d n,
+                NetworkLoads& loads) noexcept {
+  const Vec3d p = surface.position(v);
+  const Rub rub = c.rub(number, n, kRubbing, p, {0, 0}, p);
+  if (!rub.rubs) return;
+  SkinLoad load;
+  load.k = kRubbing;
+  load.shift = rub.to + depth * n;
+  add_skin_load(surface.nodes, *surface.skin, v, load, {Owner::tool_contact, c.tool, number}, loads, kLeast);
+}
+
+/// Was the instrument near this patch of the skin in the last tick?
+bool was_near(const Touching& c, int body, const Surface& surface, int v) noexcept {
+  if (c.last.near(body, v)) return true;
+  const tissue::Skin& skin = *surface.skin;
+  for (int k = skin.neighbour_first[size_t(v)]; k < skin.neighbour_first[size_t(v) + 1]; ++k)
+    if (c.last.near(body, skin.neighbour[size_t(k)])) return true;
+  return false;
+}
+
+/// Was the part's axis outside the skin at that vertex?
+bool was_outside(const Touching& c, int part, const Surface& surface, int v, Vec3d p, Vec3d n) noexcept {
+  constexpr double kTick = 1e-3;
+  const Vec3d p0 = p - kTick * tissue::skin_velocity(surface.nodes, *surface.skin, v);
+  return dot(p0 - collision::nearest_on_axis(c.before.part[part], p0), n) <= 0;
+}
+
+/// One vertex against one part.
+void touch_vertex(Touching& c, int body, const Surface& surface, int v, int part, NetworkLoads& loads) noexcept {
+  const Capsule& rod = c.shape.part[part];
+  const Vec3d p = surface.position(v), from = p - collision::nearest_on_axis(rod, p);
+  const double distance = length(from);
+  if (distance > kDeepest) return;
+  const Vec3d n = surface.normal(v);
+  if (dot(from, n) <= 0) {
+    if (distance > rod.radius + kNear) return;
+  } else if (!was_near(c, body, surface, v) && !was_outside(c, part, surface, v, p, n)) {
+    return;
+  }
+  const collision::Push push = collision::push_out(rod, p, n, kDeepest);
+  if (push.depth <= 0 && dot(from, n) > 0 && distance > rod.radius + kNear) return;
+  const std::int32_t number = c.note(body, v, part);
+  if (push.depth <= 0) return;
+  const double depth = std::min(push.depth, kQuickest + c.way(part));
+  rub_vertex(c, number, surface, v, depth, push.direction, loads);
+  push_vertex(c, number, surface, v, depth, push.direction, 1, loads);
+}
+
+/// An edge so long that the shaft fits between its vertices. Edges are numbered after the vertices.
+void shaft_on_edge(Touching& c, int body, const Surface& surface, int v, int k, NetworkLoads& loads) noexcept {
+  const tissue::Skin& skin = *surface.skin;
+  const Capsule& rod = c.shape.part[kShaft];
+  const int u = skin.neighbour[size_t(k)];
+  const Vec3d a = surface.position(v), b = surface.position(u);
+  const auto near = geometry::closest_segments(rod.a, rod.b, a, b);
+  if (near.t < 0.1 || near.t > 0.9) return;  // that is the vertices' business
+  const Vec3d n = normalised((1 - near.t) * surface.normal(v) + near.t * surface.normal(u));
+  const bool behind = dot(near.on_second - near.on_first, n) > 0;
+  if (behind && !was_near(c, body, surface, v) && !was_outside(c, kShaft, surface, v, near.on_second, n)) return;
+  const collision::Push push = collision::push_out(rod, near.on_second, n, kDeepest);
+  if (push.depth <= 0) return;
+  const std::int32_t element = skin.size() + k;
+  const std::int32_t number = c.note(body, element, kShaft);
+  const double depth = std::min(push.depth, kQuickest + c.way(kShaft));
+  const Touch* was = c.anchored(body, element, kShaft);
+  const Rub rub = c.rub(number, push.direction, kRubbing, near.on_second, {near.t, 0},
+                        a + (was ? double(was->weight[0]) : near.t) * (b - a));
+  const Tag tag{Owner::tool_contact, c.tool, number};
+  for (int end = 0; end < 2; ++end) {
+    const int vertex = end ? u : v;
+    push_vertex(c, number, surface, vertex, depth, push.direction, end ? near.t : 1 - near.t, loads);
+    if (!rub.rubs) continue;
+    SkinLoad load;
+    load.k = kRubbing * (end ? rub.weight[0] : 1 - rub.weight[0]);
+    load.shift = rub.to + depth * push.direction;
+    add_skin_load(surface.nodes, skin, vertex, load, tag, loads, kLeast);
+  }
+}
+
+void shaft_on_edges(Touching& c, int body, const Surface& surface, int v, NetworkLoads& loads) noexcept {
+  const tissue::Skin& skin = *surface.skin;
+  const double r = c.shape.part[kShaft].radius, least2 = 1.6 * 1.6 * r * r;
+  for (int k = skin.neighbour_first[size_t(v)]; k < skin.neighbour_first[size_t(v) + 1]; ++k) {
+    const int u = skin.neighbour[size_t(k)];
+    if (u > v && geometry::distance2(surface.position(u), surface.position(v)) > least2)
+      shaft_on_edge(c, body, surface, v, k, loads);
+  }
+}
+
+void part_on_surface(Touching& c, int body, const Surface& surface, int part, NetworkLoads& loads) noexcept {
+  const tissue::SkinPose& pose = *surface.pose;
+  const Capsule& rod = c.shape.part[part];
+  const double reach2 = (rod.radius + kBehind) * (rod.radius + kBehind);
+  const auto within = [&](int v) {
+    const Vec3d p = surface.position(v);
+    return geometry::distance2(p, collision::nearest_on_axis(rod, p)) <= reach2;
+  };
+  if (meets(pose.bounds, rod))
+    for (size_t b = 0; b < pose.block.size(); ++b) {
+      if (!meets(pose.block[b], rod)) continue;
+      const int last = std::min(int(b + 1) * tissue::kSkinBlock, surface.skin->size());
+      for (int v = int(b) * tissue::kSkinBlock; v < last; ++v)
+        if (surface.skin->at_surface(v) && within(v)) {
+          touch_vertex(c, body, surface, v, part, loads);
+          if (part == kShaft) shaft_on_edges(c, body, surface, v, loads);
+        }
+    }
+  // What was near and has been left behind deeper than that.
+  for (const Touch* t = c.last.touch; t != c.last.touch + c.last.count; ++t) {
+    if (t->body != body || t->part != part || t->element < 0 || t->element >= surface.skin->size()) continue;
+    if (surface.skin->at_surface(t->element) && !within(t->element))
+      touch_vertex(c, body, surface, t->element, part, loads);
+  }
+}
+
+/// Number `ball` of the balls along closed jaws presses the skin in, whatever lies between the skin's vertices.
+void press(Touching& c, int body, const Surface& surface, int ball, Vec3d p, Vec3d before, double radius,
+           NetworkLoads& loads) noexcept {
+  const std::int32_t element = -1 - ball;
+  const Touch* was = c.last.find(body, element, kJawA);
+  const bool known =
+      was && was->vertex >= 0 && was->vertex < surface.skin->size() && surface.skin->at_surface(was->vertex);
+  int vertex = nearest_vertex_near(surface, p, radius + kBehind);
+  if (known && was->anchored && vertex != was->vertex) vertex = walk_to_nearest(surface, was->vertex, p);
   if (vertex < 0) return;
   const SkinPoint at = nearest_skin_point(surface, vertex, p);
-  const double depth = radius - dot(p - at.point, at.normal);
-  if (depth <= 0 || depth > radius + kBehind) return;
+  const double above = dot(p - at.point, at.normal), far = length(p - at.point);
+  if (above >= 0 ? far > radius + kNear : far > kDeepest) return;
+  if (above < 0 && !known && !was_near(c, body, surface, vertex) && dot(before - at.point, at.normal) < 0) return;
+  const std::int32_t number = c.note(body, element, kJawA, vertex);
+  const double deep = radius - above;
+  if (deep <= 0) return;
+  const Vec3d n = -at.normal;
+  const double depth = std::min(deep, kQuickest + c.way(kJawA));
+  rub_vertex(c, number, surface, vertex, depth, n, loads);
   for (size_t k = 0; k < 3; ++k) {
     const double share = at.weights[int(k)];
-    if (share < 0.02) continue;
-    SkinLoad load;
-    load.k = share * kSurfaceStiffness;
-    load.shift = -depth * at.normal;
-    load.dir = -at.normal;
-    load.d = share * kDamping;
-    add_skin_load(surface.nodes, *surface.skin, at.vertex[k], load, tag, loads);
+    if (share >= 0.02) push_vertex(c, number, surface, at.vertex[k], depth, n, share, loads);
   }
 }
 
 /// Closed jaws are a blunt rod that is thinner than the skin's triangles: points along it are pressed against the skin.
 /// Open jaws are not, so that a fold can rise between them.
-void closed_jaws_on_surface(const ToolShape& shape, int tool, const Surface& surface, NetworkLoads& loads) noexcept {
-  const Capsule &a = shape.part[kJawA], &b = shape.part[kJawB];
+void closed_jaws_on_surface(Touching& c, int body, const Surface& surface, NetworkLoads& loads) noexcept {
+  const Capsule &a = c.shape.part[kJawA], &b = c.shape.part[kJawB];
   if (length(a.b - b.b) > 2.5 * (a.radius + b.radius)) return;
   constexpr double kSpacing = 0.002;
-  const double far = length(shape.frame.tip - shape.pivot);
-  if (!surface.pose->bounds.near_segment(shape.pivot, shape.frame.tip, kBehind + a.radius)) return;
-  for (double back = 0; back < far; back += kSpacing)
-    press(surface, shape.frame.tip - back * shape.frame.axis(), a.radius + b.radius, {Owner::tool_contact, tool, kJawA},
-          loads);
+  const double far = length(c.shape.frame.tip - c.shape.pivot);
+  if (!surface.pose->bounds.near_segment(c.shape.pivot, c.shape.frame.tip, kDeepest)) return;
+  int ball = 0;
+  for (double back = 0; back < far; back += kSpacing, ++ball)
+    press(c, body, surface, ball, c.shape.frame.tip - back * c.shape.frame.axis(),
+          c.before.frame.tip - back * c.before.frame.axis(), a.radius + b.radius, loads);
 }
 
 }  // namespace
 
-void tool_on_surface(const ToolShape& shape, int tool, const Surface& surface, NetworkLoads& loads) noexcept {
-  const tissue::SkinPose& pose = *surface.pose;
-  for (int part = 0; part < kToolParts; ++part) {
-    const Capsule& rod = shape.part[part];
-    if (!meets(pose.bounds, rod)) continue;
-    for (size_t b = 0; b < pose.block.size(); ++b) {
-      if (!meets(pose.block[b], rod)) continue;
-      const int last = std::min(int(b + 1) * tissue::kSkinBlock, surface.skin->size());
-      for (int v = int(b) * tissue::kSkinBlock; v < last; ++v) {
-        if (!surface.skin->at_surface(v)) continue;
-        const Vec3d p = surface.position(v);
-        if (length(p - collision::nearest_on_axis(rod, p)) > rod.radius + kBehind) continue;
-        const collision::Push push = collision::push_out(rod, p, surface.normal(v), kBehind);
-        if (push.depth <= 0) continue;
-        SkinLoad load;
-        load.k = kSurfaceStiffness;
-        load.shift = std::min(push.depth, kQuickest) * push.direction;
-        load.dir = push.direction;
-        load.d = kDamping;
-        add_skin_load(surface.nodes, *surface.skin, v, load, {Owner::tool_contact, tool, part}, loads);
-      }
-    }
-  }
-  closed_jaws_on_surface(shape, tool, surface, loads);
+void tool_on_surface(Touching& touching, int body, const Surface& surface, NetworkLoads& loads) noexcept {
+  for (int part = 0; part < kToolParts; ++part) part_on_surface(touching, body, surface, part, loads);
+  closed_jaws_on_surface(touching, body, surface, loads);
 }
 
 BetweenJaws between_jaws(const ToolModel& model, const ToolShape& shape, const StrandBody& body,
@@ -162,11 +279,47 @@ void channel(const ToolShape& shape, const BetweenJaws& where, double radius, in
   loads.add(load, tag);
 }
 
+constexpr int kBetween = kToolParts;  // where others note a part: it runs between the jaws
+
+/// Nothing gets between jaws that are closed; what was there when they closed stays.
+bool may_be_between(const Touching& c, const BetweenJaws& where, const StrandBody& body, int strand, int e) noexcept {
+  constexpr double kSqueezed = 0.35;
+  if (c.shape.half_opening(std::max(where.local.z, 0.0)) >= kSqueezed * body.model.radius[size_t(e)]) return true;
+  for (int near = e - 1; near <= e + 1; ++near)
+    if (c.last.find(strand, near, kBetween)) return true;
+  return false;
+}
+
+/// A strand element is pushed off a part of the instrument and held back across that.
+void push_strand(Touching& touching, int strand, int element, int part, const collision::RodContact& c, Vec3d a,
+                 Vec3d b, StrandLoads& loads) noexcept {
+  const std::int32_t number = touching.note(strand, element, part);
+  const Tag tag{Owner::tool_contact, touching.tool, number};
+  const double depth = std::min(c.depth, kQuickestStrand + touching.way(part));
+  const Touch* was = touching.anchored(strand, element, part);
+  const double held = was ? double(was->weight[0]) : c.t;
+  const Rub rub = touching.rub(number, c.normal, kRubbing, c.on_second, {c.t, 0}, a + held * (b - a));
+  tissue::StrandLoad load;
+  load.element = element;
+  if (rub.rubs) {
+    load.w = rub.weight[0];
+    load.k = kRubbing;
+    load.x0 = a + load.w * (b - a) + rub.to + depth * c.normal;
+    loads.add(load, tag);
+  }
+  load.w = c.t;
+  load.k = kStrandStiffness;
+  load.dir = c.normal;
+  load.d = kDamping;
+  load.x0 = c.on_second + depth * c.normal;
+  loads.add(load, tag);
+}
+
 }  // namespace
 
-void tool_on_strand(const ToolModel& model, const ToolShape& shape, const ToolState& tool_state, int tool,
-                    const StrandBody& body, int strand, const tissue::StrandState& state, std::span<Vec3f> side,
-                    StrandLoads& loads) noexcept {
+void tool_on_strand(const ToolModel& model, Touching& touching, const ToolState& tool_state, const StrandBody& body,
+                    int strand, const tissue::StrandState& state, std::span<Vec3f> side, StrandLoads& loads) noexcept {
+  const ToolShape& shape = touching.shape;
   const auto is_held = [&](int element) {
     for (int h = 0; h < tool_state.holds; ++h)
       if (tool_state.hold[h].body == strand && std::abs(tool_state.hold[h].element - element) <= 1) return true;
@@ -178,7 +331,8 @@ void tool_on_strand(const ToolModel& model, const ToolShape& shape, const ToolSt
   for (int e = 0; e + 1 < body.nodes(); ++e) {
     if (!state.alive[size_t(e)]) continue;
     const BetweenJaws where = between_jaws(model, shape, body, state, e);
-    if (!where.inside || !where.crosses) continue;
+    if (!where.inside || !where.crosses || !may_be_between(touching, where, body, strand, e)) continue;
+    touching.note(strand, e, kBetween);
     first_inside = std::min(first_inside, e);
     last_inside = e;
   }
@@ -186,9 +340,10 @@ void tool_on_strand(const ToolModel& model, const ToolShape& shape, const ToolSt
   for (int e = 0; e + 1 < body.nodes(); ++e) {
     if (!state.alive[size_t(e)]) continue;
     const Vec3d a = state.x[size_t(e)], b = state.x[size_t(e) + 1];
+    const Vec3d a0 = a - body.model.tick * state.v[size_t(e)], b0 = b - body.model.tick * state.v[size_t(e) + 1];
     const double radius = body.model.radius[size_t(e)];
     Vec3f* memory = side.data() + size_t(e) * kToolParts;
-    const double reach = radius + model.shaft_radius + model.jaw_length + length(b - a);
+    const double reach = radius + model.shaft_radius + model.jaw_length + length(b - a) + collision::kLost;
     if (length(a - collision::nearest_on_axis(whole, a)) > reach) {
       for (int part = 0; part < kToolParts; ++part) memory[part] = {};
       continue;
@@ -200,18 +355,12 @@ void tool_on_strand(const ToolModel& model, const ToolShape& shape, const ToolSt
         memory[part] = {};
         continue;
       }
-      const collision::RodContact c = collision::touch(shape.part[part], {a, b, radius}, memory[part]);
-      if (c.depth <= 0) continue;
-      tissue::StrandLoad load;
-      load.element = e;
-      load.w = c.t;
-      load.k = kStrandStiffness;
-      load.dir = c.normal;
-      load.d = kDamping;
-      load.x0 = c.on_second + std::min(c.depth, kQuickestStrand) * c.normal;
-      loads.add(load, {Owner::tool_contact, tool, part});
+      const collision::RodContact c = collision::touch(touching.before.part[part], shape.part[part], {a0, b0, radius},
+                                                       {a, b, radius}, memory[part]);
+      if (c.depth > 0) push_strand(touching, strand, e, part, c, a, b, loads);
     }
-    if (where.inside && between && !held) channel(shape, where, radius, e, {Owner::tool_contact, tool, kJawA}, loads);
+    if (where.inside && between && !held)
+      channel(shape, where, radius, e, {Owner::tool_contact, touching.tool, 0}, loads);
   }
 }
 

@@ -1,10 +1,12 @@
 // An instrument touches tissue: shaft and jaws against organ skins and strands. The contact pushes the tissue away
-// from the instrument, implicitly, so the force is the tissue's reaction and not a penalty.
+// from the instrument, implicitly, so the force is the tissue's reaction and not a penalty; friction holds it
+// (touch.hpp).
 //
-// Nothing tunnels: hands are bounded to 0.6 m/s at the tip (0.6 mm a tick, less than any radius here); a skin vertex
-// that finds itself behind the instrument's axis is still pushed inwards along its own normal, to a depth of 6 mm;
-// closed jaws, thinner than the skin's triangles, are also pressed against those; a strand remembers (in State) on
-// which side of each rod it lies, and stays there.
+// Nothing tunnels, whatever the speed: contacts push as far in a tick as the instrument has moved and some more, and
+// State remembers from which side it came. A strand's element has a side of each rod. A vertex of an organ's skin that
+// finds itself behind the instrument's axis is pushed inwards along its own normal, down to 25 mm, if it or a neighbour
+// was near the instrument in the last tick, or the axis was outside then; so the far side of a thin organ is left
+// alone. Closed jaws, thinner than the skin's triangles, are also pressed against those.
 #pragma once
 
 #include <span>
@@ -12,17 +14,17 @@
 #include <trocar/interactions/loads.hpp>
 #include <trocar/interactions/strand_body.hpp>
 #include <trocar/interactions/surface.hpp>
-#include <trocar/interactions/tool.hpp>
+#include <trocar/interactions/touch.hpp>
 
 namespace trocar::interactions {
 
-void tool_on_surface(const ToolShape& shape, int tool, const Surface& surface, NetworkLoads& loads) noexcept;
+/// @param body  how holds name this organ
+void tool_on_surface(Touching& touching, int body, const Surface& surface, NetworkLoads& loads) noexcept;
 
 /// @param side  (elements x kToolParts) State: on which side of each of this tool's rods an element lies
 ///              (collision::touch)
-void tool_on_strand(const ToolModel& model, const ToolShape& shape, const ToolState& tool_state, int tool,
-                    const StrandBody& body, int strand, const tissue::StrandState& state, std::span<Vec3f> side,
-                    StrandLoads& loads) noexcept;
+void tool_on_strand(const ToolModel& model, Touching& touching, const ToolState& tool_state, const StrandBody& body,
+                    int strand, const tissue::StrandState& state, std::span<Vec3f> side, StrandLoads& loads) noexcept;
 
 /// How a strand element lies between the jaws.
 struct BetweenJaws {

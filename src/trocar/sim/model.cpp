@@ -25,7 +25,7 @@ void add_tool(core::Hasher& h, const interactions::ToolModel& t) {
   h.add(t.port);
   h.add(t.limits);
   for (double v : {t.shaft_radius, t.shaft_length, t.jaw_length, t.jaw_width, t.jaw_thickness, t.opening,
-                   t.parallel_gap, t.pinch_max, t.friction, t.clip_length})
+                   t.parallel_gap, t.pinch_max, t.friction, t.rubbing, t.clip_length})
     h.add(v);
   h.add(t.clips);
 }

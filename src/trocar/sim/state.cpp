@@ -60,8 +60,10 @@ State initial_state(const Model& model) {
     s.torn.emplace_back(m.sheet.triangles.size(), std::uint8_t(0));
     triangles += m.sheet.triangles.size();
   }
-  s.sheet_side.resize(model.hands.size() * triangles * size_t(interactions::kToolParts));
+  s.sheet_side.resize(model.hands.size() * triangles * size_t(interactions::kSheetParts));
   s.sheet_near.resize(model.hands.size() * model.membranes.size());
+  s.touches.resize(model.hands.size());
+  for (size_t t = 0; t < model.hands.size(); ++t) interactions::start_here(s.tools[t], s.touches[t]);
   s.seen.resize(model.samples.size());
   make_counters(model, s);
   return s;
@@ -89,6 +91,7 @@ std::uint64_t hash_of(const State& s) noexcept {
   h.add(s.nearest);
   h.add(s.strand_side);
   h.add(s.tool_side);
+  for (const interactions::TouchBook& book : s.touches) add_to_hash(h, book);
   h.add(s.seen);
   for (const auto& membrane : s.membranes) add_to_hash(h, membrane);
   h.add(s.sheet_side);

@@ -50,6 +50,7 @@ void change_instrument(StepContext& c, size_t t, std::int32_t wanted) noexcept {
   next.instrument = wanted;
   next.clips_left = magazine[wanted];
   tool = next;
+  interactions::start_here(next, c.state.touches[t]);
   for (Vec3f& side : sides_of(c, t)) side = {};
   const size_t each = c.state.sheet_side.size() / c.model.hands.size(), membranes = c.model.membranes.size();
   std::fill_n(c.state.sheet_side.begin() + std::ptrdiff_t(t * each), each, Vec3f{});
@@ -287,17 +288,17 @@ void work_jaws(StepContext& c) noexcept {
 }
 
 /// An instrument on folds. Far from one that it was not near before there is nothing to do, and nothing to forget.
-void touch_sheets(StepContext& c, size_t t) noexcept {
+void touch_sheets(StepContext& c, size_t t, interactions::Touching& touching) noexcept {
   size_t triangles = 0;
   for (const MembraneModel& m : c.model.membranes) triangles += m.sheet.triangles.size();
-  size_t at = t * triangles * size_t(interactions::kToolParts);
+  size_t at = t * triangles * size_t(interactions::kSheetParts);
   const interactions::ToolShape& shape = c.work.shapes[t];
   for (size_t i = 0; i < c.model.membranes.size(); ++i) {
-    const size_t sides = c.model.membranes[i].sheet.triangles.size() * size_t(interactions::kToolParts);
+    const size_t sides = c.model.membranes[i].sheet.triangles.size() * size_t(interactions::kSheetParts);
     std::uint8_t& near = c.state.sheet_near[t * c.model.membranes.size() + i];
     const tissue::Box& box = c.work.sheet_poses[i].bounds;
     if (near || box.near_segment(shape.part[interactions::kShaft].a, shape.frame.tip, 0.03))
-      near = interactions::tool_on_sheet(shape, c.state.tools[t], int(t), interactions::kMembraneBase + int(i),
+      near = interactions::tool_on_sheet(touching, c.state.tools[t], interactions::kMembraneBase + int(i),
                                          c.work.sheets[i], {c.state.sheet_side.data() + at, sides},
                                          c.work.membrane_loads[i]);
     at += sides;
@@ -310,15 +311,20 @@ void touch_tissue(StepContext& c) noexcept {
   size_t at = 0;
   for (size_t t = 0; t < c.model.hands.size(); ++t) {
     const interactions::ToolShape& shape = c.work.shapes[t];
+    const interactions::ToolModel& tool = c.model.tool(c.state, t);
+    const interactions::TouchBook& last = c.state.touches[t];
+    const interactions::ToolShape before = interactions::shape_before(tool, last);
+    interactions::Touching touching(tool.rubbing, before, shape, int(t), last, c.work.touches[t]);
     for (size_t i = 0; i < size_t(c.model.organs()); ++i)
-      interactions::tool_on_surface(shape, int(t), c.work.surfaces[i], c.work.organ_loads[i]);
+      interactions::tool_on_surface(touching, interactions::kSolidBase + int(i), c.work.surfaces[i],
+                                    c.work.organ_loads[i]);
     for (size_t i = 0; i < c.model.strands.size(); ++i) {
       const size_t sides = size_t(c.model.bodies[i].nodes() - 1) * size_t(interactions::kToolParts);
-      interactions::tool_on_strand(c.model.tool(c.state, t), shape, c.state.tools[t], int(t), c.model.bodies[i], int(i),
-                                   c.state.strands[i], {c.state.tool_side.data() + at, sides}, c.work.strand_loads[i]);
+      interactions::tool_on_strand(tool, touching, c.state.tools[t], c.model.bodies[i], int(i), c.state.strands[i],
+                                   {c.state.tool_side.data() + at, sides}, c.work.strand_loads[i]);
       at += sides;
     }
-    touch_sheets(c, t);
+    touch_sheets(c, t, touching);
     interactions::hold_loads(shape, int(t), view, c.state.tools[t], c.work.strand_loads, c.work.organ_loads,
                              c.work.membrane_loads);
   }
@@ -449,7 +455,10 @@ void add_force(double (&sum)[3], Vec3d f) noexcept {
 }
 
 void account(StepContext& c, interactions::Tag tag, Vec3d force) noexcept {
-  if (tag.owner == Owner::tool_contact) add_force(c.state.tools[size_t(tag.index)].contact_force, -force);
+  if (tag.owner == Owner::tool_contact) {
+    add_force(c.state.tools[size_t(tag.index)].contact_force, -force);
+    interactions::press_on(c.work.touches[size_t(tag.index)], tag.sub, force);
+  }
   if (tag.owner != Owner::tool_hold) return;
   float(&on_tissue)[3] = c.state.tools[size_t(tag.index)].hold[tag.sub].force;
   on_tissue[0] += float(force.x);
@@ -475,6 +484,7 @@ void feel(StepContext& c) noexcept {
     const int held = tool.holds, slips = tool.slipped;
     interactions::slip(c.model.tool(c.state, t), c.work.shapes[t], view, tool);
     if (held > 0 && tool.holds == 0) tell_lost(c, t, slips);
+    interactions::remember(tool, c.work.touches[t], c.state.touches[t]);
   }
 }
 

@@ -89,6 +89,7 @@ Work make_work(const Model& model, core::ThreadPool* pool) {
     w.strand_work.push_back(tissue::make_work(b.model));
     w.strand_loads.emplace_back().reserve(kStrandLoads);
   }
+  w.touches.resize(model.hands.size());
   w.surfaces.resize(size_t(model.surfaces()));
   w.ends.resize(model.strands.size());
   w.end_reactions.resize(model.strands.size());
@@ -141,6 +142,7 @@ void poison(Work& w) noexcept {
     scribble(s.saved);
     scribble(s.bend_now);
   }
+  scribble(w.touches);
   scribble(w.parts);
   scribble(w.ends);
   scribble(w.end_reactions);

@@ -15,6 +15,7 @@ struct Work {
   std::vector<tissue::SkinPose> poses;          ///< (organs)
   std::vector<interactions::Surface> surfaces;  ///< (organs + walls)
   std::array<interactions::ToolShape, kMaxTools> shapes;
+  std::vector<interactions::TouchBook> touches;         ///< (hands) this tick's
   std::vector<interactions::NetworkLoads> organ_loads;  ///< (organs)
   std::vector<interactions::StrandLoads> strand_loads;
   std::vector<tissue::NetworkWork> solid_work;

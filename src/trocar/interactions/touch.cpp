@@ -1,0 +1,154 @@
+#include <algorithm>
+
+#include <trocar/interactions/touch.hpp>
+
+namespace trocar::interactions {
+namespace {
+
+constexpr float kShare = 0.25f;  // of the newest normal force in its average: about four ticks
+
+bool before_in_book(const Touch& a, const Touch& b) noexcept {
+  if (a.body != b.body) return a.body < b.body;
+  return a.element != b.element ? a.element < b.element : a.part < b.part;
+}
+
+/// A part's frame: shafts are measured from the hinge, jaws from their roots.
+struct PartFrame {
+  Vec3d origin, x, y, z;
+};
+PartFrame frame_of(const ToolShape& shape, int part) noexcept {
+  const Capsule& rod = shape.part[part < kToolParts ? part : kJawA];
+  const Vec3d x = shape.frame.normal();
+  if (part == kShaft) return {rod.b, x, shape.frame.opening(), shape.frame.axis()};
+  const Vec3d z = normalised(rod.b - rod.a, shape.frame.axis());
+  return {rod.a, x, cross(z, x), z};
+}
+
+Vec3d into(const PartFrame& f, Vec3d p) noexcept {
+  const Vec3d d = p - f.origin;
+  return {dot(d, f.x), dot(d, f.y), dot(d, f.z)};
+}
+Vec3d out_of(const PartFrame& f, const float (&p)[3]) noexcept {
+  return f.origin + double(p[0]) * f.x + double(p[1]) * f.y + double(p[2]) * f.z;
+}
+
+void put(float (&to)[3], Vec3d from) noexcept {
+  to[0] = float(from.x);
+  to[1] = float(from.y);
+  to[2] = float(from.z);
+}
+
+double way_of(const Capsule& from, const Capsule& to) noexcept {
+  return std::max(length(to.a - from.a), length(to.b - from.b));
+}
+
+}  // namespace
+
+const Touch* TouchBook::find(std::int32_t body, std::int32_t element, std::int32_t part) const noexcept {
+  Touch key;
+  key.body = body;
+  key.element = element;
+  key.part = part;
+  const Touch* at = std::lower_bound(touch, touch + count, key, before_in_book);
+  return at != touch + count && at->body == body && at->element == element && at->part == part ? at : nullptr;
+}
+
+bool TouchBook::near(std::int32_t body, std::int32_t element) const noexcept {
+  Touch key;
+  key.body = body;
+  key.element = element;
+  key.part = kShaft;
+  const Touch* at = std::lower_bound(touch, touch + count, key, before_in_book);
+  return at != touch + count && at->body == body && at->element == element;
+}
+
+void start_here(const ToolState& tool, TouchBook& book) noexcept {
+  book.yaw = tool.yaw;
+  book.pitch = tool.pitch;
+  book.roll = tool.roll;
+  book.depth = tool.depth;
+  book.aperture = tool.aperture;
+  book.count = book.reserved = 0;
+}
+
+ToolShape shape_before(const ToolModel& model, const TouchBook& book) noexcept {
+  return shape_of(model, {book.yaw, book.pitch, book.roll, book.depth}, book.aperture);
+}
+
+Touching::Touching(double friction, const ToolShape& was_at, const ToolShape& is_at, int number, const TouchBook& was,
+                   TouchBook& will_be) noexcept
+    : shape(is_at), before(was_at), tool(number), last(was), next(will_be), m_friction(friction) {
+  next.count = 0;
+  for (int part = 0; part < kToolParts; ++part) m_way[part] = way_of(before.part[part], shape.part[part]);
+}
+
+std::int32_t Touching::note(std::int32_t body, std::int32_t element, std::int32_t part, std::int32_t vertex) noexcept {
+  if (next.count == kMaxTouches) return 0;
+  Touch& t = next.touch[next.count++];
+  t = {};
+  t.body = body;
+  t.element = element;
+  t.part = part;
+  t.vertex = vertex;
+  return next.count;
+}
+
+const Touch* Touching::anchored(std::int32_t body, std::int32_t element, std::int32_t part) const noexcept {
+  const Touch* was = last.find(body, element, part);
+  return was && was->anchored ? was : nullptr;
+}
+
+Rub Touching::rub(std::int32_t number, Vec3d normal, double stiffness, Vec3d now, const double (&weight)[2],
+                  Vec3d anchored_now) noexcept {
+  Rub r;
+  if (number == 0) return r;
+  Touch& t = next.touch[number - 1];
+  put(t.normal, normal);
+  t.anchored = 1;
+  const PartFrame frame = frame_of(shape, t.part);
+  const Touch* was = anchored(t.body, t.element, t.part);
+  if (!was || was->vertex != t.vertex) {
+    put(t.anchor, into(frame, now));
+    for (int k = 0; k < 2; ++k) t.weight[k] = float(weight[k]);
+    return r;
+  }
+  t.force = (1 - kShare) * was->force;
+  Vec3d off = out_of(frame, was->anchor) - anchored_now;
+  off -= dot(off, normal) * normal;
+  const double far = length(off), most = m_friction * double(was->force) / stiffness;
+  r.rubs = far > 1e-9 && most > 1e-9;
+  if (far <= most) {
+    for (int k = 0; k < 2; ++k) t.weight[k] = was->weight[k];
+    for (int k = 0; k < 3; ++k) t.anchor[k] = was->anchor[k];
+    r.to = off;
+  } else {  // it slips: the anchor is dragged along behind the point that is nearest now
+    for (int k = 0; k < 2; ++k) t.weight[k] = float(weight[k]);
+    r.to = (most / far) * off;
+    put(t.anchor, into(frame, now + r.to));
+  }
+  for (int k = 0; k < 2; ++k) r.weight[k] = double(t.weight[k]);
+  return r;
+}
+
+void press_on(TouchBook& next, std::int32_t number, Vec3d force) noexcept {
+  if (number <= 0 || number > next.count) return;
+  Touch& t = next.touch[number - 1];
+  t.force +=
+      kShare * float(force.x * double(t.normal[0]) + force.y * double(t.normal[1]) + force.z * double(t.normal[2]));
+}
+
+void remember(const ToolState& tool, TouchBook& next, TouchBook& book) noexcept {
+  std::sort(next.touch, next.touch + next.count, before_in_book);
+  for (int i = 0; i < next.count; ++i) next.touch[i].force = std::max(0.0f, next.touch[i].force);
+  std::copy(next.touch, next.touch + next.count, book.touch);
+  start_here(tool, book);
+  book.count = next.count;
+}
+
+void add_to_hash(core::Hasher& hasher, const TouchBook& book) noexcept {
+  for (double v : {book.yaw, book.pitch, book.roll, book.depth, book.aperture}) hasher.add(v);
+  hasher.add(book.count);
+  for (int i = 0; i < book.count; ++i) hasher.add(book.touch[i]);
+}
+
+}  // namespace trocar::interactions
