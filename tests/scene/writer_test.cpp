@@ -26,8 +26,8 @@ bool same(const StrandStation& a, const StrandStation& b) {
 bool same(const Landmark& a, const Landmark& b) { return a.name == b.name && a.from == b.from && a.to == b.to; }
 bool same(const Tissue& a, const Tissue& b) {
   return a.name == b.name && a.density == b.density && a.young == b.young && a.p1 == b.p1 && a.p2 == b.p2 &&
-         a.strain_cap == b.strain_cap && a.failure_strain == b.failure_strain && a.damping_ms == b.damping_ms &&
-         a.source == b.source && a.source_of == b.source_of;
+         a.poisson == b.poisson && a.strain_cap == b.strain_cap && a.failure_strain == b.failure_strain &&
+         a.damping_ms == b.damping_ms && a.source == b.source && a.source_of == b.source_of;
 }
 bool same(const Solid& a, const Solid& b);
 bool same(const Strand& a, const Strand& b);

@@ -15,7 +15,7 @@ constexpr double kFailure = 0.4;
 struct Bar {
   NetworkModel model;
   NetworkState state;
-  std::vector<std::uint8_t> counters;
+  std::vector<std::uint8_t> counters, scratch;
 
   Bar() {
     const BoxLattice box = box_lattice(8, 3, 3, 0.004, {0, 0, 0});
@@ -25,6 +25,7 @@ struct Bar {
     model = build(lattice_network(box.corners, box.cells, {}, material).network, 1e-3);
     state = rest_state(model);
     counters.assign(size_t(model.rows), 0);
+    scratch = counters;
   }
   /// The part beyond x = from by a strain.
   void stretch(double strain, double from = 0) {
@@ -37,7 +38,8 @@ struct Bar {
   /// The first tear within so many ticks, and when.
   Overstretch look(int ticks, int* when = nullptr) {
     for (int tick = 0; tick < ticks; ++tick) {
-      const Overstretch tear = find_overstretch(springs_of(model, state), kFailure, std::uint64_t(m_tick++), counters);
+      const Overstretch tear =
+          find_overstretch(springs_of(model, state), kFailure, std::uint64_t(m_tick++), counters, scratch);
       if (when) *when = tick;
       if (tear.found) return tear;
     }
@@ -148,7 +150,7 @@ TEST(Overstretch, ABarOfCellsThatIsPulledApartComesApart) {
   const CuttableModel model = build(d, 1e-3);
   CuttableState state = rest_state(model);
   CuttableWork work = make_work(model);
-  std::vector<std::uint8_t> counters(size_t(model.rows), 0);
+  std::vector<std::uint8_t> counters(size_t(model.rows), 0), scratch = counters;
   int tears = 0;
   const auto is_right = [&](int node) { return d.points[size_t(node)].x > 0.0359; };
   for (int tick = 0; tick < 3000; ++tick) {
@@ -156,7 +158,8 @@ TEST(Overstretch, ABarOfCellsThatIsPulledApartComesApart) {
       if (d.fixed[size_t(i)] && is_right(i))
         set_position(model, state, i, position(model, state, i) + Vec3d{1e-5, 0, 0});
     ASSERT_TRUE(advance(model, {}, {}, state, work).fine()) << tick;
-    const Overstretch tear = find_overstretch(springs_of(model, state, work), kFailure, std::uint64_t(tick), counters);
+    const Overstretch tear =
+        find_overstretch(springs_of(model, state, work), kFailure, std::uint64_t(tick), counters, scratch);
     if (!tear.found) continue;
     EXPECT_GT(tick, int(0.02 * kFailure / 1e-5)) << "not before the whole is stretched so far";
     ++tears;

@@ -76,7 +76,8 @@ void compile_solid(const Solid& solid, const Tissue& tissue, Vec3d gravity, sim:
   const geometry::Lattice lattice = geometry::make_lattice(fine, solid.cell);
 
   tissue::LatticeMaterial material;
-  material.youngs_modulus = tissue.young;
+  const tissue::BulkShare share = tissue::bulk_share(tissue.young, tissue.poisson);
+  material.youngs_modulus = share.spring_modulus;
   material.density = tissue.density;
   material.p1 = tissue.p1;
   material.p2 = tissue.p2;
@@ -84,6 +85,7 @@ void compile_solid(const Solid& solid, const Tissue& tissue, Vec3d gravity, sim:
   material.min_fill = 0.15;
   tissue::LatticeNetwork net = tissue::lattice_network(lattice.nodes, lattice.cells, lattice.cell_fill, material);
   weigh(net.network, tissue.density * geometry::volume(fine));
+  if (tissue.poisson > 0.25) net.network.kappa = share.kappa;
   net.network.gravity = gravity;
   net.network.global_damping = 1.0;
   material.damping_time = damping_time(net.network, tissue.damping_ms * 1e-3);

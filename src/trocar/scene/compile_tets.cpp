@@ -48,6 +48,7 @@ double mean_edge(const geometry::TetMesh& mesh) {
 tissue::TetMaterial material_of(const Solid& solid, const Tissue& tissue) {
   tissue::TetMaterial m;
   m.youngs_modulus = tissue.young;
+  m.poisson = tissue.poisson;
   m.density = tissue.density;
   m.p1 = tissue.p1;
   m.p2 = tissue.p2;

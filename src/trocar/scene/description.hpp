@@ -18,12 +18,13 @@ struct Tissue {
   std::string name;
   double density = 1050;      ///< [kg/m^3]
   double young = 0;           ///< E [Pa]
+  double poisson = 0.25;      ///< nu of organs, 1/4 to 0.45; strands and folds do not use it
   double p1 = 0, p2 = 0;      ///< shape factors
   double strain_cap = 0.2;    ///< the law continues linearly beyond it
   double failure_strain = 0;  ///< tears beyond it (0: never)
   double damping_ms = 2;      ///< stiffness-proportional damping, a time [ms]
   std::string source;         ///< literature or "ours": of the figures that have no source of their own below
-  std::array<std::string, 7> source_of;  ///< in the order of kTissueFigures; empty: `source`
+  std::array<std::string, 8> source_of;  ///< in the order of kTissueFigures; empty: `source`
   core::Location at;
 };
 /// The figures of a tissue, as files name them.
@@ -31,8 +32,9 @@ struct TissueFigure {
   const char* key;
   double Tissue::*value;
 };
-inline constexpr std::array<TissueFigure, 7> kTissueFigures{{{"density_kg_m3", &Tissue::density},
+inline constexpr std::array<TissueFigure, 8> kTissueFigures{{{"density_kg_m3", &Tissue::density},
                                                              {"young_Pa", &Tissue::young},
+                                                             {"poisson", &Tissue::poisson},
                                                              {"p1", &Tissue::p1},
                                                              {"p2", &Tissue::p2},
                                                              {"strain_cap", &Tissue::strain_cap},

@@ -23,6 +23,8 @@ const Shape& tissue_row() {
       {needed(keys::name("name", "what solids and strands call it")),
        needed(keys::number("density_kg_m3", 1, 25000, "mass per volume")),
        needed(keys::number("young_Pa", 1, 1e9, "Young's modulus E at small strain")),
+       keys::number("poisson", 0.25, 0.45,
+                    "Poisson's ratio of organs, default 0.25, that of springs alone; more costs a volume force"),
        keys::number("p1", -1000, 1000, "first shape factor, default 0; monotone law: p1^2 < 3 p2"),
        keys::number("p2", 0, 1e6, "second shape factor, default 0"),
        keys::number("strain_cap", 0.01, 5, "strain beyond which the law is continued linearly, default 0.2"),

@@ -19,6 +19,9 @@ int culprit(const StepContext& c, std::int32_t body) noexcept {
   return hardest;
 }
 
+/// Bodies take turns, so that no tick looks at all of them.
+std::uint64_t look(const StepContext& c, size_t body) noexcept { return c.state.tick + 7 * body; }
+
 void tell_torn(StepContext& c, std::int32_t body) noexcept {
   if (c.report.event_count == kMaxEvents || c.model.hands.empty()) return;
   c.report.events[c.report.event_count++] = {Event::torn, culprit(c, body), body};
@@ -27,19 +30,21 @@ void tell_torn(StepContext& c, std::int32_t body) noexcept {
 bool tear_solid(StepContext& c, size_t i) noexcept {
   const SolidModel& solid = c.model.solids[i];
   tissue::NetworkState& state = c.state.solids[i];
-  const tissue::Overstretch tear = tissue::find_overstretch(
-      tissue::springs_of(solid.network, state), solid.failure_strain, c.state.tick, c.state.overstretched_organs[i]);
+  const tissue::Overstretch tear =
+      tissue::find_overstretch(tissue::springs_of(solid.network, state), solid.failure_strain, look(c, i),
+                               c.state.overstretched_organs[i], c.work.beyond);
   return tear.found &&
          interactions::cut_organ(tear.blade(), solid.network, solid.fine, state, c.state.parted[i], c.work.parts) > 0;
 }
 
 bool tear_cuttable(StepContext& c, size_t i) noexcept {
   const CuttableOrgan& organ = c.model.cuttables[i];
+  const size_t organ_index = c.model.solids.size() + i;
   tissue::CuttableState& state = c.state.cuttables[i];
   tissue::CuttableWork& work = c.work.cuttable_work[i];
   const tissue::Overstretch tear =
-      tissue::find_overstretch(tissue::springs_of(organ.body, state, work), organ.failure_strain, c.state.tick,
-                               c.state.overstretched_organs[c.model.solids.size() + i]);
+      tissue::find_overstretch(tissue::springs_of(organ.body, state, work), organ.failure_strain, look(c, organ_index),
+                               c.state.overstretched_organs[organ_index], c.work.beyond);
   if (!tear.found) return false;
   const geometry::CutBook book = tissue::cut(organ.body, tear.blade(), state, work);
   if (book.full) c.report.flags |= StepReport::kBookFull;
@@ -49,9 +54,9 @@ bool tear_cuttable(StepContext& c, size_t i) noexcept {
 bool tear_membrane(StepContext& c, size_t i) noexcept {
   const MembraneModel& m = c.model.membranes[i];
   tissue::MembraneState& state = c.state.membranes[i];
-  const tissue::Overstretch tear =
-      tissue::find_overstretch(tissue::springs_of(m.sheet.network, state.network), m.failure_strain, c.state.tick,
-                               c.state.overstretched_membranes[i]);
+  const tissue::Overstretch tear = tissue::find_overstretch(tissue::springs_of(m.sheet.network, state.network),
+                                                            m.failure_strain, look(c, size_t(c.model.organs()) + i),
+                                                            c.state.overstretched_membranes[i], c.work.beyond);
   return tear.found &&
          interactions::cut_membrane(tear.blade(), m.sheet, m.depth, state, c.state.torn[i], c.work.parts).severed > 0;
 }

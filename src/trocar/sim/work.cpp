@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <numeric>
 
 #include <trocar/sim/work.hpp>
 
@@ -30,6 +31,12 @@ void scribble(interactions::NetworkLoads& l) noexcept {
   l.overflowed = true;
 }
 
+void scribble(tissue::VolumeWork& v) noexcept {
+  scribble(v.drawn);
+  scribble(v.pressure);
+  scribble(v.force);
+}
+
 void scribble(tissue::CuttableWork& c) noexcept {
   c.made_for = ~0ull;
   c.slices = -1;
@@ -50,6 +57,7 @@ void scribble(tissue::CuttableWork& c) noexcept {
   scribble(c.part);
   scribble(c.open_tets);
   scribble(c.below);
+  scribble(c.volume);
   scribble(c.loaded);
 }
 
@@ -62,6 +70,31 @@ void scribble(tissue::NetworkWork& n) noexcept {
   scribble(n.open_tets);
   scribble(n.below);
   scribble(n.loaded);
+  scribble(n.volume);
+}
+
+/// 0 .. n-1, the costliest first: what begins last should be short, or all threads wait for one.
+std::vector<int> by_cost(const std::vector<double>& cost) {
+  std::vector<int> order(cost.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return cost[size_t(a)] > cost[size_t(b)]; });
+  return order;
+}
+
+void order_bodies(const Model& model, Work& w) {
+  std::vector<double> organs, strands, membranes, skins;
+  for (const SolidModel& s : model.solids) organs.push_back(double(s.network.springs) * s.network.substeps);
+  for (const CuttableOrgan& c : model.cuttables) organs.push_back(16.0 * c.body.packs * c.body.substeps);
+  for (const interactions::StrandBody& b : model.bodies) strands.push_back(b.nodes());
+  for (const tissue::SkinPose& p : w.poses) skins.push_back(double(p.position.size()));
+  for (const MembraneModel& m : model.membranes) {
+    membranes.push_back(double(m.sheet.network.springs) * m.sheet.network.substeps * m.sheet.bend_steps);
+    skins.push_back(double(m.skin.weights.size()));
+  }
+  w.organ_order = by_cost(organs);
+  w.strand_order = by_cost(strands);
+  w.membrane_order = by_cost(membranes);
+  w.skin_order = by_cost(skins);
 }
 
 }  // namespace
@@ -75,6 +108,7 @@ Work make_work(const Model& model, core::ThreadPool* pool) {
     w.organ_loads.emplace_back().reserve(kOrganLoads + s.anchors.size());
     w.parts.resize(std::max(w.parts.size(), size_t(s.network.nodes)));
     w.skins.push_back(&s.skin);
+    w.beyond.resize(std::max(w.beyond.size(), size_t(s.network.rows)));
   }
   w.cuttable_skins.reserve(model.cuttables.size());
   for (const CuttableOrgan& c : model.cuttables) {
@@ -83,6 +117,7 @@ Work make_work(const Model& model, core::ThreadPool* pool) {
     w.poses.push_back(tissue::make_pose(*w.skins.back()));
     w.cuttable_work.push_back(tissue::make_work(c.body));
     w.organ_loads.emplace_back().reserve(kOrganLoads + c.body.anchors.size());
+    w.beyond.resize(std::max(w.beyond.size(), size_t(c.body.rows)));
   }
   w.nodes.resize(size_t(model.organs()));
   for (const interactions::StrandBody& b : model.bodies) {
@@ -102,9 +137,11 @@ Work make_work(const Model& model, core::ThreadPool* pool) {
     w.pulls.emplace_back(m.holds.size());
     w.targets.emplace_back(m.holds.size());
     w.parts.resize(std::max(w.parts.size(), size_t(m.sheet.nodes())));
+    w.beyond.resize(std::max(w.beyond.size(), size_t(m.sheet.network.rows)));
   }
   w.sheets.resize(model.membranes.size());
   w.membrane_reports.resize(model.membranes.size());
+  order_bodies(model, w);
   return w;
 }
 
@@ -144,6 +181,7 @@ void poison(Work& w) noexcept {
   }
   scribble(w.touches);
   scribble(w.parts);
+  scribble(w.beyond);
   scribble(w.ends);
   scribble(w.end_reactions);
   scribble(w.organ_reports);

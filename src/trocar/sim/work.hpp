@@ -24,6 +24,7 @@ struct Work {
   std::vector<std::array<tissue::StrandEnd, 2>> ends;  ///< (strands)
   std::vector<std::array<tissue::StrandReaction, 2>> end_reactions;
   std::vector<std::int32_t> parts;  ///< (nodes of the largest organ) what hangs together, for cuts
+  std::vector<std::uint8_t> beyond;  ///< (rows of the largest organ or membrane) springs stretched too far
   std::vector<tissue::StepReport> organ_reports, strand_reports, membrane_reports;
   std::vector<tissue::SkinPose> sheet_poses;    ///< (membranes)
   std::vector<interactions::SheetView> sheets;  ///< (membranes)
@@ -33,7 +34,9 @@ struct Work {
   std::vector<std::vector<Vec3d>> targets;             ///< (membranes)(held nodes)
   std::vector<tissue::NodeView> nodes;                 ///< (organs) of the State; anew in every tick
   std::vector<tissue::CuttableSkin> cuttable_skins;
-  std::vector<const tissue::Skin*> skins;  ///< (organs) of the Model, or the above
+  std::vector<const tissue::Skin*> skins;                      ///< (organs) of the Model, or the above
+  std::vector<int> organ_order, strand_order, membrane_order;  ///< by how much there is to do, for the threads
+  std::vector<int> skin_order;                                 ///< (organs + membranes) the same
 };
 
 Work make_work(const Model& model, core::ThreadPool* pool = nullptr);

@@ -24,6 +24,7 @@
 #include <trocar/tissue/network.hpp>
 #include <trocar/tissue/prestress.hpp>
 #include <trocar/tissue/tet_springs.hpp>
+#include <trocar/tissue/volume_force.hpp>
 
 namespace trocar::tissue {
 
@@ -44,6 +45,7 @@ struct CellSprings {
   float edge[6], edge_ratio[6];
   float cross[4], cross_ratio[4];  ///< across the face opposite to a corner: this cell's half
 };
+inline constexpr int kFreeColumns = 4;  ///< of a slice of rows, for springs that a cut adds
 inline constexpr int kCellEdges[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 
 struct CuttableModel {
@@ -59,6 +61,8 @@ struct CuttableModel {
   Vec3d origin, gravity;
   double density = 0, damping_time = 0, gamma = 0;
   float p1 = 0, p2 = 0, cap = 1, cap_slope = 1;
+  double kappa = 0;                       ///< of the volume force [Pa]; 0: springs alone
+  int impulses = 0;                       ///< of it in a tick, a divisor of the sub-steps
   double tick = 0, dt = 0, dt_limit = 0;  ///< [s]
   float opening = kOpeningTime;           ///< within which a collapsed cell is driven open [s]
   int substeps = 1;
@@ -96,6 +100,7 @@ struct CuttableWork {
   std::vector<int> open_tets;        ///< (cells)
   std::vector<std::uint16_t> below;  ///< (packs of cells)
   std::vector<LoadedNode> loaded;    ///< (capacity)
+  VolumeWork volume;                 ///< empty where there is no volume force
   geometry::CutWork cut;
 };
 

@@ -78,10 +78,15 @@ void place_rows(const NetworkModel& n, int spare, CuttableModel& m) {
   m.row_of_node = n.row_of_node;
   for (int i = 0; i < spare; ++i) m.row_of_node.push_back(n.rows + i);
   // A node beside a cut may keep both a neighbour and its double; spare rows are as wide as the widest.
-  for (std::size_t s = 0; s + 1 < n.slice_begin.size(); ++s)
-    m.widest = std::max(m.widest, n.slice_begin[s + 1] - n.slice_begin[s]);
-  m.packs = int(n.packs.size()) + int(n.packs.size()) / 2 + m.rows / kSlice * 2 +
-            ((m.rows - m.own_rows) / kSlice + 1) * m.widest;
+  std::vector<int> springs(std::size_t(n.rows), 0), width(std::size_t(n.rows / kSlice), 0);
+  for (const int node : n.spring_nodes) {
+    const int row = n.row_of_node[std::size_t(node)];
+    int& slice = width[std::size_t(row / kSlice)];
+    slice = std::max(slice, ++springs[std::size_t(row)]);
+  }
+  int columns = 0;
+  for (const int w : width) columns += w, m.widest = std::max(m.widest, w);
+  m.packs = columns + columns / 2 + m.rows / kSlice * kFreeColumns + ((m.rows - m.own_rows) / kSlice + 1) * m.widest;
 }
 
 }  // namespace
@@ -123,6 +128,8 @@ CuttableModel build(const CuttableDescription& d, double tick) {
   m.damping_time = d.material.damping_time;
   m.gamma = d.global_damping;
   m.p1 = n.p1, m.p2 = n.p2, m.cap = n.cap, m.cap_slope = n.cap_slope;
+  m.kappa = n.kappa;
+  m.impulses = n.impulses;
   m.tick = tick;
   m.dt = n.dt;
   m.dt_limit = n.dt_limit;
@@ -162,6 +169,7 @@ CuttableWork make_work(const CuttableModel& m) {
   w.open_tets.resize(m.drawn.cells.size());
   w.below.resize(w.guarded_packs.size());
   w.loaded.resize(nodes);
+  if (m.impulses > 0) w.volume.resize(std::size_t(m.rows));
   w.cut = geometry::make_work(m.drawn);
   return w;
 }

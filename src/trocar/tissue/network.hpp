@@ -36,6 +36,7 @@
 #include <trocar/tissue/loaded_node.hpp>
 #include <trocar/tissue/node_view.hpp>
 #include <trocar/tissue/report.hpp>
+#include <trocar/tissue/volume_force.hpp>
 
 namespace trocar::tissue {
 
@@ -60,6 +61,7 @@ struct NetworkDescription {
   double global_damping = 0;             ///< gamma [1/s], against space; keep <= 1
   Vec3d gravity{0, 0, 0};                ///< [m/s^2]
   double opening_time = 0;               ///< for collapsed cells to take their shape again [s]; 0: kOpeningTime
+  double kappa = 0;                      ///< of the volume force of the tets (volume_force.hpp) [Pa]; 0: none
   double max_stiffness_scale = 1;        ///< largest value set_spring_scale may give; enters the time step bound
 };
 
@@ -89,6 +91,8 @@ struct NetworkModel {
   std::vector<TetPack> tet_packs;                ///< the same, for the search for collapsed ones
   std::vector<int> tet_begin;                    ///< (nodes + 1) into tet_of_node
   std::vector<int> tet_of_node;                  ///< cells at a node
+  double kappa = 0;                              ///< of the volume force [Pa]
+  int impulses = 0;                              ///< of it in a tick, a divisor of the sub-steps
   double tick = 0;                               ///< [s]
   int substeps = 1;
   double dt = 0;        ///< tick / substeps [s]
@@ -121,6 +125,7 @@ struct NetworkWork {
   std::vector<NodeState> other;      ///< (rows) the ping-pong partner
   std::vector<ForceWork> forces;     ///< (threads)
   std::vector<LoadedNode> loaded;    ///< (nodes)
+  VolumeWork volume;                 ///< empty where there is no volume force
   std::vector<int> open_tets;        ///< capacity: tets
   std::vector<std::uint16_t> below;  ///< (tet packs)
 };

@@ -13,7 +13,7 @@
 namespace trocar::tissue {
 namespace {
 
-constexpr int kWindow = 256;  // rows sorted by degree within such windows, so that slices pad little
+constexpr std::size_t kWindow = 256;  // rows sorted by degree within such windows, so that slices pad little
 
 [[noreturn]] void refuse(const std::string& what, std::size_t index, const std::string& expected) {
   throw std::invalid_argument("network: " + what + " " + std::to_string(index) + ": expected " + expected);
@@ -113,6 +113,30 @@ std::vector<int> cuthill_mckee(const Adjacency& a, int n) {
   return order;
 }
 
+/// Layer by layer along one axis, within a layer along the next.
+std::vector<int> layers(const NetworkDescription& d, int axis) {
+  std::vector<int> order(d.positions.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int p, int q) {
+    const Vec3d a = d.positions[p], b = d.positions[q];
+    for (int i = 0; i < 3; ++i) {
+      const int k = (axis + i) % 3;
+      if (a[k] != b[k]) return a[k] < b[k];
+    }
+    return false;
+  });
+  return order;
+}
+
+/// The farthest that a spring's ends are apart in an order.
+int bandwidth(const NetworkDescription& d, const std::vector<int>& order) {
+  std::vector<int> place(order.size());
+  for (int r = 0; r < int(order.size()); ++r) place[order[r]] = r;
+  int widest = 0;
+  for (const auto& e : d.springs) widest = std::max(widest, std::abs(place[e.a] - place[e.b]));
+  return widest;
+}
+
 /// Which end evaluates each spring, so that every node has half of its springs, give or take one: springs are walked
 /// until none is left, each node being left as often as it is come to, but for where a walk begins and ends. Walks that
 /// must end elsewhere than they began go first.
@@ -140,13 +164,32 @@ Sources sources_of(const NetworkDescription& d, const Adjacency& a) {
   return s;
 }
 
-void order_rows(NetworkModel& m, const Adjacency& a, const Sources& s) {
-  m.rows = (m.nodes + kSlice - 1) / kSlice * kSlice;
-  m.node_of_row = cuthill_mckee(a, m.nodes);
-  for (int w = 0; w < m.nodes; w += kWindow) {
-    std::stable_sort(m.node_of_row.begin() + w, m.node_of_row.begin() + std::min(w + kWindow, m.nodes),
+/// Within windows, so that slices pad little: nodes with many springs first.
+std::vector<int> sorted_in_windows(std::vector<int> order, const Sources& s) {
+  for (std::size_t w = 0; w < order.size(); w += kWindow) {
+    std::stable_sort(order.begin() + std::ptrdiff_t(w),
+                     order.begin() + std::ptrdiff_t(std::min(w + kWindow, order.size())),
                      [&](int p, int q) { return s.out[p] != s.out[q] ? s.out[p] > s.out[q] : s.in[p] > s.in[q]; });
   }
+  return order;
+}
+
+/// Nodes in the order in which springs reach least far: what a slice needs is then still in the cache. Blocks whose
+/// cells have diagonals have wider fronts than layers, most bodies the other way round.
+std::vector<int> near_order(const NetworkDescription& d, const Adjacency& a, const Sources& s) {
+  std::vector<int> best = sorted_in_windows(cuthill_mckee(a, int(d.positions.size())), s);
+  int least = bandwidth(d, best);
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<int> order = sorted_in_windows(layers(d, axis), s);
+    const int reach = bandwidth(d, order);
+    if (reach < least) least = reach, best = std::move(order);
+  }
+  return best;
+}
+
+void order_rows(NetworkModel& m, const NetworkDescription& d, const Adjacency& a, const Sources& s) {
+  m.rows = (m.nodes + kSlice - 1) / kSlice * kSlice;
+  m.node_of_row = near_order(d, a, s);
   m.node_of_row.resize(m.rows, -1);
   m.row_of_node.resize(m.nodes);
   for (int r = 0; r < m.nodes; ++r) m.row_of_node[m.node_of_row[r]] = r;
@@ -314,6 +357,15 @@ void fill_tets(NetworkModel& m, const NetworkDescription& d) {
     for (int node : d.tets[t]) m.tet_of_node[next[node]++] = t;
 }
 
+/// Whole sub-steps between two impulses.
+void add_volume_force(NetworkModel& m, double kappa) {
+  std::vector<double> mass(m.rows, 0.0);
+  for (int i = 0; i < m.nodes; ++i) mass[m.row_of_node[i]] = m.mass[i];
+  m.kappa = kappa;
+  m.impulses = impulses_for(m.tets, rest_state(m).nodes, mass, kappa, m.tick);
+  if (m.impulses > 0) m.substeps = (m.substeps + m.impulses - 1) / m.impulses * m.impulses;
+}
+
 }  // namespace
 
 NetworkModel build(const NetworkDescription& d, double tick) {
@@ -331,7 +383,7 @@ NetworkModel build(const NetworkDescription& d, double tick) {
 
   const Adjacency a = adjacency_of(d);
   const Sources sources = sources_of(d, a);
-  order_rows(m, a, sources);
+  order_rows(m, d, a, sources);
   fill_packs(m, d, a, sources);
   find_lag(m, d);
   fill_arrivals(m, a, sources);
@@ -344,6 +396,8 @@ NetworkModel build(const NetworkDescription& d, double tick) {
   m.tick = tick;
   m.dt_limit = stability_limit(d);
   m.substeps = substeps_for(tick, m.dt_limit);
+  fill_tets(m, d);
+  add_volume_force(m, d.kappa);
   m.dt = tick / m.substeps;
   m.gamma = d.global_damping;
   m.gravity = d.gravity;
@@ -353,7 +407,6 @@ NetworkModel build(const NetworkDescription& d, double tick) {
   m.decay = float(decay);
   for (int i = 0; i < 3; ++i) m.gravity_step[i] = float(m.dt * d.gravity[i] * decay);
   fill_rows(m);
-  fill_tets(m, d);
   return m;
 }
 
@@ -382,6 +435,7 @@ NetworkWork make_work(const NetworkModel& m, int threads) {
   w.loaded.resize(m.nodes);
   w.open_tets.resize(m.tets.size());
   w.below.resize(m.tet_packs.size());
+  if (m.impulses > 0) w.volume.resize(std::size_t(m.rows));
   return w;
 }
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <trocar/tissue/overstretch.hpp>
 
 namespace trocar::tissue {
@@ -5,51 +7,39 @@ namespace {
 
 constexpr int kStrandTicks = 50;  // 0.05 s at 1 ms
 
-const NodeState& other_end(const PackedSprings& b, const HalfEdgePack& p, int lane) noexcept {
-  return b.nodes[p.offset[lane] / sizeof(NodeState)];
-}
+int other_row(const HalfEdgePack& p, int lane) noexcept { return int(p.offset[lane] / sizeof(NodeState)); }
 Vec3f reach(const NodeState& from, const NodeState& to) noexcept {
   return {to.x - from.x, to.y - from.y, to.z - from.z};
 }
 
-/// Per row of a slice: how many of its springs are beyond.
-struct Beyond {
-  int of_row[kSlice] = {};
-};
-Beyond count(const PackedSprings& b, int slice, float limit) noexcept {
-  Beyond beyond;
-  const float limit2 = limit * limit;
-  for (int c = b.slice_begin[std::size_t(slice)]; c < b.slice_begin[std::size_t(slice) + 1]; ++c) {
-    const HalfEdgePack& p = b.packs[std::size_t(c)];
-    for (int lane = 0; lane < kSlice; ++lane) {
-      const NodeState& own = b.nodes[std::size_t(slice * kSlice + lane)];
-      const Vec3f d = reach(own, other_end(b, p, lane));
-      const float r2 = ((d.x * d.x + d.y * d.y) + d.z * d.z) * (p.inv_rest[lane] * p.inv_rest[lane]);
-      const bool whole = b.scale.empty() || b.scale[std::size_t(c * kSlice + lane)] > 0;
-      beyond.of_row[lane] += r2 > limit2 && p.stiffness[lane] > 0 && whole;
+/// visit(row, other row, reach, stretch squared) of every whole spring.
+template <class Visit>
+void for_each_spring(const PackedSprings& b, Visit&& visit) noexcept {
+  for (int slice = 0; slice + 1 < int(b.slice_begin.size()); ++slice)
+    for (int c = b.slice_begin[std::size_t(slice)]; c < b.slice_begin[std::size_t(slice) + 1]; ++c) {
+      const HalfEdgePack& p = b.packs[std::size_t(c)];
+      for (int lane = 0; lane < kSlice; ++lane) {
+        const int row = slice * kSlice + lane, other = other_row(p, lane);
+        if (!(p.stiffness[lane] > 0) || (!b.scale.empty() && !(b.scale[std::size_t(c * kSlice + lane)] > 0))) continue;
+        const Vec3f d = reach(b.nodes[std::size_t(row)], b.nodes[std::size_t(other)]);
+        visit(row, other, d, ((d.x * d.x + d.y * d.y) + d.z * d.z) * (p.inv_rest[lane] * p.inv_rest[lane]));
+      }
     }
-  }
-  return beyond;
 }
 
-Overstretch most_stretched(const PackedSprings& b, int row) noexcept {
+Overstretch most_stretched(const PackedSprings& b, int at) noexcept {
   Overstretch tear;
-  const int slice = row / kSlice, lane = row % kSlice;
-  const NodeState& own = b.nodes[std::size_t(row)];
   float most = 0;
-  for (int c = b.slice_begin[std::size_t(slice)]; c < b.slice_begin[std::size_t(slice) + 1]; ++c) {
-    const HalfEdgePack& p = b.packs[std::size_t(c)];
-    if (!(p.stiffness[lane] > 0) || (!b.scale.empty() && !(b.scale[std::size_t(c * kSlice + lane)] > 0))) continue;
-    const Vec3f d = reach(own, other_end(b, p, lane));
-    const float stretched = length(d) * p.inv_rest[lane];
-    if (stretched <= most) continue;
-    most = stretched;
+  for_each_spring(b, [&](int row, int other, Vec3f d, float stretch2) noexcept {
+    if ((row != at && other != at) || stretch2 <= most) return;
+    most = stretch2;
+    const NodeState& own = b.nodes[std::size_t(row)];
     const Vec3d way = vec_cast<double>(d);
     tear.found = true;
     tear.length = length(way);
     tear.along = way / tear.length;
     tear.middle = b.origin + Vec3d{double(own.x), double(own.y), double(own.z)} + 0.5 * way;
-  }
+  });
   return tear;
 }
 
@@ -61,29 +51,32 @@ PackedSprings springs_of(const NetworkModel& m, const NetworkState& s) noexcept 
   return b;
 }
 PackedSprings springs_of(const CuttableModel& m, const CuttableState& s, const CuttableWork& w) noexcept {
-  return {w.packs, {w.slice_begin.data(), std::size_t(w.slices) + 1}, {}, s.nodes, m.origin};
+  return {w.packs, {w.slice_begin.data(), std::size_t(w.slices) + 1}, {}, s.nodes, m.origin, true};
 }
 
 Overstretch find_overstretch(const PackedSprings& b, double failure, std::uint64_t tick,
-                             std::span<std::uint8_t> counters) noexcept {
-  Overstretch tear;
-  const float limit = float(1 + failure);
-  const int slices = int(b.slice_begin.size()) - 1;
-  for (int slice = int(tick % kLookEvery); slice < slices; slice += kLookEvery) {
-    const Beyond beyond = count(b, slice, limit);
-    for (int lane = 0; lane < kSlice; ++lane) {
-      const int row = slice * kSlice + lane;
-      std::uint8_t& looks = counters[std::size_t(row)];
-      if (beyond.of_row[lane] < 2)
-        looks = 0;
-      else if (looks < kLooks)
-        ++looks;
-      if (looks < kLooks || tear.found) continue;
-      tear = most_stretched(b, row);
-      looks = 0;
-    }
+                             std::span<std::uint8_t> counters, std::span<std::uint8_t> scratch) noexcept {
+  if (tick % kLookEvery != 0) return {};
+  const float limit2 = float((1 + failure) * (1 + failure));
+  const int rows = kSlice * (int(b.slice_begin.size()) - 1);
+  const auto beyond = scratch.first(std::size_t(rows));
+  std::fill(beyond.begin(), beyond.end(), std::uint8_t(0));
+  const auto count = [beyond](int row) noexcept {
+    std::uint8_t& n = beyond[std::size_t(row)];
+    n = std::uint8_t(n < 2 ? n + 1 : 2);
+  };
+  for_each_spring(b, [&](int row, int other, Vec3f, float stretch2) noexcept {
+    if (!(stretch2 > limit2)) return;
+    count(row);
+    if (!b.twice) count(other);
+  });
+  int torn = -1;
+  for (int row = 0; row < rows; ++row) {
+    std::uint8_t& looks = counters[std::size_t(row)];
+    looks = beyond[std::size_t(row)] < 2 ? std::uint8_t(0) : std::uint8_t(looks < kLooks ? looks + 1 : kLooks);
+    if (looks == kLooks && torn < 0) torn = row, looks = 0;
   }
-  return tear;
+  return torn < 0 ? Overstretch{} : most_stretched(b, torn);
 }
 
 int find_overstretch(const StrandModel& m, const StrandState& s, double failure,

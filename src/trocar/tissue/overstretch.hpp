@@ -16,16 +16,17 @@
 
 namespace trocar::tissue {
 
-/// A node is looked at every so many ticks, and tears when it was found overstretched in so many looks in a row.
+/// A body is looked at every so many ticks, and tears where a node was found overstretched in so many looks in a row.
 inline constexpr int kLookEvery = 25, kLooks = 3;
 
 /// The springs of a body as the kernel reads them.
 struct PackedSprings {
   std::span<const HalfEdgePack> packs;
   std::span<const int> slice_begin;  ///< (slices + 1)
-  std::span<const float> scale;      ///< per half-edge place; empty: all whole
+  std::span<const float> scale;      ///< per place in packs; empty: all whole
   std::span<const NodeState> nodes;  ///< (rows)
   Vec3d origin;
+  bool twice = false;  ///< packs have every spring at both of its ends
 };
 PackedSprings springs_of(const NetworkModel& model, const NetworkState& state) noexcept;
 /// @param work  as advance() left it
@@ -40,11 +41,11 @@ struct Overstretch {
   geometry::Blade blade() const noexcept { return geometry::square_blade(middle, along, 0.6 * length); }
 };
 
-/// Looks at a share of the rows, in turn with `tick`, and counts. @param failure  strain [-], > 0
-/// @param counters  (rows) State
-/// @return of the rows whose time is over the first; it starts counting anew
+/// Looks, when it is time, and counts. @param failure  strain [-], > 0
+/// @param counters  (rows) State  @param scratch  (rows or more)
+/// @return at the first row whose time is over; it starts counting anew
 Overstretch find_overstretch(const PackedSprings& springs, double failure, std::uint64_t tick,
-                             std::span<std::uint8_t> counters) noexcept;
+                             std::span<std::uint8_t> counters, std::span<std::uint8_t> scratch) noexcept;
 
 /// The same for strands, every tick: two neighbouring elements beyond failure.
 /// @param counters  (nodes) State  @return the element that parts, or -1

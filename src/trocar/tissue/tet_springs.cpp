@@ -6,6 +6,7 @@
 #include <trocar/geometry/tet_cut.hpp>
 #include <trocar/tissue/spring_medium.hpp>
 #include <trocar/tissue/tet_springs.hpp>
+#include <trocar/tissue/volume_force.hpp>
 
 namespace trocar::tissue {
 namespace {
@@ -68,15 +69,19 @@ std::vector<double> volumes(std::span<const Vec3d> points, std::span<const Cell>
 class Media {
  public:
   Media(const TetMaterial& m, std::span<const Vec3d> fibres)
-      : m_material(m), m_fibres(fibres), m_everywhere(spring_medium(m.youngs_modulus, m.fibre, m.fibre_ratio)) {}
+      : m_material(m),
+        m_fibres(fibres),
+        m_springs(bulk_share(m.youngs_modulus, m.poisson).spring_modulus),
+        m_everywhere(spring_medium(m_springs, m.fibre, m.fibre_ratio)) {}
   SpringMedium of(std::size_t cell) const {
     if (m_fibres.empty()) return m_everywhere;
-    return spring_medium(m_material.youngs_modulus, m_fibres[cell], m_material.fibre_ratio);
+    return spring_medium(m_springs, m_fibres[cell], m_material.fibre_ratio);
   }
 
  private:
   const TetMaterial& m_material;
   std::span<const Vec3d> m_fibres;
+  double m_springs;
   SpringMedium m_everywhere;
 };
 
@@ -206,6 +211,8 @@ TetNetwork tet_network(std::span<const Vec3d> points, std::span<const Cell> cell
                        std::span<const Vec3d> fibres) {
   if (cells.empty()) refuse("at least one cell");
   if (!(material.density > 0)) refuse("density > 0");
+  if (!(material.poisson >= 0.25 && material.poisson <= kMostPoisson))
+    refuse("a Poisson's ratio of 0.25 to " + std::to_string(kMostPoisson));
   if (!fibres.empty() && fibres.size() != cells.size())
     refuse("one fibre per cell, got " + std::to_string(fibres.size()));
   const std::vector<double> volume = volumes(points, cells);
@@ -213,6 +220,7 @@ TetNetwork tet_network(std::span<const Vec3d> points, std::span<const Cell> cell
 
   TetNetwork out;
   out.network = bare_network(points, cells, volume, material.density);
+  if (material.poisson > 0.25) out.network.kappa = bulk_share(material.youngs_modulus, material.poisson).kappa;
   std::vector<Spring> springs =
       edge_springs(points, cells, volume, media, material.across_faces ? 1 - kCrossShare : 1.0);
   out.edge_springs = int(springs.size());

@@ -22,6 +22,7 @@ namespace trocar::tissue {
 
 struct TetMaterial {
   double youngs_modulus = 0;  ///< E, across the fibres where there are any [Pa]
+  double poisson = 0.25;      ///< nu; above 1/4 the springs leave the rest to a volume force (volume_force.hpp)
   double density = 0;         ///< rho [kg/m^3]
   double p1 = 0, p2 = 0;      ///< shape factors of [KCM99 eq.5]
   double cap = 1;             ///< strain beyond which the law is linear
