@@ -1,6 +1,8 @@
 #include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -92,16 +94,26 @@ TEST(ThreadPool, FinishesAllItemsBeforeRunReturns) {
   }
 }
 
-TEST(ThreadPool, AlwaysGivesAnItemToTheSameThread) {
-  ThreadPool pool(3);
-  std::vector<std::size_t> owner(8);
-  static thread_local char mark = 0;
-  for (int round = 0; round < 50; ++round) {
-    run(pool, 8, [&](int i) noexcept { owner[i] = reinterpret_cast<std::size_t>(&mark); });
-    for (int i = 0; i < 8; ++i) EXPECT_EQ(owner[i], owner[i % 3]);
-    EXPECT_EQ(owner[0], reinterpret_cast<std::size_t>(&mark));
-    EXPECT_NE(owner[0], owner[1]);
-    EXPECT_NE(owner[1], owner[2]);
+TEST(ThreadPool, LateThreadsNeverTakeAnItemOfAnotherRun) {
+  ThreadPool pool(4);
+  for (int round = 0; round < 30000; ++round) {
+    const int count = 2 + round % 3;
+    std::vector<int> hits(std::size_t(count), 0);  // gone when the next run begins
+    run(pool, count, [&](int i) noexcept { ++hits[std::size_t(i)]; });
+    ASSERT_EQ(hits, std::vector<int>(std::size_t(count), 1)) << round;
+  }
+}
+
+TEST(ThreadPool, WakesThreadsThatHaveGoneToSleep) {
+  ThreadPool pool(2);
+  for (int round = 0; round < 5; ++round) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    std::atomic<int> here{0};
+    run(pool, 2, [&](int) noexcept {  // neither ends before both have begun
+      ++here;
+      while (here < 2) std::this_thread::yield();
+    });
+    EXPECT_EQ(here, 2);
   }
 }
 

@@ -1,4 +1,7 @@
-// A fixed-partition thread pool: work item i always goes to the same slot, so results never depend on timing.
+// A thread pool for the sections of a tick. Items are taken in their order by whichever thread is free, so the largest
+// should come first; they must not write anything in common, then results never depend on timing. The calling thread
+// works, too, and waits for no thread that is still asleep. Idle threads look out for the next section for about a
+// tenth of a millisecond, then sleep.
 // No allocation and no exception once constructed. TROCAR_THREADS bounds the number of workers.
 #pragma once
 
@@ -19,7 +22,7 @@ class ThreadPool {
 
   int threads() const noexcept;
 
-  /// Calls task(context, i) for i in [0, count); item i runs on thread i % threads(). Returns when all are done.
+  /// Calls task(context, i) for i in [0, count), on any threads. Returns when all are done. One run at a time.
   using Task = void (*)(void* context, int index) noexcept;
   void run(int count, Task task, void* context) noexcept;
 

@@ -104,14 +104,23 @@ interactions::Holders holders_of(const StepContext& c) noexcept {
   return {c.model.bodies, c.state.strands, c.work.nodes, c.work.skins};
 }
 
-void pose_sheets(StepContext& c) noexcept {
-  for (size_t i = 0; i < c.model.membranes.size(); ++i) {
-    const MembraneModel& m = c.model.membranes[i];
-    const tissue::NodeView nodes = view_of(m.sheet.network, c.state.membranes[i].network);
-    tissue::pose_skin(nodes, m.skin, c.work.sheet_poses[i]);
-    c.work.sheets[i] = {
-        {&m.skin, &c.work.sheet_poses[i], nodes}, c.state.torn[i], m.sheet.network.fixed, 0.5 * m.sheet.thickness};
+/// Bodies in the given order, shared out over threads; they write nothing in common.
+template <class F>
+void for_each(core::ThreadPool* pool, std::span<const int> order, F&& body) noexcept {
+  auto one = [&](int k) noexcept { body(size_t(order[size_t(k)])); };
+  if (pool) {
+    core::run(*pool, int(order.size()), one);
+    return;
   }
+  for (int k = 0; k < int(order.size()); ++k) one(k);
+}
+
+void pose_sheet(StepContext& c, size_t i) noexcept {
+  const MembraneModel& m = c.model.membranes[i];
+  const tissue::NodeView nodes = view_of(m.sheet.network, c.state.membranes[i].network);
+  tissue::pose_skin(nodes, m.skin, c.work.sheet_poses[i]);
+  c.work.sheets[i] = {
+      {&m.skin, &c.work.sheet_poses[i], nodes}, c.state.torn[i], m.sheet.network.fixed, 0.5 * m.sheet.thickness};
 }
 
 void pose_cuttable(StepContext& c, size_t i) noexcept {
@@ -120,20 +129,27 @@ void pose_cuttable(StepContext& c, size_t i) noexcept {
   tissue::pose_skin(c.work.nodes[organ], *c.work.skins[organ], c.work.poses[organ]);
 }
 
+void pose_organ(StepContext& c, size_t i) noexcept {
+  const size_t solids = c.model.solids.size();
+  if (i < solids)
+    tissue::pose_skin(c.work.nodes[i], *c.work.skins[i], c.work.poses[i]);
+  else
+    pose_cuttable(c, i - solids);
+  c.work.surfaces[i] = {c.work.skins[i], &c.work.poses[i], c.work.nodes[i]};
+}
+
 // 2. Skins: x = W q, boxes.
 void pose_skins(StepContext& c) noexcept {
   view_organs(c);
-  const size_t organs = size_t(c.model.organs()), solids = c.model.solids.size();
-  for (size_t i = 0; i < organs; ++i) {
-    if (i < solids)
-      tissue::pose_skin(c.work.nodes[i], *c.work.skins[i], c.work.poses[i]);
+  const size_t organs = size_t(c.model.organs());
+  for_each(c.work.pool, c.work.skin_order, [&c, organs](size_t i) noexcept {
+    if (i < organs)
+      pose_organ(c, i);
     else
-      pose_cuttable(c, i - solids);
-    c.work.surfaces[i] = {c.work.skins[i], &c.work.poses[i], c.work.nodes[i]};
-  }
+      pose_sheet(c, i - organs);
+  });
   for (size_t i = 0; i < c.model.walls.size(); ++i)
     c.work.surfaces[organs + i] = {&c.model.walls[i].skin, &c.model.walls[i].pose, {}};
-  pose_sheets(c);
 }
 
 constexpr double kHangingDamping = 0.02;  // [s] times stiffness: fat and folds that carry an organ yield slowly
@@ -360,15 +376,6 @@ void touch_organs(StepContext& c) noexcept {
   }
 }
 
-template <class F>
-void for_each(core::ThreadPool* pool, size_t count, F&& body) noexcept {
-  if (pool && pool->threads() > 1) {
-    core::run(*pool, int(count), body);
-    return;
-  }
-  for (size_t i = 0; i < count; ++i) body(int(i));
-}
-
 /// Where a strand's end will be. `now` is first put where the host is: the end was placed by prediction last tick, and
 /// taking that error for a velocity would feed it back with a gain of 1/dt.
 tissue::StrandEnd end_of(const StepContext& c, const StrandEndModel& end, Vec3d drawn, Vec3d& now) noexcept {
@@ -380,8 +387,7 @@ tissue::StrandEnd end_of(const StepContext& c, const StrandEndModel& end, Vec3d 
 
 // 7. Folds pull on what carries them.
 void pull_on_borders(StepContext& c) noexcept {
-  for_each(c.work.pool, c.model.membranes.size(), [&c](int index) noexcept {
-    const size_t i = size_t(index);
+  for_each(c.work.pool, c.work.membrane_order, [&c](size_t i) noexcept {
     tissue::border_pulls(c.model.membranes[i].sheet, c.state.membranes[i], c.work.membrane_work[i], c.work.pulls[i]);
   });
   for (size_t i = 0; i < c.model.membranes.size(); ++i)
@@ -391,8 +397,7 @@ void pull_on_borders(StepContext& c) noexcept {
 
 // 8. Strands: implicit, ends where their hosts put them, pulling on them.
 void advance_strands(StepContext& c) noexcept {
-  for_each(c.work.pool, c.model.strands.size(), [&c](int index) noexcept {
-    const size_t i = size_t(index);
+  for_each(c.work.pool, c.work.strand_order, [&c](size_t i) noexcept {
     const StrandModel& strand = c.model.strands[i];
     const interactions::StrandBody& body = c.model.bodies[i];
     interactions::StrandLoads& loads = c.work.strand_loads[i];
@@ -422,8 +427,8 @@ void advance_strands(StepContext& c) noexcept {
 
 // 9. Organs: explicit networks in their own sub-steps.
 void advance_organs(StepContext& c) noexcept {
-  for_each(c.work.pool, size_t(c.model.organs()), [&c](int index) noexcept {
-    const size_t i = size_t(index), solids = c.model.solids.size(), k = i - solids;
+  for_each(c.work.pool, c.work.organ_order, [&c](size_t i) noexcept {
+    const size_t solids = c.model.solids.size(), k = i - solids;
     interactions::NetworkLoads& loads = c.work.organ_loads[i];
     loads.sort();
     c.work.organ_reports[i] = i < solids ? tissue::advance(c.model.solids[i].network, loads.sorted, loads.reaction,
@@ -436,8 +441,7 @@ void advance_organs(StepContext& c) noexcept {
 
 // 10. Folds: borders go where their holders have gone.
 void advance_membranes(StepContext& c) noexcept {
-  for_each(c.work.pool, c.model.membranes.size(), [&c](int index) noexcept {
-    const size_t i = size_t(index);
+  for_each(c.work.pool, c.work.membrane_order, [&c](size_t i) noexcept {
     const MembraneModel& m = c.model.membranes[i];
     const interactions::Holders holders = holders_of(c);
     for (size_t h = 0; h < m.holds.size(); ++h) c.work.targets[i][h] = held_place(m.holds[h], holders);
