@@ -43,16 +43,14 @@ void NetworkLoads::add(const tissue::NodeLoad& load, Tag t) noexcept {
 
 void NetworkLoads::sort() noexcept {
   order.clear();
-  for (std::size_t i = 0; i < gathered.size(); ++i) order.push_back(std::int32_t(i));
-  std::sort(order.begin(), order.end(), [this](std::int32_t a, std::int32_t b) {
-    const int na = gathered[std::size_t(a)].node, nb = gathered[std::size_t(b)].node;
-    return na != nb ? na < nb : a < b;
-  });
+  for (std::size_t i = 0; i < gathered.size(); ++i) order.push_back(std::uint64_t(gathered[i].node) << 32 | i);
+  std::sort(order.begin(), order.end());
   sorted.clear();
   owner.clear();
-  for (std::int32_t i : order) {
-    const tissue::NodeLoad& load = gathered[std::size_t(i)];
-    const Tag& t = tag[std::size_t(i)];
+  for (const std::uint64_t key : order) {
+    const std::size_t i = std::size_t(key & 0xffffffffu);
+    const tissue::NodeLoad& load = gathered[i];
+    const Tag& t = tag[i];
     const bool anonymous = t.owner == Owner::anchor || t.owner == Owner::strand_end;
     if (anonymous && !sorted.empty() && owner.back().owner == Owner::anchor && sorted.back().node == load.node) {
       merge(load, sorted.back());

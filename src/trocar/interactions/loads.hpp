@@ -23,7 +23,7 @@ struct Tag {
 struct NetworkLoads {
   std::vector<tissue::NodeLoad> gathered, sorted;
   std::vector<Tag> tag;
-  std::vector<std::int32_t> order;  ///< of gathered, by node
+  std::vector<std::uint64_t> order;  ///< node << 32 | place in gathered, ascending
   std::vector<Tag> owner;           ///< of sorted[i]; anchors and strand ends on one node are one load: nobody asks
   std::vector<Vec3f> reaction;      ///< of sorted[i]
   bool overflowed = false;

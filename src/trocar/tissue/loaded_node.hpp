@@ -9,20 +9,22 @@ namespace trocar::tissue {
 
 /// Symmetric 3x3.
 struct Matrix6 {
-  double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
+  double xx, yy, zz, xy, xz, yz;
 };
 
-/// A node that carries loads [first, last) during one tick.
+/// A node that carries loads [first, last) during one tick. Most are plain: free, and their loads pull alike in all
+/// directions; then the matrices are multiples of 1, of which only xx is set.
 struct LoadedNode {
-  int row = 0, first = 0, last = 0;
-  int held = 0;       ///< Held bits
-  double mass = 0;    ///< m (1 + dt gamma) [kg]
-  Matrix6 inverse;    ///< of mass + dt D + dt^2 K on the axes that are free [1/kg]
-  Matrix6 stiffness;  ///< dt K [N s/m]
-  Matrix6 coupling;   ///< of held axes with the others [kg]
+  int row, first, last;
+  std::uint8_t held;  ///< Held bits
+  bool plain;
+  double mass;        ///< m (1 + dt gamma) [kg]
   Vec3d impulse;      ///< dt (f0 + K x0) [N s]
   Vec3d places;       ///< sum over sub-steps [m]
   Vec3d velocities;   ///< the same [m/s]
+  Matrix6 inverse;    ///< of mass + dt D + dt^2 K on the axes that are free [1/kg]
+  Matrix6 stiffness;  ///< dt K [N s/m]
+  Matrix6 coupling;   ///< of held axes with the others [kg]
 };
 
 }  // namespace trocar::tissue

@@ -26,14 +26,15 @@ typedef std::int32_t I __attribute__((vector_size(W * 4)));
 struct Lanes {
   V x, y, z, vx, vy, vz;
 };
-struct Force {
+/// A force, or a place.
+struct Triple {
   V x, y, z;
 };
 
 #define TROCAR_INLINE static inline __attribute__((always_inline))
 
-TROCAR_INLINE Force operator+(const Force& a, const Force& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-TROCAR_INLINE Force operator-(const Force& a, const Force& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+TROCAR_INLINE Triple operator+(const Triple& a, const Triple& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+TROCAR_INLINE Triple operator-(const Triple& a, const Triple& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 TROCAR_INLINE V all(float a) { return V{} + a; }
 TROCAR_INLINE V load(const float* p) {
   V a;
@@ -86,19 +87,19 @@ TROCAR_INLINE Lanes load_nodes(const NodeState* n, const std::uint32_t* o) {
           (V)_mm512_shuffle_f32x4(ya, yb, 0xdd), (V)_mm512_shuffle_f32x4(za, zb, 0xdd)};
 }
 
-TROCAR_INLINE __m512 force_quad(const char* f, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+TROCAR_INLINE __m512 triple_quad(const char* f, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
   const auto at = [f](std::uint32_t o) { return _mm_load_ps(reinterpret_cast<const float*>(f + o)); };
   const __m256 ab = _mm256_insertf128_ps(_mm256_castps128_ps256(at(a)), at(b), 1);
   const __m256 cd = _mm256_insertf128_ps(_mm256_castps128_ps256(at(c)), at(d), 1);
   return _mm512_castpd_ps(_mm512_insertf64x4(_mm512_castps_pd(_mm512_castps256_ps512(ab)), _mm256_castps_pd(cd), 1));
 }
-TROCAR_INLINE Force load_forces(const char* f, const std::uint32_t* o) {
+TROCAR_INLINE Triple load_triples(const char* f, const std::uint32_t* o) {
   __m512 x, y, z;
-  transpose4(force_quad(f, o[0], o[4], o[8], o[12]), force_quad(f, o[1], o[5], o[9], o[13]),
-             force_quad(f, o[2], o[6], o[10], o[14]), force_quad(f, o[3], o[7], o[11], o[15]), x, y, z);
+  transpose4(triple_quad(f, o[0], o[4], o[8], o[12]), triple_quad(f, o[1], o[5], o[9], o[13]),
+             triple_quad(f, o[2], o[6], o[10], o[14]), triple_quad(f, o[3], o[7], o[11], o[15]), x, y, z);
   return {(V)x, (V)y, (V)z};
 }
-TROCAR_INLINE void store_forces(float* p, const Force& f) {
+TROCAR_INLINE void store_forces(float* p, const Triple& f) {
   const __m512 none = _mm512_setzero_ps();
   const auto lower = [](__m512 a, __m512 b) {
     return _mm512_castpd_ps(_mm512_unpacklo_pd(_mm512_castps_pd(a), _mm512_castps_pd(b)));
@@ -138,14 +139,14 @@ TROCAR_INLINE Lanes load_nodes(const NodeState* n, const std::uint32_t* o) {
           (V)_mm256_permute2f128_ps(ya, yb, 0x31), (V)_mm256_permute2f128_ps(za, zb, 0x31)};
 }
 
-TROCAR_INLINE Force load_forces(const char* f, const std::uint32_t* o) {
+TROCAR_INLINE Triple load_triples(const char* f, const std::uint32_t* o) {
   const auto at = [&](int i) { return _mm_load_ps(reinterpret_cast<const float*>(f + o[i])); };
   const auto two = [&](int i) { return _mm256_insertf128_ps(_mm256_castps128_ps256(at(i)), at(i + 4), 1); };
   __m256 x, y, z;
   transpose4(two(0), two(1), two(2), two(3), x, y, z);
   return {(V)x, (V)y, (V)z};
 }
-TROCAR_INLINE void store_forces(float* p, const Force& f) {
+TROCAR_INLINE void store_forces(float* p, const Triple& f) {
   const __m256 none = _mm256_setzero_ps();
   const auto lower = [](__m256 a, __m256 b) {
     return _mm256_castpd_ps(_mm256_unpacklo_pd(_mm256_castps_pd(a), _mm256_castps_pd(b)));
@@ -182,13 +183,13 @@ TROCAR_INLINE Lanes load_nodes(const NodeState* n, const std::uint32_t* o) {
   return a;
 }
 
-TROCAR_INLINE Force load_forces(const char* f, const std::uint32_t* o) {
+TROCAR_INLINE Triple load_triples(const char* f, const std::uint32_t* o) {
   const auto at = [&](int i) { return _mm_load_ps(reinterpret_cast<const float*>(f + o[i])); };
-  Force sum;
+  Triple sum;
   transpose4(at(0), at(1), at(2), at(3), sum.x, sum.y, sum.z);
   return sum;
 }
-TROCAR_INLINE void store_forces(float* p, const Force& f) {
+TROCAR_INLINE void store_forces(float* p, const Triple& f) {
   const __m128 none = _mm_setzero_ps();
   const __m128 xy = _mm_unpacklo_ps((__m128)f.x, (__m128)f.y), XY = _mm_unpackhi_ps((__m128)f.x, (__m128)f.y);
   const __m128 z0 = _mm_unpacklo_ps((__m128)f.z, none), Z0 = _mm_unpackhi_ps((__m128)f.z, none);
@@ -217,13 +218,13 @@ TROCAR_INLINE Lanes load_nodes(const NodeState* n, const std::uint32_t* o) {
   }
   return {load(c[0]), load(c[1]), load(c[2]), load(c[3]), load(c[4]), load(c[5])};
 }
-TROCAR_INLINE Force load_forces(const char* f, const std::uint32_t* o) {
+TROCAR_INLINE Triple load_triples(const char* f, const std::uint32_t* o) {
   float c[3][W];
   for (int i = 0; i < W; ++i)
     for (int k = 0; k < 3; ++k) __builtin_memcpy(&c[k][i], f + o[i] + 4 * k, 4);
   return {load(c[0]), load(c[1]), load(c[2])};
 }
-TROCAR_INLINE void store_forces(float* p, const Force& f) {
+TROCAR_INLINE void store_forces(float* p, const Triple& f) {
   for (int i = 0; i < W; ++i) {
     float* const slot = p + 4 * kSlotOfLane[i];
     slot[0] = f.x[i], slot[1] = f.y[i], slot[2] = f.z[i], slot[3] = 0;
@@ -333,7 +334,7 @@ TROCAR_INLINE V flushed(V a) { return (a + 1e-15f) - 1e-15f; }
 
 /// What column c of springs does to the rows at their near ends.
 template <bool OneLaw, bool Scaled>
-TROCAR_INLINE Force pull(const KernelArgs& arg, const Law& one, const Reach& a, int c, int part) {
+TROCAR_INLINE Triple pull(const KernelArgs& arg, const Law& one, const Reach& a, int c, int part) {
   const HalfEdgePack& e = arg.packs[c];
   Law law = one;
   if constexpr (!OneLaw) {
@@ -362,7 +363,7 @@ TROCAR_INLINE void for_columns(const KernelArgs& arg, const Law& one, const Lane
 
 /// v += dt B h / m with gamma at the new v, then x += dt v [KCM99 eq.3]. Lanes whose result is beyond 1e6, or no
 /// number, lose their bits in `fine`.
-TROCAR_INLINE void move_rows(const KernelArgs& arg, const Lanes& own, const Force& f, int s, int part, I& fine) {
+TROCAR_INLINE void move_rows(const KernelArgs& arg, const Lanes& own, const Triple& f, int s, int part, I& fine) {
   const RowPack& row = arg.rows[s];
   const V wx = load(row.wx + part), wy = load(row.wy + part), wz = load(row.wz + part), none{};
   Lanes next;
@@ -392,9 +393,9 @@ bool substep_twice(const KernelArgs& arg, int first, int last) {
   for (int s = first; s < last; ++s) {
     for (int part = 0; part < kSlice; part += W) {
       const Lanes own = load_rows(arg.in, std::uint32_t(s * kSlice + part));
-      Force sum{};
+      Triple sum{};
       for_columns<true, false>(arg, law, own, arg.slice_begin[s], arg.slice_begin[s + 1], part,
-                               [&](const Force& f) { sum = sum + f; });
+                               [&](const Triple& f) { sum = sum + f; });
       move_rows(arg, own, sum, s, part, fine);
     }
   }
@@ -409,9 +410,9 @@ TROCAR_INLINE void evaluate(const KernelArgs& arg, const Law& one, int s) {
   ForceSum& total = arg.sums[s % (arg.lag + 1)];
   for (int part = 0; part < kSlice; part += W) {
     const Lanes own = load_rows(arg.in, std::uint32_t(s * kSlice + part));
-    Force sum{};
+    Triple sum{};
     int at = start;
-    for_columns<OneLaw, Scaled>(arg, one, own, first, last, part, [&](const Force& f) {
+    for_columns<OneLaw, Scaled>(arg, one, own, first, last, part, [&](const Triple& f) {
       sum = sum + f;
       store_forces(arg.forces[1 + at].slot[kSlotOfLane[part]], f);
       at = at + 1 == arg.ring ? 0 : at + 1;
@@ -427,9 +428,9 @@ TROCAR_INLINE void finish(const KernelArgs& arg, int s, I& fine) {
   const ForceSum& total = arg.sums[s % (arg.lag + 1)];
   const char* const forces = reinterpret_cast<const char*>(arg.forces);
   for (int part = 0; part < kSlice; part += W) {
-    Force sum{load(total.x + part), load(total.y + part), load(total.z + part)};
+    Triple sum{load(total.x + part), load(total.y + part), load(total.z + part)};
     for (int c = arg.arrival_begin[s]; c < arg.arrival_begin[s + 1]; ++c) {
-      sum = sum - load_forces(forces, arg.arrivals[c].offset + part);
+      sum = sum - load_triples(forces, arg.arrivals[c].offset + part);
     }
     move_rows(arg, load_rows(arg.in, std::uint32_t(s * kSlice + part)), sum, s, part, fine);
   }
@@ -460,13 +461,14 @@ bool run_substep(const KernelArgs& arg, int first, int last) noexcept {
 
 void run_find_collapsed(const NodeState* nodes, const TetPack* packs, int first, int last,
                         std::uint16_t* below) noexcept {
+  const char* const places = reinterpret_cast<const char*>(nodes);
   for (int p = first; p < last; ++p) {
     std::uint32_t bits = 0;
     for (int part = 0; part < kSlice; part += W) {
-      const Lanes o = load_nodes(nodes, packs[p].offset[0] + part);
-      const Lanes a = load_nodes(nodes, packs[p].offset[1] + part);
-      const Lanes b = load_nodes(nodes, packs[p].offset[2] + part);
-      const Lanes c = load_nodes(nodes, packs[p].offset[3] + part);
+      const Triple o = load_triples(places, packs[p].offset[0] + part);
+      const Triple a = load_triples(places, packs[p].offset[1] + part);
+      const Triple b = load_triples(places, packs[p].offset[2] + part);
+      const Triple c = load_triples(places, packs[p].offset[3] + part);
       const V ax = a.x - o.x, ay = a.y - o.y, az = a.z - o.z;
       const V bx = b.x - o.x, by = b.y - o.y, bz = b.z - o.z;
       const V cx = c.x - o.x, cy = c.y - o.y, cz = c.z - o.z;

@@ -64,6 +64,17 @@ Vec3d held_part(int held, Vec3d v) {
   return {held & kHeldX ? v.x : 0, held & kHeldY ? v.y : 0, held & kHeldZ ? v.z : 0};
 }
 
+/// Where axes are held or loads pull in one direction.
+Vec3d loaded_speed(const LoadedNode& n, Vec3d x, Vec3d free_v) {
+  Vec3d b = n.mass * free_v + (n.impulse - n.stiffness * x);
+  if (n.held != kFree) {
+    const Vec3d kept = held_part(n.held, free_v);
+    b = b - n.coupling * kept;
+    b = (b - held_part(n.held, b)) + kept;
+  }
+  return n.inverse * b;
+}
+
 }  // namespace
 
 ImplicitLoads::ImplicitLoads(const LoadedBody& body, std::span<const NodeLoad> loads,
@@ -88,13 +99,36 @@ ImplicitLoads::ImplicitLoads(const LoadedBody& body, std::span<const NodeLoad> l
 /// (m (1 + dt gamma) + dt D + dt^2 K) v = m (1 + dt gamma) v_free + dt (f0 + K (x0 - x)), held axes left out.
 void ImplicitLoads::add(int first, int last, LoadedNode& n) const noexcept {
   const std::size_t node = std::size_t(m_loads[std::size_t(first)].node);
-  n = {};
   n.row = m.row_of_node[node];
   n.first = first, n.last = last;
   n.held = m.fixed[node];
+  n.plain = n.held == kFree;
   n.mass = m.mass[node] * (1 + m.dt * m.gamma);
+  n.impulse = n.places = n.velocities = {};
+  for (int i = first; i < last; ++i) n.plain = n.plain && is_zero(m_loads[std::size_t(i)].dir);
+  if (n.plain)
+    add_plain(n);
+  else
+    add_matrices(n);
+}
+
+void ImplicitLoads::add_plain(LoadedNode& n) const noexcept {
+  double a = n.mass, stiffness = 0;
+  for (int i = n.first; i < n.last; ++i) {
+    const NodeLoad& l = m_loads[std::size_t(i)];
+    const double k = double(l.k);
+    a += m.dt * (double(l.d) + m.dt * k);
+    stiffness += m.dt * k;
+    n.impulse += m.dt * (vec_cast<double>(l.f0) + k * (vec_cast<double>(l.x0) - m.origin));
+  }
+  n.inverse.xx = 1 / a;
+  n.stiffness.xx = stiffness;
+}
+
+void ImplicitLoads::add_matrices(LoadedNode& n) const noexcept {
   Matrix6 a{n.mass, n.mass, n.mass, 0, 0, 0};
-  for (int i = first; i < last; ++i) {
+  n.stiffness = n.coupling = {};
+  for (int i = n.first; i < n.last; ++i) {
     const NodeLoad& l = m_loads[std::size_t(i)];
     const double k = double(l.k);
     add_along(l, m.dt * (double(l.d) + m.dt * k), a);
@@ -109,13 +143,8 @@ bool ImplicitLoads::apply(const NodeState* in, NodeState* out) noexcept {
   bool fine = true;
   for (LoadedNode& n : m_nodes) {
     const Vec3d x = vec_cast<double>(place(in[n.row])), free_v = vec_cast<double>(speed(out[n.row]));
-    Vec3d b = n.mass * free_v + (n.impulse - n.stiffness * x);
-    if (n.held != kFree) {
-      const Vec3d kept = held_part(n.held, free_v);
-      b = b - n.coupling * kept;
-      b = (b - held_part(n.held, b)) + kept;
-    }
-    const Vec3d v = n.inverse * b;
+    const Vec3d v =
+        n.plain ? n.inverse.xx * (n.mass * free_v + (n.impulse - n.stiffness.xx * x)) : loaded_speed(n, x, free_v);
     move_to(out[n.row], in[n.row], vec_cast<float>(v), float(m.dt));
     n.places += x + m.dt * v;
     n.velocities += v;

@@ -51,6 +51,8 @@ class ImplicitLoads {
 
  private:
   void add(int first, int last, LoadedNode& into) const noexcept;
+  void add_plain(LoadedNode& into) const noexcept;
+  void add_matrices(LoadedNode& into) const noexcept;
 
   const LoadedBody& m;
   std::span<const NodeLoad> m_loads;
