@@ -1,52 +1,69 @@
 // One tick of a sheet: borders on their way, bending as impulses, stretch in the network's sub-steps.
+#include <algorithm>
 #include <cmath>
 
+#include <trocar/tissue/float4.hpp>
 #include <trocar/tissue/membrane.hpp>
 
 namespace trocar::tissue {
 namespace {
 
-NodeState& row_of(const MembraneModel& m, MembraneState& s, int node) {
-  return s.network.nodes[std::size_t(m.network.row_of_node[std::size_t(node)])];
-}
 const NodeState& row_of(const MembraneModel& m, const MembraneState& s, int node) {
   return s.network.nodes[std::size_t(m.network.row_of_node[std::size_t(node)])];
 }
 
-/// Forces of bending and of its damping on all nodes. Differences from the stencil's first node: no digits are lost,
+typedef double Double2 __attribute__((vector_size(16), may_alias));
+
+struct Place {
+  Float4 x, v;
+};
+Place place_at(const NodeState& n) noexcept { return {load4(&n.x), load4(&n.vx)}; }
+
+struct Double4 {
+  Double2 xy{0, 0}, z{0, 0};
+};
+void add(RowForce& to, double c, const Double4& pull, Double4& sum) noexcept {
+  Double2* const all = reinterpret_cast<Double2*>(&to);
+  const Double2 xy = c * pull.xy, z = c * pull.z;
+  all[0] += xy, all[1] += z;
+  sum.xy += xy, sum.z += z;
+}
+
+/// Forces of bending and of its damping on all rows. Differences from the stencil's first node: no digits are lost,
 /// and the sum of the forces is exactly zero but for rounding.
-void bending_forces(const MembraneModel& m, const MembraneState& s, std::vector<Vec3d>& force) noexcept {
-  for (Vec3d& f : force) f = {};
+void bending_forces(const MembraneModel& m, const MembraneState& s, std::vector<RowForce>& force) noexcept {
+  std::fill(force.begin(), force.end(), RowForce{});
   const float tau = float(m.bending_damping_time);
+  const NodeState* const nodes = s.network.nodes.data();
+  const int* const row_of_node = m.network.row_of_node.data();
   for (std::size_t b = 0; b < m.bends.size(); ++b) {
     if (s.torn[b]) continue;
     const BendStencil& e = m.bends[b];
-    const NodeState& o = row_of(m, s, e.node[0]);
-    Vec3f q{0, 0, 0};
-    for (std::int32_t j = 1; j < e.count; ++j) {
-      const NodeState& n = row_of(m, s, e.node[std::size_t(j)]);
-      q += e.c[std::size_t(j)] * Vec3f{(n.x - o.x) + tau * (n.vx - o.vx), (n.y - o.y) + tau * (n.vy - o.vy),
-                                       (n.z - o.z) + tau * (n.vz - o.vz)};
+    const Place o = place_at(nodes[row_of_node[e.node[0]]]);
+    Float4 q{};
+    for (std::size_t j = 1; j < std::size_t(e.count); ++j) {
+      const Place n = place_at(nodes[row_of_node[e.node[j]]]);
+      q += e.c[j] * ((n.x - o.x) + tau * (n.v - o.v));
     }
-    const Vec3d pull = -double(e.k) * vec_cast<double>(q);
-    Vec3d back{0, 0, 0};
-    for (std::int32_t j = 1; j < e.count; ++j) {
-      const Vec3d f = double(e.c[std::size_t(j)]) * pull;
-      force[std::size_t(e.node[std::size_t(j)])] += f;
-      back += f;
-    }
-    force[std::size_t(e.node[0])] -= back;
+    const double k = -double(e.k);
+    const Double4 pull{{k * double(q[0]), k * double(q[1])}, {k * double(q[2]), 0}};
+    Double4 back;
+    for (std::size_t j = 1; j < std::size_t(e.count); ++j)
+      add(force[std::size_t(row_of_node[e.node[j]])], double(e.c[j]), pull, back);
+    Double4 unused;
+    add(force[std::size_t(row_of_node[e.node[0]])], -1, back, unused);
   }
 }
 
 /// v += dt (f / m - gamma v) on the nodes that are free.
-void kick(const MembraneModel& m, MembraneState& s, const std::vector<Vec3d>& force, double dt) noexcept {
+void kick(const MembraneModel& m, MembraneState& s, const std::vector<RowForce>& force, double dt) noexcept {
   const double keep = 1 / (1 + dt * m.gamma);
   for (int i = 0; i < m.nodes(); ++i) {
     if (m.network.fixed[std::size_t(i)] == kHeld) continue;
     const double w = dt / m.network.mass[std::size_t(i)];
-    const Vec3d f = force[std::size_t(i)];
-    NodeState& n = row_of(m, s, i);
+    const std::size_t row = std::size_t(m.network.row_of_node[std::size_t(i)]);
+    const RowForce& f = force[row];
+    NodeState& n = s.network.nodes[row];
     n.vx = float(keep * (double(n.vx) + w * f.x));
     n.vy = float(keep * (double(n.vy) + w * f.y));
     n.vz = float(keep * (double(n.vz) + w * f.z));
@@ -62,7 +79,8 @@ void border_pulls(const MembraneModel& m, const MembraneState& s, MembraneWork& 
     const int i = m.held_nodes[h];
     const NodeState& o = row_of(m, s, i);
     BorderPull p;
-    p.force = w.force[std::size_t(i)];
+    const RowForce& bending = w.force[std::size_t(m.network.row_of_node[std::size_t(i)])];
+    p.force = {bending.x, bending.y, bending.z};
     p.k = m.border_bending[h];
     p.d = m.border_bending[h] * m.bending_damping_time;
     for (int k = m.border_first[h]; k < m.border_first[h + 1]; ++k) {

@@ -93,9 +93,14 @@ struct MembraneState {
   std::vector<std::uint8_t> torn;  ///< (bends) 1 = a cut passes through its triangles
 };
 
+/// A sum of forces on one row of the network [N], as registers hold it.
+struct alignas(16) RowForce {
+  double x = 0, y = 0, z = 0, zero = 0;
+};
+
 struct MembraneWork {
   NetworkWork network;
-  std::vector<Vec3d> force;     ///< (nodes) of bending [N]
+  std::vector<RowForce> force;  ///< (rows) of bending [N]
   std::vector<Vec3f> reaction;  ///< of one bending step, as many as loads may come
 };
 

@@ -335,7 +335,7 @@ MembraneState rest_state(const MembraneModel& m) {
 MembraneWork make_work(const MembraneModel& m, std::size_t loads) {
   MembraneWork w;
   w.network = make_work(m.network);
-  w.force.resize(std::size_t(m.nodes()));
+  w.force.resize(m.network.node_of_row.size());
   w.reaction.resize(loads);
   return w;
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include <trocar/tissue/float4.hpp>
 #include <trocar/tissue/skin.hpp>
 
 namespace trocar::tissue {
@@ -26,26 +27,40 @@ SkinPose make_pose(const Skin& skin) {
   return pose;
 }
 
+namespace {
+
+/// A bounding box in registers.
+struct Box4 {
+  Float4 low = load4(Box{}.low), high = load4(Box{}.high);
+  void add(Float4 p) noexcept { low = smaller(p, low), high = larger(p, high); }
+  void add(const Box4& b) noexcept { add(b.low), add(b.high); }
+  Box box() const noexcept { return {vec3(low), vec3(high)}; }
+};
+
+Float4 place_of(const NodeState* q, const SkinWeights& w) noexcept {
+  Float4 x{};
+  for (size_t j = 0; j < 8; ++j) x += w.weight[j] * load4(&q[w.row[j]].x);
+  return x;
+}
+
+}  // namespace
+
 void pose_skin(const NodeView& nodes, const Skin& skin, SkinPose& pose) noexcept {
-  const Vec3f origin = vec_cast<float>(nodes.origin);
+  const Float4 origin = load4(vec_cast<float>(nodes.origin));
   const NodeState* q = nodes.rows.data();
-  Box bounds, block;
-  for (int i = 0; i < skin.size(); ++i) {
-    if (i % kSkinBlock == 0) pose.block[size_t(i / kSkinBlock)] = block = {};
-    if (!skin.at_surface(i)) continue;
-    const SkinWeights& w = skin.weights[size_t(i)];
-    Vec3f x{0, 0, 0};
-    for (size_t j = 0; j < 8; ++j) {
-      const NodeState& n = q[w.row[j]];
-      x += w.weight[j] * Vec3f{n.x, n.y, n.z};
+  Box4 bounds;
+  for (int first = 0; first < skin.size(); first += kSkinBlock) {
+    Box4 block;
+    for (int i = first; i < std::min(first + kSkinBlock, skin.size()); ++i) {
+      if (!skin.at_surface(i)) continue;
+      const Float4 x = place_of(q, skin.weights[size_t(i)]) + origin;
+      pose.position[size_t(i)] = vec3(x);
+      block.add(x);
     }
-    x += origin;
-    pose.position[size_t(i)] = x;
-    block.add(x);
-    bounds.add(x);
-    pose.block[size_t(i / kSkinBlock)] = block;
+    pose.block[size_t(first / kSkinBlock)] = block.box();
+    bounds.add(block);
   }
-  pose.bounds = bounds;
+  pose.bounds = bounds.box();
 }
 
 void index_skin(Skin& skin) {
