@@ -92,7 +92,7 @@ TEST(VolumeForce, ModulusAndPoissonsRatioAreWhatWasAskedFor) {
     EXPECT_NEAR(strain / longer, 1, 0.05) << "E, nu = " << nu;
     EXPECT_NEAR(thinner / longer, nu, 0.015);
     std::cout << "nu " << nu << ": E " << strain / longer * kE << " Pa, nu " << thinner / longer << ", "
-              << b.model.impulses << " impulses, " << b.model.substeps << " sub-steps\n";
+              << b.model.bulk.impulses << " impulses, " << b.model.substeps << " sub-steps\n";
   }
 }
 
@@ -147,7 +147,7 @@ TEST(VolumeForce, ItNeitherPushesNorTurnsTheBodyAsAWhole) {
     p = {p.x * 1.05, p.y * 1.02 + 0.1 * p.x, p.z * 1.04};
     set_position(b.model, b.state, i, p);
   }
-  push_volumes(b.work.guarded, {}, b.model.kappa, 1e-3, b.work.row_packs, b.model.dt, b.state.nodes, b.work.volume);
+  push_volumes(b.work.guarded, {}, b.model.bulk, 1e-3, b.work.row_packs, b.model.dt, b.state.nodes, b.work.volume);
   Vec3d push, turn;
   double size = 0;
   for (int i = 0; i < b.model.own_nodes; ++i) {

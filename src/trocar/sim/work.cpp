@@ -32,8 +32,7 @@ void scribble(interactions::NetworkLoads& l) noexcept {
 }
 
 void scribble(tissue::VolumeWork& v) noexcept {
-  scribble(v.drawn);
-  scribble(v.pressure);
+  for (auto* values : {&v.drawn, &v.volume, &v.answer, &v.inverse_mass, &v.pressure}) scribble(*values);
   scribble(v.force);
 }
 

@@ -112,7 +112,7 @@ class Assembler {
       for (std::size_t i = 0; i < 4; ++i) cell.row[i] = m.row_of_node[std::size_t(b.cells[t][i])];
       put_cell(cell, kCollapsed * six, int(t) % kSlice, w.guarded_packs[t / kSlice]);
     }
-    if (m.impulses > 0) note_volumes(w.guarded, w.volume);
+    if (m.bulk.impulses > 0) note_volumes(w.guarded, w.row_packs, m.dt, w.volume);
     for (int i = 0; i < b.nodes; ++i) w.part[std::size_t(i)] = i;
     for (const Tet& c : b.cells)
       for (std::size_t i = 1; i < 4; ++i) join(c[0], c[i]);
@@ -353,8 +353,8 @@ StepReport advance(const CuttableModel& m, std::span<const NodeLoad> loads, std:
   KernelArgs args = kernel_args(m, w);
   bool fine = true;
   for (int i = 0; i < m.substeps; ++i) {
-    if (m.impulses > 0 && i % (m.substeps / m.impulses) == 0)
-      push_volumes(w.guarded, {}, m.kappa, m.tick / m.impulses, w.row_packs, m.dt, s.nodes, w.volume);
+    if (m.bulk.impulses > 0 && i % (m.substeps / m.bulk.impulses) == 0)
+      push_volumes(w.guarded, {}, m.bulk, m.tick / m.bulk.impulses, w.row_packs, m.dt, s.nodes, w.volume);
     args.in = s.nodes.data();
     args.out = w.other.data();
     fine = kernels().substep(args, 0, w.slices) && fine;
@@ -435,7 +435,8 @@ void add_to_hash(core::Hasher& h, const CuttableModel& m) noexcept {
   }
   for (const int i : {m.own_nodes, m.own_rows, m.rows, m.packs, m.widest, m.substeps}) h.add(i);
   for (const Vec3d v : {m.origin, m.gravity}) h.add(v);
-  for (const double d : {m.density, m.damping_time, m.gamma, m.tick, m.dt, m.kappa, double(m.impulses)}) h.add(d);
+  for (const double d : {m.density, m.damping_time, m.gamma, m.tick, m.dt}) h.add(d);
+  add_to_hash(h, m.bulk);
   for (const float f : {m.p1, m.p2, m.cap, m.cap_slope, m.opening}) h.add(f);
 }
 

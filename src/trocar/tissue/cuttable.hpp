@@ -61,8 +61,7 @@ struct CuttableModel {
   Vec3d origin, gravity;
   double density = 0, damping_time = 0, gamma = 0;
   float p1 = 0, p2 = 0, cap = 1, cap_slope = 1;
-  double kappa = 0;                       ///< of the volume force [Pa]; 0: springs alone
-  int impulses = 0;                       ///< of it in a tick, a divisor of the sub-steps
+  Bulk bulk;                              ///< the volume force; its impulses divide the sub-steps
   double tick = 0, dt = 0, dt_limit = 0;  ///< [s]
   float opening = kOpeningTime;           ///< within which a collapsed cell is driven open [s]
   int substeps = 1;

@@ -128,8 +128,7 @@ CuttableModel build(const CuttableDescription& d, double tick) {
   m.damping_time = d.material.damping_time;
   m.gamma = d.global_damping;
   m.p1 = n.p1, m.p2 = n.p2, m.cap = n.cap, m.cap_slope = n.cap_slope;
-  m.kappa = n.kappa;
-  m.impulses = n.impulses;
+  m.bulk = n.bulk;
   m.tick = tick;
   m.dt = n.dt;
   m.dt_limit = n.dt_limit;
@@ -169,7 +168,7 @@ CuttableWork make_work(const CuttableModel& m) {
   w.open_tets.resize(m.drawn.cells.size());
   w.below.resize(w.guarded_packs.size());
   w.loaded.resize(nodes);
-  if (m.impulses > 0) w.volume.resize(std::size_t(m.rows));
+  if (m.bulk.impulses > 0) w.volume.resize(std::size_t(m.rows));
   w.cut = geometry::make_work(m.drawn);
   return w;
 }

@@ -91,8 +91,7 @@ struct NetworkModel {
   std::vector<TetPack> tet_packs;                ///< the same, for the search for collapsed ones
   std::vector<int> tet_begin;                    ///< (nodes + 1) into tet_of_node
   std::vector<int> tet_of_node;                  ///< cells at a node
-  double kappa = 0;                              ///< of the volume force [Pa]
-  int impulses = 0;                              ///< of it in a tick, a divisor of the sub-steps
+  Bulk bulk;                                     ///< the volume force; its impulses divide the sub-steps
   double tick = 0;                               ///< [s]
   int substeps = 1;
   double dt = 0;        ///< tick / substeps [s]

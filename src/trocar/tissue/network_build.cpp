@@ -361,9 +361,9 @@ void fill_tets(NetworkModel& m, const NetworkDescription& d) {
 void add_volume_force(NetworkModel& m, double kappa) {
   std::vector<double> mass(m.rows, 0.0);
   for (int i = 0; i < m.nodes; ++i) mass[m.row_of_node[i]] = m.mass[i];
-  m.kappa = kappa;
-  m.impulses = impulses_for(m.tets, rest_state(m).nodes, mass, kappa, m.tick);
-  if (m.impulses > 0) m.substeps = (m.substeps + m.impulses - 1) / m.impulses * m.impulses;
+  m.bulk = bulk_of(m.tets, rest_state(m).nodes, mass, kappa, m.tick);
+  const int n = m.bulk.impulses;
+  if (n > 0) m.substeps = (m.substeps + n - 1) / n * n;
 }
 
 }  // namespace
@@ -435,7 +435,7 @@ NetworkWork make_work(const NetworkModel& m, int threads) {
   w.loaded.resize(m.nodes);
   w.open_tets.resize(m.tets.size());
   w.below.resize(m.tet_packs.size());
-  if (m.impulses > 0) w.volume.resize(std::size_t(m.rows));
+  if (m.bulk.impulses > 0) w.volume.resize(std::size_t(m.rows));
   return w;
 }
 

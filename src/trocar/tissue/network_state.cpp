@@ -116,8 +116,7 @@ void add_to_hash(core::Hasher& h, const NetworkModel& m) noexcept {
   h.add(m.mass);
   h.add(m.fixed);
   h.add(m.substeps);
-  h.add(m.kappa);
-  h.add(m.impulses);
+  add_to_hash(h, m.bulk);
   h.add(m.dt);
   h.add(m.gravity_step);
 }

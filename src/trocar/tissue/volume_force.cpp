@@ -6,78 +6,121 @@
 namespace trocar::tissue {
 namespace {
 
-Vec3f corner(std::span<const NodeState> nodes, const TetRest& c, int i) noexcept {
-  const NodeState& n = nodes[std::size_t(c.row[i])];
-  return {n.x, n.y, n.z};
+// Four floats in a register: x, y, z and a fourth that stays 0. A node's place is loaded whole; half the time of
+// single floats.
+typedef float Quad __attribute__((vector_size(16)));
+
+Quad corner(std::span<const NodeState> nodes, const TetRest& c, int i) noexcept {
+  Quad q;
+  __builtin_memcpy(&q, &nodes[std::size_t(c.row[i])], sizeof q);
+  return q;
+}
+Quad cross(Quad a, Quad b) noexcept {
+  const Quad a1 = __builtin_shufflevector(a, a, 1, 2, 0, 3), b1 = __builtin_shufflevector(b, b, 1, 2, 0, 3);
+  const Quad c = a * b1 - a1 * b;
+  return __builtin_shufflevector(c, c, 1, 2, 0, 3);
+}
+float dot(Quad a, Quad b) noexcept {
+  const Quad c = a * b;
+  return (c[0] + c[1]) + c[2];
 }
 
-/// A cell as it is: edges from its first corner, and its six-fold volume.
+/// A cell as it is: edges from its first corner, and six times its volume and the volume's derivatives by its corners.
 struct Cell {
-  Vec3f a, b, c;
+  float volume6;
+  Quad by[4];
   Cell(std::span<const NodeState> nodes, const TetRest& t) noexcept {
-    const Vec3f o = corner(nodes, t, 0);
-    a = corner(nodes, t, 1) - o, b = corner(nodes, t, 2) - o, c = corner(nodes, t, 3) - o;
+    const Quad o = corner(nodes, t, 0);
+    const Quad a = corner(nodes, t, 1) - o, b = corner(nodes, t, 2) - o, c = corner(nodes, t, 3) - o;
+    by[1] = cross(b, c), by[2] = cross(c, a), by[3] = cross(a, b);
+    by[0] = -(by[1] + by[2] + by[3]);
+    volume6 = dot(a, by[1]);
   }
-  float volume6() const noexcept { return dot(a, cross(b, c)); }
-  /// Six-fold derivative of the volume by corners 1, 2, 3; by corner 0 it is minus their sum.
-  Vec3f by_a() const noexcept { return cross(b, c); }
-  Vec3f by_b() const noexcept { return cross(c, a); }
-  Vec3f by_c() const noexcept { return cross(a, b); }
 };
 
 bool gone(std::span<const std::uint8_t> phase, std::size_t cell) noexcept {
   return !phase.empty() && phase[cell] == kGone;
 }
 
-/// Volume of every node into work.pressure.
+/// Every node's volume, and how stiffly it answers its pressure: the sum of |dV/dx|^2 / m over its cells.
 void sum_volumes(std::span<const TetRest> cells, std::span<const std::uint8_t> phase, std::span<const NodeState> nodes,
                  VolumeWork& w) noexcept {
-  std::fill(w.pressure.begin(), w.pressure.end(), 0.0f);
+  std::fill(w.volume.begin(), w.volume.end(), 0.0f);
+  std::fill(w.answer.begin(), w.answer.end(), 0.0f);
   for (std::size_t t = 0; t < cells.size(); ++t) {
-    // A cell that is gone counts as it was drawn: it neither presses nor is pressed.
-    const float quarter = (gone(phase, t) ? cells[t].rest6 : Cell(nodes, cells[t]).volume6()) / 24;
-    for (const int row : cells[t].row) w.pressure[std::size_t(row)] += quarter;
+    const int* row = cells[t].row;
+    if (gone(phase, t)) {  // counts as it was drawn: it neither presses nor is pressed
+      for (int i = 0; i < 4; ++i) w.volume[std::size_t(row[i])] += cells[t].rest6 / 24;
+      continue;
+    }
+    const Cell cell(nodes, cells[t]);
+    float answer = 0;
+    for (int i = 0; i < 4; ++i) answer += w.inverse_mass[std::size_t(row[i])] * dot(cell.by[i], cell.by[i]);
+    for (int i = 0; i < 4; ++i) {
+      w.volume[std::size_t(row[i])] += cell.volume6 / 24;
+      w.answer[std::size_t(row[i])] += answer;
+    }
   }
+  for (std::size_t row = 0; row < w.answer.size(); ++row)
+    if (w.drawn[row] > 0) w.answer[row] /= w.drawn[row];
 }
 
-void sum_forces(std::span<const TetRest> cells, std::span<const std::uint8_t> phase, float kappa,
+constexpr float kLeast = 0.5f, kMost = 2;  // of J: beyond, cells are the guard's and the law's business
+constexpr float kStiffer = 2;              // than any node as built may one answer before its pressure is softened
+
+void sum_forces(std::span<const TetRest> cells, std::span<const std::uint8_t> phase, const Bulk& bulk,
                 std::span<const NodeState> nodes, VolumeWork& w) noexcept {
   sum_volumes(cells, phase, nodes, w);
-  for (std::size_t row = 0; row < w.pressure.size(); ++row)
-    w.pressure[row] = w.drawn[row] > 0 ? kappa * (w.pressure[row] / w.drawn[row] - 1) : 0;
-  std::fill(w.force.begin(), w.force.end(), Vec3f{});
+  const float bound = kStiffer * bulk.most_answer;
+  for (std::size_t row = 0; row < w.pressure.size(); ++row) {
+    if (!(w.drawn[row] > 0)) {
+      w.pressure[row] = 0;
+      continue;
+    }
+    const float j = std::min(std::max(w.volume[row] / w.drawn[row], kLeast), kMost);
+    const float soft = w.answer[row] > bound && bound > 0 ? bound / w.answer[row] : 1;
+    w.pressure[row] = soft * float(bulk.kappa) * (j - 1);
+  }
+  std::fill(w.force.begin(), w.force.end(), VolumeForce{});
   for (std::size_t t = 0; t < cells.size(); ++t) {
     if (gone(phase, t)) continue;
     const int* row = cells[t].row;
     const auto p = [&](int i) { return w.pressure[std::size_t(row[i])]; };
     const float push = -((p(0) + p(1)) + (p(2) + p(3))) / 24;
     const Cell cell(nodes, cells[t]);
-    const Vec3f fa = push * cell.by_a(), fb = push * cell.by_b(), fc = push * cell.by_c();
-    w.force[std::size_t(row[1])] += fa;
-    w.force[std::size_t(row[2])] += fb;
-    w.force[std::size_t(row[3])] += fc;
-    w.force[std::size_t(row[0])] -= fa + fb + fc;
+    for (int i = 0; i < 4; ++i) {
+      float* const at = &w.force[std::size_t(row[i])].x;
+      Quad sum;
+      __builtin_memcpy(&sum, at, sizeof sum);
+      sum += push * cell.by[i];
+      __builtin_memcpy(at, &sum, sizeof sum);
+    }
   }
 }
 
 }  // namespace
 
 void VolumeWork::resize(std::size_t rows) {
-  drawn.resize(rows);
-  pressure.resize(rows);
+  for (auto* values : {&drawn, &volume, &answer, &inverse_mass, &pressure}) values->resize(rows);
   force.resize(rows);
 }
 
-void note_volumes(std::span<const TetRest> cells, VolumeWork& w) noexcept {
+void note_volumes(std::span<const TetRest> cells, std::span<const RowPack> weight, double weight_dt,
+                  VolumeWork& w) noexcept {
   std::fill(w.drawn.begin(), w.drawn.end(), 0.0f);
   for (const TetRest& t : cells)
     for (const int row : t.row) w.drawn[std::size_t(row)] += t.rest6 / 24;
+  for (std::size_t row = 0; row < w.inverse_mass.size(); ++row) {
+    const RowPack& p = weight[row / kSlice];
+    const std::size_t lane = row % kSlice;
+    w.inverse_mass[row] = std::max({p.wx[lane], p.wy[lane], p.wz[lane]}) / float(weight_dt);
+  }
 }
 
-void push_volumes(std::span<const TetRest> cells, std::span<const std::uint8_t> phase, double kappa, double dt,
+void push_volumes(std::span<const TetRest> cells, std::span<const std::uint8_t> phase, const Bulk& bulk, double dt,
                   std::span<const RowPack> weight, double weight_dt, std::span<NodeState> nodes,
                   VolumeWork& w) noexcept {
-  sum_forces(cells, phase, float(kappa), nodes, w);
+  sum_forces(cells, phase, bulk, nodes, w);
   const float times = float(dt / weight_dt);
   for (std::size_t row = 0; row < w.force.size(); ++row) {
     const RowPack& pack = weight[row / kSlice];
@@ -89,20 +132,36 @@ void push_volumes(std::span<const TetRest> cells, std::span<const std::uint8_t> 
   }
 }
 
-int impulses_for(std::span<const TetRest> cells, std::span<const NodeState> rest, std::span<const double> mass,
-                 double kappa, double tick) {
-  if (!(kappa > 0)) return 0;
+namespace {
+
+Vec3d force_on(const VolumeWork& w, std::size_t row) noexcept {
+  const VolumeForce& f = w.force[row];
+  return {double(f.x), double(f.y), double(f.z)};
+}
+
+}  // namespace
+
+Bulk bulk_of(std::span<const TetRest> cells, std::span<const NodeState> rest, std::span<const double> mass,
+             double kappa, double tick) {
+  Bulk bulk{kappa, 0, 0};
+  if (!(kappa > 0)) return bulk;
   VolumeWork w;
   w.resize(rest.size());
-  note_volumes(cells, w);
+  for (const TetRest& t : cells)
+    for (const int row : t.row) w.drawn[std::size_t(row)] += t.rest6 / 24;
+  for (std::size_t row = 0; row < mass.size(); ++row) w.inverse_mass[row] = mass[row] > 0 ? float(1 / mass[row]) : 0;
+  sum_volumes(cells, {}, rest, w);
+  for (const float a : w.answer) bulk.most_answer = std::max(bulk.most_answer, a);
+
+  double edge = 1;  // the shortest of the cells
+  for (const TetRest& t : cells)
+    for (int i = 1; i < 4; ++i) {
+      const Quad e = corner(rest, t, i) - corner(rest, t, 0);
+      edge = std::min(edge, std::sqrt(double(dot(e, e))));
+    }
   // Power iteration on the mass-weighted stiffness, by small displacements of a rough start.
   std::vector<Vec3d> mode(rest.size());
   for (std::size_t i = 0; i < mode.size(); ++i) mode[i] = {i % 2 ? 1.0 : -1.0, i % 3 ? 1.0 : -1.0, i % 5 ? 1.0 : -1.0};
-  double edge = 1;  // the shortest of the cells
-  for (const TetRest& t : cells) {
-    const Cell cell(rest, t);
-    for (const Vec3f& e : {cell.a, cell.b, cell.c}) edge = std::min(edge, double(length(e)));
-  }
   double lambda = 0;
   std::vector<NodeState> moved(rest.begin(), rest.end());
   for (int round = 0; round < 60; ++round) {
@@ -114,19 +173,20 @@ int impulses_for(std::span<const TetRest> cells, std::span<const NodeState> rest
       const Vec3d d = scale * mode[i];
       moved[i].x = rest[i].x + float(d.x), moved[i].y = rest[i].y + float(d.y), moved[i].z = rest[i].z + float(d.z);
     }
-    sum_forces(cells, {}, float(kappa), moved, w);
+    sum_forces(cells, {}, bulk, moved, w);
     double along = 0, size = 0;
     for (std::size_t i = 0; i < mode.size(); ++i) {
       const Vec3d d = scale * mode[i];
-      along -= dot(d, vec_cast<double>(w.force[i]));
+      along -= dot(d, force_on(w, i));
       size += mass[i] * dot(d, d);
-      mode[i] = mass[i] > 0 ? (-1 / mass[i]) * vec_cast<double>(w.force[i]) : Vec3d{};
+      mode[i] = mass[i] > 0 ? (-1 / mass[i]) * force_on(w, i) : Vec3d{};
     }
     if (size > 0) lambda = std::max(lambda, along / size);
   }
-  // dt^2 lambda < 4 is the limit of one force alone; half of it in dt leaves room for the springs and for J beyond 1.
-  const double count = tick * std::sqrt(1.2 * lambda);
-  return std::max(1, int(std::ceil(count)));
+  // dt^2 lambda < 4 is the limit of this force alone, and kStiffer of it may come with deformation and cuts; the rest
+  // is for the springs.
+  bulk.impulses = std::max(1, int(std::ceil(tick * std::sqrt(0.8 * lambda))));
+  return bulk;
 }
 
 }  // namespace trocar::tissue

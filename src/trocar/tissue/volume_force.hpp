@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include <trocar/core/hash.hpp>
 #include <trocar/tissue/guard.hpp>
 
 namespace trocar::tissue {
@@ -30,26 +31,45 @@ constexpr BulkShare bulk_share(double youngs_modulus, double poisson) noexcept {
   return {springs, youngs_modulus / (3 * (1 - 2 * poisson)) - springs / 1.5};
 }
 
+/// Of a body. Const.
+struct Bulk {
+  double kappa = 0;       ///< [Pa]; 0: no volume force
+  float most_answer = 0;  ///< of the nodes as built: 36 sum |dV/dx|^2 / (m V) [m/kg]; far stiffer ones are softened
+  int impulses = 0;       ///< in a tick
+};
+
+inline void add_to_hash(core::Hasher& h, const Bulk& b) noexcept {
+  h.add(b.kappa);
+  h.add(b.most_answer);
+  h.add(b.impulses);
+}
+
+struct alignas(16) VolumeForce {
+  float x = 0, y = 0, z = 0, zero = 0;  ///< [N]
+};
+
 struct VolumeWork {
-  std::vector<float> drawn;     ///< (rows) volume of a node as drawn [m^3]
-  std::vector<float> pressure;  ///< (rows) first the volume, then kappa (J - 1) [Pa]
-  std::vector<Vec3f> force;     ///< (rows) [N]
+  std::vector<float> drawn, volume;  ///< (rows) of a node, as drawn and now [m^3]
+  std::vector<float> answer;         ///< (rows) as Bulk::most_answer
+  std::vector<float> inverse_mass;   ///< (rows) [1/kg], 0: held
+  std::vector<float> pressure;       ///< (rows) kappa (J - 1) [Pa]
+  std::vector<VolumeForce> force;    ///< (rows)
   void resize(std::size_t rows);
 };
 
-/// Notes each node's volume as drawn.
-void note_volumes(std::span<const TetRest> cells, VolumeWork& work) noexcept;
+/// Notes what the drawn body says. @param weight  of the sub-step `weight_dt` [s], as the kernel has it
+void note_volumes(std::span<const TetRest> cells, std::span<const RowPack> weight, double weight_dt,
+                  VolumeWork& work) noexcept;
 
 /// One impulse of `dt` [s] to nodes that are free.
-/// @param cells   drawn, upright  @param phase  (cells) kGone: left out
-/// @param weight  of the sub-step `weight_dt`, as the kernel has it
-void push_volumes(std::span<const TetRest> cells, std::span<const std::uint8_t> phase, double kappa, double dt,
+/// @param cells   drawn, upright  @param phase  (cells) kGone: left out; or empty
+void push_volumes(std::span<const TetRest> cells, std::span<const std::uint8_t> phase, const Bulk& bulk, double dt,
                   std::span<const RowPack> weight, double weight_dt, std::span<NodeState> nodes,
                   VolumeWork& work) noexcept;
 
-/// Number of impulses in a tick that a body bears: from the fastest of its oscillations, found by iteration.
+/// How many impulses a body wants: by the fastest of its oscillations, found by iteration.
 /// @param mass  (rows) [kg], 0: no node; held nodes count as free, which is on the safe side
-int impulses_for(std::span<const TetRest> cells, std::span<const NodeState> rest, std::span<const double> mass,
-                 double kappa, double tick);
+Bulk bulk_of(std::span<const TetRest> cells, std::span<const NodeState> rest, std::span<const double> mass,
+             double kappa, double tick);
 
 }  // namespace trocar::tissue
