@@ -13,7 +13,6 @@ constexpr double kQuickest = 0.0012;  // [m] a tick that a contact moves a sheet
 constexpr double kRemember = 0.002;   // [m] beyond touching, the side is still known
 constexpr double kDeepest = 0.006;    // [m] beyond this a rod that is not right over the triangle went around it
 constexpr double kLost = 0.025;       // [m] beyond this it is on the other side for good
-constexpr double kRubbing = 40;       // [N/m] of the spring between tissue and anchor
 
 struct Corners {
   Vec3d a, b, c;
@@ -88,18 +87,26 @@ Vec3d place(const Corners& t, double b, double c) noexcept { return t.a + b * (t
 
 void rub(Touching& c, std::int32_t number, const Touch* was, const Surface& surface, const std::array<int, 3>& triangle,
          const Corners& t, const Meeting& touch, double depth, NetworkLoads& loads) noexcept {
-  const double weight[2] = {touch.weights.y, touch.weights.z};
-  const Vec3d now = place(t, weight[0], weight[1]);
-  const Rub r = c.rub(number, touch.normal, kRubbing, now, weight,
+  const double b_share = touch.weights.y, c_share = touch.weights.z;
+  const Vec3d now = place(t, b_share, c_share);
+  const Vec3d velocity = touch.weights.x * surface.nodes.velocity(triangle[0]) +
+                         b_share * surface.nodes.velocity(triangle[1]) + c_share * surface.nodes.velocity(triangle[2]);
+  const Rub r = c.rub(number, {touch.normal, now, velocity, {b_share, c_share}},
                       was ? place(t, double(was->weight[0]), double(was->weight[1])) : now);
-  if (!r.rubs) return;
+  if (r.kind == Rub::free) return;
   const double shares[3] = {1 - r.weight[0] - r.weight[1], r.weight[0], r.weight[1]};
   for (std::size_t k = 0; k < 3; ++k) {
-    if (shares[k] < 0.05) continue;
+    if (shares[k] < 0.02) continue;
     tissue::NodeLoad load;
     load.node = triangle[k];
-    load.k = float(shares[k] * kRubbing);
     load.x0 = vec_cast<float>(surface.position(triangle[k]) + r.to + depth * touch.normal);
+    if (r.kind == Rub::sticks) {
+      load.k = float(shares[k] * r.stiffness);
+    } else {
+      load.d = float(shares[k] * r.damping);
+      load.dir = vec_cast<float>(r.dir);
+      load.f0 = vec_cast<float>((shares[k] * r.damping * r.speed) * r.dir);
+    }
     loads.add(load, {Owner::tool_contact, c.tool, number});
   }
 }
@@ -157,7 +164,7 @@ bool tool_on_sheet(Touching& c, const ToolState& tool_state, int body, const She
     const Capsule rod0 = both ? both_jaws(c.before, sheet.half_thickness) : c.before.part[part];
     const double way = c.way(both ? kJawA : part), reach = rod.radius + sheet.half_thickness + kRemember + way;
     const double most = 0.9 * (both ? kRemember : rod.radius + sheet.half_thickness + kRemember);
-    const bool near_at_all = surface.pose->bounds.near_segment(rod.a, rod.b, std::max(reach, kLost));
+    const bool near_at_all = surface.pose->bounds.near_segment(rod.a, rod.b, std::max(reach, rod.radius + kLost));
     for (std::size_t i = 0; i < skin.triangles.size(); ++i) {
       Vec3f& memory = side[i * std::size_t(kSheetParts) + std::size_t(part)];
       const auto& t = skin.triangles[i];
@@ -172,7 +179,7 @@ bool tool_on_sheet(Touching& c, const ToolState& tool_state, int body, const She
       const double size2 = std::max({geometry::distance2(middle, corners.a), geometry::distance2(middle, corners.b),
                                      geometry::distance2(middle, corners.c)});
       const double way2 = geometry::distance2(middle, collision::nearest_on_axis(rod, middle));
-      const double far = dot(memory, memory) > 0 ? kLost : reach;
+      const double far = dot(memory, memory) > 0 ? rod.radius + kLost : reach;
       if (way2 > 2 * (size2 + far * far)) {  // (r + s)^2 <= 2 (r^2 + s^2)
         memory = {};
         continue;
@@ -188,11 +195,11 @@ bool tool_on_sheet(Touching& c, const ToolState& tool_state, int body, const She
       }
       const Meeting touch = meet_on_the_way(rod0, rod, corners0, corners, sheet.half_thickness, most, memory);
       remembers = remembers || dot(memory, memory) > 0;
-      if (touch.depth <= 0) continue;
+      if (touch.depth <= -kGrazes) continue;
       const std::int32_t number = c.note(body, int(i), part);
-      const double depth = std::min(touch.depth, kQuickest + way);
+      const double depth = std::clamp(touch.depth, 0.0, kQuickest + way);
       rub(c, number, c.anchored(body, int(i), part), surface, t, corners, touch, depth, loads);
-      push(surface, t, touch, depth, {Owner::tool_contact, c.tool, number}, loads);
+      if (touch.depth > 0) push(surface, t, touch, depth, {Owner::tool_contact, c.tool, number}, loads);
     }
   }
   return remembers;

@@ -15,7 +15,6 @@ constexpr double kDamping = 0.3;            // [N s/m] along the contact normal
 constexpr double kBehind = 0.006;           // [m] how deep behind the surface an instrument is looked for
 constexpr double kDeepest = 0.025;          // [m] ... and still pushed out, if it is known to have come from outside
 constexpr double kNear = 0.0025;            // [m] from the instrument: noted
-constexpr double kRubbing = 100;            // [N/m] of the spring between tissue and anchor: how far it gives, sticking
 constexpr float kLeast = 0.05f;             // share of a contact below which a node feels no friction
 
 bool meets(const tissue::Box& box, const Capsule& rod) noexcept {
@@ -79,15 +78,27 @@ void push_vertex(const Touching& c, std::int32_t number, const Surface& surface,
   add_skin_load(surface.nodes, *surface.skin, v, load, {Owner::tool_contact, c.tool, number}, loads);
 }
 
+/// Friction on a skin vertex, or on its share of a point between vertices.
+void rub_skin(const Touching& c, std::int32_t number, const Rub& rub, const Surface& surface, int v, double share,
+              Vec3d push, NetworkLoads& loads) noexcept {
+  if (rub.kind == Rub::free) return;
+  SkinLoad load;
+  if (rub.kind == Rub::sticks) {
+    load.k = share * rub.stiffness;
+    load.shift = rub.to + push;
+  } else {
+    load.d = share * rub.damping;
+    load.dir = rub.dir;
+    load.f0 = (load.d * rub.speed) * rub.dir;
+  }
+  add_skin_load(surface.nodes, *surface.skin, v, load, {Owner::tool_contact, c.tool, number}, loads, kLeast);
+}
+
 void rub_vertex(Touching& c, std::int32_t number, const Surface& surface, int v, double depth, Vec3d n,
                 NetworkLoads& loads) noexcept {
   const Vec3d p = surface.position(v);
-  const Rub rub = c.rub(number, n, kRubbing, p, {0, 0}, p);
-  if (!rub.rubs) return;
-  SkinLoad load;
-  load.k = kRubbing;
-  load.shift = rub.to + depth * n;
-  add_skin_load(surface.nodes, *surface.skin, v, load, {Owner::tool_contact, c.tool, number}, loads, kLeast);
+  const Rub rub = c.rub(number, {n, p, tissue::skin_velocity(surface.nodes, *surface.skin, v)}, p);
+  rub_skin(c, number, rub, surface, v, 1, depth * n, loads);
 }
 
 /// Was the instrument near this patch of the skin in the last tick?
@@ -111,7 +122,7 @@ void touch_vertex(Touching& c, int body, const Surface& surface, int v, int part
   const Capsule& rod = c.shape.part[part];
   const Vec3d p = surface.position(v), from = p - collision::nearest_on_axis(rod, p);
   const double distance = length(from);
-  if (distance > kDeepest) return;
+  if (distance > rod.radius + kDeepest) return;
   const Vec3d n = surface.normal(v);
   if (dot(from, n) <= 0) {
     if (distance > rod.radius + kNear) return;
@@ -121,7 +132,11 @@ void touch_vertex(Touching& c, int body, const Surface& surface, int v, int part
   const collision::Push push = collision::push_out(rod, p, n, kDeepest);
   if (push.depth <= 0 && dot(from, n) > 0 && distance > rod.radius + kNear) return;
   const std::int32_t number = c.note(body, v, part);
-  if (push.depth <= 0) return;
+  if (push.depth <= 0) {
+    if (dot(from, n) <= 0 && distance < rod.radius + kGrazes)
+      rub_vertex(c, number, surface, v, 0, from / distance, loads);
+    return;
+  }
   const double depth = std::min(push.depth, kQuickest + c.way(part));
   rub_vertex(c, number, surface, v, depth, push.direction, loads);
   push_vertex(c, number, surface, v, depth, push.direction, 1, loads);
@@ -144,17 +159,14 @@ void shaft_on_edge(Touching& c, int body, const Surface& surface, int v, int k, 
   const std::int32_t number = c.note(body, element, kShaft);
   const double depth = std::min(push.depth, kQuickest + c.way(kShaft));
   const Touch* was = c.anchored(body, element, kShaft);
-  const Rub rub = c.rub(number, push.direction, kRubbing, near.on_second, {near.t, 0},
+  const Vec3d velocity = (1 - near.t) * tissue::skin_velocity(surface.nodes, skin, v) +
+                         near.t * tissue::skin_velocity(surface.nodes, skin, u);
+  const Rub rub = c.rub(number, {push.direction, near.on_second, velocity, {near.t, 0}},
                         a + (was ? double(was->weight[0]) : near.t) * (b - a));
-  const Tag tag{Owner::tool_contact, c.tool, number};
   for (int end = 0; end < 2; ++end) {
     const int vertex = end ? u : v;
     push_vertex(c, number, surface, vertex, depth, push.direction, end ? near.t : 1 - near.t, loads);
-    if (!rub.rubs) continue;
-    SkinLoad load;
-    load.k = kRubbing * (end ? rub.weight[0] : 1 - rub.weight[0]);
-    load.shift = rub.to + depth * push.direction;
-    add_skin_load(surface.nodes, skin, vertex, load, tag, loads, kLeast);
+    rub_skin(c, number, rub, surface, vertex, end ? rub.weight[0] : 1 - rub.weight[0], depth * push.direction, loads);
   }
 }
 
@@ -210,10 +222,11 @@ void press(Touching& c, int body, const Surface& surface, int ball, Vec3d p, Vec
   if (above < 0 && !known && !was_near(c, body, surface, vertex) && dot(before - at.point, at.normal) < 0) return;
   const std::int32_t number = c.note(body, element, kJawA, vertex);
   const double deep = radius - above;
-  if (deep <= 0) return;
+  if (deep <= -kGrazes) return;
   const Vec3d n = -at.normal;
-  const double depth = std::min(deep, kQuickest + c.way(kJawA));
+  const double depth = std::clamp(deep, 0.0, kQuickest + c.way(kJawA));
   rub_vertex(c, number, surface, vertex, depth, n, loads);
+  if (deep <= 0) return;
   for (size_t k = 0; k < 3; ++k) {
     const double share = at.weights[int(k)];
     if (share >= 0.02) push_vertex(c, number, surface, at.vertex[k], depth, n, share, loads);
@@ -291,22 +304,32 @@ bool may_be_between(const Touching& c, const BetweenJaws& where, const StrandBod
 }
 
 /// A strand element is pushed off a part of the instrument and held back across that.
-void push_strand(Touching& touching, int strand, int element, int part, const collision::RodContact& c, Vec3d a,
-                 Vec3d b, StrandLoads& loads) noexcept {
+void push_strand(Touching& touching, int strand, const tissue::StrandState& state, int element, int part,
+                 const collision::RodContact& c, StrandLoads& loads) noexcept {
+  const Vec3d a = state.x[size_t(element)], b = state.x[size_t(element) + 1];
   const std::int32_t number = touching.note(strand, element, part);
   const Tag tag{Owner::tool_contact, touching.tool, number};
-  const double depth = std::min(c.depth, kQuickestStrand + touching.way(part));
+  const double depth = std::clamp(c.depth, 0.0, kQuickestStrand + touching.way(part));
   const Touch* was = touching.anchored(strand, element, part);
   const double held = was ? double(was->weight[0]) : c.t;
-  const Rub rub = touching.rub(number, c.normal, kRubbing, c.on_second, {c.t, 0}, a + held * (b - a));
+  const Vec3d velocity = (1 - c.t) * state.v[size_t(element)] + c.t * state.v[size_t(element) + 1];
+  const Rub rub = touching.rub(number, {c.normal, c.on_second, velocity, {c.t, 0}}, a + held * (b - a));
   tissue::StrandLoad load;
   load.element = element;
-  if (rub.rubs) {
+  if (rub.kind != Rub::free) {
     load.w = rub.weight[0];
-    load.k = kRubbing;
-    load.x0 = a + load.w * (b - a) + rub.to + depth * c.normal;
+    if (rub.kind == Rub::sticks) {
+      load.k = rub.stiffness;
+      load.x0 = a + load.w * (b - a) + rub.to + depth * c.normal;
+    } else {
+      load.d = rub.damping;
+      load.dir = rub.dir;
+      load.f0 = (load.d * rub.speed) * rub.dir;
+    }
     loads.add(load, tag);
   }
+  if (c.depth <= 0) return;
+  load.f0 = {0, 0, 0};
   load.w = c.t;
   load.k = kStrandStiffness;
   load.dir = c.normal;
@@ -357,7 +380,7 @@ void tool_on_strand(const ToolModel& model, Touching& touching, const ToolState&
       }
       const collision::RodContact c = collision::touch(touching.before.part[part], shape.part[part], {a0, b0, radius},
                                                        {a, b, radius}, memory[part]);
-      if (c.depth > 0) push_strand(touching, strand, e, part, c, a, b, loads);
+      if (c.depth > -kGrazes) push_strand(touching, strand, state, e, part, c, loads);
     }
     if (where.inside && between && !held)
       channel(shape, where, radius, e, {Owner::tool_contact, touching.tool, 0}, loads);

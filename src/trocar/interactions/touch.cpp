@@ -5,7 +5,8 @@
 namespace trocar::interactions {
 namespace {
 
-constexpr float kShare = 0.25f;  // of the newest normal force in its average: about four ticks
+constexpr double kGive = 0.0002;  // [m] that a spring gives before the tissue slips
+constexpr float kShare = 0.1f;    // of the newest normal force in its average: about ten ticks
 
 bool before_in_book(const Touch& a, const Touch& b) noexcept {
   if (a.body != b.body) return a.body < b.body;
@@ -98,35 +99,50 @@ const Touch* Touching::anchored(std::int32_t body, std::int32_t element, std::in
   return was && was->anchored ? was : nullptr;
 }
 
-Rub Touching::rub(std::int32_t number, Vec3d normal, double stiffness, Vec3d now, const double (&weight)[2],
-                  Vec3d anchored_now) noexcept {
+Rub Touching::rub(std::int32_t number, const Contact& c, Vec3d anchored_now) noexcept {
   Rub r;
   if (number == 0) return r;
   Touch& t = next.touch[number - 1];
-  put(t.normal, normal);
+  put(t.normal, c.normal);
   t.anchored = 1;
   const PartFrame frame = frame_of(shape, t.part);
+  for (int k = 0; k < 2; ++k) r.weight[k] = c.weight[k];
   const Touch* was = anchored(t.body, t.element, t.part);
   if (!was || was->vertex != t.vertex) {
-    put(t.anchor, into(frame, now));
-    for (int k = 0; k < 2; ++k) t.weight[k] = float(weight[k]);
+    put(t.anchor, into(frame, c.point));
+    for (int k = 0; k < 2; ++k) t.weight[k] = float(c.weight[k]);
     return r;
   }
   t.force = (1 - kShare) * was->force;
   Vec3d off = out_of(frame, was->anchor) - anchored_now;
-  off -= dot(off, normal) * normal;
-  const double far = length(off), most = m_friction * double(was->force) / stiffness;
-  r.rubs = far > 1e-9 && most > 1e-9;
-  if (far <= most) {
-    for (int k = 0; k < 2; ++k) t.weight[k] = was->weight[k];
-    for (int k = 0; k < 3; ++k) t.anchor[k] = was->anchor[k];
+  off -= dot(off, c.normal) * c.normal;
+  const double far = length(off), bound = m_friction * double(was->force);
+  r.stiffness = bound / kGive;
+  if (far <= kGive) {
+    if (far > 1e-9 && bound > 0) r.kind = Rub::sticks;
     r.to = off;
-  } else {  // it slips: the anchor is dragged along behind the point that is nearest now
-    for (int k = 0; k < 2; ++k) t.weight[k] = float(weight[k]);
-    r.to = (most / far) * off;
-    put(t.anchor, into(frame, now + r.to));
+    for (int k = 0; k < 2; ++k) t.weight[k] = was->weight[k];
+    for (int k = 0; k < 2; ++k) r.weight[k] = double(was->weight[k]);
+    for (int k = 0; k < 3; ++k) t.anchor[k] = was->anchor[k];
+    return r;
   }
-  for (int k = 0; k < 2; ++k) r.weight[k] = double(t.weight[k]);
+  // It slips: the anchor is dragged along behind the point that is nearest now.
+  constexpr double kTick = 1e-3, kSlow = 0.01;  // [s], [m/s]
+  r.to = (kGive / far) * off;
+  for (int k = 0; k < 2; ++k) t.weight[k] = float(c.weight[k]);
+  put(t.anchor, into(frame, c.point + r.to));
+  if (!(bound > 0)) return r;
+  float here[3];
+  put(here, into(frame, c.point));
+  const Vec3d surface = (c.point - out_of(frame_of(before, t.part), here)) / kTick;
+  Vec3d slip = surface - c.velocity;
+  slip -= dot(slip, c.normal) * c.normal;
+  const double speed = length(slip);
+  r.kind = speed > kSlow ? Rub::slips : Rub::sticks;  // hardly moving, the spring with the bound's pull does it
+  if (r.kind == Rub::sticks) return r;
+  r.dir = slip / speed;
+  r.damping = bound / speed;
+  r.speed = dot(surface, r.dir);
   return r;
 }
 

@@ -2,10 +2,12 @@
 // bodies were near, and where they stick to it. All of it is State.
 //
 // Memory serves two things. *Nothing passes through*: a vertex of an organ's skin is pushed back to the side from which
-// the instrument came, however deep it has sunk in. *Friction*: Coulomb's, with a spring from the tissue's point to an
-// anchor on the instrument. The spring's pull is at most friction times the normal force, which is averaged over the
-// last few ticks; beyond that the anchor is dragged along. The bound is a constant within a tick and the spring is
-// implicit, so friction can only take energy. [Cundall & Strack 1979] for the spring and its bound.
+// the instrument came, however deep it has sunk in. *Friction*: Coulomb's, bound by friction times the normal force,
+// which is averaged over the last few ticks. What sticks is held by a spring from the tissue's point to an anchor on
+// the instrument [Cundall & Strack 1979], which pulls with the bound when it is 0.2 mm long; where it would be longer,
+// the tissue slips: the anchor is dragged along, and beyond 10 mm/s a dashpot as strong as the bound at the speed of
+// the slip takes the spring's place. The bound is a constant within a tick, spring and dashpot are implicit, so
+// friction can only take energy.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +17,8 @@
 
 namespace trocar::interactions {
 
-inline constexpr int kMaxTouches = 256;  ///< of one instrument
+inline constexpr int kMaxTouches = 256;    ///< of one instrument
+inline constexpr double kGrazes = 0.0001;  ///< apart by less than this [m] friction is not over: contacts may bounce
 
 /// One point of a body near one part of an instrument. No padding.
 struct Touch {
@@ -47,11 +50,23 @@ void start_here(const ToolState& tool, TouchBook& book) noexcept;
 /// Where it was then.
 ToolShape shape_before(const ToolModel& model, const TouchBook& book) noexcept;
 
-/// What friction asks of a contact: pull the tissue's point by `to` (across the normal).
+/// What friction asks of a contact: a spring to `to` from the tissue's point where it sticks; a dashpot along `dir`
+/// where it slips.
 struct Rub {
-  bool rubs = false;
-  Vec3d to{0, 0, 0};          ///< [m]
-  double weight[2] = {0, 0};  ///< that point within its element
+  enum Kind : std::int32_t { free, sticks, slips } kind = free;
+  Vec3d to{0, 0, 0};          ///< across the normal [m]
+  double stiffness = 0;       ///< [N/m]
+  Vec3d dir{0, 0, 0};         ///< unit
+  double damping = 0;         ///< [N s/m]
+  double speed = 0;           ///< of the instrument's surface along dir [m/s]
+  double weight[2] = {0, 0};  ///< the tissue's point within its element
+};
+
+/// A point of the tissue that touches.
+struct Contact {
+  Vec3d normal;  ///< unit, from the instrument to the tissue
+  Vec3d point, velocity;
+  double weight[2] = {0, 0};  ///< of the point within its element
 };
 
 /// One instrument in one tick: from where it was to where it is, what it remembers and what it will.
@@ -75,12 +90,9 @@ class Touching {
   std::int32_t note(std::int32_t body, std::int32_t element, std::int32_t part, std::int32_t vertex = -1) noexcept;
 
   /// A noted point touches: is it to be held back across the normal?
-  /// @param number   of the note
-  /// @param normal   unit, from the instrument to the tissue
-  /// @param now      the tissue's point nearest to the instrument, and its weights
-  /// @param anchored where the tissue's point with the weights that were anchored is now
-  Rub rub(std::int32_t number, Vec3d normal, double stiffness, Vec3d now, const double (&weight)[2],
-          Vec3d anchored) noexcept;
+  /// @param number    of the note
+  /// @param anchored  where the tissue's point with the weights that were anchored is now
+  Rub rub(std::int32_t number, const Contact& contact, Vec3d anchored) noexcept;
   /// The anchored weights of a point, if it was touched in the last tick.
   const Touch* anchored(std::int32_t body, std::int32_t element, std::int32_t part) const noexcept;
 
