@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "../sim/small_scene.hpp"
+#include "straight_tube.hpp"
 
 using namespace trocar;
 using namespace trocar::interactions;
@@ -136,6 +137,34 @@ TEST(Grasp, ThePullIsWhatTheFoundationTheOrganAndTheWeightDo) {
     EXPECT_GT(length(pull), 0.05);
     EXPECT_LT(length(pull - on_tube), 0.02 * length(pull)) << "pull " << pull.z << " N, the rest " << on_tube.z << " N";
   }
+}
+
+TEST(Grasp, OfMoreTissueThanAGripCanHoldItHoldsSomeOfAll) {
+  // A tube of 24 elements along jaws of 55 mm: 22 of them lie between the jaws, a grip holds 12 points.
+  ToolModel m;
+  m.kind = ToolKind::grasper;
+  m.port = {0.03, 0, 0.10};
+  m.jaw_length = 0.055;
+  m.jaw_width = 0.003;
+  m.opening = 0.4;
+  kinematics::FulcrumPose pose = kinematics::inverse(m.port, {0.03, 0, -0.055}, 0);
+  pose.roll = kinematics::roll_towards(pose, {1, 0, 0});
+  const test::StraightTube tube(0.0016, {0.03, 0, 0}, {0, 0, -1});
+  const std::vector<StrandBody> bodies{tube.body};
+  const std::vector<tissue::StrandState> states{tube.state};
+  ToolState tool;
+  for (int i = 0; i <= 100 && tool.holds == 0; ++i) {
+    tool.handle = 0.01 * i;
+    update_grip(m, shape_of(m, pose, tool.aperture), {bodies, states, {}}, tool);
+  }
+  ASSERT_GT(tool.holds, 6);
+  double low = 1, high = 0;
+  for (int i = 0; i < tool.holds; ++i) {
+    low = std::min(low, double(tool.hold[i].local[2]));
+    high = std::max(high, double(tool.hold[i].local[2]));
+  }
+  EXPECT_LT(low, 0.006) << "near the hinge";
+  EXPECT_GT(high, 0.048) << "near the tips";
 }
 
 TEST(Grasp, ForcesOnTissueAndJawsAreOpposite) {

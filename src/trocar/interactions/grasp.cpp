@@ -13,14 +13,25 @@ constexpr double kOpen = 0.97;             // aperture that the hand asks for wh
 constexpr double kLoose = 0.06;            // aperture beyond the tissue's at which jaws hold it no more
 constexpr double kCompressed = 0.7;        // thickness of a strand between jaws that just hold it, of its diameter
 
+/// What lies between the jaws: of many points some of all, evenly.
 struct Candidate {
   Hold hold[kMaxHolds];
-  int count = 0;
-  double thickness = 0, along = 0;
+  int count = 0;         ///< held
+  int found = 0;         ///< all of them
+  int stride = 1;        ///< every so many of those found is held
+  double thickness = 0;  ///< how far they keep the jaws apart [m]
+  double sum = 0;        ///< of the way along the jaws of those found
+  double along() const noexcept { return sum / found; }
 };
 
 void add(Candidate& c, std::int32_t body, int element, double w, Vec3d local) noexcept {
-  if (c.count == kMaxHolds) return;
+  c.sum += local.z;
+  if (c.found++ % c.stride != 0) return;
+  if (c.count == kMaxHolds) {
+    c.count /= 2;
+    for (int i = 0; i < c.count; ++i) c.hold[i] = c.hold[2 * i];
+    c.stride *= 2;
+  }
   Hold& h = c.hold[c.count++];
   h = {};
   h.body = body;
@@ -43,11 +54,9 @@ Candidate strand_between(const ToolModel& model, const ToolShape& shape, const T
       if (!where.inside || where.local.z > model.jaw_length || where.local.z < 0) continue;
       add(c, std::int32_t(s), e, where.w, where.local);
       c.thickness = std::max(c.thickness, 2 * kCompressed * body.model.radius[size_t(e)]);
-      c.along += where.local.z;
     }
     if (c.count == 0) continue;
-    c.along /= c.count;
-    if (best.count == 0 || c.along < best.along) best = c;
+    if (best.count == 0 || c.along() < best.along()) best = c;
   }
   return best;
 }
@@ -69,13 +78,11 @@ Candidate fold_between(const ToolModel& model, const ToolShape& shape, const Tis
         if (local.z < 0.25 * model.jaw_length || local.z > model.jaw_length + 0.0005) continue;
         if (std::fabs(local.x) > shape.half_opening(local.z) + 0.0008) continue;
         add(c, kSolidBase + std::int32_t(o), v, 0, local);
-        c.along += local.z;
       }
     }
     if (c.count < 2) continue;
-    c.along /= c.count;
     c.thickness = kFoldThickness;
-    if (c.count > best.count) best = c;
+    if (c.found > best.found) best = c;
   }
   return best;
 }
@@ -94,12 +101,10 @@ Candidate sheet_between(const ToolModel& model, const ToolShape& shape, const Ti
       if (local.z < 0 || local.z > model.jaw_length + 0.0005) continue;
       if (std::fabs(local.x) > shape.half_opening(local.z) + 0.0005) continue;
       add(c, kMembraneBase + std::int32_t(m), v, 0, local);
-      c.along += local.z;
     }
     if (c.count < 2) continue;
-    c.along /= c.count;
     c.thickness = 2 * view.membranes[m].half_thickness;
-    if (c.count > best.count) best = c;
+    if (c.found > best.found) best = c;
   }
   return best;
 }
@@ -169,7 +174,7 @@ void update_grip(const ToolModel& model, const ToolShape& shape, const TissueVie
   if (c.count == 0 && wanted < 0.6) c = fold_between(model, shape, view);
   if (c.count == 0) c = sheet_between(model, shape, view);
   if (c.count == 0) return;
-  const double stop = aperture_at(model, c.thickness, c.along);
+  const double stop = aperture_at(model, c.thickness, c.along());
   if (wanted > stop) return;
   tool.letting_go = 0;
   tool.holds = c.count;
