@@ -176,6 +176,7 @@ void poison(Work& w) noexcept {
     scribble(s.columns);
     scribble(s.force);
     scribble(s.saved);
+    scribble(s.direction);
     scribble(s.bend_now);
   }
   scribble(w.touches);

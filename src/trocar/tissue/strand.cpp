@@ -34,7 +34,7 @@ void add_stretch(const StrandModel& m, const StrandState& s, StrandWork& w) {
     if (!s.alive[e]) continue;
     const Vec3d d = s.x[e + 1] - s.x[e], dv = s.v[e + 1] - s.v[e];
     const double r = length(d), l = m.rest_length[e], stiffness = m.stretch[e] * s.scale[e];
-    const Vec3d t = normalised(d);
+    const Vec3d t = r > 1e-30 ? d / r : Vec3d{1, 0, 0};
     const double strain = r / l - 1, ahead = length(d + dt * dv) / l - 1;
     const double slope_now = m.law.slope(strain), slope_ahead = m.law.slope(ahead);
     const double slope = slope_now > slope_ahead ? slope_now : slope_ahead;
@@ -58,8 +58,9 @@ int holder_in(const StrandModel& m, int first, int last) {
   return -1;
 }
 
-Vec3d direction(const StrandModel& m, const StrandState& s, int i) {
-  return chain_direction(s.x, i, m.tangent_rest[i]);
+/// Directions of the chain at its inner nodes.
+void find_directions(const StrandModel& m, const StrandState& s, std::vector<Vec3d>& direction) {
+  for (int i = 1; i + 1 < m.nodes; ++i) direction[i] = chain_direction(s.x, i, m.tangent_rest[i]);
 }
 
 /// Drawn bend of node i in the frame of direction t and director d.
@@ -72,14 +73,14 @@ Vec3d bend_in_frame(const StrandModel& m, int i, Vec3d t, Vec3d d) {
 /// the held node outwards; in a loose piece from its first node, then all spin by the one angle that brings the bends
 /// closest to what they are.
 void turn_bends(const StrandModel& m, const StrandState& s, std::span<const StrandEnd> ends, int first, int last,
-                std::vector<Vec3d>& bend) {
+                const std::vector<Vec3d>& direction, std::vector<Vec3d>& bend) {
   if (last - first < 2) return;
   const int k = holder_in(m, first, last);
   const int held = k < 0 ? first : m.prescribed_nodes[k];
   const int base = held < first + 1 ? first + 1 : (held > last - 1 ? last - 1 : held);
   Vec3d drawn_t = m.tangent_rest[base], drawn_d = m.director_rest[base];
   if (k >= 0 && !ends.empty() && ends[k].turned) drawn_t = ends[k].turn * drawn_t, drawn_d = ends[k].turn * drawn_d;
-  const Vec3d base_t = direction(m, s, base), base_d = carried(drawn_t, base_t, drawn_d);
+  const Vec3d base_t = direction[base], base_d = carried(drawn_t, base_t, drawn_d);
 
   double aligned = 0, across_it = 0;
   const auto visit = [&](int i, Vec3d t, Vec3d d) {
@@ -92,7 +93,7 @@ void turn_bends(const StrandModel& m, const StrandState& s, std::span<const Stra
   for (int step : {1, -1}) {
     Vec3d t = base_t, d = base_d;
     for (int i = base + step; i > first && i < last; i += step) {
-      const Vec3d next = direction(m, s, i);
+      const Vec3d next = direction[i];
       d = carried(t, next, d);
       t = next;
       visit(i, t, d);
@@ -101,16 +102,16 @@ void turn_bends(const StrandModel& m, const StrandState& s, std::span<const Stra
   const double size = std::sqrt(aligned * aligned + across_it * across_it);
   if (k >= 0 || !(size > 1e-18)) return;
   for (int i = first + 1; i < last; ++i)
-    bend[i] = (aligned / size) * bend[i] + (across_it / size) * cross(direction(m, s, i), bend[i]);
+    bend[i] = (aligned / size) * bend[i] + (across_it / size) * cross(direction[i], bend[i]);
 }
 
 void turn_all_bends(const StrandModel& m, const StrandState& s, std::span<const StrandEnd> ends,
-                    std::vector<Vec3d>& bend) {
+                    const std::vector<Vec3d>& direction, std::vector<Vec3d>& bend) {
   for (Vec3d& b : bend) b = {};
   for (int first = 0; first < m.nodes;) {
     int last = first;
     while (last + 1 < m.nodes && s.alive[last]) ++last;
-    turn_bends(m, s, ends, first, last, bend);
+    turn_bends(m, s, ends, first, last, direction, bend);
     first = last + 1;
   }
 }
@@ -123,10 +124,11 @@ Vec3d bend_error(const StrandState& s, int i, Vec3d t, Vec3d bend) {
 
 void add_bending(const StrandModel& m, const StrandState& s, std::span<const StrandEnd> ends, StrandWork& w) {
   const double dt = m.tick;
-  turn_all_bends(m, s, ends, w.bend_now);
+  find_directions(m, s, w.direction);
+  turn_all_bends(m, s, ends, w.direction, w.bend_now);
   for (int i = 1; i + 1 < m.nodes; ++i) {
     if (!bends(s, i)) continue;
-    const Vec3d t = direction(m, s, i);
+    const Vec3d t = w.direction[i];
     const double k = bend_stiffness(m, s, i);
     add_term(w.matrix, i - 1, kBendStencil, 3, across(k * (dt * dt + dt * m.damping_time), t));
     const Vec3d impulse = (-dt * k) * bend_error(s, i, t, w.bend_now[i]);
@@ -322,11 +324,12 @@ StrandEnergy energy(const StrandModel& m, const StrandState& s) {
   for (int e = 0; e + 1 < m.nodes; ++e)
     if (s.alive[e])
       total.stretch += m.stretch[e] * s.scale[e] * m.rest_length[e] * m.law.energy(element_strain(m, s, e));
-  std::vector<Vec3d> bend(m.nodes);
-  turn_all_bends(m, s, {}, bend);
+  std::vector<Vec3d> bend(m.nodes), direction(m.nodes);
+  find_directions(m, s, direction);
+  turn_all_bends(m, s, {}, direction, bend);
   for (int i = 1; i + 1 < m.nodes; ++i) {
     if (!bends(s, i)) continue;
-    const Vec3d q = bend_error(s, i, direction(m, s, i), bend[i]);
+    const Vec3d q = bend_error(s, i, direction[i], bend[i]);
     total.bending += 0.5 * bend_stiffness(m, s, i) * dot(q, q);
   }
   return total;

@@ -81,12 +81,13 @@ struct StrandState {
 };
 
 struct StrandWork {
-  std::vector<double> matrix;   ///< (3n x 9) band, lower; then its factor
-  std::vector<double> saved;    ///< (prescribed nodes x 3 x 19) their rows of the matrix before they were prescribed
-  std::vector<double> rhs;      ///< (3n) right side, then the new velocities
-  std::vector<double> force;    ///< (3 per prescribed node) their right side before they were prescribed [N s]
-  std::vector<double> columns;  ///< (3n x 3) for the tangent at one of them
-  std::vector<Vec3d> bend_now;  ///< (n) R_i b_i
+  std::vector<double> matrix;    ///< (3n x 9) band, lower; then its factor
+  std::vector<double> saved;     ///< (prescribed nodes x 3 x 19) their rows of the matrix before they were prescribed
+  std::vector<double> rhs;       ///< (3n) right side, then the new velocities
+  std::vector<double> force;     ///< (3 per prescribed node) their right side before they were prescribed [N s]
+  std::vector<double> columns;   ///< (3n x 3) for the tangent at one of them
+  std::vector<Vec3d> direction;  ///< (n) of the chain at its inner nodes
+  std::vector<Vec3d> bend_now;   ///< (n) R_i b_i
 };
 
 /// Where a prescribed node is at the end of this tick.

@@ -51,8 +51,9 @@ inline Vec3d turned(Vec3d a, Vec3d b, Vec3d r) {
 }
 /// A director across a, carried without twist to one across b; unit.
 inline Vec3d carried(Vec3d a, Vec3d b, Vec3d director) {
-  const Vec3d d = turned(a, b, director);
-  return normalised(d - dot(d, b) * b, any_perpendicular(b));
+  const Vec3d d = turned(a, b, director), flat = d - dot(d, b) * b;
+  const double size = length(flat);
+  return size > 1e-30 ? flat / size : any_perpendicular(b);
 }
 
 inline void add_term(std::vector<double>& a, int first, const double* c, int count, const Sym3& s) {

@@ -164,6 +164,7 @@ StrandWork make_work(const StrandModel& m) {
   w.saved.resize(3 * kStrandReach * m.prescribed_nodes.size());
   w.rhs.resize(rows);
   w.force.resize(3 * m.prescribed_nodes.size());
+  w.direction.resize(m.nodes);
   w.bend_now.resize(m.nodes);
   w.columns.resize(m.prescribed_nodes.empty() ? 0 : std::size_t(rows) * 3);
   return w;
