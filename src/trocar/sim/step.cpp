@@ -3,6 +3,7 @@
 
 #include <trocar/interactions/clip.hpp>
 #include <trocar/interactions/cut.hpp>
+#include <trocar/interactions/piece_contact.hpp>
 #include <trocar/sim/step.hpp>
 #include <trocar/sim/tearing.hpp>
 #include <trocar/sim/visibility.hpp>
@@ -125,6 +126,7 @@ void pose_sheet(StepContext& c, size_t i) noexcept {
 
 void pose_cuttable(StepContext& c, size_t i) noexcept {
   const size_t organ = c.model.solids.size() + i;
+  tissue::make_current(c.model.cuttables[i].body, c.state.cuttables[i], c.work.cuttable_work[i]);
   tissue::update(c.model.cuttables[i].body, c.state.cuttables[i], c.work.cuttable_skins[i]);
   tissue::pose_skin(c.work.nodes[organ], *c.work.skins[organ], c.work.poses[organ]);
 }
@@ -349,6 +351,11 @@ void touch_tissue(StepContext& c) noexcept {
 // 6. Organs on organs.
 void touch_organs(StepContext& c) noexcept {
   State& s = c.state;
+  for (size_t i = 0; i < c.model.cuttables.size(); ++i) {
+    const size_t organ = c.model.solids.size() + i;
+    const tissue::CuttableWork& work = c.work.cuttable_work[i];
+    piece_on_piece(c.work.surfaces[organ], work.part, work.parts, c.work.organ_loads[organ]);
+  }
   size_t at = 0;
   for (const interactions::SurfacePair& p : c.model.surface_pairs) {
     const std::span<std::int32_t> nearest{s.nearest.data() + at, p.sample.size()};

@@ -38,7 +38,7 @@ void scribble(tissue::VolumeWork& v) noexcept {
 
 void scribble(tissue::CuttableWork& c) noexcept {
   c.made_for = ~0ull;
-  c.slices = -1;
+  c.slices = c.parts = -1;
   scribble(c.other);
   scribble(c.packs);
   scribble(c.row_packs);

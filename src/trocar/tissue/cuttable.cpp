@@ -122,6 +122,7 @@ class Assembler {
       std::int32_t& part = w.part[std::size_t(i)];
       part = part == i ? parts++ : w.part[std::size_t(part)];
     }
+    w.parts = parts;
   }
   std::int32_t root(std::int32_t node) noexcept {
     while (w.part[std::size_t(node)] != node) {
@@ -285,12 +286,6 @@ class Assembler {
   CuttableWork& w;
 };
 
-void make_current(const CuttableModel& m, const CuttableState& s, CuttableWork& w) noexcept {
-  if (w.made_for == s.version) return;
-  Assembler(m, s, w).make();
-  w.made_for = s.version;
-}
-
 KernelArgs kernel_args(const CuttableModel& m, const CuttableWork& w) noexcept {
   KernelArgs a;
   a.packs = w.packs.data();
@@ -339,6 +334,12 @@ std::uint64_t version_of(const CuttableModel& m, const CuttableTets& b) noexcept
   add_to_hash(h, b);
   const std::uint64_t hash = h.value();
   return hash == 0 || hash == ~0ull ? 1 : hash;
+}
+
+void make_current(const CuttableModel& m, const CuttableState& s, CuttableWork& w) noexcept {
+  if (w.made_for == s.version) return;
+  Assembler(m, s, w).make();
+  w.made_for = s.version;
 }
 
 StepReport advance(const CuttableModel& m, std::span<const NodeLoad> loads, std::span<Vec3f> reactions,

@@ -96,6 +96,7 @@ struct CuttableWork {
   std::vector<TetRest> guarded;       ///< (cells)
   std::vector<TetPack> guarded_packs;
   std::vector<std::int32_t> part;    ///< (capacity) pieces that hang together by nodes, in the order of these
+  std::int32_t parts = 1;            ///< how many
   std::vector<int> open_tets;        ///< (cells)
   std::vector<std::uint16_t> below;  ///< (packs of cells)
   std::vector<LoadedNode> loaded;    ///< (capacity)
@@ -114,6 +115,10 @@ std::uint64_t version_of(const CuttableModel& model, const geometry::CuttableTet
 /// One tick; loads and reactions as for a network. Nodes are numbered as described, doubles after them.
 StepReport advance(const CuttableModel& model, std::span<const NodeLoad> loads, std::span<Vec3f> reactions,
                    CuttableState& state, CuttableWork& work) noexcept;
+
+/// Makes the scratch what the State says, where it is not: `part` and `parts` may then be asked. advance() and cut() do
+/// so themselves.
+void make_current(const CuttableModel& model, const CuttableState& state, CuttableWork& work) noexcept;
 
 /// Parts the body where the blade is now (world frame).
 geometry::CutBook cut(const CuttableModel& model, const geometry::Blade& blade, CuttableState& state,

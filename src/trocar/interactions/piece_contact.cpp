@@ -1,0 +1,70 @@
+#include <algorithm>
+
+#include <trocar/geometry/nearest.hpp>
+#include <trocar/interactions/piece_contact.hpp>
+
+namespace trocar::interactions {
+namespace {
+
+constexpr double kStiffness = 150;    // [N/m] per vertex, implicit on both sides, as organs among each other
+constexpr double kDamping = 0.05;     // [N s/m]
+constexpr double kQuickest = 0.0006;  // [m] a tick that two pieces are moved apart
+constexpr double kReach = 0.008;      // [m] about a cell and a half: the nearest vertex is not farther
+constexpr int kMostCounted = 64;      // pieces among which the largest is looked for: the first by their nodes
+
+/// The piece with the most vertices, which is left out as a sample: all others are tested against it.
+std::int32_t largest(const Surface& surface, std::span<const std::int32_t> part, int parts) noexcept {
+  int count[kMostCounted] = {};
+  for (int v = 0; v < surface.skin->size(); ++v)
+    if (surface.skin->at_surface(v) && part[size_t(v)] < kMostCounted) ++count[part[size_t(v)]];
+  return std::int32_t(std::max_element(count, count + std::min(parts, kMostCounted)) - count);
+}
+
+/// The nearest vertex of another piece within reach, or -1.
+int nearest_of_others(const Surface& surface, std::span<const std::int32_t> part, int vertex) noexcept {
+  const tissue::SkinPose& pose = *surface.pose;
+  const Vec3d p = surface.position(vertex);
+  double least = kReach * kReach;
+  int best = -1;
+  for (size_t b = 0; b < pose.block.size(); ++b) {
+    if (!pose.block[b].reaches(p, kReach)) continue;
+    const int last = std::min(int(b + 1) * tissue::kSkinBlock, surface.skin->size());
+    for (int v = int(b) * tissue::kSkinBlock; v < last; ++v) {
+      if (part[size_t(v)] == part[size_t(vertex)]) continue;
+      const double d = geometry::distance2(surface.position(v), p);
+      if (d >= least || !surface.skin->at_surface(v)) continue;
+      least = d;
+      best = v;
+    }
+  }
+  return best;
+}
+
+void push(const Surface& surface, int vertex, Vec3d by, Vec3d n, NetworkLoads& loads) noexcept {
+  SkinLoad load;
+  load.k = kStiffness;
+  load.shift = by;
+  load.dir = n;
+  load.d = kDamping;
+  add_skin_load(surface.nodes, *surface.skin, vertex, load, {Owner::body, 0, 0}, loads);
+}
+
+}  // namespace
+
+void piece_on_piece(const Surface& surface, std::span<const std::int32_t> part, int parts,
+                    NetworkLoads& loads) noexcept {
+  if (parts < 2) return;
+  const std::int32_t main = largest(surface, part, parts);
+  for (int v = 0; v < surface.skin->size(); ++v) {
+    if (part[size_t(v)] == main || !surface.skin->at_surface(v)) continue;
+    const int other = nearest_of_others(surface, part, v);
+    if (other < 0) continue;
+    const Clearance c = clearance_at(surface, other, surface.position(v));
+    if (!(c.distance < 0)) continue;
+    const double half = 0.5 * std::min(-c.distance, kQuickest);
+    push(surface, v, half * c.normal, c.normal, loads);
+    push(surface, other, -half * c.normal, c.normal, loads);
+  }
+}
+
+}  // namespace trocar::interactions
