@@ -62,6 +62,42 @@ std::vector<sim::Input> operation(const Lesson& lesson, double seconds) {
   return inputs;
 }
 
+/// The point of the organs' skins that is nearest to a port.
+Vec3d nearest_skin(const sim::Model& model, Vec3d port) {
+  Vec3d best = model.hands.front().port;
+  double least = 1e9;
+  for (int organ = 0; organ < model.organs(); ++organ) {
+    const tissue::Skin& skin = model.skin(organ);
+    for (int v = 0; v < skin.size(); ++v) {
+      const Vec3d p = vec_cast<double>(skin.rest[std::size_t(v)]);
+      if (!skin.at_surface(v) || length(p - port) >= least) continue;
+      least = length(p - port);
+      best = p;
+    }
+  }
+  return best;
+}
+
+/// Where nobody knows an exercise: every hand goes to the tissue nearest to it, closes, draws back, opens, and the next
+/// time 4 mm deeper.
+std::vector<sim::Input> rummage(const sim::Model& model, double seconds) {
+  std::vector<Vec3d> goal;
+  for (const sim::HandModel& hand : model.hands) goal.push_back(nearest_skin(model, hand.port));
+  std::vector<sim::Input> inputs(std::size_t(seconds / sim::kTick), model.start);
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const std::size_t round = i / 2000, t = i % 2000;
+    const double deep = 0.004 * double(1 + round % 6), back = t < 1000 ? 0 : 0.012;
+    const float handle = t >= 500 && t < 1700 ? 1.0f : 0.0f;
+    for (std::size_t h = 0; h < model.hands.size(); ++h) {
+      const Vec3d port = model.hands[h].port, in = normalised(goal[h] - port);
+      sim::ToolInput& tool = inputs[i].tools[h];
+      tool = sim::tool_input(kinematics::inverse(port, goal[h] + (deep - back) * in, double(tool.roll)), handle,
+                             tool.instrument);
+    }
+  }
+  return inputs;
+}
+
 struct Timing {
   std::vector<double> tick;                ///< [us] per tick
   std::vector<double> own;                 ///< the same in the calling thread's own time
@@ -99,8 +135,10 @@ Timing measure(const sim::Model& model, const std::vector<sim::Input>& inputs, i
 
 Json bench_scene(const std::string& name, double seconds) {
   const std::unique_ptr<Lesson> lesson = load_lesson(name);
-  core::log::info("the surgeon operates for up to {:.0f} s, first to record, then to measure", seconds);
-  const std::vector<sim::Input> inputs = operation(*lesson, seconds);
+  if (lesson->exercise)
+    core::log::info("the surgeon operates for up to {:.0f} s, first to record, then to measure", seconds);
+  const std::vector<sim::Input> inputs =
+      lesson->exercise ? operation(*lesson, seconds) : rummage(lesson->model, seconds);
   Json out{{"name", name},
            {"free_nodes", lesson->model.free_nodes()},
            {"simd", tissue::simd_name()},
@@ -201,7 +239,8 @@ void add_bench(CLI::App& program, Chosen& chosen) {
   auto o = std::make_shared<Options>();
   CLI::App* c = program.add_subcommand("bench", "Measure what a tick costs, stage by stage");
   c->footer("Example:\n  trocar bench gynaecology --json bench.json");
-  c->add_option("names", o->names, "gynaecology, an exercise, or kernel (one spring); without: gynaecology and kernel");
+  c->add_option("names", o->names,
+                "gynaecology, an exercise, a scene, or kernel (one spring); without: gynaecology and kernel");
   c->add_option("--json", o->file, "write the numbers to this file, or with - to standard output")->expected(0, 1);
   c->add_option("--seconds", o->seconds, "simulated time at most")->capture_default_str()->check(CLI::PositiveNumber);
   c->callback([o, c, &chosen] {
