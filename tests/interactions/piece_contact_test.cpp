@@ -20,6 +20,7 @@ struct Block {
   tissue::CuttableSkin skin;
   tissue::SkinPose pose;
   NetworkLoads loads;
+  std::vector<tissue::NodeLoad> squeeze;
 
   Block() {
     const tissue::BoxLattice box = tissue::box_lattice(4, 4, 6, kCell);
@@ -51,12 +52,53 @@ struct Block {
     ASSERT_GT(cut(model, blade, state, work).parted, 0);
     ASSERT_EQ(work.parts, 2);
   }
+  /// A slit from the top, across x, two thirds of the way down; the leaves' outer sides are pressed together.
+  void slit(double force) {
+    geometry::Blade blade;
+    blade.corners = 4;
+    blade.corner = {Vec3d{0.0101, -0.05, 0.0101}, Vec3d{0.0101, 0.07, 0.0101}, Vec3d{0.0101, 0.07, 0.07},
+                    Vec3d{0.0101, -0.05, 0.07}};
+    ASSERT_GT(cut(model, blade, state, work).doubled, 0);
+    ASSERT_EQ(work.parts, 1);
+    for (int i = 0; i < model.own_nodes; ++i) {
+      const Vec3d p = model.drawn.rest[size_t(i)];
+      const bool left = p.x<1e-9, right = p.x> 4 * kCell - 1e-9;
+      if (p.z < 5 * kCell || (!left && !right)) continue;
+      tissue::NodeLoad load;
+      load.node = i;
+      load.f0 = {float(left ? force : -force), 0, 0};
+      squeeze.push_back(load);
+    }
+  }
+  /// How far doubled nodes have passed those that they were doubled from, along x [m].
+  double crossed() const {
+    double most = 0;
+    for (int i = model.own_nodes; i < state.tets.nodes; ++i) {
+      const int twin = state.tets.source[size_t(i)];
+      const double side = center_x(i) - center_x(twin);  // on which side the cells of each are
+      const double gap = position(model, state, i).x - position(model, state, twin).x;
+      most = std::max(most, side > 0 ? -gap : gap);
+    }
+    return most;
+  }
+  double center_x(int node) const {
+    double sum = 0;
+    int n = 0;
+    for (const geometry::Tet& c : state.tets.cells)
+      if (std::count(c.begin(), c.end(), node) > 0)
+        for (const std::int32_t corner : c) sum += state.tets.rest[size_t(corner)].x, ++n;
+    return sum / n;
+  }
   void tick(bool contact) {
     make_current(model, state, work);
     update(model, state, skin);
     pose_skin(view_of(model, state), skin.skin, pose);
     loads.clear();
     if (contact) piece_on_piece({&skin.skin, &pose, view_of(model, state)}, work.part, work.parts, loads);
+    if (contact)
+      lip_on_lip({&skin.skin, &pose, view_of(model, state)}, work.part, state.tets.source, model.own_nodes,
+                 state.tets.nodes, loads);
+    for (const tissue::NodeLoad& load : squeeze) loads.add(load, {Owner::anchor, 0, 0});
     loads.sort();
     ASSERT_TRUE(advance(model, loads.sorted, loads.reaction, state, work).fine());
   }
@@ -98,6 +140,19 @@ TEST(PieceContact, APieceThatFallsFromAboveIsCaught) {
   const double before = b.upper() - 0.02;
   for (int i = 0; i < 1500; ++i) b.tick(true);
   EXPECT_NEAR(b.upper(), before, 0.0025) << "from 20 mm, 0.6 m/s";
+}
+
+TEST(PieceContact, TheLipsOfASlitDoNotPassThroughEachOther) {
+  double crossed[2];
+  for (const bool contact : {false, true}) {
+    Block b;
+    b.slit(0.004);
+    for (int i = 0; i < 800; ++i) b.tick(contact);
+    crossed[contact] = b.crossed();
+  }
+  EXPECT_GT(crossed[false], 0.001) << "[m] pressed together, they would";
+  EXPECT_LT(crossed[true], 0.2 * crossed[false]);
+  std::cout << "lips cross by " << 1e3 * crossed[true] << " mm, without contact by " << 1e3 * crossed[false] << " mm\n";
 }
 
 TEST(PieceContact, WhereNothingIsCutOffNothingIsPushed) {

@@ -49,6 +49,13 @@ void push(const Surface& surface, int vertex, Vec3d by, Vec3d n, NetworkLoads& l
   add_skin_load(surface.nodes, *surface.skin, vertex, load, {Owner::body, 0, 0}, loads);
 }
 
+/// Pushes two vertices apart along n, which points from the second to the first.
+void part_pair(const Surface& surface, int first, int second, double depth, Vec3d n, NetworkLoads& loads) noexcept {
+  const double half = 0.5 * std::min(depth, kQuickest);
+  push(surface, first, half * n, n, loads);
+  push(surface, second, -half * n, n, loads);
+}
+
 }  // namespace
 
 void piece_on_piece(const Surface& surface, std::span<const std::int32_t> part, int parts,
@@ -61,9 +68,24 @@ void piece_on_piece(const Surface& surface, std::span<const std::int32_t> part, 
     if (other < 0) continue;
     const Clearance c = clearance_at(surface, other, surface.position(v));
     if (!(c.distance < 0)) continue;
-    const double half = 0.5 * std::min(-c.distance, kQuickest);
-    push(surface, v, half * c.normal, c.normal, loads);
-    push(surface, other, -half * c.normal, c.normal, loads);
+    part_pair(surface, v, other, -c.distance, c.normal, loads);
+  }
+}
+
+void lip_on_lip(const Surface& surface, std::span<const std::int32_t> part, std::span<const std::int32_t> source,
+                int from, int to, NetworkLoads& loads) noexcept {
+  for (int v = from; v < to; ++v) {
+    const int twin = source[size_t(v)];
+    if (part[size_t(v)] != part[size_t(twin)] || !surface.skin->at_surface(v) || !surface.skin->at_surface(twin))
+      continue;
+    const Vec3d apart = surface.position(v) - surface.position(twin);
+    if (dot(apart, apart) > kReach * kReach) continue;
+    // What the two normals have in common is the organ's own surface, where the cut comes out of it.
+    const Vec3d across = surface.normal(twin) - surface.normal(v);
+    if (!(dot(across, across) > 0.25)) continue;
+    const Vec3d n = normalised(across);
+    const double depth = -dot(apart, n);
+    if (depth > 0) part_pair(surface, v, twin, depth, n, loads);
   }
 }
 

@@ -1,5 +1,6 @@
-// Pieces of an organ that has been cut apart touch each other: what falls off lands on what it was cut from. Without
-// memory: a vertex is tested against the nearest vertex of another piece, wherever that is.
+// An organ that has been cut touches itself: what falls off lands on what it was cut from, and the lips of a slit close
+// on each other. Without memory: a vertex is tested against the nearest vertex of another piece, wherever that is, and
+// against the one that it was doubled from.
 #pragma once
 
 #include <cstdint>
@@ -14,5 +15,12 @@ namespace trocar::interactions {
 /// @param part  (vertices) which piece each belongs to, 0 .. parts - 1
 void piece_on_piece(const Surface& surface, std::span<const std::int32_t> part, int parts,
                     NetworkLoads& loads) noexcept;
+
+/// The lips of a cut within one piece do not pass through each other: nodes that a cut has doubled stay on their sides
+/// of each other, as long as they are near.
+/// @param source  (vertices) the one that a vertex was doubled from; itself where it is as drawn
+/// @param from,to  of the vertices, those that cuts have made
+void lip_on_lip(const Surface& surface, std::span<const std::int32_t> part, std::span<const std::int32_t> source,
+                int from, int to, NetworkLoads& loads) noexcept;
 
 }  // namespace trocar::interactions

@@ -354,7 +354,10 @@ void touch_organs(StepContext& c) noexcept {
   for (size_t i = 0; i < c.model.cuttables.size(); ++i) {
     const size_t organ = c.model.solids.size() + i;
     const tissue::CuttableWork& work = c.work.cuttable_work[i];
+    const tissue::CuttableModel& body = c.model.cuttables[i].body;
+    const geometry::CuttableTets& tets = s.cuttables[i].tets;
     piece_on_piece(c.work.surfaces[organ], work.part, work.parts, c.work.organ_loads[organ]);
+    lip_on_lip(c.work.surfaces[organ], work.part, tets.source, body.own_nodes, tets.nodes, c.work.organ_loads[organ]);
   }
   size_t at = 0;
   for (const interactions::SurfacePair& p : c.model.surface_pairs) {
