@@ -36,6 +36,32 @@ void scribble(tissue::VolumeWork& v) noexcept {
   scribble(v.force);
 }
 
+void scribble(geometry::CutWork& c) noexcept {
+  scribble(c.height);
+  scribble(c.at_blade);
+  scribble(c.nearest);
+  scribble(c.towards);
+  scribble(c.target_rest);
+  scribble(c.target_now);
+  scribble(c.side);
+  scribble(c.begin);
+  scribble(c.around);
+  scribble(c.fan);
+  scribble(c.seen);
+  scribble(c.touched);
+}
+
+/// Vertices' weights and drawn places are the Model's; which triangles there are follows from the State.
+void scribble(tissue::CuttableSkin& s) noexcept {
+  s.made_for = ~0ull;
+  scribble(s.inner);
+  scribble(s.skin.triangles);
+  scribble(s.skin.face_first);
+  scribble(s.skin.face);
+  scribble(s.skin.neighbour_first);
+  scribble(s.skin.neighbour);
+}
+
 void scribble(tissue::CuttableWork& c) noexcept {
   c.made_for = ~0ull;
   c.slices = c.parts = -1;
@@ -56,6 +82,7 @@ void scribble(tissue::CuttableWork& c) noexcept {
   scribble(c.part);
   scribble(c.open_tets);
   scribble(c.below);
+  scribble(c.cut);
   scribble(c.volume);
   scribble(c.loaded);
 }
@@ -161,7 +188,7 @@ void poison(Work& w) noexcept {
   }
   for (tissue::NetworkWork& n : w.solid_work) scribble(n);
   for (tissue::CuttableWork& c : w.cuttable_work) scribble(c);
-  for (tissue::CuttableSkin& s : w.cuttable_skins) s.made_for = ~0ull;
+  for (tissue::CuttableSkin& s : w.cuttable_skins) scribble(s);
   for (tissue::NodeView& n : w.nodes) n = {};
   for (tissue::MembraneWork& m : w.membrane_work) {
     scribble(m.network);
