@@ -14,7 +14,7 @@ TEST(Abuse, OrgansBearSomeSecondsAndReturnToTheirShape) {
   abuse::Attack attack(model, 3);
   const int tube = model.strand_index("tube_left");
   ASSERT_GE(tube, 0);
-  const abuse::Round r = attack.round(model.solids.size() + size_t(tube), 3);
+  const abuse::Round r = attack.round(model.solids.size() + size_t(tube), 6);
   EXPECT_EQ(r.first_bad_tick, 0u) << "flags " << r.flags;
   EXPECT_GT(r.grasps, 0);
   EXPECT_TRUE(r.let_go);

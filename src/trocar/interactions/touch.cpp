@@ -1,6 +1,7 @@
 #include <algorithm>
 
-#include <trocar/interactions/touch.hpp>
+#include <trocar/interactions/lever.hpp>
+#include <trocar/interactions/wall_stop.hpp>
 
 namespace trocar::interactions {
 namespace {
@@ -165,6 +166,56 @@ void add_to_hash(core::Hasher& hasher, const TouchBook& book) noexcept {
   for (double v : {book.yaw, book.pitch, book.roll, book.depth, book.aperture}) hasher.add(v);
   hasher.add(book.count);
   for (int i = 0; i < book.count; ++i) hasher.add(book.touch[i]);
+}
+
+void note_wall(const WallStop& stop, Touching& touching) noexcept {
+  if (!stop.stopped) return;
+  const std::int32_t number = touching.note(kWallBody, 0, stop.part);
+  if (number == 0) return;
+  Touch& t = touching.next.touch[number - 1];
+  t.anchored = 1;
+  t.force = float(stop.force);
+  put(t.normal, -stop.normal);
+  put(t.anchor, into(frame_of(touching.shape, stop.part), stop.at));
+}
+
+namespace {
+
+/// Where an instrument is touched, all in all; its tip where nothing is known.
+Vec3d touched_at(const ToolShape& shape, const TouchBook& book) noexcept {
+  Vec3d sum{0, 0, 0};
+  double force = 0;
+  for (const Touch* t = book.touch; t != book.touch + book.count; ++t) {
+    if (!t->anchored || !(t->force > 0)) continue;
+    sum += double(t->force) * out_of(frame_of(shape, t->part), t->anchor);
+    force += double(t->force);
+  }
+  return force > 0 ? sum / force : shape.frame.tip;
+}
+
+}  // namespace
+
+TrocarLoad load_at_trocar(const ToolModel& model, const ToolState& tool, const TouchBook& book) noexcept {
+  const ToolShape shape = shape_of(model, tool.pose(), tool.aperture);
+  TrocarLoad r{};
+  const auto add = [&r, &model](Vec3d at, Vec3d force) {
+    r.force += force;
+    r.moment += cross(at - model.port, force);
+  };
+  const double* contact = tool.contact_force;
+  add(touched_at(shape, book), {contact[0], contact[1], contact[2]});
+  for (int i = 0; i < tool.holds; ++i) {
+    const Hold& h = tool.hold[i];
+    add(from_jaw(shape, {h.local[0], h.local[1], h.local[2]}), -Vec3d{h.force[0], h.force[1], h.force[2]});
+  }
+  constexpr double kLeastOutside = 0.05;  // [m] of an instrument that is pushed in to its handle
+  const Vec3d axis = shape.frame.axis();
+  const double outside = std::max(kLeastOutside, model.shaft_length - tool.depth), along = dot(r.force, axis);
+  const Vec3d lever = cross(r.moment, axis) / outside;  // axis x lever = moment across the axis / outside
+  r.by_hand = lever - along * axis;
+  r.on_wall = r.force - along * axis + lever;
+  r.turning = dot(r.moment, axis);
+  return r;
 }
 
 }  // namespace trocar::interactions

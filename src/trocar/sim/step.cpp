@@ -30,6 +30,8 @@ float stepped(float from, float to, float most) noexcept { return from + std::cl
 
 constexpr double kParked = 0.012;  // [m] an instrument is changed with its tip this deep: in the trocar's sleeve
 
+constexpr double kIntoWall = 0.0003;  // [m] a tick
+
 /// The memory of which side of each strand the hand's instrument is on.
 std::span<Vec3f> sides_of(StepContext& c, size_t t) noexcept {
   const size_t each = c.state.tool_side.size() / c.model.hands.size();
@@ -59,6 +61,16 @@ void change_instrument(StepContext& c, size_t t, std::int32_t wanted) noexcept {
   tell(c, Event::exchanged, int(t), wanted);
 }
 
+/// What would go into a wall stays at it.
+void stop_at_walls(StepContext& c, size_t t, const kinematics::FulcrumPose& wanted) noexcept {
+  for (const WallModel& wall : c.model.walls) {
+    const interactions::Surface surface{&wall.skin, &wall.pose, {}};
+    const interactions::WallStop stop =
+        interactions::stop_at_walls(c.model.tool(c.state, t), wanted, {&surface, 1}, c.state.tools[t]);
+    if (stop.stopped) c.work.wall_stops[t] = stop;
+  }
+}
+
 /// One hand follows its input. While it wants another instrument it lets go of the tissue, draws back and changes.
 void move_hand(StepContext& c, size_t t) noexcept {
   const ToolInput& in = c.input.tools[t];
@@ -71,12 +83,18 @@ void move_hand(StepContext& c, size_t t) noexcept {
     if (tool.holds == 0) command.pose.depth = kParked;
     if (tool.holds == 0 && tool.depth <= kParked) change_instrument(c, t, in.instrument);
   }
+  const kinematics::FulcrumPose wanted = command.pose;
+  // At a wall the way in is of no use: most of the speed goes along it.
+  if (c.state.touches[t].near(interactions::kWallBody, 0))
+    command.pose.depth = std::min(command.pose.depth, tool.depth + kIntoWall);
   interactions::follow(c.model.tool(c.state, t), command, kTick, tool);
+  stop_at_walls(c, t, wanted);
 }
 
 // 1. Hands: instruments and scope follow the input, no faster than hands can.
 void move_hands(StepContext& c) noexcept {
   for (size_t t = 0; t < c.model.hands.size(); ++t) {
+    c.work.wall_stops[t] = {};
     if (finite(c.input.tools[t]))
       move_hand(c, t);
     else
@@ -333,6 +351,7 @@ void touch_tissue(StepContext& c) noexcept {
     const interactions::TouchBook& last = c.state.touches[t];
     const interactions::ToolShape before = interactions::shape_before(tool, last);
     interactions::Touching touching(tool.rubbing, before, shape, int(t), last, c.work.touches[t]);
+    interactions::note_wall(c.work.wall_stops[t], touching);
     for (size_t i = 0; i < size_t(c.model.organs()); ++i)
       interactions::tool_on_surface(touching, interactions::kSolidBase + int(i), c.work.surfaces[i],
                                     c.work.organ_loads[i]);
@@ -495,6 +514,8 @@ void feel(StepContext& c) noexcept {
   const interactions::TissueView view = tissue_of(c);
   for (size_t t = 0; t < c.model.hands.size(); ++t) {
     interactions::ToolState& tool = c.state.tools[t];
+    const interactions::WallStop& wall = c.work.wall_stops[t];
+    if (wall.stopped) add_force(tool.contact_force, wall.force * wall.normal);
     const int held = tool.holds, slips = tool.slipped;
     interactions::slip(c.model.tool(c.state, t), c.work.shapes[t], view, tool);
     if (held > 0 && tool.holds == 0) tell_lost(c, t, slips);

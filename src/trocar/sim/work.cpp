@@ -177,6 +177,7 @@ void poison(Work& w) noexcept {
   for (tissue::SkinPose& p : w.sheet_poses) scribble(p);
   for (interactions::Surface& s : w.surfaces) s = {};
   std::memset(static_cast<void*>(&w.shapes), 0xff, sizeof w.shapes);
+  std::memset(static_cast<void*>(&w.wall_stops), 0xff, sizeof w.wall_stops);
   for (interactions::SheetView& s : w.sheets) s = {};
   for (interactions::NetworkLoads& l : w.organ_loads) scribble(l);
   for (interactions::NetworkLoads& l : w.membrane_loads) scribble(l);

@@ -6,6 +6,7 @@
 
 #include <trocar/interactions/grasp.hpp>
 #include <trocar/interactions/loads.hpp>
+#include <trocar/interactions/wall_stop.hpp>
 #include <trocar/sim/state.hpp>
 
 namespace trocar::sim {
@@ -15,15 +16,16 @@ struct Work {
   std::vector<tissue::SkinPose> poses;          ///< (organs)
   std::vector<interactions::Surface> surfaces;  ///< (organs + walls)
   std::array<interactions::ToolShape, kMaxTools> shapes;
-  std::vector<interactions::TouchBook> touches;         ///< (hands) this tick's
-  std::vector<interactions::NetworkLoads> organ_loads;  ///< (organs)
+  std::vector<interactions::TouchBook> touches;              ///< (hands) this tick's
+  std::array<interactions::WallStop, kMaxTools> wall_stops;  ///< (hands)
+  std::vector<interactions::NetworkLoads> organ_loads;       ///< (organs)
   std::vector<interactions::StrandLoads> strand_loads;
   std::vector<tissue::NetworkWork> solid_work;
   std::vector<tissue::CuttableWork> cuttable_work;
   std::vector<tissue::StrandWork> strand_work;
   std::vector<std::array<tissue::StrandEnd, 2>> ends;  ///< (strands)
   std::vector<std::array<tissue::StrandReaction, 2>> end_reactions;
-  std::vector<std::int32_t> parts;  ///< (nodes of the largest organ) what hangs together, for cuts
+  std::vector<std::int32_t> parts;   ///< (nodes of the largest organ) what hangs together, for cuts
   std::vector<std::uint8_t> beyond;  ///< (rows of the largest organ or membrane) springs stretched too far
   std::vector<tissue::StepReport> organ_reports, strand_reports, membrane_reports;
   std::vector<tissue::SkinPose> sheet_poses;    ///< (membranes)

@@ -1,0 +1,21 @@
+// The point of a posed skin, or of a wall, that is nearest to a point near it.
+#pragma once
+
+#include <array>
+
+#include <trocar/interactions/surface.hpp>
+
+namespace trocar::interactions {
+
+struct SkinPoint {
+  std::array<int, 3> vertex{};
+  Vec3d weights, point, normal;  ///< of the corners; [m]; unit, outward
+};
+
+/// The nearest vertex within `reach`, -1 if there is none.
+int nearest_vertex_near(const Surface& surface, Vec3d p, double reach) noexcept;
+
+/// The nearest point of the triangles at that vertex.
+SkinPoint nearest_skin_point(const Surface& surface, int vertex, Vec3d p) noexcept;
+
+}  // namespace trocar::interactions

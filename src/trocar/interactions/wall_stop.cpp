@@ -1,0 +1,81 @@
+#include <algorithm>
+
+#include <trocar/interactions/nearest_skin.hpp>
+#include <trocar/interactions/wall_stop.hpp>
+
+namespace trocar::interactions {
+namespace {
+
+constexpr double kFromTrocar = 0.040;  // [m] of the shaft that no wall stops
+constexpr double kSpacing = 0.020;     // [m] of the points along the shaft that are tested
+constexpr double kReach = 0.012;       // [m] farther than this from its nearest vertex no wall touches a point
+constexpr double kBehind = 0.005;      // [m]
+constexpr double kBeside = 0.0015;     // [m] off the foot of the normal: past the wall's rim
+constexpr double kPress = 500;         // [N/m]
+constexpr double kMostPress = 15;      // [N]
+constexpr int kRounds = 4;
+
+struct Deepest {
+  double depth = 0, along = 0;  ///< [m]; along: of the point, from the trocar
+  bool tip = false;
+  Vec3d point, normal;
+};
+
+void look_at(const Surface& wall, Vec3d p, double radius, double along, bool tip, Deepest& deepest) noexcept {
+  const int vertex = nearest_vertex_near(wall, p, kReach);
+  if (vertex < 0) return;
+  const SkinPoint at = nearest_skin_point(wall, vertex, p);
+  const double above = dot(p - at.point, at.normal), depth = radius - above;
+  if (above < -kBehind || depth <= deepest.depth) return;
+  if (length((p - at.point) - above * at.normal) > kBeside) return;
+  deepest = {depth, along, tip, p, at.normal};
+}
+
+Deepest deepest_of(const ToolModel& model, std::span<const Surface> walls, Vec3d axis, double depth) noexcept {
+  Deepest deepest;
+  const Vec3d tip = model.port + depth * axis, start = model.port + std::min(kFromTrocar, depth) * axis;
+  for (const Surface& wall : walls) {
+    if (!wall.pose->bounds.near_segment(start, tip, kReach)) continue;
+    look_at(wall, tip, model.jaw_thickness, depth, true, deepest);
+    for (double s = depth - model.jaw_length; s > kFromTrocar; s -= kSpacing)
+      look_at(wall, model.port + s * axis, model.shaft_radius, s, false, deepest);
+  }
+  return deepest;
+}
+
+Vec3d axis_of(const ToolModel& model, const kinematics::FulcrumPose& pose) noexcept {
+  return kinematics::forward(model.port, pose).axis();
+}
+
+}  // namespace
+
+WallStop stop_at_walls(const ToolModel& model, const kinematics::FulcrumPose& wanted, std::span<const Surface> walls,
+                       ToolState& tool) noexcept {
+  WallStop stop;
+  if (tool.depth <= kFromTrocar) return stop;
+  Deepest last;
+  for (int round = 0; round < kRounds; ++round) {
+    const Deepest d = deepest_of(model, walls, axis_of(model, tool.pose()), tool.depth);
+    if (d.depth <= 1e-9) break;
+    last = d;
+    const Vec3d to = d.point + d.depth * d.normal;
+    kinematics::FulcrumPose pose = kinematics::inverse(model.port, to, tool.roll);
+    if (!d.tip) pose.depth = tool.depth;
+    pose = kinematics::clamped(pose, model.limits);
+    tool.yaw = pose.yaw;
+    tool.pitch = pose.pitch;
+    tool.depth = pose.depth;
+    stop.stopped = true;
+    stop.part = d.tip ? kJawA : kShaft;
+    stop.normal = d.normal;
+  }
+  if (!stop.stopped) return stop;
+  const kinematics::FulcrumPose goal = kinematics::clamped(wanted, model.limits);
+  const double along = last.tip ? tool.depth : last.along, goal_along = last.tip ? goal.depth : last.along;
+  stop.at = model.port + along * axis_of(model, tool.pose());
+  const Vec3d there = model.port + goal_along * axis_of(model, goal);
+  stop.force = std::clamp(kPress * dot(stop.at - there, stop.normal), 0.0, kMostPress);
+  return stop;
+}
+
+}  // namespace trocar::interactions
