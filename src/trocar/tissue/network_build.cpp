@@ -230,7 +230,8 @@ void pad(NetworkModel& m, int slice, int first, bool one_law) {
 std::vector<std::pair<int, int>> springs_at(const NetworkModel& m, const Adjacency& a, const Sources& s, int node,
                                             bool source) {
   std::vector<std::pair<int, int>> near;
-  for (int h = a.begin[node]; node >= 0 && h < a.begin[node + 1]; ++h)
+  if (node < 0) return near;  // a row that pads its slice
+  for (int h = a.begin[node]; h < a.begin[node + 1]; ++h)
     if ((s.source[a.spring[h]] == node) == source) near.emplace_back(m.row_of_node[a.other[h]], a.spring[h]);
   std::sort(near.begin(), near.end());
   return near;
