@@ -164,10 +164,12 @@ bool tool_on_sheet(Touching& c, const ToolState& tool_state, int body, const She
     const Capsule rod0 = both ? both_jaws(c.before, sheet.half_thickness) : c.before.part[part];
     const double way = c.way(both ? kJawA : part), reach = rod.radius + sheet.half_thickness + kRemember + way;
     const double most = 0.9 * (both ? kRemember : rod.radius + sheet.half_thickness + kRemember);
+    const bool near = surface.pose->bounds.near_segment(rod.a, rod.b, reach);
     const bool near_at_all = surface.pose->bounds.near_segment(rod.a, rod.b, std::max(reach, rod.radius + kLost));
     for (std::size_t i = 0; i < skin.triangles.size(); ++i) {
       Vec3f& memory = side[i * std::size_t(kSheetParts) + std::size_t(part)];
       const auto& t = skin.triangles[i];
+      if (!near && dot(memory, memory) == 0) continue;
       const Vec3f together = side[i * std::size_t(kSheetParts) + std::size_t(kBothJaws)];
       const bool by_both = (part == kJawA || part == kJawB) && dot(together, together) > 0;
       if (!near_at_all || sheet.parted[i] || rod.radius == 0 || by_both) {

@@ -325,7 +325,10 @@ void tool_on_strand(const ToolModel& model, Touching& touching, const ToolState&
     const Vec3d a0 = a - body.model.tick * state.v[size_t(e)], b0 = b - body.model.tick * state.v[size_t(e) + 1];
     const double radius = body.model.radius[size_t(e)];
     Vec3f* memory = side.data() + size_t(e) * kToolParts;
-    const double reach = radius + model.shaft_radius + model.jaw_length + length(b - a) + collision::kLost;
+    bool noted = false;
+    for (int part = 0; part < kToolParts; ++part) noted = noted || dot(memory[part], memory[part]) > 0;
+    const double beyond = noted ? collision::kLost : collision::kRemember + touching.way(kShaft);
+    const double reach = radius + model.shaft_radius + model.jaw_length + length(b - a) + beyond;
     if (length(a - collision::nearest_on_axis(whole, a)) > reach) {
       for (int part = 0; part < kToolParts; ++part) memory[part] = {};
       continue;
