@@ -13,7 +13,8 @@ std::size_t size_of(const std::vector<T>& array) {
 }  // namespace
 
 std::size_t bytes_of(const sim::State& s) {
-  std::size_t bytes = sizeof s + size_of(s.nearest) + size_of(s.strand_side) + size_of(s.tool_side) + size_of(s.seen);
+  std::size_t bytes = sizeof s + size_of(s.nearest) + size_of(s.strand_side) + size_of(s.tool_side) + size_of(s.seen) +
+                      size_of(s.touches);
   bytes += size_of(s.solids) + size_of(s.strands) + size_of(s.parted);
   for (const tissue::NetworkState& solid : s.solids)
     bytes += size_of(solid.nodes) + size_of(solid.scale) + size_of(solid.tet_phase);

@@ -94,7 +94,8 @@ struct Block {
     update(model, state, skin);
     pose_skin(view_of(model, state), skin.skin, pose);
     loads.clear();
-    if (contact) piece_on_piece({&skin.skin, &pose, view_of(model, state)}, work.part, work.parts, loads);
+    if (contact && work.parts > 1)
+      piece_on_piece({&skin.skin, &pose, view_of(model, state)}, work.part, work.largest_part, loads);
     if (contact)
       lip_on_lip({&skin.skin, &pose, view_of(model, state)}, work.part, state.tets.source, model.own_nodes,
                  state.tets.nodes, loads);

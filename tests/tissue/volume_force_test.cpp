@@ -161,7 +161,7 @@ TEST(VolumeForce, ItNeitherPushesNorTurnsTheBodyAsAWhole) {
   EXPECT_LT(length(turn), 1e-5 * size * 0.03);
 }
 
-TEST(VolumeForce, AnUndampedBodyKeepsItsEnergyBounded) {
+TEST(VolumeForce, AnUndampedBodysMotionStaysBounded) {
   Bar b(6, 4, 4, 0.45);
   b.d.global_damping = 0;
   b.d.material.damping_time = 0;

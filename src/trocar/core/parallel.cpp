@@ -83,11 +83,20 @@ struct ThreadPool::Impl {
     return Ticket{ticket.load(std::memory_order_acquire)}.run() != seen || stop.load(std::memory_order_acquire);
   }
 
+  /// Sleeps on the very word that was no news: a run that is announced in between is not slept through.
+  void sleep_until_news(std::uint64_t seen) noexcept {
+    for (;;) {
+      const std::uint64_t word = ticket.load(std::memory_order_acquire);
+      if (Ticket{word}.run() != seen || stop.load(std::memory_order_acquire)) return;
+      ticket.wait(word, std::memory_order_acquire);
+    }
+  }
+
   void serve() noexcept {
     std::uint64_t seen = 0;
     for (;;) {
       for (int i = 0; i < spins && !is_news(seen); ++i) pause();
-      while (!is_news(seen)) ticket.wait(ticket.load(std::memory_order_acquire), std::memory_order_acquire);
+      sleep_until_news(seen);
       if (stop.load(std::memory_order_acquire)) return;
       seen = Ticket{ticket.load(std::memory_order_acquire)}.run();
       work_off();

@@ -33,6 +33,7 @@ struct BladePlane {
   const Blade& blade;
   bool flat = false;  ///< it has an area, without which it parts nothing
 
+  explicit BladePlane(Blade&&) = delete;  // it keeps a reference
   explicit BladePlane(const Blade& b) noexcept : blade(b) {
     for (int i = 2; i < b.corners; ++i) n += cross(b.corner[i - 1] - b.corner[0], b.corner[i] - b.corner[0]);
     const double size = length(n);

@@ -138,6 +138,21 @@ Vec3d held_point(const TissueView& view, const Hold& hold) noexcept {
   return a + double(hold.weight) * (b - a);
 }
 
+namespace {
+
+/// A strand's element that was cut through or tore leaves the jaws: it is no place any more.
+void drop_parted(const TissueView& view, ToolState& tool) noexcept {
+  const auto parted = [&view](const Hold& h) {
+    return h.body < kSolidBase && !view.strand_states[size_t(h.body)].alive[size_t(h.element)];
+  };
+  const auto end = std::remove_if(tool.hold, tool.hold + tool.holds, parted);
+  tool.holds = std::int32_t(end - tool.hold);
+  if (tool.holds > 0) return;
+  for (double& p : tool.pull) p = 0;
+}
+
+}  // namespace
+
 void update_grip(const ToolModel& model, const ToolShape& shape, const TissueView& view, ToolState& tool) noexcept {
   const double wanted = 1.0 - tool.handle;
   if (!grips(model.kind)) {
@@ -145,6 +160,7 @@ void update_grip(const ToolModel& model, const ToolShape& shape, const TissueVie
     tool.pinch = 0;
     return;
   }
+  if (tool.holds > 0) drop_parted(view, tool);
   if (tool.holds > 0) {
     const double stop = aperture_at(model, thickness_of(tool.hold[0], view), tool.hold[0].local[2]);
     // Loose jaws are opened by the hand, or the tissue has slid towards their tips, where they stand farther apart. An

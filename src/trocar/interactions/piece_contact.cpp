@@ -10,15 +10,6 @@ constexpr double kStiffness = 150;    // [N/m] per vertex, implicit on both side
 constexpr double kDamping = 0.05;     // [N s/m]
 constexpr double kQuickest = 0.0006;  // [m] a tick that two pieces are moved apart
 constexpr double kReach = 0.008;      // [m] about a cell and a half: the nearest vertex is not farther
-constexpr int kMostCounted = 64;      // pieces among which the largest is looked for: the first by their nodes
-
-/// The piece with the most vertices, which is left out as a sample: all others are tested against it.
-std::int32_t largest(const Surface& surface, std::span<const std::int32_t> part, int parts) noexcept {
-  int count[kMostCounted] = {};
-  for (int v = 0; v < surface.skin->size(); ++v)
-    if (surface.skin->at_surface(v) && part[size_t(v)] < kMostCounted) ++count[part[size_t(v)]];
-  return std::int32_t(std::max_element(count, count + std::min(parts, kMostCounted)) - count);
-}
 
 /// The nearest vertex of another piece within reach, or -1.
 int nearest_of_others(const Surface& surface, std::span<const std::int32_t> part, int vertex) noexcept {
@@ -58,12 +49,10 @@ void part_pair(const Surface& surface, int first, int second, double depth, Vec3
 
 }  // namespace
 
-void piece_on_piece(const Surface& surface, std::span<const std::int32_t> part, int parts,
+void piece_on_piece(const Surface& surface, std::span<const std::int32_t> part, int largest,
                     NetworkLoads& loads) noexcept {
-  if (parts < 2) return;
-  const std::int32_t main = largest(surface, part, parts);
   for (int v = 0; v < surface.skin->size(); ++v) {
-    if (part[size_t(v)] == main || !surface.skin->at_surface(v)) continue;
+    if (part[size_t(v)] == largest || !surface.skin->at_surface(v)) continue;
     const int other = nearest_of_others(surface, part, v);
     if (other < 0) continue;
     const Clearance c = clearance_at(surface, other, surface.position(v));

@@ -11,9 +11,9 @@
 
 namespace trocar::interactions {
 
-/// Pushes apart what overlaps. The vertices of all pieces but the one with the most are tested.
-/// @param part  (vertices) which piece each belongs to, 0 .. parts - 1
-void piece_on_piece(const Surface& surface, std::span<const std::int32_t> part, int parts,
+/// Pushes apart what overlaps. The vertices of all pieces but the largest are tested.
+/// @param part  (vertices) which piece each belongs to
+void piece_on_piece(const Surface& surface, std::span<const std::int32_t> part, int largest,
                     NetworkLoads& loads) noexcept;
 
 /// The lips of a cut within one piece do not pass through each other: nodes that a cut has doubled stay on their sides

@@ -109,12 +109,12 @@ Rub Touching::rub(std::int32_t number, const Contact& c, Vec3d anchored_now) noe
   const PartFrame frame = frame_of(shape, t.part);
   for (int k = 0; k < 2; ++k) r.weight[k] = c.weight[k];
   const Touch* was = anchored(t.body, t.element, t.part);
+  if (was) t.force = (1 - kShare) * was->force;
   if (!was || was->vertex != t.vertex) {
     put(t.anchor, into(frame, c.point));
     for (int k = 0; k < 2; ++k) t.weight[k] = float(c.weight[k]);
     return r;
   }
-  t.force = (1 - kShare) * was->force;
   Vec3d off = out_of(frame, was->anchor) - anchored_now;
   off -= dot(off, c.normal) * c.normal;
   const double far = length(off), bound = m_friction * double(was->force);

@@ -56,7 +56,9 @@ std::vector<tissue::Anchor> anchor_nodes(const Solid& solid, const std::vector<V
 }
 
 double damping_time(const tissue::NetworkDescription& undamped, double wanted) {
-  return std::min(wanted, tissue::build(undamped, sim::kTick).dt_limit / 7);
+  tissue::NetworkDescription springs = undamped;
+  springs.kappa = 0;  // its impulses take long to find, and do not matter here
+  return std::min(wanted, tissue::build(springs, sim::kTick).dt_limit / 7);
 }
 
 double printed_limit(const tissue::NetworkDescription& n, Dominating dominating) {

@@ -29,6 +29,8 @@ void Reading::tissue_table(const JsonObject& o, const fs::path& folder) {
   for (const JsonObject& row : o.objects("tissues")) tissue(row, folder);
 }
 
+constexpr double kLeastFailure = 0.05;  // organs carry some strain at rest
+
 void Reading::tissue(const JsonObject& o, const fs::path&) {
   Tissue t;
   t.name = o.text("name");
@@ -43,6 +45,9 @@ void Reading::tissue(const JsonObject& o, const fs::path&) {
     o.fault("p1",
             fmt::format("expected p1^2 < 3 p2 so that stress always rises with strain, got p1^2 = {} and 3 p2 = {}",
                         t.p1 * t.p1, 3 * t.p2));
+  if (t.failure_strain > 0 && t.failure_strain < kLeastFailure)
+    o.fault("failure_strain", fmt::format("expected 0 for tissue that never tears, or at least {}, got {}",
+                                          kLeastFailure, t.failure_strain));
   description.tissues.push_back(std::move(t));
 }
 

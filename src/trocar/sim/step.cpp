@@ -18,7 +18,7 @@ interactions::TissueView tissue_of(const StepContext& c) noexcept {
 }
 
 void tell(StepContext& c, Event::Kind kind, int tool, int index) noexcept {
-  if (c.report.event_count < kMaxEvents) c.report.events[c.report.event_count++] = {kind, tool, index};
+  if (c.report.event_count < kMaxEvents - kRoomForTears) c.report.events[c.report.event_count++] = {kind, tool, index};
 }
 
 bool finite(const ToolInput& t) noexcept {
@@ -375,7 +375,7 @@ void touch_organs(StepContext& c) noexcept {
     const tissue::CuttableWork& work = c.work.cuttable_work[i];
     const tissue::CuttableModel& body = c.model.cuttables[i].body;
     const geometry::CuttableTets& tets = s.cuttables[i].tets;
-    piece_on_piece(c.work.surfaces[organ], work.part, work.parts, c.work.organ_loads[organ]);
+    if (work.parts > 1) piece_on_piece(c.work.surfaces[organ], work.part, work.largest_part, c.work.organ_loads[organ]);
     lip_on_lip(c.work.surfaces[organ], work.part, tets.source, body.own_nodes, tets.nodes, c.work.organ_loads[organ]);
   }
   size_t at = 0;
@@ -540,6 +540,8 @@ void sum_up(StepContext& c) noexcept {
   for (size_t i = 0; i < c.model.strands.size(); ++i) take(c.work.strand_reports[i], organs + int(i));
   const int before = organs + int(c.model.strands.size());
   for (size_t i = 0; i < c.model.membranes.size(); ++i) take(c.work.membrane_reports[i], before + int(i));
+  for (const interactions::TouchBook& book : c.state.touches)
+    c.report.flags |= book.count == interactions::kMaxTouches ? StepReport::kTooManyLoads : 0u;
   for (const auto& l : c.work.membrane_loads) c.report.flags |= l.overflowed ? StepReport::kTooManyLoads : 0u;
   for (const auto& l : c.work.organ_loads) c.report.flags |= l.overflowed ? StepReport::kTooManyLoads : 0u;
   for (const auto& l : c.work.strand_loads) c.report.flags |= l.overflowed ? StepReport::kTooManyLoads : 0u;

@@ -9,14 +9,24 @@
 namespace trocar::sim {
 
 struct Event {
-  enum Kind : std::int32_t { none, grasped, released, slipped, clipped, dropped_clip, cut, exchanged, torn } kind = none;
+  enum Kind : std::int32_t {
+    none,
+    grasped,
+    released,
+    slipped,
+    clipped,
+    dropped_clip,
+    cut,
+    exchanged,
+    torn
+  } kind = none;
   std::int32_t tool = 0;
   /// The clip's or the cut's number in the State's book; grasped: the body held (interactions::Hold::body);
   /// torn: the body that tore, likewise, under the hand that pulls or presses most; exchanged: the new instrument's
   /// number in the rack; released and slipped: -1.
   std::int32_t index = 0;
 };
-inline constexpr int kMaxEvents = 16;
+inline constexpr int kMaxEvents = 24, kRoomForTears = 8;  ///< all; of those, only for tears
 
 /// What a tick says about itself. Flags of tissue::StepReport keep their meaning; the others are the step's own.
 struct StepReport {
@@ -25,7 +35,7 @@ struct StepReport {
     kBadInput =
         1u << 17,  ///< an input was not finite (that hand stayed), or its instrument not in the rack (not exchanged)
     kBookFull = 1u << 18,  ///< the book of clips or cuts, or what an organ keeps for cuts, is full: clips are lost,
-                           ///< blades no longer cut
+                           ///< blades no longer cut, tears open no further
   };
   std::uint32_t flags = 0;
   int first_bad_body = -1;   ///< organs first, then strands, then membranes

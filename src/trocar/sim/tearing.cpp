@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <trocar/interactions/cut.hpp>
 #include <trocar/sim/tearing.hpp>
 #include <trocar/tissue/overstretch.hpp>
@@ -7,14 +9,18 @@ namespace {
 
 double norm(const double (&f)[3]) noexcept { return length(Vec3d{f[0], f[1], f[2]}); }
 
-/// The hand that did it: the one that holds the body, or else the one that presses hardest.
+/// The hand that did it: the one that holds the body, or else the one that pulls or presses hardest; -1: none.
 int culprit(const StepContext& c, std::int32_t body) noexcept {
-  int hardest = 0;
+  int hardest = -1;
+  double most = 0;
   for (size_t t = 0; t < c.model.hands.size(); ++t) {
     const interactions::ToolState& tool = c.state.tools[t];
     for (int h = 0; h < tool.holds; ++h)
       if (tool.hold[h].body == body) return int(t);
-    if (norm(tool.contact_force) > norm(c.state.tools[size_t(hardest)].contact_force)) hardest = int(t);
+    const double force = std::max(norm(tool.pull), norm(tool.contact_force));
+    if (force <= most) continue;
+    most = force;
+    hardest = int(t);
   }
   return hardest;
 }
@@ -23,8 +29,15 @@ int culprit(const StepContext& c, std::int32_t body) noexcept {
 std::uint64_t look(const StepContext& c, size_t body) noexcept { return c.state.tick + 7 * body; }
 
 void tell_torn(StepContext& c, std::int32_t body) noexcept {
-  if (c.report.event_count == kMaxEvents || c.model.hands.empty()) return;
-  c.report.events[c.report.event_count++] = {Event::torn, culprit(c, body), body};
+  const int hand = culprit(c, body);
+  if (c.report.event_count == kMaxEvents || hand < 0) return;
+  c.report.events[c.report.event_count++] = {Event::torn, hand, body};
+}
+
+/// What could not open is not tried again before its time has come once more.
+bool opened(bool parted, std::vector<std::uint8_t>& counters) noexcept {
+  if (!parted) std::fill(counters.begin(), counters.end(), std::uint8_t(0));
+  return parted;
 }
 
 bool tear_solid(StepContext& c, size_t i) noexcept {
@@ -33,8 +46,10 @@ bool tear_solid(StepContext& c, size_t i) noexcept {
   const tissue::Overstretch tear =
       tissue::find_overstretch(tissue::springs_of(solid.network, state), solid.failure_strain, look(c, i),
                                c.state.overstretched_organs[i], c.work.beyond);
-  return tear.found &&
-         interactions::cut_organ(tear.blade(), solid.network, solid.fine, state, c.state.parted[i], c.work.parts) > 0;
+  if (!tear.found) return false;
+  const int severed =
+      interactions::cut_organ(tear.blade(), solid.network, solid.fine, state, c.state.parted[i], c.work.parts);
+  return opened(severed > 0, c.state.overstretched_organs[i]);
 }
 
 bool tear_cuttable(StepContext& c, size_t i) noexcept {
@@ -46,9 +61,9 @@ bool tear_cuttable(StepContext& c, size_t i) noexcept {
       tissue::find_overstretch(tissue::springs_of(organ.body, state, work), organ.failure_strain, look(c, organ_index),
                                c.state.overstretched_organs[organ_index], c.work.beyond);
   if (!tear.found) return false;
-  const geometry::CutBook book = tissue::cut(organ.body, tear.blade(), state, work);
+  const geometry::CutBook book = tissue::cut(organ.body, tear.blade(1.0), state, work);
   if (book.full) c.report.flags |= StepReport::kBookFull;
-  return book.parted > 0;
+  return opened(book.parted > 0, c.state.overstretched_organs[organ_index]);
 }
 
 bool tear_membrane(StepContext& c, size_t i) noexcept {
@@ -57,8 +72,10 @@ bool tear_membrane(StepContext& c, size_t i) noexcept {
   const tissue::Overstretch tear = tissue::find_overstretch(tissue::springs_of(m.sheet.network, state.network),
                                                             m.failure_strain, look(c, size_t(c.model.organs()) + i),
                                                             c.state.overstretched_membranes[i], c.work.beyond);
-  return tear.found &&
-         interactions::cut_membrane(tear.blade(), m.sheet, m.depth, state, c.state.torn[i], c.work.parts).severed > 0;
+  if (!tear.found) return false;
+  const int severed =
+      interactions::cut_membrane(tear.blade(), m.sheet, m.depth, state, c.state.torn[i], c.work.parts).severed;
+  return opened(severed > 0, c.state.overstretched_membranes[i]);
 }
 
 bool tear_strand(StepContext& c, size_t i) noexcept {
@@ -70,6 +87,7 @@ bool tear_strand(StepContext& c, size_t i) noexcept {
 
 }  // namespace
 
+// 12. What is stretched beyond what it bears.
 void tear_tissue(StepContext& c) noexcept {
   const size_t solids = c.model.solids.size();
   for (size_t i = 0; i < solids; ++i)

@@ -123,6 +123,10 @@ class Assembler {
       part = part == i ? parts++ : w.part[std::size_t(part)];
     }
     w.parts = parts;
+    const std::span<std::int32_t> nodes_in(w.cut.fan.data(), std::size_t(parts));  // no more than cells
+    std::fill(nodes_in.begin(), nodes_in.end(), 0);
+    for (int i = 0; i < b.nodes; ++i) ++nodes_in[std::size_t(w.part[std::size_t(i)])];
+    w.largest_part = std::int32_t(std::max_element(nodes_in.begin(), nodes_in.end()) - nodes_in.begin());
   }
   std::int32_t root(std::int32_t node) noexcept {
     while (w.part[std::size_t(node)] != node) {

@@ -97,6 +97,7 @@ struct CuttableWork {
   std::vector<TetPack> guarded_packs;
   std::vector<std::int32_t> part;    ///< (capacity) pieces that hang together by nodes, in the order of these
   std::int32_t parts = 1;            ///< how many
+  std::int32_t largest_part = 0;     ///< the one with the most nodes
   std::vector<int> open_tets;        ///< (cells)
   std::vector<std::uint16_t> below;  ///< (packs of cells)
   std::vector<LoadedNode> loaded;    ///< (capacity)

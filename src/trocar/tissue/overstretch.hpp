@@ -37,8 +37,10 @@ struct Overstretch {
   Vec3d middle, along;  ///< of the spring that is stretched most [m], unit
   double length = 0;    ///< of that spring as it is [m]
 
-  /// What opens: a square across the spring, about as large as the cells there.
-  geometry::Blade blade() const noexcept { return geometry::square_blade(middle, along, 0.6 * length); }
+  /// What opens: a square across the spring, about as large as the cells there. @param half  of its edge over `length`
+  geometry::Blade blade(double half = 0.6) const noexcept {
+    return geometry::square_blade(middle, along, half * length);
+  }
 };
 
 /// Looks, when it is time, and counts. @param failure  strain [-], > 0

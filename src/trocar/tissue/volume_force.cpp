@@ -153,7 +153,7 @@ Bulk bulk_of(std::span<const TetRest> cells, std::span<const NodeState> rest, st
   sum_volumes(cells, {}, rest, w);
   for (const float a : w.answer) bulk.most_answer = std::max(bulk.most_answer, a);
 
-  double edge = 1;  // the shortest of the cells
+  double edge = 1;  // about the shortest of the cells
   for (const TetRest& t : cells)
     for (int i = 1; i < 4; ++i) {
       const Quad e = corner(rest, t, i) - corner(rest, t, 0);

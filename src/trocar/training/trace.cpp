@@ -43,6 +43,8 @@ TraceMark::Kind mark_of(sim::Event::Kind kind) {
       return TraceMark::dropped;
     case sim::Event::cut:
       return TraceMark::cut;
+    case sim::Event::torn:
+      return TraceMark::torn;
     default:
       return TraceMark::kinds;
   }

@@ -54,7 +54,7 @@ struct TraceHand {
 
 /// Something that a hand did, as sim::Event names it.
 struct TraceMark {
-  enum Kind : std::int32_t { grasped, released, slipped, clipped, dropped, cut, kinds } kind = grasped;
+  enum Kind : std::int32_t { grasped, released, slipped, clipped, dropped, cut, torn, kinds } kind = grasped;
   std::int32_t hand = 0;
   std::uint32_t sample = 0;  ///< the first that was taken then or later
   bool operator==(const TraceMark&) const = default;

@@ -87,7 +87,7 @@ inline const std::array<TraceChannel<TraceScope>, 6> kScopeChannels = {
 };
 // clang-format on
 
-inline constexpr const char* kMarkNames[TraceMark::kinds] = {"grasped", "released", "slipped",
-                                                             "clipped", "dropped",  "cut"};
+inline constexpr const char* kMarkNames[TraceMark::kinds] = {"grasped", "released", "slipped", "clipped",
+                                                             "dropped", "cut",      "torn"};
 
 }  // namespace trocar::training
