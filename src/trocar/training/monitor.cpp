@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include <trocar/interactions/lever.hpp>
 #include <trocar/sim/visibility.hpp>
 #include <trocar/training/clip_places.hpp>
 #include <trocar/training/hands.hpp>
@@ -374,8 +375,7 @@ void Monitor::judge_cut(const sim::Model& model, const sim::State& state, const 
   const int i = side_of(cut.strand);
   if (cut.strand < 0 && cut.solid < 0 && cut.membrane >= 0) return judge_snip(model, state, cut);
   if (i < 0) {
-    const std::string& body =
-        cut.strand >= 0 ? model.strands[size_t(cut.strand)].name : model.organ_name(cut.solid);
+    const std::string& body = cut.strand >= 0 ? model.strands[size_t(cut.strand)].name : model.organ_name(cut.solid);
     return make_error("E11", -1, tip, named(body));
   }
   SideWatch& side = m_sides[size_t(i)];
@@ -415,8 +415,13 @@ void Monitor::judge_snip(const sim::Model& model, const sim::State& state, const
 }
 
 void Monitor::watch_errors(const sim::Model& model, const sim::State& state, const sim::StepReport& report) {
-  for (size_t h = 0; h < m_tools.size(); ++h)
+  for (size_t h = 0; h < m_tools.size(); ++h) {
+    const interactions::TrocarLoad load =
+        interactions::load_at_trocar(model.tool(state, h), state.tools[h], state.touches[h]);
     m_tools[h].max_pull = std::max(m_tools[h].max_pull, norm(state.tools[h].pull));
+    m_tools[h].max_on_wall = std::max(m_tools[h].max_on_wall, length(load.on_wall));
+    m_tools[h].max_by_hand = std::max(m_tools[h].max_by_hand, length(load.by_hand));
+  }
   for (size_t h = 0; h < m_tools.size(); ++h)
     if (state.tools[h].holds > 0) m_held_side[h] = side_of_hold(state.tools[h].hold[0].body);
   Mishaps mishaps;

@@ -45,9 +45,11 @@ struct Score {
 };
 
 struct ToolMetrics {
-  std::string name;     ///< of the hand
-  double path = 0;      ///< of the tip [m]
-  double max_pull = 0;  ///< [N]
+  std::string name;        ///< of the hand
+  double path = 0;         ///< of the tip [m]
+  double max_pull = 0;     ///< [N]
+  double max_on_wall = 0;  ///< what the abdominal wall bore at the trocar [N]
+  double max_by_hand = 0;  ///< what the hand applied at the handle [N]
 };
 
 /// What is known of one side; for results and for whoever shows them.

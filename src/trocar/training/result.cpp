@@ -117,7 +117,11 @@ std::string Monitor::result_json() const {
     j["sides"].push_back(side_json(m_exercise.goal.sides[i], m_sides[i].facts, m_sides[i].lumen));
   j["tools"] = Json::array();
   for (const ToolMetrics& t : m_tools)
-    j["tools"].push_back({{"name", t.name}, {"path_m", t.path}, {"max_pull_N", t.max_pull}});
+    j["tools"].push_back({{"name", t.name},
+                          {"path_m", t.path},
+                          {"max_pull_N", t.max_pull},
+                          {"max_at_trocar_N", t.max_on_wall},
+                          {"max_by_hand_N", t.max_by_hand}});
   j["thresholds"] = thresholds_json(m_exercise);
   j["not_assessed"] = Json::array();
   for (const LaterError& l : m_exercise.later)
