@@ -34,6 +34,18 @@ void tell_torn(StepContext& c, std::int32_t body) noexcept {
   c.report.events[c.report.event_count++] = {Event::torn, hand, body};
 }
 
+/// Out of a lattice no piece can come, so it tears out of the jaws: what is torn stays with the organ.
+void let_go(StepContext& c, std::int32_t body) noexcept {
+  for (size_t t = 0; t < c.model.hands.size(); ++t) {
+    interactions::ToolState& tool = c.state.tools[t];
+    if (tool.holds == 0 || tool.hold[0].body != body) continue;
+    tool.holds = 0;
+    for (double& p : tool.pull) p = 0;
+    if (c.report.event_count < kMaxEvents)
+      c.report.events[c.report.event_count++] = {Event::released, std::int32_t(t), -1};
+  }
+}
+
 /// What could not open is not tried again before its time has come once more.
 bool opened(bool parted, std::vector<std::uint8_t>& counters) noexcept {
   if (!parted) std::fill(counters.begin(), counters.end(), std::uint8_t(0));
@@ -91,7 +103,10 @@ bool tear_strand(StepContext& c, size_t i) noexcept {
 void tear_tissue(StepContext& c) noexcept {
   const size_t solids = c.model.solids.size();
   for (size_t i = 0; i < solids; ++i)
-    if (c.model.solids[i].failure_strain > 0 && tear_solid(c, i)) tell_torn(c, interactions::kSolidBase + int(i));
+    if (c.model.solids[i].failure_strain > 0 && tear_solid(c, i)) {
+      tell_torn(c, interactions::kSolidBase + int(i));
+      let_go(c, interactions::kSolidBase + int(i));
+    }
   for (size_t i = 0; i < c.model.cuttables.size(); ++i)
     if (c.model.cuttables[i].failure_strain > 0 && tear_cuttable(c, i))
       tell_torn(c, interactions::kSolidBase + int(solids + i));
