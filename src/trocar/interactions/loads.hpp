@@ -24,8 +24,8 @@ struct NetworkLoads {
   std::vector<tissue::NodeLoad> gathered, sorted;
   std::vector<Tag> tag;
   std::vector<std::uint64_t> order;  ///< node << 32 | place in gathered, ascending
-  std::vector<Tag> owner;           ///< of sorted[i]; anchors and strand ends on one node are one load: nobody asks
-  std::vector<Vec3f> reaction;      ///< of sorted[i]
+  std::vector<Tag> owner;            ///< of sorted[i]; anchors and strand ends on one node are one load: nobody asks
+  std::vector<Vec3f> reaction;       ///< of sorted[i]
   bool overflowed = false;
 
   void reserve(std::size_t capacity);
