@@ -1,37 +1,32 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/tissue/float4.hpp>
 #include <trocar/tissue/volume_force.hpp>
 
 namespace trocar::tissue {
 namespace {
 
-// Four floats in a register: x, y, z and a fourth that stays 0. A node's place is loaded whole; half the time of
-// single floats.
-typedef float Quad __attribute__((vector_size(16)));
-
-Quad corner(std::span<const NodeState> nodes, const TetRest& c, int i) noexcept {
-  Quad q;
-  __builtin_memcpy(&q, &nodes[std::size_t(c.row[i])], sizeof q);
-  return q;
+Float4 corner(std::span<const NodeState> nodes, const TetRest& c, int i) noexcept {
+  return load4(&nodes[std::size_t(c.row[i])].x);
 }
-Quad cross(Quad a, Quad b) noexcept {
-  const Quad a1 = __builtin_shufflevector(a, a, 1, 2, 0, 3), b1 = __builtin_shufflevector(b, b, 1, 2, 0, 3);
-  const Quad c = a * b1 - a1 * b;
+Float4 cross(Float4 a, Float4 b) noexcept {
+  const Float4 a1 = __builtin_shufflevector(a, a, 1, 2, 0, 3), b1 = __builtin_shufflevector(b, b, 1, 2, 0, 3);
+  const Float4 c = a * b1 - a1 * b;
   return __builtin_shufflevector(c, c, 1, 2, 0, 3);
 }
-float dot(Quad a, Quad b) noexcept {
-  const Quad c = a * b;
+float dot(Float4 a, Float4 b) noexcept {
+  const Float4 c = a * b;
   return (c[0] + c[1]) + c[2];
 }
 
 /// A cell as it is: edges from its first corner, and six times its volume and the volume's derivatives by its corners.
 struct Cell {
   float volume6;
-  Quad by[4];
+  Float4 by[4];
   Cell(std::span<const NodeState> nodes, const TetRest& t) noexcept {
-    const Quad o = corner(nodes, t, 0);
-    const Quad a = corner(nodes, t, 1) - o, b = corner(nodes, t, 2) - o, c = corner(nodes, t, 3) - o;
+    const Float4 o = corner(nodes, t, 0);
+    const Float4 a = corner(nodes, t, 1) - o, b = corner(nodes, t, 2) - o, c = corner(nodes, t, 3) - o;
     by[1] = cross(b, c), by[2] = cross(c, a), by[3] = cross(a, b);
     by[0] = -(by[1] + by[2] + by[3]);
     volume6 = dot(a, by[1]);
@@ -90,10 +85,8 @@ void sum_forces(std::span<const TetRest> cells, std::span<const std::uint8_t> ph
     const Cell cell(nodes, cells[t]);
     for (int i = 0; i < 4; ++i) {
       float* const at = &w.force[std::size_t(row[i])].x;
-      Quad sum;
-      __builtin_memcpy(&sum, at, sizeof sum);
-      sum += push * cell.by[i];
-      __builtin_memcpy(at, &sum, sizeof sum);
+      const Float4 sum = load4(at) + push * cell.by[i];
+      std::memcpy(at, &sum, sizeof sum);
     }
   }
 }
@@ -156,7 +149,7 @@ Bulk bulk_of(std::span<const TetRest> cells, std::span<const NodeState> rest, st
   double edge = 1;  // about the shortest of the cells
   for (const TetRest& t : cells)
     for (int i = 1; i < 4; ++i) {
-      const Quad e = corner(rest, t, i) - corner(rest, t, 0);
+      const Float4 e = corner(rest, t, i) - corner(rest, t, 0);
       edge = std::min(edge, std::sqrt(double(dot(e, e))));
     }
   // Power iteration on the mass-weighted stiffness, by small displacements of a rough start.
