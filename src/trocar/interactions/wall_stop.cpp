@@ -13,6 +13,7 @@ constexpr double kBehind = 0.005;      // [m]
 constexpr double kBeside = 0.0015;     // [m] off the foot of the normal: past the wall's rim
 constexpr double kPress = 500;         // [N/m]
 constexpr double kMostPress = 15;      // [N]
+constexpr double kQuickest = 0.0012;   // [m] that the tip is moved in a tick: twice what hands do, no jumps
 constexpr int kRounds = 4;
 
 struct Deepest {
@@ -47,6 +48,17 @@ Vec3d axis_of(const ToolModel& model, const kinematics::FulcrumPose& pose) noexc
   return kinematics::forward(model.port, pose).axis();
 }
 
+/// No farther from `before` than the tip may go in a tick: a little that the shaft moves near the trocar is a lot there.
+void slow_down(const ToolModel& model, const kinematics::FulcrumPose& before, ToolState& tool) noexcept {
+  const double far =
+      length(kinematics::forward(model.port, tool.pose()).tip - kinematics::forward(model.port, before).tip);
+  if (far <= kQuickest) return;
+  const double share = kQuickest / far;
+  tool.yaw = before.yaw + share * (tool.yaw - before.yaw);
+  tool.pitch = before.pitch + share * (tool.pitch - before.pitch);
+  tool.depth = before.depth + share * (tool.depth - before.depth);
+}
+
 }  // namespace
 
 WallStop stop_at_walls(const ToolModel& model, const kinematics::FulcrumPose& wanted, std::span<const Surface> walls,
@@ -54,6 +66,7 @@ WallStop stop_at_walls(const ToolModel& model, const kinematics::FulcrumPose& wa
   WallStop stop;
   if (tool.depth <= kFromTrocar) return stop;
   Deepest last;
+  const kinematics::FulcrumPose before = tool.pose();
   for (int round = 0; round < kRounds; ++round) {
     const Deepest d = deepest_of(model, walls, axis_of(model, tool.pose()), tool.depth);
     if (d.depth <= 1e-9) break;
@@ -70,6 +83,7 @@ WallStop stop_at_walls(const ToolModel& model, const kinematics::FulcrumPose& wa
     stop.normal = d.normal;
   }
   if (!stop.stopped) return stop;
+  slow_down(model, before, tool);
   const kinematics::FulcrumPose goal = kinematics::clamped(wanted, model.limits);
   const double along = last.tip ? tool.depth : last.along, goal_along = last.tip ? goal.depth : last.along;
   stop.at = model.port + along * axis_of(model, tool.pose());

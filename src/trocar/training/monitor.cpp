@@ -13,6 +13,7 @@ namespace {
 constexpr int kSampleEvery = 20;                       // ticks between looks at steps and tips: 50 Hz
 constexpr int kCollideEvery = 4;                       // ticks between looks at instruments against each other: 250 Hz
 constexpr double kSample = kSampleEvery * sim::kTick;  // [s]
+constexpr double kTrocarShare = 0.02;                  // of a tick in the mean of forces: over about 50 ms
 constexpr double kMoving = 0.005;                      // [m/s] slower is not a motion
 constexpr double kEnough = 1e-9;                       // [s] of rounding in sums of samples
 
@@ -419,8 +420,11 @@ void Monitor::watch_errors(const sim::Model& model, const sim::State& state, con
     const interactions::TrocarLoad load =
         interactions::load_at_trocar(model.tool(state, h), state.tools[h], state.touches[h]);
     m_tools[h].max_pull = std::max(m_tools[h].max_pull, norm(state.tools[h].pull));
-    m_tools[h].max_on_wall = std::max(m_tools[h].max_on_wall, length(load.on_wall));
-    m_tools[h].max_by_hand = std::max(m_tools[h].max_by_hand, length(load.by_hand));
+    TrocarMean& mean = m_trocar[h];
+    mean.on_wall += kTrocarShare * (length(load.on_wall) - mean.on_wall);
+    mean.by_hand += kTrocarShare * (length(load.by_hand) - mean.by_hand);
+    m_tools[h].max_on_wall = std::max(m_tools[h].max_on_wall, mean.on_wall);
+    m_tools[h].max_by_hand = std::max(m_tools[h].max_by_hand, mean.by_hand);
   }
   for (size_t h = 0; h < m_tools.size(); ++h)
     if (state.tools[h].holds > 0) m_held_side[h] = side_of_hold(state.tools[h].hold[0].body);

@@ -48,8 +48,8 @@ struct ToolMetrics {
   std::string name;        ///< of the hand
   double path = 0;         ///< of the tip [m]
   double max_pull = 0;     ///< [N]
-  double max_on_wall = 0;  ///< what the abdominal wall bore at the trocar [N]
-  double max_by_hand = 0;  ///< what the hand applied at the handle [N]
+  double max_on_wall = 0;  ///< what the abdominal wall bore at the trocar, mean over about 50 ms [N]
+  double max_by_hand = 0;  ///< what the hand applied at the handle, likewise [N]
 };
 
 /// What is known of one side; for results and for whoever shows them.
@@ -146,6 +146,10 @@ class Monitor {
   Tissues m_tissues;
   PullWatch m_pull;
   TearWatch m_tear;
+  struct TrocarMean {
+    double on_wall = 0, by_hand = 0;  ///< [N]
+  };
+  std::array<TrocarMean, sim::kMaxTools> m_trocar{};
   PinchWatch m_pinch;
   SightWatch m_sight;
   CollisionWatch m_collision;
