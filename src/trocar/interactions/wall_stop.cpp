@@ -13,7 +13,8 @@ constexpr double kBehind = 0.005;      // [m]
 constexpr double kBeside = 0.0015;     // [m] off the foot of the normal: past the wall's rim
 constexpr double kPress = 500;         // [N/m]
 constexpr double kMostPress = 15;      // [N]
-constexpr double kQuickest = 0.0012;   // [m] that the tip is moved in a tick: twice what hands do, no jumps
+constexpr double kQuickest = 0.0006;   // [m] that the tip moves in a tick: what hands do, no jumps
+constexpr double kWithdraws = 0.0005;  // [m] farther out than it is: the hand draws back, and nothing holds it
 constexpr int kRounds = 4;
 
 struct Deepest {
@@ -48,7 +49,8 @@ Vec3d axis_of(const ToolModel& model, const kinematics::FulcrumPose& pose) noexc
   return kinematics::forward(model.port, pose).axis();
 }
 
-/// No farther from `before` than the tip may go in a tick: a little that the shaft moves near the trocar is a lot there.
+/// No farther from `before` than the tip may go in a tick: a little that the shaft moves near the trocar is a lot
+/// there.
 void slow_down(const ToolModel& model, const kinematics::FulcrumPose& before, ToolState& tool) noexcept {
   const double far =
       length(kinematics::forward(model.port, tool.pose()).tip - kinematics::forward(model.port, before).tip);
@@ -61,12 +63,12 @@ void slow_down(const ToolModel& model, const kinematics::FulcrumPose& before, To
 
 }  // namespace
 
-WallStop stop_at_walls(const ToolModel& model, const kinematics::FulcrumPose& wanted, std::span<const Surface> walls,
+WallStop stop_at_walls(const ToolModel& model, const kinematics::FulcrumPose& wanted,
+                       const kinematics::FulcrumPose& before, std::span<const Surface> walls,
                        ToolState& tool) noexcept {
   WallStop stop;
-  if (tool.depth <= kFromTrocar) return stop;
+  if (tool.depth <= kFromTrocar || wanted.depth < tool.depth - kWithdraws) return stop;
   Deepest last;
-  const kinematics::FulcrumPose before = tool.pose();
   for (int round = 0; round < kRounds; ++round) {
     const Deepest d = deepest_of(model, walls, axis_of(model, tool.pose()), tool.depth);
     if (d.depth <= 1e-9) break;

@@ -1,5 +1,6 @@
 // Walls stop instruments: what would go into one stays at its surface and slides along it, while the hand presses. The
-// instrument follows the hand from there in every tick, so it is free as soon as the hand withdraws.
+// instrument follows the hand from there in every tick, and while the hand draws it back no wall holds it: whatever way
+// it came to be behind one, it comes out.
 //
 // The press is a spring from where the instrument is to where the hand wants it, along the wall's normal: 500 N/m, at
 // most 15 N (our choice: walls of flesh over bone are stiffer than any hand).
@@ -24,9 +25,10 @@ struct WallStop {
 /// Moves the instrument back to the walls' inner side. Walls within 40 mm of the trocar do not count: it goes through
 /// them. Nor do those whose surface is farther away than 5 mm: the instrument is behind them since it was put there.
 /// @param wanted  where the hand wants the instrument
+/// @param before  where it was in the last tick: no wall moves it faster than a hand would
 /// @param walls   that never move; their normals point into the cavity
-WallStop stop_at_walls(const ToolModel& model, const kinematics::FulcrumPose& wanted, std::span<const Surface> walls,
-                       ToolState& tool) noexcept;
+WallStop stop_at_walls(const ToolModel& model, const kinematics::FulcrumPose& wanted,
+                       const kinematics::FulcrumPose& before, std::span<const Surface> walls, ToolState& tool) noexcept;
 
 /// Remembers the wall among what the instrument touches.
 void note_wall(const WallStop& stop, Touching& touching) noexcept;

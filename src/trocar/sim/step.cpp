@@ -62,11 +62,12 @@ void change_instrument(StepContext& c, size_t t, std::int32_t wanted) noexcept {
 }
 
 /// What would go into a wall stays at it.
-void stop_at_walls(StepContext& c, size_t t, const kinematics::FulcrumPose& wanted) noexcept {
+void stop_at_walls(StepContext& c, size_t t, const kinematics::FulcrumPose& wanted,
+                   const kinematics::FulcrumPose& before) noexcept {
   for (const WallModel& wall : c.model.walls) {
     const interactions::Surface surface{&wall.skin, &wall.pose, {}};
     const interactions::WallStop stop =
-        interactions::stop_at_walls(c.model.tool(c.state, t), wanted, {&surface, 1}, c.state.tools[t]);
+        interactions::stop_at_walls(c.model.tool(c.state, t), wanted, before, {&surface, 1}, c.state.tools[t]);
     if (stop.stopped) c.work.wall_stops[t] = stop;
   }
 }
@@ -83,12 +84,12 @@ void move_hand(StepContext& c, size_t t) noexcept {
     if (tool.holds == 0) command.pose.depth = kParked;
     if (tool.holds == 0 && tool.depth <= kParked) change_instrument(c, t, in.instrument);
   }
-  const kinematics::FulcrumPose wanted = command.pose;
+  const kinematics::FulcrumPose wanted = command.pose, before = tool.pose();
   // At a wall the way in is of no use: most of the speed goes along it.
   if (c.state.touches[t].near(interactions::kWallBody, 0))
     command.pose.depth = std::min(command.pose.depth, tool.depth + kIntoWall);
   interactions::follow(c.model.tool(c.state, t), command, kTick, tool);
-  stop_at_walls(c, t, wanted);
+  stop_at_walls(c, t, wanted, before);
 }
 
 // 1. Hands: instruments and scope follow the input, no faster than hands can.
