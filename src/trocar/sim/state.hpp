@@ -32,8 +32,8 @@ struct State {
   /// For how long nodes have been stretched beyond what they bear (tissue/overstretch.hpp): rows of organs and of
   /// membranes, nodes of strands; empty for bodies that never tear.
   std::vector<std::vector<std::uint8_t>> overstretched_organs, overstretched_membranes, overstretched_strands;
-  std::vector<interactions::TouchBook> touches;   ///< (hands) what instruments were near and where it sticks to them
-  std::vector<std::uint8_t> seen;                 ///< (samples) 1 = in view when last looked
+  std::vector<interactions::TouchBook> touches;  ///< (hands) what instruments were near and where it sticks to them
+  std::vector<std::uint8_t> seen;                ///< (samples) 1 = in view when last looked
 };
 
 State initial_state(const Model& model);
