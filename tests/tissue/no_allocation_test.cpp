@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <trocar/tissue/membrane.hpp>
 #include <trocar/tissue/strand.hpp>
 
 #include "test_bodies.hpp"
@@ -50,6 +51,32 @@ TEST(NoAllocation, InANetworksTickItsCutsOrItsCollapses) {
   }
   EXPECT_EQ(g_allocations, before);
   EXPECT_TRUE(flags & StepReport::kInverted);
+}
+
+TEST(NoAllocation, InTheTickOfAFilledSheetOrWhenItLeaks) {
+  MembraneDescription d;
+  d.positions = {{0.01, 0, 0}, {-0.01, 0, 0}, {0, 0.01, 0}, {0, -0.01, 0}, {0, 0, 0.01}, {0, 0, -0.01}};
+  d.triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+  d.thickness = 0.001;
+  d.youngs_modulus = 50e3;
+  d.density = 1000;
+  d.enclosure.kind = Enclosure::liquid;
+  d.enclosure.pressure = 100, d.enclosure.bulk = 1e6, d.enclosure.density = 1000;
+  d.gravity = {0, 0, -9.81};
+  const MembraneModel m = build(d, 1e-3);
+  MembraneState s = rest_state(m);
+  MembraneWork w = make_work(m);
+  std::vector<std::uint8_t> parted(m.triangles.size(), 0);
+  const long before = g_allocations;
+  bool fine = true;
+  for (int t = 0; t < 20; ++t) {
+    fine = advance(m, {}, {}, {}, s, w).fine() && fine;
+    parted[0] = t == 10;
+    tear_bends(m, parted, s);
+  }
+  EXPECT_EQ(g_allocations, before);
+  EXPECT_TRUE(fine);
+  EXPECT_EQ(s.enclosure.leaking, 1u);
 }
 
 TEST(NoAllocation, InAStrandsTick) {

@@ -177,6 +177,7 @@ void poison(Work& w) noexcept {
   for (tissue::SkinPose& p : w.sheet_poses) scribble(p);
   for (interactions::Surface& s : w.surfaces) s = {};
   std::memset(static_cast<void*>(&w.shapes), 0xff, sizeof w.shapes);
+  std::memset(static_cast<void*>(&w.shapes_before), 0xff, sizeof w.shapes_before);
   std::memset(static_cast<void*>(&w.wall_stops), 0xff, sizeof w.wall_stops);
   for (interactions::SheetView& s : w.sheets) s = {};
   for (interactions::NetworkLoads& l : w.organ_loads) scribble(l);
@@ -194,6 +195,9 @@ void poison(Work& w) noexcept {
   for (tissue::MembraneWork& m : w.membrane_work) {
     scribble(m.network);
     scribble(m.force);
+    scribble(m.place);
+    scribble(m.gradient);
+    scribble(m.weight);
     scribble(m.reaction);
   }
   for (auto& pulls : w.pulls) scribble(pulls);

@@ -70,17 +70,66 @@ void kick(const MembraneModel& m, MembraneState& s, const std::vector<RowForce>&
   }
 }
 
+/// Volume, its gradient, and where what is enclosed presses with its weight: on each triangle with the depth of its
+/// middle below the volume's centre. All of it together is the weight of what the volume would hold.
+EnclosedVolume look_inside(const MembraneModel& m, const MembraneState& s, MembraneWork& w) noexcept {
+  for (int i = 0; i < m.nodes(); ++i) w.place[std::size_t(i)] = position(m.network, s.network, i);
+  const EnclosedVolume inside = enclosed_volume(m.triangles, w.place, w.gradient);
+  for (Vec3d& each : w.weight) each = {};
+  const Vec3d heavy = (s.enclosure.tightness * m.enclosure.density) * m.network.gravity;
+  if (dot(heavy, heavy) == 0) return inside;
+  for (const auto& t : m.triangles) {
+    const Vec3d a = w.place[std::size_t(t[0])], b = w.place[std::size_t(t[1])], c = w.place[std::size_t(t[2])];
+    const double p = dot(heavy, (a + b + c) / 3.0 - inside.centre);
+    const Vec3d third = (p / 6) * cross(b - a, c - a);
+    for (int node : t) w.weight[std::size_t(node)] += third;
+  }
+  return inside;
+}
+
+/// v += dt f / m at a free node.
+void push(const MembraneModel& m, MembraneState& s, int i, Vec3d impulse) noexcept {
+  const Vec3d change = impulse / m.network.mass[std::size_t(i)];
+  NodeState& n = s.network.nodes[std::size_t(m.network.row_of_node[std::size_t(i)])];
+  n.vx = float(double(n.vx) + change.x);
+  n.vy = float(double(n.vy) + change.y);
+  n.vz = float(double(n.vz) + change.z);
+}
+
+/// One impulse of what is enclosed: of its weight, which presses on the wall while its inertia is the nodes', and of
+/// its pressure as it is at the end of the step.
+void press(const MembraneModel& m, MembraneState& s, MembraneWork& w, double dt) noexcept {
+  const EnclosedVolume inside = look_inside(m, s, w);
+  double rate = 0, give = 0;
+  for (int i = 0; i < m.nodes(); ++i) {
+    const std::size_t at = std::size_t(i);
+    const bool free = m.network.fixed[at] != kHeld;
+    if (free) push(m, s, i, dt * (w.weight[at] - m.contents[at] * m.network.gravity));
+    const Vec3d g = w.gradient[at];
+    rate += dot(g, velocity(m.network, s.network, i));
+    if (free) give += dot(g, g) / m.network.mass[at];
+  }
+  press_step(m.enclosure, inside.volume, rate, give, dt, s.enclosure);
+  for (int i = 0; i < m.nodes(); ++i)
+    if (m.network.fixed[std::size_t(i)] != kHeld)
+      push(m, s, i, (dt * s.enclosure.pressure) * w.gradient[std::size_t(i)]);
+}
+
+bool encloses(const MembraneModel& m) noexcept { return m.enclosure.kind != Enclosure::none; }
+
 }  // namespace
 
 void border_pulls(const MembraneModel& m, const MembraneState& s, MembraneWork& w,
                   std::span<BorderPull> pulls) noexcept {
   bending_forces(m, s, w.force);
+  if (encloses(m)) look_inside(m, s, w);
   for (std::size_t h = 0; h < m.held_nodes.size(); ++h) {
     const int i = m.held_nodes[h];
     const NodeState& o = row_of(m, s, i);
     BorderPull p;
     const RowForce& bending = w.force[std::size_t(m.network.row_of_node[std::size_t(i)])];
     p.force = {bending.x, bending.y, bending.z};
+    if (encloses(m)) p.force += s.enclosure.pressure * w.gradient[std::size_t(i)] + w.weight[std::size_t(i)];
     p.k = m.border_bending[h];
     p.d = m.border_bending[h] * m.bending_damping_time;
     for (int k = m.border_first[h]; k < m.border_first[h + 1]; ++k) {
@@ -117,6 +166,7 @@ StepReport advance(const MembraneModel& m, std::span<const Vec3d> targets, std::
   for (int step = 0; step < m.bend_steps; ++step) {
     bending_forces(m, s, w.force);
     kick(m, s, w.force, dt);
+    if (encloses(m)) press(m, s, w, dt);
     const std::span<Vec3f> part = several ? std::span<Vec3f>(w.reaction.data(), reactions.size()) : reactions;
     report = report | advance(m.network, loads, part, s.network, w.network);
     if (!several) continue;
@@ -128,25 +178,18 @@ StepReport advance(const MembraneModel& m, std::span<const Vec3d> targets, std::
 }
 
 void tear_bends(const MembraneModel& m, std::span<const std::uint8_t> parted, MembraneState& s) noexcept {
-  for (std::size_t b = 0; b < m.bends.size(); ++b) {
-    if (s.torn[b]) continue;
-    const BendStencil& e = m.bends[b];
-    int low_column = m.columns, high_column = 0, low_row = m.rows, high_row = 0;
-    for (std::int32_t j = 0; j < e.count; ++j) {
-      const int column = e.node[std::size_t(j)] % m.columns, row = e.node[std::size_t(j)] / m.columns;
-      low_column = column < low_column ? column : low_column, high_column = column > high_column ? column : high_column;
-      low_row = row < low_row ? row : low_row, high_row = row > high_row ? row : high_row;
-    }
-    // Along one line, the cells at both of its sides count.
-    if (low_row == high_row) --low_row, ++high_row;
-    if (low_column == high_column) --low_column, ++high_column;
-    for (int r = low_row; r < high_row; ++r)
-      for (int c = low_column; c < high_column; ++c) {
-        if (r < 0 || c < 0 || r + 1 >= m.rows || c + 1 >= m.columns) continue;
-        const std::size_t t = 2 * std::size_t(r * (m.columns - 1) + c);
-        if (parted[t] || parted[t + 1]) s.torn[b] = 1;
-      }
-  }
+  for (std::size_t b = 0; b < m.bends.size(); ++b)
+    for (int k = m.bend_first[b]; k < m.bend_first[b + 1]; ++k)
+      if (parted[std::size_t(m.bend_triangle[std::size_t(k)])]) s.torn[b] = 1;
+  if (!encloses(m)) return;
+  for (std::uint8_t each : parted)
+    if (each) s.enclosure.leaking = 1;
+}
+
+EnclosedVolume enclosed_volume(const MembraneModel& m, const MembraneState& s) {
+  std::vector<Vec3d> x;
+  for (int i = 0; i < m.nodes(); ++i) x.push_back(position(m.network, s.network, i));
+  return enclosed_volume(m.triangles, x, {});
 }
 
 MembraneEnergy energy(const MembraneModel& m, const MembraneState& s) {
@@ -161,12 +204,14 @@ MembraneEnergy energy(const MembraneModel& m, const MembraneState& s) {
       q += double(t.c[std::size_t(j)]) * (position(m.network, s.network, t.node[std::size_t(j)]) - o);
     e.bending += 0.5 * double(t.k) * dot(q, q);
   }
+  if (encloses(m) && !s.enclosure.leaking) e.pressure = pressure_energy(m.enclosure, enclosed_volume(m, s).volume);
   return e;
 }
 
 void add_to_hash(core::Hasher& h, const MembraneState& s) noexcept {
   add_to_hash(h, s.network);
   h.add(s.torn);
+  h.add(s.enclosure);
 }
 
 void add_to_hash(core::Hasher& h, const MembraneModel& m) noexcept {
@@ -176,6 +221,11 @@ void add_to_hash(core::Hasher& h, const MembraneModel& m) noexcept {
   h.add(m.law);
   h.add(m.thickness);
   h.add(m.bend_steps);
+  add_to_hash(h, m.enclosure);
+  h.add(m.contents);
+  h.add(m.first_swell);
+  h.add(m.bend_first);
+  h.add(m.bend_triangle);
   for (const BendStencil& b : m.bends) {
     h.add(b.count);
     h.add(b.node);
