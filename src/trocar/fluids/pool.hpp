@@ -1,0 +1,134 @@
+// Fluid that has gathered: a height field over a floor that may move. Cells hold whole picolitres of blood, saline and
+// bile; what passes from cell to cell is a whole number too, so that the pool's content never changes by itself.
+//
+//   du/dt + u.grad u + g grad eta + (1/h) grad N = -(c |u|/h + 3 nu/h^2 + gamma) u      u at the cells' faces
+//   N = -(h^3/3) (d/dt + u.grad - div u) div u                                          [Serre 1953, Green & Naghdi
+//   1976] dV/dt = inflow - outflow                                                            V in the cells
+// Depth-averaged flow with the vertical inertia of the fluid: waves of k h go with w^2 = g h k^2 / (1 + k^2 h^2 / 3),
+// shallow ones with sqrt(g h). N's part that is linear in du/dt is solved implicitly, direction by direction (a
+// tridiagonal system a row), which also keeps the step stable in deep cells; the rest is explicit and bounded by the
+// hydrostatic pressure (our choice). Momentum is advected as in [Stelling & Duinmeijer 2003]. c is friction on the
+// bed, 3 nu / h^2 that of a thin film [Nusselt 1916], gamma the damping of ripples (our choice). A face is under fluid
+// from the higher bed of its two cells up to the higher surface. No cell gives more than it has.
+//
+// Instruments are capsules; they lift the surface by the height of the column that they fill, so moving ones make
+// waves. The frame: origin, axes u and v, and up (against gravity); heights are along up from the origin.
+//
+//   PoolModel m = build(PoolDescription{.origin = {-0.08, -0.08, 0}, .nx = 128, .ny = 128, .cell = 0.00125});
+//   PoolState s = empty_pool(m);  PoolWork w = make_work(m);
+//   pour(m, cell_at(m, {0, 0, 0}), {.blood = 5 * kMillilitre}, s);
+//   advance(m, {.floor = heights}, s, w, ledger);               // every tick; works on every 2nd
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <trocar/core/hash.hpp>
+#include <trocar/fluids/capsule.hpp>
+#include <trocar/fluids/ledger.hpp>
+#include <trocar/fluids/report.hpp>
+
+namespace trocar::fluids {
+
+inline constexpr std::int32_t kMostInACell = 1 << 30;  ///< [pL]; 0.69 m of fluid on a cell of 1.25 mm
+inline constexpr int kMostDrains = 16;
+
+struct PoolDescription {
+  Vec3d origin{0, 0, 0};         ///< corner of cell (0, 0) [m]
+  Vec3d u{1, 0, 0}, v{0, 1, 0};  ///< unit, orthogonal; up = u x v
+  int nx = 128, ny = 128;        ///< cells, 2 .. 1024
+  double cell = 0.00125;         ///< [m]
+  double gravity = 9.81;         ///< [m/s^2], against up
+  double vertical_inertia = 1;   ///< share of N: 1 as above, 0 plain shallow water
+  double friction = 0.005;       ///< c
+  double viscosity = 3.3e-6;     ///< nu, of blood [m^2/s]
+  double damping = 2;            ///< gamma [1/s]: ripples fall to 1/e in a second
+  int period = 2;                ///< ticks between two steps
+};
+
+struct PoolModel : PoolDescription {
+  Vec3d up{0, 0, 1};
+  double tick = 1e-3;       ///< [s]
+  int stride = 0;           ///< of a row in the arrays: nx + 1
+  float height_per_pl = 0;  ///< depth of a picolitre on a cell [m]
+  float fastest = 0;        ///< bound of speeds: 0.9 cells a step [m/s]
+
+  std::size_t size() const { return std::size_t(ny + 4) * stride + 16; }
+  /// Place of cell (i, j) in the arrays; also of the faces between it and (i - 1, j), (i, j - 1).
+  int at(int i, int j) const { return (j + 1) * stride + i; }
+  double dt() const { return tick * period; }
+};
+
+struct PoolState {
+  std::vector<std::int32_t> blood, saline, bile;  ///< (size) [pL] in the cells
+  std::vector<float> u, v;                        ///< (size) speed through the faces towards +u, +v [m/s]
+  Mix held;                                       ///< what no cell had room for [pL]
+  std::array<double, kMostDrains> drain_carry{};  ///< [pL]
+  std::int32_t first_row = 0, last_row = -1;      ///< that may hold speeds other than 0
+  std::uint64_t tick = 0;
+};
+
+struct PoolWork {
+  std::vector<float> bed, depth, eta, volume;          ///< (size) of cells; bed includes what instruments fill
+  std::vector<float> inertia, extra;                   ///< (size) h^3/3 dx^2 and N of cells
+  std::vector<float> under, rhs, flux, sweep, answer;  ///< (size) of faces
+  std::vector<float> flux_v;                           ///< (size) of the other faces [pL]
+  std::vector<float> keep;                             ///< (size) of cells: share of what leaves that is of one species
+  std::vector<std::int32_t> moved_u, moved_v;          ///< (size) of faces, one species [pL]
+  std::vector<float> strip[4];                         ///< (16 (nx + 1)) sixteen rows, turned
+};
+
+/// A hole in the bed. An open one takes everything that reaches its cell, the others by Q = Cd a sqrt(2 g h).
+struct Drain {
+  int i = 0, j = 0;
+  double area = 0;  ///< [m^2]; 0 = open
+  double cd = 0.61;
+};
+
+struct PoolInput {
+  std::span<const float> floor;       ///< (ny x nx) height of the bed [m]; empty = 0 everywhere
+  std::span<const Capsule> capsules;  ///< in the world's frame
+  std::span<const Drain> drains;      ///< the first kMostDrains count; the order is their name
+};
+
+/// @throws std::invalid_argument naming what is out of range
+PoolModel build(const PoolDescription& description, double tick = 1e-3);
+PoolState empty_pool(const PoolModel& model);
+PoolWork make_work(const PoolModel& model);
+
+/// One tick. Works on every `period`-th.
+/// @param ledger  drained volume is booked from the pool
+FluidReport advance(const PoolModel& model, const PoolInput& input, PoolState& state, PoolWork& work,
+                    Ledger& ledger) noexcept;
+
+struct PoolPoint {
+  int i = 0, j = 0;     ///< nearest cell
+  bool inside = false;  ///< over or under the field, not beside it
+  float height = 0;     ///< along up from the origin [m]
+};
+PoolPoint locate(const PoolModel& model, Vec3d p) noexcept;  ///< what is not finite: the middle cell, not inside
+Vec3d world(const PoolModel& model, double along_u, double along_v, double height) noexcept;  ///< [m] from the origin
+
+float floor_at(const PoolModel& model, std::span<const float> floor, int i, int j) noexcept;  ///< [m], always finite
+Mix mix_at(const PoolModel& model, const PoolState& state, int i, int j) noexcept;            ///< [pL]
+float depth_at(const PoolModel& model, const PoolState& state, int i, int j) noexcept;        ///< [m]
+
+/// Adds a volume to a cell (to what waits, if it is full).  @return false if it had to wait
+bool pour(const PoolModel& model, int i, int j, const Mix& m, PoolState& state) noexcept;
+
+/// Something of `volume` picolitres with velocity v (along u, v, up) enters at a cell: the pool takes its momentum
+/// along the surface and is pushed aside where it falls in.
+void strike(const PoolModel& model, int i, int j, std::int64_t volume, Vec3f velocity, PoolState& state) noexcept;
+
+/// Takes up to `amount` from the cells within `radius` of p whose surface reaches up to p less the radius; each gives
+/// in proportion to what it holds. The caller books it.
+Mix draw_off(const PoolModel& model, std::span<const float> floor, Vec3d p, double radius, std::int64_t amount,
+             PoolState& state) noexcept;
+
+Mix content(const PoolModel& model, const PoolState& state) noexcept;  ///< what the cells and `held` hold
+
+void add_to_hash(core::Hasher& hasher, const PoolState& state) noexcept;
+
+}  // namespace trocar::fluids
