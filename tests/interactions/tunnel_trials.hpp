@@ -120,7 +120,10 @@ class Trials {
         m_model(scene::compile(description(kind))),
         m_initial(sim::initial_state(m_model)),
         m_work(sim::make_work(m_model)),
+        m_seed(seed),
         m_random(seed) {
+    // Trials come from all sides: no limit of a trocar may keep the instrument from where it is put.
+    for (interactions::ToolModel& t : m_model.hands[0].rack) t.limits.angle = t.limits.roll = 4, t.limits.depth_max = 1;
     if (kind == Kind::strand)
       for (int e = 0; e + 1 < m_model.bodies[0].nodes(); ++e) m_frame.edges.push_back({e, e + 1});
     else
@@ -148,8 +151,9 @@ class Trials {
     std::string what;
   };
 
-  /// One trial: a random place of the body, direction, kind of motion, speed.
-  Result trial(double lowest_speed = 0.3, double highest_speed = 2.0) {
+  /// One trial: a random place of the body, direction, kind of motion, speed. Each number is a trial of its own.
+  Result trial(int number, double lowest_speed = 0.3, double highest_speed = 2.0) {
+    m_random = core::Random(core::Random(m_seed + 0x100000000ull * std::uint64_t(number)).next());
     for (;;) {
       Motion m = draw(lowest_speed, highest_speed);
       if (clear(m) && meets(m) && possible(m)) return run(m);
@@ -297,7 +301,7 @@ class Trials {
       const double* f = s.tools[0].contact_force;
       r.touched = r.touched || std::fabs(f[0]) + std::fabs(f[1]) + std::fabs(f[2]) > 0;
       const std::vector<Vec3d> now = points(s);
-      const Segment axis = axis_at(m, left);
+      const Segment axis{m_work.shapes[0].part[interactions::kShaft].a, m_work.shapes[0].frame.tip};
       follow_edges(axis_before, axis, before, now, r);
       before = now;
       axis_before = axis;
@@ -335,6 +339,7 @@ class Trials {
   sim::Model m_model;
   sim::State m_initial;
   sim::Work m_work;
+  std::uint64_t m_seed;
   core::Random m_random;
   Frame m_frame;
   std::vector<int> m_net;

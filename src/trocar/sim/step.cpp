@@ -3,6 +3,7 @@
 
 #include <trocar/interactions/clip.hpp>
 #include <trocar/interactions/cut.hpp>
+#include <trocar/interactions/needle.hpp>
 #include <trocar/interactions/piece_contact.hpp>
 #include <trocar/sim/step.hpp>
 #include <trocar/sim/tearing.hpp>
@@ -350,7 +351,8 @@ void touch_tissue(StepContext& c) noexcept {
     const interactions::ToolShape& shape = c.work.shapes[t];
     const interactions::ToolModel& tool = c.model.tool(c.state, t);
     const interactions::TouchBook& last = c.state.touches[t];
-    const interactions::ToolShape before = interactions::shape_before(tool, last);
+    interactions::ToolShape& before = c.work.shapes_before[t];
+    before = interactions::shape_before(tool, last);
     interactions::Touching touching(tool.rubbing, before, shape, int(t), last, c.work.touches[t]);
     interactions::note_wall(c.work.wall_stops[t], touching);
     for (size_t i = 0; i < size_t(c.model.organs()); ++i)
@@ -455,16 +457,42 @@ void advance_strands(StepContext& c) noexcept {
   }
 }
 
+/// What a body has passed through of an instrument in this tick goes with it.
+void carry_along(const StepContext& c, int body, const interactions::Surface& surface,
+                 std::span<const std::uint8_t> open, std::span<const std::uint8_t> fixed, double thickness,
+                 std::span<tissue::NodeState> rows) noexcept {
+  constexpr double kThin = 0.0005;  // [m]
+  for (size_t t = 0; t < c.model.hands.size(); ++t) {
+    const interactions::ToolShape& shape = c.work.shapes[t];
+    if (!surface.pose->bounds.near_segment(shape.part[interactions::kShaft].a, shape.frame.tip, 0.03)) continue;
+    const interactions::ToolState& tool = c.state.tools[t];
+    std::array<std::int32_t, interactions::kMaxHolds> between;
+    size_t held = 0;
+    for (int h = 0; h < tool.holds; ++h)
+      if (tool.hold[h].body == body) between[held++] = tool.hold[h].element;
+    const interactions::Needles needles =
+        interactions::needles_of(c.work.shapes_before[t], shape, std::max(kThin, thickness));
+    interactions::carry_along(
+        needles, {*surface.skin, *surface.pose, open, fixed, {between.data(), held}, surface.nodes.origin, rows},
+        kTick);
+  }
+}
+
 // 9. Organs: explicit networks in their own sub-steps.
 void advance_organs(StepContext& c) noexcept {
   for_each(c.work.pool, c.work.organ_order, [&c](size_t i) noexcept {
     const size_t solids = c.model.solids.size(), k = i - solids;
     interactions::NetworkLoads& loads = c.work.organ_loads[i];
     loads.sort();
-    c.work.organ_reports[i] = i < solids ? tissue::advance(c.model.solids[i].network, loads.sorted, loads.reaction,
-                                                           c.state.solids[i], c.work.solid_work[i])
-                                         : tissue::advance(c.model.cuttables[k].body, loads.sorted, loads.reaction,
-                                                           c.state.cuttables[k], c.work.cuttable_work[k]);
+    if (i < solids) {
+      c.work.organ_reports[i] = tissue::advance(c.model.solids[i].network, loads.sorted, loads.reaction,
+                                                c.state.solids[i], c.work.solid_work[i]);
+      return;
+    }
+    c.work.organ_reports[i] = tissue::advance(c.model.cuttables[k].body, loads.sorted, loads.reaction,
+                                              c.state.cuttables[k], c.work.cuttable_work[k]);
+    carry_along(c, interactions::kSolidBase + int(i), c.work.surfaces[i], {}, c.work.cuttable_work[k].fixed, 0,
+                c.state.cuttables[k].nodes);
   });
   view_organs(c);
 }
@@ -479,6 +507,8 @@ void advance_membranes(StepContext& c) noexcept {
     loads.sort();
     c.work.membrane_reports[i] = tissue::advance(m.sheet, c.work.targets[i], loads.sorted, loads.reaction,
                                                  c.state.membranes[i], c.work.membrane_work[i]);
+    carry_along(c, interactions::kMembraneBase + int(i), c.work.sheets[i].surface, c.state.torn[i],
+                m.sheet.network.fixed, m.sheet.thickness, c.state.membranes[i].network.nodes);
   });
 }
 

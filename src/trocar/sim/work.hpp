@@ -16,6 +16,7 @@ struct Work {
   std::vector<tissue::SkinPose> poses;          ///< (organs)
   std::vector<interactions::Surface> surfaces;  ///< (organs + walls)
   std::array<interactions::ToolShape, kMaxTools> shapes;
+  std::array<interactions::ToolShape, kMaxTools> shapes_before;  ///< where they were when the tick began
   std::vector<interactions::TouchBook> touches;              ///< (hands) this tick's
   std::array<interactions::WallStop, kMaxTools> wall_stops;  ///< (hands)
   std::vector<interactions::NetworkLoads> organ_loads;       ///< (organs)

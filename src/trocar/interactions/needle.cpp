@@ -1,0 +1,232 @@
+#include <algorithm>
+#include <array>
+
+#include <trocar/geometry/nearest.hpp>
+#include <trocar/interactions/needle.hpp>
+
+namespace trocar::interactions {
+namespace {
+
+constexpr double kReach = 0.010;     // [m] tissue and instrument together move less than that in a tick
+constexpr double kClear = 0.00005;   // [m] before the needle's end
+constexpr double kFarthest = 0.003;  // [m] that a node is driven at a time
+constexpr double kLeastFree = 0.1;   // share of a triangle's free nodes in the place that is pierced
+constexpr int kMostCarried = 128;
+constexpr int kMostRounds = 16, kMostDrives = 4;
+
+/// A point seen from the needle: how far behind its end, and off its line.
+struct Seen {
+  double along;
+  double x, y;
+};
+
+struct Frame {
+  Vec3d end, dir, x, y;
+  Seen see(Vec3d p) const noexcept {
+    const double along = dot(end - p, dir);
+    const Vec3d off = p - end + along * dir;
+    return {along, dot(off, x), dot(off, y)};
+  }
+};
+
+struct Frames {
+  Frame before, after;
+};
+
+/// What sticks to the needle is seen at the same place off its line before and after, as both look along the same two
+/// directions across.
+Frames frames_of(const Needle& n) noexcept {
+  const Vec3d d = n.dir1;
+  const Vec3d least = std::fabs(d.x) < std::fabs(d.y)
+                          ? (std::fabs(d.x) < std::fabs(d.z) ? Vec3d{1, 0, 0} : Vec3d{0, 0, 1})
+                          : (std::fabs(d.y) < std::fabs(d.z) ? Vec3d{0, 1, 0} : Vec3d{0, 0, 1});
+  const Vec3d x = normalised(cross(d, least)), y = cross(d, x);
+  return {{n.end0, n.dir0, x, y}, {n.end1, n.dir1, x, y}};
+}
+
+Seen mixed(const Seen& a, const Seen& b, double share) noexcept {
+  return {a.along + share * (b.along - a.along), a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)};
+}
+
+/// With the edge in line with the needle at that share of the tick: does it meet the needle itself?
+bool meets(const Seen& p, const Seen& q, double length) noexcept {
+  if (p.x * q.x + p.y * q.y > 0) return false;  // both on one side of the line
+  const double a = std::sqrt(p.x * p.x + p.y * p.y), b = std::sqrt(q.x * q.x + q.y * q.y);
+  const double along = a + b > 0 ? (b * p.along + a * q.along) / (a + b) : p.along;
+  return along >= 0 && along <= length;
+}
+
+bool goes_through(const Frames& f, double length, Vec3d p0, Vec3d q0, Vec3d p1, Vec3d q1) noexcept {
+  const Seen pa = f.before.see(p0), qa = f.before.see(q0), pb = f.after.see(p1), qb = f.after.see(q1);
+  // Twice the area between needle, p and q, seen along the needle: c0 + c1 t + c2 t^2.
+  const double ux = pb.x - pa.x, uy = pb.y - pa.y, vx = qb.x - qa.x, vy = qb.y - qa.y;
+  const double c0 = pa.x * qa.y - pa.y * qa.x, c2 = ux * vy - uy * vx;
+  const double c1 = pa.x * vy - pa.y * vx + ux * qa.y - uy * qa.x;
+  const double square = c1 * c1 - 4 * c0 * c2;
+  if (!(square > 0)) return false;
+  const double root = std::sqrt(square), half = -0.5 * (c1 + (c1 < 0 ? -root : root));
+  double t[2];
+  int roots = 0;
+  if (c2 != 0) t[roots++] = half / c2;
+  if (half != 0) t[roots++] = c0 / half;
+  int through = 0;
+  for (int i = 0; i < roots; ++i)
+    if (t[i] > 0 && t[i] <= 1 && meets(mixed(pa, pb, t[i]), mixed(qa, qb, t[i]), length)) ++through;
+  return through == 1;  // twice is there and back
+}
+
+struct Hit {
+  bool hit = false;
+  double deep = 0;  ///< of the needle's end beyond the triangle [m]
+  Vec3d weights;
+};
+Hit pierced(Vec3d end, Vec3d dir, double length, Vec3d a, Vec3d b, Vec3d c) noexcept {
+  const auto on = geometry::ray_triangle(end, -dir, a, b, c);
+  return {on.hit && on.t <= length, on.t, on.weights};
+}
+
+/// One needle and one body in one tick.
+class Zone {
+ public:
+  Zone(const Needle& needle, const Carried& body, bool jaws, double tick) noexcept
+      : m_needle(needle), m_frames(frames_of(needle)), m_body(body), m_jaws(jaws), m_tick(tick) {}
+
+  int carry() noexcept {
+    for (int round = 0; round < kMostRounds && one_round(); ++round) {
+    }
+    return m_count;
+  }
+
+ private:
+  Vec3d before(int v) const noexcept { return vec_cast<double>(m_body.before.position[std::size_t(v)]); }
+  tissue::NodeState& node(int v) const noexcept {
+    return m_body.rows[std::size_t(m_body.skin.weights[std::size_t(v)].row[0])];
+  }
+  Vec3d after(int v) const noexcept {
+    const tissue::NodeState& n = node(v);
+    return m_body.origin + Vec3d{n.x, n.y, n.z};
+  }
+  bool carried(int v) const noexcept {
+    return std::find(m_carried.data(), m_carried.data() + m_count, v) != m_carried.data() + m_count;
+  }
+  bool held(int v) const noexcept {
+    if (!m_body.fixed.empty() && m_body.fixed[std::size_t(v)]) return true;
+    return m_jaws && std::find(m_body.between.begin(), m_body.between.end(), v) != m_body.between.end();
+  }
+
+  /// @return is it new?
+  bool take(int v) noexcept {
+    if (m_count == kMostCarried || held(v) || carried(v)) return false;
+    m_carried[std::size_t(m_count++)] = v;
+    const Vec3d from = before(v), to = m_needle.carried(from);
+    const Vec3f x = vec_cast<float>(to - m_body.origin), velocity = vec_cast<float>((to - from) / m_tick);
+    tissue::NodeState& n = node(v);
+    n.x = x.x, n.y = x.y, n.z = x.z;
+    n.vx = velocity.x, n.vy = velocity.y, n.vz = velocity.z;
+    return true;
+  }
+
+  bool near(const std::array<int, 3>& t) const noexcept {
+    const Vec3d a = before(t[0]);
+    const double u = std::clamp(dot(m_needle.end0 - a, m_needle.dir0), 0.0, m_needle.length);
+    const double size2 = std::max(geometry::distance2(a, before(t[1])), geometry::distance2(a, before(t[2])));
+    return geometry::distance2(a, m_needle.end0 - u * m_needle.dir0) < 2 * (kReach * kReach + size2);
+  }
+
+  bool one_round() noexcept {
+    bool more = false;
+    for (std::size_t i = 0; i < m_body.skin.triangles.size(); ++i) {
+      if (!m_body.open.empty() && m_body.open[i]) continue;
+      const std::array<int, 3>& t = m_body.skin.triangles[i];
+      if (near(t)) more = look_at(t) || more;
+    }
+    return more;
+  }
+
+  bool look_at(const std::array<int, 3>& t) noexcept {
+    bool more = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int p = t[k], q = t[(k + 1) % 3];
+      if (!goes_through(m_frames, m_needle.length, before(p), before(q), after(p), after(q))) continue;
+      more = take(p) || more;
+      more = take(q) || more;
+    }
+    const Needle& n = m_needle;
+    const Hit hit = pierced(n.end1, n.dir1, n.length, after(t[0]), after(t[1]), after(t[2]));
+    if (!hit.hit) return more;
+    if (pierced(n.end0, n.dir0, n.length, before(t[0]), before(t[1]), before(t[2])).hit) return more;
+    if (more) return true;
+    for (const int v : t) more = take(v) || more;
+    return more || drive(t, hit);
+  }
+
+  /// All of a triangle that can go has gone with the needle, and it is pierced still, as the rest of it is held: what
+  /// can go is driven on before the needle's end.
+  bool drive(const std::array<int, 3>& t, const Hit& hit) noexcept {
+    double free = 0;
+    for (std::size_t k = 0; k < 3; ++k) free += held(t[k]) ? 0.0 : hit.weights[int(k)];
+    if (free < kLeastFree || m_drives++ == kMostDrives) return false;
+    const Vec3f on = vec_cast<float>(std::min(kFarthest, (hit.deep + kClear) / free) * m_needle.dir1);
+    for (const int v : t) {
+      if (held(v)) continue;
+      tissue::NodeState& n = node(v);
+      n.x += on.x, n.y += on.y, n.z += on.z;
+    }
+    return true;
+  }
+
+  const Needle& m_needle;
+  const Frames m_frames;
+  const Carried& m_body;
+  const bool m_jaws;
+  const double m_tick;
+  std::array<int, kMostCarried> m_carried;
+  int m_count = 0, m_drives = 0;
+};
+
+Needle needle_of(Vec3d from0, Vec3d end0, Vec3d from1, Vec3d end1) noexcept {
+  Needle n;
+  n.end0 = end0;
+  n.end1 = end1;
+  n.dir0 = normalised(end0 - from0);
+  n.dir1 = normalised(end1 - from1);
+  n.length = std::min(length(end0 - from0), length(end1 - from1));
+  return n;
+}
+
+bool closed(const ToolShape& s, double thin) noexcept {
+  const Capsule &a = s.part[kJawA], &b = s.part[kJawB];
+  return length(a.b - b.b) - a.radius - b.radius < thin;
+}
+
+}  // namespace
+
+bool goes_through(const Needle& n, Vec3d p0, Vec3d q0, Vec3d p1, Vec3d q1) noexcept {
+  return goes_through(frames_of(n), n.length, p0, q0, p1, q1);
+}
+
+Needles needles_of(const ToolShape& before, const ToolShape& now, double thin) noexcept {
+  Needles r;
+  const Capsule &s0 = before.part[kShaft], &s1 = now.part[kShaft];
+  if (!(length(s0.b - s0.a) > 0) || !(length(s1.b - s1.a) > 0)) return r;
+  r.needle[r.count++] = needle_of(s0.a, before.pivot, s1.a, now.pivot);
+  if (closed(before, thin) && closed(now, thin)) {
+    r.needle[r.count++] = needle_of(before.pivot, before.frame.tip, now.pivot, now.frame.tip);
+    return r;
+  }
+  for (const int jaw : {kJawA, kJawB})
+    r.needle[r.count++] = needle_of(before.pivot, before.part[jaw].b, now.pivot, now.part[jaw].b);
+  return r;
+}
+
+int carry_along(const Needles& needles, const Carried& body, double tick) noexcept {
+  int sum = 0;
+  for (int i = 0; i < needles.count; ++i) {
+    const Needle& n = needles.needle[i];
+    if (!body.before.bounds.near_segment(n.end0, n.end0 - n.length * n.dir0, kReach)) continue;
+    sum += Zone(n, body, i > 0, tick).carry();
+  }
+  return sum;
+}
+
+}  // namespace trocar::interactions

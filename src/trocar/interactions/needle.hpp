@@ -1,0 +1,57 @@
+// The last word on instruments and tissue: nothing passes through an instrument's axis. Contacts push tissue off an
+// instrument before the tick is made; how tissue then moves in the tick, thrown about by its own springs, nobody has
+// asked yet. Here it is asked, once the tick is made: every edge of a skin or fold is followed in its straight line
+// past the instrument's axis in its own; where it has gone through, or the axis' end through a triangle, the nodes
+// there go with the instrument as if they stuck to it, and so on until nothing has gone through: a rigid impact zone
+// [Provot 1997; Bridson et al. 2002]. In the next tick contact pushes them off. That is for bodies whose skins'
+// vertices are nodes: folds and bodies of tetrahedra. Edges at nodes that are held elsewhere cannot give way.
+//
+// Why that ends: seen from an instrument, a node that goes with it does not move, so an edge between two such nodes
+// does not go through, and nodes are only ever added.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include <trocar/interactions/surface.hpp>
+#include <trocar/interactions/tool.hpp>
+
+namespace trocar::interactions {
+
+/// The axis of a part of an instrument, without thickness, before and after a tick.
+struct Needle {
+  Vec3d end0, dir0, end1, dir1;  ///< dir: unit, towards the end
+  double length = 0;             ///< back from the end [m]
+
+  /// Where a point that sticks to the needle has gone to.
+  Vec3d carried(Vec3d p) const noexcept { return p + (end1 - end0) - dot(end0 - p, dir0) * (dir1 - dir0); }
+};
+
+/// The chain of an instrument's axes: shaft and closed jaws are one line, open jaws two more.
+struct Needles {
+  Needle needle[3];
+  int count = 0;
+};
+/// @param thin  jaws that are nearer to each other than this count as closed [m]
+Needles needles_of(const ToolShape& before, const ToolShape& now, double thin) noexcept;
+
+/// Do the ends of a tick lie on different sides of it?
+/// @param p0,q0  the edge's ends before the tick; p1,q1 after it
+bool goes_through(const Needle& needle, Vec3d p0, Vec3d q0, Vec3d p1, Vec3d q1) noexcept;
+
+/// A body whose skin's vertices are its nodes, after a tick.
+struct Carried {
+  const tissue::Skin& skin;
+  const tissue::SkinPose& before;         ///< as the tick began
+  std::span<const std::uint8_t> open;     ///< (triangles) 1 = it is not there; may be empty
+  std::span<const std::uint8_t> fixed;    ///< (nodes) tissue::Held bits; may be empty
+  std::span<const std::int32_t> between;  ///< nodes that the jaws hold: only the shaft counts for these
+  Vec3d origin;
+  std::span<tissue::NodeState> rows;
+};
+
+/// Nodes that the instrument's axis would have passed through go with it.
+/// @return how many were carried along
+int carry_along(const Needles& needles, const Carried& body, double tick) noexcept;
+
+}  // namespace trocar::interactions
