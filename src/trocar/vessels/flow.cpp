@@ -1,0 +1,266 @@
+// One tick of blood flow. The step reads like this:
+//   what drives it | openings and clips, what feeds them | rows | cells | cells with sites | ends | sources |
+//   eliminate | new pressures, flows, ends, books
+#include <cmath>
+#include <cstddef>
+
+#include <trocar/numerics/portable.hpp>
+#include <trocar/vessels/sites.hpp>
+
+namespace trocar::vessels {
+namespace {
+
+constexpr double kPicolitre = 1e-15;   // [m^3]
+constexpr double kFastest = 0.04;      // (u / c)^2 up to which the flow carries waves along
+constexpr double kMostCarried = 0.45;  // keeps the matrix dominant in long cells
+constexpr double kCollapsed = 0.3;     // of a radius: the wall law ends there
+constexpr double kHighPressure = 1e5;  // [Pa]
+
+/// What the patient does during this tick.
+struct Drive {
+  double arterial = 0, venous = 0;  ///< at the moment that the tick's mean flows stand for [Pa]
+  double beat = 0;                  ///< phase at that moment
+  double share = 1;                 ///< of the mean pressure that loss has left
+  double rate = 0;                  ///< [1/min]
+};
+
+/// A table of equal steps over one period, straight lines between.
+double periodic(std::span<const double> wave, double phase) {
+  const double x = (phase - std::floor(phase)) * double(wave.size());
+  std::size_t i = std::size_t(x);
+  if (i >= wave.size()) i = 0;
+  const std::size_t j = i + 1 < wave.size() ? i + 1 : 0;
+  return wave[i] + (x - double(i)) * (wave[j] - wave[i]);
+}
+
+Drive drive(const FlowModel& m, const FlowState& s) {
+  const LossResponse now = response_to(m.heart, double(s.bled - s.infused) * kPicolitre);
+  const double ahead = m.settings.implicitness * m.settings.tick / 60;
+  Drive d;
+  d.rate = m.heart.rate * now.rate;
+  d.share = now.mean;
+  d.beat = s.beat + ahead * d.rate;
+  const double pulse = m.heart.systolic - m.heart.diastolic;
+  const double mean = m.heart.diastolic + m.beat_mean * pulse;
+  const double breath = portable::sin(2 * portable::pi * (s.breath + ahead * m.heart.breaths));
+  d.arterial = now.mean *
+               (mean + now.pulse * pulse * (periodic(m.beat, d.beat) - m.beat_mean) + m.heart.arterial_swing * breath);
+  d.venous = m.heart.venous_swing * breath;
+  return d;
+}
+
+double capacity(const FlowModel& m, std::size_t row, double p) {
+  const double c = m.give[row] + 2 * m.give2[row] * p;
+  return c > m.least[row] ? c : m.least[row];
+}
+
+void assemble_rows(const FlowModel& m, const FlowState& s, FlowWork& w) {
+  const double per_tick = 1 / m.settings.tick;
+  for (std::size_t i = 0; i < m.give.size(); ++i) {
+    w.ahead[i] = s.p[i] + 0.5 * s.dp[i];
+    w.diagonal[i] = capacity(m, i, w.ahead[i]) * per_tick;
+    w.x[i] = s.owed[i] * per_tick;
+  }
+  for (double& v : w.values) v = 0;
+}
+
+/// A cell in the middle of the tick.
+struct CellNow {
+  double xa, xb, xm;  ///< sqrt(A / A_ref) at its ends and in its middle
+  double inverse;     ///< 1 / A [1/m^2]
+  double flow;        ///< [m^3/s]
+  CellTerms terms;
+};
+
+CellNow cell_now(const FlowCell& c, double pa, double pb, double q, double dq) {
+  CellNow now;
+  now.xa = c.rest + c.give * pa, now.xb = c.rest + c.give * pb;
+  now.xa = now.xa > kCollapsed ? now.xa : kCollapsed;
+  now.xb = now.xb > kCollapsed ? now.xb : kCollapsed;
+  now.xm = 0.5 * (now.xa + now.xb);
+  now.inverse = 1 / (c.area * now.xm * now.xm);
+  now.flow = q + 0.5 * dq;
+  const double loss = c.loss * (now.flow < 0 ? -now.flow : now.flow);
+  now.terms.inertia = c.inertia * now.inverse;
+  now.terms.resistance = (c.friction + loss) * now.inverse * now.inverse;
+  return now;
+}
+
+/// Mean flow of the tick as flow0 + flow_a dp_a - flow_b dp_b, into the system. With Q_x = -A_t the momentum that the
+/// flow carries, (Q^2 / A)_x = -2 u A_t - u^2 A_x: the first is taken with the pressures to come, so that waves run at
+/// u + c however coarse the cells.
+void assemble_cells(const FlowModel& m, const FlowState& s, int first, int last, FlowWork& w) {
+  const double theta = m.settings.implicitness, rho = m.blood.density;
+  const int* entry = m.plan.entry_of_link.data();
+  for (int i = first; i < last; ++i) {
+    const FlowCell& c = m.cells[i];
+    const CellNow now = cell_now(c, w.ahead[c.a], w.ahead[c.b], s.q[i], s.dq[i]);
+    const double u = now.flow * now.inverse;
+    double carried = c.carried * now.xm * now.inverse * u;
+    const double mach2 = carried * u * c.courant;
+    const double soft = mach2 > kFastest ? kFastest / mach2 : 1;
+    carried *= soft;
+    carried = carried > kMostCarried ? kMostCarried : carried < -kMostCarried ? -kMostCarried : carried;
+    const double widening = c.area_b * now.xb * now.xb - c.area_a * now.xa * now.xa;
+    const double g = 1 / (now.terms.inertia + now.terms.resistance);
+    const double pull = s.p[c.a] - s.p[c.b] + soft * rho * u * u * widening * now.inverse;
+    const double flow0 = g * (now.terms.inertia * s.q[i] + pull);
+    const double flow_a = g * (theta + carried), flow_b = g * (theta - carried);
+    w.flow0[i] = flow0, w.flow_a[i] = flow_a, w.flow_b[i] = flow_b;
+    w.diagonal[c.a] += flow_a, w.diagonal[c.b] += flow_b;
+    w.x[c.a] -= flow0, w.x[c.b] += flow0;
+    w.values[entry[i]] -= flow_b, w.values[entry[i] ^ 1] -= flow_a;
+  }
+}
+
+/// A cell with openings or clips: its ends feel what is left of it once its places are eliminated.
+void assemble_chain(const FlowModel& m, const FlowState& s, const FlowChain& chain, FlowWork& w) {
+  const FlowCell& c = m.cells[chain.cell];
+  const double theta = m.settings.implicitness;
+  const CellNow now = cell_now(c, w.ahead[c.a], w.ahead[c.b], s.q[chain.cell], 0);
+  reduce_chain(m, s, chain, now.terms, s.p[c.a] + theta * s.dp[c.a], s.p[c.b] + theta * s.dp[c.b], w);
+  const FlowPoint& head = w.points[chain.first_point];
+  const FlowPoint& before_end = w.points[chain.first_point + chain.points - 1];
+  const FlowPoint& tail = w.points[chain.first_point + chain.points];
+  const double in0 = head.s - head.g * head.fixed, in_a = head.g * (1 - head.from_a), in_b = head.g * head.from_b;
+  const double on0 = tail.s + tail.g * before_end.fixed;
+  const double on_a = tail.g * before_end.from_a, on_b = tail.g * (1 - before_end.from_b);
+  const int entry = m.plan.entry_of_link[chain.cell];
+  w.diagonal[c.a] += theta * in_a, w.diagonal[c.b] += theta * on_b;
+  w.values[entry] -= theta * in_b, w.values[entry ^ 1] -= theta * on_a;
+  w.x[c.a] -= in0 + in_a * s.p[c.a] - in_b * s.p[c.b];
+  w.x[c.b] += on0 + on_a * s.p[c.a] - on_b * s.p[c.b];
+}
+
+/// Windkessel: the change of its compliance's pressure follows from that of the row, eliminated here.
+double end_flow0(const FlowModel& m, const FlowEnd& e, double p, double inside) {
+  if (e.inner == 0) return e.conductance * (p - e.pressure);
+  const double share = m.settings.implicitness * e.near * e.inner;
+  return e.near * (p - inside) * (1 - share) + share * e.far * (inside - e.pressure);
+}
+
+void assemble_ends(const FlowModel& m, const FlowState& s, FlowWork& w) {
+  for (std::size_t i = 0; i < m.ends.size(); ++i) {
+    const FlowEnd& e = m.ends[i];
+    w.diagonal[e.row] += m.settings.implicitness * e.conductance;
+    w.x[e.row] -= end_flow0(m, e, s.p[e.row], s.end_pressure[i]);
+  }
+}
+
+double source_pressure(const FlowSource& source, const Drive& d) {
+  if (source.kind == VesselSource::Kind::heart) return d.arterial;
+  return source.venous ? source.pressure + d.venous : source.pressure * d.share;
+}
+
+void assemble_sources(const FlowModel& m, const FlowState& s, const Drive& d, FlowWork& w) {
+  for (const FlowSource& source : m.sources) {
+    if (source.kind == VesselSource::Kind::pump) {
+      w.x[source.row] += periodic(source.wave, d.beat) * d.share;
+      continue;
+    }
+    w.diagonal[source.row] += m.settings.implicitness * source.conductance;
+    w.x[source.row] += source.conductance * (source_pressure(source, d) - s.p[source.row]);
+  }
+}
+
+int first_non_finite(std::span<const double> x) {
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (!(x[i] > -1e12 && x[i] < 1e12)) return int(i);
+  return -1;
+}
+
+void update_ends(const FlowModel& m, FlowState& s, const FlowWork& w) {
+  for (std::size_t i = 0; i < m.ends.size(); ++i) {
+    const FlowEnd& e = m.ends[i];
+    if (e.inner == 0) continue;
+    const double inside = s.end_pressure[i];
+    const double in = e.near * (s.p[e.row] + m.settings.implicitness * w.x[e.row] - inside);
+    s.end_pressure[i] = inside + e.inner * (in - e.far * (inside - e.pressure));
+  }
+}
+
+void update_chains(const FlowModel& m, std::span<OpeningFlow> flows, FlowState& s, FlowWork& w) {
+  const double theta = m.settings.implicitness;
+  for (int i = 0; i < w.chain_count; ++i) {
+    const FlowCell& c = m.cells[w.chains[i].cell];
+    finish_chain(m, w.chains[i], s.p[c.a] + theta * w.x[c.a], s.p[c.b] + theta * w.x[c.b], flows, s, w);
+  }
+}
+
+void update_cells(const FlowModel& m, int first, int last, FlowState& s, const FlowWork& w) {
+  const double per_theta = 1 / m.settings.implicitness;
+  for (int i = first; i < last; ++i) {
+    const FlowCell& c = m.cells[i];
+    const double mean = w.flow0[i] + w.flow_a[i] * w.x[c.a] - w.flow_b[i] * w.x[c.b];
+    s.dq[i] = (mean - s.q[i]) * per_theta;
+    s.q[i] += s.dq[i];
+  }
+}
+
+/// Pressures, and the volume by which the capacity used was not the mean of the change.
+void update_rows(const FlowModel& m, FlowState& s, const FlowWork& w, FlowReport& report) {
+  for (std::size_t i = 0; i < m.give.size(); ++i) {
+    const double change = w.x[i];
+    s.owed[i] = (capacity(m, i, w.ahead[i]) - capacity(m, i, s.p[i] + 0.5 * change)) * change;
+    s.p[i] += change;
+    s.dp[i] = change;
+    if (s.p[i] > kHighPressure) report.flags |= FlowReport::kHighPressure;
+  }
+}
+
+void update_patient(const FlowModel& m, const FlowInput& in, const Drive& d, FlowState& s) {
+  s.beat += m.settings.tick / 60 * d.rate;
+  if (s.beat >= 1) s.beat -= 1;
+  s.breath += m.settings.tick / 60 * m.heart.breaths;
+  if (s.breath >= 1) s.breath -= 1;
+  if (!(in.infusion > 0 && in.infusion < 1)) return;
+  s.infusion_remainder += in.infusion * m.settings.tick / kPicolitre;
+  const std::int64_t whole = std::int64_t(s.infusion_remainder);
+  s.infused += whole;
+  s.infusion_remainder -= double(whole);
+}
+
+/// Calls body(first, last) for the runs of cells between those with sites.
+template <class F>
+void plain_cells(const FlowModel& m, const FlowWork& w, F&& body) {
+  int first = 0;
+  for (int i = 0; i < w.chain_count; ++i) {
+    body(first, w.chains[i].cell);
+    first = w.chains[i].cell + 1;
+  }
+  body(first, int(m.cells.size()));
+}
+
+}  // namespace
+
+FlowReport advance(const FlowModel& m, const FlowInput& in, std::span<OpeningFlow> flows, FlowState& s,
+                   FlowWork& w) noexcept {
+  FlowReport report;
+  const Drive d = drive(m, s);
+  for (OpeningFlow& f : flows) f = OpeningFlow{};
+  gather_sites(m, in, s, w, report);
+  find_fed(m, s, w);
+
+  assemble_rows(m, s, w);
+  plain_cells(m, w, [&](int first, int last) { assemble_cells(m, s, first, last, w); });
+  for (int i = 0; i < w.chain_count; ++i) assemble_chain(m, s, w.chains[i], w);
+  assemble_ends(m, s, w);
+  assemble_sources(m, s, d, w);
+
+  int bad = eliminate(m.plan, w.diagonal, w.values, w.x);
+  if (bad < 0) bad = first_non_finite(w.x);
+  report.heart_rate = d.rate, report.heart_pressure = d.arterial;
+  if (bad >= 0) {
+    report.flags |= FlowReport::kNonFinite;
+    report.first_bad = bad;
+    return report;
+  }
+  update_ends(m, s, w);
+  update_chains(m, flows, s, w);
+  plain_cells(m, w, [&](int first, int last) { update_cells(m, first, last, s, w); });
+  update_rows(m, s, w, report);
+  update_patient(m, in, d, s);
+  return report;
+}
+
+}  // namespace trocar::vessels

@@ -1,0 +1,80 @@
+// What others read from the State of the flow: walls, lumens, pressures, hashes.
+#include <trocar/numerics/portable.hpp>
+#include <trocar/vessels/sites.hpp>
+
+namespace trocar::vessels {
+namespace {
+
+/// What separates places of a cell: the nearest cut or closed clip on either side of `at`.
+struct Barriers {
+  bool before = false, after = false;
+  double flow = 0;
+  double next = 2;  ///< place of the first site after `at`
+
+  void add(double place, bool closes, double flow_before, double at) {
+    if (closes) (place <= at ? before : after) = true;
+    if (place > at && place < next) next = place, flow = flow_before;
+  }
+};
+
+Barriers barriers(const FlowState& state, int cell, double at) {
+  Barriers b;
+  b.flow = state.q[cell];
+  for (const ClipState& c : state.clips)
+    if (c.cell == cell) b.add(c.at, c.closed != 0, c.before, at);
+  for (const OpeningState& o : state.openings)
+    if (o.cell == cell) b.add(o.at, o.kind == int(Opening::Kind::cut), o.before, at);
+  return b;
+}
+
+struct Place {
+  double pressure, flow;
+};
+
+Place read_place(const FlowModel& m, const FlowState& state, int segment, double s) {
+  double at;
+  const int cell = cell_at(m.segments[segment], s, &at);
+  const FlowCell& c = m.cells[cell];
+  const Barriers b = barriers(state, cell, at);
+  const double w = b.before == b.after ? at : b.before ? 1 : 0;
+  return {(1 - w) * state.p[c.a] + w * state.p[c.b], b.flow};
+}
+
+double clamped(double s) { return s > 0 ? (s < 1 ? s : 1) : 0; }
+
+}  // namespace
+
+WallReading read_wall(const FlowModel& m, const FlowState& state, int segment, double s, double gain) noexcept {
+  WallReading r;
+  if (segment < 0 || segment >= int(m.segments.size())) return r;
+  const FlowSegment& v = m.segments[segment];
+  const Place place = read_place(m, state, segment, clamped(s));
+  const double drawn = v.radius + v.taper * clamped(s);
+  double x = v.rest + v.give * place.pressure;
+  if (x < 0.3) x = 0.3;
+  r.pressure = place.pressure, r.flow = place.flow;
+  r.radius = drawn * x;
+  r.shift = gain * (r.radius - drawn);
+  r.push = gain * (place.pressure - v.reference);
+  return r;
+}
+
+double lumen_area(const FlowModel& m, const FlowState& state, int segment, double s) noexcept {
+  const double r = read_wall(m, state, segment, s).radius;
+  return portable::pi * r * r;
+}
+
+double node_pressure(const FlowModel& m, const FlowState& state, int node) noexcept {
+  return node >= 0 && node < m.nodes ? state.p[m.plan.row_of[node]] : 0;
+}
+
+void add_to_hash(core::Hasher& hasher, const FlowState& s) noexcept {
+  hasher.add(s.p), hasher.add(s.dp), hasher.add(s.owed);
+  hasher.add(s.q), hasher.add(s.dq);
+  hasher.add(s.end_pressure);
+  hasher.add(s.openings), hasher.add(s.clips);
+  hasher.add(s.beat), hasher.add(s.breath);
+  hasher.add(s.bled), hasher.add(s.infused), hasher.add(s.infusion_remainder);
+}
+
+}  // namespace trocar::vessels

@@ -1,0 +1,39 @@
+// Openings and clips of one tick: where they lie, what still feeds them, and the cells they stand in. Part of advance()
+// (flow.hpp); a cell with sites in it is a chain of pieces between places that hold no volume, and is eliminated down
+// to its two ends before the whole system is.
+#pragma once
+
+#include <trocar/vessels/flow.hpp>
+
+namespace trocar::vessels {
+
+/// What a cell's terms are at present.
+struct CellTerms {
+  double inertia = 0;     ///< per its whole length [Pa s/m^3]
+  double resistance = 0;  ///< [Pa s/m^3]
+};
+
+/// Sorts the tick's sites into w.sites and w.chains by their places; starts new slots, forgets unused ones.
+void gather_sites(const FlowModel& m, const FlowInput& in, FlowState& s, FlowWork& w, FlowReport& report) noexcept;
+
+/// By connectivity alone: which sides of the openings a source still leads to, and which are open at all.
+void find_fed(const FlowModel& m, FlowState& s, FlowWork& w) noexcept;
+
+/// The chain's places as functions of the pressures at the cell's ends, given where those will be at about mid-tick.
+void reduce_chain(const FlowModel& m, const FlowState& s, const FlowChain& chain, const CellTerms& terms, double end_a,
+                  double end_b, FlowWork& w) noexcept;
+
+/// With the ends' mean pressures known: flows of pieces and openings, books, clots.
+void finish_chain(const FlowModel& m, const FlowChain& chain, double end_a, double end_b, std::span<OpeningFlow> flows,
+                  FlowState& s, FlowWork& w) noexcept;
+
+/// Cell and place in it (0 .. 1) of a segment's place s.
+inline int cell_at(const FlowSegment& segment, double s, double* at) noexcept {
+  const double x = s * segment.cells;
+  int number = int(x);
+  if (number > segment.cells - 1) number = segment.cells - 1;
+  *at = x - number;
+  return segment.first + number;
+}
+
+}  // namespace trocar::vessels
