@@ -438,6 +438,15 @@ TEST(VolumeProtection, ACornerThatSpringsHoldOnTheFarSideOfItsCellComesBack) {
   }
 }
 
+TEST(VolumeProtection, AFoldIsNotDrivenHomeWhileHandsAreOn) {
+  PushedCorner body(1);
+  NetworkWork w = make_work(body.model);
+  for (int t = 0; t < 1000; ++t) advance(body.model, {}, {}, body.state, w, nullptr, Hands::on);
+  EXPECT_GT(body.away(), 0.004);
+  for (int t = 0; t < 900; ++t) advance(body.model, {}, {}, body.state, w);
+  EXPECT_LT(body.away(), 1e-4);
+}
+
 TEST(VolumeProtection, AHandThatKeepsCellsFoldedFeedsNoMotion) {
   const PushedCorner start(0.15);
   for (int node : {start.corner, start.corner + 6}) {

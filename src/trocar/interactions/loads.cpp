@@ -62,6 +62,11 @@ void NetworkLoads::sort() noexcept {
   reaction.assign(sorted.size(), Vec3f{});
 }
 
+bool NetworkLoads::handled() const noexcept {
+  return std::any_of(tag.begin(), tag.end(),
+                     [](const Tag& t) { return t.owner == Owner::tool_contact || t.owner == Owner::tool_hold; });
+}
+
 void StrandLoads::reserve(std::size_t capacity) {
   list.reserve(capacity);
   tag.reserve(capacity);

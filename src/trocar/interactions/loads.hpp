@@ -32,6 +32,7 @@ struct NetworkLoads {
   void clear() noexcept;
   void add(const tissue::NodeLoad& load, Tag t) noexcept;
   void sort() noexcept;
+  bool handled() const noexcept;  ///< an instrument touches or holds it
 };
 
 /// Loads on a strand.

@@ -325,6 +325,8 @@ void work_jaws(StepContext& c) noexcept {
   }
 }
 
+constexpr double kNearSheet = 0.03;  // [m]
+
 /// An instrument on folds. Far from one that it was not near before there is nothing to do, and nothing to forget.
 void touch_sheets(StepContext& c, size_t t, interactions::Touching& touching) noexcept {
   size_t triangles = 0;
@@ -335,10 +337,12 @@ void touch_sheets(StepContext& c, size_t t, interactions::Touching& touching) no
     const size_t sides = c.model.membranes[i].sheet.triangles.size() * size_t(interactions::kSheetParts);
     std::uint8_t& near = c.state.sheet_near[t * c.model.membranes.size() + i];
     const tissue::Box& box = c.work.sheet_poses[i].bounds;
-    if (near || box.near_segment(shape.part[interactions::kShaft].a, shape.frame.tip, 0.03))
+    double& gap = c.work.sheet_gaps[t * c.model.membranes.size() + i];
+    gap = kNearSheet;
+    if (near || interactions::meets_box(box, shape.part[interactions::kShaft].a, shape.frame.tip, kNearSheet))
       near = interactions::tool_on_sheet(touching, c.state.tools[t], interactions::kMembraneBase + int(i),
                                          c.work.sheets[i], {c.state.sheet_side.data() + at, sides},
-                                         c.work.membrane_loads[i]);
+                                         c.work.membrane_loads[i], gap);
     at += sides;
   }
 }
@@ -458,13 +462,15 @@ void advance_strands(StepContext& c) noexcept {
 }
 
 /// What a body has passed through of an instrument in this tick goes with it.
+/// @param gap  how far apart they were at least, `each` numbers from hand to hand; 0 = unknown
 void carry_along(const StepContext& c, int body, const interactions::Surface& surface,
                  std::span<const std::uint8_t> open, std::span<const std::uint8_t> fixed, double thickness,
-                 std::span<tissue::NodeState> rows) noexcept {
+                 const double* gap, size_t each, std::span<tissue::NodeState> rows) noexcept {
   constexpr double kThin = 0.0005;  // [m]
   for (size_t t = 0; t < c.model.hands.size(); ++t) {
     const interactions::ToolShape& shape = c.work.shapes[t];
-    if (!surface.pose->bounds.near_segment(shape.part[interactions::kShaft].a, shape.frame.tip, 0.03)) continue;
+    if (!interactions::meets_box(surface.pose->bounds, shape.part[interactions::kShaft].a, shape.frame.tip, kNearSheet))
+      continue;
     const interactions::ToolState& tool = c.state.tools[t];
     std::array<std::int32_t, interactions::kMaxHolds> between;
     size_t held = 0;
@@ -474,7 +480,7 @@ void carry_along(const StepContext& c, int body, const interactions::Surface& su
         interactions::needles_of(c.work.shapes_before[t], shape, std::max(kThin, thickness));
     interactions::carry_along(
         needles, {*surface.skin, *surface.pose, open, fixed, {between.data(), held}, surface.nodes.origin, rows},
-        kTick);
+        gap ? gap[t * each] : 0, kTick);
   }
 }
 
@@ -484,15 +490,16 @@ void advance_organs(StepContext& c) noexcept {
     const size_t solids = c.model.solids.size(), k = i - solids;
     interactions::NetworkLoads& loads = c.work.organ_loads[i];
     loads.sort();
+    const tissue::Hands hands = loads.handled() ? tissue::Hands::on : tissue::Hands::off;
     if (i < solids) {
       c.work.organ_reports[i] = tissue::advance(c.model.solids[i].network, loads.sorted, loads.reaction,
-                                                c.state.solids[i], c.work.solid_work[i]);
+                                                c.state.solids[i], c.work.solid_work[i], nullptr, hands);
       return;
     }
     c.work.organ_reports[i] = tissue::advance(c.model.cuttables[k].body, loads.sorted, loads.reaction,
-                                              c.state.cuttables[k], c.work.cuttable_work[k]);
-    carry_along(c, interactions::kSolidBase + int(i), c.work.surfaces[i], {}, c.work.cuttable_work[k].fixed, 0,
-                c.state.cuttables[k].nodes);
+                                              c.state.cuttables[k], c.work.cuttable_work[k], hands);
+    carry_along(c, interactions::kSolidBase + int(i), c.work.surfaces[i], {}, c.work.cuttable_work[k].fixed, 0, nullptr,
+                0, c.state.cuttables[k].nodes);
   });
   view_organs(c);
 }
@@ -508,7 +515,8 @@ void advance_membranes(StepContext& c) noexcept {
     c.work.membrane_reports[i] = tissue::advance(m.sheet, c.work.targets[i], loads.sorted, loads.reaction,
                                                  c.state.membranes[i], c.work.membrane_work[i]);
     carry_along(c, interactions::kMembraneBase + int(i), c.work.sheets[i].surface, c.state.torn[i],
-                m.sheet.network.fixed, m.sheet.thickness, c.state.membranes[i].network.nodes);
+                m.sheet.network.fixed, m.sheet.thickness, c.work.sheet_gaps.data() + i, c.model.membranes.size(),
+                c.state.membranes[i].network.nodes);
   });
 }
 

@@ -347,13 +347,13 @@ void make_current(const CuttableModel& m, const CuttableState& s, CuttableWork& 
 }
 
 StepReport advance(const CuttableModel& m, std::span<const NodeLoad> loads, std::span<Vec3f> reactions,
-                   CuttableState& s, CuttableWork& w) noexcept {
+                   CuttableState& s, CuttableWork& w, Hands hands) noexcept {
   make_current(m, s, w);
   const LoadedBody body{s.tets.nodes, m.dt, m.gamma, m.substeps, m.origin, w.mass, w.fixed, m.row_of_node};
   StepReport report = check_loads(body, loads);
   ImplicitLoads pull(body, loads, w.loaded);
   const GuardedBody guarded = guarded_of(m, s, w);
-  Guard guard(guarded, {s.tet_phase, s.open_tets, s.tick}, {w.open_tets, w.below}, s.nodes);
+  Guard guard(guarded, {s.tet_phase, s.open_tets, s.tick}, {w.open_tets, w.below}, s.nodes, hands);
   if (guard.at_work()) report.flags |= StepReport::kInverted;
   KernelArgs args = kernel_args(m, w);
   bool fine = true;

@@ -115,7 +115,7 @@ std::uint64_t version_of(const CuttableModel& model, const geometry::CuttableTet
 
 /// One tick; loads and reactions as for a network. Nodes are numbered as described, doubles after them.
 StepReport advance(const CuttableModel& model, std::span<const NodeLoad> loads, std::span<Vec3f> reactions,
-                   CuttableState& state, CuttableWork& work) noexcept;
+                   CuttableState& state, CuttableWork& work, Hands hands = Hands::off) noexcept;
 
 /// Makes the scratch what the State says, where it is not: `part` and `parts` may then be asked. advance() and cut() do
 /// so themselves.

@@ -36,8 +36,8 @@ TetPack empty_pack() noexcept {
 }
 
 Guard::Guard(const GuardedBody& body, const GuardState& state, const GuardScratch& scratch,
-             std::span<const NodeState> nodes) noexcept
-    : b(body), m_state(state), m_scratch(scratch) {
+             std::span<const NodeState> nodes, Hands hands) noexcept
+    : b(body), m_state(state), m_scratch(scratch), m_hands(hands) {
   find_collapsed(nodes);
   list_open();
   if (at_work()) take_turns(nodes);
@@ -190,7 +190,7 @@ void Guard::release(std::span<const NodeState> nodes) noexcept {
     const float enough = unfolding && phase >= kLong ? kUnfolded : kReleased;
     if (dot(x, cross(y, z)) > enough * cell.rest6) {
       phase = 0, --m_state.open;
-    } else if (!unfolding) {
+    } else if (!late()) {
       const bool rests = at_rest(corner(0)) && at_rest(corner(1)) && at_rest(corner(2)) && at_rest(corner(3));
       phase = !rests ? 1 : (phase < kOldestFold ? std::uint8_t(phase + 1) : phase);
     }
@@ -199,7 +199,7 @@ void Guard::release(std::span<const NodeState> nodes) noexcept {
 
 /// In the same ticks as folds are unfolded: a node that was merely thrown has come to rest by then.
 void Guard::list_fast(std::span<const NodeState> nodes) noexcept {
-  if (!unfolds_now()) return;
+  if (!late()) return;
   for (int r = 0; r < b.rows && m_fast_count < kMostLeaps; ++r) {
     const float square = dot(speed(nodes[std::size_t(r)]), speed(nodes[std::size_t(r)]));
     if (square > kLeap * kLeap || is_caught(square)) m_fast[std::size_t(m_fast_count++)] = r;

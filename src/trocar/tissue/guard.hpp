@@ -3,7 +3,7 @@
 // for lattices and for tetrahedra that can be cut. It costs a look at a quarter of the cells a tick where nothing has
 // collapsed.
 //
-//   Guard guard(body, state, scratch, nodes);       // once a tick: what has collapsed?
+//   Guard guard(body, state, scratch, nodes, hands);  // once a tick: what has collapsed?
 //   guard.mend(in, out);                            // after each sub-step
 //   guard.release(nodes);                           // when the tick is done
 //
@@ -65,10 +65,14 @@ struct GuardScratch {
   std::span<std::uint16_t> below;  ///< (packs)
 };
 
+/// Whether an instrument touches or holds the body. Folded cells are driven home only where none does: a drive that
+/// takes no account of springs, against hands that keep the cells folded, is an engine without a limit.
+enum class Hands { off, on };
+
 class Guard {
  public:
-  Guard(const GuardedBody& body, const GuardState& state, const GuardScratch& scratch,
-        std::span<const NodeState> nodes) noexcept;
+  Guard(const GuardedBody& body, const GuardState& state, const GuardScratch& scratch, std::span<const NodeState> nodes,
+        Hands hands) noexcept;
 
   bool at_work() const noexcept { return !m_open.empty(); }
   /// `in` is where the sub-step began, `out` what it has made of it.
@@ -89,7 +93,8 @@ class Guard {
   void push_open(const NodeState* in, NodeState* out) const noexcept;
   void catch_leaps(const NodeState* in, NodeState* out) const noexcept;
   void calm(const NodeState* in, NodeState* out) const noexcept;
-  bool unfolds_now() const noexcept { return (m_state.tick & 255u) >= 192; }
+  bool late() const noexcept { return (m_state.tick & 255u) >= 192; }
+  bool unfolds_now() const noexcept { return late() && m_hands == Hands::off; }
   std::int32_t part_of(int cell) const noexcept;
   Vec3f row_weight(int row) const noexcept;
   Vec3d place_of(int node, std::span<const NodeState> nodes) const noexcept;
@@ -102,6 +107,7 @@ class Guard {
   std::array<int, kMostLeaps> m_fast;
   int m_fast_count = 0;
   bool m_calms = false;
+  Hands m_hands;
   Vec3f m_drift{};
 };
 

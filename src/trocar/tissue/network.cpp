@@ -82,12 +82,12 @@ int first_non_finite(const NetworkModel& m, const NetworkState& s) {
 }  // namespace
 
 StepReport advance(const NetworkModel& m, std::span<const NodeLoad> loads, std::span<Vec3f> reactions, NetworkState& s,
-                   NetworkWork& w, core::ThreadPool* pool) noexcept {
+                   NetworkWork& w, core::ThreadPool* pool, Hands hands) noexcept {
   const LoadedBody body = loaded(m);
   StepReport report = check_loads(body, loads);
   ImplicitLoads pull(body, loads, w.loaded);
   const GuardedBody guarded = guarded_of(m);
-  Guard guard(guarded, {s.tet_phase, s.open_tets, s.tick}, {w.open_tets, w.below}, s.nodes);
+  Guard guard(guarded, {s.tet_phase, s.open_tets, s.tick}, {w.open_tets, w.below}, s.nodes, hands);
   if (guard.at_work()) report.flags |= StepReport::kInverted;
   KernelArgs args = kernel_args(m, s);
   bool fine = true;

@@ -150,9 +150,11 @@ NetworkWork make_work(const NetworkModel& model, int threads = 1);
 
 /// One tick. Loads must be sorted by node (otherwise kBadLoad). `reactions` (as long as loads, or empty) receives the
 /// force each load exerted on its node, averaged over the tick [N]; what holds the tissue feels the opposite.
+/// @param hands  on: folded cells are not driven home, as hands may be what keeps them folded
 /// Bits depend neither on the pool nor on the SIMD width.
 StepReport advance(const NetworkModel& model, std::span<const NodeLoad> loads, std::span<Vec3f> reactions,
-                   NetworkState& state, NetworkWork& work, core::ThreadPool* pool = nullptr) noexcept;
+                   NetworkState& state, NetworkWork& work, core::ThreadPool* pool = nullptr,
+                   Hands hands = Hands::off) noexcept;
 
 inline NodeView view_of(const NetworkModel& model, const NetworkState& state) noexcept {
   return {state.nodes, model.row_of_node, model.origin};
