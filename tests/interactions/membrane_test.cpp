@@ -71,7 +71,8 @@ struct Drum {
     loads.clear();
     const SheetView view{{&skin, &pose, view_of(sheet.network, state.network)}, torn, sheet.network.fixed, 0.00025};
     Touching touching(0, moved ? before : shape, shape, 0, book, next);
-    tool_on_sheet(touching, ToolState{}, kMembraneBase, view, side, loads);
+    double gap = 0;
+    tool_on_sheet(touching, ToolState{}, kMembraneBase, view, side, loads, gap);
     before = shape;
     moved = true;
     loads.sort();

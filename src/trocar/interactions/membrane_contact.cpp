@@ -29,6 +29,7 @@ double poke(const Capsule& rod, const Corners& t, Vec3d side) noexcept {
 
 struct Meeting {
   double depth = -1;
+  double distance = 0;  ///< of the rod's axis [m]
   Vec3d normal, weights;
 };
 
@@ -39,6 +40,7 @@ Meeting meet(const Capsule& rod, const Corners& t, double half_thickness, Vec3f&
   const Vec3d known = vec_cast<double>(side);
   const bool knows = dot(known, known) > 0.5;
   r.weights = near.weights;
+  r.distance = distance;
   const bool over = near.weights.x > 0.01 && near.weights.y > 0.01 && near.weights.z > 0.01;
   if (distance > 1e-7) r.normal = (near.on_triangle - near.on_segment) / distance;
   const bool passed = knows && dot(r.normal, known) < -0.2;
@@ -144,7 +146,7 @@ bool begins_inside(const Capsule& rod, const Corners& t, Vec3f side) noexcept {
 }  // namespace
 
 bool tool_on_sheet(Touching& c, const ToolState& tool_state, int body, const SheetView& sheet, std::span<Vec3f> side,
-                   NetworkLoads& loads) noexcept {
+                   NetworkLoads& loads, double& gap) noexcept {
   const ToolShape& shape = c.shape;
   const Surface& surface = sheet.surface;
   const tissue::Skin& skin = *surface.skin;
@@ -158,14 +160,15 @@ bool tool_on_sheet(Touching& c, const ToolState& tool_state, int body, const She
   constexpr double kTick = 1e-3;
   const auto before = [&surface](int node) { return surface.position(node) - kTick * surface.nodes.velocity(node); };
   bool remembers = false;
+  gap = kRemember;
   for (const int part : {kShaft, kBothJaws, kJawA, kJawB}) {
     const bool both = part == kBothJaws;
     const Capsule rod = both ? both_jaws(shape, sheet.half_thickness) : shape.part[part];
     const Capsule rod0 = both ? both_jaws(c.before, sheet.half_thickness) : c.before.part[part];
     const double way = c.way(both ? kJawA : part), reach = rod.radius + sheet.half_thickness + kRemember + way;
     const double most = 0.9 * (both ? kRemember : rod.radius + sheet.half_thickness + kRemember);
-    const bool near = surface.pose->bounds.near_segment(rod.a, rod.b, reach);
-    const bool near_at_all = surface.pose->bounds.near_segment(rod.a, rod.b, std::max(reach, rod.radius + kLost));
+    const bool near = meets_box(surface.pose->bounds, rod.a, rod.b, reach);
+    const bool near_at_all = near || meets_box(surface.pose->bounds, rod.a, rod.b, std::max(reach, rod.radius + kLost));
     for (std::size_t i = 0; i < skin.triangles.size(); ++i) {
       Vec3f& memory = side[i * std::size_t(kSheetParts) + std::size_t(part)];
       const auto& t = skin.triangles[i];
@@ -192,11 +195,13 @@ bool tool_on_sheet(Touching& c, const ToolState& tool_state, int body, const She
       }
       const Corners corners0{before(t[0]), before(t[1]), before(t[2])};
       if (both && (rod0.radius == 0 || begins_inside(rod0, corners0, memory))) {
+        gap = 0;
         memory = {};
         continue;
       }
       const Meeting touch = meet_on_the_way(rod0, rod, corners0, corners, sheet.half_thickness, most, memory);
       remembers = remembers || dot(memory, memory) > 0;
+      gap = std::min(gap, touch.distance);
       if (touch.depth <= -kGrazes) continue;
       const std::int32_t number = c.note(body, int(i), part);
       const double depth = std::clamp(touch.depth, 0.0, kQuickest + way);

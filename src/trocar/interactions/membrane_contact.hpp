@@ -23,8 +23,9 @@ struct SheetView {
 
 /// @param body  how holds name this membrane
 /// @param side  (triangles x kSheetParts) State: unit vector from the rod to the sheet when they last were near
+/// @param gap   out: no axis of the instrument is nearer to the sheet than this [m]
 /// @return true while anything is remembered
 bool tool_on_sheet(Touching& touching, const ToolState& tool_state, int body, const SheetView& sheet,
-                   std::span<Vec3f> side, NetworkLoads& loads) noexcept;
+                   std::span<Vec3f> side, NetworkLoads& loads, double& gap) noexcept;
 
 }  // namespace trocar::interactions

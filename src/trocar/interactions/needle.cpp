@@ -58,6 +58,9 @@ bool meets(const Seen& p, const Seen& q, double length) noexcept {
 
 bool goes_through(const Frames& f, double length, Vec3d p0, Vec3d q0, Vec3d p1, Vec3d q1) noexcept {
   const Seen pa = f.before.see(p0), qa = f.before.see(q0), pb = f.after.see(p1), qb = f.after.see(q1);
+  const double mx = pa.x + qa.x + pb.x + qb.x, my = pa.y + qa.y + pb.y + qb.y;
+  const auto aside = [mx, my](const Seen& p) { return mx * p.x + my * p.y > 0; };
+  if (aside(pa) && aside(qa) && aside(pb) && aside(qb)) return false;
   // Twice the area between needle, p and q, seen along the needle: c0 + c1 t + c2 t^2.
   const double ux = pb.x - pa.x, uy = pb.y - pa.y, vx = qb.x - qa.x, vy = qb.y - qa.y;
   const double c0 = pa.x * qa.y - pa.y * qa.x, c2 = ux * vy - uy * vx;
@@ -88,8 +91,9 @@ Hit pierced(Vec3d end, Vec3d dir, double length, Vec3d a, Vec3d b, Vec3d c) noex
 /// One needle and one body in one tick.
 class Zone {
  public:
-  Zone(const Needle& needle, const Carried& body, bool jaws, double tick) noexcept
-      : m_needle(needle), m_frames(frames_of(needle)), m_body(body), m_jaws(jaws), m_tick(tick) {}
+  /// @param reach  [m] that needle and body together have moved
+  Zone(const Needle& needle, const Carried& body, bool jaws, double reach, double tick) noexcept
+      : m_needle(needle), m_frames(frames_of(needle)), m_body(body), m_jaws(jaws), m_reach(reach), m_tick(tick) {}
 
   int carry() noexcept {
     for (int round = 0; round < kMostRounds && one_round(); ++round) {
@@ -130,7 +134,7 @@ class Zone {
     const Vec3d a = before(t[0]);
     const double u = std::clamp(dot(m_needle.end0 - a, m_needle.dir0), 0.0, m_needle.length);
     const double size2 = std::max(geometry::distance2(a, before(t[1])), geometry::distance2(a, before(t[2])));
-    return geometry::distance2(a, m_needle.end0 - u * m_needle.dir0) < 2 * (kReach * kReach + size2);
+    return geometry::distance2(a, m_needle.end0 - u * m_needle.dir0) < 2 * (m_reach * m_reach + size2);
   }
 
   bool one_round() noexcept {
@@ -166,6 +170,7 @@ class Zone {
     double free = 0;
     for (std::size_t k = 0; k < 3; ++k) free += held(t[k]) ? 0.0 : hit.weights[int(k)];
     if (free < kLeastFree || m_drives++ == kMostDrives) return false;
+    if (m_drives == 1) m_reach += kFarthest;
     const Vec3f on = vec_cast<float>(std::min(kFarthest, (hit.deep + kClear) / free) * m_needle.dir1);
     for (const int v : t) {
       if (held(v)) continue;
@@ -179,6 +184,7 @@ class Zone {
   const Frames m_frames;
   const Carried& m_body;
   const bool m_jaws;
+  double m_reach;
   const double m_tick;
   std::array<int, kMostCarried> m_carried;
   int m_count = 0, m_drives = 0;
@@ -214,17 +220,46 @@ Needles needles_of(const ToolShape& before, const ToolShape& now, double thin) n
     r.needle[r.count++] = needle_of(before.pivot, before.frame.tip, now.pivot, now.frame.tip);
     return r;
   }
-  for (const int jaw : {kJawA, kJawB})
-    r.needle[r.count++] = needle_of(before.pivot, before.part[jaw].b, now.pivot, now.part[jaw].b);
+  for (const int jaw : {kJawA, kJawB}) {
+    const Capsule &j0 = before.part[jaw], &j1 = now.part[jaw];
+    r.needle[r.count++] = needle_of(j0.a, j0.b, j1.a, j1.b);
+  }
   return r;
 }
 
-int carry_along(const Needles& needles, const Carried& body, double tick) noexcept {
+namespace {
+
+double way_of(const Needle& n) noexcept {
+  const Vec3d from0 = n.end0 - n.length * n.dir0, from1 = n.end1 - n.length * n.dir1;
+  return std::sqrt(std::max(geometry::distance2(n.end0, n.end1), geometry::distance2(from0, from1)));
+}
+
+/// The longest way of a node at the surface [m].
+double way_of(const Carried& body) noexcept {
+  const Vec3f origin = vec_cast<float>(body.origin);
+  float most2 = 0;
+  for (int v = 0; v < body.skin.size(); ++v) {
+    if (!body.skin.at_surface(v)) continue;
+    const tissue::NodeState& n = body.rows[std::size_t(body.skin.weights[std::size_t(v)].row[0])];
+    const Vec3f off = Vec3f{n.x, n.y, n.z} - (body.before.position[std::size_t(v)] - origin);
+    most2 = std::max(most2, dot(off, off));
+  }
+  return std::sqrt(double(most2)) + 1e-6;  // rounding
+}
+
+}  // namespace
+
+int carry_along(const Needles& needles, const Carried& body, double gap, double tick) noexcept {
   int sum = 0;
+  double moved = -1;
   for (int i = 0; i < needles.count; ++i) {
     const Needle& n = needles.needle[i];
-    if (!body.before.bounds.near_segment(n.end0, n.end0 - n.length * n.dir0, kReach)) continue;
-    sum += Zone(n, body, i > 0, tick).carry();
+    const double way = way_of(n);
+    if (moved < 0) moved = way_of(body);
+    if (gap > 2 * way + moved) continue;
+    const double reach = way + moved;
+    if (!meets_box(body.before.bounds, n.end0, n.end0 - n.length * n.dir0, reach)) continue;
+    sum += Zone(n, body, i > 0, reach, tick).carry();
   }
   return sum;
 }

@@ -27,7 +27,7 @@ struct Needle {
   Vec3d carried(Vec3d p) const noexcept { return p + (end1 - end0) - dot(end0 - p, dir0) * (dir1 - dir0); }
 };
 
-/// The chain of an instrument's axes: shaft and closed jaws are one line, open jaws two more.
+/// An instrument's axes: of the shaft and closed jaws in one line, or of each open jaw.
 struct Needles {
   Needle needle[3];
   int count = 0;
@@ -51,7 +51,10 @@ struct Carried {
 };
 
 /// Nodes that the instrument's axis would have passed through go with it.
+/// @param gap  the instrument's axes, where they are now, and the body, where it was before the tick, were at least
+/// this
+///             far apart [m]: where nothing has moved so far, nothing is looked at
 /// @return how many were carried along
-int carry_along(const Needles& needles, const Carried& body, double tick) noexcept;
+int carry_along(const Needles& needles, const Carried& body, double gap, double tick) noexcept;
 
 }  // namespace trocar::interactions

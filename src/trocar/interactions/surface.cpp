@@ -1,9 +1,27 @@
+#include <algorithm>
+#include <cmath>
+
 #include <trocar/interactions/surface.hpp>
 
 namespace trocar::interactions {
 
 Vec3d Surface::normal(int vertex) const noexcept {
   return moves() ? tissue::skin_normal(*skin, *pose, vertex) : vec_cast<double>(skin->rest_normal[size_t(vertex)]);
+}
+
+bool meets_box(const tissue::Box& box, Vec3d a, Vec3d b, double margin) noexcept {
+  if (!box.near_segment(a, b, margin)) return false;
+  constexpr double kRounding = 1e-9;
+  double from = 0, to = 1;  // share of the segment between the planes of all faces so far
+  for (int k = 0; k < 3; ++k) {
+    const double low = double(box.low[k]) - margin - kRounding - a[k];
+    const double high = double(box.high[k]) + margin + kRounding - a[k], along = b[k] - a[k];
+    if (std::fabs(along) < kRounding) continue;  // near_segment has looked at that
+    const double first = low / along, second = high / along;
+    from = std::max(from, std::min(first, second));
+    to = std::min(to, std::max(first, second));
+  }
+  return from <= to + kRounding;
 }
 
 int walk_to_nearest(const Surface& surface, int start, Vec3d p) noexcept {

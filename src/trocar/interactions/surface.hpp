@@ -17,6 +17,10 @@ struct Surface {
   Vec3d normal(int vertex) const noexcept;
 };
 
+/// Does the segment come nearer to the box than `margin`? Never false where it does; the box is grown by its faces, so
+/// that near its corners it may be true without.
+bool meets_box(const tissue::Box& box, Vec3d a, Vec3d b, double margin) noexcept;
+
 /// The vertex nearest to p, reached from `start` by steps to nearer neighbours (a local minimum; at most 64 steps).
 int walk_to_nearest(const Surface& surface, int start, Vec3d p) noexcept;
 

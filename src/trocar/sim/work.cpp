@@ -166,6 +166,7 @@ Work make_work(const Model& model, core::ThreadPool* pool) {
     w.beyond.resize(std::max(w.beyond.size(), size_t(m.sheet.network.rows)));
   }
   w.sheets.resize(model.membranes.size());
+  w.sheet_gaps.resize(model.hands.size() * model.membranes.size());
   w.membrane_reports.resize(model.membranes.size());
   order_bodies(model, w);
   return w;
@@ -180,6 +181,7 @@ void poison(Work& w) noexcept {
   std::memset(static_cast<void*>(&w.shapes_before), 0xff, sizeof w.shapes_before);
   std::memset(static_cast<void*>(&w.wall_stops), 0xff, sizeof w.wall_stops);
   for (interactions::SheetView& s : w.sheets) s = {};
+  scribble(w.sheet_gaps);
   for (interactions::NetworkLoads& l : w.organ_loads) scribble(l);
   for (interactions::NetworkLoads& l : w.membrane_loads) scribble(l);
   for (interactions::StrandLoads& l : w.strand_loads) {

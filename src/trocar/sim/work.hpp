@@ -31,6 +31,7 @@ struct Work {
   std::vector<tissue::StepReport> organ_reports, strand_reports, membrane_reports;
   std::vector<tissue::SkinPose> sheet_poses;    ///< (membranes)
   std::vector<interactions::SheetView> sheets;  ///< (membranes)
+  std::vector<double> sheet_gaps;               ///< (hands x membranes) apart by at least this much [m]
   std::vector<interactions::NetworkLoads> membrane_loads;
   std::vector<tissue::MembraneWork> membrane_work;
   std::vector<std::vector<tissue::BorderPull>> pulls;  ///< (membranes)(held nodes)
