@@ -33,6 +33,7 @@ Json describe(const scene::BodyReport& b) {
       {"name", b.name}, {"kind", b.kind}, {"nodes", b.nodes}, {b.kind == "wall" ? "triangles" : "springs", b.springs}};
   if (b.mass > 0) out["mass_g"] = b.mass * 1000;
   if (b.volume > 0) out["volume_ml"] = b.volume * 1e6;
+  if (b.pressure != 0) out["pressure_Pa"] = b.pressure;
   if (b.substeps == 0) return out;  // implicit, or does not move
   out["substeps"] = b.substeps;
   out["dt_ms"] = 1000 * sim::kTick / b.substeps;
@@ -134,6 +135,10 @@ Json describe_scene(const fs::path& path, const std::vector<std::string>& only) 
       out["bodies"].back()["memory_kb"] = cost.bytes / 1024;
       out["bodies"].back()["tick_us"] = cost.seconds * 1e6;
     }
+    if (const int m = model.membrane_index(b.name); m >= 0 && b.kind == "pouch") {
+      const tissue::EnclosureState& inside = state.membranes[std::size_t(m)].enclosure;
+      out["bodies"].back()["after_1s"] = {{"volume_ml", inside.volume * 1e6}, {"pressure_Pa", inside.pressure}};
+    }
     if (const int organ = model.organ_index(b.name); organ >= 0)
       out["bodies"].back()["off_after_1s_mm"] = 1e3 * off_drawn(model, state, organ);
   }
@@ -165,7 +170,7 @@ bool includes(const fs::path& scene_file, const fs::path& organ) {
 /// An organ hangs on others, so its numbers are those in the first scene that uses it.
 Json describe_organ(const fs::path& path, const scene::JsonValue& root) {
   std::vector<std::string> names;
-  for (const char* key : {"solids", "strands", "walls", "membranes"})
+  for (const char* key : {"solids", "strands", "walls", "membranes", "pouches"})
     for (std::string& name : names_under(root, key)) names.push_back(std::move(name));
   for (const scene::SceneEntry& s : scene::list_scenes(scenes_folder()))
     if (includes(s.path, path)) return describe_scene(s.path, names);
@@ -214,7 +219,7 @@ Json check_one(const fs::path& path, double unit) {
   if (has("organs") || has("scope")) {
     out["kind"] = "scene";
     out.update(describe_scene(path, {}));
-  } else if (has("solids") || has("strands") || has("walls") || has("membranes")) {
+  } else if (has("solids") || has("strands") || has("walls") || has("membranes") || has("pouches")) {
     out["kind"] = "organ";
     out.update(describe_organ(path, document.root));
   } else if (has("kind")) {
@@ -249,6 +254,11 @@ void print_for_people(const Json& r) {
                number("dt_limit_ms", "{:.4f}"), number("dt_margin", "{:.2f}"), printed, number("mass_g", "{:.1f}"),
                number("memory_kb", "{:.0f}"), number("tick_us", "{:.1f}"));
   }
+  for (const Json& b : r["bodies"])
+    if (b.contains("after_1s"))
+      fmt::print("  {} holds {:.1f} ml at {:.0f} Pa; after a second at rest {:.1f} ml at {:.0f} Pa\n",
+                 b["name"].get<std::string>(), b.value("volume_ml", 0.0), b.value("pressure_Pa", 0.0),
+                 b["after_1s"]["volume_ml"].get<double>(), b["after_1s"]["pressure_Pa"].get<double>());
   for (const Json& b : r["bodies"])
     if (b.value("off_after_1s_mm", 0.0) > 1e3 * kStands)
       fmt::print(

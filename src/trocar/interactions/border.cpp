@@ -8,13 +8,13 @@ double bearing(const StrandPlace& place, const tissue::StrandState& state) noexc
   return state.alive[std::size_t(place.element)] ? place.w : (place.w <= 0.5 ? 0.0 : 1.0);
 }
 
-/// Share of a border node's springs that are whole.
+/// Share of a border node's springs that are whole; where all of them go to other held nodes, it is whole.
 double whole_share(const tissue::MembraneModel& sheet, const tissue::MembraneState& state, std::size_t h) noexcept {
   const int first = sheet.border_first[h], last = sheet.border_first[h + 1];
   double sum = 0;
   for (int k = first; k < last; ++k)
     sum += double(spring_scale(sheet.network, state.network, sheet.border_spring[std::size_t(k)].spring));
-  return last > first ? sum / (last - first) : 0;
+  return last > first ? sum / (last - first) : 1;
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 namespace trocar::scene {
 namespace {
 
+constexpr double kDrawnOfWall = 9;         // triangles drawn for one of a pouch's wall
 constexpr double kTrianglesPerArea = 2.3;  // of edge 1 in a unit of area
 
 Extent operator+(Extent a, const Extent& b) {
@@ -57,9 +58,11 @@ void check(const std::vector<Body>& bodies, const char* what, Extent& sum, std::
 }
 
 template <class Thing>
-bool few(const std::vector<Thing>& things, const char* what, std::vector<core::Fault>& faults) {
+bool few(const std::vector<Thing>& things, const char* what, std::vector<core::Fault>& faults,
+         const char* ending = "s") {
   if (things.size() <= kMostBodies) return true;
-  faults.push_back({things[kMostBodies].at, fmt::format("expected at most {} {}s, got more", kMostBodies, what)});
+  faults.push_back(
+      {things[kMostBodies].at, fmt::format("expected at most {} {}{}, got more", kMostBodies, what, ending)});
   return false;
 }
 
@@ -127,12 +130,26 @@ Extent extent_of(const Membrane& m) {
   return e;
 }
 
+Extent extent_of(const Pouch& p) {
+  Extent e;
+  for (std::size_t i = 0; i + 1 < p.sections.size(); ++i) {
+    const Section &a = p.sections[i], &b = p.sections[i + 1];
+    const double around = 3.2 * std::max(length(a.across) + length(a.deep), length(b.across) + length(b.deep));
+    e.triangles +=
+        ring_triangles(length(b.centre - a.centre) + 0.3 * around / double(p.sections.size()), around, p.spacing);
+  }
+  e.nodes = 0.5 * e.triangles;
+  e.triangles *= 1 + kDrawnOfWall;
+  return e;
+}
+
 Extent extent_of(const Description& d) {
   Extent sum;
   for (const Solid& solid : d.solids) sum = sum + extent_of(solid);
   for (const Strand& strand : d.strands) sum = sum + extent_of(strand);
   for (const Wall& wall : d.walls) sum = sum + extent_of(wall);
   for (const Membrane& membrane : d.membranes) sum = sum + extent_of(membrane);
+  for (const Pouch& pouch : d.pouches) sum = sum + extent_of(pouch);
   return sum;
 }
 
@@ -142,6 +159,7 @@ bool check_counts(const Description& d, std::vector<core::Fault>& faults) {
   good = few(d.walls, "wall", faults) && good;
   good = few(d.sheets, "sheet", faults) && good;
   good = few(d.membranes, "membrane", faults) && good;
+  good = few(d.pouches, "pouch", faults, "es") && good;
   good = few(d.tissues, "tissue", faults) && good;
   good = few(d.instruments, "instrument", faults) && good;
   good = few(d.placements, "tool", faults) && good;
@@ -155,6 +173,7 @@ void check_capacity(const Description& d, std::vector<core::Fault>& faults) {
   check(d.strands, "strand", sum, faults);
   check(d.walls, "wall", sum, faults);
   check(d.membranes, "membrane", sum, faults);
+  check(d.pouches, "pouch", sum, faults);
 }
 
 }  // namespace trocar::scene

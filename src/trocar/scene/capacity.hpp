@@ -19,6 +19,7 @@ Extent extent_of(const Solid& solid);
 Extent extent_of(const Strand& strand);
 Extent extent_of(const Wall& wall);
 Extent extent_of(const Membrane& membrane);
+Extent extent_of(const Pouch& pouch);
 Extent extent_of(const Description& description);
 
 inline constexpr Extent kMostExtent{150'000, 4e6, 2e6, 10'000};

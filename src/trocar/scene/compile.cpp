@@ -224,6 +224,10 @@ sim::Model compile(const Description& d, CompileReport* report) {
     const Tissue* tissue = find_tissue(d, membrane.tissue);
     if (tissue) compile_membrane(membrane, *tissue, d.gravity, model, faults, report);
   }
+  for (const Pouch& pouch : d.pouches) {
+    const Tissue* tissue = find_tissue(d, pouch.tissue);
+    if (tissue) compile_pouch(pouch, *tissue, d.gravity, model, faults, report);
+  }
   for (const Sheet& sheet : d.sheets) model.sheets.push_back(compile_sheet(sheet, model));
   compile_hands(d, model, faults);
   if (!faults.empty()) throw core::BadInput(faults);

@@ -15,7 +15,7 @@ namespace trocar::scene {
 
 /// What a body compiled to, for `trocar check`.
 struct BodyReport {
-  std::string name, kind;        ///< "solid", "strand", "membrane", "wall"
+  std::string name, kind;        ///< "solid", "strand", "membrane", "pouch", "wall"
   int nodes = 0, springs = 0;    ///< elements for a strand, triangles for a wall
   int substeps = 0;              ///< per tick; 0: implicit or fixed
   double dt_limit = 0;           ///< sufficient stability limit [s]
@@ -23,6 +23,7 @@ struct BodyReport {
   double dt_printed_summed = 0;  ///< and with all its springs [s]
   double mass = 0;               ///< [kg]
   double volume = 0;             ///< of the surface [m^3]
+  double pressure = 0;           ///< with which a pouch is filled [Pa]
   double residual = 0;           ///< unbalanced force left in the drawn shape [N]
   double prestrain = 0;          ///< largest strain that the prestress put in
 };

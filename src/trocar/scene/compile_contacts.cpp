@@ -131,6 +131,20 @@ bool carries(const sim::MembraneModel& membrane, int organ) {
   return false;
 }
 
+/// Nodes that are not next to a base: a fold's last rows; of a pouch, all that a triangle joins with what is held.
+std::vector<bool> away_from_base(const tissue::MembraneModel& sheet) {
+  std::vector<bool> apart(size_t(sheet.nodes()), true);
+  if (!sheet.closed()) {
+    for (int n = 0; n < sheet.nodes(); ++n) apart[size_t(n)] = n / sheet.columns + 2 < sheet.rows;
+    return apart;
+  }
+  for (const auto& t : sheet.triangles)
+    for (int held : t)
+      for (int n : t)
+        if (sheet.network.fixed[size_t(held)] == tissue::kHeld) apart[size_t(n)] = false;
+  return apart;
+}
+
 /// The inner nodes of a membrane against a surface; not next to a base that rides on that surface.
 void pair_membrane(sim::Model& model, const Drawn& drawn, int membrane, int surface) {
   const sim::MembraneModel& m = model.membranes[size_t(membrane)];
@@ -140,9 +154,9 @@ void pair_membrane(sim::Model& model, const Drawn& drawn, int membrane, int surf
   pair.membrane = membrane;
   pair.surface = surface;
   std::vector<std::int32_t> nearest;
+  const std::vector<bool> apart = rides ? away_from_base(m.sheet) : std::vector<bool>(size_t(m.sheet.nodes()), true);
   for (int n = 0; n < m.sheet.nodes(); ++n) {
-    const int row = n / m.sheet.columns;
-    if (m.sheet.network.fixed[size_t(n)] == tissue::kHeld || (rides && row + 2 >= m.sheet.rows)) continue;
+    if (m.sheet.network.fixed[size_t(n)] == tissue::kHeld || !apart[size_t(n)]) continue;
     const Vec3d p = m.sheet.network.rest[size_t(n)];
     if (!s.pose->bounds.reaches(p, kReach)) continue;
     add_sample(pair, s, n, p, 0.0, nearest);

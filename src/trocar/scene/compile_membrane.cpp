@@ -40,12 +40,14 @@ Grid grid_of(const Membrane& membrane, const interactions::StrandBody& body) {
   return g;
 }
 
-/// The body named in `base_on` that is nearest to p and within reach, and the place on it.
-interactions::BorderHold hold_near(const Membrane& membrane, Vec3d p, const sim::Model& model) {
+}  // namespace
+
+interactions::BorderHold hold_near(const std::vector<std::string>& names, double reach, Vec3d p,
+                                   const sim::Model& model) {
   interactions::BorderHold best;
   best.offset = p;
-  double nearest = membrane.base_reach;
-  for (const std::string& name : membrane.base_on) {
+  double nearest = reach;
+  for (const std::string& name : names) {
     const int strand = model.strand_index(name);
     if (strand >= 0) {
       const interactions::StrandBody& body = model.bodies[size_t(strand)];
@@ -81,7 +83,6 @@ interactions::BorderHold hold_near(const Membrane& membrane, Vec3d p, const sim:
   return best;
 }
 
-/// The sheet's nodes as a skin: one vertex a node.
 tissue::Skin skin_of(const tissue::MembraneModel& sheet) {
   tissue::Skin skin;
   const int n = sheet.nodes();
@@ -101,6 +102,8 @@ tissue::Skin skin_of(const tissue::MembraneModel& sheet) {
   return skin;
 }
 
+namespace {
+
 /// Way of each node from the strand's surface along its column, as drawn.
 std::vector<float> depth_of(const tissue::MembraneModel& sheet, const interactions::StrandBody& body, const Grid& g) {
   std::vector<float> depth(size_t(sheet.nodes()));
@@ -115,7 +118,8 @@ std::vector<float> depth_of(const tissue::MembraneModel& sheet, const interactio
   return depth;
 }
 
-/// What the sheet does to its holders in the drawn shape.
+}  // namespace
+
 void note_drawn_pulls(sim::MembraneModel& m) {
   tissue::MembraneWork work = tissue::make_work(m.sheet);
   std::vector<tissue::BorderPull> pulls(m.holds.size());
@@ -126,17 +130,19 @@ void note_drawn_pulls(sim::MembraneModel& m) {
 void add_report(const sim::MembraneModel& m, CompileReport& report) {
   BodyReport r;
   r.name = m.name;
-  r.kind = "membrane";
+  r.kind = m.sheet.closed() ? "pouch" : "membrane";
   r.nodes = m.sheet.nodes();
   r.springs = m.sheet.network.springs;
   r.substeps = m.sheet.bend_steps * m.sheet.network.substeps;
   r.dt_limit = m.sheet.network.dt_limit;
   for (double each : m.sheet.network.mass) r.mass += each;
   r.residual = m.sheet.settled_residual;
+  if (m.sheet.enclosure.kind != tissue::Enclosure::none) {
+    r.volume = m.sheet.enclosure.volume;
+    r.pressure = m.sheet.enclosure.pressure;
+  }
   report.bodies.push_back(r);
 }
-
-}  // namespace
 
 void compile_membrane(const Membrane& membrane, const Tissue& tissue, Vec3d gravity, sim::Model& model,
                       std::vector<core::Fault>& faults, CompileReport* report) {
@@ -185,7 +191,7 @@ void compile_membrane(const Membrane& membrane, const Tissue& tissue, Vec3d grav
   for (int node : out.sheet.held_nodes) {
     const int c = node % g.columns;
     if (node >= g.columns) {
-      out.holds.push_back(hold_near(membrane, d.positions[size_t(node)], model));
+      out.holds.push_back(hold_near(membrane.base_on, membrane.base_reach, d.positions[size_t(node)], model));
       continue;
     }
     interactions::BorderHold hold;

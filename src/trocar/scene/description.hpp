@@ -149,6 +149,29 @@ struct Membrane {
   core::Location at, spacing_at;
 };
 
+/// What a pouch is filled with.
+struct Contents {
+  enum Kind { nothing, constant, liquid, gas } kind = nothing;
+  double pressure = 0;  ///< over the surroundings, as drawn [Pa]
+  double bulk = 2e5;    ///< of a liquid [Pa]
+  double density = 0;   ///< [kg/m^3]
+};
+
+/// A thin closed wall around something: gallbladder, bladder. The wall's nodes within a ball of `held` (anchors, all
+/// rigid) ride on the nearest of the bodies `held_on` within `held_reach`, or stay in space.
+struct Pouch {
+  std::string name, tissue, look;
+  std::vector<Section> sections;
+  double thickness = 0;    ///< [m]
+  double spacing = 0.004;  ///< of its nodes [m]
+  std::vector<Anchor> held;
+  std::vector<std::string> held_on;  ///< solids and strands
+  double held_reach = 0.004;         ///< [m]
+  Contents contents;
+  bool cuttable = true;
+  core::Location at, spacing_at;
+};
+
 struct Port {
   std::string name;
   Vec3d position;
@@ -197,6 +220,7 @@ struct Description {
   std::vector<Wall> walls;
   std::vector<Sheet> sheets;
   std::vector<Membrane> membranes;
+  std::vector<Pouch> pouches;
   std::vector<Port> ports;
   std::vector<Instrument> instruments;
   std::vector<Placement> placements;  ///< tools, in hand order: [0] left, [1] right, [2] assistant/third

@@ -102,7 +102,7 @@ void Reading::check_names() {
     for (const auto& body : list) organs.emplace_back(body.name, body.at);
   };
   add(description.solids), add(description.strands), add(description.walls), add(description.sheets);
-  add(description.membranes);
+  add(description.membranes), add(description.pouches);
   check_unique("organ", organs, m_faults);
 }
 

@@ -166,6 +166,18 @@ void Reading::organ(const JsonObject& o, const fs::path& folder) {
   for (const JsonObject& w : o.objects("walls")) wall(w);
   for (const JsonObject& s : o.objects("sheets")) sheet(s);
   for (const JsonObject& m : o.objects("membranes")) membrane(m);
+  for (const JsonObject& p : o.objects("pouches")) pouch(p);
+}
+
+std::vector<Section> Reading::sections(const JsonObject& o) {
+  std::vector<Section> all;
+  for (const JsonObject& part : o.objects("sections")) {
+    all.push_back(section(part));
+    const std::size_t n = all.size();
+    if (n > 1 && part.has("centre_mm") && !(length(all[n - 1].centre - all[n - 2].centre) >= 1e-5))
+      part.fault("centre_mm", "expected a centre at least 0.01 mm from the section before, got the same place");
+  }
+  return all;
 }
 
 void Reading::solid(const JsonObject& o, const fs::path& folder) {
@@ -174,12 +186,7 @@ void Reading::solid(const JsonObject& o, const fs::path& folder) {
   s.tissue = o.text("tissue");
   s.look = o.text("look", s.name);
   refer(Reference::To::tissue, o, "tissue");
-  for (const JsonObject& part : o.objects("sections")) {
-    s.sections.push_back(section(part));
-    const std::size_t n = s.sections.size();
-    if (n > 1 && part.has("centre_mm") && !(length(s.sections[n - 1].centre - s.sections[n - 2].centre) >= 1e-5))
-      part.fault("centre_mm", "expected a centre at least 0.01 mm from the section before, got the same place");
-  }
+  s.sections = sections(o);
   s.cell = o.has("mesh") ? 0 : from_mm(o.number("cell_mm", 5));
   s.cuttable = o.flag("cuttable", s.cuttable);
   s.fibre = o.vec3("fibre");

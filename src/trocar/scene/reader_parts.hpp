@@ -91,6 +91,8 @@ class Reading {
   StrandEnd strand_end(const JsonObject& strand, const char* key);
   void sheet(const JsonObject& o);
   void membrane(const JsonObject& o);
+  void pouch(const JsonObject& o);
+  std::vector<Section> sections(const JsonObject& o);
 
   void instrument(const JsonObject& o, const std::filesystem::path& folder);
 

@@ -184,6 +184,42 @@ const Shape& membrane() {
   return shape;
 }
 
+const Shape& held_place() {
+  static const Shape shape{"held place",
+                           "Where a pouch's wall is held.",
+                           {needed(keys::vec3("centre_mm", -kFar, kFar, "centre of a ball")),
+                            needed(keys::number("radius_mm", 0.1, 500, "radius of the ball"))}};
+  return shape;
+}
+
+const Shape& contents() {
+  static const Shape shape{
+      "contents",
+      "What fills a pouch, and the pressure with which it does.",
+      {needed(keys::choice("kind", {"liquid", "gas", "constant"},
+                           "liquid: p0 + K (V0 - V) / V0; gas: Boyle's law; constant: p0 whatever the volume")),
+       needed(keys::number("pressure_Pa", -90000, 1e6, "p0, over the surroundings, as drawn, at the middle")),
+       keys::number("bulk_kPa", 0.1, 1e7, "K of a liquid, default 200: how well it holds its volume"),
+       keys::number("density_kg_m3", 0, 25000, "default: liquid 1000, else 0")}};
+  return shape;
+}
+
+const Shape& pouch() {
+  static const Shape shape{
+      "pouch",
+      "A thin closed wall around something: a gallbladder, a bladder.",
+      {needed(keys::name("name", "what scenes and exercises call it")), needed(keys::name("tissue", "of its wall")),
+       keys::name("look", "its surface in the picture, default: its name"),
+       needed(keys::objects("sections", section, 2, "from one end to the other, as a solid's")),
+       needed(keys::number("thickness_mm", 0.05, 20, "of the wall")),
+       keys::number("spacing_mm", 0.3, 50, "distance of its nodes, default 4"),
+       keys::objects("held", held_place, 0, "places where the wall is held"),
+       keys::texts("held_on", "solids and strands that hold it where they are near; elsewhere it stays in place"),
+       keys::number("held_reach_mm", 0.1, 100, "how near that is, from a strand's surface or a skin, default 4"),
+       keys::object("contents", contents, "default: nothing presses"), keys::flag("cuttable", "default true")}};
+  return shape;
+}
+
 const Shape& organ();
 
 std::vector<Key> organ_keys() {
@@ -193,7 +229,8 @@ std::vector<Key> organ_keys() {
           keys::objects("strands", strand, 0, "tubes and cords"),
           keys::objects("walls", wall, 0, "surfaces that do not move"),
           keys::objects("sheets", sheet, 0, "folds that are only drawn"),
-          keys::objects("membranes", membrane, 0, "folds that are bodies")};
+          keys::objects("membranes", membrane, 0, "folds that are bodies"),
+          keys::objects("pouches", pouch, 0, "closed walls with something inside")};
 }
 
 const Shape& organ() {

@@ -99,6 +99,15 @@ void bend(Solid& solid, const Warp& warp) {
   for (Anchor& a : solid.anchors) a.centre = warp(a.centre);
 }
 
+void bend(Pouch& pouch, const Warp& warp) {
+  for (Section& s : pouch.sections) {
+    s.across = warp.along(s.centre, s.across);
+    s.deep = warp.along(s.centre, s.deep);
+    s.centre = warp(s.centre);
+  }
+  for (Anchor& a : pouch.held) a.centre = warp(a.centre);
+}
+
 double around_one(core::Random& random, double most) { return 1 + random.uniform(-most, most); }
 
 Warp drawn_warp(const Description& d, core::Random& random, const Variation& most) {
@@ -132,6 +141,7 @@ void vary(Description& d, std::uint64_t seed, const Variation& most) {
     maps.push_back(bend(s, warp));
   }
   for (Solid& s : d.solids) bend(s, warp);
+  for (Pouch& p : d.pouches) bend(p, warp);
   for (Wall& w : d.walls)
     for (Vec3d& p : w.net) p = warp(p);
   const auto bend_fold = [&](auto& fold) {

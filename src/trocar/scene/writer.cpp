@@ -197,6 +197,31 @@ JsonValue written(const Membrane& m) {
   return o;
 }
 
+JsonValue written(const Contents& c) {
+  JsonValue o = json_object();
+  put(o, "kind", json_text(c.kind == Contents::gas ? "gas" : c.kind == Contents::constant ? "constant" : "liquid"));
+  put(o, "pressure_Pa", json_number(c.pressure));
+  if (c.kind == Contents::liquid) put(o, "bulk_kPa", json_number(1e-3 * c.bulk));
+  put(o, "density_kg_m3", json_number(c.density));
+  return o;
+}
+
+JsonValue written(const Pouch& p) {
+  JsonValue o = json_object();
+  put_name(o, "name", p.name);
+  put_name(o, "tissue", p.tissue);
+  put_name(o, "look", p.look);
+  put(o, "sections", list(p.sections, [](const Section& x) { return written(x); }));
+  put(o, "thickness_mm", mm(p.thickness));
+  put(o, "spacing_mm", mm(p.spacing));
+  if (!p.held.empty()) put(o, "held", list(p.held, [](const Anchor& x) { return written(x); }));
+  if (!p.held_on.empty()) put(o, "held_on", list(p.held_on, [](const std::string& x) { return json_text(x); }));
+  put(o, "held_reach_mm", mm(p.held_reach));
+  if (p.contents.kind != Contents::nothing) put(o, "contents", written(p.contents));
+  put(o, "cuttable", json_flag(p.cuttable));
+  return o;
+}
+
 const char* kind_name(InstrumentKind kind) {
   switch (kind) {
     case InstrumentKind::grasper:
@@ -265,6 +290,7 @@ JsonValue organs(const Description& d) {
   put(o, "walls", list(d.walls, [](const Wall& x) { return written(x); }));
   put(o, "sheets", list(d.sheets, [](const Sheet& x) { return written(x); }));
   if (!d.membranes.empty()) put(o, "membranes", list(d.membranes, [](const Membrane& x) { return written(x); }));
+  if (!d.pouches.empty()) put(o, "pouches", list(d.pouches, [](const Pouch& x) { return written(x); }));
   return json_array({std::move(o)});
 }
 

@@ -25,21 +25,27 @@ double pressure_energy(const Enclosure& e, double volume) noexcept {
 }
 
 EnclosedVolume enclosed_volume(std::span<const std::array<int, 3>> triangles, std::span<const Vec3d> x,
-                               std::span<Vec3d> gradient) noexcept {
+                               std::span<Vec3d> gradient, Vec3d heavy, std::span<Vec3d> weight) noexcept {
   for (Vec3d& each : gradient) each = {};
+  for (Vec3d& each : weight) each = {};
   EnclosedVolume sum;
   if (x.empty()) return sum;
   const Vec3d o = x[0];  // near the surface, so that few digits cancel
   for (const auto& t : triangles) {
     const Vec3d a = x[std::size_t(t[0])] - o, b = x[std::size_t(t[1])] - o, c = x[std::size_t(t[2])] - o;
-    const Vec3d third = cross(b - a, c - a) / 6.0;
+    const Vec3d third = (1.0 / 6) * cross(b - a, c - a), thrice = a + b + c;
     const double part = dot(a, third);
     sum.volume += part;
-    sum.centre += (0.25 * part) * (a + b + c);
-    if (gradient.empty()) continue;
-    for (int node : t) gradient[std::size_t(node)] += third;
+    sum.centre += (0.25 * part) * thrice;
+    if (!gradient.empty())
+      for (int node : t) gradient[std::size_t(node)] += third;
+    if (weight.empty()) continue;
+    const Vec3d pressed = ((1.0 / 3) * dot(heavy, thrice)) * third;  // as deep below x[0]
+    for (int node : t) weight[std::size_t(node)] += pressed;
   }
-  sum.centre = o + (sum.volume > 0 ? sum.centre / sum.volume : Vec3d{});
+  const Vec3d from_o = sum.volume > 0 ? sum.centre / sum.volume : Vec3d{};
+  for (std::size_t i = 0; i < weight.size(); ++i) weight[i] -= dot(heavy, from_o) * gradient[i];
+  sum.centre = o + from_o;
   return sum;
 }
 

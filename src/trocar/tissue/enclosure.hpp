@@ -64,8 +64,11 @@ struct EnclosedVolume {
 };
 /// @param x         (n) positions [m]
 /// @param gradient  (n) dV/dx [m^2], or empty
+/// @param heavy     density times gravity of what is inside [N/m^3]
+/// @param weight    (n) how it presses on the nodes [N], or empty: on each triangle with the depth of its middle below
+///                  the volume's centre; all of it together is the weight of what the volume would hold
 EnclosedVolume enclosed_volume(std::span<const std::array<int, 3>> triangles, std::span<const Vec3d> x,
-                               std::span<Vec3d> gradient) noexcept;
+                               std::span<Vec3d> gradient, Vec3d heavy = {}, std::span<Vec3d> weight = {}) noexcept;
 
 /// Makes state.pressure that of the step's end, and notes the volume for the next step.
 /// @param rate  g . v with all other impulses of the step's beginning in v [m^3/s]

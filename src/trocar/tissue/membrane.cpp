@@ -70,21 +70,11 @@ void kick(const MembraneModel& m, MembraneState& s, const std::vector<RowForce>&
   }
 }
 
-/// Volume, its gradient, and where what is enclosed presses with its weight: on each triangle with the depth of its
-/// middle below the volume's centre. All of it together is the weight of what the volume would hold.
+/// Volume, its gradient, and how what is enclosed presses with its weight.
 EnclosedVolume look_inside(const MembraneModel& m, const MembraneState& s, MembraneWork& w) noexcept {
   for (int i = 0; i < m.nodes(); ++i) w.place[std::size_t(i)] = position(m.network, s.network, i);
-  const EnclosedVolume inside = enclosed_volume(m.triangles, w.place, w.gradient);
-  for (Vec3d& each : w.weight) each = {};
-  const Vec3d heavy = (s.enclosure.tightness * m.enclosure.density) * m.network.gravity;
-  if (dot(heavy, heavy) == 0) return inside;
-  for (const auto& t : m.triangles) {
-    const Vec3d a = w.place[std::size_t(t[0])], b = w.place[std::size_t(t[1])], c = w.place[std::size_t(t[2])];
-    const double p = dot(heavy, (a + b + c) / 3.0 - inside.centre);
-    const Vec3d third = (p / 6) * cross(b - a, c - a);
-    for (int node : t) w.weight[std::size_t(node)] += third;
-  }
-  return inside;
+  return enclosed_volume(m.triangles, w.place, w.gradient,
+                         (s.enclosure.tightness * m.enclosure.density) * m.network.gravity, w.weight);
 }
 
 /// v += dt f / m at a free node.

@@ -119,6 +119,23 @@ Material liver() {
   return m;
 }
 
+/// Its bile shines through the wall: grey-green, with fat where it lies on the liver.
+Material gallbladder() {
+  Material m = with_vessels(tissue(srgb(108, 124, 108), srgb(136, 138, 108), srgb(86, 106, 96)), 0.75f, 0.026f);
+  m.mottle_size = 0.013f;
+  m.mottle = 0.55f;
+  m.two_sided = true;
+  m.wetness = 0.85f;
+  m.film_roughness = 0.1f;
+  m.film_bump = 0.2f;
+  m.film_size = 0.0034f;
+  m.glow = {0.5f, 0.55f, 0.2f};
+  m.glow_amount = 0.08f;
+  m.wrap = {0.34f, 0.3f, 0.2f};
+  m.tint = srgb(222, 180, 118);  // fat
+  return m;
+}
+
 Material fold(float alpha) {
   Material m = with_vessels(tissue(srgb(210, 146, 138), srgb(222, 172, 148), srgb(196, 124, 120)), 1.0f, 0.03f);
   m.mottle_size = 0.016f;
@@ -216,6 +233,10 @@ std::vector<Look> make_looks() {
         .haustra_size = 0.023},
        22},
       {"liver", liver(), false, {.broad = 0.0006, .broad_size = 0.024}},
+      {"gallbladder",
+       gallbladder(),
+       false,
+       {.broad = 0.0005, .broad_size = 0.017, .fine = 0.00012, .fine_size = 0.005}},
       {"fat", fat(), false, {.broad = 0.001, .broad_size = 0.012, .fine = 0.0006, .fine_size = 0.005}},
       {"peritoneum", peritoneum(), false, {}},
       {"mesosalpinx", mesosalpinx(), true, {}},

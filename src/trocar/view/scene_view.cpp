@@ -15,6 +15,7 @@
 #include <trocar/view/looks.hpp>
 #include <trocar/view/membrane_drawing.hpp>
 #include <trocar/view/organ_drawing.hpp>
+#include <trocar/view/pouch_drawing.hpp>
 #include <trocar/view/scene_view.hpp>
 #include <trocar/view/sheet_drawing.hpp>
 #include <trocar/view/tube_drawing.hpp>
@@ -86,6 +87,8 @@ struct SceneView::Parts {
   std::vector<TubeDrawing> tubes;
   std::vector<SheetDrawing> sheets;
   std::vector<MembraneDrawing> membranes;
+  std::vector<PouchDrawing> pouches;
+  std::vector<std::size_t> membrane_of, pouch_of;  ///< their numbers in the Model
   std::vector<OwnedMesh> walls, margins;
   std::vector<MeshBuffer> margin_shapes;
   OwnedMesh cavity;
@@ -167,7 +170,14 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
     t.create(std::move(paint), backend);
   }
   for (int i = 0; i < int(model.sheets.size()); ++i) sheets.emplace_back(model, i, backend);
-  for (int i = 0; i < int(model.membranes.size()); ++i) membranes.emplace_back(model, i, backend);
+  for (std::size_t i = 0; i < model.membranes.size(); ++i)
+    if (model.membranes[i].sheet.closed()) {
+      pouches.emplace_back(model, int(i), backend);
+      pouch_of.push_back(i);
+    } else {
+      membranes.emplace_back(model, int(i), backend);
+      membrane_of.push_back(i);
+    }
 }
 
 /// From a hand's port to where its instrument comes through the drawn wall [m]; 0 where the port lies before it.
@@ -226,6 +236,7 @@ void SceneView::Parts::update(const sim::State& state) {
   for (TubeDrawing& t : tubes) t.update(state);
   for (SheetDrawing& s : sheets) s.update(state);
   for (MembraneDrawing& m : membranes) m.update(state);
+  for (PouchDrawing& p : pouches) p.update(state);
   for (LoadedClip& l : loaded) {
     const interactions::ToolState& now = state.tools[std::size_t(l.hand)];
     if (now.instrument != l.instrument) continue;
@@ -258,7 +269,9 @@ void SceneView::Parts::list_tissues(bool with_walls, Frame& frame) const {
   for (std::size_t i = 0; i < sheets.size(); ++i)
     frame.items.push_back(item(sheets[i].mesh(), look(model.sheets[i].look)));
   for (std::size_t i = 0; i < membranes.size(); ++i)
-    frame.items.push_back(item(membranes[i].mesh(), look(model.membranes[i].look)));
+    frame.items.push_back(item(membranes[i].mesh(), look(model.membranes[membrane_of[i]].look)));
+  for (std::size_t i = 0; i < pouches.size(); ++i)
+    frame.items.push_back(item(pouches[i].mesh(), look(model.membranes[pouch_of[i]].look)));
 }
 
 void SceneView::Parts::list_clips(const sim::State& state, Frame& frame) const {
