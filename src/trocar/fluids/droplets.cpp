@@ -1,0 +1,306 @@
+// Drops: birth, flight, what the caller is asked.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+
+#include <trocar/fluids/droplets.hpp>
+#include <trocar/numerics/portable.hpp>
+
+namespace trocar::fluids {
+namespace {
+
+constexpr float kFastest = 20;   ///< no drop is born faster [m/s]
+constexpr float kFarthest = 10;  ///< nor lives beyond [m]
+constexpr int kMostBirths = 64;  ///< of an opening in a tick
+
+void require(bool holds, const char* what) {
+  if (!holds) throw std::invalid_argument(what);
+}
+bool power_of_two(int n) { return n > 0 && (n & (n - 1)) == 0; }
+bool finite(Vec3f p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+/// Cube root of a float in the normal range: exponent by a third, then Newton's steps.
+float cube_root(float a) {
+  if (!(a > 1e-30f)) return 0;
+  std::uint32_t bits;
+  std::memcpy(&bits, &a, sizeof bits);
+  bits = bits / 3 + 709921077u;  // the exponent's bias times 2/3, shifted
+  float r;
+  std::memcpy(&r, &bits, sizeof r);
+  for (int i = 0; i < 4; ++i) r = (2 * r + a / (r * r)) / 3;
+  return r;
+}
+
+// ---- birth
+
+/// Volume into which a jet from an opening breaks: a ball of 1.89 jet diameters [Rayleigh 1878].
+std::int64_t drop_volume(const DropletModel& m, double area) {
+  const double jet = 2 * std::sqrt(area / portable::pi), d = 1.89 * jet;
+  const double pl = portable::pi / 6 * d * d * d * kPicolitresPerM3;
+  return std::int64_t(std::clamp(pl, double(m.smallest), double(m.largest)));
+}
+
+Mix bounded_flow(const Mix& flow, FluidReport& report, std::int32_t index) {
+  Mix in;
+  for (std::int64_t Mix::*species : {&Mix::blood, &Mix::saline, &Mix::bile})
+    in.*species = std::clamp<std::int64_t>(flow.*species, 0, kMostAtOnce / 4);
+  if (!(in == flow)) report.note(FluidReport::kFlowBounded, index);
+  return in;
+}
+
+/// Drops of one opening in one tick, along the way that the jet covers in it; speed v = Q / A.
+void break_up(const DropletModel& m, const Opening& o, const Mix& in, std::int32_t index, DropletState& s, Below& below,
+              FluidReport& report) {
+  Mix& forming = s.forming[std::size_t(index)];
+  receive(below.ledger, o.source, Place::kDroplets, in);
+  forming += in;
+  const double area = o.area > 1e-10 && o.area < 1 ? o.area : 1e-10;
+  const std::int64_t each =
+      std::clamp(forming.total() / kMostBirths + 1, drop_volume(m, area), std::int64_t(m.largest));
+  const auto births = int(std::min<std::int64_t>(forming.total() / each, kMostBirths));
+  const float speed = std::min(float(kM3PerPicolitre * double(in.total()) / (m.tick * area)), kFastest);
+  const Vec3f velocity = o.velocity + speed * o.direction;
+  for (int n = 0; n < births; ++n) {
+    const Mix drop = share(forming, each);
+    const float ago = float(m.tick) * (float(n) + 0.5f) / float(births);
+    if (!add_drop(m, o.position + (speed * ago) * o.direction, velocity, drop, s)) {
+      report.note(FluidReport::kDropletsFull, index);
+      break;
+    }
+    forming -= drop;
+  }
+  if (forming.total() < each) return;
+  report.note(FluidReport::kFlowBounded, index);
+  detail::put_into_pool(m, o.position, forming, Place::kDroplets, below);
+  forming = {};
+}
+
+void ooze(const DropletModel& m, const Opening& o, const Mix& in, DropletState& s, Below& below) {
+  receive(below.ledger, o.source, Place::kFilm, in);
+  SmallMix& place = s.film[std::size_t(o.film)];
+  const Mix fits = share(in, std::int64_t(kMostInACell) - place.total());
+  place.blood += std::int32_t(fits.blood), place.saline += std::int32_t(fits.saline);
+  place.bile += std::int32_t(fits.bile);
+  if (!(fits == in)) detail::put_into_pool(m, o.position, in - fits, Place::kFilm, below);
+}
+
+void open_up(const DropletModel& m, std::span<const Opening> openings, DropletState& s, Below& below,
+             FluidReport& report) {
+  for (std::int32_t i = 0; i < std::int32_t(openings.size()); ++i) {
+    const Opening& o = openings[std::size_t(i)];
+    const Mix in = bounded_flow(o.flow, report, i);
+    if (in.empty()) continue;
+    const bool placed = finite(o.position) && finite(o.direction) && finite(o.velocity) &&
+                        std::fabs(dot(o.direction, o.direction) - 1) < 0.01f && i < kMostOpenings;
+    if (!placed || o.film >= std::int32_t(s.film.size())) {
+      report.note(FluidReport::kBadOpening, i);
+      receive(below.ledger, o.source, Place::kDroplets, in);
+      detail::put_into_pool(m, o.position, in, Place::kDroplets, below);
+    } else if (o.film >= 0) {
+      ooze(m, o, in, s, below);
+    } else {
+      break_up(m, o, in, i, s, below, report);
+    }
+  }
+}
+
+// ---- flight
+
+struct Flight {
+  float gx, gy, gz, dt;          ///< gravity times dt [m/s], dt [s]
+  float drag, reynolds, stokes;  ///< see drag_rate()
+};
+
+Flight flight_of(const DropletModel& m) {
+  const double dt = m.tick;
+  Flight f{float(dt * m.gravity.x), float(dt * m.gravity.y), float(dt * m.gravity.z), float(dt), 0, 0, 0};
+  if (m.gas_density > 0) {
+    f.drag = float(0.375 * m.gas_density / m.density.blood);
+    f.reynolds = float(2 * m.gas_density / m.gas_viscosity);
+    f.stokes = float(24 / (2 * m.gas_density / m.gas_viscosity));
+  }
+  return f;
+}
+
+/// Drops in flight fall and are slowed; where they get to is kept apart. Drag rate: 3/8 rho_gas/rho Cd |v| / r.
+void fly(const Flight& f, int count, const std::int32_t* body, const float* radius, const float* x, const float* y,
+         const float* z, float* __restrict vx, float* __restrict vy, float* __restrict vz, float* __restrict to_x,
+         float* __restrict to_y, float* __restrict to_z) {
+  for (int i = 0; i < count; ++i) {
+    const bool flies = body[i] < 0;
+    const float falls = flies ? 1.0f : 0.0f;
+    const float ax = vx[i] + falls * f.gx, ay = vy[i] + falls * f.gy, az = vz[i] + falls * f.gz;
+    const float speed = std::sqrt((ax * ax + ay * ay) + az * az), r = radius[i];
+    const float re = f.reynolds * speed * r;
+    const float cd_speed = f.stokes / r + speed * (6 / (1 + std::sqrt(re)) + 0.4f);  // Cd |v|
+    const float rate = f.drag * cd_speed / r;
+    const float keep = flies ? 1 / (1 + f.dt * rate) : 1.0f;
+    const float nx = ax * keep, ny = ay * keep, nz = az * keep;
+    vx[i] = nx, vy[i] = ny, vz[i] = nz;
+    to_x[i] = x[i] + f.dt * nx, to_y[i] = y[i] + f.dt * ny, to_z[i] = z[i] + f.dt * nz;
+  }
+}
+
+/// Drops that are nowhere go into the pool.
+void catch_lost(const DropletModel& m, DropletState& s, DropletWork& w, Below& below, FluidReport& report) {
+  for (int i = 0; i < s.count; ++i) {
+    const float far = (std::fabs(w.to_x[i]) + std::fabs(w.to_y[i])) + std::fabs(w.to_z[i]);
+    if (far < kFarthest) continue;
+    report.note(FluidReport::kBadDroplet, i);
+    detail::put_into_pool(m, {s.x[i], s.y[i], s.z[i]}, widened(s.volume[i]), Place::kDroplets, below);
+    s.volume[i] = {};
+    s.body[i] = -1;
+  }
+}
+
+void ask(const DropletModel& m, const DropletState& s, DropletWork& w) {
+  const std::uint32_t mask = std::uint32_t(m.contact_period) - 1;
+  w.questions = 0;
+  for (int i = 0; i < s.count; ++i) {
+    const bool asks = s.body[i] < 0 || ((s.id[i] + std::uint32_t(s.tick)) & mask) == 0;
+    w.question_of[i] = asks ? w.questions : -1;
+    if (!asks) continue;
+    w.answers[w.questions].body = -1;
+    w.asking[w.questions++] = i;
+  }
+}
+
+/// Places of film that hold more than they can: a sixteenth of all is looked at in a tick.
+void ask_for_film(const DropletModel& m, const DropletState& s, DropletWork& w) {
+  w.film_questions = 0;
+  const std::size_t n = s.film.size(), part = n / 16 + 1, first = part * (s.tick % 16);
+  for (std::size_t c = first; c < std::min(first + part, n) && w.film_questions < kFilmQuestions; ++c) {
+    if (s.film[c].total() < m.film_capacity + m.smallest) continue;
+    w.film_answers[w.film_questions].body = -1;
+    w.overfull[w.film_questions++] = std::int32_t(c);
+  }
+}
+
+}  // namespace
+
+DropletModel build(const DropletDescription& d, double tick) {
+  require(d.capacity >= 1 && d.capacity <= 65536, "droplets: 1 to 65536");
+  require(d.film_cells >= 0 && d.film_cells <= 4'000'000, "droplets: up to 4 million places of film");
+  require(d.film_capacity >= 0 && d.film_capacity <= kMostInACell / 2, "droplets: film capacity");
+  require(length(d.gravity) < 100, "droplets: gravity");
+  require(d.smallest >= 100 && d.largest > d.smallest && d.largest <= 200'000'000, "droplets: smallest and largest");
+  require(d.viscosity > 0 && d.surface_tension >= 0 && d.gas_density >= 0 && d.gas_viscosity > 0,
+          "droplets: viscosity, surface tension, gas");
+  require(d.density.blood > 0 && d.density.saline > 0 && d.density.bile > 0, "droplets: densities");
+  require(d.film_thickness >= 0 && d.hysteresis >= 0 && d.running_height > 0 && d.overhang >= 0 && d.splash > 0,
+          "droplets: film, hysteresis, running height, overhang, splash");
+  require(
+      power_of_two(d.pair_period) && power_of_two(d.contact_period) && d.pair_period <= 16 && d.contact_period <= 16,
+      "droplets: periods are powers of two up to 16");
+  require(tick > 0 && tick <= 0.01, "droplets: tick");
+  DropletModel m;
+  static_cast<DropletDescription&>(m) = d;
+  m.tick = tick;
+  return m;
+}
+
+DropletState no_droplets(const DropletModel& m) {
+  DropletState s;
+  const auto n = std::size_t(m.capacity);
+  for (auto* a : {&s.x, &s.y, &s.z, &s.vx, &s.vy, &s.vz}) a->assign(n, 0.0f);
+  s.radius.assign(n, 1e-3f);
+  s.body.assign(n, -1);
+  s.ground.assign(n, Ground{});
+  s.volume.assign(n, SmallMix{});
+  s.id.assign(n, 0);
+  s.film.assign(std::size_t(m.film_cells), SmallMix{});
+  return s;
+}
+
+float radius_of(std::int64_t picolitres) noexcept {
+  return cube_root(float(kM3PerPicolitre * 3 / (4 * portable::pi) * double(picolitres)));
+}
+
+bool add_drop(const DropletModel& m, Vec3f p, Vec3f v, const Mix& volume, DropletState& s) noexcept {
+  const std::int64_t total = volume.total();
+  if (s.count >= m.capacity || total <= 0 || total > m.largest) return false;
+  const int i = s.count++;
+  s.x[i] = p.x, s.y[i] = p.y, s.z[i] = p.z;
+  s.vx[i] = v.x, s.vy[i] = v.y, s.vz[i] = v.z;
+  s.radius[i] = radius_of(total);
+  s.body[i] = -1;
+  s.ground[i] = Ground{};
+  s.volume[i] = {std::int32_t(volume.blood), std::int32_t(volume.saline), std::int32_t(volume.bile)};
+  s.id[i] = s.next_id++;
+  return true;
+}
+
+FluidReport plan(const DropletModel& m, std::span<const Opening> openings, DropletState& s, DropletWork& w,
+                 Below& below) noexcept {
+  FluidReport report;
+  open_up(m, openings, s, below, report);
+  if (s.tick % std::uint64_t(m.pair_period) == 1 % std::uint64_t(m.pair_period))
+    report = report | detail::pull_together(m, m.tick * m.pair_period, s, w);
+  fly(flight_of(m), s.count, s.body.data(), s.radius.data(), s.x.data(), s.y.data(), s.z.data(), s.vx.data(),
+      s.vy.data(), s.vz.data(), w.to_x.data(), w.to_y.data(), w.to_z.data());
+  catch_lost(m, s, w, below, report);
+  ask(m, s, w);
+  ask_for_film(m, s, w);
+  return report;
+}
+
+Mix drops_content(const DropletState& s) noexcept {
+  Mix sum;
+  for (int i = 0; i < s.count; ++i) sum += widened(s.volume[i]);
+  for (const Mix& f : s.forming) sum += f;
+  return sum;
+}
+Mix film_content(const DropletState& s) noexcept {
+  Mix sum;
+  for (const SmallMix& f : s.film) sum += widened(f);
+  return sum;
+}
+
+Mix take_film(std::int32_t film, std::int64_t amount, DropletState& s) noexcept {
+  if (film < 0 || film >= std::int32_t(s.film.size())) return {};
+  SmallMix& place = s.film[std::size_t(film)];
+  const Mix out = share(widened(place), amount);
+  place.blood -= std::int32_t(out.blood), place.saline -= std::int32_t(out.saline);
+  place.bile -= std::int32_t(out.bile);
+  return out;
+}
+
+namespace detail {
+
+void put_into_pool(const DropletModel&, Vec3f at, const Mix& volume, Place from, Below& below) noexcept {
+  if (volume.empty()) return;
+  const PoolPoint p = locate(below.model, vec_cast<double>(at));
+  pour(below.model, p.i, p.j, volume, below.state);
+  move(below.ledger, from, Place::kPool, volume);
+}
+
+void remove_empty(DropletState& s) noexcept {
+  for (int i = s.count - 1; i >= 0; --i) {
+    if (s.volume[i].total() > 0) continue;
+    const int last = --s.count;
+    for (auto* a : {&s.x, &s.y, &s.z, &s.vx, &s.vy, &s.vz, &s.radius}) (*a)[i] = (*a)[last];
+    s.body[i] = s.body[last];
+    s.ground[i] = s.ground[last];
+    s.volume[i] = s.volume[last];
+    s.id[i] = s.id[last];
+  }
+}
+
+}  // namespace detail
+
+void add_to_hash(core::Hasher& hasher, const DropletState& s) noexcept {
+  hasher.add(s.count);
+  hasher.add(s.next_id);
+  const auto used = [&](const auto& a) { hasher.add(core::hash_bytes(a.data(), std::size_t(s.count) * sizeof a[0])); };
+  for (const auto* a : {&s.x, &s.y, &s.z, &s.vx, &s.vy, &s.vz, &s.radius}) used(*a);
+  used(s.body);
+  used(s.ground);
+  used(s.volume);
+  used(s.id);
+  hasher.add(s.film);
+  hasher.add(s.forming);
+  hasher.add(s.tick);
+}
+
+}  // namespace trocar::fluids

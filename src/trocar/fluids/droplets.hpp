@@ -1,0 +1,190 @@
+// Fluid on its way: jets that break into drops, drops that fly, cling, join, run down over moving tissue and leave a
+// film there, and fall into the pool.
+//
+//   m dv/dt = m g - drag + forces between drops                 in flight
+//   drag      3/8 rho_gas/rho Cd |v| v / r,  Cd = 24/Re + 6/(1 + sqrt(Re)) + 0.4            [White 1991]
+//   forces    a damped spring of stiffness pi sigma between drops nearer than 1.5 times the sum of their radii, at rest
+//             at 0.9 times it, pulling as well as pushing; implicit, equal and opposite, shared among neighbours (our
+//             choice; surface tension sigma is a stiffness). Drops that interpenetrate by half become one, if that is
+//             not too large.
+//   running   dv/dt = g_along - v/tau - retention; tau = rho h^2 / 3 mu with h a share of the radius (the film's mean
+//             speed [Nusselt 1916]); retention: a drop stays until m g sin > width sigma (cos rec - cos adv)
+//             [Furmidge 1962]; it falls off below an overhang when heavier than a share of 2 pi r sigma [Tate 1864]
+//   film      a running drop leaves thickness x 2r x way of itself behind, as long as the film there is not full, and
+//             changes as much with what is there already: water washes blood away (our choice)
+//   landing   a drop does not bounce: it gives its momentum across the surface to it, which adds up to rho Q v in a jet
+//
+// A tick has two halves, because drops do not know tissue: plan() says where drops want to go, the caller answers with
+// the planes they meet, resolve() moves them.
+//
+//   plan(model, openings, ...);                       // emits, pulls, predicts; work.asking lists who needs an answer
+//   for (k : work.asking) work.answers[k] = nearest(State.position, work.to);
+//   resolve(...);                                     // lands, runs down, films, falls in
+//
+// Volumes are whole picolitres (mix.hpp). Arrays are by drop, 0 .. count - 1; a drop that ends leaves its place to the
+// last one. `id` names a drop for as long as it lives.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <trocar/core/hash.hpp>
+#include <trocar/fluids/capsule.hpp>
+#include <trocar/fluids/ledger.hpp>
+#include <trocar/fluids/pool.hpp>
+#include <trocar/fluids/report.hpp>
+
+namespace trocar::fluids {
+
+inline constexpr int kMostOpenings = 64;
+
+struct DropletDescription {
+  int capacity = 8192;                   ///< drops at a time, up to 65536
+  int film_cells = 0;                    ///< places on tissue that can carry a film
+  std::int64_t film_capacity = 200'000;  ///< of a place [pL]: 50 um on 4 mm^2
+  Vec3d gravity{0, 0, -9.81};            ///< [m/s^2]
+  Densities density;
+  double viscosity = 3.5e-3;         ///< mu, of blood [Pa s]
+  double surface_tension = 0.056;    ///< sigma, of blood [N/m]
+  double gas_density = 1.75;         ///< carbon dioxide, 12 mmHg, 37 C [kg/m^3]; 0 = nothing to fly through
+  double gas_viscosity = 1.6e-5;     ///< [Pa s]
+  std::int64_t smallest = 20'000;    ///< a drop below it becomes film [pL]: 0.17 mm radius
+  std::int64_t largest = 8'000'000;  ///< no drop is born or grows larger [pL]: 1.24 mm radius
+  double film_thickness = 20e-6;     ///< left behind by a running drop [m]
+  double hysteresis = 0.08;          ///< cos receding - cos advancing, on wet tissue
+  double running_height = 0.3;       ///< h over r of a running drop
+  double overhang = 0.5;             ///< share of 2 pi r sigma that holds a hanging drop
+  double splash = 80;                ///< Weber number above which a drop throws up smaller ones from the pool
+  int pair_period = 4;               ///< ticks between two looks at the forces between drops, a power of two
+  int contact_period = 4;            ///< ticks between two questions of a running drop, a power of two
+};
+
+struct DropletModel : DropletDescription {
+  double tick = 1e-3;  ///< [s]
+};
+
+/// What a running drop runs on: points x with normal . x = offset.
+struct Ground {
+  Vec3f normal{0, 0, 1};
+  float offset = 0;
+  Vec3f velocity{0, 0, 0};  ///< of the surface [m/s]
+  std::int32_t film = -1;   ///< place of the film below the drop, -1 = none
+};
+
+struct SmallMix {  ///< of a drop or a film's place [pL]
+  std::int32_t blood = 0, saline = 0, bile = 0;
+  std::int64_t total() const { return std::int64_t(blood) + saline + bile; }
+};
+inline Mix widened(const SmallMix& m) { return {m.blood, m.saline, m.bile}; }
+
+struct DropletState {
+  std::int32_t count = 0;
+  std::uint32_t next_id = 1;
+  std::vector<float> x, y, z, vx, vy, vz, radius;  ///< (capacity) [m], [m/s]
+  std::vector<std::int32_t> body;                  ///< (capacity) it runs on; -1 = it flies
+  std::vector<Ground> ground;                      ///< (capacity)
+  std::vector<SmallMix> volume;                    ///< (capacity)
+  std::vector<std::uint32_t> id;                   ///< (capacity)
+  std::vector<SmallMix> film;                      ///< (film cells)
+  std::array<Mix, kMostOpenings> forming{};        ///< what hangs at an opening until it is a drop
+  std::uint64_t tick = 0;
+};
+
+/// Where fluid comes out. Its index in the span is its name from tick to tick.
+struct Opening {
+  Vec3f position{0, 0, 0}, direction{0, 0, 1};  ///< direction: unit
+  Vec3f velocity{0, 0, 0};                      ///< of the opening itself [m/s]
+  double area = 0;                              ///< [m^2]
+  Mix flow;                                     ///< in this tick [pL]
+  Source source = Source::kBled;
+  std::int32_t film = -1;  ///< >= 0: it oozes into the film there
+};
+
+/// The caller's answer: the surface that a drop meets between its two positions, or runs on.
+struct Contact {
+  Vec3f point{0, 0, 0}, normal{0, 0, 1};  ///< normal: unit, out of the body
+  Vec3f velocity{0, 0, 0};                ///< of the surface there [m/s]
+  std::int32_t body = -1;                 ///< -1 = none
+  std::int32_t film = -1;                 ///< place of the film there, -1 = none
+};
+
+/// Momentum that a drop gave to what it met, in this tick.
+struct Impact {
+  std::int32_t body = -1, film = -1;
+  Vec3f point{0, 0, 0};
+  Vec3f impulse{0, 0, 0};  ///< [N s]
+};
+
+struct DropletWork {
+  std::vector<float> to_x, to_y, to_z;  ///< (capacity) where a drop in flight is at the end of the tick
+  std::vector<std::int32_t> asking;     ///< who needs an answer; the first `questions`
+  std::vector<Contact> answers;         ///< (capacity) in the order of `asking`
+  int questions = 0;
+  std::vector<std::int32_t> overfull;  ///< (kFilmQuestions) places of film that run over; the first `film_questions`
+  std::vector<Contact> film_answers;   ///< the surface at each of them; body -1 = let it wait
+  int film_questions = 0;
+  std::vector<Impact> impacts;  ///< (capacity) the first `impact_count`
+  int impact_count = 0;
+  std::vector<std::int32_t> near;           ///< (capacity) bits of capsules that a drop is near to
+  std::vector<std::int32_t> question_of;    ///< (capacity) index of its question, or -1
+  std::vector<std::uint32_t> bucket_first;  ///< the grid of the forces between drops
+  std::vector<std::int32_t> sorted, bucket_of;
+  std::vector<float> sx, sy, sz, svx, svy, svz, sr, sm, jx, jy, jz;
+  std::vector<std::int32_t> joined;      ///< (capacity) drop that it became part of, or -1
+  std::vector<std::int32_t> neighbours;  ///< (capacity)
+  struct Pair {
+    std::int32_t first, second;
+  };
+  std::vector<Pair> pairs;  ///< (16 capacity) within reach; the first pair_count
+  int pair_count = 0;
+};
+
+inline constexpr int kFilmQuestions = 64;
+
+/// @throws std::invalid_argument naming what is out of range
+DropletModel build(const DropletDescription& description, double tick = 1e-3);
+DropletState no_droplets(const DropletModel& model);
+DropletWork make_work(const DropletModel& model);
+
+/// The pool below and the account, for what falls in.
+struct Below {
+  const PoolModel& model;
+  std::span<const float> floor;
+  PoolState& state;
+  Ledger& ledger;
+};
+
+/// First half of a tick.
+FluidReport plan(const DropletModel& model, std::span<const Opening> openings, DropletState& state, DropletWork& work,
+                 Below& below) noexcept;
+/// Second half. @param capsules  instruments; drops cling to them and run down on them
+FluidReport resolve(const DropletModel& model, std::span<const Capsule> capsules, DropletState& state,
+                    DropletWork& work, Below& below) noexcept;
+
+/// One more drop. @return false if there is no room or nothing of it; nothing is booked
+bool add_drop(const DropletModel& model, Vec3f position, Vec3f velocity, const Mix& volume,
+              DropletState& state) noexcept;
+/// Takes all drops within `radius` of p, nearest names first, up to `amount`; the last one in part.
+Mix draw_drops(const DropletModel& model, Vec3f p, float radius, std::int64_t amount, DropletState& state) noexcept;
+/// Takes up to `amount` of the film at a place.
+Mix take_film(std::int32_t film, std::int64_t amount, DropletState& state) noexcept;
+
+/// Drops, and what is forming; film.
+Mix drops_content(const DropletState& state) noexcept;
+Mix film_content(const DropletState& state) noexcept;
+
+float radius_of(std::int64_t picolitres) noexcept;  ///< of a ball [m]
+
+void add_to_hash(core::Hasher& hasher, const DropletState& state) noexcept;
+
+namespace detail {
+/// Forces between drops, and joining. dt: since the last time.
+FluidReport pull_together(const DropletModel& model, double dt, DropletState& state, DropletWork& work) noexcept;
+/// Removes drops without volume, from the end.
+void remove_empty(DropletState& state) noexcept;
+void put_into_pool(const DropletModel& model, Vec3f at, const Mix& volume, Place from, Below& below) noexcept;
+}  // namespace detail
+
+}  // namespace trocar::fluids

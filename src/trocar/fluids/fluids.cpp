@@ -1,0 +1,161 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include <trocar/fluids/fluids.hpp>
+
+namespace trocar::fluids {
+namespace {
+
+void require(bool holds, const char* what) {
+  if (!holds) throw std::invalid_argument(what);
+}
+
+double valve(double opened) { return opened > 0 ? std::min(opened, 1.0) : 0.0; }
+
+double irrigation_flow(const Lines& l, const SuctionIrrigator& tool) {
+  return line_flow(l.irrigation_flow, l.bag_pressure, l.bag_pressure, valve(tool.irrigation));
+}
+
+/// The nozzles as openings, in places of their own so that a tool keeps what is forming at it.
+int open_nozzles(const FluidsModel& m, const FluidsInput& in, FluidsState& s, FluidsWork& w) {
+  const std::size_t tools = std::min(in.tools.size(), std::size_t(kMostTools));
+  for (std::size_t k = 0; k < kMostTools; ++k) {
+    Opening& o = w.openings[k];
+    o = Opening{};
+    if (k >= tools || !(valve(in.tools[k].irrigation) > 0)) continue;
+    const SuctionIrrigator& tool = in.tools[k];
+    o.position = tool.tip, o.direction = tool.direction, o.velocity = tool.velocity;
+    o.area = m.lines.nozzle_area;
+    o.source = Source::kIrrigated;
+    o.flow.saline = whole_picolitres(irrigation_flow(m.lines, tool), m.tick, s.irrigation_carry[k]);
+  }
+  const std::size_t bleeding = std::min(in.openings.size(), std::size_t(kMostOpenings - kMostTools));
+  for (std::size_t k = 0; k < bleeding; ++k) w.openings[kMostTools + k] = in.openings[k];
+  return int(kMostTools + bleeding);
+}
+
+/// What is liquid within the capture radius, drops first, then the pool; the line's remaining flow draws gas.
+ToolResult suck(const FluidsModel& m, const FluidsInput& in, std::size_t k, FluidsState& s) {
+  const SuctionIrrigator& tool = in.tools[k];
+  const Lines& l = m.lines;
+  ToolResult out;
+  const double irrigated = irrigation_flow(l, tool);
+  out.thrust = jet_force(m.droplets.density.saline, irrigated, irrigated / l.nozzle_area);
+  const double opened = valve(tool.suction);
+  if (!(opened > 0)) return out;
+  if (tool.blocked) {
+    out.clogged = true;
+    return out;
+  }
+  const double flow = line_flow(l.liquid_flow, l.vacuum, l.vacuum, opened);
+  const std::int64_t most = whole_picolitres(flow, m.tick, s.suction_carry[k]);
+  const Mix drops = draw_drops(m.droplets, tool.tip, float(l.capture_radius), most, s.droplets);
+  const Mix pool =
+      draw_off(m.pool, in.floor, vec_cast<double>(tool.tip), l.capture_radius, most - drops.total(), s.pool);
+  move(s.ledger, Place::kDroplets, Place::kSucked, drops);
+  move(s.ledger, Place::kPool, Place::kSucked, pool);
+  out.sucked = drops + pool;
+  const double unused = most > 0 ? 1 - double(out.sucked.total()) / double(most) : 1.0;
+  out.gas_flow = l.gas_flow * opened * unused;
+  return out;
+}
+
+}  // namespace
+
+FluidsModel build(const FluidsDescription& d, double tick) {
+  const Lines& l = d.lines;
+  require(l.irrigation_flow >= 0 && l.irrigation_flow < 1e-2 && l.liquid_flow >= 0 && l.liquid_flow < 1e-2,
+          "lines: flows from 0 to 10 L/s");
+  require(l.gas_flow >= 0 && l.nozzle_area > 1e-9 && l.capture_radius >= 0 && l.capture_radius < 0.1,
+          "lines: gas flow, nozzle area, capture radius");
+  require(l.bag_pressure > 0 && l.vacuum > 0, "lines: pressures");
+  return {build(d.pool, tick), build(d.droplets, tick), build(d.smoke, tick), l, tick};
+}
+
+FluidsState initial_state(const FluidsModel& m) {
+  FluidsState s;
+  s.pool = empty_pool(m.pool);
+  s.droplets = no_droplets(m.droplets);
+  s.smoke = clear_air(m.smoke);
+  return s;
+}
+
+FluidsWork make_work(const FluidsModel& m) {
+  return {make_work(m.pool), make_work(m.droplets), make_work(m.smoke), std::vector<Opening>(kMostOpenings)};
+}
+
+FluidReport begin_tick(const FluidsModel& m, const FluidsInput& in, FluidsState& s, FluidsWork& w) noexcept {
+  const int openings = open_nozzles(m, in, s, w);
+  Below below{m.pool, in.floor, s.pool, s.ledger};
+  FluidReport report =
+      plan(m.droplets, std::span(w.openings.data(), std::size_t(openings)), s.droplets, w.droplets, below);
+  if (in.openings.size() > kMostOpenings - kMostTools)
+    report.note(FluidReport::kBadOpening, kMostOpenings - kMostTools);
+  for (std::size_t i = 0; i < in.boiled.size(); ++i)
+    if (!boil(m.smoke, in.boiled[i].at, in.boiled[i].kilograms, s.smoke))
+      report.note(FluidReport::kBadOpening, std::int32_t(i));
+  return report;
+}
+
+FluidsReport finish_tick(const FluidsModel& m, const FluidsInput& in, FluidsState& s, FluidsWork& w) noexcept {
+  FluidsReport out;
+  Below below{m.pool, in.floor, s.pool, s.ledger};
+  out.report = resolve(m.droplets, in.capsules, s.droplets, w.droplets, below);
+  SmokeInput smoke = in.smoke;
+  for (std::size_t k = 0; k < std::min(in.tools.size(), std::size_t(kMostTools)); ++k) {
+    out.tools[k] = suck(m, in, k, s);
+    smoke.sucked = smoke.sucked || out.tools[k].gas_flow > 0;
+  }
+  const PoolInput pool{.floor = in.floor, .capsules = in.capsules, .drains = in.drains};
+  out.report = out.report | advance(m.pool, pool, s.pool, w.pool, s.ledger);
+  advance(m.smoke, smoke, s.smoke, w.smoke);
+  return out;
+}
+
+bool audit(const FluidsModel& m, const FluidsState& s) noexcept {
+  return balanced(s.ledger) && drops_content(s.droplets) == at(s.ledger, Place::kDroplets) &&
+         film_content(s.droplets) == at(s.ledger, Place::kFilm) &&
+         content(m.pool, s.pool) == at(s.ledger, Place::kPool);
+}
+
+void add_to_hash(core::Hasher& hasher, const FluidsState& s) noexcept {
+  add_to_hash(hasher, s.pool);
+  add_to_hash(hasher, s.droplets);
+  add_to_hash(hasher, s.smoke);
+  add_to_hash(hasher, s.ledger);
+  hasher.add(s.irrigation_carry);
+  hasher.add(s.suction_carry);
+}
+
+void poison(FluidsWork& w) noexcept {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const auto floats = [nan](std::vector<float>& a) { std::fill(a.begin(), a.end(), nan); };
+  const auto ints = [](std::vector<std::int32_t>& a) { std::fill(a.begin(), a.end(), 0x5a5a5a5a); };
+  PoolWork& p = w.pool;
+  for (auto* a : {&p.bed, &p.depth, &p.eta, &p.volume, &p.inertia, &p.extra, &p.under, &p.rhs, &p.flux, &p.sweep,
+                  &p.answer, &p.flux_v, &p.keep})
+    floats(*a);
+  for (auto& a : p.strip) floats(a);
+  ints(p.moved_u), ints(p.moved_v);
+  DropletWork& d = w.droplets;
+  for (auto* a :
+       {&d.to_x, &d.to_y, &d.to_z, &d.sx, &d.sy, &d.sz, &d.svx, &d.svy, &d.svz, &d.sr, &d.sm, &d.jx, &d.jy, &d.jz})
+    floats(*a);
+  for (auto* a : {&d.asking, &d.near, &d.question_of, &d.sorted, &d.bucket_of, &d.joined, &d.neighbours, &d.overfull})
+    ints(*a);
+  std::fill(d.bucket_first.begin(), d.bucket_first.end(), 0x5a5a5a5au);
+  const Contact nowhere{{nan, nan, nan}, {nan, nan, nan}, {nan, nan, nan}, 77, 77};
+  std::fill(d.answers.begin(), d.answers.end(), nowhere);
+  std::fill(d.film_answers.begin(), d.film_answers.end(), nowhere);
+  std::fill(d.impacts.begin(), d.impacts.end(), Impact{77, 77, {nan, nan, nan}, {nan, nan, nan}});
+  std::fill(d.pairs.begin(), d.pairs.end(), DropletWork::Pair{0x5a5a5a5a, 0x5a5a5a5a});
+  d.pair_count = d.questions = d.film_questions = d.impact_count = 0x5a5a5a5a;
+  floats(w.smoke.rise), floats(w.smoke.next);
+  Opening wild;
+  wild.position = {nan, nan, nan}, wild.flow = {77, 77, 77};
+  std::fill(w.openings.begin(), w.openings.end(), wild);
+}
+
+}  // namespace trocar::fluids
