@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include <trocar/collision/rods.hpp>
+#include <trocar/geometry/nearest.hpp>
 #include <trocar/interactions/body_contact.hpp>
 
 namespace trocar::interactions {
@@ -17,6 +18,17 @@ bool touches(const Surface& surface, int vertex, Vec3d p, double depth) noexcept
   return depth > 0 && depth <= kDeepest && length(p - surface.position(vertex)) <= kBeside;
 }
 
+/// Looks for the vertex nearest to p: always near the last one, far from it only when it is its turn.
+/// @return is it near enough for contact?
+bool beside(const Surface& surface, Vec3d p, std::uint64_t turn, std::int32_t& vertex) noexcept {
+  constexpr double kFar = 0.025;       // [m]
+  constexpr std::uint64_t kTurns = 8;  // in which nothing comes from there to here
+  constexpr double kBeside2 = kBeside * kBeside * 1.000001;
+  if (geometry::distance2(surface.position(vertex), p) > kFar * kFar && turn % kTurns != 0) return false;
+  vertex = walk_to_nearest(surface, vertex, p);
+  return geometry::distance2(surface.position(vertex), p) <= kBeside2;
+}
+
 /// Pushes surface vertex `v` along -n by the share of the depth that its body takes.
 void push_surface(const Surface& surface, int v, Vec3d n, double depth, NetworkLoads* loads) noexcept {
   if (!loads) return;
@@ -31,14 +43,14 @@ void push_surface(const Surface& surface, int v, Vec3d n, double depth, NetworkL
 }  // namespace
 
 void strand_on_surface(const SurfacePair& pair, const StrandBody& body, const tissue::StrandState& state,
-                       const Surface& surface, std::span<std::int32_t> nearest, StrandLoads& strand_loads,
-                       NetworkLoads* surface_loads) noexcept {
+                       const Surface& surface, std::uint64_t tick, std::span<std::int32_t> nearest,
+                       StrandLoads& strand_loads, NetworkLoads* surface_loads) noexcept {
   const double share = surface_loads ? 0.5 : 1.0;
   for (size_t i = 0; i < pair.sample.size(); ++i) {
     const int node = pair.sample[i];
     const Vec3d p = state.x[size_t(node)];
     if (!surface.pose->bounds.reaches(p, 0.006)) continue;
-    nearest[i] = walk_to_nearest(surface, nearest[i], p);
+    if (!beside(surface, p, tick + i, nearest[i])) continue;
     const Clearance c = clearance_at(surface, nearest[i], p);
     const double depth = double(pair.radius[i]) - c.distance - double(pair.overlap[i]);
     if (!touches(surface, nearest[i], p, depth)) continue;
@@ -55,7 +67,7 @@ void strand_on_surface(const SurfacePair& pair, const StrandBody& body, const ti
   }
 }
 
-void solid_on_surface(const SurfacePair& pair, const Surface& samples, const Surface& surface,
+void solid_on_surface(const SurfacePair& pair, const Surface& samples, const Surface& surface, std::uint64_t tick,
                       std::span<std::int32_t> nearest, NetworkLoads& sample_loads,
                       NetworkLoads* surface_loads) noexcept {
   if (!surface.pose->bounds.near_box(samples.pose->bounds, 0.002f)) return;
@@ -65,7 +77,7 @@ void solid_on_surface(const SurfacePair& pair, const Surface& samples, const Sur
     if (!samples.skin->at_surface(v)) continue;
     const Vec3d p = samples.position(v);
     if (!surface.pose->bounds.reaches(p, 0.004)) continue;
-    nearest[i] = walk_to_nearest(surface, nearest[i], p);
+    if (!beside(surface, p, tick + i, nearest[i])) continue;
     const Clearance c = clearance_at(surface, nearest[i], p);
     const double depth = -c.distance - double(pair.overlap[i]);
     if (!touches(surface, nearest[i], p, depth)) continue;
@@ -92,9 +104,10 @@ double middle_distance(const tissue::StrandState& a, int i, const tissue::Strand
 }
 
 /// The element of b whose middle is nearest to that of a's element i, downhill from `start`.
-int walk_along(const tissue::StrandState& a, int i, const tissue::StrandState& b, int start, int last) noexcept {
+int walk_along(const tissue::StrandState& a, int i, const tissue::StrandState& b, int start, int last,
+               double& best) noexcept {
   int j = std::clamp(start, 0, last);
-  double best = middle_distance(a, i, b, j);
+  best = middle_distance(a, i, b, j);
   for (int step = 0; step < 64; ++step) {
     const int from = j;
     for (int next : {from - 1, from + 1}) {
@@ -107,6 +120,17 @@ int walk_along(const tissue::StrandState& a, int i, const tissue::StrandState& b
     if (j == from) break;
   }
   return j;
+}
+
+/// Are two elements too far apart for anything to be remembered?
+/// @param apart2  square of twice the distance of their middles [m^2]
+bool out_of_reach(const StrandBody& a, const tissue::StrandState& a_state, int i, const StrandBody& b,
+                  const tissue::StrandState& b_state, int j, double apart2) noexcept {
+  const size_t k = size_t(i), l = size_t(j);
+  const double reach = a.model.radius[k] + b.model.radius[l] + collision::kLost;
+  const double size2 =
+      geometry::distance2(a_state.x[k], a_state.x[k + 1]) + geometry::distance2(b_state.x[l], b_state.x[l + 1]);
+  return apart2 > 8 * reach * reach + 4 * size2;  // (r + s)^2 <= 2 (r^2 + s^2), with s half of both lengths
 }
 
 /// How much a contact counts that pushes element i of a along n from element j of b. Strands that were drawn side by
@@ -129,9 +153,10 @@ void strand_on_strand(const StrandPair& pair, const StrandBody& a, const tissue:
   const int last = b.nodes() - 2;
   for (int i = 0; i + 1 < a.nodes(); ++i) {
     if (!a_state.alive[size_t(i)]) continue;
-    const int j = walk_along(a_state, i, b_state, nearest[size_t(i)], last);
+    double apart2 = 0;
+    const int j = walk_along(a_state, i, b_state, nearest[size_t(i)], last, apart2);
     nearest[size_t(i)] = j;
-    if (!b_state.alive[size_t(j)]) {
+    if (!b_state.alive[size_t(j)] || out_of_reach(a, a_state, i, b, b_state, j, apart2)) {
       side[size_t(i)] = {0, 0, 0};
       continue;
     }

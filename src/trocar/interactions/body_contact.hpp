@@ -29,12 +29,14 @@ struct StrandPair {
   std::vector<float> overlap;  ///< per element of a
 };
 
-/// @param nearest (samples) State: vertex where each sample was last
+/// @param nearest (samples) State: vertex where each sample was last; of samples far from there it is looked for in
+/// turn
+/// @param tick    whose turn it is
 /// @param owner_loads  loads of the strand or solid whose samples these are (one is used)
 void strand_on_surface(const SurfacePair& pair, const StrandBody& body, const tissue::StrandState& state,
-                       const Surface& surface, std::span<std::int32_t> nearest, StrandLoads& strand_loads,
-                       NetworkLoads* surface_loads) noexcept;
-void solid_on_surface(const SurfacePair& pair, const Surface& samples, const Surface& surface,
+                       const Surface& surface, std::uint64_t tick, std::span<std::int32_t> nearest,
+                       StrandLoads& strand_loads, NetworkLoads* surface_loads) noexcept;
+void solid_on_surface(const SurfacePair& pair, const Surface& samples, const Surface& surface, std::uint64_t tick,
                       std::span<std::int32_t> nearest, NetworkLoads& sample_loads,
                       NetworkLoads* surface_loads) noexcept;
 

@@ -19,7 +19,7 @@ constexpr double kNear = 0.0025;            // [m] from the instrument: noted
 constexpr float kLeast = 0.05f;             // share of a contact below which a node feels no friction
 
 bool meets(const tissue::Box& box, const Capsule& rod) noexcept {
-  return box.near_segment(rod.a, rod.b, rod.radius + kBehind);
+  return meets_box(box, rod.a, rod.b, rod.radius + kBehind);
 }
 
 }  // namespace
@@ -199,7 +199,7 @@ void closed_jaws_on_surface(Touching& c, int body, const Surface& surface, Netwo
   if (length(a.b - b.b) > 2.5 * (a.radius + b.radius)) return;
   constexpr double kSpacing = 0.002;
   const double far = length(c.shape.frame.tip - c.shape.pivot);
-  if (!surface.pose->bounds.near_segment(c.shape.pivot, c.shape.frame.tip, kDeepest)) return;
+  if (!meets_box(surface.pose->bounds, c.shape.pivot, c.shape.frame.tip, kDeepest)) return;
   int ball = 0;
   for (double back = 0; back < far; back += kSpacing, ++ball)
     press(c, body, surface, ball, c.shape.frame.tip - back * c.shape.frame.axis(),
@@ -299,6 +299,41 @@ void push_strand(Touching& touching, int strand, const tissue::StrandState& stat
 
 }  // namespace
 
+namespace {
+
+/// What of an instrument can meet strands.
+struct Reach {
+  Capsule whole;       ///< from the shaft's far end to the tip; radius: holds all parts
+  Capsule jaws;        ///< the same for the jaws
+  double between = 0;  ///< from the jaws' axis, what runs between them lies within [m], but for its own radius
+  double way = 0;      ///< the longest of all parts [m]
+};
+Reach reach_of(const ToolModel& model, const Touching& touching) noexcept {
+  const ToolShape& shape = touching.shape;
+  Reach r{{shape.part[kShaft].a, shape.frame.tip, 0}, {shape.pivot, shape.frame.tip, 0}, 0, 0};
+  for (const int jaw : {kJawA, kJawB})
+    for (const Vec3d p : {shape.part[jaw].a, shape.part[jaw].b}) {
+      const double off = length(p - collision::nearest_on_axis(r.jaws, p)) + shape.part[jaw].radius;
+      r.jaws.radius = std::max(r.jaws.radius, off);
+    }
+  r.whole.radius = std::max(shape.part[kShaft].radius, r.jaws.radius);
+  r.between = shape.half_opening(model.jaw_length) + 0.5 * model.jaw_width + 0.001;
+  for (int part = 0; part < kToolParts; ++part) r.way = std::max(r.way, touching.way(part));
+  return r;
+}
+
+/// May an element of which a is one end and that is `length2` long be nearer to the axis than `reach`?
+bool within(const Capsule& axis, Vec3d a, double length2, double reach) noexcept {
+  return geometry::distance2(a, collision::nearest_on_axis(axis, a)) <= 2 * (length2 + reach * reach);
+}
+
+/// Can this element run between the jaws?
+bool near_jaws(const Reach& r, Vec3d a, double length2, double radius) noexcept {
+  return within(r.jaws, a, length2, r.between + 2.5 * radius);
+}
+
+}  // namespace
+
 void tool_on_strand(const ToolModel& model, Touching& touching, const ToolState& tool_state, const StrandBody& body,
                     int strand, const tissue::StrandState& state, std::span<Vec3f> side, StrandLoads& loads) noexcept {
   const ToolShape& shape = touching.shape;
@@ -310,38 +345,42 @@ void tool_on_strand(const ToolModel& model, Touching& touching, const ToolState&
   // Next to where the strand runs between the jaws it touches their edges from within: that is the channel's business.
   constexpr int kEdge = 3;
   int first_inside = body.nodes(), last_inside = -1;
+  const Reach far = reach_of(model, touching);
   for (int e = 0; e + 1 < body.nodes(); ++e) {
     if (!state.alive[size_t(e)]) continue;
+    const Vec3d a = state.x[size_t(e)];
+    if (!near_jaws(far, a, geometry::distance2(a, state.x[size_t(e) + 1]), body.model.radius[size_t(e)])) continue;
     const BetweenJaws where = between_jaws(model, shape, body, state, e);
     if (!where.inside || !where.crosses || !may_be_between(touching, where, body, strand, e)) continue;
     touching.note(strand, e, kBetween);
     first_inside = std::min(first_inside, e);
     last_inside = e;
   }
-  const Capsule whole{shape.part[kShaft].a, shape.frame.tip, 0};
   for (int e = 0; e + 1 < body.nodes(); ++e) {
     if (!state.alive[size_t(e)]) continue;
     const Vec3d a = state.x[size_t(e)], b = state.x[size_t(e) + 1];
-    const Vec3d a0 = a - body.model.tick * state.v[size_t(e)], b0 = b - body.model.tick * state.v[size_t(e) + 1];
-    const double radius = body.model.radius[size_t(e)];
+    const double radius = body.model.radius[size_t(e)], length2 = geometry::distance2(a, b);
     Vec3f* memory = side.data() + size_t(e) * kToolParts;
     bool noted = false;
     for (int part = 0; part < kToolParts; ++part) noted = noted || dot(memory[part], memory[part]) > 0;
-    const double beyond = noted ? collision::kLost : collision::kRemember + touching.way(kShaft);
-    const double reach = radius + model.shaft_radius + model.jaw_length + length(b - a) + beyond;
-    if (length(a - collision::nearest_on_axis(whole, a)) > reach) {
+    const double beyond = noted ? collision::kLost : collision::kRemember + far.way;
+    if (!within(far.whole, a, length2, radius + far.whole.radius + beyond)) {
       for (int part = 0; part < kToolParts; ++part) memory[part] = {};
       continue;
     }
-    const BetweenJaws where = between_jaws(model, shape, body, state, e);
+    const Vec3d a0 = a - body.model.tick * state.v[size_t(e)], b0 = b - body.model.tick * state.v[size_t(e) + 1];
+    const BetweenJaws where =
+        near_jaws(far, a, length2, radius) ? between_jaws(model, shape, body, state, e) : BetweenJaws{};
     const bool held = is_held(e), between = e >= first_inside - kEdge && e <= last_inside + kEdge;
     for (int part = 0; part < kToolParts; ++part) {
       if (part != kShaft && (held || between)) {
         memory[part] = {};
         continue;
       }
-      const collision::RodContact c = collision::touch(touching.before.part[part], shape.part[part], {a0, b0, radius},
-                                                       {a, b, radius}, memory[part]);
+      const Capsule& rod = shape.part[part];
+      if (!noted && !within(rod, a, length2, radius + rod.radius + collision::kRemember + touching.way(part))) continue;
+      const collision::RodContact c =
+          collision::touch(touching.before.part[part], rod, {a0, b0, radius}, {a, b, radius}, memory[part]);
       if (c.depth > -kGrazes) push_strand(touching, strand, state, e, part, c, loads);
     }
     if (where.inside && between && !held)

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 
+#include <trocar/geometry/nearest.hpp>
 #include <trocar/interactions/nearest_skin.hpp>
 #include <trocar/interactions/wall_stop.hpp>
 
@@ -23,8 +25,45 @@ struct Deepest {
   Vec3d point, normal;
 };
 
-void look_at(const Surface& wall, Vec3d p, double radius, double along, bool tip, Deepest& deepest) noexcept {
-  const int vertex = nearest_vertex_near(wall, p, kReach);
+/// The parts of a wall that an instrument can reach: blocks of its vertices.
+struct Blocks {
+  static constexpr int kMost = 64;
+  std::array<int, kMost> block;
+  int count = 0;
+  bool all = false;  ///< more than there is room for
+};
+Blocks blocks_near(const Surface& wall, Vec3d start, Vec3d tip) noexcept {
+  Blocks r;
+  for (size_t b = 0; b < wall.pose->block.size() && !r.all; ++b) {
+    if (!meets_box(wall.pose->block[b], start, tip, kReach)) continue;
+    r.all = r.count == Blocks::kMost;
+    if (!r.all) r.block[size_t(r.count++)] = int(b);
+  }
+  return r;
+}
+
+/// As nearest_vertex_near, of all walls' vertices within reach of the instrument.
+int nearest_of(const Surface& wall, const Blocks& blocks, Vec3d p) noexcept {
+  if (blocks.all) return nearest_vertex_near(wall, p, kReach);
+  int best = -1;
+  double least = kReach * kReach;
+  for (int k = 0; k < blocks.count; ++k) {
+    const int b = blocks.block[size_t(k)];
+    if (!wall.pose->block[size_t(b)].reaches(p, kReach)) continue;
+    const int last = std::min((b + 1) * tissue::kSkinBlock, wall.skin->size());
+    for (int v = b * tissue::kSkinBlock; v < last; ++v) {
+      const double d = geometry::distance2(wall.position(v), p);
+      if (d >= least || !wall.skin->at_surface(v)) continue;
+      least = d;
+      best = v;
+    }
+  }
+  return best;
+}
+
+void look_at(const Surface& wall, const Blocks& blocks, Vec3d p, double radius, double along, bool tip,
+             Deepest& deepest) noexcept {
+  const int vertex = nearest_of(wall, blocks, p);
   if (vertex < 0) return;
   const SkinPoint at = nearest_skin_point(wall, vertex, p);
   const double above = dot(p - at.point, at.normal), depth = radius - above;
@@ -38,9 +77,11 @@ Deepest deepest_of(const ToolModel& model, std::span<const Surface> walls, Vec3d
   const Vec3d tip = model.port + depth * axis, start = model.port + std::min(kFromTrocar, depth) * axis;
   for (const Surface& wall : walls) {
     if (!wall.pose->bounds.near_segment(start, tip, kReach)) continue;
-    look_at(wall, tip, model.jaw_thickness, depth, true, deepest);
+    const Blocks blocks = blocks_near(wall, start, tip);
+    if (!blocks.all && blocks.count == 0) continue;
+    look_at(wall, blocks, tip, model.jaw_thickness, depth, true, deepest);
     for (double s = depth - model.jaw_length; s > kFromTrocar; s -= kSpacing)
-      look_at(wall, model.port + s * axis, model.shaft_radius, s, false, deepest);
+      look_at(wall, blocks, model.port + s * axis, model.shaft_radius, s, false, deepest);
   }
   return deepest;
 }

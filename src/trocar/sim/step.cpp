@@ -141,7 +141,8 @@ void pose_sheet(StepContext& c, size_t i) noexcept {
   const tissue::NodeView nodes = view_of(m.sheet.network, c.state.membranes[i].network);
   tissue::pose_skin(nodes, m.skin, c.work.sheet_poses[i]);
   c.work.sheets[i] = {
-      {&m.skin, &c.work.sheet_poses[i], nodes}, c.state.torn[i], m.sheet.network.fixed, 0.5 * m.sheet.thickness};
+      {&m.skin, &c.work.sheet_poses[i], nodes}, c.state.torn[i], m.sheet.network.fixed, 0.5 * m.sheet.thickness,
+      m.pinch_reach};
 }
 
 void pose_cuttable(StepContext& c, size_t i) noexcept {
@@ -393,13 +394,13 @@ void touch_organs(StepContext& c) noexcept {
     interactions::NetworkLoads* back = surface.moves() ? &c.work.organ_loads[size_t(p.surface)] : nullptr;
     if (p.strand >= 0) {
       const size_t i = size_t(p.strand);
-      strand_on_surface(p, c.model.bodies[i], s.strands[i], surface, nearest, c.work.strand_loads[i], back);
+      strand_on_surface(p, c.model.bodies[i], s.strands[i], surface, s.tick, nearest, c.work.strand_loads[i], back);
     } else if (p.membrane >= 0) {
       const size_t i = size_t(p.membrane);
-      solid_on_surface(p, c.work.sheets[i].surface, surface, nearest, c.work.membrane_loads[i], back);
+      solid_on_surface(p, c.work.sheets[i].surface, surface, s.tick, nearest, c.work.membrane_loads[i], back);
     } else {
       const size_t i = size_t(p.solid);
-      solid_on_surface(p, c.work.surfaces[i], surface, nearest, c.work.organ_loads[i], back);
+      solid_on_surface(p, c.work.surfaces[i], surface, s.tick, nearest, c.work.organ_loads[i], back);
     }
   }
   size_t side = 0;
