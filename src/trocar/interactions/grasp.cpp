@@ -21,6 +21,7 @@ struct Candidate {
   int stride = 1;        ///< every so many of those found is held
   double thickness = 0;  ///< how far they keep the jaws apart [m]
   double sum = 0;        ///< of the way along the jaws of those found
+  bool firmly = false;   ///< some lie beside the jaws: it slips away from a light pinch
   double along() const noexcept { return sum / found; }
 };
 
@@ -94,16 +95,18 @@ Candidate sheet_between(const ToolModel& model, const ToolShape& shape, const Ti
     const Surface& surface = view.membranes[m].surface;
     if (!surface.pose->bounds.near_segment(shape.pivot, shape.frame.tip, 0.01)) continue;
     Candidate c;
+    const double reach = view.membranes[m].pinch_reach;
     for (int v = 0; v < surface.skin->size(); ++v) {
       if (view.membranes[m].fixed[size_t(v)] == tissue::kHeld) continue;
       const Vec3d local = to_jaw(shape, surface.position(v));
-      if (std::fabs(local.y) > 0.5 * model.jaw_width + 0.0015) continue;
-      if (local.z < 0 || local.z > model.jaw_length + 0.0005) continue;
-      if (std::fabs(local.x) > shape.half_opening(local.z) + 0.0005) continue;
+      if (std::fabs(local.y) > 0.5 * model.jaw_width + 0.0015 + reach) continue;
+      if (local.z < 0 || local.z > model.jaw_length + 0.0005 + reach) continue;
+      if (std::fabs(local.x) > shape.half_opening(local.z) + 0.0005 + reach) continue;
       add(c, kMembraneBase + std::int32_t(m), v, 0, local);
     }
     if (c.count < 2) continue;
-    c.thickness = 2 * view.membranes[m].half_thickness;
+    c.thickness = (reach > 0 ? 4 : 2) * view.membranes[m].half_thickness;
+    c.firmly = reach > 0;
     if (c.found > best.found) best = c;
   }
   return best;
@@ -111,9 +114,22 @@ Candidate sheet_between(const ToolModel& model, const ToolShape& shape, const Ti
 
 /// How thick what is held keeps the jaws apart [m].
 double thickness_of(const Hold& hold, const TissueView& view) noexcept {
-  if (hold.body >= kMembraneBase) return 2 * view.membranes[size_t(hold.body - kMembraneBase)].half_thickness;
+  if (hold.body >= kMembraneBase) {
+    const SheetView& sheet = view.membranes[size_t(hold.body - kMembraneBase)];
+    return (sheet.pinch_reach > 0 ? 4 : 2) * sheet.half_thickness;
+  }
   if (hold.body >= kSolidBase) return kFoldThickness;
   return 2 * kCompressed * view.strands[size_t(hold.body)].model.radius[size_t(hold.element)];
+}
+
+/// How far beside the jaws it may be held [m].
+double reach_of(const Hold& hold, const TissueView& view) noexcept {
+  return hold.body >= kMembraneBase ? view.membranes[size_t(hold.body - kMembraneBase)].pinch_reach : 0;
+}
+
+/// With which the jaws press on what stops them there while the hand wants them closer [N].
+double pinch_at(const ToolModel& model, double stop, double wanted) noexcept {
+  return model.pinch_max * std::clamp((stop - wanted) / std::max(stop, 0.05), 0.0, 1.0);
 }
 
 constexpr float kCentring = 0.985f;  // per tick: closing jaws bring what lies between them to the middle
@@ -178,7 +194,7 @@ void update_grip(const ToolModel& model, const ToolShape& shape, const TissueVie
         off = std::fabs(off) > 1e-7f ? off * kCentring : 0.0f;  // ends at 0, not among the denormal numbers
       }
       tool.aperture = std::max(wanted, stop);
-      tool.pinch = model.pinch_max * std::clamp((stop - wanted) / std::max(stop, 0.05), 0.0, 1.0);
+      tool.pinch = pinch_at(model, stop, wanted);
       return;
     }
   }
@@ -191,11 +207,12 @@ void update_grip(const ToolModel& model, const ToolShape& shape, const TissueVie
   if (c.count == 0) c = sheet_between(model, shape, view);
   if (c.count == 0) return;
   const double stop = aperture_at(model, c.thickness, c.along());
-  if (wanted > stop) return;
+  if (wanted > (c.firmly ? 0.3 * stop : stop)) return;
   tool.letting_go = 0;
   tool.holds = c.count;
   for (int i = 0; i < c.count; ++i) tool.hold[i] = c.hold[i];
   tool.aperture = stop;
+  if (c.firmly) tool.pinch = pinch_at(model, stop, wanted);
 }
 
 void hold_loads(const ToolShape& shape, int tool_index, const TissueView& view, const ToolState& tool,
@@ -248,8 +265,9 @@ void slip(const ToolModel& model, const ToolShape& shape, const TissueView& view
     const Vec3d now = to_jaw(shape, held_point(view, h));
     h.local[1] += float(give) * float(now.y - double(h.local[1]));
     h.local[2] += float(give) * float(now.z - double(h.local[2]));
-    const bool out = double(h.local[2]) > model.jaw_length + 0.001 || double(h.local[2]) < -0.002 ||
-                     std::fabs(double(h.local[1])) > 0.5 * model.jaw_width + 0.003;
+    const double reach = reach_of(h, view);
+    const bool out = double(h.local[2]) > model.jaw_length + 0.001 + reach || double(h.local[2]) < -0.002 ||
+                     std::fabs(double(h.local[1])) > 0.5 * model.jaw_width + 0.003 + reach;
     if (!out) tool.hold[kept++] = h;
   }
   tool.holds = kept;

@@ -19,6 +19,9 @@ struct SheetView {
   std::span<const std::uint8_t> parted;  ///< (triangles) 1 = cut open
   std::span<const std::uint8_t> fixed;   ///< (nodes) tissue::Held bits
   double half_thickness = 0;             ///< [m]
+  /// Of a closed wall, whose nodes are too far apart to bulge between jaws: beside them, within this, they are pinched
+  /// into a fold all the same [m].
+  double pinch_reach = 0;
 };
 
 /// @param body  how holds name this membrane

@@ -11,6 +11,7 @@ namespace trocar::scene {
 namespace {
 
 constexpr double kBendingDamping = 0.0001;  // [s] times stiffness: more would ask for steps of its own
+constexpr double kPinchReach = 0.5;         // of the spacing of nodes
 constexpr double kDrag = 1;                 // [1/s] against space, as solids
 
 tissue::Enclosure enclosure_of(const Contents& c) {
@@ -75,6 +76,7 @@ void compile_pouch(const Pouch& pouch, const Tissue& tissue, Vec3d gravity, sim:
     out.holds.push_back(hold_near(pouch.held_on, pouch.held_reach, d.positions[size_t(node)], model));
   note_drawn_pulls(out);
   out.skin = skin_of(out.sheet);
+  out.pinch_reach = kPinchReach * pouch.spacing;
   out.depth.assign(size_t(out.sheet.nodes()), 0.0f);
   if (report) add_report(out, *report);
   model.membranes.push_back(std::move(out));

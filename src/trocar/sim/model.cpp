@@ -103,6 +103,7 @@ void seal(Model& model) {
     h.add(m.strand);
     h.add(std::int32_t(m.cuttable));
     h.add(m.depth);
+    h.add(m.pinch_reach);
     h.add(m.failure_strain);
     for (const interactions::BorderHold& hold : m.holds) interactions::add_to_hash(h, hold);
   }

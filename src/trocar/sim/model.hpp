@@ -93,6 +93,7 @@ struct MembraneModel {
   bool cuttable = true;
   tissue::MembraneModel sheet;
   tissue::Skin skin;                            ///< the sheet's own nodes and triangles, one skin vertex per node
+  double pinch_reach = 0;                       ///< of a pouch (interactions::SheetView) [m]
   std::vector<float> depth;                     ///< (nodes) way from the strand's surface, as drawn [m]
   std::vector<interactions::BorderHold> holds;  ///< (held nodes)
   double failure_strain = 0;                    ///< 0: it never tears
