@@ -38,6 +38,10 @@ void check(const StrandDescription& d, double tick) {
     if (!(d.foundation[i] >= 0)) refuse("foundation >= 0 at node " + std::to_string(i));
 }
 
+bool held(const StrandDescription& d, int node) {
+  return !d.prescribed.empty() && d.prescribed[std::size_t(node)] != 0;
+}
+
 void fill_sections(StrandModel& m, const StrandDescription& d) {
   const double pi = portable::pi, modulus = d.youngs_modulus;
   std::vector<double> bend_element;
@@ -55,6 +59,11 @@ void fill_sections(StrandModel& m, const StrandDescription& d) {
   for (int i = 1; i + 1 < m.nodes; ++i) {
     const double l = 0.5 * (m.rest_length[i - 1] + m.rest_length[i]);
     m.bend[i] = 0.5 * (bend_element[i - 1] + bend_element[i]) / (l * l * l);
+    // A clamp's last node has bending tissue on one side only, half an element long, and is straight on the other: its
+    // second difference is half of the bend times l^2.
+    const bool before = held(d, i - 1), here = held(d, i), after = held(d, i + 1);
+    if (here && before && !after) m.bend[i] = 2 * bend_element[i] / (l * l * l);
+    if (here && after && !before) m.bend[i] = 2 * bend_element[i - 1] / (l * l * l);
   }
 }
 
