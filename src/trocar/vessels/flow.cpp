@@ -1,5 +1,5 @@
 // One tick of blood flow. The step reads like this:
-//   what drives it | openings and clips, what feeds them | rows | cells | cells with sites | ends | sources |
+//   what drives it | openings and clips, what feeds them | rows | cells | ends | sources | cells with sites |
 //   eliminate | new pressures, flows, ends, books
 #include <cmath>
 #include <cstddef>
@@ -118,7 +118,10 @@ void assemble_chain(const FlowModel& m, const FlowState& s, const FlowChain& cha
   const FlowCell& c = m.cells[chain.cell];
   const double theta = m.settings.implicitness;
   const CellNow now = cell_now(c, w.ahead[c.a], w.ahead[c.b], s.q[chain.cell], 0);
-  reduce_chain(m, s, chain, now.terms, s.p[c.a] + theta * s.dp[c.a], s.p[c.b] + theta * s.dp[c.b], w);
+  const auto end = [&](int row) {
+    return ChainEnd{s.p[row] + theta * w.x[row] / w.diagonal[row], w.diagonal[row] / theta};
+  };
+  reduce_chain(s, chain, now.terms, end(c.a), end(c.b), w);
   const FlowPoint& head = w.points[chain.first_point];
   const FlowPoint& before_end = w.points[chain.first_point + chain.points - 1];
   const FlowPoint& tail = w.points[chain.first_point + chain.points];
@@ -243,9 +246,9 @@ FlowReport advance(const FlowModel& m, const FlowInput& in, std::span<OpeningFlo
 
   assemble_rows(m, s, w);
   plain_cells(m, w, [&](int first, int last) { assemble_cells(m, s, first, last, w); });
-  for (int i = 0; i < w.chain_count; ++i) assemble_chain(m, s, w.chains[i], w);
   assemble_ends(m, s, w);
   assemble_sources(m, s, d, w);
+  for (int i = 0; i < w.chain_count; ++i) assemble_chain(m, s, w.chains[i], w);  // last: looks at what is there already
 
   int bad = eliminate(m.plan, w.diagonal, w.values, w.x);
   if (bad < 0) bad = first_non_finite(w.x);

@@ -15,7 +15,7 @@ namespace {
 constexpr double kPi = portable::pi;
 constexpr std::size_t kMaxEntries = 4'000'000;  // of the elimination: 64 MB of a tick's work
 constexpr double kLeastCapacity = 0.05;         // of that at the reference pressure, however far a vessel collapses
-constexpr double kSourceResistance = 1e-4;      // of the wave resistance of what a source feeds, where none is given
+constexpr double kSourceResistance = 1e-6;      // of the wave resistance of what a source feeds, where none is given
 
 double square(double x) { return x * x; }
 
@@ -158,7 +158,7 @@ std::vector<double> resistance_to(const VesselGraph& graph) {
   return least;
 }
 
-/// Pressure over flow where a segment is cut through in its middle under the mean pressure:
+/// Pressure over flow where a segment is cut through at its far end under the mean pressure:
 /// rho / 2 (Q / Cd A)^2 + R Q = p.
 void Builder::cut_resistances() {
   const std::vector<double> least = resistance_to(graph);
@@ -166,7 +166,7 @@ void Builder::cut_resistances() {
   const double p = std::max(mean - graph.settings.cavity_pressure, 1000.0);
   for (std::size_t i = 0; i < m.segments.size(); ++i) {
     const FlowSegment& s = m.segments[i];
-    const double r = std::min(least[s.from], least[s.to]) + flow_resistance(graph.segments[i], graph.blood) / 2;
+    const double r = std::min(least[s.from], least[s.to]) + flow_resistance(graph.segments[i], graph.blood);
     const double a = graph.settings.discharge * kPi * square(s.radius + s.taper / 2);
     const double orifice = graph.blood.density / (2 * a * a);
     m.segments[i].cut_resistance = (r + std::sqrt(r * r + 4 * orifice * p)) / 2;

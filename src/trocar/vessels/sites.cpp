@@ -254,19 +254,26 @@ void straighten(const FlowSite& site, int side, double q0, FlowPoint& point) {
 /// A better q0 from the pressure that came of the last one.
 double improved(const FlowSite& site, const FlowPoint& point, double q0) {
   const double over = point.fixed - site.outside;
-  if (!(over > 0)) return 0;
   const double least = kFloor * std::sqrt(1e4 / site.orifice);
-  const double q = q0 > 0 ? point.out * point.fixed + point.out0 : std::sqrt(over / site.orifice);
+  const double q = q0 > 0 ? point.out * point.fixed + point.out0 : over > 0 ? std::sqrt(over / site.orifice) : 0;
+  if (!(q > 0)) return 0;
   const double enough = q > least ? q : least;
   return enough > site.ooze ? enough : 0;
 }
 
 int sides(const FlowSite& site) { return site.kind == Kind::clip ? 0 : site.kind == Kind::cut ? 2 : 1; }
 
+/// A piece and the end that gives way to its flow, as one piece.
+void soften(FlowPoint& piece, const ChainEnd& end) {
+  const double share = 1 / (1 + piece.g / end.conductance);
+  piece.g *= share;
+  piece.s *= share;
+}
+
 }  // namespace
 
-void reduce_chain(const FlowModel&, const FlowState& s, const FlowChain& chain, const CellTerms& terms, double end_a,
-                  double end_b, FlowWork& w) noexcept {
+void reduce_chain(const FlowState& s, const FlowChain& chain, const CellTerms& terms, const ChainEnd& a,
+                  const ChainEnd& b, FlowWork& w) noexcept {
   lay_pieces(s, chain, terms, w);
   FlowPoint* points = w.points.data() + chain.first_point;
   const auto each_outlet = [&](auto&& body) {
@@ -278,18 +285,23 @@ void reduce_chain(const FlowModel&, const FlowState& s, const FlowChain& chain, 
   // `from_a` keeps the flow that an orifice's line goes through, until it gets its own meaning below.
   each_outlet([&](const FlowSite& site, int side, FlowPoint& point) {
     const double last = s.openings[site.index].flow[side];
-    const double start = (end_a > end_b ? end_a : end_b) - site.outside;
+    const double start = (a.pressure > b.pressure ? a.pressure : b.pressure) - site.outside;
     point.from_a = last > 0 ? last : start > 0 && site.orifice > 0 ? std::sqrt(start / site.orifice) : 0;
     straighten(site, side, point.from_a, point);
   });
+  const FlowPoint head = points[0], tail = points[chain.points];
+  soften(points[0], a);
+  soften(points[chain.points], b);
   for (int round = 0; round < kRounds; ++round) {
-    solve_places(points, chain.points, end_a, end_b, true, &FlowPoint::fixed);
+    solve_places(points, chain.points, a.pressure, b.pressure, true, &FlowPoint::fixed);
     each_outlet([&](const FlowSite& site, int side, FlowPoint& point) {
       if (!site.open[side]) return;
       point.from_a = improved(site, point, point.from_a);
       straighten(site, side, point.from_a, point);
     });
   }
+  points[0].g = head.g, points[0].s = head.s;
+  points[chain.points].g = tail.g, points[chain.points].s = tail.s;
   solve_places(points, chain.points, 0, 0, true, &FlowPoint::fixed);
   solve_places(points, chain.points, 1, 0, false, &FlowPoint::from_a);
   solve_places(points, chain.points, 0, 1, false, &FlowPoint::from_b);

@@ -19,9 +19,16 @@ void gather_sites(const FlowModel& m, const FlowInput& in, FlowState& s, FlowWor
 /// By connectivity alone: which sides of the openings a source still leads to, and which are open at all.
 void find_fed(const FlowModel& m, FlowState& s, FlowWork& w) noexcept;
 
-/// The chain's places as functions of the pressures at the cell's ends, given where those will be at about mid-tick.
-void reduce_chain(const FlowModel& m, const FlowState& s, const FlowChain& chain, const CellTerms& terms, double end_a,
-                  double end_b, FlowWork& w) noexcept;
+/// What a chain meets at an end of its cell, if what lies beyond the next rows stood still for this tick.
+struct ChainEnd {
+  double pressure = 0;     ///< if nothing flowed in the chain [Pa]
+  double conductance = 0;  ///< flow that moves it by one pascal [m^3/Pa s]
+};
+
+/// The chain's places as functions of the pressures at the cell's ends. Orifices become straight lines through the flow
+/// that they would have with those ends.
+void reduce_chain(const FlowState& s, const FlowChain& chain, const CellTerms& terms, const ChainEnd& a,
+                  const ChainEnd& b, FlowWork& w) noexcept;
 
 /// With the ends' mean pressures known: flows of pieces and openings, books, clots.
 void finish_chain(const FlowModel& m, const FlowChain& chain, double end_a, double end_b, std::span<OpeningFlow> flows,
