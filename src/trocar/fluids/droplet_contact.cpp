@@ -33,7 +33,14 @@ struct Moment {
   Vec3f g;                ///< gravity [m/s^2]
   float per_viscosity;    ///< rho / 3 mu [s/m^2]
   float retention, hold;  ///< width-free retention and overhang [N/m]
+  float film;             ///< left behind per area run over [pL/m^2]
 };
+
+/// Some of what a drop does is done on one tick of `every` (a power of two), at different ones for different drops.
+constexpr std::uint32_t kFilmEvery = 4, kPoolEveryRunning = 4, kPoolEveryFlying = 2;
+bool turn_of(const Moment& t, int i, std::uint32_t every) {
+  return ((t.s.id[i] + std::uint32_t(t.s.tick)) & (every - 1)) == 0;
+}
 
 // ---- the film
 
@@ -93,7 +100,7 @@ Vec3f run(const Moment& t, int i, Vec3f along, Vec3f g_along, float drop_mass) {
 /// A drop that is on a surface, at the end of the tick.
 void run_down(Moment& t, int i) {
   DropletState& s = t.s;
-  const Ground& ground = s.ground[i];
+  Ground& ground = s.ground[i];
   const Vec3f n = ground.normal, relative = velocity(s, i) - ground.velocity;
   const float drop_mass = float(mass(widened(s.volume[i]), t.m.density)), r = s.radius[i];
   const float away = dot(n, t.g);
@@ -108,16 +115,30 @@ void run_down(Moment& t, int i) {
   Vec3f x = position(s, i) + t.dt * (along + ground.velocity);
   x += (ground.offset + 0.5f * r - dot(n, x)) * n;
   put(s, i, x, along + ground.velocity);
-  const float way = t.dt * length(along);
-  leave_film(t, i, std::int64_t(float(t.m.film_thickness * kPicolitresPerM3) * (2 * r * way)));
+  const float speed = length(along);
+  ground.still = speed == 0;
+  if (ground.still || !turn_of(t, i, kFilmEvery)) return;
+  const float way = float(kFilmEvery) * t.dt * speed;
+  leave_film(t, i, std::int64_t(t.film * (2 * r * way)));
   if (s.volume[i].total() < t.m.smallest) become_film(t, i);
+}
+
+/// A drop at rest on a surface of which nothing new is known goes with it. @return false if it is not such a drop
+bool ride(Moment& t, int i) {
+  DropletState& s = t.s;
+  Ground& ground = s.ground[i];
+  if (s.body[i] < 0 || ground.still == 0 || t.w.question_of[i] >= 0 || t.w.near[i] != 0) return false;
+  if (!(velocity(s, i) == ground.velocity)) return false;
+  ground.offset += t.dt * dot(ground.normal, ground.velocity);
+  put(s, i, position(s, i) + t.dt * ground.velocity, ground.velocity);
+  return true;
 }
 
 /// A drop in flight meets a plane: what it has across the surface goes to the body.
 void land(Moment& t, int i, const Contact& c) {
   DropletState& s = t.s;
   s.body[i] = c.body;
-  s.ground[i] = {c.normal, dot(c.normal, c.point), c.velocity, c.film};
+  s.ground[i] = {c.normal, dot(c.normal, c.point), c.velocity, c.film, 0};
   const Vec3f relative = velocity(s, i) - c.velocity;
   const float across = dot(c.normal, relative);
   if (!(across < 0)) return;
@@ -172,10 +193,10 @@ void meet(Moment& t, int i) {
       land(t, i, *said);
   } else if (tool.body >= 0) {
     s.body[i] = tool.body;
-    s.ground[i] = {tool.normal, dot(tool.normal, tool.point), tool.velocity, -1};
+    s.ground[i] = {tool.normal, dot(tool.normal, tool.point), tool.velocity, -1, 0};
   } else if (said && said->body >= 0) {
     s.body[i] = said->body;
-    s.ground[i] = {said->normal, dot(said->normal, said->point), said->velocity, said->film};
+    s.ground[i] = {said->normal, dot(said->normal, said->point), said->velocity, said->film, 0};
   } else if (said || on_a_capsule(t, i)) {
     s.body[i] = -1;  // nothing is there any more
   } else {
@@ -271,7 +292,7 @@ void run_over(Moment& t) {
     } else {
       const int i = t.s.count - 1;
       t.s.body[i] = c.body;
-      t.s.ground[i] = {c.normal, dot(c.normal, c.point), c.velocity, place};
+      t.s.ground[i] = {c.normal, dot(c.normal, c.point), c.velocity, place, 0};
       move(t.below.ledger, Place::kFilm, Place::kDroplets, drop);
     }
     add(film, Mix{} - drop);
@@ -294,18 +315,21 @@ FluidReport resolve(const DropletModel& m, std::span<const Capsule> capsules, Dr
            .g = g,
            .per_viscosity = float(m.density.blood / (3 * m.viscosity)),
            .retention = float(m.surface_tension * m.hysteresis),
-           .hold = float(2 * portable::pi * m.surface_tension * m.overhang)};
+           .hold = float(2 * portable::pi * m.surface_tension * m.overhang),
+           .film = float(m.film_thickness * kPicolitresPerM3)};
   w.impact_count = 0;
   find_near(t);
   const int before = s.count;  // what splashes or runs over begins its way in the next tick
   for (int i = 0; i < before; ++i) {
     if (s.volume[i].total() <= 0) continue;
-    meet(t, i);
-    if (s.body[i] >= 0)
-      run_down(t, i);
-    else
-      put(s, i, {w.to_x[i], w.to_y[i], w.to_z[i]}, velocity(s, i));
-    if (s.body[i] < 0 || ((s.id[i] + std::uint32_t(s.tick)) & 3u) == 0) fall_in(t, i);
+    if (!ride(t, i)) {
+      meet(t, i);
+      if (s.body[i] >= 0)
+        run_down(t, i);
+      else
+        put(s, i, {w.to_x[i], w.to_y[i], w.to_z[i]}, velocity(s, i));
+    }
+    if (turn_of(t, i, s.body[i] < 0 ? kPoolEveryFlying : kPoolEveryRunning)) fall_in(t, i);
   }
   run_over(t);
   detail::remove_empty(s);

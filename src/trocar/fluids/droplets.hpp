@@ -71,6 +71,7 @@ struct Ground {
   float offset = 0;
   Vec3f velocity{0, 0, 0};  ///< of the surface [m/s]
   std::int32_t film = -1;   ///< place of the film below the drop, -1 = none
+  std::int32_t still = 0;   ///< 1 = the drop has come to rest on it
 };
 
 struct SmallMix {  ///< of a drop or a film's place [pL]

@@ -70,11 +70,13 @@ void describe_cells(const PoolModel& m, const PoolInput& in, Rows rows, const Po
   for (int j = rows.first; j <= rows.last; ++j) {
     const int k0 = m.at(0, j);
     int bad = 0;
+    const float* floor = whole ? in.floor.data() + std::size_t(j) * m.nx : nullptr;
+    float* bed = w.bed.data() + k0;
     for (int i = 0; i < m.nx; ++i) {
-      const float z = whole ? in.floor[std::size_t(j) * m.nx + i] : 0.0f;
-      const bool fine = z > -10 && z < 10;
-      w.bed[k0 + i] = fine ? z : 0.0f;
-      bad |= !fine;
+      const float z = floor ? floor[i] : 0.0f;
+      const bool fine = (z > -10) & (z < 10);
+      bed[i] = fine ? z : 0.0f;
+      bad |= fine ? 0 : 1;
     }
     if (bad) report.note(FluidReport::kBadFloor, j * m.nx);
     describe_row(k0, m.nx, m.height_per_pl, s, w);
@@ -163,19 +165,20 @@ void push_faces(const FaceArrays& a, int k0, int k1, const Constants& c, const f
   const std::ptrdiff_t step = a.step, side = a.side;
   const float slope_gain = -c.g * c.dt * c.per_dx, extra_gain = -c.dt * c.per_dx;
   for (int k = k0; k < k1; ++k) {
-    const float own = u[k];
+    const float own = u[k], before = u[k - step], after = u[k + step], left = u[k - side], right = u[k + side];
     const float out = 0.5f * (flux[k] + flux[k + step]), in = 0.5f * (flux[k - step] + flux[k]);
-    const float u_out = out > 0 ? own : u[k + step], u_in = in > 0 ? u[k - step] : own;
+    const float u_out = out > 0 ? own : after, u_in = in > 0 ? before : own;
     const float mean = 0.5f * (depth[k - step] + depth[k]);
     const float deep = mean > kDry ? mean : kDry;
     const float along = ((out * u_out - in * u_in) - own * (out - in)) / deep;
     const float cross_speed = 0.25f * ((v[k] + v[k - step]) + (v[k + side] + v[k + side - step]));
-    const float turn = cross_speed > 0 ? own - u[k - side] : u[k + side] - own;
+    const float from_left = own - left, from_right = right - own;
+    const float turn = cross_speed > 0 ? from_left : from_right;
     const float moved = own - c.dt * c.per_dx * (along + cross_speed * turn);
     const float pushed = under[k] * (slope_gain * (eta[k] - eta[k - step])) + extra_gain * (extra[k] - extra[k - step]);
-    const bool wet = under[k] > kDry;
-    rhs[k] = wet ? pushed : 0.0f;
-    carried[k] = wet ? moved : 0.0f;
+    const float wet = under[k] > kDry ? 1.0f : 0.0f;
+    rhs[k] = wet * pushed;
+    carried[k] = wet * moved;
   }
 }
 
@@ -297,8 +300,8 @@ void volumes_through(const FaceArrays& a, int k0, int k1, float pl_per_flux, flo
   const float *bed = a.bed, *eta = a.eta, *speed = a.speed;
   const std::ptrdiff_t step = a.step;
   for (int k = k0; k < k1; ++k) {
-    const float bed_low = bed[k - step], bed_high = bed[k];
-    const float from = (speed[k] > 0 ? eta[k - step] : eta[k]) - (bed_low > bed_high ? bed_low : bed_high);
+    const float bed_low = bed[k - step], bed_high = bed[k], low = eta[k - step], high = eta[k];
+    const float from = (speed[k] > 0 ? low : high) - (bed_low > bed_high ? bed_low : bed_high);
     flux[k] = (from > 0 ? from : 0.0f) * speed[k] * pl_per_flux;
   }
 }
@@ -321,12 +324,14 @@ void find_moved(int k0, int k1, std::ptrdiff_t step, const float* flux, const fl
                 std::int32_t* __restrict moved) {
   constexpr float kFull = float(kMostInACell);
   for (int k = k0; k < k1; ++k) {
-    const float q = flux[k];
-    const float room = 0.25f * (kFull - (q > 0 ? volume[k] : volume[k - step]));
-    const float some = (q > 0 ? q : -q) * (q > 0 ? keep[k - step] : keep[k]);
+    const float q = flux[k], keep_low = keep[k - step], keep_high = keep[k];
+    const float room_low = 0.25f * (kFull - volume[k - step]), room_high = 0.25f * (kFull - volume[k]);
+    const float room = q > 0 ? room_high : room_low, kept = q > 0 ? keep_low : keep_high;
+    const float some = (q > 0 ? q : -q) * kept;
     const float fits = some < room ? some : room;
     const float in = fits > 0 ? fits : 0.0f;
-    moved[k] = std::int32_t(q > 0 ? in : -in);
+    const float signed_in = q > 0 ? in : -in;
+    moved[k] = std::int32_t(signed_in);
   }
 }
 
