@@ -219,6 +219,21 @@ TEST(Reader, DanglingNamesAreFaultsWithTheKnownOnes) {
                     "expected a known port (navel), got \"nave\" (did you mean \"navel\"?)"}));
 }
 
+TEST(Reader, WhatIsUnsoundInAPouchIsTold) {
+  const auto with = [](const std::string& more) {
+    return faults_of({{17, R"(, "pouches": [{"name": "bag", "tissue": "soft", "thickness_mm": 1, "sections": [)"
+                           R"({"centre_mm": [90, 0, -100], "across_mm": [10, 0, 0], "deep_mm": [0, 8, 0]}, )"
+                           R"({"centre_mm": [90, 0, -120], "across_mm": [10, 0, 0], "deep_mm": [0, 8, 0]}], )" +
+                               more + "}]}],"}});
+  };
+  EXPECT_EQ(with(R"("contents": {"kind": "liquid", "pressure_Pa": 900, "bulk_kPa": 100})"), Faults{});
+  EXPECT_EQ(with(R"("held_on": [@"liver"])"), one("expected a known solid or strand (ball, cord), got \"liver\""));
+  EXPECT_EQ(with(R"("contents": {"kind": "gas", "pressure_Pa": 900, "bulk_kPa": @100})"),
+            one("expected a bulk modulus of a liquid only, got one of \"gas\""));
+  EXPECT_EQ(with(R"("contents": {"kind": "gas", "pressure_Pa": @-2e5})").size(), 1u);
+  EXPECT_EQ(with(R"("spacing_mm": @0.3)").size(), 1u) << "too many nodes";
+}
+
 TEST(Reader, EqualNamesAreAFaultAtTheSecond) {
   const Faults told =
       faults_of({{14, R"("walls": [@{"name": "cord", "net_mm": [[[0,0,0],[9,0,0]],[[0,9,0],[9,9,0]]]}],)"}});

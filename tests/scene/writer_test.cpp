@@ -98,6 +98,24 @@ TEST(Writer, AWrittenSceneReadsBackEqualToTheBit) {
   EXPECT_EQ(write_scene(again), write_scene(d));
 }
 
+TEST(Writer, AWrittenPouchReadsBackWithItsContents) {
+  const Folder folder;
+  const Description d = read_scene(TROCAR_SOURCE_DIR "/scenes/gallbladder/scene.json");
+  const Description again = read_scene(folder.write("scene.json", write_scene(d)));
+  EXPECT_EQ(write_scene(again), write_scene(d));
+  ASSERT_EQ(again.pouches.size(), 1u);
+  const Pouch &a = d.pouches[0], &b = again.pouches[0];
+  EXPECT_EQ(a.sections.size(), b.sections.size());
+  EXPECT_EQ(a.held.size(), b.held.size());
+  EXPECT_EQ(a.held_on, b.held_on);
+  EXPECT_EQ(a.thickness, b.thickness);
+  EXPECT_EQ(a.spacing, b.spacing);
+  EXPECT_EQ(a.contents.kind, b.contents.kind);
+  EXPECT_EQ(a.contents.pressure, b.contents.pressure);
+  EXPECT_EQ(a.contents.bulk, b.contents.bulk);
+  EXPECT_EQ(a.contents.density, b.contents.density);
+}
+
 TEST(Writer, TheComparisonSeesOneChangedBit) {
   const Description d = read_scene(TROCAR_SOURCE_DIR "/scenes/gynaecology/scene.json");
   Description other = d;
