@@ -10,21 +10,19 @@ namespace {
 
 constexpr double kMaskShare = 0.97;  // of the field's half angle: what the mask's rim leaves
 constexpr double kSkinEdge = 0.004;  // [m] boxes of vertices are grown by this to hold their triangles
+constexpr double kWallEdge = 0.012;  // [m] the same for walls
 
 /// Does the segment meet a triangle of the surface? A triangle is looked at with its lowest vertex's block.
-/// @param open  per triangle: 1 = it is not there; may be empty
-bool hits_surface(const interactions::Surface& surface, Vec3d from, Vec3d to,
-                  std::span<const std::uint8_t> open = {}) noexcept {
+/// @param open   per triangle: 1 = it is not there; may be empty
+/// @param front  only where it comes from outside
+bool hits_surface(const interactions::Surface& surface, Vec3d from, Vec3d to, std::span<const std::uint8_t> open = {},
+                  double edge = kSkinEdge, bool front = false) noexcept {
   const tissue::SkinPose& pose = *surface.pose;
   if (!pose.bounds.near_segment(from, to, 0)) return false;
   const tissue::Skin& skin = *surface.skin;
   const Vec3d along = to - from;
   for (size_t b = 0; b < pose.block.size(); ++b) {
-    const tissue::Box& box = pose.block[b];
-    const Vec3d low = vec_cast<double>(box.low), high = vec_cast<double>(box.high);
-    const Vec3d middle = 0.5 * (low + high);
-    const double reach = 0.5 * length(high - low) + kSkinEdge;
-    if (length(collision::nearest_on_axis({from, to, 0}, middle) - middle) > reach) continue;
+    if (!interactions::meets_box(pose.block[b], from, to, edge)) continue;
     const int last = std::min(int(b + 1) * tissue::kSkinBlock, skin.size());
     for (int v = int(b) * tissue::kSkinBlock; v < last; ++v)
       for (int k = skin.face_first[size_t(v)]; k < skin.face_first[size_t(v) + 1]; ++k) {
@@ -33,8 +31,21 @@ bool hits_surface(const interactions::Surface& surface, Vec3d from, Vec3d to,
         if (std::min({t[0], t[1], t[2]}) != v) continue;
         const auto hit =
             geometry::ray_triangle(from, along, surface.position(t[0]), surface.position(t[1]), surface.position(t[2]));
-        if (hit.hit && hit.t < 1) return true;
+        if (!hit.hit || hit.t >= 1) continue;
+        if (!front) return true;
+        const Vec3d a = surface.position(t[0]);
+        if (dot(cross(surface.position(t[1]) - a, surface.position(t[2]) - a), along) < 0) return true;
       }
+  }
+  return false;
+}
+
+/// Is a wall between the eye and the point? From behind, as from within a trocar that goes through it, it hides
+/// nothing.
+bool behind_wall(const Model& model, Vec3d eye, Vec3d end) noexcept {
+  for (const WallModel& wall : model.walls) {
+    const interactions::Surface surface{&wall.skin, &wall.pose, {}};
+    if (hits_surface(surface, eye, end, {}, kWallEdge, true)) return true;
   }
   return false;
 }
@@ -100,6 +111,7 @@ bool unoccluded(const Model& model, const State& state, const Work& work, Vec3d 
   const Vec3d end = eye + (1.0 - margin / distance) * sight;
   for (size_t s = 0; s < size_t(model.organs()); ++s)
     if (hits_surface(work.surfaces[s], eye, end)) return false;
+  if (behind_wall(model, eye, end)) return false;
   for (size_t s = 0; s < model.bodies.size(); ++s) {
     if (int(s) == skip_strand) continue;
     const tissue::StrandState& strand = state.strands[s];
