@@ -56,3 +56,20 @@ TEST(Abuse, TissueThatTearsStaysFinite) {
   EXPECT_GT(r.tears, 0);
   EXPECT_LT(r.most_energy, 5) << "[J]";
 }
+
+TEST(Abuse, AFilledGallbladderBearsItAndKeepsItsContents) {
+  const sim::Model model =
+      abuse::untearable(scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/gallbladder/scene.json")));
+  abuse::Attack attack(model, 6);
+  const abuse::Round r = attack.round(model.solids.size() + model.strands.size(), 4);
+  EXPECT_EQ(r.organ, "gallbladder");
+  std::printf("%d grasps, at most %.3f J and %.1f N, %.2f %% off after the rest\n", r.grasps, r.most_energy,
+              r.most_force, 100 * r.worst().share);
+  EXPECT_EQ(r.first_bad_tick, 0u) << "flags " << r.flags;
+  EXPECT_GT(r.most_energy, 1e-3) << "[J] something was done to it";
+  EXPECT_LT(r.most_energy, 5) << "[J]";
+  const tissue::EnclosureState& inside = attack.state().membranes[0].enclosure;
+  EXPECT_EQ(inside.leaking, 0u);
+  EXPECT_NEAR(inside.pressure, 1000, 100);
+  for (const abuse::Left& left : r.left) EXPECT_LT(left.share, 0.01) << left.name << " " << left.distance << " m";
+}
