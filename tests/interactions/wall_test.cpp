@@ -5,6 +5,7 @@
 
 #include <trocar/core/random.hpp>
 #include <trocar/interactions/lever.hpp>
+#include <trocar/sim/visibility.hpp>
 
 #include "../sim/small_scene.hpp"
 
@@ -32,6 +33,18 @@ struct Pressed : small::Table {
     steps(50);
   }
 };
+
+TEST(Walls, HideWhatIsBehindThemFromTheFrontAlone) {
+  small::Table t(small::model());
+  t.step();
+  const Vec3d above{0.090, -0.040, 0.010}, below{0.090, -0.040, kFloor - 0.010};
+  const auto seen = [&t](Vec3d eye, Vec3d point) {
+    return sim::unoccluded(t.model, t.state, t.work, eye, point, 0.0015, -1, -1);
+  };
+  EXPECT_TRUE(seen(above, {0.090, -0.040, kFloor + 0.002}));
+  EXPECT_FALSE(seen(above, below));
+  EXPECT_TRUE(seen(below, above)) << "an endoscope that is drawn back into its trocar looks through the wall";
+}
 
 TEST(Walls, StopAnInstrumentAndPressBackWithABoundedForce) {
   Pressed t;
