@@ -86,7 +86,7 @@ TEST(Drops, FindEveryNeighbourWithinReachOnce) {
                               float(r.uniform(-0.012, 0.012))},
                {0, 0, 0}, 1'000'000);
     const DropletState s0 = b.s.droplets;
-    const float reach = 1.5f * (2 * s0.radius[0]), rest = 0.9f * (2 * s0.radius[0]);
+    const float reach = std::min(1.5f * (2 * s0.radius[0]), 2.6e-3f), rest = 0.9f * (2 * s0.radius[0]);
     std::vector<Vec3d> v(300);
     const double dt = 4e-3, k = 3.14159265358979 * 0.056;
     const double m = mass(widened(s0.volume[0]), b.m.droplets.density), both = m / 2;
@@ -106,7 +106,7 @@ TEST(Drops, FindEveryNeighbourWithinReachOnce) {
         const double others = std::max(neighbours[i], neighbours[j]);
         v[i] += (weight / others * dt * k * (far - double(rest)) / (1 + dt * damping / both) / m / far) * to;
       }
-    EXPECT_EQ(detail::pull_together(b.m.droplets, dt, b.s.droplets, b.w.droplets).flags, 0u);
+    EXPECT_EQ(detail::pull_together(b.m.droplets, detail::Who::kFlying, dt, b.s.droplets, b.w.droplets).flags, 0u);
     for (int i = 0; i < 300; ++i) {
       EXPECT_NEAR(double(b.s.droplets.vx[i]), v[i].x, 1e-3);
       EXPECT_NEAR(double(b.s.droplets.vy[i]), v[i].y, 1e-3);
@@ -341,7 +341,7 @@ TEST(Drops, InOnePlaceCostNoMoreThanTheirBound) {
   d.droplets.largest = 1'000'001;
   Scene b(d);
   for (int i = 0; i < 20000; ++i) put_drop(b, {1e-7f * float(i % 100), 0, 0.05f}, {0, 0, 0}, 1'000'000);
-  const FluidReport r = detail::pull_together(b.m.droplets, 4e-3, b.s.droplets, b.w.droplets);
+  const FluidReport r = detail::pull_together(b.m.droplets, detail::Who::kFlying, 4e-3, b.s.droplets, b.w.droplets);
   EXPECT_TRUE(r.flags & FluidReport::kCrowded);
   for (int i = 0; i < b.s.droplets.count; ++i) ASSERT_TRUE(std::isfinite(b.s.droplets.vx[i]));
 }

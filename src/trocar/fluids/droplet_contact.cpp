@@ -29,7 +29,7 @@ struct Moment {
   DropletWork& w;
   Below& below;
   FluidReport& report;
-  float dt;
+  float dt, run_dt;       ///< a tick; what a drop on a surface goes on by at a time [s]
   Vec3f g;                ///< gravity [m/s^2]
   float per_viscosity;    ///< rho / 3 mu [s/m^2]
   float retention, hold;  ///< width-free retention and overhang [N/m]
@@ -37,7 +37,7 @@ struct Moment {
 };
 
 /// Some of what a drop does is done on one tick of `every` (a power of two), at different ones for different drops.
-constexpr std::uint32_t kFilmEvery = 4, kPoolEveryRunning = 4, kPoolEveryFlying = 2;
+constexpr std::uint32_t kFilmEvery = 8, kPoolEveryFlying = 2;
 bool turn_of(const Moment& t, int i, std::uint32_t every) {
   return ((t.s.id[i] + std::uint32_t(t.s.tick)) & (every - 1)) == 0;
 }
@@ -92,15 +92,15 @@ void note_impact(Moment& t, int i, Vec3f point, Vec3f impulse) {
 Vec3f run(const Moment& t, int i, Vec3f along, Vec3f g_along, float drop_mass) {
   const float r = t.s.radius[i], h = float(t.m.running_height) * r;
   const float tau = t.per_viscosity * (h * h);
-  const Vec3f pushed = along + t.dt * g_along;
-  const float stop = t.dt * t.retention * (2 * r) / drop_mass, speed = length(pushed);
-  return speed > stop ? ((speed - stop) / speed / (1 + t.dt / tau)) * pushed : Vec3f{0, 0, 0};
+  const Vec3f pushed = along + t.run_dt * g_along;
+  const float stop = t.run_dt * t.retention * (2 * r) / drop_mass, speed = length(pushed);
+  return speed > stop ? ((speed - stop) / (speed * (1 + t.run_dt / tau))) * pushed : Vec3f{0, 0, 0};
 }
 
 /// A drop that is on a surface, at the end of the tick.
 void run_down(Moment& t, int i) {
   DropletState& s = t.s;
-  Ground& ground = s.ground[i];
+  const Ground& ground = s.ground[i];
   const Vec3f n = ground.normal, relative = velocity(s, i) - ground.velocity;
   const float drop_mass = float(mass(widened(s.volume[i]), t.m.density)), r = s.radius[i];
   const float away = dot(n, t.g);
@@ -112,33 +112,21 @@ void run_down(Moment& t, int i) {
   const float across = dot(n, relative);
   if (std::fabs(across) > kPressed) note_impact(t, i, position(s, i), (drop_mass * across) * n);
   const Vec3f along = run(t, i, relative - across * n, t.g - away * n, drop_mass);
-  Vec3f x = position(s, i) + t.dt * (along + ground.velocity);
+  Vec3f x = position(s, i) + t.run_dt * (along + ground.velocity);
   x += (ground.offset + 0.5f * r - dot(n, x)) * n;
   put(s, i, x, along + ground.velocity);
   const float speed = length(along);
-  ground.still = speed == 0;
-  if (ground.still || !turn_of(t, i, kFilmEvery)) return;
-  const float way = float(kFilmEvery) * t.dt * speed;
+  if (speed == 0 || !turn_of(t, i, kFilmEvery)) return;
+  const float way = std::max(float(kFilmEvery) * t.dt, t.run_dt) * speed;
   leave_film(t, i, std::int64_t(t.film * (2 * r * way)));
   if (s.volume[i].total() < t.m.smallest) become_film(t, i);
-}
-
-/// A drop at rest on a surface of which nothing new is known goes with it. @return false if it is not such a drop
-bool ride(Moment& t, int i) {
-  DropletState& s = t.s;
-  Ground& ground = s.ground[i];
-  if (s.body[i] < 0 || ground.still == 0 || t.w.question_of[i] >= 0 || t.w.near[i] != 0) return false;
-  if (!(velocity(s, i) == ground.velocity)) return false;
-  ground.offset += t.dt * dot(ground.normal, ground.velocity);
-  put(s, i, position(s, i) + t.dt * ground.velocity, ground.velocity);
-  return true;
 }
 
 /// A drop in flight meets a plane: what it has across the surface goes to the body.
 void land(Moment& t, int i, const Contact& c) {
   DropletState& s = t.s;
   s.body[i] = c.body;
-  s.ground[i] = {c.normal, dot(c.normal, c.point), c.velocity, c.film, 0};
+  s.ground[i] = {c.normal, dot(c.normal, c.point), c.velocity, c.film};
   const Vec3f relative = velocity(s, i) - c.velocity;
   const float across = dot(c.normal, relative);
   if (!(across < 0)) return;
@@ -193,14 +181,14 @@ void meet(Moment& t, int i) {
       land(t, i, *said);
   } else if (tool.body >= 0) {
     s.body[i] = tool.body;
-    s.ground[i] = {tool.normal, dot(tool.normal, tool.point), tool.velocity, -1, 0};
+    s.ground[i] = {tool.normal, dot(tool.normal, tool.point), tool.velocity, -1};
   } else if (said && said->body >= 0) {
     s.body[i] = said->body;
-    s.ground[i] = {said->normal, dot(said->normal, said->point), said->velocity, said->film, 0};
+    s.ground[i] = {said->normal, dot(said->normal, said->point), said->velocity, said->film};
   } else if (said || on_a_capsule(t, i)) {
     s.body[i] = -1;  // nothing is there any more
   } else {
-    s.ground[i].offset += t.dt * dot(s.ground[i].normal, s.ground[i].velocity);
+    s.ground[i].offset += t.run_dt * dot(s.ground[i].normal, s.ground[i].velocity);
   }
 }
 
@@ -251,7 +239,7 @@ void fall_in(Moment& t, int i) {
 /// Bits of the capsules in whose box (grown by the largest drop) a drop ends up.
 void find_near(Moment& t) {
   std::fill_n(t.w.near.begin(), t.s.count, 0);
-  const float grown = 2 * radius_of(t.m.largest);
+  const float grown = 2 * radius_of(t.m.largest_running);
   for (std::size_t k = 0; k < t.capsules.size(); ++k) {
     const Capsule& c = t.capsules[k];
     if (!trocar::fluids::sound(c) || k >= 31) {
@@ -292,7 +280,7 @@ void run_over(Moment& t) {
     } else {
       const int i = t.s.count - 1;
       t.s.body[i] = c.body;
-      t.s.ground[i] = {c.normal, dot(c.normal, c.point), c.velocity, place, 0};
+      t.s.ground[i] = {c.normal, dot(c.normal, c.point), c.velocity, place};
       move(t.below.ledger, Place::kFilm, Place::kDroplets, drop);
     }
     add(film, Mix{} - drop);
@@ -312,6 +300,7 @@ FluidReport resolve(const DropletModel& m, std::span<const Capsule> capsules, Dr
            .below = below,
            .report = report,
            .dt = float(m.tick),
+           .run_dt = float(m.tick * m.run_period),
            .g = g,
            .per_viscosity = float(m.density.blood / (3 * m.viscosity)),
            .retention = float(m.surface_tension * m.hysteresis),
@@ -322,14 +311,13 @@ FluidReport resolve(const DropletModel& m, std::span<const Capsule> capsules, Dr
   const int before = s.count;  // what splashes or runs over begins its way in the next tick
   for (int i = 0; i < before; ++i) {
     if (s.volume[i].total() <= 0) continue;
-    if (!ride(t, i)) {
-      meet(t, i);
-      if (s.body[i] >= 0)
-        run_down(t, i);
-      else
-        put(s, i, {w.to_x[i], w.to_y[i], w.to_z[i]}, velocity(s, i));
-    }
-    if (turn_of(t, i, s.body[i] < 0 ? kPoolEveryFlying : kPoolEveryRunning)) fall_in(t, i);
+    if (s.body[i] >= 0 && w.question_of[i] < 0) continue;  // it moves on other ticks
+    meet(t, i);
+    if (s.body[i] >= 0)
+      run_down(t, i);
+    else
+      put(s, i, {w.to_x[i], w.to_y[i], w.to_z[i]}, velocity(s, i));
+    if (s.body[i] >= 0 || turn_of(t, i, kPoolEveryFlying)) fall_in(t, i);
   }
   run_over(t);
   detail::remove_empty(s);
@@ -361,8 +349,9 @@ DropletWork make_work(const DropletModel& m) {
   for (auto* a :
        {&w.to_x, &w.to_y, &w.to_z, &w.sx, &w.sy, &w.sz, &w.svx, &w.svy, &w.svz, &w.sr, &w.sm, &w.jx, &w.jy, &w.jz})
     a->assign(n, 0.0f);
-  for (auto* a : {&w.asking, &w.near, &w.question_of, &w.sorted, &w.bucket_of, &w.joined, &w.neighbours})
-    a->assign(n, 0);
+  for (auto* a : {&w.asking, &w.near, &w.question_of, &w.chosen, &w.sorted, &w.bucket_of, &w.own_bucket, &w.joined,
+                  &w.neighbours})
+    a->assign(n + 1, 0);
   w.pairs.assign(16 * n, {0, 0});
   w.answers.assign(n, Contact{});
   w.impacts.assign(n, Impact{});

@@ -1,4 +1,5 @@
-// Forces between drops, and drops that become one. A grid of cells as wide as the farthest reach, hashed into buckets;
+// Forces between drops, and drops that become one; drops in flight among themselves on one tick, those on surfaces on
+// another (they meet by landing). A grid of cells as wide as the farthest reach, hashed into buckets;
 // drops are sorted by bucket (stable), so that everything has one order. A row of three cells is one range of the
 // sorted drops, hence a drop looks at five ranges: the rest of its own row and four rows ahead.
 #include <algorithm>
@@ -12,6 +13,7 @@ namespace {
 
 constexpr float kReach = 1.5f;                    ///< of the sum of radii
 constexpr float kRest = 0.9f;                     ///< the same, where nothing pulls or pushes
+constexpr float kFarthestReach = 2.6e-3f;         ///< beyond it large drops do not feel one another either [m]
 constexpr float kJoin = 0.5f;                     ///< the same, where two become one
 constexpr float kShare = 0.5f;                    ///< of the implicit impulse, as a drop may have many neighbours
 constexpr int kMostPairs = 32, kMostLooks = 256;  ///< of a drop ahead of itself
@@ -36,24 +38,37 @@ std::uint32_t bucket(const Grid& g, float x, float y, float z) {
   return (cell(x) + cell(y) * kRow + cell(z) * kLayer) & g.mask;
 }
 
-Grid sort(const DropletModel& m, const DropletState& s, DropletWork& w) {
+/// Who is looked at: those in flight, or those on a surface. In the order of the arrays.
+int gather(const DropletState& s, Who who, DropletWork& w) {
+  int n = 0;
+  for (int i = 0; i < s.count; ++i) {
+    w.chosen[n] = i;
+    n += (s.body[i] < 0) == (who == Who::kFlying) ? 1 : 0;
+  }
+  return n;
+}
+
+Grid sort(const DropletModel& m, const DropletState& s, int n, DropletWork& w) {
   float largest = 1e-5f;
-  for (int i = 0; i < s.count; ++i) largest = std::max(largest, s.radius[i]);
-  Grid g{buckets_for(s.count), 0, 1 / (2 * kReach * largest)};
+  for (int c = 0; c < n; ++c) largest = std::max(largest, s.radius[w.chosen[c]]);
+  Grid g{buckets_for(n), 0, 1 / std::min(2 * kReach * largest, kFarthestReach)};
   g.mask = g.buckets - 1;
   std::fill_n(w.bucket_first.begin(), g.buckets + 1, 0u);
-  for (int i = 0; i < s.count; ++i) {
+  for (int c = 0; c < n; ++c) {
+    const int i = w.chosen[c];
     const std::uint32_t b = bucket(g, s.x[i], s.y[i], s.z[i]);
-    w.bucket_of[i] = std::int32_t(b);
+    w.bucket_of[c] = std::int32_t(b);
     ++w.bucket_first[b + 1];
   }
   for (std::uint32_t b = 0; b < g.buckets; ++b) w.bucket_first[b + 1] += w.bucket_first[b];
   // Filling moves each start to its end, which is the next one's start: shift back afterwards.
-  for (int i = 0; i < s.count; ++i) w.sorted[w.bucket_first[w.bucket_of[i]]++] = i;
+  for (int c = 0; c < n; ++c) w.sorted[w.bucket_first[w.bucket_of[c]]++] = c;
   for (std::uint32_t b = g.buckets; b > 0; --b) w.bucket_first[b] = w.bucket_first[b - 1];
   w.bucket_first[0] = 0;
-  for (int p = 0; p < s.count; ++p) {
-    const int i = w.sorted[p];
+  for (int p = 0; p < n; ++p) {
+    const int c = w.sorted[p], i = w.chosen[c];
+    w.sorted[p] = i;
+    w.own_bucket[p] = w.bucket_of[c];
     w.sx[p] = s.x[i], w.sy[p] = s.y[i], w.sz[p] = s.z[i];
     w.svx[p] = s.vx[i], w.svy[p] = s.vy[i], w.svz[p] = s.vz[i];
     w.sr[p] = s.radius[i];
@@ -75,61 +90,67 @@ struct Law {
 /// neighbours, so that many together never turn a drop's motion round.
 void pull(const Law& law, int p, int q, DropletWork& w) {
   const float dx = w.sx[q] - w.sx[p], dy = w.sy[q] - w.sy[p], dz = w.sz[q] - w.sz[p];
-  const float d = std::sqrt((dx * dx + dy * dy) + dz * dz), sum = w.sr[p] + w.sr[q];
-  if (!(d > 1e-7f)) return;
-  const float nx = dx / d, ny = dy / d, nz = dz / d;
-  const float apart = (nx * (w.svx[q] - w.svx[p]) + ny * (w.svy[q] - w.svy[p])) + nz * (w.svz[q] - w.svz[p]);
+  const float d2 = (dx * dx + dy * dy) + dz * dz, sum = w.sr[p] + w.sr[q];
+  if (!(d2 > 1e-14f)) return;
+  const float d = std::sqrt(d2), per_d = 1 / d;
+  const float apart = ((dx * (w.svx[q] - w.svx[p]) + dy * (w.svy[q] - w.svy[p])) + dz * (w.svz[q] - w.svz[p])) * per_d;
   const float stretch = d - kRest * sum;
-  const float weight = stretch > 0 ? (kReach * sum - d) / ((kReach - kRest) * sum) : 1.0f;
+  const float fading = (kReach * sum - d) / ((kReach - kRest) * sum);
+  const float weight = fading < 1 ? fading : 1.0f;
   const float both = w.sm[p] * w.sm[q] / (w.sm[p] + w.sm[q]);
   const float damping = law.dt * law.k + std::sqrt(law.k * both);
   const float others = float(std::max(w.neighbours[p], w.neighbours[q]));
-  const float impulse = weight * law.dt * (law.k * stretch + damping * apart) / (1 + law.dt * damping / both) / others;
-  w.jx[p] += impulse * nx, w.jy[p] += impulse * ny, w.jz[p] += impulse * nz;
-  w.jx[q] -= impulse * nx, w.jy[q] -= impulse * ny, w.jz[q] -= impulse * nz;
+  const float impulse =
+      weight * law.dt * (law.k * stretch + damping * apart) * both * per_d / ((both + law.dt * damping) * others);
+  const float jx = impulse * dx, jy = impulse * dy, jz = impulse * dz;
+  w.jx[p] += jx, w.jy[p] += jy, w.jz[p] += jz;
+  w.jx[q] -= jx, w.jy[q] -= jy, w.jz[q] -= jz;
 }
 
-bool may_join(const Law& law, const DropletState& s, const DropletWork& w, int p, int q) {
+/// Notes that q becomes part of p, if they are deep in one another and may.
+void try_to_join(const Law& law, const DropletState& s, int p, int q, DropletWork& w) {
+  const float dx = w.sx[q] - w.sx[p], dy = w.sy[q] - w.sy[p], dz = w.sz[q] - w.sz[p], sum = w.sr[p] + w.sr[q];
+  if ((dx * dx + dy * dy) + dz * dz >= (kJoin * kJoin) * (sum * sum)) return;
   const int i = w.sorted[p], j = w.sorted[q];
-  return w.joined[p] < 0 && w.joined[q] < 0 && s.body[i] == s.body[j] &&
-         s.volume[i].total() + s.volume[j].total() <= law.largest;
+  if (w.joined[p] >= 0 || w.joined[q] >= 0 || s.body[i] != s.body[j]) return;
+  if (s.volume[i].total() + s.volume[j].total() <= law.largest) w.joined[q] = p, w.joined[p] = p;
 }
 
-/// Drops q in [first, last) as neighbours of p.
+/// Drops q in [first, last) as neighbours of p. Every one is written down, the next over it if it is not one.
 struct Budget {
-  int pairs = kMostPairs, looks = kMostLooks;
+  int end, looks = kMostLooks;
 };
-void look(const Law& law, int p, std::uint32_t first, std::uint32_t last, const DropletState& s, DropletWork& w,
-          Budget& left) {
+void look(int p, std::uint32_t first, std::uint32_t last, DropletWork& w, Budget& left) {
   const float x = w.sx[p], y = w.sy[p], z = w.sz[p], r = w.sr[p];
   const std::uint32_t some = std::min(last, first + std::uint32_t(left.looks));
-  if (some > first) left.looks -= int(some - first);
-  for (std::uint32_t q = first; q < some; ++q) {
-    const float dx = w.sx[q] - x, dy = w.sy[q] - y, dz = w.sz[q] - z, sum = r + w.sr[q];
-    const float d2 = (dx * dx + dy * dy) + dz * dz;
-    if (!(d2 < (kReach * kReach) * (sum * sum)) || left.pairs == 0 || w.pair_count >= int(w.pairs.size())) continue;
-    --left.pairs;
-    w.pairs[w.pair_count++] = {p, std::int32_t(q)};
-    ++w.neighbours[p], ++w.neighbours[q];
-    if (d2 < (kJoin * kJoin) * (sum * sum) && may_join(law, s, w, p, int(q))) w.joined[q] = p, w.joined[p] = p;
+  if (some <= first) return;
+  left.looks -= int(some - first);
+  const float *sx = w.sx.data(), *sy = w.sy.data(), *sz = w.sz.data(), *sr = w.sr.data();
+  DropletWork::Pair* pairs = w.pairs.data();
+  int n = w.pair_count;
+  for (std::uint32_t q = first; q < some && n < left.end; ++q) {
+    const float dx = sx[q] - x, dy = sy[q] - y, dz = sz[q] - z, sum = r + sr[q];
+    const float d2 = (dx * dx + dy * dy) + dz * dz, reach2 = (kReach * kReach) * (sum * sum);
+    pairs[n] = {p, std::int32_t(q)};
+    n += int(d2 < reach2) & int(d2 < kFarthestReach * kFarthestReach);
   }
+  w.pair_count = n;
 }
 
 /// The buckets a, a + 1, ..., a + n - 1, which may go round the end.
-void look_at_buckets(const Law& law, const Grid& g, int p, std::uint32_t a, std::uint32_t n, const DropletState& s,
-                     DropletWork& w, Budget& left) {
+void look_at_buckets(const Grid& g, int p, std::uint32_t a, std::uint32_t n, DropletWork& w, Budget& left) {
   a &= g.mask;
   const std::uint32_t end = a + n;
-  look(law, p, w.bucket_first[a], w.bucket_first[std::min(end, g.buckets)], s, w, left);
-  if (end > g.buckets) look(law, p, 0, w.bucket_first[end - g.buckets], s, w, left);
+  look(p, w.bucket_first[a], w.bucket_first[std::min(end, g.buckets)], w, left);
+  if (end > g.buckets) look(p, 0, w.bucket_first[end - g.buckets], w, left);
 }
 
-void look_around(const Law& law, const Grid& g, int p, const DropletState& s, DropletWork& w, Budget& left) {
-  const auto own = std::uint32_t(w.bucket_of[w.sorted[p]]);
-  look(law, p, std::uint32_t(p) + 1, w.bucket_first[own + 1], s, w, left);
-  look_at_buckets(law, g, p, own + 1, 1, s, w, left);
+void look_around(const Grid& g, int p, DropletWork& w, Budget& left) {
+  const auto own = std::uint32_t(w.own_bucket[p]);
+  look(p, std::uint32_t(p) + 1, w.bucket_first[own + 1], w, left);
+  look_at_buckets(g, p, own + 1, 1, w, left);
   for (const std::uint32_t row : {kRow, kLayer - kRow, kLayer, kLayer + kRow})
-    look_at_buckets(law, g, p, own + row - 1, 3, s, w, left);
+    look_at_buckets(g, p, own + row - 1, 3, w, left);
 }
 
 /// Drop j becomes part of drop i. Flying ones meet half-way; on a surface the first stays where it is.
@@ -147,24 +168,31 @@ void join(const DropletModel& m, int i, int j, DropletState& s) {
 
 }  // namespace
 
-FluidReport pull_together(const DropletModel& m, double dt, DropletState& s, DropletWork& w) noexcept {
+FluidReport pull_together(const DropletModel& m, Who who, double dt, DropletState& s, DropletWork& w) noexcept {
   FluidReport report;
-  if (s.count < 2) return report;
-  const Grid g = sort(m, s, w);
-  const Law law{float(portable::pi * m.surface_tension), float(dt), m.largest};
-  for (int p = 0; p < s.count; ++p) {
-    Budget left;
-    look_around(law, g, p, s, w, left);
-    if (left.pairs == 0 || left.looks == 0) report.note(FluidReport::kCrowded, w.sorted[p]);
+  const int n = gather(s, who, w);
+  if (n < 2) return report;
+  const Grid g = sort(m, s, n, w);
+  const Law law{float(portable::pi * m.surface_tension), float(dt),
+                who == Who::kFlying ? m.largest : m.largest_running};
+  const int room = int(w.pairs.size()) - 1;
+  for (int p = 0; p < n; ++p) {
+    Budget left{std::min(w.pair_count + kMostPairs, room)};
+    look_around(g, p, w, left);
+    if (left.looks == 0 || w.pair_count >= left.end) report.note(FluidReport::kCrowded, w.sorted[p]);
   }
-  if (w.pair_count >= int(w.pairs.size())) report.note(FluidReport::kCrowded, 0);
-  for (int k = 0; k < w.pair_count; ++k) pull(law, w.pairs[k].first, w.pairs[k].second, w);
-  bool any = false;
-  for (int p = 0; p < s.count; ++p) {
+  for (int k = 0; k < w.pair_count; ++k) ++w.neighbours[w.pairs[k].first], ++w.neighbours[w.pairs[k].second];
+  for (int k = 0; k < w.pair_count; ++k) {
+    pull(law, w.pairs[k].first, w.pairs[k].second, w);
+    try_to_join(law, s, w.pairs[k].first, w.pairs[k].second, w);
+  }
+  for (int p = 0; p < n; ++p) {
+    if (w.neighbours[p] == 0) continue;
     const int i = w.sorted[p];
     s.vx[i] += w.jx[p] / w.sm[p], s.vy[i] += w.jy[p] / w.sm[p], s.vz[i] += w.jz[p] / w.sm[p];
   }
-  for (int p = 0; p < s.count; ++p)
+  bool any = false;
+  for (int p = 0; p < n; ++p)
     if (w.joined[p] >= 0 && w.joined[p] != p) join(m, w.sorted[w.joined[p]], w.sorted[p], s), any = true;
   if (any) remove_empty(s);
   return report;

@@ -155,7 +155,7 @@ void catch_lost(const DropletModel& m, DropletState& s, DropletWork& w, Below& b
 }
 
 void ask(const DropletModel& m, const DropletState& s, DropletWork& w) {
-  const std::uint32_t mask = std::uint32_t(m.contact_period) - 1;
+  const std::uint32_t mask = std::uint32_t(m.run_period) - 1;
   w.questions = 0;
   for (int i = 0; i < s.count; ++i) {
     const bool asks = s.body[i] < 0 || ((s.id[i] + std::uint32_t(s.tick)) & mask) == 0;
@@ -185,13 +185,14 @@ DropletModel build(const DropletDescription& d, double tick) {
   require(d.film_capacity >= 0 && d.film_capacity <= kMostInACell / 2, "droplets: film capacity");
   require(length(d.gravity) < 100, "droplets: gravity");
   require(d.smallest >= 100 && d.largest > d.smallest && d.largest <= 200'000'000, "droplets: smallest and largest");
+  require(d.largest_running >= d.largest && d.largest_running <= 400'000'000, "droplets: largest on a surface");
   require(d.viscosity > 0 && d.surface_tension >= 0 && d.gas_density >= 0 && d.gas_viscosity > 0,
           "droplets: viscosity, surface tension, gas");
   require(d.density.blood > 0 && d.density.saline > 0 && d.density.bile > 0, "droplets: densities");
   require(d.film_thickness >= 0 && d.hysteresis >= 0 && d.running_height > 0 && d.overhang >= 0 && d.splash > 0,
           "droplets: film, hysteresis, running height, overhang, splash");
   require(
-      power_of_two(d.pair_period) && power_of_two(d.contact_period) && d.pair_period <= 16 && d.contact_period <= 16,
+      power_of_two(d.pair_period) && power_of_two(d.run_period) && d.pair_period <= 16 && d.run_period <= 16,
       "droplets: periods are powers of two up to 16");
   require(tick > 0 && tick <= 0.01, "droplets: tick");
   DropletModel m;
@@ -235,8 +236,11 @@ FluidReport plan(const DropletModel& m, std::span<const Opening> openings, Dropl
                  Below& below) noexcept {
   FluidReport report;
   open_up(m, openings, s, below, report);
-  if (s.tick % std::uint64_t(m.pair_period) == 1 % std::uint64_t(m.pair_period))
-    report = report | detail::pull_together(m, m.tick * m.pair_period, s, w);
+  const auto period = std::uint64_t(m.pair_period);
+  if (s.tick % period == 1)
+    report = report | detail::pull_together(m, detail::Who::kFlying, m.tick * m.pair_period, s, w);
+  if (s.tick % (2 * period) == period / 2 + 1)
+    report = report | detail::pull_together(m, detail::Who::kOnSurfaces, 2 * m.tick * m.pair_period, s, w);
   fly(flight_of(m), s.count, s.body.data(), s.radius.data(), s.x.data(), s.y.data(), s.z.data(), s.vx.data(),
       s.vy.data(), s.vz.data(), w.to_x.data(), w.to_y.data(), w.to_z.data());
   catch_lost(m, s, w, below, report);

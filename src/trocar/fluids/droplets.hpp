@@ -21,6 +21,10 @@
 //   for (k : work.asking) work.answers[k] = nearest(State.position, work.to);
 //   resolve(...);                                     // lands, runs down, films, falls in
 //
+// Drops on surfaces move on every fourth tick, a quarter of them on each; forces between drops are looked at on every
+// fourth (those in flight) and every eighth (those on surfaces, among themselves); films and the pool's surface at
+// similar rates (our choice, for speed).
+//
 // Volumes are whole picolitres (mix.hpp). Arrays are by drop, 0 .. count - 1; a drop that ends leaves its place to the
 // last one. `id` names a drop for as long as it lives.
 #pragma once
@@ -46,19 +50,20 @@ struct DropletDescription {
   std::int64_t film_capacity = 200'000;  ///< of a place [pL]: 50 um on 4 mm^2
   Vec3d gravity{0, 0, -9.81};            ///< [m/s^2]
   Densities density;
-  double viscosity = 3.5e-3;         ///< mu, of blood [Pa s]
-  double surface_tension = 0.056;    ///< sigma, of blood [N/m]
-  double gas_density = 1.75;         ///< carbon dioxide, 12 mmHg, 37 C [kg/m^3]; 0 = nothing to fly through
-  double gas_viscosity = 1.6e-5;     ///< [Pa s]
-  std::int64_t smallest = 20'000;    ///< a drop below it becomes film [pL]: 0.17 mm radius
-  std::int64_t largest = 8'000'000;  ///< no drop is born or grows larger [pL]: 1.24 mm radius
-  double film_thickness = 20e-6;     ///< left behind by a running drop [m]
-  double hysteresis = 0.08;          ///< cos receding - cos advancing, on wet tissue
-  double running_height = 0.3;       ///< h over r of a running drop
-  double overhang = 0.5;             ///< share of 2 pi r sigma that holds a hanging drop
-  double splash = 80;                ///< Weber number above which a drop throws up smaller ones from the pool
-  int pair_period = 4;               ///< ticks between two looks at the forces between drops, a power of two
-  int contact_period = 4;            ///< ticks between two questions of a running drop, a power of two
+  double viscosity = 3.5e-3;                  ///< mu, of blood [Pa s]
+  double surface_tension = 0.056;             ///< sigma, of blood [N/m]
+  double gas_density = 1.75;                  ///< carbon dioxide, 12 mmHg, 37 C [kg/m^3]; 0 = nothing to fly through
+  double gas_viscosity = 1.6e-5;              ///< [Pa s]
+  std::int64_t smallest = 20'000;             ///< a drop below it becomes film [pL]: 0.17 mm radius
+  std::int64_t largest = 8'000'000;           ///< no drop is born larger, or grows so in flight [pL]: 1.24 mm radius
+  std::int64_t largest_running = 40'000'000;  ///< nor on a surface, where they become rivulets [pL]: 2.1 mm
+  double film_thickness = 20e-6;              ///< left behind by a running drop [m]
+  double hysteresis = 0.08;                   ///< cos receding - cos advancing, on wet tissue
+  double running_height = 0.3;                ///< h over r of a running drop
+  double overhang = 0.5;                      ///< share of 2 pi r sigma that holds a hanging drop
+  double splash = 80;                         ///< Weber number above which a drop throws up smaller ones from the pool
+  int pair_period = 4;  ///< ticks between two looks at the forces between flying drops: 2, 4, 8 or 16
+  int run_period = 4;   ///< ticks between two steps of a drop on a surface, each with a question: 2, 4, 8 or 16
 };
 
 struct DropletModel : DropletDescription {
@@ -71,7 +76,6 @@ struct Ground {
   float offset = 0;
   Vec3f velocity{0, 0, 0};  ///< of the surface [m/s]
   std::int32_t film = -1;   ///< place of the film below the drop, -1 = none
-  std::int32_t still = 0;   ///< 1 = the drop has come to rest on it
 };
 
 struct SmallMix {  ///< of a drop or a film's place [pL]
@@ -131,7 +135,7 @@ struct DropletWork {
   std::vector<std::int32_t> near;           ///< (capacity) bits of capsules that a drop is near to
   std::vector<std::int32_t> question_of;    ///< (capacity) index of its question, or -1
   std::vector<std::uint32_t> bucket_first;  ///< the grid of the forces between drops
-  std::vector<std::int32_t> sorted, bucket_of;
+  std::vector<std::int32_t> chosen, sorted, bucket_of, own_bucket;
   std::vector<float> sx, sy, sz, svx, svy, svz, sr, sm, jx, jy, jz;
   std::vector<std::int32_t> joined;      ///< (capacity) drop that it became part of, or -1
   std::vector<std::int32_t> neighbours;  ///< (capacity)
@@ -181,8 +185,10 @@ float radius_of(std::int64_t picolitres) noexcept;  ///< of a ball [m]
 void add_to_hash(core::Hasher& hasher, const DropletState& state) noexcept;
 
 namespace detail {
+enum class Who { kFlying, kOnSurfaces };
 /// Forces between drops, and joining. dt: since the last time.
-FluidReport pull_together(const DropletModel& model, double dt, DropletState& state, DropletWork& work) noexcept;
+FluidReport pull_together(const DropletModel& model, Who who, double dt, DropletState& state,
+                          DropletWork& work) noexcept;
 /// Removes drops without volume, from the end.
 void remove_empty(DropletState& state) noexcept;
 void put_into_pool(const DropletModel& model, Vec3f at, const Mix& volume, Place from, Below& below) noexcept;
