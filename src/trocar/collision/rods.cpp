@@ -9,6 +9,10 @@ Vec3d nearest_on_axis(const Capsule& capsule, Vec3d p) noexcept {
   return capsule.a + geometry::closest_on_segment(p, capsule.a, capsule.b) * (capsule.b - capsule.a);
 }
 
+double way_of(const Capsule& from, const Capsule& to) noexcept {
+  return std::max(length(to.a - from.a), length(to.b - from.b));
+}
+
 bool passes_within(Vec3d from, Vec3d to, Vec3d a, Vec3d b, double radius) noexcept {
   const auto pair = geometry::closest_segments(from, to, a, b);
   const Vec3d apart = from + pair.s * (to - from) - (a + pair.t * (b - a));
@@ -41,9 +45,6 @@ RodContact touch(const Capsule& first, const Capsule& second, Vec3f& side) noexc
 
 namespace {
 
-double way_of(const Capsule& from, const Capsule& to) noexcept {
-  return std::max(length(to.a - from.a), length(to.b - from.b));
-}
 Capsule between(const Capsule& from, const Capsule& to, double share) noexcept {
   return {from.a + share * (to.a - from.a), from.b + share * (to.b - from.b), to.radius};
 }

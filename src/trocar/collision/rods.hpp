@@ -18,6 +18,9 @@ struct Capsule {
 /// The point of the capsule's axis nearest to p.
 Vec3d nearest_on_axis(const Capsule& capsule, Vec3d p) noexcept;
 
+/// The longest way that a point of the axis has gone in a straight line [m].
+double way_of(const Capsule& from, const Capsule& to) noexcept;
+
 /// Does the segment from->to pass within `radius` of the segment ab?
 bool passes_within(Vec3d from, Vec3d to, Vec3d a, Vec3d b, double radius) noexcept;
 

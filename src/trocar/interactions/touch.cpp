@@ -40,10 +40,6 @@ void put(float (&to)[3], Vec3d from) noexcept {
   to[2] = float(from.z);
 }
 
-double way_of(const Capsule& from, const Capsule& to) noexcept {
-  return std::max(length(to.a - from.a), length(to.b - from.b));
-}
-
 }  // namespace
 
 const Touch* TouchBook::find(std::int32_t body, std::int32_t element, std::int32_t part) const noexcept {
@@ -81,7 +77,7 @@ Touching::Touching(double friction, const ToolShape& was_at, const ToolShape& is
                    TouchBook& will_be) noexcept
     : shape(is_at), before(was_at), tool(number), last(was), next(will_be), m_friction(friction) {
   next.count = 0;
-  for (int part = 0; part < kToolParts; ++part) m_way[part] = way_of(before.part[part], shape.part[part]);
+  for (int part = 0; part < kToolParts; ++part) m_way[part] = collision::way_of(before.part[part], shape.part[part]);
 }
 
 std::int32_t Touching::note(std::int32_t body, std::int32_t element, std::int32_t part, std::int32_t vertex) noexcept {
