@@ -10,10 +10,10 @@
 namespace trocar::vessels {
 namespace {
 
+constexpr double kUsualVolume = 5e-3;  // of blood in the patient that the loss response is for [m^3]
 constexpr double kPicolitre = 1e-15;   // [m^3]
 constexpr double kFastest = 0.04;      // (u / c)^2 up to which the flow carries waves along
 constexpr double kMostCarried = 0.45;  // keeps the matrix dominant in long cells
-constexpr double kCollapsed = 0.3;     // of a radius: the wall law ends there
 constexpr double kHighPressure = 1e5;  // [Pa]
 
 /// What the patient does during this tick.
@@ -34,7 +34,8 @@ double periodic(std::span<const double> wave, double phase) {
 }
 
 Drive drive(const FlowModel& m, const FlowState& s) {
-  const LossResponse now = response_to(m.heart, double(s.bled - s.infused) * kPicolitre);
+  const double lost = double(s.bled - s.infused) * kPicolitre;
+  const LossResponse now = response_to(m.heart, lost * (kUsualVolume / m.blood.volume));
   const double ahead = m.settings.implicitness * m.settings.tick / 60;
   Drive d;
   d.rate = m.heart.rate * now.rate;
@@ -74,9 +75,7 @@ struct CellNow {
 
 CellNow cell_now(const FlowCell& c, double pa, double pb, double q, double dq) {
   CellNow now;
-  now.xa = c.rest + c.give * pa, now.xb = c.rest + c.give * pb;
-  now.xa = now.xa > kCollapsed ? now.xa : kCollapsed;
-  now.xb = now.xb > kCollapsed ? now.xb : kCollapsed;
+  now.xa = widening(c.rest, c.give, pa), now.xb = widening(c.rest, c.give, pb);
   now.xm = 0.5 * (now.xa + now.xb);
   now.inverse = 1 / (c.area * now.xm * now.xm);
   now.flow = q + 0.5 * dq;
@@ -101,9 +100,9 @@ void assemble_cells(const FlowModel& m, const FlowState& s, int first, int last,
     const double soft = mach2 > kFastest ? kFastest / mach2 : 1;
     carried *= soft;
     carried = carried > kMostCarried ? kMostCarried : carried < -kMostCarried ? -kMostCarried : carried;
-    const double widening = c.area_b * now.xb * now.xb - c.area_a * now.xa * now.xa;
+    const double wider = c.area_b * now.xb * now.xb - c.area_a * now.xa * now.xa;
     const double g = 1 / (now.terms.inertia + now.terms.resistance);
-    const double pull = s.p[c.a] - s.p[c.b] + soft * rho * u * u * widening * now.inverse;
+    const double pull = s.p[c.a] - s.p[c.b] + soft * rho * u * u * wider * now.inverse;
     const double flow0 = g * (now.terms.inertia * s.q[i] + pull);
     const double flow_a = g * (theta + carried), flow_b = g * (theta - carried);
     w.flow0[i] = flow0, w.flow_a[i] = flow_a, w.flow_b[i] = flow_b;
@@ -204,7 +203,7 @@ void update_cells(const FlowModel& m, int first, int last, FlowState& s, const F
 void update_rows(const FlowModel& m, FlowState& s, const FlowWork& w, FlowReport& report) {
   for (std::size_t i = 0; i < m.give.size(); ++i) {
     const double change = w.x[i];
-    s.owed[i] = (capacity(m, i, w.ahead[i]) - capacity(m, i, s.p[i] + 0.5 * change)) * change;
+    s.owed[i] = capacity(m, i, w.ahead[i]) * change - row_volume(m, int(i), s.p[i], s.p[i] + change);
     s.p[i] += change;
     s.dp[i] = change;
     if (s.p[i] > kHighPressure) report.flags |= FlowReport::kHighPressure;
@@ -235,6 +234,10 @@ void plain_cells(const FlowModel& m, const FlowWork& w, F&& body) {
 }
 
 }  // namespace
+
+double row_volume(const FlowModel& m, int row, double from, double to) noexcept {
+  return capacity(m, std::size_t(row), 0.5 * (from + to)) * (to - from);
+}
 
 FlowReport advance(const FlowModel& m, const FlowInput& in, std::span<OpeningFlow> flows, FlowState& s,
                    FlowWork& w) noexcept {

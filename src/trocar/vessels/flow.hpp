@@ -231,6 +231,10 @@ WallReading read_wall(const FlowModel& model, const FlowState& state, int segmen
 double lumen_area(const FlowModel& model, const FlowState& state, int segment, double s) noexcept;
 double node_pressure(const FlowModel& model, const FlowState& state, int node) noexcept;
 
+/// Volume that a row takes up between two pressures, by the wall law; for tests and reports [m^3].
+double row_volume(const FlowModel& model, int row, double from, double to) noexcept;
+
+void add_to_hash(core::Hasher& hasher, const FlowModel& model) noexcept;
 void add_to_hash(core::Hasher& hasher, const FlowState& state) noexcept;
 
 }  // namespace trocar::vessels

@@ -112,13 +112,11 @@ void Builder::end(const VesselEnd& e) {
   f.row = m.plan.row_of[e.node];
   f.pressure = e.pressure;
   f.conductance = 1 / (e.r_near + e.r_far);
-  if (e.compliance > 0 && e.r_near > 0 && e.r_far > 0) {
-    f.near = 1 / e.r_near, f.far = 1 / e.r_far;
+  if (e.compliance > 0 && e.r_far > 0) {
+    f.near = 1 / (e.r_near > 0 ? e.r_near : 1e-6 * e.r_far), f.far = 1 / e.r_far;
     f.storage = e.compliance / dt;
     f.inner = 1 / (f.storage + theta * (f.near + f.far));
     f.conductance = f.near - f.near * f.near * theta * f.inner;
-  } else if (e.compliance > 0 && e.r_far > 0) {
-    m.give[f.row] += e.compliance;  // nothing before it: the row's own
   }
   m.ends.push_back(f);
 }

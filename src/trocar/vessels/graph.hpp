@@ -74,7 +74,7 @@ struct Blood {
   double density = 1060;      ///< [kg/m^3]
   double viscosity = 3.5e-3;  ///< [Pa s]
   double profile = 2;         ///< exponent of the velocity profile: friction 2 (profile + 2) pi mu u; 2 = Poiseuille's
-  double volume = 5e-3;       ///< of the patient [m^3]
+  double volume = 5e-3;       ///< of the patient [m^3]; a loss counts by its share of it
 };
 
 /// How the model is cut into cells and what its openings do; defaults are our choice unless said.

@@ -34,6 +34,13 @@ void reduce_chain(const FlowState& s, const FlowChain& chain, const CellTerms& t
 void finish_chain(const FlowModel& m, const FlowChain& chain, double end_a, double end_b, std::span<OpeningFlow> flows,
                   FlowState& s, FlowWork& w) noexcept;
 
+/// sqrt(A / A_ref) at a pressure; the wall law ends at kFlat.
+inline constexpr double kFlat = 0.3;
+inline double widening(double rest, double give, double p) noexcept {
+  const double x = rest + give * p;
+  return x > kFlat ? x : kFlat;
+}
+
 /// Cell and place in it (0 .. 1) of a segment's place s.
 inline int cell_at(const FlowSegment& segment, double s, double* at) noexcept {
   const double x = s * segment.cells;
