@@ -242,7 +242,8 @@ TEST(Pool, FindsItsLevelAndMixes) {
     b.tick();
   }
   const double level = 0.75 * 40e6 * 1e-15 / (b.m.cell * b.m.cell);
-  for (int i = 0; i < 32; ++i) EXPECT_NEAR(b.depth(i, 16) / level, 1, 0.02);
+  for (int t = 0; t < 2000; ++t) b.tick();
+  for (int i = 0; i < 32; ++i) EXPECT_NEAR(b.depth(i, 16) / level, 1, 0.01);
   const auto share_at = [&](int i, int j) {
     const Mix own = mix_at(b.m, b.s, i, j);
     return double(own.blood) / double(own.total());

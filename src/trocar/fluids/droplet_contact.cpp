@@ -33,7 +33,9 @@ struct Moment {
   Vec3f g;                ///< gravity [m/s^2]
   float per_viscosity;    ///< rho / 3 mu [s/m^2]
   float retention, hold;  ///< width-free retention and overhang [N/m]
-  float film;             ///< left behind per area run over [pL/m^2]
+  Vec3f up;               ///< of the pool
+  float pool_top;  ///< along it; above it no drop can be in the pool (with 2 mm for what is poured between steps)
+  float film;      ///< left behind per area run over [pL/m^2]
 };
 
 /// Some of what a drop does is done on one tick of `every` (a power of two), at different ones for different drops.
@@ -216,6 +218,7 @@ void splash(Moment& t, int i, Vec3f surface, Vec3f v, float fall) {
 /// Whether a drop is below the pool's surface (or its bed), and what follows.
 void fall_in(Moment& t, int i) {
   const PoolModel& pool = t.below.model;
+  if (dot(position(t.s, i), t.up) > t.pool_top) return;
   const PoolPoint at = locate(pool, vec_cast<double>(position(t.s, i)));
   const float bed = floor_at(pool, t.below.floor, at.i, at.j), depth = depth_at(pool, t.below.state, at.i, at.j);
   const bool wet = depth > 0.5e-3f, flies = t.s.body[i] < 0;
@@ -305,6 +308,8 @@ FluidReport resolve(const DropletModel& m, std::span<const Capsule> capsules, Dr
            .per_viscosity = float(m.density.blood / (3 * m.viscosity)),
            .retention = float(m.surface_tension * m.hysteresis),
            .hold = float(2 * portable::pi * m.surface_tension * m.overhang),
+           .up = vec_cast<float>(below.model.up),
+           .pool_top = float(dot(below.model.origin, below.model.up)) + below.state.highest + 2e-3f,
            .film = float(m.film_thickness * kPicolitresPerM3)};
   w.impact_count = 0;
   find_near(t);

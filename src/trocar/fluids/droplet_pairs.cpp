@@ -176,7 +176,9 @@ FluidReport pull_together(const DropletModel& m, Who who, double dt, DropletStat
   const Law law{float(portable::pi * m.surface_tension), float(dt),
                 who == Who::kFlying ? m.largest : m.largest_running};
   const int room = int(w.pairs.size()) - 1;
+  const std::uint32_t name = who == Who::kOnSurfacesOdd ? 1 : 0;
   for (int p = 0; p < n; ++p) {
+    if (who != Who::kFlying && (s.id[w.sorted[p]] & 1u) != name) continue;
     Budget left{std::min(w.pair_count + kMostPairs, room)};
     look_around(g, p, w, left);
     if (left.looks == 0 || w.pair_count >= left.end) report.note(FluidReport::kCrowded, w.sorted[p]);

@@ -238,8 +238,11 @@ FluidReport plan(const DropletModel& m, std::span<const Opening> openings, Dropl
   const auto period = std::uint64_t(m.pair_period);
   if (s.tick % period == 1)
     report = report | detail::pull_together(m, detail::Who::kFlying, m.tick * m.pair_period, s, w);
-  if (s.tick % (2 * period) == period / 2 + 1)
-    report = report | detail::pull_together(m, detail::Who::kOnSurfaces, 2 * m.tick * m.pair_period, s, w);
+  if (s.tick % (2 * period) == period / 2 + 1) {
+    const bool even = s.tick / (2 * period) % 2 == 0;
+    report = report | detail::pull_together(m, even ? detail::Who::kOnSurfacesEven : detail::Who::kOnSurfacesOdd,
+                                            4 * m.tick * m.pair_period, s, w);
+  }
   fly(flight_of(m), s.count, s.body.data(), s.radius.data(), s.x.data(), s.y.data(), s.z.data(), s.vx.data(),
       s.vy.data(), s.vz.data(), w.to_x.data(), w.to_y.data(), w.to_z.data());
   catch_lost(m, s, w, below, report);

@@ -21,9 +21,9 @@
 //   for (k : work.asking) work.answers[k] = nearest(State.position, work.to);
 //   resolve(...);                                     // lands, runs down, films, falls in
 //
-// Drops on surfaces move on every fourth tick, a quarter of them on each; forces between drops are looked at on every
-// fourth (those in flight) and every eighth (those on surfaces, among themselves); films and the pool's surface at
-// similar rates (our choice, for speed).
+// Drops on surfaces move on every fourth tick, a quarter of them on each. Forces between drops are looked at on every
+// fourth tick (those in flight) and on every eighth (those on surfaces, among themselves, half of the pairs each time);
+// films and the pool's surface at similar rates (our choice, for speed).
 //
 // Volumes are whole picolitres (mix.hpp). Arrays are by drop, 0 .. count - 1; a drop that ends leaves its place to the
 // last one. `id` names a drop for as long as it lives.
@@ -185,7 +185,8 @@ float radius_of(std::int64_t picolitres) noexcept;  ///< of a ball [m]
 void add_to_hash(core::Hasher& hasher, const DropletState& state) noexcept;
 
 namespace detail {
-enum class Who { kFlying, kOnSurfaces };
+/// Those in flight; or those on surfaces, pairs of which the first has an even or an odd name.
+enum class Who { kFlying, kOnSurfacesEven, kOnSurfacesOdd };
 /// Forces between drops, and joining. dt: since the last time.
 FluidReport pull_together(const DropletModel& model, Who who, double dt, DropletState& state,
                           DropletWork& work) noexcept;

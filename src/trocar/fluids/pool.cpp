@@ -170,6 +170,7 @@ void add_to_hash(core::Hasher& hasher, const PoolState& s) noexcept {
   hasher.add(s.v);
   hasher.add(s.held);
   hasher.add(s.drain_carry);
+  hasher.add(s.highest);
   hasher.add(s.first_row);
   hasher.add(s.last_row);
   hasher.add(s.tick);

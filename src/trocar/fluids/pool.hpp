@@ -17,7 +17,7 @@
 //   PoolModel m = build(PoolDescription{.origin = {-0.08, -0.08, 0}, .nx = 128, .ny = 128, .cell = 0.00125});
 //   PoolState s = empty_pool(m);  PoolWork w = make_work(m);
 //   pour(m, cell_at(m, {0, 0, 0}), {.blood = 5 * kMillilitre}, s);
-//   advance(m, {.floor = heights}, s, w, ledger);               // every tick; works on every 2nd
+//   advance(m, {.floor = heights}, s, w, ledger);               // every tick; works on every 4th
 #pragma once
 
 #include <array>
@@ -45,7 +45,7 @@ struct PoolDescription {
   double friction = 0.005;       ///< c
   double viscosity = 3.3e-6;     ///< nu, of blood [m^2/s]
   double damping = 2;            ///< gamma [1/s]: ripples fall to 1/e in a second
-  int period = 2;                ///< ticks between two steps
+  int period = 4;                ///< ticks between two steps
 };
 
 struct PoolModel : PoolDescription {
@@ -66,6 +66,7 @@ struct PoolState {
   std::vector<float> u, v;                        ///< (size) speed through the faces towards +u, +v [m/s]
   Mix held;                                       ///< what no cell had room for [pL]
   std::array<double, kMostDrains> drain_carry{};  ///< [pL]
+  float highest = 1e3f;                           ///< no surface or bed was above it at the last step [m]
   std::int32_t first_row = 0, last_row = -1;      ///< that may hold speeds other than 0
   std::uint64_t tick = 0;
 };

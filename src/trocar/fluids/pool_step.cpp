@@ -64,6 +64,18 @@ void describe_cells(const PoolKernels& x, const PoolModel& m, const PoolInput& i
   }
 }
 
+/// The highest bed anywhere and the highest surface where the pool is at work.
+float highest(const PoolModel& m, const PoolInput& in, Rows rows, const PoolWork& w) {
+  float top = in.floor.empty() ? 0.0f : -10.0f;
+  for (const float z : in.floor) top = z > top && z < 10 ? z : top;
+  if (top < 0) top = 0;  // what is not finite counts as 0
+  for (int j = rows.first; j <= rows.last; ++j) {
+    const float* eta = w.eta.data() + m.at(0, j);
+    for (int i = 0; i < m.nx; ++i) top = eta[i] > top ? eta[i] : top;
+  }
+  return top;
+}
+
 /// The capsule in the pool's frame.
 Capsule in_frame(const PoolModel& m, const Capsule& c) {
   const auto turned = [&](Vec3f p) {
@@ -261,7 +273,10 @@ FluidReport advance(const PoolModel& m, const PoolInput& in, PoolState& s, PoolW
   pour_held(m, s, report);
   const Rows rows = rows_at_work(m, s);
   still_rows_outside(m, rows, s);
-  if (rows.empty()) return report;
+  if (rows.empty()) {
+    s.highest = highest(m, in, rows, w);
+    return report;
+  }
   const PoolKernels& x = pool_kernels();
   const PoolConstants c = constants_of(m);
   describe_cells(x, m, in, rows, s, w, report);
@@ -271,6 +286,7 @@ FluidReport advance(const PoolModel& m, const PoolInput& in, PoolState& s, PoolW
     else
       report.note(FluidReport::kBadContact, std::int32_t(i));
   }
+  s.highest = highest(m, in, rows, w);
   accelerate_u(x, m, c, rows, s, w);
   accelerate_v(x, m, c, rows, s, w);
   exchange(x, m, rows, s, w);
