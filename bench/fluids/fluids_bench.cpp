@@ -81,6 +81,7 @@ struct Pelvis {
       const Vec3f p = flies ? Vec3f{w.droplets.to_x[i], w.droplets.to_y[i], w.droplets.to_z[i]}
                             : Vec3f{s.droplets.x[i], s.droplets.y[i], s.droplets.z[i]};
       const float off = dot(p - p0, n);
+      w.droplets.answers[k].body = -1;
       if (p.x > 0.06f || off > 1e-3f) continue;
       const int cell =
           std::clamp(int((p.x + 0.08f) * 800), 0, 127) * 128 + std::clamp(int((p.y + 0.08f) * 800), 0, 127);

@@ -239,6 +239,19 @@ void fall_in(Moment& t, int i) {
 
 // ---- the whole
 
+/// Sets a bit of drops whose end point is in a box.
+void mark_within(int count, Vec3f low, Vec3f high, std::int32_t bit, DropletWork& w) {
+  const float *x = w.to_x.data(), *y = w.to_y.data(), *z = w.to_z.data();
+  std::int32_t* __restrict near = w.near.data();
+  for (int i = 0; i < count; ++i) {
+    const float dx = std::fabs(x[i] - 0.5f * (low.x + high.x)), dy = std::fabs(y[i] - 0.5f * (low.y + high.y));
+    const float dz = std::fabs(z[i] - 0.5f * (low.z + high.z));
+    const std::int32_t in_x = dx < 0.5f * (high.x - low.x) ? bit : 0, in_y = dy < 0.5f * (high.y - low.y) ? bit : 0;
+    const std::int32_t in_z = dz < 0.5f * (high.z - low.z) ? bit : 0;
+    near[i] = near[i] | (in_x & in_y & in_z);
+  }
+}
+
 /// Bits of the capsules in whose box (grown by the largest drop) a drop ends up.
 void find_near(Moment& t) {
   std::fill_n(t.w.near.begin(), t.s.count, 0);
@@ -252,14 +265,7 @@ void find_near(Moment& t) {
     const float r = c.radius + grown;
     const Vec3f low{std::min(c.a.x, c.b.x) - r, std::min(c.a.y, c.b.y) - r, std::min(c.a.z, c.b.z) - r};
     const Vec3f high{std::max(c.a.x, c.b.x) + r, std::max(c.a.y, c.b.y) + r, std::max(c.a.z, c.b.z) + r};
-    const float *x = t.w.to_x.data(), *y = t.w.to_y.data(), *z = t.w.to_z.data();
-    std::int32_t* near = t.w.near.data();
-    const std::int32_t bit = std::int32_t(1) << k;
-    for (int i = 0; i < t.s.count; ++i) {
-      const bool in =
-          (x[i] > low.x) & (x[i] < high.x) & (y[i] > low.y) & (y[i] < high.y) & (z[i] > low.z) & (z[i] < high.z);
-      near[i] |= in ? bit : 0;
-    }
+    mark_within(t.s.count, low, high, std::int32_t(1) << k, t.w);
   }
 }
 
@@ -315,8 +321,8 @@ FluidReport resolve(const DropletModel& m, std::span<const Capsule> capsules, Dr
   find_near(t);
   const int before = s.count;  // what splashes or runs over begins its way in the next tick
   for (int i = 0; i < before; ++i) {
+    if (w.question_of[i] < 0) continue;  // on a surface, it moves on other ticks
     if (s.volume[i].total() <= 0) continue;
-    if (s.body[i] >= 0 && w.question_of[i] < 0) continue;  // it moves on other ticks
     meet(t, i);
     if (s.body[i] >= 0)
       run_down(t, i);

@@ -142,10 +142,23 @@ void fly(const Flight& f, int count, const std::int32_t* body, const float* radi
   }
 }
 
+float size(float a) { return std::fabs(a); }
+
+/// True when a drop's end point is not finite or too far away.
+bool any_lost(int count, const float* x, const float* y, const float* z) {
+  std::int32_t lost = 0;
+  for (int i = 0; i < count; ++i) {
+    const float far = (size(x[i]) + size(y[i])) + size(z[i]);
+    lost |= far < kFarthest ? 0 : 1;
+  }
+  return lost != 0;
+}
+
 /// Drops that are nowhere go into the pool.
 void catch_lost(const DropletModel& m, DropletState& s, DropletWork& w, Below& below, FluidReport& report) {
+  if (!any_lost(s.count, w.to_x.data(), w.to_y.data(), w.to_z.data())) return;
   for (int i = 0; i < s.count; ++i) {
-    const float far = (std::fabs(w.to_x[i]) + std::fabs(w.to_y[i])) + std::fabs(w.to_z[i]);
+    const float far = (size(w.to_x[i]) + size(w.to_y[i])) + size(w.to_z[i]);
     if (far < kFarthest) continue;
     report.note(FluidReport::kBadDroplet, i);
     detail::put_into_pool(m, {s.x[i], s.y[i], s.z[i]}, widened(s.volume[i]), Place::kDroplets, below);
@@ -161,7 +174,6 @@ void ask(const DropletModel& m, const DropletState& s, DropletWork& w) {
     const bool asks = s.body[i] < 0 || ((s.id[i] + std::uint32_t(s.tick)) & mask) == 0;
     w.question_of[i] = asks ? w.questions : -1;
     if (!asks) continue;
-    w.answers[w.questions].body = -1;
     w.asking[w.questions++] = i;
   }
 }

@@ -18,7 +18,7 @@
 // the planes they meet, resolve() moves them.
 //
 //   plan(model, openings, ...);                       // emits, pulls, predicts; work.asking lists who needs an answer
-//   for (k : work.asking) work.answers[k] = nearest(State.position, work.to);
+//   for (k < work.questions) work.answers[k] = nearest(work.asking[k]);   // all of them; body -1 where nothing is met
 //   resolve(...);                                     // lands, runs down, films, falls in
 //
 // Drops on surfaces move on every fourth tick, a quarter of them on each. Forces between drops are looked at on every
@@ -125,7 +125,7 @@ struct Impact {
 struct DropletWork {
   std::vector<float> to_x, to_y, to_z;  ///< (capacity) where a drop in flight is at the end of the tick
   std::vector<std::int32_t> asking;     ///< who needs an answer; the first `questions`
-  std::vector<Contact> answers;         ///< (capacity) in the order of `asking`
+  std::vector<Contact> answers;         ///< (capacity) one for each of `asking`, all for the caller to fill
   int questions = 0;
   std::vector<std::int32_t> overfull;  ///< (kFilmQuestions) places of film that run over; the first `film_questions`
   std::vector<Contact> film_answers;   ///< the surface at each of them; body -1 = let it wait
