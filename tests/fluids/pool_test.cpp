@@ -10,6 +10,7 @@
 
 #include <trocar/core/random.hpp>
 #include <trocar/fluids/pool.hpp>
+#include <trocar/fluids/pool_kernels.hpp>
 #include <trocar/numerics/portable.hpp>
 
 namespace trocar::fluids {
@@ -289,6 +290,30 @@ TEST(Capsule, ChordIsWhatALineCutsOut) {
     }
     EXPECT_NEAR(found.empty() ? 0.0 : double(found.high - found.low), in, 5e-3);
   }
+}
+
+TEST(Pool, TheInstructionSetChangesNoBit) {
+  const PoolKernels* own = &pool_kernels();
+  std::vector<std::uint64_t> hashes;
+  for (const PoolKernels* set : {pool_kernels_plain(), pool_kernels_avx2(), pool_kernels_avx512()}) {
+    if (!use_pool_kernels(set)) continue;
+    Basin b(square(37));
+    core::Random r(21);
+    for (int t = 0; t < 1000; ++t) {
+      for (std::size_t c = 0; c < b.floor.size(); ++c)
+        b.floor[c] = 0.004f * float(portable::sin(0.3 * double(c % 37) + 0.004 * t));
+      b.fill(int(r.uniform() * 37), int(r.uniform() * 37), {.blood = 30'000'000, .saline = 9'000'000, .bile = 77});
+      strike(b.m, int(r.uniform() * 37), int(r.uniform() * 37), 50'000'000, {0.3f, -0.4f, -2}, b.s);
+      const Capsule tool{.a = {0.03f, 0.0005f * float(t % 100), 0}, .b = {0.05f, 0.05f, 0.1f}, .radius = 0.004f};
+      b.tick({&tool, 1});
+    }
+    core::Hasher h;
+    add_to_hash(h, b.s);
+    hashes.push_back(h.value());
+    EXPECT_EQ(h.value(), hashes[0]) << set->name;
+  }
+  use_pool_kernels(own);
+  EXPECT_GE(hashes.size(), 1u);
 }
 
 // ---- what nobody should send
