@@ -15,7 +15,6 @@ constexpr float kReach = 1.5f;                    ///< of the sum of radii
 constexpr float kRest = 0.9f;                     ///< the same, where nothing pulls or pushes
 constexpr float kFarthestReach = 2.6e-3f;         ///< beyond it large drops do not feel one another either [m]
 constexpr float kJoin = 0.5f;                     ///< the same, where two become one
-constexpr float kShare = 0.5f;                    ///< of the implicit impulse, as a drop may have many neighbours
 constexpr int kMostPairs = 32, kMostLooks = 256;  ///< of a drop ahead of itself
 
 // Rows of three cells around a cell must fall into different buckets for every number of buckets used: sums of
