@@ -232,7 +232,7 @@ void fall_in(Moment& t, int i) {
   }
   const Mix volume = widened(t.s.volume[i]);
   if (depth > 0) strike(pool, at.i, at.j, volume.total(), own, t.below.state);
-  pour(pool, at.i, at.j, volume, t.below.state);
+  pour_over(pool, t.below.floor, at.i, at.j, 1.5f * t.s.radius[i], bed + depth + 1e-3f, volume, t.below.state);
   move(t.below.ledger, Place::kDroplets, Place::kPool, volume);
   t.s.volume[i] = {};
 }

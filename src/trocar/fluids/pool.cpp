@@ -108,6 +108,29 @@ bool pour(const PoolModel& m, int i, int j, const Mix& mix, PoolState& s) noexce
   return in == mix;
 }
 
+void pour_over(const PoolModel& m, std::span<const float> floor, int i, int j, float radius, float level,
+               const Mix& mix, PoolState& s) noexcept {
+  const int reach = std::min(int(radius / float(m.cell)), 4);
+  const float square = (radius * radius) / float(m.cell * m.cell);
+  const auto fits = [&](int ii, int jj) {
+    const float d2 = float((ii - i) * (ii - i) + (jj - j) * (jj - j));
+    return ii >= 0 && jj >= 0 && ii < m.nx && jj < m.ny && d2 <= square && floor_at(m, floor, ii, jj) <= level;
+  };
+  int cells = 0;
+  for (int jj = j - reach; jj <= j + reach; ++jj)
+    for (int ii = i - reach; ii <= i + reach; ++ii) cells += fits(ii, jj) ? 1 : 0;
+  Mix rest = mix;
+  const std::int64_t each = cells > 1 ? mix.total() / cells : 0;
+  for (int jj = j - reach; jj <= j + reach && each > 0; ++jj)
+    for (int ii = i - reach; ii <= i + reach; ++ii) {
+      if (!fits(ii, jj) || (ii == i && jj == j)) continue;
+      const Mix part = share(rest, each);
+      pour(m, ii, jj, part, s);
+      rest -= part;
+    }
+  pour(m, i, j, rest, s);
+}
+
 void strike(const PoolModel& m, int i, int j, std::int64_t volume, Vec3f velocity, PoolState& s) noexcept {
   const int k = m.at(i, j);
   const float own = float(volume), all = own + float(held_by(s, k));

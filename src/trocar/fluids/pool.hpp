@@ -119,6 +119,10 @@ float depth_at(const PoolModel& model, const PoolState& state, int i, int j) noe
 /// Adds a volume to a cell (to what waits, if it is full).  @return false if it had to wait
 bool pour(const PoolModel& model, int i, int j, const Mix& m, PoolState& state) noexcept;
 
+/// The same, shared out over the cells within `radius` [m] of the cell's middle whose bed is not above `level` [m].
+void pour_over(const PoolModel& model, std::span<const float> floor, int i, int j, float radius, float level,
+               const Mix& m, PoolState& state) noexcept;
+
 /// Something of `volume` picolitres with velocity v (along u, v, up) enters at a cell: the pool takes its momentum
 /// along the surface and is pushed aside where it falls in.
 void strike(const PoolModel& model, int i, int j, std::int64_t volume, Vec3f velocity, PoolState& state) noexcept;
