@@ -19,8 +19,9 @@
 
 namespace trocar::abuse {
 
-inline constexpr double kSpeed = 0.4;  ///< [m/s]
-inline constexpr double kForce = 10;   ///< [N] a hand that feels more draws back
+inline constexpr double kSpeed = 0.4;                        ///< [m/s]
+inline constexpr double kForce = 10;                         ///< [N] a hand that feels more draws back
+inline constexpr int kOutside = 750, kWithdrawTicks = 1200;  ///< from anywhere: 20 cm and more at kSpeed
 inline constexpr int kRestTicks = 5000;
 
 /// All deformable bodies as one list: solids, strands, membranes, what can be cut.
@@ -153,7 +154,7 @@ class Attack {
       wander();
       tick(r);
     }
-    for (int t = 0; t < 900; ++t) {
+    for (int t = 0; t < kWithdrawTicks; ++t) {
       for (size_t h = 0; h < m_hands.size(); ++h) withdraw(h, t);
       tick(r);
     }
@@ -259,8 +260,9 @@ class Attack {
   void withdraw(size_t h, int t) {
     Hand& hand = m_hands[h];
     hand.handle += std::clamp(0 - hand.handle, -0.008, 0.008);
-    if (t >= 200 && t < 500) go(hand, m_model.hands[h].port + 0.03 * axis(h), kSpeed);
-    if (t >= 500) go(hand, kinematics::forward(m_model.hands[h].port, pose_of(m_model.start.tools[h])).tip, kSpeed);
+    if (t >= 200 && t < kOutside) go(hand, m_model.hands[h].port + 0.03 * axis(h), kSpeed);
+    if (t >= kOutside)
+      go(hand, kinematics::forward(m_model.hands[h].port, pose_of(m_model.start.tools[h])).tip, kSpeed);
     m_input.tools[h].instrument = m_state.tools[h].instrument;
     put(h);
   }

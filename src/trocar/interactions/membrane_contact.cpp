@@ -3,6 +3,7 @@
 
 #include <trocar/geometry/nearest.hpp>
 #include <trocar/interactions/membrane_contact.hpp>
+#include <trocar/interactions/needle.hpp>
 
 namespace trocar::interactions {
 namespace {
@@ -136,6 +137,23 @@ Capsule both_jaws(const ToolShape& shape, double half_thickness) noexcept {
   return {shape.pivot, shape.frame.tip + (a.radius - radius) * axis, apart < 2 * half_thickness ? radius : 0};
 }
 
+/// Does the rod reach through the fold, much farther than a contact lets it? It may then leave as it likes.
+bool impales(const Capsule& rod, const SheetView& sheet) noexcept {
+  const Surface& surface = sheet.surface;
+  const double size = length(rod.b - rod.a);
+  if (!(size > kImpaled) || !meets_box(surface.pose->bounds, rod.a, rod.b, 0)) return false;
+  const Vec3d back = (rod.a - rod.b) / size;
+  int through = 0;
+  for (std::size_t i = 0; i < surface.skin->triangles.size(); ++i) {
+    const auto& t = surface.skin->triangles[i];
+    if (sheet.parted[i]) continue;
+    const auto on =
+        geometry::ray_triangle(rod.b, back, surface.position(t[0]), surface.position(t[1]), surface.position(t[2]));
+    if (on.hit && on.t > kImpaled && on.t < size) ++through;
+  }
+  return through % 2 == 1;  // twice: it lies across, in a trough that it has pressed in
+}
+
 /// What closing jaws have between them is not to be pushed out: a triangle is known from outside or not at all.
 bool begins_inside(const Capsule& rod, const Corners& t, Vec3f side) noexcept {
   if (dot(side, side) > 0) return false;
@@ -159,6 +177,7 @@ bool tool_on_sheet(Touching& c, const ToolState& tool_state, int body, const She
   };
   constexpr double kTick = 1e-3;
   const auto before = [&surface](int node) { return surface.position(node) - kTick * surface.nodes.velocity(node); };
+  const bool jaws_through = impales(shape.part[kJawA], sheet) || impales(shape.part[kJawB], sheet);
   bool remembers = false;
   gap = kRemember;
   for (const int part : {kShaft, kBothJaws, kJawA, kJawB}) {
@@ -169,13 +188,14 @@ bool tool_on_sheet(Touching& c, const ToolState& tool_state, int body, const She
     const double most = 0.9 * (both ? kRemember : rod.radius + sheet.half_thickness + kRemember);
     const bool near = meets_box(surface.pose->bounds, rod.a, rod.b, reach);
     const bool near_at_all = near || meets_box(surface.pose->bounds, rod.a, rod.b, std::max(reach, rod.radius + kLost));
+    const bool through = part == kShaft ? near && impales(rod, sheet) : jaws_through;
     for (std::size_t i = 0; i < skin.triangles.size(); ++i) {
       Vec3f& memory = side[i * std::size_t(kSheetParts) + std::size_t(part)];
       const auto& t = skin.triangles[i];
       if (!near && dot(memory, memory) == 0) continue;
       const Vec3f together = side[i * std::size_t(kSheetParts) + std::size_t(kBothJaws)];
       const bool by_both = (part == kJawA || part == kJawB) && dot(together, together) > 0;
-      if (!near_at_all || sheet.parted[i] || rod.radius == 0 || by_both) {
+      if (!near_at_all || sheet.parted[i] || rod.radius == 0 || by_both || through) {
         memory = {};
         continue;
       }

@@ -96,6 +96,7 @@ class Zone {
       : m_needle(needle), m_frames(frames_of(needle)), m_body(body), m_jaws(jaws), m_reach(reach), m_tick(tick) {}
 
   int carry() noexcept {
+    if (impales()) return 0;
     for (int round = 0; round < kMostRounds && one_round(); ++round) {
     }
     return m_count;
@@ -110,24 +111,38 @@ class Zone {
     const tissue::NodeState& n = node(v);
     return m_body.origin + Vec3d{n.x, n.y, n.z};
   }
-  bool carried(int v) const noexcept {
-    return std::find(m_carried.data(), m_carried.data() + m_count, v) != m_carried.data() + m_count;
-  }
   bool held(int v) const noexcept {
     if (!m_body.fixed.empty() && m_body.fixed[std::size_t(v)]) return true;
     return m_jaws && std::find(m_body.between.begin(), m_body.between.end(), v) != m_body.between.end();
   }
 
+  enum How { slides, sticks };
+  struct Taken {
+    int vertex;
+    How how;
+  };
+
+  /// @param how  along the needle
   /// @return is it new?
-  bool take(int v) noexcept {
-    if (m_count == kMostCarried || held(v) || carried(v)) return false;
-    m_carried[std::size_t(m_count++)] = v;
-    const Vec3d from = before(v), to = m_needle.carried(from);
+  bool take(int v, How how) noexcept {
+    if (held(v)) return false;
+    Taken* const end = m_taken.data() + m_count;
+    Taken* const known = std::find_if(m_taken.data(), end, [v](const Taken& t) { return t.vertex == v; });
+    if (known != end && (known->how == sticks || how == slides)) return false;
+    if (known == end && m_count == kMostCarried) return false;
+    if (known == end) ++m_count;
+    *known = {v, how};
+    const Needle& n = m_needle;
+    const Vec3d from = before(v);
+    const double slid = how == slides ? dot(n.end0 - from, n.dir0) - dot(n.end1 - after(v), n.dir1) : 0;
+    go(v, from, n.carried(from) + slid * n.dir1);
+    return true;
+  }
+  void go(int v, Vec3d from, Vec3d to) noexcept {
     const Vec3f x = vec_cast<float>(to - m_body.origin), velocity = vec_cast<float>((to - from) / m_tick);
     tissue::NodeState& n = node(v);
     n.x = x.x, n.y = x.y, n.z = x.z;
     n.vx = velocity.x, n.vy = velocity.y, n.vz = velocity.z;
-    return true;
   }
 
   bool near(const std::array<int, 3>& t) const noexcept {
@@ -135,6 +150,18 @@ class Zone {
     const double u = std::clamp(dot(m_needle.end0 - a, m_needle.dir0), 0.0, m_needle.length);
     const double size2 = std::max(geometry::distance2(a, before(t[1])), geometry::distance2(a, before(t[2])));
     return geometry::distance2(a, m_needle.end0 - u * m_needle.dir0) < 2 * (m_reach * m_reach + size2);
+  }
+
+  bool impales() const noexcept {
+    const Needle& n = m_needle;
+    for (std::size_t i = 0; i < m_body.skin.triangles.size(); ++i) {
+      if (!m_body.open.empty() && m_body.open[i]) continue;
+      const std::array<int, 3>& t = m_body.skin.triangles[i];
+      if (!near(t)) continue;
+      const Hit hit = pierced(n.end0, n.dir0, n.length, before(t[0]), before(t[1]), before(t[2]));
+      if (hit.hit && hit.deep > kImpaled) return true;
+    }
+    return false;
   }
 
   bool one_round() noexcept {
@@ -152,15 +179,15 @@ class Zone {
     for (std::size_t k = 0; k < 3; ++k) {
       const int p = t[k], q = t[(k + 1) % 3];
       if (!goes_through(m_frames, m_needle.length, before(p), before(q), after(p), after(q))) continue;
-      more = take(p) || more;
-      more = take(q) || more;
+      more = take(p, slides) || more;
+      more = take(q, slides) || more;
     }
     const Needle& n = m_needle;
     const Hit hit = pierced(n.end1, n.dir1, n.length, after(t[0]), after(t[1]), after(t[2]));
     if (!hit.hit) return more;
     if (pierced(n.end0, n.dir0, n.length, before(t[0]), before(t[1]), before(t[2])).hit) return more;
     if (more) return true;
-    for (const int v : t) more = take(v) || more;
+    for (const int v : t) more = take(v, sticks) || more;
     return more || drive(t, hit);
   }
 
@@ -186,7 +213,7 @@ class Zone {
   const bool m_jaws;
   double m_reach;
   const double m_tick;
-  std::array<int, kMostCarried> m_carried;
+  std::array<Taken, kMostCarried> m_taken;
   int m_count = 0, m_drives = 0;
 };
 
@@ -216,14 +243,8 @@ Needles needles_of(const ToolShape& before, const ToolShape& now, double thin) n
   const Capsule &s0 = before.part[kShaft], &s1 = now.part[kShaft];
   if (!(length(s0.b - s0.a) > 0) || !(length(s1.b - s1.a) > 0)) return r;
   r.needle[r.count++] = needle_of(s0.a, before.pivot, s1.a, now.pivot);
-  if (closed(before, thin) && closed(now, thin)) {
+  if (closed(before, thin) && closed(now, thin))
     r.needle[r.count++] = needle_of(before.pivot, before.frame.tip, now.pivot, now.frame.tip);
-    return r;
-  }
-  for (const int jaw : {kJawA, kJawB}) {
-    const Capsule &j0 = before.part[jaw], &j1 = now.part[jaw];
-    r.needle[r.count++] = needle_of(j0.a, j0.b, j1.a, j1.b);
-  }
   return r;
 }
 

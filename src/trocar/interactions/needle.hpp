@@ -2,12 +2,15 @@
 // instrument before the tick is made; how tissue then moves in the tick, thrown about by its own springs, nobody has
 // asked yet. Here it is asked, once the tick is made: every edge of a skin or fold is followed in its straight line
 // past the instrument's axis in its own; where it has gone through, or the axis' end through a triangle, the nodes
-// there go with the instrument as if they stuck to it, and so on until nothing has gone through: a rigid impact zone
-// [Provot 1997; Bridson et al. 2002]. In the next tick contact pushes them off. That is for bodies whose skins'
+// there go with the instrument, free only to slide along it, and so on until nothing has gone through: a rigid impact
+// zone [Provot 1997; Bridson et al. 2002]. In the next tick contact pushes them off. That is for bodies whose skins'
 // vertices are nodes: folds and bodies of tetrahedra. Edges at nodes that are held elsewhere cannot give way.
 //
-// Why that ends: seen from an instrument, a node that goes with it does not move, so an edge between two such nodes
-// does not go through, and nodes are only ever added.
+// Why that ends: seen along the instrument, a node that goes with it does not move, so an edge between two such nodes
+// does not go through, and nodes are only ever added. Those before its end stick to it altogether.
+//
+// What is impaled all the same, as where the edges of a fold are held, must not stay so for ever: an instrument that
+// reaches more than kImpaled through something may leave it any way it likes.
 #pragma once
 
 #include <cstdint>
@@ -18,6 +21,8 @@
 
 namespace trocar::interactions {
 
+inline constexpr double kImpaled = 0.003;  ///< [m]
+
 /// The axis of a part of an instrument, without thickness, before and after a tick.
 struct Needle {
   Vec3d end0, dir0, end1, dir1;  ///< dir: unit, towards the end
@@ -27,9 +32,9 @@ struct Needle {
   Vec3d carried(Vec3d p) const noexcept { return p + (end1 - end0) - dot(end0 - p, dir0) * (dir1 - dir0); }
 };
 
-/// An instrument's axes: of the shaft and closed jaws in one line, or of each open jaw.
+/// An instrument's axes: of the shaft and of closed jaws. Open jaws have none: what they hook could never come off.
 struct Needles {
-  Needle needle[3];
+  Needle needle[2];
   int count = 0;
 };
 /// @param thin  jaws that are nearer to each other than this count as closed [m]
