@@ -432,7 +432,9 @@ TEST(Bleeding, VeinsOozeAndBleedMoreUnderSuction) {
   sim.openings = {hole(0, 0.5, 2e-3)};
   sim.run(5);
   const double ooze = sim.flows[0].flow[0];
-  EXPECT_NEAR(ooze, 5e-3 * disc(2e-3), 1e-3 * ooze) << "below the cavity's pressure";
+  const double below = 4 * kMmHg + 267;  // by the veins' pressure, and up to the breath's 2 mmHg
+  EXPECT_GT(ooze, 5e-3 * disc(2e-3) * (1 - below / 2000)) << "below the cavity's pressure";
+  EXPECT_LT(ooze, 5e-3 * disc(2e-3));
   sim.openings[0].outside = 3 * kMmHg;
   EXPECT_GT(steady_flow(sim), 20 * ooze) << "suction has lowered it";
   sim.openings[0].outside = kCavity;

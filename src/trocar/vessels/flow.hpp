@@ -77,9 +77,10 @@ struct FlowModel {
   int nodes = 0;
   std::vector<FlowSegment> segments;
   std::vector<FlowCell> cells;
-  std::vector<double> give, give2, least;  ///< (rows) capacity give + 2 give2 p, at least `least` [m^3/Pa]
-  std::vector<double> start_pressure;      ///< (rows) of rest_state [Pa]
-  Elimination plan;                        ///< its links are the cells
+  std::vector<double> give, give2;     ///< (rows) capacity dV/dp = give + 2 give2 p [m^3/Pa], between
+  std::vector<double> low, high;       ///< (rows) these pressures [Pa]; straight on beyond them
+  std::vector<double> start_pressure;  ///< (rows) of rest_state [Pa]
+  Elimination plan;                    ///< its links are the cells
   std::vector<FlowEnd> ends;
   std::vector<FlowSource> sources;
   Heart heart;
@@ -158,7 +159,7 @@ struct FlowSite {
   double at = 0;
   double orifice = 0;     ///< rho / (2 (Cd A)^2) [kg/m^7]
   double outside = 0;     ///< [Pa]
-  double ooze = 0;        ///< least flow while fed [m^3/s]
+  double ooze = 0;        ///< flow while fed and the pressure inside is that outside [m^3/s]
   double resistance = 0;  ///< of a partial clip [Pa s/m^3]
   int segment = 0, cell = 0, index = 0, point = 0;
   enum class Kind : std::int32_t { clip, hole, cut } kind = Kind::clip;
@@ -167,15 +168,18 @@ struct FlowSite {
 };
 struct FlowChain {
   int cell = 0, first_site = 0, sites = 0, first_point = 0, points = 0;
+  double conductance_a = 0, conductance_b = 0;  ///< of what lies beyond its ends, as far as the next rows [m^3/Pa s]
 };
 /// A place within a cell with pressure P and no volume of its own: G, S to the next place: flow G (P - P_next) + S.
 struct FlowPoint {
   double g = 0, s = 0;                       ///< towards the place BEFORE it
   double out = 0, out0 = 0;                  ///< flow out of the graph: out P + out0
   double fixed = 0, from_a = 0, from_b = 0;  ///< P = fixed + from_a P_a + from_b P_b
+  double guess = 0;                          ///< flow out that the line goes through [m^3/s]
   double scratch[2] = {0, 0};
 };
 struct FlowWork {
+  std::vector<double> capacity, extra;         ///< (rows) volume taken up = capacity dp - extra [m^3/Pa], [m^3]
   std::vector<double> ahead;                   ///< (rows) pressure expected in the middle of the tick
   std::vector<double> diagonal, x;             ///< (rows)
   std::vector<double> values;                  ///< (plan.values())

@@ -7,14 +7,13 @@
 #include <string>
 
 #include <trocar/numerics/portable.hpp>
-#include <trocar/vessels/flow.hpp>
+#include <trocar/vessels/sites.hpp>
 
 namespace trocar::vessels {
 namespace {
 
 constexpr double kPi = portable::pi;
 constexpr std::size_t kMaxEntries = 4'000'000;  // of the elimination: 64 MB of a tick's work
-constexpr double kLeastCapacity = 0.05;         // of that at the reference pressure, however far a vessel collapses
 constexpr double kSourceResistance = 1e-6;      // of the wave resistance of what a source feeds, where none is given
 
 double square(double x) { return x * x; }
@@ -96,11 +95,13 @@ void Builder::half(int row, const FlowCell& c, double volume, double pressure) {
 void Builder::renumber() {
   m.plan = plan_elimination(rows, links, kMaxEntries);
   const std::size_t n = std::size_t(rows);
-  m.give.resize(n), m.give2.resize(n), m.least.resize(n), m.start_pressure.resize(n);
+  m.give.resize(n), m.give2.resize(n), m.low.resize(n), m.high.resize(n), m.start_pressure.resize(n);
   for (int i = 0; i < rows; ++i) {
     const int row = m.plan.row_of[i];
     m.give[row] = give[i], m.give2[row] = give2[i];
-    m.least[row] = kLeastCapacity * (give[i] + 2 * give2[i] * reference[i]);
+    const double usual = give[i] + 2 * give2[i] * reference[i];
+    m.low[row] = (kNarrowest * usual - give[i]) / (2 * give2[i]);
+    m.high[row] = (kWidest * usual - give[i]) / (2 * give2[i]);
     m.start_pressure[row] = reference[i];
   }
   for (FlowCell& c : m.cells) c.a = m.plan.row_of[c.a], c.b = m.plan.row_of[c.b];
@@ -254,7 +255,7 @@ FlowState settled_state(const FlowModel& m, double seconds) {
 FlowWork make_work(const FlowModel& m) {
   FlowWork w;
   const std::size_t rows = m.give.size(), cells = m.cells.size();
-  w.ahead.resize(rows), w.diagonal.resize(rows), w.x.resize(rows);
+  w.capacity.resize(rows), w.extra.resize(rows), w.ahead.resize(rows), w.diagonal.resize(rows), w.x.resize(rows);
   w.values.resize(m.plan.values());
   w.flow0.resize(cells), w.flow_a.resize(cells), w.flow_b.resize(cells);
   const std::size_t sites = std::size_t(m.settings.max_openings + m.settings.max_clips);

@@ -72,7 +72,8 @@ void add_to_hash(core::Hasher& hasher, const FlowModel& m) noexcept {
     hasher.add(s.from), hasher.add(s.to), hasher.add(s.first), hasher.add(s.cells), hasher.add(int(s.vein));
     for (const double x : {s.length, s.radius, s.taper, s.rest, s.give, s.reference, s.cut_resistance}) hasher.add(x);
   }
-  hasher.add(m.cells), hasher.add(m.give), hasher.add(m.give2), hasher.add(m.least), hasher.add(m.start_pressure);
+  hasher.add(m.cells), hasher.add(m.give), hasher.add(m.give2), hasher.add(m.low), hasher.add(m.high),
+      hasher.add(m.start_pressure);
   hasher.add(m.plan.row_of), hasher.add(m.plan.later), hasher.add(m.beat), hasher.add(m.heart.response);
   for (const FlowEnd& e : m.ends) {
     hasher.add(e.row);

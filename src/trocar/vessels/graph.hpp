@@ -85,7 +85,7 @@ struct FlowSettings {
   double closing_cover = 0.98;   ///< a clip of at least this cover closes; as of lumen.hpp
   double discharge = 0.61;       ///< Cd of openings (sharp-edged hole, textbooks)
   double drain_time = 0.25;      ///< an opening cut off from all sources runs dry, at the latest after this [s]
-  double ooze_speed = 5e-3;      ///< out of a vein whose pressure is below that around it [m/s]
+  double ooze_speed = 5e-3;      ///< out of a vein at the pressure around it; nothing 15 mmHg below it [m/s]
   double clot_area = 0.8e-6;     ///< openings below this area [m^2] clot
   double clot_time_small = 180;  ///< the smallest in this time [s], [literature: 180 .. 300 s]
   double clot_time_large = 300;  ///< those of nearly clot_area in this [s]

@@ -1,17 +1,20 @@
 #include <cmath>
 #include <cstddef>
 
+#include <trocar/numerics/portable.hpp>
 #include <trocar/vessels/sites.hpp>
 
 namespace trocar::vessels {
 namespace {
 
 using Kind = FlowSite::Kind;
-constexpr double kLeastPiece = 0.01;  // of a cell, so that nearest places keep apart
-constexpr double kSingular = 1e-9;    // of a diagonal: the piece between two closed places floats
-constexpr double kFloor = 1e-4;       // of an orifice's flow at 10 kPa: below it, its law is continued straight
-constexpr int kRounds = 4;            // of Newton's method for the orifices of a chain
-constexpr double kPicolitre = 1e-15;  // [m^3]
+constexpr double kLeastPiece = 0.01;       // of a cell, so that nearest places keep apart
+constexpr double kSingular = 1e-9;         // of a diagonal: the piece between two closed places floats
+constexpr double kFloor = 1e-4;            // of an orifice's flow at 10 kPa: below it, its law is continued straight
+constexpr double kOozes = 2000;            // how far below the pressure around it a vein oozes: 15 mmHg [Pa]
+constexpr double kFar = 0.05, kNear = 50;  // how far off an orifice may be: of its pressure, and [Pa]
+constexpr int kRounds = 4;                 // of Newton's method for the orifices of a chain
+constexpr double kPicolitre = 1e-15;       // [m^3]
 
 bool finite(double x) { return x - x == 0; }
 
@@ -70,7 +73,8 @@ void gather_opening(const FlowModel& m, const Opening& o, int index, OpeningStat
   if (site.open[0]) {
     const double through = m.settings.discharge * area;
     site.orifice = m.blood.density / (2 * through * through);
-    site.ooze = segment.vein ? m.settings.ooze_speed * area : 0;
+    const double radius = segment.radius + segment.taper * o.s, lumen = portable::pi * radius * radius;
+    site.ooze = segment.vein ? m.settings.ooze_speed * (area < lumen ? area : lumen) : 0;
   }
   if (o.area < m.settings.clot_area && slot.clot < 1) {
     const double share = o.area / m.settings.clot_area;
@@ -239,29 +243,41 @@ void solve_places(FlowPoint* p, int n, double end_a, double end_b, bool forced, 
   for (int k = n - 1; k-- > 0;) p[k].*result = p[k].scratch[1] + p[k].scratch[0] * (p[k + 1].*result);
 }
 
-/// The orifice's law orifice q^2 = P - outside as a straight line through the flow q0 > 0, or closed.
-void straighten(const FlowSite& site, int side, double q0, FlowPoint& point) {
+/// The orifice's law orifice q^2 = P - outside as a straight line through the flow guessed, or closed.
+void straighten(const FlowSite& site, int side, double pressure, FlowPoint& point) {
+  const double q0 = point.guess;
   point.out = point.out0 = 0;
   if (!site.open[side]) return;
   if (q0 > 0) {
     point.out = 1 / (2 * site.orifice * q0);
     point.out0 = q0 / 2 - point.out * site.outside;
-  } else if (site.fed[side]) {
-    point.out0 = site.ooze;
+  } else if (site.fed[side] && pressure > site.outside - kOozes) {
+    point.out = site.ooze / kOozes;
+    point.out0 = site.ooze - point.out * site.outside;
   }
 }
 
 /// A better q0 from the pressure that came of the last one.
-double improved(const FlowSite& site, const FlowPoint& point, double q0) {
-  const double over = point.fixed - site.outside;
+double improved(const FlowSite& site, const FlowPoint& point, double pressure) {
+  const double q0 = point.guess;
+  const double over = pressure - site.outside;
   const double least = kFloor * std::sqrt(1e4 / site.orifice);
-  const double q = q0 > 0 ? point.out * point.fixed + point.out0 : over > 0 ? std::sqrt(over / site.orifice) : 0;
+  const double q = q0 > 0 ? point.out * pressure + point.out0 : over > 0 ? std::sqrt(over / site.orifice) : 0;
   if (!(q > 0)) return 0;
   const double enough = q > least ? q : least;
-  return enough > site.ooze ? enough : 0;
+  return enough > site.ooze * (1 + over / kOozes) ? enough : 0;
 }
 
 int sides(const FlowSite& site) { return site.kind == Kind::clip ? 0 : site.kind == Kind::cut ? 2 : 1; }
+
+/// Calls body(site, side, point) for all that blood can leave a chain by.
+template <class F>
+void each_outlet(const FlowChain& chain, FlowWork& w, F&& body) {
+  for (int k = 0; k < chain.sites; ++k) {
+    const FlowSite& site = w.sites[chain.first_site + k];
+    for (int side = 0; side < sides(site); ++side) body(site, side, w.points[site.point + side]);
+  }
+}
 
 /// A piece and the end that gives way to its flow, as one piece.
 void soften(FlowPoint& piece, const ChainEnd& end) {
@@ -270,41 +286,70 @@ void soften(FlowPoint& piece, const ChainEnd& end) {
   piece.s *= share;
 }
 
-}  // namespace
-
-void reduce_chain(const FlowState& s, const FlowChain& chain, const CellTerms& terms, const ChainEnd& a,
-                  const ChainEnd& b, FlowWork& w) noexcept {
-  lay_pieces(s, chain, terms, w);
+/// The orifices' flows if all beyond the next rows stood still: Newton's method.
+void guess_locally(const FlowState& s, const FlowChain& chain, const ChainEnd& a, const ChainEnd& b, FlowWork& w) {
   FlowPoint* points = w.points.data() + chain.first_point;
-  const auto each_outlet = [&](auto&& body) {
-    for (int k = 0; k < chain.sites; ++k) {
-      const FlowSite& site = w.sites[chain.first_site + k];
-      for (int side = 0; side < sides(site); ++side) body(site, side, w.points[site.point + side]);
-    }
-  };
-  // `from_a` keeps the flow that an orifice's line goes through, until it gets its own meaning below.
-  each_outlet([&](const FlowSite& site, int side, FlowPoint& point) {
-    const double last = s.openings[site.index].flow[side];
-    const double start = (a.pressure > b.pressure ? a.pressure : b.pressure) - site.outside;
-    point.from_a = last > 0 ? last : start > 0 && site.orifice > 0 ? std::sqrt(start / site.orifice) : 0;
-    straighten(site, side, point.from_a, point);
-  });
   const FlowPoint head = points[0], tail = points[chain.points];
   soften(points[0], a);
   soften(points[chain.points], b);
+  solve_places(points, chain.points, a.pressure, b.pressure, true, &FlowPoint::fixed);  // all closed, to begin with
+  each_outlet(chain, w, [&](const FlowSite& site, int side, FlowPoint& point) {
+    const double last = s.openings[site.index].flow[side], over = point.fixed - site.outside;
+    point.guess = over > 0 && site.open[side] ? (last > 0 ? last : std::sqrt(over / site.orifice)) : 0;
+    straighten(site, side, point.fixed, point);
+  });
   for (int round = 0; round < kRounds; ++round) {
     solve_places(points, chain.points, a.pressure, b.pressure, true, &FlowPoint::fixed);
-    each_outlet([&](const FlowSite& site, int side, FlowPoint& point) {
+    each_outlet(chain, w, [&](const FlowSite& site, int side, FlowPoint& point) {
       if (!site.open[side]) return;
-      point.from_a = improved(site, point, point.from_a);
-      straighten(site, side, point.from_a, point);
+      point.guess = improved(site, point, point.fixed);
+      straighten(site, side, point.fixed, point);
     });
   }
   points[0].g = head.g, points[0].s = head.s;
   points[chain.points].g = tail.g, points[chain.points].s = tail.s;
+}
+
+}  // namespace
+
+void reduce_chain(const FlowState& s, FlowChain& chain, const CellTerms& terms, const ChainEnd& a, const ChainEnd& b,
+                  bool again, FlowWork& w) noexcept {
+  lay_pieces(s, chain, terms, w);
+  chain.conductance_a = a.conductance, chain.conductance_b = b.conductance;
+  if (again)
+    each_outlet(chain, w, [](const FlowSite& site, int side, FlowPoint& point) {
+      straighten(site, side, point.scratch[0], point);  // the pressure that guess_again() saw
+    });
+  else
+    guess_locally(s, chain, a, b, w);
+  FlowPoint* points = w.points.data() + chain.first_point;
   solve_places(points, chain.points, 0, 0, true, &FlowPoint::fixed);
   solve_places(points, chain.points, 1, 0, false, &FlowPoint::from_a);
   solve_places(points, chain.points, 0, 1, false, &FlowPoint::from_b);
+}
+
+bool guess_again(const FlowChain& chain, double end_a, double end_b, FlowWork& w) noexcept {
+  FlowPoint* points = w.points.data() + chain.first_point;
+  bool far = false;
+  each_outlet(chain, w, [&](const FlowSite& site, int side, FlowPoint& point) {
+    if (!site.open[side]) return;
+    const double pressure = point.fixed + point.from_a * end_a + point.from_b * end_b, over = pressure - site.outside;
+    const double q = point.guess > 0 ? point.out * pressure + point.out0 : 0;
+    const double due = over > 0 ? over : 0, off = due - site.orifice * q * q;
+    far = far || off > kFar * due + kNear || off < -kFar * due - kNear;
+    if (point.guess > 0) {
+      point.guess = improved(site, point, pressure);
+    } else if (over > kNear) {  // no more than the pieces beside it let through
+      const int k = int(&point - points);
+      const double left = point.g, right = points[k + 1].g;
+      const double a = k == 0 ? left / (1 + left / chain.conductance_a) : left;
+      const double b = k + 1 == chain.points ? right / (1 + right / chain.conductance_b) : right;
+      const double most = over * (a + b), through = std::sqrt(over / site.orifice);
+      point.guess = most < through ? most : through;
+    }
+    point.scratch[0] = pressure;
+  });
+  return far;
 }
 
 namespace {

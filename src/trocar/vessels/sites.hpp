@@ -27,18 +27,22 @@ struct ChainEnd {
 
 /// The chain's places as functions of the pressures at the cell's ends. Orifices become straight lines through the flow
 /// that they would have with those ends.
-void reduce_chain(const FlowState& s, const FlowChain& chain, const CellTerms& terms, const ChainEnd& a,
-                  const ChainEnd& b, FlowWork& w) noexcept;
+/// @param again  not the first time in this tick: the lines are those that guess_again() has found
+void reduce_chain(const FlowState& s, FlowChain& chain, const CellTerms& terms, const ChainEnd& a, const ChainEnd& b,
+                  bool again, FlowWork& w) noexcept;
+
+/// With the ends' mean pressures of this tick: is an orifice's flow far from its law? If so, better lines for all.
+bool guess_again(const FlowChain& chain, double end_a, double end_b, FlowWork& w) noexcept;
 
 /// With the ends' mean pressures known: flows of pieces and openings, books, clots.
 void finish_chain(const FlowModel& m, const FlowChain& chain, double end_a, double end_b, std::span<OpeningFlow> flows,
                   FlowState& s, FlowWork& w) noexcept;
 
-/// sqrt(A / A_ref) at a pressure; the wall law ends at kFlat.
-inline constexpr double kFlat = 0.3;
+/// sqrt(A / A_ref) at a pressure: the wall law, which ends at half and at one and a half times the drawn radius.
+inline constexpr double kNarrowest = 0.5, kWidest = 1.5;
 inline double widening(double rest, double give, double p) noexcept {
   const double x = rest + give * p;
-  return x > kFlat ? x : kFlat;
+  return x > kNarrowest ? (x < kWidest ? x : kWidest) : kNarrowest;
 }
 
 /// Cell and place in it (0 .. 1) of a segment's place s.
