@@ -224,6 +224,20 @@ TEST(Bleeding, CollateralBedBleedsBackWithoutAPulse) {
   EXPECT_LT(far.high - far.low, 0.02 * far.mean);
 }
 
+TEST(Bleeding, OneSolutionATickIsEnoughButWhereSomethingOpens) {
+  Simulation sim(pelvis(), 8);
+  for (int i = 0; i < 1000; ++i) ASSERT_EQ(sim.tick().solves, 1);
+  sim.openings = {cut(kUterine, 0.2, 1.6e-3), hole(2, 0.5, 1e-3)};
+  int more = 0, late = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const bool again = sim.tick().solves > 1;
+    more += again, late += again && i > 50;
+  }
+  record("ticks solved more than once after a cut", "%.0f, %.0f of them later than 50 ms", more, late);
+  EXPECT_LT(more, 50);
+  EXPECT_EQ(late, 0);
+}
+
 TEST(Bleeding, AnastomosisNeedsAClipOnEitherSide) {
   const auto flow_with = [](std::vector<Clip> clips) {
     Simulation sim(pelvis(), 5);

@@ -322,7 +322,7 @@ FlowReport advance(const FlowModel& m, const FlowInput& in, std::span<OpeningFlo
 
   expect(m, s, w);
   int bad = solve(m, s, d, false, w);
-  for (int again = 0; again < kAgain && bad < 0 && expect_again(m, s, w); ++again) bad = solve(m, s, d, true, w);
+  for (; report.solves <= kAgain && bad < 0 && expect_again(m, s, w); ++report.solves) bad = solve(m, s, d, true, w);
   if (bad < 0) bad = first_beyond(w.x, 1e12);
   report.heart_rate = d.rate, report.heart_pressure = d.arterial;
   if (bad >= 0) {

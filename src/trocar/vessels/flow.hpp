@@ -205,6 +205,7 @@ struct FlowReport {
   int first_bad = -1;         ///< slot of the opening or clip, else the row
   double heart_pressure = 0;  ///< at the end of the tick [Pa]
   double heart_rate = 0;      ///< [1/min]
+  int solves = 1;             ///< how often the tick was solved: more than once where something opens or closes
   bool fine() const { return (flags & (kBadOpening | kBadClip | kNonFinite)) == 0; }
 };
 
