@@ -15,7 +15,7 @@ using namespace trocar::sim;
 
 namespace {
 
-constexpr int kGrasper = 0;
+constexpr int kGrasper = 0, kScissors = 1;
 
 Model gallbladder(double failure_strain) {
   scene::Description d = scene::read_scene(TROCAR_SOURCE_DIR "/scenes/gallbladder/scene.json");
@@ -156,6 +156,17 @@ TEST(Pouch, ABladeThroughItsWallOpensItAndItRunsOut) {
   }
   EXPECT_EQ(s.membranes[0].enclosure.pressure, 0);
   EXPECT_GT(s.membranes[0].enclosure.volume, 0.3 * m.membranes[0].sheet.enclosure.volume) << "the wall stands";
+}
+
+TEST(Pouch, ScissorsThatCloseOnItsTautWallOpenItAndItRunsOut) {
+  const Vec3d centre{-0.021, 0.097, -0.108}, port = strong().hands[kScissors].port, along = normalised(centre - port);
+  for (const double depth : {0.004, 0.007, 0.010}) {
+    const Way way{kScissors, centre - 0.05 * along, centre - (0.0125 - depth) * along, 350, 450, 5000, {0, 0, 0}, 1.0};
+    const Story story = told(strong(), way, 1600);
+    EXPECT_TRUE(told_of(story, Event::cut, -1)) << depth;
+    EXPECT_EQ(story.end.membranes[0].enclosure.leaking, 1u) << depth;
+    EXPECT_LT(story.end.membranes[0].enclosure.pressure, 30) << depth;
+  }
 }
 
 TEST(Pouch, GraspedAtItsFundusAndPulledItHoldsAndGivesBack) {

@@ -140,9 +140,11 @@ void pose_sheet(StepContext& c, size_t i) noexcept {
   const MembraneModel& m = c.model.membranes[i];
   const tissue::NodeView nodes = view_of(m.sheet.network, c.state.membranes[i].network);
   tissue::pose_skin(nodes, m.skin, c.work.sheet_poses[i]);
-  c.work.sheets[i] = {
-      {&m.skin, &c.work.sheet_poses[i], nodes}, c.state.torn[i], m.sheet.network.fixed, 0.5 * m.sheet.thickness,
-      m.pinch_reach};
+  c.work.sheets[i] = {{&m.skin, &c.work.sheet_poses[i], nodes},
+                      c.state.torn[i],
+                      m.sheet.network.fixed,
+                      0.5 * m.sheet.thickness,
+                      m.pinch_reach};
 }
 
 void pose_cuttable(StepContext& c, size_t i) noexcept {
@@ -230,16 +232,14 @@ void cut_lattices(StepContext& c, size_t t) noexcept {
 }
 
 /// Closing blades part the cells of organs that can be cut.
-void cut_cuttables(StepContext& c, size_t t) noexcept {
+void cut_cuttables(StepContext& c, size_t t, const geometry::Blade& blade) noexcept {
   State& s = c.state;
-  const std::optional<geometry::Blade> blade =
-      interactions::sweep_of_blades(c.model.tool(s, t), c.work.shapes[t], s.tools[t]);
-  for (size_t i = 0; blade && i < c.model.cuttables.size(); ++i) {
+  for (size_t i = 0; i < c.model.cuttables.size(); ++i) {
     const size_t organ = c.model.solids.size() + i;
     if (!blades_near(c, t, organ, c.model.tool(s, t).jaw_length)) continue;
     if (s.cut_count == interactions::kMaxCuts) return;
     const geometry::CutBook book =
-        tissue::cut(c.model.cuttables[i].body, *blade, s.cuttables[i], c.work.cuttable_work[i]);
+        tissue::cut(c.model.cuttables[i].body, blade, s.cuttables[i], c.work.cuttable_work[i]);
     if (book.snapped + book.parted > 0) pose_cuttable(c, i);  // nodes have moved to the blade
     if (book.full) c.report.flags |= StepReport::kBookFull;
     if (book.parted > 0) record_organ_cut(c, t, organ);
@@ -255,13 +255,14 @@ int place_in_book(const State& s, size_t t, std::int32_t strand) noexcept {
   return s.cut_count;
 }
 
-/// Blades that have just closed part the folds they closed in.
-void cut_folds(StepContext& c, size_t t) noexcept {
+/// Blades that have just closed part the folds they closed in; blades that are closing part closed walls, which they
+/// would push away.
+void cut_folds(StepContext& c, size_t t, const geometry::Blade& blade, bool closed_walls) noexcept {
   State& s = c.state;
   const interactions::ToolShape& shape = c.work.shapes[t];
-  const geometry::Blade blade = interactions::closed_blades(c.model.tool(s, t), shape);
   for (size_t i = 0; i < c.model.membranes.size(); ++i) {
     const MembraneModel& m = c.model.membranes[i];
+    if (m.sheet.closed() != closed_walls) continue;
     if (!m.cuttable || !c.work.sheet_poses[i].bounds.near_segment(shape.pivot, shape.frame.tip, 0.005)) continue;
     const int place = place_in_book(s, t, m.strand);
     if (place == interactions::kMaxCuts) continue;  // what cannot be recorded is not cut
@@ -279,6 +280,18 @@ void cut_folds(StepContext& c, size_t t) noexcept {
     cut.fold = fold.depth;
     cut.tips_visible = jaw_tips_visible(c.model, c.state, int(t));
   }
+}
+
+/// What closing blades cut before they meet.
+void cut_flesh(StepContext& c, size_t t) noexcept {
+  const auto closed = [](const MembraneModel& m) { return m.sheet.closed(); };
+  const bool walls = std::any_of(c.model.membranes.begin(), c.model.membranes.end(), closed);
+  if (c.model.cuttables.empty() && !walls) return;
+  const std::optional<geometry::Blade> blade =
+      interactions::sweep_of_blades(c.model.tool(c.state, t), c.work.shapes[t], c.state.tools[t]);
+  if (!blade) return;
+  cut_cuttables(c, t, *blade);
+  if (walls) cut_folds(c, t, *blade, true);
 }
 
 /// A grip has ended: did it slip, or did the hand let go?
@@ -312,13 +325,13 @@ void work_jaws(StepContext& c) noexcept {
       }
     } else if (model.kind == interactions::ToolKind::scissors) {
       const int before = s.cut_count;
-      if (!c.model.cuttables.empty()) cut_cuttables(c, t);
+      cut_flesh(c, t);
       const bool armed = tool.armed != 0;
       update_scissors(model, c.work.shapes[t], int(t), view, s.strands, jaw_tips_visible(c.model, c.state, int(t)),
                       s.tick, tool, {s.cuts, s.cut_count});
       if (armed && !tool.armed) {
         cut_lattices(c, t);
-        cut_folds(c, t);
+        cut_folds(c, t, interactions::closed_blades(model, c.work.shapes[t]), false);
         if (s.cut_count == interactions::kMaxCuts) c.report.flags |= StepReport::kBookFull;
       }
       for (int cut = before; cut < s.cut_count; ++cut) tell(c, Event::cut, int(t), cut);
@@ -410,6 +423,14 @@ void touch_organs(StepContext& c) noexcept {
                      {s.strand_side.data() + side, n}, c.work.strand_loads[a], c.work.strand_loads[b]);
     at += n;
     side += n;
+  }
+  for (const interactions::SelfPair& p : c.model.self_pairs) {
+    const size_t organ = size_t(p.organ), solids = c.model.solids.size();
+    const tissue::CuttableWork* cut = organ < solids ? nullptr : &c.work.cuttable_work[organ - solids];
+    const std::span<const std::int32_t> part = cut && cut->parts > 1 ? cut->part : std::span<const std::int32_t>{};
+    self_contact(p, c.work.surfaces[organ], part, s.tick, {s.nearest.data() + at, p.sample.size()},
+                 c.work.organ_loads[organ]);
+    at += p.sample.size();
   }
 }
 
