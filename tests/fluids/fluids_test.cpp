@@ -1,5 +1,7 @@
 // The whole: tools, the account at every tick, determinism, the law of scratch.
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -45,7 +47,7 @@ TEST(Fluids, AccountForEveryPicolitreAtEveryTick) {
     sucked += r.tools[0].sucked;
     ASSERT_TRUE(audit(b.m, b.s)) << t;
   }
-  EXPECT_EQ(flags, 0u);
+  EXPECT_EQ(flags & ~std::uint32_t(FluidReport::kCrowded), 0u);
   EXPECT_EQ(sucked, at(b.s.ledger, Place::kSucked));
   EXPECT_GT(b.millilitres(Place::kPool), 5);
   EXPECT_GT(b.millilitres(Place::kSucked), 0.05);
@@ -169,6 +171,23 @@ TEST(Irrigation, DilutesThePool) {
   const Mix middle = mix_at(b.m.pool, b.s.pool, 32, 32);
   EXPECT_LT(double(middle.blood), 0.5 * double(middle.total()));
   EXPECT_TRUE(audit(b.m, b.s));
+}
+
+TEST(Irrigation, DoesNotHeapUpUnderTheJet) {
+  for (const double depth : {0.003, 0.010, 0.030}) {
+    Scene b = flooded(depth);
+    b.tools = {{.tip = {0, 0, float(depth) + 0.03f}, .direction = {0, 0, -1}, .irrigation = 1}};
+    double highest = 0;
+    for (int t = 0; t < 3000; ++t) {
+      b.tick();
+      if (t % 10 != 0) continue;
+      const double level = b.millilitres(Place::kPool) * 1e-6 / (0.16 * 0.16);
+      for (int j = 0; j < 64; ++j)
+        for (int i = 0; i < 64; ++i) highest = std::max(highest, double(depth_at(b.m.pool, b.s.pool, i, j)) - level);
+    }
+    std::printf("  highest above the level, %.0f mm deep: %.1f mm\n", 1e3 * depth, 1e3 * highest);
+    EXPECT_LT(highest, 0.008);
+  }
 }
 
 }  // namespace

@@ -232,7 +232,9 @@ void fall_in(Moment& t, int i) {
   }
   const Mix volume = widened(t.s.volume[i]);
   if (depth > 0) strike(pool, at.i, at.j, volume.total(), own, t.below.state);
-  pour_over(pool, t.below.floor, at.i, at.j, 1.5f * t.s.radius[i], bed + depth + 1e-3f, volume, t.below.state);
+  // Over its own width and more, so that the surface is raised by no more than half a millimetre or so (our choice).
+  pour_over(pool, t.below.floor, at.i, at.j, 60 * std::sqrt(t.s.radius[i] * t.s.radius[i] * t.s.radius[i]),
+            bed + depth + 1e-3f, volume, t.below.state);
   move(t.below.ledger, Place::kDroplets, Place::kPool, volume);
   t.s.volume[i] = {};
 }

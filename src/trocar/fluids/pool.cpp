@@ -135,9 +135,12 @@ void strike(const PoolModel& m, int i, int j, std::int64_t volume, Vec3f velocit
   const int k = m.at(i, j);
   const float own = float(volume), all = own + float(held_by(s, k));
   if (!(own > 0) || !(all > 0)) return;
-  // Shared out over two faces a direction, each of which belongs to two cells.
+  // Along the surface shared out over two faces a direction, each of which belongs to two cells. Momentum downwards is
+  // that of a column that sinks, M w / 2 with w = -h div u: an outward push of each of its four faces by m v dx / 2 M
+  // h.
   const float taken = own / (all + own);
-  const float aside = 0.5f * taken * std::clamp(-velocity.z, 0.0f, 5.0f);
+  const float deep = std::max(all * m.height_per_pl, float(m.cell));
+  const float aside = taken * float(m.cell) / (2 * deep) * std::clamp(-velocity.z, 0.0f, 5.0f);
   const auto pushed = [&](float& face, float along, float away) {
     face = std::clamp(face + taken * (along - face) + away, -m.fastest, m.fastest);
   };

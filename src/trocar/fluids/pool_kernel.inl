@@ -8,6 +8,7 @@ namespace trocar::fluids {
 namespace {
 
 constexpr float kDry = 1e-5f;               ///< less fluid than this at a face does not flow [m]
+constexpr float kFastestColumn = 0.7f;      ///< share of sqrt(g h) beyond which a column's rise is held back
 constexpr float kAlmostAll = 1 - 0x1p-20f;  ///< so that rounding never takes more than there is
 
 void describe(int n, float height_per_pl, const PoolRow& row) {
@@ -38,12 +39,15 @@ void look_at_faces(const PoolFaces& a, int k0, int k1, float* __restrict under, 
   }
 }
 
-/// Vertical inertia: h^3 / 3 dx^2, and N without the part that is linear in the acceleration.
+/// Vertical inertia: h^3 / 3 dx^2, and N without the part that is linear in the acceleration. Where a column rises
+/// faster than a share of sqrt(g h), it is held back as by a viscosity, implicitly (our choice): such columns are
+/// narrower than the equations are made for, and would shoot up.
 void look_at_columns(const PoolFaces& a, int k0, int k1, const PoolConstants& c, float* __restrict inertia,
                      float* __restrict extra) {
   const float *depth = a.depth, *u = a.speed;
   const std::ptrdiff_t step = a.step;
   const float scale = c.third * c.per_dx * c.per_dx, half_g = 0.5f * c.g;
+  const float per_extra = 1 / (c.dt * c.per_dx), per_bound = 1 / (kFastestColumn * kFastestColumn * c.g);
   for (int k = k0; k < k1; ++k) {
     const float h = depth[k], before = u[k] - u[k - step], own = u[k + step] - u[k];
     const float after = u[k + 2 * step] - u[k + step], mean = 0.5f * (u[k] + u[k + step]);
@@ -51,8 +55,12 @@ void look_at_columns(const PoolFaces& a, int k0, int k1, const PoolConstants& c,
     const float mass = scale * ((h * h) * h), most = half_g * (h * h);
     const float wanted = mass * (own * own - mean * turn);
     const float bounded = wanted < most ? wanted : most;
-    inertia[k] = mass;
-    extra[k] = bounded > -most ? bounded : -most;
+    const float rate = own * c.per_dx;                           // -dh/dt / h
+    const float too_fast = (h * rate) * (rate * per_bound) - 1;  // square of speed over its bound, less 1
+    const float rising = rate < 0 ? too_fast : 0.0f;
+    const float held = rising > 0 ? rising : 0.0f;
+    inertia[k] = mass * (1 + held);
+    extra[k] = (bounded > -most ? bounded : -most) - per_extra * (mass * held) * own;
   }
 }
 
@@ -139,13 +147,21 @@ void slow_faces(int k0, int k1, const PoolConstants& c, const float* under, cons
   }
 }
 
-void volumes_through(const PoolFaces& a, int k0, int k1, float pl_per_flux, float* __restrict flux) {
-  const float *bed = a.bed, *eta = a.eta, *speed = a.speed;
+/// Picolitres that want to pass. Nothing climbs higher than its speed lets it, u^2 / 2 g, and half a cell [Bernoulli;
+/// the half cell is our choice, for waves]: what would is stopped. Without it splashes that run together shoot up.
+void volumes_through(const PoolFaces& a, int k0, int k1, const PoolConstants& c, float pl_per_flux,
+                     float* __restrict speed, float* __restrict flux) {
+  const float *bed = a.bed, *eta = a.eta;
   const std::ptrdiff_t step = a.step;
+  const float per_2g = 0.5f / c.g, slack = 0.5f / c.per_dx;
   for (int k = k0; k < k1; ++k) {
-    const float bed_low = bed[k - step], bed_high = bed[k], low = eta[k - step], high = eta[k];
-    const float from = (speed[k] > 0 ? low : high) - (bed_low > bed_high ? bed_low : bed_high);
-    flux[k] = (from > 0 ? from : 0.0f) * speed[k] * pl_per_flux;
+    const float bed_low = bed[k - step], bed_high = bed[k], low = eta[k - step], high = eta[k], u = speed[k];
+    const float from = u > 0 ? low : high, to = u > 0 ? high : low;
+    const float deep = from - (bed_low > bed_high ? bed_low : bed_high);
+    const float climbs = to - from - slack - u * u * per_2g;
+    const float let = climbs > 0 ? 0.0f : u;
+    speed[k] = let;
+    flux[k] = (deep > 0 ? deep : 0.0f) * let * pl_per_flux;
   }
 }
 

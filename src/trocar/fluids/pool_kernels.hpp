@@ -49,7 +49,8 @@ struct PoolKernels {
   void (*solve_strip)(int nx, const PoolStrip& s);
   void (*slow_faces)(int k0, int k1, const PoolConstants& c, const float* under, const float* carried,
                      const float* answer, float* speed);
-  void (*volumes_through)(const PoolFaces& a, int k0, int k1, float pl_per_flux, float* flux);
+  void (*volumes_through)(const PoolFaces& a, int k0, int k1, const PoolConstants& c, float pl_per_flux, float* speed,
+                          float* flux);  ///< a.speed is `speed`
   void (*find_shares)(int k0, int k1, int stride, const float* flux_u, const float* flux_v, const float* volume,
                       const std::int32_t* species, float* keep);
   void (*find_moved)(int k0, int k1, std::ptrdiff_t step, float most_in_a_cell, const float* flux, const float* volume,

@@ -210,7 +210,7 @@ void move_species(const PoolKernels& x, const PoolModel& m, Rows rows, std::vect
     x.book(m.at(0, j), m.at(m.nx, j), m.stride, moved_u, moved_v, species.data());
 }
 
-void exchange(const PoolKernels& x, const PoolModel& m, Rows rows, PoolState& s, PoolWork& w) {
+void exchange(const PoolKernels& x, const PoolModel& m, const PoolConstants& c, Rows rows, PoolState& s, PoolWork& w) {
   const PoolFaces across_u{w.bed.data(), w.depth.data(), w.eta.data(), s.u.data(), s.v.data(), 1, m.stride};
   const PoolFaces across_v{w.bed.data(), w.depth.data(), w.eta.data(), s.v.data(), s.u.data(), m.stride, 1};
   const float pl = float(m.cell * m.dt() * kPicolitresPerM3);
@@ -219,8 +219,8 @@ void exchange(const PoolKernels& x, const PoolModel& m, Rows rows, PoolState& s,
   for (int j = rows.first; j <= rows.last; ++j) {
     const int k0 = m.at(0, j);
     w.flux[k0] = w.flux[k0 + m.nx] = 0;
-    x.volumes_through(across_u, k0 + 1, k0 + m.nx, pl, w.flux.data());
-    if (j > rows.first) x.volumes_through(across_v, k0, k0 + m.nx, pl, w.flux_v.data());
+    x.volumes_through(across_u, k0 + 1, k0 + m.nx, c, pl, s.u.data(), w.flux.data());
+    if (j > rows.first) x.volumes_through(across_v, k0, k0 + m.nx, c, pl, s.v.data(), w.flux_v.data());
   }
   for (std::vector<std::int32_t>* species : {&s.blood, &s.saline, &s.bile}) move_species(x, m, rows, *species, w);
 }
@@ -289,7 +289,7 @@ FluidReport advance(const PoolModel& m, const PoolInput& in, PoolState& s, PoolW
   s.highest = highest(m, in, rows, w);
   accelerate_u(x, m, c, rows, s, w);
   accelerate_v(x, m, c, rows, s, w);
-  exchange(x, m, rows, s, w);
+  exchange(x, m, c, rows, s, w);
   return report;
 }
 
