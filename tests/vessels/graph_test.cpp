@@ -93,6 +93,12 @@ TEST(VesselGraph, NodesThatAreNotThereAndLoopsAreFound) {
   expect_fault(g, Part::end, 0, "node", "got -5");
 }
 
+TEST(VesselGraph, NodesWithoutASegmentAreFound) {
+  VesselGraph g = sound();
+  g.nodes = 4;
+  expect_fault(g, Part::graph, 3, "nodes", "3 is in none");
+}
+
 TEST(VesselGraph, CyclesAreFoundWhereATreeIsRequired) {
   VesselGraph g = sound();
   g.segments.push_back(artery(2, 0, 0.1, 1e-3, 1e6, 0.1e-3));

@@ -260,7 +260,7 @@ void update_cells(const FlowModel& m, int first, int last, FlowState& s, const F
   }
 }
 
-/// Pressures, and the volume by which the capacity used was not the mean of the change.
+/// Pressures, and the volume by which the straight lines missed the walls' law.
 void update_rows(const FlowModel& m, FlowState& s, const FlowWork& w, FlowReport& report) {
   for (std::size_t i = 0; i < m.give.size(); ++i) {
     const double change = w.x[i];
@@ -273,9 +273,9 @@ void update_rows(const FlowModel& m, FlowState& s, const FlowWork& w, FlowReport
 
 void update_patient(const FlowModel& m, const FlowInput& in, const Drive& d, FlowState& s) {
   s.beat += m.settings.tick / 60 * d.rate;
-  if (s.beat >= 1) s.beat -= 1;
+  s.beat -= std::floor(s.beat);
   s.breath += m.settings.tick / 60 * m.heart.breaths;
-  if (s.breath >= 1) s.breath -= 1;
+  s.breath -= std::floor(s.breath);
   if (!(in.infusion > 0 && in.infusion < 1)) return;
   s.infusion_remainder += in.infusion * m.settings.tick / kPicolitre;
   const std::int64_t whole = std::int64_t(s.infusion_remainder);

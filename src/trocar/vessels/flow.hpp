@@ -198,7 +198,7 @@ struct FlowReport {
     kFine = 0,
     kBadOpening = 1,    ///< an opening names no segment or is not finite (left out), or there are too many
     kBadClip = 2,       ///< the same of a clip
-    kNonFinite = 4,     ///< the pressures lost their solution: state not advanced; restore an earlier one
+    kNonFinite = 4,     ///< the pressures have no solution: they and flows were not advanced; restore a State
     kHighPressure = 8,  ///< somewhere beyond 0.1 MPa: a pump works against closed clips; open one
   };
   std::uint32_t flags = kFine;

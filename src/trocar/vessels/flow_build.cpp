@@ -63,7 +63,6 @@ void Builder::segment(const VesselSegment& s) {
     a = b;
   }
   m.segments.push_back(f);
-  m.cells.back().loss = 0;
   for (int i = f.first; i < f.first + f.cells; ++i) m.cells[i].loss = s.loss * graph.blood.density / 2 / f.cells;
 }
 

@@ -172,6 +172,12 @@ void check_connections(const VesselGraph& graph, Faults& faults) {
     if (!sets.join(s.from, s.to) && graph.tree)
       faults.add(Part::segment, i, "to", fmt::format("expected a tree, but this closes a cycle at node {}", s.to));
   }
+  std::vector<char> met(std::size_t(graph.nodes), 0);
+  for (const VesselSegment& s : graph.segments)
+    for (const int node : {s.from, s.to})
+      if (there(node, graph)) met[node] = 1;
+  for (int i = 0; i < graph.nodes; ++i)
+    if (!met[i]) faults.add(Part::graph, i, "nodes", fmt::format("expected every node in a segment, {} is in none", i));
   std::vector<char> fed(std::size_t(graph.nodes), 0);
   for (const VesselSource& s : graph.sources)
     if (there(s.node, graph)) fed[sets.root(s.node)] = 1;

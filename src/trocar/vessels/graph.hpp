@@ -108,7 +108,8 @@ inline constexpr std::size_t kMaxSegments = 20'000;
 inline constexpr std::size_t kMaxCells = 200'000;
 
 /// Something unsound: which entry of which array (or none of them: index -1), which of its fields, and in the manner
-/// of all faults what was expected and what stands there.
+/// of all faults what was expected and what stands there. (A node that no segment names is a fault of `nodes` with the
+/// node as index.)
 struct GraphFault {
   enum class Part { graph, segment, end, source, heart, blood, settings };
   Part part = Part::graph;
