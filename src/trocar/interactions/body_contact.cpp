@@ -3,6 +3,7 @@
 #include <trocar/collision/rods.hpp>
 #include <trocar/geometry/nearest.hpp>
 #include <trocar/interactions/body_contact.hpp>
+#include <trocar/interactions/body_friction.hpp>
 
 namespace trocar::interactions {
 namespace {
@@ -40,6 +41,11 @@ void push_surface(const Surface& surface, int v, Vec3d n, double depth, NetworkL
   add_skin_load(surface.nodes, *surface.skin, v, back, {Owner::body, 0, 0}, *loads);
 }
 
+/// Where a wall is touched, nothing moves.
+Vec3d velocity_of(const Surface& surface, int v) noexcept {
+  return surface.moves() ? tissue::skin_velocity(surface.nodes, *surface.skin, v) : Vec3d{0, 0, 0};
+}
+
 }  // namespace
 
 void strand_on_surface(const SurfacePair& pair, const StrandBody& body, const tissue::StrandState& state,
@@ -64,6 +70,10 @@ void strand_on_surface(const SurfacePair& pair, const StrandBody& body, const ti
     load.x0 = p + share * std::min(depth, kQuickest) * c.normal;
     strand_loads.add(load, {Owner::body, 0, 0});
     push_surface(surface, nearest[i], c.normal, depth, surface_loads);
+    const Vec3d ours = state.v[size_t(node)], theirs = velocity_of(surface, nearest[i]);
+    const BodyRub rub = body_rub(kStiffness * share * std::min(depth, kQuickest), c.normal, ours, theirs);
+    rub_strand(e, load.w, rub, theirs, strand_loads);
+    if (surface_loads) rub_skin(surface, nearest[i], rub, ours, *surface_loads);
   }
 }
 
@@ -88,6 +98,10 @@ void solid_on_surface(const SurfacePair& pair, const Surface& samples, const Sur
     load.d = kDamping;
     add_skin_load(samples.nodes, *samples.skin, v, load, {Owner::body, 0, 0}, sample_loads);
     push_surface(surface, nearest[i], c.normal, depth, surface_loads);
+    const Vec3d ours = velocity_of(samples, v), theirs = velocity_of(surface, nearest[i]);
+    const BodyRub rub = body_rub(kStiffness * share * std::min(depth, kQuickest), c.normal, ours, theirs);
+    rub_skin(samples, v, rub, theirs, sample_loads);
+    if (surface_loads) rub_skin(surface, nearest[i], rub, ours, *surface_loads);
   }
 }
 
@@ -181,6 +195,11 @@ void strand_on_strand(const StrandPair& pair, const StrandBody& a, const tissue:
     on_b.x0 = c.on_first - 0.5 * depth * c.normal;
     a_loads.add(on_a, {Owner::body, 0, 0});
     b_loads.add(on_b, {Owner::body, 0, 0});
+    const Vec3d ours = (1 - c.t) * a_state.v[size_t(i)] + c.t * a_state.v[size_t(i) + 1];
+    const Vec3d theirs = (1 - c.s) * b_state.v[size_t(j)] + c.s * b_state.v[size_t(j) + 1];
+    const BodyRub rub = body_rub(on_a.k * 0.5 * depth, c.normal, ours, theirs);
+    rub_strand(i, c.t, rub, theirs, a_loads);
+    rub_strand(j, c.s, rub, ours, b_loads);
   }
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include <trocar/geometry/nearest.hpp>
+#include <trocar/interactions/body_friction.hpp>
 #include <trocar/interactions/piece_contact.hpp>
 
 namespace trocar::interactions {
@@ -31,6 +32,24 @@ int nearest_of_others(const Surface& surface, std::span<const std::int32_t> part
   return best;
 }
 
+/// Height of p above the nearest of the triangles at a vertex. Not above the vertex' own plane: at the rim of a cut
+/// that leans outwards, and pieces would catch there.
+Clearance above_faces(const Surface& surface, int vertex, Vec3d p) noexcept {
+  const tissue::Skin& skin = *surface.skin;
+  Clearance c;
+  double least = 1e30;
+  for (int k = skin.face_first[size_t(vertex)]; k < skin.face_first[size_t(vertex) + 1]; ++k) {
+    const auto& t = skin.triangles[size_t(skin.face[size_t(k)])];
+    const Vec3d a = surface.position(t[0]), b = surface.position(t[1]), d = surface.position(t[2]);
+    const double far2 = geometry::closest_on_triangle(p, a, b, d).distance2;
+    if (!(far2 < least)) continue;
+    least = far2;
+    c.normal = normalised(cross(b - a, d - a));
+    c.distance = dot(p - a, c.normal);
+  }
+  return c;
+}
+
 void push(const Surface& surface, int vertex, Vec3d by, Vec3d n, NetworkLoads& loads) noexcept {
   SkinLoad load;
   load.k = kStiffness;
@@ -40,11 +59,16 @@ void push(const Surface& surface, int vertex, Vec3d by, Vec3d n, NetworkLoads& l
   add_skin_load(surface.nodes, *surface.skin, vertex, load, {Owner::body, 0, 0}, loads);
 }
 
-/// Pushes two vertices apart along n, which points from the second to the first.
+/// Pushes two vertices apart along n, which points from the second to the first, and holds them back across it.
 void part_pair(const Surface& surface, int first, int second, double depth, Vec3d n, NetworkLoads& loads) noexcept {
   const double half = 0.5 * std::min(depth, kQuickest);
   push(surface, first, half * n, n, loads);
   push(surface, second, -half * n, n, loads);
+  const Vec3d ours = tissue::skin_velocity(surface.nodes, *surface.skin, first);
+  const Vec3d theirs = tissue::skin_velocity(surface.nodes, *surface.skin, second);
+  const BodyRub rub = body_rub(kStiffness * half, n, ours, theirs);
+  rub_skin(surface, first, rub, theirs, loads);
+  rub_skin(surface, second, rub, ours, loads);
 }
 
 }  // namespace
@@ -55,8 +79,8 @@ void piece_on_piece(const Surface& surface, std::span<const std::int32_t> part, 
     if (part[size_t(v)] == largest || !surface.skin->at_surface(v)) continue;
     const int other = nearest_of_others(surface, part, v);
     if (other < 0) continue;
-    const Clearance c = clearance_at(surface, other, surface.position(v));
-    if (!(c.distance < 0)) continue;
+    const Clearance c = above_faces(surface, other, surface.position(v));
+    if (!(c.distance < 0) || !(dot(c.normal, surface.normal(v)) < 0)) continue;  // sides that are flush do not touch
     part_pair(surface, v, other, -c.distance, c.normal, loads);
   }
 }
