@@ -36,6 +36,10 @@ struct Basin {
   void fill_to(int i, int j, double depth) {
     fill(i, j, {.blood = std::int64_t(depth * m.cell * m.cell * kPicolitresPerM3)});
   }
+  void splash(int i, int j, std::int64_t saline, Vec3f v) {
+    receive(ledger, Source::kIrrigated, Place::kPool, {.saline = saline});
+    fall_into(m, floor, i, j, 0.003f, {.saline = saline}, v, s);
+  }
   FluidReport tick(std::span<const Capsule> capsules = {}, std::span<const Drain> drains = {}) {
     return advance(m, {.floor = floor, .capsules = capsules, .drains = drains}, s, w, ledger);
   }
@@ -72,6 +76,7 @@ Collapse collapse(int cells, double tick) {
   PoolDescription d = channel(cells * 5, a / cells);
   d.viscosity = 1e-6;
   d.damping = 0;
+  d.inertia_depth = 1;  // that of the whole column
   Basin b(d, tick);
   for (int j = 0; j < d.ny; ++j)
     for (int i = 0; i < cells; ++i) b.fill_to(i, j, 2 * a);
@@ -130,6 +135,7 @@ struct Wave {
 Wave standing_wave(double depth, int halves, double damping, double viscosity, int period, int nx = 256) {
   PoolDescription d = channel(nx, 0.00125);
   d.friction = 0;
+  d.inertia_depth = 1;
   d.viscosity = viscosity;
   d.damping = damping;
   d.period = period;
@@ -210,7 +216,7 @@ TEST(Pool, KeepsEveryPicolitreUnderRainToolsAndAHeavingFloor) {
       b.floor[c] = 0.01f * float(std::sin(0.02 * double(c % 48) + 0.003 * t) * std::sin(0.05 * double(c / 48)));
     const int i = int(r.uniform() * 48), j = int(r.uniform() * 48);
     b.fill(i, j, {std::int64_t(r.uniform() * 1e7), std::int64_t(r.uniform() * 1e7), std::int64_t(r.uniform() * 1e6)});
-    strike(b.m, i, j, std::int64_t(r.uniform() * 1e7), {1, -2, -3}, b.s);
+    b.splash(i, j, std::int64_t(r.uniform() * 1e7), {1, -2, -3});
     const float x = float(0.06 + 0.03 * std::sin(0.01 * t));
     const Capsule tool{.a = {x, 0.05f, 0}, .b = {0.1f, 0.05f, 0.2f}, .radius = 0.005f};
     EXPECT_EQ(b.tick({&tool, 1}, drains).flags, 0u);
@@ -246,7 +252,7 @@ TEST(Pool, FindsItsLevelAndMixes) {
       b.fill(i, j, i < 16 ? Mix{.blood = pl} : Mix{.saline = pl / 2});
     }
   for (int t = 0; t < 20000; ++t) {
-    if (t % 400 == 0) strike(b.m, 16, 8 + (t / 400) % 16, 30'000'000, {0, (t / 400) % 2 ? 1.f : -1.f, -2}, b.s);
+    if (t % 400 == 0) b.splash(16, 8 + (t / 400) % 16, 3'000'000, {0, (t / 400) % 2 ? 3.f : -3.f, -2});
     b.tick();
   }
   const double level = 0.75 * 40e6 * 1e-15 / (b.m.cell * b.m.cell);
@@ -310,7 +316,7 @@ TEST(Pool, TheInstructionSetChangesNoBit) {
       for (std::size_t c = 0; c < b.floor.size(); ++c)
         b.floor[c] = 0.004f * float(portable::sin(0.3 * double(c % 37) + 0.004 * t));
       b.fill(int(r.uniform() * 37), int(r.uniform() * 37), {.blood = 30'000'000, .saline = 9'000'000, .bile = 77});
-      strike(b.m, int(r.uniform() * 37), int(r.uniform() * 37), 50'000'000, {0.3f, -0.4f, -2}, b.s);
+      b.splash(int(r.uniform() * 37), int(r.uniform() * 37), 5'000'000, {0.3f, -0.4f, -2});
       const Capsule tool{.a = {0.03f, 0.0005f * float(t % 100), 0}, .b = {0.05f, 0.05f, 0.1f}, .radius = 0.004f};
       b.tick({&tool, 1});
     }

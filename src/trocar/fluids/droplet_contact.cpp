@@ -231,10 +231,9 @@ void fall_in(Moment& t, int i) {
     if (weber > float(t.m.splash)) splash(t, i, position(t.s, i) + (bed + depth - at.height) * up, v, -own.z);
   }
   const Mix volume = widened(t.s.volume[i]);
-  if (depth > 0) strike(pool, at.i, at.j, volume.total(), own, t.below.state);
   // Over its own width and more, so that the surface is raised by no more than half a millimetre or so (our choice).
-  pour_over(pool, t.below.floor, at.i, at.j, 60 * std::sqrt(t.s.radius[i] * t.s.radius[i] * t.s.radius[i]),
-            bed + depth + 1e-3f, volume, t.below.state);
+  const float wide = 60 * std::sqrt(t.s.radius[i] * t.s.radius[i] * t.s.radius[i]);
+  fall_into(pool, t.below.floor, at.i, at.j, wide, volume, own, t.below.state);
   move(t.below.ledger, Place::kDroplets, Place::kPool, volume);
   t.s.volume[i] = {};
 }

@@ -289,7 +289,7 @@ namespace detail {
 void put_into_pool(const DropletModel&, Vec3f at, const Mix& volume, Place from, Below& below) noexcept {
   if (volume.empty()) return;
   const PoolPoint p = locate(below.model, vec_cast<double>(at));
-  pour(below.model, p.i, p.j, volume, below.state);
+  fall_into(below.model, below.floor, p.i, p.j, 4 * float(below.model.cell), volume, {0, 0, 0}, below.state);
   move(below.ledger, from, Place::kPool, volume);
 }
 

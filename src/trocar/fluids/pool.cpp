@@ -51,6 +51,7 @@ PoolModel build(const PoolDescription& d, double tick) {
   require(finite(d.origin) && unit(d.u) && unit(d.v) && std::fabs(dot(d.u, d.v)) < 1e-9, "pool: origin and axes");
   require(d.gravity > 0 && d.gravity < 100, "pool: gravity");
   require(d.vertical_inertia >= 0 && d.vertical_inertia <= 2, "pool: vertical inertia from 0 to 2");
+  require(d.inertia_depth > 0, "pool: inertia depth");
   require(d.friction >= 0 && d.viscosity >= 0 && d.damping >= 0, "pool: friction, viscosity, damping");
   require(d.period >= 1 && d.period <= 16 && tick > 0 && tick <= 0.01, "pool: period and tick");
   PoolModel m;
@@ -59,7 +60,7 @@ PoolModel build(const PoolDescription& d, double tick) {
   m.tick = tick;
   m.stride = d.nx + 1;
   m.height_per_pl = float(kM3PerPicolitre / (d.cell * d.cell));
-  m.fastest = float(0.9 * d.cell / m.dt());
+  m.fastest = float(0.5 * d.cell / m.dt());
   return m;
 }
 
@@ -108,49 +109,78 @@ bool pour(const PoolModel& m, int i, int j, const Mix& mix, PoolState& s) noexce
   return in == mix;
 }
 
-void pour_over(const PoolModel& m, std::span<const float> floor, int i, int j, float radius, float level,
-               const Mix& mix, PoolState& s) noexcept {
-  const int reach = std::min(int(radius / float(m.cell)), 4);
-  const float square = (radius * radius) / float(m.cell * m.cell);
-  const auto fits = [&](int ii, int jj) {
-    const float d2 = float((ii - i) * (ii - i) + (jj - j) * (jj - j));
-    return ii >= 0 && jj >= 0 && ii < m.nx && jj < m.ny && d2 <= square && floor_at(m, floor, ii, jj) <= level;
+namespace {
+
+/// The cells around one that something falls on.
+struct Footprint {
+  int i0, i1, j0, j1, i, j;
+  float square;  ///< of the radius in cells
+
+  Footprint(const PoolModel& m, int at_i, int at_j, float radius) : i(at_i), j(at_j) {
+    const float cells = std::clamp(radius / float(m.cell), 0.5f, 4.0f);
+    const int reach = int(cells);
+    square = cells * cells;
+    i0 = std::max(i - reach, 0), i1 = std::min(i + reach, m.nx - 1);
+    j0 = std::max(j - reach, 0), j1 = std::min(j + reach, m.ny - 1);
+  }
+  bool holds(int ii, int jj) const { return float((ii - i) * (ii - i) + (jj - j) * (jj - j)) <= square; }
+  template <class Visit>
+  void each(const Visit& visit) const {
+    for (int jj = j0; jj <= j1; ++jj)
+      for (int ii = i0; ii <= i1; ++ii)
+        if (holds(ii, jj)) visit(ii, jj);
+  }
+};
+
+/// Momentum of `volume` with velocity v over a footprint. Along the surface it is shared with the fluid there.
+/// Downwards it is that of columns that sink, M w / 2 with w = -h div u: an outward speed of x w / 2 h at the distance
+/// x.
+void push_down(const PoolModel& m, const Footprint& f, std::int64_t volume, Vec3f v, PoolState& s) {
+  float there = 0, cells = 0;
+  f.each([&](int i, int j) { there += float(held_by(s, m.at(i, j))), cells += 1; });
+  const float own = float(volume), all = own + there;
+  if (!(own > 0) || !(there > 0)) return;
+  const float taken = own / all, deep = std::max(all / cells * m.height_per_pl, float(m.cell));
+  const float sinks = 2 * taken * std::clamp(-v.z, 0.0f, 5.0f), aside = sinks / (2 * deep) * float(m.cell);
+  const float along_u = std::clamp(v.x, -5.0f, 5.0f), along_v = std::clamp(v.y, -5.0f, 5.0f);
+  const auto pushed = [&](float& face, float along, float cells_away) {
+    face = std::clamp(face + taken * (along - face) + aside * cells_away, -m.fastest, m.fastest);
   };
-  int cells = 0;
-  for (int jj = j - reach; jj <= j + reach; ++jj)
-    for (int ii = i - reach; ii <= i + reach; ++ii) cells += fits(ii, jj) ? 1 : 0;
+  f.each([&](int i, int j) {
+    const int k = m.at(i, j);
+    if (i > 0) pushed(s.u[k], along_u, float(i - f.i) - 0.5f);
+    if (i + 1 < m.nx && !(i < f.i1 && f.holds(i + 1, j))) pushed(s.u[k + 1], along_u, float(i - f.i) + 0.5f);
+    if (j > 0) pushed(s.v[k], along_v, float(j - f.j) - 0.5f);
+    if (j + 1 < m.ny && !(j < f.j1 && f.holds(i, j + 1))) pushed(s.v[k + m.stride], along_v, float(j - f.j) + 0.5f);
+  });
+  s.first_row = s.first_row <= s.last_row ? std::min(s.first_row, f.j0) : f.j0;
+  s.last_row = std::max(s.last_row, f.j1);
+}
+
+}  // namespace
+
+void fall_into(const PoolModel& m, std::span<const float> floor, int i, int j, float radius, const Mix& mix, Vec3f v,
+               PoolState& s) noexcept {
+  const Footprint f(m, i, j, radius);
+  push_down(m, f, mix.total(), v, s);
+  const auto surface = [&](int ii, int jj) { return floor_at(m, floor, ii, jj) + depth_at(m, s, ii, jj); };
+  float sum = 0, cells = 0;
+  f.each([&](int ii, int jj) { sum += surface(ii, jj), cells += 1; });
+  const float mean = sum / cells + 1e-6f;
+  int low = 0, last_i = i, last_j = j;
+  f.each([&](int ii, int jj) {
+    if (surface(ii, jj) <= mean) ++low, last_i = ii, last_j = jj;
+  });
   Mix rest = mix;
-  const std::int64_t each = cells > 1 ? mix.total() / cells : 0;
-  for (int jj = j - reach; jj <= j + reach && each > 0; ++jj)
-    for (int ii = i - reach; ii <= i + reach; ++ii) {
-      if (!fits(ii, jj) || (ii == i && jj == j)) continue;
+  const std::int64_t each = low > 1 ? mix.total() / low : 0;
+  if (each > 0)
+    f.each([&](int ii, int jj) {
+      if ((ii == last_i && jj == last_j) || surface(ii, jj) > mean) return;
       const Mix part = share(rest, each);
       pour(m, ii, jj, part, s);
       rest -= part;
-    }
-  pour(m, i, j, rest, s);
-}
-
-void strike(const PoolModel& m, int i, int j, std::int64_t volume, Vec3f velocity, PoolState& s) noexcept {
-  const int k = m.at(i, j);
-  const float own = float(volume), all = own + float(held_by(s, k));
-  if (!(own > 0) || !(all > 0)) return;
-  // Along the surface shared out over two faces a direction, each of which belongs to two cells. Momentum downwards is
-  // that of a column that sinks, M w / 2 with w = -h div u: an outward push of each of its four faces by m v dx / 2 M
-  // h.
-  const float taken = own / (all + own);
-  const float deep = std::max(all * m.height_per_pl, float(m.cell));
-  const float aside = taken * float(m.cell) / (2 * deep) * std::clamp(-velocity.z, 0.0f, 5.0f);
-  const auto pushed = [&](float& face, float along, float away) {
-    face = std::clamp(face + taken * (along - face) + away, -m.fastest, m.fastest);
-  };
-  const float along_u = std::clamp(velocity.x, -5.0f, 5.0f), along_v = std::clamp(velocity.y, -5.0f, 5.0f);
-  if (i > 0) pushed(s.u[k], along_u, -aside);
-  if (i + 1 < m.nx) pushed(s.u[k + 1], along_u, aside);
-  if (j > 0) pushed(s.v[k], along_v, -aside);
-  if (j + 1 < m.ny) pushed(s.v[k + m.stride], along_v, aside);
-  s.first_row = s.first_row <= s.last_row ? std::min(s.first_row, j) : j;
-  s.last_row = std::max(s.last_row, j);
+    });
+  pour(m, last_i, last_j, rest, s);
 }
 
 Mix draw_off(const PoolModel& m, std::span<const float> floor, Vec3d p, double radius, std::int64_t amount,

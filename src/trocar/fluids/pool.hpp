@@ -42,6 +42,7 @@ struct PoolDescription {
   double cell = 0.00125;         ///< [m]
   double gravity = 9.81;         ///< [m/s^2], against up
   double vertical_inertia = 1;   ///< share of N: 1 as above, 0 plain shallow water
+  double inertia_depth = 0.008;  ///< deeper columns have the vertical inertia of this depth [m]
   double friction = 0.005;       ///< c
   double viscosity = 3.3e-6;     ///< nu, of blood [m^2/s]
   double damping = 2;            ///< gamma [1/s]: ripples fall to 1/e in a second
@@ -53,7 +54,7 @@ struct PoolModel : PoolDescription {
   double tick = 1e-3;       ///< [s]
   int stride = 0;           ///< of a row in the arrays: nx + 1
   float height_per_pl = 0;  ///< depth of a picolitre on a cell [m]
-  float fastest = 0;        ///< bound of speeds: 0.9 cells a step [m/s]
+  float fastest = 0;        ///< bound of speeds: half a cell a step [m/s]
 
   std::size_t size() const { return std::size_t(ny + 4) * stride + 16; }
   /// Place of cell (i, j) in the arrays; also of the faces between it and (i - 1, j), (i, j - 1).
@@ -119,13 +120,11 @@ float depth_at(const PoolModel& model, const PoolState& state, int i, int j) noe
 /// Adds a volume to a cell (to what waits, if it is full).  @return false if it had to wait
 bool pour(const PoolModel& model, int i, int j, const Mix& m, PoolState& state) noexcept;
 
-/// The same, shared out over the cells within `radius` [m] of the cell's middle whose bed is not above `level` [m].
-void pour_over(const PoolModel& model, std::span<const float> floor, int i, int j, float radius, float level,
-               const Mix& m, PoolState& state) noexcept;
-
-/// Something of `volume` picolitres with velocity v (along u, v, up) enters at a cell: the pool takes its momentum
-/// along the surface and is pushed aside where it falls in.
-void strike(const PoolModel& model, int i, int j, std::int64_t volume, Vec3f velocity, PoolState& state) noexcept;
+/// Something of m with velocity v (along u, v, up) falls in at a cell: its volume is shared out over the cells within
+/// `radius` [m] whose surface is not above their mean; the pool takes its momentum along the surface and is pushed down
+/// and so aside where it falls in.
+void fall_into(const PoolModel& model, std::span<const float> floor, int i, int j, float radius, const Mix& m, Vec3f v,
+               PoolState& state) noexcept;
 
 /// Takes up to `amount` from the cells within `radius` of p whose surface reaches up to p less the radius; each gives
 /// in proportion to what it holds. The caller books it.

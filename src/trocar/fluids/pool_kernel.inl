@@ -52,7 +52,8 @@ void look_at_columns(const PoolFaces& a, int k0, int k1, const PoolConstants& c,
     const float h = depth[k], before = u[k] - u[k - step], own = u[k + step] - u[k];
     const float after = u[k + 2 * step] - u[k + step], mean = 0.5f * (u[k] + u[k + step]);
     const float turn = mean > 0 ? own - before : after - own;
-    const float mass = scale * ((h * h) * h), most = half_g * (h * h);
+    const float tall = h < c.inertia_depth ? h : c.inertia_depth;
+    const float mass = scale * ((tall * tall) * h), most = half_g * (h * h);
     const float wanted = mass * (own * own - mean * turn);
     const float bounded = wanted < most ? wanted : most;
     const float rate = own * c.per_dx;                           // -dh/dt / h
@@ -160,7 +161,7 @@ void volumes_through(const PoolFaces& a, int k0, int k1, const PoolConstants& c,
     const float deep = from - (bed_low > bed_high ? bed_low : bed_high);
     const float climbs = to - from - slack - u * u * per_2g;
     const float let = climbs > 0 ? 0.0f : u;
-    speed[k] = let;
+    speed[k] = 0.5f * (u + let);
     flux[k] = (deep > 0 ? deep : 0.0f) * let * pl_per_flux;
   }
 }

@@ -13,7 +13,7 @@ namespace trocar::fluids {
 inline constexpr int kPoolLanes = 16;  ///< rows of faces across u that are solved at once
 
 struct PoolConstants {
-  float g, dt, per_dx, third;
+  float g, dt, per_dx, third, inertia_depth;
   float friction, viscous, damping, fastest;
 };
 

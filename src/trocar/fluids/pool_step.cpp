@@ -139,6 +139,7 @@ PoolConstants constants_of(const PoolModel& m) {
           .dt = float(m.dt()),
           .per_dx = float(1 / m.cell),
           .third = float(m.vertical_inertia / 3),
+          .inertia_depth = float(m.inertia_depth),
           .friction = float(m.friction),
           .viscous = float(3 * m.viscosity),
           .damping = float(m.damping),
