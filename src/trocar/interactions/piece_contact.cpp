@@ -32,24 +32,6 @@ int nearest_of_others(const Surface& surface, std::span<const std::int32_t> part
   return best;
 }
 
-/// Height of p above the nearest of the triangles at a vertex. Not above the vertex' own plane: at the rim of a cut
-/// that leans outwards, and pieces would catch there.
-Clearance above_faces(const Surface& surface, int vertex, Vec3d p) noexcept {
-  const tissue::Skin& skin = *surface.skin;
-  Clearance c;
-  double least = 1e30;
-  for (int k = skin.face_first[size_t(vertex)]; k < skin.face_first[size_t(vertex) + 1]; ++k) {
-    const auto& t = skin.triangles[size_t(skin.face[size_t(k)])];
-    const Vec3d a = surface.position(t[0]), b = surface.position(t[1]), d = surface.position(t[2]);
-    const double far2 = geometry::closest_on_triangle(p, a, b, d).distance2;
-    if (!(far2 < least)) continue;
-    least = far2;
-    c.normal = normalised(cross(b - a, d - a));
-    c.distance = dot(p - a, c.normal);
-  }
-  return c;
-}
-
 void push(const Surface& surface, int vertex, Vec3d by, Vec3d n, NetworkLoads& loads) noexcept {
   SkinLoad load;
   load.k = kStiffness;
@@ -79,8 +61,8 @@ void piece_on_piece(const Surface& surface, std::span<const std::int32_t> part, 
     if (part[size_t(v)] == largest || !surface.skin->at_surface(v)) continue;
     const int other = nearest_of_others(surface, part, v);
     if (other < 0) continue;
-    const Clearance c = above_faces(surface, other, surface.position(v));
-    if (!(c.distance < 0) || !(dot(c.normal, surface.normal(v)) < 0)) continue;  // sides that are flush do not touch
+    const Clearance c = facing_clearance(surface, other, surface.position(v), surface.normal(v));
+    if (!(c.distance < 0)) continue;
     part_pair(surface, v, other, -c.distance, c.normal, loads);
   }
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/geometry/nearest.hpp>
 #include <trocar/interactions/surface.hpp>
 
 namespace trocar::interactions {
@@ -64,6 +65,26 @@ Clearance clearance_at(const Surface& surface, int vertex, Vec3d p) noexcept {
   Clearance c;
   c.normal = surface.normal(vertex);
   c.distance = dot(p - surface.position(vertex), c.normal);
+  return c;
+}
+
+Clearance facing_clearance(const Surface& surface, int vertex, Vec3d p, Vec3d facing) noexcept {
+  constexpr double kOpposed = -0.25;  // of the two normals' product
+  constexpr double kBesides = 0.002;  // [m] what lies farther beside a triangle is not above it
+  const tissue::Skin& skin = *surface.skin;
+  Clearance c{1e30, {0, 0, 1}};
+  double least = 1e30;
+  for (int k = skin.face_first[size_t(vertex)]; k < skin.face_first[size_t(vertex) + 1]; ++k) {
+    const auto& t = skin.triangles[size_t(skin.face[size_t(k)])];
+    const Vec3d a = surface.position(t[0]), b = surface.position(t[1]), d = surface.position(t[2]);
+    const Vec3d n = normalised(cross(b - a, d - a));
+    if (!(dot(n, facing) < kOpposed)) continue;
+    const double far2 = geometry::closest_on_triangle(p, a, b, d).distance2;
+    const double height = dot(p - a, n);
+    if (!(far2 < least) || far2 - height * height > kBesides * kBesides) continue;
+    least = far2;
+    c = {height, n};
+  }
   return c;
 }
 

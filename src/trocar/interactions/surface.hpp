@@ -34,4 +34,9 @@ struct Clearance {
 };
 Clearance clearance_at(const Surface& surface, int vertex, Vec3d p) noexcept;
 
+/// The same above the nearest of those triangles at `vertex` that face p, where a surface with normal `facing` lies;
+/// far above where there is none. For sharp rims, where a vertex' own plane leans outwards so that bodies catch or sink
+/// in.
+Clearance facing_clearance(const Surface& surface, int vertex, Vec3d p, Vec3d facing) noexcept;
+
 }  // namespace trocar::interactions

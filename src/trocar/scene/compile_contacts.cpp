@@ -10,6 +10,8 @@ namespace {
 constexpr double kReach = 0.045;    // [m] farther apart than this as drawn, two bodies are not tested
 constexpr double kRoot = 0.008;     // [m] of a strand next to its host that takes no part in contact with it
 constexpr int kSolidSamples = 160;  // skin vertices of an organ, about, that are tested against its neighbours
+constexpr double kSlender = 16;     // interactions::slenderness: stouter organs are not tested against themselves
+constexpr double kCrease = 4;       // cells along the skin that are one part of it
 
 /// Poses of all surfaces as drawn.
 struct Drawn {
@@ -195,6 +197,20 @@ void pair_strands(sim::Model& model, int a, int b) {
   model.nearest_at_start.insert(model.nearest_at_start.end(), nearest.begin(), nearest.end());
 }
 
+double cell_of(const sim::Model& model, int organ) {
+  const size_t i = size_t(organ), n = model.solids.size();
+  return i < n ? model.solids[i].cell : model.cuttables[i - n].cell;
+}
+
+/// An organ against itself. No part is known to be near: samples have not looked yet.
+void pair_self(sim::Model& model, const Drawn& drawn, int organ) {
+  const interactions::Surface& surface = drawn.surface[size_t(organ)];
+  if (interactions::slenderness(*surface.skin) < kSlender) return;
+  model.self_pairs.push_back(
+      make_self_pair(organ, surface, samples_of(*surface.skin), kCrease * cell_of(model, organ)));
+  model.nearest_at_start.resize(model.nearest_at_start.size() + model.self_pairs.back().sample.size(), -1);
+}
+
 }  // namespace
 
 void compile_contacts(sim::Model& model) {
@@ -212,6 +228,7 @@ void compile_contacts(sim::Model& model) {
     for (int s = 0; s < model.surfaces(); ++s) pair_membrane(model, drawn, i, s);
   for (int a = 0; a < strands; ++a)
     for (int b = a + 1; b < strands; ++b) pair_strands(model, a, b);
+  for (int i = 0; i < organs; ++i) pair_self(model, drawn, i);
 }
 
 }  // namespace trocar::scene

@@ -130,6 +130,12 @@ void seal(Model& model) {
     h.add(p.b);
     h.add(p.overlap);
   }
+  for (const interactions::SelfPair& p : model.self_pairs) {
+    h.add(p.organ);
+    h.add(p.sample);
+    h.add(p.overlap);
+    h.add(p.others);
+  }
   for (const VisibilitySample& s : model.samples) {
     h.add(s.target);
     h.add(s.where);

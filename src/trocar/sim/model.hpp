@@ -9,6 +9,7 @@
 #include <trocar/interactions/body_contact.hpp>
 #include <trocar/interactions/border.hpp>
 #include <trocar/interactions/hosting.hpp>
+#include <trocar/interactions/self_contact.hpp>
 #include <trocar/interactions/strand_body.hpp>
 #include <trocar/interactions/surface.hpp>
 #include <trocar/interactions/tool.hpp>
@@ -147,7 +148,8 @@ struct Model {
   Input start;  ///< everything as placed
   std::vector<interactions::SurfacePair> surface_pairs;
   std::vector<interactions::StrandPair> strand_pairs;
-  std::vector<std::int32_t> nearest_at_start;  ///< initial State::nearest
+  std::vector<interactions::SelfPair> self_pairs;  ///< of organs that can be folded onto themselves
+  std::vector<std::int32_t> nearest_at_start;      ///< initial State::nearest
   std::vector<VisibilityTarget> targets;
   std::vector<VisibilitySample> samples;
   std::uint64_t hash = 0;
