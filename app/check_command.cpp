@@ -1,5 +1,5 @@
-// trocar check: what a scene, organ, instrument, tissue table or exercise compiles to, what a mesh of tetrahedra holds,
-// or every fault that they have.
+// trocar check: what a scene, organ, instrument, tissue table or exercise compiles to, what flows in a file of vessels,
+// what a mesh of tetrahedra holds, or every fault that they have.
 #include <algorithm>
 #include <chrono>
 
@@ -12,6 +12,7 @@
 #include <trocar/scene/reader.hpp>
 
 #include "check_mesh.hpp"
+#include "check_vessels.hpp"
 #include "command.hpp"
 #include "json.hpp"
 #include "lesson.hpp"
@@ -216,6 +217,7 @@ Json check_one(const fs::path& path, double unit) {
   }
   faults = scene::check_file(path);
   if (!faults.empty()) throw core::BadInput(std::move(faults));
+  if (scene::kind_of_file(path) == scene::FileKind::vessels) return describe_vessels(path);
   if (has("organs") || has("scope")) {
     out["kind"] = "scene";
     out.update(describe_scene(path, {}));
@@ -235,6 +237,7 @@ void print_for_people(const Json& r) {
   const bool to_mend = r.contains("repairs") && !r["repairs"].empty();
   fmt::print("{}: {}, {}\n", r["file"].get<std::string>(), r["kind"].get<std::string>(), to_mend ? "to mend" : "good");
   if (r.contains("mesh")) print_mesh(r);
+  if (r.contains("vessels")) print_vessels(r);
   if (r.contains("tissues")) print_tissues(r["tissues"]);
   if (r.contains("note")) fmt::print("  {}\n", r["note"].get<std::string>());
   if (!r.contains("bodies")) return;
@@ -296,7 +299,7 @@ void add_check(CLI::App& program, Chosen& chosen) {
   CLI::App* c = add_command(program, chosen, "check", "Say what files compile to or hold, or all their faults",
                             "trocar check scenes/organs/uterus.json scenes/gynaecology/sterilisation.json liver.msh");
   c->add_option("files", *files,
-                "scenes, organs, instruments, tissue tables, exercises; meshes of tetrahedra (.msh, .vtk)")
+                "scenes, organs, instruments, tissue tables, vessels, exercises; meshes of tetrahedra (.msh, .vtk)")
       ->required();
   c->add_option("--unit-mm", *unit_mm, "the unit of meshes' coordinates in mm")
       ->check(CLI::Range(1e-6, 1e6))

@@ -7,6 +7,7 @@
 #include <trocar/core/random.hpp>
 #include <trocar/scene/json_text.hpp>
 #include <trocar/scene/reader.hpp>
+#include <trocar/scene/vessel_file.hpp>
 #include <trocar/training/exercise.hpp>
 
 #include "archive.hpp"
@@ -23,8 +24,8 @@ const std::vector<scene::Key>& known_keys() {
   static const std::vector<scene::Key> all = [] {
     std::vector<scene::Key> found;
     std::vector<std::string> seen;
-    std::vector<const scene::Shape*> open{&scene::scene_shape(), &scene::organ_shape(), &scene::instrument_shape(),
-                                          &scene::tissue_shape(), &training::exercise_shape()};
+    std::vector<const scene::Shape*> open{&scene::scene_shape(),  &scene::organ_shape(),   &scene::instrument_shape(),
+                                          &scene::tissue_shape(), &scene::vessels_shape(), &training::exercise_shape()};
     for (std::size_t i = 0; i < open.size(); ++i) {
       if (std::find(seen.begin(), seen.end(), open[i]->name) != seen.end()) continue;
       seen.push_back(open[i]->name);

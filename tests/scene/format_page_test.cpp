@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <trocar/scene/reader.hpp>
+#include <trocar/scene/vessel_file.hpp>
 
 #include "files.hpp"
 
@@ -72,7 +73,7 @@ void add_tables(const Shape& shape, std::vector<std::string>& done, std::string&
 TEST(FormatPage, TablesOfKeysAreTheReaders) {
   std::string tables;
   std::vector<std::string> done;
-  for (const Shape* shape : {&scene_shape(), &organ_shape(), &instrument_shape(), &tissue_shape()})
+  for (const Shape* shape : {&scene_shape(), &organ_shape(), &instrument_shape(), &tissue_shape(), &vessels_shape()})
     add_tables(*shape, done, tables);
   const std::string marker = "<!-- from here on written from the reader's tables -->\n";
   const std::string page = text_of(TROCAR_SOURCE_DIR "/docs/scene_format.md");

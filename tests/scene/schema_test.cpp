@@ -7,6 +7,7 @@
 
 #include <trocar/scene/reader.hpp>
 #include <trocar/scene/schema.hpp>
+#include <trocar/scene/vessel_file.hpp>
 #include <trocar/training/exercise.hpp>
 
 #include "files.hpp"
@@ -20,11 +21,10 @@ struct Published {
   const char* file;
   const Shape& (*shape)();
 };
-const Published kPublished[] = {{"scene.schema.json", scene_shape},
-                                {"organ.schema.json", organ_shape},
-                                {"instrument.schema.json", instrument_shape},
-                                {"tissue.schema.json", tissue_shape},
-                                {"exercise.schema.json", training::exercise_shape}};
+const Published kPublished[] = {
+    {"scene.schema.json", scene_shape},           {"organ.schema.json", organ_shape},
+    {"instrument.schema.json", instrument_shape}, {"tissue.schema.json", tissue_shape},
+    {"vessel.schema.json", vessels_shape},        {"exercise.schema.json", training::exercise_shape}};
 
 TEST(Schema, PublishedFilesSayWhatTheReaderObeys) {
   for (const Published& p : kPublished) {

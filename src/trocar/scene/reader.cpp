@@ -5,6 +5,7 @@
 
 #include <trocar/scene/reader.hpp>
 #include <trocar/scene/reader_parts.hpp>
+#include <trocar/scene/vessel_file.hpp>
 
 namespace trocar::scene {
 
@@ -95,6 +96,7 @@ FileKind kind_of_file(const fs::path& path, const MemoryFiles* memory) {
   const auto has = [&](const char* key) { return document.root.find(key) != nullptr; };
   if (has("scene")) return FileKind::exercise;
   if (has("scope") || has("ports") || has("tools")) return FileKind::scene;
+  if (has("vessels") || has("sources")) return FileKind::vessels;
   if (has("kind")) return FileKind::instrument;
   if (has("solids") || has("strands") || has("walls") || has("sheets") || has("membranes") || has("organs"))
     return FileKind::organ;
@@ -126,6 +128,9 @@ std::vector<core::Fault> check_file(const fs::path& path, const MemoryFiles* mem
       break;
     case FileKind::tissue:
       reading.tissue_file(path);
+      break;
+    case FileKind::vessels:
+      read_vessels(path, faults, memory);
       break;
     case FileKind::exercise:
       load_json(path, faults, memory);

@@ -26,7 +26,7 @@ Description read_scene(const std::filesystem::path& path, const MemoryFiles* mem
 /// Reads a tissue table. Throws core::BadInput with every fault.
 std::vector<Tissue> read_tissues(const std::filesystem::path& path);
 
-enum class FileKind { scene, organ, instrument, tissue, exercise };
+enum class FileKind { scene, organ, instrument, tissue, vessels, exercise };
 /// A file's kind, by the keys that only this kind has; a scene where nothing tells.
 FileKind kind_of_file(const std::filesystem::path& path, const MemoryFiles* memory = nullptr);
 
