@@ -71,12 +71,13 @@ struct Collapse {
 };
 
 /// The front is where 2 % of a stand on the floor.
-Collapse collapse(int cells, double tick) {
+Collapse collapse(int cells, double tick, double vertical_inertia = 1) {
   constexpr double a = 0.05715, g = 9.81;
   PoolDescription d = channel(cells * 5, a / cells);
   d.viscosity = 1e-6;
   d.damping = 0;
   d.inertia_depth = 1;  // that of the whole column
+  d.vertical_inertia = vertical_inertia;
   Basin b(d, tick);
   for (int j = 0; j < d.ny; ++j)
     for (int i = 0; i < cells; ++i) b.fill_to(i, j, 2 * a);
@@ -124,6 +125,11 @@ TEST(DamBreak, TheFrontRunsAsMartinAndMoyceSaw) {
   const Collapse coarse = collapse(32, 0.5e-3);
   EXPECT_LT(worst(coarse.front, kFront, "front, 32 cells"), 0.14);
   worst(coarse.height, kHeight, "height, 32 cells");
+}
+
+TEST(DamBreak, PlainShallowWaterWouldRunFarAhead) {
+  const Collapse c = collapse(64, 0.125e-3, 0);
+  EXPECT_GT(worst(c.front, kFront, "front without vertical inertia"), 0.5);
 }
 
 // ---- waves
