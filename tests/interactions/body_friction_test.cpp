@@ -218,12 +218,12 @@ struct Halves {
 TEST(BodyFriction, APieceRubsOnWhatItWasCutFrom) {
   const double slope = 0.12, coulomb = kG * (std::sin(slope) - kBodyFriction * std::cos(slope));
   Halves steep(tilted(slope));
-  for (int i = 0; i < 120; ++i) steep.step();
+  for (int i = 0; i < 30; ++i) steep.step();
   const double v = steep.speed();
-  for (int i = 0; i < 80; ++i) steep.step();
+  for (int i = 0; i < 80; ++i) steep.step();  // 4 mm; then it leans over the edge
   const double found = (steep.speed() - v) / 0.08;
   std::cout << "piece: " << found << " m/s^2, Coulomb " << coulomb << ", without " << kG * std::sin(slope) << "\n";
-  EXPECT_NEAR(found, coulomb, 0.3 * kG * kBodyFriction);
+  EXPECT_NEAR(found, coulomb, 0.2 * kG * kBodyFriction);
   Halves flat(tilted(0.5 * kBodyFriction));
   for (int i = 0; i < 1000; ++i) flat.step();
   EXPECT_LT(std::fabs(flat.speed()), 1.5 * kCreep) << "[m/s]";

@@ -13,6 +13,8 @@
 #include <trocar/tissue/cuttable_skin.hpp>
 #include <trocar/tissue/lattice_springs.hpp>
 
+#include "../sim/small_scene.hpp"
+
 namespace trocar::interactions {
 namespace {
 
@@ -227,6 +229,77 @@ TEST(SelfContact, StoutBodiesAreToldFromSlenderOnes) {
   EXPECT_LT(slenderness(Body(6, 6, 6, all, none).skin.skin), 16);
   EXPECT_GT(slenderness(Body(15, 3, 3, all, none).skin.skin), 16);
   EXPECT_GT(slenderness(Body(12, 12, 1, all, none).skin.skin), 16);
+}
+
+/// A horseshoe of a lattice, as scene files draw bowel: two limbs of 12 mm, 24 mm apart, round a bend.
+scene::Description horseshoe() {
+  scene::Description d = small::description();
+  d.strands.clear();
+  d.membranes.clear();
+  scene::Solid s;
+  s.name = "horseshoe";
+  s.tissue = "flesh";
+  const auto section = [&s](Vec3d centre, Vec3d across) {
+    s.sections.push_back({centre, 0.006 * across, {0, 0, 0.006}, 2});
+  };
+  for (double y : {0.060, 0.045, 0.030, 0.015}) section({-0.012, y, 0}, {-1, 0, 0});
+  for (int i = 1; i < 8; ++i) {
+    const double a = 3.14159265358979 * i / 8, c = std::cos(a), q = std::sin(a);
+    section({-0.012 * c, -0.012 * q, 0}, {-c, -q, 0});
+  }
+  for (double y : {0.015, 0.030, 0.045, 0.060}) section({0.012, y, 0}, {1, 0, 0});
+  s.cell = 0.004;
+  s.skin_edge = 0.004;
+  s.fine_edge = 0.003;
+  s.anchors.push_back({{0, -0.014, 0}, 0.008, 0, {}});
+  d.solids = {s};
+  return d;
+}
+
+/// How far apart the limbs' ends are, middle to middle, after hands have pressed them together [m].
+double ends_apart(const sim::Model& model, bool contact) {
+  const sim::SolidModel& solid = model.solids[0];
+  tissue::NetworkState state = rest_state(solid.network);
+  tissue::NetworkWork work = make_work(solid.network);
+  tissue::SkinPose pose = make_pose(solid.skin);
+  std::vector<std::int32_t> nearest(model.self_pairs[0].sample.size(), -1);
+  NetworkLoads loads;
+  loads.reserve(8192);
+  double apart = 0;
+  for (int t = 0; t < 2000; ++t) {
+    const Surface surface{&solid.skin, &pose, view_of(solid.network, state)};
+    pose_skin(surface.nodes, solid.skin, pose);
+    loads.clear();
+    if (contact) self_contact(model.self_pairs[0], surface, {}, std::uint64_t(t), nearest, loads);
+    double left = 0, right = 0, count = 0;
+    for (int n = 0; n < solid.network.nodes; ++n) {
+      const Vec3d p = solid.network.rest[size_t(n)];
+      if (p.y < 0.040) continue;
+      tissue::NodeLoad load;
+      load.node = n;
+      load.f0 = {p.x < 0 ? 0.0003f : -0.0003f, 0, 0};
+      load.k = 1;  // kept in their plane: round on round, they would slip past each other
+      load.dir = {0, 0, 1};
+      load.x0 = vec_cast<float>(p);
+      loads.add(load, {Owner::anchor, 0, 0});
+      (p.x < 0 ? left : right) += position(solid.network, state, n).x;
+      count += 0.5;
+    }
+    apart = (right - left) / count;
+    loads.sort();
+    EXPECT_TRUE(advance(solid.network, loads.sorted, loads.reaction, state, work, nullptr, tissue::Hands::on).fine());
+  }
+  return apart;
+}
+
+TEST(SelfContact, TheLimbsOfAHorseshoeOfALatticeDoNotPassEither) {
+  const sim::Model model = scene::compile(horseshoe());
+  ASSERT_EQ(model.self_pairs.size(), 1u);
+  const double with = ends_apart(model, true), without = ends_apart(model, false);
+  std::cout << "limbs of 12 mm " << 1e3 * with << " mm apart, without contact " << 1e3 * without << " mm\n";
+  EXPECT_LT(without, 0.004) << "[m] or the test says nothing";
+  EXPECT_GT(with, 0.009) << "[m]";
+  EXPECT_LT(with, 0.014) << "[m] they touch";
 }
 
 /// All organs of a shipped scene as drawn, stout ones too, every skin vertex a sample.

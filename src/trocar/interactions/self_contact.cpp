@@ -84,8 +84,9 @@ int keep_apart(const SelfPair& pair, const Surface& surface, std::size_t i, int 
   const double far2 = geometry::distance2(surface.position(u), p);
   if (!(far2 < kForget * kForget)) return -1;
   if (clearance_at(surface, u, p).distance > kNear) return u;
-  const Clearance c = facing_clearance(surface, u, p, surface.normal(v));
-  if (c.distance > kForget) return -1;  // nothing faces it any more
+  const Vec3d n = surface.normal(v);
+  if (!(dot(n, surface.normal(u)) < 0)) return -1;
+  const Clearance c = facing_clearance(surface, u, p, n);
   const double deep = -c.distance - double(pair.overlap[i]);
   if (!(deep > 0) || deep > kDeepest || far2 > kBeside * kBeside) return u;
   const double half = 0.5 * std::min(deep, kQuickest);
