@@ -211,6 +211,23 @@ TEST(SelfContact, AThinSlabIsNotTakenForTwoParts) {
   }
 }
 
+TEST(SelfContact, WhatIsDrawnTouchingOrOverlappingIsNotPushedApart) {
+  for (const double gap : {0.0003, 0.00005, -0.0003, -0.003}) {  // [m]
+    Body b = fork();
+    for (size_t i = 0; i < b.drawn.size(); ++i)
+      if (b.drawn[i].x > 5.9 * kCell && b.drawn[i].z > 3.1 * kCell)
+        set_position(b.model, b.state, int(i), b.drawn[i] - Vec3d{3 * kCell - gap, 0, 0});
+    b.show();
+    b.pair = make_self_pair(0, b.surface(), b.pair.sample, 4 * kCell);
+    b.loads.clear();
+    for (std::uint64_t t = 0; t < 64; ++t) self_contact(b.pair, b.surface(), {}, t, b.nearest, b.loads);
+    EXPECT_EQ(b.loads.gathered.size(), 0u) << gap;
+    if (gap > 0) {
+      EXPECT_GT(b.known(), 10u) << "they know each other all the same";
+    }
+  }
+}
+
 TEST(SelfContact, TheOwnNeighbourhoodIsNeverAnotherPart) {
   const Body b = fork();
   for (size_t i = 0; i < b.pair.sample.size(); ++i) {
