@@ -75,6 +75,12 @@ TEST(Sight, AgreesWithATestOfEveryTriangle) {
         const interactions::Surface& surface = p.work.surfaces[s];
         hit = hit || crosses(from, end, surface.position(t[0]), surface.position(t[1]), surface.position(t[2]));
       }
+    for (const sim::WallModel& wall : p.model.walls)
+      for (const auto& t : wall.skin.triangles) {
+        const auto at = [&](size_t k) { return vec_cast<double>(wall.pose.position[size_t(t[k])]); };
+        const bool from_outside = dot(from - at(0), cross(at(1) - at(0), at(2) - at(0))) > 0;
+        hit = hit || (from_outside && crosses(from, end, at(0), at(1), at(2)));
+      }
     const auto near_axis = [&](Vec3d a, Vec3d b, double radius) {
       return geometry::closest_segments(from, end, a, b).distance2 < radius * radius;
     };
