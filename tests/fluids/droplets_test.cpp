@@ -357,8 +357,8 @@ TEST(Drops, RadiusIsThatOfABall) {
 TEST(Drops, DescriptionsOutOfRangeAreRefused) {
   for (const auto& change :
        {+[](DropletDescription& d) { d.capacity = 0; }, +[](DropletDescription& d) { d.capacity = 70000; },
-        +[](DropletDescription& d) { d.pair_period = 3; }, +[](DropletDescription& d) { d.viscosity = double(kNan); },
-        +[](DropletDescription& d) { d.largest = 1; }}) {
+        +[](DropletDescription& d) { d.pair_period = 3; }, +[](DropletDescription& d) { d.run_period = 1; },
+        +[](DropletDescription& d) { d.viscosity = double(kNan); }, +[](DropletDescription& d) { d.largest = 1; }}) {
     DropletDescription d;
     change(d);
     EXPECT_THROW(build(d), std::invalid_argument);

@@ -203,8 +203,8 @@ DropletModel build(const DropletDescription& d, double tick) {
   require(d.density.blood > 0 && d.density.saline > 0 && d.density.bile > 0, "droplets: densities");
   require(d.film_thickness >= 0 && d.hysteresis >= 0 && d.running_height > 0 && d.overhang >= 0 && d.splash > 0,
           "droplets: film, hysteresis, running height, overhang, splash");
-  require(power_of_two(d.pair_period) && power_of_two(d.run_period) && d.pair_period <= 16 && d.run_period <= 16,
-          "droplets: periods are powers of two up to 16");
+  const auto period = [](int n) { return power_of_two(n) && n >= 2 && n <= 16; };
+  require(period(d.pair_period) && period(d.run_period), "droplets: periods are 2, 4, 8 or 16");
   require(tick > 0 && tick <= 0.01, "droplets: tick");
   DropletModel m;
   static_cast<DropletDescription&>(m) = d;

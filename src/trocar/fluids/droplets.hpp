@@ -171,7 +171,7 @@ FluidReport resolve(const DropletModel& model, std::span<const Capsule> capsules
 /// One more drop. @return false if there is no room or nothing of it; nothing is booked
 bool add_drop(const DropletModel& model, Vec3f position, Vec3f velocity, const Mix& volume,
               DropletState& state) noexcept;
-/// Takes all drops within `radius` of p, nearest names first, up to `amount`; the last one in part.
+/// Takes all drops within `radius` of p in the order of the arrays, up to `amount`; the last one in part.
 Mix draw_drops(const DropletModel& model, Vec3f p, float radius, std::int64_t amount, DropletState& state) noexcept;
 /// Takes up to `amount` of the film at a place.
 Mix take_film(std::int32_t film, std::int64_t amount, DropletState& state) noexcept;

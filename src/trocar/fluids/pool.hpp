@@ -2,8 +2,9 @@
 // bile; what passes from cell to cell is a whole number too, so that the pool's content never changes by itself.
 //
 //   du/dt + u.grad u + g grad eta + (1/h) grad N = -(c |u|/h + 3 nu/h^2 + gamma) u      u at the cells' faces
-//   N = -(h^3/3) (d/dt + u.grad - div u) div u                                          [Serre 1953, Green & Naghdi
-//   1976] dV/dt = inflow - outflow                                                            V in the cells
+//   N = -(h^3/3) (d/dt + u.grad - div u) div u            [Serre 1953, Green & Naghdi 1976]
+//   dV/dt = inflow - outflow                              V in the cells
+//
 // Depth-averaged flow with the vertical inertia of the fluid: waves of k h go with w^2 = g h k^2 / (1 + k^2 h^2 / 3),
 // shallow ones with sqrt(g h). N's part that is linear in du/dt is solved implicitly, direction by direction (a
 // tridiagonal system a row), which also keeps the step stable in deep cells; the rest is explicit and bounded by the
@@ -16,7 +17,7 @@
 //
 //   PoolModel m = build(PoolDescription{.origin = {-0.08, -0.08, 0}, .nx = 128, .ny = 128, .cell = 0.00125});
 //   PoolState s = empty_pool(m);  PoolWork w = make_work(m);
-//   pour(m, cell_at(m, {0, 0, 0}), {.blood = 5 * kMillilitre}, s);
+//   pour(m, 64, 64, {.blood = kMillilitre}, s);
 //   advance(m, {.floor = heights}, s, w, ledger);               // every tick; works on every 4th
 #pragma once
 
