@@ -177,7 +177,8 @@ bool tool_on_sheet(Touching& c, const ToolState& tool_state, int body, const She
   };
   constexpr double kTick = 1e-3;
   const auto before = [&surface](int node) { return surface.position(node) - kTick * surface.nodes.velocity(node); };
-  const bool jaws_through = impales(shape.part[kJawA], sheet) || impales(shape.part[kJawB], sheet);
+  const bool jaws_through =
+      gap_of(shape) > kWide && (impales(shape.part[kJawA], sheet) || impales(shape.part[kJawB], sheet));
   bool remembers = false;
   gap = kRemember;
   for (const int part : {kShaft, kBothJaws, kJawA, kJawB}) {

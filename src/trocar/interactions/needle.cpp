@@ -227,15 +227,15 @@ Needle needle_of(Vec3d from0, Vec3d end0, Vec3d from1, Vec3d end1) noexcept {
   return n;
 }
 
-bool closed(const ToolShape& s, double thin) noexcept {
-  const Capsule &a = s.part[kJawA], &b = s.part[kJawB];
-  return length(a.b - b.b) - a.radius - b.radius < thin;
-}
-
 }  // namespace
 
 bool goes_through(const Needle& n, Vec3d p0, Vec3d q0, Vec3d p1, Vec3d q1) noexcept {
   return goes_through(frames_of(n), n.length, p0, q0, p1, q1);
+}
+
+double gap_of(const ToolShape& s) noexcept {
+  const Capsule &a = s.part[kJawA], &b = s.part[kJawB];
+  return length(a.b - b.b) - a.radius - b.radius;
 }
 
 Needles needles_of(const ToolShape& before, const ToolShape& now, double thin) noexcept {
@@ -243,8 +243,13 @@ Needles needles_of(const ToolShape& before, const ToolShape& now, double thin) n
   const Capsule &s0 = before.part[kShaft], &s1 = now.part[kShaft];
   if (!(length(s0.b - s0.a) > 0) || !(length(s1.b - s1.a) > 0)) return r;
   r.needle[r.count++] = needle_of(s0.a, before.pivot, s1.a, now.pivot);
-  if (closed(before, thin) && closed(now, thin))
-    r.needle[r.count++] = needle_of(before.pivot, before.frame.tip, now.pivot, now.frame.tip);
+  const double gap = std::max(gap_of(before), gap_of(now));
+  if (gap < thin) r.needle[r.count++] = needle_of(before.pivot, before.frame.tip, now.pivot, now.frame.tip);
+  if (gap < thin || gap > kWide) return r;
+  for (const int jaw : {kJawA, kJawB}) {
+    const Capsule &j0 = before.part[jaw], &j1 = now.part[jaw];
+    r.needle[r.count++] = needle_of(j0.a, j0.b, j1.a, j1.b);
+  }
   return r;
 }
 

@@ -23,6 +23,10 @@ namespace trocar::interactions {
 
 inline constexpr double kImpaled = 0.003;  ///< [m]
 
+/// Between the tips of the jaws [m]; beyond kWide they are wide open.
+inline constexpr double kWide = 0.004;
+double gap_of(const ToolShape& shape) noexcept;
+
 /// The axis of a part of an instrument, without thickness, before and after a tick.
 struct Needle {
   Vec3d end0, dir0, end1, dir1;  ///< dir: unit, towards the end
@@ -32,9 +36,10 @@ struct Needle {
   Vec3d carried(Vec3d p) const noexcept { return p + (end1 - end0) - dot(end0 - p, dir0) * (dir1 - dir0); }
 };
 
-/// An instrument's axes: of the shaft and of closed jaws. Open jaws have none: what they hook could never come off.
+/// An instrument's axes: of the shaft, and of closed jaws in one line or of each jaw that is hardly open. Jaws that are
+/// wide open have none: what they hook could never come off.
 struct Needles {
-  Needle needle[2];
+  Needle needle[3];
   int count = 0;
 };
 /// @param thin  jaws that are nearer to each other than this count as closed [m]
