@@ -9,8 +9,8 @@
 namespace trocar::interactions {
 namespace {
 
-constexpr double kStiffness = 150;    // [N/m] per sample, implicit on both sides, as organs among each other
-constexpr double kDamping = 0.05;     // [N s/m]
+constexpr double kStiffness = 600;    // [N/m] per sample, implicit on both sides: few samples bear a whole limb
+constexpr double kDamping = 0.2;      // [N s/m]
 constexpr double kQuickest = 0.0006;  // [m] a tick that two parts are moved apart
 constexpr double kDeepest = 0.010;    // [m] deeper than this is not contact
 constexpr double kBeside = 0.012;     // [m] farther than this from the nearest vertex, its plane says nothing
