@@ -177,8 +177,9 @@ bool tool_on_sheet(Touching& c, const ToolState& tool_state, int body, const She
   };
   constexpr double kTick = 1e-3;
   const auto before = [&surface](int node) { return surface.position(node) - kTick * surface.nodes.velocity(node); };
-  const bool jaws_through =
-      gap_of(shape) > kWide && (impales(shape.part[kJawA], sheet) || impales(shape.part[kJawB], sheet));
+  const bool shaft_through = impales(shape.part[kShaft], sheet);  // comes off over the jaws, if at all
+  const bool jaws_through = shaft_through || (gap_of(shape) > kWide &&
+                                              (impales(shape.part[kJawA], sheet) || impales(shape.part[kJawB], sheet)));
   bool remembers = false;
   gap = kRemember;
   for (const int part : {kShaft, kBothJaws, kJawA, kJawB}) {
@@ -189,7 +190,7 @@ bool tool_on_sheet(Touching& c, const ToolState& tool_state, int body, const She
     const double most = 0.9 * (both ? kRemember : rod.radius + sheet.half_thickness + kRemember);
     const bool near = meets_box(surface.pose->bounds, rod.a, rod.b, reach);
     const bool near_at_all = near || meets_box(surface.pose->bounds, rod.a, rod.b, std::max(reach, rod.radius + kLost));
-    const bool through = part == kShaft ? near && impales(rod, sheet) : jaws_through;
+    const bool through = part == kShaft ? shaft_through : jaws_through;
     for (std::size_t i = 0; i < skin.triangles.size(); ++i) {
       Vec3f& memory = side[i * std::size_t(kSheetParts) + std::size_t(part)];
       const auto& t = skin.triangles[i];

@@ -96,10 +96,21 @@ class Zone {
       : m_needle(needle), m_frames(frames_of(needle)), m_body(body), m_jaws(jaws), m_reach(reach), m_tick(tick) {}
 
   int carry() noexcept {
-    if (impales()) return 0;
     for (int round = 0; round < kMostRounds && one_round(); ++round) {
     }
     return m_count;
+  }
+
+  bool impales() const noexcept {
+    const Needle& n = m_needle;
+    for (std::size_t i = 0; i < m_body.skin.triangles.size(); ++i) {
+      if (!m_body.open.empty() && m_body.open[i]) continue;
+      const std::array<int, 3>& t = m_body.skin.triangles[i];
+      if (!near(t)) continue;
+      const Hit hit = pierced(n.end0, n.dir0, n.length, before(t[0]), before(t[1]), before(t[2]));
+      if (hit.hit && hit.deep > kImpaled) return true;
+    }
+    return false;
   }
 
  private:
@@ -150,18 +161,6 @@ class Zone {
     const double u = std::clamp(dot(m_needle.end0 - a, m_needle.dir0), 0.0, m_needle.length);
     const double size2 = std::max(geometry::distance2(a, before(t[1])), geometry::distance2(a, before(t[2])));
     return geometry::distance2(a, m_needle.end0 - u * m_needle.dir0) < 2 * (m_reach * m_reach + size2);
-  }
-
-  bool impales() const noexcept {
-    const Needle& n = m_needle;
-    for (std::size_t i = 0; i < m_body.skin.triangles.size(); ++i) {
-      if (!m_body.open.empty() && m_body.open[i]) continue;
-      const std::array<int, 3>& t = m_body.skin.triangles[i];
-      if (!near(t)) continue;
-      const Hit hit = pierced(n.end0, n.dir0, n.length, before(t[0]), before(t[1]), before(t[2]));
-      if (hit.hit && hit.deep > kImpaled) return true;
-    }
-    return false;
   }
 
   bool one_round() noexcept {
@@ -276,17 +275,21 @@ double way_of(const Carried& body) noexcept {
 }  // namespace
 
 int carry_along(const Needles& needles, const Carried& body, double gap, double tick) noexcept {
-  int sum = 0;
   double moved = -1;
+  std::array<double, 3> reach{};  // 0: too far away
   for (int i = 0; i < needles.count; ++i) {
     const Needle& n = needles.needle[i];
     const double way = way_of(n);
     if (moved < 0) moved = way_of(body);
     if (gap > 2 * way + moved) continue;
-    const double reach = way + moved;
-    if (!meets_box(body.before.bounds, n.end0, n.end0 - n.length * n.dir0, reach)) continue;
-    sum += Zone(n, body, i > 0, reach, tick).carry();
+    if (!meets_box(body.before.bounds, n.end0, n.end0 - n.length * n.dir0, way + moved)) continue;
+    // What one part of the instrument has impaled comes off over the others.
+    if (Zone(n, body, i > 0, way + moved, tick).impales()) return 0;
+    reach[std::size_t(i)] = way + moved;
   }
+  int sum = 0;
+  for (int i = 0; i < needles.count; ++i)
+    if (reach[std::size_t(i)] > 0) sum += Zone(needles.needle[i], body, i > 0, reach[std::size_t(i)], tick).carry();
   return sum;
 }
 
