@@ -99,7 +99,7 @@ bool tear_strand(StepContext& c, size_t i) noexcept {
 
 }  // namespace
 
-// 12. What is stretched beyond what it bears.
+// What is stretched beyond what it bears.
 void tear_tissue(StepContext& c) noexcept {
   const size_t solids = c.model.solids.size();
   for (size_t i = 0; i < solids; ++i)
