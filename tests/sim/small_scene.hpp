@@ -113,6 +113,43 @@ inline scene::Instrument instrument(const char* name, scene::InstrumentKind kind
   return i;
 }
 
+/// An artery from a node to another, straight or through a point between.
+inline void add_artery(scene::VesselTree& tree, const char* name, int from, int to, std::vector<Vec3d> path,
+                       std::vector<std::string> rides_on, double radius = 0.0006) {
+  scene::Vessel v;
+  v.name = name;
+  v.path = std::move(path);
+  v.rides_on = std::move(rides_on);
+  v.rides_at.resize(v.rides_on.size());
+  vessels::VesselSegment s;
+  s.from = from;
+  s.to = to;
+  for (size_t i = 1; i < v.path.size(); ++i) s.length += length(v.path[i] - v.path[i - 1]);
+  s.radius = radius;
+  s.wall.wave_speed = 9;
+  tree.graph.segments.push_back(s);
+  tree.vessels.push_back(std::move(v));
+}
+inline constexpr int kHeart = 0, kTubesEnd = 1, kFoldsEnd = 2, kBarsEnd = 3;  ///< nodes
+inline constexpr int kTubeArtery = 0, kFoldArtery = 1, kBarArtery = 2;
+
+/// One in the tube, one in the fold beside it, one through the bar; all begin at the heart.
+inline scene::VesselTree arteries() {
+  scene::VesselTree tree;
+  tree.name = "arteries";
+  tree.nodes = {"heart", "tubes_end", "folds_end", "bars_end"};
+  tree.graph.nodes = 4;
+  add_artery(tree, "tube_artery", kHeart, kTubesEnd, {{0.001, 0, 0}, {0.040, 0, 0}, {0.078, 0, 0}}, {"tube"});
+  add_artery(tree, "fold_artery", kHeart, kFoldsEnd, {{0.007, 0, -0.0045}, {0.018, 0, -0.005}, {0.029, 0, -0.0045}},
+             {"fold"}, 0.0004);
+  add_artery(tree, "bar_artery", kHeart, kBarsEnd, {{-0.002, kBarY, 0}, {0.020, kBarY, 0.0005}, {0.040, kBarY, 0}},
+             {"bar"});
+  for (int i = 0; i < 3; ++i)
+    tree.graph.ends.push_back(vessels::matched_end(tree.graph, i, 88 * vessels::kPascalPerMmHg, 10e-6 / 60, 1));
+  tree.graph.sources.push_back({.node = kHeart});
+  return tree;
+}
+
 inline scene::Description description() {
   scene::Description d;
   d.name = d.title = "small";
@@ -120,6 +157,7 @@ inline scene::Description description() {
   d.solids = {organ(), pad(), bar()};
   d.strands = {tube(), cord()};
   d.membranes = {fold()};
+  d.vessels = {arteries()};
   scene::Wall floor;
   floor.name = "floor";
   floor.rows = floor.columns = 3;
@@ -168,6 +206,7 @@ inline const sim::Model& bare() {
   static const sim::Model compiled = [] {
     scene::Description d = description();
     d.membranes.clear();
+    d.vessels.clear();
     return scene::compile(d);
   }();
   return compiled;
@@ -181,6 +220,9 @@ class Hands {
       m_tip[t] = kinematics::forward(model.hands[t].port, pose_of(model.start.tools[t])).tip;
   }
 
+  /// Where it clips and cuts the tube [m]; below 0: not at all.
+  double first_clip = 0.016, second_clip = 0.026, cut_at = 0.021;
+
   bool done() const { return m_at >= kTicks; }
   static constexpr int kTicks = 5800;
 
@@ -189,9 +231,9 @@ class Hands {
     if (t < 300) aim(s, kGrasper, 0.056, 0.012);
     if (t >= 300 && t < 700) handle(kGrasper, 0.95, 300);
     if (t >= 700 && t < 1100) m_tip[kGrasper] += Vec3d{0, 0, 0.008 / 400};
-    clip(s, t - 1100, 0.016);
-    clip(s, t - 2300, 0.026);
-    cut(s, t - 3500, 0.021);
+    clip(s, t - 1100, first_clip);
+    clip(s, t - 2300, second_clip);
+    cut(s, t - 3500, cut_at);
     cut_bar(t - 4400);
     for (size_t i = 0; i < m_model.hands.size(); ++i) {
       const kinematics::FulcrumPose pose = kinematics::inverse(m_model.hands[i].port, m_tip[i], roll(s, i));
@@ -231,14 +273,14 @@ class Hands {
     return now + std::clamp(wanted - now, -0.004, 0.004);
   }
   void clip(const sim::State& s, int t, double arc) {
-    if (t < 0 || t >= 1200) return;
+    if (t < 0 || t >= 1200 || arc < 0) return;
     if (t < 900) aim(s, kApplier, arc, 0.013);
     if (t >= 400 && t < 800) handle(kApplier, 1, 350);
     if (t >= 800) handle(kApplier, 0, 250);
     if (t >= 900) move(kApplier, {0.026, -0.02, 0.05});
   }
   void cut(const sim::State& s, int t, double arc) {
-    if (t < 0) return;
+    if (t < 0 || arc < 0) return;
     if (t < 700) aim(s, kScissors, arc, 0.010);
     if (t >= 350 && t < 600) handle(kScissors, 1, 200);
     if (t >= 600 && t < 900) handle(kScissors, 0, 200);

@@ -13,11 +13,6 @@ constexpr double kShut = 0.04;        // aperture at which the clip is set
 constexpr double kClipStiffness = 6;  // of a clipped element, times its own: titanium holds it straight
 constexpr double kTick = 1e-3;        // [s]
 
-/// The clip sits at the end of the jaws; its bend is this far from a point `along` from the pivot.
-double from_bend(const ToolModel& model, double along) noexcept {
-  return along - (model.jaw_length - model.clip_length);
-}
-
 struct Catch {
   int strand = -1;
   StrandPlace place;
@@ -51,6 +46,11 @@ void store(double (&out)[3], Vec3d v, const StrandFrame& f) noexcept {
 }
 
 }  // namespace
+
+// The clip sits at the end of the jaws.
+double from_bend(const ToolModel& model, double along) noexcept {
+  return along - (model.jaw_length - model.clip_length);
+}
 
 double leg_cover(double along, double radius, double length) noexcept {
   const double from = std::max(0.0, along - radius), to = std::min(length, along + radius);

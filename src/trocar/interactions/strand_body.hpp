@@ -52,10 +52,12 @@ struct Clip {
   double reach = 0;               ///< from the legs' bend to the strand's centre, along the axis [m]
   double length = 0;              ///< of its legs [m]
   std::uint64_t tick = 0;
-  std::int32_t strand = -1;  ///< -1: dropped
+  std::int32_t strand = -1;  ///< -1: on a vessel, or dropped
   std::int32_t tool = 0;
   std::int32_t tips_visible = 0;  ///< jaw tips in view when it closed, 0..2
-  std::int32_t reserved = 0;
+  std::int32_t vessel = 0;        ///< above 0: no strand lay between the legs, but this vessel + 1; s, axes are on it
+
+  bool dropped() const noexcept { return strand < 0 && vessel == 0; }
 };
 static_assert(sizeof(Clip) == 12 * 8 + 8 + 4 * 4, "no padding");
 

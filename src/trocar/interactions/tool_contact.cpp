@@ -213,20 +213,23 @@ void tool_on_surface(Touching& touching, int body, const Surface& surface, Netwo
   closed_jaws_on_surface(touching, body, surface, loads);
 }
 
-BetweenJaws between_jaws(const ToolModel& model, const ToolShape& shape, const StrandBody& body,
-                         const tissue::StrandState& state, int element) noexcept {
+BetweenJaws between_jaws(const ToolModel& model, const ToolShape& shape, Vec3d from, Vec3d to, double radius) noexcept {
   BetweenJaws r;
-  const size_t e = size_t(element);
-  const Vec3d a = to_jaw(shape, state.x[e]), b = to_jaw(shape, state.x[e + 1]);
+  const Vec3d a = to_jaw(shape, from), b = to_jaw(shape, to);
   const double dy = b.y - a.y;
   r.w = std::fabs(dy) > 1e-9 ? std::clamp(-a.y / dy, 0.0, 1.0) : 0.5;
   r.local = a + r.w * (b - a);
   r.crosses = (a.y > 0) != (b.y > 0);
-  const double radius = body.model.radius[e];
   if (std::fabs(r.local.y) > 0.5 * model.jaw_width + 0.001) return r;
   if (r.local.z < -radius || r.local.z > model.jaw_length + 0.5 * radius) return r;
   r.inside = std::fabs(r.local.x) <= shape.half_opening(std::max(r.local.z, 0.0)) + 0.3 * radius;
   return r;
+}
+
+BetweenJaws between_jaws(const ToolModel& model, const ToolShape& shape, const StrandBody& body,
+                         const tissue::StrandState& state, int element) noexcept {
+  const size_t e = size_t(element);
+  return between_jaws(model, shape, state.x[e], state.x[e + 1], body.model.radius[e]);
 }
 
 namespace {

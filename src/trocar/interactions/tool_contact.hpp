@@ -35,5 +35,7 @@ struct BetweenJaws {
 };
 BetweenJaws between_jaws(const ToolModel& model, const ToolShape& shape, const StrandBody& body,
                          const tissue::StrandState& state, int element) noexcept;
+/// The same of anything straight with these ends.
+BetweenJaws between_jaws(const ToolModel& model, const ToolShape& shape, Vec3d a, Vec3d b, double radius) noexcept;
 
 }  // namespace trocar::interactions

@@ -11,6 +11,7 @@
 #include <trocar/scene/compile_solid.hpp>
 #include <trocar/scene/compile_targets.hpp>
 #include <trocar/scene/compile_tets.hpp>
+#include <trocar/scene/compile_vessels.hpp>
 
 namespace trocar::scene {
 namespace {
@@ -229,6 +230,7 @@ sim::Model compile(const Description& d, CompileReport* report) {
     if (tissue) compile_pouch(pouch, *tissue, d.gravity, model, faults, report);
   }
   for (const Sheet& sheet : d.sheets) model.sheets.push_back(compile_sheet(sheet, model));
+  compile_vessels(d, model, faults, report);
   compile_hands(d, model, faults);
   if (!faults.empty()) throw core::BadInput(faults);
   compile_contacts(model);

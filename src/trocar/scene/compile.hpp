@@ -15,8 +15,8 @@ namespace trocar::scene {
 
 /// What a body compiled to, for `trocar check`.
 struct BodyReport {
-  std::string name, kind;        ///< "solid", "strand", "membrane", "pouch", "wall"
-  int nodes = 0, springs = 0;    ///< elements for a strand, triangles for a wall
+  std::string name, kind;        ///< "solid", "strand", "membrane", "pouch", "wall", "vessels"
+  int nodes = 0, springs = 0;    ///< elements for a strand, triangles for a wall; of vessels: cells of flow, segments
   int substeps = 0;              ///< per tick; 0: implicit or fixed
   double dt_limit = 0;           ///< sufficient stability limit [s]
   double dt_printed = 0;         ///< what the paper's (4b) allows with each node's stiffest spring, for comparison [s]

@@ -10,6 +10,7 @@
 #include <trocar/core/error.hpp>
 #include <trocar/geometry/tet_mesh.hpp>
 #include <trocar/numerics/vec3.hpp>
+#include <trocar/scene/vessel_tree.hpp>
 
 namespace trocar::scene {
 
@@ -221,6 +222,7 @@ struct Description {
   std::vector<Sheet> sheets;
   std::vector<Membrane> membranes;
   std::vector<Pouch> pouches;
+  std::vector<VesselTree> vessels;  ///< heart and blood are the first one's
   std::vector<Port> ports;
   std::vector<Instrument> instruments;
   std::vector<Placement> placements;  ///< tools, in hand order: [0] left, [1] right, [2] assistant/third

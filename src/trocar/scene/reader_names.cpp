@@ -1,5 +1,6 @@
 // What can be told only when all files are read: names that nobody has or that two have, reaches across things.
 #include <algorithm>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -21,6 +22,8 @@ const char* noun(Reference::To to) {
       return "strand";
     case Reference::To::solid_or_strand:
       return "solid or strand";
+    case Reference::To::carrier:
+      return "solid, strand, membrane or pouch";
     case Reference::To::port:
       return "port";
     case Reference::To::instrument:
@@ -85,6 +88,10 @@ bool Reading::crowded() {
 std::vector<std::string> Reading::names(Reference::To to) const {
   std::vector<std::string> all;
   using To = Reference::To;
+  if (to == To::carrier) {
+    add_names(description.solids, all), add_names(description.strands, all);
+    add_names(description.membranes, all), add_names(description.pouches, all);
+  }
   if (to == To::tissue) add_names(description.tissues, all);
   if (to == To::solid || to == To::solid_or_strand) add_names(description.solids, all);
   if (to == To::strand || to == To::solid_or_strand) add_names(description.strands, all);
@@ -97,6 +104,7 @@ void Reading::check_names() {
   check_unique("tissue", places_of(description.tissues), m_faults);
   check_unique("port", places_of(description.ports), m_faults);
   check_unique("instrument", places_of(description.instruments), m_faults);
+  check_vessel_names();
   std::vector<NamedPlace> organs;
   const auto add = [&](const auto& list) {
     for (const auto& body : list) organs.emplace_back(body.name, body.at);
@@ -104,6 +112,19 @@ void Reading::check_names() {
   add(description.solids), add(description.strands), add(description.walls), add(description.sheets);
   add(description.membranes), add(description.pouches);
   check_unique("organ", organs, m_faults);
+}
+
+/// Those of one file are compared there; there may be thousands.
+void Reading::check_vessel_names() {
+  if (description.vessels.size() < 2) return;
+  std::map<std::string, core::Location> seen;
+  for (const VesselTree& tree : description.vessels)
+    for (const Vessel& v : tree.vessels) {
+      const auto [first, fresh] = seen.try_emplace(v.name, v.at);
+      if (!fresh && first->second.file != v.at.file)
+        tell(m_faults, {v.at, fmt::format("expected every vessel name once, got \"{}\" again (first in {}:{}:{})",
+                                          v.name, first->second.file, first->second.line, first->second.column)});
+    }
 }
 
 /// Does the shaft fit through its port and reach from there to its tip?

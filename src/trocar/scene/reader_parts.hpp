@@ -34,7 +34,7 @@ inline bool beyond(double s, double whole) { return whole > 0 && s > 1.05 * whol
 
 /// A name that must belong to something by the time all files are read.
 struct Reference {
-  enum class To { tissue, solid, strand, solid_or_strand, port, instrument };
+  enum class To { tissue, solid, strand, solid_or_strand, carrier, port, instrument };
   To to;
   std::string name;
   core::Location at;
@@ -74,6 +74,7 @@ class Reading {
   void scene(const JsonObject& o, const std::filesystem::path& folder);
   void tissue_table(const JsonObject& o, const std::filesystem::path& folder);
   void tissue(const JsonObject& o, const std::filesystem::path& folder);
+  void vessels(const JsonObject& o, const std::filesystem::path& folder);
   void port(const JsonObject& o);
   Placement placement(const JsonObject& o);
   void scope(const JsonObject& o);
@@ -101,6 +102,7 @@ class Reading {
   bool crowded();
   std::vector<std::string> names(Reference::To to) const;
   void check_names();
+  void check_vessel_names();
   void check_tool(const Placement& tool);
 
   /// Where a sheet or membrane ends on a strand that may not be known yet.

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <trocar/scene/reader_parts.hpp>
+#include <trocar/scene/vessel_file.hpp>
 
 namespace trocar::scene {
 
@@ -14,6 +15,7 @@ void Reading::scene(const JsonObject& o, const fs::path& folder) {
   description.gravity = o.vec3("gravity_m_s2", description.gravity);
   includes(o, "tissues", folder, tissue_shape(), &Reading::tissue_table, &Reading::tissue);
   organs(o, folder);
+  includes(o, "vessels", folder, vessels_shape(), &Reading::vessels, &Reading::vessels);
   includes(o, "instruments", folder, instrument_shape(), &Reading::instrument, &Reading::instrument);
   for (const JsonObject& p : o.objects("ports")) port(p);
   for (const JsonObject& t : o.objects("tools")) {
@@ -23,6 +25,18 @@ void Reading::scene(const JsonObject& o, const fs::path& folder) {
     if (t.has("tip_mm")) m_tools.push_back(description.placements.back());
   }
   for (const JsonObject& s : o.objects("scope")) scope(s);
+}
+
+void Reading::vessels(const JsonObject& o, const fs::path&) {
+  VesselTree tree = read_vessels(o, m_faults);
+  for (const Vessel& v : tree.vessels)
+    for (std::size_t i = 0; i < v.rides_on.size(); ++i)
+      m_references.push_back({Reference::To::carrier, v.rides_on[i], v.rides_at[i]});
+  if (tree.says_heart && !description.vessels.empty())
+    tell(m_faults, {tree.heart_at,
+                    "expected heart and blood of a patient in the scene's first file of vessels, got some "
+                    "in a second one"});
+  description.vessels.push_back(std::move(tree));
 }
 
 void Reading::tissue_table(const JsonObject& o, const fs::path& folder) {

@@ -111,6 +111,7 @@ class JsonObject {
   /// The raw values of an array key (empty where it is not there or broken).
   const std::vector<JsonValue>& values(std::string_view key) const;
 
+  const JsonValue& value() const { return *m_value; }               ///< as it stands in the file
   core::Location at() const;                                        ///< where the object begins
   core::Location at(std::string_view key) const;                    ///< where the key's value begins, else at()
   core::Location at(std::string_view key, std::size_t item) const;  ///< where an array's item begins

@@ -1,6 +1,7 @@
 // The keys of scene, organ, instrument and tissue files: one table per kind of object. Ranges are what a person could
 // mean, wide enough for any organ; they catch slips of units and of the decimal point.
 #include <trocar/scene/reader.hpp>
+#include <trocar/scene/vessel_file.hpp>
 
 namespace trocar::scene {
 namespace {
@@ -312,6 +313,7 @@ const Shape& scene_shape() {
                   keys::vec3("gravity_m_s2", -100, 100, "in the patient's frame, default (0, 0, -9.81)"),
                   needed(keys::includes("tissues", tissue_row, "materials: tables in files, or rows")),
                   needed(keys::includes("organs", organ, "organs: files or objects")),
+                  keys::includes("vessels", vessels_shape, "arteries and veins: files or objects"),
                   needed(keys::includes("instruments", instrument, "instruments: files or objects")),
                   needed(keys::objects("ports", port, 1, "trocars")),
                   needed(keys::objects("tools", tool, 0, "in the order of the hands: left, right, assistant")),

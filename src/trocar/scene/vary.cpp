@@ -108,6 +108,19 @@ void bend(Pouch& pouch, const Warp& warp) {
   for (Anchor& a : pouch.held) a.centre = warp(a.centre);
 }
 
+double chords(const std::vector<Vec3d>& points) {
+  double sum = 0;
+  for (size_t i = 1; i < points.size(); ++i) sum += length(points[i] - points[i - 1]);
+  return sum;
+}
+
+/// Its blood has farther to go where its path is longer; calibre and wall stay.
+void bend(Vessel& vessel, vessels::VesselSegment& segment, const Warp& warp) {
+  const double before = chords(vessel.path);
+  for (Vec3d& p : vessel.path) p = warp(p);
+  if (before > 0) segment.length *= chords(vessel.path) / before;
+}
+
 double around_one(core::Random& random, double most) { return 1 + random.uniform(-most, most); }
 
 Warp drawn_warp(const Description& d, core::Random& random, const Variation& most) {
@@ -152,6 +165,8 @@ void vary(Description& d, std::uint64_t seed, const Variation& most) {
     }
     for (Vec3d& p : fold.base) p = warp(p);
   };
+  for (VesselTree& tree : d.vessels)
+    for (size_t i = 0; i < tree.vessels.size(); ++i) bend(tree.vessels[i], tree.graph.segments[i], warp);
   for (Sheet& sheet : d.sheets) bend_fold(sheet);
   for (Membrane& membrane : d.membranes) bend_fold(membrane);
 }

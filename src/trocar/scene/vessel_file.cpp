@@ -49,6 +49,11 @@ class VesselReading {
   VesselTree read() {
     const std::size_t before = m_faults.size();
     m_tree.name = m_file.text("name");
+    m_tree.at = m_file.at();
+    m_tree.text = m_file.value();
+    m_tree.pulse_gain = m_file.number("pulse_gain", 1);
+    m_tree.says_heart = m_file.names("heart") || m_file.names("blood_L");
+    m_tree.heart_at = m_file.at(m_file.names("heart") ? "heart" : "blood_L");
     m_tree.graph.tree = m_file.flag("tree");
     m_tree.graph.blood.volume = m_file.number("blood_L", 5) / 1000;
     heart();
@@ -104,6 +109,7 @@ class VesselReading {
     v.name = o.text("name");
     v.path = from_mm(o.points("path_mm"));
     v.rides_on = o.texts("rides_on");
+    for (std::size_t i = 0; i < v.rides_on.size(); ++i) v.rides_at.push_back(o.at("rides_on", i));
     v.reach = from_mm(o.number("reach_mm", 4));
     v.at = o.at();
     vessels::VesselSegment s;
@@ -256,7 +262,10 @@ class VesselReading {
 VesselTree read_vessels(const std::filesystem::path& path, std::vector<core::Fault>& faults,
                         const MemoryFiles* memory) {
   const JsonDocument document = load_json(path, faults, memory);
-  const JsonObject file(document.root, vessels_shape(), document.file, faults);
+  return read_vessels(JsonObject(document.root, vessels_shape(), document.file, faults), faults);
+}
+
+VesselTree read_vessels(const JsonObject& file, std::vector<core::Fault>& faults) {
   return VesselReading(file, faults).read();
 }
 

@@ -10,33 +10,18 @@
 #include <string>
 #include <vector>
 
-#include <trocar/scene/json.hpp>
 #include <trocar/scene/shape.hpp>
-#include <trocar/vessels/graph.hpp>
+#include <trocar/scene/vessel_tree.hpp>
 
 namespace trocar::scene {
-
-/// A vessel: the graph's segment of the same number, and where it runs.
-struct Vessel {
-  std::string name;
-  std::vector<Vec3d> path;            ///< of its middle, from its first node to its second; two points or more [m]
-  std::vector<std::string> rides_on;  ///< solids and strands that it goes with where they are near
-  double reach = 0.004;               ///< how near that is [m]
-  core::Location at;
-};
-
-struct VesselTree {
-  std::string name;
-  vessels::VesselGraph graph;
-  std::vector<Vessel> vessels;     ///< (segments)
-  std::vector<std::string> nodes;  ///< names, in the graph's order
-};
 
 /// Throws core::BadInput with every fault. With `memory` the file is looked up there.
 VesselTree read_vessels(const std::filesystem::path& path, const MemoryFiles* memory = nullptr);
 
 /// The same, faults appended; with any, what is returned is not sound.
 VesselTree read_vessels(const std::filesystem::path& path, std::vector<core::Fault>& faults, const MemoryFiles* memory);
+/// The same of a file that is open already.
+VesselTree read_vessels(const JsonObject& file, std::vector<core::Fault>& faults);
 
 const Shape& vessels_shape();
 

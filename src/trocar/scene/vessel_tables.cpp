@@ -22,7 +22,7 @@ const Shape& vessel() {
        keys::number("thickness_mm", 0.001, 10, "of its wall"),
        keys::number("poisson", 0, 0.5, "of its wall, default 0, as in the formula of Moens and Korteweg"),
        keys::number("loss", 0, 1000, "what a narrow or a bend costs beside friction, in rho u^2 / 2, default 0"),
-       keys::texts("rides_on", "solids and strands that it goes with where they are near"),
+       keys::texts("rides_on", "solids, strands, membranes and pouches that it goes with where they are near"),
        keys::number("reach_mm", 0.1, 100, "how near that is, default 4")}};
   return shape;
 }
@@ -75,6 +75,8 @@ std::vector<Key> vessels_keys() {
           keys::choice("kind", {"arteries", "veins"}, "default arteries; opened veins ooze also at low pressure"),
           keys::flag("tree", "default false; true: vessels that meet again are a fault"),
           keys::number("blood_L", 0.01, 100, "in the whole patient, default 5"),
+          keys::number("pulse_gain", 0, 50,
+                       "of the pulse's force on tissue and of what is shown of it, default 1: physical"),
           keys::object("heart", heart, "default: as at rest"),
           std::move(list),
           std::move(ends),

@@ -294,6 +294,23 @@ JsonValue organs(const Description& d) {
   return json_array({std::move(o)});
 }
 
+/// As it was read, but for the places of its paths, which may have been moved.
+JsonValue written(const VesselTree& tree) {
+  JsonValue o = tree.text;
+  for (JsonMember& member : o.members) {
+    if (member.key != "vessels") continue;
+    for (size_t i = 0; i < member.value.items.size() && i < tree.vessels.size(); ++i)
+      for (JsonMember& key : member.value.items[i].members) {
+        if (key.key == "path_mm") {
+          key.value = mm(tree.vessels[i].path);
+        } else if (key.key == "length_mm") {
+          key.value = mm(tree.graph.segments[i].length);
+        }
+      }
+  }
+  return o;
+}
+
 }  // namespace
 
 std::string write_scene(const Description& d) {
@@ -304,6 +321,7 @@ std::string write_scene(const Description& d) {
   put(o, "gravity_m_s2", json_array({json_number(d.gravity.x), json_number(d.gravity.y), json_number(d.gravity.z)}));
   put(o, "tissues", list(d.tissues, [](const Tissue& x) { return written(x); }));
   put(o, "organs", organs(d));
+  if (!d.vessels.empty()) put(o, "vessels", list(d.vessels, [](const VesselTree& x) { return written(x); }));
   put(o, "instruments", list(d.instruments, [](const Instrument& x) { return written(x); }));
   put(o, "ports", list(d.ports, [](const Port& x) { return written(x); }));
   put(o, "tools", list(d.placements, [](const Placement& x) { return written(x); }));

@@ -3,6 +3,7 @@
 
 #include <trocar/interactions/clip.hpp>
 #include <trocar/interactions/cut.hpp>
+#include <trocar/sim/circulation.hpp>
 #include <trocar/sim/hands.hpp>
 #include <trocar/sim/jaws.hpp>
 #include <trocar/sim/posing.hpp>
@@ -52,7 +53,10 @@ void cut_cuttables(StepContext& c, size_t t, const geometry::Blade& blade) noexc
         tissue::cut(c.model.cuttables[i].body, blade, s.cuttables[i], c.work.cuttable_work[i]);
     if (book.snapped + book.parted > 0) pose_cuttable(c, i);  // nodes have moved to the blade
     if (book.full) c.report.flags |= StepReport::kBookFull;
-    if (book.parted > 0) record_organ_cut(c, t, organ);
+    if (book.parted > 0) {
+      record_organ_cut(c, t, organ);
+      open_vessels(c, blade, {Carriers::organ, std::int32_t(organ)}, int(t));
+    }
   }
 }
 
@@ -79,6 +83,7 @@ void cut_folds(StepContext& c, size_t t, const geometry::Blade& blade, bool clos
     const interactions::FoldCut fold =
         interactions::cut_membrane(blade, m.sheet, m.depth, s.membranes[i], s.torn[i], c.work.parts);
     if (fold.severed == 0) continue;
+    if (closed_walls) open_vessels(c, blade, {Carriers::membrane, std::int32_t(i)}, int(t));
     interactions::Cut& cut = s.cuts[size_t(place)];
     if (place == s.cut_count) {
       ++s.cut_count;
@@ -89,6 +94,15 @@ void cut_folds(StepContext& c, size_t t, const geometry::Blade& blade, bool clos
     cut.membrane = std::int32_t(i);
     cut.fold = fold.depth;
     cut.tips_visible = jaw_tips_visible(c.model, c.state, int(t));
+  }
+}
+
+/// Vessels within strands that these blades have just cut through.
+void open_with_strands(StepContext& c, size_t t, int first_cut) noexcept {
+  for (int i = first_cut; i < c.state.cut_count; ++i) {
+    const interactions::Cut& cut = c.state.cuts[size_t(i)];
+    if (cut.strand < 0 || cut.fraction < interactions::kThrough) continue;
+    open_vessels_within(c, cut.strand, place_at(c.model.bodies[size_t(cut.strand)], cut.s).element, int(t));
   }
 }
 
@@ -126,7 +140,8 @@ void work_jaws(StepContext& c) noexcept {
                               jaw_tips_visible(c.model, c.state, int(t)), s.tick, tool, {s.clips, s.clip_count});
       if (fired) {
         const int clip = s.clip_count - 1;
-        tell(c, s.clips[size_t(clip)].strand < 0 ? Event::dropped_clip : Event::clipped, int(t), clip);
+        clip_vessels(c, t, clip);
+        tell(c, s.clips[size_t(clip)].dropped() ? Event::dropped_clip : Event::clipped, int(t), clip);
       } else if (tool.clips_left < clips) {
         c.report.flags |= StepReport::kBookFull;
       }
@@ -138,7 +153,10 @@ void work_jaws(StepContext& c) noexcept {
                       s.tick, tool, {s.cuts, s.cut_count});
       if (armed && !tool.armed) {
         cut_lattices(c, t);
-        cut_folds(c, t, interactions::closed_blades(model, c.work.shapes[t]), false);
+        const geometry::Blade blade = interactions::closed_blades(model, c.work.shapes[t]);
+        cut_folds(c, t, blade, false);
+        open_with_strands(c, t, before);
+        open_vessels(c, blade, {}, int(t));
         if (s.cut_count == interactions::kMaxCuts) c.report.flags |= StepReport::kBookFull;
       }
       for (int cut = before; cut < s.cut_count; ++cut) tell(c, Event::cut, int(t), cut);

@@ -63,6 +63,7 @@ int Model::organ_index(const std::string& organ) const {
 
 int Model::membrane_index(const std::string& membrane) const { return find_name(membranes, membrane); }
 int Model::strand_index(const std::string& strand) const { return find_name(strands, strand); }
+int Model::vessel_index(const std::string& vessel) const { return find_name(vessels.list, vessel); }
 int Model::hand_index(const std::string& trocar) const { return find_name(hands, trocar); }
 int HandModel::find(const std::string& instrument) const { return find_name(rack, instrument); }
 
@@ -140,6 +141,15 @@ void seal(Model& model) {
     h.add(s.target);
     h.add(s.where);
     h.add(s.w);
+  }
+  if (model.vessels.there()) {
+    add_to_hash(h, model.vessels.flow);
+    for (const Vessel& v : model.vessels.list) {
+      interactions::add_to_hash(h, v.path);
+      h.add(v.gain);
+      h.add(v.mean_pressure);
+      h.add(std::int32_t(v.vein));
+    }
   }
   model.hash = h.value();
 }

@@ -13,9 +13,11 @@
 #include <trocar/interactions/strand_body.hpp>
 #include <trocar/interactions/surface.hpp>
 #include <trocar/interactions/tool.hpp>
+#include <trocar/interactions/vessel_path.hpp>
 #include <trocar/sim/input.hpp>
 #include <trocar/tissue/cuttable_skin.hpp>
 #include <trocar/tissue/prestress.hpp>
+#include <trocar/vessels/flow.hpp>
 
 namespace trocar::sim {
 
@@ -100,6 +102,22 @@ struct MembraneModel {
   double failure_strain = 0;                    ///< 0: it never tears
 };
 
+/// An artery or a vein: the flow's segment of the same number, and where it runs.
+struct Vessel {
+  std::string name;
+  bool vein = false;
+  double gain = 1;           ///< of what the pulse does to its surroundings, and of what is shown; 1 = physical
+  double mean_pressure = 0;  ///< in its middle, at rest [Pa]
+  interactions::VesselPath path;
+};
+struct VesselsModel {
+  std::vector<Vessel> list;
+  vessels::FlowModel flow;
+  vessels::FlowState start;  ///< after some seconds of heartbeat
+
+  bool there() const noexcept { return !list.empty(); }
+};
+
 /// A hand at a trocar, and the instruments that go through it.
 struct HandModel {
   std::string name;                           ///< of the trocar: "left_lateral"
@@ -143,6 +161,7 @@ struct Model {
   std::vector<WallModel> walls;
   std::vector<SheetModel> sheets;
   std::vector<MembraneModel> membranes;
+  VesselsModel vessels;
   std::vector<HandModel> hands;  ///< at most kMaxTools
   ScopeModel scope;
   Input start;  ///< everything as placed
@@ -169,6 +188,7 @@ struct Model {
   int strand_index(const std::string& strand) const;      ///< -1 if there is none
   int membrane_index(const std::string& membrane) const;  ///< -1 if there is none
   int target_index(const std::string& target) const;      ///< -1 if there is none
+  int vessel_index(const std::string& vessel) const;      ///< -1 if there is none
   int hand_index(const std::string& trocar) const;        ///< -1 if there is none
 };
 

@@ -25,7 +25,7 @@ void make_counters(const Model& model, State& s) {
 
 }  // namespace
 
-State initial_state(const Model& model) {
+State drawn_bodies(const Model& model) {
   State s;
   for (const SolidModel& solid : model.solids) {
     s.solids.push_back(tissue::rest_state(solid.network));
@@ -33,6 +33,15 @@ State initial_state(const Model& model) {
   }
   for (const CuttableOrgan& c : model.cuttables) s.cuttables.push_back(tissue::rest_state(c.body));
   for (const interactions::StrandBody& body : model.bodies) s.strands.push_back(tissue::rest_state(body.model));
+  for (const MembraneModel& m : model.membranes) {
+    s.membranes.push_back(tissue::rest_state(m.sheet));
+    s.torn.emplace_back(m.sheet.triangles.size(), std::uint8_t(0));
+  }
+  return s;
+}
+
+State initial_state(const Model& model) {
+  State s = drawn_bodies(model);
   for (size_t t = 0; t < model.hands.size(); ++t) {
     interactions::ToolState& tool = s.tools[t];
     const ToolInput& in = model.start.tools[t];
@@ -55,16 +64,17 @@ State initial_state(const Model& model) {
   for (const interactions::StrandBody& body : model.bodies) elements += size_t(body.nodes() - 1);
   s.tool_side.resize(model.hands.size() * elements * size_t(interactions::kToolParts));
   size_t triangles = 0;
-  for (const MembraneModel& m : model.membranes) {
-    s.membranes.push_back(tissue::rest_state(m.sheet));
-    s.torn.emplace_back(m.sheet.triangles.size(), std::uint8_t(0));
-    triangles += m.sheet.triangles.size();
-  }
+  for (const MembraneModel& m : model.membranes) triangles += m.sheet.triangles.size();
   s.sheet_side.resize(model.hands.size() * triangles * size_t(interactions::kSheetParts));
   s.sheet_near.resize(model.hands.size() * model.membranes.size());
   s.touches.resize(model.hands.size());
   for (size_t t = 0; t < model.hands.size(); ++t) interactions::start_here(s.tools[t], s.touches[t]);
   s.seen.resize(model.samples.size());
+  if (model.vessels.there()) {
+    s.flow = model.vessels.start;
+    s.openings.resize(interactions::kMaxOpenings);
+    s.vessel_clips.resize(interactions::kMaxVesselClips);
+  }
   make_counters(model, s);
   return s;
 }
@@ -100,6 +110,13 @@ std::uint64_t hash_of(const State& s) noexcept {
     for (const std::vector<std::uint8_t>& counters : *bodies) h.add(counters);
   for (const std::vector<std::uint8_t>& torn : s.torn) h.add(torn);
   for (const std::vector<std::uint8_t>& parted : s.parted) h.add(parted);
+  if (!s.openings.empty()) {
+    vessels::add_to_hash(h, s.flow);
+    h.add(s.openings);
+    h.add(s.vessel_clips);
+    h.add(s.opening_count);
+    h.add(s.vessel_clip_count);
+  }
   return h.value();
 }
 
@@ -246,6 +263,37 @@ void take_body(Source& in, const tissue::CuttableModel& m, tissue::CuttableState
     tissue::set_position(m, s, n, in.take_place(s.tets.rest[size_t(n)]));
 }
 
+/// Pulse, bleeding, clips: small beside the tissue.
+template <class F>
+void for_flow(F&& each, auto& s) {
+  each(s.flow.p), each(s.flow.q), each(s.flow.openings);
+}
+void put_vessels(std::vector<std::uint8_t>& out, const State& s) {
+  for_flow([&out](const auto& values) { put(out, values.data(), values.size()); }, s);
+  put(out, &s.flow.bled, 1);
+  put(out, &s.opening_count, 1);
+  put(out, s.openings.data(), size_t(s.opening_count));
+  put(out, &s.vessel_clip_count, 1);
+  put(out, s.vessel_clips.data(), size_t(s.vessel_clip_count));
+}
+void take_vessels(Source& in, const Model& model, State& s) {
+  for_flow([&in](auto& values) { in.take(values.data(), values.size()); }, s);
+  in.take(&s.flow.bled, 1);
+  in.take(&s.opening_count, 1);
+  in.good = in.good && s.opening_count >= 0 && s.opening_count <= interactions::kMaxOpenings;
+  if (in.good) in.take(s.openings.data(), size_t(s.opening_count));
+  in.take(&s.vessel_clip_count, 1);
+  in.good = in.good && s.vessel_clip_count >= 0 && s.vessel_clip_count <= interactions::kMaxVesselClips;
+  if (in.good) in.take(s.vessel_clips.data(), size_t(s.vessel_clip_count));
+  const auto placed = [&model](std::int32_t vessel, double at) {
+    return vessel >= 0 && size_t(vessel) < model.vessels.list.size() && at >= 0 && at <= 1;
+  };
+  for (int i = 0; in.good && i < s.opening_count; ++i)
+    in.good = placed(s.openings[size_t(i)].vessel, s.openings[size_t(i)].s);
+  for (int i = 0; in.good && i < s.vessel_clip_count; ++i)
+    in.good = placed(s.vessel_clips[size_t(i)].vessel, s.vessel_clips[size_t(i)].s);
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> display_bytes(const Model& model, const State& s) {
@@ -280,6 +328,7 @@ std::vector<std::uint8_t> display_bytes(const Model& model, const State& s) {
       put(out, &n, 1);
       put(out, open.data(), open.size());
     }
+  if (model.vessels.there()) put_vessels(out, s);
   return out;
 }
 
@@ -313,7 +362,9 @@ bool sound(const Model& model, const State& s) {
     return i >= -1 && i < std::int32_t(model.strands.size()) && std::isfinite(place);
   };
   for (int i = 0; i < s.clip_count; ++i)
-    if (!names_strand(s.clips[size_t(i)].strand, s.clips[size_t(i)].s)) return false;
+    if (!names_strand(s.clips[size_t(i)].strand, s.clips[size_t(i)].s) || s.clips[size_t(i)].vessel < 0 ||
+        s.clips[size_t(i)].vessel > std::int32_t(model.vessels.list.size()))
+      return false;
   for (int i = 0; i < s.cut_count; ++i)
     if (!names_strand(s.cuts[size_t(i)].strand, s.cuts[size_t(i)].s) || s.cuts[size_t(i)].solid < -1 ||
         s.cuts[size_t(i)].solid >= model.organs() || s.cuts[size_t(i)].membrane < -1 ||
@@ -364,6 +415,7 @@ bool restore_display(const Model& model, const std::vector<std::uint8_t>& bytes,
         if (in.good) parted[triangle] = 1;
       }
     }
+  if (model.vessels.there()) take_vessels(in, model, s);
   if (!in.good || in.at != bytes.size() || !sound(model, s)) return false;
   state = std::move(s);
   return true;

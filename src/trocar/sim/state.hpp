@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <trocar/interactions/tool_contact.hpp>
+#include <trocar/interactions/vessel_tools.hpp>
 #include <trocar/sim/model.hpp>
 
 namespace trocar::sim {
@@ -33,10 +34,17 @@ struct State {
   /// membranes, nodes of strands; empty for bodies that never tear.
   std::vector<std::vector<std::uint8_t>> overstretched_organs, overstretched_membranes, overstretched_strands;
   std::vector<interactions::TouchBook> touches;  ///< (hands) what instruments were near and where it sticks to them
-  std::vector<std::uint8_t> seen;                ///< (samples) 1 = in view when last looked
+  /// Blood, and what opens and closes its vessels; all empty in scenes without vessels.
+  vessels::FlowState flow;
+  std::vector<interactions::VesselOpening> openings;   ///< (kMaxOpenings)
+  std::vector<interactions::VesselClip> vessel_clips;  ///< (kMaxVesselClips)
+  std::int32_t opening_count = 0, vessel_clip_count = 0;
+  std::vector<std::uint8_t> seen;  ///< (samples) 1 = in view when last looked
 };
 
 State initial_state(const Model& model);
+/// Bodies as drawn and nothing else: for compile, before the Model is complete.
+State drawn_bodies(const Model& model);
 
 /// Where an organ's nodes are: valid until its next tick.
 tissue::NodeView nodes_of(const Model& model, const State& state, int organ) noexcept;

@@ -1,4 +1,5 @@
 #include <trocar/sim/bodies.hpp>
+#include <trocar/sim/circulation.hpp>
 #include <trocar/sim/contacts.hpp>
 #include <trocar/sim/hands.hpp>
 #include <trocar/sim/jaws.hpp>
@@ -38,16 +39,19 @@ void sum_up(StepContext& c) noexcept {
 constexpr Stage kStages[] = {
     {"move hands", move_hands},
     {"pose skins", pose_skins},
+    {"pose vessels", pose_vessels},
     {"hang organs", hang_organs},
     {"work jaws", work_jaws},
     {"touch tissue", touch_tissue},
     {"touch organs", touch_organs},
+    {"beat", beat},
     {"pull on borders", pull_on_borders},
     {"advance strands", advance_strands},
     {"advance organs", advance_organs},
     {"advance membranes", advance_membranes},
     {"feel", feel},
     {"tear", tear_tissue},
+    {"let blood flow", let_blood_flow},
     {"see", see},
     {"sum up", sum_up},
 };

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include <trocar/interactions/cut.hpp>
+#include <trocar/sim/circulation.hpp>
 #include <trocar/sim/tearing.hpp>
 #include <trocar/tissue/overstretch.hpp>
 
@@ -61,6 +62,7 @@ bool tear_solid(StepContext& c, size_t i) noexcept {
   if (!tear.found) return false;
   const int severed =
       interactions::cut_organ(tear.blade(), solid.network, solid.fine, state, c.state.parted[i], c.work.parts);
+  if (severed > 0) open_vessels(c, tear.blade(), {Carriers::organ, std::int32_t(i)}, -1);
   return opened(severed > 0, c.state.overstretched_organs[i]);
 }
 
@@ -75,6 +77,7 @@ bool tear_cuttable(StepContext& c, size_t i) noexcept {
   if (!tear.found) return false;
   const geometry::CutBook book = tissue::cut(organ.body, tear.blade(1.0), state, work);
   if (book.full) c.report.flags |= StepReport::kBookFull;
+  if (book.parted > 0) open_vessels(c, tear.blade(1.0), {Carriers::organ, std::int32_t(organ_index)}, -1);
   return opened(book.parted > 0, c.state.overstretched_organs[organ_index]);
 }
 
@@ -87,6 +90,7 @@ bool tear_membrane(StepContext& c, size_t i) noexcept {
   if (!tear.found) return false;
   const int severed =
       interactions::cut_membrane(tear.blade(), m.sheet, m.depth, state, c.state.torn[i], c.work.parts).severed;
+  if (severed > 0) open_vessels(c, tear.blade(), {Carriers::membrane, std::int32_t(i)}, -1);
   return opened(severed > 0, c.state.overstretched_membranes[i]);
 }
 
@@ -94,6 +98,7 @@ bool tear_strand(StepContext& c, size_t i) noexcept {
   const int element = tissue::find_overstretch(c.model.bodies[i].model, c.state.strands[i],
                                                c.model.strands[i].failure_strain, c.state.overstretched_strands[i]);
   if (element >= 0) tissue::cut_element(c.state.strands[i], element);
+  if (element >= 0) open_vessels_within(c, int(i), element, -1);
   return element >= 0;
 }
 

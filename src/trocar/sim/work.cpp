@@ -99,6 +99,18 @@ void scribble(tissue::NetworkWork& n) noexcept {
   scribble(n.volume);
 }
 
+void scribble(vessels::FlowWork& f) noexcept {
+  for (auto* values : {&f.capacity, &f.extra, &f.ahead, &f.diagonal, &f.x, &f.values, &f.flow0, &f.flow_a, &f.flow_b})
+    scribble(*values);
+  scribble(f.sites);
+  scribble(f.chains);
+  scribble(f.points);
+  scribble(f.part);
+  scribble(f.part_fed);
+  scribble(f.blocked);
+  f.site_count = f.chain_count = -1;
+}
+
 /// 0 .. n-1, the costliest first: what begins last should be short, or all threads wait for one.
 std::vector<int> by_cost(const std::vector<double>& cost) {
   std::vector<int> order(cost.size());
@@ -165,6 +177,15 @@ Work make_work(const Model& model, core::ThreadPool* pool) {
     w.parts.resize(std::max(w.parts.size(), size_t(m.sheet.nodes())));
     w.beyond.resize(std::max(w.beyond.size(), size_t(m.sheet.network.rows)));
   }
+  if (model.vessels.there()) {
+    w.hosts = make_host_views(model);
+    for (const Vessel& v : model.vessels.list) w.vessel_points.emplace_back(v.path.points.size());
+    w.flow = vessels::make_work(model.vessels.flow);
+    w.open.resize(interactions::kMaxOpenings);
+    w.closed.resize(interactions::kMaxVesselClips);
+    w.flows.resize(interactions::kMaxOpenings);
+    w.bleeds.resize(2 * interactions::kMaxOpenings);
+  }
   w.sheets.resize(model.membranes.size());
   w.sheet_gaps.resize(model.hands.size() * model.membranes.size());
   w.membrane_reports.resize(model.membranes.size());
@@ -213,6 +234,15 @@ void poison(Work& w) noexcept {
     scribble(s.direction);
     scribble(s.bend_now);
   }
+  for (tissue::NodeView& n : w.hosts.organs) n = {};
+  for (tissue::NodeView& n : w.hosts.membranes) n = {};
+  for (auto& points : w.vessel_points) scribble(points);
+  scribble(w.flow);
+  scribble(w.open);
+  scribble(w.closed);
+  scribble(w.flows);
+  scribble(w.bleeds);
+  w.bleed_count = -1;
   scribble(w.touches);
   scribble(w.parts);
   scribble(w.beyond);

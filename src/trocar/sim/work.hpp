@@ -7,9 +7,23 @@
 #include <trocar/interactions/grasp.hpp>
 #include <trocar/interactions/loads.hpp>
 #include <trocar/interactions/wall_stop.hpp>
+#include <trocar/sim/host_views.hpp>
 #include <trocar/sim/state.hpp>
 
 namespace trocar::sim {
+
+/// Blood that leaves a vessel in this tick. A vessel that is cut through has two of these.
+struct Bleed {
+  Vec3d place;                  ///< of the opening's middle, at the end of the tick [m]
+  Vec3d direction{0, 0, 1};     ///< out of the opening, unit
+  double area = 0;              ///< that is open [m^2]
+  double speed = 0;             ///< mean of the tick [m/s]
+  std::int64_t picolitres = 0;  ///< to be booked as they are
+  std::int32_t opening = -1;    ///< slot in State::openings
+  std::int32_t side = 0;        ///< 0: the stump towards the vessel's beginning
+  bool vein = false;            ///< dark blood
+  bool fed = false;             ///< a way leads here from a source
+};
 
 struct Work {
   core::ThreadPool* pool = nullptr;             ///< may be null; never changes a bit of the result
@@ -17,9 +31,9 @@ struct Work {
   std::vector<interactions::Surface> surfaces;  ///< (organs + walls)
   std::array<interactions::ToolShape, kMaxTools> shapes;
   std::array<interactions::ToolShape, kMaxTools> shapes_before;  ///< where they were when the tick began
-  std::vector<interactions::TouchBook> touches;              ///< (hands) this tick's
-  std::array<interactions::WallStop, kMaxTools> wall_stops;  ///< (hands)
-  std::vector<interactions::NetworkLoads> organ_loads;       ///< (organs)
+  std::vector<interactions::TouchBook> touches;                  ///< (hands) this tick's
+  std::array<interactions::WallStop, kMaxTools> wall_stops;      ///< (hands)
+  std::vector<interactions::NetworkLoads> organ_loads;           ///< (organs)
   std::vector<interactions::StrandLoads> strand_loads;
   std::vector<tissue::NetworkWork> solid_work;
   std::vector<tissue::CuttableWork> cuttable_work;
@@ -36,7 +50,15 @@ struct Work {
   std::vector<tissue::MembraneWork> membrane_work;
   std::vector<std::vector<tissue::BorderPull>> pulls;  ///< (membranes)(held nodes)
   std::vector<std::vector<Vec3d>> targets;             ///< (membranes)(held nodes)
-  std::vector<tissue::NodeView> nodes;                 ///< (organs) of the State; anew in every tick
+  HostViews hosts;
+  std::vector<std::vector<Vec3d>> vessel_points;  ///< (vessels)(points of the path) [m]
+  vessels::FlowWork flow;
+  std::vector<vessels::Opening> open;
+  std::vector<vessels::Clip> closed;
+  std::vector<vessels::OpeningFlow> flows;
+  std::vector<Bleed> bleeds;  ///< (2 kMaxOpenings) for whoever takes up the blood, after the flow's stage
+  int bleed_count = 0;
+  std::vector<tissue::NodeView> nodes;  ///< (organs) of the State; anew in every tick
   std::vector<tissue::CuttableSkin> cuttable_skins;
   std::vector<const tissue::Skin*> skins;                      ///< (organs) of the Model, or the above
   std::vector<int> organ_order, strand_order, membrane_order;  ///< by how much there is to do, for the threads

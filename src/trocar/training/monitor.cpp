@@ -320,7 +320,8 @@ void Monitor::judge_clip(const sim::Model& model, const sim::State& state, const
   const Sterilisation& g = m_exercise.goal;
   const Vec3d tip = tip_of(model, state, size_t(clip.tool));
   const int i = side_of(clip.strand);
-  if (clip.strand < 0) return make_error("E12", -1, tip);
+  if (clip.dropped()) return make_error("E12", -1, tip);
+  if (clip.strand < 0) return make_error("E11", -1, tip, named(model.vessels.list[size_t(clip.vessel - 1)].name));
   if (i < 0) return make_error("E11", -1, tip, named(model.strands[size_t(clip.strand)].name));
   SideWatch& side = m_sides[size_t(i)];
   const Vec3d where = place_on(model, state, clip.strand, clip.s);

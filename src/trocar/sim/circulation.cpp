@@ -1,0 +1,284 @@
+#include <algorithm>
+#include <cmath>
+
+#include <trocar/numerics/portable.hpp>
+#include <trocar/sim/circulation.hpp>
+#include <trocar/sim/stage.hpp>
+
+namespace trocar::sim {
+namespace {
+
+using interactions::VesselHold;
+using interactions::VesselPath;
+using interactions::VesselPiece;
+
+using CutPlaces = std::array<double, interactions::kMaxOpenings>;
+
+const VesselPath& path_of(const StepContext& c, size_t v) noexcept { return c.model.vessels.list[v].path; }
+
+/// What lies between two cuts of a vessel within this way is not cut again.                          [m]  Our choice
+constexpr double kSliver = 0.001;
+
+/// The opening there already, or a new one; null where there is no room.
+interactions::VesselOpening* opening_at(StepContext& c, int vessel, double s) noexcept {
+  const double reach = kSliver / path_of(c, size_t(vessel)).length;
+  for (int i = 0; i < c.state.opening_count; ++i) {
+    interactions::VesselOpening& o = c.state.openings[size_t(i)];
+    if (o.vessel == vessel && std::fabs(o.s - s) < reach) return &o;
+  }
+  if (c.state.opening_count == interactions::kMaxOpenings) return nullptr;
+  interactions::VesselOpening& fresh = c.state.openings[size_t(c.state.opening_count++)];
+  fresh = {};
+  fresh.s = s;
+  fresh.vessel = vessel;
+  return &fresh;
+}
+
+/// @param share  of the lumen's width; 1: through
+void open_vessel(StepContext& c, int vessel, double s, double share, int hand) noexcept {
+  interactions::VesselOpening* o = opening_at(c, vessel, s);
+  if (!o) {
+    c.report.flags |= StepReport::kBookFull;
+    return;
+  }
+  const vessels::FlowSegment& segment = c.model.vessels.flow.segments[size_t(vessel)];
+  const double radius = segment.radius + segment.taper * s;
+  const double area = share * portable::pi * radius * radius;
+  if (o->through || area <= o->area) return;
+  o->area = area;
+  o->through = share >= 1;
+  o->tool = hand;
+  o->tick = c.state.tick;
+}
+
+bool rides_on(const StepContext& c, const VesselHold& hold, Carriers carriers) noexcept {
+  const bool flesh = hold.kind == VesselHold::cell ||
+                     (hold.kind == VesselHold::membrane && c.model.membranes[size_t(hold.index)].sheet.closed());
+  switch (carriers.kind) {
+    case Carriers::organ:
+      return (hold.kind == VesselHold::cell || hold.kind == VesselHold::organ) && hold.index == carriers.index;
+    case Carriers::membrane:
+      return hold.kind == VesselHold::membrane && hold.index == carriers.index;
+    case Carriers::all_but_flesh:
+      break;
+  }
+  return !flesh;
+}
+
+bool near(const geometry::Blade& blade, Vec3d p, double reach) noexcept {
+  return length(p - blade.corner[0]) < reach || length(p - blade.corner[size_t(blade.corners / 2)]) < reach;
+}
+
+}  // namespace
+
+void pose_vessels(StepContext& c) noexcept {
+  if (!c.model.vessels.there()) return;
+  const interactions::VesselHosts hosts = look_at_hosts(c.model, c.state, c.work.hosts);
+  for (size_t v = 0; v < c.model.vessels.list.size(); ++v) pose_vessel(path_of(c, v), hosts, c.work.vessel_points[v]);
+}
+
+void open_vessels(StepContext& c, const geometry::Blade& blade, Carriers carriers, int hand) noexcept {
+  const geometry::BladePlane plane(blade);
+  if (!plane.flat) return;
+  double reach = 0.006;  // a piece may be so long
+  for (int i = 1; i < blade.corners; ++i) reach += length(blade.corner[size_t(i)] - blade.corner[size_t(i) - 1]);
+  CutPlaces places;
+  for (size_t v = 0; v < c.model.vessels.list.size(); ++v) {
+    const VesselPath& path = path_of(c, v);
+    const std::vector<Vec3d>& points = c.work.vessel_points[v];
+    for (int i = 0; i + 1 < int(points.size()); ++i) {
+      if (!near(blade, points[size_t(i)], reach)) continue;
+      if (!rides_on(c, path.points[size_t(i)].hold, carriers) &&
+          !rides_on(c, path.points[size_t(i) + 1].hold, carriers))
+        continue;
+      VesselPiece piece[2];
+      const int pieces = pieces_of(path, points, cuts_of(c.state, int(v), places), i, piece);
+      for (int k = 0; k < pieces; ++k) {
+        const interactions::VesselWound wound =
+            wound_of(plane, piece[k], vessel_radius(path, path.points[size_t(i)].s));
+        if (wound.share > 0) open_vessel(c, int(v), wound.s, wound.share, hand);
+      }
+    }
+  }
+}
+
+void open_vessels_within(StepContext& c, int strand, int element, int hand) noexcept {
+  const interactions::StrandBody& body = c.model.bodies[size_t(strand)];
+  const double middle = 0.5 * (body.arc[size_t(element)] + body.arc[size_t(element) + 1]);
+  for (size_t v = 0; v < c.model.vessels.list.size(); ++v) {
+    const VesselPath& path = path_of(c, v);
+    for (size_t i = 0; i + 1 < path.points.size(); ++i) {
+      const VesselHold &a = path.points[i].hold, &b = path.points[i + 1].hold;
+      if (a.kind != VesselHold::strand || b.kind != VesselHold::strand || a.index != strand || b.index != strand)
+        continue;
+      const double from = arc_at(body, {a.element, a.w}), to = arc_at(body, {b.element, b.w});
+      if ((from > middle) == (to > middle)) continue;
+      const double w = (middle - from) / (to - from);
+      const Vec3d off = a.offset + w * (b.offset - a.offset);
+      if (length(off) > body.model.radius[size_t(element)]) continue;
+      open_vessel(c, int(v), path.points[i].s + w * (path.points[i + 1].s - path.points[i].s), 1, hand);
+    }
+  }
+}
+
+void clip_vessels(StepContext& c, size_t hand, int number) noexcept {
+  interactions::Clip& clip = c.state.clips[size_t(number)];
+  const interactions::ToolModel& tool = c.model.tool(c.state, hand);
+  const interactions::ToolShape& shape = c.work.shapes[hand];
+  double nearest = 1;
+  CutPlaces places;
+  for (size_t v = 0; v < c.model.vessels.list.size(); ++v) {
+    const VesselPath& path = path_of(c, v);
+    const std::vector<Vec3d>& points = c.work.vessel_points[v];
+    const std::span<const double> cuts = cuts_of(c.state, int(v), places);
+    for (int i = 0; i + 1 < int(points.size()); ++i) {
+      VesselPiece piece[2];
+      const int pieces = pieces_of(path, points, cuts, i, piece);
+      for (int k = 0; k < pieces; ++k) {
+        interactions::VesselCatch found;
+        if (!catch_vessel(tool, shape, piece[k], vessel_radius(path, piece[k].s_a), found)) continue;
+        if (c.state.vessel_clip_count == interactions::kMaxVesselClips) {
+          c.report.flags |= StepReport::kBookFull;
+          return;
+        }
+        interactions::VesselClip& closed = c.state.vessel_clips[size_t(c.state.vessel_clip_count++)];
+        closed = {found.s, found.cover, c.state.tick, std::int32_t(v), number};
+        if (clip.strand >= 0 || std::fabs(found.local.x) >= nearest) continue;
+        nearest = std::fabs(found.local.x);
+        put_on_vessel(tool, shape, path, vessel_spot(path, points, cuts, found.s), int(v), found, clip);
+      }
+    }
+  }
+}
+
+namespace {
+
+/// Puts a force on what carries a point.
+void push(StepContext& c, const interactions::VesselPoint& p, Vec3d force) noexcept {
+  const interactions::Tag tag{interactions::Owner::body, 0, 0};
+  const size_t i = size_t(p.hold.index);
+  tissue::NodeLoad load;
+  load.f0 = vec_cast<float>(force);
+  load.node = p.node;
+  switch (p.hold.kind) {
+    case VesselHold::strand: {
+      tissue::StrandLoad on;
+      on.element = p.hold.element;
+      on.w = p.hold.w;
+      on.f0 = force;
+      c.work.strand_loads[i].add(on, tag);
+      return;
+    }
+    case VesselHold::organ:
+      return c.work.organ_loads[i].add(load, tag);
+    case VesselHold::membrane:
+      return c.work.membrane_loads[i].add(load, tag);
+    case VesselHold::cell: {
+      const geometry::Tet& cell = c.state.cuttables[i - c.model.solids.size()].tets.cells[size_t(p.hold.element)];
+      size_t most = 0;
+      for (size_t k = 1; k < 4; ++k)
+        if (p.hold.share[k] > p.hold.share[most]) most = k;
+      load.node = cell[most];
+      return c.work.organ_loads[i].add(load, tag);
+    }
+    case VesselHold::space:
+      return;
+  }
+}
+
+}  // namespace
+
+// Bends count as drawn: arteries are held taut lengthwise, a pulse does not buckle them.
+void beat(StepContext& c) noexcept {
+  for (size_t v = 0; v < c.model.vessels.list.size(); ++v) {
+    const Vessel& vessel = c.model.vessels.list[v];
+    if (vessel.gain <= 0) continue;
+    const std::vector<Vec3d>& x = c.work.vessel_points[v];
+    for (size_t i = 1; i + 1 < x.size(); ++i) {
+      const interactions::VesselPoint& p = vessel.path.points[i];
+      if (p.hold.kind == VesselHold::space) continue;
+      const vessels::WallReading wall = read_wall(c.model.vessels.flow, c.state.flow, int(v), p.s);
+      const double over = wall.pressure - vessel.mean_pressure;
+      push(c, p, (vessel.gain * over * portable::pi * wall.radius * wall.radius) * turn_at(vessel.path, x, int(i)));
+    }
+  }
+}
+
+namespace {
+
+/// Openings and clips of the State as the flow wants them.
+void lay_out(StepContext& c) noexcept {
+  const State& s = c.state;
+  for (size_t i = 0; i < c.work.open.size(); ++i) {
+    vessels::Opening& out = c.work.open[i];
+    out = {};
+    if (int(i) >= s.opening_count) continue;
+    const interactions::VesselOpening& o = s.openings[i];
+    out.segment = o.vessel;
+    out.s = o.s;
+    out.kind = o.through ? vessels::Opening::Kind::cut : vessels::Opening::Kind::hole;
+    out.area = o.area;
+    out.outside = c.model.vessels.flow.settings.cavity_pressure;
+  }
+  for (size_t i = 0; i < c.work.closed.size(); ++i) {
+    vessels::Clip& out = c.work.closed[i];
+    out = {};
+    if (int(i) >= s.vessel_clip_count) continue;
+    const interactions::VesselClip& clip = s.vessel_clips[i];
+    out.segment = clip.vessel;
+    out.s = clip.s;
+    out.cover = cover_at(clip, kTick * double(s.tick - clip.tick));
+  }
+}
+
+/// A hole's jet leaves upwards, as far as the vessel's direction lets it.
+Vec3d upwards(const StepContext& c, Vec3d along) noexcept {
+  const Vec3d up = normalised(-1.0 * c.model.gravity, {0, 0, 1});
+  return normalised(up - dot(up, along) * along, any_perpendicular(along));
+}
+
+/// Where blood leaves, now that tissue is where it is at the end of the tick.
+void note_bleeds(StepContext& c) noexcept {
+  c.work.bleed_count = 0;
+  if (c.state.opening_count == 0) return;
+  const interactions::VesselHosts hosts = look_at_hosts(c.model, c.state, c.work.hosts);
+  CutPlaces places;
+  int posed = -1;
+  for (int i = 0; i < c.state.opening_count; ++i) {
+    const interactions::VesselOpening& o = c.state.openings[size_t(i)];
+    const VesselPath& path = path_of(c, size_t(o.vessel));
+    std::vector<Vec3d>& points = c.work.vessel_points[size_t(o.vessel)];
+    if (posed != o.vessel) pose_vessel(path, hosts, points);
+    posed = o.vessel;
+    const std::span<const double> cuts = cuts_of(c.state, o.vessel, places);
+    const vessels::OpeningFlow& flow = c.work.flows[size_t(i)];
+    for (int side = 0; side < (o.through ? 2 : 1); ++side) {
+      const interactions::VesselSpot spot = vessel_spot(path, points, cuts, o.s, side);
+      Bleed& b = c.work.bleeds[size_t(c.work.bleed_count++)];
+      b.place = spot.place;
+      b.direction = o.through ? (side == 0 ? 1.0 : -1.0) * spot.along : upwards(c, spot.along);
+      b.area = o.area * (1 - flow.clot);
+      b.speed = b.area > 0 ? flow.flow[side] / b.area : 0;
+      b.picolitres = flow.picolitres[side];
+      b.opening = i;
+      b.side = side;
+      b.vein = c.model.vessels.list[size_t(o.vessel)].vein;
+      b.fed = flow.fed[side];
+    }
+  }
+}
+
+}  // namespace
+
+void let_blood_flow(StepContext& c) noexcept {
+  if (!c.model.vessels.there()) return;
+  lay_out(c);
+  vessels::FlowInput input;
+  input.openings = c.work.open;
+  input.clips = c.work.closed;
+  const vessels::FlowReport report = advance(c.model.vessels.flow, input, c.work.flows, c.state.flow, c.work.flow);
+  if (!report.fine()) c.report.flags |= StepReport::kBloodFlow;
+  note_bleeds(c);
+}
+
+}  // namespace trocar::sim
