@@ -84,10 +84,17 @@ TEST_F(GlBackend, EveryShaderVariantCompilesAndLinks) {
                                      std::string("SHADING=") + shading + ",DETAIL=" + detail + extra));
   for (const char* extra : {"", "LIT"}) EXPECT_NO_THROW(programs.get("flat.vert", "flat.frag", extra));
   for (const char* shape : {"full.vert", "disc.vert"}) {
-    for (const char* extra : {"", "EFFECTS", "RODS", "EFFECTS,RODS"})
+    for (const char* extra : {"", "EFFECTS", "RODS", "EFFECTS,RODS", "SMOKE", "EFFECTS,RODS,SMOKE"})
       EXPECT_NO_THROW(programs.get(shape, "develop.frag", extra));
-    for (const char* extra : {"", "FRINGE", "FRINGE,SMOOTH"}) EXPECT_NO_THROW(programs.get(shape, "lens.frag", extra));
+    for (const char* extra : {"", "FRINGE", "FRINGE,SMOOTH", "SOILED", "FRINGE,SMOOTH,SOILED"})
+      EXPECT_NO_THROW(programs.get(shape, "lens.frag", extra));
   }
+  for (const char* detail : {"DETAIL=0", "DETAIL=1", "DETAIL=2"}) {
+    EXPECT_NO_THROW(programs.get("sheet.vert", "sheet.frag", detail));
+    EXPECT_NO_THROW(programs.get("full.vert", "wet.frag", detail));
+    EXPECT_NO_THROW(programs.get("full.vert", "smoke.frag", detail));
+  }
+  EXPECT_NO_THROW(programs.get("splat.vert", "splat.frag"));
   EXPECT_NO_THROW(programs.get("full.vert", "shrink.frag", "SPREAD=1.0"));
   EXPECT_NO_THROW(programs.get("full.vert", "meter.frag"));
   EXPECT_NO_THROW(programs.get("mask.vert", "mask.frag"));

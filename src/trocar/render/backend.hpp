@@ -25,6 +25,7 @@ class Misuse : public std::logic_error {
 
 struct BackendStats {
   std::uint64_t frames = 0, items = 0, triangles = 0, puffs = 0;  ///< drawn since the start
+  std::uint64_t splats = 0, sheet_triangles = 0;                  ///< of liquids
   std::uint64_t vertices_uploaded = 0;
   std::uint32_t meshes_alive = 0;
 };

@@ -54,6 +54,62 @@ void check_camera(const Camera& camera, const char* call) {
           "0 < near < far does not hold");
 }
 
+void check_soil(const LensSoil& soil, const char* call) {
+  const auto share = [](float x) { return x >= 0 && x <= 1; };
+  require(share(soil.fog) && share(soil.smear) && soil.wipe <= 1 && std::isfinite(soil.smear_angle), call,
+          "what is on the lens is not within 0..1");
+  require(soil.drop_count >= 0 && soil.drop_count <= LensSoil::kMaxDrops, call, "too many drops on the lens");
+  for (int i = 0; i < soil.drop_count; ++i) {
+    const LensDrop& drop = soil.drops[std::size_t(i)];
+    require(std::isfinite(drop.x) && std::isfinite(drop.y) && drop.radius > 0 && finite(drop.tint), call,
+            "a drop on the lens is not finite");
+  }
+}
+
+void check_splat(const Splat& splat, std::size_t i, const char* call) {
+  const std::string name = "splat " + std::to_string(i);
+  require(finite(splat.from) && finite(splat.to), call, name + " is not finite");
+  require(splat.radius > 0 && std::isfinite(splat.radius), call, name + " has no radius");
+  require(splat.height >= 0 && std::isfinite(splat.height), call, name + " has no height");
+  float shares = 0;
+  for (const float share : splat.share) {
+    require(share >= 0, call, name + " holds less than nothing");
+    shares += share;
+  }
+  require(shares <= 1.001f, call, name + " holds more than all");
+  require(splat.kind == SplatKind::flying || std::fabs(length(splat.normal) - 1) < 1e-2f, call,
+          name + " lies on a surface without a unit normal");
+}
+
+void check_liquid(const Liquid& liquid, const char* call) {
+  for (std::size_t i = 0; i < liquid.splats.size(); ++i) check_splat(liquid.splats[i], i, call);
+  for (std::size_t i = 0; i < liquid.sheet.size(); ++i) {
+    const SheetVertex& v = liquid.sheet[i];
+    require(finite(v.position) && finite(v.normal) && std::isfinite(v.depth) && std::isfinite(v.cover) &&
+                std::isfinite(v.share_b) && std::isfinite(v.share_c) && std::isfinite(v.froth) && std::isfinite(v.dark),
+            call, "sheet vertex " + std::to_string(i) + " is not finite");
+  }
+  require(liquid.triangles.size() % 3 == 0, call, "the sheet's indices are not a whole number of triangles");
+  for (const std::uint32_t index : liquid.triangles)
+    require(index < liquid.sheet.size(), call,
+            "the sheet's index " + std::to_string(index) + " with only " + std::to_string(liquid.sheet.size()) +
+                " vertices");
+  for (const LiquidLook::Kind& kind : liquid.look.kinds)
+    require(finite(kind.absorbs) && finite(kind.deep), call, "a liquid's colour is not finite");
+}
+
+void check_smoke(const SmokeVolume& smoke, const char* call) {
+  if (smoke.empty()) return;
+  require(smoke.nx > 0 && smoke.ny > 0 && smoke.nz > 0 && smoke.nx <= 256 && smoke.ny <= 256 && smoke.nz <= 256, call,
+          "smoke has a grid of " + std::to_string(smoke.nx) + " x " + std::to_string(smoke.ny) + " x " +
+              std::to_string(smoke.nz));
+  require(smoke.density.size() == std::size_t(smoke.nx) * smoke.ny * smoke.nz, call,
+          "smoke has " + std::to_string(smoke.density.size()) + " densities for its grid");
+  require(finite(smoke.origin) && finite(smoke.up) && smoke.cell > 0 && smoke.kappa >= 0, call, "smoke is not finite");
+  for (const float density : smoke.density)
+    require(density >= 0 && std::isfinite(density), call, "smoke has a density that cannot be");
+}
+
 void check_frame(const Frame& frame, const Target& target, const char* call) {
   require(target.width > 0 && target.height > 0 && target.width <= 16384 && target.height <= 16384, call,
           "target size " + std::to_string(target.width) + " x " + std::to_string(target.height));
@@ -71,6 +127,9 @@ void check_frame(const Frame& frame, const Target& target, const char* call) {
           "look holds a value out of range");
   for (const Puff& puff : frame.puffs)
     require(finite(puff.centre) && puff.radius > 0 && std::isfinite(puff.density), call, "a puff is not finite");
+  check_soil(look.soil, call);
+  check_liquid(frame.liquid, call);
+  check_smoke(frame.smoke, call);
 }
 
 void check_material(const Material& m, const char* call) {
@@ -185,6 +244,8 @@ void CheckedBackend::begin_frame(const Frame& frame, const Target& target) {
   m_frame.quality = frame.quality;
   m_frame.puffs = frame.puffs;
   m_frame.rods = frame.rods;
+  m_frame.liquid = frame.liquid;
+  m_frame.smoke = frame.smoke;
   m_frame.background = frame.background;
   m_frame.tick = frame.tick;
   m_frame.eye = frame.eye;
@@ -231,6 +292,8 @@ void CheckedBackend::end_frame() {
   m_has_picture = true;
   ++m_stats.frames;
   m_stats.puffs += m_frame.puffs.size();
+  m_stats.splats += m_frame.liquid.splats.size();
+  m_stats.sheet_triangles += m_frame.liquid.triangles.size() / 3;
 }
 
 Image CheckedBackend::read_pixels() {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <trocar/numerics/vec3.hpp>
+#include <trocar/render/liquid.hpp>
 #include <trocar/render/mat4.hpp>
 #include <trocar/render/material.hpp>
 #include <trocar/render/mesh_data.hpp>
@@ -73,6 +74,8 @@ struct EndoscopeLook {
   // Air.
   float fog = 0;  ///< smoke veil, extinction [1/m]
   Vec3f fog_colour = {0.62f, 0.47f, 0.37f};
+  // What is on the glass.
+  LensSoil soil;
 };
 /// A plain camera: no mask, barrel, fringe, vignette, noise, bloom, defocus, or auto exposure.
 EndoscopeLook plain_look();
@@ -102,8 +105,8 @@ struct Puff {
 /// What the picture may cost; see governor.hpp.
 struct Quality {
   float render_scale = 1;  ///< of the scene pass, 0.25..1 (the lens pass is always at full size)
-  int detail = 2;  ///< 2 everything; 1 no fine flecks, bloom, fringe, focus or contact shade; 0 no vessels or film
-                   ///< ripples either
+  int detail = 2;  ///< 2 everything; 1 no fine flecks, bloom, fringe, focus or contact shade, and liquids mirror the
+                   ///< walls only; 0 no vessels or film ripples either
 
   friend bool operator==(Quality a, Quality b) { return a.render_scale == b.render_scale && a.detail == b.detail; }
 };
@@ -116,6 +119,8 @@ struct Frame {
   std::vector<DrawItem> items;
   std::vector<Puff> puffs;
   std::vector<Rod> rods;
+  Liquid liquid;
+  SmokeVolume smoke;
   Vec3f background = {0.0015f, 0.0004f, 0.0003f};  ///< linear, where nothing is drawn
   std::uint64_t tick = 0;                          ///< [ms] simulated
   int eye = 0;                                     ///< 0..7: each eye or window has its own exposure memory

@@ -57,6 +57,7 @@ void GlBackend::on_prepare(std::span<const DrawItem> items) {
           for (bool stained : {false, true}) draw_item(frame, item, blended, stained);
     }
     set_blending(false);
+    m_smokes = false;
     shade_pass(frame, layout);
     shrink_pass();
     develop_pass(frame, layout);
@@ -72,13 +73,17 @@ void GlBackend::on_frame(const Frame& frame, const Target& target, std::span<con
   begin_scene(frame, target, layout);
   if (frame.look.mask) mask_pass(layout);
   scene_pass(frame, opaque, false);
+  sheet_pass(frame, layout);
   scene_pass(frame, translucent, true);
+  splat_pass(frame, layout);
   puff_pass(frame);
+  smoke_pass(frame);
   shade_pass(frame, layout);
   shrink_pass();
   m_small_eye = frame.eye;
   meter_pass(frame, target, layout);
   develop_pass(frame, layout);
+  if (!frame.look.soil.clean()) soil_pass();
   lens_pass(frame, target, layout);
   leave_state_clean();
 }

@@ -1,6 +1,7 @@
-// The backend that draws, in four files: the frame as a list of passes (gl_backend.cpp), what draws things into the
-// scene picture (gl_scene_passes.cpp), how instruments shade it (gl_rods.cpp), and what makes a camera's picture of it
-// (gl_picture_passes.cpp). Private to them.
+// The backend that draws, in six files: the frame as a list of passes (gl_backend.cpp), what draws things into the
+// scene picture (gl_scene_passes.cpp), how instruments shade it (gl_rods.cpp), liquids and smoke in it
+// (gl_liquid_passes.cpp, gl_smoke_pass.cpp), and what makes a camera's picture of it (gl_picture_passes.cpp). Private
+// to them.
 #pragma once
 
 #include <array>
@@ -25,7 +26,9 @@ enum TextureUnit : int {
   kUnitSmaller = 5,
   kUnitExposure = 6,
   kUnitArcade = 7,
-  kUnitShade = 8
+  kUnitShade = 8,
+  kUnitBed = 9,  // the scene below a liquid
+  kUnitWet = 10  // and the two after it
 };
 
 inline void bind_texture(int unit, GLenum target, GLuint texture) {
@@ -63,6 +66,23 @@ class GlBackend final : public CheckedBackend {
   void draw_item(const Frame& frame, const DrawItem& item, bool blended, bool stained);
   GlProgram& program_for(const Frame& frame, const Material& material, bool blended, bool stained);
   void puff_pass(const Frame& frame);
+
+  /// What lies below a liquid, kept while the liquid is drawn over it. Only the part of the scene in `m_wet_box`.
+  void keep_bed();
+  /// The sheet: refracts what lies below, mirrors what is around; writes depth and distance.
+  void sheet_pass(const Frame& frame, const Layout& layout);
+  /// Drops and films, added up at half the scene's size; then their surface, drawn over the scene.
+  void splat_pass(const Frame& frame, const Layout& layout);
+  /// Into m_splat_rows, in the eye's frame; m_wet_box holds them all. Those that cannot be seen are left out.
+  void pack_splats(const Frame& frame);
+  void wet_pass(const Frame& frame, const Layout& layout);
+  void set_liquid(const Frame& frame, GlProgram& program);
+  /// Marches through the smoke at a fifth of the scene's size or less.
+  void smoke_pass(const Frame& frame);
+  void set_smoke(const SmokeVolume& smoke, GlProgram& program);
+  /// Blurred copies of the developed picture, for a lens that is not clean.
+  void soil_pass();
+  void set_soil(const LensSoil& soil, std::uint64_t tick, GlProgram& program);
 
   /// Rods in the eye's frame, as rows of u_rods: one end and the radius, the way to the other end and 1 / its square.
   void pack_rods(const Frame& frame);
@@ -103,7 +123,17 @@ class GlBackend final : public CheckedBackend {
   GlPrograms m_programs;
   GlTexture m_noise, m_cells, m_vessels, m_arcade;
   GlVertexArray m_no_vertices;
-  GlPicture m_scene, m_shade, m_small, m_smaller, m_developed, m_own;
+  GlPicture m_scene, m_shade, m_small, m_smaller, m_developed, m_own, m_bed, m_smoke;
+  std::array<GlPicture, 2> m_blur_rough, m_blur;
+  std::array<GlPicture, 3> m_wet;  ///< field, thickness, film; the first one's framebuffer draws into all of them
+  GlVertexArray m_splat_layout, m_sheet_layout;
+  GlBuffer m_splat_buffer, m_sheet_buffer, m_sheet_indices;
+  GlTexture m_smoke_grid;
+  std::array<int, 3> m_smoke_size{};
+  bool m_smokes = false;  ///< in this frame
+  std::vector<float> m_splat_rows;
+  std::vector<std::uint8_t> m_smoke_bytes;
+  std::array<int, 4> m_wet_box{};  ///< of the scene picture [px]: x, y, width, height
   std::array<GlPicture, 2> m_rough, m_exposure;
   std::array<Memory, kEyes> m_memory;
   Mat4 m_view, m_projection;

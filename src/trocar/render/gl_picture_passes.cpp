@@ -69,7 +69,8 @@ void GlBackend::develop_pass(const Frame& frame, const Layout& layout) {
   const bool effects = frame.quality.detail > 1 && (look.bloom > 0 || look.defocus > 0 || look.contact > 0);
   const bool rods = m_rod_count > 0;
   GlProgram& program =
-      m_programs.get(view_shape(look), "develop.frag", std::string(effects ? "EFFECTS," : "") + (rods ? "RODS," : ""));
+      m_programs.get(view_shape(look), "develop.frag",
+                     std::string(effects ? "EFFECTS," : "") + (rods ? "RODS," : "") + (m_smokes ? "SMOKE," : ""));
   program.use();
   program.set("u_scene", kUnitPicture);
   program.set("u_small", kUnitSmall);
@@ -87,6 +88,7 @@ void GlBackend::develop_pass(const Frame& frame, const Layout& layout) {
   const Vec3f to_lamp = off > 1e-5f ? Vec3f{lamp.x / off * aspect, lamp.y / off, 0} : Vec3f{};
   program.set("u_shadow", 0.02f * to_lamp.x, 0.02f * to_lamp.y);
   program.set("u_white", look.white_balance);
+  if (m_smokes) set_smoke(frame.smoke, program);
   bind_texture(kUnitPicture, GL_TEXTURE_2D, m_scene.colour.id());
   bind_texture(kUnitSmall, GL_TEXTURE_2D, m_small.colour.id());
   bind_texture(kUnitSmaller, GL_TEXTURE_2D, m_smaller.colour.id());
@@ -100,6 +102,8 @@ void GlBackend::lens_pass(const Frame& frame, const Target& target, const Layout
   std::string defines;
   if (look.fringe_px > 0 && frame.quality.detail > 1) defines += "FRINGE,";
   if (frame.quality.detail > 0) defines += "SMOOTH,";
+  const bool soiled = !look.soil.clean();
+  if (soiled) defines += "SOILED,";
   GlProgram& program = m_programs.get(view_shape(look), "lens.frag", defines);
   program.use();
   program.set("u_picture", kUnitPicture);
@@ -111,8 +115,35 @@ void GlBackend::lens_pass(const Frame& frame, const Target& target, const Layout
               look.sharpen * frame.quality.render_scale, std::max(look.mask_soft_px, 0.5f));
   program.set("u_sensor", look.noise, look.notch, std::sin(look.notch_angle), std::cos(look.notch_angle));
   program.set_seed("u_seed", std::uint32_t(frame.tick * 2654435761u));
+  if (soiled) set_soil(look.soil, frame.tick, program);
   bind_texture(kUnitPicture, GL_TEXTURE_2D, m_developed.colour.id());
   draw_view(program, look, layout.radius, float(target.width), float(target.height));
+}
+
+void GlBackend::soil_pass() {
+  glDisable(GL_DEPTH_TEST);
+  shrink(m_developed, m_blur_rough[0], m_blur[0]);
+  shrink(m_blur[0], m_blur_rough[1], m_blur[1]);
+}
+
+void GlBackend::set_soil(const LensSoil& soil, std::uint64_t tick, GlProgram& program) {
+  program.set("u_blur", kUnitSmall);
+  program.set("u_blurrer", kUnitSmaller);
+  program.set("u_noise", kUnitNoise);
+  bind_texture(kUnitSmall, GL_TEXTURE_2D, m_blur[0].colour.id());
+  bind_texture(kUnitSmaller, GL_TEXTURE_2D, m_blur[1].colour.id());
+  bind_texture(kUnitNoise, GL_TEXTURE_3D, m_noise.id());
+  program.set("u_soil", soil.fog, soil.smear, std::sin(soil.smear_angle), std::cos(soil.smear_angle));
+  program.set("u_smear", soil.smear_tint.x, soil.smear_tint.y, soil.smear_tint.z, soil.wipe);
+  program.set("u_swab", soil.swab.x, soil.swab.y, soil.swab.z, float(tick % 100000) * 1e-3f);
+  std::array<float, 8 * LensSoil::kMaxDrops> rows{};
+  for (int i = 0; i < soil.drop_count; ++i) {
+    const LensDrop& drop = soil.drops[std::size_t(i)];
+    const float row[8] = {drop.x, drop.y, drop.radius, 0, drop.tint.x, drop.tint.y, drop.tint.z, 0};
+    std::copy(row, row + 8, &rows[std::size_t(8 * i)]);
+  }
+  program.set_vec4s("u_drops", rows);
+  program.set("u_drop_count", soil.drop_count);
 }
 
 void GlBackend::draw_full() {

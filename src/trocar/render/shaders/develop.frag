@@ -1,4 +1,5 @@
-// Scene light to picture values, before the lens: focus, contact shade, veil, exposure, camera curve. Variants: EFFECTS, RODS.
+// Scene light to picture values, before the lens: focus, contact shade, veil, exposure, camera curve. Variants: EFFECTS, RODS,
+// SMOKE.
 // The scene's alpha is the distance of the nearest opaque surface [m].
 precision highp float;
 precision highp int;
@@ -17,6 +18,31 @@ uniform sampler2D u_rod_shade;  // what instruments leave of the light
 #endif
 in vec2 v_uv;
 out vec4 o_colour;
+#ifdef SMOKE
+uniform sampler2D u_smoke;  // see smoke.frag
+uniform vec3 u_smoke_colour, u_smoke_near;
+
+// From a smaller picture: of the four texels around, those whose surface is about as far off count, so that no smoke
+// hangs over an outline.
+vec3 in_smoke(vec3 colour, float far) {
+  ivec2 size = textureSize(u_smoke, 0);
+  vec2 at = v_uv * vec2(size) - 0.5;
+  ivec2 low = ivec2(floor(at));
+  vec2 part = at - vec2(low);
+  vec3 sum = vec3(0.0);
+  float weight = 0.0;
+  for (int k = 0; k < 4; ++k) {
+    ivec2 aside = ivec2(k & 1, k >> 1);
+    vec4 smoke = texelFetch(u_smoke, clamp(low + aside, ivec2(0), size - 1), 0);
+    vec2 share = mix(1.0 - part, part, vec2(aside));
+    float w = (share.x * share.y + 0.01) / (0.03 + abs(smoke.a - far) / far);
+    sum += w * smoke.rgb;
+    weight += w;
+  }
+  sum /= weight;
+  return colour * sum.b + u_smoke_colour * sum.r + u_smoke_near * sum.g;
+}
+#endif
 
 // Camera curve with the display's gamma in it: toe, straight middle, long shoulder, clipped; each channel on its own,
 // so that what is bright pales [form after Hejl & Burgess-Dawson 10].
@@ -43,6 +69,9 @@ void main() {
   float open = 1.0 - u_depth.z * max(0.7 * behind.x, behind.y);
   colour *= vec3(open, open * open, open * open);
   colour = mix(colour, min(0.6 * soft.rgb + 0.4 * softer.rgb, vec3(8.0)), u_camera.z);
+#endif
+#ifdef SMOKE
+  colour = in_smoke(colour, scene.a);
 #endif
   float stops = u_camera.x;
   if (u_camera.y >= 0.0) stops += texelFetch(u_exposure, ivec2(int(u_camera.y), 0), 0).r;

@@ -1,4 +1,4 @@
-// What lens and camera do to the developed picture. Variants: FRINGE, SMOOTH.
+// What lens and camera do to the developed picture. Variants: FRINGE, SMOOTH, SOILED.
 precision highp float;
 precision highp int;
 uniform sampler2D u_picture;
@@ -9,6 +9,10 @@ uniform vec2 u_texel;   // of the picture
 uniform vec4 u_sensor;  // noise, notch, sine and cosine of its angle
 uniform uint u_seed;
 out vec4 o_colour;
+
+#ifdef SOILED
+#include "soil.glsl"
+#endif
 
 // Integer hash [Jarzynski & Olano 20, pcg].
 uint scrambled(uint x) {
@@ -59,6 +63,10 @@ void main() {
 #endif
   // Video sharpening: overshoot.
   picture += u_lens.z * clamp(step_up, -0.12, 0.12);
+
+#ifdef SOILED
+  picture = through_soil(picture, uv, from_centre / u_place.z);
+#endif
 
   uint seed = scrambled(uint(gl_FragCoord.x) + 8192u * uint(gl_FragCoord.y) + u_seed);
   vec3 grain = vec3(float(seed & 1023u), float((seed >> 10u) & 1023u), float((seed >> 20u) & 1023u)) / 1023.0 - 0.5;

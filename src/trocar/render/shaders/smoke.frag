@@ -1,0 +1,54 @@
+// A ray through the smoke: what it sends back of the lamp's light (red: seen far off, green: close by), what it lets
+// through (blue), and how far the surface behind it is (alpha). Variants: DETAIL.
+#include "common.glsl"
+uniform sampler2D u_scene;  // alpha: distance [m]
+uniform sampler3D u_grid;   // square root of the density
+uniform sampler3D u_noise;
+uniform vec2 u_tan;
+uniform vec3 u_right, u_up, u_back;  // the eye's axes in the world
+uniform vec4 u_from;                 // the eye from the grid's corner [m], and 1 / edge of a cell
+uniform vec3 u_extent;               // of the grid, in cells
+uniform float u_dense;               // extinction at the grid's largest value [1/m]
+uniform vec3 u_risen;                // how far its curls have gone [m]
+in vec2 v_uv;
+out vec4 o_smoke;
+
+#if DETAIL == 2
+const int kSteps = 11;
+#elif DETAIL == 1
+const int kSteps = 8;
+#else
+const int kSteps = 6;
+#endif
+
+void main() {
+  vec3 way = normalize(vec3((2.0 * v_uv - 1.0) * u_tan, -1.0));
+  float far = texture(u_scene, v_uv).a;
+  vec3 to = u_right * way.x + u_up * way.y + u_back * way.z;
+  // Where the ray is in the grid.
+  vec3 inverse = 1.0 / (abs(to) + 1.0e-6) * (step(0.0, to) * 2.0 - 1.0);
+  vec3 a = -u_from.xyz * inverse, b = (u_extent / u_from.w - u_from.xyz) * inverse;
+  float enter = max(max(min(a.x, b.x), min(a.y, b.y)), max(min(a.z, b.z), 0.002));
+  float leave = min(min(min(max(a.x, b.x), max(a.y, b.y)), max(a.z, b.z)), far);
+  float clear = 1.0;
+  vec2 back = vec2(0.0);
+  if (leave > enter) {
+    float stride = (leave - enter) / float(kSteps);
+    for (int i = 0; i < kSteps; ++i) {
+      float d = enter + (float(i) + 0.5) * stride;
+      vec3 p = u_from.xyz + to * d;
+      float root = textureLod(u_grid, p * u_from.w / u_extent, 0.0).r;
+      float sigma = u_dense * root * root;
+#if DETAIL >= 1
+      vec4 curls = textureLod(u_noise, (p - u_risen) * 5.5, 0.0);
+      sigma *= 0.25 + 1.5 * smoothstep(0.25, 0.75, 0.65 * curls.a + 0.35 * curls.g);
+#endif
+      float taken = 1.0 - exp(-sigma * stride);
+      Lit lit = light_at(way * d);
+      float near = exp(-d * 22.0);
+      back += clear * taken * (0.10 * min(lit.power, 2.2) + 0.05 * lit.bounce) * vec2(1.0 - near, near);
+      clear *= 1.0 - taken;
+    }
+  }
+  o_smoke = vec4(back, clear, far);
+}

@@ -1,0 +1,67 @@
+// What is on the lens: fog, smears, drops, a swab that wipes. All of it lies too near to be in focus, so it only blurs,
+// veils and shifts the picture. Positions `at` in radii of the view.
+precision highp sampler3D;
+uniform sampler2D u_blur, u_blurrer;  // of the developed picture, 1/4 and 1/16
+uniform sampler3D u_noise;
+uniform vec4 u_soil;    // fog, smear, sine and cosine of its streaks' direction
+uniform vec4 u_smear;   // what the smear lets through, how far the swab has passed (< 0: none)
+uniform vec4 u_swab;    // its colour, time [s]
+uniform vec4 u_drops[16];  // two rows a drop: x, y, radius; what it lets through
+uniform int u_drop_count;
+
+vec3 blurred(vec2 uv, vec3 sharp, float by) {
+  vec3 soft = texture(u_blur, uv).rgb, softer = texture(u_blurrer, uv).rgb;
+  return mix(mix(sharp, soft, clamp(by * 2.4, 0.0, 1.0)), softer, clamp((by - 0.35) * 1.7, 0.0, 1.0));
+}
+
+vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
+  const vec3 kLuma = vec3(0.3, 0.59, 0.11);
+  vec3 mean = 0.25 * (texture(u_blurrer, vec2(0.35, 0.4)).rgb + texture(u_blurrer, vec2(0.65, 0.4)).rgb +
+                      texture(u_blurrer, vec2(0.4, 0.62)).rgb + texture(u_blurrer, vec2(0.6, 0.6)).rgb);
+  float light = dot(mean, kLuma);
+  vec4 broad = texture(u_noise, vec3(at * 0.055, 0.31));
+  float fog = clamp(u_soil.x * (0.72 + 0.75 * broad.a) - 0.10 * (1.0 - u_soil.x) * dot(at, at), 0.0, 1.0);
+
+  // The swab goes across and back; where it has been there is no fog, but a smear.
+  float smear = u_soil.y;
+  float swab = 0.0;
+  if (u_smear.w >= 0.0) {
+    float side = dot(at, u_soil.wz) + 0.12 * dot(at, vec2(-u_soil.z, u_soil.w)) * sin(9.0 * u_smear.w);
+    float edge = mix(-1.7, 1.7, u_smear.w);
+    float wiped = 1.0 - smoothstep(edge - 0.28, edge + 0.1, side);
+    float off = (side - edge) / 0.42;
+    swab = clamp(1.25 - off * off + 0.35 * (broad.g - 0.5), 0.0, 1.0);
+    swab = swab * swab * (3.0 - 2.0 * swab);
+    fog *= 1.0 - wiped;
+    smear = max(smear, 0.85 * wiped * exp(-1.5 * clamp(edge - side, 0.0, 3.0)));
+  }
+
+  // Streaks along the wiping.
+  vec2 streak_at = vec2(dot(at, u_soil.wz), dot(at, vec2(-u_soil.z, u_soil.w)));
+  float streaks = texture(u_noise, vec3(streak_at * vec2(0.012, 0.22), 0.7)).a;
+  streaks = smoothstep(0.32, 0.75, 0.6 * streaks + 0.4 * texture(u_noise, vec3(streak_at * vec2(0.03, 0.6), 0.2)).g);
+  float greasy = smear * (0.25 + 0.75 * streaks);
+
+  float by = max(fog, 0.55 * greasy);
+  picture = blurred(uv, picture, by);
+  vec3 veil = mix(mean, vec3(light), 0.55);
+  picture = mix(picture, veil * 1.15 + 0.05, 0.55 * fog);
+  picture = mix(picture, veil * u_smear.rgb * 1.05 + 0.02, 0.33 * greasy);
+
+  for (int i = 0; i < u_drop_count; ++i) {
+    vec4 drop = u_drops[2 * i];
+    vec2 off = (at - drop.xy) / drop.z;
+    vec4 wobble = texture(u_noise, vec3(off * 0.05, float(i) * 0.17));
+    float r = length(off) * (0.82 + 0.36 * wobble.a);
+    float body = 1.0 - smoothstep(0.2, 1.0, r);
+    if (body <= 0.0) continue;
+    // It shows what is around it upside down, and small, all out of focus.
+    vec2 inner = uv - off * drop.z * 0.35 * (1.0 + 0.5 * r * r);
+    vec3 seen = mix(texture(u_blur, inner).rgb, texture(u_blurrer, inner).rgb, 0.8);
+    float low = clamp(0.5 - 0.5 * off.y, 0.0, 1.0);
+    seen = seen * (0.92 + 0.25 * low) + light * 0.10 * low;
+    picture = mix(picture, seen * u_drops[2 * i + 1].rgb, 0.9 * body);
+  }
+  vec3 cloth = u_swab.rgb * (0.62 + 0.9 * light) * (0.85 + 0.3 * broad.a);
+  return mix(picture, min(cloth, vec3(0.93)), 0.97 * swab);
+}

@@ -1,0 +1,49 @@
+// Adds a blob to the field (normal and distance weighted with it), to the thickness of drops, or to that of films. What
+// lies follows the surface that the picture shows there, so no square sticks out of it.
+precision highp float;
+uniform sampler2D u_scene;  // alpha: distance [m]
+in vec3 v_eye;
+in vec2 v_at;
+flat in vec3 v_middle, v_along, v_across, v_normal;
+flat in vec4 v_size;
+flat in vec4 v_mix;
+layout(location = 0) out vec4 o_field;
+layout(location = 1) out vec4 o_thickness;
+layout(location = 2) out vec4 o_film;
+
+void main() {
+  ivec2 last = textureSize(u_scene, 0) - 1;
+  float far = texelFetch(u_scene, min(2 * ivec2(gl_FragCoord.xy), last), 0).a;
+  float own = length(v_eye), reach = v_size.y;
+  bool sheer = v_size.w > 3.5;
+  float kind = v_size.w - (sheer ? 4.0 : 0.0);
+  vec2 at = v_at;
+  float off = 0.0;
+  if (kind < 0.5) {
+    if (far < own - 0.3 * reach) discard;
+  } else {
+    vec3 shown = v_eye * (far / own) - v_middle;
+    off = dot(shown, v_normal);
+    if (abs(off) < 0.0012 + 0.8 * reach)
+      at = vec2(dot(shown, v_along), dot(shown, v_across));
+    else if (!sheer || far < own)
+      discard;
+    else
+      off = 0.0;
+  }
+  float along = max(abs(at.x) - v_size.x, 0.0);
+  float s = 1.0 - (along * along + at.y * at.y + 0.4 * off * off) / (reach * reach);
+  if (s <= 0.0) discard;
+  float f = s * s;
+  f *= f * f;  // as a sum of cubes: blobs that overlap grow little
+  vec2 n = kind < 0.5 ? vec2(0.0) : v_normal.xy;
+  if (kind > 1.5) {
+    o_field = vec4(n, min(own, far), 1.0) * (0.002 * s * s);
+    o_thickness = vec4(0.0);
+    o_film = vec4(v_mix.rgb, v_mix.a) * (v_size.z * 1.0e3 * s * s);
+  } else {
+    o_field = vec4(n, own, 1.0) * f;
+    o_thickness = vec4(v_mix.rgb, v_mix.a) * (v_size.z * 1.0e3 * f);
+    o_film = vec4(0.0);
+  }
+}

@@ -1,0 +1,309 @@
+#include <algorithm>
+#include <cmath>
+
+#include <trocar/view/fluid_drawing.hpp>
+#include <trocar/view/mesh_buffer.hpp>
+
+namespace trocar::view {
+namespace {
+
+using render::Liquid;
+using render::Splat;
+using render::SplatKind;
+
+// Our choice, all of them: from the look of spurts and rivulets in endoscopic films.
+constexpr float kCellsScatter = 1.6e3f;   // [1/m] red cells, forward scattering left out: blood is no red glass
+constexpr float kShutter = 0.004f;        // [s] a camera's: what flies is a streak
+constexpr float kLongestLink = 9.0f;      // in radii: a jet's drops hang together up to here
+constexpr float kThinnestLink = 0.30f;    // in radii: ... and until the thread between them is so thin
+constexpr float kCapSpread = 1.35f;       // radius of a cap over that of its ball
+constexpr float kLongestTail = 2.2f;      // of a running drop, in radii
+constexpr float kTailSpeed = 0.05f;       // [m/s] at which the tail is half of it
+constexpr float kFilmReach = 1.05f;       // radius of a stain over the edge of its place
+constexpr float kThinnestFilm = 0.4e-6f;  // [m] not drawn below
+constexpr float kWetDepth = 60e-6f;       // [m] at which a cell of the pool counts as wet
+constexpr int kMargin = 3;                // cells around the wet ones
+
+Vec3f to_float(const fluids::Rgb& c) { return {float(c.r), float(c.g), float(c.b)}; }
+
+template <class Volume>
+std::array<float, 3> shares_of(const Volume& v) {
+  const double all = double(std::max<std::int64_t>(v.total(), 1));
+  return {float(double(v.blood) / all), float(double(v.saline) / all), float(double(v.bile) / all)};
+}
+
+Vec3f at(const fluids::DropletState& d, std::int32_t i) {
+  const auto k = std::size_t(i);
+  return {d.x[k], d.y[k], d.z[k]};
+}
+Vec3f speed(const fluids::DropletState& d, std::int32_t i) {
+  const auto k = std::size_t(i);
+  return {d.vx[k], d.vy[k], d.vz[k]};
+}
+
+bool finite(Vec3f v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+/// A ball of this radius drawn out along `half` either way keeps its volume as a rod with round ends.
+float drawn_out(float radius, float half) {
+  const float ball = radius * radius * radius * 4 / 3;
+  float r = radius;
+  for (int k = 0; k < 4; ++k) r = std::sqrt(ball / (2 * half + 4 * r / 3));
+  return r;
+}
+
+/// A drop in flight, smeared over the time the shutter is open.
+Splat streak(Vec3f p, Vec3f v, float radius, const std::array<float, 3>& share) {
+  const float half = 0.5f * kShutter * length(v);
+  Splat s;
+  const Vec3f way = 0.5f * kShutter * v;
+  s.from = p - way, s.to = p + way;
+  s.radius = std::max(drawn_out(radius, half), 0.45f * radius);
+  s.height = s.radius;
+  s.share = share;
+  return s;
+}
+
+/// Three by three, 1 2 1, in place.
+void smooth_once(std::vector<float>& field, std::vector<float>& scratch, int width, int height) {
+  scratch.resize(field.size());
+  const auto line = [](const std::vector<float>& in, std::vector<float>& out, std::size_t first, std::size_t step,
+                       int n) {
+    for (int k = 0; k < n; ++k) {
+      const std::size_t c = first + step * std::size_t(k);
+      const float low = in[k > 0 ? c - step : c], high = in[k + 1 < n ? c + step : c];
+      out[c] = 0.25f * low + 0.5f * in[c] + 0.25f * high;
+    }
+  };
+  for (int j = 0; j < height; ++j) line(field, scratch, std::size_t(j) * width, 1, width);
+  for (int i = 0; i < width; ++i) line(scratch, field, std::size_t(i), std::size_t(width), height);
+}
+
+}  // namespace
+
+render::LiquidLook liquid_look(const fluids::Optics& o) {
+  render::LiquidLook look;
+  look.kinds[0] = {to_float(o.arterial), kCellsScatter, to_float(o.deep_blood), 20};
+  look.kinds[1] = {to_float(o.saline), 0, {0, 0, 0}, 0};
+  look.kinds[2] = {to_float(o.bile), 0, to_float(o.deep_bile), 1};
+  return look;
+}
+
+FluidDrawing::FluidDrawing(const fluids::FluidsModel& model, const fluids::Optics& optics)
+    : m_model(&model), m_look(liquid_look(optics)) {}
+
+void FluidDrawing::list(const FluidSight& sight, render::Frame& frame) {
+  Liquid& liquid = frame.liquid;
+  liquid.look = m_look;
+  list_pool(sight, liquid);
+  list_films(sight, liquid);
+  list_lying(sight.state.droplets, sight.sheer_bodies, liquid);
+  list_flying(sight.state.droplets, liquid);
+}
+
+/// The drop that left the same opening just before or after it and still hangs together with it, or the end.
+std::size_t FluidDrawing::next_in_strand(const fluids::DropletState& d, std::size_t n) const {
+  const std::int32_t i = m_flying[n].at;
+  const float r = d.radius[std::size_t(i)];
+  for (std::size_t m = n + 1; m < std::min(n + 9, m_flying.size()); ++m) {
+    const std::int32_t j = m_flying[m].at;
+    const float other = d.radius[std::size_t(j)], size = std::max(r, other);
+    const Vec3f way = at(d, j) - at(d, i), difference = speed(d, j) - speed(d, i);
+    const float far = length(way), fast = length(speed(d, i));
+    if (far > kLongestLink * size || far < 0.2f * size || std::min(r, other) < 0.35f * size) continue;
+    if (length(difference) > 0.25f * fast + 0.1f) continue;
+    if (std::fabs(dot(way, speed(d, i))) < 0.75f * far * fast) continue;  // side by side
+    return m;
+  }
+  return m_flying.size();
+}
+
+/// A strand between two drops, of their volume; drops keep what the strand is too thin for.
+bool FluidDrawing::link(const fluids::DropletState& d, std::int32_t i, std::int32_t j, Liquid& liquid) const {
+  const float r = d.radius[std::size_t(i)], other = d.radius[std::size_t(j)], size = std::max(r, other);
+  const float far = length(at(d, j) - at(d, i));
+  const float thin = std::min(std::sqrt(2.0f / 3 * (r * r * r + other * other * other) / far), 0.95f * size);
+  if (thin < kThinnestLink * size) return false;
+  Splat s;
+  s.from = at(d, i), s.to = at(d, j);
+  s.radius = thin;
+  s.height = thin;
+  s.share = shares_of(d.volume[std::size_t(i)]);
+  liquid.splats.push_back(s);
+  return thin > 0.5f * size;
+}
+
+/// Drops that left an opening one after the other hang together as a strand until it has run too thin.
+void FluidDrawing::list_flying(const fluids::DropletState& d, Liquid& liquid) {
+  m_flying.clear();
+  for (std::int32_t i = 0; i < d.count; ++i) {
+    const auto k = std::size_t(i);
+    if (d.body[k] >= 0 || !(d.radius[k] > 0) || !finite(at(d, i)) || !finite(speed(d, i))) continue;
+    m_flying.push_back({d.id[k], i, false});
+  }
+  std::sort(m_flying.begin(), m_flying.end(), [](const Flying& a, const Flying& b) { return a.id < b.id; });
+  for (std::size_t n = 0; n < m_flying.size(); ++n) {
+    const std::size_t m = next_in_strand(d, n);
+    if (m == m_flying.size() || !link(d, m_flying[n].at, m_flying[m].at, liquid)) continue;
+    m_flying[n].in_strand = m_flying[m].in_strand = true;
+  }
+  for (const Flying& drop : m_flying) {
+    const auto k = std::size_t(drop.at);
+    if (!drop.in_strand)
+      liquid.splats.push_back(streak(at(d, drop.at), speed(d, drop.at), d.radius[k], shares_of(d.volume[k])));
+  }
+}
+
+/// A cap of the drop's volume, wider than it is high, drawn out behind it as it runs.
+void FluidDrawing::list_lying(const fluids::DropletState& d, std::span<const std::uint8_t> sheer, Liquid& liquid) {
+  for (std::int32_t i = 0; i < d.count; ++i) {
+    const auto k = std::size_t(i);
+    if (d.body[k] < 0 || !(d.radius[k] > 0) || !finite(at(d, i)) || !finite(speed(d, i))) continue;
+    const Vec3f normal = normalised(d.ground[k].normal, Vec3f{0, 0, 1});
+    Vec3f v = speed(d, i) - d.ground[k].velocity;
+    v -= dot(v, normal) * normal;
+    const float fast = length(v), r = d.radius[k];
+    // No two drops are alike: some lie flat, some stand.
+    const float own = 0.8f + 0.4f * float(varied(int(d.id[k] & 0xffff), 3));
+    const float spread = kCapSpread * own;
+    const float tail = kLongestTail * r * fast / (fast + kTailSpeed);
+    Splat s;
+    s.kind = SplatKind::lying;
+    s.to = at(d, i) - (dot(normal, at(d, i)) - d.ground[k].offset) * normal;
+    s.from = fast > 1e-5f ? s.to - (tail / fast) * v : s.to;
+    s.normal = normal;
+    // Volume of a cap: pi/2 h a^2 for a flat one; with a tail as wide as itself: and 4/3 a h of its length.
+    const float ball = 4.18879f * r * r * r;
+    s.radius = spread * r * (1 - 0.25f * tail / (tail + 2 * r));
+    s.height = ball / (1.5708f * s.radius * s.radius + 1.3333f * s.radius * tail);
+    s.share = shares_of(d.volume[k]);
+    s.sheer = std::size_t(d.body[k]) < sheer.size() && sheer[std::size_t(d.body[k])] != 0;
+    liquid.splats.push_back(s);
+  }
+}
+
+void FluidDrawing::list_films(const FluidSight& sight, Liquid& liquid) {
+  const std::vector<fluids::SmallMix>& film = sight.state.droplets.film;
+  const Vec3f down = normalised(vec_cast<float>(m_model->droplets.gravity), Vec3f{0, 0, -1});
+  const std::size_t n = std::min(film.size(), sight.places.size());
+  for (std::size_t k = 0; k < n; ++k) {
+    const FilmPlace& place = sight.places[k];
+    const float thickness = 1e-15f * float(film[k].total()) / place.area;
+    if (!(thickness > kThinnestFilm) || !finite(place.position) || !finite(place.normal)) continue;
+    const float own = float(varied(int(k & 0x7fffffff), 7)), edge = std::sqrt(place.area);
+    Vec3f along = down - dot(down, place.normal) * place.normal;  // it runs that way
+    Splat s;
+    s.kind = SplatKind::film;
+    const Vec3f half = (0.55f * edge * (0.5f + own)) * along;
+    s.from = place.position - half, s.to = place.position + half;
+    s.normal = place.normal;
+    s.radius = kFilmReach * edge * (0.55f + 0.35f * own);
+    s.height = thickness * (0.75f + 0.5f * own);
+    s.share = shares_of(film[k]);
+    s.dark = 1 - float(fluids::clot_brightness(double(place.age)));
+    s.dark = s.share[0] > 0.02f ? s.dark / 0.6f : 0;
+    s.sheer = place.sheer;
+    liquid.splats.push_back(s);
+  }
+}
+
+/// Depth, cover and level of the cells that are wet and of those around them, smoothed; the level goes on beyond the
+/// border as if the pool did, so that the border lies where the surface meets what is drawn.
+void FluidDrawing::smooth_pool(const fluids::PoolState& pool, std::span<const float> floor) {
+  const fluids::PoolModel& m = m_model->pool;
+  int i0 = m.nx, i1 = -1, j0 = m.ny, j1 = -1;
+  for (int j = 0; j < m.ny; ++j)
+    for (int i = 0; i < m.nx; ++i)
+      if (depth_at(m, pool, i, j) > 0.3f * kWetDepth) {
+        i0 = std::min(i0, i), i1 = std::max(i1, i);
+        j0 = std::min(j0, j), j1 = std::max(j1, j);
+      }
+  if (i1 < 0) {
+    m_window = {};
+    return;
+  }
+  i0 = std::max(i0 - kMargin, 0), j0 = std::max(j0 - kMargin, 0);
+  i1 = std::min(i1 + kMargin, m.nx - 1), j1 = std::min(j1 + kMargin, m.ny - 1);
+  m_window = {i0, j0, i1 - i0 + 1, j1 - j0 + 1};
+  const int w = m_window.width, h = m_window.height;
+  for (std::vector<float>* field : {&m_depth, &m_cover, &m_level, &m_known}) field->assign(m_window.size(), 0);
+  for (int j = 0; j < h; ++j)
+    for (int i = 0; i < w; ++i) {
+      const auto k = std::size_t(j) * w + i;
+      m_depth[k] = depth_at(m, pool, i0 + i, j0 + j);
+      m_cover[k] = std::min(m_depth[k] / kWetDepth, 1.0f);
+      m_known[k] = m_cover[k] >= 1 ? 1.0f : 0.0f;
+      m_level[k] = (floor_at(m, floor, i0 + i, j0 + j) + m_depth[k]) * m_known[k];
+    }
+  for (int ring = 0; ring < kMargin + 1; ++ring) {
+    std::vector<float>& next = m_scratch;
+    next.assign(m_known.begin(), m_known.end());
+    for (int j = 0; j < h; ++j)
+      for (int i = 0; i < w; ++i) {
+        const auto k = std::size_t(j) * w + i;
+        if (m_known[k] > 0) continue;
+        float sum = 0, weight = 0;
+        for (int b = std::max(j - 1, 0); b <= std::min(j + 1, h - 1); ++b)
+          for (int a = std::max(i - 1, 0); a <= std::min(i + 1, w - 1); ++a) {
+            const auto q = std::size_t(b) * w + a;
+            if (m_known[q] > 0) sum += m_level[q], weight += 1;
+          }
+        if (weight > 0) m_level[k] = sum / weight, next[k] = 1;
+      }
+    m_known.swap(next);
+  }
+  for (std::size_t k = 0; k < m_window.size(); ++k)
+    if (m_known[k] <= 0) m_level[k] = floor_at(m, floor, i0 + int(k) % w, j0 + int(k) / w);
+  smooth_once(m_cover, m_scratch, w, h);
+  smooth_once(m_cover, m_scratch, w, h);
+  smooth_once(m_depth, m_scratch, w, h);
+  smooth_once(m_level, m_scratch, w, h);
+}
+
+void FluidDrawing::list_pool(const FluidSight& sight, Liquid& liquid) {
+  const fluids::PoolModel& m = m_model->pool;
+  const fluids::PoolState& pool = sight.state.pool;
+  smooth_pool(pool, sight.floor);
+  const int w = m_window.width, h = m_window.height;
+  if (w < 2 || h < 2) return;
+  constexpr std::uint32_t kNone = ~0u;
+  m_corner.assign(m_window.size(), kNone);
+  const auto cell = [&](int i, int j) { return std::size_t(j) * w + i; };
+  const auto corner = [&](int i, int j) {
+    std::uint32_t& at_corner = m_corner[cell(i, j)];
+    if (at_corner != kNone) return at_corner;
+    at_corner = std::uint32_t(liquid.sheet.size());
+    const int west = std::max(i - 1, 0), east = std::min(i + 1, w - 1);
+    const int south = std::max(j - 1, 0), north = std::min(j + 1, h - 1);
+    const double du = double(m_level[cell(east, j)] - m_level[cell(west, j)]) / (m.cell * (east - west));
+    const double dv = double(m_level[cell(i, north)] - m_level[cell(i, south)]) / (m.cell * (north - south));
+    const int ci = m_window.i0 + i, cj = m_window.j0 + j;
+    fluids::Mix mix;
+    for (int b = std::max(cj - 1, 0); b <= std::min(cj + 1, m.ny - 1); ++b)
+      for (int a = std::max(ci - 1, 0); a <= std::min(ci + 1, m.nx - 1); ++a) mix += mix_at(m, pool, a, b);
+    const std::array<float, 3> share = shares_of(mix);
+    const auto k = cell(i, j);
+    render::SheetVertex v;
+    v.position = vec_cast<float>(world(m, (ci + 0.5) * m.cell, (cj + 0.5) * m.cell, double(m_level[k])));
+    v.normal = vec_cast<float>(normalised(m.up - du * m.u - dv * m.v, m.up));
+    v.depth = m_depth[k];
+    v.cover = m_cover[k];
+    v.share_b = share[1];
+    v.share_c = share[2];
+    // Where it is stirred it froths.
+    const auto face = std::size_t(m.at(ci, cj));
+    const float u = pool.u[face], s = pool.v[face];
+    v.froth = float(smooth(0.05, 0.15, double(std::sqrt(u * u + s * s)))) * (1 - 0.6f * share[0]);
+    liquid.sheet.push_back(v);
+    return at_corner;
+  };
+  for (int j = 0; j + 1 < h; ++j)
+    for (int i = 0; i + 1 < w; ++i) {
+      const float most = std::max(std::max(m_cover[cell(i, j)], m_cover[cell(i + 1, j)]),
+                                  std::max(m_cover[cell(i, j + 1)], m_cover[cell(i + 1, j + 1)]));
+      if (most < 0.32f) continue;
+      const std::uint32_t a = corner(i, j), b = corner(i + 1, j), c = corner(i + 1, j + 1), d = corner(i, j + 1);
+      liquid.triangles.insert(liquid.triangles.end(), {a, b, c, a, c, d});
+    }
+}
+
+}  // namespace trocar::view
