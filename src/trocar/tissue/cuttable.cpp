@@ -365,6 +365,7 @@ StepReport advance(const CuttableModel& m, std::span<const NodeLoad> loads, std:
     fine = kernels().substep(args, 0, w.slices) && fine;
     guard.mend(args.in, args.out);
     fine = pull.apply(args.in, args.out) && fine;
+    guard.catch_leaps(args.in, args.out);
     std::swap(s.nodes, w.other);
   }
   pull.report(reactions);

@@ -4,8 +4,9 @@
 // collapsed.
 //
 //   Guard guard(body, state, scratch, nodes, hands);  // once a tick: what has collapsed?
-//   guard.mend(in, out);                            // after each sub-step
-//   guard.release(nodes);                           // when the tick is done
+//   guard.mend(in, out);                              // after each sub-step: cells open, ends calm
+//   guard.catch_leaps(in, out);                       // after that and its loads
+//   guard.release(nodes);                             // when the tick is done
 //
 // Private to the folder. docs/robustness.md says what was tried and what it withstands.
 #pragma once
@@ -77,6 +78,8 @@ class Guard {
   bool at_work() const noexcept { return !m_open.empty(); }
   /// `in` is where the sub-step began, `out` what it has made of it.
   void mend(const NodeState* in, NodeState* out) const noexcept;
+  /// The same, once loads have been applied.
+  void catch_leaps(const NodeState* in, NodeState* out) const noexcept;
   /// Lets go the cells that are open, and counts for how long the others have been at rest.
   void release(std::span<const NodeState> nodes) noexcept;
 
@@ -91,7 +94,6 @@ class Guard {
   Mat3d turn_of(std::int32_t part, std::span<const NodeState> nodes) const noexcept;
   Vec3f drift(std::span<const NodeState> nodes) const noexcept;
   void push_open(const NodeState* in, NodeState* out) const noexcept;
-  void catch_leaps(const NodeState* in, NodeState* out) const noexcept;
   void calm(const NodeState* in, NodeState* out) const noexcept;
   bool late() const noexcept { return (m_state.tick & 255u) >= 192; }
   bool unfolds_now() const noexcept { return late() && m_hands == Hands::off; }

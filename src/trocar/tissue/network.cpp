@@ -100,6 +100,7 @@ StepReport advance(const NetworkModel& m, std::span<const NodeLoad> loads, std::
     fine = run_substep(args, w.forces, pool) && fine;
     guard.mend(args.in, args.out);
     fine = pull.apply(args.in, args.out) && fine;
+    guard.catch_leaps(args.in, args.out);
     std::swap(s.nodes, w.other);
   }
   pull.report(reactions);
