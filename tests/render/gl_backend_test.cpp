@@ -86,7 +86,8 @@ TEST_F(GlBackend, EveryShaderVariantCompilesAndLinks) {
   for (const char* shape : {"full.vert", "disc.vert"}) {
     for (const char* extra : {"", "EFFECTS", "RODS", "EFFECTS,RODS", "SMOKE", "EFFECTS,RODS,SMOKE"})
       EXPECT_NO_THROW(programs.get(shape, "develop.frag", extra));
-    for (const char* extra : {"", "FRINGE", "FRINGE,SMOOTH", "SOILED", "FRINGE,SMOOTH,SOILED"})
+    for (const char* extra : {"", "FRINGE", "FRINGE,SMOOTH", "SOILED", "SOILED,UNEVEN",
+                              "FRINGE,SMOOTH,SOILED,UNEVEN,SMEARED,WIPED,DROPS", "SOILED,SMEARED,WIPED"})
       EXPECT_NO_THROW(programs.get(shape, "lens.frag", extra));
   }
   for (const char* detail : {"DETAIL=0", "DETAIL=1", "DETAIL=2"}) {

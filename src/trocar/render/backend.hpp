@@ -46,6 +46,8 @@ class Backend {
   /// Makes ready what these items will need at every quality, clean and stained: a shader that is first used in the
   /// middle of an operation costs 0.1 s there and then. Optional; once, after the meshes are made.
   virtual void prepare(std::span<const DrawItem> items) = 0;
+  /// The same for liquids, smoke and what may be on the lens: for scenes that may have them.
+  virtual void prepare_liquids() = 0;
 
   /// Takes everything of the frame but its items.
   virtual void begin_frame(const Frame& frame, const Target& target) = 0;

@@ -231,6 +231,11 @@ void CheckedBackend::prepare(std::span<const DrawItem> items) {
   on_prepare(items);
 }
 
+void CheckedBackend::prepare_liquids() {
+  require(!m_in_frame, "prepare_liquids", "a frame is open");
+  on_prepare_liquids();
+}
+
 void CheckedBackend::begin_frame(const Frame& frame, const Target& target) {
   const char* call = "begin_frame";
   require(!m_in_frame, call, "the frame before was not ended");

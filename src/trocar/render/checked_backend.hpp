@@ -18,6 +18,7 @@ class CheckedBackend : public Backend {
   void replace_mesh(MeshHandle mesh, const MeshData& data) final;
   void destroy_mesh(MeshHandle mesh) final;
   void prepare(std::span<const DrawItem> items) final;
+  void prepare_liquids() final;
   void begin_frame(const Frame& frame, const Target& target) final;
   void draw(const DrawItem& item) final;
   void end_frame() final;
@@ -36,6 +37,7 @@ class CheckedBackend : public Backend {
                          std::span<const Paint> paint) = 0;  ///< paint may be empty
   virtual void on_destroy(std::uint32_t id) = 0;
   virtual void on_prepare(std::span<const DrawItem> items) = 0;
+  virtual void on_prepare_liquids() = 0;
   /// @param opaque near to far (less is shaded twice), translucent far to near
   virtual void on_frame(const Frame& frame, const Target& target, std::span<const DrawItem* const> opaque,
                         std::span<const DrawItem* const> translucent) = 0;

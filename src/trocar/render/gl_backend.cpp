@@ -67,6 +67,35 @@ void GlBackend::on_prepare(std::span<const DrawItem> items) {
   leave_state_clean();
 }
 
+void GlBackend::on_prepare_liquids() {
+  Frame frame;
+  frame.look.auto_exposure = false;
+  Splat drop;
+  drop.from = drop.to = {0, 0, -0.05f};
+  frame.liquid.splats = {drop};
+  for (int k = 0; k < 3; ++k) {
+    SheetVertex corner;
+    corner.position = {0.01f * float(k % 2), 0.01f * float(k / 2), -0.05f};
+    corner.normal = {0, 0, 1};
+    corner.depth = 0.001f, corner.cover = 1;
+    frame.liquid.sheet.push_back(corner);
+  }
+  frame.liquid.triangles = {0, 1, 2};
+  frame.smoke.nx = frame.smoke.ny = frame.smoke.nz = 2;
+  frame.smoke.density.assign(8, 1.0f);
+  for (const int detail : {2, 1, 0})
+    for (int soil = 0; soil < 4; ++soil) {  // fogged; wiped; smeared; with drops
+      frame.quality.detail = detail;
+      frame.look.soil = {};
+      frame.look.soil.fog = 0.5f;
+      if (soil == 1) frame.look.soil.wipe = 0.5f;
+      if (soil == 2) frame.look.soil.smear = 0.5f;
+      if (soil == 3) frame.look.soil.drop_count = 1;
+      on_frame(frame, Target::off_screen(8, 8), {}, {});
+    }
+  m_small_eye = -1;
+}
+
 void GlBackend::on_frame(const Frame& frame, const Target& target, std::span<const DrawItem* const> opaque,
                          std::span<const DrawItem* const> translucent) {
   const Layout layout(target, frame.look, frame.quality.render_scale);

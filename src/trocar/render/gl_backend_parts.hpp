@@ -52,6 +52,7 @@ class GlBackend final : public CheckedBackend {
 
   /// Draws each item once at every detail, clean and stained, into a picture of a few pixels.
   void on_prepare(std::span<const DrawItem> items) override;
+  void on_prepare_liquids() override;
   void on_frame(const Frame& frame, const Target& target, std::span<const DrawItem* const> opaque,
                 std::span<const DrawItem* const> translucent) override;
   Image on_read(const Target& target) override;
@@ -95,7 +96,7 @@ class GlBackend final : public CheckedBackend {
 
   void resample(const GlPicture& from, GlPicture& to, const char* spread);
   /// A quarter as wide and high, then smoothed, so that enlarging it shows no steps.
-  void shrink(const GlPicture& from, GlPicture& rough, GlPicture& smooth);
+  void shrink(const GlPicture& from, GlPicture& rough, GlPicture& smooth, GLenum format = GL_RGBA16F);
   void shrink_pass();
   /// Exposure lives in two pictures of one pixel an eye; this reads one and writes the other.
   void meter_pass(const Frame& frame, const Target& target, const Layout& layout);
@@ -124,7 +125,7 @@ class GlBackend final : public CheckedBackend {
   GlTexture m_noise, m_cells, m_vessels, m_arcade;
   GlVertexArray m_no_vertices;
   GlPicture m_scene, m_shade, m_small, m_smaller, m_developed, m_own, m_bed, m_smoke;
-  std::array<GlPicture, 2> m_blur_rough, m_blur;
+  std::array<GlPicture, 3> m_blur_rough, m_blur;
   std::array<GlPicture, 3> m_wet;  ///< field, thickness, film; the first one's framebuffer draws into all of them
   GlVertexArray m_splat_layout, m_sheet_layout;
   GlBuffer m_splat_buffer, m_sheet_buffer, m_sheet_indices;

@@ -41,6 +41,9 @@ struct Bounds2 {
   }
 };
 
+/// How many of the scene's pixels one of the field's is wide.
+int wet_part(const Quality& quality) { return quality.detail > 0 ? 2 : 3; }
+
 float code_of(const Splat& s) { return float(int(s.kind)) + (s.sheer ? 4.0f : 0.0f); }
 
 }  // namespace
@@ -154,7 +157,8 @@ void GlBackend::pack_splats(const Frame& frame) {
 
 void GlBackend::splat_pass(const Frame& frame, const Layout& layout) {
   if (frame.liquid.splats.empty()) return;
-  const int width = (m_scene.width + 1) / 2, height = (m_scene.height + 1) / 2;
+  const int part = wet_part(frame.quality);
+  const int width = (m_scene.width + part - 1) / part, height = (m_scene.height + part - 1) / part;
   const bool anew = !m_wet[0].colour || m_wet[0].width != width || m_wet[0].height != height;
   for (GlPicture& picture : m_wet) picture.resize(width, height, GL_RGBA16F, false, GL_LINEAR);
   m_wet[0].bind();
@@ -189,6 +193,7 @@ void GlBackend::splat_pass(const Frame& frame, const Layout& layout) {
   program.use();
   program.set("u_projection", m_projection);
   program.set("u_scene", kUnitPicture);
+  program.set("u_part", part);
   bind_texture(kUnitPicture, GL_TEXTURE_2D, m_scene.colour.id());
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(m_splat_rows.size() / kSplatFloats));
   glDisable(GL_BLEND);
@@ -205,6 +210,7 @@ void GlBackend::wet_pass(const Frame& frame, const Layout&) {
     program.set(names[k], kUnitWet + k);
     bind_texture(kUnitWet + k, GL_TEXTURE_2D, m_wet[std::size_t(k)].colour.id());
   }
+  program.set("u_part", float(wet_part(frame.quality)));
   program.set("u_texel", 1.0f / float(m_wet[0].width), 1.0f / float(m_wet[0].height));
   glEnable(GL_SCISSOR_TEST);
   glScissor(m_wet_box[0], m_wet_box[1], m_wet_box[2], m_wet_box[3]);

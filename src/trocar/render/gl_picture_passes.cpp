@@ -7,6 +7,15 @@
 namespace trocar::render {
 namespace {
 
+std::string soil_variant(const LensSoil& soil, const Quality& quality) {
+  std::string defines = "SOILED,";
+  if (quality.detail > 0) defines += "UNEVEN,";
+  if (soil.smear > 0 || soil.wipe >= 0) defines += "SMEARED,";
+  if (soil.wipe >= 0) defines += "WIPED,";
+  if (soil.drop_count > 0) defines += "DROPS,";
+  return defines;
+}
+
 const char* view_shape(const EndoscopeLook& look) { return look.mask ? "disc.vert" : "full.vert"; }
 
 }  // namespace
@@ -21,9 +30,9 @@ void GlBackend::resample(const GlPicture& from, GlPicture& to, const char* sprea
   draw_full();
 }
 
-void GlBackend::shrink(const GlPicture& from, GlPicture& rough, GlPicture& smooth) {
+void GlBackend::shrink(const GlPicture& from, GlPicture& rough, GlPicture& smooth, GLenum format) {
   for (GlPicture* picture : {&rough, &smooth})
-    picture->resize((from.width + 3) / 4, (from.height + 3) / 4, GL_RGBA16F, false, GL_LINEAR);
+    picture->resize((from.width + 3) / 4, (from.height + 3) / 4, format, false, GL_LINEAR);
   resample(from, rough, "SPREAD=1.0");
   resample(rough, smooth, "SPREAD=0.75");
 }
@@ -103,7 +112,7 @@ void GlBackend::lens_pass(const Frame& frame, const Target& target, const Layout
   if (look.fringe_px > 0 && frame.quality.detail > 1) defines += "FRINGE,";
   if (frame.quality.detail > 0) defines += "SMOOTH,";
   const bool soiled = !look.soil.clean();
-  if (soiled) defines += "SOILED,";
+  if (soiled) defines += soil_variant(look.soil, frame.quality);
   GlProgram& program = m_programs.get(view_shape(look), "lens.frag", defines);
   program.use();
   program.set("u_picture", kUnitPicture);
@@ -122,14 +131,17 @@ void GlBackend::lens_pass(const Frame& frame, const Target& target, const Layout
 
 void GlBackend::soil_pass() {
   glDisable(GL_DEPTH_TEST);
-  shrink(m_developed, m_blur_rough[0], m_blur[0]);
-  shrink(m_blur[0], m_blur_rough[1], m_blur[1]);
+  shrink(m_developed, m_blur_rough[0], m_blur[0], GL_RGBA8);
+  shrink(m_blur[0], m_blur_rough[1], m_blur[1], GL_RGBA8);
+  shrink(m_blur[1], m_blur_rough[2], m_blur[2], GL_RGBA8);
 }
 
 void GlBackend::set_soil(const LensSoil& soil, std::uint64_t tick, GlProgram& program) {
   program.set("u_blur", kUnitSmall);
   program.set("u_blurrer", kUnitSmaller);
+  program.set("u_blurred", kUnitBed);
   program.set("u_noise", kUnitNoise);
+  bind_texture(kUnitBed, GL_TEXTURE_2D, m_blur[2].colour.id());
   bind_texture(kUnitSmall, GL_TEXTURE_2D, m_blur[0].colour.id());
   bind_texture(kUnitSmaller, GL_TEXTURE_2D, m_blur[1].colour.id());
   bind_texture(kUnitNoise, GL_TEXTURE_3D, m_noise.id());

@@ -10,6 +10,7 @@ class NullBackend final : public CheckedBackend {
   void on_update(std::uint32_t, std::span<const Vec3f>, std::span<const Vec3f>, std::span<const Paint>) override {}
   void on_destroy(std::uint32_t) override {}
   void on_prepare(std::span<const DrawItem>) override {}
+  void on_prepare_liquids() override {}
   void on_frame(const Frame&, const Target&, std::span<const DrawItem* const>,
                 std::span<const DrawItem* const>) override {}
   Image on_read(const Target& target) override {

@@ -1,4 +1,5 @@
-// What lens and camera do to the developed picture. Variants: FRINGE, SMOOTH, SOILED.
+// What lens and camera do to the developed picture. Variants: FRINGE, SMOOTH, SOILED (and
+// those of soil.glsl).
 precision highp float;
 precision highp int;
 uniform sampler2D u_picture;

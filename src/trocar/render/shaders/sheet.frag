@@ -17,7 +17,7 @@ vec3 mirrored(vec3 r, float bounce, float jitter) {
   return walls;
 #else
   float reach = 0.0025 * (0.7 + 0.6 * jitter), before = 0.0;
-  for (int i = 0; i < 10; ++i) {
+  for (int i = 0; i < 8; ++i) {
     vec3 p = v_eye + reach * r;
     vec2 at = in_picture(p);
     if (p.z > -0.004 || max(abs(at.x - 0.5), abs(at.y - 0.5)) > 0.49) break;
@@ -28,7 +28,7 @@ vec3 mirrored(vec3 r, float bounce, float jitter) {
       return mix(walls, min(texture(u_bed, in_picture(v_eye + reach * r)).rgb, vec3(4.0)), edge.x * edge.y);
     }
     before = reach;
-    reach *= 1.45;
+    reach *= 1.6;
   }
   return walls;
 #endif
@@ -80,7 +80,7 @@ void main() {
 
   float facing = clamp(0.1 + 0.9 * dot(n, lit.direction), 0.0, 1.0);
   vec3 light = LIGHT_COLOUR * (lit.power * facing) + (BOUNCE + vec3(AMBIENT)) * lit.bounce;
-  vec3 deep = deep_colour(amount, v_mix.w) * (0.78 + 0.44 * smoothstep(0.25, 0.75, slow.g));
+  vec3 deep = deep_colour(amount, v_mix.w) * (0.90 + 0.20 * slow.g);
   vec3 colour = bed * through + deep * light * (1.0 - through);
 #if DETAIL >= 1
   float froth = v_mix.z * smoothstep(0.55, 0.75, quick.a + 0.3 * v_mix.z);

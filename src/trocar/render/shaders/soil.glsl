@@ -1,7 +1,8 @@
 // What is on the lens: fog, smears, drops, a swab that wipes. All of it lies too near to be in focus, so it only blurs,
-// veils and shifts the picture. Positions `at` in radii of the view.
+// veils and shifts the picture. Positions `at` in radii of the view. Variants: UNEVEN, SMEARED, WIPED,
+// DROPS (a software driver pays for what it does not take, so they are no branches).
 precision highp sampler3D;
-uniform sampler2D u_blur, u_blurrer;  // of the developed picture, 1/4 and 1/16
+uniform sampler2D u_blur, u_blurrer, u_blurred;  // of the developed picture, 1/4, 1/16 and 1/64
 uniform sampler3D u_noise;
 uniform vec4 u_soil;    // fog, smear, sine and cosine of its streaks' direction
 uniform vec4 u_smear;   // what the smear lets through, how far the swab has passed (< 0: none)
@@ -16,16 +17,19 @@ vec3 blurred(vec2 uv, vec3 sharp, float by) {
 
 vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
   const vec3 kLuma = vec3(0.3, 0.59, 0.11);
-  vec3 mean = 0.25 * (texture(u_blurrer, vec2(0.35, 0.4)).rgb + texture(u_blurrer, vec2(0.65, 0.4)).rgb +
-                      texture(u_blurrer, vec2(0.4, 0.62)).rgb + texture(u_blurrer, vec2(0.6, 0.6)).rgb);
+  vec3 mean = texture(u_blurred, mix(uv, vec2(0.5), 0.75)).rgb;
   float light = dot(mean, kLuma);
+#ifdef UNEVEN
   vec4 broad = texture(u_noise, vec3(at * 0.055, 0.31));
+#else
+  const vec4 broad = vec4(0.5);
+#endif
   float fog = clamp(u_soil.x * (0.72 + 0.75 * broad.a) - 0.10 * (1.0 - u_soil.x) * dot(at, at), 0.0, 1.0);
 
   // The swab goes across and back; where it has been there is no fog, but a smear.
   float smear = u_soil.y;
   float swab = 0.0;
-  if (u_smear.w >= 0.0) {
+#ifdef WIPED
     float side = dot(at, u_soil.wz) + 0.12 * dot(at, vec2(-u_soil.z, u_soil.w)) * sin(9.0 * u_smear.w);
     float edge = mix(-1.7, 1.7, u_smear.w);
     float wiped = 1.0 - smoothstep(edge - 0.28, edge + 0.1, side);
@@ -34,13 +38,20 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
     swab = swab * swab * (3.0 - 2.0 * swab);
     fog *= 1.0 - wiped;
     smear = max(smear, 0.85 * wiped * exp(-1.5 * clamp(edge - side, 0.0, 3.0)));
-  }
+#endif
 
   // Streaks along the wiping.
-  vec2 streak_at = vec2(dot(at, u_soil.wz), dot(at, vec2(-u_soil.z, u_soil.w)));
-  float streaks = texture(u_noise, vec3(streak_at * vec2(0.012, 0.22), 0.7)).a;
-  streaks = smoothstep(0.32, 0.75, 0.6 * streaks + 0.4 * texture(u_noise, vec3(streak_at * vec2(0.03, 0.6), 0.2)).g);
-  float greasy = smear * (0.25 + 0.75 * streaks);
+  float greasy = 0.0;
+#ifdef SMEARED
+    vec2 streak_at = vec2(dot(at, u_soil.wz), dot(at, vec2(-u_soil.z, u_soil.w)));
+#ifdef UNEVEN
+    float streaks = texture(u_noise, vec3(streak_at * vec2(0.012, 0.22), 0.7)).a;
+    streaks = smoothstep(0.32, 0.75, 0.6 * streaks + 0.4 * texture(u_noise, vec3(streak_at * vec2(0.03, 0.6), 0.2)).g);
+#else
+    float streaks = 0.5 + 0.4 * sin(9.0 * streak_at.y + 4.0 * sin(3.0 * streak_at.y));
+#endif
+    greasy = smear * (0.25 + 0.75 * streaks);
+#endif
 
   float by = max(fog, 0.55 * greasy);
   picture = blurred(uv, picture, by);
@@ -48,9 +59,11 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
   picture = mix(picture, veil * 1.15 + 0.05, 0.55 * fog);
   picture = mix(picture, veil * u_smear.rgb * 1.05 + 0.02, 0.33 * greasy);
 
+#ifdef DROPS
   for (int i = 0; i < u_drop_count; ++i) {
     vec4 drop = u_drops[2 * i];
     vec2 off = (at - drop.xy) / drop.z;
+    if (dot(off, off) > 1.5) continue;
     vec4 wobble = texture(u_noise, vec3(off * 0.05, float(i) * 0.17));
     float r = length(off) * (0.82 + 0.36 * wobble.a);
     float body = 1.0 - smoothstep(0.2, 1.0, r);
@@ -62,6 +75,7 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
     seen = seen * (0.92 + 0.25 * low) + light * 0.10 * low;
     picture = mix(picture, seen * u_drops[2 * i + 1].rgb, 0.9 * body);
   }
+#endif
   vec3 cloth = u_swab.rgb * (0.62 + 0.9 * light) * (0.85 + 0.3 * broad.a);
   return mix(picture, min(cloth, vec3(0.93)), 0.97 * swab);
 }

@@ -2,6 +2,7 @@
 // lies follows the surface that the picture shows there, so no square sticks out of it.
 precision highp float;
 uniform sampler2D u_scene;  // alpha: distance [m]
+uniform int u_part;         // of its pixels to one here
 in vec3 v_eye;
 in vec2 v_at;
 flat in vec3 v_middle, v_along, v_across, v_normal;
@@ -13,7 +14,7 @@ layout(location = 2) out vec4 o_film;
 
 void main() {
   ivec2 last = textureSize(u_scene, 0) - 1;
-  float far = texelFetch(u_scene, min(2 * ivec2(gl_FragCoord.xy), last), 0).a;
+  float far = texelFetch(u_scene, min(u_part * ivec2(gl_FragCoord.xy), last), 0).a;
   float own = length(v_eye), reach = v_size.y;
   bool sheer = v_size.w > 3.5;
   float kind = v_size.w - (sheer ? 4.0 : 0.0);
@@ -35,7 +36,7 @@ void main() {
   float s = 1.0 - (along * along + at.y * at.y + 0.4 * off * off) / (reach * reach);
   if (s <= 0.0) discard;
   float f = s * s;
-  f *= f * f;  // as a sum of cubes: blobs that overlap grow little
+  f *= f;  // blobs that overlap grow little
   vec2 n = kind < 0.5 ? vec2(0.0) : v_normal.xy;
   if (kind > 1.5) {
     o_field = vec4(n, min(own, far), 1.0) * (0.002 * s * s);
@@ -43,7 +44,8 @@ void main() {
     o_film = vec4(v_mix.rgb, v_mix.a) * (v_size.z * 1.0e3 * s * s);
   } else {
     o_field = vec4(n, own, 1.0) * f;
-    o_thickness = vec4(v_mix.rgb, v_mix.a) * (v_size.z * 1.0e3 * f);
+    // What flies is marked: it has no edge that runs out thin.
+    o_thickness = vec4(v_mix.rgb, v_mix.a + (kind < 0.5 ? 2.0 : 0.0)) * (v_size.z * 1.0e3 * f);
     o_film = vec4(0.0);
   }
 }

@@ -4,41 +4,54 @@
 #include "liquid.glsl"
 uniform sampler2D u_field, u_thickness, u_film;  // sums; thickness in mm
 uniform vec2 u_texel;                            // of them
+uniform float u_part;                            // pixels of the scene to one of them
 in vec2 v_uv;
 out vec4 o_colour;
 
 /// How far inside a drop, 0 at its outline, 1 in the middle of a lone one.
-float inside_of(float field) { return 1.0 - 2.89 * (1.0 - pow(max(field, 1.0e-6), 1.0 / 6.0)); }
+float inside_of(float field) { return 1.0 - 2.89 * (1.0 - sqrt(sqrt(field))); }
 float inside(vec2 uv) { return inside_of(texture(u_field, uv).w); }
 
 void main() {
   vec4 field = texture(u_field, v_uv);
-  if (field.w < 0.0001) discard;
-  vec4 thick = texture(u_thickness, v_uv) * 1.0e-3, film = texture(u_film, v_uv) * 1.0e-3;
+  if (field.w < 0.0003) discard;
   vec4 bed = texelFetch(u_bed, ivec2(gl_FragCoord.xy), 0);
-  float far = field.z / field.w;
-  vec3 way = normalize(vec3((2.0 * v_uv - 1.0) * u_tan, -1.0));
-  vec3 eye = way * far, V = -way;
-  Lit lit = light_at(eye);
-  float pixel = -eye.z * 2.0 * u_tan.y * u_size.w;  // [m]
+  vec3 way = normalize(vec3((2.0 * v_uv - 1.0) * u_tan, -1.0)), V = -way;
+  float pixel = -way.z * bed.a * 2.0 * u_tan.y * u_size.w;  // [m]
 
-  // Films: their amount is broken up a little, so that edges are ragged.
+  // Outlines on tissue wander as it does.
   vec3 place = to_world(way * bed.a);
   vec4 fine = texture(u_noise, place * 38.0);
+  vec2 uv = v_uv + (fine.rg - 0.5) * (0.0008 / pixel) * u_size.zw;
+  field = texture(u_field, uv);
+  if (field.w < 0.0003) discard;
+  vec4 thick = texture(u_thickness, uv) * 1.0e-3, film = texture(u_film, uv) * 1.0e-3;
+  float all = max(dot(thick.rgb, vec3(1.0)), 1.0e-9), mark = thick.w / all;
+  float flying = smoothstep(0.9, 1.6, mark);
+  if (flying > 0.5) uv = v_uv;
+  float far = field.z / field.w;
+  vec3 eye = way * far;
+  Lit lit = light_at(eye);
+
+  // Films: their amount is broken up a little, so that edges are ragged.
   film *= smoothstep(-0.1, 0.75, fine.a + 0.35 * fine.r);
 
   // Drops.
-  float in_drop = inside_of(field.w);
-  vec2 slope = vec2(inside(v_uv + vec2(u_texel.x, 0.0)) - inside(v_uv - vec2(u_texel.x, 0.0)),
-                    inside(v_uv + vec2(0.0, u_texel.y)) - inside(v_uv - vec2(0.0, u_texel.y))) * 0.25;  // a pixel
+  float in_drop = inside(uv);
+  vec2 slope = vec2(inside(uv + vec2(u_texel.x, 0.0)) - inside(uv - vec2(u_texel.x, 0.0)),
+                    inside(uv + vec2(0.0, u_texel.y)) - inside(uv - vec2(0.0, u_texel.y))) * (0.5 / u_part);  // a pixel
   float soft = clamp(0.7 * length(slope), 0.03, 0.3);
   float cover = smoothstep(-soft, soft, in_drop);
-  float height = dot(thick.rgb, vec3(1.0)) / field.w;
+  float height = all / field.w;
   vec2 nb = field.xy / field.w;
   vec3 base = vec3(nb, sqrt(max(1.0 - dot(nb, nb), 0.01)));
-  vec3 n = normalize(base - vec3(slope * (height * cover / pixel), 0.0));
-  vec3 amount = thick.rgb / field.w * (cover * max(in_drop, 0.25));
-  float dark = mix(film.w / max(dot(film.rgb, vec3(1.0)), 1.0e-7), thick.w / max(dot(thick.rgb, vec3(1.0)), 1.0e-7), cover);
+  // A cap is no steeper at its edge than liquid stands on tissue.
+  vec2 rise = slope * (height * cover / pixel);
+  rise *= min(1.0, mix(0.85, 1.8, flying) / max(length(rise), 1.0e-4));
+  vec3 n = normalize(base - vec3(rise, 0.0));
+  vec3 amount = thick.rgb / field.w * (cover * max(in_drop, mix(0.03, 0.3, flying)));
+  float dark = clamp(mark - 2.0 * flying, 0.0, 1.0);
+  dark = mix(film.w / max(dot(film.rgb, vec3(1.0)), 1.0e-7), dark, cover);
   amount += film.rgb;
   vec3 tau = optical_depth(2.0 * amount, dark);
   vec3 through = exp(-tau);
@@ -50,7 +63,6 @@ void main() {
   vec3 colour = below * through + deep_colour(amount, dark) * light * (1.0 - through);
 
   // Wet: the lamp in drops, broken by the tissue's unevenness in films; the walls where seen at a grazing angle.
-  float wet = cover;
   float gloss = smoothstep(4.0e-6, 2.5e-5, dot(film.rgb, vec3(1.0))) * (1.0 - cover);
   vec3 shine = cover * highlight(n, V, lit, u_shine.y);
 #if DETAIL >= 1
@@ -59,6 +71,6 @@ void main() {
   shine += gloss * highlight(m, V, lit, u_shine.z);
 #endif
   float nv = clamp(dot(n, V), 0.0, 1.0);
-  shine += (BOUNCE * 3.0 + vec3(AMBIENT)) * (lit.bounce * mirror_share(nv) * (cover + 0.5 * gloss));
+  shine += (BOUNCE * 3.0 + vec3(AMBIENT)) * (lit.bounce * min(mirror_share(nv), 0.2) * (cover + 0.5 * gloss));
   o_colour = vec4(colour + shine, cover > 0.5 ? min(far, bed.a) : bed.a);
 }

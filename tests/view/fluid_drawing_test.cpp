@@ -1,0 +1,242 @@
+// What a frame lists of fluids, smoke and the lens, from States that the fluids' own step has made.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include <trocar/render/backend.hpp>
+#include <trocar/view/fluid_drawing.hpp>
+#include <trocar/view/lens.hpp>
+#include <trocar/view/smoke_drawing.hpp>
+
+namespace trocar::view {
+namespace {
+
+using fluids::kMicrolitre;
+using fluids::kMillilitre;
+
+fluids::FluidsDescription small() {
+  fluids::FluidsDescription d;
+  d.pool.nx = d.pool.ny = 32;
+  d.pool.origin = {-0.02, -0.02, 0};
+  d.droplets.capacity = 2000;
+  d.droplets.film_cells = 4;
+  d.smoke.nx = d.smoke.ny = d.smoke.nz = 4;
+  return d;
+}
+
+struct Scene {
+  fluids::FluidsModel m = fluids::build(small());
+  fluids::FluidsState s = initial_state(m);
+  fluids::FluidsWork w = make_work(m);
+  FluidDrawing drawing{m};
+
+  render::Frame listed(std::span<const FilmPlace> places = {}, std::span<const float> floor = {}) {
+    render::Frame frame;
+    drawing.list({.state = s, .floor = floor, .places = places}, frame);
+    return frame;
+  }
+  /// A jet of 1 mm^2 upwards with nothing to meet.
+  void spurt(int ticks) {
+    fluids::Opening o;
+    o.position = {0, 0, 0.02f}, o.direction = {0.6f, 0, 0.8f}, o.area = 1e-6;
+    o.flow.blood = 1'200'000;
+    for (int t = 0; t < ticks; ++t) {
+      const fluids::FluidsInput in{{&o, 1}, {}, {}, {}, {}, {}, {}};
+      begin_tick(m, in, s, w);
+      for (int k = 0; k < w.droplets.questions; ++k) w.droplets.answers[std::size_t(k)] = {};
+      finish_tick(m, in, s, w);
+    }
+  }
+};
+
+float to_axis(Vec3f p, const render::Splat& s) {
+  const Vec3f way = s.to - s.from;
+  const float all = dot(way, way), along = all > 0 ? std::clamp(dot(p - s.from, way) / all, 0.0f, 1.0f) : 0;
+  return length(p - s.from - along * way);
+}
+
+TEST(FluidDrawing, ListsNothingWhereThereIsNothing) {
+  Scene scene;
+  const std::vector<FilmPlace> places(4);
+  EXPECT_TRUE(scene.listed(places).liquid.empty());
+}
+
+TEST(FluidDrawing, WhatItListsPassesTheRenderersChecks) {
+  Scene scene;
+  scene.spurt(150);
+  for (int k = 0; k < 9; ++k)
+    pour(scene.m.pool, 15 + k % 3, 15 + k / 3, {.blood = kMillilitre / 99, .saline = kMillilitre / 99}, scene.s.pool);
+  scene.s.droplets.film[2] = {50'000, 0, 0};
+  const std::vector<FilmPlace> places(4);
+  const render::Frame frame = scene.listed(places);
+  ASSERT_FALSE(frame.liquid.splats.empty());
+  ASSERT_FALSE(frame.liquid.triangles.empty());
+  auto backend = render::make_null_backend();
+  EXPECT_NO_THROW(draw_frame(*backend, frame, render::Target::off_screen(16, 16)));
+}
+
+TEST(FluidDrawing, AJetIsAStrandWithoutGaps) {
+  Scene scene;
+  scene.spurt(60);
+  const render::Frame frame = scene.listed();
+  const fluids::DropletState& d = scene.s.droplets;
+  std::vector<std::pair<std::uint32_t, Vec3f>> drops;
+  for (std::size_t i = 0; i < std::size_t(d.count); ++i) drops.push_back({d.id[i], {d.x[i], d.y[i], d.z[i]}});
+  std::sort(drops.begin(), drops.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  ASSERT_GT(drops.size(), 8u);
+  for (std::size_t n = 0; n + 1 < drops.size(); ++n)
+    for (float share = 0; share <= 1; share += 0.1f) {
+      const Vec3f p = (1 - share) * drops[n].second + share * drops[n + 1].second;
+      float inside = 1;
+      for (const render::Splat& s : frame.liquid.splats) inside = std::min(inside, to_axis(p, s) / s.radius);
+      EXPECT_LT(inside, 0.7f) << "between drops " << n << " and " << n + 1;
+    }
+}
+
+TEST(FluidDrawing, DropsSideBySideAreNoStrand) {
+  Scene scene;
+  for (int k = 0; k < 2; ++k)
+    add_drop(scene.m.droplets, {0.003f * float(k), 0, 0.05f}, {0, 0, -1}, {.blood = kMicrolitre}, scene.s.droplets);
+  const render::Frame frame = scene.listed();
+  ASSERT_EQ(frame.liquid.splats.size(), 2u);
+  for (const render::Splat& s : frame.liquid.splats) EXPECT_LT(std::fabs(s.from.x - s.to.x), 1e-6f);
+}
+
+TEST(FluidDrawing, ACapHasItsDropsVolume) {
+  Scene scene;
+  fluids::DropletState& d = scene.s.droplets;
+  add_drop(scene.m.droplets, {0, 0, 0.01f}, {0, 0, 0}, {.blood = 4 * kMicrolitre}, d);
+  d.body[0] = 3;
+  d.ground[0].offset = 0.01f;
+  for (const float speed : {0.0f, 0.02f, 0.2f}) {
+    d.vx[0] = speed;
+    const render::Frame frame = scene.listed();
+    ASSERT_EQ(frame.liquid.splats.size(), 1u);
+    const render::Splat& s = frame.liquid.splats[0];
+    EXPECT_EQ(s.kind, render::SplatKind::lying);
+    // Its profile is a parabola across, and the same along its axis.
+    const double a = double(s.radius), h = double(s.height), tail = double(length(s.to - s.from));
+    const double volume = 3.14159265 / 2 * h * a * a + 4.0 / 3 * a * h * tail;
+    EXPECT_NEAR(volume, 4e-9, 0.05 * 4e-9) << speed;
+    EXPECT_LT(h, 0.8 * a) << "no bead";
+    EXPECT_NEAR(tail, speed > 0.1f ? 0.0017 : (speed > 0 ? 0.0006 : 0), 0.0005);
+  }
+}
+
+TEST(FluidDrawing, AFilmDarkensAsItClots) {
+  Scene scene;
+  for (int k = 0; k < 3; ++k) scene.s.droplets.film[std::size_t(k)] = {60'000, 0, 0};
+  std::vector<FilmPlace> places(4);
+  for (int k = 0; k < 3; ++k) places[std::size_t(k)].age = 120.0f * float(k);
+  const render::Frame frame = scene.listed(places);
+  ASSERT_EQ(frame.liquid.splats.size(), 3u);
+  EXPECT_EQ(frame.liquid.splats[0].dark, 0);
+  EXPECT_EQ(frame.liquid.splats[1].dark, 0);
+  EXPECT_NEAR(frame.liquid.splats[2].dark, 0.5f, 0.01f);  // 240 s: half-way from 180 to 300
+}
+
+TEST(FluidDrawing, ThePoolsSurfaceIsTheSimulationsAndEndsWithIt) {
+  Scene scene;
+  const fluids::PoolModel& pool = scene.m.pool;
+  for (int j = 10; j < 22; ++j)
+    for (int i = 10; i < 22; ++i) pour(pool, i, j, {.blood = 3 * kMicrolitre, .saline = kMicrolitre}, scene.s.pool);
+  const float depth = depth_at(pool, scene.s.pool, 15, 15);
+  const render::Frame frame = scene.listed();
+  const render::Liquid& liquid = frame.liquid;
+  ASSERT_FALSE(liquid.triangles.empty());
+  int middle = 0;
+  for (const render::SheetVertex& v : liquid.sheet) {
+    const double x = (double(v.position.x) + 0.02) / pool.cell, y = (double(v.position.y) + 0.02) / pool.cell;
+    const double beyond = std::max(std::max(10 - x, x - 22), std::max(10 - y, y - 22));
+    if (beyond > 2.5) {
+      EXPECT_LT(v.cover, 1.0f / 3);
+    }
+    if (beyond < 0) {
+      EXPECT_GE(v.cover, 1.0f / 3);
+    }
+    if (beyond > -4) continue;
+    ++middle;
+    EXPECT_NEAR(v.position.z, depth, 1e-5f);
+    EXPECT_NEAR(v.depth, depth, 1e-5f);
+    EXPECT_NEAR(v.share_b, 0.25f, 1e-5f);
+    EXPECT_GT(v.normal.z, 0.9999f);
+  }
+  EXPECT_GT(middle, 8);
+}
+
+TEST(FluidDrawing, NonsenseIsLeftOut) {
+  Scene scene;
+  fluids::DropletState& d = scene.s.droplets;
+  add_drop(scene.m.droplets, {0, 0, 0.05f}, {0, 0, -1}, {.blood = kMicrolitre}, d);
+  add_drop(scene.m.droplets, {0.01f, 0, 0.05f}, {0, 0, -1}, {.blood = kMicrolitre}, d);
+  d.x[0] = std::numeric_limits<float>::quiet_NaN();
+  d.film[0] = {50'000, 0, 0};
+  std::vector<FilmPlace> places(4);
+  places[0].position.y = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(scene.listed(places).liquid.splats.size(), 1u);
+}
+
+TEST(SmokeDrawing, ClearAirGivesNoneAndSmokeTheSimulationsGrid) {
+  Scene scene;
+  render::Frame frame;
+  list_smoke(scene.m.smoke, scene.s.smoke, frame);
+  EXPECT_TRUE(frame.smoke.empty());
+  scene.s.smoke.density[5] = 2;
+  list_smoke(scene.m.smoke, scene.s.smoke, frame);
+  ASSERT_EQ(frame.smoke.density.size(), 64u);
+  EXPECT_EQ(frame.smoke.density[5], 2);
+  EXPECT_FLOAT_EQ(frame.smoke.kappa, float(scene.m.smoke.kappa));
+}
+
+TEST(Lens, IsCleanUntilItFogs) {
+  Scene scene;
+  Lens lens;
+  render::Frame frame;
+  lens.list(scene.m.smoke, scene.s.smoke, frame);
+  EXPECT_TRUE(frame.look.soil.clean());
+  scene.s.smoke.fog = 0.4;
+  lens.list(scene.m.smoke, scene.s.smoke, frame);
+  EXPECT_FLOAT_EQ(frame.look.soil.fog, 0.4f);
+}
+
+TEST(Lens, AWipeTakesFogAndDropsAndItsSmearThinsOut) {
+  Scene scene;
+  Lens lens;
+  lens.splash(1, {.blood = 1}, 3);
+  scene.s.smoke.fog = 0.9;
+  int drops = 0, strokes = 0;
+  float before = -1;
+  for (int t = 0; t < 8000; t += 20) {
+    render::Frame frame;
+    frame.tick = std::uint64_t(t);
+    scene.s.smoke.wipe_left = scene.m.smoke.wipe_time * (1 - t / 8000.0);
+    lens.list(scene.m.smoke, scene.s.smoke, frame);
+    const render::LensSoil& soil = frame.look.soil;
+    if (t == 0) drops = soil.drop_count;
+    strokes += soil.wipe < before;
+    before = soil.wipe;
+    if (t > 3000) {
+      EXPECT_EQ(soil.drop_count, 0) << t;
+    }
+    if (t > 3000) {
+      EXPECT_EQ(soil.fog, 0) << t;
+    }
+  }
+  EXPECT_GT(drops, 0);
+  EXPECT_EQ(strokes, 2);  // three strokes
+  scene.s.smoke.fog = 0;
+  render::Frame after;
+  after.tick = 8100;
+  lens.list(scene.m.smoke, scene.s.smoke, after);
+  EXPECT_LT(after.look.soil.wipe, 0);
+  EXPECT_GT(after.look.soil.smear, 0.2f);
+  render::Frame later;
+  later.tick = 40000;
+  lens.list(scene.m.smoke, scene.s.smoke, later);
+  EXPECT_TRUE(later.look.soil.clean());
+}
+
+}  // namespace
+}  // namespace trocar::view
