@@ -130,23 +130,23 @@ inline void add_artery(scene::VesselTree& tree, const char* name, int from, int 
   tree.graph.segments.push_back(s);
   tree.vessels.push_back(std::move(v));
 }
-inline constexpr int kHeart = 0, kTubesEnd = 1, kFoldsEnd = 2, kBarsEnd = 3;  ///< nodes
+inline constexpr int kTubesEnd = 3;  ///< a node
 inline constexpr int kTubeArtery = 0, kFoldArtery = 1, kBarArtery = 2;
 
-/// One in the tube, one in the fold beside it, one through the bar; all begin at the heart.
+/// One in the tube, one in the fold beside it, one through the bar; each begins at the heart.
 inline scene::VesselTree arteries() {
   scene::VesselTree tree;
   tree.name = "arteries";
-  tree.nodes = {"heart", "tubes_end", "folds_end", "bars_end"};
-  tree.graph.nodes = 4;
-  add_artery(tree, "tube_artery", kHeart, kTubesEnd, {{0.001, 0, 0}, {0.040, 0, 0}, {0.078, 0, 0}}, {"tube"});
-  add_artery(tree, "fold_artery", kHeart, kFoldsEnd, {{0.007, 0, -0.0045}, {0.018, 0, -0.005}, {0.029, 0, -0.0045}},
-             {"fold"}, 0.0004);
-  add_artery(tree, "bar_artery", kHeart, kBarsEnd, {{-0.002, kBarY, 0}, {0.020, kBarY, 0.0005}, {0.040, kBarY, 0}},
-             {"bar"});
-  for (int i = 0; i < 3; ++i)
+  tree.nodes = {"tubes_heart", "folds_heart", "bars_heart", "tubes_end", "folds_end", "bars_end"};
+  tree.graph.nodes = 6;
+  add_artery(tree, "tube_artery", 0, kTubesEnd, {{0.001, 0, 0}, {0.040, 0, 0}, {0.078, 0, 0}}, {"tube"});
+  add_artery(tree, "fold_artery", 1, 4, {{0.007, 0, -0.0045}, {0.018, 0, -0.005}, {0.029, 0, -0.0045}}, {"fold"},
+             0.0004);
+  add_artery(tree, "bar_artery", 2, 5, {{-0.002, kBarY, 0}, {0.020, kBarY, 0.0005}, {0.040, kBarY, 0}}, {"bar"});
+  for (int i = 0; i < 3; ++i) {
     tree.graph.ends.push_back(vessels::matched_end(tree.graph, i, 88 * vessels::kPascalPerMmHg, 10e-6 / 60, 1));
-  tree.graph.sources.push_back({.node = kHeart});
+    tree.graph.sources.push_back({.node = i});
+  }
   return tree;
 }
 

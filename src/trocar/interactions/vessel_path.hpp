@@ -39,6 +39,10 @@ struct VesselPoint {
   std::int32_t node = -1;        ///< of an organ or a fold: the one that bears what the vessel does to it
   std::int32_t near[2]{-1, -1};  ///< in space: points of the line whose displacement it shares ...
   double share[2]{0, 0};         ///< ... and how much of each
+
+  /// Nothing carries it, nor what lies behind it on one side: the vessel runs below the peritoneum there, where no
+  /// instrument meets it and no eye sees it.
+  bool covered() const noexcept { return hold.kind == VesselHold::space && near[1] < 0; }
 };
 
 /// Const after compile.

@@ -242,7 +242,8 @@ class Compiling {
       p.s = i + 1 == n ? 1 : double(i) / double(n - 1);
       p.radius = kWall * (segment.radius + p.s * (to - segment.radius));
       p.hold = hold_of(v, i, p.drawn);
-      carried = carried || p.hold.kind != VesselHold::space;
+      carried =
+          carried || nearest_ride(m_carriers[v], m_vessels[v]->reach, p.drawn, m_model).hold.kind != VesselHold::space;
       p.node = bearing_node(p.hold);
       if (i > 0 && i + 1 < n)
         p.turn = normalised(p.drawn - path.points[i - 1].drawn) - normalised(path.points[i + 1].drawn - p.drawn);

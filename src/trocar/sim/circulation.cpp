@@ -65,6 +65,10 @@ bool rides_on(const StepContext& c, const VesselHold& hold, Carriers carriers) n
   return !flesh;
 }
 
+bool out_of_reach(const VesselPath& path, int i) noexcept {
+  return path.points[size_t(i)].covered() && path.points[size_t(i) + 1].covered();
+}
+
 bool near(const geometry::Blade& blade, Vec3d p, double reach) noexcept {
   return length(p - blade.corner[0]) < reach || length(p - blade.corner[size_t(blade.corners / 2)]) < reach;
 }
@@ -87,7 +91,7 @@ void open_vessels(StepContext& c, const geometry::Blade& blade, Carriers carrier
     const VesselPath& path = path_of(c, v);
     const std::vector<Vec3d>& points = c.work.vessel_points[v];
     for (int i = 0; i + 1 < int(points.size()); ++i) {
-      if (!near(blade, points[size_t(i)], reach)) continue;
+      if (out_of_reach(path, i) || !near(blade, points[size_t(i)], reach)) continue;
       if (!rides_on(c, path.points[size_t(i)].hold, carriers) &&
           !rides_on(c, path.points[size_t(i) + 1].hold, carriers))
         continue;
@@ -132,6 +136,7 @@ void clip_vessels(StepContext& c, size_t hand, int number) noexcept {
     const std::vector<Vec3d>& points = c.work.vessel_points[v];
     const std::span<const double> cuts = cuts_of(c.state, int(v), places);
     for (int i = 0; i + 1 < int(points.size()); ++i) {
+      if (out_of_reach(path, i)) continue;
       VesselPiece piece[2];
       const int pieces = pieces_of(path, points, cuts, i, piece);
       for (int k = 0; k < pieces; ++k) {

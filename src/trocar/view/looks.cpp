@@ -72,6 +72,15 @@ Material ligament(Vec3f main, Vec3f broad, Vec3f fine) {
   return m;
 }
 
+/// Seen through its sheath: paler than blood.
+Material vessel(Vec3f main, Vec3f broad, Vec3f fine) {
+  Material m = tissue(main, broad, fine);
+  m.mottle_size = 0.006f;
+  m.mottle = 0.4f;
+  m.film_size = 0.0018f;
+  return m;
+}
+
 Material peritoneum() {
   Material m = with_vessels(tissue(srgb(188, 110, 102), srgb(200, 130, 110), srgb(170, 92, 90)), 1.0f, 0.05f);
   m.mottle_size = 0.024f;
@@ -238,6 +247,8 @@ std::vector<Look> make_looks() {
        false,
        {.broad = 0.0005, .broad_size = 0.017, .fine = 0.00012, .fine_size = 0.005}},
       {"fat", fat(), false, {.broad = 0.001, .broad_size = 0.012, .fine = 0.0006, .fine_size = 0.005}},
+      {"artery", vessel(srgb(186, 62, 56), srgb(198, 84, 72), srgb(160, 44, 44)), false, {}},
+      {"vein", vessel(srgb(104, 72, 112), srgb(118, 86, 122), srgb(86, 56, 98)), false, {}},
       {"peritoneum", peritoneum(), false, {}},
       {"mesosalpinx", mesosalpinx(), true, {}},
       {"broad_ligament", fold(0.6f), true, {}},

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/sim/host_views.hpp>
 #include <trocar/view/mesh_buffer.hpp>
 #include <trocar/view/pinch.hpp>
 
@@ -21,20 +22,42 @@ bool holds(const interactions::ToolState& tool, int body) {
   return std::any_of(tool.hold, tool.hold + std::max(0, n), [body](const auto& h) { return h.body == body; });
 }
 
-}  // namespace
-
-ClipPress press_of(const Clip& clip, const sim::Model& model, const sim::State& state) {
+struct ClipSeat {
+  Vec3d centre;
+  interactions::StrandFrame frame;
+  double radius = 0;
+};
+ClipSeat seat_on_strand(const Clip& clip, const sim::Model& model, const sim::State& state) {
   const std::size_t strand = std::size_t(clip.strand);
   const interactions::StrandBody& body = model.bodies[strand];
   const interactions::StrandPlace place = place_at(body, clip.s);
-  const interactions::StrandFrame frame = frame_at(body, state.strands[strand], place);
+  return {point_at(body, state.strands[strand], place), frame_at(body, state.strands[strand], place),
+          body.model.radius[std::size_t(place.element)]};
+}
+ClipSeat seat_on_vessel(const Clip& clip, const sim::Model& model, const sim::State& state) {
+  const int vessel = clip.vessel - 1;
+  const interactions::VesselPath& path = model.vessels.list[std::size_t(vessel)].path;
+  sim::HostViews views = sim::make_host_views(model);
+  std::vector<Vec3d> points(path.points.size());
+  pose_vessel(path, sim::look_at_hosts(model, state, views), points);
+  std::array<double, interactions::kMaxOpenings> cuts;
+  const double s = std::clamp(clip.s / path.length, 0.0, 1.0);
+  const interactions::VesselSpot spot = vessel_spot(path, points, sim::cuts_of(state, vessel, cuts), s);
+  return {spot.place, vessel_frame(path, spot), vessel_radius(path, s)};
+}
+
+}  // namespace
+
+ClipPress press_of(const Clip& clip, const sim::Model& model, const sim::State& state) {
+  const auto [centre, frame, radius] =
+      clip.strand >= 0 ? seat_on_strand(clip, model, state) : seat_on_vessel(clip, model, state);
   ClipPress press;
-  press.centre = point_at(body, state.strands[strand], place);
+  press.centre = centre;
   press.axis = normalised(in_world(clip.axis, frame), frame.binormal);
   const Vec3d open = in_world(clip.opening, frame);
   press.open = normalised(open - dot(open, press.axis) * press.axis, any_perpendicular(press.axis));
   press.normal = cross(press.axis, press.open);
-  press.radius = body.model.radius[std::size_t(place.element)];
+  press.radius = radius;
   press.flat = kClipHalfGap / press.radius;
   press.low = -clip.reach;
   press.high = leg_length(clip) - clip.reach;

@@ -19,6 +19,7 @@
 #include <trocar/view/scene_view.hpp>
 #include <trocar/view/sheet_drawing.hpp>
 #include <trocar/view/tube_drawing.hpp>
+#include <trocar/view/vessel_drawing.hpp>
 
 namespace trocar::view {
 
@@ -88,6 +89,8 @@ struct SceneView::Parts {
   std::vector<SheetDrawing> sheets;
   std::vector<MembraneDrawing> membranes;
   std::vector<PouchDrawing> pouches;
+  std::vector<VesselDrawing> vessels;
+  std::vector<const Look*> vessel_look;
   std::vector<std::size_t> membrane_of, pouch_of;  ///< their numbers in the Model
   std::vector<OwnedMesh> walls, margins;
   std::vector<MeshBuffer> margin_shapes;
@@ -170,6 +173,12 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
     t.create(std::move(paint), backend);
   }
   for (int i = 0; i < int(model.sheets.size()); ++i) sheets.emplace_back(model, i, backend);
+  for (const bool veins : {false, true}) {
+    const auto& all = model.vessels.list;
+    if (std::none_of(all.begin(), all.end(), [veins](const sim::Vessel& v) { return v.vein == veins; })) continue;
+    vessels.emplace_back(model, veins, backend);
+    vessel_look.push_back(&look(veins ? "vein" : "artery"));
+  }
   for (std::size_t i = 0; i < model.membranes.size(); ++i)
     if (model.membranes[i].sheet.closed()) {
       pouches.emplace_back(model, int(i), backend);
@@ -237,6 +246,7 @@ void SceneView::Parts::update(const sim::State& state) {
   for (SheetDrawing& s : sheets) s.update(state);
   for (MembraneDrawing& m : membranes) m.update(state);
   for (PouchDrawing& p : pouches) p.update(state);
+  for (VesselDrawing& v : vessels) v.update(state);
   for (LoadedClip& l : loaded) {
     const interactions::ToolState& now = state.tools[std::size_t(l.hand)];
     if (now.instrument != l.instrument) continue;
@@ -266,6 +276,7 @@ void SceneView::Parts::list_tissues(bool with_walls, Frame& frame) const {
     if (strand.start.kind == sim::StrandEndModel::hosted && !strand.fimbriated)
       frame.items.back().material.tint = look(model.organ_look(strand.start.organ)).material.colour;
   }
+  for (std::size_t i = 0; i < vessels.size(); ++i) frame.items.push_back(item(vessels[i].mesh(), *vessel_look[i]));
   for (std::size_t i = 0; i < sheets.size(); ++i)
     frame.items.push_back(item(sheets[i].mesh(), look(model.sheets[i].look)));
   for (std::size_t i = 0; i < membranes.size(); ++i)
@@ -277,7 +288,7 @@ void SceneView::Parts::list_tissues(bool with_walls, Frame& frame) const {
 void SceneView::Parts::list_clips(const sim::State& state, Frame& frame) const {
   for (int i = 0; i < state.clip_count; ++i) {
     const interactions::Clip& c = state.clips[std::size_t(i)];
-    if (c.strand < 0 || c.strand >= int(model.strands.size())) continue;
+    if (c.dropped() || c.strand >= int(model.strands.size()) || c.vessel > int(model.vessels.list.size())) continue;
     if (clips.empty()) continue;
     const auto known = clips.find(c.length), mesh = known == clips.end() ? clips.begin() : known;
     const ClipPress at = press_of(c, model, state);

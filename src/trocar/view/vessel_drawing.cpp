@@ -1,0 +1,175 @@
+#include <algorithm>
+#include <cmath>
+
+#include <trocar/view/vessel_drawing.hpp>
+
+namespace trocar::view {
+namespace {
+
+constexpr std::uint32_t kAround = 8;
+constexpr double kRing = 0.00125;     // [m] from ring to ring
+constexpr double kClipWide = 0.0014;  // [m] a clip narrows the vessel so far to either side
+constexpr double kBloody = 0.004;     // [m] of a stump
+constexpr double kMostShift = 0.35;   // of the radius, however large the gain
+constexpr double kNarrowed = 0.7;     // share of the radius that a clip takes
+
+/// A line through places at s, cubic between them.
+struct Curve {
+  std::vector<double> s;
+  std::vector<Vec3d> x;
+
+  Vec3d slope(std::size_t k) const {
+    const std::size_t a = k > 0 ? k - 1 : 0, b = std::min(k + 1, x.size() - 1);
+    return (x[b] - x[a]) / std::max(s[b] - s[a], 1e-9);
+  }
+  Vec3d at(double v) const {
+    std::size_t k = std::size_t(std::upper_bound(s.begin(), s.end(), v) - s.begin());
+    k = std::clamp<std::size_t>(k, 1, s.size() - 1) - 1;
+    const double h = std::max(s[k + 1] - s[k], 1e-9), t = std::clamp((v - s[k]) / h, 0.0, 1.0);
+    const double t2 = t * t, t3 = t2 * t;
+    return (2 * t3 - 3 * t2 + 1) * x[k] + (h * (t3 - 2 * t2 + t)) * slope(k) + (3 * t2 - 2 * t3) * x[k + 1] +
+           (h * (t3 - t2)) * slope(k + 1);
+  }
+};
+
+/// From where to where on the line it does not run below the peritoneum.
+std::pair<double, double> in_sight(const interactions::VesselPath& path) {
+  double from = 1, to = 0;
+  for (const interactions::VesselPoint& p : path.points) {
+    if (p.covered()) continue;
+    from = std::min(from, p.s);
+    to = std::max(to, p.s);
+  }
+  return {from, to};
+}
+
+std::vector<double> sorted_cuts(const sim::State& state, int vessel) {
+  std::array<double, interactions::kMaxOpenings> room;
+  const std::span<const double> cuts = sim::cuts_of(state, vessel, room);
+  std::vector<double> sorted(cuts.begin(), cuts.end());
+  std::sort(sorted.begin(), sorted.end());
+  return sorted;
+}
+
+}  // namespace
+
+VesselDrawing::VesselDrawing(const sim::Model& model, bool veins, render::Backend& backend)
+    : m_model(&model), m_veins(veins), m_hosts(sim::make_host_views(model)) {
+  const sim::State state = sim::initial_state(model);
+  lay_out(state);
+  place(state);
+  m_buffer.rest = m_buffer.positions;
+  m_mesh = OwnedMesh(backend, m_buffer.data());
+}
+
+void VesselDrawing::update(const sim::State& state) {
+  if (m_laid_out_for == state.opening_count) {
+    place(state);
+    m_mesh.update(m_buffer);
+    return;
+  }
+  const sim::State drawn = sim::initial_state(*m_model);
+  lay_out(state);
+  place(drawn);  // patterns keep to the drawn shape
+  m_buffer.rest = m_buffer.positions;
+  place(state);
+  m_mesh.replace(m_buffer.data());
+}
+
+void VesselDrawing::lay_out(const sim::State& state) {
+  m_laid_out_for = state.opening_count;
+  m_runs.clear();
+  m_buffer = {};
+  for (std::size_t v = 0; v < m_model->vessels.list.size(); ++v) {
+    const sim::Vessel& vessel = m_model->vessels.list[v];
+    if (vessel.vein != m_veins) continue;
+    const auto [begin, end] = in_sight(vessel.path);
+    std::vector<double> ends = sorted_cuts(state, int(v));
+    ends.push_back(end);
+    double from = begin;
+    for (std::size_t k = 0; k < ends.size() && from < end; ++k) {
+      Run run{int(v), from, std::min(ends[k], end), k > 0, k + 1 < ends.size(), m_buffer.size(), {}};
+      from = std::max(from, ends[k]);
+      const double way = (run.to - run.from) * vessel.path.length;
+      if (way < 1e-4) continue;
+      const int steps = std::max(2, int(way / kRing + 0.5));
+      for (int i = 0; i <= steps; ++i) run.s.push_back(run.from + (run.to - run.from) * i / steps);
+      for (std::size_t i = 0; i < run.s.size() * kAround + 2; ++i) m_buffer.add({});
+      const std::uint32_t rings = std::uint32_t(run.s.size()), poles = run.first + rings * kAround;
+      for (std::uint32_t i = 0; i + 1 < rings; ++i)
+        join_rows(m_buffer, run.first + i * kAround, run.first + (i + 1) * kAround, kAround, true);
+      join_pole(m_buffer, run.first, kAround, poles, false);
+      join_pole(m_buffer, run.first + (rings - 1) * kAround, kAround, poles + 1, true);
+      m_runs.push_back(std::move(run));
+    }
+  }
+  m_buffer.normals.resize(m_buffer.positions.size());
+}
+
+void VesselDrawing::place(const sim::State& state) {
+  const interactions::VesselHosts hosts = sim::look_at_hosts(*m_model, state, m_hosts);
+  std::vector<Vec3d> points;
+  int posed = -1;
+  for (const Run& run : m_runs) {
+    const interactions::VesselPath& path = m_model->vessels.list[std::size_t(run.vessel)].path;
+    if (posed != run.vessel) {
+      points.resize(path.points.size());
+      pose_vessel(path, hosts, points);
+      posed = run.vessel;
+    }
+    place_run(run, state, points);
+  }
+}
+
+void VesselDrawing::place_run(const Run& run, const sim::State& state, std::span<const Vec3d> points) {
+  const sim::Vessel& vessel = m_model->vessels.list[std::size_t(run.vessel)];
+  const interactions::VesselPath& path = vessel.path;
+  const std::vector<double> cuts = sorted_cuts(state, run.vessel);
+  Curve curve;
+  const auto take = [&](double s, Vec3d x) {
+    curve.s.push_back(s);
+    curve.x.push_back(x);
+  };
+  take(run.from, vessel_spot(path, points, cuts, run.from, 1).place);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (path.points[i].s > run.from + 1e-6 && path.points[i].s < run.to - 1e-6) take(path.points[i].s, points[i]);
+  take(run.to, vessel_spot(path, points, cuts, run.to, 0).place);
+
+  Vec3d tangent = normalised(curve.at(run.s[1]) - curve.at(run.s[0])), normal = any_perpendicular(tangent);
+  for (std::size_t i = 0; i < run.s.size(); ++i) {
+    const double s = run.s[i];
+    const Vec3d before = curve.at(run.s[i > 0 ? i - 1 : 0]), after = curve.at(run.s[std::min(i + 1, run.s.size() - 1)]);
+    tangent = normalised(after - before, tangent);
+    normal = normalised(normal - dot(normal, tangent) * tangent, any_perpendicular(tangent));
+    const Vec3d beside = cross(tangent, normal), at = curve.at(s);
+    const double drawn = vessel_radius(path, s);
+    const vessels::WallReading wall = read_wall(m_model->vessels.flow, state.flow, run.vessel, s, vessel.gain);
+    double radius = drawn + std::clamp(wall.shift, -kMostShift * drawn, kMostShift * drawn);
+    for (int c = 0; c < state.vessel_clip_count; ++c) {
+      const interactions::VesselClip& clip = state.vessel_clips[std::size_t(c)];
+      if (clip.vessel != run.vessel) continue;
+      const double cover = cover_at(clip, sim::kTick * double(state.tick - clip.tick));
+      radius *= 1 - kNarrowed * cover * smooth(2 * kClipWide, kClipWide, std::fabs(s - clip.s) * path.length);
+    }
+    double bloody = 0;
+    if (run.cut_from) bloody = smooth(kBloody, 0, (s - run.from) * path.length);
+    if (run.cut_to) bloody = std::max(bloody, smooth(kBloody, 0, (run.to - s) * path.length));
+    for (std::uint32_t k = 0; k < kAround; ++k) {
+      const double angle = 2 * 3.14159265358979323846 * k / kAround;
+      const Vec3d out = std::cos(angle) * normal + std::sin(angle) * beside;
+      const std::size_t vertex = run.first + i * kAround + k;
+      m_buffer.positions[vertex] = vec_cast<float>(at + radius * out);
+      m_buffer.normals[vertex] = vec_cast<float>(out);
+      m_buffer.paint[vertex].blood = to_byte(0.8 * bloody);
+    }
+    if (i > 0 && i + 1 < run.s.size()) continue;
+    const double end = i == 0 ? -1 : 1;
+    const std::size_t pole = run.first + run.s.size() * kAround + (i == 0 ? 0 : 1);
+    const bool cut = i == 0 ? run.cut_from : run.cut_to;  // the lumen shows as a dimple
+    m_buffer.positions[pole] = vec_cast<float>(at + ((cut ? -0.5 : 0.5) * end * radius) * tangent);
+    m_buffer.normals[pole] = vec_cast<float>(end * tangent);
+    m_buffer.paint[pole].blood = cut ? 255 : 0;
+  }
+}
+
+}  // namespace trocar::view

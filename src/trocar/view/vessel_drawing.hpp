@@ -1,0 +1,43 @@
+// Arteries or veins as tubes along their lines: they move with what carries them, widen with the pulse (times the gain
+// that their file declares), narrow under clips, and end in stumps where they are cut.
+#pragma once
+
+#include <vector>
+
+#include <trocar/sim/host_views.hpp>
+#include <trocar/view/mesh_buffer.hpp>
+
+namespace trocar::view {
+
+class VesselDrawing {
+ public:
+  /// @param veins  all of them, or all arteries
+  VesselDrawing(const sim::Model& model, bool veins, render::Backend& backend);
+
+  void update(const sim::State& state);
+  render::MeshHandle mesh() const { return m_mesh.handle(); }
+  const MeshBuffer& buffer() const { return m_buffer; }
+
+ private:
+  /// What hangs together of a vessel.
+  struct Run {
+    int vessel = 0;
+    double from = 0, to = 1;
+    bool cut_from = false, cut_to = false;
+    std::uint32_t first = 0;  ///< vertex
+    std::vector<double> s;    ///< of its rings
+  };
+  void lay_out(const sim::State& state);
+  void place(const sim::State& state);
+  void place_run(const Run& run, const sim::State& state, std::span<const Vec3d> points);
+
+  const sim::Model* m_model;
+  bool m_veins;
+  std::vector<Run> m_runs;
+  int m_laid_out_for = -1;  ///< openings
+  sim::HostViews m_hosts;
+  MeshBuffer m_buffer;
+  OwnedMesh m_mesh;
+};
+
+}  // namespace trocar::view
