@@ -199,12 +199,16 @@ void beat(StepContext& c) noexcept {
     const Vessel& vessel = c.model.vessels.list[v];
     if (vessel.gain <= 0) continue;
     const std::vector<Vec3d>& x = c.work.vessel_points[v];
+    const vessels::FlowSegment& segment = c.model.vessels.flow.segments[v];
+    // A wave is through it within a tick or two: its middle speaks for all of it.
+    const vessels::WallReading wall = read_wall(c.model.vessels.flow, c.state.flow, int(v), 0.5);
+    const double over = vessel.gain * (wall.pressure - vessel.mean_pressure);
+    const double wide = wall.radius / (segment.radius + 0.5 * segment.taper);
     for (size_t i = 1; i + 1 < x.size(); ++i) {
       const interactions::VesselPoint& p = vessel.path.points[i];
       if (p.hold.kind == VesselHold::space) continue;
-      const vessels::WallReading wall = read_wall(c.model.vessels.flow, c.state.flow, int(v), p.s);
-      const double over = wall.pressure - vessel.mean_pressure;
-      push(c, p, (vessel.gain * over * portable::pi * wall.radius * wall.radius) * turn_at(vessel.path, x, int(i)));
+      const double radius = wide * (segment.radius + segment.taper * p.s);
+      push(c, p, (over * portable::pi * radius * radius) * turn_at(vessel.path, x, int(i)));
     }
   }
 }
