@@ -1,0 +1,48 @@
+// What drops meet in a scene: skins of organs and walls, folds (from either side) and strands, as planes; and where on
+// them film lies. Instruments are none of this: fluids know them as capsules.
+//
+//   WetBodies bodies{surfaces, sheets, strands, states, first};      // first: film_places(...), once
+//   answer_drops(bodies, down, state.droplets, work.droplets);       // between fluids' begin_tick and finish_tick
+//
+// A body's number is its place in that order: surfaces, sheets, strands. Places of film are skin vertices; a fold has
+// two a node, above and below; a strand one a node.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <trocar/fluids/droplets.hpp>
+#include <trocar/interactions/membrane_contact.hpp>
+#include <trocar/interactions/strand_body.hpp>
+
+namespace trocar::interactions {
+
+struct WetBodies {
+  std::span<const Surface> surfaces;  ///< organs, walls
+  std::span<const SheetView> sheets;
+  std::span<const StrandBody> strands;
+  std::span<const tissue::StrandState> states;  ///< (strands)
+  std::span<const std::int32_t> first;          ///< (bodies + 1) where a body's places of film begin
+
+  int count() const noexcept { return int(surfaces.size() + sheets.size() + strands.size()); }
+};
+
+/// Where each body's places of film begin; the last number is how many there are. Only sizes are looked at.
+/// @param skins   (surfaces), then `sheets` of folds
+std::vector<std::int32_t> film_places(std::span<const tissue::Skin* const> skins,
+                                      std::span<const tissue::Skin* const> sheets, std::span<const StrandBody> strands);
+
+/// A place of film as it lies now.
+struct WetPlace {
+  Vec3d point, normal, velocity;  ///< [m]; unit, away from the tissue; [m/s]
+  std::int32_t body = -1;         ///< -1: there is no such place
+};
+/// @param down  unit; a strand's film hangs below it
+WetPlace wet_place(const WetBodies& bodies, Vec3d down, std::int32_t place) noexcept;
+
+/// Answers all questions of the drops and of overfull places of film.
+void answer_drops(const WetBodies& bodies, Vec3d down, const fluids::DropletState& state,
+                  fluids::DropletWork& work) noexcept;
+
+}  // namespace trocar::interactions
