@@ -69,9 +69,9 @@ struct Demo {
     const int holds[] = {solid("bowel"), solid("rectosigmoid"), solid("sigmoid")};
     floor = contacts.floor_of(m.pool, holds);
     // On the uterus, where the scope sees it from above.
-    const OrganContacts::Near near = contacts.first_on_way({0.0100f, -0.100f, -0.040f}, {0.0110f, -0.152f, -0.100f});
+    const OrganContacts::Near near = contacts.first_on_way({-0.0110f, -0.100f, -0.040f}, {-0.0125f, -0.152f, -0.100f});
     artery = near.point, outward = near.normal;
-    const OrganContacts::Near other = contacts.first_on_way({-0.008f, -0.120f, -0.030f}, {-0.011f, -0.158f, -0.100f});
+    const OrganContacts::Near other = contacts.first_on_way({0.008f, -0.120f, -0.030f}, {0.010f, -0.158f, -0.100f});
     vein = other.point, vein_outward = other.normal;
     std::printf("artery at %.3f %.3f %.3f, %zu places\n", double(artery.x), double(artery.y), double(artery.z),
                 places.size());
@@ -101,7 +101,7 @@ struct Demo {
     std::vector<fluids::Opening> openings;
     if (time > story.cut && time < story.clipped) {
       fluids::Opening o;
-      o.direction = normalised(0.6f * outward + Vec3f{-0.05f, 0.30f, 1.0f});
+      o.direction = normalised(0.6f * outward + Vec3f{-0.22f, 0.22f, 1.0f});
       o.position = artery + 0.001f * outward;
       o.area = 2.0e-6;
       o.flow.blood = std::int64_t(1.7e6 * beat(time));  // 1.6 mm wide, 90 mL/min
@@ -115,12 +115,12 @@ struct Demo {
     std::vector<fluids::SuctionIrrigator> tools;
     if (time > story.water && time < story.dry) {
       const float sway = 0.006f * float(std::sin(2.2 * time));
-      tools.push_back({.tip = {0.020f + sway, -0.118f, -0.100f},
-                       .direction = normalised(Vec3f{0.05f, -0.35f, -0.9f}),
+      tools.push_back({.tip = {-0.016f + sway, -0.108f, -0.095f},
+                       .direction = normalised(Vec3f{-0.10f, -0.30f, -0.9f}),
                        .irrigation = 0.55});
     }
     const bool smokes = time > story.smoke && time < story.smoke_ends;
-    const fluids::Boiled boiled{{-0.022, -0.150, -0.092}, smokes ? 12e-9 : 0};
+    const fluids::Boiled boiled{{-0.022, -0.150, -0.092}, smokes ? 9e-9 : 0};
     fluids::FluidsInput in{openings, tools, {}, floor, {}, {&boiled, 1}, {}};
     in.smoke.coagulating = smokes;
     in.smoke.lens = {0, -0.066, -0.0485};
@@ -149,7 +149,7 @@ struct Shot {
   int camera;  ///< 0 the scope at the start, 1 nearer, 2 at the pool
 };
 const Shot kShots[] = {{0.60, "spurt", 0},     {1.6, "run_early", 0},    {3.0, "run", 0},
-                       {3.05, "jet_close", 1}, {5.1, "pool", 0},         {5.15, "pool_close", 2},
+                       {3.05, "jet_close", 1}, {5.1, "pool", 0},         {5.12, "pool_close", 2},
                        {6.6, "water", 0},      {8.8, "diluted", 0},      {8.85, "diluted_close", 2},
                        {10.5, "smoke", 0},     {13.9, "thick_smoke", 0}, {15.9, "fogged", 0},
                        {17.2, "wipe", 0},      {24.5, "wiped", 0}};
@@ -158,19 +158,20 @@ const Shot kShots[] = {{0.60, "spurt", 0},     {1.6, "run_early", 0},    {3.0, "
 
 /// Processor time of a frame at 640 x 480, at each detail, with one kind of thing in it at a time.
 void print_costs(render::Backend& backend, const render::Frame& full, const char* name) {
-  const char* parts[] = {"none", "splats", "sheet", "smoke", "lens", "all"};
+  const char* parts[] = {"none", "splats", "sheet", "smoke", "fog", "lens", "all"};
   std::printf("%s, cpu-ms at 640 x 480:", name);
   for (const char* part : parts) std::printf(" %7s", part);
   std::printf("\n");
   for (int detail = 2; detail >= 0; --detail) {
     std::printf("  detail %d           ", detail);
-    for (int k = 0; k < 6; ++k) {
+    for (int k = 0; k < 7; ++k) {
       render::Frame frame = full;
       frame.quality.detail = detail;
-      if (k != 1 && k != 5) frame.liquid.splats.clear();
-      if (k != 2 && k != 5) frame.liquid.triangles.clear();
-      if (k != 3 && k != 5) frame.smoke.density.clear();
-      if (k != 4 && k != 5) frame.look.soil = {};
+      if (k != 1 && k != 6) frame.liquid.splats.clear();
+      if (k != 2 && k != 6) frame.liquid.triangles.clear();
+      if (k != 3 && k != 6) frame.smoke.density.clear();
+      if (k < 4) frame.look.soil = {};
+      if (k == 4) frame.look.soil.drop_count = 0, frame.look.soil.wipe = -1, frame.look.soil.smear = 0;
       double best = 1e9;
       for (int i = 0; i < 9; ++i) {
         const double before = cpu_ms();
@@ -249,8 +250,7 @@ int main(int argc, char** argv) {
         }
       }
     const std::string name = shot.name;
-    if (name == "pool" || name == "pool_close" || name == "wipe")
-      print_costs(*backend, frame_of(shot.camera, true), shot.name);
+    if (name == "pool_close" || name == "wipe") print_costs(*backend, frame_of(shot.camera, true), shot.name);
     std::fflush(stdout);
   }
   std::printf("the account %s\n", audit(demo.m, demo.s) ? "balances" : "is WRONG");

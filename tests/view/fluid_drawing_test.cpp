@@ -226,7 +226,7 @@ TEST(Lens, AWipeTakesFogAndDropsAndItsSmearThinsOut) {
   }
   EXPECT_GT(drops, 0);
   EXPECT_EQ(strokes, 2);  // three strokes
-  scene.s.smoke.fog = 0;
+  scene.s.smoke.fog = scene.s.smoke.wipe_left = 0;
   render::Frame after;
   after.tick = 8100;
   lens.list(scene.m.smoke, scene.s.smoke, after);

@@ -87,7 +87,8 @@ void main() {
   colour = mix(colour, mix(vec3(0.55, 0.42, 0.40), vec3(0.45, 0.10, 0.10), share.x) * light, 0.7 * froth);
 #endif
 
-  float share_back = min(mirror_share(nv) + 0.014, 1.0);
+  // A little more than [Schlick 94] says: it is what tells liquid from paint (our choice).
+  float share_back = min(1.5 * mirror_share(nv) + 0.018, 1.0);
   vec3 r = reflect(-V, n);
   colour = mix(colour, mirrored(r, lit.bounce, quick.g), share_back);
   colour += highlight(n, V, lit, u_shine.y);

@@ -72,5 +72,5 @@ void main() {
 #endif
   float nv = clamp(dot(n, V), 0.0, 1.0);
   shine += (BOUNCE * 3.0 + vec3(AMBIENT)) * (lit.bounce * min(mirror_share(nv), 0.2) * (cover + 0.5 * gloss));
-  o_colour = vec4(colour + shine, cover > 0.5 ? min(far, bed.a) : bed.a);
+  o_colour = vec4(colour + shine, mix(bed.a, min(far, bed.a), cover));
 }
