@@ -36,6 +36,7 @@ inline scene::Description description(Kind kind) {
   d.solids.clear();
   d.strands.clear();
   d.membranes.clear();
+  d.vessels.clear();
   if (kind == Kind::organ) d.solids = {floating(small::organ())};
   if (kind == Kind::cells) {
     d.solids = {small::bar()};
