@@ -137,7 +137,7 @@ double energy_until(Heated& h, const HeatSource& q, Reached reached) {
 
 TEST(Heat, SixtyHundredAndDryTakeTheirEnergies) {
   Heated h(insulated(), cube());
-  const HeatSource q = all_over(h.m, 5);
+  const HeatSource q = all_over(h.m, 2);
   const Vec3d middle = q.a;
   const double to_60 = energy_until(h, q, [&] { return h.celsius(middle) >= 60; });
   const double to_100 = energy_until(h, q, [&] { return h.celsius(middle) >= 99.9999; });

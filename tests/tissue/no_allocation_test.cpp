@@ -8,6 +8,7 @@
 #include <trocar/tissue/membrane.hpp>
 #include <trocar/tissue/strand.hpp>
 
+#include "heat_setup.hpp"
 #include "test_bodies.hpp"
 
 namespace {
@@ -98,6 +99,19 @@ TEST(NoAllocation, InAStrandsTick) {
     if (t == 10) cut_element(s, 7);
   }
   EXPECT_EQ(g_allocations, before);
+}
+
+TEST(NoAllocation, WhereCurrentHeatsTissueThatBoilsWakesAndSleeps) {
+  test::Operated o(HeatDescription{.bricks = 24, .awake = 16}, test::half_space());
+  const long before = g_allocations;
+  for (int t = 0; t < 12000; ++t) {
+    const Vec3d at{2e-3 * (t / 1000), 0, -0.1e-3};
+    o.press({.yellow = false, .blue = t < 6000}, t < 8000 ? test::tip_at(at) : ElectrodeContact{});
+  }
+  reading(o.m, o.s, 0, {0, 0, 0});
+  EXPECT_EQ(g_allocations, before);
+  EXPECT_TRUE(o.flags & HeatReport::kAwakeFull);
+  EXPECT_GT(o.boiled, 1e-6);
 }
 
 }  // namespace

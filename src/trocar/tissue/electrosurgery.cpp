@@ -24,8 +24,8 @@ HeatSource source_of(const ElectrodeDescription& e, const ElectrodeContact& c, c
 bool is_near(const ElectrodeContact& c) noexcept { return c.body >= 0 && c.gap >= 0 && c.gap < 1 && c.pressed >= 0; }
 
 /// A source for all the ticks until the next one.
-void add_source(HeatSource q, double watts, Discharge& d) noexcept {
-  q.watts = kDischargeEvery * watts;
+void add_source(HeatSource q, double watts, const HeatModel& model, Discharge& d) noexcept {
+  q.watts = model.period * watts;
   d.sources[d.count++] = q;
 }
 
@@ -44,7 +44,7 @@ void discharge(const ElectrodeDescription& e, double set, const ElectrodeContact
   const double across = c.gap > 0 ? 1 - 0.5 * c.gap / curve.gap : 1.0;
   d.tissue = e.efficiency * d.output * across * 0.5 * (1 + g);
   d.flows = d.output > 0;
-  if (d.flows) add_source(q, d.tissue, d);
+  if (d.flows) add_source(q, d.tissue, model, d);
 }
 
 void stick(const ElectrodeDescription& e, double celsius, double dt, ElectrodeState& s) noexcept {
@@ -63,7 +63,7 @@ double touch(const ElectrodeDescription& e, const ElectrodeContact& c, double pr
   if (!(met.volume > 0)) return 0;
   stick(e, met.hottest, dt, s);
   const double watts = e.tip_contact * pressed * (s.tip - met.temperature);
-  add_source(q, watts, d);
+  add_source(q, watts, model, d);
   return watts;
 }
 
@@ -117,12 +117,12 @@ Discharge energise(const ElectrodeDescription& e, const GeneratorPanel& panel, F
                    const ElectrodeContact& contact, const HeatModel& model, const TissueShape& shape, HeatState& heat,
                    HeatWork& work, ElectrodeState& s) noexcept {
   Discharge d;
-  if (heat.tick % kDischargeEvery != 0) {
+  if (heat.tick % std::uint64_t(model.period) != 0) {
     static_cast<DischargeFigures&>(d) = s.now;
     return d;
   }
   d.mode = asked_mode(e, panel, pedals);
-  const double pressed = std::clamp(contact.pressed, 0.1, 1.0), dt = kDischargeEvery * model.tick;
+  const double pressed = std::clamp(contact.pressed, 0.1, 1.0), dt = model.step;
   const bool touches = is_near(contact) && contact.gap == 0;
   s.on_time = d.mode == EnergyMode::off ? 0 : s.on_time + dt;
   if (d.mode != EnergyMode::off && is_near(contact))

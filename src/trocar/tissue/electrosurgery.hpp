@@ -11,7 +11,7 @@
 // A mode says how far current is focussed. The figures are our choice within what generators' manuals show of power
 // over load and [Munro 2012] says of wave forms; docs/heat.md holds them against measurements.
 //
-// An electrode works on every 4th tick, for four: heat takes its energy up on every 8th only.
+// An electrode works once in a step of the heat (8 ticks), for all of them.
 //
 //   ElectrodeDescription hook;  ElectrodeState e;  GeneratorPanel panel;
 //   Discharge d = energise(hook, panel, {.blue = true}, {.body = 3, .a = tip, .b = tip}, heat_model, shape, heat, work,
@@ -99,7 +99,6 @@ struct Discharge : DischargeFigures {
   std::int32_t count = 0;
   std::span<const HeatSource> span() const { return {sources.data(), std::size_t(count)}; }
 };
-inline constexpr int kDischargeEvery = 4;  ///< ticks
 
 EnergyMode asked_mode(const ElectrodeDescription& electrode, const GeneratorPanel& panel, FootSwitch pedals) noexcept;
 double set_watts(const GeneratorPanel& panel, EnergyMode mode) noexcept;

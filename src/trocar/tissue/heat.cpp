@@ -93,8 +93,7 @@ class Gathering {
       m_flags |= HeatReport::kReachFull;
       return;
     }
-    const double wet = double(m_state.water[at]);
-    const double conducts = m_source.by_current ? m_model.dry_current + (1 - m_model.dry_current) * wet : 1.0;
+    const double conducts = m_source.by_current ? current_through(slot, cell) : 1.0;
     const float u = m_state.u[std::size_t(slot) * kBrickCells + cell];
     m_work.touched[m_reach.cells] = slot * kBrickCells + cell;
     m_work.weight[m_reach.cells++] = float(weight * conducts);
@@ -105,6 +104,13 @@ class Gathering {
     m_reach.hottest = std::max(m_reach.hottest, u);
   }
 
+  /// By the water at the step's beginning: what the step has done so far depends on the order of bricks.
+  double current_through(std::int32_t slot, int cell) const noexcept {
+    const double k = double(m_state.conduction[std::size_t(slot) * kBrickCells + cell]);
+    const double wet =
+        std::clamp((k - m_model.dry_conductivity) / (m_model.conductivity - m_model.dry_conductivity), 0.0, 1.0);
+    return m_model.dry_current + (1 - m_model.dry_current) * wet;
+  }
   double weight_at(double d2) const noexcept {
     const double edge = std::clamp((m_far - std::sqrt(d2)) / m_model.cell + 0.5, 0.0, 1.0);
     const double r2 = m_radius * m_radius, share = d2 > r2 ? r2 / d2 : 1.0;
@@ -171,18 +177,19 @@ HeatModel build(const HeatDescription& d, double tick) {
   require(d.voids >= 1 && d.voids <= 8192 && d.period >= 1 && d.period <= 64, "heat: voids and period");
   require(tick > 0 && tick <= 0.1, "heat: tick");
   require(positive(d.density) && positive(d.heat_capacity) && positive(d.latent_heat), "heat: tissue's figures");
-  require(d.dry_conductivity > 0 && d.conductivity >= d.dry_conductivity && d.conductivity < 1e3, "heat: conductivity");
+  require(d.dry_conductivity > 0 && d.conductivity > d.dry_conductivity && d.conductivity < 1e3, "heat: conductivity");
   require(d.water >= 0.01 && d.water < 1 && d.water * d.water_capacity < 0.95 * d.heat_capacity, "heat: water");
   require(not_negative(d.perfusion) && not_negative(d.surface) && not_negative(d.burst), "heat: rates");
   require(d.gas > -50 && d.gas < 100 && d.ceiling > 200 && d.ceiling < 3000, "heat: temperatures");
   require(d.damage_from > kBodyHeat && d.damage_from < 100 && positive(d.damage_energy), "heat: damage");
   require(std::fabs(d.damage_log_rate) < 700 && d.dry_current > 0 && d.dry_current <= 1, "heat: damage and current");
   require(d.sleep > 0 && d.wake > d.sleep && d.wake < 10 && d.forget >= 0, "heat: waking above sleeping above 0 K");
+  require(d.surface * d.cell < 0.9 * d.dry_conductivity, "heat: the surface passes on more than tissue does");
   HeatModel m;
   static_cast<HeatDescription&>(m) = d;
   m.tick = tick;
   m.step = tick * d.period;
-  const double fastest = std::max(d.conductivity, d.surface * d.cell) / m.heat_per_volume(0);
+  const double fastest = d.conductivity / m.heat_per_volume(0);
   require(6 * fastest * m.step / (d.cell * d.cell) + d.perfusion * m.step * m.wet_heat() / m.heat_per_volume(0) <= 0.9,
           "heat: a step passes on more than a cell has; larger cells or a shorter period");
   const int steps = int((HeatModel::kRateUpTo - d.damage_from) * HeatModel::kRateSteps) + 2;
@@ -207,6 +214,7 @@ HeatState cold(const HeatModel& m) {
   s.u.resize(awake * kBrickCells);
   s.next.resize(awake * kBrickCells);
   s.heat.resize(awake * kBrickCells);
+  s.due.resize(awake * kBrickCells);
   s.conduction.resize(awake * kBrickCells);
   s.hottest.resize(awake);
   s.marks.resize(awake);
@@ -251,6 +259,7 @@ HeatReport advance(const HeatModel& m, std::span<const HeatSource> sources, cons
   heat::step_bricks(m, s.listed * part / m.period, s.listed * (part + 1) / m.period, s, w, report);
   if (part + 1 == m.period) {
     s.u.swap(s.next);
+    s.heat.swap(s.due);
     heat::settle(m, shape, s, report.flags);
   }
   return report;
@@ -263,7 +272,8 @@ double stored(const HeatModel& m, const HeatState& s) noexcept {
     const std::size_t cells = std::size_t(slot) * kBrickCells, at = std::size_t(s.owner[slot]) * kBrickCells;
     for (int c = 0; c < kBrickCells; ++c)
       if (s.cells[at + c] & HeatState::kTissue)
-        sum += m.heat_per_volume(double(s.water[at + c])) * double(s.u[cells + c]) + double(s.heat[cells + c]);
+        sum += m.heat_per_volume(double(s.water[at + c])) * double(s.u[cells + c]) + double(s.heat[cells + c]) +
+               double(s.due[cells + c]);
   }
   return sum * m.cell_volume();
 }
@@ -341,7 +351,7 @@ void add_to_hash(core::Hasher& hasher, const HeatState& s) noexcept {
   for (std::size_t a = 0; a < s.owner.size(); ++a) {
     hasher.add(s.owner[a]);
     if (s.owner[a] < 0) continue;
-    for (const auto* values : {&s.u, &s.next, &s.heat, &s.conduction})
+    for (const auto* values : {&s.u, &s.next, &s.heat, &s.due, &s.conduction})
       hasher.add(core::hash_bytes(values->data() + a * kBrickCells, kBrickCells * sizeof(float)));
     hasher.add(s.hottest[a]);
     hasher.add(s.marks[a]);

@@ -17,7 +17,8 @@
 // cool again, keeping its water, damage and highest temperature, and is forgotten if there is nothing to keep. All that
 // goes in is booked: given = stored + boiled + burnt + perfused + surface + conducted (to bricks that are not awake) +
 // dropped (by falling asleep). The account closes at the end of every step, which is every `period` ticks; within it
-// each tick computes its part of the awake bricks, so that ticks cost alike.
+// each tick computes its part of the awake bricks, so that ticks cost alike; what is given in a step is taken up in the
+// next, so that the order of bricks changes nothing.
 //
 //   HeatModel m = build(HeatDescription{});  HeatState s = cold(m);  HeatWork w = make_work(m);
 //   HeatReport r = advance(m, {&source, 1}, shape, s, w);         // every tick; r.boiled is what smokes
@@ -122,7 +123,8 @@ struct HeatState {
   std::vector<std::int32_t> owner;  ///< (awake) brick, or -1
   std::vector<float> u;             ///< (awake x 512) T - 37 [K]
   std::vector<float> next;          ///< (awake x 512) u at the end of this step, as far as computed
-  std::vector<float> heat;          ///< (awake x 512) given and not yet taken up [J/m^3]
+  std::vector<float> heat;          ///< (awake x 512) given in this step, to be taken up in the next [J/m^3]
+  std::vector<float> due;           ///< (awake x 512) given in the last one, as far as not taken up [J/m^3]
   std::vector<float> conduction;    ///< (awake x 512) k, of tissue; h x cell elsewhere [W/m K]
   std::vector<float> hottest;       ///< (awake) largest |u| of the step
   std::vector<std::uint8_t> marks;  ///< (awake) see heat_bricks.hpp

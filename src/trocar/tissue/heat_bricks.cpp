@@ -96,6 +96,7 @@ std::int32_t rouse(const HeatModel& m, std::int32_t brick, HeatState& s, std::ui
   for (int c = 0; c < kBrickCells; ++c)
     s.u[cell + c] = s.next[cell + c] = s.cells[at + c] & HeatState::kTissue ? 0.0f : gas_of(m);
   std::fill_n(s.heat.begin() + cell, kBrickCells, 0.0f);
+  std::fill_n(s.due.begin() + cell, kBrickCells, 0.0f);
   conduct_anew(m, slot, s);
   s.hottest[slot] = 0;
   s.marks[slot] = 0;

@@ -29,7 +29,7 @@ std::int32_t wake(const HeatModel& model, const BrickKey& key, const TissueShape
 /// Between two steps: what has cooled falls asleep, whom warmth has reached wakes; then lists and links the awake ones.
 void settle(const HeatModel& model, const TissueShape& shape, HeatState& state, std::uint32_t& flags) noexcept;
 
-/// Conductivity of a cell, h x cell if it is not tissue.
+/// Conductivity of a cell, h x cell if it is not tissue: that is always less.
 inline float conduction_of(const HeatModel& m, std::uint8_t cell, float water) noexcept {
   if (!(cell & HeatState::kTissue)) return float(m.surface * m.cell);
   return float(m.dry_conductivity) + float(m.conductivity - m.dry_conductivity) * water;

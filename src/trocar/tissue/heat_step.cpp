@@ -1,6 +1,7 @@
 // A brick's step: gathered with one layer of what lies around it, then row by row. Loops are plain and of fixed length,
 // so that any compiler vectorises them to the same bits.
 #include <algorithm>
+#include <array>
 
 #include <trocar/tissue/float4.hpp>
 #include <trocar/tissue/heat_bricks.hpp>
@@ -17,13 +18,21 @@ constexpr int inner(int x, int y, int z) { return (z * kBrickSide + y) * kBrickS
 struct FaceCell {
   int own, across, outside;
 };
-FaceCell face_cell(int face, int n) noexcept {
+constexpr FaceCell find_face_cell(int face, int n) {
   const int a = n % kBrickSide, b = n / kBrickSide, last = kBrickSide - 1;
   const int own = face & 1 ? last : 0, across = face & 1 ? 0 : last, outside = face & 1 ? kBrickSide : -1;
   if (face / 2 == 0) return {inner(own, a, b), inner(across, a, b), padded(outside, a, b)};
   if (face / 2 == 1) return {inner(a, own, b), inner(a, across, b), padded(a, outside, b)};
   return {inner(a, b, own), inner(a, b, across), padded(a, b, outside)};
 }
+using Face = std::array<FaceCell, kBrickSide * kBrickSide>;
+constexpr std::array<Face, kNeighbours> find_faces() {
+  std::array<Face, kNeighbours> faces{};
+  for (int f = 0; f < kNeighbours; ++f)
+    for (int n = 0; n < kBrickSide * kBrickSide; ++n) faces[f][n] = find_face_cell(f, n);
+  return faces;
+}
+constexpr std::array<Face, kNeighbours> kFaces = find_faces();
 
 void gather_own(const HeatState& s, std::int32_t slot, HeatWork& w) noexcept {
   const float* u = s.u.data() + std::size_t(slot) * kBrickCells;
@@ -37,22 +46,23 @@ void gather_own(const HeatState& s, std::int32_t slot, HeatWork& w) noexcept {
 
 /// What lies across a face: an awake brick, one at 37 C, gas, or tissue of which nothing is known.
 void gather_face(const HeatModel& m, const HeatState& s, std::int32_t link, int face, HeatWork& w) noexcept {
+  float *u = w.u.data(), *k = w.conduction.data();
+  if (link >= 0) {
+    const float* its_u = s.u.data() + std::size_t(link) * kBrickCells;
+    const float* its_k = s.conduction.data() + std::size_t(link) * kBrickCells;
+    for (const FaceCell& f : kFaces[face]) u[f.outside] = its_u[f.across], k[f.outside] = its_k[f.across];
+    return;
+  }
   const float gas = gas_of(m), open = conduction_of(m, 0, 1), wet = conduction_of(m, HeatState::kTissue, 1);
-  for (int n = 0; n < kBrickSide * kBrickSide; ++n) {
-    const FaceCell f = face_cell(face, n);
-    float u = 0, k = wet;
-    if (link >= 0) {
-      u = s.u[std::size_t(link) * kBrickCells + f.across];
-      k = s.conduction[std::size_t(link) * kBrickCells + f.across];
-    } else if (link == kEmpty) {
-      u = gas, k = open;
-    } else if (link <= kSleeping) {
-      const std::size_t at = std::size_t(kSleeping - link) * kBrickCells + f.across;
-      k = conduction_of(m, s.cells[at], s.water[at]);
-      if (!(s.cells[at] & HeatState::kTissue)) u = gas;
-    }
-    w.u[f.outside] = u;
-    w.conduction[f.outside] = k;
+  for (const FaceCell& f : kFaces[face]) {
+    u[f.outside] = link == kEmpty ? gas : 0.0f;
+    k[f.outside] = link == kEmpty ? open : wet;
+  }
+  if (link > kSleeping) return;
+  const std::size_t brick = std::size_t(kSleeping - link) * kBrickCells;
+  for (const FaceCell& f : kFaces[face]) {
+    k[f.outside] = conduction_of(m, s.cells[brick + f.across], s.water[brick + f.across]);
+    if (!(s.cells[brick + f.across] & HeatState::kTissue)) u[f.outside] = gas;
   }
 }
 
@@ -62,8 +72,7 @@ double given_away(const HeatModel& m, const HeatState& s, std::int32_t slot, int
   if (link >= 0 || link == kEmpty) return 0;
   const std::size_t brick = std::size_t(s.owner[slot]) * kBrickCells, cells = std::size_t(slot) * kBrickCells;
   double sum = 0;
-  for (int n = 0; n < kBrickSide * kBrickSide; ++n) {
-    const FaceCell f = face_cell(face, n);
+  for (const FaceCell& f : kFaces[face]) {
     if (!(s.cells[brick + f.own] & HeatState::kTissue)) continue;
     if (link <= kSleeping && !(s.cells[std::size_t(kSleeping - link) * kBrickCells + f.across] & HeatState::kTissue))
       continue;  // gas: the surface's
@@ -75,7 +84,7 @@ double given_away(const HeatModel& m, const HeatState& s, std::int32_t slot, int
 
 /// Constants of a step in float.
 struct Factors {
-  float flow, blood, dry, water, boil, per_boil, boiling, ceiling, gas;
+  float flow, blood, dry, water, boil, per_boil, boiling, ceiling, gas, open;
 };
 Factors factors(const HeatModel& m) noexcept {
   return {.flow = float(m.step / (m.cell * m.cell)),
@@ -86,52 +95,56 @@ Factors factors(const HeatModel& m) noexcept {
           .per_boil = float(1 / m.boiling_heat()),
           .boiling = float(kBoilingHeat - kBodyHeat),
           .ceiling = float(m.ceiling - kBodyHeat),
-          .gas = gas_of(m)};
+          .gas = gas_of(m),
+          .open = conduction_of(m, 0, 0)};
 }
 
 /// Sums over a brick, a lane for every fourth cell of x, so that their order is that of no instruction set.
 struct Lanes {
   Float4 moved{}, blood{}, boiled{}, burnt{};
+  Float4 hottest{};  ///< largest |u|
 };
 double total(Float4 lanes) noexcept { return (double(lanes[0]) + lanes[1]) + (double(lanes[2]) + lanes[3]); }
 
 /// Where four cells are. u, k: in the gathered brick.
 struct Four {
   const float *u, *k, *heat, *damage;
-  const std::uint8_t* cells;
   float *water, *peak, *next, *boiled;
 };
 
 void store4(float* p, Float4 a) noexcept { std::memcpy(p, &a, sizeof a); }
 Float4 all(float a) noexcept { return Float4{a, a, a, a}; }
+Float4 least(Float4 a, Float4 b) noexcept { return a < b ? a : b; }
+Float4 most(Float4 a, Float4 b) noexcept { return a > b ? a : b; }
 Float4 magnitude(Float4 a) noexcept { return (Float4)((Int4)a & 0x7fffffff); }
 
 inline Float4 flow_from(const Four& r, Float4 u, Float4 k, int to) noexcept {
-  return smaller(k, load4(r.k + to)) * (load4(r.u + to) - u);
+  return least(k, load4(r.k + to)) * (load4(r.u + to) - u);
 }
 
 inline void step_four(const Factors& f, const Four& r, Lanes& sum) noexcept {
   constexpr int kUp = kSide, kOver = kSide * kSide;
   const Float4 zero{}, u = load4(r.u), k = load4(r.k), w = load4(r.water);
-  const Int4 is{r.cells[0] & 1, r.cells[1] & 1, r.cells[2] & 1, r.cells[3] & 1}, tissue = is == 1;
+  const Int4 tissue = k > f.open;
   const Float4 flow = (flow_from(r, u, k, -1) + flow_from(r, u, k, 1)) +
                       (flow_from(r, u, k, -kUp) + flow_from(r, u, k, kUp)) +
                       (flow_from(r, u, k, -kOver) + flow_from(r, u, k, kOver));
   const Float4 moved = pick(tissue, f.flow * flow, zero);
-  const Float4 alive = larger(1 - load4(r.damage), zero);
+  const Float4 alive = most(1 - load4(r.damage), zero);
   const Float4 blood = pick(tissue, (f.blood * alive) * u, zero);
   const Float4 c = f.dry + f.water * w;
   const Float4 heated = u + ((moved - blood) + load4(r.heat)) / c;
-  const Float4 over = larger(c * (heated - f.boiling), zero);
-  const Float4 boils = pick(tissue, smaller(over * f.per_boil, w), zero);
+  const Float4 over = most(c * (heated - f.boiling), zero);
+  const Float4 boils = pick(tissue, least(over * f.per_boil, w), zero);
   const Float4 c_left = c - f.water * boils;
-  const Float4 left = smaller(heated, all(f.boiling)) + (over - boils * f.boil) / c_left;
-  const Float4 burns = larger(left - f.ceiling, zero), v = left - burns;
+  const Float4 left = least(heated, all(f.boiling)) + (over - boils * f.boil) / c_left;
+  const Float4 burns = most(left - f.ceiling, zero), v = left - burns;
   const Float4 kept = pick(magnitude(v) < 1e-9f, zero, v);  // never denormal
   store4(r.next, pick(tissue, kept, all(f.gas)));
   store4(r.water, w - boils);
-  store4(r.peak, larger(load4(r.peak), pick(tissue, kept, zero)));
+  store4(r.peak, most(load4(r.peak), pick(tissue, kept, zero)));
   store4(r.boiled, boils);
+  sum.hottest = most(sum.hottest, magnitude(pick(tissue, kept, zero)));
   sum.moved += moved;
   sum.blood += blood;
   sum.boiled += boils;
@@ -149,9 +162,8 @@ Lanes step_cells(const HeatModel& m, std::int32_t slot, HeatState& s, HeatWork& 
         step_four(f,
                   {.u = w.u.data() + around,
                    .k = w.conduction.data() + around,
-                   .heat = s.heat.data() + cells + own,
+                   .heat = s.due.data() + cells + own,
                    .damage = s.damage.data() + at + own,
-                   .cells = s.cells.data() + at + own,
                    .water = s.water.data() + at + own,
                    .peak = s.peak.data() + at + own,
                    .next = s.next.data() + cells + own,
@@ -161,26 +173,15 @@ Lanes step_cells(const HeatModel& m, std::int32_t slot, HeatState& s, HeatWork& 
   return sum;
 }
 
-float hottest_of(const float* u, const std::uint8_t* cells) noexcept {
-  Float4 most{};
-  for (int c = 0; c < kBrickCells; c += 4) {
-    const Int4 is{cells[c] & 1, cells[c + 1] & 1, cells[c + 2] & 1, cells[c + 3] & 1};
-    most = larger(most, pick(is == 1, magnitude(load4(u + c)), Float4{}));
-  }
-  return std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
-}
-
 std::uint8_t warm_faces(const HeatModel& m, const float* u, const std::uint8_t* cells) noexcept {
   const float warm = float(m.wake);
   std::uint8_t marks = 0;
   for (int face = 0; face < kNeighbours; ++face)
-    for (int n = 0; n < kBrickSide * kBrickSide; ++n) {
-      const int own = face_cell(face, n).own;
-      if (u[own] > warm && (cells[own] & HeatState::kTissue)) {
+    for (const FaceCell& f : kFaces[face])
+      if (u[f.own] > warm && (cells[f.own] & HeatState::kTissue)) {
         marks = std::uint8_t(marks | kWarmFace << face);
         break;
       }
-    }
   return marks;
 }
 
@@ -222,19 +223,19 @@ void forget_sparks(std::uint8_t* cells) noexcept {
 
 /// Notes what a step has done to a brick: warmth, damage, what boils.
 void look_at(const HeatModel& m, std::int32_t slot, double boiled, HeatState& s, HeatWork& w, HeatReport& report,
-             double& most) noexcept {
+             double& most_boiled) noexcept {
   const BrickKey& key = s.key[s.owner[slot]];
   const std::size_t at = std::size_t(s.owner[slot]) * kBrickCells;
   const float* u = s.next.data() + std::size_t(slot) * kBrickCells;
   std::uint8_t* cells = s.cells.data() + at;
-  s.hottest[slot] = hottest_of(u, cells);
-  s.marks[slot] = std::uint8_t((s.marks[slot] & kFed) | warm_faces(m, u, cells));
+  const bool warm = double(s.hottest[slot]) > m.wake;
+  s.marks[slot] = std::uint8_t((s.marks[slot] & kFed) | (warm ? warm_faces(m, u, cells) : 0));
   if (double(s.hottest[slot]) > m.damage_from - kBodyHeat) do_damage(m, u, cells, s.damage.data() + at);
   if (boiled > 0) {
     s.marks[slot] = std::uint8_t(s.marks[slot] | kDried);
     const Vec3d where = look_at_boiling(m, key, w.boiled.data(), s.water.data() + at, cells);
-    if (boiled > most) {
-      most = boiled;
+    if (boiled > most_boiled) {
+      most_boiled = boiled;
       report.boiled_body = key.body;
       report.boiled_at = where;
     }
@@ -243,7 +244,7 @@ void look_at(const HeatModel& m, std::int32_t slot, double boiled, HeatState& s,
 }
 
 void step_brick(const HeatModel& m, std::int32_t slot, HeatState& s, HeatWork& w, HeatReport& report,
-                double& most) noexcept {
+                double& most_boiled) noexcept {
   gather_own(s, slot, w);
   double away = 0;
   for (int f = 0; f < kNeighbours; ++f) {
@@ -251,7 +252,7 @@ void step_brick(const HeatModel& m, std::int32_t slot, HeatState& s, HeatWork& w
     away += given_away(m, s, slot, f, w);
   }
   const Lanes sum = step_cells(m, slot, s, w);
-  std::fill_n(s.heat.begin() + std::size_t(slot) * kBrickCells, kBrickCells, 0.0f);
+  std::fill_n(s.due.begin() + std::size_t(slot) * kBrickCells, kBrickCells, 0.0f);
 
   const double volume = m.cell_volume(), boiled = total(sum.boiled);
   s.books.conducted += away * volume;
@@ -262,14 +263,15 @@ void step_brick(const HeatModel& m, std::int32_t slot, HeatState& s, HeatWork& w
   const double steam = boiled * m.density * m.water * volume;
   s.books.steam += steam;
   report.boiled += steam;
-  look_at(m, slot, boiled, s, w, report, most);
+  s.hottest[slot] = std::max(std::max(sum.hottest[0], sum.hottest[1]), std::max(sum.hottest[2], sum.hottest[3]));
+  look_at(m, slot, boiled, s, w, report, most_boiled);
 }
 
 }  // namespace
 
 void step_bricks(const HeatModel& m, int first, int last, HeatState& s, HeatWork& w, HeatReport& report) noexcept {
-  double most = 0;
-  for (int n = first; n < last; ++n) step_brick(m, s.order[n], s, w, report, most);
+  double most_boiled = 0;
+  for (int n = first; n < last; ++n) step_brick(m, s.order[n], s, w, report, most_boiled);
   report.worked += last - first;
 }
 
