@@ -92,7 +92,7 @@ TEST_F(GlBackend, EveryShaderVariantCompilesAndLinks) {
   }
   for (const char* detail : {"DETAIL=0", "DETAIL=1", "DETAIL=2"}) {
     EXPECT_NO_THROW(programs.get("sheet.vert", "sheet.frag", detail));
-    EXPECT_NO_THROW(programs.get("full.vert", "wet.frag", detail));
+    EXPECT_NO_THROW(programs.get("tile.vert", "wet.frag", detail));
     EXPECT_NO_THROW(programs.get("full.vert", "smoke.frag", detail));
   }
   EXPECT_NO_THROW(programs.get("splat.vert", "splat.frag"));

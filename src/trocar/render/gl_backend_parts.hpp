@@ -76,6 +76,9 @@ class GlBackend final : public CheckedBackend {
   void splat_pass(const Frame& frame, const Layout& layout);
   /// Into m_splat_rows, in the eye's frame; m_wet_box holds them all. Those that cannot be seen are left out.
   void pack_splats(const Frame& frame);
+  /// The parts of the scene that splats reach, as rectangles: a software driver pays for every pixel it looks at.
+  void mark_tiles(const std::array<int, 4>& box);
+  void pack_tiles();
   void wet_pass(const Frame& frame, const Layout& layout);
   void set_liquid(const Frame& frame, GlProgram& program);
   /// Marches through the smoke at a fifth of the scene's size or less.
@@ -127,12 +130,13 @@ class GlBackend final : public CheckedBackend {
   GlPicture m_scene, m_shade, m_small, m_smaller, m_developed, m_own, m_bed, m_smoke;
   std::array<GlPicture, 3> m_blur_rough, m_blur;
   std::array<GlPicture, 3> m_wet;  ///< field, thickness, film; the first one's framebuffer draws into all of them
-  GlVertexArray m_splat_layout, m_sheet_layout;
-  GlBuffer m_splat_buffer, m_sheet_buffer, m_sheet_indices;
+  GlVertexArray m_splat_layout, m_sheet_layout, m_tile_layout;
+  GlBuffer m_splat_buffer, m_sheet_buffer, m_sheet_indices, m_tile_buffer;
   GlTexture m_smoke_grid;
   std::array<int, 3> m_smoke_size{};
   bool m_smokes = false;  ///< in this frame
-  std::vector<float> m_splat_rows;
+  std::vector<float> m_splat_rows, m_tile_rows;
+  std::vector<std::uint8_t> m_wet_tiles;
   std::vector<std::uint8_t> m_smoke_bytes;
   std::array<int, 4> m_wet_box{};  ///< of the scene picture [px]: x, y, width, height
   std::array<GlPicture, 2> m_rough, m_exposure;

@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t kSplatFloats = 16;
 constexpr float kReach = 1.7f;        // how far a splat's field goes, in radii: as in splat.vert
+constexpr int kTile = 16;             // [px] of the scene: only those that liquid reaches are drawn
 constexpr float kLeastTexel = 0.75f;  // no drop is drawn thinner, in texels of the field
 
 void attribute(GLuint index, GLint components, std::size_t floats, std::size_t first, GLuint divisor) {
@@ -23,13 +24,17 @@ void attribute(GLuint index, GLint components, std::size_t floats, std::size_t f
 
 /// Grows to hold what points within `radius` of an eye-space point cover.
 struct Bounds2 {
-  float x0 = 1, y0 = 1, x1 = -1, y1 = -1;  ///< clip space
+  float x0 = 9, y0 = 9, x1 = -9, y1 = -9;  ///< clip space
   void add(Vec3f eye, float radius, const Mat4& projection) {
     const float far = std::max(-eye.z - radius, 1e-3f);
     const float x = projection.m[0] * eye.x / std::max(-eye.z, 1e-3f), rx = projection.m[0] * radius / far;
     const float y = projection.m[5] * eye.y / std::max(-eye.z, 1e-3f), ry = projection.m[5] * radius / far;
     x0 = std::min(x0, x - rx), x1 = std::max(x1, x + rx);
     y0 = std::min(y0, y - ry), y1 = std::max(y1, y + ry);
+  }
+  void add(const Bounds2& o) {
+    x0 = std::min(x0, o.x0), x1 = std::max(x1, o.x1);
+    y0 = std::min(y0, o.y0), y1 = std::max(y1, o.y1);
   }
   std::array<int, 4> pixels(int width, int height) const {
     const auto px = [](float clip, int size) {
@@ -133,8 +138,33 @@ void GlBackend::sheet_pass(const Frame& frame, const Layout&) {
   glDrawElements(GL_TRIANGLES, GLsizei(liquid.triangles.size()), GL_UNSIGNED_INT, nullptr);
 }
 
+void GlBackend::mark_tiles(const std::array<int, 4>& box) {
+  const int columns = (m_scene.width + kTile - 1) / kTile;
+  for (int j = box[1] / kTile; j * kTile < box[1] + box[3]; ++j)
+    for (int i = box[0] / kTile; i * kTile < box[0] + box[2]; ++i) m_wet_tiles[std::size_t(j) * columns + i] = 1;
+}
+
+/// Neighbours in a row become one rectangle.
+void GlBackend::pack_tiles() {
+  const int columns = (m_scene.width + kTile - 1) / kTile, rows = (m_scene.height + kTile - 1) / kTile;
+  const float w = float(m_scene.width), h = float(m_scene.height);
+  m_tile_rows.clear();
+  for (int j = 0; j < rows; ++j)
+    for (int i = 0; i < columns; ++i) {
+      if (!m_wet_tiles[std::size_t(j) * columns + i]) continue;
+      const int first = i;
+      while (i + 1 < columns && m_wet_tiles[std::size_t(j) * columns + i + 1]) ++i;
+      const float tile[4] = {float(first * kTile) / w, float(j * kTile) / h,
+                             float(std::min((i + 1) * kTile, m_scene.width)) / w,
+                             float(std::min((j + 1) * kTile, m_scene.height)) / h};
+      m_tile_rows.insert(m_tile_rows.end(), tile, tile + 4);
+    }
+}
+
 void GlBackend::pack_splats(const Frame& frame) {
   m_splat_rows.clear();
+  const int columns = (m_scene.width + kTile - 1) / kTile, rows = (m_scene.height + kTile - 1) / kTile;
+  m_wet_tiles.assign(std::size_t(columns) * rows, 0);
   Bounds2 bounds;
   for (const Splat& s : frame.liquid.splats) {
     const Vec3f a = transform_point(m_view, s.from), b = transform_point(m_view, s.to);
@@ -146,13 +176,18 @@ void GlBackend::pack_splats(const Frame& frame) {
     // Liquid on a surface that turns away from the eye is behind it.
     if (s.kind != SplatKind::flying && !s.sheer && dot(n, a) > 0) continue;
     const float thin = s.kind == SplatKind::flying ? s.radius / radius : 1.0f;
-    bounds.add(a, kReach * radius, m_projection);
-    bounds.add(b, kReach * radius, m_projection);
+    // An outline wanders by a millimetre at most (wet.frag).
+    Bounds2 own;
+    own.add(a, kReach * radius + 0.001f, m_projection);
+    own.add(b, kReach * radius + 0.001f, m_projection);
+    bounds.add(own);
+    mark_tiles(own.pixels(m_scene.width, m_scene.height));
     const float row[kSplatFloats] = {a.x, a.y, a.z, radius,     b.x,        b.y,        b.z,        s.height * thin,
                                      n.x, n.y, n.z, code_of(s), s.share[0], s.share[1], s.share[2], s.dark};
     m_splat_rows.insert(m_splat_rows.end(), row, row + kSplatFloats);
   }
   m_wet_box = bounds.pixels(m_scene.width, m_scene.height);
+  pack_tiles();
 }
 
 void GlBackend::splat_pass(const Frame& frame, const Layout& layout) {
@@ -202,7 +237,7 @@ void GlBackend::splat_pass(const Frame& frame, const Layout& layout) {
 
 void GlBackend::wet_pass(const Frame& frame, const Layout&) {
   keep_bed();
-  GlProgram& program = m_programs.get("full.vert", "wet.frag", "DETAIL=" + std::to_string(frame.quality.detail));
+  GlProgram& program = m_programs.get("tile.vert", "wet.frag", "DETAIL=" + std::to_string(frame.quality.detail));
   program.use();
   set_liquid(frame, program);
   const char* names[3] = {"u_field", "u_thickness", "u_film"};
@@ -212,10 +247,17 @@ void GlBackend::wet_pass(const Frame& frame, const Layout&) {
   }
   program.set("u_part", float(wet_part(frame.quality)));
   program.set("u_texel", 1.0f / float(m_wet[0].width), 1.0f / float(m_wet[0].height));
-  glEnable(GL_SCISSOR_TEST);
-  glScissor(m_wet_box[0], m_wet_box[1], m_wet_box[2], m_wet_box[3]);
-  draw_full();
-  glDisable(GL_SCISSOR_TEST);
+  if (!m_tile_buffer) {
+    m_tile_layout = new_vertex_array();
+    m_tile_buffer = new_buffer();
+    glBindVertexArray(m_tile_layout.id());
+    glBindBuffer(GL_ARRAY_BUFFER, m_tile_buffer.id());
+    attribute(0, 4, 4, 0, 1);
+  }
+  glBindVertexArray(m_tile_layout.id());
+  glBindBuffer(GL_ARRAY_BUFFER, m_tile_buffer.id());
+  glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(m_tile_rows.size() * sizeof(float)), m_tile_rows.data(), GL_STREAM_DRAW);
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(m_tile_rows.size() / 4));
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_TRUE);
 }
