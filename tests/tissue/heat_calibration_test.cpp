@@ -1,5 +1,7 @@
 // One choice of figures against what has been measured of electrosurgery; docs/heat.md says what fits and what does
 // not, and these tests hold both, so that neither changes unnoticed.
+#include <array>
+
 #include <gtest/gtest.h>
 
 #include "heat_setup.hpp"
@@ -103,6 +105,28 @@ TEST(Calibration, TissueCoolsToSixtySlowerThanMeasured) {
   EXPECT_GT(coag, 2);
   EXPECT_LT(coag, 12);
   EXPECT_LT(cut, coag);
+}
+
+TEST(Calibration, HalvingTheCellsMovesBordersByLessThanACell) {
+  const auto after = [](double cell) {
+    HeatDescription d;
+    d.cell = cell;
+    d.bricks = d.awake = 512;
+    Operated o(d, half_space());
+    o.press_for(2, kBlue, tip_at(kJustBelow));
+    return std::array{o.coagulated_to(kTopCells), o.spread_of(45, kTopCells), o.coagulated_to(kTopCells, {0, 0, -1}),
+                      o.boiled};
+  };
+  const auto coarse = after(0.75e-3), shipped = after(0.5e-3), fine = after(0.25e-3);
+  for (const auto& [cell, a] : {std::pair{0.75, coarse}, {0.5, shipped}, {0.25, fine}})
+    std::printf(
+        "    40 W, 2 s, cells of %.2f mm: coagulated to %.2f mm, %.2f mm deep, 45 C to %.2f mm, %.1f mg steam\n", cell,
+        1e3 * a[0], 1e3 * a[2], 1e3 * a[1], 1e6 * a[3]);
+  for (int n = 0; n < 3; ++n) {
+    EXPECT_NEAR(shipped[n], fine[n], 0.5e-3);
+    EXPECT_NEAR(coarse[n], fine[n], 0.75e-3);
+  }
+  EXPECT_NEAR(shipped[3] / fine[3], 1, 0.3);
 }
 
 }  // namespace
