@@ -66,6 +66,8 @@ void check_soil(const LensSoil& soil, const char* call) {
   }
 }
 
+bool lies(SplatKind kind) { return kind == SplatKind::lying || kind == SplatKind::film; }
+
 void check_splat(const Splat& splat, std::size_t i, const char* call) {
   const std::string name = "splat " + std::to_string(i);
   require(finite(splat.from) && finite(splat.to), call, name + " is not finite");
@@ -77,7 +79,7 @@ void check_splat(const Splat& splat, std::size_t i, const char* call) {
     shares += share;
   }
   require(shares <= 1.001f, call, name + " holds more than all");
-  require(splat.kind == SplatKind::flying || std::fabs(length(splat.normal) - 1) < 1e-2f, call,
+  require(!lies(splat.kind) || std::fabs(length(splat.normal) - 1) < 1e-2f, call,
           name + " lies on a surface without a unit normal");
 }
 

@@ -172,10 +172,11 @@ void GlBackend::pack_splats(const Frame& frame) {
     if (-a.z < near || -b.z < near || -a.z > frame.camera.far_plane) continue;
     const float texel = -a.z * 2 / (m_projection.m[5] * float(m_wet[0].height));
     const float radius = std::max(s.radius, kLeastTexel * texel);
-    const Vec3f n = s.kind == SplatKind::flying ? Vec3f{} : transform_direction(m_view, s.normal);
+    const bool flies = s.kind == SplatKind::flying || s.kind == SplatKind::streak;
+    const Vec3f n = flies ? Vec3f{} : transform_direction(m_view, s.normal);
     // Liquid on a surface that turns away from the eye is behind it.
-    if (s.kind != SplatKind::flying && !s.sheer && dot(n, a) > 0) continue;
-    const float thin = s.kind == SplatKind::flying ? s.radius / radius : 1.0f;
+    if (!flies && !s.sheer && dot(n, a) > 0) continue;
+    const float thin = flies ? s.radius / radius : 1.0f;
     // An outline wanders by a millimetre at most (wet.frag).
     Bounds2 own;
     own.add(a, kReach * radius + 0.001f, m_projection);

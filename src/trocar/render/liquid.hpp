@@ -34,7 +34,8 @@ struct LiquidLook {
 enum class SplatKind : std::uint8_t {
   flying,  ///< round, in the air
   lying,   ///< a cap on a surface
-  film     ///< a stain: no body of its own
+  film,    ///< a stain: no body of its own
+  streak   ///< in the air, smeared by its speed: thin at both ends
 };
 
 /// A blob around the axis from..to.

@@ -55,9 +55,10 @@ float drawn_out(float radius, float half) {
 Splat streak(Vec3f p, Vec3f v, float radius, const std::array<float, 3>& share) {
   const float half = 0.5f * kShutter * length(v);
   Splat s;
+  s.kind = SplatKind::streak;
   const Vec3f way = 0.5f * kShutter * v;
   s.from = p - way, s.to = p + way;
-  s.radius = std::max(drawn_out(radius, half), 0.45f * radius);
+  s.radius = std::max(1.25f * drawn_out(radius, half), 0.45f * radius);
   s.height = s.radius;
   s.share = share;
   return s;

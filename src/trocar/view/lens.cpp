@@ -19,14 +19,14 @@ void Lens::splash(double strength, const fluids::Mix& mix, std::uint32_t seed) {
   const double all = double(std::max<std::int64_t>(mix.total(), 1));
   const fluids::Shares shares{double(mix.blood) / all, double(mix.bile) / all, 0.98};
   const fluids::Rgb tint = fluids::transmission({}, shares, kDropPath);
+  // A drop on the lens is thin at its edge and lit from all around: paler than its depth says (our choice).
+  const Vec3f drop_tint{float(0.35 + 0.65 * tint.r), float(0.35 + 0.65 * tint.g), float(0.35 + 0.65 * tint.b)};
   const int n = int(std::ceil(std::clamp(strength, 0.0, 1.0) * 4));
   for (int k = 0; k < n && int(m_drops.size()) < render::LensSoil::kMaxDrops; ++k) {
     const int at = int(seed & 0xffff) + 31 * k;
     const double angle = 6.2832 * varied(at, 1), far = 0.85 * std::sqrt(varied(at, 2));
-    m_drops.push_back({float(far * std::cos(angle)),
-                       float(far * std::sin(angle)),
-                       float(0.07 + 0.16 * varied(at, 3) * strength),
-                       {float(tint.r), float(tint.g), float(tint.b)}});
+    m_drops.push_back({float(far * std::cos(angle)), float(far * std::sin(angle)),
+                       float(0.07 + 0.16 * varied(at, 3) * strength), drop_tint});
   }
   m_tint = {float(tint.r), float(tint.g), float(tint.b)};
 }

@@ -18,9 +18,10 @@ void main() {
   float own = length(v_eye), reach = v_size.y;
   bool sheer = v_size.w > 3.5;
   float kind = v_size.w - (sheer ? 4.0 : 0.0);
+  bool flies = kind < 0.5 || kind > 2.5;
   vec2 at = v_at;
   float off = 0.0;
-  if (kind < 0.5) {
+  if (flies) {
     if (far < own - 0.3 * reach) discard;
   } else {
     vec3 shown = v_eye * (far / own) - v_middle;
@@ -33,19 +34,23 @@ void main() {
       off = 0.0;
   }
   float along = max(abs(at.x) - v_size.x, 0.0);
+  if (kind > 2.5) {  // a spindle
+    float share = at.x / (v_size.x + reach);
+    at.y /= 1.0 - 0.72 * share * share;
+  }
   float s = 1.0 - (along * along + at.y * at.y + 0.4 * off * off) / (reach * reach);
   if (s <= 0.0) discard;
   float f = s * s;
   f *= f;  // blobs that overlap grow little
-  vec2 n = kind < 0.5 ? vec2(0.0) : v_normal.xy;
-  if (kind > 1.5) {
+  vec2 n = flies ? vec2(0.0) : v_normal.xy;
+  if (kind > 1.5 && kind < 2.5) {
     o_field = vec4(n, min(own, far), 1.0) * (0.002 * s * s);
     o_thickness = vec4(0.0);
     o_film = vec4(v_mix.rgb, v_mix.a) * (v_size.z * 1.0e3 * s * s);
   } else {
     o_field = vec4(n, own, 1.0) * f;
     // What flies is marked: it has no edge that runs out thin.
-    o_thickness = vec4(v_mix.rgb, v_mix.a + (kind < 0.5 ? 2.0 : 0.0)) * (v_size.z * 1.0e3 * f);
+    o_thickness = vec4(v_mix.rgb, v_mix.a + (flies ? 2.0 : 0.0)) * (v_size.z * 1.0e3 * f);
     o_film = vec4(0.0);
   }
 }

@@ -1,7 +1,7 @@
 // One blob of liquid as a square: facing the eye where it flies, on its surface where it lies.
 layout(location = 0) in vec4 a_from;    // eye space, and the radius
 layout(location = 1) in vec4 a_to;      // eye space, and the height
-layout(location = 2) in vec4 a_normal;  // eye space, and the kind: 0 flies, 1 lies, 2 film; + 4 on something sheer
+layout(location = 2) in vec4 a_normal;  // eye space, and the kind: 0 flies, 1 lies, 2 film, 3 flies and is smeared; + 4 on something sheer
 layout(location = 3) in vec4 a_mix;     // shares, and how clotted
 uniform mat4 u_projection;
 out vec3 v_eye;
@@ -15,7 +15,7 @@ const float kReach = 1.7;
 void main() {
   float kind = mod(a_normal.w, 4.0);
   vec3 middle = 0.5 * (a_from.xyz + a_to.xyz);
-  vec3 n = kind > 0.5 ? a_normal.xyz : normalize(-middle);
+  vec3 n = kind > 0.5 && kind < 2.5 ? a_normal.xyz : normalize(-middle);
   vec3 axis = a_to.xyz - a_from.xyz;
   axis -= n * dot(n, axis);
   float size = length(axis);
