@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <trocar/fluids/fluids.hpp>
 #include <trocar/sim/circulation.hpp>
 #include <trocar/sim/recording.hpp>
 
@@ -118,6 +119,16 @@ TEST(Circulation, WhatIsFedFromBothEndsNeedsAClipOnBothSides) {
   EXPECT_GT(ml_per_minute(one.last.picolitres[1]), 20);
   EXPECT_EQ(both.last.picolitres[0], 0);
   EXPECT_EQ(both.last.picolitres[1], 0);
+}
+
+TEST(Circulation, EveryPicolitreThatBledIsADropFilmOrPool) {
+  const State& s = without_clips().end;
+  const fluids::Ledger& ledger = s.fluids.ledger;
+  EXPECT_GT(s.flow.bled, 100 * fluids::kMicrolitre);
+  EXPECT_EQ(ledger.in[size_t(fluids::Source::kBled)].total(), s.flow.bled);
+  EXPECT_TRUE(audit(small::model().wet.model, s.fluids));
+  EXPECT_GT(at(ledger, fluids::Place::kFilm).total(), 0) << "it has run down on tissue";
+  EXPECT_GT(at(ledger, fluids::Place::kPool).total(), 0) << "and gathered";
 }
 
 TEST(Circulation, BleedsInPulses) {

@@ -158,6 +158,7 @@ inline scene::Description description() {
   d.strands = {tube(), cord()};
   d.membranes = {fold()};
   d.vessels = {arteries()};
+  d.fluids = scene::FluidsSetting{{0.025, 0, -0.019}, 0.14, {}, 1024, {}};
   scene::Wall floor;
   floor.name = "floor";
   floor.rows = floor.columns = 3;
@@ -207,6 +208,7 @@ inline const sim::Model& bare() {
     scene::Description d = description();
     d.membranes.clear();
     d.vessels.clear();
+    d.fluids.reset();
     return scene::compile(d);
   }();
   return compiled;

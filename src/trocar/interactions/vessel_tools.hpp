@@ -10,7 +10,7 @@
 
 namespace trocar::interactions {
 
-inline constexpr int kMaxOpenings = 64, kMaxVesselClips = 64;
+inline constexpr int kMaxOpenings = 30, kMaxVesselClips = 64;  ///< two sides each fit fluids::kMostOpenings
 
 /// Where blood gets out. No padding.
 struct VesselOpening {

@@ -180,6 +180,15 @@ struct Port {
   core::Location at;
 };
 
+/// Fluids of a scene: where they gather.
+struct FluidsSetting {
+  Vec3d pool_middle;                 ///< of the square field in which a pool can be [m]
+  double pool_size = 0.160;          ///< its edge [m]
+  std::vector<std::string> pool_on;  ///< solids whose drawn shape is part of its floor, beside the walls
+  int drops = 4096;                  ///< at a time
+  core::Location at;
+};
+
 enum class InstrumentKind { grasper, clip_applier, scissors, probe };
 
 /// An instrument's shape and grip. Jaws open symmetrically in the plane of the shaft axis and the opening direction.
@@ -223,6 +232,7 @@ struct Description {
   std::vector<Membrane> membranes;
   std::vector<Pouch> pouches;
   std::vector<VesselTree> vessels;  ///< heart and blood are the first one's
+  std::optional<FluidsSetting> fluids;
   std::vector<Port> ports;
   std::vector<Instrument> instruments;
   std::vector<Placement> placements;  ///< tools, in hand order: [0] left, [1] right, [2] assistant/third

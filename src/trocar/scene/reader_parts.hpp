@@ -75,6 +75,7 @@ class Reading {
   void tissue_table(const JsonObject& o, const std::filesystem::path& folder);
   void tissue(const JsonObject& o, const std::filesystem::path& folder);
   void vessels(const JsonObject& o, const std::filesystem::path& folder);
+  void fluids(const JsonObject& o);
   void port(const JsonObject& o);
   Placement placement(const JsonObject& o);
   void scope(const JsonObject& o);

@@ -17,6 +17,7 @@ void Reading::scene(const JsonObject& o, const fs::path& folder) {
   organs(o, folder);
   includes(o, "vessels", folder, vessels_shape(), &Reading::vessels, &Reading::vessels);
   includes(o, "instruments", folder, instrument_shape(), &Reading::instrument, &Reading::instrument);
+  for (const JsonObject& f : o.objects("fluids")) fluids(f);
   for (const JsonObject& p : o.objects("ports")) port(p);
   for (const JsonObject& t : o.objects("tools")) {
     refer(Reference::To::instrument, t, "instrument");
@@ -37,6 +38,18 @@ void Reading::vessels(const JsonObject& o, const fs::path&) {
                     "expected heart and blood of a patient in the scene's first file of vessels, got some "
                     "in a second one"});
   description.vessels.push_back(std::move(tree));
+}
+
+void Reading::fluids(const JsonObject& o) {
+  FluidsSetting f;
+  f.pool_middle = from_mm(o.vec3("pool_middle_mm"));
+  f.pool_size = from_mm(o.number("pool_size_mm", 160));
+  f.pool_on = o.texts("pool_on");
+  f.drops = o.integer("drops", f.drops);
+  f.at = o.at();
+  for (std::size_t i = 0; i < f.pool_on.size(); ++i)
+    m_references.push_back({Reference::To::solid, f.pool_on[i], o.at("pool_on", i)});
+  description.fluids = std::move(f);
 }
 
 void Reading::tissue_table(const JsonObject& o, const fs::path& folder) {

@@ -297,6 +297,17 @@ const Shape& scope() {
   return shape;
 }
 
+const Shape& fluids() {
+  static const Shape shape{
+      "fluids",
+      "Blood that leaves vessels becomes drops and gathers in a pool; without this key it is only counted.",
+      {needed(keys::vec3("pool_middle_mm", -kFar, kFar, "middle of the field in which a pool can be")),
+       keys::number("pool_size_mm", 20, 1000, "edge of that field, default 160"),
+       keys::texts("pool_on", "solids that belong to its floor as drawn, beside the walls"),
+       keys::integer("drops", 64, 65536, "at a time, default 4096")}};
+  return shape;
+}
+
 Shape file_shape(std::string name, std::string meaning, std::vector<Key> keys) {
   Shape shape{std::move(name), std::move(meaning), std::move(keys)};
   shape.keys.insert(shape.keys.begin(),
@@ -314,6 +325,7 @@ const Shape& scene_shape() {
                   needed(keys::includes("tissues", tissue_row, "materials: tables in files, or rows")),
                   needed(keys::includes("organs", organ, "organs: files or objects")),
                   keys::includes("vessels", vessels_shape, "arteries and veins: files or objects"),
+                  keys::object("fluids", fluids, "drops and a pool, default none"),
                   needed(keys::includes("instruments", instrument, "instruments: files or objects")),
                   needed(keys::objects("ports", port, 1, "trocars")),
                   needed(keys::objects("tools", tool, 0, "in the order of the hands: left, right, assistant")),

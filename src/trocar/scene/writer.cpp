@@ -311,6 +311,15 @@ JsonValue written(const VesselTree& tree) {
   return o;
 }
 
+JsonValue written(const FluidsSetting& f) {
+  JsonValue o = json_object();
+  put(o, "pool_middle_mm", mm(f.pool_middle));
+  put(o, "pool_size_mm", mm(f.pool_size));
+  if (!f.pool_on.empty()) put(o, "pool_on", list(f.pool_on, [](const std::string& x) { return json_text(x); }));
+  put(o, "drops", json_number(f.drops));
+  return o;
+}
+
 }  // namespace
 
 std::string write_scene(const Description& d) {
@@ -322,6 +331,7 @@ std::string write_scene(const Description& d) {
   put(o, "tissues", list(d.tissues, [](const Tissue& x) { return written(x); }));
   put(o, "organs", organs(d));
   if (!d.vessels.empty()) put(o, "vessels", list(d.vessels, [](const VesselTree& x) { return written(x); }));
+  if (d.fluids) put(o, "fluids", written(*d.fluids));
   put(o, "instruments", list(d.instruments, [](const Instrument& x) { return written(x); }));
   put(o, "ports", list(d.ports, [](const Port& x) { return written(x); }));
   put(o, "tools", list(d.placements, [](const Placement& x) { return written(x); }));

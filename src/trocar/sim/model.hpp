@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <trocar/fluids/fluids.hpp>
 #include <trocar/interactions/body_contact.hpp>
 #include <trocar/interactions/border.hpp>
 #include <trocar/interactions/hosting.hpp>
@@ -118,6 +119,14 @@ struct VesselsModel {
   bool there() const noexcept { return !list.empty(); }
 };
 
+/// Fluids, where a scene has any.
+struct WetModel {
+  bool there = false;
+  fluids::FluidsModel model;
+  std::vector<float> floor;        ///< of the pool, (ny x nx) [m]
+  std::vector<std::int32_t> film;  ///< (bodies + 1) where the places of film of each begin (interactions::WetBodies)
+};
+
 /// A hand at a trocar, and the instruments that go through it.
 struct HandModel {
   std::string name;                           ///< of the trocar: "left_lateral"
@@ -162,6 +171,7 @@ struct Model {
   std::vector<SheetModel> sheets;
   std::vector<MembraneModel> membranes;
   VesselsModel vessels;
+  WetModel wet;
   std::vector<HandModel> hands;  ///< at most kMaxTools
   ScopeModel scope;
   Input start;  ///< everything as placed

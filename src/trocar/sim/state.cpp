@@ -75,6 +75,7 @@ State initial_state(const Model& model) {
     s.openings.resize(interactions::kMaxOpenings);
     s.vessel_clips.resize(interactions::kMaxVesselClips);
   }
+  if (model.wet.there) s.fluids = fluids::initial_state(model.wet.model);
   make_counters(model, s);
   return s;
 }
@@ -117,6 +118,7 @@ std::uint64_t hash_of(const State& s) noexcept {
     h.add(s.opening_count);
     h.add(s.vessel_clip_count);
   }
+  if (!s.fluids.droplets.x.empty()) fluids::add_to_hash(h, s.fluids);
   return h.value();
 }
 

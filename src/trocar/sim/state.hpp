@@ -39,6 +39,7 @@ struct State {
   std::vector<interactions::VesselOpening> openings;   ///< (kMaxOpenings)
   std::vector<interactions::VesselClip> vessel_clips;  ///< (kMaxVesselClips)
   std::int32_t opening_count = 0, vessel_clip_count = 0;
+  fluids::FluidsState fluids;      ///< empty in scenes without fluids
   std::vector<std::uint8_t> seen;  ///< (samples) 1 = in view when last looked
 };
 

@@ -7,6 +7,7 @@
 #include <trocar/sim/step.hpp>
 #include <trocar/sim/tearing.hpp>
 #include <trocar/sim/visibility.hpp>
+#include <trocar/sim/wetting.hpp>
 
 namespace trocar::sim {
 namespace {
@@ -52,6 +53,7 @@ constexpr Stage kStages[] = {
     {"feel", feel},
     {"tear", tear_tissue},
     {"let blood flow", let_blood_flow},
+    {"move fluids", move_fluids},
     {"see", see},
     {"sum up", sum_up},
 };

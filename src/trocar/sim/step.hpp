@@ -37,6 +37,7 @@ struct StepReport {
     kBookFull = 1u << 18,   ///< the book of clips or cuts, or what an organ keeps for cuts, is full: clips are lost,
                             ///< blades no longer cut, tears open no further
     kBloodFlow = 1u << 19,  ///< blood flow found no solution and was not advanced; restore a State
+    kDropsFull = 1u << 20,  ///< no room for more drops of fluid: what flowed went straight into the pool
   };
   std::uint32_t flags = 0;
   int first_bad_body = -1;   ///< organs first, then strands, then membranes

@@ -186,6 +186,10 @@ Work make_work(const Model& model, core::ThreadPool* pool) {
     w.flows.resize(interactions::kMaxOpenings);
     w.bleeds.resize(2 * interactions::kMaxOpenings);
   }
+  if (model.wet.there) {
+    w.fluids = fluids::make_work(model.wet.model);
+    w.wounds.resize(2 * interactions::kMaxOpenings);
+  }
   w.sheets.resize(model.membranes.size());
   w.sheet_gaps.resize(model.hands.size() * model.membranes.size());
   w.membrane_reports.resize(model.membranes.size());
@@ -243,6 +247,9 @@ void poison(Work& w) noexcept {
   scribble(w.flows);
   scribble(w.bleeds);
   w.bleed_count = -1;
+  fluids::poison(w.fluids);
+  scribble(w.wounds);
+  std::memset(static_cast<void*>(&w.wet_tools), 0xff, sizeof w.wet_tools);
   scribble(w.touches);
   scribble(w.parts);
   scribble(w.beyond);

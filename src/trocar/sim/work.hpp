@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include <trocar/interactions/fluid_contact.hpp>
 #include <trocar/interactions/grasp.hpp>
 #include <trocar/interactions/loads.hpp>
 #include <trocar/interactions/wall_stop.hpp>
@@ -58,6 +59,9 @@ struct Work {
   std::vector<vessels::OpeningFlow> flows;
   std::vector<Bleed> bleeds;  ///< (2 kMaxOpenings) for whoever takes up the blood, after the flow's stage
   int bleed_count = 0;
+  fluids::FluidsWork fluids;
+  std::vector<fluids::Opening> wounds;  ///< (2 kMaxOpenings) sides of openings
+  std::array<fluids::Capsule, kMaxTools * interactions::kToolParts> wet_tools;
   std::vector<tissue::NodeView> nodes;  ///< (organs) of the State; anew in every tick
   std::vector<tissue::CuttableSkin> cuttable_skins;
   std::vector<const tissue::Skin*> skins;                      ///< (organs) of the Model, or the above

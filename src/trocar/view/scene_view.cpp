@@ -20,6 +20,7 @@
 #include <trocar/view/sheet_drawing.hpp>
 #include <trocar/view/tube_drawing.hpp>
 #include <trocar/view/vessel_drawing.hpp>
+#include <trocar/view/wet_drawing.hpp>
 
 namespace trocar::view {
 
@@ -91,6 +92,7 @@ struct SceneView::Parts {
   std::vector<PouchDrawing> pouches;
   std::vector<VesselDrawing> vessels;
   std::vector<const Look*> vessel_look;
+  std::optional<WetDrawing> wet;
   std::vector<std::size_t> membrane_of, pouch_of;  ///< their numbers in the Model
   std::vector<OwnedMesh> walls, margins;
   std::vector<MeshBuffer> margin_shapes;
@@ -358,7 +360,9 @@ void cut_open(const std::vector<OwnedMesh>& walls, Frame& frame) {
 }  // namespace
 
 SceneView::SceneView(const sim::Model& model, render::Backend& backend)
-    : m_parts(std::make_unique<Parts>(model, backend)) {}
+    : m_parts(std::make_unique<Parts>(model, backend)) {
+  if (model.wet.there) m_parts->wet.emplace(model);
+}
 SceneView::~SceneView() = default;
 
 Frame SceneView::frame(const sim::State& state, const ViewOptions& options) {
@@ -399,6 +403,7 @@ Frame SceneView::frame(const sim::State& state, const ViewOptions& options) {
   p.list_clips(state, frame);
   if (options.instruments) p.list_tools(state, frame);
   if (options.instruments && !inside) p.list_scope(state, frame);
+  if (p.wet) p.wet->list(state, frame);
   return frame;
 }
 

@@ -1,0 +1,53 @@
+#include <trocar/view/looks.hpp>
+#include <trocar/view/wet_drawing.hpp>
+
+namespace trocar::view {
+
+constexpr float kPlace = 8e-6f;  // [m^2] about a vertex of a skin, typically
+
+WetDrawing::WetDrawing(const sim::Model& model) : m_model(&model), m_drawing(model.wet.model) {
+  for (int i = 0; i < model.organs(); ++i) m_poses.push_back(tissue::make_pose(model.skin(i)));
+  for (const sim::MembraneModel& m : model.membranes) m_poses.push_back(tissue::make_pose(m.skin));
+  m_surfaces.resize(std::size_t(model.surfaces()));
+  m_sheets.resize(model.membranes.size());
+  m_places.resize(std::size_t(model.wet.film.back()));
+  m_sheer.resize(model.wet.film.size() - 1);
+  for (std::size_t i = 0; i < model.membranes.size(); ++i)
+    m_sheer[m_surfaces.size() + i] = look(model.membranes[i].look).translucent;
+}
+
+void WetDrawing::pose(const sim::State& state) {
+  const std::size_t organs = std::size_t(m_model->organs());
+  for (std::size_t i = 0; i < organs; ++i) {
+    const tissue::NodeView nodes = nodes_of(*m_model, state, int(i));
+    pose_skin(nodes, m_model->skin(int(i)), m_poses[i]);
+    m_surfaces[i] = {&m_model->skin(int(i)), &m_poses[i], nodes};
+  }
+  for (std::size_t i = 0; i < m_model->walls.size(); ++i)
+    m_surfaces[organs + i] = {&m_model->walls[i].skin, &m_model->walls[i].pose, {}};
+  for (std::size_t i = 0; i < m_sheets.size(); ++i) {
+    const sim::MembraneModel& m = m_model->membranes[i];
+    const tissue::NodeView nodes = view_of(m.sheet.network, state.membranes[i].network);
+    pose_skin(nodes, m.skin, m_poses[organs + i]);
+    m_sheets[i] = {{&m.skin, &m_poses[organs + i], nodes},
+                   state.torn[i],
+                   m.sheet.network.fixed,
+                   0.5 * m.sheet.thickness,
+                   m.pinch_reach};
+  }
+}
+
+void WetDrawing::list(const sim::State& state, render::Frame& frame) {
+  pose(state);
+  const interactions::WetBodies bodies{m_surfaces, m_sheets, m_model->bodies, state.strands, m_model->wet.film};
+  const Vec3d down = normalised(m_model->gravity, {0, 0, -1});
+  for (std::size_t i = 0; i < m_places.size(); ++i) {
+    if (state.fluids.droplets.film[i].total() == 0) continue;
+    const interactions::WetPlace at = wet_place(bodies, down, std::int32_t(i));
+    const bool sheer = at.body >= 0 && m_sheer[std::size_t(at.body)] != 0;
+    m_places[i] = {vec_cast<float>(at.point), vec_cast<float>(at.normal), kPlace, 0, sheer};
+  }
+  m_drawing.list({state.fluids, m_model->wet.floor, m_places, m_sheer}, frame);
+}
+
+}  // namespace trocar::view

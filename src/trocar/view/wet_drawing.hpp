@@ -1,0 +1,33 @@
+// The fluids of a scene in its picture: where places of film lie now, which bodies are drawn translucent; the rest is
+// FluidDrawing's.
+#pragma once
+
+#include <vector>
+
+#include <trocar/interactions/fluid_contact.hpp>
+#include <trocar/sim/state.hpp>
+#include <trocar/view/fluid_drawing.hpp>
+
+namespace trocar::view {
+
+class WetDrawing {
+ public:
+  /// @param model  with fluids; must outlive this
+  explicit WetDrawing(const sim::Model& model);
+
+  /// Adds to frame.liquid.
+  void list(const sim::State& state, render::Frame& frame);
+
+ private:
+  void pose(const sim::State& state);
+
+  const sim::Model* m_model;
+  FluidDrawing m_drawing;
+  std::vector<tissue::SkinPose> m_poses;          ///< (organs, membranes)
+  std::vector<interactions::Surface> m_surfaces;  ///< (organs, walls)
+  std::vector<interactions::SheetView> m_sheets;
+  std::vector<FilmPlace> m_places;    ///< (film cells)
+  std::vector<std::uint8_t> m_sheer;  ///< (bodies)
+};
+
+}  // namespace trocar::view
