@@ -1,6 +1,7 @@
 // Vessels in scenes: what they ride on, what two files make together, what is not sound and where that is told; and the
 // arteries of the shipped pelvis, which feed each other's stumps.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -224,6 +225,11 @@ TEST(SceneVessels, AScenesVesselsAreWrittenAndReadBack) {
   const MemoryFiles files{{"w.json", write_scene(described())}};
   const Description back = read_scene("w.json", &files);
   ASSERT_EQ(back.vessels.size(), 1u);
+  ASSERT_TRUE(back.fluids.has_value());
+  EXPECT_EQ(back.fluids->pool_middle, described().fluids->pool_middle);
+  EXPECT_EQ(back.fluids->pool_size, described().fluids->pool_size);
+  EXPECT_EQ(back.fluids->pool_on, described().fluids->pool_on);
+  EXPECT_EQ(back.fluids->drops, described().fluids->drops);
   EXPECT_EQ(back.vessels[0].pulse_gain, described().vessels[0].pulse_gain);
   for (size_t i = 0; i < described().vessels[0].vessels.size(); ++i) {
     const Vessel &a = described().vessels[0].vessels[i], &b = back.vessels[0].vessels[i];
@@ -233,6 +239,21 @@ TEST(SceneVessels, AScenesVesselsAreWrittenAndReadBack) {
     for (size_t k = 0; k < a.path.size(); ++k) EXPECT_EQ(a.path[k], b.path[k]);
     EXPECT_EQ(described().vessels[0].graph.segments[i].length, back.vessels[0].graph.segments[i].length);
   }
+}
+
+TEST(SceneVessels, ThePoolHasAFloorOfWallsAndBowelAndFilmHasPlacesOnEveryBody) {
+  const sim::WetModel& wet = pelvis().wet;
+  ASSERT_TRUE(wet.there);
+  const fluids::PoolModel& pool = wet.model.pool;
+  ASSERT_EQ(wet.floor.size(), size_t(pool.nx) * size_t(pool.ny));
+  for (const float h : wet.floor) ASSERT_LT(std::fabs(h), 0.5f);
+  const float middle = wet.floor[size_t(pool.ny / 2) * size_t(pool.nx) + size_t(pool.nx / 2)];
+  EXPECT_GT(wet.floor.front(), middle) << "the rim is higher than the pouch";
+  EXPECT_GT(wet.floor.back(), middle);
+  const size_t bodies = size_t(pelvis().surfaces()) + pelvis().membranes.size() + pelvis().strands.size();
+  ASSERT_EQ(wet.film.size(), bodies + 1);
+  for (size_t i = 0; i < bodies; ++i) EXPECT_LT(wet.film[i], wet.film[i + 1]);
+  EXPECT_EQ(wet.model.droplets.film_cells, wet.film.back());
 }
 
 TEST(SceneVessels, OtherAnatomiesBendTheirVesselsToo) {
