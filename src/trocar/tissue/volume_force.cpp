@@ -60,15 +60,45 @@ void sum_volumes(std::span<const TetRest> cells, std::span<const std::uint8_t> p
     if (w.drawn[row] > 0) w.answer[row] /= w.drawn[row];
 }
 
-constexpr float kLeast = 0.5f, kMost = 2;  // of J: beyond, cells are the guard's and the law's business
-constexpr float kStiffer = 2;              // than any node as built may one answer before its pressure is softened
+constexpr float kLeast = 0.5f, kMost = 2;     // of J: beyond, cells are the guard's and the law's business
+constexpr float kCrushed = 0.2f, kBurst = 4;  // of a cell's volume: beyond, nothing presses on it any more
+constexpr float kStiffer = 0.5f;              // of the stiffest node as built: one that answers more is pressed less
+constexpr float kQuickest = 0.5f;             // of what one cell gives a node in an impulse [m/s]
+constexpr float kWhole = 0.75f;               // of its volume as built must a node have to press
 
-void sum_forces(std::span<const TetRest> cells, std::span<const std::uint8_t> phase, const Bulk& bulk,
+/// What is drawn out far has large faces: pressure on them would drive it on.
+float share_of(float ratio) noexcept {
+  const float least = (ratio - kCrushed) / (kLeast - kCrushed), most = (kBurst - ratio) / (kBurst - kMost);
+  return std::max(std::min({least, most, 1.0f}), 0.0f);
+}
+
+/// What a unit of pressure does to that of a cell's corners which gives way most.
+float liveliest(const Cell& cell, const int* row, const VolumeWork& w) noexcept {
+  float most2 = 0;
+  for (int i = 0; i < 4; ++i) {
+    const float lightness = w.inverse_mass[std::size_t(row[i])];
+    most2 = std::max(most2, lightness * lightness * dot(cell.by[i], cell.by[i]));
+  }
+  return std::sqrt(most2);
+}
+
+float bounded(float push, float answer) noexcept {
+  const float speed = std::fabs(push) * answer;
+  return speed > kQuickest ? push * (kQuickest / speed) : push;
+}
+
+/// At wounds and in shreds cells share their pressure with few others: they would answer it faster than impulses allow.
+bool whole(const Bulk& bulk, const VolumeWork& w, std::size_t row) noexcept {
+  return row < bulk.built.size() && w.drawn[row] > kWhole * bulk.built[row];
+}
+
+/// @param dt  for which the forces will act [s]
+void sum_forces(std::span<const TetRest> cells, std::span<const std::uint8_t> phase, const Bulk& bulk, double dt,
                 std::span<const NodeState> nodes, VolumeWork& w) noexcept {
   sum_volumes(cells, phase, nodes, w);
   const float bound = kStiffer * bulk.most_answer;
   for (std::size_t row = 0; row < w.pressure.size(); ++row) {
-    if (!(w.drawn[row] > 0)) {
+    if (!whole(bulk, w, row)) {
       w.pressure[row] = 0;
       continue;
     }
@@ -81,8 +111,9 @@ void sum_forces(std::span<const TetRest> cells, std::span<const std::uint8_t> ph
     if (gone(phase, t)) continue;
     const int* row = cells[t].row;
     const auto p = [&](int i) { return w.pressure[std::size_t(row[i])]; };
-    const float push = -((p(0) + p(1)) + (p(2) + p(3))) / 24;
     const Cell cell(nodes, cells[t]);
+    float push = -(share_of(cell.volume6 / cells[t].rest6) * ((p(0) + p(1)) + (p(2) + p(3)))) / 24;
+    push = bounded(push, float(dt) * liveliest(cell, row, w));
     for (int i = 0; i < 4; ++i) {
       float* const at = &w.force[std::size_t(row[i])].x;
       const Float4 sum = load4(at) + push * cell.by[i];
@@ -113,7 +144,7 @@ void note_volumes(std::span<const TetRest> cells, std::span<const RowPack> weigh
 void push_volumes(std::span<const TetRest> cells, std::span<const std::uint8_t> phase, const Bulk& bulk, double dt,
                   std::span<const RowPack> weight, double weight_dt, std::span<NodeState> nodes,
                   VolumeWork& w) noexcept {
-  sum_forces(cells, phase, bulk, nodes, w);
+  sum_forces(cells, phase, bulk, dt, nodes, w);
   const float times = float(dt / weight_dt);
   for (std::size_t row = 0; row < w.force.size(); ++row) {
     const RowPack& pack = weight[row / kSlice];
@@ -136,12 +167,13 @@ Vec3d force_on(const VolumeWork& w, std::size_t row) noexcept {
 
 Bulk bulk_of(std::span<const TetRest> cells, std::span<const NodeState> rest, std::span<const double> mass,
              double kappa, double tick) {
-  Bulk bulk{kappa, 0, 0};
+  Bulk bulk{kappa, 0, 0, {}};
   if (!(kappa > 0)) return bulk;
   VolumeWork w;
   w.resize(rest.size());
   for (const TetRest& t : cells)
     for (const int row : t.row) w.drawn[std::size_t(row)] += t.rest6 / 24;
+  bulk.built = w.drawn;
   for (std::size_t row = 0; row < mass.size(); ++row) w.inverse_mass[row] = mass[row] > 0 ? float(1 / mass[row]) : 0;
   sum_volumes(cells, {}, rest, w);
   for (const float a : w.answer) bulk.most_answer = std::max(bulk.most_answer, a);
@@ -166,7 +198,7 @@ Bulk bulk_of(std::span<const TetRest> cells, std::span<const NodeState> rest, st
       const Vec3d d = scale * mode[i];
       moved[i].x = rest[i].x + float(d.x), moved[i].y = rest[i].y + float(d.y), moved[i].z = rest[i].z + float(d.z);
     }
-    sum_forces(cells, {}, bulk, moved, w);
+    sum_forces(cells, {}, bulk, 0, moved, w);
     double along = 0, size = 0;
     for (std::size_t i = 0; i < mode.size(); ++i) {
       const Vec3d d = scale * mode[i];
@@ -176,8 +208,7 @@ Bulk bulk_of(std::span<const TetRest> cells, std::span<const NodeState> rest, st
     }
     if (size > 0) lambda = std::max(lambda, along / size);
   }
-  // dt^2 lambda < 4 is the limit of this force alone, and kStiffer of it may come with deformation and cuts; the rest
-  // is for the springs.
+  // dt^2 lambda < 4 is the limit of this force alone; it may grow with deformation, and the rest is for the springs.
   bulk.impulses = std::max(1, int(std::ceil(tick * std::sqrt(0.8 * lambda))));
   return bulk;
 }

@@ -33,15 +33,17 @@ constexpr BulkShare bulk_share(double youngs_modulus, double poisson) noexcept {
 
 /// Of a body. Const.
 struct Bulk {
-  double kappa = 0;       ///< [Pa]; 0: no volume force
-  float most_answer = 0;  ///< of the nodes as built: 36 sum |dV/dx|^2 / (m V) [m/kg]; far stiffer ones are softened
-  int impulses = 0;       ///< in a tick
+  double kappa = 0;          ///< [Pa]; 0: no volume force
+  float most_answer = 0;     ///< of the nodes as built: 36 sum |dV/dx|^2 / (m V) [m/kg]; far stiffer ones are softened
+  int impulses = 0;          ///< in a tick
+  std::vector<float> built;  ///< (rows) volumes of nodes as built [m^3]
 };
 
 inline void add_to_hash(core::Hasher& h, const Bulk& b) noexcept {
   h.add(b.kappa);
   h.add(b.most_answer);
   h.add(b.impulses);
+  h.add(b.built);
 }
 
 struct alignas(16) VolumeForce {
