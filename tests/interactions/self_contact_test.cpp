@@ -251,6 +251,7 @@ TEST(SelfContact, StoutBodiesAreToldFromSlenderOnes) {
 /// A horseshoe of a lattice, as scene files draw bowel: two limbs of 12 mm, 24 mm apart, round a bend.
 scene::Description horseshoe() {
   scene::Description d = small::description();
+  d.vessels.clear();
   d.strands.clear();
   d.membranes.clear();
   scene::Solid s;

@@ -28,6 +28,7 @@ inline const sim::Model& model() {
     scene::Description d = small::description();
     d.strands = {tube("tube_left", 1), tube("tube_right", -1), small::cord()};
     d.membranes.clear();
+    d.vessels.clear();
     return scene::compile(d);
   }();
   return compiled;
