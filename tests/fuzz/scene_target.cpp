@@ -77,8 +77,15 @@ void scene_files(Bytes bytes) {
   require(scene::write_scene(second) == written, "what was written reads as the same scene");
 }
 
+/// Vessels that were not read from a file cannot be written; those of files have seeds of their own.
+scene::Description small_scene() {
+  scene::Description d = small::description();
+  d.vessels.clear();
+  return d;
+}
+
 std::vector<Seed> scene_seeds() {
-  std::vector<Seed> seeds{shipped_scene(), {"small", bytes_of(scene::write_scene(small::description()))}};
+  std::vector<Seed> seeds{shipped_scene(), {"small", bytes_of(scene::write_scene(small_scene()))}};
   for (const char* folder : {"organs", "instruments", "."})
     for (Seed& seed : files_of(folder)) seeds.push_back(std::move(seed));
   return seeds;
@@ -97,7 +104,7 @@ void scene_compiled(Bytes bytes) {
 }
 
 std::vector<Seed> compile_seeds() {
-  const scene::Description whole = small::description();
+  const scene::Description whole = small_scene();
   scene::Description empty;
   empty.name = "part";
   empty.tissues = whole.tissues;

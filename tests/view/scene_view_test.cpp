@@ -425,7 +425,7 @@ TEST(Looks, TissuesAreRedderThanGreenAndNotGreenButForBileShiningThrough) {
     if (l.material.shading != render::Shading::tissue || l.name == std::string("gallbladder")) continue;
     for (const Vec3f& c : {l.material.colour, l.material.colour_b, l.material.colour_c, l.material.tint}) {
       EXPECT_GT(c.x, c.y) << l.name;
-      EXPECT_GT(c.x, c.z) << l.name;
+      EXPECT_TRUE(c.x > c.z || l.name == std::string("vein")) << l.name;  // veins shine bluish through their walls
     }
   }
 }
