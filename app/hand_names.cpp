@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <trocar/interactions/lever.hpp>
+
 namespace trocar::app {
 
 std::string in_words(std::string name) {
@@ -28,6 +30,11 @@ std::vector<Choosable> choosable(const sim::Model& model, const sim::State& stat
 double pull_on(const sim::State& state, int h) {
   const double(&f)[3] = state.tools[size_t(h)].pull;
   return length(Vec3d{f[0], f[1], f[2]});
+}
+
+double push_at_trocar(const sim::Model& model, const sim::State& state, int h) {
+  const size_t hand = size_t(h);
+  return length(interactions::load_at_trocar(model.tool(state, hand), state.tools[hand], state.touches[hand]).on_wall);
 }
 
 }  // namespace trocar::app

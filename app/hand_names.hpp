@@ -27,5 +27,7 @@ std::vector<Choosable> choosable(const sim::Model& model, const sim::State& stat
 
 /// The pull of the tissue on hand `h` [N].
 double pull_on(const sim::State& state, int h);
+/// What the abdominal wall bears at the hand's trocar in this tick [N].
+double push_at_trocar(const sim::Model& model, const sim::State& state, int h);
 
 }  // namespace trocar::app

@@ -130,10 +130,14 @@ void draw_outlook(const PanelContent& c) {
   draw_finding(o.seen(), "both jaw tips in view", fmt::format("{} of 2 jaw tips in view", o.tips_visible));
 }
 
-/// The hardest pull of all hands; the limit is a line in the bar, what is beyond it is hatched by a word as well.
+/// The hardest pull of all hands, and the hardest push at a trocar; the limit of the pull is a line in the bar, what is
+/// beyond it is hatched by a word as well.
 void draw_pull(const PanelContent& c) {
-  double pull = 0;
-  for (int h = 0; h < hand_count(c.lesson.model); ++h) pull = std::max(pull, pull_on(c.now.state, h));
+  double pull = 0, push = 0;
+  for (int h = 0; h < hand_count(c.lesson.model); ++h) {
+    pull = std::max(pull, pull_on(c.now.state, h));
+    push = std::max(push, push_at_trocar(c.lesson.model, c.now.state, h));
+  }
   const bool over = pull > c.pull_limit, near = pull > 0.8 * c.pull_limit;
   const float width = ImGui::GetContentRegionAvail().x, height = 20 * ui::scale();
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -150,6 +154,7 @@ void draw_pull(const PanelContent& c) {
   draw.AddText({at.x + 6 * ui::scale(), at.y + 0.5f * (height - ImGui::GetTextLineHeight())},
                ImGui::GetColorU32(over || near ? ImVec4{0, 0, 0, 1} : ui::kWhite), label.c_str());
   ImGui::Dummy({width, height});
+  ui::text(fmt::format("{:.1f} N at the trocar", push), ui::kGrey);
 }
 
 void draw_steps(const PanelContent& c, float height) {

@@ -76,6 +76,8 @@ void draw_tools(const PlayerPanelContent& c) {
     text += fmt::format(", {:.0f} % open", 100 * tool.aperture);
     const double pull = pull_on(c.state, h);
     if (pull >= 0.05) text += fmt::format(", pull {:.1f} N", pull);
+    const double push = push_at_trocar(model, c.state, h);
+    if (push >= 0.05) text += fmt::format(", {:.1f} N at the trocar", push);
     ui::text(text);
   }
 }
