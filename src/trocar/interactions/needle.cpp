@@ -237,12 +237,15 @@ double gap_of(const ToolShape& s) noexcept {
   return length(a.b - b.b) - a.radius - b.radius;
 }
 
-Needles needles_of(const ToolShape& before, const ToolShape& now, double thin) noexcept {
+bool jaws_are_blunt(ToolKind kind) noexcept { return kind == ToolKind::grasper || kind == ToolKind::probe; }
+
+Needles needles_of(const ToolShape& before, const ToolShape& now, bool blunt, double thin) noexcept {
   Needles r;
   const Capsule &s0 = before.part[kShaft], &s1 = now.part[kShaft];
   if (!(length(s0.b - s0.a) > 0) || !(length(s1.b - s1.a) > 0)) return r;
   r.needle[r.count++] = needle_of(s0.a, before.pivot, s1.a, now.pivot);
   const double gap = std::max(gap_of(before), gap_of(now));
+  if (!blunt) return r;
   if (gap < thin) r.needle[r.count++] = needle_of(before.pivot, before.frame.tip, now.pivot, now.frame.tip);
   if (gap < thin || gap > kWide) return r;
   for (const int jaw : {kJawA, kJawB}) {

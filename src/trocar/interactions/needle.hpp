@@ -42,8 +42,12 @@ struct Needles {
   Needle needle[3];
   int count = 0;
 };
-/// @param thin  jaws that are nearer to each other than this count as closed [m]
-Needles needles_of(const ToolShape& before, const ToolShape& now, double thin) noexcept;
+/// Legs of clip appliers and blades of scissors have none: they come astride of a tube whose fold lies across their
+/// way, and would push both out from between them as they close.
+bool jaws_are_blunt(ToolKind kind) noexcept;
+/// @param blunt  the jaws count, not the shaft alone
+/// @param thin   jaws that are nearer to each other than this count as closed [m]
+Needles needles_of(const ToolShape& before, const ToolShape& now, bool blunt, double thin) noexcept;
 
 /// Do the ends of a tick lie on different sides of it?
 /// @param p0,q0  the edge's ends before the tick; p1,q1 after it

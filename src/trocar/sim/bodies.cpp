@@ -46,8 +46,9 @@ void carry_along(const StepContext& c, int body, const interactions::Surface& su
     size_t held = 0;
     for (int h = 0; h < tool.holds; ++h)
       if (tool.hold[h].body == body) between[held++] = tool.hold[h].element;
-    const interactions::Needles needles =
-        interactions::needles_of(c.work.shapes_before[t], shape, std::max(kThin, thickness));
+    const interactions::Needles needles = interactions::needles_of(
+        c.work.shapes_before[t], shape, interactions::jaws_are_blunt(c.model.tool(c.state, t).kind),
+        std::max(kThin, thickness));
     interactions::carry_along(
         needles, {*surface.skin, *surface.pose, open, fixed, {between.data(), held}, surface.nodes.origin, rows},
         gap ? gap[t * each] : 0, kTick);
