@@ -23,7 +23,7 @@ double poiseuille(double length, double diameter) {
 }
 
 /// 100 mm of a stiff vessel from a constant 93 mmHg, its far end closed.
-VesselGraph stub(double diameter) {
+VesselGraph stump(double diameter) {
   VesselGraph g;
   g.nodes = 2;
   g.segments = {pipe(0, 1, 0.1, diameter)};
@@ -52,7 +52,7 @@ const Row kTable[] = {
 TEST(Bleeding, ThroughAHoleInAWideVesselIsTheOrificesFlow) {
   for (const Row& row : kTable) {
     const double d = 1e-3 * row.diameter;
-    VesselGraph g = stub(0.03);
+    VesselGraph g = stump(0.03);
     g.settings.clot_area = 0;
     Simulation sim(g);
     sim.openings = {hole(0, 0.3, d)};
@@ -66,7 +66,7 @@ TEST(Bleeding, ThroughAHoleInAWideVesselIsTheOrificesFlow) {
 TEST(Bleeding, FlowThroughAVesselBetweenTwoPressuresIsPoiseuilles) {
   for (const Row& row : kTable) {
     const double d = 1e-3 * row.diameter;
-    VesselGraph g = stub(d);
+    VesselGraph g = stump(d);
     g.sources.push_back(constant_pressure(1, kCavity));
     Simulation sim(g);
     sim.run(1.5);
@@ -80,7 +80,7 @@ TEST(Bleeding, FlowThroughAVesselBetweenTwoPressuresIsPoiseuilles) {
 TEST(Bleeding, OutOfACutEndIsOrificeAndVesselInSeries) {
   for (const Row& row : kTable) {
     const double d = 1e-3 * row.diameter;
-    VesselGraph g = stub(d);
+    VesselGraph g = stump(d);
     g.settings.clot_area = 0;
     Simulation sim(g);
     sim.openings = {cut(0, 1, d)};
@@ -93,7 +93,7 @@ TEST(Bleeding, OutOfACutEndIsOrificeAndVesselInSeries) {
 
 TEST(Bleeding, PlaceOfTheCutSetsTheResistanceHoweverCoarseTheCells) {
   for (const double s : {0.1, 0.33, 0.5, 0.9}) {
-    Simulation sim(stub(1.6e-3));
+    Simulation sim(stump(1.6e-3));
     ASSERT_EQ(sim.model.cells.size(), 1u);
     sim.openings = {cut(0, s, 1.6e-3)};
     expect_within("cut at " + std::to_string(s),
@@ -103,7 +103,7 @@ TEST(Bleeding, PlaceOfTheCutSetsTheResistanceHoweverCoarseTheCells) {
 }
 
 TEST(Bleeding, SeveralOpeningsInOneCellShareWhatTheVesselBears) {
-  VesselGraph g = stub(1.6e-3);
+  VesselGraph g = stump(1.6e-3);
   g.settings.clot_area = 0;
   Simulation sim(g);
   sim.openings = {hole(0, 0.7, 1e-3), hole(0, 0.4, 1.1e-3), cut(0, 0.9, 1.6e-3), hole(0, 0.95, 1e-3)};
@@ -133,11 +133,11 @@ TEST(Bleeding, SeveralOpeningsInOneCellShareWhatTheVesselBears) {
 
 TEST(Bleeding, PartialClipLeavesAboutTheSquareOfWhatItLeavesOpen) {
   for (const double d : {1.0e-3, 1.6e-3}) {
-    Simulation free(stub(d));
+    Simulation free(stump(d));
     free.openings = {cut(0, 1, d)};
     const double q0 = steady_flow(free);
     for (const double cover : {0.25, 0.5, 0.75, 0.9}) {
-      Simulation sim(stub(d));
+      Simulation sim(stump(d));
       sim.openings = {cut(0, 1, d)};
       sim.clips = {{.segment = 0, .s = 0.5, .cover = cover}};
       const double ratio = steady_flow(sim) / q0, square = (1 - cover) * (1 - cover);
@@ -336,7 +336,7 @@ TEST(Bleeding, WhatEntersIsStoredOrLeaves) {
 
 TEST(Bleeding, ClipThatClosesAtOnceHammersAndKeepsTheVolume) {
   // Blood that runs on pulls the pressure behind the clip down, by rho c u and the friction it no longer has to bear.
-  VesselGraph g = stub(1.6e-3);
+  VesselGraph g = stump(1.6e-3);
   g.segments = {artery(0, 1, 0.4, 1.6e-3, 1e6, 0.15e-3)};
   Simulation sim(g, 0.1);
   sim.openings = {cut(0, 0.9, 1.6e-3)};
@@ -400,7 +400,7 @@ TEST(Bleeding, PressureFallsWithTheLoss) {
 
 TEST(Bleeding, SmallOpeningsClotWithinMinutesAndArteriesCutThroughDoNot) {
   for (const double d : {0.2e-3, 0.6e-3, 0.95e-3}) {
-    VesselGraph g = stub(2e-3);
+    VesselGraph g = stump(2e-3);
     g.settings.tick = 5e-3;
     Simulation sim(g);
     sim.openings = {hole(0, 0.5, d)};
@@ -414,7 +414,7 @@ TEST(Bleeding, SmallOpeningsClotWithinMinutesAndArteriesCutThroughDoNot) {
     EXPECT_GE(stopped, 179);
     EXPECT_LE(stopped, 301);
   }
-  VesselGraph g = stub(1.6e-3);
+  VesselGraph g = stump(1.6e-3);
   g.settings.tick = 5e-3;
   Simulation sim(g);
   sim.openings = {cut(0, 0.5, 1.6e-3)};
@@ -424,7 +424,7 @@ TEST(Bleeding, SmallOpeningsClotWithinMinutesAndArteriesCutThroughDoNot) {
 }
 
 TEST(Bleeding, SealedOpeningsLetLessOutAndFullySealedNothing) {
-  Simulation sim(stub(0.03));
+  Simulation sim(stump(0.03));
   sim.openings = {hole(0, 0.5, 2e-3)};
   const double open = steady_flow(sim);
   sim.openings[0].sealed = 0.5;
@@ -457,7 +457,7 @@ TEST(Bleeding, VeinsOozeAndBleedMoreUnderSuction) {
 }
 
 TEST(Bleeding, NothingEntersAVesselBelowThePressureAround) {
-  VesselGraph g = stub(3e-3);
+  VesselGraph g = stump(3e-3);
   g.sources[0].pressure = 5 * kMmHg;
   Simulation sim(g);
   sim.openings = {hole(0, 0.5, 2e-3), cut(0, 0.8, 3e-3)};
