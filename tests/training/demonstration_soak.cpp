@@ -1,5 +1,6 @@
 // The whole exercise by the scripted surgeon in the shipped scene: it passes without an error, its clips and cut are
 // what the exercise asks for, and the laws of the step hold over all of it.
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -124,9 +125,18 @@ TEST(Demonstration, AnyPoolAndWidthGiveTheSame) {
   tissue::set_simd(usual);
 }
 
+/// From a place to the trocar farthest from it: a flap that is torn off may be drawn along a shaft up to there, and
+/// swings a little beyond.
+double to_trocar(const sim::Model& m, Vec3d from) {
+  constexpr double kSwing = 0.03;
+  double most = 0;
+  for (const sim::HandModel& hand : m.hands) most = std::max(most, length(hand.port - from));
+  return most + kSwing;
+}
+
 class WildHands : public testing::TestWithParam<int> {};
 
-TEST_P(WildHands, LeaveTheShippedSceneFinite) {
+TEST_P(WildHands, LeaveTheShippedSceneFiniteAndInsideThePatient) {
   const sim::Model& m = demonstration().model;
   sim::State s = sim::initial_state(m);
   sim::Work w = sim::make_work(m);
@@ -144,11 +154,12 @@ TEST_P(WildHands, LeaveTheShippedSceneFinite) {
     if (t % 100 != 0) continue;
     for (size_t i = 0; i < m.bodies.size(); ++i)
       for (size_t n = 0; n < s.strands[i].x.size(); ++n)
-        ASSERT_LT(length(s.strands[i].x[n] - m.bodies[i].model.rest[n]), 0.15) << m.strands[i].name << " tick " << t;
+        ASSERT_LT(length(s.strands[i].x[n] - m.bodies[i].model.rest[n]), to_trocar(m, m.bodies[i].model.rest[n]))
+            << m.strands[i].name << " tick " << t;
     for (size_t i = 0; i < m.solids.size(); ++i)
       for (int n = 0; n < m.solids[i].network.nodes; ++n)
         ASSERT_LT(length(tissue::position(m.solids[i].network, s.solids[i], n) - m.solids[i].network.rest[size_t(n)]),
-                  0.15)
+                  to_trocar(m, m.solids[i].network.rest[size_t(n)]))
             << m.solids[i].name << " tick " << t;
   }
 }

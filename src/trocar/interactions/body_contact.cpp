@@ -59,7 +59,7 @@ void strand_on_surface(const SurfacePair& pair, const StrandBody& body, const ti
     if (!beside(surface, p, tick + i, nearest[i])) continue;
     const Clearance c = clearance_at(surface, nearest[i], p);
     const double depth = double(pair.radius[i]) - c.distance - double(pair.overlap[i]);
-    if (!touches(surface, nearest[i], p, depth)) continue;
+    if (!touches(surface, nearest[i], p, depth) || surface.torn(nearest[i])) continue;
     const int e = std::min(node, body.nodes() - 2);
     tissue::StrandLoad load;
     load.element = e;
@@ -84,13 +84,13 @@ void solid_on_surface(const SurfacePair& pair, const Surface& samples, const Sur
   const double share = surface_loads ? 0.5 : 1.0;
   for (size_t i = 0; i < pair.sample.size(); ++i) {
     const int v = pair.sample[i];
-    if (!samples.skin->at_surface(v)) continue;
+    if (!samples.skin->at_surface(v) || samples.torn(v)) continue;
     const Vec3d p = samples.position(v);
     if (!surface.pose->bounds.reaches(p, 0.004)) continue;
     if (!beside(surface, p, tick + i, nearest[i])) continue;
     const Clearance c = clearance_at(surface, nearest[i], p);
     const double depth = -c.distance - double(pair.overlap[i]);
-    if (!touches(surface, nearest[i], p, depth)) continue;
+    if (!touches(surface, nearest[i], p, depth) || surface.torn(nearest[i])) continue;
     SkinLoad load;
     load.k = kStiffness;
     load.shift = share * std::min(depth, kQuickest) * c.normal;

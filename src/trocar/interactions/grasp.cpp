@@ -73,7 +73,7 @@ Candidate fold_between(const ToolModel& model, const ToolShape& shape, const Tis
       if (!surface.pose->block[b].near_segment(shape.pivot, shape.frame.tip, 0.01)) continue;
       const int last = std::min(int(b + 1) * tissue::kSkinBlock, surface.skin->size());
       for (int v = int(b) * tissue::kSkinBlock; v < last; ++v) {
-        if (!surface.skin->at_surface(v)) continue;
+        if (!surface.skin->at_surface(v) || surface.torn(v)) continue;
         const Vec3d local = to_jaw(shape, surface.position(v));
         if (std::fabs(local.y) > 0.5 * model.jaw_width + 0.0015) continue;
         if (local.z < 0.25 * model.jaw_length || local.z > model.jaw_length + 0.0005) continue;

@@ -10,6 +10,30 @@ Vec3d Surface::normal(int vertex) const noexcept {
   return moves() ? tissue::skin_normal(*skin, *pose, vertex) : vec_cast<double>(skin->rest_normal[size_t(vertex)]);
 }
 
+float torn_beyond(double cell) noexcept {
+  constexpr double kTimes = 5;  // beyond the failure strain of all tissues
+  return float(kTimes * std::sqrt(3.0) * cell);
+}
+
+bool Surface::torn(int vertex) const noexcept {
+  if (!(torn_beyond > 0)) return false;
+  constexpr float kCarries = 0.01f;  // of the weight; below 0 where the skin stands out of the cells
+  const tissue::SkinWeights& w = skin->weights[size_t(vertex)];
+  const Vec3d p = position(vertex) - nodes.origin;
+  const double beyond2 = double(torn_beyond) * double(torn_beyond);
+  for (size_t j = 0; j < 8; ++j) {
+    if (std::fabs(w.weight[j]) < kCarries) continue;
+    const tissue::NodeState& carrier = nodes.rows[size_t(w.row[j])];
+    if (geometry::distance2(p, Vec3d{carrier.x, carrier.y, carrier.z}) > beyond2) return true;
+  }
+  return false;
+}
+
+bool Surface::torn(int vertex, int neighbour) const noexcept {
+  return torn_beyond > 0 &&
+         geometry::distance2(position(vertex), position(neighbour)) > double(torn_beyond) * double(torn_beyond);
+}
+
 bool meets_box(const tissue::Box& box, Vec3d a, Vec3d b, double margin) noexcept {
   if (!box.near_segment(a, b, margin)) return false;
   constexpr double kRounding = 1e-9;

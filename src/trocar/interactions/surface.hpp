@@ -11,11 +11,19 @@ struct Surface {
   const tissue::Skin* skin = nullptr;
   const tissue::SkinPose* pose = nullptr;
   tissue::NodeView nodes;
+  float torn_beyond = 0;  ///< [m]; 0: its skin never tears
 
   bool moves() const noexcept { return !nodes.empty(); }
   Vec3d position(int vertex) const noexcept { return vec_cast<double>(pose->position[size_t(vertex)]); }
   Vec3d normal(int vertex) const noexcept;
+  /// Is nothing there any more? Where a lattice tears, what carries a vertex goes apart and takes it along in between.
+  bool torn(int vertex) const noexcept;
+  /// The same for the edge between two neighbours.
+  bool torn(int vertex, int neighbour) const noexcept;
 };
+
+/// Of a lattice: a vertex is torn off where one of its carriers is farther away than five times the cells' diagonal.
+float torn_beyond(double cell) noexcept;
 
 /// Does the segment come nearer to the box than `margin`? Never false where it does; the box is grown by its faces, so
 /// that near its corners it may be true without.

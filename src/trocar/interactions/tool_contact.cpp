@@ -134,7 +134,7 @@ void shaft_on_edges(Touching& c, int body, const Surface& surface, int v, Networ
   const double r = c.shape.part[kShaft].radius, least2 = 1.6 * 1.6 * r * r;
   for (int k = skin.neighbour_first[size_t(v)]; k < skin.neighbour_first[size_t(v) + 1]; ++k) {
     const int u = skin.neighbour[size_t(k)];
-    if (u > v && geometry::distance2(surface.position(u), surface.position(v)) > least2)
+    if (u > v && geometry::distance2(surface.position(u), surface.position(v)) > least2 && !surface.torn(v, u))
       shaft_on_edge(c, body, surface, v, k, loads);
   }
 }
@@ -152,7 +152,7 @@ void part_on_surface(Touching& c, int body, const Surface& surface, int part, Ne
       if (!meets(pose.block[b], rod)) continue;
       const int last = std::min(int(b + 1) * tissue::kSkinBlock, surface.skin->size());
       for (int v = int(b) * tissue::kSkinBlock; v < last; ++v)
-        if (surface.skin->at_surface(v) && within(v)) {
+        if (surface.skin->at_surface(v) && within(v) && !surface.torn(v)) {
           touch_vertex(c, body, surface, v, part, loads);
           if (part == kShaft) shaft_on_edges(c, body, surface, v, loads);
         }
@@ -160,7 +160,7 @@ void part_on_surface(Touching& c, int body, const Surface& surface, int part, Ne
   // What was near and has been left behind deeper than that.
   for (const Touch* t = c.last.touch; t != c.last.touch + c.last.count; ++t) {
     if (t->body != body || t->part != part || t->element < 0 || t->element >= surface.skin->size()) continue;
-    if (surface.skin->at_surface(t->element) && !within(t->element))
+    if (surface.skin->at_surface(t->element) && !within(t->element) && !surface.torn(t->element))
       touch_vertex(c, body, surface, t->element, part, loads);
   }
 }
@@ -174,7 +174,7 @@ void press(Touching& c, int body, const Surface& surface, int ball, Vec3d p, Vec
       was && was->vertex >= 0 && was->vertex < surface.skin->size() && surface.skin->at_surface(was->vertex);
   int vertex = nearest_vertex_near(surface, p, radius + kBehind);
   if (known && was->anchored && vertex != was->vertex) vertex = walk_to_nearest(surface, was->vertex, p);
-  if (vertex < 0) return;
+  if (vertex < 0 || surface.torn(vertex)) return;
   const SkinPoint at = nearest_skin_point(surface, vertex, p);
   const double above = dot(p - at.point, at.normal), far = length(p - at.point);
   if (above >= 0 ? far > radius + kNear : far > kDeepest) return;

@@ -21,7 +21,9 @@ void pose_organ(StepContext& c, size_t i) noexcept {
     tissue::pose_skin(c.work.nodes[i], *c.work.skins[i], c.work.poses[i]);
   else
     pose_cuttable(c, i - solids);
-  c.work.surfaces[i] = {c.work.skins[i], &c.work.poses[i], c.work.nodes[i]};
+  const bool tears = i < c.model.solids.size() && c.model.solids[i].failure_strain > 0;
+  c.work.surfaces[i] = {c.work.skins[i], &c.work.poses[i], c.work.nodes[i],
+                        tears ? interactions::torn_beyond(c.model.solids[i].cell) : 0};
 }
 
 }  // namespace
