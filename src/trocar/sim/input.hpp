@@ -23,10 +23,19 @@ struct ScopeInput {
   float yaw = 0, pitch = 0, roll = 0, depth = 0, post = 0;
 };
 
+/// Bits of Input::pedals: foot switches, and valves on the handles of suction-irrigators.
+enum Pedal : std::uint32_t {
+  kBlue = 1,    ///< coagulation
+  kYellow = 2,  ///< cutting current
+  kWipe = 4,    ///< the endoscope is taken out and wiped
+};
+constexpr std::uint32_t irrigates(int hand) { return 1u << (8 + 2 * hand); }
+constexpr std::uint32_t sucks(int hand) { return 2u << (8 + 2 * hand); }
+
 struct Input {
   ScopeInput scope;
   ToolInput tools[kMaxTools];
-  std::uint32_t pedals = 0;  ///< foot switches, bit 0 = coagulation (no instrument uses it yet)
+  std::uint32_t pedals = 0;  ///< Pedal, irrigates(), sucks()
 };
 static_assert(std::is_trivially_copyable_v<Input> && sizeof(Input) == 20 + kMaxTools * 24 + 4, "no padding");
 
