@@ -67,7 +67,7 @@ TEST(Demonstration, PassesWithoutAnError) {
   for (const ErrorMade& e : d.monitor.errors()) ADD_FAILURE() << e.code << " at " << e.at << " s: " << e.meaning;
   EXPECT_TRUE(d.monitor.score().passed);
   EXPECT_GT(d.monitor.score().total, 95);
-  EXPECT_TRUE(d.monitor.occluded());
+  EXPECT_TRUE(d.monitor.sterilisation()->occluded());
   EXPECT_EQ(d.flags & ~std::uint32_t(tissue::StepReport::kInverted), 0u);
 }
 
@@ -77,7 +77,7 @@ TEST(Demonstration, ItsClipsAndCutAreAsTheExerciseAsks) {
   ASSERT_EQ(d.end.clip_count, 4);
   ASSERT_EQ(d.end.cut_count, 2);
   for (int side = 0; side < 2; ++side) {
-    const SideFacts& f = d.monitor.facts(side);
+    const SideFacts& f = d.monitor.sterilisation()->facts(side);
     ASSERT_EQ(f.clip_count, 2);
     ASSERT_EQ(f.cut_count, 1);
     for (int i = 0; i < 2; ++i) {

@@ -167,11 +167,11 @@ TEST(Monitor, PresentingNeedsAStraightIsthmus) {
     tube.x[n].z = 0.012 * (n % 6 < 3 ? double(n % 3) : 3.0 - double(n % 3)) / 3;
   a.hold_tube(kLeft, 0.055, 1.0);
   a.seconds(1);
-  EXPECT_LT(a.monitor.facts(0).straightness, 0.9);
+  EXPECT_LT(a.monitor.sterilisation()->facts(0).straightness, 0.9);
   EXPECT_FALSE(a.done("present"));
   tube.x = straight;
   a.seconds(1);
-  EXPECT_NEAR(a.monitor.facts(0).straightness, 1.0, 1e-6);
+  EXPECT_NEAR(a.monitor.sterilisation()->facts(0).straightness, 1.0, 1e-6);
   EXPECT_TRUE(a.done("present"));
 }
 
@@ -282,15 +282,15 @@ TEST(Monitor, ATubeIsOccludedByAWholeClipOrACutAndByNothingLess) {
   interactions::Clip partial = open.good_clip(kLeft, 0.016);
   partial.cover = 0.9;
   open.clip(partial);
-  EXPECT_FALSE(open.monitor.occluded(0));
+  EXPECT_FALSE(open.monitor.sterilisation()->occluded(0));
   open.clip(open.good_clip(kLeft, 0.025));
-  EXPECT_TRUE(open.monitor.occluded(0));
-  EXPECT_FALSE(open.monitor.occluded(1));
-  EXPECT_FALSE(open.monitor.occluded());
+  EXPECT_TRUE(open.monitor.sterilisation()->occluded(0));
+  EXPECT_FALSE(open.monitor.sterilisation()->occluded(1));
+  EXPECT_FALSE(open.monitor.sterilisation()->occluded());
 
   Attempt severed;
   severed.cut(severed.good_cut(kRight));
-  EXPECT_TRUE(severed.monitor.occluded(1));
+  EXPECT_TRUE(severed.monitor.sterilisation()->occluded(1));
 }
 
 TEST(Monitor, TimeCountsFromTheFirstMotionToTheEnd) {

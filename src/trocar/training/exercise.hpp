@@ -28,6 +28,17 @@ struct Named {
   core::Location at;  ///< where the file names it
 };
 
+/// What counts as rough or careless, whatever the task: over-forces, blind and colliding instruments.
+struct Handling {
+  std::vector<Named> delicate, bowel;  ///< bodies that bear less pull; bodies that bear less pinch
+
+  // Thresholds; the exercise's table of them (thresholds.cpp) says what each means.
+  double pull_limit = 0, pull_limit_other = 0, pull_excursion = 0;
+  double pinch_limit = 0, pinch_impulse = 0;
+  double blind_time = 0, blind_speed = 0;
+  double collision_speed = 0, insertion_depth = 0;
+};
+
 /// One side of the patient: what has to be clipped and cut there.
 struct Side {
   std::string name, title;    ///< "left", "Left"
@@ -39,15 +50,13 @@ struct Side {
 };
 
 /// Tubal sterilisation with two clips and a cut between them on each side.
-struct Sterilisation {
+struct Sterilisation : Handling {
   std::string uterus;
   std::vector<Side> sides;                 ///< 1 or 2
   std::vector<Named> forbidden;            ///< look-alikes; whatever is not a tube is a wrong structure as well
-  std::vector<Named> delicate, bowel;      ///< bodies that bear less pull; bodies that bear less pinch
   std::string grasper, applier, scissors;  ///< instruments
   core::Location uterus_at, grasper_at, applier_at, scissors_at;
 
-  // Thresholds; kThresholds (thresholds.hpp) says what each means.
   double survey_time = 0, organ_share = 0;
   double trace_to = 0, trace_speed = 0, trace_gap = 0, trace_pause = 0, trace_touch = 0;
   Range present_pull;
@@ -56,10 +65,6 @@ struct Sterilisation {
   double clip_angle = 0, clip_oblique = 0, clip_cover = 0, clip_closing = 0, ampulla_from = 0, cornu_to = 0;
   double cut_margin = 0, cut_fraction = 0, cut_depth = 0;
   double check_time = 0;
-  double pull_limit = 0, pull_limit_other = 0, pull_excursion = 0;
-  double pinch_limit = 0, pinch_impulse = 0;
-  double blind_time = 0, blind_speed = 0;
-  double collision_speed = 0, insertion_depth = 0;
 };
 
 /// The steps of a side, in the order in which they are shown; the survey comes before both sides.

@@ -1,7 +1,6 @@
 // What is said of an attempt, as one JSON object.
 #include <nlohmann/json.hpp>
 
-#include <trocar/numerics/portable.hpp>
 #include <trocar/training/monitor.hpp>
 
 namespace trocar::training {
@@ -49,35 +48,6 @@ Json error_json(const ErrorMade& e) {
   return j;
 }
 
-Json side_json(const Side& side, const SideFacts& f, const LumenCheck& lumen) {
-  const double degrees = 180 / portable::pi;
-  Json j{{"side", side.name}, {"tube", side.tube}, {"clips", Json::array()}, {"cuts", Json::array()}};
-  for (int i = 0; i < f.clip_count; ++i) {
-    const SideFacts::Clip& c = f.clips[size_t(i)];
-    j["clips"].push_back({{"s_mm", c.s * 1000},
-                          {"angle_deg", c.theta * degrees},
-                          {"cover", c.cover},
-                          {"closing_s", c.closing},
-                          {"tips_visible", c.tips_visible},
-                          {"good", c.good},
-                          {"at_s", c.at}});
-  }
-  if (f.pair[0] >= 0 && f.pair[1] >= 0) j["clip_distance_mm"] = (f.pair[1] - f.pair[0]) * 1000;
-  for (int i = 0; i < f.cut_count; ++i) {
-    const SideFacts::Cut& c = f.cuts[size_t(i)];
-    j["cuts"].push_back({{"s_mm", c.s * 1000},
-                         {"fraction", c.fraction},
-                         {"depth_mm", c.beyond * 1000},
-                         {"good", c.good},
-                         {"at_s", c.at}});
-  }
-  j["straightness"] = f.best_straightness;
-  if (f.held) j["pull_N"] = {{"from", f.pull.low}, {"to", f.pull.high}};
-  j["lumen"] = lumen.occluded() ? "occluded" : "open";
-  j["stumps"] = !lumen.severed() ? "not cut" : lumen.stumps_closed() ? "closed" : "open";
-  return j;
-}
-
 Json thresholds_json(const Exercise& e) {
   Json j = Json::object();
   for (size_t i = 0; i < thresholds().size(); ++i) {
@@ -101,20 +71,17 @@ Json thresholds_json(const Exercise& e) {
 std::string Monitor::result_json() const {
   const Score s = score();
   Json j;
-  j["exercise"] = m_exercise.name;
-  j["mode"] = m_mode == Mode::assessed ? "assessed" : "familiarisation";
+  j["exercise"] = m_exercise->name;
+  j["mode"] = m_board.mode() == Mode::assessed ? "assessed" : "familiarisation";
   j["finished"] = finished();
   j["passed"] = s.scored ? Json(s.passed) : Json(nullptr);
-  j["score"] = score_json(m_exercise, s);
+  j["score"] = score_json(*m_exercise, s);
   j["exercise_seconds"] = m_seconds;
-  j["tube_occluded"] = occluded();
   j["steps"] = Json::array();
-  for (const StepStatus& step : m_steps) j["steps"].push_back(step_json(step));
+  for (const StepStatus& step : steps()) j["steps"].push_back(step_json(step));
   j["errors"] = Json::array();
-  for (const ErrorMade& e : m_errors) j["errors"].push_back(error_json(e));
-  j["sides"] = Json::array();
-  for (size_t i = 0; i < m_sides.size(); ++i)
-    j["sides"].push_back(side_json(m_exercise.goal.sides[i], m_sides[i].facts, m_sides[i].lumen));
+  for (const ErrorMade& e : errors()) j["errors"].push_back(error_json(e));
+  m_judge->tell(j);
   j["tools"] = Json::array();
   for (const ToolMetrics& t : m_tools)
     j["tools"].push_back({{"name", t.name},
@@ -122,9 +89,9 @@ std::string Monitor::result_json() const {
                           {"max_pull_N", t.max_pull},
                           {"max_at_trocar_N", t.max_on_wall},
                           {"max_by_hand_N", t.max_by_hand}});
-  j["thresholds"] = thresholds_json(m_exercise);
+  j["thresholds"] = thresholds_json(*m_exercise);
   j["not_assessed"] = Json::array();
-  for (const LaterError& l : m_exercise.later)
+  for (const LaterError& l : m_exercise->later)
     j["not_assessed"].push_back({{"code", l.code}, {"name", l.name}, {"needs", l.needs}});
   return j.dump();
 }

@@ -13,15 +13,15 @@ bool has(const std::vector<std::int32_t>& list, std::int32_t body) {
 
 }  // namespace
 
-void PullWatch::update(const Sterilisation& goal, const Tissues& tissues, const sim::Model& model,
-                       const sim::State& state, Mishaps& out) {
+void PullWatch::update(const Handling& limits, const Tissues& tissues, const sim::Model& model, const sim::State& state,
+                       Mishaps& out) {
   for (size_t h = 0; h < hands(model); ++h) {
     const interactions::ToolState& tool = state.tools[h];
     const bool delicate = tool.holds > 0 && has(tissues.delicate, tool.hold[0].body);
-    const double limit = delicate ? goal.pull_limit : goal.pull_limit_other;
+    const double limit = delicate ? limits.pull_limit : limits.pull_limit_other;
     const double before = m_over_for[h];
     m_over_for[h] = tool.holds > 0 && norm(tool.pull) > limit ? before + sim::kTick : 0;
-    if (before < goal.pull_excursion && m_over_for[h] >= goal.pull_excursion)
+    if (before < limits.pull_excursion && m_over_for[h] >= limits.pull_excursion)
       out.add({"E1", int(h), tip_of(model, state, h), delicate ? "delicate tissue" : "other tissue"});
   }
 }
@@ -41,7 +41,7 @@ void TearWatch::update(const sim::Model& model, const sim::State& state, const s
   }
 }
 
-void PinchWatch::update(const Sterilisation& goal, const Tissues& tissues, const sim::Model& model,
+void PinchWatch::update(const Handling& limits, const Tissues& tissues, const sim::Model& model,
                         const sim::State& state, Mishaps& out) {
   for (size_t h = 0; h < hands(model); ++h) {
     const interactions::ToolState& tool = state.tools[h];
@@ -51,7 +51,7 @@ void PinchWatch::update(const Sterilisation& goal, const Tissues& tissues, const
       continue;
     }
     m_impulse[h] += tool.pinch * sim::kTick;
-    const bool hard = tool.pinch > goal.pinch_limit, lasting = m_impulse[h] > goal.pinch_impulse;
+    const bool hard = tool.pinch > limits.pinch_limit, lasting = m_impulse[h] > limits.pinch_impulse;
     if (m_told[h] || (!hard && !lasting)) continue;
     m_told[h] = true;
     out.add({"E2", int(h), tip_of(model, state, h), hard ? "force" : "force and time"});
@@ -66,7 +66,7 @@ SightWatch::SightWatch(const sim::Model& model) {
   }
 }
 
-void SightWatch::update(const Sterilisation& goal, const sim::Model& model, const sim::State& state,
+void SightWatch::update(const Handling& limits, const sim::Model& model, const sim::State& state,
                         const std::array<Vec3d, sim::kMaxTools>& before, const std::array<Vec3d, sim::kMaxTools>& now,
                         double dt, Mishaps& out) {
   constexpr double kSmoothing = 0.15;  // [s]
@@ -75,8 +75,8 @@ void SightWatch::update(const Sterilisation& goal, const sim::Model& model, cons
     m_velocity[h] += std::min(1.0, dt / kSmoothing) * ((now[h] - before[h]) / dt - m_velocity[h]);
     const bool seen = sim::visible(model, state, t.jaw[0]) || sim::visible(model, state, t.jaw[1]);
     const double depth = state.tools[h].depth;
-    if (seen || depth < goal.insertion_depth) {
-      if (seen && depth >= goal.insertion_depth) m_inserting[h] = false;
+    if (seen || depth < limits.insertion_depth) {
+      if (seen && depth >= limits.insertion_depth) m_inserting[h] = false;
       m_blind_for[h] = 0;
       m_told[h] = false;
       continue;
@@ -87,14 +87,14 @@ void SightWatch::update(const Sterilisation& goal, const sim::Model& model, cons
     }
     // Drawing straight back is safe: the instrument has just been there.
     const double speed = length(m_velocity[h]), back = dot(m_velocity[h], model.hands[h].port - now[h]) / depth;
-    if (speed > goal.blind_speed && back < 0.9 * speed) m_blind_for[h] += dt;
-    if (m_blind_for[h] <= goal.blind_time || m_told[h]) continue;
+    if (speed > limits.blind_speed && back < 0.9 * speed) m_blind_for[h] += dt;
+    if (m_blind_for[h] <= limits.blind_time || m_told[h]) continue;
     m_told[h] = true;
     out.add({"E4.1", int(h), now[h], ""});
   }
 }
 
-void CollisionWatch::update(const Sterilisation& goal, const sim::Model& model, const sim::State& state, double dt,
+void CollisionWatch::update(const Handling& limits, const sim::Model& model, const sim::State& state, double dt,
                             Mishaps& out) {
   std::array<Parts, sim::kMaxTools> now;
   for (size_t h = 0; h < hands(model); ++h) {
@@ -119,7 +119,7 @@ void CollisionWatch::update(const Sterilisation& goal, const sim::Model& model, 
           near = true;
           if (c.depth <= 0) continue;
           where = c.on_first;
-          if (m_begun && length(velocity(i, p, c.s) - velocity(j, q, c.t)) > goal.collision_speed) fast = true;
+          if (m_begun && length(velocity(i, p, c.s) - velocity(j, q, c.t)) > limits.collision_speed) fast = true;
         }
       bool& told = m_touching[i][j];
       if (fast && !told) {

@@ -35,7 +35,7 @@ struct Tissues {
 /// E1: over-forces, one an excursion. Asked every tick.
 class PullWatch {
  public:
-  void update(const Sterilisation& goal, const Tissues& tissues, const sim::Model& model, const sim::State& state,
+  void update(const Handling& limits, const Tissues& tissues, const sim::Model& model, const sim::State& state,
               Mishaps& out);
 
  private:
@@ -58,7 +58,7 @@ class TearWatch {
 /// E2: bowel pinched too hard or too long, each once a hold. Asked every tick.
 class PinchWatch {
  public:
-  void update(const Sterilisation& goal, const Tissues& tissues, const sim::Model& model, const sim::State& state,
+  void update(const Handling& limits, const Tissues& tissues, const sim::Model& model, const sim::State& state,
               Mishaps& out);
 
  private:
@@ -72,7 +72,7 @@ class SightWatch {
   explicit SightWatch(const sim::Model& model);
   void exchanged(int hand) { m_inserting[size_t(hand)] = true; }
   /// Once a sample of `dt` [s]; tips before and now.
-  void update(const Sterilisation& goal, const sim::Model& model, const sim::State& state,
+  void update(const Handling& limits, const sim::Model& model, const sim::State& state,
               const std::array<Vec3d, sim::kMaxTools>& before, const std::array<Vec3d, sim::kMaxTools>& now, double dt,
               Mishaps& out);
 
@@ -89,7 +89,7 @@ class SightWatch {
 /// E5: instruments that strike each other, once a meeting.
 class CollisionWatch {
  public:
-  void update(const Sterilisation& goal, const sim::Model& model, const sim::State& state, double dt, Mishaps& out);
+  void update(const Handling& limits, const sim::Model& model, const sim::State& state, double dt, Mishaps& out);
 
  private:
   using Parts = std::array<collision::Capsule, interactions::kToolParts>;
