@@ -27,7 +27,7 @@ constexpr double kFullRate = 62, kYieldingRate = 24;  // [pictures/s] at most; t
 
 bool by_hand(const std::string& input) { return input == "mouse" || input == "gamepad"; }
 
-double pull_limit(const Lesson& lesson) { return lesson.exercise ? lesson.exercise->goal.pull_limit : 5.0; }
+double pull_limit(const Lesson& lesson) { return lesson.exercise ? lesson.exercise->handling().pull_limit : 5.0; }
 
 }  // namespace
 
@@ -52,6 +52,7 @@ double AttemptWindow::now_seconds() const {
 /// While it is only practice, people are told what their clip would be worth.
 std::optional<training::ClipOutlook> AttemptWindow::outlook(const sim::State& state) const {
   if (m_plan.mode != AttemptMode::familiarisation || !m_lesson.exercise) return std::nullopt;
+  if (m_lesson.exercise->kind != training::Exercise::Kind::sterilisation) return std::nullopt;
   for (int h = 0; h < hand_count(m_lesson.model); ++h)
     if (auto o = training::clip_outlook(m_lesson.exercise->goal, m_lesson.model, state, h)) return o;
   return std::nullopt;

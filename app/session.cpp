@@ -262,8 +262,8 @@ Json Session::result(bool interrupted) const {
 training::MetricsOptions Session::metrics_options() const {
   training::MetricsOptions options;
   if (m_lesson.exercise) {
-    options.force_limits[training::kPull] = m_lesson.exercise->goal.pull_limit;
-    options.force_limits[training::kPinch] = m_lesson.exercise->goal.pinch_limit;
+    options.force_limits[training::kPull] = m_lesson.exercise->handling().pull_limit;
+    options.force_limits[training::kPinch] = m_lesson.exercise->handling().pinch_limit;
   }
   if (!m_monitor || !m_monitor->finished() || m_exercise_from < 0) return options;
   options.end = 0;

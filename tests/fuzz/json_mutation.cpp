@@ -24,8 +24,13 @@ const std::vector<scene::Key>& known_keys() {
   static const std::vector<scene::Key> all = [] {
     std::vector<scene::Key> found;
     std::vector<std::string> seen;
-    std::vector<const scene::Shape*> open{&scene::scene_shape(),  &scene::organ_shape(),   &scene::instrument_shape(),
-                                          &scene::tissue_shape(), &scene::vessels_shape(), &training::exercise_shape()};
+    std::vector<const scene::Shape*> open{&scene::scene_shape(),
+                                          &scene::organ_shape(),
+                                          &scene::instrument_shape(),
+                                          &scene::tissue_shape(),
+                                          &scene::vessels_shape(),
+                                          &training::sterilisation_shape(),
+                                          &training::bleeding_control_shape()};
     for (std::size_t i = 0; i < open.size(); ++i) {
       if (std::find(seen.begin(), seen.end(), open[i]->name) != seen.end()) continue;
       seen.push_back(open[i]->name);

@@ -21,10 +21,13 @@ struct Published {
   const char* file;
   const Shape& (*shape)();
 };
-const Published kPublished[] = {
-    {"scene.schema.json", scene_shape},           {"organ.schema.json", organ_shape},
-    {"instrument.schema.json", instrument_shape}, {"tissue.schema.json", tissue_shape},
-    {"vessel.schema.json", vessels_shape},        {"exercise.schema.json", training::exercise_shape}};
+const Published kPublished[] = {{"scene.schema.json", scene_shape},
+                                {"organ.schema.json", organ_shape},
+                                {"instrument.schema.json", instrument_shape},
+                                {"tissue.schema.json", tissue_shape},
+                                {"vessel.schema.json", vessels_shape},
+                                {"exercise.schema.json", training::sterilisation_shape},
+                                {"bleeding_control.schema.json", training::bleeding_control_shape}};
 
 TEST(Schema, PublishedFilesSayWhatTheReaderObeys) {
   for (const Published& p : kPublished) {

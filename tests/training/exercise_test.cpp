@@ -110,8 +110,9 @@ TEST_F(ExerciseFile, AThresholdWithoutASourceIsLocated) {
 
 TEST_F(ExerciseFile, EveryThresholdSaysWhereItComesFrom) {
   const Exercise e = read_exercise(kShipped);
-  ASSERT_EQ(e.threshold_sources.size(), thresholds().size());
-  for (size_t i = 0; i < thresholds().size(); ++i) EXPECT_FALSE(e.threshold_sources[i].empty()) << thresholds()[i].key;
+  ASSERT_EQ(e.threshold_sources.size(), thresholds(Exercise::Kind::sterilisation).size());
+  for (size_t i = 0; i < thresholds(Exercise::Kind::sterilisation).size(); ++i)
+    EXPECT_FALSE(e.threshold_sources[i].empty()) << thresholds(Exercise::Kind::sterilisation)[i].key;
 }
 
 TEST_F(ExerciseFile, TheSameTubeOnBothSidesIsLocated) {

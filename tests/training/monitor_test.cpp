@@ -441,7 +441,7 @@ TEST(Monitor, ResultIsJsonThatSaysTheSame) {
   ASSERT_EQ(j["sides"].size(), 2u);
   EXPECT_NEAR(j["sides"][0]["clip_distance_mm"].get<double>(), 9, 1e-9);
   EXPECT_EQ(j["sides"][1]["stumps"], "closed");
-  EXPECT_EQ(j["thresholds"].size(), thresholds().size());
+  EXPECT_EQ(j["thresholds"].size(), thresholds(Exercise::Kind::sterilisation).size());
   EXPECT_DOUBLE_EQ(j["thresholds"]["clip_angle_deg"]["value"].get<double>(), 15);
   EXPECT_EQ(j["tools"].size(), a.model.hands.size());
   EXPECT_DOUBLE_EQ(j["tools"][0]["max_pull_N"].get<double>(), 1.0);

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include <trocar/scene/compile_targets.hpp>
 
 namespace trocar::scene {
@@ -31,6 +34,21 @@ void add_trace(sim::Model& model, std::int32_t strand) {
              samples);
 }
 
+/// Where a vessel opens by itself: the place of its host that is next to it.
+void add_bleeder(sim::Model& model) {
+  const sim::Bleeder& b = model.vessels.bleeder;
+  if (b.vessel < 0) return;
+  const std::vector<interactions::VesselPoint>& points = model.vessels.list[size_t(b.vessel)].path.points;
+  const auto nearest = std::min_element(points.begin(), points.end(), [&b](const auto& p, const auto& q) {
+    return std::fabs(p.s - b.s) < std::fabs(q.s - b.s);
+  });
+  const interactions::VesselHold& hold = nearest->hold;
+  if (hold.kind == interactions::VesselHold::strand)
+    add_target(model, {sim::VisibilityTarget::strand, "bleeder", hold.index, 0, 0}, {{0, hold.element, hold.w}});
+  if (hold.kind == interactions::VesselHold::organ)
+    add_target(model, {sim::VisibilityTarget::organ, "bleeder", hold.index, 0, 0}, {{0, hold.vertex[0], 0}});
+}
+
 }  // namespace
 
 void compile_targets(sim::Model& model) {
@@ -59,6 +77,7 @@ void compile_targets(sim::Model& model) {
       samples.push_back({0, outside[(2 * k + 1) * outside.size() / (2 * kSamples)], 0});
     add_target(model, {sim::VisibilityTarget::organ, model.organ_name(i), i, 0, 0}, samples);
   }
+  add_bleeder(model);
 }
 
 }  // namespace trocar::scene

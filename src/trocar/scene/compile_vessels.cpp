@@ -6,6 +6,7 @@
 
 #include <trocar/geometry/nearest.hpp>
 #include <trocar/geometry/polyline.hpp>
+#include <trocar/numerics/portable.hpp>
 #include <trocar/scene/compile_vessels.hpp>
 #include <trocar/sim/host_views.hpp>
 
@@ -152,6 +153,26 @@ Ride nearest_ride(const std::vector<Carrier>& carriers, double reach, Vec3d p, c
   for (const Carrier& c : carriers)
     if (Ride ride = ride_on(c, p, model); ride.distance < best.distance) best = ride;
   return best;
+}
+
+/// The one of the scene's holes that opens.
+sim::Bleeder bleeder_of(const BleederSetting& setting, const sim::Model& model, Faults& faults) {
+  const BleederSetting::Hole& hole = setting.holes[size_t(setting.which)];
+  sim::Bleeder out;
+  out.vessel = model.vessel_index(hole.vessel);
+  out.s = hole.at;
+  out.area = 0.25 * portable::pi * hole.diameter * hole.diameter;
+  out.tick = std::uint64_t(setting.opens / sim::kTick);
+  for (const BleederSetting::Hole& h : setting.holes) {
+    const int v = model.vessel_index(h.vessel);
+    if (v < 0) continue;
+    const vessels::FlowSegment& segment = model.vessels.flow.segments[size_t(v)];
+    const double lumen = 2 * (segment.radius + segment.taper * h.at);
+    if (h.diameter > lumen)
+      faults.push_back({h.where, fmt::format("expected a hole no wider than '{}' is there, {:.2g} mm, got {:.2g} mm",
+                                             h.vessel, 1e3 * lumen, 1e3 * h.diameter)});
+  }
+  return out;
 }
 
 class Compiling {
@@ -333,6 +354,7 @@ class Compiling {
 void compile_vessels(const Description& d, sim::Model& model, Faults& faults, CompileReport* report) {
   if (d.vessels.empty() || !faults.empty()) return;
   Compiling(d, model, faults).compile();
+  if (d.bleeder && faults.empty()) model.vessels.bleeder = bleeder_of(*d.bleeder, model, faults);
   if (!report || !faults.empty()) return;
   BodyReport r;
   r.name = d.vessels.front().name;

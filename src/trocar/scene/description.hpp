@@ -189,6 +189,19 @@ struct FluidsSetting {
   core::Location at;
 };
 
+/// Vessels that open by themselves, one an attempt: what exercises on bleeding begin with.
+struct BleederSetting {
+  struct Hole {
+    std::string vessel;
+    double at = 0.5;           ///< 0 .. 1 along it
+    double diameter = 0.5e-3;  ///< [m]
+    core::Location where;
+  };
+  double opens = 5;  ///< [s] after the start
+  std::vector<Hole> holes;
+  int which = 0;  ///< of the holes; vary() chooses
+};
+
 enum class InstrumentKind { grasper, clip_applier, scissors, probe };
 
 /// An instrument's shape and grip. Jaws open symmetrically in the plane of the shaft axis and the opening direction.
@@ -233,6 +246,7 @@ struct Description {
   std::vector<Pouch> pouches;
   std::vector<VesselTree> vessels;  ///< heart and blood are the first one's
   std::optional<FluidsSetting> fluids;
+  std::optional<BleederSetting> bleeder;
   std::vector<Port> ports;
   std::vector<Instrument> instruments;
   std::vector<Placement> placements;  ///< tools, in hand order: [0] left, [1] right, [2] assistant/third

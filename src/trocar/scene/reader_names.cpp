@@ -24,6 +24,8 @@ const char* noun(Reference::To to) {
       return "solid or strand";
     case Reference::To::carrier:
       return "solid, strand, membrane or pouch";
+    case Reference::To::vessel:
+      return "vessel";
     case Reference::To::port:
       return "port";
     case Reference::To::instrument:
@@ -95,6 +97,8 @@ std::vector<std::string> Reading::names(Reference::To to) const {
   if (to == To::tissue) add_names(description.tissues, all);
   if (to == To::solid || to == To::solid_or_strand) add_names(description.solids, all);
   if (to == To::strand || to == To::solid_or_strand) add_names(description.strands, all);
+  if (to == To::vessel)
+    for (const VesselTree& tree : description.vessels) add_names(tree.vessels, all);
   if (to == To::port) add_names(description.ports, all);
   if (to == To::instrument) add_names(description.instruments, all);
   return all;

@@ -34,7 +34,7 @@ inline bool beyond(double s, double whole) { return whole > 0 && s > 1.05 * whol
 
 /// A name that must belong to something by the time all files are read.
 struct Reference {
-  enum class To { tissue, solid, strand, solid_or_strand, carrier, port, instrument };
+  enum class To { tissue, solid, strand, solid_or_strand, carrier, vessel, port, instrument };
   To to;
   std::string name;
   core::Location at;
@@ -76,6 +76,7 @@ class Reading {
   void tissue(const JsonObject& o, const std::filesystem::path& folder);
   void vessels(const JsonObject& o, const std::filesystem::path& folder);
   void fluids(const JsonObject& o);
+  void bleeder(const JsonObject& o);
   void port(const JsonObject& o);
   Placement placement(const JsonObject& o);
   void scope(const JsonObject& o);

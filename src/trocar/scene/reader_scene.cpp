@@ -18,6 +18,7 @@ void Reading::scene(const JsonObject& o, const fs::path& folder) {
   includes(o, "vessels", folder, vessels_shape(), &Reading::vessels, &Reading::vessels);
   includes(o, "instruments", folder, instrument_shape(), &Reading::instrument, &Reading::instrument);
   for (const JsonObject& f : o.objects("fluids")) fluids(f);
+  for (const JsonObject& b : o.objects("bleeder")) bleeder(b);
   for (const JsonObject& p : o.objects("ports")) port(p);
   for (const JsonObject& t : o.objects("tools")) {
     refer(Reference::To::instrument, t, "instrument");
@@ -50,6 +51,16 @@ void Reading::fluids(const JsonObject& o) {
   for (std::size_t i = 0; i < f.pool_on.size(); ++i)
     m_references.push_back({Reference::To::solid, f.pool_on[i], o.at("pool_on", i)});
   description.fluids = std::move(f);
+}
+
+void Reading::bleeder(const JsonObject& o) {
+  BleederSetting b;
+  b.opens = o.number("opens_s", b.opens);
+  for (const JsonObject& h : o.objects("holes")) {
+    refer(Reference::To::vessel, h, "vessel");
+    b.holes.push_back({h.text("vessel"), h.number("at"), from_mm(h.number("diameter_mm")), h.at()});
+  }
+  description.bleeder = std::move(b);
 }
 
 void Reading::tissue_table(const JsonObject& o, const fs::path& folder) {

@@ -308,6 +308,22 @@ const Shape& fluids() {
   return shape;
 }
 
+const Shape& bleeder_hole() {
+  static const Shape shape{"hole",
+                           "Where a vessel may open.",
+                           {needed(keys::name("vessel", "artery or vein of the scene")),
+                            needed(keys::number("at", 0, 1, "place along it: 0 its beginning, 1 its end")),
+                            needed(keys::number("diameter_mm", 0.01, 20, "of the hole"))}};
+  return shape;
+}
+const Shape& bleeder() {
+  static const Shape shape{"bleeder",
+                           "A vessel opens by itself: one of these holes, which one depends on the seed.",
+                           {needed(keys::objects("holes", bleeder_hole, 1, "where that may be")),
+                            keys::number("opens_s", 0, 36000, "when, after the start, default 5")}};
+  return shape;
+}
+
 Shape file_shape(std::string name, std::string meaning, std::vector<Key> keys) {
   Shape shape{std::move(name), std::move(meaning), std::move(keys)};
   shape.keys.insert(shape.keys.begin(),
@@ -326,6 +342,7 @@ const Shape& scene_shape() {
                   needed(keys::includes("organs", organ, "organs: files or objects")),
                   keys::includes("vessels", vessels_shape, "arteries and veins: files or objects"),
                   keys::object("fluids", fluids, "drops and a pool, default none"),
+                  keys::object("bleeder", bleeder, "a vessel that opens by itself, default none"),
                   needed(keys::includes("instruments", instrument, "instruments: files or objects")),
                   needed(keys::objects("ports", port, 1, "trocars")),
                   needed(keys::objects("tools", tool, 0, "in the order of the hands: left, right, assistant")),

@@ -320,6 +320,19 @@ JsonValue written(const FluidsSetting& f) {
   return o;
 }
 
+JsonValue written(const BleederSetting& b) {
+  JsonValue o = json_object();
+  put(o, "opens_s", json_number(b.opens));
+  put(o, "holes", list(b.holes, [](const BleederSetting::Hole& h) {
+        JsonValue hole = json_object();
+        put_name(hole, "vessel", h.vessel);
+        put(hole, "at", json_number(h.at));
+        put(hole, "diameter_mm", mm(h.diameter));
+        return hole;
+      }));
+  return o;
+}
+
 }  // namespace
 
 std::string write_scene(const Description& d) {
@@ -332,6 +345,7 @@ std::string write_scene(const Description& d) {
   put(o, "organs", organs(d));
   if (!d.vessels.empty()) put(o, "vessels", list(d.vessels, [](const VesselTree& x) { return written(x); }));
   if (d.fluids) put(o, "fluids", written(*d.fluids));
+  if (d.bleeder) put(o, "bleeder", written(*d.bleeder));
   put(o, "instruments", list(d.instruments, [](const Instrument& x) { return written(x); }));
   put(o, "ports", list(d.ports, [](const Port& x) { return written(x); }));
   put(o, "tools", list(d.placements, [](const Placement& x) { return written(x); }));

@@ -34,6 +34,17 @@ interactions::VesselOpening* opening_at(StepContext& c, int vessel, double s) no
   return &fresh;
 }
 
+/// The vessel that opens by itself, in its tick.
+void open_bleeder(StepContext& c) noexcept {
+  const Bleeder& b = c.model.vessels.bleeder;
+  if (b.vessel < 0 || c.state.tick != b.tick) return;
+  interactions::VesselOpening* o = opening_at(c, b.vessel, b.s);
+  if (!o || o->through) return;
+  o->area = std::max(o->area, b.area);
+  o->tool = -1;
+  o->tick = c.state.tick;
+}
+
 /// @param share  of the lumen's width; 1: through
 void open_vessel(StepContext& c, int vessel, double s, double share, int hand) noexcept {
   interactions::VesselOpening* o = opening_at(c, vessel, s);
@@ -281,6 +292,7 @@ void note_bleeds(StepContext& c) noexcept {
 
 void let_blood_flow(StepContext& c) noexcept {
   if (!c.model.vessels.there()) return;
+  open_bleeder(c);
   lay_out(c);
   vessels::FlowInput input;
   input.openings = c.work.open;

@@ -150,6 +150,8 @@ void seal(Model& model) {
       h.add(v.mean_pressure);
       h.add(std::int32_t(v.vein));
     }
+    const Bleeder& b = model.vessels.bleeder;
+    if (b.vessel >= 0) h.add(b.vessel), h.add(b.s), h.add(b.area), h.add(b.tick);
   }
   if (model.wet.there) {
     const fluids::FluidsModel& f = model.wet.model;

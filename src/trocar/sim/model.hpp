@@ -111,8 +111,16 @@ struct Vessel {
   double mean_pressure = 0;  ///< in its middle, at rest [Pa]
   interactions::VesselPath path;
 };
+/// A vessel that opens by itself.
+struct Bleeder {
+  std::int32_t vessel = -1;  ///< -1: none does
+  double s = 0;              ///< 0 .. 1 along it
+  double area = 0;           ///< of the hole [m^2]
+  std::uint64_t tick = 0;    ///< when
+};
 struct VesselsModel {
   std::vector<Vessel> list;
+  Bleeder bleeder;
   vessels::FlowModel flow;
   vessels::FlowState start;  ///< after some seconds of heartbeat
 

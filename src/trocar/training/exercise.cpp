@@ -12,8 +12,16 @@ using scene::needed;
 using scene::Shape;
 namespace keys = scene::keys;
 
+using Kind = Exercise::Kind;
+constexpr const char* kKindNames[] = {"sterilisation", "bleeding_control"};
 constexpr const char* kTaskNames[kTasks] = {"survey",      "identify", "present", "first_clip",
                                             "second_clip", "cut",      "check"};
+constexpr const char* kBleedingTaskNames[kBleedingTasks] = {"find", "clip", "stop", "clear", "check"};
+
+std::vector<std::string> task_names(Kind kind) {
+  if (kind == Kind::sterilisation) return {kTaskNames, kTaskNames + kTasks};
+  return {kBleedingTaskNames, kBleedingTaskNames + kBleedingTasks};
+}
 
 const Shape& value_shape() {
   static const Shape shape{"threshold",
@@ -30,10 +38,11 @@ const Shape& range_shape() {
        needed(keys::number("to", 0, 1e4, "upper end")), needed(keys::text("source", "a publication, or \"ours\""))}};
   return shape;
 }
+template <Kind kind>
 const Shape& thresholds_shape() {
   static const Shape shape = [] {
     Shape s{"thresholds", "The numbers by which steps and errors are judged.", {}};
-    for (const ThresholdRow& row : thresholds())
+    for (const ThresholdRow& row : thresholds(kind))
       s.keys.push_back(needed(keys::object(row.key, row.range ? range_shape : value_shape, row.meaning)));
     return s;
   }();
@@ -56,12 +65,13 @@ const Shape& named_shape() {
                            {needed(keys::name("body", "solid, strand or fold")), keys::text("title", "for people")}};
   return shape;
 }
+template <Kind kind>
 const Shape& task_shape() {
-  static const Shape shape{"step",
-                           "What people are told about a step, and what it is worth.",
-                           {needed(keys::choice("step", {kTaskNames, kTaskNames + kTasks}, "which")),
-                            needed(keys::text("title", "for people")), needed(keys::text("hint", "how it is done")),
-                            needed(keys::number("weight", 0, 100, "in the score's quality"))}};
+  static const Shape shape{
+      "step",
+      "What people are told about a step, and what it is worth.",
+      {needed(keys::choice("step", task_names(kind), "which")), needed(keys::text("title", "for people")),
+       needed(keys::text("hint", "how it is done")), needed(keys::number("weight", 0, 100, "in the score's quality"))}};
   return shape;
 }
 const Shape& penalty_shape() {
@@ -104,15 +114,15 @@ double checked(const JsonObject& o, const char* key, const ThresholdRow& row) {
 }
 
 void read_thresholds(const JsonObject& all, Exercise& e) {
-  for (const ThresholdRow& row : thresholds()) {
+  for (const ThresholdRow& row : thresholds(e.kind)) {
     std::string source;
     for (const JsonObject& o : all.objects(row.key)) {
       source = o.text("source");
       if (row.value) {
-        e.goal.*row.value = checked(o, "value", row);
+        row.value(e) = checked(o, "value", row);
         continue;
       }
-      Range& range = e.goal.*row.range;
+      Range& range = row.range(e);
       range = {checked(o, "from", row), checked(o, "to", row)};
       if (range.low > range.high) o.fault("from", "expected from <= to, got an empty interval");
     }
@@ -129,6 +139,17 @@ std::vector<Named> read_named(const JsonObject& o, const char* key) {
   return out;
 }
 
+void read_handling(const JsonObject& o, Handling& h) {
+  h.delicate = read_named(o, "delicate");
+  h.bowel = read_named(o, "bowel");
+}
+
+void read_goal(const JsonObject& o, BleedingControl& g) {
+  g.applier = o.text("clip_applier");
+  g.applier_at = o.at("clip_applier");
+  read_handling(o, g);
+}
+
 void read_goal(const JsonObject& o, Sterilisation& g) {
   g.uterus = o.text("uterus");
   g.uterus_at = o.at("uterus");
@@ -139,8 +160,7 @@ void read_goal(const JsonObject& o, Sterilisation& g) {
   g.applier_at = o.at("clip_applier");
   g.scissors_at = o.at("scissors");
   g.forbidden = read_named(o, "forbidden");
-  g.delicate = read_named(o, "delicate");
-  g.bowel = read_named(o, "bowel");
+  read_handling(o, g);
   for (const JsonObject& s : o.objects("sides")) {
     Side side{s.text("name"),        s.text("title"),        s.text("tube"),          s.text("ovary"),
               s.text("mesosalpinx"), s.text("grasper_hand"), s.text("scissors_hand"), s.at("tube"),
@@ -155,33 +175,36 @@ void read_goal(const JsonObject& o, Sterilisation& g) {
 }
 
 void read_tasks(const JsonObject& o, Exercise& e) {
-  std::array<bool, kTasks> told{};
+  const std::vector<std::string> names = task_names(e.kind);
+  std::vector<bool> told(names.size());
+  e.tasks.resize(names.size());
   double weights = 0;
   for (const JsonObject& t : o.objects("steps")) {
     const std::string name = t.text("step");
-    for (int i = 0; i < kTasks; ++i) {
-      if (name != kTaskNames[i]) continue;
-      if (told[size_t(i)]) t.fault("step", "expected each step once, got \"" + name + "\" again");
-      told[size_t(i)] = true;
-      e.tasks[size_t(i)] = {name, t.text("title"), t.text("hint"), t.number("weight")};
+    for (size_t i = 0; i < names.size(); ++i) {
+      if (name != names[i]) continue;
+      if (told[i]) t.fault("step", "expected each step once, got \"" + name + "\" again");
+      told[i] = true;
+      e.tasks[i] = {name, t.text("title"), t.text("hint"), t.number("weight")};
       weights += t.number("weight");
     }
   }
   if (!o.has("steps")) return;
-  for (int i = 0; i < kTasks; ++i)
-    if (!told[size_t(i)]) o.fault("steps", std::string("expected the step \"") + kTaskNames[i] + "\", got none");
+  for (size_t i = 0; i < names.size(); ++i)
+    if (!told[i]) o.fault("steps", "expected the step \"" + names[i] + "\", got none");
   if (weights <= 0) o.fault("steps", "expected a weight above 0, got none");
 }
 
 void read_penalties(const JsonObject& o, Exercise& e) {
   const std::vector<JsonObject> rows = o.objects("penalties");
+  const std::vector<std::string> steps = task_names(e.kind);
   for (const JsonObject& p : rows) {
     Penalty penalty{p.text("code"), p.text("name"),   p.number("points"), p.flag("fail"), p.text("meaning"),
                     p.text("hint"), p.text("source"), p.texts("implies"), p.texts("may"), p.texts("leaves")};
     if (e.penalty(penalty.code)) p.fault("code", "expected each code once, got \"" + penalty.code + "\" again");
     for (const std::string& step : penalty.leaves)
-      if (std::find(kTaskNames, kTaskNames + kTasks, step) == kTaskNames + kTasks)
-        p.fault("leaves", scene::unknown_name("step", step, {kTaskNames, kTaskNames + kTasks}));
+      if (std::find(steps.begin(), steps.end(), step) == steps.end())
+        p.fault("leaves", scene::unknown_name("step", step, steps));
     e.penalties.push_back(penalty);
   }
   std::vector<std::string> codes;
@@ -209,30 +232,29 @@ void read_score(const JsonObject& o, Exercise& e) {
   }
 }
 
-}  // namespace
-
-const Shape& exercise_shape() {
-  static const Shape shape{
-      "exercise",
-      "A task in a scene, and what counts as done well.",
+/// What comes first in every kind of exercise, what is its own, what comes last.
+template <Kind kind>
+Shape shape_of(const char* meaning, std::vector<scene::Key> own) {
+  Shape shape{"exercise",
+              meaning,
+              {
+                  keys::text("$schema", "where editors find this kind of file's schema"),
+                  keys::format(2),
+                  needed(keys::name("name", "what the command line calls it")),
+                  needed(keys::text("title", "for people")),
+                  keys::text("summary", "two or three sentences for who chooses an exercise"),
+                  needed(keys::text("scene", "path of the scene file, relative to this one")),
+                  needed(keys::choice("kind", {kKindNames[0], kKindNames[1]}, "which task")),
+              }};
+  shape.keys.insert(shape.keys.end(), own.begin(), own.end());
+  shape.keys.insert(
+      shape.keys.end(),
       {
-          keys::text("$schema", "where editors find this kind of file's schema"),
-          keys::format(2),
-          needed(keys::name("name", "what the command line calls it")),
-          needed(keys::text("title", "for people")),
-          keys::text("summary", "two or three sentences for who chooses an exercise"),
-          needed(keys::text("scene", "path of the scene file, relative to this one")),
-          needed(keys::choice("kind", {"sterilisation"}, "which task")),
-          needed(keys::name("uterus", "organ that the survey must show")),
-          needed(keys::objects("sides", side_shape, 1, "one or two")),
-          keys::objects("forbidden", named_shape, 0, "what looks alike; all but the tubes is a wrong structure"),
-          keys::objects("delicate", named_shape, 0, "bodies that bear less pull, beside the tubes"),
+          keys::objects("delicate", named_shape, 0, "bodies that bear less pull, beside tubes that are operated on"),
           keys::objects("bowel", named_shape, 0, "bodies that bear less pinch"),
-          needed(keys::name("grasper", "instrument that presents a tube")),
           needed(keys::name("clip_applier", "instrument that clips")),
-          needed(keys::name("scissors", "instrument that cuts")),
-          needed(keys::objects("steps", task_shape, 1, "each step once")),
-          needed(keys::object("thresholds", thresholds_shape, "what decides")),
+          needed(keys::objects("steps", task_shape<kind>, 1, "each step once")),
+          needed(keys::object("thresholds", thresholds_shape<kind>, "what decides")),
           needed(keys::object("score", score_shape, "how the score is put together")),
           needed(keys::number("hold_s", 0, 10, "a condition counts when it has been true this long")),
           needed(keys::number("expert_s", 1, 36000, "time that earns all points for time")),
@@ -241,7 +263,36 @@ const Shape& exercise_shape() {
           needed(keys::objects("penalties", penalty_shape, 1, "what errors cost, and what follows from them")),
           keys::objects("later", later_shape, 0, "errors that cannot be detected yet"),
           keys::texts("sources", "the publications that are named"),
-      }};
+      });
+  return shape;
+}
+
+/// What a file says that it is; sterilisation where it says nothing that is known.
+Kind kind_of(const scene::JsonValue& root) {
+  const scene::JsonMember* kind = root.find("kind");
+  const bool bleeding = kind && kind->value.kind == scene::JsonValue::Kind::string &&
+                        kind->value.text == kKindNames[size_t(Kind::bleeding_control)];
+  return bleeding ? Kind::bleeding_control : Kind::sterilisation;
+}
+
+}  // namespace
+
+const Shape& sterilisation_shape() {
+  static const Shape shape = shape_of<Kind::sterilisation>(
+      "Tubal sterilisation in a scene, and what counts as done well.",
+      {
+          needed(keys::name("uterus", "organ that the survey must show")),
+          needed(keys::objects("sides", side_shape, 1, "one or two")),
+          keys::objects("forbidden", named_shape, 0, "what looks alike; all but the tubes is a wrong structure"),
+          needed(keys::name("grasper", "instrument that presents a tube")),
+          needed(keys::name("scissors", "instrument that cuts")),
+      });
+  return shape;
+}
+
+const Shape& bleeding_control_shape() {
+  static const Shape shape =
+      shape_of<Kind::bleeding_control>("A bleeding to be stopped in a scene, and what counts as done well.", {});
   return shape;
 }
 
@@ -257,12 +308,18 @@ Exercise read_exercise(const std::filesystem::path& path, const scene::MemoryFil
   Exercise e;
   e.file = path;
   if (document.root.kind != scene::JsonValue::Kind::broken) {
-    const JsonObject o(document.root, exercise_shape(), document.file, faults);
+    e.kind = kind_of(document.root);
+    const bool sterilisation = e.kind == Kind::sterilisation;
+    const JsonObject o(document.root, sterilisation ? sterilisation_shape() : bleeding_control_shape(), document.file,
+                       faults);
     e.name = o.text("name");
     e.title = o.text("title");
     e.summary = o.text("summary");
     e.scene = path.parent_path() / o.text("scene");
-    read_goal(o, e.goal);
+    if (sterilisation)
+      read_goal(o, e.goal);
+    else
+      read_goal(o, e.bleeding);
     read_tasks(o, e);
     for (const JsonObject& t : o.objects("thresholds")) read_thresholds(t, e);
     read_score(o, e);

@@ -6,7 +6,6 @@
 //   Monitor monitor(e, model);
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -67,6 +66,21 @@ struct Sterilisation : Handling {
   double check_time = 0;
 };
 
+/// One artery bleeds: find it, clip it on its heart's side, clear what has run out, look whether it stays dry.
+struct BleedingControl : Handling {
+  std::string applier;  ///< instrument
+  core::Location applier_at;
+
+  double find_time = 0, check_time = 0;                    ///< [s]
+  double clip_cover = 0, clip_closing = 0;                 ///< - [s]
+  double stopped_flow = 0, stopped_time = 0;               ///< [m^3/s] [s]
+  double pool_left = 0;                                    ///< [m^3]
+  double lost_some = 0, lost_much = 0, lost_too_much = 0;  ///< [m^3]
+  double control_within = 0;                               ///< [s]
+};
+enum class BleedingTask { find, clip, stop, clear, check };
+inline constexpr int kBleedingTasks = 5;
+
 /// The steps of a side, in the order in which they are shown; the survey comes before both sides.
 enum class Task { survey, identify, present, first_clip, second_clip, cut, check };
 inline constexpr int kTasks = 7;
@@ -94,10 +108,12 @@ struct LaterError {
 };
 
 struct Exercise {
+  enum class Kind { sterilisation, bleeding_control } kind = Kind::sterilisation;
   std::string name, title, summary;
   std::filesystem::path file, scene;
-  Sterilisation goal;
-  std::array<TaskText, kTasks> tasks;
+  Sterilisation goal;                                             ///< of a sterilisation
+  BleedingControl bleeding;                                       ///< of bleeding control
+  std::vector<TaskText> tasks;                                    ///< in the kind's order
   double hold_time = 0.2;                                         ///< a predicate counts when true this long [s]
   double expert_time = 240;                                       ///< [s]
   double longest_time = 900;                                      ///< [s]
@@ -105,24 +121,30 @@ struct Exercise {
   double pass_mark = 80;
   std::vector<Penalty> penalties;
   std::vector<LaterError> later;
-  std::vector<std::string> threshold_sources;  ///< parallel to thresholds()
+  std::vector<std::string> threshold_sources;  ///< parallel to thresholds(kind)
 
   const Penalty* penalty(const std::string& code) const;
   const TaskText& text(Task task) const { return tasks[size_t(task)]; }
+  const TaskText& text(BleedingTask task) const { return tasks[size_t(task)]; }
+  const Handling& handling() const {
+    return kind == Kind::sterilisation ? static_cast<const Handling&>(goal) : bleeding;
+  }
 };
 
-/// A row of the table of thresholds: its key in the file, unit and bounds there, and the member that it sets.
+/// A row of a kind's table of thresholds: its key in the file, unit and bounds there, and the number that it sets.
 struct ThresholdRow {
   const char* key;
   double unit;  ///< of the file's number in SI
   double low, high;
-  double Sterilisation::*value;
-  Range Sterilisation::*range;  ///< one of the two is null
+  double& (*value)(Exercise&);
+  Range& (*range)(Exercise&);  ///< one of the two is null
   const char* meaning;
 };
-std::span<const ThresholdRow> thresholds();
+std::span<const ThresholdRow> thresholds(Exercise::Kind kind);
 
-const scene::Shape& exercise_shape();
+/// What a file of that kind may say.
+const scene::Shape& sterilisation_shape();
+const scene::Shape& bleeding_control_shape();
 
 /// Throws core::BadInput with every fault. Whether the scene has what the exercise names is checked by Monitor. With
 /// `memory` the file is looked up there instead of on the disk.

@@ -13,6 +13,15 @@ inline Vec3d tip_of(const sim::Model& model, const sim::State& state, size_t han
   return kinematics::forward(model.hands[hand].port, state.tools[hand].pose()).tip;
 }
 
+/// Where a strand's or an organ's sample is.
+inline Vec3d place_of(const sim::Model& model, const sim::State& state, const sim::VisibilitySample& sample) {
+  const sim::VisibilityTarget& t = model.targets[size_t(sample.target)];
+  const size_t i = size_t(t.index);
+  if (t.kind == sim::VisibilityTarget::strand)
+    return interactions::point_at(model.bodies[i], state.strands[i], {sample.where, sample.w});
+  return tissue::skin_point(nodes_of(model, state, t.index), model.skin(t.index), sample.where);
+}
+
 /// Arc length of the first held point of strand `strand` in this hand's jaws; -1 if they hold none of it.
 inline double held_arc(const sim::Model& model, const sim::State& state, size_t hand, int strand) {
   const interactions::ToolState& tool = state.tools[hand];

@@ -19,8 +19,8 @@ Tissues tissues_of(const Exercise& exercise, const sim::Model& model, Faults& fa
   Tissues tissues;
   const Finder find{model, faults};
   for (const Side& side : exercise.goal.sides) tissues.delicate.push_back(model.strand_index(side.tube));
-  for (const Named& n : exercise.goal.delicate) tissues.delicate.push_back(find.body(n));
-  for (const Named& n : exercise.goal.bowel) tissues.bowel.push_back(find.body(n));
+  for (const Named& n : exercise.handling().delicate) tissues.delicate.push_back(find.body(n));
+  for (const Named& n : exercise.handling().bowel) tissues.bowel.push_back(find.body(n));
   return tissues;
 }
 
@@ -32,9 +32,15 @@ Monitor::Monitor(const Exercise& exercise, const sim::Model& model, Mode mode)
       m_board(*m_scoreboard),
       m_sight(model) {
   Faults faults;
-  auto judge = std::make_unique<SterilisationJudge>(*m_exercise, model, m_board, faults);
-  m_sterilisation = judge.get();
-  m_judge = std::move(judge);
+  if (m_exercise->kind == Exercise::Kind::sterilisation) {
+    auto judge = std::make_unique<SterilisationJudge>(*m_exercise, model, m_board, faults);
+    m_sterilisation = judge.get();
+    m_judge = std::move(judge);
+  } else {
+    auto judge = std::make_unique<BleedingJudge>(*m_exercise, model, m_board, faults);
+    m_bleeding = judge.get();
+    m_judge = std::move(judge);
+  }
   m_tissues = tissues_of(*m_exercise, model, faults);
   if (!faults.empty()) throw core::BadInput(faults);
   const sim::State start = sim::initial_state(model);
@@ -67,7 +73,7 @@ void Monitor::measure(const sim::Model& model, const sim::State& state) {
     m_tools[h].path += moved;
   }
   Mishaps mishaps;
-  m_sight.update(m_exercise->goal, model, state, m_tip, now, kSample, mishaps);
+  m_sight.update(m_exercise->handling(), model, state, m_tip, now, kSample, mishaps);
   for (int i = 0; i < mishaps.count; ++i)
     m_board.make_error(mishaps.list[size_t(i)].code, {}, mishaps.list[size_t(i)].where);
   m_tip = now;
@@ -91,11 +97,11 @@ void Monitor::watch_hands(const sim::Model& model, const sim::State& state, cons
   for (size_t h = 0; h < m_tools.size(); ++h)
     if (state.tools[h].holds > 0) m_held_side[h] = m_judge->side_of_hold(state.tools[h].hold[0].body);
   Mishaps mishaps;
-  m_pull.update(m_exercise->goal, m_tissues, model, state, mishaps);
+  m_pull.update(m_exercise->handling(), m_tissues, model, state, mishaps);
   m_tear.update(model, state, report, mishaps);
-  m_pinch.update(m_exercise->goal, m_tissues, model, state, mishaps);
+  m_pinch.update(m_exercise->handling(), m_tissues, model, state, mishaps);
   if (state.tick % kCollideEvery == 0)
-    m_collision.update(m_exercise->goal, model, state, kCollideEvery * sim::kTick, mishaps);
+    m_collision.update(m_exercise->handling(), model, state, kCollideEvery * sim::kTick, mishaps);
   for (int i = 0; i < report.event_count; ++i) {
     const sim::Event& e = report.events[i];
     if (e.kind == sim::Event::slipped) mishaps.add({"E3", e.tool, tip_of(model, state, size_t(e.tool)), ""});

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include <trocar/training/bleeding_judge.hpp>
 #include <trocar/training/sterilisation_judge.hpp>
 #include <trocar/training/watches.hpp>
 
@@ -41,7 +42,9 @@ class Monitor {
   bool finished() const { return m_board.finished(); }  ///< every step is done or missed
   double seconds() const { return m_seconds; }          ///< since the first motion of an instrument
   Score score() const { return m_board.score(m_seconds); }
-  const SterilisationJudge* sterilisation() const { return m_sterilisation; }  ///< null: another kind of exercise
+  /// Who judges, by the kind of exercise; null: it is of another kind.
+  const SterilisationJudge* sterilisation() const { return m_sterilisation; }
+  const BleedingJudge* bleeding() const { return m_bleeding; }
 
   /// One JSON object: everything above, and the thresholds used.
   std::string result_json() const;
@@ -56,6 +59,7 @@ class Monitor {
   Scoreboard& m_board;
   std::unique_ptr<Judge> m_judge;
   const SterilisationJudge* m_sterilisation = nullptr;
+  const BleedingJudge* m_bleeding = nullptr;
   std::vector<ToolMetrics> m_tools;
   Tissues m_tissues;
   PullWatch m_pull;

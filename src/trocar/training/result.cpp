@@ -48,15 +48,16 @@ Json error_json(const ErrorMade& e) {
   return j;
 }
 
-Json thresholds_json(const Exercise& e) {
+Json thresholds_json(Exercise e) {
   Json j = Json::object();
-  for (size_t i = 0; i < thresholds().size(); ++i) {
-    const ThresholdRow& row = thresholds()[i];
+  const std::span<const ThresholdRow> rows = thresholds(e.kind);
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const ThresholdRow& row = rows[i];
     Json t = Json::object();
     if (row.value) {
-      t["value"] = e.goal.*row.value / row.unit;
+      t["value"] = row.value(e) / row.unit;
     } else {
-      const Range& range = e.goal.*row.range;
+      const Range& range = row.range(e);
       t["from"] = range.low / row.unit;
       t["to"] = range.high / row.unit;
     }
