@@ -189,7 +189,7 @@ struct FluidsSetting {
   core::Location at;
 };
 
-enum class InstrumentKind { grasper, clip_applier, scissors, probe };
+enum class InstrumentKind { grasper, clip_applier, scissors, probe, suction_irrigator };
 
 /// An instrument's shape and grip. Jaws open symmetrically in the plane of the shaft axis and the opening direction.
 struct Instrument {

@@ -209,6 +209,7 @@ std::vector<InstrumentPart> instrument_parts(const ToolModel& tool) {
       parts.push_back({Joint::jaw_a, "steel", applier_jaw(tool)});
       parts.push_back({Joint::jaw_b, "steel", applier_jaw(tool)});
       break;
+    case ToolKind::suction_irrigator:
     case ToolKind::probe:
       parts.push_back({Joint::body, "steel", blunt_rod(tool)});
       break;
