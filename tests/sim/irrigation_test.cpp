@@ -19,7 +19,7 @@ using fluids::Source;
 namespace {
 
 constexpr int kHand = 1;                                         // its trocar is where a test wants it
-constexpr double kEnd = 0.00125;                                 // [m] the bore ends so far beyond the tip that is led
+constexpr double kEnd = 0.0009;                                  // [m] the bore ends so far beyond the tip that is led
 constexpr double kFloor = -0.020;                                // [m]
 constexpr double kX = 0.080, kY = -0.030;                        // [m] above the floor, clear of all bodies
 const double kJet = 1005 * (1e-3 / 60) * (1e-3 / 60) / 7.07e-6;  // [N] rho Q^2 / A
@@ -29,9 +29,9 @@ Model with_irrigator(double x, double y, bool bleeding = false) {
   scene::Description d = small::description();
   if (!bleeding) d.vessels.clear();
   scene::Instrument i = small::instrument("suction_irrigator", scene::InstrumentKind::suction_irrigator);
-  i.jaw_length = 0.005;
+  i.jaw_length = 0.004;
   i.jaw_width = 0.005;
-  i.jaw_thickness = 0.0025;
+  i.jaw_thickness = 0.0018;
   i.opening = 0;
   i.pinch_max = 0;
   i.friction = 0.1;
@@ -102,7 +102,7 @@ TEST(Irrigation, SuctionLowersThePoolByWhatItBooks) {
   EXPECT_EQ(b.state.valves[kHand] & kSucks, kSucks);
   EXPECT_EQ(b.state.valves[kHand] & kPlugged, 0);
   const std::int64_t after = b.at(Place::kPool).total() + b.at(Place::kDroplets).total();
-  EXPECT_GT(b.sucked(), 2 * fluids::kMillilitre);
+  EXPECT_GT(b.sucked(), fluids::kMillilitre / 2) << "10 mL on a level floor are a shallow puddle";
   EXPECT_LE(b.sucked(), 7.5 * fluids::kMillilitre + 1) << "0.3 s of 1.5 L/min at most";
   EXPECT_NEAR(double(before - after), double(b.sucked()), 0.05 * double(fluids::kMillilitre)) << "the rest is film";
   EXPECT_TRUE(b.balanced());

@@ -20,6 +20,8 @@ void put(DropletState& s, int i, Vec3f x, Vec3f v) {
 }
 
 constexpr float kPressed = 1e-3f;  ///< a running drop pushed or pulled across its surface faster hands it on [m/s]
+constexpr float kStill = 1e-4f;    ///< [m/s]
+constexpr float kOnBed = 1.5e-3f;  ///< a surface so high above the pool's bed is that bed, as its cells have it [m]
 
 /// What stays the same for all drops of a tick.
 struct Moment {
@@ -215,6 +217,13 @@ void splash(Moment& t, int i, Vec3f surface, Vec3f v, float fall) {
   }
 }
 
+/// A large drop that lies still on the pool's bed is pool: what lands on level ground would heap up for ever.
+bool settles(const Moment& t, int i, float above_bed) {
+  const Vec3f along = velocity(t.s, i) - t.s.ground[i].velocity;
+  return t.s.volume[i].total() >= t.m.largest_running / 2 && dot(along, along) < kStill * kStill &&
+         above_bed < t.s.radius[i] + kOnBed;
+}
+
 /// Whether a drop is below the pool's surface (or its bed), and what follows.
 void fall_in(Moment& t, int i) {
   const PoolModel& pool = t.below.model;
@@ -223,7 +232,8 @@ void fall_in(Moment& t, int i) {
   const float bed = floor_at(pool, t.below.floor, at.i, at.j), depth = depth_at(pool, t.below.state, at.i, at.j);
   const bool wet = depth > 0.5e-3f, flies = t.s.body[i] < 0;
   const bool in = wet && flies ? at.height <= bed + depth : at.height <= bed + (wet ? depth - t.s.radius[i] : -2e-3f);
-  if (!in && !(flies && !wet && at.height <= bed)) return;
+  const bool lies = !flies && at.inside && settles(t, i, at.height - bed);
+  if (!in && !lies && !(flies && !wet && at.height <= bed)) return;
   const Vec3f v = velocity(t.s, i), up = vec_cast<float>(pool.up);
   const Vec3f own{dot(v, vec_cast<float>(pool.u)), dot(v, vec_cast<float>(pool.v)), dot(v, up)};
   if (wet && flies && own.z < 0) {
