@@ -24,8 +24,8 @@ constexpr double kFloor = -0.020;                                // [m]
 constexpr double kX = 0.080, kY = -0.030;                        // [m] above the floor, clear of all bodies
 const double kJet = 1005 * (1e-3 / 60) * (1e-3 / 60) / 7.07e-6;  // [N] rho Q^2 / A
 
-/// The small scene with a suction-irrigator in one hand, whose trocar is above (x, y).
-Model with_irrigator(double x, double y, bool bleeding = false) {
+/// The small scene with a suction-irrigator in one hand.
+Model with_irrigator(Vec3d port, Vec3d tip, bool bleeding = false) {
   scene::Description d = small::description();
   if (!bleeding) d.vessels.clear();
   scene::Instrument i = small::instrument("suction_irrigator", scene::InstrumentKind::suction_irrigator);
@@ -36,9 +36,13 @@ Model with_irrigator(double x, double y, bool bleeding = false) {
   i.pinch_max = 0;
   i.friction = 0.1;
   d.instruments.push_back(i);
-  d.ports[kHand].position = {x, y, small::kHeight};
-  d.placements[kHand] = {"suction_irrigator", "b", {x, y, 0.04}, 0, {}};
+  d.ports[kHand].position = port;
+  d.placements[kHand] = {"suction_irrigator", "b", tip, 0, {}};
   return scene::compile(d);
+}
+/// Its trocar is above (x, y).
+Model with_irrigator(double x, double y, bool bleeding = false) {
+  return with_irrigator({x, y, small::kHeight}, {x, y, 0.04}, bleeding);
 }
 const Model& above_floor() {
   static const Model made = with_irrigator(kX, kY);
@@ -175,6 +179,32 @@ TEST(Irrigation, TheJetPushesWhatItHitsWithDensityTimesFlowTimesSpeed) {
   }
   EXPECT_NEAR(down / (40 * kTick), kJet, 0.15 * kJet);
   EXPECT_LT(height(), before - 50e-6) << "0.04 N on a pad that hangs in springs";
+}
+
+TEST(Irrigation, AJetBendsAFoldAndThrowsNothingAheadOfItsDrops) {
+  const Vec3d fold{0.018, 0.001, -0.007}, port{0.018, -0.090, 0.030};
+  const Model m = with_irrigator(port, fold + 0.025 * normalised(port - fold));
+  Bench b(m);
+  const int body = m.surfaces();
+  const tissue::NetworkModel& net = m.membranes[0].sheet.network;
+  const auto place = [&](int n) { return tissue::position(net, b.state.membranes[0].network, n); };
+  b.steps(50);
+  std::vector<Vec3d> before;
+  for (int n = 0; n < net.nodes; ++n) before.push_back(place(n));
+  b.input.pedals = irrigates(kHand);
+  double fastest = 0, farthest = 0;
+  int hits = 0;
+  for (int t = 0; t < 100; ++t) {
+    b.step();
+    for (int i = 0; i < b.state.impact_count; ++i) hits += b.state.impacts[std::size_t(i)].body == body;
+    for (int n = 0; n < net.nodes; ++n) {
+      fastest = std::max(fastest, length(tissue::velocity(net, b.state.membranes[0].network, n)));
+      farthest = std::max(farthest, length(place(n) - before[std::size_t(n)]));
+    }
+  }
+  EXPECT_GT(hits, 20);
+  EXPECT_GT(farthest, 0.0005);
+  EXPECT_LT(fastest, 2.4) << "a jet of 2.36 m/s";
 }
 
 TEST(Irrigation, PedalsOfHandsWithoutSuchAnInstrumentDoNothing) {

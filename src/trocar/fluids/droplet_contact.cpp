@@ -87,9 +87,9 @@ void become_film(Moment& t, int i) {
 
 // ---- on a surface
 
-void note_impact(Moment& t, int i, Vec3f point, Vec3f impulse) {
+void note_impact(Moment& t, int i, Vec3f point, Vec3f impulse, float drop_mass) {
   if (t.w.impact_count >= t.m.capacity) return;
-  t.w.impacts[t.w.impact_count++] = {t.s.body[i], t.s.ground[i].film, point, impulse};
+  t.w.impacts[t.w.impact_count++] = {t.s.body[i], t.s.ground[i].film, point, impulse, drop_mass};
 }
 
 /// Speed along the surface after a tick: gravity, retention by the contact line, the film's viscosity.
@@ -114,7 +114,7 @@ void run_down(Moment& t, int i) {
     return;
   }
   const float across = dot(n, relative);
-  if (std::fabs(across) > kPressed) note_impact(t, i, position(s, i), (drop_mass * across) * n);
+  if (std::fabs(across) > kPressed) note_impact(t, i, position(s, i), (drop_mass * across) * n, drop_mass);
   const Vec3f along = run(t, i, relative - across * n, t.g - away * n, drop_mass);
   Vec3f x = position(s, i) + t.run_dt * (along + ground.velocity);
   x += (ground.offset + 0.5f * r - dot(n, x)) * n;
@@ -135,7 +135,7 @@ void land(Moment& t, int i, const Contact& c) {
   const float across = dot(c.normal, relative);
   if (!(across < 0)) return;
   const float drop_mass = float(mass(widened(s.volume[i]), t.m.density));
-  note_impact(t, i, c.point, (drop_mass * across) * c.normal);
+  note_impact(t, i, c.point, (drop_mass * across) * c.normal, drop_mass);
   put(s, i, position(s, i), velocity(s, i) - across * c.normal);
 }
 
