@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include <trocar/interactions/lever.hpp>
 
 namespace trocar::app {
@@ -17,6 +19,32 @@ std::string hand_name(const sim::Model& model, int h) { return in_words(model.ha
 
 const interactions::ToolModel& held_by(const sim::Model& model, const sim::State& state, int h) {
   return model.tool(state, size_t(h));
+}
+
+bool has_valves(const sim::Model& model, const sim::State& state, int h) {
+  return held_by(model, state, h).kind == interactions::ToolKind::suction_irrigator;
+}
+
+std::string flow_in_words(const sim::State& state, int h) {
+  const std::uint8_t valves = state.valves[size_t(h)];
+  std::string out = (valves & sim::kIrrigates) != 0 ? "water" : "";
+  if ((valves & sim::kSucks) == 0) return out;
+  if (!out.empty()) out += ", ";
+  return out + ((valves & sim::kPlugged) != 0    ? "suction: plugged by tissue"
+                : (valves & sim::kSucksGas) != 0 ? "suction: gas"
+                                                 : "suction");
+}
+
+std::vector<std::string> fluid_account(const sim::Model& model, const sim::State& state) {
+  if (!model.wet.there) return {};
+  const fluids::Ledger& ledger = state.fluids.ledger;
+  const auto line = [](const char* what, const fluids::Mix& mix) {
+    return fmt::format("{} {:.1f} mL", what, double(mix.total()) / double(fluids::kMillilitre));
+  };
+  return {line("bled", ledger.in[size_t(fluids::Source::kBled)]),
+          line("irrigated", ledger.in[size_t(fluids::Source::kIrrigated)]),
+          line("sucked away", at(ledger, fluids::Place::kSucked)),
+          line("in the pool", at(ledger, fluids::Place::kPool))};
 }
 
 std::vector<Choosable> choosable(const sim::Model& model, const sim::State& state, int h) {

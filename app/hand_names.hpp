@@ -17,6 +17,13 @@ std::string hand_name(const sim::Model& model, int h);
 /// The instrument that hand `h` holds now.
 const interactions::ToolModel& held_by(const sim::Model& model, const sim::State& state, int h);
 
+/// Does it hold a suction-irrigator?
+bool has_valves(const sim::Model& model, const sim::State& state, int h);
+/// What flows through that hand's suction-irrigator: "water, suction: gas", or empty.
+std::string flow_in_words(const sim::State& state, int h);
+/// The account of the fluids in mL, a line each: bled, irrigated, sucked, in the pool. None in scenes without.
+std::vector<std::string> fluid_account(const sim::Model& model, const sim::State& state);
+
 /// An instrument that fits a hand's trocar.
 struct Choosable {
   int index = -1;  ///< as ToolInput::instrument

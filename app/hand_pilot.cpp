@@ -4,6 +4,8 @@
 
 #include <trocar/sim/visibility.hpp>
 
+#include "hand_names.hpp"
+
 namespace trocar::app {
 namespace {
 
@@ -15,6 +17,14 @@ constexpr double kInView = 0.012;       // [m] an instrument that comes into the
 constexpr double kHollow = 0.040;       // [m] as deep as an instrument goes in by itself without being seen
 
 std::array<float, 3> as_array(Vec3d v) { return {float(v.x), float(v.y), float(v.z)}; }
+
+std::uint32_t pedals_of(const devices::HandCommand& command) {
+  std::uint32_t pedals = command.wipe ? sim::kWipe : 0u;
+  if (command.irrigate) pedals |= sim::irrigates(command.led);
+  if (command.suck) pedals |= sim::sucks(command.led);
+  return pedals;
+}
+
 Vec3d as_vector(const std::array<float, 3>& a) { return {double(a[0]), double(a[1]), double(a[2])}; }
 
 }  // namespace
@@ -54,7 +64,9 @@ void HandPilot::insert() {
 }
 
 const sim::Input& HandPilot::lead(const devices::HandSample& sample, const sim::State& state) {
+  for (int h = 0; h < hand_count(m_model); ++h) m_hands.valves[size_t(h)] = has_valves(m_model, state, h);
   m_command = devices::lead(m_settings, sample, m_hands);
+  m_input.pedals = pedals_of(m_command);
   if (m_command.insert) insert();
   const kinematics::ScopeFrame view = sim::scope_of(m_model, state);
   if (m_command.led == devices::kScope)
@@ -66,6 +78,7 @@ const sim::Input& HandPilot::lead(const devices::HandSample& sample, const sim::
 }
 
 const sim::Input& HandPilot::rest(float dt, const sim::State& state) {
+  m_input.pedals = 0;
   go_on(dt, state);
   return m_input;
 }

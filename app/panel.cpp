@@ -70,6 +70,7 @@ void draw_hand(const PanelContent& c, int h) {
   std::string state;
   if (tool.holds > 0) state = "holds";
   if (c.hands && c.hands->ratchet[size_t(h)]) state += state.empty() ? "locked" : ", locked";
+  if (const std::string flow = flow_in_words(c.now.state, h); !flow.empty()) state = flow;
   ui::mark(led ? Mark::now : Mark::note);
   const std::string where = hand_name(c.lesson.model, h);
   const std::string what = fmt::format("{} {}", h + 1, where == in_words(held.name) ? about : where + ": " + about);
@@ -94,10 +95,24 @@ void draw_slowly(const PanelContent& c, int h) {
            ui::kOrange);
 }
 
+/// Two buttons that no other instrument has.
+void draw_valves(const PanelContent& c, int h) {
+  if (!c.hands || c.hands->led != h || !has_valves(c.lesson.model, c.now.state, h)) return;
+  ui::text(c.gamepad ? "right trigger: suction, left trigger: water" : "D or left button: suction, A or right: water",
+           ui::kOrange);
+}
+
+/// Where the fluids are, two to a line.
+void draw_fluids(const PanelContent& c) {
+  const std::vector<std::string> account = fluid_account(c.lesson.model, c.now.state);
+  for (std::size_t i = 0; i + 1 < account.size(); i += 2) ui::text(account[i] + "   " + account[i + 1], ui::kGrey);
+}
+
 void draw_hands(const PanelContent& c) {
   for (int h = 0; h < hand_count(c.lesson.model); ++h) {
     draw_hand(c, h);
     draw_slowly(c, h);
+    draw_valves(c, h);
   }
   if (!c.hands) return ui::text("led by " + c.input, ui::kGrey);
   const bool scope = c.hands->led == devices::kScope;
@@ -201,6 +216,7 @@ void draw_panel(const PanelContent& c, float left, float width, float height) {
   draw_hands(c);
   ImGui::Dummy({0, 2 * ui::scale()});
   draw_pull(c);
+  draw_fluids(c);
   draw_outlook(c);
   const float line = ImGui::GetTextLineHeightWithSpacing(), foot = line + 2 * ui::scale();
   ui::heading("Steps");

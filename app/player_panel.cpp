@@ -73,13 +73,17 @@ void draw_tools(const PlayerPanelContent& c) {
     const interactions::ToolState& tool = c.state.tools[std::size_t(h)];
     std::string text = hand_name(model, h) + ": " + in_words(held_by(model, c.state, h).name);
     if (tool.holds > 0) text += ", holds";
-    text += fmt::format(", {:.0f} % open", 100 * tool.aperture);
+    const std::string flow = flow_in_words(c.state, h);
+    text += has_valves(model, c.state, h) ? (flow.empty() ? "" : ", " + flow)
+                                          : fmt::format(", {:.0f} % open", 100 * tool.aperture);
     const double pull = pull_on(c.state, h);
     if (pull >= 0.05) text += fmt::format(", pull {:.1f} N", pull);
     const double push = push_at_trocar(model, c.state, h);
     if (push >= 0.05) text += fmt::format(", {:.1f} N at the trocar", push);
     ui::text(text);
   }
+  if (!c.exact) return;  // keyframes have no fluids
+  for (const std::string& line : fluid_account(model, c.state)) ui::text(line, ui::kGrey);
 }
 
 }  // namespace

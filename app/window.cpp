@@ -68,6 +68,9 @@ constexpr KeyPair kKeys[] = {
     {GLFW_KEY_SPACE, devices::Key::space},
     {GLFW_KEY_LEFT_SHIFT, devices::Key::shift},
     {GLFW_KEY_RIGHT_SHIFT, devices::Key::shift},
+    {GLFW_KEY_A, devices::Key::a},
+    {GLFW_KEY_D, devices::Key::d},
+    {GLFW_KEY_T, devices::Key::t},
 };
 
 /// The size that was asked for, or what the monitor has room for.

@@ -43,6 +43,29 @@ TEST(HandPilot, TheLedTipGoesWhereTheMouseGoesInThePicture) {
   EXPECT_NEAR(dot(moved, view.forward), 0, 1e-6);
 }
 
+TEST(HandPilot, ValvesOfTheLedSuctionIrrigatorArePedalsOfItsHand) {
+  static const std::unique_ptr<Lesson> lesson = load_lesson("bleeding");
+  const sim::Model& model = lesson->model;
+  sim::State state = sim::initial_state(model);
+  const int tube = model.hands[1].find("suction_irrigator");
+  ASSERT_GE(tube, 0) << "it fits a 5 mm trocar";
+  HandPilot pilot(model);
+  devices::HandSample sample = mouse(0, 0);
+  sample.held.set(devices::Key::a);
+  pilot.choose(1);
+  pilot.lead(mouse(0, 0), state);
+  EXPECT_EQ(pilot.lead(sample, state).pedals, 0u) << "scissors have no valves";
+  state.tools[1].instrument = tube;
+  pilot.take(tube);
+  EXPECT_EQ(pilot.lead(sample, state).pedals, sim::irrigates(1));
+  sample.held.set(devices::Key::d);
+  sample.held.set(devices::Key::t);
+  EXPECT_EQ(pilot.lead(sample, state).pedals, sim::irrigates(1) | sim::sucks(1) | sim::kWipe);
+  EXPECT_EQ(pilot.lead(mouse(0, 0), state).pedals, 0u);
+  pilot.lead(sample, state);
+  EXPECT_EQ(pilot.rest(0.016f, state).pedals, 0u) << "nobody's hand presses anything";
+}
+
 TEST(HandPilot, TheOthersKeepPoseAndGrip) {
   const sim::State state = sim::initial_state(scene().model);
   HandPilot pilot(scene().model);

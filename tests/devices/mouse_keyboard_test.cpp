@@ -381,6 +381,68 @@ TEST(MouseKeyboard, ABrokenDeviceCannotBreakTheHand) {
   }
 }
 
+TEST(Valves, KeysOpenThemAsLongAsTheyAreHeldAndForTheLedInstrumentOnly) {
+  Session session;
+  session.state.valves[1] = true;
+  session.press(Key::two);
+  session.rest(1);
+  EXPECT_TRUE(session.give(Session::holding(Key::a)).irrigate);
+  EXPECT_FALSE(session.give(Session::holding(Key::a)).suck);
+  EXPECT_TRUE(session.give(Session::holding(Key::d)).suck);
+  const HandCommand released = session.give({});
+  EXPECT_FALSE(released.irrigate || released.suck);
+  session.press(Key::one);
+  const HandCommand jaws = session.give(Session::holding(Key::d));
+  EXPECT_FALSE(jaws.irrigate || jaws.suck) << "jaws have no valves";
+}
+
+TEST(Valves, TheMouseAloneAndTheGamepadAloneOpenThem) {
+  Session session;
+  session.state.valves[0] = true;
+  session.rest(1);
+  HandSample mouse = Session::moving(30, 0);
+  mouse.left_button = true;
+  EXPECT_TRUE(session.give(mouse).suck);
+  EXPECT_EQ(session.state.handle[0], 0) << "nothing closes";
+  mouse.left_button = false;
+  mouse.right_button = true;
+  const HandCommand washing = session.give(mouse);
+  EXPECT_TRUE(washing.irrigate);
+  EXPECT_GT(washing.tip.right, 0) << "it is led on meanwhile";
+  EXPECT_EQ(washing.roll, 0);
+  EXPECT_FALSE(session.give({}).rack) << "a short puff opens no menu";
+  HandSample pad;
+  pad.gamepad.right_trigger = 1;
+  EXPECT_TRUE(session.give(pad).suck);
+  pad.gamepad.right_trigger = 0;
+  pad.gamepad.left_trigger = 1;
+  EXPECT_TRUE(session.give(pad).irrigate);
+  EXPECT_FALSE(session.state.ratchet[0]);
+}
+
+TEST(Valves, WhatWasHeldWhenTheInstrumentWasChosenFlowsOnlyWhenPressedAnew) {
+  Session session;
+  session.state.valves[1] = true;
+  session.squeeze(3);
+  HandSample still_held = Session::with(Key::two);
+  still_held.left_button = true;
+  EXPECT_FALSE(session.give(still_held).suck);
+  session.rest(1);
+  HandSample anew;
+  anew.left_button = true;
+  EXPECT_TRUE(session.give(anew).suck);
+}
+
+TEST(Wipe, IsAskedForWhoeverIsLed) {
+  Session session;
+  EXPECT_TRUE(session.give(Session::holding(Key::t)).wipe);
+  session.press(Key::zero);
+  HandSample pad;
+  pad.gamepad.set(Button::b);
+  EXPECT_TRUE(session.give(pad).wipe);
+  EXPECT_FALSE(session.give({}).wipe);
+}
+
 TEST(Help, NamesEveryKey) {
   for (int key = 0; key < int(Key::count); ++key) {
     const std::string name = name_of(Key(key));

@@ -234,7 +234,8 @@ class Attack {
     Hand& hand = m_hands[h];
     if (--hand.left <= 0) next_stage(h);
     const interactions::ToolKind kind = m_model.tool(m_state, h).kind;
-    const bool closes = m_destroy || kind == interactions::ToolKind::grasper || kind == interactions::ToolKind::probe;
+    const bool closes = m_destroy || kind == interactions::ToolKind::grasper || kind == interactions::ToolKind::probe ||
+                        kind == interactions::ToolKind::suction_irrigator;
     const bool closed = hand.stage == close || hand.stage == shake || hand.stage == poke;
     const double wanted = closed && closes ? 1 : 0;
     hand.handle += std::clamp(wanted - hand.handle, -0.008, 0.008);

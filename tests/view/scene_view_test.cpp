@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <trocar/geometry/tri_mesh.hpp>
+#include <trocar/interactions/irrigate.hpp>
 #include <trocar/render/backend.hpp>
 #include <trocar/scene/compile.hpp>
 #include <trocar/scene/reader.hpp>
@@ -394,6 +395,28 @@ TEST(InstrumentShapes, PartsStayWithinTheirTrocarAndFaceOut) {
           EXPECT_LE(std::hypot(p.x, p.y), 1.06f * float(tool.shaft_radius)) << tool.name;
         }
       }
+}
+
+TEST(InstrumentShapes, ASuctionIrrigatorEndsWhereItsBoreDoesAndHasHolesAroundIt) {
+  interactions::ToolModel tool;
+  tool.kind = interactions::ToolKind::suction_irrigator;
+  tool.jaw_length = 0.005;
+  tool.jaw_thickness = 0.0025;
+  tool.opening = 0;
+  const std::vector<InstrumentPart> parts = instrument_parts(tool);
+  ASSERT_EQ(parts.size(), 1u);
+  EXPECT_EQ(look(parts[0].look).name, "matte_steel");
+  const interactions::ToolShape shape = shape_of(tool, {0, 0, 0, 0.1}, 0);
+  const double end = to_jaw(shape, bore_of(tool, shape, shape, 1e-3).end).z;
+  float most = 0;
+  int dark_outside = 0;
+  for (std::size_t i = 0; i < parts[0].mesh.positions.size(); ++i) {
+    const Vec3f p = parts[0].mesh.positions[i];
+    most = std::max(most, p.z);
+    dark_outside += std::hypot(p.x, p.y) > float(tool.shaft_radius) && parts[0].mesh.paint[i].openness < 128;
+  }
+  EXPECT_NEAR(double(most), end, 1e-6);
+  EXPECT_GE(dark_outside, 8 * 16);
 }
 
 TEST(ClipShape, HasTheSameVerticesOpenAndClosed) {

@@ -8,8 +8,8 @@ namespace trocar::devices {
 namespace {
 
 constexpr std::array<const char*, std::size_t(Key::count)> kKeyNames = {
-    "Tab", "1", "2", "3", "4", "0", "C", "Left",  "Right", "Up", "Down",  "PageUp", "PageDown",
-    "W",   "S", "Q", "E", "R", "F", "G", "Enter", "V",     "X",  "Space", "Shift"};
+    "Tab", "1", "2", "3", "4", "0", "C",     "Left", "Right", "Up",    "Down",  "PageUp", "PageDown", "W",
+    "S",   "Q", "E", "R", "F", "G", "Enter", "V",    "X",     "Space", "Shift", "A",      "D",        "T"};
 
 constexpr HelpLine kHelp[] = {
     {Device::keyboard, "1 2 3 4, Tab", "lead this hand, the next one; the others keep pose and grip"},
@@ -22,12 +22,15 @@ constexpr HelpLine kHelp[] = {
     {Device::keyboard, "X", "another instrument for this hand, another hand"},
     {Device::keyboard, "V", "bring the instrument into the view"},
     {Device::keyboard, "R F", "light post of an oblique endoscope"},
+    {Device::keyboard, "A D", "suction-irrigator: water, suction, as long as it is held"},
+    {Device::keyboard, "T", "wipe the lens; it takes eight seconds"},
     {Device::keyboard, "Shift", "fine: a quarter of every motion, of closing too: for clips"},
     {Device::mouse, "move", "tip sideways, up and down; endoscope: where it looks"},
     {Device::mouse, "wheel", "deeper (away from you), back"},
     {Device::mouse, "left button", "close the jaws as long as it is held"},
     {Device::mouse, "right drag", "roll the instrument, or the endoscope's picture"},
     {Device::mouse, "left held, right click", "lock the jaws; the same again: unlock"},
+    {Device::mouse, "left, right button", "of a suction-irrigator: suction, water"},
     {Device::mouse, "middle or right click", "choose hand, instrument, fine motion, pause"},
     {Device::mouse, "side buttons", "lead the previous, the next hand"},
     {Device::gamepad, "left stick", "tip sideways, up and down; endoscope: where it looks"},
@@ -35,6 +38,8 @@ constexpr HelpLine kHelp[] = {
     {Device::gamepad, "right stick", "up, down: deeper, back; sideways: roll"},
     {Device::gamepad, "right trigger", "close the jaws as far as it is pulled; endoscope: light post"},
     {Device::gamepad, "left trigger", "lock, unlock the jaws; endoscope: light post the other way"},
+    {Device::gamepad, "right, left trigger", "of a suction-irrigator: suction, water"},
+    {Device::gamepad, "B", "wipe the lens"},
     {Device::gamepad, "shoulders", "lead the previous, the next hand, the endoscope among them"},
     {Device::gamepad, "Y", "another instrument for this hand, another hand"},
     {Device::gamepad, "X", "bring the instrument into the view"},
@@ -189,12 +194,27 @@ bool right_tapped(const HandSettings& settings, const HandSample& sample, HandSt
   return tapped;
 }
 
+bool squeezes(const HandSample& sample) {
+  return sample.left_button || sample.held.has(Key::g) || sample.held.has(Key::enter);
+}
+
+/// What closes jaws opens the suction, what rolls or locks them opens the water: a tube needs neither.
+void open_valves(const HandSample& sample, HandState& state, HandCommand& command) {
+  const Gamepad& pad = sample.gamepad;
+  const bool suck = squeezes(sample) || sample.held.has(Key::d) || pad.right_trigger > kTriggerPressed;
+  const bool irrigate = sample.right_button || sample.held.has(Key::a) || pad.left_trigger > kTriggerPressed;
+  state.waiting &= suck || irrigate;
+  if (state.waiting) return;
+  command.suck = suck;
+  command.irrigate = irrigate;
+}
+
 /// The left button or G closes progressively, the right trigger as far as it is pulled; let go, the handle opens unless
 /// the ratchet holds it.
 void move_handle(const HandSettings& settings, const HandSample& sample, float seconds, HandState& state) {
   float& handle = state.handle[state.led];
   const bool ratchet = state.ratchet[state.led];
-  const bool squeezed = sample.left_button || sample.held.has(Key::g) || sample.held.has(Key::enter);
+  const bool squeezed = squeezes(sample);
   const float pulled = std::clamp(finite(sample.gamepad.right_trigger), 0.0f, 1.0f);
   state.waiting &= squeezed || pulled > kTriggerTouched;
   if (state.waiting) return;
@@ -248,18 +268,25 @@ HandCommand lead(const HandSettings& settings, const HandSample& given, HandStat
   const bool tapped = right_tapped(settings, sample, state);
   const bool trigger =
       sample.gamepad.left_trigger > kTriggerPressed && !(state.last.gamepad.left_trigger > kTriggerPressed);
+  const bool jaws = state.led == kScope || !state.valves[state.led];
   HandCommand command;
   command.led = state.led;
   command.rack = sample.pressed.has(Key::x) || (sample.middle_button && !state.last.middle_button) ||
-                 went_down(Button::y, sample, state) || (tapped && !sample.left_button);
+                 went_down(Button::y, sample, state) || (tapped && jaws && !sample.left_button);
   command.insert = sample.pressed.has(Key::v) || went_down(Button::x, sample, state);
+  command.wipe = sample.held.has(Key::t) || sample.pressed.has(Key::t) || sample.gamepad.has(Button::b);
   if (state.led == kScope) {
     command.scope = scope_motion(settings, sample, s);
   } else {
-    if (sample.pressed.has(Key::space) || trigger || (tapped && sample.left_button)) toggle_ratchet(state);
-    command.tip = tip_motion(settings, sample, s);
-    command.roll = roll_of(settings, sample, s);
-    move_handle(settings, sample, s.seconds, state);
+    if (jaws && (sample.pressed.has(Key::space) || trigger || (tapped && sample.left_button))) toggle_ratchet(state);
+    HandSample steered = sample;
+    steered.right_button &= jaws;
+    command.tip = tip_motion(settings, steered, s);
+    command.roll = roll_of(settings, steered, s);
+    if (jaws)
+      move_handle(settings, sample, s.seconds, state);
+    else
+      open_valves(sample, state, command);
   }
   state.last = sample;
   return command;

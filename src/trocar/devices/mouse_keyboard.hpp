@@ -7,6 +7,7 @@
 //   if (command.led == kScope) turn the scope by command.scope;
 //   else move tip[command.led] by in_space(command.tip, camera_right, camera_up, shaft), turn it by command.roll;
 //   handle[i] = state.handle[i]                            // of every instrument, led or not
+//   if (command.irrigate) open that valve of the led one
 //   if (command.rack) show which hands and instruments there are to choose from
 //
 // help() is the table of keys that the window and the README show.
@@ -49,6 +50,9 @@ enum class Key : std::uint8_t {
   x,
   space,
   shift,
+  a,
+  d,
+  t,
   count
 };
 const char* name_of(Key key) noexcept;  ///< as help() writes it
@@ -126,8 +130,10 @@ struct HandCommand {
   PictureMotion tip;
   float roll = 0;  ///< [rad], clockwise seen from the hand positive
   ScopeMotion scope;
-  bool rack = false;    ///< asked for what there is to choose from: hands, instruments
-  bool insert = false;  ///< asked to bring the led instrument into the view
+  bool rack = false;                    ///< asked for what there is to choose from: hands, instruments
+  bool insert = false;                  ///< asked to bring the led instrument into the view
+  bool irrigate = false, suck = false;  ///< valves of the led instrument, as long as they are held
+  bool wipe = false;                    ///< asked for a clean lens, whoever is led
 };
 
 /// How much a device's motion means.  Our choice: 10 cm across a picture of 1000 px.
@@ -162,6 +168,8 @@ struct HandState {
   int last_instrument = 0;                ///< the one that Tab returns to
   std::array<float, kMaxHands> handle{};  ///< 0 open .. 1 closed, of every instrument
   std::array<bool, kMaxHands> ratchet{};  ///< holds the handle when it is released
+  /// Set by the program: this instrument has valves in place of jaws, so that what closes jaws opens them.
+  std::array<bool, kMaxHands> valves{};
   bool opening = false;   ///< the led handle was let go: it opens. A hand that was only chosen keeps its grip.
   bool fine = false;      ///< every motion is a fine one, as with Shift held
   bool waiting = false;   ///< what was already squeezed when this one was chosen must be let go first

@@ -20,6 +20,8 @@ void put(DropletState& s, int i, Vec3f x, Vec3f v) {
 }
 
 constexpr float kPressed = 1e-3f;  ///< a running drop pushed or pulled across its surface faster hands it on [m/s]
+constexpr float kStill = 1e-4f;    ///< [m/s]
+constexpr float kOnBed = 1.5e-3f;  ///< a surface so high above the pool's bed is that bed, as its cells have it [m]
 
 /// What stays the same for all drops of a tick.
 struct Moment {
@@ -85,9 +87,9 @@ void become_film(Moment& t, int i) {
 
 // ---- on a surface
 
-void note_impact(Moment& t, int i, Vec3f point, Vec3f impulse) {
+void note_impact(Moment& t, int i, Vec3f point, Vec3f impulse, float drop_mass) {
   if (t.w.impact_count >= t.m.capacity) return;
-  t.w.impacts[t.w.impact_count++] = {t.s.body[i], t.s.ground[i].film, point, impulse};
+  t.w.impacts[t.w.impact_count++] = {t.s.body[i], t.s.ground[i].film, point, impulse, drop_mass};
 }
 
 /// Speed along the surface after a tick: gravity, retention by the contact line, the film's viscosity.
@@ -112,7 +114,7 @@ void run_down(Moment& t, int i) {
     return;
   }
   const float across = dot(n, relative);
-  if (std::fabs(across) > kPressed) note_impact(t, i, position(s, i), (drop_mass * across) * n);
+  if (std::fabs(across) > kPressed) note_impact(t, i, position(s, i), (drop_mass * across) * n, drop_mass);
   const Vec3f along = run(t, i, relative - across * n, t.g - away * n, drop_mass);
   Vec3f x = position(s, i) + t.run_dt * (along + ground.velocity);
   x += (ground.offset + 0.5f * r - dot(n, x)) * n;
@@ -133,7 +135,7 @@ void land(Moment& t, int i, const Contact& c) {
   const float across = dot(c.normal, relative);
   if (!(across < 0)) return;
   const float drop_mass = float(mass(widened(s.volume[i]), t.m.density));
-  note_impact(t, i, c.point, (drop_mass * across) * c.normal);
+  note_impact(t, i, c.point, (drop_mass * across) * c.normal, drop_mass);
   put(s, i, position(s, i), velocity(s, i) - across * c.normal);
 }
 
@@ -215,6 +217,13 @@ void splash(Moment& t, int i, Vec3f surface, Vec3f v, float fall) {
   }
 }
 
+/// A large drop that lies still on the pool's bed is pool: what lands on level ground would heap up for ever.
+bool settles(const Moment& t, int i, float above_bed) {
+  const Vec3f along = velocity(t.s, i) - t.s.ground[i].velocity;
+  return t.s.volume[i].total() >= t.m.largest_running / 2 && dot(along, along) < kStill * kStill &&
+         above_bed < t.s.radius[i] + kOnBed;
+}
+
 /// Whether a drop is below the pool's surface (or its bed), and what follows.
 void fall_in(Moment& t, int i) {
   const PoolModel& pool = t.below.model;
@@ -223,7 +232,8 @@ void fall_in(Moment& t, int i) {
   const float bed = floor_at(pool, t.below.floor, at.i, at.j), depth = depth_at(pool, t.below.state, at.i, at.j);
   const bool wet = depth > 0.5e-3f, flies = t.s.body[i] < 0;
   const bool in = wet && flies ? at.height <= bed + depth : at.height <= bed + (wet ? depth - t.s.radius[i] : -2e-3f);
-  if (!in && !(flies && !wet && at.height <= bed)) return;
+  const bool lies = !flies && at.inside && settles(t, i, at.height - bed);
+  if (!in && !lies && !(flies && !wet && at.height <= bed)) return;
   const Vec3f v = velocity(t.s, i), up = vec_cast<float>(pool.up);
   const Vec3f own{dot(v, vec_cast<float>(pool.u)), dot(v, vec_cast<float>(pool.v)), dot(v, up)};
   if (wet && flies && own.z < 0) {

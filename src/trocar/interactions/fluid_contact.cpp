@@ -201,6 +201,17 @@ WetPlace wet_place(const WetBodies& bodies, Vec3d down, std::int32_t place) noex
   return out;
 }
 
+bool covered(const WetBodies& bodies, Vec3d p, double reach) noexcept {
+  const Scene scene(bodies);
+  for (int body = 0; body < bodies.count(); ++body) {
+    const Beside b = scene.beside(body, p, p);
+    if (!b.there() || b.off > reach || b.off < -kDeepest) continue;
+    const Vec3d off = p - b.point, flat = off - dot(off, b.normal) * b.normal;
+    if (dot(flat, flat) < reach * reach) return true;  // not past its border
+  }
+  return false;
+}
+
 void answer_drops(const WetBodies& bodies, Vec3d down, const fluids::DropletState& s, fluids::DropletWork& w) noexcept {
   const Scene scene(bodies);
   for (int k = 0; k < w.questions; ++k) {

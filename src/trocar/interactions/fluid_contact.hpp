@@ -41,6 +41,10 @@ struct WetPlace {
 /// @param down  unit; a strand's film hangs below it
 WetPlace wet_place(const WetBodies& bodies, Vec3d down, std::int32_t place) noexcept;
 
+/// Is p nearer than `reach` to tissue or a wall, or in it?
+/// @param reach  [m], at most 2 mm
+bool covered(const WetBodies& bodies, Vec3d p, double reach) noexcept;
+
 /// Answers all questions of the drops and of overfull places of film.
 void answer_drops(const WetBodies& bodies, Vec3d down, const fluids::DropletState& state,
                   fluids::DropletWork& work) noexcept;

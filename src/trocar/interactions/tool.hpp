@@ -10,7 +10,7 @@
 
 namespace trocar::interactions {
 
-enum class ToolKind : std::int32_t { grasper, clip_applier, scissors, probe };
+enum class ToolKind : std::int32_t { grasper, clip_applier, scissors, probe, suction_irrigator };
 
 struct ToolModel {
   std::string name;

@@ -12,6 +12,8 @@ interactions::ToolKind tool_kind(InstrumentKind kind) {
       return interactions::ToolKind::clip_applier;
     case InstrumentKind::scissors:
       return interactions::ToolKind::scissors;
+    case InstrumentKind::suction_irrigator:
+      return interactions::ToolKind::suction_irrigator;
     case InstrumentKind::probe:
       break;
   }

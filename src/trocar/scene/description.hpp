@@ -202,7 +202,7 @@ struct BleederSetting {
   int which = 0;  ///< of the holes; vary() chooses
 };
 
-enum class InstrumentKind { grasper, clip_applier, scissors, probe };
+enum class InstrumentKind { grasper, clip_applier, scissors, probe, suction_irrigator };
 
 /// An instrument's shape and grip. Jaws open symmetrically in the plane of the shaft axis and the opening direction.
 struct Instrument {

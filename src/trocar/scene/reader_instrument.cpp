@@ -10,10 +10,11 @@ void Reading::instrument(const JsonObject& o, const std::filesystem::path&) {
   i.name = o.text("name");
   i.title = o.text("title");
   const std::string kind = o.text("kind");
-  i.kind = kind == "grasper"        ? InstrumentKind::grasper
-           : kind == "clip_applier" ? InstrumentKind::clip_applier
-           : kind == "scissors"     ? InstrumentKind::scissors
-                                    : InstrumentKind::probe;
+  i.kind = kind == "grasper"             ? InstrumentKind::grasper
+           : kind == "clip_applier"      ? InstrumentKind::clip_applier
+           : kind == "scissors"          ? InstrumentKind::scissors
+           : kind == "suction_irrigator" ? InstrumentKind::suction_irrigator
+                                         : InstrumentKind::probe;
   const auto mm = [&](const char* key, double& value) {
     if (o.has(key)) value = from_mm(o.number(key));
   };

@@ -242,7 +242,8 @@ const Shape& organ() {
 std::vector<Key> instrument_keys() {
   return {needed(keys::name("name", "what scenes call it")),
           keys::text("title", "one line for people"),
-          needed(keys::choice("kind", {"grasper", "clip_applier", "scissors", "probe"}, "what it does")),
+          needed(keys::choice("kind", {"grasper", "clip_applier", "scissors", "probe", "suction_irrigator"},
+                              "what it does")),
           keys::number("shaft_diameter_mm", 1, 30, "default 5"),
           keys::number("shaft_length_mm", 50, 1000, "from the handle to the jaws' joint, default 310"),
           keys::number("jaw_length_mm", 1, 100, "default 20"),

@@ -230,6 +230,8 @@ const char* kind_name(InstrumentKind kind) {
       return "clip_applier";
     case InstrumentKind::scissors:
       return "scissors";
+    case InstrumentKind::suction_irrigator:
+      return "suction_irrigator";
     case InstrumentKind::probe:
       break;
   }

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <trocar/core/hash.hpp>
 #include <trocar/sim/state.hpp>
 
@@ -69,6 +71,14 @@ int HandModel::find(const std::string& instrument) const { return find_name(rack
 
 const interactions::ToolModel& Model::tool(const State& state, size_t hand) const noexcept {
   return hands[hand].rack[size_t(state.tools[hand].instrument)];
+}
+
+bool Model::irrigates() const noexcept {
+  const auto has_bore = [](const interactions::ToolModel& t) {
+    return t.kind == interactions::ToolKind::suction_irrigator;
+  };
+  const auto in_rack = [&](const HandModel& h) { return std::any_of(h.rack.begin(), h.rack.end(), has_bore); };
+  return wet.there && std::any_of(hands.begin(), hands.end(), in_rack);
 }
 
 int Model::target_index(const std::string& target) const { return find_name(targets, target); }

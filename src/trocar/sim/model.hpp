@@ -196,7 +196,8 @@ struct Model {
   /// The one it begins with.
   const interactions::ToolModel& placed(size_t hand) const noexcept { return hands[hand].rack.front(); }
 
-  int free_nodes() const;  ///< nodes that move, all bodies
+  bool irrigates() const noexcept;  ///< there are fluids, and a suction-irrigator in a rack
+  int free_nodes() const;           ///< nodes that move, all bodies
   int organs() const { return int(solids.size() + cuttables.size()); }
   int surfaces() const { return organs() + int(walls.size()); }  ///< organs first
   const std::string& organ_name(int organ) const;

@@ -76,6 +76,7 @@ State initial_state(const Model& model) {
     s.vessel_clips.resize(interactions::kMaxVesselClips);
   }
   if (model.wet.there) s.fluids = fluids::initial_state(model.wet.model);
+  if (model.irrigates()) s.impacts.resize(size_t(model.wet.model.droplets.capacity));
   make_counters(model, s);
   return s;
 }
@@ -119,6 +120,11 @@ std::uint64_t hash_of(const State& s) noexcept {
     h.add(s.vessel_clip_count);
   }
   if (!s.fluids.droplets.x.empty()) fluids::add_to_hash(h, s.fluids);
+  if (!s.impacts.empty()) {
+    h.add(s.valves);
+    h.add(s.impact_count);
+    h.add(core::hash_bytes(s.impacts.data(), size_t(s.impact_count) * sizeof s.impacts[0]));
+  }
   return h.value();
 }
 

@@ -11,6 +11,14 @@
 
 namespace trocar::sim {
 
+/// What the valves of a hand's suction-irrigator do in a tick: bits of State::valves.
+enum Valve : std::uint8_t {
+  kIrrigates = 1,
+  kSucks = 2,
+  kPlugged = 4,   ///< sucks, but tissue lies on the port: nothing flows
+  kSucksGas = 8,  ///< there is less liquid than it could take
+};
+
 struct State {
   std::uint64_t tick = 0;  ///< ticks made
   std::vector<tissue::NetworkState> solids;
@@ -39,8 +47,12 @@ struct State {
   std::vector<interactions::VesselOpening> openings;   ///< (kMaxOpenings)
   std::vector<interactions::VesselClip> vessel_clips;  ///< (kMaxVesselClips)
   std::int32_t opening_count = 0, vessel_clip_count = 0;
-  fluids::FluidsState fluids;      ///< empty in scenes without fluids
-  std::vector<std::uint8_t> seen;  ///< (samples) 1 = in view when last looked
+  fluids::FluidsState fluids;  ///< empty in scenes without fluids
+  /// What drops gave to tissue in the last tick: it goes to the bodies in the next. Empty without a suction-irrigator.
+  std::vector<fluids::Impact> impacts;  ///< (drops' capacity) the first `impact_count`
+  std::int32_t impact_count = 0;
+  std::array<std::uint8_t, kMaxTools> valves{};  ///< (hands) Valve, in the last tick
+  std::vector<std::uint8_t> seen;                ///< (samples) 1 = in view when last looked
 };
 
 State initial_state(const Model& model);

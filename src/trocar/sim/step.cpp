@@ -46,6 +46,7 @@ constexpr Stage kStages[] = {
     {"touch tissue", touch_tissue},
     {"touch organs", touch_organs},
     {"beat", beat},
+    {"press with drops", press_with_drops},
     {"pull on borders", pull_on_borders},
     {"advance strands", advance_strands},
     {"advance organs", advance_organs},

@@ -1,4 +1,8 @@
+#include <algorithm>
+
+#include <trocar/interactions/irrigate.hpp>
 #include <trocar/sim/stage.hpp>
+#include <trocar/sim/visibility.hpp>
 #include <trocar/sim/wetting.hpp>
 
 namespace trocar::sim {
@@ -25,38 +29,154 @@ void lay_out_bleeding(StepContext& c) noexcept {
   }
 }
 
+bool is_irrigator(const interactions::ToolModel& tool) noexcept {
+  return tool.kind == interactions::ToolKind::suction_irrigator;
+}
+
+fluids::Capsule part_of(const collision::Capsule& now, const collision::Capsule& was) noexcept {
+  fluids::Capsule out;
+  out.a = vec_cast<float>(now.a);
+  out.b = vec_cast<float>(now.b);
+  out.radius = float(now.radius);
+  out.va = vec_cast<float>((now.a - was.a) / kTick);
+  out.vb = vec_cast<float>((now.b - was.b) / kTick);
+  return out;
+}
+
 /// @param bodies  of tissue, whose numbers come first
 int lay_out_instruments(StepContext& c, int bodies) noexcept {
-  int n = 0;
-  for (size_t t = 0; t < c.model.hands.size(); ++t)
+  size_t n = 0;
+  for (size_t t = 0; t < c.model.hands.size(); ++t) {
+    const interactions::ToolModel& tool = c.model.tool(c.state, t);
+    const interactions::ToolShape &now = c.work.shapes[t], &was = c.work.shapes_before[t];
     for (int k = 0; k < interactions::kToolParts; ++k) {
-      const collision::Capsule &now = c.work.shapes[t].part[k], &was = c.work.shapes_before[t].part[k];
-      fluids::Capsule& out = c.work.wet_tools[size_t(n)];
-      out.a = vec_cast<float>(now.a);
-      out.b = vec_cast<float>(now.b);
-      out.radius = float(now.radius);
-      out.va = vec_cast<float>((now.a - was.a) / kTick);
-      out.vb = vec_cast<float>((now.b - was.b) / kTick);
-      out.body = bodies + n++;
+      if (is_irrigator(tool) && k != interactions::kShaft) continue;
+      fluids::Capsule& out = c.work.wet_tools[n++];
+      out = is_irrigator(tool) ? tube_of(tool, now, was, kTick) : part_of(now.part[k], was.part[k]);
+      out.body = bodies + int(t) * interactions::kToolParts + k;
     }
-  return n;
+  }
+  return int(n);
+}
+
+/// Valves of the instruments that have them. While a hand puts its instrument away nothing flows.
+void lay_out_valves(StepContext& c, const interactions::WetBodies& bodies) noexcept {
+  c.work.valves = {};
+  for (size_t t = 0; t < c.model.hands.size(); ++t) {
+    const interactions::ToolModel& tool = c.model.tool(c.state, t);
+    if (!is_irrigator(tool) || c.input.tools[t].instrument != c.state.tools[t].instrument) continue;
+    const interactions::Bore bore = bore_of(tool, c.work.shapes[t], c.work.shapes_before[t], kTick);
+    fluids::SuctionIrrigator& out = c.work.valves[t];
+    out.tip = vec_cast<float>(bore.end);
+    out.direction = vec_cast<float>(bore.axis);
+    out.velocity = vec_cast<float>(bore.velocity);
+    out.irrigation = (c.input.pedals & irrigates(int(t))) != 0 ? 1 : 0;
+    out.suction = (c.input.pedals & sucks(int(t))) != 0 ? 1 : 0;
+    out.blocked = out.suction > 0 && covered(bodies, bore.end, interactions::kPlugs);
+  }
+}
+
+/// A pedal that stays down wipes again and again.
+fluids::SmokeInput what_the_lens_meets(const StepContext& c) noexcept {
+  fluids::SmokeInput out;
+  out.wipe = (c.input.pedals & kWipe) != 0 && !(c.state.fluids.smoke.wipe_left > 0);
+  out.lens = scope_of(c.model, c.state).eye;
+  return out;
+}
+
+void note_valves(StepContext& c, const fluids::FluidsReport& report) noexcept {
+  for (size_t t = 0; t < c.model.hands.size(); ++t) {
+    const fluids::SuctionIrrigator& v = c.work.valves[t];
+    const fluids::ToolResult& r = report.tools[t];
+    c.state.valves[t] = std::uint8_t((v.irrigation > 0 ? kIrrigates : 0) | (v.suction > 0 ? kSucks : 0) |
+                                     (r.clogged ? kPlugged : 0) | (r.gas_flow > 0 ? kSucksGas : 0));
+  }
+}
+
+/// For the next tick: fluids move when the bodies have moved.
+void keep_impacts(StepContext& c) noexcept {
+  const fluids::DropletWork& drops = c.work.fluids.droplets;
+  c.state.impact_count = drops.impact_count;
+  std::copy_n(drops.impacts.begin(), drops.impact_count, c.state.impacts.begin());
+}
+
+/// A drop pushes what it hits and goes on with it, as in an inelastic collision: with the force alone a few milligrams
+/// of fold would be thrown ahead of the drop.
+///   f dt = P + m (v - v')      P the drop's momentum relative to the surface, m its mass, v before, v' after
+struct Push {
+  Vec3d impulse, dir;
+  double mass = 0;
+  explicit Push(const fluids::Impact& hit) noexcept
+      : impulse(vec_cast<double>(hit.impulse)), dir(normalised(impulse)), mass(double(hit.mass)) {}
+  Vec3d force(Vec3d velocity) const noexcept { return (1 / kTick) * (impulse + (mass * dot(velocity, dir)) * dir); }
+  double drag() const noexcept { return mass / kTick; }
+};
+
+void press_surface(StepContext& c, size_t i, int vertex, const Push& push) noexcept {
+  if (i >= size_t(c.model.organs()) || vertex >= c.work.skins[i]->size()) return;  // a wall
+  const tissue::NodeView& nodes = c.work.nodes[i];
+  interactions::SkinLoad load;
+  load.f0 = push.force(tissue::skin_velocity(nodes, *c.work.skins[i], vertex));
+  load.dir = push.dir;
+  load.d = push.drag();
+  add_skin_load(nodes, *c.work.skins[i], vertex, load, {}, c.work.organ_loads[i]);
+}
+
+void press_sheet(StepContext& c, size_t i, int node, const Push& push) noexcept {
+  const tissue::NodeView nodes = view_of(c.model.membranes[i].sheet.network, c.state.membranes[i].network);
+  tissue::NodeLoad load;
+  load.node = node;
+  load.f0 = vec_cast<float>(push.force(nodes.velocity(node)));
+  load.dir = vec_cast<float>(push.dir);
+  load.d = float(push.drag());
+  c.work.membrane_loads[i].add(load, {});
+}
+
+void press_strand(StepContext& c, size_t i, int node, const Push& push) noexcept {
+  const int last = c.model.bodies[i].nodes() - 2;
+  tissue::StrandLoad load;
+  load.element = std::min(node, last);
+  load.w = node > last ? 1 : 0;
+  load.f0 = push.force(c.state.strands[i].v[size_t(node)]);
+  load.dir = push.dir;
+  load.d = push.drag();
+  c.work.strand_loads[i].add(load, {});
 }
 
 }  // namespace
+
+void press_with_drops(StepContext& c) noexcept {
+  using interactions::WetTarget;
+  for (int i = 0; i < c.state.impact_count; ++i) {
+    const fluids::Impact& hit = c.state.impacts[size_t(i)];
+    const WetTarget at = interactions::target_of(c.model.wet.film, c.model.surfaces(), int(c.model.membranes.size()),
+                                                 hit.body, hit.film);
+    const Push push(hit);
+    if (at.kind == WetTarget::surface) press_surface(c, size_t(at.index), at.vertex, push);
+    if (at.kind == WetTarget::sheet) press_sheet(c, size_t(at.index), at.vertex, push);
+    if (at.kind == WetTarget::strand) press_strand(c, size_t(at.index), at.vertex, push);
+  }
+}
 
 void move_fluids(StepContext& c) noexcept {
   if (!c.model.wet.there) return;
   lay_out_bleeding(c);
   const interactions::WetBodies bodies = wet_bodies(c);
   const int tools = lay_out_instruments(c, bodies.count());
+  lay_out_valves(c, bodies);
   fluids::FluidsInput input;
   input.openings = c.work.wounds;
   input.capsules = {c.work.wet_tools.data(), size_t(tools)};
+  input.tools = {c.work.valves.data(), c.model.hands.size()};
   input.floor = c.model.wet.floor;
+  input.smoke = what_the_lens_meets(c);
   begin_tick(c.model.wet.model, input, c.state.fluids, c.work.fluids);
   answer_drops(bodies, normalised(c.model.gravity, {0, 0, -1}), c.state.fluids.droplets, c.work.fluids.droplets);
   const fluids::FluidsReport report = finish_tick(c.model.wet.model, input, c.state.fluids, c.work.fluids);
   if (report.report.flags & fluids::FluidReport::kDropletsFull) c.report.flags |= StepReport::kDropsFull;
+  if (c.state.impacts.empty()) return;
+  note_valves(c, report);
+  keep_impacts(c);
 }
 
 }  // namespace trocar::sim

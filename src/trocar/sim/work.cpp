@@ -250,6 +250,7 @@ void poison(Work& w) noexcept {
   fluids::poison(w.fluids);
   scribble(w.wounds);
   std::memset(static_cast<void*>(&w.wet_tools), 0xff, sizeof w.wet_tools);
+  std::memset(static_cast<void*>(&w.valves), 0xff, sizeof w.valves);
   scribble(w.touches);
   scribble(w.parts);
   scribble(w.beyond);

@@ -62,7 +62,8 @@ struct Work {
   fluids::FluidsWork fluids;
   std::vector<fluids::Opening> wounds;  ///< (2 kMaxOpenings) sides of openings
   std::array<fluids::Capsule, kMaxTools * interactions::kToolParts> wet_tools;
-  std::vector<tissue::NodeView> nodes;  ///< (organs) of the State; anew in every tick
+  std::array<fluids::SuctionIrrigator, kMaxTools> valves;  ///< (hands) closed where there is none
+  std::vector<tissue::NodeView> nodes;                     ///< (organs) of the State; anew in every tick
   std::vector<tissue::CuttableSkin> cuttable_skins;
   std::vector<const tissue::Skin*> skins;                      ///< (organs) of the Model, or the above
   std::vector<int> organ_order, strand_order, membrane_order;  ///< by how much there is to do, for the threads

@@ -86,6 +86,8 @@ void Arms::fill(std::uint64_t tick, sim::Input& input) const {
     const Arm& arm = m_arm[size_t(h)];
     const kinematics::FulcrumPose pose = kinematics::inverse(arm.port, arm.tip + tremor(h, tick), arm.roll);
     input.tools[h] = sim::tool_input(pose, float(arm.handle), arm.instrument);
+    input.pedals &= ~(sim::irrigates(h) | sim::sucks(h));
+    input.pedals |= (arm.irrigating ? sim::irrigates(h) : 0u) | (arm.sucking ? sim::sucks(h) : 0u);
   }
 }
 

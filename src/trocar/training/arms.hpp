@@ -24,7 +24,8 @@ class Arms {
     Vec3d tip, port;
     double roll = 0, handle = 0;
     std::int32_t instrument = 0;
-    bool moving = false;  ///< in this tick
+    bool moving = false;                       ///< in this tick
+    bool irrigating = false, sucking = false;  ///< valves of a suction-irrigator
   };
   Arm& operator[](int hand) { return m_arm[size_t(hand)]; }
   const Arm& operator[](int hand) const { return m_arm[size_t(hand)]; }

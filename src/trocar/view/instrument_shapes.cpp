@@ -160,9 +160,9 @@ MeshBuffer applier_jaw(const ToolModel& tool) {
   return b;
 }
 
-/// The applier's mouth: a tube, open at its end.
-MeshBuffer open_shaft(const ToolModel& tool, double end) {
-  const double r = tool.shaft_radius, back = -tool.shaft_length, wall = 0.0008;
+/// A tube, open at its end: the applier's mouth, the bore of a suction-irrigator.
+MeshBuffer open_shaft(const ToolModel& tool, double end, double wall) {
+  const double r = tool.shaft_radius, back = -tool.shaft_length;
   return turned({{back, 0, kClean},
                  {back, r, kClean},
                  {back, r, kClean},
@@ -174,6 +174,26 @@ MeshBuffer open_shaft(const ToolModel& tool, double end) {
                  {end - 0.008, r - wall, kHollow},
                  {end - 0.008, 0, kHollow}},
                 kAround);
+}
+
+/// A round hole in a tube's side: a dark disc that is bent around it.
+MeshBuffer side_hole(double tube_radius, double angle, double z, double radius) {
+  MeshBuffer b = turned({{0, radius, kShaded}, {0, 0.8 * radius, kHollow}, {0, 0, kHollow}}, 16);
+  const double out = tube_radius + 2e-5;
+  for (Vec3f& p : b.positions) {
+    const double at = angle + double(p.x) / tube_radius;
+    p = {float(out * std::cos(at)), float(out * std::sin(at)), float(z) + p.y};
+  }
+  return b;
+}
+
+/// A tube whose end is the bore, with eight holes of 1 mm around it.
+MeshBuffer irrigator_tube(const ToolModel& tool) {
+  const double r = tool.shaft_radius, bore = 0.0015, end = tool.jaw_length + 0.5 * tool.jaw_thickness;
+  MeshBuffer b = open_shaft(tool, end, std::max(r - bore, 0.2 * r));
+  for (int i = 0; i < 8; ++i)
+    merge(b, side_hole(r, (i + 0.5 * (i % 2)) * 0.5 * kPi, end - (i < 4 ? 0.004 : 0.0075), 0.0005));
+  return b;
 }
 
 MeshBuffer blunt_rod(const ToolModel& tool) {
@@ -205,9 +225,12 @@ std::vector<InstrumentPart> instrument_parts(const ToolModel& tool) {
       parts.push_back({Joint::jaw_b, "steel", blade(tool, -0.0016)});
       break;
     case ToolKind::clip_applier:
-      parts.push_back({Joint::body, "steel", open_shaft(tool, -0.002)});
+      parts.push_back({Joint::body, "steel", open_shaft(tool, -0.002, 0.0008)});
       parts.push_back({Joint::jaw_a, "steel", applier_jaw(tool)});
       parts.push_back({Joint::jaw_b, "steel", applier_jaw(tool)});
+      break;
+    case ToolKind::suction_irrigator:
+      parts.push_back({Joint::body, "matte_steel", irrigator_tube(tool)});
       break;
     case ToolKind::probe:
       parts.push_back({Joint::body, "steel", blunt_rod(tool)});

@@ -253,6 +253,7 @@ std::vector<Look> make_looks() {
       {"mesosalpinx", mesosalpinx(), true, {}},
       {"broad_ligament", fold(0.6f), true, {}},
       {"steel", metal(srgb(142, 142, 147), srgb(124, 124, 130), 0.34f), false, {}},
+      {"matte_steel", metal(srgb(126, 128, 132), srgb(112, 114, 120), 0.5f), false, {}},
       {"insulated", insulation(), false, {}},
       {"sleeve", metal(srgb(128, 130, 136), srgb(116, 118, 124), 0.42f), false, {}},
       {"titanium", metal(srgb(160, 162, 168), srgb(142, 144, 150), 0.3f), false, {}},
