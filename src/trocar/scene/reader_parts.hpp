@@ -76,6 +76,7 @@ class Reading {
   void tissue(const JsonObject& o, const std::filesystem::path& folder);
   void vessels(const JsonObject& o, const std::filesystem::path& folder);
   void fluids(const JsonObject& o);
+  void energy(const JsonObject& o);
   void port(const JsonObject& o);
   Placement placement(const JsonObject& o);
   void scope(const JsonObject& o);

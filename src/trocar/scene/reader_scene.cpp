@@ -18,6 +18,7 @@ void Reading::scene(const JsonObject& o, const fs::path& folder) {
   includes(o, "vessels", folder, vessels_shape(), &Reading::vessels, &Reading::vessels);
   includes(o, "instruments", folder, instrument_shape(), &Reading::instrument, &Reading::instrument);
   for (const JsonObject& f : o.objects("fluids")) fluids(f);
+  for (const JsonObject& e : o.objects("energy")) energy(e);
   for (const JsonObject& p : o.objects("ports")) port(p);
   for (const JsonObject& t : o.objects("tools")) {
     refer(Reference::To::instrument, t, "instrument");
@@ -50,6 +51,21 @@ void Reading::fluids(const JsonObject& o) {
   for (std::size_t i = 0; i < f.pool_on.size(); ++i)
     m_references.push_back({Reference::To::solid, f.pool_on[i], o.at("pool_on", i)});
   description.fluids = std::move(f);
+}
+
+void Reading::energy(const JsonObject& o) {
+  EnergySetting e;
+  e.blend = o.text("yellow") == "blend";
+  e.yellow_watts = o.number("yellow_W", e.yellow_watts);
+  e.blue_watts = o.number("blue_W", e.blue_watts);
+  e.bipolar_watts = o.number("bipolar_W", e.bipolar_watts);
+  e.cell = from_mm(o.number("cell_mm", 0.5));
+  e.bricks = o.integer("bricks", e.bricks);
+  e.awake = o.integer("awake", e.awake);
+  e.at = o.at();
+  if (e.awake > e.bricks)
+    o.fault("awake", fmt::format("expected no more than the {} bricks that are remembered, got {}", e.bricks, e.awake));
+  description.energy = e;
 }
 
 void Reading::tissue_table(const JsonObject& o, const fs::path& folder) {

@@ -20,6 +20,15 @@ void add_patch(core::Hasher& h, const StrandEndModel& end) {
   h.add(end.patch.drawn_pull);
 }
 
+void add_electrode(core::Hasher& h, const interactions::ElectrodeModel& e) {
+  const tissue::ElectrodeDescription& c = e.current;
+  h.add(std::int32_t(c.bipolar));
+  for (double v : {c.radius, c.efficiency, c.back, c.wet, c.tip_capacity, c.tip_contact, c.tip_air, c.tip_share,
+                   c.sticks_from, c.sticks_fully, c.stick_force, e.seal.bare, e.seal.pressed, e.seal.needed,
+                   e.seal.brittle, e.seal.strongest})
+    h.add(v);
+}
+
 void add_tool(core::Hasher& h, const interactions::ToolModel& t) {
   h.add(std::int32_t(t.kind));
   h.add(t.port);
@@ -28,6 +37,7 @@ void add_tool(core::Hasher& h, const interactions::ToolModel& t) {
                    t.parallel_gap, t.pinch_max, t.friction, t.rubbing, t.clip_length})
     h.add(v);
   h.add(t.clips);
+  if (t.electrode.there) add_electrode(h, t.electrode);
 }
 
 }  // namespace
