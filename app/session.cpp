@@ -187,6 +187,9 @@ void Session::collect_moments() {
       case Kind::torn:
         add_moment("torn", e.tool, body_name(model, e.index) + " tore");
         break;
+      case Kind::parted:
+        add_moment("parted", e.tool, fmt::format("{} parted {}", who, body_name(model, e.index)));
+        break;
       case Kind::cut:
         add_moment("cut", e.tool, fmt::format("{} cut {}", who, cut_name(model, m_state.cuts[size_t(e.index)])));
         break;

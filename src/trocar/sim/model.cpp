@@ -167,6 +167,14 @@ void seal(Model& model) {
     h.add(f.droplets.capacity), h.add(f.droplets.film_cells), h.add(f.droplets.film_capacity);
     h.add(model.wet.floor), h.add(model.wet.film);
   }
+  if (model.energy.there) {
+    const tissue::GeneratorPanel& panel = model.energy.panel;
+    add_to_hash(h, model.energy.heat);
+    h.add(std::int32_t(panel.yellow));
+    h.add(panel.yellow_watts), h.add(panel.blue_watts), h.add(panel.bipolar_watts);
+    for (const auto* masks : {&model.energy.organs, &model.energy.folds})
+      for (const geometry::CellMask& mask : *masks) h.add(mask.bits);
+  }
   model.hash = h.value();
 }
 

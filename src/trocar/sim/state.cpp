@@ -75,6 +75,11 @@ State initial_state(const Model& model) {
     s.openings.resize(interactions::kMaxOpenings);
     s.vessel_clips.resize(interactions::kMaxVesselClips);
   }
+  if (model.energy.there) {
+    s.heat = tissue::cold(model.energy.heat);
+    s.electrodes.resize(model.hands.size());
+    s.seals.resize(interactions::kMaxSeals);
+  }
   if (model.wet.there) s.fluids = fluids::initial_state(model.wet.model);
   make_counters(model, s);
   return s;
@@ -117,6 +122,12 @@ std::uint64_t hash_of(const State& s) noexcept {
     h.add(s.vessel_clips);
     h.add(s.opening_count);
     h.add(s.vessel_clip_count);
+  }
+  if (!s.electrodes.empty()) {
+    tissue::add_to_hash(h, s.heat);
+    h.add(s.electrodes);
+    h.add(s.seals);
+    h.add(s.seal_count);
   }
   if (!s.fluids.droplets.x.empty()) fluids::add_to_hash(h, s.fluids);
   return h.value();

@@ -11,6 +11,16 @@
 
 namespace trocar::sim {
 
+/// What a hand's electrode is and was at. No padding.
+struct ElectrodeHand {
+  tissue::ElectrodeState current;
+  Vec3d at{0, 0, 0};      ///< the tissue's point that it was last at [m]
+  Vec3d parted{0, 0, 0};  ///< where it last parted tissue, in that body's frame of heat [m]
+  std::int32_t body = -1, parted_body = -1;
+  std::int32_t changes = 0;  ///< ToolState::changes of the instrument that this is
+  std::int32_t reserved = 0;
+};
+
 struct State {
   std::uint64_t tick = 0;  ///< ticks made
   std::vector<tissue::NetworkState> solids;
@@ -39,6 +49,11 @@ struct State {
   std::vector<interactions::VesselOpening> openings;   ///< (kMaxOpenings)
   std::vector<interactions::VesselClip> vessel_clips;  ///< (kMaxVesselClips)
   std::int32_t opening_count = 0, vessel_clip_count = 0;
+  /// Heat, electrodes and what they seal; all empty in scenes without energy.
+  tissue::HeatState heat;
+  std::vector<ElectrodeHand> electrodes;        ///< (hands)
+  std::vector<interactions::VesselSeal> seals;  ///< (kMaxSeals)
+  std::int32_t seal_count = 0;
   fluids::FluidsState fluids;      ///< empty in scenes without fluids
   std::vector<std::uint8_t> seen;  ///< (samples) 1 = in view when last looked
 };

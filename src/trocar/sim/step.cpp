@@ -2,6 +2,7 @@
 #include <trocar/sim/circulation.hpp>
 #include <trocar/sim/contacts.hpp>
 #include <trocar/sim/hands.hpp>
+#include <trocar/sim/heating.hpp>
 #include <trocar/sim/jaws.hpp>
 #include <trocar/sim/posing.hpp>
 #include <trocar/sim/step.hpp>
@@ -51,6 +52,7 @@ constexpr Stage kStages[] = {
     {"advance organs", advance_organs},
     {"advance membranes", advance_membranes},
     {"feel", feel},
+    {"heat tissue", heat_tissue},
     {"tear", tear_tissue},
     {"let blood flow", let_blood_flow},
     {"move fluids", move_fluids},

@@ -53,6 +53,8 @@ void move_fluids(StepContext& c) noexcept {
   input.openings = c.work.wounds;
   input.capsules = {c.work.wet_tools.data(), size_t(tools)};
   input.floor = c.model.wet.floor;
+  if (c.work.steam.kilograms > 0) input.boiled = {&c.work.steam, 1};
+  input.smoke.coagulating = c.work.current_flows;
   begin_tick(c.model.wet.model, input, c.state.fluids, c.work.fluids);
   answer_drops(bodies, normalised(c.model.gravity, {0, 0, -1}), c.state.fluids.droplets, c.work.fluids.droplets);
   const fluids::FluidsReport report = finish_tick(c.model.wet.model, input, c.state.fluids, c.work.fluids);

@@ -1,0 +1,107 @@
+#include <algorithm>
+#include <cmath>
+
+#include <trocar/interactions/electrode_contact.hpp>
+#include <trocar/sim/current_cut.hpp>
+#include <trocar/sim/heat_bodies.hpp>
+#include <trocar/sim/heating.hpp>
+#include <trocar/sim/sealing.hpp>
+#include <trocar/sim/stage.hpp>
+
+namespace trocar::sim {
+namespace {
+
+using interactions::ElectrodeTouch;
+
+constexpr double kWarmTip = 0.5;  // [K] off 37 C: what is less warms nothing
+constexpr double kStill = 0.01;   // of ElectrodeState::stuck
+
+/// Is there anything to compute of this hand's electrode?
+bool at_work(const ElectrodeHand& hand, tissue::EnergyMode mode) noexcept {
+  return mode != tissue::EnergyMode::off || std::fabs(hand.current.tip - tissue::kBodyHeat) > kWarmTip ||
+         hand.current.stuck > kStill;
+}
+
+/// Tissue that has burst gives way: the wire is at the bottom of the groove that it has made.
+void sink(const StepContext& c, ElectrodeTouch& touch) noexcept {
+  const double step = 0.5 * c.model.energy.heat.cell;
+  if (!(dot(touch.inwards, touch.inwards) > 0) || touch.contact.gap > 0) return;
+  const auto parted = [&](Vec3d p) {
+    return tissue::reading(c.model.energy.heat, c.state.heat, touch.contact.body, p).parted > 0.5f;
+  };
+  Vec3d p = touch.contact.a;
+  for (double deep = 0; deep < interactions::kBareWire && parted(p); deep += step) p += step * touch.inwards;
+  touch.contact.a = touch.contact.b = p;
+}
+
+/// Hands that have changed their instrument hold one that is cold and clean.
+ElectrodeHand& electrode_of(StepContext& c, size_t t) noexcept {
+  ElectrodeHand& hand = c.state.electrodes[t];
+  const std::int32_t changes = c.state.tools[t].changes;
+  if (hand.changes != changes) hand = {};
+  hand.changes = changes;
+  return hand;
+}
+
+ElectrodeTouch touch_of(const StepContext& c, size_t t, tissue::EnergyMode mode) noexcept {
+  if (!at_work(c.state.electrodes[t], mode)) return {};
+  ElectrodeTouch touch = interactions::electrode_touch(c.model.tool(c.state, t), c.work.shapes[t], c.state.tools[t],
+                                                       tissue_of(c));
+  sink(c, touch);
+  return touch;
+}
+
+/// One hand's electrode in one tick. @param used  entries of Work::heat_sources so far
+void work_electrode(StepContext& c, size_t t, int& used) noexcept {
+  ElectrodeHand& hand = electrode_of(c, t);
+  const EnergyModel& energy = c.model.energy;
+  const interactions::ElectrodeModel& electrode = c.model.tool(c.state, t).electrode;
+  if (!electrode.there) return;
+  const tissue::FootSwitch pedals = foot_switch(c.input);
+  const bool works = c.state.heat.tick % std::uint64_t(energy.heat.period) == 0;
+  ElectrodeTouch touch;
+  if (works) touch = touch_of(c, t, tissue::asked_mode(electrode.current, energy.panel, pedals));
+  const tissue::Discharge d =
+      tissue::energise(electrode.current, energy.panel, pedals, touch.contact, energy.heat, tissue_shape(c.model),
+                       c.state.heat, c.work.heat, hand.current);
+  for (const tissue::HeatSource& source : d.span()) c.work.heat_sources[size_t(used++)] = source;
+  c.work.current_flows = c.work.current_flows || d.flows;
+  if (!works) return;
+  hand.body = touch.contact.body;
+  if (hand.body < 0) return;
+  hand.at = touch.place;
+  seal_vessels(c, t, touch);
+  if (d.flows && tissue::curve_of(d.mode).bursts) part_tissue(c, t, touch);
+}
+
+/// Steam leaves where the electrode is that makes it.
+void note_steam(StepContext& c, const tissue::HeatReport& report) noexcept {
+  c.work.steam = {};
+  if (!(report.boiled > 0)) return;
+  int from = -1;
+  for (size_t t = 0; t < c.state.electrodes.size(); ++t) {
+    const ElectrodeHand& hand = c.state.electrodes[t];
+    if (hand.current.joules > 0 && (from < 0 || hand.body == report.boiled_body)) from = int(t);
+  }
+  if (from < 0) return;
+  c.work.steam.at = c.state.electrodes[size_t(from)].at;
+  c.work.steam.kilograms = report.boiled;
+}
+
+}  // namespace
+
+// Current and heat.
+void heat_tissue(StepContext& c) noexcept {
+  c.work.current_flows = false;
+  c.work.steam = {};
+  if (!c.model.energy.there) return;
+  int used = 0;
+  for (size_t t = 0; t < c.model.hands.size(); ++t) work_electrode(c, t, used);
+  const tissue::HeatReport report = tissue::advance(c.model.energy.heat, {c.work.heat_sources.data(), size_t(used)},
+                                                    tissue_shape(c.model), c.state.heat, c.work.heat);
+  if (report.flags & (tissue::HeatReport::kBricksFull | tissue::HeatReport::kAwakeFull))
+    c.report.flags |= StepReport::kHeatFull;
+  note_steam(c, report);
+}
+
+}  // namespace trocar::sim
