@@ -17,6 +17,10 @@ constexpr double kHollow = 0.040;       // [m] as deep as an instrument goes in 
 std::array<float, 3> as_array(Vec3d v) { return {float(v.x), float(v.y), float(v.z)}; }
 Vec3d as_vector(const std::array<float, 3>& a) { return {double(a[0]), double(a[1]), double(a[2])}; }
 
+std::uint32_t pedals_of(const devices::HandCommand& command) {
+  return (command.blue ? sim::kBlue : 0u) | (command.yellow ? sim::kYellow : 0u);
+}
+
 }  // namespace
 
 HandPilot::HandPilot(const sim::Model& model) : m_model(model), m_input(model.start) {
@@ -61,11 +65,13 @@ const sim::Input& HandPilot::lead(const devices::HandSample& sample, const sim::
     move_scope(m_command.scope, view);
   else if (m_command.led < int(m_model.hands.size()))
     move_tool(m_command, view, state);
+  m_input.pedals = pedals_of(m_command);
   go_on(sample.dt, state);
   return m_input;
 }
 
 const sim::Input& HandPilot::rest(float dt, const sim::State& state) {
+  m_input.pedals = 0;
   go_on(dt, state);
   return m_input;
 }

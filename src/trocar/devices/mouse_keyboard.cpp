@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::array<const char*, std::size_t(Key::count)> kKeyNames = {
     "Tab", "1", "2", "3", "4", "0", "C", "Left",  "Right", "Up", "Down",  "PageUp", "PageDown",
-    "W",   "S", "Q", "E", "R", "F", "G", "Enter", "V",     "X",  "Space", "Shift"};
+    "W",   "S", "Q", "E", "R", "F", "G", "Enter", "V",     "X",  "Space", "Shift", "B", "N"};
 
 constexpr HelpLine kHelp[] = {
     {Device::keyboard, "1 2 3 4, Tab", "lead this hand, the next one; the others keep pose and grip"},
@@ -22,6 +22,7 @@ constexpr HelpLine kHelp[] = {
     {Device::keyboard, "X", "another instrument for this hand, another hand"},
     {Device::keyboard, "V", "bring the instrument into the view"},
     {Device::keyboard, "R F", "light post of an oblique endoscope"},
+    {Device::keyboard, "B N", "foot switch: blue, coagulates; yellow, cuts; as long as it is held"},
     {Device::keyboard, "Shift", "fine: a quarter of every motion, of closing too: for clips"},
     {Device::mouse, "move", "tip sideways, up and down; endoscope: where it looks"},
     {Device::mouse, "wheel", "deeper (away from you), back"},
@@ -35,6 +36,7 @@ constexpr HelpLine kHelp[] = {
     {Device::gamepad, "right stick", "up, down: deeper, back; sideways: roll"},
     {Device::gamepad, "right trigger", "close the jaws as far as it is pulled; endoscope: light post"},
     {Device::gamepad, "left trigger", "lock, unlock the jaws; endoscope: light post the other way"},
+    {Device::gamepad, "A, right stick pressed", "foot switch: blue, coagulates; yellow, cuts"},
     {Device::gamepad, "shoulders", "lead the previous, the next hand, the endoscope among them"},
     {Device::gamepad, "Y", "another instrument for this hand, another hand"},
     {Device::gamepad, "X", "bring the instrument into the view"},
@@ -253,6 +255,8 @@ HandCommand lead(const HandSettings& settings, const HandSample& given, HandStat
   command.rack = sample.pressed.has(Key::x) || (sample.middle_button && !state.last.middle_button) ||
                  went_down(Button::y, sample, state) || (tapped && !sample.left_button);
   command.insert = sample.pressed.has(Key::v) || went_down(Button::x, sample, state);
+  command.blue = sample.held.has(Key::b) || sample.gamepad.has(Button::a);
+  command.yellow = sample.held.has(Key::n) || sample.gamepad.has(Button::right_stick);
   if (state.led == kScope) {
     command.scope = scope_motion(settings, sample, s);
   } else {

@@ -49,6 +49,8 @@ enum class Key : std::uint8_t {
   x,
   space,
   shift,
+  b,
+  n,
   count
 };
 const char* name_of(Key key) noexcept;  ///< as help() writes it
@@ -128,6 +130,7 @@ struct HandCommand {
   ScopeMotion scope;
   bool rack = false;    ///< asked for what there is to choose from: hands, instruments
   bool insert = false;  ///< asked to bring the led instrument into the view
+  bool blue = false, yellow = false;  ///< foot switches as long as they are held, whoever is led
 };
 
 /// How much a device's motion means.  Our choice: 10 cm across a picture of 1000 px.
