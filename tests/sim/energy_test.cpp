@@ -159,7 +159,7 @@ Stump stump_of(double radius, std::uint32_t pedals) {
 }
 
 TEST(Energy, AHookSealsTheStumpsOfAnArteryOf1Millimetre) {
-  const Stump s = stump_of(0.00042, kBlue);
+  const Stump s = stump_of(0.00038, kBlue);
   EXPECT_LT(s.outer, 1.0e-3);
   EXPECT_GT(s.before, 0.5);
   EXPECT_EQ(s.after, 0);
@@ -172,7 +172,7 @@ TEST(Energy, AHookDoesNotSealAnArteryOf2Millimetres) {
 }
 
 TEST(Energy, WithoutCurrentAStumpBleedsOn) {
-  const Stump s = stump_of(0.00042, 0);
+  const Stump s = stump_of(0.00038, 0);
   EXPECT_GT(s.after, 0.3 * s.before);
 }
 

@@ -87,13 +87,11 @@ class WireSearch {
 
  private:
   bool take(std::int32_t body, Vec3d place, bool inside) noexcept {
-    double gap = inside ? 0.0 : 1.0;
-    for (int jaw = kJawA; jaw <= kJawB && !inside; ++jaw) {
-      const Capsule& c = m_shape.part[jaw];
-      const double w = geometry::closest_on_segment(place, c.a, c.b);
-      gap = std::min(gap, length(place - (c.a + w * (c.b - c.a))) - c.radius);
-    }
-    gap = gap <= kTouches ? 0.0 : gap;
+    // As thick as closed jaws are that tissue meets (tool_contact.hpp).
+    const Vec3d along = m_shape.frame.tip - m_shape.pivot;
+    const Vec3d axis = m_shape.pivot + geometry::closest_on_segment(place, m_shape.pivot, m_shape.frame.tip) * along;
+    const double apart = length(place - axis) - m_shape.part[kJawA].radius - m_shape.part[kJawB].radius;
+    const double gap = inside || apart <= kTouches ? 0.0 : apart;
     const double away = length(m_from - place);
     if (best.contact.body >= 0 && (gap > best.contact.gap || (gap == best.contact.gap && away >= m_away))) return false;
     m_away = away;
