@@ -27,6 +27,13 @@ Vec3d rest_normal(const tissue::Skin& skin, const std::array<int, 3>& corner, Ve
   return normalised(n, vec_cast<double>(skin.rest_normal[std::size_t(corner[0])]));
 }
 
+int nearest_corner(const std::array<int, 3>& corner, Vec3d weights) noexcept {
+  std::size_t most = 0;
+  for (std::size_t k = 1; k < 3; ++k)
+    if (weights[int(k)] > weights[int(most)]) most = k;
+  return corner[most];
+}
+
 /// Looks at bodies one after the other and keeps the nearest.
 class WireSearch {
  public:
@@ -43,6 +50,7 @@ class WireSearch {
     if (!take(body, p.point, inside)) return;
     keep(rest_of(*surface.skin, p.vertex, p.weights), p.normal);
     best.inwards = -1.0 * rest_normal(*surface.skin, p.vertex, p.weights);
+    best.point.element = nearest_corner(p.vertex, p.weights);
   }
 
   void sheet(const SheetView& view, std::int32_t body) noexcept {
@@ -64,6 +72,7 @@ class WireSearch {
       keep(rest_of(skin, t, on.weights), up);
       const double side = dot(up, surface.normal(vertex)) < 0 ? 1 : -1;
       best.inwards = side * rest_normal(skin, t, on.weights);
+      best.point.element = nearest_corner(t, on.weights);
     }
   }
 
@@ -98,7 +107,8 @@ class WireSearch {
     best.contact.body = body;
     best.contact.gap = gap;
     best.place = place;
-    best.element = -1;
+    best.point.body = body;
+    best.point.weight = 0;
     return true;
   }
   void keep(Vec3d rest, Vec3d normal) noexcept {
@@ -108,7 +118,8 @@ class WireSearch {
   void on_strand(const StrandBody& body, const tissue::StrandState& state, StrandPlace at) noexcept {
     const StrandFrame frame = frame_at(body, state, at);
     const double out = best.contact.a.y, y = dot(best.normal, frame.normal), z = dot(best.normal, frame.binormal);
-    best.element = at.element;
+    best.point.element = at.element;
+    best.point.weight = float(at.w);
     keep({arc_at(body, at), out * y, out * z}, best.normal);
     best.inwards = normalised(Vec3d{0, -y, -z}, Vec3d{0, -1, 0});
   }
@@ -149,6 +160,7 @@ ElectrodeTouch pads_touch(const ToolShape& shape, const ToolState& tool, const T
   ElectrodeTouch out;
   if (tool.holds == 0) return out;
   out.contact.body = tool.hold[0].body;
+  out.point = tool.hold[0];
   Vec3d sum[2];
   int count[2] = {0, 0};
   for (int i = 0; i < tool.holds; ++i) {
@@ -174,7 +186,6 @@ ElectrodeTouch pads_touch(const ToolShape& shape, const ToolState& tool, const T
                z = dot(out.normal, frame.binormal);
   out.contact.a = {s, radius * y, radius * z};
   out.contact.b = {s, -radius * y, -radius * z};
-  out.element = at.element;
   return out;
 }
 

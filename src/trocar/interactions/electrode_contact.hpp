@@ -16,7 +16,7 @@ struct ElectrodeTouch {
   tissue::ElectrodeContact contact;  ///< body as Hold::body; -1: none near
   Vec3d place;                       ///< the tissue's point [m]
   Vec3d normal{0, 0, 1};             ///< there, out of the tissue; between jaws: their opening
-  int element = -1;                  ///< of a strand
+  Hold point;                        ///< the tissue's point that is nearest to that and can be held; `local` is not set
   Vec3d inwards{0, 0, 0};            ///< from there into the tissue, in the contact's frame; zero between jaws
 };
 

@@ -74,10 +74,10 @@ bool part_strand(StepContext& c, size_t t, const ElectrodeTouch& touch) noexcept
   const std::int32_t strand = touch.contact.body;
   const interactions::StrandBody& body = c.model.bodies[size_t(strand)];
   tissue::StrandState& state = c.state.strands[size_t(strand)];
-  if (!body.cuttable || !state.alive[size_t(touch.element)]) return false;
-  if (!burst_across(c, strand, touch.element, touch.contact.a.x)) return false;
-  tissue::cut_element(state, touch.element);
-  open_vessels_within(c, strand, touch.element, int(t));
+  if (!body.cuttable || !state.alive[size_t(touch.point.element)]) return false;
+  if (!burst_across(c, strand, touch.point.element, touch.contact.a.x)) return false;
+  tissue::cut_element(state, touch.point.element);
+  open_vessels_within(c, strand, touch.point.element, int(t));
   return true;
 }
 

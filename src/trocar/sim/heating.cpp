@@ -2,11 +2,13 @@
 #include <cmath>
 
 #include <trocar/interactions/electrode_contact.hpp>
+#include <trocar/interactions/stick.hpp>
 #include <trocar/sim/current_cut.hpp>
 #include <trocar/sim/heat_bodies.hpp>
 #include <trocar/sim/heating.hpp>
 #include <trocar/sim/sealing.hpp>
 #include <trocar/sim/stage.hpp>
+#include <trocar/tissue/heat_look.hpp>
 
 namespace trocar::sim {
 namespace {
@@ -51,6 +53,38 @@ ElectrodeTouch touch_of(const StepContext& c, size_t t, tissue::EnergyMode mode)
   return touch;
 }
 
+constexpr double kGlues = 0.2;  // of ElectrodeState::stuck: tissue is pulled along from there on
+
+void stick(StepContext& c, size_t t, const ElectrodeTouch& touch, ElectrodeHand& hand) noexcept {
+  if (hand.stuck.body >= 0 || hand.current.stuck < kGlues) return;
+  hand.stuck = interactions::stuck_at(c.work.shapes[t], tissue_of(c), touch.point);
+}
+
+/// Coagulated strands are stiffer. Their step is implicit, so that any stiffness is stable; lattices' and folds' is not:
+/// theirs would take more sub-steps from all scenes that could be heated. What was cut in part stays weak.
+void stiffen(StepContext& c, const ElectrodeTouch& touch) noexcept {
+  const std::int32_t strand = touch.contact.body;
+  if (strand >= interactions::kSolidBase) return;
+  const size_t e = size_t(touch.point.element);
+  double& scale = c.state.strands[size_t(strand)].scale[e];
+  if (scale < 1) return;
+  const double s = touch.contact.a.x, r = 0.6 * c.model.bodies[size_t(strand)].model.radius[e];
+  double sum = 0;
+  for (const Vec3d at : {Vec3d{s, 0, 0}, Vec3d{s, r, 0}, Vec3d{s, -r, 0}, Vec3d{s, 0, r}, Vec3d{s, 0, -r}})
+    sum += double(tissue::stiffness(tissue::reading(c.model.energy.heat, c.state.heat, strand, at)));
+  scale = std::max(scale, sum / 5);
+}
+
+/// Is there still something to stick to?
+bool is_whole(const StepContext& c, const interactions::Hold& stuck) noexcept {
+  if (stuck.body >= interactions::kMembraneBase) return true;
+  if (stuck.body >= interactions::kSolidBase) {
+    const size_t organ = size_t(stuck.body - interactions::kSolidBase);
+    return stuck.element < c.work.skins[organ]->size() && !c.work.surfaces[organ].torn(stuck.element);
+  }
+  return c.state.strands[size_t(stuck.body)].alive[size_t(stuck.element)] != 0;
+}
+
 /// One hand's electrode in one tick. @param used  entries of Work::heat_sources so far
 void work_electrode(StepContext& c, size_t t, int& used) noexcept {
   ElectrodeHand& hand = electrode_of(c, t);
@@ -70,7 +104,9 @@ void work_electrode(StepContext& c, size_t t, int& used) noexcept {
   hand.body = touch.contact.body;
   if (hand.body < 0) return;
   hand.at = touch.place;
+  if (touch.contact.gap == 0) stick(c, t, touch, hand);
   seal_vessels(c, t, touch);
+  stiffen(c, touch);
   if (d.flows && tissue::curve_of(d.mode).bursts) part_tissue(c, t, touch);
 }
 
@@ -89,6 +125,25 @@ void note_steam(StepContext& c, const tissue::HeatReport& report) noexcept {
 }
 
 }  // namespace
+
+// Char on electrodes.
+void stick_tissue(StepContext& c) noexcept {
+  if (!c.model.energy.there) return;
+  const interactions::TissueView view = tissue_of(c);
+  for (size_t t = 0; t < c.model.hands.size(); ++t) {
+    ElectrodeHand& hand = electrode_of(c, t);
+    if (hand.stuck.body < 0) continue;
+    const interactions::ToolShape& shape = c.work.shapes[t];
+    const double bears = c.model.tool(c.state, t).electrode.current.stick_force * hand.current.stuck;
+    if (is_whole(c, hand.stuck) && interactions::stuck_pull(shape, view, hand.stuck) <= bears) {
+      interactions::stuck_load(shape, int(t), view, hand.stuck, c.work.strand_loads, c.work.organ_loads,
+                               c.work.membrane_loads);
+      continue;
+    }
+    tissue::tear_off(hand.current);
+    hand.stuck = {};
+  }
+}
 
 // Current and heat.
 void heat_tissue(StepContext& c) noexcept {

@@ -5,6 +5,7 @@
 
 #include <trocar/core/hash.hpp>
 #include <trocar/sim/state.hpp>
+#include <trocar/tissue/heat_scars.hpp>
 
 namespace trocar::sim {
 
@@ -307,6 +308,18 @@ void take_vessels(Source& in, const Model& model, State& s) {
     in.good = placed(s.vessel_clips[size_t(i)].vessel, s.vessel_clips[size_t(i)].s);
 }
 
+/// What the generator's panel shows, and scars. Tissue sticks to nothing in a picture.
+void take_heat(Source& in, const Model& model, State& s) {
+  in.take(s.electrodes.data(), s.electrodes.size());
+  for (ElectrodeHand& hand : s.electrodes) hand.stuck = {};
+  if (!in.good) return;
+  const std::ptrdiff_t read = tissue::take_scars(model.energy.heat, std::span(in.bytes).subspan(in.at), s.heat);
+  in.good = read >= 0;
+  if (!in.good) return;
+  in.at += size_t(read);
+  s.heat.tick = s.tick;  // so that who draws sees that it has changed
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> display_bytes(const Model& model, const State& s) {
@@ -342,6 +355,10 @@ std::vector<std::uint8_t> display_bytes(const Model& model, const State& s) {
       put(out, open.data(), open.size());
     }
   if (model.vessels.there()) put_vessels(out, s);
+  if (model.energy.there) {
+    put(out, s.electrodes.data(), s.electrodes.size());
+    tissue::put_scars(s.heat, out);
+  }
   return out;
 }
 
@@ -429,6 +446,7 @@ bool restore_display(const Model& model, const std::vector<std::uint8_t>& bytes,
       }
     }
   if (model.vessels.there()) take_vessels(in, model, s);
+  if (model.energy.there) take_heat(in, model, s);
   if (!in.good || in.at != bytes.size() || !sound(model, s)) return false;
   state = std::move(s);
   return true;

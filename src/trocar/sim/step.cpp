@@ -46,6 +46,7 @@ constexpr Stage kStages[] = {
     {"work jaws", work_jaws},
     {"touch tissue", touch_tissue},
     {"touch organs", touch_organs},
+    {"stick", stick_tissue},
     {"beat", beat},
     {"pull on borders", pull_on_borders},
     {"advance strands", advance_strands},
