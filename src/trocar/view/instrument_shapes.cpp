@@ -189,8 +189,8 @@ MeshBuffer blunt_rod(const ToolModel& tool) {
 
 /// A hook's bare wire, bent at its end: the foot looks to where jaws would open.
 MeshBuffer hook_wire(const ToolModel& tool) {
-  constexpr double foot = 0.0035, turn = 0.0012;
-  const double r = 0.5 * tool.jaw_width, tip = tool.jaw_length - r;
+  constexpr double turn = 0.0012;
+  const double r = 0.5 * tool.jaw_width, tip = tool.jaw_length - r, foot = 0.95 * tool.shaft_radius;
   const Vec3d x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
   std::vector<BarSection> sections{{-0.003 * z, r * x, r * y, kShaded}, {(tip - turn) * z, r * x, r * y, kClean}};
   for (int i = 1; i <= 6; ++i) {
