@@ -19,6 +19,7 @@ const Kind kKinds[] = {
     {"error", ui::Mark::error, true, Tone::error},
     {"clipped", ui::Mark::note, false, Tone::clip},
     {"cut", ui::Mark::note, false, Tone::cut},
+    {"parted", ui::Mark::note, false, {}},
     {"slipped", ui::Mark::warning, true, {}},
     {"clip-dropped", ui::Mark::warning, true, Tone::clip},
     {"closed-empty", ui::Mark::note, false, {}},

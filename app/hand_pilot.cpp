@@ -27,6 +27,10 @@ std::uint32_t pedals_of(const devices::HandCommand& command) {
 
 Vec3d as_vector(const std::array<float, 3>& a) { return {double(a[0]), double(a[1]), double(a[2])}; }
 
+std::uint32_t pedals_of(const devices::HandCommand& command) {
+  return (command.blue ? sim::kBlue : 0u) | (command.yellow ? sim::kYellow : 0u);
+}
+
 }  // namespace
 
 HandPilot::HandPilot(const sim::Model& model) : m_model(model), m_input(model.start) {
@@ -73,6 +77,7 @@ const sim::Input& HandPilot::lead(const devices::HandSample& sample, const sim::
     move_scope(m_command.scope, view);
   else if (m_command.led < int(m_model.hands.size()))
     move_tool(m_command, view, state);
+  m_input.pedals = pedals_of(m_command);
   go_on(sample.dt, state);
   return m_input;
 }

@@ -35,6 +35,10 @@ std::size_t bytes_of(const sim::State& s) {
     bytes += size_of(*bodies);
     for (const std::vector<std::uint8_t>& counters : *bodies) bytes += size_of(counters);
   }
+  const tissue::HeatState& h = s.heat;
+  bytes += size_of(h.key) + size_of(h.slot) + size_of(h.cells) + size_of(h.water) + size_of(h.damage) +
+           size_of(h.peak) + size_of(h.empty) + size_of(h.index);
+  for (const auto* awake : {&h.u, &h.next, &h.heat, &h.due, &h.conduction}) bytes += size_of(*awake);
   return bytes;
 }
 

@@ -7,6 +7,7 @@
 
 #include <trocar/numerics/portable.hpp>
 
+#include "generator.hpp"
 #include "hand_names.hpp"
 #include "ui.hpp"
 
@@ -172,6 +173,11 @@ void draw_pull(const PanelContent& c) {
   ui::text(fmt::format("{:.1f} N at the trocar", push), ui::kGrey);
 }
 
+void draw_generator(const PanelContent& c) {
+  for (const GeneratorLine& line : generator_lines(c.lesson.model, c.now.state))
+    ui::text(line.text, line.warning ? ui::kRed : line.on ? ui::kOrange : ui::kGrey);
+}
+
 void draw_steps(const PanelContent& c, float height) {
   ImGui::BeginChild("steps", {0, height}, false, ImGuiWindowFlags_NoNav);
   for (std::size_t i = 0; i < c.steps.size(); ++i) {
@@ -217,6 +223,7 @@ void draw_panel(const PanelContent& c, float left, float width, float height) {
   ImGui::Dummy({0, 2 * ui::scale()});
   draw_pull(c);
   draw_fluids(c);
+  draw_generator(c);
   draw_outlook(c);
   const float line = ImGui::GetTextLineHeightWithSpacing(), foot = line + 2 * ui::scale();
   ui::heading("Steps");

@@ -24,7 +24,7 @@ constexpr FlagName kFlags[] = {
     {tissue::StepReport::kNonFinite, "non_finite"},     {tissue::StepReport::kInverted, "inverted_cells"},
     {tissue::StepReport::kBadLoad, "bad_load"},         {tissue::StepReport::kIndefinite, "indefinite"},
     {sim::StepReport::kTooManyLoads, "too_many_loads"}, {sim::StepReport::kBadInput, "bad_input"},
-    {sim::StepReport::kBookFull, "book_full"},
+    {sim::StepReport::kBookFull, "book_full"},          {sim::StepReport::kHeatFull, "heat_full"},
 };
 
 std::string body_name(const sim::Model& model, std::int32_t body) {
@@ -186,6 +186,9 @@ void Session::collect_moments() {
         break;
       case Kind::torn:
         add_moment("torn", e.tool, body_name(model, e.index) + " tore");
+        break;
+      case Kind::parted:
+        add_moment("parted", e.tool, fmt::format("{} parted {}", who, body_name(model, e.index)));
         break;
       case Kind::cut:
         add_moment("cut", e.tool, fmt::format("{} cut {}", who, cut_name(model, m_state.cuts[size_t(e.index)])));

@@ -443,6 +443,24 @@ TEST(Wipe, IsAskedForWhoeverIsLed) {
   EXPECT_FALSE(session.give({}).wipe);
 }
 
+TEST(MouseKeyboard, FootSwitchesWorkAsLongAsTheyAreHeldWhoeverIsLed) {
+  Session session;
+  for (const Key hand : {Key::one, Key::two, Key::zero}) {
+    session.press(hand);
+    const HandCommand blue = session.give(Session::holding(Key::b)), yellow = session.give(Session::holding(Key::n));
+    EXPECT_TRUE(blue.blue && !blue.yellow);
+    EXPECT_TRUE(yellow.yellow && !yellow.blue);
+    EXPECT_TRUE(still(blue) && still(yellow));
+  }
+  HandSample pad;
+  pad.gamepad.set(Button::a);
+  EXPECT_TRUE(session.give(pad).blue);
+  pad.gamepad.set(Button::right_stick);
+  const HandCommand both = session.give(pad), none = session.give({});
+  EXPECT_TRUE(both.blue && both.yellow);
+  EXPECT_FALSE(none.blue || none.yellow);
+}
+
 TEST(Help, NamesEveryKey) {
   for (int key = 0; key < int(Key::count); ++key) {
     const std::string name = name_of(Key(key));

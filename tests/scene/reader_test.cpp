@@ -179,9 +179,10 @@ TEST(Reader, WrongTypesAreLocated) {
   EXPECT_EQ(faults_of({{18, R"("instruments": [{"name": "stick", "kind": "clip_applier", "clips": @1.5}],)"}}),
             one("expected a whole number in [0, 1000] for \"clips\", got 1.5"));
   EXPECT_EQ(faults_of({{12, R"("cuttable": @1,)"}}), one("expected true or false for \"cuttable\", got 1"));
-  EXPECT_EQ(faults_of({{18, R"("instruments": [{"name": "stick", "kind": @"grapser"}],)"}}),
-            one("expected one of grasper, clip_applier, scissors, probe, suction_irrigator for \"kind\", got "
-                "\"grapser\" (did you mean \"grasper\"?)"));
+  EXPECT_EQ(
+      faults_of({{18, R"("instruments": [{"name": "stick", "kind": @"grapser"}],)"}}),
+      one("expected one of grasper, clip_applier, scissors, probe, suction_irrigator, hook, bipolar for \"kind\", got "
+          "\"grapser\" (did you mean \"grasper\"?)"));
 }
 
 TEST(Reader, ASceneThatIsNoObjectIsAFault) {
@@ -327,6 +328,22 @@ TEST(Reader, InstrumentsMustBeOfOneMind) {
             one("expected 0 or nothing beside parallel_gap_mm (jaws turn or stay parallel), got an angle"));
 }
 
+TEST(Reader, ElectrodesBelongToHooksAndForceps) {
+  EXPECT_EQ(faults_of({{18, R"("instruments": [{"name": "stick", "kind": "probe", "electrode": @{}}],)"}}),
+            one("expected an electrode only in a hook or bipolar forceps, got one in a probe"));
+  EXPECT_EQ(faults_of({{18, R"("instruments": [{"name": "stick", "kind": "hook", "electrode": {"radius_mm": @9}}],)"}}),
+            one("expected a number in [0.5, 1.5] for \"radius_mm\", got 9"));
+  EXPECT_EQ(faults_of({{18, R"("instruments": [{"name": "stick", "kind": "hook", "electrode": {"seals_mm": 1}}],)"}}),
+            Faults{});
+}
+
+TEST(Reader, APanelRemembersAtLeastWhatIsWarm) {
+  EXPECT_EQ(faults_of({{3, R"("name": "small", "energy": {"bricks": 64, "awake": @65},)"}}),
+            one("expected no more than the 64 bricks that are remembered, got 65"));
+  EXPECT_EQ(faults_of({{3, R"("name": "small", "energy": {"yellow": @"coag"},)"}}),
+            one("expected one of cut, blend for \"yellow\", got \"coag\""));
+}
+
 TEST(Reader, AllFaultsComeInOnePassInTheOrderOfTheFile) {
   EXPECT_EQ(
       faults_of({{3, R"("name": "small", @"titel": "x",)"},
@@ -334,7 +351,7 @@ TEST(Reader, AllFaultsComeInOnePassInTheOrderOfTheFile) {
                  {7, R"("solids": [{"name": "ball", "tissue": @"hard", "cell_mm": @0, "sections": [)"},
                  {20, R"("tools": [{"instrument": "stick", "port": @"none", "tip_mm": @[0, 0]}],)"}}),
       (Faults{"expected a known key of a scene ($schema, format, name, title, gravity_m_s2, tissues, organs, vessels, "
-              "fluids, instruments, ports, tools, scope), got \"titel\" (did you mean \"title\"?)",
+              "fluids, energy, instruments, ports, tools, scope), got \"titel\" (did you mean \"title\"?)",
               "expected a number in [1, 25000] for \"density_kg_m3\", got -1", "expected a finite number, got 1e999",
               "expected a known tissue (soft), got \"hard\"", "expected a number in [0.1, 100] for \"cell_mm\", got 0",
               "expected a known port (navel), got \"none\"",

@@ -5,8 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
+#include <trocar/tissue/heat_look.hpp>
 
-#include "small_scene.hpp"
+#include "small_energy.hpp"
 
 using namespace trocar;
 using namespace trocar::sim;
@@ -47,6 +48,33 @@ TEST(Display, RoundTripKeepsWhatIsDrawn) {
   ASSERT_EQ(to.cut_count, 1);
   EXPECT_EQ(std::memcmp(&to.cuts[0], &from.cuts[0], sizeof from.cuts[0]), 0);
   EXPECT_EQ(std::memcmp(&to.clips[0], &from.clips[0], sizeof from.clips[0]), 0);
+}
+
+TEST(Display, ScarsComeBackInShades) {
+  const Model& m = small::energy();
+  small::Table t(m);
+  small::put_hook_down(t);
+  t.input.pedals = kBlue;
+  t.steps(1500);
+  const std::vector<std::uint8_t> bytes = display_bytes(m, t.state);
+  State shown = initial_state(m);
+  ASSERT_TRUE(restore_display(m, bytes, shown));
+  EXPECT_EQ(shown.electrodes[small::kHook].current.tip, t.state.electrodes[small::kHook].current.tip);
+  const Vec3d top{small::kOnOrgan.x, small::kOnOrgan.y, 0.0118};
+  int burnt = 0;
+  for (double deep = 0; deep < 0.006; deep += 2e-4) {
+    const auto look_at = [&](const State& s) {
+      return tissue::look(tissue::reading(m.energy.heat, s.heat, interactions::kSolidBase, top - Vec3d{0, 0, deep}));
+    };
+    const tissue::HeatLook was = look_at(t.state), now = look_at(shown);
+    EXPECT_NEAR(was.pale, now.pale, 0.12f) << deep;
+    EXPECT_NEAR(was.char_, now.char_, 0.3f) << deep;
+    burnt += was.pale > 0.5f;
+  }
+  EXPECT_GT(burnt, 5);
+  State other = initial_state(m);
+  std::vector<std::uint8_t> spoiled(bytes.begin(), bytes.end() - 1);
+  EXPECT_FALSE(restore_display(m, spoiled, other));
 }
 
 TEST(Display, CutElementsComeBackCut) {

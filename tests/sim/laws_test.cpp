@@ -14,7 +14,7 @@
 #include <trocar/core/random.hpp>
 #include <trocar/sim/recording.hpp>
 
-#include "small_scene.hpp"
+#include "small_energy.hpp"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define TROCAR_SANITIZED 1
@@ -340,6 +340,27 @@ TEST(Step, AllocatesNothing) {
   std::vector<double> some(1000, 1.0);
   counting = false;
   EXPECT_EQ(allocations, 1) << some[0];
+}
+
+TEST(Step, AllocatesNothingWhileCurrentHeatsTissueAndPartsIt) {
+#ifndef TROCAR_COUNTS_ALLOCATIONS
+  GTEST_SKIP() << "this build's heap is somebody else's (sanitizer, or not glibc)";
+#endif
+  small::Table t(small::energy());
+  small::put_hook_down(t);
+  t.input.pedals = kYellow;
+  StepReport report;
+  int parted = 0;
+  counting = true;
+  allocations = 0;
+  for (int i = 0; i < 500; ++i) {
+    t.point(small::kHook, small::kOnOrgan + Vec3d{4e-6 * i, 0, -1e-6 * i});
+    report = step(t.model, t.input, t.state, t.work);
+    for (int e = 0; e < report.event_count; ++e) parted += report.events[e].kind == Event::parted;
+  }
+  counting = false;
+  EXPECT_EQ(allocations, 0);
+  EXPECT_GT(parted, 0);
 }
 
 TEST(Step, StagesRunOneByOneMakeTheSameTick) {

@@ -11,10 +11,13 @@
 #include <trocar/render/backend.hpp>
 #include <trocar/scene/compile.hpp>
 #include <trocar/scene/reader.hpp>
+#include <trocar/sim/heat_bodies.hpp>
+#include <trocar/sim/step.hpp>
 #include <trocar/sim/visibility.hpp>
 #include <trocar/view/clip_shape.hpp>
 #include <trocar/view/fat_tags.hpp>
 #include <trocar/view/fimbria.hpp>
+#include <trocar/view/heat_marks.hpp>
 #include <trocar/view/instrument_shapes.hpp>
 #include <trocar/view/looks.hpp>
 #include <trocar/view/organ_drawing.hpp>
@@ -363,6 +366,61 @@ TEST(OrganDrawing, ACutOpensTheSkinIntoAClosedWound) {
   EXPECT_EQ(backend->stats().triangles, 2 * before + 2 * open);  // and go when the attempt starts again
 }
 
+TEST(HeatMarks, BurnFromPaleOverTanToBlack) {
+  tissue::HeatReading r;
+  EXPECT_EQ(burn_of(r), 0);
+  r.coagulated = 1;
+  EXPECT_EQ(burn_of(r), 100);
+  r.peak = 95;
+  EXPECT_EQ(burn_of(r), 180);
+  r.peak = 250;
+  EXPECT_EQ(burn_of(r), 255);
+}
+
+const sim::Model& bleeding() {
+  static const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/bleeding/scene.json"));
+  return model;
+}
+
+TEST(HeatMarks, WhatIsCoagulatedIsBurntThereAndNowhereElse) {
+  const sim::Model& m = bleeding();
+  sim::State state = sim::initial_state(m);
+  const int uterus = m.organ_index("uterus");
+  const tissue::Skin& skin = m.skin(uterus);
+  HeatMarks marks(m, interactions::kSolidBase + uterus, below_skin(skin));
+  EXPECT_FALSE(marks.update(state));
+  const Vec3d at = vec_cast<double>(skin.rest[0]);
+  tissue::HeatSource source;
+  source.body = interactions::kSolidBase + uterus;
+  source.a = source.b = at;
+  source.radius = 1.5e-3;
+  source.watts = 20;
+  tissue::HeatWork work = tissue::make_work(m.energy.heat);
+  for (int i = 0; i < 2000; ++i) tissue::advance(m.energy.heat, {&source, 1}, sim::tissue_shape(m), state.heat, work);
+  EXPECT_TRUE(marks.update(state));
+  for (std::size_t i = 0; i < skin.rest.size(); ++i) {
+    const double away = length(vec_cast<double>(skin.rest[i]) - at);
+    if (away < 1e-3) {
+      EXPECT_GE(marks.burn(i), 90) << i;
+    }
+    if (away > 8e-3) {
+      EXPECT_EQ(marks.burn(i), 0) << i;
+    }
+  }
+}
+
+TEST(SceneView, AHeatedSceneIsDrawable) {
+  const sim::Model& m = bleeding();
+  const auto backend = render::make_null_backend();
+  SceneView view(m, *backend);
+  sim::State state = sim::initial_state(m);
+  sim::Work work = sim::make_work(m);
+  sim::Input input = m.start;
+  input.pedals = sim::kBlue;
+  for (int i = 0; i < 20; ++i) sim::step(m, input, state, work);
+  expect_drawable(view, *backend, state);
+}
+
 TEST(InstrumentShapes, JawsMeetAtTheTipWhenClosedAndStandApartWhenOpen) {
   for (const sim::HandModel& hand : pelvis().hands)
     for (const interactions::ToolModel& tool : hand.rack) {
@@ -383,7 +441,7 @@ TEST(InstrumentShapes, JawsMeetAtTheTipWhenClosedAndStandApartWhenOpen) {
 }
 
 TEST(InstrumentShapes, PartsStayWithinTheirTrocarAndFaceOut) {
-  for (const sim::HandModel& hand : pelvis().hands)
+  for (const sim::HandModel& hand : bleeding().hands)
     for (const interactions::ToolModel& tool : hand.rack)
       for (const InstrumentPart& part : instrument_parts(tool)) {
         EXPECT_NE(look(part.look).name, "neutral") << part.look;

@@ -8,8 +8,8 @@ namespace trocar::devices {
 namespace {
 
 constexpr std::array<const char*, std::size_t(Key::count)> kKeyNames = {
-    "Tab", "1", "2", "3", "4", "0", "C",     "Left", "Right", "Up",    "Down",  "PageUp", "PageDown", "W",
-    "S",   "Q", "E", "R", "F", "G", "Enter", "V",    "X",     "Space", "Shift", "A",      "D",        "T"};
+    "Tab", "1", "2", "3", "4", "0",     "C", "Left", "Right", "Up",    "Down", "PageUp", "PageDown", "W", "S",
+    "Q",   "E", "R", "F", "G", "Enter", "V", "X",    "Space", "Shift", "A",    "D",      "T",        "B", "N"};
 
 constexpr HelpLine kHelp[] = {
     {Device::keyboard, "1 2 3 4, Tab", "lead this hand, the next one; the others keep pose and grip"},
@@ -24,6 +24,7 @@ constexpr HelpLine kHelp[] = {
     {Device::keyboard, "R F", "light post of an oblique endoscope"},
     {Device::keyboard, "A D", "suction-irrigator: water, suction, as long as it is held"},
     {Device::keyboard, "T", "wipe the lens; it takes eight seconds"},
+    {Device::keyboard, "B N", "foot switch: blue, coagulates; yellow, cuts; as long as it is held"},
     {Device::keyboard, "Shift", "fine: a quarter of every motion, of closing too: for clips"},
     {Device::mouse, "move", "tip sideways, up and down; endoscope: where it looks"},
     {Device::mouse, "wheel", "deeper (away from you), back"},
@@ -40,6 +41,7 @@ constexpr HelpLine kHelp[] = {
     {Device::gamepad, "left trigger", "lock, unlock the jaws; endoscope: light post the other way"},
     {Device::gamepad, "right, left trigger", "of a suction-irrigator: suction, water"},
     {Device::gamepad, "B", "wipe the lens"},
+    {Device::gamepad, "A, right stick pressed", "foot switch: blue, coagulates; yellow, cuts"},
     {Device::gamepad, "shoulders", "lead the previous, the next hand, the endoscope among them"},
     {Device::gamepad, "Y", "another instrument for this hand, another hand"},
     {Device::gamepad, "X", "bring the instrument into the view"},
@@ -275,6 +277,8 @@ HandCommand lead(const HandSettings& settings, const HandSample& given, HandStat
                  went_down(Button::y, sample, state) || (tapped && jaws && !sample.left_button);
   command.insert = sample.pressed.has(Key::v) || went_down(Button::x, sample, state);
   command.wipe = sample.held.has(Key::t) || sample.pressed.has(Key::t) || sample.gamepad.has(Button::b);
+  command.blue = sample.held.has(Key::b) || sample.gamepad.has(Button::a);
+  command.yellow = sample.held.has(Key::n) || sample.gamepad.has(Button::right_stick);
   if (state.led == kScope) {
     command.scope = scope_motion(settings, sample, s);
   } else {

@@ -53,6 +53,8 @@ enum class Key : std::uint8_t {
   a,
   d,
   t,
+  b,
+  n,
   count
 };
 const char* name_of(Key key) noexcept;  ///< as help() writes it
@@ -134,6 +136,7 @@ struct HandCommand {
   bool insert = false;                  ///< asked to bring the led instrument into the view
   bool irrigate = false, suck = false;  ///< valves of the led instrument, as long as they are held
   bool wipe = false;                    ///< asked for a clean lens, whoever is led
+  bool blue = false, yellow = false;    ///< foot switches as long as they are held, whoever is led
 };
 
 /// How much a device's motion means.  Our choice: 10 cm across a picture of 1000 px.

@@ -141,7 +141,7 @@ void lose(ToolState& tool) noexcept {
   for (double& p : tool.pull) p = 0;
 }
 
-bool grips(ToolKind kind) noexcept { return kind == ToolKind::grasper; }
+bool grips(ToolKind kind) noexcept { return kind == ToolKind::grasper || kind == ToolKind::bipolar; }
 
 }  // namespace
 

@@ -7,10 +7,19 @@
 
 #include <trocar/collision/rods.hpp>
 #include <trocar/kinematics/fulcrum.hpp>
+#include <trocar/tissue/electrosurgery.hpp>
+#include <trocar/tissue/electrosurgery_seal.hpp>
 
 namespace trocar::interactions {
 
-enum class ToolKind : std::int32_t { grasper, clip_applier, scissors, probe, suction_irrigator };
+enum class ToolKind : std::int32_t { grasper, clip_applier, scissors, probe, suction_irrigator, hook, bipolar };
+
+/// What current leaves from: a hook's wire, the pads of bipolar jaws.
+struct ElectrodeModel {
+  bool there = false;
+  tissue::ElectrodeDescription current;
+  tissue::SealDescription seal;
+};
 
 struct ToolModel {
   std::string name;
@@ -28,6 +37,7 @@ struct ToolModel {
   double rubbing = 0.1;
   double clip_length = 0;  ///< [m]
   std::int32_t clips = 0;  ///< in the magazine at the start
+  ElectrodeModel electrode;
 };
 
 inline constexpr int kMaxHolds = 12;  ///< tissue points between one pair of jaws

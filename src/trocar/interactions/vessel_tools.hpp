@@ -10,6 +10,7 @@
 
 namespace trocar::interactions {
 
+inline constexpr int kMaxSeals = 32;
 inline constexpr int kMaxOpenings = 30, kMaxVesselClips = 64;  ///< two sides each fit fluids::kMostOpenings
 
 /// Where blood gets out. No padding.
@@ -33,6 +34,22 @@ struct VesselClip {
   std::int32_t clip = -1;  ///< number in the book of clips
 };
 static_assert(sizeof(VesselClip) == 3 * 8 + 2 * 4, "no padding");
+
+/// A stretch of a vessel that heat seals, or begins to. No padding.
+struct VesselSeal {
+  double from = 0, to = 0;  ///< 0 .. 1 along the vessel; of a stump one place, a little way behind its end
+  tissue::SealState state;
+  std::uint64_t tick = 0;  ///< when it was last heated
+  std::int32_t vessel = -1;
+  std::int32_t opening = -1;  ///< the hole that it closes, else -1
+};
+static_assert(sizeof(VesselSeal) == 5 * 8 + 2 * 4, "no padding");
+
+/// Bears three times a systolic pressure of 120 mmHg: what practice asks of a seal. What bears less lets blood pass.
+inline constexpr double kSealBears = 48e3;  ///< [Pa]
+inline bool holds(const VesselSeal& seal) noexcept {
+  return tissue::burst_pressure(tissue::SealDescription{}, seal.state) >= kSealBears;
+}
 
 /// Titanium legs close in this time; what they close narrows as fast.                                  [s]  Our choice
 inline constexpr double kClipCloses = 0.3;

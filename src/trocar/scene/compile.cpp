@@ -6,6 +6,7 @@
 #include <trocar/scene/capacity.hpp>
 #include <trocar/scene/compile.hpp>
 #include <trocar/scene/compile_contacts.hpp>
+#include <trocar/scene/compile_energy.hpp>
 #include <trocar/scene/compile_fluids.hpp>
 #include <trocar/scene/compile_hands.hpp>
 #include <trocar/scene/compile_membrane.hpp>
@@ -233,6 +234,7 @@ sim::Model compile(const Description& d, CompileReport* report) {
   for (const Sheet& sheet : d.sheets) model.sheets.push_back(compile_sheet(sheet, model));
   compile_vessels(d, model, faults, report);
   compile_fluids(d, model, faults);
+  compile_energy(d, model, faults);
   compile_hands(d, model, faults);
   if (!faults.empty()) throw core::BadInput(faults);
   compile_contacts(model);

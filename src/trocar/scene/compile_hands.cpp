@@ -14,10 +14,26 @@ interactions::ToolKind tool_kind(InstrumentKind kind) {
       return interactions::ToolKind::scissors;
     case InstrumentKind::suction_irrigator:
       return interactions::ToolKind::suction_irrigator;
+    case InstrumentKind::hook:
+      return interactions::ToolKind::hook;
+    case InstrumentKind::bipolar:
+      return interactions::ToolKind::bipolar;
     case InstrumentKind::probe:
       break;
   }
   return interactions::ToolKind::probe;
+}
+
+interactions::ElectrodeModel electrode_of(const Instrument& i) {
+  interactions::ElectrodeModel out;
+  if (!has_electrode(i.kind)) return out;
+  out.there = true;
+  if (i.kind == InstrumentKind::bipolar) out.current = tissue::bipolar_jaws();
+  out.current.radius = i.electrode.radius;
+  out.current.efficiency = i.electrode.efficiency;
+  out.current.stick_force = i.electrode.stick_force;
+  if (i.electrode.seals > 0) (out.current.bipolar ? out.seal.pressed : out.seal.bare) = i.electrode.seals;
+  return out;
 }
 
 interactions::ToolModel tool_of(const Instrument& i, Vec3d port) {
@@ -36,6 +52,7 @@ interactions::ToolModel tool_of(const Instrument& i, Vec3d port) {
   tool.friction = i.friction;
   tool.clip_length = i.clip_length;
   tool.clips = i.clips;
+  tool.electrode = electrode_of(i);
   return tool;
 }
 

@@ -50,7 +50,8 @@ vessels::VesselGraph joined(const Description& d) {
   }
   all.settings.tick = sim::kTick;
   all.settings.max_openings = interactions::kMaxOpenings;
-  all.settings.max_clips = interactions::kMaxVesselClips;
+  // What heat seals is closed as by clips, at both ends.
+  all.settings.max_clips = interactions::kMaxVesselClips + (d.energy ? 2 * interactions::kMaxSeals : 0);
   return all;
 }
 

@@ -202,7 +202,28 @@ struct BleederSetting {
   int which = 0;  ///< of the holes; vary() chooses
 };
 
-enum class InstrumentKind { grasper, clip_applier, scissors, probe, suction_irrigator };
+/// The generator's panel, and how much heat is remembered. A scene that has it computes heat.
+struct EnergySetting {
+  bool blend = false;                                             ///< what the yellow pedal gives, else cut
+  double yellow_watts = 40, blue_watts = 40, bipolar_watts = 30;  ///< [W]
+  double cell = 0.0005;                                           ///< of the heat's grid [m]
+  int bricks = 256, awake = 128;                                  ///< tissue::HeatDescription
+  core::Location at;
+};
+
+/// The part of an instrument that current leaves from.
+struct ElectrodeSetting {
+  double radius = 0.001;     ///< of its contact [m]
+  double efficiency = 0.45;  ///< share of the generator's power that heats tissue
+  double stick_force = 2;    ///< to tear it off char [N]
+  double seals = 0;          ///< largest outer diameter of vessels that it seals [m]; 0: 1 mm bare, 3 mm between jaws
+};
+
+enum class InstrumentKind { grasper, clip_applier, scissors, probe, suction_irrigator, hook, bipolar };
+
+inline bool has_electrode(InstrumentKind kind) {
+  return kind == InstrumentKind::hook || kind == InstrumentKind::bipolar;
+}
 
 /// An instrument's shape and grip. Jaws open symmetrically in the plane of the shaft axis and the opening direction.
 struct Instrument {
@@ -216,6 +237,7 @@ struct Instrument {
   double friction = 1.67;   ///< pull the grip bears per pinch force: profiled jaws hold 5 N with 3 N [Heijnsdijk 04]
   double clip_length = 0.0085;  ///< clip applier: length of a closed clip [m]
   int clips = 0;                ///< clips in the magazine
+  ElectrodeSetting electrode;   ///< of hooks and bipolar forceps
   core::Location at;
 };
 
@@ -247,6 +269,7 @@ struct Description {
   std::vector<VesselTree> vessels;  ///< heart and blood are the first one's
   std::optional<FluidsSetting> fluids;
   std::optional<BleederSetting> bleeder;
+  std::optional<EnergySetting> energy;
   std::vector<Port> ports;
   std::vector<Instrument> instruments;
   std::vector<Placement> placements;  ///< tools, in hand order: [0] left, [1] right, [2] assistant/third

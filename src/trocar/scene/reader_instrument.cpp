@@ -14,6 +14,8 @@ void Reading::instrument(const JsonObject& o, const std::filesystem::path&) {
            : kind == "clip_applier"      ? InstrumentKind::clip_applier
            : kind == "scissors"          ? InstrumentKind::scissors
            : kind == "suction_irrigator" ? InstrumentKind::suction_irrigator
+           : kind == "hook"              ? InstrumentKind::hook
+           : kind == "bipolar"           ? InstrumentKind::bipolar
                                          : InstrumentKind::probe;
   const auto mm = [&](const char* key, double& value) {
     if (o.has(key)) value = from_mm(o.number(key));
@@ -30,7 +32,15 @@ void Reading::instrument(const JsonObject& o, const std::filesystem::path&) {
   i.pinch_max = o.number("pinch_max_N", i.pinch_max);
   i.friction = o.number("friction", i.friction);
   i.clips = o.integer("clips", i.clips);
+  for (const JsonObject& e : o.objects("electrode")) {
+    i.electrode.radius = from_mm(e.number("radius_mm", 1));
+    i.electrode.efficiency = e.number("efficiency", i.electrode.efficiency);
+    i.electrode.stick_force = e.number("stick_force_N", i.electrode.stick_force);
+    i.electrode.seals = from_mm(e.number("seals_mm", 0));
+  }
   i.at = o.at();
+  if (o.has("electrode") && o.has("kind") && !has_electrode(i.kind))
+    o.fault("electrode", fmt::format("expected an electrode only in a hook or bipolar forceps, got one in a {}", kind));
   if (i.parallel_gap > 0 && i.opening > 0)
     o.fault("opening_deg", "expected 0 or nothing beside parallel_gap_mm (jaws turn or stay parallel), got an angle");
   if (i.clips > 0 && o.has("kind") && i.kind != InstrumentKind::clip_applier)

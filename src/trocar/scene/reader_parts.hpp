@@ -77,6 +77,7 @@ class Reading {
   void vessels(const JsonObject& o, const std::filesystem::path& folder);
   void fluids(const JsonObject& o);
   void bleeder(const JsonObject& o);
+  void energy(const JsonObject& o);
   void port(const JsonObject& o);
   Placement placement(const JsonObject& o);
   void scope(const JsonObject& o);

@@ -19,6 +19,7 @@ void Reading::scene(const JsonObject& o, const fs::path& folder) {
   includes(o, "instruments", folder, instrument_shape(), &Reading::instrument, &Reading::instrument);
   for (const JsonObject& f : o.objects("fluids")) fluids(f);
   for (const JsonObject& b : o.objects("bleeder")) bleeder(b);
+  for (const JsonObject& e : o.objects("energy")) energy(e);
   for (const JsonObject& p : o.objects("ports")) port(p);
   for (const JsonObject& t : o.objects("tools")) {
     refer(Reference::To::instrument, t, "instrument");
@@ -61,6 +62,21 @@ void Reading::bleeder(const JsonObject& o) {
     b.holes.push_back({h.text("vessel"), h.number("at"), from_mm(h.number("diameter_mm")), h.at()});
   }
   description.bleeder = std::move(b);
+}
+
+void Reading::energy(const JsonObject& o) {
+  EnergySetting e;
+  e.blend = o.text("yellow") == "blend";
+  e.yellow_watts = o.number("yellow_W", e.yellow_watts);
+  e.blue_watts = o.number("blue_W", e.blue_watts);
+  e.bipolar_watts = o.number("bipolar_W", e.bipolar_watts);
+  e.cell = from_mm(o.number("cell_mm", 0.5));
+  e.bricks = o.integer("bricks", e.bricks);
+  e.awake = o.integer("awake", e.awake);
+  e.at = o.at();
+  if (e.awake > e.bricks)
+    o.fault("awake", fmt::format("expected no more than the {} bricks that are remembered, got {}", e.bricks, e.awake));
+  description.energy = e;
 }
 
 void Reading::tissue_table(const JsonObject& o, const fs::path& folder) {

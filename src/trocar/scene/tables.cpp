@@ -239,10 +239,23 @@ const Shape& organ() {
   return shape;
 }
 
+const Shape& electrode() {
+  static const Shape shape{
+      "electrode",
+      "The part of a hook or of bipolar forceps that current leaves from; without this key, with the defaults.",
+      {keys::number("radius_mm", 0.5, 1.5, "of its contact with tissue, default 1"),
+       keys::number("efficiency", 0.3, 0.6, "share of the generator's power that heats tissue, default 0.45"),
+       keys::number("stick_force_N", 0, 20, "that tears it off char, default 2"),
+       keys::number("seals_mm", 0.1, 10,
+                    "largest outer diameter of vessels that it seals, default 1, between jaws 3")}};
+  return shape;
+}
+
 std::vector<Key> instrument_keys() {
   return {needed(keys::name("name", "what scenes call it")),
           keys::text("title", "one line for people"),
-          needed(keys::choice("kind", {"grasper", "clip_applier", "scissors", "probe", "suction_irrigator"},
+          needed(keys::choice("kind",
+                              {"grasper", "clip_applier", "scissors", "probe", "suction_irrigator", "hook", "bipolar"},
                               "what it does")),
           keys::number("shaft_diameter_mm", 1, 30, "default 5"),
           keys::number("shaft_length_mm", 50, 1000, "from the handle to the jaws' joint, default 310"),
@@ -254,7 +267,8 @@ std::vector<Key> instrument_keys() {
           keys::number("pinch_max_N", 0, 200, "between the jaws with the handle closed, default 15"),
           keys::number("friction", 0, 10, "pull that the grip bears per pinch force, default 1.67"),
           keys::number("clip_length_mm", 0.5, 50, "of a closed clip, default 8.5"),
-          keys::integer("clips", 0, 1000, "in the magazine, default 0")};
+          keys::integer("clips", 0, 1000, "in the magazine, default 0"),
+          keys::object("electrode", electrode, "of a hook or bipolar forceps")};
 }
 
 const Shape& instrument() {
@@ -325,6 +339,19 @@ const Shape& bleeder() {
   return shape;
 }
 
+const Shape& energy() {
+  static const Shape shape{
+      "energy",
+      "What the generator's panel is set to; without this key instruments have no current and nothing is heated.",
+      {keys::choice("yellow", {"cut", "blend"}, "what the yellow pedal gives, default cut"),
+       keys::number("yellow_W", 0, 120, "default 40"), keys::number("blue_W", 0, 120, "coagulation, default 40"),
+       keys::number("bipolar_W", 0, 120, "blue pedal, bipolar forceps, default 30"),
+       keys::number("cell_mm", 0.25, 0.75, "edge of the cells in which heat is computed, default 0.5"),
+       keys::integer("bricks", 8, 4096, "of 8 x 8 x 8 cells that can be remembered, default 256"),
+       keys::integer("awake", 8, 2048, "of them that can be warm at once, default 128")}};
+  return shape;
+}
+
 Shape file_shape(std::string name, std::string meaning, std::vector<Key> keys) {
   Shape shape{std::move(name), std::move(meaning), std::move(keys)};
   shape.keys.insert(shape.keys.begin(),
@@ -344,6 +371,7 @@ const Shape& scene_shape() {
                   keys::includes("vessels", vessels_shape, "arteries and veins: files or objects"),
                   keys::object("fluids", fluids, "drops and a pool, default none"),
                   keys::object("bleeder", bleeder, "a vessel that opens by itself, default none"),
+                  keys::object("energy", energy, "current and heat, default none"),
                   needed(keys::includes("instruments", instrument, "instruments: files or objects")),
                   needed(keys::objects("ports", port, 1, "trocars")),
                   needed(keys::objects("tools", tool, 0, "in the order of the hands: left, right, assistant")),

@@ -232,10 +232,23 @@ const char* kind_name(InstrumentKind kind) {
       return "scissors";
     case InstrumentKind::suction_irrigator:
       return "suction_irrigator";
+    case InstrumentKind::hook:
+      return "hook";
+    case InstrumentKind::bipolar:
+      return "bipolar";
     case InstrumentKind::probe:
       break;
   }
   return "probe";
+}
+
+JsonValue written(const ElectrodeSetting& e) {
+  JsonValue o = json_object();
+  put(o, "radius_mm", mm(e.radius));
+  put(o, "efficiency", json_number(e.efficiency));
+  put(o, "stick_force_N", json_number(e.stick_force));
+  if (e.seals > 0) put(o, "seals_mm", mm(e.seals));
+  return o;
 }
 
 JsonValue written(const Instrument& i) {
@@ -256,6 +269,7 @@ JsonValue written(const Instrument& i) {
   put(o, "friction", json_number(i.friction));
   put(o, "clip_length_mm", mm(i.clip_length));
   if (i.clips > 0) put(o, "clips", json_number(i.clips));
+  if (has_electrode(i.kind)) put(o, "electrode", written(i.electrode));
   return o;
 }
 
@@ -335,6 +349,18 @@ JsonValue written(const BleederSetting& b) {
   return o;
 }
 
+JsonValue written(const EnergySetting& e) {
+  JsonValue o = json_object();
+  put(o, "yellow", json_text(e.blend ? "blend" : "cut"));
+  put(o, "yellow_W", json_number(e.yellow_watts));
+  put(o, "blue_W", json_number(e.blue_watts));
+  put(o, "bipolar_W", json_number(e.bipolar_watts));
+  put(o, "cell_mm", mm(e.cell));
+  put(o, "bricks", json_number(e.bricks));
+  put(o, "awake", json_number(e.awake));
+  return o;
+}
+
 }  // namespace
 
 std::string write_scene(const Description& d) {
@@ -348,6 +374,7 @@ std::string write_scene(const Description& d) {
   if (!d.vessels.empty()) put(o, "vessels", list(d.vessels, [](const VesselTree& x) { return written(x); }));
   if (d.fluids) put(o, "fluids", written(*d.fluids));
   if (d.bleeder) put(o, "bleeder", written(*d.bleeder));
+  if (d.energy) put(o, "energy", written(*d.energy));
   put(o, "instruments", list(d.instruments, [](const Instrument& x) { return written(x); }));
   put(o, "ports", list(d.ports, [](const Port& x) { return written(x); }));
   put(o, "tools", list(d.placements, [](const Placement& x) { return written(x); }));

@@ -3,6 +3,7 @@
 
 #include <trocar/numerics/portable.hpp>
 #include <trocar/sim/circulation.hpp>
+#include <trocar/sim/sealing.hpp>
 #include <trocar/sim/stage.hpp>
 
 namespace trocar::sim {
@@ -238,9 +239,11 @@ void lay_out(StepContext& c) noexcept {
     out.s = o.s;
     out.kind = o.through ? vessels::Opening::Kind::cut : vessels::Opening::Kind::hole;
     out.area = o.area;
+    out.sealed = sealed_share(s, int(i));
     out.outside = c.model.vessels.flow.settings.cavity_pressure;
   }
-  for (size_t i = 0; i < c.work.closed.size(); ++i) {
+  lay_out_seals(s, std::span(c.work.closed).subspan(interactions::kMaxVesselClips));
+  for (size_t i = 0; i < size_t(interactions::kMaxVesselClips); ++i) {
     vessels::Clip& out = c.work.closed[i];
     out = {};
     if (int(i) >= s.vessel_clip_count) continue;

@@ -22,6 +22,15 @@ void add_patch(core::Hasher& h, const StrandEndModel& end) {
   h.add(end.patch.drawn_pull);
 }
 
+void add_electrode(core::Hasher& h, const interactions::ElectrodeModel& e) {
+  const tissue::ElectrodeDescription& c = e.current;
+  h.add(std::int32_t(c.bipolar));
+  for (double v :
+       {c.radius, c.efficiency, c.back, c.wet, c.tip_capacity, c.tip_contact, c.tip_air, c.tip_share, c.sticks_from,
+        c.sticks_fully, c.stick_force, e.seal.bare, e.seal.pressed, e.seal.needed, e.seal.brittle, e.seal.strongest})
+    h.add(v);
+}
+
 void add_tool(core::Hasher& h, const interactions::ToolModel& t) {
   h.add(std::int32_t(t.kind));
   h.add(t.port);
@@ -30,6 +39,7 @@ void add_tool(core::Hasher& h, const interactions::ToolModel& t) {
                    t.parallel_gap, t.pinch_max, t.friction, t.rubbing, t.clip_length})
     h.add(v);
   h.add(t.clips);
+  if (t.electrode.there) add_electrode(h, t.electrode);
 }
 
 }  // namespace
@@ -168,6 +178,14 @@ void seal(Model& model) {
     h.add(f.pool.origin), h.add(f.pool.u), h.add(f.pool.v), h.add(f.pool.nx), h.add(f.pool.ny), h.add(f.pool.cell);
     h.add(f.droplets.capacity), h.add(f.droplets.film_cells), h.add(f.droplets.film_capacity);
     h.add(model.wet.floor), h.add(model.wet.film);
+  }
+  if (model.energy.there) {
+    const tissue::GeneratorPanel& panel = model.energy.panel;
+    add_to_hash(h, model.energy.heat);
+    h.add(std::int32_t(panel.yellow));
+    h.add(panel.yellow_watts), h.add(panel.blue_watts), h.add(panel.bipolar_watts);
+    for (const auto* masks : {&model.energy.organs, &model.energy.folds})
+      for (const geometry::CellMask& mask : *masks) h.add(mask.bits);
   }
   model.hash = h.value();
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <trocar/fluids/fluids.hpp>
+#include <trocar/geometry/cell_mask.hpp>
 #include <trocar/interactions/body_contact.hpp>
 #include <trocar/interactions/border.hpp>
 #include <trocar/interactions/hosting.hpp>
@@ -17,6 +18,7 @@
 #include <trocar/interactions/vessel_path.hpp>
 #include <trocar/sim/input.hpp>
 #include <trocar/tissue/cuttable_skin.hpp>
+#include <trocar/tissue/electrosurgery.hpp>
 #include <trocar/tissue/prestress.hpp>
 #include <trocar/vessels/flow.hpp>
 
@@ -135,6 +137,14 @@ struct WetModel {
   std::vector<std::int32_t> film;  ///< (bodies + 1) where the places of film of each begin (interactions::WetBodies)
 };
 
+/// Current and heat, where a scene has them.
+struct EnergyModel {
+  bool there = false;
+  tissue::HeatModel heat;
+  tissue::GeneratorPanel panel;
+  std::vector<geometry::CellMask> organs, folds;  ///< what of them is tissue (heat_bodies.hpp)
+};
+
 /// A hand at a trocar, and the instruments that go through it.
 struct HandModel {
   std::string name;                           ///< of the trocar: "left_lateral"
@@ -180,6 +190,7 @@ struct Model {
   std::vector<MembraneModel> membranes;
   VesselsModel vessels;
   WetModel wet;
+  EnergyModel energy;
   std::vector<HandModel> hands;  ///< at most kMaxTools
   ScopeModel scope;
   Input start;  ///< everything as placed

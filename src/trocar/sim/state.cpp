@@ -5,6 +5,7 @@
 
 #include <trocar/core/hash.hpp>
 #include <trocar/sim/state.hpp>
+#include <trocar/tissue/heat_scars.hpp>
 
 namespace trocar::sim {
 
@@ -75,6 +76,11 @@ State initial_state(const Model& model) {
     s.openings.resize(interactions::kMaxOpenings);
     s.vessel_clips.resize(interactions::kMaxVesselClips);
   }
+  if (model.energy.there) {
+    s.heat = tissue::cold(model.energy.heat);
+    s.electrodes.resize(model.hands.size());
+    s.seals.resize(interactions::kMaxSeals);
+  }
   if (model.wet.there) s.fluids = fluids::initial_state(model.wet.model);
   if (model.irrigates()) s.impacts.resize(size_t(model.wet.model.droplets.capacity));
   make_counters(model, s);
@@ -118,6 +124,12 @@ std::uint64_t hash_of(const State& s) noexcept {
     h.add(s.vessel_clips);
     h.add(s.opening_count);
     h.add(s.vessel_clip_count);
+  }
+  if (!s.electrodes.empty()) {
+    tissue::add_to_hash(h, s.heat);
+    h.add(s.electrodes);
+    h.add(s.seals);
+    h.add(s.seal_count);
   }
   if (!s.fluids.droplets.x.empty()) fluids::add_to_hash(h, s.fluids);
   if (!s.impacts.empty()) {
@@ -302,6 +314,18 @@ void take_vessels(Source& in, const Model& model, State& s) {
     in.good = placed(s.vessel_clips[size_t(i)].vessel, s.vessel_clips[size_t(i)].s);
 }
 
+/// What the generator's panel shows, and scars. Tissue sticks to nothing in a picture.
+void take_heat(Source& in, const Model& model, State& s) {
+  in.take(s.electrodes.data(), s.electrodes.size());
+  for (ElectrodeHand& hand : s.electrodes) hand.stuck = {};
+  if (!in.good) return;
+  const std::ptrdiff_t read = tissue::take_scars(model.energy.heat, std::span(in.bytes).subspan(in.at), s.heat);
+  in.good = read >= 0;
+  if (!in.good) return;
+  in.at += size_t(read);
+  s.heat.tick = s.tick;  // so that who draws sees that it has changed
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> display_bytes(const Model& model, const State& s) {
@@ -337,6 +361,10 @@ std::vector<std::uint8_t> display_bytes(const Model& model, const State& s) {
       put(out, open.data(), open.size());
     }
   if (model.vessels.there()) put_vessels(out, s);
+  if (model.energy.there) {
+    put(out, s.electrodes.data(), s.electrodes.size());
+    tissue::put_scars(s.heat, out);
+  }
   return out;
 }
 
@@ -424,6 +452,7 @@ bool restore_display(const Model& model, const std::vector<std::uint8_t>& bytes,
       }
     }
   if (model.vessels.there()) take_vessels(in, model, s);
+  if (model.energy.there) take_heat(in, model, s);
   if (!in.good || in.at != bytes.size() || !sound(model, s)) return false;
   state = std::move(s);
   return true;

@@ -18,6 +18,17 @@ enum Valve : std::uint8_t {
   kPlugged = 4,   ///< sucks, but tissue lies on the port: nothing flows
   kSucksGas = 8,  ///< there is less liquid than it could take
 };
+/// What a hand's electrode is and was at. No padding.
+struct ElectrodeHand {
+  tissue::ElectrodeState current;
+  Vec3d at{0, 0, 0};      ///< the tissue's point that it was last at [m]
+  Vec3d parted{0, 0, 0};  ///< where it last parted tissue, in that body's frame of heat [m]
+  std::int32_t body = -1, parted_body = -1;
+  std::int32_t changes = 0;  ///< ToolState::changes of the instrument that this is
+  interactions::Hold stuck;  ///< what sticks to it; body -1: nothing
+};
+static_assert(sizeof(ElectrodeHand) == sizeof(tissue::ElectrodeState) + 6 * 8 + 3 * 4 + sizeof(interactions::Hold),
+              "no padding");
 
 struct State {
   std::uint64_t tick = 0;  ///< ticks made
@@ -47,6 +58,11 @@ struct State {
   std::vector<interactions::VesselOpening> openings;   ///< (kMaxOpenings)
   std::vector<interactions::VesselClip> vessel_clips;  ///< (kMaxVesselClips)
   std::int32_t opening_count = 0, vessel_clip_count = 0;
+  /// Heat, electrodes and what they seal; all empty in scenes without energy.
+  tissue::HeatState heat;
+  std::vector<ElectrodeHand> electrodes;        ///< (hands)
+  std::vector<interactions::VesselSeal> seals;  ///< (kMaxSeals)
+  std::int32_t seal_count = 0;
   fluids::FluidsState fluids;  ///< empty in scenes without fluids
   /// What drops gave to tissue in the last tick: it goes to the bodies in the next. Empty without a suction-irrigator.
   std::vector<fluids::Impact> impacts;  ///< (drops' capacity) the first `impact_count`

@@ -2,6 +2,7 @@
 #include <trocar/sim/circulation.hpp>
 #include <trocar/sim/contacts.hpp>
 #include <trocar/sim/hands.hpp>
+#include <trocar/sim/heating.hpp>
 #include <trocar/sim/jaws.hpp>
 #include <trocar/sim/posing.hpp>
 #include <trocar/sim/step.hpp>
@@ -45,6 +46,7 @@ constexpr Stage kStages[] = {
     {"work jaws", work_jaws},
     {"touch tissue", touch_tissue},
     {"touch organs", touch_organs},
+    {"stick", stick_tissue},
     {"beat", beat},
     {"press with drops", press_with_drops},
     {"pull on borders", pull_on_borders},
@@ -52,6 +54,7 @@ constexpr Stage kStages[] = {
     {"advance organs", advance_organs},
     {"advance membranes", advance_membranes},
     {"feel", feel},
+    {"heat tissue", heat_tissue},
     {"tear", tear_tissue},
     {"let blood flow", let_blood_flow},
     {"move fluids", move_fluids},

@@ -18,12 +18,13 @@ struct Event {
     dropped_clip,
     cut,
     exchanged,
-    torn
+    torn,
+    parted
   } kind = none;
   std::int32_t tool = 0;
   /// The clip's or the cut's number in the State's book; grasped: the body held (interactions::Hold::body);
-  /// torn: the body that tore, likewise, under the hand that pulls or presses most; exchanged: the new instrument's
-  /// number in the rack; released and slipped: -1.
+  /// parted: the body that current has cut, likewise; torn: the body that tore, likewise, under the hand that pulls or
+  /// presses most; exchanged: the new instrument's number in the rack; released and slipped: -1.
   std::int32_t index = 0;
 };
 inline constexpr int kMaxEvents = 24, kRoomForTears = 8;  ///< all; of those, only for tears
@@ -37,6 +38,7 @@ struct StepReport {
     kBookFull = 1u << 18,   ///< the book of clips or cuts, or what an organ keeps for cuts, is full: clips are lost,
                             ///< blades no longer cut, tears open no further
     kBloodFlow = 1u << 19,  ///< blood flow found no solution and was not advanced; restore a State
+    kHeatFull = 1u << 22,   ///< no room for more heated tissue: raise "bricks" or "awake" of the scene's energy
     kDropsFull = 1u << 20,  ///< no room for more drops of fluid: what flowed went straight into the pool
   };
   std::uint32_t flags = 0;

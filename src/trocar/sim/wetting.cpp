@@ -170,6 +170,8 @@ void move_fluids(StepContext& c) noexcept {
   input.tools = {c.work.valves.data(), c.model.hands.size()};
   input.floor = c.model.wet.floor;
   input.smoke = what_the_lens_meets(c);
+  if (c.work.steam.kilograms > 0) input.boiled = {&c.work.steam, 1};
+  input.smoke.coagulating = c.work.current_flows;
   begin_tick(c.model.wet.model, input, c.state.fluids, c.work.fluids);
   answer_drops(bodies, normalised(c.model.gravity, {0, 0, -1}), c.state.fluids.droplets, c.work.fluids.droplets);
   const fluids::FluidsReport report = finish_tick(c.model.wet.model, input, c.state.fluids, c.work.fluids);

@@ -182,10 +182,11 @@ Work make_work(const Model& model, core::ThreadPool* pool) {
     for (const Vessel& v : model.vessels.list) w.vessel_points.emplace_back(v.path.points.size());
     w.flow = vessels::make_work(model.vessels.flow);
     w.open.resize(interactions::kMaxOpenings);
-    w.closed.resize(interactions::kMaxVesselClips);
+    w.closed.resize(size_t(model.vessels.flow.settings.max_clips));
     w.flows.resize(interactions::kMaxOpenings);
     w.bleeds.resize(2 * interactions::kMaxOpenings);
   }
+  if (model.energy.there) w.heat = tissue::make_work(model.energy.heat);
   if (model.wet.there) {
     w.fluids = fluids::make_work(model.wet.model);
     w.wounds.resize(2 * interactions::kMaxOpenings);
@@ -247,6 +248,13 @@ void poison(Work& w) noexcept {
   scribble(w.flows);
   scribble(w.bleeds);
   w.bleed_count = -1;
+  scribble(w.heat.u);
+  scribble(w.heat.conduction);
+  scribble(w.heat.boiled);
+  scribble(w.heat.touched);
+  scribble(w.heat.weight);
+  std::memset(static_cast<void*>(&w.heat_sources), 0xff, sizeof w.heat_sources);
+  std::memset(static_cast<void*>(&w.steam), 0xff, sizeof w.steam);
   fluids::poison(w.fluids);
   scribble(w.wounds);
   std::memset(static_cast<void*>(&w.wet_tools), 0xff, sizeof w.wet_tools);

@@ -59,6 +59,10 @@ struct Work {
   std::vector<vessels::OpeningFlow> flows;
   std::vector<Bleed> bleeds;  ///< (2 kMaxOpenings) for whoever takes up the blood, after the flow's stage
   int bleed_count = 0;
+  tissue::HeatWork heat;
+  std::array<tissue::HeatSource, 2 * kMaxTools> heat_sources;
+  fluids::Boiled steam;  ///< what boiled off in this tick, for the fluids
+  bool current_flows = false;
   fluids::FluidsWork fluids;
   std::vector<fluids::Opening> wounds;  ///< (2 kMaxOpenings) sides of openings
   std::array<fluids::Capsule, kMaxTools * interactions::kToolParts> wet_tools;

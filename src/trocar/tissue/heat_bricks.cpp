@@ -189,6 +189,8 @@ void link_awake(const HeatModel& m, HeatState& s) noexcept {
 
 }  // namespace
 
+void index_bricks(const HeatModel& m, HeatState& s) noexcept { index_anew(m, s); }
+
 BrickKey neighbour(const BrickKey& key, int face) noexcept {
   const int by = face & 1 ? 1 : -1;
   return {key.body, key.i + (face / 2 == 0 ? by : 0), key.j + (face / 2 == 1 ? by : 0),

@@ -22,6 +22,9 @@ inline constexpr std::int32_t kNobody = -1;
 /// The brick there; kNobody if it is not known, kEmpty - n if it is the n-th without tissue.
 std::int32_t find(const HeatModel& model, const HeatState& state, const BrickKey& key) noexcept;
 
+/// Makes the table by which bricks are found anew.
+void index_bricks(const HeatModel& model, HeatState& state) noexcept;
+
 /// The slot of the brick there, woken or made if need be; -1 if it holds no tissue or there is no room (flagged).
 std::int32_t wake(const HeatModel& model, const BrickKey& key, const TissueShape& shape, HeatState& state,
                   std::uint32_t& flags) noexcept;

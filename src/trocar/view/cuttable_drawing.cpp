@@ -102,9 +102,16 @@ void CuttableDrawing::place(const tissue::CuttableState& state, std::span<const 
   if (m_dented) render::vertex_normals(m_pose.position, m_indices, m_normals);
 }
 
+void CuttableDrawing::burn(const sim::State& state, HeatMarks& marks) {
+  if (!marks.stirred(state)) return;
+  m_burnt = true;
+  const std::vector<Vec3d> places = below_skin(m_skin.skin);
+  for (std::size_t i = 0; i < places.size(); ++i) m_paint[i].burn = marks.burn_at(state, places[i]);
+}
+
 void CuttableDrawing::update(const tissue::CuttableState& state, std::span<const collision::Capsule> rods) {
   const bool changed = state.version != m_version;
-  if (!m_moved(state.nodes) && !changed && !m_dented && !near(m_box, rods)) return;
+  if (!m_moved(state.nodes) && !changed && !m_burnt && !m_dented && !near(m_box, rods)) return;
   if (changed) make_skin(state);
   place(state, rods);
   if (changed)
@@ -113,8 +120,11 @@ void CuttableDrawing::update(const tissue::CuttableState& state, std::span<const
                     .rest = m_skin.skin.rest,
                     .paint = m_paint,
                     .indices = m_indices});
+  else if (m_burnt)
+    m_mesh.repaint(m_pose.position, m_normals, m_paint);
   else
     m_mesh.move(m_pose.position, m_normals);
+  m_burnt = false;
 }
 
 }  // namespace trocar::view

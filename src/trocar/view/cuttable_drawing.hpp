@@ -6,6 +6,7 @@
 #include <trocar/sim/model.hpp>
 #include <trocar/tissue/face_skin.hpp>
 #include <trocar/view/dent.hpp>
+#include <trocar/view/heat_marks.hpp>
 #include <trocar/view/mesh_buffer.hpp>
 #include <trocar/view/relief.hpp>
 
@@ -20,6 +21,8 @@ class CuttableDrawing {
   /// Moves the mesh, or makes it anew where the State has another cut than the last; nothing where nothing has moved.
   /// @param rods  instruments that may dent it
   void update(const tissue::CuttableState& state, std::span<const collision::Capsule> rods = {});
+  /// What heat has left; before update().
+  void burn(const sim::State& state, HeatMarks& marks);
   render::MeshHandle mesh() const { return m_mesh.handle(); }
   /// As drawn now.
   std::span<const Vec3f> positions() const { return m_pose.position; }
@@ -42,7 +45,7 @@ class CuttableDrawing {
   std::vector<std::uint8_t> m_at_rim;  ///< (vertices) 1: between nodes where the inside is bare
   std::vector<std::uint32_t> m_indices;
   tissue::Box m_box;
-  bool m_dented = false;
+  bool m_dented = false, m_burnt = false;
   MovedNodes m_moved;
   OwnedMesh m_mesh;
 };

@@ -207,6 +207,22 @@ MeshBuffer blunt_rod(const ToolModel& tool) {
   return turned(outline, kAround);
 }
 
+/// A hook's bare wire, bent at its end: the foot looks to where jaws would open.
+MeshBuffer hook_wire(const ToolModel& tool) {
+  constexpr double turn = 0.0012;
+  const double r = 0.5 * tool.jaw_width, tip = tool.jaw_length - r, foot = 0.95 * tool.shaft_radius;
+  const Vec3d x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+  std::vector<BarSection> sections{{-0.003 * z, r * x, r * y, kShaded}, {(tip - turn) * z, r * x, r * y, kClean}};
+  for (int i = 1; i <= 6; ++i) {
+    const double a = 0.5 * kPi * i / 6, c = std::cos(a), s = std::sin(a);
+    const Vec3d across = c * x - s * z;
+    sections.push_back({(turn * (1 - c)) * x + (tip - turn + turn * s) * z, r * across, r * y, kUsed});
+  }
+  sections.push_back({(foot - 0.4 * r) * x + tip * z, -r * z, r * y, kUsed});
+  sections.push_back({foot * x + tip * z, -0.6 * r * z, 0.6 * r * y, kUsed});
+  return bar(sections, 1.0);
+}
+
 }  // namespace
 
 std::vector<InstrumentPart> instrument_parts(const ToolModel& tool) {
@@ -234,6 +250,16 @@ std::vector<InstrumentPart> instrument_parts(const ToolModel& tool) {
       break;
     case ToolKind::probe:
       parts.push_back({Joint::body, "steel", blunt_rod(tool)});
+      break;
+    case ToolKind::hook:
+      parts.push_back({Joint::body, "insulated", shaft(tool, 0)});
+      parts.push_back({Joint::body, "steel", hook_wire(tool)});
+      break;
+    case ToolKind::bipolar:
+      parts.push_back({Joint::body, "insulated", shaft(tool, -0.0098)});
+      parts.push_back({Joint::body, "steel", hinge(tool.shaft_radius)});
+      parts.push_back({Joint::jaw_a, "steel", grasper_jaw(tool)});
+      parts.push_back({Joint::jaw_b, "steel", grasper_jaw(tool)});
       break;
   }
   return parts;

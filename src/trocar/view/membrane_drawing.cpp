@@ -36,7 +36,8 @@ MembraneDrawing::MembraneDrawing(const sim::Model& model, int membrane, render::
       m_index(membrane),
       m_columns((m_membrane->sheet.columns - 1) * kFine + 1),
       m_rows((m_membrane->sheet.rows - 1) * kFine + 1),
-      m_torn(m_membrane->sheet.triangles.size(), 0) {
+      m_torn(m_membrane->sheet.triangles.size(), 0),
+      m_marks(model, interactions::kMembraneBase + membrane, flat_places()) {
   const tissue::MembraneState rest = tissue::rest_state(m_membrane->sheet);
   m_buffer.positions.resize(std::size_t(m_columns) * std::size_t(m_rows));
   place(rest);
@@ -44,6 +45,20 @@ MembraneDrawing::MembraneDrawing(const sim::Model& model, int membrane, render::
   connect(m_torn);
   render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);
   m_mesh = OwnedMesh(backend, m_buffer.data());
+}
+
+std::vector<Vec3d> MembraneDrawing::flat_places() const {
+  const tissue::MembraneModel& sheet = m_membrane->sheet;
+  const auto node = [&](int c, int r) { return sheet.network.rest[std::size_t(r * sheet.columns + c)]; };
+  std::vector<Vec3d> places;
+  for (int r = 0; r < m_rows; ++r)
+    for (int c = 0; c < m_columns; ++c) {
+      const int i = std::min(c / kFine, sheet.columns - 2), j = std::min(r / kFine, sheet.rows - 2);
+      const double u = double(c - i * kFine) / kFine, v = double(r - j * kFine) / kFine;
+      places.push_back((1 - v) * ((1 - u) * node(i, j) + u * node(i + 1, j)) +
+                       v * ((1 - u) * node(i, j + 1) + u * node(i + 1, j + 1)));
+    }
+  return places;
 }
 
 /// Rest coordinates: those of a fold with an arcade are its own, others' are where it is drawn.
@@ -112,9 +127,13 @@ void MembraneDrawing::update(const sim::State& state) {
     m_torn = torn;
     connect(torn);
   }
+  const bool burnt = m_marks.update(state);
+  for (std::size_t i = 0; burnt && i < m_buffer.paint.size(); ++i) m_buffer.paint[i].burn = m_marks.burn(i);
   render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);
   if (changed)
     m_mesh.replace(m_buffer.data());
+  else if (burnt)
+    m_mesh.update(m_buffer);
   else
     m_mesh.move(m_buffer.positions, m_buffer.normals);
 }

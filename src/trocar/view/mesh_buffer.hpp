@@ -68,6 +68,9 @@ class OwnedMesh {
   void move(std::span<const Vec3f> positions, std::span<const Vec3f> normals) {
     m_backend->update_mesh(m_handle, positions, normals, {});
   }
+  void repaint(std::span<const Vec3f> positions, std::span<const Vec3f> normals, std::span<const Paint> paint) {
+    m_backend->update_mesh(m_handle, positions, normals, paint);
+  }
   void replace(const render::MeshData& data) { m_backend->replace_mesh(m_handle, data); }
 
  private:

@@ -61,6 +61,7 @@ void OrganDrawing::open_wounds(std::span<const std::uint8_t> parted) {
     }
   const auto copy = [&](std::uint32_t of, float depth, Paint paint) {
     m_wound.push_back({of, depth});
+    paint.burn = m_paint[of].burn;
     m_open.rest.push_back(m_solid->fine.rest[of]);
     m_open.paint.push_back(paint);
     return std::uint32_t(m_open.rest.size() - 1);
@@ -109,11 +110,13 @@ void OrganDrawing::sink_wounds() {
 }
 
 void OrganDrawing::update(const tissue::NetworkState& state, std::span<const std::uint8_t> parted,
-                          std::span<const collision::Capsule> rods) {
+                          std::span<const collision::Capsule> rods, const HeatMarks* burnt) {
+  for (std::size_t i = 0; burnt && i < m_paint.size(); ++i) m_paint[i].burn = burnt->burn(i);
   const auto cut = [](std::uint8_t p) { return p != 0; };
   const bool was_open = !m_wound.empty(), open = std::any_of(parted.begin(), parted.end(), cut);
-  const bool changed = open ? !std::equal(parted.begin(), parted.end(), m_parted.begin(), m_parted.end()) : was_open;
-  if (!m_moved(state.nodes) && !changed && !m_dented && !near(m_box, rods)) return;
+  const bool changed =
+      open ? burnt || !std::equal(parted.begin(), parted.end(), m_parted.begin(), m_parted.end()) : was_open;
+  if (!m_moved(state.nodes) && !changed && !burnt && !m_dented && !near(m_box, rods)) return;
   tissue::pose_skin(view_of(m_solid->network, state), m_solid->fine, m_pose);
   render::vertex_normals(m_pose.position, m_indices, m_normals);
   lift();
@@ -130,6 +133,8 @@ void OrganDrawing::update(const tissue::NetworkState& state, std::span<const std
                       .rest = m_solid->fine.rest,
                       .paint = m_paint,
                       .indices = m_indices});
+    else if (burnt)
+      m_mesh.repaint(m_pose.position, m_normals, m_paint);
     else
       m_mesh.move(m_pose.position, m_normals);
     return;

@@ -4,6 +4,7 @@
 
 #include <trocar/sim/state.hpp>
 #include <trocar/view/dent.hpp>
+#include <trocar/view/heat_marks.hpp>
 #include <trocar/view/mesh_buffer.hpp>
 #include <trocar/view/relief.hpp>
 
@@ -17,8 +18,9 @@ class OrganDrawing {
   /// Moves the mesh; costs nothing where no node has moved since the last time and no instrument touches it.
   /// @param parted one byte a triangle of solid.fine, 1 = cut open (empty: none)
   /// @param rods instruments that may touch it: they leave a dent, finer than the mechanics resolve
+  /// @param burnt what heat has left on the vertices of solid.fine, where that has changed; else null
   void update(const tissue::NetworkState& state, std::span<const std::uint8_t> parted = {},
-              std::span<const collision::Capsule> rods = {});
+              std::span<const collision::Capsule> rods = {}, const HeatMarks* burnt = nullptr);
   render::MeshHandle mesh() const { return m_mesh.handle(); }
   /// As drawn now, per vertex of solid.fine.
   std::span<const Vec3f> positions() const { return m_pose.position; }

@@ -20,7 +20,8 @@ constexpr float kRounded = 0.75f;       // [Boubekeur & Alexa 2008]
 PouchDrawing::PouchDrawing(const sim::Model& model, int membrane, render::Backend& backend)
     : m_membrane(&model.membranes[std::size_t(membrane)]),
       m_index(membrane),
-      m_torn(m_membrane->sheet.triangles.size(), 0) {
+      m_torn(m_membrane->sheet.triangles.size(), 0),
+      m_marks(model, interactions::kMembraneBase + membrane) {
   for (const auto& t : m_membrane->sheet.triangles)
     for (int node : t) m_whole.push_back(std::uint32_t(node));
   divide();
@@ -30,6 +31,11 @@ PouchDrawing::PouchDrawing(const sim::Model& model, int membrane, render::Backen
   m_buffer.rest = m_buffer.positions;
   paint();
   place(tissue::rest_state(m_membrane->sheet));
+  std::vector<Vec3d> flat(m_places.size());
+  for (std::size_t i = 0; i < m_places.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      flat[i] += double(m_places[i].share[k]) * m_membrane->sheet.network.rest[m_places[i].node[k]];
+  m_marks = HeatMarks(model, interactions::kMembraneBase + membrane, std::move(flat));
   m_mesh = OwnedMesh(backend, m_buffer.data());
 }
 
@@ -118,8 +124,13 @@ void PouchDrawing::place(const tissue::MembraneState& state) {
 void PouchDrawing::update(const sim::State& state) {
   place(state.membranes[std::size_t(m_index)]);
   const std::vector<std::uint8_t>& torn = state.torn[std::size_t(m_index)];
+  const bool burnt = m_marks.update(state);
+  for (std::size_t i = 0; burnt && i < m_buffer.paint.size(); ++i) m_buffer.paint[i].burn = m_marks.burn(i);
   if (torn == m_torn) {
-    m_mesh.move(m_buffer.positions, m_buffer.normals);
+    if (burnt)
+      m_mesh.update(m_buffer);
+    else
+      m_mesh.move(m_buffer.positions, m_buffer.normals);
     return;
   }
   m_torn = torn;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <trocar/sim/state.hpp>
-#include <trocar/view/mesh_buffer.hpp>
+#include <trocar/view/heat_marks.hpp>
 
 namespace trocar::view {
 
@@ -35,6 +35,7 @@ class PouchDrawing {
   std::vector<std::uint32_t> m_whole;  ///< corners of the wall's triangles
   std::vector<Vec3f> m_node, m_node_normal;
   std::vector<float> m_height;  ///< (drawn vertices) relief [m]
+  HeatMarks m_marks;
   MeshBuffer m_buffer;
   OwnedMesh m_mesh;
 };

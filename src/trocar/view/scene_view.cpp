@@ -18,6 +18,7 @@
 #include <trocar/view/pouch_drawing.hpp>
 #include <trocar/view/scene_view.hpp>
 #include <trocar/view/sheet_drawing.hpp>
+#include <trocar/view/smoke_drawing.hpp>
 #include <trocar/view/tube_drawing.hpp>
 #include <trocar/view/vessel_drawing.hpp>
 #include <trocar/view/wet_drawing.hpp>
@@ -82,6 +83,7 @@ struct SceneView::Parts {
   const sim::Model& model;
   std::vector<OrganDrawing> organs;  ///< solids
   std::vector<CuttableDrawing> cuttables;
+  std::vector<HeatMarks> burns, cuttable_burns;  ///< (organs)
   std::vector<FatTags> fat;
   std::vector<int> fat_on;  ///< its organ
   std::vector<Drape> drapes;
@@ -136,10 +138,15 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
   for (const TubeDrawing& t : tubes) occluders.push_back({t.drawn().positions, t.drawn().indices});
   const render::OpennessBaker baker(occluders, kShadeCell, kShadeReach);
 
-  for (CuttableDrawing& c : cuttables) c.shade(baker);
+  for (CuttableDrawing& c : cuttables) {
+    const std::size_t organ = model.solids.size() + cuttable_burns.size();
+    cuttable_burns.emplace_back(model, interactions::kSolidBase + std::int32_t(organ));
+    c.shade(baker);
+  }
   for (const sim::SolidModel& s : model.solids) {
     std::vector<Paint> paint(s.fine.rest.size());
     baker.bake(s.fine.rest, s.fine.rest_normal, paint);
+    burns.emplace_back(model, interactions::kSolidBase + std::int32_t(organs.size()), below_skin(s.fine));
     organs.emplace_back(s, relief_of(int(organs.size()), model), std::move(paint), backend);
   }
   for (int i = 0; i < int(organs.size()); ++i) {
@@ -240,8 +247,12 @@ void SceneView::Parts::update(const sim::State& state) {
     const interactions::ToolShape shape = shape_of(model.tool(state, h), tool.pose(), tool.aperture);
     if (tool.holds == 0) rods.insert(rods.end(), std::begin(shape.part), std::end(shape.part));
   }
-  for (std::size_t i = 0; i < organs.size(); ++i) organs[i].update(state.solids[i], state.parted[i], rods);
-  for (std::size_t i = 0; i < cuttables.size(); ++i) cuttables[i].update(state.cuttables[i], rods);
+  for (std::size_t i = 0; i < organs.size(); ++i)
+    organs[i].update(state.solids[i], state.parted[i], rods, burns[i].update(state) ? &burns[i] : nullptr);
+  for (std::size_t i = 0; i < cuttables.size(); ++i) {
+    cuttables[i].burn(state, cuttable_burns[i]);
+    cuttables[i].update(state.cuttables[i], rods);
+  }
   for (std::size_t i = 0; i < fat.size(); ++i) fat[i].update(organs[std::size_t(fat_on[i])]);
   for (Drape& d : drapes) d.update(organs);
   for (TubeDrawing& t : tubes) t.update(state);
@@ -404,6 +415,7 @@ Frame SceneView::frame(const sim::State& state, const ViewOptions& options) {
   if (options.instruments) p.list_tools(state, frame);
   if (options.instruments && !inside) p.list_scope(state, frame);
   if (p.wet) p.wet->list(state, frame);
+  if (p.wet) list_smoke(p.model.wet.model.smoke, state.fluids.smoke, frame);
   return frame;
 }
 

@@ -39,7 +39,8 @@ TubeDrawing::TubeDrawing(const sim::Model& model, int strand)
     : m_model(&model),
       m_strand(&model.strands[std::size_t(strand)]),
       m_body(&model.bodies[std::size_t(strand)]),
-      m_index(strand) {
+      m_index(strand),
+      m_marks(model, strand) {
   const double thickest = *std::max_element(m_strand->outer.begin(), m_strand->outer.end());
   m_sides = thickest > 0.0022 ? 16 : 12;
   if (m_strand->fimbriated) m_fimbriae = fimbriae(kBellFlare * m_strand->outer.back(), strand + 1);
@@ -86,10 +87,28 @@ void TubeDrawing::update(const sim::State& state) {
   place(StrandCurve(*m_body, state.strands[std::size_t(m_index)], m_layout.pieces), m_buffer.positions);
   press(state);
   render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);
+  const bool burnt = m_marks.stirred(state) || (changed && m_marks.any());
+  if (burnt) burn(state);
   if (changed)
     m_mesh.replace(m_buffer.data());
+  else if (burnt)
+    m_mesh.update(m_buffer);
   else
     m_mesh.move(m_buffer.positions, m_buffer.normals);
+}
+
+void TubeDrawing::burn(const sim::State& state) {
+  paint();
+  std::size_t v = 0;
+  for (const TubeRow& row : m_rows) {
+    const double r = 0.85 * std::min(row.radius, radius_at(row.s));
+    for (int k = 0; k < (row.radius == 0 ? 1 : m_sides); ++k, ++v) {
+      if (row.out > 0) continue;
+      const double a = 2 * kPi * k / m_sides;
+      Paint& p = m_buffer.paint[v];
+      p.burn = std::max(p.burn, m_marks.burn_at(state, {row.s, r * std::cos(a), r * std::sin(a)}));
+    }
+  }
 }
 
 void TubeDrawing::press(const sim::State& state) {

@@ -6,7 +6,7 @@
 #pragma once
 
 #include <trocar/render/openness.hpp>
-#include <trocar/view/mesh_buffer.hpp>
+#include <trocar/view/heat_marks.hpp>
 #include <trocar/view/pinch.hpp>
 #include <trocar/view/strand_curve.hpp>
 
@@ -63,6 +63,7 @@ class TubeDrawing {
   void add_raw_face(int piece, bool at_start);
   void connect();  ///< vertices and triangles of the rows
   void paint();
+  void burn(const sim::State& state);         ///< what heat has left, over the paint
   std::size_t nearest_first(double s) const;  ///< first vertex of the baked row nearest to s
   void place(const StrandCurve& curve, std::vector<Vec3f>& positions) const;
   void press(const sim::State& state);
@@ -83,6 +84,7 @@ class TubeDrawing {
   TubeRoot m_start_root, m_end_root;
   Layout m_layout;
   std::vector<TubeRow> m_rows;
+  HeatMarks m_marks;
   MeshBuffer m_fimbriae;  ///< in the end's frame
   MeshBuffer m_buffer;
   std::vector<TubeRow> m_baked_rows;  ///< of the uncut tube

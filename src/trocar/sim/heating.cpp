@@ -1,0 +1,161 @@
+#include <algorithm>
+#include <cmath>
+
+#include <trocar/interactions/electrode_contact.hpp>
+#include <trocar/interactions/stick.hpp>
+#include <trocar/sim/current_cut.hpp>
+#include <trocar/sim/heat_bodies.hpp>
+#include <trocar/sim/heating.hpp>
+#include <trocar/sim/sealing.hpp>
+#include <trocar/sim/stage.hpp>
+#include <trocar/tissue/heat_look.hpp>
+
+namespace trocar::sim {
+namespace {
+
+using interactions::ElectrodeTouch;
+
+constexpr double kWarmTip = 0.5;  // [K] off 37 C: what is less warms nothing
+constexpr double kStill = 0.01;   // of ElectrodeState::stuck
+
+/// Is there anything to compute of this hand's electrode?
+bool at_work(const ElectrodeHand& hand, tissue::EnergyMode mode) noexcept {
+  return mode != tissue::EnergyMode::off || std::fabs(hand.current.tip - tissue::kBodyHeat) > kWarmTip ||
+         hand.current.stuck > kStill;
+}
+
+/// Tissue that has burst gives way: the wire is at the bottom of the groove that it has made.
+void sink(const StepContext& c, ElectrodeTouch& touch) noexcept {
+  const double step = 0.5 * c.model.energy.heat.cell;
+  if (!(dot(touch.inwards, touch.inwards) > 0) || touch.contact.gap > 0) return;
+  const auto parted = [&](Vec3d p) {
+    return tissue::reading(c.model.energy.heat, c.state.heat, touch.contact.body, p).parted > 0.5f;
+  };
+  Vec3d p = touch.contact.a;
+  for (double deep = 0; deep < interactions::kBareWire && parted(p); deep += step) p += step * touch.inwards;
+  touch.contact.a = touch.contact.b = p;
+}
+
+/// Hands that have changed their instrument hold one that is cold and clean.
+ElectrodeHand& electrode_of(StepContext& c, size_t t) noexcept {
+  ElectrodeHand& hand = c.state.electrodes[t];
+  const std::int32_t changes = c.state.tools[t].changes;
+  if (hand.changes != changes) hand = {};
+  hand.changes = changes;
+  return hand;
+}
+
+ElectrodeTouch touch_of(const StepContext& c, size_t t, tissue::EnergyMode mode) noexcept {
+  if (!at_work(c.state.electrodes[t], mode)) return {};
+  ElectrodeTouch touch =
+      interactions::electrode_touch(c.model.tool(c.state, t), c.work.shapes[t], c.state.tools[t], tissue_of(c));
+  sink(c, touch);
+  return touch;
+}
+
+constexpr double kGlues = 0.2;  // of ElectrodeState::stuck: tissue is pulled along from there on
+
+void stick(StepContext& c, size_t t, const ElectrodeTouch& touch, ElectrodeHand& hand) noexcept {
+  if (hand.stuck.body >= 0 || hand.current.stuck < kGlues) return;
+  hand.stuck = interactions::stuck_at(c.work.shapes[t], tissue_of(c), touch.point);
+}
+
+/// Coagulated strands are stiffer. Their step is implicit, so that any stiffness is stable; lattices' and folds' is
+/// not: theirs would take more sub-steps from all scenes that could be heated. What was cut in part stays weak.
+void stiffen(StepContext& c, const ElectrodeTouch& touch) noexcept {
+  const std::int32_t strand = touch.contact.body;
+  if (strand >= interactions::kSolidBase) return;
+  const size_t e = size_t(touch.point.element);
+  double& scale = c.state.strands[size_t(strand)].scale[e];
+  if (scale < 1) return;
+  const double s = touch.contact.a.x, r = 0.6 * c.model.bodies[size_t(strand)].model.radius[e];
+  double sum = 0;
+  for (const Vec3d at : {Vec3d{s, 0, 0}, Vec3d{s, r, 0}, Vec3d{s, -r, 0}, Vec3d{s, 0, r}, Vec3d{s, 0, -r}})
+    sum += double(tissue::stiffness(tissue::reading(c.model.energy.heat, c.state.heat, strand, at)));
+  scale = std::max(scale, sum / 5);
+}
+
+/// Is there still something to stick to?
+bool is_whole(const StepContext& c, const interactions::Hold& stuck) noexcept {
+  if (stuck.body >= interactions::kMembraneBase) return true;
+  if (stuck.body >= interactions::kSolidBase) {
+    const size_t organ = size_t(stuck.body - interactions::kSolidBase);
+    return stuck.element < c.work.skins[organ]->size() && !c.work.surfaces[organ].torn(stuck.element);
+  }
+  return c.state.strands[size_t(stuck.body)].alive[size_t(stuck.element)] != 0;
+}
+
+/// One hand's electrode in one tick. @param used  entries of Work::heat_sources so far
+void work_electrode(StepContext& c, size_t t, int& used) noexcept {
+  ElectrodeHand& hand = electrode_of(c, t);
+  const EnergyModel& energy = c.model.energy;
+  const interactions::ElectrodeModel& electrode = c.model.tool(c.state, t).electrode;
+  if (!electrode.there) return;
+  const tissue::FootSwitch pedals = foot_switch(c.input);
+  const bool works = c.state.heat.tick % std::uint64_t(energy.heat.period) == 0;
+  ElectrodeTouch touch;
+  if (works) touch = touch_of(c, t, tissue::asked_mode(electrode.current, energy.panel, pedals));
+  const tissue::Discharge d = tissue::energise(electrode.current, energy.panel, pedals, touch.contact, energy.heat,
+                                               tissue_shape(c.model), c.state.heat, c.work.heat, hand.current);
+  for (const tissue::HeatSource& source : d.span()) c.work.heat_sources[size_t(used++)] = source;
+  c.work.current_flows = c.work.current_flows || d.flows;
+  if (!works) return;
+  hand.body = touch.contact.body;
+  if (hand.body < 0) return;
+  hand.at = touch.place;
+  if (touch.contact.gap == 0) stick(c, t, touch, hand);
+  seal_vessels(c, t, touch);
+  stiffen(c, touch);
+  if (d.flows && tissue::curve_of(d.mode).bursts) part_tissue(c, t, touch);
+}
+
+/// Steam leaves where the electrode is that makes it.
+void note_steam(StepContext& c, const tissue::HeatReport& report) noexcept {
+  c.work.steam = {};
+  if (!(report.boiled > 0)) return;
+  int from = -1;
+  for (size_t t = 0; t < c.state.electrodes.size(); ++t) {
+    const ElectrodeHand& hand = c.state.electrodes[t];
+    if (hand.current.joules > 0 && (from < 0 || hand.body == report.boiled_body)) from = int(t);
+  }
+  if (from < 0) return;
+  c.work.steam.at = c.state.electrodes[size_t(from)].at;
+  c.work.steam.kilograms = report.boiled;
+}
+
+}  // namespace
+
+// Char on electrodes.
+void stick_tissue(StepContext& c) noexcept {
+  if (!c.model.energy.there) return;
+  const interactions::TissueView view = tissue_of(c);
+  for (size_t t = 0; t < c.model.hands.size(); ++t) {
+    ElectrodeHand& hand = electrode_of(c, t);
+    if (hand.stuck.body < 0) continue;
+    const interactions::ToolShape& shape = c.work.shapes[t];
+    const double bears = c.model.tool(c.state, t).electrode.current.stick_force * hand.current.stuck;
+    if (is_whole(c, hand.stuck) && interactions::stuck_pull(shape, view, hand.stuck) <= bears) {
+      interactions::stuck_load(shape, int(t), view, hand.stuck, c.work.strand_loads, c.work.organ_loads,
+                               c.work.membrane_loads);
+      continue;
+    }
+    tissue::tear_off(hand.current);
+    hand.stuck = {};
+  }
+}
+
+// Current and heat.
+void heat_tissue(StepContext& c) noexcept {
+  c.work.current_flows = false;
+  c.work.steam = {};
+  if (!c.model.energy.there) return;
+  int used = 0;
+  for (size_t t = 0; t < c.model.hands.size(); ++t) work_electrode(c, t, used);
+  const tissue::HeatReport report = tissue::advance(c.model.energy.heat, {c.work.heat_sources.data(), size_t(used)},
+                                                    tissue_shape(c.model), c.state.heat, c.work.heat);
+  if (report.flags & (tissue::HeatReport::kBricksFull | tissue::HeatReport::kAwakeFull))
+    c.report.flags |= StepReport::kHeatFull;
+  note_steam(c, report);
+}
+
+}  // namespace trocar::sim

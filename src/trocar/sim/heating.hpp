@@ -1,0 +1,20 @@
+// Stages: what sticks to electrodes is pulled along; current passes from electrodes into tissue, heat spreads, vessels
+// seal, tissue parts under a continuous wave.
+#pragma once
+
+#include <trocar/sim/step.hpp>
+
+namespace trocar::sim {
+
+/// Among the loads of a tick: char sticks to electrodes.
+void stick_tissue(StepContext& context) noexcept;
+
+/// Nothing in scenes without energy. Leaves Work::steam and Work::current_flows for the fluids.
+void heat_tissue(StepContext& context) noexcept;
+
+/// What the pedals of an Input ask for.
+inline tissue::FootSwitch foot_switch(const Input& input) noexcept {
+  return {.yellow = (input.pedals & kYellow) != 0, .blue = (input.pedals & kBlue) != 0};
+}
+
+}  // namespace trocar::sim
