@@ -7,7 +7,6 @@
 namespace trocar::interactions {
 namespace {
 
-constexpr double kReach = 0.010;     // [m] tissue and instrument together move less than that in a tick
 constexpr double kClear = 0.00005;   // [m] before the needle's end
 constexpr double kFarthest = 0.003;  // [m] that a node is driven at a time
 constexpr double kLeastFree = 0.1;   // share of a triangle's free nodes in the place that is pierced
