@@ -142,8 +142,8 @@ class Attack {
   const sim::State& state() const { return m_state; }
   size_t organs() const { return m_bodies.size(); }
 
-  /// @param seconds  of abuse before everything lets go
-  Round round(size_t organ, double seconds) {
+  /// @param seconds  of abuse before everything lets go  @param rest  ticks after that
+  Round round(size_t organ, double seconds, int rest = kRestTicks) {
     Round r;
     m_target = organ % m_bodies.size();
     r.organ = m_bodies[m_target].name;
@@ -158,9 +158,9 @@ class Attack {
       for (size_t h = 0; h < m_hands.size(); ++h) withdraw(h, t);
       tick(r);
     }
-    for (int t = 0; t < kRestTicks; ++t) {
+    for (int t = 0; t < rest; ++t) {
       tick(r);
-      if (t > kRestTicks / 2)
+      if (t > rest / 2)
         for (size_t h = 0; h < m_hands.size(); ++h) r.let_go = r.let_go && free_of_tissue(m_state.tools[h]);
     }
     r.energy_left = energy(m_model, m_state) - m_rest_energy;

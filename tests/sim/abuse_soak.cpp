@@ -61,6 +61,9 @@ TEST(AbuseSoak, ScissorsClipsAndTearsEverywhereLeaveNumbersFinite) {
   }
 }
 
+/// A liver that hangs on one face swings at 1.8 Hz, and what was torn at keeps an eighth of that after 5 s.
+constexpr int kLiversRest = 10'000;
+
 const sim::Model& cutting() {
   static const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/cutting/scene.json"));
   return model;
@@ -71,13 +74,13 @@ TEST(AbuseSoak, ALiverThatCanBeCutBearsTwoMinutesAndReturnsToItsShape) {
   abuse::Attack attack(model, 6);
   int grasps = 0;
   for (size_t round = 0; attack.ticks() < kTicks / 5; ++round) {
-    const abuse::Round r = attack.round(0, 6);
+    const abuse::Round r = attack.round(0, 6, kLiversRest);
     report(r, attack.ticks());
     grasps += r.grasps;
     ASSERT_EQ(r.first_bad_tick, 0u) << "flags " << r.flags;
     EXPECT_LT(r.most_energy, kMostEnergy) << "[J]";
     EXPECT_TRUE(r.let_go);
-    for (const abuse::Left& left : r.left) EXPECT_LT(left.share, 0.01) << left.name << " " << left.distance << " m";
+    for (const abuse::Left& left : r.left) EXPECT_LT(left.share, 0.005) << left.name << " " << left.distance << " m";
   }
   EXPECT_GT(grasps, 10) << "hands that never hold anything prove nothing";
 }
