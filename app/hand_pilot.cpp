@@ -19,17 +19,14 @@ constexpr double kHollow = 0.040;       // [m] as deep as an instrument goes in 
 std::array<float, 3> as_array(Vec3d v) { return {float(v.x), float(v.y), float(v.z)}; }
 
 std::uint32_t pedals_of(const devices::HandCommand& command) {
-  std::uint32_t pedals = command.wipe ? sim::kWipe : 0u;
+  std::uint32_t pedals = (command.wipe ? sim::kWipe : 0u) | (command.blue ? sim::kBlue : 0u);
+  if (command.yellow) pedals |= sim::kYellow;
   if (command.irrigate) pedals |= sim::irrigates(command.led);
   if (command.suck) pedals |= sim::sucks(command.led);
   return pedals;
 }
 
 Vec3d as_vector(const std::array<float, 3>& a) { return {double(a[0]), double(a[1]), double(a[2])}; }
-
-std::uint32_t pedals_of(const devices::HandCommand& command) {
-  return (command.blue ? sim::kBlue : 0u) | (command.yellow ? sim::kYellow : 0u);
-}
 
 }  // namespace
 
@@ -70,7 +67,6 @@ void HandPilot::insert() {
 const sim::Input& HandPilot::lead(const devices::HandSample& sample, const sim::State& state) {
   for (int h = 0; h < hand_count(m_model); ++h) m_hands.valves[size_t(h)] = has_valves(m_model, state, h);
   m_command = devices::lead(m_settings, sample, m_hands);
-  m_input.pedals = pedals_of(m_command);
   if (m_command.insert) insert();
   const kinematics::ScopeFrame view = sim::scope_of(m_model, state);
   if (m_command.led == devices::kScope)

@@ -21,13 +21,13 @@ bool ReplaySource::next(const sim::State& state, sim::Input& input) {
 }
 
 bool SurgeonSource::next(const sim::State& state, sim::Input& input) {
-  if (m_surgeon.done()) return false;
-  input = m_surgeon.next(m_model, state);
+  if (m_expert->done()) return false;
+  input = m_expert->next(m_model, state);
   return true;
 }
 
 Json SurgeonSource::describe() const {
-  return {{"surgeon", {{"doing", m_surgeon.doing()}, {"done", m_surgeon.done()}, {"gave_up", m_surgeon.gave_up()}}}};
+  return {{"surgeon", {{"doing", m_expert->doing()}, {"done", m_expert->done()}, {"gave_up", m_expert->gave_up()}}}};
 }
 
 Vec3d HandPlacement::to_scene(const std::array<double, 3>& tip) const {

@@ -3,7 +3,7 @@
 
 #include <trocar/devices/motion_file.hpp>
 #include <trocar/sim/recording.hpp>
-#include <trocar/training/surgeon.hpp>
+#include <trocar/training/expert.hpp>
 
 #include "lesson.hpp"
 
@@ -36,13 +36,13 @@ class ReplaySource : public InputSource {
 class SurgeonSource : public InputSource {
  public:
   SurgeonSource(const training::Exercise& exercise, const sim::Model& model)
-      : m_model(model), m_surgeon(exercise, model) {}
+      : m_model(model), m_expert(training::make_expert(exercise, model)) {}
   bool next(const sim::State& state, sim::Input& input) override;
   Json describe() const override;
 
  private:
   const sim::Model& m_model;
-  training::Surgeon m_surgeon;
+  std::unique_ptr<training::Expert> m_expert;
 };
 
 /// How a hand of a motion file comes into the scene: a rotation and a shift, scale 1.

@@ -14,32 +14,24 @@
 #include <vector>
 
 #include <trocar/sim/state.hpp>
-#include <trocar/training/arms.hpp>
 #include <trocar/training/camera_hand.hpp>
+#include <trocar/training/expert.hpp>
 #include <trocar/training/exercise.hpp>
 #include <trocar/training/following.hpp>
 
 namespace trocar::training {
 
-/// How the surgeon works. A flaw is the code of an error that it makes once, on the first side (tests; empty: none).
-struct Manner {
-  Tremor tremor;
-  std::string flaw;
-};
-
-class Surgeon {
+class Surgeon final : public Expert {
  public:
   /// Throws core::BadInput when the scene lacks what the exercise names, or a hand the instrument it needs.
   Surgeon(const Exercise& exercise, const sim::Model& model, const Manner& manner = {});
 
-  /// The hands for this tick.
-  sim::Input next(const sim::Model& model, const sim::State& state);
+  sim::Input next(const sim::Model& model, const sim::State& state) override;
 
-  bool done() const { return m_phase == Phase::finished; }
-  bool gave_up() const { return m_gave_up; }
+  bool done() const override { return m_phase == Phase::finished; }
+  bool gave_up() const override { return m_gave_up; }
   bool blundered() const { return m_blundered; }  ///< the flaw has been shown
-  /// What it is doing, in words: "approach the ampulla".
-  const char* doing() const;
+  const char* doing() const override;
 
  private:
   enum class Phase {

@@ -1,0 +1,72 @@
+// The expert who demonstrates bleeding control: waits, sees where it bleeds, brings the clip applier, sets a clip on
+// the heart's side of the place and one beyond it, draws the applier back and looks whether the place stays dry.
+//
+//   BleedingSurgeon surgeon(exercise, model);
+//   while (!surgeon.done()) step(model, surgeon.next(model, state), state, work);
+#pragma once
+
+#include <array>
+
+#include <trocar/training/camera_hand.hpp>
+#include <trocar/training/expert.hpp>
+
+namespace trocar::training {
+
+class BleedingSurgeon final : public Expert {
+ public:
+  /// Throws core::BadInput when no hand begins with the clip applier, or nothing in the scene opens by itself.
+  BleedingSurgeon(const Exercise& exercise, const sim::Model& model, const Manner& manner = {});
+
+  sim::Input next(const sim::Model& model, const sim::State& state) override;
+  bool done() const override { return m_phase == Phase::finished; }
+  bool gave_up() const override { return m_gave_up; }
+  const char* doing() const override;
+
+ private:
+  enum class Phase { watch, find, reach, enter, inspect, close, open, leave, check, finished };
+
+  // Phases
+  void watch();
+  void find();
+  void reach();
+  void enter();
+  void inspect();
+  void close();
+  void open();
+  void leave();
+  void check();
+
+  void go(Phase next);
+  /// The next clip: on which side of the place; false: both are there.
+  bool choose_side();
+  bool has_clip(bool upstream) const;
+  /// Where the artery's carrier is at arc length `s`, and which way it runs there.
+  Vec3d point(double s) const;
+  Vec3d tangent(double s) const;
+  double clip_at() const;  ///< arc length of the clip that is being set
+  Vec3d place() const;     ///< that bleeds
+  bool aim(double back, double speed);
+  double inside() const;
+  bool flawed(const char* code) const { return m_manner.flaw == code; }
+  void want(Vec3d p) { m_points[size_t(m_point_count < 7 ? m_point_count++ : 7)] = p; }
+
+  const BleedingControl& m_goal;
+  Manner m_manner;
+  const sim::Model* m_model = nullptr;
+  const sim::State* m_state = nullptr;
+  int m_applier = -1, m_strand = -1;
+  int m_jaws[2] = {-1, -1};  ///< targets of visibility
+  double m_hole = 0;         ///< arc length of the place on the strand [m]
+  double m_heart = -1;       ///< the heart is towards smaller (-1) or larger (+1) arc lengths
+  Phase m_phase = Phase::watch;
+  bool m_upstream = true, m_gave_up = false;
+  int m_tries = 0, m_clips_before = 0;
+  double m_in_phase = 0, m_steady = 0;  ///< [s]
+  Arms m_arms;
+  CameraHand m_camera;
+  std::array<Vec3d, 8> m_points{};
+  int m_point_count = 0;
+  double m_distance = 0.06;  ///< of the lens from what it shows [m]
+};
+
+}  // namespace trocar::training

@@ -1,0 +1,163 @@
+// The judge of bleeding control, on States made by hand: which clips are right, what blood lost costs, what counts as
+// stopped.
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include <trocar/scene/compile.hpp>
+#include <trocar/scene/reader.hpp>
+#include <trocar/training/expert.hpp>
+#include <trocar/training/monitor.hpp>
+
+namespace trocar::training {
+namespace {
+
+const Exercise& exercise() {
+  static const Exercise e = read_exercise(TROCAR_SOURCE_DIR "/scenes/gynaecology/bleeding-control.json");
+  return e;
+}
+const sim::Model& scene_model() {
+  static const sim::Model model = scene::compile(scene::read_scene(exercise().scene));
+  return model;
+}
+
+/// An attempt whose State is what the test says.
+struct Attempt {
+  const sim::Model& model = scene_model();
+  sim::State state = sim::initial_state(model);
+  Monitor monitor{exercise(), model};
+
+  const sim::Bleeder& bleeder() const { return model.vessels.bleeder; }
+
+  void look(bool at_it) {
+    const sim::VisibilityTarget& t = model.targets[size_t(model.target_index("bleeder"))];
+    for (int i = t.first; i < t.first + t.count; ++i) state.seen[size_t(i)] = at_it;
+  }
+  /// @param flow  [mL/s]
+  void pass(double seconds, double flow = 0) {
+    for (int k = 0; k < int(seconds * 50); ++k) {
+      state.tick += 20;
+      const auto bled = std::int64_t(flow / 50 * double(fluids::kMillilitre));
+      receive(state.fluids.ledger, fluids::Source::kBled, fluids::Place::kPool, {.blood = bled});
+      monitor.update(model, state, {});
+    }
+  }
+  void clear_pool() {
+    move(state.fluids.ledger, fluids::Place::kPool, fluids::Place::kSucked,
+         at(state.fluids.ledger, fluids::Place::kPool));
+  }
+  interactions::Clip& clip(double off, double cover = 1, int vessel = -1) {
+    interactions::Clip& c = state.clips[size_t(state.clip_count)];
+    c = {};
+    c.strand = 0;
+    c.tips_visible = 2;
+    c.closing_time = 2;
+    c.cover = 1;
+    interactions::VesselClip& v = state.vessel_clips[size_t(state.vessel_clip_count++)];
+    v = {bleeder().s + off, cover, state.tick, vessel < 0 ? bleeder().vessel : vessel, state.clip_count++};
+    return c;
+  }
+  bool done(BleedingTask task) const { return monitor.steps()[size_t(task)].done; }
+  int count(const char* code) const {
+    return int(std::count_if(monitor.errors().begin(), monitor.errors().end(),
+                             [code](const ErrorMade& e) { return e.code == code; }));
+  }
+};
+
+TEST(BleedingJudge, PassesWhoFindsClipsBothSidesClearsAndChecks) {
+  Attempt a;
+  a.look(true);
+  a.pass(3);
+  EXPECT_FALSE(a.done(BleedingTask::find)) << "nothing bleeds yet";
+  a.pass(2, 0.5);
+  EXPECT_TRUE(a.done(BleedingTask::find));
+  a.clip(-0.05);
+  a.pass(1, 0.3);
+  EXPECT_TRUE(a.done(BleedingTask::clip));
+  EXPECT_FALSE(a.done(BleedingTask::stop)) << "it is fed from the other end, too";
+  a.clip(0.05);
+  a.pass(4);
+  EXPECT_TRUE(a.done(BleedingTask::stop));
+  EXPECT_TRUE(a.done(BleedingTask::clear)) << "1.3 mL in the pool";
+  EXPECT_TRUE(a.done(BleedingTask::check));
+  EXPECT_TRUE(a.monitor.finished());
+  EXPECT_TRUE(a.monitor.errors().empty());
+  EXPECT_TRUE(a.monitor.score().passed);
+}
+
+TEST(BleedingJudge, FailsWhoseFirstClipLiesBeyondThePlace) {
+  Attempt a;
+  a.pass(1, 0.5);
+  a.clip(0.05);
+  a.pass(1, 0.5);
+  EXPECT_EQ(a.count("A3.1"), 1);
+  EXPECT_FALSE(a.done(BleedingTask::clip));
+  EXPECT_TRUE(a.monitor.score().failed);
+}
+
+TEST(BleedingJudge, TellsWhatIsWrongWithAClip) {
+  Attempt a;
+  a.clip(-0.05, 0.8);
+  a.clip(-0.05, 1, a.bleeder().vessel == 0 ? 1 : 0);
+  a.clip(-0.05).closing_time = 0.5;
+  a.clip(-0.05).tips_visible = 1;
+  a.clip(-0.05).strand = -1;  // closed on nothing
+  a.pass(0.02);
+  for (const char* code : {"A3.3", "A3.2", "A3.4", "E4.2", "E12"}) EXPECT_EQ(a.count(code), 1) << code;
+}
+
+TEST(BleedingJudge, CountsBloodOnceABandAndFailsTheAttemptAtTheLast) {
+  Attempt a;
+  a.pass(1, 9.9);
+  EXPECT_EQ(a.count("E9.1"), 0);
+  a.pass(1, 1);
+  EXPECT_EQ(a.count("E9.1"), 1);
+  a.pass(1, 45);
+  EXPECT_EQ(a.count("E9.2"), 1);
+  EXPECT_FALSE(a.monitor.score().failed);
+  a.pass(2, 100);
+  EXPECT_EQ(a.count("E9"), 1);
+  EXPECT_EQ(a.monitor.errors().size(), 3u);
+  EXPECT_TRUE(a.monitor.score().failed);
+}
+
+TEST(BleedingJudge, ABleedingThatEndsByItselfIsNotStopped) {
+  Attempt a;
+  a.look(true);
+  a.pass(2, 0.5);
+  a.pass(5);
+  EXPECT_FALSE(a.done(BleedingTask::stop));
+  EXPECT_EQ(a.count("E9.3"), 0);
+  a.pass(90);
+  EXPECT_EQ(a.count("E9.3"), 1) << "late, and told once";
+}
+
+TEST(BleedingJudge, WantsThePoolCleared) {
+  Attempt a;
+  a.look(true);
+  a.pass(2, 6);
+  a.clip(-0.05);
+  a.clip(0.05);
+  a.pass(5);
+  EXPECT_TRUE(a.done(BleedingTask::stop));
+  EXPECT_FALSE(a.done(BleedingTask::clear)) << "12 mL";
+  a.clear_pool();
+  a.pass(1);
+  EXPECT_TRUE(a.done(BleedingTask::clear));
+}
+
+TEST(BleedingJudge, SaysWhatTheSceneLacks) {
+  const sim::Model calm = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/gynaecology/scene.json"));
+  try {
+    Monitor monitor(exercise(), calm);
+    FAIL() << "expected faults";
+  } catch (const core::BadInput& e) {
+    const std::string all = e.what();
+    EXPECT_NE(all.find("a vessel opens by itself"), std::string::npos) << all;
+    EXPECT_NE(all.find("fluids"), std::string::npos) << all;
+  }
+  EXPECT_THROW(make_expert(exercise(), calm), core::BadInput);
+}
+
+}  // namespace
+}  // namespace trocar::training
