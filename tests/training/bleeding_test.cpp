@@ -100,7 +100,7 @@ TEST(BleedingJudge, TellsWhatIsWrongWithAClip) {
   a.clip(-0.05, 0.8);
   a.clip(-0.05, 1, a.bleeder().vessel == 0 ? 1 : 0);
   a.clip(-0.05).closing_time = 0.5;
-  a.clip(-0.05).tips_visible = 1;
+  a.clip(-0.05).tips_visible = 0;
   a.clip(-0.05).strand = -1;  // closed on nothing
   a.pass(0.02);
   for (const char* code : {"A3.3", "A3.2", "A3.4", "E4.2", "E12"}) EXPECT_EQ(a.count(code), 1) << code;

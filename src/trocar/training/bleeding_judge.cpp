@@ -49,7 +49,7 @@ void BleedingJudge::judge_clip(const sim::Model& model, const sim::State& state,
   const interactions::Clip& clip = state.clips[size_t(number)];
   const Vec3d where = tip_of(model, state, size_t(clip.tool));
   if (clip.dropped()) return m_board.make_error("E12", {}, where);
-  if (clip.tips_visible < 2) m_board.make_error("E4.2", {}, where);
+  if (clip.tips_visible < 1) m_board.make_error("E4.2", {}, where);  // the lower leg is behind what carries the artery
   if (clip.closing_time < m_goal.clip_closing) m_board.make_error("A3.4", {}, where);
   const sim::Bleeder& bleeder = model.vessels.bleeder;
   const auto closed = std::span(state.vessel_clips).first(size_t(state.vessel_clip_count));

@@ -13,6 +13,8 @@ constexpr double kBeside = 0.008;                                    // [m] of a
 constexpr double kBack = 0.022;                                      // [m] in front of the tissue
 constexpr double kAway = 0.060;                                      // [m] depth of an applier that is drawn back
 constexpr double kHalf = 0.42;                                       // handle of a half closed applier
+constexpr double kIdleDepth = 0.042, kInDepth = 0.085;               // [m] an instrument that waits, one brought in
+constexpr double kEmpty = 0.5e-6;                                    // [m^3] left in the pool
 constexpr int kMostTries = 6;
 
 constexpr const char* kDoing[] = {"wait",
@@ -23,6 +25,10 @@ constexpr const char* kDoing[] = {"wait",
                                   "close the clip slowly",
                                   "open the applier",
                                   "draw the applier back",
+                                  "draw an instrument back",
+                                  "take the suction-irrigator",
+                                  "bring it in",
+                                  "suck the pool empty",
                                   "look whether it stays dry",
                                   "done"};
 
@@ -33,6 +39,9 @@ BleedingSurgeon::BleedingSurgeon(const Exercise& exercise, const sim::Model& mod
   std::vector<core::Fault> faults;
   for (size_t h = 0; h < hands(model); ++h)
     if (model.placed(h).name == m_goal.applier) m_applier = int(h);
+  for (size_t h = 0; h < hands(model); ++h)
+    for (size_t i = 0; i < model.hands[h].rack.size() && int(h) != m_applier && m_sucker < 0; ++i)
+      if (model.hands[h].rack[i].kind == interactions::ToolKind::suction_irrigator) m_sucker = int(h), m_bore = int(i);
   if (m_applier < 0)
     faults.push_back({m_goal.applier_at, "expected a hand that begins with the clip applier, got none"});
   const int target = model.target_index("bleeder");
@@ -111,8 +120,25 @@ bool BleedingSurgeon::aim(double back, double speed) {
   return m_arms.turn_across(m_applier, tangent(clip_at())) && there;
 }
 
+bool BleedingSurgeon::sees_jaw() const {
+  return sim::visible(*m_model, *m_state, m_jaws[0]) || sim::visible(*m_model, *m_state, m_jaws[1]);
+}
+
+void BleedingSurgeon::look_at_clip() {
+  // From the midline, if the legs' tips stay hidden: then one is seen past the artery's carrier.
+  constexpr double kPatience = 2, kAside = 0.03;  // [s] [m]
+  const Vec3d at = point(clip_at());
+  want(m_unseen > kPatience ? at - Vec3d{at.x > 0 ? kAside : -kAside, 0, 0} : at);
+}
+
+void BleedingSurgeon::draw_back_others() {
+  for (int h = 0; h < m_arms.count(); ++h)
+    if (h != m_applier && m_state->tools[size_t(h)].depth > kIdleDepth) m_arms.move_to_depth(h, kIdleDepth, kTravel);
+}
+
 void BleedingSurgeon::watch() {
-  // Between the two ovaries' ligaments, until blood shows somewhere.
+  // What is in the way is drawn back, until blood shows somewhere.
+  draw_back_others();
   if (m_state->opening_count > 0 && m_in_phase > 1) go(Phase::find);
 }
 
@@ -120,7 +146,7 @@ void BleedingSurgeon::find() {
   want(place());
   m_steady += m_camera.settled() ? sim::kTick : 0;
   if (m_steady < m_goal.find_time + 0.3) return;
-  go(choose_side() ? Phase::reach : Phase::check);
+  go(choose_side() ? Phase::reach : Phase::change);
 }
 
 void BleedingSurgeon::reach() {
@@ -128,6 +154,7 @@ void BleedingSurgeon::reach() {
   want(point(clip_at()));
   if (m_in_phase > 0.5) want(m_arms[m_applier].tip);
   m_clips_before = m_state->clip_count;
+  m_unseen = 0;
   if (m_arms.grip(m_applier, 0, 0.5) && aim(kBack, kTravel)) go(Phase::enter);
   if (m_in_phase > 15) go(Phase::leave);
 }
@@ -140,19 +167,19 @@ void BleedingSurgeon::enter() {
 }
 
 void BleedingSurgeon::inspect() {
-  want(point(clip_at()));
+  look_at_clip();
   want(m_arms[m_applier].tip);
   m_distance = 0.052 + 0.008 * double(int(m_in_phase / 1.5) % 4);
   aim(0, kTrack);
   if (!m_arms.grip(m_applier, kHalf, 1.6)) return;
-  const bool seen = sim::visible(*m_model, *m_state, m_jaws[0]) && sim::visible(*m_model, *m_state, m_jaws[1]);
-  m_steady = seen ? m_steady + sim::kTick : 0;
-  if (m_steady > 0.15) go(Phase::close);
+  m_unseen += sees_jaw() ? 0 : sim::kTick;
+  m_steady = sees_jaw() ? m_steady + sim::kTick : 0;
+  if (m_steady > 0.3) go(Phase::close);
   if (m_in_phase > 8) go(Phase::leave);
 }
 
 void BleedingSurgeon::close() {
-  want(point(clip_at()));
+  look_at_clip();
   want(m_arms[m_applier].tip);
   aim(0, kTrack);
   if (m_arms.grip(m_applier, 1, 2.6 * m_goal.clip_closing) && m_state->clip_count > m_clips_before) go(Phase::open);
@@ -174,13 +201,62 @@ void BleedingSurgeon::leave() {
   m_tries = m_state->clip_count > m_clips_before ? 0 : m_tries + 1;
   m_gave_up = m_tries >= kMostTries;
   if (m_gave_up) return go(Phase::finished);
-  go(choose_side() ? Phase::reach : Phase::check);
+  go(choose_side() ? Phase::reach : Phase::change);
+}
+
+Vec3d BleedingSurgeon::deepest() const {
+  const fluids::PoolModel& pool = m_model->wet.model.pool;
+  float most = 0;
+  int at_i = pool.nx / 2, at_j = pool.ny / 2;
+  for (int j = 0; j < pool.ny; ++j)
+    for (int i = 0; i < pool.nx; ++i)
+      if (const float d = depth_at(pool, m_state->fluids.pool, i, j); d > most) most = d, at_i = i, at_j = j;
+  const double height = double(floor_at(pool, m_model->wet.floor, at_i, at_j)) + 0.5 * double(most);
+  return world(pool, (at_i + 0.5) * pool.cell, (at_j + 0.5) * pool.cell, height);
+}
+
+void BleedingSurgeon::change() {
+  want(place());
+  m_arms.move_to_depth(m_applier, kAway, kTravel);
+  if (m_sucker < 0) return go(Phase::check);
+  if (m_arms.move_to_depth(m_sucker, kIdleDepth, 2 * kTravel) && m_in_phase > 0.5) go(Phase::fetch);
+}
+
+void BleedingSurgeon::fetch() {
+  Arms::Arm& arm = m_arms[m_sucker];
+  arm.instrument = m_bore;
+  const Vec3d inwards = normalised(deepest() - arm.port);
+  arm.tip = arm.port + kIdleDepth * inwards;
+  want(arm.port + 0.055 * inwards);
+  want(arm.port + kInDepth * inwards);
+  if (m_state->tools[size_t(m_sucker)].instrument == m_bore && m_camera.settled() && m_in_phase > 0.6) go(Phase::bring);
+}
+
+void BleedingSurgeon::bring() {
+  const Arms::Arm& arm = m_arms[m_sucker];
+  want(arm.tip);
+  want(arm.tip + 0.02 * normalised(deepest() - arm.port));
+  if (m_arms.move_to_depth(m_sucker, kInDepth, 0.035)) go(Phase::suck);
+}
+
+void BleedingSurgeon::suck() {
+  Arms::Arm& arm = m_arms[m_sucker];
+  want(arm.tip);
+  want(deepest());
+  arm.sucking = true;
+  m_arms.move(m_sucker, deepest(), kCareful);
+  const bool empty =
+      fluids::kM3PerPicolitre * double(at(m_state->fluids.ledger, fluids::Place::kPool).total()) < kEmpty;
+  if (!empty && m_in_phase < 40) return;
+  arm.sucking = false;
+  go(Phase::check);
 }
 
 void BleedingSurgeon::check() {
   want(place());
   m_distance = 0.05 + 0.01 * double(int(m_in_phase / 4) % 4);
   m_arms.move_to_depth(m_applier, kAway, kTravel);
+  if (m_sucker >= 0) m_arms.move_to_depth(m_sucker, kInDepth, kTravel);
   if (m_in_phase > m_goal.stopped_time + m_goal.check_time + 6) go(Phase::finished);
 }
 
@@ -192,9 +268,10 @@ sim::Input BleedingSurgeon::next(const sim::Model& model, const sim::State& stat
   m_distance = 0.06;
   m_arms.begin_tick();
   static constexpr void (BleedingSurgeon::*kRun[])() = {
-      &BleedingSurgeon::watch, &BleedingSurgeon::find,    &BleedingSurgeon::reach,
-      &BleedingSurgeon::enter, &BleedingSurgeon::inspect, &BleedingSurgeon::close,
-      &BleedingSurgeon::open,  &BleedingSurgeon::leave,   &BleedingSurgeon::check};
+      &BleedingSurgeon::watch,   &BleedingSurgeon::find,  &BleedingSurgeon::reach, &BleedingSurgeon::enter,
+      &BleedingSurgeon::inspect, &BleedingSurgeon::close, &BleedingSurgeon::open,  &BleedingSurgeon::leave,
+      &BleedingSurgeon::change,  &BleedingSurgeon::fetch, &BleedingSurgeon::bring, &BleedingSurgeon::suck,
+      &BleedingSurgeon::check};
   if (!done()) (this->*kRun[size_t(m_phase)])();
   if (m_point_count > 0) m_camera.show({m_points.data(), size_t(m_point_count)}, m_distance);
   sim::Input input = model.start;

@@ -1,5 +1,6 @@
 // The expert who demonstrates bleeding control: waits, sees where it bleeds, brings the clip applier, sets a clip on
-// the heart's side of the place and one beyond it, draws the applier back and looks whether the place stays dry.
+// the heart's side of the place and one beyond it, draws the applier back, sucks away what has gathered and looks
+// whether the place stays dry.
 //
 //   BleedingSurgeon surgeon(exercise, model);
 //   while (!surgeon.done()) step(model, surgeon.next(model, state), state, work);
@@ -23,7 +24,22 @@ class BleedingSurgeon final : public Expert {
   const char* doing() const override;
 
  private:
-  enum class Phase { watch, find, reach, enter, inspect, close, open, leave, check, finished };
+  enum class Phase {
+    watch,
+    find,
+    reach,
+    enter,
+    inspect,
+    close,
+    open,
+    leave,
+    change,
+    fetch,
+    bring,
+    suck,
+    check,
+    finished
+  };
 
   // Phases
   void watch();
@@ -34,6 +50,10 @@ class BleedingSurgeon final : public Expert {
   void close();
   void open();
   void leave();
+  void change();
+  void fetch();
+  void bring();
+  void suck();
   void check();
 
   void go(Phase next);
@@ -47,6 +67,10 @@ class BleedingSurgeon final : public Expert {
   Vec3d place() const;     ///< that bleeds
   bool aim(double back, double speed);
   double inside() const;
+  bool sees_jaw() const;
+  void look_at_clip();
+  void draw_back_others();
+  Vec3d deepest() const;  ///< surface of the pool where it is deepest
   bool flawed(const char* code) const { return m_manner.flaw == code; }
   void want(Vec3d p) { m_points[size_t(m_point_count < 7 ? m_point_count++ : 7)] = p; }
 
@@ -54,14 +78,15 @@ class BleedingSurgeon final : public Expert {
   Manner m_manner;
   const sim::Model* m_model = nullptr;
   const sim::State* m_state = nullptr;
-  int m_applier = -1, m_strand = -1;
+  int m_applier = -1, m_sucker = -1, m_bore = -1;  ///< hands, and the suction-irrigator's number in its rack; -1: none
+  int m_strand = -1;
   int m_jaws[2] = {-1, -1};  ///< targets of visibility
   double m_hole = 0;         ///< arc length of the place on the strand [m]
   double m_heart = -1;       ///< the heart is towards smaller (-1) or larger (+1) arc lengths
   Phase m_phase = Phase::watch;
   bool m_upstream = true, m_gave_up = false;
   int m_tries = 0, m_clips_before = 0;
-  double m_in_phase = 0, m_steady = 0;  ///< [s]
+  double m_in_phase = 0, m_steady = 0, m_unseen = 0;  ///< [s]
   Arms m_arms;
   CameraHand m_camera;
   std::array<Vec3d, 8> m_points{};
