@@ -2,9 +2,9 @@
 // cuts along a way; and the stage "heat tissue" alone.
 //
 //   sim_bench --benchmark_filter=Hook
-#include <benchmark/benchmark.h>
-
 #include <cmath>
+
+#include <benchmark/benchmark.h>
 
 #include <trocar/scene/compile.hpp>
 #include <trocar/scene/reader.hpp>
@@ -94,7 +94,6 @@ BENCHMARK_CAPTURE(run_hook, HookCuts, bleeding().cutting, sim::kYellow, 2e-6, fa
 BENCHMARK_CAPTURE(run_hook, HookWithoutCurrentStage, bleeding().down, 0, 0, true)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(run_hook, HookCoagulatesStage, bleeding().coagulating, sim::kBlue, 0, true)
     ->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(run_hook, HookCutsStage, bleeding().cutting, sim::kYellow, 2e-6, true)
-    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(run_hook, HookCutsStage, bleeding().cutting, sim::kYellow, 2e-6, true)->Unit(benchmark::kMicrosecond);
 
 }  // namespace

@@ -180,7 +180,8 @@ TEST(Reader, WrongTypesAreLocated) {
             one("expected a whole number in [0, 1000] for \"clips\", got 1.5"));
   EXPECT_EQ(faults_of({{12, R"("cuttable": @1,)"}}), one("expected true or false for \"cuttable\", got 1"));
   EXPECT_EQ(faults_of({{18, R"("instruments": [{"name": "stick", "kind": @"grapser"}],)"}}),
-            one("expected one of grasper, clip_applier, scissors, probe, hook, bipolar for \"kind\", got \"grapser\" (did you mean "
+            one("expected one of grasper, clip_applier, scissors, probe, hook, bipolar for \"kind\", got \"grapser\" "
+                "(did you mean "
                 "\"grasper\"?)"));
 }
 

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
-
 #include <trocar/tissue/heat_look.hpp>
 
 #include "small_energy.hpp"

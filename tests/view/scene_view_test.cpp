@@ -395,8 +395,7 @@ TEST(HeatMarks, WhatIsCoagulatedIsBurntThereAndNowhereElse) {
   source.radius = 1.5e-3;
   source.watts = 20;
   tissue::HeatWork work = tissue::make_work(m.energy.heat);
-  for (int i = 0; i < 2000; ++i)
-    tissue::advance(m.energy.heat, {&source, 1}, sim::tissue_shape(m), state.heat, work);
+  for (int i = 0; i < 2000; ++i) tissue::advance(m.energy.heat, {&source, 1}, sim::tissue_shape(m), state.heat, work);
   EXPECT_TRUE(marks.update(state));
   for (std::size_t i = 0; i < skin.rest.size(); ++i) {
     const double away = length(vec_cast<double>(skin.rest[i]) - at);

@@ -8,8 +8,8 @@ namespace trocar::devices {
 namespace {
 
 constexpr std::array<const char*, std::size_t(Key::count)> kKeyNames = {
-    "Tab", "1", "2", "3", "4", "0", "C", "Left",  "Right", "Up", "Down",  "PageUp", "PageDown",
-    "W",   "S", "Q", "E", "R", "F", "G", "Enter", "V",     "X",  "Space", "Shift", "B", "N"};
+    "Tab", "1", "2", "3", "4", "0", "C",     "Left", "Right", "Up",    "Down",  "PageUp", "PageDown", "W",
+    "S",   "Q", "E", "R", "F", "G", "Enter", "V",    "X",     "Space", "Shift", "B",      "N"};
 
 constexpr HelpLine kHelp[] = {
     {Device::keyboard, "1 2 3 4, Tab", "lead this hand, the next one; the others keep pose and grip"},

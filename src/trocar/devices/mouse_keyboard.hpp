@@ -128,8 +128,8 @@ struct HandCommand {
   PictureMotion tip;
   float roll = 0;  ///< [rad], clockwise seen from the hand positive
   ScopeMotion scope;
-  bool rack = false;    ///< asked for what there is to choose from: hands, instruments
-  bool insert = false;  ///< asked to bring the led instrument into the view
+  bool rack = false;                  ///< asked for what there is to choose from: hands, instruments
+  bool insert = false;                ///< asked to bring the led instrument into the view
   bool blue = false, yellow = false;  ///< foot switches as long as they are held, whoever is led
 };
 

@@ -111,8 +111,7 @@ CellMask cells_near(std::span<const Vec3f> points, Triangles triangles, double c
     for (int z = from[2]; z <= to[2]; ++z)
       for (int y = from[1]; y <= to[1]; ++y)
         for (int x = from[0]; x <= to[0]; ++x) {
-          const Vec3d middle =
-              cell * Vec3d{mask.first[0] + x + 0.5, mask.first[1] + y + 0.5, mask.first[2] + z + 0.5};
+          const Vec3d middle = cell * Vec3d{mask.first[0] + x + 0.5, mask.first[1] + y + 0.5, mask.first[2] + z + 0.5};
           if (closest_on_triangle(middle, p[0], p[1], p[2]).distance2 <= reach * reach) mask.set(x, y, z);
         }
   }

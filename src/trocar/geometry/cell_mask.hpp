@@ -1,5 +1,6 @@
 // Which cells of an endless grid lie within a closed surface, or near an open one: a bit a cell, in the box around it.
-// Cell (i, j, k) of a grid with edge `cell` spans [i, i + 1) x [j, j + 1) x [k, k + 1) cells; what counts is its middle.
+// Cell (i, j, k) of a grid with edge `cell` spans [i, i + 1) x [j, j + 1) x [k, k + 1) cells; what counts is its
+// middle.
 //
 //   const CellMask inside = cells_inside(skin.rest, skin.triangles, 0.5e-3);
 //   if (inside.at(i, j, k)) ...
@@ -15,9 +16,9 @@
 namespace trocar::geometry {
 
 struct CellMask {
-  double cell = 0;               ///< [m]
-  std::array<int, 3> first{};    ///< lowest cell of the box
-  std::array<int, 3> count{};    ///< of its cells
+  double cell = 0;                 ///< [m]
+  std::array<int, 3> first{};      ///< lowest cell of the box
+  std::array<int, 3> count{};      ///< of its cells
   std::vector<std::uint8_t> bits;  ///< x fastest, eight a byte
 
   bool at(int i, int j, int k) const noexcept {

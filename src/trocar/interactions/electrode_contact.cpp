@@ -8,22 +8,20 @@
 namespace trocar::interactions {
 namespace {
 
-constexpr double kSearch = 0.009;       // [m] sparks, the wire's radius, and the way to a vertex of a skin's triangle
-constexpr double kFirmly = 0.3;         // [N] a wire pressed with this is in contact all round.  Our choice
-constexpr double kLightly = 0.3;        // share of the contact when it only just touches.        Our choice
-constexpr double kFirmPinch = 5;        // [N] the same of jaws' pads.                             Our choice
+constexpr double kSearch = 0.009;  // [m] sparks, the wire's radius, and the way to a vertex of a skin's triangle
+constexpr double kFirmly = 0.3;    // [N] a wire pressed with this is in contact all round.  Our choice
+constexpr double kLightly = 0.3;   // share of the contact when it only just touches.        Our choice
+constexpr double kFirmPinch = 5;   // [N] the same of jaws' pads.                             Our choice
 
 Vec3d rest_of(const tissue::Skin& skin, const std::array<int, 3>& corner, Vec3d weights) noexcept {
   Vec3d p;
-  for (std::size_t k = 0; k < 3; ++k)
-    p += weights[int(k)] * vec_cast<double>(skin.rest[std::size_t(corner[k])]);
+  for (std::size_t k = 0; k < 3; ++k) p += weights[int(k)] * vec_cast<double>(skin.rest[std::size_t(corner[k])]);
   return p;
 }
 
 Vec3d rest_normal(const tissue::Skin& skin, const std::array<int, 3>& corner, Vec3d weights) noexcept {
   Vec3d n;
-  for (std::size_t k = 0; k < 3; ++k)
-    n += weights[int(k)] * vec_cast<double>(skin.rest_normal[std::size_t(corner[k])]);
+  for (std::size_t k = 0; k < 3; ++k) n += weights[int(k)] * vec_cast<double>(skin.rest_normal[std::size_t(corner[k])]);
   return normalised(n, vec_cast<double>(skin.rest_normal[std::size_t(corner[0])]));
 }
 

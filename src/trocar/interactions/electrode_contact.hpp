@@ -1,7 +1,8 @@
 // Where an electrode is at tissue, in the frame in which heat and scars stay with that tissue (tissue/heat.hpp):
 //   organs, folds  places as drawn [m]; the nearest point of the touched skin or of the sheet, by its corners
 //   strands        (arc length as drawn, across, across) [m] in the frame that goes along the strand without twist
-// Bodies are numbered as holds number them (Hold::body). Walls conduct nothing: they have no place that heat could have.
+// Bodies are numbered as holds number them (Hold::body). Walls conduct nothing: they have no place that heat could
+// have.
 //
 //   ElectrodeTouch t = electrode_touch(model, shape, tool_state, view);
 //   if (t.contact.body >= 0) energise(..., t.contact, ...);

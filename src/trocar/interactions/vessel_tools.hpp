@@ -39,7 +39,7 @@ static_assert(sizeof(VesselClip) == 3 * 8 + 2 * 4, "no padding");
 struct VesselSeal {
   double from = 0, to = 0;  ///< 0 .. 1 along the vessel; of a stump one place, a little way behind its end
   tissue::SealState state;
-  std::uint64_t tick = 0;    ///< when it was last heated
+  std::uint64_t tick = 0;  ///< when it was last heated
   std::int32_t vessel = -1;
   std::int32_t opening = -1;  ///< the hole that it closes, else -1
 };

@@ -191,24 +191,26 @@ struct FluidsSetting {
 
 /// The generator's panel, and how much heat is remembered. A scene that has it computes heat.
 struct EnergySetting {
-  bool blend = false;                                                   ///< what the yellow pedal gives, else cut
-  double yellow_watts = 40, blue_watts = 40, bipolar_watts = 30;        ///< [W]
-  double cell = 0.0005;                                                 ///< of the heat's grid [m]
-  int bricks = 256, awake = 128;                                        ///< tissue::HeatDescription
+  bool blend = false;                                             ///< what the yellow pedal gives, else cut
+  double yellow_watts = 40, blue_watts = 40, bipolar_watts = 30;  ///< [W]
+  double cell = 0.0005;                                           ///< of the heat's grid [m]
+  int bricks = 256, awake = 128;                                  ///< tissue::HeatDescription
   core::Location at;
 };
 
 /// The part of an instrument that current leaves from.
 struct ElectrodeSetting {
-  double radius = 0.001;      ///< of its contact [m]
-  double efficiency = 0.45;   ///< share of the generator's power that heats tissue
-  double stick_force = 2;     ///< to tear it off char [N]
-  double seals = 0;           ///< largest outer diameter of vessels that it seals [m]; 0: 1 mm bare, 3 mm between jaws
+  double radius = 0.001;     ///< of its contact [m]
+  double efficiency = 0.45;  ///< share of the generator's power that heats tissue
+  double stick_force = 2;    ///< to tear it off char [N]
+  double seals = 0;          ///< largest outer diameter of vessels that it seals [m]; 0: 1 mm bare, 3 mm between jaws
 };
 
 enum class InstrumentKind { grasper, clip_applier, scissors, probe, hook, bipolar };
 
-inline bool has_electrode(InstrumentKind kind) { return kind == InstrumentKind::hook || kind == InstrumentKind::bipolar; }
+inline bool has_electrode(InstrumentKind kind) {
+  return kind == InstrumentKind::hook || kind == InstrumentKind::bipolar;
+}
 
 /// An instrument's shape and grip. Jaws open symmetrically in the plane of the shaft axis and the opening direction.
 struct Instrument {

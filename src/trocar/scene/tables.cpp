@@ -252,21 +252,22 @@ const Shape& electrode() {
 }
 
 std::vector<Key> instrument_keys() {
-  return {needed(keys::name("name", "what scenes call it")),
-          keys::text("title", "one line for people"),
-          needed(keys::choice("kind", {"grasper", "clip_applier", "scissors", "probe", "hook", "bipolar"}, "what it does")),
-          keys::number("shaft_diameter_mm", 1, 30, "default 5"),
-          keys::number("shaft_length_mm", 50, 1000, "from the handle to the jaws' joint, default 310"),
-          keys::number("jaw_length_mm", 1, 100, "default 20"),
-          keys::number("jaw_width_mm", 0.2, 30, "default 3"),
-          keys::number("jaw_thickness_mm", 0.2, 20, "of one jaw, default 1.5"),
-          keys::number("opening_deg", 0, 180, "between the open jaws, default 57"),
-          keys::number("parallel_gap_mm", 0, 50, "between parallel jaws when open, default 0: they turn"),
-          keys::number("pinch_max_N", 0, 200, "between the jaws with the handle closed, default 15"),
-          keys::number("friction", 0, 10, "pull that the grip bears per pinch force, default 1.67"),
-          keys::number("clip_length_mm", 0.5, 50, "of a closed clip, default 8.5"),
-          keys::integer("clips", 0, 1000, "in the magazine, default 0"),
-          keys::object("electrode", electrode, "of a hook or bipolar forceps")};
+  return {
+      needed(keys::name("name", "what scenes call it")),
+      keys::text("title", "one line for people"),
+      needed(keys::choice("kind", {"grasper", "clip_applier", "scissors", "probe", "hook", "bipolar"}, "what it does")),
+      keys::number("shaft_diameter_mm", 1, 30, "default 5"),
+      keys::number("shaft_length_mm", 50, 1000, "from the handle to the jaws' joint, default 310"),
+      keys::number("jaw_length_mm", 1, 100, "default 20"),
+      keys::number("jaw_width_mm", 0.2, 30, "default 3"),
+      keys::number("jaw_thickness_mm", 0.2, 20, "of one jaw, default 1.5"),
+      keys::number("opening_deg", 0, 180, "between the open jaws, default 57"),
+      keys::number("parallel_gap_mm", 0, 50, "between parallel jaws when open, default 0: they turn"),
+      keys::number("pinch_max_N", 0, 200, "between the jaws with the handle closed, default 15"),
+      keys::number("friction", 0, 10, "pull that the grip bears per pinch force, default 1.67"),
+      keys::number("clip_length_mm", 0.5, 50, "of a closed clip, default 8.5"),
+      keys::integer("clips", 0, 1000, "in the magazine, default 0"),
+      keys::object("electrode", electrode, "of a hook or bipolar forceps")};
 }
 
 const Shape& instrument() {

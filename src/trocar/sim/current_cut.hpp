@@ -1,5 +1,5 @@
-// A continuous wave parts tissue: where the cells at the wire have burst, organs and folds are cut along the way that it
-// goes, as by a small blade; a strand is cut through once it has burst across.
+// A continuous wave parts tissue: where the cells at the wire have burst, organs and folds are cut along the way that
+// it goes, as by a small blade; a strand is cut through once it has burst across.
 #pragma once
 
 #include <trocar/interactions/electrode_contact.hpp>

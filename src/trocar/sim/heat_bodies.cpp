@@ -58,8 +58,8 @@ void note_heat_bodies(Model& model) {
   for (int i = 0; i < model.organs(); ++i)
     model.energy.organs.push_back(geometry::cells_inside(model.skin(i).rest, model.skin(i).triangles, cell));
   for (const MembraneModel& m : model.membranes)
-    model.energy.folds.push_back(geometry::cells_near(m.skin.rest, m.skin.triangles, cell,
-                                                      std::max(0.5 * m.sheet.thickness, kJoined * cell)));
+    model.energy.folds.push_back(
+        geometry::cells_near(m.skin.rest, m.skin.triangles, cell, std::max(0.5 * m.sheet.thickness, kJoined * cell)));
 }
 
 tissue::TissueShape tissue_shape(const Model& model) noexcept { return {&model, fill_body}; }

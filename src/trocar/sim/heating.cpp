@@ -47,8 +47,8 @@ ElectrodeHand& electrode_of(StepContext& c, size_t t) noexcept {
 
 ElectrodeTouch touch_of(const StepContext& c, size_t t, tissue::EnergyMode mode) noexcept {
   if (!at_work(c.state.electrodes[t], mode)) return {};
-  ElectrodeTouch touch = interactions::electrode_touch(c.model.tool(c.state, t), c.work.shapes[t], c.state.tools[t],
-                                                       tissue_of(c));
+  ElectrodeTouch touch =
+      interactions::electrode_touch(c.model.tool(c.state, t), c.work.shapes[t], c.state.tools[t], tissue_of(c));
   sink(c, touch);
   return touch;
 }
@@ -60,8 +60,8 @@ void stick(StepContext& c, size_t t, const ElectrodeTouch& touch, ElectrodeHand&
   hand.stuck = interactions::stuck_at(c.work.shapes[t], tissue_of(c), touch.point);
 }
 
-/// Coagulated strands are stiffer. Their step is implicit, so that any stiffness is stable; lattices' and folds' is not:
-/// theirs would take more sub-steps from all scenes that could be heated. What was cut in part stays weak.
+/// Coagulated strands are stiffer. Their step is implicit, so that any stiffness is stable; lattices' and folds' is
+/// not: theirs would take more sub-steps from all scenes that could be heated. What was cut in part stays weak.
 void stiffen(StepContext& c, const ElectrodeTouch& touch) noexcept {
   const std::int32_t strand = touch.contact.body;
   if (strand >= interactions::kSolidBase) return;
@@ -95,9 +95,8 @@ void work_electrode(StepContext& c, size_t t, int& used) noexcept {
   const bool works = c.state.heat.tick % std::uint64_t(energy.heat.period) == 0;
   ElectrodeTouch touch;
   if (works) touch = touch_of(c, t, tissue::asked_mode(electrode.current, energy.panel, pedals));
-  const tissue::Discharge d =
-      tissue::energise(electrode.current, energy.panel, pedals, touch.contact, energy.heat, tissue_shape(c.model),
-                       c.state.heat, c.work.heat, hand.current);
+  const tissue::Discharge d = tissue::energise(electrode.current, energy.panel, pedals, touch.contact, energy.heat,
+                                               tissue_shape(c.model), c.state.heat, c.work.heat, hand.current);
   for (const tissue::HeatSource& source : d.span()) c.work.heat_sources[size_t(used++)] = source;
   c.work.current_flows = c.work.current_flows || d.flows;
   if (!works) return;

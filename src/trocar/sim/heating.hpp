@@ -1,4 +1,5 @@
-// Stages: what sticks to electrodes is pulled along; current passes from electrodes into tissue, heat spreads, vessels seal, tissue parts under a continuous wave.
+// Stages: what sticks to electrodes is pulled along; current passes from electrodes into tissue, heat spreads, vessels
+// seal, tissue parts under a continuous wave.
 #pragma once
 
 #include <trocar/sim/step.hpp>

@@ -23,9 +23,9 @@ void add_patch(core::Hasher& h, const StrandEndModel& end) {
 void add_electrode(core::Hasher& h, const interactions::ElectrodeModel& e) {
   const tissue::ElectrodeDescription& c = e.current;
   h.add(std::int32_t(c.bipolar));
-  for (double v : {c.radius, c.efficiency, c.back, c.wet, c.tip_capacity, c.tip_contact, c.tip_air, c.tip_share,
-                   c.sticks_from, c.sticks_fully, c.stick_force, e.seal.bare, e.seal.pressed, e.seal.needed,
-                   e.seal.brittle, e.seal.strongest})
+  for (double v :
+       {c.radius, c.efficiency, c.back, c.wet, c.tip_capacity, c.tip_contact, c.tip_air, c.tip_share, c.sticks_from,
+        c.sticks_fully, c.stick_force, e.seal.bare, e.seal.pressed, e.seal.needed, e.seal.brittle, e.seal.strongest})
     h.add(v);
 }
 

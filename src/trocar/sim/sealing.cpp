@@ -16,10 +16,10 @@ using interactions::VesselSeal;
 
 using CutPlaces = std::array<double, interactions::kMaxOpenings>;
 
-constexpr double kReach = 0.0025;       // [m] from a wire to the middle of a stump that it heats.        Our choice
+constexpr double kReach = 0.0025;        // [m] from a wire to the middle of a stump that it heats.        Our choice
 constexpr double kBehindStump = 0.0005;  // [m] so far behind its end a stump is shut.                      Our choice
-constexpr double kFirmPinch = 5;        // [N] shuts a vessel of the calibre that the forceps are for.    Our choice
-constexpr double kHot = 60;             // [C] below it nothing fuses in minutes
+constexpr double kFirmPinch = 5;         // [N] shuts a vessel of the calibre that the forceps are for.    Our choice
+constexpr double kHot = 60;              // [C] below it nothing fuses in minutes
 
 /// How hot what the electrode is at is, and how charred.
 struct Wall {
@@ -68,8 +68,8 @@ void seal_between_jaws(StepContext& c, size_t t, const Wall& wall) noexcept {
       VesselPiece piece[2];
       const int pieces = pieces_of(path, points, cuts, i, piece);
       for (int k = 0; k < pieces; ++k) {
-        const interactions::BetweenJaws at = between_jaws(tool, c.work.shapes[t], piece[k].a, piece[k].b,
-                                                          vessel_radius(path, piece[k].s_a));
+        const interactions::BetweenJaws at =
+            between_jaws(tool, c.work.shapes[t], piece[k].a, piece[k].b, vessel_radius(path, piece[k].s_a));
         if (!at.inside) continue;
         const double s = piece[k].s_a + at.w * (piece[k].s_b - piece[k].s_a), half = 0.5 * tool.jaw_width / path.length;
         if (VesselSeal* seal = seal_at(c, int(v), std::max(s - half, 0.0), std::min(s + half, 1.0), -1))
@@ -101,8 +101,8 @@ void seal_at_wire(StepContext& c, size_t t, const ElectrodeTouch& touch, const W
 
 void seal_vessels(StepContext& c, size_t t, const ElectrodeTouch& touch) noexcept {
   if (!c.model.vessels.there() || touch.contact.gap > 0) return;
-  const tissue::HeatReading r = tissue::reading(c.model.energy.heat, c.state.heat, touch.contact.body,
-                                                0.5 * (touch.contact.a + touch.contact.b));
+  const tissue::HeatReading r =
+      tissue::reading(c.model.energy.heat, c.state.heat, touch.contact.body, 0.5 * (touch.contact.a + touch.contact.b));
   if (r.temperature < kHot) return;
   Wall wall;
   wall.celsius = double(r.temperature);

@@ -1,6 +1,6 @@
-// What heat does to vessels: walls that are hot while they touch fuse. Between bipolar jaws the vessel that crosses them
-// is sealed over the jaws' width; a wire seals the stump or the hole that it is at. The wall has the temperature of the
-// tissue that the electrode heats: vessels are no bodies of heat of their own.
+// What heat does to vessels: walls that are hot while they touch fuse. Between bipolar jaws the vessel that crosses
+// them is sealed over the jaws' width; a wire seals the stump or the hole that it is at. The wall has the temperature
+// of the tissue that the electrode heats: vessels are no bodies of heat of their own.
 #pragma once
 
 #include <trocar/interactions/electrode_contact.hpp>

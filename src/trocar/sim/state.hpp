@@ -17,8 +17,8 @@ struct ElectrodeHand {
   Vec3d at{0, 0, 0};      ///< the tissue's point that it was last at [m]
   Vec3d parted{0, 0, 0};  ///< where it last parted tissue, in that body's frame of heat [m]
   std::int32_t body = -1, parted_body = -1;
-  std::int32_t changes = 0;   ///< ToolState::changes of the instrument that this is
-  interactions::Hold stuck;   ///< what sticks to it; body -1: nothing
+  std::int32_t changes = 0;  ///< ToolState::changes of the instrument that this is
+  interactions::Hold stuck;  ///< what sticks to it; body -1: nothing
 };
 static_assert(sizeof(ElectrodeHand) == sizeof(tissue::ElectrodeState) + 6 * 8 + 3 * 4 + sizeof(interactions::Hold),
               "no padding");

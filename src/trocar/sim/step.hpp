@@ -23,8 +23,8 @@ struct Event {
   } kind = none;
   std::int32_t tool = 0;
   /// The clip's or the cut's number in the State's book; grasped: the body held (interactions::Hold::body);
-  /// parted: the body that current has cut, likewise; torn: the body that tore, likewise, under the hand that pulls or presses most; exchanged: the new instrument's
-  /// number in the rack; released and slipped: -1.
+  /// parted: the body that current has cut, likewise; torn: the body that tore, likewise, under the hand that pulls or
+  /// presses most; exchanged: the new instrument's number in the rack; released and slipped: -1.
   std::int32_t index = 0;
 };
 inline constexpr int kMaxEvents = 24, kRoomForTears = 8;  ///< all; of those, only for tears

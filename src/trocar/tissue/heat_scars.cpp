@@ -26,9 +26,9 @@ std::size_t nearest(const std::array<float, n>& levels, float value) {
 std::uint8_t shade_of(const HeatState& s, std::size_t cell) {
   if (!(s.cells[cell] & HeatState::kTissue)) return kNoTissue;
   const float coagulated = 1 - float(portable::exp(-double(s.damage[cell])));
-  const std::size_t shade = (nearest(kCoagulated, coagulated) * kWater.size() + nearest(kWater, s.water[cell])) *
-                                kPeak.size() +
-                            nearest(kPeak, s.peak[cell]);
+  const std::size_t shade =
+      (nearest(kCoagulated, coagulated) * kWater.size() + nearest(kWater, s.water[cell])) * kPeak.size() +
+      nearest(kPeak, s.peak[cell]);
   return std::uint8_t(kAsItWas + shade);
 }
 

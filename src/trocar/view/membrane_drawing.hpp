@@ -19,7 +19,8 @@ class MembraneDrawing {
   void lay_pattern();
   void connect(const std::vector<std::uint8_t>& torn);
   void place(const tissue::MembraneState& state);
-  std::vector<Vec3d> flat_places() const;  ///< of the drawn vertices: between the body's nodes as drawn, without ripples
+  std::vector<Vec3d> flat_places()
+      const;  ///< of the drawn vertices: between the body's nodes as drawn, without ripples
 
   const sim::MembraneModel* m_membrane;
   int m_index, m_columns, m_rows;        ///< of the drawn grid

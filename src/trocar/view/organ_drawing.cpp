@@ -114,8 +114,8 @@ void OrganDrawing::update(const tissue::NetworkState& state, std::span<const std
   for (std::size_t i = 0; burnt && i < m_paint.size(); ++i) m_paint[i].burn = burnt->burn(i);
   const auto cut = [](std::uint8_t p) { return p != 0; };
   const bool was_open = !m_wound.empty(), open = std::any_of(parted.begin(), parted.end(), cut);
-  const bool changed = open ? burnt || !std::equal(parted.begin(), parted.end(), m_parted.begin(), m_parted.end())
-                            : was_open;
+  const bool changed =
+      open ? burnt || !std::equal(parted.begin(), parted.end(), m_parted.begin(), m_parted.end()) : was_open;
   if (!m_moved(state.nodes) && !changed && !burnt && !m_dented && !near(m_box, rods)) return;
   tissue::pose_skin(view_of(m_solid->network, state), m_solid->fine, m_pose);
   render::vertex_normals(m_pose.position, m_indices, m_normals);

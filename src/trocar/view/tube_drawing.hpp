@@ -63,7 +63,7 @@ class TubeDrawing {
   void add_raw_face(int piece, bool at_start);
   void connect();  ///< vertices and triangles of the rows
   void paint();
-  void burn(const sim::State& state);  ///< what heat has left, over the paint
+  void burn(const sim::State& state);         ///< what heat has left, over the paint
   std::size_t nearest_first(double s) const;  ///< first vertex of the baked row nearest to s
   void place(const StrandCurve& curve, std::vector<Vec3f>& positions) const;
   void press(const sim::State& state);
