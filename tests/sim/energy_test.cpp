@@ -165,7 +165,7 @@ TEST(Energy, AHookSealsTheStumpsOfAnArteryOf1Millimetre) {
   EXPECT_EQ(s.after, 0);
 }
 
-TEST(Energy, AHookDoesNotSealAnArteryOf2Millimetres) {
+TEST(Energy, AHookDoesNotSealAnArteryOf2AndAHalfMillimetres) {
   const Stump s = stump_of(0.0010, kBlue);
   EXPECT_GT(s.outer, 1.5e-3);
   EXPECT_GT(s.after, 0.3 * s.before);
