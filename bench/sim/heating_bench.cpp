@@ -91,9 +91,14 @@ BENCHMARK_CAPTURE(run_hook, HookWithoutCurrent, bleeding().down, 0, 0, false)->U
 BENCHMARK_CAPTURE(run_hook, HookCoagulates, bleeding().coagulating, sim::kBlue, 0, false)
     ->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(run_hook, HookCuts, bleeding().cutting, sim::kYellow, 2e-6, false)->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(run_hook, HookWithoutCurrentStage, bleeding().down, 0, 0, true)->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(run_hook, HookCoagulatesStage, bleeding().coagulating, sim::kBlue, 0, true)
+BENCHMARK_CAPTURE(run_hook, HookWithoutCurrentStage, bleeding().down, 0, 0, true)
+    ->Iterations(2000)
     ->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(run_hook, HookCutsStage, bleeding().cutting, sim::kYellow, 2e-6, true)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(run_hook, HookCoagulatesStage, bleeding().coagulating, sim::kBlue, 0, true)
+    ->Iterations(2000)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(run_hook, HookCutsStage, bleeding().cutting, sim::kYellow, 2e-6, true)
+    ->Iterations(2000)
+    ->Unit(benchmark::kMicrosecond);
 
 }  // namespace

@@ -113,7 +113,7 @@ TEST(Energy, AHookDrawnInPureCutPartsTheOrganAndCoagulationDoesNot) {
   EXPECT_EQ(told_of, 0);
 }
 
-/// The small scene's tube artery with another lumen, cut through below the hook, which then coagulates for 3 s.
+/// The small scene's tube artery with another lumen, cut through below the hook, which then coagulates for 1.5 s.
 struct Stump {
   double outer = 0, before = 0, after = 0;  ///< [m], [mL/min]
 };
@@ -148,11 +148,11 @@ Stump stump_of(double radius, std::uint32_t pedals) {
     }
     return sum;
   };
-  s.before = mean(800);
+  s.before = mean(300);
   t.input.pedals = pedals;
-  t.steps(3000);
+  t.steps(1500);
   t.input.pedals = 0;
-  s.after = mean(800);
+  s.after = mean(300);
   std::printf("    outer %.2f mm: %.2f mL/min before, %.3f after; body %d, %.0f C, %d seals\n", 1e3 * s.outer, s.before,
               s.after, t.state.electrodes[kHook].body, t.state.electrodes[kHook].current.tip, t.state.seal_count);
   return s;
@@ -165,7 +165,7 @@ TEST(Energy, AHookSealsTheStumpsOfAnArteryOf1Millimetre) {
   EXPECT_EQ(s.after, 0);
 }
 
-TEST(Energy, AHookDoesNotSealAnArteryOf2Millimetres) {
+TEST(Energy, AHookDoesNotSealAnArteryOf2AndAHalfMillimetres) {
   const Stump s = stump_of(0.0010, kBlue);
   EXPECT_GT(s.outer, 1.5e-3);
   EXPECT_GT(s.after, 0.3 * s.before);
@@ -193,6 +193,37 @@ TEST(Energy, BipolarJawsSealTheArteryInATubeThatTheyHold) {
               seal.state.char_, 1e-3 * tissue::burst_pressure({}, seal.state));
   EXPECT_EQ(seal.vessel, small::kTubeArtery);
   EXPECT_TRUE(holds(seal));
+  const std::vector<double>& scale = t.state.strands[small::kTube].scale;
+  EXPECT_GT(*std::max_element(scale.begin(), scale.end()), 2) << "what is coagulated is stiffer";
+}
+
+TEST(Energy, CharSticksToTheWireUntilItIsTornOff) {
+  scene::Description d = small::energy_description();
+  d.energy->blue_watts = 100;
+  const Model model = scene::compile(d);
+  small::Table t(model);
+  small::put_hook_down(t);
+  t.input.pedals = kBlue;
+  t.steps(3000);
+  t.input.pedals = 0;
+  const ElectrodeHand& hand = t.state.electrodes[kHook];
+  ASSERT_EQ(hand.stuck.body, kOrgan);
+  const tissue::Skin& skin = model.solids[0].skin;
+  const auto height = [&](int v) { return skin_point(nodes_of(model, t.state, 0), skin, v).z; };
+  const int vertex = hand.stuck.element;
+  const double before = height(vertex);
+  double highest = 0, hardest = 0;
+  for (int i = 0; i < 800 && hand.stuck.body >= 0; ++i) {
+    t.point(kHook, small::kOnOrgan + Vec3d{0, 0, 2e-5 * i});
+    t.step();
+    highest = std::max(highest, height(vertex) - before);
+    hardest = std::max(hardest, t.tool(kHook).contact_force[2] * -1);
+  }
+  std::printf("    stuck %.2f: tissue came %.2f mm along, %.2f N\n", hand.current.stuck, 1e3 * highest, hardest);
+  EXPECT_GT(highest, 0.5e-3);
+  EXPECT_EQ(hand.stuck.body, -1) << "2 N tear it off";
+  EXPECT_EQ(hand.current.stuck, 0);
+  EXPECT_LT(hardest, 2.5);
 }
 
 // The laws of the step.
