@@ -76,7 +76,7 @@ TEST(BleedingJudge, PassesWhoFindsClipsBothSidesClearsAndChecks) {
   EXPECT_TRUE(a.done(BleedingTask::clip));
   EXPECT_FALSE(a.done(BleedingTask::stop)) << "it is fed from the other end, too";
   a.clip(0.05);
-  a.pass(4);
+  a.pass(6);
   EXPECT_TRUE(a.done(BleedingTask::stop));
   EXPECT_TRUE(a.done(BleedingTask::clear)) << "1.3 mL in the pool";
   EXPECT_TRUE(a.done(BleedingTask::check));

@@ -118,24 +118,69 @@ void open_vessels(StepContext& c, const geometry::Blade& blade, Carriers carrier
   }
 }
 
+namespace {
+
+/// A place of a strand, within the interval of a vessel's line that runs inside it there.
+struct Within {
+  bool there = false;
+  double s = 0;  ///< of the vessel
+};
+/// @param arc  of the strand [m]
+Within within_strand(const interactions::StrandBody& body, int strand, const VesselPath& path, size_t i,
+                     double arc) noexcept {
+  const VesselHold &a = path.points[i].hold, &b = path.points[i + 1].hold;
+  if (a.kind != VesselHold::strand || b.kind != VesselHold::strand || a.index != strand || b.index != strand) return {};
+  const double from = arc_at(body, {a.element, a.w}), to = arc_at(body, {b.element, b.w});
+  if ((from > arc) == (to > arc)) return {};
+  const double w = (arc - from) / (to - from);
+  const Vec3d off = a.offset + w * (b.offset - a.offset);
+  if (length(off) > body.model.radius[size_t(interactions::place_at(body, arc).element)]) return {};
+  return {true, path.points[i].s + w * (path.points[i + 1].s - path.points[i].s)};
+}
+
+}  // namespace
+
 void open_vessels_within(StepContext& c, int strand, int element, int hand) noexcept {
   const interactions::StrandBody& body = c.model.bodies[size_t(strand)];
   const double middle = 0.5 * (body.arc[size_t(element)] + body.arc[size_t(element) + 1]);
-  for (size_t v = 0; v < c.model.vessels.list.size(); ++v) {
-    const VesselPath& path = path_of(c, v);
-    for (size_t i = 0; i + 1 < path.points.size(); ++i) {
-      const VesselHold &a = path.points[i].hold, &b = path.points[i + 1].hold;
-      if (a.kind != VesselHold::strand || b.kind != VesselHold::strand || a.index != strand || b.index != strand)
-        continue;
-      const double from = arc_at(body, {a.element, a.w}), to = arc_at(body, {b.element, b.w});
-      if ((from > middle) == (to > middle)) continue;
-      const double w = (middle - from) / (to - from);
-      const Vec3d off = a.offset + w * (b.offset - a.offset);
-      if (length(off) > body.model.radius[size_t(element)]) continue;
-      open_vessel(c, int(v), path.points[i].s + w * (path.points[i + 1].s - path.points[i].s), 1, hand);
-    }
-  }
+  for (size_t v = 0; v < c.model.vessels.list.size(); ++v)
+    for (size_t i = 0; i + 1 < path_of(c, v).points.size(); ++i)
+      if (const Within at = within_strand(body, strand, path_of(c, v), i, middle); at.there)
+        open_vessel(c, int(v), at.s, 1, hand);
 }
+
+namespace {
+
+bool close_vessel(StepContext& c, const interactions::VesselClip& closed) noexcept {
+  if (c.state.vessel_clip_count == interactions::kMaxVesselClips) {
+    c.report.flags |= StepReport::kBookFull;
+    return false;
+  }
+  c.state.vessel_clips[size_t(c.state.vessel_clip_count++)] = closed;
+  return true;
+}
+
+/// What runs inside a strand is squeezed with it, wherever between the legs it lies.
+void clip_within(StepContext& c, int number) noexcept {
+  const interactions::Clip& clip = c.state.clips[size_t(number)];
+  if (clip.strand < 0) return;
+  const interactions::StrandBody& body = c.model.bodies[size_t(clip.strand)];
+  for (size_t v = 0; v < c.model.vessels.list.size(); ++v)
+    for (size_t i = 0; i + 1 < path_of(c, v).points.size(); ++i) {
+      const Within at = within_strand(body, clip.strand, path_of(c, v), i, clip.s);
+      if (at.there && !close_vessel(c, {at.s, clip.cover, c.state.tick, std::int32_t(v), number})) return;
+    }
+}
+
+/// Has this clip closed the vessel already?
+bool has_closed(const StepContext& c, int number, size_t vessel) noexcept {
+  for (int i = 0; i < c.state.vessel_clip_count; ++i)
+    if (c.state.vessel_clips[size_t(i)].clip == number && c.state.vessel_clips[size_t(i)].vessel == int(vessel))
+      return true;
+  return false;
+}
+
+}  // namespace
 
 void clip_vessels(StepContext& c, size_t hand, int number) noexcept {
   interactions::Clip& clip = c.state.clips[size_t(number)];
@@ -143,7 +188,9 @@ void clip_vessels(StepContext& c, size_t hand, int number) noexcept {
   const interactions::ToolShape& shape = c.work.shapes[hand];
   double nearest = 1;
   CutPlaces places;
+  clip_within(c, number);
   for (size_t v = 0; v < c.model.vessels.list.size(); ++v) {
+    if (has_closed(c, number, v)) continue;
     const VesselPath& path = path_of(c, v);
     const std::vector<Vec3d>& points = c.work.vessel_points[v];
     const std::span<const double> cuts = cuts_of(c.state, int(v), places);
@@ -154,12 +201,7 @@ void clip_vessels(StepContext& c, size_t hand, int number) noexcept {
       for (int k = 0; k < pieces; ++k) {
         interactions::VesselCatch found;
         if (!catch_vessel(tool, shape, piece[k], vessel_radius(path, piece[k].s_a), found)) continue;
-        if (c.state.vessel_clip_count == interactions::kMaxVesselClips) {
-          c.report.flags |= StepReport::kBookFull;
-          return;
-        }
-        interactions::VesselClip& closed = c.state.vessel_clips[size_t(c.state.vessel_clip_count++)];
-        closed = {found.s, found.cover, c.state.tick, std::int32_t(v), number};
+        if (!close_vessel(c, {found.s, found.cover, c.state.tick, std::int32_t(v), number})) return;
         if (clip.strand >= 0 || std::fabs(found.local.x) >= nearest) continue;
         nearest = std::fabs(found.local.x);
         put_on_vessel(tool, shape, path, vessel_spot(path, points, cuts, found.s), int(v), found, clip);

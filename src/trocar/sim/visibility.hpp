@@ -23,8 +23,8 @@ inline bool visible(const Model& model, const State& state, int target) noexcept
 /// How many of the two jaw tips of that hand's instrument are in view.
 int jaw_tips_visible(const Model& model, const State& state, int hand) noexcept;
 
-/// Is the segment from `eye` to `point` free of organs, walls, strands and instruments? The last `margin` metres before the
-/// point do not count (it lies on a surface itself).
+/// Is the segment from `eye` to `point` free of organs, walls, strands and instruments? The last `margin` metres before
+/// the point do not count (it lies on a surface itself).
 bool unoccluded(const Model& model, const State& state, const Work& work, Vec3d eye, Vec3d point, double margin,
                 int skip_tool, int skip_strand) noexcept;
 

@@ -44,25 +44,14 @@ BleedingSurgeon::BleedingSurgeon(const Exercise& exercise, const sim::Model& mod
       if (model.hands[h].rack[i].kind == interactions::ToolKind::suction_irrigator) m_sucker = int(h), m_bore = int(i);
   if (m_applier < 0)
     faults.push_back({m_goal.applier_at, "expected a hand that begins with the clip applier, got none"});
-  const int target = model.target_index("bleeder");
-  if (target < 0 || model.targets[size_t(target)].kind != sim::VisibilityTarget::strand)
-    faults.push_back(
-        {{exercise.file.string(), 0, 0}, "expected a scene in which an artery on a strand opens by itself"});
+  if (model.vessels.bleeder.vessel < 0)
+    faults.push_back({{exercise.file.string(), 0, 0}, "expected a scene in which an artery opens by itself, got none"});
   if (!faults.empty()) throw core::BadInput(faults);
   const std::string& name = model.hands[size_t(m_applier)].name;
   m_jaws[0] = model.target_index(name + ".jaw_a");
   m_jaws[1] = model.target_index(name + ".jaw_b");
-  const sim::VisibilityTarget& t = model.targets[size_t(target)];
-  const sim::VisibilitySample& sample = model.samples[size_t(t.first)];
-  m_strand = t.index;
-  const interactions::StrandBody& body = model.bodies[size_t(m_strand)];
-  m_hole = arc_at(body, {sample.where, sample.w});
-  // Arteries are written from the heart on: where the line comes from, on the same strand, is its side.
-  const sim::Bleeder& b = model.vessels.bleeder;
-  for (const interactions::VesselPoint& p : model.vessels.list[size_t(b.vessel)].path.points) {
-    if (p.hold.kind != interactions::VesselHold::strand || p.hold.index != m_strand || p.s >= b.s) continue;
-    m_heart = arc_at(body, {p.hold.element, p.hold.w}) < m_hole ? -1 : 1;
-  }
+  m_hosts = sim::make_host_views(model);
+  m_artery.resize(model.vessels.list[size_t(model.vessels.bleeder.vessel)].path.points.size());
 }
 
 const char* BleedingSurgeon::doing() const { return kDoing[size_t(m_phase)]; }
@@ -72,20 +61,16 @@ void BleedingSurgeon::go(Phase next) {
   m_in_phase = m_steady = 0;
 }
 
-Vec3d BleedingSurgeon::point(double s) const {
-  const interactions::StrandBody& body = m_model->bodies[size_t(m_strand)];
-  return interactions::point_at(body, m_state->strands[size_t(m_strand)], interactions::place_at(body, s));
+const interactions::VesselPath& BleedingSurgeon::path() const {
+  return m_model->vessels.list[size_t(m_model->vessels.bleeder.vessel)].path;
 }
-Vec3d BleedingSurgeon::tangent(double s) const {
-  const interactions::StrandBody& body = m_model->bodies[size_t(m_strand)];
-  return interactions::tangent_at(body, m_state->strands[size_t(m_strand)], interactions::place_at(body, s));
-}
-Vec3d BleedingSurgeon::place() const { return point(m_hole); }
+interactions::VesselSpot BleedingSurgeon::spot(double s) const { return vessel_spot(path(), m_artery, {}, s); }
+Vec3d BleedingSurgeon::place() const { return point(m_model->vessels.bleeder.s); }
 
 double BleedingSurgeon::clip_at() const {
-  const double length = m_model->bodies[size_t(m_strand)].length();
-  const double farther = kBeside + 0.0015 * double(m_tries % 3);
-  return std::clamp(m_hole + (m_upstream ? m_heart : -m_heart) * farther, 0.004, length - 0.004);
+  // Arteries are written from the heart on. A little farther off after each failure.
+  const double off = (kBeside + 0.002 * double(m_tries % 3)) / path().length;
+  return std::clamp(m_model->vessels.bleeder.s + (m_upstream ? -off : off), 0.0, 1.0);
 }
 
 bool BleedingSurgeon::has_clip(bool upstream) const {
@@ -107,17 +92,16 @@ bool BleedingSurgeon::choose_side() {
 }
 
 double BleedingSurgeon::inside() const {
+  constexpr double kCarrier = 0.0037;  // [m] radius of what carries arteries here, and a little more
   const interactions::ToolModel& t = m_model->tool(*m_state, size_t(m_applier));
-  const interactions::StrandBody& body = m_model->bodies[size_t(m_strand)];
-  const double radius = body.model.radius[size_t(interactions::place_at(body, clip_at()).element)];
-  return t.jaw_length - t.clip_length + radius + 0.001;
+  return t.jaw_length - t.clip_length + kCarrier;
 }
 
 bool BleedingSurgeon::aim(double back, double speed) {
   const interactions::ToolModel& t = m_model->tool(*m_state, size_t(m_applier));
   const Vec3d at = point(clip_at()), axis = normalised(at - m_arms[m_applier].port);
   const bool there = m_arms.move(m_applier, at + (t.jaw_length - inside() - back) * axis, speed);
-  return m_arms.turn_across(m_applier, tangent(clip_at())) && there;
+  return m_arms.turn_across(m_applier, spot(clip_at()).along) && there;
 }
 
 bool BleedingSurgeon::sees_jaw() const {
@@ -198,7 +182,7 @@ void BleedingSurgeon::leave() {
   const Vec3d out = normalised(m_arms[m_applier].port - m_arms[m_applier].tip);
   m_arms.move(m_applier, m_arms[m_applier].tip + 0.01 * out, kCareful);
   if (m_in_phase < 1.5) return;
-  m_tries = m_state->clip_count > m_clips_before ? 0 : m_tries + 1;
+  m_tries = has_clip(m_upstream) ? 0 : m_tries + 1;
   m_gave_up = m_tries >= kMostTries;
   if (m_gave_up) return go(Phase::finished);
   go(choose_side() ? Phase::reach : Phase::change);
@@ -267,6 +251,7 @@ sim::Input BleedingSurgeon::next(const sim::Model& model, const sim::State& stat
   m_point_count = 0;
   m_distance = 0.06;
   m_arms.begin_tick();
+  pose_vessel(path(), look_at_hosts(model, state, m_hosts), m_artery);
   static constexpr void (BleedingSurgeon::*kRun[])() = {
       &BleedingSurgeon::watch,   &BleedingSurgeon::find,  &BleedingSurgeon::reach, &BleedingSurgeon::enter,
       &BleedingSurgeon::inspect, &BleedingSurgeon::close, &BleedingSurgeon::open,  &BleedingSurgeon::leave,

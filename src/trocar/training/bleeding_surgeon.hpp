@@ -8,6 +8,7 @@
 
 #include <array>
 
+#include <trocar/sim/host_views.hpp>
 #include <trocar/training/camera_hand.hpp>
 #include <trocar/training/expert.hpp>
 
@@ -60,10 +61,11 @@ class BleedingSurgeon final : public Expert {
   /// The next clip: on which side of the place; false: both are there.
   bool choose_side();
   bool has_clip(bool upstream) const;
-  /// Where the artery's carrier is at arc length `s`, and which way it runs there.
-  Vec3d point(double s) const;
-  Vec3d tangent(double s) const;
-  double clip_at() const;  ///< arc length of the clip that is being set
+  const interactions::VesselPath& path() const;
+  /// Where the artery is at `s`, 0 to 1 along it, and which way it runs there.
+  interactions::VesselSpot spot(double s) const;
+  Vec3d point(double s) const { return spot(s).place; }
+  double clip_at() const;  ///< place of the clip that is being set, likewise
   Vec3d place() const;     ///< that bleeds
   bool aim(double back, double speed);
   double inside() const;
@@ -79,10 +81,9 @@ class BleedingSurgeon final : public Expert {
   const sim::Model* m_model = nullptr;
   const sim::State* m_state = nullptr;
   int m_applier = -1, m_sucker = -1, m_bore = -1;  ///< hands, and the suction-irrigator's number in its rack; -1: none
-  int m_strand = -1;
-  int m_jaws[2] = {-1, -1};  ///< targets of visibility
-  double m_hole = 0;         ///< arc length of the place on the strand [m]
-  double m_heart = -1;       ///< the heart is towards smaller (-1) or larger (+1) arc lengths
+  int m_jaws[2] = {-1, -1};                        ///< targets of visibility
+  sim::HostViews m_hosts;
+  std::vector<Vec3d> m_artery;  ///< where its line is in this tick
   Phase m_phase = Phase::watch;
   bool m_upstream = true, m_gave_up = false;
   int m_tries = 0, m_clips_before = 0;

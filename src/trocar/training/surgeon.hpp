@@ -15,8 +15,8 @@
 
 #include <trocar/sim/state.hpp>
 #include <trocar/training/camera_hand.hpp>
-#include <trocar/training/expert.hpp>
 #include <trocar/training/exercise.hpp>
+#include <trocar/training/expert.hpp>
 #include <trocar/training/following.hpp>
 
 namespace trocar::training {
