@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <string_view>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -55,7 +56,10 @@ std::vector<ExerciseEntry> list_exercises(const fs::path& scenes) {
       if (file.path().extension() == ".json" && is_exercise(file.path()))
         list.push_back({s.name + "/" + file.path().stem().string(), title_of(file.path()), file.path()});
   }
-  std::sort(list.begin(), list.end(), [](const ExerciseEntry& a, const ExerciseEntry& b) { return a.name < b.name; });
+  constexpr std::string_view kFirst = "gynaecology/sterilisation";  // what people begin with
+  std::sort(list.begin(), list.end(), [&](const ExerciseEntry& a, const ExerciseEntry& b) {
+    return std::pair(a.name != kFirst, a.name) < std::pair(b.name != kFirst, b.name);
+  });
   return list;
 }
 

@@ -17,7 +17,7 @@ struct ExerciseEntry {
   std::filesystem::path path;
   bool task = true;  ///< false: a bare scene, for free practice
 };
-/// The exercise files in scenes/SCENE/, sorted by name.
+/// The exercise files in scenes/SCENE/: the one that people begin with, then by name.
 std::vector<ExerciseEntry> list_exercises(const std::filesystem::path& scenes);
 /// The same, and after them the scenes that have no exercise.
 std::vector<ExerciseEntry> list_trainings(const std::filesystem::path& scenes);
