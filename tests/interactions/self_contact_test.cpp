@@ -78,7 +78,7 @@ struct Body {
   void step(bool contact) {
     show();
     loads.clear();
-    if (contact) self_contact(pair, surface(), {}, tick, nearest, loads);
+    if (contact) self_contact(pair, surface(), {}, {}, tick, nearest, loads);
     ++tick;
     for (const tissue::NodeLoad& load : hands) loads.add(load, {Owner::anchor, 0, 0});
     loads.sort();
@@ -105,6 +105,17 @@ Body fork() {
       [](Vec3d p) { return p.z < 1e-9; });
 }
 
+/// Hands that push the limbs' ends together.
+void press_limbs(Body& b) {
+  for (size_t i = 0; i < b.drawn.size(); ++i) {
+    if (b.drawn[i].z < 10 * kCell) continue;
+    tissue::NodeLoad load;
+    load.node = int(i);
+    load.f0 = {b.drawn[i].x < 4 * kCell ? 0.00012f : -0.00012f, 0, 0};
+    b.hands.push_back(load);
+  }
+}
+
 /// How far the inner sides have passed each other [m]; negative: the gap that is left.
 double crossed(const Body& b) {
   double most = -1;
@@ -120,13 +131,7 @@ TEST(SelfContact, LimbsThatArePressedTogetherTouchAndDoNotPass) {
   double found[2];
   for (const bool contact : {false, true}) {
     Body b = fork();
-    for (size_t i = 0; i < b.drawn.size(); ++i) {
-      if (b.drawn[i].z < 10 * kCell) continue;
-      tissue::NodeLoad load;
-      load.node = int(i);
-      load.f0 = {b.drawn[i].x < 4 * kCell ? 0.00012f : -0.00012f, 0, 0};
-      b.hands.push_back(load);
-    }
+    press_limbs(b);
     for (int i = 0; i < 1500; ++i) b.step(contact);
     found[contact] = crossed(b);
     if (contact) {
@@ -184,17 +189,25 @@ TEST(SelfContact, ABarThatIsFoldedBackLiesOnItself) {
 
 TEST(SelfContact, ThePartsOfAForkComeApartAgain) {
   Body b = fork();
-  for (size_t i = 0; i < b.drawn.size(); ++i) {
-    if (b.drawn[i].z < 10 * kCell) continue;
-    tissue::NodeLoad load;
-    load.node = int(i);
-    load.f0 = {b.drawn[i].x < 4 * kCell ? 0.00012f : -0.00012f, 0, 0};
-    b.hands.push_back(load);
-  }
+  press_limbs(b);
   for (int i = 0; i < 1000; ++i) b.step(true);
   b.hands.clear();
   for (int i = 0; i < 2000; ++i) b.step(true);
   EXPECT_NEAR(crossed(b), -3 * kCell, 0.0005) << "[m] as drawn";
+}
+
+TEST(SelfContact, WhatIsFoldedIntoItselfIsNotHeldOff) {
+  Body b = fork();
+  press_limbs(b);
+  for (int i = 0; i < 1500; ++i) b.step(true);
+  ASSERT_GT(b.known(), 5u);
+  std::vector<std::uint8_t> folded(b.state.nodes.size(), 0);
+  for (size_t i = 0; i < b.drawn.size(); ++i)  // one limb; the other's samples meet nothing else
+    if (b.drawn[i].x < 4 * kCell) folded[size_t(b.model.row_of_node[i])] = 1;
+  b.loads.clear();
+  for (std::uint64_t t = 0; t < 64; ++t) self_contact(b.pair, b.surface(), {}, folded, t, b.nearest, b.loads);
+  EXPECT_EQ(b.known(), 0u);
+  EXPECT_EQ(b.loads.gathered.size(), 0u);
 }
 
 TEST(SelfContact, AThinSlabIsNotTakenForTwoParts) {
@@ -205,7 +218,7 @@ TEST(SelfContact, AThinSlabIsNotTakenForTwoParts) {
       set_position(b.model, b.state, int(i), {b.drawn[i].x, b.drawn[i].y, squeezed * b.drawn[i].z});
     b.show();
     b.loads.clear();
-    for (std::uint64_t t = 0; t < 64; ++t) self_contact(b.pair, b.surface(), {}, t, b.nearest, b.loads);
+    for (std::uint64_t t = 0; t < 64; ++t) self_contact(b.pair, b.surface(), {}, {}, t, b.nearest, b.loads);
     EXPECT_EQ(b.known(), 0u) << squeezed;
     EXPECT_EQ(b.loads.gathered.size(), 0u) << squeezed;
   }
@@ -220,7 +233,7 @@ TEST(SelfContact, WhatIsDrawnTouchingOrOverlappingIsNotPushedApart) {
     b.show();
     b.pair = make_self_pair(0, b.surface(), b.pair.sample, 4 * kCell);
     b.loads.clear();
-    for (std::uint64_t t = 0; t < 64; ++t) self_contact(b.pair, b.surface(), {}, t, b.nearest, b.loads);
+    for (std::uint64_t t = 0; t < 64; ++t) self_contact(b.pair, b.surface(), {}, {}, t, b.nearest, b.loads);
     EXPECT_EQ(b.loads.gathered.size(), 0u) << gap;
     if (gap > 0) {
       EXPECT_GT(b.known(), 10u) << "they know each other all the same";
@@ -288,7 +301,7 @@ double ends_apart(const sim::Model& model, bool contact) {
     const Surface surface{&solid.skin, &pose, view_of(solid.network, state)};
     pose_skin(surface.nodes, solid.skin, pose);
     loads.clear();
-    if (contact) self_contact(model.self_pairs[0], surface, {}, std::uint64_t(t), nearest, loads);
+    if (contact) self_contact(model.self_pairs[0], surface, {}, {}, std::uint64_t(t), nearest, loads);
     double left = 0, right = 0, count = 0;
     for (int n = 0; n < solid.network.nodes; ++n) {
       const Vec3d p = solid.network.rest[size_t(n)];
@@ -337,7 +350,7 @@ void expect_no_load_as_drawn(const std::string& file) {
     std::vector<std::int32_t> nearest(samples.size(), -1);
     NetworkLoads loads;
     loads.reserve(8192);
-    for (std::uint64_t t = 0; t < 40; ++t) self_contact(pair, surface, {}, t, nearest, loads);
+    for (std::uint64_t t = 0; t < 40; ++t) self_contact(pair, surface, {}, {}, t, nearest, loads);
     EXPECT_EQ(loads.gathered.size(), 0u) << model.organ_name(organ);
     std::cout << model.organ_name(organ) << ": slenderness " << slenderness(skin) << ", "
               << std::count_if(nearest.begin(), nearest.end(), [](int v) { return v >= 0; }) << " of " << samples.size()

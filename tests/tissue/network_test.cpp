@@ -447,6 +447,23 @@ TEST(VolumeProtection, AFoldIsNotDrivenHomeWhileHandsAreOn) {
   EXPECT_LT(body.away(), 1e-4);
 }
 
+TEST(VolumeProtection, AFoldThatNeverRestsIsDrivenHomeOnceHandsAreOff) {
+  PushedCorner body(1);
+  NetworkWork w = make_work(body.model);
+  const float shake = float(0.3 * body.model.mass[size_t(body.corner)] / 1e-3);  // 0.3 m/s to and fro
+  const auto tremble = [&](int ticks, Hands hands) {
+    for (int t = 0; t < ticks; ++t) {
+      const NodeLoad push{.node = body.corner, .f0 = {t % 2 ? shake : -shake, 0, 0}};
+      ASSERT_TRUE(advance(body.model, {&push, 1}, {}, body.state, w, nullptr, hands).fine());
+    }
+  };
+  tremble(1000, Hands::on);
+  EXPECT_GT(body.away(), 0.004) << "it is held there, or this test proves nothing";
+  tremble(900, Hands::off);
+  EXPECT_LT(body.away(), 5e-4);
+  EXPECT_EQ(body.state.open_tets, 0u);
+}
+
 TEST(VolumeProtection, AHandThatKeepsCellsFoldedFeedsNoMotion) {
   const PushedCorner start(0.15);
   for (int node : {start.corner, start.corner + 6}) {

@@ -67,6 +67,15 @@ int walk_beside(const SelfPair& pair, const Surface& surface, std::size_t i, int
   return here;
 }
 
+/// Is one of the vertex' carriers among `rows`?
+bool is_carried(const tissue::Skin& skin, int vertex, std::span<const std::uint8_t> rows) noexcept {
+  if (rows.empty()) return false;
+  const tissue::SkinWeights& w = skin.weights[std::size_t(vertex)];
+  for (std::size_t j = 0; j < w.row.size(); ++j)
+    if (w.weight[j] != 0 && rows[std::size_t(w.row[j])]) return true;
+  return false;
+}
+
 void push(const Surface& surface, int vertex, Vec3d by, Vec3d n, NetworkLoads& loads) noexcept {
   SkinLoad load;
   load.k = kStiffness;
@@ -170,8 +179,9 @@ double slenderness(const tissue::Skin& skin) {
   return longest * 3 * area2 / volume6;
 }
 
-void self_contact(const SelfPair& pair, const Surface& surface, std::span<const std::int32_t> part, std::uint64_t tick,
-                  std::span<std::int32_t> nearest, NetworkLoads& loads) noexcept {
+void self_contact(const SelfPair& pair, const Surface& surface, std::span<const std::int32_t> part,
+                  std::span<const std::uint8_t> folded, std::uint64_t tick, std::span<std::int32_t> nearest,
+                  NetworkLoads& loads) noexcept {
   std::int32_t known = -1;
   for (const std::int32_t vertex : nearest) known = std::max(known, vertex);
   const std::uint64_t turns = known < 0 ? kTurns : kSoon;
@@ -181,8 +191,10 @@ void self_contact(const SelfPair& pair, const Surface& surface, std::span<const 
       nearest[i] = look_ahead(pair, surface, i);
       if (nearest[i] < 0) continue;
     }
-    const bool parted = !part.empty() && part[std::size_t(pair.sample[i])] != part[std::size_t(nearest[i])];
-    nearest[i] = parted ? -1 : keep_apart(pair, surface, i, nearest[i], loads);
+    const int own = pair.sample[i], other = nearest[i];
+    const bool parted = !part.empty() && part[std::size_t(own)] != part[std::size_t(other)];
+    const bool lost = parted || is_carried(*surface.skin, own, folded) || is_carried(*surface.skin, other, folded);
+    nearest[i] = lost ? -1 : keep_apart(pair, surface, i, other, loads);
   }
 }
 

@@ -41,9 +41,12 @@ SelfPair make_self_pair(int organ, const Surface& drawn, std::span<const int> sa
 double slenderness(const tissue::Skin& skin);
 
 /// @param part     (vertices) which piece of a cut body each belongs to, or empty: pieces meet elsewhere
+/// @param folded   (rows) what is folded into itself, or empty: that has left its place through the body, and would be
+///                 held off from its way home
 /// @param tick     whose turn it is to look
 /// @param nearest  (samples) State: the vertex of the other part, -1 where none is near
-void self_contact(const SelfPair& pair, const Surface& surface, std::span<const std::int32_t> part, std::uint64_t tick,
-                  std::span<std::int32_t> nearest, NetworkLoads& loads) noexcept;
+void self_contact(const SelfPair& pair, const Surface& surface, std::span<const std::int32_t> part,
+                  std::span<const std::uint8_t> folded, std::uint64_t tick, std::span<std::int32_t> nearest,
+                  NetworkLoads& loads) noexcept;
 
 }  // namespace trocar::interactions

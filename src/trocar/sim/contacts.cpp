@@ -25,6 +25,21 @@ void touch_sheets(StepContext& c, size_t t, interactions::Touching& touching) no
   }
 }
 
+/// (vertices) Which piece of it each belongs to; empty where it hangs together.
+std::span<const std::int32_t> pieces_of(const StepContext& c, size_t organ) noexcept {
+  const size_t solids = c.model.solids.size();
+  if (organ < solids) return {};
+  const tissue::CuttableWork& work = c.work.cuttable_work[organ - solids];
+  return work.parts > 1 ? work.part : std::span<const std::int32_t>{};
+}
+
+std::span<const std::uint8_t> folded_of(StepContext& c, size_t organ) noexcept {
+  const size_t solids = c.model.solids.size(), i = organ - solids;
+  if (organ < solids)
+    return folded_rows(c.model.solids[organ].network, c.state.solids[organ], c.work.solid_work[organ]);
+  return folded_rows(c.model.cuttables[i].body, c.state.cuttables[i], c.work.cuttable_work[i]);
+}
+
 }  // namespace
 
 // Instruments on tissue: contact and hold.
@@ -91,10 +106,9 @@ void touch_organs(StepContext& c) noexcept {
     side += n;
   }
   for (const interactions::SelfPair& p : c.model.self_pairs) {
-    const size_t organ = size_t(p.organ), solids = c.model.solids.size();
-    const tissue::CuttableWork* cut = organ < solids ? nullptr : &c.work.cuttable_work[organ - solids];
-    const std::span<const std::int32_t> part = cut && cut->parts > 1 ? cut->part : std::span<const std::int32_t>{};
-    self_contact(p, c.work.surfaces[organ], part, s.tick, {s.nearest.data() + at, p.sample.size()},
+    const size_t organ = size_t(p.organ);
+    const std::span<std::int32_t> nearest{s.nearest.data() + at, p.sample.size()};
+    self_contact(p, c.work.surfaces[organ], pieces_of(c, organ), folded_of(c, organ), s.tick, nearest,
                  c.work.organ_loads[organ]);
     at += p.sample.size();
   }

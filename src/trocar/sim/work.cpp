@@ -81,6 +81,7 @@ void scribble(tissue::CuttableWork& c) noexcept {
   scribble(c.guarded_packs);
   scribble(c.part);
   scribble(c.open_tets);
+  scribble(c.folded);
   scribble(c.below);
   scribble(c.cut);
   scribble(c.volume);
@@ -94,6 +95,7 @@ void scribble(tissue::NetworkWork& n) noexcept {
     scribble(f.sums);
   }
   scribble(n.open_tets);
+  scribble(n.folded);
   scribble(n.below);
   scribble(n.loaded);
   scribble(n.volume);

@@ -376,6 +376,12 @@ StepReport advance(const CuttableModel& m, std::span<const NodeLoad> loads, std:
   return report;
 }
 
+std::span<const std::uint8_t> folded_rows(const CuttableModel& m, const CuttableState& s, CuttableWork& w) noexcept {
+  if (s.open_tets == 0) return {};
+  make_current(m, s, w);
+  return mark_folded(w.guarded, s.tet_phase, w.folded);
+}
+
 geometry::CutBook cut(const CuttableModel& m, const geometry::Blade& blade, CuttableState& s,
                       CuttableWork& w) noexcept {
   make_current(m, s, w);

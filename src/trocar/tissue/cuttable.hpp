@@ -99,6 +99,7 @@ struct CuttableWork {
   std::int32_t parts = 1;            ///< how many
   std::int32_t largest_part = 0;     ///< the one with the most nodes
   std::vector<int> open_tets;        ///< (cells)
+  std::vector<std::uint8_t> folded;  ///< (rows)
   std::vector<std::uint16_t> below;  ///< (packs of cells)
   std::vector<LoadedNode> loaded;    ///< (capacity)
   VolumeWork volume;                 ///< empty where there is no volume force
@@ -132,6 +133,9 @@ Vec3d position(const CuttableModel& model, const CuttableState& state, int node)
 Vec3d velocity(const CuttableModel& model, const CuttableState& state, int node) noexcept;
 void set_position(const CuttableModel& model, CuttableState& state, int node, Vec3d x) noexcept;
 void set_velocity(const CuttableModel& model, CuttableState& state, int node, Vec3d v) noexcept;
+/// As folded_rows of a network.
+std::span<const std::uint8_t> folded_rows(const CuttableModel& model, const CuttableState& state,
+                                          CuttableWork& work) noexcept;
 /// Drawn mass of a node [kg], from its cells.
 double mass_of(const CuttableModel& model, const CuttableState& state, int node) noexcept;
 

@@ -166,6 +166,7 @@ CuttableWork make_work(const CuttableModel& m) {
   w.guarded.resize(m.drawn.cells.size());
   w.guarded_packs.assign((m.drawn.cells.size() + kSlice - 1) / kSlice, empty_pack());
   w.open_tets.resize(m.drawn.cells.size());
+  w.folded.resize(std::size_t(m.rows));
   w.below.resize(w.guarded_packs.size());
   w.loaded.resize(nodes);
   if (m.bulk.impulses > 0) w.volume.resize(std::size_t(m.rows));

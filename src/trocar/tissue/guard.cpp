@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -12,7 +13,7 @@ namespace {
 constexpr float kReleased = 0.2f;     // share of the rest volume at which a cell is let go
 constexpr float kBlend = 0.3f;        // share of its nodes' velocities that one sub-step replaces
 constexpr float kStill = 0.02f;       // nodes slower than this are at rest [m/s]
-constexpr int kLong = 100;            // ticks at rest after which a fold is one that springs hold
+constexpr int kLong = 100;            // ticks after which a fold is one that springs hold
 constexpr float kUnfolding = 0.005f;  // the opening time, and kReleased, for such a fold
 constexpr float kUnfolded = 0.7f;
 constexpr float kLeap = 20;   // faster than anything that hands do to tissue [m/s]
@@ -33,6 +34,17 @@ TetPack empty_pack() noexcept {
   TetPack p{};
   for (float& limit : p.limit6) limit = -std::numeric_limits<float>::infinity();
   return p;
+}
+
+std::span<const std::uint8_t> mark_folded(std::span<const TetRest> cells, std::span<const std::uint8_t> phase,
+                                          std::span<std::uint8_t> folded) noexcept {
+  const auto is_folded = [](std::uint8_t p) { return p >= kLong && p != kGone; };
+  if (std::none_of(phase.begin(), phase.end(), is_folded)) return {};
+  std::fill(folded.begin(), folded.end(), std::uint8_t{0});
+  for (std::size_t t = 0; t < cells.size(); ++t)
+    if (is_folded(phase[t]))
+      for (const int row : cells[t].row) folded[std::size_t(row)] = 1;
+  return folded;
 }
 
 Guard::Guard(const GuardedBody& body, const GuardState& state, const GuardScratch& scratch,
@@ -141,10 +153,11 @@ Mat3d Guard::turn_of(std::int32_t part, std::span<const NodeState> nodes) const 
 /// volume's gradient were where cells are nearly flat. Momentum is conserved.
 ///
 /// Springs can withstand that: a corner that was pushed through its cell to the far side of it lies in a minimum of
-/// their energy. So a cell that has been folded and at rest for kLong is driven slowly, and with its velocities
-/// replaced altogether: springs then only move it as a whole. A fold's cells must unfold together, or one pulls the
-/// other back: all do so in the last quarter of 256 ticks. Where the way home begins is read before the sub-step; the
-/// place that springs have just predicted overshoots where they are stiff, and driving from there goes astray.
+/// their energy. So a cell that has been folded for kLong, at rest or without hands (it may tremble for ever, pushed to
+/// and fro by this very remedy), is driven slowly, and with its velocities replaced altogether: springs then only move
+/// it as a whole. A fold's cells must unfold together, or one pulls the other back: all do so in the last quarter of
+/// 256 ticks. Where the way home begins is read before the sub-step; the place that springs have just predicted
+/// overshoots where they are stiff, and driving from there goes astray.
 void Guard::push_open(const NodeState* in, NodeState* out) const noexcept {
   const float dt = float(b.dt);
   const bool unfolding = unfolds_now();
@@ -191,7 +204,8 @@ void Guard::release(std::span<const NodeState> nodes) noexcept {
       phase = 0, --m_state.open;
     } else if (!late()) {
       const bool rests = at_rest(corner(0)) && at_rest(corner(1)) && at_rest(corner(2)) && at_rest(corner(3));
-      phase = !rests ? 1 : (phase < kOldestFold ? std::uint8_t(phase + 1) : phase);
+      const bool stays = rests || m_hands == Hands::off;
+      phase = !stays ? 1 : (phase < kOldestFold ? std::uint8_t(phase + 1) : phase);
     }
   }
 }

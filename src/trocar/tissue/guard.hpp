@@ -28,7 +28,7 @@ struct TetRest {
 };
 inline constexpr double kCollapsed = 0.1;     ///< share of the rest volume below which a cell is pushed open
 inline constexpr float kOpeningTime = 1e-3f;  ///< with which it takes its shape again, at least [s]
-/// A cell's phase counts, while it is pushed open, the ticks for which it has been at rest.
+/// A cell's phase counts, while it is pushed open, the ticks for which it has been at rest or without hands.
 inline constexpr std::uint8_t kOldestFold = 200, kGone = 255;
 
 /// Puts a cell into a lane of a pack. @param limit6  six-fold volume below which it has collapsed [m^3]
@@ -66,6 +66,12 @@ struct GuardScratch {
   std::span<std::uint16_t> below;  ///< (packs)
 };
 
+/// Marks the rows of cells that have been folded for long: where they are says nothing about where the body is, as they
+/// may lie behind other tissue.
+/// @param folded  (rows) @return it, or nothing where no cell is
+std::span<const std::uint8_t> mark_folded(std::span<const TetRest> cells, std::span<const std::uint8_t> phase,
+                                          std::span<std::uint8_t> folded) noexcept;
+
 /// Whether an instrument touches or holds the body. Folded cells are driven home only where none does: a drive that
 /// takes no account of springs, against hands that keep the cells folded, is an engine without a limit.
 enum class Hands { off, on };
@@ -80,7 +86,7 @@ class Guard {
   void mend(const NodeState* in, NodeState* out) const noexcept;
   /// The same, once loads have been applied.
   void catch_leaps(const NodeState* in, NodeState* out) const noexcept;
-  /// Lets go the cells that are open, and counts for how long the others have been at rest.
+  /// Lets go the cells that are open, and counts for how long the others have been folded.
   void release(std::span<const NodeState> nodes) noexcept;
 
  private:

@@ -205,7 +205,7 @@ HeatState cold(const HeatModel& m) {
   HeatState s;
   const std::size_t bricks = std::size_t(m.bricks), awake = std::size_t(m.awake);
   s.key.resize(bricks);
-  s.slot.assign(bricks, HeatState::kFree);
+  s.slot.assign(bricks, HeatState::kUnused);
   s.cells.resize(bricks * kBrickCells);
   s.water.resize(bricks * kBrickCells);
   s.damage.resize(bricks * kBrickCells);
@@ -279,7 +279,7 @@ double stored(const HeatModel& m, const HeatState& s) noexcept {
 }
 
 int bricks_used(const HeatState& s) noexcept {
-  return int(s.slot.size()) - int(std::count(s.slot.begin(), s.slot.end(), HeatState::kFree));
+  return int(s.slot.size()) - int(std::count(s.slot.begin(), s.slot.end(), HeatState::kUnused));
 }
 int bricks_awake(const HeatState& s) noexcept {
   return int(s.owner.size()) - int(std::count(s.owner.begin(), s.owner.end(), -1));
@@ -325,7 +325,7 @@ bool heated_box(const HeatModel& m, const HeatState& s, std::int32_t body, Vec3d
   bool any = false;
   const double side = kBrickSide * m.cell;
   for (int b = 0; b < m.bricks; ++b) {
-    if (s.slot[b] == HeatState::kFree || s.key[b].body != body) continue;
+    if (s.slot[b] == HeatState::kUnused || s.key[b].body != body) continue;
     const Vec3d corner{side * s.key[b].i, side * s.key[b].j, side * s.key[b].k};
     for (int c = 0; c < 3; ++c) {
       low[c] = any ? std::min(low[c], corner[c]) : corner[c];
@@ -342,7 +342,7 @@ void add_to_hash(core::Hasher& hasher, const HeatState& s) noexcept {
   };
   for (std::size_t b = 0; b < s.slot.size(); ++b) {
     hasher.add(s.slot[b]);
-    if (s.slot[b] == HeatState::kFree) continue;
+    if (s.slot[b] == HeatState::kUnused) continue;
     add(s.key, b, 1);
     hasher.add(core::hash_bytes(s.cells.data() + b * kBrickCells, kBrickCells));
     for (const auto* values : {&s.water, &s.damage, &s.peak})

@@ -106,7 +106,7 @@ struct HeatBooks {
 };
 
 struct HeatState {
-  enum Slot : std::int32_t { kFree = -2, kAsleep = -1 };
+  enum Slot : std::int32_t { kUnused = -2, kAsleep = -1 };
   enum Cell : std::uint8_t {
     kTissue = 1,
     kParted = 2,

@@ -26,7 +26,7 @@ void insert(const HeatModel& m, HeatState& s, std::int32_t entry) noexcept {
 void index_anew(const HeatModel& m, HeatState& s) noexcept {
   std::fill(s.index.begin(), s.index.end(), kNobody);
   for (int b = 0; b < m.bricks; ++b)
-    if (s.slot[b] != HeatState::kFree) insert(m, s, b);
+    if (s.slot[b] != HeatState::kUnused) insert(m, s, b);
   for (int e = 0; e < s.empties; ++e) insert(m, s, kEmpty - e);
 }
 
@@ -50,7 +50,7 @@ Vec3d corner_of(const HeatModel& m, const BrickKey& key) noexcept {
 std::int32_t make_brick(const HeatModel& m, const BrickKey& key, const TissueShape& shape, HeatState& s,
                         std::uint32_t& flags) noexcept {
   std::int32_t brick = 0;
-  while (brick < m.bricks && s.slot[brick] != HeatState::kFree) ++brick;
+  while (brick < m.bricks && s.slot[brick] != HeatState::kUnused) ++brick;
   if (brick == m.bricks) {
     flags |= HeatReport::kBricksFull;
     return kNobody;
@@ -124,7 +124,7 @@ bool fall_asleep(const HeatModel& m, std::int32_t slot, HeatState& s) noexcept {
   s.owner[slot] = -1;
   s.slot[brick] = HeatState::kAsleep;
   if (!is_as_new(m, brick, s)) return false;
-  s.slot[brick] = HeatState::kFree;
+  s.slot[brick] = HeatState::kUnused;
   return true;
 }
 

@@ -108,7 +108,7 @@ void put_scars(const HeatState& s, std::vector<std::uint8_t>& out) {
   std::uint32_t count = 0;
   put(out, count);
   for (std::size_t b = 0; b < s.slot.size(); ++b) {
-    if (s.slot[b] == HeatState::kFree || !has_scar(s, b)) continue;
+    if (s.slot[b] == HeatState::kUnused || !has_scar(s, b)) continue;
     ++count;
     put(out, s.key[b]);
     put_brick(s, b, out);

@@ -126,6 +126,7 @@ struct NetworkWork {
   std::vector<LoadedNode> loaded;    ///< (nodes)
   VolumeWork volume;                 ///< empty where there is no volume force
   std::vector<int> open_tets;        ///< capacity: tets
+  std::vector<std::uint8_t> folded;  ///< (rows)
   std::vector<std::uint16_t> below;  ///< (tet packs)
 };
 
@@ -159,6 +160,9 @@ StepReport advance(const NetworkModel& model, std::span<const NodeLoad> loads, s
 inline NodeView view_of(const NetworkModel& model, const NetworkState& state) noexcept {
   return {state.nodes, model.row_of_node, model.origin};
 }
+/// (rows) Nodes of cells that have been folded for long, or nothing; valid until the next tick.
+std::span<const std::uint8_t> folded_rows(const NetworkModel& model, const NetworkState& state,
+                                          NetworkWork& work) noexcept;
 /// Position in the world frame [m] and velocity [m/s] of a node.
 Vec3d position(const NetworkModel& model, const NetworkState& state, int node) noexcept;
 Vec3d velocity(const NetworkModel& model, const NetworkState& state, int node) noexcept;

@@ -435,6 +435,7 @@ NetworkWork make_work(const NetworkModel& m, int threads) {
   w.other.resize(m.rows);
   w.loaded.resize(m.nodes);
   w.open_tets.resize(m.tets.size());
+  w.folded.resize(m.rows);
   w.below.resize(m.tet_packs.size());
   if (m.bulk.impulses > 0) w.volume.resize(std::size_t(m.rows));
   return w;

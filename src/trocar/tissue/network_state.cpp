@@ -62,6 +62,10 @@ void set_spring_scale(const NetworkModel& m, NetworkState& s, int spring, float 
   ++s.version;
 }
 
+std::span<const std::uint8_t> folded_rows(const NetworkModel& m, const NetworkState& s, NetworkWork& w) noexcept {
+  return s.open_tets == 0 ? std::span<const std::uint8_t>{} : mark_folded(m.tets, s.tet_phase, w.folded);
+}
+
 void cut_spring(const NetworkModel& m, NetworkState& s, int spring) noexcept {
   set_spring_scale(m, s, spring, 0);
   const int a = m.spring_nodes[2 * spring], row_b = m.row_of_node[m.spring_nodes[2 * spring + 1]];
