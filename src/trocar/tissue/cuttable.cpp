@@ -316,6 +316,7 @@ GuardedBody guarded_of(const CuttableModel& m, const CuttableState& s, const Cut
           .rows = w.slices * kSlice,
           .origin = m.origin,
           .dt = m.dt,
+          .uncut = s.version == 0,
           .opening = m.opening};
 }
 

@@ -13,6 +13,7 @@ namespace {
 constexpr float kReleased = 0.2f;     // share of the rest volume at which a cell is let go
 constexpr float kBlend = 0.3f;        // share of its nodes' velocities that one sub-step replaces
 constexpr float kStill = 0.02f;       // nodes slower than this are at rest [m/s]
+constexpr float kTrembling = 2;       // nodes faster than this do not tremble: they are on their way, or fall [m/s]
 constexpr int kLong = 100;            // ticks after which a fold is one that springs hold
 constexpr float kUnfolding = 0.005f;  // the opening time, and kReleased, for such a fold
 constexpr float kUnfolded = 0.7f;
@@ -20,7 +21,7 @@ constexpr float kLeap = 20;   // faster than anything that hands do to tissue [m
 constexpr float kCaught = 2;  // [m/s]
 constexpr float kCalm = 2;    // [m/s]
 
-bool at_rest(const NodeState& n) noexcept { return dot(speed(n), speed(n)) < kStill * kStill; }
+bool slower(const NodeState& n, float limit) noexcept { return dot(speed(n), speed(n)) < limit * limit; }
 
 /// Was it held to kCaught in the last sub-step? Its speed itself says so; let go for a tick, it would leap again.
 bool is_caught(float square) noexcept { return std::fabs(square - kCaught * kCaught) < 1e-4f * kCaught * kCaught; }
@@ -153,11 +154,12 @@ Mat3d Guard::turn_of(std::int32_t part, std::span<const NodeState> nodes) const 
 /// volume's gradient were where cells are nearly flat. Momentum is conserved.
 ///
 /// Springs can withstand that: a corner that was pushed through its cell to the far side of it lies in a minimum of
-/// their energy. So a cell that has been folded for kLong, at rest or without hands (it may tremble for ever, pushed to
-/// and fro by this very remedy), is driven slowly, and with its velocities replaced altogether: springs then only move
-/// it as a whole. A fold's cells must unfold together, or one pulls the other back: all do so in the last quarter of
-/// 256 ticks. Where the way home begins is read before the sub-step; the place that springs have just predicted
-/// overshoots where they are stiff, and driving from there goes astray.
+/// their energy. So a cell that has been folded for kLong is driven slowly, and with its velocities replaced
+/// altogether, if it was at rest or, in a body that is whole, nothing touched it: it may tremble for ever, pushed to
+/// and fro by this very remedy. A flap that hangs on threads must have come to rest, as it is not turned as its piece
+/// is: springs then only move it as a whole. A fold's cells must unfold together, or one pulls the other back: all do
+/// so in the last quarter of 256 ticks. Where the way home begins is read before the sub-step; the place that springs
+/// have just predicted overshoots where they are stiff, and driving from there goes astray.
 void Guard::push_open(const NodeState* in, NodeState* out) const noexcept {
   const float dt = float(b.dt);
   const bool unfolding = unfolds_now();
@@ -203,8 +205,9 @@ void Guard::release(std::span<const NodeState> nodes) noexcept {
     if (dot(x, cross(y, z)) > enough * cell.rest6) {
       phase = 0, --m_state.open;
     } else if (!late()) {
-      const bool rests = at_rest(corner(0)) && at_rest(corner(1)) && at_rest(corner(2)) && at_rest(corner(3));
-      const bool stays = rests || m_hands == Hands::off;
+      const float limit = b.uncut && m_hands == Hands::off ? kTrembling : kStill;
+      const bool stays =
+          slower(corner(0), limit) && slower(corner(1), limit) && slower(corner(2), limit) && slower(corner(3), limit);
       phase = !stays ? 1 : (phase < kOldestFold ? std::uint8_t(phase + 1) : phase);
     }
   }

@@ -52,6 +52,7 @@ struct GuardedBody {
   int nodes = 0, rows = 0;
   Vec3d origin;
   double dt = 0;                 ///< of a sub-step [s]
+  bool uncut = true;             ///< nothing of it has been cut or has torn
   float opening = kOpeningTime;  ///< a wave's time across a cell, but no less than kOpeningTime [s]
 };
 

@@ -15,7 +15,7 @@ LoadedBody loaded(const NetworkModel& m) {
   return {m.nodes, m.dt, m.gamma, m.substeps, m.origin, m.mass, m.fixed, m.row_of_node};
 }
 
-GuardedBody guarded_of(const NetworkModel& m) {
+GuardedBody guarded_of(const NetworkModel& m, const NetworkState& s) {
   return {.cells = m.tets,
           .packs = m.tet_packs,
           .row_of_node = m.row_of_node,
@@ -28,6 +28,7 @@ GuardedBody guarded_of(const NetworkModel& m) {
           .rows = m.rows,
           .origin = m.origin,
           .dt = m.dt,
+          .uncut = s.version == 0,
           .opening = m.opening};
 }
 
@@ -86,7 +87,7 @@ StepReport advance(const NetworkModel& m, std::span<const NodeLoad> loads, std::
   const LoadedBody body = loaded(m);
   StepReport report = check_loads(body, loads);
   ImplicitLoads pull(body, loads, w.loaded);
-  const GuardedBody guarded = guarded_of(m);
+  const GuardedBody guarded = guarded_of(m, s);
   Guard guard(guarded, {s.tet_phase, s.open_tets, s.tick}, {w.open_tets, w.below}, s.nodes, hands);
   if (guard.at_work()) report.flags |= StepReport::kInverted;
   KernelArgs args = kernel_args(m, s);
