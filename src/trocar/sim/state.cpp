@@ -326,6 +326,19 @@ void take_heat(Source& in, const Model& model, State& s) {
   s.heat.tick = s.tick;  // so that who draws sees that it has changed
 }
 
+/// Of the fluids only what lies on the lens. Keyframes that were written before it was in them end here, and show it clear.
+void put_lens(std::vector<std::uint8_t>& out, const fluids::SmokeState& smoke) {
+  put(out, &smoke.fog, 1);
+  put(out, &smoke.wipe_left, 1);
+}
+void take_lens(Source& in, fluids::SmokeState& smoke) {
+  smoke.fog = smoke.wipe_left = 0;
+  if (in.at == in.bytes.size()) return;
+  in.take(&smoke.fog, 1);
+  in.take(&smoke.wipe_left, 1);
+  in.good = in.good && smoke.fog >= 0 && smoke.fog <= 1 && std::fabs(smoke.wipe_left) < 1e3;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> display_bytes(const Model& model, const State& s) {
@@ -365,6 +378,7 @@ std::vector<std::uint8_t> display_bytes(const Model& model, const State& s) {
     put(out, s.electrodes.data(), s.electrodes.size());
     tissue::put_scars(s.heat, out);
   }
+  if (model.wet.there) put_lens(out, s.fluids.smoke);
   return out;
 }
 
@@ -453,6 +467,7 @@ bool restore_display(const Model& model, const std::vector<std::uint8_t>& bytes,
     }
   if (model.vessels.there()) take_vessels(in, model, s);
   if (model.energy.there) take_heat(in, model, s);
+  if (model.wet.there) take_lens(in, s.fluids.smoke);
   if (!in.good || in.at != bytes.size() || !sound(model, s)) return false;
   state = std::move(s);
   return true;
