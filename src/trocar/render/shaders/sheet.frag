@@ -69,7 +69,7 @@ void main() {
   float depth = max(v_depth_cover.x, 0.0) * wedge * wedge * wedge;
   float slant = 1.0 / max(sqrt(1.0 - (1.0 - nv * nv) * 0.56), 0.3);  // of the bent ray
   vec3 amount = share * depth;
-  vec3 through = exp(-optical_depth(amount * (1.0 + slant), v_mix.w));
+  vec3 through = let_through(amount * (1.0 + slant), v_mix.w);
 
   vec2 uv = gl_FragCoord.xy * u_size.zw;
   vec2 bend = -n.xy * (0.25 * min(depth, 0.012) / pixel) * u_size.zw;

@@ -54,8 +54,7 @@ void main() {
   float dark = clamp(mark - 2.0 * flying, 0.0, 1.0);
   dark = mix(film.w / max(dot(film.rgb, vec3(1.0)), 1.0e-7), dark, cover);
   amount += film.rgb;
-  vec3 tau = optical_depth(2.0 * amount, dark);
-  vec3 through = exp(-tau);
+  vec3 through = let_through(2.0 * amount, dark);
 
   vec2 bend = -(n.xy - base.xy) * (0.35 * height * cover * max(in_drop, 0.0) / pixel) * u_size.zw;
   vec3 below = texture(u_bed, v_uv + clamp(bend, -0.03, 0.03)).rgb;
