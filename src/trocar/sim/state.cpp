@@ -326,7 +326,8 @@ void take_heat(Source& in, const Model& model, State& s) {
   s.heat.tick = s.tick;  // so that who draws sees that it has changed
 }
 
-/// Of the fluids only what lies on the lens. Keyframes that were written before it was in them end here, and show it clear.
+/// Of the fluids only what lies on the lens. Keyframes that were written before it was in them end here, and show it
+/// clear.
 void put_lens(std::vector<std::uint8_t>& out, const fluids::SmokeState& smoke) {
   put(out, &smoke.fog, 1);
   put(out, &smoke.wipe_left, 1);
