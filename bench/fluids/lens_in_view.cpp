@@ -21,14 +21,14 @@ namespace {
 constexpr int kHand = 1;
 
 /// Ticks of the story.
-constexpr std::uint64_t kDown = 1200, kCurrentEnds = 16'000, kWipe = 26'000, kEnd = 37'000;
+constexpr std::uint64_t kDown = 1200, kCurrentEnds = 12'000, kWipe = 15'000, kEnd = 26'000;
 
 struct Shot {
   std::uint64_t at;
   const char* name;
 };
-constexpr Shot kShots[] = {{1100, "clear"},    {8000, "smoke"},          {16'000, "fogging"},
-                           {25'900, "fogged"}, {kWipe + 1300, "wiping"}, {36'500, "wiped"}};
+constexpr Shot kShots[] = {
+    {1100, "clear"}, {6000, "smoke"}, {14'900, "fogged"}, {kWipe + 1300, "wiping"}, {25'500, "wiped"}};
 
 struct Story {
   sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/bleeding/scene.json"));

@@ -14,6 +14,8 @@ using namespace trocar::sim;
 
 namespace {
 
+constexpr std::ptrdiff_t kLensBytes = 2 * sizeof(double);  ///< fog and what is left of a wipe, last in a keyframe
+
 /// After two clips and the cut, while the jaws hold the tube.
 const State& at_work() {
   static const State state = [] {
@@ -86,12 +88,34 @@ TEST(Display, CutElementsComeBackCut) {
   EXPECT_EQ(to.strands[small::kTube].alive, from.strands[small::kTube].alive);
 }
 
+TEST(Display, TheLensComesBackAndKeyframesWithoutItShowItClear) {
+  const Model& m = small::model();
+  ASSERT_TRUE(m.wet.there);
+  State from = at_work();
+  from.fluids.smoke.fog = 0.37;
+  from.fluids.smoke.wipe_left = 3.25;
+  const std::vector<std::uint8_t> bytes = display_bytes(m, from);
+  State to = initial_state(m);
+  ASSERT_TRUE(restore_display(m, bytes, to));
+  EXPECT_EQ(to.fluids.smoke.fog, 0.37);
+  EXPECT_EQ(to.fluids.smoke.wipe_left, 3.25);
+  // As they were written before the lens was in them.
+  ASSERT_TRUE(restore_display(m, {bytes.begin(), bytes.end() - kLensBytes}, to));
+  EXPECT_EQ(to.fluids.smoke.fog, 0);
+  EXPECT_EQ(to.fluids.smoke.wipe_left, 0);
+  for (const double fog : {-0.1, 1.1, std::nan("")}) {
+    from.fluids.smoke.fog = fog;
+    EXPECT_FALSE(restore_display(m, display_bytes(m, from), to)) << fog;
+  }
+}
+
 TEST(Display, BytesOfTheWrongLengthAreRefusedAndChangeNothing) {
   const Model& m = small::model();
   std::vector<std::uint8_t> bytes = display_bytes(m, at_work());
   State s = initial_state(m);
   const std::uint64_t before = hash_of(s);
   for (size_t n = 0; n < bytes.size(); n += 1 + n / 50) {
+    if (n == bytes.size() - kLensBytes) continue;  // see TheLensComesBackAndKeyframesWithoutItShowItClear
     const std::vector<std::uint8_t> torn(bytes.begin(), bytes.begin() + std::ptrdiff_t(n));
     EXPECT_FALSE(restore_display(m, torn, s)) << n << " of " << bytes.size();
   }

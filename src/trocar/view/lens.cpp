@@ -43,13 +43,13 @@ void Lens::list(const fluids::SmokeModel& model, const fluids::SmokeState& state
   render::LensSoil& soil = frame.look.soil;
   const double passed = since_last(frame.tick);
   m_smear *= std::exp(-passed / kSmearTau);
-  if (m_smear < 0.01) m_smear = 0;
   const bool wiping = state.wipe_left > 0, wiped = m_wipe_left > 0;
   if (wiping && !wiped) m_smear = 0;
   if (wiped && !wiping) {  // maybe seconds ago: pictures need not follow each other closely
     m_smear = kSmearLeft * std::exp(-std::max(passed - m_wipe_left, 0.0) / kSmearTau);
     m_drops.clear();
   }
+  if (m_smear < 0.01) m_smear = 0;
   m_wipe_left = wiping ? state.wipe_left : 0;
   soil.fog = float(std::clamp(state.fog, 0.0, 1.0));
   soil.smear = float(m_smear);
