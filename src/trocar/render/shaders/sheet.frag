@@ -56,10 +56,12 @@ void main() {
   // Small unrest on top of the waves that the simulation knows.
   vec4 slow = texture(u_noise, vec3(place.xy * 9.0, 0.13 * u_eye.w));
   vec4 quick = texture(u_noise, vec3(place.yx * 31.0, 0.21 * u_eye.w));
+  vec3 unrest = (slow.rgb * 2.0 - 1.0) * 0.034 + (quick.rgb * 2.0 - 1.0) * 0.018;
+#if DETAIL == 2
   // Where it is thin it follows the tissue's relief, which stands still.
   float thin = exp(-max(v_depth_cover.x, 0.0) / 0.0005);
-  vec3 relief = (texture(u_noise, place * 38.0).rgb * 2.0 - 1.0) + 0.7 * (texture(u_noise, place.zxy * 11.0).rgb * 2.0 - 1.0);
-  vec3 unrest = (slow.rgb * 2.0 - 1.0) * 0.034 + (quick.rgb * 2.0 - 1.0) * 0.018 + relief * (0.45 * thin);
+  unrest += (texture(u_noise, place * 38.0).rgb * 2.0 - 1.0) * (0.6 * thin);
+#endif
   vec3 n = normalize(v_normal);
   float rim = exp(-inside * 6.0);
   // Towards the inside of the border, in eye space.

@@ -60,7 +60,9 @@ void main() {
   vec3 below = texture(u_bed, v_uv + clamp(bend, -0.03, 0.03)).rgb;
   float facing = clamp(0.25 + 0.75 * dot(n, lit.direction), 0.0, 1.0);
   vec3 light = LIGHT_COLOUR * (lit.power * facing) + (BOUNCE + vec3(AMBIENT)) * lit.bounce;
-  vec3 colour = below * through + deep_colour(amount, dark) * light * (1.0 - through);
+  // What flies is lit from all round.
+  vec3 deep = deep_colour(amount, dark) * (1.0 + 0.5 * flying);
+  vec3 colour = below * through + deep * light * (1.0 - through);
 
   // Wet: the lamp in drops, broken by the tissue's unevenness in films; the walls where seen at a grazing angle.
   float gloss = smoothstep(4.0e-6, 2.5e-5, dot(film.rgb, vec3(1.0))) * (1.0 - cover);
