@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
+#include <trocar/fluids/shown_fluids.hpp>
 #include <trocar/tissue/heat_look.hpp>
 
 #include "small_energy.hpp"
@@ -14,7 +15,13 @@ using namespace trocar::sim;
 
 namespace {
 
-constexpr std::ptrdiff_t kLensBytes = 2 * sizeof(double);  ///< fog and what is left of a wipe, last in a keyframe
+/// As it was written before fluids were in keyframes.
+std::vector<std::uint8_t> without_fluids(const Model& m, const State& s) {
+  std::vector<std::uint8_t> bytes = display_bytes(m, s), fluids;
+  fluids::put_shown(m.wet.model, s.fluids, fluids);
+  bytes.resize(bytes.size() - fluids.size());
+  return bytes;
+}
 
 /// After two clips and the cut, while the jaws hold the tube.
 const State& at_work() {
@@ -88,25 +95,33 @@ TEST(Display, CutElementsComeBackCut) {
   EXPECT_EQ(to.strands[small::kTube].alive, from.strands[small::kTube].alive);
 }
 
-TEST(Display, TheLensComesBackAndKeyframesWithoutItShowItClear) {
+TEST(Display, TheLensAndTheFluidsComeBack) {
   const Model& m = small::model();
   ASSERT_TRUE(m.wet.there);
   State from = at_work();
   from.fluids.smoke.fog = 0.37;
   from.fluids.smoke.wipe_left = 3.25;
-  const std::vector<std::uint8_t> bytes = display_bytes(m, from);
+  from.fluids.droplets.film[5] = {120'000, 30'000, 0};
   State to = initial_state(m);
-  ASSERT_TRUE(restore_display(m, bytes, to));
+  ASSERT_TRUE(restore_display(m, display_bytes(m, from), to));
   EXPECT_EQ(to.fluids.smoke.fog, 0.37);
   EXPECT_EQ(to.fluids.smoke.wipe_left, 3.25);
-  // As they were written before the lens was in them.
-  ASSERT_TRUE(restore_display(m, {bytes.begin(), bytes.end() - kLensBytes}, to));
-  EXPECT_EQ(to.fluids.smoke.fog, 0);
-  EXPECT_EQ(to.fluids.smoke.wipe_left, 0);
+  EXPECT_EQ(to.fluids.droplets.film[5].blood, 120'000);
+  EXPECT_EQ(to.fluids.droplets.film[5].saline, 30'000);
   for (const double fog : {-0.1, 1.1, std::nan("")}) {
     from.fluids.smoke.fog = fog;
     EXPECT_FALSE(restore_display(m, display_bytes(m, from), to)) << fog;
   }
+}
+
+TEST(Display, KeyframesWithoutFluidsAreDryAndHaveAClearLens) {
+  const Model& m = small::model();
+  State to = initial_state(m);
+  to.fluids.smoke.fog = 0.4;
+  to.fluids.droplets.film[5] = {120'000, 0, 0};
+  ASSERT_TRUE(restore_display(m, without_fluids(m, at_work()), to));
+  EXPECT_EQ(to.fluids.smoke.fog, 0);
+  EXPECT_EQ(film_content(to.fluids.droplets).total(), 0);
 }
 
 TEST(Display, BytesOfTheWrongLengthAreRefusedAndChangeNothing) {
@@ -115,7 +130,7 @@ TEST(Display, BytesOfTheWrongLengthAreRefusedAndChangeNothing) {
   State s = initial_state(m);
   const std::uint64_t before = hash_of(s);
   for (size_t n = 0; n < bytes.size(); n += 1 + n / 50) {
-    if (n == bytes.size() - kLensBytes) continue;  // see TheLensComesBackAndKeyframesWithoutItShowItClear
+    if (n == without_fluids(m, at_work()).size()) continue;  // see KeyframesWithoutFluidsAreDryAndHaveAClearLens
     const std::vector<std::uint8_t> torn(bytes.begin(), bytes.begin() + std::ptrdiff_t(n));
     EXPECT_FALSE(restore_display(m, torn, s)) << n << " of " << bytes.size();
   }
