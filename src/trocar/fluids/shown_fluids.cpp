@@ -104,14 +104,14 @@ SmallMix take_units(Reader& in) {
 /// How many places hold something, then each: how far on from the one before, and how much.
 template <class Get>
 void put_places(std::size_t size, Get&& get, Writer& out) {
-  std::size_t count = 0, last = 0;
-  for (std::size_t i = 0; i < size; ++i) count += units_of(get(i)).any();
-  out.number(count);
-  for (std::size_t i = 0; i < size; ++i) {
-    const Units u = units_of(get(i));
-    if (!u.any()) continue;
+  std::vector<std::size_t> places;  // nearly all of them are empty
+  for (std::size_t i = 0; i < size; ++i)
+    if (get(i).total() > 0 && units_of(get(i)).any()) places.push_back(i);
+  out.number(places.size());
+  std::size_t last = 0;
+  for (const std::size_t i : places) {
     out.number(i - last);
-    put_units(u, out);
+    put_units(units_of(get(i)), out);
     last = i;
   }
 }
