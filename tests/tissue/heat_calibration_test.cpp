@@ -55,6 +55,17 @@ TEST(Calibration, SixtyWattsFor1SecondReach45DegreesAboutAsFarAsMeasured) {
   EXPECT_LT(two, 5e-3) << "conduction alone does not reach 20 mm";
 }
 
+TEST(Calibration, DeadTissueReachesAsFarAsReadingsSay) {
+  Operated o(HeatDescription{}, half_space());
+  o.press_for(2, kBlue, tip_at(kJustBelow));
+  const std::array<Treated, 1> tip{{{kJustBelow, kJustBelow}}}, aside{{{kJustBelow, kJustBelow + Vec3d{0.02, 0, 0}}}};
+  const double reach = spread(o.m, o.s, 0, tip);
+  EXPECT_NEAR(reach, o.coagulated_to(kTopCells), 1.5 * o.m.cell) << "[m]";
+  EXPECT_LE(spread(o.m, o.s, 0, aside), reach) << "what lies along the way of an electrode is nearer to it";
+  EXPECT_EQ(spread(o.m, o.s, 1, tip), 0) << "another body";
+  EXPECT_EQ(spread(o.m, o.s, 0, {}), 0);
+}
+
 TEST(Calibration, BipolarJawsSpread45DegreesAsMeasuredInOneSecondAndLessInTwo) {
   Operated o(HeatDescription{}, half_space());
   o.e = bipolar_jaws();

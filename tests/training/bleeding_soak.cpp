@@ -1,6 +1,7 @@
 // Bleeding control by the scripted surgeon: clipped on both sides it stops for good; with the first clip on the wrong
 // side it bleeds on, and fails with its code.
 #include <algorithm>
+#include <cstdio>
 
 #include <gtest/gtest.h>
 
@@ -21,7 +22,7 @@ struct Attempt {
   explicit Attempt(const char* flaw) {
     const auto surgeon = make_expert(exercise, model, {{}, flaw});
     sim::Work work = sim::make_work(model);
-    while (!surgeon->done() && state.tick < 120'000) {
+    while (!surgeon->done() && state.tick < 600'000) {
       const sim::Input input = surgeon->next(model, state);
       const sim::StepReport report = step(model, input, state, work);
       EXPECT_TRUE(report.fine());
@@ -49,6 +50,24 @@ TEST(BleedingControl, WithTheFirstClipOnTheWrongSideItBleedsOnAndFails) {
   EXPECT_FALSE(a.monitor.score().passed);
   EXPECT_GT(60e6 * a.monitor.bleeding()->facts().flow, 5) << "[mL/min]";
 }
+
+/// What needs blood, fluids or energy, one run a code.
+class BleedingFlaw : public testing::TestWithParam<const char*> {};
+
+TEST_P(BleedingFlaw, TriggersItsError) {
+  const Attempt a(GetParam());
+  for (const ErrorMade& e : a.monitor.errors()) std::printf("%s: %s at %.1f s\n", GetParam(), e.code.c_str(), e.at);
+  EXPECT_TRUE(a.made(GetParam()));
+  EXPECT_EQ(a.monitor.score().failed, a.exercise.penalty(GetParam())->fail);
+}
+INSTANTIATE_TEST_SUITE_P(Codes, BleedingFlaw,
+                         testing::Values("E4.2", "E6", "E7", "E7.1", "E8", "E9.1", "E9.2", "E9", "E9.3", "E10", "E12",
+                                         "A3.2", "A3.3", "A3.4"),
+                         [](const auto& of) {
+                           std::string name = of.param;
+                           std::replace(name.begin(), name.end(), '.', '_');
+                           return name;
+                         });
 
 }  // namespace
 }  // namespace trocar::training

@@ -1,12 +1,14 @@
 // The judge of bleeding control, on States made by hand: which clips are right, what blood lost costs, what counts as
 // stopped.
 #include <algorithm>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
 #include <trocar/scene/compile.hpp>
 #include <trocar/scene/reader.hpp>
 #include <trocar/training/expert.hpp>
+#include <trocar/training/hands.hpp>
 #include <trocar/training/monitor.hpp>
 
 namespace trocar::training {
@@ -144,6 +146,97 @@ TEST(BleedingJudge, WantsThePoolCleared) {
   a.clear_pool();
   a.pass(1);
   EXPECT_TRUE(a.done(BleedingTask::clear));
+}
+
+TEST(BleedingJudge, APoolThatIsLeftForAMinuteIsMissedSuction) {
+  Attempt a;
+  a.pass(2, 6);
+  a.clip(-0.05);
+  a.pass(5);
+  ASSERT_TRUE(a.done(BleedingTask::stop));
+  a.pass(50);
+  EXPECT_EQ(a.count("E10"), 0);
+  a.pass(20);
+  EXPECT_EQ(a.count("E10"), 1) << "and told once";
+}
+
+TEST(BleedingJudge, AClipUnderBloodIsMissedSuction) {
+  const auto missed = [](double litres) {
+    Attempt a;
+    const fluids::PoolModel& pool = a.model.wet.model.pool;
+    const size_t hand = 2;
+    const fluids::PoolPoint at = locate(pool, tip_of(a.model, a.state, hand));
+    EXPECT_TRUE(at.inside);
+    pour(pool, at.i, at.j, {.blood = std::int64_t(1000 * litres * double(fluids::kMillilitre))}, a.state.fluids.pool);
+    a.clip(-0.05).tool = int(hand);
+    a.pass(0.02);
+    return a.count("E10");
+  };
+  EXPECT_EQ(missed(1e-6), 0) << "a trace on the floor";
+  EXPECT_EQ(missed(0.001), 1) << "a column that stands higher than the jaws";
+}
+
+/// One hand's electrode, which does what the test says.
+struct Electrode : Attempt {
+  sim::ElectrodeHand& hand = state.electrodes[0];
+  void press(double seconds, bool flows, std::int32_t body = -1) {
+    hand.current.now.mode = tissue::EnergyMode::coag;
+    hand.current.now.flows = flows;
+    hand.body = body;
+    for (int t = 0; t < int(seconds * 1000 + 0.5); ++t) ++state.tick, monitor.update(model, state, {});
+  }
+  void release() {
+    hand.current.now = {};
+    ++state.tick, monitor.update(model, state, {});
+  }
+  std::int32_t carrier() const {
+    return model.strand_index(bleeder().vessel == model.vessel_index("ovarian_left")
+                                  ? "infundibulopelvic_ligament_left"
+                                  : "infundibulopelvic_ligament_right");
+  }
+};
+
+TEST(EnergyWatch, APedalMayBePressedBesideNothingForAMoment) {
+  Electrode e;
+  e.press(0.25, false);
+  e.release();
+  e.press(0.25, false);
+  EXPECT_EQ(e.count("E6"), 0);
+  e.press(0.5, false);
+  EXPECT_EQ(e.count("E6"), 1) << "once an activation";
+}
+
+TEST(EnergyWatch, CurrentIsForWhatCarriesTheArtery) {
+  Electrode e;
+  e.press(0.5, true, e.carrier());
+  e.release();
+  EXPECT_TRUE(e.monitor.errors().empty());
+  e.press(0.5, true, e.model.strand_index("tube_left"));
+  EXPECT_EQ(e.count("E7"), 1) << "once an activation";
+  EXPECT_FALSE(e.monitor.score().failed);
+  e.release();
+  e.press(0.1, true, interactions::kSolidBase + e.model.organ_index("rectosigmoid"));
+  EXPECT_EQ(e.count("E7.1"), 1);
+  EXPECT_TRUE(e.monitor.score().failed) << "bowel";
+}
+
+TEST(EnergyWatch, TissueMayDieSoFarFromTheElectrode) {
+  const auto told = [](double beyond) {
+    Electrode e;
+    const tissue::HeatModel& heat = e.model.energy.heat;
+    e.hand.a = e.hand.b = {0.5 * heat.cell, 0.5 * heat.cell, 0.5 * heat.cell};
+    e.press(0.1, true, e.carrier());
+    const double allowed = e.model.tool(e.state, 0).electrode.current.radius + exercise().bleeding.energy.hook_spread;
+    const int cells = int(std::floor((allowed + beyond) / heat.cell)), at = cells % tissue::kBrickSide;
+    e.state.heat.key[0] = {e.carrier(), cells / tissue::kBrickSide, 0, 0};
+    e.state.heat.slot[0] = tissue::HeatState::kAsleep;
+    e.state.heat.cells[size_t(at)] = tissue::HeatState::kTissue;
+    e.state.heat.damage[size_t(at)] = 1;
+    e.pass(1);
+    return e.count("E8");
+  };
+  EXPECT_EQ(told(0), 0);
+  EXPECT_EQ(told(0.001), 1);
 }
 
 TEST(BleedingJudge, SaysWhatTheSceneLacks) {

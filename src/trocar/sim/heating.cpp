@@ -103,6 +103,7 @@ void work_electrode(StepContext& c, size_t t, int& used) noexcept {
   hand.body = touch.contact.body;
   if (hand.body < 0) return;
   hand.at = touch.place;
+  hand.a = touch.contact.a, hand.b = touch.contact.b;
   if (touch.contact.gap == 0) stick(c, t, touch, hand);
   seal_vessels(c, t, touch);
   stiffen(c, touch);

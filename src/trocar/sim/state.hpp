@@ -21,13 +21,14 @@ enum Valve : std::uint8_t {
 /// What a hand's electrode is and was at. No padding.
 struct ElectrodeHand {
   tissue::ElectrodeState current;
-  Vec3d at{0, 0, 0};      ///< the tissue's point that it was last at [m]
-  Vec3d parted{0, 0, 0};  ///< where it last parted tissue, in that body's frame of heat [m]
+  Vec3d at{0, 0, 0};             ///< the tissue's point that it was last at [m]
+  Vec3d a{0, 0, 0}, b{0, 0, 0};  ///< ends of what touched there, in that body's frame of heat [m]
+  Vec3d parted{0, 0, 0};         ///< where it last parted tissue, in that body's frame of heat [m]
   std::int32_t body = -1, parted_body = -1;
   std::int32_t changes = 0;  ///< ToolState::changes of the instrument that this is
   interactions::Hold stuck;  ///< what sticks to it; body -1: nothing
 };
-static_assert(sizeof(ElectrodeHand) == sizeof(tissue::ElectrodeState) + 6 * 8 + 3 * 4 + sizeof(interactions::Hold),
+static_assert(sizeof(ElectrodeHand) == sizeof(tissue::ElectrodeState) + 12 * 8 + 3 * 4 + sizeof(interactions::Hold),
               "no padding");
 
 struct State {

@@ -24,8 +24,9 @@ bool near(Vec3d p) noexcept {
 int cell_of(double x, double cell) noexcept { return int(std::floor(x / cell)); }
 int brick_of(int cell) noexcept { return cell >= 0 ? cell / kBrickSide : -((kBrickSide - 1 - cell) / kBrickSide); }
 
-double squared_distance(const HeatSource& q, Vec3d p) noexcept {
-  const Vec3d along = q.b - q.a, off = p - q.a;
+/// From p to the segment ab.
+double squared_distance(Vec3d a, Vec3d b, Vec3d p) noexcept {
+  const Vec3d along = b - a, off = p - a;
   const double l2 = dot(along, along);
   const double share = l2 > 0 ? std::clamp(dot(off, along) / l2, 0.0, 1.0) : 0.0;
   const Vec3d d = off - share * along;
@@ -87,7 +88,7 @@ class Gathering {
   void take(std::int32_t slot, int cell, Vec3d middle) noexcept {
     const std::size_t at = std::size_t(m_state.owner[slot]) * kBrickCells + cell;
     if (!(m_state.cells[at] & HeatState::kTissue)) return;
-    const double weight = weight_at(squared_distance(m_source, middle));
+    const double weight = weight_at(squared_distance(m_source.a, m_source.b, middle));
     if (!(weight > 0)) return;
     if (m_reach.cells == kReachCells) {
       m_flags |= HeatReport::kReachFull;
@@ -334,6 +335,25 @@ bool heated_box(const HeatModel& m, const HeatState& s, std::int32_t body, Vec3d
     any = true;
   }
   return any;
+}
+
+double spread(const HeatModel& m, const HeatState& s, std::int32_t body, std::span<const Treated> treated) noexcept {
+  double farthest2 = 0;
+  for (std::size_t b = 0; b < s.slot.size() && !treated.empty(); ++b) {
+    if (s.slot[b] == HeatState::kUnused || s.key[b].body != body) continue;
+    const BrickKey& key = s.key[b];
+    for (int c = 0; c < kBrickCells; ++c) {
+      const std::size_t cell = b * kBrickCells + std::size_t(c);
+      if (!(s.cells[cell] & HeatState::kTissue) || s.damage[cell] < 1) continue;
+      const Vec3d middle = m.cell * Vec3d{key.i * kBrickSide + c % kBrickSide + 0.5,
+                                          key.j * kBrickSide + c / kBrickSide % kBrickSide + 0.5,
+                                          key.k * kBrickSide + c / (kBrickSide * kBrickSide) + 0.5};
+      double nearest2 = 1e30;
+      for (const Treated& t : treated) nearest2 = std::min(nearest2, squared_distance(t.a, t.b, middle));
+      farthest2 = std::max(farthest2, nearest2);
+    }
+  }
+  return std::sqrt(farthest2);
 }
 
 void add_to_hash(core::Hasher& hasher, const HeatState& s) noexcept {

@@ -224,6 +224,14 @@ struct HeatReading {
 };
 HeatReading reading(const HeatModel& model, const HeatState& state, std::int32_t body, Vec3d at) noexcept;
 
+/// Where an electrode was: a segment, or a point where a = b, in the body's rest frame [m].
+struct Treated {
+  Vec3d a, b;
+};
+/// How far the farthest cell that has died (O >= 1) is from the nearest of these [m]; 0 where none has.
+double spread(const HeatModel& model, const HeatState& state, std::int32_t body,
+              std::span<const Treated> treated) noexcept;
+
 /// The box around all bricks of a body, for callers with many points; false if there are none.
 bool heated_box(const HeatModel& model, const HeatState& state, std::int32_t body, Vec3d& low, Vec3d& high) noexcept;
 

@@ -87,6 +87,7 @@ void Arms::fill(std::uint64_t tick, sim::Input& input) const {
     const kinematics::FulcrumPose pose = kinematics::inverse(arm.port, arm.tip + tremor(h, tick), arm.roll);
     input.tools[h] = sim::tool_input(pose, float(arm.handle), arm.instrument);
     input.pedals &= ~(sim::irrigates(h) | sim::sucks(h));
+    if (arm.coagulating) input.pedals |= sim::kBlue;
     input.pedals |= (arm.irrigating ? sim::irrigates(h) : 0u) | (arm.sucking ? sim::sucks(h) : 0u);
   }
 }

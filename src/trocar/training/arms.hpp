@@ -26,6 +26,7 @@ class Arms {
     std::int32_t instrument = 0;
     bool moving = false;                       ///< in this tick
     bool irrigating = false, sucking = false;  ///< valves of a suction-irrigator
+    bool coagulating = false;                  ///< the blue pedal
   };
   Arm& operator[](int hand) { return m_arm[size_t(hand)]; }
   const Arm& operator[](int hand) const { return m_arm[size_t(hand)]; }

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include <trocar/training/energy_watch.hpp>
 #include <trocar/training/finder.hpp>
 #include <trocar/training/judge.hpp>
 
@@ -34,6 +35,10 @@ class BleedingJudge final : public Judge {
   void judge_clip(const sim::Model& model, const sim::State& state, int number);
   void measure(const sim::State& state);
   void watch_loss(Vec3d where);
+  void watch_pool(Vec3d where);
+  void tell_all(const Mishaps& mishaps);
+  /// Does the pool stand over it?
+  bool drowned(const sim::Model& model, const sim::State& state, Vec3d where) const;
   int step(BleedingTask task) const { return int(task); }
 
   const Exercise& m_exercise;
@@ -43,9 +48,10 @@ class BleedingJudge final : public Judge {
   BleedingFacts m_facts;
   std::array<double, 50> m_lost_before{};  ///< one a sample, of the last second [m^3]
   int m_sample = 0;
-  int m_band = 0;       ///< how much blood has been told to be lost
-  bool m_late = false;  ///< it has been told that control comes late
+  int m_band = 0;                       ///< how much blood has been told to be lost
+  bool m_late = false, m_left = false;  ///< it has been told that control comes late, that the pool was left
   int m_clips_judged = 0, m_cuts_judged = 0;
+  EnergyWatch m_energy;
 };
 
 }  // namespace trocar::training

@@ -18,6 +18,7 @@ constexpr double kEmpty = 0.5e-6;                                    // [m^3] le
 constexpr int kMostTries = 6;
 
 constexpr const char* kDoing[] = {"wait",
+                                  "make a mistake",
                                   "look where it bleeds",
                                   "bring the clip applier",
                                   "take the artery between the legs",
@@ -42,6 +43,8 @@ BleedingSurgeon::BleedingSurgeon(const Exercise& exercise, const sim::Model& mod
   for (size_t h = 0; h < hands(model); ++h)
     for (size_t i = 0; i < model.hands[h].rack.size() && int(h) != m_applier && m_sucker < 0; ++i)
       if (model.hands[h].rack[i].kind == interactions::ToolKind::suction_irrigator) m_sucker = int(h), m_bore = int(i);
+  for (size_t i = 0; m_sucker >= 0 && i < model.hands[size_t(m_sucker)].rack.size(); ++i)
+    if (model.hands[size_t(m_sucker)].rack[i].kind == interactions::ToolKind::hook) m_hook = int(i);
   if (m_applier < 0)
     faults.push_back({m_goal.applier_at, "expected a hand that begins with the clip applier, got none"});
   if (model.vessels.bleeder.vessel < 0)
@@ -94,14 +97,30 @@ bool BleedingSurgeon::choose_side() {
 double BleedingSurgeon::inside() const {
   constexpr double kCarrier = 0.0037;  // [m] radius of what carries arteries here, and a little more
   const interactions::ToolModel& t = m_model->tool(*m_state, size_t(m_applier));
-  return t.jaw_length - t.clip_length + kCarrier;
+  constexpr double kShort = 0.0045, kMissed = 0.014;  // [m]
+  const double flaw = m_blundered ? 0 : flawed("A3.3") ? kShort : flawed("E12") ? kMissed : 0;
+  return t.jaw_length - t.clip_length + kCarrier + flaw;
+}
+
+interactions::VesselSpot BleedingSurgeon::elsewhere() const {
+  const int strand = m_model->strand_index(m_goal.delicate[place().x > 0 ? 0 : 1].name);
+  if (strand < 0) return spot(clip_at());
+  const interactions::StrandBody& tube = m_model->bodies[size_t(strand)];
+  const interactions::StrandPlace middle = interactions::place_at(tube, 0.35 * tube.length());
+  const tissue::StrandState& state = m_state->strands[size_t(strand)];
+  return {interactions::point_at(tube, state, middle), interactions::tangent_at(tube, state, middle)};
+}
+
+interactions::VesselSpot BleedingSurgeon::clipped() const {
+  return flawed("A3.2") && !m_blundered ? elsewhere() : spot(clip_at());
 }
 
 bool BleedingSurgeon::aim(double back, double speed) {
   const interactions::ToolModel& t = m_model->tool(*m_state, size_t(m_applier));
-  const Vec3d at = point(clip_at()), axis = normalised(at - m_arms[m_applier].port);
-  const bool there = m_arms.move(m_applier, at + (t.jaw_length - inside() - back) * axis, speed);
-  return m_arms.turn_across(m_applier, spot(clip_at()).along) && there;
+  const interactions::VesselSpot spot = clipped();
+  const Vec3d axis = normalised(spot.place - m_arms[m_applier].port);
+  const bool there = m_arms.move(m_applier, spot.place + (t.jaw_length - inside() - back) * axis, speed);
+  return m_arms.turn_across(m_applier, spot.along) && there;
 }
 
 bool BleedingSurgeon::sees_jaw() const {
@@ -111,7 +130,8 @@ bool BleedingSurgeon::sees_jaw() const {
 void BleedingSurgeon::look_at_clip() {
   // From the midline, if the legs' tips stay hidden: then one is seen past the artery's carrier.
   constexpr double kPatience = 2, kAside = 0.03;  // [s] [m]
-  const Vec3d at = point(clip_at());
+  const Vec3d at = clipped().place;
+  if (flawed("E4.2") && !m_blundered) return want(at - Vec3d{2 * at.x, 0, 0});  // the other side of the patient
   want(m_unseen > kPatience ? at - Vec3d{at.x > 0 ? kAside : -kAside, 0, 0} : at);
 }
 
@@ -123,7 +143,66 @@ void BleedingSurgeon::draw_back_others() {
 void BleedingSurgeon::watch() {
   // What is in the way is drawn back, until blood shows somewhere.
   draw_back_others();
-  if (m_state->opening_count > 0 && m_in_phase > 1) go(Phase::find);
+  if (burns() && !m_blundered && m_in_phase > 1) return go(Phase::blunder);
+  if (m_state->opening_count > 0 && m_in_phase > 1 && !waits()) go(Phase::find);
+}
+
+double BleedingSurgeon::lost() const {
+  return fluids::kM3PerPicolitre * double(m_state->fluids.ledger.in[size_t(fluids::Source::kBled)].blood);
+}
+
+bool BleedingSurgeon::waits() const {
+  constexpr double kMore = 1.05;
+  const double wanted = flawed("E9.1") || flawed("E10") ? std::max(m_goal.lost_some, m_goal.pool_left)
+                        : flawed("E9.2")                ? m_goal.lost_much
+                        : flawed("E9")                  ? m_goal.lost_too_much
+                                                        : 0;
+  return lost() < kMore * (flawed("E10") ? 1.5 : 1) * wanted ||
+         (flawed("E9.3") && m_in_phase < m_goal.control_within + 8);
+}
+
+Vec3d BleedingSurgeon::burnt() const {
+  const Vec3d port = m_arms[m_sucker].port;
+  if (flawed("E7")) return elsewhere().place;
+  if (flawed("E8")) return point(clip_at());
+  if (flawed("E6")) return port + 0.07 * normalised(place() - port);
+  const int bowel = m_model->organ_index(m_goal.bowel[0].name);
+  const tissue::Skin& skin = m_model->skin(bowel);
+  const tissue::NodeView nodes = nodes_of(*m_model, *m_state, bowel);
+  Vec3d nearest = tissue::skin_point(nodes, skin, 0);
+  for (int v = 0; v < skin.size(); ++v)
+    if (const Vec3d p = tissue::skin_point(nodes, skin, v); length(p - port) < length(nearest - port)) nearest = p;
+  return nearest + 0.002 * normalised(nearest - port);
+}
+
+void BleedingSurgeon::blunder() {
+  Arms::Arm& arm = m_arms[m_sucker];
+  const Vec3d goal = burnt();
+  const double pressed = flawed("E8") ? 8 : 1;  // [s]
+  want(arm.tip);
+  want(goal);
+  switch (m_stage) {
+    case 0:
+      if (m_arms.move_to_depth(m_sucker, kIdleDepth, 2 * kTravel)) ++m_stage;
+      break;
+    case 1:
+      arm.instrument = m_hook;
+      arm.tip = arm.port + kIdleDepth * normalised(goal - arm.port);
+      if (m_state->tools[size_t(m_sucker)].instrument == m_hook && m_camera.settled()) ++m_stage;
+      break;
+    case 2:
+      if (m_arms.move(m_sucker, goal, kCareful)) ++m_stage, m_steady = 0;
+      break;
+    case 3:
+      m_arms.move(m_sucker, goal, kTrack);
+      m_steady += sim::kTick;
+      arm.coagulating = m_steady < pressed;
+      if (!arm.coagulating) ++m_stage;
+      break;
+    default:
+      m_blundered = m_arms.move_to_depth(m_sucker, kIdleDepth, kCareful);
+      if (m_blundered) go(Phase::watch);
+  }
 }
 
 void BleedingSurgeon::find() {
@@ -156,8 +235,10 @@ void BleedingSurgeon::inspect() {
   m_distance = 0.052 + 0.008 * double(int(m_in_phase / 1.5) % 4);
   aim(0, kTrack);
   if (!m_arms.grip(m_applier, kHalf, 1.6)) return;
+  const bool careless = !m_blundered && (flawed("E4.2") || flawed("E12") || flawed("A3.3") || flawed("A3.2"));
+  if (careless && m_in_phase > 4) return go(Phase::close);
   m_unseen += sees_jaw() ? 0 : sim::kTick;
-  m_steady = sees_jaw() ? m_steady + sim::kTick : 0;
+  m_steady = sees_jaw() && !careless ? m_steady + sim::kTick : 0;
   if (m_steady > 0.3) go(Phase::close);
   if (m_in_phase > 8) go(Phase::leave);
 }
@@ -166,12 +247,15 @@ void BleedingSurgeon::close() {
   look_at_clip();
   want(m_arms[m_applier].tip);
   aim(0, kTrack);
-  if (m_arms.grip(m_applier, 1, 2.6 * m_goal.clip_closing) && m_state->clip_count > m_clips_before) go(Phase::open);
+  const double quick = flawed("A3.4") && !m_blundered ? 0.4 : 1;
+  if (m_arms.grip(m_applier, 1, 2.6 * quick * m_goal.clip_closing) && m_state->clip_count > m_clips_before)
+    go(Phase::open);
   if (m_in_phase > 8) go(Phase::open);
 }
 
 void BleedingSurgeon::open() {
   want(place());
+  m_blundered = true;
   if (m_arms.grip(m_applier, 0, 0.5)) go(Phase::leave);
 }
 
@@ -202,7 +286,7 @@ Vec3d BleedingSurgeon::deepest() const {
 void BleedingSurgeon::change() {
   want(place());
   m_arms.move_to_depth(m_applier, kAway, kTravel);
-  if (m_sucker < 0) return go(Phase::check);
+  if (m_sucker < 0 || flawed("E10")) return go(Phase::check);
   if (m_arms.move_to_depth(m_sucker, kIdleDepth, 2 * kTravel) && m_in_phase > 0.5) go(Phase::fetch);
 }
 
@@ -241,7 +325,8 @@ void BleedingSurgeon::check() {
   m_distance = 0.05 + 0.01 * double(int(m_in_phase / 4) % 4);
   m_arms.move_to_depth(m_applier, kAway, kTravel);
   if (m_sucker >= 0) m_arms.move_to_depth(m_sucker, kInDepth, kTravel);
-  if (m_in_phase > m_goal.stopped_time + m_goal.check_time + 6) go(Phase::finished);
+  const double late = flawed("E10") ? m_goal.clear_within : 0;
+  if (m_in_phase > m_goal.stopped_time + m_goal.check_time + 6 + late) go(Phase::finished);
 }
 
 sim::Input BleedingSurgeon::next(const sim::Model& model, const sim::State& state) {
@@ -253,10 +338,10 @@ sim::Input BleedingSurgeon::next(const sim::Model& model, const sim::State& stat
   m_arms.begin_tick();
   pose_vessel(path(), look_at_hosts(model, state, m_hosts), m_artery);
   static constexpr void (BleedingSurgeon::*kRun[])() = {
-      &BleedingSurgeon::watch,   &BleedingSurgeon::find,  &BleedingSurgeon::reach, &BleedingSurgeon::enter,
-      &BleedingSurgeon::inspect, &BleedingSurgeon::close, &BleedingSurgeon::open,  &BleedingSurgeon::leave,
-      &BleedingSurgeon::change,  &BleedingSurgeon::fetch, &BleedingSurgeon::bring, &BleedingSurgeon::suck,
-      &BleedingSurgeon::check};
+      &BleedingSurgeon::watch, &BleedingSurgeon::blunder, &BleedingSurgeon::find,  &BleedingSurgeon::reach,
+      &BleedingSurgeon::enter, &BleedingSurgeon::inspect, &BleedingSurgeon::close, &BleedingSurgeon::open,
+      &BleedingSurgeon::leave, &BleedingSurgeon::change,  &BleedingSurgeon::fetch, &BleedingSurgeon::bring,
+      &BleedingSurgeon::suck,  &BleedingSurgeon::check};
   if (!done()) (this->*kRun[size_t(m_phase)])();
   if (m_point_count > 0) m_camera.show({m_points.data(), size_t(m_point_count)}, m_distance);
   sim::Input input = model.start;

@@ -27,6 +27,7 @@ class BleedingSurgeon final : public Expert {
  private:
   enum class Phase {
     watch,
+    blunder,
     find,
     reach,
     enter,
@@ -44,6 +45,7 @@ class BleedingSurgeon final : public Expert {
 
   // Phases
   void watch();
+  void blunder();
   void find();
   void reach();
   void enter();
@@ -74,6 +76,12 @@ class BleedingSurgeon final : public Expert {
   void draw_back_others();
   Vec3d deepest() const;  ///< surface of the pool where it is deepest
   bool flawed(const char* code) const { return m_manner.flaw == code; }
+  double lost() const;  ///< blood [m^3]
+  bool waits() const;   ///< longer than an expert would: a flaw
+  bool burns() const { return flawed("E6") || flawed("E7") || flawed("E7.1") || flawed("E8"); }
+  Vec3d burnt() const;                       ///< what a hook is held to, as a flaw
+  interactions::VesselSpot clipped() const;  ///< where the legs shall close: on the artery, but for a flaw
+  interactions::VesselSpot elsewhere() const;
   void want(Vec3d p) { m_points[size_t(m_point_count < 7 ? m_point_count++ : 7)] = p; }
 
   const BleedingControl& m_goal;
@@ -81,7 +89,10 @@ class BleedingSurgeon final : public Expert {
   const sim::Model* m_model = nullptr;
   const sim::State* m_state = nullptr;
   int m_applier = -1, m_sucker = -1, m_bore = -1;  ///< hands, and the suction-irrigator's number in its rack; -1: none
-  int m_jaws[2] = {-1, -1};                        ///< targets of visibility
+  int m_hook = -1;                                 ///< in the same rack, for flaws
+  int m_stage = 0;                                 ///< of a blunder
+  bool m_blundered = false;
+  int m_jaws[2] = {-1, -1};  ///< targets of visibility
   sim::HostViews m_hosts;
   std::vector<Vec3d> m_artery;  ///< where its line is in this tick
   Phase m_phase = Phase::watch;

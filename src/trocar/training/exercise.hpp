@@ -38,6 +38,13 @@ struct Handling {
   double collision_speed = 0, insertion_depth = 0;
 };
 
+/// What current may do where it should not.
+struct EnergyLimits {
+  double idle_time = 0;       ///< a pedal may be pressed beside nothing for this long [s]
+  double hook_spread = 0;     ///< of dead tissue from a monopolar electrode's edge, at most [m]
+  double bipolar_spread = 0;  ///< the same between jaws [m]
+};
+
 /// One side of the patient: what has to be clipped and cut there.
 struct Side {
   std::string name, title;    ///< "left", "Left"
@@ -76,7 +83,8 @@ struct BleedingControl : Handling {
   double stopped_flow = 0, stopped_time = 0;               ///< [m^3/s] [s]
   double pool_left = 0;                                    ///< [m^3]
   double lost_some = 0, lost_much = 0, lost_too_much = 0;  ///< [m^3]
-  double control_within = 0;                               ///< [s]
+  double control_within = 0, clear_within = 0;             ///< [s]
+  EnergyLimits energy;
 };
 enum class BleedingTask { find, clip, stop, clear, check };
 inline constexpr int kBleedingTasks = 5;

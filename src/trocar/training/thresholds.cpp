@@ -90,6 +90,19 @@ constexpr ThresholdRow kBleedingControl[] = {
                                                               "one that fails the attempt"),
     one<&Exercise::bleeding, &BleedingControl::control_within>("control_s", 1, 0, 3600,
                                                                "from its beginning to when it is stopped, at most"),
+    one<&Exercise::bleeding, &BleedingControl::clear_within>("clear_s", 1, 0, 3600,
+                                                             "from then to a pool that is cleared, at most"),
+};
+
+template <auto Member>
+constexpr ThresholdRow energy(const char* key, double unit, double high, const char* meaning) {
+  return {key, unit, 0, high, [](Exercise& e) -> double& { return e.bleeding.energy.*Member; }, nullptr, meaning};
+}
+constexpr ThresholdRow kEnergy[] = {
+    energy<&EnergyLimits::idle_time>("idle_s", 1, 60, "a pedal may be pressed beside nothing for this long"),
+    energy<&EnergyLimits::hook_spread>("hook_spread_mm", kMm, 100,
+                                       "tissue dies no farther from a monopolar electrode's edge"),
+    energy<&EnergyLimits::bipolar_spread>("bipolar_spread_mm", kMm, 100, "the same between bipolar jaws"),
 };
 
 template <auto Goal>
@@ -103,7 +116,11 @@ std::vector<ThresholdRow> with_handling(std::span<const ThresholdRow> rows) {
 
 std::span<const ThresholdRow> thresholds(Exercise::Kind kind) {
   static const std::vector<ThresholdRow> sterilisation = with_handling<&Exercise::goal>(kSterilisation);
-  static const std::vector<ThresholdRow> bleeding = with_handling<&Exercise::bleeding>(kBleedingControl);
+  static const std::vector<ThresholdRow> bleeding = [] {
+    std::vector<ThresholdRow> rows = with_handling<&Exercise::bleeding>(kBleedingControl);
+    rows.insert(rows.end(), std::begin(kEnergy), std::end(kEnergy));
+    return rows;
+  }();
   return kind == Exercise::Kind::sterilisation ? sterilisation : bleeding;
 }
 
