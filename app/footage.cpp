@@ -42,6 +42,12 @@ void blend_scope(const sim::ScopeInput& a, const sim::ScopeInput& b, double f, s
     out.*part = mixed(a.*part, b.*part, f);
 }
 
+/// A wipe that began in between begins at `b`.
+void blend_lens(const fluids::SmokeState& a, const fluids::SmokeState& b, double f, fluids::SmokeState& out) {
+  out.fog = mixed(a.fog, b.fog, f);
+  if (a.wipe_left >= b.wipe_left) out.wipe_left = mixed(a.wipe_left, b.wipe_left, f);
+}
+
 }  // namespace
 
 void blend(const sim::Model& model, const sim::State& a, const sim::State& b, double f, sim::State& out) {
@@ -64,6 +70,7 @@ void blend(const sim::Model& model, const sim::State& a, const sim::State& b, do
                   out.membranes[i].network);
   for (std::size_t t = 0; t < out.tools.size(); ++t) blend_tool(a.tools[t], b.tools[t], f, out.tools[t]);
   blend_scope(a.scope, b.scope, f, out.scope);
+  blend_lens(a.fluids.smoke, b.fluids.smoke, f, out.fluids.smoke);
 }
 
 Footage::Footage(const sim::Model& model, const std::vector<sim::Keyframe>& keyframes)

@@ -1,12 +1,15 @@
 #include "hand_names.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
 #include <trocar/interactions/lever.hpp>
 
 namespace trocar::app {
+
+constexpr double kFogTold = 0.15;  // fog below it hardly shows (our choice)
 
 std::string in_words(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
@@ -45,6 +48,13 @@ std::vector<std::string> fluid_account(const sim::Model& model, const sim::State
           line("irrigated", ledger.in[size_t(fluids::Source::kIrrigated)]),
           line("sucked away", at(ledger, fluids::Place::kSucked)),
           line("in the pool", at(ledger, fluids::Place::kPool))};
+}
+
+std::string lens_in_words(const sim::Model& model, const sim::State& state) {
+  const fluids::SmokeState& lens = state.fluids.smoke;
+  if (!model.wet.there) return {};
+  if (lens.wipe_left > 0) return fmt::format("lens is being wiped, {:.0f} s", std::ceil(lens.wipe_left));
+  return lens.fog < kFogTold ? std::string() : fmt::format("lens fogged, {:.0f} %", 100 * lens.fog);
 }
 
 std::vector<Choosable> choosable(const sim::Model& model, const sim::State& state, int h) {

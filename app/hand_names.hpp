@@ -23,6 +23,8 @@ bool has_valves(const sim::Model& model, const sim::State& state, int h);
 std::string flow_in_words(const sim::State& state, int h);
 /// The account of the fluids in mL, a line each: bled, irrigated, sucked, in the pool. None in scenes without.
 std::vector<std::string> fluid_account(const sim::Model& model, const sim::State& state);
+/// What lies on the endoscope's lens: "lens fogged, 40 %", "lens is being wiped, 5 s"; empty where it is clear.
+std::string lens_in_words(const sim::Model& model, const sim::State& state);
 
 /// An instrument that fits a hand's trocar.
 struct Choosable {

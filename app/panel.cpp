@@ -109,6 +109,14 @@ void draw_fluids(const PanelContent& c) {
   for (std::size_t i = 0; i + 1 < account.size(); i += 2) ui::text(account[i] + "   " + account[i + 1], ui::kGrey);
 }
 
+/// A fogged lens, and the key that has it wiped, for whoever leads by hand.
+void draw_lens(const PanelContent& c) {
+  const std::string lens = lens_in_words(c.lesson.model, c.now.state);
+  if (lens.empty()) return;
+  const bool hint = c.hands && !(c.now.state.fluids.smoke.wipe_left > 0);
+  ui::text(!hint ? lens : lens + (c.gamepad ? ": B wipes it" : ": T wipes it"), ui::kOrange);
+}
+
 void draw_hands(const PanelContent& c) {
   for (int h = 0; h < hand_count(c.lesson.model); ++h) {
     draw_hand(c, h);
@@ -223,6 +231,7 @@ void draw_panel(const PanelContent& c, float left, float width, float height) {
   ImGui::Dummy({0, 2 * ui::scale()});
   draw_pull(c);
   draw_fluids(c);
+  draw_lens(c);
   draw_generator(c);
   draw_outlook(c);
   const float line = ImGui::GetTextLineHeightWithSpacing(), foot = line + 2 * ui::scale();

@@ -55,7 +55,9 @@ Player::Player(Window& window, const Lesson& lesson, const sim::Recording& recor
       m_reel(lesson, recording, Reel::Options{}),
       m_line(m_reel.last()),
       m_around(view::orbit_around(lesson.model)),
-      m_orbit(orbit_of(choice_of(kCameraPresets[0]), m_around)) {}
+      m_orbit(orbit_of(choice_of(kCameraPresets[0]), m_around)) {
+  if (lesson.model.wet.there) m_backend->prepare_liquids();
+}
 
 void Player::run() {
   log_camera();

@@ -82,7 +82,8 @@ void draw_tools(const PlayerPanelContent& c) {
     if (push >= 0.05) text += fmt::format(", {:.1f} N at the trocar", push);
     ui::text(text);
   }
-  if (!c.exact) return;  // keyframes have no fluids
+  if (const std::string lens = lens_in_words(c.lesson.model, c.state); !lens.empty()) ui::text(lens, ui::kOrange);
+  if (!c.exact) return;  // keyframes have no account
   for (const std::string& line : fluid_account(model, c.state)) ui::text(line, ui::kGrey);
 }
 

@@ -6,6 +6,7 @@
 
 #include <trocar/sim/visibility.hpp>
 
+#include "hand_names.hpp"
 #include "hand_pilot.hpp"
 #include "lesson.hpp"
 #include "session.hpp"
@@ -64,6 +65,17 @@ TEST(HandPilot, ValvesOfTheLedSuctionIrrigatorArePedalsOfItsHand) {
   EXPECT_EQ(pilot.lead(mouse(0, 0), state).pedals, 0u);
   pilot.lead(sample, state);
   EXPECT_EQ(pilot.rest(0.016f, state).pedals, 0u) << "nobody's hand presses anything";
+}
+
+TEST(LensInWords, SaysFogAndAWipeAndNothingOfAClearLensOrWhereThereAreNoFluids) {
+  static const std::unique_ptr<Lesson> lesson = load_lesson("bleeding");
+  sim::State state = sim::initial_state(lesson->model);
+  EXPECT_EQ(lens_in_words(lesson->model, state), "");
+  state.fluids.smoke.fog = 0.4;
+  EXPECT_EQ(lens_in_words(lesson->model, state), "lens fogged, 40 %");
+  state.fluids.smoke.wipe_left = 4.2;
+  EXPECT_EQ(lens_in_words(lesson->model, state), "lens is being wiped, 5 s");
+  EXPECT_EQ(lens_in_words(scene().model, sim::initial_state(scene().model)), "");
 }
 
 TEST(HandPilot, TheOthersKeepPoseAndGrip) {

@@ -282,6 +282,20 @@ TEST(Footage, IsExactAtKeyframesAndHalfwayBetweenThem) {
   EXPECT_TRUE(footage.sound());
 }
 
+TEST(Footage, FogOnTheLensIsHalfwayToo) {
+  const sim::Model& model = recorded().lesson.model;
+  ASSERT_TRUE(model.wet.there);
+  sim::State a = sim::initial_state(model), b = a, between = a;
+  a.fluids.smoke.fog = 0.8, b.fluids.smoke.fog = 0.6;
+  a.fluids.smoke.wipe_left = 4, b.fluids.smoke.wipe_left = 3.9;
+  blend(model, a, b, 0.5, between);
+  EXPECT_NEAR(between.fluids.smoke.fog, 0.7, 1e-12);
+  EXPECT_NEAR(between.fluids.smoke.wipe_left, 3.95, 1e-12);
+  a.fluids.smoke.wipe_left = 0, b.fluids.smoke.wipe_left = 8;
+  blend(model, a, b, 0.5, between);
+  EXPECT_EQ(between.fluids.smoke.wipe_left, 0) << "a wipe begins with the keyframe that has it";
+}
+
 TEST(Footage, AKeyframeThatDoesNotFitEndsIt) {
   const Recorded& r = recorded();
   std::vector<sim::Keyframe> keys(r.recording.keyframes.begin(), r.recording.keyframes.begin() + 10);

@@ -266,6 +266,27 @@ TEST_F(Liquids, ASheetTakesLightByTheLawOfBeerAndLambert) {
   }
 }
 
+TEST_F(Liquids, OrangeGoesFirstSoThinBloodTakesRedAndDeepBloodLetsTheRestThrough) {
+  add_plate(0.065f, 230);
+  frame.liquid.look.fresnel = 0;
+  frame.liquid.look.kinds[0].deep = {0, 0, 0};
+  frame.liquid.look.kinds[0].orange = 7e3f;
+  frame.liquid.look.orange_share = 0.3f;
+  frame.light.intensity = 0;
+  const double depths[3] = {0.001, 0.004, 0.02}, share = 0.01;
+  double red[3];
+  for (int i = 0; i < 3; ++i) {
+    frame.liquid.sheet.clear();
+    add_sheet(frame.liquid, float(depths[i]), 1 - float(share));
+    red[i] = light_at(draw(), 60, 60, 0);
+  }
+  const auto law = [&](double depth) {
+    const double path = 2 * depth * share;
+    return std::exp(-0.8e3 * path) * (0.7 + 0.3 * std::exp(-7e3 * path));
+  };
+  for (int i = 1; i < 3; ++i) EXPECT_NEAR(red[i] / red[0], law(depths[i]) / law(depths[0]), 0.03) << i;
+}
+
 TEST_F(Liquids, ASheetEndsWhereItsCoverFallsBelowAThird) {
   add_plate(0.065f, 200);
   const Image bare = draw();

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
+#include <trocar/fluids/shown_fluids.hpp>
 #include <trocar/tissue/heat_look.hpp>
 
 #include "small_energy.hpp"
@@ -13,6 +14,14 @@ using namespace trocar;
 using namespace trocar::sim;
 
 namespace {
+
+/// As it was written before fluids were in keyframes.
+std::vector<std::uint8_t> without_fluids(const Model& m, const State& s) {
+  std::vector<std::uint8_t> bytes = display_bytes(m, s), fluids;
+  fluids::put_shown(m.wet.model, s.fluids, fluids);
+  bytes.resize(bytes.size() - fluids.size());
+  return bytes;
+}
 
 /// After two clips and the cut, while the jaws hold the tube.
 const State& at_work() {
@@ -86,12 +95,42 @@ TEST(Display, CutElementsComeBackCut) {
   EXPECT_EQ(to.strands[small::kTube].alive, from.strands[small::kTube].alive);
 }
 
+TEST(Display, TheLensAndTheFluidsComeBack) {
+  const Model& m = small::model();
+  ASSERT_TRUE(m.wet.there);
+  State from = at_work();
+  from.fluids.smoke.fog = 0.37;
+  from.fluids.smoke.wipe_left = 3.25;
+  from.fluids.droplets.film[5] = {120'000, 30'000, 0};
+  State to = initial_state(m);
+  ASSERT_TRUE(restore_display(m, display_bytes(m, from), to));
+  EXPECT_EQ(to.fluids.smoke.fog, 0.37);
+  EXPECT_EQ(to.fluids.smoke.wipe_left, 3.25);
+  EXPECT_EQ(to.fluids.droplets.film[5].blood, 120'000);
+  EXPECT_EQ(to.fluids.droplets.film[5].saline, 30'000);
+  for (const double fog : {-0.1, 1.1, std::nan("")}) {
+    from.fluids.smoke.fog = fog;
+    EXPECT_FALSE(restore_display(m, display_bytes(m, from), to)) << fog;
+  }
+}
+
+TEST(Display, KeyframesWithoutFluidsAreDryAndHaveAClearLens) {
+  const Model& m = small::model();
+  State to = initial_state(m);
+  to.fluids.smoke.fog = 0.4;
+  to.fluids.droplets.film[5] = {120'000, 0, 0};
+  ASSERT_TRUE(restore_display(m, without_fluids(m, at_work()), to));
+  EXPECT_EQ(to.fluids.smoke.fog, 0);
+  EXPECT_EQ(film_content(to.fluids.droplets).total(), 0);
+}
+
 TEST(Display, BytesOfTheWrongLengthAreRefusedAndChangeNothing) {
   const Model& m = small::model();
   std::vector<std::uint8_t> bytes = display_bytes(m, at_work());
   State s = initial_state(m);
   const std::uint64_t before = hash_of(s);
   for (size_t n = 0; n < bytes.size(); n += 1 + n / 50) {
+    if (n == without_fluids(m, at_work()).size()) continue;  // see KeyframesWithoutFluidsAreDryAndHaveAClearLens
     const std::vector<std::uint8_t> torn(bytes.begin(), bytes.begin() + std::ptrdiff_t(n));
     EXPECT_FALSE(restore_display(m, torn, s)) << n << " of " << bytes.size();
   }

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <trocar/sim/heating.hpp>
+#include <trocar/sim/visibility.hpp>
 #include <trocar/tissue/heat_look.hpp>
 
 #include "small_energy.hpp"
@@ -95,6 +96,27 @@ TEST(Energy, SmokeHoldsTheWaterThatBoiledLessWhatHasFaded) {
   std::printf("    %.2f mg boiled, %.2f mg in the air\n", 1e6 * before, 1e6 * content);
   EXPECT_GT(before, 1e-6);
   EXPECT_NEAR(content, expected, 0.01 * expected);
+}
+
+TEST(Energy, SmokeAtTheLensFogsItWhileCurrentFlowsAndNotWithout) {
+  double fog[2];
+  std::uint64_t hash[2];
+  for (const bool current : {false, true}) {
+    small::Table t(small::energy());
+    small::put_hook_down(t);
+    fluids::SmokeState& smoke = t.state.fluids.smoke;
+    ASSERT_TRUE(boil(t.model.wet.model.smoke, scope_of(t.model, t.state).eye, 50e-6, smoke));
+    t.input.pedals = current ? kBlue : 0u;
+    t.steps(1000);
+    fog[current] = smoke.fog;
+    smoke.fog = 0;
+    hash[0] = hash_of(t.state);
+    smoke.fog = fog[current];
+    hash[1] = hash_of(t.state);
+  }
+  EXPECT_EQ(fog[0], 0);
+  EXPECT_GT(fog[1], 1e-3);
+  EXPECT_NE(hash[0], hash[1]) << "it is State";
 }
 
 TEST(Energy, AHookDrawnInPureCutPartsTheOrganAndCoagulationDoesNot) {

@@ -137,6 +137,22 @@ TEST(FluidDrawing, AFilmDarkensAsItClots) {
   EXPECT_NEAR(frame.liquid.splats[2].dark, 0.5f, 0.01f);  // 240 s: half-way from 180 to 300
 }
 
+TEST(FluidDrawing, AFilmRunsDownhillThroughItsPlaceAndLiesRoundWhereItIsLevel) {
+  Scene scene;
+  scene.s.droplets.film[0] = scene.s.droplets.film[1] = {200'000, 0, 0};
+  std::vector<FilmPlace> places(2);
+  places[0].area = places[1].area = 20e-6f;
+  places[1].normal = {1, 0, 0};
+  const render::Frame frame = scene.listed(places);
+  ASSERT_EQ(frame.liquid.splats.size(), 2u);
+  const render::Splat &level = frame.liquid.splats[0], &steep = frame.liquid.splats[1];
+  EXPECT_LT(length(level.to - level.from), 1e-5f);
+  const Vec3f way = steep.to - steep.from;
+  EXPECT_GT(length(way) + 2 * steep.radius, std::sqrt(20e-6f)) << "it reaches the next place";
+  EXPECT_GT(std::fabs(way.z), 0.9f * length(way));
+  EXPECT_LT(steep.radius, level.radius);
+}
+
 TEST(FluidDrawing, ThePoolsSurfaceIsTheSimulationsAndEndsWithIt) {
   Scene scene;
   const fluids::PoolModel& pool = scene.m.pool;
@@ -199,6 +215,28 @@ TEST(Lens, IsCleanUntilItFogs) {
   scene.s.smoke.fog = 0.4;
   lens.list(scene.m.smoke, scene.s.smoke, frame);
   EXPECT_FLOAT_EQ(frame.look.soil.fog, 0.4f);
+}
+
+TEST(Lens, ASmearIsAsOldAsItsWipeHoweverRarelyOneLooksAndGoneForWhoGoesBack) {
+  const auto smear_at = [](std::initializer_list<std::uint64_t> ticks) {  // of a wipe from 1 to 9 s
+    Scene scene;
+    Lens lens;
+    float smear = 0;
+    for (const std::uint64_t tick : ticks) {
+      render::Frame frame;
+      frame.tick = tick;
+      const bool wiping = tick >= 1000 && tick < 9000;
+      scene.s.smoke.wipe_left = wiping ? 1e-3 * double(9000 - tick) : 0;
+      lens.list(scene.m.smoke, scene.s.smoke, frame);
+      smear = frame.look.soil.smear;
+    }
+    return smear;
+  };
+  const float often = smear_at({0, 2000, 5000, 8000, 8900, 8980, 9000, 9500, 10'000, 12'000});
+  EXPECT_GT(often, 0.1f);
+  EXPECT_NEAR(smear_at({0, 2000, 12'000}), often, 1e-4f);
+  EXPECT_EQ(smear_at({0, 2000, 12'000, 500}), 0);
+  EXPECT_EQ(smear_at({0, 2000, 12'000, 500, 900}), 0);
 }
 
 TEST(Lens, AWipeTakesFogAndDropsAndItsSmearThinsOut) {

@@ -2,13 +2,16 @@
 // against anatomy: tubes stay closed, fimbriae move with their tube, metal lies where the simulation has it.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include <gtest/gtest.h>
 
+#include <trocar/core/error.hpp>
 #include <trocar/geometry/tri_mesh.hpp>
 #include <trocar/interactions/irrigate.hpp>
 #include <trocar/render/backend.hpp>
+#include <trocar/render/gl_context.hpp>
 #include <trocar/scene/compile.hpp>
 #include <trocar/scene/reader.hpp>
 #include <trocar/sim/heat_bodies.hpp>
@@ -24,6 +27,7 @@
 #include <trocar/view/scene_view.hpp>
 #include <trocar/view/sheet_drawing.hpp>
 #include <trocar/view/tube_drawing.hpp>
+#include <trocar/view/wet_drawing.hpp>
 
 namespace trocar::view {
 namespace {
@@ -419,6 +423,102 @@ TEST(SceneView, AHeatedSceneIsDrawable) {
   input.pedals = sim::kBlue;
   for (int i = 0; i < 20; ++i) sim::step(m, input, state, work);
   expect_drawable(view, *backend, state);
+}
+
+/// Share of the brightness that varies across the view.
+double contrast(const render::Image& image) {
+  double sum = 0, squares = 0, n = 0;
+  for (int y = 30; y < 90; ++y)
+    for (int x = 50; x < 110; ++x) {
+      const double light = image.at(x, y)[0] + image.at(x, y)[1] + image.at(x, y)[2];
+      sum += light, squares += light * light, n += 1;
+    }
+  return std::sqrt(std::max(squares / n - sum * sum / (n * n), 0.0)) / (sum / n);
+}
+
+/// Volume of a film's splat as the renderer adds it up: height (1 - r^2)^2, r in reaches, by midpoints [m^3].
+double held_by(const render::Splat& s) {
+  const double reach = double(render::kSplatReach) * double(s.radius), half = 0.5 * double(length(s.to - s.from));
+  constexpr int kCells = 200;
+  const double step_x = 2 * (half + reach) / kCells, step_y = 2 * reach / kCells;
+  double sum = 0;
+  for (int i = 0; i < kCells; ++i)
+    for (int j = 0; j < kCells; ++j) {
+      const double along = std::max(std::fabs((i + 0.5) * step_x - half - reach) - half, 0.0);
+      const double off = (j + 0.5) * step_y - reach;
+      const double r = std::max(1 - (along * along + off * off) / (reach * reach), 0.0);
+      sum += r * r;
+    }
+  return sum * step_x * step_y * double(s.height);
+}
+
+TEST(SceneView, AFoggedLensIsTheScopesAndNoOtherCameras) {
+  const sim::Model& m = bleeding();
+  const auto backend = render::make_null_backend();
+  SceneView view(m, *backend);
+  sim::State state = sim::initial_state(m);
+  ViewOptions scope, outside, beside;
+  outside.camera = ViewOptions::Camera::outside;
+  beside.camera = ViewOptions::Camera::inside;
+  EXPECT_TRUE(view.frame(state, scope).look.soil.clean());
+  state.fluids.smoke.fog = 0.6;
+  for (const int eye : {0, 1}) {
+    scope.eye_index = eye;
+    EXPECT_FLOAT_EQ(view.frame(state, scope).look.soil.fog, 0.6f) << "either eye of a pair";
+  }
+  EXPECT_TRUE(view.frame(state, outside).look.soil.clean());
+  EXPECT_TRUE(view.frame(state, beside).look.soil.clean());
+  state.fluids.smoke.wipe_left = 7;
+  EXPECT_GT(view.frame(state, scope).look.soil.wipe, 0);
+  state.fluids.smoke.fog = state.fluids.smoke.wipe_left = 0;
+  state.tick = 60'000;
+  EXPECT_TRUE(view.frame(state, scope).look.soil.clean()) << "a minute after a wipe";
+}
+
+TEST(SceneView, AFoggedLensTakesContrastAndAWipedOneGivesThePictureBack) {
+  std::unique_ptr<render::GlContext> context;
+  try {
+    context = render::GlContext::off_screen();
+  } catch (const core::EnvironmentLacks&) {
+    GTEST_SKIP() << "no OpenGL here";
+  }
+  const sim::Model& m = bleeding();
+  const auto backend = render::make_gl_backend(*context);
+  SceneView view(m, *backend);
+  sim::State state = sim::initial_state(m);
+  const auto drawn = [&](int eye) {  // each with an exposure memory of its own
+    ViewOptions options;
+    options.eye_index = eye;
+    for (int i = 0; i < 3; ++i) draw_frame(*backend, view.frame(state, options), render::Target::off_screen(160, 120));
+    return backend->read_pixels();
+  };
+  const render::Image clear = drawn(0);
+  state.fluids.smoke.fog = 0.5;
+  const render::Image fogged = drawn(1);
+  state.fluids.smoke.fog = 0;
+  const render::Image wiped = drawn(2);
+  std::printf("    contrast %.3f, fogged %.3f\n", contrast(clear), contrast(fogged));
+  EXPECT_LT(contrast(fogged), 0.6 * contrast(clear));
+  EXPECT_EQ(wiped.rgb, clear.rgb);
+}
+
+TEST(WetDrawing, AFilmIsDrawnOverItsPlacesOwnAreaAndHoldsWhatLiesThere) {
+  const sim::Model& m = bleeding();
+  sim::State state = sim::initial_state(m);
+  WetDrawing wet(m);
+  int listed = 0;
+  for (std::size_t i = 0; i < state.fluids.droplets.film.size(); i += 97) {
+    state.fluids.droplets.film.assign(state.fluids.droplets.film.size(), {});
+    state.fluids.droplets.film[i] = {300'000, 0, 0};
+    render::Frame frame;
+    wet.list(state, frame);
+    for (const render::Splat& s : frame.liquid.splats) {
+      ++listed;
+      ASSERT_EQ(s.kind, render::SplatKind::film);
+      EXPECT_NEAR(held_by(s), 300e-12, 0.02 * 300e-12) << i;
+    }
+  }
+  EXPECT_GT(listed, 20);
 }
 
 TEST(InstrumentShapes, JawsMeetAtTheTipWhenClosedAndStandApartWhenOpen) {

@@ -6,7 +6,8 @@
 // mu of whole blood of 150 g/L haemoglobin is 2.303 eps 150 / 64500 with the tabulated eps of oxygenated and
 // deoxygenated haemoglobin [Prahl 1999] at 630, 540 and 460 nm, arterial blood 98 % saturated, venous 70 %. A camera's
 // red channel is broad and sees more light than 630 nm alone: 0.8 /mm (our choice). Bile: our choice, from its look.
-// C_deep, linear (0.22, 0.008, 0.010): our choice, from the look of fresh blood.
+// C_deep, linear (0.12, 0.006, 0.007): our choice, such that a pool under the endoscope's light is about (87, 15, 16) in
+// sRGB, as pools in real pictures are.
 //
 //   const Rgb t = transmission(optics, {.blood = 0.05}, 0.010);    // 5 % blood in saline, 10 mm of light path
 #pragma once
@@ -22,7 +23,7 @@ struct Optics {
   Rgb venous{1.06e3, 27e3, 20e3};   ///< [1/m]
   Rgb saline{0, 0, 0};              ///< [1/m]
   Rgb bile{0.15e3, 0.25e3, 1.6e3};  ///< [1/m]
-  Rgb deep_blood{0.22, 0.008, 0.010};
+  Rgb deep_blood{0.12, 0.006, 0.007};
   Rgb deep_bile{0.18, 0.17, 0.010};
 };
 

@@ -11,7 +11,6 @@ namespace trocar::render {
 namespace {
 
 constexpr std::size_t kSplatFloats = 16;
-constexpr float kReach = 1.7f;        // how far a splat's field goes, in radii: as in splat.vert
 constexpr int kTile = 16;             // [px] of the scene: only those that liquid reaches are drawn
 constexpr float kLeastTexel = 0.75f;  // no drop is drawn thinner, in texels of the field
 
@@ -71,7 +70,7 @@ void GlBackend::set_liquid(const Frame& frame, GlProgram& program) {
     const float row[8] = {kind.absorbs.x + kind.scatters,
                           kind.absorbs.y + kind.scatters,
                           kind.absorbs.z + kind.scatters,
-                          0,
+                          kind.orange,
                           kind.deep.x,
                           kind.deep.y,
                           kind.deep.z,
@@ -79,6 +78,7 @@ void GlBackend::set_liquid(const Frame& frame, GlProgram& program) {
     std::copy(row, row + 8, &rows[std::size_t(8 * k)]);
   }
   program.set_vec4s("u_kinds", rows);
+  program.set("u_orange", look.orange_share);
   const auto alpha2 = [](float roughness) { return roughness * roughness * roughness * roughness; };
   program.set("u_shine", look.fresnel, alpha2(look.drop_roughness), alpha2(look.film_roughness), look.dark);
   program.set_vec4s("u_frame", m_frame_rows);
@@ -179,8 +179,8 @@ void GlBackend::pack_splats(const Frame& frame) {
     const float thin = flies ? s.radius / radius : 1.0f;
     // An outline wanders by a millimetre at most (wet.frag).
     Bounds2 own;
-    own.add(a, kReach * radius + 0.001f, m_projection);
-    own.add(b, kReach * radius + 0.001f, m_projection);
+    own.add(a, kSplatReach * radius + 0.001f, m_projection);
+    own.add(b, kSplatReach * radius + 0.001f, m_projection);
     bounds.add(own);
     mark_tiles(own.pixels(m_scene.width, m_scene.height));
     const float row[kSplatFloats] = {a.x, a.y, a.z, radius,     b.x,        b.y,        b.z,        s.height * thin,

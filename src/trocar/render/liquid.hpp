@@ -3,7 +3,8 @@
 //
 // Splats are drawn into three small pictures (field, thickness, film) and added up; where the field passes a threshold
 // there is liquid, its thickness and normal follow from the field, and its colour from the law of Beer and Lambert:
-//   C = C_bed exp(-tau) + C_deep L (1 - exp(-tau)),  tau = path sum_k share_k (absorbs_k + scatters_k)
+//   C = C_bed T + C_deep L (1 - T),  T = exp(-tau),  tau = path sum_k share_k (absorbs_k + scatters_k)
+// and in red T (1 - s + s exp(-path sum_k share_k orange_k)), s the share of orange in it.
 // The sheet is a mesh of heights with the liquid's depth at its vertices; what lies below it is seen through it.
 #pragma once
 
@@ -23,8 +24,10 @@ struct LiquidLook {
     float scatters = 0;      ///< out of the straight way, all channels alike [1/m]
     Vec3f deep{0, 0, 0};     ///< what a bottomless depth of it sends back (linear)
     float cells = 0;         ///< how much of what comes back is its own, against the other kinds
+    float orange = 0;        ///< absorbed besides, in the orange part of the camera's red [1/m]
   };
   std::array<Kind, kLiquidKinds> kinds{};
+  float orange_share = 0.30f;    ///< of a camera's red: what lies below 600 nm (our choice)
   float fresnel = 0.021f;        ///< reflectance at normal incidence
   float drop_roughness = 0.20f;  /// of drops and the sheet, as film_roughness of a Material
   float film_roughness = 0.16f;
@@ -37,6 +40,8 @@ enum class SplatKind : std::uint8_t {
   film,    ///< a stain: no body of its own
   streak   ///< in the air, smeared by its speed: thin at both ends
 };
+
+inline constexpr float kSplatReach = 1.7f;  ///< how far a splat's field goes, in radii: as in splat.vert
 
 /// A blob around the axis from..to.
 struct Splat {

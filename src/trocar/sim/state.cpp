@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <trocar/core/hash.hpp>
+#include <trocar/fluids/shown_fluids.hpp>
 #include <trocar/sim/state.hpp>
 #include <trocar/tissue/heat_scars.hpp>
 
@@ -326,6 +327,14 @@ void take_heat(Source& in, const Model& model, State& s) {
   s.heat.tick = s.tick;  // so that who draws sees that it has changed
 }
 
+/// Keyframes that were written before fluids were in them end here, and show none.
+void take_fluids(Source& in, const Model& model, fluids::FluidsState& s) {
+  if (!in.good || in.at == in.bytes.size()) return fluids::show_none(s);
+  const std::ptrdiff_t read = fluids::take_shown(model.wet.model, std::span(in.bytes).subspan(in.at), s);
+  in.good = read >= 0;
+  if (in.good) in.at += size_t(read);
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> display_bytes(const Model& model, const State& s) {
@@ -365,6 +374,7 @@ std::vector<std::uint8_t> display_bytes(const Model& model, const State& s) {
     put(out, s.electrodes.data(), s.electrodes.size());
     tissue::put_scars(s.heat, out);
   }
+  if (model.wet.there) fluids::put_shown(model.wet.model, s.fluids, out);
   return out;
 }
 
@@ -453,6 +463,7 @@ bool restore_display(const Model& model, const std::vector<std::uint8_t>& bytes,
     }
   if (model.vessels.there()) take_vessels(in, model, s);
   if (model.energy.there) take_heat(in, model, s);
+  if (model.wet.there) take_fluids(in, model, s.fluids);
   if (!in.good || in.at != bytes.size() || !sound(model, s)) return false;
   state = std::move(s);
   return true;

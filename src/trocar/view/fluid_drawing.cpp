@@ -12,14 +12,19 @@ using render::Splat;
 using render::SplatKind;
 
 // Our choice, all of them: from the look of spurts and rivulets in endoscopic films.
-constexpr float kCellsScatter = 1.6e3f;   // [1/m] red cells, forward scattering left out: blood is no red glass
-constexpr float kShutter = 0.004f;        // [s] a camera's: what flies is a streak
-constexpr float kLongestLink = 9.0f;      // in radii: a jet's drops hang together up to here
-constexpr float kThinnestLink = 0.30f;    // in radii: ... and until the thread between them is so thin
-constexpr float kCapSpread = 1.6f;        // radius of a cap over that of its ball
-constexpr float kLongestTail = 2.2f;      // of a running drop, in radii
-constexpr float kTailSpeed = 0.05f;       // [m/s] at which the tail is half of it
-constexpr float kFilmReach = 1.05f;       // radius of a stain over the edge of its place
+constexpr float kCellsScatter = 1.6e3f;  // [1/m] red cells, forward scattering left out: blood is no red glass
+constexpr float kBloodOrange = 7e3f;    // [1/m] mean of whole blood at 585 to 600 nm, tabulated [Prahl 1999], as Optics
+constexpr float kShutter = 0.004f;      // [s] a camera's: what flies is a streak
+constexpr float kLongestLink = 9.0f;    // in radii: a jet's drops hang together up to here
+constexpr float kThinnestLink = 0.30f;  // in radii: ... and until the thread between them is so thin
+constexpr float kCapSpread = 1.6f;      // radius of a cap over that of its ball
+constexpr float kLongestTail = 2.2f;    // of a running drop, in radii
+constexpr float kTailSpeed = 0.05f;     // [m/s] at which the tail is half of it
+constexpr float kRunThickness = 20e-6f;   // [m] of what a running drop leaves; where there is less it covers less
+constexpr float kWidestRun = 0.0032f;     // [m] ... and how wide: what lies beyond is drawn out downhill
+constexpr float kThinnestRun = 0.0008f;   // [m] ... and how narrow
+constexpr float kOverlap = 1.5f;          // a rivulet's length within a place over the place's edge: no gaps
+constexpr float kWander = 0.0009f;        // [m]
 constexpr float kThinnestFilm = 0.4e-6f;  // [m] not drawn below
 constexpr float kWetDepth = 60e-6f;       // [m] at which a cell of the pool counts as wet
 constexpr int kMargin = 3;                // cells around the wet ones
@@ -64,6 +69,39 @@ Splat streak(Vec3f p, Vec3f v, float radius, const std::array<float, 3>& share) 
   return s;
 }
 
+/// Of a stain whose blobs add up to `volume` [m^3]: a splat's film is its height times (1 - r^2)^2, r in reaches
+/// (splat.frag), which makes pi/3 of a round end's area and 16/15 of a reach of the rest's.
+float film_height(float volume, float radius, float tail) {
+  const float reach = render::kSplatReach * radius;
+  return volume / (1.0472f * reach * reach + 1.0667f * reach * tail);
+}
+
+/// Rivulets do not run straight: how far aside of the steepest way one is at `p` [m].
+float wander(Vec3f p, Vec3f down) {
+  const float along = dot(p, down), phase = 260 * (p.x + p.y + p.z);
+  return kWander * (std::sin(520 * along + phase) + 0.5f * std::sin(1270 * along - 1.7f * phase));
+}
+
+/// `volume` [m^3] of film as a rivulet left it: downhill through the place, as wide as there is enough for; round
+/// where it is level. @param own 0..1, for variety
+Splat stain(const FilmPlace& place, float volume, float own, Vec3f down) {
+  const Vec3f fall = down - dot(down, place.normal) * place.normal;
+  const float steep = length(fall), covered = std::min(place.area, volume / kRunThickness);
+  const Vec3f along = steep > 1e-3f ? (1 / steep) * fall : Vec3f{0, 0, 0}, across = cross(place.normal, along);
+  const float round = std::sqrt(covered), through = std::max(kOverlap * std::sqrt(place.area), round);
+  const float far = round + std::min(2 * steep, 1.0f) * (through - round);
+  const float width = std::clamp(covered / far * (0.7f + 0.6f * own), kThinnestRun, kWidestRun);
+  const Vec3f half = (0.5f * std::max(far - width, 0.0f)) * along;
+  Splat s;
+  s.kind = SplatKind::film;
+  s.from = place.position - half, s.to = place.position + half;
+  s.from += (steep * wander(s.from, down)) * across, s.to += (steep * wander(s.to, down)) * across;
+  s.normal = place.normal;
+  s.radius = 0.7f * width;
+  s.height = film_height(volume, s.radius, length(s.to - s.from));
+  return s;
+}
+
 /// Three by three, 1 2 1, in place.
 void smooth_once(std::vector<float>& field, std::vector<float>& scratch, int width, int height) {
   scratch.resize(field.size());
@@ -83,9 +121,9 @@ void smooth_once(std::vector<float>& field, std::vector<float>& scratch, int wid
 
 render::LiquidLook liquid_look(const fluids::Optics& o) {
   render::LiquidLook look;
-  look.kinds[0] = {to_float(o.arterial), kCellsScatter, to_float(o.deep_blood), 20};
-  look.kinds[1] = {to_float(o.saline), 0, {0, 0, 0}, 0};
-  look.kinds[2] = {to_float(o.bile), 0, to_float(o.deep_bile), 1};
+  look.kinds[0] = {to_float(o.arterial), kCellsScatter, to_float(o.deep_blood), 20, kBloodOrange};
+  look.kinds[1] = {to_float(o.saline), 0, {0, 0, 0}, 0, 0};
+  look.kinds[2] = {to_float(o.bile), 0, to_float(o.deep_bile), 1, 0};
   return look;
 }
 
@@ -190,15 +228,7 @@ void FluidDrawing::list_films(const FluidSight& sight, Liquid& liquid) {
     const FilmPlace& place = sight.places[k];
     const float thickness = 1e-15f * float(film[k].total()) / place.area;
     if (!(thickness > kThinnestFilm) || !finite(place.position) || !finite(place.normal)) continue;
-    const float own = float(varied(int(k & 0x7fffffff), 7)), edge = std::sqrt(place.area);
-    Vec3f along = down - dot(down, place.normal) * place.normal;  // it runs that way
-    Splat s;
-    s.kind = SplatKind::film;
-    const Vec3f half = (0.55f * edge * (0.5f + own)) * along;
-    s.from = place.position - half, s.to = place.position + half;
-    s.normal = place.normal;
-    s.radius = kFilmReach * edge * (0.55f + 0.35f * own);
-    s.height = thickness * (0.75f + 0.5f * own);
+    Splat s = stain(place, thickness * place.area, float(varied(int(k & 0x7fffffff), 7)), down);
     s.share = shares_of(film[k]);
     s.dark = 1 - float(fluids::clot_brightness(double(place.age)));
     s.dark = s.share[0] > 0.02f ? s.dark / 0.6f : 0;

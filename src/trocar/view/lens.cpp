@@ -31,19 +31,26 @@ void Lens::splash(double strength, const fluids::Mix& mix, std::uint32_t seed) {
   m_tint = {float(tint.r), float(tint.g), float(tint.b)};
 }
 
+/// Time since the frame before [s]. Who goes back in a recording looks through a lens of that time.
+double Lens::since_last(std::uint64_t tick) {
+  if (tick < m_tick) clear();
+  const double passed = 1e-3 * double(tick - std::min(tick, m_tick));
+  m_tick = tick;
+  return passed;
+}
+
 void Lens::list(const fluids::SmokeModel& model, const fluids::SmokeState& state, render::Frame& frame) {
   render::LensSoil& soil = frame.look.soil;
-  const double passed = frame.tick > m_tick ? 1e-3 * double(frame.tick - m_tick) : 0;
-  m_tick = frame.tick;
+  const double passed = since_last(frame.tick);
   m_smear *= std::exp(-passed / kSmearTau);
-  if (m_smear < 0.01) m_smear = 0;
-  const bool wiping = state.wipe_left > 0;
-  if (wiping && !m_wiping) m_smear = 0;
-  if (m_wiping && !wiping) {
-    m_smear = kSmearLeft;
+  const bool wiping = state.wipe_left > 0, wiped = m_wipe_left > 0;
+  if (wiping && !wiped) m_smear = 0;
+  if (wiped && !wiping) {  // maybe seconds ago: pictures need not follow each other closely
+    m_smear = kSmearLeft * std::exp(-std::max(passed - m_wipe_left, 0.0) / kSmearTau);
     m_drops.clear();
   }
-  m_wiping = wiping;
+  if (m_smear < 0.01) m_smear = 0;
+  m_wipe_left = wiping ? state.wipe_left : 0;
   soil.fog = float(std::clamp(state.fog, 0.0, 1.0));
   soil.smear = float(m_smear);
   soil.smear_angle = kSwabAngle;

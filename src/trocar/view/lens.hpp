@@ -25,10 +25,12 @@ class Lens {
   void clear();
 
  private:
+  double since_last(std::uint64_t tick);
+
   std::vector<render::LensDrop> m_drops;
   double m_smear = 0;        ///< left by the last wipe
+  double m_wipe_left = 0;    ///< of a wipe, in the last frame [s]
   std::uint64_t m_tick = 0;  ///< of the last frame
-  bool m_wiping = false;
   Vec3f m_tint{1, 1, 1};
 };
 

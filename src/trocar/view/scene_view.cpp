@@ -12,6 +12,7 @@
 #include <trocar/view/drape.hpp>
 #include <trocar/view/fat_tags.hpp>
 #include <trocar/view/instrument_shapes.hpp>
+#include <trocar/view/lens.hpp>
 #include <trocar/view/looks.hpp>
 #include <trocar/view/membrane_drawing.hpp>
 #include <trocar/view/organ_drawing.hpp>
@@ -95,6 +96,7 @@ struct SceneView::Parts {
   std::vector<VesselDrawing> vessels;
   std::vector<const Look*> vessel_look;
   std::optional<WetDrawing> wet;
+  Lens lens;
   std::vector<std::size_t> membrane_of, pouch_of;  ///< their numbers in the Model
   std::vector<OwnedMesh> walls, margins;
   std::vector<MeshBuffer> margin_shapes;
@@ -416,6 +418,9 @@ Frame SceneView::frame(const sim::State& state, const ViewOptions& options) {
   if (options.instruments && !inside) p.list_scope(state, frame);
   if (p.wet) p.wet->list(state, frame);
   if (p.wet) list_smoke(p.model.wet.model.smoke, state.fluids.smoke, frame);
+  // Only the endoscope has a lens that fogs: other cameras look past it.
+  if (p.wet && options.camera == ViewOptions::Camera::scope)
+    p.lens.list(p.model.wet.model.smoke, state.fluids.smoke, frame);
   return frame;
 }
 

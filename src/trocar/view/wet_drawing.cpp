@@ -1,9 +1,39 @@
+#include <algorithm>
+
+#include <trocar/numerics/portable.hpp>
 #include <trocar/view/looks.hpp>
 #include <trocar/view/wet_drawing.hpp>
 
 namespace trocar::view {
 
-constexpr float kPlace = 8e-6f;  // [m^2] about a vertex of a skin, typically
+namespace {
+
+constexpr double kLeastPlace = 1e-6;  // [m^2]
+
+/// A third of the triangles around each vertex, as drawn.
+std::vector<double> areas_around(const tissue::Skin& skin) {
+  std::vector<double> areas(skin.rest.size());
+  for (const std::array<int, 3>& t : skin.triangles) {
+    const Vec3d a = vec_cast<double>(skin.rest[std::size_t(t[0])]);
+    const Vec3d u = vec_cast<double>(skin.rest[std::size_t(t[1])]) - a,
+                v = vec_cast<double>(skin.rest[std::size_t(t[2])]) - a;
+    for (const int vertex : t) areas[std::size_t(vertex)] += length(cross(u, v)) / 6;
+  }
+  return areas;
+}
+
+/// The lower half of a strand around each node.
+std::vector<double> areas_below(const interactions::StrandBody& strand) {
+  const std::vector<Vec3d>& rest = strand.model.rest;
+  std::vector<double> areas(rest.size());
+  for (std::size_t i = 0; i + 1 < rest.size(); ++i) {
+    const double half = 0.5 * portable::pi * strand.model.radius[i] * length(rest[i + 1] - rest[i]);
+    areas[i] += half, areas[i + 1] += half;
+  }
+  return areas;
+}
+
+}  // namespace
 
 WetDrawing::WetDrawing(const sim::Model& model) : m_model(&model), m_drawing(model.wet.model) {
   for (int i = 0; i < model.organs(); ++i) m_poses.push_back(tissue::make_pose(model.skin(i)));
@@ -14,6 +44,21 @@ WetDrawing::WetDrawing(const sim::Model& model) : m_model(&model), m_drawing(mod
   m_sheer.resize(model.wet.film.size() - 1);
   for (std::size_t i = 0; i < model.membranes.size(); ++i)
     m_sheer[m_surfaces.size() + i] = look(model.membranes[i].look).translucent;
+  measure_places();
+}
+
+void WetDrawing::measure_places() {
+  const auto put = [this](std::size_t body, const std::vector<double>& areas, int sides) {
+    const std::size_t first = std::size_t(m_model->wet.film[body]);
+    for (std::size_t v = 0; v < areas.size(); ++v)
+      for (int side = 0; side < sides; ++side)
+        m_places[first + v * std::size_t(sides) + std::size_t(side)].area = float(std::max(areas[v], kLeastPlace));
+  };
+  std::size_t body = 0;
+  for (int i = 0; i < m_model->organs(); ++i) put(body++, areas_around(m_model->skin(i)), 1);
+  for (const sim::WallModel& wall : m_model->walls) put(body++, areas_around(wall.skin), 1);
+  for (const sim::MembraneModel& m : m_model->membranes) put(body++, areas_around(m.skin), 2);
+  for (const interactions::StrandBody& strand : m_model->bodies) put(body++, areas_below(strand), 1);
 }
 
 void WetDrawing::pose(const sim::State& state) {
@@ -45,7 +90,7 @@ void WetDrawing::list(const sim::State& state, render::Frame& frame) {
     if (state.fluids.droplets.film[i].total() == 0) continue;
     const interactions::WetPlace at = wet_place(bodies, down, std::int32_t(i));
     const bool sheer = at.body >= 0 && m_sheer[std::size_t(at.body)] != 0;
-    m_places[i] = {vec_cast<float>(at.point), vec_cast<float>(at.normal), kPlace, 0, sheer};
+    m_places[i] = {vec_cast<float>(at.point), vec_cast<float>(at.normal), m_places[i].area, 0, sheer};
   }
   m_drawing.list({state.fluids, m_model->wet.floor, m_places, m_sheer}, frame);
 }

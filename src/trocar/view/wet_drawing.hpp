@@ -19,6 +19,7 @@ class WetDrawing {
   void list(const sim::State& state, render::Frame& frame);
 
  private:
+  void measure_places();
   void pose(const sim::State& state);
 
   const sim::Model* m_model;

@@ -1,5 +1,6 @@
 // What drops, films and the sheet share: colour of a mix by depth, highlights, and where a point lies in the picture.
-uniform vec4 u_kinds[6];  // two rows a kind: absorption [1/m]; what comes back from the deep, and its weight
+uniform vec4 u_kinds[6];  // two rows a kind: absorption [1/m], and more of it in orange; what comes back from the deep, and its weight
+uniform float u_orange;   // of what a camera calls red
 uniform vec4 u_shine;     // reflectance, (alpha of drops and sheet)^2, (alpha of films)^2, darkness of a clot
 uniform mat4 u_projection;
 uniform sampler2D u_bed;  // the scene below; alpha: distance [m]
@@ -12,6 +13,15 @@ uniform vec4 u_eye;       // where it is, and the time [s]
 /// Optical depth, per channel, of `amount` metres of each kind along the light's way.
 vec3 optical_depth(vec3 amount, float dark) {
   return (u_kinds[0].rgb * amount.x + u_kinds[2].rgb * amount.y + u_kinds[4].rgb * amount.z) * (1.0 + 1.5 * dark);
+}
+
+/// What `amount` metres of each kind along the light's way let through. Haemoglobin takes the orange in a camera's red
+/// first, so that thin films darken red, too, and what is deep goes on letting the rest of it through.
+vec3 let_through(vec3 amount, float dark) {
+  vec3 through = exp(-optical_depth(amount, dark));
+  float orange = dot(vec3(u_kinds[0].w, u_kinds[2].w, u_kinds[4].w), amount) * (1.0 + 1.5 * dark);
+  through.r *= 1.0 - u_orange + u_orange * exp(-orange);
+  return through;
 }
 
 /// What a bottomless depth of the mix sends back.

@@ -16,16 +16,23 @@ vec3 mirrored(vec3 r, float bounce, float jitter) {
 #if DETAIL < 2
   return walls;
 #else
-  float reach = 0.0025 * (0.7 + 0.6 * jitter), before = 0.0;
+  float reach = 0.0025 * (0.85 + 0.3 * jitter), before = 0.0;
   for (int i = 0; i < 8; ++i) {
     vec3 p = v_eye + reach * r;
     vec2 at = in_picture(p);
     if (p.z > -0.004 || max(abs(at.x - 0.5), abs(at.y - 0.5)) > 0.49) break;
-    float gap = length(p) - texture(u_bed, at).a;
-    if (gap > 0.0 && gap < 0.012 + 0.5 * (reach - before)) {
-      reach = mix(before, reach, 0.5);
+    float step_off = reach - before, gap = length(p) - texture(u_bed, at).a;
+    if (gap > 0.0 && gap < 0.012 + 0.5 * step_off) {
+      for (int k = 0; k < 3; ++k) {  // between the last two steps
+        float middle = 0.5 * (before + reach);
+        vec3 q = v_eye + middle * r;
+        if (length(q) > texture(u_bed, in_picture(q)).a) reach = middle; else before = middle;
+      }
+      at = in_picture(v_eye + reach * r);
+      // What it meets fades out where the picture ends and where it goes on behind what is seen: no outlines of either.
       vec2 edge = clamp(8.0 * (0.49 - abs(at - 0.5)), 0.0, 1.0);
-      return mix(walls, min(texture(u_bed, in_picture(v_eye + reach * r)).rgb, vec3(4.0)), edge.x * edge.y);
+      float met = edge.x * edge.y * clamp(1.5 - gap / (0.006 + 0.25 * step_off), 0.0, 1.0);
+      return mix(walls, min(texture(u_bed, at).rgb, vec3(4.0)), met);
     }
     before = reach;
     reach *= 1.6;
@@ -49,7 +56,12 @@ void main() {
   // Small unrest on top of the waves that the simulation knows.
   vec4 slow = texture(u_noise, vec3(place.xy * 9.0, 0.13 * u_eye.w));
   vec4 quick = texture(u_noise, vec3(place.yx * 31.0, 0.21 * u_eye.w));
-  vec3 unrest = (slow.rgb * 2.0 - 1.0) * 0.028 + (quick.rgb * 2.0 - 1.0) * 0.014;
+  vec3 unrest = (slow.rgb * 2.0 - 1.0) * 0.034 + (quick.rgb * 2.0 - 1.0) * 0.018;
+#if DETAIL == 2
+  // Where it is thin it follows the tissue's relief, which stands still.
+  float thin = exp(-max(v_depth_cover.x, 0.0) / 0.0005);
+  unrest += (texture(u_noise, place * 38.0).rgb * 2.0 - 1.0) * (0.6 * thin);
+#endif
   vec3 n = normalize(v_normal);
   float rim = exp(-inside * 6.0);
   // Towards the inside of the border, in eye space.
@@ -69,7 +81,7 @@ void main() {
   float depth = max(v_depth_cover.x, 0.0) * wedge * wedge * wedge;
   float slant = 1.0 / max(sqrt(1.0 - (1.0 - nv * nv) * 0.56), 0.3);  // of the bent ray
   vec3 amount = share * depth;
-  vec3 through = exp(-optical_depth(amount * (1.0 + slant), v_mix.w));
+  vec3 through = let_through(amount * (1.0 + slant), v_mix.w);
 
   vec2 uv = gl_FragCoord.xy * u_size.zw;
   vec2 bend = -n.xy * (0.25 * min(depth, 0.012) / pixel) * u_size.zw;
@@ -88,7 +100,7 @@ void main() {
 #endif
 
   // A little more than [Schlick 94] says: it is what tells liquid from paint (our choice).
-  float share_back = min(1.5 * mirror_share(nv) + 0.018, 1.0);
+  float share_back = min(2.0 * mirror_share(nv) + 0.03, 1.0);
   vec3 r = reflect(-V, n);
   colour = mix(colour, mirrored(r, lit.bounce, quick.g), share_back);
   colour += highlight(n, V, lit, u_shine.y);

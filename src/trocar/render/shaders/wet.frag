@@ -54,14 +54,15 @@ void main() {
   float dark = clamp(mark - 2.0 * flying, 0.0, 1.0);
   dark = mix(film.w / max(dot(film.rgb, vec3(1.0)), 1.0e-7), dark, cover);
   amount += film.rgb;
-  vec3 tau = optical_depth(2.0 * amount, dark);
-  vec3 through = exp(-tau);
+  vec3 through = let_through(2.0 * amount, dark);
 
   vec2 bend = -(n.xy - base.xy) * (0.35 * height * cover * max(in_drop, 0.0) / pixel) * u_size.zw;
   vec3 below = texture(u_bed, v_uv + clamp(bend, -0.03, 0.03)).rgb;
   float facing = clamp(0.25 + 0.75 * dot(n, lit.direction), 0.0, 1.0);
   vec3 light = LIGHT_COLOUR * (lit.power * facing) + (BOUNCE + vec3(AMBIENT)) * lit.bounce;
-  vec3 colour = below * through + deep_colour(amount, dark) * light * (1.0 - through);
+  // What flies is lit from all round.
+  vec3 deep = deep_colour(amount, dark) * (1.0 + 0.5 * flying);
+  vec3 colour = below * through + deep * light * (1.0 - through);
 
   // Wet: the lamp in drops, broken by the tissue's unevenness in films; the walls where seen at a grazing angle.
   float gloss = smoothstep(4.0e-6, 2.5e-5, dot(film.rgb, vec3(1.0))) * (1.0 - cover);
