@@ -20,6 +20,13 @@ std::vector<Vec3d> centreline_of(const Description& d, const WaveSetting& wave) 
   return line;
 }
 
+double density_of(const Description& d, const WaveSetting& wave) {
+  for (const Solid& s : d.solids)
+    for (const Tissue& t : d.tissues)
+      if (s.name == wave.solid && t.name == s.tissue) return t.density;
+  return 1000;
+}
+
 void compile_wave(const Description& d, const WaveSetting& wave, sim::Model& model, std::vector<core::Fault>& faults) {
   tissue::ForceWaveDescription f;
   f.centreline = centreline_of(d, wave);
@@ -33,7 +40,10 @@ void compile_wave(const Description& d, const WaveSetting& wave, sim::Model& mod
   out.solid = lattice_of(model, wave.solid);
   if (out.solid < 0) return;
   try {
-    out.wave = tissue::build(f, model.solids[size_t(out.solid)].skin);
+    const tissue::NetworkModel& network = model.solids[size_t(out.solid)].network;
+    std::vector<double> volume;
+    for (const double mass : network.mass) volume.push_back(mass / density_of(d, wave));
+    out.wave = tissue::build(f, network.rest, volume);
   } catch (const std::invalid_argument& e) {
     faults.push_back({wave.at, "expected waves along '" + wave.solid + "', got: " + e.what()});
     return;

@@ -14,10 +14,10 @@ constexpr double kTail = 4;        ///< widths beyond which g (3e-4 there) count
 constexpr double kSteepest = 0.6;  ///< of a pair's line against the centre line's direction (cosine): no caps
 constexpr double kRise = 3;        ///< [s] within which forces come up, so that a scene begins as drawn        Ours
 
-/// A place of the wall beside the line.
+/// Where a node lies beside the line.
 struct Beside {
-  double s = 0;
-  Vec3d axis, along;
+  double s = 0, r = 0;  ///< way along it, distance from it [m]
+  Vec3d axis, along;    ///< nearest point, direction there
 };
 
 Beside beside(const geometry::Polyline& line, Vec3d p) {
@@ -30,30 +30,22 @@ Beside beside(const geometry::Polyline& line, Vec3d p) {
     const double distance = dot(p - at, p - at);
     if (distance >= least) continue;
     least = distance;
-    best = {line.arc[i - 1] + w * (line.arc[i] - line.arc[i - 1]), at, normalised(ab, {0, 0, 1})};
+    best = {line.arc[i - 1] + w * (line.arc[i] - line.arc[i - 1]), 0, at, normalised(ab, {0, 0, 1})};
   }
+  best.r = std::sqrt(least);
   return best;
 }
 
-std::vector<double> areas(const Skin& skin) {
-  std::vector<double> area(std::size_t(skin.size()), 0.0);
-  for (const auto& t : skin.triangles) {
-    const auto x = [&](std::size_t k) { return vec_cast<double>(skin.rest[std::size_t(t[k])]); };
-    const double third = length(cross(x(1) - x(0), x(2) - x(0))) / 6;
-    for (const int corner : t) area[std::size_t(corner)] += third;
-  }
-  return area;
-}
-
 ForceWaveStation at(const std::vector<ForceWaveStation>& stations, double s) {
-  if (s <= stations.front().s) return stations.front();
+  const ForceWaveStation &first = stations.front(), &last = stations.back();
+  if (s <= first.s) return {s, first.pressure, first.speed};
   for (std::size_t i = 1; i < stations.size(); ++i) {
     const ForceWaveStation &a = stations[i - 1], &b = stations[i];
     if (s > b.s) continue;
     const double w = (s - a.s) / std::max(b.s - a.s, 1e-12);
     return {s, a.pressure + w * (b.pressure - a.pressure), a.speed + w * (b.speed - a.speed)};
   }
-  return stations.back();
+  return {s, last.pressure, last.speed};
 }
 
 /// Time over a stretch on which the speed changes evenly.
@@ -74,63 +66,74 @@ double delay_to(const std::vector<ForceWaveStation>& stations, double s) {
   return time + (s - from) / stations.back().speed;
 }
 
-/// The vertex of the other side that lies nearest to straight across; -1: none does.
-int opposite(const Skin& skin, std::span<const Vec3d> points, int vertex, const Beside& b) {
-  const Vec3d out = points[std::size_t(vertex)] - b.axis;
+/// A as it is for p = 1: 3 V r / R^2, R^2 = 2 <r^2> over the organ's nodes within a slice.
+double area_of(std::size_t i, std::span<const Beside> besides, std::span<const double> volume, double slice) {
+  double sum = 0, moment = 0;
+  for (std::size_t k = 0; k < besides.size(); ++k) {
+    const double share = 1 - std::fabs(besides[k].s - besides[i].s) / slice;
+    if (!(share > 0)) continue;
+    sum += share * volume[k];
+    moment += share * volume[k] * besides[k].r * besides[k].r;
+  }
+  return moment > 0 ? 3 * volume[i] * besides[i].r * sum / (2 * moment) : 0;
+}
+
+/// The node of the other side that lies nearest to straight across; -1: none does.
+int opposite(std::span<const Vec3d> rest, int node, const Beside& b) {
+  const Vec3d out = rest[std::size_t(node)] - b.axis;
   const Vec3d mirrored = b.axis - out;
   int best = -1;
   double least = 1e30;
-  for (int i = 0; i < skin.size(); ++i) {
-    const double distance = dot(points[std::size_t(i)] - mirrored, points[std::size_t(i)] - mirrored);
-    if (distance >= least || !skin.at_surface(i)) continue;
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    const double distance = dot(rest[i] - mirrored, rest[i] - mirrored);
+    if (distance >= least) continue;
     least = distance;
-    best = i;
+    best = int(i);
   }
   if (best < 0) return -1;
-  const Vec3d chord = points[std::size_t(best)] - points[std::size_t(vertex)];
+  const Vec3d chord = rest[std::size_t(best)] - rest[std::size_t(node)];
   const double wide = length(chord);
-  const bool across = dot(out, points[std::size_t(best)] - b.axis) < 0 &&
+  const bool across = dot(out, rest[std::size_t(best)] - b.axis) < 0 &&
                       std::fabs(dot(chord, b.along)) < kSteepest * wide && least < wide * wide / 4;
   return across ? best : -1;
 }
 
-std::vector<std::int32_t> nodes_of(const std::vector<ForceWavePair>& pairs, const Skin& skin) {
+std::vector<std::int32_t> nodes_of(const std::vector<ForceWavePair>& pairs) {
   std::vector<std::int32_t> nodes;
-  for (const ForceWavePair& p : pairs)
-    for (const std::int32_t v : {p.a, p.b})
-      for (const int node : skin.weights[std::size_t(v)].node) nodes.push_back(node);
+  for (const ForceWavePair& p : pairs) nodes.push_back(p.a), nodes.push_back(p.b);
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;
 }
 
-void add_force(const SkinWeights& w, Vec3d f, std::span<Vec3d> force) noexcept {
-  for (std::size_t k = 0; k < 8; ++k) force[std::size_t(w.node[k])] += double(w.weight[k]) * f;
-}
-
 }  // namespace
 
-ForceWaveModel build(const ForceWaveDescription& d, const Skin& skin) {
+ForceWaveModel build(const ForceWaveDescription& d, std::span<const Vec3d> rest, std::span<const double> volume) {
   if (d.centreline.size() < 2 || d.stations.empty()) throw std::invalid_argument("expected a centre line and stations");
   const geometry::Polyline line(geometry::sampled_by_arc(geometry::interpolated(d.centreline), kSamples));
-  const std::vector<double> area = areas(skin);
-  std::vector<Vec3d> points;
-  for (const Vec3f& p : skin.rest) points.push_back(vec_cast<double>(p));
+  std::vector<Beside> besides;
+  for (const Vec3d& p : rest) besides.push_back(beside(line, p));
+  std::vector<double> area;
+  for (std::size_t i = 0; i < rest.size(); ++i) area.push_back(area_of(i, besides, volume, d.width));
   ForceWaveModel m;
   m.period = d.period, m.first = d.first, m.cycle = d.cycle, m.active = d.active;
-  for (int i = 0; i < skin.size(); ++i) {
-    if (!skin.at_surface(i)) continue;
-    const Beside here = beside(line, points[std::size_t(i)]);
-    const int other = opposite(skin, points, i, here);
+  double wanted = 0, sum = 0;
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    const int other = opposite(rest, int(i), besides[i]);
     if (other < 0) continue;
-    const double s = 0.5 * (here.s + beside(line, points[std::size_t(other)]).s);
-    const ForceWaveStation station = at(d.stations, s);
-    // Half of it: a vertex pulls at its opposite, and is as a rule another one's.
-    const double force = 0.5 * station.pressure * area[std::size_t(i)];
-    if (force > 0) m.pairs.push_back({i, other, force, delay_to(d.stations, s), station.speed / d.width});
+    const std::size_t j = std::size_t(other);
+    const ForceWaveStation station = at(d.stations, 0.5 * (besides[i].s + besides[j].s));
+    // No more than the lighter of the two bears: a sliver of a cell on the other side is not torn out.
+    const double shared = area[i] * area[j] / std::max(area[i] + area[j], 1e-30);
+    if (!(station.pressure * shared > 0)) continue;
+    m.pairs.push_back(
+        {std::int32_t(i), other, station.pressure * shared, delay_to(d.stations, station.s), station.speed / d.width});
+    wanted += station.pressure * area[i];
+    sum += 2 * station.pressure * shared;
   }
-  if (m.pairs.empty()) throw std::invalid_argument("no wall of it lies around the centre line, or no pressure");
-  m.nodes = nodes_of(m.pairs, skin);
+  if (m.pairs.empty()) throw std::invalid_argument("nothing of it lies around the centre line, or no pressure");
+  for (ForceWavePair& p : m.pairs) p.force *= wanted / sum;
+  m.nodes = nodes_of(m.pairs);
   return m;
 }
 
@@ -147,17 +150,16 @@ double wave_height(const ForceWaveModel& m, const ForceWavePair& pair, double t)
   return sum * (rise * rise * (3 - 2 * rise));
 }
 
-void add_wave(const ForceWaveModel& m, const Skin& skin, std::span<const Vec3f> now, double t,
-              std::span<Vec3d> force) noexcept {
+void add_wave(const ForceWaveModel& m, const NodeView& nodes, double t, std::span<Vec3d> force) noexcept {
   for (const ForceWavePair& p : m.pairs) {
     const double height = wave_height(m, p, t);
     if (!(height > 0)) continue;
-    const Vec3d chord = vec_cast<double>(now[std::size_t(p.b)]) - vec_cast<double>(now[std::size_t(p.a)]);
+    const Vec3d chord = nodes.position(p.b) - nodes.position(p.a);
     const double wide = length(chord);
     if (!(wide > 1e-9)) continue;
     const Vec3d f = (height * p.force / wide) * chord;
-    add_force(skin.weights[std::size_t(p.a)], f, force);
-    add_force(skin.weights[std::size_t(p.b)], -1.0 * f, force);
+    force[std::size_t(p.a)] += f;
+    force[std::size_t(p.b)] -= f;
   }
 }
 

@@ -4,14 +4,20 @@
 //   f = A n sum_k g(s - v (t - k T)),   g(d) = exp(-d^2 / 2 sigma^2)
 //
 // with s the way along the line, v the waves' speed, T the time between two of them, n the direction across the line.
-// Where v changes along the way, s - v t is v (tau - t) with tau the time that a wave takes to s. A is a pressure
-// (what a manometer in the lumen shows) times the area of wall.
+// Where v changes along the way, s - v t is v (tau - t) with tau the time that a wave takes to s.
 //
-// Every point of the wall pulls at the one opposite it, with forces along the line between the two as they lie now:
-// what a circular muscle does. Whatever the organ's shape, the forces of a wave and their moment sum to zero.
+// Every node of the organ pulls at the one opposite it, with forces along the line between the two as they lie now:
+// what circular muscle does. Whatever the organ's shape, the forces of a wave and their moment sum to zero. A is a
+// pressure p (what a manometer in the lumen shows) times the wall's area, shared out over the organ's inside: a node of
+// volume V at the distance r from the line has
 //
-//   const ForceWaveModel wave = build(description, skin);
-//   add_wave(wave, skin, pose.position, t, force);      // (nodes) [N]
+//   A = 3 p V r / R^2,
+//
+// which over a round section of radius R adds up to p times its outline. On the outermost nodes alone it would fold the
+// cells there before the ring is a quarter of the radius deep.
+//
+//   const ForceWaveModel wave = build(description, rest, volume);
+//   add_wave(wave, nodes, t, force);                             // (nodes) [N]
 #pragma once
 
 #include <cstdint>
@@ -19,7 +25,7 @@
 #include <vector>
 
 #include <trocar/core/hash.hpp>
-#include <trocar/tissue/skin.hpp>
+#include <trocar/tissue/node_view.hpp>
 
 namespace trocar::tissue {
 
@@ -40,10 +46,10 @@ struct ForceWaveDescription {
   double active = 1;                       ///< ... beginning with it; 1: always
 };
 
-/// Two points of the skin, on opposite sides of the lumen.
+/// Two nodes on opposite sides of the line.
 struct ForceWavePair {
   std::int32_t a = 0, b = 0;
-  double force = 0;  ///< A, of each on the other [N]
+  double force = 0;  ///< of each on the other at a crest [N]
   double delay = 0;  ///< tau [s]
   double sharp = 0;  ///< v / sigma [1/s]
 };
@@ -54,16 +60,17 @@ struct ForceWaveModel {
   double period = 0, first = 0, cycle = 0, active = 1;
 };
 
-/// Compiles a wave for the closed skin of an organ as drawn. Throws std::invalid_argument where no part of it lies
-/// around the line.
-ForceWaveModel build(const ForceWaveDescription& description, const Skin& skin);
+/// Compiles a wave for an organ.
+/// @param rest, volume  (nodes) as drawn [m], [m^3]
+/// Throws std::invalid_argument where no part of it lies around the line.
+ForceWaveModel build(const ForceWaveDescription& description, std::span<const Vec3d> rest,
+                     std::span<const double> volume);
 
 /// Share of a pair's force at time t [s], 0 to about 1: the waves that are near it then.
 double wave_height(const ForceWaveModel& wave, const ForceWavePair& pair, double t) noexcept;
 
-/// Adds the forces at time t [s] to those of the nodes [N]. `skin_now`: where the skin's vertices are (SkinPose).
-void add_wave(const ForceWaveModel& wave, const Skin& skin, std::span<const Vec3f> skin_now, double t,
-              std::span<Vec3d> force) noexcept;
+/// Adds the forces at time t [s] to those of the nodes [N].
+void add_wave(const ForceWaveModel& wave, const NodeView& nodes, double t, std::span<Vec3d> force) noexcept;
 
 void add_to_hash(core::Hasher& hasher, const ForceWaveModel& wave) noexcept;
 
