@@ -28,14 +28,17 @@ scene::Solid bowel() {
   s.cell = 0.005;
   s.skin_edge = 0.005;
   s.fine_edge = 0.004;
-  s.anchors = {{{-0.006, kBowelY, 0}, 0.010, 0, {}}, {{kBowelLength + 0.006, kBowelY, 0}, 0.010, 0, {}}};
+  // both ends rigidly; all of it in an even bed of springs, so that it does not sway
+  s.anchors = {{{-0.006, kBowelY, 0}, 0.010, 0, {}},
+               {{kBowelLength + 0.006, kBowelY, 0}, 0.010, 0, {}},
+               {{0.5 * kBowelLength, kBowelY, 0}, 0.200, 200, {}}};
   return s;
 }
 
 scene::WaveSetting waves() {
   scene::WaveSetting w;
   w.solid = "bowel";
-  w.stations = {{0, 1500, kSpeed, {}}};
+  w.stations = {{0, 2000, kSpeed, {}}};
   w.per_minute = 60 * kFrequency;
   w.width = 0.008;
   return w;
@@ -96,7 +99,7 @@ const Model& moving() {
   return compiled;
 }
 
-/// Mean distance of the bowel's outer nodes from its axis, a row of nodes at a time.
+/// Mean distance of the bowel's outer nodes from their middle, a row of nodes at a time.
 struct Rows {
   std::vector<double> x;
   std::vector<std::vector<int>> nodes;
@@ -113,12 +116,16 @@ struct Rows {
     }
   }
   double radius(const Model& m, const State& s, size_t row) const {
+    const double n = double(nodes[row].size());
+    const auto at = [&](int i) { return position(m.solids[0].network, s.solids[0], i); };
+    Vec3d middle{0, 0, 0};
+    for (const int i : nodes[row]) middle += at(i) / n;
     double sum = 0;
     for (const int i : nodes[row]) {
-      const Vec3d p = position(m.solids[0].network, s.solids[0], i) - Vec3d{0, kBowelY, 0};
+      const Vec3d p = at(i) - middle;
       sum += std::sqrt(p.y * p.y + p.z * p.z);
     }
-    return sum / double(nodes[row].size());
+    return sum / n;
   }
 };
 
@@ -154,7 +161,7 @@ double slope(const std::vector<double>& x, const std::vector<double>& y) {
   return (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
 
-/// The bowel's rows from 40 to 200 mm, every 10 ms from the fourth second for twenty.
+/// The bowel's rows from 40 to 200 mm, every 10 ms from the fourth second for twelve.
 struct Course {
   std::vector<double> x;
   std::vector<std::vector<double>> radius;  ///< (rows)(samples) [m]
@@ -171,7 +178,7 @@ const Course& course() {
     for (size_t r = 0; r < rows.x.size(); ++r)
       if (rows.x[r] > 0.040 && rows.x[r] < 0.200) used.push_back(r), c.x.push_back(rows.x[r]);
     c.radius.resize(used.size());
-    while (s.tick < 24000) {
+    while (s.tick < 16000) {
       step(m, m.start, s, w);
       if (s.tick < 4000 || s.tick % 10 != 0) continue;
       for (size_t r = 0; r < used.size(); ++r) c.radius[r].push_back(rows.radius(m, s, used[r]));
@@ -184,7 +191,10 @@ const Course& course() {
 }
 
 TEST(Peristalsis, TheWallsFrequencyIsTheWaves) {
-  for (const auto& r : course().radius) EXPECT_NEAR(strongest(r) / 0.010, kFrequency, 0.02 * kFrequency);
+  double worst = 0;
+  for (const auto& r : course().radius) worst = std::max(worst, std::fabs(strongest(r) / 0.010 / kFrequency - 1));
+  RecordProperty("frequency_off", std::to_string(worst));
+  EXPECT_LT(worst, 0.02);
   RecordProperty("depth", std::to_string(course().depth));
   EXPECT_GT(course().depth, 0.1);
 }
@@ -196,7 +206,7 @@ TEST(Peristalsis, TheWallsWavelengthIsSpeedOverFrequency) {
   const int moments = 16;
   for (int k = 0; k < moments; ++k) {
     std::vector<double> along;
-    for (const auto& r : c.radius) along.push_back(r[size_t(40 + 100 * k + 7 * k)]);
+    for (const auto& r : c.radius) along.push_back(r[size_t(40 + 67 * k)]);
     sum += apart / strongest(along) / moments;
   }
   RecordProperty("wavelength_mm", std::to_string(1000 * sum));
@@ -221,10 +231,11 @@ TEST(Peristalsis, ItsLoadsOnTheOrganSumToZero) {
   const Model& m = peristaltic();
   State s = initial_state(m);
   Work w = make_work(m);
-  for (int i = 0; i < 5000; ++i) step(m, m.start, s, w);
+  for (int i = 0; i < 4000; ++i) step(m, m.start, s, w);
   StepReport report;
   StepContext c{m, m.start, s, w, report};
   for (const Stage& stage : stages()) {
+    if (std::string(stage.name) == "contract") w.organ_loads[0].clear();  // without the bed's
     if (std::string(stage.name) == "work jaws") break;
     stage.run(c);
   }
