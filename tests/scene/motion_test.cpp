@@ -32,20 +32,31 @@ std::string scene_with(const std::string& motion) {
          "\"tip_mm\": [0, 0, -40]}\n}\n";
 }
 
-std::vector<std::string> faults_of(const std::string& motion) {
+constexpr int kLine = 10;  ///< of what moves
+
+/// The faults' messages. An '@' in `motion` marks where the first one is expected: "away from @" stands before it where
+/// it is not there.
+std::vector<std::string> faults_of(std::string motion) {
+  const std::size_t at = motion.find('@');
+  if (at != motion.npos) motion.erase(at, 1);
   const Folder folder;
+  std::vector<std::string> messages;
   try {
     read_scene(folder.write("scene.json", scene_with(motion)));
   } catch (const core::BadInput& bad) {
-    return told(bad.faults());
+    for (const core::Fault& f : bad.faults()) {
+      const bool marked = !messages.empty() || (f.at.line == kLine && f.at.column == int(at) + 1);
+      messages.push_back(marked ? f.message
+                                : fmt::format("away from @, at {}:{}: {}", f.at.line, f.at.column, f.message));
+    }
   }
-  return {};
+  return messages;
 }
 std::vector<std::string> one(const std::string& fault) { return {fault}; }
 
-std::string waves(const std::string& more, const std::string& solid = "bowel",
+std::string waves(const std::string& more, const std::string& solid = "\"bowel\"",
                   const std::string& stations = "{\"s_mm\": 0, \"pressure_kPa\": 2, \"speed_mm_s\": 15}") {
-  return fmt::format("\"peristalsis\": [{{\"solid\": \"{}\", \"stations\": [{}], {}}}],", solid, stations, more);
+  return fmt::format("\"peristalsis\": [{{\"solid\": {}, \"stations\": [{}], {}}}],", solid, stations, more);
 }
 
 TEST(MotionFile, AGoodOneReadsInMetresPascalsAndSeconds) {
@@ -75,24 +86,26 @@ TEST(MotionFile, AGoodOneReadsInMetresPascalsAndSeconds) {
 }
 
 TEST(MotionFile, FaultsOfWavesAreToldWithTheirPlaces) {
+  const std::string bowel = "\"bowel\"";
+  const auto station = [](const std::string& s) {
+    return "{\"s_mm\": " + s + ", \"pressure_kPa\": 2, \"speed_mm_s\": 15}";
+  };
   EXPECT_EQ(faults_of(waves("\"per_minute\": 3")), std::vector<std::string>{});
-  EXPECT_EQ(faults_of(waves("\"per_minute\": 3", "bowl")),
-            one("12:28 expected a solid (bowel, slice), got \"bowl\" (did you mean \"bowel\"?)"));
-  EXPECT_EQ(faults_of(waves("\"per_minute\": 3", "slice")),
-            one("12:28 expected a solid that is not cuttable, got \"slice\""));
-  EXPECT_EQ(faults_of(waves("\"per_minute\": 0")),
-            one("12:120 expected a number in [0.1, 60] for \"per_minute\", got 0"));
-  EXPECT_EQ(faults_of(waves("\"per_minute\": 60")),
-            one("12:17 expected at most half the way from wave to wave, 15 mm (15 mm/s at 60 per minute), got 10"));
-  EXPECT_EQ(faults_of(waves("\"per_minute\": 3, \"active_share\": 1.5")),
-            one("12:139 expected a number in [0, 1] for \"active_share\", got 1.5"));
-  EXPECT_EQ(faults_of(waves("\"per_minute\": 3", "bowel",
-                            "{\"s_mm\": 9, \"pressure_kPa\": 2, \"speed_mm_s\": 15}, {\"s_mm\": 9, \"pressure_kPa\": "
-                            "2, \"speed_mm_s\": 15}")),
-            one("12:111 expected more than the station before, 9 mm, got 9"));
-  EXPECT_EQ(faults_of(waves("\"per_minute\": 3", "bowel", "{\"s_mm\": 200, \"pressure_kPa\": 2, \"speed_mm_s\": 15}")),
-            one("12:58 expected a way on the centre line (at most 80.0 mm), got 200"));
-  EXPECT_EQ(faults_of(waves("\"per_minute\": 3, \"centreline_mm\": [[0, 0, 0], [0, 0, 0]]")).size(), 1u);
+  EXPECT_EQ(faults_of(waves("\"per_minute\": 3", "@\"bowl\"")),
+            one("expected a known solid (bowel, slice), got \"bowl\" (did you mean \"bowel\"?)"));
+  EXPECT_EQ(faults_of(waves("\"per_minute\": 3", "@\"slice\"")),
+            one("expected a solid that is not cuttable, got \"slice\""));
+  EXPECT_EQ(faults_of(waves("\"per_minute\": @0")), one("expected a number in [0.1, 60] for \"per_minute\", got 0"));
+  EXPECT_EQ(faults_of(waves("\"per_minute\": 60, \"width_mm\": @10")),
+            one("expected at most half the way from wave to wave, 15 mm (15 mm/s at 60 per minute), got 10"));
+  EXPECT_EQ(faults_of(waves("\"per_minute\": 3, \"active_share\": @1.5")),
+            one("expected a number in [0, 1] for \"active_share\", got 1.5"));
+  EXPECT_EQ(faults_of(waves("\"per_minute\": 3", bowel, station("9") + ", " + station("@9"))),
+            one("expected more than the station before, 9 mm, got 9"));
+  EXPECT_EQ(faults_of(waves("\"per_minute\": 3", bowel, station("@200"))),
+            one("expected a way on the centre line (at most 80.0 mm), got 200"));
+  EXPECT_EQ(faults_of(waves("\"per_minute\": 3, \"centreline_mm\": [[0, 0, 0], @[0, 0, 0]]")),
+            one("expected a point at least 0.01 mm from the one before, got the same place"));
 }
 
 TEST(MotionFile, FaultsOfBreathingAreToldWithTheirPlaces) {
@@ -100,14 +113,14 @@ TEST(MotionFile, FaultsOfBreathingAreToldWithTheirPlaces) {
     return faults_of("\"breathing\": {\"per_minute\": 13, \"amplitude_mm\": 10, " + keys + "},");
   };
   EXPECT_EQ(breathing("\"carries\": [{\"body\": \"bowel\"}]"), std::vector<std::string>{});
-  EXPECT_EQ(breathing("\"carries\": [{\"body\": \"bowels\"}]"),
-            one("12:71 expected a solid, strand, membrane or pouch (bowel, slice), got \"bowels\" (did you mean "
+  EXPECT_EQ(breathing("\"carries\": [{\"body\": @\"bowels\"}]"),
+            one("expected a known solid, strand, membrane or pouch (bowel, slice), got \"bowels\" (did you mean "
                 "\"bowel\"?)"));
-  EXPECT_EQ(breathing("\"carries\": [{\"body\": \"bowel\"}, {\"body\": \"bowel\"}]"),
-            one("12:90 expected every body once, got \"bowel\" again"));
-  EXPECT_EQ(breathing("\"carries\": [{\"body\": \"bowel\"}], \"direction\": [0, 0, 0]"),
-            one("12:95 expected a direction, got none"));
-  EXPECT_EQ(breathing("\"carries\": []").size(), 1u);
+  EXPECT_EQ(breathing("\"carries\": [{\"body\": \"bowel\"}, {\"body\": @\"bowel\"}]"),
+            one("expected every body once, got \"bowel\" again"));
+  EXPECT_EQ(breathing("\"carries\": [{\"body\": \"bowel\"}], \"direction\": @[0, 0, 0]"),
+            one("expected a direction, got none"));
+  EXPECT_EQ(breathing("\"carries\": @[]").size(), 1u);
 }
 
 TEST(MotionFile, ALineThatMissesItsOrganIsAFaultOfTheCompiler) {
@@ -119,7 +132,7 @@ TEST(MotionFile, ALineThatMissesItsOrganIsAFaultOfTheCompiler) {
     FAIL() << "it compiled";
   } catch (const core::BadInput& bad) {
     ASSERT_EQ(bad.faults().size(), 1u);
-    EXPECT_EQ(bad.faults()[0].at.line, 12);
+    EXPECT_EQ(bad.faults()[0].at.line, kLine);
     EXPECT_NE(bad.faults()[0].message.find("expected waves along 'bowel'"), std::string::npos);
   }
 }

@@ -49,7 +49,7 @@ scene::BreathingSetting breathing() {
   b.per_minute = 15;
   b.amplitude = 0.010;
   b.direction = {0, -2, 0};
-  b.carries = {{"organ", 1, {}}, {"pad", 0.5, {}}, {"cord", 1, {}}};
+  b.carries = {{"organ", 1, {}}, {"pad", 0.5, {}}, {"cord", 1, {}}, {"tube", 1, {}}, {"fold", 1, {}}};
   return b;
 }
 
