@@ -108,6 +108,27 @@ double off_drawn(const sim::Model& model, const sim::State& state, int organ) {
 constexpr std::uint64_t kStandTicks = 1000;  // a shape that its springs do not hold falls over within these
 constexpr double kStands = 5e-4;             // [m] off after them: it does not
 
+/// The State after a second of a scene in which nobody breathes and nothing contracts.
+sim::State stood(sim::Model model) {
+  model.motion = {};
+  sim::State state = sim::initial_state(model);
+  sim::Work work = sim::make_work(model);
+  while (state.tick < kStandTicks) sim::step(model, model.start, state, work);
+  return state;
+}
+
+Json describe(const sim::MotionModel& motion, const sim::Model& model) {
+  Json out = Json::object();
+  for (const sim::PeristalsisModel& p : motion.peristalsis)
+    out["peristalsis"].push_back({{"solid", model.solids[std::size_t(p.solid)].name},
+                                  {"per_minute", 60 / p.wave.period},
+                                  {"pairs", p.wave.pairs.size()}});
+  if (motion.breathing.there())
+    out["breathing"] = {{"per_minute", 60 / motion.breathing.period},
+                        {"amplitude_mm", 1e3 * length(motion.breathing.way)}};
+  return out;
+}
+
 /// What a scene compiles to. `only` names the bodies to list; empty: all.
 Json describe_scene(const fs::path& path, const std::vector<std::string>& only) {
   scene::CompileReport report;
@@ -119,6 +140,7 @@ Json describe_scene(const fs::path& path, const std::vector<std::string>& only) 
   sim::Work work = sim::make_work(model);
   const std::size_t with_work = bytes_in_use();
   const double tick = resting_tick(model, state, work);
+  if (model.motion.there()) state = stood(model);
   while (state.tick < kStandTicks) sim::step(model, model.start, state, work);
   Json out{{"scene", path.string()},
            {"model_hash", hex(model.hash)},
@@ -129,6 +151,7 @@ Json describe_scene(const fs::path& path, const std::vector<std::string>& only) 
              {"work", (with_work - with_state) / 1024}}},
            {"tick_at_rest_us", tick * 1e6},
            {"bodies", Json::array()}};
+  if (model.motion.there() && only.empty()) out["motion"] = describe(model.motion, model);
   for (const scene::BodyReport& b : report.bodies) {
     if (!only.empty() && std::find(only.begin(), only.end(), b.name) == only.end()) continue;
     out["bodies"].push_back(describe(b));
@@ -233,6 +256,16 @@ Json check_one(const fs::path& path, double unit) {
   return out;
 }
 
+void print_motion(const Json& motion) {
+  if (motion.contains("peristalsis"))
+    for (const Json& p : motion["peristalsis"])
+      fmt::print("  {}: {:g} waves a minute, {} pairs of points of its wall\n", p["solid"].get<std::string>(),
+                 p["per_minute"].get<double>(), p["pairs"].get<std::size_t>());
+  if (motion.contains("breathing"))
+    fmt::print("  {:g} breaths a minute of {:g} mm\n", motion["breathing"]["per_minute"].get<double>(),
+               motion["breathing"]["amplitude_mm"].get<double>());
+}
+
 void print_for_people(const Json& r) {
   const bool to_mend = r.contains("repairs") && !r["repairs"].empty();
   fmt::print("{}: {}, {}\n", r["file"].get<std::string>(), r["kind"].get<std::string>(), to_mend ? "to mend" : "good");
@@ -268,6 +301,7 @@ void print_for_people(const Json& r) {
           "  {} does not hold its drawn shape: {:.1f} mm off after a second at rest (a stiffer tissue, larger cells "
           "or more anchors may)\n",
           b["name"].get<std::string>(), b["off_after_1s_mm"].get<double>());
+  if (r.contains("motion")) print_motion(r["motion"]);
   fmt::print("  (4b) is the paper's limit for comparison, with a node's stiffest spring and with all of its springs\n");
   const Json& m = r["memory_kb"];
   fmt::print("  {} free nodes; memory {} kB model, {} kB state, {} kB work; a tick at rest takes {:.0f} us here\n",

@@ -10,6 +10,7 @@
 #include <trocar/scene/compile_fluids.hpp>
 #include <trocar/scene/compile_hands.hpp>
 #include <trocar/scene/compile_membrane.hpp>
+#include <trocar/scene/compile_motion.hpp>
 #include <trocar/scene/compile_solid.hpp>
 #include <trocar/scene/compile_targets.hpp>
 #include <trocar/scene/compile_tets.hpp>
@@ -235,6 +236,7 @@ sim::Model compile(const Description& d, CompileReport* report) {
   compile_vessels(d, model, faults, report);
   compile_fluids(d, model, faults);
   compile_energy(d, model, faults);
+  compile_motion(d, model, faults);
   compile_hands(d, model, faults);
   if (!faults.empty()) throw core::BadInput(faults);
   compile_contacts(model);

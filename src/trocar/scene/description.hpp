@@ -211,6 +211,39 @@ struct EnergySetting {
   core::Location at;
 };
 
+/// Waves of contraction that run along a hollow organ: peristalsis.
+struct WaveSetting {
+  struct Station {
+    double s = 0;         ///< way along the centre line [m]
+    double pressure = 0;  ///< at the crest [Pa]
+    double speed = 0;     ///< [m/s]
+    core::Location at;
+  };
+  std::string solid;
+  std::vector<Vec3d> centreline;  ///< points, in the waves' direction [m]; empty: the centres of the solid's sections
+  std::vector<Station> stations;  ///< linear in between
+  double per_minute = 3;
+  double width = 0.010;     ///< sigma of a wave's profile [m]
+  double first = 0;         ///< when a crest is at the line's beginning [s]
+  double cycle = 60;        ///< [s]
+  double active_share = 1;  ///< of a cycle
+  core::Location at, width_at, solid_at, centreline_at;
+};
+
+/// Breathing: what hangs in space on the diaphragm and below it goes along.
+struct BreathingSetting {
+  struct Carried {
+    std::string body;
+    double share = 1;  ///< of the amplitude
+    core::Location at;
+  };
+  double per_minute = 13;
+  double amplitude = 0.010;      ///< from end-expiration to end-inspiration [m]
+  Vec3d direction{0, -1, 0};     ///< of inspiration, any length
+  std::vector<Carried> carries;  ///< solids, strands, membranes, pouches
+  core::Location at;
+};
+
 /// The part of an instrument that current leaves from.
 struct ElectrodeSetting {
   double radius = 0.001;     ///< of its contact [m]
@@ -270,6 +303,8 @@ struct Description {
   std::optional<FluidsSetting> fluids;
   std::optional<BleederSetting> bleeder;
   std::optional<EnergySetting> energy;
+  std::vector<WaveSetting> peristalsis;
+  std::optional<BreathingSetting> breathing;
   std::vector<Port> ports;
   std::vector<Instrument> instruments;
   std::vector<Placement> placements;  ///< tools, in hand order: [0] left, [1] right, [2] assistant/third

@@ -80,6 +80,7 @@ void Reading::check_together() {
   check_names();
   for (const Placement& tool : m_tools) check_tool(tool);
   for (const SheetEnd& sheet : m_sheet_ends) check_sheet(sheet);
+  for (const WaveSetting& wave : description.peristalsis) check_wave(wave);
 }
 
 bool Reading::crowded() {

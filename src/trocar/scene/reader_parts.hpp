@@ -78,6 +78,8 @@ class Reading {
   void fluids(const JsonObject& o);
   void bleeder(const JsonObject& o);
   void energy(const JsonObject& o);
+  void wave(const JsonObject& o);
+  void breathing(const JsonObject& o);
   void port(const JsonObject& o);
   Placement placement(const JsonObject& o);
   void scope(const JsonObject& o);
@@ -107,6 +109,7 @@ class Reading {
   void check_names();
   void check_vessel_names();
   void check_tool(const Placement& tool);
+  void check_wave(const WaveSetting& wave);
 
   /// Where a sheet or membrane ends on a strand that may not be known yet.
   struct SheetEnd {

@@ -352,6 +352,51 @@ const Shape& energy() {
   return shape;
 }
 
+const Shape& wave_station() {
+  static const Shape shape{"wave station",
+                           "What waves are like at one place of the centre line; linear between stations.",
+                           {needed(keys::number("s_mm", 0, 5000, "way along the centre line")),
+                            needed(keys::number("pressure_kPa", 0, 100, "with which a crest presses the wall together")),
+                            needed(keys::number("speed_mm_s", 0.1, 200, "with which waves run there"))}};
+  return shape;
+}
+
+const Shape& wave() {
+  static const Shape shape{
+      "waves",
+      "Peristalsis of a hollow organ: rings of contraction that run along it. From one to the next it is speed over "
+      "frequency.",
+      {needed(keys::name("solid", "the organ: a solid that is not cuttable")),
+       keys::points("centreline_mm", -kFar, kFar, 2,
+                    "along the lumen, in the waves' direction, default: the centres of the solid's sections"),
+       needed(keys::objects("stations", wave_station, 1, "by rising s_mm")),
+       needed(keys::number("per_minute", 0.1, 60, "waves that begin")),
+       keys::number("width_mm", 1, 100, "sigma of a wave's Gaussian profile, default 10"),
+       keys::number("first_s", 0, 36000, "when a crest is at the centre line's beginning, default 0"),
+       keys::number("cycle_s", 1, 36000, "the organ is active for a share of this time and rests then, default 60"),
+       keys::number("active_share", 0, 1, "that share, default 1: always active")}};
+  return shape;
+}
+
+const Shape& carried() {
+  static const Shape shape{"carried body",
+                           "A body whose holders in space go along with the breath.",
+                           {needed(keys::name("body", "a solid, strand, membrane or pouch")),
+                            keys::number("share", 0, 1, "of the amplitude, default 1")}};
+  return shape;
+}
+
+const Shape& breathing() {
+  static const Shape shape{
+      "breathing",
+      "What the diaphragm carries goes to and fro; a scene begins at the end of an expiration.",
+      {needed(keys::number("per_minute", 1, 60, "breaths")),
+       needed(keys::number("amplitude_mm", 0, 50, "from the end of an expiration to that of an inspiration")),
+       keys::vec3("direction", -1, 1, "of inspiration, any length, default (0, -1, 0): towards the feet"),
+       needed(keys::objects("carries", carried, 1, "bodies that go along"))}};
+  return shape;
+}
+
 Shape file_shape(std::string name, std::string meaning, std::vector<Key> keys) {
   Shape shape{std::move(name), std::move(meaning), std::move(keys)};
   shape.keys.insert(shape.keys.begin(),
@@ -372,6 +417,8 @@ const Shape& scene_shape() {
                   keys::object("fluids", fluids, "drops and a pool, default none"),
                   keys::object("bleeder", bleeder, "a vessel that opens by itself, default none"),
                   keys::object("energy", energy, "current and heat, default none"),
+                  keys::objects("peristalsis", wave, 0, "waves of hollow organs, default none"),
+                  keys::object("breathing", breathing, "default none"),
                   needed(keys::includes("instruments", instrument, "instruments: files or objects")),
                   needed(keys::objects("ports", port, 1, "trocars")),
                   needed(keys::objects("tools", tool, 0, "in the order of the hands: left, right, assistant")),

@@ -167,6 +167,8 @@ void vary(Description& d, std::uint64_t seed, const Variation& most) {
   };
   for (VesselTree& tree : d.vessels)
     for (size_t i = 0; i < tree.vessels.size(); ++i) bend(tree.vessels[i], tree.graph.segments[i], warp);
+  for (WaveSetting& wave : d.peristalsis)
+    for (Vec3d& p : wave.centreline) p = warp(p);
   if (d.bleeder) d.bleeder->which = int(random.uniform() * double(d.bleeder->holes.size()));
   for (Sheet& sheet : d.sheets) bend_fold(sheet);
   for (Membrane& membrane : d.membranes) bend_fold(membrane);

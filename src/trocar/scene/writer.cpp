@@ -36,6 +36,10 @@ JsonValue mm(const std::vector<Vec3d>& points) {
 JsonValue diameter_mm(double radius) {
   return json_number(in_file(radius * 2000, radius, [](double v) { return v / 1000 / 2; }));
 }
+/// A thousand of the unit: kPa of Pa.
+JsonValue kilo(double value) {
+  return json_number(in_file(value / 1000, value, [](double v) { return v * 1000; }));
+}
 JsonValue deg(double radians) {
   return json_number(in_file(radians * 180 / portable::pi, radians, [](double v) { return v * portable::pi / 180; }));
 }
@@ -361,6 +365,39 @@ JsonValue written(const EnergySetting& e) {
   return o;
 }
 
+JsonValue written(const WaveSetting& w) {
+  JsonValue o = json_object();
+  put_name(o, "solid", w.solid);
+  if (!w.centreline.empty()) put(o, "centreline_mm", mm(w.centreline));
+  put(o, "stations", list(w.stations, [](const WaveSetting::Station& s) {
+        JsonValue station = json_object();
+        put(station, "s_mm", mm(s.s));
+        put(station, "pressure_kPa", kilo(s.pressure));
+        put(station, "speed_mm_s", mm(s.speed));
+        return station;
+      }));
+  put(o, "per_minute", json_number(w.per_minute));
+  put(o, "width_mm", mm(w.width));
+  put(o, "first_s", json_number(w.first));
+  put(o, "cycle_s", json_number(w.cycle));
+  put(o, "active_share", json_number(w.active_share));
+  return o;
+}
+
+JsonValue written(const BreathingSetting& b) {
+  JsonValue o = json_object();
+  put(o, "per_minute", json_number(b.per_minute));
+  put(o, "amplitude_mm", mm(b.amplitude));
+  put(o, "direction", json_array({json_number(b.direction.x), json_number(b.direction.y), json_number(b.direction.z)}));
+  put(o, "carries", list(b.carries, [](const BreathingSetting::Carried& c) {
+        JsonValue body = json_object();
+        put_name(body, "body", c.body);
+        put(body, "share", json_number(c.share));
+        return body;
+      }));
+  return o;
+}
+
 }  // namespace
 
 std::string write_scene(const Description& d) {
@@ -375,6 +412,9 @@ std::string write_scene(const Description& d) {
   if (d.fluids) put(o, "fluids", written(*d.fluids));
   if (d.bleeder) put(o, "bleeder", written(*d.bleeder));
   if (d.energy) put(o, "energy", written(*d.energy));
+  if (!d.peristalsis.empty())
+    put(o, "peristalsis", list(d.peristalsis, [](const WaveSetting& x) { return written(x); }));
+  if (d.breathing) put(o, "breathing", written(*d.breathing));
   put(o, "instruments", list(d.instruments, [](const Instrument& x) { return written(x); }));
   put(o, "ports", list(d.ports, [](const Port& x) { return written(x); }));
   put(o, "tools", list(d.placements, [](const Placement& x) { return written(x); }));

@@ -1,5 +1,6 @@
 #include <trocar/interactions/needle.hpp>
 #include <trocar/sim/bodies.hpp>
+#include <trocar/sim/motion.hpp>
 #include <trocar/sim/posing.hpp>
 #include <trocar/sim/stage.hpp>
 
@@ -10,21 +11,27 @@ using interactions::Owner;
 
 constexpr double kHangingDamping = 0.02;  // [s] times stiffness: fat and folds that carry an organ yield slowly
 
-void hang(std::span<const tissue::Anchor> anchors, size_t organ, interactions::NetworkLoads& loads) noexcept {
+void hang(const StepContext& c, std::span<const tissue::Anchor> anchors, size_t organ) noexcept {
+  const Carried by_breath = carried_organ(c, organ);
   for (const tissue::Anchor& a : anchors) {
     tissue::NodeLoad load;
     load.node = a.node;
     load.k = float(a.k);
     load.d = float(a.k * kHangingDamping);
-    load.x0 = vec_cast<float>(a.x0);
-    load.f0 = vec_cast<float>(a.k * (a.x0 - vec_cast<double>(load.x0)));
-    loads.add(load, {Owner::anchor, std::int32_t(organ), 0});
+    const Vec3d held_at = by_breath.moves ? a.x0 + by_breath.x : a.x0;
+    load.x0 = vec_cast<float>(held_at);
+    Vec3d f = a.k * (held_at - vec_cast<double>(load.x0));
+    if (by_breath.moves) f += (a.k * kHangingDamping) * by_breath.v;
+    load.f0 = vec_cast<float>(f);
+    c.work.organ_loads[organ].add(load, {Owner::anchor, std::int32_t(organ), 0});
   }
 }
 
 /// Where a strand's end will be. `now` is first put where the host is: the end was placed by prediction last tick, and
 /// taking that error for a velocity would feed it back with a gain of 1/dt.
-tissue::StrandEnd end_of(const StepContext& c, const StrandEndModel& end, Vec3d drawn, Vec3d& now) noexcept {
+tissue::StrandEnd end_of(const StepContext& c, const StrandEndModel& end, const Carried& by_breath, Vec3d drawn,
+                         Vec3d& now) noexcept {
+  if (end.kind != StrandEndModel::hosted && by_breath.moves) return {drawn + by_breath.x, by_breath.v};
   if (end.kind != StrandEndModel::hosted) return {drawn, {0, 0, 0}};
   const tissue::StrandEnd next = hosted_end(end.patch, c.work.nodes[size_t(end.organ)], kTick);
   now = next.x - kTick * next.v;
@@ -63,9 +70,8 @@ void hang_organs(StepContext& c) noexcept {
   for (interactions::StrandLoads& l : c.work.strand_loads) l.clear();
   for (interactions::NetworkLoads& l : c.work.membrane_loads) l.clear();
   const size_t solids = c.model.solids.size();
-  for (size_t i = 0; i < solids; ++i) hang(c.model.solids[i].anchors, i, c.work.organ_loads[i]);
-  for (size_t i = 0; i < c.model.cuttables.size(); ++i)
-    hang(c.model.cuttables[i].body.anchors, solids + i, c.work.organ_loads[solids + i]);
+  for (size_t i = 0; i < solids; ++i) hang(c, c.model.solids[i].anchors, i);
+  for (size_t i = 0; i < c.model.cuttables.size(); ++i) hang(c, c.model.cuttables[i].body.anchors, solids + i);
 }
 
 // Folds pull on what carries them.
@@ -85,15 +91,16 @@ void advance_strands(StepContext& c) noexcept {
     const interactions::StrandBody& body = c.model.bodies[i];
     interactions::StrandLoads& loads = c.work.strand_loads[i];
     tissue::StrandState& state = c.state.strands[i];
+    const Carried by_breath = carried_strand(c, i);
     size_t ends = 0;
     if (strand.start.kind != StrandEndModel::free)
-      c.work.ends[i][ends++] = end_of(c, strand.start, body.model.rest.front(), state.x.front());
+      c.work.ends[i][ends++] = end_of(c, strand.start, by_breath, body.model.rest.front(), state.x.front());
     if (strand.end.kind != StrandEndModel::free)
-      c.work.ends[i][ends++] = end_of(c, strand.end, body.model.rest.back(), state.x.back());
+      c.work.ends[i][ends++] = end_of(c, strand.end, by_breath, body.model.rest.back(), state.x.back());
     loads.reaction.assign(loads.list.size(), Vec3d{});
     c.work.strand_reports[i] =
         tissue::advance(body.model, {c.work.ends[i].data(), ends}, loads.list, {c.work.end_reactions[i].data(), ends},
-                        loads.reaction, state, c.work.strand_work[i]);
+                        loads.reaction, state, c.work.strand_work[i], {by_breath.x, by_breath.v});
   });
   for (size_t i = 0; i < c.model.strands.size(); ++i) {
     const StrandModel& strand = c.model.strands[i];
@@ -114,14 +121,17 @@ void advance_organs(StepContext& c) noexcept {
     const size_t solids = c.model.solids.size(), k = i - solids;
     interactions::NetworkLoads& loads = c.work.organ_loads[i];
     loads.sort();
+    carry_held_nodes(c, i);
     const tissue::Hands hands = loads.handled() ? tissue::Hands::on : tissue::Hands::off;
     if (i < solids) {
       c.work.organ_reports[i] = tissue::advance(c.model.solids[i].network, loads.sorted, loads.reaction,
                                                 c.state.solids[i], c.work.solid_work[i], nullptr, hands);
+      settle_held_nodes(c, i);
       return;
     }
     c.work.organ_reports[i] = tissue::advance(c.model.cuttables[k].body, loads.sorted, loads.reaction,
                                               c.state.cuttables[k], c.work.cuttable_work[k], hands);
+    settle_held_nodes(c, i);
     carry_along(c, interactions::kSolidBase + int(i), c.work.surfaces[i], {}, c.work.cuttable_work[k].fixed, 0, nullptr,
                 0, c.state.cuttables[k].nodes);
   });
@@ -133,7 +143,11 @@ void advance_membranes(StepContext& c) noexcept {
   for_each(c.work.pool, c.work.membrane_order, [&c](size_t i) noexcept {
     const MembraneModel& m = c.model.membranes[i];
     const interactions::Holders holders = holders_of(c);
-    for (size_t h = 0; h < m.holds.size(); ++h) c.work.targets[i][h] = held_place(m.holds[h], holders);
+    const Carried by_breath = carried_membrane(c, i);
+    for (size_t h = 0; h < m.holds.size(); ++h) {
+      c.work.targets[i][h] = held_place(m.holds[h], holders);
+      if (by_breath.moves && m.holds[h].kind == interactions::BorderHold::space) c.work.targets[i][h] += by_breath.x;
+    }
     interactions::NetworkLoads& loads = c.work.membrane_loads[i];
     loads.sort();
     c.work.membrane_reports[i] = tissue::advance(m.sheet, c.work.targets[i], loads.sorted, loads.reaction,

@@ -187,6 +187,7 @@ void seal(Model& model) {
     for (const auto* masks : {&model.energy.organs, &model.energy.folds})
       for (const geometry::CellMask& mask : *masks) h.add(mask.bits);
   }
+  if (model.motion.there()) add_to_hash(h, model.motion);
   model.hash = h.value();
 }
 

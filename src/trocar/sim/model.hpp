@@ -17,6 +17,7 @@
 #include <trocar/interactions/tool.hpp>
 #include <trocar/interactions/vessel_path.hpp>
 #include <trocar/sim/input.hpp>
+#include <trocar/sim/motion.hpp>
 #include <trocar/tissue/cuttable_skin.hpp>
 #include <trocar/tissue/electrosurgery.hpp>
 #include <trocar/tissue/prestress.hpp>
@@ -191,6 +192,7 @@ struct Model {
   VesselsModel vessels;
   WetModel wet;
   EnergyModel energy;
+  MotionModel motion;
   std::vector<HandModel> hands;  ///< at most kMaxTools
   ScopeModel scope;
   Input start;  ///< everything as placed

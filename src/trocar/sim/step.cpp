@@ -4,6 +4,7 @@
 #include <trocar/sim/hands.hpp>
 #include <trocar/sim/heating.hpp>
 #include <trocar/sim/jaws.hpp>
+#include <trocar/sim/motion.hpp>
 #include <trocar/sim/posing.hpp>
 #include <trocar/sim/step.hpp>
 #include <trocar/sim/tearing.hpp>
@@ -43,6 +44,7 @@ constexpr Stage kStages[] = {
     {"pose skins", pose_skins},
     {"pose vessels", pose_vessels},
     {"hang organs", hang_organs},
+    {"contract", contract},
     {"work jaws", work_jaws},
     {"touch tissue", touch_tissue},
     {"touch organs", touch_organs},

@@ -164,6 +164,11 @@ Work make_work(const Model& model, core::ThreadPool* pool) {
     w.strand_work.push_back(tissue::make_work(b.model));
     w.strand_loads.emplace_back().reserve(kStrandLoads);
   }
+  for (const PeristalsisModel& p : model.motion.peristalsis) {
+    const size_t organ = size_t(p.solid), nodes = size_t(model.solids[organ].network.nodes);
+    w.wave_force.resize(std::max(w.wave_force.size(), nodes));
+    w.organ_loads[organ].reserve(w.organ_loads[organ].gathered.capacity() + p.wave.nodes.size());
+  }
   w.touches.resize(model.hands.size());
   w.surfaces.resize(size_t(model.surfaces()));
   w.ends.resize(model.strands.size());
@@ -261,6 +266,7 @@ void poison(Work& w) noexcept {
   scribble(w.wounds);
   std::memset(static_cast<void*>(&w.wet_tools), 0xff, sizeof w.wet_tools);
   std::memset(static_cast<void*>(&w.valves), 0xff, sizeof w.valves);
+  scribble(w.wave_force);
   scribble(w.touches);
   scribble(w.parts);
   scribble(w.beyond);

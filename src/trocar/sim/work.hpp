@@ -51,6 +51,7 @@ struct Work {
   std::vector<tissue::MembraneWork> membrane_work;
   std::vector<std::vector<tissue::BorderPull>> pulls;  ///< (membranes)(held nodes)
   std::vector<std::vector<Vec3d>> targets;             ///< (membranes)(held nodes)
+  std::vector<Vec3d> wave_force;                       ///< (nodes of the largest organ with waves) [N]
   HostViews hosts;
   std::vector<std::vector<Vec3d>> vessel_points;  ///< (vessels)(points of the path) [m]
   vessels::FlowWork flow;

@@ -136,21 +136,23 @@ void add_bending(const StrandModel& m, const StrandState& s, std::span<const Str
   }
 }
 
-void add_foundation(const StrandModel& m, const StrandState& s, StrandWork& w) {
+bool is_zero(Vec3d a) { return a.x == 0 && a.y == 0 && a.z == 0; }
+
+void add_foundation(const StrandModel& m, const StrandState& s, const StrandGround& ground, StrandWork& w) {
   const double dt = m.tick, one[1] = {1};
   for (int i = 0; i < m.nodes; ++i) {
     const double k = m.foundation[i] * s.foundation_scale[i];
     if (!(k > 0)) continue;
-    const Vec3d u = s.x[i] - m.foundation_point[i];
+    const Vec3d u = s.x[i] - m.foundation_point[i] - ground.x;
     const double more = m.stiffening * dot(u, u);
     add_term(w.matrix, i, one, 1,
              isotropic(k * (dt * dt * (1 + more) + dt * m.foundation_damping_time)) +
                  along(2 * k * dt * dt * m.stiffening, u));
     push(w.rhs, i, (-dt * k * (1 + more)) * u);
+    if (!is_zero(ground.v)) push(w.rhs, i, (dt * k * m.foundation_damping_time) * ground.v);
   }
 }
 
-bool is_zero(Vec3d a) { return a.x == 0 && a.y == 0 && a.z == 0; }
 bool usable(const StrandModel& m, const StrandLoad& l) {
   const double sum = std::fabs(l.f0.x) + std::fabs(l.f0.y) + std::fabs(l.f0.z) + std::fabs(l.x0.x) + std::fabs(l.x0.y) +
                      std::fabs(l.x0.z) + std::fabs(l.dir.x) + std::fabs(l.dir.y) + std::fabs(l.dir.z);
@@ -266,7 +268,7 @@ void report_ends(const StrandModel& m, std::span<StrandReaction> reactions, Stra
 
 StepReport advance(const StrandModel& m, std::span<const StrandEnd> ends, std::span<const StrandLoad> loads,
                    std::span<StrandReaction> end_reactions, std::span<Vec3d> load_reactions, StrandState& s,
-                   StrandWork& w) noexcept {
+                   StrandWork& w, const StrandGround& ground) noexcept {
   const double dt = m.tick;
   const int rows = 3 * m.nodes;
   for (double& a : w.matrix) a = 0;
@@ -274,7 +276,7 @@ StepReport advance(const StrandModel& m, std::span<const StrandEnd> ends, std::s
   add_inertia(m, s, w);
   add_stretch(m, s, w);
   add_bending(m, s, ends, w);
-  add_foundation(m, s, w);
+  add_foundation(m, s, ground, w);
   StepReport report = add_loads(m, loads, s, w);
 
   save_prescribed(m, w);

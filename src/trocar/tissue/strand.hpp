@@ -117,6 +117,12 @@ struct StrandReaction {
                          ///< following within this tick (inertia over the tick included)
 };
 
+/// How far the points that the foundation pulls to have gone from where they were drawn, when this tick ends [m], and how
+/// fast they go [m/s].
+struct StrandGround {
+  Vec3d x{0, 0, 0}, v{0, 0, 0};
+};
+
 /// Compiles a strand. Throws std::invalid_argument saying what is unsound.
 StrandModel build(const StrandDescription& description, double tick);
 StrandState rest_state(const StrandModel& model);
@@ -127,9 +133,10 @@ StrandWork make_work(const StrandModel& model);
 /// @param loads           any order, any number per element
 /// @param end_reactions   (prescribed nodes) or empty
 /// @param load_reactions  (loads) or empty: force each load exerted on the strand [N]
+/// @param ground          what its foundation stands on
 StepReport advance(const StrandModel& model, std::span<const StrandEnd> ends, std::span<const StrandLoad> loads,
                    std::span<StrandReaction> end_reactions, std::span<Vec3d> load_reactions, StrandState& state,
-                   StrandWork& work) noexcept;
+                   StrandWork& work, const StrandGround& ground = {}) noexcept;
 
 /// Cut through element e: no stretch across it and no bending that crosses it.
 void cut_element(StrandState& state, int element) noexcept;

@@ -116,6 +116,26 @@ Material bowel() {
   return m;
 }
 
+/// Thin walls, moist; no bands.
+Material small_bowel() {
+  Material m = with_vessels(tissue(srgb(208, 134, 122), srgb(216, 154, 138), srgb(196, 116, 110)), 0.85f, 0.03f);
+  m.mottle_size = 0.014f;
+  m.mottle = 0.5f;
+  m.glow_amount = 0.1f;
+  m.film_bump = 0.2f;
+  m.film_size = 0.003f;
+  return m;
+}
+
+Material stomach() {
+  Material m = with_vessels(tissue(srgb(200, 124, 116), srgb(208, 140, 126), srgb(184, 106, 102)), 1.0f, 0.046f);
+  m.mottle_size = 0.022f;
+  m.mottle = 0.5f;
+  m.film_bump = 0.2f;
+  m.film_size = 0.004f;
+  return m;
+}
+
 Material liver() {
   Material m = with_vessels(tissue(srgb(80, 31, 36), srgb(88, 36, 40), srgb(68, 26, 33)), 0.12f, 0.03f);
   m.mottle_size = 0.0035f;
@@ -241,6 +261,11 @@ std::vector<Look> make_looks() {
         .haustra = 0.0024,
         .haustra_size = 0.023},
        22},
+      {"small_bowel",
+       small_bowel(),
+       false,
+       {.broad = 0.0003, .broad_size = 0.014, .fine = 0.00012, .fine_size = 0.005}},
+      {"stomach", stomach(), false, {.broad = 0.0008, .broad_size = 0.026, .fine = 0.00015, .fine_size = 0.008}},
       {"liver", liver(), false, {.broad = 0.0006, .broad_size = 0.024}},
       {"gallbladder",
        gallbladder(),
