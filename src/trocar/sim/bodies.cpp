@@ -11,19 +11,31 @@ using interactions::Owner;
 
 constexpr double kHangingDamping = 0.02;  // [s] times stiffness: fat and folds that carry an organ yield slowly
 
-void hang(const StepContext& c, std::span<const tissue::Anchor> anchors, size_t organ) noexcept {
-  const Carried by_breath = carried_organ(c, organ);
+void hang(std::span<const tissue::Anchor> anchors, size_t organ, interactions::NetworkLoads& loads) noexcept {
   for (const tissue::Anchor& a : anchors) {
     tissue::NodeLoad load;
     load.node = a.node;
     load.k = float(a.k);
     load.d = float(a.k * kHangingDamping);
-    const Vec3d held_at = by_breath.moves ? a.x0 + by_breath.x : a.x0;
+    load.x0 = vec_cast<float>(a.x0);
+    load.f0 = vec_cast<float>(a.k * (a.x0 - vec_cast<double>(load.x0)));
+    loads.add(load, {Owner::anchor, std::int32_t(organ), 0});
+  }
+}
+
+/// The same springs where a breath carries what they hang from.
+void hang(std::span<const tissue::Anchor> anchors, size_t organ, const Carried& by_breath,
+          interactions::NetworkLoads& loads) noexcept {
+  if (!by_breath.moves) return hang(anchors, organ, loads);
+  for (const tissue::Anchor& a : anchors) {
+    tissue::NodeLoad load;
+    load.node = a.node;
+    load.k = float(a.k);
+    load.d = float(a.k * kHangingDamping);
+    const Vec3d held_at = a.x0 + by_breath.x;
     load.x0 = vec_cast<float>(held_at);
-    Vec3d f = a.k * (held_at - vec_cast<double>(load.x0));
-    if (by_breath.moves) f += (a.k * kHangingDamping) * by_breath.v;
-    load.f0 = vec_cast<float>(f);
-    c.work.organ_loads[organ].add(load, {Owner::anchor, std::int32_t(organ), 0});
+    load.f0 = vec_cast<float>(a.k * (held_at - vec_cast<double>(load.x0)) + (a.k * kHangingDamping) * by_breath.v);
+    loads.add(load, {Owner::anchor, std::int32_t(organ), 0});
   }
 }
 
@@ -70,8 +82,9 @@ void hang_organs(StepContext& c) noexcept {
   for (interactions::StrandLoads& l : c.work.strand_loads) l.clear();
   for (interactions::NetworkLoads& l : c.work.membrane_loads) l.clear();
   const size_t solids = c.model.solids.size();
-  for (size_t i = 0; i < solids; ++i) hang(c, c.model.solids[i].anchors, i);
-  for (size_t i = 0; i < c.model.cuttables.size(); ++i) hang(c, c.model.cuttables[i].body.anchors, solids + i);
+  for (size_t i = 0; i < solids; ++i) hang(c.model.solids[i].anchors, i, carried_organ(c, i), c.work.organ_loads[i]);
+  for (size_t i = 0; i < c.model.cuttables.size(); ++i)
+    hang(c.model.cuttables[i].body.anchors, solids + i, carried_organ(c, solids + i), c.work.organ_loads[solids + i]);
 }
 
 // Folds pull on what carries them.
