@@ -179,6 +179,8 @@ void BleedingSurgeon::blunder() {
   Arms::Arm& arm = m_arms[m_sucker];
   const Vec3d goal = burnt();
   const double pressed = flawed("E8") ? 8 : 1;  // [s]
+  constexpr double kFar = 8;                    // [s] farther away is nothing here
+  const auto touches_something = [this](int h) { return norm(m_state->tools[size_t(h)].contact_force) > 0.05; };
   want(arm.tip);
   want(goal);
   switch (m_stage) {
@@ -190,11 +192,12 @@ void BleedingSurgeon::blunder() {
       arm.tip = arm.port + kIdleDepth * normalised(goal - arm.port);
       if (m_state->tools[size_t(m_sucker)].instrument == m_hook && m_camera.settled()) ++m_stage;
       break;
-    case 2:
-      if (m_arms.move(m_sucker, goal, kCareful)) ++m_stage, m_steady = 0;
+    case 2:  // tissue that is pushed gives way
+      m_steady += sim::kTick;
+      if (m_arms.move(m_sucker, goal, kCareful) || touches_something(m_sucker) || m_steady > kFar)
+        ++m_stage, m_steady = 0;
       break;
     case 3:
-      m_arms.move(m_sucker, goal, kTrack);
       m_steady += sim::kTick;
       arm.coagulating = m_steady < pressed;
       if (!arm.coagulating) ++m_stage;
