@@ -97,9 +97,8 @@ bool BleedingSurgeon::choose_side() {
 double BleedingSurgeon::inside() const {
   constexpr double kCarrier = 0.0037;  // [m] radius of what carries arteries here, and a little more
   const interactions::ToolModel& t = m_model->tool(*m_state, size_t(m_applier));
-  constexpr double kShort = 0.0045, kMissed = 0.014;  // [m]
-  const double flaw = m_blundered ? 0 : flawed("A3.3") ? kShort : flawed("E12") ? kMissed : 0;
-  return t.jaw_length - t.clip_length + kCarrier + flaw;
+  constexpr double kMissed = 0.014;  // [m] as a flaw
+  return t.jaw_length - t.clip_length + kCarrier + (flawed("E12") && !m_blundered ? kMissed : 0);
 }
 
 interactions::VesselSpot BleedingSurgeon::elsewhere() const {
@@ -238,7 +237,7 @@ void BleedingSurgeon::inspect() {
   m_distance = 0.052 + 0.008 * double(int(m_in_phase / 1.5) % 4);
   aim(0, kTrack);
   if (!m_arms.grip(m_applier, kHalf, 1.6)) return;
-  const bool careless = !m_blundered && (flawed("E4.2") || flawed("E12") || flawed("A3.3") || flawed("A3.2"));
+  const bool careless = !m_blundered && (flawed("E4.2") || flawed("E12") || flawed("A3.2"));
   if (careless && m_in_phase > 4) return go(Phase::close);
   m_unseen += sees_jaw() ? 0 : sim::kTick;
   m_steady = sees_jaw() && !careless ? m_steady + sim::kTick : 0;
