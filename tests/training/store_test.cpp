@@ -576,6 +576,19 @@ TEST_F(StoreTest, AUuidIsNeverTakenForANumberNorForAnothersBeginning) {
   EXPECT_FALSE(store.find("01234567-").has_value());
 }
 
+TEST_F(StoreTest, DigitsNameANumberAndEightOfThemTheBeginningOfAUuid) {
+  Attempt digits = attempt("digits"), second = attempt("second");
+  digits.uuid = "20345678-0000-4000-8000-000000000000";
+  second.uuid = "abcdef01-0000-4000-8000-000000000000";
+  Store store(folder());
+  make(store, digits);
+  make(store, second);
+  ASSERT_TRUE(store.find("20345678").has_value());
+  EXPECT_EQ(store.find("20345678")->trainee, "digits");
+  EXPECT_EQ(store.find("2")->trainee, "second");
+  EXPECT_FALSE(store.find("20").has_value());
+}
+
 TEST_F(StoreTest, TheFolderBelongsToItsUserAlone) {
   const mode_t before = umask(022);
   Store(folder()).list();

@@ -32,30 +32,41 @@ std::vector<Attempt> Store::list(const AttemptFilter& filter) const {
   return out;
 }
 
+namespace {
+
+/// The only attempt that `condition` on ?1 holds for.
+template <class Value>
+std::optional<Attempt> only_one(Database& db, const char* condition, const Value& value) {
+  Query q(db, fmt::format("SELECT {}{}WHERE {} LIMIT 2", kColumns, kFrom, condition));
+  if (!q.bind(value).next()) return std::nullopt;
+  Attempt a = row_of(q);
+  if (q.next()) return std::nullopt;
+  return a;
+}
+
+/// Digits name a number. Eight of them may also be the beginning that lists show of a uuid (one in forty has no
+/// letter there); fewer are not taken for one, or a number that does not exist would show somebody else's attempt.
+std::optional<Attempt> find_row(Database& db, const std::string& name) {
+  const bool number = name.size() < 10 && name.find_first_not_of("0123456789") == std::string::npos;
+  if (auto whole = only_one(db, "a.uuid = ?1", name)) return whole;
+  if (number)
+    if (auto numbered = only_one(db, "a.number = ?1", std::int64_t(std::stoll(name))); numbered || name.size() < 8)
+      return numbered;
+  return only_one(db, "substr(a.uuid, 1, length(?1)) = ?1", name);
+}
+
+}  // namespace
+
 std::optional<Attempt> Store::find(const std::string& name) const {
   std::error_code error;
   if (name.empty() || !fs::exists(database(), error)) return std::nullopt;
-  const bool number = name.size() < 10 && name.find_first_not_of("0123456789") == std::string::npos;
   try {
     Database db(database(), Database::Access::read);
-    Attempt a;
-    Query whole(db, fmt::format("SELECT {}{}WHERE a.uuid = ?1", kColumns, kFrom));
-    if (whole.bind(name).next()) {
-      a = row_of(whole);
-    } else {
-      Query q(db, fmt::format("SELECT {}{}WHERE {} LIMIT 2", kColumns, kFrom,
-                              number ? "a.number = ?1" : "substr(a.uuid, 1, length(?1)) = ?1"));
-      if (number)
-        q.bind(std::int64_t(std::stoll(name)));
-      else
-        q.bind(name);
-      if (!q.next()) return std::nullopt;
-      a = row_of(q);
-      if (q.next()) return std::nullopt;
-    }
+    std::optional<Attempt> a = find_row(db, name);
+    if (!a) return std::nullopt;
     Query t(db, "SELECT samples FROM trace WHERE attempt = ?");
-    t.bind(a.number);
-    if (t.next()) a.trace = t.bytes(0);
+    t.bind(a->number);
+    if (t.next()) a->trace = t.bytes(0);
     return a;
   } catch (const DatabaseFault& fault) {
     throw core::EnvironmentLacks(fmt::format("the session store cannot be read: {}", fault.what()));
