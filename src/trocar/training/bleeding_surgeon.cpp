@@ -96,11 +96,12 @@ bool BleedingSurgeon::choose_side() {
 }
 
 double BleedingSurgeon::inside() const {
-  constexpr double kSpare = 0.0008;  // [m] between the carrier and the clip's bend
-  constexpr double kMissed = 0.014;  // [m] as a flaw
+  constexpr double kSpare = 0.0008;   // [m] between the carrier and the clip's bend
+  constexpr double kMissed = 0.014;   // [m] as a flaw
+  constexpr double kCaught = 0.0002;  // [m] the same: of the artery's middle from the legs' ends
   const interactions::ToolModel& t = m_model->tool(*m_state, size_t(m_applier));
-  const bool misses = flawed("E12") && !m_blundered;
-  return t.jaw_length - t.clip_length + m_carrier.radius + kSpare + (misses ? kMissed : 0);
+  if (errs("A3.3")) return t.jaw_length - kCaught;
+  return t.jaw_length - t.clip_length + m_carrier.radius + kSpare + (errs("E12") ? kMissed : 0);
 }
 
 BleedingSurgeon::Carrier BleedingSurgeon::on_strand(int strand, interactions::StrandPlace place) const {
@@ -117,7 +118,7 @@ BleedingSurgeon::Carrier BleedingSurgeon::elsewhere() const {
 }
 
 BleedingSurgeon::Carrier BleedingSurgeon::clipped() const {
-  if (flawed("A3.2") && !m_blundered) return elsewhere();
+  if (errs("A3.2")) return elsewhere();
   const interactions::VesselSpot at = spot(clip_at());
   const interactions::VesselHold& hold = path().points[size_t(at.after)].hold;
   if (hold.kind != interactions::VesselHold::strand)
@@ -166,7 +167,7 @@ void BleedingSurgeon::look_at_clip() {
   // If the legs' tips stay hidden: from the midline, then from the side; one is seen past the artery's carrier.
   constexpr double kPatience = 2, kAside = 0.03;  // [s] [m]
   const Vec3d at = clipped().place;
-  if (flawed("E4.2") && !m_blundered) return want(at - Vec3d{2 * at.x, 0, 0});  // the other side of the patient
+  if (errs("E4.2")) return want(at - Vec3d{2 * at.x, 0, 0});  // the other side of the patient
   const double aside[] = {0, kAside, -kAside};
   const double x = aside[int(m_unseen / kPatience) % 3];
   want(at - Vec3d{at.x > 0 ? x : -x, 0, 0});
@@ -266,7 +267,7 @@ void BleedingSurgeon::reach() {
 void BleedingSurgeon::enter() {
   want(place());
   want(m_arms[m_applier].tip);
-  if (flawed("E12") && !m_blundered && m_in_phase > 2) return go(Phase::inspect);
+  if ((errs("E12") || errs("A3.2") || errs("A3.3")) && m_in_phase > 2) return go(Phase::inspect);
   if (!aim(0, kCareful) && m_in_phase < 8) return;
   m_steady += sim::kTick;
   if (between_legs()) return go(Phase::inspect);
@@ -281,7 +282,7 @@ void BleedingSurgeon::inspect() {
   m_distance = 0.052 + 0.008 * double(int(m_in_phase / 1.5) % 4);
   aim(0, kTrack);
   if (!m_arms.grip(m_applier, kHalf, 1.6)) return;
-  const bool careless = !m_blundered && (flawed("E4.2") || flawed("E12") || flawed("A3.2"));
+  const bool careless = errs("E4.2") || errs("E12") || errs("A3.2") || errs("A3.3");
   if (careless && m_in_phase > 4) return go(Phase::close);
   m_unseen += sees_jaw() ? 0 : sim::kTick;
   m_steady = sees_jaw() && !careless ? m_steady + sim::kTick : 0;
@@ -293,8 +294,8 @@ void BleedingSurgeon::close() {
   look_at_clip();
   want(m_arms[m_applier].tip);
   aim(0, kTrack);
-  const double quick = flawed("A3.4") && !m_blundered ? 0.4 : 1;
-  const bool careless = m_blundered ? false : !m_manner.flaw.empty();
+  const double quick = errs("A3.4") ? 0.4 : 1;
+  const bool careless = !m_blundered && !m_manner.flaw.empty();
   if (!sees_jaw() && !careless && m_state->clip_count == m_clips_before && m_in_phase < 7) {  // wait for the camera
     m_unseen += sim::kTick;
     return;

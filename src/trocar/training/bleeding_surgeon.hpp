@@ -77,8 +77,9 @@ class BleedingSurgeon final : public Expert {
   void draw_back_others();
   Vec3d deepest() const;  ///< surface of the pool where it is deepest
   bool flawed(const char* code) const { return m_manner.flaw == code; }
-  double lost() const;  ///< blood [m^3]
-  bool waits() const;   ///< longer than an expert would: a flaw
+  bool errs(const char* code) const { return flawed(code) && !m_blundered; }  ///< this mistake is still to be made
+  double lost() const;                                                        ///< blood [m^3]
+  bool waits() const;                                                         ///< longer than an expert would: a flaw
   bool burns() const { return flawed("E6") || flawed("E7") || flawed("E7.1") || flawed("E8"); }
   Vec3d burnt() const;  ///< what a hook is held to, as a flaw
   /// What the legs shall take: middle, direction, radius.
