@@ -318,7 +318,7 @@ const Shape& fluids() {
       "Blood that leaves vessels becomes drops and gathers in a pool; without this key it is only counted.",
       {needed(keys::vec3("pool_middle_mm", -kFar, kFar, "middle of the field in which a pool can be")),
        keys::number("pool_size_mm", 20, 1000, "edge of that field, default 160"),
-       keys::texts("pool_on", "solids that belong to its floor as drawn, beside the walls"),
+       keys::texts("pool_on", "solids whose tops are part of its floor, as they lie, beside the walls"),
        keys::integer("drops", 64, 65536, "at a time, default 4096")}};
   return shape;
 }

@@ -134,7 +134,8 @@ struct VesselsModel {
 struct WetModel {
   bool there = false;
   fluids::FluidsModel model;
-  std::vector<float> floor;        ///< of the pool, (ny x nx) [m]
+  std::vector<float> floor;        ///< of the pool without organs, (ny x nx) [m]
+  std::vector<int> floor_organs;   ///< that are part of it as they lie
   std::vector<std::int32_t> film;  ///< (bodies + 1) where the places of film of each begin (interactions::WetBodies)
 };
 

@@ -5,6 +5,7 @@
 
 #include <trocar/core/hash.hpp>
 #include <trocar/fluids/shown_fluids.hpp>
+#include <trocar/sim/pool_floor.hpp>
 #include <trocar/sim/state.hpp>
 #include <trocar/tissue/heat_scars.hpp>
 
@@ -82,7 +83,10 @@ State initial_state(const Model& model) {
     s.electrodes.resize(model.hands.size());
     s.seals.resize(interactions::kMaxSeals);
   }
-  if (model.wet.there) s.fluids = fluids::initial_state(model.wet.model);
+  if (model.wet.there) {
+    s.fluids = fluids::initial_state(model.wet.model);
+    lay_floor(model, s);
+  }
   if (model.irrigates()) s.impacts.resize(size_t(model.wet.model.droplets.capacity));
   make_counters(model, s);
   return s;
@@ -132,7 +136,10 @@ std::uint64_t hash_of(const State& s) noexcept {
     h.add(s.seals);
     h.add(s.seal_count);
   }
-  if (!s.fluids.droplets.x.empty()) fluids::add_to_hash(h, s.fluids);
+  if (!s.fluids.droplets.x.empty()) {
+    fluids::add_to_hash(h, s.fluids);
+    h.add(s.pool_floor);
+  }
   if (!s.impacts.empty()) {
     h.add(s.valves);
     h.add(s.impact_count);
@@ -465,6 +472,7 @@ bool restore_display(const Model& model, const std::vector<std::uint8_t>& bytes,
   if (model.energy.there) take_heat(in, model, s);
   if (model.wet.there) take_fluids(in, model, s.fluids);
   if (!in.good || in.at != bytes.size() || !sound(model, s)) return false;
+  if (model.wet.there) lay_floor(model, s);
   state = std::move(s);
   return true;
 }

@@ -64,7 +64,8 @@ struct State {
   std::vector<ElectrodeHand> electrodes;        ///< (hands)
   std::vector<interactions::VesselSeal> seals;  ///< (kMaxSeals)
   std::int32_t seal_count = 0;
-  fluids::FluidsState fluids;  ///< empty in scenes without fluids
+  fluids::FluidsState fluids;     ///< empty in scenes without fluids
+  std::vector<float> pool_floor;  ///< of the pool, (ny x nx) [m]; walls and organs
   /// What drops gave to tissue in the last tick: it goes to the bodies in the next. Empty without a suction-irrigator.
   std::vector<fluids::Impact> impacts;  ///< (drops' capacity) the first `impact_count`
   std::int32_t impact_count = 0;

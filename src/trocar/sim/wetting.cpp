@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include <trocar/interactions/irrigate.hpp>
+#include <trocar/sim/pool_floor.hpp>
 #include <trocar/sim/stage.hpp>
 #include <trocar/sim/visibility.hpp>
 #include <trocar/sim/wetting.hpp>
@@ -168,7 +169,8 @@ void move_fluids(StepContext& c) noexcept {
   input.openings = c.work.wounds;
   input.capsules = {c.work.wet_tools.data(), size_t(tools)};
   input.tools = {c.work.valves.data(), c.model.hands.size()};
-  input.floor = c.model.wet.floor;
+  follow_floor(c);
+  input.floor = c.state.pool_floor;
   input.smoke = what_the_lens_meets(c);
   if (c.work.steam.kilograms > 0) input.boiled = {&c.work.steam, 1};
   input.smoke.coagulating = c.work.current_flows;

@@ -278,7 +278,7 @@ void BleedingSurgeon::enter() {
 
 void BleedingSurgeon::inspect() {
   look_at_clip();
-  want(m_arms[m_applier].tip);
+  if (!errs("E4.2")) want(m_arms[m_applier].tip);
   m_distance = 0.052 + 0.008 * double(int(m_in_phase / 1.5) % 4);
   aim(0, kTrack);
   if (!m_arms.grip(m_applier, kHalf, 1.6)) return;
@@ -292,7 +292,7 @@ void BleedingSurgeon::inspect() {
 
 void BleedingSurgeon::close() {
   look_at_clip();
-  want(m_arms[m_applier].tip);
+  if (!errs("E4.2")) want(m_arms[m_applier].tip);
   aim(0, kTrack);
   const double quick = errs("A3.4") ? 0.4 : 1;
   const bool careless = !m_blundered && !m_manner.flaw.empty();
@@ -332,7 +332,7 @@ Vec3d BleedingSurgeon::deepest() const {
   for (int j = 0; j < pool.ny; ++j)
     for (int i = 0; i < pool.nx; ++i)
       if (const float d = depth_at(pool, m_state->fluids.pool, i, j); d > most) most = d, at_i = i, at_j = j;
-  const double height = double(floor_at(pool, m_model->wet.floor, at_i, at_j)) + 0.5 * double(most);
+  const double height = double(floor_at(pool, m_state->pool_floor, at_i, at_j)) + 0.5 * double(most);
   return world(pool, (at_i + 0.5) * pool.cell, (at_j + 0.5) * pool.cell, height);
 }
 
