@@ -510,30 +510,25 @@ TEST(VolumeProtection, NodesThatAreThrownOutOfTheirPlaceComeToRest) {
   }
 }
 
-TEST(VolumeProtection, AWildNodeIsCaughtAtOnceAndFeedsNoMotion) {
-  // In ticks in which slower leaps are left alone, squeezed by hands that never let go.
-  const PushedCorner body(0.02);
-  const NetworkModel& m = body.model;
-  std::uint32_t x = 7;
-  const auto random = [&x] { return double((x = x * 1664525u + 1013904223u) >> 8) / (1 << 23) - 1; };
-  double fastest = 0;
-  for (int trial = 0; trial < 60; ++trial) {
+TEST(VolumeProtection, AWildNodeIsCaughtAtOnce) {
+  // In ticks in which slower leaps are left alone. Without it these take six ticks and seven.
+  for (const float held : {0.0f, 3000.0f}) {
+    const PushedCorner body(1);
+    const NetworkModel& m = body.model;
     NetworkState s = rest_state(m);
     NetworkWork w = make_work(m);
-    std::vector<NodeLoad> squeeze;
-    for (int node = 0; node < m.nodes; ++node) {
-      const double a = random(), b = random(), c = random();
-      if (trial % 4 == 0 || node % 5 == 4) continue;  // held nodes
-      squeeze.push_back({.node = node,
-                         .k = float(400 * trial % 3000),
-                         .x0 = vec_cast<float>(m.rest[size_t(node)] + 0.004 * Vec3d{a, b, c})});
+    const Vec3d aside = m.rest[1] - Vec3d{0.004, 0.004, 0.004};
+    const NodeLoad hold{.node = 1, .k = held, .x0 = vec_cast<float>(aside)};
+    NodeState& thrown = s.nodes[m.row_of_node[0]];
+    thrown.vx = thrown.vy = thrown.vz = 3000;
+    int last_fast = 0;
+    for (int t = 1; t <= 190; ++t) {
+      ASSERT_TRUE(advance(m, {&hold, 1}, {}, s, w, nullptr, Hands::on).fine());
+      for (int i = 0; i < m.nodes; ++i)
+        if (length(velocity(m, s, i)) > 20) last_fast = t;
     }
-    const double a = random(), b = random(), c = random();
-    set_position(m, s, 0, m.rest[0] + 0.2 * Vec3d{a, b, c});
-    for (int t = 0; t < 190; ++t) ASSERT_TRUE(advance(m, squeeze, {}, s, w, nullptr, Hands::on).fine());
-    for (int i = 0; i < m.nodes; ++i) fastest = std::max(fastest, length(velocity(m, s, i)));
+    EXPECT_LE(last_fast, 4) << "[ticks] held with " << held << " N/m";
   }
-  EXPECT_LT(fastest, 200) << "[m/s]";
 }
 
 TEST(VolumeProtection, MomentumIsConservedWhileCellsAreOpened) {
