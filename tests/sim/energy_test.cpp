@@ -135,6 +135,65 @@ TEST(Energy, AHookDrawnInPureCutPartsTheOrganAndCoagulationDoesNot) {
   EXPECT_EQ(told_of, 0);
 }
 
+/// The hook comes from `from` to `to`, then with that pedal to `end` at 4 mm/s.
+small::Table drawn_hook(std::uint32_t pedals, Vec3d from, Vec3d to, Vec3d end) {
+  small::Table t(small::energy());
+  t.carry(kHook, {0.026, 0.02, 0.05}, from, 0.2);
+  t.carry(kHook, from, to, 0.05);
+  t.input.pedals = pedals;
+  t.carry(kHook, to, end, 0.004);
+  return t;
+}
+bool is_open(const small::Table& t, int vessel) {
+  return std::any_of(t.state.openings.begin(), t.state.openings.begin() + t.state.opening_count,
+                     [vessel](const auto& o) { return o.vessel == vessel; });
+}
+
+TEST(Energy, AHookPressedOnATubeInPureCutGoesThroughItAndItsArteryAndCoagulationDoesNot) {
+  const auto pressed = [](std::uint32_t pedals) {
+    return drawn_hook(pedals, {0.045, 0, 0.020}, {0.045, 0, 0.003}, {0.045, 0, 0.0005});
+  };
+  const small::Table cut = pressed(kYellow), coagulated = pressed(kBlue);
+  const auto parts = [](const small::Table& t) {
+    const std::vector<std::uint8_t>& alive = t.state.strands[small::kTube].alive;
+    return std::count(alive.begin(), alive.end(), 0);
+  };
+  std::printf("    cut with %.1f J\n", cut.state.electrodes[kHook].current.joules);
+  EXPECT_GT(parts(cut), 0);
+  EXPECT_GT(cut.count(Event::parted), 0);
+  EXPECT_TRUE(is_open(cut, small::kTubeArtery));
+  EXPECT_EQ(parts(coagulated), 0);
+  EXPECT_EQ(coagulated.count(Event::parted), 0);
+  EXPECT_FALSE(is_open(coagulated, small::kTubeArtery));
+  EXPECT_GT(coagulated.state.electrodes[kHook].current.joules, cut.state.electrodes[kHook].current.joules / 2);
+}
+
+TEST(Energy, AHookDrawnThroughAFoldInPureCutPartsItAndItsArteryAndCoagulationDoesNot) {
+  const auto drawn = [](std::uint32_t pedals) {
+    return drawn_hook(pedals, {0.017, 0.020, -0.005}, {0.017, 0.0008, -0.010}, {0.017, 0.0008, -0.004});
+  };
+  const small::Table cut = drawn(kYellow), coagulated = drawn(kBlue);
+  const auto torn = [](const small::Table& t) { return std::count(t.state.torn[0].begin(), t.state.torn[0].end(), 1); };
+  EXPECT_GT(torn(cut), 0);
+  EXPECT_GT(cut.count(Event::parted), 0);
+  EXPECT_TRUE(is_open(cut, small::kFoldArtery));
+  EXPECT_EQ(torn(coagulated), 0);
+  EXPECT_FALSE(is_open(coagulated, small::kFoldArtery));
+  EXPECT_GT(coagulated.state.heat.books.given, 1) << "it has been there";
+}
+
+TEST(Energy, AHookDrawnOverABodyThatCanBeCutPartsItInPureCutAndCoagulationDoesNot) {
+  const auto drawn = [](std::uint32_t pedals) {
+    return drawn_hook(pedals, {0.020, 0.041, 0.020}, {0.020, 0.041, 0.0035}, {0.020, 0.049, 0.0035});
+  };
+  const small::Table cut = drawn(kYellow), coagulated = drawn(kBlue);
+  const int drawn_nodes = small::energy().cuttables[0].body.own_nodes;
+  EXPECT_GT(cut.state.cuttables[0].tets.nodes, drawn_nodes) << "nodes part where cells do";
+  EXPECT_GT(cut.count(Event::parted), 0);
+  EXPECT_EQ(coagulated.state.cuttables[0].tets.nodes, drawn_nodes);
+  EXPECT_GT(coagulated.state.heat.books.given, 1);
+}
+
 /// The small scene's tube artery with another lumen, cut through below the hook, which then coagulates for 1.5 s.
 struct Stump {
   double outer = 0, before = 0, after = 0;  ///< [m], [mL/min]
