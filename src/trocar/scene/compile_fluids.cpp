@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 
@@ -16,7 +17,10 @@ constexpr float kNothing = -1e6f;
 constexpr float kOutwards = 0.0005f;  // [m] a cell: floor that nothing covers rises so from what is beside it
 
 /// Raises the floor to a skin's drawn triangles that look up.
-void lay_on(const tissue::Skin& skin, const fluids::PoolModel& pool, std::vector<float>& floor) {
+/// @param solid  whose skin it is, -1 of a wall
+/// @param under  (floor) in/out: what each cell lies on
+void lay_on(const tissue::Skin& skin, const fluids::PoolModel& pool, std::int32_t solid, std::vector<float>& floor,
+            std::vector<sim::FloorHold>& under) {
   for (const auto& t : skin.triangles) {
     const Vec3d a = vec_cast<double>(skin.rest[size_t(t[0])]), b = vec_cast<double>(skin.rest[size_t(t[1])]),
                 c = vec_cast<double>(skin.rest[size_t(t[2])]);
@@ -27,8 +31,10 @@ void lay_on(const tissue::Skin& skin, const fluids::PoolModel& pool, std::vector
         const Vec3d p = a + (double(i) / n) * (b - a) + (double(j) / n) * (c - a);
         const fluids::PoolPoint at = locate(pool, p);
         if (!at.inside) continue;
-        float& height = floor[size_t(at.j) * size_t(pool.nx) + size_t(at.i)];
-        height = std::max(height, at.height);
+        const size_t cell = size_t(at.j) * size_t(pool.nx) + size_t(at.i);
+        if (at.height <= floor[cell]) continue;
+        floor[cell] = at.height;
+        under[cell] = {std::int32_t(cell), solid, {t[0], t[1], t[2]}};
       }
   }
 }
@@ -90,10 +96,16 @@ void compile_fluids(const Description& d, sim::Model& model, std::vector<core::F
   }
   const fluids::PoolModel& pool = model.wet.model.pool;
   model.wet.floor.assign(size_t(pool.nx) * size_t(pool.ny), kNothing);
-  for (const sim::WallModel& wall : model.walls) lay_on(wall.skin, pool, model.wet.floor);
+  std::vector<sim::FloorHold> under(model.wet.floor.size());
+  for (const sim::WallModel& wall : model.walls) lay_on(wall.skin, pool, -1, model.wet.floor, under);
   for (const std::string& name : f.pool_on)
-    if (const int i = model.organ_index(name); i >= 0) lay_on(model.skin(i), pool, model.wet.floor);
+    if (const int i = model.organ_index(name); i >= 0) {
+      const bool keeps_its_skin = size_t(i) < model.solids.size();  // that of a body that can be cut changes
+      lay_on(model.skin(i), pool, keeps_its_skin ? i : -1, model.wet.floor, under);
+    }
   fill_gaps(pool, model.wet.floor);
+  std::copy_if(under.begin(), under.end(), std::back_inserter(model.wet.floor_on),
+               [](const sim::FloorHold& hold) { return hold.solid >= 0; });
   model.wet.there = true;
 }
 

@@ -7,6 +7,7 @@
 #include <trocar/sim/heat_bodies.hpp>
 #include <trocar/sim/heating.hpp>
 #include <trocar/sim/sealing.hpp>
+#include <trocar/sim/shrinking.hpp>
 #include <trocar/sim/stage.hpp>
 #include <trocar/tissue/heat_look.hpp>
 
@@ -113,6 +114,7 @@ void work_electrode(StepContext& c, size_t t, int& used) noexcept {
   if (touch.contact.gap == 0) stick(c, t, touch, hand);
   seal_vessels(c, t, touch);
   stiffen(c, touch);
+  shrink_tissue(c, touch);
   if (d.flows && tissue::curve_of(d.mode).bursts) part_tissue(c, t, touch);
 }
 

@@ -81,8 +81,11 @@ State initial_state(const Model& model) {
     s.heat = tissue::cold(model.energy.heat);
     s.electrodes.resize(model.hands.size());
     s.seals.resize(interactions::kMaxSeals);
+    s.shrunk.resize(size_t(kMaxShrunk));
+    for (tissue::StrandState& strand : s.strands) strand.shrunk.assign(strand.alive.size(), 1.0);
   }
   if (model.wet.there) s.fluids = fluids::initial_state(model.wet.model);
+  if (!model.wet.floor_on.empty()) s.floor = model.wet.floor;
   if (model.irrigates()) s.impacts.resize(size_t(model.wet.model.droplets.capacity));
   make_counters(model, s);
   return s;
@@ -131,8 +134,11 @@ std::uint64_t hash_of(const State& s) noexcept {
     h.add(s.electrodes);
     h.add(s.seals);
     h.add(s.seal_count);
+    h.add(s.shrunk_count);
+    h.add(core::hash_bytes(s.shrunk.data(), size_t(s.shrunk_count) * sizeof s.shrunk[0]));
   }
   if (!s.fluids.droplets.x.empty()) fluids::add_to_hash(h, s.fluids);
+  if (!s.floor.empty()) h.add(s.floor);
   if (!s.impacts.empty()) {
     h.add(s.valves);
     h.add(s.impact_count);

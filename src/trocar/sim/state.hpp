@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <trocar/interactions/tool_contact.hpp>
@@ -30,6 +31,13 @@ struct ElectrodeHand {
 };
 static_assert(sizeof(ElectrodeHand) == sizeof(tissue::ElectrodeState) + 12 * 8 + 3 * 4 + sizeof(interactions::Hold),
               "no padding");
+
+/// A spring of a lattice or a fold that heat has shrunk (shrinking.hpp).
+struct ShrunkSpring {
+  std::int32_t body = -1, spring = -1;  ///< as holds number bodies; of its network
+  float share = 1;                      ///< of its length that is left
+};
+inline constexpr std::int32_t kMaxShrunk = 1024;
 
 struct State {
   std::uint64_t tick = 0;  ///< ticks made
@@ -64,7 +72,10 @@ struct State {
   std::vector<ElectrodeHand> electrodes;        ///< (hands)
   std::vector<interactions::VesselSeal> seals;  ///< (kMaxSeals)
   std::int32_t seal_count = 0;
+  std::vector<ShrunkSpring> shrunk;  ///< (kMaxShrunk)
+  std::int32_t shrunk_count = 0;
   fluids::FluidsState fluids;  ///< empty in scenes without fluids
+  std::vector<float> floor;    ///< of the pool, (ny x nx) [m]; empty where it stands still (floor_of)
   /// What drops gave to tissue in the last tick: it goes to the bodies in the next. Empty without a suction-irrigator.
   std::vector<fluids::Impact> impacts;  ///< (drops' capacity) the first `impact_count`
   std::int32_t impact_count = 0;
@@ -75,6 +86,11 @@ struct State {
 State initial_state(const Model& model);
 /// Bodies as drawn and nothing else: for compile, before the Model is complete.
 State drawn_bodies(const Model& model);
+
+/// The pool's floor as it lies now; empty in scenes without fluids.
+inline std::span<const float> floor_of(const Model& model, const State& state) noexcept {
+  return state.floor.empty() ? std::span<const float>(model.wet.floor) : std::span<const float>(state.floor);
+}
 
 /// Where an organ's nodes are: valid until its next tick.
 tissue::NodeView nodes_of(const Model& model, const State& state, int organ) noexcept;
