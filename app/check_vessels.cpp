@@ -56,6 +56,7 @@ Json describe_vessels(const std::filesystem::path& path) {
            {"nodes", tree.graph.nodes},
            {"cells", model.cells.size()},
            {"tick_us", 1e6 * seconds / kMeasured},
+           {"pulse_gain", tree.pulse_gain},
            {"vessels", Json::array()}};
   for (std::size_t i = 0; i < measured.size(); ++i) {
     const vessels::VesselSegment& s = tree.graph.segments[i];
@@ -80,6 +81,8 @@ void print_vessels(const Json& r) {
                v["name"].get<std::string>(), v["from"].get<std::string>(), v["to"].get<std::string>(),
                v["length_mm"].get<double>(), v["radius_mm"].get<double>(), v["wave_speed_m_s"].get<double>(),
                v["flow_mL_min"].get<double>(), v["low_mmHg"].get<double>(), v["high_mmHg"].get<double>());
+  fmt::print("  what the pulse moves and pushes is shown and felt {:g} times as large as it is\n",
+             r["pulse_gain"].get<double>());
   fmt::print("  {} nodes, {} cells; a tick takes {:.1f} us here\n", r["nodes"].get<int>(),
              r["cells"].get<std::size_t>(), r["tick_us"].get<double>());
 }

@@ -44,10 +44,27 @@ std::vector<std::string> fluid_account(const sim::Model& model, const sim::State
   const auto line = [](const char* what, const fluids::Mix& mix) {
     return fmt::format("{} {:.1f} mL", what, double(mix.total()) / double(fluids::kMillilitre));
   };
-  return {line("bled", ledger.in[size_t(fluids::Source::kBled)]),
-          line("irrigated", ledger.in[size_t(fluids::Source::kIrrigated)]),
-          line("sucked away", at(ledger, fluids::Place::kSucked)),
-          line("in the pool", at(ledger, fluids::Place::kPool))};
+  const fluids::Mix on_tissue = at(ledger, fluids::Place::kDroplets) + at(ledger, fluids::Place::kFilm);
+  std::vector<std::string> out{line("bled", ledger.in[size_t(fluids::Source::kBled)]),
+                               line("irrigated", ledger.in[size_t(fluids::Source::kIrrigated)]),
+                               line("in the pool", at(ledger, fluids::Place::kPool)),
+                               line("sucked away", at(ledger, fluids::Place::kSucked)),
+                               line("drops and film", on_tissue)};
+  if (!at(ledger, fluids::Place::kDrained).empty()) out.push_back(line("drained", at(ledger, fluids::Place::kDrained)));
+  return out;
+}
+
+std::vector<std::string> patient_in_words(const sim::Model& model, const sim::State& state) {
+  if (!model.vessels.there()) return {};
+  const vessels::Vitals v = vessels::vitals(model.vessels.flow, state.flow);
+  std::vector<std::string> out{fmt::format("pulse {:.0f}/min, {:.0f}/{:.0f} mmHg", v.rate,
+                                           v.systolic / vessels::kPascalPerMmHg,
+                                           v.diastolic / vessels::kPascalPerMmHg)};
+  double gain = 1;
+  for (const sim::Vessel& vessel : model.vessels.list)
+    if (std::fabs(vessel.gain - 1) > std::fabs(gain - 1)) gain = vessel.gain;
+  if (gain != 1) out.push_back(fmt::format("arteries' pulse shown and felt {:g} times", gain));
+  return out;
 }
 
 std::string lens_in_words(const sim::Model& model, const sim::State& state) {

@@ -21,8 +21,12 @@ const interactions::ToolModel& held_by(const sim::Model& model, const sim::State
 bool has_valves(const sim::Model& model, const sim::State& state, int h);
 /// What flows through that hand's suction-irrigator: "water, suction: gas", or empty.
 std::string flow_in_words(const sim::State& state, int h);
-/// The account of the fluids in mL, a line each: bled, irrigated, sucked, in the pool. None in scenes without.
+/// The account of the fluids in mL, a line each: bled, irrigated; where they are, which adds up to these. None in
+/// scenes without.
 std::vector<std::string> fluid_account(const sim::Model& model, const sim::State& state);
+/// The patient's pulse and pressures as they fall with the loss of blood, and by how much the arteries' pulse is shown
+/// and felt larger than it is, a line each. None in scenes without vessels.
+std::vector<std::string> patient_in_words(const sim::Model& model, const sim::State& state);
 /// What lies on the endoscope's lens: "lens fogged, 40 %", "lens is being wiped, 5 s"; empty where it is clear.
 std::string lens_in_words(const sim::Model& model, const sim::State& state);
 

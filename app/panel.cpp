@@ -106,7 +106,12 @@ void draw_valves(const PanelContent& c, int h) {
 /// Where the fluids are, two to a line.
 void draw_fluids(const PanelContent& c) {
   const std::vector<std::string> account = fluid_account(c.lesson.model, c.now.state);
-  for (std::size_t i = 0; i + 1 < account.size(); i += 2) ui::text(account[i] + "   " + account[i + 1], ui::kGrey);
+  for (std::size_t i = 0; i < account.size(); i += 2)
+    ui::text(account[i] + (i + 1 < account.size() ? "   " + account[i + 1] : ""), ui::kGrey);
+}
+
+void draw_patient(const PanelContent& c) {
+  for (const std::string& line : patient_in_words(c.lesson.model, c.now.state)) ui::text(line, ui::kGrey);
 }
 
 /// A fogged lens, and the key that has it wiped, for whoever leads by hand.
@@ -230,6 +235,7 @@ void draw_panel(const PanelContent& c, float left, float width, float height) {
   draw_hands(c);
   ImGui::Dummy({0, 2 * ui::scale()});
   draw_pull(c);
+  draw_patient(c);
   draw_fluids(c);
   draw_lens(c);
   draw_generator(c);

@@ -83,6 +83,7 @@ void draw_tools(const PlayerPanelContent& c) {
     ui::text(text);
   }
   if (const std::string lens = lens_in_words(c.lesson.model, c.state); !lens.empty()) ui::text(lens, ui::kOrange);
+  for (const std::string& line : patient_in_words(model, c.state)) ui::text(line, ui::kGrey);
   if (!c.exact) return;  // keyframes have no account
   for (const std::string& line : fluid_account(model, c.state)) ui::text(line, ui::kGrey);
 }

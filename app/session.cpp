@@ -25,6 +25,7 @@ constexpr FlagName kFlags[] = {
     {tissue::StepReport::kBadLoad, "bad_load"},         {tissue::StepReport::kIndefinite, "indefinite"},
     {sim::StepReport::kTooManyLoads, "too_many_loads"}, {sim::StepReport::kBadInput, "bad_input"},
     {sim::StepReport::kBookFull, "book_full"},          {sim::StepReport::kHeatFull, "heat_full"},
+    {sim::StepReport::kDropsFull, "drops_full"},        {sim::StepReport::kBloodFlow, "blood_flow"},
 };
 
 std::string body_name(const sim::Model& model, std::int32_t body) {

@@ -67,6 +67,44 @@ TEST(HandPilot, ValvesOfTheLedSuctionIrrigatorArePedalsOfItsHand) {
   EXPECT_EQ(pilot.rest(0.016f, state).pedals, 0u) << "nobody's hand presses anything";
 }
 
+TEST(PatientInWords, SaysPulseAndPressuresWhichFallWithTheLossAndByHowMuchThePulseIsEnlarged) {
+  static const std::unique_ptr<Lesson> lesson = load_lesson("bleeding");
+  sim::State state = sim::initial_state(lesson->model);
+  const std::vector<std::string> before = patient_in_words(lesson->model, state);
+  ASSERT_EQ(before.size(), 2u);
+  EXPECT_EQ(before[0], "pulse 72/min, 120/80 mmHg");
+  EXPECT_EQ(before[1], "arteries' pulse shown and felt 5 times");
+  state.flow.bled = 2'000'000'000'000;  // two litres
+  EXPECT_EQ(patient_in_words(lesson->model, state)[0], "pulse 133/min, 73/59 mmHg");
+  EXPECT_TRUE(patient_in_words(scene().model, sim::initial_state(scene().model)).empty());
+}
+
+TEST(FluidAccount, AddsUp) {
+  static const std::unique_ptr<Lesson> lesson = load_lesson("bleeding");
+  sim::State state = sim::initial_state(lesson->model);
+  fluids::Ledger& ledger = state.fluids.ledger;
+  fluids::receive(ledger, fluids::Source::kBled, fluids::Place::kDroplets, {.blood = 5 * fluids::kMillilitre});
+  fluids::receive(ledger, fluids::Source::kIrrigated, fluids::Place::kPool, {.saline = 20 * fluids::kMillilitre});
+  fluids::move(ledger, fluids::Place::kDroplets, fluids::Place::kFilm, {.blood = fluids::kMillilitre});
+  fluids::move(ledger, fluids::Place::kDroplets, fluids::Place::kPool, {.blood = fluids::kMillilitre});
+  fluids::move(ledger, fluids::Place::kPool, fluids::Place::kSucked, {.saline = 3 * fluids::kMillilitre});
+  EXPECT_EQ(fluid_account(lesson->model, state),
+            (std::vector<std::string>{"bled 5.0 mL", "irrigated 20.0 mL", "in the pool 18.0 mL", "sucked away 3.0 mL",
+                                      "drops and film 4.0 mL"}));
+  EXPECT_TRUE(fluid_account(scene().model, sim::initial_state(scene().model)).empty());
+}
+
+TEST(FlagNames, EveryFlagOfAStepHasOne) {
+  for (const std::uint32_t flag :
+       {std::uint32_t(tissue::StepReport::kNonFinite), std::uint32_t(tissue::StepReport::kInverted),
+        std::uint32_t(tissue::StepReport::kBadLoad), std::uint32_t(tissue::StepReport::kIndefinite),
+        std::uint32_t(sim::StepReport::kTooManyLoads), std::uint32_t(sim::StepReport::kBadInput),
+        std::uint32_t(sim::StepReport::kBookFull), std::uint32_t(sim::StepReport::kBloodFlow),
+        std::uint32_t(sim::StepReport::kHeatFull), std::uint32_t(sim::StepReport::kDropsFull)})
+    EXPECT_EQ(flag_names(flag).size(), 1u) << flag;
+  EXPECT_EQ(flag_names(sim::StepReport::kDropsFull | sim::StepReport::kBookFull).size(), 2u);
+}
+
 TEST(LensInWords, SaysFogAndAWipeAndNothingOfAClearLensOrWhereThereAreNoFluids) {
   static const std::unique_ptr<Lesson> lesson = load_lesson("bleeding");
   sim::State state = sim::initial_state(lesson->model);

@@ -166,6 +166,25 @@ TEST(Drops, LeaveAFilmBehind) {
   EXPECT_GT(b.millilitres(Place::kFilm), 1e-4);
 }
 
+TEST(Film, IsAsOldAsTheBloodThatLiesThere) {
+  Scene b(small_scene());
+  b.plates = {slope(1.0)};
+  put_drop(b, {0, 0, 0.0815f}, {0, 0, 0}, 2'000'000);
+  for (int t = 0; t < 1500; ++t) b.tick();
+  const auto places = [&b](float from, float to) {
+    int n = 0;
+    for (std::size_t c = 0; c < b.s.droplets.film.size(); ++c)
+      n += b.s.droplets.film[c].blood > 0 && b.s.droplets.film_born[c] >= from && b.s.droplets.film_born[c] <= to;
+    return n;
+  };
+  const int all = places(-1, 10);
+  EXPECT_GT(all, 2);
+  EXPECT_EQ(places(0, 0), all) << "of a drop from the very beginning";
+  put_drop(b, {0, 0, 0.0815f}, {0, 0, 0}, 2'000'000);
+  for (int t = 0; t < 1500; ++t) b.tick();
+  EXPECT_GT(places(0.1f, 1.45f), 2) << "what another drop has left is younger, but old blood is in it too";
+}
+
 TEST(Film, IsWashedByWaterThatRunsOverIt) {
   Scene b(small_scene());
   b.plates = {slope(1.0)};

@@ -163,6 +163,27 @@ TEST(DropsOnTissue, CatchOnATubeAndHangBelowIt) {
   EXPECT_GT(scene.film_on(tube), 0);
 }
 
+TEST(DropsOnTissue, LeaveWhatTheyAreBornInIfTheyAreFastEnough) {
+  const Vec3d inside{0.010, 0.0002, kTubeHeight + 0.0004};
+  for (const double speed : {0.05, 0.3, 1.0, 3.0}) {
+    Scene scene;
+    scene.drop(inside, {0, 0, speed}, 1'000'000);
+    scene.tick();
+    ASSERT_EQ(scene.s.droplets.count, 1);
+    EXPECT_EQ(scene.s.droplets.body[0], speed > 0.1 ? -1 : tube) << speed;
+    EXPECT_GT(double(scene.s.droplets.vz[0]), speed > 0.1 ? 0.9 * speed : -1.0);
+  }
+  Scene scene;
+  scene.drop(inside, {0, 0, 0.4}, 1'000'000);
+  double highest = -1;
+  for (int t = 0; t < 200; ++t) {
+    scene.tick();
+    if (scene.s.droplets.count > 0) highest = std::max(highest, scene.place(0).z - inside.z);
+  }
+  EXPECT_NEAR(highest, 0.4 * 0.4 / 2 / 9.81, 0.002) << "as high as a throw goes";
+  EXPECT_EQ(scene.s.droplets.body[0], tube) << "and back, where it lands";
+}
+
 TEST(DropsOnTissue, FallPastWhatTheyDoNotMeetIntoThePool) {
   Scene scene;
   scene.drop({-0.060, 0.030, 0.030}, {0, 0, 0}, 2'000'000);

@@ -145,5 +145,28 @@ TEST(VesselFile, MoreVesselsThanAnyBodyHasAreRefused) {
   EXPECT_NE(faults.front().message.find("20000"), std::string::npos) << faults.front().message;
 }
 
+TEST(VesselFile, AMillionVesselsAreALocatedFault) {
+  std::string list = kGood;
+  for (int i = 0; i < 1'000'000; ++i) list += ",{}";
+  const std::vector<core::Fault> faults = faults_of(file_with(list));
+  ASSERT_FALSE(faults.empty());
+  EXPECT_GT(faults.front().at.line, 0);
+  EXPECT_LT(faults.size(), 2000u) << "not one each";
+}
+
+TEST(VesselFile, FiguresThatAreNoNumbersAreToldWhereTheyStand) {
+  for (const std::string bad : {"NaN", "-Infinity", "1e999", "-1", "0", "\"wide\"", "null"}) {
+    const std::string second = ",\n{\"name\": \"two\", \"from\": \"b\", \"to\": \"c\",\n\"radius_mm\": " + bad +
+                               ",\n\"path_mm\": [[0, 0, 100], [0, 50, 100]], \"wave_speed_m_s\": 8}";
+    const std::vector<core::Fault> faults = faults_of(file_with(kGood + second));
+    EXPECT_TRUE(std::any_of(faults.begin(), faults.end(), [](const core::Fault& f) { return f.at.line == 5; })) << bad;
+  }
+  const std::string path =
+      ",\n{\"name\": \"two\", \"from\": \"b\", \"to\": \"c\", \"radius_mm\": 1, "
+      "\"wave_speed_m_s\": 8,\n\"path_mm\": [[0, 0, 100], [0, NaN, 100]]}";
+  const std::vector<core::Fault> faults = faults_of(file_with(kGood + path));
+  EXPECT_TRUE(std::any_of(faults.begin(), faults.end(), [](const core::Fault& f) { return f.at.line == 5; }));
+}
+
 }  // namespace
 }  // namespace trocar::scene

@@ -1,6 +1,7 @@
 // Blood in a scene: vessels ride on tissue, what is cut bleeds from the right end, clips stop it on the right side.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include <gtest/gtest.h>
 
@@ -150,6 +151,48 @@ TEST(Circulation, BleedsInPulses) {
   EXPECT_GT(*high, 1.2 * *low) << "but in spurts";
 }
 
+/// How much of the blood in drops flies, and how high above its artery, after a second of bleeding through a hole.
+struct Jet {
+  double flying = 0, highest = 0, slowest = 1e3;  ///< share; [m]; [m/s]
+};
+Jet jet_of_a_hole(double radius) {
+  scene::Description d = small::description();
+  d.vessels[0].graph.segments[small::kTubeArtery].radius = radius;
+  const Model m = scene::compile(d);
+  State s = initial_state(m);
+  Work w = make_work(m);
+  interactions::VesselOpening& hole = s.openings[0];
+  hole.vessel = small::kTubeArtery;
+  hole.s = 0.6;
+  hole.area = 0.8 * 3.1416 * radius * radius;
+  s.opening_count = 1;
+  Jet jet;
+  double sum = 0;
+  for (int tick = 0; tick < 1000; ++tick) {
+    step(m, m.start, s, w);
+    if (tick < 100) continue;
+    jet.slowest = std::min(jet.slowest, w.bleeds[0].speed);
+    const fluids::DropletState& drops = s.fluids.droplets;
+    for (size_t i = 0; i < size_t(drops.count); ++i) {
+      const double volume = double(drops.volume[i].total());
+      sum += volume;
+      if (drops.body[i] < 0) jet.flying += volume;
+      jet.highest = std::max(jet.highest, double(drops.z[i]));
+    }
+  }
+  jet.flying /= sum;
+  return jet;
+}
+
+TEST(Circulation, TheJetOfAHoleLeavesTheTissueThatCarriesItsArtery) {
+  const Jet jet = jet_of_a_hole(0.00045);
+  std::printf("    from %.2f m/s on: %.0f %% of what is in drops flies, up to %.0f mm\n", jet.slowest, 100 * jet.flying,
+              1e3 * jet.highest);
+  ASSERT_LT(jet.slowest, 1.5) << "slower than it takes to leave the tube within a tick";
+  EXPECT_GT(jet.highest, jet.slowest * jet.slowest / 2 / 9.81);
+  EXPECT_GT(jet.flying, 0.3) << "the rest has come down";
+}
+
 TEST(Circulation, TheClosingClipThrottlesForTenthsOfASecond) {
   interactions::VesselClip clip;
   clip.cover = 1;
@@ -179,7 +222,7 @@ TEST(Circulation, WhoeverLosesBloodLosesPressure) {
     return sum;
   };
   const double before = mean_pressure(s);
-  s.flow.bled = 2'000'000'000'000'000;  // two litres
+  s.flow.bled = 2'000'000'000'000;  // two litres
   mean_pressure(s);
   EXPECT_LT(mean_pressure(s), 0.75 * before);
 }
@@ -323,6 +366,52 @@ TEST(Circulation, ThePulseMovesWhatCarriesItMoreWithAGain) {
   EXPECT_GT(physical, 1.5 * still);
   EXPECT_GT(shown, 2 * physical);
   EXPECT_LT(shown, 3e-3);
+}
+
+/// What a closed instrument that presses on the tube from above feels of the pulse: how much more in systole [N].
+struct Felt {
+  double amplitude = 0, mean = 0;
+};
+Felt palpated(double gain, double x) {
+  scene::Description d = small::description();
+  d.vessels[0].pulse_gain = gain;
+  const Model m = scene::compile(d);
+  small::Table t(m);
+  t.close(small::kGrasper, 1);
+  t.carry(small::kGrasper, {0.055, 0, 0.04}, {x, 0, 0.010}, 0.1);
+  t.carry(small::kGrasper, {x, 0, 0.010}, {x, 0, -0.0005}, 0.02);
+  t.steps(300);
+  // Force and pressure go together: the part of the one that follows the other.
+  std::vector<double> force, pressure;
+  for (int i = 0; i < 833; ++i) {  // a beat of 72 a minute
+    t.step();
+    force.push_back(t.tool(small::kGrasper).contact_force[2]);
+    pressure.push_back(read_wall(m.vessels.flow, t.state.flow, small::kTubeArtery, 0.7).pressure);
+  }
+  const auto mean = [](const std::vector<double>& v) {
+    double sum = 0;
+    for (const double a : v) sum += a / double(v.size());
+    return sum;
+  };
+  const double f = mean(force), p = mean(pressure);
+  double both = 0, own = 0, high = 0;
+  for (size_t i = 0; i < force.size(); ++i) {
+    both += (force[i] - f) * (pressure[i] - p);
+    own += (pressure[i] - p) * (pressure[i] - p);
+    high = std::max(high, pressure[i] - p);
+  }
+  return {both / own * high, f};
+}
+
+TEST(Circulation, APalpatingInstrumentFeelsThePulseAsForceInProportionToTheGain) {
+  const Felt none = palpated(0, 0.050), physical = palpated(1, 0.050), enlarged = palpated(5, 0.050);
+  std::printf("    pressed with %.2f N; pulse felt: %.1f, %.1f, %.1f mN with gains of 0, 1, 5\n", physical.mean,
+              1e3 * none.amplitude, 1e3 * physical.amplitude, 1e3 * enlarged.amplitude);
+  EXPECT_GT(physical.mean, 0.02) << "it presses on the tube";
+  EXPECT_GT(physical.amplitude, 0.0005);
+  EXPECT_LT(physical.amplitude, 0.030) << "an artery of 1.2 mm: 40 mmHg on some square millimetres";
+  EXPECT_LT(std::fabs(none.amplitude), 0.2 * physical.amplitude);
+  EXPECT_NEAR(enlarged.amplitude / physical.amplitude, 5, 1);
 }
 
 TEST(Circulation, TheDrawnPlaceIsTheFirst) {

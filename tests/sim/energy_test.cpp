@@ -135,6 +135,65 @@ TEST(Energy, AHookDrawnInPureCutPartsTheOrganAndCoagulationDoesNot) {
   EXPECT_EQ(told_of, 0);
 }
 
+/// The hook comes from `from` to `to`, then with that pedal to `end` at 4 mm/s.
+small::Table drawn_hook(std::uint32_t pedals, Vec3d from, Vec3d to, Vec3d end) {
+  small::Table t(small::energy());
+  t.carry(kHook, {0.026, 0.02, 0.05}, from, 0.2);
+  t.carry(kHook, from, to, 0.05);
+  t.input.pedals = pedals;
+  t.carry(kHook, to, end, 0.004);
+  return t;
+}
+bool is_open(const small::Table& t, int vessel) {
+  return std::any_of(t.state.openings.begin(), t.state.openings.begin() + t.state.opening_count,
+                     [vessel](const auto& o) { return o.vessel == vessel; });
+}
+
+TEST(Energy, AHookPressedOnATubeInPureCutGoesThroughItAndItsArteryAndCoagulationDoesNot) {
+  const auto pressed = [](std::uint32_t pedals) {
+    return drawn_hook(pedals, {0.045, 0, 0.020}, {0.045, 0, 0.003}, {0.045, 0, 0.0005});
+  };
+  const small::Table cut = pressed(kYellow), coagulated = pressed(kBlue);
+  const auto parts = [](const small::Table& t) {
+    const std::vector<std::uint8_t>& alive = t.state.strands[small::kTube].alive;
+    return std::count(alive.begin(), alive.end(), 0);
+  };
+  std::printf("    cut with %.1f J\n", cut.state.electrodes[kHook].current.joules);
+  EXPECT_GT(parts(cut), 0);
+  EXPECT_GT(cut.count(Event::parted), 0);
+  EXPECT_TRUE(is_open(cut, small::kTubeArtery));
+  EXPECT_EQ(parts(coagulated), 0);
+  EXPECT_EQ(coagulated.count(Event::parted), 0);
+  EXPECT_FALSE(is_open(coagulated, small::kTubeArtery));
+  EXPECT_GT(coagulated.state.electrodes[kHook].current.joules, cut.state.electrodes[kHook].current.joules / 2);
+}
+
+TEST(Energy, AHookDrawnThroughAFoldInPureCutPartsItAndItsArteryAndCoagulationDoesNot) {
+  const auto drawn = [](std::uint32_t pedals) {
+    return drawn_hook(pedals, {0.017, 0.020, -0.005}, {0.017, 0.0008, -0.010}, {0.017, 0.0008, -0.004});
+  };
+  const small::Table cut = drawn(kYellow), coagulated = drawn(kBlue);
+  const auto torn = [](const small::Table& t) { return std::count(t.state.torn[0].begin(), t.state.torn[0].end(), 1); };
+  EXPECT_GT(torn(cut), 0);
+  EXPECT_GT(cut.count(Event::parted), 0);
+  EXPECT_TRUE(is_open(cut, small::kFoldArtery));
+  EXPECT_EQ(torn(coagulated), 0);
+  EXPECT_FALSE(is_open(coagulated, small::kFoldArtery));
+  EXPECT_GT(coagulated.state.heat.books.given, 1) << "it has been there";
+}
+
+TEST(Energy, AHookDrawnOverABodyThatCanBeCutPartsItInPureCutAndCoagulationDoesNot) {
+  const auto drawn = [](std::uint32_t pedals) {
+    return drawn_hook(pedals, {0.020, 0.041, 0.020}, {0.020, 0.041, 0.0035}, {0.020, 0.049, 0.0035});
+  };
+  const small::Table cut = drawn(kYellow), coagulated = drawn(kBlue);
+  const int drawn_nodes = small::energy().cuttables[0].body.own_nodes;
+  EXPECT_GT(cut.state.cuttables[0].tets.nodes, drawn_nodes) << "nodes part where cells do";
+  EXPECT_GT(cut.count(Event::parted), 0);
+  EXPECT_EQ(coagulated.state.cuttables[0].tets.nodes, drawn_nodes);
+  EXPECT_GT(coagulated.state.heat.books.given, 1);
+}
+
 /// The small scene's tube artery with another lumen, cut through below the hook, which then coagulates for 1.5 s.
 struct Stump {
   double outer = 0, before = 0, after = 0;  ///< [m], [mL/min]
@@ -217,6 +276,75 @@ TEST(Energy, BipolarJawsSealTheArteryInATubeThatTheyHold) {
   EXPECT_TRUE(holds(seal));
   const std::vector<double>& scale = t.state.strands[small::kTube].scale;
   EXPECT_GT(*std::max_element(scale.begin(), scale.end()), 2) << "what is coagulated is stiffer";
+}
+
+/// Mean distance of an organ's or fold's points that were drawn within 4 mm of a place from their own middle [m].
+double spread_of(const tissue::NetworkModel& model, const tissue::NetworkState& state, Vec3d middle_drawn) {
+  std::vector<Vec3d> near;
+  Vec3d middle;
+  for (int n = 0; n < model.nodes; ++n)
+    if (length(model.rest[size_t(n)] - middle_drawn) < 0.004) near.push_back(position(model, state, n));
+  for (const Vec3d& p : near) middle += p / double(near.size());
+  double sum = 0;
+  for (const Vec3d& p : near) sum += length(p - middle) / double(near.size());
+  return sum;
+}
+
+TEST(Energy, AFoldThatIsCoagulatedDrawsTogetherAndStaysSo) {
+  const Vec3d there{0.017, 0, -0.007};
+  small::Table t(small::energy());
+  const tissue::NetworkModel& fold = t.model.membranes[0].sheet.network;
+  const auto spread = [&] { return spread_of(fold, t.state.membranes[0].network, there); };
+  const double drawn = spread();
+  t.carry(kHook, {0.026, 0.02, 0.05}, {0.017, 0.020, -0.005}, 0.2);
+  t.carry(kHook, {0.017, 0.020, -0.005}, {0.017, 0.0008, -0.009}, 0.05);
+  t.input.pedals = kBlue;
+  t.carry(kHook, {0.017, 0.0008, -0.009}, {0.017, 0.0008, -0.005}, 0.004);
+  t.input.pedals = 0;
+  t.carry(kHook, {0.017, 0.0008, -0.005}, {0.017, 0.020, -0.005}, 0.05);
+  t.steps(1000);
+  std::printf("    %.1f J: %d springs have shrunk, spread %.3f instead of %.3f mm\n", t.state.heat.books.given,
+              t.state.shrunk_count, 1e3 * spread(), 1e3 * drawn);
+  EXPECT_GT(t.state.shrunk_count, 10);
+  EXPECT_LT(spread(), 0.97 * drawn);
+  EXPECT_GT(spread(), 0.78 * drawn) << "by a fifth at most";
+  EXPECT_EQ(t.flags & StepReport::kHeatFull, 0u);
+}
+
+TEST(Energy, AnOrganThatIsCoagulatedShrinksByATenthOfWhatIs) {
+  const small::Table t = hook_on_organ(kBlue, 2);
+  ASSERT_GT(t.state.shrunk_count, 0);
+  for (int i = 0; i < t.state.shrunk_count; ++i) {
+    EXPECT_EQ(t.state.shrunk[size_t(i)].body, kOrgan);
+    EXPECT_GE(t.state.shrunk[size_t(i)].share, 0.79f);
+  }
+  const ShrunkSpring& most = *std::min_element(t.state.shrunk.begin(), t.state.shrunk.begin() + t.state.shrunk_count,
+                                               [](const auto& a, const auto& b) { return a.share < b.share; });
+  const tissue::NetworkModel& organ = t.model.solids[0].network;
+  const double strain = tissue::spring_strain(organ, t.state.solids[0], most.spring);
+  std::printf("    %d springs, the most to %.3f of its length; it stands at %.3f\n", t.state.shrunk_count,
+              double(most.share), 1 + strain);
+  EXPECT_LT(most.share, 0.97f);
+  EXPECT_LT(strain, -0.2 * (1 - double(most.share))) << "what is around it holds against it";
+}
+
+TEST(Energy, ATubeThatIsCoagulatedAcrossIsShorterThere) {
+  small::Table t(small::energy());
+  t.close_slowly(kBipolar, 0, 10);
+  t.carry(kBipolar, {0.055, 0, 0.04}, {0.050, 0, -0.010}, 0.1);
+  t.close_slowly(kBipolar, 1, 300);
+  t.input.pedals = kBlue;
+  t.steps(3000);
+  const std::vector<double>& shrunk = t.state.strands[small::kTube].shrunk;
+  const auto element = std::min_element(shrunk.begin(), shrunk.end());
+  const int e = int(element - shrunk.begin());
+  const tissue::StrandState& s = t.state.strands[small::kTube];
+  const double now =
+      length(s.x[size_t(e) + 1] - s.x[size_t(e)]) / t.model.bodies[small::kTube].model.rest_length[size_t(e)];
+  std::printf("    element %d: %.3f of its length at rest, %.3f as it is\n", e, *element, now);
+  EXPECT_LT(*element, 0.95);
+  EXPECT_GE(*element, 0.8 - 1e-6);
+  EXPECT_LT(now, 0.99);
 }
 
 TEST(Energy, CharSticksToTheWireUntilItIsTornOff) {

@@ -521,6 +521,30 @@ TEST(WetDrawing, AFilmIsDrawnOverItsPlacesOwnAreaAndHoldsWhatLiesThere) {
   EXPECT_GT(listed, 20);
 }
 
+TEST(WetDrawing, BloodDarkensAsItClotsWhereItLies) {
+  const sim::Model& m = bleeding();
+  sim::State state = sim::initial_state(m);
+  WetDrawing wet(m);
+  const auto darkest = [&] {
+    render::Frame frame;
+    wet.list(state, frame);
+    float most = 0;
+    for (const render::Splat& s : frame.liquid.splats) most = std::max(most, s.dark);
+    for (const render::SheetVertex& v : frame.liquid.sheet) most = std::max(most, v.dark);
+    return most;
+  };
+  for (std::size_t i = 0; i < 500; ++i) state.fluids.droplets.film[i] = {300'000, 0, 0};
+  EXPECT_EQ(darkest(), 0);
+  state.fluids.droplets.tick = 240'000;
+  EXPECT_NEAR(darkest(), 0.5f, 0.01f) << "four minutes old";
+  for (float& born : state.fluids.droplets.film_born) born = 240;
+  EXPECT_EQ(darkest(), 0) << "as old as the blood in it";
+  const fluids::PoolModel& pool = m.wet.model.pool;
+  for (int j = 50; j < 70; ++j)
+    for (int i = 50; i < 70; ++i) pour(pool, i, j, {.blood = 5 * fluids::kMicrolitre}, state.fluids.pool);
+  EXPECT_NEAR(darkest(), 0.5f, 0.01f) << "the pool's is four minutes old";
+}
+
 TEST(InstrumentShapes, JawsMeetAtTheTipWhenClosedAndStandApartWhenOpen) {
   for (const sim::HandModel& hand : pelvis().hands)
     for (const interactions::ToolModel& tool : hand.rack) {

@@ -65,9 +65,14 @@ void leave_film(Moment& t, int i, std::int64_t swept) {
   SmallMix& drop = t.s.volume[i];
   const Mix washed = share(widened(film), swept), given = share(widened(drop), std::min(swept, washed.total()));
   const Mix back = share(washed, given.total());
+  float &born = t.s.born[i], &film_born = t.s.film_born[std::size_t(place)];
+  const float before = film_born;
+  film_born = detail::mean_birth(film_born, film.blood - back.blood, born, given.blood);
+  born = detail::mean_birth(born, drop.blood - given.blood, before, back.blood);
   add(drop, back - given), add(film, given - back);
   const std::int64_t room = std::max<std::int64_t>(t.m.film_capacity - film.total(), 0);
   const Mix left = share(widened(drop), std::min(swept, room));
+  film_born = detail::mean_birth(film_born, film.blood, born, left.blood);
   add(drop, Mix{} - left), add(film, left);
   move(t.below.ledger, Place::kDroplets, Place::kFilm, left + given - back);
   refresh_radius(t.s, i);
@@ -80,6 +85,8 @@ void become_film(Moment& t, int i) {
   SmallMix& film = t.s.film[std::size_t(place)];
   if (film.total() > kMostInACell / 2) return;
   const Mix rest = widened(t.s.volume[i]);
+  float& born = t.s.film_born[std::size_t(place)];
+  born = detail::mean_birth(born, film.blood, t.s.born[i], rest.blood);
   add(film, rest);
   t.s.volume[i] = {};
   move(t.below.ledger, Place::kDroplets, Place::kFilm, rest);
@@ -212,6 +219,7 @@ void splash(Moment& t, int i, Vec3f surface, Vec3f v, float fall) {
     const Vec3f thrown = 0.2f * (v + fall * up) + (0.35f * fall) * up + (0.2f * fall) * (ring[0] * u + ring[1] * w);
     const Vec3f from = surface + (3 * radius_of(each)) * up;
     if (!add_drop(t.m, from, thrown, part, t.s)) return;
+    t.s.born[t.s.count - 1] = t.s.born[i];
     add(t.s.volume[i], Mix{} - part);
     t.w.to_x[t.s.count - 1] = from.x, t.w.to_y[t.s.count - 1] = from.y, t.w.to_z[t.s.count - 1] = from.z;
   }
@@ -243,6 +251,7 @@ void fall_in(Moment& t, int i) {
   const Mix volume = widened(t.s.volume[i]);
   // Over its own width and more, so that the surface is raised by no more than half a millimetre or so (our choice).
   const float wide = 60 * std::sqrt(t.s.radius[i] * t.s.radius[i] * t.s.radius[i]);
+  detail::age_pool(volume.blood, t.s.born[i], t.below);
   fall_into(pool, t.below.floor, at.i, at.j, wide, volume, own, t.below.state);
   move(t.below.ledger, Place::kDroplets, Place::kPool, volume);
   t.s.volume[i] = {};
@@ -296,10 +305,11 @@ void run_over(Moment& t) {
     if (!add_drop(t.m, c.point + (0.5f * r) * c.normal, c.velocity, drop, t.s)) {
       if (drop.empty()) continue;
       t.report.note(FluidReport::kDropletsFull, place);
-      detail::put_into_pool(t.m, c.point, drop, Place::kFilm, t.below);
+      detail::put_into_pool(c.point, drop, t.s.film_born[std::size_t(place)], Place::kFilm, t.below);
     } else {
       const int i = t.s.count - 1;
       t.s.body[i] = c.body;
+      t.s.born[i] = t.s.film_born[std::size_t(place)];
       t.s.ground[i] = {c.normal, dot(c.normal, c.point), c.velocity, place};
       move(t.below.ledger, Place::kFilm, Place::kDroplets, drop);
     }

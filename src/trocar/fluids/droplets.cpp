@@ -72,7 +72,7 @@ void break_up(const DropletModel& m, const Opening& o, const Mix& in, std::int32
   }
   if (forming.total() < each) return;
   report.note(FluidReport::kFlowBounded, index);
-  detail::put_into_pool(m, o.position, forming, Place::kDroplets, below);
+  detail::put_into_pool(o.position, forming, now_of(m, s), Place::kDroplets, below);
   forming = {};
 }
 
@@ -80,9 +80,11 @@ void ooze(const DropletModel& m, const Opening& o, const Mix& in, DropletState& 
   receive(below.ledger, o.source, Place::kFilm, in);
   SmallMix& place = s.film[std::size_t(o.film)];
   const Mix fits = share(in, std::int64_t(kMostInACell) - place.total());
+  float& born = s.film_born[std::size_t(o.film)];
+  born = detail::mean_birth(born, place.blood, now_of(m, s), fits.blood);
   place.blood += std::int32_t(fits.blood), place.saline += std::int32_t(fits.saline);
   place.bile += std::int32_t(fits.bile);
-  if (!(fits == in)) detail::put_into_pool(m, o.position, in - fits, Place::kFilm, below);
+  if (!(fits == in)) detail::put_into_pool(o.position, in - fits, now_of(m, s), Place::kFilm, below);
 }
 
 void open_up(const DropletModel& m, std::span<const Opening> openings, DropletState& s, Below& below,
@@ -96,7 +98,7 @@ void open_up(const DropletModel& m, std::span<const Opening> openings, DropletSt
     if (!placed || o.film >= std::int32_t(s.film.size())) {
       report.note(FluidReport::kBadOpening, i);
       receive(below.ledger, o.source, Place::kDroplets, in);
-      detail::put_into_pool(m, o.position, in, Place::kDroplets, below);
+      detail::put_into_pool(o.position, in, now_of(m, s), Place::kDroplets, below);
     } else if (o.film >= 0) {
       ooze(m, o, in, s, below);
     } else {
@@ -155,13 +157,13 @@ bool any_lost(int count, const float* x, const float* y, const float* z) {
 }
 
 /// Drops that are nowhere go into the pool.
-void catch_lost(const DropletModel& m, DropletState& s, DropletWork& w, Below& below, FluidReport& report) {
+void catch_lost(DropletState& s, DropletWork& w, Below& below, FluidReport& report) {
   if (!any_lost(s.count, w.to_x.data(), w.to_y.data(), w.to_z.data())) return;
   for (int i = 0; i < s.count; ++i) {
     const float far = (size(w.to_x[i]) + size(w.to_y[i])) + size(w.to_z[i]);
     if (far < kFarthest) continue;
     report.note(FluidReport::kBadDroplet, i);
-    detail::put_into_pool(m, {s.x[i], s.y[i], s.z[i]}, widened(s.volume[i]), Place::kDroplets, below);
+    detail::put_into_pool({s.x[i], s.y[i], s.z[i]}, widened(s.volume[i]), s.born[i], Place::kDroplets, below);
     s.volume[i] = {};
     s.body[i] = -1;
   }
@@ -221,7 +223,9 @@ DropletState no_droplets(const DropletModel& m) {
   s.ground.assign(n, Ground{});
   s.volume.assign(n, SmallMix{});
   s.id.assign(n, 0);
+  s.born.assign(n, 0.0f);
   s.film.assign(std::size_t(m.film_cells), SmallMix{});
+  s.film_born.assign(std::size_t(m.film_cells), 0.0f);
   return s;
 }
 
@@ -239,6 +243,7 @@ bool add_drop(const DropletModel& m, Vec3f p, Vec3f v, const Mix& volume, Drople
   s.body[i] = -1;
   s.ground[i] = Ground{};
   s.volume[i] = {std::int32_t(volume.blood), std::int32_t(volume.saline), std::int32_t(volume.bile)};
+  s.born[i] = now_of(m, s);
   s.id[i] = s.next_id++;
   return true;
 }
@@ -257,7 +262,7 @@ FluidReport plan(const DropletModel& m, std::span<const Opening> openings, Dropl
   }
   fly(flight_of(m), s.count, s.body.data(), s.radius.data(), s.x.data(), s.y.data(), s.z.data(), s.vx.data(),
       s.vy.data(), s.vz.data(), w.to_x.data(), w.to_y.data(), w.to_z.data());
-  catch_lost(m, s, w, below, report);
+  catch_lost(s, w, below, report);
   ask(m, s, w);
   ask_for_film(m, s, w);
   return report;
@@ -286,8 +291,18 @@ Mix take_film(std::int32_t film, std::int64_t amount, DropletState& s) noexcept 
 
 namespace detail {
 
-void put_into_pool(const DropletModel&, Vec3f at, const Mix& volume, Place from, Below& below) noexcept {
+float mean_birth(float a, std::int64_t volume_a, float b, std::int64_t volume_b) noexcept {
+  if (volume_a <= 0 || volume_b <= 0) return volume_b > 0 ? b : a;
+  return a + (b - a) * (float(volume_b) / float(volume_a + volume_b));
+}
+
+void age_pool(std::int64_t blood, float born, Below& below) noexcept {
+  below.state.born = mean_birth(below.state.born, fluids::at(below.ledger, Place::kPool).blood, born, blood);
+}
+
+void put_into_pool(Vec3f at, const Mix& volume, float born, Place from, Below& below) noexcept {
   if (volume.empty()) return;
+  age_pool(volume.blood, born, below);
   const PoolPoint p = locate(below.model, vec_cast<double>(at));
   fall_into(below.model, below.floor, p.i, p.j, 4 * float(below.model.cell), volume, {0, 0, 0}, below.state);
   move(below.ledger, from, Place::kPool, volume);
@@ -302,6 +317,7 @@ void remove_empty(DropletState& s) noexcept {
     s.ground[i] = s.ground[last];
     s.volume[i] = s.volume[last];
     s.id[i] = s.id[last];
+    s.born[i] = s.born[last];
   }
 }
 
@@ -316,7 +332,9 @@ void add_to_hash(core::Hasher& hasher, const DropletState& s) noexcept {
   used(s.ground);
   used(s.volume);
   used(s.id);
+  used(s.born);
   hasher.add(s.film);
+  hasher.add(s.film_born);
   hasher.add(s.forming);
   hasher.add(s.tick);
 }

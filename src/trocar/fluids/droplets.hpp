@@ -92,7 +92,9 @@ struct DropletState {
   std::vector<Ground> ground;                      ///< (capacity)
   std::vector<SmallMix> volume;                    ///< (capacity)
   std::vector<std::uint32_t> id;                   ///< (capacity)
+  std::vector<float> born;                         ///< (capacity) when its blood left the vessels, in the mean [s]
   std::vector<SmallMix> film;                      ///< (film cells)
+  std::vector<float> film_born;                    ///< (film cells) the same of the film's blood
   std::array<Mix, kMostOpenings> forming{};        ///< what hangs at an opening until it is a drop
   std::uint64_t tick = 0;
 };
@@ -182,6 +184,10 @@ Mix drops_content(const DropletState& state) noexcept;
 Mix film_content(const DropletState& state) noexcept;
 
 float radius_of(std::int64_t picolitres) noexcept;  ///< of a ball [m]
+/// The clock of `born` [s].
+inline float now_of(const DropletModel& model, const DropletState& state) noexcept {
+  return float(model.tick * double(state.tick));
+}
 
 void add_to_hash(core::Hasher& hasher, const DropletState& state) noexcept;
 
@@ -193,7 +199,12 @@ FluidReport pull_together(const DropletModel& model, Who who, double dt, Droplet
                           DropletWork& work) noexcept;
 /// Removes drops without volume, from the end.
 void remove_empty(DropletState& state) noexcept;
-void put_into_pool(const DropletModel& model, Vec3f at, const Mix& volume, Place from, Below& below) noexcept;
+/// @param born  of its blood, as DropletState::born
+void put_into_pool(Vec3f at, const Mix& volume, float born, Place from, Below& below) noexcept;
+/// Before more blood comes into the pool.
+void age_pool(std::int64_t blood, float born, Below& below) noexcept;
+/// Mean of two births by volume.
+float mean_birth(float a, std::int64_t volume_a, float b, std::int64_t volume_b) noexcept;
 }  // namespace detail
 
 }  // namespace trocar::fluids

@@ -225,6 +225,7 @@ void add_to_hash(core::Hasher& hasher, const PoolState& s) noexcept {
   hasher.add(s.u);
   hasher.add(s.v);
   hasher.add(s.held);
+  hasher.add(s.born);
   hasher.add(s.drain_carry);
   hasher.add(s.highest);
   hasher.add(s.first_row);

@@ -14,6 +14,7 @@ constexpr double kReach = 0.006;    // [m] between a point and the vertex next t
 constexpr double kDeepest = 0.004;  // [m] a drop that is deeper inside did not come from outside
 constexpr double kLeaves = 0.003;   // [m] above its surface a running drop is on it no more
 constexpr double kStride = 0.0025;  // [m] of a way that is looked at at once
+constexpr double kParts = 0.1;      // [m/s] what goes away from a surface faster does not land on it.  Our choice
 
 /// A point beside a body: how far outside (negative: inside), and the plane there.
 struct Beside {
@@ -114,8 +115,9 @@ struct Scene {
   }
 };
 
-/// The first body that a drop of this radius meets on its way.
-Contact meet(const Scene& scene, Vec3d from, Vec3d to, double radius) noexcept {
+/// The first body that a drop of this radius meets on its way. A jet out of a vessel begins within the tissue that
+/// carries the vessel, and leaves it.
+Contact meet(const Scene& scene, Vec3d from, Vec3d to, Vec3d velocity, double radius) noexcept {
   const Vec3d way = to - from;
   const int looks = 1 + std::min(int(length(way) / kStride), 15);
   for (int k = 1; k <= looks; ++k) {
@@ -125,6 +127,7 @@ Contact meet(const Scene& scene, Vec3d from, Vec3d to, double radius) noexcept {
     for (int body = 0; body < scene.b.count(); ++body) {
       const Beside b = scene.beside(body, from, p);
       if (!b.there() || b.off > 0.5 * radius || b.off < -kDeepest || b.off > most.off) continue;
+      if (dot(velocity - b.velocity, b.normal) > kParts) continue;
       most = b;
       found = body;
     }
@@ -217,9 +220,9 @@ void answer_drops(const WetBodies& bodies, Vec3d down, const fluids::DropletStat
   for (int k = 0; k < w.questions; ++k) {
     const std::size_t i = std::size_t(w.asking[std::size_t(k)]);
     const Vec3d now = place_of(s.x, s.y, s.z, i);
-    w.answers[std::size_t(k)] = s.body[i] < 0
-                                    ? meet(scene, now, place_of(w.to_x, w.to_y, w.to_z, i), double(s.radius[i]))
-                                    : stay(scene, s, int(i), now);
+    w.answers[std::size_t(k)] = s.body[i] < 0 ? meet(scene, now, place_of(w.to_x, w.to_y, w.to_z, i),
+                                                     place_of(s.vx, s.vy, s.vz, i), double(s.radius[i]))
+                                              : stay(scene, s, int(i), now);
   }
   for (int k = 0; k < w.film_questions; ++k) {
     const std::int32_t place = w.overfull[std::size_t(k)];

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/geometry/nearest.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/sim/circulation.hpp>
 #include <trocar/sim/sealing.hpp>
@@ -213,8 +214,7 @@ void clip_vessels(StepContext& c, size_t hand, int number) noexcept {
 namespace {
 
 /// Puts a force on what carries a point.
-void push(StepContext& c, const interactions::VesselPoint& p, Vec3d force) noexcept {
-  const interactions::Tag tag{interactions::Owner::body, 0, 0};
+void push(StepContext& c, const interactions::VesselPoint& p, Vec3d force, interactions::Tag tag = {}) noexcept {
   const size_t i = size_t(p.hold.index);
   tissue::NodeLoad load;
   load.f0 = vec_cast<float>(force);
@@ -245,6 +245,38 @@ void push(StepContext& c, const interactions::VesselPoint& p, Vec3d force) noexc
   }
 }
 
+constexpr double kFelt =
+    0.003;  // [m] of tissue between a vessel's wall and an instrument that still feels it. Our choice
+
+Vec3d on_segment(Vec3d p, Vec3d a, Vec3d b) noexcept { return a + geometry::closest_on_segment(p, a, b) * (b - a); }
+double away(Vec3d p, Vec3d a, Vec3d b) noexcept { return length(p - on_segment(p, a, b)); }
+
+/// Does the hand's instrument press on tissue?
+bool presses(const StepContext& c, size_t t) noexcept {
+  const double(&f)[3] = c.state.tools[t].contact_force;
+  return f[0] != 0 || f[1] != 0 || f[2] != 0;
+}
+
+/// A wall that a pulse drives outwards pushes what palpates it, and is pushed back: pressure above the mean on the
+/// vessel's width times the length that a point of its line stands for, less the more tissue lies between.
+void push_hands(StepContext& c, const interactions::VesselPoint& p, Vec3d at, double force, double radius) noexcept {
+  for (size_t t = 0; t < c.model.hands.size(); ++t) {
+    const interactions::ToolShape& shape = c.work.shapes[t];
+    if (!presses(c, t) || away(at, shape.part[interactions::kShaft].a, shape.frame.tip) > kNearSheet) continue;
+    double nearest = kFelt;
+    Vec3d towards;
+    for (const collision::Capsule& part : shape.part) {
+      const Vec3d axis = on_segment(at, part.a, part.b);
+      const double between = std::max(length(axis - at) - part.radius - radius, 0.0);
+      if (between >= nearest) continue;
+      nearest = between;
+      towards = normalised(axis - at, {0, 0, 0});
+    }
+    if (nearest < kFelt)
+      push(c, p, (-force * (1 - nearest / kFelt)) * towards, {interactions::Owner::tool_contact, std::int32_t(t), 0});
+  }
+}
+
 }  // namespace
 
 // Bends count as drawn: arteries are held taut lengthwise, a pulse does not buckle them.
@@ -263,6 +295,8 @@ void beat(StepContext& c) noexcept {
       if (p.hold.kind == VesselHold::space) continue;
       const double radius = wide * (segment.radius + segment.taper * p.s);
       push(c, p, (over * portable::pi * radius * radius) * turn_at(vessel.path, x, int(i)));
+      const double stands_for = 0.5 * vessel.path.length * (vessel.path.points[i + 1].s - vessel.path.points[i - 1].s);
+      if (over > 0) push_hands(c, p, x[i], over * 2 * radius * stands_for, radius);
     }
   }
 }

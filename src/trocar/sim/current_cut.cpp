@@ -15,10 +15,6 @@ constexpr double kEach = 0.0008;   // [m] of way between two cuts.              
 constexpr double kLeast = 0.0015;  // [m] half of a cut's length; of lattices 0.6 cells, as tears.
 constexpr double kSlow = 1e-6;     // [m] in a tick: which way a wire goes that is slower nobody knows
 
-bool parted(const StepContext& c, std::int32_t body, Vec3d at) noexcept {
-  return tissue::reading(c.model.energy.heat, c.state.heat, body, at).parted > 0.5f;
-}
-
 /// Across the surface, along the way that the wire goes; from above the surface to below the wire.
 geometry::Blade blade_at(const StepContext& c, size_t t, const ElectrodeTouch& touch, double half) noexcept {
   const interactions::ToolShape &now = c.work.shapes[t], &was = c.work.shapes_before[t];
@@ -63,10 +59,9 @@ bool part_fold(StepContext& c, size_t t, const ElectrodeTouch& touch, size_t i) 
 
 /// Has the section burst: its middle and four places around it, but for one?
 bool burst_across(const StepContext& c, std::int32_t strand, int element, double s) noexcept {
-  const double r = 0.6 * c.model.bodies[size_t(strand)].model.radius[size_t(element)];
-  int burst = 0;
-  for (const Vec3d at : {Vec3d{s, 0, 0}, Vec3d{s, r, 0}, Vec3d{s, -r, 0}, Vec3d{s, 0, r}, Vec3d{s, 0, -r}})
-    burst += parted(c, strand, at);
+  const Section section = section_of(c, strand, element, s);
+  int burst = has_burst(c, strand, section.middle);
+  for (const Vec3d at : section.around) burst += has_burst(c, strand, at);
   return burst >= 4;
 }
 
@@ -93,14 +88,24 @@ bool part_body(StepContext& c, size_t t, const ElectrodeTouch& touch) noexcept {
 
 }  // namespace
 
+Section section_of(const StepContext& c, std::int32_t strand, int element, double s) noexcept {
+  const double r = 0.6 * c.model.bodies[size_t(strand)].model.radius[size_t(element)];
+  return {r, {s, 0, 0}, {Vec3d{s, r, 0}, Vec3d{s, -r, 0}, Vec3d{s, 0, r}, Vec3d{s, 0, -r}}};
+}
+
+bool has_burst(const StepContext& c, std::int32_t body, Vec3d at) noexcept {
+  return tissue::reading(c.model.energy.heat, c.state.heat, body, at).parted > 0.5f;
+}
+
 void part_tissue(StepContext& c, size_t t, const ElectrodeTouch& touch) noexcept {
   ElectrodeHand& hand = c.state.electrodes[t];
   const std::int32_t body = touch.contact.body;
-  const bool strand = body < interactions::kSolidBase;
-  const bool done = hand.parted_body == body && length(hand.parted - touch.contact.a) < kEach;
-  // The wire is at the bottom of what has burst: what it has just come through lies behind it.
-  const Vec3d behind = touch.contact.a - c.model.energy.heat.cell * touch.inwards;
-  if ((done && !strand) || !(parted(c, body, touch.contact.a) || parted(c, body, behind))) return;
+  if (body >= interactions::kSolidBase) {  // a strand parts when its section has burst, wherever the wire is in it
+    const bool done = hand.parted_body == body && length(hand.parted - touch.contact.a) < kEach;
+    // The wire is at the bottom of what has burst: what it has just come through lies behind it.
+    const Vec3d behind = touch.contact.a - c.model.energy.heat.cell * touch.inwards;
+    if (done || !(has_burst(c, body, touch.contact.a) || has_burst(c, body, behind))) return;
+  }
   hand.parted_body = body;
   hand.parted = touch.contact.a;
   if (part_body(c, t, touch)) tell(c, Event::parted, int(t), body);

@@ -7,6 +7,7 @@
 #include <trocar/sim/heat_bodies.hpp>
 #include <trocar/sim/heating.hpp>
 #include <trocar/sim/sealing.hpp>
+#include <trocar/sim/shrinking.hpp>
 #include <trocar/sim/stage.hpp>
 #include <trocar/tissue/heat_look.hpp>
 
@@ -24,16 +25,20 @@ bool at_work(const ElectrodeHand& hand, tissue::EnergyMode mode) noexcept {
          hand.current.stuck > kStill;
 }
 
-/// Tissue that has burst gives way: the wire is at the bottom of the groove that it has made.
+/// Tissue that has burst gives way: the wire is at the bottom of the groove that it has made. In a strand that it has
+/// gone through it turns to what is left of the section beside it.
 void sink(const StepContext& c, ElectrodeTouch& touch) noexcept {
   const double step = 0.5 * c.model.energy.heat.cell;
   if (!(dot(touch.inwards, touch.inwards) > 0) || touch.contact.gap > 0) return;
-  const auto parted = [&](Vec3d p) {
-    return tissue::reading(c.model.energy.heat, c.state.heat, touch.contact.body, p).parted > 0.5f;
-  };
+  const auto parted = [&](Vec3d p) { return has_burst(c, touch.contact.body, p); };
   Vec3d p = touch.contact.a;
   for (double deep = 0; deep < interactions::kBareWire && parted(p); deep += step) p += step * touch.inwards;
   touch.contact.a = touch.contact.b = p;
+  if (touch.contact.body >= interactions::kSolidBase) return;
+  const Section section = section_of(c, touch.contact.body, touch.point.element, p.x);
+  if (dot(p - section.middle, touch.inwards) < section.reach) return;  // not through yet
+  for (const Vec3d side : section.around)
+    if (!parted(side)) touch.contact.a = touch.contact.b = side;
 }
 
 /// Hands that have changed their instrument hold one that is cold and clean.
@@ -68,10 +73,12 @@ void stiffen(StepContext& c, const ElectrodeTouch& touch) noexcept {
   const size_t e = size_t(touch.point.element);
   double& scale = c.state.strands[size_t(strand)].scale[e];
   if (scale < 1) return;
-  const double s = touch.contact.a.x, r = 0.6 * c.model.bodies[size_t(strand)].model.radius[e];
-  double sum = 0;
-  for (const Vec3d at : {Vec3d{s, 0, 0}, Vec3d{s, r, 0}, Vec3d{s, -r, 0}, Vec3d{s, 0, r}, Vec3d{s, 0, -r}})
-    sum += double(tissue::stiffness(tissue::reading(c.model.energy.heat, c.state.heat, strand, at)));
+  const Section section = section_of(c, strand, touch.point.element, touch.contact.a.x);
+  const auto at = [&](Vec3d p) {
+    return double(tissue::stiffness(tissue::reading(c.model.energy.heat, c.state.heat, strand, p)));
+  };
+  double sum = at(section.middle);
+  for (const Vec3d p : section.around) sum += at(p);
   scale = std::max(scale, sum / 5);
 }
 
@@ -107,6 +114,7 @@ void work_electrode(StepContext& c, size_t t, int& used) noexcept {
   if (touch.contact.gap == 0) stick(c, t, touch, hand);
   seal_vessels(c, t, touch);
   stiffen(c, touch);
+  shrink_tissue(c, touch);
   if (d.flows && tissue::curve_of(d.mode).bursts) part_tissue(c, t, touch);
 }
 

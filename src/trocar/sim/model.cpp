@@ -42,6 +42,10 @@ void add_tool(core::Hasher& h, const interactions::ToolModel& t) {
   if (t.electrode.there) add_electrode(h, t.electrode);
 }
 
+/// Raised where vessels, fluids or heat go another way with the same figures: recordings of before are of another
+/// physics.
+constexpr std::uint32_t kPhysics = 2;
+
 }  // namespace
 
 int Model::free_nodes() const {
@@ -172,16 +176,18 @@ void seal(Model& model) {
     }
     const Bleeder& b = model.vessels.bleeder;
     if (b.vessel >= 0) h.add(b.vessel), h.add(b.s), h.add(b.area), h.add(b.tick);
+    h.add(kPhysics);
   }
   if (model.wet.there) {
     const fluids::FluidsModel& f = model.wet.model;
     h.add(f.pool.origin), h.add(f.pool.u), h.add(f.pool.v), h.add(f.pool.nx), h.add(f.pool.ny), h.add(f.pool.cell);
     h.add(f.droplets.capacity), h.add(f.droplets.film_cells), h.add(f.droplets.film_capacity);
-    h.add(model.wet.floor), h.add(model.wet.floor_organs), h.add(model.wet.film);
+    h.add(model.wet.floor), h.add(model.wet.floor_organs), h.add(model.wet.film), h.add(kPhysics);
   }
   if (model.energy.there) {
     const tissue::GeneratorPanel& panel = model.energy.panel;
     add_to_hash(h, model.energy.heat);
+    h.add(kPhysics);
     h.add(std::int32_t(panel.yellow));
     h.add(panel.yellow_watts), h.add(panel.blue_watts), h.add(panel.bipolar_watts);
     for (const auto* masks : {&model.energy.organs, &model.energy.folds})

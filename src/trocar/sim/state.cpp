@@ -82,6 +82,8 @@ State initial_state(const Model& model) {
     s.heat = tissue::cold(model.energy.heat);
     s.electrodes.resize(model.hands.size());
     s.seals.resize(interactions::kMaxSeals);
+    s.shrunk.resize(size_t(kMaxShrunk));
+    for (tissue::StrandState& strand : s.strands) strand.shrunk.assign(strand.alive.size(), 1.0);
   }
   if (model.wet.there) {
     s.fluids = fluids::initial_state(model.wet.model);
@@ -135,6 +137,8 @@ std::uint64_t hash_of(const State& s) noexcept {
     h.add(s.electrodes);
     h.add(s.seals);
     h.add(s.seal_count);
+    h.add(s.shrunk_count);
+    h.add(core::hash_bytes(s.shrunk.data(), size_t(s.shrunk_count) * sizeof s.shrunk[0]));
   }
   if (!s.fluids.droplets.x.empty()) {
     fluids::add_to_hash(h, s.fluids);

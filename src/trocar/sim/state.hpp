@@ -31,6 +31,13 @@ struct ElectrodeHand {
 static_assert(sizeof(ElectrodeHand) == sizeof(tissue::ElectrodeState) + 12 * 8 + 3 * 4 + sizeof(interactions::Hold),
               "no padding");
 
+/// A spring of a lattice or a fold that heat has shrunk (shrinking.hpp).
+struct ShrunkSpring {
+  std::int32_t body = -1, spring = -1;  ///< as holds number bodies; of its network
+  float share = 1;                      ///< of its length that is left
+};
+inline constexpr std::int32_t kMaxShrunk = 1024;
+
 struct State {
   std::uint64_t tick = 0;  ///< ticks made
   std::vector<tissue::NetworkState> solids;
@@ -64,6 +71,8 @@ struct State {
   std::vector<ElectrodeHand> electrodes;        ///< (hands)
   std::vector<interactions::VesselSeal> seals;  ///< (kMaxSeals)
   std::int32_t seal_count = 0;
+  std::vector<ShrunkSpring> shrunk;  ///< (kMaxShrunk)
+  std::int32_t shrunk_count = 0;
   fluids::FluidsState fluids;     ///< empty in scenes without fluids
   std::vector<float> pool_floor;  ///< of the pool, (ny x nx) [m]; walls and organs
   /// What drops gave to tissue in the last tick: it goes to the bodies in the next. Empty without a suction-irrigator.

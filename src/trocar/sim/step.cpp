@@ -6,6 +6,7 @@
 #include <trocar/sim/jaws.hpp>
 #include <trocar/sim/motion.hpp>
 #include <trocar/sim/posing.hpp>
+#include <trocar/sim/shrinking.hpp>
 #include <trocar/sim/step.hpp>
 #include <trocar/sim/tearing.hpp>
 #include <trocar/sim/visibility.hpp>
@@ -49,6 +50,7 @@ constexpr Stage kStages[] = {
     {"touch tissue", touch_tissue},
     {"touch organs", touch_organs},
     {"stick", stick_tissue},
+    {"draw together", draw_together},
     {"beat", beat},
     {"press with drops", press_with_drops},
     {"pull on borders", pull_on_borders},

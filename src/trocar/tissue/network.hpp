@@ -174,6 +174,8 @@ double spring_strain(const NetworkModel& model, const NetworkState& state, int s
 /// Scale a spring's stiffness and damping: 0 = cut, 1 = whole; clamped to [0, max_stiffness_scale].
 void set_spring_scale(const NetworkModel& model, NetworkState& state, int spring, float scale) noexcept;
 float spring_scale(const NetworkModel& model, const NetworkState& state, int spring) noexcept;
+/// Of a small strain, as built [N/m].
+double spring_stiffness(const NetworkModel& model, int spring) noexcept;
 /// Cut a spring: both half-edges dead, and the cells that have it as an edge no longer protected.
 void cut_spring(const NetworkModel& model, NetworkState& state, int spring) noexcept;
 

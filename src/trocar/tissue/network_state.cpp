@@ -55,6 +55,11 @@ float spring_scale(const NetworkModel& m, const NetworkState& s, int spring) noe
   return s.scale[m.place[spring]];
 }
 
+double spring_stiffness(const NetworkModel& m, int spring) noexcept {
+  const Placed h = placed(m, spring);
+  return double(h.pack.stiffness[h.lane]) / double(m.spring_rest[spring]);
+}
+
 void set_spring_scale(const NetworkModel& m, NetworkState& s, int spring, float scale) noexcept {
   const float most = scale < m.max_scale ? scale : m.max_scale;
   const float value = most > 0 ? most : 0;

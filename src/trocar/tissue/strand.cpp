@@ -26,6 +26,11 @@ void add_inertia(const StrandModel& m, const StrandState& s, StrandWork& w) {
   }
 }
 
+/// Length of rest of an element [m].
+double rest_of(const StrandModel& m, const StrandState& s, int e) {
+  return s.shrunk.empty() ? m.rest_length[e] : s.shrunk[e] * m.rest_length[e];
+}
+
 /// Tension EA shape(strain) [KCM99 eq.5]. The slope is the larger of now and a tick ahead, so that a strand that is
 /// being jerked tight meets its later stiffness; slack elements have no sideways stiffness.
 void add_stretch(const StrandModel& m, const StrandState& s, StrandWork& w) {
@@ -33,7 +38,7 @@ void add_stretch(const StrandModel& m, const StrandState& s, StrandWork& w) {
   for (int e = 0; e + 1 < m.nodes; ++e) {
     if (!s.alive[e]) continue;
     const Vec3d d = s.x[e + 1] - s.x[e], dv = s.v[e + 1] - s.v[e];
-    const double r = length(d), l = m.rest_length[e], stiffness = m.stretch[e] * s.scale[e];
+    const double r = length(d), l = rest_of(m, s, e), stiffness = m.stretch[e] * s.scale[e];
     const Vec3d t = r > 1e-30 ? d / r : Vec3d{1, 0, 0};
     const double strain = r / l - 1, ahead = length(d + dt * dv) / l - 1;
     const double slope_now = m.law.slope(strain), slope_ahead = m.law.slope(ahead);
@@ -311,7 +316,7 @@ StepReport advance(const StrandModel& m, std::span<const StrandEnd> ends, std::s
 void cut_element(StrandState& s, int element) noexcept { s.alive[element] = 0; }
 
 double element_strain(const StrandModel& m, const StrandState& s, int e) noexcept {
-  return s.alive[e] ? length(s.x[e + 1] - s.x[e]) / m.rest_length[e] - 1 : 0;
+  return s.alive[e] ? length(s.x[e + 1] - s.x[e]) / rest_of(m, s, e) - 1 : 0;
 }
 
 StrandEnergy energy(const StrandModel& m, const StrandState& s) {
@@ -325,7 +330,7 @@ StrandEnergy energy(const StrandModel& m, const StrandState& s) {
   }
   for (int e = 0; e + 1 < m.nodes; ++e)
     if (s.alive[e])
-      total.stretch += m.stretch[e] * s.scale[e] * m.rest_length[e] * m.law.energy(element_strain(m, s, e));
+      total.stretch += m.stretch[e] * s.scale[e] * rest_of(m, s, e) * m.law.energy(element_strain(m, s, e));
   std::vector<Vec3d> bend(m.nodes), direction(m.nodes);
   find_directions(m, s, direction);
   turn_all_bends(m, s, {}, direction, bend);
@@ -343,6 +348,7 @@ void add_to_hash(core::Hasher& h, const StrandState& s) noexcept {
   h.add(s.scale);
   h.add(s.alive);
   h.add(s.foundation_scale);
+  if (!s.shrunk.empty()) h.add(s.shrunk);
 }
 
 void add_to_hash(core::Hasher& h, const StrandModel& m) noexcept {

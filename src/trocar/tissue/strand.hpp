@@ -78,6 +78,7 @@ struct StrandState {
   std::vector<double> scale;             ///< (n - 1) stiffness scale of an element: 1 as built, >= 0; a clip > 1
   std::vector<std::uint8_t> alive;       ///< (n - 1) 0 = cut through
   std::vector<double> foundation_scale;  ///< (n) 1 as built, 0 = the sheet is cut there
+  std::vector<double> shrunk;  ///< (n - 1) share of its rest length that heat has left of an element; or empty
 };
 
 struct StrandWork {
@@ -117,8 +118,8 @@ struct StrandReaction {
                          ///< following within this tick (inertia over the tick included)
 };
 
-/// How far the points that the foundation pulls to have gone from where they were drawn, when this tick ends [m], and how
-/// fast they go [m/s].
+/// How far the points that the foundation pulls to have gone from where they were drawn, when this tick ends [m], and
+/// how fast they go [m/s].
 struct StrandGround {
   Vec3d x{0, 0, 0}, v{0, 0, 0};
 };

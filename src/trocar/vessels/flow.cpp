@@ -37,9 +37,13 @@ double periodic(std::span<const double> wave, double phase) {
   return wave[i] + (x - double(i)) * (wave[j] - wave[i]);
 }
 
-Drive drive(const FlowModel& m, const FlowState& s) {
+LossResponse response_of(const FlowModel& m, const FlowState& s) {
   const double lost = double(s.bled - s.infused) * kPicolitre;
-  const LossResponse now = response_to(m.heart, lost * (kUsualVolume / m.blood.volume));
+  return response_to(m.heart, lost * (kUsualVolume / m.blood.volume));
+}
+
+Drive drive(const FlowModel& m, const FlowState& s) {
+  const LossResponse now = response_of(m, s);
   const double ahead = m.settings.implicitness * m.settings.tick / 60;
   Drive d;
   d.rate = m.heart.rate * now.rate;
@@ -336,6 +340,13 @@ FlowReport advance(const FlowModel& m, const FlowInput& in, std::span<OpeningFlo
   update_rows(m, s, w, report);
   update_patient(m, in, d, s);
   return report;
+}
+
+Vitals vitals(const FlowModel& m, const FlowState& s) noexcept {
+  const LossResponse now = response_of(m, s);
+  const double pulse = m.heart.systolic - m.heart.diastolic, mean = m.heart.diastolic + m.beat_mean * pulse;
+  const double left = now.mean * mean, beats = now.mean * now.pulse * pulse;
+  return {m.heart.rate * now.rate, left + (1 - m.beat_mean) * beats, left - m.beat_mean * beats, left};
 }
 
 }  // namespace trocar::vessels

@@ -222,6 +222,13 @@ FlowWork make_work(const FlowModel& model);
 FlowReport advance(const FlowModel& model, const FlowInput& input, std::span<OpeningFlow> flows, FlowState& state,
                    FlowWork& work) noexcept;
 
+/// What a monitor shows of the patient: by the heart's figures and what has been lost, without breathing.
+struct Vitals {
+  double rate = 0;                               ///< [1/min]
+  double systolic = 0, diastolic = 0, mean = 0;  ///< [Pa]
+};
+Vitals vitals(const FlowModel& model, const FlowState& state) noexcept;
+
 /// What can be read at a place s of a segment. `gain` enlarges what hand and eye get: 1 is physical, and then the wall
 /// of an artery of a millimetre moves by hundredths of one.
 struct WallReading {

@@ -37,6 +37,11 @@ std::array<float, 3> shares_of(const Volume& v) {
   return {float(double(v.blood) / all), float(double(v.saline) / all), float(double(v.bile) / all)};
 }
 
+/// How far blood of that age has darkened, 0 to 1; next to none of it does not show.
+float clotted(float age, const std::array<float, 3>& share) {
+  return share[0] > 0.02f ? (1 - float(fluids::clot_brightness(double(age)))) / 0.6f : 0.0f;
+}
+
 Vec3f at(const fluids::DropletState& d, std::int32_t i) {
   const auto k = std::size_t(i);
   return {d.x[k], d.y[k], d.z[k]};
@@ -215,6 +220,7 @@ void FluidDrawing::list_lying(const fluids::DropletState& d, std::span<const std
     s.radius = spread * r * (1 - 0.25f * tail / (tail + 2 * r));
     s.height = ball / (1.5708f * s.radius * s.radius + 1.3333f * s.radius * tail);
     s.share = shares_of(d.volume[k]);
+    s.dark = clotted(now_of(m_model->droplets, d) - d.born[k], s.share);
     s.sheer = std::size_t(d.body[k]) < sheer.size() && sheer[std::size_t(d.body[k])] != 0;
     liquid.splats.push_back(s);
   }
@@ -230,8 +236,7 @@ void FluidDrawing::list_films(const FluidSight& sight, Liquid& liquid) {
     if (!(thickness > kThinnestFilm) || !finite(place.position) || !finite(place.normal)) continue;
     Splat s = stain(place, thickness * place.area, float(varied(int(k & 0x7fffffff), 7)), down);
     s.share = shares_of(film[k]);
-    s.dark = 1 - float(fluids::clot_brightness(double(place.age)));
-    s.dark = s.share[0] > 0.02f ? s.dark / 0.6f : 0;
+    s.dark = clotted(place.age, s.share);
     s.sheer = place.sheer;
     liquid.splats.push_back(s);
   }
@@ -296,6 +301,7 @@ void FluidDrawing::list_pool(const FluidSight& sight, Liquid& liquid) {
   smooth_pool(pool, sight.floor);
   const int w = m_window.width, h = m_window.height;
   if (w < 2 || h < 2) return;
+  const float age = now_of(m_model->droplets, sight.state.droplets) - pool.born;
   constexpr std::uint32_t kNone = ~0u;
   m_corner.assign(m_window.size(), kNone);
   const auto cell = [&](int i, int j) { return std::size_t(j) * w + i; };
@@ -320,6 +326,7 @@ void FluidDrawing::list_pool(const FluidSight& sight, Liquid& liquid) {
     v.cover = m_cover[k];
     v.share_b = share[1];
     v.share_c = share[2];
+    v.dark = clotted(age, share);
     // Where it is stirred it froths.
     const auto face = std::size_t(m.at(ci, cj));
     const float u = pool.u[face], s = pool.v[face];
