@@ -1,7 +1,6 @@
 // A suction-irrigator in a scene: water is booked and lands, the pool is sucked away, tissue plugs the port, the jet
 // pushes what it hits.
 #include <cmath>
-#include <cstdio>
 
 #include <gtest/gtest.h>
 
@@ -292,40 +291,4 @@ TEST(Irrigation, TheWipePedalClearsTheLensOnceAndAgainWhileItIsHeld) {
   b.steps(200);
   EXPECT_LT(b.state.fluids.smoke.wipe_left, left);
   EXPECT_NEAR(b.state.fluids.smoke.fog, 0.8 * (1 - 0.3 / 8), 0.01);
-}
-
-TEST(Irrigation, ThePoolsFloorGoesWithTheTissueThatItLiesOn) {
-  scene::Description d = small::description();
-  d.fluids->pool_on = {"pad"};
-  const Model m = scene::compile(d);
-  small::Table t(m);
-  const fluids::PoolModel& pool = m.wet.model.pool;
-  const int pad = m.organ_index("pad");
-  ASSERT_GT(m.wet.floor_on.size(), 200u);
-  const auto floor_above = [&](double x, double y, std::span<const float> floor) {
-    const fluids::PoolPoint p = locate(pool, {x, y, 0});
-    return double(floor_at(pool, floor, p.i, p.j)) + dot(pool.origin, pool.up);
-  };
-  const auto skin_at = [&](double x, double y) {  // of the nearest vertex of the pad's upper side
-    double nearest = 1, height = 0;
-    for (const Vec3f& v : t.work.poses[std::size_t(pad)].position) {
-      const double away = std::hypot(double(v.x) - x, double(v.y) - y);
-      if (v.z < -0.010f || away >= nearest) continue;
-      nearest = away, height = double(v.z);
-    }
-    return height;
-  };
-  t.steps(20);
-  const double before = floor_above(0.050, 0.007, floor_of(m, t.state));
-  EXPECT_NEAR(before, floor_above(0.050, 0.007, m.wet.floor), 1e-4) << "as drawn";
-  t.close(small::kGrasper, 1);
-  t.carry(small::kGrasper, {0.055, 0, 0.04}, {0.050, 0.007, 0.010}, 0.2);
-  t.carry(small::kGrasper, {0.050, 0.007, 0.010}, {0.050, 0.007, -0.008}, 0.05);
-  t.steps(200);
-  const double after = floor_above(0.050, 0.007, floor_of(m, t.state)), skin = skin_at(0.050, 0.007);
-  std::printf("    pressed down, the floor goes from %.2f to %.2f mm, the skin is at %.2f\n", 1e3 * before, 1e3 * after,
-              1e3 * skin);
-  EXPECT_LT(after, before - 0.001);
-  EXPECT_NEAR(after, skin, 0.001);
-  EXPECT_NEAR(floor_above(0.085, -0.040, floor_of(m, t.state)), -0.020, 1e-6) << "the wall's floor stays";
 }

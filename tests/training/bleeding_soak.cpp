@@ -13,13 +13,20 @@
 namespace trocar::training {
 namespace {
 
+sim::Model bleeding_at(const Exercise& exercise, int place) {
+  scene::Description scene = scene::read_scene(exercise.scene);
+  scene.bleeder->which = place;
+  return scene::compile(scene);
+}
+
 struct Attempt {
   Exercise exercise = read_exercise(TROCAR_SOURCE_DIR "/scenes/gynaecology/bleeding-control.json");
-  sim::Model model = scene::compile(scene::read_scene(exercise.scene));
-  Monitor monitor{exercise, model};
+  sim::Model model;
+  Monitor monitor;
   sim::State state = sim::initial_state(model);
 
-  explicit Attempt(const char* flaw) {
+  /// @param place  number of the hole that opens
+  explicit Attempt(const char* flaw, int place = 0) : model(bleeding_at(exercise, place)), monitor(exercise, model) {
     const auto surgeon = make_expert(exercise, model, {{}, flaw});
     sim::Work work = sim::make_work(model);
     while (!surgeon->done() && state.tick < 600'000) {
@@ -35,14 +42,18 @@ struct Attempt {
   }
 };
 
-TEST(BleedingControl, TheSurgeonStopsItAndPassesAtTheFirstPlace) {
-  const Attempt a("");
+class BleedingPlace : public testing::TestWithParam<int> {};
+
+TEST_P(BleedingPlace, TheSurgeonStopsItAndPasses) {
+  const Attempt a("", GetParam());
   EXPECT_TRUE(a.monitor.finished());
   EXPECT_TRUE(a.monitor.score().passed) << a.monitor.score().total;
   EXPECT_EQ(a.monitor.bleeding()->facts().flow, 0) << "to the picolitre";
   EXPECT_LT(a.monitor.bleeding()->facts().lost, 10e-6);
   EXPECT_TRUE(balanced(a.state.fluids.ledger));
 }
+
+INSTANTIATE_TEST_SUITE_P(All, BleedingPlace, testing::Range(0, 6));
 
 TEST(BleedingControl, WithTheFirstClipOnTheWrongSideItBleedsOnAndFails) {
   const Attempt a("A3.1");
@@ -62,7 +73,7 @@ TEST_P(BleedingFlaw, TriggersItsError) {
 }
 INSTANTIATE_TEST_SUITE_P(Codes, BleedingFlaw,
                          testing::Values("E4.2", "E6", "E7", "E7.1", "E8", "E9.1", "E9.2", "E9", "E9.3", "E10", "E12",
-                                         "A3.2", "A3.4"),
+                                         "A3.2", "A3.3", "A3.4"),
                          [](const auto& of) {
                            std::string name = of.param;
                            std::replace(name.begin(), name.end(), '.', '_');

@@ -265,9 +265,15 @@ bool may_be_between(const Touching& c, const BetweenJaws& where, const StrandBod
   return false;
 }
 
+/// How far a point of an element can give way: 1 in between, 0 at a node whose position is given.
+double gives_way(const tissue::StrandModel& model, int element, double w) noexcept {
+  const size_t e = size_t(element);
+  return 1 - (model.prescribed[e] ? 1 - w : 0) - (model.prescribed[e + 1] ? w : 0);
+}
+
 /// A strand element is pushed off a part of the instrument and held back across that.
-void push_strand(Touching& touching, int strand, const tissue::StrandState& state, int element, int part,
-                 const collision::RodContact& c, StrandLoads& loads) noexcept {
+void push_strand(Touching& touching, int strand, const tissue::StrandModel& model, const tissue::StrandState& state,
+                 int element, int part, const collision::RodContact& c, StrandLoads& loads) noexcept {
   const Vec3d a = state.x[size_t(element)], b = state.x[size_t(element) + 1];
   const std::int32_t number = touching.note(strand, element, part);
   const Tag tag{Owner::tool_contact, touching.tool, number};
@@ -282,7 +288,7 @@ void push_strand(Touching& touching, int strand, const tissue::StrandState& stat
     load.w = rub.weight[0];
     if (rub.kind == Rub::sticks) {
       load.k = rub.stiffness;
-      load.x0 = a + load.w * (b - a) + rub.to + depth * c.normal;
+      load.x0 = a + load.w * (b - a) + rub.to + gives_way(model, element, load.w) * depth * c.normal;
     } else {
       load.d = rub.damping;
       load.dir = rub.dir;
@@ -384,7 +390,7 @@ void tool_on_strand(const ToolModel& model, Touching& touching, const ToolState&
       if (!noted && !within(rod, a, length2, radius + rod.radius + collision::kRemember + touching.way(part))) continue;
       const collision::RodContact c =
           collision::touch(touching.before.part[part], rod, {a0, b0, radius}, {a, b, radius}, memory[part]);
-      if (c.depth > -kGrazes) push_strand(touching, strand, state, e, part, c, loads);
+      if (c.depth > -kGrazes) push_strand(touching, strand, body.model, state, e, part, c, loads);
     }
     if (where.inside && between && !held)
       channel(shape, where, radius, e, {Owner::tool_contact, touching.tool, 0}, loads);

@@ -8,6 +8,10 @@ namespace {
 
 constexpr double kGive = 0.0002;  // [m] that a spring gives before the tissue slips
 constexpr float kShare = 0.1f;    // of the newest normal force in its average: about ten ticks
+// [N] that a contact spring can exert at most: 1500 N/m over the 4 mm that it may move tissue in a tick. Where tissue
+// cannot give way, friction's spring pushes along the normal, too: without this bound it would feed on itself.
+constexpr float kMostPress = 6;
+constexpr float kMostAtWall = 1e6f;  // [N] no bound
 
 bool before_in_book(const Touch& a, const Touch& b) noexcept {
   if (a.body != b.body) return a.body < b.body;
@@ -152,7 +156,8 @@ void press_on(TouchBook& next, std::int32_t number, Vec3d force) noexcept {
 
 void remember(const ToolState& tool, TouchBook& next, TouchBook& book) noexcept {
   std::sort(next.touch, next.touch + next.count, before_in_book);
-  for (int i = 0; i < next.count; ++i) next.touch[i].force = std::max(0.0f, next.touch[i].force);
+  for (Touch* t = next.touch; t != next.touch + next.count; ++t)
+    t->force = std::clamp(t->force, 0.0f, t->body == kWallBody ? kMostAtWall : kMostPress);
   std::copy(next.touch, next.touch + next.count, book.touch);
   start_here(tool, book);
   book.count = next.count;

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <stdexcept>
 #include <string>
 
+#include <trocar/fluids/pool_bed.hpp>
 #include <trocar/interactions/fluid_contact.hpp>
 #include <trocar/scene/compile_fluids.hpp>
 
@@ -17,31 +17,18 @@ constexpr float kNothing = -1e6f;
 constexpr float kOutwards = 0.0005f;  // [m] a cell: floor that nothing covers rises so from what is beside it
 
 /// Raises the floor to a skin's drawn triangles that look up.
-/// @param solid  whose skin it is, -1 of a wall
-/// @param under  (floor) in/out: what each cell lies on
-void lay_on(const tissue::Skin& skin, const fluids::PoolModel& pool, std::int32_t solid, std::vector<float>& floor,
-            std::vector<sim::FloorHold>& under) {
-  for (const auto& t : skin.triangles) {
-    const Vec3d a = vec_cast<double>(skin.rest[size_t(t[0])]), b = vec_cast<double>(skin.rest[size_t(t[1])]),
-                c = vec_cast<double>(skin.rest[size_t(t[2])]);
-    if (dot(normalised(cross(b - a, c - a), Vec3d{0, 0, 0}), pool.up) < 0.05) continue;
-    const int n = 2 + int(std::max(length(b - a), length(c - a)) / (0.4 * pool.cell));
-    for (int i = 0; i <= n; ++i)
-      for (int j = 0; i + j <= n; ++j) {
-        const Vec3d p = a + (double(i) / n) * (b - a) + (double(j) / n) * (c - a);
-        const fluids::PoolPoint at = locate(pool, p);
-        if (!at.inside) continue;
-        const size_t cell = size_t(at.j) * size_t(pool.nx) + size_t(at.i);
-        if (at.height <= floor[cell]) continue;
-        floor[cell] = at.height;
-        under[cell] = {std::int32_t(cell), solid, {t[0], t[1], t[2]}};
-      }
-  }
+void lay_on(const tissue::Skin& skin, const fluids::PoolModel& pool, std::vector<float>& floor) {
+  const auto corner = [&](int v) { return in_cells(pool, vec_cast<double>(skin.rest[size_t(v)])); };
+  for (const auto& t : skin.triangles) raise_bed(pool, {corner(t[0]), corner(t[1]), corner(t[2])}, 0, pool.ny, floor);
+}
+
+bool covers_any(const std::vector<float>& floor) {
+  return std::any_of(floor.begin(), floor.end(), [](float h) { return h > kNothing; });
 }
 
 /// Cells that nothing covers go on from their neighbours, rising: what lies beyond the walls holds no fluid.
 void fill_gaps(const fluids::PoolModel& pool, std::vector<float>& floor) {
-  const auto any = std::any_of(floor.begin(), floor.end(), [](float h) { return h > kNothing; });
+  const bool any = covers_any(floor);
   if (!any) std::fill(floor.begin(), floor.end(), 0.0f);
   for (bool open = any; open;) {
     open = false;
@@ -58,6 +45,19 @@ void fill_gaps(const fluids::PoolModel& pool, std::vector<float>& floor) {
         open = true;
       }
   }
+}
+
+/// Walls, and which organs lie on them. Where there are no walls, nothing is below the organs: as drawn they stay.
+void lay_floor(const FluidsSetting& f, sim::Model& model) {
+  const fluids::PoolModel& pool = model.wet.model.pool;
+  std::vector<float>& floor = model.wet.floor;
+  floor.assign(size_t(pool.nx) * size_t(pool.ny), kNothing);
+  for (const sim::WallModel& wall : model.walls) lay_on(wall.skin, pool, floor);
+  for (const std::string& name : f.pool_on)
+    if (const int i = model.organ_index(name); i >= 0) model.wet.floor_organs.push_back(i);
+  if (!covers_any(floor))
+    for (const int i : model.wet.floor_organs) lay_on(model.skin(i), pool, floor);
+  fill_gaps(pool, floor);
 }
 
 std::vector<std::int32_t> places_of_film(const sim::Model& model) {
@@ -94,18 +94,7 @@ void compile_fluids(const Description& d, sim::Model& model, std::vector<core::F
     faults.push_back({f.at, std::string("expected fluids that can be computed, got: ") + e.what()});
     return;
   }
-  const fluids::PoolModel& pool = model.wet.model.pool;
-  model.wet.floor.assign(size_t(pool.nx) * size_t(pool.ny), kNothing);
-  std::vector<sim::FloorHold> under(model.wet.floor.size());
-  for (const sim::WallModel& wall : model.walls) lay_on(wall.skin, pool, -1, model.wet.floor, under);
-  for (const std::string& name : f.pool_on)
-    if (const int i = model.organ_index(name); i >= 0) {
-      const bool keeps_its_skin = size_t(i) < model.solids.size();  // that of a body that can be cut changes
-      lay_on(model.skin(i), pool, keeps_its_skin ? i : -1, model.wet.floor, under);
-    }
-  fill_gaps(pool, model.wet.floor);
-  std::copy_if(under.begin(), under.end(), std::back_inserter(model.wet.floor_on),
-               [](const sim::FloorHold& hold) { return hold.solid >= 0; });
+  lay_floor(f, model);
   model.wet.there = true;
 }
 

@@ -184,7 +184,7 @@ struct Port {
 struct FluidsSetting {
   Vec3d pool_middle;                 ///< of the square field in which a pool can be [m]
   double pool_size = 0.160;          ///< its edge [m]
-  std::vector<std::string> pool_on;  ///< solids whose drawn shape is part of its floor, beside the walls
+  std::vector<std::string> pool_on;  ///< solids whose tops are part of its floor, beside the walls
   int drops = 4096;                  ///< at a time
   core::Location at;
 };

@@ -318,7 +318,7 @@ const Shape& fluids() {
       "Blood that leaves vessels becomes drops and gathers in a pool; without this key it is only counted.",
       {needed(keys::vec3("pool_middle_mm", -kFar, kFar, "middle of the field in which a pool can be")),
        keys::number("pool_size_mm", 20, 1000, "edge of that field, default 160"),
-       keys::texts("pool_on", "solids that belong to its floor as drawn, beside the walls"),
+       keys::texts("pool_on", "solids whose tops are part of its floor, as they lie, beside the walls"),
        keys::integer("drops", 64, 65536, "at a time, default 4096")}};
   return shape;
 }
@@ -353,11 +353,12 @@ const Shape& energy() {
 }
 
 const Shape& wave_station() {
-  static const Shape shape{"wave station",
-                           "What waves are like at one place of the centre line; linear between stations.",
-                           {needed(keys::number("s_mm", 0, 5000, "way along the centre line")),
-                            needed(keys::number("pressure_kPa", 0, 100, "with which a crest presses the wall together")),
-                            needed(keys::number("speed_mm_s", 0.1, 200, "with which waves run there"))}};
+  static const Shape shape{
+      "wave station",
+      "What waves are like at one place of the centre line; linear between stations.",
+      {needed(keys::number("s_mm", 0, 5000, "way along the centre line")),
+       needed(keys::number("pressure_kPa", 0, 100, "with which a crest presses the wall together")),
+       needed(keys::number("speed_mm_s", 0.1, 200, "with which waves run there"))}};
   return shape;
 }
 

@@ -182,8 +182,7 @@ void seal(Model& model) {
     const fluids::FluidsModel& f = model.wet.model;
     h.add(f.pool.origin), h.add(f.pool.u), h.add(f.pool.v), h.add(f.pool.nx), h.add(f.pool.ny), h.add(f.pool.cell);
     h.add(f.droplets.capacity), h.add(f.droplets.film_cells), h.add(f.droplets.film_capacity);
-    h.add(model.wet.floor), h.add(model.wet.film), h.add(kPhysics);
-    if (!model.wet.floor_on.empty()) h.add(model.wet.floor_on);
+    h.add(model.wet.floor), h.add(model.wet.floor_organs), h.add(model.wet.film), h.add(kPhysics);
   }
   if (model.energy.there) {
     const tissue::GeneratorPanel& panel = model.energy.panel;

@@ -130,19 +130,13 @@ struct VesselsModel {
   bool there() const noexcept { return !list.empty(); }
 };
 
-/// A cell of the pool's floor that goes up and down with a solid's skin: with the triangle that lies there as drawn.
-struct FloorHold {
-  std::int32_t cell = 0, solid = -1;
-  std::array<std::int32_t, 3> vertex{-1, -1, -1};  ///< of the touched skin
-};
-
 /// Fluids, where a scene has any.
 struct WetModel {
   bool there = false;
   fluids::FluidsModel model;
-  std::vector<float> floor;         ///< of the pool as drawn, (ny x nx) [m]
-  std::vector<FloorHold> floor_on;  ///< cells that move
-  std::vector<std::int32_t> film;   ///< (bodies + 1) where the places of film of each begin (interactions::WetBodies)
+  std::vector<float> floor;        ///< of the pool without organs, (ny x nx) [m]
+  std::vector<int> floor_organs;   ///< that are part of it as they lie
+  std::vector<std::int32_t> film;  ///< (bodies + 1) where the places of film of each begin (interactions::WetBodies)
 };
 
 /// Current and heat, where a scene has them.

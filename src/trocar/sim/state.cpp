@@ -5,6 +5,7 @@
 
 #include <trocar/core/hash.hpp>
 #include <trocar/fluids/shown_fluids.hpp>
+#include <trocar/sim/pool_floor.hpp>
 #include <trocar/sim/state.hpp>
 #include <trocar/tissue/heat_scars.hpp>
 
@@ -84,8 +85,10 @@ State initial_state(const Model& model) {
     s.shrunk.resize(size_t(kMaxShrunk));
     for (tissue::StrandState& strand : s.strands) strand.shrunk.assign(strand.alive.size(), 1.0);
   }
-  if (model.wet.there) s.fluids = fluids::initial_state(model.wet.model);
-  if (!model.wet.floor_on.empty()) s.floor = model.wet.floor;
+  if (model.wet.there) {
+    s.fluids = fluids::initial_state(model.wet.model);
+    lay_floor(model, s);
+  }
   if (model.irrigates()) s.impacts.resize(size_t(model.wet.model.droplets.capacity));
   make_counters(model, s);
   return s;
@@ -137,8 +140,10 @@ std::uint64_t hash_of(const State& s) noexcept {
     h.add(s.shrunk_count);
     h.add(core::hash_bytes(s.shrunk.data(), size_t(s.shrunk_count) * sizeof s.shrunk[0]));
   }
-  if (!s.fluids.droplets.x.empty()) fluids::add_to_hash(h, s.fluids);
-  if (!s.floor.empty()) h.add(s.floor);
+  if (!s.fluids.droplets.x.empty()) {
+    fluids::add_to_hash(h, s.fluids);
+    h.add(s.pool_floor);
+  }
   if (!s.impacts.empty()) {
     h.add(s.valves);
     h.add(s.impact_count);
@@ -471,6 +476,7 @@ bool restore_display(const Model& model, const std::vector<std::uint8_t>& bytes,
   if (model.energy.there) take_heat(in, model, s);
   if (model.wet.there) take_fluids(in, model, s.fluids);
   if (!in.good || in.at != bytes.size() || !sound(model, s)) return false;
+  if (model.wet.there) lay_floor(model, s);
   state = std::move(s);
   return true;
 }

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include <trocar/interactions/tool_contact.hpp>
@@ -74,8 +73,8 @@ struct State {
   std::int32_t seal_count = 0;
   std::vector<ShrunkSpring> shrunk;  ///< (kMaxShrunk)
   std::int32_t shrunk_count = 0;
-  fluids::FluidsState fluids;  ///< empty in scenes without fluids
-  std::vector<float> floor;    ///< of the pool, (ny x nx) [m]; empty where it stands still (floor_of)
+  fluids::FluidsState fluids;     ///< empty in scenes without fluids
+  std::vector<float> pool_floor;  ///< of the pool, (ny x nx) [m]; walls and organs
   /// What drops gave to tissue in the last tick: it goes to the bodies in the next. Empty without a suction-irrigator.
   std::vector<fluids::Impact> impacts;  ///< (drops' capacity) the first `impact_count`
   std::int32_t impact_count = 0;
@@ -86,11 +85,6 @@ struct State {
 State initial_state(const Model& model);
 /// Bodies as drawn and nothing else: for compile, before the Model is complete.
 State drawn_bodies(const Model& model);
-
-/// The pool's floor as it lies now; empty in scenes without fluids.
-inline std::span<const float> floor_of(const Model& model, const State& state) noexcept {
-  return state.floor.empty() ? std::span<const float>(model.wet.floor) : std::span<const float>(state.floor);
-}
 
 /// Where an organ's nodes are: valid until its next tick.
 tissue::NodeView nodes_of(const Model& model, const State& state, int organ) noexcept;

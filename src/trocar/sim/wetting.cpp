@@ -1,8 +1,7 @@
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 #include <trocar/interactions/irrigate.hpp>
+#include <trocar/sim/pool_floor.hpp>
 #include <trocar/sim/stage.hpp>
 #include <trocar/sim/visibility.hpp>
 #include <trocar/sim/wetting.hpp>
@@ -145,38 +144,6 @@ void press_strand(StepContext& c, size_t i, int node, const Push& push) noexcept
   c.work.strand_loads[i].add(load, {});
 }
 
-constexpr std::size_t kFloorParts = 8;  // a cell of the floor is looked at in one tick of so many.        Our choice
-constexpr double kSteep = 0.05;         // upward part of a normal below which a triangle is no floor
-constexpr double kOver = 0.001;         // [m] beyond its corners that a triangle's plane still says where the floor is
-
-/// Height of the plane through three points at the middle of a cell, hardly beyond the points' own heights.
-double floor_height(const fluids::PoolModel& pool, std::int32_t cell, const std::array<Vec3d, 3>& corner) noexcept {
-  std::array<Vec3d, 3> p;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3d d = corner[k] - pool.origin;
-    p[k] = {dot(d, pool.u), dot(d, pool.v), dot(d, pool.up)};
-  }
-  const Vec3d n = cross(p[1] - p[0], p[2] - p[0]);
-  const double low = std::min({p[0].z, p[1].z, p[2].z}), high = std::max({p[0].z, p[1].z, p[2].z});
-  if (!(n.z > kSteep * length(n))) return 0.5 * (low + high);
-  const double x = (cell % pool.nx + 0.5) * pool.cell, y = (cell / pool.nx + 0.5) * pool.cell;
-  const double z = p[0].z - (n.x * (x - p[0].x) + n.y * (y - p[0].y)) / n.z;
-  return std::clamp(z, low - kOver, high + kOver);
-}
-
-/// The floor follows the skins that it lies on, as they were posed in this tick: part of it in each.
-void heave_floor(StepContext& c) noexcept {
-  const std::vector<FloorHold>& holds = c.model.wet.floor_on;
-  for (std::size_t i = std::size_t(c.state.tick) % kFloorParts; i < holds.size(); i += kFloorParts) {
-    const FloorHold& hold = holds[i];
-    const interactions::Surface& skin = c.work.surfaces[std::size_t(hold.solid)];
-    std::array<Vec3d, 3> corner;
-    for (std::size_t k = 0; k < 3; ++k) corner[k] = skin.position(hold.vertex[k]);
-    const double height = floor_height(c.model.wet.model.pool, hold.cell, corner);
-    if (std::fabs(height) < 1) c.state.floor[std::size_t(hold.cell)] = float(height);
-  }
-}
-
 }  // namespace
 
 void press_with_drops(StepContext& c) noexcept {
@@ -202,8 +169,8 @@ void move_fluids(StepContext& c) noexcept {
   input.openings = c.work.wounds;
   input.capsules = {c.work.wet_tools.data(), size_t(tools)};
   input.tools = {c.work.valves.data(), c.model.hands.size()};
-  heave_floor(c);
-  input.floor = floor_of(c.model, c.state);
+  follow_floor(c);
+  input.floor = c.state.pool_floor;
   input.smoke = what_the_lens_meets(c);
   if (c.work.steam.kilograms > 0) input.boiled = {&c.work.steam, 1};
   input.smoke.coagulating = c.work.current_flows;

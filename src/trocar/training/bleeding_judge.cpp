@@ -94,7 +94,7 @@ bool BleedingJudge::drowned(const sim::Model& model, const sim::State& state, Ve
   const fluids::PoolPoint p = locate(pool, where);
   if (!p.inside) return false;
   const float deep = depth_at(pool, state.fluids.pool, p.i, p.j);
-  return deep > kShallow && floor_at(pool, sim::floor_of(model, state), p.i, p.j) + deep > p.height + kShallow;
+  return deep > kShallow && floor_at(pool, state.pool_floor, p.i, p.j) + deep > p.height + kShallow;
 }
 
 void BleedingJudge::judge_clip(const sim::Model& model, const sim::State& state, int number) {

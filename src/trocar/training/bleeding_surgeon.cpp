@@ -9,7 +9,7 @@ namespace trocar::training {
 namespace {
 
 constexpr double kTravel = 0.045, kCareful = 0.018, kTrack = 0.004;  // [m/s] through the open, at tissue, following it
-constexpr double kBeside = 0.008;                                    // [m] of a clip from the place
+constexpr double kBeside = 0.006;                                    // [m] of a clip from the place
 constexpr double kBack = 0.022;                                      // [m] in front of the tissue
 constexpr double kAway = 0.060;                                      // [m] depth of an applier that is drawn back
 constexpr double kHalf = 0.42;                                       // handle of a half closed applier
@@ -71,8 +71,9 @@ interactions::VesselSpot BleedingSurgeon::spot(double s) const { return vessel_s
 Vec3d BleedingSurgeon::place() const { return point(m_model->vessels.bleeder.s); }
 
 double BleedingSurgeon::clip_at() const {
-  // Arteries are written from the heart on. A little farther off after each failure.
-  const double off = (kBeside + 0.002 * double(m_tries % 3)) / path().length;
+  // Arteries are written from the heart on. A little nearer or farther off after each failure.
+  constexpr double kElsewhere[] = {0, -0.001, 0.001};  // [m]
+  const double off = (kBeside + kElsewhere[m_tries % 3]) / path().length;
   return std::clamp(m_model->vessels.bleeder.s + (m_upstream ? -off : off), 0.0, 1.0);
 }
 
@@ -95,31 +96,67 @@ bool BleedingSurgeon::choose_side() {
 }
 
 double BleedingSurgeon::inside() const {
-  constexpr double kCarrier = 0.0037;  // [m] radius of what carries arteries here, and a little more
+  constexpr double kSpare = 0.0008;   // [m] between the carrier and the clip's bend
+  constexpr double kMissed = 0.014;   // [m] as a flaw
+  constexpr double kCaught = 0.0002;  // [m] the same: of the artery's middle from the legs' ends
   const interactions::ToolModel& t = m_model->tool(*m_state, size_t(m_applier));
-  constexpr double kMissed = 0.014;  // [m] as a flaw
-  return t.jaw_length - t.clip_length + kCarrier + (flawed("E12") && !m_blundered ? kMissed : 0);
+  if (errs("A3.3")) return t.jaw_length - kCaught;
+  return t.jaw_length - t.clip_length + m_carrier.radius + kSpare + (errs("E12") ? kMissed : 0);
 }
 
-interactions::VesselSpot BleedingSurgeon::elsewhere() const {
-  const int strand = m_model->strand_index(m_goal.delicate[place().x > 0 ? 0 : 1].name);
-  if (strand < 0) return spot(clip_at());
-  const interactions::StrandBody& tube = m_model->bodies[size_t(strand)];
-  const interactions::StrandPlace middle = interactions::place_at(tube, 0.35 * tube.length());
+BleedingSurgeon::Carrier BleedingSurgeon::on_strand(int strand, interactions::StrandPlace place) const {
+  const interactions::StrandBody& body = m_model->bodies[size_t(strand)];
   const tissue::StrandState& state = m_state->strands[size_t(strand)];
-  return {interactions::point_at(tube, state, middle), interactions::tangent_at(tube, state, middle)};
+  return {interactions::point_at(body, state, place), interactions::tangent_at(body, state, place),
+          body.model.radius[size_t(place.element)]};
 }
 
-interactions::VesselSpot BleedingSurgeon::clipped() const {
-  return flawed("A3.2") && !m_blundered ? elsewhere() : spot(clip_at());
+BleedingSurgeon::Carrier BleedingSurgeon::elsewhere() const {
+  const int tube = m_model->strand_index(m_goal.delicate[place().x > 0 ? 0 : 1].name);
+  const interactions::StrandBody& body = m_model->bodies[size_t(tube)];
+  return on_strand(tube, interactions::place_at(body, 0.35 * body.length()));
+}
+
+BleedingSurgeon::Carrier BleedingSurgeon::clipped() const {
+  if (errs("A3.2")) return elsewhere();
+  const interactions::VesselSpot at = spot(clip_at());
+  const interactions::VesselHold& hold = path().points[size_t(at.after)].hold;
+  if (hold.kind != interactions::VesselHold::strand)
+    return {at.place, at.along, path().points[size_t(at.after)].radius};
+  // The point before the place: what is left lies along the strand.
+  const interactions::StrandBody& body = m_model->bodies[size_t(hold.index)];
+  Carrier c = on_strand(hold.index, {hold.element, hold.w});
+  const double ahead = dot(at.place - c.place, c.along);
+  return on_strand(hold.index,
+                   interactions::place_at(body, interactions::arc_at(body, {hold.element, hold.w}) + ahead));
 }
 
 bool BleedingSurgeon::aim(double back, double speed) {
   const interactions::ToolModel& t = m_model->tool(*m_state, size_t(m_applier));
-  const interactions::VesselSpot spot = clipped();
-  const Vec3d axis = normalised(spot.place - m_arms[m_applier].port);
-  const bool there = m_arms.move(m_applier, spot.place + (t.jaw_length - inside() - back) * axis, speed);
-  return m_arms.turn_across(m_applier, spot.along) && there;
+  const Vec3d to = m_carrier.place + m_aside;
+  const Vec3d axis = normalised(to - m_arms[m_applier].port);
+  const bool there = m_arms.move(m_applier, to + (t.jaw_length - inside() - back) * axis, speed);
+  return m_arms.turn_across(m_applier, m_carrier.along) && there;
+}
+
+bool BleedingSurgeon::between_legs() const {
+  constexpr double kShort = 0.002;  // [m]
+  const interactions::ToolState& tool = m_state->tools[size_t(m_applier)];
+  const interactions::ToolShape shape =
+      interactions::shape_of(m_model->tool(*m_state, size_t(m_applier)), tool.pose(), tool.aperture);
+  const Vec3d local = interactions::to_jaw(shape, clipped().place);
+  return std::fabs(local.x) < shape.half_gap && local.z < inside() + kShort;
+}
+
+void BleedingSurgeon::learn_from_a_miss() {
+  // What lies on a leg's end has slid to that side: next time a little farther there.
+  const interactions::ToolState& tool = m_state->tools[size_t(m_applier)];
+  const interactions::ToolShape shape =
+      interactions::shape_of(m_model->tool(*m_state, size_t(m_applier)), tool.pose(), tool.aperture);
+  const double aside = interactions::to_jaw(shape, clipped().place).x;
+  constexpr double kMost = 0.0008, kFarthest = 0.003;  // [m]
+  m_aside += std::clamp(0.5 * aside, -kMost, kMost) * interactions::direction_from_jaw(shape, {1, 0, 0});
+  if (length(m_aside) > kFarthest) m_aside = {0, 0, 0};
 }
 
 bool BleedingSurgeon::sees_jaw() const {
@@ -127,11 +164,13 @@ bool BleedingSurgeon::sees_jaw() const {
 }
 
 void BleedingSurgeon::look_at_clip() {
-  // From the midline, if the legs' tips stay hidden: then one is seen past the artery's carrier.
+  // If the legs' tips stay hidden: from the midline, then from the side; one is seen past the artery's carrier.
   constexpr double kPatience = 2, kAside = 0.03;  // [s] [m]
   const Vec3d at = clipped().place;
-  if (flawed("E4.2") && !m_blundered) return want(at - Vec3d{2 * at.x, 0, 0});  // the other side of the patient
-  want(m_unseen > kPatience ? at - Vec3d{at.x > 0 ? kAside : -kAside, 0, 0} : at);
+  if (errs("E4.2")) return want(at - Vec3d{2 * at.x, 0, 0});  // the other side of the patient
+  const double aside[] = {0, kAside, -kAside};
+  const double x = aside[int(m_unseen / kPatience) % 3];
+  want(at - Vec3d{at.x > 0 ? x : -x, 0, 0});
 }
 
 void BleedingSurgeon::draw_back_others() {
@@ -215,6 +254,7 @@ void BleedingSurgeon::find() {
 }
 
 void BleedingSurgeon::reach() {
+  m_carrier = clipped();
   want(place());
   want(point(clip_at()));
   if (m_in_phase > 0.5) want(m_arms[m_applier].tip);
@@ -227,17 +267,22 @@ void BleedingSurgeon::reach() {
 void BleedingSurgeon::enter() {
   want(place());
   want(m_arms[m_applier].tip);
-  if (aim(0, kCareful)) go(Phase::inspect);
-  if (m_in_phase > 8) go(Phase::leave);
+  if ((errs("E12") || errs("A3.2") || errs("A3.3")) && m_in_phase > 2) return go(Phase::inspect);
+  if (!aim(0, kCareful) && m_in_phase < 8) return;
+  m_steady += sim::kTick;
+  if (between_legs()) return go(Phase::inspect);
+  if (m_steady < 0.3) return;  // it still slides in
+  learn_from_a_miss();
+  go(Phase::leave);
 }
 
 void BleedingSurgeon::inspect() {
   look_at_clip();
-  want(m_arms[m_applier].tip);
+  if (!errs("E4.2")) want(m_arms[m_applier].tip);
   m_distance = 0.052 + 0.008 * double(int(m_in_phase / 1.5) % 4);
   aim(0, kTrack);
   if (!m_arms.grip(m_applier, kHalf, 1.6)) return;
-  const bool careless = !m_blundered && (flawed("E4.2") || flawed("E12") || flawed("A3.2"));
+  const bool careless = errs("E4.2") || errs("E12") || errs("A3.2") || errs("A3.3");
   if (careless && m_in_phase > 4) return go(Phase::close);
   m_unseen += sees_jaw() ? 0 : sim::kTick;
   m_steady = sees_jaw() && !careless ? m_steady + sim::kTick : 0;
@@ -247,12 +292,17 @@ void BleedingSurgeon::inspect() {
 
 void BleedingSurgeon::close() {
   look_at_clip();
-  want(m_arms[m_applier].tip);
+  if (!errs("E4.2")) want(m_arms[m_applier].tip);
   aim(0, kTrack);
-  const double quick = flawed("A3.4") && !m_blundered ? 0.4 : 1;
+  const double quick = errs("A3.4") ? 0.4 : 1;
+  const bool careless = !m_blundered && !m_manner.flaw.empty();
+  if (!sees_jaw() && !careless && m_state->clip_count == m_clips_before && m_in_phase < 7) {  // wait for the camera
+    m_unseen += sim::kTick;
+    return;
+  }
   if (m_arms.grip(m_applier, 1, 2.6 * quick * m_goal.clip_closing) && m_state->clip_count > m_clips_before)
     go(Phase::open);
-  if (m_in_phase > 8) go(Phase::open);
+  if (m_in_phase > 11) go(Phase::open);
 }
 
 void BleedingSurgeon::open() {
@@ -269,6 +319,7 @@ void BleedingSurgeon::leave() {
   m_arms.move(m_applier, m_arms[m_applier].tip + 0.01 * out, kCareful);
   if (m_in_phase < 1.5) return;
   m_tries = has_clip(m_upstream) ? 0 : m_tries + 1;
+  if (m_tries == 0) m_aside = {0, 0, 0};
   m_gave_up = m_tries >= kMostTries;
   if (m_gave_up) return go(Phase::finished);
   go(choose_side() ? Phase::reach : Phase::change);
@@ -281,7 +332,7 @@ Vec3d BleedingSurgeon::deepest() const {
   for (int j = 0; j < pool.ny; ++j)
     for (int i = 0; i < pool.nx; ++i)
       if (const float d = depth_at(pool, m_state->fluids.pool, i, j); d > most) most = d, at_i = i, at_j = j;
-  const double height = double(floor_at(pool, m_model->wet.floor, at_i, at_j)) + 0.5 * double(most);
+  const double height = double(floor_at(pool, m_state->pool_floor, at_i, at_j)) + 0.5 * double(most);
   return world(pool, (at_i + 0.5) * pool.cell, (at_j + 0.5) * pool.cell, height);
 }
 

@@ -69,6 +69,7 @@ class BleedingSurgeon final : public Expert {
   Vec3d point(double s) const { return spot(s).place; }
   double clip_at() const;  ///< place of the clip that is being set, likewise
   Vec3d place() const;     ///< that bleeds
+  /// To where m_carrier lies `inside` the legs, less `back` along the shaft, and across it.
   bool aim(double back, double speed);
   double inside() const;
   bool sees_jaw() const;
@@ -76,12 +77,21 @@ class BleedingSurgeon final : public Expert {
   void draw_back_others();
   Vec3d deepest() const;  ///< surface of the pool where it is deepest
   bool flawed(const char* code) const { return m_manner.flaw == code; }
-  double lost() const;  ///< blood [m^3]
-  bool waits() const;   ///< longer than an expert would: a flaw
+  bool errs(const char* code) const { return flawed(code) && !m_blundered; }  ///< this mistake is still to be made
+  double lost() const;                                                        ///< blood [m^3]
+  bool waits() const;                                                         ///< longer than an expert would: a flaw
   bool burns() const { return flawed("E6") || flawed("E7") || flawed("E7.1") || flawed("E8"); }
-  Vec3d burnt() const;                       ///< what a hook is held to, as a flaw
-  interactions::VesselSpot clipped() const;  ///< where the legs shall close: on the artery, but for a flaw
-  interactions::VesselSpot elsewhere() const;
+  Vec3d burnt() const;  ///< what a hook is held to, as a flaw
+  /// What the legs shall take: middle, direction, radius.
+  struct Carrier {
+    Vec3d place, along;
+    double radius = 0;
+  };
+  Carrier clipped() const;  ///< what carries the artery there, but for a flaw
+  Carrier elsewhere() const;
+  Carrier on_strand(int strand, interactions::StrandPlace place) const;
+  bool between_legs() const;
+  void learn_from_a_miss();
   void want(Vec3d p) { m_points[size_t(m_point_count < 7 ? m_point_count++ : 7)] = p; }
 
   const BleedingControl& m_goal;
@@ -98,6 +108,8 @@ class BleedingSurgeon final : public Expert {
   Phase m_phase = Phase::watch;
   bool m_upstream = true, m_gave_up = false;
   int m_tries = 0, m_clips_before = 0;
+  Carrier m_carrier;       ///< as it lay before the legs touched it: who follows tissue that they push drags it along
+  Vec3d m_aside{0, 0, 0};  ///< learnt from misses: where the legs must go instead [m]
   double m_in_phase = 0, m_steady = 0, m_unseen = 0;  ///< [s]
   Arms m_arms;
   CameraHand m_camera;

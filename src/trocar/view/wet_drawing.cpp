@@ -94,7 +94,7 @@ void WetDrawing::list(const sim::State& state, render::Frame& frame) {
     const bool sheer = at.body >= 0 && m_sheer[std::size_t(at.body)] != 0;
     m_places[i] = {vec_cast<float>(at.point), vec_cast<float>(at.normal), m_places[i].area, age, sheer};
   }
-  m_drawing.list({state.fluids, floor_of(*m_model, state), m_places, m_sheer}, frame);
+  m_drawing.list({state.fluids, state.pool_floor, m_places, m_sheer}, frame);
 }
 
 }  // namespace trocar::view
