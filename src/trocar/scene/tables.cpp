@@ -353,11 +353,12 @@ const Shape& energy() {
 }
 
 const Shape& wave_station() {
-  static const Shape shape{"wave station",
-                           "What waves are like at one place of the centre line; linear between stations.",
-                           {needed(keys::number("s_mm", 0, 5000, "way along the centre line")),
-                            needed(keys::number("pressure_kPa", 0, 100, "with which a crest presses the wall together")),
-                            needed(keys::number("speed_mm_s", 0.1, 200, "with which waves run there"))}};
+  static const Shape shape{
+      "wave station",
+      "What waves are like at one place of the centre line; linear between stations.",
+      {needed(keys::number("s_mm", 0, 5000, "way along the centre line")),
+       needed(keys::number("pressure_kPa", 0, 100, "with which a crest presses the wall together")),
+       needed(keys::number("speed_mm_s", 0.1, 200, "with which waves run there"))}};
   return shape;
 }
 
