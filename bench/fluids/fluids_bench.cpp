@@ -164,7 +164,7 @@ void drop_forces(benchmark::State& state) {
     state.PauseTiming();
     b.s.droplets = before;
     state.ResumeTiming();
-    detail::pull_together(b.m.droplets, detail::Who::kOnSurfacesEven, 4e-3, b.s.droplets, b.w.droplets);
+    detail::pull_together(b.m.droplets, {false, 0, 2}, 4e-3, b.s.droplets, b.w.droplets);
   }
   state.counters["drops"] = before.count;
   state.counters["pairs"] = b.w.droplets.pair_count;

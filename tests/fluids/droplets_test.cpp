@@ -107,7 +107,7 @@ TEST(Drops, FindEveryNeighbourWithinReachOnce) {
         const double others = std::max(neighbours[i], neighbours[j]);
         v[i] += (weight / others * dt * k * (far - double(rest)) / (1 + dt * damping / both) / m / far) * to;
       }
-    EXPECT_EQ(detail::pull_together(b.m.droplets, detail::Who::kFlying, dt, b.s.droplets, b.w.droplets).flags, 0u);
+    EXPECT_EQ(detail::pull_together(b.m.droplets, {}, dt, b.s.droplets, b.w.droplets).flags, 0u);
     for (int i = 0; i < 300; ++i) {
       EXPECT_NEAR(double(b.s.droplets.vx[i]), v[i].x, 1e-3);
       EXPECT_NEAR(double(b.s.droplets.vy[i]), v[i].y, 1e-3);
@@ -361,7 +361,7 @@ TEST(Drops, InOnePlaceCostNoMoreThanTheirBound) {
   d.droplets.largest = 1'000'001;
   Scene b(d);
   for (int i = 0; i < 20000; ++i) put_drop(b, {1e-7f * float(i % 100), 0, 0.05f}, {0, 0, 0}, 1'000'000);
-  const FluidReport r = detail::pull_together(b.m.droplets, detail::Who::kFlying, 4e-3, b.s.droplets, b.w.droplets);
+  const FluidReport r = detail::pull_together(b.m.droplets, {}, 4e-3, b.s.droplets, b.w.droplets);
   EXPECT_TRUE(r.flags & FluidReport::kCrowded);
   for (int i = 0; i < b.s.droplets.count; ++i) ASSERT_TRUE(std::isfinite(b.s.droplets.vx[i]));
 }

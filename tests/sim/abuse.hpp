@@ -1,5 +1,6 @@
 // Seeded random abuse of a scene: hands that grasp, tear and poke at every organ in turn, at tip speeds up to 0.4 m/s
-// and with forces up to 10 N, change instruments while they hold, and let go.
+// and with forces up to 10 N, change instruments while they hold, and let go. Where a scene has current or fluids, feet
+// and fingers are as wild: pedals, valves and the wipe go on and off at random, in any combination.
 //
 //   abuse::Attack attack(model, 1);
 //   while (attack.ticks() < 600'000) { const abuse::Round r = attack.round(); ... r.left ... }
@@ -120,6 +121,30 @@ inline sim::Model untearable(sim::Model model) {
   return model;
 }
 
+/// What must hold of blood, water, smoke and heat whatever hands and feet do; empty: all of it does.
+inline std::string broken(const sim::Model& m, const sim::State& s) {
+  if (m.wet.there && !audit(m.wet.model, s.fluids)) return "the account does not balance";
+  if (m.wet.there && s.fluids.ledger.in[size_t(fluids::Source::kBled)].total() > s.flow.bled)
+    return "more blood than the vessels let out";
+  const auto sound = [](float x) { return std::fabs(x) < 1e3f; };  // not a number is not
+  const fluids::DropletState& d = s.fluids.droplets;
+  for (size_t i = 0; i < size_t(d.count); ++i)
+    for (const float x : {d.x[i], d.y[i], d.z[i], d.vx[i], d.vy[i], d.vz[i]})
+      if (!sound(x)) return "a drop is nowhere";
+  for (const float u : s.fluids.pool.u)
+    if (!sound(u)) return "the pool's speed";
+  for (const float v : s.fluids.pool.v)
+    if (!sound(v)) return "the pool's speed";
+  for (const float density : s.fluids.smoke.density)
+    if (!(density >= 0) || !std::isfinite(density)) return "the smoke's density";
+  if (!(s.fluids.smoke.fog >= 0 && s.fluids.smoke.fog <= 1)) return "fog on the lens";
+  for (const double p : s.flow.p)
+    if (!(std::fabs(p) < 1e6)) return "pressure in a vessel";
+  for (const sim::ElectrodeHand& e : s.electrodes)
+    if (!(e.current.tip > -100 && e.current.tip < 1000)) return "an electrode's temperature";
+  return "";
+}
+
 class Attack {
  public:
   /// @param destroy  scissors and clip appliers close as well: shapes will not come back
@@ -128,6 +153,7 @@ class Attack {
         m_state(sim::initial_state(model)),
         m_work(sim::make_work(model)),
         m_random(seed),
+        m_feet(seed ^ 0x5eed),
         m_input(model.start),
         m_bodies(bodies_of(model)),
         m_destroy(destroy) {
@@ -140,6 +166,7 @@ class Attack {
 
   std::uint64_t ticks() const { return m_state.tick; }
   const sim::State& state() const { return m_state; }
+  std::uint32_t pressed() const { return m_pressed; }  ///< bits of Input::pedals that have been on
   size_t organs() const { return m_bodies.size(); }
 
   /// @param seconds  of abuse before everything lets go  @param rest  ticks after that
@@ -152,8 +179,10 @@ class Attack {
     for (int t = 0; t < ticks; ++t) {
       for (size_t h = 0; h < m_hands.size(); ++h) attack(h);
       wander();
+      tread();
       tick(r);
     }
+    m_input.pedals = 0;
     for (int t = 0; t < kWithdrawTicks; ++t) {
       for (size_t h = 0; h < m_hands.size(); ++h) withdraw(h, t);
       tick(r);
@@ -286,6 +315,14 @@ class Attack {
     m_input.scope.roll += float(m_random.uniform(-0.01, 0.01));
   }
 
+  /// Every now and then one of all pedals, valves and the wipe changes.
+  void tread() {
+    if ((!m_model.energy.there && !m_model.wet.there) || m_feet.next() % 100 != 0) return;
+    const std::uint32_t which = std::uint32_t(m_feet.next() % (3 + 2 * m_hands.size()));
+    m_input.pedals ^= which < 3 ? 1u << which : 1u << (8 + which - 3);
+    m_pressed |= m_input.pedals;
+  }
+
   void tick(Round& r) {
     std::array<Vec3d, sim::kMaxTools> before;
     for (size_t h = 0; h < m_hands.size(); ++h) before[h] = tip(h);
@@ -320,13 +357,14 @@ class Attack {
   const sim::Model& m_model;
   sim::State m_state;
   sim::Work m_work;
-  core::Random m_random;
+  core::Random m_random, m_feet;
   sim::Input m_input;
   std::vector<Body> m_bodies;
   std::vector<std::vector<Vec3d>> m_settled;
   std::vector<Hand> m_hands;
   double m_rest_energy = 0;
   size_t m_target = 0;
+  std::uint32_t m_pressed = 0;
   bool m_destroy = false;
 };
 

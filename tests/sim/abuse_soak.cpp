@@ -61,6 +61,21 @@ TEST(AbuseSoak, ScissorsClipsAndTearsEverywhereLeaveNumbersFinite) {
   }
 }
 
+TEST(AbuseSoak, PedalsValvesAndTheWipeLeaveNumbersFiniteAndTheAccountExact) {
+  const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/bleeding/scene.json"));
+  abuse::Attack attack(model, 9, true);
+  for (size_t round = 0; attack.ticks() < kTicks / 10; ++round) {
+    const abuse::Round r = attack.round(round, 6, 0);
+    report(r, attack.ticks());
+    SCOPED_TRACE(r.organ + " in round " + std::to_string(round));
+    ASSERT_EQ(r.first_bad_tick, 0u) << "flags " << r.flags;
+    EXPECT_LT(r.most_energy, kMostEnergy) << "[J]";
+    ASSERT_EQ(abuse::broken(model, attack.state()), "");
+  }
+  EXPECT_EQ(attack.pressed() & 7u, 7u) << "each pedal and the wipe";
+  EXPECT_GT(attack.state().flow.bled, 0);
+}
+
 /// A liver that hangs on one face swings at 1.8 Hz, and what was torn at keeps an eighth of that after 5 s.
 constexpr int kLiversRest = 10'000;
 

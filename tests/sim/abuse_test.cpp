@@ -57,6 +57,53 @@ TEST(Abuse, TissueThatTearsStaysFinite) {
   EXPECT_LT(r.most_energy, 5) << "[J]";
 }
 
+const sim::Model& bleeding() {
+  static const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/bleeding/scene.json"));
+  return model;
+}
+
+TEST(Abuse, WildFeetOnPedalsAndValvesLeaveNumbersFiniteAndTheAccountExact) {
+  const sim::Model& model = bleeding();
+  abuse::Attack attack(model, 8, true);
+  for (int round = 0; round < 2; ++round) {
+    const abuse::Round r = attack.round(size_t(round), 1.5, 0);
+    EXPECT_EQ(r.first_bad_tick, 0u) << r.organ << ", flags " << r.flags;
+    EXPECT_LT(r.most_energy, 5) << "[J] " << r.organ;
+    EXPECT_EQ(abuse::broken(model, attack.state()), "") << r.organ;
+  }
+  const sim::State& s = attack.state();
+  const double irrigated = 1e-9 * double(s.fluids.ledger.in[size_t(fluids::Source::kIrrigated)].total());
+  std::printf("pedals %x, %.1f mL of water, %.2f mL of blood, %d bricks of heat awake, fog %.2g\n", attack.pressed(),
+              irrigated, 1e-9 * double(s.flow.bled), tissue::bricks_awake(s.heat), s.fluids.smoke.fog);
+  EXPECT_NE(attack.pressed() & sim::kBlue, 0u);
+  EXPECT_NE(attack.pressed() & sim::kYellow, 0u);
+  EXPECT_NE(attack.pressed() & sim::kWipe, 0u);
+  EXPECT_GT(irrigated, 0.1) << "[mL] a valve was open with the irrigator in hand";
+}
+
+TEST(Abuse, HandsThatJumpWithAnyBitsOfPedalsLeaveNumbersFiniteAndTheAccountExact) {
+  const sim::Model& model = bleeding();
+  sim::State s = sim::initial_state(model);
+  sim::Work w = sim::make_work(model);
+  core::Random random(10);
+  sim::Input in = model.start;
+  for (int t = 0; t < 1500; ++t) {
+    if (random.uniform() < 0.1)
+      for (size_t h = 0; h < model.hands.size(); ++h) {
+        const Vec3d tip{random.uniform(-0.06, 0.06), random.uniform(-0.19, -0.12), random.uniform(-0.16, -0.06)};
+        const auto instrument = std::int32_t(t / 500 * 3 + int(h)) % std::int32_t(model.hands[h].rack.size());
+        in.tools[h] = sim::tool_input(kinematics::inverse(model.hands[h].port, tip, random.uniform(-3, 3)),
+                                      random.uniform() < 0.5 ? 0.0f : 1.0f, instrument);
+      }
+    if (random.uniform() < 0.02) in.pedals = std::uint32_t(random.next());
+    const sim::StepReport report = step(model, in, s, w);
+    ASSERT_TRUE(report.fine()) << "tick " << t << " body " << report.first_bad_body;
+    if (t % 50 != 0) continue;
+    ASSERT_EQ(abuse::broken(model, s), "") << "tick " << t;
+  }
+  EXPECT_GT(s.fluids.ledger.in[size_t(fluids::Source::kIrrigated)].total(), 0);
+}
+
 TEST(Abuse, AFilledGallbladderBearsItAndKeepsItsContents) {
   const sim::Model model =
       abuse::untearable(scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/gallbladder/scene.json")));

@@ -99,17 +99,17 @@ void note_impact(Moment& t, int i, Vec3f point, Vec3f impulse, float drop_mass) 
   t.w.impacts[t.w.impact_count++] = {t.s.body[i], t.s.ground[i].film, point, impulse, drop_mass};
 }
 
-/// Speed along the surface after a tick: gravity, retention by the contact line, the film's viscosity.
-Vec3f run(const Moment& t, int i, Vec3f along, Vec3f g_along, float drop_mass) {
+/// Speed along the surface after dt: gravity, retention by the contact line, the film's viscosity.
+Vec3f run(const Moment& t, int i, Vec3f along, Vec3f g_along, float drop_mass, float dt) {
   const float r = t.s.radius[i], h = float(t.m.running_height) * r;
   const float tau = t.per_viscosity * (h * h);
-  const Vec3f pushed = along + t.run_dt * g_along;
-  const float stop = t.run_dt * t.retention * (2 * r) / drop_mass, speed = length(pushed);
-  return speed > stop ? ((speed - stop) / (speed * (1 + t.run_dt / tau))) * pushed : Vec3f{0, 0, 0};
+  const Vec3f pushed = along + dt * g_along;
+  const float stop = dt * t.retention * (2 * r) / drop_mass, speed = length(pushed);
+  return speed > stop ? ((speed - stop) / (speed * (1 + dt / tau))) * pushed : Vec3f{0, 0, 0};
 }
 
-/// A drop that is on a surface, at the end of the tick.
-void run_down(Moment& t, int i) {
+/// A drop that is on a surface, at the end of the tick. @param dt  by which it goes on [s]
+void run_down(Moment& t, int i, float dt) {
   DropletState& s = t.s;
   const Ground& ground = s.ground[i];
   const Vec3f n = ground.normal, relative = velocity(s, i) - ground.velocity;
@@ -122,8 +122,8 @@ void run_down(Moment& t, int i) {
   }
   const float across = dot(n, relative);
   if (std::fabs(across) > kPressed) note_impact(t, i, position(s, i), (drop_mass * across) * n, drop_mass);
-  const Vec3f along = run(t, i, relative - across * n, t.g - away * n, drop_mass);
-  Vec3f x = position(s, i) + t.run_dt * (along + ground.velocity);
+  const Vec3f along = run(t, i, relative - across * n, t.g - away * n, drop_mass, dt);
+  Vec3f x = position(s, i) + dt * (along + ground.velocity);
   x += (ground.offset + 0.5f * r - dot(n, x)) * n;
   put(s, i, x, along + ground.velocity);
   const float speed = length(along);
@@ -139,6 +139,8 @@ void land(Moment& t, int i, const Contact& c) {
   s.body[i] = c.body;
   s.ground[i] = {c.normal, dot(c.normal, c.point), c.velocity, c.film};
   const Vec3f relative = velocity(s, i) - c.velocity;
+  // Looked for some ticks ahead, it is put where it will be.
+  if (t.w.ways > 1) put(s, i, c.point + (0.5f * s.radius[i]) * c.normal, velocity(s, i));
   const float across = dot(c.normal, relative);
   if (!(across < 0)) return;
   const float drop_mass = float(mass(widened(s.volume[i]), t.m.density));
@@ -185,7 +187,8 @@ void meet(Moment& t, int i) {
   }
   const Contact tool = t.w.near[i] != 0 ? capsule_at(t, i, to) : Contact{};
   if (s.body[i] < 0) {
-    const bool hit = said && said->body >= 0 && dot(said->normal, to - said->point) < 0.5f * s.radius[i];
+    const Vec3f end = t.w.ways == 1 ? to : position(s, i) + float(t.w.ways) * (to - position(s, i));
+    const bool hit = said && said->body >= 0 && dot(said->normal, end - said->point) < 0.5f * s.radius[i];
     if (tool.body >= 0)
       land(t, i, tool);
     else if (hit)
@@ -342,11 +345,15 @@ FluidReport resolve(const DropletModel& m, std::span<const Capsule> capsules, Dr
   find_near(t);
   const int before = s.count;  // what splashes or runs over begins its way in the next tick
   for (int i = 0; i < before; ++i) {
-    if (w.question_of[i] < 0) continue;  // on a surface, it moves on other ticks
+    if (w.question_of[i] == -1) {  // on a surface it moves on other ticks
+      if (s.body[i] < 0) put(s, i, {w.to_x[i], w.to_y[i], w.to_z[i]}, velocity(s, i));
+      continue;
+    }
     if (s.volume[i].total() <= 0) continue;
+    const bool flew = s.body[i] < 0;
     meet(t, i);
     if (s.body[i] >= 0)
-      run_down(t, i);
+      run_down(t, i, flew && w.ways > 1 ? t.dt : t.run_dt);  // crowds go on by much at a time: not from the jet's speed
     else
       put(s, i, {w.to_x[i], w.to_y[i], w.to_z[i]}, velocity(s, i));
     if (s.body[i] >= 0 || turn_of(t, i, kPoolEveryFlying)) fall_in(t, i);

@@ -37,12 +37,29 @@ std::uint32_t bucket(const Grid& g, float x, float y, float z) {
   return (cell(x) + cell(y) * kRow + cell(z) * kLayer) & g.mask;
 }
 
-/// Who is looked at: those in flight, or those on a surface. In the order of the arrays.
-int gather(const DropletState& s, Who who, DropletWork& w) {
+/// Of four parts, each takes every fourth slab of space as the home of its pairs' first drops.
+constexpr float kPerSlab = 1 / 0.020f;  // [1/m]
+std::uint32_t slab_of(float x) { return std::uint32_t(std::int32_t(x * kPerSlab + 65536.0f)) & 3u; }
+bool in_slabs(const Who& who) { return who.parts == 4; }
+
+/// A crowd's part: drops on surfaces in its slabs, or near enough to feel one that is.
+int gather_slabs(const DropletState& s, Who who, DropletWork& w) {
   int n = 0;
   for (int i = 0; i < s.count; ++i) {
     w.chosen[n] = i;
-    n += (s.body[i] < 0) == (who == Who::kFlying) ? 1 : 0;
+    const std::uint32_t low = slab_of(s.x[i] - kFarthestReach), high = slab_of(s.x[i] + kFarthestReach);
+    n += s.body[i] >= 0 && (low == who.part || high == who.part) ? 1 : 0;
+  }
+  return n;
+}
+
+/// Who is looked at: those in flight, or those on a surface. In the order of the arrays.
+int gather(const DropletState& s, Who who, DropletWork& w) {
+  if (in_slabs(who)) return gather_slabs(s, who, w);
+  int n = 0;
+  for (int i = 0; i < s.count; ++i) {
+    w.chosen[n] = i;
+    n += (s.body[i] < 0) == who.flies ? 1 : 0;
   }
   return n;
 }
@@ -173,12 +190,11 @@ FluidReport pull_together(const DropletModel& m, Who who, double dt, DropletStat
   const int n = gather(s, who, w);
   if (n < 2) return report;
   const Grid g = sort(m, s, n, w);
-  const Law law{float(portable::pi * m.surface_tension), float(dt),
-                who == Who::kFlying ? m.largest : m.largest_running};
+  const Law law{float(portable::pi * m.surface_tension), float(dt), who.flies ? m.largest : m.largest_running};
   const int room = int(w.pairs.size()) - 1;
-  const std::uint32_t name = who == Who::kOnSurfacesOdd ? 1 : 0;
   for (int p = 0; p < n; ++p) {
-    if (who != Who::kFlying && (s.id[w.sorted[p]] & 1u) != name) continue;
+    const std::uint32_t part = in_slabs(who) ? slab_of(w.sx[p]) : s.id[w.sorted[p]] & (who.parts - 1);
+    if (part != who.part) continue;
     Budget left{std::min(w.pair_count + kMostPairs, room)};
     look_around(g, p, w, left);
     if (left.looks == 0 || w.pair_count >= left.end) report.note(FluidReport::kCrowded, w.sorted[p]);

@@ -169,14 +169,21 @@ void catch_lost(DropletState& s, DropletWork& w, Below& below, FluidReport& repo
   }
 }
 
-void ask(const DropletModel& m, const DropletState& s, DropletWork& w) {
-  const std::uint32_t mask = std::uint32_t(m.run_period) - 1;
+/// In question_of: moves in this tick all the same, on the plane that it has.
+constexpr std::int32_t kRunsUnasked = -2;
+
+/// In a crowd a drop on a surface is asked for in every second of its turns.
+/// @param newborn  the first name of this tick's drops: they are asked for at once, as they come from within tissue
+void ask(const DropletModel& m, std::uint32_t newborn, const DropletState& s, DropletWork& w) {
+  const std::uint32_t running = std::uint32_t(m.run_period) - 1, flying = std::uint32_t(m.fly_period) - 1;
   w.questions = 0;
+  w.ways = m.fly_period;
   for (int i = 0; i < s.count; ++i) {
-    const bool asks = s.body[i] < 0 || ((s.id[i] + std::uint32_t(s.tick)) & mask) == 0;
-    w.question_of[i] = asks ? w.questions : -1;
-    if (!asks) continue;
-    w.asking[w.questions++] = i;
+    const std::uint32_t turn = s.id[i] + std::uint32_t(s.tick);
+    const bool asks = s.body[i] < 0 ? (turn & flying) == 0 || s.id[i] >= newborn : (turn & running) == 0;
+    const bool unasked = m.fly_period > 1 && s.body[i] >= 0 && (turn & (running + 1)) != 0;
+    w.question_of[i] = !asks ? -1 : unasked ? kRunsUnasked : w.questions;
+    if (w.question_of[i] >= 0) w.asking[w.questions++] = i;
   }
 }
 
@@ -193,6 +200,12 @@ void ask_for_film(const DropletModel& m, const DropletState& s, DropletWork& w) 
 
 }  // namespace
 
+void for_a_crowd(DropletDescription& d) noexcept {
+  d.run_period = 16;
+  d.fly_period = 4;
+  d.pair_parts = 4;
+}
+
 DropletModel build(const DropletDescription& d, double tick) {
   require(d.capacity >= 1 && d.capacity <= 65536, "droplets: 1 to 65536");
   require(d.film_cells >= 0 && d.film_cells <= 4'000'000, "droplets: up to 4 million places of film");
@@ -207,6 +220,8 @@ DropletModel build(const DropletDescription& d, double tick) {
           "droplets: film, hysteresis, running height, overhang, splash");
   const auto period = [](int n) { return power_of_two(n) && n >= 2 && n <= 16; };
   require(period(d.pair_period) && period(d.run_period), "droplets: periods are 2, 4, 8 or 16");
+  require(d.pair_parts == 2 || d.pair_parts == 4, "droplets: parts of pairs are 2 or 4");
+  require(power_of_two(d.fly_period) && d.fly_period <= 4, "droplets: the period in flight is 1, 2 or 4");
   require(tick > 0 && tick <= 0.01, "droplets: tick");
   DropletModel m;
   static_cast<DropletDescription&>(m) = d;
@@ -251,19 +266,19 @@ bool add_drop(const DropletModel& m, Vec3f p, Vec3f v, const Mix& volume, Drople
 FluidReport plan(const DropletModel& m, std::span<const Opening> openings, DropletState& s, DropletWork& w,
                  Below& below) noexcept {
   FluidReport report;
+  const std::uint32_t newborn = s.next_id;
   open_up(m, openings, s, below, report);
   const auto period = std::uint64_t(m.pair_period);
-  if (s.tick % period == 1)
-    report = report | detail::pull_together(m, detail::Who::kFlying, m.tick * m.pair_period, s, w);
+  if (s.tick % period == 1) report = report | detail::pull_together(m, {}, m.tick * m.pair_period, s, w);
   if (s.tick % (2 * period) == period / 2 + 1) {
-    const bool even = s.tick / (2 * period) % 2 == 0;
-    report = report | detail::pull_together(m, even ? detail::Who::kOnSurfacesEven : detail::Who::kOnSurfacesOdd,
-                                            4 * m.tick * m.pair_period, s, w);
+    const auto parts = std::uint32_t(m.pair_parts);
+    const detail::Who some{false, std::uint32_t(s.tick / (2 * period) % parts), parts};
+    report = report | detail::pull_together(m, some, 2 * m.pair_parts * m.tick * m.pair_period, s, w);
   }
   fly(flight_of(m), s.count, s.body.data(), s.radius.data(), s.x.data(), s.y.data(), s.z.data(), s.vx.data(),
       s.vy.data(), s.vz.data(), w.to_x.data(), w.to_y.data(), w.to_z.data());
   catch_lost(s, w, below, report);
-  ask(m, s, w);
+  ask(m, newborn, s, w);
   ask_for_film(m, s, w);
   return report;
 }

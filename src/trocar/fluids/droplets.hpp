@@ -23,7 +23,8 @@
 //
 // Drops on surfaces move on every fourth tick, a quarter of them on each. Forces between drops are looked at on every
 // fourth tick (those in flight) and on every eighth (those on surfaces, among themselves, half of the pairs each time);
-// films and the pool's surface at similar rates (our choice, for speed).
+// films and the pool's surface at similar rates (our choice, for speed). Descriptions made for crowds may ask for
+// longer periods (for_a_crowd()).
 //
 // Volumes are whole picolitres (mix.hpp). Arrays are by drop, 0 .. count - 1; a drop that ends leaves its place to the
 // last one. `id` names a drop for as long as it lives.
@@ -64,6 +65,8 @@ struct DropletDescription {
   double splash = 80;                         ///< Weber number above which a drop throws up smaller ones from the pool
   int pair_period = 4;  ///< ticks between two looks at the forces between flying drops: 2, 4, 8 or 16
   int run_period = 4;   ///< ticks between two steps of a drop on a surface, each with a question: 2, 4, 8 or 16
+  int pair_parts = 2;   ///< looks at the forces between drops on surfaces until each pair has been looked at: 2 or 4
+  int fly_period = 1;   ///< ticks between two questions of a drop in flight, for so many ahead: 1, 2 or 4
 };
 
 struct DropletModel : DropletDescription {
@@ -130,6 +133,7 @@ struct DropletWork {
   std::vector<std::int32_t> asking;     ///< who needs an answer; the first `questions`
   std::vector<Contact> answers;         ///< (capacity) one for each of `asking`, all for the caller to fill
   int questions = 0;
+  int ways = 1;  ///< a drop in flight is asked for on its way through so many ticks; to_x ... is the end of the first
   std::vector<std::int32_t> overfull;  ///< (kFilmQuestions) places of film that run over; the first `film_questions`
   std::vector<Contact> film_answers;   ///< the surface at each of them; body -1 = let it wait
   int film_questions = 0;
@@ -151,6 +155,10 @@ struct DropletWork {
 
 inline constexpr int kFilmQuestions = 64;
 
+/// What thousands of drops at a time need to be affordable: those in flight are asked for on every fourth tick, four
+/// ticks ahead; those on surfaces move on every sixteenth; pairs on surfaces are looked at a quarter at a time. Our
+/// choice
+void for_a_crowd(DropletDescription& description) noexcept;
 /// @throws std::invalid_argument naming what is out of range
 DropletModel build(const DropletDescription& description, double tick = 1e-3);
 DropletState no_droplets(const DropletModel& model);
@@ -192,8 +200,11 @@ inline float now_of(const DropletModel& model, const DropletState& state) noexce
 void add_to_hash(core::Hasher& hasher, const DropletState& state) noexcept;
 
 namespace detail {
-/// Those in flight; or those on surfaces, pairs of which the first has an even or an odd name.
-enum class Who { kFlying, kOnSurfacesEven, kOnSurfacesOdd };
+/// Those in flight; or a part of the pairs on surfaces: by the first one's name of two parts, by its place of four.
+struct Who {
+  bool flies = true;
+  std::uint32_t part = 0, parts = 1;  ///< parts: 1, 2 or 4
+};
 /// Forces between drops, and joining. dt: since the last time.
 FluidReport pull_together(const DropletModel& model, Who who, double dt, DropletState& state,
                           DropletWork& work) noexcept;

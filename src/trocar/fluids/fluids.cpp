@@ -152,7 +152,7 @@ void poison(FluidsWork& w) noexcept {
   std::fill(d.film_answers.begin(), d.film_answers.end(), nowhere);
   std::fill(d.impacts.begin(), d.impacts.end(), Impact{77, 77, {nan, nan, nan}, {nan, nan, nan}, nan});
   std::fill(d.pairs.begin(), d.pairs.end(), DropletWork::Pair{0x5a5a5a5a, 0x5a5a5a5a});
-  d.pair_count = d.questions = d.film_questions = d.impact_count = 0x5a5a5a5a;
+  d.pair_count = d.questions = d.ways = d.film_questions = d.impact_count = 0x5a5a5a5a;
   floats(w.smoke.rise), floats(w.smoke.next);
   Opening wild;
   wild.position = {nan, nan, nan}, wild.flow = {77, 77, 77};

@@ -64,15 +64,28 @@ void describe_cells(const PoolKernels& x, const PoolModel& m, const PoolInput& i
   }
 }
 
+/// The highest of these below `bound`, or `top`. Sixteen at a time, so that none waits for the one before it.
+float highest_of(std::span<const float> z, float bound, float top) {
+  constexpr std::size_t kLanes = 16;
+  float lane[kLanes];
+  for (float& l : lane) l = top;
+  std::size_t i = 0;
+  for (; i + kLanes <= z.size(); i += kLanes)
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      const float below = z[i + k] < bound ? z[i + k] : top;
+      lane[k] = below > lane[k] ? below : lane[k];
+    }
+  for (; i < z.size(); ++i) top = z[i] > top && z[i] < bound ? z[i] : top;
+  for (const float l : lane) top = l > top ? l : top;
+  return top;
+}
+
 /// The highest bed anywhere and the highest surface where the pool is at work.
 float highest(const PoolModel& m, const PoolInput& in, Rows rows, const PoolWork& w) {
-  float top = in.floor.empty() ? 0.0f : -10.0f;
-  for (const float z : in.floor) top = z > top && z < 10 ? z : top;
+  float top = highest_of(in.floor, 10, in.floor.empty() ? 0.0f : -10.0f);
   if (top < 0) top = 0;  // what is not finite counts as 0
-  for (int j = rows.first; j <= rows.last; ++j) {
-    const float* eta = w.eta.data() + m.at(0, j);
-    for (int i = 0; i < m.nx; ++i) top = eta[i] > top ? eta[i] : top;
-  }
+  for (int j = rows.first; j <= rows.last; ++j)
+    top = highest_of({w.eta.data() + m.at(0, j), std::size_t(m.nx)}, 1e30f, top);
   return top;
 }
 

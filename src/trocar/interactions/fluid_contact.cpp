@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <limits>
 
 #include <trocar/geometry/nearest.hpp>
 #include <trocar/interactions/fluid_contact.hpp>
@@ -10,11 +12,17 @@ namespace {
 
 using fluids::Contact;
 
-constexpr double kReach = 0.006;    // [m] between a point and the vertex next to it: more than skins' edges are long
+constexpr double kReach = kWetReach;
+// Where drops are too many to look so closely, in flight and on a surface, and the plane there is that of the nearest
+// vertex: on a ball of 15 mm it is up to 0.2 mm above the skin.                                          [m]  Our
+// choice
+constexpr double kCrowdFlies = 0.004, kCrowdRuns = 0.003;
 constexpr double kDeepest = 0.004;  // [m] a drop that is deeper inside did not come from outside
 constexpr double kLeaves = 0.003;   // [m] above its surface a running drop is on it no more
 constexpr double kStride = 0.0025;  // [m] of a way that is looked at at once
 constexpr double kParts = 0.1;      // [m/s] what goes away from a surface faster does not land on it.  Our choice
+constexpr float kSafe = 1e-5f;      // [m] more than boxes of floats lose by rounding
+constexpr int kPiece = 4;           // elements of a strand that share a bounding box
 
 /// A point beside a body: how far outside (negative: inside), and the plane there.
 struct Beside {
@@ -35,20 +43,6 @@ Vec3d velocity_of(const Surface& s, int vertex) noexcept {
   return s.moves() ? tissue::skin_velocity(s.nodes, *s.skin, vertex) : Vec3d{};
 }
 
-Beside beside_vertex(const Surface& surface, int vertex, Vec3d p) noexcept {
-  const SkinPoint near = nearest_skin_point(surface, vertex, p);
-  const int v = heaviest(near);
-  return {dot(p - near.point, near.normal), near.point, near.normal, velocity_of(surface, v), v};
-}
-
-bool in_reach(const Surface& surface, Vec3d p) noexcept { return surface.pose->bounds.reaches(p, kReach); }
-
-Beside beside_surface(const Surface& surface, Vec3d p) noexcept {
-  if (!in_reach(surface, p)) return {};
-  const int v = nearest_vertex_near(surface, p, kReach);
-  return v < 0 ? Beside{} : beside_vertex(surface, v, p);
-}
-
 /// Turns a fold's plane towards the side that `from` is on, and moves it to the fold's face there.
 void take_side(const SheetView& sheet, Vec3d from, Beside& b) noexcept {
   const double sign = dot(from - b.point, b.normal) < 0 ? -1 : 1;
@@ -56,16 +50,6 @@ void take_side(const SheetView& sheet, Vec3d from, Beside& b) noexcept {
   b.off = sign * b.off - sheet.half_thickness;
   b.normal = sign * b.normal;
   b.film = 2 * b.film + (sign < 0 ? 1 : 0);
-}
-
-/// @param from  where it came from: tells the side
-Beside beside_sheet(const SheetView& sheet, Vec3d from, Vec3d p) noexcept {
-  Beside b = beside_surface(sheet.surface, p);
-  if (!b.there()) return b;
-  const Vec3d flat = (p - b.point) - dot(p - b.point, b.normal) * b.normal;
-  if (dot(flat, flat) > 1e-6) return {};  // past its border
-  take_side(sheet, from, b);
-  return b;
 }
 
 Beside beside_element(const StrandBody& body, const tissue::StrandState& s, int e, double share, Vec3d p) noexcept {
@@ -77,9 +61,10 @@ Beside beside_element(const StrandBody& body, const tissue::StrandState& s, int 
   return {far - radius, axis + radius * normal, normal, s.v[n] + share * (s.v[n + 1] - s.v[n]), e + (share > 0.5)};
 }
 
-Beside beside_strand(const StrandBody& body, const tissue::StrandState& s, Vec3d p) noexcept {
-  Beside best;
-  for (int e = 0; e + 1 < body.nodes(); ++e) {
+/// The nearest of the elements from `first` on, before `last`.
+void beside_elements(const StrandBody& body, const tissue::StrandState& s, int first, int last, Vec3d p,
+                     Beside& best) noexcept {
+  for (int e = first; e < last; ++e) {
     const std::size_t n = std::size_t(e);
     if (s.alive[n] == 0) continue;
     const Vec3d along = s.x[n + 1] - s.x[n];
@@ -87,20 +72,64 @@ Beside beside_strand(const StrandBody& body, const tissue::StrandState& s, Vec3d
     const Beside b = beside_element(body, s, e, share, p);
     if (b.there() && b.off < best.off) best = b;
   }
-  return best;
 }
 
-struct Scene {
+/// All bodies. With scratch it asks nothing twice; what it finds is the same without.
+class Scene {
+ public:
   const WetBodies& b;
-  int sheets, strands;  // the first body of that kind
-  explicit Scene(const WetBodies& bodies) noexcept
-      : b(bodies), sheets(int(bodies.surfaces.size())), strands(sheets + int(bodies.sheets.size())) {}
+  const int sheets, strands;  // the first body of that kind
 
-  Beside beside(int body, Vec3d from, Vec3d p) const noexcept {
-    if (body < sheets) return beside_surface(b.surfaces[std::size_t(body)], p);
-    if (body < strands) return beside_sheet(b.sheets[std::size_t(body - sheets)], from, p);
-    const std::size_t k = std::size_t(body - strands);
-    return beside_strand(b.strands[k], b.states[k], p);
+  explicit Scene(const WetBodies& bodies, WetWork* work = nullptr, bool crowd = false) noexcept
+      : b(bodies),
+        sheets(int(bodies.surfaces.size())),
+        strands(sheets + int(bodies.sheets.size())),
+        m_walls(sheets - int(bodies.grids.size())),
+        m_work(work),
+        m_crowd(crowd) {
+    if (!m_work) return;
+    std::fill(m_work->normal_known.begin(), m_work->normal_known.end(), std::uint8_t(0));
+    for (int body = 0; body < strands; ++body) m_work->bounds[std::size_t(body)] = surface(body).pose->bounds;
+    for (std::size_t k = 0; k < b.strands.size(); ++k) bound_strand(k);
+    const float more = float(m_crowd ? kCrowdFlies : kReach) + kSafe;
+    for (tissue::Box& box : m_work->bounds) {
+      box.low -= Vec3f{more, more, more};
+      box.high += Vec3f{more, more, more};
+    }
+  }
+
+  /// Numbers of the bodies that may be within reach of p, ascending. Only with scratch.
+  std::span<const std::int32_t> near(Vec3d p) const noexcept {
+    const Vec3f q = vec_cast<float>(p);
+    std::int32_t* const out = m_work->near.data();
+    std::size_t n = 0;
+    for (std::int32_t body = 0; body < std::int32_t(m_work->bounds.size()); ++body) {
+      const tissue::Box& box = m_work->bounds[std::size_t(body)];
+      out[n] = body;
+      n += std::size_t(int(q.x > box.low.x) & int(q.x < box.high.x) & int(q.y > box.low.y) & int(q.y < box.high.y) &
+                       int(q.z > box.low.z) & int(q.z < box.high.z));
+    }
+    return {out, n};
+  }
+
+  /// @param flies  to or from p: looks farther
+  Beside beside(int body, Vec3d from, Vec3d p, bool flies = true) const noexcept {
+    const double reach = !m_crowd ? kReach : flies ? kCrowdFlies : kCrowdRuns;
+    if (body < sheets) return beside_surface(body, p, reach);
+    return body < strands ? beside_sheet(body, from, p, reach) : beside_strand(std::size_t(body - strands), p);
+  }
+  Beside beside_vertex(int body, int vertex, Vec3d p) const noexcept {
+    const Surface& on = surface(body);
+    if (m_crowd && body < sheets) {
+      const Vec3d n = normal(body, vertex);
+      const double off = dot(p - on.position(vertex), n);
+      return {off, p - off * n, n, velocity_of(on, vertex), vertex};
+    }
+    SkinPoint near = nearest_on_faces(on, vertex, p);
+    for (std::size_t k = 0; k < 3; ++k) near.normal += near.weights[int(k)] * normal(body, near.vertex[k]);
+    near.normal = normalised(near.normal, normal(body, vertex));
+    const int v = heaviest(near);
+    return {dot(p - near.point, near.normal), near.point, near.normal, velocity_of(on, v), v};
   }
   const Surface& surface(int body) const noexcept {
     return body < sheets ? b.surfaces[std::size_t(body)] : b.sheets[std::size_t(body - sheets)].surface;
@@ -113,6 +142,71 @@ struct Scene {
     if (place < 0 || place >= b.first.back()) return -1;
     return int(std::upper_bound(b.first.begin(), b.first.end(), place) - b.first.begin()) - 1;
   }
+
+ private:
+  const int m_walls;  // the first surface that has a grid
+  WetWork* const m_work;
+  const bool m_crowd;
+
+  /// Of a moving skin: the same for all who ask in this tick.
+  Vec3d normal(int body, int vertex) const noexcept {
+    const Surface& on = surface(body);
+    if (!m_work || !on.moves()) return on.normal(vertex);
+    const std::size_t place = std::size_t(b.first[std::size_t(body)] + (body < sheets ? vertex : 2 * vertex));
+    if (place >= std::size_t(b.first[std::size_t(body) + 1])) return on.normal(vertex);  // a cut has made it
+    if (m_work->normal_known[place] == 0) {
+      m_work->normal[place] = on.normal(vertex);
+      m_work->normal_known[place] = 1;
+    }
+    return m_work->normal[place];
+  }
+  Beside beside_surface(int body, Vec3d p, double reach) const noexcept {
+    const Surface& on = surface(body);
+    if (!on.pose->bounds.reaches(p, reach)) return {};
+    const bool still = body >= m_walls && body < sheets;
+    const int v = still ? b.grids[std::size_t(body - m_walls)].nearest(*on.skin, p) : nearest_vertex_near(on, p, reach);
+    return v < 0 ? Beside{} : beside_vertex(body, v, p);
+  }
+  /// @param from  where it came from: tells the side
+  Beside beside_sheet(int body, Vec3d from, Vec3d p, double reach) const noexcept {
+    Beside found = beside_surface(body, p, reach);
+    if (!found.there()) return found;
+    const Vec3d flat = (p - found.point) - dot(p - found.point, found.normal) * found.normal;
+    if (dot(flat, flat) > 1e-6) return {};  // past its border
+    take_side(b.sheets[std::size_t(body - sheets)], from, found);
+    return found;
+  }
+  Beside beside_strand(std::size_t k, Vec3d p) const noexcept {
+    const int elements = b.strands[k].nodes() - 1;
+    Beside best;
+    if (!m_work) {
+      beside_elements(b.strands[k], b.states[k], 0, elements, p, best);
+      return best;
+    }
+    for (int piece = m_work->first_piece[k]; piece < m_work->first_piece[k + 1]; ++piece) {
+      if (!m_work->pieces[std::size_t(piece)].reaches(p, kReach)) continue;
+      const int first = (piece - m_work->first_piece[k]) * kPiece;
+      beside_elements(b.strands[k], b.states[k], first, std::min(first + kPiece, elements), p, best);
+    }
+    return best;
+  }
+  /// Boxes around a strand and its pieces, larger by its radius and what rounding may misplace.
+  void bound_strand(std::size_t k) noexcept {
+    const StrandBody& body = b.strands[k];
+    tissue::Box& whole = m_work->bounds[std::size_t(strands) + k] = {};
+    for (int piece = m_work->first_piece[k]; piece < m_work->first_piece[k + 1]; ++piece) {
+      tissue::Box& box = m_work->pieces[std::size_t(piece)] = {};
+      const int first = (piece - m_work->first_piece[k]) * kPiece, last = std::min(first + kPiece, body.nodes() - 1);
+      for (int e = first; e < last; ++e) {
+        const float thick = float(body.model.radius[std::size_t(e)]) + kSafe;
+        for (const Vec3d x : {b.states[k].x[std::size_t(e)], b.states[k].x[std::size_t(e) + 1]}) {
+          box.add(vec_cast<float>(x) - Vec3f{thick, thick, thick});
+          box.add(vec_cast<float>(x) + Vec3f{thick, thick, thick});
+        }
+      }
+      whole.add(box.low), whole.add(box.high);
+    }
+  }
 };
 
 /// The first body that a drop of this radius meets on its way. A jet out of a vessel begins within the tissue that
@@ -124,7 +218,7 @@ Contact meet(const Scene& scene, Vec3d from, Vec3d to, Vec3d velocity, double ra
     const Vec3d p = from + (double(k) / looks) * way;
     int found = -1;
     Beside most;
-    for (int body = 0; body < scene.b.count(); ++body) {
+    for (const std::int32_t body : scene.near(p)) {
       const Beside b = scene.beside(body, from, p);
       if (!b.there() || b.off > 0.5 * radius || b.off < -kDeepest || b.off > most.off) continue;
       if (dot(velocity - b.velocity, b.normal) > kParts) continue;
@@ -142,7 +236,7 @@ Beside follow(const Scene& scene, int body, std::int32_t film, Vec3d p) noexcept
   const Surface& surface = scene.surface(body);
   const bool sheet = body >= scene.sheets;
   const int start = sheet ? film / 2 : film;
-  Beside b = beside_vertex(surface, walk_to_nearest(surface, start, p), p);
+  Beside b = scene.beside_vertex(body, walk_to_nearest(surface, start, p), p);
   if (sheet) take_side(scene.b.sheets[std::size_t(body - scene.sheets)], p, b);
   return b;
 }
@@ -157,9 +251,9 @@ Contact stay(const Scene& scene, const fluids::DropletState& s, int drop, Vec3d 
   Beside best;
   const Beside own = follow(scene, body, film - scene.b.first[std::size_t(body)], p);
   if (own.there() && length(p - own.point) < kLeaves + radius) best = own, found = body;
-  for (int other = 0; other < scene.b.count(); ++other) {
+  for (const std::int32_t other : scene.near(p)) {
     if (other == body) continue;
-    const Beside b = scene.beside(other, p, p);
+    const Beside b = scene.beside(other, p, p, false);
     if (!b.there() || b.off > 0.25 * radius || b.off < -kDeepest || b.off > best.off) continue;
     best = b;
     found = other;
@@ -215,14 +309,43 @@ bool covered(const WetBodies& bodies, Vec3d p, double reach) noexcept {
   return false;
 }
 
-void answer_drops(const WetBodies& bodies, Vec3d down, const fluids::DropletState& s, fluids::DropletWork& w) noexcept {
-  const Scene scene(bodies);
+WetWork make_wet_work(std::span<const StrandBody> strands, std::span<const std::int32_t> first) {
+  WetWork w;
+  w.bounds.resize(first.size() - 1);
+  w.near.resize(first.size());
+  w.first_piece = {0};
+  for (const StrandBody& strand : strands)
+    w.first_piece.push_back(w.first_piece.back() + (strand.nodes() - 1 + kPiece - 1) / kPiece);
+  w.pieces.resize(std::size_t(w.first_piece.back()));
+  w.normal.resize(std::size_t(first.back()));
+  w.normal_known.resize(w.normal.size());
+  return w;
+}
+
+void poison(WetWork& w) noexcept {
+  const auto scribble = [](auto& a) {
+    if (!a.empty()) std::memset(static_cast<void*>(a.data()), 0xff, a.size() * sizeof a[0]);
+  };
+  scribble(w.bounds), scribble(w.near), scribble(w.pieces), scribble(w.normal), scribble(w.normal_known);
+}
+
+void answer_drops(const WetBodies& bodies, Vec3d down, const fluids::DropletState& s, fluids::DropletWork& w,
+                  WetWork& wet) noexcept {
+  if (w.questions == 0 && w.film_questions == 0) return;
+  const Scene scene(bodies, &wet, w.ways > 1);
   for (int k = 0; k < w.questions; ++k) {
     const std::size_t i = std::size_t(w.asking[std::size_t(k)]);
     const Vec3d now = place_of(s.x, s.y, s.z, i);
     w.answers[std::size_t(k)] = s.body[i] < 0 ? meet(scene, now, place_of(w.to_x, w.to_y, w.to_z, i),
                                                      place_of(s.vx, s.vy, s.vz, i), double(s.radius[i]))
                                               : stay(scene, s, int(i), now);
+    if (s.body[i] >= 0) {
+      w.answers[std::size_t(k)] = stay(scene, s, int(i), now);
+      continue;
+    }
+    Vec3d to = place_of(w.to_x, w.to_y, w.to_z, i);
+    if (w.ways > 1) to = now + double(w.ways) * (to - now);
+    w.answers[std::size_t(k)] = meet(scene, now, to, double(s.radius[i]));
   }
   for (int k = 0; k < w.film_questions; ++k) {
     const std::int32_t place = w.overfull[std::size_t(k)];

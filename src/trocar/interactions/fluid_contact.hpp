@@ -1,8 +1,8 @@
 // What drops meet in a scene: skins of organs and walls, folds (from either side) and strands, as planes; and where on
 // them film lies. Instruments are none of this: fluids know them as capsules.
 //
-//   WetBodies bodies{surfaces, sheets, strands, states, first};      // first: film_places(...), once
-//   answer_drops(bodies, down, state.droplets, work.droplets);       // between fluids' begin_tick and finish_tick
+//   WetBodies bodies{surfaces, sheets, strands, states, first, grids};  // first: film_places(...), once
+//   answer_drops(bodies, down, state.droplets, work.droplets, wet);     // between fluids' begin_tick and finish_tick
 //
 // A body's number is its place in that order: surfaces, sheets, strands. Places of film are skin vertices; a fold has
 // two a node, above and below; a strand one a node.
@@ -14,6 +14,7 @@
 
 #include <trocar/fluids/droplets.hpp>
 #include <trocar/interactions/membrane_contact.hpp>
+#include <trocar/interactions/skin_grid.hpp>
 #include <trocar/interactions/strand_body.hpp>
 
 namespace trocar::interactions {
@@ -24,9 +25,26 @@ struct WetBodies {
   std::span<const StrandBody> strands;
   std::span<const tissue::StrandState> states;  ///< (strands)
   std::span<const std::int32_t> first;          ///< (bodies + 1) where a body's places of film begin
+  std::span<const SkinGrid> grids{};            ///< of the last surfaces, which never move; may be empty
 
   int count() const noexcept { return int(surfaces.size() + sheets.size() + strands.size()); }
 };
+
+inline constexpr double kWetReach = 0.006;  ///< [m] between a point and the vertex next to it: more than skins' edges
+
+/// Scratch: what many drops ask for in one tick is worked out once.
+struct WetWork {
+  std::vector<tissue::Box> bounds;         ///< (bodies) beyond it nothing of the body is near
+  std::vector<std::int32_t> near;          ///< (bodies) those that a point is near to
+  std::vector<tissue::Box> pieces;         ///< of strands, kPiece elements each
+  std::vector<std::int32_t> first_piece;   ///< (strands + 1)
+  std::vector<Vec3d> normal;               ///< (places of film) of skins' vertices that somebody has asked for
+  std::vector<std::uint8_t> normal_known;  ///< (places of film)
+};
+/// @param first  as in WetBodies; only sizes are looked at
+WetWork make_wet_work(std::span<const StrandBody> strands, std::span<const std::int32_t> first);
+/// Overwrites all of it with NaN and nonsense (tests of the law).
+void poison(WetWork& work) noexcept;
 
 /// Where each body's places of film begin; the last number is how many there are. Only sizes are looked at.
 /// @param skins   (surfaces), then `sheets` of folds
@@ -46,7 +64,7 @@ WetPlace wet_place(const WetBodies& bodies, Vec3d down, std::int32_t place) noex
 bool covered(const WetBodies& bodies, Vec3d p, double reach) noexcept;
 
 /// Answers all questions of the drops and of overfull places of film.
-void answer_drops(const WetBodies& bodies, Vec3d down, const fluids::DropletState& state,
-                  fluids::DropletWork& work) noexcept;
+void answer_drops(const WetBodies& bodies, Vec3d down, const fluids::DropletState& state, fluids::DropletWork& work,
+                  WetWork& wet) noexcept;
 
 }  // namespace trocar::interactions

@@ -9,18 +9,22 @@ int nearest_vertex_near(const Surface& surface, Vec3d p, double reach) noexcept 
   double least = reach * reach;
   for (size_t b = 0; b < pose.block.size(); ++b) {
     if (!pose.block[b].reaches(p, reach)) continue;
-    const int last = std::min(int(b + 1) * tissue::kSkinBlock, surface.skin->size());
-    for (int v = int(b) * tissue::kSkinBlock; v < last; ++v) {
-      const double d = geometry::distance2(surface.position(v), p);
-      if (d >= least || !surface.skin->at_surface(v)) continue;
-      least = d;
-      best = v;
+    const int end = std::min(int(b + 1) * tissue::kSkinBlock, surface.skin->size());
+    for (int first = int(b) * tissue::kSkinBlock; first < end; first += tissue::kSkinPatch) {
+      if (pose.patch[size_t(first / tissue::kSkinPatch)].distance2(p) >= least) continue;
+      const int last = std::min(first + tissue::kSkinPatch, end);
+      for (int v = first; v < last; ++v) {
+        const double d = geometry::distance2(surface.position(v), p);
+        if (d >= least || !surface.skin->at_surface(v)) continue;
+        least = d;
+        best = v;
+      }
     }
   }
   return best;
 }
 
-SkinPoint nearest_skin_point(const Surface& surface, int vertex, Vec3d p) noexcept {
+SkinPoint nearest_on_faces(const Surface& surface, int vertex, Vec3d p) noexcept {
   const tissue::Skin& skin = *surface.skin;
   SkinPoint best;
   double least = 1e9;
@@ -34,6 +38,11 @@ SkinPoint nearest_skin_point(const Surface& surface, int vertex, Vec3d p) noexce
     best.weights = on.weights;
     best.point = on.point;
   }
+  return best;
+}
+
+SkinPoint nearest_skin_point(const Surface& surface, int vertex, Vec3d p) noexcept {
+  SkinPoint best = nearest_on_faces(surface, vertex, p);
   for (size_t k = 0; k < 3; ++k) best.normal += best.weights[int(k)] * surface.normal(best.vertex[k]);
   best.normal = normalised(best.normal, surface.normal(vertex));
   return best;

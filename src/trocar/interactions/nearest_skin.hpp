@@ -15,7 +15,9 @@ struct SkinPoint {
 /// The nearest vertex within `reach`, -1 if there is none.
 int nearest_vertex_near(const Surface& surface, Vec3d p, double reach) noexcept;
 
-/// The nearest point of the triangles at that vertex.
+/// The nearest point of the triangles at that vertex, without its normal.
+SkinPoint nearest_on_faces(const Surface& surface, int vertex, Vec3d p) noexcept;
+/// The same with it.
 SkinPoint nearest_skin_point(const Surface& surface, int vertex, Vec3d p) noexcept;
 
 }  // namespace trocar::interactions

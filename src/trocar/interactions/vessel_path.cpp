@@ -29,6 +29,7 @@ TriangleFrame frame_of(Vec3d a, Vec3d b, Vec3d c) noexcept {
 Vec3d corner(const VesselHold& hold, const VesselHosts& hosts, std::size_t k) noexcept {
   const std::size_t i = std::size_t(hold.index);
   if (hold.kind == VesselHold::membrane) return hosts.membranes[i].position(hold.vertex[k]);
+  if (!hosts.corners.empty()) return hosts.corners[i][std::size_t(hold.vertex[k])];
   return skin_point(hosts.organs[i], *hosts.skins[i], hold.vertex[k]);
 }
 
@@ -164,8 +165,7 @@ VesselSpot vessel_spot(const VesselPath& path, std::span<const Vec3d> points, st
 Vec3d turn_at(const VesselPath& path, std::span<const Vec3d> points, int i) noexcept {
   const std::size_t k = std::size_t(i);
   const VesselPoint& p = path.points[k];
-  const Vec3d drawn = normalised(path.points[k + 1].drawn - path.points[k - 1].drawn);
-  return turned(p.turn, drawn, normalised(points[k + 1] - points[k - 1], drawn));
+  return turned(p.turn, p.along, normalised(points[k + 1] - points[k - 1], p.along));
 }
 
 double vessel_radius(const VesselPath& path, double s) noexcept {

@@ -34,6 +34,7 @@ struct VesselPoint {
   Vec3d drawn;                   ///< [m]
   double s = 0;                  ///< 0 .. 1 along the vessel
   double radius = 0;             ///< outer, at rest [m]
+  Vec3d along{1, 0, 0};          ///< unit, from the point before it to the one after it, as drawn
   Vec3d turn{0, 0, 0};           ///< direction before it less direction after it, as drawn: points out of the bend
   VesselHold hold;               ///< space: as the next line says
   std::int32_t node = -1;        ///< of an organ or a fold: the one that bears what the vessel does to it
@@ -60,6 +61,8 @@ struct VesselHosts {
   std::span<const tissue::CuttableState> cuttables;  ///< the last of the organs
   std::span<const tissue::NodeView> membranes;
   std::span<const std::vector<std::uint8_t>> torn;  ///< (membranes)(triangles)
+  std::span<const std::vector<Vec3d>> corners{};    ///< (organs)(skin vertices) as they are now, of those that carry
+                                                    ///< vessels; empty: each is worked out when it is asked for
 };
 
 /// Where a point that something carries is now.

@@ -179,6 +179,7 @@ void compile_wall(const Wall& wall, sim::Model& model, CompileReport* report) {
     const Vec3f p = out.skin.rest[size_t(i)];
     out.pose.position[size_t(i)] = p;
     out.pose.block[size_t(i / tissue::kSkinBlock)].add(p);
+    out.pose.patch[size_t(i / tissue::kSkinPatch)].add(p);
     out.pose.bounds.add(p);
   }
   if (report) {

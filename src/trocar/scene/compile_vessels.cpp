@@ -267,8 +267,10 @@ class Compiling {
       carried =
           carried || nearest_ride(m_carriers[v], m_vessels[v]->reach, p.drawn, m_model).hold.kind != VesselHold::space;
       p.node = bearing_node(p.hold);
-      if (i > 0 && i + 1 < n)
+      if (i > 0 && i + 1 < n) {
+        p.along = normalised(path.points[i + 1].drawn - path.points[i - 1].drawn);
         p.turn = normalised(p.drawn - path.points[i - 1].drawn) - normalised(path.points[i + 1].drawn - p.drawn);
+      }
     }
     const Vessel& vessel = *m_vessels[v];
     if (!vessel.rides_on.empty() && !carried)

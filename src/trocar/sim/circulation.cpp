@@ -90,7 +90,7 @@ bool near(const geometry::Blade& blade, Vec3d p, double reach) noexcept {
 
 void pose_vessels(StepContext& c) noexcept {
   if (!c.model.vessels.there()) return;
-  const interactions::VesselHosts hosts = look_at_hosts(c.model, c.state, c.work.hosts);
+  const interactions::VesselHosts hosts = look_at_hosts_of_all(c.model, c.state, c.work.hosts);
   for (size_t v = 0; v < c.model.vessels.list.size(); ++v) pose_vessel(path_of(c, v), hosts, c.work.vessel_points[v]);
 }
 
@@ -281,13 +281,15 @@ void push_hands(StepContext& c, const interactions::VesselPoint& p, Vec3d at, do
 
 // Bends count as drawn: arteries are held taut lengthwise, a pulse does not buckle them.
 void beat(StepContext& c) noexcept {
+  if (!c.model.vessels.there()) return;
+  // A wave is through a vessel within a tick or two: its middle speaks for all of it.
+  read_middles(c.model.vessels.flow, c.state.flow, c.work.walls, c.work.busy);
   for (size_t v = 0; v < c.model.vessels.list.size(); ++v) {
     const Vessel& vessel = c.model.vessels.list[v];
     if (vessel.gain <= 0) continue;
     const std::vector<Vec3d>& x = c.work.vessel_points[v];
     const vessels::FlowSegment& segment = c.model.vessels.flow.segments[v];
-    // A wave is through it within a tick or two: its middle speaks for all of it.
-    const vessels::WallReading wall = read_wall(c.model.vessels.flow, c.state.flow, int(v), 0.5);
+    const vessels::WallReading& wall = c.work.walls[v];
     const double over = vessel.gain * (wall.pressure - vessel.mean_pressure);
     const double wide = wall.radius / (segment.radius + 0.5 * segment.taper);
     for (size_t i = 1; i + 1 < x.size(); ++i) {

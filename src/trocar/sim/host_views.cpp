@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <utility>
+
 #include <trocar/sim/host_views.hpp>
 
 namespace trocar::sim {
@@ -7,6 +10,15 @@ HostViews make_host_views(const Model& model) {
   v.organs.resize(size_t(model.organs()));
   v.membranes.resize(model.membranes.size());
   for (int i = 0; i < model.organs(); ++i) v.skins.push_back(&model.skin(i));
+  for (const Vessel& vessel : model.vessels.list)
+    for (const interactions::VesselPoint& p : vessel.path.points)
+      for (size_t k = 0; k < 3 && p.hold.kind == interactions::VesselHold::organ; ++k)
+        v.ridden.push_back({p.hold.index, p.hold.vertex[k]});
+  const auto key = [](HostViews::Corner c) { return std::pair(c.organ, c.vertex); };
+  std::sort(v.ridden.begin(), v.ridden.end(), [&](auto a, auto b) { return key(a) < key(b); });
+  v.ridden.erase(std::unique(v.ridden.begin(), v.ridden.end(), [&](auto a, auto b) { return key(a) == key(b); }),
+                 v.ridden.end());
+  for (const tissue::Skin* skin : v.skins) v.corners.emplace_back(size_t(skin->size()));
   return v;
 }
 
@@ -15,6 +27,15 @@ interactions::VesselHosts look_at_hosts(const Model& model, const State& state, 
   for (size_t i = 0; i < v.membranes.size(); ++i)
     v.membranes[i] = view_of(model.membranes[i].sheet.network, state.membranes[i].network);
   return {model.bodies, state.strands, v.organs, v.skins, state.cuttables, v.membranes, state.torn};
+}
+
+interactions::VesselHosts look_at_hosts_of_all(const Model& model, const State& state, HostViews& v) noexcept {
+  interactions::VesselHosts hosts = look_at_hosts(model, state, v);
+  for (const HostViews::Corner c : v.ridden)
+    v.corners[size_t(c.organ)][size_t(c.vertex)] =
+        skin_point(v.organs[size_t(c.organ)], *v.skins[size_t(c.organ)], c.vertex);
+  hosts.corners = v.corners;
+  return hosts;
 }
 
 std::span<const double> cuts_of(const State& state, int vessel, std::span<double> out) noexcept {

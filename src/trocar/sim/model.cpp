@@ -183,6 +183,8 @@ void seal(Model& model) {
     h.add(f.pool.origin), h.add(f.pool.u), h.add(f.pool.v), h.add(f.pool.nx), h.add(f.pool.ny), h.add(f.pool.cell);
     h.add(f.droplets.capacity), h.add(f.droplets.film_cells), h.add(f.droplets.film_capacity);
     h.add(model.wet.floor), h.add(model.wet.floor_organs), h.add(model.wet.film), h.add(kPhysics);
+    if (f.droplets.fly_period > 1)
+      h.add(f.droplets.fly_period), h.add(f.droplets.run_period), h.add(f.droplets.pair_parts);
   }
   if (model.energy.there) {
     const tissue::GeneratorPanel& panel = model.energy.panel;

@@ -12,6 +12,7 @@
 #include <trocar/interactions/border.hpp>
 #include <trocar/interactions/hosting.hpp>
 #include <trocar/interactions/self_contact.hpp>
+#include <trocar/interactions/skin_grid.hpp>
 #include <trocar/interactions/strand_body.hpp>
 #include <trocar/interactions/surface.hpp>
 #include <trocar/interactions/tool.hpp>
@@ -137,6 +138,7 @@ struct WetModel {
   std::vector<float> floor;        ///< of the pool without organs, (ny x nx) [m]
   std::vector<int> floor_organs;   ///< that are part of it as they lie
   std::vector<std::int32_t> film;  ///< (bodies + 1) where the places of film of each begin (interactions::WetBodies)
+  std::vector<interactions::SkinGrid> grids;  ///< (walls) for what drops meet there
 };
 
 /// Current and heat, where a scene has them.

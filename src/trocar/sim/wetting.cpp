@@ -14,7 +14,7 @@ interactions::WetBodies wet_bodies(StepContext& c) noexcept {
   for (size_t i = 0; i < size_t(c.model.organs()); ++i) c.work.surfaces[i].nodes = c.work.nodes[i];
   for (size_t i = 0; i < c.model.membranes.size(); ++i)
     c.work.sheets[i].surface.nodes = view_of(c.model.membranes[i].sheet.network, c.state.membranes[i].network);
-  return {c.work.surfaces, c.work.sheets, c.model.bodies, c.state.strands, c.model.wet.film};
+  return {c.work.surfaces, c.work.sheets, c.model.bodies, c.state.strands, c.model.wet.film, c.model.wet.grids};
 }
 
 /// An opening's side keeps its number for as long as it is there.
@@ -94,11 +94,31 @@ void note_valves(StepContext& c, const fluids::FluidsReport& report) noexcept {
   }
 }
 
-/// For the next tick: fluids move when the bodies have moved.
+/// What hits one place, as one. Where nothing is known of the place it is a body that nothing pushes.
+void sum_up_impacts(std::span<const fluids::Impact> all, StepContext& c) noexcept {
+  for (const fluids::Impact& hit : all)
+    if (hit.film >= 0) c.work.impact_at[size_t(hit.film)] = -1;
+  int& count = c.state.impact_count = 0;
+  for (const fluids::Impact& hit : all) {
+    if (hit.film < 0) continue;
+    std::int32_t& at = c.work.impact_at[size_t(hit.film)];
+    if (at < 0) {
+      at = count;
+      c.state.impacts[size_t(count++)] = hit;
+      continue;
+    }
+    c.state.impacts[size_t(at)].impulse += hit.impulse;
+    c.state.impacts[size_t(at)].mass += hit.mass;
+  }
+}
+
+/// For the next tick: fluids move when the bodies have moved. Crowds of drops push together where they hit one place.
 void keep_impacts(StepContext& c) noexcept {
   const fluids::DropletWork& drops = c.work.fluids.droplets;
+  const std::span<const fluids::Impact> all(drops.impacts.data(), size_t(drops.impact_count));
+  if (drops.ways > 1) return sum_up_impacts(all, c);
   c.state.impact_count = drops.impact_count;
-  std::copy_n(drops.impacts.begin(), drops.impact_count, c.state.impacts.begin());
+  std::copy(all.begin(), all.end(), c.state.impacts.begin());
 }
 
 /// A drop pushes what it hits and goes on with it, as in an inelastic collision: with the force alone a few milligrams
@@ -175,7 +195,8 @@ void move_fluids(StepContext& c) noexcept {
   if (c.work.steam.kilograms > 0) input.boiled = {&c.work.steam, 1};
   input.smoke.coagulating = c.work.current_flows;
   begin_tick(c.model.wet.model, input, c.state.fluids, c.work.fluids);
-  answer_drops(bodies, normalised(c.model.gravity, {0, 0, -1}), c.state.fluids.droplets, c.work.fluids.droplets);
+  answer_drops(bodies, normalised(c.model.gravity, {0, 0, -1}), c.state.fluids.droplets, c.work.fluids.droplets,
+               c.work.wet);
   const fluids::FluidsReport report = finish_tick(c.model.wet.model, input, c.state.fluids, c.work.fluids);
   if (report.report.flags & fluids::FluidReport::kDropletsFull) c.report.flags |= StepReport::kDropsFull;
   if (c.state.impacts.empty()) return;

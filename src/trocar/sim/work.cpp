@@ -18,6 +18,7 @@ void scribble(std::vector<T>& values) noexcept {
 void scribble(tissue::SkinPose& p) noexcept {
   scribble(p.position);
   scribble(p.block);
+  scribble(p.patch);
   p.bounds.low = p.bounds.high = {std::numeric_limits<float>::quiet_NaN(), 0, 0};
 }
 
@@ -191,11 +192,15 @@ Work make_work(const Model& model, core::ThreadPool* pool) {
     w.open.resize(interactions::kMaxOpenings);
     w.closed.resize(size_t(model.vessels.flow.settings.max_clips));
     w.flows.resize(interactions::kMaxOpenings);
+    w.walls.resize(model.vessels.list.size());
+    w.busy.resize(model.vessels.list.size());
     w.bleeds.resize(2 * interactions::kMaxOpenings);
   }
   if (model.energy.there) w.heat = tissue::make_work(model.energy.heat);
   if (model.wet.there) {
     w.fluids = fluids::make_work(model.wet.model);
+    w.wet = interactions::make_wet_work(model.bodies, model.wet.film);
+    w.impact_at.resize(size_t(model.wet.film.back()));
     w.wounds.resize(2 * interactions::kMaxOpenings);
   }
   w.sheets.resize(model.membranes.size());
@@ -248,11 +253,15 @@ void poison(Work& w) noexcept {
   }
   for (tissue::NodeView& n : w.hosts.organs) n = {};
   for (tissue::NodeView& n : w.hosts.membranes) n = {};
+  for (auto& corners : w.hosts.corners) scribble(corners);
   for (auto& points : w.vessel_points) scribble(points);
   scribble(w.flow);
   scribble(w.open);
   scribble(w.closed);
   scribble(w.flows);
+  scribble(w.walls);
+  scribble(w.busy);
+  scribble(w.impact_at);
   scribble(w.bleeds);
   w.bleed_count = -1;
   scribble(w.heat.u);
@@ -263,6 +272,7 @@ void poison(Work& w) noexcept {
   std::memset(static_cast<void*>(&w.heat_sources), 0xff, sizeof w.heat_sources);
   std::memset(static_cast<void*>(&w.steam), 0xff, sizeof w.steam);
   fluids::poison(w.fluids);
+  interactions::poison(w.wet);
   scribble(w.wounds);
   std::memset(static_cast<void*>(&w.wet_tools), 0xff, sizeof w.wet_tools);
   std::memset(static_cast<void*>(&w.valves), 0xff, sizeof w.valves);

@@ -58,13 +58,17 @@ struct Work {
   std::vector<vessels::Opening> open;
   std::vector<vessels::Clip> closed;
   std::vector<vessels::OpeningFlow> flows;
-  std::vector<Bleed> bleeds;  ///< (2 kMaxOpenings) for whoever takes up the blood, after the flow's stage
+  std::vector<vessels::WallReading> walls;  ///< (vessels) in their middles
+  std::vector<std::uint8_t> busy;           ///< (vessels) scratch of that
+  std::vector<std::int32_t> impact_at;      ///< (places of film) the impact that sums up all there
+  std::vector<Bleed> bleeds;                ///< (2 kMaxOpenings) for whoever takes up the blood, after the flow's stage
   int bleed_count = 0;
   tissue::HeatWork heat;
   std::array<tissue::HeatSource, 2 * kMaxTools> heat_sources;
   fluids::Boiled steam;  ///< what boiled off in this tick, for the fluids
   bool current_flows = false;
   fluids::FluidsWork fluids;
+  interactions::WetWork wet;
   std::vector<fluids::Opening> wounds;  ///< (2 kMaxOpenings) sides of openings
   std::array<fluids::Capsule, kMaxTools * interactions::kToolParts> wet_tools;
   std::array<fluids::SuctionIrrigator, kMaxTools> valves;  ///< (hands) closed where there is none

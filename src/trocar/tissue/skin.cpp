@@ -24,6 +24,7 @@ SkinPose make_pose(const Skin& skin) {
   SkinPose pose;
   pose.position.resize(size_t(skin.size()));
   pose.block.resize(size_t(skin.size() + kSkinBlock - 1) / kSkinBlock);
+  pose.patch.resize(size_t(skin.size() + kSkinPatch - 1) / kSkinPatch);
   return pose;
 }
 
@@ -51,11 +52,17 @@ void pose_skin(const NodeView& nodes, const Skin& skin, SkinPose& pose) noexcept
   Box4 bounds;
   for (int first = 0; first < skin.size(); first += kSkinBlock) {
     Box4 block;
-    for (int i = first; i < std::min(first + kSkinBlock, skin.size()); ++i) {
-      if (!skin.at_surface(i)) continue;
-      const Float4 x = place_of(q, skin.weights[size_t(i)]) + origin;
-      pose.position[size_t(i)] = vec3(x);
-      block.add(x);
+    const int last = std::min(first + kSkinBlock, skin.size());
+    for (int from = first; from < last; from += kSkinPatch) {
+      Box4 patch;
+      for (int i = from; i < std::min(from + kSkinPatch, last); ++i) {
+        if (!skin.at_surface(i)) continue;
+        const Float4 x = place_of(q, skin.weights[size_t(i)]) + origin;
+        pose.position[size_t(i)] = vec3(x);
+        patch.add(x);
+      }
+      pose.patch[size_t(from / kSkinPatch)] = patch.box();
+      block.add(patch);
     }
     pose.block[size_t(first / kSkinBlock)] = block.box();
     bounds.add(block);

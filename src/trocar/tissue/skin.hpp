@@ -12,6 +12,7 @@
 namespace trocar::tissue {
 
 inline constexpr int kSkinBlock = 64;  ///< consecutive vertices that share a bounding box
+inline constexpr int kSkinPatch = 8;   ///< the same within a block, for who looks for single vertices
 
 /// W row of one skin vertex: eight nodes and their weights (sum 1).
 struct SkinWeights {
@@ -54,15 +55,27 @@ struct Box {
     return p.x > low.x - margin && p.x < high.x + margin && p.y > low.y - margin && p.y < high.y + margin &&
            p.z > low.z - margin && p.z < high.z + margin;
   }
+  /// To p; no more than that to anything in the box, to the last bit, as all of it is rounded alike.        [m^2]
+  double distance2(Vec3d p) const noexcept {
+    const double x = outside(p.x, double(low.x), double(high.x)), y = outside(p.y, double(low.y), double(high.y));
+    const double z = outside(p.z, double(low.z), double(high.z));
+    return x * x + y * y + z * z;
+  }
   /// Does the box, grown by `margin`, meet the bounding box of the segment?
   bool near_segment(Vec3d a, Vec3d b, double margin) const noexcept;
   bool near_box(const Box& other, float margin) const noexcept;
+
+ private:
+  static double outside(double p, double low, double high) noexcept {
+    return p < low ? low - p : (p > high ? p - high : 0.0);
+  }
 };
 
 /// Where a skin is now: scratch, refreshed every tick. Vertices that are not at the surface are not refreshed.
 struct SkinPose {
   std::vector<Vec3f> position;  ///< (m) world [m]
   std::vector<Box> block;       ///< per kSkinBlock vertices
+  std::vector<Box> patch;       ///< per kSkinPatch vertices
   Box bounds;
 };
 SkinPose make_pose(const Skin& skin);

@@ -239,6 +239,10 @@ struct WallReading {
   double flow = 0;      ///< [m^3/s]
 };
 WallReading read_wall(const FlowModel& model, const FlowState& state, int segment, double s, double gain = 1) noexcept;
+/// The same of many, in the middle of every segment: nobody looks for openings and clips twice.
+/// @param walls  out: (segments)  @param busy  scratch: (segments)
+void read_middles(const FlowModel& model, const FlowState& state, std::span<WallReading> walls,
+                  std::span<std::uint8_t> busy) noexcept;
 /// Of the lumen, at the present pressure [m^2].
 double lumen_area(const FlowModel& model, const FlowState& state, int segment, double s) noexcept;
 double node_pressure(const FlowModel& model, const FlowState& state, int node) noexcept;
