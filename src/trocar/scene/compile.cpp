@@ -15,6 +15,7 @@
 #include <trocar/scene/compile_targets.hpp>
 #include <trocar/scene/compile_tets.hpp>
 #include <trocar/scene/compile_vessels.hpp>
+#include <trocar/sim/containing.hpp>
 
 namespace trocar::scene {
 namespace {
@@ -241,6 +242,7 @@ sim::Model compile(const Description& d, CompileReport* report) {
   if (!faults.empty()) throw core::BadInput(faults);
   compile_contacts(model);
   compile_targets(model);
+  model.cavity = sim::cavity_around(model);
   sim::seal(model);
   return model;
 }

@@ -141,6 +141,7 @@ void seal(Model& model) {
   h.add(model.scope.angle);
   h.add(model.scope.field_of_view);
   h.add(model.start);
+  h.add(model.cavity.low), h.add(model.cavity.high);
   for (const interactions::SurfacePair& p : model.surface_pairs) {
     h.add(p.strand);
     h.add(p.solid);

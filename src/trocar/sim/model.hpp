@@ -196,7 +196,8 @@ struct Model {
   WetModel wet;
   EnergyModel energy;
   MotionModel motion;
-  std::vector<HandModel> hands;  ///< at most kMaxTools
+  tissue::Box cavity{{-1e9f, -1e9f, -1e9f}, {1e9f, 1e9f, 1e9f}};  ///< nothing leaves it (containing.hpp)
+  std::vector<HandModel> hands;                                   ///< at most kMaxTools
   ScopeModel scope;
   Input start;  ///< everything as placed
   std::vector<interactions::SurfacePair> surface_pairs;

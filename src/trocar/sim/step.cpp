@@ -1,6 +1,7 @@
 #include <trocar/sim/bodies.hpp>
 #include <trocar/sim/circulation.hpp>
 #include <trocar/sim/contacts.hpp>
+#include <trocar/sim/containing.hpp>
 #include <trocar/sim/hands.hpp>
 #include <trocar/sim/heating.hpp>
 #include <trocar/sim/jaws.hpp>
@@ -57,6 +58,7 @@ constexpr Stage kStages[] = {
     {"advance strands", advance_strands},
     {"advance organs", advance_organs},
     {"advance membranes", advance_membranes},
+    {"contain", contain},
     {"feel", feel},
     {"heat tissue", heat_tissue},
     {"tear", tear_tissue},

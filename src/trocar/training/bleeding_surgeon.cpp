@@ -325,15 +325,32 @@ void BleedingSurgeon::leave() {
   go(choose_side() ? Phase::reach : Phase::change);
 }
 
-Vec3d BleedingSurgeon::deepest() const {
+/// Can the suction-irrigator go straight to a point of the pool, or is what the pool lies on in its way?
+bool BleedingSurgeon::free_way(Vec3d to) const {
+  constexpr double kClear = 0.006, kLast = 0.012, kStep = 0.004;  // [m] above the floor; of the way; between looks
   const fluids::PoolModel& pool = m_model->wet.model.pool;
-  float most = 0;
-  int at_i = pool.nx / 2, at_j = pool.ny / 2;
+  const Vec3d from = m_arms[m_sucker].port, way = to - from;
+  for (double s = kLast; s < length(way); s += kStep) {
+    const fluids::PoolPoint p = locate(pool, to - s * normalised(way));
+    if (p.inside && p.height < floor_at(pool, m_state->pool_floor, p.i, p.j) + kClear) return false;
+  }
+  return true;
+}
+
+std::optional<Vec3d> BleedingSurgeon::deepest() const {
+  const fluids::PoolModel& pool = m_model->wet.model.pool;
+  constexpr float kShallow = 0.0002f;  // [m]
+  float most = kShallow;
+  std::optional<Vec3d> found;
   for (int j = 0; j < pool.ny; ++j)
-    for (int i = 0; i < pool.nx; ++i)
-      if (const float d = depth_at(pool, m_state->fluids.pool, i, j); d > most) most = d, at_i = i, at_j = j;
-  const double height = double(floor_at(pool, m_state->pool_floor, at_i, at_j)) + 0.5 * double(most);
-  return world(pool, (at_i + 0.5) * pool.cell, (at_j + 0.5) * pool.cell, height);
+    for (int i = 0; i < pool.nx; ++i) {
+      const float d = depth_at(pool, m_state->fluids.pool, i, j);
+      if (d <= most) continue;
+      const double height = double(floor_at(pool, m_state->pool_floor, i, j)) + 0.5 * double(d);
+      const Vec3d at = world(pool, (i + 0.5) * pool.cell, (j + 0.5) * pool.cell, height);
+      if (free_way(at)) most = d, found = at;
+    }
+  return found;
 }
 
 void BleedingSurgeon::change() {
@@ -346,7 +363,7 @@ void BleedingSurgeon::change() {
 void BleedingSurgeon::fetch() {
   Arms::Arm& arm = m_arms[m_sucker];
   arm.instrument = m_bore;
-  const Vec3d inwards = normalised(deepest() - arm.port);
+  const Vec3d inwards = normalised(deepest().value_or(place()) - arm.port);
   arm.tip = arm.port + kIdleDepth * inwards;
   want(arm.port + 0.055 * inwards);
   want(arm.port + kInDepth * inwards);
@@ -356,21 +373,21 @@ void BleedingSurgeon::fetch() {
 void BleedingSurgeon::bring() {
   const Arms::Arm& arm = m_arms[m_sucker];
   want(arm.tip);
-  want(arm.tip + 0.02 * normalised(deepest() - arm.port));
+  want(arm.tip + 0.02 * normalised(deepest().value_or(place()) - arm.port));
   if (m_arms.move_to_depth(m_sucker, kInDepth, 0.035)) go(Phase::suck);
 }
 
 void BleedingSurgeon::suck() {
+  constexpr double kTouches = 1;  // [N]
   Arms::Arm& arm = m_arms[m_sucker];
+  const std::optional<Vec3d> pool = deepest();
   want(arm.tip);
-  want(deepest());
-  arm.sucking = true;
-  m_arms.move(m_sucker, deepest(), kCareful);
-  const bool empty =
-      fluids::kM3PerPicolitre * double(at(m_state->fluids.ledger, fluids::Place::kPool).total()) < kEmpty;
-  if (!empty && m_in_phase < 40) return;
-  arm.sucking = false;
-  go(Phase::check);
+  want(pool.value_or(place()));
+  const double left = fluids::kM3PerPicolitre * double(at(m_state->fluids.ledger, fluids::Place::kPool).total());
+  const bool pushes = norm(m_state->tools[size_t(m_sucker)].contact_force) > kTouches;
+  arm.sucking = pool && left >= kEmpty && !pushes && m_in_phase < 40;
+  if (!arm.sucking) return go(Phase::check);
+  m_arms.move(m_sucker, *pool, kCareful);
 }
 
 void BleedingSurgeon::check() {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include <trocar/sim/host_views.hpp>
 #include <trocar/training/camera_hand.hpp>
@@ -75,7 +76,8 @@ class BleedingSurgeon final : public Expert {
   bool sees_jaw() const;
   void look_at_clip();
   void draw_back_others();
-  Vec3d deepest() const;  ///< surface of the pool where it is deepest
+  bool free_way(Vec3d to) const;
+  std::optional<Vec3d> deepest() const;  ///< in the pool, where it is deepest and can be reached
   bool flawed(const char* code) const { return m_manner.flaw == code; }
   bool errs(const char* code) const { return flawed(code) && !m_blundered; }  ///< this mistake is still to be made
   double lost() const;                                                        ///< blood [m^3]
