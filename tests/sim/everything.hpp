@@ -113,8 +113,12 @@ inline scene::Description description(int drops = 8192) {
   core::Random random(7);
   int left = kSegments;
   for (const scene::VesselTree& tree : d.vessels) left -= int(tree.vessels.size());
-  for (const char* organ : {"uterus", "bladder", "rectosigmoid"})
-    if (left > 0) d.vessels.push_back(Twigs(drawn, organ, (left + 2) / 3, random).tree());
+  int organs = 3;
+  for (const char* organ : {"uterus", "bladder", "rectosigmoid"}) {
+    const int share = left / organs--;
+    d.vessels.push_back(Twigs(drawn, organ, share, random).tree());
+    left -= share;
+  }
   d.bleeder = scene::BleederSetting{};
   d.bleeder->opens = 0.1;
   d.bleeder->holes = {{"uterine_upper_left", 0.5, 1.0e-3, {}}};

@@ -336,16 +336,13 @@ void answer_drops(const WetBodies& bodies, Vec3d down, const fluids::DropletStat
   for (int k = 0; k < w.questions; ++k) {
     const std::size_t i = std::size_t(w.asking[std::size_t(k)]);
     const Vec3d now = place_of(s.x, s.y, s.z, i);
-    w.answers[std::size_t(k)] = s.body[i] < 0 ? meet(scene, now, place_of(w.to_x, w.to_y, w.to_z, i),
-                                                     place_of(s.vx, s.vy, s.vz, i), double(s.radius[i]))
-                                              : stay(scene, s, int(i), now);
     if (s.body[i] >= 0) {
       w.answers[std::size_t(k)] = stay(scene, s, int(i), now);
       continue;
     }
     Vec3d to = place_of(w.to_x, w.to_y, w.to_z, i);
     if (w.ways > 1) to = now + double(w.ways) * (to - now);
-    w.answers[std::size_t(k)] = meet(scene, now, to, double(s.radius[i]));
+    w.answers[std::size_t(k)] = meet(scene, now, to, place_of(s.vx, s.vy, s.vz, i), double(s.radius[i]));
   }
   for (int k = 0; k < w.film_questions; ++k) {
     const std::int32_t place = w.overfull[std::size_t(k)];
