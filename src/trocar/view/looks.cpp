@@ -273,7 +273,7 @@ std::vector<Look> make_looks() {
        {.broad = 0.0005, .broad_size = 0.017, .fine = 0.00012, .fine_size = 0.005}},
       {"fat", fat(), false, {.broad = 0.001, .broad_size = 0.012, .fine = 0.0006, .fine_size = 0.005}},
       {"artery", vessel(srgb(186, 62, 56), srgb(198, 84, 72), srgb(160, 44, 44)), false, {}},
-      {"vein", vessel(srgb(104, 72, 112), srgb(118, 86, 122), srgb(86, 56, 98)), false, {}},
+      {"vein", vessel(srgb(94, 62, 82), srgb(108, 76, 92), srgb(78, 48, 68)), false, {}},
       {"peritoneum", peritoneum(), false, {}},
       {"mesosalpinx", mesosalpinx(), true, {}},
       {"broad_ligament", fold(0.6f), true, {}},
