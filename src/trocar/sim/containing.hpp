@@ -11,8 +11,8 @@ namespace trocar::sim {
 /// Around all bodies, walls and ports as drawn, and 3 cm more (our choice).
 tissue::Box cavity_around(const Model& model);
 
-/// Stage: what has left Model::cavity goes no further out, and slowly comes back. That only takes energy away. A body
-/// goes out by about its own thickness.
+/// Stage: what has left Model::cavity is turned back. Only speeds change: outward ones end, and inwards nothing gets
+/// more than would take it back within a quarter of a second. A body goes out by about its own thickness.
 void contain(StepContext& c) noexcept;
 
 }  // namespace trocar::sim
