@@ -252,6 +252,7 @@ void AttemptWindow::draw_the_rack(const Snapshot& now) {
   const RackChoice c = draw_rack(m_lesson.model, now.state, m_pilot->hands(), picture);
   if (c.hand != -2) m_pilot->choose(c.hand);
   if (c.instrument >= 0) m_pilot->take(c.instrument);
+  if (c.panel_keys != 0) m_pilot->press(c.panel_keys);
   if (c.insert) m_pilot->insert();
   if (c.ratchet) m_pilot->toggle_ratchet();
   if (c.fine) m_pilot->toggle_fine();

@@ -43,7 +43,7 @@ GeneratorLine line_of(const std::string& name, const tissue::ElectrodeState& e) 
 std::vector<GeneratorLine> generator_lines(const sim::Model& model, const sim::State& state) {
   std::vector<GeneratorLine> lines;
   if (!model.energy.there) return lines;
-  const tissue::GeneratorPanel& p = model.energy.panel;
+  const tissue::GeneratorPanel& p = state.panel;
   lines.push_back({fmt::format("yellow {} {:.0f} W, blue {:.0f} W, bipolar {:.0f} W", name_of(p.yellow), p.yellow_watts,
                                p.blue_watts, p.bipolar_watts)});
   for (size_t t = 0; t < state.electrodes.size() && t < model.hands.size(); ++t)

@@ -1,6 +1,7 @@
 #include "hand_pilot.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <trocar/sim/visibility.hpp>
 
@@ -73,16 +74,18 @@ const sim::Input& HandPilot::lead(const devices::HandSample& sample, const sim::
     move_scope(m_command.scope, view);
   else if (m_command.led < int(m_model.hands.size()))
     move_tool(m_command, view, state);
-  m_input.pedals = pedals_of(m_command);
+  m_input.pedals = pedals_of(m_command) | take_panel_keys();
   go_on(sample.dt, state);
   return m_input;
 }
 
 const sim::Input& HandPilot::rest(float dt, const sim::State& state) {
-  m_input.pedals = 0;
+  m_input.pedals = take_panel_keys();
   go_on(dt, state);
   return m_input;
 }
+
+std::uint32_t HandPilot::take_panel_keys() { return std::exchange(m_panel_keys, 0) << sim::kPanelBit; }
 
 void HandPilot::go_on(float dt, const sim::State& state) {
   for (int h = 0; h < int(m_model.hands.size()); ++h) {

@@ -29,6 +29,7 @@ class HandPilot {
   void choose(int hand);      ///< lead this one, or devices::kScope
   void take(int instrument);  ///< the led hand wants this one of its rack
   void insert();              ///< the led hand's instrument comes into the view by itself; any motion stops it
+  void press(std::uint32_t panel_keys) { m_panel_keys |= panel_keys; }  ///< tissue::PanelKey bits, once
   void toggle_ratchet() { devices::toggle_ratchet(m_hands); }
   void toggle_fine() { m_hands.fine = !m_hands.fine; }
   bool changing(int hand, const sim::State& state) const;  ///< its instrument
@@ -48,12 +49,14 @@ class HandPilot {
   void move_scope(const devices::ScopeMotion& motion, const kinematics::ScopeFrame& view);
   void move_in(int hand, float dt, const sim::State& state);
   void go_on(float dt, const sim::State& state);
+  std::uint32_t take_panel_keys();
 
   const sim::Model& m_model;
   devices::HandSettings m_settings;
   devices::HandState m_hands;
   devices::HandCommand m_command;
   sim::Input m_input;
+  std::uint32_t m_panel_keys = 0;  ///< pressed since the last sample
   std::array<bool, sim::kMaxTools> m_inserting{}, m_unseen{};
 };
 

@@ -362,6 +362,37 @@ Choice draw_hint(bool gamepad, bool& again) {
 
 // --- rack ---
 
+namespace {
+
+/// Keys of a generator: less, more, and what it is set to.
+std::uint32_t draw_setting(const char* name, double watts, tissue::PanelKey less, tissue::PanelKey more) {
+  std::uint32_t keys = 0;
+  ImGui::PushID(name);
+  ImGui::PushButtonRepeat(true);
+  if (ui::button(" - ")) keys |= less;
+  ImGui::SameLine();
+  if (ui::button(" + ")) keys |= more;
+  ImGui::PopButtonRepeat();
+  ImGui::SameLine();
+  ui::text(fmt::format("{} {:.0f} W", name, watts), ui::kWhite);
+  ImGui::PopID();
+  return keys;
+}
+
+std::uint32_t draw_panel_keys(const tissue::GeneratorPanel& p) {
+  const bool cut = p.yellow == tissue::EnergyMode::cut;
+  ui::text("What is the generator set to?", ui::kGrey);
+  std::uint32_t keys =
+      draw_setting(cut ? "yellow, cut" : "yellow, blend", p.yellow_watts, tissue::kYellowLess, tissue::kYellowMore);
+  ImGui::SameLine();
+  if (ui::button(cut ? "to blend" : "to cut")) keys |= tissue::kOtherCut;
+  keys |= draw_setting("blue, coagulation", p.blue_watts, tissue::kBlueLess, tissue::kBlueMore);
+  keys |= draw_setting("blue, bipolar", p.bipolar_watts, tissue::kBipolarLess, tissue::kBipolarMore);
+  return keys;
+}
+
+}  // namespace
+
 RackChoice draw_rack(const sim::Model& model, const sim::State& state, const devices::HandState& hands,
                      float picture_width) {
   RackChoice choice;
@@ -395,6 +426,7 @@ RackChoice draw_rack(const sim::Model& model, const sim::State& state, const dev
       choice.ratchet = true;
     ImGui::SameLine();
   }
+  if (model.energy.there) choice.panel_keys = draw_panel_keys(state.panel);
   if (ui::button(hands.fine ? "fine motion: on" : "fine motion: off")) choice.fine = true;
   ImGui::SameLine();
   if (ui::button("pause (P)")) choice.pause = true;

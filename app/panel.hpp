@@ -45,11 +45,12 @@ Choice draw_pause(const std::string& why, const std::string& recording, bool sco
 /// After the attempt. `report`: there is a page to open; `say`: how far it is, or empty
 Choice draw_result(const Json& result, const std::string& mode, bool report, const std::string& say);
 
-/// The rack: which hand, which instrument in it.
+/// The rack: which hand, which instrument in it; and the generator's panel where there is one.
 struct RackChoice {
   bool close = false, pause = false, insert = false, ratchet = false, fine = false;
-  int hand = -2;        ///< lead this one (devices::kScope: the endoscope); -2: no choice
-  int instrument = -1;  ///< for the led hand
+  int hand = -2;                 ///< lead this one (devices::kScope: the endoscope); -2: no choice
+  int instrument = -1;           ///< for the led hand
+  std::uint32_t panel_keys = 0;  ///< tissue::PanelKey bits pressed
 };
 RackChoice draw_rack(const sim::Model& model, const sim::State& state, const devices::HandState& hands,
                      float picture_width);

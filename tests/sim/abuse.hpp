@@ -315,11 +315,13 @@ class Attack {
     m_input.scope.roll += float(m_random.uniform(-0.01, 0.01));
   }
 
-  /// Every now and then one of all pedals, valves and the wipe changes.
+  /// Every now and then one of all pedals, valves, keys of the panel and the wipe changes.
   void tread() {
     if ((!m_model.energy.there && !m_model.wet.there) || m_feet.next() % 100 != 0) return;
-    const std::uint32_t which = std::uint32_t(m_feet.next() % (3 + 2 * m_hands.size()));
-    m_input.pedals ^= which < 3 ? 1u << which : 1u << (8 + which - 3);
+    const std::uint32_t which = std::uint32_t(m_feet.next() % (3 + 2 * m_hands.size() + 7));
+    const std::uint32_t key = which - 3 - std::uint32_t(2 * m_hands.size());
+    const bool valve = which >= 3 && which < 3 + 2 * m_hands.size();
+    m_input.pedals ^= which < 3 ? 1u << which : valve ? 1u << (8 + which - 3) : 1u << (sim::kPanelBit + int(key));
     m_pressed |= m_input.pedals;
   }
 

@@ -64,6 +64,22 @@ TEST(Energy, BothPedalsAtOnceGiveNothing) {
   EXPECT_EQ(t.state.heat.books.given, 0);
 }
 
+TEST(Energy, KeysOfThePanelSetThePowerWhileItRuns) {
+  small::Table t = hook_on_organ(kBlue, 0.4);
+  const double before = t.state.electrodes[kHook].current.now.output;
+  EXPECT_NEAR(before, 40, 1);
+  for (int i = 0; i < 4; ++i) {
+    t.input.pedals = kBlue | std::uint32_t(tissue::kBlueLess) << kPanelBit;
+    t.steps(50);
+    t.input.pedals = kBlue;
+    t.steps(50);
+  }
+  EXPECT_EQ(t.state.panel.blue_watts, 20);
+  EXPECT_NEAR(t.state.electrodes[kHook].current.now.output, 0.5 * before, 2);
+  State other = initial_state(t.model);
+  EXPECT_EQ(other.panel.blue_watts, 40) << "each attempt begins as the scene says";
+}
+
 TEST(Energy, PedalsDoNothingInASceneWithoutAGenerator) {
   small::Table with(small::model()), without(small::model());
   with.input.pedals = kBlue;
@@ -304,8 +320,8 @@ TEST(Energy, AFoldThatIsCoagulatedDrawsTogetherAndStaysSo) {
   t.carry(kHook, {0.017, 0.0008, -0.005}, {0.017, 0.020, -0.005}, 0.05);
   t.steps(1000);
   std::printf("    %.1f J: %d springs have shrunk, spread %.3f instead of %.3f mm\n", t.state.heat.books.given,
-              t.state.shrunk_count, 1e3 * spread(), 1e3 * drawn);
-  EXPECT_GT(t.state.shrunk_count, 10);
+              t.state.scarred_count, 1e3 * spread(), 1e3 * drawn);
+  EXPECT_GT(t.state.scarred_count, 10);
   EXPECT_LT(spread(), 0.97 * drawn);
   EXPECT_GT(spread(), 0.78 * drawn) << "by a fifth at most";
   EXPECT_EQ(t.flags & StepReport::kHeatFull, 0u);
@@ -313,19 +329,109 @@ TEST(Energy, AFoldThatIsCoagulatedDrawsTogetherAndStaysSo) {
 
 TEST(Energy, AnOrganThatIsCoagulatedShrinksByATenthOfWhatIs) {
   const small::Table t = hook_on_organ(kBlue, 2);
-  ASSERT_GT(t.state.shrunk_count, 0);
-  for (int i = 0; i < t.state.shrunk_count; ++i) {
-    EXPECT_EQ(t.state.shrunk[size_t(i)].body, kOrgan);
-    EXPECT_GE(t.state.shrunk[size_t(i)].share, 0.79f);
+  ASSERT_GT(t.state.scarred_count, 0);
+  for (int i = 0; i < t.state.scarred_count; ++i) {
+    EXPECT_EQ(t.state.scarred[size_t(i)].body, kOrgan);
+    EXPECT_GE(t.state.scarred[size_t(i)].share, 0.79f);
   }
-  const ShrunkSpring& most = *std::min_element(t.state.shrunk.begin(), t.state.shrunk.begin() + t.state.shrunk_count,
-                                               [](const auto& a, const auto& b) { return a.share < b.share; });
+  const Scar& most = *std::min_element(t.state.scarred.begin(), t.state.scarred.begin() + t.state.scarred_count,
+                                       [](const auto& a, const auto& b) { return a.share < b.share; });
   const tissue::NetworkModel& organ = t.model.solids[0].network;
   const double strain = tissue::spring_strain(organ, t.state.solids[0], most.spring);
-  std::printf("    %d springs, the most to %.3f of its length; it stands at %.3f\n", t.state.shrunk_count,
+  std::printf("    %d springs, the most to %.3f of its length; it stands at %.3f\n", t.state.scarred_count,
               double(most.share), 1 + strain);
   EXPECT_LT(most.share, 0.97f);
   EXPECT_LT(strain, -0.2 * (1 - double(most.share))) << "what is around it holds against it";
+}
+
+/// How long the edges of the cells that heat has shrunk to below a share are, over how they were drawn.
+double scarred_edges(const small::Table& t, float share) {
+  const tissue::CuttableModel& m = t.model.cuttables[0].body;
+  const tissue::CuttableState& bar = t.state.cuttables[0];
+  double now = 0, drawn = 0;
+  for (int i = 0; i < t.state.scarred_count; ++i) {
+    const Scar& scar = t.state.scarred[size_t(i)];
+    if (scar.body != interactions::kSolidBase + small::kBar || scar.share > share) continue;
+    const geometry::Tet& cell = bar.tets.cells[size_t(scar.spring)];
+    for (const auto& edge : tissue::kCellEdges) {
+      const int a = cell[size_t(edge[0])], b = cell[size_t(edge[1])];
+      now += length(position(m, bar, a) - position(m, bar, b));
+      drawn += length(bar.tets.rest[size_t(a)] - bar.tets.rest[size_t(b)]);
+    }
+  }
+  return drawn > 0 ? now / drawn : 0;
+}
+
+TEST(Energy, ABodyThatCanBeCutShrinksWhereItIsCoagulatedAndCanBeCutThere) {
+  small::Table t(small::energy());
+  const Vec3d high{0.020, 0.045, 0.020}, on{0.020, 0.045, 0.0035};
+  t.carry(kHook, {0.026, 0.02, 0.05}, high, 0.2);
+  t.carry(kHook, high, on, 0.1);
+  t.input.pedals = kBlue;
+  t.steps(4000);
+  t.input.pedals = 0;
+  t.carry(kHook, on, high, 0.05);
+  t.steps(500);
+  const int scars = t.state.scarred_count;
+  const double whole = scarred_edges(t, 0.95f);
+  std::printf("    %.1f J: %d cells, edges at %.3f of their length\n", t.state.heat.books.given, scars, whole);
+  EXPECT_GT(scars, 3);
+  EXPECT_LT(whole, 0.97);
+  EXPECT_GT(whole, 0.78);
+  const Vec3d beside{0.020, 0.041, 0.0035};
+  t.carry(kHook, high, {0.020, 0.041, 0.020}, 0.1);
+  t.carry(kHook, {0.020, 0.041, 0.020}, beside, 0.1);
+  t.input.pedals = kYellow;
+  t.carry(kHook, beside, {0.020, 0.049, 0.0035}, 0.01);
+  t.input.pedals = 0;
+  t.carry(kHook, {0.020, 0.049, 0.0035}, {0.020, 0.049, 0.020}, 0.05);
+  t.steps(1000);
+  EXPECT_GT(t.count(Event::parted), 0);
+  EXPECT_GE(t.state.scarred_count, scars);
+  EXPECT_GT(scarred_edges(t, 0.95f), 0.7);
+  EXPECT_LT(scarred_edges(t, 0.95f), 1);
+  EXPECT_EQ(t.flags & (StepReport::kTooManyLoads | StepReport::kHeatFull), 0u);
+  const tissue::CuttableModel& bar = t.model.cuttables[0].body;
+  for (int n = 0; n < t.state.cuttables[0].tets.nodes; ++n)
+    ASSERT_LT(length(velocity(bar, t.state.cuttables[0], n)), 0.2) << "it has come to rest, or swings";
+}
+
+/// Strains of an organ's springs at two depths of the wire, which has been there with those pedals for 4 s.
+struct Pressed {
+  std::vector<double> less, more;
+  std::vector<Scar> scars;
+};
+Pressed pressed_organ(std::uint32_t pedals) {
+  small::Table t = hook_on_organ(pedals, 4);
+  t.input.pedals = 0;
+  const tissue::NetworkModel& organ = t.model.solids[0].network;
+  const auto strains_at = [&](double deeper) {
+    t.point(kHook, small::kOnOrgan - Vec3d{0, 0, deeper});
+    t.steps(600);
+    std::vector<double> strains;
+    for (int s = 0; s < organ.springs; ++s) strains.push_back(tissue::spring_strain(organ, t.state.solids[0], s));
+    return strains;
+  };
+  Pressed p;
+  p.less = strains_at(0.8e-3), p.more = strains_at(1.8e-3);
+  p.scars.assign(t.state.scarred.begin(), t.state.scarred.begin() + t.state.scarred_count);
+  return p;
+}
+
+TEST(Energy, WhatIsCoagulatedGivesWayLessUnderTheSameWire) {
+  const Pressed raw = pressed_organ(0), burnt = pressed_organ(kBlue);
+  double before = 0, after = 0, stiff = 0;
+  for (const Scar& scar : burnt.scars) {
+    const size_t s = size_t(scar.spring);
+    before += std::fabs(raw.more[s] - raw.less[s]);
+    after += std::fabs(burnt.more[s] - burnt.less[s]);
+    stiff += double(scar.stiff) / double(burnt.scars.size());
+  }
+  std::printf("    %zu springs, %.1f times as stiff in the mean, give way by %.2f of what they did\n",
+              burnt.scars.size(), stiff, after / before);
+  EXPECT_TRUE(raw.scars.empty());
+  EXPECT_GT(stiff, 1.5);
+  EXPECT_LT(after, 0.8 * before) << "softer neighbours do the more";
 }
 
 TEST(Energy, ATubeThatIsCoagulatedAcrossIsShorterThere) {

@@ -325,6 +325,25 @@ TEST(Breathing, HeldNodesAreWhereTheBreathHasCarriedThem) {
     EXPECT_LT(length(position(m.solids[0].network, s.solids[0], i) - m.solids[0].network.rest[size_t(i)] - way), 1e-8);
 }
 
+TEST(Breathing, MovesTheArteriesPressureWithTheSameBreath) {
+  scene::Description d = small::description();
+  d.walls.clear();
+  d.breathing = breathing();
+  d.breathing->per_minute = 21;
+  d.breathing->carries = {{"organ", 1, {}}};
+  const Model m = scene::compile(d);
+  State s = initial_state(m);
+  Work w = make_work(m);
+  ASSERT_TRUE(m.vessels.there());
+  for (int i = 0; i <= 4000; ++i) {
+    const double breaths = double(s.tick) * kTick / m.motion.breathing.period;
+    if (i % 500 == 0) {
+      EXPECT_NEAR(s.flow.breath, breaths - std::floor(breaths), 1e-9) << "tick " << s.tick;
+    }
+    step(m, m.start, s, w);
+  }
+}
+
 TEST(Breathing, CarriesAlsoBodiesThatCanBeCut) {
   scene::Description d = description();
   d.breathing = breathing();

@@ -11,6 +11,25 @@ namespace {
 
 constexpr FootSwitch kBlue{.yellow = false, .blue = true}, kYellow{.yellow = true, .blue = false};
 
+TEST(Generator, AKeyOfItsPanelTurnsASettingByAStepEachTimeItGoesDown) {
+  GeneratorPanel p;
+  const double before = p.yellow_watts;
+  press(kYellowMore, p);
+  press(kYellowMore, p);
+  EXPECT_EQ(p.yellow_watts, before + kWattStep) << "held down: once";
+  press(0, p);
+  press(kYellowMore | kBlueLess, p);
+  EXPECT_EQ(p.yellow_watts, before + 2 * kWattStep);
+  EXPECT_EQ(p.blue_watts, GeneratorPanel{}.blue_watts - kWattStep);
+  press(0, p);
+  press(kBipolarMore | kBipolarLess | kOtherCut, p);
+  EXPECT_EQ(p.bipolar_watts, GeneratorPanel{}.bipolar_watts) << "both at once";
+  EXPECT_EQ(p.yellow, EnergyMode::blend);
+  for (int i = 0; i < 100; ++i) press(i % 2 ? 0 : kYellowMore | kBlueLess, p);
+  EXPECT_EQ(p.yellow_watts, kMostWatts);
+  EXPECT_EQ(p.blue_watts, 0);
+}
+
 TEST(Generator, GivesItsPowerBetweenTwoLoadsAndLessBeyond) {
   const EnergyCurve c{.low = 100, .high = 1000};
   EXPECT_EQ(load_factor(c, 0), 0);

@@ -25,7 +25,7 @@ constexpr double kSettle = 10;     // [s] of heartbeat before the first tick ...
 constexpr double kAverage = 5;     // ... and of those after which the mean pressures are taken
 constexpr int kFewSegments = 500;  // more have as many seconds less
 
-/// All of a scene's vessels as one graph.
+/// All of a scene's vessels as one graph. Where the scene breathes, the arteries do with it.
 vessels::VesselGraph joined(const Description& d) {
   vessels::VesselGraph all;
   for (const VesselTree& tree : d.vessels) {
@@ -52,6 +52,7 @@ vessels::VesselGraph joined(const Description& d) {
   all.settings.max_openings = interactions::kMaxOpenings;
   // What heat seals is closed as by clips, at both ends.
   all.settings.max_clips = interactions::kMaxVesselClips + (d.energy ? 2 * interactions::kMaxSeals : 0);
+  if (d.breathing) all.heart.breaths = d.breathing->per_minute;
   return all;
 }
 
@@ -231,7 +232,8 @@ class Compiling {
           all.list[v].mean_pressure += read_wall(all.flow, all.start, int(v), 0.5).pressure / ticks;
       }
       for (size_t v = 0; v < all.list.size(); ++v) all.list[v].vein = m_graph.segments[v].vein;
-    } catch (const std::exception& e) {  // too many cells or anastomoses
+      if (m_description.breathing) all.start.breath = 0;  // scenes begin at the end of an expiration
+    } catch (const std::exception& e) {                   // too many cells or anastomoses
       m_faults.push_back({m_description.vessels.front().at,
                           std::string("expected vessels that can be computed together, got: ") + e.what()});
     }

@@ -58,7 +58,8 @@ const Shape& heart() {
       "heart",
       "Its beat; at rest, before any loss of blood.",
       {keys::number("rate_per_min", 10, 300, "default 72"), keys::number("systolic_mmHg", 10, 300, "default 120"),
-       keys::number("diastolic_mmHg", 0, 250, "default 80"), keys::number("breaths_per_min", 0, 100, "default 14"),
+       keys::number("diastolic_mmHg", 0, 250, "default 80"),
+       keys::number("breaths_per_min", 0, 100, "default 14; where the scene has `breathing`, its rate counts instead"),
        keys::number("arterial_swing_mmHg", 0, 50, "of breathing in arteries, default 3"),
        keys::number("venous_swing_mmHg", 0, 50, "in veins, default 2")}};
   return shape;

@@ -6,8 +6,8 @@
 #include <trocar/sim/current_cut.hpp>
 #include <trocar/sim/heat_bodies.hpp>
 #include <trocar/sim/heating.hpp>
+#include <trocar/sim/scarring.hpp>
 #include <trocar/sim/sealing.hpp>
-#include <trocar/sim/shrinking.hpp>
 #include <trocar/sim/stage.hpp>
 #include <trocar/tissue/heat_look.hpp>
 
@@ -65,23 +65,6 @@ void stick(StepContext& c, size_t t, const ElectrodeTouch& touch, ElectrodeHand&
   hand.stuck = interactions::stuck_at(c.work.shapes[t], tissue_of(c), touch.point);
 }
 
-/// Coagulated strands are stiffer. Their step is implicit, so that any stiffness is stable; lattices' and folds' is
-/// not: theirs would take more sub-steps from all scenes that could be heated. What was cut in part stays weak.
-void stiffen(StepContext& c, const ElectrodeTouch& touch) noexcept {
-  const std::int32_t strand = touch.contact.body;
-  if (strand >= interactions::kSolidBase) return;
-  const size_t e = size_t(touch.point.element);
-  double& scale = c.state.strands[size_t(strand)].scale[e];
-  if (scale < 1) return;
-  const Section section = section_of(c, strand, touch.point.element, touch.contact.a.x);
-  const auto at = [&](Vec3d p) {
-    return double(tissue::stiffness(tissue::reading(c.model.energy.heat, c.state.heat, strand, p)));
-  };
-  double sum = at(section.middle);
-  for (const Vec3d p : section.around) sum += at(p);
-  scale = std::max(scale, sum / 5);
-}
-
 /// Is there still something to stick to?
 bool is_whole(const StepContext& c, const interactions::Hold& stuck) noexcept {
   if (stuck.body >= interactions::kMembraneBase) return true;
@@ -101,8 +84,8 @@ void work_electrode(StepContext& c, size_t t, int& used) noexcept {
   const tissue::FootSwitch pedals = foot_switch(c.input);
   const bool works = c.state.heat.tick % std::uint64_t(energy.heat.period) == 0;
   ElectrodeTouch touch;
-  if (works) touch = touch_of(c, t, tissue::asked_mode(electrode.current, energy.panel, pedals));
-  const tissue::Discharge d = tissue::energise(electrode.current, energy.panel, pedals, touch.contact, energy.heat,
+  if (works) touch = touch_of(c, t, tissue::asked_mode(electrode.current, c.state.panel, pedals));
+  const tissue::Discharge d = tissue::energise(electrode.current, c.state.panel, pedals, touch.contact, energy.heat,
                                                tissue_shape(c.model), c.state.heat, c.work.heat, hand.current);
   for (const tissue::HeatSource& source : d.span()) c.work.heat_sources[size_t(used++)] = source;
   c.work.current_flows = c.work.current_flows || d.flows;
@@ -113,8 +96,7 @@ void work_electrode(StepContext& c, size_t t, int& used) noexcept {
   hand.a = touch.contact.a, hand.b = touch.contact.b;
   if (touch.contact.gap == 0) stick(c, t, touch, hand);
   seal_vessels(c, t, touch);
-  stiffen(c, touch);
-  shrink_tissue(c, touch);
+  scar_tissue(c, touch);
   if (d.flows && tissue::curve_of(d.mode).bursts) part_tissue(c, t, touch);
 }
 
@@ -158,6 +140,7 @@ void heat_tissue(StepContext& c) noexcept {
   c.work.current_flows = false;
   c.work.steam = {};
   if (!c.model.energy.there) return;
+  tissue::press(panel_keys(c.input), c.state.panel);
   int used = 0;
   for (size_t t = 0; t < c.model.hands.size(); ++t) work_electrode(c, t, used);
   const tissue::HeatReport report = tissue::advance(c.model.energy.heat, {c.work.heat_sources.data(), size_t(used)},

@@ -17,4 +17,7 @@ inline tissue::FootSwitch foot_switch(const Input& input) noexcept {
   return {.yellow = (input.pedals & kYellow) != 0, .blue = (input.pedals & kBlue) != 0};
 }
 
+/// The keys of the generator's panel that an Input holds down.
+inline std::uint32_t panel_keys(const Input& input) noexcept { return input.pedals >> kPanelBit & tissue::kPanelKeys; }
+
 }  // namespace trocar::sim

@@ -29,13 +29,15 @@ enum Pedal : std::uint32_t {
   kYellow = 2,  ///< cutting current
   kWipe = 4,    ///< the endoscope is taken out and wiped
 };
+/// Keys of the generator's panel (tissue::PanelKey), from this bit on.
+inline constexpr int kPanelBit = 16;
 constexpr std::uint32_t irrigates(int hand) { return 1u << (8 + 2 * hand); }
 constexpr std::uint32_t sucks(int hand) { return 2u << (8 + 2 * hand); }
 
 struct Input {
   ScopeInput scope;
   ToolInput tools[kMaxTools];
-  std::uint32_t pedals = 0;  ///< Pedal, irrigates(), sucks()
+  std::uint32_t pedals = 0;  ///< Pedal, irrigates(), sucks(), keys of the panel
 };
 static_assert(std::is_trivially_copyable_v<Input> && sizeof(Input) == 20 + kMaxTools * 24 + 4, "no padding");
 

@@ -44,7 +44,7 @@ void add_tool(core::Hasher& h, const interactions::ToolModel& t) {
 
 /// Raised where vessels, fluids or heat go another way with the same figures: recordings of before are of another
 /// physics.
-constexpr std::uint32_t kPhysics = 2;
+constexpr std::uint32_t kPhysics = 3;
 
 }  // namespace
 

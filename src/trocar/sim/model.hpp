@@ -145,7 +145,7 @@ struct WetModel {
 struct EnergyModel {
   bool there = false;
   tissue::HeatModel heat;
-  tissue::GeneratorPanel panel;
+  tissue::GeneratorPanel panel;                   ///< as it is set at the beginning
   std::vector<geometry::CellMask> organs, folds;  ///< what of them is tissue (heat_bodies.hpp)
 };
 

@@ -80,9 +80,10 @@ State initial_state(const Model& model) {
   }
   if (model.energy.there) {
     s.heat = tissue::cold(model.energy.heat);
+    s.panel = model.energy.panel;
     s.electrodes.resize(model.hands.size());
     s.seals.resize(interactions::kMaxSeals);
-    s.shrunk.resize(size_t(kMaxShrunk));
+    s.scarred.resize(size_t(kMaxScarred));
     for (tissue::StrandState& strand : s.strands) strand.shrunk.assign(strand.alive.size(), 1.0);
   }
   if (model.wet.there) {
@@ -134,11 +135,12 @@ std::uint64_t hash_of(const State& s) noexcept {
   }
   if (!s.electrodes.empty()) {
     tissue::add_to_hash(h, s.heat);
+    h.add(s.panel);
     h.add(s.electrodes);
     h.add(s.seals);
     h.add(s.seal_count);
-    h.add(s.shrunk_count);
-    h.add(core::hash_bytes(s.shrunk.data(), size_t(s.shrunk_count) * sizeof s.shrunk[0]));
+    h.add(s.scarred_count);
+    h.add(core::hash_bytes(s.scarred.data(), size_t(s.scarred_count) * sizeof s.scarred[0]));
   }
   if (!s.fluids.droplets.x.empty()) {
     fluids::add_to_hash(h, s.fluids);

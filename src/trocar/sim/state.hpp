@@ -31,12 +31,14 @@ struct ElectrodeHand {
 static_assert(sizeof(ElectrodeHand) == sizeof(tissue::ElectrodeState) + 12 * 8 + 3 * 4 + sizeof(interactions::Hold),
               "no padding");
 
-/// A spring of a lattice or a fold that heat has shrunk (shrinking.hpp).
-struct ShrunkSpring {
-  std::int32_t body = -1, spring = -1;  ///< as holds number bodies; of its network
-  float share = 1;                      ///< of its length that is left
+/// A spring of a lattice or a fold that heat has changed (scarring.hpp).
+struct Scar {
+  std::int32_t body = -1;    ///< as holds number bodies
+  std::int32_t spring = -1;  ///< of its network; of bodies that can be cut: the cell that all its springs belong to
+  float share = 1;           ///< of its length that is left
+  float stiff = 1;           ///< times its stiffness
 };
-inline constexpr std::int32_t kMaxShrunk = 1024;
+inline constexpr std::int32_t kMaxScarred = 1024;
 
 struct State {
   std::uint64_t tick = 0;  ///< ticks made
@@ -68,11 +70,12 @@ struct State {
   std::int32_t opening_count = 0, vessel_clip_count = 0;
   /// Heat, electrodes and what they seal; all empty in scenes without energy.
   tissue::HeatState heat;
+  tissue::GeneratorPanel panel;
   std::vector<ElectrodeHand> electrodes;        ///< (hands)
   std::vector<interactions::VesselSeal> seals;  ///< (kMaxSeals)
   std::int32_t seal_count = 0;
-  std::vector<ShrunkSpring> shrunk;  ///< (kMaxShrunk)
-  std::int32_t shrunk_count = 0;
+  std::vector<Scar> scarred;  ///< (kMaxScarred)
+  std::int32_t scarred_count = 0;
   fluids::FluidsState fluids;     ///< empty in scenes without fluids
   std::vector<float> pool_floor;  ///< of the pool, (ny x nx) [m]; walls and organs
   /// What drops gave to tissue in the last tick: it goes to the bodies in the next. Empty without a suction-irrigator.

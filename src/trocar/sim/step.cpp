@@ -7,7 +7,7 @@
 #include <trocar/sim/jaws.hpp>
 #include <trocar/sim/motion.hpp>
 #include <trocar/sim/posing.hpp>
-#include <trocar/sim/shrinking.hpp>
+#include <trocar/sim/scarring.hpp>
 #include <trocar/sim/step.hpp>
 #include <trocar/sim/tearing.hpp>
 #include <trocar/sim/visibility.hpp>
@@ -51,7 +51,7 @@ constexpr Stage kStages[] = {
     {"touch tissue", touch_tissue},
     {"touch organs", touch_organs},
     {"stick", stick_tissue},
-    {"draw together", draw_together},
+    {"pull scars", pull_scars},
     {"beat", beat},
     {"press with drops", press_with_drops},
     {"pull on borders", pull_on_borders},

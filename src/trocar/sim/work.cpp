@@ -9,6 +9,7 @@ namespace trocar::sim {
 namespace {
 
 constexpr size_t kOrganLoads = 8192, kStrandLoads = 2048, kMembraneLoads = 4096;
+constexpr size_t kScarLoads = 40;  // of a scarred cell: six edges and four springs across faces, two loads an end
 
 template <class T>
 void scribble(std::vector<T>& values) noexcept {
@@ -157,7 +158,8 @@ Work make_work(const Model& model, core::ThreadPool* pool) {
     w.skins.push_back(&w.cuttable_skins.back().skin);
     w.poses.push_back(tissue::make_pose(*w.skins.back()));
     w.cuttable_work.push_back(tissue::make_work(c.body));
-    w.organ_loads.emplace_back().reserve(kOrganLoads + c.body.anchors.size());
+    const size_t scars = model.energy.there ? kScarLoads * size_t(kMaxScarred) : 0;
+    w.organ_loads.emplace_back().reserve(kOrganLoads + c.body.anchors.size() + scars);
     w.beyond.resize(std::max(w.beyond.size(), size_t(c.body.rows)));
   }
   w.nodes.resize(size_t(model.organs()));

@@ -8,7 +8,6 @@ namespace {
 
 constexpr double kMillimetre = 1e-3;
 constexpr double kStickTime = 0.3;  ///< [s]
-constexpr double kMostWatts = 120;
 
 HeatSource source_of(const ElectrodeDescription& e, const ElectrodeContact& c, const EnergyCurve& curve) noexcept {
   HeatSource q;
@@ -91,6 +90,19 @@ EnergyCurve curve_of(EnergyMode mode) noexcept {
       break;
   }
   return {};
+}
+
+void press(std::uint32_t down, GeneratorPanel& panel) noexcept {
+  const std::uint32_t pressed = down & ~panel.held;
+  const auto turn = [pressed](double& watts, PanelKey more, PanelKey less) {
+    const double steps = double((pressed & more) != 0) - double((pressed & less) != 0);
+    watts = std::clamp(watts + steps * kWattStep, 0.0, kMostWatts);
+  };
+  turn(panel.yellow_watts, kYellowMore, kYellowLess);
+  turn(panel.blue_watts, kBlueMore, kBlueLess);
+  turn(panel.bipolar_watts, kBipolarMore, kBipolarLess);
+  if (pressed & kOtherCut) panel.yellow = panel.yellow == EnergyMode::cut ? EnergyMode::blend : EnergyMode::cut;
+  panel.held = down;
 }
 
 EnergyMode asked_mode(const ElectrodeDescription& e, const GeneratorPanel& panel, FootSwitch pedals) noexcept {

@@ -40,12 +40,33 @@ struct EnergyCurve {
 };
 EnergyCurve curve_of(EnergyMode mode) noexcept;
 
+inline constexpr double kMostWatts = 120, kWattStep = 5;  ///< of a setting, our choice
+
+/// No padding: part of a State.
 struct GeneratorPanel {
-  EnergyMode yellow = EnergyMode::cut;  ///< or blend
-  double yellow_watts = 40;             ///< 0 to 120
-  double blue_watts = 40;               ///< coagulation
+  double yellow_watts = 40;  ///< 0 to kMostWatts
+  double blue_watts = 40;    ///< coagulation
   double bipolar_watts = 30;
+  EnergyMode yellow = EnergyMode::cut;  ///< or blend
+  std::uint32_t held = 0;               ///< keys that were down at the last press()
 };
+static_assert(sizeof(GeneratorPanel) == 3 * 8 + 2 * 4, "no padding");
+
+/// Keys of the panel.
+enum PanelKey : std::uint32_t {
+  kYellowMore = 1,
+  kYellowLess = 2,
+  kBlueMore = 4,
+  kBlueLess = 8,
+  kBipolarMore = 16,
+  kBipolarLess = 32,
+  kOtherCut = 64,  ///< from cut to blend and back
+};
+inline constexpr std::uint32_t kPanelKeys = 127;
+/// A key that goes down changes its setting by a step of kWattStep, once.
+/// @param down  PanelKey bits
+void press(std::uint32_t down, GeneratorPanel& panel) noexcept;
+
 struct FootSwitch {
   bool yellow = false, blue = false;  ///< both: nothing flows
 };

@@ -1,0 +1,133 @@
+// Springs that heat has changed: what a block of them is like.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <trocar/core/random.hpp>
+#include <trocar/interactions/scarred_spring.hpp>
+#include <trocar/tissue/lattice_springs.hpp>
+
+using namespace trocar;
+using namespace trocar::interactions;
+
+namespace {
+
+constexpr double kTick = 1e-3, kLong = 0.040;
+
+/// A bar of 40 x 10 x 10 mm along x; its end at x = 0 may be held in x.
+struct Bar {
+  tissue::NetworkModel model;
+  tissue::NetworkState state;
+  tissue::NetworkWork work;
+  NetworkLoads loads;
+  std::uint32_t worst = 0;     ///< flags of all ticks
+  std::vector<int> low, high;  ///< nodes of its ends
+
+  explicit Bar(bool held) {
+    const tissue::BoxLattice box = tissue::box_lattice(8, 2, 2, 0.005, {0, 0, 0});
+    tissue::LatticeMaterial material;
+    material.youngs_modulus = 20e3;
+    material.density = 1050;
+    material.damping_time = 4e-4;
+    tissue::NetworkDescription d = tissue::lattice_network(box.corners, box.cells, {}, material).network;
+    for (int n = 0; n < int(d.positions.size()); ++n) {
+      if (d.positions[size_t(n)].x < 1e-6) low.push_back(n);
+      if (d.positions[size_t(n)].x > kLong - 1e-6) high.push_back(n);
+    }
+    d.fixed.assign(d.positions.size(), 0);
+    if (held)
+      for (const int n : low) d.fixed[size_t(n)] = tissue::kHeldX;
+    model = tissue::build(d, kTick);
+    state = tissue::rest_state(model);
+    work = tissue::make_work(model);
+    loads.reserve(8 * size_t(model.springs) + 1000);
+  }
+
+  /// @param force  on the far end in all [N]
+  void tick(double share, double stiff, double force) {
+    loads.clear();
+    for (const int n : high) {
+      tissue::NodeLoad pull;
+      pull.node = n;
+      pull.f0.x = float(force / double(high.size()));
+      loads.add(pull, {Owner::body, 0, 0});
+    }
+    for (int s = 0; s < model.springs && stiff > 1; ++s)
+      pull_scarred(view_of(model, state),
+                   {.a = model.spring_nodes[size_t(2 * s)],
+                    .b = model.spring_nodes[size_t(2 * s + 1)],
+                    .k = tissue::spring_stiffness(model, s),
+                    .l = double(model.spring_rest[size_t(s)]),
+                    .share = share,
+                    .stiff = stiff},
+                   kTick, loads);
+    loads.sort();
+    const tissue::StepReport report = tissue::advance(model, loads.sorted, loads.reaction, state, work);
+    worst |= report.flags;
+  }
+  double length_now() const { return length(middle(high) - middle(low)); }
+  Vec3d middle(const std::vector<int>& nodes) const {
+    Vec3d x;
+    for (const int n : nodes) x += position(model, state, n) / double(nodes.size());
+    return x;
+  }
+  double length_after(double share, double stiff, double force) {
+    for (int i = 0; i < 4000; ++i) tick(share, stiff, force);
+    EXPECT_EQ(worst, 0u);
+    return length_now();
+  }
+};
+
+TEST(ScarredSpring, ABarOfThemStretchesAsMuchLessAsItIsStiffer) {
+  constexpr double kForce = 0.04;  // a strain of 2 %
+  const double before = Bar(true).length_after(1, 1, kForce) - kLong;
+  for (const double stiff : {2.0, 4.0, 10.0}) {
+    const double after = Bar(true).length_after(1, stiff, kForce) - kLong;
+    std::printf("    stiffness times %g: %.4f mm, before %.4f: %.3f times\n", stiff, 1e3 * after, 1e3 * before,
+                before / after);
+    EXPECT_NEAR(before / after, stiff, 0.03 * stiff) << "the bar's own law is curved by as much";
+  }
+}
+
+TEST(ScarredSpring, ABarOfThemIsShorterByAsMuchAsTheyAre) {
+  for (const auto& [share, stiff] : {std::pair{0.9, 4.0}, std::pair{0.8, 10.0}, std::pair{0.95, 1.6}}) {
+    const double after = Bar(false).length_after(share, stiff, 0);
+    std::printf("    share %g, stiffness times %g: %.4f of its length\n", share, stiff, after / kLong);
+    // The spring that has stayed as it was pushes with k, so both rest where q k (r - s l) vanishes.
+    EXPECT_NEAR(after / kLong, share, 0.003);
+  }
+}
+
+TEST(ScarredSpring, WhatMovesAsAWholeIsNotHeldBack) {
+  const auto speed_after = [](double stiff) {
+    Bar bar(false);
+    for (int n = 0; n < bar.model.nodes; ++n) set_velocity(bar.model, bar.state, n, {0.1, 0.05, -0.2});
+    for (int i = 0; i < 500; ++i) bar.tick(0.95, stiff, 0);
+    Vec3d momentum;
+    double mass = 0;
+    for (int n = 0; n < bar.model.nodes; ++n) {
+      momentum += bar.model.mass[size_t(n)] * velocity(bar.model, bar.state, n);
+      mass += bar.model.mass[size_t(n)];
+    }
+    return momentum / mass;
+  };
+  for (const double stiff : {1.0, 4.0, 10.0}) EXPECT_LT(length(speed_after(stiff) - Vec3d{0.1, 0.05, -0.2}), 1e-4);
+}
+
+TEST(ScarredSpring, WhatIsShakenComesToRestHoweverStiff) {
+  Bar bar(false);
+  core::Random random(3);
+  const auto speed = [&] {
+    double most = 0;
+    for (int n = 0; n < bar.model.nodes; ++n) most = std::max(most, length(velocity(bar.model, bar.state, n)));
+    return most;
+  };
+  for (int n = 0; n < bar.model.nodes; ++n)
+    set_velocity(bar.model, bar.state, n, {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)});
+  for (int i = 0; i < 2000; ++i) bar.tick(0.8, 100, 0);
+  std::printf("    fastest node after 2 s: %.2e m/s\n", speed());
+  EXPECT_LT(speed(), 0.5) << "momentum and spin stay";
+  EXPECT_NEAR(bar.length_now(), 0.8 * kLong, 0.02 * kLong) << "spinning";
+}
+
+}  // namespace
