@@ -60,6 +60,11 @@ std::vector<std::string> patient_in_words(const sim::Model& model, const sim::St
   std::vector<std::string> out{fmt::format("pulse {:.0f}/min, {:.0f}/{:.0f} mmHg", v.rate,
                                            v.systolic / vessels::kPascalPerMmHg,
                                            v.diastolic / vessels::kPascalPerMmHg)};
+  if (model.wet.there) {
+    const double gas = state.fluids.gas.pressure;
+    const bool low = gas < 0.8 * model.wet.model.insufflator.set;
+    out.push_back(fmt::format("gas in the abdomen {:.0f} mmHg{}", gas / vessels::kPascalPerMmHg, low ? ", low" : ""));
+  }
   double gain = 1;
   for (const sim::Vessel& vessel : model.vessels.list)
     if (std::fabs(vessel.gain - 1) > std::fabs(gain - 1)) gain = vessel.gain;

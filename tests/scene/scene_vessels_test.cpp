@@ -127,6 +127,24 @@ TEST(SceneVessels, ACutVeinOozesWhereTheArteryBesideItSpurts) {
   EXPECT_GT(spurts[1], 1.3 * spurts[0]) << "pulse";
 }
 
+TEST(SceneVessels, AVeinBleedsMoreWhenTheAbdomensPressureIsSuckedAwayAnArteryHardly) {
+  constexpr double kMmHg = vessels::kPascalPerMmHg;
+  const auto mean = [](const char* vessel, double pressure) {
+    Blood b;
+    b.cut(vessel, 0.5);
+    b.s.fluids.gas.pressure = pressure * kMmHg;
+    const auto flow = b.least_and_most();
+    return 0.5 * (flow[0] + flow[1]);
+  };
+  const double vein = mean("tubal_vein_left", 12), sucked = mean("tubal_vein_left", 2);
+  const double artery = mean("tubal_left", 12), artery_sucked = mean("tubal_left", 2);
+  std::printf("    vein %.1f, with 2 mmHg in the abdomen %.1f mL/min; artery %.1f, %.1f\n", vein, sucked, artery,
+              artery_sucked);
+  EXPECT_GT(sucked, 1.3 * vein);
+  EXPECT_GT(artery_sucked, artery);
+  EXPECT_LT(artery_sucked, 1.25 * artery);
+}
+
 TEST(SceneVessels, UterineAndOvarianArteryFeedEachOthersStumpsSoBothSidesNeedAClip) {
   Blood open, uterine_side, ovarian_side, both;
   for (Blood* b : {&open, &uterine_side, &ovarian_side, &both}) b->cut("tubal_left", 0.5);

@@ -121,6 +121,19 @@ TEST(Irrigation, WhereNothingIsToBeSuckedItSucksGas) {
   EXPECT_EQ(b.sucked(), 0);
 }
 
+TEST(Irrigation, GasThatIsSuckedLowersThePressureInTheAbdomen) {
+  Bench b(above_floor());
+  b.lower(0);
+  const double full = b.state.fluids.gas.pressure;
+  b.press(sucks(kHand), 2000);
+  const double after = b.state.fluids.gas.pressure;
+  // 25 L/min are sucked, at most 20 given; 0.3 L/mmHg.
+  EXPECT_LT(after, full - 0.5 * 133.3);
+  EXPECT_GT(after, full - 2.8 * 133.3);
+  b.press(0, 9000);
+  EXPECT_GT(b.state.fluids.gas.pressure, full - 0.2 * 133.3) << "the insufflator fills it again";
+}
+
 TEST(Irrigation, APortOnTheFloorSucksNothing) {
   Bench b = in_a_pool();
   b.lower(kFloor + 0.0004);

@@ -71,7 +71,10 @@ FluidsModel build(const FluidsDescription& d, double tick) {
   require(l.gas_flow >= 0 && l.nozzle_area > 1e-9 && l.capture_radius >= 0 && l.capture_radius < 0.1,
           "lines: gas flow, nozzle area, capture radius");
   require(l.bag_pressure > 0 && l.vacuum > 0, "lines: pressures");
-  return {build(d.pool, tick), build(d.droplets, tick), build(d.smoke, tick), l, tick};
+  const Insufflator& gas = d.insufflator;
+  require(gas.set >= 0 && gas.set < 1e4 && gas.flow >= 0 && gas.flow < 1e-2 && gas.band > 0 && gas.compliance > 1e-9,
+          "insufflator: pressures, flow, compliance");
+  return {build(d.pool, tick), build(d.droplets, tick), build(d.smoke, tick), l, d.insufflator, tick};
 }
 
 FluidsState initial_state(const FluidsModel& m) {
@@ -79,6 +82,7 @@ FluidsState initial_state(const FluidsModel& m) {
   s.pool = empty_pool(m.pool);
   s.droplets = no_droplets(m.droplets);
   s.smoke = clear_air(m.smoke);
+  s.gas = full(m.insufflator);
   return s;
 }
 
@@ -104,13 +108,16 @@ FluidsReport finish_tick(const FluidsModel& m, const FluidsInput& in, FluidsStat
   Below below{m.pool, in.floor, s.pool, s.ledger};
   out.report = resolve(m.droplets, in.capsules, s.droplets, w.droplets, below);
   SmokeInput smoke = in.smoke;
+  double gas = 0;  // sucked [m^3/s]
   for (std::size_t k = 0; k < std::min(in.tools.size(), std::size_t(kMostTools)); ++k) {
     out.tools[k] = suck(m, in, k, s);
     smoke.sucked = smoke.sucked || out.tools[k].gas_flow > 0;
+    gas += out.tools[k].gas_flow;
   }
   const PoolInput pool{.floor = in.floor, .capsules = in.capsules, .drains = in.drains};
   out.report = out.report | advance(m.pool, pool, s.pool, w.pool, s.ledger);
   advance(m.smoke, smoke, s.smoke, w.smoke);
+  advance(m.insufflator, gas, m.tick, s.gas);
   return out;
 }
 
@@ -125,6 +132,7 @@ void add_to_hash(core::Hasher& hasher, const FluidsState& s) noexcept {
   add_to_hash(hasher, s.droplets);
   add_to_hash(hasher, s.smoke);
   add_to_hash(hasher, s.ledger);
+  hasher.add(s.gas);
   hasher.add(s.irrigation_carry);
   hasher.add(s.suction_carry);
 }

@@ -19,6 +19,7 @@
 
 #include <trocar/core/hash.hpp>
 #include <trocar/fluids/droplets.hpp>
+#include <trocar/fluids/insufflator.hpp>
 #include <trocar/fluids/jet.hpp>
 #include <trocar/fluids/ledger.hpp>
 #include <trocar/fluids/pool.hpp>
@@ -34,6 +35,7 @@ struct FluidsDescription {
   DropletDescription droplets;
   SmokeDescription smoke;
   Lines lines;
+  Insufflator insufflator;
 };
 
 struct FluidsModel {
@@ -41,6 +43,7 @@ struct FluidsModel {
   DropletModel droplets;
   SmokeModel smoke;
   Lines lines;
+  Insufflator insufflator;
   double tick = 1e-3;  ///< [s]
 };
 
@@ -49,6 +52,7 @@ struct FluidsState {
   DropletState droplets;
   SmokeState smoke;
   Ledger ledger;
+  CavityGas gas;
   std::array<double, kMostTools> irrigation_carry{}, suction_carry{};  ///< [pL]
 };
 

@@ -308,6 +308,7 @@ namespace {
 /// Openings and clips of the State as the flow wants them.
 void lay_out(StepContext& c) noexcept {
   const State& s = c.state;
+  const double outside = c.model.wet.there ? s.fluids.gas.pressure : c.model.vessels.flow.settings.cavity_pressure;
   for (size_t i = 0; i < c.work.open.size(); ++i) {
     vessels::Opening& out = c.work.open[i];
     out = {};
@@ -318,7 +319,7 @@ void lay_out(StepContext& c) noexcept {
     out.kind = o.through ? vessels::Opening::Kind::cut : vessels::Opening::Kind::hole;
     out.area = o.area;
     out.sealed = sealed_share(s, int(i));
-    out.outside = c.model.vessels.flow.settings.cavity_pressure;
+    out.outside = outside;
   }
   lay_out_seals(s, std::span(c.work.closed).subspan(interactions::kMaxVesselClips));
   for (size_t i = 0; i < size_t(interactions::kMaxVesselClips); ++i) {
