@@ -396,7 +396,7 @@ std::uint32_t draw_panel_keys(const tissue::GeneratorPanel& p) {
 RackChoice draw_rack(const sim::Model& model, const sim::State& state, const devices::HandState& hands,
                      float picture_width) {
   RackChoice choice;
-  const float width = std::min(560 * ui::scale(), 0.97f * picture_width);
+  const float width = std::min(640 * ui::scale(), 0.97f * picture_width);
   ImGui::SetNextWindowPos({0.5f * picture_width, 12 * ui::scale()}, ImGuiCond_Always, {0.5f, 0});
   ImGui::SetNextWindowSizeConstraints({width, 0}, {width, ImGui::GetIO().DisplaySize.y});
   ImGui::SetNextWindowBgAlpha(0.93f);
@@ -419,14 +419,16 @@ RackChoice draw_rack(const sim::Model& model, const sim::State& state, const dev
       if (ui::button(list[i].name, {.primary = list[i].held})) choice.instrument = list[i].index;
       if (list[i].held) ImGui::SetItemDefaultFocus();
     }
-    ui::text("And", ui::kGrey);
+  }
+  if (model.energy.there) choice.panel_keys = draw_panel_keys(state.panel);
+  ui::text("And", ui::kGrey);
+  if (hands.led != devices::kScope) {
     if (ui::button("into view (V)")) choice.insert = true;
     ImGui::SameLine();
     if (ui::button(hands.ratchet[size_t(hands.led)] ? "unlock jaws (Space)" : "lock jaws (Space)"))
       choice.ratchet = true;
     ImGui::SameLine();
   }
-  if (model.energy.there) choice.panel_keys = draw_panel_keys(state.panel);
   if (ui::button(hands.fine ? "fine motion: on" : "fine motion: off")) choice.fine = true;
   ImGui::SameLine();
   if (ui::button("pause (P)")) choice.pause = true;
