@@ -75,7 +75,7 @@ TEST_P(BleedingFlaw, TriggersItsError) {
   EXPECT_EQ(a.monitor.score().failed, a.exercise.penalty(GetParam())->fail);
 }
 INSTANTIATE_TEST_SUITE_P(Codes, BleedingFlaw,
-                         testing::Values("E4.2", "E6", "E7", "E7.1", "E8", "E9.1", "E9.2", "E9.3", "E10", "E12", "A3.2",
+                         testing::Values("E4.2", "E6", "E7", "E7.1", "E7.2", "E8", "E9.1", "E9.2", "E9.3", "E10", "E12", "A3.2",
                                          "A3.3", "A3.4"),
                          [](const auto& of) {
                            std::string name = of.param;

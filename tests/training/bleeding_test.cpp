@@ -220,6 +220,25 @@ TEST(EnergyWatch, CurrentIsForWhatCarriesTheArtery) {
   EXPECT_TRUE(e.monitor.score().failed) << "bowel";
 }
 
+TEST(EnergyWatch, AHotTipMayTouchWhatCarriesTheArteryAndNothingElseForLong) {
+  Electrode e;
+  const auto touch = [&e](std::int32_t body, double seconds) {
+    e.hand.current.now = {};
+    e.hand.current.now.hot_touch = 1;
+    e.hand.body = body;
+    for (int t = 0; t < int(seconds * 1000 + 0.5); ++t) ++e.state.tick, e.monitor.update(e.model, e.state, {});
+    e.release();
+  };
+  touch(e.carrier(), 1);
+  touch(e.model.strand_index("tube_left"), 0.05);
+  EXPECT_TRUE(e.monitor.errors().empty());
+  touch(e.model.strand_index("tube_left"), 1);
+  EXPECT_EQ(e.count("E7.2"), 1) << "once a touch";
+  EXPECT_FALSE(e.monitor.score().failed);
+  touch(e.model.strand_index("tube_left"), 0.2);
+  EXPECT_EQ(e.count("E7.2"), 2);
+}
+
 TEST(EnergyWatch, TissueMayDieSoFarFromTheElectrode) {
   const auto told = [](double beyond) {
     Electrode e;

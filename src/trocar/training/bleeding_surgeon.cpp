@@ -199,10 +199,15 @@ bool BleedingSurgeon::waits() const {
          (flawed("E9.3") && m_in_phase < m_goal.control_within + 8);
 }
 
+namespace {
+constexpr int kBurning = 3, kDone = 7;  // stages of a blunder: the pedal is down; the hand draws back
+}
+
 Vec3d BleedingSurgeon::burnt() const {
   const Vec3d port = m_arms[m_sucker].port;
   if (flawed("E7")) return elsewhere().place;
-  if (flawed("E8")) return point(clip_at());
+  if (flawed("E8") || (flawed("E7.2") && m_stage <= kBurning)) return point(clip_at());
+  if (flawed("E7.2")) return elsewhere().place;
   if (flawed("E6")) return port + 0.07 * normalised(place() - port);
   const int bowel = m_model->organ_index(m_goal.bowel[0].name);
   const tissue::Skin& skin = m_model->skin(bowel);
@@ -216,8 +221,8 @@ Vec3d BleedingSurgeon::burnt() const {
 void BleedingSurgeon::blunder() {
   Arms::Arm& arm = m_arms[m_sucker];
   const Vec3d goal = burnt();
-  const double pressed = flawed("E8") ? 8 : 1;  // [s]
-  constexpr double kFar = 8;                    // [s] farther away is nothing here
+  const double pressed = flawed("E8") ? 8 : flawed("E7.2") ? 2 : 1;  // [s]
+  constexpr double kFar = 8;                                         // [s] farther away is nothing here
   const auto touches_something = [this](int h) { return norm(m_state->tools[size_t(h)].contact_force) > 0.05; };
   want(arm.tip);
   want(goal);
@@ -235,10 +240,22 @@ void BleedingSurgeon::blunder() {
       if (m_arms.move(m_sucker, goal, kCareful) || touches_something(m_sucker) || m_steady > kFar)
         ++m_stage, m_steady = 0;
       break;
-    case 3:
+    case kBurning:
       m_steady += sim::kTick;
       arm.coagulating = m_steady < pressed;
-      if (!arm.coagulating) ++m_stage;
+      if (!arm.coagulating) m_stage = flawed("E7.2") ? kBurning + 1 : kDone;
+      break;
+    case kBurning + 1:
+      if (m_arms.move_to_depth(m_sucker, kIdleDepth, kTravel)) ++m_stage, m_steady = 0;
+      break;
+    case kBurning + 2:
+      m_steady += sim::kTick;
+      if (m_arms.move(m_sucker, goal, kCareful) || touches_something(m_sucker) || m_steady > kFar)
+        ++m_stage, m_steady = 0;
+      break;
+    case kBurning + 3:
+      m_steady += sim::kTick;
+      if (m_steady > 0.5) m_stage = kDone;
       break;
     default:
       m_blundered = m_arms.move_to_depth(m_sucker, kIdleDepth, kCareful);

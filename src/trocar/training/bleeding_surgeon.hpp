@@ -82,7 +82,7 @@ class BleedingSurgeon final : public Expert {
   bool errs(const char* code) const { return flawed(code) && !m_blundered; }  ///< this mistake is still to be made
   double lost() const;                                                        ///< blood [m^3]
   bool waits() const;                                                         ///< longer than an expert would: a flaw
-  bool burns() const { return flawed("E6") || flawed("E7") || flawed("E7.1") || flawed("E8"); }
+  bool burns() const { return flawed("E6") || flawed("E7") || flawed("E7.1") || flawed("E7.2") || flawed("E8"); }
   Vec3d burnt() const;  ///< what a hook is held to, as a flaw
   /// What the legs shall take: middle, direction, radius.
   struct Carrier {

@@ -7,6 +7,7 @@ namespace trocar::training {
 namespace {
 
 constexpr double kApart = 0.0005;     // [m] places nearer to each other are one
+constexpr double kHotTouch = 0.1;     // [s] a hot tip that only brushes past does no harm. Our choice
 constexpr std::size_t kPlaces = 256;  // of a body; more are not told from each other by anyone
 
 bool has(const std::vector<std::int32_t>& bodies, std::int32_t body) {
@@ -22,6 +23,7 @@ void EnergyWatch::update(const EnergyLimits& limits, const sim::Model& model, co
   for (size_t h = 0; h < state.electrodes.size(); ++h) {
     const sim::ElectrodeHand& electrode = state.electrodes[h];
     Activation& a = m_activation[h];
+    judge_touch(int(h), electrode, out);
     if (electrode.current.now.mode == tissue::EnergyMode::off) {
       a = {};
       continue;
@@ -37,6 +39,14 @@ void EnergyWatch::update(const EnergyLimits& limits, const sim::Model& model, co
     a.told_idle = true;
     out.add({"E6", int(h), tip_of(model, state, h), ""});
   }
+}
+
+void EnergyWatch::judge_touch(int hand, const sim::ElectrodeHand& electrode, Mishaps& out) {
+  double& hot_for = m_hot_for[size_t(hand)];
+  const double before = hot_for;
+  const bool touches = electrode.current.now.hot_touch && electrode.body >= 0 && !has(m_targets, electrode.body);
+  hot_for = touches ? before + sim::kTick : 0;
+  if (before <= kHotTouch && hot_for > kHotTouch) out.add({"E7.2", hand, electrode.at, ""});
 }
 
 void EnergyWatch::judge_place(int hand, const sim::ElectrodeHand& electrode, Mishaps& out) {
