@@ -137,6 +137,7 @@ void poison(FluidsWork& w) noexcept {
   for (auto* a : {&p.bed, &p.depth, &p.eta, &p.volume, &p.inertia, &p.extra, &p.under, &p.rhs, &p.flux, &p.sweep,
                   &p.answer, &p.flux_v, &p.keep})
     floats(*a);
+  floats(p.tops);
   for (auto& a : p.strip) floats(a);
   ints(p.moved_u), ints(p.moved_v);
   DropletWork& d = w.droplets;

@@ -81,6 +81,7 @@ struct PoolWork {
   std::vector<float> flux_v;                           ///< (size) of the other faces [pL]
   std::vector<float> keep;                             ///< (size) of cells: share of what leaves that is of one species
   std::vector<std::int32_t> moved_u, moved_v;          ///< (size) of faces, one species [pL]
+  std::vector<float> tops;                             ///< (nx) the highest of each column
   std::vector<float> strip[4];                         ///< (16 (nx + 1)) sixteen rows, turned
 };
 
