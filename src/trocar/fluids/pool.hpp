@@ -48,6 +48,7 @@ struct PoolDescription {
   double viscosity = 3.3e-6;     ///< nu, of blood [m^2/s]
   double damping = 2;            ///< gamma [1/s]: ripples fall to 1/e in a second
   int period = 4;                ///< ticks between two steps
+  int first = 0;                 ///< tick of the first step, before `period`
 };
 
 struct PoolModel : PoolDescription {
