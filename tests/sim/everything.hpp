@@ -154,10 +154,11 @@ class Rain {
   core::Random m_random{42};
 };
 
-/// Blood and water up to a level [m] above the lowest place of the pool's floor.
+/// Blood and water up to a level [m] above the lowest place of the pool's floor, organs on it included: what would
+/// stand on an organ that is under the level would fall off it as a dam breaks.
 inline void fill_pool(const sim::Model& model, double level, sim::State& s) {
   const fluids::PoolModel& pool = model.wet.model.pool;
-  const std::vector<float>& floor = model.wet.floor;
+  const std::vector<float>& floor = s.pool_floor;
   const double top = double(*std::min_element(floor.begin(), floor.end())) + level;
   for (int j = 0; j < pool.ny; ++j)
     for (int i = 0; i < pool.nx; ++i) {

@@ -89,6 +89,7 @@ void become_film(Moment& t, int i) {
   born = detail::mean_birth(born, film.blood, t.s.born[i], rest.blood);
   add(film, rest);
   t.s.volume[i] = {};
+  t.w.emptied = true;
   move(t.below.ledger, Place::kDroplets, Place::kFilm, rest);
 }
 
@@ -154,10 +155,10 @@ bool sound(const Contact& c, const DropletState& s) {
 }
 
 /// The capsule that the point is in (with half its radius for a skin), as a plane; body -1 = none.
-Contact capsule_at(const Moment& t, int i, Vec3f p) {
+Contact capsule_at(const Moment& t, int i, std::int32_t near, Vec3f p) {
   Contact found;
   for (std::size_t k = 0; k < t.capsules.size() && k < 31; ++k) {
-    if (((t.w.near[i] >> k) & 1) == 0) continue;
+    if (((near >> k) & 1) == 0) continue;
     const Capsule& c = t.capsules[k];
     const float share = nearest_share(c, p);
     const Vec3f on_axis = c.a + share * (c.b - c.a), off = p - on_axis;
@@ -176,16 +177,16 @@ bool on_a_capsule(const Moment& t, int i) {
 }
 
 /// What the drop is on at the end of the tick: what the caller said, what an instrument says, or what it was on.
-void meet(Moment& t, int i) {
+/// @param question  as in DropletWork::question_of  @param near  as there
+void meet(Moment& t, int i, std::int32_t question, std::int32_t near) {
   DropletState& s = t.s;
   const Vec3f to{t.w.to_x[i], t.w.to_y[i], t.w.to_z[i]};
-  const int question = t.w.question_of[i];
   const Contact* said = question >= 0 ? &t.w.answers[std::size_t(question)] : nullptr;
   if (said && said->body >= 0 && !sound(*said, s)) {
     t.report.note(FluidReport::kBadContact, question);
     said = nullptr;
   }
-  const Contact tool = t.w.near[i] != 0 ? capsule_at(t, i, to) : Contact{};
+  const Contact tool = near != 0 ? capsule_at(t, i, near, to) : Contact{};
   if (s.body[i] < 0) {
     const Vec3f end = t.w.ways == 1 ? to : position(s, i) + float(t.w.ways) * (to - position(s, i));
     const bool hit = said && said->body >= 0 && dot(said->normal, end - said->point) < 0.5f * s.radius[i];
@@ -258,13 +259,14 @@ void fall_in(Moment& t, int i) {
   fall_into(pool, t.below.floor, at.i, at.j, wide, volume, own, t.below.state);
   move(t.below.ledger, Place::kDroplets, Place::kPool, volume);
   t.s.volume[i] = {};
+  t.w.emptied = true;
 }
 
 // ---- the whole
 
-/// Sets a bit of drops whose end point is in a box.
+/// Sets a bit of movers whose end point is in a box.
 void mark_within(int count, Vec3f low, Vec3f high, std::int32_t bit, DropletWork& w) {
-  const float *x = w.to_x.data(), *y = w.to_y.data(), *z = w.to_z.data();
+  const float *x = w.sx.data(), *y = w.sy.data(), *z = w.sz.data();
   std::int32_t* __restrict near = w.near.data();
   for (int i = 0; i < count; ++i) {
     const float dx = std::fabs(x[i] - 0.5f * (low.x + high.x)), dy = std::fabs(y[i] - 0.5f * (low.y + high.y));
@@ -277,7 +279,12 @@ void mark_within(int count, Vec3f low, Vec3f high, std::int32_t bit, DropletWork
 
 /// Bits of the capsules in whose box (grown by the largest drop) a drop ends up.
 void find_near(Moment& t) {
-  std::fill_n(t.w.near.begin(), t.s.count, 0);
+  DropletWork& w = t.w;
+  for (int k = 0; k < w.mover_count; ++k) {
+    const std::int32_t i = w.movers[k];
+    w.sx[k] = w.to_x[i], w.sy[k] = w.to_y[i], w.sz[k] = w.to_z[i];
+    w.near[k] = 0;
+  }
   const float grown = 2 * radius_of(t.m.largest_running);
   for (std::size_t k = 0; k < t.capsules.size(); ++k) {
     const Capsule& c = t.capsules[k];
@@ -288,7 +295,7 @@ void find_near(Moment& t) {
     const float r = c.radius + grown;
     const Vec3f low{std::min(c.a.x, c.b.x) - r, std::min(c.a.y, c.b.y) - r, std::min(c.a.z, c.b.z) - r};
     const Vec3f high{std::max(c.a.x, c.b.x) + r, std::max(c.a.y, c.b.y) + r, std::max(c.a.z, c.b.z) + r};
-    mark_within(t.s.count, low, high, std::int32_t(1) << k, t.w);
+    mark_within(w.mover_count, low, high, std::int32_t(1) << k, w);
   }
 }
 
@@ -343,15 +350,15 @@ FluidReport resolve(const DropletModel& m, std::span<const Capsule> capsules, Dr
            .film = float(m.film_thickness * kPicolitresPerM3)};
   w.impact_count = 0;
   find_near(t);
-  const int before = s.count;  // what splashes or runs over begins its way in the next tick
-  for (int i = 0; i < before; ++i) {
-    if (w.question_of[i] == -1) {  // on a surface it moves on other ticks
-      if (s.body[i] < 0) put(s, i, {w.to_x[i], w.to_y[i], w.to_z[i]}, velocity(s, i));
+  for (int k = 0; k < w.mover_count; ++k) {  // what splashes or runs over begins its way in the next tick
+    const std::int32_t i = w.movers[k], question = w.question_of[k];
+    if (question == -1) {
+      put(s, i, {w.to_x[i], w.to_y[i], w.to_z[i]}, velocity(s, i));
       continue;
     }
     if (s.volume[i].total() <= 0) continue;
     const bool flew = s.body[i] < 0;
-    meet(t, i);
+    meet(t, i, question, w.near[k]);
     if (s.body[i] >= 0)
       run_down(t, i, flew && w.ways > 1 ? t.dt : t.run_dt);  // crowds go on by much at a time: not from the jet's speed
     else
@@ -359,7 +366,7 @@ FluidReport resolve(const DropletModel& m, std::span<const Capsule> capsules, Dr
     if (s.body[i] >= 0 || turn_of(t, i, kPoolEveryFlying)) fall_in(t, i);
   }
   run_over(t);
-  detail::remove_empty(s);
+  if (w.emptied) detail::remove_empty(s);
   ++s.tick;
   return report;
 }
@@ -388,8 +395,8 @@ DropletWork make_work(const DropletModel& m) {
   for (auto* a :
        {&w.to_x, &w.to_y, &w.to_z, &w.sx, &w.sy, &w.sz, &w.svx, &w.svy, &w.svz, &w.sr, &w.sm, &w.jx, &w.jy, &w.jz})
     a->assign(n, 0.0f);
-  for (auto* a : {&w.asking, &w.near, &w.question_of, &w.chosen, &w.sorted, &w.bucket_of, &w.own_bucket, &w.joined,
-                  &w.neighbours})
+  for (auto* a : {&w.asking, &w.movers, &w.near, &w.question_of, &w.chosen, &w.sorted, &w.bucket_of, &w.own_bucket,
+                  &w.joined, &w.neighbours})
     a->assign(n + 1, 0);
   w.pairs.assign(16 * n, {0, 0});
   w.answers.assign(n, Contact{});

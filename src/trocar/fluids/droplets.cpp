@@ -125,48 +125,80 @@ Flight flight_of(const DropletModel& m) {
   return f;
 }
 
-/// Drops in flight fall and are slowed; where they get to is kept apart. Drag rate: 3/8 rho_gas/rho Cd |v| / r.
-void fly(const Flight& f, int count, const std::int32_t* body, const float* radius, const float* x, const float* y,
-         const float* z, float* __restrict vx, float* __restrict vy, float* __restrict vz, float* __restrict to_x,
-         float* __restrict to_y, float* __restrict to_z) {
-  for (int i = 0; i < count; ++i) {
-    const bool flies = body[i] < 0;
-    const float falls = flies ? 1.0f : 0.0f;
-    const float ax = vx[i] + falls * f.gx, ay = vy[i] + falls * f.gy, az = vz[i] + falls * f.gz;
-    const float speed = std::sqrt((ax * ax + ay * ay) + az * az), r = radius[i];
+/// Some drops side by side.
+constexpr int kBatch = 64;
+struct Batch {
+  float falls[kBatch], radius[kBatch];  ///< falls: 1 in flight, otherwise 0
+  float x[kBatch], y[kBatch], z[kBatch], vx[kBatch], vy[kBatch], vz[kBatch];
+};
+
+/// Drops in flight fall and are slowed; where they get to replaces where they are. Drag rate: 3/8 rho_gas/rho Cd |v| /
+/// r.
+void fly(const Flight& f, Batch& b) {
+  for (int i = 0; i < kBatch; ++i) {
+    const float falls = b.falls[i];
+    const float ax = b.vx[i] + falls * f.gx, ay = b.vy[i] + falls * f.gy, az = b.vz[i] + falls * f.gz;
+    const float speed = std::sqrt((ax * ax + ay * ay) + az * az), r = b.radius[i];
     const float re = f.reynolds * speed * r;
     const float cd_speed = f.stokes / r + speed * (6 / (1 + std::sqrt(re)) + 0.4f);  // Cd |v|
     const float rate = f.drag * cd_speed / r;
-    const float keep = flies ? 1 / (1 + f.dt * rate) : 1.0f;
+    const float slowed = 1 / (1 + f.dt * rate), keep = falls > 0 ? slowed : 1.0f;
     const float nx = ax * keep, ny = ay * keep, nz = az * keep;
-    vx[i] = nx, vy[i] = ny, vz[i] = nz;
-    to_x[i] = x[i] + f.dt * nx, to_y[i] = y[i] + f.dt * ny, to_z[i] = z[i] + f.dt * nz;
+    b.vx[i] = nx, b.vy[i] = ny, b.vz[i] = nz;
+    b.x[i] = b.x[i] + f.dt * nx, b.y[i] = b.y[i] + f.dt * ny, b.z[i] = b.z[i] + f.dt * nz;
+  }
+}
+
+/// All that move in this tick. Where they get to is kept apart.
+void fly(const Flight& f, DropletState& s, DropletWork& w) {
+  Batch b{};
+  for (float& r : b.radius) r = 1e-3f;
+  for (int first = 0; first < w.mover_count; first += kBatch) {
+    const std::int32_t* who = w.movers.data() + first;
+    const int n = std::min(w.mover_count - first, kBatch);
+    for (int k = 0; k < n; ++k) {
+      const std::int32_t i = who[k];
+      b.falls[k] = s.body[i] < 0 ? 1.0f : 0.0f, b.radius[k] = s.radius[i];
+      b.x[k] = s.x[i], b.y[k] = s.y[i], b.z[k] = s.z[i];
+      b.vx[k] = s.vx[i], b.vy[k] = s.vy[i], b.vz[k] = s.vz[i];
+    }
+    fly(f, b);
+    for (int k = 0; k < n; ++k) {
+      const std::int32_t i = who[k];
+      s.vx[i] = b.vx[k], s.vy[i] = b.vy[k], s.vz[i] = b.vz[k];
+      w.to_x[i] = b.x[k], w.to_y[i] = b.y[k], w.to_z[i] = b.z[k];
+    }
   }
 }
 
 float size(float a) { return std::fabs(a); }
 
-/// True when a drop's end point is not finite or too far away.
-bool any_lost(int count, const float* x, const float* y, const float* z) {
-  std::int32_t lost = 0;
-  for (int i = 0; i < count; ++i) {
-    const float far = (size(x[i]) + size(y[i])) + size(z[i]);
-    lost |= far < kFarthest ? 0 : 1;
-  }
-  return lost != 0;
-}
-
-/// Drops that are nowhere go into the pool.
+/// Drops that are nowhere, not finite or too far away, go into the pool.
 void catch_lost(DropletState& s, DropletWork& w, Below& below, FluidReport& report) {
-  if (!any_lost(s.count, w.to_x.data(), w.to_y.data(), w.to_z.data())) return;
-  for (int i = 0; i < s.count; ++i) {
+  for (int k = 0; k < w.mover_count; ++k) {
+    const std::int32_t i = w.movers[k];
     const float far = (size(w.to_x[i]) + size(w.to_y[i])) + size(w.to_z[i]);
     if (far < kFarthest) continue;
     report.note(FluidReport::kBadDroplet, i);
     detail::put_into_pool({s.x[i], s.y[i], s.z[i]}, widened(s.volume[i]), s.born[i], Place::kDroplets, below);
     s.volume[i] = {};
     s.body[i] = -1;
+    w.emptied = true;
   }
+}
+
+/// Drops in flight move in every tick, those on surfaces in some.
+void choose_movers(const DropletModel& m, const DropletState& s, DropletWork& w) {
+  const std::uint32_t running = std::uint32_t(m.run_period) - 1, now = std::uint32_t(s.tick);
+  const std::int32_t* body = s.body.data();
+  const std::uint32_t* id = s.id.data();
+  std::int32_t* movers = w.movers.data();
+  int n = 0;
+  for (int i = 0; i < s.count; ++i) {
+    movers[n] = i;
+    n += int(body[i] < 0) | int(((id[i] + now) & running) == 0);
+  }
+  w.mover_count = n;
 }
 
 /// In question_of: moves in this tick all the same, on the plane that it has.
@@ -175,15 +207,18 @@ constexpr std::int32_t kRunsUnasked = -2;
 /// In a crowd a drop on a surface is asked for in every second of its turns.
 /// @param newborn  the first name of this tick's drops: they are asked for at once, as they come from within tissue
 void ask(const DropletModel& m, std::uint32_t newborn, const DropletState& s, DropletWork& w) {
-  const std::uint32_t running = std::uint32_t(m.run_period) - 1, flying = std::uint32_t(m.fly_period) - 1;
+  const std::uint32_t running = std::uint32_t(m.run_period), flying = std::uint32_t(m.fly_period) - 1;
+  const std::uint32_t unasked = m.fly_period > 1 ? running : 0;
   w.questions = 0;
   w.ways = m.fly_period;
-  for (int i = 0; i < s.count; ++i) {
+  for (int k = 0; k < w.mover_count; ++k) {
+    const std::int32_t i = w.movers[k];
     const std::uint32_t turn = s.id[i] + std::uint32_t(s.tick);
-    const bool asks = s.body[i] < 0 ? (turn & flying) == 0 || s.id[i] >= newborn : (turn & running) == 0;
-    const bool unasked = m.fly_period > 1 && s.body[i] >= 0 && (turn & (running + 1)) != 0;
-    w.question_of[i] = !asks ? -1 : unasked ? kRunsUnasked : w.questions;
-    if (w.question_of[i] >= 0) w.asking[w.questions++] = i;
+    const bool flies = s.body[i] < 0;
+    const bool asks = flies ? int((turn & flying) == 0) | int(s.id[i] >= newborn) : int((turn & unasked) == 0);
+    w.question_of[k] = asks ? w.questions : flies ? -1 : kRunsUnasked;
+    w.asking[w.questions] = i;
+    w.questions += int(asks);
   }
 }
 
@@ -275,8 +310,9 @@ FluidReport plan(const DropletModel& m, std::span<const Opening> openings, Dropl
     const detail::Who some{false, std::uint32_t(s.tick / (2 * period) % parts), parts};
     report = report | detail::pull_together(m, some, 2 * m.pair_parts * m.tick * m.pair_period, s, w);
   }
-  fly(flight_of(m), s.count, s.body.data(), s.radius.data(), s.x.data(), s.y.data(), s.z.data(), s.vx.data(),
-      s.vy.data(), s.vz.data(), w.to_x.data(), w.to_y.data(), w.to_z.data());
+  w.emptied = false;
+  choose_movers(m, s, w);
+  fly(flight_of(m), s, w);
   catch_lost(s, w, below, report);
   ask(m, newborn, s, w);
   ask_for_film(m, s, w);

@@ -129,7 +129,7 @@ struct Impact {
 };
 
 struct DropletWork {
-  std::vector<float> to_x, to_y, to_z;  ///< (capacity) where a drop in flight is at the end of the tick
+  std::vector<float> to_x, to_y, to_z;  ///< (capacity) where one of `movers` would fly to in the tick
   std::vector<std::int32_t> asking;     ///< who needs an answer; the first `questions`
   std::vector<Contact> answers;         ///< (capacity) one for each of `asking`, all for the caller to fill
   int questions = 0;
@@ -139,8 +139,11 @@ struct DropletWork {
   int film_questions = 0;
   std::vector<Impact> impacts;  ///< (capacity) the first `impact_count`
   int impact_count = 0;
-  std::vector<std::int32_t> near;           ///< (capacity) bits of capsules that a drop is near to
-  std::vector<std::int32_t> question_of;    ///< (capacity) index of its question, or -1
+  std::vector<std::int32_t> movers;       ///< (capacity) who moves in this tick, ascending; the first `mover_count`
+  std::vector<std::int32_t> near;         ///< (capacity) bits of capsules that each of `movers` is near to
+  std::vector<std::int32_t> question_of;  ///< (capacity) index of the question of each of `movers`, or why none
+  int mover_count = 0;
+  bool emptied = false;                     ///< some drop may have no volume left
   std::vector<std::uint32_t> bucket_first;  ///< the grid of the forces between drops
   std::vector<std::int32_t> chosen, sorted, bucket_of, own_bucket;
   std::vector<float> sx, sy, sz, svx, svy, svz, sr, sm, jx, jy, jz;

@@ -145,14 +145,15 @@ void poison(FluidsWork& w) noexcept {
   for (auto* a : {&p.bed, &p.depth, &p.eta, &p.volume, &p.inertia, &p.extra, &p.under, &p.rhs, &p.flux, &p.sweep,
                   &p.answer, &p.flux_v, &p.keep})
     floats(*a);
+  floats(p.tops);
   for (auto& a : p.strip) floats(a);
   ints(p.moved_u), ints(p.moved_v);
   DropletWork& d = w.droplets;
   for (auto* a :
        {&d.to_x, &d.to_y, &d.to_z, &d.sx, &d.sy, &d.sz, &d.svx, &d.svy, &d.svz, &d.sr, &d.sm, &d.jx, &d.jy, &d.jz})
     floats(*a);
-  for (auto* a : {&d.asking, &d.near, &d.question_of, &d.chosen, &d.sorted, &d.bucket_of, &d.own_bucket, &d.joined,
-                  &d.neighbours, &d.overfull})
+  for (auto* a : {&d.asking, &d.movers, &d.near, &d.question_of, &d.chosen, &d.sorted, &d.bucket_of, &d.own_bucket,
+                  &d.joined, &d.neighbours, &d.overfull})
     ints(*a);
   std::fill(d.bucket_first.begin(), d.bucket_first.end(), 0x5a5a5a5au);
   const Contact nowhere{{nan, nan, nan}, {nan, nan, nan}, {nan, nan, nan}, 77, 77};

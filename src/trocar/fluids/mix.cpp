@@ -4,20 +4,33 @@
 
 namespace trocar::fluids {
 
+namespace {
+
+/// Puts of `rest` where it fits, which may be less than nothing; what does not is left in it.
+void settle(std::int64_t of, std::int64_t& out, std::int64_t& rest) noexcept {
+  const std::int64_t room = of - out;
+  std::int64_t fit = rest < room ? rest : room;
+  fit = fit < -out ? -out : fit;
+  out += fit;
+  rest -= fit;
+}
+
+}  // namespace
+
 Mix share(const Mix& m, std::int64_t amount) noexcept {
   const std::int64_t whole = m.total();
   if (amount <= 0) return {};
   if (amount >= whole) return m;
+  if (m.blood == whole) return {.blood = amount};
   const double f = double(amount) / double(whole);
-  const auto part = [f](std::int64_t of) { return std::min(of, std::int64_t(double(of) * f)); };
+  const auto part = [f](std::int64_t of) {
+    const auto some = std::int64_t(double(of) * f);
+    return of < some ? of : some;
+  };
   Mix out{.blood = part(m.blood), .saline = part(m.saline), .bile = part(m.bile)};
   // What rounding has left over (a few picolitres; of either sign where doubles round up) goes where there is room.
   std::int64_t rest = amount - out.total();
-  for (std::int64_t Mix::*species : {&Mix::blood, &Mix::saline, &Mix::bile}) {
-    const std::int64_t fit = std::clamp(rest, -(out.*species), m.*species - out.*species);
-    out.*species += fit;
-    rest -= fit;
-  }
+  settle(m.blood, out.blood, rest), settle(m.saline, out.saline, rest), settle(m.bile, out.bile, rest);
   return out;
 }
 

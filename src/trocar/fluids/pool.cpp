@@ -54,6 +54,7 @@ PoolModel build(const PoolDescription& d, double tick) {
   require(d.inertia_depth > 0, "pool: inertia depth");
   require(d.friction >= 0 && d.viscosity >= 0 && d.damping >= 0, "pool: friction, viscosity, damping");
   require(d.period >= 1 && d.period <= 16 && tick > 0 && tick <= 0.01, "pool: period and tick");
+  require(d.first >= 0 && d.first < d.period, "pool: the first step");
   PoolModel m;
   static_cast<PoolDescription&>(m) = d;
   m.up = cross(d.u, d.v);
@@ -68,6 +69,7 @@ PoolState empty_pool(const PoolModel& m) {
   PoolState s;
   for (auto* cells : {&s.blood, &s.saline, &s.bile}) cells->assign(m.size(), 0);
   for (auto* faces : {&s.u, &s.v}) faces->assign(m.size(), 0.0f);
+  s.tick = std::uint64_t(m.first > 0 ? m.period - m.first : 0);
   return s;
 }
 

@@ -48,6 +48,7 @@ struct PoolDescription {
   double viscosity = 3.3e-6;     ///< nu, of blood [m^2/s]
   double damping = 2;            ///< gamma [1/s]: ripples fall to 1/e in a second
   int period = 4;                ///< ticks between two steps
+  int first = 0;                 ///< tick of the first step, before `period`
 };
 
 struct PoolModel : PoolDescription {
@@ -81,6 +82,7 @@ struct PoolWork {
   std::vector<float> flux_v;                           ///< (size) of the other faces [pL]
   std::vector<float> keep;                             ///< (size) of cells: share of what leaves that is of one species
   std::vector<std::int32_t> moved_u, moved_v;          ///< (size) of faces, one species [pL]
+  std::vector<float> tops;                             ///< (nx) the highest of each column
   std::vector<float> strip[4];                         ///< (16 (nx + 1)) sixteen rows, turned
 };
 

@@ -11,16 +11,39 @@ constexpr float kDry = 1e-5f;               ///< less fluid than this at a face 
 constexpr float kFastestColumn = 0.7f;      ///< share of sqrt(g h) beyond which a column's rise is held back
 constexpr float kAlmostAll = 1 - 0x1p-20f;  ///< so that rounding never takes more than there is
 
-void describe(int n, float height_per_pl, const PoolRow& row) {
+/// The bed under a row. @return other than 0 where the floor is nonsense, which counts as 0
+std::int32_t lay_bed(int n, const float* floor, float* __restrict bed) {
+  std::int32_t bad = 0;
+  for (int i = 0; i < n; ++i) {
+    const float z = floor[i];
+    const bool fine = (z > -10) & (z < 10);
+    bed[i] = fine ? z : 0.0f;
+    bad |= fine ? 0 : 1;
+  }
+  return bad;
+}
+
+void describe(int n, float height_per_pl, const PoolRow& row, std::int32_t* any) {
   const std::int32_t *blood = row.blood, *saline = row.saline, *bile = row.bile;
   float* __restrict volume = row.volume;
   float* __restrict depth = row.depth;
   float* __restrict eta = row.eta;
   const float* bed = row.bed;
+  std::int32_t any_blood = 0, any_saline = 0, any_bile = 0;
   for (int i = 0; i < n; ++i) {
+    any_blood |= blood[i], any_saline |= saline[i], any_bile |= bile[i];
     volume[i] = float((blood[i] + saline[i]) + bile[i]);
     depth[i] = volume[i] * height_per_pl;
     eta[i] = bed[i] + depth[i];
+  }
+  any[0] |= any_blood, any[1] |= any_saline, any[2] |= any_bile;
+}
+
+/// Raises the highest of each column so far to those of this row that are below `bound`.
+void raise_tops(int n, const float* z, float bound, float* __restrict tops) {
+  for (int i = 0; i < n; ++i) {
+    const float below = z[i] < bound ? z[i] : tops[i];
+    tops[i] = below > tops[i] ? below : tops[i];
   }
 }
 
@@ -68,11 +91,11 @@ void look_at_columns(const PoolFaces& a, int k0, int k1, const PoolConstants& c,
 /// Speeds after advection, and the right side of the system for what slope and N add.
 void push_faces(const PoolFaces& a, int k0, int k1, const PoolConstants& c, const float* under, const float* flux,
                 const float* extra, float* __restrict rhs, float* __restrict carried) {
-  const float *depth = a.depth, *eta = a.eta, *u = a.speed, *v = a.across;
+  const float *depth = a.depth, *eta = a.eta, *u = a.speed, *v = a.across, *beside = a.beside;
   const std::ptrdiff_t step = a.step, side = a.side;
   const float slope_gain = -c.g * c.dt * c.per_dx, extra_gain = -c.dt * c.per_dx;
   for (int k = k0; k < k1; ++k) {
-    const float own = u[k], before = u[k - step], after = u[k + step], left = u[k - side], right = u[k + side];
+    const float own = u[k], before = u[k - step], after = u[k + step], left = beside[k - side], right = u[k + side];
     const float out = 0.5f * (flux[k] + flux[k + step]), in = 0.5f * (flux[k - step] + flux[k]);
     const float u_out = out > 0 ? own : after, u_in = in > 0 ? before : own;
     const float mean = 0.5f * (depth[k - step] + depth[k]);
@@ -106,20 +129,57 @@ void substitute(int n, const float* sweep, const float* answer_after, float* __r
   for (int k = 0; k < n; ++k) answer[k] = answer[k] + sweep[k] * answer_after[k];
 }
 
+// Rows are turned in squares of four, which compilers do not find by themselves.
+using Four = float __attribute__((vector_size(16)));
+
+struct Square {
+  Four row[4];
+};
+Square turned(const Square& q) {
+  const Four a = __builtin_shufflevector(q.row[0], q.row[1], 0, 4, 1, 5);
+  const Four b = __builtin_shufflevector(q.row[2], q.row[3], 0, 4, 1, 5);
+  const Four c = __builtin_shufflevector(q.row[0], q.row[1], 2, 6, 3, 7);
+  const Four d = __builtin_shufflevector(q.row[2], q.row[3], 2, 6, 3, 7);
+  return {{__builtin_shufflevector(a, b, 0, 1, 4, 5), __builtin_shufflevector(a, b, 2, 3, 6, 7),
+           __builtin_shufflevector(c, d, 0, 1, 4, 5), __builtin_shufflevector(c, d, 2, 3, 6, 7)}};
+}
+
+/// Sixteen rows of nx to nx rows of sixteen.
+void turn_in(int nx, const float* const* from, float* to) {
+  for (int l = 0; l < kPoolLanes; l += 4) {
+    Square q;
+    int i = 0;
+    for (; i + 4 <= nx; i += 4) {
+      for (int r = 0; r < 4; ++r) __builtin_memcpy(&q.row[r], from[l + r] + i, sizeof(Four));
+      q = turned(q);
+      for (int r = 0; r < 4; ++r) __builtin_memcpy(to + (i + r) * kPoolLanes + l, &q.row[r], sizeof(Four));
+    }
+    for (; i < nx; ++i)
+      for (int r = l; r < l + 4; ++r) to[i * kPoolLanes + r] = from[r][i];
+  }
+}
+/// And back.
+void turn_out(int nx, const float* from, float* const* to) {
+  for (int l = 0; l < kPoolLanes; l += 4) {
+    Square q;
+    int i = 0;
+    for (; i + 4 <= nx; i += 4) {
+      for (int r = 0; r < 4; ++r) __builtin_memcpy(&q.row[r], from + (i + r) * kPoolLanes + l, sizeof(Four));
+      q = turned(q);
+      for (int r = 0; r < 4; ++r) __builtin_memcpy(to[l + r] + i, &q.row[r], sizeof(Four));
+    }
+    for (; i < nx; ++i)
+      for (int r = l; r < l + 4; ++r) to[r][i] = from[i * kPoolLanes + r];
+  }
+}
+
 /// Sixteen rows of faces across u at once: turned, so that a lane is a row. The answer stands where the turned right
 /// side stood; face 0 is the wall.
 void solve_strip(int nx, const PoolStrip& s) {
   float* __restrict under = s.turned_under;
   float* __restrict mass = s.turned_mass;
   float* __restrict rhs = s.turned_rhs;
-  for (int l = 0; l < kPoolLanes; ++l) {
-    const float *from_under = s.under[l], *from_mass = s.mass[l], *from_rhs = s.rhs[l];
-    for (int i = 0; i < nx; ++i) {
-      under[i * kPoolLanes + l] = from_under[i];
-      mass[i * kPoolLanes + l] = from_mass[i];
-      rhs[i * kPoolLanes + l] = from_rhs[i];
-    }
-  }
+  turn_in(nx, s.under, under), turn_in(nx, s.mass, mass), turn_in(nx, s.rhs, rhs);
   for (int l = 0; l < kPoolLanes; ++l) rhs[l] = s.sweep[l] = 0;
   for (int i = 1; i < nx; ++i) {
     const int k = i * kPoolLanes, b = k - kPoolLanes;
@@ -129,10 +189,7 @@ void solve_strip(int nx, const PoolStrip& s) {
   }
   for (int i = nx - 2; i > 0; --i)
     substitute(kPoolLanes, s.sweep + i * kPoolLanes, rhs + (i + 1) * kPoolLanes, rhs + i * kPoolLanes);
-  for (int l = 0; l < kPoolLanes; ++l) {
-    float* answer = s.answer[l];
-    for (int i = 1; i < nx; ++i) answer[i] = rhs[i * kPoolLanes + l];
-  }
+  turn_out(nx, rhs, s.answer);
 }
 
 void slow_faces(int k0, int k1, const PoolConstants& c, const float* under, const float* carried, const float* answer,
@@ -179,7 +236,8 @@ void find_shares(int k0, int k1, int stride, const float* flux_u, const float* f
   }
 }
 
-/// Whole picolitres of one species through faces. The receiver takes no more than a quarter of its room from a side.
+/// Whole picolitres of one species through faces. The receiver takes no more than a quarter of its room from a side,
+/// all species together.
 void find_moved(int k0, int k1, std::ptrdiff_t step, float most_in_a_cell, const float* flux, const float* volume,
                 const float* keep, std::int32_t* __restrict moved) {
   for (int k = k0; k < k1; ++k) {
@@ -187,9 +245,8 @@ void find_moved(int k0, int k1, std::ptrdiff_t step, float most_in_a_cell, const
     const float room_low = 0.25f * (most_in_a_cell - volume[k - step]),
                 room_high = 0.25f * (most_in_a_cell - volume[k]);
     const float room = q > 0 ? room_high : room_low, kept = q > 0 ? keep_low : keep_high;
-    const float some = (q > 0 ? q : -q) * kept;
-    const float fits = some < room ? some : room;
-    const float in = fits > 0 ? fits : 0.0f;
+    const float size = q > 0 ? q : -q, fits = size < room ? size : room;
+    const float in = fits > 0 ? fits * kept : 0.0f;
     const float signed_in = q > 0 ? in : -in;
     moved[k] = std::int32_t(signed_in);
   }
@@ -201,7 +258,9 @@ void book(int k0, int k1, int stride, const std::int32_t* moved_u, const std::in
 }
 
 constexpr PoolKernels kTable{.name = TROCAR_POOL_NAME,
+                             .lay_bed = lay_bed,
                              .describe = describe,
+                             .raise_tops = raise_tops,
                              .look_at_faces = look_at_faces,
                              .look_at_columns = look_at_columns,
                              .push_faces = push_faces,

@@ -20,6 +20,7 @@ struct PoolConstants {
 struct PoolFaces {
   const float *bed, *depth, *eta, *speed, *across;
   std::ptrdiff_t step, side;
+  const float* beside;  ///< speeds of faces k - side stand at k - side in it: `speed`, unless those have moved on
 };
 
 /// Three species of a row of cells, and what they amount to.
@@ -38,7 +39,9 @@ struct PoolStrip {
 
 struct PoolKernels {
   const char* name;
-  void (*describe)(int n, float height_per_pl, const PoolRow& row);
+  std::int32_t (*lay_bed)(int n, const float* floor, float* bed);
+  void (*describe)(int n, float height_per_pl, const PoolRow& row, std::int32_t* any);  ///< any: 3, of each species
+  void (*raise_tops)(int n, const float* z, float bound, float* tops);
   void (*look_at_faces)(const PoolFaces& a, int k0, int k1, float* under, float* flux);
   void (*look_at_columns)(const PoolFaces& a, int k0, int k1, const PoolConstants& c, float* inertia, float* extra);
   void (*push_faces)(const PoolFaces& a, int k0, int k1, const PoolConstants& c, const float* under, const float* flux,

@@ -1,6 +1,8 @@
 // One step of the pool: what the cells look like, how their faces' speeds change, what passes through the faces.
 // The loops along rows are in pool_kernel.inl.
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include <trocar/fluids/jet.hpp>
 #include <trocar/fluids/pool.hpp>
@@ -13,6 +15,10 @@ struct Rows {
   int first, last;
   bool empty() const { return first > last; }
 };
+
+using Present = std::array<std::int32_t, 3>;  ///< of each species other than 0 where there is some
+
+bool has_floor(const PoolModel& m, const PoolInput& in) { return in.floor.size() >= std::size_t(m.nx) * m.ny; }
 
 bool row_is_wet(const PoolModel& m, const PoolState& s, int j) {
   std::int32_t any = 0;
@@ -42,50 +48,38 @@ void still_rows_outside(const PoolModel& m, Rows now, PoolState& s) {
 
 // ---- the cells
 
-void describe_cells(const PoolKernels& x, const PoolModel& m, const PoolInput& in, Rows rows, const PoolState& s,
-                    PoolWork& w, FluidReport& report) {
-  const bool whole = in.floor.size() >= std::size_t(m.nx) * m.ny;
+/// @return which species there are
+Present describe_cells(const PoolKernels& x, const PoolModel& m, const PoolInput& in, Rows rows, const PoolState& s,
+                       PoolWork& w, FluidReport& report) {
+  const bool whole = has_floor(m, in);
   if (!whole && !in.floor.empty()) report.note(FluidReport::kBadFloor, std::int32_t(in.floor.size()));
+  Present any{};
   for (int j = rows.first; j <= rows.last; ++j) {
     const int k0 = m.at(0, j);
-    int bad = 0;
-    const float* floor = whole ? in.floor.data() + std::size_t(j) * m.nx : nullptr;
     float* bed = w.bed.data() + k0;
-    for (int i = 0; i < m.nx; ++i) {
-      const float z = floor ? floor[i] : 0.0f;
-      const bool fine = (z > -10) & (z < 10);
-      bed[i] = fine ? z : 0.0f;
-      bad |= fine ? 0 : 1;
-    }
-    if (bad) report.note(FluidReport::kBadFloor, j * m.nx);
+    if (!whole)
+      std::fill_n(bed, m.nx, 0.0f);
+    else if (x.lay_bed(m.nx, in.floor.data() + std::size_t(j) * m.nx, bed) != 0)
+      report.note(FluidReport::kBadFloor, j * m.nx);
     x.describe(m.nx, m.height_per_pl,
                {s.blood.data() + k0, s.saline.data() + k0, s.bile.data() + k0, bed, w.volume.data() + k0,
-                w.depth.data() + k0, w.eta.data() + k0});
+                w.depth.data() + k0, w.eta.data() + k0},
+               any.data());
   }
+  return any;
 }
 
-/// The highest of these below `bound`, or `top`. Sixteen at a time, so that none waits for the one before it.
-float highest_of(std::span<const float> z, float bound, float top) {
-  constexpr std::size_t kLanes = 16;
-  float lane[kLanes];
-  for (float& l : lane) l = top;
-  std::size_t i = 0;
-  for (; i + kLanes <= z.size(); i += kLanes)
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      const float below = z[i + k] < bound ? z[i + k] : top;
-      lane[k] = below > lane[k] ? below : lane[k];
-    }
-  for (; i < z.size(); ++i) top = z[i] > top && z[i] < bound ? z[i] : top;
-  for (const float l : lane) top = l > top ? l : top;
-  return top;
-}
-
-/// The highest bed anywhere and the highest surface where the pool is at work.
-float highest(const PoolModel& m, const PoolInput& in, Rows rows, const PoolWork& w) {
-  float top = highest_of(in.floor, 10, in.floor.empty() ? 0.0f : -10.0f);
-  if (top < 0) top = 0;  // what is not finite counts as 0
-  for (int j = rows.first; j <= rows.last; ++j)
-    top = highest_of({w.eta.data() + m.at(0, j), std::size_t(m.nx)}, 1e30f, top);
+/// The highest bed anywhere and the highest surface where the pool is at work. Column by column, so that nothing waits
+/// for what is beside it.
+float highest(const PoolKernels& x, const PoolModel& m, const PoolInput& in, Rows rows, PoolWork& w) {
+  float* tops = w.tops.data();
+  std::fill_n(tops, m.nx, in.floor.empty() ? 0.0f : -10.0f);
+  std::span<const float> floor = in.floor;
+  for (; !floor.empty(); floor = floor.subspan(std::min(floor.size(), std::size_t(m.nx))))
+    x.raise_tops(int(std::min(floor.size(), std::size_t(m.nx))), floor.data(), 10, tops);
+  for (int j = rows.first; j <= rows.last; ++j) x.raise_tops(m.nx, w.eta.data() + m.at(0, j), 1e30f, tops);
+  float top = 0;  // what is not finite counts as 0
+  for (int i = 0; i < m.nx; ++i) top = std::max(top, tops[i]);
   return top;
 }
 
@@ -100,23 +94,42 @@ Capsule in_frame(const PoolModel& m, const Capsule& c) {
   return own;
 }
 
+/// From where to where along u a capsule in the pool's frame is seen from above in a row, with more than rounding may
+/// misplace.
+Interval seen_in_row(const Capsule& c, float y, float cell) {
+  const float margin = c.radius + 0.5f * cell, dy = c.b.y - c.a.y, dx = c.b.x - c.a.x;
+  float t0 = 0, t1 = 1;  // of the axis: what is no farther than the radius from the row
+  if (std::fabs(dy) > 1e-6f) {
+    const float from = (y - margin - c.a.y) / dy, to = (y + margin - c.a.y) / dy;
+    t0 = std::max(std::min(from, to), 0.0f), t1 = std::min(std::max(from, to), 1.0f);
+  } else if (!(std::fabs(y - c.a.y) < margin)) {
+    return {};
+  }
+  if (!(t0 <= t1)) return {};
+  const float x0 = c.a.x + t0 * dx, x1 = c.a.x + t1 * dx;
+  return {std::min(x0, x1) - margin, std::max(x0, x1) + margin};
+}
+
 /// Columns that a capsule fills stand on a bed that is higher by as much.
 void lift(const PoolModel& m, const Capsule& c, Rows rows, PoolWork& w) {
   const float cell = float(m.cell);
   const auto index = [&](float x, int n) { return int(std::clamp(x / cell, -1.0f, float(n))); };
-  const int i0 = std::max(index(std::min(c.a.x, c.b.x) - c.radius, m.nx), 0);
-  const int i1 = std::min(index(std::max(c.a.x, c.b.x) + c.radius, m.nx), m.nx - 1);
   const int j0 = std::max(index(std::min(c.a.y, c.b.y) - c.radius, m.ny), rows.first);
   const int j1 = std::min(index(std::max(c.a.y, c.b.y) + c.radius, m.ny), rows.last);
-  for (int j = j0; j <= j1; ++j)
+  for (int j = j0; j <= j1; ++j) {
+    const float y = (float(j) + 0.5f) * cell;
+    const Interval seen = seen_in_row(c, y, cell);
+    if (seen.empty()) continue;
+    const int i0 = std::max(index(seen.low, m.nx), 0), i1 = std::min(index(seen.high, m.nx), m.nx - 1);
     for (int i = i0; i <= i1; ++i) {
-      const Interval chord = upright_chord(c, (float(i) + 0.5f) * cell, (float(j) + 0.5f) * cell);
+      const Interval chord = upright_chord(c, (float(i) + 0.5f) * cell, y);
       const int k = m.at(i, j);
       const float wetted = std::min(chord.high, w.eta[k]) - std::max(chord.low, w.bed[k]);
       if (chord.empty() || !(wetted > 0)) continue;
       w.bed[k] += wetted;
       w.eta[k] += wetted;
     }
+  }
 }
 
 // ---- the speeds
@@ -133,18 +146,18 @@ void solve_across_u(const PoolKernels& x, const PoolModel& m, int j0, int last, 
   x.solve_strip(m.nx, s);
 }
 
-void solve_across_v(const PoolKernels& x, const PoolModel& m, Rows rows, PoolWork& w) {
-  const int s = m.stride;
-  const auto row = [&](std::vector<float>& a, int j) { return a.data() + m.at(0, j); };
-  std::fill_n(row(w.sweep, rows.first), m.nx, 0.0f);
-  std::fill_n(row(w.answer, rows.first), m.nx, 0.0f);
-  for (int j = rows.first + 1; j <= rows.last; ++j) {
-    float* answer = row(w.answer, j);
-    x.eliminate(m.nx, row(w.under, j), row(w.inertia, j - 1), row(w.inertia, j), row(w.rhs, j), row(w.sweep, j - 1),
-                answer - s, row(w.sweep, j), answer);
-  }
-  for (int j = rows.last - 1; j > rows.first; --j)
-    x.substitute(m.nx, row(w.sweep, j), row(w.answer, j + 1), row(w.answer, j));
+void begin_across_v(const PoolModel& m, Rows rows, PoolWork& w) {
+  std::fill_n(w.sweep.data() + m.at(0, rows.first), m.nx, 0.0f);
+  std::fill_n(w.answer.data() + m.at(0, rows.first), m.nx, 0.0f);
+}
+void eliminate_across_v(const PoolKernels& x, const PoolModel& m, int j, PoolWork& w) {
+  const int k = m.at(0, j), before = k - m.stride;
+  x.eliminate(m.nx, w.under.data() + k, w.inertia.data() + before, w.inertia.data() + k, w.rhs.data() + k,
+              w.sweep.data() + before, w.answer.data() + before, w.sweep.data() + k, w.answer.data() + k);
+}
+void substitute_across_v(const PoolKernels& x, const PoolModel& m, Rows rows, int j, PoolWork& w) {
+  const int k = m.at(0, j);
+  if (j < rows.last) x.substitute(m.nx, w.sweep.data() + k, w.answer.data() + k + m.stride, w.answer.data() + k);
 }
 
 PoolConstants constants_of(const PoolModel& m) {
@@ -159,74 +172,91 @@ PoolConstants constants_of(const PoolModel& m) {
           .fastest = m.fastest};
 }
 
+/// What pushes the faces of a row, and where what they carry takes them.
+void push_row_u(const PoolKernels& x, const PoolModel& m, const PoolConstants& c, const PoolFaces& a, int j,
+                PoolWork& w) {
+  const int k0 = m.at(0, j);
+  x.look_at_faces(a, k0 + 1, k0 + m.nx, w.under.data(), w.flux.data());
+  w.under[k0] = w.flux[k0] = w.flux[k0 + m.nx] = w.rhs[k0] = 0;
+  x.look_at_columns(a, k0, k0 + m.nx, c, w.inertia.data(), w.extra.data());
+  x.push_faces(a, k0 + 1, k0 + m.nx, c, w.under.data(), w.flux.data(), w.extra.data(), w.rhs.data(), w.sweep.data());
+}
+
+/// Sixteen rows at a time, so that they are still at hand when they are solved. The row before them has new speeds by
+/// then: its old ones are kept.
 void accelerate_u(const PoolKernels& x, const PoolModel& m, const PoolConstants& c, Rows rows, PoolState& s,
                   PoolWork& w) {
-  const PoolFaces a{w.bed.data(), w.depth.data(), w.eta.data(), s.u.data(), s.v.data(), 1, m.stride};
-  for (int j = rows.first; j <= rows.last; ++j) {
-    const int k0 = m.at(0, j);
-    x.look_at_faces(a, k0 + 1, k0 + m.nx, w.under.data(), w.flux.data());
-    w.under[k0] = w.flux[k0] = w.flux[k0 + m.nx] = w.rhs[k0] = 0;
-    x.look_at_columns(a, k0, k0 + m.nx, c, w.inertia.data(), w.extra.data());
-    x.push_faces(a, k0 + 1, k0 + m.nx, c, w.under.data(), w.flux.data(), w.extra.data(), w.rhs.data(), w.sweep.data());
+  PoolFaces a{w.bed.data(), w.depth.data(), w.eta.data(), s.u.data(), s.v.data(), 1, m.stride, s.u.data()};
+  const auto keep_row = [&](int j) { std::copy_n(s.u.begin() + m.at(0, j), m.stride, w.keep.begin() + m.at(0, j)); };
+  keep_row(rows.first - 1);
+  for (int first = rows.first; first <= rows.last; first += kPoolLanes) {
+    const int last = std::min(first + kPoolLanes - 1, rows.last);
+    for (int j = first; j <= last; ++j) {
+      a.beside = j == first ? w.keep.data() : s.u.data();
+      push_row_u(x, m, c, a, j, w);
+    }
+    solve_across_u(x, m, first, last, w);
+    keep_row(last);
+    for (int j = first; j <= last; ++j)
+      x.slow_faces(m.at(1, j), m.at(m.nx, j), c, w.under.data(), w.sweep.data(), w.answer.data(), s.u.data());
   }
-  for (int j = rows.first; j <= rows.last; j += kPoolLanes) solve_across_u(x, m, j, rows.last, w);
-  for (int j = rows.first; j <= rows.last; ++j)
-    x.slow_faces(m.at(1, j), m.at(m.nx, j), c, w.under.data(), w.sweep.data(), w.answer.data(), s.u.data());
 }
 
 void accelerate_v(const PoolKernels& x, const PoolModel& m, const PoolConstants& c, Rows rows, PoolState& s,
                   PoolWork& w) {
-  const PoolFaces a{w.bed.data(), w.depth.data(), w.eta.data(), s.v.data(), s.u.data(), m.stride, 1};
+  const PoolFaces a{w.bed.data(), w.depth.data(), w.eta.data(), s.v.data(), s.u.data(), m.stride, 1, s.v.data()};
   float* carried = w.flux_v.data();
   std::fill_n(w.flux.begin() + m.at(0, rows.first), m.nx, 0.0f);
   std::fill_n(w.flux.begin() + m.at(0, rows.last + 1), m.nx, 0.0f);
-  for (int j = rows.first; j <= rows.last; ++j) {
+  const auto look = [&](int j) {
     const int k0 = m.at(0, j);
     if (j > rows.first) x.look_at_faces(a, k0, k0 + m.nx, w.under.data(), w.flux.data());
     x.look_at_columns(a, k0, k0 + m.nx, c, w.inertia.data(), w.extra.data());
+  };
+  begin_across_v(m, rows, w);
+  look(rows.first);
+  for (int j = rows.first + 1; j <= rows.last + 1; ++j) {  // a face is pushed when those on either side are looked at
+    if (j <= rows.last) look(j);
+    if (j - 1 == rows.first) continue;
+    x.push_faces(a, m.at(0, j - 1), m.at(m.nx, j - 1), c, w.under.data(), w.flux.data(), w.extra.data(), w.rhs.data(),
+                 carried);
+    eliminate_across_v(x, m, j - 1, w);
   }
-  for (int j = rows.first + 1; j <= rows.last; ++j)
-    x.push_faces(a, m.at(0, j), m.at(m.nx, j), c, w.under.data(), w.flux.data(), w.extra.data(), w.rhs.data(), carried);
-  solve_across_v(x, m, rows, w);
-  for (int j = rows.first + 1; j <= rows.last; ++j)
+  for (int j = rows.last; j > rows.first; --j) {
+    substitute_across_v(x, m, rows, j, w);
     x.slow_faces(m.at(0, j), m.at(m.nx, j), c, w.under.data(), carried, w.answer.data(), s.v.data());
+  }
   std::fill_n(s.v.begin() + m.at(0, rows.first), m.nx, 0.0f);
   std::fill_n(s.v.begin() + m.at(0, rows.last + 1), m.nx, 0.0f);
 }
 
 // ---- what passes
 
-bool any_of(const PoolModel& m, Rows rows, const std::vector<std::int32_t>& species) {
-  std::int32_t any = 0;
-  for (int k = m.at(0, rows.first); k < m.at(m.nx, rows.last); ++k) any |= species[k];
-  return any != 0;
-}
-
-/// One species: `volume` and `flux` are those before anything has moved, so the species do not see one another.
+/// One species: `volume` and `flux` are those before anything has moved, so the species do not see one another. A row
+/// is booked when it is known what passes on either side of it.
 void move_species(const PoolKernels& x, const PoolModel& m, Rows rows, std::vector<std::int32_t>& species,
                   PoolWork& w) {
-  if (!any_of(m, rows, species)) return;
   constexpr float kFull = float(kMostInACell);
   float* keep = w.keep.data();
   std::int32_t *moved_u = w.moved_u.data(), *moved_v = w.moved_v.data();
-  for (int j = rows.first; j <= rows.last; ++j)
-    x.find_shares(m.at(0, j), m.at(m.nx, j), m.stride, w.flux.data(), w.flux_v.data(), w.volume.data(), species.data(),
-                  keep);
   std::fill_n(moved_v + m.at(0, rows.first), m.nx, 0);
   std::fill_n(moved_v + m.at(0, rows.last + 1), m.nx, 0);
   for (int j = rows.first; j <= rows.last; ++j) {
     const int k0 = m.at(0, j);
+    x.find_shares(k0, k0 + m.nx, m.stride, w.flux.data(), w.flux_v.data(), w.volume.data(), species.data(), keep);
     moved_u[k0] = moved_u[k0 + m.nx] = 0;
     x.find_moved(k0 + 1, k0 + m.nx, 1, kFull, w.flux.data(), w.volume.data(), keep, moved_u);
-    if (j > rows.first) x.find_moved(k0, k0 + m.nx, m.stride, kFull, w.flux_v.data(), w.volume.data(), keep, moved_v);
+    if (j == rows.first) continue;
+    x.find_moved(k0, k0 + m.nx, m.stride, kFull, w.flux_v.data(), w.volume.data(), keep, moved_v);
+    x.book(k0 - m.stride, k0 - m.stride + m.nx, m.stride, moved_u, moved_v, species.data());
   }
-  for (int j = rows.first; j <= rows.last; ++j)
-    x.book(m.at(0, j), m.at(m.nx, j), m.stride, moved_u, moved_v, species.data());
+  x.book(m.at(0, rows.last), m.at(m.nx, rows.last), m.stride, moved_u, moved_v, species.data());
 }
 
-void exchange(const PoolKernels& x, const PoolModel& m, const PoolConstants& c, Rows rows, PoolState& s, PoolWork& w) {
-  const PoolFaces across_u{w.bed.data(), w.depth.data(), w.eta.data(), s.u.data(), s.v.data(), 1, m.stride};
-  const PoolFaces across_v{w.bed.data(), w.depth.data(), w.eta.data(), s.v.data(), s.u.data(), m.stride, 1};
+void exchange(const PoolKernels& x, const PoolModel& m, const PoolConstants& c, Rows rows, const Present& any,
+              PoolState& s, PoolWork& w) {
+  const PoolFaces across_u{w.bed.data(), w.depth.data(), w.eta.data(), s.u.data(), s.v.data(), 1, m.stride, s.u.data()};
+  const PoolFaces across_v{w.bed.data(), w.depth.data(), w.eta.data(), s.v.data(), s.u.data(), m.stride, 1, s.v.data()};
   const float pl = float(m.cell * m.dt() * kPicolitresPerM3);
   std::fill_n(w.flux_v.begin() + m.at(0, rows.first), m.nx, 0.0f);
   std::fill_n(w.flux_v.begin() + m.at(0, rows.last + 1), m.nx, 0.0f);
@@ -236,7 +266,9 @@ void exchange(const PoolKernels& x, const PoolModel& m, const PoolConstants& c, 
     x.volumes_through(across_u, k0 + 1, k0 + m.nx, c, pl, s.u.data(), w.flux.data());
     if (j > rows.first) x.volumes_through(across_v, k0, k0 + m.nx, c, pl, s.v.data(), w.flux_v.data());
   }
-  for (std::vector<std::int32_t>* species : {&s.blood, &s.saline, &s.bile}) move_species(x, m, rows, *species, w);
+  if (any[0] != 0) move_species(x, m, rows, s.blood, w);
+  if (any[1] != 0) move_species(x, m, rows, s.saline, w);
+  if (any[2] != 0) move_species(x, m, rows, s.bile, w);
 }
 
 // ---- in and out
@@ -287,23 +319,23 @@ FluidReport advance(const PoolModel& m, const PoolInput& in, PoolState& s, PoolW
   pour_held(m, s, report);
   const Rows rows = rows_at_work(m, s);
   still_rows_outside(m, rows, s);
+  const PoolKernels& x = pool_kernels();
   if (rows.empty()) {
-    s.highest = highest(m, in, rows, w);
+    s.highest = highest(x, m, in, rows, w);
     return report;
   }
-  const PoolKernels& x = pool_kernels();
   const PoolConstants c = constants_of(m);
-  describe_cells(x, m, in, rows, s, w, report);
+  const Present any = describe_cells(x, m, in, rows, s, w, report);
   for (std::size_t i = 0; i < in.capsules.size(); ++i) {
     if (sound(in.capsules[i]))
       lift(m, in_frame(m, in.capsules[i]), rows, w);
     else
       report.note(FluidReport::kBadContact, std::int32_t(i));
   }
-  s.highest = highest(m, in, rows, w);
+  s.highest = highest(x, m, in, rows, w);
   accelerate_u(x, m, c, rows, s, w);
   accelerate_v(x, m, c, rows, s, w);
-  exchange(x, m, c, rows, s, w);
+  exchange(x, m, c, rows, any, s, w);
   return report;
 }
 
@@ -312,6 +344,7 @@ PoolWork make_work(const PoolModel& m) {
   for (auto* a : {&w.bed, &w.depth, &w.eta, &w.volume, &w.inertia, &w.extra, &w.under, &w.rhs, &w.flux, &w.sweep,
                   &w.answer, &w.flux_v, &w.keep})
     a->assign(m.size(), 0.0f);
+  w.tops.assign(std::size_t(m.nx), 0.0f);
   for (auto* a : {&w.moved_u, &w.moved_v}) a->assign(m.size(), 0);
   for (auto& a : w.strip) a.assign(std::size_t(kPoolLanes) * (m.nx + 1), 0.0f);
   return w;

@@ -91,32 +91,31 @@ class Scene {
     std::fill(m_work->normal_known.begin(), m_work->normal_known.end(), std::uint8_t(0));
     for (int body = 0; body < strands; ++body) m_work->bounds[std::size_t(body)] = surface(body).pose->bounds;
     for (std::size_t k = 0; k < b.strands.size(); ++k) bound_strand(k);
-    const float more = float(m_crowd ? kCrowdFlies : kReach) + kSafe;
-    for (tissue::Box& box : m_work->bounds) {
-      box.low -= Vec3f{more, more, more};
-      box.high += Vec3f{more, more, more};
-    }
+    lay_out_blocks(float(m_crowd ? kCrowdFlies : kReach) + kSafe);
   }
 
-  /// Numbers of the bodies that may be within reach of p, ascending. Only with scratch.
-  std::span<const std::int32_t> near(Vec3d p) const noexcept {
-    const Vec3f q = vec_cast<float>(p);
-    std::int32_t* const out = m_work->near.data();
-    std::size_t n = 0;
-    for (std::int32_t body = 0; body < std::int32_t(m_work->bounds.size()); ++body) {
-      const tissue::Box& box = m_work->bounds[std::size_t(body)];
-      out[n] = body;
-      n += std::size_t(int(q.x > box.low.x) & int(q.x < box.high.x) & int(q.y > box.low.y) & int(q.y < box.high.y) &
-                       int(q.z > box.low.z) & int(q.z < box.high.z));
+  using Candidate = WetWork::Candidate;
+  /// Bodies that may be within reach of a way, ascending. Only with scratch.
+  std::span<const Candidate> near(Vec3d from, Vec3d to) const noexcept {
+    WetWork::Blocks& blocks = m_work->blocks;
+    const int met = find_hits(vec_cast<float>(from), vec_cast<float>(to), blocks);
+    std::size_t bodies = 0;
+    std::int32_t hits = 0, last = -1;
+    for (int k = 0; k < met; ++k) {
+      const std::size_t i = std::size_t(blocks.hit[std::size_t(k)]);
+      const std::int32_t body = blocks.body[i], block = blocks.block[i];
+      if (body != last) m_work->near[bodies++] = {body, hits, hits};
+      last = body;
+      if (block >= 0) m_work->hits[std::size_t(hits++)] = block;
+      m_work->near[bodies - 1].last = hits;
     }
-    return {out, n};
+    return {m_work->near.data(), bodies};
   }
 
+  Beside beside(int body, Vec3d from, Vec3d p) const noexcept { return beside({body, 0, 0}, from, p, kReach); }
   /// @param flies  to or from p: looks farther
-  Beside beside(int body, Vec3d from, Vec3d p, bool flies = true) const noexcept {
-    const double reach = !m_crowd ? kReach : flies ? kCrowdFlies : kCrowdRuns;
-    if (body < sheets) return beside_surface(body, p, reach);
-    return body < strands ? beside_sheet(body, from, p, reach) : beside_strand(std::size_t(body - strands), p);
+  Beside beside(const Candidate& c, Vec3d from, Vec3d p, bool flies) const noexcept {
+    return beside(c, from, p, !m_crowd ? kReach : flies ? kCrowdFlies : kCrowdRuns);
   }
   Beside beside_vertex(int body, int vertex, Vec3d p) const noexcept {
     const Surface& on = surface(body);
@@ -148,6 +147,45 @@ class Scene {
   WetWork* const m_work;
   const bool m_crowd;
 
+  /// Blocks whose box the box of a way meets, in blocks.hit. Without a branch that depends on them.
+  static int find_hits(Vec3f from, Vec3f to, WetWork::Blocks& blocks) noexcept {
+    const Vec3f least{std::min(from.x, to.x), std::min(from.y, to.y), std::min(from.z, to.z)};
+    const Vec3f most{std::max(from.x, to.x), std::max(from.y, to.y), std::max(from.z, to.z)};
+    const float *x0 = blocks.low[0].data(), *y0 = blocks.low[1].data(), *z0 = blocks.low[2].data();
+    const float *x1 = blocks.high[0].data(), *y1 = blocks.high[1].data(), *z1 = blocks.high[2].data();
+    std::int32_t* __restrict inside = blocks.inside.data();
+    const int count = blocks.count;
+    for (int i = 0; i < count; ++i)
+      inside[i] = int(most.x > x0[i]) & int(least.x < x1[i]) & int(most.y > y0[i]) & int(least.y < y1[i]) &
+                  int(most.z > z0[i]) & int(least.z < z1[i]);
+    std::int32_t* hit = blocks.hit.data();
+    int n = 0;
+    for (int i = 0; i < count; ++i) {
+      hit[n] = i;
+      n += inside[i];
+    }
+    return n;
+  }
+  /// @param block  -1: all of the body
+  void add_block(int body, int block, const tissue::Box& box, float more) noexcept {
+    WetWork::Blocks& blocks = m_work->blocks;
+    const std::size_t i = std::size_t(blocks.count++);
+    for (int k = 0; k < 3; ++k) blocks.low[k][i] = box.low[k] - more, blocks.high[k][i] = box.high[k] + more;
+    blocks.body[i] = body, blocks.block[i] = block;
+  }
+  void lay_out_blocks(float more) noexcept {
+    m_work->blocks.count = 0;
+    const std::size_t room = m_work->blocks.body.size() - std::size_t(b.count());  // besides one a body
+    for (int body = 0; body < b.count(); ++body) {
+      const bool whole = body >= strands || is_still(body);
+      const std::size_t n = whole ? 0 : surface(body).pose->block.size();
+      if (whole || std::size_t(m_work->blocks.count) + n > room) {  // a cut may have made more than there is room for
+        add_block(body, -1, m_work->bounds[std::size_t(body)], more);
+        continue;
+      }
+      for (std::size_t k = 0; k < n; ++k) add_block(body, int(k), surface(body).pose->block[k], more);
+    }
+  }
   /// Of a moving skin: the same for all who ask in this tick.
   Vec3d normal(int body, int vertex) const noexcept {
     const Surface& on = surface(body);
@@ -160,16 +198,27 @@ class Scene {
     }
     return m_work->normal[place];
   }
-  Beside beside_surface(int body, Vec3d p, double reach) const noexcept {
-    const Surface& on = surface(body);
+  bool is_still(int body) const noexcept { return body >= m_walls && body < sheets; }
+  /// Of which blocks: those of the candidate, or all if it has none.
+  Beside beside(const Candidate& c, Vec3d from, Vec3d p, double reach) const noexcept {
+    if (c.body < sheets) return beside_surface(c, p, reach);
+    return c.body < strands ? beside_sheet(c, from, p, reach) : beside_strand(std::size_t(c.body - strands), p);
+  }
+  int nearest_vertex(const Candidate& c, const Surface& on, Vec3d p, double reach) const noexcept {
+    if (is_still(c.body)) return b.grids[std::size_t(c.body - m_walls)].nearest(*on.skin, p);
+    if (c.first == c.last) return nearest_vertex_near(on, p, reach);
+    return nearest_vertex_near(on, p, reach, {m_work->hits.data() + c.first, std::size_t(c.last - c.first)});
+  }
+  Beside beside_surface(const Candidate& c, Vec3d p, double reach) const noexcept {
+    const Surface& on = surface(c.body);
     if (!on.pose->bounds.reaches(p, reach)) return {};
-    const bool still = body >= m_walls && body < sheets;
-    const int v = still ? b.grids[std::size_t(body - m_walls)].nearest(*on.skin, p) : nearest_vertex_near(on, p, reach);
-    return v < 0 ? Beside{} : beside_vertex(body, v, p);
+    const int v = nearest_vertex(c, on, p, reach);
+    return v < 0 ? Beside{} : beside_vertex(c.body, v, p);
   }
   /// @param from  where it came from: tells the side
-  Beside beside_sheet(int body, Vec3d from, Vec3d p, double reach) const noexcept {
-    Beside found = beside_surface(body, p, reach);
+  Beside beside_sheet(const Candidate& c, Vec3d from, Vec3d p, double reach) const noexcept {
+    const int body = c.body;
+    Beside found = beside_surface(c, p, reach);
     if (!found.there()) return found;
     const Vec3d flat = (p - found.point) - dot(p - found.point, found.normal) * found.normal;
     if (dot(flat, flat) > 1e-6) return {};  // past its border
@@ -213,17 +262,19 @@ class Scene {
 /// carries the vessel, and leaves it.
 Contact meet(const Scene& scene, Vec3d from, Vec3d to, Vec3d velocity, double radius) noexcept {
   const Vec3d way = to - from;
+  const std::span<const WetWork::Candidate> near = scene.near(from, to);
+  if (near.empty()) return {};
   const int looks = 1 + std::min(int(length(way) / kStride), 15);
   for (int k = 1; k <= looks; ++k) {
     const Vec3d p = from + (double(k) / looks) * way;
     int found = -1;
     Beside most;
-    for (const std::int32_t body : scene.near(p)) {
-      const Beside b = scene.beside(body, from, p);
+    for (const WetWork::Candidate& c : near) {
+      const Beside b = scene.beside(c, from, p, true);
       if (!b.there() || b.off > 0.5 * radius || b.off < -kDeepest || b.off > most.off) continue;
       if (dot(velocity - b.velocity, b.normal) > kParts) continue;
       most = b;
-      found = body;
+      found = c.body;
     }
     if (found >= 0) return scene.contact(found, most);
   }
@@ -251,12 +302,12 @@ Contact stay(const Scene& scene, const fluids::DropletState& s, int drop, Vec3d 
   Beside best;
   const Beside own = follow(scene, body, film - scene.b.first[std::size_t(body)], p);
   if (own.there() && length(p - own.point) < kLeaves + radius) best = own, found = body;
-  for (const std::int32_t other : scene.near(p)) {
-    if (other == body) continue;
+  for (const WetWork::Candidate& other : scene.near(p, p)) {
+    if (other.body == body) continue;
     const Beside b = scene.beside(other, p, p, false);
     if (!b.there() || b.off > 0.25 * radius || b.off < -kDeepest || b.off > best.off) continue;
     best = b;
-    found = other;
+    found = other.body;
   }
   return found < 0 ? Contact{} : scene.contact(found, best);
 }
@@ -313,6 +364,11 @@ WetWork make_wet_work(std::span<const StrandBody> strands, std::span<const std::
   WetWork w;
   w.bounds.resize(first.size() - 1);
   w.near.resize(first.size());
+  // A vertex has one place of film or two: so many blocks at most, and one that is not full a body.
+  const std::size_t blocks = std::size_t(first.back()) / tissue::kSkinBlock + 2 * first.size();
+  for (int k = 0; k < 3; ++k) w.blocks.low[k].resize(blocks), w.blocks.high[k].resize(blocks);
+  w.blocks.body.resize(blocks), w.blocks.block.resize(blocks), w.blocks.inside.resize(blocks),
+      w.blocks.hit.resize(blocks + 1), w.hits.resize(blocks);
   w.first_piece = {0};
   for (const StrandBody& strand : strands)
     w.first_piece.push_back(w.first_piece.back() + (strand.nodes() - 1 + kPiece - 1) / kPiece);
@@ -326,6 +382,9 @@ void poison(WetWork& w) noexcept {
   const auto scribble = [](auto& a) {
     if (!a.empty()) std::memset(static_cast<void*>(a.data()), 0xff, a.size() * sizeof a[0]);
   };
+  for (int k = 0; k < 3; ++k) scribble(w.blocks.low[k]), scribble(w.blocks.high[k]);
+  scribble(w.blocks.body), scribble(w.blocks.block), scribble(w.blocks.inside), scribble(w.blocks.hit),
+      scribble(w.hits);
   scribble(w.bounds), scribble(w.near), scribble(w.pieces), scribble(w.normal), scribble(w.normal_known);
 }
 

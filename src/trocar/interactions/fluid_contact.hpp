@@ -34,8 +34,22 @@ inline constexpr double kWetReach = 0.006;  ///< [m] between a point and the ver
 
 /// Scratch: what many drops ask for in one tick is worked out once.
 struct WetWork {
-  std::vector<tissue::Box> bounds;         ///< (bodies) beyond it nothing of the body is near
-  std::vector<std::int32_t> near;          ///< (bodies) those that a point is near to
+  std::vector<tissue::Box> bounds;  ///< (bodies) beyond it nothing of the body is near
+  /// Blocks of moving skins, and other bodies whole, each with a box beyond which nothing of it is near. Side by side,
+  /// as all are looked at at once; body after body, ascending.
+  struct Blocks {
+    std::vector<float> low[3], high[3];
+    std::vector<std::int32_t> body, block;  ///< block: its number in the skin, -1: the whole body
+    std::vector<std::int32_t> inside, hit;  ///< 1: met by what is looked at now; those that are
+    int count = 0;
+  };
+  Blocks blocks;
+  /// A body that may be met, and which of its blocks: hits[first] .. hits[last - 1]; none: all.
+  struct Candidate {
+    std::int32_t body = 0, first = 0, last = 0;
+  };
+  std::vector<Candidate> near;             ///< (bodies) those that may be met
+  std::vector<std::int32_t> hits;          ///< (blocks) numbers of their blocks
   std::vector<tissue::Box> pieces;         ///< of strands, kPiece elements each
   std::vector<std::int32_t> first_piece;   ///< (strands + 1)
   std::vector<Vec3d> normal;               ///< (places of film) of skins' vertices that somebody has asked for

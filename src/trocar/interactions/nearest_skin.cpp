@@ -3,25 +3,53 @@
 
 namespace trocar::interactions {
 
-int nearest_vertex_near(const Surface& surface, Vec3d p, double reach) noexcept {
+namespace {
+
+/// The nearest vertex so far.
+struct Nearest {
+  int vertex = -1;
+  double least = 0;  ///< square of its distance [m^2]
+};
+
+/// Box::distance2 to the last bit, without a branch.
+double square_beyond(const tissue::Box& box, Vec3d p) noexcept {
+  const auto beyond = [](double q, double low, double high) {
+    const double below = low - q, above = q - high, off = below > above ? below : above;
+    return off > 0 ? off : 0.0;
+  };
+  const double x = beyond(p.x, double(box.low.x), double(box.high.x));
+  const double y = beyond(p.y, double(box.low.y), double(box.high.y));
+  const double z = beyond(p.z, double(box.low.z), double(box.high.z));
+  return x * x + y * y + z * z;
+}
+
+void look_into_block(const Surface& surface, Vec3d p, int b, Nearest& best) noexcept {
   const tissue::SkinPose& pose = *surface.pose;
-  int best = -1;
-  double least = reach * reach;
-  for (size_t b = 0; b < pose.block.size(); ++b) {
-    if (!pose.block[b].reaches(p, reach)) continue;
-    const int end = std::min(int(b + 1) * tissue::kSkinBlock, surface.skin->size());
-    for (int first = int(b) * tissue::kSkinBlock; first < end; first += tissue::kSkinPatch) {
-      if (pose.patch[size_t(first / tissue::kSkinPatch)].distance2(p) >= least) continue;
-      const int last = std::min(first + tissue::kSkinPatch, end);
-      for (int v = first; v < last; ++v) {
-        const double d = geometry::distance2(surface.position(v), p);
-        if (d >= least || !surface.skin->at_surface(v)) continue;
-        least = d;
-        best = v;
-      }
+  if (!(square_beyond(pose.block[size_t(b)], p) < best.least)) return;
+  const int end = std::min((b + 1) * tissue::kSkinBlock, surface.skin->size());
+  for (int first = b * tissue::kSkinBlock; first < end; first += tissue::kSkinPatch) {
+    if (!(square_beyond(pose.patch[size_t(first / tissue::kSkinPatch)], p) < best.least)) continue;
+    const int last = std::min(first + tissue::kSkinPatch, end);
+    for (int v = first; v < last; ++v) {
+      const double d = geometry::distance2(surface.position(v), p);
+      if (d >= best.least || !surface.skin->at_surface(v)) continue;
+      best = {v, d};
     }
   }
-  return best;
+}
+
+}  // namespace
+
+int nearest_vertex_near(const Surface& surface, Vec3d p, double reach) noexcept {
+  Nearest best{-1, reach * reach};
+  for (size_t b = 0; b < surface.pose->block.size(); ++b) look_into_block(surface, p, int(b), best);
+  return best.vertex;
+}
+
+int nearest_vertex_near(const Surface& surface, Vec3d p, double reach, std::span<const std::int32_t> blocks) noexcept {
+  Nearest best{-1, reach * reach};
+  for (const std::int32_t b : blocks) look_into_block(surface, p, b, best);
+  return best.vertex;
 }
 
 SkinPoint nearest_on_faces(const Surface& surface, int vertex, Vec3d p) noexcept {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <span>
 
 #include <trocar/interactions/surface.hpp>
 
@@ -14,6 +16,8 @@ struct SkinPoint {
 
 /// The nearest vertex within `reach`, -1 if there is none.
 int nearest_vertex_near(const Surface& surface, Vec3d p, double reach) noexcept;
+/// The same among these blocks of kSkinBlock vertices. @param blocks  ascending
+int nearest_vertex_near(const Surface& surface, Vec3d p, double reach, std::span<const std::int32_t> blocks) noexcept;
 
 /// The nearest point of the triangles at that vertex, without its normal.
 SkinPoint nearest_on_faces(const Surface& surface, int vertex, Vec3d p) noexcept;

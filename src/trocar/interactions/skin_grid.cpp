@@ -49,6 +49,7 @@ int SkinGrid::nearest(const tissue::Skin& skin, Vec3d p) const noexcept {
     at[k] = int(q);
   }
   const size_t cell = (size_t(at[2]) * size_t(cells[1]) + size_t(at[1])) * size_t(cells[0]) + size_t(at[0]);
+  if ((filled[cell / 64] >> (cell % 64) & 1u) == 0) return -1;
   int best = -1;
   double least = reach * reach;
   for (std::int32_t i = first[cell]; i < first[cell + 1]; ++i) {
@@ -106,6 +107,9 @@ SkinGrid make_skin_grid(const tissue::Skin& skin, double reach) {
         grid.vertex.insert(grid.vertex.end(), some.begin(), some.end());
         grid.first.push_back(std::int32_t(grid.vertex.size()));
       }
+  grid.filled.resize(within.size() / 64 + 1);
+  for (size_t cell = 0; cell < within.size(); ++cell)
+    if (grid.first[cell] < grid.first[cell + 1]) grid.filled[cell / 64] |= std::uint64_t(1) << (cell % 64);
   return grid;
 }
 

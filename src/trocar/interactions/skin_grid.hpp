@@ -18,6 +18,7 @@ struct SkinGrid {
   double per_cell = 0;  ///< 1 / edge of a cell [1/m]
   std::array<int, 3> cells{0, 0, 0};
   std::vector<std::int32_t> first, vertex;  ///< CSR over cells, ascending
+  std::vector<std::uint64_t> filled;        ///< a bit a cell: has it any? Small enough to be at hand
 
   int nearest(const tissue::Skin& skin, Vec3d p) const noexcept;
 };

@@ -11,6 +11,8 @@ namespace trocar::scene {
 namespace {
 
 constexpr int kPoolCells = 128;
+constexpr int kCrowdsPool =
+    2;  // tick of the pool's first step beside a crowd: heat, and forces between drops, work on others
 constexpr int kCrowd = 4096;     // drops at a time; with more of them each is looked at less often.  Our choice
 constexpr double kFilm = 40e-6;  // [m] the thickest film that stays on tissue.  Our choice
 constexpr double kPlace = 8e-6;  // [m^2] about a vertex of a skin, typically
@@ -84,7 +86,10 @@ void compile_fluids(const Description& d, sim::Model& model, std::vector<core::F
   out.pool.origin = f.pool_middle - 0.5 * f.pool_size * (out.pool.u + out.pool.v);
   out.pool.gravity = length(d.gravity);
   out.droplets.capacity = f.drops;
-  if (f.drops > kCrowd) fluids::for_a_crowd(out.droplets);
+  if (f.drops > kCrowd) {
+    fluids::for_a_crowd(out.droplets);
+    out.pool.first = kCrowdsPool;
+  }
   model.wet.film = places_of_film(model);
   for (const sim::WallModel& wall : model.walls)
     model.wet.grids.push_back(interactions::make_skin_grid(wall.skin, interactions::kWetReach));

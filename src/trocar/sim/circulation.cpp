@@ -88,10 +88,21 @@ bool near(const geometry::Blade& blade, Vec3d p, double reach) noexcept {
 
 }  // namespace
 
+// The others wait until somebody asks.
 void pose_vessels(StepContext& c) noexcept {
   if (!c.model.vessels.there()) return;
   const interactions::VesselHosts hosts = look_at_hosts_of_all(c.model, c.state, c.work.hosts);
-  for (size_t v = 0; v < c.model.vessels.list.size(); ++v) pose_vessel(path_of(c, v), hosts, c.work.vessel_points[v]);
+  for (size_t v = 0; v < c.model.vessels.list.size(); ++v) {
+    c.work.vessel_posed[v] = c.model.vessels.list[v].pulses();
+    if (c.work.vessel_posed[v] != 0) pose_vessel(path_of(c, v), hosts, c.work.vessel_points[v]);
+  }
+}
+
+const std::vector<Vec3d>& points_of(StepContext& c, size_t v) noexcept {
+  std::vector<Vec3d>& points = c.work.vessel_points[v];
+  if (c.work.vessel_posed[v] == 0) pose_vessel(path_of(c, v), look_at_hosts(c.model, c.state, c.work.hosts), points);
+  c.work.vessel_posed[v] = 1;
+  return points;
 }
 
 void open_vessels(StepContext& c, const geometry::Blade& blade, Carriers carriers, int hand) noexcept {
@@ -102,7 +113,7 @@ void open_vessels(StepContext& c, const geometry::Blade& blade, Carriers carrier
   CutPlaces places;
   for (size_t v = 0; v < c.model.vessels.list.size(); ++v) {
     const VesselPath& path = path_of(c, v);
-    const std::vector<Vec3d>& points = c.work.vessel_points[v];
+    const std::vector<Vec3d>& points = points_of(c, v);
     for (int i = 0; i + 1 < int(points.size()); ++i) {
       if (out_of_reach(path, i) || !near(blade, points[size_t(i)], reach)) continue;
       if (!rides_on(c, path.points[size_t(i)].hold, carriers) &&
@@ -193,7 +204,7 @@ void clip_vessels(StepContext& c, size_t hand, int number) noexcept {
   for (size_t v = 0; v < c.model.vessels.list.size(); ++v) {
     if (has_closed(c, number, v)) continue;
     const VesselPath& path = path_of(c, v);
-    const std::vector<Vec3d>& points = c.work.vessel_points[v];
+    const std::vector<Vec3d>& points = points_of(c, v);
     const std::span<const double> cuts = cuts_of(c.state, int(v), places);
     for (int i = 0; i + 1 < int(points.size()); ++i) {
       if (out_of_reach(path, i)) continue;
@@ -286,7 +297,7 @@ void beat(StepContext& c) noexcept {
   read_middles(c.model.vessels.flow, c.state.flow, c.work.walls, c.work.busy);
   for (size_t v = 0; v < c.model.vessels.list.size(); ++v) {
     const Vessel& vessel = c.model.vessels.list[v];
-    if (vessel.gain <= 0) continue;
+    if (!vessel.pulses()) continue;
     const std::vector<Vec3d>& x = c.work.vessel_points[v];
     const vessels::FlowSegment& segment = c.model.vessels.flow.segments[v];
     const vessels::WallReading& wall = c.work.walls[v];

@@ -6,8 +6,10 @@
 
 namespace trocar::sim {
 
-/// Where vessels are (Work::vessel_points).
+/// Where vessels with a pulse are (Work::vessel_points).
 void pose_vessels(StepContext& context) noexcept;
+/// Where a vessel is. One without a pulse is posed when somebody asks for the first time in a tick.
+const std::vector<Vec3d>& points_of(StepContext& context, size_t vessel) noexcept;
 
 /// The pulse moves what carries vessels: where a vessel bends, a pressure above the mean pushes it outwards.
 void beat(StepContext& context) noexcept;

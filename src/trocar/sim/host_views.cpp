@@ -10,10 +10,12 @@ HostViews make_host_views(const Model& model) {
   v.organs.resize(size_t(model.organs()));
   v.membranes.resize(model.membranes.size());
   for (int i = 0; i < model.organs(); ++i) v.skins.push_back(&model.skin(i));
-  for (const Vessel& vessel : model.vessels.list)
+  for (const Vessel& vessel : model.vessels.list) {
+    if (!vessel.pulses()) continue;
     for (const interactions::VesselPoint& p : vessel.path.points)
       for (size_t k = 0; k < 3 && p.hold.kind == interactions::VesselHold::organ; ++k)
         v.ridden.push_back({p.hold.index, p.hold.vertex[k]});
+  }
   const auto key = [](HostViews::Corner c) { return std::pair(c.organ, c.vertex); };
   std::sort(v.ridden.begin(), v.ridden.end(), [&](auto a, auto b) { return key(a) < key(b); });
   v.ridden.erase(std::unique(v.ridden.begin(), v.ridden.end(), [&](auto a, auto b) { return key(a) == key(b); }),

@@ -11,7 +11,7 @@ namespace trocar::sim {
 struct HostViews {
   std::vector<tissue::NodeView> organs, membranes;
   std::vector<const tissue::Skin*> skins;  ///< (organs) those of lattices are touched; cells carry in the others
-  /// Vertices of lattices' skins that carry vessels, each once.
+  /// Vertices of lattices' skins that carry vessels with a pulse, each once.
   struct Corner {
     std::int32_t organ = 0, vertex = 0;
   };
@@ -22,7 +22,8 @@ HostViews make_host_views(const Model& model);
 
 /// Looks at the State as it is now; takes no memory.
 interactions::VesselHosts look_at_hosts(const Model& model, const State& state, HostViews& views) noexcept;
-/// The same for who poses all vessels: what several of their points ride on is worked out once.
+/// The same for who poses all vessels with a pulse, and no others: what several of their points ride on is worked out
+/// once.
 interactions::VesselHosts look_at_hosts_of_all(const Model& model, const State& state, HostViews& views) noexcept;
 
 /// Places of a vessel that are cut through. @param out  at least kMaxOpenings

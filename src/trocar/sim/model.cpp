@@ -185,7 +185,7 @@ void seal(Model& model) {
     h.add(f.droplets.capacity), h.add(f.droplets.film_cells), h.add(f.droplets.film_capacity);
     h.add(model.wet.floor), h.add(model.wet.floor_organs), h.add(model.wet.film), h.add(kPhysics);
     if (f.droplets.fly_period > 1)
-      h.add(f.droplets.fly_period), h.add(f.droplets.run_period), h.add(f.droplets.pair_parts);
+      h.add(f.droplets.fly_period), h.add(f.droplets.run_period), h.add(f.droplets.pair_parts), h.add(f.pool.first);
   }
   if (model.energy.there) {
     const tissue::GeneratorPanel& panel = model.energy.panel;

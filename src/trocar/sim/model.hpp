@@ -114,6 +114,8 @@ struct Vessel {
   double gain = 1;           ///< of what the pulse does to its surroundings, and of what is shown; 1 = physical
   double mean_pressure = 0;  ///< in its middle, at rest [Pa]
   interactions::VesselPath path;
+
+  bool pulses() const noexcept { return gain > 0; }
 };
 /// A vessel that opens by itself.
 struct Bleeder {

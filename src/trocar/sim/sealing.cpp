@@ -62,7 +62,7 @@ void seal_between_jaws(StepContext& c, size_t t, const Wall& wall) noexcept {
   CutPlaces places;
   for (size_t v = 0; v < c.model.vessels.list.size(); ++v) {
     const VesselPath& path = c.model.vessels.list[v].path;
-    const std::vector<Vec3d>& points = c.work.vessel_points[v];
+    const std::vector<Vec3d>& points = points_of(c, v);
     const std::span<const double> cuts = cuts_of(c.state, int(v), places);
     for (int i = 0; i + 1 < int(points.size()); ++i) {
       VesselPiece piece[2];
@@ -85,7 +85,7 @@ void seal_at_wire(StepContext& c, size_t t, const ElectrodeTouch& touch, const W
   for (int i = 0; i < c.state.opening_count; ++i) {
     const interactions::VesselOpening& o = c.state.openings[size_t(i)];
     const VesselPath& path = c.model.vessels.list[size_t(o.vessel)].path;
-    const std::vector<Vec3d>& points = c.work.vessel_points[size_t(o.vessel)];
+    const std::vector<Vec3d>& points = points_of(c, size_t(o.vessel));
     const std::span<const double> cuts = cuts_of(c.state, o.vessel, places);
     for (int side = 0; side < (o.through ? 2 : 1); ++side) {
       const Vec3d place = vessel_spot(path, points, cuts, o.s, side).place;

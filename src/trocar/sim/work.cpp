@@ -190,6 +190,7 @@ Work make_work(const Model& model, core::ThreadPool* pool) {
   if (model.vessels.there()) {
     w.hosts = make_host_views(model);
     for (const Vessel& v : model.vessels.list) w.vessel_points.emplace_back(v.path.points.size());
+    w.vessel_posed.resize(w.vessel_points.size());
     w.flow = vessels::make_work(model.vessels.flow);
     w.open.resize(interactions::kMaxOpenings);
     w.closed.resize(size_t(model.vessels.flow.settings.max_clips));
@@ -257,6 +258,7 @@ void poison(Work& w) noexcept {
   for (tissue::NodeView& n : w.hosts.membranes) n = {};
   for (auto& corners : w.hosts.corners) scribble(corners);
   for (auto& points : w.vessel_points) scribble(points);
+  scribble(w.vessel_posed);
   scribble(w.flow);
   scribble(w.open);
   scribble(w.closed);

@@ -54,6 +54,7 @@ struct Work {
   std::vector<Vec3d> wave_force;                       ///< (nodes of the largest organ with waves) [N]
   HostViews hosts;
   std::vector<std::vector<Vec3d>> vessel_points;  ///< (vessels)(points of the path) [m]
+  std::vector<std::uint8_t> vessel_posed;         ///< (vessels) 0: its points are not known in this tick
   vessels::FlowWork flow;
   std::vector<vessels::Opening> open;
   std::vector<vessels::Clip> closed;
