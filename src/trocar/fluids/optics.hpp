@@ -6,8 +6,8 @@
 // mu of whole blood of 150 g/L haemoglobin is 2.303 eps 150 / 64500 with the tabulated eps of oxygenated and
 // deoxygenated haemoglobin [Prahl 1999] at 630, 540 and 460 nm, arterial blood 98 % saturated, venous 70 %. A camera's
 // red channel is broad and sees more light than 630 nm alone: 0.8 /mm (our choice). Bile: our choice, from its look.
-// C_deep, linear (0.12, 0.006, 0.007): our choice, such that a pool under the endoscope's light is about (87, 15, 16) in
-// sRGB, as pools in real pictures are.
+// C_deep, linear (0.12, 0.006, 0.007): our choice, such that a pool under the endoscope's light is about (87, 15, 16)
+// in sRGB, as pools in real pictures are.
 //
 //   const Rgb t = transmission(optics, {.blood = 0.05}, 0.010);    // 5 % blood in saline, 10 mm of light path
 #pragma once

@@ -12,9 +12,9 @@ namespace {
 
 using interactions::ElectrodeTouch, interactions::kMembraneBase, interactions::kSolidBase;
 
-constexpr double kAround = 0.008;    // [m] from an electrode to the middle of springs that it may change
-constexpr float kTold = 0.005f;      // a spring that shrinks less stays as it is
-constexpr std::uint64_t kEvery = 8;  // steps of the heat between two looks at a lattice or a fold
+constexpr double kAround = 0.008;  // [m] from an electrode to the middle of springs that it may change
+constexpr float kTold = 0.005f;    // a spring that shrinks less stays as it is
+constexpr int kTurns = 8;          // steps of the heat in which all of a body is looked at
 constexpr std::array kAlong{0.1, 0.3, 0.5, 0.7, 0.9};
 
 const tissue::NetworkModel* network_of(const Model& m, std::int32_t body) noexcept {
@@ -72,8 +72,18 @@ void note(StepContext& c, std::int32_t body, std::int32_t spring, const Change& 
 
 bool near(Vec3d a, Vec3d b) noexcept { return dot(a - b, a - b) <= kAround * kAround; }
 
+/// The part of `count` whose turn it is.
+struct Turn {
+  int first, last;
+  Turn(const StepContext& c, int count) noexcept {
+    const int turn = int(c.state.heat.tick / std::uint64_t(c.model.energy.heat.period) % std::uint64_t(kTurns));
+    first = int(std::int64_t(count) * turn / kTurns), last = int(std::int64_t(count) * (turn + 1) / kTurns);
+  }
+};
+
 void scar_springs(StepContext& c, const tissue::NetworkModel& m, std::int32_t body, Vec3d electrode) noexcept {
-  for (int s = 0; s < m.springs; ++s) {
+  const Turn turn(c, m.springs);
+  for (int s = turn.first; s < turn.last; ++s) {
     const Vec3d a = m.rest[size_t(m.spring_nodes[size_t(2 * s)])],
                 b = m.rest[size_t(m.spring_nodes[size_t(2 * s + 1)])];
     if (!near(0.5 * (a + b), electrode)) continue;
@@ -85,7 +95,8 @@ void scar_springs(StepContext& c, const tissue::NetworkModel& m, std::int32_t bo
 /// blade.
 void scar_cells(StepContext& c, std::int32_t body, Vec3d electrode) noexcept {
   const geometry::CuttableTets& drawn = c.model.cuttables[cuttable_of(c.model, body)].body.drawn;
-  for (size_t t = 0; t < drawn.cells.size(); ++t) {
+  const Turn turn(c, int(drawn.cells.size()));
+  for (size_t t = size_t(turn.first); t < size_t(turn.last); ++t) {
     Vec3d middle;
     for (const std::int32_t node : drawn.cells[t]) middle += 0.25 * drawn.rest[size_t(node)];
     if (!near(middle, electrode)) continue;
@@ -153,7 +164,6 @@ void pull_cell(const tissue::CuttableModel& m, const geometry::CuttableTets& tet
 void scar_tissue(StepContext& c, const ElectrodeTouch& touch) noexcept {
   const std::int32_t body = touch.contact.body;
   if (body < kSolidBase) return scar_strand(c, touch);
-  if (c.state.heat.tick / std::uint64_t(c.model.energy.heat.period) % kEvery != 0) return;
   const Vec3d electrode = 0.5 * (touch.contact.a + touch.contact.b);
   if (const tissue::NetworkModel* network = network_of(c.model, body))
     scar_springs(c, *network, body, electrode);
