@@ -71,9 +71,12 @@ TEST(PatientInWords, SaysPulseAndPressuresWhichFallWithTheLossAndByHowMuchThePul
   static const std::unique_ptr<Lesson> lesson = load_lesson("bleeding");
   sim::State state = sim::initial_state(lesson->model);
   const std::vector<std::string> before = patient_in_words(lesson->model, state);
-  ASSERT_EQ(before.size(), 2u);
+  ASSERT_EQ(before.size(), 3u);
   EXPECT_EQ(before[0], "pulse 72/min, 120/80 mmHg");
-  EXPECT_EQ(before[1], "arteries' pulse shown and felt 5 times");
+  EXPECT_EQ(before[1], "gas in the abdomen 12 mmHg");
+  EXPECT_EQ(before[2], "arteries' pulse shown and felt 5 times");
+  state.fluids.gas.pressure /= 2;
+  EXPECT_EQ(patient_in_words(lesson->model, state)[1], "gas in the abdomen 6 mmHg, low");
   state.flow.bled = 2'000'000'000'000;  // two litres
   EXPECT_EQ(patient_in_words(lesson->model, state)[0], "pulse 133/min, 73/59 mmHg");
   EXPECT_TRUE(patient_in_words(scene().model, sim::initial_state(scene().model)).empty());
