@@ -5,7 +5,7 @@
 // hold each end to the mean velocity of both, 2 (q - 1) k T along the spring and 2 F T / |r| in all directions. So no
 // body needs a shorter step, however large q: an end goes no further in a tick than to the middle of what the pull
 // wants from both, even if the other does the same. What moves as a whole is not held back (it is no drag against
-// space), but speeds up as if it were heavier by 2 (q - 1) k T^2 an end: a burn of a few springs by some grams.
+// space), but speeds up as if it were heavier by 2 (q - 1) k T^2 an end: a burn of ten springs by about 3 g.
 #pragma once
 
 #include <trocar/interactions/loads.hpp>

@@ -9,7 +9,6 @@
 #include <trocar/sim/scarring.hpp>
 #include <trocar/sim/sealing.hpp>
 #include <trocar/sim/stage.hpp>
-#include <trocar/tissue/heat_look.hpp>
 
 namespace trocar::sim {
 namespace {

@@ -8,7 +8,7 @@
 namespace trocar::sim {
 namespace {
 
-constexpr size_t kOrganLoads = 8192, kStrandLoads = 2048, kMembraneLoads = 4096;
+constexpr size_t kOrganLoads = 8192, kStrandLoads = 2048, kMembraneLoads = 8192;
 constexpr size_t kScarLoads = 40;  // of a scarred cell: six edges and four springs across faces, two loads an end
 
 template <class T>
