@@ -273,6 +273,47 @@ TEST(Pool, FindsItsLevelAndMixes) {
   EXPECT_EQ(content(b.m, b.s), at(b.ledger, Place::kPool));
 }
 
+/// A column of fluid thrown up in a basin: how high the pool ever stands over it from then on, and at last [m].
+struct Thrown {
+  double highest = 0, at_last = 0, fastest = 0;
+};
+Thrown thrown_up(double deep, double mound, double radius) {
+  Basin b({.nx = 64, .ny = 64});
+  const double middle = 32 * b.m.cell;
+  for (int j = 0; j < 64; ++j)
+    for (int i = 0; i < 64; ++i)
+      b.fill_to(i, j,
+                deep + (std::hypot((i + 0.5) * b.m.cell - middle, (j + 0.5) * b.m.cell - middle) < radius ? mound : 0));
+  const auto top = [&b] {
+    double highest = 0;
+    for (int j = 0; j < 64; ++j)
+      for (int i = 0; i < 64; ++i) highest = std::max(highest, double(depth_at(b.m, b.s, i, j)));
+    return highest;
+  };
+  Thrown t;
+  for (int tick = 0; tick < 3000; ++tick) {
+    b.tick();
+    t.highest = std::max(t.highest, top());
+  }
+  t.at_last = top();
+  for (const auto* speeds : {&b.s.u, &b.s.v})
+    for (const float v : *speeds) t.fastest = std::max(t.fastest, double(std::fabs(v)));
+  return t;
+}
+
+TEST(Pool, WhatIsThrownUpInDeepFluidFallsBackAndSettles) {
+  for (const double deep : {0.01, 0.05, 0.15})
+    for (const double radius : {0.004, 0.012}) {
+      const double mound = 0.036;
+      const Thrown t = thrown_up(deep, mound, radius);
+      std::printf("    %.0f mm deep, %.0f mm wide: at most %.1f mm, at last %.2f mm, %.4f m/s\n", 1e3 * deep,
+                  2e3 * radius, 1e3 * t.highest, 1e3 * t.at_last, t.fastest);
+      EXPECT_LT(t.highest, deep + 2 * mound) << "the first step may be too long";
+      EXPECT_LT(t.at_last, deep + 0.25 * mound);
+      EXPECT_LT(t.fastest, 0.02);
+    }
+}
+
 TEST(Pool, RisesByWhatAnInstrumentFillsAndRipplesWhenItMoves) {
   Basin b(square(32));
   for (int j = 0; j < 32; ++j)

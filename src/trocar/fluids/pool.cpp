@@ -70,6 +70,7 @@ PoolState empty_pool(const PoolModel& m) {
   for (auto* cells : {&s.blood, &s.saline, &s.bile}) cells->assign(m.size(), 0);
   for (auto* faces : {&s.u, &s.v}) faces->assign(m.size(), 0.0f);
   s.tick = std::uint64_t(m.first > 0 ? m.period - m.first : 0);
+  s.next = m.first > 0 ? std::uint64_t(m.period) : 0;
   return s;
 }
 
@@ -228,6 +229,7 @@ void add_to_hash(core::Hasher& hasher, const PoolState& s) noexcept {
   hasher.add(s.v);
   hasher.add(s.held);
   hasher.add(s.born);
+  hasher.add(s.churn), hasher.add(s.next);
   hasher.add(s.drain_carry);
   hasher.add(s.highest);
   hasher.add(s.first_row);

@@ -72,6 +72,8 @@ struct PoolState {
   std::array<double, kMostDrains> drain_carry{};  ///< [pL]
   float highest = 1e3f;                           ///< no surface or bed was above it at the last step [m]
   std::int32_t first_row = 0, last_row = -1;      ///< that may hold speeds other than 0
+  float churn = 0;         ///< most that passed a face in the last step, as height of a cell over time [m/s]
+  std::uint64_t next = 0;  ///< tick of the next step
   std::uint64_t tick = 0;
 };
 
@@ -104,7 +106,9 @@ PoolModel build(const PoolDescription& description, double tick = 1e-3);
 PoolState empty_pool(const PoolModel& model);
 PoolWork make_work(const PoolModel& model);
 
-/// One tick. Works on every `period`-th.
+/// One tick. Works on every `period`-th; where much flows, more often (our choice): when more than 3 mm of a cell's
+/// height would pass a face in a step, steps are halved, down to a tick. Longer ones drive deep fluid that is stirred
+/// ever higher.
 /// @param ledger  drained volume is booked from the pool
 FluidReport advance(const PoolModel& model, const PoolInput& input, PoolState& state, PoolWork& work,
                     Ledger& ledger) noexcept;

@@ -47,6 +47,13 @@ void raise_tops(int n, const float* z, float bound, float* __restrict tops) {
   }
 }
 
+void raise_sizes(int n, const float* z, float* __restrict tops) {
+  for (int i = 0; i < n; ++i) {
+    const float size = z[i] > 0 ? z[i] : -z[i];
+    tops[i] = size > tops[i] ? size : tops[i];
+  }
+}
+
 /// How deep it is at a face, and what flows through it now, per width.
 void look_at_faces(const PoolFaces& a, int k0, int k1, float* __restrict under, float* __restrict flux) {
   const float *bed = a.bed, *eta = a.eta, *speed = a.speed;
@@ -261,6 +268,7 @@ constexpr PoolKernels kTable{.name = TROCAR_POOL_NAME,
                              .lay_bed = lay_bed,
                              .describe = describe,
                              .raise_tops = raise_tops,
+                             .raise_sizes = raise_sizes,
                              .look_at_faces = look_at_faces,
                              .look_at_columns = look_at_columns,
                              .push_faces = push_faces,

@@ -42,6 +42,7 @@ struct PoolKernels {
   std::int32_t (*lay_bed)(int n, const float* floor, float* bed);
   void (*describe)(int n, float height_per_pl, const PoolRow& row, std::int32_t* any);  ///< any: 3, of each species
   void (*raise_tops)(int n, const float* z, float bound, float* tops);
+  void (*raise_sizes)(int n, const float* z, float* tops);
   void (*look_at_faces)(const PoolFaces& a, int k0, int k1, float* under, float* flux);
   void (*look_at_columns)(const PoolFaces& a, int k0, int k1, const PoolConstants& c, float* inertia, float* extra);
   void (*push_faces)(const PoolFaces& a, int k0, int k1, const PoolConstants& c, const float* under, const float* flux,

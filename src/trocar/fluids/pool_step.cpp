@@ -160,16 +160,25 @@ void substitute_across_v(const PoolKernels& x, const PoolModel& m, Rows rows, in
   if (j < rows.last) x.substitute(m.nx, w.sweep.data() + k, w.answer.data() + k + m.stride, w.answer.data() + k);
 }
 
-PoolConstants constants_of(const PoolModel& m) {
+constexpr float kMostChurn = 0.003f;  // [m] that may pass a face in a step, where a shorter one is possible
+
+/// How many ticks the step that begins now takes.
+int ticks_of_step(const PoolModel& m, const PoolState& s) {
+  int ticks = m.period;
+  while (ticks > 1 && (s.churn * float(m.tick * ticks) > kMostChurn || s.tick % std::uint64_t(ticks) != 0)) ticks /= 2;
+  return ticks;
+}
+
+PoolConstants constants_of(const PoolModel& m, double dt) {
   return {.g = float(m.gravity),
-          .dt = float(m.dt()),
+          .dt = float(dt),
           .per_dx = float(1 / m.cell),
           .third = float(m.vertical_inertia / 3),
           .inertia_depth = float(m.inertia_depth),
           .friction = float(m.friction),
           .viscous = float(3 * m.viscosity),
           .damping = float(m.damping),
-          .fastest = m.fastest};
+          .fastest = float(0.5 * m.cell / dt)};
 }
 
 /// What pushes the faces of a row, and where what they carry takes them.
@@ -253,11 +262,24 @@ void move_species(const PoolKernels& x, const PoolModel& m, Rows rows, std::vect
   x.book(m.at(0, rows.last), m.at(m.nx, rows.last), m.stride, moved_u, moved_v, species.data());
 }
 
+/// The most that wants to pass a face [pL].
+float most_through(const PoolKernels& x, const PoolModel& m, Rows rows, PoolWork& w) {
+  float* tops = w.tops.data();
+  std::fill_n(tops, m.nx, 0.0f);
+  for (int j = rows.first; j <= rows.last; ++j) {
+    x.raise_sizes(m.nx, w.flux.data() + m.at(0, j), tops);
+    x.raise_sizes(m.nx, w.flux_v.data() + m.at(0, j), tops);
+  }
+  float most = 0;
+  for (int i = 0; i < m.nx; ++i) most = std::max(most, tops[i]);
+  return most;
+}
+
 void exchange(const PoolKernels& x, const PoolModel& m, const PoolConstants& c, Rows rows, const Present& any,
               PoolState& s, PoolWork& w) {
   const PoolFaces across_u{w.bed.data(), w.depth.data(), w.eta.data(), s.u.data(), s.v.data(), 1, m.stride, s.u.data()};
   const PoolFaces across_v{w.bed.data(), w.depth.data(), w.eta.data(), s.v.data(), s.u.data(), m.stride, 1, s.v.data()};
-  const float pl = float(m.cell * m.dt() * kPicolitresPerM3);
+  const float pl = float(m.cell * double(c.dt) * kPicolitresPerM3);
   std::fill_n(w.flux_v.begin() + m.at(0, rows.first), m.nx, 0.0f);
   std::fill_n(w.flux_v.begin() + m.at(0, rows.last + 1), m.nx, 0.0f);
   for (int j = rows.first; j <= rows.last; ++j) {
@@ -266,6 +288,7 @@ void exchange(const PoolKernels& x, const PoolModel& m, const PoolConstants& c, 
     x.volumes_through(across_u, k0 + 1, k0 + m.nx, c, pl, s.u.data(), w.flux.data());
     if (j > rows.first) x.volumes_through(across_v, k0, k0 + m.nx, c, pl, s.v.data(), w.flux_v.data());
   }
+  s.churn = most_through(x, m, rows, w) * m.height_per_pl / c.dt;
   if (any[0] != 0) move_species(x, m, rows, s.blood, w);
   if (any[1] != 0) move_species(x, m, rows, s.saline, w);
   if (any[2] != 0) move_species(x, m, rows, s.bile, w);
@@ -273,7 +296,7 @@ void exchange(const PoolKernels& x, const PoolModel& m, const PoolConstants& c, 
 
 // ---- in and out
 
-void empty_drains(const PoolModel& m, std::span<const Drain> drains, PoolState& s, Ledger& ledger,
+void empty_drains(const PoolModel& m, std::span<const Drain> drains, double dt, PoolState& s, Ledger& ledger,
                   FluidReport& report) {
   const std::size_t n = std::min(drains.size(), std::size_t(kMostDrains));
   for (std::size_t d = 0; d < n; ++d) {
@@ -287,7 +310,7 @@ void empty_drains(const PoolModel& m, std::span<const Drain> drains, PoolState& 
     std::int64_t amount = own.total();
     if (drain.area > 0) {
       const double flow = orifice_flow(drain.area, depth_at(m, s, drain.i, drain.j), m.gravity, drain.cd);
-      amount = whole_picolitres(flow, m.dt(), s.drain_carry[d]);
+      amount = whole_picolitres(flow, dt, s.drain_carry[d]);
     }
     const Mix out = share(own, amount);
     const int k = m.at(drain.i, drain.j);
@@ -314,17 +337,25 @@ void pour_held(const PoolModel& m, PoolState& s, FluidReport& report) {
 
 FluidReport advance(const PoolModel& m, const PoolInput& in, PoolState& s, PoolWork& w, Ledger& ledger) noexcept {
   FluidReport report;
-  if (s.tick++ % std::uint64_t(m.period) != 0) return report;
-  empty_drains(m, in.drains, s, ledger, report);
+  if (s.tick != s.next) {
+    ++s.tick;
+    return report;
+  }
+  const int ticks = ticks_of_step(m, s);
+  const double dt = m.tick * ticks;
+  s.next += std::uint64_t(ticks);
+  ++s.tick;
+  empty_drains(m, in.drains, dt, s, ledger, report);
   pour_held(m, s, report);
   const Rows rows = rows_at_work(m, s);
   still_rows_outside(m, rows, s);
   const PoolKernels& x = pool_kernels();
   if (rows.empty()) {
+    s.churn = 0;
     s.highest = highest(x, m, in, rows, w);
     return report;
   }
-  const PoolConstants c = constants_of(m);
+  const PoolConstants c = constants_of(m, dt);
   const Present any = describe_cells(x, m, in, rows, s, w, report);
   for (std::size_t i = 0; i < in.capsules.size(); ++i) {
     if (sound(in.capsules[i]))
