@@ -23,6 +23,8 @@ constexpr float kPressed = 1e-3f;  ///< a running drop pushed or pulled across i
 constexpr float kStill = 1e-4f;    ///< [m/s]
 constexpr float kOnBed = 1.5e-3f;  ///< a surface so high above the pool's bed is that bed, as its cells have it [m]
 
+constexpr float kWet = 0.5e-3f;  ///< a pool is one from this depth on [m]
+
 /// What stays the same for all drops of a tick.
 struct Moment {
   const DropletModel& m;
@@ -41,7 +43,7 @@ struct Moment {
 };
 
 /// Some of what a drop does is done on one tick of `every` (a power of two), at different ones for different drops.
-constexpr std::uint32_t kFilmEvery = 8, kPoolEveryFlying = 2;
+constexpr std::uint32_t kFilmEvery = 8, kPoolEveryFlying = 2, kPoolEveryUnasked = 4;
 bool turn_of(const Moment& t, int i, std::uint32_t every) {
   return ((t.s.id[i] + std::uint32_t(t.s.tick)) & (every - 1)) == 0;
 }
@@ -170,6 +172,14 @@ Contact capsule_at(const Moment& t, int i, std::int32_t near, Vec3f p) {
   return found;
 }
 
+/// Is it below the pool's surface? What flies there falls in before.
+bool in_pool(const Moment& t, Vec3f p) {
+  if (dot(p, t.up) > t.pool_top) return false;
+  const PoolPoint at = locate(t.below.model, vec_cast<double>(p));
+  const float depth = depth_at(t.below.model, t.below.state, at.i, at.j);
+  return depth > kWet && at.height < floor_at(t.below.model, t.below.floor, at.i, at.j) + depth;
+}
+
 bool on_a_capsule(const Moment& t, int i) {
   for (const Capsule& c : t.capsules)
     if (c.body == t.s.body[i]) return true;
@@ -192,7 +202,7 @@ void meet(Moment& t, int i, std::int32_t question, std::int32_t near) {
     const bool hit = said && said->body >= 0 && dot(said->normal, end - said->point) < 0.5f * s.radius[i];
     if (tool.body >= 0)
       land(t, i, tool);
-    else if (hit)
+    else if (hit && (t.w.ways == 1 || !in_pool(t, said->point)))
       land(t, i, *said);
   } else if (tool.body >= 0) {
     s.body[i] = tool.body;
@@ -242,7 +252,7 @@ void fall_in(Moment& t, int i) {
   if (dot(position(t.s, i), t.up) > t.pool_top) return;
   const PoolPoint at = locate(pool, vec_cast<double>(position(t.s, i)));
   const float bed = floor_at(pool, t.below.floor, at.i, at.j), depth = depth_at(pool, t.below.state, at.i, at.j);
-  const bool wet = depth > 0.5e-3f, flies = t.s.body[i] < 0;
+  const bool wet = depth > kWet, flies = t.s.body[i] < 0;
   const bool in = wet && flies ? at.height <= bed + depth : at.height <= bed + (wet ? depth - t.s.radius[i] : -2e-3f);
   const bool lies = !flies && at.inside && settles(t, i, at.height - bed);
   if (!in && !lies && !(flies && !wet && at.height <= bed)) return;
@@ -352,11 +362,12 @@ FluidReport resolve(const DropletModel& m, std::span<const Capsule> capsules, Dr
   find_near(t);
   for (int k = 0; k < w.mover_count; ++k) {  // what splashes or runs over begins its way in the next tick
     const std::int32_t i = w.movers[k], question = w.question_of[k];
+    if (s.volume[i].total() <= 0) continue;
     if (question == -1) {
       put(s, i, {w.to_x[i], w.to_y[i], w.to_z[i]}, velocity(s, i));
+      if (turn_of(t, i, kPoolEveryUnasked)) fall_in(t, i);
       continue;
     }
-    if (s.volume[i].total() <= 0) continue;
     const bool flew = s.body[i] < 0;
     meet(t, i, question, w.near[k]);
     if (s.body[i] >= 0)
@@ -395,7 +406,7 @@ DropletWork make_work(const DropletModel& m) {
   for (auto* a :
        {&w.to_x, &w.to_y, &w.to_z, &w.sx, &w.sy, &w.sz, &w.svx, &w.svy, &w.svz, &w.sr, &w.sm, &w.jx, &w.jy, &w.jz})
     a->assign(n, 0.0f);
-  for (auto* a : {&w.asking, &w.movers, &w.near, &w.question_of, &w.chosen, &w.sorted, &w.bucket_of, &w.own_bucket,
+  for (auto* a : {&w.asking, &w.movers, &w.near, &w.question_of, &w.chosen, &w.sorted, &w.cell_of, &w.own_cell,
                   &w.joined, &w.neighbours})
     a->assign(n + 1, 0);
   w.pairs.assign(16 * n, {0, 0});
@@ -406,6 +417,7 @@ DropletWork make_work(const DropletModel& m) {
   std::size_t buckets = 1024;
   while (buckets < 2 * n) buckets *= 2;
   w.bucket_first.assign(buckets + 1, 0);
+  w.filled.assign(detail::kPairCells / 64, 0);
   return w;
 }
 

@@ -32,23 +32,42 @@ struct Grid {
   float per_cell;
 };
 
-std::uint32_t bucket(const Grid& g, float x, float y, float z) {
+/// Of a cell; its bucket is what the mask leaves of it.
+std::uint32_t name_of(const Grid& g, float x, float y, float z) {
   const auto cell = [&](float q) { return std::uint32_t(std::int32_t(q * g.per_cell + 65536.0f)); };
-  return (cell(x) + cell(y) * kRow + cell(z) * kLayer) & g.mask;
+  return cell(x) + cell(y) * kRow + cell(z) * kLayer;
 }
 
-/// Of four parts, each takes every fourth slab of space as the home of its pairs' first drops.
-constexpr float kPerSlab = 1 / 0.020f;  // [1/m]
-std::uint32_t slab_of(float x) { return std::uint32_t(std::int32_t(x * kPerSlab + 65536.0f)) & 3u; }
-bool in_slabs(const Who& who) { return who.parts == 4; }
+// Most rows around a drop in flight are empty, but few buckets are: a bit for each of kPairCells says which
+// are worth a look.
+void mark(std::uint32_t name, std::vector<std::uint64_t>& filled) {
+  filled[(name & (kPairCells - 1)) / 64] |= std::uint64_t(1) << (name % 64);
+}
+/// Bits of a cell and the two behind it.
+std::uint32_t row_from(std::uint32_t name, const std::vector<std::uint64_t>& filled) {
+  const std::uint32_t word = (name & (kPairCells - 1)) / 64, bit = name % 64;
+  const std::uint64_t low = filled[word] >> bit, high = filled[(word + 1) % (kPairCells / 64)] << 1 << (63 - bit);
+  return std::uint32_t(low | high) & 7u;
+}
+
+/// Of eight parts, each takes every eighth slab of space as the home of its pairs' first drops.
+constexpr std::uint32_t kSlabs = 8;
+constexpr float kPerSlab = 1 / 0.010f;  // [1/m]
+std::uint32_t slab_of(float x) { return std::uint32_t(std::int32_t(x * kPerSlab + 65536.0f)) & (kSlabs - 1); }
+bool in_slabs(const Who& who) { return who.parts == kSlabs; }
 
 /// A crowd's part: drops on surfaces in its slabs, or near enough to feel one that is.
 int gather_slabs(const DropletState& s, Who who, DropletWork& w) {
+  const float* x = s.x.data();
+  std::int32_t* __restrict in = w.joined.data();
+  for (int i = 0; i < s.count; ++i) {
+    const std::uint32_t low = slab_of(x[i] - kFarthestReach), high = slab_of(x[i] + kFarthestReach);
+    in[i] = int(low == who.part) | int(high == who.part);
+  }
   int n = 0;
   for (int i = 0; i < s.count; ++i) {
     w.chosen[n] = i;
-    const std::uint32_t low = slab_of(s.x[i] - kFarthestReach), high = slab_of(s.x[i] + kFarthestReach);
-    n += s.body[i] >= 0 && (low == who.part || high == who.part) ? 1 : 0;
+    n += int(s.body[i] >= 0) & in[i];
   }
   return n;
 }
@@ -70,21 +89,23 @@ Grid sort(const DropletModel& m, const DropletState& s, int n, DropletWork& w) {
   Grid g{buckets_for(n), 0, 1 / std::min(2 * kReach * largest, kFarthestReach)};
   g.mask = g.buckets - 1;
   std::fill_n(w.bucket_first.begin(), g.buckets + 1, 0u);
+  std::fill(w.filled.begin(), w.filled.end(), 0u);
   for (int c = 0; c < n; ++c) {
     const int i = w.chosen[c];
-    const std::uint32_t b = bucket(g, s.x[i], s.y[i], s.z[i]);
-    w.bucket_of[c] = std::int32_t(b);
+    const std::uint32_t name = name_of(g, s.x[i], s.y[i], s.z[i]), b = name & g.mask;
+    w.cell_of[c] = std::int32_t(name);
+    mark(name, w.filled);
     ++w.bucket_first[b + 1];
   }
   for (std::uint32_t b = 0; b < g.buckets; ++b) w.bucket_first[b + 1] += w.bucket_first[b];
   // Filling moves each start to its end, which is the next one's start: shift back afterwards.
-  for (int c = 0; c < n; ++c) w.sorted[w.bucket_first[w.bucket_of[c]]++] = c;
+  for (int c = 0; c < n; ++c) w.sorted[w.bucket_first[std::uint32_t(w.cell_of[c]) & g.mask]++] = c;
   for (std::uint32_t b = g.buckets; b > 0; --b) w.bucket_first[b] = w.bucket_first[b - 1];
   w.bucket_first[0] = 0;
   for (int p = 0; p < n; ++p) {
     const int c = w.sorted[p], i = w.chosen[c];
     w.sorted[p] = i;
-    w.own_bucket[p] = w.bucket_of[c];
+    w.own_cell[p] = w.cell_of[c];
     w.sx[p] = s.x[i], w.sy[p] = s.y[i], w.sz[p] = s.z[i];
     w.svx[p] = s.vx[i], w.svy[p] = s.vy[i], w.svz[p] = s.vz[i];
     w.sr[p] = s.radius[i];
@@ -162,11 +183,17 @@ void look_at_buckets(const Grid& g, int p, std::uint32_t a, std::uint32_t n, Dro
 }
 
 void look_around(const Grid& g, int p, DropletWork& w, Budget& left) {
-  const auto own = std::uint32_t(w.own_bucket[p]);
-  look(p, std::uint32_t(p) + 1, w.bucket_first[own + 1], w, left);
-  look_at_buckets(g, p, own + 1, 1, w, left);
-  for (const std::uint32_t row : {kRow, kLayer - kRow, kLayer, kLayer + kRow})
-    look_at_buckets(g, p, own + row - 1, 3, w, left);
+  const auto own = std::uint32_t(w.own_cell[p]);
+  look(p, std::uint32_t(p) + 1, w.bucket_first[(own & g.mask) + 1], w, left);
+  const std::uint32_t beside = row_from(own - 1, w.filled) >> 2, ahead = row_from(own + kRow - 1, w.filled);
+  const std::uint32_t back = row_from(own + kLayer - kRow - 1, w.filled), above = row_from(own + kLayer - 1, w.filled);
+  const std::uint32_t front = row_from(own + kLayer + kRow - 1, w.filled);
+  if ((beside | ahead | back | above | front) == 0) return;
+  if (beside != 0) look_at_buckets(g, p, own + 1, 1, w, left);
+  if (ahead != 0) look_at_buckets(g, p, own + kRow - 1, 3, w, left);
+  if (back != 0) look_at_buckets(g, p, own + kLayer - kRow - 1, 3, w, left);
+  if (above != 0) look_at_buckets(g, p, own + kLayer - 1, 3, w, left);
+  if (front != 0) look_at_buckets(g, p, own + kLayer + kRow - 1, 3, w, left);
 }
 
 /// Drop j becomes part of drop i. Flying ones meet half-way; on a surface the first stays where it is.

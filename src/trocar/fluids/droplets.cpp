@@ -204,18 +204,30 @@ void choose_movers(const DropletModel& m, const DropletState& s, DropletWork& w)
 /// In question_of: moves in this tick all the same, on the plane that it has.
 constexpr std::int32_t kRunsUnasked = -2;
 
-/// In a crowd a drop on a surface is asked for in every second of its turns.
+/// [m/s] What is slower, on ground that is slower, goes by no more than a millimetre or two until it is asked for.  Our
+/// choice
+constexpr float kSlow = 0.02f;
+
+/// In a crowd a drop on a surface is asked for in every second of its turns, a slow one in every fourth. In bits of the
+/// tick and the drop's name that are zero when it is.
+std::uint32_t unasked_turns(const DropletModel& m, const DropletState& s, std::int32_t i) {
+  if (m.fly_period == 1) return 0;
+  const Vec3f ground = s.ground[i].velocity, along = Vec3f{s.vx[i], s.vy[i], s.vz[i]} - ground;
+  const bool slow = dot(ground, ground) < kSlow * kSlow && dot(along, along) < kSlow * kSlow;
+  return std::uint32_t(m.run_period) * (slow ? 3u : 1u);
+}
+
 /// @param newborn  the first name of this tick's drops: they are asked for at once, as they come from within tissue
 void ask(const DropletModel& m, std::uint32_t newborn, const DropletState& s, DropletWork& w) {
-  const std::uint32_t running = std::uint32_t(m.run_period), flying = std::uint32_t(m.fly_period) - 1;
-  const std::uint32_t unasked = m.fly_period > 1 ? running : 0;
+  const std::uint32_t flying = std::uint32_t(m.fly_period) - 1;
   w.questions = 0;
   w.ways = m.fly_period;
   for (int k = 0; k < w.mover_count; ++k) {
     const std::int32_t i = w.movers[k];
     const std::uint32_t turn = s.id[i] + std::uint32_t(s.tick);
     const bool flies = s.body[i] < 0;
-    const bool asks = flies ? int((turn & flying) == 0) | int(s.id[i] >= newborn) : int((turn & unasked) == 0);
+    const bool asks =
+        flies ? int((turn & flying) == 0) | int(s.id[i] >= newborn) : int((turn & unasked_turns(m, s, i)) == 0);
     w.question_of[k] = asks ? w.questions : flies ? -1 : kRunsUnasked;
     w.asking[w.questions] = i;
     w.questions += int(asks);
@@ -237,8 +249,8 @@ void ask_for_film(const DropletModel& m, const DropletState& s, DropletWork& w) 
 
 void for_a_crowd(DropletDescription& d) noexcept {
   d.run_period = 16;
-  d.fly_period = 4;
-  d.pair_parts = 4;
+  d.fly_period = 8;
+  d.pair_parts = 8;
 }
 
 DropletModel build(const DropletDescription& d, double tick) {
@@ -255,8 +267,8 @@ DropletModel build(const DropletDescription& d, double tick) {
           "droplets: film, hysteresis, running height, overhang, splash");
   const auto period = [](int n) { return power_of_two(n) && n >= 2 && n <= 16; };
   require(period(d.pair_period) && period(d.run_period), "droplets: periods are 2, 4, 8 or 16");
-  require(d.pair_parts == 2 || d.pair_parts == 4, "droplets: parts of pairs are 2 or 4");
-  require(power_of_two(d.fly_period) && d.fly_period <= 4, "droplets: the period in flight is 1, 2 or 4");
+  require(d.pair_parts == 2 || d.pair_parts == 8, "droplets: parts of pairs are 2 or 8");
+  require(power_of_two(d.fly_period) && d.fly_period <= 8, "droplets: the period in flight is 1, 2, 4 or 8");
   require(tick > 0 && tick <= 0.01, "droplets: tick");
   DropletModel m;
   static_cast<DropletDescription&>(m) = d;
@@ -305,10 +317,11 @@ FluidReport plan(const DropletModel& m, std::span<const Opening> openings, Dropl
   open_up(m, openings, s, below, report);
   const auto period = std::uint64_t(m.pair_period);
   if (s.tick % period == 1) report = report | detail::pull_together(m, {}, m.tick * m.pair_period, s, w);
-  if (s.tick % (2 * period) == period / 2 + 1) {
+  const std::uint64_t every = m.pair_parts == 2 ? 2 * period : period;  // the more parts, the smaller
+  if (s.tick % every == period / 2 + 1) {
     const auto parts = std::uint32_t(m.pair_parts);
-    const detail::Who some{false, std::uint32_t(s.tick / (2 * period) % parts), parts};
-    report = report | detail::pull_together(m, some, 2 * m.pair_parts * m.tick * m.pair_period, s, w);
+    const detail::Who some{false, std::uint32_t(s.tick / every % parts), parts};
+    report = report | detail::pull_together(m, some, double(every) * m.pair_parts * m.tick, s, w);
   }
   w.emptied = false;
   choose_movers(m, s, w);

@@ -65,8 +65,8 @@ struct DropletDescription {
   double splash = 80;                         ///< Weber number above which a drop throws up smaller ones from the pool
   int pair_period = 4;  ///< ticks between two looks at the forces between flying drops: 2, 4, 8 or 16
   int run_period = 4;   ///< ticks between two steps of a drop on a surface, each with a question: 2, 4, 8 or 16
-  int pair_parts = 2;   ///< looks at the forces between drops on surfaces until each pair has been looked at: 2 or 4
-  int fly_period = 1;   ///< ticks between two questions of a drop in flight, for so many ahead: 1, 2 or 4
+  int pair_parts = 2;   ///< looks at the forces between drops on surfaces until each pair has been looked at: 2 or 8
+  int fly_period = 1;   ///< ticks between two questions of a drop in flight, for so many ahead: 1, 2, 4 or 8
 };
 
 struct DropletModel : DropletDescription {
@@ -145,7 +145,8 @@ struct DropletWork {
   int mover_count = 0;
   bool emptied = false;                     ///< some drop may have no volume left
   std::vector<std::uint32_t> bucket_first;  ///< the grid of the forces between drops
-  std::vector<std::int32_t> chosen, sorted, bucket_of, own_bucket;
+  std::vector<std::uint64_t> filled;        ///< a bit a cell of it
+  std::vector<std::int32_t> chosen, sorted, cell_of, own_cell;
   std::vector<float> sx, sy, sz, svx, svy, svz, sr, sm, jx, jy, jz;
   std::vector<std::int32_t> joined;      ///< (capacity) drop that it became part of, or -1
   std::vector<std::int32_t> neighbours;  ///< (capacity)
@@ -158,8 +159,9 @@ struct DropletWork {
 
 inline constexpr int kFilmQuestions = 64;
 
-/// What thousands of drops at a time need to be affordable: those in flight are asked for on every fourth tick, four
-/// ticks ahead; those on surfaces move on every sixteenth; pairs on surfaces are looked at a quarter at a time. Our
+/// What thousands of drops at a time need to be affordable: those in flight are asked for on every eighth tick, eight
+/// ticks ahead; those on surfaces move on every sixteenth and are asked for on every second of these turns, slow ones
+/// on slow ground on every fourth; pairs on surfaces are looked at an eighth at a time. Our
 /// choice
 void for_a_crowd(DropletDescription& description) noexcept;
 /// @throws std::invalid_argument naming what is out of range
@@ -203,10 +205,11 @@ inline float now_of(const DropletModel& model, const DropletState& state) noexce
 void add_to_hash(core::Hasher& hasher, const DropletState& state) noexcept;
 
 namespace detail {
-/// Those in flight; or a part of the pairs on surfaces: by the first one's name of two parts, by its place of four.
+inline constexpr std::uint32_t kPairCells = 65536;  ///< of the grid of forces between drops, by name
+/// Those in flight; or a part of the pairs on surfaces: by the first one's name of two parts, by its place of eight.
 struct Who {
   bool flies = true;
-  std::uint32_t part = 0, parts = 1;  ///< parts: 1, 2 or 4
+  std::uint32_t part = 0, parts = 1;  ///< parts: 1, 2 or 8
 };
 /// Forces between drops, and joining. dt: since the last time.
 FluidReport pull_together(const DropletModel& model, Who who, double dt, DropletState& state,

@@ -152,10 +152,11 @@ void poison(FluidsWork& w) noexcept {
   for (auto* a :
        {&d.to_x, &d.to_y, &d.to_z, &d.sx, &d.sy, &d.sz, &d.svx, &d.svy, &d.svz, &d.sr, &d.sm, &d.jx, &d.jy, &d.jz})
     floats(*a);
-  for (auto* a : {&d.asking, &d.movers, &d.near, &d.question_of, &d.chosen, &d.sorted, &d.bucket_of, &d.own_bucket,
+  for (auto* a : {&d.asking, &d.movers, &d.near, &d.question_of, &d.chosen, &d.sorted, &d.cell_of, &d.own_cell,
                   &d.joined, &d.neighbours, &d.overfull})
     ints(*a);
   std::fill(d.bucket_first.begin(), d.bucket_first.end(), 0x5a5a5a5au);
+  std::fill(d.filled.begin(), d.filled.end(), 0x5a5a5a5a5a5a5a5au);
   const Contact nowhere{{nan, nan, nan}, {nan, nan, nan}, {nan, nan, nan}, 77, 77};
   std::fill(d.answers.begin(), d.answers.end(), nowhere);
   std::fill(d.film_answers.begin(), d.film_answers.end(), nowhere);
