@@ -203,13 +203,14 @@ TEST_P(DropsOnTissue, CatchOnATubeAndHangBelowIt) {
 TEST_P(DropsOnTissue, LeaveWhatTheyAreBornInIfTheyAreFastEnough) {
   const Vec3d inside{0.010, 0.0002, kTubeHeight + 0.0004};
   for (const double speed : {0.05, 0.3, 1.0, 3.0}) {
-    if (GetParam() && speed > 1) continue;  // when it is asked for it is at the wall above
+    if (GetParam() && speed > 0.5) continue;  // when it is asked for it is at the wall above
     Scene scene(GetParam());
     scene.drop(inside, {0, 0, speed}, 1'000'000);
-    for (int t = 0; t < (GetParam() ? 4 : 1); ++t) scene.tick();  // until it has been asked for
+    const int ticks = GetParam() ? 8 : 1;  // until it has been asked for
+    for (int t = 0; t < ticks; ++t) scene.tick();
     ASSERT_EQ(scene.s.droplets.count, 1);
     EXPECT_EQ(scene.s.droplets.body[0], speed > 0.1 ? -1 : tube) << speed;
-    EXPECT_GT(double(scene.s.droplets.vz[0]), speed > 0.1 ? 0.8 * speed : -1.0);
+    EXPECT_GT(double(scene.s.droplets.vz[0]), speed > 0.1 ? 0.9 * speed - ticks * 0.00981 : -1.0);
   }
   Scene scene(GetParam());
   scene.drop(inside, {0, 0, 0.4}, 1'000'000);

@@ -198,7 +198,8 @@ void meet(Moment& t, int i, std::int32_t question, std::int32_t near) {
   }
   const Contact tool = near != 0 ? capsule_at(t, i, near, to) : Contact{};
   if (s.body[i] < 0) {
-    const Vec3f end = t.w.ways == 1 ? to : position(s, i) + float(t.w.ways) * (to - position(s, i));
+    const int ways = ways_of(t.w, velocity(s, i));
+    const Vec3f end = ways == 1 ? to : position(s, i) + float(ways) * (to - position(s, i));
     const bool hit = said && said->body >= 0 && dot(said->normal, end - said->point) < 0.5f * s.radius[i];
     if (tool.body >= 0)
       land(t, i, tool);

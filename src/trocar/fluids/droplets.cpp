@@ -208,6 +208,9 @@ constexpr std::int32_t kRunsUnasked = -2;
 /// choice
 constexpr float kSlow = 0.02f;
 
+/// [m/s] Nothing that was quick four ticks ago is slower than this by drag and gravity: it is asked for again.
+constexpr float kWasQuick = 1.0f;
+
 /// In a crowd a drop on a surface is asked for in every second of its turns, a slow one in every fourth. In bits of the
 /// tick and the drop's name that are zero when it is.
 std::uint32_t unasked_turns(const DropletModel& m, const DropletState& s, std::int32_t i) {
@@ -219,15 +222,15 @@ std::uint32_t unasked_turns(const DropletModel& m, const DropletState& s, std::i
 
 /// @param newborn  the first name of this tick's drops: they are asked for at once, as they come from within tissue
 void ask(const DropletModel& m, std::uint32_t newborn, const DropletState& s, DropletWork& w) {
-  const std::uint32_t flying = std::uint32_t(m.fly_period) - 1;
   w.questions = 0;
   w.ways = m.fly_period;
   for (int k = 0; k < w.mover_count; ++k) {
     const std::int32_t i = w.movers[k];
     const std::uint32_t turn = s.id[i] + std::uint32_t(s.tick);
     const bool flies = s.body[i] < 0;
-    const bool asks =
-        flies ? int((turn & flying) == 0) | int(s.id[i] >= newborn) : int((turn & unasked_turns(m, s, i)) == 0);
+    const std::uint32_t unasked =
+        flies ? std::uint32_t(ways_of(w, {s.vx[i], s.vy[i], s.vz[i]}, kWasQuick)) - 1 : unasked_turns(m, s, i);
+    const bool asks = int((turn & unasked) == 0) | (int(flies) & int(s.id[i] >= newborn));
     w.question_of[k] = asks ? w.questions : flies ? -1 : kRunsUnasked;
     w.asking[w.questions] = i;
     w.questions += int(asks);

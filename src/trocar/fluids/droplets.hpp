@@ -133,7 +133,7 @@ struct DropletWork {
   std::vector<std::int32_t> asking;     ///< who needs an answer; the first `questions`
   std::vector<Contact> answers;         ///< (capacity) one for each of `asking`, all for the caller to fill
   int questions = 0;
-  int ways = 1;  ///< a drop in flight is asked for on its way through so many ticks; to_x ... is the end of the first
+  int ways = 1;  ///< a drop in flight is asked for on its way through so many ticks or half as many: ways_of()
   std::vector<std::int32_t> overfull;  ///< (kFilmQuestions) places of film that run over; the first `film_questions`
   std::vector<Contact> film_answers;   ///< the surface at each of them; body -1 = let it wait
   int film_questions = 0;
@@ -159,9 +159,16 @@ struct DropletWork {
 
 inline constexpr int kFilmQuestions = 64;
 
+/// So far ahead that it is about a centimetre: quick drops half as many ticks. to_x ... is the end of the first. Our
+/// choice
+/// @param quick  [m/s]
+inline int ways_of(const DropletWork& work, Vec3f velocity, float quick = 1.2f) noexcept {
+  return work.ways < 8 || dot(velocity, velocity) < quick * quick ? work.ways : work.ways / 2;
+}
+
 /// What thousands of drops at a time need to be affordable: those in flight are asked for on every eighth tick, eight
-/// ticks ahead; those on surfaces move on every sixteenth and are asked for on every second of these turns, slow ones
-/// on slow ground on every fourth; pairs on surfaces are looked at an eighth at a time. Our
+/// ticks ahead, quick ones on every fourth; those on surfaces move on every sixteenth and are asked for on every second
+/// of these turns, slow ones on slow ground on every fourth; pairs on surfaces are looked at an eighth at a time. Our
 /// choice
 void for_a_crowd(DropletDescription& description) noexcept;
 /// @throws std::invalid_argument naming what is out of range

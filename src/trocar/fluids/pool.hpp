@@ -106,7 +106,7 @@ PoolModel build(const PoolDescription& description, double tick = 1e-3);
 PoolState empty_pool(const PoolModel& model);
 PoolWork make_work(const PoolModel& model);
 
-/// One tick. Works on every `period`-th; where much flows, more often (our choice): when more than 3 mm of a cell's
+/// One tick. Works on every `period`-th; where much flows, more often (our choice): when more than 8 mm of a cell's
 /// height would pass a face in a step, steps are halved, down to a tick. Longer ones drive deep fluid that is stirred
 /// ever higher.
 /// @param ledger  drained volume is booked from the pool

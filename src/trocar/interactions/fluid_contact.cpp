@@ -400,8 +400,9 @@ void answer_drops(const WetBodies& bodies, Vec3d down, const fluids::DropletStat
       continue;
     }
     Vec3d to = place_of(w.to_x, w.to_y, w.to_z, i);
-    if (w.ways > 1) to = now + double(w.ways) * (to - now);
-    w.answers[std::size_t(k)] = meet(scene, now, to, place_of(s.vx, s.vy, s.vz, i), double(s.radius[i]));
+    const Vec3d velocity = place_of(s.vx, s.vy, s.vz, i);
+    if (w.ways > 1) to = now + double(ways_of(w, vec_cast<float>(velocity))) * (to - now);
+    w.answers[std::size_t(k)] = meet(scene, now, to, velocity, double(s.radius[i]));
   }
   for (int k = 0; k < w.film_questions; ++k) {
     const std::int32_t place = w.overfull[std::size_t(k)];
