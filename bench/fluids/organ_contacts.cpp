@@ -83,7 +83,7 @@ void OrganContacts::make_places() {
       for (int j = 0; i + j <= n; ++j) {
         const Vec3f p = tri.a + (float(i) / float(n)) * (tri.b - tri.a) + (float(j) / float(n)) * (tri.c - tri.a);
         m_place.push_back({key(p, kPlace), std::int32_t(m_places.size())});
-        m_places.push_back({p, tri.normal, kPlace * kPlace, 0, false});
+        m_places.push_back({p, tri.normal, kPlace * kPlace, false});
       }
   }
   std::stable_sort(m_place.begin(), m_place.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -98,7 +98,7 @@ void OrganContacts::make_places() {
       n += m_places[std::size_t(m_place[end].second)].normal;
     }
     where.push_back({m_place[k].first, std::int32_t(one.size())});
-    one.push_back({(1 / float(end - k)) * p, normalised(n), kPlace * kPlace, 0, false});
+    one.push_back({(1 / float(end - k)) * p, normalised(n), kPlace * kPlace, false});
     k = end;
   }
   m_places = std::move(one);

@@ -174,7 +174,8 @@ TEST(Film, IsAsOldAsTheBloodThatLiesThere) {
   const auto places = [&b](float from, float to) {
     int n = 0;
     for (std::size_t c = 0; c < b.s.droplets.film.size(); ++c)
-      n += b.s.droplets.film[c].blood > 0 && b.s.droplets.film_born[c] >= from && b.s.droplets.film_born[c] <= to;
+      n += b.s.droplets.film[c].blood > 0 && b.s.droplets.film_blood[c].born >= from &&
+           b.s.droplets.film_blood[c].born <= to;
     return n;
   };
   const int all = places(-1, 10);
@@ -183,6 +184,24 @@ TEST(Film, IsAsOldAsTheBloodThatLiesThere) {
   put_drop(b, {0, 0, 0.0815f}, {0, 0, 0}, 2'000'000);
   for (int t = 0; t < 1500; ++t) b.tick();
   EXPECT_GT(places(0.1f, 1.45f), 2) << "what another drop has left is younger, but old blood is in it too";
+}
+
+TEST(Film, OfAVeinsAndAnArterysDropsIsPartlyVenous) {
+  Scene b(small_scene());
+  b.plates = {slope(1.0)};
+  for (const float venous : {1.0f, 0.0f}) {
+    put_drop(b, {0, 0, 0.0815f}, {0, 0, 0}, 2'000'000);
+    b.s.droplets.blood[std::size_t(b.s.droplets.count - 1)].venous = venous;
+    for (int t = 0; t < 1500; ++t) b.tick();
+    int all = 0, dark = 0, mixed = 0;
+    for (std::size_t c = 0; c < b.s.droplets.film.size(); ++c) {
+      if (b.s.droplets.film[c].blood == 0) continue;
+      const float share = b.s.droplets.film_blood[c].venous;
+      ++all, dark += share == 1, mixed += share > 0.05f && share < 0.95f;
+    }
+    EXPECT_GT(all, 2);
+    EXPECT_TRUE(venous == 1 ? dark == all : mixed > 2) << dark << " and " << mixed << " of " << all;
+  }
 }
 
 TEST(Film, IsWashedByWaterThatRunsOverIt) {

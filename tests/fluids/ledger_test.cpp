@@ -70,7 +70,7 @@ void happens(test::Scene& b, core::Random& r) {
     case 0:  // a drop is born
       receive(b.s.ledger, Source::kBled, Place::kDroplets, some);
       if (!add_drop(b.m.droplets, p, {0, 0, 0}, some, b.s.droplets))
-        detail::put_into_pool(p, some, 0, Place::kDroplets, below);
+        detail::put_into_pool(p, some, {}, Place::kDroplets, below);
       break;
     case 1: {  // rain into the pool
       const PoolPoint at = locate(b.m.pool, vec_cast<double>(p));

@@ -127,6 +127,17 @@ TEST(SceneVessels, ACutVeinOozesWhereTheArteryBesideItSpurts) {
   EXPECT_GT(spurts[1], 1.3 * spurts[0]) << "pulse";
 }
 
+TEST(SceneVessels, WhatAVeinShedsIsKnownAsItsOwn) {
+  for (const auto& [vessel, expected] : {std::pair("tubal_vein_left", 1.0f), std::pair("tubal_left", 0.0f)}) {
+    Blood b;
+    b.cut(vessel, 0.5);
+    for (int i = 0; i < 400; ++i) step(pelvis(), pelvis().start, b.s, b.w);
+    const fluids::DropletState& d = b.s.fluids.droplets;
+    ASSERT_GT(d.count, 0) << vessel;
+    for (size_t i = 0; i < size_t(d.count); ++i) EXPECT_EQ(d.blood[i].venous, expected) << vessel;
+  }
+}
+
 TEST(SceneVessels, AVeinBleedsMoreWhenTheAbdomensPressureIsSuckedAwayAnArteryHardly) {
   constexpr double kMmHg = vessels::kPascalPerMmHg;
   const auto mean = [](const char* vessel, double pressure) {

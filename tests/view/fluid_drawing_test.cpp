@@ -125,16 +125,19 @@ TEST(FluidDrawing, ACapHasItsDropsVolume) {
   }
 }
 
-TEST(FluidDrawing, AFilmDarkensAsItClots) {
+TEST(FluidDrawing, AFilmDarkensAsItClotsAndIsDarkFromTheFirstWhereItCameFromAVein) {
   Scene scene;
-  for (int k = 0; k < 3; ++k) scene.s.droplets.film[std::size_t(k)] = {60'000, 0, 0};
-  std::vector<FilmPlace> places(4);
-  for (int k = 0; k < 3; ++k) places[std::size_t(k)].age = 120.0f * float(k);
+  for (std::size_t k = 0; k < 4; ++k) scene.s.droplets.film[k] = {60'000, 0, 0};
+  const float now = now_of(scene.m.droplets, scene.s.droplets);
+  for (int k = 0; k < 3; ++k) scene.s.droplets.film_blood[std::size_t(k)].born = now - 120.0f * float(k);
+  scene.s.droplets.film_blood[3] = {now, 1};
+  const std::vector<FilmPlace> places(4);
   const render::Frame frame = scene.listed(places);
-  ASSERT_EQ(frame.liquid.splats.size(), 3u);
+  ASSERT_EQ(frame.liquid.splats.size(), 4u);
   EXPECT_EQ(frame.liquid.splats[0].dark, 0);
   EXPECT_EQ(frame.liquid.splats[1].dark, 0);
   EXPECT_NEAR(frame.liquid.splats[2].dark, 0.5f, 0.01f);  // 240 s: half-way from 180 to 300
+  EXPECT_NEAR(frame.liquid.splats[3].dark, 0.6f, 0.01f);
 }
 
 TEST(FluidDrawing, AFilmRunsDownhillThroughItsPlaceAndLiesRoundWhereItIsLevel) {

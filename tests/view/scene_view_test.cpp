@@ -537,7 +537,7 @@ TEST(WetDrawing, BloodDarkensAsItClotsWhereItLies) {
   EXPECT_EQ(darkest(), 0);
   state.fluids.droplets.tick = 240'000;
   EXPECT_NEAR(darkest(), 0.5f, 0.01f) << "four minutes old";
-  for (float& born : state.fluids.droplets.film_born) born = 240;
+  for (fluids::Blood& blood : state.fluids.droplets.film_blood) blood.born = 240;
   EXPECT_EQ(darkest(), 0) << "as old as the blood in it";
   const fluids::PoolModel& pool = m.wet.model.pool;
   for (int j = 50; j < 70; ++j)

@@ -67,14 +67,14 @@ void leave_film(Moment& t, int i, std::int64_t swept) {
   SmallMix& drop = t.s.volume[i];
   const Mix washed = share(widened(film), swept), given = share(widened(drop), std::min(swept, washed.total()));
   const Mix back = share(washed, given.total());
-  float &born = t.s.born[i], &film_born = t.s.film_born[std::size_t(place)];
-  const float before = film_born;
-  film_born = detail::mean_birth(film_born, film.blood - back.blood, born, given.blood);
-  born = detail::mean_birth(born, drop.blood - given.blood, before, back.blood);
+  Blood &blood = t.s.blood[i], &film_blood = t.s.film_blood[std::size_t(place)];
+  const Blood before = film_blood;
+  film_blood = mean(film_blood, film.blood - back.blood, blood, given.blood);
+  blood = mean(blood, drop.blood - given.blood, before, back.blood);
   add(drop, back - given), add(film, given - back);
   const std::int64_t room = std::max<std::int64_t>(t.m.film_capacity - film.total(), 0);
   const Mix left = share(widened(drop), std::min(swept, room));
-  film_born = detail::mean_birth(film_born, film.blood, born, left.blood);
+  film_blood = mean(film_blood, film.blood, blood, left.blood);
   add(drop, Mix{} - left), add(film, left);
   move(t.below.ledger, Place::kDroplets, Place::kFilm, left + given - back);
   refresh_radius(t.s, i);
@@ -87,8 +87,8 @@ void become_film(Moment& t, int i) {
   SmallMix& film = t.s.film[std::size_t(place)];
   if (film.total() > kMostInACell / 2) return;
   const Mix rest = widened(t.s.volume[i]);
-  float& born = t.s.film_born[std::size_t(place)];
-  born = detail::mean_birth(born, film.blood, t.s.born[i], rest.blood);
+  Blood& blood = t.s.film_blood[std::size_t(place)];
+  blood = mean(blood, film.blood, t.s.blood[i], rest.blood);
   add(film, rest);
   t.s.volume[i] = {};
   t.w.emptied = true;
@@ -234,7 +234,7 @@ void splash(Moment& t, int i, Vec3f surface, Vec3f v, float fall) {
     const Vec3f thrown = 0.2f * (v + fall * up) + (0.35f * fall) * up + (0.2f * fall) * (ring[0] * u + ring[1] * w);
     const Vec3f from = surface + (3 * radius_of(each)) * up;
     if (!add_drop(t.m, from, thrown, part, t.s)) return;
-    t.s.born[t.s.count - 1] = t.s.born[i];
+    t.s.blood[t.s.count - 1] = t.s.blood[i];
     add(t.s.volume[i], Mix{} - part);
     t.w.to_x[t.s.count - 1] = from.x, t.w.to_y[t.s.count - 1] = from.y, t.w.to_z[t.s.count - 1] = from.z;
   }
@@ -266,7 +266,7 @@ void fall_in(Moment& t, int i) {
   const Mix volume = widened(t.s.volume[i]);
   // Over its own width and more, so that the surface is raised by no more than half a millimetre or so (our choice).
   const float wide = 60 * std::sqrt(t.s.radius[i] * t.s.radius[i] * t.s.radius[i]);
-  detail::age_pool(volume.blood, t.s.born[i], t.below);
+  detail::mix_into_pool(volume.blood, t.s.blood[i], t.below);
   fall_into(pool, t.below.floor, at.i, at.j, wide, volume, own, t.below.state);
   move(t.below.ledger, Place::kDroplets, Place::kPool, volume);
   t.s.volume[i] = {};
@@ -326,11 +326,11 @@ void run_over(Moment& t) {
     if (!add_drop(t.m, c.point + (0.5f * r) * c.normal, c.velocity, drop, t.s)) {
       if (drop.empty()) continue;
       t.report.note(FluidReport::kDropletsFull, place);
-      detail::put_into_pool(c.point, drop, t.s.film_born[std::size_t(place)], Place::kFilm, t.below);
+      detail::put_into_pool(c.point, drop, t.s.film_blood[std::size_t(place)], Place::kFilm, t.below);
     } else {
       const int i = t.s.count - 1;
       t.s.body[i] = c.body;
-      t.s.born[i] = t.s.film_born[std::size_t(place)];
+      t.s.blood[i] = t.s.film_blood[std::size_t(place)];
       t.s.ground[i] = {c.normal, dot(c.normal, c.point), c.velocity, place};
       move(t.below.ledger, Place::kFilm, Place::kDroplets, drop);
     }

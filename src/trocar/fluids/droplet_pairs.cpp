@@ -203,7 +203,7 @@ void join(const DropletModel& m, int i, int j, DropletState& s) {
   s.vx[i] += part * (s.vx[j] - s.vx[i]), s.vy[i] += part * (s.vy[j] - s.vy[i]), s.vz[i] += part * (s.vz[j] - s.vz[i]);
   if (s.body[i] < 0) s.x[i] += part * (s.x[j] - s.x[i]), s.y[i] += part * (s.y[j] - s.y[i]);
   if (s.body[i] < 0) s.z[i] += part * (s.z[j] - s.z[i]);
-  s.born[i] = mean_birth(s.born[i], s.volume[i].blood, s.born[j], s.volume[j].blood);
+  s.blood[i] = mean(s.blood[i], s.volume[i].blood, s.blood[j], s.volume[j].blood);
   s.volume[i].blood += s.volume[j].blood, s.volume[i].saline += s.volume[j].saline;
   s.volume[i].bile += s.volume[j].bile;
   s.volume[j] = {};

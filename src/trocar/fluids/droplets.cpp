@@ -18,6 +18,9 @@ void require(bool holds, const char* what) {
   if (!holds) throw std::invalid_argument(what);
 }
 bool power_of_two(int n) { return n > 0 && (n & (n - 1)) == 0; }
+Blood fresh(const DropletModel& m, const DropletState& s, const Opening& o) {
+  return {now_of(m, s), o.venous > 0 ? std::min(o.venous, 1.0f) : 0.0f};  // NaN counts as none
+}
 bool finite(Vec3f p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
 /// Cube root of a float in the normal range: exponent by a third, then Newton's steps.
@@ -68,11 +71,12 @@ void break_up(const DropletModel& m, const Opening& o, const Mix& in, std::int32
       report.note(FluidReport::kDropletsFull, index);
       break;
     }
+    s.blood[s.count - 1] = fresh(m, s, o);
     forming -= drop;
   }
   if (forming.total() < each) return;
   report.note(FluidReport::kFlowBounded, index);
-  detail::put_into_pool(o.position, forming, now_of(m, s), Place::kDroplets, below);
+  detail::put_into_pool(o.position, forming, fresh(m, s, o), Place::kDroplets, below);
   forming = {};
 }
 
@@ -80,11 +84,11 @@ void ooze(const DropletModel& m, const Opening& o, const Mix& in, DropletState& 
   receive(below.ledger, o.source, Place::kFilm, in);
   SmallMix& place = s.film[std::size_t(o.film)];
   const Mix fits = share(in, std::int64_t(kMostInACell) - place.total());
-  float& born = s.film_born[std::size_t(o.film)];
-  born = detail::mean_birth(born, place.blood, now_of(m, s), fits.blood);
+  Blood& blood = s.film_blood[std::size_t(o.film)];
+  blood = mean(blood, place.blood, fresh(m, s, o), fits.blood);
   place.blood += std::int32_t(fits.blood), place.saline += std::int32_t(fits.saline);
   place.bile += std::int32_t(fits.bile);
-  if (!(fits == in)) detail::put_into_pool(o.position, in - fits, now_of(m, s), Place::kFilm, below);
+  if (!(fits == in)) detail::put_into_pool(o.position, in - fits, fresh(m, s, o), Place::kFilm, below);
 }
 
 void open_up(const DropletModel& m, std::span<const Opening> openings, DropletState& s, Below& below,
@@ -98,7 +102,7 @@ void open_up(const DropletModel& m, std::span<const Opening> openings, DropletSt
     if (!placed || o.film >= std::int32_t(s.film.size())) {
       report.note(FluidReport::kBadOpening, i);
       receive(below.ledger, o.source, Place::kDroplets, in);
-      detail::put_into_pool(o.position, in, now_of(m, s), Place::kDroplets, below);
+      detail::put_into_pool(o.position, in, fresh(m, s, o), Place::kDroplets, below);
     } else if (o.film >= 0) {
       ooze(m, o, in, s, below);
     } else {
@@ -180,7 +184,7 @@ void catch_lost(DropletState& s, DropletWork& w, Below& below, FluidReport& repo
     const float far = (size(w.to_x[i]) + size(w.to_y[i])) + size(w.to_z[i]);
     if (far < kFarthest) continue;
     report.note(FluidReport::kBadDroplet, i);
-    detail::put_into_pool({s.x[i], s.y[i], s.z[i]}, widened(s.volume[i]), s.born[i], Place::kDroplets, below);
+    detail::put_into_pool({s.x[i], s.y[i], s.z[i]}, widened(s.volume[i]), s.blood[i], Place::kDroplets, below);
     s.volume[i] = {};
     s.body[i] = -1;
     w.emptied = true;
@@ -288,9 +292,9 @@ DropletState no_droplets(const DropletModel& m) {
   s.ground.assign(n, Ground{});
   s.volume.assign(n, SmallMix{});
   s.id.assign(n, 0);
-  s.born.assign(n, 0.0f);
+  s.blood.assign(n, Blood{});
   s.film.assign(std::size_t(m.film_cells), SmallMix{});
-  s.film_born.assign(std::size_t(m.film_cells), 0.0f);
+  s.film_blood.assign(std::size_t(m.film_cells), Blood{});
   return s;
 }
 
@@ -308,7 +312,7 @@ bool add_drop(const DropletModel& m, Vec3f p, Vec3f v, const Mix& volume, Drople
   s.body[i] = -1;
   s.ground[i] = Ground{};
   s.volume[i] = {std::int32_t(volume.blood), std::int32_t(volume.saline), std::int32_t(volume.bile)};
-  s.born[i] = now_of(m, s);
+  s.blood[i] = {now_of(m, s), 0};
   s.id[i] = s.next_id++;
   return true;
 }
@@ -358,18 +362,13 @@ Mix take_film(std::int32_t film, std::int64_t amount, DropletState& s) noexcept 
 
 namespace detail {
 
-float mean_birth(float a, std::int64_t volume_a, float b, std::int64_t volume_b) noexcept {
-  if (volume_a <= 0 || volume_b <= 0) return volume_b > 0 ? b : a;
-  return a + (b - a) * (float(volume_b) / float(volume_a + volume_b));
+void mix_into_pool(std::int64_t volume, Blood blood, Below& below) noexcept {
+  below.state.shed = mean(below.state.shed, fluids::at(below.ledger, Place::kPool).blood, blood, volume);
 }
 
-void age_pool(std::int64_t blood, float born, Below& below) noexcept {
-  below.state.born = mean_birth(below.state.born, fluids::at(below.ledger, Place::kPool).blood, born, blood);
-}
-
-void put_into_pool(Vec3f at, const Mix& volume, float born, Place from, Below& below) noexcept {
+void put_into_pool(Vec3f at, const Mix& volume, Blood blood, Place from, Below& below) noexcept {
   if (volume.empty()) return;
-  age_pool(volume.blood, born, below);
+  mix_into_pool(volume.blood, blood, below);
   const PoolPoint p = locate(below.model, vec_cast<double>(at));
   fall_into(below.model, below.floor, p.i, p.j, 4 * float(below.model.cell), volume, {0, 0, 0}, below.state);
   move(below.ledger, from, Place::kPool, volume);
@@ -384,7 +383,7 @@ void remove_empty(DropletState& s) noexcept {
     s.ground[i] = s.ground[last];
     s.volume[i] = s.volume[last];
     s.id[i] = s.id[last];
-    s.born[i] = s.born[last];
+    s.blood[i] = s.blood[last];
   }
 }
 
@@ -399,9 +398,9 @@ void add_to_hash(core::Hasher& hasher, const DropletState& s) noexcept {
   used(s.ground);
   used(s.volume);
   used(s.id);
-  used(s.born);
+  used(s.blood);
   hasher.add(s.film);
-  hasher.add(s.film_born);
+  hasher.add(s.film_blood);
   hasher.add(s.forming);
   hasher.add(s.tick);
 }

@@ -95,9 +95,9 @@ struct DropletState {
   std::vector<Ground> ground;                      ///< (capacity)
   std::vector<SmallMix> volume;                    ///< (capacity)
   std::vector<std::uint32_t> id;                   ///< (capacity)
-  std::vector<float> born;                         ///< (capacity) when its blood left the vessels, in the mean [s]
+  std::vector<Blood> blood;                        ///< (capacity)
   std::vector<SmallMix> film;                      ///< (film cells)
-  std::vector<float> film_born;                    ///< (film cells) the same of the film's blood
+  std::vector<Blood> film_blood;                   ///< (film cells)
   std::array<Mix, kMostOpenings> forming{};        ///< what hangs at an opening until it is a drop
   std::uint64_t tick = 0;
 };
@@ -110,6 +110,7 @@ struct Opening {
   Mix flow;                                     ///< in this tick [pL]
   Source source = Source::kBled;
   std::int32_t film = -1;  ///< >= 0: it oozes into the film there
+  float venous = 0;        ///< share of its blood that comes from veins, 0 .. 1
 };
 
 /// The caller's answer: the surface that a drop meets between its two positions, or runs on.
@@ -204,7 +205,7 @@ Mix drops_content(const DropletState& state) noexcept;
 Mix film_content(const DropletState& state) noexcept;
 
 float radius_of(std::int64_t picolitres) noexcept;  ///< of a ball [m]
-/// The clock of `born` [s].
+/// The clock of Blood::born [s].
 inline float now_of(const DropletModel& model, const DropletState& state) noexcept {
   return float(model.tick * double(state.tick));
 }
@@ -223,12 +224,9 @@ FluidReport pull_together(const DropletModel& model, Who who, double dt, Droplet
                           DropletWork& work) noexcept;
 /// Removes drops without volume, from the end.
 void remove_empty(DropletState& state) noexcept;
-/// @param born  of its blood, as DropletState::born
-void put_into_pool(Vec3f at, const Mix& volume, float born, Place from, Below& below) noexcept;
-/// Before more blood comes into the pool.
-void age_pool(std::int64_t blood, float born, Below& below) noexcept;
-/// Mean of two births by volume.
-float mean_birth(float a, std::int64_t volume_a, float b, std::int64_t volume_b) noexcept;
+void put_into_pool(Vec3f at, const Mix& volume, Blood blood, Place from, Below& below) noexcept;
+/// Before more blood [pL] comes into the pool.
+void mix_into_pool(std::int64_t volume, Blood blood, Below& below) noexcept;
 }  // namespace detail
 
 }  // namespace trocar::fluids

@@ -45,4 +45,10 @@ std::int64_t whole_picolitres(double flow, double dt, double& carry) noexcept {
   return whole;
 }
 
+Blood mean(Blood a, std::int64_t volume_a, Blood b, std::int64_t volume_b) noexcept {
+  if (volume_a <= 0 || volume_b <= 0) return volume_b > 0 ? b : a;
+  const float part = float(volume_b) / float(volume_a + volume_b);
+  return {a.born + (b.born - a.born) * part, a.venous + (b.venous - a.venous) * part};
+}
+
 }  // namespace trocar::fluids

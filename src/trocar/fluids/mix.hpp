@@ -39,6 +39,14 @@ struct Mix {
   }
 };
 
+/// What blood is besides how much: in the mean, when several come together.
+struct Blood {
+  float born = 0;    ///< when it left the vessels [s]
+  float venous = 0;  ///< share of it that came from veins, 0 .. 1
+};
+/// Mean of two bloods by their volumes [pL].
+Blood mean(Blood a, std::int64_t volume_a, Blood b, std::int64_t volume_b) noexcept;
+
 /// Densities of the species at 37 C [kg/m^3].
 struct Densities {
   double blood = 1060, saline = 1005, bile = 1010;

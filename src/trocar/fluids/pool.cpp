@@ -228,7 +228,7 @@ void add_to_hash(core::Hasher& hasher, const PoolState& s) noexcept {
   hasher.add(s.u);
   hasher.add(s.v);
   hasher.add(s.held);
-  hasher.add(s.born);
+  hasher.add(s.shed);
   hasher.add(s.churn), hasher.add(s.next);
   hasher.add(s.drain_carry);
   hasher.add(s.highest);

@@ -68,7 +68,7 @@ struct PoolState {
   std::vector<std::int32_t> blood, saline, bile;  ///< (size) [pL] in the cells
   std::vector<float> u, v;                        ///< (size) speed through the faces towards +u, +v [m/s]
   Mix held;                                       ///< what no cell had room for [pL]
-  float born = 0;                                 ///< when its blood left the vessels, in the mean [s]
+  Blood shed;                                     ///< what its blood is, in the mean of all
   std::array<double, kMostDrains> drain_carry{};  ///< [pL]
   float highest = 1e3f;                           ///< no surface or bed was above it at the last step [m]
   std::int32_t first_row = 0, last_row = -1;      ///< that may hold speeds other than 0

@@ -241,10 +241,10 @@ std::ptrdiff_t take_shown(const FluidsModel& m, std::span<const std::uint8_t> by
   };
   take_places(s.pool.blood.size(), fill, in);
   take_drops(m.pool.origin, in, s.droplets);
-  const float now = now_of(m.droplets, s.droplets);  // keyframes do not know how old blood is: all of it is fresh
-  std::fill(s.droplets.film_born.begin(), s.droplets.film_born.end(), now);
-  std::fill(s.droplets.born.begin(), s.droplets.born.end(), now);
-  s.pool.born = now;
+  const Blood fresh{now_of(m.droplets, s.droplets), 0};  // keyframes do not know what blood is: all of it is new
+  std::fill(s.droplets.film_blood.begin(), s.droplets.film_blood.end(), fresh);
+  std::fill(s.droplets.blood.begin(), s.droplets.blood.end(), fresh);
+  s.pool.shed = fresh;
   return in.read();
 }
 

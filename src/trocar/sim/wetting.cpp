@@ -27,6 +27,7 @@ void lay_out_bleeding(StepContext& c) noexcept {
     o.direction = vec_cast<float>(b.direction);
     o.area = b.area;
     o.flow.blood = b.picolitres;
+    o.venous = b.vein ? 1 : 0;
   }
 }
 

@@ -37,9 +37,14 @@ std::array<float, 3> shares_of(const Volume& v) {
   return {float(double(v.blood) / all), float(double(v.saline) / all), float(double(v.bile) / all)};
 }
 
-/// How far blood of that age has darkened, 0 to 1; next to none of it does not show.
-float clotted(float age, const std::array<float, 3>& share) {
-  return share[0] > 0.02f ? (1 - float(fluids::clot_brightness(double(age)))) / 0.6f : 0.0f;
+/// How much darker than fresh arterial blood, 0 to 1: what comes from veins, and what clots; next to none of it does
+/// not show. Venous blood half-way to a clot, as its colour is (our choice).
+float darkness(float now, fluids::Blood blood, const std::array<float, 3>& share) {
+  constexpr float kVenous = 0.6f;
+  if (share[0] <= 0.02f) return 0;
+  const float brightness = float(fluids::clot_brightness(double(now - blood.born)));
+  const float clot = (1 - brightness) / 0.6f;
+  return 1 - (1 - clot) * (1 - kVenous * blood.venous);
 }
 
 Vec3f at(const fluids::DropletState& d, std::int32_t i) {
@@ -172,6 +177,7 @@ bool FluidDrawing::link(const fluids::DropletState& d, std::int32_t i, std::int3
   s.radius = thin;
   s.height = thin;
   s.share = shares_of(d.volume[std::size_t(i)]);
+  s.dark = darkness(now_of(m_model->droplets, d), d.blood[std::size_t(i)], s.share);
   liquid.splats.push_back(s);
   return thin > 0.5f * size;
 }
@@ -192,8 +198,10 @@ void FluidDrawing::list_flying(const fluids::DropletState& d, Liquid& liquid) {
   }
   for (const Flying& drop : m_flying) {
     const auto k = std::size_t(drop.at);
-    if (!drop.in_strand)
-      liquid.splats.push_back(streak(at(d, drop.at), speed(d, drop.at), d.radius[k], shares_of(d.volume[k])));
+    if (drop.in_strand) continue;
+    Splat s = streak(at(d, drop.at), speed(d, drop.at), d.radius[k], shares_of(d.volume[k]));
+    s.dark = darkness(now_of(m_model->droplets, d), d.blood[k], s.share);
+    liquid.splats.push_back(s);
   }
 }
 
@@ -220,7 +228,7 @@ void FluidDrawing::list_lying(const fluids::DropletState& d, std::span<const std
     s.radius = spread * r * (1 - 0.25f * tail / (tail + 2 * r));
     s.height = ball / (1.5708f * s.radius * s.radius + 1.3333f * s.radius * tail);
     s.share = shares_of(d.volume[k]);
-    s.dark = clotted(now_of(m_model->droplets, d) - d.born[k], s.share);
+    s.dark = darkness(now_of(m_model->droplets, d), d.blood[k], s.share);
     s.sheer = std::size_t(d.body[k]) < sheer.size() && sheer[std::size_t(d.body[k])] != 0;
     liquid.splats.push_back(s);
   }
@@ -229,6 +237,7 @@ void FluidDrawing::list_lying(const fluids::DropletState& d, std::span<const std
 void FluidDrawing::list_films(const FluidSight& sight, Liquid& liquid) {
   const std::vector<fluids::SmallMix>& film = sight.state.droplets.film;
   const Vec3f down = normalised(vec_cast<float>(m_model->droplets.gravity), Vec3f{0, 0, -1});
+  const float now = now_of(m_model->droplets, sight.state.droplets);
   const std::size_t n = std::min(film.size(), sight.places.size());
   for (std::size_t k = 0; k < n; ++k) {
     const FilmPlace& place = sight.places[k];
@@ -236,7 +245,7 @@ void FluidDrawing::list_films(const FluidSight& sight, Liquid& liquid) {
     if (!(thickness > kThinnestFilm) || !finite(place.position) || !finite(place.normal)) continue;
     Splat s = stain(place, thickness * place.area, float(varied(int(k & 0x7fffffff), 7)), down);
     s.share = shares_of(film[k]);
-    s.dark = clotted(place.age, s.share);
+    s.dark = darkness(now, sight.state.droplets.film_blood[k], s.share);
     s.sheer = place.sheer;
     liquid.splats.push_back(s);
   }
@@ -301,7 +310,7 @@ void FluidDrawing::list_pool(const FluidSight& sight, Liquid& liquid) {
   smooth_pool(pool, sight.floor);
   const int w = m_window.width, h = m_window.height;
   if (w < 2 || h < 2) return;
-  const float age = now_of(m_model->droplets, sight.state.droplets) - pool.born;
+  const float now = now_of(m_model->droplets, sight.state.droplets);
   constexpr std::uint32_t kNone = ~0u;
   m_corner.assign(m_window.size(), kNone);
   const auto cell = [&](int i, int j) { return std::size_t(j) * w + i; };
@@ -326,7 +335,7 @@ void FluidDrawing::list_pool(const FluidSight& sight, Liquid& liquid) {
     v.cover = m_cover[k];
     v.share_b = share[1];
     v.share_c = share[2];
-    v.dark = clotted(age, share);
+    v.dark = darkness(now, pool.shed, share);
     // Where it is stirred it froths.
     const auto face = std::size_t(m.at(ci, cj));
     const float u = pool.u[face], s = pool.v[face];

@@ -22,7 +22,6 @@ namespace trocar::view {
 struct FilmPlace {
   Vec3f position, normal{0, 0, 1};  ///< normal: unit
   float area = 4e-6f;               ///< [m^2]
-  float age = 0;                    ///< [s] since its blood left the vessel
   bool sheer = false;               ///< it lies on something that is drawn translucent
 };
 

@@ -86,13 +86,11 @@ void WetDrawing::list(const sim::State& state, render::Frame& frame) {
   pose(state);
   const interactions::WetBodies bodies{m_surfaces, m_sheets, m_model->bodies, state.strands, m_model->wet.film};
   const Vec3d down = normalised(m_model->gravity, {0, 0, -1});
-  const float now = now_of(m_model->wet.model.droplets, state.fluids.droplets);
   for (std::size_t i = 0; i < m_places.size(); ++i) {
     if (state.fluids.droplets.film[i].total() == 0) continue;
     const interactions::WetPlace at = wet_place(bodies, down, std::int32_t(i));
-    const float age = now - state.fluids.droplets.film_born[i];
     const bool sheer = at.body >= 0 && m_sheer[std::size_t(at.body)] != 0;
-    m_places[i] = {vec_cast<float>(at.point), vec_cast<float>(at.normal), m_places[i].area, age, sheer};
+    m_places[i] = {vec_cast<float>(at.point), vec_cast<float>(at.normal), m_places[i].area, sheer};
   }
   m_drawing.list({state.fluids, state.pool_floor, m_places, m_sheer}, frame);
 }
