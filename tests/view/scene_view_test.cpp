@@ -154,21 +154,6 @@ TEST(SceneView, TheScopesConeFillsTheMask) {
   EXPECT_LT(length(vec_cast<double>(frame.camera.rotation.column(1)) - scope.up), 1e-5);
 }
 
-TEST(SceneView, AStereoPairLooksFromTwoPlacesAndMetersOnce) {
-  auto backend = render::make_null_backend();
-  SceneView view(pelvis(), *backend);
-  const sim::State state = sim::initial_state(pelvis());
-  ViewOptions left, right;
-  left.eye_shift = -0.0025;
-  right.eye_shift = 0.0025;
-  right.metering = false;
-  const render::Frame a = view.frame(state, left), b = view.frame(state, right);
-  const Vec3f apart = b.camera.position - a.camera.position;
-  EXPECT_NEAR(dot(apart, a.camera.rotation.column(0)), 0.005f, 1e-6f);
-  EXPECT_TRUE(a.metering);
-  EXPECT_FALSE(b.metering);
-}
-
 TEST(SceneView, WithoutInstrumentsNoMetalIsDrawn) {
   auto backend = render::make_null_backend();
   SceneView view(pelvis(), *backend);

@@ -14,6 +14,7 @@
 #include <trocar/render/frame.hpp>
 #include <trocar/render/image.hpp>
 #include <trocar/render/mesh_data.hpp>
+#include <trocar/render/stereo.hpp>
 
 namespace trocar::render {
 
@@ -53,6 +54,10 @@ class Backend {
   virtual void begin_frame(const Frame& frame, const Target& target) = 0;
   virtual void draw(const DrawItem& item) = 0;
   virtual void end_frame() = 0;
+
+  /// Puts the pictures of both eyes together. Both, and of one size, must have been drawn (Target::left_eye, right_eye)
+  /// since the last time. Quad buffers need a window with them.
+  virtual void combine(StereoMode mode, const Target& target) = 0;
 
   /// The target of the last frame.
   virtual Image read_pixels() = 0;

@@ -43,6 +43,10 @@ void check_mesh(const MeshData& data, const char* call) {
                 std::to_string(n) + " vertices");
 }
 
+bool is_eye(const Target& target) {
+  return target.framebuffer == Target::kLeftEye || target.framebuffer == Target::kRightEye;
+}
+
 void check_camera(const Camera& camera, const char* call) {
   require(finite(camera.position), call, "camera position is not finite");
   for (int j = 0; j < 3; ++j) {
@@ -50,6 +54,7 @@ void check_camera(const Camera& camera, const char* call) {
     require(std::fabs(size - 1) < 1e-3f, call, "camera rotation is not a rotation");
   }
   require(camera.vertical_fov > 0.01f && camera.vertical_fov < 3.0f, call, "vertical fov is not within 0.01..3 rad");
+  require(std::fabs(camera.shift) < 10, call, "camera shift is not within -10..10");
   require(camera.near_plane > 0 && camera.far_plane > camera.near_plane && std::isfinite(camera.far_plane), call,
           "0 < near < far does not hold");
 }
@@ -297,10 +302,26 @@ void CheckedBackend::end_frame() {
   sort_items();
   on_frame(m_frame, m_target, m_opaque, m_translucent);
   m_has_picture = true;
+  if (m_target.framebuffer == Target::kLeftEye) m_left = m_target;
+  if (m_target.framebuffer == Target::kRightEye) m_right = m_target;
   ++m_stats.frames;
   m_stats.puffs += m_frame.puffs.size();
   m_stats.splats += m_frame.liquid.splats.size();
   m_stats.sheet_triangles += m_frame.liquid.triangles.size() / 3;
+}
+
+void CheckedBackend::combine(StereoMode mode, const Target& target) {
+  const char* call = "combine";
+  require(!m_in_frame, call, "a frame is open");
+  require(m_left.width > 0 && m_right.width > 0, call, "both eyes' pictures must be drawn first");
+  require(m_left.width == m_right.width && m_left.height == m_right.height, call,
+          "the eyes' pictures are not of one size");
+  require(target.width > 0 && target.height > 0, call, "an empty target");
+  require(!is_eye(target), call, "an eye's picture is no target for both");
+  require(mode != StereoMode::quad_buffer || target.framebuffer == 0, call, "only a window has quad buffers");
+  on_combine(mode, target);
+  m_target = target;
+  m_left = m_right = {};
 }
 
 Image CheckedBackend::read_pixels() {

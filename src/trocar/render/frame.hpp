@@ -26,6 +26,7 @@ struct Camera {
   float vertical_fov = 1.05f;  ///< [rad] of the whole picture height
   float near_plane = 0.003f;   ///< [m]
   float far_plane = 0.6f;      ///< [m]
+  float shift = 0;  ///< tangent of how far to the right the picture's middle looks: an off-axis frustum (stereo.hpp)
 };
 /// A camera at `eye` looking at `target`, the picture's top as near to `up` as can be.
 Camera look_at(Vec3f eye, Vec3f target, Vec3f up);
@@ -129,13 +130,16 @@ struct Frame {
 
 /// Where the picture goes.
 struct Target {
-  static constexpr unsigned kOwnBuffer = ~0u;
+  static constexpr unsigned kOwnBuffer = ~0u, kLeftEye = ~0u - 1, kRightEye = ~0u - 2;
   unsigned framebuffer = kOwnBuffer;  ///< GL name, 0 = the window
   int x = 0, y = 0;                   ///< lower left corner [px]
   int width = 0, height = 0;          ///< [px]
 
   static Target off_screen(int width, int height) { return {kOwnBuffer, 0, 0, width, height}; }
   static Target window(int width, int height) { return {0, 0, 0, width, height}; }
+  /// A picture that the backend keeps until both are put together (Backend::combine).
+  static Target left_eye(int width, int height) { return {kLeftEye, 0, 0, width, height}; }
+  static Target right_eye(int width, int height) { return {kRightEye, 0, 0, width, height}; }
 };
 
 }  // namespace trocar::render

@@ -1,4 +1,6 @@
 // The backend that draws. on_frame is the list of passes; each is one function in the files beside this one.
+#include <string>
+
 #include <trocar/render/gl_backend_parts.hpp>
 #include <trocar/render/gl_context.hpp>
 #include <trocar/render/patterns.hpp>
@@ -117,10 +119,17 @@ void GlBackend::on_frame(const Frame& frame, const Target& target, std::span<con
   leave_state_clean();
 }
 
+GlPicture* GlBackend::own_picture(const Target& target) {
+  if (target.framebuffer == Target::kOwnBuffer) return &m_own;
+  if (target.framebuffer == Target::kLeftEye) return &m_left;
+  if (target.framebuffer == Target::kRightEye) return &m_right;
+  return nullptr;
+}
+
 void GlBackend::bind_target(const Target& target) {
-  if (target.framebuffer == Target::kOwnBuffer) {
-    m_own.resize(target.width, target.height, GL_RGBA8, false, GL_NEAREST);
-    m_own.bind();
+  if (GlPicture* own = own_picture(target)) {
+    own->resize(target.width, target.height, GL_RGBA8, false, own == &m_own ? GL_NEAREST : GL_LINEAR);
+    own->bind();
   } else {
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
   }
@@ -138,9 +147,36 @@ void GlBackend::leave_state_clean() {
   glActiveTexture(GL_TEXTURE0);
 }
 
+void GlBackend::on_combine(StereoMode mode, const Target& target) {
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_BLEND);
+  if (mode == StereoMode::quad_buffer) {
+    for (const bool right : {false, true}) {
+      bind_target(target);
+      glDrawBuffer(right ? GL_BACK_RIGHT : GL_BACK_LEFT);
+      glBindFramebuffer(GL_READ_FRAMEBUFFER, (right ? m_right : m_left).framebuffer.id());
+      glBlitFramebuffer(0, 0, m_left.width, m_left.height, target.x, target.y, target.x + target.width,
+                        target.y + target.height, GL_COLOR_BUFFER_BIT, GL_LINEAR);
+    }
+    glDrawBuffer(GL_BACK);
+    return leave_state_clean();
+  }
+  bind_target(target);
+  GlProgram& program = m_programs.get("full.vert", "combine.frag", "MODE=" + std::to_string(int(mode)));
+  program.use();
+  program.set("u_left", kUnitPicture);
+  program.set("u_right", kUnitSmall);
+  program.set("u_place", float(target.x), float(target.y), float(target.width), float(target.height));
+  bind_texture(kUnitPicture, GL_TEXTURE_2D, m_left.colour.id());
+  bind_texture(kUnitSmall, GL_TEXTURE_2D, m_right.colour.id());
+  draw_full();
+  leave_state_clean();
+}
+
 Image GlBackend::on_read(const Target& target) {
-  if (target.framebuffer == Target::kOwnBuffer)
-    m_own.bind();
+  if (const GlPicture* own = own_picture(target))
+    own->bind();
   else
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
   Image image{target.width, target.height, {}};

@@ -55,6 +55,7 @@ class GlBackend final : public CheckedBackend {
   void on_prepare_liquids() override;
   void on_frame(const Frame& frame, const Target& target, std::span<const DrawItem* const> opaque,
                 std::span<const DrawItem* const> translucent) override;
+  void on_combine(StereoMode mode, const Target& target) override;
   Image on_read(const Target& target) override;
 
   void begin_scene(const Frame& frame, const Target& target, const Layout& layout);
@@ -110,6 +111,8 @@ class GlBackend final : public CheckedBackend {
   void draw_view(GlProgram& program, const EndoscopeLook& look, float radius, float width, float height);
 
   void bind_target(const Target& target);
+  /// The picture that we keep ourselves for this target; none for the window and foreign buffers.
+  GlPicture* own_picture(const Target& target);
   /// Others draw into the same context (menus): leave nothing bound that they would trip over.
   void leave_state_clean();
 
@@ -127,7 +130,7 @@ class GlBackend final : public CheckedBackend {
   GlPrograms m_programs;
   GlTexture m_noise, m_cells, m_vessels, m_arcade;
   GlVertexArray m_no_vertices;
-  GlPicture m_scene, m_shade, m_small, m_smaller, m_developed, m_own, m_bed, m_smoke;
+  GlPicture m_scene, m_shade, m_small, m_smaller, m_developed, m_own, m_left, m_right, m_bed, m_smoke;
   std::array<GlPicture, 3> m_blur_rough, m_blur;
   std::array<GlPicture, 3> m_wet;  ///< field, thickness, film; the first one's framebuffer draws into all of them
   GlVertexArray m_splat_layout, m_sheet_layout, m_tile_layout;
@@ -142,6 +145,7 @@ class GlBackend final : public CheckedBackend {
   std::array<GlPicture, 2> m_rough, m_exposure;
   std::array<Memory, kEyes> m_memory;
   Mat4 m_view, m_projection;
+  float m_shift = 0;  ///< of the frame's camera
   std::array<float, 8 * 4> m_frame_rows{};
   std::array<float, 8 * kMaxRods> m_rod_rows{};
   int m_rod_count = 0;

@@ -26,7 +26,8 @@ struct Bounds2 {
   float x0 = 9, y0 = 9, x1 = -9, y1 = -9;  ///< clip space
   void add(Vec3f eye, float radius, const Mat4& projection) {
     const float far = std::max(-eye.z - radius, 1e-3f);
-    const float x = projection.m[0] * eye.x / std::max(-eye.z, 1e-3f), rx = projection.m[0] * radius / far;
+    const float x = projection.m[0] * eye.x / std::max(-eye.z, 1e-3f) - projection.m[8],
+                rx = projection.m[0] * radius / far;
     const float y = projection.m[5] * eye.y / std::max(-eye.z, 1e-3f), ry = projection.m[5] * radius / far;
     x0 = std::min(x0, x - rx), x1 = std::max(x1, x + rx);
     y0 = std::min(y0, y - ry), y1 = std::max(y1, y + ry);
@@ -86,7 +87,7 @@ void GlBackend::set_liquid(const Frame& frame, GlProgram& program) {
   program.set("u_bed", kUnitBed);
   program.set("u_noise", kUnitNoise);
   const float tan_y = 1 / m_projection.m[5], tan_x = 1 / m_projection.m[0];
-  program.set("u_tan", tan_x, tan_y);
+  program.set("u_tan", Vec3f{tan_x, tan_y, m_shift});
   program.set("u_size", float(m_scene.width), float(m_scene.height), 1.0f / float(m_scene.width),
               1.0f / float(m_scene.height));
   const Mat3f& turn = frame.camera.rotation;

@@ -54,7 +54,9 @@ std::array<float, 8> GlBackend::reach_of(int rod, float aspect, float tan_half) 
   if (a.z > -kNear) std::swap(a, b);
   if (a.z > -kNear) return {};  // beside or behind the lens, and so its shadow
   if (b.z > -kNear) b = a + ((-kNear - a.z) / (b.z - a.z)) * (b - a);
-  const auto at = [&](Vec3f p) { return std::array<float, 2>{p.x / (-p.z * tan_half), p.y / (-p.z * tan_half)}; };
+  const auto at = [&](Vec3f p) {
+    return std::array<float, 2>{(p.x / -p.z - m_shift) / tan_half, p.y / (-p.z * tan_half)};
+  };
   const auto margin = [&](Vec3f p) { return (row[3] + kRodReach) / (std::max(-p.z - 0.006f, 0.004f) * tan_half); };
   const std::array<float, 2> p = at(a), q = at(b);
   const float dx = q[0] - p[0], dy = q[1] - p[1], length = std::max(std::sqrt(dx * dx + dy * dy), 1e-6f);
@@ -86,7 +88,7 @@ void GlBackend::shade_pass(const Frame& frame, const Layout& layout) {
   const Vec3f lamp = kShadowSpread * frame.light.position;
   program.set("u_lamp", lamp.x, lamp.y, lamp.z, frame.light.ring);
   const float tan_y = 1 / m_projection.m[5], tan_x = 1 / m_projection.m[0];
-  program.set("u_tan", tan_x, tan_y);
+  program.set("u_tan", Vec3f{tan_x, tan_y, m_shift});
   glBindVertexArray(m_no_vertices.id());
   for (int i = 0; i < m_rod_count; ++i) {
     const float* row = &m_rod_rows[std::size_t(8 * i)];

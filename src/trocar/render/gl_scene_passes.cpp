@@ -20,9 +20,11 @@ void GlBackend::begin_scene(const Frame& frame, const Target& target, const Layo
   m_scene.bind();
   const Camera& camera = frame.camera;
   m_view = view_matrix(camera.rotation, camera.position);
+  m_shift = camera.shift;
   const float part = float(layout.box_h) / float(target.height);
   const float fov = 2 * std::atan(part * std::tan(camera.vertical_fov / 2));
-  m_projection = perspective(fov, float(layout.box_w) / float(layout.box_h), camera.near_plane, camera.far_plane);
+  m_projection =
+      perspective(fov, float(layout.box_w) / float(layout.box_h), camera.near_plane, camera.far_plane, camera.shift);
   m_frame_rows = packed(frame);
   pack_rods(frame);
 

@@ -47,7 +47,7 @@ void GlBackend::smoke_pass(const Frame& frame) {
   program.set("u_grid", kUnitCells);
   program.set("u_noise", kUnitNoise);
   bind_texture(kUnitPicture, GL_TEXTURE_2D, m_scene.colour.id());
-  program.set("u_tan", 1 / m_projection.m[0], 1 / m_projection.m[5]);
+  program.set("u_tan", Vec3f{1 / m_projection.m[0], 1 / m_projection.m[5], m_shift});
   const Mat3f& turn = frame.camera.rotation;
   program.set("u_right", turn.column(0));
   program.set("u_up", turn.column(1));

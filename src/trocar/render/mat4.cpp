@@ -25,10 +25,10 @@ Mat4 view_matrix(const Mat3f& rotation, Vec3f position) {
   return placement(inverse, -(inverse * position));
 }
 
-Mat4 perspective(float vertical_fov, float aspect, float near_plane, float far_plane) {
+Mat4 perspective(float vertical_fov, float aspect, float near_plane, float far_plane, float shift) {
   const float f = 1 / std::tan(vertical_fov / 2);
   const float depth = near_plane - far_plane;
-  return {{f / aspect, 0, 0, 0, 0, f, 0, 0, 0, 0, (far_plane + near_plane) / depth, -1, 0, 0,
+  return {{f / aspect, 0, 0, 0, 0, f, 0, 0, f / aspect * shift, 0, (far_plane + near_plane) / depth, -1, 0, 0,
            2 * far_plane * near_plane / depth, 0}};
 }
 

@@ -20,7 +20,8 @@ Mat4 placement(const Mat3f& rotation, Vec3f translation);
 /// World -> eye for a camera whose rotation columns are right, up and backward.
 Mat4 view_matrix(const Mat3f& rotation, Vec3f position);
 /// Eye -> clip. @param vertical_fov [rad], aspect = width / height, 0 < near < far [m]
-Mat4 perspective(float vertical_fov, float aspect, float near_plane, float far_plane);
+/// @param shift  tangent of how far to the right the picture's middle looks
+Mat4 perspective(float vertical_fov, float aspect, float near_plane, float far_plane, float shift = 0);
 
 Vec3f transform_point(const Mat4& a, Vec3f p);
 Vec3f transform_direction(const Mat4& a, Vec3f v);

@@ -9,16 +9,7 @@ using render::Camera;
 using render::EndoscopeLook;
 using render::Light;
 
-namespace {
-
-Camera shifted(Camera camera, double shift) {
-  camera.position += float(shift) * camera.rotation.column(0);
-  return camera;
-}
-
-}  // namespace
-
-Camera scope_camera(const kinematics::ScopeFrame& scope, double field_of_view, double shift) {
+Camera scope_camera(const kinematics::ScopeFrame& scope, double field_of_view) {
   Camera camera;
   camera.position = vec_cast<float>(scope.eye);
   camera.rotation =
@@ -26,7 +17,7 @@ Camera scope_camera(const kinematics::ScopeFrame& scope, double field_of_view, d
   camera.vertical_fov = float(field_of_view);
   camera.near_plane = 0.002f;
   camera.far_plane = 0.5f;
-  return shifted(camera, shift);
+  return camera;
 }
 
 double notch_angle(const kinematics::ScopeFrame& scope, const kinematics::TipFrame& shaft, double post) {
@@ -34,12 +25,12 @@ double notch_angle(const kinematics::ScopeFrame& scope, const kinematics::TipFra
   return std::atan2(dot(side, scope.right), dot(side, scope.up));
 }
 
-Camera outside_camera(Vec3d eye, Vec3d target, Vec3d up, double field_of_view, double shift) {
+Camera outside_camera(Vec3d eye, Vec3d target, Vec3d up, double field_of_view) {
   Camera camera = render::look_at(vec_cast<float>(eye), vec_cast<float>(target), vec_cast<float>(up));
   camera.vertical_fov = float(field_of_view);
   camera.near_plane = 0.01f;
   camera.far_plane = 3;
-  return shifted(camera, shift);
+  return camera;
 }
 
 Light room_light() {

@@ -8,14 +8,13 @@
 namespace trocar::view {
 
 /// Camera at the scope's tip. The circle of the mask, one picture height wide, holds the cone `field_of_view` [rad].
-/// @param shift [m] to the right (stereo)
-render::Camera scope_camera(const kinematics::ScopeFrame& scope, double field_of_view, double shift);
+render::Camera scope_camera(const kinematics::ScopeFrame& scope, double field_of_view);
 /// The notch on the mask's rim stands where the light post is [rad, clockwise from 12 o'clock].
 /// @param shaft without roll; @param post the light post's turn [rad]
 double notch_angle(const kinematics::ScopeFrame& scope, const kinematics::TipFrame& shaft, double post);
 
 /// A free camera; far plane and near plane fit a scene of about half a metre.
-render::Camera outside_camera(Vec3d eye, Vec3d target, Vec3d up, double field_of_view, double shift);
+render::Camera outside_camera(Vec3d eye, Vec3d target, Vec3d up, double field_of_view);
 /// Room light for it: the same everywhere, from above the camera.
 render::Light room_light();
 render::EndoscopeLook room_look();

@@ -389,20 +389,20 @@ Frame SceneView::frame(const sim::State& state, const ViewOptions& options) {
   const bool inside = options.camera != ViewOptions::Camera::outside;
   if (inside) {
     const kinematics::ScopeFrame scope = sim::scope_of(p.model, state);
-    frame.camera = scope_camera(scope, p.model.scope.field_of_view, options.eye_shift);
+    frame.camera = scope_camera(scope, p.model.scope.field_of_view);
     kinematics::FulcrumPose shaft = pose_of(state.scope);
     shaft.roll = 0;
     const kinematics::TipFrame tip = kinematics::forward(p.model.scope.port, shaft);
     frame.look.notch_angle = float(notch_angle(scope, tip, double(state.scope.post)));
     if (options.camera == ViewOptions::Camera::inside) {
       const float cone = frame.camera.vertical_fov, near = frame.camera.near_plane, far = frame.camera.far_plane;
-      frame.camera = outside_camera(options.eye, options.target, options.up, double(cone), options.eye_shift);
+      frame.camera = outside_camera(options.eye, options.target, options.up, double(cone));
       frame.camera.near_plane = near;
       frame.camera.far_plane = far;
       frame.look.notch_angle = 0;
     }
   } else {
-    frame.camera = outside_camera(options.eye, options.target, options.up, options.outside_fov, options.eye_shift);
+    frame.camera = outside_camera(options.eye, options.target, options.up, options.outside_fov);
     frame.light = room_light();
     frame.look = room_look();
     frame.background = {0.09f, 0.10f, 0.11f};

@@ -27,8 +27,7 @@ struct ViewOptions {
   double outside_fov = 0.7;                                          ///< [rad] of the picture's height
   bool walls = true;  ///< outside: false leaves out what encloses the scene
   bool instruments = true;
-  double eye_shift = 0;  ///< [m] to the right, for the two eyes of a stereo pair
-  bool metering = true;  ///< false for the second eye
+  bool metering = true;  ///< false: exposed as its memory says, which stays as it is
   render::Quality quality;
   int eye_index = 0;  ///< 0..7: each picture has its own exposure memory
 };

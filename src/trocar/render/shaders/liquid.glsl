@@ -5,7 +5,7 @@ uniform vec4 u_shine;     // reflectance, (alpha of drops and sheet)^2, (alpha o
 uniform mat4 u_projection;
 uniform sampler2D u_bed;  // the scene below; alpha: distance [m]
 uniform sampler3D u_noise;
-uniform vec2 u_tan;       // of half the angles of view
+uniform vec3 u_tan;       // of half the angles of view, and of how far right the middle looks
 uniform vec4 u_size;      // of the scene picture [px], and 1 / it
 uniform vec3 u_right, u_up, u_back;  // the eye's axes in the world
 uniform vec4 u_eye;       // where it is, and the time [s]
@@ -54,4 +54,6 @@ float mirror_share(float nv) {
 }
 
 /// Where an eye-space point is in the picture, 0..1.
-vec2 in_picture(vec3 eye) { return 0.5 - 0.5 * eye.xy / (min(eye.z, -1.0e-4) * u_tan); }
+vec2 in_picture(vec3 eye) {
+  return 0.5 + 0.5 * (eye.xy / max(-eye.z, 1.0e-4) - vec2(u_tan.z, 0.0)) / u_tan.xy;
+}

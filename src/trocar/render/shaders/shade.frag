@@ -5,12 +5,12 @@ precision highp float;
 uniform sampler2D u_scene;  // alpha: distance [m]
 uniform vec4 u_rod, u_way;
 uniform vec4 u_lamp;  // and the radius of its disc
-uniform vec2 u_tan;   // of half the angles of view
+uniform vec3 u_tan;   // of half the angles of view, and of how far right the middle looks
 in vec2 v_at;
 out vec4 o_shade;
 
 void main() {
   float far = texelFetch(u_scene, ivec2(gl_FragCoord.xy), 0).a;
-  vec3 eye = far * normalize(vec3(v_at * u_tan, -1.0));
+  vec3 eye = far * normalize(vec3(v_at * u_tan.xy + vec2(u_tan.z, 0.0), -1.0));
   o_shade = vec4(shade_of_rod(eye, u_lamp.xyz, u_lamp.w, u_rod, u_way), 1.0, 1.0);
 }

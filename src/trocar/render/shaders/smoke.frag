@@ -4,7 +4,7 @@
 uniform sampler2D u_scene;  // alpha: distance [m]
 uniform sampler3D u_grid;   // square root of the density
 uniform sampler3D u_noise;
-uniform vec2 u_tan;
+uniform vec3 u_tan;                  // of half the angles of view, and of how far right the middle looks
 uniform vec3 u_right, u_up, u_back;  // the eye's axes in the world
 uniform vec4 u_from;                 // the eye from the grid's corner [m], and 1 / edge of a cell
 uniform vec3 u_extent;               // of the grid, in cells
@@ -22,7 +22,7 @@ const int kSteps = 6;
 #endif
 
 void main() {
-  vec3 way = normalize(vec3((2.0 * v_uv - 1.0) * u_tan, -1.0));
+  vec3 way = normalize(vec3((2.0 * v_uv - 1.0) * u_tan.xy + vec2(u_tan.z, 0.0), -1.0));
   float far = texture(u_scene, v_uv).a;
   vec3 to = u_right * way.x + u_up * way.y + u_back * way.z;
   // Where the ray is in the grid.

@@ -16,7 +16,7 @@ void main() {
   vec4 field = texture(u_field, v_uv);
   if (field.w < 0.0003) discard;
   vec4 bed = texelFetch(u_bed, ivec2(gl_FragCoord.xy), 0);
-  vec3 way = normalize(vec3((2.0 * v_uv - 1.0) * u_tan, -1.0)), V = -way;
+  vec3 way = normalize(vec3((2.0 * v_uv - 1.0) * u_tan.xy + vec2(u_tan.z, 0.0), -1.0)), V = -way;
   float pixel = -way.z * bed.a * 2.0 * u_tan.y * u_size.w;  // [m]
 
   // Outlines on tissue wander as it does.
