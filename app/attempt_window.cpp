@@ -10,7 +10,6 @@
 #include <trocar/core/log.hpp>
 
 #include "hand_names.hpp"
-#include "mirror.hpp"
 #include "paths.hpp"
 #include "sources.hpp"
 #include "ui.hpp"
@@ -203,9 +202,7 @@ void AttemptWindow::draw_scene(const Snapshot& now) {
   const int width = std::max(1, window.width() - int(panel)), height = std::max(1, window.height());
   view::ViewOptions options;
   options.quality = m_stage.governor.quality();
-  render::draw_frame(*m_stage.backend, m_stage.view_of(m_lesson).frame(now.state, options),
-                     render::Target::window(width, height));
-  if (m_stage.settings.mirrored_picture) mirror(width, height);
+  m_stage.draw_scene(m_stage.view_of(m_lesson).frame(now.state, options), width, height);
   ui::set_middle(float(width));
   const PanelContent content{m_lesson,
                              now,

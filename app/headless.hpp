@@ -6,6 +6,7 @@
 
 #include "picture_size.hpp"
 #include "session.hpp"
+#include "two_eyes.hpp"
 
 namespace trocar::app {
 
@@ -13,6 +14,7 @@ struct HeadlessOptions {
   std::filesystem::path shots;  ///< folder; empty: none
   std::filesystem::path video;  ///< file; empty: none
   PictureSize size;
+  TwoEyes eyes;        ///< of pictures and film
   double seconds = 0;  ///< stop after so much simulated time; 0: no limit
 };
 

@@ -13,8 +13,9 @@
 
 namespace trocar::app {
 
-Pictures::Pictures(const sim::Model& model, PictureSize size)
+Pictures::Pictures(const sim::Model& model, PictureSize size, const TwoEyes& eyes)
     : m_size(size),
+      m_eyes(eyes),
       m_context(render::GlContext::off_screen()),
       m_backend(render::make_gl_backend(*m_context)),
       m_view(std::make_unique<view::SceneView>(model, *m_backend)) {}
@@ -25,7 +26,7 @@ const std::string& Pictures::driver() const { return m_context->description(); }
 
 render::Image Pictures::draw(const sim::State& state, view::ViewOptions options) {
   const render::Frame frame = m_view->frame(state, options);
-  render::draw_frame(*m_backend, frame, render::Target::off_screen(m_size.width, m_size.height));
+  draw_for(m_eyes, *m_backend, frame, render::Target::off_screen(m_size.width, m_size.height));
   return m_backend->read_pixels();
 }
 
@@ -36,7 +37,7 @@ render::Image Pictures::still(const sim::State& state, view::ViewOptions options
   render::Frame frame = m_view->frame(state, options);
   for (int i = 0; i <= kSettling; ++i) {
     frame.tick = state.tick + std::uint64_t(i) * 2000;
-    render::draw_frame(*m_backend, frame, render::Target::off_screen(m_size.width, m_size.height));
+    draw_for(m_eyes, *m_backend, frame, render::Target::off_screen(m_size.width, m_size.height));
   }
   return m_backend->read_pixels();
 }

@@ -14,6 +14,7 @@
 
 #include "json.hpp"
 #include "picture_size.hpp"
+#include "two_eyes.hpp"
 
 namespace trocar::render {
 class GlContext;
@@ -23,7 +24,8 @@ namespace trocar::app {
 
 class Pictures {
  public:
-  Pictures(const sim::Model& model, PictureSize size);  ///< @throws core::EnvironmentLacks without OpenGL
+  /// @throws core::EnvironmentLacks without OpenGL
+  Pictures(const sim::Model& model, PictureSize size, const TwoEyes& eyes = {});
   ~Pictures();
 
   /// The next picture of a stream (exposure follows the scene as a camera's does).
@@ -34,6 +36,7 @@ class Pictures {
 
  private:
   PictureSize m_size;
+  TwoEyes m_eyes;
   std::unique_ptr<render::GlContext> m_context;
   std::unique_ptr<render::Backend> m_backend;
   std::unique_ptr<view::SceneView> m_view;

@@ -23,18 +23,26 @@ const scene::Shape& settings_shape() {
   static const scene::Shape shape{
       "settings",
       "What a person has chosen for the trainer's window.",
-      {scene::needed(keys::format(1)), keys::flag("left_handed", "mouse buttons, gamepad sides, order of the hands"),
+      {scene::needed(keys::format(1)),
+       keys::flag("left_handed", "mouse buttons, gamepad sides, order of the hands"),
        keys::number("mouse", kLeastSense, kMostSense, "sensitivity"),
        keys::number("wheel", kLeastSense, kMostSense, "sensitivity"),
        keys::number("keyboard", kLeastSense, kMostSense, "sensitivity"),
        keys::number("gamepad", kLeastSense, kMostSense, "sensitivity"),
        keys::flag("invert_x", "instrument moves against the hand, sideways"),
        keys::flag("invert_y", "instrument moves against the hand, up and down"),
-       keys::flag("invert_view_x", "endoscope, sideways"), keys::flag("invert_view_y", "endoscope, up and down"),
+       keys::flag("invert_view_x", "endoscope, sideways"),
+       keys::flag("invert_view_y", "endoscope, up and down"),
        keys::flag("mirrored_picture", "left and right of the picture exchanged"),
-       keys::number("volume", 0, 1, "of sounds"), keys::number("text_size", kLeastText, kMostText, "of all texts"),
+       keys::choice("stereo", stereo_names(), "pictures for two eyes"),
+       keys::number("eye_distance_mm", kLeastBase, kMostBase, "between the two eyes"),
+       keys::number("convergence_mm", kLeastConvergence, kMostConvergence, "to what lies on the screen"),
+       keys::flag("swap_eyes", "for screens that have them the other way round"),
+       keys::number("volume", 0, 1, "of sounds"),
+       keys::number("text_size", kLeastText, kMostText, "of all texts"),
        keys::integer("window_width", kLeastWidth, kMostPixels, "[px]"),
-       keys::integer("window_height", kLeastHeight, kMostPixels, "[px]"), keys::text("trainee", "the last one"),
+       keys::integer("window_height", kLeastHeight, kMostPixels, "[px]"),
+       keys::text("trainee", "the last one"),
        keys::flag("show_hint", "the three things to know, before an attempt")}};
   return shape;
 }
@@ -59,6 +67,10 @@ Settings read_settings(const fs::path& file, std::vector<core::Fault>& faults, c
   s.invert_view_x = o.flag("invert_view_x", s.invert_view_x);
   s.invert_view_y = o.flag("invert_view_y", s.invert_view_y);
   s.mirrored_picture = o.flag("mirrored_picture", s.mirrored_picture);
+  s.stereo = o.text("stereo", s.stereo);
+  s.eye_distance = o.number("eye_distance_mm", s.eye_distance);
+  s.convergence = o.number("convergence_mm", s.convergence);
+  s.swap_eyes = o.flag("swap_eyes", s.swap_eyes);
   s.volume = o.number("volume", s.volume);
   s.text_size = o.number("text_size", s.text_size);
   s.window_width = o.integer("window_width", s.window_width);
@@ -80,6 +92,10 @@ std::string settings_text(const Settings& s) {
                   {"invert_view_x", s.invert_view_x},
                   {"invert_view_y", s.invert_view_y},
                   {"mirrored_picture", s.mirrored_picture},
+                  {"stereo", s.stereo},
+                  {"eye_distance_mm", s.eye_distance},
+                  {"convergence_mm", s.convergence},
+                  {"swap_eyes", s.swap_eyes},
                   {"volume", s.volume},
                   {"text_size", s.text_size},
                   {"window_width", s.window_width},
@@ -115,6 +131,15 @@ bool forget_in_settings(const fs::path& file, const std::string& trainee) {
   s.trainee.clear();
   write_settings(file, s);
   return true;
+}
+
+TwoEyes two_eyes(const Settings& s) {
+  TwoEyes eyes;
+  for (const StereoName& known : kStereoNames)
+    if (s.stereo == known.name) eyes.mode = known.mode;
+  eyes.eyes = {float(1e-3 * s.eye_distance), float(1e-3 * s.convergence)};
+  eyes.swapped = s.swap_eyes;
+  return eyes;
 }
 
 devices::HandSettings hand_settings(const Settings& s, int instruments) {

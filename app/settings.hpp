@@ -14,6 +14,8 @@
 #include <trocar/devices/mouse_keyboard.hpp>
 #include <trocar/scene/json.hpp>
 
+#include "two_eyes.hpp"
+
 namespace trocar::app {
 
 struct Settings {
@@ -22,6 +24,9 @@ struct Settings {
   bool invert_x = false, invert_y = false;                 ///< instrument: moves against the hand, as real handles do
   bool invert_view_x = false, invert_view_y = false;       ///< endoscope
   bool mirrored_picture = false;                           ///< left and right exchanged
+  std::string stereo = "off";                              ///< one of kStereoNames (two_eyes.hpp)
+  double eye_distance = 4, convergence = 80;               ///< [mm] between the eyes; to what lies on the screen
+  bool swap_eyes = false;                                  ///< for screens that have them the other way round
   double volume = 0.7;                                     ///< of sounds, 0..1
   double text_size = 1;                                    ///< times the display's own scale
   int window_width = 1280, window_height = 800;            ///< [px on an ordinary display]
@@ -47,6 +52,9 @@ void write_settings(const std::filesystem::path& file, const Settings& settings)
 
 /// Takes the name out if it is the last trainee's; true: it was.  @throws core::EnvironmentLacks
 bool forget_in_settings(const std::filesystem::path& file, const std::string& trainee);
+
+/// The settings as pictures need them.
+TwoEyes two_eyes(const Settings& settings);
 
 /// The settings as the hands need them. @param instruments how many hands there are
 devices::HandSettings hand_settings(const Settings& settings, int instruments);

@@ -9,6 +9,7 @@
 #include <trocar/training/attempt.hpp>
 
 #include "interrupt.hpp"
+#include "mirror.hpp"
 #include "panel.hpp"
 #include "start_screen.hpp"
 #include "ui.hpp"
@@ -28,7 +29,7 @@ PictureSize first_size(const WindowOptions& options, const Settings& settings) {
 Stage::Stage(const WindowOptions& o)
     : options(o),
       settings(read_settings(settings_file(), setting_faults)),
-      window("Trocar", first_size(o, settings)),
+      window("Trocar", first_size(o, settings), two_eyes(settings).mode == render::StereoMode::quad_buffer),
       context(render::GlContext::adopt_current()),
       backend(render::make_gl_backend(*context)),
       log(EventLog::path_of(o.log)) {
@@ -69,8 +70,43 @@ void Stage::open(Overlay overlay) {
   m_overlay = overlay;
 }
 
+TwoEyes Stage::eyes() const {
+  TwoEyes eyes = two_eyes(settings);
+  if (eyes.mode == render::StereoMode::quad_buffer && !window.has_quad_buffers()) eyes.mode.reset();
+  return eyes;
+}
+
+void Stage::draw_eye(const render::Frame& frame) {
+  render::draw_frame(*backend, frame, render::Target::window(m_scene_width, m_scene_height));
+  if (settings.mirrored_picture) mirror(m_scene_width, m_scene_height);
+}
+
+void Stage::draw_scene(const render::Frame& frame, int width, int height) {
+  m_scene_width = width, m_scene_height = height;
+  TwoEyes two = eyes();
+  if (!two.on()) return draw_eye(frame);
+  if (settings.mirrored_picture) two.swapped = !two.swapped;  // in a mirror depth is turned round, too
+  render::StereoPair pair = eyes_of(two, frame);
+  draw_eye(pair.left);
+  m_other_eye = std::move(pair.right);
+}
+
+/// All of the window once more for the other eye, then both on one screen. Panels and menus lie on it.
+void Stage::draw_other_eye() {
+  const render::Target whole = render::Target::window(window.width(), window.height());
+  backend->keep_eye(render::Eye::left, whole);
+  if (m_other_eye) {
+    draw_eye(*m_other_eye);
+    window.draw_panels_again();
+  }
+  backend->keep_eye(render::Eye::right, whole);
+  backend->combine(*eyes().mode, whole);
+  m_other_eye.reset();
+}
+
 void Stage::begin_picture(bool hands) {
   window.capture_pointer(hands);
+  window.draw_pointer(eyes().on());
   window.begin_picture();
   if (window.keys().help) open(m_overlay == Overlay::help ? Overlay::none : Overlay::help);
 }
@@ -96,7 +132,7 @@ void Stage::draw_overlay() {
     if (draw_help(window.gamepads().present(), settings.left_handed) != Choice::none || back) m_overlay = Overlay::none;
     return;
   }
-  const bool closed = draw_settings(settings, m_before, sound.audible());
+  const bool closed = draw_settings(settings, m_before, sound.audible(), window.has_quad_buffers());
   apply_settings();
   if (!closed && !back) return;
   keep_settings();
@@ -109,6 +145,7 @@ void Stage::end_picture(const std::string& name, const fs::path& pictures) {
   draw_overlay();
   if (const std::string page = reports.poll(); !page.empty()) log.event("report", {{"file", page}});
   window.draw_panels();
+  if (eyes().on()) draw_other_eye();
   log_widgets(shown);
   if (window.keys().picture) save_picture(pictures);
   window.show();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include <trocar/render/backend.hpp>
 #include <trocar/render/gl_context.hpp>
@@ -46,6 +47,11 @@ class Stage {
   void open(Overlay overlay);
   Overlay overlay() const { return m_overlay; }
 
+  /// What the settings say, as far as this window can show it.
+  TwoEyes eyes() const;
+  /// The frame, in the lower left `width` x `height` [px] of the window; for two eyes, if that is set.
+  void draw_scene(const render::Frame& frame, int width, int height);
+
   void begin_picture(bool hands);  ///< hands: the pointer is the instrument's
   /// Overlays, ImGui, F12, the finished picture. `name` of the screen is for the log.
   void end_picture(const std::string& name, const std::filesystem::path& pictures);
@@ -55,6 +61,8 @@ class Stage {
 
  private:
   void draw_overlay();
+  void draw_eye(const render::Frame& frame);
+  void draw_other_eye();
   void log_widgets(const std::string& screen);
   void save_picture(const std::filesystem::path& stem);
 
@@ -63,6 +71,8 @@ class Stage {
   Overlay m_overlay = Overlay::none;
   Settings m_before;
   std::string m_logged;
+  std::optional<render::Frame> m_other_eye;  ///< to be drawn before the picture is shown
+  int m_scene_width = 0, m_scene_height = 0;
   int m_pictures = 0;
   bool m_told_fault = false;
 };

@@ -238,7 +238,25 @@ StartAnswer draw_start(const StartContent& c, StartMemory& memory) {
   return answer;
 }
 
-bool draw_settings(Settings& s, const Settings& before, bool sound) {
+/// Two eyes: how, and how deep.
+void draw_stereo_settings(Settings& s, bool quad_buffers) {
+  ui::text("Two eyes (3D screens and glasses)", ui::kBlue);
+  int k = 0;
+  for (const StereoName& n : kStereoNames) {
+    if (k++ % 3 != 0) ImGui::SameLine();
+    if (ui::button(n.name, {.width = 190, .primary = s.stereo == n.name, .tip = n.meaning})) s.stereo = n.name;
+  }
+  if (s.stereo == "off") return;
+  if (s.stereo == "quad-buffer" && !quad_buffers)
+    ui::text(
+        "This window has no quad buffers: one eye is shown. Start again; if that does not help, the graphics "
+        "driver has none for this screen.");
+  ui::slider("between the eyes [mm]", s.eye_distance, kLeastBase, kMostBase, "%.1f", false);
+  ui::slider("to what lies on the screen [mm]", s.convergence, kLeastConvergence, kMostConvergence, "%.0f", true);
+  ui::checkbox("eyes exchanged (if what is near looks far)", s.swap_eyes);
+}
+
+bool draw_settings(Settings& s, const Settings& before, bool sound, bool quad_buffers) {
   bool closed = false;
   ui::begin_middle("settings", 660);
   ui::title("Settings");
@@ -257,8 +275,10 @@ bool draw_settings(Settings& s, const Settings& before, bool sound) {
   ui::checkbox("endoscope sideways", s.invert_view_x);
   ImGui::SameLine(0, 20 * ui::scale());
   ui::checkbox("endoscope up and down", s.invert_view_y);
-  ui::text("Picture, text and sound", ui::kBlue);
+  ui::text("Picture", ui::kBlue);
   ui::checkbox("mirrored picture (left and right exchanged, hands as they are)", s.mirrored_picture);
+  draw_stereo_settings(s, quad_buffers);
+  ui::text("Text and sound", ui::kBlue);
   ui::slider("text size", s.text_size, kLeastText, kMostText, "x %.2f", false);
   ui::slider(sound ? "sound volume" : "sound volume (no device found)", s.volume, 0, 1, "%.2f", false);
   ui::checkbox("tell the three things to know before an exercise", s.show_hint);

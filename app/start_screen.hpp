@@ -53,6 +53,7 @@ struct StartAnswer {
 StartAnswer draw_start(const StartContent& content, StartMemory& memory);
 
 /// Settings, over whatever is there. True: closed. `edited` is applied at once; `before` is what undo brings back.
-bool draw_settings(Settings& edited, const Settings& before, bool sound);
+/// @param quad_buffers  this window has them
+bool draw_settings(Settings& edited, const Settings& before, bool sound, bool quad_buffers);
 
 }  // namespace trocar::app

@@ -20,7 +20,7 @@ namespace trocar::app {
 namespace {
 
 struct Options {
-  std::string exercise, input = "mouse", record, shots, video, report, size, trainee, log;
+  std::string exercise, input = "mouse", record, shots, video, report, size, stereo = "off", trainee, log;
   double seconds = 0;
   std::uint64_t seed = 0;
   bool headless = false, familiarisation = false, no_store = false;
@@ -79,11 +79,12 @@ Json train_headless(const Options& o, const Lesson& lesson, training::Store* sto
   EventLog events(o.log);
   AttemptLog log(store, session, plan_of(o));
   events.event("attempt", {{"exercise", lesson.name}, {"recording", log.attempt().recording}});
-  const Leftovers left = run_headless(session, *source, {o.shots, o.video, size, o.seconds}, [&] {
-    for (const Moment& m : session.moments()) events.moment(lesson.model, m);
-    if (session.state().tick % kLogTimeEvery == 0) events.event("time", {{"tick", session.state().tick}});
-    return true;
-  });
+  const Leftovers left =
+      run_headless(session, *source, {o.shots, o.video, size, parse_stereo(o.stereo), o.seconds}, [&] {
+        for (const Moment& m : session.moments()) events.moment(lesson.model, m);
+        if (session.state().tick % kLogTimeEvery == 0) events.event("time", {{"tick", session.state().tick}});
+        return true;
+      });
   const bool aborted = interrupted() && !(session.monitor() && session.monitor()->finished());
   Json result = session.result(aborted);
   result["input"] = o.input;
@@ -117,6 +118,7 @@ int train(const Options& o, bool json) {
                            fmt::format("expected --input demo, motion:FILE or replay:FILE with it, got {}", o.input)}});
   if (o.exercise.empty() && (o.headless || !hands))
     throw core::BadInput({{{"train", 0, 0}, "expected an exercise (see trocar list), got none"}});
+  static_cast<void>(parse_stereo(o.stereo));  // before anything is begun
   const PictureSize size = parse_size(o.size.empty() ? "800x600" : o.size);
   std::unique_ptr<Lesson> lesson = o.exercise.empty() ? nullptr : load_lesson(o.exercise, o.seed);
   std::unique_ptr<training::Store> store;
@@ -150,6 +152,7 @@ void add_train(CLI::App& program, Chosen& chosen) {
   c->add_option("--video", options->video, "headless: write a film (needs ffmpeg)");
   c->add_option("--report", options->report, "write an HTML report to this folder");
   c->add_option("--size", options->size, "of pictures (default 800x600) or window (default: as last time)");
+  c->add_option("--stereo", options->stereo, std::string("headless: ") + kStereoHelp)->capture_default_str();
   c->add_option("--trainee", options->trainee, "whose attempt it is; default: guest");
   c->add_flag("--familiarisation", options->familiarisation, "getting to know it: no score, no verdict");
   c->add_option("--seed", options->seed, "vary the anatomy by this number; 0: as drawn")->capture_default_str();

@@ -107,14 +107,19 @@ Window::Glfw::Glfw() {
 }
 Window::Glfw::~Glfw() { glfwTerminate(); }
 
-Window::Window(const std::string& title, PictureSize size) {
+Window::Window(const std::string& title, PictureSize size, bool quad_buffers) {
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
   size = fitted(size);
+  glfwWindowHint(GLFW_STEREO, quad_buffers ? GLFW_TRUE : GLFW_FALSE);
   m_window = glfwCreateWindow(size.width, size.height, title.c_str(), nullptr, nullptr);
+  if (!m_window && quad_buffers) {
+    glfwWindowHint(GLFW_STEREO, GLFW_FALSE);
+    m_window = glfwCreateWindow(size.width, size.height, title.c_str(), nullptr, nullptr);
+  }
   if (!m_window)
     throw core::EnvironmentLacks(fmt::format(
         "cannot open a window with OpenGL 3.3: {}. Update the graphics driver, or use --headless", last_glfw_error()));
@@ -122,6 +127,9 @@ Window::Window(const std::string& title, PictureSize size) {
   glfwSetWindowSizeLimits(m_window, 480, 360, GLFW_DONT_CARE, GLFW_DONT_CARE);
   glfwMakeContextCurrent(m_window);
   glfwSwapInterval(1);
+  GLboolean stereo = GL_FALSE;
+  glGetBooleanv(GL_STEREO, &stereo);
+  m_quad_buffers = stereo == GL_TRUE;
   glfwSetKeyCallback(m_window, on_key);
   glfwSetCursorPosCallback(m_window, on_cursor);
   glfwSetScrollCallback(m_window, on_scroll);
@@ -233,8 +241,14 @@ void Window::steer_menus() {
   feed(ImGuiNavInput_DpadDown, pad.has(Button::down) || pad.left_y > kTilted);
 }
 
+void Window::draw_pointer(bool on) { ImGui::GetIO().MouseDrawCursor = on && !m_captured; }
+
 void Window::draw_panels() {
   ImGui::Render();
+  draw_panels_again();
+}
+
+void Window::draw_panels_again() {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glViewport(0, 0, m_width, m_height);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());

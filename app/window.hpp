@@ -36,7 +36,8 @@ struct TypedKey {
 
 class Window {
  public:
-  Window(const std::string& title, PictureSize size);  ///< fitted to the monitor  @throws core::EnvironmentLacks
+  /// Fitted to the monitor. @param quad_buffers  wanted; see has_quad_buffers()  @throws core::EnvironmentLacks
+  Window(const std::string& title, PictureSize size, bool quad_buffers = false);
   ~Window();
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
@@ -51,8 +52,12 @@ class Window {
 
   /// Takes in the events; afterwards ImGui's frame is open.
   void begin_picture();
-  void draw_panels();  ///< ImGui over what is there
-  void show();         ///< the finished picture
+  void draw_panels();        ///< ImGui over what is there
+  void draw_panels_again();  ///< the same over another eye's picture
+  bool has_quad_buffers() const { return m_quad_buffers; }
+  /// The pointer as part of the picture, where the screen shows that twice.
+  void draw_pointer(bool on);
+  void show();  ///< the finished picture
 
   /// What the hands did since the last begin_picture(). At rest, but for the gamepad, while the pointer is free.
   const devices::HandSample& hands() const { return m_sample; }
@@ -99,6 +104,7 @@ class Window {
   WindowKeys m_keys, m_next_keys;
   std::vector<TypedKey> m_typed, m_next_typed;
   double m_cursor_x = 0, m_cursor_y = 0, m_last_time = 0, m_picture_time = 0, m_least_time = 1.0 / 62;
+  bool m_quad_buffers = false;
   bool m_captured = false, m_cursor_known = false, m_scale_changed = false;
   unsigned m_buttons_pressed = 0;                 ///< down at any time since the last picture
   std::vector<int> m_keys_pressed, m_keys_shown;  ///< the same; those that this picture's menus were told

@@ -41,6 +41,10 @@ TEST_F(SettingsFile, WhatIsWrittenIsReadAgain) {
   s.window_width = 1920;
   s.trainee = "Zo\u00eb \u0416";
   s.show_hint = false;
+  s.stereo = "anaglyph";
+  s.eye_distance = 5.5;
+  s.convergence = 60;
+  s.swap_eyes = true;
   write_settings(file(), s);
   std::vector<core::Fault> faults;
   EXPECT_EQ(read_settings(file(), faults), s);

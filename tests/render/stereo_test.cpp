@@ -53,13 +53,17 @@ TEST(Stereo, OneEyeOrTwoSizesAreRefused) {
   const Frame frame;
   const Target screen = Target::off_screen(64, 48);
   EXPECT_THROW(backend->combine(StereoMode::anaglyph, screen), Misuse);
-  draw_frame(*backend, frame, Target::left_eye(64, 48));
+  EXPECT_THROW(backend->keep_eye(Eye::left, screen), Misuse) << "nothing was drawn";
+  draw_frame(*backend, frame, screen);
+  backend->keep_eye(Eye::left, screen);
   EXPECT_THROW(backend->combine(StereoMode::anaglyph, screen), Misuse);
-  draw_frame(*backend, frame, Target::right_eye(32, 48));
+  draw_frame(*backend, frame, Target::off_screen(32, 48));
+  EXPECT_THROW(backend->keep_eye(Eye::right, screen), Misuse) << "that is not what was drawn";
+  backend->keep_eye(Eye::right, Target::off_screen(32, 48));
   EXPECT_THROW(backend->combine(StereoMode::anaglyph, screen), Misuse);
-  draw_frame(*backend, frame, Target::right_eye(64, 48));
+  draw_frame(*backend, frame, screen);
+  backend->keep_eye(Eye::right, screen);
   EXPECT_THROW(backend->combine(StereoMode::quad_buffer, screen), Misuse) << "no window";
-  EXPECT_THROW(backend->combine(StereoMode::anaglyph, Target::left_eye(64, 48)), Misuse);
   EXPECT_NO_THROW(backend->combine(StereoMode::anaglyph, screen));
   EXPECT_THROW(backend->combine(StereoMode::anaglyph, screen), Misuse) << "again without new pictures";
 }
@@ -79,13 +83,16 @@ class StereoPictures : public testing::Test {
     backend.reset();
     context.reset();
   }
-  /// Plain colours, the left eye's in the picture's upper half and the right eye's all over. @return what each shows
+  /// Plain colours. @return what each eye sees
   std::array<Image, 2> draw_eyes(int width, int height) {
     frame.background = {0.8f, 0.05f, 0.02f};
-    draw_frame(*backend, frame, Target::left_eye(width, height));
+    const Target target = Target::off_screen(width, height);
+    draw_frame(*backend, frame, target);
+    backend->keep_eye(Eye::left, target);
     const Image left = backend->read_pixels();
     frame.background = {0.02f, 0.1f, 0.7f};
-    draw_frame(*backend, frame, Target::right_eye(width, height));
+    draw_frame(*backend, frame, target);
+    backend->keep_eye(Eye::right, target);
     return {left, backend->read_pixels()};
   }
   Image combined(StereoMode mode, int width, int height) {

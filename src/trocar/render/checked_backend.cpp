@@ -43,10 +43,6 @@ void check_mesh(const MeshData& data, const char* call) {
                 std::to_string(n) + " vertices");
 }
 
-bool is_eye(const Target& target) {
-  return target.framebuffer == Target::kLeftEye || target.framebuffer == Target::kRightEye;
-}
-
 void check_camera(const Camera& camera, const char* call) {
   require(finite(camera.position), call, "camera position is not finite");
   for (int j = 0; j < 3; ++j) {
@@ -302,22 +298,31 @@ void CheckedBackend::end_frame() {
   sort_items();
   on_frame(m_frame, m_target, m_opaque, m_translucent);
   m_has_picture = true;
-  if (m_target.framebuffer == Target::kLeftEye) m_left = m_target;
-  if (m_target.framebuffer == Target::kRightEye) m_right = m_target;
   ++m_stats.frames;
   m_stats.puffs += m_frame.puffs.size();
   m_stats.splats += m_frame.liquid.splats.size();
   m_stats.sheet_triangles += m_frame.liquid.triangles.size() / 3;
 }
 
+void CheckedBackend::keep_eye(Eye eye, const Target& from) {
+  const char* call = "keep_eye";
+  require(!m_in_frame, call, "a frame is open");
+  require(from.width > 0 && from.height > 0, call, "an empty target");
+  const bool own = from.framebuffer == Target::kOwnBuffer;
+  require(!own || (m_has_picture && m_target.framebuffer == from.framebuffer && m_target.width == from.width &&
+                   m_target.height == from.height),
+          call, "this is not what was drawn last");
+  on_keep_eye(eye, from);
+  (eye == Eye::left ? m_left : m_right) = from;
+}
+
 void CheckedBackend::combine(StereoMode mode, const Target& target) {
   const char* call = "combine";
   require(!m_in_frame, call, "a frame is open");
-  require(m_left.width > 0 && m_right.width > 0, call, "both eyes' pictures must be drawn first");
+  require(m_left.width > 0 && m_right.width > 0, call, "both eyes' pictures must be kept first");
   require(m_left.width == m_right.width && m_left.height == m_right.height, call,
           "the eyes' pictures are not of one size");
   require(target.width > 0 && target.height > 0, call, "an empty target");
-  require(!is_eye(target), call, "an eye's picture is no target for both");
   require(mode != StereoMode::quad_buffer || target.framebuffer == 0, call, "only a window has quad buffers");
   on_combine(mode, target);
   m_target = target;

@@ -22,6 +22,7 @@ class CheckedBackend : public Backend {
   void begin_frame(const Frame& frame, const Target& target) final;
   void draw(const DrawItem& item) final;
   void end_frame() final;
+  void keep_eye(Eye eye, const Target& from) final;
   void combine(StereoMode mode, const Target& target) final;
   Image read_pixels() final;
   BackendStats stats() const final { return m_stats; }
@@ -42,6 +43,7 @@ class CheckedBackend : public Backend {
   /// @param opaque near to far (less is shaded twice), translucent far to near
   virtual void on_frame(const Frame& frame, const Target& target, std::span<const DrawItem* const> opaque,
                         std::span<const DrawItem* const> translucent) = 0;
+  virtual void on_keep_eye(Eye eye, const Target& from) = 0;
   virtual void on_combine(StereoMode mode, const Target& target) = 0;
   virtual Image on_read(const Target& target) = 0;
 
@@ -65,7 +67,7 @@ class CheckedBackend : public Backend {
   std::uint32_t m_next_id = 1;
   bool m_in_frame = false, m_has_picture = false;
   Frame m_frame;
-  Target m_target, m_left, m_right;  ///< eyes: 0 wide until drawn
+  Target m_target, m_left, m_right;  ///< eyes: 0 wide until kept
   std::vector<DrawItem> m_items;
   std::vector<const DrawItem*> m_opaque, m_translucent;
   std::vector<Sorted> m_order;

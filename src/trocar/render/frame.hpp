@@ -130,16 +130,13 @@ struct Frame {
 
 /// Where the picture goes.
 struct Target {
-  static constexpr unsigned kOwnBuffer = ~0u, kLeftEye = ~0u - 1, kRightEye = ~0u - 2;
+  static constexpr unsigned kOwnBuffer = ~0u;
   unsigned framebuffer = kOwnBuffer;  ///< GL name, 0 = the window
   int x = 0, y = 0;                   ///< lower left corner [px]
   int width = 0, height = 0;          ///< [px]
 
   static Target off_screen(int width, int height) { return {kOwnBuffer, 0, 0, width, height}; }
   static Target window(int width, int height) { return {0, 0, 0, width, height}; }
-  /// A picture that the backend keeps until both are put together (Backend::combine).
-  static Target left_eye(int width, int height) { return {kLeftEye, 0, 0, width, height}; }
-  static Target right_eye(int width, int height) { return {kRightEye, 0, 0, width, height}; }
 };
 
 }  // namespace trocar::render

@@ -119,17 +119,10 @@ void GlBackend::on_frame(const Frame& frame, const Target& target, std::span<con
   leave_state_clean();
 }
 
-GlPicture* GlBackend::own_picture(const Target& target) {
-  if (target.framebuffer == Target::kOwnBuffer) return &m_own;
-  if (target.framebuffer == Target::kLeftEye) return &m_left;
-  if (target.framebuffer == Target::kRightEye) return &m_right;
-  return nullptr;
-}
-
 void GlBackend::bind_target(const Target& target) {
-  if (GlPicture* own = own_picture(target)) {
-    own->resize(target.width, target.height, GL_RGBA8, false, own == &m_own ? GL_NEAREST : GL_LINEAR);
-    own->bind();
+  if (target.framebuffer == Target::kOwnBuffer) {
+    m_own.resize(target.width, target.height, GL_RGBA8, false, GL_NEAREST);
+    m_own.bind();
   } else {
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
   }
@@ -145,6 +138,16 @@ void GlBackend::leave_state_clean() {
   glBindVertexArray(0);
   glUseProgram(0);
   glActiveTexture(GL_TEXTURE0);
+}
+
+void GlBackend::on_keep_eye(Eye eye, const Target& from) {
+  GlPicture& kept = eye == Eye::left ? m_left : m_right;
+  kept.resize(from.width, from.height, GL_RGBA8, false, GL_LINEAR);
+  const bool own = from.framebuffer == Target::kOwnBuffer;
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, own ? m_own.framebuffer.id() : from.framebuffer);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, kept.framebuffer.id());
+  glBlitFramebuffer(from.x, from.y, from.x + from.width, from.y + from.height, 0, 0, from.width, from.height,
+                    GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 void GlBackend::on_combine(StereoMode mode, const Target& target) {
@@ -175,8 +178,8 @@ void GlBackend::on_combine(StereoMode mode, const Target& target) {
 }
 
 Image GlBackend::on_read(const Target& target) {
-  if (const GlPicture* own = own_picture(target))
-    own->bind();
+  if (target.framebuffer == Target::kOwnBuffer)
+    m_own.bind();
   else
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
   Image image{target.width, target.height, {}};

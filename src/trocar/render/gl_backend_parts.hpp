@@ -55,6 +55,7 @@ class GlBackend final : public CheckedBackend {
   void on_prepare_liquids() override;
   void on_frame(const Frame& frame, const Target& target, std::span<const DrawItem* const> opaque,
                 std::span<const DrawItem* const> translucent) override;
+  void on_keep_eye(Eye eye, const Target& from) override;
   void on_combine(StereoMode mode, const Target& target) override;
   Image on_read(const Target& target) override;
 
@@ -111,8 +112,6 @@ class GlBackend final : public CheckedBackend {
   void draw_view(GlProgram& program, const EndoscopeLook& look, float radius, float width, float height);
 
   void bind_target(const Target& target);
-  /// The picture that we keep ourselves for this target; none for the window and foreign buffers.
-  GlPicture* own_picture(const Target& target);
   /// Others draw into the same context (menus): leave nothing bound that they would trip over.
   void leave_state_clean();
 

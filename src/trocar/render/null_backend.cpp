@@ -13,6 +13,7 @@ class NullBackend final : public CheckedBackend {
   void on_prepare_liquids() override {}
   void on_frame(const Frame&, const Target&, std::span<const DrawItem* const>,
                 std::span<const DrawItem* const>) override {}
+  void on_keep_eye(Eye, const Target&) override {}
   void on_combine(StereoMode, const Target&) override {}
   Image on_read(const Target& target) override {
     return {target.width, target.height, std::vector<std::uint8_t>(std::size_t(3) * target.width * target.height)};

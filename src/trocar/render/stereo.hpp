@@ -1,9 +1,9 @@
 // Two eyes: from one frame the frames of both, and how their pictures are put together on a screen.
 //
 //   const StereoPair pair = both_eyes(frame, {.base = 0.004f, .convergence = 0.08f});
-//   draw_frame(backend, pair.left, Target::left_eye(w, h));
-//   draw_frame(backend, pair.right, Target::right_eye(w, h));
-//   backend.combine(StereoMode::side_by_side, Target::window(w, h));
+//   draw_frame(backend, pair.left, target), backend.keep_eye(Eye::left, target);
+//   draw_frame(backend, pair.right, target), backend.keep_eye(Eye::right, target);
+//   backend.combine(StereoMode::side_by_side, target);
 //
 // Both eyes look the same way; their frusta are off-axis, so that what is as far away as `convergence` is at the same
 // place in both pictures: on the screen. What is nearer comes out of it. A point at distance z is apart in the two
@@ -13,6 +13,8 @@
 #include <trocar/render/frame.hpp>
 
 namespace trocar::render {
+
+enum class Eye { left, right };
 
 enum class StereoMode {
   side_by_side,    ///< left eye's picture left, each squeezed to half the width
