@@ -467,7 +467,7 @@ Choice draw_pause(const std::string& why, const std::string& recording, bool sco
   if (wide_button("Settings")) choice = Choice::settings;
   if (wide_button("To the start screen")) choice = Choice::start_screen;
   if (wide_button("Quit Trocar")) choice = Choice::quit;
-  ui::text("recorded in " + recording, ui::kGrey);
+  if (!recording.empty()) ui::text("recorded in " + recording, ui::kGrey);
   ImGui::End();
   return choice;
 }
