@@ -21,7 +21,7 @@ Leftovers run_headless(Session& session, InputSource& source, const HeadlessOpti
   std::unique_ptr<Shots> shots;
   std::unique_ptr<Video> video;
   if (!options.shots.empty() || !options.video.empty())
-    pictures = std::make_unique<Pictures>(model, options.size, options.eyes);
+    pictures = std::make_unique<Pictures>(model, options.size, options.look);
   if (!options.shots.empty()) {
     shots = std::make_unique<Shots>(*pictures, options.shots);
     shots->take(session.state(), "start", "the start");

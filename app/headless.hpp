@@ -5,8 +5,8 @@
 #include <functional>
 
 #include "picture_size.hpp"
+#include "pictures.hpp"
 #include "session.hpp"
-#include "two_eyes.hpp"
 
 namespace trocar::app {
 
@@ -14,7 +14,7 @@ struct HeadlessOptions {
   std::filesystem::path shots;  ///< folder; empty: none
   std::filesystem::path video;  ///< file; empty: none
   PictureSize size;
-  TwoEyes eyes;        ///< of pictures and film
+  PictureLook look;    ///< of pictures and film
   double seconds = 0;  ///< stop after so much simulated time; 0: no limit
 };
 

@@ -13,18 +13,20 @@
 
 namespace trocar::app {
 
-Pictures::Pictures(const sim::Model& model, PictureSize size, const TwoEyes& eyes)
+Pictures::Pictures(const sim::Model& model, PictureSize size, const PictureLook& look)
     : m_size(size),
-      m_eyes(eyes),
+      m_eyes(look.eyes),
       m_context(render::GlContext::off_screen()),
       m_backend(render::make_gl_backend(*m_context)),
-      m_view(std::make_unique<view::SceneView>(model, *m_backend)) {}
+      m_view(std::make_unique<view::SceneView>(model, *m_backend)),
+      m_styles(styles_of(look.shown, m_view->parts())) {}
 
 Pictures::~Pictures() = default;
 
 const std::string& Pictures::driver() const { return m_context->description(); }
 
 render::Image Pictures::draw(const sim::State& state, view::ViewOptions options) {
+  if (options.styles.empty()) options.styles = m_styles;
   const render::Frame frame = m_view->frame(state, options);
   draw_for(m_eyes, *m_backend, frame, render::Target::off_screen(m_size.width, m_size.height));
   return m_backend->read_pixels();
@@ -33,6 +35,7 @@ render::Image Pictures::draw(const sim::State& state, view::ViewOptions options)
 render::Image Pictures::still(const sim::State& state, view::ViewOptions options) {
   // The exposure follows the brightness that it measured in the picture before, by simulated time: pretend seconds.
   constexpr int kSettling = 3;
+  if (options.styles.empty()) options.styles = m_styles;
   options.eye_index = 7;  // an exposure memory of its own
   render::Frame frame = m_view->frame(state, options);
   for (int i = 0; i <= kSettling; ++i) {

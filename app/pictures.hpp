@@ -14,6 +14,7 @@
 
 #include "json.hpp"
 #include "picture_size.hpp"
+#include "shown_parts.hpp"
 #include "two_eyes.hpp"
 
 namespace trocar::render {
@@ -22,10 +23,16 @@ class GlContext;
 
 namespace trocar::app {
 
+/// What all pictures of a run have in common.
+struct PictureLook {
+  TwoEyes eyes;
+  ShownParts shown;
+};
+
 class Pictures {
  public:
   /// @throws core::EnvironmentLacks without OpenGL
-  Pictures(const sim::Model& model, PictureSize size, const TwoEyes& eyes = {});
+  Pictures(const sim::Model& model, PictureSize size, const PictureLook& look = {});
   ~Pictures();
 
   /// The next picture of a stream (exposure follows the scene as a camera's does).
@@ -40,6 +47,7 @@ class Pictures {
   std::unique_ptr<render::GlContext> m_context;
   std::unique_ptr<render::Backend> m_backend;
   std::unique_ptr<view::SceneView> m_view;
+  std::vector<view::PartStyle> m_styles;
 };
 
 /// Numbered PNG files that say what they show, and index.json.

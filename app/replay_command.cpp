@@ -13,7 +13,7 @@ namespace trocar::app {
 namespace {
 
 struct Options {
-  std::string size, camera = "endoscope", stereo = "off", exercise, log;
+  std::string size, camera = "endoscope", stereo = "off", show, exercise, log;
   ReplayOptions replay;
   bool headless = false;
 };
@@ -47,7 +47,7 @@ int say(const ReplayOptions& o, const Json& result, bool json) {
 int replay(Options o, bool json) {
   if (!o.size.empty()) o.replay.size = parse_size(o.size);
   o.replay.camera = parse_camera(o.camera);
-  o.replay.eyes = parse_stereo(o.stereo);
+  o.replay.look = {parse_stereo(o.stereo), parse_show(o.show)};
   if (!(o.replay.speed >= kSlowest && o.replay.speed <= kFastest))
     throw core::BadInput(
         {{{"--slow", 0, 0}, fmt::format("expected {} to {}, got {}", kSlowest, kFastest, o.replay.speed)}});
@@ -86,6 +86,7 @@ void add_replay(CLI::App& program, Chosen& chosen) {
                 "of pictures and film: endoscope | front | side | above | surgeon | free:YAW,PITCH,DISTANCE [deg, mm]")
       ->capture_default_str();
   c->add_option("--stereo", o->stereo, kStereoHelp)->capture_default_str();
+  c->add_option("--show", o->show, kShowHelp);
   c->add_option("--from", o->replay.from, "first moment of pictures and film [s]")->check(CLI::Range(0.0, 14400.0));
   c->add_option("--to", o->replay.to, "last moment [s]; the end if not given")->check(CLI::Range(0.0, 14400.0));
   c->add_option("--slow", o->replay.speed, "speed of the film: 0.25 takes four times as long");

@@ -64,7 +64,7 @@ class Camera {
   Camera(const Lesson& lesson, const ReplayOptions& o, const FilmPlan& plan)
       : m_plan(plan), m_view(view_of(o.camera, view::orbit_around(lesson.model))) {
     if (!o.video.empty()) m_video = Video::open(o.video, o.size);  // first: what it lacks is told before any work
-    if (!o.shots.empty() || m_video) m_pictures = std::make_unique<Pictures>(lesson.model, o.size, o.eyes);
+    if (!o.shots.empty() || m_video) m_pictures = std::make_unique<Pictures>(lesson.model, o.size, o.look);
     if (!o.shots.empty()) m_shots = std::make_unique<Shots>(*m_pictures, o.shots);
   }
 

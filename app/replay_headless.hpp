@@ -11,7 +11,7 @@
 #include "json.hpp"
 #include "lesson.hpp"
 #include "picture_size.hpp"
-#include "two_eyes.hpp"
+#include "pictures.hpp"
 
 namespace trocar::app {
 
@@ -19,7 +19,7 @@ struct ReplayOptions {
   std::string file;          ///< the recording, for messages
   std::string shots, video;  ///< folder, file; empty: none
   PictureSize size;
-  TwoEyes eyes;  ///< of pictures and film
+  PictureLook look;  ///< of pictures and film
   CameraChoice camera;
   double from = 0, to = -1;  ///< [s]; to < 0: the end
   double speed = 1;          ///< of the film

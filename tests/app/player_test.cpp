@@ -18,6 +18,8 @@
 #include "player_reel.hpp"
 #include "player_timeline.hpp"
 #include "session.hpp"
+#include "shown_parts.hpp"
+#include "two_eyes.hpp"
 
 namespace trocar::app {
 namespace {
@@ -121,6 +123,29 @@ TEST(CameraChoice, NamesAndAnglesAreReadAndNonsenseIsRefused) {
   for (const char* bad : {"", "back", "free:", "free:1,2", "free:1,2,3,4", "free:0,89,250", "free:0,0,5",
                           "free:nan,0,250", "free:0,nan,250", "free:0,0,nan", "free:0,0,inf"})
     EXPECT_THROW(parse_camera(bad), core::BadInput) << bad;
+}
+
+TEST(Pictures, AreForTwoEyesAsAsked) {
+  EXPECT_FALSE(parse_stereo("off").on());
+  const TwoEyes eyes = parse_stereo("anaglyph:5,60");
+  EXPECT_EQ(eyes.mode, render::StereoMode::anaglyph);
+  EXPECT_FLOAT_EQ(eyes.eyes.base, 0.005f);
+  EXPECT_FLOAT_EQ(eyes.eyes.convergence, 0.06f);
+  EXPECT_EQ(parse_stereo("rows").mode, render::StereoMode::row_interlaced);
+  for (const char* bad : {"", "on", "anaglyph:5", "anaglyph:5,60,1", "rows:nan,60", "rows:99,60", "quad-buffer"})
+    EXPECT_THROW(parse_stereo(bad), core::BadInput) << bad;
+}
+
+TEST(Pictures, ShowPartsAsAskedAndLaterWordsWin) {
+  const std::vector<view::ScenePart> parts{{"uterus", view::PartGroup::organs}, {"tube", view::PartGroup::tubes}};
+  using view::PartStyle;
+  const auto styles = [&](const char* text) { return styles_of(parse_show(text), parts); };
+  EXPECT_TRUE(styles("").empty());
+  EXPECT_EQ(styles("organs=hidden,tube=wireframe"), (std::vector{PartStyle::hidden, PartStyle::wireframe}));
+  EXPECT_EQ(styles("organs=hidden,uterus=transparent"), (std::vector{PartStyle::transparent, PartStyle::shaded}));
+  EXPECT_NO_THROW(styles("clips=hidden")) << "a group that this scene has nothing of";
+  for (const char* bad : {"uterus", "uterus=", "=hidden", "uterus=blue", "liver=hidden"})
+    EXPECT_THROW(styles(bad), core::BadInput) << bad;
 }
 
 TEST(Orbit, KeepsItsDistanceWhenTurnedAndNeverTipsOver) {

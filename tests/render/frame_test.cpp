@@ -101,5 +101,11 @@ TEST(Patterns, VesselsCoverAFairShareAndNoMore) {
   EXPECT_LT(double(blue) / n, 0.35);
 }
 
+TEST(MeshArrays, EachEdgeOfTheTrianglesIsListedOnce) {
+  const std::vector<std::uint32_t> two{0, 1, 2, 2, 1, 3};
+  EXPECT_EQ(edges_of(two), (std::vector<std::uint32_t>{0, 1, 0, 2, 1, 2, 1, 3, 2, 3}));
+  EXPECT_TRUE(edges_of({}).empty());
+}
+
 }  // namespace
 }  // namespace trocar::render

@@ -379,5 +379,31 @@ TEST_F(GlBackend, RefusesWhatTheNullBackendRefuses) {
   EXPECT_THROW(backend->destroy_mesh({17}), Misuse);
 }
 
+TEST_F(GlBackend, GhostsLetWhatIsBehindThemThroughAndEdgesLeaveFacesOpen) {
+  frame.look = plain_look();
+  frame.background = {0, 0, 0.6f};
+  DrawItem item;
+  item.mesh = ball({0, 0, -0.06f}, 0.015f, 12);
+  const auto blue_in_the_middle = [&](DrawStyle style, Shading shading) {
+    item.style = style;
+    item.material.shading = shading;
+    frame.items = {item};
+    const Image image = draw(120, 120);
+    int blue = 0;
+    for (int y = 45; y < 75; ++y)
+      for (int x = 45; x < 75; ++x) blue += image.at(x, y)[2] > image.at(x, y)[0] + 30;
+    return blue;
+  };
+  for (const Shading shading : {Shading::tissue, Shading::metal}) {
+    const int ghost = blue_in_the_middle(DrawStyle::transparent, shading);
+    EXPECT_EQ(blue_in_the_middle(DrawStyle::shaded, shading), 0);
+    EXPECT_GT(ghost, 600) << "of 900 pixels, shading " << int(shading);
+    const int edges = blue_in_the_middle(DrawStyle::wireframe, shading);
+    EXPECT_GT(edges, 300);
+    EXPECT_LT(edges, 880) << "some edges";
+  }
+  EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
+}
+
 }  // namespace
 }  // namespace trocar::render

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <set>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -152,6 +154,50 @@ TEST(SceneView, TheScopesConeFillsTheMask) {
   EXPECT_LT(length(vec_cast<double>(frame.camera.position) - scope.eye), 1e-6);
   EXPECT_LT(length(vec_cast<double>(frame.camera.rotation.column(2)) + scope.forward), 1e-5);
   EXPECT_LT(length(vec_cast<double>(frame.camera.rotation.column(1)) - scope.up), 1e-5);
+}
+
+TEST(SceneView, EveryItemIsOfAPartThatHasANameAndAGroup) {
+  auto backend = render::make_null_backend();
+  SceneView view(pelvis(), *backend);
+  std::set<std::uint16_t> seen;
+  for (const render::DrawItem& item : view.frame(sim::initial_state(pelvis()), {}).items) {
+    ASSERT_GE(item.part, 1);
+    ASSERT_LE(item.part, view.parts().size());
+    seen.insert(item.part);
+  }
+  std::set<std::string> names;
+  for (const ScenePart& part : view.parts()) names.insert(part.name);
+  EXPECT_EQ(names.size(), view.parts().size()) << "no name twice";
+  for (std::size_t i = 0; i < view.parts().size(); ++i) {
+    const ScenePart& part = view.parts()[i];
+    const bool later = part.name == "endoscope" || part.name == "clips" || part.group == PartGroup::fluids;
+    EXPECT_EQ(seen.count(std::uint16_t(i + 1)), later ? 0u : 1u) << part.name;
+  }
+}
+
+TEST(SceneView, PartsAreHiddenTransparentOrEdgesAsChosen) {
+  auto backend = render::make_null_backend();
+  SceneView view(pelvis(), *backend);
+  const sim::State state = sim::initial_state(pelvis());
+  ViewOptions options;
+  for (const ScenePart& part : view.parts())
+    options.styles.push_back(part.group == PartGroup::organs  ? PartStyle::wireframe
+                             : part.group == PartGroup::tubes ? PartStyle::transparent
+                             : part.group == PartGroup::walls ? PartStyle::hidden
+                                                              : PartStyle::shaded);
+  const render::Frame frame = view.frame(state, options);
+  EXPECT_LT(frame.items.size(), view.frame(state, {}).items.size());
+  for (const render::DrawItem& item : frame.items) {
+    const PartGroup group = view.parts()[item.part - std::size_t(1)].group;
+    EXPECT_NE(group, PartGroup::walls);
+    EXPECT_EQ(item.style, group == PartGroup::organs  ? render::DrawStyle::wireframe
+                          : group == PartGroup::tubes ? render::DrawStyle::transparent
+                                                      : render::DrawStyle::shaded);
+  }
+  EXPECT_FALSE(frame.rods.empty());
+  for (std::size_t i = 0; i < view.parts().size(); ++i)
+    if (view.parts()[i].group == PartGroup::instruments) options.styles[i] = PartStyle::hidden;
+  EXPECT_TRUE(view.frame(state, options).rods.empty()) << "what is not shown casts no shadow";
 }
 
 TEST(SceneView, WithoutInstrumentsNoMetalIsDrawn) {

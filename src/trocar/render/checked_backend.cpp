@@ -276,7 +276,7 @@ void CheckedBackend::sort_items() {
   const auto sorted = [&](bool translucent, std::vector<const DrawItem*>& out) {
     m_order.clear();
     for (const DrawItem& item : m_items) {
-      if (item.translucent != translucent) continue;
+      if (item.blends() != translucent) continue;
       const Bounds& bounds = m_meshes.at(item.mesh.id).bounds;
       const Vec3f middle = transform_point(item.transform, bounds.middle());
       float depth = dot(backward, m_frame.camera.position - middle);

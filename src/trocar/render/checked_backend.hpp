@@ -34,6 +34,9 @@ class CheckedBackend : public Backend {
   /// Of the mesh as it is now, in its own coordinates.
   const Bounds& bounds_of_mesh(MeshHandle mesh) const { return m_meshes.at(mesh.id).bounds; }
 
+  /// Of the mesh, as it was given.
+  std::span<const std::uint32_t> indices_of_mesh(MeshHandle mesh) const { return m_meshes.at(mesh.id).indices; }
+
   virtual void on_store(std::uint32_t id, const MeshArrays& mesh) = 0;  ///< new id, or a known one's new topology
   virtual void on_update(std::uint32_t id, std::span<const Vec3f> positions, std::span<const Vec3f> normals,
                          std::span<const Paint> paint) = 0;  ///< paint may be empty

@@ -81,11 +81,21 @@ struct EndoscopeLook {
 /// A plain camera: no mask, barrel, fringe, vignette, noise, bloom, defocus, or auto exposure.
 EndoscopeLook plain_look();
 
+enum class DrawStyle : std::uint8_t {
+  shaded,
+  transparent,  ///< a ghost of itself: what is behind shows through
+  wireframe,    ///< the edges of its triangles
+};
+
 struct DrawItem {
   MeshHandle mesh;
   Material material;
   Mat4 transform;            ///< mesh -> world; rotation, translation and uniform scale only
   bool translucent = false;  ///< drawn after the opaque ones, far to near by the middle of its bounds, both sides
+  DrawStyle style = DrawStyle::shaded;
+  std::uint16_t part = 0;  ///< what it is of, by the caller's numbers; 0: nothing that has a name
+
+  bool blends() const { return (translucent && style == DrawStyle::shaded) || style == DrawStyle::transparent; }
 };
 
 /// A rod that takes light from what is near and behind it: an instrument's shaft or jaw, for the eye to judge how far

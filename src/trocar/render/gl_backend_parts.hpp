@@ -66,6 +66,7 @@ class GlBackend final : public CheckedBackend {
   static void set_blending(bool on);
   /// Metal is marked in the stencil: instruments do not shade themselves.
   void scene_pass(const Frame& frame, std::span<const DrawItem* const> items, bool blended);
+  void draw_edges(const DrawItem& item);
   void draw_item(const Frame& frame, const DrawItem& item, bool blended, bool stained);
   GlProgram& program_for(const Frame& frame, const Material& material, bool blended, bool stained);
   void puff_pass(const Frame& frame);

@@ -66,6 +66,20 @@ void GlMeshes::update(std::uint32_t id, std::span<const Vec3f> positions, std::s
   if (!paint.empty()) fill(GL_ARRAY_BUFFER, mesh.paint, paint, GL_DYNAMIC_DRAW);
 }
 
+void GlMeshes::draw_edges(std::uint32_t id, std::span<const std::uint32_t> indices) {
+  Mesh& mesh = m_meshes.at(id);
+  glBindVertexArray(mesh.layout.id());
+  if (!mesh.edges) {
+    const std::vector<std::uint32_t> edges = edges_of(indices);
+    mesh.edges = new_buffer();
+    mesh.edge_count = GLsizei(edges.size());
+    fill(GL_ELEMENT_ARRAY_BUFFER, mesh.edges, std::span(edges), GL_STATIC_DRAW);
+  }
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, mesh.edges.id());
+  glDrawElements(GL_LINES, mesh.edge_count, GL_UNSIGNED_INT, nullptr);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, mesh.indices.id());  // which the layout remembers
+}
+
 void GlMeshes::draw(std::uint32_t id) const {
   const Mesh& mesh = m_meshes.at(id);
   glBindVertexArray(mesh.layout.id());

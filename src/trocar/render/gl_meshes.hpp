@@ -17,14 +17,16 @@ class GlMeshes {
               std::span<const Paint> paint);
   void destroy(std::uint32_t id) { m_meshes.erase(id); }
   void draw(std::uint32_t id) const;
+  /// The edges of its triangles. @param indices  of the triangles; looked at the first time
+  void draw_edges(std::uint32_t id, std::span<const std::uint32_t> indices);
   bool is_lines(std::uint32_t id) const { return m_meshes.at(id).mode == GL_LINES; }
 
  private:
   struct Mesh {
     GlVertexArray layout;
-    GlBuffer moving, paint, fixed, indices;
+    GlBuffer moving, paint, fixed, indices, edges;
     std::size_t vertices = 0;
-    GLsizei index_count = 0;
+    GLsizei index_count = 0, edge_count = 0;
     GLenum mode = GL_TRIANGLES;
   };
   std::unordered_map<std::uint32_t, Mesh> m_meshes;

@@ -13,6 +13,8 @@ bool film_serves_as_fine(const Material& m) {
   return m.shading != Shading::metal && ratio > 0.4f && ratio < 2.5f;
 }
 
+constexpr float kGhost = 0.3f, kGhostRim = 0.7f;  // how much of themselves transparent things show
+
 }  // namespace
 
 void GlBackend::begin_scene(const Frame& frame, const Target& target, const Layout& layout) {
@@ -80,10 +82,25 @@ void GlBackend::scene_pass(const Frame& frame, std::span<const DrawItem* const> 
   set_blending(false);
 }
 
+void GlBackend::draw_edges(const DrawItem& item) {
+  GlProgram& program = m_programs.get("flat.vert", "wire.frag");
+  program.use();
+  program.set("u_model_view", m_view * item.transform);
+  program.set("u_projection", m_projection);
+  program.set_vec4s("u_frame", m_frame_rows);
+  const Vec3f colour = item.material.colour;
+  const auto lighter = [](float c) { return 0.12f + 0.88f * c; };
+  program.set("u_tone", lighter(colour.x), lighter(colour.y), lighter(colour.z), 1);
+  m_meshes.draw_edges(item.mesh.id, indices_of_mesh(item.mesh));
+}
+
 void GlBackend::draw_item(const Frame& frame, const DrawItem& item, bool blended, bool stained) {
-  const Material& material = item.material;
-  const bool two_sided = blended || material.two_sided;
-  GlProgram& program = program_for(frame, item.material, blended, stained);
+  if (item.style == DrawStyle::wireframe && !m_meshes.is_lines(item.mesh.id)) return draw_edges(item);
+  Material material = item.material;
+  const bool ghost = item.style == DrawStyle::transparent;
+  if (ghost) material.alpha *= kGhost, material.rim_alpha *= kGhostRim;
+  const bool two_sided = (blended && !(ghost && !item.translucent)) || material.two_sided;
+  GlProgram& program = program_for(frame, material, blended, stained);
   program.use();
   program.set("u_model_view", m_view * item.transform);
   program.set("u_projection", m_projection);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 
 #include <trocar/render/mesh_arrays.hpp>
 
@@ -43,6 +44,22 @@ Bounds bounds_of(std::span<const Vec3f> positions) {
       b.high[i] = std::max(b.high[i], p[i]);
     }
   return b;
+}
+
+std::vector<std::uint32_t> edges_of(std::span<const std::uint32_t> triangles) {
+  std::vector<std::array<std::uint32_t, 2>> edges;
+  edges.reserve(triangles.size());
+  for (std::size_t t = 0; t + 2 < triangles.size(); t += 3)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = triangles[t + k], b = triangles[t + (k + 1) % 3];
+      edges.push_back({std::min(a, b), std::max(a, b)});
+    }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  std::vector<std::uint32_t> ends;
+  ends.reserve(2 * edges.size());
+  for (const auto& e : edges) ends.insert(ends.end(), e.begin(), e.end());
+  return ends;
 }
 
 }  // namespace trocar::render

@@ -29,4 +29,7 @@ struct Bounds {
 };
 Bounds bounds_of(std::span<const Vec3f> positions);
 
+/// Both ends of every edge of the triangles, each edge once.
+std::vector<std::uint32_t> edges_of(std::span<const std::uint32_t> triangles);
+
 }  // namespace trocar::render

@@ -49,9 +49,10 @@ std::vector<DrawnPart> made(const std::vector<InstrumentPart>& parts, render::Ba
 
 render::Mat4 to_world(const Placement& p) { return render::placement(p.rotation, p.translation); }
 
-DrawItem item(render::MeshHandle mesh, const Look& look) {
+DrawItem item(render::MeshHandle mesh, const Look& look, std::size_t part) {
   DrawItem i;
   i.mesh = mesh;
+  i.part = std::uint16_t(part);
   i.material = look.material;
   i.translucent = look.translucent;
   return i;
@@ -70,6 +71,10 @@ Relief relief_of(int organ, const sim::Model& model) {
     if (hangs(strand.end)) relief.roots.push_back({rest.back(), strand.outer.back()});
   }
   return relief;
+}
+
+PartStyle style_of(const std::vector<PartStyle>& styles, std::uint16_t part) {
+  return part > 0 && part <= styles.size() ? styles[part - std::size_t(1)] : PartStyle::shaded;
 }
 
 /// The clip that lies ready in an applier's jaws.
@@ -107,21 +112,56 @@ struct SceneView::Parts {
   std::vector<LoadedClip> loaded;
   std::map<double, OwnedMesh> clips;  ///< closed ones, by their length [m]
   const Look* titanium = &look("titanium");
+  std::vector<ScenePart> parts;
+  struct FirstParts {  ///< the numbers of the first of each kind, from 1 on
+    std::uint16_t organ = 0, tube = 0, fold = 0, membrane = 0, vessel = 0, wall = 0, tool = 0;
+    std::uint16_t cavity = 0, scope = 0, clips = 0, liquid = 0, smoke = 0;
+  } first;
 
   Parts(const sim::Model& of, render::Backend& backend);
   void make_tissues(render::Backend& backend);
   void make_metal(render::Backend& backend);
+  void name_parts();
   double depth_of_wall(std::size_t hand) const;
   void update(const sim::State& state);
   void list_tissues(bool with_walls, Frame& frame) const;
   void list_clips(const sim::State& state, Frame& frame) const;
-  void list_tools(const sim::State& state, Frame& frame) const;
+  void list_tools(const sim::State& state, const ViewOptions& options, Frame& frame) const;
   void list_scope(const sim::State& state, Frame& frame) const;
 };
 
 SceneView::Parts::Parts(const sim::Model& of, render::Backend& backend) : model(of) {
   make_tissues(backend);
   make_metal(backend);
+  name_parts();
+}
+
+void SceneView::Parts::name_parts() {
+  const auto add = [this](const std::string& name, PartGroup group) {
+    parts.push_back({name, group});
+    return std::uint16_t(parts.size());
+  };
+  const auto begins = [this] { return std::uint16_t(parts.size() + 1); };
+  first.organ = begins();
+  for (int i = 0; i < model.organs(); ++i) add(model.organ_name(i), PartGroup::organs);
+  first.tube = begins();
+  for (const sim::StrandModel& s : model.strands) add(s.name, PartGroup::tubes);
+  first.fold = begins();
+  for (const sim::SheetModel& s : model.sheets) add(s.name, PartGroup::folds);
+  first.membrane = begins();
+  for (const sim::MembraneModel& m : model.membranes) add(m.name, PartGroup::folds);
+  first.vessel = begins();
+  for (const Look* l : vessel_look) add(l == &look("vein") ? "veins" : "arteries", PartGroup::vessels);
+  first.wall = begins();
+  for (const sim::WallModel& w : model.walls) add(w.name, PartGroup::walls);
+  first.cavity = add("cavity", PartGroup::walls);
+  first.tool = begins();
+  for (const sim::HandModel& h : model.hands) add(h.name, PartGroup::instruments);
+  first.scope = add("endoscope", PartGroup::instruments);
+  first.clips = add("clips", PartGroup::clips);
+  if (!model.wet.there) return;
+  first.liquid = add("blood and water", PartGroup::fluids);
+  first.smoke = add("smoke", PartGroup::fluids);
 }
 
 /// Everything shades everything else, as drawn.
@@ -274,30 +314,33 @@ void SceneView::Parts::update(const sim::State& state) {
 
 void SceneView::Parts::list_tissues(bool with_walls, Frame& frame) const {
   for (std::size_t i = 0; with_walls && i < walls.size(); ++i)
-    frame.items.push_back(item(walls[i].handle(), look(model.walls[i].look)));
+    frame.items.push_back(item(walls[i].handle(), look(model.walls[i].look), first.wall + i));
   for (std::size_t i = 0; i < organs.size(); ++i)
-    frame.items.push_back(item(organs[i].mesh(), look(model.solids[i].look)));
+    frame.items.push_back(item(organs[i].mesh(), look(model.solids[i].look), first.organ + i));
   for (std::size_t i = 0; i < cuttables.size(); ++i)
-    frame.items.push_back(item(cuttables[i].mesh(), look(model.cuttables[i].look)));
+    frame.items.push_back(item(cuttables[i].mesh(), look(model.cuttables[i].look), first.organ + organs.size() + i));
   for (std::size_t i = 0; i < drapes.size(); ++i) {
-    frame.items.push_back(item(drapes[i].mesh(), *drape_look[i]));
+    frame.items.push_back(item(drapes[i].mesh(), *drape_look[i], first.cavity));
     frame.items.back().material.two_sided = true;
   }
-  for (const FatTags& f : fat)
-    if (f.mesh().id) frame.items.push_back(item(f.mesh(), look("fat")));
+  for (std::size_t i = 0; i < fat.size(); ++i)
+    if (fat[i].mesh().id) frame.items.push_back(item(fat[i].mesh(), look("fat"), first.organ + std::size_t(fat_on[i])));
   for (std::size_t i = 0; i < tubes.size(); ++i) {
     const sim::StrandModel& strand = model.strands[i];
-    frame.items.push_back(item(tubes[i].mesh(), look(strand.look)));
+    frame.items.push_back(item(tubes[i].mesh(), look(strand.look), first.tube + i));
     if (strand.start.kind == sim::StrandEndModel::hosted && !strand.fimbriated)
       frame.items.back().material.tint = look(model.organ_look(strand.start.organ)).material.colour;
   }
-  for (std::size_t i = 0; i < vessels.size(); ++i) frame.items.push_back(item(vessels[i].mesh(), *vessel_look[i]));
+  for (std::size_t i = 0; i < vessels.size(); ++i)
+    frame.items.push_back(item(vessels[i].mesh(), *vessel_look[i], first.vessel + i));
   for (std::size_t i = 0; i < sheets.size(); ++i)
-    frame.items.push_back(item(sheets[i].mesh(), look(model.sheets[i].look)));
+    frame.items.push_back(item(sheets[i].mesh(), look(model.sheets[i].look), first.fold + i));
   for (std::size_t i = 0; i < membranes.size(); ++i)
-    frame.items.push_back(item(membranes[i].mesh(), look(model.membranes[membrane_of[i]].look)));
+    frame.items.push_back(
+        item(membranes[i].mesh(), look(model.membranes[membrane_of[i]].look), first.membrane + membrane_of[i]));
   for (std::size_t i = 0; i < pouches.size(); ++i)
-    frame.items.push_back(item(pouches[i].mesh(), look(model.membranes[pouch_of[i]].look)));
+    frame.items.push_back(
+        item(pouches[i].mesh(), look(model.membranes[pouch_of[i]].look), first.membrane + pouch_of[i]));
 }
 
 void SceneView::Parts::list_clips(const sim::State& state, Frame& frame) const {
@@ -309,28 +352,29 @@ void SceneView::Parts::list_clips(const sim::State& state, Frame& frame) const {
     const ClipPress at = press_of(c, model, state);
     const Mat3f turn =
         Mat3f::from_columns(vec_cast<float>(at.open), vec_cast<float>(at.normal), vec_cast<float>(at.axis));
-    DrawItem drawn = item(mesh->second.handle(), *titanium);
+    DrawItem drawn = item(mesh->second.handle(), *titanium, first.clips);
     drawn.transform = to_world({turn, vec_cast<float>(at.centre + at.low * at.axis)});
     frame.items.push_back(drawn);
   }
 }
 
-void SceneView::Parts::list_tools(const sim::State& state, Frame& frame) const {
+void SceneView::Parts::list_tools(const sim::State& state, const ViewOptions& options, Frame& frame) const {
   for (std::size_t t = 0; t < tools.size(); ++t) {
     const interactions::ToolState& tool = state.tools[t];
     const interactions::ToolShape shape = shape_of(model.tool(state, t), tool.pose(), tool.aperture);
     const Placement axis = placement_of(InstrumentPart::Joint::body, shape);
     for (const DrawnPart& part : sleeves[t]) {
-      DrawItem drawn = item(part.mesh.handle(), *part.look);
+      DrawItem drawn = item(part.mesh.handle(), *part.look, first.tool + t);
       drawn.transform = to_world({axis.rotation, vec_cast<float>(model.hands[t].port)});
       frame.items.push_back(drawn);
     }
     for (const DrawnPart& part : tools[t][std::size_t(tool.instrument)]) {
-      DrawItem drawn = item(part.mesh.handle(), *part.look);
+      DrawItem drawn = item(part.mesh.handle(), *part.look, first.tool + t);
       drawn.transform = to_world(placement_of(part.joint, shape));
       frame.items.push_back(drawn);
     }
-    for (int k = 0; k < interactions::kToolParts; ++k) {  // a jaw is wider than it is thick
+    const bool shades = style_of(options.styles, std::uint16_t(first.tool + t)) == PartStyle::shaded;
+    for (int k = 0; k < interactions::kToolParts && shades; ++k) {  // a jaw is wider than it is thick
       const collision::Capsule& rod = shape.part[k];
       const double half =
           k == interactions::kShaft ? rod.radius : std::max(rod.radius, 0.4 * model.tool(state, t).jaw_width);
@@ -341,7 +385,7 @@ void SceneView::Parts::list_tools(const sim::State& state, Frame& frame) const {
       if (!tool.armed && tool.aperture < 0.5) continue;  // the one that was there has just been set
       Placement place = placement_of(InstrumentPart::Joint::body, shape);
       place.translation += float(clip_seat(model.tool(state, t))) * place.rotation.column(2);
-      DrawItem drawn = item(l.mesh.handle(), *titanium);
+      DrawItem drawn = item(l.mesh.handle(), *titanium, first.tool + t);
       drawn.transform = to_world(place);
       frame.items.push_back(drawn);
     }
@@ -355,7 +399,7 @@ void SceneView::Parts::list_scope(const sim::State& state, Frame& frame) const {
   place.rotation = Mat3f::from_columns(vec_cast<float>(x), vec_cast<float>(cross(z, x)), vec_cast<float>(z));
   place.translation = vec_cast<float>(tip.tip);
   for (const DrawnPart& part : scope) {
-    DrawItem drawn = item(part.mesh.handle(), *part.look);
+    DrawItem drawn = item(part.mesh.handle(), *part.look, first.scope);
     drawn.transform = to_world(place);
     frame.items.push_back(drawn);
   }
@@ -372,11 +416,27 @@ void cut_open(const std::vector<OwnedMesh>& walls, Frame& frame) {
 
 }  // namespace
 
+namespace {
+
+void apply(const std::vector<PartStyle>& styles, Frame& frame) {
+  if (styles.empty()) return;
+  std::erase_if(frame.items, [&](const DrawItem& i) { return style_of(styles, i.part) == PartStyle::hidden; });
+  for (DrawItem& i : frame.items) {
+    const PartStyle style = style_of(styles, i.part);
+    if (style == PartStyle::transparent) i.style = render::DrawStyle::transparent;
+    if (style == PartStyle::wireframe) i.style = render::DrawStyle::wireframe;
+  }
+}
+
+}  // namespace
+
 SceneView::SceneView(const sim::Model& model, render::Backend& backend)
     : m_parts(std::make_unique<Parts>(model, backend)) {
   if (model.wet.there) m_parts->wet.emplace(model);
 }
 SceneView::~SceneView() = default;
+
+const std::vector<ScenePart>& SceneView::parts() const { return m_parts->parts; }
 
 Frame SceneView::frame(const sim::State& state, const ViewOptions& options) {
   Parts& p = *m_parts;
@@ -408,16 +468,18 @@ Frame SceneView::frame(const sim::State& state, const ViewOptions& options) {
     frame.background = {0.09f, 0.10f, 0.11f};
   }
   if (inside) {
-    frame.items.push_back(item(p.cavity.handle(), look("peritoneum")));
-    for (const OwnedMesh& m : p.margins) frame.items.push_back(item(m.handle(), look("peritoneum")));
+    frame.items.push_back(item(p.cavity.handle(), look("peritoneum"), p.first.cavity));
+    for (const OwnedMesh& m : p.margins) frame.items.push_back(item(m.handle(), look("peritoneum"), p.first.cavity));
   }
   p.list_tissues(inside || options.walls, frame);
   if (!inside) cut_open(p.walls, frame);
   p.list_clips(state, frame);
-  if (options.instruments) p.list_tools(state, frame);
+  if (options.instruments) p.list_tools(state, options, frame);
   if (options.instruments && !inside) p.list_scope(state, frame);
-  if (p.wet) p.wet->list(state, frame);
-  if (p.wet) list_smoke(p.model.wet.model.smoke, state.fluids.smoke, frame);
+  apply(options.styles, frame);
+  const auto shown = [&](std::uint16_t part) { return style_of(options.styles, part) != PartStyle::hidden; };
+  if (p.wet && shown(p.first.liquid)) p.wet->list(state, frame);
+  if (p.wet && shown(p.first.smoke)) list_smoke(p.model.wet.model.smoke, state.fluids.smoke, frame);
   // Only the endoscope has a lens that fogs: other cameras look past it.
   if (p.wet && options.camera == ViewOptions::Camera::scope)
     p.lens.list(p.model.wet.model.smoke, state.fluids.smoke, frame);

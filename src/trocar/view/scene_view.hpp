@@ -9,12 +9,24 @@
 // frame() updates meshes, so it is called between frames and on the backend's thread.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include <trocar/render/backend.hpp>
 #include <trocar/sim/state.hpp>
 
 namespace trocar::view {
+
+enum class PartGroup { organs, tubes, folds, vessels, walls, instruments, clips, fluids };
+
+/// Something that can be shown in another way than the rest, or not at all.
+struct ScenePart {
+  std::string name;  ///< as in the scene; "cavity", "clips", "blood and water", ... where it has none there
+  PartGroup group;
+};
+enum class PartStyle : std::uint8_t { shaded, transparent, wireframe, hidden };
 
 struct ViewOptions {
   enum class Camera {
@@ -27,7 +39,8 @@ struct ViewOptions {
   double outside_fov = 0.7;                                          ///< [rad] of the picture's height
   bool walls = true;  ///< outside: false leaves out what encloses the scene
   bool instruments = true;
-  bool metering = true;  ///< false: exposed as its memory says, which stays as it is
+  bool metering = true;           ///< false: exposed as its memory says, which stays as it is
+  std::vector<PartStyle> styles;  ///< of SceneView::parts(); those beyond its end are shaded
   render::Quality quality;
   int eye_index = 0;  ///< 0..7: each picture has its own exposure memory
 };
@@ -38,6 +51,9 @@ class SceneView {
   ~SceneView();  ///< destroys its meshes
   SceneView(const SceneView&) = delete;
   SceneView& operator=(const SceneView&) = delete;
+
+  /// What the scene is made of; part i has number i + 1 in the frame's items. The same for as long as this lives.
+  const std::vector<ScenePart>& parts() const;
 
   /// Moves the meshes to `state` and lists what to draw. `state` must be one of the Model's.
   render::Frame frame(const sim::State& state, const ViewOptions& options);

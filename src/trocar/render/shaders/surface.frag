@@ -156,7 +156,7 @@ void main() {
 #ifdef FOGGY
   colour = through_air(colour, v_eye);
 #endif
-  o_colour = vec4(colour, length(v_eye));
+  o_colour = vec4(colour * mix(1.0, ALPHA, u_blended), mix(length(v_eye), ALPHA, u_blended));
 #else
   vec3 albedo = mix(COLOUR_A, COLOUR_B, MOTTLE * smoothstep(0.2, 0.8, broad.a));
   albedo = mix(albedo, COLOUR_C, MOTTLE * smoothstep(0.35, 1.0, fine.a));
