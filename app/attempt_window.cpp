@@ -9,6 +9,7 @@
 #include <trocar/core/error.hpp>
 #include <trocar/core/log.hpp>
 
+#include "display_panel.hpp"
 #include "hand_names.hpp"
 #include "paths.hpp"
 #include "sources.hpp"
@@ -63,8 +64,16 @@ std::string AttemptWindow::mode_text() const {
   return m_lesson.exercise ? "" : "free practice";
 }
 
+/// Is it scored? Then organs are not looked through.
+bool AttemptWindow::counts() const { return m_plan.mode == AttemptMode::assessed && !m_steps.empty(); }
+
 std::string AttemptWindow::screen_name() const {
-  return m_over ? "result" : m_hint ? "hint" : m_paused ? "pause" : m_rack ? "rack" : "exercise";
+  return m_over      ? "result"
+         : m_hint    ? "hint"
+         : m_display ? "display"
+         : m_paused  ? "pause"
+         : m_rack    ? "rack"
+                     : "exercise";
 }
 
 Choice AttemptWindow::run() {
@@ -128,7 +137,7 @@ void AttemptWindow::look_at_keys() {
   if (m_had_focus && !window.focused() && m_pilot && !stands_still()) hold("Another window came to the front.");
   m_had_focus = window.focused();
   m_gamepad_used |= touched(window.gamepads().state());
-  if (m_stage.overlay() != Stage::Overlay::none || m_over || m_hint) return;
+  if (m_stage.overlay() != Stage::Overlay::none || m_over || m_hint || m_display) return;
   const bool back = window.keys().back, pause = window.keys().pause;
   if (m_rack && back) {
     m_rack = false;
@@ -202,6 +211,7 @@ void AttemptWindow::draw_scene(const Snapshot& now) {
   const int width = std::max(1, window.width() - int(panel)), height = std::max(1, window.height());
   view::ViewOptions options;
   options.quality = m_stage.governor.quality();
+  options.styles = m_styles;
   m_stage.draw_scene(m_stage.view_of(m_lesson).frame(now.state, options), width, height);
   ui::set_middle(float(width));
   const PanelContent content{m_lesson,
@@ -231,13 +241,15 @@ void AttemptWindow::draw_over(const Snapshot& now, Choice& choice) {
       m_stage.settings.show_hint = m_hint_again;
       m_stage.keep_settings();
     }
+  } else if (m_display) {
+    if (draw_display(m_stage.view_of(m_lesson).parts(), m_styles) || m_stage.window.keys().back) m_display = false;
   } else if (m_paused) {
-    choice =
-        draw_pause(m_why_paused, m_log.attempt().recording, m_plan.mode == AttemptMode::assessed && !m_steps.empty());
+    choice = draw_pause(m_why_paused, m_log.attempt().recording, counts(), !counts());
   } else if (m_rack) {
     draw_the_rack(now);
   }
   if (choice == Choice::resume) m_paused = false, m_why_paused.clear();
+  if (choice == Choice::display) m_display = true;
   if (choice == Choice::settings) m_stage.open(Stage::Overlay::settings);
   if (choice == Choice::help) m_stage.open(Stage::Overlay::help);
   if (choice == Choice::report) m_stage.reports.open(m_stage.options.store, m_log.attempt().uuid);

@@ -448,7 +448,7 @@ bool wide_button(const char* text, bool primary = false) {
 
 }  // namespace
 
-Choice draw_pause(const std::string& why, const std::string& recording, bool scored) {
+Choice draw_pause(const std::string& why, const std::string& recording, bool scored, bool display) {
   Choice choice = Choice::none;
   ui::begin_middle("pause", 520);
   ui::title("Paused");
@@ -465,6 +465,7 @@ Choice draw_pause(const std::string& why, const std::string& recording, bool sco
   if (wide_button("Begin again")) choice = Choice::restart;
   if (wide_button("Keys and buttons")) choice = Choice::help;
   if (wide_button("Settings")) choice = Choice::settings;
+  if (display && wide_button("Display")) choice = Choice::display;
   if (wide_button("To the start screen")) choice = Choice::start_screen;
   if (wide_button("Quit Trocar")) choice = Choice::quit;
   if (!recording.empty()) ui::text("recorded in " + recording, ui::kGrey);

@@ -34,14 +34,15 @@ void draw_panel(const PanelContent& content, float left, float width, float heig
 /// Fresh notices over the lower part of the picture.
 void draw_notices(const Feedback& feedback, double now, float picture_width, float picture_height);
 
-enum class Choice { none, resume, restart, finish, settings, help, report, start_screen, quit };
+enum class Choice { none, resume, restart, finish, settings, display, help, report, start_screen, quit };
 
 /// All keys and buttons of the devices that are there. Resume closes it.
 Choice draw_help(bool gamepad, bool left_handed);
 /// The three things to know. @param again in/out: show it before the next attempt, too
 Choice draw_hint(bool gamepad, bool& again);
 /// Pause menu. `why` is said where it was not asked for; `recording` is said, so that people find it.
-Choice draw_pause(const std::string& why, const std::string& recording, bool scored);
+/// @param display  how things are shown may be chosen: not while it counts
+Choice draw_pause(const std::string& why, const std::string& recording, bool scored, bool display);
 /// After the attempt. `report`: there is a page to open; `say`: how far it is, or empty
 Choice draw_result(const Json& result, const std::string& mode, bool report, const std::string& say);
 

@@ -10,6 +10,7 @@
 
 #include <trocar/core/error.hpp>
 
+#include "display_panel.hpp"
 #include "interrupt.hpp"
 #include "player_parts.hpp"
 #include "settings.hpp"
@@ -86,10 +87,12 @@ void Player::draw_overlays() {
     const PlayerChoice choice = draw_player_menu();
     if (choice != PlayerChoice::none) m_menu = false;
     if (choice == PlayerChoice::film) start_film();
+    if (choice == PlayerChoice::display) m_display = true;
     if (choice == PlayerChoice::help) m_help = true;
     if (choice == PlayerChoice::quit) m_quit = true;
     if (choice == PlayerChoice::picture) m_picture_wanted = true;
   }
+  if (m_display && draw_display(m_view.parts(), m_styles)) m_display = false;
   if (m_help) draw_player_help();
 }
 

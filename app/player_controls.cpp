@@ -29,7 +29,9 @@ void Player::listen(PlayerCommands& commands) {
   if (keys.help) m_help = !m_help;
   const bool back = keys.back && (overlay() || !pad.has(devices::Button::b));  // B means something else outside menus
   if (!back && !keys.pause) return;
-  if (m_help)
+  if (m_display)
+    m_display = false;
+  else if (m_help)
     m_help = false;
   else
     m_menu = !m_menu;

@@ -5,7 +5,7 @@ namespace trocar::app {
 /// What can be pressed, and where, for tests that drive the real window.
 void Player::log_widgets() {
   const std::vector<ui::Widget> widgets = ui::take_widgets();
-  const char* screen = m_film ? "film" : m_help ? "help" : m_menu ? "menu" : "player";
+  const char* screen = m_film ? "film" : m_display ? "display" : m_help ? "help" : m_menu ? "menu" : "player";
   if (!m_log.on() || (widgets == m_widgets && m_screen == screen)) return;
   m_widgets = widgets;
   m_screen = screen;

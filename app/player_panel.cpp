@@ -150,6 +150,7 @@ PlayerChoice draw_player_menu() {
   entry("Back to the recording", PlayerChoice::resume, true);
   entry("Save the picture", PlayerChoice::picture);
   entry("Film of the visible time", PlayerChoice::film);
+  entry("Display", PlayerChoice::display);
   entry("Keys and buttons", PlayerChoice::help);
   entry("Quit", PlayerChoice::quit);
   ImGui::End();

@@ -34,13 +34,14 @@ struct Drawn {
   double yaw = 0, pitch = 0, distance = 0;
   Vec3d target;
   int width = 0, height = 0;
+  std::vector<view::PartStyle> styles;
   render::Quality quality;
 
   friend bool operator==(const Drawn& a, const Drawn& b) {
     return a.tick == b.tick && a.exact == b.exact && a.endoscope == b.endoscope && a.inset == b.inset &&
            a.yaw == b.yaw && a.pitch == b.pitch && a.distance == b.distance && a.target.x == b.target.x &&
            a.target.y == b.target.y && a.target.z == b.target.z && a.width == b.width && a.height == b.height &&
-           a.quality == b.quality;
+           a.styles == b.styles && a.quality == b.quality;
   }
 };
 
@@ -92,7 +93,7 @@ class Player {
   void log_camera();
 
   std::uint64_t now() const { return std::uint64_t(m_now + 0.5); }
-  bool overlay() const { return m_help || m_menu || m_film; }
+  bool overlay() const { return m_help || m_menu || m_display || m_film; }
 
   using Clock = std::chrono::steady_clock;
   Window& m_window;
@@ -117,7 +118,8 @@ class Player {
   double m_now = 0;  ///< [ticks]
   double m_speed = 1;
   bool m_playing = false, m_endoscope = true, m_inset = true, m_exact = false;
-  bool m_help = false, m_menu = false, m_quit = false, m_picture_wanted = false;
+  bool m_help = false, m_menu = false, m_display = false, m_quit = false, m_picture_wanted = false;
+  std::vector<view::PartStyle> m_styles;  ///< of the scene's parts
   int m_preset = 1;
   view::Orbit m_around, m_orbit;
   Area m_main, m_small, m_bar, m_panel;

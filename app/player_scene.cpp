@@ -27,6 +27,7 @@ const sim::State& Player::state_to_show() {
 view::ViewOptions Player::view_now(bool endoscope, const render::Quality& quality) const {
   view::ViewOptions options = endoscope ? view::ViewOptions{} : view_of(m_orbit);
   options.quality = quality;
+  options.styles = m_styles;
   return options;
 }
 
@@ -42,17 +43,10 @@ render::Target Player::target(const Area& a) const {
 void Player::show_scene(const sim::State& state) {
   const double rested = std::chrono::duration<double>(Clock::now() - m_asked_at).count();
   const bool moving = m_playing || m_drag != Drag::none || rested < kRest;
-  Drawn wanted{state.tick,
-               m_exact,
-               m_endoscope,
-               m_inset,
-               m_orbit.yaw,
-               m_orbit.pitch,
-               m_orbit.distance,
-               m_orbit.target,
-               m_window.width(),
-               m_window.height(),
-               moving ? m_governor.quality() : render::Quality{}};
+  Drawn wanted{state.tick,        m_exact,        m_endoscope,
+               m_inset,           m_orbit.yaw,    m_orbit.pitch,
+               m_orbit.distance,  m_orbit.target, m_window.width(),
+               m_window.height(), m_styles,       moving ? m_governor.quality() : render::Quality{}};
   if (!(wanted == m_drawn)) {
     const Clock::time_point start = Clock::now();
     draw_scene(state, wanted.quality);
