@@ -1,5 +1,6 @@
 // trocar gallery: the picture book. Every scene through its endoscope, close up (organs, what is mistaken for what),
-// every instrument, an exchange, how a shadow tells height, clips and a cut, and from outside.
+// every instrument, an exchange, how a shadow tells height, clips and a cut, coagulation, smoke and the fogged lens,
+// bleeding, ways to show parts, both eyes, and from outside.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 
 #include "camera_choice.hpp"
 #include "command.hpp"
+#include "gallery_events.hpp"
 #include "json.hpp"
 #include "lesson.hpp"
 #include "paths.hpp"
@@ -20,32 +22,9 @@ namespace {
 
 using view::ViewOptions;
 
-/// The endoscope's optics `distance` [m] before a point, on the side of where the scope is.
-ViewOptions close_up(const sim::Model& model, Vec3d target, double distance) {
-  ViewOptions options;
-  options.camera = ViewOptions::Camera::inside;
-  options.target = target;
-  options.eye = target + distance * normalised(model.scope.port - target, Vec3d{0, 0, 1});
-  return options;
-}
-
 Vec3d on_strand(const sim::Model& model, const sim::State& state, int strand, double s) {
   const interactions::StrandBody& body = model.bodies[std::size_t(strand)];
   return point_at(body, state.strands[std::size_t(strand)], place_at(body, s));
-}
-
-/// The places of an organ's skin, as drawn.
-std::vector<Vec3d> skin_of(const sim::Model& model, int organ) {
-  const tissue::Skin& skin = model.skin(organ);
-  std::vector<Vec3d> places;
-  for (int v = 0; v < skin.size(); ++v)
-    if (skin.at_surface(v)) places.push_back(vec_cast<double>(skin.rest[std::size_t(v)]));
-  return places;
-}
-
-Vec3d nearest(const std::vector<Vec3d>& places, Vec3d p) {
-  return *std::min_element(places.begin(), places.end(),
-                           [p](Vec3d a, Vec3d b) { return dot(a - p, a - p) < dot(b - p, b - p); });
 }
 
 void organs(const sim::Model& model, const sim::State& start, Shots& shots) {
@@ -237,15 +216,23 @@ void add_scene(Json& list, const std::string& name, const std::filesystem::path&
   heights(model, start, shots);
   clips_and_cut(model, start, shots);
   bites(model, start, shots);
+  burn(model, start, shots);
+  bleed(model, start, shots);
+  styles(start, pictures, shots);
+  eyes(model, start, size, shots);
   outside(model, start, shots);
   shots.write_index();
   for (const std::string& file : shots.files()) list.push_back(file);
 }
 
-int gallery(const std::string& folder, const PictureSize size, bool json) {
+int gallery(const std::string& folder, const std::string& scene, const PictureSize size, bool json) {
+  const std::vector<scene::SceneEntry> all = scene::list_scenes(scenes_folder());
+  if (!scene.empty() && std::none_of(all.begin(), all.end(), [&](const auto& s) { return s.name == scene; }))
+    throw core::BadInput({{{"--scene", 0, 0}, fmt::format("expected a scene (see trocar list), got '{}'", scene)}});
   make_folder(folder);
   Json files = Json::array();
-  for (const scene::SceneEntry& s : scene::list_scenes(scenes_folder())) add_scene(files, s.name, folder, size);
+  for (const scene::SceneEntry& s : all)
+    if (scene.empty() || s.name == scene) add_scene(files, s.name, folder, size);
   if (json)
     print({{"pictures", files}});
   else
@@ -257,15 +244,17 @@ int gallery(const std::string& folder, const PictureSize size, bool json) {
 
 void add_gallery(CLI::App& program, Chosen& chosen) {
   struct Options {
-    std::string folder, size = "800x600";
+    std::string folder, scene, size = "800x600";
   };
   auto o = std::make_shared<Options>();
   CLI::App* c = add_command(program, chosen, "gallery", "Write pictures of every scene to a folder",
                             "trocar gallery pictures --size 1024x768");
   c->add_option("folder", o->folder, "where the pictures go")->required();
+  c->add_option("--scene", o->scene, "only this one");
   c->add_option("--size", o->size, "of pictures")->capture_default_str();
-  c->callback(
-      [o, &chosen] { chosen.run = [o, &chosen] { return gallery(o->folder, parse_size(o->size), chosen.json); }; });
+  c->callback([o, &chosen] {
+    chosen.run = [o, &chosen] { return gallery(o->folder, o->scene, parse_size(o->size), chosen.json); };
+  });
 }
 
 }  // namespace trocar::app

@@ -26,6 +26,7 @@ Pictures::~Pictures() = default;
 const std::string& Pictures::driver() const { return m_context->description(); }
 
 render::Image Pictures::draw(const sim::State& state, view::ViewOptions options) {
+  m_context->make_current();  // others may have drawn in between
   if (options.styles.empty()) options.styles = m_styles;
   const render::Frame frame = m_view->frame(state, options);
   draw_for(m_eyes, *m_backend, frame, render::Target::off_screen(m_size.width, m_size.height));
@@ -35,6 +36,7 @@ render::Image Pictures::draw(const sim::State& state, view::ViewOptions options)
 render::Image Pictures::still(const sim::State& state, view::ViewOptions options) {
   // The exposure follows the brightness that it measured in the picture before, by simulated time: pretend seconds.
   constexpr int kSettling = 3;
+  m_context->make_current();  // others may have drawn in between
   if (options.styles.empty()) options.styles = m_styles;
   options.eye_index = 7;  // an exposure memory of its own
   render::Frame frame = m_view->frame(state, options);
@@ -59,19 +61,28 @@ std::string file_part(std::string text) {
 
 }  // namespace
 
+bool Shots::full() {
+  if (int(m_files.size()) < kMaxShots) return false;
+  ++m_left_out;
+  return true;
+}
+
 void Shots::take(const sim::State& state, const std::string& what, const std::string& text) {
   take_outside(state, what, text, {});
 }
 
 void Shots::take_outside(const sim::State& state, const std::string& what, const std::string& text,
                          const view::ViewOptions& options) {
-  if (int(m_files.size()) >= kMaxShots) {
-    ++m_left_out;
-    return;
-  }
+  if (full()) return;
+  take_image(state, what, text, m_pictures.still(state, options));
+}
+
+void Shots::take_image(const sim::State& state, const std::string& what, const std::string& text,
+                       const render::Image& image) {
+  if (full()) return;
   const std::string name = fmt::format("{:03}-{}.png", m_files.size(), file_part(what));
   const std::string path = (m_folder / name).string();
-  render::write_png(path, m_pictures.still(state, options));
+  render::write_png(path, image);
   m_files.push_back(path);
   m_index.push_back({{"file", name}, {"seconds", double(state.tick) * sim::kTick}, {"shows", text}});
 }

@@ -40,6 +40,7 @@ class Pictures {
   /// A single picture: as draw(), with the exposure settled. Does not disturb the stream's exposure.
   render::Image still(const sim::State& state, view::ViewOptions options = {});
   const std::string& driver() const;
+  const std::vector<view::ScenePart>& parts() const { return m_view->parts(); }
 
  private:
   PictureSize m_size;
@@ -60,6 +61,9 @@ class Shots {
   void take(const sim::State& state, const std::string& what, const std::string& text);
   void take_outside(const sim::State& state, const std::string& what, const std::string& text,
                     const view::ViewOptions& options);
+  /// A picture that somebody else drew.
+  void take_image(const sim::State& state, const std::string& what, const std::string& text,
+                  const render::Image& image);
   void write_index() const;
   const std::vector<std::string>& files() const { return m_files; }
   std::string index_file() const { return (m_folder / "index.json").string(); }
@@ -67,6 +71,8 @@ class Shots {
   static constexpr int kMaxShots = 200;
 
  private:
+  bool full();  ///< and one more is left out
+
   Pictures& m_pictures;
   std::filesystem::path m_folder;
   std::vector<std::string> m_files;

@@ -1,0 +1,155 @@
+#include "gallery_events.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include <trocar/render/image.hpp>
+#include <trocar/sim/step.hpp>
+#include <trocar/sim/visibility.hpp>
+
+namespace trocar::app {
+
+using view::PartGroup;
+using view::PartStyle;
+using view::ViewOptions;
+
+namespace {
+
+constexpr std::uint64_t kSecond = 1000;  // [ticks]
+
+/// The scene at work, with an input that stays until it is changed.
+struct Running {
+  const sim::Model& model;
+  sim::State state;
+  sim::Work work = sim::make_work(model);
+  sim::Input input = model.start;
+
+  Running(const sim::Model& of, const sim::State& start) : model(of), state(start) {}
+  void run(std::uint64_t ticks) {
+    for (std::uint64_t i = 0; i < ticks; ++i) sim::step(model, input, state, work);
+  }
+  /// A hand's tip goes to a point in a second.
+  void go(std::size_t hand, Vec3d to) {
+    const Vec3d port = model.hands[hand].port, from = kinematics::forward(port, state.tools[hand].pose()).tip;
+    for (std::uint64_t i = 1; i <= kSecond; ++i) {
+      const Vec3d tip = from + (double(i) / double(kSecond)) * (to - from);
+      const auto instrument = input.tools[hand].instrument;
+      input.tools[hand] = sim::tool_input(kinematics::inverse(port, tip, 0), 0);
+      input.tools[hand].instrument = instrument;
+      run(1);
+    }
+  }
+};
+
+struct Held {
+  std::size_t hand = 0;
+  int instrument = -1;  ///< in its rack; -1: no hand has one
+};
+
+Held hook_of(const sim::Model& model) {
+  for (std::size_t h = 0; h < model.hands.size(); ++h)
+    for (std::size_t i = 0; i < model.hands[h].rack.size(); ++i)
+      if (model.hands[h].rack[i].kind == interactions::ToolKind::hook) return {h, int(i)};
+  return {};
+}
+
+}  // namespace
+
+ViewOptions close_up(const sim::Model& model, Vec3d target, double distance) {
+  ViewOptions options;
+  options.camera = ViewOptions::Camera::inside;
+  options.target = target;
+  options.eye = target + distance * normalised(model.scope.port - target, Vec3d{0, 0, 1});
+  return options;
+}
+
+std::vector<Vec3d> skin_of(const sim::Model& model, int organ) {
+  const tissue::Skin& skin = model.skin(organ);
+  std::vector<Vec3d> places;
+  for (int v = 0; v < skin.size(); ++v)
+    if (skin.at_surface(v)) places.push_back(vec_cast<double>(skin.rest[std::size_t(v)]));
+  return places;
+}
+
+Vec3d nearest(const std::vector<Vec3d>& places, Vec3d p) {
+  return *std::min_element(places.begin(), places.end(),
+                           [p](Vec3d a, Vec3d b) { return dot(a - p, a - p) < dot(b - p, b - p); });
+}
+
+void burn(const sim::Model& model, const sim::State& start, Shots& shots) {
+  const Held hook = hook_of(model);
+  if (hook.instrument < 0 || !model.wet.there || model.organs() == 0) return;
+  Running r(model, start);
+  r.state.tools[hook.hand].instrument = hook.instrument;
+  r.input.tools[hook.hand].instrument = hook.instrument;
+  const Vec3d port = model.hands[hook.hand].port, place = nearest(skin_of(model, 0), port);
+  const Vec3d in = normalised(place - port);
+  r.go(hook.hand, place + 0.001 * in);
+  r.input.pedals = sim::kBlue;
+  r.run(4 * kSecond);
+  shots.take_outside(r.state, "coagulation", "a hook coagulates, with smoke", close_up(model, place, 0.045));
+  for (int i = 0; i < 25 && r.state.fluids.smoke.fog < 0.5; ++i) r.run(kSecond);
+  shots.take(r.state, "fogged lens", "the same through the endoscope: smoke has fogged the lens");
+  r.input.pedals = 0;
+  r.go(hook.hand, place - 0.03 * in);
+  shots.take_outside(r.state, "burn", "what the hook has left behind", close_up(model, place, 0.03));
+  r.input.pedals = sim::kWipe;
+  r.run(kSecond);
+  shots.take(r.state, "wiping the lens", "the lens is wiped");
+  r.input.pedals = 0;
+  r.run(12 * kSecond);
+  shots.take(r.state, "wiped lens", "and wiped");
+}
+
+void bleed(const sim::Model& model, const sim::State& start, Shots& shots) {
+  if (model.vessels.bleeder.vessel < 0 || !model.wet.there) return;
+  Running r(model, start);
+  const std::uint64_t latest = model.vessels.bleeder.tick + kSecond;
+  while (r.work.bleed_count == 0 && r.state.tick < latest) r.run(1);
+  if (r.work.bleed_count == 0) return;
+  r.run(kSecond / 2);
+  const Vec3d hole = r.work.bleed_count > 0 ? r.work.bleeds[0].place : Vec3d{};
+  shots.take_outside(r.state, "bleeding jet", "an artery has opened: its jet", close_up(model, hole, 0.045));
+  r.run(5 * kSecond);
+  shots.take_outside(r.state, "bleeding film", "five seconds later", close_up(model, hole, 0.06));
+  r.run(25 * kSecond);
+  shots.take(r.state, "bleeding endoscope", "half a minute later, through the endoscope");
+  const fluids::PoolModel& pool = model.wet.model.pool;
+  const Vec3d middle = world(pool, 0.5 * pool.nx * pool.cell, 0.5 * pool.ny * pool.cell, 0.005);
+  shots.take_outside(r.state, "bleeding pool", "the pool that has gathered", close_up(model, middle, 0.05));
+}
+
+void styles(const sim::State& start, Pictures& pictures, Shots& shots) {
+  struct Choice {
+    PartGroup group;
+    PartStyle style;
+    const char* what;
+    const char* text;
+  };
+  constexpr Choice kChoices[] = {
+      {PartGroup::organs, PartStyle::wireframe, "organs as edges", "organs as the edges of their triangles"},
+      {PartGroup::organs, PartStyle::transparent, "organs transparent", "organs transparent"},
+      {PartGroup::tubes, PartStyle::transparent, "tubes transparent", "tubes and ligaments transparent"},
+      {PartGroup::folds, PartStyle::hidden, "folds hidden", "without folds"}};
+  const std::vector<view::ScenePart>& parts = pictures.parts();
+  for (const Choice& c : kChoices) {
+    ViewOptions options;
+    options.styles.assign(parts.size(), PartStyle::shaded);
+    bool any = false;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      if (parts[i].group == c.group) options.styles[i] = c.style, any = true;
+    if (any) shots.take_outside(start, c.what, c.text, options);
+  }
+}
+
+void eyes(const sim::Model& model, const sim::State& start, PictureSize size, Shots& shots) {
+  for (const StereoName& n : kStereoNames) {
+    if (!n.mode || n.mode == render::StereoMode::quad_buffer) continue;
+    Pictures pictures(model, size, {{n.mode, {}, false}, {}});
+    shots.take_image(start, fmt::format("two eyes {}", n.name), fmt::format("for two eyes: {}", n.meaning),
+                     pictures.still(start));
+  }
+}
+
+}  // namespace trocar::app
