@@ -12,12 +12,6 @@ namespace trocar::app {
 
 using render::Eye;
 
-std::vector<std::string> stereo_names() {
-  std::vector<std::string> names;
-  for (const StereoName& s : kStereoNames) names.push_back(s.name);
-  return names;
-}
-
 TwoEyes parse_stereo(const std::string& text) {
   const std::string name = text.substr(0, text.find(':'));
   TwoEyes eyes;

@@ -37,7 +37,11 @@ inline constexpr double kLeastBase = 0.5, kMostBase = 12, kLeastConvergence = 20
 
 inline constexpr const char* kStereoHelp =
     "of pictures and film: off | side-by-side | top-bottom | rows | anaglyph, with :BASE,CONVERGENCE [mm] if wanted";
-std::vector<std::string> stereo_names();
+inline std::vector<std::string> stereo_names() {
+  std::vector<std::string> names;
+  for (const StereoName& s : kStereoNames) names.push_back(s.name);
+  return names;
+}
 
 /// MODE or MODE:BASE,CONVERGENCE, for pictures in files: no quad buffers.  @throws core::BadInput naming what was
 /// expected
