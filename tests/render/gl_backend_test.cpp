@@ -12,25 +12,14 @@
 #include <trocar/render/gl_program.hpp>
 #include <trocar/render/governor.hpp>
 
+#include "gl_fixture.hpp"
 #include "sample_scene.hpp"
 
 namespace trocar::render {
 namespace {
 
-class GlBackend : public testing::Test {
+class GlBackend : public GlFixture {
  protected:
-  void SetUp() override {
-    try {
-      context = GlContext::off_screen();
-    } catch (const core::EnvironmentLacks& e) {
-      FAIL() << e.what();
-    }
-    backend = make_gl_backend(*context);
-  }
-  void TearDown() override {
-    backend.reset();
-    context.reset();
-  }
   MeshHandle ball(Vec3f centre, float radius, int rings = 48) {
     return sample::create(*backend, sample::sphere(centre, radius, rings));
   }
@@ -43,10 +32,6 @@ class GlBackend : public testing::Test {
     draw_frame(*backend, frame, Target::off_screen(width, height));
     return backend->read_pixels();
   }
-
-  std::unique_ptr<GlContext> context;
-  std::unique_ptr<Backend> backend;
-  Frame frame;
 };
 
 /// A surface that shows its irradiance and a faint gloss that falls off alike.

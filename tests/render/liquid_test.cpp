@@ -12,6 +12,7 @@
 #include <trocar/render/gl_context.hpp>
 #include <trocar/render/governor.hpp>
 
+#include "gl_fixture.hpp"
 #include "sample_scene.hpp"
 
 namespace trocar::render {
@@ -121,22 +122,13 @@ TEST_F(LiquidChecks, RefuseALensThatCannotBe) {
   EXPECT_EQ(refusal(), "begin_frame: too many drops on the lens");
 }
 
-class Liquids : public testing::Test {
+class Liquids : public GlFixture {
  protected:
   void SetUp() override {
-    try {
-      context = GlContext::off_screen();
-    } catch (const core::EnvironmentLacks& e) {
-      FAIL() << e.what();
-    }
-    backend = make_gl_backend(*context);
+    GlFixture::SetUp();
     frame.look = plain_look();
     frame.look.exposure_ev = -0.5f;  // the lightest plate is not clipped
     frame.liquid.look = blood();
-  }
-  void TearDown() override {
-    backend.reset();
-    context.reset();
   }
   /// A plate that faces the eye, `off` metres away, of one sRGB grey.
   void add_plate(float off, std::uint8_t grey, float from_x = -1, float to_x = 1) {
@@ -166,10 +158,6 @@ class Liquids : public testing::Test {
   static double light_at(const Image& image, int x, int y, int channel) {
     return light_of(image.at(x, y)[channel] / 255.0);
   }
-
-  std::unique_ptr<GlContext> context;
-  std::unique_ptr<Backend> backend;
-  Frame frame;
 };
 
 TEST_F(Liquids, NoGlErrorAtAnyQualityNorWhenMadeReady) {

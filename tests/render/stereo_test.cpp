@@ -8,6 +8,7 @@
 #include <trocar/render/backend.hpp>
 #include <trocar/render/gl_context.hpp>
 
+#include "gl_fixture.hpp"
 #include "sample_scene.hpp"
 
 namespace trocar::render {
@@ -68,20 +69,11 @@ TEST(Stereo, OneEyeOrTwoSizesAreRefused) {
   EXPECT_THROW(backend->combine(StereoMode::anaglyph, screen), Misuse) << "again without new pictures";
 }
 
-class StereoPictures : public testing::Test {
+class StereoPictures : public GlFixture {
  protected:
   void SetUp() override {
-    try {
-      context = GlContext::off_screen();
-    } catch (const core::EnvironmentLacks& e) {
-      FAIL() << e.what();
-    }
-    backend = make_gl_backend(*context);
+    GlFixture::SetUp();
     frame.look = plain_look();
-  }
-  void TearDown() override {
-    backend.reset();
-    context.reset();
   }
   /// Plain colours. @return what each eye sees
   std::array<Image, 2> draw_eyes(int width, int height) {
@@ -102,10 +94,6 @@ class StereoPictures : public testing::Test {
   }
   /// Is the pixel the left eye's red, not the right one's blue?
   static bool is_left(const Image& image, int x, int y) { return image.at(x, y)[0] > image.at(x, y)[2]; }
-
-  std::unique_ptr<GlContext> context;
-  std::unique_ptr<Backend> backend;
-  Frame frame;
 };
 
 TEST_F(StereoPictures, StandBesideEachOtherOverEachOtherOrInTurn) {
