@@ -27,6 +27,13 @@ Leftovers run_headless(Session& session, InputSource& source, const HeadlessOpti
     shots->take(session.state(), "start", "the start");
   }
   if (!options.video.empty()) video = Video::open(options.video, options.size);
+  std::optional<DataFrames> data;
+  if (!options.data.folder.empty()) data.emplace(model, options.data, options.size, options.look);
+
+  const auto add_data = [&] {
+    if (data && data->due(session.state().tick)) data->add(session.state(), {});
+  };
+  add_data();
 
   const std::uint64_t limit = options.seconds > 0 ? std::uint64_t(options.seconds * 1000) : ~std::uint64_t(0);
   const std::uint64_t begin = session.state().tick;
@@ -39,6 +46,7 @@ Leftovers run_headless(Session& session, InputSource& source, const HeadlessOpti
     if (shots)
       for (const ShotMoment& m : moments_to_show(session, begin)) shots->take(session.state(), m.what, m.text);
     if (video && session.state().tick % kTicksPerVideoFrame == 0) video->add(pictures->draw(session.state()));
+    add_data();
     if (each_tick && !each_tick()) break;
     progress.at(session.state().tick);
   }
@@ -51,6 +59,7 @@ Leftovers run_headless(Session& session, InputSource& source, const HeadlessOpti
     left["picture_index"] = shots->index_file();
   }
   if (video && video->finish()) left["video"] = video->path();
+  if (data) left["data"] = data->finish();
   return left;
 }
 

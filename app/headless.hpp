@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "data_frames.hpp"
 #include "picture_size.hpp"
 #include "pictures.hpp"
 #include "session.hpp"
@@ -13,12 +14,13 @@ namespace trocar::app {
 struct HeadlessOptions {
   std::filesystem::path shots;  ///< folder; empty: none
   std::filesystem::path video;  ///< file; empty: none
+  DataOptions data;
   PictureSize size;
   PictureLook look;    ///< of pictures and film
   double seconds = 0;  ///< stop after so much simulated time; 0: no limit
 };
 
-/// What else a loop left behind, in the result's words: "pictures", "picture_index", "video".
+/// What else a loop left behind, in the result's words: "pictures", "picture_index", "video", "data".
 using Leftovers = Json;
 
 /// Runs until the source has no more, time is up, somebody interrupts, or the physics has failed; an exercise that is

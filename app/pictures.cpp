@@ -25,10 +25,14 @@ Pictures::~Pictures() = default;
 
 const std::string& Pictures::driver() const { return m_context->description(); }
 
-render::Image Pictures::draw(const sim::State& state, view::ViewOptions options) {
+render::Frame Pictures::frame(const sim::State& state, view::ViewOptions options) {
   m_context->make_current();  // others may have drawn in between
   if (options.styles.empty()) options.styles = m_styles;
-  const render::Frame frame = m_view->frame(state, options);
+  return m_view->frame(state, options);
+}
+
+render::Image Pictures::draw(const sim::State& state, view::ViewOptions options) {
+  const render::Frame frame = this->frame(state, std::move(options));
   draw_for(m_eyes, *m_backend, frame, render::Target::off_screen(m_size.width, m_size.height));
   return m_backend->read_pixels();
 }
@@ -36,10 +40,8 @@ render::Image Pictures::draw(const sim::State& state, view::ViewOptions options)
 render::Image Pictures::still(const sim::State& state, view::ViewOptions options) {
   // The exposure follows the brightness that it measured in the picture before, by simulated time: pretend seconds.
   constexpr int kSettling = 3;
-  m_context->make_current();  // others may have drawn in between
-  if (options.styles.empty()) options.styles = m_styles;
   options.eye_index = 7;  // an exposure memory of its own
-  render::Frame frame = m_view->frame(state, options);
+  render::Frame frame = this->frame(state, std::move(options));
   for (int i = 0; i <= kSettling; ++i) {
     frame.tick = state.tick + std::uint64_t(i) * 2000;
     draw_for(m_eyes, *m_backend, frame, render::Target::off_screen(m_size.width, m_size.height));

@@ -39,6 +39,9 @@ class Pictures {
   render::Image draw(const sim::State& state, view::ViewOptions options = {});
   /// A single picture: as draw(), with the exposure settled. Does not disturb the stream's exposure.
   render::Image still(const sim::State& state, view::ViewOptions options = {});
+  /// What draw() draws.
+  render::Frame frame(const sim::State& state, view::ViewOptions options);
+  render::Backend& backend() { return *m_backend; }
   const std::string& driver() const;
   const std::vector<view::ScenePart>& parts() const { return m_view->parts(); }
 

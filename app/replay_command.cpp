@@ -13,7 +13,7 @@ namespace trocar::app {
 namespace {
 
 struct Options {
-  std::string size, camera = "endoscope", stereo = "off", show, exercise, log;
+  std::string size, data, camera = "endoscope", stereo = "off", show, exercise, log;
   ReplayOptions replay;
   bool headless = false;
 };
@@ -47,6 +47,8 @@ int say(const ReplayOptions& o, const Json& result, bool json) {
 int replay(Options o, bool json) {
   if (!o.size.empty()) o.replay.size = parse_size(o.size);
   o.replay.camera = parse_camera(o.camera);
+  check_data_rate(o.replay.data.rate);
+  o.replay.data.folder = o.data;
   o.replay.look = {parse_stereo(o.stereo), parse_show(o.show)};
   if (!(o.replay.speed >= kSlowest && o.replay.speed <= kFastest))
     throw core::BadInput(
@@ -54,7 +56,8 @@ int replay(Options o, bool json) {
   const sim::Recording recording = sim::read_recording(o.replay.file);
   if (!recording.damage.empty()) core::log::warn("{}: {}", o.replay.file, recording.damage);
   const std::string& exercise = o.exercise.empty() ? recording.header.exercise : o.exercise;
-  const bool window = !json && !o.headless && !o.replay.verify && o.replay.shots.empty() && o.replay.video.empty();
+  const bool window =
+      !json && !o.headless && !o.replay.verify && o.replay.shots.empty() && o.replay.video.empty() && o.data.empty();
   if (window) {
     PlayerOptions player{o.replay.file, exercise, o.log};
     if (!o.size.empty()) player.size = o.replay.size;
@@ -82,6 +85,8 @@ void add_replay(CLI::App& program, Chosen& chosen) {
   c->add_option("--exercise", o->exercise, "where the recording's exercise is now, if it was a path that moved");
   c->add_option("--shots", o->replay.shots, "write pictures to this folder");
   c->add_option("--video", o->replay.video, "write a film, H.264 (needs ffmpeg)");
+  c->add_option("--data", o->data, kDataHelp);
+  c->add_option("--data-rate", o->replay.data.rate, "frames per simulated second")->capture_default_str();
   c->add_option("--camera", o->camera,
                 "of pictures and film: endoscope | front | side | above | surgeon | free:YAW,PITCH,DISTANCE [deg, mm]")
       ->capture_default_str();

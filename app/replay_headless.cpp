@@ -66,6 +66,7 @@ class Camera {
     if (!o.video.empty()) m_video = Video::open(o.video, o.size);  // first: what it lacks is told before any work
     if (!o.shots.empty() || m_video) m_pictures = std::make_unique<Pictures>(lesson.model, o.size, o.look);
     if (!o.shots.empty()) m_shots = std::make_unique<Shots>(*m_pictures, o.shots);
+    if (!o.data.folder.empty()) m_data.emplace(lesson.model, o.data, o.size, o.look);
   }
 
   bool wants_nothing_after(std::uint64_t tick) const { return tick >= m_plan.to; }
@@ -83,6 +84,11 @@ class Camera {
       ++m_picture;
     }
   }
+  /// The part's frames for research.
+  void data(const sim::State& state) {
+    if (data_due(state.tick)) m_data->add(state, m_view);
+  }
+  bool data_due(std::uint64_t tick) const { return m_data && shows(tick) && m_data->due(tick); }
   bool due(std::uint64_t tick) const {
     return m_video && m_picture < m_plan.pictures() && m_plan.tick(m_picture) <= tick;
   }
@@ -95,6 +101,7 @@ class Camera {
       out["pictures"] = m_shots->files();
       out["picture_index"] = m_shots->index_file();
     }
+    if (m_data) out["data"] = m_data->finish();
     if (!m_video) return;
     if (m_picture == 0) return core::log::warn("no film: the recording ended before its first picture");
     if (!m_video->finish())
@@ -110,6 +117,7 @@ class Camera {
   std::unique_ptr<Video> m_video;
   std::unique_ptr<Pictures> m_pictures;
   std::unique_ptr<Shots> m_shots;
+  std::optional<DataFrames> m_data;
   std::uint64_t m_picture = 0;
 };
 
@@ -148,6 +156,7 @@ Json play_inputs(const Lesson& lesson, const sim::Recording& recording, const Re
   for (;;) {
     take_shots(camera, session, plan);
     camera.film(session.state());
+    camera.data(session.state());
     const std::uint64_t tick = session.state().tick;
     const bool enough = !to_the_end && camera.wants_nothing_after(tick);
     if (!good || enough || tick >= recording.inputs.size() || !session.broken().empty() || interrupted()) break;
@@ -181,6 +190,12 @@ Json play_keyframes(const Lesson& lesson, const sim::Recording& recording, const
     sim::State state = footage.at(camera.next_tick());
     state.tick = camera.next_tick();
     camera.film(state);
+  }
+  for (std::uint64_t tick = plan.from; !o.data.folder.empty() && tick <= plan.to; ++tick) {
+    if (!camera.data_due(tick)) continue;
+    sim::State state = footage.at(tick);
+    state.tick = tick;
+    camera.data(state);
   }
   camera.finish(out);
   return out;

@@ -7,6 +7,7 @@
 #include <trocar/sim/recording.hpp>
 
 #include "camera_choice.hpp"
+#include "data_frames.hpp"
 #include "film_plan.hpp"
 #include "json.hpp"
 #include "lesson.hpp"
@@ -18,6 +19,7 @@ namespace trocar::app {
 struct ReplayOptions {
   std::string file;          ///< the recording, for messages
   std::string shots, video;  ///< folder, file; empty: none
+  DataOptions data;
   PictureSize size;
   PictureLook look;  ///< of pictures and film
   CameraChoice camera;

@@ -20,8 +20,8 @@ namespace trocar::app {
 namespace {
 
 struct Options {
-  std::string exercise, input = "mouse", record, shots, video, report, size, stereo = "off", show, trainee, log;
-  double seconds = 0;
+  std::string exercise, input = "mouse", record, shots, video, report, data, size, stereo = "off", show, trainee, log;
+  double seconds = 0, data_rate = kDataRate;
   std::uint64_t seed = 0;
   bool headless = false, familiarisation = false, no_store = false;
 };
@@ -79,12 +79,17 @@ Json train_headless(const Options& o, const Lesson& lesson, training::Store* sto
   EventLog events(o.log);
   AttemptLog log(store, session, plan_of(o));
   events.event("attempt", {{"exercise", lesson.name}, {"recording", log.attempt().recording}});
-  const Leftovers left = run_headless(
-      session, *source, {o.shots, o.video, size, {parse_stereo(o.stereo), parse_show(o.show)}, o.seconds}, [&] {
-        for (const Moment& m : session.moments()) events.moment(lesson.model, m);
-        if (session.state().tick % kLogTimeEvery == 0) events.event("time", {{"tick", session.state().tick}});
-        return true;
-      });
+  const HeadlessOptions what{.shots = o.shots,
+                             .video = o.video,
+                             .data = {o.data, o.data_rate},
+                             .size = size,
+                             .look = {parse_stereo(o.stereo), parse_show(o.show)},
+                             .seconds = o.seconds};
+  const Leftovers left = run_headless(session, *source, what, [&] {
+    for (const Moment& m : session.moments()) events.moment(lesson.model, m);
+    if (session.state().tick % kLogTimeEvery == 0) events.event("time", {{"tick", session.state().tick}});
+    return true;
+  });
   const bool aborted = interrupted() && !(session.monitor() && session.monitor()->finished());
   Json result = session.result(aborted);
   result["input"] = o.input;
@@ -118,6 +123,7 @@ int train(const Options& o, bool json) {
                            fmt::format("expected --input demo, motion:FILE or replay:FILE with it, got {}", o.input)}});
   if (o.exercise.empty() && (o.headless || !hands))
     throw core::BadInput({{{"train", 0, 0}, "expected an exercise (see trocar list), got none"}});
+  check_data_rate(o.data_rate);
   static_cast<void>(parse_stereo(o.stereo)), static_cast<void>(parse_show(o.show));  // before anything is begun
   const PictureSize size = parse_size(o.size.empty() ? "800x600" : o.size);
   std::unique_ptr<Lesson> lesson = o.exercise.empty() ? nullptr : load_lesson(o.exercise, o.seed);
@@ -150,6 +156,8 @@ void add_train(CLI::App& program, Chosen& chosen) {
   c->add_option("--record", options->record, "write the recording to this file");
   c->add_option("--shots", options->shots, "headless: write pictures to this folder");
   c->add_option("--video", options->video, "headless: write a film (needs ffmpeg)");
+  c->add_option("--data", options->data, std::string("headless: ") + kDataHelp);
+  c->add_option("--data-rate", options->data_rate, "frames per simulated second")->capture_default_str();
   c->add_option("--report", options->report, "write an HTML report to this folder");
   c->add_option("--size", options->size, "of pictures (default 800x600) or window (default: as last time)");
   c->add_option("--stereo", options->stereo, std::string("headless: ") + kStereoHelp)->capture_default_str();

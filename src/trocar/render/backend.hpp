@@ -13,6 +13,7 @@
 
 #include <trocar/render/frame.hpp>
 #include <trocar/render/image.hpp>
+#include <trocar/render/layers.hpp>
 #include <trocar/render/mesh_data.hpp>
 #include <trocar/render/stereo.hpp>
 
@@ -60,6 +61,13 @@ class Backend {
   /// Puts the pictures of both eyes together. Both, and of one size, must have been kept since the last time. Quad
   /// buffers need a window with them.
   virtual void combine(StereoMode mode, const Target& target) = 0;
+
+  /// What the frame's picture shows where (layers.hpp). Things that are shown transparent or as edges are left out, and
+  /// smoke; drops have their own outlines each. Draws into pictures of its own.
+  /// @param before  the remembered frame's camera
+  virtual Layers draw_layers(const Frame& frame, const Camera& before, int width, int height) = 0;
+  /// Keeps where the frame's things are now, for the flow of later draw_layers().
+  virtual void remember(const Frame& frame) = 0;
 
   /// The target of the last frame.
   virtual Image read_pixels() = 0;

@@ -329,6 +329,29 @@ void CheckedBackend::combine(StereoMode mode, const Target& target) {
   m_left = m_right = {};
 }
 
+std::span<const DrawItem* const> CheckedBackend::solid_items(const Frame& frame, const char* call) {
+  require(!m_in_frame, call, "a frame is open");
+  m_opaque.clear();
+  for (const DrawItem& item : frame.items) {
+    require(is_finite(item.transform), call, "transform is not finite");
+    if (known(item.mesh, call).primitive == Primitive::triangles && item.style == DrawStyle::shaded)
+      m_opaque.push_back(&item);
+  }
+  return m_opaque;
+}
+
+Layers CheckedBackend::draw_layers(const Frame& frame, const Camera& before, int width, int height) {
+  const char* call = "draw_layers";
+  check_frame(frame, Target::off_screen(width, height), call);
+  check_camera(before, call);
+  const std::span<const DrawItem* const> items = solid_items(frame, call);
+  return through_lens(on_layers(frame, items, before, width, height),
+                      Projection(frame.camera, frame.look, width, height),
+                      Projection(before, frame.look, width, height), width, height);
+}
+
+void CheckedBackend::remember(const Frame& frame) { on_remember(solid_items(frame, "remember")); }
+
 Image CheckedBackend::read_pixels() {
   require(!m_in_frame, "read_pixels", "a frame is open");
   require(m_has_picture, "read_pixels", "no frame was drawn yet");

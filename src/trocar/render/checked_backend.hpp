@@ -24,6 +24,8 @@ class CheckedBackend : public Backend {
   void end_frame() final;
   void keep_eye(Eye eye, const Target& from) final;
   void combine(StereoMode mode, const Target& target) final;
+  Layers draw_layers(const Frame& frame, const Camera& before, int width, int height) final;
+  void remember(const Frame& frame) final;
   Image read_pixels() final;
   BackendStats stats() const final { return m_stats; }
 
@@ -48,6 +50,9 @@ class CheckedBackend : public Backend {
                         std::span<const DrawItem* const> translucent) = 0;
   virtual void on_keep_eye(Eye eye, const Target& from) = 0;
   virtual void on_combine(StereoMode mode, const Target& target) = 0;
+  virtual RawLayers on_layers(const Frame& frame, std::span<const DrawItem* const> items, const Camera& before,
+                              int width, int height) = 0;
+  virtual void on_remember(std::span<const DrawItem* const> items) = 0;
   virtual Image on_read(const Target& target) = 0;
 
  private:
@@ -65,6 +70,8 @@ class CheckedBackend : public Backend {
   Known& known(MeshHandle mesh, const char* call);
   void store(std::uint32_t id, const MeshData& data);
   void sort_items();
+  /// Those with a surface: not ghosts, edges or lines.
+  std::span<const DrawItem* const> solid_items(const Frame& frame, const char* call);
 
   std::unordered_map<std::uint32_t, Known> m_meshes;  // looked up by id only, never iterated
   std::uint32_t m_next_id = 1;

@@ -1,10 +1,11 @@
-// The backend that draws, in six files: the frame as a list of passes (gl_backend.cpp), what draws things into the
+// The backend that draws, in seven files: the frame as a list of passes (gl_backend.cpp), what draws things into the
 // scene picture (gl_scene_passes.cpp), how instruments shade it (gl_rods.cpp), liquids and smoke in it
-// (gl_liquid_passes.cpp, gl_smoke_pass.cpp), and what makes a camera's picture of it (gl_picture_passes.cpp). Private
-// to them.
+// (gl_liquid_passes.cpp, gl_smoke_pass.cpp), what makes a camera's picture of it (gl_picture_passes.cpp), and what is
+// where, without light (gl_layers_pass.cpp). Private to them.
 #pragma once
 
 #include <array>
+#include <unordered_map>
 #include <vector>
 
 #include <epoxy/gl.h>
@@ -58,6 +59,13 @@ class GlBackend final : public CheckedBackend {
   void on_keep_eye(Eye eye, const Target& from) override;
   void on_combine(StereoMode mode, const Target& target) override;
   Image on_read(const Target& target) override;
+  RawLayers on_layers(const Frame& frame, std::span<const DrawItem* const> items, const Camera& before, int width,
+                      int height) override;
+  void on_remember(std::span<const DrawItem* const> items) override;
+
+  void begin_layers(const Frame& frame, const Target& target, const Layout& layout);
+  void layer_items(std::span<const DrawItem* const> items, const Mat4& view_before);
+  void layer_liquids(const Frame& frame, const Layout& layout);
 
   void begin_scene(const Frame& frame, const Target& target, const Layout& layout);
   /// Near depth outside the circle, so that early depth tests drop those pixels.
@@ -78,7 +86,11 @@ class GlBackend final : public CheckedBackend {
   /// Drops and films, added up at half the scene's size; then their surface, drawn over the scene.
   void splat_pass(const Frame& frame, const Layout& layout);
   /// Into m_splat_rows, in the eye's frame; m_wet_box holds them all. Those that cannot be seen are left out.
-  void pack_splats(const Frame& frame);
+  /// @param field_height  of the picture that they are drawn into [px]
+  void pack_splats(const Frame& frame, int field_height);
+  void bind_sheet(const Liquid& liquid);
+  void bind_splats();
+  GLsizei splat_count() const;
   /// The parts of the scene that splats reach, as rectangles: a software driver pays for every pixel it looks at.
   void mark_tiles(const std::array<int, 4>& box);
   void pack_tiles();
@@ -116,6 +128,10 @@ class GlBackend final : public CheckedBackend {
   /// Others draw into the same context (menus): leave nothing bound that they would trip over.
   void leave_state_clean();
 
+  struct LayerPictures {
+    GlPicture surface, places;  ///< the first one's framebuffer draws into both
+    void resize(int width, int height);
+  };
   struct SeenPuff {
     Vec3f eye;
     const Puff* puff;
@@ -142,6 +158,8 @@ class GlBackend final : public CheckedBackend {
   std::vector<std::uint8_t> m_wet_tiles;
   std::vector<std::uint8_t> m_smoke_bytes;
   std::array<int, 4> m_wet_box{};  ///< of the scene picture [px]: x, y, width, height
+  LayerPictures m_layers;
+  std::unordered_map<std::uint32_t, std::vector<Mat4>> m_transforms_before;  ///< of a mesh's items, in turn
   std::array<GlPicture, 2> m_rough, m_exposure;
   std::array<Memory, kEyes> m_memory;
   Mat4 m_view, m_projection;

@@ -112,6 +112,19 @@ void GlBackend::sheet_pass(const Frame& frame, const Layout&) {
   const std::array<int, 4> all{0, 0, m_scene.width, m_scene.height};
   if (frame.quality.detail > 1) m_wet_box = all;
   keep_bed();
+  bind_sheet(liquid);
+  GlProgram& program = m_programs.get("sheet.vert", "sheet.frag", "DETAIL=" + std::to_string(frame.quality.detail));
+  program.use();
+  set_liquid(frame, program);
+  program.set("u_view", m_view);
+  glEnable(GL_DEPTH_TEST);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_BLEND);
+  glDisable(GL_CULL_FACE);
+  glDrawElements(GL_TRIANGLES, GLsizei(liquid.triangles.size()), GL_UNSIGNED_INT, nullptr);
+}
+
+void GlBackend::bind_sheet(const Liquid& liquid) {
   if (!m_sheet_buffer) {
     m_sheet_layout = new_vertex_array();
     m_sheet_buffer = new_buffer();
@@ -128,15 +141,6 @@ void GlBackend::sheet_pass(const Frame& frame, const Layout&) {
                GL_STREAM_DRAW);
   glBufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(liquid.triangles.size() * sizeof(std::uint32_t)),
                liquid.triangles.data(), GL_STREAM_DRAW);
-  GlProgram& program = m_programs.get("sheet.vert", "sheet.frag", "DETAIL=" + std::to_string(frame.quality.detail));
-  program.use();
-  set_liquid(frame, program);
-  program.set("u_view", m_view);
-  glEnable(GL_DEPTH_TEST);
-  glDepthMask(GL_TRUE);
-  glDisable(GL_BLEND);
-  glDisable(GL_CULL_FACE);
-  glDrawElements(GL_TRIANGLES, GLsizei(liquid.triangles.size()), GL_UNSIGNED_INT, nullptr);
 }
 
 void GlBackend::mark_tiles(const std::array<int, 4>& box) {
@@ -162,7 +166,7 @@ void GlBackend::pack_tiles() {
     }
 }
 
-void GlBackend::pack_splats(const Frame& frame) {
+void GlBackend::pack_splats(const Frame& frame, int field_height) {
   m_splat_rows.clear();
   const int columns = (m_scene.width + kTile - 1) / kTile, rows = (m_scene.height + kTile - 1) / kTile;
   m_wet_tiles.assign(std::size_t(columns) * rows, 0);
@@ -171,7 +175,7 @@ void GlBackend::pack_splats(const Frame& frame) {
     const Vec3f a = transform_point(m_view, s.from), b = transform_point(m_view, s.to);
     const float near = frame.camera.near_plane;
     if (-a.z < near || -b.z < near || -a.z > frame.camera.far_plane) continue;
-    const float texel = -a.z * 2 / (m_projection.m[5] * float(m_wet[0].height));
+    const float texel = -a.z * 2 / (m_projection.m[5] * float(field_height));
     const float radius = std::max(s.radius, kLeastTexel * texel);
     const bool flies = s.kind == SplatKind::flying || s.kind == SplatKind::streak;
     const Vec3f n = flies ? Vec3f{} : transform_direction(m_view, s.normal);
@@ -204,20 +208,10 @@ void GlBackend::splat_pass(const Frame& frame, const Layout& layout) {
       glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0 + k, GL_TEXTURE_2D, m_wet[k].colour.id(), 0);
   const GLenum all[3] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2};
   glDrawBuffers(3, all);
-  pack_splats(frame);
+  pack_splats(frame, height);
   if (m_splat_rows.empty() || m_wet_box[2] == 0 || m_wet_box[3] == 0) return;
 
-  if (!m_splat_buffer) {
-    m_splat_layout = new_vertex_array();
-    m_splat_buffer = new_buffer();
-    glBindVertexArray(m_splat_layout.id());
-    glBindBuffer(GL_ARRAY_BUFFER, m_splat_buffer.id());
-    for (GLuint k = 0; k < 4; ++k) attribute(k, 4, kSplatFloats, 4 * k, 1);
-  }
-  glBindVertexArray(m_splat_layout.id());
-  glBindBuffer(GL_ARRAY_BUFFER, m_splat_buffer.id());
-  glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(m_splat_rows.size() * sizeof(float)), m_splat_rows.data(), GL_STREAM_DRAW);
-
+  bind_splats();
   m_wet[0].bind();
   glClearColor(0, 0, 0, 0);
   glClear(GL_COLOR_BUFFER_BIT);
@@ -232,10 +226,25 @@ void GlBackend::splat_pass(const Frame& frame, const Layout& layout) {
   program.set("u_scene", kUnitPicture);
   program.set("u_part", part);
   bind_texture(kUnitPicture, GL_TEXTURE_2D, m_scene.colour.id());
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(m_splat_rows.size() / kSplatFloats));
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, splat_count());
   glDisable(GL_BLEND);
   wet_pass(frame, layout);
 }
+
+void GlBackend::bind_splats() {
+  if (!m_splat_buffer) {
+    m_splat_layout = new_vertex_array();
+    m_splat_buffer = new_buffer();
+    glBindVertexArray(m_splat_layout.id());
+    glBindBuffer(GL_ARRAY_BUFFER, m_splat_buffer.id());
+    for (GLuint k = 0; k < 4; ++k) attribute(k, 4, kSplatFloats, 4 * k, 1);
+  }
+  glBindVertexArray(m_splat_layout.id());
+  glBindBuffer(GL_ARRAY_BUFFER, m_splat_buffer.id());
+  glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(m_splat_rows.size() * sizeof(float)), m_splat_rows.data(), GL_STREAM_DRAW);
+}
+
+GLsizei GlBackend::splat_count() const { return GLsizei(m_splat_rows.size() / kSplatFloats); }
 
 void GlBackend::wet_pass(const Frame& frame, const Layout&) {
   keep_bed();

@@ -7,7 +7,7 @@ namespace trocar::render {
 
 namespace {
 
-enum Attribute : GLuint { kPosition, kNormal, kPaint, kRest, kRestNormal };
+enum Attribute : GLuint { kPosition, kNormal, kPaint, kRest, kRestNormal, kBefore };
 
 void attribute(GLuint index, GLint components, GLenum type, bool normalised, std::size_t stride, std::size_t offset) {
   glEnableVertexAttribArray(index);
@@ -64,6 +64,22 @@ void GlMeshes::update(std::uint32_t id, std::span<const Vec3f> positions, std::s
   glBufferSubData(GL_ARRAY_BUFFER, 0, GLsizeiptr(block), positions.data());
   glBufferSubData(GL_ARRAY_BUFFER, GLintptr(block), GLsizeiptr(block), normals.data());
   if (!paint.empty()) fill(GL_ARRAY_BUFFER, mesh.paint, paint, GL_DYNAMIC_DRAW);
+}
+
+void GlMeshes::remember(std::uint32_t id) {
+  Mesh& mesh = m_meshes.at(id);
+  const auto block = GLsizeiptr(mesh.vertices * sizeof(Vec3f));
+  if (!mesh.before) {
+    mesh.before = new_buffer();
+    glBindVertexArray(mesh.layout.id());
+    glBindBuffer(GL_ARRAY_BUFFER, mesh.before.id());
+    glBufferData(GL_ARRAY_BUFFER, block, nullptr, GL_DYNAMIC_DRAW);
+    attribute(kBefore, 3, GL_FLOAT, false, sizeof(Vec3f), 0);
+    glBindVertexArray(0);
+  }
+  glBindBuffer(GL_COPY_READ_BUFFER, mesh.moving.id());
+  glBindBuffer(GL_COPY_WRITE_BUFFER, mesh.before.id());
+  glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, 0, 0, block);
 }
 
 void GlMeshes::draw_edges(std::uint32_t id, std::span<const std::uint32_t> indices) {

@@ -19,12 +19,15 @@ class GlMeshes {
   void draw(std::uint32_t id) const;
   /// The edges of its triangles. @param indices  of the triangles; looked at the first time
   void draw_edges(std::uint32_t id, std::span<const std::uint32_t> indices);
+  /// Keeps where its vertices are, as attribute 5 of draw() until the next time.
+  void remember(std::uint32_t id);
+  bool remembers(std::uint32_t id) const { return bool(m_meshes.at(id).before); }
   bool is_lines(std::uint32_t id) const { return m_meshes.at(id).mode == GL_LINES; }
 
  private:
   struct Mesh {
     GlVertexArray layout;
-    GlBuffer moving, paint, fixed, indices, edges;
+    GlBuffer moving, paint, fixed, indices, edges, before;
     std::size_t vertices = 0;
     GLsizei index_count = 0, edge_count = 0;
     GLenum mode = GL_TRIANGLES;

@@ -14,6 +14,8 @@ Transfer transfer_of(GLenum format) {
   switch (format) {
     case GL_RGBA16F:
       return {GL_RGBA, GL_HALF_FLOAT};
+    case GL_RGBA32F:
+      return {GL_RGBA, GL_FLOAT};
     case GL_R32F:
       return {GL_RED, GL_FLOAT};
     default:

@@ -71,6 +71,7 @@ struct Liquid {
   std::vector<Splat> splats;
   std::vector<SheetVertex> sheet;
   std::vector<std::uint32_t> triangles;  ///< of the sheet, counter-clockwise seen from above
+  std::uint16_t part = 0;                ///< as DrawItem::part
 
   bool empty() const { return splats.empty() && triangles.empty(); }
 };

@@ -15,6 +15,8 @@ class NullBackend final : public CheckedBackend {
                 std::span<const DrawItem* const>) override {}
   void on_keep_eye(Eye, const Target&) override {}
   void on_combine(StereoMode, const Target&) override {}
+  RawLayers on_layers(const Frame&, std::span<const DrawItem* const>, const Camera&, int, int) override { return {}; }
+  void on_remember(std::span<const DrawItem* const>) override {}
   Image on_read(const Target& target) override {
     return {target.width, target.height, std::vector<std::uint8_t>(std::size_t(3) * target.width * target.height)};
   }

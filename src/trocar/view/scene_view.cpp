@@ -478,6 +478,7 @@ Frame SceneView::frame(const sim::State& state, const ViewOptions& options) {
   if (options.instruments && !inside) p.list_scope(state, frame);
   apply(options.styles, frame);
   const auto shown = [&](std::uint16_t part) { return style_of(options.styles, part) != PartStyle::hidden; };
+  frame.liquid.part = p.first.liquid;
   if (p.wet && shown(p.first.liquid)) p.wet->list(state, frame);
   if (p.wet && shown(p.first.smoke)) list_smoke(p.model.wet.model.smoke, state.fluids.smoke, frame);
   // Only the endoscope has a lens that fogs: other cameras look past it.
