@@ -59,7 +59,7 @@ std::vector<std::array<int, 2>> border_of(const tissue::Skin& skin) {
 }  // namespace
 
 double fat_below(Vec3d p) {
-  return 0.65 * smooth(-0.1, 0.75, 0.75 * waves(p, 0.052) + 0.4 * waves(p + Vec3d{0.3, 0.1, 0.2}, 0.019));
+  return 0.55 * smooth(-0.1, 0.75, 0.75 * waves(p, 0.052) + 0.4 * waves(p + Vec3d{0.3, 0.1, 0.2}, 0.019));
 }
 
 MeshBuffer around_wall(const sim::Model& model, const tissue::Skin& wall, std::span<const Paint> paint) {

@@ -29,7 +29,7 @@ Material with_vessels(Material m, float amount, float tile) {
 }
 
 Material uterus() {
-  Material m = with_vessels(tissue(srgb(204, 146, 150), srgb(212, 168, 162), srgb(184, 112, 122)), 0.8f, 0.038f);
+  Material m = with_vessels(tissue(srgb(201, 148, 152), srgb(212, 172, 168), srgb(184, 114, 124)), 0.8f, 0.038f);
   m.mottle_size = 0.014f;
   m.mottle = 0.5f;
   m.bump = 0.12f;
@@ -51,7 +51,7 @@ Material tube() {
 }
 
 Material ovary() {
-  Material m = with_vessels(tissue(srgb(226, 198, 184), srgb(230, 212, 188), srgb(214, 176, 170)), 0.5f, 0.026f);
+  Material m = with_vessels(tissue(srgb(214, 186, 177), srgb(222, 200, 182), srgb(196, 156, 156)), 0.5f, 0.026f);
   m.mottle_size = 0.008f;
   m.mottle = 0.35f;
   m.bump = 0.14f;
@@ -82,13 +82,13 @@ Material vessel(Vec3f main, Vec3f broad, Vec3f fine) {
 }
 
 Material peritoneum() {
-  Material m = with_vessels(tissue(srgb(188, 110, 102), srgb(200, 130, 110), srgb(170, 92, 90)), 1.0f, 0.05f);
+  Material m = with_vessels(tissue(srgb(180, 116, 121), srgb(194, 138, 128), srgb(162, 94, 102)), 1.0f, 0.05f);
   m.mottle_size = 0.024f;
   m.mottle = 0.6f;
   m.wetness = 0.55f;
-  m.tint = srgb(212, 142, 106);  // fat below it
-  m.film_size = 0.0036f;
-  m.film_bump = 0.2f;
+  m.tint = srgb(206, 144, 116);  // fat below it
+  m.film_size = 0.005f;
+  m.film_bump = 0.07f;
   m.film_roughness = 0.09f;
   m.two_sided = true;
   return m;
@@ -137,20 +137,21 @@ Material stomach() {
 }
 
 Material liver() {
-  Material m = with_vessels(tissue(srgb(80, 31, 36), srgb(88, 36, 40), srgb(68, 26, 33)), 0.12f, 0.03f);
+  Material m = with_vessels(tissue(srgb(87, 50, 57), srgb(95, 57, 63), srgb(75, 42, 49)), 0.12f, 0.03f);
   m.mottle_size = 0.0035f;
   m.mottle = 0.3f;
   m.bump = 0.06f;
-  m.film_roughness = 0.14f;
-  m.film_bump = 0.2f;
+  m.roughness = 0.62f;
+  m.film_roughness = 0.09f;
+  m.film_bump = 0.14f;
   m.film_size = 0.004f;
   m.tint = srgb(166, 104, 100);  // a thin edge
   return m;
 }
 
-/// Its bile shines through the wall: grey-green, with fat where it lies on the liver.
+/// Cream where it is lit, grey-violet in shade: never green from outside; with fat where it lies on the liver.
 Material gallbladder() {
-  Material m = with_vessels(tissue(srgb(108, 124, 108), srgb(136, 138, 108), srgb(86, 106, 96)), 0.75f, 0.026f);
+  Material m = with_vessels(tissue(srgb(188, 152, 146), srgb(204, 174, 152), srgb(166, 124, 130)), 1.0f, 0.034f);
   m.mottle_size = 0.013f;
   m.mottle = 0.55f;
   m.two_sided = true;
@@ -158,7 +159,7 @@ Material gallbladder() {
   m.film_roughness = 0.1f;
   m.film_bump = 0.2f;
   m.film_size = 0.0034f;
-  m.glow = {0.5f, 0.55f, 0.2f};
+  m.glow = {0.8f, 0.45f, 0.25f};
   m.glow_amount = 0.08f;
   m.wrap = {0.34f, 0.3f, 0.2f};
   m.tint = srgb(222, 180, 118);  // fat
@@ -166,7 +167,7 @@ Material gallbladder() {
 }
 
 Material fold(float alpha) {
-  Material m = with_vessels(tissue(srgb(210, 146, 138), srgb(222, 172, 148), srgb(196, 124, 120)), 1.0f, 0.03f);
+  Material m = with_vessels(tissue(srgb(214, 160, 154), srgb(226, 182, 164), srgb(200, 136, 132)), 1.0f, 0.03f);
   m.mottle_size = 0.016f;
   m.mottle = 0.45f;
   m.alpha = alpha;
@@ -182,8 +183,9 @@ Material fold(float alpha) {
 
 Material mesosalpinx() {
   Material m = fold(0.4f);
-  m.wetness = 0.38f;
-  m.film_bump = 0.12f;
+  m.wetness = 0.3f;
+  m.film_bump = 0.06f;
+  m.film_size = 0.005f;
   m.vessel_colour = srgb(148, 26, 40);
   m.vessel_tile = float(kFoldTile);
   m.arcade = true;
@@ -191,7 +193,7 @@ Material mesosalpinx() {
 }
 
 Material fat() {
-  Material m = with_vessels(tissue(srgb(224, 162, 112), srgb(228, 178, 124), srgb(210, 140, 98)), 0.7f, 0.024f);
+  Material m = with_vessels(tissue(srgb(218, 144, 110), srgb(226, 164, 122), srgb(200, 118, 94)), 0.7f, 0.024f);
   m.mottle_size = 0.006f;
   m.lobule_size = 0.003f;
   m.lobule_depth = 0.22f;
