@@ -112,6 +112,7 @@ Window::Window(const std::string& title, PictureSize size, bool quad_buffers) {
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);  // where the driver can tell
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
   size = fitted(size);
   glfwWindowHint(GLFW_STEREO, quad_buffers ? GLFW_TRUE : GLFW_FALSE);

@@ -91,9 +91,24 @@ TEST_F(GlBackend, ABrokenShaderNamesItsFile) {
   try {
     GlProgram program("surface.vert", "surface.frag", "SHADING=),DETAIL=2");
     FAIL() << "nonsense was compiled";
-  } catch (const std::logic_error& e) {
+  } catch (const core::EnvironmentLacks& e) {
     EXPECT_NE(std::string(e.what()).find("surface.frag"), std::string::npos);
+    EXPECT_NE(std::string(e.what()).find("LIBGL_ALWAYS_SOFTWARE"), std::string::npos) << "it says what to do";
   }
+}
+
+GLenum says_reset() { return GL_INNOCENT_CONTEXT_RESET; }
+
+TEST_F(GlBackend, ALostContextIsSaidInsteadOfDrawnInto) {
+  EXPECT_FALSE(context->lost());
+  auto* const current = epoxy_glGetGraphicsResetStatus;
+  auto* const older = epoxy_glGetGraphicsResetStatusARB;
+  epoxy_glGetGraphicsResetStatus = epoxy_glGetGraphicsResetStatusARB = says_reset;
+  EXPECT_TRUE(context->lost());
+  EXPECT_THROW(draw_frame(*backend, frame, Target::off_screen(32, 32)), core::EnvironmentLacks);
+  epoxy_glGetGraphicsResetStatus = current;
+  epoxy_glGetGraphicsResetStatusARB = older;
+  EXPECT_NO_THROW(draw_frame(*backend, frame, Target::off_screen(32, 32)));
 }
 
 TEST_F(GlBackend, NoGlErrorInAFullFrame) {

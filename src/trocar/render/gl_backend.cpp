@@ -1,6 +1,7 @@
 // The backend that draws. on_frame is the list of passes; each is one function in the files beside this one.
 #include <string>
 
+#include <trocar/core/error.hpp>
 #include <trocar/render/gl_backend_parts.hpp>
 #include <trocar/render/gl_context.hpp>
 #include <trocar/render/patterns.hpp>
@@ -35,7 +36,7 @@ GlTexture plane_texture(const Pattern& pattern) {
 
 }  // namespace
 
-GlBackend::GlBackend(GlContext& context) {
+GlBackend::GlBackend(GlContext& context) : m_context(context) {
   context.make_current();
   m_noise = volume_texture(noise_pattern());
   m_cells = volume_texture(cell_pattern());
@@ -100,6 +101,10 @@ void GlBackend::on_prepare_liquids() {
 
 void GlBackend::on_frame(const Frame& frame, const Target& target, std::span<const DrawItem* const> opaque,
                          std::span<const DrawItem* const> translucent) {
+  if (m_context.lost())
+    throw core::EnvironmentLacks(
+        "the graphics driver was reset and has lost the picture: start Trocar again; what was done is in the "
+        "recording");
   const Layout layout(target, frame.look, frame.quality.render_scale);
   begin_scene(frame, target, layout);
   if (frame.look.mask) mask_pass(layout);

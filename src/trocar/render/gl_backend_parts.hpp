@@ -142,6 +142,7 @@ class GlBackend final : public CheckedBackend {
     bool known = false;
   };
 
+  GlContext& m_context;
   GlMeshes m_meshes;
   GlPrograms m_programs;
   GlTexture m_noise, m_cells, m_vessels, m_arcade;
