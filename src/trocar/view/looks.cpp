@@ -86,7 +86,7 @@ Material peritoneum() {
   m.mottle_size = 0.024f;
   m.mottle = 0.6f;
   m.wetness = 0.55f;
-  m.tint = srgb(206, 144, 116);  // fat below it
+  m.tint = srgb(198, 140, 120);  // fat below it
   m.film_size = 0.005f;
   m.film_bump = 0.07f;
   m.film_roughness = 0.09f;
@@ -139,12 +139,13 @@ Material stomach() {
 Material liver() {
   Material m = with_vessels(tissue(srgb(87, 50, 57), srgb(95, 57, 63), srgb(75, 42, 49)), 0.12f, 0.03f);
   m.mottle_size = 0.0035f;
-  m.mottle = 0.3f;
-  m.bump = 0.06f;
+  m.mottle = 0.22f;
+  m.bump = 0.03f;
   m.roughness = 0.62f;
-  m.film_roughness = 0.09f;
-  m.film_bump = 0.14f;
-  m.film_size = 0.004f;
+  m.wetness = 0.9f;
+  m.film_roughness = 0.08f;
+  m.film_bump = 0.22f;
+  m.film_size = 0.0028f;
   m.tint = srgb(166, 104, 100);  // a thin edge
   return m;
 }
@@ -201,6 +202,23 @@ Material fat() {
   m.glow_amount = 0.12f;
   m.film_bump = 0.25f;
   m.tint = srgb(206, 126, 118);  // where it grows out of the bowel
+  return m;
+}
+
+/// Broad and soft: lobules as large as those of the bowel's tags, seams that hardly show.
+Material omentum() {
+  Material m = fat();
+  m.colour = srgb(228, 170, 122);
+  m.colour_b = srgb(236, 190, 136);
+  m.colour_c = srgb(212, 144, 104);
+  m.lobule_size = 0.0048f;
+  m.lobule_depth = 0.12f;
+  m.lobule_contrast = 0.12f;
+  m.vessels = 1;
+  m.vessel_tile = 0.045f;
+  m.film_bump = 0.3f;
+  m.film_size = 0.0024f;
+  m.tint = srgb(208, 124, 112);
   return m;
 }
 
@@ -277,6 +295,8 @@ std::vector<Look> make_looks() {
       {"artery", vessel(srgb(186, 62, 56), srgb(198, 84, 72), srgb(160, 44, 44)), false, {}},
       {"vein", vessel(srgb(94, 62, 82), srgb(108, 76, 92), srgb(78, 48, 68)), false, {}},
       {"peritoneum", peritoneum(), false, {}},
+      {"upper_abdomen", peritoneum(), false, {}, 0, false, true},
+      {"omentum", omentum(), false, {}},
       {"mesosalpinx", mesosalpinx(), true, {}},
       {"broad_ligament", fold(0.6f), true, {}},
       {"steel", metal(srgb(142, 142, 147), srgb(124, 124, 130), 0.34f), false, {}},

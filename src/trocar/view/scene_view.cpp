@@ -15,6 +15,7 @@
 #include <trocar/view/lens.hpp>
 #include <trocar/view/looks.hpp>
 #include <trocar/view/membrane_drawing.hpp>
+#include <trocar/view/omentum.hpp>
 #include <trocar/view/organ_drawing.hpp>
 #include <trocar/view/pouch_drawing.hpp>
 #include <trocar/view/scene_view.hpp>
@@ -103,7 +104,8 @@ struct SceneView::Parts {
   std::optional<WetDrawing> wet;
   Lens lens;
   std::vector<std::size_t> membrane_of, pouch_of;  ///< their numbers in the Model
-  std::vector<OwnedMesh> walls, margins;
+  std::vector<OwnedMesh> walls, margins, aprons;
+  std::vector<std::size_t> apron_on;  ///< walls
   std::vector<MeshBuffer> margin_shapes;
   OwnedMesh cavity;
   std::vector<std::vector<std::vector<DrawnPart>>> tools;  ///< (hands, rack)
@@ -217,6 +219,13 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
                                                  .paint = paint,
                                                  .indices = indices[model.solids.size() + i]});
   }
+  for (std::size_t i = 0; i < model.walls.size(); ++i) {
+    if (!look(model.walls[i].look).omentum) continue;
+    const MeshBuffer apron = omentum_on(model.walls[i].skin, model.gravity);
+    if (apron.size() == 0) continue;
+    aprons.emplace_back(backend, apron.data());
+    apron_on.push_back(i);
+  }
   cavity = OwnedMesh(backend, cavity_around(model).data());
   for (TubeDrawing& t : tubes) {
     std::vector<Paint> paint(t.drawn().positions.size());
@@ -315,6 +324,8 @@ void SceneView::Parts::update(const sim::State& state) {
 void SceneView::Parts::list_tissues(bool with_walls, Frame& frame) const {
   for (std::size_t i = 0; with_walls && i < walls.size(); ++i)
     frame.items.push_back(item(walls[i].handle(), look(model.walls[i].look), first.wall + i));
+  for (std::size_t i = 0; with_walls && i < aprons.size(); ++i)
+    frame.items.push_back(item(aprons[i].handle(), look("omentum"), first.wall + apron_on[i]));
   for (std::size_t i = 0; i < organs.size(); ++i)
     frame.items.push_back(item(organs[i].mesh(), look(model.solids[i].look), first.organ + i));
   for (std::size_t i = 0; i < cuttables.size(); ++i)

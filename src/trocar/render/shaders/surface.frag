@@ -164,7 +164,7 @@ void main() {
 #if SHADING == 0
   albedo = mix(albedo, TINT, tint);
 #endif
-  albedo *= 1.0 + vec3(0.0, 0.11, -0.22) * (broad.g - 0.5);  // towards yellow here, mauve there
+  albedo *= 1.0 + vec3(0.0, 0.08, -0.17) * (broad.g - 0.5);  // towards yellow here, mauve there
   vec3 relief = BUMP * slope;
 
 #ifdef LOBULES
@@ -238,13 +238,13 @@ void main() {
   wet = max(wet, smoothstep(0.1, 0.3, blood)) * (1.0 - 0.55 * crust);
 #endif
   // What mirrors the lamp is broken again by the film's thickness: flecks in clumps, no rings around its bumps.
-  float flecks = smoothstep(0.38, 0.62, fine.g + 0.6 * (broad.b - 0.5));
-  wet *= 0.25 + 1.1 * flecks;
+  float flecks = smoothstep(0.34, 0.66, fine.g + 0.6 * (broad.b - 0.5));
+  wet *= 0.6 + 0.3 * flecks;
   vec3 m = normalize(N + along_surface(to_eye(film_slope + relief * 0.6), N));
   vec3 H = normalize(lit.direction + V);
   float facing = clamp(nl * 4.0, 0.0, 1.0) * open;
   float mh = clamp(dot(m, H), 0.0, 1.0), nh = clamp(dot(n, H), 0.0, 1.0);
-  float gloss = 0.42 * FRESNEL * (wet * lobe(mh, FILM2) + (0.35 + 0.65 * wet) * lobe(nh, ROUGH2)) * facing * lit.power;
+  float gloss = 0.42 * FRESNEL * (wet * (0.4 + 1.3 * flecks) * lobe(mh, FILM2) + (0.35 + 0.65 * wet) * lobe(nh, ROUGH2)) * facing * lit.power;
   float grazing = FRESNEL + (1.0 - FRESNEL) * rim * rim * (1.0 - nv);
 #if SHADING == 2
   vec3 around = 0.7 * mirrored(reflect(-V, m), 0.03, lit.bounce);
