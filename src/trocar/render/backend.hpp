@@ -10,10 +10,12 @@
 #include <memory>
 #include <span>
 #include <stdexcept>
+#include <vector>
 
 #include <trocar/render/frame.hpp>
 #include <trocar/render/image.hpp>
 #include <trocar/render/mesh_data.hpp>
+#include <trocar/render/pass_cost.hpp>
 #include <trocar/render/stereo.hpp>
 
 namespace trocar::render {
@@ -60,6 +62,10 @@ class Backend {
   /// Puts the pictures of both eyes together. Both, and of one size, must have been kept since the last time. Quad
   /// buffers need a window with them.
   virtual void combine(StereoMode mode, const Target& target) = 0;
+
+  /// From now on each frame adds what its passes cost to `costs`, in their order, and waits for the driver between
+  /// them: for measuring only. Null ends that. A backend that does not draw adds nothing.
+  virtual void profile(std::vector<PassCost>* costs) = 0;
 
   /// The target of the last frame.
   virtual Image read_pixels() = 0;

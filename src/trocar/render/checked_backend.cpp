@@ -329,6 +329,11 @@ void CheckedBackend::combine(StereoMode mode, const Target& target) {
   m_left = m_right = {};
 }
 
+void CheckedBackend::profile(std::vector<PassCost>* costs) {
+  require(!m_in_frame, "profile", "a frame is open");
+  m_costs = costs;
+}
+
 Image CheckedBackend::read_pixels() {
   require(!m_in_frame, "read_pixels", "a frame is open");
   require(m_has_picture, "read_pixels", "no frame was drawn yet");

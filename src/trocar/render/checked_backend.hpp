@@ -24,6 +24,7 @@ class CheckedBackend : public Backend {
   void end_frame() final;
   void keep_eye(Eye eye, const Target& from) final;
   void combine(StereoMode mode, const Target& target) final;
+  void profile(std::vector<PassCost>* costs) final;
   Image read_pixels() final;
   BackendStats stats() const final { return m_stats; }
 
@@ -36,6 +37,9 @@ class CheckedBackend : public Backend {
 
   /// Of the mesh, as it was given.
   std::span<const std::uint32_t> indices_of_mesh(MeshHandle mesh) const { return m_meshes.at(mesh.id).indices; }
+
+  /// Where the passes' costs go; null: nobody asks.
+  std::vector<PassCost>* costs() const { return m_costs; }
 
   virtual void on_store(std::uint32_t id, const MeshArrays& mesh) = 0;  ///< new id, or a known one's new topology
   virtual void on_update(std::uint32_t id, std::span<const Vec3f> positions, std::span<const Vec3f> normals,
@@ -76,6 +80,7 @@ class CheckedBackend : public Backend {
   std::vector<Sorted> m_order;
   std::vector<Vec3f> m_normals;
   BackendStats m_stats;
+  std::vector<PassCost>* m_costs = nullptr;
 };
 
 }  // namespace trocar::render

@@ -1,4 +1,4 @@
-// The backend that draws, in six files: the frame as a list of passes (gl_backend.cpp), what draws things into the
+// The backend that draws, in six files: the list of passes (gl_backend.cpp), what draws things into the
 // scene picture (gl_scene_passes.cpp), how instruments shade it (gl_rods.cpp), liquids and smoke in it
 // (gl_liquid_passes.cpp, gl_smoke_pass.cpp), and what makes a camera's picture of it (gl_picture_passes.cpp). Private
 // to them.
@@ -12,6 +12,7 @@
 #include <trocar/render/checked_backend.hpp>
 #include <trocar/render/gl_meshes.hpp>
 #include <trocar/render/gl_packing.hpp>
+#include <trocar/render/gl_pass_timer.hpp>
 #include <trocar/render/gl_program.hpp>
 #include <trocar/render/gl_targets.hpp>
 
@@ -58,6 +59,19 @@ class GlBackend final : public CheckedBackend {
   void on_keep_eye(Eye eye, const Target& from) override;
   void on_combine(StereoMode mode, const Target& target) override;
   Image on_read(const Target& target) override;
+
+  /// A frame on its way through the passes.
+  struct Drawing {
+    const Frame& frame;
+    const Target& target;
+    const Layout layout;
+    std::span<const DrawItem*const> opaque, translucent;
+  };
+  struct Pass {
+    const char* name;
+    void (*run)(GlBackend&, const Drawing&);
+  };
+  static std::span<const Pass> passes();
 
   void begin_scene(const Frame& frame, const Target& target, const Layout& layout);
   /// Near depth outside the circle, so that early depth tests drop those pixels.
@@ -150,6 +164,7 @@ class GlBackend final : public CheckedBackend {
   std::array<float, 8 * kMaxRods> m_rod_rows{};
   int m_rod_count = 0;
   std::vector<SeenPuff> m_puffs;
+  GlPassTimer m_timer;
   int m_small_eye = -1;  ///< whose picture m_small holds
 };
 
