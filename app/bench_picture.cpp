@@ -102,6 +102,22 @@ class Easel {
     render::draw_frame(*m_backend, frame, m_target);
     m_backend->profile(nullptr);
   }
+  /// Triangles of each part of the scene, as the frame would draw them.
+  Json triangles(const render::Frame& frame) {
+    Json parts = Json::array();
+    for (std::size_t part = 0; part <= m_view.parts().size(); ++part) {
+      render::Frame alone = frame;
+      std::erase_if(alone.items, [part](const render::DrawItem& i) { return i.part != part; });
+      const std::uint64_t before = m_backend->stats().triangles;
+      draw(alone, nullptr);
+      const std::uint64_t count = m_backend->stats().triangles - before;
+      if (count > 0)
+        parts.push_back({{"part", part > 0 ? m_view.parts()[part - 1].name : "others"}, {"triangles", count}});
+    }
+    std::stable_sort(parts.begin(), parts.end(),
+                     [](const Json& a, const Json& b) { return a["triangles"] > b["triangles"]; });
+    return parts;
+  }
   /// A whole picture, as a window would draw it.
   Cost whole(const sim::State& state, render::Quality quality) {
     const Stopwatch watch;
@@ -158,16 +174,22 @@ struct Figures {
   }
 };
 
-/// A row a pass, a column a detail.
+/// Of which a picture's passes are measured: every detail at full size, and the cheapest of all.
+std::vector<std::pair<std::string, render::Quality>> columns() {
+  return {
+      {"detail_2", {1, 2}}, {"detail_1", {1, 1}}, {"detail_0", {1, 0}}, {"cheapest", render::quality_levels().back()}};
+}
+
+/// A row a pass, a column a quality.
 Json bench_passes(Easel& easel, const std::vector<sim::State>& states) {
   std::vector<std::string> names{"meshes"};
   std::map<std::string, Json> rows;
-  for (const int detail : {2, 1, 0}) {
+  for (const auto& [column, quality] : columns()) {
     std::map<std::string, Figures> figures;
     for (std::size_t i = 0; i < states.size(); ++i) {
       std::vector<render::PassCost> costs;
       Cost meshes;
-      const render::Frame frame = easel.meshes(states[i], {1, detail}, &meshes);
+      const render::Frame frame = easel.meshes(states[i], quality, &meshes);
       easel.draw(frame, &costs);
       if (i < std::size_t(kWarmUp)) continue;
       figures["meshes"].add(meshes.wall_ms, meshes.processor_ms, 0);
@@ -176,7 +198,7 @@ Json bench_passes(Easel& easel, const std::vector<sim::State>& states) {
         figures[c.pass].add(c.wall_ms, c.processor_ms, c.gpu_ms);
       }
     }
-    for (const auto& [name, f] : figures) rows[name]["detail_" + std::to_string(detail)] = f.median_of();
+    for (const auto& [name, f] : figures) rows[name][column] = f.median_of();
   }
   Json table = Json::array();
   for (const std::string& name : names) {
@@ -217,7 +239,8 @@ Json bench_picture(const std::string& exercise, double seconds, const PictureBen
   const std::uint64_t tick = options.at ? std::uint64_t(*options.at / sim::kTick) : costliest(easel, model, inputs);
   const std::vector<sim::State> states = story(model, inputs, tick, options.frames);
   const render::BackendStats before = easel.stats();
-  easel.whole(states[states.size() / 2], {});
+  const render::Frame frame = easel.meshes(states[states.size() / 2], {});
+  easel.draw(frame, nullptr);
   const render::BackendStats after = easel.stats();
   return {{"name", exercise},
           {"size", {options.size.width, options.size.height}},
@@ -228,6 +251,7 @@ Json bench_picture(const std::string& exercise, double seconds, const PictureBen
           {"triangles", after.triangles - before.triangles},
           {"splats", after.splats - before.splats},
           {"pool_triangles", after.sheet_triangles - before.sheet_triangles},
+          {"parts", easel.triangles(frame)},
           {"passes", bench_passes(easel, states)},
           {"qualities", bench_qualities(easel, states)}};
 }
@@ -239,12 +263,17 @@ void print_picture_bench(const Json& r) {
   fmt::print("  {} things of {} triangles, {} drops and films, pool of {} triangles\n", r["items"].get<std::uint64_t>(),
              r["triangles"].get<std::uint64_t>(), r["splats"].get<std::uint64_t>(),
              r["pool_triangles"].get<std::uint64_t>());
+  std::string parts = "  triangles:";
+  for (const Json& part : r["parts"])
+    parts += fmt::format(" {} {},", part["part"].get<std::string>(), part["triangles"].get<std::uint64_t>());
+  parts.back() = '\n';
+  fmt::print("{}", parts);
   fmt::print("  medians [ms]: wall, processor (all threads), graphics card where it has a clock\n");
-  fmt::print("  {:16} {:>26} {:>26} {:>26}\n", "pass", "detail 2", "detail 1", "detail 0");
+  fmt::print("  {:16} {:>26} {:>26} {:>26} {:>26}\n", "pass", "detail 2", "detail 1", "detail 0", "cheapest quality");
   for (const Json& row : r["passes"]) {
     std::string line = fmt::format("  {:16}", row["pass"].get<std::string>());
-    for (const char* detail : {"detail_2", "detail_1", "detail_0"}) {
-      const Json& c = row[detail];
+    for (const auto& [column, quality] : columns()) {
+      const Json& c = row[column];
       line += fmt::format("   {:7.2f} {:7.2f} {:7.2f}", c["wall_ms"].get<double>(), c["processor_ms"].get<double>(),
                           c["gpu_ms"].get<double>());
     }

@@ -24,6 +24,16 @@ void require_size(std::size_t size, std::size_t n, const char* call, const char*
           std::string(name) + " has " + std::to_string(size) + " entries for " + std::to_string(n) + " vertices");
 }
 
+void require_indices(std::span<const std::uint32_t> indices, std::size_t corners, std::size_t n, const char* call) {
+  require(!indices.empty() && indices.size() % corners == 0, call,
+          std::to_string(indices.size()) + " indices are not a whole number of " +
+              (corners == 3 ? "triangles" : "lines") + " (or none)");
+  for (std::size_t i = 0; i < indices.size(); ++i)
+    require(indices[i] < n, call,
+            "indices[" + std::to_string(i) + "] = " + std::to_string(indices[i]) + " with only " + std::to_string(n) +
+                " vertices");
+}
+
 void check_mesh(const MeshData& data, const char* call) {
   const std::size_t n = data.positions.size();
   require(n > 0, call, "a mesh needs at least one vertex");
@@ -34,13 +44,9 @@ void check_mesh(const MeshData& data, const char* call) {
   require_finite(data.normals, call, "normals");
   require_finite(data.rest, call, "rest");
   const std::size_t corners = data.primitive == Primitive::triangles ? 3 : 2;
-  require(!data.indices.empty() && data.indices.size() % corners == 0, call,
-          std::to_string(data.indices.size()) + " indices are not a whole number of " +
-              (corners == 3 ? "triangles" : "lines") + " (or none)");
-  for (std::size_t i = 0; i < data.indices.size(); ++i)
-    require(data.indices[i] < n, call,
-            "indices[" + std::to_string(i) + "] = " + std::to_string(data.indices[i]) + " with only " +
-                std::to_string(n) + " vertices");
+  require_indices(data.indices, corners, n, call);
+  require(data.coarser.empty() || corners == 3, call, "only triangles have coarser lists");
+  for (const std::vector<std::uint32_t>& list : data.coarser) require_indices(list, corners, n, call);
 }
 
 void check_camera(const Camera& camera, const char* call) {
@@ -168,6 +174,8 @@ void CheckedBackend::store(std::uint32_t id, const MeshData& data) {
   Known& mesh = m_meshes[id];
   mesh.vertices = data.positions.size();
   mesh.indices.assign(data.indices.begin(), data.indices.end());
+  mesh.triangles = {data.indices.size() / 3};
+  for (const std::vector<std::uint32_t>& list : data.coarser) mesh.triangles.push_back(list.size() / 3);
   mesh.primitive = data.primitive;
   mesh.bounds = bounds_of(data.positions);
   mesh.stained = any_stain(data.paint);
@@ -268,7 +276,9 @@ void CheckedBackend::draw(const DrawItem& item) {
   check_material(item.material, call);
   m_items.push_back(item);
   ++m_stats.items;
-  if (mesh.primitive == Primitive::triangles) m_stats.triangles += mesh.indices.size() / 3;
+  require(item.detail <= 2, call, "detail is not 0, 1 or 2");
+  if (mesh.primitive == Primitive::triangles)
+    m_stats.triangles += mesh.triangles[std::min<std::size_t>(item.level, mesh.triangles.size() - 1)];
 }
 
 void CheckedBackend::sort_items() {

@@ -58,6 +58,7 @@ class CheckedBackend : public Backend {
   struct Known {
     std::size_t vertices = 0;
     std::vector<std::uint32_t> indices;
+    std::vector<std::size_t> triangles;  ///< of each level
     Primitive primitive = Primitive::triangles;
     Bounds bounds;
     bool stained = false;  ///< some paint says blood or burn

@@ -82,7 +82,7 @@ class GlBackend final : public CheckedBackend {
   void scene_pass(const Frame& frame, std::span<const DrawItem* const> items, bool blended);
   void draw_edges(const DrawItem& item);
   void draw_item(const Frame& frame, const DrawItem& item, bool blended, bool stained);
-  GlProgram& program_for(const Frame& frame, const Material& material, bool blended, bool stained);
+  GlProgram& program_for(const Frame& frame, const Material& material, int detail, bool blended, bool stained);
   void puff_pass(const Frame& frame);
 
   /// What lies below a liquid, kept while the liquid is drawn over it. Only the part of the scene in `m_wet_box`.

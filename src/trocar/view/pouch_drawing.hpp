@@ -3,13 +3,14 @@
 #pragma once
 
 #include <trocar/sim/state.hpp>
+#include <trocar/view/detail.hpp>
 #include <trocar/view/heat_marks.hpp>
 
 namespace trocar::view {
 
 class PouchDrawing {
  public:
-  PouchDrawing(const sim::Model& model, int membrane, render::Backend& backend);
+  PouchDrawing(const sim::Model& model, int membrane, const Detail& detail, render::Backend& backend);
 
   void update(const sim::State& state);
   render::MeshHandle mesh() const { return m_mesh.handle(); }
