@@ -93,6 +93,7 @@ class Easel {
     const Stopwatch watch;
     view::ViewOptions options;
     options.quality = quality;
+    options.picture_height = m_target.height;
     render::Frame frame = m_view.frame(state, options);
     if (cost) *cost = watch.read();
     return frame;
@@ -209,6 +210,37 @@ Json bench_passes(Easel& easel, const std::vector<sim::State>& states) {
   return table;
 }
 
+/// What it saves to draw things coarsely: all in full, as levels of detail ask for, their borders nearer, all at their
+/// coarsest.
+Json bench_fineness(Easel& easel, const std::vector<sim::State>& states) {
+  Json table = Json::array();
+  for (const auto& [name, coarser] : std::initializer_list<std::pair<const char*, float>>{
+           {"in full", 1e-6f}, {"by distance", 1.0f}, {"borders at 1 / 2.5", 2.5f}, {"coarsest", 1e6f}}) {
+    std::vector<double> meshes, opaque, whole;
+    std::uint64_t triangles = 0;
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      const Stopwatch watch;
+      Cost cost;
+      const render::Frame frame = easel.meshes(states[i], {1, 2, coarser}, &cost);
+      std::vector<render::PassCost> costs;
+      const std::uint64_t before = easel.stats().triangles;
+      easel.draw(frame, &costs);
+      triangles = easel.stats().triangles - before;
+      if (i < std::size_t(kWarmUp)) continue;
+      meshes.push_back(cost.processor_ms);
+      whole.push_back(watch.read().processor_ms);
+      for (const render::PassCost& c : costs)
+        if (c.pass == std::string("opaque")) opaque.push_back(c.processor_ms);
+    }
+    table.push_back({{"things", name},
+                     {"triangles", triangles},
+                     {"meshes_ms", median(meshes)},
+                     {"opaque_ms", median(opaque)},
+                     {"picture_ms", median(whole)}});
+  }
+  return table;
+}
+
 /// What a whole picture costs at each of the governor's qualities.
 Json bench_qualities(Easel& easel, const std::vector<sim::State>& states) {
   Json table = Json::array();
@@ -222,6 +254,7 @@ Json bench_qualities(Easel& easel, const std::vector<sim::State>& states) {
     }
     table.push_back({{"render_scale", quality.render_scale},
                      {"detail", quality.detail},
+                     {"coarser", quality.coarser},
                      {"wall_ms", median(wall)},
                      {"processor_ms", median(processor)}});
   }
@@ -253,6 +286,7 @@ Json bench_picture(const std::string& exercise, double seconds, const PictureBen
           {"pool_triangles", after.sheet_triangles - before.sheet_triangles},
           {"parts", easel.triangles(frame)},
           {"passes", bench_passes(easel, states)},
+          {"fineness", bench_fineness(easel, states)},
           {"qualities", bench_qualities(easel, states)}};
 }
 
@@ -279,10 +313,17 @@ void print_picture_bench(const Json& r) {
     }
     fmt::print("{}\n", line);
   }
+  fmt::print("  {:20} {:>9} {:>8} {:>8} {:>8}  [ms, processor]\n", "things", "triangles", "meshes", "opaque",
+             "picture");
+  for (const Json& row : r["fineness"])
+    fmt::print("  {:20} {:9} {:8.2f} {:8.2f} {:8.2f}\n", row["things"].get<std::string>(),
+               row["triangles"].get<std::uint64_t>(), row["meshes_ms"].get<double>(), row["opaque_ms"].get<double>(),
+               row["picture_ms"].get<double>());
   fmt::print("  whole pictures at the governor's qualities:\n");
   for (const Json& q : r["qualities"])
-    fmt::print("  scale {:.2f}, detail {}   {:7.2f} {:7.2f}\n", q["render_scale"].get<double>(), q["detail"].get<int>(),
-               q["wall_ms"].get<double>(), q["processor_ms"].get<double>());
+    fmt::print("  scale {:.2f}, detail {}, coarser {:.1f}   {:7.2f} {:7.2f}\n", q["render_scale"].get<double>(),
+               q["detail"].get<int>(), q["coarser"].get<double>(), q["wall_ms"].get<double>(),
+               q["processor_ms"].get<double>());
 }
 
 }  // namespace trocar::app

@@ -28,6 +28,7 @@ const std::string& Pictures::driver() const { return m_context->description(); }
 render::Image Pictures::draw(const sim::State& state, view::ViewOptions options) {
   m_context->make_current();  // others may have drawn in between
   if (options.styles.empty()) options.styles = m_styles;
+  options.picture_height = m_size.height;
   const render::Frame frame = m_view->frame(state, options);
   draw_for(m_eyes, *m_backend, frame, render::Target::off_screen(m_size.width, m_size.height));
   return m_backend->read_pixels();
@@ -39,6 +40,7 @@ render::Image Pictures::still(const sim::State& state, view::ViewOptions options
   m_context->make_current();  // others may have drawn in between
   if (options.styles.empty()) options.styles = m_styles;
   options.eye_index = 7;  // an exposure memory of its own
+  options.picture_height = m_size.height;
   render::Frame frame = m_view->frame(state, options);
   for (int i = 0; i <= kSettling; ++i) {
     frame.tick = state.tick + std::uint64_t(i) * 2000;

@@ -156,6 +156,35 @@ bool any_stain(std::span<const Paint> paint) {
   return std::any_of(paint.begin(), paint.end(), [](Paint p) { return p.blood > 0 || p.burn > 0; });
 }
 
+/// What the camera can have in its picture.
+class Sight {
+ public:
+  Sight(const Frame& frame, const Target& target)
+      : m_camera(frame.camera),
+        m_high(std::tan(frame.camera.vertical_fov / 2)),
+        m_wide(m_high * float(target.width) / float(target.height) + std::fabs(frame.camera.shift)) {}
+
+  /// False only where all of the box lies beyond one side of the view.
+  bool reaches(const Bounds& box, const Mat4& transform) const {
+    int left = 0, right = 0, above = 0, below = 0, behind = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3f p{corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
+                    corner & 4 ? box.high.z : box.low.z};
+      const Vec3f eye = transposed(m_camera.rotation) * (transform_point(transform, p) - m_camera.position);
+      left += eye.x < m_wide * eye.z;
+      right += eye.x > -m_wide * eye.z;
+      below += eye.y < m_high * eye.z;
+      above += eye.y > -m_high * eye.z;
+      behind += eye.z > -m_camera.near_plane;
+    }
+    return left < 8 && right < 8 && below < 8 && above < 8 && behind < 8;
+  }
+
+ private:
+  const Camera& m_camera;
+  float m_high, m_wide;  ///< tangents
+};
+
 }  // namespace
 
 void draw_frame(Backend& backend, const Frame& frame, const Target& target) {
@@ -283,11 +312,13 @@ void CheckedBackend::draw(const DrawItem& item) {
 
 void CheckedBackend::sort_items() {
   const Vec3f backward = m_frame.camera.rotation.column(2);
+  const Sight sight(m_frame, m_target);
   const auto sorted = [&](bool translucent, std::vector<const DrawItem*>& out) {
     m_order.clear();
     for (const DrawItem& item : m_items) {
       if (item.blends() != translucent) continue;
       const Bounds& bounds = m_meshes.at(item.mesh.id).bounds;
+      if (!sight.reaches(bounds, item.transform)) continue;
       const Vec3f middle = transform_point(item.transform, bounds.middle());
       float depth = dot(backward, m_frame.camera.position - middle);
       // What encloses the scene reaches farthest and comes last; the middle says best what lies on what.

@@ -15,6 +15,7 @@ class PouchDrawing {
   void update(const sim::State& state);
   render::MeshHandle mesh() const { return m_mesh.handle(); }
   const MeshBuffer& buffer() const { return m_buffer; }
+  bool burnt() const { return m_marks.any(); }
 
  private:
   /// Where a drawn vertex lies: between nodes, and how much of each.

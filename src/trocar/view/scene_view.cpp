@@ -126,7 +126,7 @@ struct SceneView::Parts {
   std::vector<LoadedClip> loaded;
   std::map<double, OwnedMesh> clips;  ///< closed ones, by their length [m]
   struct Details {                    ///< of what is numbered as above
-    std::vector<Detail> organs, fat, tubes, membranes, pouches, vessels, walls, margins;
+    std::vector<Detail> organs, cuttables, fat, tubes, sheets, membranes, pouches, vessels, walls, margins;
     Detail cavity;
   } details;
   std::optional<DetailEye> eye;  ///< of the frame
@@ -143,8 +143,8 @@ struct SceneView::Parts {
   void name_parts();
   double depth_of_wall(std::size_t hand) const;
   void update(const sim::State& state);
-  /// As fine as its distance asks for.
-  DrawItem& list(DrawItem item, Detail& detail, std::span<const Vec3f> points, Frame& frame) const;
+  /// As fine as its distance asks for; what is burnt with all its triangles, as marks are no finer than those.
+  DrawItem& list(DrawItem item, Detail& detail, std::span<const Vec3f> points, Frame& frame, bool burnt = false) const;
   DrawItem& list_rigid(const RigidMesh& mesh, DrawItem item, Detail& detail, Frame& frame) const;
   void list_surroundings(Frame& frame);
   void list_tissues(bool with_walls, Frame& frame);
@@ -207,6 +207,7 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
   const render::OpennessBaker baker(occluders, kShadeCell, kShadeReach);
 
   for (CuttableDrawing& c : cuttables) {
+    details.cuttables.emplace_back(levels_of(model, model.cuttables[cuttable_burns.size()].name));
     const std::size_t organ = model.solids.size() + cuttable_burns.size();
     cuttable_burns.emplace_back(model, interactions::kSolidBase + std::int32_t(organ));
     c.shade(baker);
@@ -222,7 +223,8 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
     const sim::SolidModel& solid = model.solids[std::size_t(i)];
     const int count = look(solid.look).fat_tags;
     if (count == 0) continue;
-    fat.emplace_back(organs[std::size_t(i)], solid, count, model.gravity, backend);
+    details.fat.emplace_back(levels_of(model, solid.name));
+    fat.emplace_back(organs[std::size_t(i)], solid, count, model.gravity, details.fat.back(), backend);
     fat_on.push_back(i);
   }
   for (int i = 0; i < int(organs.size()); ++i) {
@@ -256,7 +258,10 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
     baker.bake(t.drawn().positions, t.drawn().normals, paint);
     t.create(std::move(paint), backend);
   }
-  for (int i = 0; i < int(model.sheets.size()); ++i) sheets.emplace_back(model, i, backend);
+  for (int i = 0; i < int(model.sheets.size()); ++i) {
+    details.sheets.emplace_back(levels_of(model, model.sheets[std::size_t(i)].name));
+    sheets.emplace_back(model, i, details.sheets.back(), backend);
+  }
   for (const bool veins : {false, true}) {
     const auto& all = model.vessels.list;
     if (std::none_of(all.begin(), all.end(), [veins](const sim::Vessel& v) { return v.vein == veins; })) continue;
@@ -351,9 +356,11 @@ void SceneView::Parts::update(const sim::State& state) {
   }
 }
 
-DrawItem& SceneView::Parts::list(DrawItem item, Detail& detail, std::span<const Vec3f> points, Frame& frame) const {
+DrawItem& SceneView::Parts::list(DrawItem item, Detail& detail, std::span<const Vec3f> points, Frame& frame,
+                                 bool burnt) const {
   item.level = detail.level_at(eye->distance(points, item.transform), eye->index);
   item.detail = detail.surface(item.level);
+  if (burnt) item.level = 0;
   frame.items.push_back(item);
   return frame.items.back();
 }
@@ -376,33 +383,37 @@ void SceneView::Parts::list_tissues(bool with_walls, Frame& frame) {
          frame);
   for (std::size_t i = 0; i < organs.size(); ++i)
     list(item(organs[i].mesh(), look(model.solids[i].look), first.organ + i), details.organs[i], organs[i].positions(),
-         frame);
+         frame, burns[i].any());
   for (std::size_t i = 0; i < cuttables.size(); ++i)
-    frame.items.push_back(item(cuttables[i].mesh(), look(model.cuttables[i].look), first.organ + organs.size() + i));
+    list(item(cuttables[i].mesh(), look(model.cuttables[i].look), first.organ + organs.size() + i),
+         details.cuttables[i], cuttables[i].positions(), frame);
   for (std::size_t i = 0; i < drapes.size(); ++i) {
     frame.items.push_back(item(drapes[i].mesh(), *drape_look[i], first.cavity));
     frame.items.back().material.two_sided = true;
   }
   for (std::size_t i = 0; i < fat.size(); ++i)
-    if (fat[i].mesh().id) frame.items.push_back(item(fat[i].mesh(), look("fat"), first.organ + std::size_t(fat_on[i])));
+    if (fat[i].mesh().id)
+      list(item(fat[i].mesh(), look("fat"), first.organ + std::size_t(fat_on[i])), details.fat[i],
+           fat[i].buffer().positions, frame);
   for (std::size_t i = 0; i < tubes.size(); ++i) {
     const sim::StrandModel& strand = model.strands[i];
-    list(item(tubes[i].mesh(), look(strand.look), first.tube + i), details.tubes[i], tubes[i].buffer().positions,
-         frame);
+    DrawItem& tube = list(item(tubes[i].mesh(), look(strand.look), first.tube + i), details.tubes[i],
+                          tubes[i].buffer().positions, frame, tubes[i].burnt());
     if (strand.start.kind == sim::StrandEndModel::hosted && !strand.fimbriated)
-      frame.items.back().material.tint = look(model.organ_look(strand.start.organ)).material.colour;
+      tube.material.tint = look(model.organ_look(strand.start.organ)).material.colour;
   }
   for (std::size_t i = 0; i < vessels.size(); ++i)
     list(item(vessels[i].mesh(), *vessel_look[i], first.vessel + i), details.vessels[i], vessels[i].buffer().positions,
          frame);
   for (std::size_t i = 0; i < sheets.size(); ++i)
-    frame.items.push_back(item(sheets[i].mesh(), look(model.sheets[i].look), first.fold + i));
+    list(item(sheets[i].mesh(), look(model.sheets[i].look), first.fold + i), details.sheets[i],
+         sheets[i].buffer().positions, frame);
   for (std::size_t i = 0; i < membranes.size(); ++i)
     list(item(membranes[i].mesh(), look(model.membranes[membrane_of[i]].look), first.membrane + membrane_of[i]),
-         details.membranes[i], membranes[i].buffer().positions, frame);
+         details.membranes[i], membranes[i].buffer().positions, frame, membranes[i].burnt());
   for (std::size_t i = 0; i < pouches.size(); ++i)
     list(item(pouches[i].mesh(), look(model.membranes[pouch_of[i]].look), first.membrane + pouch_of[i]),
-         details.pouches[i], pouches[i].buffer().positions, frame);
+         details.pouches[i], pouches[i].buffer().positions, frame, pouches[i].burnt());
 }
 
 void SceneView::Parts::list_clips(const sim::State& state, Frame& frame) const {

@@ -47,6 +47,7 @@ class TubeDrawing {
   /// As it was last made: for the folds that hang on it, and for tests.
   const MeshBuffer& buffer() const { return m_buffer; }
   int sides() const { return m_sides; }
+  bool burnt() const { return m_marks.any(); }
 
  private:
   /// What the list of rows depends on.
