@@ -55,7 +55,7 @@ MeshBuffer drop(Vec3d down, int seed) {
 }  // namespace
 
 FatTags::FatTags(const OrganDrawing& organ, const sim::SolidModel& solid, int count, Vec3d gravity,
-                 const Detail& detail, render::Backend& backend) {
+                 render::Backend& backend, const Detail& detail) {
   const tissue::Skin& skin = solid.fine;
   for (int k = 0; k < 30 * count && int(m_tags.size()) < count; ++k) {
     const auto at = std::uint32_t(varied(k, 31) * double(skin.rest.size() - 1));

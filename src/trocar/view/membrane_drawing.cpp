@@ -31,7 +31,7 @@ Vec3d on_line(int fine, int count, At&& at) {
 
 }  // namespace
 
-MembraneDrawing::MembraneDrawing(const sim::Model& model, int membrane, const Detail& detail, render::Backend& backend)
+MembraneDrawing::MembraneDrawing(const sim::Model& model, int membrane, render::Backend& backend, const Detail& detail)
     : m_membrane(&model.membranes[std::size_t(membrane)]),
       m_index(membrane),
       m_columns((m_membrane->sheet.columns - 1) * kFine + 1),

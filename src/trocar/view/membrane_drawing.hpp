@@ -10,7 +10,7 @@ namespace trocar::view {
 
 class MembraneDrawing {
  public:
-  MembraneDrawing(const sim::Model& model, int membrane, const Detail& detail, render::Backend& backend);
+  MembraneDrawing(const sim::Model& model, int membrane, render::Backend& backend, const Detail& detail = {});
 
   void update(const sim::State& state);
   render::MeshHandle mesh() const { return m_mesh.handle(); }

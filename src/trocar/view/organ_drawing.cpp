@@ -22,7 +22,7 @@ std::vector<std::uint32_t> flat_indices(const tissue::Skin& skin) {
 }
 
 OrganDrawing::OrganDrawing(const sim::SolidModel& solid, const Relief& relief, std::vector<Paint> paint,
-                           const Detail& detail, render::Backend& backend)
+                           render::Backend& backend, const Detail& detail)
     : m_solid(&solid), m_pose(tissue::make_pose(solid.fine)), m_indices(flat_indices(solid.fine)) {
   if (relief.any()) m_height = heights(relief, solid.fine, paint);
   m_pose.position = solid.fine.rest;

@@ -14,8 +14,8 @@ namespace trocar::view {
 class OrganDrawing {
  public:
   /// @param paint one per vertex of solid.fine (baked openness)
-  OrganDrawing(const sim::SolidModel& solid, const Relief& relief, std::vector<Paint> paint, const Detail& detail,
-               render::Backend& backend);
+  OrganDrawing(const sim::SolidModel& solid, const Relief& relief, std::vector<Paint> paint, render::Backend& backend,
+               const Detail& detail = {});
 
   /// Moves the mesh; costs nothing where no node has moved since the last time and no instrument touches it.
   /// @param parted one byte a triangle of solid.fine, 1 = cut open (empty: none)

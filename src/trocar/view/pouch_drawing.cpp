@@ -17,7 +17,7 @@ constexpr float kRounded = 0.75f;       // [Boubekeur & Alexa 2008]
 
 }  // namespace
 
-PouchDrawing::PouchDrawing(const sim::Model& model, int membrane, const Detail& detail, render::Backend& backend)
+PouchDrawing::PouchDrawing(const sim::Model& model, int membrane, render::Backend& backend, const Detail& detail)
     : m_membrane(&model.membranes[std::size_t(membrane)]),
       m_index(membrane),
       m_torn(m_membrane->sheet.triangles.size(), 0),

@@ -10,7 +10,7 @@ namespace trocar::view {
 
 class PouchDrawing {
  public:
-  PouchDrawing(const sim::Model& model, int membrane, const Detail& detail, render::Backend& backend);
+  PouchDrawing(const sim::Model& model, int membrane, render::Backend& backend, const Detail& detail = {});
 
   void update(const sim::State& state);
   render::MeshHandle mesh() const { return m_mesh.handle(); }

@@ -217,14 +217,14 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
     baker.bake(s.fine.rest, s.fine.rest_normal, paint);
     burns.emplace_back(model, interactions::kSolidBase + std::int32_t(organs.size()), below_skin(s.fine));
     details.organs.emplace_back(levels_of(model, s.name));
-    organs.emplace_back(s, relief_of(int(organs.size()), model), std::move(paint), details.organs.back(), backend);
+    organs.emplace_back(s, relief_of(int(organs.size()), model), std::move(paint), backend, details.organs.back());
   }
   for (int i = 0; i < int(organs.size()); ++i) {
     const sim::SolidModel& solid = model.solids[std::size_t(i)];
     const int count = look(solid.look).fat_tags;
     if (count == 0) continue;
     details.fat.emplace_back(levels_of(model, solid.name));
-    fat.emplace_back(organs[std::size_t(i)], solid, count, model.gravity, details.fat.back(), backend);
+    fat.emplace_back(organs[std::size_t(i)], solid, count, model.gravity, backend, details.fat.back());
     fat_on.push_back(i);
   }
   for (int i = 0; i < int(organs.size()); ++i) {
@@ -260,23 +260,23 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
   }
   for (int i = 0; i < int(model.sheets.size()); ++i) {
     details.sheets.emplace_back(levels_of(model, model.sheets[std::size_t(i)].name));
-    sheets.emplace_back(model, i, details.sheets.back(), backend);
+    sheets.emplace_back(model, i, backend, details.sheets.back());
   }
   for (const bool veins : {false, true}) {
     const auto& all = model.vessels.list;
     if (std::none_of(all.begin(), all.end(), [veins](const sim::Vessel& v) { return v.vein == veins; })) continue;
     details.vessels.emplace_back(levels_of(model, veins ? "veins" : "arteries"));
-    vessels.emplace_back(model, veins, details.vessels.back(), backend);
+    vessels.emplace_back(model, veins, backend, details.vessels.back());
     vessel_look.push_back(&look(veins ? "vein" : "artery"));
   }
   for (std::size_t i = 0; i < model.membranes.size(); ++i) {
     const Detail detail(levels_of(model, model.membranes[i].name));
     if (model.membranes[i].sheet.closed()) {
-      pouches.emplace_back(model, int(i), detail, backend);
+      pouches.emplace_back(model, int(i), backend, detail);
       details.pouches.push_back(detail);
       pouch_of.push_back(i);
     } else {
-      membranes.emplace_back(model, int(i), detail, backend);
+      membranes.emplace_back(model, int(i), backend, detail);
       details.membranes.push_back(detail);
       membrane_of.push_back(i);
     }

@@ -34,7 +34,7 @@ Vec3d skin_now(const sim::Model& model, const sim::State& state, int organ, int 
 
 }  // namespace
 
-SheetDrawing::SheetDrawing(const sim::Model& model, int sheet, const Detail& detail, render::Backend& backend)
+SheetDrawing::SheetDrawing(const sim::Model& model, int sheet, render::Backend& backend, const Detail& detail)
     : m_model(&model),
       m_sheet(&model.sheets[std::size_t(sheet)]),
       m_body(&model.bodies[std::size_t(m_sheet->strand)]),

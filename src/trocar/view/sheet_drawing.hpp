@@ -10,7 +10,7 @@ namespace trocar::view {
 
 class SheetDrawing {
  public:
-  SheetDrawing(const sim::Model& model, int sheet, const Detail& detail, render::Backend& backend);
+  SheetDrawing(const sim::Model& model, int sheet, render::Backend& backend, const Detail& detail = {});
 
   void update(const sim::State& state);
   render::MeshHandle mesh() const { return m_mesh.handle(); }

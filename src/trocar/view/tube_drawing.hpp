@@ -36,7 +36,7 @@ struct TubeRoot {
 
 class TubeDrawing {
  public:
-  TubeDrawing(const sim::Model& model, int strand, const Detail& detail);
+  TubeDrawing(const sim::Model& model, int strand, const Detail& detail = {});
 
   /// The undeformed, uncut tube, for baking openness; then its mesh is made.
   const MeshBuffer& drawn() const { return m_buffer; }

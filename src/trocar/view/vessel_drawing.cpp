@@ -54,7 +54,7 @@ std::vector<double> sorted_cuts(const sim::State& state, int vessel) {
 
 }  // namespace
 
-VesselDrawing::VesselDrawing(const sim::Model& model, bool veins, const Detail& detail, render::Backend& backend)
+VesselDrawing::VesselDrawing(const sim::Model& model, bool veins, render::Backend& backend, const Detail& detail)
     : m_model(&model), m_veins(veins), m_hosts(sim::make_host_views(model)) {
   for (const sim::DetailLevel& level : detail.levels()) m_errors.push_back(level.error);
   const sim::State state = sim::initial_state(model);

@@ -12,7 +12,7 @@ namespace trocar::view {
 class VesselDrawing {
  public:
   /// @param veins  all of them, or all arteries
-  VesselDrawing(const sim::Model& model, bool veins, const Detail& detail, render::Backend& backend);
+  VesselDrawing(const sim::Model& model, bool veins, render::Backend& backend, const Detail& detail = {});
 
   void update(const sim::State& state);
   render::MeshHandle mesh() const { return m_mesh.handle(); }
