@@ -453,7 +453,7 @@ TEST_F(GlBackend, WhatIsOutOfSightIsLeftOutAndWhatReachesIntoThePictureIsNot) {
   }
   // Its middle lies beside the picture, or behind the eye.
   for (const Vec3f centre : {Vec3f{0.055f, 0, -0.06f}, Vec3f{0.05f, 0, 0.01f}}) {
-    const float radius = centre.z > 0 ? 0.045f : 0.02f;
+    const float radius = centre.z > 0 ? 0.055f : 0.02f;
     frame.items = {{white_ball(centre, radius), white(), {}, false}};
     EXPECT_NE(draw(120, 90).rgb, empty.rgb);
   }

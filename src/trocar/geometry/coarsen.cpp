@@ -11,22 +11,24 @@ constexpr double kLeastTurn = 0.5;      // cosine: no triangle turns further tha
 constexpr double kThinnest = 0.05;      // height over base; a thinner triangle is not made
 constexpr std::size_t kMostFaces = 24;  // around a vertex
 
-/// A sum of squared distances from planes: x' A x + 2 b x + c, A symmetric.        [Garland & Heckbert 1997, sec. 5]
+/// Squared distances from planes, weighed by area: x' A x + 2 b x + c, A symmetric. [Garland & Heckbert 1997, sec. 5]
 struct Quadric {
-  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0, bx = 0, by = 0, bz = 0, c = 0;
+  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0, bx = 0, by = 0, bz = 0, c = 0, area = 0;
 
-  void add_plane(Vec3d n, double d) {
-    xx += n.x * n.x, xy += n.x * n.y, xz += n.x * n.z, yy += n.y * n.y, yz += n.y * n.z, zz += n.z * n.z;
-    bx += d * n.x, by += d * n.y, bz += d * n.z, c += d * d;
+  void add_plane(Vec3d n, double d, double w) {
+    xx += w * n.x * n.x, xy += w * n.x * n.y, xz += w * n.x * n.z;
+    yy += w * n.y * n.y, yz += w * n.y * n.z, zz += w * n.z * n.z;
+    bx += w * d * n.x, by += w * d * n.y, bz += w * d * n.z, c += w * d * d, area += w;
   }
   void add(const Quadric& q) {
     xx += q.xx, xy += q.xy, xz += q.xz, yy += q.yy, yz += q.yz, zz += q.zz;
-    bx += q.bx, by += q.by, bz += q.bz, c += q.c;
+    bx += q.bx, by += q.by, bz += q.bz, c += q.c, area += q.area;
   }
+  /// Their mean [m^2].
   double at(Vec3d p) const {
-    const double square = p.x * (xx * p.x + 2 * xy * p.y + 2 * xz * p.z) + p.y * (yy * p.y + 2 * yz * p.z) +
-                          zz * p.z * p.z + 2 * (bx * p.x + by * p.y + bz * p.z) + c;
-    return std::max(square, 0.0);
+    const double sum = p.x * (xx * p.x + 2 * xy * p.y + 2 * xz * p.z) + p.y * (yy * p.y + 2 * yz * p.z) +
+                       zz * p.z * p.z + 2 * (bx * p.x + by * p.y + bz * p.z) + c;
+    return area > 0 ? std::max(sum, 0.0) / area : 0;
   }
 };
 
@@ -86,10 +88,10 @@ class Coarsening {
     const std::uint32_t index = std::uint32_t(m_face.size());
     m_face.push_back(face);
     m_alive.push_back(1);
-    const Vec3d n = normalised(area(face));
+    const Vec3d twice = area(face), n = normalised(twice);
     for (const std::uint32_t v : face) {
       m_faces_at[v].push_back(index);
-      m_quadric[v].add_plane(n, -dot(n, m_place[face[0]]));
+      m_quadric[v].add_plane(n, -dot(n, m_place[face[0]]), length(twice));
     }
   }
 

@@ -4,9 +4,9 @@
 //   const std::vector<double> errors{0.0001, 0.0003};
 //   const auto lists = coarsened(positions, triangles, notes, errors);   // lists[1] has fewer triangles than lists[0]
 //
-// The cost of taking a vertex away is the distance from where it goes to the planes of what it carried, which add up
-// [Garland & Heckbert 1997]; what varies over the surface counts as a distance, too. Borders stay as they are, so that
-// surfaces that touch there still do.
+// The cost of taking a vertex away is the distance, root mean square, from where it goes to the planes of all triangles
+// that it stands for [Garland & Heckbert 1997]; what varies over the surface counts as a distance, too. Borders stay as
+// they are, so that surfaces that touch there still do.
 #pragma once
 
 #include <array>

@@ -16,9 +16,9 @@ constexpr std::size_t kFarthestStep = 3;  ///< levels down at a time: the predic
 /// Cost of a frame against the best quality's: what is paid for a picture, for triangles and for fragments (fitted to
 /// `trocar bench gynaecology/bleeding-control --picture` on llvmpipe).
 double relative_cost(const Quality& q) {
-  const double effects = q.detail == 2 ? 1.0 : (q.detail == 1 ? 0.85 : 0.7);
+  const double effects = q.detail == 2 ? 1.0 : (q.detail == 1 ? 0.85 : 0.6);
   const double scale = double(q.render_scale);
-  return 0.14 + 0.1 / double(q.coarser) + 0.76 * scale * scale * effects;
+  return 0.15 + 0.1 / double(q.coarser) + 0.75 * scale * scale * effects;
 }
 
 int count_bits(unsigned x) {
