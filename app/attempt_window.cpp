@@ -128,6 +128,28 @@ void AttemptWindow::picture(Live& live, Choice& choice) {
   if (pictures.empty()) pictures = "trocar";
   m_stage.end_picture(screen_name(), pictures);
   m_stage.governor.frame_took(window.picture_time());
+  log_rate(now);
+}
+
+/// Once a second: how fast pictures come and time passes, and at which quality.
+void AttemptWindow::log_rate(const Snapshot& now) {
+  if (!m_stage.log.on()) return;
+  ++m_pictures;
+  m_slowest = std::min(m_slowest, now.speed);
+  const double time = now_seconds(), took = time - m_rate_since;
+  if (took < 1) return;
+  const render::Quality quality = m_stage.governor.quality();
+  if (m_rate_since > 0)
+    m_stage.log.event("rate", {{"tick", now.state.tick},
+                               {"pictures_per_second", double(m_pictures) / took},
+                               {"slowest", m_slowest},
+                               {"still", stands_still()},
+                               {"render_scale", quality.render_scale},
+                               {"detail", quality.detail},
+                               {"coarser", quality.coarser}});
+  m_rate_since = time;
+  m_pictures = 0;
+  m_slowest = 1;
 }
 
 void AttemptWindow::look_at_keys() {
@@ -212,6 +234,7 @@ void AttemptWindow::draw_scene(const Snapshot& now) {
   view::ViewOptions options;
   options.quality = m_stage.governor.quality();
   options.styles = m_styles;
+  options.picture_height = height;
   m_stage.draw_scene(m_stage.view_of(m_lesson).frame(now.state, options), width, height);
   ui::set_middle(float(width));
   const PanelContent content{m_lesson,

@@ -34,6 +34,7 @@ class AttemptWindow {
   void tell(Live& live);
   void warn_of_pull(const Snapshot& now);
   void ask_for_the_eye(const Snapshot& now);
+  void log_rate(const Snapshot& now);
   void draw_scene(const Snapshot& now);
   void draw_over(const Snapshot& now, Choice& choice);
   void draw_the_rack(const Snapshot& now);
@@ -60,6 +61,8 @@ class AttemptWindow {
   bool m_display = false;
   std::vector<view::PartStyle> m_styles;  ///< of the scene's parts
   bool m_was_still = true, m_gamepad_used = false, m_had_focus = false;
+  int m_pictures = 0;  ///< since m_rate_since
+  double m_rate_since = 0, m_slowest = 1;
   int m_asked_for_eye = -1;  ///< hand whose insertion waits to be seen, as told
 };
 

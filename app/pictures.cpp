@@ -28,6 +28,7 @@ const std::string& Pictures::driver() const { return m_context->description(); }
 render::Frame Pictures::frame(const sim::State& state, view::ViewOptions options) {
   m_context->make_current();  // others may have drawn in between
   if (options.styles.empty()) options.styles = m_styles;
+  options.picture_height = m_size.height;
   return m_view->frame(state, options);
 }
 

@@ -34,6 +34,7 @@ void Player::save_picture(const sim::State& state) {
   view::ViewOptions options = view_now(m_endoscope, {});
   options.eye_index = m_endoscope ? kScopeEye : kOutsideEye;
   options.metering = false;
+  options.picture_height = double(m_main.height);
   try {
     render::draw_frame(*m_backend, m_view.frame(state, options),
                        render::Target::off_screen(int(m_main.width), int(m_main.height)));

@@ -62,6 +62,7 @@ void Player::draw_scene(const sim::State& state, const render::Quality& quality)
   const auto draw = [&](bool endoscope, int eye, const Area& area) {
     view::ViewOptions options = view_now(endoscope, quality);
     options.eye_index = eye;
+    options.picture_height = double(area.height);
     render::Frame frame = m_view.frame(state, options);
     frame.tick = m_picture_clock;
     render::draw_frame(*m_backend, frame, target(area));

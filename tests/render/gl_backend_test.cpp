@@ -405,5 +405,74 @@ TEST_F(GlBackend, GhostsLetWhatIsBehindThemThroughAndEdgesLeaveFacesOpen) {
   EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
 }
 
+TEST_F(GlBackend, EveryPassIsTimedOnceAndTheirSumIsThePicture) {
+  frame.items = {{ball({0, 0, -0.06f}, 0.02f), {}, {}, false}};
+  draw(200, 150);
+  std::vector<PassCost> costs;
+  backend->profile(&costs);
+  draw(200, 150);
+  draw(200, 150);
+  backend->profile(nullptr);
+  const std::size_t passes = costs.size() / 2;
+  ASSERT_GT(passes, 5u);
+  double opaque = 0, all = 0;
+  for (std::size_t i = 0; i < passes; ++i) {
+    EXPECT_STREQ(costs[i].pass, costs[i + passes].pass);
+    EXPECT_GE(costs[i].wall_ms, 0);
+    EXPECT_GE(costs[i].processor_ms, 0);
+    all += costs[i].processor_ms;
+    if (std::string(costs[i].pass) == "opaque") opaque = costs[i].processor_ms;
+    for (std::size_t j = 0; j < i; ++j) EXPECT_STRNE(costs[i].pass, costs[j].pass);
+  }
+  EXPECT_GT(opaque, 0);
+  EXPECT_GT(all, opaque);
+  draw(200, 150);
+  EXPECT_EQ(costs.size(), 2 * passes) << "nobody asks any more";
+}
+
+TEST_F(GlBackend, APictureIsTheSameWhetherItIsTimedOrNot) {
+  frame.items = {{ball({0, 0, -0.06f}, 0.02f), {}, {}, false}};
+  frame.look.auto_exposure = false;
+  const Image quiet = draw(200, 150);
+  std::vector<PassCost> costs;
+  backend->profile(&costs);
+  EXPECT_EQ(draw(200, 150).rgb, quiet.rgb);
+  backend->profile(nullptr);
+}
+
+TEST_F(GlBackend, ACoarserLevelDrawsItsOwnTriangles) {
+  const std::vector<Vec3f> corners{
+      {-0.02f, -0.02f, -0.06f}, {0.02f, -0.02f, -0.06f}, {-0.02f, 0.02f, -0.06f}, {0.02f, 0.02f, -0.06f}};
+  const std::vector<std::uint32_t> square{0, 1, 2, 2, 1, 3};
+  const std::vector<std::vector<std::uint32_t>> half{{0, 1, 2}};
+  MeshData data;
+  data.positions = corners;
+  data.indices = square;
+  data.coarser = half;
+  DrawItem item{backend->create_mesh(data), white(), {}, false};
+  frame.look = plain_look();
+  frame.items = {item};
+  const double whole = mean_luma(draw(120, 90));
+  frame.items[0].level = 1;
+  const double coarse = mean_luma(draw(120, 90));
+  EXPECT_GT(coarse, 0.3 * whole);
+  EXPECT_LT(coarse, 0.7 * whole);
+}
+
+TEST_F(GlBackend, WhatIsOutOfSightIsLeftOutAndWhatReachesIntoThePictureIsNot) {
+  frame.look = plain_look();
+  const Image empty = draw(120, 90);
+  for (const Vec3f centre : {Vec3f{0, 0, 0.06f}, Vec3f{0.2f, 0, -0.06f}, Vec3f{0, -0.2f, -0.06f}}) {
+    frame.items = {{white_ball(centre, 0.02f), white(), {}, false}};
+    EXPECT_EQ(draw(120, 90).rgb, empty.rgb);
+  }
+  // Its middle lies beside the picture, or behind the eye.
+  for (const Vec3f centre : {Vec3f{0.055f, 0, -0.06f}, Vec3f{0.05f, 0, 0.01f}}) {
+    const float radius = centre.z > 0 ? 0.055f : 0.02f;
+    frame.items = {{white_ball(centre, radius), white(), {}, false}};
+    EXPECT_NE(draw(120, 90).rgb, empty.rgb);
+  }
+}
+
 }  // namespace
 }  // namespace trocar::render

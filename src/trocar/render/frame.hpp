@@ -93,7 +93,9 @@ struct DrawItem {
   Mat4 transform;            ///< mesh -> world; rotation, translation and uniform scale only
   bool translucent = false;  ///< drawn after the opaque ones, far to near by the middle of its bounds, both sides
   DrawStyle style = DrawStyle::shaded;
-  std::uint16_t part = 0;  ///< what it is of, by the caller's numbers; 0: nothing that has a name
+  std::uint8_t level = 0;   ///< of its mesh: 0 all triangles, k the k-th coarser list or the last that there is
+  std::uint8_t detail = 2;  ///< of its surface, at most the frame's (Quality::detail)
+  std::uint16_t part = 0;   ///< what it is of, by the caller's numbers; 0: nothing that has a name
 
   bool blends() const { return (translucent && style == DrawStyle::shaded) || style == DrawStyle::transparent; }
 };
@@ -119,7 +121,11 @@ struct Quality {
   int detail = 2;  ///< 2 everything; 1 no fine flecks, bloom, fringe, focus or contact shade, and liquids mirror the
                    ///< walls only; 0 no vessels or film ripples either
 
-  friend bool operator==(Quality a, Quality b) { return a.render_scale == b.render_scale && a.detail == b.detail; }
+  float coarser = 1;  ///< >= 1: things get coarser at this part of their distances (view/detail.hpp)
+
+  friend bool operator==(Quality a, Quality b) {
+    return a.render_scale == b.render_scale && a.detail == b.detail && a.coarser == b.coarser;
+  }
 };
 
 struct Frame {

@@ -1,6 +1,7 @@
-// Keeps the picture at 20 images a second or more by lowering its quality, never the physics: resolution scale first
-// (what costs is fragments), then effects. Steps down when several frames were late, steps up only after a calm while
-// and only if the better level is predicted to fit; a step up that failed is not tried again for longer and longer.
+// Keeps the picture at 20 images a second or more by lowering its quality, never the physics: things get coarser at
+// shorter distances first (nobody sees it), then resolution goes, then effects. Steps down when several frames were
+// late, as far as it predicts to be necessary but not far at a time; steps up only after a calm while and only if the
+// better level is predicted to fit; a step up that failed is not tried again for longer and longer.
 //
 //   Governor governor;
 //   frame.quality = governor.quality();
@@ -36,6 +37,8 @@ class Governor {
 
  private:
   void step_to(std::size_t level);
+  std::size_t level_that_fits() const;
+  double predicted(std::size_t level) const;  ///< [s] a frame
 
   Limits m_limits;
   std::size_t m_level = 0;

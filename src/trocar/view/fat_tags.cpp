@@ -55,7 +55,7 @@ MeshBuffer drop(Vec3d down, int seed) {
 }  // namespace
 
 FatTags::FatTags(const OrganDrawing& organ, const sim::SolidModel& solid, int count, Vec3d gravity,
-                 render::Backend& backend) {
+                 render::Backend& backend, const Detail& detail) {
   const tissue::Skin& skin = solid.fine;
   for (int k = 0; k < 30 * count && int(m_tags.size()) < count; ++k) {
     const auto at = std::uint32_t(varied(k, 31) * double(skin.rest.size() - 1));
@@ -71,6 +71,7 @@ FatTags::FatTags(const OrganDrawing& organ, const sim::SolidModel& solid, int co
   for (const Tag& tag : m_tags) append(m_buffer, tag.shape, Mat3f::identity(), {});
   place(organ);
   m_buffer.rest = m_buffer.positions;
+  coarsen(m_buffer, detail, kBends);
   if (!m_tags.empty()) m_mesh = OwnedMesh(backend, m_buffer.data());
 }
 

@@ -31,7 +31,7 @@ Vec3d on_line(int fine, int count, At&& at) {
 
 }  // namespace
 
-MembraneDrawing::MembraneDrawing(const sim::Model& model, int membrane, render::Backend& backend)
+MembraneDrawing::MembraneDrawing(const sim::Model& model, int membrane, render::Backend& backend, const Detail& detail)
     : m_membrane(&model.membranes[std::size_t(membrane)]),
       m_index(membrane),
       m_columns((m_membrane->sheet.columns - 1) * kFine + 1),
@@ -44,6 +44,7 @@ MembraneDrawing::MembraneDrawing(const sim::Model& model, int membrane, render::
   lay_pattern();
   connect(m_torn);
   render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);
+  coarsen(m_buffer, detail, kBends);
   m_mesh = OwnedMesh(backend, m_buffer.data());
 }
 
@@ -125,6 +126,7 @@ void MembraneDrawing::update(const sim::State& state) {
   const bool changed = torn != m_torn;
   if (changed) {
     m_torn = torn;
+    m_buffer.coarser.clear();
     connect(torn);
   }
   const bool burnt = m_marks.update(state);

@@ -9,6 +9,7 @@
 #include <trocar/view/cavity.hpp>
 #include <trocar/view/clip_shape.hpp>
 #include <trocar/view/cuttable_drawing.hpp>
+#include <trocar/view/detail.hpp>
 #include <trocar/view/drape.hpp>
 #include <trocar/view/fat_tags.hpp>
 #include <trocar/view/instrument_shapes.hpp>
@@ -35,16 +36,28 @@ namespace {
 constexpr double kSleeveShows = 0.018;                      // [m] of a trocar's sleeve inside the wall
 constexpr float kShadeCell = 0.001f, kShadeReach = 0.018f;  // [m] what shades what
 
+/// A mesh that does not bend.
+struct RigidMesh {
+  OwnedMesh mesh;
+  std::vector<Vec3f> points;  ///< of it
+};
+RigidMesh rigid(MeshBuffer shape, const Detail& detail, render::Backend& backend) {
+  coarsen(shape, detail, kRigid);
+  return {{backend, shape.data()}, std::move(shape.positions)};
+}
+
 /// A rigid part of an instrument and its mesh.
 struct DrawnPart {
   InstrumentPart::Joint joint;
   const Look* look;
-  OwnedMesh mesh;
+  RigidMesh drawn;
+  Detail detail;
 };
 
-std::vector<DrawnPart> made(const std::vector<InstrumentPart>& parts, render::Backend& backend) {
+std::vector<DrawnPart> made(const std::vector<InstrumentPart>& parts, const Detail& detail, render::Backend& backend) {
   std::vector<DrawnPart> drawn;
-  for (const InstrumentPart& p : parts) drawn.push_back({p.joint, &look(p.look), {backend, p.mesh.data()}});
+  for (const InstrumentPart& p : parts)
+    drawn.push_back({p.joint, &look(p.look), rigid(p.mesh, detail, backend), detail});
   return drawn;
 }
 
@@ -104,15 +117,21 @@ struct SceneView::Parts {
   std::optional<WetDrawing> wet;
   Lens lens;
   std::vector<std::size_t> membrane_of, pouch_of;  ///< their numbers in the Model
-  std::vector<OwnedMesh> walls, margins, aprons;
+  std::vector<OwnedMesh> walls, aprons;
   std::vector<std::size_t> apron_on;  ///< walls
+  std::vector<RigidMesh> margins;
   std::vector<MeshBuffer> margin_shapes;
-  OwnedMesh cavity;
+  RigidMesh cavity;
   std::vector<std::vector<std::vector<DrawnPart>>> tools;  ///< (hands, rack)
   std::vector<std::vector<DrawnPart>> sleeves;             ///< (hands)
   std::vector<DrawnPart> scope;
   std::vector<LoadedClip> loaded;
   std::map<double, OwnedMesh> clips;  ///< closed ones, by their length [m]
+  struct Details {                    ///< of what is numbered as above
+    std::vector<Detail> organs, cuttables, fat, tubes, sheets, membranes, pouches, vessels, walls, margins;
+    Detail cavity;
+  } details;
+  std::optional<DetailEye> eye;  ///< of the frame
   const Look* titanium = &look("titanium");
   std::vector<ScenePart> parts;
   struct FirstParts {  ///< the numbers of the first of each kind, from 1 on
@@ -126,10 +145,14 @@ struct SceneView::Parts {
   void name_parts();
   double depth_of_wall(std::size_t hand) const;
   void update(const sim::State& state);
-  void list_tissues(bool with_walls, Frame& frame) const;
+  /// As fine as its distance asks for; what is burnt with all its triangles, as marks are no finer than those.
+  DrawItem& list(DrawItem item, Detail& detail, std::span<const Vec3f> points, Frame& frame, bool burnt = false) const;
+  DrawItem& list_rigid(const RigidMesh& mesh, DrawItem item, Detail& detail, Frame& frame) const;
+  void list_surroundings(Frame& frame);
+  void list_tissues(bool with_walls, Frame& frame);
   void list_clips(const sim::State& state, Frame& frame) const;
-  void list_tools(const sim::State& state, const ViewOptions& options, Frame& frame) const;
-  void list_scope(const sim::State& state, Frame& frame) const;
+  void list_tools(const sim::State& state, const ViewOptions& options, Frame& frame);
+  void list_scope(const sim::State& state, Frame& frame);
 };
 
 SceneView::Parts::Parts(const sim::Model& of, render::Backend& backend) : model(of) {
@@ -168,7 +191,10 @@ void SceneView::Parts::name_parts() {
 
 /// Everything shades everything else, as drawn.
 void SceneView::Parts::make_tissues(render::Backend& backend) {
-  for (int i = 0; i < int(model.strands.size()); ++i) tubes.emplace_back(model, i);
+  for (int i = 0; i < int(model.strands.size()); ++i) {
+    details.tubes.emplace_back(levels_of(model, model.strands[std::size_t(i)].name));
+    tubes.emplace_back(model, i, details.tubes.back());
+  }
   std::vector<std::vector<std::uint32_t>> indices;
   std::vector<render::Occluder> occluders;
   for (const sim::SolidModel& s : model.solids) indices.push_back(flat_indices(s.fine));
@@ -183,6 +209,7 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
   const render::OpennessBaker baker(occluders, kShadeCell, kShadeReach);
 
   for (CuttableDrawing& c : cuttables) {
+    details.cuttables.emplace_back(levels_of(model, model.cuttables[cuttable_burns.size()].name));
     const std::size_t organ = model.solids.size() + cuttable_burns.size();
     cuttable_burns.emplace_back(model, interactions::kSolidBase + std::int32_t(organ));
     c.shade(baker);
@@ -191,13 +218,15 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
     std::vector<Paint> paint(s.fine.rest.size());
     baker.bake(s.fine.rest, s.fine.rest_normal, paint);
     burns.emplace_back(model, interactions::kSolidBase + std::int32_t(organs.size()), below_skin(s.fine));
-    organs.emplace_back(s, relief_of(int(organs.size()), model), std::move(paint), backend);
+    details.organs.emplace_back(levels_of(model, s.name));
+    organs.emplace_back(s, relief_of(int(organs.size()), model), std::move(paint), backend, details.organs.back());
   }
   for (int i = 0; i < int(organs.size()); ++i) {
     const sim::SolidModel& solid = model.solids[std::size_t(i)];
     const int count = look(solid.look).fat_tags;
     if (count == 0) continue;
-    fat.emplace_back(organs[std::size_t(i)], solid, count, model.gravity, backend);
+    details.fat.emplace_back(levels_of(model, solid.name));
+    fat.emplace_back(organs[std::size_t(i)], solid, count, model.gravity, backend, details.fat.back());
     fat_on.push_back(i);
   }
   for (int i = 0; i < int(organs.size()); ++i) {
@@ -211,13 +240,18 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
     std::vector<Paint> paint(skin.rest.size());
     baker.bake(skin.rest, skin.rest_normal, paint);
     for (std::size_t v = 0; v < paint.size(); ++v) paint[v].tint = to_byte(fat_below(vec_cast<double>(skin.rest[v])));
+    const std::vector<std::uint32_t>& triangles = indices[model.solids.size() + i];
+    details.walls.emplace_back(levels_of(model, model.walls[i].name));
+    details.margins.push_back(details.walls.back());
     margin_shapes.push_back(around_wall(model, skin, paint));
-    margins.emplace_back(backend, margin_shapes.back().data());
+    margins.push_back(rigid(margin_shapes.back(), details.margins.back(), backend));
+    const auto coarser = coarser_lists(skin.rest, triangles, paint, details.walls.back(), kRigid);
     walls.emplace_back(backend, render::MeshData{.positions = skin.rest,
                                                  .normals = skin.rest_normal,
                                                  .rest = {},
                                                  .paint = paint,
-                                                 .indices = indices[model.solids.size() + i]});
+                                                 .indices = triangles,
+                                                 .coarser = coarser});
   }
   for (std::size_t i = 0; i < model.walls.size(); ++i) {
     if (!look(model.walls[i].look).omentum) continue;
@@ -226,27 +260,36 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
     aprons.emplace_back(backend, apron.data());
     apron_on.push_back(i);
   }
-  cavity = OwnedMesh(backend, cavity_around(model).data());
+  details.cavity = Detail(levels_of(model, "cavity"));
+  cavity = rigid(cavity_around(model), details.cavity, backend);
   for (TubeDrawing& t : tubes) {
     std::vector<Paint> paint(t.drawn().positions.size());
     baker.bake(t.drawn().positions, t.drawn().normals, paint);
     t.create(std::move(paint), backend);
   }
-  for (int i = 0; i < int(model.sheets.size()); ++i) sheets.emplace_back(model, i, backend);
+  for (int i = 0; i < int(model.sheets.size()); ++i) {
+    details.sheets.emplace_back(levels_of(model, model.sheets[std::size_t(i)].name));
+    sheets.emplace_back(model, i, backend, details.sheets.back());
+  }
   for (const bool veins : {false, true}) {
     const auto& all = model.vessels.list;
     if (std::none_of(all.begin(), all.end(), [veins](const sim::Vessel& v) { return v.vein == veins; })) continue;
-    vessels.emplace_back(model, veins, backend);
+    details.vessels.emplace_back(levels_of(model, veins ? "veins" : "arteries"));
+    vessels.emplace_back(model, veins, backend, details.vessels.back());
     vessel_look.push_back(&look(veins ? "vein" : "artery"));
   }
-  for (std::size_t i = 0; i < model.membranes.size(); ++i)
+  for (std::size_t i = 0; i < model.membranes.size(); ++i) {
+    const Detail detail(levels_of(model, model.membranes[i].name));
     if (model.membranes[i].sheet.closed()) {
-      pouches.emplace_back(model, int(i), backend);
+      pouches.emplace_back(model, int(i), backend, detail);
+      details.pouches.push_back(detail);
       pouch_of.push_back(i);
     } else {
-      membranes.emplace_back(model, int(i), backend);
+      membranes.emplace_back(model, int(i), backend, detail);
+      details.membranes.push_back(detail);
       membrane_of.push_back(i);
     }
+  }
 }
 
 /// From a hand's port to where its instrument comes through the drawn wall [m]; 0 where the port lies before it.
@@ -278,9 +321,10 @@ void SceneView::Parts::make_metal(render::Backend& backend) {
     auto& drawn = tools.emplace_back();
     double widest = 0;
     for (const interactions::ToolModel& tool : model.hands[h].rack) widest = std::max(widest, tool.shaft_radius);
-    sleeves.push_back(made(sleeve_parts(widest, kSleeveShows + depth_of_wall(h)), backend));
+    const Detail sleeve(levels_of(model, model.hands[h].name));
+    sleeves.push_back(made(sleeve_parts(widest, kSleeveShows + depth_of_wall(h)), sleeve, backend));
     for (const interactions::ToolModel& tool : model.hands[h].rack) {
-      drawn.push_back(made(instrument_parts(tool), backend));
+      drawn.push_back(made(instrument_parts(tool), Detail(levels_of(model, tool.name)), backend));
       if (tool.clip_length <= 0 || tool.clips <= 0) continue;
       loaded.push_back(
           {int(h), int(drawn.size()) - 1, {backend, clip_shape(tool.clip_length, tool.parallel_gap).data()}});
@@ -288,7 +332,7 @@ void SceneView::Parts::make_metal(render::Backend& backend) {
         clips.emplace(tool.clip_length, OwnedMesh(backend, clip_shape(tool.clip_length, 0).data()));
     }
   }
-  scope = made(scope_parts(model.scope.shaft_radius), backend);
+  scope = made(scope_parts(model.scope.shaft_radius), Detail(levels_of(model, "endoscope")), backend);
 }
 
 void SceneView::Parts::update(const sim::State& state) {
@@ -321,37 +365,66 @@ void SceneView::Parts::update(const sim::State& state) {
   }
 }
 
-void SceneView::Parts::list_tissues(bool with_walls, Frame& frame) const {
+DrawItem& SceneView::Parts::list(DrawItem item, Detail& detail, std::span<const Vec3f> points, Frame& frame,
+                                 bool burnt) const {
+  item.level = detail.level_at(eye->distance(points, item.transform), eye->index);
+  item.detail = detail.surface(item.level);
+  if (burnt) item.level = 0;
+  frame.items.push_back(item);
+  return frame.items.back();
+}
+
+DrawItem& SceneView::Parts::list_rigid(const RigidMesh& mesh, DrawItem item, Detail& detail, Frame& frame) const {
+  item.mesh = mesh.mesh.handle();
+  return list(item, detail, mesh.points, frame);
+}
+
+/// Inside the body.
+void SceneView::Parts::list_surroundings(Frame& frame) {
+  const DrawItem peritoneum = item({}, look("peritoneum"), first.cavity);
+  list_rigid(cavity, peritoneum, details.cavity, frame);
+  for (std::size_t i = 0; i < margins.size(); ++i) list_rigid(margins[i], peritoneum, details.margins[i], frame);
+}
+
+void SceneView::Parts::list_tissues(bool with_walls, Frame& frame) {
   for (std::size_t i = 0; with_walls && i < walls.size(); ++i)
-    frame.items.push_back(item(walls[i].handle(), look(model.walls[i].look), first.wall + i));
+    list(item(walls[i].handle(), look(model.walls[i].look), first.wall + i), details.walls[i], model.walls[i].skin.rest,
+         frame);
   for (std::size_t i = 0; with_walls && i < aprons.size(); ++i)
     frame.items.push_back(item(aprons[i].handle(), look("omentum"), first.wall + apron_on[i]));
   for (std::size_t i = 0; i < organs.size(); ++i)
-    frame.items.push_back(item(organs[i].mesh(), look(model.solids[i].look), first.organ + i));
+    list(item(organs[i].mesh(), look(model.solids[i].look), first.organ + i), details.organs[i], organs[i].positions(),
+         frame, burns[i].any());
   for (std::size_t i = 0; i < cuttables.size(); ++i)
-    frame.items.push_back(item(cuttables[i].mesh(), look(model.cuttables[i].look), first.organ + organs.size() + i));
+    list(item(cuttables[i].mesh(), look(model.cuttables[i].look), first.organ + organs.size() + i),
+         details.cuttables[i], cuttables[i].positions(), frame);
   for (std::size_t i = 0; i < drapes.size(); ++i) {
     frame.items.push_back(item(drapes[i].mesh(), *drape_look[i], first.cavity));
     frame.items.back().material.two_sided = true;
   }
   for (std::size_t i = 0; i < fat.size(); ++i)
-    if (fat[i].mesh().id) frame.items.push_back(item(fat[i].mesh(), look("fat"), first.organ + std::size_t(fat_on[i])));
+    if (fat[i].mesh().id)
+      list(item(fat[i].mesh(), look("fat"), first.organ + std::size_t(fat_on[i])), details.fat[i],
+           fat[i].buffer().positions, frame);
   for (std::size_t i = 0; i < tubes.size(); ++i) {
     const sim::StrandModel& strand = model.strands[i];
-    frame.items.push_back(item(tubes[i].mesh(), look(strand.look), first.tube + i));
+    DrawItem& tube = list(item(tubes[i].mesh(), look(strand.look), first.tube + i), details.tubes[i],
+                          tubes[i].buffer().positions, frame, tubes[i].burnt());
     if (strand.start.kind == sim::StrandEndModel::hosted && !strand.fimbriated)
-      frame.items.back().material.tint = look(model.organ_look(strand.start.organ)).material.colour;
+      tube.material.tint = look(model.organ_look(strand.start.organ)).material.colour;
   }
   for (std::size_t i = 0; i < vessels.size(); ++i)
-    frame.items.push_back(item(vessels[i].mesh(), *vessel_look[i], first.vessel + i));
+    list(item(vessels[i].mesh(), *vessel_look[i], first.vessel + i), details.vessels[i], vessels[i].buffer().positions,
+         frame);
   for (std::size_t i = 0; i < sheets.size(); ++i)
-    frame.items.push_back(item(sheets[i].mesh(), look(model.sheets[i].look), first.fold + i));
+    list(item(sheets[i].mesh(), look(model.sheets[i].look), first.fold + i), details.sheets[i],
+         sheets[i].buffer().positions, frame);
   for (std::size_t i = 0; i < membranes.size(); ++i)
-    frame.items.push_back(
-        item(membranes[i].mesh(), look(model.membranes[membrane_of[i]].look), first.membrane + membrane_of[i]));
+    list(item(membranes[i].mesh(), look(model.membranes[membrane_of[i]].look), first.membrane + membrane_of[i]),
+         details.membranes[i], membranes[i].buffer().positions, frame, membranes[i].burnt());
   for (std::size_t i = 0; i < pouches.size(); ++i)
-    frame.items.push_back(
-        item(pouches[i].mesh(), look(model.membranes[pouch_of[i]].look), first.membrane + pouch_of[i]));
+    list(item(pouches[i].mesh(), look(model.membranes[pouch_of[i]].look), first.membrane + pouch_of[i]),
+         details.pouches[i], pouches[i].buffer().positions, frame, pouches[i].burnt());
 }
 
 void SceneView::Parts::list_clips(const sim::State& state, Frame& frame) const {
@@ -369,20 +442,20 @@ void SceneView::Parts::list_clips(const sim::State& state, Frame& frame) const {
   }
 }
 
-void SceneView::Parts::list_tools(const sim::State& state, const ViewOptions& options, Frame& frame) const {
+void SceneView::Parts::list_tools(const sim::State& state, const ViewOptions& options, Frame& frame) {
   for (std::size_t t = 0; t < tools.size(); ++t) {
     const interactions::ToolState& tool = state.tools[t];
     const interactions::ToolShape shape = shape_of(model.tool(state, t), tool.pose(), tool.aperture);
     const Placement axis = placement_of(InstrumentPart::Joint::body, shape);
-    for (const DrawnPart& part : sleeves[t]) {
-      DrawItem drawn = item(part.mesh.handle(), *part.look, first.tool + t);
+    for (DrawnPart& part : sleeves[t]) {
+      DrawItem drawn = item({}, *part.look, first.tool + t);
       drawn.transform = to_world({axis.rotation, vec_cast<float>(model.hands[t].port)});
-      frame.items.push_back(drawn);
+      list_rigid(part.drawn, drawn, part.detail, frame);
     }
-    for (const DrawnPart& part : tools[t][std::size_t(tool.instrument)]) {
-      DrawItem drawn = item(part.mesh.handle(), *part.look, first.tool + t);
+    for (DrawnPart& part : tools[t][std::size_t(tool.instrument)]) {
+      DrawItem drawn = item({}, *part.look, first.tool + t);
       drawn.transform = to_world(placement_of(part.joint, shape));
-      frame.items.push_back(drawn);
+      list_rigid(part.drawn, drawn, part.detail, frame);
     }
     const bool shades = style_of(options.styles, std::uint16_t(first.tool + t)) == PartStyle::shaded;
     for (int k = 0; k < interactions::kToolParts && shades; ++k) {  // a jaw is wider than it is thick
@@ -403,16 +476,16 @@ void SceneView::Parts::list_tools(const sim::State& state, const ViewOptions& op
   }
 }
 
-void SceneView::Parts::list_scope(const sim::State& state, Frame& frame) const {
+void SceneView::Parts::list_scope(const sim::State& state, Frame& frame) {
   const kinematics::TipFrame tip = kinematics::forward(model.scope.port, pose_of(state.scope));
   Placement place;
   const Vec3d x = tip.opening(), z = tip.axis();
   place.rotation = Mat3f::from_columns(vec_cast<float>(x), vec_cast<float>(cross(z, x)), vec_cast<float>(z));
   place.translation = vec_cast<float>(tip.tip);
-  for (const DrawnPart& part : scope) {
-    DrawItem drawn = item(part.mesh.handle(), *part.look, first.scope);
+  for (DrawnPart& part : scope) {
+    DrawItem drawn = item({}, *part.look, first.scope);
     drawn.transform = to_world(place);
-    frame.items.push_back(drawn);
+    list_rigid(part.drawn, drawn, part.detail, frame);
   }
 }
 
@@ -478,10 +551,8 @@ Frame SceneView::frame(const sim::State& state, const ViewOptions& options) {
     frame.look = room_look();
     frame.background = {0.09f, 0.10f, 0.11f};
   }
-  if (inside) {
-    frame.items.push_back(item(p.cavity.handle(), look("peritoneum"), p.first.cavity));
-    for (const OwnedMesh& m : p.margins) frame.items.push_back(item(m.handle(), look("peritoneum"), p.first.cavity));
-  }
+  p.eye.emplace(frame.camera, options.picture_height, options.quality, options.eye_index);
+  if (inside) p.list_surroundings(frame);
   p.list_tissues(inside || options.walls, frame);
   if (!inside) cut_open(p.walls, frame);
   p.list_clips(state, frame);

@@ -42,7 +42,8 @@ struct ViewOptions {
   bool metering = true;           ///< false: exposed as its memory says, which stays as it is
   std::vector<PartStyle> styles;  ///< of SceneView::parts(); those beyond its end are shaded
   render::Quality quality;
-  int eye_index = 0;  ///< 0..7: each picture has its own exposure memory
+  double picture_height = 600;  ///< [px] how finely things are drawn depends on it (detail.hpp)
+  int eye_index = 0;            ///< 0..7: each picture has its own exposure memory
 };
 
 class SceneView {

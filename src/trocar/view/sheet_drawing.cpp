@@ -34,7 +34,7 @@ Vec3d skin_now(const sim::Model& model, const sim::State& state, int organ, int 
 
 }  // namespace
 
-SheetDrawing::SheetDrawing(const sim::Model& model, int sheet, render::Backend& backend)
+SheetDrawing::SheetDrawing(const sim::Model& model, int sheet, render::Backend& backend, const Detail& detail)
     : m_model(&model),
       m_sheet(&model.sheets[std::size_t(sheet)]),
       m_body(&model.bodies[std::size_t(m_sheet->strand)]),
@@ -55,6 +55,7 @@ SheetDrawing::SheetDrawing(const sim::Model& model, int sheet, render::Backend& 
   place(rest);
   lay_pattern();
   render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);
+  coarsen(m_buffer, detail, kBends);
   m_mesh = OwnedMesh(backend, m_buffer.data());
 }
 
@@ -246,6 +247,7 @@ void SheetDrawing::update(const sim::State& state) {
       pieces_of(*m_body, state.strands[strand].alive, {state.cuts.data(), std::size_t(state.cut_count)}, int(strand));
   const bool changed = pieces != m_pieces;
   if (changed) {
+    m_buffer.coarser.clear();
     lay_out(std::move(pieces));
     place(sim::initial_state(*m_model));
     lay_pattern();

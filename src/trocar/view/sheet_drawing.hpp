@@ -3,14 +3,14 @@
 #pragma once
 
 #include <trocar/sim/state.hpp>
-#include <trocar/view/mesh_buffer.hpp>
+#include <trocar/view/detail.hpp>
 #include <trocar/view/strand_curve.hpp>
 
 namespace trocar::view {
 
 class SheetDrawing {
  public:
-  SheetDrawing(const sim::Model& model, int sheet, render::Backend& backend);
+  SheetDrawing(const sim::Model& model, int sheet, render::Backend& backend, const Detail& detail = {});
 
   void update(const sim::State& state);
   render::MeshHandle mesh() const { return m_mesh.handle(); }

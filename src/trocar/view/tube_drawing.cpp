@@ -23,6 +23,7 @@ constexpr double kRootFlare = 0.4;    // how much wider a strand is where it gro
 constexpr double kSink = 0.9;         // radii that a strand has sunk into its organ at its end
 constexpr double kRootReach = 0.03;   // [m] a wall farther from a fixed end is not its root
 constexpr double kBloodied = 0.0025;  // [m] beside a cut
+constexpr double kBend = 0.01;        // [m] radius with which tubes curve, for rings that are left out
 
 template <class T>
 bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
@@ -35,7 +36,7 @@ bool TubeDrawing::Layout::same(const Layout& other) const {
   return pieces == other.pieces && same_bytes(clips, other.clips) && same_bytes(nicks, other.nicks);
 }
 
-TubeDrawing::TubeDrawing(const sim::Model& model, int strand)
+TubeDrawing::TubeDrawing(const sim::Model& model, int strand, const Detail& detail)
     : m_model(&model),
       m_strand(&model.strands[std::size_t(strand)]),
       m_body(&model.bodies[std::size_t(strand)]),
@@ -43,7 +44,9 @@ TubeDrawing::TubeDrawing(const sim::Model& model, int strand)
       m_marks(model, strand) {
   const double thickest = *std::max_element(m_strand->outer.begin(), m_strand->outer.end());
   m_sides = thickest > 0.0022 ? 16 : 12;
+  for (const sim::DetailLevel& level : detail.levels()) m_errors.push_back(level.error);
   if (m_strand->fimbriated) m_fimbriae = fimbriae(kBellFlare * m_strand->outer.back(), strand + 1);
+  coarsen(m_fimbriae, detail, kBends);
   const tissue::StrandState rest = tissue::rest_state(m_body->model);
   const StrandPiece all{0, m_body->nodes() - 1, 0, m_body->length(), false, false};
   const StrandCurve drawn(*m_body, rest, {&all, 1});
@@ -355,24 +358,65 @@ void TubeDrawing::lay_out(const Layout& layout) {
 
 void TubeDrawing::connect() {
   m_buffer = {};
-  std::uint32_t before = 0;
+  m_first.clear();
+  std::vector<std::size_t> all;
+  for (const TubeRow& row : m_rows) {
+    all.push_back(all.size());
+    m_first.push_back(m_buffer.size());
+    for (int k = 0; k < (row.radius == 0 ? 1 : m_sides); ++k) m_buffer.add({});
+  }
+  join(all, 1, m_buffer);
+  const std::uint32_t fingers = m_buffer.size();
+  if (m_strand->fimbriated) append(m_buffer, m_fimbriae, Mat3f::identity(), {});
+  connect_coarsely();
+  for (std::size_t k = 0; k < m_fimbriae.coarser.size(); ++k)
+    for (const std::uint32_t v : m_fimbriae.coarser[k]) m_buffer.coarser[k].push_back(fingers + v);
+}
+
+/// Triangles between these rows, of every `stride`-th side.
+void TubeDrawing::join(const std::vector<std::size_t>& rows, std::uint32_t stride, MeshBuffer& into) const {
   const auto sides = std::uint32_t(m_sides);
+  for (std::size_t n = 1; n < rows.size(); ++n) {
+    const TubeRow &low = m_rows[rows[n - 1]], &high = m_rows[rows[n]];
+    if (high.piece != low.piece || high.crease) continue;
+    const std::uint32_t a = m_first[rows[n - 1]], b = m_first[rows[n]];
+    for (std::uint32_t i = 0; i < sides; i += stride) {
+      const std::uint32_t j = (i + stride) % sides;
+      if (high.radius == 0)
+        into.triangle(a + i, a + j, b);
+      else if (low.radius == 0)
+        into.triangle(b + j, b + i, a);
+      else
+        into.quad(a + i, a + j, b + j, b + i);
+    }
+  }
+}
+
+/// Plain rows at least so far apart [m], and all that are not plain.
+std::vector<std::size_t> TubeDrawing::rows_apart(double distance) const {
+  const auto plain = [](const TubeRow& r) { return r.radius > 0 && r.along == 0 && r.out == 0 && !r.crease; };
+  const auto clipped = [this](double s) {
+    return std::any_of(m_layout.clips.begin(), m_layout.clips.end(),
+                       [s](const Clip& clip) { return std::fabs(clip.s - s) < kNearClip; });
+  };
+  std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < m_rows.size(); ++i) {
     const TubeRow& row = m_rows[i];
-    const bool pole = row.radius == 0, opens = i == 0 || m_rows[i - 1].piece != row.piece;
-    const std::uint32_t first = m_buffer.size();
-    for (std::uint32_t k = 0; k < (pole ? 1 : sides); ++k) m_buffer.add({});
-    if (!opens && !row.crease) {
-      if (pole)
-        join_pole(m_buffer, before, sides, first, true);
-      else if (m_rows[i - 1].radius == 0)
-        join_pole(m_buffer, first, sides, before, false);
-      else
-        join_rows(m_buffer, before, first, sides, true);
-    }
-    before = first;
+    const bool inside = i > 0 && i + 1 < m_rows.size() && plain(row) && plain(m_rows[i - 1]) && plain(m_rows[i + 1]) &&
+                        m_rows[i - 1].piece == row.piece && m_rows[i + 1].piece == row.piece;
+    const double least = clipped(row.s) ? 0.3 * distance : distance;
+    if (!inside || row.s - m_rows[kept.back()].s > least - 0.5 * kFineStep) kept.push_back(i);
   }
-  if (m_strand->fimbriated) append(m_buffer, m_fimbriae, Mat3f::identity(), {});
+  return kept;
+}
+
+void TubeDrawing::connect_coarsely() {
+  const double thickest = *std::max_element(m_strand->outer.begin(), m_strand->outer.end());
+  for (const double error : m_errors) {
+    MeshBuffer part;
+    join(rows_apart(ring_distance(error, kBend)), side_stride(error, thickest, std::uint32_t(m_sides)), part);
+    m_buffer.coarser.push_back(std::move(part.indices));
+  }
 }
 
 void TubeDrawing::paint() {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <trocar/render/openness.hpp>
+#include <trocar/view/detail.hpp>
 #include <trocar/view/heat_marks.hpp>
 #include <trocar/view/pinch.hpp>
 #include <trocar/view/strand_curve.hpp>
@@ -35,7 +36,7 @@ struct TubeRoot {
 
 class TubeDrawing {
  public:
-  TubeDrawing(const sim::Model& model, int strand);
+  TubeDrawing(const sim::Model& model, int strand, const Detail& detail = {});
 
   /// The undeformed, uncut tube, for baking openness; then its mesh is made.
   const MeshBuffer& drawn() const { return m_buffer; }
@@ -46,6 +47,7 @@ class TubeDrawing {
   /// As it was last made: for the folds that hang on it, and for tests.
   const MeshBuffer& buffer() const { return m_buffer; }
   int sides() const { return m_sides; }
+  bool burnt() const { return m_marks.any(); }
 
  private:
   /// What the list of rows depends on.
@@ -62,6 +64,9 @@ class TubeDrawing {
   void add_end(int piece);
   void add_raw_face(int piece, bool at_start);
   void connect();  ///< vertices and triangles of the rows
+  void join(const std::vector<std::size_t>& rows, std::uint32_t stride, MeshBuffer& into) const;
+  std::vector<std::size_t> rows_apart(double distance) const;
+  void connect_coarsely();
   void paint();
   void burn(const sim::State& state);         ///< what heat has left, over the paint
   std::size_t nearest_first(double s) const;  ///< first vertex of the baked row nearest to s
@@ -84,6 +89,8 @@ class TubeDrawing {
   TubeRoot m_start_root, m_end_root;
   Layout m_layout;
   std::vector<TubeRow> m_rows;
+  std::vector<std::uint32_t> m_first;  ///< (rows) vertex
+  std::vector<double> m_errors;        ///< (levels) [m]
   HeatMarks m_marks;
   MeshBuffer m_fimbriae;  ///< in the end's frame
   MeshBuffer m_buffer;

@@ -9,6 +9,7 @@ namespace {
 constexpr std::uint32_t kAround = 8;
 constexpr double kRing = 0.00125;     // [m] from ring to ring
 constexpr double kClipWide = 0.0014;  // [m] a clip narrows the vessel so far to either side
+constexpr double kBend = 0.005;       // [m] radius with which vessels curve, for rings that are left out
 constexpr double kBloody = 0.004;     // [m] of a stump
 constexpr double kMostShift = 0.35;   // of the radius, however large the gain
 constexpr double kNarrowed = 0.7;     // share of the radius that a clip takes
@@ -53,8 +54,9 @@ std::vector<double> sorted_cuts(const sim::State& state, int vessel) {
 
 }  // namespace
 
-VesselDrawing::VesselDrawing(const sim::Model& model, bool veins, render::Backend& backend)
+VesselDrawing::VesselDrawing(const sim::Model& model, bool veins, render::Backend& backend, const Detail& detail)
     : m_model(&model), m_veins(veins), m_hosts(sim::make_host_views(model)) {
+  for (const sim::DetailLevel& level : detail.levels()) m_errors.push_back(level.error);
   const sim::State state = sim::initial_state(model);
   lay_out(state);
   place(state);
@@ -95,15 +97,37 @@ void VesselDrawing::lay_out(const sim::State& state) {
       const int steps = std::max(2, int(way / kRing + 0.5));
       for (int i = 0; i <= steps; ++i) run.s.push_back(run.from + (run.to - run.from) * i / steps);
       for (std::size_t i = 0; i < run.s.size() * kAround + 2; ++i) m_buffer.add({});
-      const std::uint32_t rings = std::uint32_t(run.s.size()), poles = run.first + rings * kAround;
-      for (std::uint32_t i = 0; i + 1 < rings; ++i)
-        join_rows(m_buffer, run.first + i * kAround, run.first + (i + 1) * kAround, kAround, true);
-      join_pole(m_buffer, run.first, kAround, poles, false);
-      join_pole(m_buffer, run.first + (rings - 1) * kAround, kAround, poles + 1, true);
       m_runs.push_back(std::move(run));
     }
   }
+  for (const Run& run : m_runs) join(run, 1, 1, m_buffer);
+  for (const double error : m_errors) {
+    MeshBuffer part;
+    const auto apart = std::max<std::size_t>(1, std::size_t(ring_distance(error, kBend) / kRing));
+    for (const Run& run : m_runs) {
+      const interactions::VesselPath& path = m_model->vessels.list[std::size_t(run.vessel)].path;
+      const double radius = std::max(vessel_radius(path, run.from), vessel_radius(path, run.to));
+      join(run, apart, side_stride(error, radius, kAround), part);
+    }
+    m_buffer.coarser.push_back(std::move(part.indices));
+  }
   m_buffer.normals.resize(m_buffer.positions.size());
+}
+
+/// Triangles of every so many rings and sides.
+void VesselDrawing::join(const Run& run, std::size_t rings_apart, std::uint32_t stride, MeshBuffer& into) const {
+  const std::size_t last = run.s.size() - 1;
+  const auto ring = [&](std::size_t i) { return run.first + std::uint32_t(i) * kAround; };
+  const std::uint32_t poles = ring(run.s.size());
+  for (std::uint32_t k = 0; k < kAround; k += stride) {
+    const std::uint32_t next = (k + stride) % kAround;
+    into.triangle(ring(0) + next, ring(0) + k, poles);
+    for (std::size_t i = 0; i < last; i += rings_apart) {
+      const std::size_t j = std::min(i + rings_apart, last);
+      into.quad(ring(i) + k, ring(i) + next, ring(j) + next, ring(j) + k);
+    }
+    into.triangle(ring(last) + k, ring(last) + next, poles + 1);
+  }
 }
 
 void VesselDrawing::place(const sim::State& state) {

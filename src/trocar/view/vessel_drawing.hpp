@@ -5,14 +5,14 @@
 #include <vector>
 
 #include <trocar/sim/host_views.hpp>
-#include <trocar/view/mesh_buffer.hpp>
+#include <trocar/view/detail.hpp>
 
 namespace trocar::view {
 
 class VesselDrawing {
  public:
   /// @param veins  all of them, or all arteries
-  VesselDrawing(const sim::Model& model, bool veins, render::Backend& backend);
+  VesselDrawing(const sim::Model& model, bool veins, render::Backend& backend, const Detail& detail = {});
 
   void update(const sim::State& state);
   render::MeshHandle mesh() const { return m_mesh.handle(); }
@@ -28,13 +28,15 @@ class VesselDrawing {
     std::vector<double> s;    ///< of its rings
   };
   void lay_out(const sim::State& state);
+  void join(const Run& run, std::size_t rings_apart, std::uint32_t stride, MeshBuffer& into) const;
   void place(const sim::State& state);
   void place_run(const Run& run, const sim::State& state, std::span<const Vec3d> points);
 
   const sim::Model* m_model;
   bool m_veins;
   std::vector<Run> m_runs;
-  int m_laid_out_for = -1;  ///< openings
+  std::vector<double> m_errors;  ///< (levels) [m]
+  int m_laid_out_for = -1;       ///< openings
   sim::HostViews m_hosts;
   MeshBuffer m_buffer;
   OwnedMesh m_mesh;
