@@ -5,6 +5,7 @@
 
 #include <trocar/core/error.hpp>
 
+#include "analysis_choice.hpp"
 #include "attempt_log.hpp"
 #include "command.hpp"
 #include "event_log.hpp"
@@ -20,7 +21,8 @@ namespace trocar::app {
 namespace {
 
 struct Options {
-  std::string exercise, input = "mouse", record, shots, video, report, size, stereo = "off", show, trainee, log;
+  std::string exercise, input = "mouse", record, shots, video, report, size, stereo = "off", show, analysis, trainee,
+                        log;
   double seconds = 0;
   std::uint64_t seed = 0;
   bool headless = false, familiarisation = false, no_store = false;
@@ -80,7 +82,9 @@ Json train_headless(const Options& o, const Lesson& lesson, training::Store* sto
   AttemptLog log(store, session, plan_of(o));
   events.event("attempt", {{"exercise", lesson.name}, {"recording", log.attempt().recording}});
   const Leftovers left = run_headless(
-      session, *source, {o.shots, o.video, size, {parse_stereo(o.stereo), parse_show(o.show)}, o.seconds}, [&] {
+      session, *source,
+      {o.shots, o.video, size, {parse_stereo(o.stereo), parse_show(o.show), parse_analysis(o.analysis)}, o.seconds},
+      [&] {
         for (const Moment& m : session.moments()) events.moment(lesson.model, m);
         if (session.state().tick % kLogTimeEvery == 0) events.event("time", {{"tick", session.state().tick}});
         return true;
@@ -118,7 +122,9 @@ int train(const Options& o, bool json) {
                            fmt::format("expected --input demo, motion:FILE or replay:FILE with it, got {}", o.input)}});
   if (o.exercise.empty() && (o.headless || !hands))
     throw core::BadInput({{{"train", 0, 0}, "expected an exercise (see trocar list), got none"}});
-  static_cast<void>(parse_stereo(o.stereo)), static_cast<void>(parse_show(o.show));  // before anything is begun
+  // Faults are told before anything is begun.
+  static_cast<void>(parse_stereo(o.stereo)), static_cast<void>(parse_show(o.show));
+  static_cast<void>(parse_analysis(o.analysis));
   const PictureSize size = parse_size(o.size.empty() ? "800x600" : o.size);
   std::unique_ptr<Lesson> lesson = o.exercise.empty() ? nullptr : load_lesson(o.exercise, o.seed);
   std::unique_ptr<training::Store> store;
@@ -154,6 +160,7 @@ void add_train(CLI::App& program, Chosen& chosen) {
   c->add_option("--size", options->size, "of pictures (default 800x600) or window (default: as last time)");
   c->add_option("--stereo", options->stereo, std::string("headless: ") + kStereoHelp)->capture_default_str();
   c->add_option("--show", options->show, std::string("headless: ") + kShowHelp);
+  c->add_option("--analysis", options->analysis, std::string("headless: ") + kAnalysisHelp);
   c->add_option("--trainee", options->trainee, "whose attempt it is; default: guest");
   c->add_flag("--familiarisation", options->familiarisation, "getting to know it: no score, no verdict");
   c->add_option("--seed", options->seed, "vary the anatomy by this number; 0: as drawn")->capture_default_str();

@@ -5,6 +5,7 @@
 #include <trocar/render/mesh_arrays.hpp>
 #include <trocar/render/openness.hpp>
 #include <trocar/sim/visibility.hpp>
+#include <trocar/view/analysis_drawing.hpp>
 #include <trocar/view/cameras.hpp>
 #include <trocar/view/cavity.hpp>
 #include <trocar/view/clip_shape.hpp>
@@ -77,6 +78,18 @@ PartStyle style_of(const std::vector<PartStyle>& styles, std::uint16_t part) {
   return part > 0 && part <= styles.size() ? styles[part - std::size_t(1)] : PartStyle::shaded;
 }
 
+/// Grey, dull, without patterns: nothing that could be taken for a figure.
+render::Material clay(const render::Material& of) {
+  render::Material m;
+  m.colour = m.colour_b = m.colour_c = m.tint = {0.07f, 0.07f, 0.072f};
+  m.mottle = m.bump = m.wetness = m.glow_amount = m.film_bump = 0;
+  m.wrap = {0.2f, 0.2f, 0.2f};
+  m.alpha = of.alpha;
+  m.rim_alpha = of.rim_alpha;
+  m.two_sided = of.two_sided;
+  return m;
+}
+
 /// The clip that lies ready in an applier's jaws.
 struct LoadedClip {
   int hand = -1, instrument = -1;  ///< of the hand's rack
@@ -102,6 +115,7 @@ struct SceneView::Parts {
   std::vector<const Look*> vessel_look;
   std::optional<WetDrawing> wet;
   Lens lens;
+  AnalysisDrawing analysis;
   std::vector<std::size_t> membrane_of, pouch_of;  ///< their numbers in the Model
   std::vector<OwnedMesh> walls, margins;
   std::vector<MeshBuffer> margin_shapes;
@@ -128,9 +142,11 @@ struct SceneView::Parts {
   void list_clips(const sim::State& state, Frame& frame) const;
   void list_tools(const sim::State& state, const ViewOptions& options, Frame& frame) const;
   void list_scope(const sim::State& state, Frame& frame) const;
+  void list_analysis(const sim::State& state, const AnalysisOptions& options, bool with_walls, Frame& frame);
+  std::uint16_t part_of(BodyKind kind, std::size_t i) const;
 };
 
-SceneView::Parts::Parts(const sim::Model& of, render::Backend& backend) : model(of) {
+SceneView::Parts::Parts(const sim::Model& of, render::Backend& backend) : model(of), analysis(of, backend) {
   make_tissues(backend);
   make_metal(backend);
   name_parts();
@@ -405,6 +421,42 @@ void SceneView::Parts::list_scope(const sim::State& state, Frame& frame) const {
   }
 }
 
+std::uint16_t SceneView::Parts::part_of(BodyKind kind, std::size_t i) const {
+  switch (kind) {
+    case BodyKind::organ:
+      return std::uint16_t(first.organ + i);
+    case BodyKind::strand:
+      return std::uint16_t(first.tube + i);
+    case BodyKind::membrane:
+      return std::uint16_t(first.membrane + i);
+    case BodyKind::arteries:
+      return first.vessel;
+    case BodyKind::veins:
+      return std::uint16_t(first.vessel + vessels.size() - 1);
+    case BodyKind::tools:
+      break;
+  }
+  return 0;
+}
+
+/// Walls as grey clay. Where neither surfaces nor springs show where tissue is, its ghost does.
+void SceneView::Parts::list_analysis(const sim::State& state, const AnalysisOptions& options, bool with_walls,
+                                     Frame& frame) {
+  for (std::size_t i = 0; with_walls && i < walls.size(); ++i)
+    frame.items.push_back(item(walls[i].handle(), look(model.walls[i].look), first.wall + i));
+  const std::size_t ghosts = frame.items.size();
+  if (!options.strain && !options.springs) list_tissues(false, frame);
+  if (options.pressure)
+    std::erase_if(frame.items,
+                  [&](const DrawItem& i) { return i.part >= first.vessel && i.part < first.vessel + vessels.size(); });
+  for (std::size_t i = 0; i < frame.items.size(); ++i) {
+    frame.items[i].material = clay(frame.items[i].material);
+    if (i >= ghosts) frame.items[i].translucent = false, frame.items[i].style = render::DrawStyle::transparent;
+  }
+  analysis.list(
+      state, options, [this](BodyKind kind, std::size_t i) { return part_of(kind, i); }, frame);
+}
+
 namespace {
 
 /// Seen from outside the walls are drawn where they turn their inner side to the eye: the cavity lies open.
@@ -467,17 +519,28 @@ Frame SceneView::frame(const sim::State& state, const ViewOptions& options) {
     frame.look = room_look();
     frame.background = {0.09f, 0.10f, 0.11f};
   }
-  if (inside) {
+  const bool measured = options.analysis.on();
+  if (measured) {
+    frame.light = light_for_analysis();
+    frame.look = analysis_look();
+    frame.background = {0.018f, 0.019f, 0.021f};
+    p.list_analysis(state, options.analysis, inside || options.walls, frame);
+  }
+  if (inside && !measured) {
     frame.items.push_back(item(p.cavity.handle(), look("peritoneum"), p.first.cavity));
     for (const OwnedMesh& m : p.margins) frame.items.push_back(item(m.handle(), look("peritoneum"), p.first.cavity));
   }
-  p.list_tissues(inside || options.walls, frame);
+  if (!measured) p.list_tissues(inside || options.walls, frame);
   if (!inside) cut_open(p.walls, frame);
   p.list_clips(state, frame);
   if (options.instruments) p.list_tools(state, options, frame);
   if (options.instruments && !inside) p.list_scope(state, frame);
   apply(options.styles, frame);
   const auto shown = [&](std::uint16_t part) { return style_of(options.styles, part) != PartStyle::hidden; };
+  if (measured) {  // colours say figures: nothing shades them, and no blood lies over them
+    frame.rods.clear();
+    return frame;
+  }
   if (p.wet && shown(p.first.liquid)) p.wet->list(state, frame);
   if (p.wet && shown(p.first.smoke)) list_smoke(p.model.wet.model.smoke, state.fluids.smoke, frame);
   // Only the endoscope has a lens that fogs: other cameras look past it.

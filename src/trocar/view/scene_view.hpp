@@ -16,6 +16,7 @@
 
 #include <trocar/render/backend.hpp>
 #include <trocar/sim/state.hpp>
+#include <trocar/view/analysis.hpp>
 
 namespace trocar::view {
 
@@ -41,6 +42,7 @@ struct ViewOptions {
   bool instruments = true;
   bool metering = true;           ///< false: exposed as its memory says, which stays as it is
   std::vector<PartStyle> styles;  ///< of SceneView::parts(); those beyond its end are shaded
+  AnalysisOptions analysis;       ///< anything on: figures in colour, in a plain camera's light
   render::Quality quality;
   int eye_index = 0;  ///< 0..7: each picture has its own exposure memory
 };
