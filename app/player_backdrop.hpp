@@ -1,13 +1,9 @@
 // A copy of a part of the window's picture, drawn again below the panels while what it shows stays the same.
 #pragma once
 
-namespace trocar::app {
+#include "area.hpp"
 
-/// A part of the window [px, from the top left].
-struct Area {
-  float x = 0, y = 0, width = 0, height = 0;
-  bool holds(float px, float py) const { return px >= x && px < x + width && py >= y && py < y + height; }
-};
+namespace trocar::app {
 
 class Backdrop {
  public:

@@ -27,6 +27,7 @@ struct WindowKeys {
   bool pause = false;    ///< P, the gamepad's start button
   bool back = false;     ///< Esc, in menus the gamepad's B
   bool picture = false;  ///< F12
+  bool layout = false;   ///< F2
 };
 
 struct TypedKey {

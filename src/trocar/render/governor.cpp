@@ -38,6 +38,19 @@ void Governor::step_to(std::size_t level) {
   m_since_step = 0;
 }
 
+void Governor::load_becomes(double load) {
+  if (!(load > 0) || !std::isfinite(load) || load == m_load) return;
+  double expected = m_mean * load / m_load;
+  m_load = load;
+  m_patience = m_limits.calm_frames;
+  while (expected > m_limits.late && m_level + 1 < std::size(kLevels)) {
+    expected *= relative_cost(kLevels[m_level + 1]) / relative_cost(kLevels[m_level]);
+    ++m_level;
+  }
+  step_to(m_level);
+  m_came_up = false;
+}
+
 void Governor::frame_took(double seconds) {
   if (!std::isfinite(seconds) || seconds <= 0) return;
   ++m_since_step;

@@ -141,7 +141,7 @@ struct SceneView::Parts {
   void list_tissues(bool with_walls, Frame& frame) const;
   void list_clips(const sim::State& state, Frame& frame) const;
   void list_tools(const sim::State& state, const ViewOptions& options, Frame& frame) const;
-  void list_scope(const sim::State& state, Frame& frame) const;
+  void list_scope(Vec3d port, const kinematics::FulcrumPose& pose, Frame& frame) const;
   void list_analysis(const sim::State& state, const AnalysisOptions& options, bool with_walls, Frame& frame);
   std::uint16_t part_of(BodyKind kind, std::size_t i) const;
 };
@@ -408,8 +408,8 @@ void SceneView::Parts::list_tools(const sim::State& state, const ViewOptions& op
   }
 }
 
-void SceneView::Parts::list_scope(const sim::State& state, Frame& frame) const {
-  const kinematics::TipFrame tip = kinematics::forward(model.scope.port, pose_of(state.scope));
+void SceneView::Parts::list_scope(Vec3d port, const kinematics::FulcrumPose& pose, Frame& frame) const {
+  const kinematics::TipFrame tip = kinematics::forward(port, pose);
   Placement place;
   const Vec3d x = tip.opening(), z = tip.axis();
   place.rotation = Mat3f::from_columns(vec_cast<float>(x), vec_cast<float>(cross(z, x)), vec_cast<float>(z));
@@ -534,7 +534,10 @@ Frame SceneView::frame(const sim::State& state, const ViewOptions& options) {
   if (!inside) cut_open(p.walls, frame);
   p.list_clips(state, frame);
   if (options.instruments) p.list_tools(state, options, frame);
-  if (options.instruments && !inside) p.list_scope(state, frame);
+  if (options.instruments && (!inside || options.second_scope))
+    p.list_scope(p.model.scope.port, pose_of(state.scope), frame);
+  if (options.instruments && !inside && options.second_scope)
+    p.list_scope(options.second_scope->port, options.second_scope->pose, frame);
   apply(options.styles, frame);
   const auto shown = [&](std::uint16_t part) { return style_of(options.styles, part) != PartStyle::hidden; };
   if (measured) {  // colours say figures: nothing shades them, and no blood lies over them

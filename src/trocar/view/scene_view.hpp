@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,12 @@ struct ScenePart {
 };
 enum class PartStyle : std::uint8_t { shaded, transparent, wireframe, hidden };
 
+/// Another endoscope that only looks (second_scope.hpp).
+struct SecondScope {
+  Vec3d port;  ///< [m]
+  kinematics::FulcrumPose pose;
+};
+
 struct ViewOptions {
   enum class Camera {
     scope,    ///< through the endoscope: circular mask, its light, auto exposure
@@ -40,9 +47,10 @@ struct ViewOptions {
   double outside_fov = 0.7;                                          ///< [rad] of the picture's height
   bool walls = true;  ///< outside: false leaves out what encloses the scene
   bool instruments = true;
-  bool metering = true;           ///< false: exposed as its memory says, which stays as it is
-  std::vector<PartStyle> styles;  ///< of SceneView::parts(); those beyond its end are shaded
-  AnalysisOptions analysis;       ///< anything on: figures in colour, in a plain camera's light
+  bool metering = true;                     ///< false: exposed as its memory says, which stays as it is
+  std::vector<PartStyle> styles;            ///< of SceneView::parts(); those beyond its end are shaded
+  std::optional<SecondScope> second_scope;  ///< there is one: seen from outside; its own picture shows the first one
+  AnalysisOptions analysis;                 ///< anything on: figures in colour, in a plain camera's light
   render::Quality quality;
   int eye_index = 0;  ///< 0..7: each picture has its own exposure memory
 };
