@@ -236,7 +236,9 @@ void AttemptWindow::draw_scene(const Snapshot& now) {
   options.quality = quality;
   options.styles = m_styles;
   const bool scope = first.shows == PaneShows::endoscope || first.shows == PaneShows::second_scope;
-  m_stage.draw_scene(view.frame(now.state, options), window_target(first.area, window.height()), scope,
+  render::Frame frame = view.frame(now.state, options);
+  fit_to(first.area, frame);
+  m_stage.draw_scene(frame, window_target(first.area, window.height()), scope,
                      [this] { m_panes.lay_others(m_stage.window.height(), m_stage.settings.mirrored_picture); });
   m_panes.write_over(m_panes.panes().size() > 1);
   ui::set_middle(float(width));

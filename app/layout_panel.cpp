@@ -46,10 +46,10 @@ void draw_analysis(Panes& panes) {
   for (const AnalysisQuantity& q : kAnalysisQuantities) {
     if (!first) ImGui::SameLine(0, 14 * ui::scale());
     first = false;
-    ui::checkbox(q.name, panes.analysis.*q.shown);
+    ui::checkbox(q.name, panes.cameras.analysis.*q.shown);
   }
   ImGui::SameLine(0, 14 * ui::scale());
-  ui::checkbox("through the endoscope", panes.analysis_from_endoscope);
+  ui::checkbox("through the endoscope", panes.cameras.analysis_from_endoscope);
 }
 
 /// What dragging does, step by step.
@@ -88,7 +88,7 @@ bool draw_layout_panel(LayoutChoice& choice, Panes& panes) {
       choice.shows(PaneShows::outside) || choice.shows(PaneShows::analysis) || choice.shows(PaneShows::second_scope);
   if (cameras) ui::text("Cameras (or drag in the pane; right drag shifts, the wheel comes nearer)", ui::kBlue);
   if (choice.shows(PaneShows::outside)) draw_camera("outside", PaneShows::outside, panes);
-  if (choice.shows(PaneShows::analysis) && !panes.analysis_from_endoscope)
+  if (choice.shows(PaneShows::analysis) && !panes.cameras.analysis_from_endoscope)
     draw_camera("analysis", PaneShows::analysis, panes);
   if (choice.shows(PaneShows::second_scope)) draw_camera("second scope", PaneShows::second_scope, panes);
   const bool closed = ui::button("Close", {.width = 130, .primary = true});

@@ -41,11 +41,17 @@ render::Target window_target(const Area& a, int window_height) {
   return t;
 }
 
-Panes::Panes(const sim::Model& model)
-    : outside(orbit_of(choice_of(kCameraPresets[0]), view::orbit_around(model))),
-      analysis_orbit(outside),
-      second(view::second_scope_of(model)) {
-  analysis.strain = analysis.forces = true;
+void fit_to(const Area& area, render::Frame& frame) {
+  const float share = area.width / area.height;
+  if (!(share > 0) || share >= 1) return;
+  frame.camera.vertical_fov = 2 * std::atan(std::tan(frame.camera.vertical_fov / 2) / share);
+  frame.look.mask_diameter *= share;
+}
+
+Panes::Panes(const sim::Model& model) {
+  cameras.outside = cameras.analysis_orbit = orbit_of(choice_of(kCameraPresets[0]), view::orbit_around(model));
+  cameras.second = view::second_scope_of(model);
+  cameras.analysis.strain = cameras.analysis.forces = true;
 }
 
 void Panes::lay_out(const LayoutChoice& choice, const Area& whole, float scale) {
@@ -64,56 +70,64 @@ view::ViewOptions Panes::options(PaneShows shows) const {
       o.eye_index = kEndoscopeEye;
       return o;
     case PaneShows::second_scope:
-      o = view_through(second);
+      o = view_through(cameras.second);
       o.eye_index = kSecondScopeEye;
       return o;
     case PaneShows::outside:
-      o = view_of(outside);
+      o = view_of(cameras.outside);
       break;
     case PaneShows::analysis:
-      if (!analysis_from_endoscope) o = view_of(analysis_orbit), o.walls = false;
-      o.analysis = analysis;
+      if (!cameras.analysis_from_endoscope) o = view_of(cameras.analysis_orbit), o.walls = false;
+      o.analysis = cameras.analysis;
       break;
   }
   o.eye_index = kOutsideEye;
   if (std::any_of(m_panes.begin(), m_panes.end(), [](const Pane& p) { return p.shows == PaneShows::second_scope; }))
-    o.second_scope = second;
+    o.second_scope = cameras.second;
   return o;
 }
 
 bool Panes::turn(PaneShows shows, double yaw, double pitch) {
   if (shows == PaneShows::second_scope) {
-    aim(second, -yaw * kAimPerPixel / kTurnPerPixel, pitch * kAimPerPixel / kTurnPerPixel);
+    aim(cameras.second, -yaw * kAimPerPixel / kTurnPerPixel, pitch * kAimPerPixel / kTurnPerPixel);
     return true;
   }
-  if (shows == PaneShows::endoscope || (shows == PaneShows::analysis && analysis_from_endoscope)) return false;
-  (shows == PaneShows::outside ? outside : analysis_orbit).turn(yaw, pitch);
+  if (shows == PaneShows::endoscope || (shows == PaneShows::analysis && cameras.analysis_from_endoscope)) return false;
+  (shows == PaneShows::outside ? cameras.outside : cameras.analysis_orbit).turn(yaw, pitch);
   return true;
 }
 
 bool Panes::shift(PaneShows shows, double right, double up) {
-  if (is_scope(shows) || (shows == PaneShows::analysis && analysis_from_endoscope)) return false;
-  view::Orbit& orbit = shows == PaneShows::outside ? outside : analysis_orbit;
+  if (is_scope(shows) || (shows == PaneShows::analysis && cameras.analysis_from_endoscope)) return false;
+  view::Orbit& orbit = shows == PaneShows::outside ? cameras.outside : cameras.analysis_orbit;
   orbit.pan(right * orbit.distance, up * orbit.distance);
   return true;
 }
 
 bool Panes::closer(PaneShows shows, double by) {
   if (shows == PaneShows::second_scope) {
-    advance(second, kScopePerZoom * by);
+    advance(cameras.second, kScopePerZoom * by);
     return true;
   }
-  if (shows == PaneShows::endoscope || (shows == PaneShows::analysis && analysis_from_endoscope)) return false;
-  (shows == PaneShows::outside ? outside : analysis_orbit).zoom(std::exp(-by));
+  if (shows == PaneShows::endoscope || (shows == PaneShows::analysis && cameras.analysis_from_endoscope)) return false;
+  (shows == PaneShows::outside ? cameras.outside : cameras.analysis_orbit).zoom(std::exp(-by));
   return true;
+}
+
+const Panes::Pane* Panes::under_pointer() const {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (io.WantCaptureMouse) return nullptr;
+  const Pane* over = nullptr;  // the last one lies on top
+  for (const Pane& pane : m_panes)
+    if (pane.area.holds(io.MousePos.x, io.MousePos.y)) over = &pane;
+  return over;
 }
 
 bool Panes::listen() {
   const ImGuiIO& io = ImGui::GetIO();
   if (!io.MouseDown[0] && !io.MouseDown[1] && !io.MouseDown[2]) m_dragged = -1;
-  int over = -1;  // the last one lies on top
-  for (std::size_t i = 0; i < m_panes.size() && !io.WantCaptureMouse; ++i)
-    if (m_panes[i].area.holds(io.MousePos.x, io.MousePos.y)) over = int(i);
+  const Pane* under = under_pointer();
+  const int over = under ? int(under - m_panes.data()) : -1;
   if (over >= 0 && (io.MouseClicked[0] || io.MouseClicked[1] || io.MouseClicked[2])) {
     m_dragged = over;
     m_shifting = io.KeyShift || !io.MouseClicked[0];
@@ -137,6 +151,7 @@ void Panes::draw_one(const Source& source, std::size_t i) {
   o.styles = source.styles;
   render::Frame frame = source.view.frame(source.state, o);
   frame.tick = source.clock;
+  fit_to(pane.area, frame);
   render::draw_frame(source.backend, frame,
                      m_canvas[i].target(std::max(1, int(pane.area.width)), std::max(1, int(pane.area.height))));
   m_drawn[i] = pane;
@@ -165,8 +180,8 @@ void Panes::write_over(bool names) const {
     over.PushClipRect({a.x, a.y}, {right, bottom}, true);
     if (names)
       over.AddText({a.x + margin, a.y + 6 * m_scale}, IM_COL32(235, 235, 235, 220), label_of(m_panes[i].shows));
-    if (m_panes[i].shows == PaneShows::analysis && analysis.on())
-      draw_legend(legend_of(analysis), over, a.x + margin, bottom - margin, 0.6f * a.width);
+    if (m_panes[i].shows == PaneShows::analysis && cameras.analysis.on())
+      draw_legend(legend_of(cameras.analysis), over, a.x + margin, bottom - margin, 0.45f * a.width);
     over.PopClipRect();
   }
 }

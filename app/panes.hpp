@@ -27,6 +27,19 @@ inline constexpr int kEndoscopeEye = 0, kOutsideEye = 1, kFilmEye = 2, kSecondSc
 /// The window's lower left corner is OpenGL's origin.
 render::Target window_target(const Area& area, int window_height);
 
+/// In a pane that is higher than wide: as much to both sides as in a square one, an endoscope's whole circle.
+void fit_to(const Area& area, render::Frame& frame);
+
+/// Where the cameras are that hands turn, and what the analysis shows.
+struct PaneCameras {
+  view::Orbit outside, analysis_orbit;
+  view::SecondScope second;
+  view::AnalysisOptions analysis;        ///< what its pane shows
+  bool analysis_from_endoscope = false;  ///< through the endoscope, not from outside
+
+  friend bool operator==(const PaneCameras&, const PaneCameras&) = default;
+};
+
 class Panes {
  public:
   explicit Panes(const sim::Model& model);
@@ -36,10 +49,7 @@ class Panes {
     Area area;
     friend bool operator==(const Pane&, const Pane&) = default;
   };
-  view::Orbit outside, analysis_orbit;
-  view::SecondScope second;
-  view::AnalysisOptions analysis;        ///< what its pane shows
-  bool analysis_from_endoscope = false;  ///< through the endoscope, not from outside
+  PaneCameras cameras;
 
   void lay_out(const LayoutChoice& choice, const Area& whole, float scale);
   const std::vector<Pane>& panes() const { return m_panes; }
@@ -55,6 +65,8 @@ class Panes {
   /// Dragging and the wheel over the panes, in ImGui's open frame. True: a camera was moved.
   bool listen();
   bool dragging() const { return m_dragged >= 0; }
+  /// What the pointer is over; nothing outside the panes and over panels.
+  const Pane* under_pointer() const;
 
   /// Where pictures of the others come from.
   struct Source {

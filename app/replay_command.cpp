@@ -57,7 +57,7 @@ int replay(Options o, bool json) {
   const std::string& exercise = o.exercise.empty() ? recording.header.exercise : o.exercise;
   const bool window = !json && !o.headless && !o.replay.verify && o.replay.shots.empty() && o.replay.video.empty();
   if (window) {
-    PlayerOptions player{o.replay.file, exercise, o.log};
+    PlayerOptions player{o.replay.file, exercise, o.log, {1280, 800}, o.replay.look.eyes};
     if (!o.size.empty()) player.size = o.replay.size;
     run_player(recording, player);
     return core::kDone;

@@ -201,7 +201,16 @@ void Window::begin_picture() {
   ImGui_ImplGlfw_NewFrame();
   steer_menus();
   ImGui::NewFrame();
+  clear();
   m_last_pad = m_gamepads.state();
+}
+
+/// What is between panes and panels.
+void Window::clear() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glDisable(GL_SCISSOR_TEST);
+  glClearColor(0.05f, 0.05f, 0.06f, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
 }
 
 /// Arrows, Enter and the gamepad lead from button to button. ImGui's own reading of gamepads takes the first joystick

@@ -91,6 +91,7 @@ class Window {
   static void on_scroll(GLFWwindow* window, double x, double y);
   static void on_scale(GLFWwindow* window, float x, float y);
   static void on_button(GLFWwindow* window, int button, int action, int mods);
+  void clear() const;
   void set_up_imgui();
   void collect_sample();
   void collect_keys();

@@ -34,6 +34,11 @@ enum class PartStyle : std::uint8_t { shaded, transparent, wireframe, hidden };
 struct SecondScope {
   Vec3d port;  ///< [m]
   kinematics::FulcrumPose pose;
+
+  friend bool operator==(const SecondScope& a, const SecondScope& b) {
+    return length(a.port - b.port) == 0 && a.pose.yaw == b.pose.yaw && a.pose.pitch == b.pose.pitch &&
+           a.pose.roll == b.pose.roll && a.pose.depth == b.pose.depth;
+  }
 };
 
 struct ViewOptions {
