@@ -11,6 +11,7 @@
 
 #include "display_panel.hpp"
 #include "hand_names.hpp"
+#include "layout_panel.hpp"
 #include "paths.hpp"
 #include "sources.hpp"
 #include "ui.hpp"
@@ -32,7 +33,12 @@ double pull_limit(const Lesson& lesson) { return lesson.exercise ? lesson.exerci
 }  // namespace
 
 AttemptWindow::AttemptWindow(Stage& stage, const Lesson& lesson, const AttemptPlan& plan)
-    : m_stage(stage), m_lesson(lesson), m_plan(plan), m_session(lesson), m_log(stage.options.store, m_session, plan) {
+    : m_stage(stage),
+      m_lesson(lesson),
+      m_plan(plan),
+      m_session(lesson),
+      m_log(stage.options.store, m_session, plan),
+      m_panes(lesson.model) {
   if (by_hand(plan.input)) {
     m_pilot = std::make_unique<HandPilot>(lesson.model);
     m_pilot->set(hand_settings(stage.settings, 0));
@@ -67,10 +73,14 @@ std::string AttemptWindow::mode_text() const {
 /// Is it scored? Then organs are not looked through.
 bool AttemptWindow::counts() const { return m_plan.mode == AttemptMode::assessed && !m_steps.empty(); }
 
+/// While it counts there is nothing but what the endoscope sees.
+LayoutChoice AttemptWindow::layout() const { return counts() && !m_over ? LayoutChoice{} : m_stage.settings.views; }
+
 std::string AttemptWindow::screen_name() const {
   return m_over      ? "result"
          : m_hint    ? "hint"
          : m_display ? "display"
+         : m_views   ? "views"
          : m_paused  ? "pause"
          : m_rack    ? "rack"
                      : "exercise";
@@ -159,7 +169,12 @@ void AttemptWindow::look_at_keys() {
   if (m_had_focus && !window.focused() && m_pilot && !stands_still()) hold("Another window came to the front.");
   m_had_focus = window.focused();
   m_gamepad_used |= touched(window.gamepads().state());
-  if (m_stage.overlay() != Stage::Overlay::none || m_over || m_hint || m_display) return;
+  if (window.keys().layout && !counts()) {
+    Layout& layout = m_stage.settings.views.layout;
+    layout = after(layout);
+    m_stage.keep_settings();
+  }
+  if (m_stage.overlay() != Stage::Overlay::none || m_over || m_hint || m_display || m_views) return;
   const bool back = window.keys().back, pause = window.keys().pause;
   if (m_rack && back) {
     m_rack = false;
@@ -231,11 +246,24 @@ void AttemptWindow::draw_scene(const Snapshot& now) {
   const Window& window = m_stage.window;
   const float panel = panel_width(float(window.width()), window.scale());
   const int width = std::max(1, window.width() - int(panel)), height = std::max(1, window.height());
-  view::ViewOptions options;
-  options.quality = m_stage.governor.quality();
+  m_panes.lay_out(layout(), {0, 0, float(width), float(height)}, window.scale());
+  m_panes.listen();
+  m_stage.governor.load_becomes(
+      load_of(areas_of(layout().layout, {0, 0, float(width), float(height)}, window.scale())));
+  const render::Quality quality = m_stage.governor.quality();
+  view::SceneView& view = m_stage.view_of(m_lesson);
+  m_panes.draw_others({view, *m_stage.backend, now.state, now.state.tick, quality, m_styles}, false);
+  const Panes::Pane& first = m_panes.first();
+  view::ViewOptions options = m_panes.options(first.shows);
+  options.quality = quality;
   options.styles = m_styles;
-  options.picture_height = height;
-  m_stage.draw_scene(m_stage.view_of(m_lesson).frame(now.state, options), width, height);
+  options.picture_height = double(first.area.height);
+  const bool scope = first.shows == PaneShows::endoscope || first.shows == PaneShows::second_scope;
+  render::Frame frame = view.frame(now.state, options);
+  fit_to(first.area, frame);
+  m_stage.draw_scene(frame, window_target(first.area, window.height()), scope,
+                     [this] { m_panes.lay_others(m_stage.window.height(), m_stage.settings.mirrored_picture); });
+  m_panes.write_over(m_panes.panes().size() > 1);
   ui::set_middle(float(width));
   const PanelContent content{m_lesson,
                              now,
@@ -266,6 +294,11 @@ void AttemptWindow::draw_over(const Snapshot& now, Choice& choice) {
     }
   } else if (m_display) {
     if (draw_display(m_stage.view_of(m_lesson).parts(), m_styles) || m_stage.window.keys().back) m_display = false;
+  } else if (m_views) {
+    if (draw_layout_panel(m_stage.settings.views, m_panes) || m_stage.window.keys().back) {
+      m_views = false;
+      m_stage.keep_settings();
+    }
   } else if (m_paused) {
     choice = draw_pause(m_why_paused, m_log.attempt().recording, counts(), !counts());
   } else if (m_rack) {
@@ -273,6 +306,7 @@ void AttemptWindow::draw_over(const Snapshot& now, Choice& choice) {
   }
   if (choice == Choice::resume) m_paused = false, m_why_paused.clear();
   if (choice == Choice::display) m_display = true;
+  if (choice == Choice::views) m_views = true;
   if (choice == Choice::settings) m_stage.open(Stage::Overlay::settings);
   if (choice == Choice::help) m_stage.open(Stage::Overlay::help);
   if (choice == Choice::report) m_stage.reports.open(m_stage.options.store, m_log.attempt().uuid);

@@ -10,6 +10,7 @@
 #include "hand_pilot.hpp"
 #include "live.hpp"
 #include "panel.hpp"
+#include "panes.hpp"
 #include "stage.hpp"
 
 namespace trocar::app {
@@ -40,6 +41,7 @@ class AttemptWindow {
   void draw_the_rack(const Snapshot& now);
   void end(Live& live, Ending ending);
   bool counts() const;
+  LayoutChoice layout() const;
   std::string screen_name() const;
   std::string mode_text() const;
   std::optional<training::ClipOutlook> outlook(const sim::State& state) const;
@@ -58,7 +60,8 @@ class AttemptWindow {
   std::string m_told_warning, m_why_paused;
   Json m_result;
   bool m_hint = false, m_hint_again = false, m_paused = false, m_rack = false, m_over = false;
-  bool m_display = false;
+  bool m_display = false, m_views = false;
+  Panes m_panes;
   std::vector<view::PartStyle> m_styles;  ///< of the scene's parts
   bool m_was_still = true, m_gamepad_used = false, m_had_focus = false;
   int m_pictures = 0;  ///< since m_rate_since

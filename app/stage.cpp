@@ -77,15 +77,19 @@ TwoEyes Stage::eyes() const {
 }
 
 void Stage::draw_eye(const render::Frame& frame) {
-  render::draw_frame(*backend, frame, render::Target::window(m_scene_width, m_scene_height));
-  if (settings.mirrored_picture) mirror(m_scene_width, m_scene_height);
+  render::draw_frame(*backend, frame, m_scene_part);
+  if (m_scene_mirrored) mirror(m_scene_part);
+  if (m_over_scene) m_over_scene();
 }
 
-void Stage::draw_scene(const render::Frame& frame, int width, int height) {
-  m_scene_width = width, m_scene_height = height;
+void Stage::draw_scene(const render::Frame& frame, const render::Target& part, bool through_scope,
+                       std::function<void()> over) {
+  m_scene_part = part;
+  m_scene_mirrored = through_scope && settings.mirrored_picture;
+  m_over_scene = std::move(over);
   TwoEyes two = eyes();
   if (!two.on()) return draw_eye(frame);
-  if (settings.mirrored_picture) two.swapped = !two.swapped;  // in a mirror depth is turned round, too
+  if (m_scene_mirrored) two.swapped = !two.swapped;  // in a mirror depth is turned round, too
   render::StereoPair pair = eyes_of(two, frame);
   draw_eye(pair.left);
   m_other_eye = std::move(pair.right);

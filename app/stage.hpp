@@ -2,6 +2,7 @@
 // there; and what every screen does the same way: begin a picture, show help and settings over it, end it.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -49,8 +50,10 @@ class Stage {
 
   /// What the settings say, as far as this window can show it.
   TwoEyes eyes() const;
-  /// The frame, in the lower left `width` x `height` [px] of the window; for two eyes, if that is set.
-  void draw_scene(const render::Frame& frame, int width, int height);
+  /// The frame, in a part of the window; for two eyes, if that is set. @param through_scope  may be mirrored
+  /// @param over  lays over it what belongs there, once for each eye
+  void draw_scene(const render::Frame& frame, const render::Target& part, bool through_scope = true,
+                  std::function<void()> over = {});
 
   void begin_picture(bool hands);  ///< hands: the pointer is the instrument's
   /// Overlays, ImGui, F12, the finished picture. `name` of the screen is for the log.
@@ -72,7 +75,9 @@ class Stage {
   Settings m_before;
   std::string m_logged;
   std::optional<render::Frame> m_other_eye;  ///< to be drawn before the picture is shown
-  int m_scene_width = 0, m_scene_height = 0;
+  render::Target m_scene_part;
+  bool m_scene_mirrored = false;
+  std::function<void()> m_over_scene;
   int m_pictures = 0;
   bool m_told_fault = false;
 };

@@ -27,6 +27,7 @@ struct WindowKeys {
   bool pause = false;    ///< P, the gamepad's start button
   bool back = false;     ///< Esc, in menus the gamepad's B
   bool picture = false;  ///< F12
+  bool layout = false;   ///< F2
 };
 
 struct TypedKey {
@@ -90,6 +91,7 @@ class Window {
   static void on_scroll(GLFWwindow* window, double x, double y);
   static void on_scale(GLFWwindow* window, float x, float y);
   static void on_button(GLFWwindow* window, int button, int action, int mods);
+  void clear() const;
   void set_up_imgui();
   void collect_sample();
   void collect_keys();

@@ -107,6 +107,7 @@ void GlBackend::draw_item(const Frame& frame, const DrawItem& item, bool blended
   program.set_vec4s("u_frame", m_frame_rows);
   if (material.shading == Shading::vertex_colour || material.shading == Shading::unlit) {
     program.set("u_tone", 1, 1, 1, material.alpha);
+    if (material.shading == Shading::vertex_colour) program.set("u_gloss", 0.1f * material.wetness);
   } else {
     program.set_vec4s("u_material", packed(material));
     program.set("u_noise", kUnitNoise);

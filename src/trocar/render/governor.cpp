@@ -54,6 +54,17 @@ double Governor::predicted(std::size_t level) const {
   return m_mean * relative_cost(kLevels[level]) / relative_cost(kLevels[m_level]);
 }
 
+void Governor::load_becomes(double load) {
+  if (!(load > 0) || !std::isfinite(load) || load == m_load) return;
+  m_mean *= load / m_load;
+  m_load = load;
+  m_patience = m_limits.calm_frames;
+  std::size_t level = m_level;
+  while (level + 1 < std::size(kLevels) && predicted(level) > m_limits.late) ++level;
+  step_to(level);
+  m_came_up = false;
+}
+
 void Governor::frame_took(double seconds) {
   if (!std::isfinite(seconds) || seconds <= 0) return;
   ++m_since_step;

@@ -32,6 +32,10 @@ class Governor {
 
   /// @param seconds time the last frame took, on the clock that counts for the user; ignored unless finite and > 0
   void frame_took(double seconds);
+  /// What a frame is to cost at one quality has become another: more pictures in it, or fewer. It goes down at once
+  /// where that would be late, and may come up again without waiting for mistakes of another load.
+  /// @param load  beside one picture over the whole window, > 0
+  void load_becomes(double load);
   Quality quality() const { return quality_levels()[m_level]; }
   std::size_t level() const { return m_level; }
 
@@ -46,6 +50,7 @@ class Governor {
   unsigned m_history = 0;  ///< bit per frame: late
   int m_since_step = 0;
   int m_patience;  ///< frames to wait before stepping up; doubles after a failed step up
+  double m_load = 1;
   bool m_came_up = false;
 };
 

@@ -15,7 +15,8 @@ enum class Shading : std::uint8_t {
   tissue,         ///< wet living surface
   metal,          ///< instrument: neutral, streaked along `fibre_axis`, pink bounce
   fluid,          ///< pool or smear: smooth, glossy, mirrors; opaque by `density` times Paint::tint (its depth)
-  vertex_colour,  ///< lit by wrap light only, paint is sRGB colour + alpha (false-colour maps, plastic)
+  vertex_colour,  ///< lit by wrap light only, paint is sRGB colour + alpha (false-colour maps, plastic); `wetness`
+                  ///< glosses
   unlit,          ///< paint is sRGB colour + alpha, no light, no fall-off (lines, arrows, gizmos)
 };
 

@@ -5,6 +5,7 @@
 #include <trocar/render/mesh_arrays.hpp>
 #include <trocar/render/openness.hpp>
 #include <trocar/sim/visibility.hpp>
+#include <trocar/view/analysis_drawing.hpp>
 #include <trocar/view/cameras.hpp>
 #include <trocar/view/cavity.hpp>
 #include <trocar/view/clip_shape.hpp>
@@ -91,6 +92,18 @@ PartStyle style_of(const std::vector<PartStyle>& styles, std::uint16_t part) {
   return part > 0 && part <= styles.size() ? styles[part - std::size_t(1)] : PartStyle::shaded;
 }
 
+/// Grey, dull, without patterns: nothing that could be taken for a figure.
+render::Material clay(const render::Material& of) {
+  render::Material m;
+  m.colour = m.colour_b = m.colour_c = m.tint = {0.07f, 0.07f, 0.072f};
+  m.mottle = m.bump = m.wetness = m.glow_amount = m.film_bump = 0;
+  m.wrap = {0.2f, 0.2f, 0.2f};
+  m.alpha = of.alpha;
+  m.rim_alpha = of.rim_alpha;
+  m.two_sided = of.two_sided;
+  return m;
+}
+
 /// The clip that lies ready in an applier's jaws.
 struct LoadedClip {
   int hand = -1, instrument = -1;  ///< of the hand's rack
@@ -116,6 +129,7 @@ struct SceneView::Parts {
   std::vector<const Look*> vessel_look;
   std::optional<WetDrawing> wet;
   Lens lens;
+  AnalysisDrawing analysis;
   std::vector<std::size_t> membrane_of, pouch_of;  ///< their numbers in the Model
   std::vector<OwnedMesh> walls, aprons;
   std::vector<std::size_t> apron_on;  ///< walls
@@ -152,10 +166,12 @@ struct SceneView::Parts {
   void list_tissues(bool with_walls, Frame& frame);
   void list_clips(const sim::State& state, Frame& frame) const;
   void list_tools(const sim::State& state, const ViewOptions& options, Frame& frame);
-  void list_scope(const sim::State& state, Frame& frame);
+  void list_scope(Vec3d port, const kinematics::FulcrumPose& pose, Frame& frame);
+  void list_analysis(const sim::State& state, const AnalysisOptions& options, bool with_walls, Frame& frame);
+  std::uint16_t part_of(BodyKind kind, std::size_t i) const;
 };
 
-SceneView::Parts::Parts(const sim::Model& of, render::Backend& backend) : model(of) {
+SceneView::Parts::Parts(const sim::Model& of, render::Backend& backend) : model(of), analysis(of, backend) {
   make_tissues(backend);
   make_metal(backend);
   name_parts();
@@ -476,8 +492,8 @@ void SceneView::Parts::list_tools(const sim::State& state, const ViewOptions& op
   }
 }
 
-void SceneView::Parts::list_scope(const sim::State& state, Frame& frame) {
-  const kinematics::TipFrame tip = kinematics::forward(model.scope.port, pose_of(state.scope));
+void SceneView::Parts::list_scope(Vec3d port, const kinematics::FulcrumPose& pose, Frame& frame) {
+  const kinematics::TipFrame tip = kinematics::forward(port, pose);
   Placement place;
   const Vec3d x = tip.opening(), z = tip.axis();
   place.rotation = Mat3f::from_columns(vec_cast<float>(x), vec_cast<float>(cross(z, x)), vec_cast<float>(z));
@@ -487,6 +503,42 @@ void SceneView::Parts::list_scope(const sim::State& state, Frame& frame) {
     drawn.transform = to_world(place);
     list_rigid(part.drawn, drawn, part.detail, frame);
   }
+}
+
+std::uint16_t SceneView::Parts::part_of(BodyKind kind, std::size_t i) const {
+  switch (kind) {
+    case BodyKind::organ:
+      return std::uint16_t(first.organ + i);
+    case BodyKind::strand:
+      return std::uint16_t(first.tube + i);
+    case BodyKind::membrane:
+      return std::uint16_t(first.membrane + i);
+    case BodyKind::arteries:
+      return first.vessel;
+    case BodyKind::veins:
+      return std::uint16_t(first.vessel + vessels.size() - 1);
+    case BodyKind::tools:
+      break;
+  }
+  return 0;
+}
+
+/// Walls as grey clay. Where neither surfaces nor springs show where tissue is, its ghost does.
+void SceneView::Parts::list_analysis(const sim::State& state, const AnalysisOptions& options, bool with_walls,
+                                     Frame& frame) {
+  for (std::size_t i = 0; with_walls && i < walls.size(); ++i)
+    frame.items.push_back(item(walls[i].handle(), look(model.walls[i].look), first.wall + i));
+  const std::size_t ghosts = frame.items.size();
+  if (!options.strain && !options.springs) list_tissues(false, frame);
+  if (options.pressure)
+    std::erase_if(frame.items,
+                  [&](const DrawItem& i) { return i.part >= first.vessel && i.part < first.vessel + vessels.size(); });
+  for (std::size_t i = 0; i < frame.items.size(); ++i) {
+    frame.items[i].material = clay(frame.items[i].material);
+    if (i >= ghosts) frame.items[i].translucent = false, frame.items[i].style = render::DrawStyle::transparent;
+  }
+  analysis.list(
+      state, options, [this](BodyKind kind, std::size_t i) { return part_of(kind, i); }, frame);
 }
 
 namespace {
@@ -552,14 +604,28 @@ Frame SceneView::frame(const sim::State& state, const ViewOptions& options) {
     frame.background = {0.09f, 0.10f, 0.11f};
   }
   p.eye.emplace(frame.camera, options.picture_height, options.quality, options.eye_index);
-  if (inside) p.list_surroundings(frame);
-  p.list_tissues(inside || options.walls, frame);
+  const bool measured = options.analysis.on();
+  if (measured) {
+    frame.light = light_for_analysis();
+    frame.look = analysis_look();
+    frame.background = {0.018f, 0.019f, 0.021f};
+    p.list_analysis(state, options.analysis, inside || options.walls, frame);
+  }
+  if (inside && !measured) p.list_surroundings(frame);
+  if (!measured) p.list_tissues(inside || options.walls, frame);
   if (!inside) cut_open(p.walls, frame);
   p.list_clips(state, frame);
   if (options.instruments) p.list_tools(state, options, frame);
-  if (options.instruments && !inside) p.list_scope(state, frame);
+  if (options.instruments && (!inside || options.second_scope))
+    p.list_scope(p.model.scope.port, pose_of(state.scope), frame);
+  if (options.instruments && !inside && options.second_scope)
+    p.list_scope(options.second_scope->port, options.second_scope->pose, frame);
   apply(options.styles, frame);
   const auto shown = [&](std::uint16_t part) { return style_of(options.styles, part) != PartStyle::hidden; };
+  if (measured) {  // colours say figures: nothing shades them, and no blood lies over them
+    frame.rods.clear();
+    return frame;
+  }
   frame.liquid.part = p.first.liquid;
   if (p.wet && shown(p.first.liquid)) p.wet->list(state, frame);
   if (p.wet && shown(p.first.smoke)) list_smoke(p.model.wet.model.smoke, state.fluids.smoke, frame);

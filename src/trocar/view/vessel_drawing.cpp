@@ -54,8 +54,9 @@ std::vector<double> sorted_cuts(const sim::State& state, int vessel) {
 
 }  // namespace
 
-VesselDrawing::VesselDrawing(const sim::Model& model, bool veins, render::Backend& backend, const Detail& detail)
-    : m_model(&model), m_veins(veins), m_hosts(sim::make_host_views(model)) {
+VesselDrawing::VesselDrawing(const sim::Model& model, bool veins, render::Backend& backend, const Detail& detail,
+                             VesselExtent extent)
+    : m_model(&model), m_veins(veins), m_extent(extent), m_hosts(sim::make_host_views(model)) {
   for (const sim::DetailLevel& level : detail.levels()) m_errors.push_back(level.error);
   const sim::State state = sim::initial_state(model);
   lay_out(state);
@@ -85,7 +86,7 @@ void VesselDrawing::lay_out(const sim::State& state) {
   for (std::size_t v = 0; v < m_model->vessels.list.size(); ++v) {
     const sim::Vessel& vessel = m_model->vessels.list[v];
     if (vessel.vein != m_veins) continue;
-    const auto [begin, end] = in_sight(vessel.path);
+    const auto [begin, end] = m_extent == VesselExtent::whole ? std::pair(0.0, 1.0) : in_sight(vessel.path);
     std::vector<double> ends = sorted_cuts(state, int(v));
     ends.push_back(end);
     double from = begin;
@@ -112,6 +113,7 @@ void VesselDrawing::lay_out(const sim::State& state) {
     m_buffer.coarser.push_back(std::move(part.indices));
   }
   m_buffer.normals.resize(m_buffer.positions.size());
+  m_pressure.resize(m_buffer.positions.size());
 }
 
 /// Triangles of every so many rings and sides.
@@ -185,6 +187,7 @@ void VesselDrawing::place_run(const Run& run, const sim::State& state, std::span
       m_buffer.positions[vertex] = vec_cast<float>(at + radius * out);
       m_buffer.normals[vertex] = vec_cast<float>(out);
       m_buffer.paint[vertex].blood = to_byte(0.8 * bloody);
+      m_pressure[vertex] = float(wall.pressure);
     }
     if (i > 0 && i + 1 < run.s.size()) continue;
     const double end = i == 0 ? -1 : 1;
@@ -193,6 +196,7 @@ void VesselDrawing::place_run(const Run& run, const sim::State& state, std::span
     m_buffer.positions[pole] = vec_cast<float>(at + ((cut ? -0.5 : 0.5) * end * radius) * tangent);
     m_buffer.normals[pole] = vec_cast<float>(end * tangent);
     m_buffer.paint[pole].blood = cut ? 255 : 0;
+    m_pressure[pole] = float(wall.pressure);
   }
 }
 

@@ -9,14 +9,22 @@
 
 namespace trocar::view {
 
+enum class VesselExtent {
+  in_sight,  ///< not what runs below the peritoneum
+  whole,
+};
+
 class VesselDrawing {
  public:
   /// @param veins  all of them, or all arteries
-  VesselDrawing(const sim::Model& model, bool veins, render::Backend& backend, const Detail& detail = {});
+  VesselDrawing(const sim::Model& model, bool veins, render::Backend& backend, const Detail& detail = {},
+                VesselExtent extent = VesselExtent::in_sight);
 
   void update(const sim::State& state);
   render::MeshHandle mesh() const { return m_mesh.handle(); }
   const MeshBuffer& buffer() const { return m_buffer; }
+  /// Of the blood within, at the buffer's vertices [Pa].
+  const std::vector<float>& pressures() const { return m_pressure; }
 
  private:
   /// What hangs together of a vessel.
@@ -34,11 +42,13 @@ class VesselDrawing {
 
   const sim::Model* m_model;
   bool m_veins;
+  VesselExtent m_extent;
   std::vector<Run> m_runs;
   std::vector<double> m_errors;  ///< (levels) [m]
   int m_laid_out_for = -1;       ///< openings
   sim::HostViews m_hosts;
   MeshBuffer m_buffer;
+  std::vector<float> m_pressure;
   OwnedMesh m_mesh;
 };
 
