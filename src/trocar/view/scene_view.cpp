@@ -12,6 +12,7 @@
 #include <trocar/view/drape.hpp>
 #include <trocar/view/fat_tags.hpp>
 #include <trocar/view/instrument_shapes.hpp>
+#include <trocar/view/joint.hpp>
 #include <trocar/view/lens.hpp>
 #include <trocar/view/looks.hpp>
 #include <trocar/view/membrane_drawing.hpp>
@@ -22,6 +23,7 @@
 #include <trocar/view/smoke_drawing.hpp>
 #include <trocar/view/tube_drawing.hpp>
 #include <trocar/view/vessel_drawing.hpp>
+#include <trocar/view/wall_surface.hpp>
 #include <trocar/view/wet_drawing.hpp>
 
 namespace trocar::view {
@@ -83,6 +85,12 @@ struct LoadedClip {
   OwnedMesh mesh;
 };
 
+/// Where a strand's end grows out of an organ.
+struct TubeJoint {
+  std::size_t tube = 0, organ = 0;
+  Joint joint;
+};
+
 }  // namespace
 
 struct SceneView::Parts {
@@ -95,6 +103,7 @@ struct SceneView::Parts {
   std::vector<Drape> drapes;
   std::vector<const Look*> drape_look;
   std::vector<TubeDrawing> tubes;
+  std::vector<TubeJoint> joints;
   std::vector<SheetDrawing> sheets;
   std::vector<MembraneDrawing> membranes;
   std::vector<PouchDrawing> pouches;
@@ -166,7 +175,8 @@ void SceneView::Parts::name_parts() {
 
 /// Everything shades everything else, as drawn.
 void SceneView::Parts::make_tissues(render::Backend& backend) {
-  for (int i = 0; i < int(model.strands.size()); ++i) tubes.emplace_back(model, i);
+  const WallSurface wall_surface(model);
+  for (int i = 0; i < int(model.strands.size()); ++i) tubes.emplace_back(model, i, &wall_surface);
   std::vector<std::vector<std::uint32_t>> indices;
   std::vector<render::Occluder> occluders;
   for (const sim::SolidModel& s : model.solids) indices.push_back(flat_indices(s.fine));
@@ -223,6 +233,13 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
     baker.bake(t.drawn().positions, t.drawn().normals, paint);
     t.create(std::move(paint), backend);
   }
+  for (std::size_t i = 0; i < tubes.size(); ++i)
+    for (const bool at_start : {true, false}) {
+      if (tubes[i].neck(at_start).far <= 0) continue;
+      const sim::StrandEndModel& end = at_start ? model.strands[i].start : model.strands[i].end;
+      const auto organ = std::size_t(end.organ);
+      joints.push_back({i, organ, Joint(tubes[i], at_start, organs[organ], model.solids[organ].fine, backend)});
+    }
   for (int i = 0; i < int(model.sheets.size()); ++i) sheets.emplace_back(model, i, backend);
   for (const bool veins : {false, true}) {
     const auto& all = model.vessels.list;
@@ -298,6 +315,7 @@ void SceneView::Parts::update(const sim::State& state) {
   for (std::size_t i = 0; i < fat.size(); ++i) fat[i].update(organs[std::size_t(fat_on[i])]);
   for (Drape& d : drapes) d.update(organs);
   for (TubeDrawing& t : tubes) t.update(state);
+  for (TubeJoint& j : joints) j.joint.update(tubes[j.tube], organs[j.organ]);
   for (SheetDrawing& s : sheets) s.update(state);
   for (MembraneDrawing& m : membranes) m.update(state);
   for (PouchDrawing& p : pouches) p.update(state);
@@ -330,6 +348,10 @@ void SceneView::Parts::list_tissues(bool with_walls, Frame& frame) const {
     frame.items.push_back(item(tubes[i].mesh(), look(strand.look), first.tube + i));
     if (strand.start.kind == sim::StrandEndModel::hosted && !strand.fimbriated)
       frame.items.back().material.tint = look(model.organ_look(strand.start.organ)).material.colour;
+  }
+  for (const TubeJoint& j : joints) {
+    frame.items.push_back(item(j.joint.mesh(), look(model.solids[j.organ].look), first.tube + j.tube));
+    frame.items.back().material.tint = look(model.strands[j.tube].look).material.colour;
   }
   for (std::size_t i = 0; i < vessels.size(); ++i)
     frame.items.push_back(item(vessels[i].mesh(), *vessel_look[i], first.vessel + i));
