@@ -18,6 +18,7 @@
 #include <trocar/view/membrane_drawing.hpp>
 #include <trocar/view/organ_drawing.hpp>
 #include <trocar/view/pouch_drawing.hpp>
+#include <trocar/view/ridge.hpp>
 #include <trocar/view/scene_view.hpp>
 #include <trocar/view/sheet_drawing.hpp>
 #include <trocar/view/smoke_drawing.hpp>
@@ -34,6 +35,7 @@ using render::Frame;
 namespace {
 
 constexpr double kSleeveShows = 0.018;                      // [m] of a trocar's sleeve inside the wall
+constexpr float kVesselBehind = 0.0013f;                     // [m] vessels are drawn farther off than they are
 constexpr float kShadeCell = 0.001f, kShadeReach = 0.018f;  // [m] what shades what
 
 /// A rigid part of an instrument and its mesh.
@@ -104,6 +106,8 @@ struct SceneView::Parts {
   std::vector<const Look*> drape_look;
   std::vector<TubeDrawing> tubes;
   std::vector<TubeJoint> joints;
+  std::vector<Ridge> ridges;
+  std::vector<std::size_t> ridge_of;  ///< their strands
   std::vector<SheetDrawing> sheets;
   std::vector<MembraneDrawing> membranes;
   std::vector<PouchDrawing> pouches;
@@ -240,7 +244,13 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
       const auto organ = std::size_t(end.organ);
       joints.push_back({i, organ, Joint(tubes[i], at_start, organs[organ], model.solids[organ].fine, backend)});
     }
-  for (int i = 0; i < int(model.sheets.size()); ++i) sheets.emplace_back(model, i, backend);
+  for (std::size_t i = 0; i < tubes.size() && !model.walls.empty(); ++i) {
+    const sim::StrandModel& strand = model.strands[i];
+    if (strand.start.kind != sim::StrandEndModel::hosted || strand.end.kind != sim::StrandEndModel::fixed) continue;
+    ridges.emplace_back(model, tubes[i], int(i), wall_surface, backend);
+    ridge_of.push_back(i);
+  }
+  for (int i = 0; i < int(model.sheets.size()); ++i) sheets.emplace_back(model, i, backend, &wall_surface);
   for (const bool veins : {false, true}) {
     const auto& all = model.vessels.list;
     if (std::none_of(all.begin(), all.end(), [veins](const sim::Vessel& v) { return v.vein == veins; })) continue;
@@ -316,6 +326,7 @@ void SceneView::Parts::update(const sim::State& state) {
   for (Drape& d : drapes) d.update(organs);
   for (TubeDrawing& t : tubes) t.update(state);
   for (TubeJoint& j : joints) j.joint.update(tubes[j.tube], organs[j.organ]);
+  for (Ridge& r : ridges) r.update(state);
   for (SheetDrawing& s : sheets) s.update(state);
   for (MembraneDrawing& m : membranes) m.update(state);
   for (PouchDrawing& p : pouches) p.update(state);
@@ -353,6 +364,8 @@ void SceneView::Parts::list_tissues(bool with_walls, Frame& frame) const {
     frame.items.push_back(item(j.joint.mesh(), look(model.solids[j.organ].look), first.tube + j.tube));
     frame.items.back().material.tint = look(model.strands[j.tube].look).material.colour;
   }
+  for (std::size_t i = 0; with_walls && i < ridges.size(); ++i)
+    frame.items.push_back(item(ridges[i].mesh(), look("peritoneum"), first.tube + ridge_of[i]));
   for (std::size_t i = 0; i < vessels.size(); ++i)
     frame.items.push_back(item(vessels[i].mesh(), *vessel_look[i], first.vessel + i));
   for (std::size_t i = 0; i < sheets.size(); ++i)
@@ -440,6 +453,21 @@ void cut_open(const std::vector<OwnedMesh>& walls, Frame& frame) {
 
 namespace {
 
+/// A vessel that lies in a fold is as thick as the fold's ripples are high and would be half in, half out of it: it is
+/// drawn a little behind where it is, in the same place of the picture (grown about the eye).
+void sink_vessels(const std::vector<VesselDrawing>& vessels, Frame& frame) {
+  for (const VesselDrawing& vessel : vessels) {
+    Vec3f middle{};
+    const std::vector<Vec3f>& points = vessel.buffer().positions;
+    for (const Vec3f& p : points) middle += p / float(points.size());
+    const Vec3f eye = frame.camera.position;
+    const float grown = 1 + kVesselBehind / std::max(length(middle - eye), 0.03f);
+    const Mat3f scale = Mat3f::from_columns({grown, 0, 0}, {0, grown, 0}, {0, 0, grown});
+    for (DrawItem& drawn : frame.items)
+      if (drawn.mesh.id == vessel.mesh().id) drawn.transform = render::placement(scale, (1 - grown) * eye);
+  }
+}
+
 void apply(const std::vector<PartStyle>& styles, Frame& frame) {
   if (styles.empty()) return;
   std::erase_if(frame.items, [&](const DrawItem& i) { return style_of(styles, i.part) == PartStyle::hidden; });
@@ -495,6 +523,7 @@ Frame SceneView::frame(const sim::State& state, const ViewOptions& options) {
   }
   p.list_tissues(inside || options.walls, frame);
   if (!inside) cut_open(p.walls, frame);
+  sink_vessels(p.vessels, frame);
   p.list_clips(state, frame);
   if (options.instruments) p.list_tools(state, options, frame);
   if (options.instruments && !inside) p.list_scope(state, frame);

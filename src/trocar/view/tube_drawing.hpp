@@ -58,6 +58,7 @@ class TubeDrawing {
   /// As it was last made: for the folds that hang on it, and for tests.
   const MeshBuffer& buffer() const { return m_buffer; }
   int sides() const { return m_sides; }
+  const TubeRoot& end_root() const { return m_end_root; }
   const TubeNeck& neck(bool at_start) const { return m_neck[at_start ? 0 : 1]; }
 
  private:

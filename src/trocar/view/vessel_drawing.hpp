@@ -24,9 +24,11 @@ class VesselDrawing {
     int vessel = 0;
     double from = 0, to = 1;
     bool cut_from = false, cut_to = false;
+    bool fades_from = false, fades_to = false;  ///< ends in tissue: thins out
     std::uint32_t first = 0;  ///< vertex
     std::vector<double> s;    ///< of its rings
   };
+  bool leads_on(int vessel, int end) const;
   void lay_out(const sim::State& state);
   void place(const sim::State& state);
   void place_run(const Run& run, const sim::State& state, std::span<const Vec3d> points);
