@@ -33,7 +33,7 @@ void Player::save_picture(const sim::State& state) {
   const fs::path file = free_name(m_options.file, ".png");
   view::ViewOptions options = view_of_first({});
   options.metering = false;
-  options.picture_height = double(m_main.height);
+
   try {
     const Area& area = m_panes.first().area;
     render::Frame frame = m_view.frame(state, options);

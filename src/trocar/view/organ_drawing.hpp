@@ -27,6 +27,7 @@ class OrganDrawing {
   /// As drawn now, per vertex of solid.fine.
   std::span<const Vec3f> positions() const { return m_pose.position; }
   std::span<const Vec3f> normals() const { return m_normals; }
+  std::span<const Paint> paint() const { return m_paint; }
 
  private:
   void lift();

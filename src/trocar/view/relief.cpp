@@ -91,8 +91,8 @@ void add_haustra(const Relief& relief, const tissue::Skin& skin, std::vector<flo
 void add_roots(const Relief& relief, const tissue::Skin& skin, std::vector<float>& height) {
   for (const Relief::Root& root : relief.roots)
     for (std::size_t i = 0; i < skin.rest.size(); ++i) {
-      const double d = length(vec_cast<double>(skin.rest[i]) - root.at) / (3.2 * root.radius);
-      if (d < 1) height[i] += float(1.0 * root.radius * (1 - d) * (1 - d));
+      const double d = length(vec_cast<double>(skin.rest[i]) - root.at) / (4.5 * root.radius);
+      if (d < 1) height[i] += float(0.8 * root.radius * (1 - d) * (1 - d) * (1 + d));
     }
 }
 

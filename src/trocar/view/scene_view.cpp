@@ -14,17 +14,20 @@
 #include <trocar/view/drape.hpp>
 #include <trocar/view/fat_tags.hpp>
 #include <trocar/view/instrument_shapes.hpp>
+#include <trocar/view/joint.hpp>
 #include <trocar/view/lens.hpp>
 #include <trocar/view/looks.hpp>
 #include <trocar/view/membrane_drawing.hpp>
 #include <trocar/view/omentum.hpp>
 #include <trocar/view/organ_drawing.hpp>
 #include <trocar/view/pouch_drawing.hpp>
+#include <trocar/view/ridge.hpp>
 #include <trocar/view/scene_view.hpp>
 #include <trocar/view/sheet_drawing.hpp>
 #include <trocar/view/smoke_drawing.hpp>
 #include <trocar/view/tube_drawing.hpp>
 #include <trocar/view/vessel_drawing.hpp>
+#include <trocar/view/wall_surface.hpp>
 #include <trocar/view/wet_drawing.hpp>
 
 namespace trocar::view {
@@ -35,6 +38,7 @@ using render::Frame;
 namespace {
 
 constexpr double kSleeveShows = 0.018;                      // [m] of a trocar's sleeve inside the wall
+constexpr float kVesselBehind = 0.0013f;                    // [m] vessels are drawn farther off than they are
 constexpr float kShadeCell = 0.001f, kShadeReach = 0.018f;  // [m] what shades what
 
 /// A mesh that does not bend.
@@ -110,6 +114,12 @@ struct LoadedClip {
   OwnedMesh mesh;
 };
 
+/// Where a strand's end grows out of an organ.
+struct TubeJoint {
+  std::size_t tube = 0, organ = 0;
+  Joint joint;
+};
+
 }  // namespace
 
 struct SceneView::Parts {
@@ -122,6 +132,9 @@ struct SceneView::Parts {
   std::vector<Drape> drapes;
   std::vector<const Look*> drape_look;
   std::vector<TubeDrawing> tubes;
+  std::vector<TubeJoint> joints;
+  std::vector<Ridge> ridges;
+  std::vector<std::size_t> ridge_of;  ///< their strands
   std::vector<SheetDrawing> sheets;
   std::vector<MembraneDrawing> membranes;
   std::vector<PouchDrawing> pouches;
@@ -207,9 +220,10 @@ void SceneView::Parts::name_parts() {
 
 /// Everything shades everything else, as drawn.
 void SceneView::Parts::make_tissues(render::Backend& backend) {
+  const WallSurface wall_surface(model);
   for (int i = 0; i < int(model.strands.size()); ++i) {
     details.tubes.emplace_back(levels_of(model, model.strands[std::size_t(i)].name));
-    tubes.emplace_back(model, i, details.tubes.back());
+    tubes.emplace_back(model, i, details.tubes.back(), &wall_surface);
   }
   std::vector<std::vector<std::uint32_t>> indices;
   std::vector<render::Occluder> occluders;
@@ -283,9 +297,22 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
     baker.bake(t.drawn().positions, t.drawn().normals, paint);
     t.create(std::move(paint), backend);
   }
+  for (std::size_t i = 0; i < tubes.size(); ++i)
+    for (const bool at_start : {true, false}) {
+      if (tubes[i].neck(at_start).far <= 0) continue;
+      const sim::StrandEndModel& end = at_start ? model.strands[i].start : model.strands[i].end;
+      const auto organ = std::size_t(end.organ);
+      joints.push_back({i, organ, Joint(tubes[i], at_start, organs[organ], model.solids[organ].fine, backend)});
+    }
+  for (std::size_t i = 0; i < tubes.size() && !model.walls.empty(); ++i) {
+    const sim::StrandModel& strand = model.strands[i];
+    if (strand.start.kind != sim::StrandEndModel::hosted || strand.end.kind != sim::StrandEndModel::fixed) continue;
+    ridges.emplace_back(model, tubes[i], int(i), wall_surface, backend);
+    ridge_of.push_back(i);
+  }
   for (int i = 0; i < int(model.sheets.size()); ++i) {
     details.sheets.emplace_back(levels_of(model, model.sheets[std::size_t(i)].name));
-    sheets.emplace_back(model, i, backend, details.sheets.back());
+    sheets.emplace_back(model, i, backend, details.sheets.back(), &wall_surface);
   }
   for (const bool veins : {false, true}) {
     const auto& all = model.vessels.list;
@@ -367,6 +394,8 @@ void SceneView::Parts::update(const sim::State& state) {
   for (std::size_t i = 0; i < fat.size(); ++i) fat[i].update(organs[std::size_t(fat_on[i])]);
   for (Drape& d : drapes) d.update(organs);
   for (TubeDrawing& t : tubes) t.update(state);
+  for (TubeJoint& j : joints) j.joint.update(tubes[j.tube], organs[j.organ]);
+  for (Ridge& r : ridges) r.update(state);
   for (SheetDrawing& s : sheets) s.update(state);
   for (MembraneDrawing& m : membranes) m.update(state);
   for (PouchDrawing& p : pouches) p.update(state);
@@ -429,6 +458,12 @@ void SceneView::Parts::list_tissues(bool with_walls, Frame& frame) {
     if (strand.start.kind == sim::StrandEndModel::hosted && !strand.fimbriated)
       tube.material.tint = look(model.organ_look(strand.start.organ)).material.colour;
   }
+  for (const TubeJoint& j : joints) {
+    frame.items.push_back(item(j.joint.mesh(), look(model.solids[j.organ].look), first.tube + j.tube));
+    frame.items.back().material.tint = look(model.strands[j.tube].look).material.colour;
+  }
+  for (std::size_t i = 0; with_walls && i < ridges.size(); ++i)
+    frame.items.push_back(item(ridges[i].mesh(), look("peritoneum"), first.tube + ridge_of[i]));
   for (std::size_t i = 0; i < vessels.size(); ++i)
     list(item(vessels[i].mesh(), *vessel_look[i], first.vessel + i), details.vessels[i], vessels[i].buffer().positions,
          frame);
@@ -554,6 +589,21 @@ void cut_open(const std::vector<OwnedMesh>& walls, Frame& frame) {
 
 namespace {
 
+/// A vessel that lies in a fold is as thick as the fold's ripples are high and would be half in, half out of it: it is
+/// drawn a little behind where it is, in the same place of the picture (grown about the eye).
+void sink_vessels(const std::vector<VesselDrawing>& vessels, Frame& frame) {
+  for (const VesselDrawing& vessel : vessels) {
+    Vec3f middle{};
+    const std::vector<Vec3f>& points = vessel.buffer().positions;
+    for (const Vec3f& p : points) middle += p / float(points.size());
+    const Vec3f eye = frame.camera.position;
+    const float grown = 1 + kVesselBehind / std::max(length(middle - eye), 0.03f);
+    const Mat3f scale = Mat3f::from_columns({grown, 0, 0}, {0, grown, 0}, {0, 0, grown});
+    for (DrawItem& drawn : frame.items)
+      if (drawn.mesh.id == vessel.mesh().id) drawn.transform = render::placement(scale, (1 - grown) * eye);
+  }
+}
+
 void apply(const std::vector<PartStyle>& styles, Frame& frame) {
   if (styles.empty()) return;
   std::erase_if(frame.items, [&](const DrawItem& i) { return style_of(styles, i.part) == PartStyle::hidden; });
@@ -614,6 +664,7 @@ Frame SceneView::frame(const sim::State& state, const ViewOptions& options) {
   if (inside && !measured) p.list_surroundings(frame);
   if (!measured) p.list_tissues(inside || options.walls, frame);
   if (!inside) cut_open(p.walls, frame);
+  sink_vessels(p.vessels, frame);
   p.list_clips(state, frame);
   if (options.instruments) p.list_tools(state, options, frame);
   if (options.instruments && (!inside || options.second_scope))

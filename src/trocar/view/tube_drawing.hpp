@@ -10,6 +10,7 @@
 #include <trocar/view/heat_marks.hpp>
 #include <trocar/view/pinch.hpp>
 #include <trocar/view/strand_curve.hpp>
+#include <trocar/view/wall_surface.hpp>
 
 namespace trocar::view {
 
@@ -34,9 +35,20 @@ struct TubeRoot {
   double sink = 0;          ///< how deep in the organ's surface the end already lies [m]
 };
 
+/// Where the collar of a hosted end begins (joint.hpp): a ring around the strand just outside its organ.
+struct TubeNeck {
+  double far = 0;           ///< from the end [m]; 0: this end is not hosted
+  bool there = false;       ///< false: cut off nearer to the organ
+  Vec3d centre, along;      ///< unit: towards the organ
+  Vec3d end;                ///< of the strand
+  double radius = 0;        ///< [m]
+  std::vector<Vec3f> ring;  ///< (sides)
+};
+
 class TubeDrawing {
  public:
-  TubeDrawing(const sim::Model& model, int strand, const Detail& detail = {});
+  /// @param walls  of the model; null: found out
+  TubeDrawing(const sim::Model& model, int strand, const Detail& detail = {}, const WallSurface* walls = nullptr);
 
   /// The undeformed, uncut tube, for baking openness; then its mesh is made.
   const MeshBuffer& drawn() const { return m_buffer; }
@@ -48,6 +60,8 @@ class TubeDrawing {
   const MeshBuffer& buffer() const { return m_buffer; }
   int sides() const { return m_sides; }
   bool burnt() const { return m_marks.any(); }
+  const TubeRoot& end_root() const { return m_end_root; }
+  const TubeNeck& neck(bool at_start) const { return m_neck[at_start ? 0 : 1]; }
 
  private:
   /// What the list of rows depends on.
@@ -76,7 +90,10 @@ class TubeDrawing {
   double radius_at(double s) const;
   double outline(double s, double angle) const;
   bool hosted(int node) const;
-  TubeRoot root_at(const StrandCurve& rest, bool at_start) const;
+  TubeRoot root_at(const StrandCurve& rest, bool at_start, const WallSurface* walls) const;
+  TubeRoot root_in_wall(const CurveFrame& end, Vec3d onward, double radius, const WallSurface& walls) const;
+  double neck_of(const StrandCurve& rest, bool at_start) const;
+  void place_necks(const StrandCurve& curve);
   void add_root(int piece, bool at_start);
   CurveFrame sunk(const TubeRow& row, CurveFrame f, const StrandCurve& curve) const;
   CurveFrame frame_of(const TubeRow& row, const StrandCurve& curve) const;
@@ -87,6 +104,7 @@ class TubeDrawing {
   const interactions::StrandBody* m_body;
   int m_index, m_sides;
   TubeRoot m_start_root, m_end_root;
+  TubeNeck m_neck[2];  ///< at the start, at the end
   Layout m_layout;
   std::vector<TubeRow> m_rows;
   std::vector<std::uint32_t> m_first;  ///< (rows) vertex

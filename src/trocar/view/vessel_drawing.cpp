@@ -13,6 +13,11 @@ constexpr double kBend = 0.005;       // [m] radius with which vessels curve, fo
 constexpr double kBloody = 0.004;     // [m] of a stump
 constexpr double kMostShift = 0.35;   // of the radius, however large the gain
 constexpr double kNarrowed = 0.7;     // share of the radius that a clip takes
+constexpr double kTaper = 0.006;      // [m] over which a vessel that ends thins out
+constexpr double kThinnest = 0.35;    // share of the radius at such an end
+constexpr double kSameNode = 0.0012;  // [m] ends that meet
+constexpr int kSofter = 8;            // passes that round the line's corners
+constexpr double kWinding = 0.0006;   // [m] to either side, in a fold
 
 /// A line through places at s, cubic between them.
 struct Curve {
@@ -32,6 +37,39 @@ struct Curve {
            (h * (t3 - t2)) * slope(k + 1);
   }
 };
+
+/// Places of the run's rings: vessels run in soft bends, and wind where a fold lets them.
+template <class Run>
+std::vector<Vec3d> drawn_line(const Run& run, const Curve& curve, const interactions::VesselPath& path) {
+  std::vector<Vec3d> line, old;
+  for (const double s : run.s) line.push_back(curve.at(s));
+  for (int pass = 0; pass < kSofter; ++pass) {
+    old = line;
+    for (std::size_t i = 1; i + 1 < line.size(); ++i) line[i] = 0.5 * old[i] + 0.25 * (old[i - 1] + old[i + 1]);
+  }
+  const bool in_fold = std::any_of(path.points.begin(), path.points.end(), [](const interactions::VesselPoint& p) {
+    return p.hold.kind == interactions::VesselHold::membrane;
+  });
+  if (!in_fold) return line;
+  old = line;
+  for (std::size_t i = 1; i + 1 < line.size(); ++i) {
+    const Vec3d along = normalised(old[i + 1] - old[i - 1]), beside = any_perpendicular(along);
+    const double way = run.s[i] * path.length, ends = std::min(run.s[i] - run.from, run.to - run.s[i]) * path.length;
+    const double far = kWinding * smooth(0, 0.005, ends);
+    line[i] += far * (std::sin(900 * way + 2 * std::sin(310 * way)) * beside +
+                      0.6 * std::sin(640 * way + 1.3) * cross(along, beside));
+  }
+  return line;
+}
+
+/// Share of the radius, less towards an end that leads nowhere.
+template <class Run>
+double thinned(const Run& run, double s, double length) {
+  double share = 1;
+  if (run.fades_from) share = std::min(share, smooth(0, kTaper, (s - run.from) * length));
+  if (run.fades_to) share = std::min(share, smooth(0, kTaper, (run.to - s) * length));
+  return kThinnest + (1 - kThinnest) * share;
+}
 
 /// From where to where on the line it does not run below the peritoneum.
 std::pair<double, double> in_sight(const interactions::VesselPath& path) {
@@ -79,6 +117,20 @@ void VesselDrawing::update(const sim::State& state) {
   m_mesh.replace(m_buffer.data());
 }
 
+/// Does another vessel go on from this end?
+bool VesselDrawing::leads_on(int vessel, int end) const {
+  const auto end_of = [this](std::size_t v, int which) {
+    const auto& points = m_model->vessels.list[v].path.points;
+    return which == 0 ? points.front().drawn : points.back().drawn;
+  };
+  const Vec3d here = end_of(std::size_t(vessel), end);
+  for (std::size_t v = 0; v < m_model->vessels.list.size(); ++v)
+    for (const int other : {0, 1})
+      if (int(v) != vessel && m_model->vessels.list[v].vein == m_veins && length(end_of(v, other) - here) < kSameNode)
+        return true;
+  return false;
+}
+
 void VesselDrawing::lay_out(const sim::State& state) {
   m_laid_out_for = state.opening_count;
   m_runs.clear();
@@ -91,7 +143,15 @@ void VesselDrawing::lay_out(const sim::State& state) {
     ends.push_back(end);
     double from = begin;
     for (std::size_t k = 0; k < ends.size() && from < end; ++k) {
-      Run run{int(v), from, std::min(ends[k], end), k > 0, k + 1 < ends.size(), m_buffer.size(), {}};
+      Run run;
+      run.vessel = int(v);
+      run.from = from;
+      run.to = std::min(ends[k], end);
+      run.cut_from = k > 0;
+      run.cut_to = k + 1 < ends.size();
+      run.first = m_buffer.size();
+      run.fades_from = !run.cut_from && (begin > 0 || !leads_on(int(v), 0));
+      run.fades_to = !run.cut_to && (end < 1 || !leads_on(int(v), 1));
       from = std::max(from, ends[k]);
       const double way = (run.to - run.from) * vessel.path.length;
       if (way < 1e-4) continue;
@@ -161,14 +221,14 @@ void VesselDrawing::place_run(const Run& run, const sim::State& state, std::span
     if (path.points[i].s > run.from + 1e-6 && path.points[i].s < run.to - 1e-6) take(path.points[i].s, points[i]);
   take(run.to, vessel_spot(path, points, cuts, run.to, 0).place);
 
-  Vec3d tangent = normalised(curve.at(run.s[1]) - curve.at(run.s[0])), normal = any_perpendicular(tangent);
+  const std::vector<Vec3d> line = drawn_line(run, curve, path);
+  Vec3d tangent = normalised(line[1] - line[0]), normal = any_perpendicular(tangent);
   for (std::size_t i = 0; i < run.s.size(); ++i) {
     const double s = run.s[i];
-    const Vec3d before = curve.at(run.s[i > 0 ? i - 1 : 0]), after = curve.at(run.s[std::min(i + 1, run.s.size() - 1)]);
-    tangent = normalised(after - before, tangent);
+    tangent = normalised(line[std::min(i + 1, line.size() - 1)] - line[i > 0 ? i - 1 : 0], tangent);
     normal = normalised(normal - dot(normal, tangent) * tangent, any_perpendicular(tangent));
-    const Vec3d beside = cross(tangent, normal), at = curve.at(s);
-    const double drawn = vessel_radius(path, s);
+    const Vec3d beside = cross(tangent, normal), at = line[i];
+    const double drawn = vessel_radius(path, s) * thinned(run, s, path.length);
     const vessels::WallReading wall = read_wall(m_model->vessels.flow, state.flow, run.vessel, s, vessel.gain);
     double radius = drawn + std::clamp(wall.shift, -kMostShift * drawn, kMostShift * drawn);
     for (int c = 0; c < state.vessel_clip_count; ++c) {

@@ -32,9 +32,11 @@ class VesselDrawing {
     int vessel = 0;
     double from = 0, to = 1;
     bool cut_from = false, cut_to = false;
-    std::uint32_t first = 0;  ///< vertex
-    std::vector<double> s;    ///< of its rings
+    bool fades_from = false, fades_to = false;  ///< ends in tissue: thins out
+    std::uint32_t first = 0;                    ///< vertex
+    std::vector<double> s;                      ///< of its rings
   };
+  bool leads_on(int vessel, int end) const;
   void lay_out(const sim::State& state);
   void join(const Run& run, std::size_t rings_apart, std::uint32_t stride, MeshBuffer& into) const;
   void place(const sim::State& state);

@@ -1,0 +1,117 @@
+#include <algorithm>
+#include <cmath>
+
+#include <trocar/geometry/nearest.hpp>
+#include <trocar/render/mesh_arrays.hpp>
+#include <trocar/view/joint.hpp>
+
+namespace trocar::view {
+namespace {
+
+constexpr int kRows = 10;            // strand to organ
+constexpr double kSkirt = 0.0018;    // [m] of the organ's surface that the collar covers, and ...
+constexpr double kSkirtRadii = 1.1;  // ... so many of the strand's radii
+constexpr double kSteepest = 0.55;   // sine of the flattest angle at which a strand is taken to meet the surface
+constexpr float kTucked = 0.0003f;   // [m] the border lies below the surface
+constexpr float kClear = 0.00015f;   // [m] the rest above it
+
+template <class T>
+T mixed(const std::array<std::uint32_t, 3>& vertex, Vec3f share, std::span<const T> of) {
+  return share.x * of[vertex[0]] + share.y * of[vertex[1]] + share.z * of[vertex[2]];
+}
+
+}  // namespace
+
+Joint::Foot Joint::foot_at(Vec3d p, const OrganDrawing& organ, const tissue::Skin& skin) const {
+  Foot best;
+  double nearest = 1e9;
+  for (const auto& t : skin.triangles) {
+    const auto corner = [&](std::size_t k) { return vec_cast<double>(organ.positions()[std::size_t(t[k])]); };
+    const auto at = geometry::closest_on_triangle(p, corner(0), corner(1), corner(2));
+    if (at.distance2 >= nearest) continue;
+    nearest = at.distance2;
+    best.share = vec_cast<float>(at.weights);
+    for (std::size_t k = 0; k < 3; ++k) best.vertex[k] = std::uint32_t(t[k]);
+  }
+  return best;
+}
+
+Joint::Joint(const TubeDrawing& tube, bool at_start, const OrganDrawing& organ, const tissue::Skin& skin,
+             render::Backend& backend)
+    : m_at_start(at_start), m_sides(tube.sides()) {
+  const TubeNeck& neck = tube.neck(at_start);
+  const Foot middle = foot_at(neck.end, organ, skin);
+  const Vec3d at = vec_cast<double>(mixed(middle.vertex, middle.share, organ.positions()));
+  const Vec3d n = normalised(vec_cast<double>(mixed(middle.vertex, middle.share, organ.normals())));
+  // Seen along the strand, its section is carried over to the surface; a flat approach is taken as less flat.
+  Vec3d way = neck.along;
+  if (dot(way, -n) < kSteepest) {
+    const Vec3d flat = normalised(way - dot(way, n) * n, any_perpendicular(n));
+    way = std::sqrt(1 - kSteepest * kSteepest) * flat - kSteepest * n;
+  }
+  const Vec3d entry = neck.centre + (dot(at - neck.centre, n) / dot(way, n)) * way;
+  for (const Vec3f& q : neck.ring) {
+    const Vec3d out = vec_cast<double>(q) - neck.centre;
+    const Vec3d on_plane = out - (dot(out, n) / dot(way, n)) * way;
+    const double skirt = kSkirt + kSkirtRadii * neck.radius;
+    m_feet.push_back(foot_at(entry + on_plane + skirt * normalised(on_plane), organ, skin));
+  }
+  for (int i = 0; i < kRows * m_sides; ++i) m_buffer.add({});
+  const auto row = [this](int i) { return std::uint32_t(i * m_sides); };
+  for (int i = 0; i + 1 < kRows; ++i)
+    join_rows(m_buffer, row(at_start ? i + 1 : i), row(at_start ? i : i + 1), std::uint32_t(m_sides), true);
+  place(tube, organ);
+  m_buffer.rest = m_buffer.positions;
+  m_mesh = OwnedMesh(backend, m_buffer.data());
+}
+
+void Joint::place(const TubeDrawing& tube, const OrganDrawing& organ) {
+  const TubeNeck& neck = tube.neck(m_at_start);
+  std::vector<Vec3f> foot, normal;
+  Vec3f middle{}, up{};
+  for (const Foot& f : m_feet) {
+    foot.push_back(mixed(f.vertex, f.share, organ.positions()));
+    normal.push_back(normalised(mixed(f.vertex, f.share, organ.normals()), Vec3f{0, 0, 1}));
+    middle += foot.back() / float(m_sides);
+    up += normal.back();
+  }
+  const Vec3f along = vec_cast<float>(neck.along), centre = vec_cast<float>(neck.centre);
+  for (std::size_t k = 0; k < std::size_t(m_sides); ++k) {
+    // A strand that is cut off short leaves a low mound.
+    const Vec3f inner = neck.there ? centre + 0.95f * (neck.ring[k] - centre) : middle + 0.0005f * normalised(up);
+    const Vec3f out = foot[k] - middle, level = normalised(out - dot(out, normal[k]) * normal[k], along);
+    const float reach = 0.95f * length(foot[k] - inner);
+    int burn = 0, open = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      burn = std::max(burn, int(organ.paint()[m_feet[k].vertex[c]].burn));
+      open = std::max(open, int(organ.paint()[m_feet[k].vertex[c]].openness));
+    }
+    for (int i = 0; i < kRows; ++i) {
+      const float t = float(i) / float(kRows - 2), u = 1 - t;  // the last row is the tucked border
+      const std::size_t v = std::size_t(i * m_sides) + k;
+      Vec3f p = (u * u * (1 + 2 * t)) * inner + (t * t * (3 - 2 * t)) * foot[k] + (u * u * t * reach) * along -
+                (t * t * u * reach) * level + (kClear * t) * normal[k];
+      if (i == kRows - 1) p = foot[k] + 0.0008f * level - kTucked * normal[k];
+      m_buffer.positions[v] = p;
+      const double w = std::min(1.0, double(t));
+      m_buffer.paint[v] = {to_byte((1 - w) * 0.92 + w * open / 255.0), 0, to_byte(burn / 255.0 * smooth(0, 0.6, w)),
+                           to_byte(0.95 * smooth(0.85, 0.05, w))};
+    }
+  }
+  render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);
+  for (std::size_t k = 0; k < std::size_t(m_sides); ++k) {  // no seams: as its neighbours'
+    if (neck.there) m_buffer.normals[k] = normalised(neck.ring[k] - centre, m_buffer.normals[k]);
+    for (int i = kRows - 4; i < kRows; ++i) {
+      Vec3f& n = m_buffer.normals[std::size_t(i * m_sides) + k];
+      const float w = std::min(1.0f, float(i - kRows + 5) / 3);
+      n = normalised((1 - w) * n + w * normal[k], normal[k]);
+    }
+  }
+}
+
+void Joint::update(const TubeDrawing& tube, const OrganDrawing& organ) {
+  place(tube, organ);
+  m_mesh.update(m_buffer);
+}
+
+}  // namespace trocar::view

@@ -1,0 +1,41 @@
+// Where a strand grows out of an organ: a collar from the strand's side to the organ's surface, tangent to both, in the
+// organ's stuff and going over into the strand's colour, so that one peritoneum seems to run over both. Drawing only.
+//
+//   Joint joint(tube, true, organ, skin, backend);
+//   joint.update(tube, organ);                       // after both
+#pragma once
+
+#include <trocar/view/organ_drawing.hpp>
+#include <trocar/view/tube_drawing.hpp>
+
+namespace trocar::view {
+
+class Joint {
+ public:
+  /// @param tube    as drawn at rest; its end at_start is hosted by the organ
+  /// @param organ   as drawn at rest  @param skin  the one it draws
+  Joint(const TubeDrawing& tube, bool at_start, const OrganDrawing& organ, const tissue::Skin& skin,
+        render::Backend& backend);
+
+  void update(const TubeDrawing& tube, const OrganDrawing& organ);
+  render::MeshHandle mesh() const { return m_mesh.handle(); }
+  const MeshBuffer& buffer() const { return m_buffer; }
+  int sides() const { return m_sides; }
+
+ private:
+  /// A place on the organ's skin.
+  struct Foot {
+    std::array<std::uint32_t, 3> vertex{};
+    Vec3f share;
+  };
+  Foot foot_at(Vec3d p, const OrganDrawing& organ, const tissue::Skin& skin) const;
+  void place(const TubeDrawing& tube, const OrganDrawing& organ);
+
+  bool m_at_start;
+  int m_sides;
+  std::vector<Foot> m_feet;  ///< (sides)
+  MeshBuffer m_buffer;
+  OwnedMesh m_mesh;
+};
+
+}  // namespace trocar::view
