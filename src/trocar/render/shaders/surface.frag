@@ -205,7 +205,7 @@ void main() {
   float ragged = 0.55 * fine.a + 0.45 * fine.r;
   float cover = smoothstep(-0.03, 0.07, BLOOD - 0.7 * ragged * (1.0 - BLOOD)) * step(0.004, BLOOD);
   float blood = clamp(cover * (0.28 + 0.72 * BLOOD) * (0.85 + 0.3 * broad.a), 0.0, 1.0);
-  albedo *= exp(-blood * vec3(0.9, 5.0, 4.2));
+  albedo *= exp(-blood * vec3(1.25, 5.0, 4.4));
   albedo = mix(albedo, vec3(0.105, 0.006, 0.007), smoothstep(0.4, 0.9, blood));
 #endif
 
