@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <trocar/render/mesh_arrays.hpp>
 #include <trocar/view/cuttable_drawing.hpp>
@@ -11,12 +12,15 @@ namespace {
 constexpr Paint kFlesh{125, 70, 0, 0};      // laid bare
 constexpr std::uint8_t kDeepOpenness = 60;  // ... at a cut's bottom
 constexpr std::uint8_t kRimBlood = 34;      // on the skin at a cut's rim
-constexpr std::uint8_t kRimPale = 235;      // the capsule's edge: its look's tint
-constexpr float kOozes = 0.010f;            // [m] how far blood runs down from a cut
+constexpr std::uint8_t kRimPale = 140;      // the capsule's edge: its look's tint
+constexpr float kOozes = 0.008f;            // [m] how far blood runs down from a cut
 constexpr std::uint8_t kOozing = 84;
-constexpr float kGrain = 0.0005f;  // [m] torn lobules of what is bare
-constexpr float kGape = 0.0019f;   // [m] how far either side of a cut draws back
-constexpr int kDrawnAlong = 3;     // rings of nodes that go with it
+constexpr float kRough = 0.6f;                // slope of the same
+constexpr std::uint8_t kLooseOpenness = 230;  // of pieces that have come off, which do not lie where they were baked
+constexpr std::uint8_t kLoosePale = 150;      // they have bled out
+constexpr float kGrain = 0.0005f;             // [m] torn lobules of what is bare
+constexpr float kGape = 0.0019f;              // [m] how far either side of a cut draws back
+constexpr int kDrawnAlong = 3;                // rings of nodes that go with it
 
 /// Nodes at which the inside is bare: the skin ends there, so it has no relief that would leave a gap.
 std::vector<std::uint8_t> rim_nodes(const tissue::FaceSkin& skin, std::size_t nodes) {
@@ -34,6 +38,23 @@ std::vector<std::uint8_t> skin_nodes(const tissue::FaceSkin& skin, std::size_t n
     for (std::size_t k = 0; k < 3; ++k)
       if (!skin.bare[i] && skin.between[i][k] > 0) own[std::size_t(skin.corners[i][k])] = 1;
   return own;
+}
+
+/// Nodes of pieces that have come off: all but those that hang together with the most.
+std::vector<std::uint8_t> loose_nodes(const tissue::FaceSkin& skin, std::size_t nodes) {
+  std::vector<int> root(nodes), size(nodes, 0);
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&root](int a) {
+    while (root[std::size_t(a)] != a) a = root[std::size_t(a)] = root[std::size_t(root[std::size_t(a)])];
+    return a;
+  };
+  for (const auto& c : skin.corners)
+    for (std::size_t k = 1; k < 3; ++k) root[std::size_t(find(c[k]))] = find(c[0]);
+  for (const auto& c : skin.corners) ++size[std::size_t(find(c[0]))];
+  const int most = int(std::max_element(size.begin(), size.end()) - size.begin());
+  std::vector<std::uint8_t> loose(nodes, 0);
+  for (std::size_t i = 0; i < nodes; ++i) loose[i] = find(int(i)) != most;
+  return loose;
 }
 
 float at_rim(const tissue::FaceSkin& skin, const std::vector<std::uint8_t>& rim, std::size_t vertex) {
@@ -89,6 +110,7 @@ void CuttableDrawing::make_skin(const tissue::CuttableState& state) {
     m_open[std::size_t(i)] = m_open[std::size_t(state.tets.source[std::size_t(i)])];
   m_pose = tissue::make_pose(m_skin.skin);
   m_indices = flat_indices(m_skin.skin);
+  m_loose = loose_nodes(m_skin, m_open.size());
   find_cut();
   paint_skin();
 }
@@ -138,7 +160,7 @@ void CuttableDrawing::gape() {
       }
   }
   for (std::size_t i = 0; i < m_gape.size(); ++i)
-    if (m_gape_weight[i] > 0) m_gape[i] *= kGape / m_gape_weight[i];
+    if (m_gape_weight[i] > 0) m_gape[i] *= (m_loose[i] ? 0 : kGape) / m_gape_weight[i];
   const std::vector<float> pulled = m_gape_weight;
   for (int pass = 0; pass < kDrawnAlong; ++pass) {
     m_gape_next.assign(m_gape.size(), Vec3f{});
@@ -170,6 +192,7 @@ void CuttableDrawing::paint_skin() {
     if (!m_skin.bare[i] && at_rim(m_skin, rim, i) > 0.999f) wound.push_back(m_skin.skin.rest[i]);
   for (std::size_t i = 0; i < n; ++i) {
     const float edge = at_rim(m_skin, rim, i);
+    const bool loose = m_loose[std::size_t(m_skin.corners[i][0])] != 0;
     m_at_rim.push_back(edge > 0.999f);
     if (!m_height.empty()) m_height[i] *= m_skin.bare[i] ? 0 : 1 - edge;
     if (!m_height.empty() && m_skin.bare[i])
@@ -177,16 +200,18 @@ void CuttableDrawing::paint_skin() {
     if (m_skin.bare[i]) {
       m_paint[i] = kFlesh;
       const float mouth = at_rim(m_skin, own, i);
-      m_paint[i].openness = std::uint8_t(float(kDeepOpenness) + mouth * float(kFlesh.openness - kDeepOpenness));
+      const float lit = float(kDeepOpenness) + mouth * float(kFlesh.openness - kDeepOpenness);
+      m_paint[i].openness = loose ? kLooseOpenness : std::uint8_t(lit);
       continue;
     }
     float open = 0;
     for (std::size_t k = 0; k < 3; ++k) open += m_skin.between[i][k] * float(m_open[std::size_t(m_skin.corners[i][k])]);
-    m_paint[i].openness = std::uint8_t(open + 0.5f);
-    if (wound.empty()) continue;
+    m_paint[i].openness = loose ? kLooseOpenness : std::uint8_t(open + 0.5f);
+    if (loose) m_paint[i].tint = kLoosePale;
+    if (wound.empty() || loose) continue;
     const float blood = std::max(float(kRimBlood) * edge, float(kOozing) * oozing(m_skin.skin.rest[i], wound));
     m_paint[i].blood = std::uint8_t(blood);
-    m_paint[i].tint = std::max(m_paint[i].tint, std::uint8_t(float(kRimPale) * edge * edge));
+    if (edge > 0.999f) m_paint[i].tint = std::max(m_paint[i].tint, kRimPale);
   }
 }
 
@@ -208,6 +233,18 @@ void CuttableDrawing::place(const tissue::CuttableState& state, std::span<const 
       if (m_at_rim[i]) m_pose.position[i] = before[i];
   }
   if (m_dented) render::vertex_normals(m_pose.position, m_indices, m_normals);
+  roughen();
+}
+
+/// What is bare is torn, not smooth: normals that a flat face does not have break up what it mirrors.
+void CuttableDrawing::roughen() {
+  if (m_bare.empty()) return;
+  for (std::size_t i = 0; i < m_normals.size(); ++i) {
+    if (!m_skin.bare[i]) continue;
+    const Vec3d p = vec_cast<double>(m_skin.skin.rest[i]);
+    const Vec3d off{waves(p, 0.0047), waves(p + Vec3d{0.3, 0.1, 0.2}, 0.0043), waves(p + Vec3d{0.7, 0.5, 0.1}, 0.0051)};
+    m_normals[i] = normalised(m_normals[i] + kRough * vec_cast<float>(off), m_normals[i]);
+  }
 }
 
 void CuttableDrawing::burn(const sim::State& state, HeatMarks& marks) {

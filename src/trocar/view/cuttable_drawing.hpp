@@ -36,6 +36,7 @@ class CuttableDrawing {
   void paint_skin();
   void find_cut();
   void gape();
+  void roughen();
   void place(const tissue::CuttableState& state, std::span<const collision::Capsule> rods);
 
   const sim::CuttableOrgan* m_organ;
@@ -52,6 +53,7 @@ class CuttableDrawing {
   /// What gapes: vertices of the bare triangles, nodes around them and their neighbours along the skin.
   std::vector<std::array<std::uint32_t, 3>> m_bare;
   std::vector<std::array<int, 2>> m_beside;
+  std::vector<std::uint8_t> m_loose;       ///< (nodes) 1: of a piece that has come off
   std::vector<Vec3f> m_gape, m_gape_next;  ///< (nodes) [m]
   std::vector<float> m_gape_weight;
   tissue::Box m_box;
