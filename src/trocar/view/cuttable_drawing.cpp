@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
 #include <trocar/render/mesh_arrays.hpp>
 #include <trocar/view/cuttable_drawing.hpp>
 #include <trocar/view/organ_drawing.hpp>
@@ -5,8 +9,18 @@
 namespace trocar::view {
 namespace {
 
-constexpr Paint kFlesh{200, 105, 0, 0};  // laid bare
-constexpr std::uint8_t kRimBlood = 70;   // on the skin at a cut's rim
+constexpr Paint kFlesh{125, 70, 0, 0};      // laid bare
+constexpr std::uint8_t kDeepOpenness = 60;  // ... at a cut's bottom
+constexpr std::uint8_t kRimBlood = 34;      // on the skin at a cut's rim
+constexpr std::uint8_t kRimPale = 140;      // the capsule's edge: its look's tint
+constexpr float kOozes = 0.008f;            // [m] how far blood runs down from a cut
+constexpr std::uint8_t kOozing = 84;
+constexpr float kRough = 0.6f;                // slope of the same
+constexpr std::uint8_t kLooseOpenness = 230;  // of pieces that have come off, which do not lie where they were baked
+constexpr std::uint8_t kLoosePale = 150;      // they have bled out
+constexpr float kGrain = 0.0005f;             // [m] torn lobules of what is bare
+constexpr float kGape = 0.0019f;              // [m] how far either side of a cut draws back
+constexpr int kDrawnAlong = 3;                // rings of nodes that go with it
 
 /// Nodes at which the inside is bare: the skin ends there, so it has no relief that would leave a gap.
 std::vector<std::uint8_t> rim_nodes(const tissue::FaceSkin& skin, std::size_t nodes) {
@@ -17,6 +31,32 @@ std::vector<std::uint8_t> rim_nodes(const tissue::FaceSkin& skin, std::size_t no
   return rim;
 }
 
+/// Nodes of the body's own surface.
+std::vector<std::uint8_t> skin_nodes(const tissue::FaceSkin& skin, std::size_t nodes) {
+  std::vector<std::uint8_t> own(nodes, 0);
+  for (std::size_t i = 0; i < skin.bare.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (!skin.bare[i] && skin.between[i][k] > 0) own[std::size_t(skin.corners[i][k])] = 1;
+  return own;
+}
+
+/// Nodes of pieces that have come off: all but those that hang together with the most.
+std::vector<std::uint8_t> loose_nodes(const tissue::FaceSkin& skin, std::size_t nodes) {
+  std::vector<int> root(nodes), size(nodes, 0);
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&root](int a) {
+    while (root[std::size_t(a)] != a) a = root[std::size_t(a)] = root[std::size_t(root[std::size_t(a)])];
+    return a;
+  };
+  for (const auto& c : skin.corners)
+    for (std::size_t k = 1; k < 3; ++k) root[std::size_t(find(c[k]))] = find(c[0]);
+  for (const auto& c : skin.corners) ++size[std::size_t(find(c[0]))];
+  const int most = int(std::max_element(size.begin(), size.end()) - size.begin());
+  std::vector<std::uint8_t> loose(nodes, 0);
+  for (std::size_t i = 0; i < nodes; ++i) loose[i] = find(int(i)) != most;
+  return loose;
+}
+
 float at_rim(const tissue::FaceSkin& skin, const std::vector<std::uint8_t>& rim, std::size_t vertex) {
   float sum = 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -24,6 +64,18 @@ float at_rim(const tissue::FaceSkin& skin, const std::vector<std::uint8_t>& rim,
     if (rim[node]) sum += skin.between[vertex][k];
   }
   return sum;
+}
+
+/// How much blood lies on the skin at `p` that has run down from what is cut, 0 to 1: in runs, the less the farther.
+float oozing(Vec3f p, std::span<const Vec3f> rim) {
+  double nearest = 1;
+  for (const Vec3f& r : rim) {
+    const Vec3f off = p - r;
+    const double aside = double(std::hypot(off.x, off.y)), below = double(-off.z);
+    nearest = std::min(nearest, std::hypot(1.5 * aside, below > 0 ? 0.6 * below : 2.5 * below));
+  }
+  const double runs = waves({double(p.x), double(p.y), 0.15 * double(p.z)}, 0.006);
+  return float(smooth(double(kOozes), 0.0, nearest + 0.004 * runs));
 }
 
 }  // namespace
@@ -58,7 +110,74 @@ void CuttableDrawing::make_skin(const tissue::CuttableState& state) {
     m_open[std::size_t(i)] = m_open[std::size_t(state.tets.source[std::size_t(i)])];
   m_pose = tissue::make_pose(m_skin.skin);
   m_indices = flat_indices(m_skin.skin);
+  m_loose = loose_nodes(m_skin, m_open.size());
+  find_cut();
   paint_skin();
+}
+
+/// The bare triangles, and which nodes lie beside each other within a few rings of them.
+void CuttableDrawing::find_cut() {
+  m_bare.clear();
+  m_beside.clear();
+  std::vector<std::uint8_t> ring(m_open.size(), 0);
+  for (std::size_t t = 0; t + 2 < m_indices.size(); t += 3) {
+    const std::array<std::uint32_t, 3> v{m_indices[t], m_indices[t + 1], m_indices[t + 2]};
+    if (!m_skin.bare[v[0]] || !m_skin.bare[v[1]] || !m_skin.bare[v[2]]) continue;
+    m_bare.push_back(v);
+    for (const int node : m_skin.corners[v[0]]) ring[std::size_t(node)] = 1;
+  }
+  if (m_bare.empty()) return;
+  for (int pass = 0; pass < kDrawnAlong; ++pass) {
+    std::vector<std::uint8_t> wider = ring;
+    for (const auto& c : m_skin.corners)
+      if (ring[std::size_t(c[0])] || ring[std::size_t(c[1])] || ring[std::size_t(c[2])])
+        for (const int node : c) wider[std::size_t(node)] = 1;
+    ring.swap(wider);
+  }
+  for (const auto& c : m_skin.corners)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int a = std::min(c[k], c[(k + 1) % 3]), b = std::max(c[k], c[(k + 1) % 3]);
+      if (a != b && ring[std::size_t(a)] && ring[std::size_t(b)]) m_beside.push_back({a, b});
+    }
+  std::sort(m_beside.begin(), m_beside.end());
+  m_beside.erase(std::unique(m_beside.begin(), m_beside.end()), m_beside.end());
+}
+
+/// The sides of a cut draw back from each other, most at its mouth, and take the skin around along. Where both sides
+/// meet, at its bottom, they pull alike and nothing moves.
+void CuttableDrawing::gape() {
+  if (m_bare.empty()) return;
+  m_gape.assign(m_open.size(), Vec3f{});
+  m_gape_weight.assign(m_open.size(), 0);
+  for (const auto& v : m_bare) {
+    const Vec3f a = m_pose.position[v[0]];
+    const Vec3f n = 0.5f * cross(m_pose.position[v[1]] - a, m_pose.position[v[2]] - a);
+    for (const std::uint32_t vertex : v)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t node = std::size_t(m_skin.corners[vertex][k]);
+        m_gape[node] -= m_skin.between[vertex][k] * n;
+        m_gape_weight[node] += m_skin.between[vertex][k] * length(n);
+      }
+  }
+  for (std::size_t i = 0; i < m_gape.size(); ++i)
+    if (m_gape_weight[i] > 0) m_gape[i] *= (m_loose[i] ? 0 : kGape) / m_gape_weight[i];
+  const std::vector<float> pulled = m_gape_weight;
+  for (int pass = 0; pass < kDrawnAlong; ++pass) {
+    m_gape_next.assign(m_gape.size(), Vec3f{});
+    m_gape_weight.assign(m_gape.size(), 0);
+    for (const auto& [a, b] : m_beside) {
+      m_gape_next[std::size_t(a)] += m_gape[std::size_t(b)], m_gape_weight[std::size_t(a)] += 1;
+      m_gape_next[std::size_t(b)] += m_gape[std::size_t(a)], m_gape_weight[std::size_t(b)] += 1;
+    }
+    for (std::size_t i = 0; i < m_gape.size(); ++i) {
+      if (!(m_gape_weight[i] > 0)) continue;
+      const float own = pulled[i] > 0 ? 0.7f : 0.3f;
+      m_gape[i] = own * m_gape[i] + ((1 - own) / m_gape_weight[i]) * m_gape_next[i];
+    }
+  }
+  for (std::size_t i = 0; i < m_pose.position.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      m_pose.position[i] += m_skin.between[i][k] * m_gape[std::size_t(m_skin.corners[i][k])];
 }
 
 void CuttableDrawing::paint_skin() {
@@ -67,24 +186,38 @@ void CuttableDrawing::paint_skin() {
   m_at_rim.clear();
   m_height.clear();
   if (m_relief.any()) m_height = heights(m_relief, m_skin.skin, m_paint);
-  const std::vector<std::uint8_t> rim = rim_nodes(m_skin, m_open.size());
+  const std::vector<std::uint8_t> rim = rim_nodes(m_skin, m_open.size()), own = skin_nodes(m_skin, m_open.size());
+  std::vector<Vec3f> wound;
+  for (std::size_t i = 0; i < n; ++i)
+    if (!m_skin.bare[i] && at_rim(m_skin, rim, i) > 0.999f) wound.push_back(m_skin.skin.rest[i]);
   for (std::size_t i = 0; i < n; ++i) {
     const float edge = at_rim(m_skin, rim, i);
+    const bool loose = m_loose[std::size_t(m_skin.corners[i][0])] != 0;
     m_at_rim.push_back(edge > 0.999f);
     if (!m_height.empty()) m_height[i] *= m_skin.bare[i] ? 0 : 1 - edge;
+    if (!m_height.empty() && m_skin.bare[i])
+      m_height[i] = kGrain * (1 - at_rim(m_skin, own, i)) * float(waves(vec_cast<double>(m_skin.skin.rest[i]), 0.0036));
     if (m_skin.bare[i]) {
       m_paint[i] = kFlesh;
+      const float mouth = at_rim(m_skin, own, i);
+      const float lit = float(kDeepOpenness) + mouth * float(kFlesh.openness - kDeepOpenness);
+      m_paint[i].openness = loose ? kLooseOpenness : std::uint8_t(lit);
       continue;
     }
     float open = 0;
     for (std::size_t k = 0; k < 3; ++k) open += m_skin.between[i][k] * float(m_open[std::size_t(m_skin.corners[i][k])]);
-    m_paint[i].openness = std::uint8_t(open + 0.5f);
-    m_paint[i].blood = std::uint8_t(float(kRimBlood) * edge);
+    m_paint[i].openness = loose ? kLooseOpenness : std::uint8_t(open + 0.5f);
+    if (loose) m_paint[i].tint = kLoosePale;
+    if (wound.empty() || loose) continue;
+    const float blood = std::max(float(kRimBlood) * edge, float(kOozing) * oozing(m_skin.skin.rest[i], wound));
+    m_paint[i].blood = std::uint8_t(blood);
+    if (edge > 0.999f) m_paint[i].tint = std::max(m_paint[i].tint, kRimPale);
   }
 }
 
 void CuttableDrawing::place(const tissue::CuttableState& state, std::span<const collision::Capsule> rods) {
   tissue::pose_skin(view_of(m_organ->body, state), m_skin.skin, m_pose);
+  gape();
   m_normals.resize(m_pose.position.size());
   render::vertex_normals(m_pose.position, m_indices, m_normals);
   if (!m_height.empty()) {
@@ -100,6 +233,18 @@ void CuttableDrawing::place(const tissue::CuttableState& state, std::span<const 
       if (m_at_rim[i]) m_pose.position[i] = before[i];
   }
   if (m_dented) render::vertex_normals(m_pose.position, m_indices, m_normals);
+  roughen();
+}
+
+/// What is bare is torn, not smooth: normals that a flat face does not have break up what it mirrors.
+void CuttableDrawing::roughen() {
+  if (m_bare.empty()) return;
+  for (std::size_t i = 0; i < m_normals.size(); ++i) {
+    if (!m_skin.bare[i]) continue;
+    const Vec3d p = vec_cast<double>(m_skin.skin.rest[i]);
+    const Vec3d off{waves(p, 0.0047), waves(p + Vec3d{0.3, 0.1, 0.2}, 0.0043), waves(p + Vec3d{0.7, 0.5, 0.1}, 0.0051)};
+    m_normals[i] = normalised(m_normals[i] + kRough * vec_cast<float>(off), m_normals[i]);
+  }
 }
 
 void CuttableDrawing::burn(const sim::State& state, HeatMarks& marks) {

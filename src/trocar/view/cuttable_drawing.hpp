@@ -1,5 +1,7 @@
 // An organ that can be cut, as drawn: its faces as smooth small triangles (tissue/face_skin.hpp) with the look's
 // relief, and, where a cut has laid its inside bare, raw flesh with sharp rims. A new skin is made after every cut.
+// A cut gapes wider than in the simulation, where its sides lie against each other again: tissue is under tension, and
+// one would see no wound (drawn only).
 #pragma once
 
 #include <trocar/render/openness.hpp>
@@ -24,6 +26,7 @@ class CuttableDrawing {
   /// What heat has left; before update().
   void burn(const sim::State& state, HeatMarks& marks);
   render::MeshHandle mesh() const { return m_mesh.handle(); }
+  bool cut() const { return !m_bare.empty(); }
   /// As drawn now.
   std::span<const Vec3f> positions() const { return m_pose.position; }
   std::span<const std::uint32_t> indices() const { return m_indices; }
@@ -31,6 +34,9 @@ class CuttableDrawing {
  private:
   void make_skin(const tissue::CuttableState& state);
   void paint_skin();
+  void find_cut();
+  void gape();
+  void roughen();
   void place(const tissue::CuttableState& state, std::span<const collision::Capsule> rods);
 
   const sim::CuttableOrgan* m_organ;
@@ -44,6 +50,12 @@ class CuttableDrawing {
   std::vector<float> m_height;         ///< relief
   std::vector<std::uint8_t> m_at_rim;  ///< (vertices) 1: between nodes where the inside is bare
   std::vector<std::uint32_t> m_indices;
+  /// What gapes: vertices of the bare triangles, nodes around them and their neighbours along the skin.
+  std::vector<std::array<std::uint32_t, 3>> m_bare;
+  std::vector<std::array<int, 2>> m_beside;
+  std::vector<std::uint8_t> m_loose;       ///< (nodes) 1: of a piece that has come off
+  std::vector<Vec3f> m_gape, m_gape_next;  ///< (nodes) [m]
+  std::vector<float> m_gape_weight;
   tissue::Box m_box;
   bool m_dented = false, m_burnt = false;
   MovedNodes m_moved;

@@ -3,6 +3,7 @@
 
 #include <trocar/view/fluid_drawing.hpp>
 #include <trocar/view/mesh_buffer.hpp>
+#include <trocar/view/relief.hpp>
 
 namespace trocar::view {
 namespace {
@@ -14,11 +15,17 @@ using render::SplatKind;
 // Our choice, all of them: from the look of spurts and rivulets in endoscopic films.
 constexpr float kCellsScatter = 1.6e3f;  // [1/m] red cells, forward scattering left out: blood is no red glass
 constexpr float kBloodOrange = 7e3f;    // [1/m] mean of whole blood at 585 to 600 nm, tabulated [Prahl 1999], as Optics
-constexpr float kShutter = 0.004f;      // [s] a camera's: what flies is a streak
+constexpr float kShutter = 0.006f;      // [s] a camera's: what flies is a streak
+constexpr float kWhole = 0.012f;        // [m] from its hole: so far a jet of blood is whole
+constexpr float kSpray = 0.055f;        // [m] ... and from here on spray
+constexpr float kWag = 0.035f;          // how far a jet's drops stray aside, a share of their way
+constexpr int kShards = 5;              // what a drop of spray is drawn as
+constexpr float kFreshJet = 0.006f;     // [m] blood that has come less far shows where its hole is
+constexpr float kHoleStain = 0.0016f;   // [m] of the blood around a hole
 constexpr float kLongestLink = 9.0f;    // in radii: a jet's drops hang together up to here
 constexpr float kThinnestLink = 0.30f;  // in radii: ... and until the thread between them is so thin
-constexpr float kCapSpread = 1.6f;      // radius of a cap over that of its ball
-constexpr float kLongestTail = 2.2f;    // of a running drop, in radii
+constexpr float kCapSpread = 2.0f;      // radius of a cap over that of its ball
+constexpr float kLongestTail = 4.0f;    // of a running drop, in radii
 constexpr float kTailSpeed = 0.05f;     // [m/s] at which the tail is half of it
 constexpr float kRunThickness = 20e-6f;   // [m] of what a running drop leaves; where there is less it covers less
 constexpr float kWidestRun = 0.0032f;     // [m] ... and how wide: what lies beyond is drawn out downhill
@@ -27,7 +34,13 @@ constexpr float kOverlap = 1.5f;          // a rivulet's length within a place o
 constexpr float kWander = 0.0009f;        // [m]
 constexpr float kThinnestFilm = 0.4e-6f;  // [m] not drawn below
 constexpr float kWetDepth = 60e-6f;       // [m] at which a cell of the pool counts as wet
-constexpr int kMargin = 3;                // cells around the wet ones
+constexpr int kMargin = 6;                // cells around the wet ones
+constexpr float kOverhang = 0.004f;       // [m] a floor so far above the level is an organ with room below it
+// What runs down a wall is no pool: where the floor is steeper than this and what is on it shallow it is drawn as film.
+constexpr float kLevelFloor = 0.35f, kSteepFloor = 0.8f;         // rise over run
+constexpr float kShallow = 0.0015f, kDeep = 0.0045f;             // [m]
+constexpr float kThickestRun = 70e-6f, kThickestStain = 22e-6f;  // [m] of what is drawn so, and of a tide's mark
+constexpr float kTide = 0.0045f;                                 // [m] how far it reaches
 
 Vec3f to_float(const fluids::Rgb& c) { return {float(c.r), float(c.g), float(c.b)}; }
 
@@ -66,6 +79,9 @@ float drawn_out(float radius, float half) {
   return r;
 }
 
+/// How broken up a jet is after so long a way, 0 to 1.
+float broken_up(float way) { return float(smooth(double(kWhole), double(kSpray), double(way))); }
+
 /// A drop in flight, smeared over the time the shutter is open.
 Splat streak(Vec3f p, Vec3f v, float radius, const std::array<float, 3>& share) {
   const float half = 0.5f * kShutter * length(v);
@@ -77,6 +93,35 @@ Splat streak(Vec3f p, Vec3f v, float radius, const std::array<float, 3>& share) 
   s.height = s.radius;
   s.share = share;
   return s;
+}
+
+/// How far a jet's blood has come since it left its vessel [m]; 0 of other fluids, which do not know it and hang
+/// together better.
+float come(const fluids::DropletState& d, std::int32_t i, float now) {
+  const auto k = std::size_t(i);
+  const fluids::SmallMix& mix = d.volume[k];
+  if (!(2 * std::int64_t(mix.blood) > mix.total())) return 0;
+  return std::max(now - d.blood[k].born, 0.0f) * length(speed(d, i));
+}
+
+/// -1 .. 1, a drop's own.
+float own(std::uint32_t id, int which) { return 2 * float(varied(int(id & 0xffffff), which)) - 1; }
+
+/// Aside of the way of what flies: a jet wags as its hole does, and the drops of one stray the more the farther they
+/// are.
+Vec3f aside(Vec3f v, std::uint32_t id, float way) {
+  const Vec3f along = normalised(v, Vec3f{0, 0, 1});
+  const Vec3f one = normalised(cross(along, std::fabs(along.x) < 0.7f ? Vec3f{1, 0, 0} : Vec3f{0, 1, 0}));
+  const Vec3f other = cross(along, one);
+  const float slow = float(id % 4096), far = kWag * way * std::min(way / 0.02f, 1.0f);
+  const float x = 0.45f * std::sin(0.31f * slow) + 0.25f * std::sin(0.83f * slow + 1) + 0.3f * own(id, 11);
+  const float y = 0.45f * std::sin(0.27f * slow + 2) + 0.25f * std::sin(0.71f * slow) + 0.3f * own(id, 12);
+  return (far * x) * one + (far * y) * other;
+}
+
+/// Where a flying drop is drawn.
+Vec3f drawn_at(const fluids::DropletState& d, std::int32_t i, float now) {
+  return at(d, i) + aside(speed(d, i), d.id[std::size_t(i)], come(d, i, now));
 }
 
 /// Of a stain whose blobs add up to `volume` [m^3]: a splat's film is its height times (1 - r^2)^2, r in reaches
@@ -112,6 +157,15 @@ Splat stain(const FilmPlace& place, float volume, float own, Vec3f down) {
   return s;
 }
 
+/// What runs down gathers in rivulets: how thick it is here, 1 in the mean or so.
+float rivulets(Vec3d p, Vec3d normal, Vec3d down) {
+  const Vec3d across = normalised(cross(normal, down), {1, 0, 0});
+  const double a = dot(p, across) + 0.0015 * waves(p, 0.02), b = dot(p, down);
+  return float(std::clamp(0.85 + 1.1 * waves({a, 0.12 * b, 0}, 0.009), 0.04, 2.0));
+}
+
+float smooth_step(float x) { return float(smooth(0.0, 1.0, double(x))); }
+
 /// Three by three, 1 2 1, in place.
 void smooth_once(std::vector<float>& field, std::vector<float>& scratch, int width, int height) {
   scratch.resize(field.size());
@@ -143,7 +197,9 @@ FluidDrawing::FluidDrawing(const fluids::FluidsModel& model, const fluids::Optic
 void FluidDrawing::list(const FluidSight& sight, render::Frame& frame) {
   Liquid& liquid = frame.liquid;
   liquid.look = m_look;
+  m_eye = frame.camera.position;
   list_pool(sight, liquid);
+  list_runs(sight, liquid);
   list_films(sight, liquid);
   list_lying(sight.state.droplets, sight.sheer_bodies, liquid);
   list_flying(sight.state.droplets, liquid);
@@ -169,22 +225,28 @@ std::size_t FluidDrawing::next_in_strand(const fluids::DropletState& d, std::siz
 /// A strand between two drops, of their volume; drops keep what the strand is too thin for.
 bool FluidDrawing::link(const fluids::DropletState& d, std::int32_t i, std::int32_t j, Liquid& liquid) const {
   const float r = d.radius[std::size_t(i)], other = d.radius[std::size_t(j)], size = std::max(r, other);
+  const float now = now_of(m_model->droplets, d), way = come(d, i, now), broken = broken_up(way);
+  const std::uint32_t id = d.id[std::size_t(i)];
+  if (float(varied(int(id & 0xffffff), 21)) < broken) return false;
   const float far = length(at(d, j) - at(d, i));
-  const float thin = std::min(std::sqrt(2.0f / 3 * (r * r * r + other * other * other) / far), 0.95f * size);
+  float thin = std::min(std::sqrt(2.0f / 3 * (r * r * r + other * other * other) / far), 0.95f * size);
   if (thin < kThinnestLink * size) return false;
+  // It swells and narrows on its way before it breaks [Rayleigh 1878].
+  thin *= 1 - std::min(way / kWhole, 1.0f) * (0.25f - 0.25f * own(id, 22));
   Splat s;
-  s.from = at(d, i), s.to = at(d, j);
+  s.from = drawn_at(d, i, now), s.to = drawn_at(d, j, now);
   s.radius = thin;
   s.height = thin;
   s.share = shares_of(d.volume[std::size_t(i)]);
-  s.dark = darkness(now_of(m_model->droplets, d), d.blood[std::size_t(i)], s.share);
+  s.dark = darkness(now, d.blood[std::size_t(i)], s.share);
   liquid.splats.push_back(s);
-  return thin > 0.5f * size;
+  return thin > 0.5f * size || way > 0;
 }
 
 /// Drops that left an opening one after the other hang together as a strand until it has run too thin.
 void FluidDrawing::list_flying(const fluids::DropletState& d, Liquid& liquid) {
   m_flying.clear();
+  const float now = now_of(m_model->droplets, d);
   for (std::int32_t i = 0; i < d.count; ++i) {
     const auto k = std::size_t(i);
     if (d.body[k] >= 0 || !(d.radius[k] > 0) || !finite(at(d, i)) || !finite(speed(d, i))) continue;
@@ -197,11 +259,59 @@ void FluidDrawing::list_flying(const fluids::DropletState& d, Liquid& liquid) {
     m_flying[n].in_strand = m_flying[m].in_strand = true;
   }
   for (const Flying& drop : m_flying) {
-    const auto k = std::size_t(drop.at);
-    if (drop.in_strand) continue;
-    Splat s = streak(at(d, drop.at), speed(d, drop.at), d.radius[k], shares_of(d.volume[k]));
-    s.dark = darkness(now_of(m_model->droplets, d), d.blood[k], s.share);
+    const float way = come(d, drop.at, now);
+    if (drop.in_strand && broken_up(way) < 0.2f) continue;
+    list_spray(d, drop, liquid);
+  }
+  list_holes(d, liquid);
+}
+
+/// A drop that is on its own: whole near its hole, shards of it farther off.
+void FluidDrawing::list_spray(const fluids::DropletState& d, const Flying& drop, Liquid& liquid) const {
+  const auto k = std::size_t(drop.at);
+  const float now = now_of(m_model->droplets, d), way = come(d, drop.at, now), r = d.radius[k];
+  const Vec3f v = speed(d, drop.at), place = drawn_at(d, drop.at, now);
+  const std::array<float, 3> share = shares_of(d.volume[k]);
+  const float dark = darkness(now, d.blood[k], share), apart = broken_up(way);
+  const int shards = apart > 0 ? kShards : 1;
+  for (int n = drop.in_strand ? 1 : 0; n < shards; ++n) {
+    const auto u = [&](int which) { return own(d.id[k], 31 + 4 * n + which); };
+    // The first keeps half of it, the others are small and all over the place.
+    const float size = shards == 1 ? r : r * (n == 0 ? 0.85f - 0.3f * apart : 0.2f + 0.25f * std::fabs(u(0)));
+    const float off = n == 0 ? 0.0f : apart * (0.002f + 0.03f * way);
+    const Vec3f to_side = aside(v, d.id[k] * 7u + std::uint32_t(n), 1.0f) * (off / kWag);
+    const Vec3f ahead = (apart * 4 * r * u(1) * (n == 0 ? 0.0f : 1.0f)) * normalised(v, Vec3f{0, 0, 1});
+    Splat s = streak(place + to_side + ahead, (1 - 0.2f * std::fabs(u(2))) * v, size, share);
+    s.dark = dark;
     liquid.splats.push_back(s);
+  }
+}
+
+/// A hole is where the youngest blood of a jet comes from: tissue is red around it, and a trickle runs down from it.
+void FluidDrawing::list_holes(const fluids::DropletState& d, Liquid& liquid) const {
+  const float now = now_of(m_model->droplets, d);
+  const Vec3f down = normalised(vec_cast<float>(m_model->droplets.gravity), Vec3f{0, 0, -1});
+  std::vector<Vec3f> known;
+  for (const Flying& drop : m_flying) {
+    const auto k = std::size_t(drop.at);
+    const float way = come(d, drop.at, now);
+    if (!drop.in_strand || way > kFreshJet || !(way > 0)) continue;
+    const Vec3f hole = at(d, drop.at) - way * normalised(speed(d, drop.at), Vec3f{0, 0, 1});
+    const auto near = [hole](Vec3f other) { return length(other - hole) < 0.004f; };
+    if (std::any_of(known.begin(), known.end(), near)) continue;
+    known.push_back(hole);
+    Splat s;
+    s.kind = SplatKind::film;
+    s.normal = normalised(m_eye - hole, Vec3f{0, 0, 1});
+    s.share = shares_of(d.volume[k]);
+    s.dark = darkness(now, d.blood[k], s.share);
+    for (int n = 0; n < 5; ++n) {
+      const Vec3f off = (0.0011f * float(n)) * down + aside(down, std::uint32_t(n + 3), n > 0 ? 0.02f : 0.0f);
+      s.from = s.to = hole + off;
+      s.radius = kHoleStain * (1 - 0.12f * float(n));
+      s.height = 90e-6f * (1 - 0.15f * float(n));
+      liquid.splats.push_back(s);
+    }
   }
 }
 
@@ -251,6 +361,75 @@ void FluidDrawing::list_films(const FluidSight& sight, Liquid& liquid) {
   }
 }
 
+/// Rise of the floor over a cell's width, along both axes.
+std::array<float, 2> FluidDrawing::floor_rise(std::span<const float> floor, int i, int j) const {
+  const fluids::PoolModel& m = m_model->pool;
+  const int west = std::max(i - 1, 0), east = std::min(i + 1, m.nx - 1);
+  const int south = std::max(j - 1, 0), north = std::min(j + 1, m.ny - 1);
+  const float cell = float(m.cell);
+  return {(floor_at(m, floor, east, j) - floor_at(m, floor, west, j)) / (cell * float(east - west)),
+          (floor_at(m, floor, i, north) - floor_at(m, floor, i, south)) / (cell * float(north - south))};
+}
+
+/// Which share of a cell's fluid runs down a wall, 0 to 1.
+float FluidDrawing::runs_down(const fluids::PoolState& pool, std::span<const float> floor, int i, int j) const {
+  const float depth = depth_at(m_model->pool, pool, i, j);
+  if (!(depth > 0)) return 0;
+  const auto [u, v] = floor_rise(floor, i, j);
+  const double steep = smooth(double(kLevelFloor), double(kSteepFloor), double(std::hypot(u, v)));
+  return float(steep * smooth(double(kDeep), double(kShallow), double(depth)));
+}
+
+/// What runs down walls into the pool, and the stain that it leaves beyond its border where it has been.
+void FluidDrawing::list_runs(const FluidSight& sight, Liquid& liquid) const {
+  const fluids::PoolModel& m = m_model->pool;
+  const Vec3f down = normalised(vec_cast<float>(m_model->droplets.gravity), Vec3f{0, 0, -1});
+  const float now = now_of(m_model->droplets, sight.state.droplets);
+  const int reach = std::max(1, int(std::lround(double(kTide) / m.cell)));
+  for (int j = 0; j < m_window.height; ++j)
+    for (int i = 0; i < m_window.width; ++i) {
+      const int ci = m_window.i0 + i, cj = m_window.j0 + j;
+      const float runs = runs_down(sight.state.pool, sight.floor, ci, cj) * depth_at(m, sight.state.pool, ci, cj);
+      const float own_share = float(varied(ci + 977 * cj, 5));
+      const auto [u, v] = floor_rise(sight.floor, ci, cj);
+      const Vec3d spot = world(m, (ci + 0.5) * m.cell, (cj + 0.5) * m.cell, double(floor_at(m, sight.floor, ci, cj)));
+      const Vec3d normal = normalised(m.up - double(u) * m.u - double(v) * m.v, m.up);
+      float thickness = std::min(0.3f * runs, kThickestRun) * rivulets(spot, normal, vec_cast<double>(down));
+      int wet_i = ci, wet_j = cj;
+      if (!(thickness > 2e-6f)) {
+        if (m_known[std::size_t(j) * m_window.width + i] <= 0) continue;
+        const float tide = near_pool(i, j, reach, wet_i, wet_j);
+        const float uneven = 0.5f + 0.5f * float(waves(spot, 0.008)) + 0.5f * (own_share - 0.5f);
+        thickness = kThickestStain * tide * smooth_step(uneven + 0.8f * tide - 0.45f);
+      }
+      if (!(thickness > 1e-6f)) continue;
+      FilmPlace place;
+      place.position = vec_cast<float>(spot);
+      place.normal = vec_cast<float>(normal);
+      place.area = float(m.cell * m.cell) * std::sqrt(1 + u * u + v * v);
+      Splat s = stain(place, thickness * place.area, own_share, down);
+      s.radius = std::max(s.radius, 0.55f * float(m.cell));
+      s.height = thickness;
+      s.share = shares_of(mix_at(m, sight.state.pool, wet_i, wet_j));
+      s.dark = darkness(now, sight.state.pool.shed, s.share);
+      liquid.splats.push_back(s);
+    }
+}
+
+/// How near the pool is to a dry cell of the window, 1 beside it, 0 at `reach` cells; and which cell of it.
+float FluidDrawing::near_pool(int i, int j, int reach, int& wet_i, int& wet_j) const {
+  const int w = m_window.width, h = m_window.height;
+  float nearest = float(reach) + 0.5f;
+  for (int b = std::max(j - reach, 0); b <= std::min(j + reach, h - 1); ++b)
+    for (int a = std::max(i - reach, 0); a <= std::min(i + reach, w - 1); ++a) {
+      const float far = std::hypot(float(a - i), float(b - j));
+      if (m_depth[std::size_t(b) * w + a] < 0.0008f || far >= nearest) continue;
+      nearest = far;
+      wet_i = m_window.i0 + a, wet_j = m_window.j0 + b;
+    }
+  return std::max(0.0f, 1 - nearest / (float(reach) + 0.5f));
+}
+
 /// Depth, cover and level of the cells that are wet and of those around them, smoothed; the level goes on beyond the
 /// border as if the pool did, so that the border lies where the surface meets what is drawn.
 void FluidDrawing::smooth_pool(const fluids::PoolState& pool, std::span<const float> floor) {
@@ -274,7 +453,7 @@ void FluidDrawing::smooth_pool(const fluids::PoolState& pool, std::span<const fl
   for (int j = 0; j < h; ++j)
     for (int i = 0; i < w; ++i) {
       const auto k = std::size_t(j) * w + i;
-      m_depth[k] = depth_at(m, pool, i0 + i, j0 + j);
+      m_depth[k] = depth_at(m, pool, i0 + i, j0 + j) * (1 - runs_down(pool, floor, i0 + i, j0 + j));
       m_cover[k] = std::min(m_depth[k] / kWetDepth, 1.0f);
       m_known[k] = m_cover[k] >= 1 ? 1.0f : 0.0f;
       m_level[k] = (floor_at(m, floor, i0 + i, j0 + j) + m_depth[k]) * m_known[k];
@@ -296,6 +475,10 @@ void FluidDrawing::smooth_pool(const fluids::PoolState& pool, std::span<const fl
       }
     m_known.swap(next);
   }
+  // Under what overhangs the pool goes on; what stands before it hides that.
+  for (std::size_t k = 0; k < m_window.size(); ++k)
+    if (m_known[k] > 0 && floor_at(m, floor, i0 + int(k) % w, j0 + int(k) / w) > m_level[k] + kOverhang)
+      m_cover[k] = 1, m_depth[k] = std::max(m_depth[k], kShallow);
   for (std::size_t k = 0; k < m_window.size(); ++k)
     if (m_known[k] <= 0) m_level[k] = floor_at(m, floor, i0 + int(k) % w, j0 + int(k) / w);
   smooth_once(m_cover, m_scratch, w, h);

@@ -8,6 +8,7 @@
 // Not for the step: it allocates.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -51,13 +52,20 @@ class FluidDrawing {
   std::size_t next_in_strand(const fluids::DropletState& drops, std::size_t n) const;
   bool link(const fluids::DropletState& drops, std::int32_t i, std::int32_t j, render::Liquid& liquid) const;
   void list_flying(const fluids::DropletState& drops, render::Liquid& liquid);
+  void list_spray(const fluids::DropletState& drops, const Flying& drop, render::Liquid& liquid) const;
+  void list_holes(const fluids::DropletState& drops, render::Liquid& liquid) const;
   void list_lying(const fluids::DropletState& drops, std::span<const std::uint8_t> sheer, render::Liquid& liquid);
   void list_films(const FluidSight& sight, render::Liquid& liquid);
   void list_pool(const FluidSight& sight, render::Liquid& liquid);
+  void list_runs(const FluidSight& sight, render::Liquid& liquid) const;
+  std::array<float, 2> floor_rise(std::span<const float> floor, int i, int j) const;
+  float runs_down(const fluids::PoolState& pool, std::span<const float> floor, int i, int j) const;
+  float near_pool(int i, int j, int reach, int& wet_i, int& wet_j) const;
   void smooth_pool(const fluids::PoolState& pool, std::span<const float> floor);
 
   const fluids::FluidsModel* m_model;
   render::LiquidLook m_look;
+  Vec3f m_eye{0, 0, 0};  ///< the camera
   std::vector<Flying> m_flying;
   /// The pool's cells that are drawn, row by row.
   struct Window {

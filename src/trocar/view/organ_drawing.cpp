@@ -9,6 +9,7 @@ namespace trocar::view {
 namespace {
 
 constexpr float kWoundDepth = 0.003f;  // [m] of a bite's bed
+constexpr float kBurnSinks = 0.0009f;  // [m] the middle of a burn, which has shrunk
 constexpr Paint kBed{140, 125, 0, 0}, kLip{190, 80, 0, 0};
 
 }  // namespace
@@ -42,6 +43,17 @@ void OrganDrawing::lift() {
   if (m_height.empty()) return;
   for (std::size_t i = 0; i < m_height.size(); ++i) m_pose.position[i] += m_height[i] * m_normals[i];
   render::vertex_normals(m_pose.position, m_indices, m_normals);
+}
+
+/// What has been burnt has lost water and shrunk.
+void OrganDrawing::shrink_burns() {
+  bool any = false;
+  for (std::size_t i = 0; i < m_paint.size(); ++i) {
+    if (m_paint[i].burn < 60) continue;
+    any = true;
+    m_pose.position[i] -= (kBurnSinks * float(smooth(60, 200, double(m_paint[i].burn)))) * m_normals[i];
+  }
+  if (any) render::vertex_normals(m_pose.position, m_indices, m_normals);
 }
 
 /// The mesh's new topology: cut triangles go down, walls close the gap, and the skin around is stained.
@@ -122,6 +134,7 @@ void OrganDrawing::update(const tissue::NetworkState& state, std::span<const std
   tissue::pose_skin(view_of(m_solid->network, state), m_solid->fine, m_pose);
   render::vertex_normals(m_pose.position, m_indices, m_normals);
   lift();
+  shrink_burns();
   m_box = {};
   for (const Vec3f& p : m_pose.position) m_box.add(p);
   m_dented = near(m_box, rods) && dent(rods, m_pose.position, m_normals);

@@ -31,6 +31,7 @@ class OrganDrawing {
 
  private:
   void lift();
+  void shrink_burns();
   void open_wounds(std::span<const std::uint8_t> parted);
   void sink_wounds();
 

@@ -203,7 +203,8 @@ void SceneView::Parts::name_parts() {
   first.fold = begins();
   for (const sim::SheetModel& s : model.sheets) add(s.name, PartGroup::folds);
   first.membrane = begins();
-  for (const sim::MembraneModel& m : model.membranes) add(m.name, PartGroup::folds);
+  for (const sim::MembraneModel& m : model.membranes)  // a closed one is a hollow organ
+    add(m.name, m.sheet.closed() ? PartGroup::organs : PartGroup::folds);
   first.vessel = begins();
   for (const Look* l : vessel_look) add(l == &look("vein") ? "veins" : "arteries", PartGroup::vessels);
   first.wall = begins();
@@ -440,9 +441,11 @@ void SceneView::Parts::list_tissues(bool with_walls, Frame& frame) {
   for (std::size_t i = 0; i < organs.size(); ++i)
     list(item(organs[i].mesh(), look(model.solids[i].look), first.organ + i), details.organs[i], organs[i].positions(),
          frame, burns[i].any());
-  for (std::size_t i = 0; i < cuttables.size(); ++i)
-    list(item(cuttables[i].mesh(), look(model.cuttables[i].look), first.organ + organs.size() + i),
-         details.cuttables[i], cuttables[i].positions(), frame);
+  for (std::size_t i = 0; i < cuttables.size(); ++i) {
+    DrawItem& drawn = list(item(cuttables[i].mesh(), look(model.cuttables[i].look), first.organ + organs.size() + i),
+                           details.cuttables[i], cuttables[i].positions(), frame);
+    drawn.material.two_sided = cuttables[i].cut();  // what is cut off may lie inside out
+  }
   for (std::size_t i = 0; i < drapes.size(); ++i) {
     frame.items.push_back(item(drapes[i].mesh(), *drape_look[i], first.cavity));
     frame.items.back().material.two_sided = true;

@@ -32,7 +32,7 @@ vec3 mirrored(vec3 r, float bounce, float jitter) {
       // What it meets fades out where the picture ends and where it goes on behind what is seen: no outlines of either.
       vec2 edge = clamp(8.0 * (0.49 - abs(at - 0.5)), 0.0, 1.0);
       float met = edge.x * edge.y * clamp(1.5 - gap / (0.006 + 0.25 * step_off), 0.0, 1.0);
-      return mix(walls, min(texture(u_bed, at).rgb, vec3(4.0)), met);
+      return mix(walls, min(texture(u_bed, at).rgb, vec3(0.5)), met);
     }
     before = reach;
     reach *= 1.6;
@@ -47,6 +47,9 @@ void main() {
   vec3 ddx = dFdx(v_eye), ddy = dFdy(v_eye);
   if (inside < 0.0) discard;
   float edge = clamp(inside / max(length(cover_slope), 1.0e-4), 0.0, 1.0);
+  vec2 uv = gl_FragCoord.xy * u_size.zw;
+  // Where it meets what stands in it, it runs out thin as well.
+  vec4 straight = texture(u_bed, uv);
   vec3 V = normalize(-v_eye);
   float far = length(v_eye);
   Lit lit = light_at(v_eye);
@@ -63,7 +66,8 @@ void main() {
   unrest += (texture(u_noise, place * 38.0).rgb * 2.0 - 1.0) * (0.6 * thin);
 #endif
   vec3 n = normalize(v_normal);
-  float rim = exp(-inside * 6.0);
+  float gap = max(straight.a - far, 0.0), shore = smoothstep(0.0, 0.0016, gap);
+  float rim = max(exp(-inside * 6.0), 0.8 - 0.8 * shore);
   // Towards the inside of the border, in eye space.
   vec3 inward = cover_slope.x * normalize(ddx) + cover_slope.y * normalize(ddy);
   inward -= n * dot(n, inward);
@@ -77,16 +81,15 @@ void main() {
   vec3 share = vec3(max(1.0 - v_mix.x - v_mix.y, 0.0), v_mix.xy);
   float cloud = 0.45 + 1.1 * smoothstep(0.2, 0.8, 0.6 * slow.a + 0.4 * quick.a);
   share.x = mix(share.x * cloud, share.x, share.x);
-  float wedge = clamp(inside * 1.7, 0.04, 1.0);
+  float wedge = min(clamp(inside * 1.7, 0.04, 1.0), 0.12 + 0.88 * shore);
   float depth = max(v_depth_cover.x, 0.0) * wedge * wedge * wedge;
   float slant = 1.0 / max(sqrt(1.0 - (1.0 - nv * nv) * 0.56), 0.3);  // of the bent ray
   vec3 amount = share * depth;
   vec3 through = let_through(amount * (1.0 + slant), v_mix.w);
 
-  vec2 uv = gl_FragCoord.xy * u_size.zw;
   vec2 bend = -n.xy * (0.25 * min(depth, 0.012) / pixel) * u_size.zw;
   vec4 below = texture(u_bed, uv + clamp(bend, -0.04, 0.04));
-  if (below.a < far - 0.0005) below = texture(u_bed, uv);
+  if (below.a < far - 0.0005) below = straight;
   // Wet tissue is darker and fuller in colour than dry.
   vec3 bed = below.rgb * mix(vec3(1.0), vec3(0.86, 0.80, 0.80), edge);
 
@@ -100,7 +103,7 @@ void main() {
 #endif
 
   // A little more than [Schlick 94] says: it is what tells liquid from paint (our choice).
-  float share_back = min(2.0 * mirror_share(nv) + 0.03, 1.0);
+  float share_back = min(2.5 * mirror_share(nv) + 0.05, 1.0);
   vec3 r = reflect(-V, n);
   colour = mix(colour, mirrored(r, lit.bounce, quick.g), share_back);
   colour += highlight(n, V, lit, u_shine.y);

@@ -184,19 +184,28 @@ void main() {
 #endif
 
 #ifdef STAINED
-  // Heat: pale, then a tan crust, then char in specks.
-  float crust = smoothstep(0.35, 0.7, BURN + 0.25 * (fine.a - 0.5));
-  float carbon = smoothstep(0.72, 0.95, BURN + 0.35 * (fine.a - 0.5));
-  albedo = mix(albedo, vec3(0.56, 0.44, 0.36), smoothstep(0.05, 0.4, BURN) * 0.8);
-  albedo = mix(albedo, vec3(0.30, 0.16, 0.075), crust * 0.85);
-  albedo = mix(albedo, vec3(0.014, 0.010, 0.009), carbon);
-  relief *= 1.0 + 2.0 * crust;
+  // Heat: pale, then a tan crust, cracked and uneven, then char in specks. Borders are the noise's, finer than the skin.
+  float crust = 0.0, glassy = 0.0;
+  if (BURN > 0.004) {
+    vec4 grain = textureLod(u_noise, kTurn * v_rest * 260.0, 0.0), patchy = textureLod(u_noise, v_rest.yzx * 75.0, 0.0);
+    float at = BURN + 0.42 * (patchy.a - 0.5) + 0.16 * (grain.a - 0.5);
+    float pale = smoothstep(0.02, 0.22, at) * smoothstep(0.004, 0.05, BURN);
+    crust = smoothstep(0.42, 0.54, at);
+    float burnt = smoothstep(0.6, 0.95, at);
+    float carbon = crust * smoothstep(0.0, 0.10, grain.g - mix(0.80, 0.615, burnt));
+    glassy = crust * smoothstep(0.50, 0.62, grain.b);
+    albedo = mix(albedo, vec3(0.64, 0.46, 0.38) * (0.9 + 0.2 * grain.r), 0.85 * pale);
+    vec3 tan = mix(vec3(0.47, 0.27, 0.115), vec3(0.20, 0.085, 0.032), smoothstep(0.35, 0.65, patchy.g + 0.5 * burnt));
+    albedo = mix(albedo, tan * (0.7 + 0.6 * grain.r), 0.92 * crust);
+    albedo = mix(albedo, vec3(0.0105, 0.0052, 0.0036), carbon);
+    relief += crust * ((patchy.rgb * 2.0 - 1.0) * 0.9 + (grain.rgb * 2.0 - 1.0) * 0.55);
+  }
 
   // Blood lies in a film with a ragged edge: thin it stains like a filter, thick it hides what is below.
   float ragged = 0.55 * fine.a + 0.45 * fine.r;
   float cover = smoothstep(-0.03, 0.07, BLOOD - 0.7 * ragged * (1.0 - BLOOD)) * step(0.004, BLOOD);
   float blood = clamp(cover * (0.28 + 0.72 * BLOOD) * (0.85 + 0.3 * broad.a), 0.0, 1.0);
-  albedo *= exp(-blood * vec3(0.9, 5.0, 4.2));
+  albedo *= exp(-blood * vec3(1.25, 5.0, 4.4));
   albedo = mix(albedo, vec3(0.105, 0.006, 0.007), smoothstep(0.4, 0.9, blood));
 #endif
 
@@ -235,7 +244,7 @@ void main() {
   float wet = smoothstep(1.0 - WETNESS - 0.2, 1.0 - WETNESS + 0.2, wet_noise);
 #ifdef STAINED
   film_slope *= 1.0 - 0.7 * smoothstep(0.5, 0.9, blood);
-  wet = max(wet, smoothstep(0.1, 0.3, blood)) * (1.0 - 0.55 * crust);
+  wet = max(mix(wet, glassy, crust), smoothstep(0.1, 0.3, blood));
 #endif
   // What mirrors the lamp is broken again by the film's thickness: flecks in clumps, no rings around its bumps.
   float flecks = smoothstep(0.34, 0.66, fine.g + 0.6 * (broad.b - 0.5));

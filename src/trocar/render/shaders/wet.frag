@@ -47,7 +47,7 @@ void main() {
   vec3 base = vec3(nb, sqrt(max(1.0 - dot(nb, nb), 0.01)));
   // A cap is no steeper at its edge than liquid stands on tissue.
   vec2 rise = slope * (height * cover / pixel);
-  rise *= min(1.0, mix(0.85, 1.8, flying) / max(length(rise), 1.0e-4));
+  rise *= min(1.0, mix(0.5, 1.8, flying) / max(length(rise), 1.0e-4));
   // No liquid that moves is as smooth as glass.
   vec3 n = normalize(base - vec3(rise - (fine.gb - 0.5) * 0.34, 0.0));
   vec3 amount = thick.rgb / field.w * (cover * max(in_drop, mix(0.03, 0.3, flying)));
