@@ -117,7 +117,7 @@ MeshBuffer grasper_jaw(const ToolModel& tool) {
   MeshBuffer b = plate(outer, window, inside, outside, 208, 8, [=](bool face, double, double z) {
     const double phase = z / 0.0011 - std::floor(z / 0.0011), deep = phase < 0.5 ? 1 - phase : phase;
     const double works = smooth(0.004, 0.012, z);
-    if (!face) return Paint{255, to_byte(0.34 * works * smooth(0.3 * length, length, z)), 0, 0};
+    if (!face) return Paint{255, to_byte(0.5 * works * smooth(0.3 * length, length, z)), 0, 0};
     return Paint{std::uint8_t(90 + deep * 130), to_byte(works * (1.15 - 0.6 * deep)), 0, 0};
   });
   merge(b, beam({0.0009, 0, -0.0045}, {0.0008, 0, 0.0015}, 0.0009, 0.5 * half, 0.4, kCrevice));

@@ -212,7 +212,7 @@ Material metal(Vec3f bright, Vec3f dull, float roughness) {
   m.tint = srgb(24, 24, 26);
   m.roughness = roughness;
   m.mottle_size = 0.0025f;
-  m.fibre_stretch = 14;
+  m.fibre_stretch = 7;
   m.bump = 0.05f;
   m.soil = 0;
   return m;

@@ -25,8 +25,8 @@ double outwards(int row) { return std::max(0.0, double(row - kLip) / (kRows - 1 
 Paint paint_of(int row, int side) {
   const double wave = 0.5 + 0.5 * varied(side / 2, 7), x = outwards(row);
   Paint p;
-  p.openness = row < kLip ? std::uint8_t(row == 0 ? 6 : 20) : to_byte(0.22 + 0.78 * smooth(0, 0.35, x));
-  p.blood = row < kLip ? std::uint8_t(150) : to_byte(0.46 * (1 - smooth(0, 0.1 + 0.35 * wave, x)));
+  p.openness = row < kLip ? std::uint8_t(row == 0 ? 6 : 20) : to_byte(0.16 + 0.84 * smooth(0, 0.5, x));
+  p.blood = row < kLip ? std::uint8_t(120) : to_byte(0.38 * (1 - smooth(0, 0.06 + 0.2 * wave, x)));
   return p;
 }
 

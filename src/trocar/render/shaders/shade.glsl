@@ -4,8 +4,8 @@
 
 // The lamp counts as farther off the lens than it is, and as larger, for shadows: under a true one they hide behind the
 // instrument, and 25 mm look like 8.
-const float kShadowSpread = 4.6;
-const float kShadowSoft = 2.4;
+const float kShadowSpread = 6.0;
+const float kShadowSoft = 2.8;
 const float kContact = 0.0022;  // [m] nearer than this a surface is dark right under an instrument
 
 /// What a rod leaves at a point: of the lamp (x) and of the light from around (y).
@@ -21,8 +21,8 @@ vec2 shade_of_rod(vec3 eye, vec3 lamp, float ring, vec4 rod, vec4 way) {
   s = clamp((t * b - d) * inverse, 0.0, 1.0);
   float gap = length(w + s * u - t * way.xyz) - rod.w;
   float soft = 1.0 / (kShadowSoft * ring * s + 0.0003);
-  float covered = clamp(0.5 - 0.5 * gap * soft, 0.0, 1.0) * min(1.0, 1.1 * rod.w * soft);
-  covered *= 1.0 - smoothstep(0.4, 0.65, s);
+  float covered = clamp(0.5 - 0.5 * gap * soft, 0.0, 1.0) * min(1.0, 1.5 * rod.w * soft);
+  covered *= 1.0 - smoothstep(0.36, 0.6, s);
   // Right under it.
   vec3 near = clamp(e * way.w, 0.0, 1.0) * way.xyz - w;
   float under = clamp(1.0 - (length(near) - rod.w) / kContact, 0.0, 1.0);
