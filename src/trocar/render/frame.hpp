@@ -65,9 +65,9 @@ struct EndoscopeLook {
   float exposure_seconds = 0.4f;  ///< time constant
   float exposure_range_ev = 3;    ///< limits, both ways
   float bloom = 0.05f;
-  float focus_near = 0.026f;  ///< [m] nearer things are out of focus
+  float focus_near = 0.030f;  ///< [m] nearer things are out of focus
   float defocus = 0.8f;       ///< 0 none .. 1: how much
-  float contact = 0.35f;      ///< 0 none .. 1: darkening behind the edge of nearer things
+  float contact = 0.3f;      ///< 0 none .. 1: darkening behind the edge of nearer things
   float sharpen = 0.35f;      ///< video sharpening overshoot
   float noise = 0.0006f;      ///< sensor noise at mid grey; more in the dark
   float saturation = 1;
@@ -105,6 +105,7 @@ struct DrawItem {
 struct Rod {
   Vec3f from, to;         ///< [m] world
   float radius = 0.002f;  ///< [m]
+  float pressed = 0;      ///< 0..1: how far it presses the blood out of tissue that it touches
 };
 inline constexpr int kMaxRods = 16;  ///< more are left out
 

@@ -222,6 +222,7 @@ Material omentum() {
   return m;
 }
 
+/// Bare metal; a hand's instrument says how soiled it is.
 Material metal(Vec3f bright, Vec3f dull, float roughness) {
   Material m;
   m.shading = Shading::metal;
@@ -231,14 +232,35 @@ Material metal(Vec3f bright, Vec3f dull, float roughness) {
   m.tint = srgb(24, 24, 26);
   m.roughness = roughness;
   m.mottle_size = 0.0025f;
-  m.fibre_stretch = 14;
+  m.fibre_stretch = 7;
   m.bump = 0.05f;
+  m.soil = 0;
   return m;
 }
 
+/// Blades and clips: hardly any grinding marks.
+Material polished(Vec3f bright, Vec3f dull, float roughness) {
+  Material m = metal(bright, dull, roughness);
+  m.fibre_stretch = 4;
+  m.bump = 0.02f;
+  return m;
+}
+
+/// The plastic tube around a shaft.
 Material insulation() {
-  Material m = metal(srgb(92, 92, 97), srgb(84, 84, 90), 0.5f);
+  Material m = metal(srgb(92, 91, 97), srgb(82, 81, 88), 0.4f);
   m.bump = 0.03f;
+  m.scatter = 0.75f;
+  return m;
+}
+
+/// Ceramic and PTFE: white, so that it clips before all else.
+Material ceramic() {
+  Material m = metal(srgb(238, 236, 230), srgb(230, 226, 218), 0.3f);
+  m.fibre_stretch = 1;
+  m.mottle_size = 0.004f;
+  m.bump = 0.01f;
+  m.scatter = 1;
   return m;
 }
 
@@ -299,11 +321,13 @@ std::vector<Look> make_looks() {
       {"omentum", omentum(), false, {}},
       {"mesosalpinx", mesosalpinx(), true, {}},
       {"broad_ligament", fold(0.6f), true, {}},
-      {"steel", metal(srgb(142, 142, 147), srgb(124, 124, 130), 0.34f), false, {}},
-      {"matte_steel", metal(srgb(126, 128, 132), srgb(112, 114, 120), 0.5f), false, {}},
+      {"steel", metal(srgb(148, 147, 152), srgb(128, 128, 134), 0.3f), false, {}},
+      {"polished_steel", polished(srgb(168, 167, 172), srgb(150, 150, 156), 0.22f), false, {}},
+      {"matte_steel", metal(srgb(128, 129, 133), srgb(114, 115, 120), 0.46f), false, {}},
       {"insulated", insulation(), false, {}},
-      {"sleeve", metal(srgb(128, 130, 136), srgb(116, 118, 124), 0.42f), false, {}},
-      {"titanium", metal(srgb(160, 162, 168), srgb(142, 144, 150), 0.3f), false, {}},
+      {"ceramic", ceramic(), false, {}},
+      {"sleeve", metal(srgb(130, 131, 137), srgb(116, 118, 124), 0.38f), false, {}},
+      {"titanium", polished(srgb(188, 188, 193), srgb(172, 173, 178), 0.26f), false, {}},
   };
 }
 

@@ -20,6 +20,7 @@
 #include <trocar/view/membrane_drawing.hpp>
 #include <trocar/view/omentum.hpp>
 #include <trocar/view/organ_drawing.hpp>
+#include <trocar/view/port_site.hpp>
 #include <trocar/view/pouch_drawing.hpp>
 #include <trocar/view/ridge.hpp>
 #include <trocar/view/scene_view.hpp>
@@ -108,6 +109,23 @@ render::Material clay(const render::Material& of) {
   return m;
 }
 
+/// How much of Paint's blood and burn is on a hand's instrument, 0..1. It passed a bleeding wall; each grip that
+/// slipped, each cut and each vessel that opened adds to it, and current burns it on.
+float soil_on(const sim::State& state, std::size_t hand) {
+  constexpr double kPassedTheWall = 0.38, kSlip = 0.06, kHold = 0.1, kCut = 0.07, kOpened = 0.2, kScar = 0.004;
+  const interactions::ToolState& tool = state.tools[hand];
+  double soil = kPassedTheWall + kSlip * std::min(tool.slipped, 4) + (tool.holds > 0 ? kHold : 0);
+  soil += kCut * std::min(state.cut_count, 5) + kOpened * std::min(state.opening_count, 2);
+  soil += kScar * std::min(state.scarred_count, 60);
+  return float(std::min(1.0, soil));
+}
+
+/// 0..1: from where a touch pales tissue to where it has given all its blood.
+float pressure_of(const interactions::ToolState& tool) {
+  const Vec3d force{tool.contact_force[0], tool.contact_force[1], tool.contact_force[2]};
+  return float(smooth(0.02, 0.6, length(force)));
+}
+
 /// The clip that lies ready in an applier's jaws.
 struct LoadedClip {
   int hand = -1, instrument = -1;  ///< of the hand's rack
@@ -151,6 +169,8 @@ struct SceneView::Parts {
   RigidMesh cavity;
   std::vector<std::vector<std::vector<DrawnPart>>> tools;  ///< (hands, rack)
   std::vector<std::vector<DrawnPart>> sleeves;             ///< (hands)
+  std::vector<PortSite> port_sites;                        ///< (hands)
+  std::vector<double> sleeve_end, sleeve_radius;           ///< (hands) from the port; inside [m]
   std::vector<DrawnPart> scope;
   std::vector<LoadedClip> loaded;
   std::map<double, OwnedMesh> clips;  ///< closed ones, by their length [m]
@@ -170,13 +190,15 @@ struct SceneView::Parts {
   void make_tissues(render::Backend& backend);
   void make_metal(render::Backend& backend);
   void name_parts();
-  double depth_of_wall(std::size_t hand) const;
+  interactions::ToolShape shape_in_trocar(const sim::State& state, std::size_t hand) const;
+  double drawn_aperture(const sim::State& state, std::size_t hand) const;
   void update(const sim::State& state);
   /// As fine as its distance asks for; what is burnt with all its triangles, as marks are no finer than those.
   DrawItem& list(DrawItem item, Detail& detail, std::span<const Vec3f> points, Frame& frame, bool burnt = false) const;
   DrawItem& list_rigid(const RigidMesh& mesh, DrawItem item, Detail& detail, Frame& frame) const;
   void list_surroundings(Frame& frame);
   void list_tissues(bool with_walls, Frame& frame);
+  void list_port_sites(Frame& frame) const;
   void list_clips(const sim::State& state, Frame& frame) const;
   void list_tools(const sim::State& state, const ViewOptions& options, Frame& frame);
   void list_scope(Vec3d port, const kinematics::FulcrumPose& pose, Frame& frame);
@@ -336,37 +358,30 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
   }
 }
 
-/// From a hand's port to where its instrument comes through the drawn wall [m]; 0 where the port lies before it.
-double SceneView::Parts::depth_of_wall(std::size_t hand) const {
-  const sim::State start = sim::initial_state(model);
-  const Vec3d port = model.hands[hand].port;
-  const interactions::ToolState& tool = start.tools[hand];
-  const Vec3d tip = shape_of(model.tool(start, hand), tool.pose(), tool.aperture).frame.tip;
-  double deepest = 0;
-  const auto look_through = [&](std::span<const Vec3f> points, std::span<const std::uint32_t> triangles) {
-    for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {
-      const Vec3d a = vec_cast<double>(points[triangles[t]]);
-      const Vec3d u = vec_cast<double>(points[triangles[t + 1]]) - a,
-                  v = vec_cast<double>(points[triangles[t + 2]]) - a;
-      const Vec3d way = tip - port, n = cross(u, v), q = cross(port - a, way);
-      const double turn = -dot(n, way);
-      const double at = dot(port - a, n) / turn, along_u = dot(v, q) / turn, along_v = -dot(u, q) / turn;
-      if (turn == 0 || along_u < 0 || along_v < 0 || along_u + along_v > 1 || at < 0 || at > 0.8) continue;
-      deepest = std::max(deepest, at * length(way));
-    }
-  };
-  for (const sim::WallModel& wall : model.walls) look_through(wall.skin.rest, flat_indices(wall.skin));
-  for (const MeshBuffer& m : margin_shapes) look_through(m.positions, m.indices);
-  return deepest;
-}
-
 void SceneView::Parts::make_metal(render::Backend& backend) {
+  std::vector<PiercedWall> pierced;
+  std::vector<std::vector<std::uint32_t>> indices;
+  for (const sim::WallModel& w : model.walls) indices.push_back(flat_indices(w.skin));
+  for (std::size_t i = 0; i < model.walls.size(); ++i) {
+    const sim::WallModel& w = model.walls[i];
+    pierced.push_back({w.skin.rest, w.skin.rest_normal, indices[i], w.look});
+  }
+  for (const MeshBuffer& m : margin_shapes) pierced.push_back({m.positions, m.normals, m.indices, "peritoneum"});
+  MeshBuffer around = cavity_around(model);
+  render::vertex_normals(around.positions, around.indices, around.normals);
+  pierced.push_back({around.positions, around.normals, around.indices, "peritoneum"});
+  const sim::State start = sim::initial_state(model);
   for (std::size_t h = 0; h < model.hands.size(); ++h) {
     auto& drawn = tools.emplace_back();
     double widest = 0;
     for (const interactions::ToolModel& tool : model.hands[h].rack) widest = std::max(widest, tool.shaft_radius);
+    const Vec3d axis = kinematics::forward(model.hands[h].port, start.tools[h].pose()).axis();
+    port_sites.emplace_back(model.hands[h].port, axis, widest + kSleeveWall, pierced, backend);
+    const double wall = port_sites.back().depth();
+    sleeve_radius.push_back(widest);
+    sleeve_end.push_back(kSleeveShows + std::max(0.0, wall));
     const Detail sleeve(levels_of(model, model.hands[h].name));
-    sleeves.push_back(made(sleeve_parts(widest, kSleeveShows + depth_of_wall(h)), sleeve, backend));
+    sleeves.push_back(made(sleeve_parts(widest, sleeve_end.back(), wall), sleeve, backend));
     for (const interactions::ToolModel& tool : model.hands[h].rack) {
       drawn.push_back(made(instrument_parts(tool), Detail(levels_of(model, tool.name)), backend));
       if (tool.clip_length <= 0 || tool.clips <= 0) continue;
@@ -377,6 +392,19 @@ void SceneView::Parts::make_metal(render::Backend& backend) {
     }
   }
   scope = made(scope_parts(model.scope.shaft_radius), Detail(levels_of(model, "endoscope")), backend);
+}
+
+/// How far the jaws look open: no farther than a sleeve lets them in which they still are.
+double SceneView::Parts::drawn_aperture(const sim::State& state, std::size_t hand) const {
+  const interactions::ToolState& tool = state.tools[hand];
+  const interactions::ToolModel& of = model.tool(state, hand);
+  const interactions::ToolShape shape = shape_of(of, tool.pose(), tool.aperture);
+  const double beyond = sleeve_end[hand] - dot(shape.pivot - model.hands[hand].port, shape.frame.axis());
+  return std::min(tool.aperture, aperture_in_sleeve(of, beyond, sleeve_radius[hand]));
+}
+
+interactions::ToolShape SceneView::Parts::shape_in_trocar(const sim::State& state, std::size_t hand) const {
+  return shape_of(model.tool(state, hand), state.tools[hand].pose(), drawn_aperture(state, hand));
 }
 
 void SceneView::Parts::update(const sim::State& state) {
@@ -401,11 +429,12 @@ void SceneView::Parts::update(const sim::State& state) {
   for (MembraneDrawing& m : membranes) m.update(state);
   for (PouchDrawing& p : pouches) p.update(state);
   for (VesselDrawing& v : vessels) v.update(state);
+  for (std::size_t h = 0; h < port_sites.size(); ++h)
+    port_sites[h].update(kinematics::forward(model.hands[h].port, state.tools[h].pose()).axis());
   for (LoadedClip& l : loaded) {
-    const interactions::ToolState& now = state.tools[std::size_t(l.hand)];
-    if (now.instrument != l.instrument) continue;
+    if (state.tools[std::size_t(l.hand)].instrument != l.instrument) continue;
     const interactions::ToolModel& tool = model.tool(state, std::size_t(l.hand));
-    const double open = tool.parallel_gap * now.aperture;
+    const double open = tool.parallel_gap * drawn_aperture(state, std::size_t(l.hand));
     const MeshBuffer shape = clip_shape(tool.clip_length, std::max(0.0, open - 2 * kClipHalfGap));
     l.mesh.move(shape.positions, {});
   }
@@ -481,6 +510,11 @@ void SceneView::Parts::list_tissues(bool with_walls, Frame& frame) {
          details.pouches[i], pouches[i].buffer().positions, frame, pouches[i].burnt());
 }
 
+void SceneView::Parts::list_port_sites(Frame& frame) const {
+  for (const PortSite& site : port_sites)
+    if (site.mesh().id) frame.items.push_back(item(site.mesh(), look(site.look()), first.cavity));
+}
+
 void SceneView::Parts::list_clips(const sim::State& state, Frame& frame) const {
   for (int i = 0; i < state.clip_count; ++i) {
     const interactions::Clip& c = state.clips[std::size_t(i)];
@@ -499,7 +533,8 @@ void SceneView::Parts::list_clips(const sim::State& state, Frame& frame) const {
 void SceneView::Parts::list_tools(const sim::State& state, const ViewOptions& options, Frame& frame) {
   for (std::size_t t = 0; t < tools.size(); ++t) {
     const interactions::ToolState& tool = state.tools[t];
-    const interactions::ToolShape shape = shape_of(model.tool(state, t), tool.pose(), tool.aperture);
+    const interactions::ToolShape shape = shape_in_trocar(state, t);
+    const float soil = soil_on(state, t), pressed = pressure_of(tool);
     const Placement axis = placement_of(InstrumentPart::Joint::body, shape);
     for (DrawnPart& part : sleeves[t]) {
       DrawItem drawn = item({}, *part.look, first.tool + t);
@@ -509,6 +544,7 @@ void SceneView::Parts::list_tools(const sim::State& state, const ViewOptions& op
     for (DrawnPart& part : tools[t][std::size_t(tool.instrument)]) {
       DrawItem drawn = item({}, *part.look, first.tool + t);
       drawn.transform = to_world(placement_of(part.joint, shape));
+      drawn.material.soil = soil;
       list_rigid(part.drawn, drawn, part.detail, frame);
     }
     const bool shades = style_of(options.styles, std::uint16_t(first.tool + t)) == PartStyle::shaded;
@@ -516,7 +552,8 @@ void SceneView::Parts::list_tools(const sim::State& state, const ViewOptions& op
       const collision::Capsule& rod = shape.part[k];
       const double half =
           k == interactions::kShaft ? rod.radius : std::max(rod.radius, 0.4 * model.tool(state, t).jaw_width);
-      frame.rods.push_back({vec_cast<float>(rod.a), vec_cast<float>(rod.b), float(half)});
+      frame.rods.push_back(
+          {vec_cast<float>(rod.a), vec_cast<float>(rod.b), float(half), k == interactions::kShaft ? 0 : pressed});
     }
     for (const LoadedClip& l : loaded) {
       if (l.hand != int(t) || l.instrument != tool.instrument || tool.clips_left <= 0) continue;
@@ -670,6 +707,7 @@ Frame SceneView::frame(const sim::State& state, const ViewOptions& options) {
   sink_vessels(p.vessels, frame);
   p.list_clips(state, frame);
   if (options.instruments) p.list_tools(state, options, frame);
+  if (options.instruments && inside && !measured) p.list_port_sites(frame);
   if (options.instruments && (!inside || options.second_scope))
     p.list_scope(p.model.scope.port, pose_of(state.scope), frame);
   if (options.instruments && !inside && options.second_scope)
