@@ -131,22 +131,19 @@ void AttemptWindow::picture(Live& live, Choice& choice) {
   log_rate(now);
 }
 
-/// Once a second: how fast pictures come and time passes, and at which quality.
+/// Once a second: how fast pictures come and time passes, and at which of the governor's levels.
 void AttemptWindow::log_rate(const Snapshot& now) {
   if (!m_stage.log.on()) return;
   ++m_pictures;
   m_slowest = std::min(m_slowest, now.speed);
   const double time = now_seconds(), took = time - m_rate_since;
   if (took < 1) return;
-  const render::Quality quality = m_stage.governor.quality();
   if (m_rate_since > 0)
     m_stage.log.event("rate", {{"tick", now.state.tick},
-                               {"pictures_per_second", double(m_pictures) / took},
-                               {"slowest", m_slowest},
+                               {"pictures_per_second", std::round(10 * double(m_pictures) / took) / 10},
+                               {"slowest", std::round(100 * m_slowest) / 100},
                                {"still", stands_still()},
-                               {"render_scale", quality.render_scale},
-                               {"detail", quality.detail},
-                               {"coarser", quality.coarser}});
+                               {"level", m_stage.governor.level()}});
   m_rate_since = time;
   m_pictures = 0;
   m_slowest = 1;
