@@ -8,8 +8,8 @@ namespace trocar::render {
 
 namespace {
 
-constexpr Quality kLevels[] = {{1.0f, 2, 1},    {1.0f, 2, 1.5f}, {1.0f, 2, 2.5f}, {0.85f, 2, 2.5f}, {0.7f, 2, 2.5f},
-                               {0.7f, 1, 2.5f}, {0.5f, 1, 2.5f}, {0.5f, 0, 2.5f}, {0.4f, 0, 4}};
+constexpr Quality kLevels[] = {{1.0f, 2, 1},    {1.0f, 2, 1.6f}, {0.85f, 2, 1.6f}, {0.7f, 2, 1.6f},
+                               {0.7f, 1, 1.6f}, {0.5f, 1, 2},    {0.5f, 0, 2.5f},  {0.4f, 0, 4}};
 constexpr int kLongestPatience = 1800;
 constexpr std::size_t kFarthestStep = 3;  ///< levels down at a time: the prediction is not that good
 
