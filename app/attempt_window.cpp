@@ -23,6 +23,7 @@ using training::AttemptState;
 namespace {
 
 constexpr double kSlowest = 0.05;
+constexpr double kLagging = 0.95;
 constexpr double kFullRate = 62, kYieldingRate = 24;  // [pictures/s] at most; the second while the simulation lags
 
 bool by_hand(const std::string& input) { return input == "mouse" || input == "gamepad"; }
@@ -127,8 +128,13 @@ void AttemptWindow::picture(Live& live, Choice& choice) {
   std::filesystem::path pictures = m_log.attempt().recording;
   if (pictures.empty()) pictures = "trocar";
   m_stage.end_picture(screen_name(), pictures);
-  m_stage.governor.frame_took(window.picture_time());
+  m_stage.governor.frame_took(window.picture_time(), crowds_simulation(now));
   log_rate(now);
+}
+
+/// Where processors draw, they are the simulation's first: it keeps real time, pictures get cheaper.
+bool AttemptWindow::crowds_simulation(const Snapshot& now) const {
+  return m_stage.draws_on_processors() && !stands_still() && now.speed < kLagging;
 }
 
 /// Once a second: how fast pictures come and time passes, and at which of the governor's levels.

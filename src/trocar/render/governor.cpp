@@ -54,11 +54,11 @@ double Governor::predicted(std::size_t level) const {
   return m_mean * relative_cost(kLevels[level]) / relative_cost(kLevels[m_level]);
 }
 
-void Governor::frame_took(double seconds) {
+void Governor::frame_took(double seconds, bool crowds) {
   if (!std::isfinite(seconds) || seconds <= 0) return;
   ++m_since_step;
   m_mean = m_mean == 0 ? seconds : m_mean + 0.1 * (seconds - m_mean);
-  m_history = ((m_history << 1) | (seconds > m_limits.late ? 1u : 0u)) & 0xffu;
+  m_history = ((m_history << 1) | (crowds || seconds > m_limits.late ? 1u : 0u)) & 0xffu;
 
   const bool worst = m_level + 1 == std::size(kLevels);
   if (!worst && count_bits(m_history) >= m_limits.late_frames) {
