@@ -24,6 +24,7 @@ using training::AttemptState;
 namespace {
 
 constexpr double kSlowest = 0.05;
+constexpr double kLagging = 0.95;
 constexpr double kFullRate = 62, kYieldingRate = 24;  // [pictures/s] at most; the second while the simulation lags
 
 bool by_hand(const std::string& input) { return input == "mouse" || input == "gamepad"; }
@@ -137,26 +138,28 @@ void AttemptWindow::picture(Live& live, Choice& choice) {
   std::filesystem::path pictures = m_log.attempt().recording;
   if (pictures.empty()) pictures = "trocar";
   m_stage.end_picture(screen_name(), pictures);
-  m_stage.governor.frame_took(window.picture_time());
+  m_stage.governor.frame_took(window.picture_time(), crowds_simulation(now));
   log_rate(now);
 }
 
-/// Once a second: how fast pictures come and time passes, and at which quality.
+/// Where processors draw, they are the simulation's first: it keeps real time, pictures get cheaper.
+bool AttemptWindow::crowds_simulation(const Snapshot& now) const {
+  return m_stage.draws_on_processors() && !stands_still() && now.speed < kLagging;
+}
+
+/// Once a second: how fast pictures come and time passes, and at which of the governor's levels.
 void AttemptWindow::log_rate(const Snapshot& now) {
   if (!m_stage.log.on()) return;
   ++m_pictures;
   m_slowest = std::min(m_slowest, now.speed);
   const double time = now_seconds(), took = time - m_rate_since;
   if (took < 1) return;
-  const render::Quality quality = m_stage.governor.quality();
   if (m_rate_since > 0)
     m_stage.log.event("rate", {{"tick", now.state.tick},
-                               {"pictures_per_second", double(m_pictures) / took},
-                               {"slowest", m_slowest},
+                               {"pictures_per_second", std::round(10 * double(m_pictures) / took) / 10},
+                               {"slowest", std::round(100 * m_slowest) / 100},
                                {"still", stands_still()},
-                               {"render_scale", quality.render_scale},
-                               {"detail", quality.detail},
-                               {"coarser", quality.coarser}});
+                               {"level", m_stage.governor.level()}});
   m_rate_since = time;
   m_pictures = 0;
   m_slowest = 1;

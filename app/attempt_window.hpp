@@ -35,6 +35,7 @@ class AttemptWindow {
   void tell(Live& live);
   void warn_of_pull(const Snapshot& now);
   void ask_for_the_eye(const Snapshot& now);
+  bool crowds_simulation(const Snapshot& now) const;
   void log_rate(const Snapshot& now);
   void draw_scene(const Snapshot& now);
   void draw_over(const Snapshot& now, Choice& choice);

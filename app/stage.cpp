@@ -48,6 +48,8 @@ Stage::~Stage() {
   keep_settings();
 }
 
+bool Stage::draws_on_processors() const { return context->description().find("llvmpipe") != std::string::npos; }
+
 bool Stage::wants_to_close() const { return window.wants_to_close() || interrupted(); }
 
 view::SceneView& Stage::view_of(const Lesson& lesson) {

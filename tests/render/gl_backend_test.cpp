@@ -467,8 +467,8 @@ TEST_F(GlBackend, WhatIsOutOfSightIsLeftOutAndWhatReachesIntoThePictureIsNot) {
     EXPECT_EQ(draw(120, 90).rgb, empty.rgb);
   }
   // Its middle lies beside the picture, or behind the eye.
-  for (const Vec3f centre : {Vec3f{0.055f, 0, -0.06f}, Vec3f{0.05f, 0, 0.01f}}) {
-    const float radius = centre.z > 0 ? 0.055f : 0.02f;
+  for (const Vec3f centre : {Vec3f{0.055f, 0, -0.06f}, Vec3f{0.03f, 0, 0.001f}}) {
+    const float radius = centre.z > 0 ? 0.028f : 0.02f;
     frame.items = {{white_ball(centre, radius), white(), {}, false}};
     EXPECT_NE(draw(120, 90).rgb, empty.rgb);
   }

@@ -51,6 +51,14 @@ TEST(Governor, NeverLeavesTheTable) {
   EXPECT_EQ(governor.level(), quality_levels().size() - 1);
 }
 
+TEST(Governor, APictureThatCrowdsTheSimulationIsLateHoweverQuick) {
+  Governor governor;
+  for (int i = 0; i < 4; ++i) governor.frame_took(20 * kMs, true);
+  EXPECT_EQ(governor.level(), 1u);
+  take(governor, 12 * kMs, 200);
+  EXPECT_EQ(governor.level(), 0u);
+}
+
 TEST(Governor, OneHiccupIsForgiven) {
   Governor governor;
   for (int i = 0; i < 40; ++i) {

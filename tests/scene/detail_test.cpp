@@ -86,7 +86,7 @@ TEST(DetailInFiles, IsWrittenAsItWasRead) {
 
 TEST(DetailInFiles, FaultsAreToldWhereTheyStand) {
   EXPECT_EQ(faults_of(levels("{\"from_mm\": @-5, \"error_mm\": 0.2}")),
-            Messages{"expected 1 to 2000 for \"from_mm\", got -5"});
+            Messages{"expected a number in [1, 2000] for \"from_mm\", got -5"});
   EXPECT_EQ(faults_of(levels("{\"from_mm\": 50, \"error_mm\": 0.2}, {\"from_mm\": @40, \"error_mm\": 0.3}")),
             Messages{"expected more than the level before, 50 mm, got 40"});
   EXPECT_EQ(faults_of(levels("{\"from_mm\": 50, \"error_mm\": 0.2}, {\"from_mm\": 60, \"error_mm\": @0.1}")),

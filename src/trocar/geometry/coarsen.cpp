@@ -158,7 +158,7 @@ class Coarsening {
     const std::vector<std::pair<std::uint32_t, int>> ring = m_ring;
     for (const auto& [w, faces] : ring) {
       double cost = m_quadric[v].at(m_place[w]);
-      if (!m_notes.empty()) cost = std::max(cost, std::pow(noted(v, w), 2));
+      if (!m_notes.empty()) cost = std::max(cost, noted(v, w) * noted(v, w));
       if (best.cost >= 0 && cost >= best.cost) continue;
       if (!allowed(v, w)) continue;
       best.cost = cost;

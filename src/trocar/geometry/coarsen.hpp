@@ -21,7 +21,8 @@ namespace trocar::geometry {
 /// @param triangles  (3 per triangle) indices of positions; vertices without a triangle are allowed
 /// @param notes      (n) or empty: what else varies over the surface, as lengths [m]: taking a vertex away costs at
 ///                   least as much as the notes of it and of where it goes differ
-/// @param errors     [m] rising: how far the surface may leave its place, a list of triangles each
+/// @param errors     [m] rising: how far the surface may leave its place (here and there twice that), a list of
+///                   triangles each
 /// @param longest_edge  [m] none longer is made: what moves must be able to bend
 /// @returns as many lists as errors; each is made of the one before
 std::vector<std::vector<std::uint32_t>> coarsened(std::span<const Vec3f> positions,

@@ -8,8 +8,8 @@ namespace trocar::render {
 
 namespace {
 
-constexpr Quality kLevels[] = {{1.0f, 2, 1},    {1.0f, 2, 1.5f}, {1.0f, 2, 2.5f}, {0.85f, 2, 2.5f}, {0.7f, 2, 2.5f},
-                               {0.7f, 1, 2.5f}, {0.5f, 1, 2.5f}, {0.5f, 0, 2.5f}, {0.4f, 0, 4}};
+constexpr Quality kLevels[] = {{1.0f, 2, 1},    {1.0f, 2, 1.6f}, {0.85f, 2, 1.6f}, {0.7f, 2, 1.6f},
+                               {0.7f, 1, 1.6f}, {0.5f, 1, 2},    {0.5f, 0, 2.5f},  {0.4f, 0, 4}};
 constexpr int kLongestPatience = 1800;
 constexpr std::size_t kFarthestStep = 3;  ///< levels down at a time: the prediction is not that good
 
@@ -65,11 +65,11 @@ void Governor::load_becomes(double load) {
   m_came_up = false;
 }
 
-void Governor::frame_took(double seconds) {
+void Governor::frame_took(double seconds, bool crowds) {
   if (!std::isfinite(seconds) || seconds <= 0) return;
   ++m_since_step;
   m_mean = m_mean == 0 ? seconds : m_mean + 0.1 * (seconds - m_mean);
-  m_history = ((m_history << 1) | (seconds > m_limits.late ? 1u : 0u)) & 0xffu;
+  m_history = ((m_history << 1) | (crowds || seconds > m_limits.late ? 1u : 0u)) & 0xffu;
 
   const bool worst = m_level + 1 == std::size(kLevels);
   if (!worst && count_bits(m_history) >= m_limits.late_frames) {

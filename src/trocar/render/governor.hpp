@@ -30,8 +30,9 @@ class Governor {
   Governor() : Governor(Limits{}) {}
   explicit Governor(Limits limits, std::size_t start_level = 0);
 
-  /// @param seconds time the last frame took, on the clock that counts for the user; ignored unless finite and > 0
-  void frame_took(double seconds);
+  /// @param seconds  time the last frame took, on the clock that counts for the user; ignored unless finite and > 0
+  /// @param crowds   it took processors that a simulation needs to keep real time: late, however quick it was
+  void frame_took(double seconds, bool crowds = false);
   /// What a frame is to cost at one quality has become another: more pictures in it, or fewer. It goes down at once
   /// where that would be late, and may come up again without waiting for mistakes of another load.
   /// @param load  beside one picture over the whole window, > 0
