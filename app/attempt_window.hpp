@@ -19,6 +19,7 @@ class AttemptWindow {
  public:
   /// @param plan.input "mouse" or "gamepad": hands; else a source, see make_source()
   AttemptWindow(Stage& stage, const Lesson& lesson, const AttemptPlan& plan);
+  ~AttemptWindow() { m_stage.close_elsewhere(); }
 
   Choice run();
   const Json& result() const { return m_result; }
@@ -36,6 +37,7 @@ class AttemptWindow {
   void warn_of_pull(const Snapshot& now);
   void ask_for_the_eye(const Snapshot& now);
   void draw_scene(const Snapshot& now);
+  void draw_panes(const Snapshot& now);
   void draw_over(const Snapshot& now, Choice& choice);
   void draw_the_rack(const Snapshot& now);
   void end(Live& live, Ending ending);
