@@ -252,6 +252,25 @@ void AttemptWindow::draw_panes(const Snapshot& now) {
   m_panes.write_over(layout().count() > 1);
 }
 
+/// For tests that drive the window: which panes there are, and where their cameras look.
+void AttemptWindow::tell_views(const LayoutChoice& choice) {
+  if (!m_stage.log.on()) return;
+  Json panes = Json::array();
+  for (const Panes::Pane& p : m_panes.panes())
+    if (!p.elsewhere)
+      panes.push_back({{"shows", name_of(p.shows)}, {"area", {p.area.x, p.area.y, p.area.width, p.area.height}}});
+  const PaneCameras& cameras = m_panes.cameras;
+  const Json line{{"layout", name_of(choice.layout)},
+                  {"panes", panes},
+                  {"outside_yaw", cameras.outside.yaw},
+                  {"second_yaw", cameras.second.pose.yaw},
+                  {"pressure", cameras.analysis.pressure}};
+  if (std::string text = line.dump(); text != m_told_views) {
+    m_told_views = std::move(text);
+    m_stage.log.event("views", line);
+  }
+}
+
 void AttemptWindow::draw_scene(const Snapshot& now) {
   const Window& window = m_stage.window;
   const float panel = panel_width(float(window.width()), window.scale());
@@ -264,6 +283,7 @@ void AttemptWindow::draw_scene(const Snapshot& now) {
   m_stage.show_elsewhere(choice, m_panes.canvas_elsewhere(),
                          choice.elsewhere ? m_panes.legend_of_pane(*choice.elsewhere) : view::Legend{});
   if (!choice.elsewhere) m_stage.settings.views.elsewhere.reset();
+  tell_views(choice);
   ui::set_middle(float(width));
   const PanelContent content{m_lesson,
                              now,
