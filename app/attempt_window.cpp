@@ -302,6 +302,7 @@ void AttemptWindow::draw_scene(const Snapshot& now) {
 }
 
 void AttemptWindow::draw_over(const Snapshot& now, Choice& choice) {
+  choice = Choice::none;  // what was chosen in the last picture has been done
   if (m_stage.overlay() != Stage::Overlay::none) return;
   const bool gamepad = m_stage.window.gamepads().present();
   if (m_over) {

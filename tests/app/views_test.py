@@ -85,6 +85,10 @@ def practise(eyes, hands):
     views(eyes, "panes exchanged", lambda v: shown(v)[0] == "analysis" and shown(v)[3] == "endoscope")
     hands.press("Close")
     eyes.on("pause")
+    hands.press("Display")
+    eyes.on("display")
+    hands.press("Close")
+    eyes.on("pause")
 
     hands.key("F3")
     eyes.wait("the second window", lambda: eyes.happened("second-window", open=True), 60)
@@ -99,8 +103,7 @@ def practise(eyes, hands):
 
 def attempt(eyes, hands):
     """With the settings that the practice has left: four panes, no second window."""
-    hands.press("Begin")
-    eyes.on("exercise")
+    eyes.on("exercise", 60)  # the three things to know are known
     views(eyes, "nothing but the endoscope", lambda v: v["layout"] == "one" and shown(v) == ["endoscope"])
     hands.key("F2")
     hands.key("F3")
