@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -75,7 +76,13 @@ std::string AttemptWindow::mode_text() const {
 bool AttemptWindow::counts() const { return m_plan.mode == AttemptMode::assessed && !m_steps.empty(); }
 
 /// While it counts there is nothing but what the endoscope sees.
-LayoutChoice AttemptWindow::layout() const { return counts() && !m_over ? LayoutChoice{} : m_stage.settings.views; }
+LayoutChoice AttemptWindow::layout() const {
+  LayoutChoice choice = m_stage.settings.views;
+  if (!counts() || m_over) return choice;
+  LayoutChoice plain;
+  if (choice.elsewhere) plain.elsewhere = PaneShows::endoscope;
+  return plain;
+}
 
 std::string AttemptWindow::screen_name() const {
   return m_over      ? "result"
@@ -172,6 +179,11 @@ void AttemptWindow::look_at_keys() {
   if (m_had_focus && !window.focused() && m_pilot && !stands_still()) hold("Another window came to the front.");
   m_had_focus = window.focused();
   m_gamepad_used |= touched(window.gamepads().state());
+  if (window.keys().second) {
+    std::optional<PaneShows>& elsewhere = m_stage.settings.views.elsewhere;
+    elsewhere = elsewhere ? std::nullopt : std::optional(PaneShows::endoscope);
+    m_stage.keep_settings();
+  }
   if (window.keys().layout && !counts()) {
     Layout& layout = m_stage.settings.views.layout;
     layout = after(layout);
@@ -245,14 +257,7 @@ void AttemptWindow::ask_for_the_eye(const Snapshot& now) {
   m_stage.log.event("waits-for-eye", {{"tick", now.state.tick}, {"tool", m_lesson.model.hands[size_t(waits)].name}});
 }
 
-void AttemptWindow::draw_scene(const Snapshot& now) {
-  const Window& window = m_stage.window;
-  const float panel = panel_width(float(window.width()), window.scale());
-  const int width = std::max(1, window.width() - int(panel)), height = std::max(1, window.height());
-  m_panes.lay_out(layout(), {0, 0, float(width), float(height)}, window.scale());
-  m_panes.listen();
-  m_stage.governor.load_becomes(
-      load_of(areas_of(layout().layout, {0, 0, float(width), float(height)}, window.scale())));
+void AttemptWindow::draw_panes(const Snapshot& now) {
   const render::Quality quality = m_stage.governor.quality();
   view::SceneView& view = m_stage.view_of(m_lesson);
   m_panes.draw_others({view, *m_stage.backend, now.state, now.state.tick, quality, m_styles}, false);
@@ -261,12 +266,50 @@ void AttemptWindow::draw_scene(const Snapshot& now) {
   options.quality = quality;
   options.styles = m_styles;
   options.picture_height = double(first.area.height);
-  const bool scope = first.shows == PaneShows::endoscope || first.shows == PaneShows::second_scope;
   render::Frame frame = view.frame(now.state, options);
   fit_to(first.area, frame);
-  m_stage.draw_scene(frame, window_target(first.area, window.height()), scope,
-                     [this] { m_panes.lay_others(m_stage.window.height(), m_stage.settings.mirrored_picture); });
-  m_panes.write_over(m_panes.panes().size() > 1);
+  const bool scope = first.shows == PaneShows::endoscope || first.shows == PaneShows::second_scope;
+  const render::Target part = window_target(first.area, m_stage.window.height());
+  const bool copied = m_stage.size_elsewhere().width > 0 && !m_panes.canvas_elsewhere();
+  m_stage.draw_scene(frame, part, scope, [this, part, first_eye = copied]() mutable {
+    if (std::exchange(first_eye, false)) m_stage.first_pane.copy(part);
+    m_panes.lay_others(m_stage.window.height(), m_stage.settings.mirrored_picture);
+  });
+  m_panes.write_over(layout().count() > 1);
+}
+
+/// For tests that drive the window: which panes there are, and where their cameras look.
+void AttemptWindow::tell_views(const LayoutChoice& choice) {
+  if (!m_stage.log.on()) return;
+  Json panes = Json::array();
+  for (const Panes::Pane& p : m_panes.panes())
+    if (!p.elsewhere)
+      panes.push_back({{"shows", name_of(p.shows)}, {"area", {p.area.x, p.area.y, p.area.width, p.area.height}}});
+  const PaneCameras& cameras = m_panes.cameras;
+  const Json line{{"layout", name_of(choice.layout)},
+                  {"panes", panes},
+                  {"outside_yaw", cameras.outside.yaw},
+                  {"second_yaw", cameras.second.pose.yaw},
+                  {"pressure", cameras.analysis.pressure}};
+  if (std::string text = line.dump(); text != m_told_views) {
+    m_told_views = std::move(text);
+    m_stage.log.event("views", line);
+  }
+}
+
+void AttemptWindow::draw_scene(const Snapshot& now) {
+  const Window& window = m_stage.window;
+  const float panel = panel_width(float(window.width()), window.scale());
+  const int width = std::max(1, window.width() - int(panel)), height = std::max(1, window.height());
+  LayoutChoice choice = layout();
+  m_panes.lay_out(choice, {0, 0, float(width), float(height)}, window.scale(), m_stage.size_elsewhere());
+  m_panes.listen();
+  m_stage.governor.load_becomes(m_panes.load());
+  draw_panes(now);
+  m_stage.show_elsewhere(choice, m_panes.canvas_elsewhere(),
+                         choice.elsewhere ? m_panes.legend_of_pane(*choice.elsewhere) : view::Legend{});
+  if (!choice.elsewhere) m_stage.settings.views.elsewhere.reset();
+  tell_views(choice);
   ui::set_middle(float(width));
   const PanelContent content{m_lesson,
                              now,
@@ -285,6 +328,7 @@ void AttemptWindow::draw_scene(const Snapshot& now) {
 }
 
 void AttemptWindow::draw_over(const Snapshot& now, Choice& choice) {
+  choice = Choice::none;  // what was chosen in the last picture has been done
   if (m_stage.overlay() != Stage::Overlay::none) return;
   const bool gamepad = m_stage.window.gamepads().present();
   if (m_over) {

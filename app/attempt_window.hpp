@@ -19,6 +19,7 @@ class AttemptWindow {
  public:
   /// @param plan.input "mouse" or "gamepad": hands; else a source, see make_source()
   AttemptWindow(Stage& stage, const Lesson& lesson, const AttemptPlan& plan);
+  ~AttemptWindow() { m_stage.close_elsewhere(); }
 
   Choice run();
   const Json& result() const { return m_result; }
@@ -38,6 +39,8 @@ class AttemptWindow {
   bool crowds_simulation(const Snapshot& now) const;
   void log_rate(const Snapshot& now);
   void draw_scene(const Snapshot& now);
+  void draw_panes(const Snapshot& now);
+  void tell_views(const LayoutChoice& choice);
   void draw_over(const Snapshot& now, Choice& choice);
   void draw_the_rack(const Snapshot& now);
   void end(Live& live, Ending ending);
@@ -58,7 +61,7 @@ class AttemptWindow {
   std::vector<training::StepStatus> m_steps;
   Feedback m_feedback;
   PullWarning m_pull_warning;
-  std::string m_told_warning, m_why_paused;
+  std::string m_told_warning, m_told_views, m_why_paused;
   Json m_result;
   bool m_hint = false, m_hint_again = false, m_paused = false, m_rack = false, m_over = false;
   bool m_display = false, m_views = false;

@@ -44,13 +44,11 @@ std::vector<Area> areas_of(Layout layout, const Area& whole, float scale) {
   return {whole};
 }
 
-double load_of(const std::vector<Area>& areas) {
-  float right = 0, bottom = 0;
-  for (const Area& a : areas) right = std::max(right, a.x + a.width), bottom = std::max(bottom, a.y + a.height);
-  const double whole = std::max(1.0, double(right - areas.front().x) * double(bottom - areas.front().y));
+double load_of(const std::vector<Area>& areas, const Area& whole) {
+  const double pixels = std::max(1.0, double(whole.width) * double(whole.height));
   double largest = 0;
-  for (std::size_t i = 1; i < areas.size(); ++i) largest = std::max(largest, cost(areas[i], whole));
-  return cost(areas.front(), whole) + largest;
+  for (std::size_t i = 1; i < areas.size(); ++i) largest = std::max(largest, cost(areas[i], pixels));
+  return cost(areas.front(), pixels) + largest;
 }
 
 }  // namespace trocar::app

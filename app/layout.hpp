@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,8 @@ struct LayoutChoice {
   std::array<PaneShows, kMostPanes> panes{PaneShows::endoscope, PaneShows::outside, PaneShows::second_scope,
                                           PaneShows::analysis};
 
+  std::optional<PaneShows> elsewhere = {};  ///< what the second window shows, if there is one
+
   int count() const { return panes_in(layout); }
   bool shows(PaneShows what) const {
     for (int i = 0; i < count(); ++i)
@@ -68,8 +71,8 @@ struct LayoutChoice {
 /// The panes' places in `whole`, in whole pixels. @param scale  of texts: how wide the gaps are
 std::vector<Area> areas_of(Layout layout, const Area& whole, float scale);
 
-/// What a picture costs that draws the first pane and one of the others, beside one that draws one pane over all
-/// of it; for render::Governor::load_becomes().
-double load_of(const std::vector<Area>& areas);
+/// What a picture costs that draws the first of these panes and one of the others, beside one that draws one pane over
+/// `whole`; for render::Governor::load_becomes().
+double load_of(const std::vector<Area>& areas, const Area& whole);
 
 }  // namespace trocar::app

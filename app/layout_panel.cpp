@@ -40,6 +40,15 @@ void draw_panes(LayoutChoice& choice) {
   }
 }
 
+void draw_second_window(LayoutChoice& choice) {
+  ui::text("Second window (F3), for a second screen", ui::kBlue);
+  if (ui::button("off##second window", {.width = 70, .height = 26, .primary = !choice.elsewhere}))
+    choice.elsewhere.reset();
+  ImGui::SameLine(0, 3 * ui::scale());
+  const int pressed = draw_choice("second window", kPaneNames, choice.elsewhere ? int(*choice.elsewhere) : -1);
+  if (pressed >= 0) choice.elsewhere = PaneShows(pressed);
+}
+
 void draw_analysis(Panes& panes) {
   ui::text("Analysis", ui::kBlue);
   bool first = true;
@@ -61,10 +70,9 @@ void draw_camera(const char* name, PaneShows shows, Panes& panes) {
     ImGui::SameLine(0, 3 * ui::scale());
     return pressed;
   };
-  const bool scope = shows == PaneShows::second_scope;
-  const double way = scope ? -1 : 1;  // an endoscope looks to where the button says, a camera goes there
-  if (step("left")) panes.turn(shows, -kTurn * -way, 0);
-  if (step("right")) panes.turn(shows, -kTurn * way, 0);
+  // An endoscope looks to where the button says, a camera goes there.
+  if (step("left")) panes.turn(shows, -kTurn, 0);
+  if (step("right")) panes.turn(shows, kTurn, 0);
   if (step("up")) panes.turn(shows, 0, kTurn);
   if (step("down")) panes.turn(shows, 0, -kTurn);
   if (step("nearer")) panes.closer(shows, kStep);
@@ -83,14 +91,16 @@ bool draw_layout_panel(LayoutChoice& choice, Panes& panes) {
   if (layout >= 0) choice.layout = Layout(layout);
   ui::text("Panes", ui::kBlue);
   draw_panes(choice);
-  if (choice.shows(PaneShows::analysis)) draw_analysis(panes);
-  const bool cameras =
-      choice.shows(PaneShows::outside) || choice.shows(PaneShows::analysis) || choice.shows(PaneShows::second_scope);
+  draw_second_window(choice);
+  const bool figures = choice.shows(PaneShows::analysis) || choice.elsewhere == PaneShows::analysis;
+  if (figures) draw_analysis(panes);
+  const auto turns = [&choice](PaneShows shows) { return choice.shows(shows) || choice.elsewhere == shows; };
+  const bool cameras = turns(PaneShows::outside) || turns(PaneShows::analysis) || turns(PaneShows::second_scope);
   if (cameras) ui::text("Cameras (or drag in the pane; right drag shifts, the wheel comes nearer)", ui::kBlue);
-  if (choice.shows(PaneShows::outside)) draw_camera("outside", PaneShows::outside, panes);
-  if (choice.shows(PaneShows::analysis) && !panes.cameras.analysis_from_endoscope)
+  if (turns(PaneShows::outside)) draw_camera("outside", PaneShows::outside, panes);
+  if (turns(PaneShows::analysis) && !panes.cameras.analysis_from_endoscope)
     draw_camera("analysis", PaneShows::analysis, panes);
-  if (choice.shows(PaneShows::second_scope)) draw_camera("second scope", PaneShows::second_scope, panes);
+  if (turns(PaneShows::second_scope)) draw_camera("second scope", PaneShows::second_scope, panes);
   const bool closed = ui::button("Close", {.width = 130, .primary = true});
   ImGui::SetItemDefaultFocus();
   ImGui::End();

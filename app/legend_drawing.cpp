@@ -4,6 +4,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "picture_size.hpp"
+
 namespace trocar::app {
 namespace {
 
@@ -102,33 +104,55 @@ void fill(render::Image& image, const LegendBox& b, int left, int top) {
     for (int x = x0; x < x1; ++x) blend(image, x, y, b.colour, b.alpha);
 }
 
+/// @param atlas  how opaque its pixels are, of that size
+void put_glyph(render::Image& image, const ImFontGlyph& g, const unsigned char* atlas, PictureSize size, float x,
+               float y) {
+  if (!g.Visible) return;
+  const int from_x = int(std::lround(g.U0 * float(size.width))), from_y = int(std::lround(g.V0 * float(size.height)));
+  const int wide = int(std::lround(g.X1 - g.X0)), high = int(std::lround(g.Y1 - g.Y0));
+  const int left = int(std::lround(x + g.X0)), top = int(std::lround(y + g.Y0));
+  for (int row = 0; row < high; ++row)
+    for (int column = 0; column < wide; ++column) {
+      const std::size_t at = std::size_t(from_y + row) * std::size_t(size.width) + std::size_t(from_x + column);
+      blend(image, left + column, top + row, {kInk.x, kInk.y, kInk.z}, float(atlas[at]) / 255);
+    }
+}
+
 }  // namespace
 
 LegendPainter::LegendPainter() = default;
 LegendPainter::~LegendPainter() = default;
 
+void LegendPainter::load(int size) {
+  if (!m_font || m_font->size != size) m_font = std::make_unique<Font>(size);
+}
+
 void LegendPainter::paint(const view::Legend& legend, render::Image& image) {
   if (legend.bars.empty() && legend.keys.empty()) return;
   const int size = std::clamp(image.height / 42, 11, 40);
-  if (!m_font || m_font->size != size) m_font = std::make_unique<Font>(size);
+  load(size);
   const LegendLayout l = lay_out_legend(legend, *m_font->font, float(size));
   if (l.width > float(image.width) || l.height > float(image.height)) return;
-  const int left = std::min(size, image.width - int(l.width));
-  const int top = std::max(0, image.height - size - int(l.height));
+  write(l, std::min(size, image.width - int(l.width)), std::max(0, image.height - size - int(l.height)), image);
+}
+
+render::Image LegendPainter::alone(const view::Legend& legend, int size) {
+  if (legend.bars.empty() && legend.keys.empty()) return {};
+  load(size);
+  const LegendLayout l = lay_out_legend(legend, *m_font->font, float(size));
+  render::Image image{int(std::ceil(l.width)), int(std::ceil(l.height)), {}};
+  image.rgb.resize(3 * std::size_t(image.width) * std::size_t(image.height));
+  write(l, 0, 0, image);
+  return image;
+}
+
+void LegendPainter::write(const LegendLayout& l, int left, int top, render::Image& image) {
   for (const LegendBox& b : l.boxes) fill(image, b, left, top);
   for (const LegendText& t : l.texts) {
     float pen = float(left) + t.x;
     for (const char c : t.text) {
       const ImFontGlyph* g = m_font->font->FindGlyph(ImWchar(static_cast<unsigned char>(c)));
-      const int from_x = int(std::lround(g->U0 * float(m_font->width))),
-                from_y = int(std::lround(g->V0 * float(m_font->height)));
-      const int wide = int(std::lround(g->X1 - g->X0)), high = int(std::lround(g->Y1 - g->Y0));
-      const int x0 = int(std::lround(pen + g->X0)), y0 = top + int(std::lround(t.y + g->Y0));
-      for (int y = 0; g->Visible && y < high; ++y)
-        for (int x = 0; x < wide; ++x) {
-          const std::size_t at = std::size_t(from_y + y) * std::size_t(m_font->width) + std::size_t(from_x + x);
-          blend(image, x0 + x, y0 + y, {kInk.x, kInk.y, kInk.z}, float(m_font->alpha[at]) / 255);
-        }
+      put_glyph(image, *g, m_font->alpha, {m_font->width, m_font->height}, pen, float(top) + t.y);
       pen += g->AdvanceX;
     }
   }

@@ -39,8 +39,13 @@ class LegendPainter {
   ~LegendPainter();
   /// Nothing where it does not fit.
   void paint(const view::Legend& legend, render::Image& image);
+  /// A picture of nothing but the legend, in texts of that size [px]; empty where there is none.
+  render::Image alone(const view::Legend& legend, int size);
 
  private:
+  void write(const LegendLayout& layout, int left, int top, render::Image& image);
+  void load(int size);
+
   struct Font;
   std::unique_ptr<Font> m_font;  ///< for pictures as high as the last one
 };

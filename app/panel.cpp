@@ -293,6 +293,7 @@ void key_table(devices::Device device, const char* name, float width) {
     key_row("P Esc", "pause: time stops; menu");
     key_row("F1, F12", "this help; save a picture");
     key_row("F2", "another layout: endoscope, outside, analysis; not while it counts");
+    key_row("F3", "a second window with the endoscope's picture");
   } else if (device == devices::Device::gamepad) {
     key_row("Start, Back", "pause: time stops; this help");
   }

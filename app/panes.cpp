@@ -54,13 +54,29 @@ Panes::Panes(const sim::Model& model) {
   cameras.analysis.strain = cameras.analysis.forces = true;
 }
 
-void Panes::lay_out(const LayoutChoice& choice, const Area& whole, float scale) {
-  const std::vector<Area> areas = areas_of(choice.layout, whole, scale);
+void Panes::lay_out(const LayoutChoice& choice, const Area& whole, float scale, PictureSize elsewhere) {
+  std::vector<Area> areas = areas_of(choice.layout, whole, scale);
   m_panes.clear();
   for (std::size_t i = 0; i < areas.size(); ++i) m_panes.push_back({choice.panes[i], areas[i]});
+  if (choice.elsewhere && elsewhere.width > 0 && !choice.shows(*choice.elsewhere)) {
+    areas.push_back({0, 0, float(elsewhere.width), float(elsewhere.height)});
+    m_panes.push_back({*choice.elsewhere, areas.back(), true});
+  }
+  m_elsewhere = choice.elsewhere;
+  m_load = load_of(areas, whole);
   m_drawn.resize(m_panes.size());
   while (m_canvas.size() < m_panes.size()) m_canvas.emplace_back();
   m_scale = scale;
+}
+
+const PaneCanvas* Panes::canvas_elsewhere() const {
+  for (std::size_t i = 1; i < m_panes.size(); ++i)
+    if (m_panes[i].shows == m_elsewhere) return &m_canvas[i];
+  return nullptr;
+}
+
+view::Legend Panes::legend_of_pane(PaneShows shows) const {
+  return shows == PaneShows::analysis ? legend_of(cameras.analysis) : view::Legend{};
 }
 
 view::ViewOptions Panes::options(PaneShows shows) const {
@@ -89,7 +105,7 @@ view::ViewOptions Panes::options(PaneShows shows) const {
 
 bool Panes::turn(PaneShows shows, double yaw, double pitch) {
   if (shows == PaneShows::second_scope) {
-    aim(cameras.second, -yaw * kAimPerPixel / kTurnPerPixel, pitch * kAimPerPixel / kTurnPerPixel);
+    aim(cameras.second, yaw * kAimPerPixel / kTurnPerPixel, pitch * kAimPerPixel / kTurnPerPixel);
     return true;
   }
   if (shows == PaneShows::endoscope || (shows == PaneShows::analysis && cameras.analysis_from_endoscope)) return false;
@@ -119,7 +135,7 @@ const Panes::Pane* Panes::under_pointer() const {
   if (io.WantCaptureMouse) return nullptr;
   const Pane* over = nullptr;  // the last one lies on top
   for (const Pane& pane : m_panes)
-    if (pane.area.holds(io.MousePos.x, io.MousePos.y)) over = &pane;
+    if (!pane.elsewhere && pane.area.holds(io.MousePos.x, io.MousePos.y)) over = &pane;
   return over;
 }
 
@@ -168,7 +184,8 @@ void Panes::draw_others(const Source& source, bool all) {
 
 void Panes::lay_others(int window_height, bool mirrored) const {
   for (std::size_t i = 1; i < m_panes.size(); ++i)
-    m_canvas[i].lay(window_target(m_panes[i].area, window_height), mirrored && is_scope(m_panes[i].shows));
+    if (!m_panes[i].elsewhere)
+      m_canvas[i].lay(window_target(m_panes[i].area, window_height), mirrored && is_scope(m_panes[i].shows));
 }
 
 void Panes::write_over(bool names) const {
@@ -176,13 +193,14 @@ void Panes::write_over(bool names) const {
   const float margin = 8 * m_scale;
   for (std::size_t i = 0; i < m_panes.size(); ++i) {
     const Area& a = m_panes[i].area;
+    if (m_panes[i].elsewhere) continue;
     const float right = a.x + a.width, bottom = a.y + a.height;
     if (i > 0) over.AddRect({a.x, a.y}, {right, bottom}, IM_COL32(200, 205, 212, 255), 0, 0, 1.5f * m_scale);
     over.PushClipRect({a.x, a.y}, {right, bottom}, true);
     if (names)
       over.AddText({a.x + margin, a.y + 6 * m_scale}, IM_COL32(235, 235, 235, 220), label_of(m_panes[i].shows));
     if (m_panes[i].shows == PaneShows::analysis && cameras.analysis.on())
-      draw_legend(legend_of(cameras.analysis), over, a.x + margin, bottom - margin, 0.45f * a.width);
+      draw_legend(legend_of_pane(m_panes[i].shows), over, a.x + margin, bottom - margin, 0.45f * a.width);
     over.PopClipRect();
   }
 }

@@ -19,6 +19,7 @@
 
 #include "layout.hpp"
 #include "pane_canvas.hpp"
+#include "picture_size.hpp"
 
 namespace trocar::app {
 
@@ -47,11 +48,15 @@ class Panes {
   struct Pane {
     PaneShows shows = PaneShows::endoscope;
     Area area;
+    bool elsewhere = false;  ///< for the second window: not to be seen in this one
     friend bool operator==(const Pane&, const Pane&) = default;
   };
   PaneCameras cameras;
 
-  void lay_out(const LayoutChoice& choice, const Area& whole, float scale);
+  /// @param elsewhere  size of the second window, where there is one [px]
+  void lay_out(const LayoutChoice& choice, const Area& whole, float scale, PictureSize elsewhere = {0, 0});
+  /// What a picture costs beside one picture over all of it.
+  double load() const { return m_load; }
   const std::vector<Pane>& panes() const { return m_panes; }
   const Pane& first() const { return m_panes.front(); }
 
@@ -79,6 +84,9 @@ class Panes {
   };
   /// The next one in turn, and every one that has never been drawn as it is. @param all  every one
   void draw_others(const Source& source, bool all);
+  /// The picture of what the second window shows, where it is not the first pane's; null: it is.
+  const PaneCanvas* canvas_elsewhere() const;
+  view::Legend legend_of_pane(PaneShows shows) const;
   /// Over the first one, in the window. @param mirrored  what endoscopes show
   void lay_others(int window_height, bool mirrored) const;
   /// Names, borders and legends, below panels and menus.
@@ -90,10 +98,12 @@ class Panes {
   std::vector<Pane> m_panes;
   std::vector<Pane> m_drawn;  ///< (panes) as each was drawn last
   std::vector<PaneCanvas> m_canvas;
+  std::optional<PaneShows> m_elsewhere;
   std::size_t m_turn = 0;
   int m_dragged = -1;
   bool m_shifting = false;
   float m_scale = 1;
+  double m_load = 1;
 };
 
 }  // namespace trocar::app

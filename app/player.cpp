@@ -73,8 +73,9 @@ void Player::lay_out() {
   m_main = {0, 0, std::max(1.0f, width - panel), std::max(1.0f, height - bar)};
   m_panel = {m_main.width, 0, panel, height};
   m_bar = {0, m_main.height, m_main.width, bar};
-  m_panes.lay_out(m_layout, m_main, scale);
-  m_governor.load_becomes(load_of(areas_of(m_layout.layout, m_main, scale)));
+  m_panes.lay_out(m_layout, m_main, scale,
+                  m_second ? PictureSize{m_second->width(), m_second->height()} : PictureSize{0, 0});
+  m_governor.load_becomes(m_panes.load());
 }
 
 void Player::draw_overlays() {
@@ -124,6 +125,7 @@ void Player::picture() {
   const sim::State& state = m_film ? m_reel.exact() : state_to_show();
   if (!m_film) {
     show_scene(state);
+    show_elsewhere();
     m_panes.write_over(true);
   }
   draw_player_panel(

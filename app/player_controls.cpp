@@ -19,6 +19,7 @@ void Player::listen(PlayerCommands& commands) {
   m_pad.read(pad, m_window.picture_time(), overlay() ? ignored : commands);
   m_picture_wanted = keys.picture;
   commands.next_layout = keys.layout && !m_film;
+  commands.second_window = keys.second && !m_film;
   if (m_film) return;
   if (keys.help) m_help = !m_help;
   const bool back = keys.back && (overlay() || !pad.has(devices::Button::b));  // B means something else outside menus
@@ -90,6 +91,7 @@ void Player::obey_cameras(const PlayerCommands& c) {
     m_layout.put(0, m_layout.panes[1]);
   if (c.inset) m_layout.layout = m_layout.layout == Layout::one ? Layout::corner : Layout::one;
   if (c.next_layout) m_layout.layout = after(m_layout.layout);
+  if (c.second_window) m_layout.elsewhere = m_layout.elsewhere ? std::nullopt : std::optional(PaneShows::endoscope);
   const bool turned = turn_camera(c);
   if (!turned && !c.moved_by_pointer && preset < 0 && m_layout == before) return;
   m_asked_at = Clock::now();

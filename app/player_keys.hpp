@@ -16,7 +16,7 @@ struct PlayerCommands {
   bool faster = false, slower = false;
   bool zoom_in = false, zoom_out = false, show_all = false;  ///< of the timeline
   bool swap = false, inset = false, next_preset = false;     ///< of the pictures
-  bool next_layout = false, moved_by_pointer = false;
+  bool next_layout = false, second_window = false, moved_by_pointer = false;
   std::optional<PaneShows> to_front;  ///< this becomes the large one; is it already: swap
   int preset = -1;                    ///< 0 endoscope, 1.. kCameraPresets
   bool picture = false, film = false;
@@ -59,6 +59,7 @@ inline constexpr PlayerHelpLine kPlayerHelp[] = {
     {"small picture on, off", "V", "button", "X"},
     {"one picture, two, small one, four", "F2", "menu: Views", "menu: Views"},
     {"endoscope, front, side, above, surgeon", "1 2 3 4 5", "buttons", "B: the next one"},
+    {"a second window, for a second screen", "F3", "menu: Views", "menu: Views"},
     {"turn the outside camera, or the one last dragged", "W A S D", "drag", "right stick"},
     {"shift it", "I J K L", "right drag", "right stick with LT held"},
     {"nearer, farther", "E Q", "wheel", "RT; with LT held"},

@@ -20,6 +20,7 @@
 #include "player.hpp"
 #include "player_bar.hpp"
 #include "player_panel.hpp"
+#include "second_window.hpp"
 #include "ui.hpp"
 #include "window.hpp"
 
@@ -74,6 +75,7 @@ class Player {
   const sim::State& state_to_show();
   void show_scene(const sim::State& state);
   void draw_scene(const sim::State& state, const render::Quality& quality, bool all);
+  void show_elsewhere();
   void draw_other_eye();
   view::ViewOptions view_of_first(const render::Quality& quality) const;
 
@@ -101,6 +103,7 @@ class Player {
   view::SceneView m_view;
   render::Governor m_governor;
   Drawn m_drawn;
+  std::optional<SecondWindow> m_second;
   PaneCanvas m_first, m_first_other;  ///< the first pane's picture, and the right eye's
   std::uint64_t m_picture_clock = 0;  ///< [ms] what the exposure goes by: a camera's own time, not the recording's
   Footage m_footage;

@@ -1,5 +1,7 @@
 #include <utility>
 
+#include <trocar/core/error.hpp>
+
 #include "player_parts.hpp"
 
 namespace trocar::app {
@@ -58,6 +60,22 @@ void Player::draw_scene(const sim::State& state, const render::Quality& quality,
   const render::StereoPair pair = eyes_of(m_options.eyes, frame);
   render::draw_frame(*m_backend, pair.left, m_first.target(width, height));
   render::draw_frame(*m_backend, pair.right, m_first_other.target(width, height));
+}
+
+/// The second window, as it is wanted; closing it is wanting none.
+void Player::show_elsewhere() {
+  if (m_second && m_second->wants_to_close()) m_layout.elsewhere.reset();
+  if (m_layout.elsewhere.has_value() != m_second.has_value())
+    m_log.event("second-window", {{"open", m_layout.elsewhere.has_value()}});
+  if (!m_layout.elsewhere) return m_second.reset();
+  try {
+    if (!m_second) m_second.emplace(m_window, "Trocar");
+    const PaneCanvas* canvas = m_panes.canvas_elsewhere();
+    m_second->show(canvas ? *canvas : m_first, m_panes.legend_of_pane(*m_layout.elsewhere));
+  } catch (const core::EnvironmentLacks& lacks) {
+    m_message = lacks.what();
+    m_layout.elsewhere.reset();
+  }
 }
 
 /// The window once more for the other eye, then both on one screen. Other panes, panels and menus lie on it.

@@ -19,6 +19,14 @@ namespace {
 
 namespace keys = scene::keys;
 
+constexpr const char* kOff = "off";
+
+std::vector<std::string> second_window_names() {
+  std::vector<std::string> names = names_in(kPaneNames);
+  names.insert(names.begin(), kOff);
+  return names;
+}
+
 const scene::Shape& settings_shape() {
   static const scene::Shape shape{
       "settings",
@@ -43,6 +51,7 @@ const scene::Shape& settings_shape() {
        keys::choice("pane_2", names_in(kPaneNames), "the second"),
        keys::choice("pane_3", names_in(kPaneNames), "the third"),
        keys::choice("pane_4", names_in(kPaneNames), "the fourth"),
+       keys::choice("second_window", second_window_names(), "what the window for a second screen shows"),
        keys::number("volume", 0, 1, "of sounds"),
        keys::number("text_size", kLeastText, kMostText, "of all texts"),
        keys::integer("window_width", kLeastWidth, kMostPixels, "[px]"),
@@ -62,6 +71,8 @@ LayoutChoice read_views(const scene::JsonObject& o) {
     const PaneShows usual = views.panes[std::size_t(i)];
     views.put(i, PaneShows(number_of(kPaneNames, o.text(kPaneKeys[i], name_of(usual)))));
   }
+  const std::string elsewhere = o.text("second_window", kOff);
+  if (elsewhere != kOff) views.elsewhere = PaneShows(number_of(kPaneNames, elsewhere));
   return views;
 }
 
@@ -120,6 +131,7 @@ std::string settings_text(const Settings& s) {
                   {"pane_2", name_of(s.views.panes[1])},
                   {"pane_3", name_of(s.views.panes[2])},
                   {"pane_4", name_of(s.views.panes[3])},
+                  {"second_window", s.views.elsewhere ? name_of(*s.views.elsewhere) : kOff},
                   {"volume", s.volume},
                   {"text_size", s.text_size},
                   {"window_width", s.window_width},

@@ -110,6 +110,24 @@ void Stage::draw_other_eye() {
   m_other_eye.reset();
 }
 
+PictureSize Stage::size_elsewhere() const {
+  return m_second ? PictureSize{m_second->width(), m_second->height()} : PictureSize{0, 0};
+}
+
+void Stage::show_elsewhere(LayoutChoice& choice, const PaneCanvas* canvas, const view::Legend& legend) {
+  if (m_second && m_second->wants_to_close()) choice.elsewhere.reset();
+  if (choice.elsewhere.has_value() != m_second.has_value())
+    log.event("second-window", {{"open", choice.elsewhere.has_value()}});
+  if (!choice.elsewhere) return m_second.reset();
+  try {
+    if (!m_second) m_second.emplace(window, "Trocar");
+    m_second->show(canvas ? *canvas : first_pane, legend);
+  } catch (const core::EnvironmentLacks& lacks) {
+    core::log::warn("{}", lacks.what());
+    choice.elsewhere.reset();
+  }
+}
+
 void Stage::begin_picture(bool hands) {
   window.capture_pointer(hands);
   window.draw_pointer(eyes().on());

@@ -13,6 +13,7 @@
 
 #include "event_log.hpp"
 #include "report_opener.hpp"
+#include "second_window.hpp"
 #include "settings.hpp"
 #include "sound.hpp"
 #include "window.hpp"
@@ -56,6 +57,13 @@ class Stage {
   void draw_scene(const render::Frame& frame, const render::Target& part, bool through_scope = true,
                   std::function<void()> over = {});
 
+  /// The second window, open as `choice` wants it, with its picture: of the canvas, or, where that is null, of what was
+  /// in the first pane. Where somebody closed it `choice` says so.
+  void show_elsewhere(LayoutChoice& choice, const PaneCanvas* canvas, const view::Legend& legend);
+  PictureSize size_elsewhere() const;
+  PaneCanvas first_pane;  ///< a copy, kept while the second window shows it
+  void close_elsewhere() { m_second.reset(); }
+
   void begin_picture(bool hands);  ///< hands: the pointer is the instrument's
   /// Overlays, ImGui, F12, the finished picture. `name` of the screen is for the log.
   void end_picture(const std::string& name, const std::filesystem::path& pictures);
@@ -73,6 +81,7 @@ class Stage {
   std::unique_ptr<view::SceneView> m_view;
   const Lesson* m_viewed = nullptr;
   Overlay m_overlay = Overlay::none;
+  std::optional<SecondWindow> m_second;
   Settings m_before;
   std::string m_logged;
   std::optional<render::Frame> m_other_eye;  ///< to be drawn before the picture is shown

@@ -313,6 +313,7 @@ void Window::on_key(GLFWwindow* window, int key, int, int action, int mods) {
   if (key == GLFW_KEY_ESCAPE) w.m_next_keys.back = !w.m_next_keys.back;
   if (key == GLFW_KEY_F12) w.m_next_keys.picture = true;
   if (key == GLFW_KEY_F2) w.m_next_keys.layout = true;
+  if (key == GLFW_KEY_F3) w.m_next_keys.second = true;
   for (const KeyPair& k : kKeys)
     if (k.glfw == key) w.m_next.pressed.set(k.key);
 }

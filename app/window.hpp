@@ -28,6 +28,7 @@ struct WindowKeys {
   bool back = false;     ///< Esc, in menus the gamepad's B
   bool picture = false;  ///< F12
   bool layout = false;   ///< F2
+  bool second = false;   ///< F3
 };
 
 struct TypedKey {
@@ -43,6 +44,7 @@ class Window {
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
+  GLFWwindow* handle() const { return m_window; }  ///< for windows that share its textures
   bool wants_to_close() const;
   void close();
   void set_title(const std::string& title);

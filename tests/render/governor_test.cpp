@@ -100,6 +100,30 @@ TEST(Governor, DoesNotSwingBackAndForth) {
   EXPECT_GE(governor.level(), 2u);
 }
 
+TEST(Governor, MorePicturesInAFrameStepDownAtOnceAndFewerMayComeUpSoon) {
+  Governor governor;
+  take(governor, 35 * kMs, 100);
+  ASSERT_EQ(governor.level(), 0u);
+  governor.load_becomes(2);  // 70 ms are to be expected
+  EXPECT_GT(governor.level(), 1u) << "before a single frame was late";
+  const std::size_t low = governor.level();
+  governor.load_becomes(2);
+  EXPECT_EQ(governor.level(), low) << "said twice, it is no other load";
+  governor.load_becomes(1);
+  take(governor, 12 * kMs, 100);
+  EXPECT_LT(governor.level(), low);
+}
+
+TEST(Governor, LittleMoreToDrawChangesNothing) {
+  Governor governor;
+  take(governor, 10 * kMs, 100);
+  governor.load_becomes(1.4);
+  EXPECT_EQ(governor.level(), 0u);
+  governor.load_becomes(std::nan(""));
+  governor.load_becomes(-1);
+  EXPECT_EQ(governor.level(), 0u);
+}
+
 TEST(Governor, IgnoresNonsense) {
   Governor governor;
   governor.frame_took(std::nan(""));
