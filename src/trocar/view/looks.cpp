@@ -78,6 +78,8 @@ Material vessel(Vec3f main, Vec3f broad, Vec3f fine) {
   m.mottle_size = 0.006f;
   m.mottle = 0.4f;
   m.film_size = 0.0018f;
+  m.film_bump = 0.12f;  // under a film: few glints of its own
+  m.wetness = 0.25f;
   return m;
 }
 
@@ -181,9 +183,9 @@ Material fold(float alpha) {
 }
 
 Material mesosalpinx() {
-  Material m = fold(0.4f);
-  m.wetness = 0.38f;
-  m.film_bump = 0.12f;
+  Material m = fold(0.44f);
+  m.wetness = 0.3f;
+  m.film_bump = 0.07f;
   m.vessel_colour = srgb(148, 26, 40);
   m.vessel_tile = float(kFoldTile);
   m.arcade = true;
@@ -272,8 +274,8 @@ std::vector<Look> make_looks() {
        false,
        {.broad = 0.0005, .broad_size = 0.017, .fine = 0.00012, .fine_size = 0.005}},
       {"fat", fat(), false, {.broad = 0.001, .broad_size = 0.012, .fine = 0.0006, .fine_size = 0.005}},
-      {"artery", vessel(srgb(156, 52, 52), srgb(168, 68, 62), srgb(132, 38, 42)), false, {}},
-      {"vein", vessel(srgb(98, 58, 78), srgb(112, 72, 88), srgb(82, 46, 64)), false, {}},
+      {"artery", vessel(srgb(150, 54, 54), srgb(162, 70, 64), srgb(126, 40, 44)), false, {}},
+      {"vein", vessel(srgb(104, 62, 82), srgb(116, 76, 90), srgb(88, 50, 68)), false, {}},
       {"peritoneum", peritoneum(), false, {}},
       {"mesosalpinx", mesosalpinx(), true, {}},
       {"broad_ligament", fold(0.6f), true, {}},

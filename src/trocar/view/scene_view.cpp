@@ -35,7 +35,7 @@ using render::Frame;
 namespace {
 
 constexpr double kSleeveShows = 0.018;                      // [m] of a trocar's sleeve inside the wall
-constexpr float kVesselBehind = 0.0013f;                     // [m] vessels are drawn farther off than they are
+constexpr float kVesselBefore = 0.0011f;                     // [m] a fold's vessels are drawn nearer than they are
 constexpr float kShadeCell = 0.001f, kShadeReach = 0.018f;  // [m] what shades what
 
 /// A rigid part of an instrument and its mesh.
@@ -87,6 +87,13 @@ struct LoadedClip {
   OwnedMesh mesh;
 };
 
+/// Arteries or veins, in folds or elsewhere.
+struct DrawnVessels {
+  VesselDrawing drawing;
+  bool in_a_fold = false;
+  std::size_t look = 0;  ///< its number among the scene's
+};
+
 /// Where a strand's end grows out of an organ.
 struct TubeJoint {
   std::size_t tube = 0, organ = 0;
@@ -111,7 +118,7 @@ struct SceneView::Parts {
   std::vector<SheetDrawing> sheets;
   std::vector<MembraneDrawing> membranes;
   std::vector<PouchDrawing> pouches;
-  std::vector<VesselDrawing> vessels;
+  std::vector<DrawnVessels> vessels;
   std::vector<const Look*> vessel_look;
   std::optional<WetDrawing> wet;
   Lens lens;
@@ -216,7 +223,7 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
     const Look& covered = look(model.solids[std::size_t(i)].look);
     if (!covered.draped) continue;
     drapes.emplace_back(model, i, organs, backend);
-    drape_look.push_back(&covered);
+    drape_look.push_back(&look(model.walls.empty() ? covered.name : model.walls.front().look));
   }
   for (std::size_t i = 0; i < model.walls.size(); ++i) {
     const tissue::Skin& skin = model.walls[i].skin;
@@ -252,10 +259,19 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
   }
   for (int i = 0; i < int(model.sheets.size()); ++i) sheets.emplace_back(model, i, backend, &wall_surface);
   for (const bool veins : {false, true}) {
-    const auto& all = model.vessels.list;
-    if (std::none_of(all.begin(), all.end(), [veins](const sim::Vessel& v) { return v.vein == veins; })) continue;
-    vessels.emplace_back(model, veins, backend);
+    using Lie = VesselDrawing::Lie;
+    const auto some = [&](bool fold) {
+      return std::any_of(model.vessels.list.begin(), model.vessels.list.end(), [&](const sim::Vessel& v) {
+        return v.vein == veins && in_a_fold(v.path) == fold;
+      });
+    };
+    if (!some(false) && !some(true)) continue;
     vessel_look.push_back(&look(veins ? "vein" : "artery"));
+    for (const bool fold : {false, true}) {
+      if (!some(fold)) continue;
+      vessels.push_back({VesselDrawing(model, veins, backend, fold ? Lie::in_a_fold : Lie::elsewhere), fold,
+                         vessel_look.size() - 1});
+    }
   }
   for (std::size_t i = 0; i < model.membranes.size(); ++i)
     if (model.membranes[i].sheet.closed()) {
@@ -330,7 +346,7 @@ void SceneView::Parts::update(const sim::State& state) {
   for (SheetDrawing& s : sheets) s.update(state);
   for (MembraneDrawing& m : membranes) m.update(state);
   for (PouchDrawing& p : pouches) p.update(state);
-  for (VesselDrawing& v : vessels) v.update(state);
+  for (DrawnVessels& v : vessels) v.drawing.update(state);
   for (LoadedClip& l : loaded) {
     const interactions::ToolState& now = state.tools[std::size_t(l.hand)];
     if (now.instrument != l.instrument) continue;
@@ -367,7 +383,8 @@ void SceneView::Parts::list_tissues(bool with_walls, Frame& frame) const {
   for (std::size_t i = 0; with_walls && i < ridges.size(); ++i)
     frame.items.push_back(item(ridges[i].mesh(), look("peritoneum"), first.tube + ridge_of[i]));
   for (std::size_t i = 0; i < vessels.size(); ++i)
-    frame.items.push_back(item(vessels[i].mesh(), *vessel_look[i], first.vessel + i));
+    frame.items.push_back(
+        item(vessels[i].drawing.mesh(), *vessel_look[vessels[i].look], first.vessel + vessels[i].look));
   for (std::size_t i = 0; i < sheets.size(); ++i)
     frame.items.push_back(item(sheets[i].mesh(), look(model.sheets[i].look), first.fold + i));
   for (std::size_t i = 0; i < membranes.size(); ++i)
@@ -454,17 +471,18 @@ void cut_open(const std::vector<OwnedMesh>& walls, Frame& frame) {
 namespace {
 
 /// A vessel that lies in a fold is as thick as the fold's ripples are high and would be half in, half out of it: it is
-/// drawn a little behind where it is, in the same place of the picture (grown about the eye).
-void sink_vessels(const std::vector<VesselDrawing>& vessels, Frame& frame) {
-  for (const VesselDrawing& vessel : vessels) {
+/// drawn a little nearer than it is, in the same place of the picture (shrunk towards the eye).
+void lift_out_of_folds(const std::vector<DrawnVessels>& vessels, Frame& frame) {
+  for (const DrawnVessels& v : vessels) {
+    if (!v.in_a_fold) continue;
     Vec3f middle{};
-    const std::vector<Vec3f>& points = vessel.buffer().positions;
+    const std::vector<Vec3f>& points = v.drawing.buffer().positions;
     for (const Vec3f& p : points) middle += p / float(points.size());
     const Vec3f eye = frame.camera.position;
-    const float grown = 1 + kVesselBehind / std::max(length(middle - eye), 0.03f);
-    const Mat3f scale = Mat3f::from_columns({grown, 0, 0}, {0, grown, 0}, {0, 0, grown});
+    const float size = 1 - kVesselBefore / std::max(length(middle - eye), 0.03f);
+    const Mat3f scale = Mat3f::from_columns({size, 0, 0}, {0, size, 0}, {0, 0, size});
     for (DrawItem& drawn : frame.items)
-      if (drawn.mesh.id == vessel.mesh().id) drawn.transform = render::placement(scale, (1 - grown) * eye);
+      if (drawn.mesh.id == v.drawing.mesh().id) drawn.transform = render::placement(scale, (1 - size) * eye);
   }
 }
 
@@ -523,7 +541,7 @@ Frame SceneView::frame(const sim::State& state, const ViewOptions& options) {
   }
   p.list_tissues(inside || options.walls, frame);
   if (!inside) cut_open(p.walls, frame);
-  sink_vessels(p.vessels, frame);
+  lift_out_of_folds(p.vessels, frame);
   p.list_clips(state, frame);
   if (options.instruments) p.list_tools(state, options, frame);
   if (options.instruments && !inside) p.list_scope(state, frame);

@@ -46,17 +46,16 @@ std::vector<Vec3d> drawn_line(const Run& run, const Curve& curve, const interact
     old = line;
     for (std::size_t i = 1; i + 1 < line.size(); ++i) line[i] = 0.5 * old[i] + 0.25 * (old[i - 1] + old[i + 1]);
   }
-  const bool in_fold = std::any_of(path.points.begin(), path.points.end(), [](const interactions::VesselPoint& p) {
-    return p.hold.kind == interactions::VesselHold::membrane;
-  });
-  if (!in_fold) return line;
+  if (!in_a_fold(path)) return line;
   old = line;
+  Vec3d beside = any_perpendicular(normalised(line.back() - line.front()));
   for (std::size_t i = 1; i + 1 < line.size(); ++i) {
-    const Vec3d along = normalised(old[i + 1] - old[i - 1]), beside = any_perpendicular(along);
+    const Vec3d along = normalised(old[i + 1] - old[i - 1]);
+    beside = normalised(beside - dot(beside, along) * along, any_perpendicular(along));
     const double way = run.s[i] * path.length, ends = std::min(run.s[i] - run.from, run.to - run.s[i]) * path.length;
-    const double far = kWinding * smooth(0, 0.005, ends);
-    line[i] += far * (std::sin(900 * way + 2 * std::sin(310 * way)) * beside +
-                      0.6 * std::sin(640 * way + 1.3) * cross(along, beside));
+    const double far = kWinding * smooth(0, 0.006, ends);
+    line[i] += far * (std::sin(520 * way + 1.5 * std::sin(230 * way)) * beside +
+                      std::sin(430 * way + 1.3) * cross(along, beside));
   }
   return line;
 }
@@ -91,8 +90,14 @@ std::vector<double> sorted_cuts(const sim::State& state, int vessel) {
 
 }  // namespace
 
-VesselDrawing::VesselDrawing(const sim::Model& model, bool veins, render::Backend& backend)
-    : m_model(&model), m_veins(veins), m_hosts(sim::make_host_views(model)) {
+bool in_a_fold(const interactions::VesselPath& path) {
+  return std::any_of(path.points.begin(), path.points.end(), [](const interactions::VesselPoint& p) {
+    return p.hold.kind == interactions::VesselHold::membrane;
+  });
+}
+
+VesselDrawing::VesselDrawing(const sim::Model& model, bool veins, render::Backend& backend, Lie lie)
+    : m_model(&model), m_veins(veins), m_lie(lie), m_hosts(sim::make_host_views(model)) {
   const sim::State state = sim::initial_state(model);
   lay_out(state);
   place(state);
@@ -135,6 +140,7 @@ void VesselDrawing::lay_out(const sim::State& state) {
   for (std::size_t v = 0; v < m_model->vessels.list.size(); ++v) {
     const sim::Vessel& vessel = m_model->vessels.list[v];
     if (vessel.vein != m_veins) continue;
+    if (m_lie != Lie::anywhere && in_a_fold(vessel.path) != (m_lie == Lie::in_a_fold)) continue;
     const auto [begin, end] = in_sight(vessel.path);
     std::vector<double> ends = sorted_cuts(state, int(v));
     ends.push_back(end);

@@ -9,10 +9,14 @@
 
 namespace trocar::view {
 
+/// Does a fold carry any of it?
+bool in_a_fold(const interactions::VesselPath& path);
+
 class VesselDrawing {
  public:
-  /// @param veins  all of them, or all arteries
-  VesselDrawing(const sim::Model& model, bool veins, render::Backend& backend);
+  enum class Lie { anywhere, in_a_fold, elsewhere };
+  /// @param veins  veins, or arteries; of these all that lie there
+  VesselDrawing(const sim::Model& model, bool veins, render::Backend& backend, Lie lie = Lie::anywhere);
 
   void update(const sim::State& state);
   render::MeshHandle mesh() const { return m_mesh.handle(); }
@@ -35,6 +39,7 @@ class VesselDrawing {
 
   const sim::Model* m_model;
   bool m_veins;
+  Lie m_lie;
   std::vector<Run> m_runs;
   int m_laid_out_for = -1;  ///< openings
   sim::HostViews m_hosts;
