@@ -95,8 +95,7 @@ void even_out(std::vector<MarginColumn>& loop, int passes, Get&& get) {
   std::vector<Vec3d> old(n);
   for (int pass = 0; pass < passes; ++pass) {
     for (std::size_t i = 0; i < n; ++i) old[i] = get(loop[i]);
-    for (std::size_t i = 0; i < n; ++i)
-      get(loop[i]) = 0.5 * old[i] + 0.25 * (old[(i + 1) % n] + old[(i + n - 1) % n]);
+    for (std::size_t i = 0; i < n; ++i) get(loop[i]) = 0.5 * old[i] + 0.25 * (old[(i + 1) % n] + old[(i + n - 1) % n]);
   }
 }
 

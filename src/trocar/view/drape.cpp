@@ -9,10 +9,11 @@ namespace trocar::view {
 namespace {
 
 constexpr int kSpokes = 72, kOnRings = 12, kRings = 26;  // on the organ; all
-constexpr float kAway = 0.036f;   // [m] how far from the organ's rim its sheet reaches a wall, about
-constexpr float kOver = 0.0022f;  // [m] above the organ, whose relief is that high
+constexpr std::size_t kHemRows = 6;                      // that take on the wall's normal
+constexpr float kAway = 0.036f;    // [m] how far from the organ's rim its sheet reaches a wall, about
+constexpr float kOver = 0.0022f;   // [m] above the organ, whose relief is that high
 constexpr float kShoulder = 0.7f;  // [rad] how far the plane leans that touches the organ where the sheet leaves it
-constexpr float kSunk = 0.004f;   // [m] the hem below what it runs out on
+constexpr float kSunk = 0.004f;    // [m] the hem below what it runs out on
 constexpr double kTwoPi = 6.28318530717959;
 
 Vec3f middle_of(std::span<const Vec3f> points) {
@@ -91,7 +92,8 @@ Drape::Drape(const sim::Model& model, int solid, const std::vector<OrganDrawing>
       const double w = double(r) / (kRings - 1);
       const double fat = fat_below(vec_cast<double>(m_buffer.positions[i]));
       const double own = 0.3 * smooth(0.75, 0.3, w);  // paler over the organ
-      m_buffer.paint[i] = {to_byte(1 - 0.12 * smooth(0.5, 0.75, w) * smooth(1, 0.8, w)), 0, 0, to_byte(std::max(own, smooth(0.3, 0.8, w) * fat))};
+      m_buffer.paint[i] = {to_byte(1 - 0.12 * smooth(0.5, 0.75, w) * smooth(1, 0.8, w)), 0, 0,
+                           to_byte(std::max(own, smooth(0.3, 0.8, w) * fat))};
     }
   m_mesh = OwnedMesh(backend, m_buffer.data());
 }
@@ -121,7 +123,8 @@ void Drape::place(const std::vector<OrganDrawing>& organs) {
           (1 - t) * on[j][k] + t * on[j + 1][k] + kOver * normalised(out * m_spokes[k].out + m_up);
     }
     // It leaves the organ on its tangent, to the hem.
-    const Vec3f b = m_buffer.positions[k * kRings + kOnRings - 1], before = m_buffer.positions[k * kRings + kOnRings - 4];
+    const Vec3f b = m_buffer.positions[k * kRings + kOnRings - 1],
+                before = m_buffer.positions[k * kRings + kOnRings - 4];
     const Vec3f slope = normalised(b - before, m_spokes[k].out), way = m_hem[k] - b;
     const Vec3f flat = normalised(way - 0.8f * dot(way, m_up) * m_up);
     const float reach = length(way);
@@ -143,6 +146,12 @@ void Drape::place(const std::vector<OrganDrawing>& organs) {
         p = 0.5f * p + 0.25f * (m_buffer.positions[k * kRings + r - 1] + m_buffer.positions[k * kRings + r + 1]);
       }
   render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);
+  for (std::size_t k = 0; k < m_spokes.size(); ++k)  // no seam: as the wall's at the hem
+    for (std::size_t r = kRings - kHemRows; r < kRings && m_spokes[k].hem.solid < 0; ++r) {
+      Vec3f& n = m_buffer.normals[k * kRings + r];
+      const float w = float(r + kHemRows + 1 - kRings) / kHemRows;
+      n = normalised((1 - w) * n + w * m_spokes[k].hem.normal, n);
+    }
 }
 
 void Drape::update(const std::vector<OrganDrawing>& organs) {

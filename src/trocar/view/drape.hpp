@@ -31,7 +31,7 @@ class Drape {
   };
   /// What the sheet follows at one angle.
   struct Spoke {
-    Vec3f out;                              ///< unit, from the organ's middle
+    Vec3f out;                             ///< unit, from the organ's middle
     std::array<int, kDrapeSupports> on{};  ///< skin vertices from the organ's top to its shoulder: there it lies on it
     Hem hem;
   };

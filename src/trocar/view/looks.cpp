@@ -44,7 +44,7 @@ Material tube() {
   m.mottle_size = 0.007f;
   m.mottle = 0.6f;
   m.glow_amount = 0.12f;
-  m.tint = srgb(190, 82, 92);  // fimbriae
+  m.tint = srgb(202, 112, 120);  // fimbriae
   m.film_size = 0.0019f;
   m.film_bump = 0.3f;
   return m;
@@ -193,11 +193,11 @@ Material mesosalpinx() {
 }
 
 Material fat() {
-  Material m = with_vessels(tissue(srgb(224, 162, 112), srgb(228, 178, 124), srgb(210, 140, 98)), 0.7f, 0.024f);
+  Material m = with_vessels(tissue(srgb(216, 142, 102), srgb(222, 160, 114), srgb(206, 122, 98)), 0.9f, 0.016f);
   m.mottle_size = 0.006f;
-  m.lobule_size = 0.003f;
-  m.lobule_depth = 0.22f;
-  m.lobule_contrast = 0.22f;
+  m.lobule_size = 0.0034f;
+  m.lobule_depth = 0.1f;
+  m.lobule_contrast = 0.05f;
   m.glow_amount = 0.12f;
   m.film_bump = 0.25f;
   m.tint = srgb(206, 126, 118);  // where it grows out of the bowel
@@ -274,8 +274,8 @@ std::vector<Look> make_looks() {
        false,
        {.broad = 0.0005, .broad_size = 0.017, .fine = 0.00012, .fine_size = 0.005}},
       {"fat", fat(), false, {.broad = 0.001, .broad_size = 0.012, .fine = 0.0006, .fine_size = 0.005}},
-      {"artery", vessel(srgb(150, 54, 54), srgb(162, 70, 64), srgb(126, 40, 44)), false, {}},
-      {"vein", vessel(srgb(104, 62, 82), srgb(116, 76, 90), srgb(88, 50, 68)), false, {}},
+      {"artery", vessel(srgb(120, 42, 46), srgb(134, 54, 54), srgb(100, 32, 38)), false, {}},
+      {"vein", vessel(srgb(86, 54, 70), srgb(98, 66, 78), srgb(74, 44, 60)), false, {}},
       {"peritoneum", peritoneum(), false, {}},
       {"mesosalpinx", mesosalpinx(), true, {}},
       {"broad_ligament", fold(0.6f), true, {}},

@@ -9,16 +9,16 @@
 namespace trocar::view {
 namespace {
 
-constexpr int kRows = 10;            // ligament to wall
-constexpr double kStep = 0.0028;     // [m] between stations
-constexpr double kFrom = 0.10;       // share of the ligament where the fold below it begins ...
-constexpr double kDown = 0.72;       // ... and where it has come down to the wall
-constexpr double kWidest = 0.016;    // [m] from below the ligament to a flank's foot
-constexpr double kOver = 0.74;       // share of the ligament from where on its flanks close over it ...
-constexpr double kClosed = 0.97;     // ... and where they have
-constexpr double kTucked = 0.0012;   // [m] the border lies below the wall
-constexpr double kAtWall = 0.006;    // [m] nearer than that, down is the wall's normal
-constexpr int kBeyond = 7;           // stations in the wall
+constexpr int kRows = 10;           // ligament to wall
+constexpr double kStep = 0.0028;    // [m] between stations
+constexpr double kFrom = 0.10;      // share of the ligament where the fold below it begins ...
+constexpr double kDown = 0.72;      // ... and where it has come down to the wall
+constexpr double kWidest = 0.016;   // [m] from below the ligament to a flank's foot
+constexpr double kOver = 0.74;      // share of the ligament from where on its flanks close over it ...
+constexpr double kClosed = 0.97;    // ... and where they have
+constexpr double kTucked = 0.0012;  // [m] the border lies below the wall
+constexpr double kAtWall = 0.006;   // [m] nearer than that, down is the wall's normal
+constexpr int kBeyond = 7;          // stations in the wall
 
 }  // namespace
 
@@ -136,14 +136,16 @@ void Ridge::place_flank(const Station& st, Vec3d at, int flank, std::size_t firs
   const Vec3d n = st.normal[flank];
   const Vec3d down = normalised(st.floor - at - kAtWall * n, -n), out = sign * st.side;
   const Vec3d up = st.beyond ? n : -down;
-  const double high = 0.5 + 0.65 * st.over, wide = std::sqrt(std::max(0.0, 1 - 0.87 * high * high * (1 - st.over) - st.over));
+  const double high = 0.5 + 0.65 * st.over,
+               wide = std::sqrt(std::max(0.0, 1 - 0.87 * high * high * (1 - st.over) - st.over));
   const Vec3d top = at + st.radius * ((0.93 * wide) * out + (0.93 * high) * up);
   const Vec3d keel = at + std::max(0.6 * st.radius, st.depth * length(st.floor - at)) * down;
   const double spread = smooth(0.55, 1, st.depth);
   const Vec3d end = keel + spread * (st.foot[flank] - keel);
   const Vec3d level = normalised(out - dot(out, n) * n, out);
   const double reach = length(end - top);
-  const Vec3d leaves = reach * normalised((0.49 + 0.5 * st.over) * out + (0.87 - 0.6 * st.over) * down), arrives = (0.9 * spread * reach) * level;
+  const Vec3d leaves = reach * normalised((0.49 + 0.5 * st.over) * out + (0.87 - 0.6 * st.over) * down),
+              arrives = (0.9 * spread * reach) * level;
   for (int r = 0; r < kRows; ++r) {
     const double t = std::min(1.0, double(r) / (kRows - 2)), u = 1 - t;
     Vec3d p = (u * u * (1 + 2 * t)) * top + (t * t * (3 - 2 * t)) * end + (u * u * t) * leaves - (t * t * u) * arrives;
@@ -151,7 +153,8 @@ void Ridge::place_flank(const Station& st, Vec3d at, int flank, std::size_t firs
     const std::size_t v = first + std::size_t(r);
     m_buffer.positions[v] = vec_cast<float>(p);
     const double own = 0.6 * smooth(0.4, 0, t), fat = fat_below(p);
-    m_buffer.paint[v] = {to_byte(0.75 + 0.25 * std::fabs(1 - 2 * t)), 0, 0, to_byte(std::max(own, fat * smooth(0, 0.5, t)))};
+    m_buffer.paint[v] = {to_byte(0.75 + 0.25 * std::fabs(1 - 2 * t)), 0, 0,
+                         to_byte(std::max(own, fat * smooth(0, 0.5, t)))};
   }
 }
 

@@ -35,7 +35,7 @@ using render::Frame;
 namespace {
 
 constexpr double kSleeveShows = 0.018;                      // [m] of a trocar's sleeve inside the wall
-constexpr float kVesselBefore = 0.0011f;                     // [m] a fold's vessels are drawn nearer than they are
+constexpr float kVesselBefore = 0.0022f;                    // [m] a fold's vessels are drawn nearer than they are
 constexpr float kShadeCell = 0.001f, kShadeReach = 0.018f;  // [m] what shades what
 
 /// A rigid part of an instrument and its mesh.
@@ -261,16 +261,15 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
   for (const bool veins : {false, true}) {
     using Lie = VesselDrawing::Lie;
     const auto some = [&](bool fold) {
-      return std::any_of(model.vessels.list.begin(), model.vessels.list.end(), [&](const sim::Vessel& v) {
-        return v.vein == veins && in_a_fold(v.path) == fold;
-      });
+      return std::any_of(model.vessels.list.begin(), model.vessels.list.end(),
+                         [&](const sim::Vessel& v) { return v.vein == veins && in_a_fold(v.path) == fold; });
     };
     if (!some(false) && !some(true)) continue;
     vessel_look.push_back(&look(veins ? "vein" : "artery"));
     for (const bool fold : {false, true}) {
       if (!some(fold)) continue;
-      vessels.push_back({VesselDrawing(model, veins, backend, fold ? Lie::in_a_fold : Lie::elsewhere), fold,
-                         vessel_look.size() - 1});
+      vessels.push_back(
+          {VesselDrawing(model, veins, backend, fold ? Lie::in_a_fold : Lie::elsewhere), fold, vessel_look.size() - 1});
     }
   }
   for (std::size_t i = 0; i < model.membranes.size(); ++i)

@@ -18,9 +18,9 @@ constexpr double kRipple = 0.0006;                        // [m]
 constexpr std::size_t kFaded = 6;                         // columns over which a free edge runs out
 constexpr int kMarginSteps = 4;                           // columns between an edge and what it runs out on
 constexpr double kMarginFar = 0.03, kMarginNear = 0.012;  // [m] reach to walls, to organs
-constexpr double kCrescent = 0.3;  // of the width: the margin's free border starts this far from the strand
-constexpr int kHemRows = 7;        // from a base in the air to the wall
-constexpr double kHemFar = 0.06;   // [m] at most
+constexpr double kCrescent = 0.3;   // of the width: the margin's free border starts this far from the strand
+constexpr int kHemRows = 7;         // from a base in the air to the wall
+constexpr double kHemFar = 0.06;    // [m] at most
 constexpr double kHemSunk = 0.002;  // [m] below the wall
 constexpr double kTwoPi = 6.28318530717959;
 
@@ -117,7 +117,8 @@ void SheetDrawing::connect() {
   m_hem_first = m_buffer.size();
   if (m_hem.empty()) return;
   for (std::size_t c = 0; c < m_columns.size(); ++c)
-    for (int r = 0; r < kHemRows; ++r) m_buffer.add({}, {to_byte(1 - smooth(0.3, 1, double(r + 1) / kHemRows)), 0, 0, 0});
+    for (int r = 0; r < kHemRows; ++r)
+      m_buffer.add({}, {to_byte(1 - smooth(0.3, 1, double(r + 1) / kHemRows)), 0, 0, 0});
   const auto at = [this](std::size_t c, int r) {
     return std::uint32_t(r == 0 ? c * kRows + kRows - 1 : m_hem_first + c * kHemRows + std::size_t(r - 1));
   };
@@ -137,8 +138,7 @@ void SheetDrawing::find_hem(const WallSurface& walls) {
     m_hem.push_back(base + 0.6 * (base - top));
   }
   for (int pass = 0; pass < 10; ++pass)
-    for (std::size_t c = 1; c + 1 < m_hem.size(); ++c)
-      m_hem[c] = 0.5 * m_hem[c] + 0.25 * (m_hem[c - 1] + m_hem[c + 1]);
+    for (std::size_t c = 1; c + 1 < m_hem.size(); ++c) m_hem[c] = 0.5 * m_hem[c] + 0.25 * (m_hem[c - 1] + m_hem[c + 1]);
   for (std::size_t c = 0; c < m_hem.size(); ++c) {
     const WallSurface::Place wall = walls.nearest(m_hem[c]);
     if (!wall.there || length(wall.point - m_hem[c]) > kHemFar) {

@@ -250,8 +250,8 @@ void TubeDrawing::place_necks(const StrandCurve& curve) {
     neck.ring.clear();
     for (int k = 0; k < m_sides; ++k) {
       const double a = 2 * kPi * k / m_sides;
-      neck.ring.push_back(vec_cast<float>(
-          f.point + (neck.radius * outline(s, a)) * (std::cos(a) * f.normal + std::sin(a) * f.binormal)));
+      neck.ring.push_back(vec_cast<float>(f.point + (neck.radius * outline(s, a)) *
+                                                        (std::cos(a) * f.normal + std::sin(a) * f.binormal)));
     }
   }
 }

@@ -29,8 +29,8 @@ class VesselDrawing {
     double from = 0, to = 1;
     bool cut_from = false, cut_to = false;
     bool fades_from = false, fades_to = false;  ///< ends in tissue: thins out
-    std::uint32_t first = 0;  ///< vertex
-    std::vector<double> s;    ///< of its rings
+    std::uint32_t first = 0;                    ///< vertex
+    std::vector<double> s;                      ///< of its rings
   };
   bool leads_on(int vessel, int end) const;
   void lay_out(const sim::State& state);
