@@ -150,7 +150,8 @@ void Drape::place(const std::vector<OrganDrawing>& organs) {
     for (std::size_t r = kRings - kHemRows; r < kRings && m_spokes[k].hem.solid < 0; ++r) {
       Vec3f& n = m_buffer.normals[k * kRings + r];
       const float w = float(r + kHemRows + 1 - kRings) / kHemRows;
-      n = normalised((1 - w) * n + w * m_spokes[k].hem.normal, n);
+      const Vec3f hem = m_spokes[k].hem.normal;
+      n = normalised((1 - w) * n + (dot(n, hem) < 0 ? -w : w) * hem, n);
     }
 }
 

@@ -9,9 +9,10 @@ namespace {
 
 constexpr double kTwoPi = 6.28318530717959;
 constexpr double kApart = 0.0055;  // [m] between two tags
-constexpr int kSides = 22, kRings = 22;
-constexpr int kLobes = 9;
-constexpr double kBend = 0.2;  // how fast a tag turns to hang down, a ring
+constexpr int kSides = 20, kRings = 18;
+constexpr int kLobes = 12;
+constexpr int kParts = 3;       // drops of a tag
+constexpr double kBend = 0.24;  // how fast a tag turns to hang down, a ring
 
 Mat3f frame_at(const OrganDrawing& organ, std::uint32_t at, std::uint32_t beside) {
   const Vec3f n = organ.normals()[at], way = organ.positions()[beside] - organ.positions()[at];
@@ -24,18 +25,18 @@ double lobes(Vec3d out, int seed) {
   double most = 0;
   for (int k = 0; k < kLobes; ++k) {
     const double up = 2 * varied(seed, 41 + k) - 1, turn = kTwoPi * varied(seed, 61 + k);
-    const double level = std::sqrt(1 - up * up), size = 0.55 + 0.45 * varied(seed, 81 + k);
+    const double level = std::sqrt(1 - up * up), size = 0.4 + 0.45 * varied(seed, 81 + k);
     const Vec3d centre{level * std::cos(turn), level * std::sin(turn), up};
     const double far = length(out - centre) / size;
     most = std::max(most, size * std::sqrt(std::max(0.0, 1 - 0.8 * far * far)));
   }
-  return 0.74 + 0.4 * most;
+  return 0.66 + 0.5 * most;
 }
 
 /// A lobed drop on a stalk: from below the surface outwards, then hanging over along `down` (unit, in the same frame).
-MeshBuffer drop(Vec3d down, int seed) {
+MeshBuffer drop(Vec3d down, int seed, double size) {
   MeshBuffer b;
-  const double length = 0.0075 + 0.0065 * varied(seed, 21), wide = 0.0024 + 0.0016 * varied(seed, 22);
+  const double length = size * (0.007 + 0.006 * varied(seed, 21)), wide = size * (0.0024 + 0.0014 * varied(seed, 22));
   Vec3d p{0, 0, -0.0015}, along{0, 0, 1}, x{1, 0, 0};
   std::uint32_t before = 0;
   for (int i = 0; i <= kRings; ++i) {
@@ -82,8 +83,14 @@ FatTags::FatTags(const OrganDrawing& organ, const sim::SolidModel& solid, int co
     Tag tag{at, std::uint32_t(skin.neighbour[std::size_t(skin.neighbour_first[at])]), {}};
     const Mat3f turn = frame_at(organ, tag.at, tag.beside);
     Vec3d down = vec_cast<double>(transposed(turn) * vec_cast<float>(normalised(gravity, Vec3d{0, 0, -1})));
-    down.z = std::max(down.z, -0.25);  // lies on the bowel, not in it
-    tag.shape = drop(normalised(down + Vec3d{0.5 * (varied(k, 32) - 0.5), 0.5 * (varied(k, 33) - 0.5), 0}), k);
+    down.z = std::max(down.z, -0.25);            // lies on the bowel, not in it
+    for (int part = 0; part < kParts; ++part) {  // drops that hang together, the first the largest
+      const int seed = kParts * k + part;
+      const Vec3d aside{1.1 * (varied(seed, 32) - 0.5), 1.1 * (varied(seed, 33) - 0.5), 0};
+      const float place = part == 0 ? 0.0f : 0.0016f;
+      append(tag.shape, drop(normalised(down + (part == 0 ? 0.4 : 1.0) * aside), seed, part == 0 ? 1.0 : 0.72),
+             Mat3f::identity(), place * vec_cast<float>(normalised(aside)));
+    }
     m_tags.push_back(std::move(tag));
   }
   for (const Tag& tag : m_tags) append(m_buffer, tag.shape, Mat3f::identity(), {});

@@ -31,7 +31,7 @@ double along_finger(int ring) { return std::sin(0.5 * kPi * ring / (kRings - 1))
 /// Width over length: broad at the root, where petals touch, widest before the middle, then a frilled, tapering end.
 double leaf(double u, int seed) {
   const double body = 0.85 + 0.5 * std::sin(0.9 * kPi * std::min(u + 0.12, 1.0)) - 0.35 * u;
-  const double tip = std::sqrt(std::max(0.0, 1 - std::pow(std::max(0.0, (u - 0.5) / 0.5), 2.6)));
+  const double tip = std::sqrt(std::max(0.0, 1 - std::pow(std::max(0.0, (u - 0.62) / 0.38), 2.2)));
   const double lobes = 1 + 0.14 * std::sin(11 * u + 6.3 * varied(seed, 1)) + 0.12 * std::sin(23 * u + seed);
   return body * tip * lobes;
 }
@@ -71,8 +71,8 @@ void add_finger(MeshBuffer& b, const Finger& f, double radius) {
     for (int k = 0; k < kSides; ++k) {
       const double a = 2 * kPi * k / kSides, c = std::cos(a), sn = std::sin(a);
       // Ruffled: the edges rise and fall along the finger, in turn on either side.
-      const double ruffle =
-          kRuffle * (0.3 + 0.7 * u) * c * c * std::sin(17 * u + (c > 0 ? 0.0 : 2.1) + 6.3 * varied(f.seed, 2));
+      const double ruffle = kRuffle * (0.35 + 1.4 * u * (1 - u)) * c * c *
+                            std::sin(17 * u + (c > 0 ? 0.0 : 2.1) + 6.3 * varied(f.seed, 2));
       const double cupped =
           (0.9 * varied(f.seed, 12) - 0.6) * half * c * c + 0.0002 * std::sin(5 * c + f.seed);  // folds along it
       const Vec3d p = s.point + (half * c) * s.across + (thick * sn + ruffle + cupped) * s.flat;
@@ -115,7 +115,7 @@ MeshBuffer fimbriae(double radius, int seed) {
       f.angle = 2 * kPi * (i + 0.7 * (varied(k, 3) - 0.5)) / w.count;
       f.along = w.along + 0.08 * (varied(k, 10) - 0.5);
       f.out = w.out * (1 - 0.08 * varied(k, 11));
-      f.length = radius * w.length * (0.55 + 0.65 * varied(k, 4) + (i == 0 ? 0.35 : 0.0));  // one reaches for the ovary
+      f.length = radius * w.length * (0.62 + 0.45 * varied(k, 4) + (i == 0 ? 0.3 : 0.0));  // one reaches for the ovary
       f.width = radius * w.width * (0.75 + 0.6 * varied(k, 5));
       f.lean = w.lean + 0.35 * (varied(k, 6) - 0.5);
       f.curl = w.curl * (0.3 + 1.1 * varied(k, 7));

@@ -192,6 +192,19 @@ Material mesosalpinx() {
   return m;
 }
 
+/// Whitish, thin.
+Material adhesion() {
+  Material m = fold(0.26f);
+  m.colour = srgb(214, 176, 166);
+  m.colour_b = srgb(222, 192, 178);
+  m.colour_c = srgb(204, 150, 144);
+  m.tint = srgb(220, 186, 172);  // its strings
+  m.wetness = 0.4f;
+  m.film_bump = 0.1f;
+  m.rim_alpha = 0.5f;
+  return m;
+}
+
 Material fat() {
   Material m = with_vessels(tissue(srgb(216, 142, 102), srgb(222, 160, 114), srgb(206, 122, 98)), 0.9f, 0.016f);
   m.mottle_size = 0.006f;
@@ -231,18 +244,21 @@ std::vector<Look> make_looks() {
   const Material neutral = tissue(srgb(196, 134, 130), srgb(204, 150, 142), srgb(182, 112, 112));
   return {
       {"neutral", neutral, false, {}},
-      {"uterus", uterus(), false, {.broad = 0.0005, .broad_size = 0.019, .fine = 0.00012, .fine_size = 0.006}},
+      {"uterus", uterus(), false, {.broad = 0.0009, .broad_size = 0.031, .fine = 0.00012, .fine_size = 0.006}},
       {"tube", tube(), false, {}},
       {"fimbria", tube(), false, {}},
       {"ovary",
        ovary(),
        false,
-       {.broad = 0.0005,
-        .broad_size = 0.012,
-        .fine = 0.00012,
+       {.broad = 0.0009,
+        .broad_size = 0.017,
+        .fine = 0.0002,
         .fine_size = 0.0045,
-        .follicles = 14,
-        .follicle_radius = 0.0028}},
+        .follicles = 11,
+        .follicle_radius = 0.0034,
+        .scars = 9},
+       0,
+       2},
       {"round_ligament", cord, false, {}},
       {"ovarian_ligament", pale_cord, false, {}},
       {"uterosacral_ligament", cord, false, {}},
@@ -251,6 +267,7 @@ std::vector<Look> make_looks() {
        bladder(),
        false,
        {.broad = 0.0012, .broad_size = 0.024, .fine = 0.0003, .fine_size = 0.008},
+       0,
        0,
        true},
       {"bowel",
@@ -262,11 +279,14 @@ std::vector<Look> make_looks() {
         .fine_size = 0.006,
         .haustra = 0.0024,
         .haustra_size = 0.023},
-       22},
+       20,
+       7},
       {"small_bowel",
        small_bowel(),
        false,
-       {.broad = 0.0003, .broad_size = 0.014, .fine = 0.00012, .fine_size = 0.005}},
+       {.broad = 0.0003, .broad_size = 0.014, .fine = 0.00012, .fine_size = 0.005},
+       0,
+       2},
       {"stomach", stomach(), false, {.broad = 0.0008, .broad_size = 0.026, .fine = 0.00015, .fine_size = 0.008}},
       {"liver", liver(), false, {.broad = 0.0006, .broad_size = 0.024}},
       {"gallbladder",
@@ -279,6 +299,7 @@ std::vector<Look> make_looks() {
       {"peritoneum", peritoneum(), false, {}},
       {"mesosalpinx", mesosalpinx(), true, {}},
       {"broad_ligament", fold(0.6f), true, {}},
+      {"adhesion", adhesion(), true, {}},
       {"steel", metal(srgb(142, 142, 147), srgb(124, 124, 130), 0.34f), false, {}},
       {"matte_steel", metal(srgb(126, 128, 132), srgb(112, 114, 120), 0.5f), false, {}},
       {"insulated", insulation(), false, {}},

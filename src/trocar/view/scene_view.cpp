@@ -5,6 +5,7 @@
 #include <trocar/render/mesh_arrays.hpp>
 #include <trocar/render/openness.hpp>
 #include <trocar/sim/visibility.hpp>
+#include <trocar/view/adhesions.hpp>
 #include <trocar/view/cameras.hpp>
 #include <trocar/view/cavity.hpp>
 #include <trocar/view/clip_shape.hpp>
@@ -35,7 +36,7 @@ using render::Frame;
 namespace {
 
 constexpr double kSleeveShows = 0.018;                      // [m] of a trocar's sleeve inside the wall
-constexpr float kVesselBefore = 0.0022f;                    // [m] a fold's vessels are drawn nearer than they are
+constexpr float kVesselBefore = 0.0016f;                    // [m] a fold's vessels are drawn nearer than they are
 constexpr float kShadeCell = 0.001f, kShadeReach = 0.018f;  // [m] what shades what
 
 /// A rigid part of an instrument and its mesh.
@@ -113,6 +114,7 @@ struct SceneView::Parts {
   std::vector<const Look*> drape_look;
   std::vector<TubeDrawing> tubes;
   std::vector<TubeJoint> joints;
+  std::optional<Adhesions> adhesions;
   std::vector<Ridge> ridges;
   std::vector<std::size_t> ridge_of;  ///< their strands
   std::vector<SheetDrawing> sheets;
@@ -225,6 +227,7 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
     drapes.emplace_back(model, i, organs, backend);
     drape_look.push_back(&look(model.walls.empty() ? covered.name : model.walls.front().look));
   }
+  adhesions.emplace(organs, model, wall_surface, backend);
   for (std::size_t i = 0; i < model.walls.size(); ++i) {
     const tissue::Skin& skin = model.walls[i].skin;
     std::vector<Paint> paint(skin.rest.size());
@@ -339,6 +342,7 @@ void SceneView::Parts::update(const sim::State& state) {
   }
   for (std::size_t i = 0; i < fat.size(); ++i) fat[i].update(organs[std::size_t(fat_on[i])]);
   for (Drape& d : drapes) d.update(organs);
+  adhesions->update(organs);
   for (TubeDrawing& t : tubes) t.update(state);
   for (TubeJoint& j : joints) j.joint.update(tubes[j.tube], organs[j.organ]);
   for (Ridge& r : ridges) r.update(state);
@@ -384,6 +388,8 @@ void SceneView::Parts::list_tissues(bool with_walls, Frame& frame) const {
   for (std::size_t i = 0; i < vessels.size(); ++i)
     frame.items.push_back(
         item(vessels[i].drawing.mesh(), *vessel_look[vessels[i].look], first.vessel + vessels[i].look));
+  if (with_walls && adhesions->mesh().id)
+    frame.items.push_back(item(adhesions->mesh(), look("adhesion"), first.cavity));
   for (std::size_t i = 0; i < sheets.size(); ++i)
     frame.items.push_back(item(sheets[i].mesh(), look(model.sheets[i].look), first.fold + i));
   for (std::size_t i = 0; i < membranes.size(); ++i)

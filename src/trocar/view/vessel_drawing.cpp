@@ -16,6 +16,7 @@ constexpr double kTaper = 0.006;      // [m] over which a vessel that ends thins
 constexpr double kThinnest = 0.35;    // share of the radius at such an end
 constexpr double kSameNode = 0.0012;  // [m] ends that meet
 constexpr int kSofter = 8;            // passes that round the line's corners
+constexpr double kNestled = 0.6;      // radii below an organ's surface
 constexpr double kWinding = 0.0006;   // [m] to either side, in a fold
 
 /// A line through places at s, cubic between them.
@@ -60,6 +61,17 @@ std::vector<Vec3d> drawn_line(const Run& run, const Curve& curve, const interact
   return line;
 }
 
+/// A vessel that rides on an organ lies in its surface, one that a fold carries in the fold: lines are drawn by hand
+/// and run up to some millimetres beside.
+interactions::VesselPath nestled(interactions::VesselPath path) {
+  for (interactions::VesselPoint& p : path.points) {
+    if (p.hold.kind == interactions::VesselHold::organ)
+      p.hold.offset.z = std::min(p.hold.offset.z, -kNestled * p.radius);
+    if (p.hold.kind == interactions::VesselHold::membrane) p.hold.offset.z = 0;
+  }
+  return path;
+}
+
 /// Share of the radius, less towards an end that leads nowhere.
 template <class Run>
 double thinned(const Run& run, double s, double length) {
@@ -98,6 +110,7 @@ bool in_a_fold(const interactions::VesselPath& path) {
 
 VesselDrawing::VesselDrawing(const sim::Model& model, bool veins, render::Backend& backend, Lie lie)
     : m_model(&model), m_veins(veins), m_lie(lie), m_hosts(sim::make_host_views(model)) {
+  for (const sim::Vessel& vessel : model.vessels.list) m_paths.push_back(nestled(vessel.path));
   const sim::State state = sim::initial_state(model);
   lay_out(state);
   place(state);
@@ -180,7 +193,7 @@ void VesselDrawing::place(const sim::State& state) {
     const interactions::VesselPath& path = m_model->vessels.list[std::size_t(run.vessel)].path;
     if (posed != run.vessel) {
       points.resize(path.points.size());
-      pose_vessel(path, hosts, points);
+      pose_vessel(m_paths[std::size_t(run.vessel)], hosts, points);
       posed = run.vessel;
     }
     place_run(run, state, points);

@@ -40,6 +40,7 @@ class VesselDrawing {
   const sim::Model* m_model;
   bool m_veins;
   Lie m_lie;
+  std::vector<interactions::VesselPath> m_paths;  ///< (vessels) the model's, nearer to what carries them
   std::vector<Run> m_runs;
   int m_laid_out_for = -1;  ///< openings
   sim::HostViews m_hosts;
