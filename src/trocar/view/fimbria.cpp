@@ -9,7 +9,7 @@ namespace {
 constexpr double kPi = 3.14159265358979;
 constexpr int kSides = 12, kRings = 18;
 constexpr double kThick = 0.00042;  // [m] half a petal's thickness at its root
-constexpr double kRuffle = 0.0009;  // [m] its edges rise and fall
+constexpr double kRuffle = 0.0007;  // [m] its edges rise and fall
 
 /// One finger: where it grows from, which way, how it curls.
 struct Finger {
@@ -30,8 +30,8 @@ double along_finger(int ring) { return std::sin(0.5 * kPi * ring / (kRings - 1))
 
 /// Width over length: broad at the root, where petals touch, widest before the middle, then a frilled, tapering end.
 double leaf(double u, int seed) {
-  const double body = 0.85 + 0.5 * std::sin(0.9 * kPi * std::min(u + 0.12, 1.0)) - 0.35 * u;
-  const double tip = std::sqrt(std::max(0.0, 1 - std::pow(std::max(0.0, (u - 0.62) / 0.38), 2.2)));
+  const double body = 0.85 + 0.5 * std::sin(0.9 * kPi * std::min(u + 0.12, 1.0)) - 0.1 * u;
+  const double tip = std::sqrt(std::max(0.0, 1 - std::pow(std::max(0.0, (u - 0.66) / 0.34), 2)));
   const double lobes = 1 + 0.14 * std::sin(11 * u + 6.3 * varied(seed, 1)) + 0.12 * std::sin(23 * u + seed);
   return body * tip * lobes;
 }
@@ -42,7 +42,7 @@ std::vector<Spine> spine_of(const Finger& f, double radius) {
   Vec3d p = Vec3d{f.along * radius, 0, 0} + f.out * radius * out;
   for (int i = 0; i < kRings; ++i) {
     const double u = along_finger(i);
-    const double lean = f.lean + f.curl * u * (0.4 + 0.6 * u) + 0.15 * std::sin(7 * u + f.seed);
+    const double lean = f.lean + f.curl * u * (0.4 + 0.6 * u) + 0.1 * std::sin(5 * u + f.seed);
     const double sway = f.sway * u;
     Vec3d t = std::cos(lean) * Vec3d{1, 0, 0} + std::sin(lean) * out;
     t = std::cos(sway) * t + std::sin(sway) * around;

@@ -12,10 +12,12 @@ constexpr double kClipWide = 0.0014;  // [m] a clip narrows the vessel so far to
 constexpr double kBloody = 0.004;     // [m] of a stump
 constexpr double kMostShift = 0.35;   // of the radius, however large the gain
 constexpr double kNarrowed = 0.7;     // share of the radius that a clip takes
-constexpr double kTaper = 0.006;      // [m] over which a vessel that ends thins out
-constexpr double kThinnest = 0.35;    // share of the radius at such an end
+constexpr double kTaper = 0.008;      // [m] over which a vessel that ends thins out
+constexpr double kThinnest = 0.2;     // share of the radius at such an end
+constexpr double kInFold = 0.8;       // share of the radius: half of it is in the fold
 constexpr double kSameNode = 0.0012;  // [m] ends that meet
 constexpr int kSofter = 8;            // passes that round the line's corners
+constexpr double kDives = 0.003;      // [m] seen of a vessel that leaves its fold
 constexpr double kNestled = 0.6;      // radii below an organ's surface
 constexpr double kWinding = 0.0006;   // [m] to either side, in a fold
 
@@ -82,14 +84,20 @@ double thinned(const Run& run, double s, double length) {
 }
 
 /// From where to where on the line it does not run below the peritoneum.
+/// Of one that a fold carries: only in it and along the strand on its border; to either side it goes into the depth.
 std::pair<double, double> in_sight(const interactions::VesselPath& path) {
+  const bool fold = in_a_fold(path);
   double from = 1, to = 0;
   for (const interactions::VesselPoint& p : path.points) {
+    const auto kind = p.hold.kind;
     if (p.covered()) continue;
+    if (fold && kind != interactions::VesselHold::membrane && kind != interactions::VesselHold::strand) continue;
     from = std::min(from, p.s);
     to = std::max(to, p.s);
   }
-  return {from, to};
+  if (!fold) return {from, to};
+  const double beyond = kDives / path.length;
+  return {std::max(0.0, from - beyond), std::min(1.0, to + beyond)};
 }
 
 std::vector<double> sorted_cuts(const sim::State& state, int vessel) {
@@ -221,7 +229,7 @@ void VesselDrawing::place_run(const Run& run, const sim::State& state, std::span
     tangent = normalised(line[std::min(i + 1, line.size() - 1)] - line[i > 0 ? i - 1 : 0], tangent);
     normal = normalised(normal - dot(normal, tangent) * tangent, any_perpendicular(tangent));
     const Vec3d beside = cross(tangent, normal), at = line[i];
-    const double drawn = vessel_radius(path, s) * thinned(run, s, path.length);
+    const double drawn = (in_a_fold(path) ? kInFold : 1) * vessel_radius(path, s) * thinned(run, s, path.length);
     const vessels::WallReading wall = read_wall(m_model->vessels.flow, state.flow, run.vessel, s, vessel.gain);
     double radius = drawn + std::clamp(wall.shift, -kMostShift * drawn, kMostShift * drawn);
     for (int c = 0; c < state.vessel_clip_count; ++c) {
