@@ -39,8 +39,6 @@ Ridge::Ridge(const sim::Model& model, const TubeDrawing& tube, int strand, const
     const auto node = std::size_t(place_at(*m_body, st.s).element);
     const std::vector<double>& outer = model.strands[std::size_t(strand)].outer;
     st.radius = 1.06 * std::max(outer[node], outer[node + 1]);
-    st.depth = smooth(kFrom, kDown, st.s / length_of);
-    st.over = smooth(kOver, kClosed, st.s / length_of);
     m_stations.push_back(st);
   }
   const TubeRoot& root = tube.end_root();
@@ -80,12 +78,23 @@ void Ridge::find_feet(const WallSurface& walls) {
   };
   for (Station& st : m_stations) st.floor = walls.nearest(st.at).point;
   even_out(6, [](Station& st) -> Vec3d& { return st.floor; });
+  bool in_wall = false;
+  double to_wall = m_body->length();  // of the ligament
   for (Station& st : m_stations) {
     const WallSurface::Place below = walls.nearest(st.floor);
     st.floor = below.point;
     st.normal[0] = st.normal[1] = below.normal;
+    if (!in_wall && dot(st.at - st.floor, below.normal) < 0.4 * st.radius) {
+      in_wall = true;
+      to_wall = std::min(to_wall, st.s);
+    }
     const Vec3d down = st.beyond ? -below.normal : st.floor - st.at - kAtWall * below.normal;
     st.side = normalised(cross(st.along, normalised(down, -below.normal)), any_perpendicular(st.along));
+  }
+  for (Station& st : m_stations) {
+    st.depth = smooth(kFrom, kDown, st.s / to_wall);
+    st.over = smooth(kOver, kClosed, st.s / to_wall);
+    st.narrow = std::min(st.narrow, smooth(1.35, 1, st.s / to_wall));
   }
   even_out(4, [](Station& st) -> Vec3d& { return st.side; });
   for (std::size_t i = 0; i < n; ++i) {
@@ -135,7 +144,7 @@ void Ridge::place_flank(const Station& st, Vec3d at, int flank, std::size_t firs
   const double sign = flank ? -1 : 1;
   const Vec3d n = st.normal[flank];
   const Vec3d down = normalised(st.floor - at - kAtWall * n, -n), out = sign * st.side;
-  const Vec3d up = st.beyond ? n : -down;
+  const Vec3d up = normalised(n - dot(n, st.along) * st.along, -down);
   const double high = 0.5 + 0.65 * st.over,
                wide = std::sqrt(std::max(0.0, 1 - 0.87 * high * high * (1 - st.over) - st.over));
   const Vec3d top = at + st.radius * ((0.93 * wide) * out + (0.93 * high) * up);

@@ -97,7 +97,8 @@ struct DrawnVessels {
 
 /// Where a strand's end grows out of an organ.
 struct TubeJoint {
-  std::size_t tube = 0, organ = 0;
+  std::size_t tube = 0;
+  int organ = -1;  ///< -1: a wall
   Joint joint;
 };
 
@@ -251,8 +252,12 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
     for (const bool at_start : {true, false}) {
       if (tubes[i].neck(at_start).far <= 0) continue;
       const sim::StrandEndModel& end = at_start ? model.strands[i].start : model.strands[i].end;
+      if (end.kind != sim::StrandEndModel::hosted) {
+        joints.push_back({i, -1, Joint(tubes[i], at_start, wall_surface, backend)});
+        continue;
+      }
       const auto organ = std::size_t(end.organ);
-      joints.push_back({i, organ, Joint(tubes[i], at_start, organs[organ], model.solids[organ].fine, backend)});
+      joints.push_back({i, end.organ, Joint(tubes[i], at_start, organs[organ], model.solids[organ].fine, backend)});
     }
   for (std::size_t i = 0; i < tubes.size() && !model.walls.empty(); ++i) {
     const sim::StrandModel& strand = model.strands[i];
@@ -344,7 +349,7 @@ void SceneView::Parts::update(const sim::State& state) {
   for (Drape& d : drapes) d.update(organs);
   adhesions->update(organs);
   for (TubeDrawing& t : tubes) t.update(state);
-  for (TubeJoint& j : joints) j.joint.update(tubes[j.tube], organs[j.organ]);
+  for (TubeJoint& j : joints) j.joint.update(tubes[j.tube], j.organ < 0 ? nullptr : &organs[std::size_t(j.organ)]);
   for (Ridge& r : ridges) r.update(state);
   for (SheetDrawing& s : sheets) s.update(state);
   for (MembraneDrawing& m : membranes) m.update(state);
@@ -380,8 +385,10 @@ void SceneView::Parts::list_tissues(bool with_walls, Frame& frame) const {
       frame.items.back().material.tint = look(model.organ_look(strand.start.organ)).material.colour;
   }
   for (const TubeJoint& j : joints) {
-    frame.items.push_back(item(j.joint.mesh(), look(model.solids[j.organ].look), first.tube + j.tube));
-    frame.items.back().material.tint = look(model.strands[j.tube].look).material.colour;
+    if (j.organ < 0 && !with_walls) continue;
+    const Look& onto = j.organ < 0 ? look("peritoneum") : look(model.solids[std::size_t(j.organ)].look);
+    frame.items.push_back(item(j.joint.mesh(), onto, first.tube + j.tube));
+    if (j.organ >= 0) frame.items.back().material.tint = look(model.strands[j.tube].look).material.colour;
   }
   for (std::size_t i = 0; with_walls && i < ridges.size(); ++i)
     frame.items.push_back(item(ridges[i].mesh(), look("peritoneum"), first.tube + ridge_of[i]));
