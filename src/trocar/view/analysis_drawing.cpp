@@ -60,7 +60,7 @@ void AnalysisDrawing::list_vessels(const sim::State& state, const AnalysisOption
   if (m_vessels.empty())
     for (const bool veins : {false, true}) {
       if (std::none_of(all.begin(), all.end(), [veins](const sim::Vessel& v) { return v.vein == veins; })) continue;
-      m_vessels.emplace_back(*m_model, veins, *m_backend, Detail{}, VesselExtent::whole);
+      m_vessels.emplace_back(*m_model, veins, *m_backend, Detail{}, VesselDrawing::Lie::below_too);
       m_vessel_colours.emplace_back();
       m_are_veins.push_back(veins);
     }

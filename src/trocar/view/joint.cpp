@@ -3,17 +3,19 @@
 
 #include <trocar/geometry/nearest.hpp>
 #include <trocar/render/mesh_arrays.hpp>
+#include <trocar/view/cavity.hpp>
 #include <trocar/view/joint.hpp>
 
 namespace trocar::view {
 namespace {
 
-constexpr int kRows = 10;            // strand to organ
-constexpr double kSkirt = 0.0018;    // [m] of the organ's surface that the collar covers, and ...
-constexpr double kSkirtRadii = 1.1;  // ... so many of the strand's radii
-constexpr double kSteepest = 0.55;   // sine of the flattest angle at which a strand is taken to meet the surface
-constexpr float kTucked = 0.0003f;   // [m] the border lies below the surface
-constexpr float kClear = 0.00015f;   // [m] the rest above it
+constexpr int kRows = 10;             // strand to organ
+constexpr double kSkirt = 0.0018;     // [m] of the organ's surface that the collar covers, and ...
+constexpr double kSkirtRadii = 1.1;   // ... so many of the strand's radii
+constexpr double kWallSkirt = 0.008;  // [m] the same of a wall
+constexpr double kSteepest = 0.55;    // sine of the flattest angle at which a strand is taken to meet the surface
+constexpr float kTucked = 0.0003f;    // [m] the border lies below the surface
+constexpr float kClear = 0.00015f;    // [m] the rest above it
 
 template <class T>
 T mixed(const std::array<std::uint32_t, 3>& vertex, Vec3f share, std::span<const T> of) {
@@ -36,42 +38,69 @@ Joint::Foot Joint::foot_at(Vec3d p, const OrganDrawing& organ, const tissue::Ski
   return best;
 }
 
-Joint::Joint(const TubeDrawing& tube, bool at_start, const OrganDrawing& organ, const tissue::Skin& skin,
-             render::Backend& backend)
-    : m_at_start(at_start), m_sides(tube.sides()) {
-  const TubeNeck& neck = tube.neck(at_start);
-  const Foot middle = foot_at(neck.end, organ, skin);
-  const Vec3d at = vec_cast<double>(mixed(middle.vertex, middle.share, organ.positions()));
-  const Vec3d n = normalised(vec_cast<double>(mixed(middle.vertex, middle.share, organ.normals())));
-  // Seen along the strand, its section is carried over to the surface; a flat approach is taken as less flat.
+Joint::Meeting Joint::meeting(const TubeNeck& neck, Vec3d at, Vec3d n) {
+  // A flat approach is taken as less flat.
   Vec3d way = neck.along;
   if (dot(way, -n) < kSteepest) {
     const Vec3d flat = normalised(way - dot(way, n) * n, any_perpendicular(n));
     way = std::sqrt(1 - kSteepest * kSteepest) * flat - kSteepest * n;
   }
-  const Vec3d entry = neck.centre + (dot(at - neck.centre, n) / dot(way, n)) * way;
-  for (const Vec3f& q : neck.ring) {
-    const Vec3d out = vec_cast<double>(q) - neck.centre;
-    const Vec3d on_plane = out - (dot(out, n) / dot(way, n)) * way;
-    const double skirt = kSkirt + kSkirtRadii * neck.radius;
-    m_feet.push_back(foot_at(entry + on_plane + skirt * normalised(on_plane), organ, skin));
+  return {neck.centre + (dot(at - neck.centre, n) / dot(way, n)) * way, n, way};
+}
+
+/// A point of the strand's section, carried along the strand to the plane, and on by the skirt.
+Vec3d Joint::aside(const Meeting& m, const TubeNeck& neck, std::size_t k, double skirt) {
+  const Vec3d out = vec_cast<double>(neck.ring[k]) - neck.centre;
+  const Vec3d on_plane = out - (dot(out, m.normal) / dot(m.way, m.normal)) * m.way;
+  return m.entry + on_plane + skirt * normalised(on_plane);
+}
+
+Joint::Joint(const TubeDrawing& tube, bool at_start, const OrganDrawing& organ, const tissue::Skin& skin,
+             render::Backend& backend)
+    : m_at_start(at_start), m_sides(tube.sides()) {
+  const TubeNeck& neck = tube.neck(at_start);
+  const Foot middle = foot_at(neck.end, organ, skin);
+  const Meeting m = meeting(neck, vec_cast<double>(mixed(middle.vertex, middle.share, organ.positions())),
+                            normalised(vec_cast<double>(mixed(middle.vertex, middle.share, organ.normals()))));
+  for (std::size_t k = 0; k < neck.ring.size(); ++k)
+    m_feet.push_back(foot_at(aside(m, neck, k, kSkirt + kSkirtRadii * neck.radius), organ, skin));
+  make(tube, &organ, backend);
+}
+
+Joint::Joint(const TubeDrawing& tube, bool at_start, const WallSurface& walls, render::Backend& backend)
+    : m_at_start(at_start), m_sides(tube.sides()) {
+  const TubeNeck& neck = tube.neck(at_start);
+  const WallSurface::Place middle = walls.nearest(neck.end);
+  const Meeting m = meeting(neck, middle.point, middle.normal);
+  for (std::size_t k = 0; k < neck.ring.size(); ++k) {
+    const double turn = 6.28318530717959 * double(k) / double(neck.ring.size());
+    const double uneven = 1 + 0.25 * std::sin(2 * turn + 900 * neck.end.x) + 0.12 * std::sin(3 * turn + 1);
+    const WallSurface::Place at = walls.nearest(aside(m, neck, k, kWallSkirt * uneven));
+    Foot foot;
+    foot.at = vec_cast<float>(at.point);
+    foot.normal = vec_cast<float>(at.normal);
+    m_feet.push_back(foot);
   }
+  make(tube, nullptr, backend);
+}
+
+void Joint::make(const TubeDrawing& tube, const OrganDrawing* organ, render::Backend& backend) {
   for (int i = 0; i < kRows * m_sides; ++i) m_buffer.add({});
   const auto row = [this](int i) { return std::uint32_t(i * m_sides); };
   for (int i = 0; i + 1 < kRows; ++i)
-    join_rows(m_buffer, row(at_start ? i + 1 : i), row(at_start ? i : i + 1), std::uint32_t(m_sides), true);
+    join_rows(m_buffer, row(m_at_start ? i + 1 : i), row(m_at_start ? i : i + 1), std::uint32_t(m_sides), true);
   place(tube, organ);
   m_buffer.rest = m_buffer.positions;
   m_mesh = OwnedMesh(backend, m_buffer.data());
 }
 
-void Joint::place(const TubeDrawing& tube, const OrganDrawing& organ) {
+void Joint::place(const TubeDrawing& tube, const OrganDrawing* organ) {
   const TubeNeck& neck = tube.neck(m_at_start);
   std::vector<Vec3f> foot, normal;
   Vec3f middle{}, up{};
   for (const Foot& f : m_feet) {
-    foot.push_back(mixed(f.vertex, f.share, organ.positions()));
-    normal.push_back(normalised(mixed(f.vertex, f.share, organ.normals()), Vec3f{0, 0, 1}));
+    foot.push_back(organ ? mixed(f.vertex, f.share, organ->positions()) : f.at);
+    normal.push_back(organ ? normalised(mixed(f.vertex, f.share, organ->normals()), Vec3f{0, 0, 1}) : f.normal);
     middle += foot.back() / float(m_sides);
     up += normal.back();
   }
@@ -81,11 +110,13 @@ void Joint::place(const TubeDrawing& tube, const OrganDrawing& organ) {
     const Vec3f inner = neck.there ? centre + 0.95f * (neck.ring[k] - centre) : middle + 0.0005f * normalised(up);
     const Vec3f out = foot[k] - middle, level = normalised(out - dot(out, normal[k]) * normal[k], along);
     const float reach = 0.95f * length(foot[k] - inner);
-    int burn = 0, open = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-      burn = std::max(burn, int(organ.paint()[m_feet[k].vertex[c]].burn));
-      open = std::max(open, int(organ.paint()[m_feet[k].vertex[c]].openness));
+    int burn = 0, open = organ ? 0 : 255;
+    for (std::size_t c = 0; organ && c < 3; ++c) {
+      burn = std::max(burn, int(organ->paint()[m_feet[k].vertex[c]].burn));
+      open = std::max(open, int(organ->paint()[m_feet[k].vertex[c]].openness));
     }
+    // What it goes over into: an organ's own colour, or fat here and there below a wall's peritoneum.
+    const double below = organ ? 0 : fat_below(vec_cast<double>(foot[k]));
     for (int i = 0; i < kRows; ++i) {
       const float t = float(i) / float(kRows - 2), u = 1 - t;  // the last row is the tucked border
       const std::size_t v = std::size_t(i * m_sides) + k;
@@ -95,7 +126,7 @@ void Joint::place(const TubeDrawing& tube, const OrganDrawing& organ) {
       m_buffer.positions[v] = p;
       const double w = std::min(1.0, double(t));
       m_buffer.paint[v] = {to_byte((1 - w) * 0.92 + w * open / 255.0), 0, to_byte(burn / 255.0 * smooth(0, 0.6, w)),
-                           to_byte(0.95 * smooth(0.85, 0.05, w))};
+                           to_byte(std::max((organ ? 0.95 : 0.6) * smooth(0.85, 0.05, w), below * w))};
     }
   }
   render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);
@@ -109,7 +140,7 @@ void Joint::place(const TubeDrawing& tube, const OrganDrawing& organ) {
   }
 }
 
-void Joint::update(const TubeDrawing& tube, const OrganDrawing& organ) {
+void Joint::update(const TubeDrawing& tube, const OrganDrawing* organ) {
   place(tube, organ);
   m_mesh.update(m_buffer);
 }

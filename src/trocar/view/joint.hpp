@@ -16,20 +16,31 @@ class Joint {
   /// @param organ   as drawn at rest  @param skin  the one it draws
   Joint(const TubeDrawing& tube, bool at_start, const OrganDrawing& organ, const tissue::Skin& skin,
         render::Backend& backend);
+  /// Into a wall.
+  Joint(const TubeDrawing& tube, bool at_start, const WallSurface& walls, render::Backend& backend);
 
-  void update(const TubeDrawing& tube, const OrganDrawing& organ);
+  /// @param organ  null: of a wall
+  void update(const TubeDrawing& tube, const OrganDrawing* organ);
   render::MeshHandle mesh() const { return m_mesh.handle(); }
   const MeshBuffer& buffer() const { return m_buffer; }
   int sides() const { return m_sides; }
 
  private:
-  /// A place on the organ's skin.
+  /// A place on the organ's skin, or on a wall.
   struct Foot {
     std::array<std::uint32_t, 3> vertex{};
     Vec3f share;
+    Vec3f at, normal;  ///< of a wall
   };
+  /// A plane that the strand meets: a point of it, its normal, which way the strand goes there.
+  struct Meeting {
+    Vec3d entry, normal, way;
+  };
+  static Meeting meeting(const TubeNeck& neck, Vec3d at, Vec3d normal);
+  static Vec3d aside(const Meeting& m, const TubeNeck& neck, std::size_t k, double skirt);
+  void make(const TubeDrawing& tube, const OrganDrawing* organ, render::Backend& backend);
   Foot foot_at(Vec3d p, const OrganDrawing& organ, const tissue::Skin& skin) const;
-  void place(const TubeDrawing& tube, const OrganDrawing& organ);
+  void place(const TubeDrawing& tube, const OrganDrawing* organ);
 
   bool m_at_start;
   int m_sides;

@@ -44,7 +44,7 @@ Material tube() {
   m.mottle_size = 0.007f;
   m.mottle = 0.6f;
   m.glow_amount = 0.12f;
-  m.tint = srgb(190, 82, 92);  // fimbriae
+  m.tint = srgb(202, 112, 120);  // fimbriae
   m.film_size = 0.0019f;
   m.film_bump = 0.3f;
   return m;
@@ -78,6 +78,8 @@ Material vessel(Vec3f main, Vec3f broad, Vec3f fine) {
   m.mottle_size = 0.006f;
   m.mottle = 0.4f;
   m.film_size = 0.0018f;
+  m.film_bump = 0.12f;  // under a film: few glints of its own
+  m.wetness = 0.25f;
   return m;
 }
 
@@ -183,7 +185,7 @@ Material fold(float alpha) {
 }
 
 Material mesosalpinx() {
-  Material m = fold(0.4f);
+  Material m = fold(0.44f);
   m.wetness = 0.3f;
   m.film_bump = 0.06f;
   m.film_size = 0.005f;
@@ -193,12 +195,25 @@ Material mesosalpinx() {
   return m;
 }
 
+/// Whitish, thin.
+Material adhesion() {
+  Material m = fold(0.26f);
+  m.colour = srgb(214, 176, 166);
+  m.colour_b = srgb(222, 192, 178);
+  m.colour_c = srgb(204, 150, 144);
+  m.tint = srgb(220, 186, 172);  // its strings
+  m.wetness = 0.4f;
+  m.film_bump = 0.1f;
+  m.rim_alpha = 0.5f;
+  return m;
+}
+
 Material fat() {
-  Material m = with_vessels(tissue(srgb(218, 144, 110), srgb(226, 164, 122), srgb(200, 118, 94)), 0.7f, 0.024f);
+  Material m = with_vessels(tissue(srgb(216, 142, 102), srgb(222, 160, 114), srgb(206, 122, 98)), 0.9f, 0.016f);
   m.mottle_size = 0.006f;
-  m.lobule_size = 0.003f;
-  m.lobule_depth = 0.22f;
-  m.lobule_contrast = 0.22f;
+  m.lobule_size = 0.0034f;
+  m.lobule_depth = 0.1f;
+  m.lobule_contrast = 0.05f;
   m.glow_amount = 0.12f;
   m.film_bump = 0.25f;
   m.tint = srgb(206, 126, 118);  // where it grows out of the bowel
@@ -271,18 +286,21 @@ std::vector<Look> make_looks() {
   const Material neutral = tissue(srgb(196, 134, 130), srgb(204, 150, 142), srgb(182, 112, 112));
   return {
       {"neutral", neutral, false, {}},
-      {"uterus", uterus(), false, {.broad = 0.0005, .broad_size = 0.019, .fine = 0.00012, .fine_size = 0.006}},
+      {"uterus", uterus(), false, {.broad = 0.0009, .broad_size = 0.031, .fine = 0.00012, .fine_size = 0.006}},
       {"tube", tube(), false, {}},
       {"fimbria", tube(), false, {}},
       {"ovary",
        ovary(),
        false,
-       {.broad = 0.0005,
-        .broad_size = 0.012,
-        .fine = 0.00012,
+       {.broad = 0.0009,
+        .broad_size = 0.017,
+        .fine = 0.0002,
         .fine_size = 0.0045,
-        .follicles = 14,
-        .follicle_radius = 0.0028}},
+        .follicles = 11,
+        .follicle_radius = 0.0034,
+        .scars = 9},
+       0,
+       2},
       {"round_ligament", cord, false, {}},
       {"ovarian_ligament", pale_cord, false, {}},
       {"uterosacral_ligament", cord, false, {}},
@@ -291,6 +309,7 @@ std::vector<Look> make_looks() {
        bladder(),
        false,
        {.broad = 0.0012, .broad_size = 0.024, .fine = 0.0003, .fine_size = 0.008},
+       0,
        0,
        true},
       {"bowel",
@@ -302,11 +321,14 @@ std::vector<Look> make_looks() {
         .fine_size = 0.006,
         .haustra = 0.0024,
         .haustra_size = 0.023},
-       22},
+       20,
+       7},
       {"small_bowel",
        small_bowel(),
        false,
-       {.broad = 0.0003, .broad_size = 0.014, .fine = 0.00012, .fine_size = 0.005}},
+       {.broad = 0.0003, .broad_size = 0.014, .fine = 0.00012, .fine_size = 0.005},
+       0,
+       2},
       {"stomach", stomach(), false, {.broad = 0.0008, .broad_size = 0.026, .fine = 0.00015, .fine_size = 0.008}},
       {"liver", liver(), false, {.broad = 0.0006, .broad_size = 0.024}},
       {"gallbladder",
@@ -314,13 +336,14 @@ std::vector<Look> make_looks() {
        false,
        {.broad = 0.0005, .broad_size = 0.017, .fine = 0.00012, .fine_size = 0.005}},
       {"fat", fat(), false, {.broad = 0.001, .broad_size = 0.012, .fine = 0.0006, .fine_size = 0.005}},
-      {"artery", vessel(srgb(156, 52, 52), srgb(168, 68, 62), srgb(132, 38, 42)), false, {}},
-      {"vein", vessel(srgb(98, 58, 78), srgb(112, 72, 88), srgb(82, 46, 64)), false, {}},
+      {"artery", vessel(srgb(134, 50, 52), srgb(148, 64, 60), srgb(112, 38, 44)), false, {}},
+      {"vein", vessel(srgb(104, 60, 70), srgb(118, 74, 78), srgb(88, 46, 60)), false, {}},
       {"peritoneum", peritoneum(), false, {}},
-      {"upper_abdomen", peritoneum(), false, {}, 0, false, true},
+      {"upper_abdomen", peritoneum(), false, {}, 0, 0, false, true},
       {"omentum", omentum(), false, {}},
       {"mesosalpinx", mesosalpinx(), true, {}},
       {"broad_ligament", fold(0.6f), true, {}},
+      {"adhesion", adhesion(), true, {}},
       {"steel", metal(srgb(148, 147, 152), srgb(128, 128, 134), 0.3f), false, {}},
       {"polished_steel", polished(srgb(168, 167, 172), srgb(150, 150, 156), 0.22f), false, {}},
       {"matte_steel", metal(srgb(128, 129, 133), srgb(114, 115, 120), 0.46f), false, {}},

@@ -17,6 +17,7 @@ struct Look {
   bool translucent = false;
   Relief relief;         ///< of solids
   int fat_tags = 0;      ///< of large bowel
+  int adhesions = 0;     ///< strings and veils to the wall, at most
   bool draped = false;   ///< peritoneum covers it and runs out on what is around
   bool omentum = false;  ///< fat lies on the lowest part of such a wall
 };

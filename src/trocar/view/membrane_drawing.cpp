@@ -9,8 +9,10 @@
 namespace trocar::view {
 namespace {
 
-constexpr int kFine = 3;            // drawn cells along each side of a cell of the body
-constexpr double kRipple = 0.0004;  // [m] of a fold that is slack
+constexpr int kFine = 3;               // drawn cells along each side of a cell of the body
+constexpr double kRipple = 0.0004;     // [m] of a fold that is slack
+constexpr double kFaded = 4;           // columns over which an end runs out
+constexpr double kElsewhere = 0.0173;  // [m] one fold's pattern from the next one's
 constexpr double kTwoPi = 6.28318530717959;
 
 /// Catmull-Rom between b and c.
@@ -71,8 +73,12 @@ void MembraneDrawing::lay_pattern() {
     for (int c = 0; c < m_columns; ++c) {
       const double s = m_membrane->from + (m_membrane->to - m_membrane->from) * c / (m_columns - 1);
       const double v = double(r) / (m_rows - 1);
-      if (own) m_buffer.rest[std::size_t(r * m_columns + c)] = fold_rest(s, v);
-      m_buffer.paint.push_back(fold_paint(s, v));
+      if (own) m_buffer.rest[std::size_t(r * m_columns + c)] = fold_rest(s + kElsewhere * m_index, v);
+      Paint paint = fold_paint(s + kElsewhere * m_index, v);
+      const double beside = double(std::min(c, m_columns - 1 - c)) / kFaded;  // its ends are not seen as edges
+      paint.openness = to_byte(paint.openness / 255.0 * smooth(-0.1, 1, beside));
+      paint.tint = to_byte(paint.tint / 255.0 * smooth(0, 1, beside));
+      m_buffer.paint.push_back(paint);
     }
 }
 

@@ -45,6 +45,22 @@ void add_follicles(const Relief& relief, const tissue::Skin& skin, std::vector<f
   }
 }
 
+/// Scars of an ovary: short furrows, each in a direction of its own.
+void add_scars(const Relief& relief, const tissue::Skin& skin, std::vector<float>& height) {
+  const int seed = int(std::fabs(skin.rest.front().y) * 1e6f) % 9973 + (skin.rest.front().x < 0 ? 20011 : 0);
+  for (int k = 0; k < relief.scars; ++k) {
+    const std::size_t v = std::size_t(varied(seed + k, 75) * double(skin.rest.size() - 1));
+    const Vec3d n = vec_cast<double>(skin.rest_normal[v]), x = any_perpendicular(n), y = cross(n, x);
+    const double turn = kTwoPi * varied(seed + k, 76), half = 0.0022 * (0.4 + varied(seed + k, 77));
+    const Vec3d along = std::cos(turn) * x + std::sin(turn) * y;
+    for (std::size_t i = 0; i < skin.rest.size(); ++i) {
+      const Vec3d d = vec_cast<double>(skin.rest[i] - skin.rest[v]);
+      const double on = std::clamp(dot(d, along), -half, half), far = length(d - on * along);
+      height[i] -= float(0.00045 * smooth(0.0019, 0, far));
+    }
+  }
+}
+
 /// Large gut: three flat pale bands of muscle run along it; between them the wall bulges and is drawn in crosswise, in
 /// each third at places of its own.
 void add_haustra(const Relief& relief, const tissue::Skin& skin, std::vector<float>& height,
@@ -114,6 +130,7 @@ std::vector<float> heights(const Relief& relief, const tissue::Skin& skin, std::
   }
   if (relief.haustra > 0) add_haustra(relief, skin, height, paint);
   if (relief.follicles > 0) add_follicles(relief, skin, height, paint);
+  if (relief.scars > 0) add_scars(relief, skin, height);
   add_roots(relief, skin, height);
   return height;
 }

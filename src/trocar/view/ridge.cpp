@@ -17,6 +17,7 @@ constexpr double kWidest = 0.016;   // [m] from below the ligament to a flank's 
 constexpr double kOver = 0.74;      // share of the ligament from where on its flanks close over it ...
 constexpr double kClosed = 0.97;    // ... and where they have
 constexpr double kTucked = 0.0012;  // [m] the border lies below the wall
+constexpr double kAtWall = 0.006;   // [m] nearer than that, down is the wall's normal
 constexpr int kBeyond = 7;          // stations in the wall
 
 }  // namespace
@@ -35,9 +36,9 @@ Ridge::Ridge(const sim::Model& model, const TubeDrawing& tube, int strand, const
     const CurveFrame f = curve.at(0, st.s);
     st.at = f.point;
     st.along = f.tangent;
-    st.radius = m_body->model.radius[std::size_t(place_at(*m_body, st.s).element)];
-    st.depth = smooth(kFrom, kDown, st.s / length_of);
-    st.over = smooth(kOver, kClosed, st.s / length_of);
+    const auto node = std::size_t(place_at(*m_body, st.s).element);
+    const std::vector<double>& outer = model.strands[std::size_t(strand)].outer;
+    st.radius = 1.06 * std::max(outer[node], outer[node + 1]);
     m_stations.push_back(st);
   }
   const TubeRoot& root = tube.end_root();
@@ -47,6 +48,7 @@ Ridge::Ridge(const sim::Model& model, const TubeDrawing& tube, int strand, const
     const double t = double(i) / kBeyond, u = 1 - t;
     Station st = m_stations.back();
     st.beyond = true;
+    st.narrow = u;
     st.at = (u * u * (1 + 2 * t)) * a + (t * t * (3 - 2 * t)) * b + (u * u * t) * da - (t * t * u) * db;
     st.along = normalised((6 * t * u) * (b - a) + (u * (1 - 3 * t)) * da + (t * (3 * t - 2)) * db, st.along);
     m_stations.push_back(st);
@@ -76,12 +78,23 @@ void Ridge::find_feet(const WallSurface& walls) {
   };
   for (Station& st : m_stations) st.floor = walls.nearest(st.at).point;
   even_out(6, [](Station& st) -> Vec3d& { return st.floor; });
+  bool in_wall = false;
+  double to_wall = m_body->length();  // of the ligament
   for (Station& st : m_stations) {
     const WallSurface::Place below = walls.nearest(st.floor);
     st.floor = below.point;
     st.normal[0] = st.normal[1] = below.normal;
-    const Vec3d down = st.beyond ? -below.normal : st.floor - st.at;
+    if (!in_wall && dot(st.at - st.floor, below.normal) < 0.4 * st.radius) {
+      in_wall = true;
+      to_wall = std::min(to_wall, st.s);
+    }
+    const Vec3d down = st.beyond ? -below.normal : st.floor - st.at - kAtWall * below.normal;
     st.side = normalised(cross(st.along, normalised(down, -below.normal)), any_perpendicular(st.along));
+  }
+  for (Station& st : m_stations) {
+    st.depth = smooth(kFrom, kDown, st.s / to_wall);
+    st.over = smooth(kOver, kClosed, st.s / to_wall);
+    st.narrow = std::min(st.narrow, smooth(1.35, 1, st.s / to_wall));
   }
   even_out(4, [](Station& st) -> Vec3d& { return st.side; });
   for (std::size_t i = 0; i < n; ++i) {
@@ -89,7 +102,7 @@ void Ridge::find_feet(const WallSurface& walls) {
     st.side = normalised(st.side, any_perpendicular(st.along));
     const double high = std::max(0.0, dot(st.at - st.floor, st.normal[0]));
     const double uneven = 1 + 0.3 * waves(st.floor, 0.021);
-    const double wide = std::min(kWidest, 1.6 * st.radius + 0.002 + 0.5 * high) * uneven;
+    const double wide = (0.2 + 0.8 * st.narrow) * std::min(kWidest, 1.6 * st.radius + 0.002 + 0.5 * high) * uneven;
     for (const int flank : {0, 1}) st.foot[flank] = st.floor + ((flank ? -wide : wide)) * st.side;
   }
   for (const int flank : {0, 1}) {
@@ -130,8 +143,8 @@ void Ridge::place(const StrandCurve& curve) {
 void Ridge::place_flank(const Station& st, Vec3d at, int flank, std::size_t first) {
   const double sign = flank ? -1 : 1;
   const Vec3d n = st.normal[flank];
-  const Vec3d down = normalised(st.floor - at, -st.normal[flank]), out = sign * st.side;
-  const Vec3d up = st.beyond ? n : -down;
+  const Vec3d down = normalised(st.floor - at - kAtWall * n, -n), out = sign * st.side;
+  const Vec3d up = normalised(n - dot(n, st.along) * st.along, -down);
   const double high = 0.5 + 0.65 * st.over,
                wide = std::sqrt(std::max(0.0, 1 - 0.87 * high * high * (1 - st.over) - st.over));
   const Vec3d top = at + st.radius * ((0.93 * wide) * out + (0.93 * high) * up);

@@ -33,6 +33,7 @@ class Ridge {
     double radius = 0;         ///< of what it covers [m]
     double depth = 1;          ///< share of the way to the wall that the flanks reach
     double over = 1;           ///< 0: the ligament's crest is bare, 1: the flanks meet over it
+    double narrow = 1;         ///< share of the flanks' width
     Vec3d floor;               ///< the wall below
     Vec3d foot[2], normal[2];  ///< where the flanks end, on either side
   };

@@ -5,6 +5,7 @@
 #include <trocar/render/mesh_arrays.hpp>
 #include <trocar/render/openness.hpp>
 #include <trocar/sim/visibility.hpp>
+#include <trocar/view/adhesions.hpp>
 #include <trocar/view/analysis_drawing.hpp>
 #include <trocar/view/cameras.hpp>
 #include <trocar/view/cavity.hpp>
@@ -39,7 +40,7 @@ using render::Frame;
 namespace {
 
 constexpr double kSleeveShows = 0.018;                      // [m] of a trocar's sleeve inside the wall
-constexpr float kVesselBehind = 0.0013f;                    // [m] vessels are drawn farther off than they are
+constexpr float kVesselBefore = 0.0016f;                    // [m] a fold's vessels are drawn nearer than they are
 constexpr float kShadeCell = 0.001f, kShadeReach = 0.018f;  // [m] what shades what
 
 /// A mesh that does not bend.
@@ -132,9 +133,17 @@ struct LoadedClip {
   OwnedMesh mesh;
 };
 
+/// Arteries or veins, in folds or elsewhere.
+struct DrawnVessels {
+  VesselDrawing drawing;
+  bool in_a_fold = false;
+  std::size_t look = 0;  ///< its number among the scene's
+};
+
 /// Where a strand's end grows out of an organ.
 struct TubeJoint {
-  std::size_t tube = 0, organ = 0;
+  std::size_t tube = 0;
+  int organ = -1;  ///< -1: a wall
   Joint joint;
 };
 
@@ -151,12 +160,13 @@ struct SceneView::Parts {
   std::vector<const Look*> drape_look;
   std::vector<TubeDrawing> tubes;
   std::vector<TubeJoint> joints;
+  std::optional<Adhesions> adhesions;
   std::vector<Ridge> ridges;
   std::vector<std::size_t> ridge_of;  ///< their strands
   std::vector<SheetDrawing> sheets;
   std::vector<MembraneDrawing> membranes;
   std::vector<PouchDrawing> pouches;
-  std::vector<VesselDrawing> vessels;
+  std::vector<DrawnVessels> vessels;
   std::vector<const Look*> vessel_look;
   std::optional<WetDrawing> wet;
   Lens lens;
@@ -286,8 +296,9 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
     const Look& covered = look(model.solids[std::size_t(i)].look);
     if (!covered.draped) continue;
     drapes.emplace_back(model, i, organs, backend);
-    drape_look.push_back(&covered);
+    drape_look.push_back(&look(model.walls.empty() ? covered.name : model.walls.front().look));
   }
+  adhesions.emplace(organs, model, wall_surface, backend);
   for (std::size_t i = 0; i < model.walls.size(); ++i) {
     const tissue::Skin& skin = model.walls[i].skin;
     std::vector<Paint> paint(skin.rest.size());
@@ -324,8 +335,12 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
     for (const bool at_start : {true, false}) {
       if (tubes[i].neck(at_start).far <= 0) continue;
       const sim::StrandEndModel& end = at_start ? model.strands[i].start : model.strands[i].end;
+      if (end.kind != sim::StrandEndModel::hosted) {
+        joints.push_back({i, -1, Joint(tubes[i], at_start, wall_surface, backend)});
+        continue;
+      }
       const auto organ = std::size_t(end.organ);
-      joints.push_back({i, organ, Joint(tubes[i], at_start, organs[organ], model.solids[organ].fine, backend)});
+      joints.push_back({i, end.organ, Joint(tubes[i], at_start, organs[organ], model.solids[organ].fine, backend)});
     }
   for (std::size_t i = 0; i < tubes.size() && !model.walls.empty(); ++i) {
     const sim::StrandModel& strand = model.strands[i];
@@ -338,11 +353,20 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
     sheets.emplace_back(model, i, backend, details.sheets.back(), &wall_surface);
   }
   for (const bool veins : {false, true}) {
-    const auto& all = model.vessels.list;
-    if (std::none_of(all.begin(), all.end(), [veins](const sim::Vessel& v) { return v.vein == veins; })) continue;
-    details.vessels.emplace_back(levels_of(model, veins ? "veins" : "arteries"));
-    vessels.emplace_back(model, veins, backend, details.vessels.back());
+    using Lie = VesselDrawing::Lie;
+    const auto some = [&](bool fold) {
+      return std::any_of(model.vessels.list.begin(), model.vessels.list.end(),
+                         [&](const sim::Vessel& v) { return v.vein == veins && in_a_fold(v.path) == fold; });
+    };
+    if (!some(false) && !some(true)) continue;
+    const Detail detail(levels_of(model, veins ? "veins" : "arteries"));
     vessel_look.push_back(&look(veins ? "vein" : "artery"));
+    for (const bool fold : {false, true}) {
+      if (!some(fold)) continue;
+      details.vessels.push_back(detail);
+      vessels.push_back({VesselDrawing(model, veins, backend, detail, fold ? Lie::in_a_fold : Lie::elsewhere), fold,
+                         vessel_look.size() - 1});
+    }
   }
   for (std::size_t i = 0; i < model.membranes.size(); ++i) {
     const Detail detail(levels_of(model, model.membranes[i].name));
@@ -422,13 +446,14 @@ void SceneView::Parts::update(const sim::State& state) {
   }
   for (std::size_t i = 0; i < fat.size(); ++i) fat[i].update(organs[std::size_t(fat_on[i])]);
   for (Drape& d : drapes) d.update(organs);
+  adhesions->update(organs);
   for (TubeDrawing& t : tubes) t.update(state);
-  for (TubeJoint& j : joints) j.joint.update(tubes[j.tube], organs[j.organ]);
+  for (TubeJoint& j : joints) j.joint.update(tubes[j.tube], j.organ < 0 ? nullptr : &organs[std::size_t(j.organ)]);
   for (Ridge& r : ridges) r.update(state);
   for (SheetDrawing& s : sheets) s.update(state);
   for (MembraneDrawing& m : membranes) m.update(state);
   for (PouchDrawing& p : pouches) p.update(state);
-  for (VesselDrawing& v : vessels) v.update(state);
+  for (DrawnVessels& v : vessels) v.drawing.update(state);
   for (std::size_t h = 0; h < port_sites.size(); ++h)
     port_sites[h].update(kinematics::forward(model.hands[h].port, state.tools[h].pose()).axis());
   for (LoadedClip& l : loaded) {
@@ -491,14 +516,18 @@ void SceneView::Parts::list_tissues(bool with_walls, Frame& frame) {
       tube.material.tint = look(model.organ_look(strand.start.organ)).material.colour;
   }
   for (const TubeJoint& j : joints) {
-    frame.items.push_back(item(j.joint.mesh(), look(model.solids[j.organ].look), first.tube + j.tube));
-    frame.items.back().material.tint = look(model.strands[j.tube].look).material.colour;
+    if (j.organ < 0 && !with_walls) continue;
+    const Look& onto = j.organ < 0 ? look("peritoneum") : look(model.solids[std::size_t(j.organ)].look);
+    frame.items.push_back(item(j.joint.mesh(), onto, first.tube + j.tube));
+    if (j.organ >= 0) frame.items.back().material.tint = look(model.strands[j.tube].look).material.colour;
   }
   for (std::size_t i = 0; with_walls && i < ridges.size(); ++i)
     frame.items.push_back(item(ridges[i].mesh(), look("peritoneum"), first.tube + ridge_of[i]));
   for (std::size_t i = 0; i < vessels.size(); ++i)
-    list(item(vessels[i].mesh(), *vessel_look[i], first.vessel + i), details.vessels[i], vessels[i].buffer().positions,
-         frame);
+    list(item(vessels[i].drawing.mesh(), *vessel_look[vessels[i].look], first.vessel + vessels[i].look),
+         details.vessels[i], vessels[i].drawing.buffer().positions, frame);
+  if (with_walls && adhesions->mesh().id)
+    frame.items.push_back(item(adhesions->mesh(), look("adhesion"), first.cavity));
   for (std::size_t i = 0; i < sheets.size(); ++i)
     list(item(sheets[i].mesh(), look(model.sheets[i].look), first.fold + i), details.sheets[i],
          sheets[i].buffer().positions, frame);
@@ -591,7 +620,7 @@ std::uint16_t SceneView::Parts::part_of(BodyKind kind, std::size_t i) const {
     case BodyKind::arteries:
       return first.vessel;
     case BodyKind::veins:
-      return std::uint16_t(first.vessel + vessels.size() - 1);
+      return std::uint16_t(first.vessel + vessel_look.size() - 1);
     case BodyKind::tools:
       break;
   }
@@ -606,8 +635,9 @@ void SceneView::Parts::list_analysis(const sim::State& state, const AnalysisOpti
   const std::size_t ghosts = frame.items.size();
   if (!options.strain && !options.springs) list_tissues(false, frame);
   if (options.pressure)
-    std::erase_if(frame.items,
-                  [&](const DrawItem& i) { return i.part >= first.vessel && i.part < first.vessel + vessels.size(); });
+    std::erase_if(frame.items, [&](const DrawItem& i) {
+      return i.part >= first.vessel && i.part < first.vessel + vessel_look.size();
+    });
   for (std::size_t i = 0; i < frame.items.size(); ++i) {
     frame.items[i].material = clay(frame.items[i].material);
     if (i >= ghosts) frame.items[i].translucent = false, frame.items[i].style = render::DrawStyle::transparent;
@@ -630,17 +660,18 @@ void cut_open(const std::vector<OwnedMesh>& walls, Frame& frame) {
 namespace {
 
 /// A vessel that lies in a fold is as thick as the fold's ripples are high and would be half in, half out of it: it is
-/// drawn a little behind where it is, in the same place of the picture (grown about the eye).
-void sink_vessels(const std::vector<VesselDrawing>& vessels, Frame& frame) {
-  for (const VesselDrawing& vessel : vessels) {
+/// drawn a little nearer than it is, in the same place of the picture (shrunk towards the eye).
+void lift_out_of_folds(const std::vector<DrawnVessels>& vessels, Frame& frame) {
+  for (const DrawnVessels& v : vessels) {
+    if (!v.in_a_fold) continue;
     Vec3f middle{};
-    const std::vector<Vec3f>& points = vessel.buffer().positions;
+    const std::vector<Vec3f>& points = v.drawing.buffer().positions;
     for (const Vec3f& p : points) middle += p / float(points.size());
     const Vec3f eye = frame.camera.position;
-    const float grown = 1 + kVesselBehind / std::max(length(middle - eye), 0.03f);
-    const Mat3f scale = Mat3f::from_columns({grown, 0, 0}, {0, grown, 0}, {0, 0, grown});
+    const float size = 1 - kVesselBefore / std::max(length(middle - eye), 0.03f);
+    const Mat3f scale = Mat3f::from_columns({size, 0, 0}, {0, size, 0}, {0, 0, size});
     for (DrawItem& drawn : frame.items)
-      if (drawn.mesh.id == vessel.mesh().id) drawn.transform = render::placement(scale, (1 - grown) * eye);
+      if (drawn.mesh.id == v.drawing.mesh().id) drawn.transform = render::placement(scale, (1 - size) * eye);
   }
 }
 
@@ -704,7 +735,7 @@ Frame SceneView::frame(const sim::State& state, const ViewOptions& options) {
   if (inside && !measured) p.list_surroundings(frame);
   if (!measured) p.list_tissues(inside || options.walls, frame);
   if (!inside) cut_open(p.walls, frame);
-  sink_vessels(p.vessels, frame);
+  lift_out_of_folds(p.vessels, frame);
   p.list_clips(state, frame);
   if (options.instruments) p.list_tools(state, options, frame);
   if (options.instruments && inside && !measured) p.list_port_sites(frame);

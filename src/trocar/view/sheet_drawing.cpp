@@ -24,6 +24,12 @@ constexpr double kHemFar = 0.06;    // [m] at most
 constexpr double kHemSunk = 0.002;  // [m] below the wall
 constexpr double kTwoPi = 6.28318530717959;
 
+/// How much of the sheet there is beside a cut: it frays out into a ragged, soft edge and not along a line.
+double whole_beside_tear(double gap, double s, double v) {
+  const double ragged = 0.16 + 0.1 * std::sin(kTwoPi * v / 0.13 + 40 * s) + 0.06 * std::sin(kTwoPi * v / 0.051);
+  return 1 - smooth(ragged + 0.25, ragged, gap) * smooth(1.2 * kTear, 0.6 * kTear, v);
+}
+
 Vec3d rest_of(const sim::BasePoint& b, const sim::Model& model) {
   if (b.organ >= 0) return vec_cast<double>(model.skin(b.organ).rest[std::size_t(b.vertex)]);
   const interactions::StrandBody& body = model.bodies[std::size_t(b.strand)];
@@ -100,7 +106,9 @@ void SheetDrawing::connect() {
       const std::size_t left = m_columns.size() - 1 - c;  // a free edge is not seen as one
       const double end = m_margin[1].empty() && left < kFaded ? double(left) / kFaded : 1;
       const double thin = m_hem.empty() ? near : v;  // goes on below its base
-      m_buffer.add({}, {to_byte(end * (0.62 + 0.38 * smooth(0, 0.25, thin))), 0, 0, 0});
+      m_buffer.add({}, {to_byte(end * whole_beside_tear(m_columns[c].gap, m_columns[c].s, v) *
+                                (0.62 + 0.38 * smooth(0, 0.25, thin))),
+                        0, 0, 0});
     }
   for (std::size_t c = 0; c + 1 < m_columns.size(); ++c) {
     if (m_columns[c].twin == int(c) + 1) continue;

@@ -23,6 +23,8 @@ constexpr double kRootFlare = 0.12;   // how much wider a strand is where it gro
 constexpr double kRootDepth = 1.6;    // radii below the organ's surface where it ends
 constexpr double kRootSlide = 0.022;  // [m] a ligament goes on along a wall ...
 constexpr double kRootBelow = 0.003;  // [m] ... to below its surface
+constexpr double kHeadOn = 0.5;       // sine of the angle to a wall above which a strand has a collar there ...
+constexpr double kWallNeck = 0.008;   // [m] ... from so far above it on
 constexpr double kNeckFar = 0.011;    // [m] from its end a strand's collar begins at most
 constexpr double kSink = 0.9;         // radii that a strand has sunk into its organ at its end
 constexpr double kRootReach = 0.03;   // [m] a wall farther from a fixed end is not its root
@@ -70,6 +72,7 @@ TubeDrawing::TubeDrawing(const sim::Model& model, int strand, const Detail& deta
   place(curve, m_buffer.positions);
   m_neck[0].far = neck_of(curve, true);
   m_neck[1].far = neck_of(curve, false);
+  if (walls && m_strand->end.kind == sim::StrandEndModel::fixed) m_neck[1].far = neck_at_wall(curve, false, *walls);
   place_necks(curve);
   m_buffer.rest = m_buffer.positions;
   render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);
@@ -235,6 +238,17 @@ double TubeDrawing::neck_of(const StrandCurve& rest, bool at_start) const {
     if (above > 1.5 * radius) return far + 0.6 * radius;
   }
   return std::min(kNeckFar, 0.3 * m_body->length());
+}
+
+/// One that meets a wall head-on needs a collar there, too.
+double TubeDrawing::neck_at_wall(const StrandCurve& rest, bool at_start, const WallSurface& walls) const {
+  const double end = at_start ? 0 : m_body->length();
+  const CurveFrame f = rest.at(0, end);
+  const WallSurface::Place wall = walls.nearest(f.point);
+  const double steep = dot(at_start ? f.tangent : -f.tangent, wall.normal);
+  if (!wall.there || length(wall.point - f.point) > kRootReach || steep < kHeadOn) return 0;
+  const double above = dot(f.point - wall.point, wall.normal), far = (kWallNeck - above) / steep;
+  return std::clamp(far, 0.002, 0.3 * m_body->length());
 }
 
 void TubeDrawing::place_necks(const StrandCurve& curve) {

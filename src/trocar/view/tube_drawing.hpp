@@ -35,9 +35,9 @@ struct TubeRoot {
   double sink = 0;          ///< how deep in the organ's surface the end already lies [m]
 };
 
-/// Where the collar of a hosted end begins (joint.hpp): a ring around the strand just outside its organ.
+/// Where the collar of an end begins (joint.hpp): a ring around the strand just outside the organ or wall it goes into.
 struct TubeNeck {
-  double far = 0;           ///< from the end [m]; 0: this end is not hosted
+  double far = 0;           ///< from the end [m]; 0: this end has no collar
   bool there = false;       ///< false: cut off nearer to the organ
   Vec3d centre, along;      ///< unit: towards the organ
   Vec3d end;                ///< of the strand
@@ -93,6 +93,7 @@ class TubeDrawing {
   TubeRoot root_at(const StrandCurve& rest, bool at_start, const WallSurface* walls) const;
   TubeRoot root_in_wall(const CurveFrame& end, Vec3d onward, double radius, const WallSurface& walls) const;
   double neck_of(const StrandCurve& rest, bool at_start) const;
+  double neck_at_wall(const StrandCurve& rest, bool at_start, const WallSurface& walls) const;
   void place_necks(const StrandCurve& curve);
   void add_root(int piece, bool at_start);
   CurveFrame sunk(const TubeRow& row, CurveFrame f, const StrandCurve& curve) const;

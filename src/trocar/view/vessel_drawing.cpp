@@ -13,10 +13,13 @@ constexpr double kBend = 0.005;       // [m] radius with which vessels curve, fo
 constexpr double kBloody = 0.004;     // [m] of a stump
 constexpr double kMostShift = 0.35;   // of the radius, however large the gain
 constexpr double kNarrowed = 0.7;     // share of the radius that a clip takes
-constexpr double kTaper = 0.006;      // [m] over which a vessel that ends thins out
-constexpr double kThinnest = 0.35;    // share of the radius at such an end
+constexpr double kTaper = 0.008;      // [m] over which a vessel that ends thins out
+constexpr double kThinnest = 0.2;     // share of the radius at such an end
+constexpr double kInFold = 0.8;       // share of the radius: half of it is in the fold
 constexpr double kSameNode = 0.0012;  // [m] ends that meet
 constexpr int kSofter = 8;            // passes that round the line's corners
+constexpr double kDives = 0.003;      // [m] seen of a vessel that leaves its fold
+constexpr double kNestled = 0.6;      // radii below an organ's surface
 constexpr double kWinding = 0.0006;   // [m] to either side, in a fold
 
 /// A line through places at s, cubic between them.
@@ -47,19 +50,29 @@ std::vector<Vec3d> drawn_line(const Run& run, const Curve& curve, const interact
     old = line;
     for (std::size_t i = 1; i + 1 < line.size(); ++i) line[i] = 0.5 * old[i] + 0.25 * (old[i - 1] + old[i + 1]);
   }
-  const bool in_fold = std::any_of(path.points.begin(), path.points.end(), [](const interactions::VesselPoint& p) {
-    return p.hold.kind == interactions::VesselHold::membrane;
-  });
-  if (!in_fold) return line;
+  if (!in_a_fold(path)) return line;
   old = line;
+  Vec3d beside = any_perpendicular(normalised(line.back() - line.front()));
   for (std::size_t i = 1; i + 1 < line.size(); ++i) {
-    const Vec3d along = normalised(old[i + 1] - old[i - 1]), beside = any_perpendicular(along);
+    const Vec3d along = normalised(old[i + 1] - old[i - 1]);
+    beside = normalised(beside - dot(beside, along) * along, any_perpendicular(along));
     const double way = run.s[i] * path.length, ends = std::min(run.s[i] - run.from, run.to - run.s[i]) * path.length;
-    const double far = kWinding * smooth(0, 0.005, ends);
-    line[i] += far * (std::sin(900 * way + 2 * std::sin(310 * way)) * beside +
-                      0.6 * std::sin(640 * way + 1.3) * cross(along, beside));
+    const double far = kWinding * smooth(0, 0.006, ends);
+    line[i] += far * (std::sin(520 * way + 1.5 * std::sin(230 * way)) * beside +
+                      std::sin(430 * way + 1.3) * cross(along, beside));
   }
   return line;
+}
+
+/// A vessel that rides on an organ lies in its surface, one that a fold carries in the fold: lines are drawn by hand
+/// and run up to some millimetres beside.
+interactions::VesselPath nestled(interactions::VesselPath path) {
+  for (interactions::VesselPoint& p : path.points) {
+    if (p.hold.kind == interactions::VesselHold::organ)
+      p.hold.offset.z = std::min(p.hold.offset.z, -kNestled * p.radius);
+    if (p.hold.kind == interactions::VesselHold::membrane) p.hold.offset.z = 0;
+  }
+  return path;
 }
 
 /// Share of the radius, less towards an end that leads nowhere.
@@ -72,14 +85,20 @@ double thinned(const Run& run, double s, double length) {
 }
 
 /// From where to where on the line it does not run below the peritoneum.
+/// Of one that a fold carries: only in it and along the strand on its border; to either side it goes into the depth.
 std::pair<double, double> in_sight(const interactions::VesselPath& path) {
+  const bool fold = in_a_fold(path);
   double from = 1, to = 0;
   for (const interactions::VesselPoint& p : path.points) {
+    const auto kind = p.hold.kind;
     if (p.covered()) continue;
+    if (fold && kind != interactions::VesselHold::membrane && kind != interactions::VesselHold::strand) continue;
     from = std::min(from, p.s);
     to = std::max(to, p.s);
   }
-  return {from, to};
+  if (!fold) return {from, to};
+  const double beyond = kDives / path.length;
+  return {std::max(0.0, from - beyond), std::min(1.0, to + beyond)};
 }
 
 std::vector<double> sorted_cuts(const sim::State& state, int vessel) {
@@ -92,9 +111,16 @@ std::vector<double> sorted_cuts(const sim::State& state, int vessel) {
 
 }  // namespace
 
+bool in_a_fold(const interactions::VesselPath& path) {
+  return std::any_of(path.points.begin(), path.points.end(), [](const interactions::VesselPoint& p) {
+    return p.hold.kind == interactions::VesselHold::membrane;
+  });
+}
+
 VesselDrawing::VesselDrawing(const sim::Model& model, bool veins, render::Backend& backend, const Detail& detail,
-                             VesselExtent extent)
-    : m_model(&model), m_veins(veins), m_extent(extent), m_hosts(sim::make_host_views(model)) {
+                             Lie lie)
+    : m_model(&model), m_veins(veins), m_lie(lie), m_hosts(sim::make_host_views(model)) {
+  for (const sim::Vessel& vessel : model.vessels.list) m_paths.push_back(nestled(vessel.path));
   for (const sim::DetailLevel& level : detail.levels()) m_errors.push_back(level.error);
   const sim::State state = sim::initial_state(model);
   lay_out(state);
@@ -138,7 +164,9 @@ void VesselDrawing::lay_out(const sim::State& state) {
   for (std::size_t v = 0; v < m_model->vessels.list.size(); ++v) {
     const sim::Vessel& vessel = m_model->vessels.list[v];
     if (vessel.vein != m_veins) continue;
-    const auto [begin, end] = m_extent == VesselExtent::whole ? std::pair(0.0, 1.0) : in_sight(vessel.path);
+    const bool some = m_lie == Lie::in_a_fold || m_lie == Lie::elsewhere;
+    if (some && in_a_fold(vessel.path) != (m_lie == Lie::in_a_fold)) continue;
+    const auto [begin, end] = m_lie == Lie::below_too ? std::pair(0.0, 1.0) : in_sight(vessel.path);
     std::vector<double> ends = sorted_cuts(state, int(v));
     ends.push_back(end);
     double from = begin;
@@ -200,7 +228,7 @@ void VesselDrawing::place(const sim::State& state) {
     const interactions::VesselPath& path = m_model->vessels.list[std::size_t(run.vessel)].path;
     if (posed != run.vessel) {
       points.resize(path.points.size());
-      pose_vessel(path, hosts, points);
+      pose_vessel(m_paths[std::size_t(run.vessel)], hosts, points);
       posed = run.vessel;
     }
     place_run(run, state, points);
@@ -228,7 +256,7 @@ void VesselDrawing::place_run(const Run& run, const sim::State& state, std::span
     tangent = normalised(line[std::min(i + 1, line.size() - 1)] - line[i > 0 ? i - 1 : 0], tangent);
     normal = normalised(normal - dot(normal, tangent) * tangent, any_perpendicular(tangent));
     const Vec3d beside = cross(tangent, normal), at = line[i];
-    const double drawn = vessel_radius(path, s) * thinned(run, s, path.length);
+    const double drawn = (in_a_fold(path) ? kInFold : 1) * vessel_radius(path, s) * thinned(run, s, path.length);
     const vessels::WallReading wall = read_wall(m_model->vessels.flow, state.flow, run.vessel, s, vessel.gain);
     double radius = drawn + std::clamp(wall.shift, -kMostShift * drawn, kMostShift * drawn);
     for (int c = 0; c < state.vessel_clip_count; ++c) {

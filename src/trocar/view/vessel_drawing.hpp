@@ -9,16 +9,20 @@
 
 namespace trocar::view {
 
-enum class VesselExtent {
-  in_sight,  ///< not what runs below the peritoneum
-  whole,
-};
+/// Does a fold carry any of it?
+bool in_a_fold(const interactions::VesselPath& path);
 
 class VesselDrawing {
  public:
-  /// @param veins  all of them, or all arteries
+  enum class Lie {
+    anywhere,
+    in_a_fold,
+    elsewhere,
+    below_too,  ///< anywhere, and what runs below the peritoneum
+  };
+  /// @param veins  veins, or arteries; of these all that lie there
   VesselDrawing(const sim::Model& model, bool veins, render::Backend& backend, const Detail& detail = {},
-                VesselExtent extent = VesselExtent::in_sight);
+                Lie lie = Lie::anywhere);
 
   void update(const sim::State& state);
   render::MeshHandle mesh() const { return m_mesh.handle(); }
@@ -44,7 +48,8 @@ class VesselDrawing {
 
   const sim::Model* m_model;
   bool m_veins;
-  VesselExtent m_extent;
+  Lie m_lie;
+  std::vector<interactions::VesselPath> m_paths;  ///< (vessels) the model's, nearer to what carries them
   std::vector<Run> m_runs;
   std::vector<double> m_errors;  ///< (levels) [m]
   int m_laid_out_for = -1;       ///< openings
