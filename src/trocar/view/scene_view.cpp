@@ -32,6 +32,7 @@ using render::Frame;
 namespace {
 
 constexpr double kSleeveShows = 0.018;                      // [m] of a trocar's sleeve inside the wall
+constexpr float kClipThroughFold = 0.75f;                   // how much of a clip shows through a sheer fold
 constexpr float kShadeCell = 0.001f, kShadeReach = 0.018f;  // [m] what shades what
 
 /// A rigid part of an instrument and its mesh.
@@ -357,6 +358,10 @@ void SceneView::Parts::list_clips(const sim::State& state, Frame& frame) const {
         Mat3f::from_columns(vec_cast<float>(at.open), vec_cast<float>(at.normal), vec_cast<float>(at.axis));
     DrawItem drawn = item(mesh->second.handle(), *titanium, first.clips);
     drawn.transform = to_world({turn, vec_cast<float>(at.centre + at.low * at.axis)});
+    frame.items.push_back(drawn);
+    // Its tips have gone through the fold beside the tube, which is whole in the simulation: they show through it.
+    drawn.translucent = true;
+    drawn.material.alpha = kClipThroughFold;
     frame.items.push_back(drawn);
   }
 }
