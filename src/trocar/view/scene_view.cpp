@@ -488,7 +488,10 @@ Frame SceneView::frame(const sim::State& state, const ViewOptions& options) {
   const auto shown = [&](std::uint16_t part) { return style_of(options.styles, part) != PartStyle::hidden; };
   frame.liquid.part = p.first.liquid;
   if (p.wet && shown(p.first.liquid)) p.wet->list(state, frame);
-  if (p.wet && shown(p.first.smoke)) list_smoke(p.model.wet.model.smoke, state.fluids.smoke, frame);
+  if (p.wet && shown(p.first.smoke)) {
+    list_smoke(p.model.wet.model.smoke, state.fluids.smoke, frame);
+    list_plumes(p.model, state, frame);
+  }
   // Only the endoscope has a lens that fogs: other cameras look past it.
   if (p.wet && options.camera == ViewOptions::Camera::scope)
     p.lens.list(p.model.wet.model.smoke, state.fluids.smoke, frame);

@@ -25,11 +25,9 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
   const vec4 broad = vec4(0.5);
 #endif
   // It condenses from the rim inwards, in patches of fine drops that have run together here and there.
-  float fog = u_soil.x * (0.60 + 0.75 * broad.a + 0.22 * dot(at, at)) - 0.10 * (1.0 - u_soil.x);
+  float fog = u_soil.x * (0.56 + 0.62 * broad.a + 0.24 * dot(at, at)) - 0.10 * (1.0 - u_soil.x);
 #ifdef UNEVEN
-  vec4 beads = texture(u_noise, vec3(at * 0.42, 0.83));
-  fog *= 1.0 - 0.55 * smoothstep(0.58, 0.72, beads.g) * u_soil.x;
-  fog *= 0.86 + 0.28 * beads.a;
+  fog *= 0.80 + 0.36 * texture(u_noise, vec3(at * 0.30, 0.83)).a;
 #endif
   fog = clamp(fog, 0.0, 1.0);
 
@@ -50,7 +48,7 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
   float swab = 0.0;
 #ifdef WIPED
     // Its edge is a fold of gauze, and it leaves what its threads pass over.
-    float side = dot(at, u_soil.wz) + 0.34 * (streaks - 0.5) + 0.12 * dot(at, vec2(-u_soil.z, u_soil.w)) * sin(9.0 * u_smear.w);
+    float side = dot(at, u_soil.wz) + 0.18 * (streaks - 0.5) + 0.12 * dot(at, vec2(-u_soil.z, u_soil.w)) * sin(9.0 * u_smear.w);
     float edge = mix(-1.7, 1.7, u_smear.w);
     float wiped = 1.0 - smoothstep(edge - 0.28, edge + 0.1, side);
     float off = (side - edge) / 0.42;
@@ -90,8 +88,9 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
 #endif
   vec3 cloth = u_swab.rgb * (0.62 + 0.9 * light) * (0.85 + 0.3 * broad.a);
 #ifdef WIPED
-  vec2 thread = sin(vec2(streak_at.x + 0.06 * streaks, streak_at.y + 0.05 * broad.g) * 46.0);
-  cloth *= 0.86 + 0.09 * (thread.x + thread.y) * (0.4 + 0.6 * broad.b) + 0.14 * streaks;
+  // Gauze, far out of focus.
+  vec2 thread = sin(vec2(streak_at.x + 0.05 * streaks, streak_at.y + 0.08 * broad.g) * vec2(115.0, 131.0));
+  cloth *= 0.84 + 0.011 * (thread.x + thread.y) + 0.16 * streaks;
 #endif
   return mix(picture, min(cloth, vec3(0.93)), 0.97 * swab);
 }
