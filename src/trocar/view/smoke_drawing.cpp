@@ -9,9 +9,9 @@ namespace {
 
 // Plumes: our choice, by eye.
 constexpr int kPuffs = 14;
-constexpr double kPlumeTime = 0.9;     // [s] that a puff is seen
+constexpr double kPlumeTime = 0.9;    // [s] that a puff is seen
 constexpr double kPlumeSpeed = 0.07;  // [m/s] upwards
-constexpr double kPlumeGrows = 0.17;   // of its way, in radius
+constexpr double kPlumeGrows = 0.17;  // of its way, in radius
 constexpr double kPlumeDense = 0.85;
 constexpr double kSmokes = 0.15;  // [s] of current until tissue smokes
 

@@ -293,9 +293,9 @@ void TubeDrawing::add_raw_face(int piece, bool at_start) {
   const Paint dark{40, 190, 0, 255};
   std::vector<TubeRow> rows;
   const auto row = [&](double along, double radius, Paint paint) {
-    rows.push_back({piece, s, sign * along, radius, 0.03, 0, false, paint});
+    rows.push_back({piece, s, sign * along, radius, along > 0 ? 0.03 : 0.0, 0, false, paint});
   };
-  row(0, 0.99 * r, rim);
+  row(0, r, rim);
   row(0.05 * r, 0.90 * r, muscle);
   row(0.14 * r, 0.90 * r, muscle);
   row(0.20 * r, 0.98 * r, mucosa);

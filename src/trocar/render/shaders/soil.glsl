@@ -25,7 +25,7 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
   const vec4 broad = vec4(0.5);
 #endif
   // It condenses from the rim inwards, in patches of fine drops that have run together here and there.
-  float fog = u_soil.x * (0.56 + 0.62 * broad.a + 0.24 * dot(at, at)) - 0.10 * (1.0 - u_soil.x);
+  float fog = u_soil.x * (0.68 + 0.62 * broad.a + 0.22 * dot(at, at)) - 0.10 * (1.0 - u_soil.x);
 #ifdef UNEVEN
   fog *= 0.80 + 0.36 * texture(u_noise, vec3(at * 0.30, 0.83)).a;
 #endif
