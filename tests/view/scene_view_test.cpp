@@ -218,7 +218,11 @@ TEST(SceneView, AClipIsDrawnOnItsHostAndADroppedOneIsNot) {
   EXPECT_EQ(view.frame(state, {}).items.size(), before);
   clip(state, left_tube(), 0.02);
   const render::Frame frame = view.frame(state, {});
-  ASSERT_EQ(frame.items.size(), before + 1);
+  ASSERT_EQ(frame.items.size(), before + 2);
+  const auto over_folds = [](const render::DrawItem& i) {
+    return i.translucent && i.material.shading == render::Shading::metal;
+  };
+  EXPECT_EQ(std::count_if(frame.items.begin(), frame.items.end(), over_folds), 1) << "it shows through folds, too";
   const interactions::StrandBody& body = pelvis().bodies[std::size_t(left_tube())];
   const Vec3d host = point_at(body, state.strands[std::size_t(left_tube())], place_at(body, 0.02));
   double nearest = 1;

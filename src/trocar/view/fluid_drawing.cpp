@@ -15,7 +15,7 @@ using render::SplatKind;
 // Our choice, all of them: from the look of spurts and rivulets in endoscopic films.
 constexpr float kCellsScatter = 1.6e3f;  // [1/m] red cells, forward scattering left out: blood is no red glass
 constexpr float kBloodOrange = 7e3f;    // [1/m] mean of whole blood at 585 to 600 nm, tabulated [Prahl 1999], as Optics
-constexpr float kShutter = 0.006f;      // [s] a camera's: what flies is a streak
+constexpr float kShutter = 0.005f;      // [s] a camera's: what flies is a streak
 constexpr float kWhole = 0.012f;        // [m] from its hole: so far a jet of blood is whole
 constexpr float kSpray = 0.055f;        // [m] ... and from here on spray
 constexpr float kWag = 0.035f;          // how far a jet's drops stray aside, a share of their way
@@ -39,7 +39,7 @@ constexpr float kOverhang = 0.004f;       // [m] a floor so far above the level 
 // What runs down a wall is no pool: where the floor is steeper than this and what is on it shallow it is drawn as film.
 constexpr float kLevelFloor = 0.35f, kSteepFloor = 0.8f;         // rise over run
 constexpr float kShallow = 0.0015f, kDeep = 0.0045f;             // [m]
-constexpr float kThickestRun = 70e-6f, kThickestStain = 22e-6f;  // [m] of what is drawn so, and of a tide's mark
+constexpr float kThickestRun = 48e-6f, kThickestStain = 22e-6f;  // [m] of what is drawn so, and of a tide's mark
 constexpr float kTide = 0.0045f;                                 // [m] how far it reaches
 
 Vec3f to_float(const fluids::Rgb& c) { return {float(c.r), float(c.g), float(c.b)}; }
@@ -157,10 +157,11 @@ Splat stain(const FilmPlace& place, float volume, float own, Vec3f down) {
   return s;
 }
 
-/// What runs down gathers in rivulets: how thick it is here, 1 in the mean or so.
-float rivulets(Vec3d p, Vec3d normal, Vec3d down) {
-  const Vec3d across = normalised(cross(normal, down), {1, 0, 0});
-  const double a = dot(p, across) + 0.0015 * waves(p, 0.02), b = dot(p, down);
+/// What runs down gathers in rivulets: how thick it is at a place, 1 in the mean or so.
+float rivulets(const FilmPlace& place, Vec3f down) {
+  const Vec3d p = vec_cast<double>(place.position), fall = vec_cast<double>(down);
+  const Vec3d across = normalised(cross(vec_cast<double>(place.normal), fall), {1, 0, 0});
+  const double a = dot(p, across) + 0.0015 * waves(p, 0.02), b = dot(p, fall);
   return float(std::clamp(0.85 + 1.1 * waves({a, 0.12 * b, 0}, 0.009), 0.04, 2.0));
 }
 
@@ -281,7 +282,9 @@ void FluidDrawing::list_spray(const fluids::DropletState& d, const Flying& drop,
     const float off = n == 0 ? 0.0f : apart * (0.002f + 0.03f * way);
     const Vec3f to_side = aside(v, d.id[k] * 7u + std::uint32_t(n), 1.0f) * (off / kWag);
     const Vec3f ahead = (apart * 4 * r * u(1) * (n == 0 ? 0.0f : 1.0f)) * normalised(v, Vec3f{0, 0, 1});
-    Splat s = streak(place + to_side + ahead, (1 - 0.2f * std::fabs(u(2))) * v, size, share);
+    Splat s = streak(place + to_side + ahead, (1 - 0.5f * std::fabs(u(2)) * apart) * v, size, share);
+    s.radius *= 1 - 0.25f * apart;
+    s.height *= 1 - 0.5f * apart;  // blurred by its speed, so not as dense as at rest
     s.dark = dark;
     liquid.splats.push_back(s);
   }
@@ -380,40 +383,56 @@ float FluidDrawing::runs_down(const fluids::PoolState& pool, std::span<const flo
   return float(steep * smooth(double(kDeep), double(kShallow), double(depth)));
 }
 
+/// Two by two of the pool's cells, as a place of film on the floor.
+FilmPlace FluidDrawing::block_of(std::span<const float> floor, int i, int j) const {
+  const fluids::PoolModel& m = m_model->pool;
+  const auto at = [&](int a, int b) {
+    return double(floor_at(m, floor, std::min(i + a, m.nx - 1), std::min(j + b, m.ny - 1)));
+  };
+  const auto [u, v] = floor_rise(floor, i, j);
+  FilmPlace place;
+  place.position =
+      vec_cast<float>(world(m, (i + 1) * m.cell, (j + 1) * m.cell, 0.25 * (at(0, 0) + at(1, 0) + at(0, 1) + at(1, 1))));
+  place.normal = vec_cast<float>(normalised(m.up - double(u) * m.u - double(v) * m.v, m.up));
+  place.area = 4 * float(m.cell * m.cell) * std::sqrt(1 + u * u + v * v);
+  return place;
+}
+
 /// What runs down walls into the pool, and the stain that it leaves beyond its border where it has been.
 void FluidDrawing::list_runs(const FluidSight& sight, Liquid& liquid) const {
   const fluids::PoolModel& m = m_model->pool;
   const Vec3f down = normalised(vec_cast<float>(m_model->droplets.gravity), Vec3f{0, 0, -1});
   const float now = now_of(m_model->droplets, sight.state.droplets);
-  const int reach = std::max(1, int(std::lround(double(kTide) / m.cell)));
-  for (int j = 0; j < m_window.height; ++j)
-    for (int i = 0; i < m_window.width; ++i) {
+  for (int j = m_window.j0 & 1; j + 1 < m_window.height; j += 2)
+    for (int i = m_window.i0 & 1; i + 1 < m_window.width; i += 2) {
+      const std::size_t k = std::size_t(j) * m_window.width + i;
+      if (m_known[k] <= 0 || m_depth[k] > kShallow) continue;  // far off, or below the pool
       const int ci = m_window.i0 + i, cj = m_window.j0 + j;
+      const FilmPlace place = block_of(sight.floor, ci, cj);
       const float runs = runs_down(sight.state.pool, sight.floor, ci, cj) * depth_at(m, sight.state.pool, ci, cj);
-      const float own_share = float(varied(ci + 977 * cj, 5));
-      const auto [u, v] = floor_rise(sight.floor, ci, cj);
-      const Vec3d spot = world(m, (ci + 0.5) * m.cell, (cj + 0.5) * m.cell, double(floor_at(m, sight.floor, ci, cj)));
-      const Vec3d normal = normalised(m.up - double(u) * m.u - double(v) * m.v, m.up);
-      float thickness = std::min(0.3f * runs, kThickestRun) * rivulets(spot, normal, vec_cast<double>(down));
       int wet_i = ci, wet_j = cj;
-      if (!(thickness > 2e-6f)) {
-        if (m_known[std::size_t(j) * m_window.width + i] <= 0) continue;
-        const float tide = near_pool(i, j, reach, wet_i, wet_j);
-        const float uneven = 0.5f + 0.5f * float(waves(spot, 0.008)) + 0.5f * (own_share - 0.5f);
-        thickness = kThickestStain * tide * smooth_step(uneven + 0.8f * tide - 0.45f);
-      }
-      if (!(thickness > 1e-6f)) continue;
-      FilmPlace place;
-      place.position = vec_cast<float>(spot);
-      place.normal = vec_cast<float>(normal);
-      place.area = float(m.cell * m.cell) * std::sqrt(1 + u * u + v * v);
-      Splat s = stain(place, thickness * place.area, own_share, down);
-      s.radius = std::max(s.radius, 0.55f * float(m.cell));
+      float thickness = std::min(0.3f * runs, kThickestRun) * rivulets(place, down);
+      if (!(thickness > 2e-6f)) thickness = tide_mark(i, j, place, wet_i, wet_j);
+      if (!(thickness > 1.5e-6f)) continue;
+      Splat s = stain(place, thickness * place.area, float(varied(ci + 977 * cj, 5)), down);
+      const Vec3f middle = 0.5f * (s.from + s.to), half = 0.2f * (s.to - s.from);  // blocks overlap enough
+      const Vec3f shift = float(m.cell) * Vec3f{own(std::uint32_t(ci), cj), own(std::uint32_t(cj), ci + 7), 0.0f};
+      const Vec3f aside = 0.7f * (shift - dot(shift, s.normal) * s.normal);
+      s.from = middle - half + aside, s.to = middle + half + aside;
+      s.radius = 1.25f * float(m.cell);
       s.height = thickness;
       s.share = shares_of(mix_at(m, sight.state.pool, wet_i, wet_j));
       s.dark = darkness(now, sight.state.pool.shed, s.share);
       liquid.splats.push_back(s);
     }
+}
+
+/// How thick the stain beside the pool is on a block of cells that is not wet [m], and which wet cell is nearest.
+float FluidDrawing::tide_mark(int i, int j, const FilmPlace& place, int& wet_i, int& wet_j) const {
+  const int reach = std::max(1, int(std::lround(double(kTide) / m_model->pool.cell)));
+  const float tide = near_pool(i, j, reach, wet_i, wet_j);
+  const float uneven = 0.5f + 0.6f * float(waves(vec_cast<double>(place.position), 0.008));
+  return kThickestStain * tide * smooth_step(uneven + 0.8f * tide - 0.45f);
 }
 
 /// How near the pool is to a dry cell of the window, 1 beside it, 0 at `reach` cells; and which cell of it.

@@ -60,6 +60,8 @@ class FluidDrawing {
   void list_runs(const FluidSight& sight, render::Liquid& liquid) const;
   std::array<float, 2> floor_rise(std::span<const float> floor, int i, int j) const;
   float runs_down(const fluids::PoolState& pool, std::span<const float> floor, int i, int j) const;
+  FilmPlace block_of(std::span<const float> floor, int i, int j) const;
+  float tide_mark(int i, int j, const FilmPlace& place, int& wet_i, int& wet_j) const;
   float near_pool(int i, int j, int reach, int& wet_i, int& wet_j) const;
   void smooth_pool(const fluids::PoolState& pool, std::span<const float> floor);
 

@@ -9,10 +9,12 @@
 namespace trocar::view {
 namespace {
 
-constexpr int kFine = 3;               // drawn cells along each side of a cell of the body
-constexpr double kRipple = 0.0004;     // [m] of a fold that is slack
-constexpr double kFaded = 4;           // columns over which an end runs out
-constexpr double kElsewhere = 0.0173;  // [m] one fold's pattern from the next one's
+constexpr int kFine = 3;                // drawn cells along each side of a cell of the body
+constexpr double kRipple = 0.0004;      // [m] of a fold that is slack
+constexpr double kFaded = 4;            // columns over which an end runs out
+constexpr double kElsewhere = 0.0173;   // [m] one fold's pattern from the next one's
+constexpr float kRagged = 0.0005f;      // [m] how uneven a torn edge is
+constexpr std::uint8_t kTornPale = 44;  // it is whitish
 constexpr double kTwoPi = 6.28318530717959;
 
 /// Catmull-Rom between b and c.
@@ -82,14 +84,18 @@ void MembraneDrawing::lay_pattern() {
     }
 }
 
-/// All cells but those that are cut open.
+/// All cells but those that are cut open; what borders on these is an edge.
 void MembraneDrawing::connect(const std::vector<std::uint8_t>& torn) {
   m_buffer.indices.clear();
+  m_edge.assign(m_buffer.positions.size(), 0);
   for (int r = 0; r + 1 < m_rows; ++r)
     for (int c = 0; c + 1 < m_columns; ++c) {
       const std::size_t cell = std::size_t(r / kFine * (m_membrane->sheet.columns - 1) + c / kFine);
-      if (torn[2 * cell] || torn[2 * cell + 1]) continue;
       const auto a = std::uint32_t(r * m_columns + c), b = a + 1, d = a + std::uint32_t(m_columns);
+      if (torn[2 * cell] || torn[2 * cell + 1]) {
+        for (const std::uint32_t corner : {a, b, d, d + 1}) m_edge[corner] = 1;
+        continue;
+      }
       m_buffer.quad(a, b, d + 1, d);
     }
 }
@@ -126,6 +132,13 @@ void MembraneDrawing::place(const tissue::MembraneState& state) {
   }
 }
 
+/// A torn edge is uneven and curls.
+void MembraneDrawing::fray() {
+  for (std::size_t i = 0; i < m_edge.size(); ++i)
+    if (m_edge[i])
+      for (int k = 0; k < 3; ++k) (&m_buffer.positions[i].x)[k] += kRagged * (2 * float(varied(int(i), k)) - 1);
+}
+
 void MembraneDrawing::update(const sim::State& state) {
   place(state.membranes[std::size_t(m_index)]);
   const std::vector<std::uint8_t>& torn = state.torn[std::size_t(m_index)];
@@ -135,8 +148,10 @@ void MembraneDrawing::update(const sim::State& state) {
     m_buffer.coarser.clear();
     connect(torn);
   }
-  const bool burnt = m_marks.update(state);
-  for (std::size_t i = 0; burnt && i < m_buffer.paint.size(); ++i) m_buffer.paint[i].burn = m_marks.burn(i);
+  fray();
+  const bool burnt = m_marks.update(state) || changed;
+  for (std::size_t i = 0; burnt && i < m_buffer.paint.size(); ++i)
+    m_buffer.paint[i].burn = std::max(m_marks.burn(i), m_edge[i] ? kTornPale : std::uint8_t(0));
   render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);
   if (changed)
     m_mesh.replace(m_buffer.data());

@@ -21,12 +21,14 @@ class MembraneDrawing {
   void lay_pattern();
   void connect(const std::vector<std::uint8_t>& torn);
   void place(const tissue::MembraneState& state);
+  void fray();
   std::vector<Vec3d> flat_places()
       const;  ///< of the drawn vertices: between the body's nodes as drawn, without ripples
 
   const sim::MembraneModel* m_membrane;
   int m_index, m_columns, m_rows;        ///< of the drawn grid
   std::vector<std::uint8_t> m_torn;      ///< as drawn last
+  std::vector<std::uint8_t> m_edge;      ///< (drawn vertices) 1: of a tear
   std::vector<Vec3d> m_node, m_between;  ///< (columns x rows of the body), (drawn columns x rows of the body)
   std::vector<double> m_rest_width;      ///< (columns of the body) from border to border, as drawn at rest
   HeatMarks m_marks;

@@ -41,6 +41,7 @@ namespace {
 
 constexpr double kSleeveShows = 0.018;                      // [m] of a trocar's sleeve inside the wall
 constexpr float kVesselBefore = 0.0016f;                    // [m] a fold's vessels are drawn nearer than they are
+constexpr float kClipThroughFold = 0.75f;                   // how much of a clip shows through a sheer fold
 constexpr float kShadeCell = 0.001f, kShadeReach = 0.018f;  // [m] what shades what
 
 /// A mesh that does not bend.
@@ -556,6 +557,10 @@ void SceneView::Parts::list_clips(const sim::State& state, Frame& frame) const {
     DrawItem drawn = item(mesh->second.handle(), *titanium, first.clips);
     drawn.transform = to_world({turn, vec_cast<float>(at.centre + at.low * at.axis)});
     frame.items.push_back(drawn);
+    // Its tips have gone through the fold beside the tube, which is whole in the simulation: they show through it.
+    drawn.translucent = true;
+    drawn.material.alpha = kClipThroughFold;
+    frame.items.push_back(drawn);
   }
 }
 
@@ -751,7 +756,10 @@ Frame SceneView::frame(const sim::State& state, const ViewOptions& options) {
   }
   frame.liquid.part = p.first.liquid;
   if (p.wet && shown(p.first.liquid)) p.wet->list(state, frame);
-  if (p.wet && shown(p.first.smoke)) list_smoke(p.model.wet.model.smoke, state.fluids.smoke, frame);
+  if (p.wet && shown(p.first.smoke)) {
+    list_smoke(p.model.wet.model.smoke, state.fluids.smoke, frame);
+    list_plumes(p.model, state, frame);
+  }
   // Only the endoscope has a lens that fogs: other cameras look past it.
   if (p.wet && options.camera == ViewOptions::Camera::scope)
     p.lens.list(p.model.wet.model.smoke, state.fluids.smoke, frame);

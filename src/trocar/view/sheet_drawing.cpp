@@ -13,6 +13,8 @@ constexpr int kRows = 11;                                 // strand to base
 constexpr double kStep = 0.0016;                          // [m] between columns
 constexpr double kTear = 0.5;                             // of the width, how deep a cut's gap goes
 constexpr double kTearReach = 0.012;                      // [m] along the strand on either side
+constexpr double kRagged = 0.0011;                        // [m] how uneven a torn edge is
+constexpr double kPaleEdge = 0.22;                        // of kTearReach: whitish beside a tear
 constexpr double kSag = 0.10;                             // of the width, where the fold is as drawn
 constexpr double kRipple = 0.0006;                        // [m]
 constexpr std::size_t kFaded = 6;                         // columns over which a free edge runs out
@@ -106,9 +108,10 @@ void SheetDrawing::connect() {
       const std::size_t left = m_columns.size() - 1 - c;  // a free edge is not seen as one
       const double end = m_margin[1].empty() && left < kFaded ? double(left) / kFaded : 1;
       const double thin = m_hem.empty() ? near : v;  // goes on below its base
+      const double torn = smooth(kTear, 0.6 * kTear, v) * smooth(kPaleEdge, 0, m_columns[c].gap);
       m_buffer.add({}, {to_byte(end * whole_beside_tear(m_columns[c].gap, m_columns[c].s, v) *
                                 (0.62 + 0.38 * smooth(0, 0.25, thin))),
-                        0, 0, 0});
+                        0, to_byte(0.17 * torn), 0});
     }
   for (std::size_t c = 0; c + 1 < m_columns.size(); ++c) {
     if (m_columns[c].twin == int(c) + 1) continue;
@@ -236,7 +239,10 @@ void SheetDrawing::lay_pattern() {
     const double edge = c < m_columns.size() ? m_columns[c].s : first ? m_columns.front().s : m_columns.back().s;
     const double s = edge + (first ? -1.0 : 1.0) * kStep * double(beyond);
     m_buffer.rest[i] = fold_rest(s, v);
-    if (beyond == 0) m_buffer.paint[i] = fold_paint(s, v);
+    if (beyond > 0) continue;
+    const std::uint8_t torn = m_buffer.paint[i].burn;
+    m_buffer.paint[i] = fold_paint(s, v);
+    m_buffer.paint[i].burn = torn;
   }
 }
 
@@ -291,6 +297,12 @@ void SheetDrawing::close_tear(std::size_t c) {
     for (std::size_t k = c + 1; k-- > 0 && m_columns[k].piece == m_columns[c].piece;) moved(k, half);
     for (std::size_t k = c + 1; k < m_columns.size() && m_columns[k].piece == m_columns[c + 1].piece; ++k)
       moved(k, -half);
+    // Torn, not cut with a ruler: it draws back here, a shred stands there.
+    const Vec3f apart = normalised(b - a, Vec3f{});
+    for (const std::size_t k : {c, c + 1}) {
+      const double shred = varied(int(k), int(r)) - 0.35 * (1 + std::sin(2.3 * double(r)));
+      m_buffer.positions[k * kRows + r] += (float(kRagged * shred) * (1 - joined) * (k == c ? 1.0f : -1.0f)) * apart;
+    }
   }
 }
 

@@ -1,10 +1,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/view/mesh_buffer.hpp>
 #include <trocar/view/smoke_drawing.hpp>
 
 namespace trocar::view {
 namespace {
+
+// Plumes: our choice, by eye.
+constexpr int kPuffs = 14;
+constexpr double kPlumeTime = 0.9;    // [s] that a puff is seen
+constexpr double kPlumeSpeed = 0.07;  // [m/s] upwards
+constexpr double kPlumeGrows = 0.17;  // of its way, in radius
+constexpr double kPlumeDense = 0.85;
+constexpr double kSmokes = 0.15;  // [s] of current until tissue smokes
 
 constexpr float kClear = 0.01f;  // [g/m^3] everywhere below it: nothing to be seen
 
@@ -22,6 +31,27 @@ void list_smoke(const fluids::SmokeModel& model, const fluids::SmokeState& state
   smoke.density.reserve(state.density.size());
   for (const float d : state.density) smoke.density.push_back(d > 0 && std::isfinite(d) ? d : 0);
   smoke.rise = 0.5f * float(model.rise_thin);  // curls lag behind what carries them (our choice)
+}
+
+void list_plumes(const sim::Model& model, const sim::State& state, render::Frame& frame) {
+  const Vec3d up = -1.0 * normalised(model.gravity, {0, 0, -1}), side = any_perpendicular(up), other = cross(up, side);
+  for (std::size_t h = 0; h < state.electrodes.size(); ++h) {
+    const sim::ElectrodeHand& hand = state.electrodes[h];
+    if (hand.body < 0 || !(hand.current.on_time > kSmokes)) continue;
+    const double now = 1e-3 * double(state.tick % 1000000) / kPlumeTime * kPuffs, first = std::floor(now);
+    for (int k = 0; k < kPuffs; ++k) {
+      const double age = (now - first + k) / kPuffs;  // 0 .. 1 of its time
+      if (age * kPlumeTime > hand.current.on_time) continue;
+      const int own = int(first) - k;
+      const double high = kPlumeSpeed * kPlumeTime * std::pow(age, 0.8), stray = 0.28 * high;
+      render::Puff puff;
+      puff.centre = vec_cast<float>(hand.at + high * up + (stray * (2 * varied(own, 1) - 0.6)) * side +
+                                    (stray * (2 * varied(own, 2) - 1)) * other);
+      puff.radius = float(0.0026 + kPlumeGrows * high * (0.7 + 0.6 * varied(own, 3)));
+      puff.density = float(kPlumeDense * (1 - age) * std::min(1.0, 6 * age + 0.2));
+      frame.puffs.push_back(puff);
+    }
+  }
 }
 
 }  // namespace trocar::view

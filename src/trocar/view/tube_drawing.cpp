@@ -28,7 +28,7 @@ constexpr double kWallNeck = 0.008;   // [m] ... from so far above it on
 constexpr double kNeckFar = 0.011;    // [m] from its end a strand's collar begins at most
 constexpr double kSink = 0.9;         // radii that a strand has sunk into its organ at its end
 constexpr double kRootReach = 0.03;   // [m] a wall farther from a fixed end is not its root
-constexpr double kBloodied = 0.0025;  // [m] beside a cut
+constexpr double kBloodied = 0.0016;  // [m] beside a cut
 constexpr double kBend = 0.01;        // [m] radius with which tubes curve, for rings that are left out
 
 template <class T>
@@ -329,14 +329,15 @@ Paint TubeDrawing::paint_at(const Layout& layout, double s, double angle, Paint 
   Paint p = own;
   for (const Clip& clip : layout.clips) {
     const double d = std::fabs(s - clip.s);
-    const double pale = 0.3 * clip.cover * smooth(kBlanched, 0.0008, d);
+    const double pale = 0.13 * clip.cover * smooth(kBlanched, 0.0008, d);
     p.burn = std::max(p.burn, to_byte(pale));
   }
   for (const StrandPiece& piece : layout.pieces) {
-    const double stain = kBloodied * (1 + 0.5 * std::sin(angle + 1) + 0.3 * std::sin(3 * angle));
+    if (own.blood > 0) break;  // a raw face has its own
+    const double stain = kBloodied * (0.8 + 0.6 * std::sin(angle + 1) + 0.4 * std::sin(3 * angle));
     if (piece.cut_start && s >= piece.from)
-      p.blood = std::max(p.blood, to_byte(0.3 * smooth(stain, 0, s - piece.from)));
-    if (piece.cut_end && s <= piece.to) p.blood = std::max(p.blood, to_byte(0.3 * smooth(stain, 0, piece.to - s)));
+      p.blood = std::max(p.blood, to_byte(0.2 * smooth(stain, 0, s - piece.from)));
+    if (piece.cut_end && s <= piece.to) p.blood = std::max(p.blood, to_byte(0.2 * smooth(stain, 0, piece.to - s)));
   }
   for (const Cut& nick : layout.nicks) {
     const double round = 0.5 + 0.5 * std::cos(angle);
@@ -370,19 +371,23 @@ void TubeDrawing::add_raw_face(int piece, bool at_start) {
   const double s = at_start ? p.from : p.to, sign = at_start ? -1 : 1, r = radius_at(s);
   const double open = m_strand->inner.empty() ? 0 : m_strand->inner[std::size_t(at_start ? p.first : p.last)];
   const double lumen = std::max(open, 0.22 * r);
-  // A pale ring of muscle under the serosa's red rim, the mucosa around the lumen, and blood in that.
-  const Paint raw{235, 70, 0, 0}, muscle{235, 18, 78, 0}, mucosa{190, 60, 0, 230}, dark{40, 190, 0, 255};
+  // The serosa has drawn back from a pale ring of muscle, whose lining rolls out over it, dusky pink; in it the lumen,
+  // dark, and a little blood.
+  const Paint rim{235, 26, 0, 0}, muscle{235, 6, 44, 0}, mucosa{225, 3, 0, 150}, lining{170, 40, 0, 230};
+  const Paint dark{40, 190, 0, 255};
   std::vector<TubeRow> rows;
   const auto row = [&](double along, double radius, Paint paint) {
-    rows.push_back({piece, s, sign * along, radius, 0, 0, false, paint});
+    rows.push_back({piece, s, sign * along, radius, along > 0 ? 0.03 : 0.0, 0, false, paint});
   };
-  row(0, r, raw);
-  row(0.10 * r, 0.9 * r, raw);
-  row(0.15 * r, 0.8 * r, muscle);
-  row(0.19 * r, 0.62 * r, muscle);
-  row(0.2 * r, std::min(1.5 * lumen, 0.55 * r), muscle);
-  row(0.17 * r, std::min(1.2 * lumen, 0.46 * r), mucosa);
-  row(0.02 * r, std::min(0.85 * lumen, 0.36 * r), dark);
+  row(0, r, rim);
+  row(0.05 * r, 0.90 * r, muscle);
+  row(0.14 * r, 0.90 * r, muscle);
+  row(0.20 * r, 0.98 * r, mucosa);
+  row(0.32 * r, 0.99 * r, mucosa);
+  row(0.42 * r, 0.88 * r, mucosa);
+  row(0.44 * r, 0.70 * r, mucosa);
+  row(0.38 * r, std::min(1.3 * lumen, 0.50 * r), lining);
+  row(0.16 * r, std::min(0.9 * lumen, 0.36 * r), dark);
   row(-0.2 * r, 0, dark);
   rows.front().crease = !at_start;
   if (at_start) std::reverse(rows.begin(), rows.end());

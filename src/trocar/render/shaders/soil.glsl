@@ -24,33 +24,43 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
 #else
   const vec4 broad = vec4(0.5);
 #endif
-  float fog = clamp(u_soil.x * (0.72 + 0.75 * broad.a) - 0.10 * (1.0 - u_soil.x) * dot(at, at), 0.0, 1.0);
+  // It condenses from the rim inwards, in patches of fine drops that have run together here and there.
+  float fog = u_soil.x * (0.68 + 0.62 * broad.a + 0.22 * dot(at, at)) - 0.10 * (1.0 - u_soil.x);
+#ifdef UNEVEN
+  fog *= 0.80 + 0.36 * texture(u_noise, vec3(at * 0.30, 0.83)).a;
+#endif
+  fog = clamp(fog, 0.0, 1.0);
+
+  // Streaks along the wiping.
+  float streaks = 0.5;
+#ifdef SMEARED
+  vec2 streak_at = vec2(dot(at, u_soil.wz), dot(at, vec2(-u_soil.z, u_soil.w)));
+#ifdef UNEVEN
+  streaks = texture(u_noise, vec3(streak_at * vec2(0.012, 0.22), 0.7)).a;
+  streaks = smoothstep(0.32, 0.75, 0.6 * streaks + 0.4 * texture(u_noise, vec3(streak_at * vec2(0.03, 0.6), 0.2)).g);
+#else
+  streaks += 0.4 * sin(9.0 * streak_at.y + 4.0 * sin(3.0 * streak_at.y));
+#endif
+#endif
 
   // The swab goes across and back; where it has been there is no fog, but a smear.
   float smear = u_soil.y;
   float swab = 0.0;
 #ifdef WIPED
-    float side = dot(at, u_soil.wz) + 0.12 * dot(at, vec2(-u_soil.z, u_soil.w)) * sin(9.0 * u_smear.w);
+    // Its edge is a fold of gauze, and it leaves what its threads pass over.
+    float side = dot(at, u_soil.wz) + 0.18 * (streaks - 0.5) + 0.12 * dot(at, vec2(-u_soil.z, u_soil.w)) * sin(9.0 * u_smear.w);
     float edge = mix(-1.7, 1.7, u_smear.w);
     float wiped = 1.0 - smoothstep(edge - 0.28, edge + 0.1, side);
     float off = (side - edge) / 0.42;
     swab = clamp(1.25 - off * off + 0.35 * (broad.g - 0.5), 0.0, 1.0);
     swab = swab * swab * (3.0 - 2.0 * swab);
-    fog *= 1.0 - wiped;
+    fog *= 1.0 - wiped * (0.62 + 0.38 * (1.0 - streaks));
     smear = max(smear, 0.85 * wiped * exp(-1.5 * clamp(edge - side, 0.0, 3.0)));
 #endif
 
-  // Streaks along the wiping.
   float greasy = 0.0;
 #ifdef SMEARED
-    vec2 streak_at = vec2(dot(at, u_soil.wz), dot(at, vec2(-u_soil.z, u_soil.w)));
-#ifdef UNEVEN
-    float streaks = texture(u_noise, vec3(streak_at * vec2(0.012, 0.22), 0.7)).a;
-    streaks = smoothstep(0.32, 0.75, 0.6 * streaks + 0.4 * texture(u_noise, vec3(streak_at * vec2(0.03, 0.6), 0.2)).g);
-#else
-    float streaks = 0.5 + 0.4 * sin(9.0 * streak_at.y + 4.0 * sin(3.0 * streak_at.y));
-#endif
-    greasy = smear * (0.25 + 0.75 * streaks);
+  greasy = smear * (0.25 + 0.75 * streaks);
 #endif
 
   float by = max(fog, 0.55 * greasy);
@@ -77,5 +87,10 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
   }
 #endif
   vec3 cloth = u_swab.rgb * (0.62 + 0.9 * light) * (0.85 + 0.3 * broad.a);
+#ifdef WIPED
+  // Gauze, far out of focus.
+  vec2 thread = sin(vec2(streak_at.x + 0.05 * streaks, streak_at.y + 0.08 * broad.g) * vec2(115.0, 131.0));
+  cloth *= 0.84 + 0.011 * (thread.x + thread.y) + 0.16 * streaks;
+#endif
   return mix(picture, min(cloth, vec3(0.93)), 0.97 * swab);
 }
