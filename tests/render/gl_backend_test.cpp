@@ -293,8 +293,9 @@ TEST_F(GlBackend, RestCoordinatesCarryThePattern) {
 }
 
 /// A flat floor of tissue 80 mm before the lens, without pattern or gloss, and a rod `above` it [m] across the picture.
-/// @return its red along the middle column, 0..255, from the bottom up
-std::vector<int> under_a_rod(Backend& backend, Frame frame, double above, bool with_rod) {
+/// @return its red, or another channel, along the middle column, 0..255, from the bottom up
+std::vector<int> under_a_rod(Backend& backend, Frame frame, double above, bool with_rod, float pressed = 0,
+                             int channel = 0) {
   const sample::Shape floor = sample::sheet(40, 40, [](float u, float v) {
     return Vec3f{0.12f * (u - 0.5f), 0.12f * (v - 0.5f), -0.08f};
   });
@@ -306,11 +307,12 @@ std::vector<int> under_a_rod(Backend& backend, Frame frame, double above, bool w
   frame.look = plain_look();
   frame.look.contact = 0;
   const float z = -0.08f + 0.0025f + float(above);
-  if (with_rod) frame.rods = {Rod{{-0.04f, 0, z}, {0.04f, 0, z}, 0.0025f}};
+  if (with_rod) frame.rods = {Rod{{-0.04f, 0, z}, {0.04f, 0, z}, 0.0025f, pressed}};
   draw_frame(backend, frame, Target::off_screen(200, 400));
   const Image image = backend.read_pixels();
   std::vector<int> column;
-  for (int y = image.height - 1; y >= 0; --y) column.push_back(image.rgb[3 * (std::size_t(y) * 200 + 100)]);
+  for (int y = image.height - 1; y >= 0; --y)
+    column.push_back(image.rgb[3 * (std::size_t(y) * 200 + 100) + std::size_t(channel)]);
   return column;
 }
 
@@ -341,6 +343,23 @@ TEST_F(GlBackend, ARodsShadowTellsItsHeight) {
 TEST_F(GlBackend, FarFromItARodShadesNothing) {
   const std::vector<int> bare = under_a_rod(*backend, frame, 0, false), shaded = under_a_rod(*backend, frame, 0, true);
   for (std::size_t y = 0; y < 60; ++y) EXPECT_NEAR(bare[y], shaded[y], 3) << y;
+}
+
+TEST_F(GlBackend, PressedTissuePalesAroundTheRodAndOnlyThere) {
+  double redder[2], far[2];  // mean of red less green: 2 to 3 mm beside the rod, and far from it
+  for (const float pressed : {0.0f, 1.0f}) {
+    const std::vector<int> red = under_a_rod(*backend, frame, 0, true, pressed, 0);
+    const std::vector<int> green = under_a_rod(*backend, frame, 0, true, pressed, 1);
+    const auto mean = [&](std::size_t from, std::size_t to) {
+      double sum = 0;
+      for (std::size_t y = from; y < to; ++y) sum += red[y] - green[y];
+      return sum / double(to - from);
+    };
+    redder[pressed > 0] = mean(218, 224);
+    far[pressed > 0] = mean(20, 60);
+  }
+  EXPECT_LT(redder[1], 0.85 * redder[0]);
+  EXPECT_NEAR(far[1], far[0], 0.5);
 }
 
 TEST_F(GlBackend, SmokePuffsTakeSaturation) {

@@ -247,7 +247,7 @@ Material metal(Vec3f bright, Vec3f dull, float roughness) {
   m.tint = srgb(24, 24, 26);
   m.roughness = roughness;
   m.mottle_size = 0.0025f;
-  m.fibre_stretch = 7;
+  m.fibre_stretch = 9;
   m.bump = 0.05f;
   m.soil = 0;
   return m;
@@ -256,7 +256,7 @@ Material metal(Vec3f bright, Vec3f dull, float roughness) {
 /// Blades and clips: hardly any grinding marks.
 Material polished(Vec3f bright, Vec3f dull, float roughness) {
   Material m = metal(bright, dull, roughness);
-  m.fibre_stretch = 4;
+  m.fibre_stretch = 2.5f;
   m.bump = 0.02f;
   return m;
 }
@@ -265,13 +265,14 @@ Material polished(Vec3f bright, Vec3f dull, float roughness) {
 Material insulation() {
   Material m = metal(srgb(92, 91, 97), srgb(82, 81, 88), 0.4f);
   m.bump = 0.03f;
+  m.fibre_stretch = 10;
   m.scatter = 0.75f;
   return m;
 }
 
 /// Ceramic and PTFE: white, so that it clips before all else.
 Material ceramic() {
-  Material m = metal(srgb(238, 236, 230), srgb(230, 226, 218), 0.3f);
+  Material m = metal(srgb(216, 213, 206), srgb(208, 204, 196), 0.24f);
   m.fibre_stretch = 1;
   m.mottle_size = 0.004f;
   m.bump = 0.01f;

@@ -78,7 +78,7 @@ void main() {
   float unit = scene.a * u_depth.w;  // height of the picture at this distance
   vec2 behind = (vec2(scene.a) - vec2(soft.a, softer.a)) / (unit * vec2(0.02, 0.05));
   behind = clamp(behind, 0.0, 1.0) * clamp(3.0 - 0.5 * behind, 0.0, 1.0);
-  float open = 1.0 - u_depth.z * max(0.7 * behind.x, behind.y);
+  float open = 1.0 - u_depth.z * max(0.8 * behind.x, 0.6 * behind.y);
   colour *= vec3(open, open * open, open * open);
   outline = clamp(abs(scene.a - soft.a) / (unit * 0.012), 0.0, 1.0);
   colour = mix(colour, min(0.6 * soft.rgb + 0.4 * softer.rgb, vec3(8.0)), u_camera.z);

@@ -64,9 +64,9 @@ void main() {
   picture = mix(picture, blended, 0.85 * strength);
   step_up *= 1.0 - 0.7 * strength;
   // What is thinner than a pixel comes out as a row of dots at an outline; no camera shows an edge so sharp.
-  float outline = 1.0 - developed.a;
-  picture = mix(picture, 0.25 * (a + b + c + d), 0.5 * outline);
-  step_up *= 1.0 - 0.8 * outline;
+  float outline = (1.0 - developed.a) * (1.0 - smoothstep(0.7, 0.9, middle));  // but what glitters there does
+  picture = mix(picture, 0.25 * (a + b + c + d), 0.4 * outline);
+  step_up *= 1.0 - 0.6 * outline;
 #endif
   // Video sharpening: overshoot.
   picture += u_lens.z * clamp(step_up, -0.12, 0.12);

@@ -5,7 +5,7 @@
 // The lamp counts as farther off the lens than it is, and as larger, for shadows: under a true one they hide behind the
 // instrument, and 25 mm look like 8.
 const float kShadowSpread = 6.0;
-const float kShadowSoft = 2.8;
+const float kShadowSoft = 2.0;
 const float kContact = 0.0022;  // [m] nearer than this a surface is dark right under an instrument
 
 /// What a rod leaves at a point: of the lamp (x) and of the light from around (y).
