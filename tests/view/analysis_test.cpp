@@ -206,7 +206,8 @@ TEST(Analysis, AVesselHasTheColourOfItsPressure) {
   sim::State state = sim::initial_state(small::model());
   for (double& p : state.flow.p) p = 60 * vessels::kPascalPerMmHg;
   for (double& q : state.flow.q) q = 0;
-  VesselDrawing seen(small::model(), false, *backend), whole(small::model(), false, *backend, VesselExtent::whole);
+  VesselDrawing seen(small::model(), false, *backend);
+  VesselDrawing whole(small::model(), false, *backend, {}, VesselDrawing::Lie::below_too);
   whole.update(state), seen.update(state);
   ASSERT_EQ(whole.pressures().size(), whole.buffer().positions.size());
   for (const float p : whole.pressures()) EXPECT_NEAR(double(p) / vessels::kPascalPerMmHg, 60, 0.5);

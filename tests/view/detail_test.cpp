@@ -8,6 +8,7 @@
 #include <trocar/scene/compile.hpp>
 #include <trocar/scene/reader.hpp>
 #include <trocar/view/detail.hpp>
+#include <trocar/view/organ_drawing.hpp>
 #include <trocar/view/scene_view.hpp>
 #include <trocar/view/tube_drawing.hpp>
 
@@ -155,6 +156,37 @@ TEST_F(DetailPictures, TheGovernorsShiftSavesMoreAndIsHardlySeen) {
   const Drawn full = draw(kFull), now = draw(1), coarse = draw(2.5f);
   EXPECT_LT(double(coarse.triangles), 0.7 * double(now.triangles));
   EXPECT_LT(difference(full.image, coarse.image), 2.0);
+}
+
+TEST_F(DetailPictures, WhatAnInstrumentHoldsOrDentsIsInFull) {
+  const auto level_of = [&](const std::string& name, const sim::State& state) {
+    ViewOptions options;
+    options.eye_index = 2;
+    options.quality.coarser = 100;
+    const render::Frame frame = view->frame(state, options);
+    for (const render::DrawItem& i : frame.items)
+      if (i.part > 0 && view->parts()[i.part - std::size_t(1)].name == name) return int(i.level);
+    return -1;
+  };
+  sim::State state = sim::initial_state(pelvis());
+  const int tube = pelvis().strand_index("tube_left");
+  EXPECT_GT(level_of("tube_left", state), 0);
+  EXPECT_GT(level_of("uterus", state), 0);
+  state.tools[0].holds = 1;
+  state.tools[0].hold[0].body = tube;
+  EXPECT_EQ(level_of("tube_left", state), 0);
+  EXPECT_GT(level_of("uterus", state), 0);
+  state.tools[0].hold[0].body = interactions::kSolidBase + pelvis().organ_index("uterus");
+  EXPECT_EQ(level_of("uterus", state), 0);
+  EXPECT_GT(level_of("tube_left", state), 0);
+  state.tools[0].holds = 0;
+  const OrganDrawing uterus(
+      pelvis().solids[std::size_t(pelvis().organ_index("uterus"))], Relief{},
+      std::vector<Paint>(pelvis().solids[std::size_t(pelvis().organ_index("uterus"))].fine.rest.size()), *backend);
+  const Vec3d port = pelvis().hands[0].port, top = vec_cast<double>(uterus.positions()[0]);
+  const kinematics::FulcrumPose pose = kinematics::inverse(port, top, 0);
+  state.tools[0].yaw = pose.yaw, state.tools[0].pitch = pose.pitch, state.tools[0].depth = pose.depth;
+  EXPECT_EQ(level_of("uterus", state), 0);
 }
 
 TEST_F(DetailPictures, NearByEverythingIsInFull) {

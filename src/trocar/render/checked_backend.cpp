@@ -126,6 +126,7 @@ void check_frame(const Frame& frame, const Target& target, const char* call) {
   require(frame.quality.render_scale >= 0.25f && frame.quality.render_scale <= 1, call,
           "render scale is not within 0.25..1");
   require(frame.quality.detail >= 0 && frame.quality.detail <= 2, call, "detail is not 0, 1 or 2");
+  require(frame.quality.coarser > 0, call, "coarser is not above 0");
   require(frame.eye >= 0 && frame.eye < 8, call, "eye is not within 0..7");
   const Light& light = frame.light;
   require(

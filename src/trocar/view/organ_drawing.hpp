@@ -24,6 +24,7 @@ class OrganDrawing {
   void update(const tissue::NetworkState& state, std::span<const std::uint8_t> parted = {},
               std::span<const collision::Capsule> rods = {}, const HeatMarks* burnt = nullptr);
   render::MeshHandle mesh() const { return m_mesh.handle(); }
+  bool dented() const { return m_dented; }  ///< by an instrument
   /// As drawn now, per vertex of solid.fine.
   std::span<const Vec3f> positions() const { return m_pose.position; }
   std::span<const Vec3f> normals() const { return m_normals; }

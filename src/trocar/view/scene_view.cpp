@@ -189,7 +189,8 @@ struct SceneView::Parts {
     std::vector<Detail> organs, cuttables, fat, tubes, sheets, membranes, pouches, vessels, walls, margins;
     Detail cavity;
   } details;
-  std::optional<DetailEye> eye;  ///< of the frame
+  std::optional<DetailEye> eye;       ///< of the frame
+  std::vector<std::int32_t> in_jaws;  ///< bodies that are held (interactions::Hold::body)
   const Look* titanium = &look("titanium");
   std::vector<ScenePart> parts;
   struct FirstParts {  ///< the numbers of the first of each kind, from 1 on
@@ -204,8 +205,9 @@ struct SceneView::Parts {
   interactions::ToolShape shape_in_trocar(const sim::State& state, std::size_t hand) const;
   double drawn_aperture(const sim::State& state, std::size_t hand) const;
   void update(const sim::State& state);
-  /// As fine as its distance asks for; what is burnt with all its triangles, as marks are no finer than those.
-  DrawItem& list(DrawItem item, Detail& detail, std::span<const Vec3f> points, Frame& frame, bool burnt = false) const;
+  /// As fine as its distance asks for; `whole`: with all its triangles, which burns, dents and what jaws do to it need.
+  DrawItem& list(DrawItem item, Detail& detail, std::span<const Vec3f> points, Frame& frame, bool whole = false) const;
+  bool held(std::size_t body) const;
   DrawItem& list_rigid(const RigidMesh& mesh, DrawItem item, Detail& detail, Frame& frame) const;
   void list_surroundings(Frame& frame);
   void list_tissues(bool with_walls, Frame& frame);
@@ -433,10 +435,12 @@ interactions::ToolShape SceneView::Parts::shape_in_trocar(const sim::State& stat
 }
 
 void SceneView::Parts::update(const sim::State& state) {
+  in_jaws.clear();
   std::vector<collision::Capsule> rods;  // of instruments that hold nothing: what is held is pressed by its jaws
   for (std::size_t h = 0; h < model.hands.size(); ++h) {
     const interactions::ToolState& tool = state.tools[h];
     const interactions::ToolShape shape = shape_of(model.tool(state, h), tool.pose(), tool.aperture);
+    for (std::int32_t k = 0; k < tool.holds; ++k) in_jaws.push_back(tool.hold[k].body);
     if (tool.holds == 0) rods.insert(rods.end(), std::begin(shape.part), std::end(shape.part));
   }
   for (std::size_t i = 0; i < organs.size(); ++i)
@@ -467,12 +471,16 @@ void SceneView::Parts::update(const sim::State& state) {
 }
 
 DrawItem& SceneView::Parts::list(DrawItem item, Detail& detail, std::span<const Vec3f> points, Frame& frame,
-                                 bool burnt) const {
+                                 bool whole) const {
   item.level = detail.level_at(eye->distance(points, item.transform), eye->index);
   item.detail = detail.surface(item.level);
-  if (burnt) item.level = 0;
+  if (whole) item.level = 0;
   frame.items.push_back(item);
   return frame.items.back();
+}
+
+bool SceneView::Parts::held(std::size_t body) const {
+  return std::find(in_jaws.begin(), in_jaws.end(), std::int32_t(body)) != in_jaws.end();
 }
 
 DrawItem& SceneView::Parts::list_rigid(const RigidMesh& mesh, DrawItem item, Detail& detail, Frame& frame) const {
@@ -495,7 +503,7 @@ void SceneView::Parts::list_tissues(bool with_walls, Frame& frame) {
     frame.items.push_back(item(aprons[i].handle(), look("omentum"), first.wall + apron_on[i]));
   for (std::size_t i = 0; i < organs.size(); ++i)
     list(item(organs[i].mesh(), look(model.solids[i].look), first.organ + i), details.organs[i], organs[i].positions(),
-         frame, burns[i].any());
+         frame, burns[i].any() || organs[i].dented() || held(interactions::kSolidBase + i));
   for (std::size_t i = 0; i < cuttables.size(); ++i) {
     DrawItem& drawn = list(item(cuttables[i].mesh(), look(model.cuttables[i].look), first.organ + organs.size() + i),
                            details.cuttables[i], cuttables[i].positions(), frame);
@@ -512,7 +520,7 @@ void SceneView::Parts::list_tissues(bool with_walls, Frame& frame) {
   for (std::size_t i = 0; i < tubes.size(); ++i) {
     const sim::StrandModel& strand = model.strands[i];
     DrawItem& tube = list(item(tubes[i].mesh(), look(strand.look), first.tube + i), details.tubes[i],
-                          tubes[i].buffer().positions, frame, tubes[i].burnt());
+                          tubes[i].buffer().positions, frame, tubes[i].burnt() || held(i));
     if (strand.start.kind == sim::StrandEndModel::hosted && !strand.fimbriated)
       tube.material.tint = look(model.organ_look(strand.start.organ)).material.colour;
   }
@@ -534,10 +542,12 @@ void SceneView::Parts::list_tissues(bool with_walls, Frame& frame) {
          sheets[i].buffer().positions, frame);
   for (std::size_t i = 0; i < membranes.size(); ++i)
     list(item(membranes[i].mesh(), look(model.membranes[membrane_of[i]].look), first.membrane + membrane_of[i]),
-         details.membranes[i], membranes[i].buffer().positions, frame, membranes[i].burnt());
+         details.membranes[i], membranes[i].buffer().positions, frame,
+         membranes[i].burnt() || held(interactions::kMembraneBase + membrane_of[i]));
   for (std::size_t i = 0; i < pouches.size(); ++i)
     list(item(pouches[i].mesh(), look(model.membranes[pouch_of[i]].look), first.membrane + pouch_of[i]),
-         details.pouches[i], pouches[i].buffer().positions, frame, pouches[i].burnt());
+         details.pouches[i], pouches[i].buffer().positions, frame,
+         pouches[i].burnt() || held(interactions::kMembraneBase + pouch_of[i]));
 }
 
 void SceneView::Parts::list_port_sites(Frame& frame) const {
