@@ -58,11 +58,10 @@ void Panes::lay_out(const LayoutChoice& choice, const Area& whole, float scale, 
   std::vector<Area> areas = areas_of(choice.layout, whole, scale);
   m_panes.clear();
   for (std::size_t i = 0; i < areas.size(); ++i) m_panes.push_back({choice.panes[i], areas[i]});
-  if (choice.elsewhere && elsewhere.width > 0 && !choice.shows(*choice.elsewhere)) {
+  if (choice.elsewhere && elsewhere.width > 0 && choice.panes[0] != *choice.elsewhere) {
     areas.push_back({0, 0, float(elsewhere.width), float(elsewhere.height)});
     m_panes.push_back({*choice.elsewhere, areas.back(), true});
   }
-  m_elsewhere = choice.elsewhere;
   m_load = load_of(areas, whole);
   m_drawn.resize(m_panes.size());
   while (m_canvas.size() < m_panes.size()) m_canvas.emplace_back();
@@ -71,7 +70,7 @@ void Panes::lay_out(const LayoutChoice& choice, const Area& whole, float scale, 
 
 const PaneCanvas* Panes::canvas_elsewhere() const {
   for (std::size_t i = 1; i < m_panes.size(); ++i)
-    if (m_panes[i].shows == m_elsewhere) return &m_canvas[i];
+    if (m_panes[i].elsewhere) return &m_canvas[i];
   return nullptr;
 }
 

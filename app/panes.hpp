@@ -98,7 +98,6 @@ class Panes {
   std::vector<Pane> m_panes;
   std::vector<Pane> m_drawn;  ///< (panes) as each was drawn last
   std::vector<PaneCanvas> m_canvas;
-  std::optional<PaneShows> m_elsewhere;
   std::size_t m_turn = 0;
   int m_dragged = -1;
   bool m_shifting = false;

@@ -116,6 +116,27 @@ TEST(Panes, EachHasItsOwnExposureMemoryAndOnlyAnalysisHasFigures) {
   EXPECT_TRUE(panes.options(PaneShows::analysis).analysis.on());
 }
 
+TEST(Panes, TheSecondWindowHasAPaneOfItsOwnUnlessTheFirstOneShowsThat) {
+  Panes panes(small::model());
+  LayoutChoice choice;
+  choice.layout = Layout::corner;
+  panes.lay_out(choice, kWhole, 1, {640, 480});
+  const double without = panes.load();
+  EXPECT_EQ(panes.panes().size(), 2u);
+  choice.elsewhere = PaneShows::endoscope;
+  panes.lay_out(choice, kWhole, 1, {640, 480});
+  EXPECT_EQ(panes.panes().size(), 2u);
+  EXPECT_EQ(panes.canvas_elsewhere(), nullptr) << "the first pane's picture serves";
+  choice.elsewhere = PaneShows::analysis;
+  panes.lay_out(choice, kWhole, 1, {640, 480});
+  ASSERT_EQ(panes.panes().size(), 3u);
+  EXPECT_TRUE(panes.panes()[2].elsewhere);
+  EXPECT_NE(panes.canvas_elsewhere(), nullptr);
+  EXPECT_GT(panes.load(), without);
+  panes.lay_out(choice, kWhole, 1, {0, 0});
+  EXPECT_EQ(panes.panes().size(), 2u) << "not open yet";
+}
+
 TEST(Panes, ATallPaneShowsTheWholeCircleAndAWideOneIsAsItWas) {
   render::Frame frame;
   frame.camera.vertical_fov = 1;
