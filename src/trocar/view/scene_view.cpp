@@ -6,6 +6,7 @@
 #include <trocar/render/openness.hpp>
 #include <trocar/sim/visibility.hpp>
 #include <trocar/view/adhesions.hpp>
+#include <trocar/view/bowel_loops.hpp>
 #include <trocar/view/cameras.hpp>
 #include <trocar/view/cavity.hpp>
 #include <trocar/view/clip_shape.hpp>
@@ -128,7 +129,7 @@ struct SceneView::Parts {
   std::vector<std::size_t> membrane_of, pouch_of;  ///< their numbers in the Model
   std::vector<OwnedMesh> walls, margins;
   std::vector<MeshBuffer> margin_shapes;
-  OwnedMesh cavity;
+  OwnedMesh cavity, loops;
   std::vector<std::vector<std::vector<DrawnPart>>> tools;  ///< (hands, rack)
   std::vector<std::vector<DrawnPart>> sleeves;             ///< (hands)
   std::vector<DrawnPart> scope;
@@ -243,6 +244,8 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
                                                  .indices = indices[model.solids.size() + i]});
   }
   cavity = OwnedMesh(backend, cavity_around(model).data());
+  if (const MeshBuffer shape = bowel_loops(model, wall_surface); shape.size() > 0)
+    loops = OwnedMesh(backend, shape.data());
   for (TubeDrawing& t : tubes) {
     std::vector<Paint> paint(t.drawn().positions.size());
     baker.bake(t.drawn().positions, t.drawn().normals, paint);
@@ -550,6 +553,7 @@ Frame SceneView::frame(const sim::State& state, const ViewOptions& options) {
   if (inside) {
     frame.items.push_back(item(p.cavity.handle(), look("peritoneum"), p.first.cavity));
     for (const OwnedMesh& m : p.margins) frame.items.push_back(item(m.handle(), look("peritoneum"), p.first.cavity));
+    if (p.loops.handle().id) frame.items.push_back(item(p.loops.handle(), look("small_bowel"), p.first.cavity));
   }
   p.list_tissues(inside || options.walls, frame);
   if (!inside) cut_open(p.walls, frame);
