@@ -60,7 +60,7 @@ struct Grown {
   Joint joint;
 };
 Grown grown(int strand, const std::vector<OrganDrawing>& organs, render::Backend& backend) {
-  TubeDrawing tube(pelvis(), strand, &walls());
+  TubeDrawing tube(pelvis(), strand, {}, &walls());
   tube.create(std::vector<Paint>(tube.drawn().positions.size()), backend);
   const auto organ = std::size_t(pelvis().strands[std::size_t(strand)].start.organ);
   Joint joint(tube, true, organs[organ], pelvis().solids[organ].fine, backend);
@@ -132,7 +132,7 @@ TEST(Ridge, RunsFromItsLigamentToTheWallAndEndsBelowThat) {
   int ridges = 0;
   for (int i = 0; i < int(pelvis().strands.size()); ++i) {
     if (pelvis().strands[std::size_t(i)].end.kind != sim::StrandEndModel::fixed) continue;
-    const TubeDrawing tube(pelvis(), i, &walls());
+    const TubeDrawing tube(pelvis(), i, {}, &walls());
     const Ridge ridge(pelvis(), tube, i, walls(), *backend);
     const tissue::StrandState rest = tissue::rest_state(pelvis().bodies[std::size_t(i)].model);
     double to_ligament = 1, to_wall = 1;
@@ -181,7 +181,7 @@ TEST(SheetDrawing, ABaseInTheAirGoesOnToTheWall) {
     const auto& base = pelvis().sheets[std::size_t(i)].base;
     if (std::any_of(base.begin(), base.end(), [](const sim::BasePoint& b) { return b.organ >= 0 || b.strand >= 0; }))
       continue;
-    const SheetDrawing sheet(pelvis(), i, *backend, &walls());
+    const SheetDrawing sheet(pelvis(), i, *backend, {}, &walls());
     int below = 0;
     for (const Vec3f& f : sheet.buffer().positions) {
       const WallSurface::Place wall = walls().nearest(vec_cast<double>(f));
@@ -214,8 +214,8 @@ TEST(VesselDrawing, WhatLiesInFoldsAndWhatDoesNotIsAllThereIs) {
   const auto backend = render::make_null_backend();
   using Lie = VesselDrawing::Lie;
   for (const bool veins : {false, true}) {
-    const VesselDrawing all(model, veins, *backend), fold(model, veins, *backend, Lie::in_a_fold),
-        rest(model, veins, *backend, Lie::elsewhere);
+    const VesselDrawing all(model, veins, *backend), fold(model, veins, *backend, {}, Lie::in_a_fold),
+        rest(model, veins, *backend, {}, Lie::elsewhere);
     EXPECT_EQ(all.buffer().size(), fold.buffer().size() + rest.buffer().size());
     EXPECT_GT(fold.buffer().size(), 100u);
   }

@@ -127,6 +127,8 @@ std::vector<MarginColumn> columns_of(const std::vector<int>& loop, const tissue:
 
 }  // namespace
 
+std::vector<std::vector<int>> border_loops(const tissue::Skin& wall) { return loops_of(border_of(wall)); }
+
 MeshBuffer around_wall(const sim::Model& model, const tissue::Skin& wall, std::span<const Paint> paint) {
   const Cavity cavity(model);
   const std::vector<std::array<int, 2>> border = border_of(wall);

@@ -126,7 +126,7 @@ void Joint::place(const TubeDrawing& tube, const OrganDrawing* organ) {
       m_buffer.positions[v] = p;
       const double w = std::min(1.0, double(t));
       m_buffer.paint[v] = {to_byte((1 - w) * 0.92 + w * open / 255.0), 0, to_byte(burn / 255.0 * smooth(0, 0.6, w)),
-                           to_byte(std::max((organ ? 0.95 : 0.6) * smooth(0.85, 0.05, w), below * w))};
+                           to_byte(std::max((organ ? 0.95 : 0.35) * smooth(0.85, 0.05, w), below * w))};
     }
   }
   render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);

@@ -144,7 +144,7 @@ void Ridge::place_flank(const Station& st, Vec3d at, int flank, std::size_t firs
   const double sign = flank ? -1 : 1;
   const Vec3d n = st.normal[flank];
   const Vec3d down = normalised(st.floor - at - kAtWall * n, -n), out = sign * st.side;
-  const Vec3d up = normalised(n - dot(n, st.along) * st.along, -down);
+  const Vec3d away = 0.15 * n - down, up = normalised(away - dot(away, st.along) * st.along, -down);
   const double high = 0.5 + 0.65 * st.over,
                wide = std::sqrt(std::max(0.0, 1 - 0.87 * high * high * (1 - st.over) - st.over));
   const Vec3d top = at + st.radius * ((0.93 * wide) * out + (0.93 * high) * up);
@@ -161,7 +161,7 @@ void Ridge::place_flank(const Station& st, Vec3d at, int flank, std::size_t firs
     if (r == kRows - 1) p = end + spread * (0.002 * level - kTucked * n);
     const std::size_t v = first + std::size_t(r);
     m_buffer.positions[v] = vec_cast<float>(p);
-    const double own = 0.6 * smooth(0.4, 0, t), fat = fat_below(p);
+    const double own = 0.35 * smooth(0.4, 0, t), fat = fat_below(p);
     m_buffer.paint[v] = {to_byte(0.75 + 0.25 * std::fabs(1 - 2 * t)), 0, 0,
                          to_byte(std::max(own, fat * smooth(0, 0.5, t)))};
   }

@@ -7,6 +7,7 @@
 #include <trocar/sim/visibility.hpp>
 #include <trocar/view/adhesions.hpp>
 #include <trocar/view/analysis_drawing.hpp>
+#include <trocar/view/bowel_loops.hpp>
 #include <trocar/view/cameras.hpp>
 #include <trocar/view/cavity.hpp>
 #include <trocar/view/clip_shape.hpp>
@@ -178,6 +179,7 @@ struct SceneView::Parts {
   std::vector<RigidMesh> margins;
   std::vector<MeshBuffer> margin_shapes;
   RigidMesh cavity;
+  OwnedMesh loops;
   std::vector<std::vector<std::vector<DrawnPart>>> tools;  ///< (hands, rack)
   std::vector<std::vector<DrawnPart>> sleeves;             ///< (hands)
   std::vector<PortSite> port_sites;                        ///< (hands)
@@ -329,6 +331,8 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
   }
   details.cavity = Detail(levels_of(model, "cavity"));
   cavity = rigid(cavity_around(model), details.cavity, backend);
+  if (const MeshBuffer shape = bowel_loops(model, wall_surface); shape.size() > 0)
+    loops = OwnedMesh(backend, shape.data());
   for (TubeDrawing& t : tubes) {
     std::vector<Paint> paint(t.drawn().positions.size());
     baker.bake(t.drawn().positions, t.drawn().normals, paint);
@@ -493,6 +497,7 @@ void SceneView::Parts::list_surroundings(Frame& frame) {
   const DrawItem peritoneum = item({}, look("peritoneum"), first.cavity);
   list_rigid(cavity, peritoneum, details.cavity, frame);
   for (std::size_t i = 0; i < margins.size(); ++i) list_rigid(margins[i], peritoneum, details.margins[i], frame);
+  if (loops.handle().id) frame.items.push_back(item(loops.handle(), look("small_bowel"), first.cavity));
 }
 
 void SceneView::Parts::list_tissues(bool with_walls, Frame& frame) {
