@@ -683,7 +683,9 @@ TEST(InstrumentShapes, JawsInTheirSleeveFitIntoIt) {
     for (const interactions::ToolModel& tool : hand.rack)
       for (const double beyond : {-0.01, 0.0, 0.006, 0.012, 0.05}) {
         const double aperture = std::min(1.0, aperture_in_sleeve(tool, beyond, tool.shaft_radius));
-        if (beyond <= 0) EXPECT_EQ(aperture, 1) << tool.name;
+        if (beyond <= 0) {
+          EXPECT_EQ(aperture, 1) << tool.name;
+        }
         const interactions::ToolShape shape = shape_of(tool, {0, 0, 0, 0.1}, aperture);
         const Placement body = placement_of(InstrumentPart::Joint::body, shape);
         for (const InstrumentPart& part : instrument_parts(tool)) {
