@@ -122,7 +122,7 @@ struct Quality {
   int detail = 2;  ///< 2 everything; 1 no fine flecks, bloom, fringe, focus or contact shade, and liquids mirror the
                    ///< walls only; 0 no vessels or film ripples either
 
-  float coarser = 1;  ///< >= 1: things get coarser at this part of their distances (view/detail.hpp)
+  float coarser = 1;  ///< things get coarser at this part of their distances: 2 at half of them (view/detail.hpp)
 
   friend bool operator==(Quality a, Quality b) {
     return a.render_scale == b.render_scale && a.detail == b.detail && a.coarser == b.coarser;
