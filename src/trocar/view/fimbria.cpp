@@ -7,8 +7,9 @@ namespace trocar::view {
 namespace {
 
 constexpr double kPi = 3.14159265358979;
-constexpr int kSides = 12, kRings = 18;
+constexpr int kSides = 16, kRings = 18;
 constexpr double kThick = 0.00042;  // [m] half a petal's thickness at its root
+constexpr double kPleat = 0.00022;  // [m] folds that run along it
 constexpr double kRuffle = 0.0007;  // [m] its edges rise and fall
 
 /// One finger: where it grows from, which way, how it curls.
@@ -30,7 +31,7 @@ double along_finger(int ring) { return std::sin(0.5 * kPi * ring / (kRings - 1))
 
 /// Width over length: broad at the root, where petals touch, widest before the middle, then a frilled, tapering end.
 double leaf(double u, int seed) {
-  const double body = 0.85 + 0.5 * std::sin(0.9 * kPi * std::min(u + 0.12, 1.0)) - 0.1 * u;
+  const double body = smooth(-0.3, 0.25, u) * 0.85 + 0.5 * std::sin(0.9 * kPi * std::min(u + 0.12, 1.0)) - 0.1 * u;
   const double tip = std::sqrt(std::max(0.0, 1 - std::pow(std::max(0.0, (u - 0.66) / 0.34), 2)));
   const double lobes = 1 + 0.14 * std::sin(11 * u + 6.3 * varied(seed, 1)) + 0.12 * std::sin(23 * u + seed);
   return body * tip * lobes;
@@ -73,8 +74,8 @@ void add_finger(MeshBuffer& b, const Finger& f, double radius) {
       // Ruffled: the edges rise and fall along the finger, in turn on either side.
       const double ruffle = kRuffle * (0.35 + 1.4 * u * (1 - u)) * c * c *
                             std::sin(17 * u + (c > 0 ? 0.0 : 2.1) + 6.3 * varied(f.seed, 2));
-      const double cupped =
-          (0.9 * varied(f.seed, 12) - 0.6) * half * c * c + 0.0002 * std::sin(5 * c + f.seed);  // folds along it
+      const double cupped = (0.9 * varied(f.seed, 12) - 0.6) * half * c * c +
+                            kPleat * std::sin(7 * c + f.seed + 3 * u) * smooth(0, 0.3, u);  // folds along it
       const Vec3d p = s.point + (half * c) * s.across + (thick * sn + ruffle + cupped) * s.flat;
       Paint edge = paint;  // thin edges are paler than the crest
       edge.tint = std::uint8_t(paint.tint * (1 - 0.8 * c * c));
@@ -104,9 +105,9 @@ struct Whorl {
 
 MeshBuffer fimbriae(double radius, int seed) {
   // Around an opening that stays free: the outer ones fall back over the rim, the inner ones line the funnel.
-  static const Whorl whorls[] = {{13, -0.12, 0.93, 1.25, 0.55, 1.15, 1.2},
-                                 {14, -0.18, 0.84, 1.45, 0.46, 0.75, 0.9},
-                                 {11, -0.3, 0.66, 1.0, 0.4, 0.45, 0.6}};
+  static const Whorl whorls[] = {{17, -0.1, 0.88, 1.2, 0.4, 1.1, 1.2},
+                                 {17, -0.16, 0.78, 1.4, 0.36, 0.75, 0.9},
+                                 {12, -0.3, 0.6, 1.0, 0.32, 0.45, 0.6}};
   MeshBuffer b;
   int k = 1000 * seed;
   for (const Whorl& w : whorls)

@@ -89,7 +89,16 @@ void Joint::make(const TubeDrawing& tube, const OrganDrawing* organ, render::Bac
   const auto row = [this](int i) { return std::uint32_t(i * m_sides); };
   for (int i = 0; i + 1 < kRows; ++i)
     join_rows(m_buffer, row(m_at_start ? i + 1 : i), row(m_at_start ? i : i + 1), std::uint32_t(m_sides), true);
+  m_below.assign(m_buffer.positions.size(), 0);
   place(tube, organ);
+  for (std::size_t v = 0; organ && v < m_below.size(); ++v) {
+    float nearest = 1;
+    for (std::size_t i = 0; i < organ->positions().size(); ++i)
+      if (const float d = length(organ->positions()[i] - m_buffer.positions[v]); d < nearest) {
+        nearest = d;
+        m_below[v] = std::uint32_t(i);
+      }
+  }
   m_buffer.rest = m_buffer.positions;
   m_mesh = OwnedMesh(backend, m_buffer.data());
 }
@@ -110,10 +119,11 @@ void Joint::place(const TubeDrawing& tube, const OrganDrawing* organ) {
     const Vec3f inner = neck.there ? centre + 0.95f * (neck.ring[k] - centre) : middle + 0.0005f * normalised(up);
     const Vec3f out = foot[k] - middle, level = normalised(out - dot(out, normal[k]) * normal[k], along);
     const float reach = 0.95f * length(foot[k] - inner);
-    int burn = 0, open = organ ? 0 : 255;
+    double burn = 0, open = organ ? 0 : 1;
     for (std::size_t c = 0; organ && c < 3; ++c) {
-      burn = std::max(burn, int(organ->paint()[m_feet[k].vertex[c]].burn));
-      open = std::max(open, int(organ->paint()[m_feet[k].vertex[c]].openness));
+      const double share = std::array{m_feet[k].share.x, m_feet[k].share.y, m_feet[k].share.z}[c] / 255.0;
+      burn += share * organ->paint()[m_feet[k].vertex[c]].burn;
+      open += share * organ->paint()[m_feet[k].vertex[c]].openness;
     }
     // What it goes over into: an organ's own colour, or fat here and there below a wall's peritoneum.
     const double below = organ ? 0 : fat_below(vec_cast<double>(foot[k]));
@@ -125,8 +135,10 @@ void Joint::place(const TubeDrawing& tube, const OrganDrawing* organ) {
       if (i == kRows - 1) p = foot[k] + 0.0008f * level - kTucked * normal[k];
       m_buffer.positions[v] = p;
       const double w = std::min(1.0, double(t));
-      m_buffer.paint[v] = {to_byte((1 - w) * 0.92 + w * open / 255.0), 0, to_byte(burn / 255.0 * smooth(0, 0.6, w)),
-                           to_byte(std::max((organ ? 0.95 : 0.35) * smooth(0.85, 0.05, w), below * w))};
+      const double under = organ ? organ->paint()[m_below[v]].burn / 255.0 : 0;
+      const double burnt = smooth(0, 0.35, w) * (under + smooth(0.6, 1, w) * (burn - under));
+      const double tint = std::max((organ ? 0.95 : 0.35) * smooth(0.85, 0.05, w), below * w);
+      m_buffer.paint[v] = {to_byte((1 - w) * 0.92 + w * open), 0, to_byte(burnt), to_byte(tint)};
     }
   }
   render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);

@@ -45,6 +45,8 @@ class Joint {
   bool m_at_start;
   int m_sides;
   std::vector<Foot> m_feet;  ///< (sides)
+  std::vector<std::uint32_t>
+      m_below;  ///< (vertices) the organ's skin vertex below: what heat has left there shows here
   MeshBuffer m_buffer;
   OwnedMesh m_mesh;
 };

@@ -97,7 +97,7 @@ void add_haustra(const Relief& relief, const tissue::Skin& skin, std::vector<flo
     const double along =
         dot(p, axis) / relief.haustra_size + 0.37 * std::floor(third) + 0.3 * waves(p, 2.5 * relief.haustra_size);
     const double furrow = std::pow(0.5 + 0.5 * std::cos(kTwoPi * along), 5);
-    height[i] -= float(relief.haustra * (furrow * (1 - band) + 0.35 * band));
+    height[i] -= float(relief.haustra * (furrow * (1 - band) + 0.15 * band));
     paint[i].tint = std::max(paint[i].tint, to_byte(0.8 * band));
     paint[i].openness = std::uint8_t(paint[i].openness * (1 - 0.3 * furrow * (1 - band)));
   }

@@ -15,21 +15,22 @@ using interactions::Cut;
 namespace {
 
 constexpr double kPi = 3.14159265358979;
-constexpr double kStep = 0.0012;      // [m] between rings
-constexpr double kFineStep = 0.0004;  // [m] near a clip
-constexpr double kNearClip = 0.004;   // [m]
-constexpr double kBlanched = 0.0045;  // [m] beside a clip's legs
-constexpr double kRootFlare = 0.12;   // how much wider a strand is where it grows out of an organ
-constexpr double kRootDepth = 1.6;    // radii below the organ's surface where it ends
-constexpr double kRootSlide = 0.022;  // [m] a ligament goes on along a wall ...
-constexpr double kRootBelow = 0.003;  // [m] ... to below its surface
-constexpr double kHeadOn = 0.5;       // sine of the angle to a wall above which a strand has a collar there ...
-constexpr double kWallNeck = 0.008;   // [m] ... from so far above it on
-constexpr double kNeckFar = 0.011;    // [m] from its end a strand's collar begins at most
-constexpr double kSink = 0.9;         // radii that a strand has sunk into its organ at its end
-constexpr double kRootReach = 0.03;   // [m] a wall farther from a fixed end is not its root
-constexpr double kBloodied = 0.0016;  // [m] beside a cut
-constexpr double kBend = 0.01;        // [m] radius with which tubes curve, for rings that are left out
+constexpr double kStep = 0.0012;        // [m] between rings
+constexpr double kFineStep = 0.0004;    // [m] near a clip
+constexpr double kNearClip = 0.004;     // [m]
+constexpr double kBlanched = 0.0045;    // [m] beside a clip's legs
+constexpr double kRootFlare = 0.12;     // how much wider a strand is where it grows out of an organ
+constexpr double kRootDepth = 1.6;      // radii below the organ's surface where it ends
+constexpr double kRootSlide = 0.022;    // [m] a ligament goes on along a wall ...
+constexpr double kRootBelow = 0.003;    // [m] ... to below its surface
+constexpr double kHeadOn = 0.5;         // sine of the angle to a wall above which a strand has a collar there ...
+constexpr double kHeadOnDepth = 0.012;  // [m] ... behind which it ends
+constexpr double kWallNeck = 0.008;     // [m] ... from so far above it on
+constexpr double kNeckFar = 0.011;      // [m] from its end a strand's collar begins at most
+constexpr double kSink = 0.9;           // radii that a strand has sunk into its organ at its end
+constexpr double kRootReach = 0.03;     // [m] a wall farther from a fixed end is not its root
+constexpr double kBloodied = 0.0016;    // [m] beside a cut
+constexpr double kBend = 0.01;          // [m] radius with which tubes curve, for rings that are left out
 
 template <class T>
 bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
@@ -206,9 +207,10 @@ TubeRoot TubeDrawing::root_in_wall(const CurveFrame& end, Vec3d onward, double r
   TubeRoot root;
   root.there = root.in_space = true;
   const WallSurface::Place wall = walls.nearest(end.point);
-  if (!wall.there || length(wall.point - end.point) > kRootReach) {  // on into the dark
+  const bool near = wall.there && length(wall.point - end.point) <= kRootReach;
+  if (!near || dot(onward, wall.normal) < -kHeadOn) {  // on into the dark
     root.direction = onward;
-    root.target = end.point + kRootReach * onward;
+    root.target = end.point + (near ? kHeadOnDepth : kRootReach) * onward;
   } else {
     const Vec3d level = normalised(onward - dot(onward, wall.normal) * wall.normal, any_perpendicular(wall.normal));
     root.target = wall.point + kRootSlide * level - (radius + kRootBelow) * wall.normal;
