@@ -17,7 +17,7 @@ constexpr float kOozes = 0.008f;            // [m] how far blood runs down from 
 constexpr std::uint8_t kOozing = 84;
 constexpr float kRough = 0.6f;                // slope of the same
 constexpr std::uint8_t kLooseOpenness = 230;  // of pieces that have come off, which do not lie where they were baked
-constexpr std::uint8_t kLoosePale = 150;      // they have bled out
+constexpr std::uint8_t kLoosePale = 190;      // they have bled out
 constexpr float kGrain = 0.0005f;             // [m] torn lobules of what is bare
 constexpr float kGape = 0.0019f;              // [m] how far either side of a cut draws back
 constexpr int kDrawnAlong = 3;                // rings of nodes that go with it
@@ -202,6 +202,7 @@ void CuttableDrawing::paint_skin() {
       const float mouth = at_rim(m_skin, own, i);
       const float lit = float(kDeepOpenness) + mouth * float(kFlesh.openness - kDeepOpenness);
       m_paint[i].openness = loose ? kLooseOpenness : std::uint8_t(lit);
+      if (loose) m_paint[i].blood = 0, m_paint[i].tint = kLoosePale;
       continue;
     }
     float open = 0;

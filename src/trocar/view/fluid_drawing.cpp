@@ -406,10 +406,10 @@ void FluidDrawing::list_runs(const FluidSight& sight, Liquid& liquid) const {
   for (int j = m_window.j0 & 1; j + 1 < m_window.height; j += 2)
     for (int i = m_window.i0 & 1; i + 1 < m_window.width; i += 2) {
       const std::size_t k = std::size_t(j) * m_window.width + i;
-      if (m_known[k] <= 0 || m_depth[k] > kShallow) continue;  // far off, or below the pool
       const int ci = m_window.i0 + i, cj = m_window.j0 + j;
-      const FilmPlace place = block_of(sight.floor, ci, cj);
       const float runs = runs_down(sight.state.pool, sight.floor, ci, cj) * depth_at(m, sight.state.pool, ci, cj);
+      if ((m_known[k] <= 0 && !(runs > 0)) || m_depth[k] > kShallow) continue;  // far off, or below the pool
+      const FilmPlace place = block_of(sight.floor, ci, cj);
       int wet_i = ci, wet_j = cj;
       float thickness = std::min(0.3f * runs, kThickestRun) * rivulets(place, down);
       if (!(thickness > 2e-6f)) thickness = tide_mark(i, j, place, wet_i, wet_j);

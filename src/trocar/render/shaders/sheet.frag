@@ -16,7 +16,7 @@ vec3 mirrored(vec3 r, float bounce, float jitter) {
 #if DETAIL < 2
   return walls;
 #else
-  float reach = 0.0025 * (0.85 + 0.3 * jitter), before = 0.0;
+  float reach = 0.0025 * (0.97 + 0.06 * jitter), before = 0.0;
   for (int i = 0; i < 8; ++i) {
     vec3 p = v_eye + reach * r;
     vec2 at = in_picture(p);
@@ -32,7 +32,7 @@ vec3 mirrored(vec3 r, float bounce, float jitter) {
       // What it meets fades out where the picture ends and where it goes on behind what is seen: no outlines of either.
       vec2 edge = clamp(8.0 * (0.49 - abs(at - 0.5)), 0.0, 1.0);
       float met = edge.x * edge.y * clamp(1.5 - gap / (0.006 + 0.25 * step_off), 0.0, 1.0);
-      return mix(walls, min(texture(u_bed, at).rgb, vec3(0.5)), met);
+      return mix(walls, min(texture(u_bed, at).rgb, vec3(0.35)), 0.8 * met);
     }
     before = reach;
     reach *= 1.6;
