@@ -254,8 +254,10 @@ Material metal(Vec3f bright, Vec3f dull, float roughness) {
 }
 
 /// Blades and clips: hardly any grinding marks.
-Material polished(Vec3f bright, Vec3f dull, float roughness) {
+Material polished(Vec3f bright, Vec3f dull, float roughness, float scatter) {
   Material m = metal(bright, dull, roughness);
+  m.scatter = scatter;
+  m.mottle = 0.2f;
   m.fibre_stretch = 2.5f;
   m.bump = 0.02f;
   return m;
@@ -346,12 +348,12 @@ std::vector<Look> make_looks() {
       {"broad_ligament", fold(0.6f), true, {}},
       {"adhesion", adhesion(), true, {}},
       {"steel", metal(srgb(148, 147, 152), srgb(128, 128, 134), 0.3f), false, {}},
-      {"polished_steel", polished(srgb(168, 167, 172), srgb(150, 150, 156), 0.22f), false, {}},
+      {"polished_steel", polished(srgb(168, 167, 172), srgb(150, 150, 156), 0.22f, 0.05f), false, {}},
       {"matte_steel", metal(srgb(128, 129, 133), srgb(114, 115, 120), 0.46f), false, {}},
       {"insulated", insulation(), false, {}},
       {"ceramic", ceramic(), false, {}},
       {"sleeve", metal(srgb(130, 131, 137), srgb(116, 118, 124), 0.38f), false, {}},
-      {"titanium", polished(srgb(188, 188, 193), srgb(172, 173, 178), 0.26f), false, {}},
+      {"titanium", polished(srgb(188, 188, 193), srgb(172, 173, 178), 0.26f, 0.5f), false, {}},
   };
 }
 

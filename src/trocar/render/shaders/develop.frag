@@ -80,7 +80,7 @@ void main() {
   behind = clamp(behind, 0.0, 1.0) * clamp(3.0 - 0.5 * behind, 0.0, 1.0);
   float open = 1.0 - u_depth.z * max(0.8 * behind.x, 0.6 * behind.y);
   colour *= vec3(open, open * open, open * open);
-  outline = clamp(abs(scene.a - soft.a) / (unit * 0.012), 0.0, 1.0);
+  outline = clamp(abs(scene.a - soft.a) / (unit * 0.007), 0.0, 1.0);
   colour = mix(colour, min(0.6 * soft.rgb + 0.4 * softer.rgb, vec3(8.0)), u_camera.z);
 #endif
 #ifdef SMOKE
