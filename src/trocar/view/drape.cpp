@@ -90,10 +90,9 @@ Drape::Drape(const sim::Model& model, int solid, const std::vector<OrganDrawing>
     for (int r = 0; r < kRings; ++r) {
       const std::size_t i = std::size_t(k * kRings + r);
       const double w = double(r) / (kRings - 1);
-      const double fat = fat_below(vec_cast<double>(m_buffer.positions[i]));
-      const double own = 0.3 * smooth(0.75, 0.3, w);  // paler over the organ
+      // Goes over into the wall's colour.
       m_buffer.paint[i] = {to_byte(1 - 0.12 * smooth(0.5, 0.75, w) * smooth(1, 0.8, w)), 0, 0,
-                           to_byte(std::max(own, smooth(0.3, 0.8, w) * fat))};
+                           to_byte(smooth(0.55, 0.95, w))};
     }
   m_mesh = OwnedMesh(backend, m_buffer.data());
 }

@@ -147,7 +147,8 @@ void Ridge::place_flank(const Station& st, Vec3d at, int flank, std::size_t firs
   const Vec3d away = 0.15 * n - down, up = normalised(away - dot(away, st.along) * st.along, -down);
   const double high = 0.5 + 0.65 * st.over,
                wide = std::sqrt(std::max(0.0, 1 - 0.87 * high * high * (1 - st.over) - st.over));
-  const Vec3d top = at + st.radius * ((0.93 * wide) * out + (0.93 * high) * up);
+  const double hold = 0.8 + 0.2 * st.over;  // begins inside the ligament, whose outline is uneven
+  const Vec3d top = at + st.radius * ((hold * wide) * out + (hold * high) * up);
   const Vec3d keel = at + std::max(0.6 * st.radius, st.depth * length(st.floor - at)) * down;
   const double spread = smooth(0.55, 1, st.depth);
   const Vec3d end = keel + spread * (st.foot[flank] - keel);

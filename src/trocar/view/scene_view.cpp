@@ -301,7 +301,7 @@ void SceneView::Parts::make_tissues(render::Backend& backend) {
     const Look& covered = look(model.solids[std::size_t(i)].look);
     if (!covered.draped) continue;
     drapes.emplace_back(model, i, organs, backend);
-    drape_look.push_back(&look(model.walls.empty() ? covered.name : model.walls.front().look));
+    drape_look.push_back(&covered);
   }
   adhesions.emplace(organs, model, wall_surface, backend);
   for (std::size_t i = 0; i < model.walls.size(); ++i) {
@@ -517,6 +517,7 @@ void SceneView::Parts::list_tissues(bool with_walls, Frame& frame) {
   for (std::size_t i = 0; i < drapes.size(); ++i) {
     frame.items.push_back(item(drapes[i].mesh(), *drape_look[i], first.cavity));
     frame.items.back().material.two_sided = true;
+    frame.items.back().material.tint = look("peritoneum").material.colour;
   }
   for (std::size_t i = 0; i < fat.size(); ++i)
     if (fat[i].mesh().id)
