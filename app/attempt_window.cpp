@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,6 +12,7 @@
 
 #include "display_panel.hpp"
 #include "hand_names.hpp"
+#include "layout_panel.hpp"
 #include "paths.hpp"
 #include "sources.hpp"
 #include "ui.hpp"
@@ -23,6 +25,7 @@ using training::AttemptState;
 namespace {
 
 constexpr double kSlowest = 0.05;
+constexpr double kLagging = 0.95;
 constexpr double kFullRate = 62, kYieldingRate = 24;  // [pictures/s] at most; the second while the simulation lags
 
 bool by_hand(const std::string& input) { return input == "mouse" || input == "gamepad"; }
@@ -32,7 +35,12 @@ double pull_limit(const Lesson& lesson) { return lesson.exercise ? lesson.exerci
 }  // namespace
 
 AttemptWindow::AttemptWindow(Stage& stage, const Lesson& lesson, const AttemptPlan& plan)
-    : m_stage(stage), m_lesson(lesson), m_plan(plan), m_session(lesson), m_log(stage.options.store, m_session, plan) {
+    : m_stage(stage),
+      m_lesson(lesson),
+      m_plan(plan),
+      m_session(lesson),
+      m_log(stage.options.store, m_session, plan),
+      m_panes(lesson.model) {
   if (by_hand(plan.input)) {
     m_pilot = std::make_unique<HandPilot>(lesson.model);
     m_pilot->set(hand_settings(stage.settings, 0));
@@ -67,10 +75,20 @@ std::string AttemptWindow::mode_text() const {
 /// Is it scored? Then organs are not looked through.
 bool AttemptWindow::counts() const { return m_plan.mode == AttemptMode::assessed && !m_steps.empty(); }
 
+/// While it counts there is nothing but what the endoscope sees.
+LayoutChoice AttemptWindow::layout() const {
+  LayoutChoice choice = m_stage.settings.views;
+  if (!counts() || m_over) return choice;
+  LayoutChoice plain;
+  if (choice.elsewhere) plain.elsewhere = PaneShows::endoscope;
+  return plain;
+}
+
 std::string AttemptWindow::screen_name() const {
   return m_over      ? "result"
          : m_hint    ? "hint"
          : m_display ? "display"
+         : m_views   ? "views"
          : m_paused  ? "pause"
          : m_rack    ? "rack"
                      : "exercise";
@@ -127,7 +145,31 @@ void AttemptWindow::picture(Live& live, Choice& choice) {
   std::filesystem::path pictures = m_log.attempt().recording;
   if (pictures.empty()) pictures = "trocar";
   m_stage.end_picture(screen_name(), pictures);
-  m_stage.governor.frame_took(window.picture_time());
+  m_stage.governor.frame_took(window.picture_time(), crowds_simulation(now));
+  log_rate(now);
+}
+
+/// Where processors draw, they are the simulation's first: it keeps real time, pictures get cheaper.
+bool AttemptWindow::crowds_simulation(const Snapshot& now) const {
+  return m_stage.draws_on_processors() && !stands_still() && now.speed < kLagging;
+}
+
+/// Once a second: how fast pictures come and time passes, and at which of the governor's levels.
+void AttemptWindow::log_rate(const Snapshot& now) {
+  if (!m_stage.log.on()) return;
+  ++m_pictures;
+  m_slowest = std::min(m_slowest, now.speed);
+  const double time = now_seconds(), took = time - m_rate_since;
+  if (took < 1) return;
+  if (m_rate_since > 0)
+    m_stage.log.event("rate", {{"tick", now.state.tick},
+                               {"pictures_per_second", std::round(10 * double(m_pictures) / took) / 10},
+                               {"slowest", std::round(100 * m_slowest) / 100},
+                               {"still", stands_still()},
+                               {"level", m_stage.governor.level()}});
+  m_rate_since = time;
+  m_pictures = 0;
+  m_slowest = 1;
 }
 
 void AttemptWindow::look_at_keys() {
@@ -137,7 +179,17 @@ void AttemptWindow::look_at_keys() {
   if (m_had_focus && !window.focused() && m_pilot && !stands_still()) hold("Another window came to the front.");
   m_had_focus = window.focused();
   m_gamepad_used |= touched(window.gamepads().state());
-  if (m_stage.overlay() != Stage::Overlay::none || m_over || m_hint || m_display) return;
+  if (window.keys().second) {
+    std::optional<PaneShows>& elsewhere = m_stage.settings.views.elsewhere;
+    elsewhere = elsewhere ? std::nullopt : std::optional(PaneShows::endoscope);
+    m_stage.keep_settings();
+  }
+  if (window.keys().layout && !counts()) {
+    Layout& layout = m_stage.settings.views.layout;
+    layout = after(layout);
+    m_stage.keep_settings();
+  }
+  if (m_stage.overlay() != Stage::Overlay::none || m_over || m_hint || m_display || m_views) return;
   const bool back = window.keys().back, pause = window.keys().pause;
   if (m_rack && back) {
     m_rack = false;
@@ -205,14 +257,59 @@ void AttemptWindow::ask_for_the_eye(const Snapshot& now) {
   m_stage.log.event("waits-for-eye", {{"tick", now.state.tick}, {"tool", m_lesson.model.hands[size_t(waits)].name}});
 }
 
+void AttemptWindow::draw_panes(const Snapshot& now) {
+  const render::Quality quality = m_stage.governor.quality();
+  view::SceneView& view = m_stage.view_of(m_lesson);
+  m_panes.draw_others({view, *m_stage.backend, now.state, now.state.tick, quality, m_styles}, false);
+  const Panes::Pane& first = m_panes.first();
+  view::ViewOptions options = m_panes.options(first.shows);
+  options.quality = quality;
+  options.styles = m_styles;
+  options.picture_height = double(first.area.height);
+  render::Frame frame = view.frame(now.state, options);
+  fit_to(first.area, frame);
+  const bool scope = first.shows == PaneShows::endoscope || first.shows == PaneShows::second_scope;
+  const render::Target part = window_target(first.area, m_stage.window.height());
+  const bool copied = m_stage.size_elsewhere().width > 0 && !m_panes.canvas_elsewhere();
+  m_stage.draw_scene(frame, part, scope, [this, part, first_eye = copied]() mutable {
+    if (std::exchange(first_eye, false)) m_stage.first_pane.copy(part);
+    m_panes.lay_others(m_stage.window.height(), m_stage.settings.mirrored_picture);
+  });
+  m_panes.write_over(layout().count() > 1);
+}
+
+/// For tests that drive the window: which panes there are, and where their cameras look.
+void AttemptWindow::tell_views(const LayoutChoice& choice) {
+  if (!m_stage.log.on()) return;
+  Json panes = Json::array();
+  for (const Panes::Pane& p : m_panes.panes())
+    if (!p.elsewhere)
+      panes.push_back({{"shows", name_of(p.shows)}, {"area", {p.area.x, p.area.y, p.area.width, p.area.height}}});
+  const PaneCameras& cameras = m_panes.cameras;
+  const Json line{{"layout", name_of(choice.layout)},
+                  {"panes", panes},
+                  {"outside_yaw", cameras.outside.yaw},
+                  {"second_yaw", cameras.second.pose.yaw},
+                  {"pressure", cameras.analysis.pressure}};
+  if (std::string text = line.dump(); text != m_told_views) {
+    m_told_views = std::move(text);
+    m_stage.log.event("views", line);
+  }
+}
+
 void AttemptWindow::draw_scene(const Snapshot& now) {
   const Window& window = m_stage.window;
   const float panel = panel_width(float(window.width()), window.scale());
   const int width = std::max(1, window.width() - int(panel)), height = std::max(1, window.height());
-  view::ViewOptions options;
-  options.quality = m_stage.governor.quality();
-  options.styles = m_styles;
-  m_stage.draw_scene(m_stage.view_of(m_lesson).frame(now.state, options), width, height);
+  LayoutChoice choice = layout();
+  m_panes.lay_out(choice, {0, 0, float(width), float(height)}, window.scale(), m_stage.size_elsewhere());
+  m_panes.listen();
+  m_stage.governor.load_becomes(m_panes.load());
+  draw_panes(now);
+  m_stage.show_elsewhere(choice, m_panes.canvas_elsewhere(),
+                         choice.elsewhere ? m_panes.legend_of_pane(*choice.elsewhere) : view::Legend{});
+  if (!choice.elsewhere) m_stage.settings.views.elsewhere.reset();
+  tell_views(choice);
   ui::set_middle(float(width));
   const PanelContent content{m_lesson,
                              now,
@@ -231,6 +328,7 @@ void AttemptWindow::draw_scene(const Snapshot& now) {
 }
 
 void AttemptWindow::draw_over(const Snapshot& now, Choice& choice) {
+  choice = Choice::none;  // what was chosen in the last picture has been done
   if (m_stage.overlay() != Stage::Overlay::none) return;
   const bool gamepad = m_stage.window.gamepads().present();
   if (m_over) {
@@ -243,6 +341,11 @@ void AttemptWindow::draw_over(const Snapshot& now, Choice& choice) {
     }
   } else if (m_display) {
     if (draw_display(m_stage.view_of(m_lesson).parts(), m_styles) || m_stage.window.keys().back) m_display = false;
+  } else if (m_views) {
+    if (draw_layout_panel(m_stage.settings.views, m_panes) || m_stage.window.keys().back) {
+      m_views = false;
+      m_stage.keep_settings();
+    }
   } else if (m_paused) {
     choice = draw_pause(m_why_paused, m_log.attempt().recording, counts(), !counts());
   } else if (m_rack) {
@@ -250,6 +353,7 @@ void AttemptWindow::draw_over(const Snapshot& now, Choice& choice) {
   }
   if (choice == Choice::resume) m_paused = false, m_why_paused.clear();
   if (choice == Choice::display) m_display = true;
+  if (choice == Choice::views) m_views = true;
   if (choice == Choice::settings) m_stage.open(Stage::Overlay::settings);
   if (choice == Choice::help) m_stage.open(Stage::Overlay::help);
   if (choice == Choice::report) m_stage.reports.open(m_stage.options.store, m_log.attempt().uuid);

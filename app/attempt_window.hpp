@@ -10,6 +10,7 @@
 #include "hand_pilot.hpp"
 #include "live.hpp"
 #include "panel.hpp"
+#include "panes.hpp"
 #include "stage.hpp"
 
 namespace trocar::app {
@@ -18,6 +19,7 @@ class AttemptWindow {
  public:
   /// @param plan.input "mouse" or "gamepad": hands; else a source, see make_source()
   AttemptWindow(Stage& stage, const Lesson& lesson, const AttemptPlan& plan);
+  ~AttemptWindow() { m_stage.close_elsewhere(); }
 
   Choice run();
   const Json& result() const { return m_result; }
@@ -34,11 +36,16 @@ class AttemptWindow {
   void tell(Live& live);
   void warn_of_pull(const Snapshot& now);
   void ask_for_the_eye(const Snapshot& now);
+  bool crowds_simulation(const Snapshot& now) const;
+  void log_rate(const Snapshot& now);
   void draw_scene(const Snapshot& now);
+  void draw_panes(const Snapshot& now);
+  void tell_views(const LayoutChoice& choice);
   void draw_over(const Snapshot& now, Choice& choice);
   void draw_the_rack(const Snapshot& now);
   void end(Live& live, Ending ending);
   bool counts() const;
+  LayoutChoice layout() const;
   std::string screen_name() const;
   std::string mode_text() const;
   std::optional<training::ClipOutlook> outlook(const sim::State& state) const;
@@ -54,12 +61,15 @@ class AttemptWindow {
   std::vector<training::StepStatus> m_steps;
   Feedback m_feedback;
   PullWarning m_pull_warning;
-  std::string m_told_warning, m_why_paused;
+  std::string m_told_warning, m_told_views, m_why_paused;
   Json m_result;
   bool m_hint = false, m_hint_again = false, m_paused = false, m_rack = false, m_over = false;
-  bool m_display = false;
+  bool m_display = false, m_views = false;
+  Panes m_panes;
   std::vector<view::PartStyle> m_styles;  ///< of the scene's parts
   bool m_was_still = true, m_gamepad_used = false, m_had_focus = false;
+  int m_pictures = 0;  ///< since m_rate_since
+  double m_rate_since = 0, m_slowest = 1;
   int m_asked_for_eye = -1;  ///< hand whose insertion waits to be seen, as told
 };
 

@@ -1,4 +1,5 @@
-// trocar bench: what a tick costs, stage by stage, while somebody pulls on the scene's tissue.
+// trocar bench: what a tick costs, stage by stage, while somebody pulls on the scene's tissue; with --picture what a
+// picture of that costs, pass by pass.
 #include <algorithm>
 #include <chrono>
 #include <ctime>
@@ -7,14 +8,14 @@
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
-#include <trocar/core/log.hpp>
 #include <trocar/core/parallel.hpp>
 #include <trocar/tissue/network.hpp>
 
+#include "bench_inputs.hpp"
+#include "bench_picture.hpp"
 #include "command.hpp"
 #include "json.hpp"
-#include "session.hpp"
-#include "sources.hpp"
+#include "lesson.hpp"
 
 namespace trocar::app {
 namespace {
@@ -47,55 +48,6 @@ Summary summary(std::vector<double> us) {
 }
 Json as_json(const Summary& s) {
   return {{"mean_us", s.mean}, {"median_us", s.median}, {"p99_us", s.p99}, {"max_us", s.most}};
-}
-
-/// The inputs of a scripted operation, recorded once, so that every measurement does the same work.
-std::vector<sim::Input> operation(const Lesson& lesson, double seconds) {
-  const std::unique_ptr<InputSource> source = lesson.surgeon();
-  Session session(lesson);
-  std::vector<sim::Input> inputs;
-  sim::Input input = lesson.model.start;
-  while (double(inputs.size()) * sim::kTick < seconds && !session.finished() && source->next(session.state(), input)) {
-    session.advance(input);
-    inputs.push_back(input);
-  }
-  return inputs;
-}
-
-/// The point of the organs' skins that is nearest to a port.
-Vec3d nearest_skin(const sim::Model& model, Vec3d port) {
-  Vec3d best = model.hands.front().port;
-  double least = 1e9;
-  for (int organ = 0; organ < model.organs(); ++organ) {
-    const tissue::Skin& skin = model.skin(organ);
-    for (int v = 0; v < skin.size(); ++v) {
-      const Vec3d p = vec_cast<double>(skin.rest[std::size_t(v)]);
-      if (!skin.at_surface(v) || length(p - port) >= least) continue;
-      least = length(p - port);
-      best = p;
-    }
-  }
-  return best;
-}
-
-/// Where nobody knows an exercise: every hand goes to the tissue nearest to it, closes, draws back, opens, and the next
-/// time 4 mm deeper.
-std::vector<sim::Input> rummage(const sim::Model& model, double seconds) {
-  std::vector<Vec3d> goal;
-  for (const sim::HandModel& hand : model.hands) goal.push_back(nearest_skin(model, hand.port));
-  std::vector<sim::Input> inputs(std::size_t(seconds / sim::kTick), model.start);
-  for (std::size_t i = 0; i < inputs.size(); ++i) {
-    const std::size_t round = i / 2000, t = i % 2000;
-    const double deep = 0.004 * double(1 + round % 6), back = t < 1000 ? 0 : 0.012;
-    const float handle = t >= 500 && t < 1700 ? 1.0f : 0.0f;
-    for (std::size_t h = 0; h < model.hands.size(); ++h) {
-      const Vec3d port = model.hands[h].port, in = normalised(goal[h] - port);
-      sim::ToolInput& tool = inputs[i].tools[h];
-      tool = sim::tool_input(kinematics::inverse(port, goal[h] + (deep - back) * in, double(tool.roll)), handle,
-                             tool.instrument);
-    }
-  }
-  return inputs;
 }
 
 struct Timing {
@@ -135,10 +87,7 @@ Timing measure(const sim::Model& model, const std::vector<sim::Input>& inputs, i
 
 Json bench_scene(const std::string& name, double seconds) {
   const std::unique_ptr<Lesson> lesson = load_lesson(name);
-  if (lesson->exercise)
-    core::log::info("the surgeon operates for up to {:.0f} s, first to record, then to measure", seconds);
-  const std::vector<sim::Input> inputs =
-      lesson->exercise ? operation(*lesson, seconds) : rummage(lesson->model, seconds);
+  const std::vector<sim::Input> inputs = bench_inputs(*lesson, seconds);
   Json out{{"name", name},
            {"free_nodes", lesson->model.free_nodes()},
            {"simd", tissue::simd_name()},
@@ -207,45 +156,69 @@ void print_for_people(const Json& r) {
   }
 }
 
-int bench(std::vector<std::string> names, const std::string& file, double seconds, bool json) {
-  if (names.empty()) names = {"gynaecology", "kernel"};
+struct Options {
+  std::vector<std::string> names;
+  std::string file, size = "800x600";
+  double seconds = 30;
+  bool json = false, picture = false;
+  PictureBench pictures;
+};
+
+/// A scene's name stands for the exercise that the surgeon knows.
+std::string exercise_of(const std::string& name) { return name == "gynaecology" ? "gynaecology/sterilisation" : name; }
+
+Json bench_one(const std::string& name, const Options& o) {
+  if (o.picture) return bench_picture(exercise_of(name), o.seconds, o.pictures);
+  if (name == "kernel") return bench_kernel();
+  return bench_scene(exercise_of(name), o.seconds);
+}
+
+int bench(Options o) {
+  o.pictures.size = parse_size(o.size);
+  if (o.names.empty())
+    o.names = o.picture ? std::vector<std::string>{"gynaecology"} : std::vector<std::string>{"gynaecology", "kernel"};
   Json results = Json::array();
-  for (const std::string& name : names) {
-    if (name == "kernel")
-      results.push_back(bench_kernel());
-    else  // a scene's name stands for the exercise that the surgeon knows
-      results.push_back(bench_scene(name == "gynaecology" ? "gynaecology/sterilisation" : name, seconds));
-    if (!json) print_for_people(results.back());
+  for (const std::string& name : o.names) {
+    results.push_back(bench_one(name, o));
+    if (o.json) continue;
+    if (o.picture)
+      print_picture_bench(results.back());
+    else
+      print_for_people(results.back());
   }
   const Json all{{"benchmarks", results}};
-  if (!file.empty()) {
-    std::ofstream out(file);
+  if (!o.file.empty()) {
+    std::ofstream out(o.file);
     out << all.dump(2) << '\n';
-    if (!out.flush()) throw core::EnvironmentLacks(fmt::format("cannot write {}: is the disk full?", file));
+    if (!out.flush()) throw core::EnvironmentLacks(fmt::format("cannot write {}: is the disk full?", o.file));
   }
-  if (json) print(all);
+  if (o.json) print(all);
   return core::kDone;
 }
 
 }  // namespace
 
 void add_bench(CLI::App& program, Chosen& chosen) {
-  struct Options {
-    std::vector<std::string> names;
-    std::string file;
-    double seconds = 30;
-    bool json = false;
-  };
   auto o = std::make_shared<Options>();
-  CLI::App* c = program.add_subcommand("bench", "Measure what a tick costs, stage by stage");
-  c->footer("Example:\n  trocar bench gynaecology --json bench.json");
+  CLI::App* c = program.add_subcommand("bench", "Measure what a tick costs, stage by stage, or a picture");
+  c->footer(
+      "Example:\n  trocar bench gynaecology --json bench.json\n"
+      "  trocar bench gynaecology/bleeding-control --picture --size 800x600");
   c->add_option("names", o->names,
                 "gynaecology, an exercise, a scene, or kernel (one spring); without: gynaecology and kernel");
   c->add_option("--json", o->file, "write the numbers to this file, or with - to standard output")->expected(0, 1);
   c->add_option("--seconds", o->seconds, "simulated time at most")->capture_default_str()->check(CLI::PositiveNumber);
+  c->add_flag("--picture", o->picture, "what a picture costs, pass by pass, at each detail, and each quality in whole");
+  c->add_option("--size", o->size, "of the picture")->capture_default_str();
+  c->add_option("--frames", o->pictures.frames, "pictures a figure, of which it is the median")
+      ->capture_default_str()
+      ->check(CLI::Range(3, 300));
+  c->add_option("--at", o->pictures.at, "of which moment [s]; without: the one that costs most")
+      ->check(CLI::NonNegativeNumber);
   c->callback([o, c, &chosen] {
-    chosen.json = c->count("--json") > 0 && (o->file.empty() || o->file == "-");
-    chosen.run = [o, &chosen] { return bench(o->names, chosen.json ? "" : o->file, o->seconds, chosen.json); };
+    o->json = chosen.json = c->count("--json") > 0 && (o->file.empty() || o->file == "-");
+    if (chosen.json) o->file.clear();
+    chosen.run = [o] { return bench(*o); };
   });
 }
 

@@ -1,6 +1,6 @@
 // trocar gallery: the picture book. Every scene through its endoscope, close up (organs, what is mistaken for what),
 // every instrument, an exchange, how a shadow tells height, clips and a cut, coagulation, smoke and the fogged lens,
-// bleeding, ways to show parts, both eyes, and from outside.
+// bleeding, figures in colour, ways to show parts, both eyes, and from outside.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -218,6 +218,7 @@ void add_scene(Json& list, const std::string& name, const std::filesystem::path&
   bites(model, start, shots);
   burn(model, start, shots);
   bleed(model, start, shots);
+  analysis(model, start, shots);
   styles(start, pictures, shots);
   eyes(model, start, size, shots);
   outside(model, start, shots);

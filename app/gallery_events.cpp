@@ -8,6 +8,9 @@
 #include <trocar/sim/step.hpp>
 #include <trocar/sim/visibility.hpp>
 
+#include "analysis_choice.hpp"
+#include "camera_choice.hpp"
+
 namespace trocar::app {
 
 using view::PartGroup;
@@ -118,6 +121,54 @@ void bleed(const sim::Model& model, const sim::State& start, Shots& shots) {
   const fluids::PoolModel& pool = model.wet.model.pool;
   const Vec3d middle = world(pool, 0.5 * pool.nx * pool.cell, 0.5 * pool.ny * pool.cell, 0.005);
   shots.take_outside(r.state, "bleeding pool", "the pool that has gathered", close_up(model, middle, 0.05));
+}
+
+namespace {
+
+/// Of the strands' nodes and the organs' skins, what lies nearest to p.
+Vec3d nearest_tissue(const sim::Model& model, const sim::State& state, Vec3d p) {
+  std::vector<Vec3d> places;
+  for (const tissue::StrandState& s : state.strands) places.insert(places.end(), s.x.begin(), s.x.end());
+  for (int i = 0; places.empty() && i < model.organs(); ++i) places = skin_of(model, i);
+  return places.empty() ? p : nearest(places, p);
+}
+
+}  // namespace
+
+void analysis(const sim::Model& model, const sim::State& start, Shots& shots) {
+  constexpr double kPull = 0.02;  // [m]
+  Running r(model, start);
+  std::size_t hand = 0;
+  while (hand < model.hands.size() && model.placed(hand).kind != interactions::ToolKind::grasper) ++hand;
+  ViewOptions close, far = view_of(choice_of(kCameraPresets[0]), view::orbit_around(model));
+  far.walls = false;
+  if (hand < model.hands.size()) {
+    const Vec3d port = model.hands[hand].port;
+    const Vec3d tip = kinematics::forward(port, start.tools[hand].pose()).tip;
+    const Vec3d place = nearest_tissue(model, start, tip);
+    const Vec3d past = 0.4 * model.placed(hand).jaw_length * normalised(place - port);
+    r.go(hand, place + past);
+    r.input.tools[hand].handle = 1;
+    r.run(kSecond / 2);
+    const auto instrument = r.input.tools[hand].instrument;
+    const Vec3d up = place + past + kPull * normalised(port - place);
+    for (std::uint64_t i = 1; i <= kSecond; ++i) {
+      const Vec3d at = place + past + (double(i) / double(kSecond)) * (up - place - past);
+      r.input.tools[hand] = sim::tool_input(kinematics::inverse(port, at, 0), 1);
+      r.input.tools[hand].instrument = instrument;
+      r.run(1);
+    }
+    close = close_up(model, place, 0.07);
+  }
+  const auto take = [&](const char* what, ViewOptions options, const char* text) {
+    options.analysis = parse_analysis(what);
+    shots.take_outside(r.state, fmt::format("analysis {}", what), text, options);
+  };
+  take("strain,forces", close, "a grasper pulls: strain of surfaces, and forces");
+  take("springs", close, "the same: springs");
+  take("strain,forces", {}, "the same through the endoscope");
+  take("strain,forces", far, "the same from outside, the trocars' forces on the wall, too");
+  if (model.vessels.there()) take("pressure", far, "the blood's pressure in the vessels");
 }
 
 void styles(const sim::State& start, Pictures& pictures, Shots& shots) {

@@ -16,6 +16,8 @@ Vec3d nearest(const std::vector<Vec3d>& places, Vec3d p);
 void burn(const sim::Model& model, const sim::State& start, Shots& shots);
 /// The vessel that opens by itself: jet and film, half a minute later the pool. Nothing where none does.
 void bleed(const sim::Model& model, const sim::State& start, Shots& shots);
+/// A grasper pulls at the nearest strand or organ: every figure that the analysis view has, alone and together.
+void analysis(const sim::Model& model, const sim::State& start, Shots& shots);
 /// Every style of parts.
 void styles(const sim::State& start, Pictures& pictures, Shots& shots);
 /// Every way to show both eyes, in pictures of their own.

@@ -1,9 +1,11 @@
 // Exchanges left and right of what is drawn in the window so far.
 #pragma once
 
+#include <trocar/render/frame.hpp>
+
 namespace trocar::app {
 
-/// The lower left part of the window's back buffer, `width` x `height` [px].
-void mirror(int width, int height);
+/// A part of the window's back buffer.
+void mirror(const render::Target& part);
 
 }  // namespace trocar::app

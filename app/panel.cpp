@@ -292,6 +292,8 @@ void key_table(devices::Device device, const char* name, float width) {
   if (device == devices::Device::keyboard) {
     key_row("P Esc", "pause: time stops; menu");
     key_row("F1, F12", "this help; save a picture");
+    key_row("F2", "another layout: endoscope, outside, analysis; not while it counts");
+    key_row("F3", "a second window with the endoscope's picture");
   } else if (device == devices::Device::gamepad) {
     key_row("Start, Back", "pause: time stops; this help");
   }
@@ -466,6 +468,7 @@ Choice draw_pause(const std::string& why, const std::string& recording, bool sco
   if (wide_button("Keys and buttons")) choice = Choice::help;
   if (wide_button("Settings")) choice = Choice::settings;
   if (display && wide_button("Display")) choice = Choice::display;
+  if (display && wide_button("Views")) choice = Choice::views;
   if (wide_button("To the start screen")) choice = Choice::start_screen;
   if (wide_button("Quit Trocar")) choice = Choice::quit;
   if (!recording.empty()) ui::text("recorded in " + recording, ui::kGrey);

@@ -34,7 +34,7 @@ void draw_panel(const PanelContent& content, float left, float width, float heig
 /// Fresh notices over the lower part of the picture.
 void draw_notices(const Feedback& feedback, double now, float picture_width, float picture_height);
 
-enum class Choice { none, resume, restart, finish, settings, display, help, report, start_screen, quit };
+enum class Choice { none, resume, restart, finish, settings, display, views, help, report, start_screen, quit };
 
 /// All keys and buttons of the devices that are there. Resume closes it.
 Choice draw_help(bool gamepad, bool left_handed);

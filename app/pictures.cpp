@@ -19,34 +19,51 @@ Pictures::Pictures(const sim::Model& model, PictureSize size, const PictureLook&
       m_context(render::GlContext::off_screen()),
       m_backend(render::make_gl_backend(*m_context)),
       m_view(std::make_unique<view::SceneView>(model, *m_backend)),
-      m_styles(styles_of(look.shown, m_view->parts())) {}
+      m_styles(styles_of(look.shown, m_view->parts())),
+      m_analysis(look.analysis) {}
 
 Pictures::~Pictures() = default;
 
 const std::string& Pictures::driver() const { return m_context->description(); }
 
+/// What was asked for of all pictures, where this one has no wishes of its own.
+void Pictures::choose(view::ViewOptions& options) const {
+  if (options.styles.empty()) options.styles = m_styles;
+  if (!options.analysis.on()) options.analysis = m_analysis;
+  options.picture_height = m_size.height;
+}
+
+/// What was drawn, with its legend.
+render::Image Pictures::read(const view::ViewOptions& options) {
+  render::Image image = m_backend->read_pixels();
+  if (options.analysis.on()) m_legend.paint(legend_of(options.analysis), image);
+  return image;
+}
+
 render::Frame Pictures::frame(const sim::State& state, view::ViewOptions options) {
   m_context->make_current();  // others may have drawn in between
-  if (options.styles.empty()) options.styles = m_styles;
+  choose(options);
   return m_view->frame(state, options);
 }
 
 render::Image Pictures::draw(const sim::State& state, view::ViewOptions options) {
-  const render::Frame frame = this->frame(state, std::move(options));
+  choose(options);
+  const render::Frame frame = this->frame(state, options);
   draw_for(m_eyes, *m_backend, frame, render::Target::off_screen(m_size.width, m_size.height));
-  return m_backend->read_pixels();
+  return read(options);
 }
 
 render::Image Pictures::still(const sim::State& state, view::ViewOptions options) {
   // The exposure follows the brightness that it measured in the picture before, by simulated time: pretend seconds.
   constexpr int kSettling = 3;
+  choose(options);
   options.eye_index = 7;  // an exposure memory of its own
-  render::Frame frame = this->frame(state, std::move(options));
+  render::Frame frame = this->frame(state, options);
   for (int i = 0; i <= kSettling; ++i) {
     frame.tick = state.tick + std::uint64_t(i) * 2000;
     draw_for(m_eyes, *m_backend, frame, render::Target::off_screen(m_size.width, m_size.height));
   }
-  return m_backend->read_pixels();
+  return read(options);
 }
 
 Shots::Shots(Pictures& pictures, const std::filesystem::path& folder) : m_pictures(pictures), m_folder(folder) {

@@ -13,6 +13,7 @@
 #include <trocar/view/scene_view.hpp>
 
 #include "json.hpp"
+#include "legend_drawing.hpp"
 #include "picture_size.hpp"
 #include "shown_parts.hpp"
 #include "two_eyes.hpp"
@@ -27,6 +28,7 @@ namespace trocar::app {
 struct PictureLook {
   TwoEyes eyes;
   ShownParts shown;
+  view::AnalysisOptions analysis = {};  ///< its legend is drawn into the picture
 };
 
 class Pictures {
@@ -42,16 +44,23 @@ class Pictures {
   /// What draw() draws.
   render::Frame frame(const sim::State& state, view::ViewOptions options);
   render::Backend& backend() { return *m_backend; }
+  /// Of pictures whose own options ask for none; for those who draw several ways.
+  void set_analysis(const view::AnalysisOptions& analysis) { m_analysis = analysis; }
   const std::string& driver() const;
   const std::vector<view::ScenePart>& parts() const { return m_view->parts(); }
 
  private:
+  void choose(view::ViewOptions& options) const;
+  render::Image read(const view::ViewOptions& options);
+
   PictureSize m_size;
   TwoEyes m_eyes;
   std::unique_ptr<render::GlContext> m_context;
   std::unique_ptr<render::Backend> m_backend;
   std::unique_ptr<view::SceneView> m_view;
   std::vector<view::PartStyle> m_styles;
+  view::AnalysisOptions m_analysis;
+  LegendPainter m_legend;
 };
 
 /// Numbered PNG files that say what they show, and index.json.

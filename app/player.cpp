@@ -12,6 +12,7 @@
 
 #include "display_panel.hpp"
 #include "interrupt.hpp"
+#include "layout_panel.hpp"
 #include "player_parts.hpp"
 #include "settings.hpp"
 
@@ -22,11 +23,11 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kPlayingRate = 62, kRestingRate = 25;  // [pictures/s] at most
-constexpr float kInset = 0.3f;                          // of the picture's width
 
 Window open_window(const PlayerOptions& options) {
   try {
-    return Window("Trocar: " + fs::path(options.file).filename().string(), options.size);
+    return Window("Trocar: " + fs::path(options.file).filename().string(), options.size,
+                  options.eyes.mode == render::StereoMode::quad_buffer);
   } catch (const core::EnvironmentLacks& lacks) {
     throw core::EnvironmentLacks(fmt::format(
         "{}\nA recording without a window: trocar replay {} with --shots DIR, --video FILE, --verify or --headless",
@@ -56,7 +57,7 @@ Player::Player(Window& window, const Lesson& lesson, const sim::Recording& recor
       m_reel(lesson, recording, Reel::Options{}),
       m_line(m_reel.last()),
       m_around(view::orbit_around(lesson.model)),
-      m_orbit(orbit_of(choice_of(kCameraPresets[0]), m_around)) {
+      m_panes(lesson.model) {
   if (lesson.model.wet.there) m_backend->prepare_liquids();
 }
 
@@ -72,9 +73,9 @@ void Player::lay_out() {
   m_main = {0, 0, std::max(1.0f, width - panel), std::max(1.0f, height - bar)};
   m_panel = {m_main.width, 0, panel, height};
   m_bar = {0, m_main.height, m_main.width, bar};
-  const float w = std::max(1.0f, std::floor(kInset * m_main.width)), gap = std::floor(10 * scale);
-  const float h = std::max(1.0f, std::floor(std::min(0.75f * w, m_main.height)));
-  m_small = {std::max(0.0f, m_main.width - w - gap), std::min(gap, m_main.height - h), w, h};
+  m_panes.lay_out(m_layout, m_main, scale,
+                  m_second ? PictureSize{m_second->width(), m_second->height()} : PictureSize{0, 0});
+  m_governor.load_becomes(m_panes.load());
 }
 
 void Player::draw_overlays() {
@@ -88,23 +89,27 @@ void Player::draw_overlays() {
     if (choice != PlayerChoice::none) m_menu = false;
     if (choice == PlayerChoice::film) start_film();
     if (choice == PlayerChoice::display) m_display = true;
+    if (choice == PlayerChoice::views) m_views = true;
     if (choice == PlayerChoice::help) m_help = true;
     if (choice == PlayerChoice::quit) m_quit = true;
     if (choice == PlayerChoice::picture) m_picture_wanted = true;
   }
   if (m_display && draw_display(m_view.parts(), m_styles)) m_display = false;
+  if (m_views && draw_layout_panel(m_layout, m_panes)) m_views = false;
   if (m_help) draw_player_help();
 }
 
 void Player::picture() {
-  m_window.set_picture_rate(m_playing || m_drag != Drag::none ? kPlayingRate : kRestingRate);
+  m_window.set_picture_rate(m_playing || m_panes.dragging() ? kPlayingRate : kRestingRate);
+  m_window.draw_pointer(m_options.eyes.on());
   m_window.begin_picture();
   lay_out();
   m_reel.findings(m_found_version, m_found);
   PlayerCommands commands;
   listen(commands);
   std::uint64_t wanted = now();
-  draw_bar({m_found, now(), m_reel.known_until(), m_reel.differs_from(), m_playing, m_endoscope, m_inset, m_speed},
+  draw_bar({m_found, now(), m_reel.known_until(), m_reel.differs_from(), m_playing, endoscope(),
+            m_layout.layout != Layout::one, m_speed},
            m_line, m_bar.width, m_bar.y, m_bar.height, commands, wanted);
   if (m_film) {
     film_on();
@@ -120,7 +125,8 @@ void Player::picture() {
   const sim::State& state = m_film ? m_reel.exact() : state_to_show();
   if (!m_film) {
     show_scene(state);
-    frame_inset();
+    show_elsewhere();
+    m_panes.write_over(true);
   }
   draw_player_panel(
       {m_lesson, m_recording, m_found, state, now(), m_line.last(), m_reel.known_until(), m_reel.replays(), m_exact,
@@ -129,6 +135,7 @@ void Player::picture() {
   draw_overlays();
   if (m_picture_wanted && !m_film) save_picture(state);
   m_window.draw_panels();
+  if (m_options.eyes.on()) draw_other_eye();
   m_window.show();
   log_widgets();
   if (!m_film) log_shown(state);
@@ -152,11 +159,14 @@ std::unique_ptr<Lesson> wait_for(LoadingLesson& lesson, Window& window) {
 
 }  // namespace
 
-void run_player(const sim::Recording& recording, const PlayerOptions& options) {
+void run_player(const sim::Recording& recording, PlayerOptions options) {
   LoadingLesson loading;  // outlives the window: that goes at once when it is closed early, whatever the thread does
-  Window window = open_window(options);
   std::vector<core::Fault> ignored;  // told by the trainer's start screen, where they can be mended
-  window.set_text_size(read_settings(settings_file(), ignored).text_size);
+  const Settings settings = read_settings(settings_file(), ignored);
+  if (!options.eyes.on()) options.eyes = two_eyes(settings);
+  Window window = open_window(options);
+  if (options.eyes.mode == render::StereoMode::quad_buffer && !window.has_quad_buffers()) options.eyes.mode.reset();
+  window.set_text_size(settings.text_size);
   EventLog log(EventLog::path_of(options.log));
   catch_interrupts();
   loading = std::async(std::launch::async, load_lesson, options.exercise, recording.header.seed);

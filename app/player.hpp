@@ -6,6 +6,7 @@
 #include <trocar/sim/recording.hpp>
 
 #include "picture_size.hpp"
+#include "two_eyes.hpp"
 
 namespace trocar::app {
 
@@ -14,10 +15,11 @@ struct PlayerOptions {
   std::string exercise;  ///< where its exercise is now
   std::string log;       ///< events as JSON lines; empty: $TROCAR_WINDOW_LOG
   PictureSize size{1280, 800};
+  TwoEyes eyes;  ///< off: as the settings say
 };
 
 /// Opens the player and returns when it is closed.
 /// @throws core::EnvironmentLacks without a display, core::BadInput for what the recording's scene lacks
-void run_player(const sim::Recording& recording, const PlayerOptions& options);
+void run_player(const sim::Recording& recording, PlayerOptions options);
 
 }  // namespace trocar::app

@@ -7,13 +7,6 @@
 #include "player_parts.hpp"
 
 namespace trocar::app {
-namespace {
-
-constexpr double kTurnPerPixel = 0.006;  // [rad]
-constexpr double kZoomPerNotch = 0.12;
-
-}  // namespace
-
 /// Keys, gamepad and pointer; help and menu come and go.
 void Player::listen(PlayerCommands& commands) {
   const devices::Gamepad& pad = m_window.gamepads().state();
@@ -25,37 +18,26 @@ void Player::listen(PlayerCommands& commands) {
   }
   m_pad.read(pad, m_window.picture_time(), overlay() ? ignored : commands);
   m_picture_wanted = keys.picture;
+  commands.next_layout = keys.layout && !m_film;
+  commands.second_window = keys.second && !m_film;
   if (m_film) return;
   if (keys.help) m_help = !m_help;
   const bool back = keys.back && (overlay() || !pad.has(devices::Button::b));  // B means something else outside menus
   if (!back && !keys.pause) return;
-  if (m_display)
-    m_display = false;
+  if (m_display || m_views)
+    m_display = m_views = false;
   else if (m_help)
     m_help = false;
   else
     m_menu = !m_menu;
 }
 
-/// The mouse over the pictures: turns and shifts the outside camera, wherever that is shown.
+/// The mouse over the pictures: turns and shifts the camera of the pane that it is in.
 void Player::read_pointer(PlayerCommands& c) {
-  const ImGuiIO& io = ImGui::GetIO();
-  const bool over_small = m_inset && m_small.holds(io.MousePos.x, io.MousePos.y);
-  const bool over = m_main.holds(io.MousePos.x, io.MousePos.y) && !io.WantCaptureMouse;
-  const bool over_outside = over && (over_small ? m_endoscope : !m_endoscope);
-  if (!io.MouseDown[0] && !io.MouseDown[1] && !io.MouseDown[2]) m_drag = Drag::none;
-  if (over_outside && io.MouseClicked[0]) m_drag = io.KeyShift ? Drag::shift : Drag::turn;
-  if (over_outside && (io.MouseClicked[1] || io.MouseClicked[2])) m_drag = Drag::shift;
-  if (over && io.MouseDoubleClicked[0]) c.swap = true;
-  if (over_outside && io.MouseWheel != 0) c.closer += kZoomPerNotch * double(io.MouseWheel);
-  const double height = double(m_endoscope ? m_small.height : m_main.height);
-  if (m_drag == Drag::turn) {
-    c.turn_yaw -= kTurnPerPixel * double(io.MouseDelta.x);
-    c.turn_pitch += kTurnPerPixel * double(io.MouseDelta.y);
-  } else if (m_drag == Drag::shift) {
-    c.pan_right -= 0.75 * double(io.MouseDelta.x) / height;
-    c.pan_up += 0.75 * double(io.MouseDelta.y) / height;
-  }
+  const Panes::Pane* under = m_panes.under_pointer();
+  if (under && ImGui::GetIO().MouseDoubleClicked[0]) c.to_front = under->shows;
+  if (under && ImGui::IsAnyMouseDown() && under->shows != PaneShows::endoscope) m_led = under->shows;
+  c.moved_by_pointer = m_panes.listen();
 }
 
 void Player::obey(const PlayerCommands& c) {
@@ -92,28 +74,39 @@ void Player::obey_times(const PlayerCommands& c) {
 }
 
 void Player::obey_cameras(const PlayerCommands& c) {
-  const bool endoscope = m_endoscope, inset = m_inset;
+  const LayoutChoice before = m_layout;
   const int presets = int(std::size(kCameraPresets));
   int preset = c.preset;
-  if (c.next_preset) preset = m_endoscope ? 1 : (m_preset + 1) % (presets + 1);  // 0: the endoscope, and round again
-  if (preset == 0) m_endoscope = true;
+  if (c.next_preset) preset = endoscope() ? 1 : (m_preset + 1) % (presets + 1);  // 0: the endoscope, and round again
+  if (preset == 0) m_layout.put(0, PaneShows::endoscope);
   if (preset > 0 && preset <= presets) {
-    m_endoscope = false;
+    m_layout.put(0, PaneShows::outside);
     m_preset = preset;
-    m_orbit = orbit_of(choice_of(kCameraPresets[preset - 1]), m_around);
+    m_led = PaneShows::outside;
+    m_panes.cameras.outside = orbit_of(choice_of(kCameraPresets[preset - 1]), m_around);
   }
-  if (c.swap) m_endoscope = !m_endoscope;
-  if (c.inset) m_inset = !m_inset;
-  const bool turned = c.turn_yaw != 0 || c.turn_pitch != 0 || c.pan_right != 0 || c.pan_up != 0 || c.closer != 0;
-  if (turned) {
-    m_orbit.turn(c.turn_yaw, c.turn_pitch);
-    m_orbit.pan(c.pan_right * m_orbit.distance, c.pan_up * m_orbit.distance);
-    m_orbit.zoom(std::exp(-c.closer));
-    if (m_endoscope && !m_inset) m_endoscope = false;  // what is turned shall be seen
-  }
-  if (!turned && preset < 0 && endoscope == m_endoscope && inset == m_inset) return;
+  if (c.to_front && *c.to_front != m_layout.panes[0])
+    m_layout.put(0, *c.to_front);
+  else if (c.swap || c.to_front)
+    m_layout.put(0, m_layout.panes[1]);
+  if (c.inset) m_layout.layout = m_layout.layout == Layout::one ? Layout::corner : Layout::one;
+  if (c.next_layout) m_layout.layout = after(m_layout.layout);
+  if (c.second_window) m_layout.elsewhere = m_layout.elsewhere ? std::nullopt : std::optional(PaneShows::endoscope);
+  const bool turned = turn_camera(c);
+  if (!turned && !c.moved_by_pointer && preset < 0 && m_layout == before) return;
   m_asked_at = Clock::now();
   log_camera();
+}
+
+/// By keys and sticks: the camera that the pointer was last in, if it is shown, else the outside one.
+bool Player::turn_camera(const PlayerCommands& c) {
+  if (c.turn_yaw == 0 && c.turn_pitch == 0 && c.pan_right == 0 && c.pan_up == 0 && c.closer == 0) return false;
+  if (!m_layout.shows(m_led)) m_led = PaneShows::outside;
+  m_panes.turn(m_led, c.turn_yaw, c.turn_pitch);
+  m_panes.shift(m_led, c.pan_right, c.pan_up);
+  m_panes.closer(m_led, c.closer);
+  if (!m_layout.shows(m_led)) m_layout.put(0, m_led);  // what is turned shall be seen
+  return true;
 }
 
 void Player::seek(std::uint64_t tick) {

@@ -31,13 +31,17 @@ fs::path free_name(const std::string& recording, const char* ending) {
 /// The large picture alone, at full quality.
 void Player::save_picture(const sim::State& state) {
   const fs::path file = free_name(m_options.file, ".png");
-  view::ViewOptions options = view_now(m_endoscope, {});
-  options.eye_index = m_endoscope ? kScopeEye : kOutsideEye;
+  view::ViewOptions options = view_of_first({});
   options.metering = false;
+
   try {
-    render::draw_frame(*m_backend, m_view.frame(state, options),
-                       render::Target::off_screen(int(m_main.width), int(m_main.height)));
-    render::write_png(file.string(), m_backend->read_pixels());
+    const Area& area = m_panes.first().area;
+    render::Frame frame = m_view.frame(state, options);
+    fit_to(area, frame);
+    render::draw_frame(*m_backend, frame, render::Target::off_screen(int(area.width), int(area.height)));
+    render::Image image = m_backend->read_pixels();
+    if (options.analysis.on()) m_legend.paint(legend_of(options.analysis), image);
+    render::write_png(file.string(), image);
     m_message = "saved " + file.string();
     m_log.event("picture", {{"file", file.string()}, {"tick", now()}, {"exact", m_exact}});
   } catch (const core::EnvironmentLacks& lacks) {
@@ -49,8 +53,9 @@ void Player::start_film() {
   if (m_film) return;
   auto job = std::make_unique<FilmJob>();
   job->plan = {std::uint64_t(m_line.from() + 0.5), std::uint64_t(m_line.to() + 0.5), m_speed};
-  job->size = {std::max(2, int(m_main.width) & ~1), std::max(2, int(m_main.height) & ~1)};
-  job->view = view_now(m_endoscope, {});
+  const Area& area = m_panes.first().area;
+  job->size = {std::max(2, int(area.width) & ~1), std::max(2, int(area.height) & ~1)};
+  job->view = view_of_first({});
   job->view.eye_index = kFilmEye;
   try {
     job->video = Video::open(free_name(m_options.file, ".mp4"), job->size);
@@ -82,6 +87,7 @@ void Player::film_on() {
     }
     const sim::State& state = trusted || m_footage.empty() ? m_reel.exact() : m_footage.at(tick);
     render::Frame frame = m_view.frame(state, job.view);
+    fit_to({0, 0, float(job.size.width), float(job.size.height)}, frame);
     const auto draw_at = [&](std::uint64_t clock) {
       frame.tick = clock;
       render::draw_frame(*m_backend, frame, render::Target::off_screen(job.size.width, job.size.height));
@@ -89,7 +95,9 @@ void Player::film_on() {
     for (std::uint64_t i = 0; !job.settled && i < kSettling; ++i) draw_at(i * kSettlingStep);
     job.settled = true;
     draw_at(kSettling * kSettlingStep + tick - job.plan.from);
-    job.video->add(m_backend->read_pixels());
+    render::Image image = m_backend->read_pixels();
+    if (job.view.analysis.on()) m_legend.paint(legend_of(job.view.analysis), image);
+    job.video->add(image);
     if (job.video->broken()) return end_film("no film: ffmpeg gave up; is the disk full?");
     if (++job.next < job.plan.pictures()) continue;
     const std::string path = job.video->path();

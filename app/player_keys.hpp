@@ -1,10 +1,12 @@
 // What keys and gamepad ask the player for, one vocabulary for both and for the buttons on the screen.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <trocar/devices/mouse_keyboard.hpp>
 
+#include "layout.hpp"
 #include "window.hpp"
 
 namespace trocar::app {
@@ -14,7 +16,9 @@ struct PlayerCommands {
   bool faster = false, slower = false;
   bool zoom_in = false, zoom_out = false, show_all = false;  ///< of the timeline
   bool swap = false, inset = false, next_preset = false;     ///< of the pictures
-  int preset = -1;                                           ///< 0 endoscope, 1.. kCameraPresets
+  bool next_layout = false, second_window = false, moved_by_pointer = false;
+  std::optional<PaneShows> to_front;  ///< this becomes the large one; is it already: swap
+  int preset = -1;                    ///< 0 endoscope, 1.. kCameraPresets
   bool picture = false, film = false;
   int ticks = 0;                        ///< single steps, signed
   double scrub = 0;                     ///< share of the visible stretch, signed
@@ -51,10 +55,12 @@ inline constexpr PlayerHelpLine kPlayerHelp[] = {
     {"slower, faster", "Down, Up", "buttons", "cross down, up"},
     {"show less or more of the time", "+ -", "wheel on the timeline", ""},
     {"show all of it", "0", "right click there", "right stick pressed"},
-    {"exchange endoscope and outside", "C", "double click", "Y"},
+    {"exchange the first two pictures", "C", "double click: it comes first", "Y"},
     {"small picture on, off", "V", "button", "X"},
+    {"one picture, two, small one, four", "F2", "menu: Views", "menu: Views"},
     {"endoscope, front, side, above, surgeon", "1 2 3 4 5", "buttons", "B: the next one"},
-    {"turn the outside camera", "W A S D", "drag", "right stick"},
+    {"a second window, for a second screen", "F3", "menu: Views", "menu: Views"},
+    {"turn the outside camera, or the one last dragged", "W A S D", "drag", "right stick"},
     {"shift it", "I J K L", "right drag", "right stick with LT held"},
     {"nearer, farther", "E Q", "wheel", "RT; with LT held"},
     {"save the picture", "F12", "menu", "left stick pressed"},

@@ -5,7 +5,12 @@ namespace trocar::app {
 /// What can be pressed, and where, for tests that drive the real window.
 void Player::log_widgets() {
   const std::vector<ui::Widget> widgets = ui::take_widgets();
-  const char* screen = m_film ? "film" : m_display ? "display" : m_help ? "help" : m_menu ? "menu" : "player";
+  const char* screen = m_film      ? "film"
+                       : m_display ? "display"
+                       : m_views   ? "views"
+                       : m_help    ? "help"
+                       : m_menu    ? "menu"
+                                   : "player";
   if (!m_log.on() || (widgets == m_widgets && m_screen == screen)) return;
   m_widgets = widgets;
   m_screen = screen;
@@ -14,8 +19,8 @@ void Player::log_widgets() {
   const auto place = [](const Area& a) { return Json{a.x, a.y, a.width, a.height}; };
   m_log.event("screen", {{"name", screen},
                          {"widgets", places},
-                         {"large", place(m_main)},
-                         {"small", place(m_small)},
+                         {"large", place(m_panes.first().area)},
+                         {"small", place(m_panes.panes().size() > 1 ? m_panes.panes()[1].area : Area{})},
                          {"bar", place(m_bar)}});
 }
 
@@ -31,11 +36,17 @@ void Player::log_shown(const sim::State& state) {
 }
 
 void Player::log_camera() {
-  m_log.event("camera", {{"endoscope", m_endoscope},
-                         {"inset", m_inset},
-                         {"yaw", m_orbit.yaw},
-                         {"pitch", m_orbit.pitch},
-                         {"distance", m_orbit.distance}});
+  const PaneCameras& cameras = m_panes.cameras;
+  Json panes = Json::array();
+  for (int i = 0; i < m_layout.count(); ++i) panes.push_back(name_of(m_layout.panes[std::size_t(i)]));
+  m_log.event("camera", {{"endoscope", endoscope()},
+                         {"inset", m_layout.layout != Layout::one},
+                         {"layout", name_of(m_layout.layout)},
+                         {"panes", panes},
+                         {"yaw", cameras.outside.yaw},
+                         {"pitch", cameras.outside.pitch},
+                         {"distance", cameras.outside.distance},
+                         {"second_yaw", cameras.second.pose.yaw}});
 }
 
 }  // namespace trocar::app

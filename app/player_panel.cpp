@@ -151,6 +151,7 @@ PlayerChoice draw_player_menu() {
   entry("Save the picture", PlayerChoice::picture);
   entry("Film of the visible time", PlayerChoice::film);
   entry("Display", PlayerChoice::display);
+  entry("Views", PlayerChoice::views);
   entry("Keys and buttons", PlayerChoice::help);
   entry("Quit", PlayerChoice::quit);
   ImGui::End();

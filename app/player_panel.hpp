@@ -18,7 +18,7 @@ struct PlayerPanelContent {
   std::string message;          ///< the last thing done: a picture saved
 };
 
-enum class PlayerChoice { none, resume, picture, film, display, help, quit };
+enum class PlayerChoice { none, resume, picture, film, display, views, help, quit };
 
 inline constexpr float kPlayerPanelWidth = 270;  ///< times the display's scale [px]
 

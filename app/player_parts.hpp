@@ -15,34 +15,28 @@
 #include "event_log.hpp"
 #include "film_plan.hpp"
 #include "footage.hpp"
+#include "legend_drawing.hpp"
+#include "panes.hpp"
 #include "player.hpp"
-#include "player_backdrop.hpp"
 #include "player_bar.hpp"
 #include "player_panel.hpp"
+#include "second_window.hpp"
 #include "ui.hpp"
 #include "window.hpp"
 
 namespace trocar::app {
 
-inline constexpr int kScopeEye = 0, kOutsideEye = 1, kFilmEye = 2;  ///< exposure memories
-
 /// What the scene's picture depends on: while it stays the same the picture is not drawn again, so that panel and
 /// timeline answer at once on a machine that draws slowly.
 struct Drawn {
   std::uint64_t tick = Reel::kNowhere;
-  bool exact = false, endoscope = false, inset = false;
-  double yaw = 0, pitch = 0, distance = 0;
-  Vec3d target;
-  int width = 0, height = 0;
+  bool exact = false;
+  std::vector<Panes::Pane> panes;
+  PaneCameras cameras;
   std::vector<view::PartStyle> styles;
   render::Quality quality;
 
-  friend bool operator==(const Drawn& a, const Drawn& b) {
-    return a.tick == b.tick && a.exact == b.exact && a.endoscope == b.endoscope && a.inset == b.inset &&
-           a.yaw == b.yaw && a.pitch == b.pitch && a.distance == b.distance && a.target.x == b.target.x &&
-           a.target.y == b.target.y && a.target.z == b.target.z && a.width == b.width && a.height == b.height &&
-           a.styles == b.styles && a.quality == b.quality;
-  }
+  friend bool operator==(const Drawn&, const Drawn&) = default;
 };
 
 /// A film that is being made, a picture at a time, as the reel gets there.
@@ -57,6 +51,7 @@ struct FilmJob {
 
 class Player {
  public:
+  /// @param options.eyes  as this window can show them
   Player(Window& window, const Lesson& lesson, const sim::Recording& recording, const PlayerOptions& options,
          EventLog& log);
 
@@ -73,15 +68,16 @@ class Player {
   void obey(const PlayerCommands& commands);
   void obey_times(const PlayerCommands& commands);
   void obey_cameras(const PlayerCommands& commands);
+  bool turn_camera(const PlayerCommands& commands);
   void seek(std::uint64_t tick);
   void play_on();
 
   const sim::State& state_to_show();
   void show_scene(const sim::State& state);
-  void draw_scene(const sim::State& state, const render::Quality& quality);
-  void frame_inset();
-  view::ViewOptions view_now(bool endoscope, const render::Quality& quality) const;
-  render::Target target(const Area& area) const;
+  void draw_scene(const sim::State& state, const render::Quality& quality, bool all);
+  void show_elsewhere();
+  void draw_other_eye();
+  view::ViewOptions view_of_first(const render::Quality& quality) const;
 
   void save_picture(const sim::State& state);
   void start_film();
@@ -93,7 +89,8 @@ class Player {
   void log_camera();
 
   std::uint64_t now() const { return std::uint64_t(m_now + 0.5); }
-  bool overlay() const { return m_help || m_menu || m_display || m_film; }
+  bool overlay() const { return m_help || m_menu || m_display || m_views || m_film; }
+  bool endoscope() const { return m_layout.panes[0] == PaneShows::endoscope; }
 
   using Clock = std::chrono::steady_clock;
   Window& m_window;
@@ -105,8 +102,9 @@ class Player {
   std::unique_ptr<render::Backend> m_backend;
   view::SceneView m_view;
   render::Governor m_governor;
-  Backdrop m_backdrop;
   Drawn m_drawn;
+  std::optional<SecondWindow> m_second;
+  PaneCanvas m_first, m_first_other;  ///< the first pane's picture, and the right eye's
   std::uint64_t m_picture_clock = 0;  ///< [ms] what the exposure goes by: a camera's own time, not the recording's
   Footage m_footage;
   Reel m_reel;
@@ -117,15 +115,18 @@ class Player {
 
   double m_now = 0;  ///< [ticks]
   double m_speed = 1;
-  bool m_playing = false, m_endoscope = true, m_inset = true, m_exact = false;
-  bool m_help = false, m_menu = false, m_display = false, m_quit = false, m_picture_wanted = false;
+  bool m_playing = false, m_exact = false;
+  bool m_help = false, m_menu = false, m_display = false, m_views = false, m_quit = false, m_picture_wanted = false;
   std::vector<view::PartStyle> m_styles;  ///< of the scene's parts
   int m_preset = 1;
-  view::Orbit m_around, m_orbit;
-  Area m_main, m_small, m_bar, m_panel;
-  enum class Drag { none, turn, shift } m_drag = Drag::none;
+  view::Orbit m_around;
+  LayoutChoice m_layout{.layout = Layout::corner};
+  Panes m_panes;
+  PaneShows m_led = PaneShows::outside;  ///< what keys turn
+  Area m_main, m_bar, m_panel;
   std::string m_message;
   std::unique_ptr<FilmJob> m_film;
+  LegendPainter m_legend;  ///< of saved pictures and films
   std::vector<ui::Widget> m_widgets;
   std::string m_screen;
   std::uint64_t m_logged_tick = Reel::kNowhere;

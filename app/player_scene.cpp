@@ -1,6 +1,6 @@
-#include <algorithm>
+#include <utility>
 
-#include <imgui.h>
+#include <trocar/core/error.hpp>
 
 #include "player_parts.hpp"
 
@@ -24,64 +24,71 @@ const sim::State& Player::state_to_show() {
   return m_exact || m_footage.empty() ? exact : m_footage.at(wanted);
 }
 
-view::ViewOptions Player::view_now(bool endoscope, const render::Quality& quality) const {
-  view::ViewOptions options = endoscope ? view::ViewOptions{} : view_of(m_orbit);
+view::ViewOptions Player::view_of_first(const render::Quality& quality) const {
+  view::ViewOptions options = m_panes.options(m_panes.first().shows);
   options.quality = quality;
   options.styles = m_styles;
+  options.picture_height = double(m_panes.first().area.height);
   return options;
-}
-
-/// The window's lower left corner is OpenGL's origin.
-render::Target Player::target(const Area& a) const {
-  render::Target t = render::Target::window(int(a.width), int(a.height));
-  t.x = int(a.x);
-  t.y = m_window.height() - int(a.y) - int(a.height);
-  return t;
 }
 
 /// Draws it where it is not what was drawn last: quickly while things move, at full quality once they rest.
 void Player::show_scene(const sim::State& state) {
   const double rested = std::chrono::duration<double>(Clock::now() - m_asked_at).count();
-  const bool moving = m_playing || m_drag != Drag::none || rested < kRest;
-  Drawn wanted{state.tick,        m_exact,        m_endoscope,
-               m_inset,           m_orbit.yaw,    m_orbit.pitch,
-               m_orbit.distance,  m_orbit.target, m_window.width(),
-               m_window.height(), m_styles,       moving ? m_governor.quality() : render::Quality{}};
+  const bool moving = m_playing || m_panes.dragging() || rested < kRest;
+  Drawn wanted{state.tick,      m_exact,  m_panes.panes(),
+               m_panes.cameras, m_styles, moving ? m_governor.quality() : render::Quality{}};
   if (!(wanted == m_drawn)) {
     const Clock::time_point start = Clock::now();
-    draw_scene(state, wanted.quality);
-    m_backdrop.copy(0, m_window.height() - int(m_main.height), int(m_main.width), int(m_main.height));
-    m_drawn = wanted;
+    draw_scene(state, wanted.quality, !m_playing);
+    m_drawn = std::move(wanted);
     if (moving) m_governor.frame_took(std::chrono::duration<double>(Clock::now() - start).count());
   }
-  m_backdrop.draw(m_main);
+  m_first.lay(window_target(m_panes.first().area, m_window.height()));
+  m_panes.lay_others(m_window.height(), false);
 }
 
-void Player::draw_scene(const sim::State& state, const render::Quality& quality) {
+void Player::draw_scene(const sim::State& state, const render::Quality& quality, bool all) {
   m_picture_clock += m_playing ? std::uint64_t(1000 * m_window.picture_time()) : kExposureStep;
-  const auto draw = [&](bool endoscope, int eye, const Area& area) {
-    view::ViewOptions options = view_now(endoscope, quality);
-    options.eye_index = eye;
-    render::Frame frame = m_view.frame(state, options);
-    frame.tick = m_picture_clock;
-    render::draw_frame(*m_backend, frame, target(area));
-  };
-  draw(m_endoscope, m_endoscope ? kScopeEye : kOutsideEye, m_main);
-  if (m_inset) draw(!m_endoscope, m_endoscope ? kOutsideEye : kScopeEye, m_small);
+  const Panes::Pane& first = m_panes.first();
+  const int width = int(first.area.width), height = int(first.area.height);
+  m_panes.draw_others({m_view, *m_backend, state, m_picture_clock, quality, m_styles}, all);
+  render::Frame frame = m_view.frame(state, view_of_first(quality));
+  frame.tick = m_picture_clock;
+  fit_to(first.area, frame);
+  if (!m_options.eyes.on()) return render::draw_frame(*m_backend, frame, m_first.target(width, height));
+  const render::StereoPair pair = eyes_of(m_options.eyes, frame);
+  render::draw_frame(*m_backend, pair.left, m_first.target(width, height));
+  render::draw_frame(*m_backend, pair.right, m_first_other.target(width, height));
 }
 
-void Player::frame_inset() {
-  ImDrawList& over = *ImGui::GetBackgroundDrawList();
-  const float scale = m_window.scale();
-  const auto label = [&](const Area& a, bool endoscope) {
-    over.AddText({a.x + 8 * scale, a.y + 6 * scale}, IM_COL32(235, 235, 235, 220),
-                 endoscope ? "endoscope, as recorded" : "from outside");
-  };
-  label(m_main, m_endoscope);
-  if (!m_inset) return;
-  over.AddRect({m_small.x, m_small.y}, {m_small.x + m_small.width, m_small.y + m_small.height},
-               IM_COL32(200, 205, 212, 255), 0, 0, 1.5f * scale);
-  label(m_small, !m_endoscope);
+/// The second window, as it is wanted; closing it is wanting none.
+void Player::show_elsewhere() {
+  if (m_second && m_second->wants_to_close()) m_layout.elsewhere.reset();
+  if (m_layout.elsewhere.has_value() != m_second.has_value())
+    m_log.event("second-window", {{"open", m_layout.elsewhere.has_value()}});
+  if (!m_layout.elsewhere) return m_second.reset();
+  try {
+    if (!m_second) m_second.emplace(m_window, "Trocar");
+    const PaneCanvas* canvas = m_panes.canvas_elsewhere();
+    m_second->show(canvas ? *canvas : m_first, m_panes.legend_of_pane(*m_layout.elsewhere));
+  } catch (const core::EnvironmentLacks& lacks) {
+    m_message = lacks.what();
+    m_layout.elsewhere.reset();
+  }
+}
+
+/// The window once more for the other eye, then both on one screen. Other panes, panels and menus lie on it.
+void Player::draw_other_eye() {
+  const render::Target whole = render::Target::window(m_window.width(), m_window.height());
+  m_backend->keep_eye(render::Eye::left, whole);
+  if (!m_film) {
+    m_first_other.lay(window_target(m_panes.first().area, m_window.height()));
+    m_panes.lay_others(m_window.height(), false);
+    m_window.draw_panels_again();
+  }
+  m_backend->keep_eye(render::Eye::right, whole);
+  m_backend->combine(*m_options.eyes.mode, whole);
 }
 
 }  // namespace trocar::app

@@ -5,6 +5,7 @@
 #include <trocar/core/error.hpp>
 #include <trocar/core/log.hpp>
 
+#include "analysis_choice.hpp"
 #include "command.hpp"
 #include "player.hpp"
 #include "replay_headless.hpp"
@@ -13,7 +14,7 @@ namespace trocar::app {
 namespace {
 
 struct Options {
-  std::string size, data, camera = "endoscope", stereo = "off", show, exercise, log;
+  std::string size, data, camera = "endoscope", stereo = "off", show, analysis, exercise, log;
   ReplayOptions replay;
   bool headless = false;
 };
@@ -49,7 +50,7 @@ int replay(Options o, bool json) {
   o.replay.camera = parse_camera(o.camera);
   check_data_rate(o.replay.data.rate);
   o.replay.data.folder = o.data;
-  o.replay.look = {parse_stereo(o.stereo), parse_show(o.show)};
+  o.replay.look = {parse_stereo(o.stereo), parse_show(o.show), parse_analysis(o.analysis)};
   if (!(o.replay.speed >= kSlowest && o.replay.speed <= kFastest))
     throw core::BadInput(
         {{{"--slow", 0, 0}, fmt::format("expected {} to {}, got {}", kSlowest, kFastest, o.replay.speed)}});
@@ -59,7 +60,7 @@ int replay(Options o, bool json) {
   const bool window =
       !json && !o.headless && !o.replay.verify && o.replay.shots.empty() && o.replay.video.empty() && o.data.empty();
   if (window) {
-    PlayerOptions player{o.replay.file, exercise, o.log};
+    PlayerOptions player{o.replay.file, exercise, o.log, {1280, 800}, o.replay.look.eyes};
     if (!o.size.empty()) player.size = o.replay.size;
     run_player(recording, player);
     return core::kDone;
@@ -92,6 +93,7 @@ void add_replay(CLI::App& program, Chosen& chosen) {
       ->capture_default_str();
   c->add_option("--stereo", o->stereo, kStereoHelp)->capture_default_str();
   c->add_option("--show", o->show, kShowHelp);
+  c->add_option("--analysis", o->analysis, kAnalysisHelp);
   c->add_option("--from", o->replay.from, "first moment of pictures and film [s]")->check(CLI::Range(0.0, 14400.0));
   c->add_option("--to", o->replay.to, "last moment [s]; the end if not given")->check(CLI::Range(0.0, 14400.0));
   c->add_option("--slow", o->replay.speed, "speed of the film: 0.25 takes four times as long");

@@ -19,6 +19,14 @@ namespace {
 
 namespace keys = scene::keys;
 
+constexpr const char* kOff = "off";
+
+std::vector<std::string> second_window_names() {
+  std::vector<std::string> names = names_in(kPaneNames);
+  names.insert(names.begin(), kOff);
+  return names;
+}
+
 const scene::Shape& settings_shape() {
   static const scene::Shape shape{
       "settings",
@@ -38,6 +46,12 @@ const scene::Shape& settings_shape() {
        keys::number("eye_distance_mm", kLeastBase, kMostBase, "between the two eyes"),
        keys::number("convergence_mm", kLeastConvergence, kMostConvergence, "to what lies on the screen"),
        keys::flag("swap_eyes", "for screens that have them the other way round"),
+       keys::choice("layout", names_in(kLayoutNames), "of the window's panes"),
+       keys::choice("pane_1", names_in(kPaneNames), "what the first pane shows"),
+       keys::choice("pane_2", names_in(kPaneNames), "the second"),
+       keys::choice("pane_3", names_in(kPaneNames), "the third"),
+       keys::choice("pane_4", names_in(kPaneNames), "the fourth"),
+       keys::choice("second_window", second_window_names(), "what the window for a second screen shows"),
        keys::number("volume", 0, 1, "of sounds"),
        keys::number("text_size", kLeastText, kMostText, "of all texts"),
        keys::integer("window_width", kLeastWidth, kMostPixels, "[px]"),
@@ -45,6 +59,21 @@ const scene::Shape& settings_shape() {
        keys::text("trainee", "the last one"),
        keys::flag("show_hint", "the three things to know, before an attempt")}};
   return shape;
+}
+
+constexpr const char* kPaneKeys[kMostPanes] = {"pane_1", "pane_2", "pane_3", "pane_4"};
+
+/// Panes that name the same thing twice are put right: what is named last gives way.
+LayoutChoice read_views(const scene::JsonObject& o) {
+  LayoutChoice views;
+  views.layout = Layout(number_of(kLayoutNames, o.text("layout", name_of(views.layout))));
+  for (int i = kMostPanes - 1; i >= 0; --i) {
+    const PaneShows usual = views.panes[std::size_t(i)];
+    views.put(i, PaneShows(number_of(kPaneNames, o.text(kPaneKeys[i], name_of(usual)))));
+  }
+  const std::string elsewhere = o.text("second_window", kOff);
+  if (elsewhere != kOff) views.elsewhere = PaneShows(number_of(kPaneNames, elsewhere));
+  return views;
 }
 
 }  // namespace
@@ -71,6 +100,7 @@ Settings read_settings(const fs::path& file, std::vector<core::Fault>& faults, c
   s.eye_distance = o.number("eye_distance_mm", s.eye_distance);
   s.convergence = o.number("convergence_mm", s.convergence);
   s.swap_eyes = o.flag("swap_eyes", s.swap_eyes);
+  s.views = read_views(o);
   s.volume = o.number("volume", s.volume);
   s.text_size = o.number("text_size", s.text_size);
   s.window_width = o.integer("window_width", s.window_width);
@@ -96,6 +126,12 @@ std::string settings_text(const Settings& s) {
                   {"eye_distance_mm", s.eye_distance},
                   {"convergence_mm", s.convergence},
                   {"swap_eyes", s.swap_eyes},
+                  {"layout", name_of(s.views.layout)},
+                  {"pane_1", name_of(s.views.panes[0])},
+                  {"pane_2", name_of(s.views.panes[1])},
+                  {"pane_3", name_of(s.views.panes[2])},
+                  {"pane_4", name_of(s.views.panes[3])},
+                  {"second_window", s.views.elsewhere ? name_of(*s.views.elsewhere) : kOff},
                   {"volume", s.volume},
                   {"text_size", s.text_size},
                   {"window_width", s.window_width},

@@ -14,6 +14,7 @@
 #include <trocar/devices/mouse_keyboard.hpp>
 #include <trocar/scene/json.hpp>
 
+#include "layout.hpp"
 #include "two_eyes.hpp"
 
 namespace trocar::app {
@@ -26,6 +27,7 @@ struct Settings {
   bool mirrored_picture = false;                           ///< left and right exchanged
   std::string stereo = "off";                              ///< one of kStereoNames (two_eyes.hpp)
   double eye_distance = 4, convergence = 80;               ///< [mm] between the eyes; to what lies on the screen
+  LayoutChoice views;                                      ///< what the window's panes show, while nothing counts
   bool swap_eyes = false;                                  ///< for screens that have them the other way round
   double volume = 0.7;                                     ///< of sounds, 0..1
   double text_size = 1;                                    ///< times the display's own scale

@@ -48,6 +48,8 @@ Stage::~Stage() {
   keep_settings();
 }
 
+bool Stage::draws_on_processors() const { return context->description().find("llvmpipe") != std::string::npos; }
+
 bool Stage::wants_to_close() const { return window.wants_to_close() || interrupted(); }
 
 view::SceneView& Stage::view_of(const Lesson& lesson) {
@@ -77,15 +79,19 @@ TwoEyes Stage::eyes() const {
 }
 
 void Stage::draw_eye(const render::Frame& frame) {
-  render::draw_frame(*backend, frame, render::Target::window(m_scene_width, m_scene_height));
-  if (settings.mirrored_picture) mirror(m_scene_width, m_scene_height);
+  render::draw_frame(*backend, frame, m_scene_part);
+  if (m_scene_mirrored) mirror(m_scene_part);
+  if (m_over_scene) m_over_scene();
 }
 
-void Stage::draw_scene(const render::Frame& frame, int width, int height) {
-  m_scene_width = width, m_scene_height = height;
+void Stage::draw_scene(const render::Frame& frame, const render::Target& part, bool through_scope,
+                       std::function<void()> over) {
+  m_scene_part = part;
+  m_scene_mirrored = through_scope && settings.mirrored_picture;
+  m_over_scene = std::move(over);
   TwoEyes two = eyes();
   if (!two.on()) return draw_eye(frame);
-  if (settings.mirrored_picture) two.swapped = !two.swapped;  // in a mirror depth is turned round, too
+  if (m_scene_mirrored) two.swapped = !two.swapped;  // in a mirror depth is turned round, too
   render::StereoPair pair = eyes_of(two, frame);
   draw_eye(pair.left);
   m_other_eye = std::move(pair.right);
@@ -102,6 +108,24 @@ void Stage::draw_other_eye() {
   backend->keep_eye(render::Eye::right, whole);
   backend->combine(*eyes().mode, whole);
   m_other_eye.reset();
+}
+
+PictureSize Stage::size_elsewhere() const {
+  return m_second ? PictureSize{m_second->width(), m_second->height()} : PictureSize{0, 0};
+}
+
+void Stage::show_elsewhere(LayoutChoice& choice, const PaneCanvas* canvas, const view::Legend& legend) {
+  if (m_second && m_second->wants_to_close()) choice.elsewhere.reset();
+  if (choice.elsewhere.has_value() != m_second.has_value())
+    log.event("second-window", {{"open", choice.elsewhere.has_value()}});
+  if (!choice.elsewhere) return m_second.reset();
+  try {
+    if (!m_second) m_second.emplace(window, "Trocar");
+    m_second->show(canvas ? *canvas : first_pane, legend);
+  } catch (const core::EnvironmentLacks& lacks) {
+    core::log::warn("{}", lacks.what());
+    choice.elsewhere.reset();
+  }
 }
 
 void Stage::begin_picture(bool hands) {

@@ -2,6 +2,7 @@
 // there; and what every screen does the same way: begin a picture, show help and settings over it, end it.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -12,6 +13,7 @@
 
 #include "event_log.hpp"
 #include "report_opener.hpp"
+#include "second_window.hpp"
 #include "settings.hpp"
 #include "sound.hpp"
 #include "window.hpp"
@@ -38,6 +40,7 @@ class Stage {
   ReportOpener reports;
 
   bool wants_to_close() const;
+  bool draws_on_processors() const;  ///< no graphics card does
   /// The view of this lesson's scene; made anew where it is another lesson than last time.
   view::SceneView& view_of(const Lesson& lesson);
   void drop_view();  ///< the lesson is about to go
@@ -49,8 +52,17 @@ class Stage {
 
   /// What the settings say, as far as this window can show it.
   TwoEyes eyes() const;
-  /// The frame, in the lower left `width` x `height` [px] of the window; for two eyes, if that is set.
-  void draw_scene(const render::Frame& frame, int width, int height);
+  /// The frame, in a part of the window; for two eyes, if that is set. @param through_scope  may be mirrored
+  /// @param over  lays over it what belongs there, once for each eye
+  void draw_scene(const render::Frame& frame, const render::Target& part, bool through_scope = true,
+                  std::function<void()> over = {});
+
+  /// The second window, open as `choice` wants it, with its picture: of the canvas, or, where that is null, of what was
+  /// in the first pane. Where somebody closed it `choice` says so.
+  void show_elsewhere(LayoutChoice& choice, const PaneCanvas* canvas, const view::Legend& legend);
+  PictureSize size_elsewhere() const;
+  PaneCanvas first_pane;  ///< a copy, kept while the second window shows it
+  void close_elsewhere() { m_second.reset(); }
 
   void begin_picture(bool hands);  ///< hands: the pointer is the instrument's
   /// Overlays, ImGui, F12, the finished picture. `name` of the screen is for the log.
@@ -69,10 +81,13 @@ class Stage {
   std::unique_ptr<view::SceneView> m_view;
   const Lesson* m_viewed = nullptr;
   Overlay m_overlay = Overlay::none;
+  std::optional<SecondWindow> m_second;
   Settings m_before;
   std::string m_logged;
   std::optional<render::Frame> m_other_eye;  ///< to be drawn before the picture is shown
-  int m_scene_width = 0, m_scene_height = 0;
+  render::Target m_scene_part;
+  bool m_scene_mirrored = false;
+  std::function<void()> m_over_scene;
   int m_pictures = 0;
   bool m_told_fault = false;
 };

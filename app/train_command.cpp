@@ -5,6 +5,7 @@
 
 #include <trocar/core/error.hpp>
 
+#include "analysis_choice.hpp"
 #include "attempt_log.hpp"
 #include "command.hpp"
 #include "event_log.hpp"
@@ -20,7 +21,8 @@ namespace trocar::app {
 namespace {
 
 struct Options {
-  std::string exercise, input = "mouse", record, shots, video, report, data, size, stereo = "off", show, trainee, log;
+  std::string exercise, input = "mouse", record, shots, video, report, data, size, stereo = "off", show, analysis,
+                        trainee, log;
   double seconds = 0, data_rate = kDataRate;
   std::uint64_t seed = 0;
   bool headless = false, familiarisation = false, no_store = false;
@@ -83,7 +85,7 @@ Json train_headless(const Options& o, const Lesson& lesson, training::Store* sto
                              .video = o.video,
                              .data = {o.data, o.data_rate},
                              .size = size,
-                             .look = {parse_stereo(o.stereo), parse_show(o.show)},
+                             .look = {parse_stereo(o.stereo), parse_show(o.show), parse_analysis(o.analysis)},
                              .seconds = o.seconds};
   const Leftovers left = run_headless(session, *source, what, [&] {
     for (const Moment& m : session.moments()) events.moment(lesson.model, m);
@@ -123,8 +125,10 @@ int train(const Options& o, bool json) {
                            fmt::format("expected --input demo, motion:FILE or replay:FILE with it, got {}", o.input)}});
   if (o.exercise.empty() && (o.headless || !hands))
     throw core::BadInput({{{"train", 0, 0}, "expected an exercise (see trocar list), got none"}});
+  // Faults are told before anything is begun.
   check_data_rate(o.data_rate);
-  static_cast<void>(parse_stereo(o.stereo)), static_cast<void>(parse_show(o.show));  // before anything is begun
+  static_cast<void>(parse_stereo(o.stereo)), static_cast<void>(parse_show(o.show));
+  static_cast<void>(parse_analysis(o.analysis));
   const PictureSize size = parse_size(o.size.empty() ? "800x600" : o.size);
   std::unique_ptr<Lesson> lesson = o.exercise.empty() ? nullptr : load_lesson(o.exercise, o.seed);
   std::unique_ptr<training::Store> store;
@@ -162,6 +166,7 @@ void add_train(CLI::App& program, Chosen& chosen) {
   c->add_option("--size", options->size, "of pictures (default 800x600) or window (default: as last time)");
   c->add_option("--stereo", options->stereo, std::string("headless: ") + kStereoHelp)->capture_default_str();
   c->add_option("--show", options->show, std::string("headless: ") + kShowHelp);
+  c->add_option("--analysis", options->analysis, std::string("headless: ") + kAnalysisHelp);
   c->add_option("--trainee", options->trainee, "whose attempt it is; default: guest");
   c->add_flag("--familiarisation", options->familiarisation, "getting to know it: no score, no verdict");
   c->add_option("--seed", options->seed, "vary the anatomy by this number; 0: as drawn")->capture_default_str();

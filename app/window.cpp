@@ -112,6 +112,7 @@ Window::Window(const std::string& title, PictureSize size, bool quad_buffers) {
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);  // where the driver can tell
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
   size = fitted(size);
   glfwWindowHint(GLFW_STEREO, quad_buffers ? GLFW_TRUE : GLFW_FALSE);
@@ -201,7 +202,16 @@ void Window::begin_picture() {
   ImGui_ImplGlfw_NewFrame();
   steer_menus();
   ImGui::NewFrame();
+  clear();
   m_last_pad = m_gamepads.state();
+}
+
+/// What is between panes and panels.
+void Window::clear() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glDisable(GL_SCISSOR_TEST);
+  glClearColor(0.05f, 0.05f, 0.06f, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
 }
 
 /// Arrows, Enter and the gamepad lead from button to button. ImGui's own reading of gamepads takes the first joystick
@@ -302,6 +312,8 @@ void Window::on_key(GLFWwindow* window, int key, int, int action, int mods) {
   if (key == GLFW_KEY_P || key == GLFW_KEY_PAUSE) w.m_next_keys.pause = !w.m_next_keys.pause;
   if (key == GLFW_KEY_ESCAPE) w.m_next_keys.back = !w.m_next_keys.back;
   if (key == GLFW_KEY_F12) w.m_next_keys.picture = true;
+  if (key == GLFW_KEY_F2) w.m_next_keys.layout = true;
+  if (key == GLFW_KEY_F3) w.m_next_keys.second = true;
   for (const KeyPair& k : kKeys)
     if (k.glfw == key) w.m_next.pressed.set(k.key);
 }

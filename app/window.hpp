@@ -27,6 +27,8 @@ struct WindowKeys {
   bool pause = false;    ///< P, the gamepad's start button
   bool back = false;     ///< Esc, in menus the gamepad's B
   bool picture = false;  ///< F12
+  bool layout = false;   ///< F2
+  bool second = false;   ///< F3
 };
 
 struct TypedKey {
@@ -42,6 +44,7 @@ class Window {
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
+  GLFWwindow* handle() const { return m_window; }  ///< for windows that share its textures
   bool wants_to_close() const;
   void close();
   void set_title(const std::string& title);
@@ -90,6 +93,7 @@ class Window {
   static void on_scroll(GLFWwindow* window, double x, double y);
   static void on_scale(GLFWwindow* window, float x, float y);
   static void on_button(GLFWwindow* window, int button, int action, int mods);
+  void clear() const;
   void set_up_imgui();
   void collect_sample();
   void collect_keys();

@@ -34,7 +34,8 @@ test=(
   libbenchmark-dev     # benchmarks
   libbullet-dev        # what the spring kernel is measured beside
   python3              # the checks in tools/
-  python3-numpy python3-scipy  # metrics computed a second time, independently
+  python3-numpy python3-scipy  # metrics and frames for research, computed a second time, independently
+  python3-pil          # pictures in these
   binutils             # objdump, nm: the step's machine code
   xvfb xdotool         # drives the real window without a display
 )

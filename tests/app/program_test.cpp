@@ -361,5 +361,21 @@ TEST_F(Program, AReplayOfADamagedOrOtherRecordingIsWarnedOf) {
   EXPECT_NE(read(file("log")).find("\"event\":\"end\""), std::string::npos);
 }
 
+TEST_F(Program, BenchSaysWhatEachPassOfAPictureCosts) {
+  const Outcome o = trocar({"bench", "digestive", "--picture", "--size", "160x120", "--seconds", "0.3", "--at", "0.2",
+                            "--frames", "3", "--json"});
+  ASSERT_EQ(o.exit, core::kDone) << o.err;
+  const Json result = o.json()["benchmarks"][0];
+  bool opaque = false;
+  for (const Json& row : result["passes"]) {
+    opaque |= row["pass"] == "opaque" && row["detail_2"]["processor_ms"].get<double>() > 0;
+    for (const char* column : {"detail_2", "detail_1", "detail_0", "cheapest"})
+      EXPECT_GE(row[column]["wall_ms"].get<double>(), 0) << row.dump();
+  }
+  EXPECT_TRUE(opaque) << result.dump(1);
+  EXPECT_GT(result["fineness"][0]["triangles"].get<int>(), result["fineness"][3]["triangles"].get<int>());
+  EXPECT_EQ(trocar({"bench", "digestive", "--picture", "--size", "1x1"}).exit, core::kBadInput);
+}
+
 }  // namespace
 }  // namespace trocar::app

@@ -88,6 +88,10 @@ def begin(eyes, hands, kind):
     hands.enter()
     eyes.on("exercise")
     eyes.wait("a pose", lambda: eyes.pose, 60)
+    eyes.wait("how fast pictures come", lambda: eyes.happened("rate"), 60)
+    rate = eyes.happened("rate")[-1]
+    if not (rate["pictures_per_second"] > 0 and 0 <= rate["slowest"] <= 1 and rate["level"] >= 0):
+        raise Failed(f"a rate that cannot be: {rate}")
 
 
 def grasp_and_pull(eyes, trainee, hands):

@@ -91,9 +91,24 @@ TEST_F(GlBackend, ABrokenShaderNamesItsFile) {
   try {
     GlProgram program("surface.vert", "surface.frag", "SHADING=),DETAIL=2");
     FAIL() << "nonsense was compiled";
-  } catch (const std::logic_error& e) {
+  } catch (const core::EnvironmentLacks& e) {
     EXPECT_NE(std::string(e.what()).find("surface.frag"), std::string::npos);
+    EXPECT_NE(std::string(e.what()).find("LIBGL_ALWAYS_SOFTWARE"), std::string::npos) << "it says what to do";
   }
+}
+
+GLenum says_reset() { return GL_INNOCENT_CONTEXT_RESET; }
+
+TEST_F(GlBackend, ALostContextIsSaidInsteadOfDrawnInto) {
+  EXPECT_FALSE(context->lost());
+  auto* const current = epoxy_glGetGraphicsResetStatus;
+  auto* const older = epoxy_glGetGraphicsResetStatusARB;
+  epoxy_glGetGraphicsResetStatus = epoxy_glGetGraphicsResetStatusARB = says_reset;
+  EXPECT_TRUE(context->lost());
+  EXPECT_THROW(draw_frame(*backend, frame, Target::off_screen(32, 32)), core::EnvironmentLacks);
+  epoxy_glGetGraphicsResetStatus = current;
+  epoxy_glGetGraphicsResetStatusARB = older;
+  EXPECT_NO_THROW(draw_frame(*backend, frame, Target::off_screen(32, 32)));
 }
 
 TEST_F(GlBackend, NoGlErrorInAFullFrame) {
@@ -278,8 +293,9 @@ TEST_F(GlBackend, RestCoordinatesCarryThePattern) {
 }
 
 /// A flat floor of tissue 80 mm before the lens, without pattern or gloss, and a rod `above` it [m] across the picture.
-/// @return its red along the middle column, 0..255, from the bottom up
-std::vector<int> under_a_rod(Backend& backend, Frame frame, double above, bool with_rod) {
+/// @return its red, or another channel, along the middle column, 0..255, from the bottom up
+std::vector<int> under_a_rod(Backend& backend, Frame frame, double above, bool with_rod, float pressed = 0,
+                             int channel = 0) {
   const sample::Shape floor = sample::sheet(40, 40, [](float u, float v) {
     return Vec3f{0.12f * (u - 0.5f), 0.12f * (v - 0.5f), -0.08f};
   });
@@ -291,11 +307,12 @@ std::vector<int> under_a_rod(Backend& backend, Frame frame, double above, bool w
   frame.look = plain_look();
   frame.look.contact = 0;
   const float z = -0.08f + 0.0025f + float(above);
-  if (with_rod) frame.rods = {Rod{{-0.04f, 0, z}, {0.04f, 0, z}, 0.0025f}};
+  if (with_rod) frame.rods = {Rod{{-0.04f, 0, z}, {0.04f, 0, z}, 0.0025f, pressed}};
   draw_frame(backend, frame, Target::off_screen(200, 400));
   const Image image = backend.read_pixels();
   std::vector<int> column;
-  for (int y = image.height - 1; y >= 0; --y) column.push_back(image.rgb[3 * (std::size_t(y) * 200 + 100)]);
+  for (int y = image.height - 1; y >= 0; --y)
+    column.push_back(image.rgb[3 * (std::size_t(y) * 200 + 100) + std::size_t(channel)]);
   return column;
 }
 
@@ -326,6 +343,23 @@ TEST_F(GlBackend, ARodsShadowTellsItsHeight) {
 TEST_F(GlBackend, FarFromItARodShadesNothing) {
   const std::vector<int> bare = under_a_rod(*backend, frame, 0, false), shaded = under_a_rod(*backend, frame, 0, true);
   for (std::size_t y = 0; y < 60; ++y) EXPECT_NEAR(bare[y], shaded[y], 3) << y;
+}
+
+TEST_F(GlBackend, PressedTissuePalesAroundTheRodAndOnlyThere) {
+  double redder[2], far[2];  // mean of red less green: 1 to 2 mm beside the rod, and far from it
+  for (const float pressed : {0.0f, 1.0f}) {
+    const std::vector<int> red = under_a_rod(*backend, frame, 0, true, pressed, 0);
+    const std::vector<int> green = under_a_rod(*backend, frame, 0, true, pressed, 1);
+    const auto mean = [&](std::size_t from, std::size_t to) {
+      double sum = 0;
+      for (std::size_t y = from; y < to; ++y) sum += red[y] - green[y];
+      return sum / double(to - from);
+    };
+    redder[pressed > 0] = mean(210, 216);
+    far[pressed > 0] = mean(20, 60);
+  }
+  EXPECT_LT(redder[1], 0.85 * redder[0]);
+  EXPECT_NEAR(far[1], far[0], 0.5);
 }
 
 TEST_F(GlBackend, SmokePuffsTakeSaturation) {
@@ -388,6 +422,75 @@ TEST_F(GlBackend, GhostsLetWhatIsBehindThemThroughAndEdgesLeaveFacesOpen) {
     EXPECT_LT(edges, 880) << "some edges";
   }
   EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
+}
+
+TEST_F(GlBackend, EveryPassIsTimedOnceAndTheirSumIsThePicture) {
+  frame.items = {{ball({0, 0, -0.06f}, 0.02f), {}, {}, false}};
+  draw(200, 150);
+  std::vector<PassCost> costs;
+  backend->profile(&costs);
+  draw(200, 150);
+  draw(200, 150);
+  backend->profile(nullptr);
+  const std::size_t passes = costs.size() / 2;
+  ASSERT_GT(passes, 5u);
+  double opaque = 0, all = 0;
+  for (std::size_t i = 0; i < passes; ++i) {
+    EXPECT_STREQ(costs[i].pass, costs[i + passes].pass);
+    EXPECT_GE(costs[i].wall_ms, 0);
+    EXPECT_GE(costs[i].processor_ms, 0);
+    all += costs[i].processor_ms;
+    if (std::string(costs[i].pass) == "opaque") opaque = costs[i].processor_ms;
+    for (std::size_t j = 0; j < i; ++j) EXPECT_STRNE(costs[i].pass, costs[j].pass);
+  }
+  EXPECT_GT(opaque, 0);
+  EXPECT_GT(all, opaque);
+  draw(200, 150);
+  EXPECT_EQ(costs.size(), 2 * passes) << "nobody asks any more";
+}
+
+TEST_F(GlBackend, APictureIsTheSameWhetherItIsTimedOrNot) {
+  frame.items = {{ball({0, 0, -0.06f}, 0.02f), {}, {}, false}};
+  frame.look.auto_exposure = false;
+  const Image quiet = draw(200, 150);
+  std::vector<PassCost> costs;
+  backend->profile(&costs);
+  EXPECT_EQ(draw(200, 150).rgb, quiet.rgb);
+  backend->profile(nullptr);
+}
+
+TEST_F(GlBackend, ACoarserLevelDrawsItsOwnTriangles) {
+  const std::vector<Vec3f> corners{
+      {-0.02f, -0.02f, -0.06f}, {0.02f, -0.02f, -0.06f}, {-0.02f, 0.02f, -0.06f}, {0.02f, 0.02f, -0.06f}};
+  const std::vector<std::uint32_t> square{0, 1, 2, 2, 1, 3};
+  const std::vector<std::vector<std::uint32_t>> half{{0, 1, 2}};
+  MeshData data;
+  data.positions = corners;
+  data.indices = square;
+  data.coarser = half;
+  DrawItem item{backend->create_mesh(data), white(), {}, false};
+  frame.look = plain_look();
+  frame.items = {item};
+  const double whole = mean_luma(draw(120, 90));
+  frame.items[0].level = 1;
+  const double coarse = mean_luma(draw(120, 90));
+  EXPECT_GT(coarse, 0.3 * whole);
+  EXPECT_LT(coarse, 0.7 * whole);
+}
+
+TEST_F(GlBackend, WhatIsOutOfSightIsLeftOutAndWhatReachesIntoThePictureIsNot) {
+  frame.look = plain_look();
+  const Image empty = draw(120, 90);
+  for (const Vec3f centre : {Vec3f{0, 0, 0.06f}, Vec3f{0.2f, 0, -0.06f}, Vec3f{0, -0.2f, -0.06f}}) {
+    frame.items = {{white_ball(centre, 0.02f), white(), {}, false}};
+    EXPECT_EQ(draw(120, 90).rgb, empty.rgb);
+  }
+  // Its middle lies beside the picture, or behind the eye.
+  for (const Vec3f centre : {Vec3f{0.055f, 0, -0.06f}, Vec3f{0.03f, 0, 0.001f}}) {
+    const float radius = centre.z > 0 ? 0.028f : 0.02f;
+    frame.items = {{white_ball(centre, radius), white(), {}, false}};
+    EXPECT_NE(draw(120, 90).rgb, empty.rgb);
+  }
 }
 
 }  // namespace

@@ -26,6 +26,44 @@ class NullBackend : public testing::Test {
   Target target = Target::off_screen(32, 24);
 };
 
+TEST_F(NullBackend, CountsTheTrianglesOfALevelAndTakesTheLastBeyondIt) {
+  const std::vector<Vec3f> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+  const std::vector<std::uint32_t> square{0, 1, 2, 2, 1, 3};
+  const std::vector<std::vector<std::uint32_t>> half{{0, 1, 2}};
+  MeshData data;
+  data.positions = corners;
+  data.indices = square;
+  data.coarser = half;
+  DrawItem item;
+  item.mesh = backend->create_mesh(data);
+  const auto triangles = [&](std::uint8_t level) {
+    const std::uint64_t before = backend->stats().triangles;
+    item.level = level;
+    frame.items = {item};
+    draw_frame(*backend, frame, target);
+    return backend->stats().triangles - before;
+  };
+  EXPECT_EQ(triangles(0), 2u);
+  EXPECT_EQ(triangles(1), 1u);
+  EXPECT_EQ(triangles(7), 1u);
+}
+
+TEST_F(NullBackend, RefusesCoarserListsThatAreNone) {
+  MeshData data = triangle();
+  const std::vector<std::vector<std::uint32_t>> beyond{{0, 1, 3}}, empty{{}};
+  data.coarser = beyond;
+  EXPECT_THROW(backend->create_mesh(data), Misuse);
+  data.coarser = empty;
+  EXPECT_THROW(backend->create_mesh(data), Misuse);
+}
+
+TEST_F(NullBackend, KnowsNoCostsOfPasses) {
+  std::vector<PassCost> costs;
+  backend->profile(&costs);
+  draw_frame(*backend, frame, target);
+  EXPECT_TRUE(costs.empty());
+}
+
 TEST_F(NullBackend, CountsWhatIsDrawn) {
   const MeshHandle mesh = backend->create_mesh(triangle());
   frame.items = {{mesh, {}, {}, false}, {mesh, {}, {}, true}};

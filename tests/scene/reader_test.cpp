@@ -351,7 +351,7 @@ TEST(Reader, AllFaultsComeInOnePassInTheOrderOfTheFile) {
                  {7, R"("solids": [{"name": "ball", "tissue": @"hard", "cell_mm": @0, "sections": [)"},
                  {20, R"("tools": [{"instrument": "stick", "port": @"none", "tip_mm": @[0, 0]}],)"}}),
       (Faults{"expected a known key of a scene ($schema, format, name, title, gravity_m_s2, tissues, organs, vessels, "
-              "fluids, bleeder, energy, peristalsis, breathing, instruments, ports, tools, scope), got \"titel\" (did "
+              "fluids, bleeder, energy, peristalsis, breathing, detail, instruments, ports, tools, scope), got \"titel\" (did "
               "you mean \"title\"?)",
               "expected a number in [1, 25000] for \"density_kg_m3\", got -1", "expected a finite number, got 1e999",
               "expected a known tissue (soft), got \"hard\"", "expected a number in [0.1, 100] for \"cell_mm\", got 0",

@@ -26,6 +26,7 @@
 #include <trocar/view/instrument_shapes.hpp>
 #include <trocar/view/looks.hpp>
 #include <trocar/view/organ_drawing.hpp>
+#include <trocar/view/port_site.hpp>
 #include <trocar/view/scene_view.hpp>
 #include <trocar/view/sheet_drawing.hpp>
 #include <trocar/view/tube_drawing.hpp>
@@ -634,6 +635,126 @@ TEST(InstrumentShapes, ASuctionIrrigatorEndsWhereItsBoreDoesAndHasHolesAroundIt)
   }
   EXPECT_NEAR(double(most), end, 1e-6);
   EXPECT_GE(dark_outside, 8 * 16);
+}
+
+/// Does the ray along +x or -x through (y, z) of the jaw's frame meet the mesh?
+bool covers(const MeshBuffer& mesh, double y, double z) {
+  for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
+    double side[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3f a = mesh.positions[mesh.indices[t + k]], b = mesh.positions[mesh.indices[t + (k + 1) % 3]];
+      side[k] = double(b.y - a.y) * (z - double(a.z)) - double(b.z - a.z) * (y - double(a.y));
+    }
+    if ((side[0] > 0 && side[1] > 0 && side[2] > 0) || (side[0] < 0 && side[1] < 0 && side[2] < 0)) return true;
+  }
+  return false;
+}
+
+const interactions::ToolModel& tool_of(interactions::ToolKind kind) {
+  for (const sim::HandModel& hand : bleeding().hands)
+    for (const interactions::ToolModel& tool : hand.rack)
+      if (tool.kind == kind) return tool;
+  throw std::logic_error("no such instrument");
+}
+
+TEST(InstrumentShapes, OneSeesThroughAGraspersJawsButNotThroughBipolarPaddles) {
+  for (const auto& [kind, through] :
+       {std::pair{interactions::ToolKind::grasper, true}, std::pair{interactions::ToolKind::bipolar, false}}) {
+    const interactions::ToolModel& tool = tool_of(kind);
+    bool covered = false;
+    for (const InstrumentPart& part : instrument_parts(tool))
+      if (part.joint == InstrumentPart::Joint::jaw_a)
+        covered = covered || covers(part.mesh, 1e-5, 0.6 * tool.jaw_length);
+    EXPECT_EQ(covered, !through) << tool.name;
+  }
+}
+
+TEST(InstrumentShapes, ElectrodesAreHeldByWhiteInsulators) {
+  for (const auto kind : {interactions::ToolKind::hook, interactions::ToolKind::bipolar}) {
+    const std::vector<InstrumentPart> parts = instrument_parts(tool_of(kind));
+    EXPECT_TRUE(std::any_of(parts.begin(), parts.end(), [](const InstrumentPart& p) { return p.look == "ceramic"; }));
+  }
+  const Vec3f white = look("ceramic").material.colour;
+  EXPECT_GT(std::min({white.x, white.y, white.z}), 0.5f);
+}
+
+TEST(InstrumentShapes, JawsInTheirSleeveFitIntoIt) {
+  for (const sim::HandModel& hand : bleeding().hands)
+    for (const interactions::ToolModel& tool : hand.rack)
+      for (const double beyond : {-0.01, 0.0, 0.006, 0.012, 0.05}) {
+        const double aperture = std::min(1.0, aperture_in_sleeve(tool, beyond, tool.shaft_radius));
+        if (beyond <= 0) {
+          EXPECT_EQ(aperture, 1) << tool.name;
+        }
+        const interactions::ToolShape shape = shape_of(tool, {0, 0, 0, 0.1}, aperture);
+        const Placement body = placement_of(InstrumentPart::Joint::body, shape);
+        for (const InstrumentPart& part : instrument_parts(tool)) {
+          const Placement place = placement_of(part.joint, shape);
+          for (const Vec3f& p : part.mesh.positions) {
+            const Vec3f off = place.rotation * p + place.translation - body.translation;
+            const float along = dot(off, body.rotation.column(2));
+            if (double(along) > beyond) continue;
+            EXPECT_LT(length(off - along * body.rotation.column(2)), float(tool.shaft_radius + kSleeveWall))
+                << tool.name << " " << beyond;
+          }
+        }
+      }
+}
+
+/// A flat wall of 80 mm, z = 0, its inside below.
+struct FlatWall {
+  std::vector<Vec3f> positions{{-0.04f, -0.04f, 0}, {0.04f, -0.04f, 0}, {0.04f, 0.04f, 0}, {-0.04f, 0.04f, 0}};
+  std::vector<std::uint32_t> indices{0, 2, 1, 0, 3, 2};
+  std::vector<PiercedWall> walls{{positions, {}, indices, "peritoneum"}};
+};
+
+TEST(PortSite, ATentRisesAlongTheSleeveAndEndsInTheWall) {
+  auto backend = render::make_null_backend();
+  const FlatWall wall;
+  const Vec3d port{0, 0, 0.01};
+  constexpr double radius = 0.0034;
+  PortSite site(port, normalised(Vec3d{0.2, 0, -1}), radius, wall.walls, *backend);
+  ASSERT_NE(site.mesh().id, 0u);
+  EXPECT_NEAR(site.depth(), 0.01 * std::sqrt(1.04), 1e-6);
+  for (const Vec3d way : {Vec3d{0.2, 0, -1}, Vec3d{-0.1, 0.7, -1}, Vec3d{0, -1, -1}}) {
+    const Vec3d axis = normalised(way);
+    site.update(axis);
+    double highest = 0, lowest = 1, nearest = 1;
+    for (const Vec3f& q : site.buffer().positions) {
+      const Vec3d p = vec_cast<double>(q), off = p - port;
+      highest = std::max(highest, -p.z);
+      if (length(Vec3d{p.x, p.y, 0}) > 0.014) lowest = std::min(lowest, -p.z);
+      if (-p.z > 0.0015) nearest = std::min(nearest, length(off - dot(off, axis) * axis));
+    }
+    EXPECT_GT(highest, 0.003);
+    EXPECT_LT(highest, 0.012);
+    EXPECT_LE(lowest, 0) << "the border lies under the wall: no step shows";
+    EXPECT_GT(lowest, -0.0004);
+    EXPECT_GT(nearest, 0.9 * radius) << "nothing of it lies in the sleeve";
+  }
+}
+
+TEST(PortSite, WithoutAWallNothingIsDrawn) {
+  auto backend = render::make_null_backend();
+  const FlatWall wall;
+  EXPECT_EQ(PortSite({0, 0, 0.2}, {0, 0, -1}, 0.003, wall.walls, *backend).mesh().id, 0u) << "too far off";
+  EXPECT_EQ(PortSite({0.1, 0, 0.01}, {0, 0, -1}, 0.003, wall.walls, *backend).mesh().id, 0u) << "beside it";
+}
+
+TEST(SceneView, WorkSoilsInstruments) {
+  auto backend = render::make_null_backend();
+  SceneView view(pelvis(), *backend);
+  sim::State state = sim::initial_state(pelvis());
+  const auto soil = [&] {
+    float most = 0;
+    for (const render::DrawItem& item : view.frame(state, {}).items)
+      if (item.material.shading == render::Shading::metal) most = std::max(most, item.material.soil);
+    return most;
+  };
+  const float before = soil();
+  cut(state, left_tube(), 0.0231);
+  EXPECT_GT(soil(), before);
+  EXPECT_LE(soil(), 1);
 }
 
 TEST(ClipShape, HasTheSameVerticesOpenAndClosed) {

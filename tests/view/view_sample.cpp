@@ -120,6 +120,29 @@ void grasp(const sim::Model& model, sim::State& state, sim::Work& work) {
   go(at() + Vec3d{-0.004, 0.012, 0.016}, 1, 800);
 }
 
+/// What a picture of the analysis view costs, from where the scope is.
+void draw_figures(view::SceneView& view, render::Backend& backend, sim::State state,
+                  const view::AnalysisOptions& figures) {
+  view::ViewOptions options;
+  options.analysis = figures;
+  double update = 0, draw = 0;
+  for (int i = 0; i < 6; ++i) {
+    state.tick += 40;
+    double before = cpu_ms();
+    const render::Frame frame = view.frame(state, options);
+    update = cpu_ms() - before;
+    before = cpu_ms();
+    render::draw_frame(backend, frame, render::Target::off_screen(800, 600));
+    static_cast<void>(backend.read_pixels());
+    draw = cpu_ms() - before;
+  }
+  std::printf("analysis: %s update %.1f draw %.1f cpu-ms\n",
+              figures.strain    ? "strain"
+              : figures.springs ? "springs"
+                                : "forces",
+              update, draw);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -181,4 +204,7 @@ int main(int argc, char** argv) {
     }
     std::printf("%-9s update %.1f draw %.1f cpu-ms\n", shot.name, update, draw);
   }
+  for (const view::AnalysisOptions& figures :
+       {view::AnalysisOptions{.strain = true}, {.springs = true}, {.forces = true}})
+    draw_figures(view, *backend, states[2], figures);
 }

@@ -180,6 +180,14 @@ void note_wall(const WallStop& stop, Touching& touching) noexcept {
   put(t.anchor, into(frame_of(touching.shape, stop.part), stop.at));
 }
 
+Vec3d place_of(const ToolShape& shape, const Touch& touch) noexcept {
+  return out_of(frame_of(shape, touch.part), touch.anchor);
+}
+
+Vec3d press_of(const Touch& touch) noexcept {
+  return double(touch.force) * Vec3d{touch.normal[0], touch.normal[1], touch.normal[2]};
+}
+
 namespace {
 
 /// Where an instrument is touched, all in all; its tip where nothing is known.
@@ -188,7 +196,7 @@ Vec3d touched_at(const ToolShape& shape, const TouchBook& book) noexcept {
   double force = 0;
   for (const Touch* t = book.touch; t != book.touch + book.count; ++t) {
     if (!t->anchored || !(t->force > 0)) continue;
-    sum += double(t->force) * out_of(frame_of(shape, t->part), t->anchor);
+    sum += double(t->force) * place_of(shape, *t);
     force += double(t->force);
   }
   return force > 0 ? sum / force : shape.frame.tip;

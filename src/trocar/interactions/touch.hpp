@@ -47,6 +47,11 @@ struct TouchBook {
 /// An instrument that has not moved and touches nothing.
 void start_here(const ToolState& tool, TouchBook& book) noexcept;
 
+/// Where the tissue of a touch that is anchored sticks to the instrument [m], and the force of the instrument on the
+/// tissue there: along the normal only, averaged over some ten ticks [N].
+Vec3d place_of(const ToolShape& shape, const Touch& touch) noexcept;
+Vec3d press_of(const Touch& touch) noexcept;
+
 /// Where it was then.
 ToolShape shape_before(const ToolModel& model, const TouchBook& book) noexcept;
 

@@ -10,11 +10,13 @@
 #include <memory>
 #include <span>
 #include <stdexcept>
+#include <vector>
 
 #include <trocar/render/frame.hpp>
 #include <trocar/render/image.hpp>
 #include <trocar/render/layers.hpp>
 #include <trocar/render/mesh_data.hpp>
+#include <trocar/render/pass_cost.hpp>
 #include <trocar/render/stereo.hpp>
 
 namespace trocar::render {
@@ -68,6 +70,10 @@ class Backend {
   virtual Layers draw_layers(const Frame& frame, const Camera& before, int width, int height) = 0;
   /// Keeps where the frame's things are now, for the flow of later draw_layers().
   virtual void remember(const Frame& frame) = 0;
+
+  /// From now on each frame adds what its passes cost to `costs`, in their order, and waits for the driver between
+  /// them: for measuring only. Null ends that. A backend that does not draw adds nothing.
+  virtual void profile(std::vector<PassCost>* costs) = 0;
 
   /// The target of the last frame.
   virtual Image read_pixels() = 0;

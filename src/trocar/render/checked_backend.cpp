@@ -24,6 +24,16 @@ void require_size(std::size_t size, std::size_t n, const char* call, const char*
           std::string(name) + " has " + std::to_string(size) + " entries for " + std::to_string(n) + " vertices");
 }
 
+void require_indices(std::span<const std::uint32_t> indices, std::size_t corners, std::size_t n, const char* call) {
+  require(!indices.empty() && indices.size() % corners == 0, call,
+          std::to_string(indices.size()) + " indices are not a whole number of " +
+              (corners == 3 ? "triangles" : "lines") + " (or none)");
+  for (std::size_t i = 0; i < indices.size(); ++i)
+    require(indices[i] < n, call,
+            "indices[" + std::to_string(i) + "] = " + std::to_string(indices[i]) + " with only " + std::to_string(n) +
+                " vertices");
+}
+
 void check_mesh(const MeshData& data, const char* call) {
   const std::size_t n = data.positions.size();
   require(n > 0, call, "a mesh needs at least one vertex");
@@ -34,13 +44,9 @@ void check_mesh(const MeshData& data, const char* call) {
   require_finite(data.normals, call, "normals");
   require_finite(data.rest, call, "rest");
   const std::size_t corners = data.primitive == Primitive::triangles ? 3 : 2;
-  require(!data.indices.empty() && data.indices.size() % corners == 0, call,
-          std::to_string(data.indices.size()) + " indices are not a whole number of " +
-              (corners == 3 ? "triangles" : "lines") + " (or none)");
-  for (std::size_t i = 0; i < data.indices.size(); ++i)
-    require(data.indices[i] < n, call,
-            "indices[" + std::to_string(i) + "] = " + std::to_string(data.indices[i]) + " with only " +
-                std::to_string(n) + " vertices");
+  require_indices(data.indices, corners, n, call);
+  require(data.coarser.empty() || corners == 3, call, "only triangles have coarser lists");
+  for (const std::vector<std::uint32_t>& list : data.coarser) require_indices(list, corners, n, call);
 }
 
 void check_camera(const Camera& camera, const char* call) {
@@ -120,6 +126,7 @@ void check_frame(const Frame& frame, const Target& target, const char* call) {
   require(frame.quality.render_scale >= 0.25f && frame.quality.render_scale <= 1, call,
           "render scale is not within 0.25..1");
   require(frame.quality.detail >= 0 && frame.quality.detail <= 2, call, "detail is not 0, 1 or 2");
+  require(frame.quality.coarser > 0, call, "coarser is not above 0");
   require(frame.eye >= 0 && frame.eye < 8, call, "eye is not within 0..7");
   const Light& light = frame.light;
   require(
@@ -150,6 +157,35 @@ bool any_stain(std::span<const Paint> paint) {
   return std::any_of(paint.begin(), paint.end(), [](Paint p) { return p.blood > 0 || p.burn > 0; });
 }
 
+/// What the camera can have in its picture.
+class Sight {
+ public:
+  Sight(const Frame& frame, const Target& target)
+      : m_camera(frame.camera),
+        m_high(std::tan(frame.camera.vertical_fov / 2)),
+        m_wide(m_high * float(target.width) / float(target.height) + std::fabs(frame.camera.shift)) {}
+
+  /// False only where all of the box lies beyond one side of the view.
+  bool reaches(const Bounds& box, const Mat4& transform) const {
+    int left = 0, right = 0, above = 0, below = 0, behind = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3f p{corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
+                    corner & 4 ? box.high.z : box.low.z};
+      const Vec3f eye = transposed(m_camera.rotation) * (transform_point(transform, p) - m_camera.position);
+      left += eye.x < m_wide * eye.z;
+      right += eye.x > -m_wide * eye.z;
+      below += eye.y < m_high * eye.z;
+      above += eye.y > -m_high * eye.z;
+      behind += eye.z > -m_camera.near_plane;
+    }
+    return left < 8 && right < 8 && below < 8 && above < 8 && behind < 8;
+  }
+
+ private:
+  const Camera& m_camera;
+  float m_high, m_wide;  ///< tangents
+};
+
 }  // namespace
 
 void draw_frame(Backend& backend, const Frame& frame, const Target& target) {
@@ -168,6 +204,8 @@ void CheckedBackend::store(std::uint32_t id, const MeshData& data) {
   Known& mesh = m_meshes[id];
   mesh.vertices = data.positions.size();
   mesh.indices.assign(data.indices.begin(), data.indices.end());
+  mesh.triangles = {data.indices.size() / 3};
+  for (const std::vector<std::uint32_t>& list : data.coarser) mesh.triangles.push_back(list.size() / 3);
   mesh.primitive = data.primitive;
   mesh.bounds = bounds_of(data.positions);
   mesh.stained = any_stain(data.paint);
@@ -268,16 +306,20 @@ void CheckedBackend::draw(const DrawItem& item) {
   check_material(item.material, call);
   m_items.push_back(item);
   ++m_stats.items;
-  if (mesh.primitive == Primitive::triangles) m_stats.triangles += mesh.indices.size() / 3;
+  require(item.detail <= 2, call, "detail is not 0, 1 or 2");
+  if (mesh.primitive == Primitive::triangles)
+    m_stats.triangles += mesh.triangles[std::min<std::size_t>(item.level, mesh.triangles.size() - 1)];
 }
 
 void CheckedBackend::sort_items() {
   const Vec3f backward = m_frame.camera.rotation.column(2);
+  const Sight sight(m_frame, m_target);
   const auto sorted = [&](bool translucent, std::vector<const DrawItem*>& out) {
     m_order.clear();
     for (const DrawItem& item : m_items) {
       if (item.blends() != translucent) continue;
       const Bounds& bounds = m_meshes.at(item.mesh.id).bounds;
+      if (!sight.reaches(bounds, item.transform)) continue;
       const Vec3f middle = transform_point(item.transform, bounds.middle());
       float depth = dot(backward, m_frame.camera.position - middle);
       // What encloses the scene reaches farthest and comes last; the middle says best what lies on what.
@@ -351,6 +393,11 @@ Layers CheckedBackend::draw_layers(const Frame& frame, const Camera& before, int
 }
 
 void CheckedBackend::remember(const Frame& frame) { on_remember(solid_items(frame, "remember")); }
+
+void CheckedBackend::profile(std::vector<PassCost>* costs) {
+  require(!m_in_frame, "profile", "a frame is open");
+  m_costs = costs;
+}
 
 Image CheckedBackend::read_pixels() {
   require(!m_in_frame, "read_pixels", "a frame is open");

@@ -26,6 +26,7 @@ class CheckedBackend : public Backend {
   void combine(StereoMode mode, const Target& target) final;
   Layers draw_layers(const Frame& frame, const Camera& before, int width, int height) final;
   void remember(const Frame& frame) final;
+  void profile(std::vector<PassCost>* costs) final;
   Image read_pixels() final;
   BackendStats stats() const final { return m_stats; }
 
@@ -38,6 +39,9 @@ class CheckedBackend : public Backend {
 
   /// Of the mesh, as it was given.
   std::span<const std::uint32_t> indices_of_mesh(MeshHandle mesh) const { return m_meshes.at(mesh.id).indices; }
+
+  /// Where the passes' costs go; null: nobody asks.
+  std::vector<PassCost>* costs() const { return m_costs; }
 
   virtual void on_store(std::uint32_t id, const MeshArrays& mesh) = 0;  ///< new id, or a known one's new topology
   virtual void on_update(std::uint32_t id, std::span<const Vec3f> positions, std::span<const Vec3f> normals,
@@ -59,6 +63,7 @@ class CheckedBackend : public Backend {
   struct Known {
     std::size_t vertices = 0;
     std::vector<std::uint32_t> indices;
+    std::vector<std::size_t> triangles;  ///< of each level
     Primitive primitive = Primitive::triangles;
     Bounds bounds;
     bool stained = false;  ///< some paint says blood or burn
@@ -83,6 +88,7 @@ class CheckedBackend : public Backend {
   std::vector<Sorted> m_order;
   std::vector<Vec3f> m_normals;
   BackendStats m_stats;
+  std::vector<PassCost>* m_costs = nullptr;
 };
 
 }  // namespace trocar::render

@@ -65,9 +65,9 @@ struct EndoscopeLook {
   float exposure_seconds = 0.4f;  ///< time constant
   float exposure_range_ev = 3;    ///< limits, both ways
   float bloom = 0.05f;
-  float focus_near = 0.026f;  ///< [m] nearer things are out of focus
+  float focus_near = 0.030f;  ///< [m] nearer things are out of focus
   float defocus = 0.8f;       ///< 0 none .. 1: how much
-  float contact = 0.35f;      ///< 0 none .. 1: darkening behind the edge of nearer things
+  float contact = 0.3f;      ///< 0 none .. 1: darkening behind the edge of nearer things
   float sharpen = 0.35f;      ///< video sharpening overshoot
   float noise = 0.0006f;      ///< sensor noise at mid grey; more in the dark
   float saturation = 1;
@@ -93,7 +93,9 @@ struct DrawItem {
   Mat4 transform;            ///< mesh -> world; rotation, translation and uniform scale only
   bool translucent = false;  ///< drawn after the opaque ones, far to near by the middle of its bounds, both sides
   DrawStyle style = DrawStyle::shaded;
-  std::uint16_t part = 0;  ///< what it is of, by the caller's numbers; 0: nothing that has a name
+  std::uint8_t level = 0;   ///< of its mesh: 0 all triangles, k the k-th coarser list or the last that there is
+  std::uint8_t detail = 2;  ///< of its surface, at most the frame's (Quality::detail)
+  std::uint16_t part = 0;   ///< what it is of, by the caller's numbers; 0: nothing that has a name
 
   bool blends() const { return (translucent && style == DrawStyle::shaded) || style == DrawStyle::transparent; }
 };
@@ -103,6 +105,7 @@ struct DrawItem {
 struct Rod {
   Vec3f from, to;         ///< [m] world
   float radius = 0.002f;  ///< [m]
+  float pressed = 0;      ///< 0..1: how far it presses the blood out of tissue that it touches
 };
 inline constexpr int kMaxRods = 16;  ///< more are left out
 
@@ -119,7 +122,11 @@ struct Quality {
   int detail = 2;  ///< 2 everything; 1 no fine flecks, bloom, fringe, focus or contact shade, and liquids mirror the
                    ///< walls only; 0 no vessels or film ripples either
 
-  friend bool operator==(Quality a, Quality b) { return a.render_scale == b.render_scale && a.detail == b.detail; }
+  float coarser = 1;  ///< things get coarser at this part of their distances: 2 at half of them (view/detail.hpp)
+
+  friend bool operator==(Quality a, Quality b) {
+    return a.render_scale == b.render_scale && a.detail == b.detail && a.coarser == b.coarser;
+  }
 };
 
 struct Frame {

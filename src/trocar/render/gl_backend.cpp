@@ -1,6 +1,8 @@
-// The backend that draws. on_frame is the list of passes; each is one function in the files beside this one.
+// The backend that draws. passes() is the list of what a frame goes through; each is one function in the files beside
+// this one.
 #include <string>
 
+#include <trocar/core/error.hpp>
 #include <trocar/render/gl_backend_parts.hpp>
 #include <trocar/render/gl_context.hpp>
 #include <trocar/render/patterns.hpp>
@@ -35,7 +37,7 @@ GlTexture plane_texture(const Pattern& pattern) {
 
 }  // namespace
 
-GlBackend::GlBackend(GlContext& context) {
+GlBackend::GlBackend(GlContext& context) : m_context(context) {
   context.make_current();
   m_noise = volume_texture(noise_pattern());
   m_cells = volume_texture(cell_pattern());
@@ -98,24 +100,48 @@ void GlBackend::on_prepare_liquids() {
   m_small_eye = -1;
 }
 
+std::span<const GlBackend::Pass> GlBackend::passes() {
+  static constexpr Pass list[] = {
+      {"clear", [](GlBackend& b, const Drawing& d) { b.begin_scene(d.frame, d.target, d.layout); }},
+      {"mask",
+       [](GlBackend& b, const Drawing& d) {
+         if (d.frame.look.mask) b.mask_pass(d.layout);
+       }},
+      {"opaque", [](GlBackend& b, const Drawing& d) { b.scene_pass(d.frame, d.opaque, false); }},
+      {"pool", [](GlBackend& b, const Drawing& d) { b.sheet_pass(d.frame, d.layout); }},
+      {"translucent", [](GlBackend& b, const Drawing& d) { b.scene_pass(d.frame, d.translucent, true); }},
+      {"drops and films", [](GlBackend& b, const Drawing& d) { b.splat_pass(d.frame, d.layout); }},
+      {"puffs", [](GlBackend& b, const Drawing& d) { b.puff_pass(d.frame); }},
+      {"smoke", [](GlBackend& b, const Drawing& d) { b.smoke_pass(d.frame); }},
+      {"shadows", [](GlBackend& b, const Drawing& d) { b.shade_pass(d.frame, d.layout); }},
+      {"shrink", [](GlBackend& b, const Drawing&) { b.shrink_pass(); }},
+      {"metering",
+       [](GlBackend& b, const Drawing& d) {
+         b.m_small_eye = d.frame.eye;
+         b.meter_pass(d.frame, d.target, d.layout);
+       }},
+      {"developing", [](GlBackend& b, const Drawing& d) { b.develop_pass(d.frame, d.layout); }},
+      {"dirt",
+       [](GlBackend& b, const Drawing& d) {
+         if (!d.frame.look.soil.clean()) b.soil_pass();
+       }},
+      {"lens", [](GlBackend& b, const Drawing& d) { b.lens_pass(d.frame, d.target, d.layout); }},
+  };
+  return list;
+}
+
 void GlBackend::on_frame(const Frame& frame, const Target& target, std::span<const DrawItem* const> opaque,
                          std::span<const DrawItem* const> translucent) {
-  const Layout layout(target, frame.look, frame.quality.render_scale);
-  begin_scene(frame, target, layout);
-  if (frame.look.mask) mask_pass(layout);
-  scene_pass(frame, opaque, false);
-  sheet_pass(frame, layout);
-  scene_pass(frame, translucent, true);
-  splat_pass(frame, layout);
-  puff_pass(frame);
-  smoke_pass(frame);
-  shade_pass(frame, layout);
-  shrink_pass();
-  m_small_eye = frame.eye;
-  meter_pass(frame, target, layout);
-  develop_pass(frame, layout);
-  if (!frame.look.soil.clean()) soil_pass();
-  lens_pass(frame, target, layout);
+  if (m_context.lost())
+    throw core::EnvironmentLacks(
+        "the graphics driver was reset and has lost the picture: start Trocar again; what was done is in the "
+        "recording");
+  const Drawing drawing{frame, target, Layout(target, frame.look, frame.quality.render_scale), opaque, translucent};
+  for (const Pass& pass : passes()) {
+    if (costs()) m_timer.start();
+    pass.run(*this, drawing);
+    if (costs()) costs()->push_back(m_timer.stop(pass.name));
+  }
   leave_state_clean();
 }
 

@@ -1,4 +1,4 @@
-// The backend that draws, in seven files: the frame as a list of passes (gl_backend.cpp), what draws things into the
+// The backend that draws, in seven files: the list of passes (gl_backend.cpp), what draws things into the
 // scene picture (gl_scene_passes.cpp), how instruments shade it (gl_rods.cpp), liquids and smoke in it
 // (gl_liquid_passes.cpp, gl_smoke_pass.cpp), what makes a camera's picture of it (gl_picture_passes.cpp), and what is
 // where, without light (gl_layers_pass.cpp). Private to them.
@@ -13,6 +13,7 @@
 #include <trocar/render/checked_backend.hpp>
 #include <trocar/render/gl_meshes.hpp>
 #include <trocar/render/gl_packing.hpp>
+#include <trocar/render/gl_pass_timer.hpp>
 #include <trocar/render/gl_program.hpp>
 #include <trocar/render/gl_targets.hpp>
 
@@ -67,6 +68,19 @@ class GlBackend final : public CheckedBackend {
   void layer_items(std::span<const DrawItem* const> items, const Mat4& view_before);
   void layer_liquids(const Frame& frame, const Layout& layout);
 
+  /// A frame on its way through the passes.
+  struct Drawing {
+    const Frame& frame;
+    const Target& target;
+    const Layout layout;
+    std::span<const DrawItem*const> opaque, translucent;
+  };
+  struct Pass {
+    const char* name;
+    void (*run)(GlBackend&, const Drawing&);
+  };
+  static std::span<const Pass> passes();
+
   void begin_scene(const Frame& frame, const Target& target, const Layout& layout);
   /// Near depth outside the circle, so that early depth tests drop those pixels.
   void mask_pass(const Layout& layout);
@@ -76,7 +90,7 @@ class GlBackend final : public CheckedBackend {
   void scene_pass(const Frame& frame, std::span<const DrawItem* const> items, bool blended);
   void draw_edges(const DrawItem& item);
   void draw_item(const Frame& frame, const DrawItem& item, bool blended, bool stained);
-  GlProgram& program_for(const Frame& frame, const Material& material, bool blended, bool stained);
+  GlProgram& program_for(const Frame& frame, const Material& material, int detail, bool blended, bool stained);
   void puff_pass(const Frame& frame);
 
   /// What lies below a liquid, kept while the liquid is drawn over it. Only the part of the scene in `m_wet_box`.
@@ -142,6 +156,7 @@ class GlBackend final : public CheckedBackend {
     bool known = false;
   };
 
+  GlContext& m_context;
   GlMeshes m_meshes;
   GlPrograms m_programs;
   GlTexture m_noise, m_cells, m_vessels, m_arcade;
@@ -168,6 +183,7 @@ class GlBackend final : public CheckedBackend {
   std::array<float, 8 * kMaxRods> m_rod_rows{};
   int m_rod_count = 0;
   std::vector<SeenPuff> m_puffs;
+  GlPassTimer m_timer;
   int m_small_eye = -1;  ///< whose picture m_small holds
 };
 

@@ -49,9 +49,19 @@ EGLContext core_context(EGLDisplay display) {
   EGLConfig config = nullptr;
   EGLint count = 0;
   if (!eglChooseConfig(display, config_wish, &config, 1, &count) || count == 0) return EGL_NO_CONTEXT;
-  const EGLint wish[] = {
-      EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
-      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+  // One that tells of a reset, where the driver knows how.
+  EGLint wish[] = {EGL_CONTEXT_MAJOR_VERSION,
+                   3,
+                   EGL_CONTEXT_MINOR_VERSION,
+                   3,
+                   EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                   EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                   EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
+                   EGL_LOSE_CONTEXT_ON_RESET,
+                   EGL_NONE};
+  const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, wish);
+  if (context != EGL_NO_CONTEXT) return context;
+  wish[6] = EGL_NONE;
   return eglCreateContext(display, config, EGL_NO_CONTEXT, wish);
 }
 
@@ -126,6 +136,11 @@ void GlContext::check_version() {
   if (10 * major + minor < 33)
     throw core::EnvironmentLacks("OpenGL 3.3 is needed, this is " + m_description +
                                  "; update the graphics driver or set LIBGL_ALWAYS_SOFTWARE=1");
+}
+
+bool GlContext::lost() const {
+  if (epoxy_gl_version() < 45 && !epoxy_has_gl_extension("GL_ARB_robustness")) return false;
+  return (epoxy_gl_version() < 45 ? glGetGraphicsResetStatusARB() : glGetGraphicsResetStatus()) != GL_NO_ERROR;
 }
 
 std::unique_ptr<GlContext> GlContext::off_screen() { return std::make_unique<OffScreenContext>(); }

@@ -17,6 +17,8 @@ class GlContext {
 
   virtual ~GlContext() = default;
   virtual void make_current() = 0;
+  /// The driver was reset and has forgotten everything that it was given. Asks a driver that can tell.
+  bool lost() const;
   /// "vendor / renderer / version", for logs and reports.
   const std::string& description() const { return m_description; }
 

@@ -55,7 +55,7 @@ void GlBackend::layer_items(std::span<const DrawItem* const> items, const Mat4& 
       glDisable(GL_CULL_FACE);
     else
       glEnable(GL_CULL_FACE);
-    m_meshes.draw(item->mesh.id);
+    m_meshes.draw(item->mesh.id, item->level);
   }
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 
@@ -26,7 +27,12 @@ void fill(GLenum target, const GlBuffer& buffer, std::span<const T> data, GLenum
 void GlMeshes::store(std::uint32_t id, const MeshArrays& data) {
   Mesh mesh;
   mesh.vertices = data.positions.size();
-  mesh.index_count = GLsizei(data.indices.size());
+  std::vector<std::uint32_t> indices = data.indices;
+  mesh.lists.push_back({0, GLsizei(indices.size())});
+  for (const std::vector<std::uint32_t>& list : data.coarser) {
+    mesh.lists.push_back({indices.size(), GLsizei(list.size())});
+    indices.insert(indices.end(), list.begin(), list.end());
+  }
   mesh.mode = data.primitive == Primitive::triangles ? GL_TRIANGLES : GL_LINES;
   mesh.layout = new_vertex_array();
   mesh.moving = new_buffer();
@@ -48,7 +54,7 @@ void GlMeshes::store(std::uint32_t id, const MeshArrays& data) {
   glBufferSubData(GL_ARRAY_BUFFER, GLintptr(block), GLsizeiptr(block), data.rest_normals.data());
   attribute(kRest, 3, GL_FLOAT, false, sizeof(Vec3f), 0);
   attribute(kRestNormal, 3, GL_FLOAT, false, sizeof(Vec3f), block);
-  fill(GL_ELEMENT_ARRAY_BUFFER, mesh.indices, std::span<const std::uint32_t>(data.indices), GL_STATIC_DRAW);
+  fill(GL_ELEMENT_ARRAY_BUFFER, mesh.indices, std::span<const std::uint32_t>(indices), GL_STATIC_DRAW);
   glBindVertexArray(0);
 
   m_meshes[id] = std::move(mesh);
@@ -96,10 +102,12 @@ void GlMeshes::draw_edges(std::uint32_t id, std::span<const std::uint32_t> indic
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, mesh.indices.id());  // which the layout remembers
 }
 
-void GlMeshes::draw(std::uint32_t id) const {
+void GlMeshes::draw(std::uint32_t id, std::size_t level) const {
   const Mesh& mesh = m_meshes.at(id);
+  const Mesh::List list = mesh.lists[std::min(level, mesh.lists.size() - 1)];
   glBindVertexArray(mesh.layout.id());
-  glDrawElements(mesh.mode, mesh.index_count, GL_UNSIGNED_INT, nullptr);
+  glDrawElements(mesh.mode, list.count, GL_UNSIGNED_INT,
+                 reinterpret_cast<const void*>(list.first * sizeof(std::uint32_t)));
 }
 
 }  // namespace trocar::render

@@ -45,6 +45,9 @@ struct DeleteRenderbuffer {
 struct DeleteProgram {
   void operator()(GLuint id) const { glDeleteProgram(id); }
 };
+struct DeleteQuery {
+  void operator()(GLuint id) const { glDeleteQueries(1, &id); }
+};
 struct DeleteShader {
   void operator()(GLuint id) const { glDeleteShader(id); }
 };
@@ -53,6 +56,7 @@ using GlBuffer = GlName<DeleteBuffer>;
 using GlVertexArray = GlName<DeleteVertexArray>;
 using GlFramebuffer = GlName<DeleteFramebuffer>;
 using GlRenderbuffer = GlName<DeleteRenderbuffer>;
+using GlQuery = GlName<DeleteQuery>;
 using GlProgramName = GlName<DeleteProgram>;
 using GlShaderName = GlName<DeleteShader>;
 
@@ -80,6 +84,11 @@ inline GlRenderbuffer new_renderbuffer() {
   GLuint id = 0;
   glGenRenderbuffers(1, &id);
   return GlRenderbuffer(id);
+}
+inline GlQuery new_query() {
+  GLuint id = 0;
+  glGenQueries(1, &id);
+  return GlQuery(id);
 }
 
 }  // namespace trocar::render

@@ -53,7 +53,8 @@ std::array<float, 14 * 4> packed(const Material& m) {
           cells,
           m.lobule_depth,
           m.lobule_contrast,
-          0};
+          m.scatter,
+          m.soil};
 }
 
 std::array<float, 8 * 4> packed(const Frame& frame) {

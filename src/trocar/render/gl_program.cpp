@@ -3,6 +3,7 @@
 #include <string_view>
 #include <vector>
 
+#include <trocar/core/error.hpp>
 #include <trocar/render/gl_program.hpp>
 #include <trocar/render/shader_text.hpp>
 
@@ -46,6 +47,11 @@ std::string define_lines(const std::string& defines) {
   return out;
 }
 
+[[noreturn]] void refuse(const std::string& what, const char* log) {
+  throw core::EnvironmentLacks("this graphics driver refuses the shader " + what +
+                               "; update it, or set LIBGL_ALWAYS_SOFTWARE=1 to do without it:\n" + log);
+}
+
 GlShaderName compiled(GLenum stage, const std::string& file, const std::string& defines) {
   GlShaderName shader(glCreateShader(stage));
   const std::string text = "#version 330 core\n" + define_lines(defines) + with_includes(shader_file(file));
@@ -57,7 +63,7 @@ GlShaderName compiled(GLenum stage, const std::string& file, const std::string& 
   if (!good) {
     std::vector<char> log(8192);
     glGetShaderInfoLog(shader.id(), GLsizei(log.size()), nullptr, log.data());
-    throw std::logic_error(file + " [" + defines + "]: " + log.data());
+    refuse(file + " [" + defines + "]", log.data());
   }
   return shader;
 }
@@ -76,7 +82,7 @@ GlProgram::GlProgram(const std::string& vertex_file, const std::string& fragment
   if (!good) {
     std::vector<char> log(8192);
     glGetProgramInfoLog(m_program.id(), GLsizei(log.size()), nullptr, log.data());
-    throw std::logic_error(vertex_file + " + " + fragment_file + " [" + defines + "]: " + log.data());
+    refuse(vertex_file + " + " + fragment_file + " [" + defines + "]", log.data());
   }
 }
 

@@ -16,7 +16,7 @@ namespace trocar::render {
 class GlProgram {
  public:
   /// @param defines comma separated, as "DETAIL=2,VESSELS"
-  /// @throws std::logic_error with the driver's log: a shader of ours is wrong
+  /// @throws core::EnvironmentLacks with the driver's log where it refuses them
   GlProgram(const std::string& vertex_file, const std::string& fragment_file, const std::string& defines);
 
   void use() const { glUseProgram(m_program.id()); }

@@ -7,9 +7,10 @@
 namespace trocar::render {
 namespace {
 
-constexpr float kShadowSpread = 1.8f;  // as in shade.glsl
-constexpr float kRodReach = 0.008f;    // [m] beside a rod, as far as it shades
-constexpr float kFoldReach = 0.015f;   // [m] from a fold's box, as far as a rod may be to shade it
+constexpr float kShadowSpread = 6.0f;   // as in shade.glsl
+constexpr float kRodReach = 0.0035f;    // [m] beside a rod, as far as it shades or pales ...
+constexpr float kShadowReach = 0.018f;  // [m] ... and how much farther away from the lamp
+constexpr float kFoldReach = 0.015f;    // [m] from a fold's box, as far as a rod may be to shade it
 
 }  // namespace
 
@@ -57,12 +58,24 @@ std::array<float, 8> GlBackend::reach_of(int rod, float aspect, float tan_half) 
   const auto at = [&](Vec3f p) {
     return std::array<float, 2>{(p.x / -p.z - m_shift) / tan_half, p.y / (-p.z * tan_half)};
   };
-  const auto margin = [&](Vec3f p) { return (row[3] + kRodReach) / (std::max(-p.z - 0.006f, 0.004f) * tan_half); };
+  const auto part = [&](Vec3f p, float reach) { return reach / (std::max(-p.z - 0.006f, 0.004f) * tan_half); };
   const std::array<float, 2> p = at(a), q = at(b);
   const float dx = q[0] - p[0], dy = q[1] - p[1], length = std::max(std::sqrt(dx * dx + dy * dy), 1e-6f);
-  const float ex = dx / length, ey = dy / length, m = margin(a), n = margin(b);
-  return {(p[0] - m * (ex - ey)) / aspect, p[1] - m * (ey + ex), (q[0] + n * (ex + ey)) / aspect, q[1] + n * (ey - ex),
-          (p[0] - m * (ex + ey)) / aspect, p[1] - m * (ey - ex), (q[0] + n * (ex - ey)) / aspect, q[1] + n * (ey + ex)};
+  const float ex = dx / length, ey = dy / length;
+  const float lamp = std::max(std::hypot(m_frame_rows[0], m_frame_rows[1]), 1e-6f);
+  const float away_x = -m_frame_rows[0] / lamp, away_y = -m_frame_rows[1] / lamp;
+  // Of one end: how far out along the rod (`out` is -1 or 1) and to its left and right.
+  const auto corners = [&](const std::array<float, 2>& from, Vec3f end, float out) {
+    const float near = part(end, row[3] + kRodReach), far = part(end, kShadowReach);
+    const float along = away_x * ex + away_y * ey, left = away_y * ex - away_x * ey;
+    const float end_m = out * (near + far * std::max(0.0f, out * along));
+    const float left_m = near + far * std::max(0.0f, left), right_m = near + far * std::max(0.0f, -left);
+    const float x = from[0] + end_m * ex, y = from[1] + end_m * ey;
+    return std::array<float, 4>{(x - left_m * ey) / aspect, y + left_m * ex, (x + right_m * ey) / aspect,
+                                y - right_m * ex};
+  };
+  const std::array<float, 4> low = corners(p, a, -1), high = corners(q, b, 1);
+  return {low[0], low[1], high[0], high[1], low[2], low[3], high[2], high[3]};
 }
 
 void GlBackend::shade_pass(const Frame& frame, const Layout& layout) {
@@ -94,6 +107,7 @@ void GlBackend::shade_pass(const Frame& frame, const Layout& layout) {
     const float* row = &m_rod_rows[std::size_t(8 * i)];
     program.set("u_rod", row[0], row[1], row[2], row[3]);
     program.set("u_way", row[4], row[5], row[6], row[7]);
+    program.set("u_pressed", frame.rods[std::size_t(i)].pressed);
     program.set_vec4s("u_corners", reach_of(i, tan_x / tan_y, tan_y));
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   }

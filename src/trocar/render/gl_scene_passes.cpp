@@ -100,13 +100,14 @@ void GlBackend::draw_item(const Frame& frame, const DrawItem& item, bool blended
   const bool ghost = item.style == DrawStyle::transparent;
   if (ghost) material.alpha *= kGhost, material.rim_alpha *= kGhostRim;
   const bool two_sided = (blended && !(ghost && !item.translucent)) || material.two_sided;
-  GlProgram& program = program_for(frame, material, blended, stained);
+  GlProgram& program = program_for(frame, material, std::min(frame.quality.detail, int(item.detail)), blended, stained);
   program.use();
   program.set("u_model_view", m_view * item.transform);
   program.set("u_projection", m_projection);
   program.set_vec4s("u_frame", m_frame_rows);
   if (material.shading == Shading::vertex_colour || material.shading == Shading::unlit) {
     program.set("u_tone", 1, 1, 1, material.alpha);
+    if (material.shading == Shading::vertex_colour) program.set("u_gloss", 0.1f * material.wetness);
   } else {
     program.set_vec4s("u_material", packed(material));
     program.set("u_noise", kUnitNoise);
@@ -120,11 +121,11 @@ void GlBackend::draw_item(const Frame& frame, const DrawItem& item, bool blended
     glDisable(GL_CULL_FACE);
   else
     glEnable(GL_CULL_FACE);
-  m_meshes.draw(item.mesh.id);
+  m_meshes.draw(item.mesh.id, item.level);
 }
 
-GlProgram& GlBackend::program_for(const Frame& frame, const Material& material, bool blended, bool stained) {
-  const int detail = frame.quality.detail;
+GlProgram& GlBackend::program_for(const Frame& frame, const Material& material, int detail, bool blended,
+                                  bool stained) {
   if (material.shading == Shading::unlit) return m_programs.get("flat.vert", "flat.frag");
   if (material.shading == Shading::vertex_colour) return m_programs.get("flat.vert", "flat.frag", "LIT");
   std::string defines = "SHADING=" + std::to_string(int(material.shading)) + ",DETAIL=" + std::to_string(detail);

@@ -8,13 +8,17 @@ namespace trocar::render {
 
 namespace {
 
-constexpr Quality kLevels[] = {{1.0f, 2}, {0.85f, 2}, {0.7f, 2}, {0.7f, 1}, {0.5f, 1}, {0.5f, 0}};
+constexpr Quality kLevels[] = {{1.0f, 2, 1},    {1.0f, 2, 1.6f}, {0.85f, 2, 1.6f}, {0.7f, 2, 1.6f},
+                               {0.7f, 1, 1.6f}, {0.5f, 1, 2},    {0.5f, 0, 2.5f},  {0.4f, 0, 4}};
 constexpr int kLongestPatience = 1800;
+constexpr std::size_t kFarthestStep = 3;  ///< levels down at a time: the prediction is not that good
 
-/// Cost of a frame against the best quality's: geometry and lens are a constant part (measured on llvmpipe).
+/// Cost of a frame against the best quality's: what is paid for a picture, for triangles and for fragments (fitted to
+/// `trocar bench gynaecology/bleeding-control --picture` on llvmpipe).
 double relative_cost(const Quality& q) {
-  const double effects = q.detail == 2 ? 1.0 : (q.detail == 1 ? 0.9 : 0.65);
-  return 0.3 + 0.7 * double(q.render_scale) * double(q.render_scale) * effects;
+  const double effects = q.detail == 2 ? 1.0 : (q.detail == 1 ? 0.85 : 0.6);
+  const double scale = double(q.render_scale);
+  return 0.15 + 0.1 / double(q.coarser) + 0.75 * scale * scale * effects;
 }
 
 int count_bits(unsigned x) {
@@ -38,22 +42,44 @@ void Governor::step_to(std::size_t level) {
   m_since_step = 0;
 }
 
-void Governor::frame_took(double seconds) {
+/// The next level below that is predicted not to be late.
+std::size_t Governor::level_that_fits() const {
+  const std::size_t last = std::min(m_level + kFarthestStep, std::size(kLevels) - 1);
+  std::size_t level = m_level + 1;
+  while (level < last && predicted(level) > m_limits.late) ++level;
+  return level;
+}
+
+double Governor::predicted(std::size_t level) const {
+  return m_mean * relative_cost(kLevels[level]) / relative_cost(kLevels[m_level]);
+}
+
+void Governor::load_becomes(double load) {
+  if (!(load > 0) || !std::isfinite(load) || load == m_load) return;
+  m_mean *= load / m_load;
+  m_load = load;
+  m_patience = m_limits.calm_frames;
+  std::size_t level = m_level;
+  while (level + 1 < std::size(kLevels) && predicted(level) > m_limits.late) ++level;
+  step_to(level);
+  m_came_up = false;
+}
+
+void Governor::frame_took(double seconds, bool crowds) {
   if (!std::isfinite(seconds) || seconds <= 0) return;
   ++m_since_step;
   m_mean = m_mean == 0 ? seconds : m_mean + 0.1 * (seconds - m_mean);
-  m_history = ((m_history << 1) | (seconds > m_limits.late ? 1u : 0u)) & 0xffu;
+  m_history = ((m_history << 1) | (crowds || seconds > m_limits.late ? 1u : 0u)) & 0xffu;
 
   const bool worst = m_level + 1 == std::size(kLevels);
   if (!worst && count_bits(m_history) >= m_limits.late_frames) {
     // Late soon after a step up: that step was a mistake, wait twice as long before the next.
     if (m_came_up && m_since_step <= m_patience) m_patience = std::min(2 * m_patience, kLongestPatience);
-    step_to(m_level + 1);
+    step_to(level_that_fits());
     return;
   }
   if (m_level == 0 || m_since_step < m_patience || m_history != 0) return;
-  const double predicted = m_mean * relative_cost(kLevels[m_level - 1]) / relative_cost(kLevels[m_level]);
-  if (predicted < m_limits.roomy) step_to(m_level - 1);
+  if (predicted(m_level - 1) < m_limits.roomy) step_to(m_level - 1);
 }
 
 }  // namespace trocar::render

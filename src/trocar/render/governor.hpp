@@ -1,6 +1,7 @@
-// Keeps the picture at 20 images a second or more by lowering its quality, never the physics: resolution scale first
-// (what costs is fragments), then effects. Steps down when several frames were late, steps up only after a calm while
-// and only if the better level is predicted to fit; a step up that failed is not tried again for longer and longer.
+// Keeps the picture at 20 images a second or more by lowering its quality, never the physics: things get coarser at
+// shorter distances first (nobody sees it), then resolution goes, then effects. Steps down when several frames were
+// late, as far as it predicts to be necessary but not far at a time; steps up only after a calm while and only if the
+// better level is predicted to fit; a step up that failed is not tried again for longer and longer.
 //
 //   Governor governor;
 //   frame.quality = governor.quality();
@@ -29,13 +30,20 @@ class Governor {
   Governor() : Governor(Limits{}) {}
   explicit Governor(Limits limits, std::size_t start_level = 0);
 
-  /// @param seconds time the last frame took, on the clock that counts for the user; ignored unless finite and > 0
-  void frame_took(double seconds);
+  /// @param seconds  time the last frame took, on the clock that counts for the user; ignored unless finite and > 0
+  /// @param crowds   it took processors that a simulation needs to keep real time: late, however quick it was
+  void frame_took(double seconds, bool crowds = false);
+  /// What a frame is to cost at one quality has become another: more pictures in it, or fewer. It goes down at once
+  /// where that would be late, and may come up again without waiting for mistakes of another load.
+  /// @param load  beside one picture over the whole window, > 0
+  void load_becomes(double load);
   Quality quality() const { return quality_levels()[m_level]; }
   std::size_t level() const { return m_level; }
 
  private:
   void step_to(std::size_t level);
+  std::size_t level_that_fits() const;
+  double predicted(std::size_t level) const;  ///< [s] a frame
 
   Limits m_limits;
   std::size_t m_level = 0;
@@ -43,6 +51,7 @@ class Governor {
   unsigned m_history = 0;  ///< bit per frame: late
   int m_since_step = 0;
   int m_patience;  ///< frames to wait before stepping up; doubles after a failed step up
+  double m_load = 1;
   bool m_came_up = false;
 };
 

@@ -13,9 +13,10 @@ Vec3f srgb(float r, float g, float b);
 
 enum class Shading : std::uint8_t {
   tissue,         ///< wet living surface
-  metal,          ///< instrument: neutral, streaked along `fibre_axis`, pink bounce
+  metal,          ///< instrument: streaked along `fibre_axis`, mirrors the scene; or its insulation, see `scatter`
   fluid,          ///< pool or smear: smooth, glossy, mirrors; opaque by `density` times Paint::tint (its depth)
-  vertex_colour,  ///< lit by wrap light only, paint is sRGB colour + alpha (false-colour maps, plastic)
+  vertex_colour,  ///< lit by wrap light only, paint is sRGB colour + alpha (false-colour maps, plastic); `wetness`
+                  ///< glosses
   unlit,          ///< paint is sRGB colour + alpha, no light, no fall-off (lines, arrows, gizmos)
 };
 
@@ -59,6 +60,10 @@ struct Material {
   float glow_amount = 0.06f;           ///< 0..1
   float alpha = 1;                     ///< of translucent items, facing the eye; tint and vessels are denser
   float rim_alpha = 1;                 ///< of translucent items, grazing (a sheet seen edge-on is denser)
+
+  // Shading::metal.
+  float scatter = 0;  ///< 0 bare metal .. 1 ceramic, plastic: share of the light scattered instead of mirrored
+  float soil = 1;     ///< share of Paint's blood and burn that is there
 
   float density = 1;       ///< Shading::fluid: opacity is 1 - exp(-density (1/4 + 4 tint)), tint = Paint::tint / 255
   bool two_sided = false;  ///< light both sides and do not cull (sheets, open surfaces)

@@ -23,6 +23,7 @@ MeshArrays complete(const MeshData& data) {
   r.primitive = data.primitive;
   r.positions.assign(data.positions.begin(), data.positions.end());
   r.indices.assign(data.indices.begin(), data.indices.end());
+  r.coarser.assign(data.coarser.begin(), data.coarser.end());
   const auto rest = data.rest.empty() ? data.positions : data.rest;
   r.rest.assign(rest.begin(), rest.end());
   r.paint.assign(data.paint.begin(), data.paint.end());

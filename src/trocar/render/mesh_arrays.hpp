@@ -19,6 +19,7 @@ struct MeshArrays {
   std::vector<Vec3f> positions, normals, rest, rest_normals;
   std::vector<Paint> paint;
   std::vector<std::uint32_t> indices;
+  std::vector<std::vector<std::uint32_t>> coarser;  ///< see MeshData
   Primitive primitive = Primitive::triangles;
 };
 MeshArrays complete(const MeshData& data);

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include <trocar/numerics/vec3.hpp>
 
@@ -38,6 +39,7 @@ struct MeshData {
   std::span<const Paint> paint;            ///< (n); empty = Paint{} everywhere
   std::span<const std::uint32_t> indices;  ///< (3 per triangle, counter-clockwise outside) or (2 per line), < n
   Primitive primitive = Primitive::triangles;
+  std::span<const std::vector<std::uint32_t>> coarser = {};  ///< fewer triangles over the same vertices, a list a level
 };
 
 /// Names a mesh of one backend. 0 is no mesh. A destroyed mesh's handle is never used again.

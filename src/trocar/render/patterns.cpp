@@ -89,8 +89,7 @@ float until_fork(float radius, core::Random& random) { return float(random.unifo
 
 /// One branch from where it starts to where it thins out or meets another vessel; its forks go onto `tips`.
 /// Murray's law at each fork: r0^3 = r1^3 + r2^3.
-void grow_branch(Canvas& canvas, Twig t, bool is_root, const Habit& habit, std::vector<Twig>& tips,
-                 core::Random& random) {
+void grow_branch(Canvas& canvas, Twig t, const Habit& habit, std::vector<Twig>& tips, core::Random& random) {
   float meander = 0, bend = 0, age = 0;
   float side = random.uniform() < 0.5 ? -1.0f : 1.0f;
   const float born_radius = t.radius;
@@ -109,9 +108,8 @@ void grow_branch(Canvas& canvas, Twig t, bool is_root, const Habit& habit, std::
     if (age > 3 * born_radius + 14 &&
         canvas.at(t.x + ahead * float(portable::cos(heading)), t.y + ahead * float(portable::sin(heading))) > 0.15f)
       return;
-    const float emerging = std::min(1.0f, 0.1f + age / (12 * born_radius));  // a root rises from the depth
-    const float tone = std::min(1.0f, 0.4f + 0.22f * t.radius) * (is_root ? emerging : 1.0f);
-    canvas.dab(t.x, t.y, t.radius * (is_root ? 0.5f + 0.5f * emerging : 1.0f), habit.strength * tone, habit.softness);
+    const float tone = std::min(1.0f, 0.3f + 0.25f * t.radius);
+    canvas.dab(t.x, t.y, t.radius, habit.strength * tone, habit.softness);
     t.radius -= 0.0022f * step;
     t.until_fork -= step;
     if (t.until_fork > 0) continue;
@@ -126,16 +124,18 @@ void grow_branch(Canvas& canvas, Twig t, bool is_root, const Habit& habit, std::
   }
 }
 
+/// Each tree is a vessel that comes up from the depth and goes down again: both ways from where it is widest.
 void grow(Canvas& canvas, const Habit& habit, core::Random& random) {
   std::vector<Twig> tips;
   for (int i = 0; i < habit.trees; ++i) {
     const float radius = float(random.uniform(habit.thinnest, habit.thickest));
-    tips.push_back({float(random.uniform(0, canvas.size)), float(random.uniform(0, canvas.rows)),
-                    float(random.uniform(0, 2 * portable::pi)), radius, until_fork(radius, random)});
+    const float x = float(random.uniform(0, canvas.size)), y = float(random.uniform(0, canvas.rows));
+    const float goal = float(random.uniform(0, 2 * portable::pi)), back = goal + float(portable::pi);
+    tips.push_back({x, y, goal, radius, until_fork(radius, random)});
+    tips.push_back({x, y, back + float(random.uniform(-0.3, 0.3)), radius, until_fork(radius, random)});
   }
   // Breadth first, so that the trunks take their ground before the twigs fill what is left.
-  for (std::size_t i = 0; i < tips.size(); ++i)
-    grow_branch(canvas, Twig(tips[i]), i < std::size_t(habit.trees), habit, tips, random);
+  for (std::size_t i = 0; i < tips.size(); ++i) grow_branch(canvas, Twig(tips[i]), habit, tips, random);
 }
 
 /// Arteries and veins as the two channels of a picture.

@@ -205,6 +205,14 @@ sim::SheetModel compile_sheet(const Sheet& sheet, const sim::Model& model) {
   return out;
 }
 
+void note_detail(const Description& d, sim::Model& model) {
+  for (const DetailSetting& setting : d.detail) {
+    std::vector<sim::DetailLevel> levels;
+    for (const DetailSetting::Level& l : setting.levels) levels.push_back({l.from, l.error, l.surface});
+    for (const std::string& name : setting.of) model.drawn_detail.push_back({name, levels});
+  }
+}
+
 }  // namespace
 
 sim::Model compile(const Description& d, CompileReport* report) {
@@ -242,6 +250,7 @@ sim::Model compile(const Description& d, CompileReport* report) {
   if (!faults.empty()) throw core::BadInput(faults);
   compile_contacts(model);
   compile_targets(model);
+  note_detail(d, model);
   model.cavity = sim::cavity_around(model);
   sim::seal(model);
   return model;

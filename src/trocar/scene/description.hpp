@@ -244,6 +244,19 @@ struct BreathingSetting {
   core::Location at;
 };
 
+/// How finely some things are drawn, by how far off they are (view/detail.hpp). No levels: in full, always.
+struct DetailSetting {
+  struct Level {
+    double from = 0, error = 0;  ///< sim::DetailLevel [m]
+    int surface = 2;
+  };
+  std::vector<std::string> of;  ///< bodies, walls, instruments, ports, and kDrawnNames
+  std::vector<Level> levels;
+  core::Location at;
+};
+/// What is drawn and has no name of its own in a file.
+inline constexpr std::array<const char*, 4> kDrawnNames{"cavity", "endoscope", "arteries", "veins"};
+
 /// The part of an instrument that current leaves from.
 struct ElectrodeSetting {
   double radius = 0.001;     ///< of its contact [m]
@@ -305,6 +318,7 @@ struct Description {
   std::optional<EnergySetting> energy;
   std::vector<WaveSetting> peristalsis;
   std::optional<BreathingSetting> breathing;
+  std::vector<DetailSetting> detail;
   std::vector<Port> ports;
   std::vector<Instrument> instruments;
   std::vector<Placement> placements;  ///< tools, in hand order: [0] left, [1] right, [2] assistant/third

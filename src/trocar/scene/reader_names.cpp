@@ -30,6 +30,8 @@ const char* noun(Reference::To to) {
       return "port";
     case Reference::To::instrument:
       return "instrument";
+    case Reference::To::drawn:
+      return "body, wall, instrument, port, cavity, endoscope, arteries or veins";
   }
   return "";
 }
@@ -100,6 +102,12 @@ std::vector<std::string> Reading::names(Reference::To to) const {
   if (to == To::strand || to == To::solid_or_strand) add_names(description.strands, all);
   if (to == To::vessel)
     for (const VesselTree& tree : description.vessels) add_names(tree.vessels, all);
+  if (to == To::drawn) {
+    add_names(description.solids, all), add_names(description.strands, all), add_names(description.walls, all);
+    add_names(description.sheets, all), add_names(description.membranes, all), add_names(description.pouches, all);
+    add_names(description.instruments, all), add_names(description.ports, all);
+    all.insert(all.end(), kDrawnNames.begin(), kDrawnNames.end());
+  }
   if (to == To::port) add_names(description.ports, all);
   if (to == To::instrument) add_names(description.instruments, all);
   return all;

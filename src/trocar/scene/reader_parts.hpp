@@ -34,7 +34,7 @@ inline bool beyond(double s, double whole) { return whole > 0 && s > 1.05 * whol
 
 /// A name that must belong to something by the time all files are read.
 struct Reference {
-  enum class To { tissue, solid, strand, solid_or_strand, carrier, vessel, port, instrument };
+  enum class To { tissue, solid, strand, solid_or_strand, carrier, vessel, port, instrument, drawn };
   To to;
   std::string name;
   core::Location at;
@@ -80,6 +80,7 @@ class Reading {
   void energy(const JsonObject& o);
   void wave(const JsonObject& o);
   void breathing(const JsonObject& o);
+  void detail(const JsonObject& o);
   void port(const JsonObject& o);
   Placement placement(const JsonObject& o);
   void scope(const JsonObject& o);

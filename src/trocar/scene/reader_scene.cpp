@@ -22,6 +22,7 @@ void Reading::scene(const JsonObject& o, const fs::path& folder) {
   for (const JsonObject& e : o.objects("energy")) energy(e);
   for (const JsonObject& w : o.objects("peristalsis")) wave(w);
   for (const JsonObject& b : o.objects("breathing")) breathing(b);
+  for (const JsonObject& d : o.objects("detail")) detail(d);
   for (const JsonObject& p : o.objects("ports")) port(p);
   for (const JsonObject& t : o.objects("tools")) {
     refer(Reference::To::instrument, t, "instrument");

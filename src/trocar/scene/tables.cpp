@@ -398,6 +398,28 @@ const Shape& breathing() {
   return shape;
 }
 
+const Shape& detail_level() {
+  static const Shape shape{
+      "level of detail",
+      "What a thing is like from a distance on.",
+      {needed(keys::number("from_mm", 1, kFar, "its distance from the endoscope's tip")),
+       needed(keys::number("error_mm", 0.001, 20, "by which its surface may depart from the full one")),
+       keys::integer("surface", 0, 2, "patterns: 2 all, 1 no fine flecks, 0 no vessels either; default 2")}};
+  return shape;
+}
+
+const Shape& detail() {
+  static const Shape shape{
+      "detail",
+      "How finely things are drawn, by how far off they are. Distances are meant for a picture 600 px high through a "
+      "lens "
+      "of 70 degrees; in another one a thing changes at the same size. The physics knows nothing of it.",
+      {needed(keys::texts("of",
+                          "bodies, walls, instruments, ports (for their sleeves), cavity, endoscope, arteries, veins")),
+       needed(keys::objects("levels", detail_level, 0, "by rising from_mm; none: always in full"))}};
+  return shape;
+}
+
 Shape file_shape(std::string name, std::string meaning, std::vector<Key> keys) {
   Shape shape{std::move(name), std::move(meaning), std::move(keys)};
   shape.keys.insert(shape.keys.begin(),
@@ -420,6 +442,7 @@ const Shape& scene_shape() {
                   keys::object("energy", energy, "current and heat, default none"),
                   keys::objects("peristalsis", wave, 0, "waves of hollow organs, default none"),
                   keys::object("breathing", breathing, "default none"),
+                  keys::objects("detail", detail, 0, "how finely things are drawn, default: as far as one sees it"),
                   needed(keys::includes("instruments", instrument, "instruments: files or objects")),
                   needed(keys::objects("ports", port, 1, "trocars")),
                   needed(keys::objects("tools", tool, 0, "in the order of the hands: left, right, assistant")),

@@ -398,6 +398,19 @@ JsonValue written(const BreathingSetting& b) {
   return o;
 }
 
+JsonValue written(const DetailSetting& d) {
+  JsonValue o = json_object();
+  put(o, "of", list(d.of, [](const std::string& name) { return json_text(name); }));
+  put(o, "levels", list(d.levels, [](const DetailSetting::Level& l) {
+        JsonValue level = json_object();
+        put(level, "from_mm", mm(l.from));
+        put(level, "error_mm", mm(l.error));
+        put(level, "surface", json_number(l.surface));
+        return level;
+      }));
+  return o;
+}
+
 }  // namespace
 
 std::string write_scene(const Description& d) {
@@ -415,6 +428,7 @@ std::string write_scene(const Description& d) {
   if (!d.peristalsis.empty())
     put(o, "peristalsis", list(d.peristalsis, [](const WaveSetting& x) { return written(x); }));
   if (d.breathing) put(o, "breathing", written(*d.breathing));
+  if (!d.detail.empty()) put(o, "detail", list(d.detail, [](const DetailSetting& x) { return written(x); }));
   put(o, "instruments", list(d.instruments, [](const Instrument& x) { return written(x); }));
   put(o, "ports", list(d.ports, [](const Port& x) { return written(x); }));
   put(o, "tools", list(d.placements, [](const Placement& x) { return written(x); }));

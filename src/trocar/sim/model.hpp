@@ -117,6 +117,17 @@ struct Vessel {
 
   bool pulses() const noexcept { return gain > 0; }
 };
+/// From a distance on something is drawn with fewer triangles and a simpler surface (view/detail.hpp).
+struct DetailLevel {
+  double from = 0;   ///< [m] in a picture 600 px high through a lens of 70 degrees
+  double error = 0;  ///< [m] by which its surface may depart from the full one
+  int surface = 2;   ///< how much of its patterns is drawn, as render::Quality::detail
+};
+struct DrawnDetail {
+  std::string name;  ///< as in the scene
+  std::vector<DetailLevel> levels;
+};
+
 /// A vessel that opens by itself.
 struct Bleeder {
   std::int32_t vessel = -1;  ///< -1: none does
@@ -208,6 +219,7 @@ struct Model {
   std::vector<std::int32_t> nearest_at_start;      ///< initial State::nearest
   std::vector<VisibilityTarget> targets;
   std::vector<VisibilitySample> samples;
+  std::vector<DrawnDetail> drawn_detail;  ///< nothing that the step reads: not in the hash
   std::uint64_t hash = 0;
 
   /// The instrument that hand `hand` has in its trocar.

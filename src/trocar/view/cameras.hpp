@@ -31,6 +31,10 @@ struct Orbit {
   void turn(double by_yaw, double by_pitch);  ///< [rad]
   void pan(double right, double up);          ///< [m] of the target, along the picture
   void zoom(double factor);                   ///< of the distance
+
+  friend bool operator==(const Orbit& a, const Orbit& b) {
+    return length(a.target - b.target) == 0 && a.yaw == b.yaw && a.pitch == b.pitch && a.distance == b.distance;
+  }
 };
 
 /// Looks at the middle of what a scene's strands and organs are, from the feet and above.

@@ -9,8 +9,8 @@ namespace trocar::view {
 namespace {
 
 constexpr double kEdge = 0.0016;   // [m] how softly the skin bends round an instrument
-constexpr double kSkirt = 0.0007;  // [m] how far the skin around a touching one sinks ...
-constexpr double kReach = 0.0045;  // [m] ... and how wide
+constexpr double kSkirt = 0.0006;  // [m] how far the skin around a touching one sinks ...
+constexpr double kReach = 0.0055;  // [m] ... and how wide
 
 }  // namespace
 

@@ -8,10 +8,12 @@
 namespace trocar::view {
 namespace {
 
-constexpr int kSpokes = 72, kRings = 16;
-constexpr float kAway = 0.036f;   // [m] how far from the organ's rim its sheet reaches a wall, about
-constexpr float kOver = 0.0008f;  // [m] above the organ
-constexpr float kSunk = 0.004f;   // [m] the hem below what it runs out on
+constexpr int kSpokes = 72, kOnRings = 12, kRings = 26;  // on the organ; all
+constexpr std::size_t kHemRows = 6;                      // that take on the wall's normal
+constexpr float kAway = 0.036f;    // [m] how far from the organ's rim its sheet reaches a wall, about
+constexpr float kOver = 0.0022f;   // [m] above the organ, whose relief is that high
+constexpr float kShoulder = 0.7f;  // [rad] how far the plane leans that touches the organ where the sheet leaves it
+constexpr float kSunk = 0.004f;    // [m] the hem below what it runs out on
 constexpr double kTwoPi = 6.28318530717959;
 
 Vec3f middle_of(std::span<const Vec3f> points) {
@@ -50,9 +52,12 @@ Drape::Drape(const sim::Model& model, int solid, const std::vector<OrganDrawing>
     const float a = float(kTwoPi * k / kSpokes);
     Spoke spoke;
     spoke.out = std::cos(a) * x + std::sin(a) * y;
-    spoke.crown = farthest(skin, spoke.out + 3.0f * m_up);
-    spoke.shoulder = farthest(skin, spoke.out + 1.1f * m_up);
-    const Vec3f rim = skin[std::size_t(spoke.shoulder)];
+    // Where planes that lean more and more touch the organ: the sheet spans its hollows.
+    for (int j = 0; j < kDrapeSupports; ++j) {
+      const float lean = kShoulder * float(j) / (kDrapeSupports - 1);
+      spoke.on[std::size_t(j)] = farthest(skin, std::sin(lean) * spoke.out + std::cos(lean) * m_up);
+    }
+    const Vec3f rim = skin[std::size_t(spoke.on.back())];
     const Vec3f goal = rim + kAway * normalised(spoke.out - 0.3f * m_up);
     float nearest = 1;
     for (const sim::WallModel& wall : model.walls)
@@ -86,18 +91,19 @@ Drape::Drape(const sim::Model& model, int solid, const std::vector<OrganDrawing>
       const std::size_t i = std::size_t(k * kRings + r);
       const double w = double(r) / (kRings - 1);
       const double fat = fat_below(vec_cast<double>(m_buffer.positions[i]));
-      m_buffer.paint[i] = {to_byte(1 - 0.35 * smooth(0.4, 1, w)), 0, 0, to_byte(smooth(0, 0.5, w) * (0.25 + fat))};
+      const double own = 0.3 * smooth(0.75, 0.3, w);  // paler over the organ
+      m_buffer.paint[i] = {to_byte(1 - 0.12 * smooth(0.5, 0.75, w) * smooth(1, 0.8, w)), 0, 0,
+                           to_byte(std::max(own, smooth(0.3, 0.8, w) * fat))};
     }
   m_mesh = OwnedMesh(backend, m_buffer.data());
 }
 
 void Drape::place(const std::vector<OrganDrawing>& organs) {
   const OrganDrawing& organ = organs[std::size_t(m_solid)];
-  std::vector<Vec3f> crown, shoulder;
+  std::array<std::vector<Vec3f>, kDrapeSupports> on;
   m_hem.clear();
   for (const Spoke& s : m_spokes) {
-    crown.push_back(organ.positions()[std::size_t(s.crown)]);
-    shoulder.push_back(organ.positions()[std::size_t(s.shoulder)]);
+    for (std::size_t j = 0; j < kDrapeSupports; ++j) on[j].push_back(organ.positions()[std::size_t(s.on[j])]);
     if (s.hem.solid < 0) {
       m_hem.push_back(s.hem.at - kSunk * s.hem.normal);
     } else {
@@ -106,33 +112,47 @@ void Drape::place(const std::vector<OrganDrawing>& organs) {
                       kSunk * other.normals()[std::size_t(s.hem.vertex)]);
     }
   }
-  soften(crown, m_even, 6);
-  soften(shoulder, m_even, 4);
-  soften(m_hem, m_even, 3);
+  for (std::vector<Vec3f>& ring : on) soften(ring, m_even, 5);
+  soften(m_hem, m_even, 5);
   for (std::size_t k = 0; k < m_spokes.size(); ++k) {
-    const Vec3f a = crown[k] - 0.0015f * m_up, b = shoulder[k] + kOver * normalised(m_spokes[k].out + m_up),
-                c = m_hem[k];
-    // From the crown over the shoulder, leaving the organ on its tangent, to the hem.
-    const Vec3f slope = normalised(b - a), way = c - b;
+    for (int r = 0; r < kOnRings; ++r) {  // from the top to the shoulder
+      const float x = float(r) / float(kOnRings - 1) * float(kDrapeSupports - 1);
+      const auto j = std::size_t(std::min(int(x), kDrapeSupports - 2));
+      const float t = x - float(j), out = x / float(kDrapeSupports - 1);
+      m_buffer.positions[k * kRings + std::size_t(r)] =
+          (1 - t) * on[j][k] + t * on[j + 1][k] + kOver * normalised(out * m_spokes[k].out + m_up);
+    }
+    // It leaves the organ on its tangent, to the hem.
+    const Vec3f b = m_buffer.positions[k * kRings + kOnRings - 1],
+                before = m_buffer.positions[k * kRings + kOnRings - 4];
+    const Vec3f slope = normalised(b - before, m_spokes[k].out), way = m_hem[k] - b;
+    const Vec3f flat = normalised(way - 0.8f * dot(way, m_up) * m_up);
     const float reach = length(way);
-    for (int r = 0; r < kRings; ++r) {
-      const float w = float(r) / float(kRings - 1);
-      Vec3f p;
-      if (w < 0.2f) {
-        p = a + (w / 0.2f) * (b - a);
-      } else {
-        const float t = (w - 0.2f) / 0.8f, u = 1 - t;
-        const Vec3f flat = normalised(way - 0.8f * dot(way, m_up) * m_up);
-        p = (u * u * (1 + 2 * t)) * b + (t * t * (3 - 2 * t)) * c + (0.7f * reach * u * u * t) * slope -
-            (0.7f * reach * t * t * u) * flat;
-        p += float(0.0011 * double(t * u) * 4 *
-                   waves(vec_cast<double>(m_spokes[k].out) * 0.06 + Vec3d{0, 0, 0.01 * t}, 0.02)) *
-             m_up;
-      }
+    for (int r = kOnRings; r < kRings; ++r) {
+      const float t = float(r - kOnRings + 1) / float(kRings - kOnRings), u = 1 - t;
+      Vec3f p = (u * u * (1 + 2 * t)) * b + (t * t * (3 - 2 * t)) * m_hem[k] + (0.7f * reach * u * u * t) * slope -
+                (0.7f * reach * t * t * u) * flat;
+      p += float(0.0011 * double(t * u) * 4 *
+                 waves(vec_cast<double>(m_spokes[k].out) * 0.06 + Vec3d{0, 0, 0.01 * double(t)}, 0.02)) *
+           m_up;
       m_buffer.positions[k * kRings + std::size_t(r)] = p;
     }
   }
+  // Along each spoke corners are rounded, too.
+  for (int pass = 0; pass < 3; ++pass)
+    for (std::size_t k = 0; k < m_spokes.size(); ++k)
+      for (std::size_t r = 1; r + 1 < kRings; ++r) {
+        Vec3f& p = m_buffer.positions[k * kRings + r];
+        p = 0.5f * p + 0.25f * (m_buffer.positions[k * kRings + r - 1] + m_buffer.positions[k * kRings + r + 1]);
+      }
   render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);
+  for (std::size_t k = 0; k < m_spokes.size(); ++k)  // no seam: as the wall's at the hem
+    for (std::size_t r = kRings - kHemRows; r < kRings && m_spokes[k].hem.solid < 0; ++r) {
+      Vec3f& n = m_buffer.normals[k * kRings + r];
+      const float w = float(r + kHemRows + 1 - kRings) / kHemRows;
+      const Vec3f hem = m_spokes[k].hem.normal;
+      n = normalised((1 - w) * n + (dot(n, hem) < 0 ? -w : w) * hem, n);
+    }
 }
 
 void Drape::update(const std::vector<OrganDrawing>& organs) {

@@ -6,9 +6,13 @@
 //   drape.update(organs);                        // after the organs
 #pragma once
 
+#include <array>
+
 #include <trocar/view/organ_drawing.hpp>
 
 namespace trocar::view {
+
+inline constexpr int kDrapeSupports = 6;
 
 class Drape {
  public:
@@ -27,8 +31,8 @@ class Drape {
   };
   /// What the sheet follows at one angle.
   struct Spoke {
-    Vec3f out;                    ///< unit, from the organ's middle
-    int crown = 0, shoulder = 0;  ///< skin vertices: where it still lies on the organ
+    Vec3f out;                             ///< unit, from the organ's middle
+    std::array<int, kDrapeSupports> on{};  ///< skin vertices from the organ's top to its shoulder: there it lies on it
     Hem hem;
   };
   void place(const std::vector<OrganDrawing>& organs);

@@ -12,7 +12,8 @@ class FatTags {
  public:
   /// @param count at most so many, on the organ's sides, none near another. @param gravity they hang along
   /// it
-  FatTags(const OrganDrawing& organ, const sim::SolidModel& solid, int count, Vec3d gravity, render::Backend& backend);
+  FatTags(const OrganDrawing& organ, const sim::SolidModel& solid, int count, Vec3d gravity, render::Backend& backend,
+          const Detail& detail = {});
 
   void update(const OrganDrawing& organ);
   render::MeshHandle mesh() const { return m_mesh.handle(); }

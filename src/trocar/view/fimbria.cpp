@@ -7,7 +7,10 @@ namespace trocar::view {
 namespace {
 
 constexpr double kPi = 3.14159265358979;
-constexpr int kSides = 10, kRings = 16;
+constexpr int kSides = 16, kRings = 18;
+constexpr double kThick = 0.00042;  // [m] half a petal's thickness at its root
+constexpr double kPleat = 0.00022;  // [m] folds that run along it
+constexpr double kRuffle = 0.0007;  // [m] its edges rise and fall
 
 /// One finger: where it grows from, which way, how it curls.
 struct Finger {
@@ -26,11 +29,11 @@ struct Spine {
 /// Rings stand closer towards the tip, which is round.
 double along_finger(int ring) { return std::sin(0.5 * kPi * ring / (kRings - 1)); }
 
-/// Width over length: a stalk that swells to a frilled, blunt end.
+/// Width over length: broad at the root, where petals touch, widest before the middle, then a frilled, tapering end.
 double leaf(double u, int seed) {
-  const double body = 0.8 + 0.35 * u;
-  const double tip = std::sqrt(std::max(0.0, 1 - std::pow(std::max(0.0, (u - 0.82) / 0.18), 2)));
-  const double lobes = 1 + 0.16 * std::sin(9 * u + 6.3 * varied(seed, 1)) + 0.13 * std::sin(17 * u + seed);
+  const double body = smooth(-0.3, 0.25, u) * 0.85 + 0.5 * std::sin(0.9 * kPi * std::min(u + 0.12, 1.0)) - 0.1 * u;
+  const double tip = std::sqrt(std::max(0.0, 1 - std::pow(std::max(0.0, (u - 0.66) / 0.34), 2)));
+  const double lobes = 1 + 0.14 * std::sin(11 * u + 6.3 * varied(seed, 1)) + 0.12 * std::sin(23 * u + seed);
   return body * tip * lobes;
 }
 
@@ -40,7 +43,7 @@ std::vector<Spine> spine_of(const Finger& f, double radius) {
   Vec3d p = Vec3d{f.along * radius, 0, 0} + f.out * radius * out;
   for (int i = 0; i < kRings; ++i) {
     const double u = along_finger(i);
-    const double lean = f.lean + f.curl * u * (0.4 + 0.6 * u) + 0.15 * std::sin(7 * u + f.seed);
+    const double lean = f.lean + f.curl * u * (0.4 + 0.6 * u) + 0.1 * std::sin(5 * u + f.seed);
     const double sway = f.sway * u;
     Vec3d t = std::cos(lean) * Vec3d{1, 0, 0} + std::sin(lean) * out;
     t = std::cos(sway) * t + std::sin(sway) * around;
@@ -58,22 +61,24 @@ void add_finger(MeshBuffer& b, const Finger& f, double radius) {
     const double u = along_finger(i);
     const Spine& s = spine[std::size_t(i)];
     const bool end = i == 0 || i == kRings - 1;
-    const Paint paint{to_byte(0.72 + 0.28 * u), 0, 0, to_byte(0.95 - 0.35 * u - 0.25 * varied(f.seed, 9))};
+    const Paint paint{to_byte(0.5 + 0.5 * smooth(0, 0.55, u)), 0, 0, to_byte(0.9 - 0.3 * u - 0.3 * varied(f.seed, 9))};
     if (end) {
       const std::uint32_t pole = b.add(vec_cast<float>(s.point), paint);
       if (i > 0) join_pole(b, last, kSides, pole, true);
       continue;
     }
-    const double half = 0.5 * f.width * leaf(u, f.seed), thick = 0.00075 * (1.15 - 0.35 * u) * std::sqrt(leaf(u, 1));
+    const double half = 0.5 * f.width * leaf(u, f.seed), thick = kThick * (1.2 - 0.6 * u);
     const std::uint32_t row = b.size();
     for (int k = 0; k < kSides; ++k) {
       const double a = 2 * kPi * k / kSides, c = std::cos(a), sn = std::sin(a);
       // Ruffled: the edges rise and fall along the finger, in turn on either side.
-      const double ruffle = 0.00055 * c * c * std::sin(14 * u + (c > 0 ? 0.0 : 2.1) + 6.3 * varied(f.seed, 2));
-      const double cupped = (0.5 * varied(f.seed, 12) - 0.4) * half * c * c;
+      const double ruffle = kRuffle * (0.35 + 1.4 * u * (1 - u)) * c * c *
+                            std::sin(17 * u + (c > 0 ? 0.0 : 2.1) + 6.3 * varied(f.seed, 2));
+      const double cupped = (0.9 * varied(f.seed, 12) - 0.6) * half * c * c +
+                            kPleat * std::sin(7 * c + f.seed + 3 * u) * smooth(0, 0.3, u);  // folds along it
       const Vec3d p = s.point + (half * c) * s.across + (thick * sn + ruffle + cupped) * s.flat;
       Paint edge = paint;  // thin edges are paler than the crest
-      edge.tint = std::uint8_t(paint.tint * (1 - 0.45 * c * c));
+      edge.tint = std::uint8_t(paint.tint * (1 - 0.8 * c * c));
       b.add(vec_cast<float>(p), edge);
     }
     if (i == 1)
@@ -99,10 +104,10 @@ struct Whorl {
 }  // namespace
 
 MeshBuffer fimbriae(double radius, int seed) {
-  static const Whorl whorls[] = {{18, -0.16, 0.96, 0.95, 0.30, 0.95, 1.3},
-                                 {19, -0.20, 0.82, 1.1, 0.25, 0.6, 0.9},
-                                 {14, -0.30, 0.62, 0.95, 0.23, 0.32, 0.6},
-                                 {8, -0.45, 0.38, 0.8, 0.20, 0.1, 0.4}};
+  // Around an opening that stays free: the outer ones fall back over the rim, the inner ones line the funnel.
+  static const Whorl whorls[] = {{17, -0.1, 0.88, 1.2, 0.4, 1.1, 1.2},
+                                 {17, -0.16, 0.78, 1.4, 0.36, 0.75, 0.9},
+                                 {12, -0.3, 0.6, 1.0, 0.32, 0.45, 0.6}};
   MeshBuffer b;
   int k = 1000 * seed;
   for (const Whorl& w : whorls)
@@ -111,7 +116,7 @@ MeshBuffer fimbriae(double radius, int seed) {
       f.angle = 2 * kPi * (i + 0.7 * (varied(k, 3) - 0.5)) / w.count;
       f.along = w.along + 0.08 * (varied(k, 10) - 0.5);
       f.out = w.out * (1 - 0.08 * varied(k, 11));
-      f.length = radius * w.length * (0.5 + 0.75 * varied(k, 4));
+      f.length = radius * w.length * (0.62 + 0.45 * varied(k, 4) + (i == 0 ? 0.3 : 0.0));  // one reaches for the ovary
       f.width = radius * w.width * (0.75 + 0.6 * varied(k, 5));
       f.lean = w.lean + 0.35 * (varied(k, 6) - 0.5);
       f.curl = w.curl * (0.3 + 1.1 * varied(k, 7));

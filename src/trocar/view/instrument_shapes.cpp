@@ -12,8 +12,11 @@ using interactions::ToolModel;
 using Joint = InstrumentPart::Joint;
 
 constexpr double kPi = 3.14159265358979;
-constexpr int kAround = 32;
-const Paint kClean{255, 0, 0, 0}, kShaded{110, 0, 0, 0}, kHollow{40, 0, 0, 90}, kUsed{225, 34, 0, 0};
+constexpr int kAround = 40;
+constexpr double kCollarFrom = -0.0072;  // [m] where a hook's white collar begins
+// Blood is what clings there after work, burn what chars there: SceneView says how much of it is on an instrument.
+const Paint kClean{255, 0, 0, 0}, kShaded{110, 0, 0, 0}, kHollow{40, 0, 0, 90}, kUsed{235, 120, 0, 0};
+const Paint kCrevice{110, 230, 0, 0}, kElectrode{235, 110, 150, 0};
 
 void merge(MeshBuffer& to, const MeshBuffer& part) { append(to, part, Mat3f::identity(), {}); }
 
@@ -87,7 +90,8 @@ Outline stadium(double from, double to, double half_width) {
   };
 }
 
-/// Jaw of a fenestrated grasper: a window in a plate with cross teeth, narrow at the hinge, thinner to the tip.
+/// Jaw of a fenestrated grasper: a frame around a window that one sees through, cross teeth inside, narrow at the hinge
+/// and thinner to the tip.
 MeshBuffer grasper_jaw(const ToolModel& tool) {
   const double length = tool.jaw_length, half = 0.5 * tool.jaw_width, thick = tool.jaw_thickness;
   const auto neck = [=](double z) { return 0.46 + 0.54 * smooth(0.003, 0.0075, z); };
@@ -97,25 +101,71 @@ MeshBuffer grasper_jaw(const ToolModel& tool) {
     p.y *= neck(p.z);
     return p;
   };
-  const Outline window = stadium(0.36 * length, 0.84 * length, 0.36 * half);
-  const Height inside = [=](double, double z) {
+  const Outline window = stadium(0.37 * length, 0.87 * length, 0.52 * half);
+  const Height inside = [=](double y, double z) {
     if (z < 0.006) return 0.00012;
     const double phase = z / 0.0011 - std::floor(z / 0.0011);
-    return 0.00028 * (phase < 0.5 ? 2 * phase : 2 - 2 * phase);
+    const double teeth = 0.00034 * (phase < 0.5 ? 2 * phase : 2 - 2 * phase);
+    const double across = std::fabs(y) / half;  // they end before the window, and are ground off at the edge
+    return teeth * smooth(0.5, 0.66, across) * (1 - 0.6 * smooth(0.85, 1.0, across)) + 0.00012;
   };
   const Height outside = [=](double y, double z) {
     const double across = std::min(1.0, std::fabs(y) / (half * neck(z)));
-    const double body = thick * (1.25 - 0.25 * smooth(0.002, 0.006, z) - 0.42 * smooth(0.3 * length, length, z));
-    return body * (0.66 + 0.34 * std::sqrt(1 - 0.96 * across * across));
+    const double body = thick * (1.2 - 0.38 * smooth(0.002, 0.3 * length, z) - 0.24 * smooth(0.3 * length, length, z));
+    return body * (0.5 + 0.5 * std::sqrt(1 - 0.98 * across * across));
   };
-  MeshBuffer b = plate(outer, window, inside, outside, 176, 8, [=](bool face, double, double z) {
-    if (!face) return kClean;
-    const double phase = z / 0.0011 - std::floor(z / 0.0011);
-    return Paint{std::uint8_t(150 + (phase < 0.5 ? 1 - phase : phase) * 80), to_byte(0.30 * smooth(0.004, 0.012, z)), 0,
-                 40};
+  MeshBuffer b = plate(outer, window, inside, outside, 208, 8, [=](bool face, double, double z) {
+    const double phase = z / 0.0011 - std::floor(z / 0.0011), deep = phase < 0.5 ? 1 - phase : phase;
+    const double works = smooth(0.004, 0.012, z);
+    if (!face) return Paint{255, to_byte(0.5 * works * smooth(0.3 * length, length, z)), 0, 0};
+    return Paint{std::uint8_t(90 + deep * 130), to_byte(works * (1.15 - 0.6 * deep)), 0, 0};
   });
-  merge(b, beam({0.0009, 0, -0.0045}, {0.0008, 0, 0.0015}, 0.0009, 0.5 * half, 0.4, kShaded));
+  merge(b, beam({0.0009, 0, -0.0045}, {0.0008, 0, 0.0015}, 0.0009, 0.5 * half, 0.4, kCrevice));
   return b;
+}
+
+/// White insulation of a bipolar jaw: a tine that leaves the shaft's end beside its fellow, bows away from it, and runs
+/// out as the back of the paddle.
+MeshBuffer bipolar_tine(const ToolModel& tool) {
+  const double length = tool.jaw_length, half = 0.5 * tool.jaw_width, deep = 0.45 * tool.jaw_thickness;
+  std::vector<BarSection> sections;
+  for (int i = 0; i <= 20; ++i) {
+    const double u = i / 20.0, z = -0.0045 + (0.84 * length + 0.0045) * u;
+    const double flat = smooth(0.42, 0.62, u), out = 1 - 0.55 * smooth(0.75, 1, u);
+    const double thick = (1 - flat) * 0.0008 + flat * 0.00045 * out;
+    const double at = (1 - flat) * (0.0010 + 0.0005 * std::sin(0.9 * kPi * u / 0.5)) + flat * (deep + 0.3 * thick);
+    const double wide = (1 - flat) * 0.00085 + flat * 0.74 * half * (1 - 0.3 * smooth(0.85, 1, u));
+    sections.push_back({{at, 0, z}, {thick, 0, 0}, {0, wide, 0}, kClean});
+  }
+  return bar(sections, 0.75);
+}
+
+/// The paddle of bipolar forceps: narrow, flat and smooth inside, blunt; its back is insulated nearly to the tip.
+MeshBuffer bipolar_paddle(const ToolModel& tool) {
+  const double length = tool.jaw_length, half = 0.5 * tool.jaw_width, deep = 0.45 * tool.jaw_thickness;
+  std::vector<BarSection> sections;
+  for (int i = 0; i <= 12; ++i) {
+    const double u = i / 12.0, z = (0.44 + 0.56 * u) * length;
+    const double blunt = std::sqrt(std::max(0.04, 1 - std::pow(std::max(0.0, (u - 0.8) / 0.2), 2)));
+    const double wide = (0.5 + 0.18 * smooth(0, 0.4, u)) * half * blunt, thick = deep * (0.8 + 0.2 * blunt);
+    sections.push_back({{0.5 * thick + 0.00004, 0, z}, {0.5 * thick, 0, 0}, {0, wide, 0}, kElectrode});
+  }
+  return bar(sections, 0.3);
+}
+
+/// A white end on an insulated shaft: ceramic or PTFE from `from` to `end` [m], narrower at its end.
+MeshBuffer insulator(const ToolModel& tool, double from, double end, double end_radius) {
+  const double r = 0.97 * tool.shaft_radius;
+  return turned({{from, 0, kShaded},
+                 {from, r, kShaded},
+                 {from, r, kShaded},
+                 {from + 0.0003, r, kClean},
+                 {end - 0.4 * (end - from), r, kClean},
+                 {end - 0.0005, end_radius + 0.0002, kClean},
+                 {end, end_radius - 0.0002, kClean},
+                 {end, end_radius - 0.0002, kClean},
+                 {end, 0, kShaded}},
+                kAround);
 }
 
 /// Blade of curved scissors: a wedge beside the middle plane, both blades bent the same way. @param bend along y [m]
@@ -131,6 +181,7 @@ MeshBuffer blade(const ToolModel& tool, double bend) {
     const double shift = bend * w * w;
     const Vec3d centre{0.5 * (back + edge), 0.02e-3 + 0.5 * thick * narrow + shift, z};
     sections.push_back({centre, {0.5 * (back - edge), 0, 0}, {0, 0.5 * thick * narrow, 0}, kUsed});
+    sections.back().paint.blood = to_byte(0.55 * smooth(0.1, 0.6, w));
   }
   return bar(sections, 0.22);
 }
@@ -216,10 +267,10 @@ MeshBuffer hook_wire(const ToolModel& tool) {
   for (int i = 1; i <= 6; ++i) {
     const double a = 0.5 * kPi * i / 6, c = std::cos(a), s = std::sin(a);
     const Vec3d across = c * x - s * z;
-    sections.push_back({(turn * (1 - c)) * x + (tip - turn + turn * s) * z, r * across, r * y, kUsed});
+    sections.push_back({(turn * (1 - c)) * x + (tip - turn + turn * s) * z, r * across, r * y, kElectrode});
   }
-  sections.push_back({(foot - 0.4 * r) * x + tip * z, -r * z, r * y, kUsed});
-  sections.push_back({foot * x + tip * z, -0.6 * r * z, 0.6 * r * y, kUsed});
+  sections.push_back({(foot - 0.4 * r) * x + tip * z, -r * z, r * y, kElectrode});
+  sections.push_back({foot * x + tip * z, -0.6 * r * z, 0.6 * r * y, kElectrode});
   return bar(sections, 1.0);
 }
 
@@ -237,8 +288,8 @@ std::vector<InstrumentPart> instrument_parts(const ToolModel& tool) {
     case ToolKind::scissors:
       parts.push_back({Joint::body, "insulated", shaft(tool, -0.0098)});
       parts.push_back({Joint::body, "steel", hinge(tool.shaft_radius)});
-      parts.push_back({Joint::jaw_a, "steel", blade(tool, 0.0016)});
-      parts.push_back({Joint::jaw_b, "steel", blade(tool, -0.0016)});
+      parts.push_back({Joint::jaw_a, "polished_steel", blade(tool, 0.0016)});
+      parts.push_back({Joint::jaw_b, "polished_steel", blade(tool, -0.0016)});
       break;
     case ToolKind::clip_applier:
       parts.push_back({Joint::body, "steel", open_shaft(tool, -0.002, 0.0008)});
@@ -252,22 +303,25 @@ std::vector<InstrumentPart> instrument_parts(const ToolModel& tool) {
       parts.push_back({Joint::body, "steel", blunt_rod(tool)});
       break;
     case ToolKind::hook:
-      parts.push_back({Joint::body, "insulated", shaft(tool, 0)});
+      parts.push_back({Joint::body, "insulated", shaft(tool, kCollarFrom)});
+      parts.push_back({Joint::body, "ceramic", insulator(tool, kCollarFrom, 0, 0.55 * tool.shaft_radius)});
       parts.push_back({Joint::body, "steel", hook_wire(tool)});
       break;
     case ToolKind::bipolar:
-      parts.push_back({Joint::body, "insulated", shaft(tool, -0.0098)});
-      parts.push_back({Joint::body, "steel", hinge(tool.shaft_radius)});
-      parts.push_back({Joint::jaw_a, "steel", grasper_jaw(tool)});
-      parts.push_back({Joint::jaw_b, "steel", grasper_jaw(tool)});
+      parts.push_back({Joint::body, "insulated", shaft(tool, -0.0105)});
+      parts.push_back({Joint::body, "ceramic", insulator(tool, -0.0105, -0.003, 0.92 * tool.shaft_radius)});
+      for (const Joint jaw : {Joint::jaw_a, Joint::jaw_b}) {
+        parts.push_back({jaw, "ceramic", bipolar_tine(tool)});
+        parts.push_back({jaw, "steel", bipolar_paddle(tool)});
+      }
       break;
   }
   return parts;
 }
 
-std::vector<InstrumentPart> sleeve_parts(double radius, double reach) {
-  constexpr double wall = 0.0009, back = -0.05, slant = 0.7;
-  const double r = radius + wall, end = reach - slant * r;
+std::vector<InstrumentPart> sleeve_parts(double radius, double reach, double from) {
+  constexpr double slant = 0.7;
+  const double r = radius + kSleeveWall, back = std::min(-0.05, from - 0.02), end = reach - slant * r;
   MeshBuffer b = turned({{back, 0, kShaded},
                          {back, r, kClean},
                          {back, r, kClean},
@@ -317,6 +371,17 @@ Placement placement_of(Joint joint, const interactions::ToolShape& shape) {
   }
   const Vec3d y = cross(z, x);
   return {Mat3f::from_columns(vec_cast<float>(x), vec_cast<float>(y), vec_cast<float>(z)), vec_cast<float>(origin)};
+}
+
+double aperture_in_sleeve(const ToolModel& tool, double beyond, double radius) {
+  // The space for a jaw's back, at the sleeve's end or at the jaw's.
+  const double along = std::min(beyond, tool.jaw_length), space = radius - 1.25 * tool.jaw_thickness;
+  if (along <= 0) return 1;
+  const double half_angle = std::atan2(std::max(0.0, space), along), half_gap = std::max(0.0, space);
+  double aperture = 1;
+  if (tool.opening > 0) aperture = std::min(aperture, 2 * half_angle / tool.opening);
+  if (tool.parallel_gap > 0) aperture = std::min(aperture, 2 * half_gap / tool.parallel_gap);
+  return aperture;
 }
 
 double clip_seat(const ToolModel& tool) { return tool.jaw_length - tool.clip_length; }

@@ -22,7 +22,9 @@ struct InstrumentPart {
 std::vector<InstrumentPart> instrument_parts(const interactions::ToolModel& tool);
 /// A trocar's sleeve: z forward along whatever lies in it, origin at its fulcrum in the abdominal wall; its end is cut
 /// at a slant. @param radius inside [m] @param reach how far the longer side of the slant reaches in [m]
-std::vector<InstrumentPart> sleeve_parts(double radius, double reach);
+/// @param from where it comes through the wall; below 0 behind the fulcrum [m]
+std::vector<InstrumentPart> sleeve_parts(double radius, double reach, double from = 0);
+inline constexpr double kSleeveWall = 0.0009;  ///< of a trocar's sleeve [m]
 /// The endoscope's shaft: z forward, origin at its tip.
 std::vector<InstrumentPart> scope_parts(double radius);
 
@@ -32,6 +34,9 @@ struct Placement {
   Vec3f translation;
 };
 Placement placement_of(InstrumentPart::Joint joint, const interactions::ToolShape& shape);
+/// How far jaws can be open while they are still in their trocar's sleeve: the mechanics do not know the sleeve.
+/// @param beyond how far the sleeve reaches past the pivot [m] @param radius inside the sleeve [m]
+double aperture_in_sleeve(const interactions::ToolModel& tool, double beyond, double radius);
 /// From the pivot to the bend of a clip that lies in the jaws [m].
 double clip_seat(const interactions::ToolModel& tool);
 

@@ -29,7 +29,7 @@ Material with_vessels(Material m, float amount, float tile) {
 }
 
 Material uterus() {
-  Material m = with_vessels(tissue(srgb(204, 146, 150), srgb(212, 168, 162), srgb(184, 112, 122)), 0.8f, 0.038f);
+  Material m = with_vessels(tissue(srgb(201, 148, 152), srgb(212, 172, 168), srgb(184, 114, 124)), 0.8f, 0.038f);
   m.mottle_size = 0.014f;
   m.mottle = 0.5f;
   m.bump = 0.12f;
@@ -44,14 +44,14 @@ Material tube() {
   m.mottle_size = 0.007f;
   m.mottle = 0.6f;
   m.glow_amount = 0.12f;
-  m.tint = srgb(190, 82, 92);  // fimbriae
+  m.tint = srgb(202, 112, 120);  // fimbriae
   m.film_size = 0.0019f;
   m.film_bump = 0.3f;
   return m;
 }
 
 Material ovary() {
-  Material m = with_vessels(tissue(srgb(226, 198, 184), srgb(230, 212, 188), srgb(214, 176, 170)), 0.5f, 0.026f);
+  Material m = with_vessels(tissue(srgb(214, 186, 177), srgb(222, 200, 182), srgb(196, 156, 156)), 0.5f, 0.026f);
   m.mottle_size = 0.008f;
   m.mottle = 0.35f;
   m.bump = 0.14f;
@@ -78,17 +78,19 @@ Material vessel(Vec3f main, Vec3f broad, Vec3f fine) {
   m.mottle_size = 0.006f;
   m.mottle = 0.4f;
   m.film_size = 0.0018f;
+  m.film_bump = 0.12f;  // under a film: few glints of its own
+  m.wetness = 0.25f;
   return m;
 }
 
 Material peritoneum() {
-  Material m = with_vessels(tissue(srgb(188, 110, 102), srgb(200, 130, 110), srgb(170, 92, 90)), 1.0f, 0.05f);
+  Material m = with_vessels(tissue(srgb(180, 116, 121), srgb(194, 138, 128), srgb(162, 94, 102)), 1.0f, 0.05f);
   m.mottle_size = 0.024f;
   m.mottle = 0.6f;
   m.wetness = 0.55f;
-  m.tint = srgb(212, 142, 106);  // fat below it
-  m.film_size = 0.0036f;
-  m.film_bump = 0.2f;
+  m.tint = srgb(198, 140, 120);  // fat below it
+  m.film_size = 0.005f;
+  m.film_bump = 0.07f;
   m.film_roughness = 0.09f;
   m.two_sided = true;
   return m;
@@ -137,20 +139,22 @@ Material stomach() {
 }
 
 Material liver() {
-  Material m = with_vessels(tissue(srgb(80, 31, 36), srgb(88, 36, 40), srgb(68, 26, 33)), 0.12f, 0.03f);
+  Material m = with_vessels(tissue(srgb(87, 50, 57), srgb(95, 57, 63), srgb(75, 42, 49)), 0.12f, 0.03f);
   m.mottle_size = 0.0035f;
-  m.mottle = 0.3f;
-  m.bump = 0.06f;
-  m.film_roughness = 0.14f;
-  m.film_bump = 0.2f;
-  m.film_size = 0.004f;
+  m.mottle = 0.22f;
+  m.bump = 0.03f;
+  m.roughness = 0.62f;
+  m.wetness = 0.9f;
+  m.film_roughness = 0.08f;
+  m.film_bump = 0.22f;
+  m.film_size = 0.0028f;
   m.tint = srgb(166, 104, 100);  // a thin edge
   return m;
 }
 
-/// Its bile shines through the wall: grey-green, with fat where it lies on the liver.
+/// Cream where it is lit, grey-violet in shade: never green from outside; with fat where it lies on the liver.
 Material gallbladder() {
-  Material m = with_vessels(tissue(srgb(108, 124, 108), srgb(136, 138, 108), srgb(86, 106, 96)), 0.75f, 0.026f);
+  Material m = with_vessels(tissue(srgb(188, 152, 146), srgb(204, 174, 152), srgb(166, 124, 130)), 1.0f, 0.034f);
   m.mottle_size = 0.013f;
   m.mottle = 0.55f;
   m.two_sided = true;
@@ -158,7 +162,7 @@ Material gallbladder() {
   m.film_roughness = 0.1f;
   m.film_bump = 0.2f;
   m.film_size = 0.0034f;
-  m.glow = {0.5f, 0.55f, 0.2f};
+  m.glow = {0.8f, 0.45f, 0.25f};
   m.glow_amount = 0.08f;
   m.wrap = {0.34f, 0.3f, 0.2f};
   m.tint = srgb(222, 180, 118);  // fat
@@ -166,7 +170,7 @@ Material gallbladder() {
 }
 
 Material fold(float alpha) {
-  Material m = with_vessels(tissue(srgb(210, 146, 138), srgb(222, 172, 148), srgb(196, 124, 120)), 1.0f, 0.03f);
+  Material m = with_vessels(tissue(srgb(214, 160, 154), srgb(226, 182, 164), srgb(200, 136, 132)), 1.0f, 0.03f);
   m.mottle_size = 0.016f;
   m.mottle = 0.45f;
   m.alpha = alpha;
@@ -181,27 +185,59 @@ Material fold(float alpha) {
 }
 
 Material mesosalpinx() {
-  Material m = fold(0.4f);
-  m.wetness = 0.38f;
-  m.film_bump = 0.12f;
+  Material m = fold(0.44f);
+  m.wetness = 0.3f;
+  m.film_bump = 0.06f;
+  m.film_size = 0.005f;
   m.vessel_colour = srgb(148, 26, 40);
   m.vessel_tile = float(kFoldTile);
   m.arcade = true;
   return m;
 }
 
+/// Whitish, thin.
+Material adhesion() {
+  Material m = fold(0.26f);
+  m.colour = srgb(214, 176, 166);
+  m.colour_b = srgb(222, 192, 178);
+  m.colour_c = srgb(204, 150, 144);
+  m.tint = srgb(220, 186, 172);  // its strings
+  m.wetness = 0.4f;
+  m.film_bump = 0.1f;
+  m.rim_alpha = 0.5f;
+  return m;
+}
+
 Material fat() {
-  Material m = with_vessels(tissue(srgb(224, 162, 112), srgb(228, 178, 124), srgb(210, 140, 98)), 0.7f, 0.024f);
+  Material m = with_vessels(tissue(srgb(216, 142, 102), srgb(222, 160, 114), srgb(206, 122, 98)), 0.9f, 0.016f);
   m.mottle_size = 0.006f;
-  m.lobule_size = 0.003f;
-  m.lobule_depth = 0.22f;
-  m.lobule_contrast = 0.22f;
+  m.lobule_size = 0.0034f;
+  m.lobule_depth = 0.1f;
+  m.lobule_contrast = 0.05f;
   m.glow_amount = 0.12f;
   m.film_bump = 0.25f;
   m.tint = srgb(206, 126, 118);  // where it grows out of the bowel
   return m;
 }
 
+/// Broad and soft: lobules as large as those of the bowel's tags, seams that hardly show.
+Material omentum() {
+  Material m = fat();
+  m.colour = srgb(228, 170, 122);
+  m.colour_b = srgb(236, 190, 136);
+  m.colour_c = srgb(212, 144, 104);
+  m.lobule_size = 0.0048f;
+  m.lobule_depth = 0.12f;
+  m.lobule_contrast = 0.12f;
+  m.vessels = 1;
+  m.vessel_tile = 0.045f;
+  m.film_bump = 0.3f;
+  m.film_size = 0.0024f;
+  m.tint = srgb(208, 124, 112);
+  return m;
+}
+
+/// Bare metal; a hand's instrument says how soiled it is.
 Material metal(Vec3f bright, Vec3f dull, float roughness) {
   Material m;
   m.shading = Shading::metal;
@@ -211,14 +247,38 @@ Material metal(Vec3f bright, Vec3f dull, float roughness) {
   m.tint = srgb(24, 24, 26);
   m.roughness = roughness;
   m.mottle_size = 0.0025f;
-  m.fibre_stretch = 14;
+  m.fibre_stretch = 9;
   m.bump = 0.05f;
+  m.soil = 0;
   return m;
 }
 
+/// Blades and clips: hardly any grinding marks.
+Material polished(Vec3f bright, Vec3f dull, float roughness, float scatter) {
+  Material m = metal(bright, dull, roughness);
+  m.scatter = scatter;
+  m.mottle = 0.2f;
+  m.fibre_stretch = 2.5f;
+  m.bump = 0.02f;
+  return m;
+}
+
+/// The plastic tube around a shaft.
 Material insulation() {
-  Material m = metal(srgb(92, 92, 97), srgb(84, 84, 90), 0.5f);
+  Material m = metal(srgb(92, 91, 97), srgb(82, 81, 88), 0.4f);
   m.bump = 0.03f;
+  m.fibre_stretch = 10;
+  m.scatter = 0.75f;
+  return m;
+}
+
+/// Ceramic and PTFE: white, so that it clips before all else.
+Material ceramic() {
+  Material m = metal(srgb(216, 213, 206), srgb(208, 204, 196), 0.24f);
+  m.fibre_stretch = 1;
+  m.mottle_size = 0.004f;
+  m.bump = 0.01f;
+  m.scatter = 1;
   return m;
 }
 
@@ -229,18 +289,21 @@ std::vector<Look> make_looks() {
   const Material neutral = tissue(srgb(196, 134, 130), srgb(204, 150, 142), srgb(182, 112, 112));
   return {
       {"neutral", neutral, false, {}},
-      {"uterus", uterus(), false, {.broad = 0.0005, .broad_size = 0.019, .fine = 0.00012, .fine_size = 0.006}},
+      {"uterus", uterus(), false, {.broad = 0.0009, .broad_size = 0.031, .fine = 0.00012, .fine_size = 0.006}},
       {"tube", tube(), false, {}},
       {"fimbria", tube(), false, {}},
       {"ovary",
        ovary(),
        false,
-       {.broad = 0.0005,
-        .broad_size = 0.012,
-        .fine = 0.00012,
+       {.broad = 0.0009,
+        .broad_size = 0.017,
+        .fine = 0.0002,
         .fine_size = 0.0045,
-        .follicles = 14,
-        .follicle_radius = 0.0028}},
+        .follicles = 11,
+        .follicle_radius = 0.0034,
+        .scars = 9},
+       0,
+       2},
       {"round_ligament", cord, false, {}},
       {"ovarian_ligament", pale_cord, false, {}},
       {"uterosacral_ligament", cord, false, {}},
@@ -249,6 +312,7 @@ std::vector<Look> make_looks() {
        bladder(),
        false,
        {.broad = 0.0012, .broad_size = 0.024, .fine = 0.0003, .fine_size = 0.008},
+       0,
        0,
        true},
       {"bowel",
@@ -260,11 +324,14 @@ std::vector<Look> make_looks() {
         .fine_size = 0.006,
         .haustra = 0.0024,
         .haustra_size = 0.023},
-       22},
+       20,
+       7},
       {"small_bowel",
        small_bowel(),
        false,
-       {.broad = 0.0003, .broad_size = 0.014, .fine = 0.00012, .fine_size = 0.005}},
+       {.broad = 0.0003, .broad_size = 0.014, .fine = 0.00012, .fine_size = 0.005},
+       0,
+       2},
       {"stomach", stomach(), false, {.broad = 0.0008, .broad_size = 0.026, .fine = 0.00015, .fine_size = 0.008}},
       {"liver", liver(), false, {.broad = 0.0006, .broad_size = 0.024}},
       {"gallbladder",
@@ -272,16 +339,21 @@ std::vector<Look> make_looks() {
        false,
        {.broad = 0.0005, .broad_size = 0.017, .fine = 0.00012, .fine_size = 0.005}},
       {"fat", fat(), false, {.broad = 0.001, .broad_size = 0.012, .fine = 0.0006, .fine_size = 0.005}},
-      {"artery", vessel(srgb(186, 62, 56), srgb(198, 84, 72), srgb(160, 44, 44)), false, {}},
-      {"vein", vessel(srgb(94, 62, 82), srgb(108, 76, 92), srgb(78, 48, 68)), false, {}},
+      {"artery", vessel(srgb(134, 50, 52), srgb(148, 64, 60), srgb(112, 38, 44)), false, {}},
+      {"vein", vessel(srgb(104, 60, 70), srgb(118, 74, 78), srgb(88, 46, 60)), false, {}},
       {"peritoneum", peritoneum(), false, {}},
+      {"upper_abdomen", peritoneum(), false, {}, 0, 0, false, true},
+      {"omentum", omentum(), false, {}},
       {"mesosalpinx", mesosalpinx(), true, {}},
       {"broad_ligament", fold(0.6f), true, {}},
-      {"steel", metal(srgb(142, 142, 147), srgb(124, 124, 130), 0.34f), false, {}},
-      {"matte_steel", metal(srgb(126, 128, 132), srgb(112, 114, 120), 0.5f), false, {}},
+      {"adhesion", adhesion(), true, {}},
+      {"steel", metal(srgb(148, 147, 152), srgb(128, 128, 134), 0.3f), false, {}},
+      {"polished_steel", polished(srgb(168, 167, 172), srgb(150, 150, 156), 0.22f, 0.05f), false, {}},
+      {"matte_steel", metal(srgb(128, 129, 133), srgb(114, 115, 120), 0.46f), false, {}},
       {"insulated", insulation(), false, {}},
-      {"sleeve", metal(srgb(128, 130, 136), srgb(116, 118, 124), 0.42f), false, {}},
-      {"titanium", metal(srgb(160, 162, 168), srgb(142, 144, 150), 0.3f), false, {}},
+      {"ceramic", ceramic(), false, {}},
+      {"sleeve", metal(srgb(130, 131, 137), srgb(116, 118, 124), 0.38f), false, {}},
+      {"titanium", polished(srgb(188, 188, 193), srgb(172, 173, 178), 0.26f, 0.5f), false, {}},
   };
 }
 

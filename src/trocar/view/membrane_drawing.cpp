@@ -11,6 +11,8 @@ namespace {
 
 constexpr int kFine = 3;                // drawn cells along each side of a cell of the body
 constexpr double kRipple = 0.0004;      // [m] of a fold that is slack
+constexpr double kFaded = 4;            // columns over which an end runs out
+constexpr double kElsewhere = 0.0173;   // [m] one fold's pattern from the next one's
 constexpr float kRagged = 0.0005f;      // [m] how uneven a torn edge is
 constexpr std::uint8_t kTornPale = 44;  // it is whitish
 constexpr double kTwoPi = 6.28318530717959;
@@ -33,7 +35,7 @@ Vec3d on_line(int fine, int count, At&& at) {
 
 }  // namespace
 
-MembraneDrawing::MembraneDrawing(const sim::Model& model, int membrane, render::Backend& backend)
+MembraneDrawing::MembraneDrawing(const sim::Model& model, int membrane, render::Backend& backend, const Detail& detail)
     : m_membrane(&model.membranes[std::size_t(membrane)]),
       m_index(membrane),
       m_columns((m_membrane->sheet.columns - 1) * kFine + 1),
@@ -46,6 +48,7 @@ MembraneDrawing::MembraneDrawing(const sim::Model& model, int membrane, render::
   lay_pattern();
   connect(m_torn);
   render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);
+  coarsen(m_buffer, detail, kBends);
   m_mesh = OwnedMesh(backend, m_buffer.data());
 }
 
@@ -72,8 +75,12 @@ void MembraneDrawing::lay_pattern() {
     for (int c = 0; c < m_columns; ++c) {
       const double s = m_membrane->from + (m_membrane->to - m_membrane->from) * c / (m_columns - 1);
       const double v = double(r) / (m_rows - 1);
-      if (own) m_buffer.rest[std::size_t(r * m_columns + c)] = fold_rest(s, v);
-      m_buffer.paint.push_back(fold_paint(s, v));
+      if (own) m_buffer.rest[std::size_t(r * m_columns + c)] = fold_rest(s + kElsewhere * m_index, v);
+      Paint paint = fold_paint(s + kElsewhere * m_index, v);
+      const double beside = double(std::min(c, m_columns - 1 - c)) / kFaded;  // its ends are not seen as edges
+      paint.openness = to_byte(paint.openness / 255.0 * smooth(-0.1, 1, beside));
+      paint.tint = to_byte(paint.tint / 255.0 * smooth(0, 1, beside));
+      m_buffer.paint.push_back(paint);
     }
 }
 
@@ -138,6 +145,7 @@ void MembraneDrawing::update(const sim::State& state) {
   const bool changed = torn != m_torn;
   if (changed) {
     m_torn = torn;
+    m_buffer.coarser.clear();
     connect(torn);
   }
   fray();

@@ -20,6 +20,7 @@ struct MeshBuffer {
   std::vector<Vec3f> positions, normals, rest;
   std::vector<Paint> paint;
   std::vector<std::uint32_t> indices;
+  std::vector<std::vector<std::uint32_t>> coarser;  ///< see render::MeshData
 
   std::uint32_t size() const { return std::uint32_t(positions.size()); }
   std::uint32_t add(Vec3f p, Paint colour = {}) {
@@ -33,7 +34,12 @@ struct MeshBuffer {
     triangle(a, c, d);
   }
   render::MeshData data() const {
-    return {.positions = positions, .normals = normals, .rest = rest, .paint = paint, .indices = indices};
+    return {.positions = positions,
+            .normals = normals,
+            .rest = rest,
+            .paint = paint,
+            .indices = indices,
+            .coarser = coarser};
   }
 };
 

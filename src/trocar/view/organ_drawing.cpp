@@ -23,17 +23,19 @@ std::vector<std::uint32_t> flat_indices(const tissue::Skin& skin) {
 }
 
 OrganDrawing::OrganDrawing(const sim::SolidModel& solid, const Relief& relief, std::vector<Paint> paint,
-                           render::Backend& backend)
+                           render::Backend& backend, const Detail& detail)
     : m_solid(&solid), m_pose(tissue::make_pose(solid.fine)), m_indices(flat_indices(solid.fine)) {
   if (relief.any()) m_height = heights(relief, solid.fine, paint);
   m_pose.position = solid.fine.rest;
   m_normals = solid.fine.rest_normal;
   lift();
+  m_coarser = coarser_lists(m_pose.position, m_indices, paint, detail, kBends);
   m_mesh = OwnedMesh(backend, {.positions = m_pose.position,
                                .normals = m_normals,
                                .rest = m_pose.position,
                                .paint = paint,
-                               .indices = m_indices});
+                               .indices = m_indices,
+                               .coarser = m_coarser});
   m_paint = std::move(paint);
 }
 
@@ -145,7 +147,8 @@ void OrganDrawing::update(const tissue::NetworkState& state, std::span<const std
                       .normals = m_normals,
                       .rest = m_solid->fine.rest,
                       .paint = m_paint,
-                      .indices = m_indices});
+                      .indices = m_indices,
+                      .coarser = m_coarser});
     else if (burnt)
       m_mesh.repaint(m_pose.position, m_normals, m_paint);
     else

@@ -4,6 +4,7 @@
 
 #include <trocar/sim/state.hpp>
 #include <trocar/view/dent.hpp>
+#include <trocar/view/detail.hpp>
 #include <trocar/view/heat_marks.hpp>
 #include <trocar/view/mesh_buffer.hpp>
 #include <trocar/view/relief.hpp>
@@ -13,7 +14,8 @@ namespace trocar::view {
 class OrganDrawing {
  public:
   /// @param paint one per vertex of solid.fine (baked openness)
-  OrganDrawing(const sim::SolidModel& solid, const Relief& relief, std::vector<Paint> paint, render::Backend& backend);
+  OrganDrawing(const sim::SolidModel& solid, const Relief& relief, std::vector<Paint> paint, render::Backend& backend,
+               const Detail& detail = {});
 
   /// Moves the mesh; costs nothing where no node has moved since the last time and no instrument touches it.
   /// @param parted one byte a triangle of solid.fine, 1 = cut open (empty: none)
@@ -22,9 +24,11 @@ class OrganDrawing {
   void update(const tissue::NetworkState& state, std::span<const std::uint8_t> parted = {},
               std::span<const collision::Capsule> rods = {}, const HeatMarks* burnt = nullptr);
   render::MeshHandle mesh() const { return m_mesh.handle(); }
+  bool dented() const { return m_dented; }  ///< by an instrument
   /// As drawn now, per vertex of solid.fine.
   std::span<const Vec3f> positions() const { return m_pose.position; }
   std::span<const Vec3f> normals() const { return m_normals; }
+  std::span<const Paint> paint() const { return m_paint; }
 
  private:
   void lift();
@@ -35,6 +39,7 @@ class OrganDrawing {
   const sim::SolidModel* m_solid;
   tissue::SkinPose m_pose;
   std::vector<std::uint32_t> m_indices;
+  std::vector<std::vector<std::uint32_t>> m_coarser;  ///< of the uncut skin
   std::vector<Vec3f> m_normals;
   /// A vertex of a wound: a copy of a skin vertex, `depth` below it [m].
   struct WoundVertex {

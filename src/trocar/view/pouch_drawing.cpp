@@ -17,7 +17,7 @@ constexpr float kRounded = 0.75f;       // [Boubekeur & Alexa 2008]
 
 }  // namespace
 
-PouchDrawing::PouchDrawing(const sim::Model& model, int membrane, render::Backend& backend)
+PouchDrawing::PouchDrawing(const sim::Model& model, int membrane, render::Backend& backend, const Detail& detail)
     : m_membrane(&model.membranes[std::size_t(membrane)]),
       m_index(membrane),
       m_torn(m_membrane->sheet.triangles.size(), 0),
@@ -36,6 +36,7 @@ PouchDrawing::PouchDrawing(const sim::Model& model, int membrane, render::Backen
     for (std::size_t k = 0; k < 3; ++k)
       flat[i] += double(m_places[i].share[k]) * m_membrane->sheet.network.rest[m_places[i].node[k]];
   m_marks = HeatMarks(model, interactions::kMembraneBase + membrane, std::move(flat));
+  coarsen(m_buffer, detail, kBends);
   m_mesh = OwnedMesh(backend, m_buffer.data());
 }
 
@@ -134,6 +135,7 @@ void PouchDrawing::update(const sim::State& state) {
     return;
   }
   m_torn = torn;
+  m_buffer.coarser.clear();
   connect(torn);
   constexpr std::size_t each = 3 * kParts * kParts;
   for (Paint& p : m_buffer.paint) p.blood = 0;

@@ -3,17 +3,19 @@
 #pragma once
 
 #include <trocar/sim/state.hpp>
+#include <trocar/view/detail.hpp>
 #include <trocar/view/heat_marks.hpp>
 
 namespace trocar::view {
 
 class PouchDrawing {
  public:
-  PouchDrawing(const sim::Model& model, int membrane, render::Backend& backend);
+  PouchDrawing(const sim::Model& model, int membrane, render::Backend& backend, const Detail& detail = {});
 
   void update(const sim::State& state);
   render::MeshHandle mesh() const { return m_mesh.handle(); }
   const MeshBuffer& buffer() const { return m_buffer; }
+  bool burnt() const { return m_marks.any(); }
 
  private:
   /// Where a drawn vertex lies: between nodes, and how much of each.

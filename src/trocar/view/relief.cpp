@@ -45,6 +45,22 @@ void add_follicles(const Relief& relief, const tissue::Skin& skin, std::vector<f
   }
 }
 
+/// Scars of an ovary: short furrows, each in a direction of its own.
+void add_scars(const Relief& relief, const tissue::Skin& skin, std::vector<float>& height) {
+  const int seed = int(std::fabs(skin.rest.front().y) * 1e6f) % 9973 + (skin.rest.front().x < 0 ? 20011 : 0);
+  for (int k = 0; k < relief.scars; ++k) {
+    const std::size_t v = std::size_t(varied(seed + k, 75) * double(skin.rest.size() - 1));
+    const Vec3d n = vec_cast<double>(skin.rest_normal[v]), x = any_perpendicular(n), y = cross(n, x);
+    const double turn = kTwoPi * varied(seed + k, 76), half = 0.0022 * (0.4 + varied(seed + k, 77));
+    const Vec3d along = std::cos(turn) * x + std::sin(turn) * y;
+    for (std::size_t i = 0; i < skin.rest.size(); ++i) {
+      const Vec3d d = vec_cast<double>(skin.rest[i] - skin.rest[v]);
+      const double on = std::clamp(dot(d, along), -half, half), far = length(d - on * along);
+      height[i] -= float(0.00045 * smooth(0.0019, 0, far));
+    }
+  }
+}
+
 /// Large gut: three flat pale bands of muscle run along it; between them the wall bulges and is drawn in crosswise, in
 /// each third at places of its own.
 void add_haustra(const Relief& relief, const tissue::Skin& skin, std::vector<float>& height,
@@ -81,7 +97,7 @@ void add_haustra(const Relief& relief, const tissue::Skin& skin, std::vector<flo
     const double along =
         dot(p, axis) / relief.haustra_size + 0.37 * std::floor(third) + 0.3 * waves(p, 2.5 * relief.haustra_size);
     const double furrow = std::pow(0.5 + 0.5 * std::cos(kTwoPi * along), 5);
-    height[i] -= float(relief.haustra * (furrow * (1 - band) + 0.35 * band));
+    height[i] -= float(relief.haustra * (furrow * (1 - band) + 0.15 * band));
     paint[i].tint = std::max(paint[i].tint, to_byte(0.8 * band));
     paint[i].openness = std::uint8_t(paint[i].openness * (1 - 0.3 * furrow * (1 - band)));
   }
@@ -91,8 +107,8 @@ void add_haustra(const Relief& relief, const tissue::Skin& skin, std::vector<flo
 void add_roots(const Relief& relief, const tissue::Skin& skin, std::vector<float>& height) {
   for (const Relief::Root& root : relief.roots)
     for (std::size_t i = 0; i < skin.rest.size(); ++i) {
-      const double d = length(vec_cast<double>(skin.rest[i]) - root.at) / (3.2 * root.radius);
-      if (d < 1) height[i] += float(1.0 * root.radius * (1 - d) * (1 - d));
+      const double d = length(vec_cast<double>(skin.rest[i]) - root.at) / (4.5 * root.radius);
+      if (d < 1) height[i] += float(0.8 * root.radius * (1 - d) * (1 - d) * (1 + d));
     }
 }
 
@@ -114,6 +130,7 @@ std::vector<float> heights(const Relief& relief, const tissue::Skin& skin, std::
   }
   if (relief.haustra > 0) add_haustra(relief, skin, height, paint);
   if (relief.follicles > 0) add_follicles(relief, skin, height, paint);
+  if (relief.scars > 0) add_scars(relief, skin, height);
   add_roots(relief, skin, height);
   return height;
 }

@@ -14,6 +14,7 @@ struct Relief {
   double fine = 0, fine_size = 0.006;       ///< of the smaller ones
   int follicles = 0;                        ///< blisters at places that a fixed pattern chooses
   double follicle_radius = 0.003;           ///< the largest [m]
+  int scars = 0;                            ///< short pale furrows where follicles have burst
   double haustra = 0, haustra_size = 0.03;  ///< height and distance of a large gut's bulges along its length [m];
                                             ///< three bands run along between them
 

@@ -11,11 +11,13 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <trocar/render/backend.hpp>
 #include <trocar/sim/state.hpp>
+#include <trocar/view/analysis.hpp>
 
 namespace trocar::view {
 
@@ -28,6 +30,17 @@ struct ScenePart {
 };
 enum class PartStyle : std::uint8_t { shaded, transparent, wireframe, hidden };
 
+/// Another endoscope that only looks (second_scope.hpp).
+struct SecondScope {
+  Vec3d port;  ///< [m]
+  kinematics::FulcrumPose pose;
+
+  friend bool operator==(const SecondScope& a, const SecondScope& b) {
+    return length(a.port - b.port) == 0 && a.pose.yaw == b.pose.yaw && a.pose.pitch == b.pose.pitch &&
+           a.pose.roll == b.pose.roll && a.pose.depth == b.pose.depth;
+  }
+};
+
 struct ViewOptions {
   enum class Camera {
     scope,    ///< through the endoscope: circular mask, its light, auto exposure
@@ -39,10 +52,13 @@ struct ViewOptions {
   double outside_fov = 0.7;                                          ///< [rad] of the picture's height
   bool walls = true;  ///< outside: false leaves out what encloses the scene
   bool instruments = true;
-  bool metering = true;           ///< false: exposed as its memory says, which stays as it is
-  std::vector<PartStyle> styles;  ///< of SceneView::parts(); those beyond its end are shaded
+  bool metering = true;                     ///< false: exposed as its memory says, which stays as it is
+  std::vector<PartStyle> styles;            ///< of SceneView::parts(); those beyond its end are shaded
+  std::optional<SecondScope> second_scope;  ///< there is one: seen from outside; its own picture shows the first one
+  AnalysisOptions analysis;                 ///< anything on: figures in colour, in a plain camera's light
   render::Quality quality;
-  int eye_index = 0;  ///< 0..7: each picture has its own exposure memory
+  double picture_height = 600;  ///< [px] how finely things are drawn depends on it (detail.hpp)
+  int eye_index = 0;            ///< 0..7: each picture has its own exposure memory
 };
 
 class SceneView {

@@ -20,8 +20,17 @@ constexpr double kRipple = 0.0006;                        // [m]
 constexpr std::size_t kFaded = 6;                         // columns over which a free edge runs out
 constexpr int kMarginSteps = 4;                           // columns between an edge and what it runs out on
 constexpr double kMarginFar = 0.03, kMarginNear = 0.012;  // [m] reach to walls, to organs
-constexpr double kCrescent = 0.3;  // of the width: the margin's free border starts this far from the strand
+constexpr double kCrescent = 0.3;   // of the width: the margin's free border starts this far from the strand
+constexpr int kHemRows = 7;         // from a base in the air to the wall
+constexpr double kHemFar = 0.06;    // [m] at most
+constexpr double kHemSunk = 0.002;  // [m] below the wall
 constexpr double kTwoPi = 6.28318530717959;
+
+/// How much of the sheet there is beside a cut: it frays out into a ragged, soft edge and not along a line.
+double whole_beside_tear(double gap, double s, double v) {
+  const double ragged = 0.16 + 0.1 * std::sin(kTwoPi * v / 0.13 + 40 * s) + 0.06 * std::sin(kTwoPi * v / 0.051);
+  return 1 - smooth(ragged + 0.25, ragged, gap) * smooth(1.2 * kTear, 0.6 * kTear, v);
+}
 
 Vec3d rest_of(const sim::BasePoint& b, const sim::Model& model) {
   if (b.organ >= 0) return vec_cast<double>(model.skin(b.organ).rest[std::size_t(b.vertex)]);
@@ -36,7 +45,8 @@ Vec3d skin_now(const sim::Model& model, const sim::State& state, int organ, int 
 
 }  // namespace
 
-SheetDrawing::SheetDrawing(const sim::Model& model, int sheet, render::Backend& backend)
+SheetDrawing::SheetDrawing(const sim::Model& model, int sheet, render::Backend& backend, const Detail& detail,
+                           const WallSurface* walls)
     : m_model(&model),
       m_sheet(&model.sheets[std::size_t(sheet)]),
       m_body(&model.bodies[std::size_t(m_sheet->strand)]),
@@ -52,11 +62,16 @@ SheetDrawing::SheetDrawing(const sim::Model& model, int sheet, render::Backend& 
   lay_out(pieces_of(*m_body, tissue::rest_state(m_body->model).alive, {}, int(strand)));
   place(rest);
   find_margins();
+  if (walls)
+    find_hem(*walls);
+  else
+    find_hem(WallSurface(model));
   connect();
   m_rest_width.clear();
   place(rest);
   lay_pattern();
   render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);
+  coarsen(m_buffer, detail, kBends);
   m_mesh = OwnedMesh(backend, m_buffer.data());
 }
 
@@ -92,8 +107,11 @@ void SheetDrawing::connect() {
       const double near = std::min(v, 1 - v);
       const std::size_t left = m_columns.size() - 1 - c;  // a free edge is not seen as one
       const double end = m_margin[1].empty() && left < kFaded ? double(left) / kFaded : 1;
+      const double thin = m_hem.empty() ? near : v;  // goes on below its base
       const double torn = smooth(kTear, 0.6 * kTear, v) * smooth(kPaleEdge, 0, m_columns[c].gap);
-      m_buffer.add({}, {to_byte(end * (0.62 + 0.38 * smooth(0, 0.25, near))), 0, to_byte(0.17 * torn), 0});
+      m_buffer.add({}, {to_byte(end * whole_beside_tear(m_columns[c].gap, m_columns[c].s, v) *
+                                (0.62 + 0.38 * smooth(0, 0.25, thin))),
+                        0, to_byte(0.17 * torn), 0});
     }
   for (std::size_t c = 0; c + 1 < m_columns.size(); ++c) {
     if (m_columns[c].twin == int(c) + 1) continue;
@@ -107,6 +125,55 @@ void SheetDrawing::connect() {
       for (int r = 0; r < kRows; ++r) m_buffer.add({}, {to_byte(1 - double(k) / kMarginSteps), 0, 0, 0});
       join_rows(m_buffer, at_end ? before : row, at_end ? row : before, kRows, false);
       before = row;
+    }
+  }
+  m_hem_first = m_buffer.size();
+  if (m_hem.empty()) return;
+  for (std::size_t c = 0; c < m_columns.size(); ++c)
+    for (int r = 0; r < kHemRows; ++r)
+      m_buffer.add({}, {to_byte(1 - smooth(0.3, 1, double(r + 1) / kHemRows)), 0, 0, 0});
+  const auto at = [this](std::size_t c, int r) {
+    return std::uint32_t(r == 0 ? c * kRows + kRows - 1 : m_hem_first + c * kHemRows + std::size_t(r - 1));
+  };
+  for (std::size_t c = 0; c + 1 < m_columns.size(); ++c)
+    for (int r = 0; r < kHemRows && m_columns[c].twin != int(c) + 1; ++r)
+      m_buffer.quad(at(c, r), at(c, r + 1), at(c + 1, r + 1), at(c + 1, r));
+}
+
+/// A base that nothing carries hangs in the air: below it the sheet goes on to the wall and is lost there.
+void SheetDrawing::find_hem(const WallSurface& walls) {
+  m_hem.clear();
+  for (const sim::BasePoint& b : m_sheet->base)
+    if (b.organ >= 0 || b.strand >= 0) return;
+  for (std::size_t c = 0; c < m_columns.size(); ++c) {
+    const Vec3d top = vec_cast<double>(m_buffer.positions[c * kRows]),
+                base = vec_cast<double>(m_buffer.positions[c * kRows + kRows - 1]);
+    m_hem.push_back(base + 0.6 * (base - top));
+  }
+  for (int pass = 0; pass < 10; ++pass)
+    for (std::size_t c = 1; c + 1 < m_hem.size(); ++c) m_hem[c] = 0.5 * m_hem[c] + 0.25 * (m_hem[c - 1] + m_hem[c + 1]);
+  for (std::size_t c = 0; c < m_hem.size(); ++c) {
+    const WallSurface::Place wall = walls.nearest(m_hem[c]);
+    if (!wall.there || length(wall.point - m_hem[c]) > kHemFar) {
+      m_hem.clear();
+      return;
+    }
+    m_hem[c] = wall.point - kHemSunk * wall.normal;
+  }
+}
+
+void SheetDrawing::place_hem() {
+  for (std::size_t c = 0; c < m_columns.size(); ++c) {
+    const Vec3d before = vec_cast<double>(m_buffer.positions[c * kRows + kRows - 2]),
+                base = vec_cast<double>(m_buffer.positions[c * kRows + kRows - 1]);
+    // The hem belongs to a place on the strand, not to a column: a cut may have added some.
+    const double share = m_columns.size() > 1 ? double(c) / double(m_columns.size() - 1) : 0;
+    const Vec3d to = m_hem[std::min(m_hem.size() - 1, std::size_t(share * double(m_hem.size() - 1) + 0.5))];
+    const Vec3d leaves = (0.5 * length(to - base)) * normalised(base - before);
+    for (int r = 0; r < kHemRows; ++r) {
+      const double t = double(r + 1) / kHemRows, u = 1 - t;
+      m_buffer.positions[m_hem_first + c * kHemRows + std::size_t(r)] =
+          vec_cast<float>((u * u * (1 + 2 * t)) * base + (t * t * (3 - 2 * t)) * to + (u * u * t) * leaves);
     }
   }
 }
@@ -164,7 +231,7 @@ Vec3d SheetDrawing::base_point(std::size_t i, const sim::State& state) const {
 void SheetDrawing::lay_pattern() {
   m_buffer.rest = m_buffer.positions;
   if (!look(m_sheet->look).material.arcade) return;
-  for (std::size_t i = 0; i < m_buffer.positions.size(); ++i) {
+  for (std::size_t i = 0; i < m_hem_first; ++i) {
     const std::size_t c = i / kRows;
     const double v = double(i % kRows) / (kRows - 1);
     const bool first = c >= m_columns.size() && c < m_columns.size() + kMarginSteps && !m_margin[0].empty();
@@ -214,6 +281,7 @@ void SheetDrawing::place(const sim::State& state) {
     if (m_columns[c].twin == int(c) + 1) close_tear(c);
   for (const bool at_end : {false, true})
     if (!m_margin[at_end].empty()) place_margin(state, at_end);
+  if (!m_hem.empty()) place_hem();
 }
 
 /// At a cut the two sides part near the strand and are one below: rows go over from their own shape to the mean, and
@@ -258,6 +326,7 @@ void SheetDrawing::update(const sim::State& state) {
       pieces_of(*m_body, state.strands[strand].alive, {state.cuts.data(), std::size_t(state.cut_count)}, int(strand));
   const bool changed = pieces != m_pieces;
   if (changed) {
+    m_buffer.coarser.clear();
     lay_out(std::move(pieces));
     place(sim::initial_state(*m_model));
     lay_pattern();

@@ -3,14 +3,17 @@
 #pragma once
 
 #include <trocar/sim/state.hpp>
-#include <trocar/view/mesh_buffer.hpp>
+#include <trocar/view/detail.hpp>
 #include <trocar/view/strand_curve.hpp>
+#include <trocar/view/wall_surface.hpp>
 
 namespace trocar::view {
 
 class SheetDrawing {
  public:
-  SheetDrawing(const sim::Model& model, int sheet, render::Backend& backend);
+  /// @param walls  what a base that nothing carries runs out on; null: found out
+  SheetDrawing(const sim::Model& model, int sheet, render::Backend& backend, const Detail& detail = {},
+               const WallSurface* walls = nullptr);
 
   void update(const sim::State& state);
   render::MeshHandle mesh() const { return m_mesh.handle(); }
@@ -30,6 +33,8 @@ class SheetDrawing {
     Vec3d rest;
   };
   void find_margins();
+  void find_hem(const WallSurface& walls);
+  void place_hem();
   void place_margin(const sim::State& state, bool at_end);
   void lay_out(std::vector<StrandPiece> pieces);
   void connect();
@@ -49,6 +54,8 @@ class SheetDrawing {
   std::vector<Vec3d> m_base;         ///< now
   std::vector<double> m_rest_width;  ///< (columns) drawn
   std::vector<Margin> m_margin[2];   ///< (rows) at the first and last column; empty: a free edge
+  std::vector<Vec3d> m_hem;          ///< (columns) where the sheet ends below its base; empty: at its base
+  std::uint32_t m_hem_first = 0;     ///< vertex
   MeshBuffer m_buffer;
   OwnedMesh m_mesh;
 };

@@ -15,18 +15,33 @@ using interactions::Cut;
 namespace {
 
 constexpr double kPi = 3.14159265358979;
-constexpr double kStep = 0.0012;      // [m] between rings
-constexpr double kFineStep = 0.0004;  // [m] near a clip
-constexpr double kNearClip = 0.004;   // [m]
-constexpr double kBlanched = 0.0045;  // [m] beside a clip's legs
-constexpr double kRootFlare = 0.4;    // how much wider a strand is where it grows out of an organ
-constexpr double kSink = 0.9;         // radii that a strand has sunk into its organ at its end
-constexpr double kRootReach = 0.03;   // [m] a wall farther from a fixed end is not its root
-constexpr double kBloodied = 0.0016;  // [m] beside a cut
+constexpr double kStep = 0.0012;        // [m] between rings
+constexpr double kFineStep = 0.0004;    // [m] near a clip
+constexpr double kNearClip = 0.004;     // [m]
+constexpr double kBlanched = 0.0045;    // [m] beside a clip's legs
+constexpr double kRootFlare = 0.12;     // how much wider a strand is where it grows out of an organ
+constexpr double kRootDepth = 1.6;      // radii below the organ's surface where it ends
+constexpr double kRootSlide = 0.022;    // [m] a ligament goes on along a wall ...
+constexpr double kRootBelow = 0.003;    // [m] ... to below its surface
+constexpr double kHeadOn = 0.5;         // sine of the angle to a wall above which a strand has a collar there ...
+constexpr double kHeadOnDepth = 0.012;  // [m] ... behind which it ends
+constexpr double kWallNeck = 0.008;     // [m] ... from so far above it on
+constexpr double kNeckFar = 0.011;      // [m] from its end a strand's collar begins at most
+constexpr double kSink = 0.9;           // radii that a strand has sunk into its organ at its end
+constexpr double kRootReach = 0.03;     // [m] a wall farther from a fixed end is not its root
+constexpr double kBloodied = 0.0016;    // [m] beside a cut
+constexpr double kBend = 0.01;          // [m] radius with which tubes curve, for rings that are left out
 
 template <class T>
 bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+TubeRow row_at(int piece, double s) {
+  TubeRow row;
+  row.piece = piece;
+  row.s = s;
+  return row;
 }
 
 }  // namespace
@@ -35,7 +50,7 @@ bool TubeDrawing::Layout::same(const Layout& other) const {
   return pieces == other.pieces && same_bytes(clips, other.clips) && same_bytes(nicks, other.nicks);
 }
 
-TubeDrawing::TubeDrawing(const sim::Model& model, int strand)
+TubeDrawing::TubeDrawing(const sim::Model& model, int strand, const Detail& detail, const WallSurface* walls)
     : m_model(&model),
       m_strand(&model.strands[std::size_t(strand)]),
       m_body(&model.bodies[std::size_t(strand)]),
@@ -43,16 +58,23 @@ TubeDrawing::TubeDrawing(const sim::Model& model, int strand)
       m_marks(model, strand) {
   const double thickest = *std::max_element(m_strand->outer.begin(), m_strand->outer.end());
   m_sides = thickest > 0.0022 ? 16 : 12;
+  for (const sim::DetailLevel& level : detail.levels()) m_errors.push_back(level.error);
   if (m_strand->fimbriated) m_fimbriae = fimbriae(kBellFlare * m_strand->outer.back(), strand + 1);
+  coarsen(m_fimbriae, detail, kBends);
   const tissue::StrandState rest = tissue::rest_state(m_body->model);
   const StrandPiece all{0, m_body->nodes() - 1, 0, m_body->length(), false, false};
   const StrandCurve drawn(*m_body, rest, {&all, 1});
-  m_start_root = root_at(drawn, true);
-  m_end_root = root_at(drawn, false);
+  m_start_root = root_at(drawn, true, walls);
+  m_end_root = root_at(drawn, false, walls);
   Layout whole;
   whole.pieces = pieces_of(*m_body, rest.alive, {}, m_index);
   lay_out(whole);
-  place(StrandCurve(*m_body, rest, m_layout.pieces), m_buffer.positions);
+  const StrandCurve curve(*m_body, rest, m_layout.pieces);
+  place(curve, m_buffer.positions);
+  m_neck[0].far = neck_of(curve, true);
+  m_neck[1].far = neck_of(curve, false);
+  if (walls && m_strand->end.kind == sim::StrandEndModel::fixed) m_neck[1].far = neck_at_wall(curve, false, *walls);
+  place_necks(curve);
   m_buffer.rest = m_buffer.positions;
   render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);
 }
@@ -84,7 +106,9 @@ void TubeDrawing::update(const sim::State& state) {
     const tissue::StrandState rest = tissue::rest_state(m_body->model);
     place(StrandCurve(*m_body, rest, m_layout.pieces), m_buffer.rest);
   }
-  place(StrandCurve(*m_body, state.strands[std::size_t(m_index)], m_layout.pieces), m_buffer.positions);
+  const StrandCurve curve(*m_body, state.strands[std::size_t(m_index)], m_layout.pieces);
+  place(curve, m_buffer.positions);
+  place_necks(curve);
   press(state);
   render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);
   const bool burnt = m_marks.stirred(state) || (changed && m_marks.any());
@@ -144,61 +168,123 @@ bool TubeDrawing::hosted(int node) const {
   return end.kind == sim::StrandEndModel::hosted;
 }
 
-TubeRoot TubeDrawing::root_at(const StrandCurve& rest, bool at_start) const {
+TubeRoot TubeDrawing::root_at(const StrandCurve& rest, bool at_start, const WallSurface* walls) const {
   const sim::StrandEndModel& end = at_start ? m_strand->start : m_strand->end;
   if (end.kind == sim::StrandEndModel::free) return {};
   const CurveFrame f = rest.at(0, at_start ? 0 : m_body->length());
   const double radius = at_start ? m_strand->outer.front() : m_strand->outer.back();
-  double nearest = end.kind == sim::StrandEndModel::hosted ? 1 : kRootReach;
+  if (end.kind == sim::StrandEndModel::fixed) {
+    const Vec3d onward = at_start ? -f.tangent : f.tangent;
+    return walls ? root_in_wall(f, onward, radius, *walls) : root_in_wall(f, onward, radius, WallSurface(*m_model));
+  }
+  double nearest = 1;
   Vec3d at{}, normal{};
-  const Vec3d onward = at_start ? -f.tangent : f.tangent;
-  const auto search = [&](const tissue::Skin& skin) {
-    for (std::size_t i = 0; i < skin.rest.size(); ++i) {
-      if (!skin.at_surface(int(i))) continue;
-      const Vec3d way = vec_cast<double>(skin.rest[i]) - f.point;
-      const double d = length(way);
-      if (d >= nearest || (end.kind == sim::StrandEndModel::fixed && dot(way, onward) < 0.3 * d)) continue;
-      nearest = d;
-      at = vec_cast<double>(skin.rest[i]);
-      normal = vec_cast<double>(skin.rest_normal[i]);
-    }
-  };
+  const std::size_t organ = std::size_t(end.organ);
+  const tissue::Skin& skin = organ < m_model->solids.size() ? m_model->solids[organ].fine : m_model->skin(end.organ);
+  for (std::size_t i = 0; i < skin.rest.size(); ++i) {
+    if (!skin.at_surface(int(i))) continue;
+    const double d = length(vec_cast<double>(skin.rest[i]) - f.point);
+    if (d >= nearest) continue;
+    nearest = d;
+    at = vec_cast<double>(skin.rest[i]);
+    normal = vec_cast<double>(skin.rest_normal[i]);
+  }
   TubeRoot root;
-  if (end.kind == sim::StrandEndModel::hosted) {
-    const std::size_t organ = std::size_t(end.organ);
-    search(organ < m_model->solids.size() ? m_model->solids[organ].fine : m_model->skin(end.organ));
-    const double above = dot(f.point - at, normal);
-    root.sink = std::max(0.0, kSink * radius + above);
-    at = f.point - above * normal;
-  } else {
-    root.in_space = true;
-    for (const sim::WallModel& wall : m_model->walls) search(wall.skin);
-  }
-  if (dot(normal, normal) < 0.5) {  // no wall ahead: on into the dark
-    at = f.point + kRootReach * onward;
-    normal = -onward;
-  }
+  const double above = dot(f.point - at, normal);
+  root.sink = std::max(0.0, kSink * radius + above);
+  at = f.point - above * normal;
   root.there = true;
-  root.target = at - (1.5 * radius) * normal;
-  root.direction = -normal;
-  root.length = length(root.target - f.point);
-  if (root.in_space) return root;
+  const Vec3d target = at - (kRootDepth * radius) * normal;
+  root.length = length(target - f.point);
   const auto local = [&f](Vec3d v) { return Vec3d{dot(v, f.tangent), dot(v, f.normal), dot(v, f.binormal)}; };
-  root.target = local(root.target - f.point);
-  root.direction = local(root.direction);
+  root.target = local(target - f.point);
+  root.direction = local(-normal);
   return root;
+}
+
+/// A ligament does not end where it meets a wall, but runs on below the peritoneum and is lost there.
+TubeRoot TubeDrawing::root_in_wall(const CurveFrame& end, Vec3d onward, double radius, const WallSurface& walls) const {
+  TubeRoot root;
+  root.there = root.in_space = true;
+  const WallSurface::Place wall = walls.nearest(end.point);
+  const bool near = wall.there && length(wall.point - end.point) <= kRootReach;
+  if (!near || dot(onward, wall.normal) < -kHeadOn) {  // on into the dark
+    root.direction = onward;
+    root.target = end.point + (near ? kHeadOnDepth : kRootReach) * onward;
+  } else {
+    const Vec3d level = normalised(onward - dot(onward, wall.normal) * wall.normal, any_perpendicular(wall.normal));
+    root.target = wall.point + kRootSlide * level - (radius + kRootBelow) * wall.normal;
+    root.direction = normalised(level - 0.3 * wall.normal);
+  }
+  root.length = length(root.target - end.point);
+  return root;
+}
+
+/// How far from its end the whole ring lies outside the organ, with room for a collar [m].
+double TubeDrawing::neck_of(const StrandCurve& rest, bool at_start) const {
+  const int node = at_start ? 0 : m_body->nodes() - 1;
+  const sim::StrandEndModel& end = at_start ? m_strand->start : m_strand->end;
+  if (!hosted(node) || std::size_t(end.organ) >= m_model->solids.size()) return 0;
+  const tissue::Skin& skin = m_model->solids[std::size_t(end.organ)].fine;
+  const double radius = m_strand->outer[std::size_t(node)];
+  for (double far = 1.2 * radius; far < std::min(kNeckFar, 0.3 * m_body->length()); far += 0.0005) {
+    const CurveFrame f = frame_of(row_at(0, at_start ? far : m_body->length() - far), rest);
+    double nearest = 1, above = 0;
+    for (std::size_t i = 0; i < skin.rest.size(); ++i) {
+      const Vec3d way = f.point - vec_cast<double>(skin.rest[i]);
+      if (const double d = length(way); d < nearest) {
+        nearest = d;
+        above = dot(way, vec_cast<double>(skin.rest_normal[i]));
+      }
+    }
+    if (above > 1.5 * radius) return far + 0.6 * radius;
+  }
+  return std::min(kNeckFar, 0.3 * m_body->length());
+}
+
+/// One that meets a wall head-on needs a collar there, too.
+double TubeDrawing::neck_at_wall(const StrandCurve& rest, bool at_start, const WallSurface& walls) const {
+  const double end = at_start ? 0 : m_body->length();
+  const CurveFrame f = rest.at(0, end);
+  const WallSurface::Place wall = walls.nearest(f.point);
+  const double steep = dot(at_start ? f.tangent : -f.tangent, wall.normal);
+  if (!wall.there || length(wall.point - f.point) > kRootReach || steep < kHeadOn) return 0;
+  const double above = dot(f.point - wall.point, wall.normal), far = (kWallNeck - above) / steep;
+  return std::clamp(far, 0.002, 0.3 * m_body->length());
+}
+
+void TubeDrawing::place_necks(const StrandCurve& curve) {
+  for (const bool at_start : {true, false}) {
+    TubeNeck& neck = m_neck[at_start ? 0 : 1];
+    if (neck.far <= 0) continue;
+    const int index = at_start ? 0 : int(m_layout.pieces.size()) - 1;
+    const StrandPiece& piece = m_layout.pieces[std::size_t(index)];
+    const double s = at_start ? neck.far : m_body->length() - neck.far;
+    neck.there = at_start ? piece.to > s && piece.from <= 0 : piece.from < s && piece.to >= m_body->length();
+    const CurveFrame f = frame_of(row_at(index, s), curve);
+    neck.centre = f.point;
+    neck.along = at_start ? -f.tangent : f.tangent;
+    neck.end = curve.at(index, at_start ? 0 : m_body->length()).point;
+    neck.radius = radius_at(s);
+    neck.ring.clear();
+    for (int k = 0; k < m_sides; ++k) {
+      const double a = 2 * kPi * k / m_sides;
+      neck.ring.push_back(vec_cast<float>(f.point + (neck.radius * outline(s, a)) *
+                                                        (std::cos(a) * f.normal + std::sin(a) * f.binormal)));
+    }
+  }
 }
 
 /// From the end inwards; for a start in reversed order, so that rows always follow the strand.
 void TubeDrawing::add_root(int piece, bool at_start) {
   const StrandPiece& p = m_layout.pieces[std::size_t(piece)];
   const TubeRoot& root = at_start ? m_start_root : m_end_root;
-  const double s = at_start ? p.from : p.to, r = radius_at(s), flare = root.in_space ? 1.1 : 0.3;
+  const double s = at_start ? p.from : p.to, r = radius_at(s), narrows = root.in_space ? 0.3 : 0.7;
   const int steps = std::max(3, int(root.length / 0.0015));
   std::vector<TubeRow> rows;
   for (int i = 1; i <= steps; ++i) {
     const double t = double(i) / steps;
-    rows.push_back({piece, s, 0, r * (1 + flare * t * t), 0, t, false, {to_byte(1 - 0.35 * t), 0, 0, 0}});
+    rows.push_back({piece, s, 0, r * (1 - narrows * t * t), 0, t, false, {to_byte(1 - 0.35 * t), 0, 0, 0}});
   }
   rows.push_back({piece, s, 0, 0, 0, 1, false, {120, 0, 0, 0}});
   if (at_start) std::reverse(rows.begin(), rows.end());
@@ -360,24 +446,65 @@ void TubeDrawing::lay_out(const Layout& layout) {
 
 void TubeDrawing::connect() {
   m_buffer = {};
-  std::uint32_t before = 0;
+  m_first.clear();
+  std::vector<std::size_t> all;
+  for (const TubeRow& row : m_rows) {
+    all.push_back(all.size());
+    m_first.push_back(m_buffer.size());
+    for (int k = 0; k < (row.radius == 0 ? 1 : m_sides); ++k) m_buffer.add({});
+  }
+  join(all, 1, m_buffer);
+  const std::uint32_t fingers = m_buffer.size();
+  if (m_strand->fimbriated) append(m_buffer, m_fimbriae, Mat3f::identity(), {});
+  connect_coarsely();
+  for (std::size_t k = 0; k < m_fimbriae.coarser.size(); ++k)
+    for (const std::uint32_t v : m_fimbriae.coarser[k]) m_buffer.coarser[k].push_back(fingers + v);
+}
+
+/// Triangles between these rows, of every `stride`-th side.
+void TubeDrawing::join(const std::vector<std::size_t>& rows, std::uint32_t stride, MeshBuffer& into) const {
   const auto sides = std::uint32_t(m_sides);
+  for (std::size_t n = 1; n < rows.size(); ++n) {
+    const TubeRow &low = m_rows[rows[n - 1]], &high = m_rows[rows[n]];
+    if (high.piece != low.piece || high.crease) continue;
+    const std::uint32_t a = m_first[rows[n - 1]], b = m_first[rows[n]];
+    for (std::uint32_t i = 0; i < sides; i += stride) {
+      const std::uint32_t j = (i + stride) % sides;
+      if (high.radius == 0)
+        into.triangle(a + i, a + j, b);
+      else if (low.radius == 0)
+        into.triangle(b + j, b + i, a);
+      else
+        into.quad(a + i, a + j, b + j, b + i);
+    }
+  }
+}
+
+/// Plain rows at least so far apart [m], and all that are not plain.
+std::vector<std::size_t> TubeDrawing::rows_apart(double distance) const {
+  const auto plain = [](const TubeRow& r) { return r.radius > 0 && r.along == 0 && r.out == 0 && !r.crease; };
+  const auto clipped = [this](double s) {
+    return std::any_of(m_layout.clips.begin(), m_layout.clips.end(),
+                       [s](const Clip& clip) { return std::fabs(clip.s - s) < kNearClip; });
+  };
+  std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < m_rows.size(); ++i) {
     const TubeRow& row = m_rows[i];
-    const bool pole = row.radius == 0, opens = i == 0 || m_rows[i - 1].piece != row.piece;
-    const std::uint32_t first = m_buffer.size();
-    for (std::uint32_t k = 0; k < (pole ? 1 : sides); ++k) m_buffer.add({});
-    if (!opens && !row.crease) {
-      if (pole)
-        join_pole(m_buffer, before, sides, first, true);
-      else if (m_rows[i - 1].radius == 0)
-        join_pole(m_buffer, first, sides, before, false);
-      else
-        join_rows(m_buffer, before, first, sides, true);
-    }
-    before = first;
+    const bool inside = i > 0 && i + 1 < m_rows.size() && plain(row) && plain(m_rows[i - 1]) && plain(m_rows[i + 1]) &&
+                        m_rows[i - 1].piece == row.piece && m_rows[i + 1].piece == row.piece;
+    const double least = clipped(row.s) ? 0.3 * distance : distance;
+    if (!inside || row.s - m_rows[kept.back()].s > least - 0.5 * kFineStep) kept.push_back(i);
   }
-  if (m_strand->fimbriated) append(m_buffer, m_fimbriae, Mat3f::identity(), {});
+  return kept;
+}
+
+void TubeDrawing::connect_coarsely() {
+  const double thickest = *std::max_element(m_strand->outer.begin(), m_strand->outer.end());
+  for (const double error : m_errors) {
+    MeshBuffer part;
+    join(rows_apart(ring_distance(error, kBend)), side_stride(error, thickest, std::uint32_t(m_sides)), part);
+    m_buffer.coarser.push_back(std::move(part.indices));
+  }
 }
 
 void TubeDrawing::paint() {

@@ -6,9 +6,11 @@
 #pragma once
 
 #include <trocar/render/openness.hpp>
+#include <trocar/view/detail.hpp>
 #include <trocar/view/heat_marks.hpp>
 #include <trocar/view/pinch.hpp>
 #include <trocar/view/strand_curve.hpp>
+#include <trocar/view/wall_surface.hpp>
 
 namespace trocar::view {
 
@@ -33,9 +35,20 @@ struct TubeRoot {
   double sink = 0;          ///< how deep in the organ's surface the end already lies [m]
 };
 
+/// Where the collar of an end begins (joint.hpp): a ring around the strand just outside the organ or wall it goes into.
+struct TubeNeck {
+  double far = 0;           ///< from the end [m]; 0: this end has no collar
+  bool there = false;       ///< false: cut off nearer to the organ
+  Vec3d centre, along;      ///< unit: towards the organ
+  Vec3d end;                ///< of the strand
+  double radius = 0;        ///< [m]
+  std::vector<Vec3f> ring;  ///< (sides)
+};
+
 class TubeDrawing {
  public:
-  TubeDrawing(const sim::Model& model, int strand);
+  /// @param walls  of the model; null: found out
+  TubeDrawing(const sim::Model& model, int strand, const Detail& detail = {}, const WallSurface* walls = nullptr);
 
   /// The undeformed, uncut tube, for baking openness; then its mesh is made.
   const MeshBuffer& drawn() const { return m_buffer; }
@@ -46,6 +59,9 @@ class TubeDrawing {
   /// As it was last made: for the folds that hang on it, and for tests.
   const MeshBuffer& buffer() const { return m_buffer; }
   int sides() const { return m_sides; }
+  bool burnt() const { return m_marks.any(); }
+  const TubeRoot& end_root() const { return m_end_root; }
+  const TubeNeck& neck(bool at_start) const { return m_neck[at_start ? 0 : 1]; }
 
  private:
   /// What the list of rows depends on.
@@ -62,6 +78,9 @@ class TubeDrawing {
   void add_end(int piece);
   void add_raw_face(int piece, bool at_start);
   void connect();  ///< vertices and triangles of the rows
+  void join(const std::vector<std::size_t>& rows, std::uint32_t stride, MeshBuffer& into) const;
+  std::vector<std::size_t> rows_apart(double distance) const;
+  void connect_coarsely();
   void paint();
   void burn(const sim::State& state);         ///< what heat has left, over the paint
   std::size_t nearest_first(double s) const;  ///< first vertex of the baked row nearest to s
@@ -71,7 +90,11 @@ class TubeDrawing {
   double radius_at(double s) const;
   double outline(double s, double angle) const;
   bool hosted(int node) const;
-  TubeRoot root_at(const StrandCurve& rest, bool at_start) const;
+  TubeRoot root_at(const StrandCurve& rest, bool at_start, const WallSurface* walls) const;
+  TubeRoot root_in_wall(const CurveFrame& end, Vec3d onward, double radius, const WallSurface& walls) const;
+  double neck_of(const StrandCurve& rest, bool at_start) const;
+  double neck_at_wall(const StrandCurve& rest, bool at_start, const WallSurface& walls) const;
+  void place_necks(const StrandCurve& curve);
   void add_root(int piece, bool at_start);
   CurveFrame sunk(const TubeRow& row, CurveFrame f, const StrandCurve& curve) const;
   CurveFrame frame_of(const TubeRow& row, const StrandCurve& curve) const;
@@ -82,8 +105,11 @@ class TubeDrawing {
   const interactions::StrandBody* m_body;
   int m_index, m_sides;
   TubeRoot m_start_root, m_end_root;
+  TubeNeck m_neck[2];  ///< at the start, at the end
   Layout m_layout;
   std::vector<TubeRow> m_rows;
+  std::vector<std::uint32_t> m_first;  ///< (rows) vertex
+  std::vector<double> m_errors;        ///< (levels) [m]
   HeatMarks m_marks;
   MeshBuffer m_fimbriae;  ///< in the end's frame
   MeshBuffer m_buffer;

@@ -9,9 +9,18 @@ namespace {
 constexpr std::uint32_t kAround = 8;
 constexpr double kRing = 0.00125;     // [m] from ring to ring
 constexpr double kClipWide = 0.0014;  // [m] a clip narrows the vessel so far to either side
+constexpr double kBend = 0.005;       // [m] radius with which vessels curve, for rings that are left out
 constexpr double kBloody = 0.004;     // [m] of a stump
 constexpr double kMostShift = 0.35;   // of the radius, however large the gain
 constexpr double kNarrowed = 0.7;     // share of the radius that a clip takes
+constexpr double kTaper = 0.008;      // [m] over which a vessel that ends thins out
+constexpr double kThinnest = 0.2;     // share of the radius at such an end
+constexpr double kInFold = 0.8;       // share of the radius: half of it is in the fold
+constexpr double kSameNode = 0.0012;  // [m] ends that meet
+constexpr int kSofter = 8;            // passes that round the line's corners
+constexpr double kDives = 0.003;      // [m] seen of a vessel that leaves its fold
+constexpr double kNestled = 0.6;      // radii below an organ's surface
+constexpr double kWinding = 0.0006;   // [m] to either side, in a fold
 
 /// A line through places at s, cubic between them.
 struct Curve {
@@ -32,15 +41,64 @@ struct Curve {
   }
 };
 
+/// Places of the run's rings: vessels run in soft bends, and wind where a fold lets them.
+template <class Run>
+std::vector<Vec3d> drawn_line(const Run& run, const Curve& curve, const interactions::VesselPath& path) {
+  std::vector<Vec3d> line, old;
+  for (const double s : run.s) line.push_back(curve.at(s));
+  for (int pass = 0; pass < kSofter; ++pass) {
+    old = line;
+    for (std::size_t i = 1; i + 1 < line.size(); ++i) line[i] = 0.5 * old[i] + 0.25 * (old[i - 1] + old[i + 1]);
+  }
+  if (!in_a_fold(path)) return line;
+  old = line;
+  Vec3d beside = any_perpendicular(normalised(line.back() - line.front()));
+  for (std::size_t i = 1; i + 1 < line.size(); ++i) {
+    const Vec3d along = normalised(old[i + 1] - old[i - 1]);
+    beside = normalised(beside - dot(beside, along) * along, any_perpendicular(along));
+    const double way = run.s[i] * path.length, ends = std::min(run.s[i] - run.from, run.to - run.s[i]) * path.length;
+    const double far = kWinding * smooth(0, 0.006, ends);
+    line[i] += far * (std::sin(520 * way + 1.5 * std::sin(230 * way)) * beside +
+                      std::sin(430 * way + 1.3) * cross(along, beside));
+  }
+  return line;
+}
+
+/// A vessel that rides on an organ lies in its surface, one that a fold carries in the fold: lines are drawn by hand
+/// and run up to some millimetres beside.
+interactions::VesselPath nestled(interactions::VesselPath path) {
+  for (interactions::VesselPoint& p : path.points) {
+    if (p.hold.kind == interactions::VesselHold::organ)
+      p.hold.offset.z = std::min(p.hold.offset.z, -kNestled * p.radius);
+    if (p.hold.kind == interactions::VesselHold::membrane) p.hold.offset.z = 0;
+  }
+  return path;
+}
+
+/// Share of the radius, less towards an end that leads nowhere.
+template <class Run>
+double thinned(const Run& run, double s, double length) {
+  double share = 1;
+  if (run.fades_from) share = std::min(share, smooth(0, kTaper, (s - run.from) * length));
+  if (run.fades_to) share = std::min(share, smooth(0, kTaper, (run.to - s) * length));
+  return kThinnest + (1 - kThinnest) * share;
+}
+
 /// From where to where on the line it does not run below the peritoneum.
+/// Of one that a fold carries: only in it and along the strand on its border; to either side it goes into the depth.
 std::pair<double, double> in_sight(const interactions::VesselPath& path) {
+  const bool fold = in_a_fold(path);
   double from = 1, to = 0;
   for (const interactions::VesselPoint& p : path.points) {
+    const auto kind = p.hold.kind;
     if (p.covered()) continue;
+    if (fold && kind != interactions::VesselHold::membrane && kind != interactions::VesselHold::strand) continue;
     from = std::min(from, p.s);
     to = std::max(to, p.s);
   }
-  return {from, to};
+  if (!fold) return {from, to};
+  const double beyond = kDives / path.length;
+  return {std::max(0.0, from - beyond), std::min(1.0, to + beyond)};
 }
 
 std::vector<double> sorted_cuts(const sim::State& state, int vessel) {
@@ -53,8 +111,17 @@ std::vector<double> sorted_cuts(const sim::State& state, int vessel) {
 
 }  // namespace
 
-VesselDrawing::VesselDrawing(const sim::Model& model, bool veins, render::Backend& backend)
-    : m_model(&model), m_veins(veins), m_hosts(sim::make_host_views(model)) {
+bool in_a_fold(const interactions::VesselPath& path) {
+  return std::any_of(path.points.begin(), path.points.end(), [](const interactions::VesselPoint& p) {
+    return p.hold.kind == interactions::VesselHold::membrane;
+  });
+}
+
+VesselDrawing::VesselDrawing(const sim::Model& model, bool veins, render::Backend& backend, const Detail& detail,
+                             Lie lie)
+    : m_model(&model), m_veins(veins), m_lie(lie), m_hosts(sim::make_host_views(model)) {
+  for (const sim::Vessel& vessel : model.vessels.list) m_paths.push_back(nestled(vessel.path));
+  for (const sim::DetailLevel& level : detail.levels()) m_errors.push_back(level.error);
   const sim::State state = sim::initial_state(model);
   lay_out(state);
   place(state);
@@ -76,6 +143,20 @@ void VesselDrawing::update(const sim::State& state) {
   m_mesh.replace(m_buffer.data());
 }
 
+/// Does another vessel go on from this end?
+bool VesselDrawing::leads_on(int vessel, int end) const {
+  const auto end_of = [this](std::size_t v, int which) {
+    const auto& points = m_model->vessels.list[v].path.points;
+    return which == 0 ? points.front().drawn : points.back().drawn;
+  };
+  const Vec3d here = end_of(std::size_t(vessel), end);
+  for (std::size_t v = 0; v < m_model->vessels.list.size(); ++v)
+    for (const int other : {0, 1})
+      if (int(v) != vessel && m_model->vessels.list[v].vein == m_veins && length(end_of(v, other) - here) < kSameNode)
+        return true;
+  return false;
+}
+
 void VesselDrawing::lay_out(const sim::State& state) {
   m_laid_out_for = state.opening_count;
   m_runs.clear();
@@ -83,27 +164,60 @@ void VesselDrawing::lay_out(const sim::State& state) {
   for (std::size_t v = 0; v < m_model->vessels.list.size(); ++v) {
     const sim::Vessel& vessel = m_model->vessels.list[v];
     if (vessel.vein != m_veins) continue;
-    const auto [begin, end] = in_sight(vessel.path);
+    const bool some = m_lie == Lie::in_a_fold || m_lie == Lie::elsewhere;
+    if (some && in_a_fold(vessel.path) != (m_lie == Lie::in_a_fold)) continue;
+    const auto [begin, end] = m_lie == Lie::below_too ? std::pair(0.0, 1.0) : in_sight(vessel.path);
     std::vector<double> ends = sorted_cuts(state, int(v));
     ends.push_back(end);
     double from = begin;
     for (std::size_t k = 0; k < ends.size() && from < end; ++k) {
-      Run run{int(v), from, std::min(ends[k], end), k > 0, k + 1 < ends.size(), m_buffer.size(), {}};
+      Run run;
+      run.vessel = int(v);
+      run.from = from;
+      run.to = std::min(ends[k], end);
+      run.cut_from = k > 0;
+      run.cut_to = k + 1 < ends.size();
+      run.first = m_buffer.size();
+      run.fades_from = !run.cut_from && (begin > 0 || !leads_on(int(v), 0));
+      run.fades_to = !run.cut_to && (end < 1 || !leads_on(int(v), 1));
       from = std::max(from, ends[k]);
       const double way = (run.to - run.from) * vessel.path.length;
       if (way < 1e-4) continue;
       const int steps = std::max(2, int(way / kRing + 0.5));
       for (int i = 0; i <= steps; ++i) run.s.push_back(run.from + (run.to - run.from) * i / steps);
       for (std::size_t i = 0; i < run.s.size() * kAround + 2; ++i) m_buffer.add({});
-      const std::uint32_t rings = std::uint32_t(run.s.size()), poles = run.first + rings * kAround;
-      for (std::uint32_t i = 0; i + 1 < rings; ++i)
-        join_rows(m_buffer, run.first + i * kAround, run.first + (i + 1) * kAround, kAround, true);
-      join_pole(m_buffer, run.first, kAround, poles, false);
-      join_pole(m_buffer, run.first + (rings - 1) * kAround, kAround, poles + 1, true);
       m_runs.push_back(std::move(run));
     }
   }
+  for (const Run& run : m_runs) join(run, 1, 1, m_buffer);
+  for (const double error : m_errors) {
+    MeshBuffer part;
+    const auto apart = std::max<std::size_t>(1, std::size_t(ring_distance(error, kBend) / kRing));
+    for (const Run& run : m_runs) {
+      const interactions::VesselPath& path = m_model->vessels.list[std::size_t(run.vessel)].path;
+      const double radius = std::max(vessel_radius(path, run.from), vessel_radius(path, run.to));
+      join(run, apart, side_stride(error, radius, kAround), part);
+    }
+    m_buffer.coarser.push_back(std::move(part.indices));
+  }
   m_buffer.normals.resize(m_buffer.positions.size());
+  m_pressure.resize(m_buffer.positions.size());
+}
+
+/// Triangles of every so many rings and sides.
+void VesselDrawing::join(const Run& run, std::size_t rings_apart, std::uint32_t stride, MeshBuffer& into) const {
+  const std::size_t last = run.s.size() - 1;
+  const auto ring = [&](std::size_t i) { return run.first + std::uint32_t(i) * kAround; };
+  const std::uint32_t poles = ring(run.s.size());
+  for (std::uint32_t k = 0; k < kAround; k += stride) {
+    const std::uint32_t next = (k + stride) % kAround;
+    into.triangle(ring(0) + next, ring(0) + k, poles);
+    for (std::size_t i = 0; i < last; i += rings_apart) {
+      const std::size_t j = std::min(i + rings_apart, last);
+      into.quad(ring(i) + k, ring(i) + next, ring(j) + next, ring(j) + k);
+    }
+    into.triangle(ring(last) + k, ring(last) + next, poles + 1);
+  }
 }
 
 void VesselDrawing::place(const sim::State& state) {
@@ -114,7 +228,7 @@ void VesselDrawing::place(const sim::State& state) {
     const interactions::VesselPath& path = m_model->vessels.list[std::size_t(run.vessel)].path;
     if (posed != run.vessel) {
       points.resize(path.points.size());
-      pose_vessel(path, hosts, points);
+      pose_vessel(m_paths[std::size_t(run.vessel)], hosts, points);
       posed = run.vessel;
     }
     place_run(run, state, points);
@@ -135,14 +249,14 @@ void VesselDrawing::place_run(const Run& run, const sim::State& state, std::span
     if (path.points[i].s > run.from + 1e-6 && path.points[i].s < run.to - 1e-6) take(path.points[i].s, points[i]);
   take(run.to, vessel_spot(path, points, cuts, run.to, 0).place);
 
-  Vec3d tangent = normalised(curve.at(run.s[1]) - curve.at(run.s[0])), normal = any_perpendicular(tangent);
+  const std::vector<Vec3d> line = drawn_line(run, curve, path);
+  Vec3d tangent = normalised(line[1] - line[0]), normal = any_perpendicular(tangent);
   for (std::size_t i = 0; i < run.s.size(); ++i) {
     const double s = run.s[i];
-    const Vec3d before = curve.at(run.s[i > 0 ? i - 1 : 0]), after = curve.at(run.s[std::min(i + 1, run.s.size() - 1)]);
-    tangent = normalised(after - before, tangent);
+    tangent = normalised(line[std::min(i + 1, line.size() - 1)] - line[i > 0 ? i - 1 : 0], tangent);
     normal = normalised(normal - dot(normal, tangent) * tangent, any_perpendicular(tangent));
-    const Vec3d beside = cross(tangent, normal), at = curve.at(s);
-    const double drawn = vessel_radius(path, s);
+    const Vec3d beside = cross(tangent, normal), at = line[i];
+    const double drawn = (in_a_fold(path) ? kInFold : 1) * vessel_radius(path, s) * thinned(run, s, path.length);
     const vessels::WallReading wall = read_wall(m_model->vessels.flow, state.flow, run.vessel, s, vessel.gain);
     double radius = drawn + std::clamp(wall.shift, -kMostShift * drawn, kMostShift * drawn);
     for (int c = 0; c < state.vessel_clip_count; ++c) {
@@ -161,6 +275,7 @@ void VesselDrawing::place_run(const Run& run, const sim::State& state, std::span
       m_buffer.positions[vertex] = vec_cast<float>(at + radius * out);
       m_buffer.normals[vertex] = vec_cast<float>(out);
       m_buffer.paint[vertex].blood = to_byte(0.8 * bloody);
+      m_pressure[vertex] = float(wall.pressure);
     }
     if (i > 0 && i + 1 < run.s.size()) continue;
     const double end = i == 0 ? -1 : 1;
@@ -169,6 +284,7 @@ void VesselDrawing::place_run(const Run& run, const sim::State& state, std::span
     m_buffer.positions[pole] = vec_cast<float>(at + ((cut ? -0.5 : 0.5) * end * radius) * tangent);
     m_buffer.normals[pole] = vec_cast<float>(end * tangent);
     m_buffer.paint[pole].blood = cut ? 255 : 0;
+    m_pressure[pole] = float(wall.pressure);
   }
 }
 

@@ -58,21 +58,29 @@ vec3 developed(vec3 x) {
 void main() {
   vec4 scene = texelFetch(u_scene, ivec2(gl_FragCoord.xy), 0);
   vec3 colour = scene.rgb;
+  float outline = 0.0;  // of a thing that stands before others: for the lens pass, which smooths steps there
 #ifdef RODS
-  colour *= shaded_by(texelFetch(u_rod_shade, ivec2(gl_FragCoord.xy), 0).rg);
+  vec3 shade = texelFetch(u_rod_shade, ivec2(gl_FragCoord.xy), 0).rgb;
+  colour = paled(colour * shaded_by(shade.rg), 1.0 - shade.b);
 #endif
 #ifdef EFFECTS
   vec4 soft = texture(u_small, v_uv);
   vec4 softer = texture(u_smaller, v_uv + u_shadow);
   float near = min(scene.a, soft.a);
-  colour = mix(colour, soft.rgb, u_depth.y * clamp(1.6 * (u_depth.x / max(near, 0.002) - 1.0), 0.0, 1.0));
+  // The circle of confusion grows with 1/d: first the small picture takes over, then the smaller one.
+  float unsharp = 2.4 * (u_depth.x / max(near, 0.002) - 1.0);
+  if (unsharp > 0.0) {
+    colour = mix(colour, soft.rgb, u_depth.y * min(unsharp, 1.0));
+    colour = mix(colour, texture(u_smaller, v_uv).rgb, 0.8 * u_depth.y * clamp(0.6 * (unsharp - 1.0), 0.0, 1.0));
+  }
   // Depth darkening [Luft 06]: what lies just behind the mean depth towards the lamp sees less light: a soft shadow to
   // the side that the ring light is off the lens; red stays longest.
   float unit = scene.a * u_depth.w;  // height of the picture at this distance
   vec2 behind = (vec2(scene.a) - vec2(soft.a, softer.a)) / (unit * vec2(0.02, 0.05));
   behind = clamp(behind, 0.0, 1.0) * clamp(3.0 - 0.5 * behind, 0.0, 1.0);
-  float open = 1.0 - u_depth.z * max(0.7 * behind.x, behind.y);
+  float open = 1.0 - u_depth.z * max(0.8 * behind.x, 0.6 * behind.y);
   colour *= vec3(open, open * open, open * open);
+  outline = clamp(abs(scene.a - soft.a) / (unit * 0.007), 0.0, 1.0);
   colour = mix(colour, min(0.6 * soft.rgb + 0.4 * softer.rgb, vec3(8.0)), u_camera.z);
 #endif
 #ifdef SMOKE
@@ -85,5 +93,5 @@ void main() {
   float gain = exp2(stops) * mix(1.0, cosine2 * cosine2, u_place.z);
   vec3 light = max(colour * u_white * gain, 0.0);
   light = max(mix(vec3(dot(light, vec3(0.2126, 0.7152, 0.0722))), light, u_camera.w), 0.0);
-  o_colour = vec4(developed(light), 1.0);
+  o_colour = vec4(developed(light), 1.0 - outline);
 }

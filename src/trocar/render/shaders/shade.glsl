@@ -2,8 +2,11 @@
 // and moves away from the instrument and widens with its height: together with the darkening right under it, what tells
 // height in a picture without parallax. All in eye space [m].
 
-// The lamp counts as farther off the lens than it is, for shadows: under a true one they hide behind the instrument.
-const float kShadowSpread = 1.8;
+// The lamp counts as farther off the lens than it is, and as larger, for shadows: under a true one they hide behind the
+// instrument, and 25 mm look like 8.
+const float kShadowSpread = 6.0;
+const float kShadowSoft = 2.0;
+const float kContact = 0.0022;  // [m] nearer than this a surface is dark right under an instrument
 
 /// What a rod leaves at a point: of the lamp (x) and of the light from around (y).
 /// Closest points of two segments as in [Ericson 05, 5.1.9].
@@ -17,14 +20,26 @@ vec2 shade_of_rod(vec3 eye, vec3 lamp, float ring, vec4 rod, vec4 way) {
   float t = clamp((b * s + e) * way.w, 0.0, 1.0);
   s = clamp((t * b - d) * inverse, 0.0, 1.0);
   float gap = length(w + s * u - t * way.xyz) - rod.w;
-  float soft = 1.0 / (ring * s + 0.0002);
-  float covered = clamp(0.5 - 0.5 * gap * soft, 0.0, 1.0) * min(1.0, 1.3 * rod.w * soft);
+  float soft = 1.0 / (kShadowSoft * ring * s + 0.0003);
+  float covered = clamp(0.5 - 0.5 * gap * soft, 0.0, 1.0) * min(1.0, 1.5 * rod.w * soft);
+  covered *= 1.0 - smoothstep(0.36, 0.6, s);
   // Right under it.
   vec3 near = clamp(e * way.w, 0.0, 1.0) * way.xyz - w;
-  float reach = 1.2 * rod.w + 0.0012;
-  float under = clamp(reach * reach / dot(near, near) - 0.16, 0.0, 1.0);
-  return vec2(1.0 - covered, 1.0 - 0.75 * under);
+  float under = clamp(1.0 - (length(near) - rod.w) / kContact, 0.0, 1.0);
+  return vec2(1.0 - covered, 1.0 - 0.65 * under * under);
 }
 
 /// What is left of the light: red the most, which has gone through tissue.
 vec3 shaded_by(vec2 shade) { return mix(vec3(shade.x * mix(1.0, shade.y, 0.75)), vec3(1.0), vec3(0.22, 0.08, 0.09)); }
+
+/// How far a point is from a rod's surface [m].
+float gap_of_rod(vec3 eye, vec4 rod, vec4 way) {
+  vec3 w = eye - rod.xyz;
+  return length(w - clamp(dot(way.xyz, w) * way.w, 0.0, 1.0) * way.xyz) - rod.w;
+}
+
+/// Pressed tissue gives its blood away and pales. share: how much, 0..1
+vec3 paled(vec3 colour, float share) {
+  float grey = dot(colour, vec3(0.42, 0.4, 0.18));
+  return mix(colour, grey * vec3(1.3, 1.02, 0.94), 0.45 * share);
+}

@@ -31,6 +31,8 @@ uniform vec4 u_material[14];
 #define CELL_SCALE u_material[10].x
 #define CELL_DEPTH u_material[10].y
 #define CELL_CONTRAST u_material[10].z
+#define SCATTER u_material[10].w         /* metal: share that it scatters instead of mirroring */
+#define SOIL u_material[11].x            /* metal: share of Paint's blood and burn that is there */
 
 uniform mat4 u_model_view;
 #if SHADING != 0
@@ -136,23 +138,43 @@ void main() {
   slope += fine.rgb * 2.0 - 1.0;
 
 #if SHADING == 1
-  // Brushed steel or titanium: streaks along the axis, grey itself, pink where it mirrors the walls.
+  // Steel, titanium, and what insulates them: bare metal mirrors the scene, paint and ceramic scatter the lamp's light,
+  // and towards the rim both mirror what is behind them, so that no outline is a row of dark dots.
   vec3 n = normalize(N + BUMP * along_surface(to_eye(slope), N));
   // Grinding runs along the axis, so a highlight spreads along it.
   vec3 H = normalize(lit.direction + V);
   vec3 axis = normalize(to_eye(FIBRE_AXIS));
   H = normalize(H - axis * (0.85 * step(0.01, FIBRE_SQUEEZE) * dot(H, axis)));
   float nh = clamp(dot(n, H), 0.0, 1.0), nv = clamp(dot(n, V), 0.0, 1.0), nl = clamp(dot(n, lit.direction), 0.0, 1.0);
-  float streak = 0.15 + 1.4 * smoothstep(0.35, 0.7, broad.a);
+  // Edges of a pixel or less are as rough as their normals differ [Kaplanyan 16].
+  vec3 turn_x = dFdx(N), turn_y = dFdy(N);
+  float turns = dot(turn_x, turn_x) + dot(turn_y, turn_y);
+  float alpha2 = ROUGH2 + min(0.3 * turns, 0.2);
+  float blurred = clamp(2.0 * sqrt(turns), 0.0, 0.85);
+  nv = mix(nv, 0.65, blurred);
+  nl = mix(nl, 0.65, blurred);
   vec3 grey = mix(COLOUR_A, COLOUR_B, MOTTLE * fine.a);
-  grey = mix(grey, vec3(0.09, 0.004, 0.006), clamp(BLOOD * (0.6 + 0.8 * broad.a), 0.0, 0.95));
   grey = mix(grey, TINT, v_paint.w);
+  // Blood dries where the work is done: in crevices first, with a ragged edge; char in flakes.
+  float ragged = 0.6 * fine.a + 0.4 * broad.a, smeared = BLOOD * SOIL;
+  float blood = smoothstep(-0.05, 0.2, smeared - 0.75 * ragged * (1.0 - smeared)) * step(0.01, smeared);
+  float char_ = smoothstep(0.3, 0.6, BURN * SOIL * (0.5 + ragged));
+  grey = mix(grey, vec3(0.10, 0.006, 0.007), 0.92 * blood);
+  grey = mix(grey, vec3(0.016, 0.013, 0.012), 0.9 * char_);
+  float plain = max(SCATTER, max(0.9 * blood, char_));  // no longer a mirror
   float ao = OPENNESS;
-  float mirror = 0.35 + 0.65 * (1.0 - nv);
-  float lobes = lobe(nh, ROUGH2) * streak + 0.3 * lobe(nh, 0.35);
-  vec3 light = LIGHT_COLOUR * lit.power * ao * (0.30 * nl + 0.10 * lobes);
-  light += mirrored(reflect(-V, n), 0.02, lit.bounce) * (0.55 * mirror * ao) + vec3(AMBIENT) * (lit.bounce * ao);
-  vec3 colour = grey * light;
+  float rim = min(1.0 - nv, 0.8), schlick = rim * rim * rim * rim;  // no further: the last pixel would be a dot
+  vec3 mirror = mix(0.65 * grey, vec3(0.04), plain);
+  mirror += (vec3(0.9) - mirror) * (schlick * (1.0 - 0.5 * char_));
+  // Scratches and moisture break a highlight up along the axis.
+  float broken = (0.1 + 1.3 * smoothstep(0.35, 0.7, broad.a)) * (0.12 + 1.0 * smoothstep(0.42, 0.64, fine.r));
+  broken = mix(0.5, broken, clamp(20.0 * BUMP, 0.0, 1.0));  // what is polished has none
+  vec3 gloss = mix(1.5 * grey, vec3(0.28), max(SCATTER, blood)) * (0.12 * lobe(nh, alpha2) * broken * (1.0 - 0.8 * blurred));
+  gloss /= 1.0 + 1.1 * gloss;  // the lamp is no point: long lines do not clip
+  vec3 around = mirrored(reflect(-V, n), 0.04, mix(0.6, 3.0, rim) * lit.bounce);  // the lens itself is dark
+  vec3 even = LIGHT_COLOUR * lit.power * (mix(0.19, 0.75, plain) * nl * nl + 0.03 * lobe(nh, 0.35));
+  even += (BOUNCE * (1.0 + 3.0 * rim) + vec3(AMBIENT)) * lit.bounce;
+  vec3 colour = (grey * even + LIGHT_COLOUR * lit.power * gloss + around * mirror) * ao;
 #ifdef FOGGY
   colour = through_air(colour, v_eye);
 #endif
@@ -164,7 +186,7 @@ void main() {
 #if SHADING == 0
   albedo = mix(albedo, TINT, tint);
 #endif
-  albedo *= 1.0 + vec3(0.0, 0.11, -0.22) * (broad.g - 0.5);  // towards yellow here, mauve there
+  albedo *= 1.0 + vec3(0.0, 0.08, -0.17) * (broad.g - 0.5);  // towards yellow here, mauve there
   vec3 relief = BUMP * slope;
 
 #ifdef LOBULES
@@ -246,11 +268,14 @@ void main() {
   film_slope *= 1.0 - 0.7 * smoothstep(0.5, 0.9, blood);
   wet = max(mix(wet, glassy, crust), smoothstep(0.1, 0.3, blood));
 #endif
+  // What mirrors the lamp is broken again by the film's thickness: flecks in clumps, no rings around its bumps.
+  float flecks = smoothstep(0.34, 0.66, fine.g + 0.6 * (broad.b - 0.5));
+  wet *= 0.6 + 0.3 * flecks;
   vec3 m = normalize(N + along_surface(to_eye(film_slope + relief * 0.6), N));
   vec3 H = normalize(lit.direction + V);
   float facing = clamp(nl * 4.0, 0.0, 1.0) * open;
   float mh = clamp(dot(m, H), 0.0, 1.0), nh = clamp(dot(n, H), 0.0, 1.0);
-  float gloss = 0.31 * FRESNEL * (wet * lobe(mh, FILM2) + (0.35 + 0.65 * wet) * lobe(nh, ROUGH2)) * facing * lit.power;
+  float gloss = 0.42 * FRESNEL * (wet * (0.4 + 1.3 * flecks) * lobe(mh, FILM2) + (0.35 + 0.65 * wet) * lobe(nh, ROUGH2)) * facing * lit.power;
   float grazing = FRESNEL + (1.0 - FRESNEL) * rim * rim * (1.0 - nv);
 #if SHADING == 2
   vec3 around = 0.7 * mirrored(reflect(-V, m), 0.03, lit.bounce);

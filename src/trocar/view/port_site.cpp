@@ -1,0 +1,130 @@
+#include <algorithm>
+#include <cmath>
+
+#include <trocar/render/mesh_arrays.hpp>
+#include <trocar/view/cavity.hpp>
+#include <trocar/view/port_site.hpp>
+
+namespace trocar::view {
+namespace {
+
+constexpr double kTwoPi = 6.28318530717959;
+constexpr int kSides = 40, kRows = 14;  // from inside the slit to the untouched wall
+constexpr int kLip = 2;                 // the row that is the slit's rim
+constexpr double kBehind = 0.09;        // [m] how far before and behind its port a wall is looked for
+constexpr double kTent = 0.0042;        // [m] how far the peritoneum is drawn in along the sleeve ...
+constexpr double kAround = 0.013;       // [m] ... and how far around it
+constexpr double kLap = 0.0008;         // [m] how far it stands off the wall at least
+constexpr double kClear = 0.0006;       // [m] that the tent bulges off the sleeve
+constexpr double kSunk = 0.0002;        // [m] of the outermost row under the wall: no border shows
+constexpr double kFlattest = 0.3;       // cosine: a sleeve that lies flatter on the wall is not followed
+
+/// 0 at the rim of the slit, 1 where the wall is untouched.
+double outwards(int row) { return std::max(0.0, double(row - kLip) / (kRows - 1 - kLip)); }
+
+Paint paint_of(int row, int side) {
+  const double wave = 0.5 + 0.5 * varied(side / 2, 7), x = outwards(row);
+  Paint p;
+  p.openness = row < kLip ? std::uint8_t(row == 0 ? 6 : 20) : to_byte(0.16 + 0.84 * smooth(0, 0.5, x));
+  p.blood = row < kLip ? std::uint8_t(120) : to_byte(0.38 * (1 - smooth(0, 0.06 + 0.2 * wave, x)));
+  return p;
+}
+
+}  // namespace
+
+std::optional<Crossing> last_crossing(std::span<const PiercedWall> walls, Vec3d origin, Vec3d direction, double from,
+                                      double to) {
+  std::optional<Crossing> last;
+  for (std::size_t w = 0; w < walls.size(); ++w) {
+    const PiercedWall& wall = walls[w];
+    for (std::size_t t = 0; t + 2 < wall.indices.size(); t += 3) {
+      const std::uint32_t i = wall.indices[t], j = wall.indices[t + 1], k = wall.indices[t + 2];
+      const Vec3d a = vec_cast<double>(wall.positions[i]), u = vec_cast<double>(wall.positions[j]) - a,
+                  v = vec_cast<double>(wall.positions[k]) - a;
+      const Vec3d n = cross(u, v), q = cross(origin - a, direction);
+      const double turn = -dot(n, direction);
+      if (turn == 0) continue;
+      const double at = dot(origin - a, n) / turn, along_u = dot(v, q) / turn, along_v = -dot(u, q) / turn;
+      if (along_u < 0 || along_v < 0 || along_u + along_v > 1 || at < from || at > to) continue;
+      if (last && last->at >= at) continue;
+      Vec3d normal = n;
+      if (!wall.normals.empty())
+        normal = (1 - along_u - along_v) * vec_cast<double>(wall.normals[i]) +
+                 along_u * vec_cast<double>(wall.normals[j]) + along_v * vec_cast<double>(wall.normals[k]);
+      last = Crossing{at, origin + at * direction, normalised(normal, -direction), w};
+    }
+  }
+  return last;
+}
+
+PortSite::PortSite(Vec3d port, Vec3d axis, double radius, std::span<const PiercedWall> walls, render::Backend& backend)
+    : m_port(port), m_axis(axis), m_radius(radius) {
+  // Where it comes in: past the port, or else the nearest wall behind it.
+  std::optional<Crossing> hole = last_crossing(walls, port, axis, 0, kBehind);
+  if (!hole) hole = last_crossing(walls, port, axis, -kBehind, 0);
+  if (!hole) return;
+  m_depth = hole->at;
+  m_centre = hole->point;
+  m_look = walls[hole->wall].look;
+  m_normal = dot(hole->normal, axis) < 0 ? -hole->normal : hole->normal;
+  if (dot(m_normal, axis) < kFlattest) return;
+  m_u = normalised(cross(m_normal, Vec3d{0.3, 0.5, 0.8}), Vec3d{1, 0, 0});
+  m_v = cross(m_normal, m_u);
+  for (int row = 0; row < kRows; ++row)
+    for (int k = 0; k < kSides; ++k) {
+      const double angle = kTwoPi * k / kSides, x = outwards(row);
+      const Vec3d way = std::cos(angle) * m_u + std::sin(angle) * m_v;
+      const double footprint = radius / length(way - dot(way, axis) * axis);  // of a sleeve that comes in aslant
+      const double far = footprint * (0.84 + 0.1 * std::min(row, kLip)) + kAround * x;
+      const Vec3d aside = m_centre + far * way;
+      const auto on = last_crossing(walls, aside, m_normal, -0.012, 0.012);
+      m_base.push_back(on ? on->point : aside);
+      const Vec3d n = on ? on->normal : m_normal;
+      m_wall_normal.push_back(vec_cast<float>(dot(n, m_normal) < 0 ? -n : n));
+      m_shape.add({}, paint_of(row, k));
+      m_shape.paint.back().tint = to_byte(fat_below(m_base.back()));
+      m_shape.rest.push_back(vec_cast<float>(m_base.back()));
+    }
+  for (int row = 0; row + 1 < kRows; ++row)
+    join_rows(m_shape, std::uint32_t((row + 1) * kSides), std::uint32_t(row * kSides), kSides, true);
+  shape(axis);
+  m_mesh = OwnedMesh(backend, m_shape.data());
+}
+
+void PortSite::shape(Vec3d axis) {
+  m_axis = axis;
+  const double steep = dot(axis, m_normal);
+  const Vec3d hole = m_port + (dot(m_centre - m_port, m_normal) / steep) * axis;
+  for (int row = 0; row < kRows; ++row) {
+    const double x = outwards(row), drawn = (1 - x) * (1 - x) * (1 - 0.35 * x);  // steep at the sleeve
+    for (int k = 0; k < kSides; ++k) {
+      const double angle = kTwoPi * k / kSides, c = std::cos(angle), s = std::sin(angle);
+      const Vec3d aside = c * m_u + s * m_v;
+      const Vec3d across = normalised(aside - dot(aside, axis) * axis, m_u);
+      const double slit = row < kLip ? -0.05 : 0.16 * c * c * c * c;  // gapes to both sides
+      // Under a sleeve that leans over it the wall only laps against it.
+      const double least = (kLap - m_radius * dot(across, m_normal)) / steep;
+      const double drawn_in = std::max(kTent * (1 + 0.12 * std::sin(3 * angle + 1)), least);
+      const double high = drawn_in - kTent * 0.4 * std::max(0, kLip - row);
+      const Vec3d at_sleeve = hole + high * axis + (m_radius * (1.02 + slit)) * across;
+      const double folds = 0.0003 * std::sin(11 * angle + 2 * std::sin(2 * angle)) * drawn * (1 - drawn) * 4;
+      const std::size_t i = std::size_t(row * kSides + k);
+      m_shape.positions[i] =
+          vec_cast<float>(drawn * at_sleeve + (1 - drawn) * m_base[i] + (folds - kSunk * x * x * x) * m_normal +
+                          (4 * kClear * drawn * (1 - drawn)) * across);
+    }
+  }
+  render::vertex_normals(m_shape.positions, m_shape.indices, m_shape.normals);
+  for (std::size_t i = 0; i < m_shape.normals.size(); ++i) {  // towards the border as the wall's: no seam
+    const float wall = float(smooth(0.35, 0.9, outwards(int(i) / kSides)));
+    m_shape.normals[i] = normalised((1 - wall) * m_shape.normals[i] + wall * m_wall_normal[i], m_wall_normal[i]);
+  }
+}
+
+void PortSite::update(Vec3d axis) {
+  if (m_base.empty() || axis == m_axis || dot(axis, m_normal) < kFlattest) return;
+  shape(axis);
+  m_mesh.move(m_shape.positions, m_shape.normals);
+}
+
+}  // namespace trocar::view

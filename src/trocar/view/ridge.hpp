@@ -1,0 +1,51 @@
+// Peritoneum over a ligament that runs to a wall: two flanks from its sides down to the wall, tangent to it there, so
+// that the ligament is a ridge or a fold and no rope. Near its organ the flanks meet below it in a free, curved edge.
+// Drawing only; they follow the ligament.
+//
+//   Ridge ridge(model, strand, walls, backend);
+//   ridge.update(state);
+#pragma once
+
+#include <trocar/sim/state.hpp>
+#include <trocar/view/mesh_buffer.hpp>
+#include <trocar/view/strand_curve.hpp>
+#include <trocar/view/tube_drawing.hpp>
+
+namespace trocar::view {
+
+class Ridge {
+ public:
+  /// @param tube  the ligament's drawing; its end is fixed in space
+  Ridge(const sim::Model& model, const TubeDrawing& tube, int strand, const WallSurface& walls,
+        render::Backend& backend);
+
+  void update(const sim::State& state);
+  render::MeshHandle mesh() const { return m_mesh.handle(); }
+  const MeshBuffer& buffer() const { return m_buffer; }
+
+ private:
+  /// A section across the ligament.
+  struct Station {
+    double s = 0;              ///< on the strand [m]
+    bool beyond = false;       ///< in the wall beyond its end: `at` stays in space
+    Vec3d at, along;           ///< at rest
+    Vec3d side;                ///< unit, to the left flank
+    double radius = 0;         ///< of what it covers [m]
+    double depth = 1;          ///< share of the way to the wall that the flanks reach
+    double over = 1;           ///< 0: the ligament's crest is bare, 1: the flanks meet over it
+    double narrow = 1;         ///< share of the flanks' width
+    Vec3d floor;               ///< the wall below
+    Vec3d foot[2], normal[2];  ///< where the flanks end, on either side
+  };
+  void find_feet(const WallSurface& walls);
+  void place(const StrandCurve& curve);
+  void place_flank(const Station& st, Vec3d at, int flank, std::size_t first);
+
+  const interactions::StrandBody* m_body;
+  int m_strand;
+  std::vector<Station> m_stations;
+  MeshBuffer m_buffer;
+  OwnedMesh m_mesh;
+};
+
+}  // namespace trocar::view

@@ -1,0 +1,27 @@
+// Everything that a scene's peritoneum is drawn as, as one surface: its walls and what leads from their borders to the
+// cavity. For what is drawn only and has to end on it.
+#pragma once
+
+#include <vector>
+
+#include <trocar/sim/model.hpp>
+
+namespace trocar::view {
+
+class WallSurface {
+ public:
+  explicit WallSurface(const sim::Model& model);
+
+  struct Place {
+    Vec3d point, normal;  ///< [m]; unit, into the cavity
+    bool there = false;   ///< false: the scene has no walls
+  };
+  Place nearest(Vec3d p) const;
+
+ private:
+  std::vector<Vec3f> m_points, m_normals;
+  std::vector<std::uint32_t> m_triangles;
+  std::vector<std::vector<std::uint32_t>> m_faces;  ///< (points) their triangles
+};
+
+}  // namespace trocar::view

@@ -1,0 +1,226 @@
+// That the drawn anatomy hangs together: collars where strands grow out of organs and walls, ridges of peritoneum over
+// ligaments, adhesions, and folds that reach a wall. None of it may show an end or an edge.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <trocar/geometry/nearest.hpp>
+#include <trocar/render/backend.hpp>
+#include <trocar/scene/compile.hpp>
+#include <trocar/scene/reader.hpp>
+#include <trocar/view/adhesions.hpp>
+#include <trocar/view/cavity.hpp>
+#include <trocar/view/joint.hpp>
+#include <trocar/view/ridge.hpp>
+#include <trocar/view/sheet_drawing.hpp>
+#include <trocar/view/vessel_drawing.hpp>
+
+namespace trocar::view {
+namespace {
+
+const sim::Model& pelvis() {
+  static const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/gynaecology/scene.json"));
+  return model;
+}
+const WallSurface& walls() {
+  static const WallSurface surface(pelvis());
+  return surface;
+}
+
+std::vector<OrganDrawing> drawn_organs(render::Backend& backend) {
+  std::vector<OrganDrawing> organs;
+  for (const sim::SolidModel& s : pelvis().solids)
+    organs.emplace_back(s, Relief{}, std::vector<Paint>(s.fine.rest.size()), backend);
+  return organs;
+}
+
+/// The nearest place on an organ's drawn skin, and the skin's normal there.
+struct OnSkin {
+  double away = 1;
+  Vec3d normal;
+};
+OnSkin on_skin(Vec3f p, const OrganDrawing& organ, const tissue::Skin& skin) {
+  OnSkin best;
+  for (const auto& t : skin.triangles) {
+    const auto corner = [&](std::size_t k) { return vec_cast<double>(organ.positions()[std::size_t(t[k])]); };
+    const auto at = geometry::closest_on_triangle(vec_cast<double>(p), corner(0), corner(1), corner(2));
+    if (at.distance2 >= best.away * best.away) continue;
+    best.away = std::sqrt(at.distance2);
+    const auto normal = [&](std::size_t k) { return vec_cast<double>(organ.normals()[std::size_t(t[k])]); };
+    best.normal = normalised(at.weights.x * normal(0) + at.weights.y * normal(1) + at.weights.z * normal(2));
+  }
+  return best;
+}
+
+/// A strand of the pelvis and the joint at its start.
+struct Grown {
+  TubeDrawing tube;
+  std::size_t organ;
+  Joint joint;
+};
+Grown grown(int strand, const std::vector<OrganDrawing>& organs, render::Backend& backend) {
+  TubeDrawing tube(pelvis(), strand, {}, &walls());
+  tube.create(std::vector<Paint>(tube.drawn().positions.size()), backend);
+  const auto organ = std::size_t(pelvis().strands[std::size_t(strand)].start.organ);
+  Joint joint(tube, true, organs[organ], pelvis().solids[organ].fine, backend);
+  return {std::move(tube), organ, std::move(joint)};
+}
+
+TEST(Joint, MeetsItsOrganWithoutAStepOrAnEdge) {
+  const auto backend = render::make_null_backend();
+  const std::vector<OrganDrawing> organs = drawn_organs(*backend);
+  int joints = 0;
+  for (int i = 0; i < int(pelvis().strands.size()); ++i) {
+    if (pelvis().strands[std::size_t(i)].start.kind != sim::StrandEndModel::hosted) continue;
+    const Grown g = grown(i, organs, *backend);
+    const tissue::Skin& skin = pelvis().solids[g.organ].fine;
+    const std::size_t sides = std::size_t(g.joint.sides()), rows = g.joint.buffer().positions.size() / sides;
+    for (std::size_t k = 0; k < sides; ++k) {
+      const std::size_t border = (rows - 2) * sides + k;  // the last row is tucked below the skin
+      const OnSkin at = on_skin(g.joint.buffer().positions[border], organs[g.organ], skin);
+      EXPECT_LT(at.away, 0.0003);
+      EXPECT_GT(dot(at.normal, vec_cast<double>(g.joint.buffer().normals[border])), 0.97);
+      const OnSkin tucked = on_skin(g.joint.buffer().positions[border + sides], organs[g.organ], skin);
+      EXPECT_LT(tucked.away, 0.0012);
+    }
+    ++joints;
+  }
+  EXPECT_GE(joints, 10);
+}
+
+TEST(Joint, BeginsInsideItsStrandAndMovesWithIt) {
+  const auto backend = render::make_null_backend();
+  const std::vector<OrganDrawing> organs = drawn_organs(*backend);
+  const int strand = pelvis().strand_index("tube_left");
+  Grown g = grown(strand, organs, *backend);
+  sim::State state = sim::initial_state(pelvis());
+  for (const bool moved : {false, true}) {
+    if (moved)
+      for (std::size_t i = 2; i < 8; ++i) state.strands[std::size_t(strand)].x[i].z += 0.004;
+    g.tube.update(state);
+    g.joint.update(g.tube, &organs[g.organ]);
+    const TubeNeck& neck = g.tube.neck(true);
+    ASSERT_TRUE(neck.there);
+    for (int k = 0; k < g.joint.sides(); ++k) {
+      const double out = length(vec_cast<double>(g.joint.buffer().positions[std::size_t(k)]) - neck.centre);
+      EXPECT_LT(out, length(vec_cast<double>(neck.ring[std::size_t(k)]) - neck.centre));
+    }
+  }
+}
+
+TEST(Joint, OfAStrandThatIsCutOffShortIsALowMound) {
+  const auto backend = render::make_null_backend();
+  const std::vector<OrganDrawing> organs = drawn_organs(*backend);
+  const int strand = pelvis().strand_index("tube_left");
+  Grown g = grown(strand, organs, *backend);
+  sim::State state = sim::initial_state(pelvis());
+  state.cut_count = 1;
+  state.cuts[0].strand = strand;
+  state.cuts[0].s = 0.002;
+  state.cuts[0].fraction = 1;
+  tissue::cut_element(state.strands[std::size_t(strand)], 0);
+  g.tube.update(state);
+  g.joint.update(g.tube, &organs[g.organ]);
+  EXPECT_FALSE(g.tube.neck(true).there);
+  for (const Vec3f& p : g.joint.buffer().positions)
+    EXPECT_LT(on_skin(p, organs[g.organ], pelvis().solids[g.organ].fine).away, 0.003);
+}
+
+TEST(Ridge, RunsFromItsLigamentToTheWallAndEndsBelowThat) {
+  const auto backend = render::make_null_backend();
+  int ridges = 0;
+  for (int i = 0; i < int(pelvis().strands.size()); ++i) {
+    if (pelvis().strands[std::size_t(i)].end.kind != sim::StrandEndModel::fixed) continue;
+    const TubeDrawing tube(pelvis(), i, {}, &walls());
+    const Ridge ridge(pelvis(), tube, i, walls(), *backend);
+    const tissue::StrandState rest = tissue::rest_state(pelvis().bodies[std::size_t(i)].model);
+    double to_ligament = 1, to_wall = 1;
+    for (const Vec3f& f : ridge.buffer().positions) {
+      const Vec3d p = vec_cast<double>(f);
+      for (const Vec3d& x : rest.x) to_ligament = std::min(to_ligament, length(p - x));
+      const WallSurface::Place wall = walls().nearest(p);
+      to_wall = std::min(to_wall, dot(p - wall.point, wall.normal));
+    }
+    EXPECT_LT(to_ligament, 0.004);
+    EXPECT_LT(to_wall, -0.0005) << "its border is tucked under the wall";
+    ++ridges;
+  }
+  EXPECT_EQ(ridges, 6);
+}
+
+TEST(Adhesions, HangBetweenAnOrganAndTheWallAndFollowTheOrgan) {
+  const auto backend = render::make_null_backend();
+  std::vector<OrganDrawing> organs = drawn_organs(*backend);
+  Adhesions adhesions(organs, pelvis(), walls(), *backend);
+  ASSERT_GT(adhesions.mesh().id, 0u);
+  const std::vector<Vec3f> before = adhesions.buffer().positions;
+  int at_wall = 0;
+  for (const Vec3f& p : before)
+    at_wall += length(vec_cast<double>(p) - walls().nearest(vec_cast<double>(p)).point) < 0.003;
+  EXPECT_GT(at_wall, 6);
+  sim::State state = sim::initial_state(pelvis());
+  for (tissue::NetworkState& solid : state.solids)
+    for (tissue::NodeState& n : solid.nodes) n.z += 0.004f;
+  for (std::size_t i = 0; i < organs.size(); ++i) organs[i].update(state.solids[i]);
+  adhesions.update(organs);
+  float least = 1, most = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const float by = length(adhesions.buffer().positions[i] - before[i]);
+    least = std::min(least, by);
+    most = std::max(most, by);
+  }
+  EXPECT_LT(least, 1e-5f);            // at the wall
+  EXPECT_NEAR(most, 0.004f, 0.001f);  // at the organ
+}
+
+TEST(SheetDrawing, ABaseInTheAirGoesOnToTheWall) {
+  const auto backend = render::make_null_backend();
+  int hanging = 0;
+  for (int i = 0; i < int(pelvis().sheets.size()); ++i) {
+    const auto& base = pelvis().sheets[std::size_t(i)].base;
+    if (std::any_of(base.begin(), base.end(), [](const sim::BasePoint& b) { return b.organ >= 0 || b.strand >= 0; }))
+      continue;
+    const SheetDrawing sheet(pelvis(), i, *backend, {}, &walls());
+    int below = 0;
+    for (const Vec3f& f : sheet.buffer().positions) {
+      const WallSurface::Place wall = walls().nearest(vec_cast<double>(f));
+      below += length(wall.point - vec_cast<double>(f)) < 0.004;
+    }
+    EXPECT_GT(below, 10) << pelvis().sheets[std::size_t(i)].name;
+    ++hanging;
+  }
+  EXPECT_GE(hanging, 2);
+}
+
+TEST(Cavity, AMarginFoldsOverAlmostNowhere) {
+  for (const sim::WallModel& wall : pelvis().walls) {
+    const MeshBuffer m = around_wall(pelvis(), wall.skin, std::vector<Paint>(wall.skin.rest.size()));
+    double folded = 0, all = 0;
+    for (std::size_t t = 0; t + 5 < m.indices.size(); t += 6) {  // the two triangles of a cell
+      const auto normal = [&](std::size_t i) {
+        const Vec3f a = m.positions[m.indices[i]];
+        return cross(m.positions[m.indices[i + 1]] - a, m.positions[m.indices[i + 2]] - a);
+      };
+      const double area = length(normal(t)) + length(normal(t + 3));
+      if (dot(normal(t), normal(t + 3)) < 0) folded += area;
+      all += area;
+    }
+    EXPECT_LT(folded, 0.01 * all);
+  }
+}
+
+TEST(VesselDrawing, WhatLiesInFoldsAndWhatDoesNotIsAllThereIs) {
+  const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/bleeding/scene.json"));
+  const auto backend = render::make_null_backend();
+  using Lie = VesselDrawing::Lie;
+  for (const bool veins : {false, true}) {
+    const VesselDrawing all(model, veins, *backend), fold(model, veins, *backend, {}, Lie::in_a_fold),
+        rest(model, veins, *backend, {}, Lie::elsewhere);
+    EXPECT_EQ(all.buffer().size(), fold.buffer().size() + rest.buffer().size());
+    EXPECT_GT(fold.buffer().size(), 100u);
+  }
+}
+
+}  // namespace
+}  // namespace trocar::view
