@@ -10,6 +10,7 @@
 #include <trocar/scene/compile.hpp>
 #include <trocar/scene/reader.hpp>
 #include <trocar/view/cavity.hpp>
+#include <trocar/view/cuttable_drawing.hpp>
 #include <trocar/view/drape.hpp>
 #include <trocar/view/fold_pattern.hpp>
 #include <trocar/view/instrument_shapes.hpp>
@@ -41,6 +42,49 @@ float to_nearest(Vec3f p, std::span<const Vec3f> points) {
   float nearest = 1;
   for (const Vec3f& q : points) nearest = std::min(nearest, length(p - q));
   return nearest;
+}
+
+/// The cutting scene's liver with a cut of 24 mm by 24 mm into the middle of its left end, as it lies at rest.
+struct CutLiver {
+  sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/cutting/scene.json"));
+  const sim::CuttableOrgan& organ = model.cuttables.front();
+  tissue::CuttableState state = tissue::rest_state(organ.body);
+  Vec3d middle;
+  bool cut() {
+    for (const Vec3f& p : organ.skin.skin.rest)
+      if (double(p.x) > middle.x) middle = vec_cast<double>(p);
+    geometry::Blade blade;
+    const Vec3d u{0.012, 0, 0}, v{0, 0, 0.012};
+    blade.corners = 4;
+    blade.corner = {middle - u - v, middle + u - v, middle + u + v, middle - u + v};
+    tissue::CuttableWork work = tissue::make_work(organ.body);
+    return tissue::cut(organ.body, blade, state, work).parted > 0;
+  }
+};
+
+TEST(CuttableDrawing, ACutGapesAtItsMouthAndNothingMovesFarFromIt) {
+  CutLiver liver;
+  const auto backend = render::make_null_backend();
+  CuttableDrawing drawing(liver.organ, Relief{}, *backend);
+  ASSERT_TRUE(liver.cut());
+  drawing.update(liver.state);
+  const tissue::CuttableModel& body = liver.organ.body;
+  const tissue::FaceSkin skin =
+      tissue::face_skin(liver.state.tets, body.drawn.across, body.row_of_node, tissue::kDrawnParts);
+  tissue::SkinPose pose = tissue::make_pose(skin.skin);
+  tissue::pose_skin(view_of(body, liver.state), skin.skin, pose);
+  ASSERT_EQ(pose.position.size(), drawing.positions().size());
+  float most = 0, far = 0;
+  for (std::size_t i = 0; i < pose.position.size(); ++i) {
+    const float moved = length(drawing.positions()[i] - pose.position[i]);
+    most = std::max(most, moved);
+    if (length(vec_cast<double>(pose.position[i]) - liver.middle) > 0.06) far = std::max(far, moved);
+  }
+  std::printf("    the sides draw back by %.1f mm\n", 1e3 * double(most));
+  EXPECT_GT(most, 0.0008f);
+  EXPECT_LT(most, 0.002f);
+  EXPECT_LT(far, 1e-6f);
+  EXPECT_TRUE(drawing.cut());
 }
 
 TEST(Cavity, PeritoneumGoesOnFromEveryPointOfAWallsBorder) {

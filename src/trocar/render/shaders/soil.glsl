@@ -90,7 +90,7 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
 #ifdef WIPED
   // Gauze, far out of focus.
   vec2 thread = sin(vec2(streak_at.x + 0.05 * streaks, streak_at.y + 0.08 * broad.g) * vec2(115.0, 131.0));
-  cloth *= 0.84 + 0.011 * (thread.x + thread.y) + 0.16 * streaks;
+  cloth *= 0.84 + 0.005 * (thread.x + thread.y) + 0.16 * streaks;
 #endif
   return mix(picture, min(cloth, vec3(0.93)), 0.97 * swab);
 }
