@@ -274,7 +274,7 @@ Material insulation() {
 
 /// Ceramic and PTFE: white, so that it clips before all else.
 Material ceramic() {
-  Material m = metal(srgb(216, 213, 206), srgb(208, 204, 196), 0.24f);
+  Material m = metal(srgb(204, 201, 194), srgb(196, 192, 184), 0.36f);
   m.fibre_stretch = 1;
   m.mottle_size = 0.004f;
   m.bump = 0.01f;

@@ -170,9 +170,9 @@ void main() {
   float broken = (0.1 + 1.3 * smoothstep(0.35, 0.7, broad.a)) * (0.12 + 1.0 * smoothstep(0.42, 0.64, fine.r));
   broken = mix(0.5, broken, clamp(20.0 * BUMP, 0.0, 1.0));  // what is polished has none
   vec3 gloss = mix(1.5 * grey, vec3(0.28), max(SCATTER, blood)) * (0.12 * lobe(nh, alpha2) * broken * (1.0 - 0.8 * blurred));
-  gloss /= 1.0 + 1.1 * gloss;  // the lamp is no point: long lines do not clip
+  gloss /= 1.0 + 1.35 * gloss;  // the lamp is no point: long lines do not clip
   vec3 around = mirrored(reflect(-V, n), 0.04, mix(0.6, 3.0, rim) * lit.bounce);  // the lens itself is dark
-  vec3 even = LIGHT_COLOUR * lit.power * (mix(0.19, 0.75, plain) * nl * nl + 0.03 * lobe(nh, 0.35));
+  vec3 even = LIGHT_COLOUR * lit.power * (mix(0.27, 0.75, plain) * nl * nl + 0.03 * lobe(nh, 0.35));
   even += (BOUNCE * (1.0 + 3.0 * rim) + vec3(AMBIENT)) * lit.bounce;
   vec3 colour = (grey * even + LIGHT_COLOUR * lit.power * gloss + around * mirror) * ao;
 #ifdef FOGGY
