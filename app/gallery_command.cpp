@@ -54,6 +54,8 @@ void tubes(const sim::Model& model, const sim::State& start, Shots& shots) {
   }
 }
 
+constexpr double kToTool = 0.075;  // [m] near, with some of what is around it
+
 /// Each instrument once, half open, from the side.
 void instruments(const sim::Model& model, const sim::State& start, Shots& shots) {
   std::vector<std::string> shown;
@@ -68,9 +70,9 @@ void instruments(const sim::Model& model, const sim::State& start, Shots& shots)
       state.tools[h].armed = 1;
       state.tools[h].aperture = 0.6;
       const interactions::ToolShape shape = shape_of(tool, state.tools[h].pose(), 0.6);
-      ViewOptions options = close_up(model, shape.pivot, 0.05);
+      ViewOptions options = close_up(model, shape.pivot, kToTool);
       const Vec3d axis = shape.frame.axis(), off = options.eye - shape.pivot;
-      options.eye = shape.pivot + 0.05 * normalised(off - dot(off, axis) * axis, shape.frame.normal());
+      options.eye = shape.pivot + kToTool * normalised(off - dot(off, axis) * axis, shape.frame.normal());
       shots.take_outside(state, tool.name, tool.name, options);
     }
 }
