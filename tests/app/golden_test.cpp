@@ -32,7 +32,7 @@ constexpr View kViews[] = {
     {"ovary", "gynaecology", 1},
     {"vessels", "bleeding_control", 2},
     {"digestive", "digestive"},
-    {"stomach", "digestive", 0},
+    {"liver_near", "digestive", 0},
     {"gallbladder", "gallbladder"},
     {"liver", "cutting", 0},
     {"edges", "gynaecology", -1, "organs=wireframe,folds=transparent"},

@@ -67,7 +67,7 @@ struct EndoscopeLook {
   float bloom = 0.05f;
   float focus_near = 0.030f;  ///< [m] nearer things are out of focus
   float defocus = 0.8f;       ///< 0 none .. 1: how much
-  float contact = 0.3f;      ///< 0 none .. 1: darkening behind the edge of nearer things
+  float contact = 0.3f;       ///< 0 none .. 1: darkening behind the edge of nearer things
   float sharpen = 0.35f;      ///< video sharpening overshoot
   float noise = 0.0006f;      ///< sensor noise at mid grey; more in the dark
   float saturation = 1;
