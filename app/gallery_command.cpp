@@ -198,8 +198,7 @@ void outside(const sim::Model& model, const sim::State& start, Shots& shots) {
     options.walls = false;
     shots.take_outside(start, preset.name, fmt::format("from outside, {}, walls left out", preset.meaning), options);
   }
-  ViewOptions options;
-  options.camera = ViewOptions::Camera::outside;
+  ViewOptions options = view_of(choice_of(kCameraPresets[0]), around);
   options.walls = options.instruments = false;
   shots.take_outside(start, "organs", "the organs alone", options);
 }
