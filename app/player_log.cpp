@@ -25,7 +25,8 @@ void Player::log_widgets() {
 }
 
 void Player::log_shown(const sim::State& state) {
-  if (!m_log.on() || (m_logged_tick == now() && m_logged_exact == m_exact)) return;
+  const bool told = m_logged_tick == now() && m_logged_exact == m_exact && m_logged_playing == m_playing;
+  if (!m_log.on() || told) return;
   const double took = std::chrono::duration<double, std::milli>(Clock::now() - m_asked_at).count();
   Json details{{"tick", now()}, {"state_tick", state.tick}, {"exact", m_exact}, {"playing", m_playing}, {"ms", took}};
   if (m_exact && !m_playing) details["hash"] = hex(sim::hash_of(state));
@@ -33,6 +34,7 @@ void Player::log_shown(const sim::State& state) {
   m_log.event("shown", details);
   m_logged_tick = now();
   m_logged_exact = m_exact;
+  m_logged_playing = m_playing;
 }
 
 void Player::log_camera() {

@@ -130,7 +130,7 @@ class Player {
   std::vector<ui::Widget> m_widgets;
   std::string m_screen;
   std::uint64_t m_logged_tick = Reel::kNowhere;
-  bool m_logged_exact = false;
+  bool m_logged_exact = false, m_logged_playing = false;
   Clock::time_point m_asked_at = Clock::now();
 };
 
