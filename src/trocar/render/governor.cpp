@@ -33,6 +33,8 @@ int count_bits(unsigned x) {
 
 std::span<const Quality> quality_levels() { return kLevels; }
 
+std::size_t first_level(bool on_processors) { return on_processors ? std::size(kLevels) - 3 : 0; }
+
 Governor::Governor(Limits limits, std::size_t start_level)
     : m_limits(limits), m_level(std::min(start_level, std::size(kLevels) - 1)), m_patience(limits.calm_frames) {}
 
