@@ -12,7 +12,7 @@ using render::DrawItem;
 namespace {
 
 constexpr double kShadeCell = 0.001f, kShadeReach = 0.018f;  // [m] what shades what
-constexpr float kVesselBefore = 0.0016f;                     // [m] a fold's vessels are drawn nearer than they are
+constexpr float kVesselBehind = 0.0014f;                     // [m] a fold's vessels are drawn farther than they are
 
 /// The look's unevenness, and a rise where each strand grows out.
 Relief relief_of(int organ, const sim::Model& model) {
@@ -328,15 +328,16 @@ void BodyDrawing::list_folds(const FirstParts& first, const Listing& to) {
 }
 
 /// A vessel that lies in a fold is as thick as the fold's ripples are high and would be half in, half out of it: it is
-/// drawn a little nearer than it is, in the same place of the picture (shrunk towards the eye).
-void BodyDrawing::lift_vessels_out_of_folds(render::Frame& frame) const {
+/// drawn a little farther than it is, in the same place of the picture (grown away from the eye), so that all of it is
+/// seen through the fold.
+void BodyDrawing::sink_vessels_into_folds(render::Frame& frame) const {
   for (const DrawnVessels& v : m_vessels) {
     if (!v.in_a_fold) continue;
     Vec3f middle{};
     const std::vector<Vec3f>& points = v.drawing.buffer().positions;
     for (const Vec3f& p : points) middle += p / float(points.size());
     const Vec3f eye = frame.camera.position;
-    const float size = 1 - kVesselBefore / std::max(length(middle - eye), 0.03f);
+    const float size = 1 + kVesselBehind / std::max(length(middle - eye), 0.03f);
     const Mat3f scale = Mat3f::from_columns({size, 0, 0}, {0, size, 0}, {0, 0, size});
     for (DrawItem& drawn : frame.items)
       if (drawn.mesh.id == v.drawing.mesh().id) drawn.transform = render::placement(scale, (1 - size) * eye);

@@ -43,7 +43,7 @@ class BodyDrawing {
   const std::vector<MeshBuffer>& margin_shapes() const { return m_margin_shapes; }
   /// Of the model's walls: seen from outside only their inner side is drawn.
   bool is_wall(render::MeshHandle mesh) const;
-  void lift_vessels_out_of_folds(render::Frame& frame) const;
+  void sink_vessels_into_folds(render::Frame& frame) const;
 
  private:
   /// Arteries or veins, in folds or elsewhere.

@@ -184,11 +184,20 @@ Material fold(float alpha) {
   return m;
 }
 
+/// Sheer and milky: what lies behind it is seen as through ground glass, with hardly a glint.
 Material mesosalpinx() {
-  Material m = fold(0.44f);
-  m.wetness = 0.3f;
-  m.film_bump = 0.06f;
-  m.film_size = 0.005f;
+  Material m = fold(0.46f);
+  m.colour = srgb(206, 158, 152);
+  m.colour_b = srgb(218, 178, 162);
+  m.colour_c = srgb(196, 140, 138);
+  m.mottle_size = 0.009f;
+  m.mottle = 0.6f;
+  m.roughness = 0.6f;
+  m.wetness = 0.12f;
+  m.film_bump = 0.1f;
+  m.film_roughness = 0.16f;
+  m.film_size = 0.0022f;
+  m.tint = srgb(226, 178, 146);  // fat along its borders
   m.vessel_colour = srgb(148, 26, 40);
   m.vessel_tile = float(kFoldTile);
   m.arcade = true;

@@ -85,14 +85,13 @@ double thinned(const Run& run, double s, double length) {
 }
 
 /// From where to where on the line it does not run below the peritoneum.
-/// Of one that a fold carries: only in it and along the strand on its border; to either side it goes into the depth.
+/// Of one that a fold carries: in it, along the strand on its border, and on into the organ where it comes from, below
+/// whose surface it is lost; elsewhere it goes into the depth.
 std::pair<double, double> in_sight(const interactions::VesselPath& path) {
   const bool fold = in_a_fold(path);
   double from = 1, to = 0;
   for (const interactions::VesselPoint& p : path.points) {
-    const auto kind = p.hold.kind;
-    if (p.covered()) continue;
-    if (fold && kind != interactions::VesselHold::membrane && kind != interactions::VesselHold::strand) continue;
+    if (p.covered() || (fold && p.hold.kind == interactions::VesselHold::space)) continue;
     from = std::min(from, p.s);
     to = std::max(to, p.s);
   }
