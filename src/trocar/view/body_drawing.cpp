@@ -12,7 +12,8 @@ using render::DrawItem;
 namespace {
 
 constexpr double kShadeCell = 0.001f, kShadeReach = 0.018f;  // [m] what shades what
-constexpr float kVesselBehind = 0.0014f;                     // [m] a fold's vessels are drawn farther than they are
+
+constexpr float kAfterFolds = 0.1f;  // [m] in the order of what is translucent: before every fold that is in the picture
 
 /// The look's unevenness, and a rise where each strand grows out.
 Relief relief_of(int organ, const sim::Model& model) {
@@ -265,11 +266,28 @@ void BodyDrawing::list(bool with_walls, const FirstParts& first, const Listing& 
     to.add(item(m_aprons[i].handle(), look("omentum"), first.wall + m_apron_on[i]));
   list_organs(first, to);
   list_tubes(with_walls, first, to);
-  for (std::size_t i = 0; i < m_vessels.size(); ++i)
-    to.add(item(m_vessels[i].drawing.mesh(), *m_vessel_look[m_vessels[i].look], first.vessel + m_vessels[i].look),
-           m_details.vessels[i], m_vessels[i].drawing.buffer().positions);
+  list_vessels(false, first, to);
   if (with_walls && m_adhesions->mesh().id) to.add(item(m_adhesions->mesh(), look("adhesion"), first.cavity));
   list_folds(first, to);
+  list_vessels(true, first, to);
+}
+
+/// Those in folds come after these and let them shine through: they are seen within, soft and half veiled, whatever the
+/// folds' ripples do.
+void BodyDrawing::list_vessels(bool in_folds, const FirstParts& first, const Listing& to) {
+  for (std::size_t i = 0; i < m_vessels.size(); ++i) {
+    const DrawnVessels& v = m_vessels[i];
+    if (v.in_a_fold != in_folds) continue;
+    const Look& own = *m_vessel_look[v.look];
+    DrawItem drawn = item(v.drawing.mesh(), own, first.vessel + v.look);
+    if (in_folds) {
+      const Look& veiled = look(own.name + "_in_fold");
+      drawn.material = veiled.material;
+      drawn.translucent = true;
+      drawn.nearer = kAfterFolds;
+    }
+    to.add(drawn, m_details.vessels[i], v.drawing.buffer().positions);
+  }
 }
 
 void BodyDrawing::list_organs(const FirstParts& first, const Listing& to) {
@@ -325,23 +343,6 @@ void BodyDrawing::list_folds(const FirstParts& first, const Listing& to) {
   for (std::size_t i = 0; i < m_pouches.size(); ++i)
     to.add(item(m_pouches[i].mesh(), look_of(m_pouch_of[i]), first.membrane + m_pouch_of[i]), m_details.pouches[i],
            m_pouches[i].buffer().positions, m_pouches[i].burnt() || held(interactions::kMembraneBase + m_pouch_of[i]));
-}
-
-/// A vessel that lies in a fold is as thick as the fold's ripples are high and would be half in, half out of it: it is
-/// drawn a little farther than it is, in the same place of the picture (grown away from the eye), so that all of it is
-/// seen through the fold.
-void BodyDrawing::sink_vessels_into_folds(render::Frame& frame) const {
-  for (const DrawnVessels& v : m_vessels) {
-    if (!v.in_a_fold) continue;
-    Vec3f middle{};
-    const std::vector<Vec3f>& points = v.drawing.buffer().positions;
-    for (const Vec3f& p : points) middle += p / float(points.size());
-    const Vec3f eye = frame.camera.position;
-    const float size = 1 + kVesselBehind / std::max(length(middle - eye), 0.03f);
-    const Mat3f scale = Mat3f::from_columns({size, 0, 0}, {0, size, 0}, {0, 0, size});
-    for (DrawItem& drawn : frame.items)
-      if (drawn.mesh.id == v.drawing.mesh().id) drawn.transform = render::placement(scale, (1 - size) * eye);
-  }
 }
 
 }  // namespace trocar::view

@@ -83,6 +83,18 @@ Material vessel(Vec3f main, Vec3f broad, Vec3f fine) {
   return m;
 }
 
+/// Within a fold: both its walls are seen through each other, softest at its sides, and what is in it has no glint.
+Material veiled(Vec3f main, Vec3f broad, Vec3f fine) {
+  Material m = vessel(main, broad, fine);
+  m.alpha = 0.42f;
+  m.rim_alpha = 0;
+  m.wrap = {1, 1, 1};
+  m.wetness = 0;
+  m.fresnel = 0.004f;
+  m.glow_amount = 0;
+  return m;
+}
+
 Material peritoneum() {
   Material m = with_vessels(tissue(srgb(180, 116, 121), srgb(194, 138, 128), srgb(162, 94, 102)), 1.0f, 0.05f);
   m.mottle_size = 0.024f;
@@ -295,6 +307,8 @@ std::vector<Look> make_looks() {
   const Material cord = ligament(srgb(212, 160, 148), srgb(224, 184, 164), srgb(192, 124, 122));
   const Material pale_cord = ligament(srgb(216, 168, 156), srgb(228, 192, 172), srgb(200, 138, 134));
   const Material pedicle = ligament(srgb(200, 130, 124), srgb(214, 160, 138), srgb(174, 96, 102));
+  const Material artery = vessel(srgb(134, 50, 52), srgb(148, 64, 60), srgb(112, 38, 44));
+  const Material vein = vessel(srgb(104, 60, 70), srgb(118, 74, 78), srgb(88, 46, 60));
   const Material neutral = tissue(srgb(196, 134, 130), srgb(204, 150, 142), srgb(182, 112, 112));
   return {
       {"neutral", neutral, false, {}},
@@ -348,8 +362,10 @@ std::vector<Look> make_looks() {
        false,
        {.broad = 0.0005, .broad_size = 0.017, .fine = 0.00012, .fine_size = 0.005}},
       {"fat", fat(), false, {.broad = 0.001, .broad_size = 0.012, .fine = 0.0006, .fine_size = 0.005}},
-      {"artery", vessel(srgb(134, 50, 52), srgb(148, 64, 60), srgb(112, 38, 44)), false, {}},
-      {"vein", vessel(srgb(104, 60, 70), srgb(118, 74, 78), srgb(88, 46, 60)), false, {}},
+      {"artery", artery, false, {}},
+      {"vein", vein, false, {}},
+      {"artery_in_fold", veiled(srgb(142, 34, 42), srgb(150, 48, 52), srgb(122, 26, 34)), true, {}},
+      {"vein_in_fold", veiled(srgb(112, 62, 80), srgb(122, 76, 88), srgb(96, 48, 66)), true, {}},
       {"peritoneum", peritoneum(), false, {}},
       {"upper_abdomen", peritoneum(), false, {}, 0, 0, false, true},
       {"omentum", omentum(), false, {}},
