@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kShadeCell = 0.001f, kShadeReach = 0.018f;  // [m] what shades what
 
-constexpr float kAfterFolds = 0.1f;  // [m] in the order of what is translucent: before every fold that is in the picture
+constexpr float kAfterFolds =
+    0.1f;  // [m] in the order of what is translucent: before every fold that is in the picture
 
 /// The look's unevenness, and a rise where each strand grows out.
 Relief relief_of(int organ, const sim::Model& model) {
@@ -28,6 +29,11 @@ Relief relief_of(int organ, const sim::Model& model) {
     if (hangs(strand.end)) relief.roots.push_back({rest.back(), strand.outer.back()});
   }
   return relief;
+}
+
+/// Runs from an organ to a wall: a ridge covers where it goes into that.
+bool is_ridge(const sim::StrandModel& strand) {
+  return strand.start.kind == sim::StrandEndModel::hosted && strand.end.kind == sim::StrandEndModel::fixed;
 }
 
 std::vector<Paint> shaded(const render::OpennessBaker& baker, std::span<const Vec3f> points,
@@ -155,6 +161,7 @@ void BodyDrawing::make_joints(const WallSurface& walls, render::Backend& backend
       if (m_tubes[i].neck(at_start).far <= 0) continue;
       const sim::StrandEndModel& end = at_start ? m_model->strands[i].start : m_model->strands[i].end;
       if (end.kind != sim::StrandEndModel::hosted) {
+        if (!at_start && !m_model->walls.empty() && is_ridge(m_model->strands[i])) continue;
         m_joints.push_back({i, -1, Joint(m_tubes[i], at_start, walls, backend)});
         continue;
       }
@@ -164,7 +171,7 @@ void BodyDrawing::make_joints(const WallSurface& walls, render::Backend& backend
     }
   for (std::size_t i = 0; i < m_tubes.size() && !m_model->walls.empty(); ++i) {
     const sim::StrandModel& strand = m_model->strands[i];
-    if (strand.start.kind != sim::StrandEndModel::hosted || strand.end.kind != sim::StrandEndModel::fixed) continue;
+    if (!is_ridge(strand)) continue;
     m_ridges.emplace_back(*m_model, m_tubes[i], int(i), walls, backend);
     m_ridge_of.push_back(i);
   }
@@ -327,8 +334,11 @@ void BodyDrawing::list_tubes(bool with_walls, const FirstParts& first, const Lis
     if (j.organ >= 0) joint.material.tint = look(m_model->strands[j.tube].look).material.colour;
     to.add(joint);
   }
-  for (std::size_t i = 0; with_walls && i < m_ridges.size(); ++i)
-    to.add(item(m_ridges[i].mesh(), look("peritoneum"), first.tube + m_ridge_of[i]));
+  for (std::size_t i = 0; with_walls && i < m_ridges.size(); ++i) {
+    DrawItem ridge = item(m_ridges[i].mesh(), look("peritoneum"), first.tube + m_ridge_of[i]);
+    ridge.material.tint = look(m_model->strands[m_ridge_of[i]].look).material.colour;
+    to.add(ridge);
+  }
 }
 
 void BodyDrawing::list_folds(const FirstParts& first, const Listing& to) {
