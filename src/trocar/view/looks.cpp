@@ -218,12 +218,13 @@ Material mesosalpinx() {
 
 /// Whitish, thin.
 Material adhesion() {
-  Material m = fold(0.26f);
+  Material m = fold(0.4f);
   m.colour = srgb(214, 176, 166);
   m.colour_b = srgb(222, 192, 178);
   m.colour_c = srgb(204, 150, 144);
-  m.tint = srgb(220, 186, 172);  // its strings
-  m.wetness = 0.4f;
+  m.tint = srgb(220, 186, 172);  // where it is drawn thin
+  m.vessels = 0;
+  m.wetness = 0.25f;
   m.film_bump = 0.1f;
   m.rim_alpha = 0.5f;
   return m;
