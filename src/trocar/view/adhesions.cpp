@@ -12,7 +12,7 @@ constexpr double kNearest = 0.005, kFarthest = 0.03;  // [m] from the organ to t
 constexpr float kApart = 0.016f;                      // [m] between two
 constexpr float kSunk = 0.0012f;                      // [m] both ends, in what they hang on
 constexpr float kSag = 0.08f;                         // of the length
-constexpr double kFoot = 0.22;                        // of the length: there it is lost in what it hangs on
+constexpr double kFoot = 0.13;                        // of the length: there it is lost in what it hangs on
 
 std::size_t nearest_vertex(Vec3f p, const tissue::Skin& skin) {
   std::size_t best = 0;
@@ -25,7 +25,8 @@ std::size_t nearest_vertex(Vec3f p, const tissue::Skin& skin) {
 Paint paint_at(double u, double v) {
   const double end = std::min(u, 1 - u), border = std::fabs(v);
   const double foot = smooth(0, kFoot, end), soft = smooth(1.02, 0.5, border);
-  return {to_byte(0.5 * foot * (0.25 + 0.75 * soft)), 0, 0, to_byte(0.5 * smooth(0.1, 0.4, end) * (1 - 0.7 * border))};
+  return {to_byte(0.62 * foot * (0.3 + 0.7 * soft)), 0, 0,
+          to_byte(0.12 + 0.5 * smooth(0.1, 0.4, end) * (1 - 0.7 * border))};
 }
 
 }  // namespace
@@ -68,10 +69,10 @@ void Adhesions::choose(std::size_t organ, int count, const tissue::Skin& skin, c
     const float far = length(way);
     if (!wall.there || far < kNearest || far > kFarthest || dot(way, n) < 0.35f * far) continue;
     const Vec3f side = normalised(cross(way, vec_cast<float>(aim)), any_perpendicular(normalised(way)));
-    const double wide = varied(seed + k, 7), half = 0.0022 + 0.0048 * wide * wide;
+    const double wide = varied(seed + k, 7), half = 0.0034 + 0.0056 * wide * wide;
     Veil veil;
     veil.organ = organ;
-    veil.waist = float(0.07 + 0.3 * varied(seed + k, 8) * wide);
+    veil.waist = float(0.11 + 0.36 * varied(seed + k, 8) * wide);
     veil.seed = seed + k;
     for (std::size_t j = 0; j < kAcross; ++j) {
       const Vec3f beside = float(half * (2.0 * double(j) / (kAcross - 1) - 1)) * side;

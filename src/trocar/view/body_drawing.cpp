@@ -330,7 +330,9 @@ void BodyDrawing::list_tubes(bool with_walls, const FirstParts& first, const Lis
   for (const TubeJoint& j : m_joints) {
     if (j.organ < 0 && !with_walls) continue;
     const Look& onto = j.organ < 0 ? look("peritoneum") : look(m_model->solids[std::size_t(j.organ)].look);
-    DrawItem joint = item(j.joint.mesh(), onto, first.tube + j.tube);
+    // Made of what its organ is made of: it is shown, hidden and seen through with that.
+    const std::size_t part = j.organ < 0 ? first.tube + j.tube : first.organ + std::size_t(j.organ);
+    DrawItem joint = item(j.joint.mesh(), onto, part);
     if (j.organ >= 0) joint.material.tint = look(m_model->strands[j.tube].look).material.colour;
     to.add(joint);
   }

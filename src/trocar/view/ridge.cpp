@@ -21,11 +21,12 @@ constexpr double kLostOver = 0.014;                   // [m] of wall along which
 constexpr double kLostDepth = 0.0014;                 // [m] ... below it
 constexpr double kShallow = 0.0005;                   // [m] above it until then
 constexpr double kCrest = 1.15;                       // radii from the ligament's axis to what covers it
-constexpr double kAround = 6.5;                       // radii: how far its slope is that of the ligament's side
-constexpr double kLoose = 0.0004;                     // [m] what covers a ligament keeps off it
-constexpr double kTucked = 0.0012;                    // [m] the border lies below the wall
-constexpr double kAtWall = 0.006;                     // [m] nearer than that, down is the wall's normal
-constexpr int kInWall = 6, kGlide = 6;                // stations where the ligament is in the wall, and beyond its end
+constexpr double kCovers = 1.1;         // radii from the axis: nearer than that it would not cover the ligament
+constexpr double kAround = 6.5;         // radii: how far its slope is that of the ligament's side
+constexpr double kLoose = 0.0004;       // [m] what covers a ligament keeps off it
+constexpr double kTucked = 0.0012;      // [m] the border lies below the wall
+constexpr double kAtWall = 0.006;       // [m] nearer than that, down is the wall's normal
+constexpr int kInWall = 6, kGlide = 6;  // stations where the ligament is in the wall, and beyond its end
 
 /// Is it what folds hang on, or does a vessel run in it?
 bool carries(const sim::Model& model, int strand) {
@@ -36,6 +37,13 @@ bool carries(const sim::Model& model, int strand) {
          std::any_of(model.vessels.list.begin(), model.vessels.list.end(), [&](const sim::Vessel& v) {
            return std::any_of(v.path.points.begin(), v.path.points.end(), rides);
          });
+}
+
+/// A point that is at least so far from an axis.
+Vec3d outside(Vec3d p, Vec3d axis, Vec3d along, double far) {
+  const Vec3d off = p - axis - dot(p - axis, along) * along;
+  const double now = length(off);
+  return now < 1e-6 || now >= far ? p : p + (far / now - 1) * off;
 }
 
 }  // namespace
@@ -103,7 +111,7 @@ void Ridge::add_glide(const WallSurface& walls) {
     Station st = last;
     st.beyond = true;
     st.gone = double(i) / kGlide;
-    st.at = on - st.radius * wall.normal;
+    st.at = on - (kCrest * st.radius + kLostDepth) * wall.normal;
     st.along = onward;
     m_stations.push_back(st);
   }
@@ -203,8 +211,9 @@ void Ridge::place(const StrandCurve& curve) {
 void Ridge::place_flank(const Station& st, Vec3d at, int flank, std::size_t first) {
   const double sign = flank ? -1 : 1;
   const Vec3d n = st.normal[flank];
-  const Vec3d down = normalised(st.floor - at - kAtWall * n, -n), out = sign * st.side;
-  const Vec3d away = 0.15 * n - down, up = normalised(away - dot(away, st.along) * st.along, -down);
+  const Vec3d mean = normalised(st.normal[0] + st.normal[1], n);
+  const Vec3d down = normalised(st.floor - at - kAtWall * mean, -mean), out = sign * st.side;
+  const Vec3d away = 0.15 * mean - down, up = normalised(away - dot(away, st.along) * st.along, -down);
   const double high = 0.5 + (kCrest - 0.5) * st.over,
                wide = std::sqrt(std::max(0.0, 1 - 0.87 * high * high * (1 - st.over) - st.over));
   const double hold = 0.8 + 0.2 * st.over;  // begins inside the ligament, whose outline is uneven
@@ -222,11 +231,13 @@ void Ridge::place_flank(const Station& st, Vec3d at, int flank, std::size_t firs
   for (int r = 0; r < kRows; ++r) {
     const double t = std::min(1.0, double(r) / (kRows - 2)), u = 1 - t;
     Vec3d p = (u * u * (1 + 2 * t)) * top + (t * t * (3 - 2 * t)) * end + (u * u * t) * leaves - (t * t * u) * arrives;
+    p = outside(p, at, st.along, kCovers * st.over * st.radius);
     if (r == kRows - 1) p = end + spread * (0.002 * level - kTucked * n);
     const std::size_t v = first + std::size_t(r);
     m_buffer.positions[v] = vec_cast<float>(p);
     // The tint is the ligament's colour, which is near to that of the fat below a wall's peritoneum.
-    const double own = (0.95 - 0.4 * st.over) * smooth(0.5 - 0.15 * st.over, 0, t) * (st.beyond ? 0.5 : 1.0);
+    const double own =
+        (1 - 0.45 * smooth(0.5, 1, st.over)) * smooth(0.5 - 0.15 * st.over, 0, t) * (st.beyond ? 0.5 : 1.0);
     m_buffer.paint[v].openness = to_byte(0.78 + 0.22 * std::fabs(1 - 2 * t));
     m_buffer.paint[v].tint = to_byte(std::max(own, 0.6 * fat_below(p) * smooth(0, 0.5, t)));
   }

@@ -20,17 +20,27 @@ constexpr double kRipple = 0.0006;    // [m]
 constexpr std::size_t kFaded = 6;     // columns over which a free edge runs out
 constexpr int kMarginSteps = 4;       // columns between an edge and the organ it runs out on
 constexpr double kMarginFar = 0.012;  // [m] to that
-constexpr double kTopOffset = 0.7;    // radii of the strand: there the fold begins
-constexpr double kCrescent = 0.3;     // of the width: the margin's free border starts this far from the strand
-constexpr int kHemRows = 7;           // from a base in the air to the wall
-constexpr double kHemFar = 0.06;      // [m] at most
-constexpr double kHemSunk = 0.002;    // [m] below the wall
+constexpr int kEvenPasses = 4;
+constexpr double kTopOffset = 0.7;  // radii of the strand: there the fold begins
+constexpr double kCrescent = 0.3;   // of the width: the margin's free border starts this far from the strand
+constexpr int kHemRows = 7;         // from a base in the air to the wall
+constexpr double kHemFar = 0.06;    // [m] at most
+constexpr double kHemSunk = 0.002;  // [m] below the wall
 constexpr double kTwoPi = 6.28318530717959;
 
 /// How much of the sheet there is beside a cut: it frays out into a ragged, soft edge and not along a line.
 double whole_beside_tear(double gap, double s, double v) {
   const double ragged = 0.16 + 0.1 * std::sin(kTwoPi * v / 0.13 + 40 * s) + 0.06 * std::sin(kTwoPi * v / 0.051);
   return 1 - smooth(ragged + 0.25, ragged, gap) * smooth(1.2 * kTear, 0.6 * kTear, v);
+}
+
+/// The hem is lost on the wall, along no line: sooner here, later there, and soonest at its ends.
+double hem_openness(std::size_t column, std::size_t columns, int row) {
+  const double t = double(row + 1) / kHemRows;
+  const double beside = double(std::min(column, columns - 1 - column)) / (2.0 * double(kFaded));
+  const double uneven = 0.12 * std::sin(0.9 * double(column)) + 0.1 * std::sin(0.37 * double(column) + 2);
+  const double lost = smooth(0.3 + uneven, 0.92 + uneven, t);
+  return (1 - lost) * (1 - smooth(0, 0.5, t) * smooth(1, 0, beside));
 }
 
 Vec3d rest_of(const sim::BasePoint& b, const sim::Model& model) {
@@ -105,10 +115,11 @@ void SheetDrawing::connect() {
       const std::size_t left = m_columns.size() - 1 - c;  // a free edge is not seen as one
       const double end = beyond(true) == 0 && left < kFaded ? double(left) / kFaded : 1;
       const double thin = m_hem.empty() ? near : v;  // goes on below its base
-      const double torn = smooth(kTear, 0.6 * kTear, v) * smooth(kPaleEdge, 0, m_columns[c].gap);
-      m_buffer.add({}, {to_byte(end * whole_beside_tear(m_columns[c].gap, m_columns[c].s, v) *
-                                (0.62 + 0.38 * smooth(0, 0.25, thin))),
-                        0, to_byte(0.17 * torn), 0});
+      // Pale where it is torn, and not beyond that: paint of burns hides how sheer a fold is.
+      const double whole = whole_beside_tear(m_columns[c].gap, m_columns[c].s, v);
+      const double torn = smooth(kTear, 0.6 * kTear, v) * smooth(kPaleEdge, 0.5 * kPaleEdge, m_columns[c].gap);
+      m_buffer.add({}, {to_byte(end * whole * (0.62 + 0.38 * smooth(0, 0.25, thin))), 0,
+                        to_byte(0.17 * torn * smooth(0.6, 1, whole)), 0});
     }
   for (std::size_t c = 0; c + 1 < m_columns.size(); ++c) {
     if (m_columns[c].twin == int(c) + 1) continue;
@@ -118,8 +129,7 @@ void SheetDrawing::connect() {
   m_hem_first = m_buffer.size();
   if (m_hem.empty()) return;
   for (std::size_t c = 0; c < m_columns.size(); ++c)
-    for (int r = 0; r < kHemRows; ++r)
-      m_buffer.add({}, {to_byte(1 - smooth(0.3, 1, double(r + 1) / kHemRows)), 0, 0, 0});
+    for (int r = 0; r < kHemRows; ++r) m_buffer.add({}, {to_byte(hem_openness(c, m_columns.size(), r)), 0, 0, 0});
   const auto at = [this](std::size_t c, int r) {
     return std::uint32_t(r == 0 ? c * kRows + kRows - 1 : m_hem_first + c * kHemRows + std::size_t(r - 1));
   };
@@ -307,15 +317,21 @@ void SheetDrawing::place(const sim::State& state) {
   for (std::size_t i = 0; i < m_base.size(); ++i) m_base[i] = base_point(i, state);
   const StrandCurve curve(*m_body, state.strands[std::size_t(m_sheet->strand)], m_pieces);
   std::vector<Vec3d> top(m_columns.size()), base(m_columns.size()), along(m_columns.size());
+  std::vector<Vec3d> beside(m_columns.size());  // from the strand's middle to where the fold begins
   for (std::size_t c = 0; c < m_columns.size(); ++c) {
     const Column& column = m_columns[c];
     base[c] = base_at((column.s - m_sheet->from) / std::max(m_sheet->to - m_sheet->from, 1e-9));
     const CurveFrame f = curve.at(column.piece, column.s);
     const double radius = m_body->model.radius[std::size_t(place_at(*m_body, column.s).element)];
-    const Vec3d down = base[c] - f.point;
-    top[c] = f.point + kTopOffset * radius * normalised(down - dot(down, f.tangent) * f.tangent, f.normal);
+    const Vec3d down = base[c] - f.point, across = down - dot(down, f.tangent) * f.tangent;
+    // Where a strand runs away from its base, that says little of which side the fold is on.
+    const double sure = smooth(0.1, 0.45, length(across) / std::max(length(down), 1e-6));
+    beside[c] = kTopOffset * radius * sure * normalised(across, f.normal);
+    top[c] = f.point;
     along[c] = f.tangent;
   }
+  even_out(beside);
+  for (std::size_t c = 0; c < m_columns.size(); ++c) top[c] += beside[c];
   const bool first = m_rest_width.empty();
   for (std::size_t c = 0; c < m_columns.size(); ++c) {
     if (first) m_rest_width.push_back(length(top[c] - base[c]));
@@ -329,6 +345,17 @@ void SheetDrawing::place(const sim::State& state) {
     else if (!m_margin[at_end].empty())
       place_margin(state, at_end);
   if (!m_hem.empty()) place_hem();
+}
+
+/// Neighbours on the same piece even each other out.
+void SheetDrawing::even_out(std::vector<Vec3d>& of_columns) const {
+  std::vector<Vec3d> old;
+  for (int pass = 0; pass < kEvenPasses; ++pass) {
+    old = of_columns;
+    for (std::size_t c = 1; c + 1 < old.size(); ++c)
+      if (m_columns[c - 1].piece == m_columns[c + 1].piece)
+        of_columns[c] = 0.4 * old[c] + 0.3 * (old[c - 1] + old[c + 1]);
+  }
 }
 
 /// At a cut the two sides part near the strand and are one below: rows go over from their own shape to the mean, and

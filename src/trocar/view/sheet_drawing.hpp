@@ -48,6 +48,7 @@ class SheetDrawing {
   void connect_end(bool at_end);
   void lay_pattern();
   void place(const sim::State& state);
+  void even_out(std::vector<Vec3d>& of_columns) const;
   void close_tear(std::size_t column);
   void place_column(std::size_t column, Vec3d top, Vec3d base, Vec3d across);
   Vec3d base_point(std::size_t i, const sim::State& state) const;
