@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <trocar/render/mesh_arrays.hpp>
 #include <trocar/view/cavity.hpp>
@@ -151,7 +152,7 @@ void Ridge::find_feet(const WallSurface& walls) {
     const double crest = dot(st.at - wall.point, wall.normal) + kCrest * st.radius;
     st.lift = std::max(0.0, kShallow - crest - st.gone * st.gone * (kShallow + kLostDepth)) * wall.normal;
   }
-  even_out(3, [](Station& st) -> Vec3d& { return st.lift; });
+  settle_beyond();
   even_out(4, [](Station& st) -> Vec3d& { return st.side; });
   for (std::size_t i = 0; i < n; ++i) {
     Station& st = m_stations[i];
@@ -169,6 +170,17 @@ void Ridge::find_feet(const WallSurface& walls) {
       st.normal[flank] = at.normal;
     }
   }
+}
+
+/// What stays in space is raised for good, and evened out.
+void Ridge::settle_beyond() {
+  for (Station& st : m_stations)
+    if (st.beyond) st.at += std::exchange(st.lift, Vec3d{});
+  for (int pass = 0; pass < 3; ++pass)
+    for (std::size_t i = 1; i + 1 < m_stations.size(); ++i)
+      if (m_stations[i].beyond)
+        m_stations[i].at =
+            0.4 * m_stations[i].at + 0.3 * (m_stations[i - 1].at + m_stations[i - 1].lift + m_stations[i + 1].at);
 }
 
 /// One crest, no seam, where the flanks meet.

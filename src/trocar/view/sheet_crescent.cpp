@@ -8,11 +8,11 @@ namespace trocar::view {
 namespace {
 
 constexpr double kFarthest = 0.04;  // [m] from the strand to the wall
-constexpr double kSunk = 0.001;     // [m] the fold ends below the wall
-constexpr double kHollow = 0.42;    // of the border's span: how far it keeps to the strand, and to the wall
-constexpr double kUneven = 0.0008;  // [m] of the free border
+constexpr double kSunk = 0.0022;    // [m] the fold ends below the wall
+constexpr double kHollow = 0.55;    // of the border's span: how far it keeps to the strand, and to the wall
+constexpr double kUneven = 0.0014;  // [m] of the free border
 constexpr double kRim = 0.3;        // of the way to the border: there it thickens and pales
-constexpr double kLost = 0.22;      // of a column: there it goes over into the wall
+constexpr double kLost = 0.36;      // of a column: there it goes over into the wall
 
 }  // namespace
 
@@ -26,6 +26,9 @@ SheetCrescent::SheetCrescent(Vec3d base, std::span<const Vec3d> beside, const Wa
     const WallSurface::Place wall = walls.nearest(straight);
     m_on_wall.push_back(straight + smooth(0, 0.4, u) * (wall.point - kSunk * wall.normal - straight));
   }
+  for (int pass = 0; pass < 4; ++pass)  // walls bend, and where they do the nearest place on them jumps
+    for (std::size_t k = 1; k < kSteps; ++k)
+      m_on_wall[k] = 0.5 * m_on_wall[k] + 0.25 * (m_on_wall[k - 1] + m_on_wall[k + 1]);
 }
 
 /// From the tip on the strand to the wall: it leaves along the one and arrives along the other.
