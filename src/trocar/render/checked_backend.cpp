@@ -324,6 +324,7 @@ void CheckedBackend::sort_items() {
       float depth = dot(backward, m_frame.camera.position - middle);
       // What encloses the scene reaches farthest and comes last; the middle says best what lies on what.
       if (!translucent) depth += 0.5f * length(transform_direction(item.transform, bounds.high - bounds.low));
+      if (translucent) depth -= item.nearer;
       m_order.push_back({translucent ? -depth : depth, &item});
     }
     std::stable_sort(m_order.begin(), m_order.end(), [](Sorted a, Sorted b) { return a.depth < b.depth; });

@@ -92,6 +92,7 @@ struct DrawItem {
   Material material;
   Mat4 transform;            ///< mesh -> world; rotation, translation and uniform scale only
   bool translucent = false;  ///< drawn after the opaque ones, far to near by the middle of its bounds, both sides
+  float nearer = 0;          ///< [m] translucent ones that lie in others: their place in the order, not in space
   DrawStyle style = DrawStyle::shaded;
   std::uint8_t level = 0;   ///< of its mesh: 0 all triangles, k the k-th coarser list or the last that there is
   std::uint8_t detail = 2;  ///< of its surface, at most the frame's (Quality::detail)

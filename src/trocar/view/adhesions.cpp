@@ -8,13 +8,32 @@
 namespace trocar::view {
 namespace {
 
-constexpr int kAlong = 13, kAcross = 6;               // vertices of a veil
 constexpr double kNearest = 0.005, kFarthest = 0.03;  // [m] from the organ to the wall
 constexpr float kApart = 0.016f;                      // [m] between two
 constexpr float kSunk = 0.0012f;                      // [m] both ends, in what they hang on
 constexpr float kSag = 0.08f;                         // of the length
+constexpr double kFoot = 0.13;                        // of the length: there it is lost in what it hangs on
+
+std::size_t nearest_vertex(Vec3f p, const tissue::Skin& skin) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < skin.rest.size(); ++i)
+    if (length(skin.rest[i] - p) < length(skin.rest[best] - p)) best = i;
+  return best;
+}
+
+/// Thin and soft at its borders, dense where it is narrow, gone in its feet. @param u along @param v across, -1 .. 1
+Paint paint_at(double u, double v) {
+  const double end = std::min(u, 1 - u), border = std::fabs(v);
+  const double foot = smooth(0, kFoot, end), soft = smooth(1.02, 0.5, border);
+  return {to_byte(0.62 * foot * (0.3 + 0.7 * soft)), 0, 0,
+          to_byte(0.12 + 0.5 * smooth(0.1, 0.4, end) * (1 - 0.7 * border))};
+}
 
 }  // namespace
+
+bool Adhesions::Veil::near(Vec3f p, const tissue::Skin& skin) const {
+  return length(skin.rest[from[kAcross / 2].vertex] - p) < kApart;
+}
 
 Adhesions::Adhesions(const std::vector<OrganDrawing>& organs, const sim::Model& model, const WallSurface& walls,
                      render::Backend& backend)
@@ -25,13 +44,8 @@ Adhesions::Adhesions(const std::vector<OrganDrawing>& organs, const sim::Model& 
   for (std::size_t k = 0; k < m_veils.size(); ++k) {
     const std::uint32_t first = m_buffer.size();
     for (int i = 0; i < kAlong; ++i)
-      for (int j = 0; j < kAcross; ++j) {
-        // Denser towards its ends and its borders; the borders themselves are strings.
-        const double u = double(i) / (kAlong - 1), v = std::fabs(2.0 * j / (kAcross - 1) - 1);
-        const double ends = smooth(0.3, 0, std::min(u, 1 - u));
-        m_buffer.add({}, {to_byte(std::min(u, 1 - u) * (kAlong - 1) < 0.5 ? 0.1 : 1), 0, 0,
-                          to_byte(std::max(0.5 * smooth(0.5, 1, v), 0.35 * ends))});
-      }
+      for (int j = 0; j < kAcross; ++j)
+        m_buffer.add({}, paint_at(double(i) / (kAlong - 1), 2.0 * j / (kAcross - 1) - 1));
     for (int i = 0; i + 1 < kAlong; ++i)
       join_rows(m_buffer, first + std::uint32_t(i * kAcross), first + std::uint32_t((i + 1) * kAcross), kAcross, false);
   }
@@ -47,48 +61,56 @@ void Adhesions::choose(std::size_t organ, int count, const tissue::Skin& skin, c
   for (int k = 0; k < 60 * count && int(m_veils.size() - before) < count; ++k) {
     const auto v = std::size_t(varied(seed + k, 3) * double(skin.rest.size() - 1));
     const Vec3f p = skin.rest[v], n = skin.rest_normal[v];
-    const auto close = [&](const Veil& other) {
-      return other.organ == organ && length(skin.rest[other.vertex] - p) < kApart;
-    };
+    const auto close = [&](const Veil& other) { return other.organ == organ && other.near(p, skin); };
     if (std::any_of(m_veils.begin(), m_veils.end(), close)) continue;
     const Vec3d aim{varied(seed + k, 4) - 0.5, varied(seed + k, 5) - 0.5, varied(seed + k, 6) - 0.5};
     const WallSurface::Place wall = walls.nearest(vec_cast<double>(p + 0.012f * n) + 0.016 * aim);
     const Vec3f way = vec_cast<float>(wall.point) - p;
     const float far = length(way);
     if (!wall.there || far < kNearest || far > kFarthest || dot(way, n) < 0.35f * far) continue;
+    const Vec3f side = normalised(cross(way, vec_cast<float>(aim)), any_perpendicular(normalised(way)));
+    const double wide = varied(seed + k, 7), half = 0.0034 + 0.0056 * wide * wide;
     Veil veil;
     veil.organ = organ;
-    veil.vertex = v;
-    veil.to = vec_cast<float>(wall.point);
-    veil.to_normal = vec_cast<float>(wall.normal);
-    veil.side = normalised(cross(way, vec_cast<float>(aim)), any_perpendicular(normalised(way)));
-    veil.wide = float(0.0012 + 0.0045 * varied(seed + k, 7) * varied(seed + k, 7));
-    veil.waist = float(0.12 + 0.4 * varied(seed + k, 8));
+    veil.waist = float(0.11 + 0.36 * varied(seed + k, 8) * wide);
     veil.seed = seed + k;
+    for (std::size_t j = 0; j < kAcross; ++j) {
+      const Vec3f beside = float(half * (2.0 * double(j) / (kAcross - 1) - 1)) * side;
+      const std::size_t vertex = j == kAcross / 2 ? v : nearest_vertex(p + beside, skin);
+      veil.from[j] = {vertex, p + beside - skin.rest[vertex]};
+      const WallSurface::Place foot = walls.nearest(wall.point + 1.3 * vec_cast<double>(beside));
+      veil.to[j] = vec_cast<float>(foot.point) - kSunk * vec_cast<float>(foot.normal);
+    }
     m_veils.push_back(veil);
   }
 }
 
 void Adhesions::place(const std::vector<OrganDrawing>& organs) {
-  std::size_t at = 0;
-  for (const Veil& veil : m_veils) {
-    const OrganDrawing& organ = organs[veil.organ];
-    const Vec3f a = organ.positions()[veil.vertex] - kSunk * organ.normals()[veil.vertex];
-    const Vec3f b = veil.to - kSunk * veil.to_normal, way = b - a;
-    const Vec3f side = normalised(veil.side - dot(veil.side, normalised(way)) * normalised(way), veil.side);
-    for (int i = 0; i < kAlong; ++i) {
-      const float u = float(i) / (kAlong - 1), middle = 4 * u * (1 - u);
-      const float half = veil.wide * (1 - (1 - veil.waist) * middle * (2 - middle));
-      const Vec3f centre = a + u * way + (kSag * length(way) * middle) * m_down +
-                           (0.0006f * middle * std::sin(9 * u + float(veil.seed))) * side;
-      for (int j = 0; j < kAcross; ++j) {
-        const float v = 2 * float(j) / (kAcross - 1) - 1;
-        const float ripple = 0.15f * half * std::sin(5 * v + 4 * u + float(veil.seed));
-        m_buffer.positions[at++] = centre + (half * v) * side + ripple * cross(normalised(way), side);
-      }
+  for (std::size_t k = 0; k < m_veils.size(); ++k)
+    place_veil(m_veils[k], organs[m_veils[k].organ], k * kAlong * kAcross);
+  render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);
+}
+
+void Adhesions::place_veil(const Veil& veil, const OrganDrawing& organ, std::size_t first) {
+  std::array<Vec3f, kAcross> from;
+  for (std::size_t j = 0; j < kAcross; ++j) {
+    const OnSkin& at = veil.from[j];
+    const Vec3f n = organ.normals()[at.vertex];
+    from[j] = organ.positions()[at.vertex] + at.beside - (dot(at.beside, n) + kSunk) * n;
+  }
+  const Vec3f a = from[kAcross / 2], b = veil.to[kAcross / 2];
+  const float far = length(b - a);
+  for (int i = 0; i < kAlong; ++i) {
+    const float u = float(i) / (kAlong - 1), middle = 4 * u * (1 - u), edge = std::fabs(2 * u - 1);
+    const float narrow = veil.waist + (1 - veil.waist) * edge * edge * edge;
+    const Vec3f sag = (kSag * far * middle) * m_down;
+    for (std::size_t j = 0; j < kAcross; ++j) {
+      const Vec3f beside = (1 - u) * (from[j] - a) + u * (veil.to[j] - b);
+      const float ripple = 0.12f * middle * std::sin(1.7f * float(j) + 5 * u + float(veil.seed));
+      m_buffer.positions[first + std::size_t(i) * kAcross + j] =
+          a + u * (b - a) + sag + narrow * beside + (ripple * narrow * length(beside)) * m_down;
     }
   }
-  render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);
 }
 
 void Adhesions::update(const std::vector<OrganDrawing>& organs) {

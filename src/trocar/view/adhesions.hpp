@@ -1,9 +1,12 @@
-// Strings and veils of whitish tissue between an organ and the wall beside it, as most abdomens have a few. Drawing
-// only: they follow the organ, and instruments pass through them.
+// Strings and veils of whitish tissue between an organ and the wall beside it, as most abdomens have a few. Each is
+// drawn thin between two triangular feet that lie in what it hangs on. Drawing only: they follow the organ, and
+// instruments pass through them.
 //
 //   Adhesions adhesions(organs, model, walls, backend);
 //   adhesions.update(organs);                            // after the organs
 #pragma once
+
+#include <array>
 
 #include <trocar/view/organ_drawing.hpp>
 #include <trocar/view/wall_surface.hpp>
@@ -21,16 +24,26 @@ class Adhesions {
   render::MeshHandle mesh() const { return m_mesh.handle(); }
   const MeshBuffer& buffer() const { return m_buffer; }
 
+  static constexpr int kAlong = 23, kAcross = 9;  ///< vertices of a veil
+
  private:
-  /// From a vertex of an organ's skin to a place on the wall.
+  /// A vertex of a foot in an organ's skin: beside one of the skin's.
+  struct OnSkin {
+    std::size_t vertex = 0;
+    Vec3f beside;
+  };
+  /// From a line on an organ's skin to one on the wall.
   struct Veil {
-    std::size_t organ = 0, vertex = 0;
-    Vec3f to, to_normal, side;     ///< side: unit, across the veil
-    float wide = 0, waist = 0.3f;  ///< half the width at its ends [m], and the share of it in the middle
+    std::size_t organ = 0;
+    std::array<OnSkin, kAcross> from;
+    std::array<Vec3f, kAcross> to;  ///< in the wall
+    float waist = 0.3f;             ///< width in the middle, as a share of the feet's
     int seed = 0;
+    bool near(Vec3f p, const tissue::Skin& skin) const;
   };
   void choose(std::size_t organ, int count, const tissue::Skin& skin, const WallSurface& walls);
   void place(const std::vector<OrganDrawing>& organs);
+  void place_veil(const Veil& veil, const OrganDrawing& organ, std::size_t first);
 
   std::vector<Veil> m_veils;
   Vec3f m_down;

@@ -12,7 +12,9 @@ using render::DrawItem;
 namespace {
 
 constexpr double kShadeCell = 0.001f, kShadeReach = 0.018f;  // [m] what shades what
-constexpr float kVesselBefore = 0.0016f;                     // [m] a fold's vessels are drawn nearer than they are
+
+constexpr float kAfterFolds =
+    0.1f;  // [m] in the order of what is translucent: before every fold that is in the picture
 
 /// The look's unevenness, and a rise where each strand grows out.
 Relief relief_of(int organ, const sim::Model& model) {
@@ -27,6 +29,11 @@ Relief relief_of(int organ, const sim::Model& model) {
     if (hangs(strand.end)) relief.roots.push_back({rest.back(), strand.outer.back()});
   }
   return relief;
+}
+
+/// Runs from an organ to a wall: a ridge covers where it goes into that.
+bool is_ridge(const sim::StrandModel& strand) {
+  return strand.start.kind == sim::StrandEndModel::hosted && strand.end.kind == sim::StrandEndModel::fixed;
 }
 
 std::vector<Paint> shaded(const render::OpennessBaker& baker, std::span<const Vec3f> points,
@@ -154,6 +161,7 @@ void BodyDrawing::make_joints(const WallSurface& walls, render::Backend& backend
       if (m_tubes[i].neck(at_start).far <= 0) continue;
       const sim::StrandEndModel& end = at_start ? m_model->strands[i].start : m_model->strands[i].end;
       if (end.kind != sim::StrandEndModel::hosted) {
+        if (!at_start && !m_model->walls.empty() && is_ridge(m_model->strands[i])) continue;
         m_joints.push_back({i, -1, Joint(m_tubes[i], at_start, walls, backend)});
         continue;
       }
@@ -163,7 +171,7 @@ void BodyDrawing::make_joints(const WallSurface& walls, render::Backend& backend
     }
   for (std::size_t i = 0; i < m_tubes.size() && !m_model->walls.empty(); ++i) {
     const sim::StrandModel& strand = m_model->strands[i];
-    if (strand.start.kind != sim::StrandEndModel::hosted || strand.end.kind != sim::StrandEndModel::fixed) continue;
+    if (!is_ridge(strand)) continue;
     m_ridges.emplace_back(*m_model, m_tubes[i], int(i), walls, backend);
     m_ridge_of.push_back(i);
   }
@@ -265,11 +273,28 @@ void BodyDrawing::list(bool with_walls, const FirstParts& first, const Listing& 
     to.add(item(m_aprons[i].handle(), look("omentum"), first.wall + m_apron_on[i]));
   list_organs(first, to);
   list_tubes(with_walls, first, to);
-  for (std::size_t i = 0; i < m_vessels.size(); ++i)
-    to.add(item(m_vessels[i].drawing.mesh(), *m_vessel_look[m_vessels[i].look], first.vessel + m_vessels[i].look),
-           m_details.vessels[i], m_vessels[i].drawing.buffer().positions);
+  list_vessels(false, first, to);
   if (with_walls && m_adhesions->mesh().id) to.add(item(m_adhesions->mesh(), look("adhesion"), first.cavity));
   list_folds(first, to);
+  list_vessels(true, first, to);
+}
+
+/// Those in folds come after these and let them shine through: they are seen within, soft and half veiled, whatever the
+/// folds' ripples do.
+void BodyDrawing::list_vessels(bool in_folds, const FirstParts& first, const Listing& to) {
+  for (std::size_t i = 0; i < m_vessels.size(); ++i) {
+    const DrawnVessels& v = m_vessels[i];
+    if (v.in_a_fold != in_folds) continue;
+    const Look& own = *m_vessel_look[v.look];
+    DrawItem drawn = item(v.drawing.mesh(), own, first.vessel + v.look);
+    if (in_folds) {
+      const Look& veiled = look(own.name + "_in_fold");
+      drawn.material = veiled.material;
+      drawn.translucent = true;
+      drawn.nearer = kAfterFolds;
+    }
+    to.add(drawn, m_details.vessels[i], v.drawing.buffer().positions);
+  }
 }
 
 void BodyDrawing::list_organs(const FirstParts& first, const Listing& to) {
@@ -305,12 +330,17 @@ void BodyDrawing::list_tubes(bool with_walls, const FirstParts& first, const Lis
   for (const TubeJoint& j : m_joints) {
     if (j.organ < 0 && !with_walls) continue;
     const Look& onto = j.organ < 0 ? look("peritoneum") : look(m_model->solids[std::size_t(j.organ)].look);
-    DrawItem joint = item(j.joint.mesh(), onto, first.tube + j.tube);
+    // Made of what its organ is made of: it is shown, hidden and seen through with that.
+    const std::size_t part = j.organ < 0 ? first.tube + j.tube : first.organ + std::size_t(j.organ);
+    DrawItem joint = item(j.joint.mesh(), onto, part);
     if (j.organ >= 0) joint.material.tint = look(m_model->strands[j.tube].look).material.colour;
     to.add(joint);
   }
-  for (std::size_t i = 0; with_walls && i < m_ridges.size(); ++i)
-    to.add(item(m_ridges[i].mesh(), look("peritoneum"), first.tube + m_ridge_of[i]));
+  for (std::size_t i = 0; with_walls && i < m_ridges.size(); ++i) {
+    DrawItem ridge = item(m_ridges[i].mesh(), look("peritoneum"), first.tube + m_ridge_of[i]);
+    ridge.material.tint = look(m_model->strands[m_ridge_of[i]].look).material.colour;
+    to.add(ridge);
+  }
 }
 
 void BodyDrawing::list_folds(const FirstParts& first, const Listing& to) {
@@ -325,22 +355,6 @@ void BodyDrawing::list_folds(const FirstParts& first, const Listing& to) {
   for (std::size_t i = 0; i < m_pouches.size(); ++i)
     to.add(item(m_pouches[i].mesh(), look_of(m_pouch_of[i]), first.membrane + m_pouch_of[i]), m_details.pouches[i],
            m_pouches[i].buffer().positions, m_pouches[i].burnt() || held(interactions::kMembraneBase + m_pouch_of[i]));
-}
-
-/// A vessel that lies in a fold is as thick as the fold's ripples are high and would be half in, half out of it: it is
-/// drawn a little nearer than it is, in the same place of the picture (shrunk towards the eye).
-void BodyDrawing::lift_vessels_out_of_folds(render::Frame& frame) const {
-  for (const DrawnVessels& v : m_vessels) {
-    if (!v.in_a_fold) continue;
-    Vec3f middle{};
-    const std::vector<Vec3f>& points = v.drawing.buffer().positions;
-    for (const Vec3f& p : points) middle += p / float(points.size());
-    const Vec3f eye = frame.camera.position;
-    const float size = 1 - kVesselBefore / std::max(length(middle - eye), 0.03f);
-    const Mat3f scale = Mat3f::from_columns({size, 0, 0}, {0, size, 0}, {0, 0, size});
-    for (DrawItem& drawn : frame.items)
-      if (drawn.mesh.id == v.drawing.mesh().id) drawn.transform = render::placement(scale, (1 - size) * eye);
-  }
 }
 
 }  // namespace trocar::view

@@ -43,7 +43,6 @@ class BodyDrawing {
   const std::vector<MeshBuffer>& margin_shapes() const { return m_margin_shapes; }
   /// Of the model's walls: seen from outside only their inner side is drawn.
   bool is_wall(render::MeshHandle mesh) const;
-  void lift_vessels_out_of_folds(render::Frame& frame) const;
 
  private:
   /// Arteries or veins, in folds or elsewhere.
@@ -73,6 +72,7 @@ class BodyDrawing {
   void list_organs(const FirstParts& first, const Listing& to);
   void list_tubes(bool with_walls, const FirstParts& first, const Listing& to);
   void list_folds(const FirstParts& first, const Listing& to);
+  void list_vessels(bool in_folds, const FirstParts& first, const Listing& to);
 
   const sim::Model* m_model;
   std::vector<OrganDrawing> m_organs;  ///< solids

@@ -83,6 +83,18 @@ Material vessel(Vec3f main, Vec3f broad, Vec3f fine) {
   return m;
 }
 
+/// Within a fold: both its walls are seen through each other, softest at its sides, and what is in it has no glint.
+Material veiled(Vec3f main, Vec3f broad, Vec3f fine) {
+  Material m = vessel(main, broad, fine);
+  m.alpha = 0.42f;
+  m.rim_alpha = 0;
+  m.wrap = {1, 1, 1};
+  m.wetness = 0;
+  m.fresnel = 0.004f;
+  m.glow_amount = 0;
+  return m;
+}
+
 Material peritoneum() {
   Material m = with_vessels(tissue(srgb(180, 116, 121), srgb(194, 138, 128), srgb(162, 94, 102)), 1.0f, 0.05f);
   m.mottle_size = 0.024f;
@@ -184,11 +196,20 @@ Material fold(float alpha) {
   return m;
 }
 
+/// Sheer and milky: what lies behind it is seen as through ground glass, with hardly a glint.
 Material mesosalpinx() {
-  Material m = fold(0.44f);
-  m.wetness = 0.3f;
-  m.film_bump = 0.06f;
-  m.film_size = 0.005f;
+  Material m = fold(0.46f);
+  m.colour = srgb(206, 158, 152);
+  m.colour_b = srgb(218, 178, 162);
+  m.colour_c = srgb(196, 140, 138);
+  m.mottle_size = 0.009f;
+  m.mottle = 0.6f;
+  m.roughness = 0.6f;
+  m.wetness = 0.12f;
+  m.film_bump = 0.1f;
+  m.film_roughness = 0.16f;
+  m.film_size = 0.0022f;
+  m.tint = srgb(226, 178, 146);  // fat along its borders
   m.vessel_colour = srgb(148, 26, 40);
   m.vessel_tile = float(kFoldTile);
   m.arcade = true;
@@ -197,12 +218,13 @@ Material mesosalpinx() {
 
 /// Whitish, thin.
 Material adhesion() {
-  Material m = fold(0.26f);
+  Material m = fold(0.4f);
   m.colour = srgb(214, 176, 166);
   m.colour_b = srgb(222, 192, 178);
   m.colour_c = srgb(204, 150, 144);
-  m.tint = srgb(220, 186, 172);  // its strings
-  m.wetness = 0.4f;
+  m.tint = srgb(220, 186, 172);  // where it is drawn thin
+  m.vessels = 0;
+  m.wetness = 0.25f;
   m.film_bump = 0.1f;
   m.rim_alpha = 0.5f;
   return m;
@@ -286,6 +308,8 @@ std::vector<Look> make_looks() {
   const Material cord = ligament(srgb(212, 160, 148), srgb(224, 184, 164), srgb(192, 124, 122));
   const Material pale_cord = ligament(srgb(216, 168, 156), srgb(228, 192, 172), srgb(200, 138, 134));
   const Material pedicle = ligament(srgb(200, 130, 124), srgb(214, 160, 138), srgb(174, 96, 102));
+  const Material artery = vessel(srgb(134, 50, 52), srgb(148, 64, 60), srgb(112, 38, 44));
+  const Material vein = vessel(srgb(104, 60, 70), srgb(118, 74, 78), srgb(88, 46, 60));
   const Material neutral = tissue(srgb(196, 134, 130), srgb(204, 150, 142), srgb(182, 112, 112));
   return {
       {"neutral", neutral, false, {}},
@@ -339,8 +363,10 @@ std::vector<Look> make_looks() {
        false,
        {.broad = 0.0005, .broad_size = 0.017, .fine = 0.00012, .fine_size = 0.005}},
       {"fat", fat(), false, {.broad = 0.001, .broad_size = 0.012, .fine = 0.0006, .fine_size = 0.005}},
-      {"artery", vessel(srgb(134, 50, 52), srgb(148, 64, 60), srgb(112, 38, 44)), false, {}},
-      {"vein", vessel(srgb(104, 60, 70), srgb(118, 74, 78), srgb(88, 46, 60)), false, {}},
+      {"artery", artery, false, {}},
+      {"vein", vein, false, {}},
+      {"artery_in_fold", veiled(srgb(142, 34, 42), srgb(150, 48, 52), srgb(122, 26, 34)), true, {}},
+      {"vein_in_fold", veiled(srgb(112, 62, 80), srgb(122, 76, 88), srgb(96, 48, 66)), true, {}},
       {"peritoneum", peritoneum(), false, {}},
       {"upper_abdomen", peritoneum(), false, {}, 0, 0, false, true},
       {"omentum", omentum(), false, {}},

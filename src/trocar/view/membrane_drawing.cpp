@@ -12,6 +12,7 @@ namespace {
 constexpr int kFine = 3;                // drawn cells along each side of a cell of the body
 constexpr double kRipple = 0.0004;      // [m] of a fold that is slack
 constexpr double kFaded = 4;            // columns over which an end runs out
+constexpr double kRoot = 0.09;          // of its width, over which its root is lost in what it hangs on
 constexpr double kElsewhere = 0.0173;   // [m] one fold's pattern from the next one's
 constexpr float kRagged = 0.0005f;      // [m] how uneven a torn edge is
 constexpr std::uint8_t kTornPale = 44;  // it is whitish
@@ -78,7 +79,8 @@ void MembraneDrawing::lay_pattern() {
       if (own) m_buffer.rest[std::size_t(r * m_columns + c)] = fold_rest(s + kElsewhere * m_index, v);
       Paint paint = fold_paint(s + kElsewhere * m_index, v);
       const double beside = double(std::min(c, m_columns - 1 - c)) / kFaded;  // its ends are not seen as edges
-      paint.openness = to_byte(paint.openness / 255.0 * smooth(-0.1, 1, beside));
+      const double rooted = smooth(1, 1 - kRoot, v);                          // nor is its root
+      paint.openness = to_byte(paint.openness / 255.0 * smooth(-0.1, 1, beside) * (0.15 + 0.85 * rooted));
       paint.tint = to_byte(paint.tint / 255.0 * smooth(0, 1, beside));
       m_buffer.paint.push_back(paint);
     }

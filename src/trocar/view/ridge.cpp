@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <trocar/render/mesh_arrays.hpp>
 #include <trocar/view/cavity.hpp>
@@ -9,22 +10,51 @@
 namespace trocar::view {
 namespace {
 
-constexpr int kRows = 10;           // ligament to wall
-constexpr double kStep = 0.0028;    // [m] between stations
-constexpr double kFrom = 0.10;      // share of the ligament where the fold below it begins ...
-constexpr double kDown = 0.72;      // ... and where it has come down to the wall
-constexpr double kWidest = 0.016;   // [m] from below the ligament to a flank's foot
-constexpr double kOver = 0.74;      // share of the ligament from where on its flanks close over it ...
-constexpr double kClosed = 0.97;    // ... and where they have
-constexpr double kTucked = 0.0012;  // [m] the border lies below the wall
-constexpr double kAtWall = 0.006;   // [m] nearer than that, down is the wall's normal
-constexpr int kBeyond = 7;          // stations in the wall
+constexpr int kRows = 12;          // ligament to wall
+constexpr double kStep = 0.0028;   // [m] between stations
+constexpr double kFrom = 0.10;     // share of the ligament where the fold below it begins ...
+constexpr double kDown = 0.72;     // ... and where it has come down to the wall
+constexpr double kWidest = 0.016;  // [m] from below the ligament to a flank's foot
+constexpr double kOver = 0.62;     // share of the ligament from where on its flanks close over it ...
+constexpr double kClosed = 0.86;   // ... and where they have
+constexpr double kOverAll = 0.12, kClosedAll = 0.32;  // the same where it carries nothing
+constexpr double kLostOver = 0.014;                   // [m] of wall along which a ridge goes down and is lost ...
+constexpr double kLostDepth = 0.0014;                 // [m] ... below it
+constexpr double kShallow = 0.0005;                   // [m] above it until then
+constexpr double kCrest = 1.15;                       // radii from the ligament's axis to what covers it
+constexpr double kCovers = 1.1;         // radii from the axis: nearer than that it would not cover the ligament
+constexpr double kAround = 6.5;         // radii: how far its slope is that of the ligament's side
+constexpr double kLoose = 0.0004;       // [m] what covers a ligament keeps off it
+constexpr double kTucked = 0.0012;      // [m] the border lies below the wall
+constexpr double kAtWall = 0.006;       // [m] nearer than that, down is the wall's normal
+constexpr int kInWall = 6, kGlide = 6;  // stations where the ligament is in the wall, and beyond its end
+
+/// Is it what folds hang on, or does a vessel run in it?
+bool carries(const sim::Model& model, int strand) {
+  const auto rides = [strand](const interactions::VesselPoint& p) {
+    return p.hold.kind == interactions::VesselHold::strand && p.hold.index == strand;
+  };
+  return std::any_of(model.sheets.begin(), model.sheets.end(), [&](const auto& s) { return s.strand == strand; }) ||
+         std::any_of(model.vessels.list.begin(), model.vessels.list.end(), [&](const sim::Vessel& v) {
+           return std::any_of(v.path.points.begin(), v.path.points.end(), rides);
+         });
+}
+
+/// A point that is at least so far from an axis.
+Vec3d outside(Vec3d p, Vec3d axis, Vec3d along, double far) {
+  const Vec3d off = p - axis - dot(p - axis, along) * along;
+  const double now = length(off);
+  return now < 1e-6 || now >= far ? p : p + (far / now - 1) * off;
+}
 
 }  // namespace
 
 Ridge::Ridge(const sim::Model& model, const TubeDrawing& tube, int strand, const WallSurface& walls,
              render::Backend& backend)
-    : m_body(&model.bodies[std::size_t(strand)]), m_strand(strand) {
+    : m_body(&model.bodies[std::size_t(strand)]),
+      m_strand(strand),
+      m_covered(!carries(model, strand)),
+      m_marks(model, strand) {
   const tissue::StrandState rest = tissue::rest_state(m_body->model);
   const StrandPiece all{0, m_body->nodes() - 1, 0, m_body->length(), false, false};
   const StrandCurve curve(*m_body, rest, {&all, 1});
@@ -38,21 +68,11 @@ Ridge::Ridge(const sim::Model& model, const TubeDrawing& tube, int strand, const
     st.along = f.tangent;
     const auto node = std::size_t(place_at(*m_body, st.s).element);
     const std::vector<double>& outer = model.strands[std::size_t(strand)].outer;
-    st.radius = 1.06 * std::max(outer[node], outer[node + 1]);
+    st.radius = 1.06 * std::max(outer[node], outer[node + 1]) + kLoose;
     m_stations.push_back(st);
   }
-  const TubeRoot& root = tube.end_root();
-  const Vec3d a = m_stations.back().at, da = root.length * m_stations.back().along, b = root.target,
-              db = root.length * root.direction;
-  for (int i = 1; i <= kBeyond; ++i) {
-    const double t = double(i) / kBeyond, u = 1 - t;
-    Station st = m_stations.back();
-    st.beyond = true;
-    st.narrow = u;
-    st.at = (u * u * (1 + 2 * t)) * a + (t * t * (3 - 2 * t)) * b + (u * u * t) * da - (t * t * u) * db;
-    st.along = normalised((6 * t * u) * (b - a) + (u * (1 - 3 * t)) * da + (t * (3 * t - 2)) * db, st.along);
-    m_stations.push_back(st);
-  }
+  add_root(tube.end_root());
+  add_glide(walls);
   find_feet(walls);
   for (int i = 0; i < 2 * int(m_stations.size()) * kRows; ++i) m_buffer.add({});
   const auto row = [this](std::size_t flank, std::size_t i) {
@@ -64,6 +84,38 @@ Ridge::Ridge(const sim::Model& model, const TubeDrawing& tube, int strand, const
   place(curve);
   m_buffer.rest = m_buffer.positions;
   m_mesh = OwnedMesh(backend, m_buffer.data());
+}
+
+/// On along the ligament's way into the wall, which stays in space.
+void Ridge::add_root(const TubeRoot& root) {
+  const Station last = m_stations.back();
+  const Vec3d a = last.at, da = root.length * last.along, b = root.target, db = root.length * root.direction;
+  for (int i = 1; i <= kInWall; ++i) {
+    const double t = double(i) / kInWall, u = 1 - t;
+    Station st = last;
+    st.beyond = true;
+    st.at = (u * u * (1 + 2 * t)) * a + (t * t * (3 - 2 * t)) * b + (u * u * t) * da - (t * t * u) * db;
+    st.along = normalised((6 * t * u) * (b - a) + (u * (1 - 3 * t)) * da + (t * (3 * t - 2)) * db, st.along);
+    m_stations.push_back(st);
+  }
+}
+
+/// Then on along the wall, down to below it.
+void Ridge::add_glide(const WallSurface& walls) {
+  const Station last = m_stations.back();
+  Vec3d on = walls.nearest(last.at).point, onward = on - walls.nearest(m_stations[m_stations.size() - 6].at).point;
+  onward = normalised(onward, last.along);
+  for (int i = 1; i <= kGlide; ++i) {
+    const WallSurface::Place wall = walls.nearest(on + (kLostOver / kGlide) * onward);
+    onward = normalised(wall.point - on, onward);
+    on = wall.point;
+    Station st = last;
+    st.beyond = true;
+    st.gone = double(i) / kGlide;
+    st.at = on - (kCrest * st.radius + kLostDepth) * wall.normal;
+    st.along = onward;
+    m_stations.push_back(st);
+  }
 }
 
 /// The wall below each station and to both sides; neighbours even each other out, then lie on the wall again.
@@ -93,16 +145,21 @@ void Ridge::find_feet(const WallSurface& walls) {
   }
   for (Station& st : m_stations) {
     st.depth = smooth(kFrom, kDown, st.s / to_wall);
-    st.over = smooth(kOver, kClosed, st.s / to_wall);
-    st.narrow = std::min(st.narrow, smooth(1.35, 1, st.s / to_wall));
+    st.over = m_covered ? smooth(kOverAll, kClosedAll, st.s / to_wall) : smooth(kOver, kClosed, st.s / to_wall);
   }
+  for (Station& st : m_stations) {  // its crest does not dive: it goes down to the wall and on along that
+    const WallSurface::Place wall = walls.nearest(st.at);
+    const double crest = dot(st.at - wall.point, wall.normal) + kCrest * st.radius;
+    st.lift = std::max(0.0, kShallow - crest - st.gone * st.gone * (kShallow + kLostDepth)) * wall.normal;
+  }
+  settle_beyond();
   even_out(4, [](Station& st) -> Vec3d& { return st.side; });
   for (std::size_t i = 0; i < n; ++i) {
     Station& st = m_stations[i];
     st.side = normalised(st.side, any_perpendicular(st.along));
     const double high = std::max(0.0, dot(st.at - st.floor, st.normal[0]));
     const double uneven = 1 + 0.3 * waves(st.floor, 0.021);
-    const double wide = (0.2 + 0.8 * st.narrow) * std::min(kWidest, 1.6 * st.radius + 0.002 + 0.5 * high) * uneven;
+    const double wide = (1 - 0.4 * st.gone) * std::min(kWidest, 1.6 * st.radius + 0.002 + 0.5 * high) * uneven;
     for (const int flank : {0, 1}) st.foot[flank] = st.floor + ((flank ? -wide : wide)) * st.side;
   }
   for (const int flank : {0, 1}) {
@@ -115,16 +172,39 @@ void Ridge::find_feet(const WallSurface& walls) {
   }
 }
 
+/// What stays in space is raised for good, and evened out.
+void Ridge::settle_beyond() {
+  for (Station& st : m_stations)
+    if (st.beyond) st.at += std::exchange(st.lift, Vec3d{});
+  for (int pass = 0; pass < 3; ++pass)
+    for (std::size_t i = 1; i + 1 < m_stations.size(); ++i)
+      if (m_stations[i].beyond)
+        m_stations[i].at =
+            0.4 * m_stations[i].at + 0.3 * (m_stations[i - 1].at + m_stations[i - 1].lift + m_stations[i + 1].at);
+}
+
+/// One crest, no seam, where the flanks meet.
+void Ridge::even_crest(std::size_t i) {
+  const double over = smooth(0.8, 1, m_stations[i].over);
+  if (over <= 0) return;
+  Vec3f& left = m_buffer.normals[i * kRows];
+  Vec3f& right = m_buffer.normals[(m_stations.size() + i) * kRows];
+  const Vec3f mean = normalised(left + right, left);
+  left = normalised((1 - float(over)) * left + float(over) * mean, left);
+  right = normalised((1 - float(over)) * right + float(over) * mean, right);
+}
+
 void Ridge::place(const StrandCurve& curve) {
   const std::span<const StrandPiece> pieces = curve.pieces();
   for (std::size_t i = 0; i < m_stations.size(); ++i) {
     const Station& st = m_stations[i];
     int piece = int(pieces.size()) - 1;
     while (piece > 0 && pieces[std::size_t(piece)].from > st.s) --piece;
-    const Vec3d at = st.beyond ? st.at : curve.at(piece, st.s).point;
+    const Vec3d at = (st.beyond ? st.at : curve.at(piece, st.s).point) + st.lift;
     for (const int flank : {0, 1}) place_flank(st, at, flank, (std::size_t(flank) * m_stations.size() + i) * kRows);
   }
   render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);
+  for (std::size_t i = 0; i < m_stations.size(); ++i) even_crest(i);
   for (std::size_t i = 0; i < m_stations.size(); ++i)  // no seam: as the wall's, where it is down there
     for (const std::size_t flank : {0u, 1u}) {
       const Vec3f n = vec_cast<float>(m_stations[i].normal[flank]);
@@ -143,9 +223,10 @@ void Ridge::place(const StrandCurve& curve) {
 void Ridge::place_flank(const Station& st, Vec3d at, int flank, std::size_t first) {
   const double sign = flank ? -1 : 1;
   const Vec3d n = st.normal[flank];
-  const Vec3d down = normalised(st.floor - at - kAtWall * n, -n), out = sign * st.side;
-  const Vec3d away = 0.15 * n - down, up = normalised(away - dot(away, st.along) * st.along, -down);
-  const double high = 0.5 + 0.65 * st.over,
+  const Vec3d mean = normalised(st.normal[0] + st.normal[1], n);
+  const Vec3d down = normalised(st.floor - at - kAtWall * mean, -mean), out = sign * st.side;
+  const Vec3d away = 0.15 * mean - down, up = normalised(away - dot(away, st.along) * st.along, -down);
+  const double high = 0.5 + (kCrest - 0.5) * st.over,
                wide = std::sqrt(std::max(0.0, 1 - 0.87 * high * high * (1 - st.over) - st.over));
   const double hold = 0.8 + 0.2 * st.over;  // begins inside the ligament, whose outline is uneven
   const Vec3d top = at + st.radius * ((hold * wide) * out + (hold * high) * up);
@@ -154,17 +235,40 @@ void Ridge::place_flank(const Station& st, Vec3d at, int flank, std::size_t firs
   const Vec3d end = keel + spread * (st.foot[flank] - keel);
   const Vec3d level = normalised(out - dot(out, n) * n, out);
   const double reach = length(end - top);
-  const Vec3d leaves = reach * normalised((0.49 + 0.5 * st.over) * out + (0.87 - 0.6 * st.over) * down),
-              arrives = (0.9 * spread * reach) * level;
+  // Narrow above, hollow below: it leaves the ligament around that and arrives flat on the wall.
+  const double round = std::min(reach, kAround * st.radius);
+  const Vec3d leaves = (reach + st.over * (round - reach)) *
+                       normalised((0.49 + 0.5 * st.over) * out + (0.87 - 0.6 * st.over) * down),
+              arrives = ((0.9 + 0.4 * st.over) * spread * reach) * level;
   for (int r = 0; r < kRows; ++r) {
     const double t = std::min(1.0, double(r) / (kRows - 2)), u = 1 - t;
     Vec3d p = (u * u * (1 + 2 * t)) * top + (t * t * (3 - 2 * t)) * end + (u * u * t) * leaves - (t * t * u) * arrives;
+    p = outside(p, at, st.along, kCovers * st.over * st.radius);
     if (r == kRows - 1) p = end + spread * (0.002 * level - kTucked * n);
     const std::size_t v = first + std::size_t(r);
     m_buffer.positions[v] = vec_cast<float>(p);
-    const double own = 0.35 * smooth(0.4, 0, t), fat = fat_below(p);
-    m_buffer.paint[v] = {to_byte(0.75 + 0.25 * std::fabs(1 - 2 * t)), 0, 0,
-                         to_byte(std::max(own, fat * smooth(0, 0.5, t)))};
+    // The tint is the ligament's colour, which is near to that of the fat below a wall's peritoneum.
+    const double own =
+        (1 - 0.45 * smooth(0.5, 1, st.over)) * smooth(0.5 - 0.15 * st.over, 0, t) * (st.beyond ? 0.5 : 1.0);
+    m_buffer.paint[v].openness = to_byte(0.78 + 0.22 * std::fabs(1 - 2 * t));
+    m_buffer.paint[v].tint = to_byte(std::max(own, 0.6 * fat_below(p) * smooth(0, 0.5, t)));
+  }
+}
+
+/// Where heat has left its mark on the ligament, what covers it has it, too.
+void Ridge::burn(const sim::State& state) {
+  for (std::size_t i = 0; i < m_stations.size(); ++i) {
+    const Station& st = m_stations[i];
+    if (st.beyond) continue;
+    std::uint8_t most = 0;
+    for (int k = 0; k < 8; ++k) {
+      const double a = 0.785398163397448 * k, r = 0.8 * st.radius;
+      most = std::max(most, m_marks.burn_at(state, {st.s, r * std::cos(a), r * std::sin(a)}));
+    }
+    for (const std::size_t flank : {0u, 1u})
+      for (std::size_t r = 0; r < kRows; ++r)
+        m_buffer.paint[(flank * m_stations.size() + i) * kRows + r].burn =
+            to_byte(st.over * most / 255.0 * smooth(0.5, 0.2, double(r) / kRows));
   }
 }
 
@@ -173,7 +277,12 @@ void Ridge::update(const sim::State& state) {
   const std::vector<StrandPiece> pieces =
       pieces_of(*m_body, now.alive, {state.cuts.data(), std::size_t(state.cut_count)}, m_strand);
   place(StrandCurve(*m_body, now, pieces));
-  m_mesh.move(m_buffer.positions, m_buffer.normals);
+  if (m_marks.stirred(state)) {
+    burn(state);
+    m_mesh.update(m_buffer);
+  } else {
+    m_mesh.move(m_buffer.positions, m_buffer.normals);
+  }
 }
 
 }  // namespace trocar::view

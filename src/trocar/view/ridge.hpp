@@ -1,12 +1,14 @@
 // Peritoneum over a ligament that runs to a wall: two flanks from its sides down to the wall, tangent to it there, so
-// that the ligament is a ridge or a fold and no rope. Near its organ the flanks meet below it in a free, curved edge.
-// Drawing only; they follow the ligament.
+// that the ligament is a ridge or a fold and no rope, and that is lost in the wall where the ligament has gone into it.
+// Near its organ the flanks meet below it in a free, curved edge. One that carries nothing, no vessel and no fold, is
+// covered from its beginning: all that shows of it is the ridge. Drawing only; it follows the ligament.
 //
 //   Ridge ridge(model, strand, walls, backend);
 //   ridge.update(state);
 #pragma once
 
 #include <trocar/sim/state.hpp>
+#include <trocar/view/heat_marks.hpp>
 #include <trocar/view/mesh_buffer.hpp>
 #include <trocar/view/strand_curve.hpp>
 #include <trocar/view/tube_drawing.hpp>
@@ -27,23 +29,31 @@ class Ridge {
   /// A section across the ligament.
   struct Station {
     double s = 0;              ///< on the strand [m]
-    bool beyond = false;       ///< in the wall beyond its end: `at` stays in space
+    bool beyond = false;       ///< where the ligament is in the wall: `at` stays in space
     Vec3d at, along;           ///< at rest
     Vec3d side;                ///< unit, to the left flank
     double radius = 0;         ///< of what it covers [m]
     double depth = 1;          ///< share of the way to the wall that the flanks reach
     double over = 1;           ///< 0: the ligament's crest is bare, 1: the flanks meet over it
-    double narrow = 1;         ///< share of the flanks' width
+    double gone = 0;           ///< beyond the ligament's end: share of the way on which the ridge is lost
+    Vec3d lift;                ///< from the ligament to where it is drawn, where that is in the wall
     Vec3d floor;               ///< the wall below
     Vec3d foot[2], normal[2];  ///< where the flanks end, on either side
   };
   void find_feet(const WallSurface& walls);
   void place(const StrandCurve& curve);
   void place_flank(const Station& st, Vec3d at, int flank, std::size_t first);
+  void add_root(const TubeRoot& root);
+  void add_glide(const WallSurface& walls);
+  void settle_beyond();
+  void even_crest(std::size_t station);
+  void burn(const sim::State& state);
 
   const interactions::StrandBody* m_body;
   int m_strand;
+  bool m_covered;  ///< from its beginning
   std::vector<Station> m_stations;
+  HeatMarks m_marks;
   MeshBuffer m_buffer;
   OwnedMesh m_mesh;
 };

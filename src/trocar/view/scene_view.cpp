@@ -93,7 +93,6 @@ void SceneView::Parts::list(const sim::State& state, const ViewOptions& options,
   if (!inside)  // the cavity lies open: its walls are drawn where they turn their inner side to the eye
     for (DrawItem& drawn : frame.items)
       if (body.is_wall(drawn.mesh)) drawn.material.two_sided = false;
-  body.lift_vessels_out_of_folds(frame);
   metal.list_clips(state, first, to);
   if (!options.instruments) return;
   metal.list_tools(state, options.styles, first, to);

@@ -9,17 +9,19 @@
 namespace trocar::view {
 namespace {
 
-constexpr int kRows = 11;                                 // strand to base
-constexpr double kStep = 0.0016;                          // [m] between columns
-constexpr double kTear = 0.5;                             // of the width, how deep a cut's gap goes
-constexpr double kTearReach = 0.012;                      // [m] along the strand on either side
-constexpr double kRagged = 0.0011;                        // [m] how uneven a torn edge is
-constexpr double kPaleEdge = 0.22;                        // of kTearReach: whitish beside a tear
-constexpr double kSag = 0.10;                             // of the width, where the fold is as drawn
-constexpr double kRipple = 0.0006;                        // [m]
-constexpr std::size_t kFaded = 6;                         // columns over which a free edge runs out
-constexpr int kMarginSteps = 4;                           // columns between an edge and what it runs out on
-constexpr double kMarginFar = 0.03, kMarginNear = 0.012;  // [m] reach to walls, to organs
+constexpr int kRows = 11;             // strand to base
+constexpr double kStep = 0.0016;      // [m] between columns
+constexpr double kTear = 0.5;         // of the width, how deep a cut's gap goes
+constexpr double kTearReach = 0.012;  // [m] along the strand on either side
+constexpr double kRagged = 0.0011;    // [m] how uneven a torn edge is
+constexpr double kPaleEdge = 0.22;    // of kTearReach: whitish beside a tear
+constexpr double kSag = 0.10;         // of the width, where the fold is as drawn
+constexpr double kRipple = 0.0006;    // [m]
+constexpr std::size_t kFaded = 6;     // columns over which a free edge runs out
+constexpr int kMarginSteps = 4;       // columns between an edge and the organ it runs out on
+constexpr double kMarginFar = 0.012;  // [m] to that
+constexpr int kEvenPasses = 4;
+constexpr double kTopOffset = 0.7;  // radii of the strand: there the fold begins
 constexpr double kCrescent = 0.3;   // of the width: the margin's free border starts this far from the strand
 constexpr int kHemRows = 7;         // from a base in the air to the wall
 constexpr double kHemFar = 0.06;    // [m] at most
@@ -30,6 +32,15 @@ constexpr double kTwoPi = 6.28318530717959;
 double whole_beside_tear(double gap, double s, double v) {
   const double ragged = 0.16 + 0.1 * std::sin(kTwoPi * v / 0.13 + 40 * s) + 0.06 * std::sin(kTwoPi * v / 0.051);
   return 1 - smooth(ragged + 0.25, ragged, gap) * smooth(1.2 * kTear, 0.6 * kTear, v);
+}
+
+/// The hem is lost on the wall, along no line: sooner here, later there, and soonest at its ends.
+double hem_openness(std::size_t column, std::size_t columns, int row) {
+  const double t = double(row + 1) / kHemRows;
+  const double beside = double(std::min(column, columns - 1 - column)) / (2.0 * double(kFaded));
+  const double uneven = 0.12 * std::sin(0.9 * double(column)) + 0.1 * std::sin(0.37 * double(column) + 2);
+  const double lost = smooth(0.3 + uneven, 0.92 + uneven, t);
+  return (1 - lost) * (1 - smooth(0, 0.5, t) * smooth(1, 0, beside));
 }
 
 Vec3d rest_of(const sim::BasePoint& b, const sim::Model& model) {
@@ -61,11 +72,7 @@ SheetDrawing::SheetDrawing(const sim::Model& model, int sheet, render::Backend& 
   const auto strand = std::size_t(m_sheet->strand);
   lay_out(pieces_of(*m_body, tissue::rest_state(m_body->model).alive, {}, int(strand)));
   place(rest);
-  find_margins();
-  if (walls)
-    find_hem(*walls);
-  else
-    find_hem(WallSurface(model));
+  find_ends(walls ? *walls : WallSurface(model));
   connect();
   m_rest_width.clear();
   place(rest);
@@ -106,38 +113,44 @@ void SheetDrawing::connect() {
       const double v = double(r) / (kRows - 1);
       const double near = std::min(v, 1 - v);
       const std::size_t left = m_columns.size() - 1 - c;  // a free edge is not seen as one
-      const double end = m_margin[1].empty() && left < kFaded ? double(left) / kFaded : 1;
+      const double end = beyond(true) == 0 && left < kFaded ? double(left) / kFaded : 1;
       const double thin = m_hem.empty() ? near : v;  // goes on below its base
-      const double torn = smooth(kTear, 0.6 * kTear, v) * smooth(kPaleEdge, 0, m_columns[c].gap);
-      m_buffer.add({}, {to_byte(end * whole_beside_tear(m_columns[c].gap, m_columns[c].s, v) *
-                                (0.62 + 0.38 * smooth(0, 0.25, thin))),
-                        0, to_byte(0.17 * torn), 0});
+      // Pale where it is torn, and not beyond that: paint of burns hides how sheer a fold is.
+      const double whole = whole_beside_tear(m_columns[c].gap, m_columns[c].s, v);
+      const double torn = smooth(kTear, 0.6 * kTear, v) * smooth(kPaleEdge, 0.5 * kPaleEdge, m_columns[c].gap);
+      m_buffer.add({}, {to_byte(end * whole * (0.62 + 0.38 * smooth(0, 0.25, thin))), 0,
+                        to_byte(0.17 * torn * smooth(0.6, 1, whole)), 0});
     }
   for (std::size_t c = 0; c + 1 < m_columns.size(); ++c) {
     if (m_columns[c].twin == int(c) + 1) continue;
     join_rows(m_buffer, std::uint32_t(c * kRows), std::uint32_t((c + 1) * kRows), kRows, false);
   }
-  for (const bool at_end : {false, true}) {
-    if (m_margin[at_end].empty()) continue;
-    std::uint32_t before = at_end ? std::uint32_t((m_columns.size() - 1) * kRows) : 0;
-    for (int k = 1; k <= kMarginSteps; ++k) {
-      const std::uint32_t row = m_buffer.size();
-      for (int r = 0; r < kRows; ++r) m_buffer.add({}, {to_byte(1 - double(k) / kMarginSteps), 0, 0, 0});
-      join_rows(m_buffer, at_end ? before : row, at_end ? row : before, kRows, false);
-      before = row;
-    }
-  }
+  for (const bool at_end : {false, true}) connect_end(at_end);
   m_hem_first = m_buffer.size();
   if (m_hem.empty()) return;
   for (std::size_t c = 0; c < m_columns.size(); ++c)
-    for (int r = 0; r < kHemRows; ++r)
-      m_buffer.add({}, {to_byte(1 - smooth(0.3, 1, double(r + 1) / kHemRows)), 0, 0, 0});
+    for (int r = 0; r < kHemRows; ++r) m_buffer.add({}, {to_byte(hem_openness(c, m_columns.size(), r)), 0, 0, 0});
   const auto at = [this](std::size_t c, int r) {
     return std::uint32_t(r == 0 ? c * kRows + kRows - 1 : m_hem_first + c * kHemRows + std::size_t(r - 1));
   };
   for (std::size_t c = 0; c + 1 < m_columns.size(); ++c)
     for (int r = 0; r < kHemRows && m_columns[c].twin != int(c) + 1; ++r)
       m_buffer.quad(at(c, r), at(c, r + 1), at(c + 1, r + 1), at(c + 1, r));
+}
+
+/// Columns beyond an end, and their cells.
+void SheetDrawing::connect_end(bool at_end) {
+  const int steps = beyond(at_end);
+  m_beyond_first[at_end] = m_buffer.size();
+  std::uint32_t before = at_end ? std::uint32_t((m_columns.size() - 1) * kRows) : 0;
+  for (int k = 1; k <= steps; ++k) {
+    const std::uint32_t row = m_buffer.size();
+    for (int r = 0; r < kRows; ++r)
+      m_buffer.add({}, m_crescent[at_end] ? SheetCrescent::paint(k, double(r) / (kRows - 1))
+                                          : Paint{to_byte(1 - double(k) / kMarginSteps), 0, 0, 0});
+    join_rows(m_buffer, at_end ? before : row, at_end ? row : before, kRows, false);
+    before = row;
+  }
 }
 
 /// A base that nothing carries hangs in the air: below it the sheet goes on to the wall and is lost there.
@@ -178,45 +191,86 @@ void SheetDrawing::place_hem() {
   }
 }
 
-void SheetDrawing::find_margins() {
+/// What the sheet runs out on at either end and below its base.
+void SheetDrawing::find_ends(const WallSurface& walls) {
   for (const bool at_end : {false, true}) {
-    const std::size_t c = at_end ? m_columns.size() - 1 : 0, inner = at_end ? c - 1 : 1;
-    std::vector<Margin> margin;
-    for (std::size_t r = 0; r < kRows; ++r) {
-      const std::size_t from = std::max(r, std::size_t(kCrescent * kRows));
-      const Vec3d p = vec_cast<double>(m_buffer.positions[c * kRows + from]);
-      const Vec3d out = normalised(p - vec_cast<double>(m_buffer.positions[inner * kRows + from]));
-      double nearest = kMarginFar;
-      Margin best;
-      const auto look_at = [&](const tissue::Skin& skin, int organ, double reach) {
-        for (std::size_t i = 0; i < skin.rest.size(); ++i) {
-          if (!skin.at_surface(int(i))) continue;
-          const Vec3d q = vec_cast<double>(skin.rest[i]), d = q - p;
-          const double far = length(d);
-          if (far >= std::min(nearest, reach) || dot(d, out) < 0.2 * far) continue;
-          nearest = far;
-          best = {organ, int(i), q};
-        }
-      };
-      for (const sim::WallModel& wall : m_model->walls) look_at(wall.skin, -1, kMarginFar);
-      for (int i = 0; i < m_model->organs(); ++i) look_at(m_model->skin(i), i, kMarginNear);
-      if (best.vertex >= 0) margin.push_back(best);
-    }
-    if (margin.size() == kRows) m_margin[at_end] = margin;
+    find_margin(at_end);
+    if (m_margin[at_end].empty()) find_crescent(at_end, walls);
   }
+  find_hem(walls);
+}
+
+/// Columns beyond the last one of an end.
+int SheetDrawing::beyond(bool at_end) const {
+  if (m_crescent[at_end]) return SheetCrescent::kSteps;
+  return m_margin[at_end].empty() ? 0 : kMarginSteps;
+}
+
+/// Points of the strand from the sheet's end on, where its border lies.
+std::vector<Vec3d> SheetDrawing::beside(bool at_end, const StrandCurve& curve) const {
+  const std::size_t c = at_end ? m_columns.size() - 1 : 0;
+  const Column& column = m_columns[c];
+  const StrandPiece& piece = m_pieces[std::size_t(column.piece)];
+  const Vec3d top = vec_cast<double>(m_buffer.positions[c * kRows]);
+  const Vec3d offset = top - curve.at(column.piece, column.s).point;
+  std::vector<Vec3d> line;
+  for (int k = 0; k <= SheetCrescent::kSteps; ++k) {
+    const double far = SheetCrescent::kAlong * k / SheetCrescent::kSteps;
+    const double s = std::clamp(column.s + (at_end ? far : -far), piece.from, piece.to);
+    line.push_back(curve.at(column.piece, s).point + offset);
+  }
+  return line;
+}
+
+void SheetDrawing::find_crescent(bool at_end, const WallSurface& walls) {
+  const sim::State rest = sim::initial_state(*m_model);
+  const StrandCurve curve(*m_body, rest.strands[std::size_t(m_sheet->strand)], m_pieces);
+  const std::size_t c = at_end ? m_columns.size() - 1 : 0;
+  SheetCrescent crescent(vec_cast<double>(m_buffer.positions[c * kRows + kRows - 1]), beside(at_end, curve), walls);
+  if (crescent.there()) m_crescent[at_end] = std::move(crescent);
+}
+
+void SheetDrawing::find_margin(bool at_end) {
+  const std::size_t c = at_end ? m_columns.size() - 1 : 0, inner = at_end ? c - 1 : 1;
+  std::vector<Margin> margin;
+  for (std::size_t r = 0; r < kRows; ++r) {
+    const std::size_t from = std::max(r, std::size_t(kCrescent * kRows));
+    const Vec3d p = vec_cast<double>(m_buffer.positions[c * kRows + from]);
+    const Vec3d out = normalised(p - vec_cast<double>(m_buffer.positions[inner * kRows + from]));
+    double nearest = kMarginFar;
+    Margin best;
+    for (int organ = 0; organ < m_model->organs(); ++organ) {
+      const tissue::Skin& skin = m_model->skin(organ);
+      for (std::size_t i = 0; i < skin.rest.size(); ++i) {
+        if (!skin.at_surface(int(i))) continue;
+        const Vec3d d = vec_cast<double>(skin.rest[i]) - p;
+        const double far = length(d);
+        if (far >= nearest || dot(d, out) < 0.2 * far) continue;
+        nearest = far;
+        best = {organ, int(i)};
+      }
+    }
+    if (best.vertex >= 0) margin.push_back(best);
+  }
+  if (margin.size() == kRows) m_margin[at_end] = margin;
 }
 
 void SheetDrawing::place_margin(const sim::State& state, bool at_end) {
-  const std::size_t edge = (at_end ? m_columns.size() - 1 : 0) * kRows;
-  const std::size_t first =
-      (m_columns.size() + (at_end && !m_margin[0].empty() ? std::size_t(kMarginSteps) : 0)) * kRows;
+  const std::size_t edge = (at_end ? m_columns.size() - 1 : 0) * kRows, first = m_beyond_first[at_end];
   for (std::size_t r = 0; r < kRows; ++r) {
     const Margin& m = m_margin[at_end][r];
-    const Vec3d to = m.organ < 0 ? m.rest : skin_now(*m_model, state, m.organ, m.vertex);
+    const Vec3d to = skin_now(*m_model, state, m.organ, m.vertex);
     const Vec3f from = m_buffer.positions[edge + r], step = vec_cast<float>(to) - from;
     for (int k = 1; k <= kMarginSteps; ++k)
       m_buffer.positions[first + std::size_t(k - 1) * kRows + r] = from + (float(k) / kMarginSteps) * step;
   }
+}
+
+void SheetDrawing::place_crescent(const StrandCurve& curve, bool at_end) {
+  const std::size_t edge = (at_end ? m_columns.size() - 1 : 0) * kRows;
+  const std::span<Vec3f> all(m_buffer.positions);
+  m_crescent[at_end]->place(all.subspan(edge, kRows), beside(at_end, curve),
+                            all.subspan(m_beyond_first[at_end], std::size_t(SheetCrescent::kSteps) * kRows));
 }
 
 Vec3d SheetDrawing::base_point(std::size_t i, const sim::State& state) const {
@@ -234,9 +288,9 @@ void SheetDrawing::lay_pattern() {
   for (std::size_t i = 0; i < m_hem_first; ++i) {
     const std::size_t c = i / kRows;
     const double v = double(i % kRows) / (kRows - 1);
-    const bool first = c >= m_columns.size() && c < m_columns.size() + kMarginSteps && !m_margin[0].empty();
-    const std::size_t beyond = c < m_columns.size() ? 0 : 1 + (c - m_columns.size()) % kMarginSteps;
-    const double edge = c < m_columns.size() ? m_columns[c].s : first ? m_columns.front().s : m_columns.back().s;
+    const bool inside = c < m_columns.size(), first = !inside && i < m_beyond_first[1];
+    const std::size_t beyond = inside ? 0 : 1 + c - m_beyond_first[first ? 0 : 1] / kRows;
+    const double edge = inside ? m_columns[c].s : first ? m_columns.front().s : m_columns.back().s;
     const double s = edge + (first ? -1.0 : 1.0) * kStep * double(beyond);
     m_buffer.rest[i] = fold_rest(s, v);
     if (beyond > 0) continue;
@@ -263,15 +317,21 @@ void SheetDrawing::place(const sim::State& state) {
   for (std::size_t i = 0; i < m_base.size(); ++i) m_base[i] = base_point(i, state);
   const StrandCurve curve(*m_body, state.strands[std::size_t(m_sheet->strand)], m_pieces);
   std::vector<Vec3d> top(m_columns.size()), base(m_columns.size()), along(m_columns.size());
+  std::vector<Vec3d> beside(m_columns.size());  // from the strand's middle to where the fold begins
   for (std::size_t c = 0; c < m_columns.size(); ++c) {
     const Column& column = m_columns[c];
     base[c] = base_at((column.s - m_sheet->from) / std::max(m_sheet->to - m_sheet->from, 1e-9));
     const CurveFrame f = curve.at(column.piece, column.s);
     const double radius = m_body->model.radius[std::size_t(place_at(*m_body, column.s).element)];
-    const Vec3d down = base[c] - f.point;
-    top[c] = f.point + 0.7 * radius * normalised(down - dot(down, f.tangent) * f.tangent, f.normal);
+    const Vec3d down = base[c] - f.point, across = down - dot(down, f.tangent) * f.tangent;
+    // Where a strand runs away from its base, that says little of which side the fold is on.
+    const double sure = smooth(0.1, 0.45, length(across) / std::max(length(down), 1e-6));
+    beside[c] = kTopOffset * radius * sure * normalised(across, f.normal);
+    top[c] = f.point;
     along[c] = f.tangent;
   }
+  even_out(beside);
+  for (std::size_t c = 0; c < m_columns.size(); ++c) top[c] += beside[c];
   const bool first = m_rest_width.empty();
   for (std::size_t c = 0; c < m_columns.size(); ++c) {
     if (first) m_rest_width.push_back(length(top[c] - base[c]));
@@ -280,8 +340,22 @@ void SheetDrawing::place(const sim::State& state) {
   for (std::size_t c = 0; c + 1 < m_columns.size(); ++c)
     if (m_columns[c].twin == int(c) + 1) close_tear(c);
   for (const bool at_end : {false, true})
-    if (!m_margin[at_end].empty()) place_margin(state, at_end);
+    if (m_crescent[at_end])
+      place_crescent(curve, at_end);
+    else if (!m_margin[at_end].empty())
+      place_margin(state, at_end);
   if (!m_hem.empty()) place_hem();
+}
+
+/// Neighbours on the same piece even each other out.
+void SheetDrawing::even_out(std::vector<Vec3d>& of_columns) const {
+  std::vector<Vec3d> old;
+  for (int pass = 0; pass < kEvenPasses; ++pass) {
+    old = of_columns;
+    for (std::size_t c = 1; c + 1 < old.size(); ++c)
+      if (m_columns[c - 1].piece == m_columns[c + 1].piece)
+        of_columns[c] = 0.4 * old[c] + 0.3 * (old[c - 1] + old[c + 1]);
+  }
 }
 
 /// At a cut the two sides part near the strand and are one below: rows go over from their own shape to the mean, and

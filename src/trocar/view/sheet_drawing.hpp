@@ -2,8 +2,11 @@
 // where it is stretched, gapes where the strand on its border is cut, and runs out on the wall or organ beside it.
 #pragma once
 
+#include <optional>
+
 #include <trocar/sim/state.hpp>
 #include <trocar/view/detail.hpp>
+#include <trocar/view/sheet_crescent.hpp>
 #include <trocar/view/strand_curve.hpp>
 #include <trocar/view/wall_surface.hpp>
 
@@ -27,19 +30,25 @@ class SheetDrawing {
     int twin = -1;   ///< column on the other side of a cut
     double gap = 1;  ///< 0 at a cut .. 1 far from it
   };
-  /// What a row of a free edge runs out on: a wall (in space) or an organ's skin.
+  /// What a row of a free edge runs out on: an organ's skin.
   struct Margin {
     int organ = -1, vertex = -1;
-    Vec3d rest;
   };
-  void find_margins();
+  void find_ends(const WallSurface& walls);
+  void find_margin(bool at_end);
+  void find_crescent(bool at_end, const WallSurface& walls);
+  std::vector<Vec3d> beside(bool at_end, const StrandCurve& curve) const;
+  int beyond(bool at_end) const;
   void find_hem(const WallSurface& walls);
   void place_hem();
   void place_margin(const sim::State& state, bool at_end);
+  void place_crescent(const StrandCurve& curve, bool at_end);
   void lay_out(std::vector<StrandPiece> pieces);
   void connect();
+  void connect_end(bool at_end);
   void lay_pattern();
   void place(const sim::State& state);
+  void even_out(std::vector<Vec3d>& of_columns) const;
   void close_tear(std::size_t column);
   void place_column(std::size_t column, Vec3d top, Vec3d base, Vec3d across);
   Vec3d base_point(std::size_t i, const sim::State& state) const;
@@ -50,12 +59,14 @@ class SheetDrawing {
   const interactions::StrandBody* m_body;
   std::vector<StrandPiece> m_pieces;
   std::vector<Column> m_columns;
-  std::vector<double> m_base_share;  ///< of the drawn base line's length, 0..1
-  std::vector<Vec3d> m_base;         ///< now
-  std::vector<double> m_rest_width;  ///< (columns) drawn
-  std::vector<Margin> m_margin[2];   ///< (rows) at the first and last column; empty: a free edge
-  std::vector<Vec3d> m_hem;          ///< (columns) where the sheet ends below its base; empty: at its base
-  std::uint32_t m_hem_first = 0;     ///< vertex
+  std::vector<double> m_base_share;            ///< of the drawn base line's length, 0..1
+  std::vector<Vec3d> m_base;                   ///< now
+  std::vector<double> m_rest_width;            ///< (columns) drawn
+  std::vector<Margin> m_margin[2];             ///< (rows) at the first and last column; empty: no organ is near
+  std::optional<SheetCrescent> m_crescent[2];  ///< there the sheet goes over to a wall
+  std::size_t m_beyond_first[2] = {0, 0};      ///< vertices of either
+  std::vector<Vec3d> m_hem;                    ///< (columns) where the sheet ends below its base; empty: at its base
+  std::uint32_t m_hem_first = 0;               ///< vertex
   MeshBuffer m_buffer;
   OwnedMesh m_mesh;
 };

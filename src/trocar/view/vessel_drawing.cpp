@@ -17,7 +17,9 @@ constexpr double kTaper = 0.008;      // [m] over which a vessel that ends thins
 constexpr double kThinnest = 0.2;     // share of the radius at such an end
 constexpr double kInFold = 0.8;       // share of the radius: half of it is in the fold
 constexpr double kSameNode = 0.0012;  // [m] ends that meet
-constexpr int kSofter = 8;            // passes that round the line's corners
+constexpr int kSofter = 8;            // passes that round the line's corners ...
+constexpr int kSofterInFold = 22;     // ... in a fold, where nothing bends a vessel sharply
+constexpr double kFade = 0.006;       // [m] over which one that ends in a fold is lost in it
 constexpr double kDives = 0.003;      // [m] seen of a vessel that leaves its fold
 constexpr double kNestled = 0.6;      // radii below an organ's surface
 constexpr double kWinding = 0.0006;   // [m] to either side, in a fold
@@ -46,7 +48,7 @@ template <class Run>
 std::vector<Vec3d> drawn_line(const Run& run, const Curve& curve, const interactions::VesselPath& path) {
   std::vector<Vec3d> line, old;
   for (const double s : run.s) line.push_back(curve.at(s));
-  for (int pass = 0; pass < kSofter; ++pass) {
+  for (int pass = 0; pass < (in_a_fold(path) ? kSofterInFold : kSofter); ++pass) {
     old = line;
     for (std::size_t i = 1; i + 1 < line.size(); ++i) line[i] = 0.5 * old[i] + 0.25 * (old[i - 1] + old[i + 1]);
   }
@@ -85,20 +87,28 @@ double thinned(const Run& run, double s, double length) {
 }
 
 /// From where to where on the line it does not run below the peritoneum.
-/// Of one that a fold carries: only in it and along the strand on its border; to either side it goes into the depth.
+/// Of one that a fold carries: in it, along the strand on its border, and on into the organ where it comes from, below
+/// whose surface it is lost; elsewhere it goes into the depth.
 std::pair<double, double> in_sight(const interactions::VesselPath& path) {
   const bool fold = in_a_fold(path);
   double from = 1, to = 0;
   for (const interactions::VesselPoint& p : path.points) {
-    const auto kind = p.hold.kind;
-    if (p.covered()) continue;
-    if (fold && kind != interactions::VesselHold::membrane && kind != interactions::VesselHold::strand) continue;
+    if (p.covered() || (fold && p.hold.kind == interactions::VesselHold::space)) continue;
     from = std::min(from, p.s);
     to = std::max(to, p.s);
   }
   if (!fold) return {from, to};
   const double beyond = kDives / path.length;
   return {std::max(0.0, from - beyond), std::min(1.0, to + beyond)};
+}
+
+/// How much is to be seen of a vessel of a fold: none where it ends in that.
+template <class Run>
+double shown(const Run& run, double s, double length) {
+  double share = 1;
+  if (run.fades_from) share = std::min(share, smooth(0, kFade, (s - run.from) * length));
+  if (run.fades_to) share = std::min(share, smooth(0, kFade, (run.to - s) * length));
+  return share;
 }
 
 std::vector<double> sorted_cuts(const sim::State& state, int vessel) {
@@ -249,6 +259,7 @@ void VesselDrawing::place_run(const Run& run, const sim::State& state, std::span
     if (path.points[i].s > run.from + 1e-6 && path.points[i].s < run.to - 1e-6) take(path.points[i].s, points[i]);
   take(run.to, vessel_spot(path, points, cuts, run.to, 0).place);
 
+  const bool fold = in_a_fold(path);
   const std::vector<Vec3d> line = drawn_line(run, curve, path);
   Vec3d tangent = normalised(line[1] - line[0]), normal = any_perpendicular(tangent);
   for (std::size_t i = 0; i < run.s.size(); ++i) {
@@ -256,7 +267,7 @@ void VesselDrawing::place_run(const Run& run, const sim::State& state, std::span
     tangent = normalised(line[std::min(i + 1, line.size() - 1)] - line[i > 0 ? i - 1 : 0], tangent);
     normal = normalised(normal - dot(normal, tangent) * tangent, any_perpendicular(tangent));
     const Vec3d beside = cross(tangent, normal), at = line[i];
-    const double drawn = (in_a_fold(path) ? kInFold : 1) * vessel_radius(path, s) * thinned(run, s, path.length);
+    const double drawn = (fold ? kInFold : 1) * vessel_radius(path, s) * thinned(run, s, path.length);
     const vessels::WallReading wall = read_wall(m_model->vessels.flow, state.flow, run.vessel, s, vessel.gain);
     double radius = drawn + std::clamp(wall.shift, -kMostShift * drawn, kMostShift * drawn);
     for (int c = 0; c < state.vessel_clip_count; ++c) {
@@ -275,6 +286,7 @@ void VesselDrawing::place_run(const Run& run, const sim::State& state, std::span
       m_buffer.positions[vertex] = vec_cast<float>(at + radius * out);
       m_buffer.normals[vertex] = vec_cast<float>(out);
       m_buffer.paint[vertex].blood = to_byte(0.8 * bloody);
+      if (fold) m_buffer.paint[vertex].openness = to_byte(shown(run, s, path.length));
       m_pressure[vertex] = float(wall.pressure);
     }
     if (i > 0 && i + 1 < run.s.size()) continue;
@@ -284,6 +296,7 @@ void VesselDrawing::place_run(const Run& run, const sim::State& state, std::span
     m_buffer.positions[pole] = vec_cast<float>(at + ((cut ? -0.5 : 0.5) * end * radius) * tangent);
     m_buffer.normals[pole] = vec_cast<float>(end * tangent);
     m_buffer.paint[pole].blood = cut ? 255 : 0;
+    if (fold) m_buffer.paint[pole].openness = to_byte(shown(run, s, path.length));
     m_pressure[pole] = float(wall.pressure);
   }
 }
