@@ -4,7 +4,7 @@
 
 #include <trocar/interactions/cut.hpp>
 #include <trocar/render/mesh_arrays.hpp>
-#include <trocar/view/fimbria.hpp>
+#include <trocar/view/fimbria_site.hpp>
 #include <trocar/view/tube_drawing.hpp>
 
 namespace trocar::view {
@@ -59,11 +59,11 @@ TubeDrawing::TubeDrawing(const sim::Model& model, int strand, const Detail& deta
   const double thickest = *std::max_element(m_strand->outer.begin(), m_strand->outer.end());
   m_sides = thickest > 0.0022 ? 16 : 12;
   for (const sim::DetailLevel& level : detail.levels()) m_errors.push_back(level.error);
-  if (m_strand->fimbriated) m_fimbriae = fimbriae(kBellFlare * m_strand->outer.back(), strand + 1);
-  coarsen(m_fimbriae, detail, kBends);
   const tissue::StrandState rest = tissue::rest_state(m_body->model);
   const StrandPiece all{0, m_body->nodes() - 1, 0, m_body->length(), false, false};
   const StrandCurve drawn(*m_body, rest, {&all, 1});
+  if (m_strand->fimbriated) m_fimbriae = fimbriae(fimbria_site(model, strand, drawn.at(0, m_body->length())));
+  coarsen(m_fimbriae, detail, kBends);
   m_start_root = root_at(drawn, true, walls);
   m_end_root = root_at(drawn, false, walls);
   Layout whole;
@@ -348,10 +348,6 @@ Paint TubeDrawing::paint_at(const Layout& layout, double s, double angle, Paint 
   }
   if (hosted(0) && !m_strand->fimbriated)  // goes over into its organ's colour
     p.tint = std::max(p.tint, to_byte(0.85 * smooth(4 * m_strand->outer.front(), 0.3 * m_strand->outer.front(), s)));
-  if (m_strand->fimbriated) {
-    const double before = m_body->length() - s;
-    p.tint = std::max(p.tint, to_byte(0.85 * smooth(0.8 * kBellLength, 0.0, before)));
-  }
   return p;
 }
 
@@ -410,18 +406,11 @@ void TubeDrawing::add_end(int piece) {
   const StrandPiece& p = m_layout.pieces[std::size_t(piece)];
   if (p.cut_end) return add_raw_face(piece, false);
   const double r = radius_at(p.to);
-  if (m_strand->fimbriated) {
-    for (const FunnelRow& f : funnel()) {
-      const Paint paint{to_byte(f.openness), 0, 0, 235};
-      m_rows.push_back({piece, p.to, f.along * r, f.radius * r, 0.06, 0, false, paint});
-    }
-  } else if (m_end_root.there) {
-    add_root(piece, false);
-  } else {
-    for (const double a : {1.1, 0.7, 0.3})
-      m_rows.push_back({piece, p.to, r * std::cos(a), r * std::sin(a), 0, 0, false, {}});
-    m_rows.push_back({piece, p.to, r, 0, 0, 0, false, {}});
-  }
+  if (m_strand->fimbriated) return;  // goes over into the fimbriae
+  if (m_end_root.there) return add_root(piece, false);
+  for (const double a : {1.1, 0.7, 0.3})
+    m_rows.push_back({piece, p.to, r * std::cos(a), r * std::sin(a), 0, 0, false, {}});
+  m_rows.push_back({piece, p.to, r, 0, 0, 0, false, {}});
 }
 
 void TubeDrawing::add_piece(const Layout& layout, int piece) {
@@ -429,8 +418,7 @@ void TubeDrawing::add_piece(const Layout& layout, int piece) {
   add_start(piece);
   bool first = true;
   for (const double s : stations(layout, p)) {
-    const double scallop = m_strand->fimbriated ? 0.06 * smooth(kBellLength, 0, m_body->length() - s) : 0;
-    m_rows.push_back({piece, s, 0, radius_at(s), scallop, 0, first && p.cut_start, {}});
+    m_rows.push_back({piece, s, 0, radius_at(s), 0, 0, first && p.cut_start, {}});
     first = false;
   }
   add_end(piece);
@@ -455,10 +443,26 @@ void TubeDrawing::connect() {
   }
   join(all, 1, m_buffer);
   const std::uint32_t fingers = m_buffer.size();
-  if (m_strand->fimbriated) append(m_buffer, m_fimbriae, Mat3f::identity(), {});
+  if (m_strand->fimbriated) {
+    join_fimbriae(fingers, 1, m_buffer);
+    append(m_buffer, m_fimbriae, Mat3f::identity(), {});
+  }
   connect_coarsely();
   for (std::size_t k = 0; k < m_fimbriae.coarser.size(); ++k)
     for (const std::uint32_t v : m_fimbriae.coarser[k]) m_buffer.coarser[k].push_back(fingers + v);
+}
+
+/// Between every `stride`-th side of the last row and the fimbriae's first ring, which has more vertices.
+void TubeDrawing::join_fimbriae(std::uint32_t fingers, std::uint32_t stride, MeshBuffer& into) const {
+  const auto sides = std::uint32_t(m_sides), fine = std::uint32_t(kRimColumns) / sides * stride;
+  static_assert(kRimColumns % 16 == 0 && kRimColumns % 12 == 0);
+  const auto ring = [&](std::uint32_t k) { return fingers + k % std::uint32_t(kRimColumns); };
+  for (std::uint32_t i = 0; i < sides; i += stride) {
+    const std::uint32_t a = m_first.back() + i, b = m_first.back() + (i + stride) % sides;
+    const std::uint32_t from = i / stride * fine, half = fine / 2;
+    for (std::uint32_t k = 0; k < fine; ++k) into.triangle(k < half ? a : b, ring(from + k + 1), ring(from + k));
+    into.triangle(a, b, ring(from + half));
+  }
 }
 
 /// Triangles between these rows, of every `stride`-th side.
@@ -502,7 +506,9 @@ void TubeDrawing::connect_coarsely() {
   const double thickest = *std::max_element(m_strand->outer.begin(), m_strand->outer.end());
   for (const double error : m_errors) {
     MeshBuffer part;
-    join(rows_apart(ring_distance(error, kBend)), side_stride(error, thickest, std::uint32_t(m_sides)), part);
+    const std::uint32_t stride = side_stride(error, thickest, std::uint32_t(m_sides));
+    join(rows_apart(ring_distance(error, kBend)), stride, part);
+    if (m_strand->fimbriated) join_fimbriae(m_buffer.size() - m_fimbriae.size(), stride, part);
     m_buffer.coarser.push_back(std::move(part.indices));
   }
 }

@@ -79,6 +79,7 @@ class TubeDrawing {
   void add_raw_face(int piece, bool at_start);
   void connect();  ///< vertices and triangles of the rows
   void join(const std::vector<std::size_t>& rows, std::uint32_t stride, MeshBuffer& into) const;
+  void join_fimbriae(std::uint32_t fingers, std::uint32_t stride, MeshBuffer& into) const;
   std::vector<std::size_t> rows_apart(double distance) const;
   void connect_coarsely();
   void paint();
