@@ -10,8 +10,8 @@ namespace {
 constexpr double kPi = 3.14159265358979;
 constexpr int kRings = 20;         // along a leaf
 constexpr double kWall = 0.00042;  // [m] half the thickness of the rim's wall
-constexpr double kPleat = 0.0003;  // [m] height of the folds on the inner side
-constexpr int kFolds = 3;          // of them on a leaf
+constexpr double kPleat = 0.00026; // [m] height of the folds on the inner side
+constexpr int kFolds = 2;           // of them on a leaf
 
 /// Rings of the bell beyond the tube's end: forwards and outwards, in radii of the end.
 constexpr std::array<std::array<double, 2>, 4> kBell{{{0.14, 1.01}, {0.34, 1.05}, {0.52, 1.12}, {0.68, 1.24}}};
@@ -152,14 +152,14 @@ double half_width(const Leaf& f, double u, bool right) {
   // Round lobes with narrow clefts between them.
   const double turn = (6 + 3 * varied(k, 2)) * u + 3.1 * varied(k, 1);
   const double lobes = smooth(0.05, 0.35, u) * (0.42 * std::pow(std::fabs(std::sin(turn)), 0.7) - 0.24);
-  const double tip = std::sqrt(std::max(0.0, 1 - std::pow(std::max(0.0, (u - 0.66) / 0.34), 2)));
-  return (body + lobes) * (0.3 + 0.7 * tip);
+  const double tip = std::sqrt(std::max(0.0, 1 - std::pow(std::max(0.0, (u - 0.7) / 0.3), 2)));
+  return (body + lobes) * (0.16 + 0.84 * tip);
 }
 
 /// How far the column at `w` (-1..1 across) goes, over the leaf's length.
 double reach(const Leaf& f, double w) {
-  const double split = f.notch * 0.3 * std::exp(-w * w / 0.05);
-  return 1 - 0.3 * w * w * w * w - split - 0.05 * (1 + std::sin(8 * w + f.seed)) * (1 - w * w);
+  const double split = f.notch * 0.22 * std::exp(-w * w / 0.05);
+  return 1 - 0.1 * w * w - split - 0.025 * (1 + std::sin(8 * w + f.seed)) * (1 - w * w);
 }
 
 /// How high the folds of the inner side stand at a column of the rim, 0..1; each has its own height.
@@ -262,9 +262,10 @@ void add_leaf(MeshBuffer& b, const Leaf& f, int index, const FimbriaSite& site, 
     for (int j = 0; j <= kLeafColumns; ++j) {
       const double v = along_leaf(i), fold = fold_at(index * kLeafColumns + j);
       const Sheets s = place_on(f, spine, site, i, j, fold);
+      // At the edge both lie in the same place, each with the normal of its side: a rim that looked sideways would
+      // be dark, and a real one lets light through.
       out_row.push_back(b.add(vec_cast<float>(s.middle - s.inner), of_leaf(j, fold, v, false)));
-      const bool edge = j == 0 || j == kLeafColumns || i == kRings;
-      in_row.push_back(edge ? out_row.back() : b.add(vec_cast<float>(s.middle + s.inner), of_leaf(j, fold, v, true)));
+      in_row.push_back(b.add(vec_cast<float>(s.middle + s.inner), of_leaf(j, fold, v, true)));
     }
     for (std::size_t j = 0; j < std::size_t(kLeafColumns); ++j) {
       b.quad(outside[j], outside[j + 1], out_row[j + 1], out_row[j]);
@@ -281,7 +282,7 @@ void add_funnel(MeshBuffer& b, const std::vector<std::uint32_t>& rim, const Fimb
   for (const FunnelRow& row : kFunnel) {
     std::vector<std::uint32_t> now;
     for (int k = 0; k < kRimColumns; ++k) {
-      const double fold = fold_at(k) * smooth(0.05, 0.3, row.radius), out = row.radius - 0.09 * (fold - 0.3);
+      const double fold = fold_at(k) * smooth(0.05, 0.3, row.radius), out = row.radius - 0.1 * (fold - 0.3);
       const Vec3d p = site.radius * (row.along * Vec3d{1, 0, 0} + out * outwards(angle[std::size_t(k)]));
       now.push_back(b.add(vec_cast<float>(p), painted(row.openness * (0.65 + 0.35 * fold), 1)));
     }

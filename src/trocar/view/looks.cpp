@@ -40,13 +40,15 @@ Material uterus() {
 }
 
 Material tube() {
-  Material m = with_vessels(tissue(srgb(200, 118, 120), srgb(212, 144, 132), srgb(184, 96, 106)), 0.7f, 0.024f);
-  m.mottle_size = 0.007f;
+  Material m = with_vessels(tissue(srgb(196, 131, 130), srgb(206, 152, 142), srgb(182, 108, 114)), 0.7f, 0.024f);
+  m.mottle_size = 0.011f;
   m.mottle = 0.6f;
-  m.glow_amount = 0.12f;
-  m.tint = srgb(202, 112, 120);  // fimbriae
-  m.film_size = 0.0019f;
-  m.film_bump = 0.3f;
+  m.bump = 0.1f;
+  m.glow_amount = 0.2f;          // through the thin rims of the fimbriae
+  m.tint = srgb(188, 104, 106);  // fimbriae: mucosa
+  m.film_size = 0.0055f;         // longer than the tube is thick: one broken sheen, no beads
+  m.film_bump = 0.2f;
+  m.film_roughness = 0.1f;
   return m;
 }
 

@@ -529,9 +529,13 @@ void TubeDrawing::paint() {
     }
   }
   const std::size_t fingers = m_fimbriae.paint.size();
+  const auto thin = [](Paint baked) {  // leaves let light through to each other
+    baked.openness = std::uint8_t(110 + 145 * baked.openness / 255);
+    return baked;
+  };
   for (std::size_t i = 0; i < fingers; ++i)
-    m_buffer.paint[v + i] =
-        m_baked.empty() ? m_fimbriae.paint[i] : shaded(m_fimbriae.paint[i], m_baked[m_baked.size() - fingers + i]);
+    m_buffer.paint[v + i] = m_baked.empty() ? m_fimbriae.paint[i]
+                                            : shaded(m_fimbriae.paint[i], thin(m_baked[m_baked.size() - fingers + i]));
 }
 
 std::size_t TubeDrawing::nearest_first(double s) const {
