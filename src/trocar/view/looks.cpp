@@ -66,10 +66,12 @@ Material ovary() {
 
 Material ligament(Vec3f main, Vec3f broad, Vec3f fine) {
   Material m = with_vessels(tissue(main, broad, fine), 0.6f, 0.026f);
-  m.mottle_size = 0.006f;
+  m.mottle_size = 0.009f;
   m.mottle = 0.6f;
-  m.bump = 0.16f;
-  m.film_bump = 0.28f;
+  m.bump = 0.12f;
+  m.film_bump = 0.16f;
+  m.film_size = 0.0065f;  // longer than the cord is thick: no row of beads
+  m.film_roughness = 0.1f;
   m.tint = srgb(206, 128, 122);
   return m;
 }
@@ -114,8 +116,9 @@ Material bowel() {
   m.mottle_size = 0.012f;
   m.mottle = 0.6f;
   m.glow_amount = 0.1f;
-  m.film_bump = 0.25f;
-  m.film_size = 0.003f;
+  m.film_bump = 0.17f;
+  m.film_size = 0.007f;
+  m.film_roughness = 0.09f;
   m.tint = srgb(228, 178, 158);  // its bands
   return m;
 }
@@ -126,8 +129,9 @@ Material small_bowel() {
   m.mottle_size = 0.014f;
   m.mottle = 0.5f;
   m.glow_amount = 0.1f;
-  m.film_bump = 0.2f;
-  m.film_size = 0.003f;
+  m.film_bump = 0.14f;
+  m.film_size = 0.008f;
+  m.film_roughness = 0.09f;
   return m;
 }
 

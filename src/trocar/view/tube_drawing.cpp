@@ -30,6 +30,8 @@ constexpr double kNeckFar = 0.011;      // [m] from its end a strand's collar be
 constexpr double kSink = 0.9;           // radii that a strand has sunk into its organ at its end
 constexpr double kRootReach = 0.03;     // [m] a wall farther from a fixed end is not its root
 constexpr double kBloodied = 0.0016;    // [m] beside a cut
+constexpr double kIsthmus = 0.027;      // [m] of a uterine tube that is narrow and straight
+constexpr double kCoil = 0.0006;        // [m] its drawn line winds about the simulated one
 constexpr double kBend = 0.01;          // [m] radius with which tubes curve, for rings that are left out
 
 template <class T>
@@ -151,10 +153,33 @@ double TubeDrawing::radius_at(double s) const {
   const double u = 1 - w;
   double radius =
       (u * u * u * a + (3 * w * w * w - 6 * w * w + 4) * b + (3 * u * u * u - 6 * u * u + 4) * c + w * w * w * d) / 6;
-  if (m_strand->fimbriated) radius *= bell_flare(m_body->length() - s);
+  if (m_strand->fimbriated) radius *= bell_flare(m_body->length() - s) * bore(s);
   if (hosted(0)) radius *= 1 + kRootFlare * std::exp(-s / (0.9 * r.front()));
   if (hosted(m_body->nodes() - 1)) radius *= 1 + kRootFlare * std::exp(-(m_body->length() - s) / (0.9 * r.back()));
   return radius;
+}
+
+/// How much of a uterine tube's windings a place has: none in the isthmus and where it opens.
+double TubeDrawing::winding(double s) const {
+  if (!m_strand->fimbriated) return 0;
+  const double length = m_body->length();
+  return smooth(kIsthmus, kIsthmus + 0.014, s) * smooth(length, length - 0.012, s);
+}
+
+/// Its bore is uneven: wide places and waists that are drawn, not simulated.
+double TubeDrawing::bore(double s) const {
+  const double k = 2 * kPi * s, seed = 2.3 * m_index;
+  const double ampulla = 0.085 * std::sin(k / 0.0173 + seed) + 0.05 * std::sin(k / 0.0097 + 1.7 * seed + 1);
+  return 1 + winding(s) * ampulla + 0.03 * std::sin(k / 0.0071 + seed);
+}
+
+/// And so is its way: it coils gently about the simulated line.
+Vec3d TubeDrawing::coiled(double s, const CurveFrame& f) const {
+  const double k = 2 * kPi * s, seed = 2.3 * m_index, amount = kCoil * winding(s);
+  if (amount <= 0) return {};
+  const double a = std::sin(k / 0.0208 + seed) + 0.4 * std::sin(k / 0.0117 + 2 * seed),
+               b = std::cos(k / 0.0241 + 1.4 * seed) + 0.4 * std::sin(k / 0.0133 + seed);
+  return amount * (a * f.normal + b * f.binormal);
 }
 
 double TubeDrawing::outline(double s, double angle) const {
@@ -309,7 +334,10 @@ CurveFrame TubeDrawing::sunk(const TubeRow& row, CurveFrame f, const StrandCurve
 /// The curve's frame, or beyond an end that of the way to the root's target.
 CurveFrame TubeDrawing::frame_of(const TubeRow& row, const StrandCurve& curve) const {
   CurveFrame f = curve.at(row.piece, row.s);
-  if (row.out <= 0) return sunk(row, f, curve);
+  if (row.out <= 0) {
+    f.point += coiled(row.s, f);
+    return sunk(row, f, curve);
+  }
   const bool at_start = row.piece == 0 && row.s == curve.pieces().front().from;
   const TubeRoot& root = at_start ? m_start_root : m_end_root;
   const double sign = at_start ? -1 : 1;

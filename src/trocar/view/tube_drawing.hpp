@@ -90,6 +90,9 @@ class TubeDrawing {
   Paint paint_at(const Layout& layout, double s, double angle, Paint own) const;
   double radius_at(double s) const;
   double outline(double s, double angle) const;
+  double winding(double s) const;
+  double bore(double s) const;
+  Vec3d coiled(double s, const CurveFrame& f) const;
   bool hosted(int node) const;
   TubeRoot root_at(const StrandCurve& rest, bool at_start, const WallSurface* walls) const;
   TubeRoot root_in_wall(const CurveFrame& end, Vec3d onward, double radius, const WallSurface& walls) const;
