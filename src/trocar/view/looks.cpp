@@ -226,6 +226,25 @@ Material fat() {
   return m;
 }
 
+/// Tags on the large bowel: salmon to amber, under a thin dull serosa, with capillaries.
+Material epiploic() {
+  Material m = fat();
+  m.colour = srgb(222, 152, 122);
+  m.colour_b = srgb(228, 172, 130);
+  m.colour_c = srgb(208, 124, 108);
+  m.lobule_size = 0.0026f;
+  m.lobule_depth = 0.08f;
+  m.lobule_contrast = 0.12f;
+  m.vessels = 1;
+  m.vessel_tile = 0.012f;
+  m.wetness = 0.5f;
+  m.film_bump = 0.3f;
+  m.film_size = 0.0016f;
+  m.film_roughness = 0.16f;
+  m.tint = srgb(206, 130, 120);  // where it runs out on the bowel
+  return m;
+}
+
 /// Broad and soft: lobules as large as those of the bowel's tags, seams that hardly show.
 Material omentum() {
   Material m = fat();
@@ -330,7 +349,7 @@ std::vector<Look> make_looks() {
         .fine_size = 0.006,
         .haustra = 0.0024,
         .haustra_size = 0.023},
-       20,
+       13,
        7},
       {"small_bowel",
        small_bowel(),
@@ -344,7 +363,7 @@ std::vector<Look> make_looks() {
        gallbladder(),
        false,
        {.broad = 0.0005, .broad_size = 0.017, .fine = 0.00012, .fine_size = 0.005}},
-      {"fat", fat(), false, {.broad = 0.001, .broad_size = 0.012, .fine = 0.0006, .fine_size = 0.005}},
+      {"fat", epiploic(), false, {.broad = 0.001, .broad_size = 0.012, .fine = 0.0006, .fine_size = 0.005}},
       {"artery", vessel(srgb(134, 50, 52), srgb(148, 64, 60), srgb(112, 38, 44)), false, {}},
       {"vein", vessel(srgb(104, 60, 70), srgb(118, 74, 78), srgb(88, 46, 60)), false, {}},
       {"peritoneum", peritoneum(), false, {}},
