@@ -18,7 +18,7 @@ constexpr double kPi = 3.14159265358979;
 constexpr double kStep = 0.0012;        // [m] between rings
 constexpr double kFineStep = 0.0004;    // [m] near a clip
 constexpr double kNearClip = 0.004;     // [m]
-constexpr double kBlanched = 0.0045;    // [m] beside a clip's legs
+constexpr double kBlanched = 0.0034;    // [m] beside a clip's legs
 constexpr double kRootFlare = 0.12;     // how much wider a strand is where it grows out of an organ
 constexpr double kRootDepth = 1.6;      // radii below the organ's surface where it ends
 constexpr double kRootSlide = 0.022;    // [m] a ligament goes on along a wall ...
@@ -30,6 +30,7 @@ constexpr double kNeckFar = 0.011;      // [m] from its end a strand's collar be
 constexpr double kSink = 0.9;           // radii that a strand has sunk into its organ at its end
 constexpr double kRootReach = 0.03;     // [m] a wall farther from a fixed end is not its root
 constexpr double kBloodied = 0.0016;    // [m] beside a cut
+constexpr double kContracts = 0.0022;   // [m] of a cut end
 constexpr double kIsthmus = 0.027;      // [m] of a uterine tube that is narrow and straight
 constexpr double kCoil = 0.0006;        // [m] its drawn line winds about the simulated one
 constexpr double kBend = 0.01;          // [m] radius with which tubes curve, for rings that are left out
@@ -38,6 +39,15 @@ template <class T>
 bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
+
+/// An uneven rim's course, about -1..1.
+double ragged(int seed, double angle) {
+  return 0.45 * std::sin(2 * angle + 1.9 * seed) + 0.4 * std::sin(3 * angle + 2.6 * seed + 1) +
+         0.35 * std::sin(5 * angle + 4.1 * seed + 2) + 0.2 * std::sin(7 * angle + 0.7 * seed);
+}
+
+/// 0..1: to one side a stump oozes.
+double oozes(double angle) { return smooth(0.1, 0.9, std::sin(angle + 1)); }
 
 TubeRow row_at(int piece, double s) {
   TubeRow row;
@@ -363,11 +373,15 @@ Paint TubeDrawing::paint_at(const Layout& layout, double s, double angle, Paint 
     p.burn = std::max(p.burn, to_byte(pale));
   }
   for (const StrandPiece& piece : layout.pieces) {
-    if (own.blood > 0) break;  // a raw face has its own
+    if (own.blood > 0) {  // a raw face has its own
+      p.blood = std::uint8_t(std::min(255.0, own.blood + 95 * oozes(angle)));
+      break;
+    }
     const double stain = kBloodied * (0.8 + 0.6 * std::sin(angle + 1) + 0.4 * std::sin(3 * angle));
+    const double much = 0.2 + 0.3 * oozes(angle);
     if (piece.cut_start && s >= piece.from)
-      p.blood = std::max(p.blood, to_byte(0.2 * smooth(stain, 0, s - piece.from)));
-    if (piece.cut_end && s <= piece.to) p.blood = std::max(p.blood, to_byte(0.2 * smooth(stain, 0, piece.to - s)));
+      p.blood = std::max(p.blood, to_byte(much * smooth(stain, 0, s - piece.from)));
+    if (piece.cut_end && s <= piece.to) p.blood = std::max(p.blood, to_byte(much * smooth(stain, 0, piece.to - s)));
   }
   for (const Cut& nick : layout.nicks) {
     const double round = 0.5 + 0.5 * std::cos(angle);
@@ -397,24 +411,24 @@ void TubeDrawing::add_raw_face(int piece, bool at_start) {
   const double s = at_start ? p.from : p.to, sign = at_start ? -1 : 1, r = radius_at(s);
   const double open = m_strand->inner.empty() ? 0 : m_strand->inner[std::size_t(at_start ? p.first : p.last)];
   const double lumen = std::max(open, 0.22 * r);
-  // The serosa has drawn back from a pale ring of muscle, whose lining rolls out over it, dusky pink; in it the lumen,
-  // dark, and a little blood.
-  const Paint rim{235, 26, 0, 0}, muscle{235, 6, 44, 0}, mucosa{225, 3, 0, 150}, lining{170, 40, 0, 230};
+  // The serosa has drawn back from a pale ring of muscle, which has contracted; out of it pouts the lining, ragged and
+  // dusky, around a narrow dark lumen.
+  const Paint rim{235, 20, 0, 0}, muscle{225, 8, 24, 20}, mucosa{205, 12, 0, 215}, lining{150, 60, 0, 255};
   const Paint dark{40, 190, 0, 255};
   std::vector<TubeRow> rows;
-  const auto row = [&](double along, double radius, Paint paint) {
-    rows.push_back({piece, s, sign * along, radius, along > 0 ? 0.03 : 0.0, 0, false, paint});
+  const auto row = [&](double along, double radius, double ragged, Paint paint) {
+    rows.push_back({piece, s, sign * along, radius, ragged, 0, false, paint});
   };
-  row(0, r, rim);
-  row(0.05 * r, 0.90 * r, muscle);
-  row(0.14 * r, 0.90 * r, muscle);
-  row(0.20 * r, 0.98 * r, mucosa);
-  row(0.32 * r, 0.99 * r, mucosa);
-  row(0.42 * r, 0.88 * r, mucosa);
-  row(0.44 * r, 0.70 * r, mucosa);
-  row(0.38 * r, std::min(1.3 * lumen, 0.50 * r), lining);
-  row(0.16 * r, std::min(0.9 * lumen, 0.36 * r), dark);
-  row(-0.2 * r, 0, dark);
+  row(0, 0.94 * r, 0.05, rim);
+  row(0.05 * r, 0.84 * r, 0.05, muscle);
+  row(0.12 * r, 0.76 * r, 0.05, muscle);
+  row(0.20 * r, 0.80 * r, 0.10, mucosa);
+  row(0.34 * r, 0.86 * r, 0.17, mucosa);
+  row(0.46 * r, 0.80 * r, 0.20, mucosa);
+  row(0.48 * r, 0.66 * r, 0.17, mucosa);
+  row(0.40 * r, std::min(1.3 * lumen, 0.48 * r), 0.12, lining);
+  row(0.16 * r, std::min(0.9 * lumen, 0.34 * r), 0.05, dark);
+  row(-0.4 * r, 0, 0, dark);
   rows.front().crease = !at_start;
   if (at_start) std::reverse(rows.begin(), rows.end());
   m_rows.insert(m_rows.end(), rows.begin(), rows.end());
@@ -441,12 +455,20 @@ void TubeDrawing::add_end(int piece) {
   m_rows.push_back({piece, p.to, r, 0, 0, 0, false, {}});
 }
 
+/// Its muscle narrows a cut end.
+double TubeDrawing::contracted(const StrandPiece& piece, double s) const {
+  double amount = 0;
+  if (piece.cut_start) amount = smooth(kContracts, 0, s - piece.from);
+  if (piece.cut_end) amount = std::max(amount, smooth(kContracts, 0, piece.to - s));
+  return 1 - 0.12 * amount;
+}
+
 void TubeDrawing::add_piece(const Layout& layout, int piece) {
   const StrandPiece& p = layout.pieces[std::size_t(piece)];
   add_start(piece);
   bool first = true;
   for (const double s : stations(layout, p)) {
-    m_rows.push_back({piece, s, 0, radius_at(s), 0, 0, first && p.cut_start, {}});
+    m_rows.push_back({piece, s, 0, radius_at(s) * contracted(p, s), 0, 0, first && p.cut_start, {}});
     first = false;
   }
   add_end(piece);
@@ -591,10 +613,10 @@ void TubeDrawing::place(const StrandCurve& curve, std::vector<Vec3f>& positions)
     }
     for (int k = 0; k < m_sides; ++k) {
       const double a = 2 * kPi * k / m_sides;
-      const double lobes = row.scallop * std::cos(8 * a + m_index);
+      const double lobes = row.scallop * ragged(row.piece + m_index, a);
       const double r = row.radius * (outline(row.s, a) + lobes);
       const Vec3d p =
-          centre + r * (std::cos(a) * f.normal + std::sin(a) * f.binormal) + (0.3 * lobes * row.radius) * f.tangent;
+          centre + r * (std::cos(a) * f.normal + std::sin(a) * f.binormal) + (row.along < 0 ? -1 : 1) * (0.9 * lobes * row.radius) * f.tangent;
       positions[v++] = vec_cast<float>(p);
     }
   }

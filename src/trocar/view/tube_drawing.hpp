@@ -20,7 +20,7 @@ struct TubeRow {
   double s = 0;      ///< arc length [m]
   double along = 0;  ///< moved along the tangent from there [m]
   double radius = 0;
-  double scallop = 0;   ///< of the rim: share of the radius
+  double scallop = 0;   ///< of the rim: share of the radius that it rises and falls by
   double out = 0;       ///< beyond the end, share of the way to the root's target
   bool crease = false;  ///< a hard edge: not joined to the row before, which lies in the same place
   Paint paint;
@@ -76,6 +76,7 @@ class TubeDrawing {
   void add_piece(const Layout& layout, int piece);
   void add_start(int piece);
   void add_end(int piece);
+  double contracted(const StrandPiece& piece, double s) const;
   void add_raw_face(int piece, bool at_start);
   void connect();  ///< vertices and triangles of the rows
   void join(const std::vector<std::size_t>& rows, std::uint32_t stride, MeshBuffer& into) const;
