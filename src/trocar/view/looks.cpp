@@ -314,7 +314,10 @@ std::vector<Look> make_looks() {
   const Material neutral = tissue(srgb(196, 134, 130), srgb(204, 150, 142), srgb(182, 112, 112));
   return {
       {"neutral", neutral, false, {}},
-      {"uterus", uterus(), false, {.broad = 0.0009, .broad_size = 0.031, .fine = 0.00012, .fine_size = 0.006}},
+      {"uterus",
+       uterus(),
+       false,
+       {.broad = 0.0011, .broad_size = 0.027, .fine = 0.00012, .fine_size = 0.006, .lopsided = 0.0019}},
       {"tube", tube(), false, {}},
       {"fimbria", tube(), false, {}},
       {"ovary",
@@ -326,7 +329,9 @@ std::vector<Look> make_looks() {
         .fine_size = 0.0045,
         .follicles = 11,
         .follicle_radius = 0.0034,
-        .scars = 9},
+        .scars = 9,
+        .ripe = 0.0056,
+        .lopsided = 0.0009},
        0,
        2},
       {"round_ligament", cord, false, {}},
