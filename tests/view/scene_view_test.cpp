@@ -82,8 +82,9 @@ geometry::TriMesh welded(const MeshBuffer& b) {
 
 /// Vertices of the fingers: the last ones of the tube's mesh.
 std::span<const Vec3f> fingers_of(const TubeDrawing& tube) {
-  const sim::StrandModel& strand = pelvis().strands[std::size_t(left_tube())];
-  const std::size_t n = fimbriae(kBellFlare * strand.outer.back(), left_tube() + 1).size();
+  FimbriaSite site;
+  site.radius = 0.004;
+  const std::size_t n = fimbriae(site).size();
   return std::span(tube.buffer().positions).last(n);
 }
 

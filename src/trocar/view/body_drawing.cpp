@@ -49,12 +49,13 @@ BodyDrawing::BodyDrawing(const sim::Model& model, render::Backend& backend) : m_
   const WallSurface walls(model);
   make_tubes(walls);
   make_cuttables(backend);
+  m_bowel = bowel_loops(model, walls);
   const render::OpennessBaker baker = shading();
   for (CuttableDrawing& c : m_cuttables) c.shade(baker);
   make_organs(baker, backend);
   make_on_organs(walls, backend);
   for (const sim::WallModel& w : model.walls) make_wall(w, baker, backend);
-  make_surroundings(walls, backend);
+  make_surroundings(baker, backend);
   for (TubeDrawing& t : m_tubes) t.create(shaded(baker, t.drawn().positions, t.drawn().normals), backend);
   make_joints(walls, backend);
   for (int i = 0; i < int(model.sheets.size()); ++i) {
@@ -93,6 +94,7 @@ render::OpennessBaker BodyDrawing::shading() const {
     occluders.push_back({m_model->walls[i].skin.rest, indices[solids + i]});
   for (const CuttableDrawing& c : m_cuttables) occluders.push_back({c.positions(), c.indices()});
   for (const TubeDrawing& t : m_tubes) occluders.push_back({t.drawn().positions, t.drawn().indices});
+  for (const MeshBuffer* gut : {&m_bowel.small, &m_bowel.large}) occluders.push_back({gut->positions, gut->indices});
   return render::OpennessBaker(occluders, kShadeCell, kShadeReach);
 }
 
@@ -148,11 +150,14 @@ void BodyDrawing::make_wall(const sim::WallModel& wall, const render::OpennessBa
   m_apron_on.push_back(number);
 }
 
-void BodyDrawing::make_surroundings(const WallSurface& walls, render::Backend& backend) {
+void BodyDrawing::make_surroundings(const render::OpennessBaker& baker, render::Backend& backend) {
   m_details.cavity = Detail(levels_of(*m_model, "cavity"));
   m_cavity = rigid(cavity_around(*m_model), m_details.cavity, backend);
-  if (const MeshBuffer shape = bowel_loops(*m_model, walls); shape.size() > 0)
-    m_loops = OwnedMesh(backend, shape.data());
+  for (MeshBuffer* gut : {&m_bowel.small, &m_bowel.large}) {
+    if (gut->size() == 0) continue;
+    gut->paint = shaded(baker, gut->positions, gut->normals);
+    (gut == &m_bowel.small ? m_loops : m_large_loop) = OwnedMesh(backend, gut->data());
+  }
 }
 
 void BodyDrawing::make_joints(const WallSurface& walls, render::Backend& backend) {
@@ -258,6 +263,7 @@ void BodyDrawing::list_surroundings(const FirstParts& first, const Listing& to) 
   to.add(m_cavity, peritoneum, m_details.cavity);
   for (std::size_t i = 0; i < m_margins.size(); ++i) to.add(m_margins[i], peritoneum, m_details.margins[i]);
   if (m_loops.handle().id) to.add(item(m_loops.handle(), look("small_bowel"), first.cavity));
+  if (m_large_loop.handle().id) to.add(item(m_large_loop.handle(), look("bowel"), first.cavity));
 }
 
 void BodyDrawing::list_walls(const FirstParts& first, const Listing& to) const {

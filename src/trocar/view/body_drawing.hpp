@@ -8,6 +8,7 @@
 #include <trocar/render/openness.hpp>
 #include <trocar/sim/state.hpp>
 #include <trocar/view/adhesions.hpp>
+#include <trocar/view/bowel_loops.hpp>
 #include <trocar/view/cuttable_drawing.hpp>
 #include <trocar/view/drape.hpp>
 #include <trocar/view/fat_tags.hpp>
@@ -64,7 +65,7 @@ class BodyDrawing {
   void make_organs(const render::OpennessBaker& baker, render::Backend& backend);
   void make_on_organs(const WallSurface& walls, render::Backend& backend);
   void make_wall(const sim::WallModel& wall, const render::OpennessBaker& baker, render::Backend& backend);
-  void make_surroundings(const WallSurface& walls, render::Backend& backend);
+  void make_surroundings(const render::OpennessBaker& baker, render::Backend& backend);
   void make_joints(const WallSurface& walls, render::Backend& backend);
   void make_vessels(render::Backend& backend);
   void make_membranes(render::Backend& backend);
@@ -98,7 +99,8 @@ class BodyDrawing {
   std::vector<RigidMesh> m_margins;
   std::vector<MeshBuffer> m_margin_shapes;
   RigidMesh m_cavity;
-  OwnedMesh m_loops;
+  BowelLoops m_bowel;
+  OwnedMesh m_loops, m_large_loop;
   struct Details {  ///< of what is numbered as above
     std::vector<Detail> organs, cuttables, fat, tubes, sheets, membranes, pouches, vessels, walls, margins;
     Detail cavity;

@@ -1,23 +1,19 @@
 #include <algorithm>
 #include <cmath>
 
-#include <trocar/render/mesh_arrays.hpp>
 #include <trocar/view/bowel_loops.hpp>
 #include <trocar/view/cavity.hpp>
+#include <trocar/view/gut_line.hpp>
 #include <trocar/view/looks.hpp>
 #include <trocar/view/relief.hpp>
 
 namespace trocar::view {
 namespace {
 
-constexpr double kTwoPi = 6.28318530717959;
-constexpr int kSides = 20;
-constexpr double kRadius = 0.0105;               // [m]
-constexpr double kStep = 0.0028;                 // [m] between rings
-constexpr double kFine = 0.0004;                 // [m] of border between points of the line
-constexpr double kInside = 0.022;                // [m] from the border, on the wall
-constexpr double kSwing = 0.013, kBend = 0.046;  // [m] of the windings: to either side, one after the other
-constexpr double kFloor = 0.35;                  // cosine between up and the normal of what counts as a floor
+constexpr double kRadius = 0.0105;  // [m] of small bowel
+constexpr double kFloor = 0.35;     // cosine between up and the normal of what counts as a floor
+constexpr double kEnd = 0.016;      // [m] of the large bowel's end around its last vertex
+constexpr double kBack = 0.012;     // [m] that its continuation begins inside it
 
 /// A place on the border and across it.
 struct Edge {
@@ -44,56 +40,143 @@ std::vector<Edge> floor_of(const sim::Model& model, const tissue::Skin& wall) {
   return best;
 }
 
+/// The floor's border as a scale: how far along it, from the large bowel's side, and how far in from it.
+class Floor {
+ public:
+  Floor(std::vector<Edge> edges, const WallSurface& walls, Vec3d first) : m_edges(std::move(edges)), m_walls(&walls) {
+    if (length(m_edges.back().at - first) < length(m_edges.front().at - first))
+      std::reverse(m_edges.begin(), m_edges.end());
+    m_way = {0};
+    for (std::size_t i = 1; i < m_edges.size(); ++i)
+      m_way.push_back(m_way.back() + length(m_edges[i].at - m_edges[i - 1].at));
+  }
+
+  double length_of() const { return m_way.back(); }
+
+  /// @param t 0 at the large bowel's side, 1 at the other. @param in [m] from the border; negative: beyond it
+  /// @param high [m] above the floor
+  Vec3d at(double t, double in, double high) const {
+    const double s = std::clamp(t, 0.0, 1.0) * m_way.back();
+    const auto i = std::min(std::size_t(std::upper_bound(m_way.begin(), m_way.end(), s) - m_way.begin()) - 1,
+                            m_edges.size() - 2);
+    const double w = (s - m_way[i]) / std::max(m_way[i + 1] - m_way[i], 1e-9);
+    const Edge &a = m_edges[i], &b = m_edges[i + 1];
+    const Vec3d out = normalised((1 - w) * a.out + w * b.out), up = normalised((1 - w) * a.up + w * b.up);
+    const Vec3d p = (1 - w) * a.at + w * b.at - in * out;
+    const WallSurface::Place floor = m_walls->nearest(p);
+    if (in <= 0 || !floor.there) return p + high * up;
+    return floor.point + high * floor.normal;
+  }
+  Vec3d up_at(double t) const { return m_edges[std::size_t(t * double(m_edges.size() - 1))].up; }
+
+ private:
+  std::vector<Edge> m_edges;
+  std::vector<double> m_way;
+  const WallSurface* m_walls;
+};
+
+/// Where a large bowel's skin ends towards the border: the end's middle, its way out of there, its radius.
+struct GutEnd {
+  Vec3d middle, onward;
+  double radius = 0;
+};
+
+GutEnd end_of(const tissue::Skin& skin, const std::vector<Edge>& edges) {
+  Vec3d tip{};
+  double nearest = 1;
+  for (const Vec3f& v : skin.rest)
+    for (const Edge& e : edges)
+      if (const double d = length(vec_cast<double>(v) - e.at); d < nearest) {
+        nearest = d;
+        tip = vec_cast<double>(v);
+      }
+  const auto mean = [&](double from, double to) {
+    Vec3d sum{};
+    int count = 0;
+    for (const Vec3f& v : skin.rest) {
+      const Vec3d p = vec_cast<double>(v);
+      if (length(p - tip) < from || length(p - tip) > to) continue;
+      sum += p;
+      ++count;
+    }
+    return count > 0 ? (1.0 / count) * sum : tip;
+  };
+  GutEnd end;
+  const Vec3d last = mean(0, kEnd), before = mean(2 * kEnd, 3 * kEnd);
+  end.onward = normalised(last - before);
+  for (const Vec3f& v : skin.rest) {
+    const Vec3d d = vec_cast<double>(v) - last;
+    const double along = dot(d, end.onward);
+    if (std::fabs(along) < 0.006) end.radius = std::max(end.radius, length(d - along * end.onward));
+  }
+  end.middle = last;
+  return end;
+}
+
+/// Goes on from the large bowel's end over the border and is lost under the peritoneum there.
+GutLine large_bowel(const GutEnd& end, const Floor& floor) {
+  const Vec3d up = floor.up_at(0.3);
+  const Vec3d away = normalised(end.onward - 0.25 * up);
+  const Vec3d knots[] = {end.middle - kBack * end.onward,
+                         end.middle,
+                         end.middle + 0.02 * end.onward,
+                         end.middle + 0.042 * away,
+                         end.middle + 0.065 * away - 0.012 * up,
+                         end.middle + 0.085 * away - 0.05 * up};
+  GutLine line;
+  line.points = line_through(knots);
+  for (std::size_t i = 0; i < line.points.size(); ++i) {
+    const double along = kGutStep * double(i) - kBack;  // inside its end first, then around it, as the next bulge
+    line.radius.push_back(end.radius * (0.8 + 0.18 * smooth(-0.6 * kBack, 0.004, along)) *
+                          (1 + 0.07 * std::sin(6.283 * along / 0.027 - 0.4)));
+    line.hold.push_back(1);
+  }
+  return line;
+}
+
+/// From beyond the border in and out again, each leg beside the one before, then back over them and out.
+GutLine small_bowel(const Floor& floor) {
+  constexpr double low = 0.9 * kRadius, high = 2.5 * kRadius;
+  struct Knot {
+    double t, in, high;
+  };
+  constexpr Knot knots[] = {{0.50, -0.055, -0.03},  {0.50, -0.030, low},   {0.51, 0.004, low},   {0.53, 0.028, low},
+                            {0.575, 0.044, low},    {0.63, 0.034, low},    {0.64, 0.014, low},   {0.65, -0.010, low},
+                            {0.69, -0.026, low},    {0.74, -0.012, low},   {0.745, 0.020, low},  {0.755, 0.044, low},
+                            {0.80, 0.060, low},     {0.865, 0.048, low},   {0.875, 0.024, low},   {0.82, 0.002, 0.022},
+                            {0.74, 0.012, high},    {0.66, 0.022, high},   {0.60, 0.006, high},  {0.58, -0.030, high},
+                            {0.56, -0.055, 0.01},   {0.55, -0.075, -0.03}};
+  std::vector<Vec3d> places;
+  for (const Knot& k : knots) places.push_back(floor.at(k.t, k.in, k.high));
+  GutLine line;
+  line.points = line_through(places);
+  const std::size_t n = line.points.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    line.radius.push_back(kRadius * (1 + 0.08 * std::sin(0.11 * double(i))));
+    line.hold.push_back(smooth(0.045, 0.015, kGutStep * double(std::min(i, n - 1 - i))));
+  }
+  return line;
+}
+
 }  // namespace
 
-MeshBuffer bowel_loops(const sim::Model& model, const WallSurface& walls) {
-  MeshBuffer b;
-  const auto large = [](const sim::SolidModel& s) { return look(s.look).fat_tags > 0; };
-  if (model.walls.empty() || std::none_of(model.solids.begin(), model.solids.end(), large)) return b;
+BowelLoops bowel_loops(const sim::Model& model, const WallSurface& walls) {
+  BowelLoops loops;
+  const auto large = std::find_if(model.solids.begin(), model.solids.end(),
+                                  [](const sim::SolidModel& s) { return look(s.look).fat_tags > 0; });
+  if (model.walls.empty() || large == model.solids.end()) return loops;
   const std::vector<Edge> edges = floor_of(model, model.walls.front().skin);
-  if (edges.size() < 8) return b;
-  std::vector<double> way{0};
-  for (std::size_t i = 1; i < edges.size(); ++i) way.push_back(way.back() + length(edges[i].at - edges[i - 1].at));
-  // A winding line on the floor, then lifted by the radius; both ends go down below it.
-  std::vector<Vec3d> line, up;
-  for (double s = 0; s < way.back(); s += kFine) {
-    const auto i = std::size_t(std::upper_bound(way.begin(), way.end(), s) - way.begin()) - 1;
-    const std::size_t j = std::min(i + 1, edges.size() - 1);
-    const double w = j > i ? (s - way[i]) / (way[j] - way[i]) : 0;
-    const Vec3d out = normalised((1 - w) * edges[i].out + w * edges[j].out),
-                at = edges[i].at + w * (edges[j].at - edges[i].at);
-    const Vec3d along = normalised(edges[j].at - edges[i].at);
-    const double turn = kTwoPi * s / kBend + 0.8 * std::sin(23 * s);
-    const Vec3d p = at - kInside * out + (kSwing * std::sin(turn)) * out + (0.35 * kSwing * std::sin(2 * turn)) * along;
-    const WallSurface::Place floor = walls.nearest(p);
-    const double ends = std::min(s, way.back() - s);
-    line.push_back(floor.point + (kRadius * (0.75 - 2.6 * smooth(0.03, 0, ends))) * floor.normal);
-    up.push_back(floor.normal);
-  }
-  for (int pass = 0; pass < 60; ++pass)
-    for (std::size_t i = 1; i + 1 < line.size(); ++i) line[i] = 0.5 * line[i] + 0.25 * (line[i - 1] + line[i + 1]);
-  double since = kStep, ends = 0;
-  std::uint32_t before = 0;
-  for (std::size_t i = 1; i + 1 < line.size(); ++i) {
-    since += length(line[i] - line[i - 1]);
-    ends = std::min(double(i), double(line.size() - i)) * kFine;
-    if (since < kStep) continue;
-    since = 0;
-    const Vec3d along = normalised(line[i + 1] - line[i - 1]), high = normalised(up[i] - dot(up[i], along) * along);
-    const Vec3d beside = cross(along, high);
-    const std::uint32_t row = b.size();
-    for (int k = 0; k < kSides; ++k) {
-      const double a = kTwoPi * k / kSides;
-      const Vec3d dir = std::cos(a) * high + std::sin(a) * beside;
-      const double r = kRadius * (0.15 + 0.85 * smooth(0, 0.02, ends)) *
-                       (1 + 0.07 * waves(line[i] + 0.004 * dir, 0.017) + 0.05 * waves(line[i], 0.009));
-      b.add(vec_cast<float>(line[i] + r * dir), {to_byte(0.3 + 0.7 * smooth(-0.7, 0.35, std::cos(a))), 0, 0, 0});
-    }
-    if (row > 0) join_rows(b, before, row, kSides, true);
-    before = row;
-  }
-  render::vertex_normals(b.positions, b.indices, b.normals);
-  return b;
+  if (edges.size() < 8) return loops;
+  const GutEnd end = end_of(large->fine, edges);
+  const Floor floor(edges, walls, end.middle);
+  std::vector<GutLine> lines{large_bowel(end, floor), small_bowel(floor)};
+  std::vector<Vec3d> bodies;
+  for (std::size_t i = 0; i < large->fine.rest.size(); i += 2) bodies.push_back(vec_cast<double>(large->fine.rest[i]));
+  settle(lines, bodies, walls);
+  const Vec3d up = -normalised(model.gravity, Vec3d{0, 0, -1});
+  loops.large = gut(lines[0], up, 1);
+  loops.small = gut(lines[1], up, 2);
+  return loops;
 }
 
 }  // namespace trocar::view

@@ -1,5 +1,6 @@
-// Loops of small bowel that lie where a wall's border is a floor: below the border nothing is simulated, and an empty
-// bowl looks like a model's. Drawing only; they do not move, instruments pass through them.
+// Bowel that is not simulated: below the border of a wall that is a floor there would be an empty bowl. The large bowel
+// goes on out of view, loops of small bowel lie on the other side of it. Drawing only; they do not move, instruments
+// pass through them.
 #pragma once
 
 #include <trocar/view/mesh_buffer.hpp>
@@ -7,7 +8,11 @@
 
 namespace trocar::view {
 
+struct BowelLoops {
+  MeshBuffer small, large;
+};
+
 /// Empty where no organ of the scene is large bowel that they could lie beside, or no border is a floor.
-MeshBuffer bowel_loops(const sim::Model& model, const WallSurface& walls);
+BowelLoops bowel_loops(const sim::Model& model, const WallSurface& walls);
 
 }  // namespace trocar::view

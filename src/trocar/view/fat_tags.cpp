@@ -8,11 +8,13 @@ namespace trocar::view {
 namespace {
 
 constexpr double kTwoPi = 6.28318530717959;
-constexpr double kApart = 0.0055;  // [m] between two tags
-constexpr int kSides = 20, kRings = 18;
-constexpr int kLobes = 12;
-constexpr int kParts = 3;       // drops of a tag
-constexpr double kBend = 0.24;  // how fast a tag turns to hang down, a ring
+constexpr double kApart = 0.0085;  // [m] between two tags of middle size
+constexpr double kSunk = 0.0022;  // [m] a tag's foot lies below the skin
+constexpr float kAround = 0.02f, kUnder = 0.0009f;  // [m] skin around a tag; the foot's edge lies below it
+constexpr int kSides = 24, kRings = 18;
+constexpr int kLobes = 14;
+constexpr int kParts = 3;       // mounds of a tag, at most
+constexpr double kBend = 0.17;  // how fast a tag turns to hang down, a ring
 
 Mat3f frame_at(const OrganDrawing& organ, std::uint32_t at, std::uint32_t beside) {
   const Vec3f n = organ.normals()[at], way = organ.positions()[beside] - organ.positions()[at];
@@ -25,28 +27,40 @@ double lobes(Vec3d out, int seed) {
   double most = 0;
   for (int k = 0; k < kLobes; ++k) {
     const double up = 2 * varied(seed, 41 + k) - 1, turn = kTwoPi * varied(seed, 61 + k);
-    const double level = std::sqrt(1 - up * up), size = 0.4 + 0.45 * varied(seed, 81 + k);
+    const double level = std::sqrt(1 - up * up), size = 0.3 + 0.5 * varied(seed, 81 + k) * varied(seed, 101 + k);
     const Vec3d centre{level * std::cos(turn), level * std::sin(turn), up};
     const double far = length(out - centre) / size;
     most = std::max(most, size * std::sqrt(std::max(0.0, 1 - 0.8 * far * far)));
   }
-  return 0.66 + 0.5 * most;
+  return 0.72 + 0.45 * most;
 }
 
-/// A lobed drop on a stalk: from below the surface outwards, then hanging over along `down` (unit, in the same frame).
-MeshBuffer drop(Vec3d down, int seed, double size) {
+/// How wide a mound is at `u` (0 foot .. 1 tip), of its width.
+double profile(double u) {
+  const double body = std::sqrt(std::max(0.0, 1 - std::pow(std::max(0.0, u - 0.3) / 0.7, 2)));
+  return body * (0.8 + 0.25 * smooth(0.25, 0.6, u));
+}
+
+/// Its foot runs out on the bowel: how much wider it is `high` above the skin [m], of its width.
+double skirt(double high) {
+  const double t = std::clamp((0.0026 - high) / (0.0026 + kSunk), 0.0, 1.0);
+  return 1.1 * t * t;
+}
+
+/// A lobed mound of fat: broad on the bowel, then hanging over along `down` (unit, in the same frame).
+MeshBuffer mound(Vec3d down, int seed, double size) {
   MeshBuffer b;
-  const double length = size * (0.007 + 0.006 * varied(seed, 21)), wide = size * (0.0024 + 0.0014 * varied(seed, 22));
-  Vec3d p{0, 0, -0.0015}, along{0, 0, 1}, x{1, 0, 0};
+  const double length = size * (0.0062 + 0.0034 * varied(seed, 21)), wide = size * (0.0030 + 0.0014 * varied(seed, 22));
+  const double flat = 0.62 + 0.3 * varied(seed, 23), turned = kTwoPi * varied(seed, 24);
+  Vec3d p{0, 0, -kSunk}, along = normalised(Vec3d{0.45 * down.x, 0.45 * down.y, 1}), x{std::cos(turned), std::sin(turned), 0};
   std::uint32_t before = 0;
   for (int i = 0; i <= kRings; ++i) {
     const double u = double(i) / kRings;
-    along = normalised(along + kBend * smooth(0.05, 0.5, u) * down);
+    along = normalised(along + kBend * smooth(0.15, 0.6, u) * down);
     x = normalised(x - dot(x, along) * along, any_perpendicular(along));  // carried on, so that nothing twists
     const Vec3d y = cross(along, x);
-    const double bulb = std::sqrt(std::max(0.0, 1 - std::pow((u - 0.58) / 0.42, 2)));
-    const double stalk = 0.5 * smooth(0.4, 0.1, u), r = wide * std::max(stalk, u > 0.16 ? bulb : 0.0);
-    const Paint paint{to_byte(0.72 + 0.28 * smooth(0, 0.35, u)), 0, 0, to_byte(smooth(0.3, 0.08, u))};
+    const double r = wide * (profile(u) + (1 - u) * skirt(p.z));
+    const Paint paint{to_byte(0.8 + 0.2 * smooth(0, 0.3, u)), 0, 0, to_byte(smooth(0.45, 0.22, u))};
     const std::uint32_t row = b.size();
     if (i == 0 || i == kRings) {
       b.add(vec_cast<float>(p), paint);
@@ -55,10 +69,10 @@ MeshBuffer drop(Vec3d down, int seed, double size) {
       for (int k = 0; k < kSides; ++k) {
         const double a = kTwoPi * k / kSides, c = std::cos(a), s = std::sin(a);
         const double level = std::sqrt(std::max(0.0, 1 - std::pow(2 * u - 1, 2)));
-        const double lump = 1 + smooth(0.15, 0.35, u) * (lobes({level * c, level * s, 2 * u - 1}, seed) - 1);
+        const double lump = 1 + smooth(0.2, 0.45, u) * (lobes({level * c, level * s, 2 * u - 1}, seed) - 1);
         Paint own = paint;  // furrows between the lobes lie in shade
-        own.openness = to_byte(paint.openness / 255.0 * smooth(0.55, 0.98, lump));
-        b.add(vec_cast<float>(p + (r * lump) * (c * x + 0.75 * s * y) + (0.5 * wide * (lump - 1)) * along), own);
+        own.openness = to_byte(paint.openness / 255.0 * (0.6 + 0.4 * smooth(0.7, 0.98, lump)));
+        b.add(vec_cast<float>(p + (r * lump) * (c * x + flat * s * y) + (0.5 * wide * (lump - 1)) * along), own);
       }
       if (i == 1)
         join_pole(b, row, kSides, before, false);
@@ -66,9 +80,43 @@ MeshBuffer drop(Vec3d down, int seed, double size) {
         join_rows(b, before, row, kSides, true);
     }
     before = row;
-    p += (length / kRings) * along;
+    p += ((length + kSunk) / kRings) * along;
   }
   return b;
+}
+
+/// One to three mounds that hang together, the first the largest.
+MeshBuffer tag_shape(Vec3d down, int seed, double size) {
+  MeshBuffer shape;
+  const int parts = 1 + int(varied(seed, 34) * (size > 1.2 ? kParts - 0.01 : 1.7));
+  for (int part = 0; part < parts; ++part) {
+    const int own = kParts * seed + part;
+    const double turn = kTwoPi * varied(own, 32);
+    const Vec3d aside{std::cos(turn), std::sin(turn), 0};
+    const double place = part == 0 ? 0 : size * (0.0024 + 0.0016 * varied(own, 33));
+    append(shape, mound(normalised(down + (part == 0 ? 0.25 : 0.6) * aside), own, size * (part == 0 ? 1.0 : 0.7)),
+           Mat3f::identity(), vec_cast<float>(place * aside));
+  }
+  return shape;
+}
+
+/// The foot (what is tinted) comes to lie on the skin around, wherever that bends away.
+void lay_on(const OrganDrawing& organ, std::uint32_t at, const Mat3f& turn, MeshBuffer& shape) {
+  const std::span<const Vec3f> skin = organ.positions();
+  std::vector<std::uint32_t> near;
+  for (std::uint32_t v = 0; v < skin.size(); ++v)
+    if (length(skin[v] - skin[at]) < kAround) near.push_back(v);
+  for (std::uint32_t i = 0; i < shape.size(); ++i) {
+    if (shape.paint[i].tint == 0) continue;
+    const Vec3f p = skin[at] + turn * shape.positions[i];
+    const std::uint32_t v = *std::min_element(near.begin(), near.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return length(skin[a] - p) < length(skin[b] - p);
+    });
+    const Vec3f n = organ.normals()[v];
+    const float high = dot(p - skin[v], n) + kUnder;
+    if (high > 0)
+      shape.positions[i] += transposed(turn) * ((-high * float(shape.paint[i].tint) / 255) * n);
+  }
 }
 
 }  // namespace
@@ -76,21 +124,19 @@ MeshBuffer drop(Vec3d down, int seed, double size) {
 FatTags::FatTags(const OrganDrawing& organ, const sim::SolidModel& solid, int count, Vec3d gravity,
                  render::Backend& backend, const Detail& detail) {
   const tissue::Skin& skin = solid.fine;
-  for (int k = 0; k < 30 * count && int(m_tags.size()) < count; ++k) {
+  for (int k = 0; k < 40 * count && int(m_tags.size()) < count; ++k) {
     const auto at = std::uint32_t(varied(k, 31) * double(skin.rest.size() - 1));
-    const auto close = [&](const Tag& t) { return length(skin.rest[t.at] - skin.rest[at]) < float(kApart); };
+    const double size = 0.9 + 1.5 * varied(k, 35) * varied(k, 36);  // a few large ones among small
+    const auto close = [&](const Tag& t) {
+      return length(skin.rest[t.at] - skin.rest[at]) < float(kApart * 0.5 * (size + t.size));
+    };
     if (std::fabs(skin.rest_normal[at].z - 0.1f) > 0.4f || std::any_of(m_tags.begin(), m_tags.end(), close)) continue;
-    Tag tag{at, std::uint32_t(skin.neighbour[std::size_t(skin.neighbour_first[at])]), {}};
+    Tag tag{at, std::uint32_t(skin.neighbour[std::size_t(skin.neighbour_first[at])]), size, {}};
     const Mat3f turn = frame_at(organ, tag.at, tag.beside);
     Vec3d down = vec_cast<double>(transposed(turn) * vec_cast<float>(normalised(gravity, Vec3d{0, 0, -1})));
-    down.z = std::max(down.z, -0.25);            // lies on the bowel, not in it
-    for (int part = 0; part < kParts; ++part) {  // drops that hang together, the first the largest
-      const int seed = kParts * k + part;
-      const Vec3d aside{1.1 * (varied(seed, 32) - 0.5), 1.1 * (varied(seed, 33) - 0.5), 0};
-      const float place = part == 0 ? 0.0f : 0.0016f;
-      append(tag.shape, drop(normalised(down + (part == 0 ? 0.4 : 1.0) * aside), seed, part == 0 ? 1.0 : 0.72),
-             Mat3f::identity(), place * vec_cast<float>(normalised(aside)));
-    }
+    down.z = std::max(down.z, -0.25);  // lies on the bowel, not in it
+    tag.shape = tag_shape(down, k, size);
+    lay_on(organ, tag.at, turn, tag.shape);
     m_tags.push_back(std::move(tag));
   }
   for (const Tag& tag : m_tags) append(m_buffer, tag.shape, Mat3f::identity(), {});

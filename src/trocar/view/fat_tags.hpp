@@ -1,5 +1,5 @@
-// Epiploic appendages: the small lobes of fat that hang on the large bowel in rows and tell it from the small. They
-// ride on the organ's drawn skin; mechanically they are nothing.
+// Epiploic appendages: lobed mounds of fat, few and unequal, that hang on the large bowel in rows and tell it from the
+// small. They ride on the organ's drawn skin; mechanically they are nothing.
 #pragma once
 
 #include <vector>
@@ -22,7 +22,8 @@ class FatTags {
  private:
   struct Tag {
     std::uint32_t at = 0, beside = 0;  ///< skin vertices: where it hangs, and which way its x axis points
-    MeshBuffer shape;                  ///< in the frame (x, y, normal) of `at`
+    double size = 1;
+    MeshBuffer shape;  ///< in the frame (x, y, normal) of `at`
   };
   void place(const OrganDrawing& organ);
 

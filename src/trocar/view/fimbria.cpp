@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <trocar/view/fimbria.hpp>
@@ -7,135 +8,312 @@ namespace trocar::view {
 namespace {
 
 constexpr double kPi = 3.14159265358979;
-constexpr int kSides = 16, kRings = 18;
-constexpr double kThick = 0.00042;  // [m] half a petal's thickness at its root
-constexpr double kPleat = 0.00022;  // [m] folds that run along it
-constexpr double kRuffle = 0.0007;  // [m] its edges rise and fall
+constexpr int kRings = 20;         // along a leaf
+constexpr double kWall = 0.00042;  // [m] half the thickness of the rim's wall
+constexpr double kPleat = 0.00026; // [m] height of the folds on the inner side
+constexpr int kFolds = 2;           // of them on a leaf
 
-/// One finger: where it grows from, which way, how it curls.
-struct Finger {
-  double angle, along, out;  ///< root on the rim [rad, rim radii along and across]
-  double length, width;      ///< [m]
-  double lean;               ///< from the tube's direction outwards at the root [rad]
-  double curl;               ///< further outwards over its length [rad]
-  double sway;               ///< sideways [rad]
+/// Rings of the bell beyond the tube's end: forwards and outwards, in radii of the end.
+constexpr std::array<std::array<double, 2>, 4> kBell{{{0.14, 1.01}, {0.34, 1.05}, {0.52, 1.12}, {0.68, 1.24}}};
+constexpr double kRimLean = 0.85;  // [rad] from the tube's direction outwards, of the wall at the rim
+
+/// The inside, from below the rim to the mouth: as the bell, and how much light gets there.
+struct FunnelRow {
+  double along, radius, openness;
+};
+constexpr std::array<FunnelRow, 7> kFunnel{{{0.50, 1.04, 0.92},
+                                            {0.24, 0.84, 0.74},
+                                            {-0.06, 0.63, 0.50},
+                                            {-0.36, 0.44, 0.26},
+                                            {-0.64, 0.32, 0.12},
+                                            {-0.94, 0.22, 0.05},
+                                            {-1.25, 0.12, 0.02}}};
+
+/// One leaf: where it grows, how far, and how it bends.
+struct Leaf {
+  double from, to;  ///< of the rim [rad]
+  double length;    ///< [m]
+  double lean;      ///< [rad] outwards at its end, more than at the rim
+  double sway;      ///< [rad] sideways
+  double reaches;   ///< 0..1: how far it is drawn to the ovary
+  double notch;     ///< 0..1: its end parts in two
   int seed;
+  double middle() const { return 0.5 * (from + to); }
 };
 
-struct Spine {
-  Vec3d point, along, across, flat;  ///< flat = normal of the petal
-};
+Vec3d outwards(double angle) { return {0, std::cos(angle), std::sin(angle)}; }
+Vec3d around(double angle) { return {0, -std::sin(angle), std::cos(angle)}; }
+double apart(double a, double b) { return std::fabs(std::remainder(a - b, 2 * kPi)); }
 
-/// Rings stand closer towards the tip, which is round.
-double along_finger(int ring) { return std::sin(0.5 * kPi * ring / (kRings - 1)); }
-
-/// Width over length: broad at the root, where petals touch, widest before the middle, then a frilled, tapering end.
-double leaf(double u, int seed) {
-  const double body = smooth(-0.3, 0.25, u) * 0.85 + 0.5 * std::sin(0.9 * kPi * std::min(u + 0.12, 1.0)) - 0.1 * u;
-  const double tip = std::sqrt(std::max(0.0, 1 - std::pow(std::max(0.0, (u - 0.66) / 0.34), 2)));
-  const double lobes = 1 + 0.14 * std::sin(11 * u + 6.3 * varied(seed, 1)) + 0.12 * std::sin(23 * u + seed);
-  return body * tip * lobes;
+/// Unequal shares of the rim; every other leaf is shorter, stands up and belongs to the inner order.
+std::vector<Leaf> leaves_of(const FimbriaSite& site) {
+  std::vector<Leaf> leaves(kLeaves);
+  std::vector<double> border(kLeaves + 1);
+  const int seed = 1000 * site.seed;
+  for (int i = 0; i < kLeaves; ++i)
+    border[std::size_t(i)] = 2 * kPi * (i + 0.55 * (varied(seed + i, 3) - 0.5)) / kLeaves;
+  border[kLeaves] = border[0] + 2 * kPi;
+  const double to_ovary = std::atan2(site.land.z, site.land.y);
+  for (int i = 0; i < kLeaves; ++i) {
+    Leaf& f = leaves[std::size_t(i)];
+    const bool inner = i % 2 == 1;
+    f.seed = seed + i;
+    f.from = border[std::size_t(i)];
+    f.to = border[std::size_t(i) + 1];
+    f.length = site.radius * (inner ? 1.05 : 1.6) * (0.6 + 0.8 * varied(f.seed, 4));
+    f.lean = (inner ? 0.3 : 1.7) + 1.1 * (varied(f.seed, 6) - 0.5);
+    f.sway = 1.3 * (varied(f.seed, 8) - 0.5);
+    f.notch = varied(f.seed, 5) > 0.55 ? 1.0 : 0.1;
+    const double off = apart(f.middle(), to_ovary);
+    f.reaches = site.ovary ? smooth(1.2, 0.35, off) : 0;
+  }
+  if (site.ovary) {  // the nearest of all gets there
+    const auto nearest = std::min_element(leaves.begin(), leaves.end(), [&](const Leaf& a, const Leaf& b) {
+      return apart(a.middle(), to_ovary) < apart(b.middle(), to_ovary);
+    });
+    for (Leaf& f : leaves) f.reaches = std::min(f.reaches, 0.75);
+    nearest->reaches = 1;
+    nearest->notch = 0.1;
+  }
+  return leaves;
 }
 
-std::vector<Spine> spine_of(const Finger& f, double radius) {
-  std::vector<Spine> spine;
-  const Vec3d out{0, std::cos(f.angle), std::sin(f.angle)}, around{0, -std::sin(f.angle), std::cos(f.angle)};
-  Vec3d p = Vec3d{f.along * radius, 0, 0} + f.out * radius * out;
-  for (int i = 0; i < kRings; ++i) {
-    const double u = along_finger(i);
-    const double lean = f.lean + f.curl * u * (0.4 + 0.6 * u) + 0.1 * std::sin(5 * u + f.seed);
-    const double sway = f.sway * u;
+/// A place on a leaf's middle line.
+struct Spine {
+  Vec3d point, along, across, flat;  ///< unit; flat: out of the inner side
+};
+using Spines = std::array<Spine, kRings + 1>;
+
+/// Rings stand closer towards the tip.
+double along_leaf(int ring) {
+  const double t = double(ring) / kRings;
+  return 0.55 * t + 0.45 * std::sin(0.5 * kPi * t);
+}
+
+/// By its own bend and weight.
+Spines hanging(const Leaf& f, const FimbriaSite& site) {
+  Spines spine;
+  const Vec3d out = outwards(f.middle()), side = around(f.middle());
+  const auto& rim = kBell.back();
+  Vec3d p = site.radius * (rim[0] * Vec3d{1, 0, 0} + rim[1] * out);
+  for (int i = 0; i <= kRings; ++i) {
+    const double u = along_leaf(i), lean = kRimLean + f.lean * u + 0.16 * std::sin(5.5 * u + f.seed);
     Vec3d t = std::cos(lean) * Vec3d{1, 0, 0} + std::sin(lean) * out;
-    t = std::cos(sway) * t + std::sin(sway) * around;
-    const Vec3d across = normalised(around - dot(around, t) * t);
-    spine.push_back({p, t, across, cross(t, across)});
-    if (i + 1 < kRings) p += (f.length * (along_finger(i + 1) - u)) * t;
+    t = std::cos(f.sway * u) * t + std::sin(f.sway * u) * side;
+    t = normalised(t + (0.75 * u) * site.down, t);
+    const Vec3d across = normalised(side - dot(side, t) * t, any_perpendicular(t));
+    spine[std::size_t(i)] = {p, t, across, cross(t, across)};
+    if (i < kRings) p += (f.length * (along_leaf(i + 1) - u)) * t;
   }
   return spine;
 }
 
-void add_finger(MeshBuffer& b, const Finger& f, double radius) {
-  const std::vector<Spine> spine = spine_of(f, radius);
-  std::uint32_t last = 0;
-  for (int i = 0; i < kRings; ++i) {
-    const double u = along_finger(i);
-    const Spine& s = spine[std::size_t(i)];
-    const bool end = i == 0 || i == kRings - 1;
-    const Paint paint{to_byte(0.5 + 0.5 * smooth(0, 0.55, u)), 0, 0, to_byte(0.9 - 0.3 * u - 0.3 * varied(f.seed, 9))};
-    if (end) {
-      const std::uint32_t pole = b.add(vec_cast<float>(s.point), paint);
-      if (i > 0) join_pole(b, last, kSides, pole, true);
-      continue;
-    }
-    const double half = 0.5 * f.width * leaf(u, f.seed), thick = kThick * (1.2 - 0.6 * u);
-    const std::uint32_t row = b.size();
-    for (int k = 0; k < kSides; ++k) {
-      const double a = 2 * kPi * k / kSides, c = std::cos(a), sn = std::sin(a);
-      // Ruffled: the edges rise and fall along the finger, in turn on either side.
-      const double ruffle = kRuffle * (0.35 + 1.4 * u * (1 - u)) * c * c *
-                            std::sin(17 * u + (c > 0 ? 0.0 : 2.1) + 6.3 * varied(f.seed, 2));
-      const double cupped = (0.9 * varied(f.seed, 12) - 0.6) * half * c * c +
-                            kPleat * std::sin(7 * c + f.seed + 3 * u) * smooth(0, 0.3, u);  // folds along it
-      const Vec3d p = s.point + (half * c) * s.across + (thick * sn + ruffle + cupped) * s.flat;
-      Paint edge = paint;  // thin edges are paler than the crest
-      edge.tint = std::uint8_t(paint.tint * (1 - 0.8 * c * c));
-      b.add(vec_cast<float>(p), edge);
-    }
-    if (i == 1)
-      join_pole(b, row, kSides, row - 1, false);
-    else
-      join_rows(b, last, row, kSides, true);
-    last = row;
+/// A curve from the rim to the ovary, along which the leaf's inner side comes to lie on it.
+Spines landing(const Leaf& f, const FimbriaSite& site) {
+  Spines spine;
+  const Vec3d out = outwards(f.middle()), side = around(f.middle());
+  const auto& rim = kBell.back();
+  const Vec3d a = site.radius * (rim[0] * Vec3d{1, 0, 0} + rim[1] * out), b = site.land;
+  const double far = length(b - a);
+  const Vec3d da = (1.1 * far) * (std::cos(kRimLean) * Vec3d{1, 0, 0} + std::sin(kRimLean) * out),
+              db = (1.3 * far) * normalised(site.slide - 0.25 * site.normal, site.slide);
+  for (int i = 0; i <= kRings; ++i) {
+    const double t = along_leaf(i), u = 1 - t;
+    const Vec3d p =
+        (u * u * (1 + 2 * t)) * a + (t * t * (3 - 2 * t)) * b + (u * u * t) * da - (t * t * u) * db;
+    const Vec3d along = normalised((6 * t * u) * (b - a) + (u * (1 - 3 * t)) * da + (t * (3 * t - 2)) * db, site.slide);
+    const Vec3d lying = cross(-site.normal, along), wish = (1 - t) * side + t * (dot(lying, side) < 0 ? -lying : lying);
+    const Vec3d across = normalised(wish - dot(wish, along) * along, any_perpendicular(along));
+    spine[std::size_t(i)] = {p, along, across, cross(along, across)};
   }
+  return spine;
+}
+
+Spines spine_of(const Leaf& f, const FimbriaSite& site) {
+  Spines own = hanging(f, site);
+  if (f.reaches <= 0) return own;
+  const Spines drawn = landing(f, site);
+  if (f.reaches >= 1) return drawn;
+  for (int i = 0; i <= kRings; ++i) {
+    Spine& s = own[std::size_t(i)];
+    const Spine& d = drawn[std::size_t(i)];
+    s.point = (1 - 0.6 * f.reaches) * s.point + (0.6 * f.reaches) * d.point;
+    s.along = normalised((1 - f.reaches) * s.along + f.reaches * d.along, s.along);
+    s.across = normalised(s.across - dot(s.across, s.along) * s.along, any_perpendicular(s.along));
+    s.flat = cross(s.along, s.across);
+  }
+  return own;
+}
+
+/// Half the width over half the share of the rim: widest before the middle, lobed edges, a round end.
+double half_width(const Leaf& f, double u, bool right) {
+  const int k = 2 * f.seed + (right ? 1 : 0);
+  const double body = 1 + (0.1 + 0.3 * varied(f.seed, 23)) * smooth(0, 0.4, u) - 0.45 * smooth(0.4, 1.0, u);
+  // Round lobes with narrow clefts between them.
+  const double turn = (6 + 3 * varied(k, 2)) * u + 3.1 * varied(k, 1);
+  const double lobes = smooth(0.05, 0.35, u) * (0.42 * std::pow(std::fabs(std::sin(turn)), 0.7) - 0.24);
+  const double tip = std::sqrt(std::max(0.0, 1 - std::pow(std::max(0.0, (u - 0.7) / 0.3), 2)));
+  return (body + lobes) * (0.16 + 0.84 * tip);
+}
+
+/// How far the column at `w` (-1..1 across) goes, over the leaf's length.
+double reach(const Leaf& f, double w) {
+  const double split = f.notch * 0.22 * std::exp(-w * w / 0.05);
+  return 1 - 0.1 * w * w - split - 0.025 * (1 + std::sin(8 * w + f.seed)) * (1 - w * w);
+}
+
+/// How high the folds of the inner side stand at a column of the rim, 0..1; each has its own height.
+double fold_at(int column) {
+  const double turn = double(kFolds * column) / kLeafColumns, own = varied(int(turn), 77);
+  return (0.25 + 0.75 * own) * (0.5 - 0.5 * std::cos(2 * kPi * turn));
+}
+
+struct Sheets {
+  Vec3d middle, inner;  ///< between both sides; half the thickness towards the inner one
+};
+
+Sheets place_on(const Leaf& f, const Spines& spine, const FimbriaSite& site, int ring, int column, double fold) {
+  const double w = 2.0 * column / kLeafColumns - 1, v = along_leaf(ring);
+  const double u = v * (1 + (reach(f, w) - 1) * v), at = std::clamp(u, 0.0, 1.0);
+  // The spine at u, between its own rings.
+  int i = 0;
+  while (i + 2 <= kRings && along_leaf(i + 1) < at) ++i;
+  const double t = (at - along_leaf(i)) / (along_leaf(i + 1) - along_leaf(i));
+  const Spine &a = spine[std::size_t(i)], &b = spine[std::size_t(i) + 1];
+  const Vec3d point = (1 - t) * a.point + t * b.point, across = (1 - t) * a.across + t * b.across,
+              flat = (1 - t) * a.flat + t * b.flat;
+  const double sector = 0.5 * (f.to - f.from) * kBell.back()[1] * site.radius;
+  const double half = sector * half_width(f, v, w > 0);
+  // Edges are longer than the middle: they rise and fall in a frill, and the leaf is a shallow trough.
+  const double edge = std::fabs(w) * w * w, loose = smooth(0.05, 0.5, v);
+  const double phase = 6.3 * varied(f.seed, w > 0 ? 21 : 22);
+  const double frill = loose * (0.00052 * edge * std::sin(15 * v + phase) +
+                                0.0003 * w * w * std::sin(27 * v + 1.7 * phase));
+  const double trough = (f.reaches >= 1 ? 0.05 : 0.5 * varied(f.seed, 12) - 0.1) * half * w * w;
+  const double pleats = kPleat * smooth(0, 0.15, v) * (1 - 0.6 * v) * (fold - 0.3);
+  const double thick = kWall * (1.05 - 0.75 * smooth(0, 0.9, v)) * std::sqrt(std::max(0.0, 1 - w * w)) *
+                       (ring == kRings ? 0 : 1);
+  // At the root the leaf's line follows the rim.
+  const double angle = f.from + (f.to - f.from) * double(column) / kLeafColumns, root = smooth(0.3, 0, v);
+  const auto& rim = kBell.back();
+  const Vec3d on_rim = site.radius * (rim[0] * Vec3d{1, 0, 0} + rim[1] * outwards(angle));
+  const Vec3d base = spine[0].point + (sector * w) * spine[0].across;
+  const Vec3d p = point + (w * half) * across + (frill + trough + pleats) * flat + root * (on_rim - base);
+  return {p, thick * normalised(flat, a.flat)};
+}
+
+Paint painted(double openness, double tint) { return {to_byte(openness), 0, 0, to_byte(tint)}; }
+
+/// The inner side is the mucosa's deep rose, darker between folds; the rims let light through.
+Paint of_leaf(int column, double fold, double v, bool inside) {
+  const double w = 2.0 * column / kLeafColumns - 1;
+  const double rim = std::max(std::pow(std::fabs(w), 3.0), smooth(0.72, 1.0, v));
+  const double groove = 1 - std::min(1.0, 1.5 * fold);
+  if (inside)
+    return painted(1 - 0.38 * groove * (1 - rim) * (1 - 0.5 * v), (0.95 - 0.25 * fold) * (1 - 0.72 * rim));
+  return painted(0.95, (0.75 * smooth(0, 0.35, v)) * (1 - 0.8 * rim));
+}
+
+/// Vertices of the outside, from the tube's end to the rim; the last row is the rim.
+std::vector<std::uint32_t> add_bell(MeshBuffer& b, const FimbriaSite& site, const std::vector<double>& angle) {
+  for (std::size_t row = 0; row < kBell.size(); ++row) {
+    const double share = double(row) / double(kBell.size() - 1);
+    for (int k = 0; k < kRimColumns; ++k) {
+      const double even = 2 * kPi * k / kRimColumns, a = (1 - share) * even + share * angle[std::size_t(k)];
+      const double edge = double(k % kLeafColumns) / kLeafColumns, w = 2 * edge - 1;
+      const double out = kWall / site.radius * (row + 1 == kBell.size() ? std::sqrt(std::max(0.0, 1 - w * w)) - 0.3 : 0);
+      const Vec3d normal = std::sin(kRimLean) * Vec3d{-1, 0, 0} + std::cos(kRimLean) * outwards(a);
+      const Vec3d p = site.radius * (kBell[row][0] * Vec3d{1, 0, 0} + kBell[row][1] * outwards(a) + out * normal);
+      b.add(vec_cast<float>(p), painted(1, 0.05 * share));
+    }
+    if (row > 0) join_rows(b, std::uint32_t(row - 1) * kRimColumns, std::uint32_t(row) * kRimColumns, kRimColumns, true);
+  }
+  std::vector<std::uint32_t> rim;
+  for (int k = 0; k < kRimColumns; ++k) rim.push_back(std::uint32_t(kBell.size() - 1) * kRimColumns + std::uint32_t(k));
+  return rim;
+}
+
+/// The rim's inner row: its own vertices, but for those where two leaves part.
+std::vector<std::uint32_t> add_inner_rim(MeshBuffer& b, const std::vector<std::uint32_t>& rim,
+                                         const std::vector<double>& angle) {
+  std::vector<std::uint32_t> inner = rim;
+  for (int k = 0; k < kRimColumns; ++k) {
+    if (k % kLeafColumns == 0) continue;
+    const double w = 2.0 * (k % kLeafColumns) / kLeafColumns - 1, thick = 2 * kWall * std::sqrt(1 - w * w);
+    const Vec3d in = std::sin(kRimLean) * Vec3d{1, 0, 0} - std::cos(kRimLean) * outwards(angle[std::size_t(k)]);
+    const Vec3d p = vec_cast<double>(b.positions[rim[std::size_t(k)]]) +
+                    (thick + 0.4 * kPleat * fold_at(k)) * in;
+    inner[std::size_t(k)] = b.add(vec_cast<float>(p), of_leaf(k % kLeafColumns, fold_at(k), 0, true));
+  }
+  return inner;
+}
+
+void add_leaf(MeshBuffer& b, const Leaf& f, int index, const FimbriaSite& site, const std::vector<std::uint32_t>& rim,
+              const std::vector<std::uint32_t>& inner_rim) {
+  const Spines spine = spine_of(f, site);
+  std::vector<std::uint32_t> outside, inside;  // of the row before
+  for (int j = 0; j <= kLeafColumns; ++j) {
+    const auto k = std::size_t((index * kLeafColumns + j) % kRimColumns);
+    outside.push_back(rim[k]);
+    inside.push_back(inner_rim[k]);
+  }
+  for (int i = 1; i <= kRings; ++i) {
+    std::vector<std::uint32_t> out_row, in_row;
+    for (int j = 0; j <= kLeafColumns; ++j) {
+      const double v = along_leaf(i), fold = fold_at(index * kLeafColumns + j);
+      const Sheets s = place_on(f, spine, site, i, j, fold);
+      // At the edge both lie in the same place, each with the normal of its side: a rim that looked sideways would
+      // be dark, and a real one lets light through.
+      out_row.push_back(b.add(vec_cast<float>(s.middle - s.inner), of_leaf(j, fold, v, false)));
+      in_row.push_back(b.add(vec_cast<float>(s.middle + s.inner), of_leaf(j, fold, v, true)));
+    }
+    for (std::size_t j = 0; j < std::size_t(kLeafColumns); ++j) {
+      b.quad(outside[j], outside[j + 1], out_row[j + 1], out_row[j]);
+      b.quad(inside[j + 1], inside[j], in_row[j], in_row[j + 1]);
+    }
+    outside = std::move(out_row);
+    inside = std::move(in_row);
+  }
+}
+
+void add_funnel(MeshBuffer& b, const std::vector<std::uint32_t>& rim, const FimbriaSite& site,
+                const std::vector<double>& angle) {
+  std::vector<std::uint32_t> before = rim;
+  for (const FunnelRow& row : kFunnel) {
+    std::vector<std::uint32_t> now;
+    for (int k = 0; k < kRimColumns; ++k) {
+      const double fold = fold_at(k) * smooth(0.05, 0.3, row.radius), out = row.radius - 0.1 * (fold - 0.3);
+      const Vec3d p = site.radius * (row.along * Vec3d{1, 0, 0} + out * outwards(angle[std::size_t(k)]));
+      now.push_back(b.add(vec_cast<float>(p), painted(row.openness * (0.65 + 0.35 * fold), 1)));
+    }
+    for (std::size_t k = 0; k < std::size_t(kRimColumns); ++k) {
+      const std::size_t next = (k + 1) % kRimColumns;
+      b.quad(before[k], before[next], now[next], now[k]);
+    }
+    before = std::move(now);
+  }
+  const std::uint32_t pole = b.add({float(-1.15 * site.radius), 0, 0}, painted(0.03, 1));
+  for (std::size_t k = 0; k < std::size_t(kRimColumns); ++k)
+    b.triangle(before[k], before[(k + 1) % kRimColumns], pole);
 }
 
 }  // namespace
 
-namespace {
-
-/// One whorl of fingers.
-struct Whorl {
-  int count;
-  double along, out;     ///< roots [rim radii]
-  double length, width;  ///< [rim radii]
-  double lean, curl;     ///< [rad]
-};
-
-}  // namespace
-
-MeshBuffer fimbriae(double radius, int seed) {
-  // Around an opening that stays free: the outer ones fall back over the rim, the inner ones line the funnel.
-  static const Whorl whorls[] = {{17, -0.1, 0.88, 1.2, 0.4, 1.1, 1.2},
-                                 {17, -0.16, 0.78, 1.4, 0.36, 0.75, 0.9},
-                                 {12, -0.3, 0.6, 1.0, 0.32, 0.45, 0.6}};
+MeshBuffer fimbriae(const FimbriaSite& site) {
+  const std::vector<Leaf> leaves = leaves_of(site);
+  std::vector<double> angle;
+  for (const Leaf& f : leaves)
+    for (int j = 0; j < kLeafColumns; ++j) angle.push_back(f.from + (f.to - f.from) * double(j) / kLeafColumns);
   MeshBuffer b;
-  int k = 1000 * seed;
-  for (const Whorl& w : whorls)
-    for (int i = 0; i < w.count; ++i, ++k) {
-      Finger f;
-      f.angle = 2 * kPi * (i + 0.7 * (varied(k, 3) - 0.5)) / w.count;
-      f.along = w.along + 0.08 * (varied(k, 10) - 0.5);
-      f.out = w.out * (1 - 0.08 * varied(k, 11));
-      f.length = radius * w.length * (0.62 + 0.45 * varied(k, 4) + (i == 0 ? 0.3 : 0.0));  // one reaches for the ovary
-      f.width = radius * w.width * (0.75 + 0.6 * varied(k, 5));
-      f.lean = w.lean + 0.35 * (varied(k, 6) - 0.5);
-      f.curl = w.curl * (0.3 + 1.1 * varied(k, 7));
-      f.sway = 1.3 * (varied(k, 8) - 0.5);
-      f.seed = k;
-      add_finger(b, f, radius);
-    }
+  const std::vector<std::uint32_t> rim = add_bell(b, site, angle), inner = add_inner_rim(b, rim, angle);
+  for (int i = 0; i < kLeaves; ++i) add_leaf(b, leaves[std::size_t(i)], i, site, rim, inner);
+  add_funnel(b, inner, site, angle);
   return b;
 }
 
 double bell_flare(double before) {
   const double u = std::clamp(1 - before / kBellLength, 0.0, 1.0);
   return 1 + (kBellFlare - 1) * u * u * (0.55 + 0.45 * u);
-}
-
-const std::vector<FunnelRow>& funnel() {
-  static const std::vector<FunnelRow> rows{{-0.03, 0.93, 0.8},  {-0.16, 0.74, 0.62}, {-0.34, 0.52, 0.42},
-                                           {-0.52, 0.34, 0.25}, {-0.66, 0.2, 0.12},  {-0.74, 0, 0.05}};
-  return rows;
 }
 
 }  // namespace trocar::view

@@ -1,5 +1,6 @@
-// The open end of a uterine tube: a trumpet whose rim frays into whorls of soft fingers, curled and lobed, the inner
-// ones springing from inside. Made in the frame of the tube's end, with which it moves rigidly.
+// The open end of a uterine tube: its wall flares to a bell, the bell's rim parts into soft leaves with frilled edges,
+// and the folds of their inner side run down the funnel to a narrow mouth. One closed surface from the outside over the
+// leaves' edges to the mouth. Made in the frame of the tube's end, with which it moves rigidly.
 #pragma once
 
 #include <vector>
@@ -8,22 +9,26 @@
 
 namespace trocar::view {
 
-inline constexpr double kBellLength = 0.008;  ///< of tube that widens to the rim [m]
-inline constexpr double kBellFlare = 1.85;    ///< rim's radius over the tube's
-inline constexpr int kRimLobes = 17;
+inline constexpr double kBellLength = 0.007;  ///< of tube that widens to its end [m]
+inline constexpr double kBellFlare = 1.22;    ///< end's radius over the tube's
+inline constexpr int kLeaves = 12;            ///< of the rim
+inline constexpr int kLeafColumns = 12;       ///< across a leaf
+inline constexpr int kRimColumns = kLeaves * kLeafColumns;  ///< vertices of the first ring, which the tube goes on to
 
-/// Fingers around a rim of `radius` [m]. Coordinates: x along the tube's direction from the rim's centre, y and z
-/// along the end frame's normal and binormal. @param seed each tube's own shape
-MeshBuffer fimbriae(double radius, int seed);
-
-/// Radius over the tube's own, `before` the rim [m].
-double bell_flare(double before);
-
-/// The inside of the trumpet, from the rim to its mouth.
-struct FunnelRow {
-  double along, radius;  ///< in rim radii
-  double openness;
+/// Coordinates: x along the tube's direction from its end's centre, y and z along the end frame's normal and binormal.
+struct FimbriaSite {
+  double radius = 0;          ///< of the tube's end [m]
+  int seed = 0;               ///< each tube's own shape
+  Vec3d down;                 ///< unit: the leaves hang a little
+  bool ovary = false;         ///< there is one near: the longest leaf lies on it, its neighbours reach for it
+  Vec3d land, slide, normal;  ///< where on it [m], which way onwards on it, and out of it (unit)
 };
-const std::vector<FunnelRow>& funnel();
+
+/// The first kRimColumns vertices are a ring around the tube's end, counter-clockwise seen from beyond it, the first at
+/// the end frame's normal.
+MeshBuffer fimbriae(const FimbriaSite& site);
+
+/// Radius over the tube's own, `before` its end [m].
+double bell_flare(double before);
 
 }  // namespace trocar::view

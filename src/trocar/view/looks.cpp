@@ -40,13 +40,15 @@ Material uterus() {
 }
 
 Material tube() {
-  Material m = with_vessels(tissue(srgb(200, 118, 120), srgb(212, 144, 132), srgb(184, 96, 106)), 0.7f, 0.024f);
-  m.mottle_size = 0.007f;
+  Material m = with_vessels(tissue(srgb(196, 131, 130), srgb(206, 152, 142), srgb(182, 108, 114)), 0.7f, 0.024f);
+  m.mottle_size = 0.011f;
   m.mottle = 0.6f;
-  m.glow_amount = 0.12f;
-  m.tint = srgb(202, 112, 120);  // fimbriae
-  m.film_size = 0.0019f;
-  m.film_bump = 0.3f;
+  m.bump = 0.1f;
+  m.glow_amount = 0.2f;          // through the thin rims of the fimbriae
+  m.tint = srgb(188, 104, 106);  // fimbriae: mucosa
+  m.film_size = 0.0055f;         // longer than the tube is thick: one broken sheen, no beads
+  m.film_bump = 0.2f;
+  m.film_roughness = 0.1f;
   return m;
 }
 
@@ -64,10 +66,12 @@ Material ovary() {
 
 Material ligament(Vec3f main, Vec3f broad, Vec3f fine) {
   Material m = with_vessels(tissue(main, broad, fine), 0.6f, 0.026f);
-  m.mottle_size = 0.006f;
+  m.mottle_size = 0.009f;
   m.mottle = 0.6f;
-  m.bump = 0.16f;
-  m.film_bump = 0.28f;
+  m.bump = 0.12f;
+  m.film_bump = 0.16f;
+  m.film_size = 0.0065f;  // longer than the cord is thick: no row of beads
+  m.film_roughness = 0.1f;
   m.tint = srgb(206, 128, 122);
   return m;
 }
@@ -124,8 +128,9 @@ Material bowel() {
   m.mottle_size = 0.012f;
   m.mottle = 0.6f;
   m.glow_amount = 0.1f;
-  m.film_bump = 0.25f;
-  m.film_size = 0.003f;
+  m.film_bump = 0.17f;
+  m.film_size = 0.007f;
+  m.film_roughness = 0.09f;
   m.tint = srgb(228, 178, 158);  // its bands
   return m;
 }
@@ -136,8 +141,9 @@ Material small_bowel() {
   m.mottle_size = 0.014f;
   m.mottle = 0.5f;
   m.glow_amount = 0.1f;
-  m.film_bump = 0.2f;
-  m.film_size = 0.003f;
+  m.film_bump = 0.14f;
+  m.film_size = 0.008f;
+  m.film_roughness = 0.09f;
   return m;
 }
 
@@ -242,6 +248,25 @@ Material fat() {
   return m;
 }
 
+/// Tags on the large bowel: salmon to amber, under a thin dull serosa, with capillaries.
+Material epiploic() {
+  Material m = fat();
+  m.colour = srgb(222, 152, 122);
+  m.colour_b = srgb(228, 172, 130);
+  m.colour_c = srgb(208, 124, 108);
+  m.lobule_size = 0.0026f;
+  m.lobule_depth = 0.08f;
+  m.lobule_contrast = 0.12f;
+  m.vessels = 1;
+  m.vessel_tile = 0.012f;
+  m.wetness = 0.5f;
+  m.film_bump = 0.3f;
+  m.film_size = 0.0016f;
+  m.film_roughness = 0.16f;
+  m.tint = srgb(206, 130, 120);  // where it runs out on the bowel
+  return m;
+}
+
 /// Broad and soft: lobules as large as those of the bowel's tags, seams that hardly show.
 Material omentum() {
   Material m = fat();
@@ -313,7 +338,10 @@ std::vector<Look> make_looks() {
   const Material neutral = tissue(srgb(196, 134, 130), srgb(204, 150, 142), srgb(182, 112, 112));
   return {
       {"neutral", neutral, false, {}},
-      {"uterus", uterus(), false, {.broad = 0.0009, .broad_size = 0.031, .fine = 0.00012, .fine_size = 0.006}},
+      {"uterus",
+       uterus(),
+       false,
+       {.broad = 0.0011, .broad_size = 0.027, .fine = 0.00012, .fine_size = 0.006, .lopsided = 0.0019}},
       {"tube", tube(), false, {}},
       {"fimbria", tube(), false, {}},
       {"ovary",
@@ -325,7 +353,9 @@ std::vector<Look> make_looks() {
         .fine_size = 0.0045,
         .follicles = 11,
         .follicle_radius = 0.0034,
-        .scars = 9},
+        .scars = 9,
+        .ripe = 0.0056,
+        .lopsided = 0.0009},
        0,
        2},
       {"round_ligament", cord, false, {}},
@@ -348,7 +378,7 @@ std::vector<Look> make_looks() {
         .fine_size = 0.006,
         .haustra = 0.0024,
         .haustra_size = 0.023},
-       20,
+       13,
        7},
       {"small_bowel",
        small_bowel(),
@@ -362,7 +392,7 @@ std::vector<Look> make_looks() {
        gallbladder(),
        false,
        {.broad = 0.0005, .broad_size = 0.017, .fine = 0.00012, .fine_size = 0.005}},
-      {"fat", fat(), false, {.broad = 0.001, .broad_size = 0.012, .fine = 0.0006, .fine_size = 0.005}},
+      {"fat", epiploic(), false, {.broad = 0.001, .broad_size = 0.012, .fine = 0.0006, .fine_size = 0.005}},
       {"artery", artery, false, {}},
       {"vein", vein, false, {}},
       {"artery_in_fold", veiled(srgb(142, 34, 42), srgb(150, 48, 52), srgb(122, 26, 34)), true, {}},

@@ -24,7 +24,10 @@ std::vector<std::uint32_t> flat_indices(const tissue::Skin& skin) {
 
 OrganDrawing::OrganDrawing(const sim::SolidModel& solid, const Relief& relief, std::vector<Paint> paint,
                            render::Backend& backend, const Detail& detail)
-    : m_solid(&solid), m_pose(tissue::make_pose(solid.fine)), m_indices(flat_indices(solid.fine)) {
+    : m_solid(&solid),
+      m_pose(tissue::make_pose(solid.fine)),
+      m_indices(flat_indices(solid.fine)),
+      m_rest(pattern_coordinates(relief, solid.fine)) {
   if (relief.any()) m_height = heights(relief, solid.fine, paint);
   m_pose.position = solid.fine.rest;
   m_normals = solid.fine.rest_normal;
@@ -32,7 +35,7 @@ OrganDrawing::OrganDrawing(const sim::SolidModel& solid, const Relief& relief, s
   m_coarser = coarser_lists(m_pose.position, m_indices, paint, detail, kBends);
   m_mesh = OwnedMesh(backend, {.positions = m_pose.position,
                                .normals = m_normals,
-                               .rest = m_pose.position,
+                               .rest = m_rest,
                                .paint = paint,
                                .indices = m_indices,
                                .coarser = m_coarser});
@@ -61,7 +64,7 @@ void OrganDrawing::open_wounds(std::span<const std::uint8_t> parted) {
   m_parted.assign(parted.begin(), parted.end());
   m_wound.clear();
   m_open = {};
-  m_open.rest = m_solid->fine.rest;
+  m_open.rest = m_rest;
   m_open.paint = m_paint;
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;    // of cut triangles, as they run
   std::vector<std::uint8_t> at_rim(m_solid->fine.rest.size(), 0);  // touches an uncut triangle
@@ -76,7 +79,7 @@ void OrganDrawing::open_wounds(std::span<const std::uint8_t> parted) {
   const auto copy = [&](std::uint32_t of, float depth, Paint paint) {
     m_wound.push_back({of, depth});
     paint.burn = m_paint[of].burn;
-    m_open.rest.push_back(m_solid->fine.rest[of]);
+    m_open.rest.push_back(m_rest[of]);
     m_open.paint.push_back(paint);
     return std::uint32_t(m_open.rest.size() - 1);
   };
@@ -145,7 +148,7 @@ void OrganDrawing::update(const tissue::NetworkState& state, std::span<const std
     if (changed)  // a replay that starts again
       m_mesh.replace({.positions = m_pose.position,
                       .normals = m_normals,
-                      .rest = m_solid->fine.rest,
+                      .rest = m_rest,
                       .paint = m_paint,
                       .indices = m_indices,
                       .coarser = m_coarser});

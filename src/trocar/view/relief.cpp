@@ -9,6 +9,7 @@ namespace {
 constexpr double kTwoPi = 6.28318530717959;
 constexpr std::size_t kSlices = 16;
 constexpr double kBandHalf = 0.0028;  // [m] half the width of a gut's band
+constexpr float kPatternAlong = 1.5f, kPatternRound = 0.7f;  // how fine a gut's patterns are
 
 /// Longest extent of the body: the direction along which a gut is divided into bulges.
 Vec3d long_axis(const tissue::Skin& skin) {
@@ -42,6 +43,38 @@ void add_follicles(const Relief& relief, const tissue::Skin& skin, std::vector<f
       height[i] += float(0.38 * radius * dome);
       paint[i].tint = std::max(paint[i].tint, to_byte(0.7 * smooth(1, 0.3, d)));
     }
+  }
+}
+
+/// One of the two that an ovary of that age may have, on the side that faces upwards: a thin-walled blister, or a corpus
+/// luteum with its dimple, through which the egg left.
+void add_ripe(const Relief& relief, const tissue::Skin& skin, std::vector<float>& height, std::vector<Paint>& paint) {
+  const bool luteum = skin.rest.front().x < 0;
+  std::size_t centre = 0;
+  double best = -1;
+  for (std::size_t i = 0; i < skin.rest.size(); ++i) {
+    const Vec3f n = skin.rest_normal[i];
+    const double faces = 0.6 * double(n.z) + 0.5 * double(n.y) + 0.5 * varied(int(i), luteum ? 78 : 79);
+    if (faces <= best) continue;
+    best = faces;
+    centre = i;
+  }
+  for (std::size_t i = 0; i < skin.rest.size(); ++i) {
+    const double d = double(length(skin.rest[i] - skin.rest[centre])) / relief.ripe;
+    if (d >= 1) continue;
+    const double dome = (1 - d * d) * (1 - 0.3 * d * d);
+    height[i] += float(relief.ripe * (0.3 * dome - (luteum ? 0.16 * smooth(0.35, 0, d) : 0)));
+    paint[i].tint = std::max(paint[i].tint, to_byte((luteum ? 0.7 : 0.9) * smooth(1, 0.4, d)));
+    paint[i].openness = std::uint8_t(paint[i].openness * (1 - 0.22 * smooth(1, 0.8, d) * smooth(0.5, 0.8, d)));
+  }
+}
+
+/// No organ is its mold's: full here, flat there, over its whole size.
+void add_lopsided(const Relief& relief, const tissue::Skin& skin, std::vector<float>& height) {
+  const double own = 0.013 * double(skin.rest.size() % 17) + (skin.rest.front().x < 0 ? 0.05 : 0);
+  for (std::size_t i = 0; i < height.size(); ++i) {
+    const Vec3d p = vec_cast<double>(skin.rest[i]);
+    height[i] += float(relief.lopsided * waves(p + Vec3d{own, 0.7 * own, 0}, 4.5 * relief.broad_size));
   }
 }
 
@@ -121,6 +154,14 @@ double waves(Vec3d p, double size) {
   return 0.6 * a + 0.4 * b;
 }
 
+std::vector<Vec3f> pattern_coordinates(const Relief& relief, const tissue::Skin& skin) {
+  std::vector<Vec3f> rest = skin.rest;
+  if (relief.haustra <= 0) return rest;
+  const Vec3f axis = vec_cast<float>(long_axis(skin));
+  for (Vec3f& p : rest) p = kPatternRound * p + ((kPatternAlong - kPatternRound) * dot(p, axis)) * axis;
+  return rest;
+}
+
 std::vector<float> heights(const Relief& relief, const tissue::Skin& skin, std::vector<Paint>& paint) {
   std::vector<float> height(skin.rest.size(), 0.0f);
   for (std::size_t i = 0; i < height.size(); ++i) {
@@ -131,6 +172,8 @@ std::vector<float> heights(const Relief& relief, const tissue::Skin& skin, std::
   if (relief.haustra > 0) add_haustra(relief, skin, height, paint);
   if (relief.follicles > 0) add_follicles(relief, skin, height, paint);
   if (relief.scars > 0) add_scars(relief, skin, height);
+  if (relief.ripe > 0) add_ripe(relief, skin, height, paint);
+  if (relief.lopsided > 0) add_lopsided(relief, skin, height);
   add_roots(relief, skin, height);
   return height;
 }

@@ -4,7 +4,7 @@
 
 #include <trocar/interactions/cut.hpp>
 #include <trocar/render/mesh_arrays.hpp>
-#include <trocar/view/fimbria.hpp>
+#include <trocar/view/fimbria_site.hpp>
 #include <trocar/view/tube_drawing.hpp>
 
 namespace trocar::view {
@@ -18,7 +18,7 @@ constexpr double kPi = 3.14159265358979;
 constexpr double kStep = 0.0012;        // [m] between rings
 constexpr double kFineStep = 0.0004;    // [m] near a clip
 constexpr double kNearClip = 0.004;     // [m]
-constexpr double kBlanched = 0.0045;    // [m] beside a clip's legs
+constexpr double kBlanched = 0.0034;    // [m] beside a clip's legs
 constexpr double kRootFlare = 0.12;     // how much wider a strand is where it grows out of an organ
 constexpr double kRootDepth = 1.6;      // radii below the organ's surface where it ends
 constexpr double kRootSlide = 0.022;    // [m] a ligament goes on along a wall ...
@@ -30,12 +30,24 @@ constexpr double kNeckFar = 0.011;      // [m] from its end a strand's collar be
 constexpr double kSink = 0.9;           // radii that a strand has sunk into its organ at its end
 constexpr double kRootReach = 0.03;     // [m] a wall farther from a fixed end is not its root
 constexpr double kBloodied = 0.0016;    // [m] beside a cut
+constexpr double kContracts = 0.0022;   // [m] of a cut end
+constexpr double kIsthmus = 0.027;      // [m] of a uterine tube that is narrow and straight
+constexpr double kCoil = 0.0006;        // [m] its drawn line winds about the simulated one
 constexpr double kBend = 0.01;          // [m] radius with which tubes curve, for rings that are left out
 
 template <class T>
 bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
+
+/// An uneven rim's course, about -1..1.
+double ragged(int seed, double angle) {
+  return 0.45 * std::sin(2 * angle + 1.9 * seed) + 0.4 * std::sin(3 * angle + 2.6 * seed + 1) +
+         0.35 * std::sin(5 * angle + 4.1 * seed + 2) + 0.2 * std::sin(7 * angle + 0.7 * seed);
+}
+
+/// 0..1: to one side a stump oozes.
+double oozes(double angle) { return smooth(0.1, 0.9, std::sin(angle + 1)); }
 
 TubeRow row_at(int piece, double s) {
   TubeRow row;
@@ -59,11 +71,11 @@ TubeDrawing::TubeDrawing(const sim::Model& model, int strand, const Detail& deta
   const double thickest = *std::max_element(m_strand->outer.begin(), m_strand->outer.end());
   m_sides = thickest > 0.0022 ? 16 : 12;
   for (const sim::DetailLevel& level : detail.levels()) m_errors.push_back(level.error);
-  if (m_strand->fimbriated) m_fimbriae = fimbriae(kBellFlare * m_strand->outer.back(), strand + 1);
-  coarsen(m_fimbriae, detail, kBends);
   const tissue::StrandState rest = tissue::rest_state(m_body->model);
   const StrandPiece all{0, m_body->nodes() - 1, 0, m_body->length(), false, false};
   const StrandCurve drawn(*m_body, rest, {&all, 1});
+  if (m_strand->fimbriated) m_fimbriae = fimbriae(fimbria_site(model, strand, drawn.at(0, m_body->length())));
+  coarsen(m_fimbriae, detail, kBends);
   m_start_root = root_at(drawn, true, walls);
   m_end_root = root_at(drawn, false, walls);
   Layout whole;
@@ -151,10 +163,33 @@ double TubeDrawing::radius_at(double s) const {
   const double u = 1 - w;
   double radius =
       (u * u * u * a + (3 * w * w * w - 6 * w * w + 4) * b + (3 * u * u * u - 6 * u * u + 4) * c + w * w * w * d) / 6;
-  if (m_strand->fimbriated) radius *= bell_flare(m_body->length() - s);
+  if (m_strand->fimbriated) radius *= bell_flare(m_body->length() - s) * bore(s);
   if (hosted(0)) radius *= 1 + kRootFlare * std::exp(-s / (0.9 * r.front()));
   if (hosted(m_body->nodes() - 1)) radius *= 1 + kRootFlare * std::exp(-(m_body->length() - s) / (0.9 * r.back()));
   return radius;
+}
+
+/// How much of a uterine tube's windings a place has: none in the isthmus and where it opens.
+double TubeDrawing::winding(double s) const {
+  if (!m_strand->fimbriated) return 0;
+  const double length = m_body->length();
+  return smooth(kIsthmus, kIsthmus + 0.014, s) * smooth(length, length - 0.012, s);
+}
+
+/// Its bore is uneven: wide places and waists that are drawn, not simulated.
+double TubeDrawing::bore(double s) const {
+  const double k = 2 * kPi * s, seed = 2.3 * m_index;
+  const double ampulla = 0.085 * std::sin(k / 0.0173 + seed) + 0.05 * std::sin(k / 0.0097 + 1.7 * seed + 1);
+  return 1 + winding(s) * ampulla + 0.03 * std::sin(k / 0.0071 + seed);
+}
+
+/// And so is its way: it coils gently about the simulated line.
+Vec3d TubeDrawing::coiled(double s, const CurveFrame& f) const {
+  const double k = 2 * kPi * s, seed = 2.3 * m_index, amount = kCoil * winding(s);
+  if (amount <= 0) return {};
+  const double a = std::sin(k / 0.0208 + seed) + 0.4 * std::sin(k / 0.0117 + 2 * seed),
+               b = std::cos(k / 0.0241 + 1.4 * seed) + 0.4 * std::sin(k / 0.0133 + seed);
+  return amount * (a * f.normal + b * f.binormal);
 }
 
 double TubeDrawing::outline(double s, double angle) const {
@@ -309,7 +344,10 @@ CurveFrame TubeDrawing::sunk(const TubeRow& row, CurveFrame f, const StrandCurve
 /// The curve's frame, or beyond an end that of the way to the root's target.
 CurveFrame TubeDrawing::frame_of(const TubeRow& row, const StrandCurve& curve) const {
   CurveFrame f = curve.at(row.piece, row.s);
-  if (row.out <= 0) return sunk(row, f, curve);
+  if (row.out <= 0) {
+    f.point += coiled(row.s, f);
+    return sunk(row, f, curve);
+  }
   const bool at_start = row.piece == 0 && row.s == curve.pieces().front().from;
   const TubeRoot& root = at_start ? m_start_root : m_end_root;
   const double sign = at_start ? -1 : 1;
@@ -335,11 +373,15 @@ Paint TubeDrawing::paint_at(const Layout& layout, double s, double angle, Paint 
     p.burn = std::max(p.burn, to_byte(pale));
   }
   for (const StrandPiece& piece : layout.pieces) {
-    if (own.blood > 0) break;  // a raw face has its own
+    if (own.blood > 0) {  // a raw face has its own
+      p.blood = std::uint8_t(std::min(255.0, own.blood + 95 * oozes(angle)));
+      break;
+    }
     const double stain = kBloodied * (0.8 + 0.6 * std::sin(angle + 1) + 0.4 * std::sin(3 * angle));
+    const double much = 0.2 + 0.3 * oozes(angle);
     if (piece.cut_start && s >= piece.from)
-      p.blood = std::max(p.blood, to_byte(0.2 * smooth(stain, 0, s - piece.from)));
-    if (piece.cut_end && s <= piece.to) p.blood = std::max(p.blood, to_byte(0.2 * smooth(stain, 0, piece.to - s)));
+      p.blood = std::max(p.blood, to_byte(much * smooth(stain, 0, s - piece.from)));
+    if (piece.cut_end && s <= piece.to) p.blood = std::max(p.blood, to_byte(much * smooth(stain, 0, piece.to - s)));
   }
   for (const Cut& nick : layout.nicks) {
     const double round = 0.5 + 0.5 * std::cos(angle);
@@ -348,10 +390,6 @@ Paint TubeDrawing::paint_at(const Layout& layout, double s, double angle, Paint 
   }
   if (hosted(0) && !m_strand->fimbriated)  // goes over into its organ's colour
     p.tint = std::max(p.tint, to_byte(0.85 * smooth(4 * m_strand->outer.front(), 0.3 * m_strand->outer.front(), s)));
-  if (m_strand->fimbriated) {
-    const double before = m_body->length() - s;
-    p.tint = std::max(p.tint, to_byte(0.85 * smooth(0.8 * kBellLength, 0.0, before)));
-  }
   return p;
 }
 
@@ -373,24 +411,24 @@ void TubeDrawing::add_raw_face(int piece, bool at_start) {
   const double s = at_start ? p.from : p.to, sign = at_start ? -1 : 1, r = radius_at(s);
   const double open = m_strand->inner.empty() ? 0 : m_strand->inner[std::size_t(at_start ? p.first : p.last)];
   const double lumen = std::max(open, 0.22 * r);
-  // The serosa has drawn back from a pale ring of muscle, whose lining rolls out over it, dusky pink; in it the lumen,
-  // dark, and a little blood.
-  const Paint rim{235, 26, 0, 0}, muscle{235, 6, 44, 0}, mucosa{225, 3, 0, 150}, lining{170, 40, 0, 230};
+  // The serosa has drawn back from a pale ring of muscle, which has contracted; out of it pouts the lining, ragged and
+  // dusky, around a narrow dark lumen.
+  const Paint rim{235, 20, 0, 0}, muscle{225, 8, 24, 20}, mucosa{205, 12, 0, 215}, lining{150, 60, 0, 255};
   const Paint dark{40, 190, 0, 255};
   std::vector<TubeRow> rows;
-  const auto row = [&](double along, double radius, Paint paint) {
-    rows.push_back({piece, s, sign * along, radius, along > 0 ? 0.03 : 0.0, 0, false, paint});
+  const auto row = [&](double along, double radius, double ragged, Paint paint) {
+    rows.push_back({piece, s, sign * along, radius, ragged, 0, false, paint});
   };
-  row(0, r, rim);
-  row(0.05 * r, 0.90 * r, muscle);
-  row(0.14 * r, 0.90 * r, muscle);
-  row(0.20 * r, 0.98 * r, mucosa);
-  row(0.32 * r, 0.99 * r, mucosa);
-  row(0.42 * r, 0.88 * r, mucosa);
-  row(0.44 * r, 0.70 * r, mucosa);
-  row(0.38 * r, std::min(1.3 * lumen, 0.50 * r), lining);
-  row(0.16 * r, std::min(0.9 * lumen, 0.36 * r), dark);
-  row(-0.2 * r, 0, dark);
+  row(0, 0.94 * r, 0.05, rim);
+  row(0.05 * r, 0.84 * r, 0.05, muscle);
+  row(0.12 * r, 0.76 * r, 0.05, muscle);
+  row(0.20 * r, 0.80 * r, 0.10, mucosa);
+  row(0.34 * r, 0.86 * r, 0.17, mucosa);
+  row(0.46 * r, 0.80 * r, 0.20, mucosa);
+  row(0.48 * r, 0.66 * r, 0.17, mucosa);
+  row(0.40 * r, std::min(1.3 * lumen, 0.48 * r), 0.12, lining);
+  row(0.16 * r, std::min(0.9 * lumen, 0.34 * r), 0.05, dark);
+  row(-0.4 * r, 0, 0, dark);
   rows.front().crease = !at_start;
   if (at_start) std::reverse(rows.begin(), rows.end());
   m_rows.insert(m_rows.end(), rows.begin(), rows.end());
@@ -410,18 +448,19 @@ void TubeDrawing::add_end(int piece) {
   const StrandPiece& p = m_layout.pieces[std::size_t(piece)];
   if (p.cut_end) return add_raw_face(piece, false);
   const double r = radius_at(p.to);
-  if (m_strand->fimbriated) {
-    for (const FunnelRow& f : funnel()) {
-      const Paint paint{to_byte(f.openness), 0, 0, 235};
-      m_rows.push_back({piece, p.to, f.along * r, f.radius * r, 0.06, 0, false, paint});
-    }
-  } else if (m_end_root.there) {
-    add_root(piece, false);
-  } else {
-    for (const double a : {1.1, 0.7, 0.3})
-      m_rows.push_back({piece, p.to, r * std::cos(a), r * std::sin(a), 0, 0, false, {}});
-    m_rows.push_back({piece, p.to, r, 0, 0, 0, false, {}});
-  }
+  if (m_strand->fimbriated) return;  // goes over into the fimbriae
+  if (m_end_root.there) return add_root(piece, false);
+  for (const double a : {1.1, 0.7, 0.3})
+    m_rows.push_back({piece, p.to, r * std::cos(a), r * std::sin(a), 0, 0, false, {}});
+  m_rows.push_back({piece, p.to, r, 0, 0, 0, false, {}});
+}
+
+/// Its muscle narrows a cut end.
+double TubeDrawing::contracted(const StrandPiece& piece, double s) const {
+  double amount = 0;
+  if (piece.cut_start) amount = smooth(kContracts, 0, s - piece.from);
+  if (piece.cut_end) amount = std::max(amount, smooth(kContracts, 0, piece.to - s));
+  return 1 - 0.12 * amount;
 }
 
 void TubeDrawing::add_piece(const Layout& layout, int piece) {
@@ -429,8 +468,7 @@ void TubeDrawing::add_piece(const Layout& layout, int piece) {
   add_start(piece);
   bool first = true;
   for (const double s : stations(layout, p)) {
-    const double scallop = m_strand->fimbriated ? 0.06 * smooth(kBellLength, 0, m_body->length() - s) : 0;
-    m_rows.push_back({piece, s, 0, radius_at(s), scallop, 0, first && p.cut_start, {}});
+    m_rows.push_back({piece, s, 0, radius_at(s) * contracted(p, s), 0, 0, first && p.cut_start, {}});
     first = false;
   }
   add_end(piece);
@@ -455,10 +493,26 @@ void TubeDrawing::connect() {
   }
   join(all, 1, m_buffer);
   const std::uint32_t fingers = m_buffer.size();
-  if (m_strand->fimbriated) append(m_buffer, m_fimbriae, Mat3f::identity(), {});
+  if (m_strand->fimbriated) {
+    join_fimbriae(fingers, 1, m_buffer);
+    append(m_buffer, m_fimbriae, Mat3f::identity(), {});
+  }
   connect_coarsely();
   for (std::size_t k = 0; k < m_fimbriae.coarser.size(); ++k)
     for (const std::uint32_t v : m_fimbriae.coarser[k]) m_buffer.coarser[k].push_back(fingers + v);
+}
+
+/// Between every `stride`-th side of the last row and the fimbriae's first ring, which has more vertices.
+void TubeDrawing::join_fimbriae(std::uint32_t fingers, std::uint32_t stride, MeshBuffer& into) const {
+  const auto sides = std::uint32_t(m_sides), fine = std::uint32_t(kRimColumns) / sides * stride;
+  static_assert(kRimColumns % 16 == 0 && kRimColumns % 12 == 0);
+  const auto ring = [&](std::uint32_t k) { return fingers + k % std::uint32_t(kRimColumns); };
+  for (std::uint32_t i = 0; i < sides; i += stride) {
+    const std::uint32_t a = m_first.back() + i, b = m_first.back() + (i + stride) % sides;
+    const std::uint32_t from = i / stride * fine, half = fine / 2;
+    for (std::uint32_t k = 0; k < fine; ++k) into.triangle(k < half ? a : b, ring(from + k + 1), ring(from + k));
+    into.triangle(a, b, ring(from + half));
+  }
 }
 
 /// Triangles between these rows, of every `stride`-th side.
@@ -502,7 +556,9 @@ void TubeDrawing::connect_coarsely() {
   const double thickest = *std::max_element(m_strand->outer.begin(), m_strand->outer.end());
   for (const double error : m_errors) {
     MeshBuffer part;
-    join(rows_apart(ring_distance(error, kBend)), side_stride(error, thickest, std::uint32_t(m_sides)), part);
+    const std::uint32_t stride = side_stride(error, thickest, std::uint32_t(m_sides));
+    join(rows_apart(ring_distance(error, kBend)), stride, part);
+    if (m_strand->fimbriated) join_fimbriae(m_buffer.size() - m_fimbriae.size(), stride, part);
     m_buffer.coarser.push_back(std::move(part.indices));
   }
 }
@@ -523,9 +579,13 @@ void TubeDrawing::paint() {
     }
   }
   const std::size_t fingers = m_fimbriae.paint.size();
+  const auto thin = [](Paint baked) {  // leaves let light through to each other
+    baked.openness = std::uint8_t(110 + 145 * baked.openness / 255);
+    return baked;
+  };
   for (std::size_t i = 0; i < fingers; ++i)
-    m_buffer.paint[v + i] =
-        m_baked.empty() ? m_fimbriae.paint[i] : shaded(m_fimbriae.paint[i], m_baked[m_baked.size() - fingers + i]);
+    m_buffer.paint[v + i] = m_baked.empty() ? m_fimbriae.paint[i]
+                                            : shaded(m_fimbriae.paint[i], thin(m_baked[m_baked.size() - fingers + i]));
 }
 
 std::size_t TubeDrawing::nearest_first(double s) const {
@@ -553,10 +613,10 @@ void TubeDrawing::place(const StrandCurve& curve, std::vector<Vec3f>& positions)
     }
     for (int k = 0; k < m_sides; ++k) {
       const double a = 2 * kPi * k / m_sides;
-      const double lobes = row.scallop * std::cos(8 * a + m_index);
+      const double lobes = row.scallop * ragged(row.piece + m_index, a);
       const double r = row.radius * (outline(row.s, a) + lobes);
       const Vec3d p =
-          centre + r * (std::cos(a) * f.normal + std::sin(a) * f.binormal) + (0.3 * lobes * row.radius) * f.tangent;
+          centre + r * (std::cos(a) * f.normal + std::sin(a) * f.binormal) + (row.along < 0 ? -1 : 1) * (0.9 * lobes * row.radius) * f.tangent;
       positions[v++] = vec_cast<float>(p);
     }
   }

@@ -20,7 +20,7 @@ struct TubeRow {
   double s = 0;      ///< arc length [m]
   double along = 0;  ///< moved along the tangent from there [m]
   double radius = 0;
-  double scallop = 0;   ///< of the rim: share of the radius
+  double scallop = 0;   ///< of the rim: share of the radius that it rises and falls by
   double out = 0;       ///< beyond the end, share of the way to the root's target
   bool crease = false;  ///< a hard edge: not joined to the row before, which lies in the same place
   Paint paint;
@@ -76,9 +76,11 @@ class TubeDrawing {
   void add_piece(const Layout& layout, int piece);
   void add_start(int piece);
   void add_end(int piece);
+  double contracted(const StrandPiece& piece, double s) const;
   void add_raw_face(int piece, bool at_start);
   void connect();  ///< vertices and triangles of the rows
   void join(const std::vector<std::size_t>& rows, std::uint32_t stride, MeshBuffer& into) const;
+  void join_fimbriae(std::uint32_t fingers, std::uint32_t stride, MeshBuffer& into) const;
   std::vector<std::size_t> rows_apart(double distance) const;
   void connect_coarsely();
   void paint();
@@ -89,6 +91,9 @@ class TubeDrawing {
   Paint paint_at(const Layout& layout, double s, double angle, Paint own) const;
   double radius_at(double s) const;
   double outline(double s, double angle) const;
+  double winding(double s) const;
+  double bore(double s) const;
+  Vec3d coiled(double s, const CurveFrame& f) const;
   bool hosted(int node) const;
   TubeRoot root_at(const StrandCurve& rest, bool at_start, const WallSurface* walls) const;
   TubeRoot root_in_wall(const CurveFrame& end, Vec3d onward, double radius, const WallSurface& walls) const;
