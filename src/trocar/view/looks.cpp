@@ -208,6 +208,14 @@ Material adhesion() {
   return m;
 }
 
+/// A thin sheet with fat in its free border.
+Material falciform() {
+  Material m = fold(0.5f);
+  m.vessel_tile = 0.045f;
+  m.tint = srgb(216, 158, 112);
+  return m;
+}
+
 Material fat() {
   Material m = with_vessels(tissue(srgb(216, 142, 102), srgb(222, 160, 114), srgb(206, 122, 98)), 0.9f, 0.016f);
   m.mottle_size = 0.006f;
@@ -220,20 +228,21 @@ Material fat() {
   return m;
 }
 
-/// Broad and soft: lobules as large as those of the bowel's tags, seams that hardly show.
+/// Lobules on lobules (omentum.cpp): these are the smallest. Towards its border and in grooves it is salmon (tint).
 Material omentum() {
   Material m = fat();
-  m.colour = srgb(228, 170, 122);
-  m.colour_b = srgb(236, 190, 136);
-  m.colour_c = srgb(212, 144, 104);
-  m.lobule_size = 0.0048f;
-  m.lobule_depth = 0.12f;
-  m.lobule_contrast = 0.12f;
+  m.colour = srgb(228, 164, 128);
+  m.colour_b = srgb(236, 184, 140);
+  m.colour_c = srgb(216, 140, 112);
+  m.lobule_size = 0.0036f;
+  m.lobule_depth = 0.06f;
+  m.lobule_contrast = 0.06f;
   m.vessels = 1;
-  m.vessel_tile = 0.045f;
+  m.vessel_tile = 0.04f;
   m.film_bump = 0.3f;
   m.film_size = 0.0024f;
-  m.tint = srgb(208, 124, 112);
+  m.tint = srgb(208, 128, 116);
+  m.two_sided = true;
   return m;
 }
 
@@ -333,7 +342,7 @@ std::vector<Look> make_looks() {
        0,
        2},
       {"stomach", stomach(), false, {.broad = 0.0008, .broad_size = 0.026, .fine = 0.00015, .fine_size = 0.008}},
-      {"liver", liver(), false, {.broad = 0.0006, .broad_size = 0.024}},
+      {"liver", liver(), false, {.broad = 0.0006, .broad_size = 0.024}, 0, 0, false, false, true},
       {"gallbladder",
        gallbladder(),
        false,
@@ -347,6 +356,7 @@ std::vector<Look> make_looks() {
       {"mesosalpinx", mesosalpinx(), true, {}},
       {"broad_ligament", fold(0.6f), true, {}},
       {"adhesion", adhesion(), true, {}},
+      {"falciform", falciform(), true, {}},
       {"steel", metal(srgb(148, 147, 152), srgb(128, 128, 134), 0.3f), false, {}},
       {"polished_steel", polished(srgb(168, 167, 172), srgb(150, 150, 156), 0.22f, 0.05f), false, {}},
       {"matte_steel", metal(srgb(128, 129, 133), srgb(114, 115, 120), 0.46f), false, {}},
