@@ -12,6 +12,7 @@ using render::DrawItem;
 namespace {
 
 constexpr double kShadeCell = 0.001f, kShadeReach = 0.018f;  // [m] what shades what
+constexpr float kBeforeWall = 0.004f;                        // [m]
 constexpr float kVesselBefore = 0.0016f;                     // [m] a fold's vessels are drawn nearer than they are
 
 /// The look's unevenness, and a rise where each strand grows out.
@@ -42,12 +43,15 @@ BodyDrawing::BodyDrawing(const sim::Model& model, render::Backend& backend) : m_
   const WallSurface walls(model);
   make_tubes(walls);
   make_cuttables(backend);
+  for (int i = 0; i < model.organs(); ++i)
+    if (look(model.organ_look(i)).continued) m_livers.emplace_back(model, i, walls, backend);
   const render::OpennessBaker baker = shading();
   for (CuttableDrawing& c : m_cuttables) c.shade(baker);
+  for (LiverDome& l : m_livers) l.shade(baker);
   make_organs(baker, backend);
   make_on_organs(walls, backend);
-  for (const sim::WallModel& w : model.walls) make_wall(w, baker, backend);
-  make_surroundings(walls, backend);
+  for (const sim::WallModel& w : model.walls) make_wall(w, walls, baker, backend);
+  make_surroundings(walls, baker, backend);
   for (TubeDrawing& t : m_tubes) t.create(shaded(baker, t.drawn().positions, t.drawn().normals), backend);
   make_joints(walls, backend);
   for (int i = 0; i < int(model.sheets.size()); ++i) {
@@ -86,6 +90,7 @@ render::OpennessBaker BodyDrawing::shading() const {
     occluders.push_back({m_model->walls[i].skin.rest, indices[solids + i]});
   for (const CuttableDrawing& c : m_cuttables) occluders.push_back({c.positions(), c.indices()});
   for (const TubeDrawing& t : m_tubes) occluders.push_back({t.drawn().positions, t.drawn().indices});
+  for (const LiverDome& l : m_livers) occluders.push_back({l.buffer().positions, l.buffer().indices});
   return render::OpennessBaker(occluders, kShadeCell, kShadeReach);
 }
 
@@ -117,15 +122,13 @@ void BodyDrawing::make_on_organs(const WallSurface& walls, render::Backend& back
   m_adhesions.emplace(m_organs, *m_model, walls, backend);
 }
 
-void BodyDrawing::make_wall(const sim::WallModel& wall, const render::OpennessBaker& baker, render::Backend& backend) {
+void BodyDrawing::make_wall(const sim::WallModel& wall, const WallSurface& walls, const render::OpennessBaker& baker,
+                            render::Backend& backend) {
   const tissue::Skin& skin = wall.skin;
   std::vector<Paint> paint = shaded(baker, skin.rest, skin.rest_normal);
   for (std::size_t v = 0; v < paint.size(); ++v) paint[v].tint = to_byte(fat_below(vec_cast<double>(skin.rest[v])));
   const std::vector<std::uint32_t> triangles = flat_indices(skin);
   m_details.walls.emplace_back(levels_of(*m_model, wall.name));
-  m_details.margins.push_back(m_details.walls.back());
-  m_margin_shapes.push_back(around_wall(*m_model, skin, paint));
-  m_margins.push_back(rigid(m_margin_shapes.back(), m_details.margins.back(), backend));
   const auto coarser = coarser_lists(skin.rest, triangles, paint, m_details.walls.back(), kRigid);
   const std::size_t number = m_walls.size();
   m_walls.emplace_back(backend, render::MeshData{.positions = skin.rest,
@@ -135,15 +138,19 @@ void BodyDrawing::make_wall(const sim::WallModel& wall, const render::OpennessBa
                                                  .indices = triangles,
                                                  .coarser = coarser});
   if (!look(wall.look).omentum) return;
-  const MeshBuffer apron = omentum_on(skin, m_model->gravity);
+  const MeshBuffer apron = omentum_on(skin, m_model->gravity, walls.cavity());
   if (apron.size() == 0) return;
   m_aprons.emplace_back(backend, apron.data());
   m_apron_on.push_back(number);
 }
 
-void BodyDrawing::make_surroundings(const WallSurface& walls, render::Backend& backend) {
+void BodyDrawing::make_surroundings(const WallSurface& walls, const render::OpennessBaker& baker, render::Backend& backend) {
   m_details.cavity = Detail(levels_of(*m_model, "cavity"));
-  m_cavity = rigid(cavity_around(*m_model), m_details.cavity, backend);
+  m_cavity_shape = walls.cavity();
+  std::vector<Vec3f> before = m_cavity_shape.positions;  // what lies below a wall is shaded as the wall before it
+  for (std::size_t i = 0; i < before.size(); ++i) before[i] += kBeforeWall * m_cavity_shape.normals[i];
+  baker.bake(before, m_cavity_shape.normals, m_cavity_shape.paint);
+  m_cavity = rigid(m_cavity_shape, m_details.cavity, backend);
   if (const MeshBuffer shape = bowel_loops(*m_model, walls); shape.size() > 0)
     m_loops = OwnedMesh(backend, shape.data());
 }
@@ -225,6 +232,7 @@ void BodyDrawing::update(const sim::State& state) {
     m_cuttables[i].update(state.cuttables[i], rods);
   }
   for (std::size_t i = 0; i < m_fat.size(); ++i) m_fat[i].update(m_organs[std::size_t(m_fat_on[i])]);
+  for (LiverDome& l : m_livers) l.update(state);
   for (Drape& d : m_drapes) d.update(m_organs);
   m_adhesions->update(m_organs);
   for (TubeDrawing& t : m_tubes) t.update(state);
@@ -248,7 +256,6 @@ bool BodyDrawing::is_wall(render::MeshHandle mesh) const {
 void BodyDrawing::list_surroundings(const FirstParts& first, const Listing& to) {
   const DrawItem peritoneum = item({}, look("peritoneum"), first.cavity);
   to.add(m_cavity, peritoneum, m_details.cavity);
-  for (std::size_t i = 0; i < m_margins.size(); ++i) to.add(m_margins[i], peritoneum, m_details.margins[i]);
   if (m_loops.handle().id) to.add(item(m_loops.handle(), look("small_bowel"), first.cavity));
 }
 
@@ -264,6 +271,7 @@ void BodyDrawing::list(bool with_walls, const FirstParts& first, const Listing& 
   for (std::size_t i = 0; with_walls && i < m_aprons.size(); ++i)
     to.add(item(m_aprons[i].handle(), look("omentum"), first.wall + m_apron_on[i]));
   list_organs(first, to);
+  for (const LiverDome& l : m_livers) l.list(with_walls, first.organ + std::size_t(l.organ()), to);
   list_tubes(with_walls, first, to);
   for (std::size_t i = 0; i < m_vessels.size(); ++i)
     to.add(item(m_vessels[i].drawing.mesh(), *m_vessel_look[m_vessels[i].look], first.vessel + m_vessels[i].look),

@@ -14,6 +14,7 @@
 #include <trocar/view/heat_marks.hpp>
 #include <trocar/view/joint.hpp>
 #include <trocar/view/listing.hpp>
+#include <trocar/view/liver_dome.hpp>
 #include <trocar/view/membrane_drawing.hpp>
 #include <trocar/view/organ_drawing.hpp>
 #include <trocar/view/pouch_drawing.hpp>
@@ -39,8 +40,8 @@ class BodyDrawing {
 
   /// Names of the kinds of vessels that there are, as parts.
   std::vector<std::string> vessel_kinds() const;
-  /// Walls around the model's own, where trocars come through, too.
-  const std::vector<MeshBuffer>& margin_shapes() const { return m_margin_shapes; }
+  /// What goes on from the model's walls: trocars come through it, too.
+  const MeshBuffer& cavity() const { return m_cavity_shape; }
   /// Of the model's walls: seen from outside only their inner side is drawn.
   bool is_wall(render::MeshHandle mesh) const;
   void lift_vessels_out_of_folds(render::Frame& frame) const;
@@ -64,8 +65,9 @@ class BodyDrawing {
   render::OpennessBaker shading() const;
   void make_organs(const render::OpennessBaker& baker, render::Backend& backend);
   void make_on_organs(const WallSurface& walls, render::Backend& backend);
-  void make_wall(const sim::WallModel& wall, const render::OpennessBaker& baker, render::Backend& backend);
-  void make_surroundings(const WallSurface& walls, render::Backend& backend);
+  void make_wall(const sim::WallModel& wall, const WallSurface& walls, const render::OpennessBaker& baker,
+                 render::Backend& backend);
+  void make_surroundings(const WallSurface& walls, const render::OpennessBaker& baker, render::Backend& backend);
   void make_joints(const WallSurface& walls, render::Backend& backend);
   void make_vessels(render::Backend& backend);
   void make_membranes(render::Backend& backend);
@@ -95,12 +97,12 @@ class BodyDrawing {
   std::vector<const Look*> m_vessel_look;
   std::vector<OwnedMesh> m_walls, m_aprons;
   std::vector<std::size_t> m_apron_on;  ///< walls
-  std::vector<RigidMesh> m_margins;
-  std::vector<MeshBuffer> m_margin_shapes;
+  std::vector<LiverDome> m_livers;
+  MeshBuffer m_cavity_shape;
   RigidMesh m_cavity;
   OwnedMesh m_loops;
   struct Details {  ///< of what is numbered as above
-    std::vector<Detail> organs, cuttables, fat, tubes, sheets, membranes, pouches, vessels, walls, margins;
+    std::vector<Detail> organs, cuttables, fat, tubes, sheets, membranes, pouches, vessels, walls;
     Detail cavity;
   } m_details;
   std::vector<std::int32_t> m_in_jaws;  ///< bodies that are held (interactions::Hold::body)

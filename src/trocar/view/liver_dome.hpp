@@ -13,6 +13,7 @@
 #include <trocar/render/openness.hpp>
 #include <trocar/sim/state.hpp>
 #include <trocar/view/dent.hpp>
+#include <trocar/view/listing.hpp>
 #include <trocar/view/liver_shape.hpp>
 
 namespace trocar::view {
@@ -24,9 +25,8 @@ class LiverDome {
 
   void shade(const render::OpennessBaker& baker);
   void update(const sim::State& state);
+  void list(bool with_walls, std::size_t part, const Listing& to) const;
   int organ() const { return m_organ; }
-  render::MeshHandle mesh() const { return m_dome.mesh.handle(); }
-  render::MeshHandle falciform() const { return m_falciform.mesh.handle(); }  ///< translucent
   const MeshBuffer& buffer() const { return m_dome.shape; }                   ///< as drawn now
 
  private:

@@ -1,6 +1,5 @@
 #include <trocar/render/mesh_arrays.hpp>
 #include <trocar/sim/state.hpp>
-#include <trocar/view/cavity.hpp>
 #include <trocar/view/clip_shape.hpp>
 #include <trocar/view/metal_drawing.hpp>
 #include <trocar/view/organ_drawing.hpp>
@@ -36,7 +35,7 @@ float pressure_of(const interactions::ToolState& tool) {
 
 }  // namespace
 
-MetalDrawing::MetalDrawing(const sim::Model& model, const std::vector<MeshBuffer>& margins, render::Backend& backend)
+MetalDrawing::MetalDrawing(const sim::Model& model, const MeshBuffer& cavity, render::Backend& backend)
     : m_model(&model) {
   std::vector<PiercedWall> pierced;
   std::vector<std::vector<std::uint32_t>> indices;
@@ -45,10 +44,7 @@ MetalDrawing::MetalDrawing(const sim::Model& model, const std::vector<MeshBuffer
     const sim::WallModel& w = model.walls[i];
     pierced.push_back({w.skin.rest, w.skin.rest_normal, indices[i], w.look});
   }
-  for (const MeshBuffer& m : margins) pierced.push_back({m.positions, m.normals, m.indices, "peritoneum"});
-  MeshBuffer around = cavity_around(model);
-  render::vertex_normals(around.positions, around.indices, around.normals);
-  pierced.push_back({around.positions, around.normals, around.indices, "peritoneum"});
+  pierced.push_back({cavity.positions, cavity.normals, cavity.indices, "peritoneum"});
   const sim::State start = sim::initial_state(model);
   for (std::size_t h = 0; h < model.hands.size(); ++h) make_hand(h, pierced, start, backend);
   m_scope = made(scope_parts(model.scope.shaft_radius), Detail(levels_of(model, "endoscope")), backend);

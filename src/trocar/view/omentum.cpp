@@ -85,43 +85,56 @@ struct Net {
   }
 };
 
-/// What of the wall is covered at all, and a little more.
-Net lowest_part(const tissue::Skin& wall, Vec3d up, double lowest, double highest) {
-  Net net;
-  std::map<int, int> number;
-  for (const auto& t : wall.triangles) {
-    const auto is_covered = [&](int v) {
-      const Vec3d p = vec_cast<double>(wall.rest[std::size_t(v)]);
-      return inside(p, dot(p, up) - lowest, highest - lowest) > -kMargin;
-    };
-    if (std::none_of(t.begin(), t.end(), is_covered)) continue;
+/// Which part of a surface is covered.
+struct Ground {
+  Vec3d up;
+  double lowest = 1e9, highest = -1e9;  ///< of the wall [m]
+
+  double inside_at(Vec3d p) const { return inside(p, dot(p, up) - lowest, highest - lowest); }
+};
+
+/// Adds what of a surface is covered at all, and a little more.
+void take(std::span<const Vec3f> points, std::span<const Vec3f> normals, std::span<const std::uint32_t> triangles,
+          const Ground& ground, Net& net) {
+  std::vector<std::uint8_t> covered(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    covered[i] = ground.inside_at(vec_cast<double>(points[i])) > -kMargin;
+  std::vector<int> number(points.size(), -1);
+  for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {
+    const std::span<const std::uint32_t> corners = triangles.subspan(t, 3);
+    if (std::none_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return covered[v] != 0; })) continue;
     std::array<int, 3> corner{};
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto [found, anew] = number.try_emplace(t[k], int(net.points.size()));
-      const auto v = std::size_t(t[k]);
-      if (anew) net.points.push_back({vec_cast<double>(wall.rest[v]), vec_cast<double>(wall.rest_normal[v])});
-      corner[k] = found->second;
+      const std::uint32_t v = corners[k];
+      if (number[v] < 0) {
+        number[v] = int(net.points.size());
+        net.points.push_back({vec_cast<double>(points[v]), vec_cast<double>(normals[v])});
+      }
+      corner[k] = number[v];
     }
     net.triangles.push_back(corner);
   }
-  return net;
 }
 
 }  // namespace
 
-MeshBuffer omentum_on(const tissue::Skin& wall, Vec3d gravity) {
-  const Vec3d up = normalised(-1.0 * gravity, Vec3d{0, 0, 1});
-  double lowest = 1e9, highest = -1e9;
+MeshBuffer omentum_on(const tissue::Skin& wall, Vec3d gravity, const MeshBuffer& beyond) {
+  Ground ground{normalised(-1.0 * gravity, Vec3d{0, 0, 1})};
   for (const Vec3f& x : wall.rest) {
-    lowest = std::min(lowest, dot(vec_cast<double>(x), up));
-    highest = std::max(highest, dot(vec_cast<double>(x), up));
+    ground.lowest = std::min(ground.lowest, dot(vec_cast<double>(x), ground.up));
+    ground.highest = std::max(ground.highest, dot(vec_cast<double>(x), ground.up));
   }
   MeshBuffer b;
-  if (!(highest > lowest)) return b;
-  Net net = lowest_part(wall, up, lowest, highest);
+  if (!(ground.highest > ground.lowest)) return b;
+  Net net;
+  std::vector<std::uint32_t> triangles;
+  for (const auto& t : wall.triangles)
+    for (const int v : t) triangles.push_back(std::uint32_t(v));
+  take(wall.rest, wall.rest_normal, triangles, ground, net);
+  take(beyond.positions, beyond.normals, beyond.indices, ground, net);
   for (int i = 0; i < kHalvings; ++i) net.divide();
   for (const Point& point : net.points) {
-    const double deep = inside(point.p, dot(point.p, up) - lowest, highest - lowest);
+    const double deep = ground.inside_at(point.p);
     const double thick = thickness(point.p, deep);
     const double groove = 1 - pillows(point.p + Vec3d{0.1, 0.5, 0.3}, 0.0095);
     const double patch = smooth(0.2, 0.9, waves(point.p + Vec3d{0.3, 0.3, 0}, 0.03));
