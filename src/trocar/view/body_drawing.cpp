@@ -39,7 +39,10 @@ std::vector<Paint> shaded(const render::OpennessBaker& baker, std::span<const Ve
 
 }  // namespace
 
-BodyDrawing::BodyDrawing(const sim::Model& model, render::Backend& backend) : m_model(&model) {
+BodyDrawing::BodyDrawing(const sim::Model& model, render::Backend& backend)
+    : m_model(&model),
+      m_wall_look(&look(model.walls.empty() ? "peritoneum" : model.walls.front().look)),
+      m_lining(lining(m_wall_look->material, model)) {
   const WallSurface walls(model);
   make_tubes(walls);
   make_cuttables(backend);
@@ -253,9 +256,16 @@ bool BodyDrawing::is_wall(render::MeshHandle mesh) const {
   return std::any_of(m_walls.begin(), m_walls.end(), [&](const OwnedMesh& w) { return w.handle().id == mesh.id; });
 }
 
+/// Vessels of walls, and of what lies on them, go on from mesh to mesh.
+DrawItem BodyDrawing::as_lining(DrawItem item) const {
+  if (!item.material.lining) return item;
+  item.material.middle = m_lining.middle;
+  item.material.fibre_axis = m_lining.fibre_axis;
+  return item;
+}
+
 void BodyDrawing::list_surroundings(const FirstParts& first, const Listing& to) {
-  const DrawItem peritoneum = item({}, look("peritoneum"), first.cavity);
-  to.add(m_cavity, peritoneum, m_details.cavity);
+  to.add(m_cavity, as_lining(item({}, *m_wall_look, first.cavity)), m_details.cavity);
   if (m_loops.handle().id) to.add(item(m_loops.handle(), look("small_bowel"), first.cavity));
 }
 
@@ -266,7 +276,7 @@ void BodyDrawing::list_walls(const FirstParts& first, const Listing& to) const {
 
 void BodyDrawing::list(bool with_walls, const FirstParts& first, const Listing& to) {
   for (std::size_t i = 0; with_walls && i < m_walls.size(); ++i)
-    to.add(item(m_walls[i].handle(), look(m_model->walls[i].look), first.wall + i), m_details.walls[i],
+    to.add(as_lining(item(m_walls[i].handle(), look(m_model->walls[i].look), first.wall + i)), m_details.walls[i],
            m_model->walls[i].skin.rest);
   for (std::size_t i = 0; with_walls && i < m_aprons.size(); ++i)
     to.add(item(m_aprons[i].handle(), look("omentum"), first.wall + m_apron_on[i]));
@@ -312,13 +322,13 @@ void BodyDrawing::list_tubes(bool with_walls, const FirstParts& first, const Lis
   }
   for (const TubeJoint& j : m_joints) {
     if (j.organ < 0 && !with_walls) continue;
-    const Look& onto = j.organ < 0 ? look("peritoneum") : look(m_model->solids[std::size_t(j.organ)].look);
-    DrawItem joint = item(j.joint.mesh(), onto, first.tube + j.tube);
+    const Look& onto = j.organ < 0 ? *m_wall_look : look(m_model->solids[std::size_t(j.organ)].look);
+    DrawItem joint = as_lining(item(j.joint.mesh(), onto, first.tube + j.tube));
     if (j.organ >= 0) joint.material.tint = look(m_model->strands[j.tube].look).material.colour;
     to.add(joint);
   }
   for (std::size_t i = 0; with_walls && i < m_ridges.size(); ++i)
-    to.add(item(m_ridges[i].mesh(), look("peritoneum"), first.tube + m_ridge_of[i]));
+    to.add(as_lining(item(m_ridges[i].mesh(), *m_wall_look, first.tube + m_ridge_of[i])));
 }
 
 void BodyDrawing::list_folds(const FirstParts& first, const Listing& to) {

@@ -76,7 +76,11 @@ class BodyDrawing {
   void list_tubes(bool with_walls, const FirstParts& first, const Listing& to);
   void list_folds(const FirstParts& first, const Listing& to);
 
+  render::DrawItem as_lining(render::DrawItem item) const;
+
   const sim::Model* m_model;
+  const Look* m_wall_look;    ///< of all that goes on from the walls
+  render::Material m_lining;  ///< the same with its vessels' place in this scene
   std::vector<OrganDrawing> m_organs;  ///< solids
   std::vector<CuttableDrawing> m_cuttables;
   std::vector<HeatMarks> m_burns, m_cuttable_burns;  ///< (organs)

@@ -51,7 +51,7 @@ struct Cavity {
 }  // namespace
 
 double fat_below(Vec3d p) {
-  return 0.55 * smooth(-0.1, 0.75, 0.75 * waves(p, 0.052) + 0.4 * waves(p + Vec3d{0.3, 0.1, 0.2}, 0.019));
+  return 0.5 * smooth(0.3, 0.95, 0.75 * waves(p, 0.052) + 0.4 * waves(p + Vec3d{0.3, 0.1, 0.2}, 0.019));
 }
 
 namespace {
@@ -193,6 +193,13 @@ std::vector<int> rings(const std::vector<std::vector<int>>& net, const std::vect
 }
 
 }  // namespace
+
+render::Material lining(render::Material material, const sim::Model& model) {
+  const Cavity cavity(model);
+  material.middle = vec_cast<float>(cavity.middle);
+  material.fibre_axis = vec_cast<float>(normalised(cavity.middle - model.scope.port, Vec3d{0, 1, 0}));
+  return material;
+}
 
 MeshBuffer cavity_around(const sim::Model& model) {
   const Cavity cavity(model);

@@ -5,11 +5,14 @@
 
 #include <vector>
 
+#include <trocar/render/material.hpp>
 #include <trocar/sim/model.hpp>
 #include <trocar/view/mesh_buffer.hpp>
 
 namespace trocar::view {
 
+/// A wall's look with its vessels drawn around the cavity, so that they go on from one mesh to the next.
+render::Material lining(render::Material material, const sim::Model& model);
 /// Seen from inside; a few millimetres of it lie below the walls.
 MeshBuffer cavity_around(const sim::Model& model);
 /// A wall's border: its vertices in the order in which its edges follow each other.

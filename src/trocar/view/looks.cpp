@@ -84,21 +84,27 @@ Material vessel(Vec3f main, Vec3f broad, Vec3f fine) {
 }
 
 Material peritoneum() {
-  Material m = with_vessels(tissue(srgb(180, 116, 121), srgb(194, 138, 128), srgb(162, 94, 102)), 1.0f, 0.05f);
+  Material m = with_vessels(tissue(srgb(180, 118, 121), srgb(187, 128, 126), srgb(166, 99, 106)), 1.0f, 0.13f);
+  m.lining = true;
   m.mottle_size = 0.024f;
   m.mottle = 0.6f;
-  m.wetness = 0.55f;
-  m.tint = srgb(198, 140, 120);  // fat below it
-  m.film_size = 0.005f;
-  m.film_bump = 0.07f;
-  m.film_roughness = 0.09f;
+  m.bump = 0.08f;
+  m.wetness = 0.34f;
+  m.tint = srgb(204, 150, 112);  // fat below it
+  m.film_size = 0.0021f;  // of muscle fibres that shimmer through: its film is as smooth as it is wide
+  m.film_bump = 0.05f;
+  m.film_roughness = 0.16f;
   m.two_sided = true;
   return m;
 }
 
 Material bladder() {
   Material m = peritoneum();  // it lies below the peritoneum
+  m.lining = false;
   m.two_sided = false;
+  m.wetness = 0.45f;
+  m.film_size = 0.005f;
+  m.mottle = 0.4f;
   m.colour = srgb(204, 136, 128);
   m.colour_b = srgb(214, 158, 142);
   m.colour_c = srgb(188, 114, 112);
@@ -115,6 +121,16 @@ Material bowel() {
   m.film_bump = 0.25f;
   m.film_size = 0.003f;
   m.tint = srgb(228, 178, 158);  // its bands
+  return m;
+}
+
+/// Its diaphragm is muscle: darker, redder.
+Material upper_abdomen() {
+  Material m = peritoneum();
+  m.colour = srgb(154, 92, 97);
+  m.colour_b = srgb(164, 103, 102);
+  m.colour_c = srgb(138, 76, 83);
+  m.tint = srgb(184, 128, 96);
   return m;
 }
 
@@ -139,7 +155,7 @@ Material stomach() {
 }
 
 Material liver() {
-  Material m = with_vessels(tissue(srgb(87, 50, 57), srgb(95, 57, 63), srgb(75, 42, 49)), 0.12f, 0.03f);
+  Material m = with_vessels(tissue(srgb(98, 62, 71), srgb(106, 69, 76), srgb(87, 54, 62)), 0.12f, 0.03f);
   m.mottle_size = 0.0035f;
   m.mottle = 0.22f;
   m.bump = 0.03f;
@@ -351,7 +367,7 @@ std::vector<Look> make_looks() {
       {"artery", vessel(srgb(134, 50, 52), srgb(148, 64, 60), srgb(112, 38, 44)), false, {}},
       {"vein", vessel(srgb(104, 60, 70), srgb(118, 74, 78), srgb(88, 46, 60)), false, {}},
       {"peritoneum", peritoneum(), false, {}},
-      {"upper_abdomen", peritoneum(), false, {}, 0, 0, false, true},
+      {"upper_abdomen", upper_abdomen(), false, {}, 0, 0, false, true},
       {"omentum", omentum(), false, {}},
       {"mesosalpinx", mesosalpinx(), true, {}},
       {"broad_ligament", fold(0.6f), true, {}},
