@@ -285,11 +285,11 @@ void dab_pair(Canvas& red, Canvas& veins, const Branch& b, float x, float y, flo
   const float faint = b.order == 0 ? 1.0f : std::min(1.0f, (1.15f - share) * (b.order > 1 ? 1.0f : 2.2f));
   const float tone = (b.order == 0 ? 0.95f : b.order == 1 ? 0.85f : 0.62f) * faint;
   const float radius = std::max(0.45f, b.radius * thin);
-  const float aside = b.red ? 2.4f * radius + 1.5f : 0.0f;
+  const float aside = b.red ? 2.3f * radius + 1.2f : 0.0f;
   if (b.red) red.dab(x, y, radius, tone, 0.9f);
   if (b.vein)
     veins.dab(x - aside * float(portable::sin(double(heading))), y + aside * float(portable::cos(double(heading))),
-              1.35f * radius, 0.9f * tone, 1.6f);
+              1.2f * radius, 0.85f * tone, 1.3f);
 }
 
 /// Draws one branch and lists those that leave it.
@@ -298,7 +298,7 @@ void grow_lining(Canvas& red, Canvas& veins, const Branch& b, std::vector<Branch
   float fork = b.length * float(random.uniform(0.12, 0.3));
   const float step = 0.8f, reach = 9 + 7 * b.radius;
   for (float way = 0; way < b.length; way += step) {
-    turn += (step / reach) * (-1.5f * turn - 1.1f * sway + 2.2f * float(random.uniform(-1, 1)));
+    turn += (step / reach) * (-1.5f * turn - 1.1f * sway + 4.4f * float(random.uniform(-1, 1)));
     sway += (step / reach) * 2 * turn;
     const float heading = b.goal + sway;
     x += step * float(portable::cos(double(heading)));
@@ -312,7 +312,7 @@ void grow_lining(Canvas& red, Canvas& veins, const Branch& b, std::vector<Branch
     more.push_back({x, y, heading + side * float(random.uniform(0.5, 1.05)), b.radius * slimmer,
                     std::min(b.order == 0 ? 1e9f : 0.8f * left + 14, float(random.uniform(0.5, 1.0)) * (b.order == 0 ? 230.0f : b.order == 1 ? 105.0f : 42.0f)),
                     b.order + 1, b.red && (both || redder || !b.vein), b.vein && (both || !redder || !b.red)});
-    fork = b.order == 0 ? float(random.uniform(55, 120)) : float(random.uniform(16, 44));
+    fork = float(random.uniform(12, 40)) * (b.order == 1 ? 1.0f : 0.7f);
   }
 }
 
@@ -330,13 +330,13 @@ Pattern lining_pattern() {
     for (float y = 0; y < size; y += 0.8f) {  // winds, and meets itself over the tile's edge
       const double k = 2 * portable::pi * double(y) / size;
       const float x = at + 46 * float(portable::sin(k + double(phase))) + 15 * float(portable::sin(3 * k + 1 + double(phase))) +
-                      4 * float(portable::sin(8 * k + 2)) + 1.6f * float(portable::sin(21 * k));
+                      3.2f * float(portable::sin(7 * k + 2 + double(phase))) + 0.7f * float(portable::sin(19 * k));
       const float slope = float(46 * portable::cos(k + double(phase)) * 2 * portable::pi / size);
       const float heading = 0.5f * float(portable::pi) - slope;
       dab_pair(red, veins, b, x, y, heading, 0);
       fork -= 0.8f;
       if (fork > 0) continue;
-      fork = float(random.uniform(60, 130));
+      fork = float(random.uniform(45, 100));
       side = -side;
       const bool both = random.uniform() < 0.55;
       branches.push_back({x, y, heading + side * float(random.uniform(0.55, 1.0)), 0.6f * radius,
@@ -345,7 +345,7 @@ Pattern lining_pattern() {
     }
   };
   lay_trunk(0.22f * size, 0.4f, true, trunk);
-  lay_trunk(0.74f * size, 2.9f, true, 0.8f * trunk);
+  lay_trunk(0.74f * size, 2.9f, true, 0.75f * trunk);
   lay_trunk(0.5f * size, 4.6f, false, 0.55f * trunk);
   for (std::size_t i = 0; i < branches.size(); ++i) grow_lining(red, veins, Branch(branches[i]), branches, random);
   return pattern_of(red, veins, 0);

@@ -48,12 +48,14 @@ BodyDrawing::BodyDrawing(const sim::Model& model, render::Backend& backend)
   make_cuttables(backend);
   for (int i = 0; i < model.organs(); ++i)
     if (look(model.organ_look(i)).continued) m_livers.emplace_back(model, i, walls, backend);
+  make_aprons(walls);
   const render::OpennessBaker baker = shading();
   for (CuttableDrawing& c : m_cuttables) c.shade(baker);
   for (LiverDome& l : m_livers) l.shade(baker);
   make_organs(baker, backend);
   make_on_organs(walls, backend);
-  for (const sim::WallModel& w : model.walls) make_wall(w, walls, baker, backend);
+  for (const sim::WallModel& w : model.walls) make_wall(w, baker, backend);
+  for (const MeshBuffer& apron : m_apron_shapes) m_aprons.emplace_back(backend, apron.data());
   make_surroundings(walls, baker, backend);
   for (TubeDrawing& t : m_tubes) t.create(shaded(baker, t.drawn().positions, t.drawn().normals), backend);
   make_joints(walls, backend);
@@ -93,6 +95,7 @@ render::OpennessBaker BodyDrawing::shading() const {
     occluders.push_back({m_model->walls[i].skin.rest, indices[solids + i]});
   for (const CuttableDrawing& c : m_cuttables) occluders.push_back({c.positions(), c.indices()});
   for (const TubeDrawing& t : m_tubes) occluders.push_back({t.drawn().positions, t.drawn().indices});
+  for (const MeshBuffer& a : m_apron_shapes) occluders.push_back({a.positions, a.indices});
   for (const LiverDome& l : m_livers) occluders.push_back({l.buffer().positions, l.buffer().indices});
   return render::OpennessBaker(occluders, kShadeCell, kShadeReach);
 }
@@ -125,26 +128,30 @@ void BodyDrawing::make_on_organs(const WallSurface& walls, render::Backend& back
   m_adhesions.emplace(m_organs, *m_model, walls, backend);
 }
 
-void BodyDrawing::make_wall(const sim::WallModel& wall, const WallSurface& walls, const render::OpennessBaker& baker,
-                            render::Backend& backend) {
+void BodyDrawing::make_wall(const sim::WallModel& wall, const render::OpennessBaker& baker, render::Backend& backend) {
   const tissue::Skin& skin = wall.skin;
   std::vector<Paint> paint = shaded(baker, skin.rest, skin.rest_normal);
   for (std::size_t v = 0; v < paint.size(); ++v) paint[v].tint = to_byte(fat_below(vec_cast<double>(skin.rest[v])));
   const std::vector<std::uint32_t> triangles = flat_indices(skin);
   m_details.walls.emplace_back(levels_of(*m_model, wall.name));
   const auto coarser = coarser_lists(skin.rest, triangles, paint, m_details.walls.back(), kRigid);
-  const std::size_t number = m_walls.size();
   m_walls.emplace_back(backend, render::MeshData{.positions = skin.rest,
                                                  .normals = skin.rest_normal,
                                                  .rest = {},
                                                  .paint = paint,
                                                  .indices = triangles,
                                                  .coarser = coarser});
-  if (!look(wall.look).omentum) return;
-  const MeshBuffer apron = omentum_on(skin, m_model->gravity, walls.cavity());
-  if (apron.size() == 0) return;
-  m_aprons.emplace_back(backend, apron.data());
-  m_apron_on.push_back(number);
+}
+
+void BodyDrawing::make_aprons(const WallSurface& walls) {
+  for (std::size_t i = 0; i < m_model->walls.size(); ++i) {
+    const sim::WallModel& wall = m_model->walls[i];
+    if (!look(wall.look).omentum) continue;
+    MeshBuffer apron = omentum_on(wall.skin, m_model->gravity, walls.cavity());
+    if (apron.size() == 0) continue;
+    m_apron_shapes.push_back(std::move(apron));
+    m_apron_on.push_back(i);
+  }
 }
 
 void BodyDrawing::make_surroundings(const WallSurface& walls, const render::OpennessBaker& baker, render::Backend& backend) {

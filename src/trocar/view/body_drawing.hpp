@@ -65,8 +65,8 @@ class BodyDrawing {
   render::OpennessBaker shading() const;
   void make_organs(const render::OpennessBaker& baker, render::Backend& backend);
   void make_on_organs(const WallSurface& walls, render::Backend& backend);
-  void make_wall(const sim::WallModel& wall, const WallSurface& walls, const render::OpennessBaker& baker,
-                 render::Backend& backend);
+  void make_aprons(const WallSurface& walls);
+  void make_wall(const sim::WallModel& wall, const render::OpennessBaker& baker, render::Backend& backend);
   void make_surroundings(const WallSurface& walls, const render::OpennessBaker& baker, render::Backend& backend);
   void make_joints(const WallSurface& walls, render::Backend& backend);
   void make_vessels(render::Backend& backend);
@@ -100,6 +100,7 @@ class BodyDrawing {
   std::vector<DrawnVessels> m_vessels;
   std::vector<const Look*> m_vessel_look;
   std::vector<OwnedMesh> m_walls, m_aprons;
+  std::vector<MeshBuffer> m_apron_shapes;
   std::vector<std::size_t> m_apron_on;  ///< walls
   std::vector<LiverDome> m_livers;
   MeshBuffer m_cavity_shape;

@@ -263,7 +263,7 @@ MeshBuffer LiverShape::falciform(const WallSurface& wall) const {
     for (int r = 0; r < kRound; ++r) {
       const double a = 6.28318530717959 * r / kRound;
       const Vec3d out = std::cos(a) * u + std::sin(a) * w;
-      const double radius = ends * (0.0019 + 0.0007 * waves(p + 0.01 * out, 0.013));
+      const double radius = ends * (0.0014 + 0.0005 * waves(p + 0.01 * out, 0.013));
       b.add(vec_cast<float>(p + radius * out), Paint{255, 0, 0, 235});
       b.normals.push_back(vec_cast<float>(out));
     }

@@ -84,12 +84,12 @@ Material vessel(Vec3f main, Vec3f broad, Vec3f fine) {
 }
 
 Material peritoneum() {
-  Material m = with_vessels(tissue(srgb(180, 118, 121), srgb(187, 128, 126), srgb(166, 99, 106)), 1.0f, 0.13f);
+  Material m = with_vessels(tissue(srgb(180, 118, 121), srgb(187, 128, 126), srgb(166, 99, 106)), 0.8f, 0.13f);
   m.lining = true;
   m.mottle_size = 0.024f;
   m.mottle = 0.6f;
   m.bump = 0.08f;
-  m.wetness = 0.34f;
+  m.wetness = 0.42f;
   m.tint = srgb(204, 150, 112);  // fat below it
   m.film_size = 0.0021f;  // of muscle fibres that shimmer through: its film is as smooth as it is wide
   m.film_bump = 0.05f;
@@ -228,7 +228,7 @@ Material adhesion() {
 Material falciform() {
   Material m = fold(0.5f);
   m.vessel_tile = 0.045f;
-  m.tint = srgb(216, 158, 112);
+  m.tint = srgb(222, 172, 140);
   return m;
 }
 
@@ -247,9 +247,9 @@ Material fat() {
 /// Lobules on lobules (omentum.cpp): these are the smallest. Towards its border and in grooves it is salmon (tint).
 Material omentum() {
   Material m = fat();
-  m.colour = srgb(228, 164, 128);
-  m.colour_b = srgb(236, 184, 140);
-  m.colour_c = srgb(216, 140, 112);
+  m.colour = srgb(228, 166, 144);
+  m.colour_b = srgb(236, 184, 152);
+  m.colour_c = srgb(216, 142, 126);
   m.lobule_size = 0.0036f;
   m.lobule_depth = 0.06f;
   m.lobule_contrast = 0.06f;
@@ -257,7 +257,7 @@ Material omentum() {
   m.vessel_tile = 0.04f;
   m.film_bump = 0.3f;
   m.film_size = 0.0024f;
-  m.tint = srgb(208, 128, 116);
+  m.tint = srgb(206, 130, 124);
   m.two_sided = true;
   return m;
 }

@@ -40,20 +40,20 @@ double pillows(Vec3d p, double size) {
 
 /// How far inside its border a point lies [m]: tongues, frills on them. @param above the wall's lowest point [m]
 double inside(Vec3d p, double above, double whole) {
-  const double tongues = 0.017 * waves(p, 0.062) + 0.009 * waves(p + Vec3d{0.2, 0, 0.1}, 0.027);
-  const double frills = 0.0045 * (pillows(p + Vec3d{0.3, 0.2, 0}, 0.011) - 0.5) + 0.0011 * waves(p, 0.0052);
+  const double tongues = 0.016 * waves(p, 0.062) + 0.005 * waves(p + Vec3d{0.2, 0, 0.1}, 0.027);
+  const double frills = 0.0015 * waves(p + Vec3d{0.3, 0.2, 0}, 0.011) + 0.0004 * waves(p, 0.0052);
   return kReaches * whole - above + tongues + frills;
 }
 
 /// Thickness [m]: broad swellings, lobes, and lobules on them; towards its border a thin, rounded lip. Beyond it lies
 /// below the wall.
 double thickness(Vec3d p, double deep) {
-  if (deep <= 0) return -0.0012 * smooth(0, -0.002, deep);
-  const double lip = 0.0016 * std::sqrt(std::min(1.0, deep / 0.0025));
+  if (deep <= 0) return std::max(-0.0012, 0.5 * deep);
+  const double lip = 0.0015 * (1 - std::exp(-deep / 0.003));
   const double grown = smooth(0, 0.02, deep);
-  const double swell = 0.0026 + 0.0022 * waves(p, 0.043);
-  const double lobes = 0.0042 * pillows(p + Vec3d{0.4, 0.1, 0.2}, 0.024);
-  const double lobules = 0.0016 * pillows(p + Vec3d{0.1, 0.5, 0.3}, 0.0095);
+  const double swell = 0.0022 + 0.002 * waves(p, 0.043);
+  const double lobes = 0.003 * pillows(p + Vec3d{0.4, 0.1, 0.2}, 0.024);
+  const double lobules = 0.0011 * pillows(p + Vec3d{0.1, 0.5, 0.3}, 0.0095);
   return lip + grown * (swell + lobes) + (0.3 + 0.7 * grown) * smooth(0, 0.004, deep) * lobules;
 }
 
