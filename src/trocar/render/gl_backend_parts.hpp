@@ -29,7 +29,7 @@ enum TextureUnit : int {
   kUnitExposure = 6,
   kUnitArcade = 7,
   kUnitShade = 8,
-  kUnitBed = 9,  // the scene below a liquid
+  kUnitBed = 9,   // the scene below a liquid
   kUnitWet = 10,  // and the two after it
   kUnitLining = 13
 };

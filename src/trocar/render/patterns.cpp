@@ -309,9 +309,12 @@ void grow_lining(Canvas& red, Canvas& veins, const Branch& b, std::vector<Branch
     side = random.uniform() < 0.2 ? side : -side;
     const float slimmer = b.order == 0 ? 0.6f : 0.58f, left = b.length - way;
     const bool both = b.order == 0 && random.uniform() < 0.6, redder = random.uniform() < 0.72;
-    more.push_back({x, y, heading + side * float(random.uniform(0.5, 1.05)), b.radius * slimmer,
-                    std::min(b.order == 0 ? 1e9f : 0.8f * left + 14, float(random.uniform(0.5, 1.0)) * (b.order == 0 ? 230.0f : b.order == 1 ? 105.0f : 42.0f)),
-                    b.order + 1, b.red && (both || redder || !b.vein), b.vein && (both || !redder || !b.red)});
+    more.push_back(
+        {x, y, heading + side * float(random.uniform(0.5, 1.05)), b.radius * slimmer,
+         std::min(b.order == 0 ? 1e9f : 0.8f * left + 14, float(random.uniform(0.5, 1.0)) * (b.order == 0   ? 230.0f
+                                                                                             : b.order == 1 ? 105.0f
+                                                                                                            : 42.0f)),
+         b.order + 1, b.red && (both || redder || !b.vein), b.vein && (both || !redder || !b.red)});
     fork = float(random.uniform(12, 40)) * (b.order == 1 ? 1.0f : 0.7f);
   }
 }
@@ -329,7 +332,8 @@ Pattern lining_pattern() {
     float fork = 40, side = 1;
     for (float y = 0; y < size; y += 0.8f) {  // winds, and meets itself over the tile's edge
       const double k = 2 * portable::pi * double(y) / size;
-      const float x = at + 46 * float(portable::sin(k + double(phase))) + 15 * float(portable::sin(3 * k + 1 + double(phase))) +
+      const float x = at + 46 * float(portable::sin(k + double(phase))) +
+                      15 * float(portable::sin(3 * k + 1 + double(phase))) +
                       3.2f * float(portable::sin(7 * k + 2 + double(phase))) + 0.7f * float(portable::sin(19 * k));
       const float slope = float(46 * portable::cos(k + double(phase)) * 2 * portable::pi / size);
       const float heading = 0.5f * float(portable::pi) - slope;
@@ -340,14 +344,17 @@ Pattern lining_pattern() {
       side = -side;
       const bool both = random.uniform() < 0.55;
       branches.push_back({x, y, heading + side * float(random.uniform(0.55, 1.0)), 0.6f * radius,
-                          float(random.uniform(150, 290)), 1, artery && (both || random.uniform() < 0.7), both || !artery || random.uniform() < 0.4});
+                          float(random.uniform(150, 290)), 1, artery && (both || random.uniform() < 0.7),
+                          both || !artery || random.uniform() < 0.4});
       if (!branches.back().red && !branches.back().vein) branches.back().red = true;
     }
   };
   lay_trunk(0.22f * size, 0.4f, true, trunk);
   lay_trunk(0.74f * size, 2.9f, true, 0.75f * trunk);
   lay_trunk(0.5f * size, 4.6f, false, 0.55f * trunk);
+  lay_trunk(0.97f * size, 1.3f, true, 0.45f * trunk);
   for (std::size_t i = 0; i < branches.size(); ++i) grow_lining(red, veins, Branch(branches[i]), branches, random);
+  grow(red, {36, 0.8f, 1.1f, 0.55f, 0.8f, 1.5f}, random);  // a fine net between
   return pattern_of(red, veins, 0);
 }
 

@@ -131,6 +131,7 @@ void BodyDrawing::make_on_organs(const WallSurface& walls, render::Backend& back
 void BodyDrawing::make_wall(const sim::WallModel& wall, const render::OpennessBaker& baker, render::Backend& backend) {
   const tissue::Skin& skin = wall.skin;
   std::vector<Paint> paint = shaded(baker, skin.rest, skin.rest_normal);
+  for (const LiverDome& l : m_livers) l.shade_behind(skin.rest, skin.rest_normal, paint);
   for (std::size_t v = 0; v < paint.size(); ++v) paint[v].tint = to_byte(fat_below(vec_cast<double>(skin.rest[v])));
   const std::vector<std::uint32_t> triangles = flat_indices(skin);
   m_details.walls.emplace_back(levels_of(*m_model, wall.name));
@@ -154,12 +155,14 @@ void BodyDrawing::make_aprons(const WallSurface& walls) {
   }
 }
 
-void BodyDrawing::make_surroundings(const WallSurface& walls, const render::OpennessBaker& baker, render::Backend& backend) {
+void BodyDrawing::make_surroundings(const WallSurface& walls, const render::OpennessBaker& baker,
+                                    render::Backend& backend) {
   m_details.cavity = Detail(levels_of(*m_model, "cavity"));
   m_cavity_shape = walls.cavity();
   std::vector<Vec3f> before = m_cavity_shape.positions;  // what lies below a wall is shaded as the wall before it
   for (std::size_t i = 0; i < before.size(); ++i) before[i] += kBeforeWall * m_cavity_shape.normals[i];
   baker.bake(before, m_cavity_shape.normals, m_cavity_shape.paint);
+  for (const LiverDome& l : m_livers) l.shade_behind(before, m_cavity_shape.normals, m_cavity_shape.paint);
   m_cavity = rigid(m_cavity_shape, m_details.cavity, backend);
   if (const MeshBuffer shape = bowel_loops(*m_model, walls); shape.size() > 0)
     m_loops = OwnedMesh(backend, shape.data());

@@ -79,8 +79,8 @@ class BodyDrawing {
   render::DrawItem as_lining(render::DrawItem item) const;
 
   const sim::Model* m_model;
-  const Look* m_wall_look;    ///< of all that goes on from the walls
-  render::Material m_lining;  ///< the same with its vessels' place in this scene
+  const Look* m_wall_look;             ///< of all that goes on from the walls
+  render::Material m_lining;           ///< the same with its vessels' place in this scene
   std::vector<OrganDrawing> m_organs;  ///< solids
   std::vector<CuttableDrawing> m_cuttables;
   std::vector<HeatMarks> m_burns, m_cuttable_burns;  ///< (organs)

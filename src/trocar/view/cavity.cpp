@@ -12,9 +12,9 @@
 namespace trocar::view {
 namespace {
 
-constexpr int kHalvings = 5;     // of an icosahedron's edges: 6 mm on average
-constexpr int kBelow = 3;        // rings of the cavity that lie below a wall
-constexpr double kSunk = 0.0003;  // [m] times (rings from the wall's border)^2
+constexpr int kHalvings = 5;                              // of an icosahedron's edges: 6 mm on average
+constexpr int kBelow = 3;                                 // rings of the cavity that lie below a wall
+constexpr double kSunk = 0.0003;                          // [m] times (rings from the wall's border)^2
 constexpr double kHold = 1, kNear = 1.5e-6, kFar = 4e-5;  // weights, see fairest()
 
 tissue::Box bounds_of(const sim::Model& model) {
@@ -157,7 +157,8 @@ std::vector<double> distances(const sim::Model& model, const Ball& ball, Vec3d m
       const Vec3d n = cross(p[1] - p[0], p[2] - p[0]);
       const double volume = dot(p[0], n);
       constexpr double kSlack = 1e-3;  // an arc bulges over its ends
-      auto at = std::lower_bound(order.begin(), order.end(), low - kSlack, [&](int i, double z) { return z_of(i) < z; });
+      auto at =
+          std::lower_bound(order.begin(), order.end(), low - kSlack, [&](int i, double z) { return z_of(i) < z; });
       for (; at != order.end() && z_of(*at) < high + kSlack; ++at) {
         const Vec3d d = ball.points[std::size_t(*at)];
         const double u = dot(d, cross(p[1], p[2])) / volume, v = dot(d, cross(p[2], p[0])) / volume,

@@ -10,6 +10,9 @@ namespace {
 constexpr double kWhole = 0.004, kNothing = 0.045;  // [m] from the body: goes all its way, none of it
 constexpr float kTornOff = 0.02f;                   // [m] what has moved much farther has come off and is not followed
 
+constexpr float kCoarse = 0.004f, kRecess = 0.07f;  // [m] what shades the recess above it, and from how far
+constexpr double kDeepest = 0.85;
+
 }  // namespace
 
 LiverDome::LiverDome(const sim::Model& model, int organ, const WallSurface& wall, render::Backend& backend)
@@ -61,6 +64,15 @@ void LiverDome::shade(const render::OpennessBaker& baker) {
     baker.bake(part->shape.positions, part->shape.normals, part->shape.paint);
     part->mesh.update(part->shape);
   }
+}
+
+void LiverDome::shade_behind(std::span<const Vec3f> positions, std::span<const Vec3f> normals,
+                             std::span<Paint> paint) const {
+  const render::OpennessBaker baker({{{m_dome.shape.positions, m_dome.shape.indices}}}, kCoarse, kRecess);
+  std::vector<Paint> deep(positions.size());
+  baker.bake(positions, normals, deep);
+  for (std::size_t i = 0; i < deep.size(); ++i)
+    paint[i].openness = std::uint8_t(paint[i].openness * (1 - kDeepest + kDeepest * deep[i].openness / 255.0));
 }
 
 void LiverDome::update(const sim::State& state) {

@@ -24,10 +24,12 @@ class LiverDome {
   LiverDome(const sim::Model& model, int organ, const WallSurface& wall, render::Backend& backend);
 
   void shade(const render::OpennessBaker& baker);
+  /// The recess between it and the diaphragm is deep: less light comes there than the baker's reach says.
+  void shade_behind(std::span<const Vec3f> positions, std::span<const Vec3f> normals, std::span<Paint> paint) const;
   void update(const sim::State& state);
   void list(bool with_walls, std::size_t part, const Listing& to) const;
   int organ() const { return m_organ; }
-  const MeshBuffer& buffer() const { return m_dome.shape; }                   ///< as drawn now
+  const MeshBuffer& buffer() const { return m_dome.shape; }  ///< as drawn now
 
  private:
   /// What a vertex follows: places of the body's skin, and how much of their ways.

@@ -118,6 +118,7 @@ void LiverShape::lead_on() {
     const double slope = std::clamp((e.low - before.low) / std::fabs(e.x - before.x), -0.6, 0.6);
     m_columns[i].low =
         e.low + slope * d * std::exp(-d / 0.03) + 0.0015 * waves({m_columns[i].x, 0.3, 0}, 0.03) * smooth(0, 0.02, d);
+    m_columns[i].low -= 0.0016 * smooth(0, 0.004, d);
     m_columns[i].edge = e.edge;
   };
   for (std::size_t i = 0; i < m_first; ++i) beyond(m_first, m_first + 4, i);
@@ -170,9 +171,11 @@ void LiverShape::fair() {
       const std::size_t end = i < m_first ? m_first : m_last;
       const double profile = m_z[at(end, k)];
       if (k >= m_columns[end].join || std::isnan(profile)) continue;
-      const double close = smooth(0.03, 0.004, offset_of(k));
-      wish[p] = profile + 0.35 * (wish[p] - profile) * smooth(0.012, 0.04, offset_of(k));
-      weight[p] = std::max(weight[p], 0.02 * close * close);
+      const double d = std::fabs(c.x - m_columns[end].x), close = smooth(0.03, 0.004, offset_of(k));
+      const double capped = smooth(0.02, 0.009, d);  // it goes over the body's rounded end
+      wish[p] =
+          profile + (1 - capped) * 0.35 * (wish[p] - profile) * smooth(0.012, 0.04, offset_of(k)) + 0.0004 * capped;
+      weight[p] = std::max(weight[p], 0.02 * std::max(close * close, capped));
     }
   m_z = fairest(net, wish, weight);
 }
@@ -229,7 +232,7 @@ MeshBuffer LiverShape::dome() const {
 }
 
 MeshBuffer LiverShape::falciform(const WallSurface& wall) const {
-  constexpr int kAlong = 26, kUp = 14, kRound = 8;
+  constexpr int kAlong = 26, kUp = 20, kRound = 8;
   const std::size_t column = m_first + (m_last - m_first) / 5;
   const double begins = y_of(column, m_columns[column].join) + 0.004, reach = 0.085;
   MeshBuffer b;
@@ -237,12 +240,16 @@ MeshBuffer LiverShape::falciform(const WallSurface& wall) const {
     for (int k = 0; k <= kUp; ++k) {
       const double s = double(i) / kAlong, t = double(k) / kUp;
       const double y = begins + reach * s, x = m_columns[column].x + 0.004 * waves({0, y, 0}, 0.06);
-      const Vec3d foot{x, y, height(x, y) - 0.0012 - 0.005 * smooth(0.06, 0, s)};  // the cord dips into its notch
+      const Vec3d foot{x, y, height(x, y) - 0.0012};
       const WallSurface::Place hung = wall.nearest({x + 0.006, y - 0.012 * (1 - s), foot.z + 0.09});
       const Vec3d top = hung.there ? hung.point - 0.0012 * hung.normal : foot + Vec3d{0, 0, 0.06};
       Vec3d p = foot + t * (top - foot);
       const double slack = 4 * t * (1 - t);
-      p.y += 0.016 * slack * (1 - s);  // its border hangs in a bow
+      p.y += 0.016 * slack * (1 - s);  // its border hangs in a bow ...
+      const double lies = (1 - smooth(0, 0.3, s)) * (1 - smooth(0, 0.32, t));
+      p.y -= 0.02 * lies;  // ... and leaves the liver gently, from a notch
+      p.z = std::max(p.z + (height(p.x, p.y) - height(p.x, p.y + 0.02 * lies)) * lies, height(p.x, p.y) - 0.004) -
+            0.0022 * (1 - smooth(0, 0.12, t)) * (1 - smooth(0, 0.3, s));
       p.x += 0.005 * slack * waves({p.x, p.y, p.z}, 0.05);
       Paint paint;
       paint.tint = to_byte(0.85 * smooth(0.16, 0.02, s + 0.05 * waves(p, 0.012)) +
@@ -259,12 +266,12 @@ MeshBuffer LiverShape::falciform(const WallSurface& wall) const {
                before = std::size_t(std::max(k - 1, 0));
     const Vec3d axis = normalised(vec_cast<double>(b.positions[next] - b.positions[before]), Vec3d{0, 0, 1});
     const Vec3d u = any_perpendicular(axis), w = cross(axis, u), p = vec_cast<double>(b.positions[here]);
-    const double ends = 1 + 0.5 * smooth(0.25, 0, double(k) / kUp);
+    const double ends = 1 + 0.7 * smooth(0.3, 0.05, double(k) / kUp);
     for (int r = 0; r < kRound; ++r) {
       const double a = 6.28318530717959 * r / kRound;
       const Vec3d out = std::cos(a) * u + std::sin(a) * w;
       const double radius = ends * (0.0014 + 0.0005 * waves(p + 0.01 * out, 0.013));
-      b.add(vec_cast<float>(p + radius * out), Paint{255, 0, 0, 235});
+      b.add(vec_cast<float>(p + radius * out), Paint{255, 0, 0, to_byte(0.92 - 0.5 * smooth(0.2, 0, double(k) / kUp))});
       b.normals.push_back(vec_cast<float>(out));
     }
   }

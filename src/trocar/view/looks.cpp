@@ -91,7 +91,7 @@ Material peritoneum() {
   m.bump = 0.08f;
   m.wetness = 0.42f;
   m.tint = srgb(204, 150, 112);  // fat below it
-  m.film_size = 0.0021f;  // of muscle fibres that shimmer through: its film is as smooth as it is wide
+  m.film_size = 0.0021f;         // of muscle fibres that shimmer through: its film is as smooth as it is wide
   m.film_bump = 0.05f;
   m.film_roughness = 0.16f;
   m.two_sided = true;
@@ -127,10 +127,10 @@ Material bowel() {
 /// Its diaphragm is muscle: darker, redder.
 Material upper_abdomen() {
   Material m = peritoneum();
-  m.colour = srgb(154, 92, 97);
-  m.colour_b = srgb(164, 103, 102);
-  m.colour_c = srgb(138, 76, 83);
-  m.tint = srgb(184, 128, 96);
+  m.colour = srgb(146, 84, 89);
+  m.colour_b = srgb(155, 94, 94);
+  m.colour_c = srgb(130, 69, 76);
+  m.tint = srgb(174, 116, 88);
   return m;
 }
 

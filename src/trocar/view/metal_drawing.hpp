@@ -49,7 +49,7 @@ class MetalDrawing {
   void list_loaded(const sim::State& state, std::size_t hand, const FirstParts& first, const Listing& to) const;
 
   const sim::Model* m_model;
-  render::Material m_lining;  ///< of the wall around a trocar
+  render::Material m_lining;                                 ///< of the wall around a trocar
   std::vector<std::vector<std::vector<DrawnPart>>> m_tools;  ///< (hands, rack)
   std::vector<std::vector<DrawnPart>> m_sleeves;             ///< (hands)
   std::vector<PortSite> m_port_sites;                        ///< (hands)

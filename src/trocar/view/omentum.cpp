@@ -9,7 +9,7 @@
 namespace trocar::view {
 namespace {
 
-constexpr double kReaches = 0.33;  // share of the wall's height up to which it lies, in the mean
+constexpr double kReaches = 0.37;  // share of the wall's height up to which it lies, in the mean
 constexpr int kHalvings = 2;       // of the wall's edges: lobes are finer than its triangles
 constexpr double kMargin = 0.006;  // [m] beyond its border, below the wall
 
@@ -97,8 +97,7 @@ struct Ground {
 void take(std::span<const Vec3f> points, std::span<const Vec3f> normals, std::span<const std::uint32_t> triangles,
           const Ground& ground, Net& net) {
   std::vector<std::uint8_t> covered(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    covered[i] = ground.inside_at(vec_cast<double>(points[i])) > -kMargin;
+  for (std::size_t i = 0; i < points.size(); ++i) covered[i] = ground.inside_at(vec_cast<double>(points[i])) > -kMargin;
   std::vector<int> number(points.size(), -1);
   for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {
     const std::span<const std::uint32_t> corners = triangles.subspan(t, 3);

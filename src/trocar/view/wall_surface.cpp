@@ -13,8 +13,7 @@ WallSurface::WallSurface(const sim::Model& model) {
     m_normals.insert(m_normals.end(), normals.begin(), normals.end());
     for (const std::uint32_t v : triangles) m_triangles.push_back(first + v);
   };
-  for (const sim::WallModel& wall : model.walls)
-    take(wall.skin.rest, wall.skin.rest_normal, flat_indices(wall.skin));
+  for (const sim::WallModel& wall : model.walls) take(wall.skin.rest, wall.skin.rest_normal, flat_indices(wall.skin));
   m_cavity = cavity_around(model);
   if (!model.walls.empty()) take(m_cavity.positions, m_cavity.normals, m_cavity.indices);
   m_faces.resize(m_points.size());

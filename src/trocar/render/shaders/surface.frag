@@ -151,7 +151,9 @@ void main() {
 #else
   vec4 fine = broad.gbra;
 #endif
+#ifndef LINING  // smooth: what is fine there lies below it
   slope += fine.rgb * 2.0 - 1.0;
+#endif
 
 #if SHADING == 1
   // Steel, titanium, and what insulates them: bare metal mirrors the scene, paint and ceramic scatter the lamp's light,
