@@ -43,6 +43,7 @@ GlBackend::GlBackend(GlContext& context) : m_context(context) {
   m_cells = volume_texture(cell_pattern());
   m_vessels = plane_texture(vessel_pattern());
   m_arcade = plane_texture(arcade_pattern());
+  m_lining = plane_texture(lining_pattern());
   m_no_vertices = new_vertex_array();
 }
 

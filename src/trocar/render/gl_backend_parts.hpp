@@ -29,8 +29,9 @@ enum TextureUnit : int {
   kUnitExposure = 6,
   kUnitArcade = 7,
   kUnitShade = 8,
-  kUnitBed = 9,  // the scene below a liquid
-  kUnitWet = 10  // and the two after it
+  kUnitBed = 9,   // the scene below a liquid
+  kUnitWet = 10,  // and the two after it
+  kUnitLining = 13
 };
 
 inline void bind_texture(int unit, GLenum target, GLuint texture) {
@@ -160,7 +161,7 @@ class GlBackend final : public CheckedBackend {
   GlContext& m_context;
   GlMeshes m_meshes;
   GlPrograms m_programs;
-  GlTexture m_noise, m_cells, m_vessels, m_arcade;
+  GlTexture m_noise, m_cells, m_vessels, m_arcade, m_lining;
   GlVertexArray m_no_vertices;
   GlSampledPicture m_sampled;
   GlPicture m_scene, m_shade, m_small, m_smaller, m_developed, m_own, m_left, m_right, m_bed, m_smoke;

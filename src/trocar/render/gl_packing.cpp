@@ -54,7 +54,10 @@ std::array<float, 14 * 4> packed(const Material& m) {
           m.lobule_depth,
           m.lobule_contrast,
           m.scatter,
-          m.soil};
+          m.soil,
+          m.middle.x,
+          m.middle.y,
+          m.middle.z};
 }
 
 std::array<float, 8 * 4> packed(const Frame& frame) {

@@ -50,6 +50,7 @@ void GlBackend::begin_scene(const Frame& frame, const Target& target, const Layo
   bind_texture(kUnitCells, GL_TEXTURE_3D, m_cells.id());
   bind_texture(kUnitVessels, GL_TEXTURE_2D, m_vessels.id());
   bind_texture(kUnitArcade, GL_TEXTURE_2D, m_arcade.id());
+  bind_texture(kUnitLining, GL_TEXTURE_2D, m_lining.id());
   // Mirrors show the picture before, if it was of the same view.
   const bool same_view = m_small.colour && m_small_eye == frame.eye;
   bind_texture(kUnitSmall, GL_TEXTURE_2D, same_view ? m_small.colour.id() : 0);
@@ -122,7 +123,7 @@ void GlBackend::draw_item(const Frame& frame, const DrawItem& item, bool blended
     program.set_vec4s("u_material", packed(material));
     program.set("u_noise", kUnitNoise);
     program.set("u_cells", kUnitCells);
-    program.set("u_vessels", material.arcade ? kUnitArcade : kUnitVessels);
+    program.set("u_vessels", material.arcade ? kUnitArcade : material.lining ? kUnitLining : kUnitVessels);
     program.set("u_before", kUnitSmall);
     if (blended && m_rod_count > 0) set_rods_near(frame, item, program);
   }
@@ -142,6 +143,7 @@ GlProgram& GlBackend::program_for(const Frame& frame, const Material& material, 
   const bool tissue = material.shading == Shading::tissue;
   if (detail > 1 && !film_serves_as_fine(material)) defines += ",FINE";
   if (tissue && material.vessels > 0 && detail > 0) defines += material.arcade ? ",VESSELS,ARCADE" : ",VESSELS";
+  if (tissue && material.lining) defines += ",LINING";
   if (tissue && material.lobule_size > 0) defines += ",LOBULES";
   if (stained) defines += ",STAINED";
   if (frame.look.fog > 0) defines += ",FOGGY";

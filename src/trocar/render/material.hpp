@@ -45,6 +45,10 @@ struct Material {
   float vessels = 0;          ///< amount, 0..1
   float vessel_tile = 0.04f;  ///< [m] edge of one tile of the vessel picture (largest vessel = tile / 85 wide)
   bool arcade = false;        ///< vessel_tile is then the length of one bow along the fold, twice the fold's width
+  /// The peritoneum of a cavity's wall: trunks with branches, drawn on a ball around `middle` from the pole
+  /// `fibre_axis` on; fibres across (x) shimmer through; dull where nothing wets it.
+  bool lining = false;
+  Vec3f middle = {0, 0, 0};  ///< [m] rest space
 
   // Surface and film.
   float roughness = 0.45f;        ///< of the tissue under the film

@@ -270,4 +270,92 @@ Pattern arcade_pattern() {
   return pattern_of(red, veins, rows);
 }
 
+namespace {
+
+/// A branch of a wall's tree, as an artery, a vein or both side by side.
+struct Branch {
+  float x, y, goal, radius, length;  // texels, heading [rad]
+  int order;                         // 0 trunk
+  bool red, vein;
+};
+
+/// A point of a path as it is drawn: with its share of the way and its heading.
+void dab_pair(Canvas& red, Canvas& veins, const Branch& b, float x, float y, float heading, float share) {
+  const float thin = b.order == 0 ? 1.0f : 1 - 0.55f * share;
+  const float faint = b.order == 0 ? 1.0f : std::min(1.0f, (1.15f - share) * (b.order > 1 ? 1.0f : 2.2f));
+  const float tone = (b.order == 0 ? 0.95f : b.order == 1 ? 0.85f : 0.62f) * faint;
+  const float radius = std::max(0.45f, b.radius * thin);
+  const float aside = b.red ? 2.3f * radius + 1.2f : 0.0f;
+  if (b.red) red.dab(x, y, radius, tone, 0.9f);
+  if (b.vein)
+    veins.dab(x - aside * float(portable::sin(double(heading))), y + aside * float(portable::cos(double(heading))),
+              1.2f * radius, 0.85f * tone, 1.3f);
+}
+
+/// Draws one branch and lists those that leave it.
+void grow_lining(Canvas& red, Canvas& veins, const Branch& b, std::vector<Branch>& more, core::Random& random) {
+  float x = b.x, y = b.y, sway = 0, turn = 0, side = random.uniform() < 0.5 ? -1.0f : 1.0f;
+  float fork = b.length * float(random.uniform(0.12, 0.3));
+  const float step = 0.8f, reach = 9 + 7 * b.radius;
+  for (float way = 0; way < b.length; way += step) {
+    turn += (step / reach) * (-1.5f * turn - 1.1f * sway + 4.4f * float(random.uniform(-1, 1)));
+    sway += (step / reach) * 2 * turn;
+    const float heading = b.goal + sway;
+    x += step * float(portable::cos(double(heading)));
+    y += step * float(portable::sin(double(heading)));
+    dab_pair(red, veins, b, x, y, heading, way / b.length);
+    fork -= step;
+    if (fork > 0 || b.order > 2) continue;
+    side = random.uniform() < 0.2 ? side : -side;
+    const float slimmer = b.order == 0 ? 0.6f : 0.58f, left = b.length - way;
+    const bool both = b.order == 0 && random.uniform() < 0.6, redder = random.uniform() < 0.72;
+    more.push_back(
+        {x, y, heading + side * float(random.uniform(0.5, 1.05)), b.radius * slimmer,
+         std::min(b.order == 0 ? 1e9f : 0.8f * left + 14, float(random.uniform(0.5, 1.0)) * (b.order == 0   ? 230.0f
+                                                                                             : b.order == 1 ? 105.0f
+                                                                                                            : 42.0f)),
+         b.order + 1, b.red && (both || redder || !b.vein), b.vein && (both || !redder || !b.red)});
+    fork = float(random.uniform(12, 40)) * (b.order == 1 ? 1.0f : 0.7f);
+  }
+}
+
+}  // namespace
+
+Pattern lining_pattern() {
+  constexpr int size = 1024;
+  core::Random random(0x11A1A6);
+  constexpr float trunk = 0.5f * size / kLiningTileWidth;
+  Canvas red(size, size), veins = red;
+  std::vector<Branch> branches;
+  const auto lay_trunk = [&](float at, float phase, bool artery, float radius) {
+    Branch b{0, 0, 0, radius, 0, 0, artery, true};
+    float fork = 40, side = 1;
+    for (float y = 0; y < size; y += 0.8f) {  // winds, and meets itself over the tile's edge
+      const double k = 2 * portable::pi * double(y) / size;
+      const float x = at + 46 * float(portable::sin(k + double(phase))) +
+                      15 * float(portable::sin(3 * k + 1 + double(phase))) +
+                      3.2f * float(portable::sin(7 * k + 2 + double(phase))) + 0.7f * float(portable::sin(19 * k));
+      const float slope = float(46 * portable::cos(k + double(phase)) * 2 * portable::pi / size);
+      const float heading = 0.5f * float(portable::pi) - slope;
+      dab_pair(red, veins, b, x, y, heading, 0);
+      fork -= 0.8f;
+      if (fork > 0) continue;
+      fork = float(random.uniform(45, 100));
+      side = -side;
+      const bool both = random.uniform() < 0.55;
+      branches.push_back({x, y, heading + side * float(random.uniform(0.55, 1.0)), 0.6f * radius,
+                          float(random.uniform(150, 290)), 1, artery && (both || random.uniform() < 0.7),
+                          both || !artery || random.uniform() < 0.4});
+      if (!branches.back().red && !branches.back().vein) branches.back().red = true;
+    }
+  };
+  lay_trunk(0.22f * size, 0.4f, true, trunk);
+  lay_trunk(0.74f * size, 2.9f, true, 0.75f * trunk);
+  lay_trunk(0.5f * size, 4.6f, false, 0.55f * trunk);
+  lay_trunk(0.97f * size, 1.3f, true, 0.45f * trunk);
+  for (std::size_t i = 0; i < branches.size(); ++i) grow_lining(red, veins, Branch(branches[i]), branches, random);
+  grow(red, {36, 0.8f, 1.1f, 0.55f, 0.8f, 1.5f}, random);  // a fine net between
+  return pattern_of(red, veins, 0);
+}
+
 }  // namespace trocar::render

@@ -33,4 +33,9 @@ Pattern vessel_pattern();
 /// straight twigs leave it at right angles for the tube.   [Borell & Fernstroem 53: the tubal branches]
 Pattern arcade_pattern();
 
+/// 1024^2, RG as above, tiles: what an abdominal wall carries. Trunks cross the whole tile along y, an artery with a
+/// vein beside it; branches leave them on alternate sides, 0.6 as wide, twigs 0.35, and thin out into nothing.
+inline constexpr int kLiningTileWidth = 130;  ///< tile edge / width of a trunk
+Pattern lining_pattern();
+
 }  // namespace trocar::render

@@ -12,9 +12,9 @@ using render::DrawItem;
 namespace {
 
 constexpr double kShadeCell = 0.001f, kShadeReach = 0.018f;  // [m] what shades what
-
-constexpr float kAfterFolds =
-    0.1f;  // [m] in the order of what is translucent: before every fold that is in the picture
+constexpr float kBeforeWall = 0.004f;                        // [m]
+// [m] in the order of what is translucent: before every fold that is in the picture
+constexpr float kAfterFolds = 0.1f;
 
 /// The look's unevenness, and a rise where each strand grows out.
 Relief relief_of(int organ, const sim::Model& model) {
@@ -45,17 +45,25 @@ std::vector<Paint> shaded(const render::OpennessBaker& baker, std::span<const Ve
 
 }  // namespace
 
-BodyDrawing::BodyDrawing(const sim::Model& model, render::Backend& backend) : m_model(&model) {
+BodyDrawing::BodyDrawing(const sim::Model& model, render::Backend& backend)
+    : m_model(&model),
+      m_wall_look(&look(model.walls.empty() ? "peritoneum" : model.walls.front().look)),
+      m_lining(lining(m_wall_look->material, model)) {
   const WallSurface walls(model);
   make_tubes(walls);
   make_cuttables(backend);
   m_bowel = bowel_loops(model, walls);
+  for (int i = 0; i < model.organs(); ++i)
+    if (look(model.organ_look(i)).continued) m_livers.emplace_back(model, i, walls, backend);
+  make_aprons(walls);
   const render::OpennessBaker baker = shading();
   for (CuttableDrawing& c : m_cuttables) c.shade(baker);
+  for (LiverDome& l : m_livers) l.shade(baker);
   make_organs(baker, backend);
   make_on_organs(walls, backend);
   for (const sim::WallModel& w : model.walls) make_wall(w, baker, backend);
-  make_surroundings(baker, backend);
+  for (const MeshBuffer& apron : m_apron_shapes) m_aprons.emplace_back(backend, apron.data());
+  make_surroundings(walls, baker, backend);
   for (TubeDrawing& t : m_tubes) t.create(shaded(baker, t.drawn().positions, t.drawn().normals), backend);
   make_joints(walls, backend);
   for (int i = 0; i < int(model.sheets.size()); ++i) {
@@ -95,6 +103,8 @@ render::OpennessBaker BodyDrawing::shading() const {
   for (const CuttableDrawing& c : m_cuttables) occluders.push_back({c.positions(), c.indices()});
   for (const TubeDrawing& t : m_tubes) occluders.push_back({t.drawn().positions, t.drawn().indices});
   for (const MeshBuffer* gut : {&m_bowel.small, &m_bowel.large}) occluders.push_back({gut->positions, gut->indices});
+  for (const MeshBuffer& a : m_apron_shapes) occluders.push_back({a.positions, a.indices});
+  for (const LiverDome& l : m_livers) occluders.push_back({l.buffer().positions, l.buffer().indices});
   return render::OpennessBaker(occluders, kShadeCell, kShadeReach);
 }
 
@@ -129,30 +139,39 @@ void BodyDrawing::make_on_organs(const WallSurface& walls, render::Backend& back
 void BodyDrawing::make_wall(const sim::WallModel& wall, const render::OpennessBaker& baker, render::Backend& backend) {
   const tissue::Skin& skin = wall.skin;
   std::vector<Paint> paint = shaded(baker, skin.rest, skin.rest_normal);
+  for (const LiverDome& l : m_livers) l.shade_behind(skin.rest, skin.rest_normal, paint);
   for (std::size_t v = 0; v < paint.size(); ++v) paint[v].tint = to_byte(fat_below(vec_cast<double>(skin.rest[v])));
   const std::vector<std::uint32_t> triangles = flat_indices(skin);
   m_details.walls.emplace_back(levels_of(*m_model, wall.name));
-  m_details.margins.push_back(m_details.walls.back());
-  m_margin_shapes.push_back(around_wall(*m_model, skin, paint));
-  m_margins.push_back(rigid(m_margin_shapes.back(), m_details.margins.back(), backend));
   const auto coarser = coarser_lists(skin.rest, triangles, paint, m_details.walls.back(), kRigid);
-  const std::size_t number = m_walls.size();
   m_walls.emplace_back(backend, render::MeshData{.positions = skin.rest,
                                                  .normals = skin.rest_normal,
                                                  .rest = {},
                                                  .paint = paint,
                                                  .indices = triangles,
                                                  .coarser = coarser});
-  if (!look(wall.look).omentum) return;
-  const MeshBuffer apron = omentum_on(skin, m_model->gravity);
-  if (apron.size() == 0) return;
-  m_aprons.emplace_back(backend, apron.data());
-  m_apron_on.push_back(number);
 }
 
-void BodyDrawing::make_surroundings(const render::OpennessBaker& baker, render::Backend& backend) {
+void BodyDrawing::make_aprons(const WallSurface& walls) {
+  for (std::size_t i = 0; i < m_model->walls.size(); ++i) {
+    const sim::WallModel& wall = m_model->walls[i];
+    if (!look(wall.look).omentum) continue;
+    MeshBuffer apron = omentum_on(wall.skin, m_model->gravity, walls.cavity());
+    if (apron.size() == 0) continue;
+    m_apron_shapes.push_back(std::move(apron));
+    m_apron_on.push_back(i);
+  }
+}
+
+void BodyDrawing::make_surroundings(const WallSurface& walls, const render::OpennessBaker& baker,
+                                    render::Backend& backend) {
   m_details.cavity = Detail(levels_of(*m_model, "cavity"));
-  m_cavity = rigid(cavity_around(*m_model), m_details.cavity, backend);
+  m_cavity_shape = walls.cavity();
+  std::vector<Vec3f> before = m_cavity_shape.positions;  // what lies below a wall is shaded as the wall before it
+  for (std::size_t i = 0; i < before.size(); ++i) before[i] += kBeforeWall * m_cavity_shape.normals[i];
+  baker.bake(before, m_cavity_shape.normals, m_cavity_shape.paint);
+  for (const LiverDome& l : m_livers) l.shade_behind(before, m_cavity_shape.normals, m_cavity_shape.paint);
+  m_cavity = rigid(m_cavity_shape, m_details.cavity, backend);
   for (MeshBuffer* gut : {&m_bowel.small, &m_bowel.large}) {
     if (gut->size() == 0) continue;
     gut->paint = shaded(baker, gut->positions, gut->normals);
@@ -238,6 +257,7 @@ void BodyDrawing::update(const sim::State& state) {
     m_cuttables[i].update(state.cuttables[i], rods);
   }
   for (std::size_t i = 0; i < m_fat.size(); ++i) m_fat[i].update(m_organs[std::size_t(m_fat_on[i])]);
+  for (LiverDome& l : m_livers) l.update(state);
   for (Drape& d : m_drapes) d.update(m_organs);
   m_adhesions->update(m_organs);
   for (TubeDrawing& t : m_tubes) t.update(state);
@@ -258,10 +278,16 @@ bool BodyDrawing::is_wall(render::MeshHandle mesh) const {
   return std::any_of(m_walls.begin(), m_walls.end(), [&](const OwnedMesh& w) { return w.handle().id == mesh.id; });
 }
 
+/// Vessels of walls, and of what lies on them, go on from mesh to mesh.
+DrawItem BodyDrawing::as_lining(DrawItem item) const {
+  if (!item.material.lining) return item;
+  item.material.middle = m_lining.middle;
+  item.material.fibre_axis = m_lining.fibre_axis;
+  return item;
+}
+
 void BodyDrawing::list_surroundings(const FirstParts& first, const Listing& to) {
-  const DrawItem peritoneum = item({}, look("peritoneum"), first.cavity);
-  to.add(m_cavity, peritoneum, m_details.cavity);
-  for (std::size_t i = 0; i < m_margins.size(); ++i) to.add(m_margins[i], peritoneum, m_details.margins[i]);
+  to.add(m_cavity, as_lining(item({}, *m_wall_look, first.cavity)), m_details.cavity);
   if (m_loops.handle().id) to.add(item(m_loops.handle(), look("small_bowel"), first.cavity));
   if (m_large_loop.handle().id) to.add(item(m_large_loop.handle(), look("bowel"), first.cavity));
 }
@@ -273,11 +299,12 @@ void BodyDrawing::list_walls(const FirstParts& first, const Listing& to) const {
 
 void BodyDrawing::list(bool with_walls, const FirstParts& first, const Listing& to) {
   for (std::size_t i = 0; with_walls && i < m_walls.size(); ++i)
-    to.add(item(m_walls[i].handle(), look(m_model->walls[i].look), first.wall + i), m_details.walls[i],
+    to.add(as_lining(item(m_walls[i].handle(), look(m_model->walls[i].look), first.wall + i)), m_details.walls[i],
            m_model->walls[i].skin.rest);
   for (std::size_t i = 0; with_walls && i < m_aprons.size(); ++i)
     to.add(item(m_aprons[i].handle(), look("omentum"), first.wall + m_apron_on[i]));
   list_organs(first, to);
+  for (const LiverDome& l : m_livers) l.list(with_walls, first.organ + std::size_t(l.organ()), to);
   list_tubes(with_walls, first, to);
   list_vessels(false, first, to);
   if (with_walls && m_adhesions->mesh().id) to.add(item(m_adhesions->mesh(), look("adhesion"), first.cavity));
@@ -335,15 +362,15 @@ void BodyDrawing::list_tubes(bool with_walls, const FirstParts& first, const Lis
   }
   for (const TubeJoint& j : m_joints) {
     if (j.organ < 0 && !with_walls) continue;
-    const Look& onto = j.organ < 0 ? look("peritoneum") : look(m_model->solids[std::size_t(j.organ)].look);
+    const Look& onto = j.organ < 0 ? *m_wall_look : look(m_model->solids[std::size_t(j.organ)].look);
     // Made of what its organ is made of: it is shown, hidden and seen through with that.
     const std::size_t part = j.organ < 0 ? first.tube + j.tube : first.organ + std::size_t(j.organ);
-    DrawItem joint = item(j.joint.mesh(), onto, part);
+    DrawItem joint = as_lining(item(j.joint.mesh(), onto, part));
     if (j.organ >= 0) joint.material.tint = look(m_model->strands[j.tube].look).material.colour;
     to.add(joint);
   }
   for (std::size_t i = 0; with_walls && i < m_ridges.size(); ++i) {
-    DrawItem ridge = item(m_ridges[i].mesh(), look("peritoneum"), first.tube + m_ridge_of[i]);
+    DrawItem ridge = as_lining(item(m_ridges[i].mesh(), *m_wall_look, first.tube + m_ridge_of[i]));
     ridge.material.tint = look(m_model->strands[m_ridge_of[i]].look).material.colour;
     to.add(ridge);
   }

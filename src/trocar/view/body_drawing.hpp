@@ -15,6 +15,7 @@
 #include <trocar/view/heat_marks.hpp>
 #include <trocar/view/joint.hpp>
 #include <trocar/view/listing.hpp>
+#include <trocar/view/liver_dome.hpp>
 #include <trocar/view/membrane_drawing.hpp>
 #include <trocar/view/organ_drawing.hpp>
 #include <trocar/view/pouch_drawing.hpp>
@@ -40,8 +41,8 @@ class BodyDrawing {
 
   /// Names of the kinds of vessels that there are, as parts.
   std::vector<std::string> vessel_kinds() const;
-  /// Walls around the model's own, where trocars come through, too.
-  const std::vector<MeshBuffer>& margin_shapes() const { return m_margin_shapes; }
+  /// What goes on from the model's walls: trocars come through it, too.
+  const MeshBuffer& cavity() const { return m_cavity_shape; }
   /// Of the model's walls: seen from outside only their inner side is drawn.
   bool is_wall(render::MeshHandle mesh) const;
 
@@ -64,8 +65,9 @@ class BodyDrawing {
   render::OpennessBaker shading() const;
   void make_organs(const render::OpennessBaker& baker, render::Backend& backend);
   void make_on_organs(const WallSurface& walls, render::Backend& backend);
+  void make_aprons(const WallSurface& walls);
   void make_wall(const sim::WallModel& wall, const render::OpennessBaker& baker, render::Backend& backend);
-  void make_surroundings(const render::OpennessBaker& baker, render::Backend& backend);
+  void make_surroundings(const WallSurface& walls, const render::OpennessBaker& baker, render::Backend& backend);
   void make_joints(const WallSurface& walls, render::Backend& backend);
   void make_vessels(render::Backend& backend);
   void make_membranes(render::Backend& backend);
@@ -75,7 +77,11 @@ class BodyDrawing {
   void list_folds(const FirstParts& first, const Listing& to);
   void list_vessels(bool in_folds, const FirstParts& first, const Listing& to);
 
+  render::DrawItem as_lining(render::DrawItem item) const;
+
   const sim::Model* m_model;
+  const Look* m_wall_look;             ///< of all that goes on from the walls
+  render::Material m_lining;           ///< the same with its vessels' place in this scene
   std::vector<OrganDrawing> m_organs;  ///< solids
   std::vector<CuttableDrawing> m_cuttables;
   std::vector<HeatMarks> m_burns, m_cuttable_burns;  ///< (organs)
@@ -95,14 +101,15 @@ class BodyDrawing {
   std::vector<DrawnVessels> m_vessels;
   std::vector<const Look*> m_vessel_look;
   std::vector<OwnedMesh> m_walls, m_aprons;
+  std::vector<MeshBuffer> m_apron_shapes;
   std::vector<std::size_t> m_apron_on;  ///< walls
-  std::vector<RigidMesh> m_margins;
-  std::vector<MeshBuffer> m_margin_shapes;
+  std::vector<LiverDome> m_livers;
+  MeshBuffer m_cavity_shape;
   RigidMesh m_cavity;
   BowelLoops m_bowel;
   OwnedMesh m_loops, m_large_loop;
   struct Details {  ///< of what is numbered as above
-    std::vector<Detail> organs, cuttables, fat, tubes, sheets, membranes, pouches, vessels, walls, margins;
+    std::vector<Detail> organs, cuttables, fat, tubes, sheets, membranes, pouches, vessels, walls;
     Detail cavity;
   } m_details;
   std::vector<std::int32_t> m_in_jaws;  ///< bodies that are held (interactions::Hold::body)

@@ -1,18 +1,21 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include <trocar/render/mesh_arrays.hpp>
 #include <trocar/view/cavity.hpp>
+#include <trocar/view/fair_surface.hpp>
 #include <trocar/view/relief.hpp>
 
 namespace trocar::view {
 namespace {
 
-constexpr double kTwoPi = 6.28318530717959;
-constexpr int kAround = 56, kRings = 28;
-constexpr int kMarginRows = 18;  // from a wall's border to the cavity
-constexpr int kEvenEnds = 60;    // passes over the far ends of what leads there
+constexpr int kHalvings = 5;                              // of an icosahedron's edges: 6 mm on average
+constexpr int kBelow = 3;                                 // rings of the cavity that lie below a wall
+constexpr double kSunk = 0.0003;                          // [m] times (rings from the wall's border)^2
+constexpr double kHold = 1, kNear = 1.5e-6, kFar = 4e-5;  // weights, see fairest()
 
 tissue::Box bounds_of(const sim::Model& model) {
   tissue::Box box;
@@ -39,11 +42,19 @@ struct Cavity {
     const double uneven = 1.22 + 0.05 * waves(0.1 * d, 0.09);
     return middle + uneven * Vec3d{half.x * d.x, half.y * d.y, half.z * d.z};
   }
-  Vec3d behind(Vec3d p) const {
-    const Vec3d d = p - middle;
+  /// Where a ray from the middle meets it.
+  Vec3d at_direction(Vec3d d) const {
     return at(normalised(Vec3d{d.x / half.x, d.y / half.y, d.z / half.z}, Vec3d{0, 1, 0}));
   }
 };
+
+}  // namespace
+
+double fat_below(Vec3d p) {
+  return 0.5 * smooth(0.3, 0.95, 0.75 * waves(p, 0.052) + 0.4 * waves(p + Vec3d{0.3, 0.1, 0.2}, 0.019));
+}
+
+namespace {
 
 /// The border of a skin as directed edges, in the order of its triangles.
 std::vector<std::array<int, 2>> border_of(const tissue::Skin& skin) {
@@ -56,20 +67,6 @@ std::vector<std::array<int, 2>> border_of(const tissue::Skin& skin) {
       if (const int a = t[k], b = t[(k + 1) % 3]; !seen.count({b, a})) border.push_back({a, b});
   return border;
 }
-
-}  // namespace
-
-double fat_below(Vec3d p) {
-  return 0.55 * smooth(-0.1, 0.75, 0.75 * waves(p, 0.052) + 0.4 * waves(p + Vec3d{0.3, 0.1, 0.2}, 0.019));
-}
-
-namespace {
-
-/// What leads from one vertex of a wall's border to the cavity.
-struct MarginColumn {
-  int vertex = 0;
-  Vec3d from, to, away;  ///< away: unit, in the wall's surface, across its border
-};
 
 /// The border's vertices in the order in which its edges follow each other.
 std::vector<std::vector<int>> loops_of(const std::vector<std::array<int, 2>>& border) {
@@ -88,103 +85,153 @@ std::vector<std::vector<int>> loops_of(const std::vector<std::array<int, 2>>& bo
   return loops;
 }
 
-/// `passes` times every value becomes the mean of itself and its neighbours on the loop.
-template <class Get>
-void even_out(std::vector<MarginColumn>& loop, int passes, Get&& get) {
-  const std::size_t n = loop.size();
-  std::vector<Vec3d> old(n);
-  for (int pass = 0; pass < passes; ++pass) {
-    for (std::size_t i = 0; i < n; ++i) old[i] = get(loop[i]);
-    for (std::size_t i = 0; i < n; ++i) get(loop[i]) = 0.5 * old[i] + 0.25 * (old[(i + 1) % n] + old[(i + n - 1) % n]);
-  }
-}
-
-/// Columns of one loop. Where its border turns sharply they would cross and show as ruled lines, so they fan out from
-/// the loop's middle, and directions and far ends even out along it.
-std::vector<MarginColumn> columns_of(const std::vector<int>& loop, const tissue::Skin& wall, const Cavity& cavity) {
-  std::vector<MarginColumn> columns;
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    const int v = loop[i], before = loop[(i + loop.size() - 1) % loop.size()], after = loop[(i + 1) % loop.size()];
-    const Vec3d edge = vec_cast<double>(wall.rest[std::size_t(after)] - wall.rest[std::size_t(before)]);
-    const Vec3d away = cross(edge, vec_cast<double>(wall.rest_normal[std::size_t(v)]));
-    columns.push_back({v, vec_cast<double>(wall.rest[std::size_t(v)]), {}, away});
-  }
-  even_out(columns, 25, [](MarginColumn& c) -> Vec3d& { return c.away; });
-  Vec3d middle{}, onward{};
-  for (MarginColumn& c : columns) {
-    c.away = normalised(c.away, vec_cast<double>(wall.rest_normal[std::size_t(c.vertex)]));
-    middle += c.from / double(columns.size());
-    onward += c.away / double(columns.size());
-  }
-  for (MarginColumn& c : columns) {
-    const Vec3d fan = normalised(normalised(c.from - middle) + 1.5 * onward, c.away);
-    c.to = cavity.behind(c.from + 0.05 * fan);
-  }
-  even_out(columns, kEvenEnds, [](MarginColumn& c) -> Vec3d& { return c.to; });
-  for (MarginColumn& c : columns) c.to = cavity.behind(c.to);
-  return columns;
-}
-
 }  // namespace
 
 std::vector<std::vector<int>> border_loops(const tissue::Skin& wall) { return loops_of(border_of(wall)); }
 
-MeshBuffer around_wall(const sim::Model& model, const tissue::Skin& wall, std::span<const Paint> paint) {
+namespace {
+
+/// A ball of triangles around the origin: unit directions.
+struct Ball {
+  std::vector<Vec3d> points;
+  std::vector<std::array<int, 3>> triangles;
+
+  Ball() {
+    const double g = 0.5 * (1 + std::sqrt(5.0));
+    for (const double a : {-1.0, 1.0})
+      for (const double b : {-g, g}) {
+        points.push_back(normalised(Vec3d{0, a, b}));
+        points.push_back(normalised(Vec3d{a, b, 0}));
+        points.push_back(normalised(Vec3d{b, 0, a}));
+      }
+    for (int i = 0; i < 12; ++i)  // faces: three corners that are neighbours of each other
+      for (int j = i + 1; j < 12; ++j)
+        for (int k = j + 1; k < 12; ++k) {
+          const Vec3d &p = points[std::size_t(i)], &q = points[std::size_t(j)], &r = points[std::size_t(k)];
+          if (std::min({dot(p, q), dot(q, r), dot(r, p)}) < 0.4) continue;
+          if (dot(cross(q - p, r - p), p) > 0)
+            triangles.push_back({i, j, k});
+          else
+            triangles.push_back({i, k, j});
+        }
+    for (int i = 0; i < kHalvings; ++i) divide();
+  }
+  void divide() {
+    std::map<std::pair<int, int>, int> middles;
+    const auto middle = [&](int a, int b) {
+      const auto [found, anew] = middles.try_emplace(std::minmax(a, b), int(points.size()));
+      if (anew) points.push_back(normalised(points[std::size_t(a)] + points[std::size_t(b)]));
+      return found->second;
+    };
+    std::vector<std::array<int, 3>> finer;
+    for (const auto& [a, b, c] : triangles) {
+      const int ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+      finer.insert(finer.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+    }
+    triangles = std::move(finer);
+  }
+  std::vector<std::vector<int>> neighbours() const {
+    std::vector<std::vector<int>> net(points.size());
+    for (const auto& t : triangles)  // every edge is seen once from either side
+      for (std::size_t k = 0; k < 3; ++k) net[std::size_t(t[k])].push_back(t[(k + 1) % 3]);
+    return net;
+  }
+};
+
+/// How far out the walls are in every direction of the ball, 0 where there is none.
+std::vector<double> distances(const sim::Model& model, const Ball& ball, Vec3d middle) {
+  std::vector<double> out(ball.points.size(), 0.0);
+  std::vector<int> order(ball.points.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto z_of = [&](int i) { return ball.points[std::size_t(i)].z; };
+  std::sort(order.begin(), order.end(), [&](int i, int j) { return z_of(i) < z_of(j); });
+  for (const sim::WallModel& wall : model.walls)
+    for (const auto& t : wall.skin.triangles) {
+      std::array<Vec3d, 3> p;
+      double low = 1, high = -1;
+      for (std::size_t k = 0; k < 3; ++k) {
+        p[k] = vec_cast<double>(wall.skin.rest[std::size_t(t[k])]) - middle;
+        low = std::min(low, normalised(p[k]).z);
+        high = std::max(high, normalised(p[k]).z);
+      }
+      const Vec3d n = cross(p[1] - p[0], p[2] - p[0]);
+      const double volume = dot(p[0], n);
+      constexpr double kSlack = 1e-3;  // an arc bulges over its ends
+      auto at =
+          std::lower_bound(order.begin(), order.end(), low - kSlack, [&](int i, double z) { return z_of(i) < z; });
+      for (; at != order.end() && z_of(*at) < high + kSlack; ++at) {
+        const Vec3d d = ball.points[std::size_t(*at)];
+        const double u = dot(d, cross(p[1], p[2])) / volume, v = dot(d, cross(p[2], p[0])) / volume,
+                     w = dot(d, cross(p[0], p[1])) / volume;
+        if (u < 0 || v < 0 || w < 0) continue;
+        double& far = out[std::size_t(*at)];
+        far = std::max(far, 1 / (u + v + w));
+      }
+    }
+  return out;
+}
+
+/// Rings of neighbours from where `inside` changes, counted within it.
+std::vector<int> rings(const std::vector<std::vector<int>>& net, const std::vector<double>& far, bool inside) {
+  std::vector<int> ring(far.size(), 0), front;
+  for (std::size_t i = 0; i < far.size(); ++i) {
+    if ((far[i] > 0) == inside) continue;
+    for (const int j : net[i])
+      if ((far[std::size_t(j)] > 0) == inside && ring[std::size_t(j)] == 0) {
+        ring[std::size_t(j)] = 1;
+        front.push_back(j);
+      }
+  }
+  for (std::size_t k = 0; k < front.size(); ++k) {
+    const auto from = std::size_t(front[k]);
+    for (const int j : net[from])
+      if ((far[std::size_t(j)] > 0) == inside && ring[std::size_t(j)] == 0) {
+        ring[std::size_t(j)] = ring[from] + 1;
+        front.push_back(j);
+      }
+  }
+  return ring;
+}
+
+}  // namespace
+
+render::Material lining(render::Material material, const sim::Model& model) {
   const Cavity cavity(model);
-  const std::vector<std::array<int, 2>> border = border_of(wall);
-  MeshBuffer m;
-  std::map<int, std::uint32_t> column;
-  for (const std::vector<int>& loop : loops_of(border)) {
-    std::vector<MarginColumn> columns = columns_of(loop, wall, cavity), row = columns;
-    for (const MarginColumn& c : columns) {
-      column[c.vertex] = m.size();
-      for (int r = 0; r < kMarginRows; ++r) m.add({}, paint[std::size_t(c.vertex)]);
-    }
-    for (int r = 0; r < kMarginRows; ++r) {
-      const double w = double(r) / (kMarginRows - 1), u = w * w, k = 1 - u;
-      for (std::size_t i = 0; i < columns.size(); ++i) {
-        const MarginColumn& c = columns[i];
-        const double reach = 0.7 * length(c.to - c.from);
-        row[i].to = (k * k * (1 + 2 * u)) * c.from + (u * u * (3 - 2 * u)) * c.to + (k * k * u * reach) * c.away;
-      }
-      even_out(row, 2 * r * r, [](MarginColumn& c) -> Vec3d& { return c.to; });
-      for (const MarginColumn& c : row) {
-        const std::size_t at = column[c.vertex] + std::size_t(r);
-        const Vec3d x = r + 1 < kMarginRows ? c.to : cavity.behind(c.to);
-        m.positions[at] = vec_cast<float>(x);
-        m.paint[at].openness = to_byte((1 - w) * m.paint[at].openness / 255.0 + w);
-        m.paint[at].tint = to_byte((1 - w) * m.paint[at].tint / 255.0 + w * fat_below(x));
-      }
-    }
-  }
-  for (const auto& [a, b] : border) join_rows(m, column[b], column[a], std::uint32_t(kMarginRows), false);
-  render::vertex_normals(m.positions, m.indices, m.normals);
-  for (const auto& [v, first] : column) {  // no seam: as the wall's, and on its side
-    const Vec3f n = wall.rest_normal[std::size_t(v)];
-    const float side = dot(m.normals[first + 2], n) < 0 ? -1.0f : 1.0f;
-    for (std::uint32_t r = 0; r < std::uint32_t(kMarginRows); ++r) m.normals[first + r] = side * m.normals[first + r];
-    m.normals[first] = n;
-  }
-  return m;
+  material.middle = vec_cast<float>(cavity.middle);
+  material.fibre_axis = vec_cast<float>(normalised(cavity.middle - model.scope.port, Vec3d{0, 1, 0}));
+  return material;
 }
 
 MeshBuffer cavity_around(const sim::Model& model) {
   const Cavity cavity(model);
-  const auto at = [&](Vec3d d) { return vec_cast<float>(cavity.at(d)); };
+  const Ball ball;
+  const std::vector<std::vector<int>> net = ball.neighbours();
+  const std::vector<double> far = distances(model, ball, cavity.middle);
+  const std::vector<int> below = rings(net, far, true), beyond = rings(net, far, false);
+  std::vector<double> wished(far.size()), weight(far.size());
+  for (std::size_t i = 0; i < far.size(); ++i) {
+    wished[i] = far[i] > 0 ? far[i] : length(cavity.at_direction(ball.points[i]) - cavity.middle);
+    weight[i] = far[i] > 0 ? kHold : kNear + kFar * smooth(2, 16, beyond[i]);
+  }
+  const std::vector<double> radius = model.walls.empty() ? wished : fairest(net, wished, weight);
   MeshBuffer b;
-  b.add(at({0, 0, -1}));
-  for (int i = 1; i < kRings; ++i)
-    for (int k = 0; k < kAround; ++k) {
-      const double polar = 0.5 * kTwoPi * i / kRings, a = kTwoPi * k / kAround;
-      b.add(at({std::sin(polar) * std::cos(a), std::sin(polar) * std::sin(a), -std::cos(polar)}));
+  std::vector<int> number(far.size(), -1);
+  for (const auto& t : ball.triangles) {
+    const auto deep = [&](int v) { return below[std::size_t(v)] > kBelow; };
+    if (deep(t[0]) || deep(t[1]) || deep(t[2])) continue;
+    std::array<std::uint32_t, 3> corner{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto v = std::size_t(t[k]);
+      if (number[v] < 0) {
+        const double sunk = kSunk * below[v] * below[v];
+        const Vec3d p = cavity.middle + (radius[v] + sunk) * ball.points[v];
+        number[v] = int(b.add(vec_cast<float>(p), Paint{255, 0, 0, to_byte(fat_below(p))}));
+      }
+      corner[k] = std::uint32_t(number[v]);
     }
-  b.add(at({0, 0, 1}));
-  // Seen from inside: everything is joined the other way round.
-  const auto row = [](int i) { return std::uint32_t(1 + (i - 1) * kAround); };
-  join_pole(b, row(1), kAround, 0, true);
-  for (int i = 1; i + 1 < kRings; ++i) join_rows(b, row(i + 1), row(i), kAround, true);
-  join_pole(b, row(kRings - 1), kAround, b.size() - 1, false);
-  for (std::uint32_t i = 0; i < b.size(); ++i) b.paint[i].tint = to_byte(fat_below(vec_cast<double>(b.positions[i])));
+    b.triangle(corner[0], corner[2], corner[1]);  // seen from inside
+  }
+  render::vertex_normals(b.positions, b.indices, b.normals);
   return b;
 }
 

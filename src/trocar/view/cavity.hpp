@@ -1,18 +1,20 @@
-// The rest of the body cavity around a scene: a large, smooth, dark-red space, so that a picture never shows nothing
-// where the scene file's walls end, and peritoneum that leads from the walls' borders over to it.
+// The rest of the body cavity around a scene: a large, smooth space, so that a picture never shows nothing where the
+// scene file's walls end. It leaves their borders as they end, bends as little as it can, and becomes an egg around
+// everything: so no crease shows where it begins. Walls are seen whole from the egg's middle.
 #pragma once
 
-#include <span>
+#include <vector>
 
+#include <trocar/render/material.hpp>
 #include <trocar/sim/model.hpp>
 #include <trocar/view/mesh_buffer.hpp>
 
 namespace trocar::view {
 
-/// An egg around all organs, walls and ports, seen from inside.
+/// A wall's look with its vessels drawn around the cavity, so that they go on from one mesh to the next.
+render::Material lining(render::Material material, const sim::Model& model);
+/// Seen from inside; a few millimetres of it lie below the walls.
 MeshBuffer cavity_around(const sim::Model& model);
-/// From a wall's border to the cavity, without an edge. @param paint of the wall's vertices
-MeshBuffer around_wall(const sim::Model& model, const tissue::Skin& wall, std::span<const Paint> paint);
 /// A wall's border: its vertices in the order in which its edges follow each other.
 std::vector<std::vector<int>> border_loops(const tissue::Skin& wall);
 /// How much fat lies below the peritoneum at a place, 0..1: what makes a pelvis patchy yellow.

@@ -100,21 +100,27 @@ Material veiled(Vec3f main, Vec3f broad, Vec3f fine) {
 }
 
 Material peritoneum() {
-  Material m = with_vessels(tissue(srgb(180, 116, 121), srgb(194, 138, 128), srgb(162, 94, 102)), 1.0f, 0.05f);
+  Material m = with_vessels(tissue(srgb(180, 118, 121), srgb(187, 128, 126), srgb(166, 99, 106)), 0.8f, 0.13f);
+  m.lining = true;
   m.mottle_size = 0.024f;
   m.mottle = 0.6f;
-  m.wetness = 0.55f;
-  m.tint = srgb(198, 140, 120);  // fat below it
-  m.film_size = 0.005f;
-  m.film_bump = 0.07f;
-  m.film_roughness = 0.09f;
+  m.bump = 0.08f;
+  m.wetness = 0.42f;
+  m.tint = srgb(204, 150, 112);  // fat below it
+  m.film_size = 0.0021f;         // of muscle fibres that shimmer through: its film is as smooth as it is wide
+  m.film_bump = 0.05f;
+  m.film_roughness = 0.16f;
   m.two_sided = true;
   return m;
 }
 
 Material bladder() {
   Material m = peritoneum();  // it lies below the peritoneum
+  m.lining = false;
   m.two_sided = false;
+  m.wetness = 0.45f;
+  m.film_size = 0.005f;
+  m.mottle = 0.4f;
   m.colour = srgb(204, 136, 128);
   m.colour_b = srgb(214, 158, 142);
   m.colour_c = srgb(188, 114, 112);
@@ -132,6 +138,16 @@ Material bowel() {
   m.film_size = 0.007f;
   m.film_roughness = 0.09f;
   m.tint = srgb(228, 178, 158);  // its bands
+  return m;
+}
+
+/// Its diaphragm is muscle: darker, redder.
+Material upper_abdomen() {
+  Material m = peritoneum();
+  m.colour = srgb(146, 84, 89);
+  m.colour_b = srgb(155, 94, 94);
+  m.colour_c = srgb(130, 69, 76);
+  m.tint = srgb(174, 116, 88);
   return m;
 }
 
@@ -157,7 +173,7 @@ Material stomach() {
 }
 
 Material liver() {
-  Material m = with_vessels(tissue(srgb(87, 50, 57), srgb(95, 57, 63), srgb(75, 42, 49)), 0.12f, 0.03f);
+  Material m = with_vessels(tissue(srgb(98, 62, 71), srgb(106, 69, 76), srgb(87, 54, 62)), 0.12f, 0.03f);
   m.mottle_size = 0.0035f;
   m.mottle = 0.22f;
   m.bump = 0.03f;
@@ -236,6 +252,14 @@ Material adhesion() {
   return m;
 }
 
+/// A thin sheet with fat in its free border.
+Material falciform() {
+  Material m = fold(0.5f);
+  m.vessel_tile = 0.045f;
+  m.tint = srgb(222, 172, 140);
+  return m;
+}
+
 Material fat() {
   Material m = with_vessels(tissue(srgb(216, 142, 102), srgb(222, 160, 114), srgb(206, 122, 98)), 0.9f, 0.016f);
   m.mottle_size = 0.006f;
@@ -267,20 +291,21 @@ Material epiploic() {
   return m;
 }
 
-/// Broad and soft: lobules as large as those of the bowel's tags, seams that hardly show.
+/// Lobules on lobules (omentum.cpp): these are the smallest. Towards its border and in grooves it is salmon (tint).
 Material omentum() {
   Material m = fat();
-  m.colour = srgb(228, 170, 122);
-  m.colour_b = srgb(236, 190, 136);
-  m.colour_c = srgb(212, 144, 104);
-  m.lobule_size = 0.0048f;
-  m.lobule_depth = 0.12f;
-  m.lobule_contrast = 0.12f;
+  m.colour = srgb(228, 166, 144);
+  m.colour_b = srgb(236, 184, 152);
+  m.colour_c = srgb(216, 142, 126);
+  m.lobule_size = 0.0036f;
+  m.lobule_depth = 0.06f;
+  m.lobule_contrast = 0.06f;
   m.vessels = 1;
-  m.vessel_tile = 0.045f;
+  m.vessel_tile = 0.04f;
   m.film_bump = 0.3f;
   m.film_size = 0.0024f;
-  m.tint = srgb(208, 124, 112);
+  m.tint = srgb(206, 130, 124);
+  m.two_sided = true;
   return m;
 }
 
@@ -387,7 +412,7 @@ std::vector<Look> make_looks() {
        0,
        2},
       {"stomach", stomach(), false, {.broad = 0.0008, .broad_size = 0.026, .fine = 0.00015, .fine_size = 0.008}},
-      {"liver", liver(), false, {.broad = 0.0006, .broad_size = 0.024}},
+      {"liver", liver(), false, {.broad = 0.0006, .broad_size = 0.024}, 0, 0, false, false, true},
       {"gallbladder",
        gallbladder(),
        false,
@@ -398,11 +423,12 @@ std::vector<Look> make_looks() {
       {"artery_in_fold", veiled(srgb(142, 34, 42), srgb(150, 48, 52), srgb(122, 26, 34)), true, {}},
       {"vein_in_fold", veiled(srgb(112, 62, 80), srgb(122, 76, 88), srgb(96, 48, 66)), true, {}},
       {"peritoneum", peritoneum(), false, {}},
-      {"upper_abdomen", peritoneum(), false, {}, 0, 0, false, true},
+      {"upper_abdomen", upper_abdomen(), false, {}, 0, 0, false, true},
       {"omentum", omentum(), false, {}},
       {"mesosalpinx", mesosalpinx(), true, {}},
       {"broad_ligament", fold(0.6f), true, {}},
       {"adhesion", adhesion(), true, {}},
+      {"falciform", falciform(), true, {}},
       {"steel", metal(srgb(148, 147, 152), srgb(128, 128, 134), 0.3f), false, {}},
       {"polished_steel", polished(srgb(168, 167, 172), srgb(150, 150, 156), 0.22f, 0.05f), false, {}},
       {"matte_steel", metal(srgb(128, 129, 133), srgb(114, 115, 120), 0.46f), false, {}},

@@ -15,11 +15,12 @@ struct Look {
   std::string name;
   render::Material material;
   bool translucent = false;
-  Relief relief;         ///< of solids
-  int fat_tags = 0;      ///< of large bowel
-  int adhesions = 0;     ///< strings and veils to the wall, at most
-  bool draped = false;   ///< peritoneum covers it and runs out on what is around
-  bool omentum = false;  ///< fat lies on the lowest part of such a wall
+  Relief relief;           ///< of solids
+  int fat_tags = 0;        ///< of large bowel
+  int adhesions = 0;       ///< strings and veils to the wall, at most
+  bool draped = false;     ///< peritoneum covers it and runs out on what is around
+  bool omentum = false;    ///< fat lies on the lowest part of such a wall
+  bool continued = false;  ///< only its lower edge is simulated: the rest is drawn (liver_dome.hpp)
 };
 
 /// The preset of that name. An unknown name gives a neutral tissue and is reported once.

@@ -36,8 +36,8 @@ float pressure_of(const interactions::ToolState& tool) {
 
 }  // namespace
 
-MetalDrawing::MetalDrawing(const sim::Model& model, const std::vector<MeshBuffer>& margins, render::Backend& backend)
-    : m_model(&model) {
+MetalDrawing::MetalDrawing(const sim::Model& model, const MeshBuffer& cavity, render::Backend& backend)
+    : m_model(&model), m_lining(lining(look("peritoneum").material, model)) {
   std::vector<PiercedWall> pierced;
   std::vector<std::vector<std::uint32_t>> indices;
   for (const sim::WallModel& w : model.walls) indices.push_back(flat_indices(w.skin));
@@ -45,10 +45,8 @@ MetalDrawing::MetalDrawing(const sim::Model& model, const std::vector<MeshBuffer
     const sim::WallModel& w = model.walls[i];
     pierced.push_back({w.skin.rest, w.skin.rest_normal, indices[i], w.look});
   }
-  for (const MeshBuffer& m : margins) pierced.push_back({m.positions, m.normals, m.indices, "peritoneum"});
-  MeshBuffer around = cavity_around(model);
-  render::vertex_normals(around.positions, around.indices, around.normals);
-  pierced.push_back({around.positions, around.normals, around.indices, "peritoneum"});
+  pierced.push_back({cavity.positions, cavity.normals, cavity.indices,
+                     model.walls.empty() ? "peritoneum" : model.walls.front().look});
   const sim::State start = sim::initial_state(model);
   for (std::size_t h = 0; h < model.hands.size(); ++h) make_hand(h, pierced, start, backend);
   m_scope = made(scope_parts(model.scope.shaft_radius), Detail(levels_of(model, "endoscope")), backend);
@@ -112,7 +110,12 @@ void MetalDrawing::update(const sim::State& state) {
 
 void MetalDrawing::list_port_sites(const FirstParts& first, const Listing& to) const {
   for (const PortSite& site : m_port_sites)
-    if (site.mesh().id) to.add(item(site.mesh(), look(site.look()), first.cavity));
+    if (site.mesh().id) {
+      render::DrawItem tent = item(site.mesh(), look(site.look()), first.cavity);
+      tent.material.middle = m_lining.middle;
+      tent.material.fibre_axis = m_lining.fibre_axis;
+      to.add(tent);
+    }
 }
 
 void MetalDrawing::list_clips(const sim::State& state, const FirstParts& first, const Listing& to) const {

@@ -15,8 +15,8 @@ namespace trocar::view {
 
 class MetalDrawing {
  public:
-  /// @param margins  walls beside those of the model, which trocars may come through, too
-  MetalDrawing(const sim::Model& model, const std::vector<MeshBuffer>& margins, render::Backend& backend);
+  /// @param cavity  what goes on from the model's walls, which trocars may come through, too
+  MetalDrawing(const sim::Model& model, const MeshBuffer& cavity, render::Backend& backend);
 
   void update(const sim::State& state);
   void list_tools(const sim::State& state, const std::vector<PartStyle>& styles, const FirstParts& first,
@@ -49,6 +49,7 @@ class MetalDrawing {
   void list_loaded(const sim::State& state, std::size_t hand, const FirstParts& first, const Listing& to) const;
 
   const sim::Model* m_model;
+  render::Material m_lining;                                 ///< of the wall around a trocar
   std::vector<std::vector<std::vector<DrawnPart>>> m_tools;  ///< (hands, rack)
   std::vector<std::vector<DrawnPart>> m_sleeves;             ///< (hands)
   std::vector<PortSite> m_port_sites;                        ///< (hands)

@@ -9,20 +9,52 @@
 namespace trocar::view {
 namespace {
 
-constexpr double kCovered = 0.24, kBare = 0.42;  // shares of the wall's height: covered below the first
-constexpr int kHalvings = 2;                     // of the wall's edges: lobes are finer than its triangles
+constexpr double kReaches = 0.37;  // share of the wall's height up to which it lies, in the mean
+constexpr int kHalvings = 2;       // of the wall's edges: lobes are finer than its triangles
+constexpr double kMargin = 0.006;  // [m] beyond its border, below the wall
 
-/// How much of the apron there is over a point, 0..1. @param height 0 lowest point of the wall .. 1 highest
-double cover(Vec3d p, double height) {
-  return smooth(kBare, kCovered, height + 0.07 * waves(p, 0.075) + 0.03 * waves(p + Vec3d{0.2, 0, 0.1}, 0.028));
+/// Distance from the nearest of jittered centres, and from the next one, in cells of one edge.
+struct Cells {
+  double nearest = 9, second = 9;
+};
+Cells cells_at(Vec3d q) {
+  const int i0 = int(std::floor(q.x)), j0 = int(std::floor(q.y)), k0 = int(std::floor(q.z));
+  Cells c;
+  for (int k = k0 - 1; k <= k0 + 1; ++k)
+    for (int j = j0 - 1; j <= j0 + 1; ++j)
+      for (int i = i0 - 1; i <= i0 + 1; ++i) {
+        const int cell = i + 57 * j + 3251 * k;
+        const Vec3d centre{i + varied(cell, 81), j + varied(cell, 82), k + varied(cell, 83)};
+        const double d = length(q - centre);
+        c.second = std::min(c.second, std::max(d, c.nearest));
+        c.nearest = std::min(c.nearest, d);
+      }
+  return c;
 }
 
-/// Thickness [m]: broad swellings, lobes, and lobules on them. Where it ends it dips below the wall.
-double thickness(Vec3d p, double covered) {
-  const double swell = 0.0045 + 0.0022 * waves(p, 0.034);
-  const double lobes = 0.0034 * std::fabs(waves(p + Vec3d{0.4, 0.1, 0.2}, 0.026));
-  const double lobules = 0.0013 * std::fabs(waves(p + Vec3d{0.1, 0.5, 0.3}, 0.0105));
-  return covered * (swell + lobes + lobules) - 0.0012 * (1 - covered);
+/// Lobules like pillows, `size` [m] wide: 0 in a groove .. 1 on top. Grooves are soft.
+double pillows(Vec3d p, double size) {
+  const Cells c = cells_at((1 / size) * p);
+  return smooth(0.02, 0.62, c.second - c.nearest);
+}
+
+/// How far inside its border a point lies [m]: tongues, frills on them. @param above the wall's lowest point [m]
+double inside(Vec3d p, double above, double whole) {
+  const double tongues = 0.016 * waves(p, 0.062) + 0.005 * waves(p + Vec3d{0.2, 0, 0.1}, 0.027);
+  const double frills = 0.0015 * waves(p + Vec3d{0.3, 0.2, 0}, 0.011) + 0.0004 * waves(p, 0.0052);
+  return kReaches * whole - above + tongues + frills;
+}
+
+/// Thickness [m]: broad swellings, lobes, and lobules on them; towards its border a thin, rounded lip. Beyond it lies
+/// below the wall.
+double thickness(Vec3d p, double deep) {
+  if (deep <= 0) return std::max(-0.0012, 0.5 * deep);
+  const double lip = 0.0015 * (1 - std::exp(-deep / 0.003));
+  const double grown = smooth(0, 0.02, deep);
+  const double swell = 0.0022 + 0.002 * waves(p, 0.043);
+  const double lobes = 0.003 * pillows(p + Vec3d{0.4, 0.1, 0.2}, 0.024);
+  const double lobules = 0.0011 * pillows(p + Vec3d{0.1, 0.5, 0.3}, 0.0095);
+  return lip + grown * (swell + lobes) + (0.3 + 0.7 * grown) * smooth(0, 0.004, deep) * lobules;
 }
 
 struct Point {
@@ -53,47 +85,61 @@ struct Net {
   }
 };
 
-/// What of the wall is covered at all.
-Net lowest_part(const tissue::Skin& wall, Vec3d up, double lowest, double highest) {
-  Net net;
-  std::map<int, int> number;
-  for (const auto& t : wall.triangles) {
-    const auto is_covered = [&](int v) {
-      const Vec3d p = vec_cast<double>(wall.rest[std::size_t(v)]);
-      return cover(p, (dot(p, up) - lowest) / (highest - lowest)) > 0;
-    };
-    if (std::none_of(t.begin(), t.end(), is_covered)) continue;
+/// Which part of a surface is covered.
+struct Ground {
+  Vec3d up;
+  double lowest = 1e9, highest = -1e9;  ///< of the wall [m]
+
+  double inside_at(Vec3d p) const { return inside(p, dot(p, up) - lowest, highest - lowest); }
+};
+
+/// Adds what of a surface is covered at all, and a little more.
+void take(std::span<const Vec3f> points, std::span<const Vec3f> normals, std::span<const std::uint32_t> triangles,
+          const Ground& ground, Net& net) {
+  std::vector<std::uint8_t> covered(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) covered[i] = ground.inside_at(vec_cast<double>(points[i])) > -kMargin;
+  std::vector<int> number(points.size(), -1);
+  for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {
+    const std::span<const std::uint32_t> corners = triangles.subspan(t, 3);
+    if (std::none_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return covered[v] != 0; })) continue;
     std::array<int, 3> corner{};
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto [found, anew] = number.try_emplace(t[k], int(net.points.size()));
-      const auto v = std::size_t(t[k]);
-      if (anew) net.points.push_back({vec_cast<double>(wall.rest[v]), vec_cast<double>(wall.rest_normal[v])});
-      corner[k] = found->second;
+      const std::uint32_t v = corners[k];
+      if (number[v] < 0) {
+        number[v] = int(net.points.size());
+        net.points.push_back({vec_cast<double>(points[v]), vec_cast<double>(normals[v])});
+      }
+      corner[k] = number[v];
     }
     net.triangles.push_back(corner);
   }
-  return net;
 }
 
 }  // namespace
 
-MeshBuffer omentum_on(const tissue::Skin& wall, Vec3d gravity) {
-  const Vec3d up = normalised(-1.0 * gravity, Vec3d{0, 0, 1});
-  double lowest = 1e9, highest = -1e9;
+MeshBuffer omentum_on(const tissue::Skin& wall, Vec3d gravity, const MeshBuffer& beyond) {
+  Ground ground{normalised(-1.0 * gravity, Vec3d{0, 0, 1})};
   for (const Vec3f& x : wall.rest) {
-    lowest = std::min(lowest, dot(vec_cast<double>(x), up));
-    highest = std::max(highest, dot(vec_cast<double>(x), up));
+    ground.lowest = std::min(ground.lowest, dot(vec_cast<double>(x), ground.up));
+    ground.highest = std::max(ground.highest, dot(vec_cast<double>(x), ground.up));
   }
   MeshBuffer b;
-  if (!(highest > lowest)) return b;
-  Net net = lowest_part(wall, up, lowest, highest);
+  if (!(ground.highest > ground.lowest)) return b;
+  Net net;
+  std::vector<std::uint32_t> triangles;
+  for (const auto& t : wall.triangles)
+    for (const int v : t) triangles.push_back(std::uint32_t(v));
+  take(wall.rest, wall.rest_normal, triangles, ground, net);
+  take(beyond.positions, beyond.normals, beyond.indices, ground, net);
   for (int i = 0; i < kHalvings; ++i) net.divide();
   for (const Point& point : net.points) {
-    const double covered = cover(point.p, (dot(point.p, up) - lowest) / (highest - lowest));
-    const double thick = thickness(point.p, covered);
+    const double deep = ground.inside_at(point.p);
+    const double thick = thickness(point.p, deep);
+    const double groove = 1 - pillows(point.p + Vec3d{0.1, 0.5, 0.3}, 0.0095);
+    const double patch = smooth(0.2, 0.9, waves(point.p + Vec3d{0.3, 0.3, 0}, 0.03));
     Paint paint;
-    paint.openness = to_byte(0.55 + 0.45 * smooth(0.001, 0.006, thick));
-    paint.tint = to_byte(0.55 * smooth(0.2, 0.9, waves(point.p + Vec3d{0.3, 0.3, 0}, 0.03)));
+    paint.openness = to_byte(0.72 + 0.28 * smooth(0.001, 0.007, thick));
+    paint.tint = to_byte(std::max({0.4 * patch, 0.45 * groove, 0.9 * smooth(0.005, 0, deep)}));
     b.add(vec_cast<float>(point.p + thick * point.n), paint);
   }
   for (const auto& [i, j, k] : net.triangles) b.triangle(std::uint32_t(i), std::uint32_t(j), std::uint32_t(k));

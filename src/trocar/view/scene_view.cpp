@@ -40,7 +40,7 @@ struct SceneView::Parts {
   Parts(const sim::Model& of, render::Backend& backend)
       : model(of),
         body(of, backend),
-        metal(of, body.margin_shapes(), backend),
+        metal(of, body.cavity(), backend),
         names(of, body.vessel_kinds()),
         analysis(of, backend) {
     if (model.wet.there) wet.emplace(model);

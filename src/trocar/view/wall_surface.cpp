@@ -13,11 +13,9 @@ WallSurface::WallSurface(const sim::Model& model) {
     m_normals.insert(m_normals.end(), normals.begin(), normals.end());
     for (const std::uint32_t v : triangles) m_triangles.push_back(first + v);
   };
-  for (const sim::WallModel& wall : model.walls) {
-    take(wall.skin.rest, wall.skin.rest_normal, flat_indices(wall.skin));
-    const MeshBuffer margin = around_wall(model, wall.skin, std::vector<Paint>(wall.skin.rest.size()));
-    take(margin.positions, margin.normals, margin.indices);
-  }
+  for (const sim::WallModel& wall : model.walls) take(wall.skin.rest, wall.skin.rest_normal, flat_indices(wall.skin));
+  m_cavity = cavity_around(model);
+  if (!model.walls.empty()) take(m_cavity.positions, m_cavity.normals, m_cavity.indices);
   m_faces.resize(m_points.size());
   for (std::uint32_t t = 0; 3 * t < m_triangles.size(); ++t)
     for (std::uint32_t k = 0; k < 3; ++k) m_faces[m_triangles[3 * t + k]].push_back(t);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <trocar/sim/model.hpp>
+#include <trocar/view/mesh_buffer.hpp>
 
 namespace trocar::view {
 
@@ -17,8 +18,10 @@ class WallSurface {
     bool there = false;   ///< false: the scene has no walls
   };
   Place nearest(Vec3d p) const;
+  const MeshBuffer& cavity() const { return m_cavity; }  ///< what goes on from the walls' borders
 
  private:
+  MeshBuffer m_cavity;
   std::vector<Vec3f> m_points, m_normals;
   std::vector<std::uint32_t> m_triangles;
   std::vector<std::vector<std::uint32_t>> m_faces;  ///< (points) their triangles

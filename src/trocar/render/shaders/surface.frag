@@ -1,5 +1,5 @@
 // Living tissue, metal and pools. Variants: SHADING (0 tissue, 1 metal, 2 fluid), DETAIL (0..2), FINE, VESSELS, LOBULES,
-// TWO_SIDED, STAINED (some blood or burn), FOGGY, RODS (instruments
+// LINING, TWO_SIDED, STAINED (some blood or burn), FOGGY, RODS (instruments
 // shade it; opaque surfaces get that afterwards, by shade.frag).
 #include "common.glsl"
 
@@ -33,6 +33,7 @@ uniform vec4 u_material[14];
 #define CELL_CONTRAST u_material[10].z
 #define SCATTER u_material[10].w         /* metal: share that it scatters instead of mirroring */
 #define SOIL u_material[11].x            /* metal: share of Paint's blood and burn that is there */
+#define MIDDLE u_material[11].yzw        /* of the cavity that a lining encloses */
 
 uniform mat4 u_model_view;
 #if SHADING != 0
@@ -62,6 +63,8 @@ out vec4 o_colour;
 // Turns axes between octaves of noise so that their lattices do not line up.
 const mat3 kTurn = mat3(0.36, 0.48, -0.8, -0.8, 0.60, 0.0, 0.48, 0.64, 0.60);
 
+const float kLiningBall = 0.12;  // [m] radius of the ball that a lining's vessels are drawn on
+
 vec3 along_surface(vec3 v, vec3 n) { return v - n * dot(n, v); }
 vec3 to_eye(vec3 rest_direction) { return mat3(u_model_view) * rest_direction; }
 
@@ -75,6 +78,15 @@ float lobe(float nh, float alpha2) {
 #ifdef ARCADE
 // The rest coordinates are the fold's own: along it, from its free border to its root, and a constant.
 vec2 vessels_at(vec3 p, vec3 n) { return texture(u_vessels, p.xy * vec2(1.0, 2.0) * VESSEL_SCALE).rg; }
+#elif defined(LINING)
+// On a ball around the cavity's middle, by arc length from the pole: no seam but opposite to it, where the endoscope is.
+vec2 vessels_at(vec3 p, vec3 n) {
+  vec3 d = normalize(p - MIDDLE);
+  float along = clamp(dot(d, FIBRE_AXIS), -0.999, 0.999);
+  vec3 off = d - along * FIBRE_AXIS;
+  vec3 side = normalize(vec3(FIBRE_AXIS.y, -FIBRE_AXIS.x, 0.001)), up = cross(FIBRE_AXIS, side);
+  return texture(u_vessels, vec2(dot(off, side), dot(off, up)) * (acos(along) * inversesqrt(dot(off, off)) * kLiningBall) * VESSEL_SCALE + 0.37).rg;
+}
 #else
 // Trees are drawn in the plane that the rest surface faces most and fade out towards the next plane.
 vec2 vessels_at(vec3 p, vec3 n) {
@@ -126,7 +138,11 @@ void main() {
   vec4 broad = texture(u_noise, p * NOISE_SCALE);
   vec3 slope = broad.rgb * 2.0 - 1.0;
 #if SHADING != 1 && DETAIL >= 1
+#ifdef LINING
+  vec4 ripple = texture(u_noise, kTurn * (p * vec3(0.3, 1.0, 1.0)).zxy * FILM_SCALE);  // muscle runs across
+#else
   vec4 ripple = texture(u_noise, kTurn * p.zxy * FILM_SCALE);
+#endif
 #endif
 #if defined(FINE)
   vec4 fine = texture(u_noise, kTurn * p * (NOISE_SCALE * 5.0));
@@ -135,7 +151,9 @@ void main() {
 #else
   vec4 fine = broad.gbra;
 #endif
+#ifndef LINING  // smooth: what is fine there lies below it
   slope += fine.rgb * 2.0 - 1.0;
+#endif
 
 #if SHADING == 1
   // Steel, titanium, and what insulates them: bare metal mirrors the scene, paint and ceramic scatter the lamp's light,
@@ -186,7 +204,11 @@ void main() {
 #if SHADING == 0
   albedo = mix(albedo, TINT, tint);
 #endif
+#ifdef LINING
+  albedo *= 1.0 + vec3(0.02, 0.06, -0.06) * (broad.g - 0.5);
+#else
   albedo *= 1.0 + vec3(0.0, 0.08, -0.17) * (broad.g - 0.5);  // towards yellow here, mauve there
+#endif
   vec3 relief = BUMP * slope;
 
 #ifdef LOBULES
@@ -263,6 +285,9 @@ void main() {
   vec3 film_slope = slope * FILM_BUMP;
   float wet_noise = broad.b;
 #endif
+#ifdef LINING
+  film_slope = FILM_BUMP * (broad.rgb * 2.0 - 1.0 + 0.4 * (broad.gbr * 2.0 - 1.0));  // broad sheens, no frost
+#endif
   float wet = smoothstep(1.0 - WETNESS - 0.2, 1.0 - WETNESS + 0.2, wet_noise);
 #ifdef STAINED
   film_slope *= 1.0 - 0.7 * smoothstep(0.5, 0.9, blood);
@@ -270,12 +295,18 @@ void main() {
 #endif
   // What mirrors the lamp is broken again by the film's thickness: flecks in clumps, no rings around its bumps.
   float flecks = smoothstep(0.34, 0.66, fine.g + 0.6 * (broad.b - 0.5));
+#ifdef LINING
+  flecks *= 0.35;
+#endif
   wet *= 0.6 + 0.3 * flecks;
   vec3 m = normalize(N + along_surface(to_eye(film_slope + relief * 0.6), N));
   vec3 H = normalize(lit.direction + V);
   float facing = clamp(nl * 4.0, 0.0, 1.0) * open;
+  // Ripples of a pixel or less are as rough as their normals differ [Kaplanyan 16].
+  vec3 turn_x = dFdx(m), turn_y = dFdy(m);
+  float film2 = FILM2 + min(0.12 * (dot(turn_x, turn_x) + dot(turn_y, turn_y)), 0.06);
   float mh = clamp(dot(m, H), 0.0, 1.0), nh = clamp(dot(n, H), 0.0, 1.0);
-  float gloss = 0.42 * FRESNEL * (wet * (0.4 + 1.3 * flecks) * lobe(mh, FILM2) + (0.35 + 0.65 * wet) * lobe(nh, ROUGH2)) * facing * lit.power;
+  float gloss = 0.42 * FRESNEL * (wet * (0.4 + 1.3 * flecks) * lobe(mh, film2) + (0.35 + 0.65 * wet) * lobe(nh, ROUGH2)) * facing * lit.power;
   float grazing = FRESNEL + (1.0 - FRESNEL) * rim * rim * (1.0 - nv);
 #if SHADING == 2
   vec3 around = 0.7 * mirrored(reflect(-V, m), 0.03, lit.bounce);

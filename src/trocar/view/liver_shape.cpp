@@ -1,0 +1,282 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <trocar/render/mesh_arrays.hpp>
+#include <trocar/view/fair_surface.hpp>
+#include <trocar/view/liver_shape.hpp>
+#include <trocar/view/relief.hpp>
+
+namespace trocar::view {
+namespace {
+
+constexpr double kStep = 0.003;   // [m] between columns and rows
+constexpr int kRows = 56;         // from the edge towards the head
+constexpr double kBeside = 0.06;  // [m] beyond the body to either side
+constexpr double kInset = 0.009;  // [m] of the body's ends, which are round: there the dome goes straight on
+constexpr double kFalls = -0.27;  // slope of the body's upper side from which on the dome takes over
+constexpr int kEvenJoin = 30;     // passes over the line where it does
+constexpr double kHold = 1, kLoose = 8e-6, kFirm = 6e-4;  // weights, see fairest()
+constexpr double kSunk = 0.00022;                         // [m] times (rings into the body)^2
+constexpr int kOverlap = 3;                               // rings
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// [m] from the edge to a row; the first ones lie close, as the margin is round.
+double offset_of(int row) { return row < 3 ? kStep * row * row / 6.0 : kStep * (row - 1.5); }
+
+/// What a big organ is like, over the line where the dome begins: higher to the right (-x), lower to the left, and
+/// rolling over below the diaphragm.
+double wished(double beside, double up) {
+  const double lobes = 0.022 * smooth(0, -0.09, beside) - 0.012 * smooth(0.02, 0.1, beside);
+  const double over = std::max(0.0, up - 0.045);
+  return lobes + 0.03 * up - over * over / 0.075;
+}
+
+}  // namespace
+
+LiverShape::LiverShape(const tissue::Skin& body) {
+  scan(body);
+  lead_on();
+  fair();
+}
+
+double LiverShape::y_of(std::size_t column, int row) const { return m_columns[column].low + offset_of(row); }
+
+/// Edge and upper side of the body.
+void LiverShape::scan(const tissue::Skin& body) {
+  double from = 1e9, to = -1e9;
+  for (int v = 0; v < body.size(); ++v) {
+    if (!body.at_surface(v)) continue;
+    from = std::min(from, double(body.rest[std::size_t(v)].x));
+    to = std::max(to, double(body.rest[std::size_t(v)].x));
+  }
+  for (double x = from - kBeside; x < to + kBeside; x += kStep) m_columns.push_back({x, 1e9, 0, 0});
+  m_z.assign(m_columns.size() * std::size_t(kRows), kNone);
+  for (std::size_t i = 0; i < m_columns.size(); ++i)
+    if (m_columns[i].x > from + kInset && m_columns[i].x < to - kInset) {
+      if (m_first == 0) m_first = i;
+      m_last = i;
+    }
+  std::vector<double> count(m_columns.size(), 0.0);
+  const auto each_near = [&](double reach, auto&& take) {
+    for (int v = 0; v < body.size(); ++v) {
+      if (!body.at_surface(v)) continue;
+      const Vec3d p = vec_cast<double>(body.rest[std::size_t(v)]);
+      for (std::size_t i = m_first; i <= m_last; ++i)
+        if (std::fabs(p.x - m_columns[i].x) < reach) take(m_columns[i], count[i], p);
+    }
+  };
+  each_near(0.005, [](Column& c, double&, Vec3d p) { c.low = std::min(c.low, p.y); });
+  each_near(0.005, [](Column& c, double& n, Vec3d p) {
+    if (p.y > c.low + 0.003) return;
+    c.edge += p.z;
+    n += 1;
+  });
+  for (std::size_t i = m_first; i <= m_last; ++i) m_columns[i].edge /= std::max(1.0, count[i]);
+  for (int pass = 0; pass < 4; ++pass)
+    for (std::size_t i = m_first + 1; i < m_last; ++i) {
+      m_columns[i].low = 0.5 * m_columns[i].low + 0.25 * (m_columns[i - 1].low + m_columns[i + 1].low);
+      m_columns[i].edge = 0.5 * m_columns[i].edge + 0.25 * (m_columns[i - 1].edge + m_columns[i + 1].edge);
+    }
+  for (const auto& t : body.triangles) {  // the upper side: the highest triangle over a point
+    const Vec3d a = vec_cast<double>(body.rest[std::size_t(t[0])]), b = vec_cast<double>(body.rest[std::size_t(t[1])]),
+                c = vec_cast<double>(body.rest[std::size_t(t[2])]);
+    const double twice = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+    if (!(twice > 1e-12)) continue;
+    for (std::size_t i = m_first; i <= m_last; ++i) {
+      const double x = m_columns[i].x;
+      if (x < std::min({a.x, b.x, c.x}) || x > std::max({a.x, b.x, c.x})) continue;
+      for (int k = 0; k < kRows; ++k) {
+        const double y = y_of(i, k);
+        const double u = ((b.x - x) * (c.y - y) - (b.y - y) * (c.x - x)) / twice;
+        const double v = ((c.x - x) * (a.y - y) - (c.y - y) * (a.x - x)) / twice;
+        if (u < 0 || v < 0 || u + v > 1) continue;
+        double& z = m_z[at(i, k)];
+        const double here = u * a.z + v * b.z + (1 - u - v) * c.z;
+        z = std::isnan(z) ? here : std::max(z, here);
+      }
+    }
+  }
+}
+
+/// Where the dome begins on the body, and the edge beyond its ends.
+void LiverShape::lead_on() {
+  std::vector<double> join(m_columns.size(), 0.0);
+  for (std::size_t i = m_first; i <= m_last; ++i) {
+    int k = 4;
+    while (k + 3 < kRows && !std::isnan(m_z[at(i, k + 2)]) &&
+           (m_z[at(i, k + 2)] - m_z[at(i, k)]) > kFalls * (offset_of(k + 2) - offset_of(k)))
+      ++k;
+    join[i] = k;
+  }
+  for (int pass = 0; pass < kEvenJoin; ++pass)
+    for (std::size_t i = m_first + 1; i < m_last; ++i) join[i] = 0.5 * join[i] + 0.25 * (join[i - 1] + join[i + 1]);
+  for (std::size_t i = m_first; i <= m_last; ++i) m_columns[i].join = int(join[i]);
+  const auto beyond = [&](std::size_t end, std::size_t inner, std::size_t i) {
+    const Column &e = m_columns[end], &before = m_columns[inner];
+    const double d = std::fabs(m_columns[i].x - e.x);
+    const double slope = std::clamp((e.low - before.low) / std::fabs(e.x - before.x), -0.6, 0.6);
+    m_columns[i].low =
+        e.low + slope * d * std::exp(-d / 0.03) + 0.0015 * waves({m_columns[i].x, 0.3, 0}, 0.03) * smooth(0, 0.02, d);
+    m_columns[i].low -= 0.0016 * smooth(0, 0.004, d);
+    m_columns[i].edge = e.edge;
+  };
+  for (std::size_t i = 0; i < m_first; ++i) beyond(m_first, m_first + 4, i);
+  for (std::size_t i = m_last + 1; i < m_columns.size(); ++i) beyond(m_last, m_last - 4, i);
+}
+
+/// Rings into what is the body's own, 0 outside.
+std::vector<int> LiverShape::depths() const {
+  std::vector<int> depth(m_z.size(), 0);
+  for (std::size_t i = m_first; i <= m_last; ++i)
+    for (int k = 0; k < m_columns[i].join; ++k)
+      depth[at(i, k)] = std::min({m_columns[i].join - k, int(i - m_first) + 1, int(m_last - i) + 1});
+  return depth;
+}
+
+void LiverShape::fair() {
+  const std::size_t n = m_columns.size();
+  std::vector<std::vector<int>> net(m_z.size());
+  std::vector<double> wish(m_z.size()), weight(m_z.size());
+  double middle = 0, begins = 0, level = 0, count = 0;
+  for (std::size_t i = m_first; i <= m_last; ++i) {
+    const int k = std::max(0, m_columns[i].join - 1);
+    if (std::isnan(m_z[at(i, k)])) continue;
+    middle += m_columns[i].x, begins += y_of(i, k), level += m_z[at(i, k)], count += 1;
+  }
+  count = std::max(count, 1.0);
+  middle /= count, begins /= count, level /= count;
+  const double half = 0.5 * (m_columns[m_last].x - m_columns[m_first].x);
+  for (std::size_t i = 0; i < n; ++i)
+    for (int k = 0; k < kRows; ++k) {
+      const std::size_t p = at(i, k);
+      const auto join = [&](std::size_t a, int b) { net[p].push_back(int(at(a, b))); };
+      if (i > 0) join(i - 1, k);
+      if (i + 1 < n) join(i + 1, k);
+      if (k > 0) join(i, k - 1);
+      if (k + 1 < kRows) join(i, k + 1);
+      const Column& c = m_columns[i];
+      wish[p] = level + wished(c.x - middle, y_of(i, k) - begins);
+      const double aside = std::max(0.0, std::fabs(c.x - middle) - half);
+      const double ahead = c.join > 0 ? offset_of(k) - offset_of(c.join) : 1.0;
+      const double away = std::min(std::max(aside, ahead), std::hypot(aside, std::max(0.0, y_of(i, k) - begins)));
+      weight[p] = kLoose + kFirm * smooth(0.015, 0.07, away);
+      if (k < c.join && !std::isnan(m_z[p])) {
+        wish[p] = m_z[p];
+        weight[p] = kHold;
+        continue;
+      }
+      if (c.join > 0) continue;
+      // Beside the body its margin goes on as it is at its end.
+      const std::size_t end = i < m_first ? m_first : m_last;
+      const double profile = m_z[at(end, k)];
+      if (k >= m_columns[end].join || std::isnan(profile)) continue;
+      const double d = std::fabs(c.x - m_columns[end].x), close = smooth(0.03, 0.004, offset_of(k));
+      const double capped = smooth(0.02, 0.009, d);  // it goes over the body's rounded end
+      wish[p] =
+          profile + (1 - capped) * 0.35 * (wish[p] - profile) * smooth(0.012, 0.04, offset_of(k)) + 0.0004 * capped;
+      weight[p] = std::max(weight[p], 0.02 * std::max(close * close, capped));
+    }
+  m_z = fairest(net, wish, weight);
+}
+
+double LiverShape::height(double x, double y) const {
+  const double i = std::clamp((x - m_columns.front().x) / kStep, 0.0, double(m_columns.size()) - 1.001);
+  const auto c = std::size_t(i);
+  const auto in_column = [&](std::size_t column) {
+    int k = 0;
+    while (k + 2 < kRows && y_of(column, k + 1) < y) ++k;
+    const double t = std::clamp((y - y_of(column, k)) / (y_of(column, k + 1) - y_of(column, k)), 0.0, 1.0);
+    return m_z[at(column, k)] + t * (m_z[at(column, k + 1)] - m_z[at(column, k)]);
+  };
+  const double t = i - double(c);
+  return (1 - t) * in_column(c) + t * in_column(c + 1);
+}
+
+MeshBuffer LiverShape::dome() const {
+  MeshBuffer b;
+  const std::vector<int> depth = depths();
+  const std::size_t n = m_columns.size();
+  for (std::size_t i = 0; i < n; ++i)
+    for (int k = 0; k < kRows; ++k) {
+      const double x = m_columns[i].x, y = y_of(i, k);
+      const double own = std::min(depth[at(i, k)], kOverlap + 1);
+      const double uneven = 0.0006 * waves({x, y, m_z[at(i, k)]}, 0.024) * smooth(0.0, 0.01, offset_of(k));
+      b.add(vec_cast<float>(Vec3d{x, y, m_z[at(i, k)] + uneven - kSunk * own * own}));
+    }
+  const auto v = [&](std::size_t i, int k) { return std::uint32_t(at(i, k)); };
+  for (std::size_t i = 0; i + 1 < n; ++i)
+    for (int k = 0; k + 1 < kRows; ++k) {
+      const int least = std::min({depth[at(i, k)], depth[at(i + 1, k)], depth[at(i, k + 1)], depth[at(i + 1, k + 1)]});
+      if (least < kOverlap) b.quad(v(i, k), v(i + 1, k), v(i + 1, k + 1), v(i, k + 1));
+    }
+  // The lower side of the margin, beside the body.
+  constexpr int kBelow = 6;
+  const auto below = [&](std::size_t first, std::size_t last) {
+    const std::uint32_t begin = b.size();
+    for (std::size_t i = first; i <= last; ++i)
+      for (int k = 1; k <= kBelow; ++k) {
+        const double off = offset_of(2 * k), thick = 0.0105 * std::sqrt(std::min(1.0, off / 0.03));
+        b.add(vec_cast<float>(Vec3d{m_columns[i].x, m_columns[i].low + off, m_z[at(i, 0)] - thick}));
+      }
+    const auto low = [&](std::size_t i, int k) {
+      return k == 0 ? v(i, 0) : begin + std::uint32_t(i - first) * kBelow + std::uint32_t(k - 1);
+    };
+    for (std::size_t i = first; i < last; ++i)
+      for (int k = 0; k < kBelow; ++k) b.quad(low(i, k), low(i, k + 1), low(i + 1, k + 1), low(i + 1, k));
+  };
+  below(0, m_first + 1);
+  below(m_last - 1, n - 1);
+  render::vertex_normals(b.positions, b.indices, b.normals);
+  return b;
+}
+
+MeshBuffer LiverShape::falciform(const WallSurface& wall) const {
+  constexpr int kAlong = 26, kUp = 20, kRound = 8;
+  const std::size_t column = m_first + (m_last - m_first) / 5;
+  const double begins = y_of(column, m_columns[column].join) + 0.004, reach = 0.085;
+  MeshBuffer b;
+  for (int i = 0; i <= kAlong; ++i)
+    for (int k = 0; k <= kUp; ++k) {
+      const double s = double(i) / kAlong, t = double(k) / kUp;
+      const double y = begins + reach * s, x = m_columns[column].x + 0.004 * waves({0, y, 0}, 0.06);
+      const Vec3d foot{x, y, height(x, y) - 0.0012};
+      const WallSurface::Place hung = wall.nearest({x + 0.006, y - 0.012 * (1 - s), foot.z + 0.09});
+      const Vec3d top = hung.there ? hung.point - 0.0012 * hung.normal : foot + Vec3d{0, 0, 0.06};
+      Vec3d p = foot + t * (top - foot);
+      const double slack = 4 * t * (1 - t);
+      p.y += 0.016 * slack * (1 - s);  // its border hangs in a bow ...
+      const double lies = (1 - smooth(0, 0.3, s)) * (1 - smooth(0, 0.32, t));
+      p.y -= 0.02 * lies;  // ... and leaves the liver gently, from a notch
+      p.z = std::max(p.z + (height(p.x, p.y) - height(p.x, p.y + 0.02 * lies)) * lies, height(p.x, p.y) - 0.004) -
+            0.0022 * (1 - smooth(0, 0.12, t)) * (1 - smooth(0, 0.3, s));
+      p.x += 0.005 * slack * waves({p.x, p.y, p.z}, 0.05);
+      Paint paint;
+      paint.tint = to_byte(0.85 * smooth(0.16, 0.02, s + 0.05 * waves(p, 0.012)) +
+                           0.5 * smooth(0.2, 0.9, waves(p, 0.021)) * smooth(0.1, 0, std::min(t, 1 - t)));
+      b.add(vec_cast<float>(p), paint);
+    }
+  for (int i = 0; i < kAlong; ++i)
+    join_rows(b, std::uint32_t(i * (kUp + 1)), std::uint32_t((i + 1) * (kUp + 1)), kUp + 1, false);
+  render::vertex_normals(b.positions, b.indices, b.normals);
+  // The round ligament in its border, with fat around it.
+  const std::uint32_t cord = b.size();
+  for (int k = 0; k <= kUp; ++k) {
+    const auto here = std::size_t(k), next = std::size_t(std::min(k + 1, kUp)),
+               before = std::size_t(std::max(k - 1, 0));
+    const Vec3d axis = normalised(vec_cast<double>(b.positions[next] - b.positions[before]), Vec3d{0, 0, 1});
+    const Vec3d u = any_perpendicular(axis), w = cross(axis, u), p = vec_cast<double>(b.positions[here]);
+    const double ends = 1 + 0.7 * smooth(0.3, 0.05, double(k) / kUp);
+    for (int r = 0; r < kRound; ++r) {
+      const double a = 6.28318530717959 * r / kRound;
+      const Vec3d out = std::cos(a) * u + std::sin(a) * w;
+      const double radius = ends * (0.0014 + 0.0005 * waves(p + 0.01 * out, 0.013));
+      b.add(vec_cast<float>(p + radius * out), Paint{255, 0, 0, to_byte(0.92 - 0.5 * smooth(0.2, 0, double(k) / kUp))});
+      b.normals.push_back(vec_cast<float>(out));
+    }
+  }
+  for (std::uint32_t k = 0; k < kUp; ++k) join_rows(b, cord + k * kRound, cord + (k + 1) * kRound, kRound, true);
+  return b;
+}
+
+}  // namespace trocar::view

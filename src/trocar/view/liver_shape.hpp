@@ -1,0 +1,42 @@
+// The shape of a liver beyond its simulated edge, at rest (liver_dome.hpp draws it): a height over the (x, y) plane
+// that lies on the body's upper side where that still faces the front, and from there runs on, bending as little as it
+// can.
+#pragma once
+
+#include <trocar/tissue/skin.hpp>
+#include <trocar/view/mesh_buffer.hpp>
+#include <trocar/view/wall_surface.hpp>
+
+namespace trocar::view {
+
+class LiverShape {
+ public:
+  /// @param body its skin; the lower edge points to the feet (-y)
+  explicit LiverShape(const tissue::Skin& body);
+
+  /// What is drawn of it: the upper side, sunk into the body where they overlap, and a thin lower margin to both sides.
+  MeshBuffer dome() const;
+  /// The falciform ligament from the dome to the wall; its free border is a round cord. Paint::tint: fat.
+  MeshBuffer falciform(const WallSurface& wall) const;
+  double height(double x, double y) const;  ///< of the upper side [m]
+
+ private:
+  /// A line from the lower edge towards the head.
+  struct Column {
+    double x = 0, low = 0, edge = 0;  ///< place of the lower edge: x, y, z [m]
+    int join = 0;                     ///< rows below it are the body's own; 0: the body has ended
+  };
+  int rows() const { return int(m_z.size() / m_columns.size()); }
+  std::size_t at(std::size_t column, int row) const { return column * std::size_t(rows()) + std::size_t(row); }
+  double y_of(std::size_t column, int row) const;
+  void scan(const tissue::Skin& body);
+  void lead_on();
+  void fair();
+  std::vector<int> depths() const;
+
+  std::vector<Column> m_columns;
+  std::size_t m_first = 0, m_last = 0;  ///< columns of the body
+  std::vector<double> m_z;              ///< (columns x rows) [m]; while scanning NaN where the body is not
+};
+
+}  // namespace trocar::view
