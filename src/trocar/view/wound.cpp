@@ -62,7 +62,7 @@ bool beyond_crest(const Wound& wound, FilmPlace& at, const SurfaceNear& surface)
   for (int n = 0; surface && n < kToCrest; ++n) {
     const Vec3f up = normalised(first - dot(first, at.normal) * at.normal, Vec3f{});
     at = moved(at, -kStep * up, surface);
-    if (dot(along_surface(wound.down, at.normal), first) < -0.1f) return true;
+    if (dot(along_surface(wound.down, at.normal), first) < 0) return true;
   }
   return false;
 }
