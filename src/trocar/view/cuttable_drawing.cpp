@@ -9,12 +9,12 @@
 namespace trocar::view {
 namespace {
 
-constexpr Paint kFlesh{125, 70, 0, 0};      // laid bare
-constexpr std::uint8_t kDeepOpenness = 60;  // ... at a cut's bottom
+constexpr Paint kFlesh{150, 225, 0, 0};     // laid bare: raw
+constexpr std::uint8_t kDeepOpenness = 75;  // ... at a cut's bottom
 constexpr std::uint8_t kRimBlood = 34;      // on the skin at a cut's rim
-constexpr std::uint8_t kRimPale = 140;      // the capsule's edge: its look's tint
-constexpr float kOozes = 0.008f;            // [m] how far blood runs down from a cut
-constexpr std::uint8_t kOozing = 84;
+constexpr std::uint8_t kRimPale = 90;       // the capsule's edge: its look's tint
+constexpr float kOozes = 0.004f;            // [m] how far from a cut its blood stains the skin
+constexpr std::uint8_t kOozing = 110;
 constexpr float kRough = 0.6f;                // slope of the same
 constexpr std::uint8_t kLooseOpenness = 230;  // of pieces that have come off, which do not lie where they were baked
 constexpr std::uint8_t kLoosePale = 190;      // they have bled out

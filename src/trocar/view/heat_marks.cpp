@@ -6,6 +6,9 @@
 namespace trocar::view {
 
 constexpr float kBelow = 0.0003f;  // [m] skins' flat triangles cut through cells of the border
+constexpr double kMargin =
+    0.0028;                       // [m] so far around what is coagulated tissue is drawn paler than it was (our choice)
+constexpr int kMostMargin = 100;  // Paint::burn: coagulated, no more
 
 std::uint8_t burn_of(const tissue::HeatReading& reading) {
   const tissue::HeatLook l = tissue::look(reading);
@@ -31,14 +34,25 @@ bool HeatMarks::stirred(const sim::State& state) {
   return heated || before;
 }
 
+/// Blanching fades over some millimetres, finer than heat's cells tell: the margin of what lies beside counts.
 std::uint8_t HeatMarks::burn_at(const sim::State& state, Vec3d place) const {
-  return burn_of(reading(m_model->energy.heat, state.heat, m_body, place));
+  const auto at = [&](Vec3d p) { return int(burn_of(reading(m_model->energy.heat, state.heat, m_body, p))); };
+  int burn = at(place);
+  constexpr Vec3d kWays[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  for (const double far : {0.3, 0.65})
+    for (const Vec3d& way : kWays) {
+      if (burn >= kMostMargin) return std::uint8_t(burn);
+      const int beside = std::min(at(place + far * kMargin * way), kMostMargin);
+      burn = std::max(burn, int((1 - far) * beside));
+    }
+  return std::uint8_t(burn);
 }
 
 bool HeatMarks::update(const sim::State& state) {
   if (!stirred(state)) return false;
   Vec3d low{0, 0, 0}, high{0, 0, 0};
   heated_box(m_model->energy.heat, state.heat, m_body, low, high);
+  low -= Vec3d{kMargin, kMargin, kMargin}, high += Vec3d{kMargin, kMargin, kMargin};
   const auto inside = [&](Vec3d p) {
     return m_any && p.x >= low.x && p.y >= low.y && p.z >= low.z && p.x <= high.x && p.y <= high.y && p.z <= high.z;
   };
