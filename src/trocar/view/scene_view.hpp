@@ -12,23 +12,14 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include <trocar/render/backend.hpp>
 #include <trocar/sim/state.hpp>
 #include <trocar/view/analysis.hpp>
+#include <trocar/view/scene_parts.hpp>
 
 namespace trocar::view {
-
-enum class PartGroup { organs, tubes, folds, vessels, walls, instruments, clips, fluids };
-
-/// Something that can be shown in another way than the rest, or not at all.
-struct ScenePart {
-  std::string name;  ///< as in the scene; "cavity", "clips", "blood and water", ... where it has none there
-  PartGroup group;
-};
-enum class PartStyle : std::uint8_t { shaded, transparent, wireframe, hidden };
 
 /// Another endoscope that only looks (second_scope.hpp).
 struct SecondScope {

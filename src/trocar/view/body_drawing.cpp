@@ -1,0 +1,346 @@
+#include <algorithm>
+
+#include <trocar/view/body_drawing.hpp>
+#include <trocar/view/bowel_loops.hpp>
+#include <trocar/view/cavity.hpp>
+#include <trocar/view/omentum.hpp>
+
+namespace trocar::view {
+
+using render::DrawItem;
+
+namespace {
+
+constexpr double kShadeCell = 0.001f, kShadeReach = 0.018f;  // [m] what shades what
+constexpr float kVesselBefore = 0.0016f;                     // [m] a fold's vessels are drawn nearer than they are
+
+/// The look's unevenness, and a rise where each strand grows out.
+Relief relief_of(int organ, const sim::Model& model) {
+  Relief relief = look(model.organ_look(organ)).relief;
+  for (std::size_t i = 0; i < model.strands.size(); ++i) {
+    const sim::StrandModel& strand = model.strands[i];
+    const std::vector<Vec3d>& rest = model.bodies[i].model.rest;
+    const auto hangs = [&](const sim::StrandEndModel& end) {
+      return end.kind == sim::StrandEndModel::hosted && end.organ == organ;
+    };
+    if (hangs(strand.start)) relief.roots.push_back({rest.front(), strand.outer.front()});
+    if (hangs(strand.end)) relief.roots.push_back({rest.back(), strand.outer.back()});
+  }
+  return relief;
+}
+
+std::vector<Paint> shaded(const render::OpennessBaker& baker, std::span<const Vec3f> points,
+                          std::span<const Vec3f> normals) {
+  std::vector<Paint> paint(points.size());
+  baker.bake(points, normals, paint);
+  return paint;
+}
+
+}  // namespace
+
+BodyDrawing::BodyDrawing(const sim::Model& model, render::Backend& backend) : m_model(&model) {
+  const WallSurface walls(model);
+  make_tubes(walls);
+  make_cuttables(backend);
+  const render::OpennessBaker baker = shading();
+  for (CuttableDrawing& c : m_cuttables) c.shade(baker);
+  make_organs(baker, backend);
+  make_on_organs(walls, backend);
+  for (const sim::WallModel& w : model.walls) make_wall(w, baker, backend);
+  make_surroundings(walls, backend);
+  for (TubeDrawing& t : m_tubes) t.create(shaded(baker, t.drawn().positions, t.drawn().normals), backend);
+  make_joints(walls, backend);
+  for (int i = 0; i < int(model.sheets.size()); ++i) {
+    m_details.sheets.emplace_back(levels_of(model, model.sheets[std::size_t(i)].name));
+    m_sheets.emplace_back(model, i, backend, m_details.sheets.back(), &walls);
+  }
+  make_vessels(backend);
+  make_membranes(backend);
+}
+
+void BodyDrawing::make_tubes(const WallSurface& walls) {
+  for (int i = 0; i < int(m_model->strands.size()); ++i) {
+    m_details.tubes.emplace_back(levels_of(*m_model, m_model->strands[std::size_t(i)].name));
+    m_tubes.emplace_back(*m_model, i, m_details.tubes.back(), &walls);
+  }
+}
+
+void BodyDrawing::make_cuttables(render::Backend& backend) {
+  for (std::size_t i = 0; i < m_model->cuttables.size(); ++i) {
+    const std::size_t organ = m_model->solids.size() + i;
+    m_cuttables.emplace_back(m_model->cuttables[i], relief_of(int(organ), *m_model), backend);
+    m_details.cuttables.emplace_back(levels_of(*m_model, m_model->cuttables[i].name));
+    m_cuttable_burns.emplace_back(*m_model, interactions::kSolidBase + std::int32_t(organ));
+  }
+}
+
+/// Everything shades everything else, as drawn.
+render::OpennessBaker BodyDrawing::shading() const {
+  std::vector<std::vector<std::uint32_t>> indices;
+  for (const sim::SolidModel& s : m_model->solids) indices.push_back(flat_indices(s.fine));
+  for (const sim::WallModel& w : m_model->walls) indices.push_back(flat_indices(w.skin));
+  const std::size_t solids = m_model->solids.size();
+  std::vector<render::Occluder> occluders;
+  for (std::size_t i = 0; i < solids; ++i) occluders.push_back({m_model->solids[i].fine.rest, indices[i]});
+  for (std::size_t i = 0; i < m_model->walls.size(); ++i)
+    occluders.push_back({m_model->walls[i].skin.rest, indices[solids + i]});
+  for (const CuttableDrawing& c : m_cuttables) occluders.push_back({c.positions(), c.indices()});
+  for (const TubeDrawing& t : m_tubes) occluders.push_back({t.drawn().positions, t.drawn().indices});
+  return render::OpennessBaker(occluders, kShadeCell, kShadeReach);
+}
+
+void BodyDrawing::make_organs(const render::OpennessBaker& baker, render::Backend& backend) {
+  for (std::size_t i = 0; i < m_model->solids.size(); ++i) {
+    const sim::SolidModel& s = m_model->solids[i];
+    m_burns.emplace_back(*m_model, interactions::kSolidBase + std::int32_t(i), below_skin(s.fine));
+    m_details.organs.emplace_back(levels_of(*m_model, s.name));
+    m_organs.emplace_back(s, relief_of(int(i), *m_model), shaded(baker, s.fine.rest, s.fine.rest_normal), backend,
+                          m_details.organs.back());
+  }
+}
+
+void BodyDrawing::make_on_organs(const WallSurface& walls, render::Backend& backend) {
+  for (int i = 0; i < int(m_organs.size()); ++i) {
+    const sim::SolidModel& solid = m_model->solids[std::size_t(i)];
+    const int count = look(solid.look).fat_tags;
+    if (count == 0) continue;
+    m_details.fat.emplace_back(levels_of(*m_model, solid.name));
+    m_fat.emplace_back(m_organs[std::size_t(i)], solid, count, m_model->gravity, backend, m_details.fat.back());
+    m_fat_on.push_back(i);
+  }
+  for (int i = 0; i < int(m_organs.size()); ++i) {
+    const Look& covered = look(m_model->solids[std::size_t(i)].look);
+    if (!covered.draped) continue;
+    m_drapes.emplace_back(*m_model, i, m_organs, backend);
+    m_drape_look.push_back(&covered);
+  }
+  m_adhesions.emplace(m_organs, *m_model, walls, backend);
+}
+
+void BodyDrawing::make_wall(const sim::WallModel& wall, const render::OpennessBaker& baker, render::Backend& backend) {
+  const tissue::Skin& skin = wall.skin;
+  std::vector<Paint> paint = shaded(baker, skin.rest, skin.rest_normal);
+  for (std::size_t v = 0; v < paint.size(); ++v) paint[v].tint = to_byte(fat_below(vec_cast<double>(skin.rest[v])));
+  const std::vector<std::uint32_t> triangles = flat_indices(skin);
+  m_details.walls.emplace_back(levels_of(*m_model, wall.name));
+  m_details.margins.push_back(m_details.walls.back());
+  m_margin_shapes.push_back(around_wall(*m_model, skin, paint));
+  m_margins.push_back(rigid(m_margin_shapes.back(), m_details.margins.back(), backend));
+  const auto coarser = coarser_lists(skin.rest, triangles, paint, m_details.walls.back(), kRigid);
+  const std::size_t number = m_walls.size();
+  m_walls.emplace_back(backend, render::MeshData{.positions = skin.rest,
+                                                 .normals = skin.rest_normal,
+                                                 .rest = {},
+                                                 .paint = paint,
+                                                 .indices = triangles,
+                                                 .coarser = coarser});
+  if (!look(wall.look).omentum) return;
+  const MeshBuffer apron = omentum_on(skin, m_model->gravity);
+  if (apron.size() == 0) return;
+  m_aprons.emplace_back(backend, apron.data());
+  m_apron_on.push_back(number);
+}
+
+void BodyDrawing::make_surroundings(const WallSurface& walls, render::Backend& backend) {
+  m_details.cavity = Detail(levels_of(*m_model, "cavity"));
+  m_cavity = rigid(cavity_around(*m_model), m_details.cavity, backend);
+  if (const MeshBuffer shape = bowel_loops(*m_model, walls); shape.size() > 0)
+    m_loops = OwnedMesh(backend, shape.data());
+}
+
+void BodyDrawing::make_joints(const WallSurface& walls, render::Backend& backend) {
+  for (std::size_t i = 0; i < m_tubes.size(); ++i)
+    for (const bool at_start : {true, false}) {
+      if (m_tubes[i].neck(at_start).far <= 0) continue;
+      const sim::StrandEndModel& end = at_start ? m_model->strands[i].start : m_model->strands[i].end;
+      if (end.kind != sim::StrandEndModel::hosted) {
+        m_joints.push_back({i, -1, Joint(m_tubes[i], at_start, walls, backend)});
+        continue;
+      }
+      const auto organ = std::size_t(end.organ);
+      m_joints.push_back(
+          {i, end.organ, Joint(m_tubes[i], at_start, m_organs[organ], m_model->solids[organ].fine, backend)});
+    }
+  for (std::size_t i = 0; i < m_tubes.size() && !m_model->walls.empty(); ++i) {
+    const sim::StrandModel& strand = m_model->strands[i];
+    if (strand.start.kind != sim::StrandEndModel::hosted || strand.end.kind != sim::StrandEndModel::fixed) continue;
+    m_ridges.emplace_back(*m_model, m_tubes[i], int(i), walls, backend);
+    m_ridge_of.push_back(i);
+  }
+}
+
+void BodyDrawing::make_vessels(render::Backend& backend) {
+  using Lie = VesselDrawing::Lie;
+  for (const bool veins : {false, true}) {
+    const auto some = [&](bool fold) {
+      return std::any_of(m_model->vessels.list.begin(), m_model->vessels.list.end(),
+                         [&](const sim::Vessel& v) { return v.vein == veins && in_a_fold(v.path) == fold; });
+    };
+    if (!some(false) && !some(true)) continue;
+    const Detail detail(levels_of(*m_model, veins ? "veins" : "arteries"));
+    m_vessel_look.push_back(&look(veins ? "vein" : "artery"));
+    for (const bool fold : {false, true}) {
+      if (!some(fold)) continue;
+      m_details.vessels.push_back(detail);
+      m_vessels.push_back({VesselDrawing(*m_model, veins, backend, detail, fold ? Lie::in_a_fold : Lie::elsewhere),
+                           fold, m_vessel_look.size() - 1});
+    }
+  }
+}
+
+void BodyDrawing::make_membranes(render::Backend& backend) {
+  for (std::size_t i = 0; i < m_model->membranes.size(); ++i) {
+    const Detail detail(levels_of(*m_model, m_model->membranes[i].name));
+    if (m_model->membranes[i].sheet.closed()) {
+      m_pouches.emplace_back(*m_model, int(i), backend, detail);
+      m_details.pouches.push_back(detail);
+      m_pouch_of.push_back(i);
+    } else {
+      m_membranes.emplace_back(*m_model, int(i), backend, detail);
+      m_details.membranes.push_back(detail);
+      m_membrane_of.push_back(i);
+    }
+  }
+}
+
+std::vector<std::string> BodyDrawing::vessel_kinds() const {
+  std::vector<std::string> names;
+  for (const Look* l : m_vessel_look) names.emplace_back(l == &look("vein") ? "veins" : "arteries");
+  return names;
+}
+
+void BodyDrawing::update(const sim::State& state) {
+  m_in_jaws.clear();
+  std::vector<collision::Capsule> rods;  // of instruments that hold nothing: what is held is pressed by its jaws
+  for (std::size_t h = 0; h < m_model->hands.size(); ++h) {
+    const interactions::ToolState& tool = state.tools[h];
+    const interactions::ToolShape shape = shape_of(m_model->tool(state, h), tool.pose(), tool.aperture);
+    for (std::int32_t k = 0; k < tool.holds; ++k) m_in_jaws.push_back(tool.hold[k].body);
+    if (tool.holds == 0) rods.insert(rods.end(), std::begin(shape.part), std::end(shape.part));
+  }
+  for (std::size_t i = 0; i < m_organs.size(); ++i)
+    m_organs[i].update(state.solids[i], state.parted[i], rods, m_burns[i].update(state) ? &m_burns[i] : nullptr);
+  for (std::size_t i = 0; i < m_cuttables.size(); ++i) {
+    m_cuttables[i].burn(state, m_cuttable_burns[i]);
+    m_cuttables[i].update(state.cuttables[i], rods);
+  }
+  for (std::size_t i = 0; i < m_fat.size(); ++i) m_fat[i].update(m_organs[std::size_t(m_fat_on[i])]);
+  for (Drape& d : m_drapes) d.update(m_organs);
+  m_adhesions->update(m_organs);
+  for (TubeDrawing& t : m_tubes) t.update(state);
+  for (TubeJoint& j : m_joints)
+    j.joint.update(m_tubes[j.tube], j.organ < 0 ? nullptr : &m_organs[std::size_t(j.organ)]);
+  for (Ridge& r : m_ridges) r.update(state);
+  for (SheetDrawing& s : m_sheets) s.update(state);
+  for (MembraneDrawing& m : m_membranes) m.update(state);
+  for (PouchDrawing& p : m_pouches) p.update(state);
+  for (DrawnVessels& v : m_vessels) v.drawing.update(state);
+}
+
+bool BodyDrawing::held(std::size_t body) const {
+  return std::find(m_in_jaws.begin(), m_in_jaws.end(), std::int32_t(body)) != m_in_jaws.end();
+}
+
+bool BodyDrawing::is_wall(render::MeshHandle mesh) const {
+  return std::any_of(m_walls.begin(), m_walls.end(), [&](const OwnedMesh& w) { return w.handle().id == mesh.id; });
+}
+
+void BodyDrawing::list_surroundings(const FirstParts& first, const Listing& to) {
+  const DrawItem peritoneum = item({}, look("peritoneum"), first.cavity);
+  to.add(m_cavity, peritoneum, m_details.cavity);
+  for (std::size_t i = 0; i < m_margins.size(); ++i) to.add(m_margins[i], peritoneum, m_details.margins[i]);
+  if (m_loops.handle().id) to.add(item(m_loops.handle(), look("small_bowel"), first.cavity));
+}
+
+void BodyDrawing::list_walls(const FirstParts& first, const Listing& to) const {
+  for (std::size_t i = 0; i < m_walls.size(); ++i)
+    to.add(item(m_walls[i].handle(), look(m_model->walls[i].look), first.wall + i));
+}
+
+void BodyDrawing::list(bool with_walls, const FirstParts& first, const Listing& to) {
+  for (std::size_t i = 0; with_walls && i < m_walls.size(); ++i)
+    to.add(item(m_walls[i].handle(), look(m_model->walls[i].look), first.wall + i), m_details.walls[i],
+           m_model->walls[i].skin.rest);
+  for (std::size_t i = 0; with_walls && i < m_aprons.size(); ++i)
+    to.add(item(m_aprons[i].handle(), look("omentum"), first.wall + m_apron_on[i]));
+  list_organs(first, to);
+  list_tubes(with_walls, first, to);
+  for (std::size_t i = 0; i < m_vessels.size(); ++i)
+    to.add(item(m_vessels[i].drawing.mesh(), *m_vessel_look[m_vessels[i].look], first.vessel + m_vessels[i].look),
+           m_details.vessels[i], m_vessels[i].drawing.buffer().positions);
+  if (with_walls && m_adhesions->mesh().id) to.add(item(m_adhesions->mesh(), look("adhesion"), first.cavity));
+  list_folds(first, to);
+}
+
+void BodyDrawing::list_organs(const FirstParts& first, const Listing& to) {
+  for (std::size_t i = 0; i < m_organs.size(); ++i)
+    to.add(item(m_organs[i].mesh(), look(m_model->solids[i].look), first.organ + i), m_details.organs[i],
+           m_organs[i].positions(), m_burns[i].any() || m_organs[i].dented() || held(interactions::kSolidBase + i));
+  for (std::size_t i = 0; i < m_cuttables.size(); ++i) {
+    DrawItem& drawn =
+        to.add(item(m_cuttables[i].mesh(), look(m_model->cuttables[i].look), first.organ + m_organs.size() + i),
+               m_details.cuttables[i], m_cuttables[i].positions());
+    drawn.material.two_sided = m_cuttables[i].cut();  // what is cut off may lie inside out
+  }
+  for (std::size_t i = 0; i < m_drapes.size(); ++i) {
+    DrawItem drape = item(m_drapes[i].mesh(), *m_drape_look[i], first.cavity);
+    drape.material.two_sided = true;
+    drape.material.tint = look("peritoneum").material.colour;
+    to.add(drape);
+  }
+  for (std::size_t i = 0; i < m_fat.size(); ++i)
+    if (m_fat[i].mesh().id)
+      to.add(item(m_fat[i].mesh(), look("fat"), first.organ + std::size_t(m_fat_on[i])), m_details.fat[i],
+             m_fat[i].buffer().positions);
+}
+
+void BodyDrawing::list_tubes(bool with_walls, const FirstParts& first, const Listing& to) {
+  for (std::size_t i = 0; i < m_tubes.size(); ++i) {
+    const sim::StrandModel& strand = m_model->strands[i];
+    DrawItem& tube = to.add(item(m_tubes[i].mesh(), look(strand.look), first.tube + i), m_details.tubes[i],
+                            m_tubes[i].buffer().positions, m_tubes[i].burnt() || held(i));
+    if (strand.start.kind == sim::StrandEndModel::hosted && !strand.fimbriated)
+      tube.material.tint = look(m_model->organ_look(strand.start.organ)).material.colour;
+  }
+  for (const TubeJoint& j : m_joints) {
+    if (j.organ < 0 && !with_walls) continue;
+    const Look& onto = j.organ < 0 ? look("peritoneum") : look(m_model->solids[std::size_t(j.organ)].look);
+    DrawItem joint = item(j.joint.mesh(), onto, first.tube + j.tube);
+    if (j.organ >= 0) joint.material.tint = look(m_model->strands[j.tube].look).material.colour;
+    to.add(joint);
+  }
+  for (std::size_t i = 0; with_walls && i < m_ridges.size(); ++i)
+    to.add(item(m_ridges[i].mesh(), look("peritoneum"), first.tube + m_ridge_of[i]));
+}
+
+void BodyDrawing::list_folds(const FirstParts& first, const Listing& to) {
+  for (std::size_t i = 0; i < m_sheets.size(); ++i)
+    to.add(item(m_sheets[i].mesh(), look(m_model->sheets[i].look), first.fold + i), m_details.sheets[i],
+           m_sheets[i].buffer().positions);
+  const auto look_of = [&](std::size_t membrane) -> const Look& { return look(m_model->membranes[membrane].look); };
+  for (std::size_t i = 0; i < m_membranes.size(); ++i)
+    to.add(item(m_membranes[i].mesh(), look_of(m_membrane_of[i]), first.membrane + m_membrane_of[i]),
+           m_details.membranes[i], m_membranes[i].buffer().positions,
+           m_membranes[i].burnt() || held(interactions::kMembraneBase + m_membrane_of[i]));
+  for (std::size_t i = 0; i < m_pouches.size(); ++i)
+    to.add(item(m_pouches[i].mesh(), look_of(m_pouch_of[i]), first.membrane + m_pouch_of[i]), m_details.pouches[i],
+           m_pouches[i].buffer().positions, m_pouches[i].burnt() || held(interactions::kMembraneBase + m_pouch_of[i]));
+}
+
+/// A vessel that lies in a fold is as thick as the fold's ripples are high and would be half in, half out of it: it is
+/// drawn a little nearer than it is, in the same place of the picture (shrunk towards the eye).
+void BodyDrawing::lift_vessels_out_of_folds(render::Frame& frame) const {
+  for (const DrawnVessels& v : m_vessels) {
+    if (!v.in_a_fold) continue;
+    Vec3f middle{};
+    const std::vector<Vec3f>& points = v.drawing.buffer().positions;
+    for (const Vec3f& p : points) middle += p / float(points.size());
+    const Vec3f eye = frame.camera.position;
+    const float size = 1 - kVesselBefore / std::max(length(middle - eye), 0.03f);
+    const Mat3f scale = Mat3f::from_columns({size, 0, 0}, {0, size, 0}, {0, 0, size});
+    for (DrawItem& drawn : frame.items)
+      if (drawn.mesh.id == v.drawing.mesh().id) drawn.transform = render::placement(scale, (1 - size) * eye);
+  }
+}
+
+}  // namespace trocar::view

@@ -1,0 +1,109 @@
+// The inside of a person: every organ, tube, fold, vessel and wall of a scene, with what is drawn only (margins, loops
+// of bowel, drapes, ridges, adhesions, fat, omentum). Made once from the Model, moved to a State, listed for a frame.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <trocar/render/openness.hpp>
+#include <trocar/sim/state.hpp>
+#include <trocar/view/adhesions.hpp>
+#include <trocar/view/cuttable_drawing.hpp>
+#include <trocar/view/drape.hpp>
+#include <trocar/view/fat_tags.hpp>
+#include <trocar/view/heat_marks.hpp>
+#include <trocar/view/joint.hpp>
+#include <trocar/view/listing.hpp>
+#include <trocar/view/membrane_drawing.hpp>
+#include <trocar/view/organ_drawing.hpp>
+#include <trocar/view/pouch_drawing.hpp>
+#include <trocar/view/ridge.hpp>
+#include <trocar/view/scene_parts.hpp>
+#include <trocar/view/sheet_drawing.hpp>
+#include <trocar/view/tube_drawing.hpp>
+#include <trocar/view/vessel_drawing.hpp>
+#include <trocar/view/wall_surface.hpp>
+
+namespace trocar::view {
+
+class BodyDrawing {
+ public:
+  BodyDrawing(const sim::Model& model, render::Backend& backend);
+
+  void update(const sim::State& state);
+
+  /// What encloses the scene beyond the model's walls: seen from inside only.
+  void list_surroundings(const FirstParts& first, const Listing& to);
+  void list(bool with_walls, const FirstParts& first, const Listing& to);
+  void list_walls(const FirstParts& first, const Listing& to) const;
+
+  /// Names of the kinds of vessels that there are, as parts.
+  std::vector<std::string> vessel_kinds() const;
+  /// Walls around the model's own, where trocars come through, too.
+  const std::vector<MeshBuffer>& margin_shapes() const { return m_margin_shapes; }
+  /// Of the model's walls: seen from outside only their inner side is drawn.
+  bool is_wall(render::MeshHandle mesh) const;
+  void lift_vessels_out_of_folds(render::Frame& frame) const;
+
+ private:
+  /// Arteries or veins, in folds or elsewhere.
+  struct DrawnVessels {
+    VesselDrawing drawing;
+    bool in_a_fold = false;
+    std::size_t look = 0;  ///< its number among the scene's
+  };
+  /// Where a strand's end grows out of an organ.
+  struct TubeJoint {
+    std::size_t tube = 0;
+    int organ = -1;  ///< -1: a wall
+    Joint joint;
+  };
+
+  void make_tubes(const WallSurface& walls);
+  void make_cuttables(render::Backend& backend);
+  render::OpennessBaker shading() const;
+  void make_organs(const render::OpennessBaker& baker, render::Backend& backend);
+  void make_on_organs(const WallSurface& walls, render::Backend& backend);
+  void make_wall(const sim::WallModel& wall, const render::OpennessBaker& baker, render::Backend& backend);
+  void make_surroundings(const WallSurface& walls, render::Backend& backend);
+  void make_joints(const WallSurface& walls, render::Backend& backend);
+  void make_vessels(render::Backend& backend);
+  void make_membranes(render::Backend& backend);
+  bool held(std::size_t body) const;
+  void list_organs(const FirstParts& first, const Listing& to);
+  void list_tubes(bool with_walls, const FirstParts& first, const Listing& to);
+  void list_folds(const FirstParts& first, const Listing& to);
+
+  const sim::Model* m_model;
+  std::vector<OrganDrawing> m_organs;  ///< solids
+  std::vector<CuttableDrawing> m_cuttables;
+  std::vector<HeatMarks> m_burns, m_cuttable_burns;  ///< (organs)
+  std::vector<FatTags> m_fat;
+  std::vector<int> m_fat_on;  ///< its organ
+  std::vector<Drape> m_drapes;
+  std::vector<const Look*> m_drape_look;
+  std::vector<TubeDrawing> m_tubes;
+  std::vector<TubeJoint> m_joints;
+  std::optional<Adhesions> m_adhesions;
+  std::vector<Ridge> m_ridges;
+  std::vector<std::size_t> m_ridge_of;  ///< their strands
+  std::vector<SheetDrawing> m_sheets;
+  std::vector<MembraneDrawing> m_membranes;
+  std::vector<PouchDrawing> m_pouches;
+  std::vector<std::size_t> m_membrane_of, m_pouch_of;  ///< their numbers in the Model
+  std::vector<DrawnVessels> m_vessels;
+  std::vector<const Look*> m_vessel_look;
+  std::vector<OwnedMesh> m_walls, m_aprons;
+  std::vector<std::size_t> m_apron_on;  ///< walls
+  std::vector<RigidMesh> m_margins;
+  std::vector<MeshBuffer> m_margin_shapes;
+  RigidMesh m_cavity;
+  OwnedMesh m_loops;
+  struct Details {  ///< of what is numbered as above
+    std::vector<Detail> organs, cuttables, fat, tubes, sheets, membranes, pouches, vessels, walls, margins;
+    Detail cavity;
+  } m_details;
+  std::vector<std::int32_t> m_in_jaws;  ///< bodies that are held (interactions::Hold::body)
+};
+
+}  // namespace trocar::view
