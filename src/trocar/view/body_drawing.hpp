@@ -37,6 +37,9 @@ class BodyDrawing {
   void list(bool with_walls, const FirstParts& first, const Listing& to);
   void list_walls(const FirstParts& first, const Listing& to) const;
 
+  /// Blood that runs down from cut organs.
+  void list_ooze(render::Liquid& liquid) const;
+
   /// Names of the kinds of vessels that there are, as parts.
   std::vector<std::string> vessel_kinds() const;
   /// Walls around the model's own, where trocars come through, too.
