@@ -11,7 +11,7 @@ constexpr double kRunning = 0.20;     // share of the rim's vertices from which 
 constexpr float kStep = 0.0011f;      // [m] between two links of a run
 constexpr float kShortest = 0.004f;   // [m]
 constexpr float kWide = 0.42e-3f;     // [m]
-constexpr float kThick = 42e-6f;      // [m] at the rim; it thins out on its way, and swells where it stops
+constexpr float kThick = 36e-6f;      // [m] at the rim; it thins out on its way, and swells where it stops
 constexpr float kMostLeft = 0.0035f;  // [m] beyond the skin's last vertex a run goes straight on
 
 struct Place {
@@ -48,7 +48,7 @@ void list_run(const CutSkin& skin, Place at, int own, render::Liquid& liquid) {
     s.normal = at.normal;
     s.radius = wide * (1.15f - 0.45f * gone) * std::sqrt(stops);
     s.height = kThick * (1 - 0.7f * gone) * stops;
-    s.dark = 0.75f;   // from liver's veins and capillaries
+    s.dark = 1;  // from liver's veins and capillaries
     liquid.splats.push_back(s);
     at = next;
   }

@@ -12,10 +12,10 @@ namespace {
 
 constexpr Paint kFlesh{150, 225, 0, 0};     // laid bare: raw
 constexpr std::uint8_t kDeepOpenness = 75;  // ... at a cut's bottom
-constexpr std::uint8_t kRimBlood = 34;      // on the skin at a cut's rim
-constexpr std::uint8_t kRimPale = 90;       // the capsule's edge: its look's tint
+constexpr std::uint8_t kRimBlood = 90;      // on the skin at a cut's rim
+constexpr std::uint8_t kRimPale = 26;       // the capsule's edge: its look's tint
 constexpr float kStains = 0.004f;           // [m] how far from a cut its blood stains the skin
-constexpr std::uint8_t kStain = 120;
+constexpr std::uint8_t kStain = 150;
 constexpr float kRough = 0.6f;                // slope of the same
 constexpr std::uint8_t kLooseOpenness = 230;  // of pieces that have come off, which do not lie where they were baked
 constexpr std::uint8_t kLoosePale = 190;      // they have bled out

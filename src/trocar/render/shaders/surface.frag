@@ -222,8 +222,8 @@ void main() {
     folds *= 1.0 / 3.0;
     float at = BURN + 0.30 * (patchy.a - 0.5) + 0.24 * (folds.a - 0.5);
     float pale = smoothstep(0.0, 0.36, BURN + 0.10 * (patchy.a - 0.5) * smoothstep(0.0, 0.2, BURN));
-    crust = smoothstep(0.36, 0.64, at);
-    float burnt = smoothstep(0.52, 0.86, at + 0.14 * (grain.g - 0.5));
+    crust = smoothstep(0.36, 0.56, at);
+    float burnt = smoothstep(0.55, 1.10, at + 0.16 * (grain.g - 0.5));
     float crack = crust * (1.0 - smoothstep(0.02, 0.10, abs(patchy.r - 0.5 + 0.10 * (folds.g - 0.5))));
     glassy = crust * smoothstep(0.46, 0.60, grain.b);
     albedo = mix(albedo, vec3(0.66, 0.47, 0.39) * (0.88 + 0.24 * folds.a), 0.8 * pale);
@@ -241,7 +241,7 @@ void main() {
   float ragged = 0.55 * fine.a + 0.45 * broad.g;
   float cover = smoothstep(0.0, 0.24, 1.2 * BLOOD - 0.5 * ragged * (1.0 - BLOOD)) * smoothstep(0.0, 0.03, BLOOD);
   float blood = clamp(cover * (0.16 + 0.84 * BLOOD) * (0.8 + 0.4 * broad.a), 0.0, 1.0);
-  albedo *= exp(-blood * vec3(1.7, 5.2, 4.6));
+  albedo *= exp(-blood * vec3(2.1, 5.4, 4.8));
   float raw = smoothstep(0.5, 0.85, blood);
   albedo = mix(albedo, vec3(0.062, 0.0068, 0.0080) * (0.45 + 1.1 * smoothstep(0.25, 0.75, fine.a)), raw);
   relief += (fine.rgb * 2.0 - 1.0) * (0.35 * raw);
