@@ -222,12 +222,12 @@ void main() {
     folds *= 1.0 / 3.0;
     float at = BURN + 0.30 * (patchy.a - 0.5) + 0.24 * (folds.a - 0.5);
     float pale = smoothstep(0.0, 0.36, BURN + 0.10 * (patchy.a - 0.5) * smoothstep(0.0, 0.2, BURN));
-    crust = smoothstep(0.36, 0.56, at);
+    crust = smoothstep(0.34, 0.60, at);
     float burnt = smoothstep(0.55, 1.10, at + 0.16 * (grain.g - 0.5));
     float crack = crust * (1.0 - smoothstep(0.02, 0.10, abs(patchy.r - 0.5 + 0.10 * (folds.g - 0.5))));
     glassy = crust * smoothstep(0.46, 0.60, grain.b);
     albedo = mix(albedo, vec3(0.66, 0.47, 0.39) * (0.88 + 0.24 * folds.a), 0.8 * pale);
-    vec3 charred = mix(vec3(0.30, 0.135, 0.055), vec3(0.060, 0.023, 0.011), smoothstep(0.0, 0.55, burnt));
+    vec3 charred = mix(vec3(0.24, 0.105, 0.045), vec3(0.060, 0.023, 0.011), smoothstep(0.0, 0.5, burnt));
     charred = mix(charred, vec3(0.0125, 0.0056, 0.0038), smoothstep(0.4, 1.0, burnt));
     albedo = mix(albedo, charred * (0.65 + 0.7 * grain.a), 0.95 * crust);
     albedo *= 1.0 - 0.7 * crack;
