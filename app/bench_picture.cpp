@@ -82,7 +82,7 @@ class Easel {
         m_backend(render::make_gl_backend(*m_context)),
         m_view(model, *m_backend),
         m_target(render::Target::off_screen(size.width, size.height)) {
-    if (model.wet.there) m_backend->prepare_liquids();
+    if (model.wet.there || !model.cuttables.empty()) m_backend->prepare_liquids();
   }
 
   const std::string& driver() const { return m_context->description(); }

@@ -53,7 +53,7 @@ Player::Player(Window& window, const Lesson& lesson, const sim::Recording& recor
       m_line(m_reel.last()),
       m_around(view::orbit_around(lesson.model)),
       m_panes(lesson.model) {
-  if (lesson.model.wet.there) m_backend->prepare_liquids();
+  if (lesson.model.wet.there || !lesson.model.cuttables.empty()) m_backend->prepare_liquids();
 }
 
 void Player::run() {

@@ -55,7 +55,8 @@ view::SceneView& Stage::view_of(const Lesson& lesson) {
   if (m_viewed != &lesson) {
     m_view.reset();
     m_view = std::make_unique<view::SceneView>(lesson.model, *backend);
-    if (lesson.model.wet.there) backend->prepare_liquids();  // not when the first drop falls
+    if (lesson.model.wet.there || !lesson.model.cuttables.empty())
+      backend->prepare_liquids();  // not when the first drop falls
     m_viewed = &lesson;
   }
   return *m_view;

@@ -94,6 +94,7 @@ void GlBackend::set_liquid(const Frame& frame, GlProgram& program) {
   program.set("u_right", turn.column(0));
   program.set("u_up", turn.column(1));
   program.set("u_back", turn.column(2));
+  program.set("u_down", frame.liquid.down);
   const Vec3f eye = frame.camera.position;
   program.set("u_eye", eye.x, eye.y, eye.z, 1e-3f * float(frame.tick % 1000000));
 }
@@ -117,6 +118,7 @@ void GlBackend::sheet_pass(const Frame& frame, const Layout&) {
   program.use();
   set_liquid(frame, program);
   program.set("u_view", m_view);
+  program.set("u_before", kUnitSmall);
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
@@ -181,11 +183,12 @@ void GlBackend::pack_splats(const Frame& frame, int field_height) {
     const Vec3f n = flies ? Vec3f{} : transform_direction(m_view, s.normal);
     // Liquid on a surface that turns away from the eye is behind it.
     if (!flies && !s.sheer && dot(n, a) > 0) continue;
-    const float thin = flies ? s.radius / radius : 1.0f;
-    // An outline wanders by a millimetre at most (wet.frag).
+    const float thin = s.kind == SplatKind::lying ? 1.0f : s.radius / radius;
+    // An outline wanders by a millimetre at most, a film has its skirt (splat.vert).
+    const float reach = kSplatReach * radius + (s.kind == SplatKind::film ? 0.0018f : 0.001f);
     Bounds2 own;
-    own.add(a, kSplatReach * radius + 0.001f, m_projection);
-    own.add(b, kSplatReach * radius + 0.001f, m_projection);
+    own.add(a, reach, m_projection);
+    own.add(b, reach, m_projection);
     bounds.add(own);
     mark_tiles(own.pixels(m_scene.width, m_scene.height));
     const float row[kSplatFloats] = {a.x, a.y, a.z, radius,     b.x,        b.y,        b.z,        s.height * thin,

@@ -38,7 +38,7 @@ enum class SplatKind : std::uint8_t {
   flying,  ///< round, in the air
   lying,   ///< a cap on a surface
   film,    ///< a stain: no body of its own
-  streak   ///< in the air, smeared by its speed: thin at both ends
+  streak   ///< in the air, smeared by its speed: thin at both ends, only an amount, as a film is
 };
 
 inline constexpr float kSplatReach = 1.7f;  ///< how far a splat's field goes, in radii: as in splat.vert
@@ -47,8 +47,9 @@ inline constexpr float kSplatReach = 1.7f;  ///< how far a splat's field goes, i
 struct Splat {
   Vec3f from, to;         ///< [m] world; equal for a ball or a round cap
   float radius = 0.001f;  ///< to its outline [m]
-  float height = 0.001f;  ///< of its middle above its plane; flying: half of its thickness; film: its thickness [m]
-  Vec3f normal;           ///< unit, of the surface below it; flying: not used
+  float height =
+      0.001f;    ///< of its middle above its plane; flying: half of its thickness; film, streak: its thickness [m]
+  Vec3f normal;  ///< unit, of the surface below it; flying: not used
   std::array<float, kLiquidKinds> share{1, 0, 0};
   float dark = 0;  ///< 0 fresh .. 1 clotted
   SplatKind kind = SplatKind::flying;
@@ -71,6 +72,7 @@ struct Liquid {
   std::vector<Splat> splats;
   std::vector<SheetVertex> sheet;
   std::vector<std::uint32_t> triangles;  ///< of the sheet, counter-clockwise seen from above
+  Vec3f down{0, 0, -1};                  ///< unit: films run that way
   std::uint16_t part = 0;                ///< as DrawItem::part
 
   bool empty() const { return splats.empty() && triangles.empty(); }
@@ -83,7 +85,7 @@ struct SmokeVolume {
   int nx = 0, ny = 0, nz = 0;
   std::vector<float> density;              ///< (nx ny nz) [g/m^3]; empty = no smoke
   float kappa = 0.7f;                      ///< extinction [m^2/g]
-  Vec3f colour{0.578f, 0.610f, 0.644f};    ///< linear
+  Vec3f colour{0.625f, 0.585f, 0.575f};    ///< linear; red walls light it, too
   Vec3f near_colour{0.62f, 0.47f, 0.37f};  ///< of what the lamp lights from close by
   float rise = 0.05f;                      ///< how fast its curls go up [m/s]
   Vec3f up{0, 0, 1};

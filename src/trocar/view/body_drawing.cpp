@@ -235,6 +235,11 @@ void BodyDrawing::make_membranes(render::Backend& backend) {
   }
 }
 
+void BodyDrawing::list_ooze(render::Liquid& liquid) const {
+  for (const CuttableDrawing& c : m_cuttables)
+    if (c.cut()) c.list_ooze(liquid);
+}
+
 std::vector<std::string> BodyDrawing::vessel_kinds() const {
   std::vector<std::string> names;
   for (const Look* l : m_vessel_look) names.emplace_back(l == &look("vein") ? "veins" : "arteries");

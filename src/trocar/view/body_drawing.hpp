@@ -39,6 +39,9 @@ class BodyDrawing {
   void list(bool with_walls, const FirstParts& first, const Listing& to);
   void list_walls(const FirstParts& first, const Listing& to) const;
 
+  /// Blood that runs down from cut organs.
+  void list_ooze(render::Liquid& liquid) const;
+
   /// Names of the kinds of vessels that there are, as parts.
   std::vector<std::string> vessel_kinds() const;
   /// What goes on from the model's walls: trocars come through it, too.

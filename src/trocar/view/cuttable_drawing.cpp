@@ -3,23 +3,25 @@
 #include <numeric>
 
 #include <trocar/render/mesh_arrays.hpp>
+#include <trocar/view/cut_ooze.hpp>
 #include <trocar/view/cuttable_drawing.hpp>
 #include <trocar/view/organ_drawing.hpp>
 
 namespace trocar::view {
 namespace {
 
-constexpr Paint kFlesh{125, 70, 0, 0};      // laid bare
-constexpr std::uint8_t kDeepOpenness = 60;  // ... at a cut's bottom
-constexpr std::uint8_t kRimBlood = 34;      // on the skin at a cut's rim
-constexpr std::uint8_t kRimPale = 140;      // the capsule's edge: its look's tint
-constexpr float kOozes = 0.008f;            // [m] how far blood runs down from a cut
-constexpr std::uint8_t kOozing = 84;
+constexpr Paint kFlesh{150, 225, 0, 0};     // laid bare: raw
+constexpr std::uint8_t kDeepOpenness = 75;  // ... at a cut's bottom
+constexpr std::uint8_t kRimBlood = 90;      // on the skin at a cut's rim
+constexpr std::uint8_t kRimPale = 26;       // the capsule's edge: its look's tint
+constexpr float kStains = 0.004f;           // [m] how far from a cut its blood stains the skin
+constexpr std::uint8_t kStain = 150;
 constexpr float kRough = 0.6f;                // slope of the same
 constexpr std::uint8_t kLooseOpenness = 230;  // of pieces that have come off, which do not lie where they were baked
 constexpr std::uint8_t kLoosePale = 190;      // they have bled out
 constexpr float kGrain = 0.0005f;             // [m] torn lobules of what is bare
 constexpr float kGape = 0.0019f;              // [m] how far either side of a cut draws back
+constexpr float kFrayed = 0.0011f;            // [m] how far a rim strays from the straight line of its cells
 constexpr int kDrawnAlong = 3;                // rings of nodes that go with it
 
 /// Nodes at which the inside is bare: the skin ends there, so it has no relief that would leave a gap.
@@ -66,16 +68,12 @@ float at_rim(const tissue::FaceSkin& skin, const std::vector<std::uint8_t>& rim,
   return sum;
 }
 
-/// How much blood lies on the skin at `p` that has run down from what is cut, 0 to 1: in runs, the less the farther.
-float oozing(Vec3f p, std::span<const Vec3f> rim) {
+/// How much blood stains the skin at `p`, 0 to 1: around what is cut, here more, there less.
+float stained(Vec3f p, std::span<const Vec3f> rim) {
   double nearest = 1;
-  for (const Vec3f& r : rim) {
-    const Vec3f off = p - r;
-    const double aside = double(std::hypot(off.x, off.y)), below = double(-off.z);
-    nearest = std::min(nearest, std::hypot(1.5 * aside, below > 0 ? 0.6 * below : 2.5 * below));
-  }
-  const double runs = waves({double(p.x), double(p.y), 0.15 * double(p.z)}, 0.006);
-  return float(smooth(double(kOozes), 0.0, nearest + 0.004 * runs));
+  for (const Vec3f& r : rim) nearest = std::min(nearest, double(length(p - r)));
+  const double uneven = 0.5 + 0.8 * waves(vec_cast<double>(p), 0.007);
+  return float(smooth(double(kStains), 0.0, nearest) * std::clamp(uneven, 0.0, 1.0));
 }
 
 }  // namespace
@@ -180,6 +178,16 @@ void CuttableDrawing::gape() {
       m_pose.position[i] += m_skin.between[i][k] * m_gape[std::size_t(m_skin.corners[i][k])];
 }
 
+/// No tissue parts in straight lines. Skin and flesh that meet at a rim have one rest place, so they go together.
+void CuttableDrawing::fray() {
+  for (std::size_t i = 0; i < m_pose.position.size() && !m_bare.empty(); ++i) {
+    if (!m_at_rim[i]) continue;
+    const Vec3d p = vec_cast<double>(m_skin.skin.rest[i]);
+    const Vec3d off{waves(p, 0.0051), waves(p + Vec3d{0.2, 0.5, 0.1}, 0.0047), waves(p + Vec3d{0.6, 0.3, 0.4}, 0.0043)};
+    m_pose.position[i] += kFrayed * vec_cast<float>(off);
+  }
+}
+
 void CuttableDrawing::paint_skin() {
   const std::size_t n = m_skin.skin.rest.size();
   m_paint.assign(n, Paint{});
@@ -187,9 +195,9 @@ void CuttableDrawing::paint_skin() {
   m_height.clear();
   if (m_relief.any()) m_height = heights(m_relief, m_skin.skin, m_paint);
   const std::vector<std::uint8_t> rim = rim_nodes(m_skin, m_open.size()), own = skin_nodes(m_skin, m_open.size());
+  find_rim(rim);
   std::vector<Vec3f> wound;
-  for (std::size_t i = 0; i < n; ++i)
-    if (!m_skin.bare[i] && at_rim(m_skin, rim, i) > 0.999f) wound.push_back(m_skin.skin.rest[i]);
+  for (const std::uint32_t i : m_rim) wound.push_back(m_skin.skin.rest[i]);
   for (std::size_t i = 0; i < n; ++i) {
     const float edge = at_rim(m_skin, rim, i);
     const bool loose = m_loose[std::size_t(m_skin.corners[i][0])] != 0;
@@ -210,15 +218,33 @@ void CuttableDrawing::paint_skin() {
     m_paint[i].openness = loose ? kLooseOpenness : std::uint8_t(open + 0.5f);
     if (loose) m_paint[i].tint = kLoosePale;
     if (wound.empty() || loose) continue;
-    const float blood = std::max(float(kRimBlood) * edge, float(kOozing) * oozing(m_skin.skin.rest[i], wound));
+    const float blood = std::max(float(kRimBlood) * edge, float(kStain) * stained(m_skin.skin.rest[i], wound));
     m_paint[i].blood = std::uint8_t(blood);
     if (edge > 0.999f) m_paint[i].tint = std::max(m_paint[i].tint, kRimPale);
   }
 }
 
+void CuttableDrawing::find_rim(const std::vector<std::uint8_t>& rim_nodes) {
+  m_rim.clear(), m_around.clear();
+  const std::vector<Vec3f>& rest = m_skin.skin.rest;
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    const bool loose = m_loose[std::size_t(m_skin.corners[i][0])] != 0;
+    if (!m_skin.bare[i] && !loose && at_rim(m_skin, rim_nodes, i) > 0.999f) m_rim.push_back(std::uint32_t(i));
+  }
+  for (std::size_t i = 0; i < rest.size() && !m_rim.empty(); ++i) {
+    const auto near = [&](std::uint32_t r) { return length(rest[i] - rest[r]) < kOozeReach; };
+    if (!m_skin.bare[i] && std::any_of(m_rim.begin(), m_rim.end(), near)) m_around.push_back(std::uint32_t(i));
+  }
+}
+
+void CuttableDrawing::list_ooze(render::Liquid& liquid) const {
+  view::list_ooze({m_pose.position, m_normals, m_rim, m_around}, liquid);
+}
+
 void CuttableDrawing::place(const tissue::CuttableState& state, std::span<const collision::Capsule> rods) {
   tissue::pose_skin(view_of(m_organ->body, state), m_skin.skin, m_pose);
   gape();
+  fray();
   m_normals.resize(m_pose.position.size());
   render::vertex_normals(m_pose.position, m_indices, m_normals);
   if (!m_height.empty()) {

@@ -4,6 +4,7 @@
 // one would see no wound (drawn only).
 #pragma once
 
+#include <trocar/render/liquid.hpp>
 #include <trocar/render/openness.hpp>
 #include <trocar/sim/model.hpp>
 #include <trocar/tissue/face_skin.hpp>
@@ -27,6 +28,8 @@ class CuttableDrawing {
   void burn(const sim::State& state, HeatMarks& marks);
   render::MeshHandle mesh() const { return m_mesh.handle(); }
   bool cut() const { return !m_bare.empty(); }
+  /// Blood that runs down from cuts; after update().
+  void list_ooze(render::Liquid& liquid) const;
   /// As drawn now.
   std::span<const Vec3f> positions() const { return m_pose.position; }
   std::span<const std::uint32_t> indices() const { return m_indices; }
@@ -34,8 +37,10 @@ class CuttableDrawing {
  private:
   void make_skin(const tissue::CuttableState& state);
   void paint_skin();
+  void find_rim(const std::vector<std::uint8_t>& rim_nodes);
   void find_cut();
   void gape();
+  void fray();
   void roughen();
   void place(const tissue::CuttableState& state, std::span<const collision::Capsule> rods);
 
@@ -50,6 +55,7 @@ class CuttableDrawing {
   std::vector<float> m_height;         ///< relief
   std::vector<std::uint8_t> m_at_rim;  ///< (vertices) 1: between nodes where the inside is bare
   std::vector<std::uint32_t> m_indices;
+  std::vector<std::uint32_t> m_rim, m_around;  ///< vertices of the skin along a cut, and as far as blood runs from it
   /// What gapes: vertices of the bare triangles, nodes around them and their neighbours along the skin.
   std::vector<std::array<std::uint32_t, 3>> m_bare;
   std::vector<std::array<int, 2>> m_beside;

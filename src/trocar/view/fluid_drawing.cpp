@@ -4,6 +4,7 @@
 #include <trocar/view/fluid_drawing.hpp>
 #include <trocar/view/mesh_buffer.hpp>
 #include <trocar/view/relief.hpp>
+#include <trocar/view/wound.hpp>
 
 namespace trocar::view {
 namespace {
@@ -14,19 +15,22 @@ using render::SplatKind;
 
 // Our choice, all of them: from the look of spurts and rivulets in endoscopic films.
 constexpr float kCellsScatter = 1.6e3f;  // [1/m] red cells, forward scattering left out: blood is no red glass
-constexpr float kBloodOrange = 7e3f;    // [1/m] mean of whole blood at 585 to 600 nm, tabulated [Prahl 1999], as Optics
-constexpr float kShutter = 0.005f;      // [s] a camera's: what flies is a streak
-constexpr float kWhole = 0.012f;        // [m] from its hole: so far a jet of blood is whole
-constexpr float kSpray = 0.055f;        // [m] ... and from here on spray
-constexpr float kWag = 0.035f;          // how far a jet's drops stray aside, a share of their way
-constexpr int kShards = 5;              // what a drop of spray is drawn as
-constexpr float kFreshJet = 0.006f;     // [m] blood that has come less far shows where its hole is
-constexpr float kHoleStain = 0.0016f;   // [m] of the blood around a hole
-constexpr float kLongestLink = 9.0f;    // in radii: a jet's drops hang together up to here
-constexpr float kThinnestLink = 0.30f;  // in radii: ... and until the thread between them is so thin
-constexpr float kCapSpread = 2.0f;      // radius of a cap over that of its ball
-constexpr float kLongestTail = 4.0f;    // of a running drop, in radii
-constexpr float kTailSpeed = 0.05f;     // [m/s] at which the tail is half of it
+constexpr float kBloodOrange = 7e3f;  // [1/m] mean of whole blood at 585 to 600 nm, tabulated [Prahl 1999], as Optics
+constexpr float kShutter = 0.005f;    // [s] a camera's: what flies is a streak
+constexpr float kWhole = 0.014f;      // [m] from its hole: so far a jet of blood is whole
+constexpr float kSpray = 0.036f;      // [m] ... and from here on spray
+constexpr float kWag = 0.035f;        // how far a jet's drops stray aside, a share of their way
+constexpr int kShards = 5;            // what a drop of spray is drawn as
+constexpr float kFreshJet = 0.006f;   // [m] blood that has come less far shows where its hole is
+constexpr float kThinStreak = 0.08e-3f, kWideStreak = 0.19e-3f;  // [m] half of what a shard's streak is wide
+constexpr float kDensestStreak = 28e-6f;                         // [m]
+constexpr float kStreakDense = 0.35f;     // its amount, of what it would be at rest: a shutter smears light, not blood
+constexpr float kBleedsAsFilm = 0.3f;     // share of blood from which a drop on tissue is film at once
+constexpr float kLongestLink = 9.0f;      // in radii: a jet's drops hang together up to here
+constexpr float kThinnestLink = 0.30f;    // in radii: ... and until the thread between them is so thin
+constexpr float kCapSpread = 2.0f;        // radius of a cap over that of its ball
+constexpr float kLongestTail = 4.0f;      // of a running drop, in radii
+constexpr float kTailSpeed = 0.05f;       // [m/s] at which the tail is half of it
 constexpr float kRunThickness = 20e-6f;   // [m] of what a running drop leaves; where there is less it covers less
 constexpr float kWidestRun = 0.0032f;     // [m] ... and how wide: what lies beyond is drawn out downhill
 constexpr float kThinnestRun = 0.0008f;   // [m] ... and how narrow
@@ -71,37 +75,39 @@ Vec3f speed(const fluids::DropletState& d, std::int32_t i) {
 
 bool finite(Vec3f v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-/// A ball of this radius drawn out along `half` either way keeps its volume as a rod with round ends.
-float drawn_out(float radius, float half) {
-  const float ball = radius * radius * radius * 4 / 3;
-  float r = radius;
-  for (int k = 0; k < 4; ++k) r = std::sqrt(ball / (2 * half + 4 * r / 3));
-  return r;
-}
-
 /// How broken up a jet is after so long a way, 0 to 1.
 float broken_up(float way) { return float(smooth(double(kWhole), double(kSpray), double(way))); }
 
+/// Of a stain whose blobs add up to `volume` [m^3]: a splat's film is its height times (1 - r^2)^2, r in reaches
+/// (splat.frag), which makes pi/3 of a round end's area and 16/15 of a reach of the rest's.
+float film_height(float volume, float radius, float tail) {
+  const float reach = render::kSplatReach * radius;
+  return volume / (1.0472f * reach * reach + 1.0667f * reach * tail);
+}
+
 /// A drop in flight, smeared over the time the shutter is open.
 Splat streak(Vec3f p, Vec3f v, float radius, const std::array<float, 3>& share) {
-  const float half = 0.5f * kShutter * length(v);
   Splat s;
   s.kind = SplatKind::streak;
   const Vec3f way = 0.5f * kShutter * v;
   s.from = p - way, s.to = p + way;
-  s.radius = std::max(1.25f * drawn_out(radius, half), 0.45f * radius);
-  s.height = s.radius;
+  s.radius = std::clamp(0.4f * radius, kThinStreak, kWideStreak);
+  s.height = std::min(kStreakDense * film_height(4.18879f * radius * radius * radius, s.radius, 2 * length(way)),
+                      kDensestStreak);
   s.share = share;
   return s;
 }
 
 /// How far a jet's blood has come since it left its vessel [m]; 0 of other fluids, which do not know it and hang
 /// together better.
-float come(const fluids::DropletState& d, std::int32_t i, float now) {
+float come(const fluids::DropletModel& m, const fluids::DropletState& d, std::int32_t i) {
   const auto k = std::size_t(i);
   const fluids::SmallMix& mix = d.volume[k];
   if (!(2 * std::int64_t(mix.blood) > mix.total())) return 0;
-  return std::max(now - d.blood[k].born, 0.0f) * length(speed(d, i));
+  const float age = std::max(now_of(m, d) - d.blood[k].born, 0.0f);
+  // What goes up stops at the top of its way: what counts is how fast it was, too.
+  const Vec3f first = speed(d, i) - age * vec_cast<float>(m.gravity);
+  return 0.5f * age * (length(speed(d, i)) + length(first));
 }
 
 /// -1 .. 1, a drop's own.
@@ -120,15 +126,8 @@ Vec3f aside(Vec3f v, std::uint32_t id, float way) {
 }
 
 /// Where a flying drop is drawn.
-Vec3f drawn_at(const fluids::DropletState& d, std::int32_t i, float now) {
-  return at(d, i) + aside(speed(d, i), d.id[std::size_t(i)], come(d, i, now));
-}
-
-/// Of a stain whose blobs add up to `volume` [m^3]: a splat's film is its height times (1 - r^2)^2, r in reaches
-/// (splat.frag), which makes pi/3 of a round end's area and 16/15 of a reach of the rest's.
-float film_height(float volume, float radius, float tail) {
-  const float reach = render::kSplatReach * radius;
-  return volume / (1.0472f * reach * reach + 1.0667f * reach * tail);
+Vec3f drawn_at(const fluids::DropletModel& m, const fluids::DropletState& d, std::int32_t i) {
+  return at(d, i) + aside(speed(d, i), d.id[std::size_t(i)], come(m, d, i));
 }
 
 /// Rivulets do not run straight: how far aside of the steepest way one is at `p` [m].
@@ -198,12 +197,13 @@ FluidDrawing::FluidDrawing(const fluids::FluidsModel& model, const fluids::Optic
 void FluidDrawing::list(const FluidSight& sight, render::Frame& frame) {
   Liquid& liquid = frame.liquid;
   liquid.look = m_look;
+  liquid.down = normalised(vec_cast<float>(m_model->droplets.gravity), Vec3f{0, 0, -1});
   m_eye = frame.camera.position;
   list_pool(sight, liquid);
   list_runs(sight, liquid);
   list_films(sight, liquid);
   list_lying(sight.state.droplets, sight.sheer_bodies, liquid);
-  list_flying(sight.state.droplets, liquid);
+  list_flying(sight, liquid);
 }
 
 /// The drop that left the same opening just before or after it and still hangs together with it, or the end.
@@ -226,16 +226,17 @@ std::size_t FluidDrawing::next_in_strand(const fluids::DropletState& d, std::siz
 /// A strand between two drops, of their volume; drops keep what the strand is too thin for.
 bool FluidDrawing::link(const fluids::DropletState& d, std::int32_t i, std::int32_t j, Liquid& liquid) const {
   const float r = d.radius[std::size_t(i)], other = d.radius[std::size_t(j)], size = std::max(r, other);
-  const float now = now_of(m_model->droplets, d), way = come(d, i, now), broken = broken_up(way);
+  const float now = now_of(m_model->droplets, d), way = come(m_model->droplets, d, i), broken = broken_up(way);
   const std::uint32_t id = d.id[std::size_t(i)];
   if (float(varied(int(id & 0xffffff), 21)) < broken) return false;
   const float far = length(at(d, j) - at(d, i));
   float thin = std::min(std::sqrt(2.0f / 3 * (r * r * r + other * other * other) / far), 0.95f * size);
   if (thin < kThinnestLink * size) return false;
-  // It swells and narrows on its way before it breaks [Rayleigh 1878].
-  thin *= 1 - std::min(way / kWhole, 1.0f) * (0.25f - 0.25f * own(id, 22));
+  // It swells and narrows on its way before it breaks [Rayleigh 1878], and each beat of the heart sends a thicker part.
+  const float swell = 0.5f * std::sin(0.9f * float(id % 4096)) + 0.5f * std::sin(0.37f * float(id % 4096) + 1);
+  thin *= 0.85f - std::min(way / kWhole, 1.0f) * (0.22f - 0.14f * own(id, 22) - 0.20f * swell);
   Splat s;
-  s.from = drawn_at(d, i, now), s.to = drawn_at(d, j, now);
+  s.from = drawn_at(m_model->droplets, d, i), s.to = drawn_at(m_model->droplets, d, j);
   s.radius = thin;
   s.height = thin;
   s.share = shares_of(d.volume[std::size_t(i)]);
@@ -245,9 +246,9 @@ bool FluidDrawing::link(const fluids::DropletState& d, std::int32_t i, std::int3
 }
 
 /// Drops that left an opening one after the other hang together as a strand until it has run too thin.
-void FluidDrawing::list_flying(const fluids::DropletState& d, Liquid& liquid) {
+void FluidDrawing::list_flying(const FluidSight& sight, Liquid& liquid) {
+  const fluids::DropletState& d = sight.state.droplets;
   m_flying.clear();
-  const float now = now_of(m_model->droplets, d);
   for (std::int32_t i = 0; i < d.count; ++i) {
     const auto k = std::size_t(i);
     if (d.body[k] >= 0 || !(d.radius[k] > 0) || !finite(at(d, i)) || !finite(speed(d, i))) continue;
@@ -260,61 +261,56 @@ void FluidDrawing::list_flying(const fluids::DropletState& d, Liquid& liquid) {
     m_flying[n].in_strand = m_flying[m].in_strand = true;
   }
   for (const Flying& drop : m_flying) {
-    const float way = come(d, drop.at, now);
+    const float way = come(m_model->droplets, d, drop.at);
     if (drop.in_strand && broken_up(way) < 0.2f) continue;
     list_spray(d, drop, liquid);
   }
-  list_holes(d, liquid);
+  list_holes(sight, liquid);
 }
 
 /// A drop that is on its own: whole near its hole, shards of it farther off.
 void FluidDrawing::list_spray(const fluids::DropletState& d, const Flying& drop, Liquid& liquid) const {
   const auto k = std::size_t(drop.at);
-  const float now = now_of(m_model->droplets, d), way = come(d, drop.at, now), r = d.radius[k];
-  const Vec3f v = speed(d, drop.at), place = drawn_at(d, drop.at, now);
+  const float now = now_of(m_model->droplets, d), way = come(m_model->droplets, d, drop.at), r = d.radius[k];
+  const Vec3f v = speed(d, drop.at), place = drawn_at(m_model->droplets, d, drop.at);
   const std::array<float, 3> share = shares_of(d.volume[k]);
   const float dark = darkness(now, d.blood[k], share), apart = broken_up(way);
   const int shards = apart > 0 ? kShards : 1;
   for (int n = drop.in_strand ? 1 : 0; n < shards; ++n) {
     const auto u = [&](int which) { return own(d.id[k], 31 + 4 * n + which); };
     // The first keeps half of it, the others are small and all over the place.
-    const float size = shards == 1 ? r : r * (n == 0 ? 0.85f - 0.3f * apart : 0.2f + 0.25f * std::fabs(u(0)));
-    const float off = n == 0 ? 0.0f : apart * (0.002f + 0.03f * way);
+    const float size = shards == 1 ? r : r * (n == 0 ? 0.8f - 0.4f * apart : 0.14f + 0.28f * std::fabs(u(0)));
+    const float off = n == 0 ? 0.0f : apart * (0.002f + 0.05f * way);
     const Vec3f to_side = aside(v, d.id[k] * 7u + std::uint32_t(n), 1.0f) * (off / kWag);
-    const Vec3f ahead = (apart * 4 * r * u(1) * (n == 0 ? 0.0f : 1.0f)) * normalised(v, Vec3f{0, 0, 1});
-    Splat s = streak(place + to_side + ahead, (1 - 0.5f * std::fabs(u(2)) * apart) * v, size, share);
-    s.radius *= 1 - 0.25f * apart;
-    s.height *= 1 - 0.5f * apart;  // blurred by its speed, so not as dense as at rest
+    const Vec3f ahead = (apart * 9 * r * u(1) * (n == 0 ? 0.0f : 1.0f)) * normalised(v, Vec3f{0, 0, 1});
+    // No two fly alike: some are overtaken, some stray.
+    const float slower = 1 - apart * (n == 0 ? 0.35f : 0.75f) * std::fabs(u(2));
+    const Vec3f strays = aside(v, d.id[k] * 13u + std::uint32_t(n), 1.0f) * (0.25f * apart * length(v) / kWag);
+    Splat s = streak(place + to_side + ahead, slower * v + strays, size, share);
     s.dark = dark;
     liquid.splats.push_back(s);
   }
 }
 
-/// A hole is where the youngest blood of a jet comes from: tissue is red around it, and a trickle runs down from it.
-void FluidDrawing::list_holes(const fluids::DropletState& d, Liquid& liquid) const {
+/// A hole is where the youngest blood of a jet comes from.
+void FluidDrawing::list_holes(const FluidSight& sight, Liquid& liquid) const {
+  const fluids::DropletState& d = sight.state.droplets;
   const float now = now_of(m_model->droplets, d);
-  const Vec3f down = normalised(vec_cast<float>(m_model->droplets.gravity), Vec3f{0, 0, -1});
   std::vector<Vec3f> known;
   for (const Flying& drop : m_flying) {
     const auto k = std::size_t(drop.at);
-    const float way = come(d, drop.at, now);
+    const float way = come(m_model->droplets, d, drop.at);
     if (!drop.in_strand || way > kFreshJet || !(way > 0)) continue;
     const Vec3f hole = at(d, drop.at) - way * normalised(speed(d, drop.at), Vec3f{0, 0, 1});
     const auto near = [hole](Vec3f other) { return length(other - hole) < 0.004f; };
     if (std::any_of(known.begin(), known.end(), near)) continue;
     known.push_back(hole);
-    Splat s;
-    s.kind = SplatKind::film;
-    s.normal = normalised(m_eye - hole, Vec3f{0, 0, 1});
-    s.share = shares_of(d.volume[k]);
-    s.dark = darkness(now, d.blood[k], s.share);
-    for (int n = 0; n < 5; ++n) {
-      const Vec3f off = (0.0011f * float(n)) * down + aside(down, std::uint32_t(n + 3), n > 0 ? 0.02f : 0.0f);
-      s.from = s.to = hole + off;
-      s.radius = kHoleStain * (1 - 0.12f * float(n));
-      s.height = 90e-6f * (1 - 0.15f * float(n));
-      liquid.splats.push_back(s);
-    }
+    const FilmPlace facing{hole, normalised(m_eye - hole, Vec3f{0, 0, 1})};
+    Wound wound;
+    wound.down = liquid.down;
+    wound.share = shares_of(d.volume[k]);
+    wound.dark = darkness(now, d.blood[k], wound.share);
+    list_wound(wound, sight.surface ? sight.surface(facing) : facing, sight.surface, liquid);
   }
 }
 
@@ -327,6 +323,12 @@ void FluidDrawing::list_lying(const fluids::DropletState& d, std::span<const std
     Vec3f v = speed(d, i) - d.ground[k].velocity;
     v -= dot(v, normal) * normal;
     const float fast = length(v), r = d.radius[k];
+    const std::array<float, 3> share = shares_of(d.volume[k]);
+    const bool sheer_below = std::size_t(d.body[k]) < sheer.size() && sheer[std::size_t(d.body[k])] != 0;
+    if (share[0] > kBleedsAsFilm) {
+      list_splash(d, i, sheer_below, liquid);
+      continue;
+    }
     // No two drops are alike: some lie flat, some stand.
     const float own = 0.8f + 0.4f * float(varied(int(d.id[k] & 0xffff), 3));
     const float spread = kCapSpread * own;
@@ -340,9 +342,45 @@ void FluidDrawing::list_lying(const fluids::DropletState& d, std::span<const std
     const float ball = 4.18879f * r * r * r;
     s.radius = spread * r * (1 - 0.25f * tail / (tail + 2 * r));
     s.height = ball / (1.5708f * s.radius * s.radius + 1.3333f * s.radius * tail);
+    s.share = share;
+    s.dark = darkness(now_of(m_model->droplets, d), d.blood[k], s.share);
+    s.sheer = sheer_below;
+    liquid.splats.push_back(s);
+  }
+}
+
+/// Blood that lies on tissue is a film at once: most of it where the drop is now, the rest in a tail that thins out up
+/// the way it came.
+void FluidDrawing::list_splash(const fluids::DropletState& d, std::int32_t i, bool sheer, Liquid& liquid) const {
+  const auto k = std::size_t(i);
+  const Vec3f normal = normalised(d.ground[k].normal, Vec3f{0, 0, 1});
+  const Vec3f here = at(d, i) - (dot(normal, at(d, i)) - d.ground[k].offset) * normal;
+  const Vec3f fall = liquid.down - dot(liquid.down, normal) * normal;
+  const float steep = length(fall), r = d.radius[k], volume = 4.18879f * r * r * r;
+  const Vec3f along = steep > 1e-3f ? (1 / steep) * fall : Vec3f{}, across = cross(normal, along);
+  const auto u = [&](int which) { return own(d.id[k], 50 + which); };
+  struct Piece {
+    float part, wide, up, length;  ///< of the volume; in radii
+  };
+  const float drawn = steep * (1 + 0.5f * u(0));
+  const std::array<Piece, 3> pieces{{{0.62f, 1.25f + 0.3f * u(1), 0, 0.6f + 1.6f * drawn},
+                                     {0.25f, 0.75f + 0.2f * u(2), 2.2f * drawn, 3.0f * drawn},
+                                     {0.13f, 0.50f + 0.15f * u(3), 5.0f * drawn, 4.0f * drawn}}};
+  for (int n = 0; n < 3; ++n) {
+    const Piece& p = pieces[std::size_t(n)];
+    // Where it is level it is no streak, but a few patches that run into one another.
+    const Vec3f level = (1 - steep) * 1.3f * r *
+                        (u(10 + n) * any_perpendicular(normal) + u(20 + n) * cross(normal, any_perpendicular(normal)));
+    const Vec3f middle = here - (p.up * r) * along + (0.35f * r * float(n) * u(4 + n)) * across + level;
+    Splat s;
+    s.kind = SplatKind::film;
+    s.normal = normal;
+    s.from = middle - (0.5f * p.length * r) * along, s.to = middle + (0.5f * p.length * r) * along;
+    s.radius = p.wide * r;
+    s.height = film_height(p.part * volume, s.radius, p.length * r);
     s.share = shares_of(d.volume[k]);
     s.dark = darkness(now_of(m_model->droplets, d), d.blood[k], s.share);
-    s.sheer = std::size_t(d.body[k]) < sheer.size() && sheer[std::size_t(d.body[k])] != 0;
+    s.sheer = sheer;
     liquid.splats.push_back(s);
   }
 }

@@ -16,21 +16,16 @@
 #include <trocar/fluids/fluids.hpp>
 #include <trocar/fluids/optics.hpp>
 #include <trocar/render/frame.hpp>
+#include <trocar/view/wound.hpp>
 
 namespace trocar::view {
-
-/// Where a place of film is now.
-struct FilmPlace {
-  Vec3f position, normal{0, 0, 1};  ///< normal: unit
-  float area = 4e-6f;               ///< [m^2]
-  bool sheer = false;               ///< it lies on something that is drawn translucent
-};
 
 struct FluidSight {
   const fluids::FluidsState& state;
   std::span<const float> floor = {};                ///< as PoolInput
   std::span<const FilmPlace> places = {};           ///< (film cells), or fewer: the rest is not drawn
   std::span<const std::uint8_t> sheer_bodies = {};  ///< by number of body: 1 where it is drawn translucent
+  SurfaceNear surface = {};                         ///< for what runs down from a wound; may be empty
 };
 
 /// How blood, saline and bile look, in this order of the renderer's kinds.
@@ -51,10 +46,11 @@ class FluidDrawing {
   };
   std::size_t next_in_strand(const fluids::DropletState& drops, std::size_t n) const;
   bool link(const fluids::DropletState& drops, std::int32_t i, std::int32_t j, render::Liquid& liquid) const;
-  void list_flying(const fluids::DropletState& drops, render::Liquid& liquid);
+  void list_flying(const FluidSight& sight, render::Liquid& liquid);
   void list_spray(const fluids::DropletState& drops, const Flying& drop, render::Liquid& liquid) const;
-  void list_holes(const fluids::DropletState& drops, render::Liquid& liquid) const;
+  void list_holes(const FluidSight& sight, render::Liquid& liquid) const;
   void list_lying(const fluids::DropletState& drops, std::span<const std::uint8_t> sheer, render::Liquid& liquid);
+  void list_splash(const fluids::DropletState& drops, std::int32_t i, bool sheer, render::Liquid& liquid) const;
   void list_films(const FluidSight& sight, render::Liquid& liquid);
   void list_pool(const FluidSight& sight, render::Liquid& liquid);
   void list_runs(const FluidSight& sight, render::Liquid& liquid) const;

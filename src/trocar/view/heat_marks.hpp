@@ -29,6 +29,8 @@ class HeatMarks {
   std::uint8_t burn_at(const sim::State& state, Vec3d place) const;
 
  private:
+  std::uint8_t smoothed(std::span<const std::size_t> there, std::span<const float> burn, Vec3d place) const;
+
   const sim::Model* m_model;
   std::int32_t m_body;
   std::vector<Vec3d> m_places;

@@ -121,6 +121,9 @@ void SceneView::Parts::list_analysis(const sim::State& state, const AnalysisOpti
 void SceneView::Parts::list_fluids(const sim::State& state, const ViewOptions& options, Frame& frame) {
   const auto shown = [&](std::uint16_t part) { return style_of(options.styles, part) != PartStyle::hidden; };
   frame.liquid.part = names.first.liquid;
+  frame.liquid.look = liquid_look({});
+  frame.liquid.down = vec_cast<float>(normalised(model.gravity, Vec3d{0, 0, -1}));
+  if (shown(names.first.liquid)) body.list_ooze(frame.liquid);
   if (!wet) return;
   if (shown(names.first.liquid)) wet->list(state, frame);
   if (shown(names.first.smoke)) {

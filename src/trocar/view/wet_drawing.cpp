@@ -8,7 +8,8 @@ namespace trocar::view {
 
 namespace {
 
-constexpr double kLeastPlace = 1e-6;  // [m^2]
+constexpr double kLeastPlace = 1e-6;     // [m^2]
+constexpr double kStrandReach = 0.0025;  // [m] a place this near to a strand's surface lies on it
 
 /// A third of the triangles around each vertex, as drawn.
 std::vector<double> areas_around(const tissue::Skin& skin) {
@@ -92,7 +93,29 @@ void WetDrawing::list(const sim::State& state, render::Frame& frame) {
     const bool sheer = at.body >= 0 && m_sheer[std::size_t(at.body)] != 0;
     m_places[i] = {vec_cast<float>(at.point), vec_cast<float>(at.normal), m_places[i].area, sheer};
   }
-  m_drawing.list({state.fluids, state.pool_floor, m_places, m_sheer}, frame);
+  const auto surface = [&](const FilmPlace& place) { return on_strand(state, place); };
+  m_drawing.list({state.fluids, state.pool_floor, m_places, m_sheer, surface}, frame);
+}
+
+/// A place next to strands, laid on the surface of all of them: that of the one it is deepest in.
+FilmPlace WetDrawing::on_strand(const sim::State& state, const FilmPlace& place) const {
+  const Vec3d p = vec_cast<double>(place.position);
+  double nearest = kStrandReach;
+  FilmPlace found = place;
+  for (std::size_t i = 0; i < m_model->bodies.size(); ++i) {
+    const std::vector<Vec3d>& x = state.strands[i].x;
+    for (std::size_t k = 0; k + 1 < x.size(); ++k) {
+      const Vec3d way = x[k + 1] - x[k];
+      const double t = std::clamp(dot(p - x[k], way) / std::max(dot(way, way), 1e-12), 0.0, 1.0);
+      const Vec3d axis = x[k] + t * way, out = normalised(p - axis, vec_cast<double>(place.normal));
+      const double radius = m_model->bodies[i].model.radius[k], off = length(p - axis) - radius;
+      if (off >= nearest) continue;
+      nearest = off;
+      found.position = vec_cast<float>(axis + radius * out);
+      found.normal = vec_cast<float>(out);
+    }
+  }
+  return found;
 }
 
 }  // namespace trocar::view

@@ -21,6 +21,7 @@ class WetDrawing {
  private:
   void measure_places();
   void pose(const sim::State& state);
+  FilmPlace on_strand(const sim::State& state, const FilmPlace& place) const;
 
   const sim::Model* m_model;
   FluidDrawing m_drawing;

@@ -8,6 +8,7 @@ uniform sampler3D u_noise;
 uniform vec3 u_tan;       // of half the angles of view, and of how far right the middle looks
 uniform vec4 u_size;      // of the scene picture [px], and 1 / it
 uniform vec3 u_right, u_up, u_back;  // the eye's axes in the world
+uniform vec3 u_down;                 // the way things fall, in the world
 uniform vec4 u_eye;       // where it is, and the time [s]
 
 /// Optical depth, per channel, of `amount` metres of each kind along the light's way.

@@ -7,37 +7,30 @@ in vec3 v_normal;
 in vec2 v_depth_cover;
 in vec4 v_mix;
 out vec4 o_colour;
+uniform sampler2D u_before;  // the picture before, small
 
-/// What the sheet mirrors: a ray through the picture, in steps that grow.
+/// What the sheet mirrors: a ray through the picture in a few steps. It is dim and stretched by the surface's unrest, so
+/// what each step meets comes softly from a small picture, and fades in and out: no outline of the search itself shows.
 vec3 mirrored(vec3 r, float bounce, float jitter) {
   // Beyond the picture: the front wall, brighter where the lamp grazes it.
-  vec3 up = to_world(r) - u_eye.xyz;
-  vec3 walls = (vec3(0.20, 0.085, 0.075) + BOUNCE) * (bounce * (0.15 + 1.9 * texture(u_noise, up * 0.09).a));
+  vec3 walls = (vec3(0.24, 0.060, 0.052) + BOUNCE) * (0.9 * bounce);
 #if DETAIL < 2
   return walls;
 #else
-  float reach = 0.0025 * (0.97 + 0.06 * jitter), before = 0.0;
-  for (int i = 0; i < 8; ++i) {
+  vec3 seen = vec3(0.0);
+  float left = 1.0, reach = 0.004 * (0.9 + 0.2 * jitter);
+  for (int i = 0; i < 6; ++i) {
     vec3 p = v_eye + reach * r;
     vec2 at = in_picture(p);
-    if (p.z > -0.004 || max(abs(at.x - 0.5), abs(at.y - 0.5)) > 0.49) break;
-    float step_off = reach - before, gap = length(p) - texture(u_bed, at).a;
-    if (gap > 0.0 && gap < 0.012 + 0.5 * step_off) {
-      for (int k = 0; k < 3; ++k) {  // between the last two steps
-        float middle = 0.5 * (before + reach);
-        vec3 q = v_eye + middle * r;
-        if (length(q) > texture(u_bed, in_picture(q)).a) reach = middle; else before = middle;
-      }
-      at = in_picture(v_eye + reach * r);
-      // What it meets fades out where the picture ends and where it goes on behind what is seen: no outlines of either.
-      vec2 edge = clamp(8.0 * (0.49 - abs(at - 0.5)), 0.0, 1.0);
-      float met = edge.x * edge.y * clamp(1.5 - gap / (0.006 + 0.25 * step_off), 0.0, 1.0);
-      return mix(walls, min(texture(u_bed, at).rgb, vec3(0.35)), 0.8 * met);
-    }
-    before = reach;
-    reach *= 1.6;
+    vec2 edge = clamp(5.0 * (0.5 - abs(at - 0.5)), 0.0, 1.0);
+    float gap = length(p) - texture(u_bed, at).a;
+    float met = smoothstep(-0.25 * reach, 0.35 * reach, gap) * (1.0 - smoothstep(1.2 * reach, 3.0 * reach, gap));
+    met *= edge.x * edge.y * step(p.z, -0.004);
+    seen += left * met * min(texture(u_before, at).rgb, vec3(0.35));
+    left *= 1.0 - met;
+    reach *= 1.75;
   }
-  return walls;
+  return seen + left * walls;
 #endif
 }
 
@@ -63,7 +56,7 @@ void main() {
 #if DETAIL == 2
   // Where it is thin it follows the tissue's relief, which stands still.
   float thin = exp(-max(v_depth_cover.x, 0.0) / 0.0005);
-  unrest += (texture(u_noise, place * 38.0).rgb * 2.0 - 1.0) * (0.6 * thin);
+  unrest += (texture(u_noise, place * 38.0).rgb * 2.0 - 1.0) * (0.25 * thin);
 #endif
   vec3 n = normalize(v_normal);
   float gap = max(straight.a - far, 0.0), shore = smoothstep(0.0, 0.0016, gap);
@@ -95,7 +88,7 @@ void main() {
 
   float facing = clamp(0.1 + 0.9 * dot(n, lit.direction), 0.0, 1.0);
   vec3 light = LIGHT_COLOUR * (lit.power * facing) + (BOUNCE + vec3(AMBIENT)) * lit.bounce;
-  vec3 deep = deep_colour(amount, v_mix.w) * (0.90 + 0.20 * slow.g);
+  vec3 deep = deep_colour(amount, v_mix.w) * (0.85 + 0.75 * smoothstep(0.25, 0.8, 0.7 * slow.a + 0.3 * quick.a));
   vec3 colour = bed * through + deep * light * (1.0 - through);
 #if DETAIL >= 1
   float froth = v_mix.z * smoothstep(0.55, 0.75, quick.a + 0.3 * v_mix.z);
@@ -103,10 +96,12 @@ void main() {
 #endif
 
   // A little more than [Schlick 94] says: it is what tells liquid from paint (our choice).
-  float share_back = min(2.5 * mirror_share(nv) + 0.05, 1.0);
+  float share_back = min(2.0 * mirror_share(nv) + 0.022, 1.0);
   vec3 r = reflect(-V, n);
   colour = mix(colour, mirrored(r, lit.bounce, quick.g), share_back);
-  colour += highlight(n, V, lit, u_shine.y);
+  // The rim is a bent mirror all along: its line of light is thin and even, no row of beads.
+  vec3 shine = highlight(n, V, lit, u_shine.y);
+  colour += mix(shine, min(shine, LIGHT_COLOUR * (0.16 * lit.power)), rim);
   colour = mix(below.rgb, colour, edge);
   o_colour = vec4(colour, far);
 }

@@ -41,9 +41,10 @@ void main() {
       float sigma = u_dense * root * root;
 #if DETAIL >= 1
       vec4 curls = textureLod(u_noise, (p - u_risen) * 5.5, 0.0);
-      sigma *= 0.10 + 1.85 * smoothstep(0.30, 0.72, 0.65 * curls.a + 0.35 * curls.g);
-      // It hangs thicker on one side than on the other.
-      sigma *= 1.0 + 0.55 * sin(dot(p - 0.3 * u_risen, vec3(21.0, 9.0, 13.0)));
+      sigma *= 0.06 + 1.95 * smoothstep(0.30, 0.72, 0.65 * curls.a + 0.35 * curls.g);
+      // It hangs much thicker on one side than on the other, in banks.
+      vec3 drifts = p - 0.3 * u_risen;
+      sigma *= 1.0 + 0.72 * sin(dot(drifts, vec3(21.0, 9.0, 13.0))) + 0.26 * sin(dot(drifts, vec3(-17.0, 52.0, 38.0)));
 #endif
       float taken = 1.0 - exp(-sigma * stride);
       Lit lit = light_at(way * d);

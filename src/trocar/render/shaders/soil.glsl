@@ -26,8 +26,13 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
 #endif
   // It condenses from the rim inwards, in patches of fine drops that have run together here and there.
   float fog = u_soil.x * (0.68 + 0.62 * broad.a + 0.22 * dot(at, at)) - 0.10 * (1.0 - u_soil.x);
+  float beads = 0.0;
 #ifdef UNEVEN
-  fog *= 0.80 + 0.36 * texture(u_noise, vec3(at * 0.30, 0.83)).a;
+  // One side of a lens is colder than the other; where drops have run together one sees better.
+  vec4 patches = texture(u_noise, vec3(at * 0.16, 0.83)), drops = texture(u_noise, vec3(at * 0.85, 0.57));
+  fog *= (0.42 + 1.0 * smoothstep(0.25, 0.7, patches.a)) * (1.0 + 0.30 * dot(at, vec2(-0.75, 0.65)));
+  beads = smoothstep(0.60, 0.78, drops.a) * clamp(4.0 * fog * (1.0 - 0.5 * fog), 0.0, 1.0);
+  fog *= 1.0 - 0.35 * beads;
 #endif
   fog = clamp(fog, 0.0, 1.0);
 
@@ -52,7 +57,7 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
     float edge = mix(-1.7, 1.7, u_smear.w);
     float wiped = 1.0 - smoothstep(edge - 0.28, edge + 0.1, side);
     float off = (side - edge) / 0.42;
-    swab = clamp(1.25 - off * off + 0.35 * (broad.g - 0.5), 0.0, 1.0);
+    swab = clamp(1.6 - off * off + 0.35 * (broad.g - 0.5), 0.0, 1.0);
     swab = swab * swab * (3.0 - 2.0 * swab);
     fog *= 1.0 - wiped * (0.62 + 0.38 * (1.0 - streaks));
     smear = max(smear, 0.85 * wiped * exp(-1.5 * clamp(edge - side, 0.0, 3.0)));
@@ -67,6 +72,7 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
   picture = blurred(uv, picture, by);
   vec3 veil = mix(mean, vec3(light), 0.55);
   picture = mix(picture, veil * 1.15 + 0.05, 0.55 * fog);
+  picture *= 1.0 + 0.10 * (beads - 0.3 * smoothstep(0.02, 0.4, beads) * (1.0 - beads));
   picture = mix(picture, veil * u_smear.rgb * 1.05 + 0.02, 0.33 * greasy);
 
 #ifdef DROPS
@@ -88,9 +94,11 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
 #endif
   vec3 cloth = u_swab.rgb * (0.62 + 0.9 * light) * (0.85 + 0.3 * broad.a);
 #ifdef WIPED
-  // Gauze, far out of focus.
-  vec2 thread = sin(vec2(streak_at.x + 0.05 * streaks, streak_at.y + 0.08 * broad.g) * vec2(115.0, 131.0));
-  cloth *= 0.84 + 0.005 * (thread.x + thread.y) + 0.16 * streaks;
+  // Gauze, far out of focus: folds, and threads that are drawn apart here and crowded there.
+  vec4 pulled = texture(u_noise, vec3(streak_at * 0.11, 0.45)), tuft = texture(u_noise, vec3(streak_at * 0.33, 0.05));
+  vec2 thread = sin(vec2(streak_at.x + 0.09 * pulled.r, streak_at.y + 0.11 * pulled.g) * vec2(47.0, 41.0) + 5.0 * tuft.rg);
+  float woven = 0.012 * (thread.x + 0.7 * thread.y) * smoothstep(0.3, 0.7, tuft.a);
+  cloth *= 0.80 + woven + 0.14 * streaks + 0.20 * (pulled.a - 0.4);
 #endif
-  return mix(picture, min(cloth, vec3(0.93)), 0.97 * swab);
+  return mix(picture, min(cloth, vec3(0.93)), 0.995 * swab);
 }

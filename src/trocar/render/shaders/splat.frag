@@ -12,6 +12,8 @@ layout(location = 0) out vec4 o_field;
 layout(location = 1) out vec4 o_thickness;
 layout(location = 2) out vec4 o_film;
 
+const float kSkirt = 0.0016;  // as in splat.vert
+
 void main() {
   ivec2 last = textureSize(u_scene, 0) - 1;
   float far = texelFetch(u_scene, min(u_part * ivec2(gl_FragCoord.xy), last), 0).a;
@@ -26,7 +28,7 @@ void main() {
   } else {
     vec3 shown = v_eye * (far / own) - v_middle;
     off = dot(shown, v_normal);
-    if (abs(off) < 0.0012 + 0.8 * reach)
+    if (abs(off) < max(0.0012 + 0.8 * reach, 0.0034))
       at = vec2(dot(shown, v_along), dot(shown, v_across));
     else if (!sheer || far < own)
       discard;
@@ -38,14 +40,17 @@ void main() {
     float share = at.x / (v_size.x + reach);
     at.y /= 1.0 - 0.72 * share * share;
   }
-  float s = 1.0 - (along * along + at.y * at.y + 0.4 * off * off) / (reach * reach);
-  if (s <= 0.0) discard;
+  float far2 = along * along + at.y * at.y + 0.4 * off * off, skirt = reach;
+  if (kind > 1.5 && kind < 2.5) skirt += kSkirt;
+  if (far2 >= skirt * skirt) discard;
+  float s = max(1.0 - far2 / (reach * reach), 0.0);
   float f = s * s;
   f *= f;  // blobs that overlap grow little
   vec2 n = flies ? vec2(0.0) : v_normal.xy;
-  if (kind > 1.5 && kind < 2.5) {
-    o_field = vec4(n, min(own, far), 1.0) * (0.002 * s * s);
-    o_thickness = vec4(0.0);
+  if (kind > 1.5) {
+    // Of what is smeared by its speed only an amount is left, as of a film; marked, as nothing below it is wet.
+    o_field = vec4(n, min(own, far), 1.0) * (0.002 * (1.0 - far2 / (skirt * skirt)));
+    o_thickness = vec4(0.0, 0.0, 0.0, kind > 2.5 ? v_size.z * 1.0e3 * s * s : 0.0);
     o_film = vec4(v_mix.rgb, v_mix.a) * (v_size.z * 1.0e3 * s * s);
   } else {
     o_field = vec4(n, own, 1.0) * f;

@@ -11,6 +11,7 @@ flat out vec4 v_size;   // half length of the axis, reach of the field, height, 
 flat out vec4 v_mix;
 
 const float kReach = 1.7;
+const float kSkirt = 0.0016;  // [m] around a film, where only its normal is known: it runs there (wet.frag)
 
 void main() {
   float kind = mod(a_normal.w, 4.0);
@@ -24,7 +25,8 @@ void main() {
   v_across = cross(n, v_along);
   float reach = kReach * a_from.w;
   vec2 corner = vec2(float(gl_VertexID & 1), float(gl_VertexID >> 1)) * 2.0 - 1.0;
-  v_at = corner * vec2(0.5 * size + reach, reach);
+  float far = reach + (kind > 1.5 && kind < 2.5 ? kSkirt : 0.0);
+  v_at = corner * vec2(0.5 * size + far, far);
   v_middle = middle;
   v_normal = n;
   v_size = vec4(0.5 * size, reach, a_to.w, a_normal.w);

@@ -228,29 +228,45 @@ void main() {
 #endif
 
 #ifdef STAINED
-  // Heat: pale, then a tan crust, cracked and uneven, then char in specks. Borders are the noise's, finer than the skin.
+  // Heat: a blanched margin that fades, then a tan crust, then brown to black towards the middle, with cracks. What has
+  // shrunk lies in folds that run towards the middle.
   float crust = 0.0, glassy = 0.0;
+  vec3 rest_x = dFdx(v_rest), rest_y = dFdy(v_rest);
+  vec2 burn_slope = vec2(dFdx(BURN), dFdy(BURN));
   if (BURN > 0.004) {
+    float xx = dot(rest_x, rest_x), xy = dot(rest_x, rest_y), yy = dot(rest_y, rest_y);
+    vec3 inwards = rest_x * (yy * burn_slope.x - xy * burn_slope.y) + rest_y * (xx * burn_slope.y - xy * burn_slope.x);
+    inwards /= max(length(inwards), 1.0e-20);
     vec4 grain = textureLod(u_noise, kTurn * v_rest * 260.0, 0.0), patchy = textureLod(u_noise, v_rest.yzx * 75.0, 0.0);
-    float at = BURN + 0.42 * (patchy.a - 0.5) + 0.16 * (grain.a - 0.5);
-    float pale = smoothstep(0.02, 0.22, at) * smoothstep(0.004, 0.05, BURN);
-    crust = smoothstep(0.42, 0.54, at);
-    float burnt = smoothstep(0.6, 0.95, at);
-    float carbon = crust * smoothstep(0.0, 0.10, grain.g - mix(0.80, 0.615, burnt));
-    glassy = crust * smoothstep(0.50, 0.62, grain.b);
-    albedo = mix(albedo, vec3(0.64, 0.46, 0.38) * (0.9 + 0.2 * grain.r), 0.85 * pale);
-    vec3 tan = mix(vec3(0.47, 0.27, 0.115), vec3(0.20, 0.085, 0.032), smoothstep(0.35, 0.65, patchy.g + 0.5 * burnt));
-    albedo = mix(albedo, tan * (0.7 + 0.6 * grain.r), 0.92 * crust);
-    albedo = mix(albedo, vec3(0.0105, 0.0052, 0.0036), carbon);
-    relief += crust * ((patchy.rgb * 2.0 - 1.0) * 0.9 + (grain.rgb * 2.0 - 1.0) * 0.55);
+    vec4 folds = textureLod(u_noise, kTurn * (v_rest + 0.0005 * inwards) * 200.0, 0.0) +
+                 textureLod(u_noise, kTurn * v_rest * 200.0, 0.0) +
+                 textureLod(u_noise, kTurn * (v_rest - 0.0005 * inwards) * 200.0, 0.0);
+    folds *= 1.0 / 3.0;
+    float at = BURN + 0.30 * (patchy.a - 0.5) + 0.24 * (folds.a - 0.5);
+    float pale = smoothstep(0.0, 0.36, BURN + 0.10 * (patchy.a - 0.5) * smoothstep(0.0, 0.2, BURN));
+    crust = smoothstep(0.34, 0.60, at);
+    float burnt = smoothstep(0.55, 1.10, at + 0.16 * (grain.g - 0.5));
+    float crack = crust * (1.0 - smoothstep(0.02, 0.10, abs(patchy.r - 0.5 + 0.10 * (folds.g - 0.5))));
+    glassy = crust * smoothstep(0.46, 0.60, grain.b);
+    albedo = mix(albedo, vec3(0.66, 0.47, 0.39) * (0.88 + 0.24 * folds.a), 0.8 * pale);
+    vec3 charred = mix(vec3(0.24, 0.105, 0.045), vec3(0.060, 0.023, 0.011), smoothstep(0.0, 0.5, burnt));
+    charred = mix(charred, vec3(0.0125, 0.0056, 0.0038), smoothstep(0.4, 1.0, burnt));
+    albedo = mix(albedo, charred * (0.65 + 0.7 * grain.a), 0.95 * crust);
+    albedo *= 1.0 - 0.7 * crack;
+    vec3 puckered = folds.rgb * 2.0 - 1.0;
+    relief += (puckered - inwards * dot(puckered, inwards)) * (0.5 * pale + 0.9 * crust);
+    relief += crust * ((patchy.rgb * 2.0 - 1.0) * 0.55 + (grain.rgb * 2.0 - 1.0) * 0.45);
   }
 
-  // Blood lies in a film with a ragged edge: thin it stains like a filter, thick it hides what is below.
-  float ragged = 0.55 * fine.a + 0.45 * fine.r;
-  float cover = smoothstep(-0.03, 0.07, BLOOD - 0.7 * ragged * (1.0 - BLOOD)) * step(0.004, BLOOD);
-  float blood = clamp(cover * (0.28 + 0.72 * BLOOD) * (0.85 + 0.3 * broad.a), 0.0, 1.0);
-  albedo *= exp(-blood * vec3(1.25, 5.0, 4.4));
-  albedo = mix(albedo, vec3(0.105, 0.006, 0.007), smoothstep(0.4, 0.9, blood));
+  // Blood lies in a film with a soft, ragged edge: thin it stains like a filter, thick it hides what is below; most of
+  // all is raw tissue, dark and granular.
+  float ragged = 0.55 * fine.a + 0.45 * broad.g;
+  float cover = smoothstep(0.0, 0.24, 1.2 * BLOOD - 0.5 * ragged * (1.0 - BLOOD)) * smoothstep(0.0, 0.03, BLOOD);
+  float blood = clamp(cover * (0.16 + 0.84 * BLOOD) * (0.8 + 0.4 * broad.a), 0.0, 1.0);
+  albedo *= exp(-blood * vec3(2.1, 5.4, 4.8));
+  float raw = smoothstep(0.5, 0.85, blood);
+  albedo = mix(albedo, vec3(0.062, 0.0068, 0.0080) * (0.45 + 1.1 * smoothstep(0.25, 0.75, fine.a)), raw);
+  relief += (fine.rgb * 2.0 - 1.0) * (0.35 * raw);
 #endif
 
   vec3 n = normalize(N + along_surface(to_eye(relief), N));
@@ -290,7 +306,7 @@ void main() {
 #endif
   float wet = smoothstep(1.0 - WETNESS - 0.2, 1.0 - WETNESS + 0.2, wet_noise);
 #ifdef STAINED
-  film_slope *= 1.0 - 0.7 * smoothstep(0.5, 0.9, blood);
+  film_slope *= 1.0 - 0.5 * raw;
   wet = max(mix(wet, glassy, crust), smoothstep(0.1, 0.3, blood));
 #endif
   // What mirrors the lamp is broken again by the film's thickness: flecks in clumps, no rings around its bumps.

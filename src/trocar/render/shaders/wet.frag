@@ -12,9 +12,21 @@ out vec4 o_colour;
 float inside_of(float field) { return 1.0 - 2.89 * (1.0 - sqrt(sqrt(field))); }
 float inside(vec2 uv) { return inside_of(texture(u_field, uv).w); }
 
+/// Films run: where a place squeezed along the fall is noisy, all of a column lies lower or higher, so that a film's
+/// lower edge is drawn out into fingers, and what ran apart merges.
+/// @param fall  down along the surface, eye space, shorter where it is level
+vec2 run_off(vec3 place, vec3 fall, float pixel, out float streak) {
+  vec3 squeezed = place - u_down * (0.88 * dot(u_down, place));
+  vec4 column = texture(u_noise, squeezed * 47.0);
+  streak = column.a;
+  return fall.xy * ((0.0052 * (column.a - 0.5) + 0.0014 * (column.g - 0.5)) / pixel) * u_size.zw;
+}
+
+float film_at(vec2 uv) { return dot(texture(u_film, uv).rgb, vec3(1.0e-3)); }
+
 void main() {
   vec4 field = texture(u_field, v_uv);
-  if (field.w < 0.0003) discard;
+  if (field.w < 0.00002) discard;
   vec4 bed = texelFetch(u_bed, ivec2(gl_FragCoord.xy), 0);
   vec3 way = normalize(vec3((2.0 * v_uv - 1.0) * u_tan.xy + vec2(u_tan.z, 0.0), -1.0)), V = -way;
   float pixel = -way.z * bed.a * 2.0 * u_tan.y * u_size.w;  // [m]
@@ -22,37 +34,58 @@ void main() {
   // Outlines on tissue wander as it does.
   vec3 place = to_world(way * bed.a);
   vec4 fine = texture(u_noise, place * 38.0);
-  vec2 uv = v_uv + (fine.rg - 0.5) * (0.0008 / pixel) * u_size.zw;
+  vec2 wander = (fine.rg - 0.5) * (0.0008 / pixel) * u_size.zw;
+  vec4 marked = texture(u_thickness, v_uv);
+  float flying = smoothstep(0.9, 1.6, marked.w / max(dot(marked.rgb, vec3(1.0)), 1.0e-6));
+  vec2 uv = flying > 0.5 ? v_uv : v_uv + wander;
   field = texture(u_field, uv);
-  if (field.w < 0.0003) discard;
-  vec4 thick = texture(u_thickness, uv) * 1.0e-3, film = texture(u_film, uv) * 1.0e-3;
+  vec4 thick = texture(u_thickness, uv) * 1.0e-3;
   float all = max(dot(thick.rgb, vec3(1.0)), 1.0e-9), mark = thick.w / all;
-  float flying = smoothstep(0.9, 1.6, mark);
-  if (flying > 0.5) uv = v_uv;
-  float far = field.z / field.w;
+  float far = field.z / max(field.w, 1.0e-6);
   vec3 eye = way * far;
   Lit lit = light_at(eye);
 
-  // Films: their amount is broken up a little, so that edges are ragged.
-  film *= smoothstep(-0.1, 0.75, fine.a + 0.35 * fine.r);
+  vec2 nb = field.xy / max(field.w, 1.0e-6);
+  vec3 base = vec3(nb, sqrt(max(1.0 - dot(nb, nb), 0.01)));
+
+  // Films.
+  vec3 down = vec3(dot(u_down, u_right), dot(u_down, u_up), dot(u_down, u_back));
+  vec3 fall = down - base * dot(down, base);
+  float streak = 0.5;
+  vec2 film_uv = uv + (1.0 - flying) * run_off(place, fall, pixel, streak);
+  vec4 film = texture(u_film, film_uv) * 1.0e-3;
+  float stain = dot(film.rgb, vec3(1.0));
+  vec3 film_rise = vec3(0.0);
+  if (flying < 0.5 && stain > 1.0e-7) {
+    // It is thickest where it stops: at its lower edge.
+    vec2 aside = 0.00045 / pixel * u_size.zw;
+    float lower = film_at(film_uv + fall.xy * 1.6 * aside);
+    float edge = clamp(1.0 - lower / max(stain, 1.0e-7), 0.0, 1.0);
+    vec2 grows = vec2(film_at(film_uv + vec2(aside.x, 0.0)), film_at(film_uv + vec2(0.0, aside.y))) - stain;
+    film_rise = vec3(clamp(grows / 0.00045, vec2(-0.4), vec2(0.4)), 0.0);
+    film *= (0.30 + 1.2 * smoothstep(0.25, 0.75, 0.6 * streak + 0.4 * fine.a)) * (1.0 + 1.1 * edge * edge);
+    stain = dot(film.rgb, vec3(1.0));
+  }
 
   // Drops.
-  float in_drop = inside(uv);
-  vec2 slope = vec2(inside(uv + vec2(u_texel.x, 0.0)) - inside(uv - vec2(u_texel.x, 0.0)),
-                    inside(uv + vec2(0.0, u_texel.y)) - inside(uv - vec2(0.0, u_texel.y))) * (0.5 / u_part);  // a pixel
-  float soft = clamp(0.7 * length(slope), 0.03, 0.3);
-  float cover = smoothstep(-soft, soft, in_drop);
-  float height = all / field.w;
-  vec2 nb = field.xy / field.w;
-  vec3 base = vec3(nb, sqrt(max(1.0 - dot(nb, nb), 0.01)));
+  float in_drop = -1.0, cover = 0.0;
+  vec2 slope = vec2(0.0);
+  if (dot(thick.rgb, vec3(1.0)) > 0.0) {
+    in_drop = inside(uv);
+    slope = vec2(inside(uv + vec2(u_texel.x, 0.0)) - inside(uv - vec2(u_texel.x, 0.0)),
+                 inside(uv + vec2(0.0, u_texel.y)) - inside(uv - vec2(0.0, u_texel.y))) * (0.5 / u_part);  // a pixel
+    float soft = clamp(0.7 * length(slope), 0.03, 0.3);
+    cover = smoothstep(-soft, soft, in_drop);
+  }
+  float height = all / max(field.w, 1.0e-6);
   // A cap is no steeper at its edge than liquid stands on tissue.
   vec2 rise = slope * (height * cover / pixel);
   rise *= min(1.0, mix(0.5, 1.8, flying) / max(length(rise), 1.0e-4));
   // No liquid that moves is as smooth as glass.
   vec3 n = normalize(base - vec3(rise - (fine.gb - 0.5) * 0.34, 0.0));
-  vec3 amount = thick.rgb / field.w * (cover * max(in_drop, mix(0.03, 0.3, flying)));
+  vec3 amount = thick.rgb / max(field.w, 1.0e-6) * (cover * max(in_drop, mix(0.03, 0.3, flying)));
   float dark = clamp(mark - 2.0 * flying, 0.0, 1.0);
-  dark = mix(film.w / max(dot(film.rgb, vec3(1.0)), 1.0e-7), dark, cover);
+  dark = mix(film.w / max(stain, 1.0e-7), dark, cover);
   amount += film.rgb;
   vec3 through = let_through(2.0 * amount, dark);
 
@@ -64,15 +97,17 @@ void main() {
   vec3 deep = deep_colour(amount, dark) * (1.0 + 0.5 * flying);
   vec3 colour = below * through + deep * light * (1.0 - through);
 
-  // Wet: the lamp in drops, broken by the tissue's unevenness in films; the walls where seen at a grazing angle.
-  float gloss = smoothstep(4.0e-6, 2.5e-5, dot(film.rgb, vec3(1.0))) * (1.0 - cover);
-  vec3 shine = cover * highlight(n, V, lit, u_shine.y);
+  // Wet: the lamp in drops, broken by the tissue's unevenness in films; the walls where seen at a grazing angle. What
+  // flies is too quick to be seen to shine.
+  float gloss = smoothstep(4.0e-6, 2.5e-5, stain) * (1.0 - cover) * (1.0 - flying);
+  vec3 shine = cover * (1.0 - 0.75 * flying) * highlight(n, V, lit, u_shine.y);
 #if DETAIL >= 1
   vec3 wrinkle = (fine.rgb * 2.0 - 1.0) * 0.45 + (texture(u_noise, place.zxy * 11.0).rgb * 2.0 - 1.0) * 0.35;
-  vec3 m = normalize(base + vec3(dot(wrinkle, u_right), dot(wrinkle, u_up), 0.0));
-  shine += gloss * highlight(m, V, lit, u_shine.z);
+  vec3 m = normalize(base + vec3(dot(wrinkle, u_right), dot(wrinkle, u_up), 0.0) - film_rise);
+  shine += gloss * min(highlight(m, V, lit, 3.0 * u_shine.z), LIGHT_COLOUR * (0.07 * lit.power));
 #endif
   float nv = clamp(dot(n, V), 0.0, 1.0);
   shine += (BOUNCE * 3.0 + vec3(AMBIENT)) * (lit.bounce * min(mirror_share(nv), 0.2) * (cover + 0.5 * gloss));
-  o_colour = vec4(colour + shine, mix(bed.a, min(far, bed.a), cover));
+  // What flies casts no shadow on what is behind it.
+  o_colour = vec4(colour + shine, mix(bed.a, min(far, bed.a), cover * (1.0 - flying)));
 }

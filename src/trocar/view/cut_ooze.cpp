@@ -1,0 +1,64 @@
+#include <cmath>
+
+#include <trocar/view/cut_ooze.hpp>
+#include <trocar/view/mesh_buffer.hpp>
+
+namespace trocar::view {
+namespace {
+
+// Our choice, by eye.
+constexpr double kRunning = 0.20;     // share of the rim's vertices from which a run starts
+constexpr float kStep = 0.0011f;      // [m] between two links of a run
+constexpr float kShortest = 0.004f;   // [m]
+constexpr float kWide = 0.42e-3f;     // [m]
+constexpr float kThick = 36e-6f;      // [m] at the rim; it thins out on its way, and swells where it stops
+constexpr float kMostLeft = 0.0035f;  // [m] beyond the skin's last vertex a run goes straight on
+
+struct Place {
+  Vec3f position, normal;
+};
+
+/// Laid on the skin: on the plane of the vertex next to it.
+Place on_skin(const CutSkin& skin, Place place) {
+  float nearest = kMostLeft * kMostLeft;
+  const Vec3f p = place.position;
+  for (const std::uint32_t v : skin.around) {
+    const Vec3f off = p - skin.position[v];
+    if (dot(off, off) >= nearest) continue;
+    nearest = dot(off, off);
+    place.normal = skin.normal[v];
+    place.position = p - dot(off, place.normal) * place.normal;
+  }
+  return place;
+}
+
+void list_run(const CutSkin& skin, Place at, int own, render::Liquid& liquid) {
+  const auto u = [own](int which) { return float(varied(own, which)); };
+  const float far = kShortest + (kOozeReach - kShortest) * u(1) * u(1), wide = kWide * (0.7f + 0.8f * u(2));
+  const int links = int(far / kStep);
+  for (int n = 0; n < links; ++n) {
+    const Vec3f fall = liquid.down - dot(liquid.down, at.normal) * at.normal;
+    const Vec3f across = cross(at.normal, fall);
+    const float wind = 0.45f * std::sin(0.55f * float(n) + 6 * u(3)) + 0.3f * (u(20 + n) - 0.5f);
+    const Place next = on_skin(skin, {at.position + kStep * (fall + wind * across), at.normal});
+    const float gone = float(n) / float(links), stops = n + 2 >= links ? 1.9f : 1.0f;
+    render::Splat s;
+    s.kind = render::SplatKind::film;
+    s.from = at.position, s.to = next.position;
+    s.normal = at.normal;
+    s.radius = wide * (1.15f - 0.45f * gone) * std::sqrt(stops);
+    s.height = kThick * (1 - 0.7f * gone) * stops;
+    s.dark = 1;  // from liver's veins and capillaries
+    liquid.splats.push_back(s);
+    at = next;
+  }
+}
+
+}  // namespace
+
+void list_ooze(const CutSkin& skin, render::Liquid& liquid) {
+  for (const std::uint32_t v : skin.rim)
+    if (varied(int(v), 5) < kRunning) list_run(skin, {skin.position[v], skin.normal[v]}, int(v), liquid);
+}
+
+}  // namespace trocar::view

@@ -1,0 +1,24 @@
+// Blood that oozes from a cut organ, as drawn: runs that start at the cut's rim and follow the skin down, unequal, some
+// of them merging, and on over what lies below (drawn only).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <trocar/render/liquid.hpp>
+
+namespace trocar::view {
+
+/// The skin around a cut.
+struct CutSkin {
+  std::span<const Vec3f> position, normal;  ///< (vertices), as drawn
+  std::span<const std::uint32_t> rim;       ///< vertices along the cut's edge
+  std::span<const std::uint32_t> around;    ///< ... and those as far as blood runs
+};
+
+inline constexpr float kOozeReach = 0.024f;  ///< [m] the longest run
+
+/// Adds films to liquid.splats.
+void list_ooze(const CutSkin& skin, render::Liquid& liquid);
+
+}  // namespace trocar::view

@@ -1,0 +1,93 @@
+#include <cmath>
+
+#include <trocar/view/mesh_buffer.hpp>
+#include <trocar/view/wound.hpp>
+
+namespace trocar::view {
+namespace {
+
+// Our choice, all of them: from the look of small arteries that bleed in endoscopic films.
+constexpr float kPit = 0.45e-3f;          // [m] radius of the hole's dark middle
+constexpr float kPitThick = 450e-6f;      // [m] of the blood in it
+constexpr int kWelling = 7, kSmears = 5;  // patches of blood around it, thick and thin
+constexpr float kStep = 0.7e-3f;          // [m] between two links of the rivulet
+constexpr int kLinks = 22;
+constexpr int kToCrest = 7;
+constexpr float kUnderside = 0.94f;  // cosine between surface and fall at which a rivulet ends as a hanging drop
+
+float own(int which) { return 2 * float(varied(977, which)) - 1; }
+
+render::Splat film(const Wound& wound, const FilmPlace& place, float radius, float thickness) {
+  render::Splat s;
+  s.kind = render::SplatKind::film;
+  s.from = s.to = place.position;
+  s.normal = place.normal;
+  s.radius = radius;
+  s.height = thickness;
+  s.share = wound.share;
+  s.dark = wound.dark;
+  s.sheer = place.sheer;
+  return s;
+}
+
+Vec3f along_surface(Vec3f v, Vec3f normal) { return v - dot(v, normal) * normal; }
+
+FilmPlace moved(const FilmPlace& place, Vec3f by, const SurfaceNear& surface) {
+  FilmPlace next = place;
+  next.position += along_surface(by, place.normal);
+  return surface ? surface(next) : next;
+}
+
+void list_rivulet(const Wound& wound, FilmPlace at, const SurfaceNear& surface, render::Liquid& liquid) {
+  const int links = surface ? kLinks : kLinks / 3;  // a plane leaves the tissue soon
+  for (int n = 0; n < links; ++n) {
+    const Vec3f fall = along_surface(wound.down, at.normal);
+    const Vec3f across = cross(at.normal, normalised(fall, any_perpendicular(at.normal)));
+    const float wind = 0.5f * std::sin(0.8f * float(n)) + 0.3f * own(n);
+    const FilmPlace next = moved(at, kStep * (normalised(fall, Vec3f{}) + wind * across), surface);
+    const float wide = 0.52e-3f * (1 + 0.3f * own(40 + n)), thick = (150 - 3 * float(n)) * 1e-6f;
+    render::Splat s = film(wound, at, wide, thick * (0.75f + 0.3f * own(80 + n)));
+    s.to = next.position;
+    liquid.splats.push_back(s);
+    at = next;
+    if (dot(at.normal, wound.down) < kUnderside) continue;
+    liquid.splats.push_back(film(wound, at, 0.9e-3f, 300e-6f));
+    return;
+  }
+}
+
+/// Just beyond the crest above a place, where there is one near: what spurts falls back there, too.
+bool beyond_crest(const Wound& wound, FilmPlace& at, const SurfaceNear& surface) {
+  const Vec3f first = along_surface(wound.down, at.normal);
+  for (int n = 0; surface && n < kToCrest; ++n) {
+    const Vec3f up = normalised(first - dot(first, at.normal) * at.normal, Vec3f{});
+    at = moved(at, -kStep * up, surface);
+    if (dot(along_surface(wound.down, at.normal), first) < 0) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void list_wound(const Wound& wound, const FilmPlace& hole, const SurfaceNear& surface, render::Liquid& liquid) {
+  const Vec3f one = any_perpendicular(hole.normal), other = cross(hole.normal, one);
+  const Vec3f fall = along_surface(wound.down, hole.normal);
+  const auto patch = [&](int n, float far, float lower, float radius, float thickness) {
+    const Vec3f off = far * (own(200 + n) * one + own(300 + n) * other) + lower * (0.5f + 0.5f * own(400 + n)) * fall;
+    render::Splat s = film(wound, moved(hole, off, surface), radius * (1 + 0.35f * own(500 + n)), thickness);
+    const Vec3f long_way = (0.6f * radius) * (own(600 + n) * one + own(700 + n) * other);
+    s.from -= long_way, s.to += long_way;
+    liquid.splats.push_back(s);
+  };
+  for (int n = 0; n < kWelling; ++n) patch(n, 0.8e-3f, 1.2e-3f, 0.55e-3f, 110e-6f);
+  for (int n = 0; n < kSmears; ++n) patch(kWelling + n, 2.6e-3f, 1.0e-3f, 0.75e-3f, 16e-6f);
+  render::Splat pit = film(wound, hole, kPit, kPitThick);
+  pit.from -= (0.5f * kPit) * one, pit.to += (0.5f * kPit) * one;
+  pit.dark = 0.7f;
+  liquid.splats.push_back(pit);
+  list_rivulet(wound, hole, surface, liquid);
+  FilmPlace other_side = hole;
+  if (beyond_crest(wound, other_side, surface)) list_rivulet(wound, other_side, surface, liquid);
+}
+
+}  // namespace trocar::view
