@@ -371,7 +371,7 @@ std::vector<Look> make_looks() {
       {"upper_abdomen", peritoneum(), false, {}, 0, 0, false, true},
       {"omentum", omentum(), false, {}},
       {"mesosalpinx", mesosalpinx(), true, {}},
-      {"broad_ligament", fold(0.6f), true, {}},
+      {"broad_ligament", fold(0.68f), true, {}},
       {"adhesion", adhesion(), true, {}},
       {"steel", metal(srgb(148, 147, 152), srgb(128, 128, 134), 0.3f), false, {}},
       {"polished_steel", polished(srgb(168, 167, 172), srgb(150, 150, 156), 0.22f, 0.05f), false, {}},
