@@ -13,6 +13,7 @@
 #include <trocar/view/cavity.hpp>
 #include <trocar/view/joint.hpp>
 #include <trocar/view/ridge.hpp>
+#include <trocar/view/sheet_crescent.hpp>
 #include <trocar/view/sheet_drawing.hpp>
 #include <trocar/view/vessel_drawing.hpp>
 
@@ -147,6 +148,85 @@ TEST(Ridge, RunsFromItsLigamentToTheWallAndEndsBelowThat) {
     ++ridges;
   }
   EXPECT_EQ(ridges, 6);
+}
+
+TEST(Ridge, OfALigamentThatCarriesNothingCoversItAndIsLostInTheWall) {
+  const auto backend = render::make_null_backend();
+  int covered = 0;
+  for (int i = 0; i < int(pelvis().strands.size()); ++i) {
+    if (pelvis().strands[std::size_t(i)].name.find("uterosacral") == std::string::npos) continue;
+    const TubeDrawing tube(pelvis(), i, {}, &walls());
+    const Ridge ridge(pelvis(), tube, i, walls(), *backend);
+    const interactions::StrandBody& body = pelvis().bodies[std::size_t(i)];
+    for (const Vec3f& f : ridge.buffer().positions) {  // none of it lies within the ligament, from its middle on
+      const Vec3d p = vec_cast<double>(f);
+      for (int n = body.nodes() / 2; n + 1 < body.nodes(); ++n) {
+        const Vec3d x = body.model.rest[std::size_t(n)];
+        if (dot(x - walls().nearest(x).point, walls().nearest(x).normal) < 0.002) continue;
+        EXPECT_GT(length(p - x), 0.9 * pelvis().strands[std::size_t(i)].outer[std::size_t(n)]);
+      }
+    }
+    double highest = -1;  // its last section
+    for (const std::size_t flank : {1u, 2u})
+      for (std::size_t r = 1; r <= 12; ++r) {
+        const Vec3d p = vec_cast<double>(ridge.buffer().positions[flank * ridge.buffer().size() / 2 - r]);
+        highest = std::max(highest, dot(p - walls().nearest(p).point, walls().nearest(p).normal));
+      }
+    EXPECT_LT(highest, 0.0003) << "no end of it stands out of the wall";
+    ++covered;
+  }
+  EXPECT_EQ(covered, 2);
+}
+
+TEST(SheetCrescent, LeavesItsStrandAndItsWallAlongThemAndHasNoEdge) {
+  const auto backend = render::make_null_backend();
+  int crescents = 0;
+  for (int i = 0; i < int(pelvis().sheets.size()); ++i) {
+    const sim::SheetModel& sheet = pelvis().sheets[std::size_t(i)];
+    if (sheet.name.find("front") == std::string::npos) continue;
+    const SheetDrawing drawn(pelvis(), i, *backend, {}, &walls());
+    const interactions::StrandBody& tube = pelvis().bodies[std::size_t(sheet.strand)];
+    const Vec3d tip = point_at(tube, sim::initial_state(pelvis()).strands[std::size_t(sheet.strand)],
+                               place_at(tube, sheet.to + SheetCrescent::kAlong));
+    double to_tip = 1;
+    int at_wall = 0;
+    for (std::size_t v = 0; v < drawn.buffer().positions.size(); ++v) {
+      const Vec3d p = vec_cast<double>(drawn.buffer().positions[v]);
+      to_tip = std::min(to_tip, length(p - tip));
+      const WallSurface::Place wall = walls().nearest(p);
+      if (length(p - wall.point) < 0.003 && drawn.buffer().paint[v].openness < 20) ++at_wall;
+    }
+    EXPECT_LT(to_tip, 0.004) << "it narrows along the tube";
+    EXPECT_GT(at_wall, 6) << "and is lost where it meets the wall";
+    ++crescents;
+  }
+  EXPECT_EQ(crescents, 2);
+  for (int r = 0; r <= 10; ++r) EXPECT_LT(SheetCrescent::paint(SheetCrescent::kSteps, r / 10.0).openness, 10);
+}
+
+TEST(Adhesions, TaperBetweenTwoFeetThatLieInWhatTheyHangOn) {
+  const auto backend = render::make_null_backend();
+  const std::vector<OrganDrawing> organs = drawn_organs(*backend);
+  const Adhesions adhesions(organs, pelvis(), walls(), *backend);
+  constexpr std::size_t kRow = Adhesions::kAcross, kVeil = kRow * Adhesions::kAlong;
+  const std::vector<Vec3f>& p = adhesions.buffer().positions;
+  ASSERT_GE(p.size(), 3 * kVeil);
+  for (std::size_t v = 0; v + kVeil <= p.size(); v += kVeil) {
+    const auto width = [&](int row) {
+      const std::size_t at = v + std::size_t(row) * kRow;
+      return length(p[at] - p[at + kRow - 1]);
+    };
+    EXPECT_LT(width(Adhesions::kAlong / 2), 0.6f * std::min(width(0), width(Adhesions::kAlong - 1)));
+    for (std::size_t j = 0; j < kRow; ++j) {
+      const Vec3d foot = vec_cast<double>(p[v + kVeil - kRow + j]);
+      const WallSurface::Place wall = walls().nearest(foot);
+      EXPECT_LT(dot(foot - wall.point, wall.normal), 0) << "below the wall";
+      double to_organ = 1;
+      for (std::size_t o = 0; o < organs.size(); ++o)
+        to_organ = std::min(to_organ, on_skin(p[v + j], organs[o], pelvis().solids[o].fine).away);
+      EXPECT_LT(to_organ, 0.0025);
+    }
+  }
 }
 
 TEST(Adhesions, HangBetweenAnOrganAndTheWallAndFollowTheOrgan) {

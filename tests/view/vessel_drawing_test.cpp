@@ -70,6 +70,21 @@ TEST(VesselDrawing, WidensWithThePressureTimesTheGain) {
   EXPECT_NEAR(shown / physical, 10, 1.5);
 }
 
+TEST(VesselDrawing, WhatAFoldCarriesIsDrawnWithinItAfterEveryFold) {
+  const sim::Model pelvis = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/bleeding/scene.json"));
+  const auto backend = render::make_null_backend();
+  SceneView view(pelvis, *backend);
+  const render::Frame frame = view.frame(sim::initial_state(pelvis), {});
+  int within = 0;
+  for (const render::DrawItem& i : frame.items) {
+    if (i.part == 0 || view.parts()[i.part - std::size_t(1)].group != PartGroup::vessels || !i.translucent) continue;
+    EXPECT_GT(i.nearer, 0.05f);
+    EXPECT_LT(i.material.rim_alpha, i.material.alpha) << "soft at its sides";
+    ++within;
+  }
+  EXPECT_EQ(within, 2) << "arteries and veins";
+}
+
 TEST(VesselDrawing, AClipOnNothingButAVesselIsDrawnThere) {
   const sim::Model pelvis = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/bleeding/scene.json"));
   const auto backend = render::make_null_backend();

@@ -8,7 +8,9 @@
 namespace trocar::view {
 namespace {
 
-constexpr double kNearest = 0.005, kFarthest = 0.03;  // [m] from the organ to the wall
+constexpr double kNearest = 0.005, kFarthest = 0.036;  // [m] from the organ to the wall
+constexpr float kSteepest = 0.6f;                     // sine: below an organ blood gathers, which would cut them off
+constexpr float kAim = 0.014f;                        // [m] outwards and up: what lies there is aimed at
 constexpr float kApart = 0.016f;                      // [m] between two
 constexpr float kSunk = 0.0012f;                      // [m] both ends, in what they hang on
 constexpr float kSag = 0.08f;                         // of the length
@@ -64,10 +66,11 @@ void Adhesions::choose(std::size_t organ, int count, const tissue::Skin& skin, c
     const auto close = [&](const Veil& other) { return other.organ == organ && other.near(p, skin); };
     if (std::any_of(m_veils.begin(), m_veils.end(), close)) continue;
     const Vec3d aim{varied(seed + k, 4) - 0.5, varied(seed + k, 5) - 0.5, varied(seed + k, 6) - 0.5};
-    const WallSurface::Place wall = walls.nearest(vec_cast<double>(p + 0.012f * n) + 0.016 * aim);
+    const WallSurface::Place wall = walls.nearest(vec_cast<double>(p + kAim * (n - m_down)) + 0.016 * aim);
     const Vec3f way = vec_cast<float>(wall.point) - p;
     const float far = length(way);
     if (!wall.there || far < kNearest || far > kFarthest || dot(way, n) < 0.35f * far) continue;
+    if (dot(way, m_down) > kSteepest * far) continue;
     const Vec3f side = normalised(cross(way, vec_cast<float>(aim)), any_perpendicular(normalised(way)));
     const double wide = varied(seed + k, 7), half = 0.0034 + 0.0056 * wide * wide;
     Veil veil;

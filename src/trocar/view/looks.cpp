@@ -426,7 +426,7 @@ std::vector<Look> make_looks() {
       {"upper_abdomen", upper_abdomen(), false, {}, 0, 0, false, true},
       {"omentum", omentum(), false, {}},
       {"mesosalpinx", mesosalpinx(), true, {}},
-      {"broad_ligament", fold(0.6f), true, {}},
+      {"broad_ligament", fold(0.68f), true, {}},
       {"adhesion", adhesion(), true, {}},
       {"falciform", falciform(), true, {}},
       {"steel", metal(srgb(148, 147, 152), srgb(128, 128, 134), 0.3f), false, {}},

@@ -7,22 +7,25 @@ namespace trocar::view {
 namespace {
 
 constexpr std::uint32_t kAround = 8;
-constexpr double kRing = 0.00125;     // [m] from ring to ring
-constexpr double kClipWide = 0.0014;  // [m] a clip narrows the vessel so far to either side
-constexpr double kBend = 0.005;       // [m] radius with which vessels curve, for rings that are left out
-constexpr double kBloody = 0.004;     // [m] of a stump
-constexpr double kMostShift = 0.35;   // of the radius, however large the gain
-constexpr double kNarrowed = 0.7;     // share of the radius that a clip takes
-constexpr double kTaper = 0.008;      // [m] over which a vessel that ends thins out
-constexpr double kThinnest = 0.2;     // share of the radius at such an end
-constexpr double kInFold = 0.8;       // share of the radius: half of it is in the fold
-constexpr double kSameNode = 0.0012;  // [m] ends that meet
-constexpr int kSofter = 8;            // passes that round the line's corners ...
-constexpr int kSofterInFold = 22;     // ... in a fold, where nothing bends a vessel sharply
-constexpr double kFade = 0.006;       // [m] over which one that ends in a fold is lost in it
-constexpr double kDives = 0.003;      // [m] seen of a vessel that leaves its fold
-constexpr double kNestled = 0.6;      // radii below an organ's surface
-constexpr double kWinding = 0.0006;   // [m] to either side, in a fold
+constexpr double kRing = 0.00125;        // [m] from ring to ring
+constexpr double kClipWide = 0.0014;     // [m] a clip narrows the vessel so far to either side
+constexpr double kBend = 0.005;          // [m] radius with which vessels curve, for rings that are left out
+constexpr double kBloody = 0.004;        // [m] of a stump
+constexpr double kMostShift = 0.35;      // of the radius, however large the gain
+constexpr double kNarrowed = 0.7;        // share of the radius that a clip takes
+constexpr double kTaper = 0.008;         // [m] over which a vessel that ends thins out
+constexpr double kThinnest = 0.2;        // share of the radius at such an end
+constexpr double kInFold = 0.8;          // share of the radius: half of it is in the fold
+constexpr double kSameNode = 0.0012;     // [m] ends that meet
+constexpr int kSofter = 8;               // passes that round the line's corners ...
+constexpr int kSofterInFold = 22;        // ... in a fold, where nothing bends a vessel sharply
+constexpr double kFade = 0.006;          // [m] over which one that ends in a fold is lost in it
+constexpr double kMeeting = 0.006;       // [m] beside a place where vessels of a fold meet, that is rounded ...
+constexpr double kDrawnIn = 0.6;         // ... by this share of the mean of the ways there ...
+constexpr double kMostDrawnIn = 0.0025;  // [m] ... at most
+constexpr double kDives = 0.003;         // [m] seen of a vessel that leaves its fold
+constexpr double kNestled = 0.6;         // radii below an organ's surface
+constexpr double kWinding = 0.0006;      // [m] to either side, in a fold
 
 /// A line through places at s, cubic between them.
 struct Curve {
@@ -234,20 +237,54 @@ void VesselDrawing::place(const sim::State& state) {
   const interactions::VesselHosts hosts = sim::look_at_hosts(*m_model, state, m_hosts);
   std::vector<Vec3d> points;
   int posed = -1;
-  for (const Run& run : m_runs) {
+  for (Run& run : m_runs) {
     const interactions::VesselPath& path = m_model->vessels.list[std::size_t(run.vessel)].path;
     if (posed != run.vessel) {
       points.resize(path.points.size());
       pose_vessel(m_paths[std::size_t(run.vessel)], hosts, points);
       posed = run.vessel;
     }
-    place_run(run, state, points);
+    run.line = line_of(run, state, points);
+  }
+  round_meetings();
+  for (const Run& run : m_runs) place_run(run, state);
+}
+
+/// Where vessels meet in a fold they run into each other in a bow, not in a corner: the place is drawn towards where
+/// they come from, and what is beside it follows.
+void VesselDrawing::round_meetings() {
+  struct End {
+    Run* run;
+    bool last;
+    Vec3d place, arm;  ///< arm: from there to a point of the line that is kMeeting away
+  };
+  std::vector<End> ends;
+  for (Run& run : m_runs) {
+    if (!in_a_fold(m_model->vessels.list[std::size_t(run.vessel)].path)) continue;
+    const std::size_t n = run.line.size(), far = std::min(n - 1, std::size_t(kMeeting / kRing));
+    if (!run.cut_from && !run.fades_from) ends.push_back({&run, false, run.line[0], run.line[far] - run.line[0]});
+    if (!run.cut_to && !run.fades_to)
+      ends.push_back({&run, true, run.line[n - 1], run.line[n - 1 - far] - run.line[n - 1]});
+  }
+  for (const End& end : ends) {
+    Vec3d sum{};
+    int meeting = 0;
+    for (const End& other : ends)
+      if (length(other.place - end.place) < kSameNode) sum += other.arm, ++meeting;
+    if (meeting < 2) continue;
+    Vec3d shift = (kDrawnIn / meeting) * sum;
+    shift = std::min(1.0, kMostDrawnIn / std::max(length(shift), 1e-9)) * shift;
+    for (std::size_t i = 0; i < end.run->line.size(); ++i) {
+      const std::size_t from_end = end.last ? end.run->line.size() - 1 - i : i;
+      end.run->line[i] += smooth(kMeeting, 0, kRing * double(from_end)) * shift;
+    }
   }
 }
 
-void VesselDrawing::place_run(const Run& run, const sim::State& state, std::span<const Vec3d> points) {
-  const sim::Vessel& vessel = m_model->vessels.list[std::size_t(run.vessel)];
-  const interactions::VesselPath& path = vessel.path;
+/// Places of its rings.
+std::vector<Vec3d> VesselDrawing::line_of(const Run& run, const sim::State& state,
+                                          std::span<const Vec3d> points) const {
+  const interactions::VesselPath& path = m_model->vessels.list[std::size_t(run.vessel)].path;
   const std::vector<double> cuts = sorted_cuts(state, run.vessel);
   Curve curve;
   const auto take = [&](double s, Vec3d x) {
@@ -259,8 +296,14 @@ void VesselDrawing::place_run(const Run& run, const sim::State& state, std::span
     if (path.points[i].s > run.from + 1e-6 && path.points[i].s < run.to - 1e-6) take(path.points[i].s, points[i]);
   take(run.to, vessel_spot(path, points, cuts, run.to, 0).place);
 
+  return drawn_line(run, curve, path);
+}
+
+void VesselDrawing::place_run(const Run& run, const sim::State& state) {
+  const sim::Vessel& vessel = m_model->vessels.list[std::size_t(run.vessel)];
+  const interactions::VesselPath& path = vessel.path;
   const bool fold = in_a_fold(path);
-  const std::vector<Vec3d> line = drawn_line(run, curve, path);
+  const std::vector<Vec3d>& line = run.line;
   Vec3d tangent = normalised(line[1] - line[0]), normal = any_perpendicular(tangent);
   for (std::size_t i = 0; i < run.s.size(); ++i) {
     const double s = run.s[i];

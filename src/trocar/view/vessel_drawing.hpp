@@ -39,12 +39,15 @@ class VesselDrawing {
     bool fades_from = false, fades_to = false;  ///< ends in tissue: thins out
     std::uint32_t first = 0;                    ///< vertex
     std::vector<double> s;                      ///< of its rings
+    std::vector<Vec3d> line;                    ///< their places now
   };
   bool leads_on(int vessel, int end) const;
   void lay_out(const sim::State& state);
   void join(const Run& run, std::size_t rings_apart, std::uint32_t stride, MeshBuffer& into) const;
   void place(const sim::State& state);
-  void place_run(const Run& run, const sim::State& state, std::span<const Vec3d> points);
+  void round_meetings();
+  std::vector<Vec3d> line_of(const Run& run, const sim::State& state, std::span<const Vec3d> points) const;
+  void place_run(const Run& run, const sim::State& state);
 
   const sim::Model* m_model;
   bool m_veins;
