@@ -408,7 +408,7 @@ std::vector<double> TubeDrawing::stations(const Layout& layout, const StrandPiec
 
 void TubeDrawing::add_raw_face(int piece, bool at_start) {
   const StrandPiece& p = m_layout.pieces[std::size_t(piece)];
-  const double s = at_start ? p.from : p.to, sign = at_start ? -1 : 1, r = radius_at(s);
+  const double s = at_start ? p.from : p.to, sign = at_start ? -1 : 1, r = radius_at(s) * contracted(p, s);
   const double open = m_strand->inner.empty() ? 0 : m_strand->inner[std::size_t(at_start ? p.first : p.last)];
   const double lumen = std::max(open, 0.22 * r);
   // The serosa has drawn back from a pale ring of muscle, which has contracted; out of it pouts the lining, ragged and
@@ -419,15 +419,15 @@ void TubeDrawing::add_raw_face(int piece, bool at_start) {
   const auto row = [&](double along, double radius, double ragged, Paint paint) {
     rows.push_back({piece, s, sign * along, radius, ragged, 0, false, paint});
   };
-  row(0, 0.94 * r, 0.05, rim);
-  row(0.05 * r, 0.84 * r, 0.05, muscle);
-  row(0.12 * r, 0.76 * r, 0.05, muscle);
-  row(0.20 * r, 0.80 * r, 0.10, mucosa);
-  row(0.34 * r, 0.86 * r, 0.17, mucosa);
-  row(0.46 * r, 0.80 * r, 0.20, mucosa);
-  row(0.48 * r, 0.66 * r, 0.17, mucosa);
-  row(0.40 * r, std::min(1.3 * lumen, 0.48 * r), 0.12, lining);
-  row(0.16 * r, std::min(0.9 * lumen, 0.34 * r), 0.05, dark);
+  row(0, r, 0, rim);
+  row(0.05 * r, 0.94 * r, 0.05, muscle);
+  row(0.13 * r, 0.85 * r, 0.05, muscle);
+  row(0.22 * r, 0.89 * r, 0.10, mucosa);
+  row(0.38 * r, 0.96 * r, 0.17, mucosa);
+  row(0.52 * r, 0.90 * r, 0.20, mucosa);
+  row(0.54 * r, 0.74 * r, 0.17, mucosa);
+  row(0.45 * r, std::min(1.3 * lumen, 0.54 * r), 0.12, lining);
+  row(0.18 * r, std::min(0.9 * lumen, 0.38 * r), 0.05, dark);
   row(-0.4 * r, 0, 0, dark);
   rows.front().crease = !at_start;
   if (at_start) std::reverse(rows.begin(), rows.end());
@@ -615,8 +615,8 @@ void TubeDrawing::place(const StrandCurve& curve, std::vector<Vec3f>& positions)
       const double a = 2 * kPi * k / m_sides;
       const double lobes = row.scallop * ragged(row.piece + m_index, a);
       const double r = row.radius * (outline(row.s, a) + lobes);
-      const Vec3d p =
-          centre + r * (std::cos(a) * f.normal + std::sin(a) * f.binormal) + (row.along < 0 ? -1 : 1) * (0.9 * lobes * row.radius) * f.tangent;
+      const Vec3d p = centre + r * (std::cos(a) * f.normal + std::sin(a) * f.binormal) +
+                      (row.along < 0 ? -1 : 1) * (0.9 * lobes * row.radius) * f.tangent;
       positions[v++] = vec_cast<float>(p);
     }
   }
