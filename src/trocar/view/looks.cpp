@@ -40,15 +40,15 @@ Material uterus() {
 }
 
 Material tube() {
-  Material m = with_vessels(tissue(srgb(196, 131, 130), srgb(206, 152, 142), srgb(182, 108, 114)), 0.7f, 0.024f);
+  Material m = with_vessels(tissue(srgb(194, 124, 125), srgb(206, 150, 138), srgb(178, 98, 106)), 0.75f, 0.024f);
   m.mottle_size = 0.011f;
   m.mottle = 0.6f;
   m.bump = 0.1f;
   m.glow_amount = 0.2f;          // through the thin rims of the fimbriae
-  m.tint = srgb(188, 104, 106);  // fimbriae: mucosa
+  m.tint = srgb(180, 86, 92);    // fimbriae: mucosa
   m.film_size = 0.0055f;         // longer than the tube is thick: one broken sheen, no beads
   m.film_bump = 0.2f;
-  m.film_roughness = 0.1f;
+  m.film_roughness = 0.08f;
   return m;
 }
 
@@ -118,7 +118,7 @@ Material bowel() {
   m.glow_amount = 0.1f;
   m.film_bump = 0.17f;
   m.film_size = 0.007f;
-  m.film_roughness = 0.09f;
+  m.film_roughness = 0.075f;
   m.tint = srgb(228, 178, 158);  // its bands
   return m;
 }
@@ -131,7 +131,7 @@ Material small_bowel() {
   m.glow_amount = 0.1f;
   m.film_bump = 0.14f;
   m.film_size = 0.008f;
-  m.film_roughness = 0.09f;
+  m.film_roughness = 0.075f;
   return m;
 }
 
