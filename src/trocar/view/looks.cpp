@@ -46,8 +46,8 @@ Material tube() {
   m.bump = 0.1f;
   m.glow_amount = 0.2f;          // through the thin rims of the fimbriae
   m.tint = srgb(180, 86, 92);    // fimbriae: mucosa
-  m.film_size = 0.0055f;         // longer than the tube is thick: one broken sheen, no beads
-  m.film_bump = 0.2f;
+  m.film_size = 0.0042f;         // as long as the tube is thick: one broken sheen, no beads
+  m.film_bump = 0.28f;
   m.film_roughness = 0.08f;
   return m;
 }
@@ -116,8 +116,8 @@ Material bowel() {
   m.mottle_size = 0.012f;
   m.mottle = 0.6f;
   m.glow_amount = 0.1f;
-  m.film_bump = 0.17f;
-  m.film_size = 0.007f;
+  m.film_bump = 0.24f;
+  m.film_size = 0.0052f;
   m.film_roughness = 0.075f;
   m.tint = srgb(228, 178, 158);  // its bands
   return m;
@@ -129,8 +129,8 @@ Material small_bowel() {
   m.mottle_size = 0.014f;
   m.mottle = 0.5f;
   m.glow_amount = 0.1f;
-  m.film_bump = 0.14f;
-  m.film_size = 0.008f;
+  m.film_bump = 0.2f;
+  m.film_size = 0.006f;
   m.film_roughness = 0.075f;
   return m;
 }
