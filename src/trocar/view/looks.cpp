@@ -116,9 +116,10 @@ Material bowel() {
   m.mottle_size = 0.012f;
   m.mottle = 0.6f;
   m.glow_amount = 0.1f;
-  m.film_bump = 0.24f;
-  m.film_size = 0.0052f;
-  m.film_roughness = 0.075f;
+  m.film_bump = 0.26f;
+  m.film_size = 0.0042f;
+  m.film_roughness = 0.07f;
+  m.wetness = 0.9f;
   m.tint = srgb(228, 178, 158);  // its bands
   return m;
 }
@@ -129,9 +130,10 @@ Material small_bowel() {
   m.mottle_size = 0.014f;
   m.mottle = 0.5f;
   m.glow_amount = 0.1f;
-  m.film_bump = 0.2f;
-  m.film_size = 0.006f;
-  m.film_roughness = 0.075f;
+  m.film_bump = 0.24f;
+  m.film_size = 0.0048f;
+  m.film_roughness = 0.07f;
+  m.wetness = 0.9f;
   return m;
 }
 

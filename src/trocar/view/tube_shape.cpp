@@ -41,7 +41,7 @@ double TubeDrawing::winding(double s) const {
 /// Its bore is uneven: wide places and waists that are drawn, not simulated.
 double TubeDrawing::bore(double s) const {
   const double k = 2 * kPi * s, seed = 2.3 * m_index;
-  const double ampulla = 0.085 * std::sin(k / 0.0173 + seed) + 0.05 * std::sin(k / 0.0097 + 1.7 * seed + 1);
+  const double ampulla = 0.09 * std::sin(k / 0.0193 + seed) + 0.035 * std::sin(k / 0.0107 + 1.7 * seed + 1);
   return 1 + winding(s) * ampulla + 0.03 * std::sin(k / 0.0071 + seed);
 }
 
@@ -49,8 +49,8 @@ double TubeDrawing::bore(double s) const {
 Vec3d TubeDrawing::coiled(double s, const CurveFrame& f) const {
   const double k = 2 * kPi * s, seed = 2.3 * m_index, amount = kCoil * winding(s);
   if (amount <= 0) return {};
-  const double a = std::sin(k / 0.0208 + seed) + 0.4 * std::sin(k / 0.0117 + 2 * seed),
-               b = std::cos(k / 0.0241 + 1.4 * seed) + 0.4 * std::sin(k / 0.0133 + seed);
+  const double a = std::sin(k / 0.0248 + seed) + 0.2 * std::sin(k / 0.0137 + 2 * seed),
+               b = std::cos(k / 0.0291 + 1.4 * seed) + 0.2 * std::sin(k / 0.0153 + seed);
   return amount * (a * f.normal + b * f.binormal);
 }
 
