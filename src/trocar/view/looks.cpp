@@ -34,7 +34,7 @@ Material uterus() {
   m.mottle = 0.5f;
   m.bump = 0.12f;
   m.film_bump = 0.24f;
-  m.film_roughness = 0.13f;
+  m.film_roughness = 0.095f;
   m.film_size = 0.0032f;
   return m;
 }
@@ -47,8 +47,9 @@ Material tube() {
   m.glow_amount = 0.2f;          // through the thin rims of the fimbriae
   m.tint = srgb(180, 86, 92);    // fimbriae: mucosa
   m.film_size = 0.0042f;         // as long as the tube is thick: one broken sheen, no beads
-  m.film_bump = 0.28f;
-  m.film_roughness = 0.08f;
+  m.film_bump = 0.3f;
+  m.film_roughness = 0.07f;
+  m.wetness = 0.9f;
   return m;
 }
 
@@ -57,7 +58,7 @@ Material ovary() {
   m.mottle_size = 0.008f;
   m.mottle = 0.35f;
   m.bump = 0.14f;
-  m.film_roughness = 0.12f;
+  m.film_roughness = 0.09f;
   m.film_bump = 0.22f;
   m.glow_amount = 0.1f;
   m.tint = srgb(196, 166, 172);  // a follicle
