@@ -109,6 +109,8 @@ Material bladder() {
   m.colour_c = srgb(188, 114, 112);
   m.vessel_tile = 0.05f;
   m.mottle_size = 0.019f;
+  m.wetness = 0.36f;  // rather dull: its rim is a fold that would shine like a dish's
+  m.film_roughness = 0.1f;
   return m;
 }
 
