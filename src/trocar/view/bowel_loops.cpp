@@ -57,8 +57,8 @@ class Floor {
   /// @param high [m] above the floor
   Vec3d at(double t, double in, double high) const {
     const double s = std::clamp(t, 0.0, 1.0) * m_way.back();
-    const auto i = std::min(std::size_t(std::upper_bound(m_way.begin(), m_way.end(), s) - m_way.begin()) - 1,
-                            m_edges.size() - 2);
+    const auto i =
+        std::min(std::size_t(std::upper_bound(m_way.begin(), m_way.end(), s) - m_way.begin()) - 1, m_edges.size() - 2);
     const double w = (s - m_way[i]) / std::max(m_way[i + 1] - m_way[i], 1e-9);
     const Edge &a = m_edges[i], &b = m_edges[i + 1];
     const Vec3d out = normalised((1 - w) * a.out + w * b.out), up = normalised((1 - w) * a.up + w * b.up);
@@ -117,12 +117,9 @@ GutEnd end_of(const tissue::Skin& skin, const std::vector<Edge>& edges) {
 GutLine large_bowel(const GutEnd& end, const Floor& floor) {
   const Vec3d up = floor.up_at(0.3);
   const Vec3d away = normalised(end.onward - 0.25 * up);
-  const Vec3d knots[] = {end.middle - kBack * end.onward,
-                         end.middle,
-                         end.middle + 0.02 * end.onward,
-                         end.middle + 0.042 * away,
-                         end.middle + 0.065 * away - 0.012 * up,
-                         end.middle + 0.085 * away - 0.05 * up};
+  const Vec3d knots[] = {end.middle - kBack * end.onward,        end.middle,
+                         end.middle + 0.02 * end.onward,         end.middle + 0.042 * away,
+                         end.middle + 0.065 * away - 0.012 * up, end.middle + 0.085 * away - 0.05 * up};
   GutLine line;
   line.points = line_through(knots);
   for (std::size_t i = 0; i < line.points.size(); ++i) {
@@ -140,12 +137,12 @@ GutLine small_bowel(const Floor& floor) {
   struct Knot {
     double t, in, high;
   };
-  constexpr Knot knots[] = {{0.50, -0.055, -0.03},  {0.50, -0.030, low},   {0.51, 0.004, low},   {0.53, 0.028, low},
-                            {0.575, 0.044, low},    {0.63, 0.034, low},    {0.64, 0.014, low},   {0.65, -0.010, low},
-                            {0.69, -0.026, low},    {0.74, -0.012, low},   {0.745, 0.020, low},  {0.755, 0.044, low},
-                            {0.80, 0.060, low},     {0.865, 0.048, low},   {0.875, 0.024, low},   {0.82, 0.002, 0.022},
-                            {0.74, 0.012, high},    {0.66, 0.022, high},   {0.60, 0.006, high},  {0.58, -0.030, high},
-                            {0.56, -0.055, 0.01},   {0.55, -0.075, -0.03}};
+  constexpr Knot knots[] = {{0.50, -0.055, -0.03}, {0.50, -0.030, low},  {0.51, 0.004, low},  {0.53, 0.028, low},
+                            {0.575, 0.044, low},   {0.63, 0.034, low},   {0.64, 0.014, low},  {0.65, -0.010, low},
+                            {0.69, -0.026, low},   {0.74, -0.012, low},  {0.745, 0.020, low}, {0.755, 0.044, low},
+                            {0.80, 0.060, low},    {0.865, 0.048, low},  {0.875, 0.024, low}, {0.82, 0.002, 0.022},
+                            {0.74, 0.012, high},   {0.66, 0.022, high},  {0.60, 0.006, high}, {0.58, -0.030, high},
+                            {0.56, -0.055, 0.01},  {0.55, -0.075, -0.03}};
   std::vector<Vec3d> places;
   for (const Knot& k : knots) places.push_back(floor.at(k.t, k.in, k.high));
   GutLine line;

@@ -9,11 +9,12 @@ namespace trocar::view {
 namespace {
 
 constexpr int kSpokes = 72, kOnRings = 12, kRings = 26;  // on the organ; all
-constexpr std::size_t kHemRows = 6;                      // that take on the wall's normal
-constexpr float kAway = 0.036f;    // [m] how far from the organ's rim its sheet reaches a wall, about
-constexpr float kOver = 0.0022f;   // [m] above the organ, whose relief is that high
-constexpr float kShoulder = 0.7f;  // [rad] how far the plane leans that touches the organ where the sheet leaves it
-constexpr float kSunk = 0.004f;    // [m] the hem below what it runs out on
+constexpr std::size_t kHemRows = 11;                     // that take on the wall's normal
+constexpr float kAway = 0.036f;     // [m] how far from the organ's rim its sheet reaches a wall, about
+constexpr float kOver = 0.0022f;    // [m] above the organ, whose relief is that high
+constexpr float kShoulder = 0.7f;   // [rad] how far the plane leans that touches the organ where the sheet leaves it
+constexpr float kSunk = 0.004f;     // [m] the hem below what it runs out on
+constexpr float kOnWall = 0.0015f;  // [m] ... or a wall
 constexpr double kTwoPi = 6.28318530717959;
 
 Vec3f middle_of(std::span<const Vec3f> points) {
@@ -91,7 +92,7 @@ Drape::Drape(const sim::Model& model, int solid, const std::vector<OrganDrawing>
       const std::size_t i = std::size_t(k * kRings + r);
       const double w = double(r) / (kRings - 1);
       // Goes over into the wall's colour.
-      m_buffer.paint[i] = {to_byte(1 - 0.12 * smooth(0.5, 0.75, w) * smooth(1, 0.8, w)), 0, 0,
+      m_buffer.paint[i] = {to_byte(1 - 0.28 * smooth(0.45, 0.65, w) * smooth(1, 0.85, w)), 0, 0,
                            to_byte(smooth(0.55, 0.95, w))};
     }
   m_mesh = OwnedMesh(backend, m_buffer.data());
@@ -104,7 +105,7 @@ void Drape::place(const std::vector<OrganDrawing>& organs) {
   for (const Spoke& s : m_spokes) {
     for (std::size_t j = 0; j < kDrapeSupports; ++j) on[j].push_back(organ.positions()[std::size_t(s.on[j])]);
     if (s.hem.solid < 0) {
-      m_hem.push_back(s.hem.at - kSunk * s.hem.normal);
+      m_hem.push_back(s.hem.at - kOnWall * s.hem.normal);
     } else {
       const OrganDrawing& other = organs[std::size_t(s.hem.solid)];
       m_hem.push_back(other.positions()[std::size_t(s.hem.vertex)] -
@@ -125,7 +126,10 @@ void Drape::place(const std::vector<OrganDrawing>& organs) {
     const Vec3f b = m_buffer.positions[k * kRings + kOnRings - 1],
                 before = m_buffer.positions[k * kRings + kOnRings - 4];
     const Vec3f slope = normalised(b - before, m_spokes[k].out), way = m_hem[k] - b;
-    const Vec3f flat = normalised(way - 0.8f * dot(way, m_up) * m_up);
+    // On a wall it ends along it, as a fillet does: an edge there would catch the light like the rim of a dish.
+    const Hem& hem = m_spokes[k].hem;
+    const Vec3f flat = hem.solid < 0 ? normalised(way - dot(way, hem.normal) * hem.normal, m_spokes[k].out)
+                                     : normalised(way - 0.8f * dot(way, m_up) * m_up);
     const float reach = length(way);
     for (int r = kOnRings; r < kRings; ++r) {
       const float t = float(r - kOnRings + 1) / float(kRings - kOnRings), u = 1 - t;
@@ -148,7 +152,7 @@ void Drape::place(const std::vector<OrganDrawing>& organs) {
   for (std::size_t k = 0; k < m_spokes.size(); ++k)  // no seam: as the wall's at the hem
     for (std::size_t r = kRings - kHemRows; r < kRings && m_spokes[k].hem.solid < 0; ++r) {
       Vec3f& n = m_buffer.normals[k * kRings + r];
-      const float w = float(r + kHemRows + 1 - kRings) / kHemRows;
+      const float w = float(smooth(0, 1, double(r + kHemRows + 1 - kRings) / kHemRows));
       const Vec3f hem = m_spokes[k].hem.normal;
       n = normalised((1 - w) * n + (dot(n, hem) < 0 ? -w : w) * hem, n);
     }

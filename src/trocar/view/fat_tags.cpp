@@ -8,8 +8,8 @@ namespace trocar::view {
 namespace {
 
 constexpr double kTwoPi = 6.28318530717959;
-constexpr double kApart = 0.0085;  // [m] between two tags of middle size
-constexpr double kSunk = 0.0022;  // [m] a tag's foot lies below the skin
+constexpr double kApart = 0.0085;                   // [m] between two tags of middle size
+constexpr double kSunk = 0.0022;                    // [m] a tag's foot lies below the skin
 constexpr float kAround = 0.02f, kUnder = 0.0009f;  // [m] skin around a tag; the foot's edge lies below it
 constexpr int kSides = 24, kRings = 18;
 constexpr int kLobes = 14;
@@ -52,7 +52,8 @@ MeshBuffer mound(Vec3d down, int seed, double size) {
   MeshBuffer b;
   const double length = size * (0.0062 + 0.0034 * varied(seed, 21)), wide = size * (0.0030 + 0.0014 * varied(seed, 22));
   const double flat = 0.62 + 0.3 * varied(seed, 23), turned = kTwoPi * varied(seed, 24);
-  Vec3d p{0, 0, -kSunk}, along = normalised(Vec3d{0.45 * down.x, 0.45 * down.y, 1}), x{std::cos(turned), std::sin(turned), 0};
+  Vec3d p{0, 0, -kSunk}, along = normalised(Vec3d{0.45 * down.x, 0.45 * down.y, 1}),
+                         x{std::cos(turned), std::sin(turned), 0};
   std::uint32_t before = 0;
   for (int i = 0; i <= kRings; ++i) {
     const double u = double(i) / kRings;
@@ -114,8 +115,7 @@ void lay_on(const OrganDrawing& organ, std::uint32_t at, const Mat3f& turn, Mesh
     });
     const Vec3f n = organ.normals()[v];
     const float high = dot(p - skin[v], n) + kUnder;
-    if (high > 0)
-      shape.positions[i] += transposed(turn) * ((-high * float(shape.paint[i].tint) / 255) * n);
+    if (high > 0) shape.positions[i] += transposed(turn) * ((-high * float(shape.paint[i].tint) / 255) * n);
   }
 }
 

@@ -8,9 +8,9 @@ namespace trocar::view {
 namespace {
 
 constexpr double kPi = 3.14159265358979;
-constexpr int kRings = 20;         // along a leaf
-constexpr double kWall = 0.00042;  // [m] half the thickness of the rim's wall
-constexpr double kPleat = 0.00026; // [m] height of the folds on the inner side
+constexpr int kRings = 20;          // along a leaf
+constexpr double kWall = 0.00042;   // [m] half the thickness of the rim's wall
+constexpr double kPleat = 0.00026;  // [m] height of the folds on the inner side
 constexpr int kFolds = 2;           // of them on a leaf
 
 /// Rings of the bell beyond the tube's end: forwards and outwards, in radii of the end.
@@ -119,8 +119,7 @@ Spines landing(const Leaf& f, const FimbriaSite& site) {
               db = (1.3 * far) * normalised(site.slide - 0.25 * site.normal, site.slide);
   for (int i = 0; i <= kRings; ++i) {
     const double t = along_leaf(i), u = 1 - t;
-    const Vec3d p =
-        (u * u * (1 + 2 * t)) * a + (t * t * (3 - 2 * t)) * b + (u * u * t) * da - (t * t * u) * db;
+    const Vec3d p = (u * u * (1 + 2 * t)) * a + (t * t * (3 - 2 * t)) * b + (u * u * t) * da - (t * t * u) * db;
     const Vec3d along = normalised((6 * t * u) * (b - a) + (u * (1 - 3 * t)) * da + (t * (3 * t - 2)) * db, site.slide);
     const Vec3d lying = cross(-site.normal, along), wish = (1 - t) * side + t * (dot(lying, side) < 0 ? -lying : lying);
     const Vec3d across = normalised(wish - dot(wish, along) * along, any_perpendicular(along));
@@ -187,12 +186,12 @@ Sheets place_on(const Leaf& f, const Spines& spine, const FimbriaSite& site, int
   // Edges are longer than the middle: they rise and fall in a frill, and the leaf is a shallow trough.
   const double edge = std::fabs(w) * w * w, loose = smooth(0.05, 0.5, v);
   const double phase = 6.3 * varied(f.seed, w > 0 ? 21 : 22);
-  const double frill = loose * (0.00052 * edge * std::sin(15 * v + phase) +
-                                0.0003 * w * w * std::sin(27 * v + 1.7 * phase));
+  const double frill =
+      loose * (0.00052 * edge * std::sin(15 * v + phase) + 0.0003 * w * w * std::sin(27 * v + 1.7 * phase));
   const double trough = (f.reaches >= 1 ? 0.05 : 0.5 * varied(f.seed, 12) - 0.1) * half * w * w;
   const double pleats = kPleat * smooth(0, 0.15, v) * (1 - 0.6 * v) * (fold - 0.3);
-  const double thick = kWall * (1.05 - 0.75 * smooth(0, 0.9, v)) * std::sqrt(std::max(0.0, 1 - w * w)) *
-                       (ring == kRings ? 0 : 1);
+  const double thick =
+      kWall * (1.05 - 0.75 * smooth(0, 0.9, v)) * std::sqrt(std::max(0.0, 1 - w * w)) * (ring == kRings ? 0 : 1);
   // At the root the leaf's line follows the rim.
   const double angle = f.from + (f.to - f.from) * double(column) / kLeafColumns, root = smooth(0.3, 0, v);
   const auto& rim = kBell.back();
@@ -209,8 +208,7 @@ Paint of_leaf(int column, double fold, double v, bool inside) {
   const double w = 2.0 * column / kLeafColumns - 1;
   const double rim = std::max(std::pow(std::fabs(w), 3.0), smooth(0.72, 1.0, v));
   const double groove = 1 - std::min(1.0, 1.5 * fold);
-  if (inside)
-    return painted(1 - 0.38 * groove * (1 - rim) * (1 - 0.5 * v), (0.95 - 0.25 * fold) * (1 - 0.72 * rim));
+  if (inside) return painted(1 - 0.38 * groove * (1 - rim) * (1 - 0.5 * v), (0.95 - 0.25 * fold) * (1 - 0.72 * rim));
   return painted(0.95, (0.75 * smooth(0, 0.35, v)) * (1 - 0.8 * rim));
 }
 
@@ -221,12 +219,14 @@ std::vector<std::uint32_t> add_bell(MeshBuffer& b, const FimbriaSite& site, cons
     for (int k = 0; k < kRimColumns; ++k) {
       const double even = 2 * kPi * k / kRimColumns, a = (1 - share) * even + share * angle[std::size_t(k)];
       const double edge = double(k % kLeafColumns) / kLeafColumns, w = 2 * edge - 1;
-      const double out = kWall / site.radius * (row + 1 == kBell.size() ? std::sqrt(std::max(0.0, 1 - w * w)) - 0.3 : 0);
+      const double out =
+          kWall / site.radius * (row + 1 == kBell.size() ? std::sqrt(std::max(0.0, 1 - w * w)) - 0.3 : 0);
       const Vec3d normal = std::sin(kRimLean) * Vec3d{-1, 0, 0} + std::cos(kRimLean) * outwards(a);
       const Vec3d p = site.radius * (kBell[row][0] * Vec3d{1, 0, 0} + kBell[row][1] * outwards(a) + out * normal);
       b.add(vec_cast<float>(p), painted(1, 0.05 * share));
     }
-    if (row > 0) join_rows(b, std::uint32_t(row - 1) * kRimColumns, std::uint32_t(row) * kRimColumns, kRimColumns, true);
+    if (row > 0)
+      join_rows(b, std::uint32_t(row - 1) * kRimColumns, std::uint32_t(row) * kRimColumns, kRimColumns, true);
   }
   std::vector<std::uint32_t> rim;
   for (int k = 0; k < kRimColumns; ++k) rim.push_back(std::uint32_t(kBell.size() - 1) * kRimColumns + std::uint32_t(k));
@@ -241,8 +241,7 @@ std::vector<std::uint32_t> add_inner_rim(MeshBuffer& b, const std::vector<std::u
     if (k % kLeafColumns == 0) continue;
     const double w = 2.0 * (k % kLeafColumns) / kLeafColumns - 1, thick = 2 * kWall * std::sqrt(1 - w * w);
     const Vec3d in = std::sin(kRimLean) * Vec3d{1, 0, 0} - std::cos(kRimLean) * outwards(angle[std::size_t(k)]);
-    const Vec3d p = vec_cast<double>(b.positions[rim[std::size_t(k)]]) +
-                    (thick + 0.4 * kPleat * fold_at(k)) * in;
+    const Vec3d p = vec_cast<double>(b.positions[rim[std::size_t(k)]]) + (thick + 0.4 * kPleat * fold_at(k)) * in;
     inner[std::size_t(k)] = b.add(vec_cast<float>(p), of_leaf(k % kLeafColumns, fold_at(k), 0, true));
   }
   return inner;
@@ -293,8 +292,7 @@ void add_funnel(MeshBuffer& b, const std::vector<std::uint32_t>& rim, const Fimb
     before = std::move(now);
   }
   const std::uint32_t pole = b.add({float(-1.15 * site.radius), 0, 0}, painted(0.03, 1));
-  for (std::size_t k = 0; k < std::size_t(kRimColumns); ++k)
-    b.triangle(before[k], before[(k + 1) % kRimColumns], pole);
+  for (std::size_t k = 0; k < std::size_t(kRimColumns); ++k) b.triangle(before[k], before[(k + 1) % kRimColumns], pole);
 }
 
 }  // namespace

@@ -4,7 +4,8 @@ namespace trocar::view {
 namespace {
 
 constexpr double kReach = 0.019;  // [m] from the tube's end to the ovary, no farther
-constexpr double kSlide = 0.004;  // [m] of the leaf lie on it
+constexpr double kSlide = 0.0065;  // [m] of the leaf lie on it
+constexpr double kUpwards = 0.9;
 constexpr float kAbove = 0.0004f;
 
 struct Touch {
@@ -44,7 +45,9 @@ FimbriaSite fimbria_site(const sim::Model& model, int strand, const CurveFrame& 
   const Touch touch = nearest_organ(model, tube, end.point + 1.5 * site.radius * end.tangent);
   if (!touch.skin) return site;
   const Vec3d first = vec_cast<double>(touch.skin->rest[touch.vertex]),
-              normal = vec_cast<double>(touch.skin->rest_normal[touch.vertex]), way = first - end.point;
+              normal = vec_cast<double>(touch.skin->rest_normal[touch.vertex]);
+  // Onwards, and on the ovary's upper side.
+  const Vec3d way = normalised(first - end.point) + kUpwards * normalised(model.scope.port - first);
   const Vec3d slide = normalised(way - dot(way, normal) * normal, any_perpendicular(normal));
   const std::size_t on = nearest_vertex(*touch.skin, first + kSlide * slide);
   const Vec3f out = touch.skin->rest_normal[on];

@@ -9,9 +9,9 @@ namespace trocar::view {
 namespace {
 
 constexpr double kPi = 3.14159265358979;
-constexpr int kSides = 22, kPasses = 80;
-constexpr double kTouch = 0.96;   // of both radii: touching walls flatten each other
-constexpr double kOnFloor = 0.8;  // of the radius above a wall
+constexpr int kSides = kGutSides, kPasses = 80;
+constexpr double kTouch = 0.96;                // of both radii: touching walls flatten each other
+constexpr double kOnFloor = 0.8;               // of the radius above a wall
 constexpr double kAlong = 1.5, kRound = 0.65;  // patterns: shorter along the gut, longer around it
 
 /// Two points of one line are neighbours, not in each other's way, when they are nearer than this along it [radii].

@@ -11,6 +11,7 @@
 namespace trocar::view {
 
 inline constexpr double kGutStep = 0.003;  ///< [m] between points of a line
+inline constexpr int kGutSides = 22;       ///< vertices around it
 
 struct GutLine {
   std::vector<Vec3d> points;

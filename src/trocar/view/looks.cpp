@@ -34,21 +34,22 @@ Material uterus() {
   m.mottle = 0.5f;
   m.bump = 0.12f;
   m.film_bump = 0.24f;
-  m.film_roughness = 0.13f;
+  m.film_roughness = 0.095f;
   m.film_size = 0.0032f;
   return m;
 }
 
 Material tube() {
-  Material m = with_vessels(tissue(srgb(196, 131, 130), srgb(206, 152, 142), srgb(182, 108, 114)), 0.7f, 0.024f);
+  Material m = with_vessels(tissue(srgb(194, 124, 125), srgb(206, 150, 138), srgb(178, 98, 106)), 0.75f, 0.024f);
   m.mottle_size = 0.011f;
   m.mottle = 0.6f;
   m.bump = 0.1f;
   m.glow_amount = 0.2f;          // through the thin rims of the fimbriae
-  m.tint = srgb(188, 104, 106);  // fimbriae: mucosa
-  m.film_size = 0.0055f;         // longer than the tube is thick: one broken sheen, no beads
-  m.film_bump = 0.2f;
-  m.film_roughness = 0.1f;
+  m.tint = srgb(180, 86, 92);    // fimbriae: mucosa
+  m.film_size = 0.0042f;         // as long as the tube is thick: one broken sheen, no beads
+  m.film_bump = 0.3f;
+  m.film_roughness = 0.07f;
+  m.wetness = 0.9f;
   return m;
 }
 
@@ -57,7 +58,7 @@ Material ovary() {
   m.mottle_size = 0.008f;
   m.mottle = 0.35f;
   m.bump = 0.14f;
-  m.film_roughness = 0.12f;
+  m.film_roughness = 0.09f;
   m.film_bump = 0.22f;
   m.glow_amount = 0.1f;
   m.tint = srgb(196, 166, 172);  // a follicle
@@ -126,6 +127,8 @@ Material bladder() {
   m.colour_c = srgb(188, 114, 112);
   m.vessel_tile = 0.05f;
   m.mottle_size = 0.019f;
+  m.wetness = 0.36f;  // rather dull: its rim is a fold that would shine like a dish's
+  m.film_roughness = 0.1f;
   return m;
 }
 
@@ -134,9 +137,10 @@ Material bowel() {
   m.mottle_size = 0.012f;
   m.mottle = 0.6f;
   m.glow_amount = 0.1f;
-  m.film_bump = 0.17f;
-  m.film_size = 0.007f;
-  m.film_roughness = 0.09f;
+  m.film_bump = 0.26f;
+  m.film_size = 0.0042f;
+  m.film_roughness = 0.07f;
+  m.wetness = 0.9f;
   m.tint = srgb(228, 178, 158);  // its bands
   return m;
 }
@@ -157,9 +161,10 @@ Material small_bowel() {
   m.mottle_size = 0.014f;
   m.mottle = 0.5f;
   m.glow_amount = 0.1f;
-  m.film_bump = 0.14f;
-  m.film_size = 0.008f;
-  m.film_roughness = 0.09f;
+  m.film_bump = 0.24f;
+  m.film_size = 0.0048f;
+  m.film_roughness = 0.07f;
+  m.wetness = 0.9f;
   return m;
 }
 

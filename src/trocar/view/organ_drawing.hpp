@@ -39,7 +39,7 @@ class OrganDrawing {
   const sim::SolidModel* m_solid;
   tissue::SkinPose m_pose;
   std::vector<std::uint32_t> m_indices;
-  std::vector<Vec3f> m_rest;  ///< for patterns
+  std::vector<Vec3f> m_rest;                          ///< for patterns
   std::vector<std::vector<std::uint32_t>> m_coarser;  ///< of the uncut skin
   std::vector<Vec3f> m_normals;
   /// A vertex of a wound: a copy of a skin vertex, `depth` below it [m].

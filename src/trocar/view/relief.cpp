@@ -8,8 +8,8 @@ namespace {
 
 constexpr double kTwoPi = 6.28318530717959;
 constexpr std::size_t kSlices = 16;
-constexpr double kBandHalf = 0.0028;  // [m] half the width of a gut's band
-constexpr float kPatternAlong = 1.5f, kPatternRound = 0.7f;  // how fine a gut's patterns are
+constexpr double kBandHalf = 0.0028;                         // [m] half the width of a gut's band
+constexpr float kPatternAlong = 1.25f, kPatternRound = 0.8f;  // how fine a gut's patterns are
 
 /// Longest extent of the body: the direction along which a gut is divided into bulges.
 Vec3d long_axis(const tissue::Skin& skin) {
@@ -46,8 +46,8 @@ void add_follicles(const Relief& relief, const tissue::Skin& skin, std::vector<f
   }
 }
 
-/// One of the two that an ovary of that age may have, on the side that faces upwards: a thin-walled blister, or a corpus
-/// luteum with its dimple, through which the egg left.
+/// One of the two that an ovary of that age may have, on the side that faces upwards: a thin-walled blister, or a
+/// corpus luteum with its dimple, through which the egg left.
 void add_ripe(const Relief& relief, const tissue::Skin& skin, std::vector<float>& height, std::vector<Paint>& paint) {
   const bool luteum = skin.rest.front().x < 0;
   std::size_t centre = 0;

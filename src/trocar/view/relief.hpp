@@ -27,7 +27,9 @@ struct Relief {
   };
   std::vector<Root> roots = {};
 
-  bool any() const { return broad > 0 || fine > 0 || follicles > 0 || haustra > 0 || lopsided > 0 || ripe > 0 || !roots.empty(); }
+  bool any() const {
+    return broad > 0 || fine > 0 || follicles > 0 || haustra > 0 || lopsided > 0 || ripe > 0 || !roots.empty();
+  }
 };
 
 /// Height over each vertex [m]. Follicles and a gut's bands also paint themselves (Paint::tint).

@@ -1,0 +1,175 @@
+// A strand's rows, from end to end of every piece, and the triangles between them.
+#include <algorithm>
+#include <cmath>
+
+#include <trocar/view/fimbria.hpp>
+#include <trocar/view/tube_drawing.hpp>
+
+namespace trocar::view {
+
+using interactions::Clip;
+
+namespace {
+
+constexpr double kStep = 0.0012;      // [m] between rings
+constexpr double kFineStep = 0.0004;  // [m] near a clip
+constexpr double kNearClip = 0.004;   // [m]
+constexpr double kBend = 0.01;        // [m] radius with which tubes curve, for rings that are left out
+
+}  // namespace
+
+std::vector<double> TubeDrawing::stations(const Layout& layout, const StrandPiece& piece) const {
+  std::vector<double> at;
+  const int steps = std::max(2, int(std::ceil((piece.to - piece.from) / kStep)));
+  for (int i = 0; i <= steps; ++i) at.push_back(piece.from + (piece.to - piece.from) * i / steps);
+  for (const Clip& clip : layout.clips)
+    for (double d = -kNearClip; d <= kNearClip; d += kFineStep)
+      if (clip.s + d > piece.from + 1e-5 && clip.s + d < piece.to - 1e-5) at.push_back(clip.s + d);
+  std::sort(at.begin(), at.end());
+  at.erase(std::unique(at.begin(), at.end(), [](double a, double b) { return b - a < 1e-5; }), at.end());
+  at.back() = piece.to;
+  return at;
+}
+
+void TubeDrawing::add_raw_face(int piece, bool at_start) {
+  const StrandPiece& p = m_layout.pieces[std::size_t(piece)];
+  const double s = at_start ? p.from : p.to, sign = at_start ? -1 : 1, r = radius_at(s) * contracted(p, s);
+  const double open = m_strand->inner.empty() ? 0 : m_strand->inner[std::size_t(at_start ? p.first : p.last)];
+  const double lumen = std::max(open, 0.22 * r);
+  // The serosa has drawn back from a pale ring of muscle, which has contracted; out of it pouts the lining, ragged and
+  // dusky, around a narrow dark lumen.
+  const Paint rim{235, 20, 0, 0}, muscle{225, 8, 24, 20}, mucosa{205, 12, 0, 215}, lining{150, 60, 0, 255};
+  const Paint dark{40, 190, 0, 255};
+  std::vector<TubeRow> rows;
+  const auto row = [&](double along, double radius, double ragged, Paint paint) {
+    rows.push_back({piece, s, sign * along, radius, ragged, 0, false, paint});
+  };
+  row(0, r, 0, rim);
+  row(0.05 * r, 0.94 * r, 0.05, muscle);
+  row(0.13 * r, 0.85 * r, 0.05, muscle);
+  row(0.22 * r, 0.89 * r, 0.10, mucosa);
+  row(0.38 * r, 0.96 * r, 0.17, mucosa);
+  row(0.52 * r, 0.90 * r, 0.20, mucosa);
+  row(0.54 * r, 0.74 * r, 0.17, mucosa);
+  row(0.45 * r, std::min(1.3 * lumen, 0.54 * r), 0.12, lining);
+  row(0.18 * r, std::min(0.9 * lumen, 0.38 * r), 0.05, dark);
+  row(-0.4 * r, 0, 0, dark);
+  rows.front().crease = !at_start;
+  if (at_start) std::reverse(rows.begin(), rows.end());
+  m_rows.insert(m_rows.end(), rows.begin(), rows.end());
+}
+
+void TubeDrawing::add_start(int piece) {
+  const StrandPiece& p = m_layout.pieces[std::size_t(piece)];
+  if (p.cut_start) return add_raw_face(piece, true);
+  const double r = radius_at(p.from);
+  if (m_start_root.there) return add_root(piece, true);
+  m_rows.push_back({piece, p.from, -r, 0, 0, 0, false, {}});
+  for (const double a : {0.3, 0.7, 1.1})
+    m_rows.push_back({piece, p.from, -r * std::cos(a), r * std::sin(a), 0, 0, false, {}});
+}
+
+void TubeDrawing::add_end(int piece) {
+  const StrandPiece& p = m_layout.pieces[std::size_t(piece)];
+  if (p.cut_end) return add_raw_face(piece, false);
+  const double r = radius_at(p.to);
+  if (m_strand->fimbriated) return;  // goes over into the fimbriae
+  if (m_end_root.there) return add_root(piece, false);
+  for (const double a : {1.1, 0.7, 0.3})
+    m_rows.push_back({piece, p.to, r * std::cos(a), r * std::sin(a), 0, 0, false, {}});
+  m_rows.push_back({piece, p.to, r, 0, 0, 0, false, {}});
+}
+
+void TubeDrawing::add_piece(const Layout& layout, int piece) {
+  const StrandPiece& p = layout.pieces[std::size_t(piece)];
+  add_start(piece);
+  bool first = true;
+  for (const double s : stations(layout, p)) {
+    m_rows.push_back({piece, s, 0, radius_at(s) * contracted(p, s), 0, 0, first && p.cut_start, {}});
+    first = false;
+  }
+  add_end(piece);
+}
+
+void TubeDrawing::connect() {
+  m_buffer = {};
+  m_first.clear();
+  std::vector<std::size_t> all;
+  for (const TubeRow& row : m_rows) {
+    all.push_back(all.size());
+    m_first.push_back(m_buffer.size());
+    for (int k = 0; k < (row.radius == 0 ? 1 : m_sides); ++k) m_buffer.add({});
+  }
+  join(all, 1, m_buffer);
+  const std::uint32_t fingers = m_buffer.size();
+  if (m_strand->fimbriated) {
+    join_fimbriae(fingers, 1, m_buffer);
+    append(m_buffer, m_fimbriae, Mat3f::identity(), {});
+  }
+  connect_coarsely();
+  for (std::size_t k = 0; k < m_fimbriae.coarser.size(); ++k)
+    for (const std::uint32_t v : m_fimbriae.coarser[k]) m_buffer.coarser[k].push_back(fingers + v);
+}
+
+/// Between every `stride`-th side of the last row and the fimbriae's first ring, which has more vertices.
+void TubeDrawing::join_fimbriae(std::uint32_t fingers, std::uint32_t stride, MeshBuffer& into) const {
+  const auto sides = std::uint32_t(m_sides), fine = std::uint32_t(kRimColumns) / sides * stride;
+  static_assert(kRimColumns % 16 == 0 && kRimColumns % 12 == 0);
+  const auto ring = [&](std::uint32_t k) { return fingers + k % std::uint32_t(kRimColumns); };
+  for (std::uint32_t i = 0; i < sides; i += stride) {
+    const std::uint32_t a = m_first.back() + i, b = m_first.back() + (i + stride) % sides;
+    const std::uint32_t from = i / stride * fine, half = fine / 2;
+    for (std::uint32_t k = 0; k < fine; ++k) into.triangle(k < half ? a : b, ring(from + k + 1), ring(from + k));
+    into.triangle(a, b, ring(from + half));
+  }
+}
+
+/// Triangles between these rows, of every `stride`-th side.
+void TubeDrawing::join(const std::vector<std::size_t>& rows, std::uint32_t stride, MeshBuffer& into) const {
+  const auto sides = std::uint32_t(m_sides);
+  for (std::size_t n = 1; n < rows.size(); ++n) {
+    const TubeRow &low = m_rows[rows[n - 1]], &high = m_rows[rows[n]];
+    if (high.piece != low.piece || high.crease) continue;
+    const std::uint32_t a = m_first[rows[n - 1]], b = m_first[rows[n]];
+    for (std::uint32_t i = 0; i < sides; i += stride) {
+      const std::uint32_t j = (i + stride) % sides;
+      if (high.radius == 0)
+        into.triangle(a + i, a + j, b);
+      else if (low.radius == 0)
+        into.triangle(b + j, b + i, a);
+      else
+        into.quad(a + i, a + j, b + j, b + i);
+    }
+  }
+}
+
+/// Plain rows at least so far apart [m], and all that are not plain.
+std::vector<std::size_t> TubeDrawing::rows_apart(double distance) const {
+  const auto plain = [](const TubeRow& r) { return r.radius > 0 && r.along == 0 && r.out == 0 && !r.crease; };
+  const auto clipped = [this](double s) {
+    return std::any_of(m_layout.clips.begin(), m_layout.clips.end(),
+                       [s](const Clip& clip) { return std::fabs(clip.s - s) < kNearClip; });
+  };
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < m_rows.size(); ++i) {
+    const TubeRow& row = m_rows[i];
+    const bool inside = i > 0 && i + 1 < m_rows.size() && plain(row) && plain(m_rows[i - 1]) && plain(m_rows[i + 1]) &&
+                        m_rows[i - 1].piece == row.piece && m_rows[i + 1].piece == row.piece;
+    const double least = clipped(row.s) ? 0.3 * distance : distance;
+    if (!inside || row.s - m_rows[kept.back()].s > least - 0.5 * kFineStep) kept.push_back(i);
+  }
+  return kept;
+}
+
+void TubeDrawing::connect_coarsely() {
+  const double thickest = *std::max_element(m_strand->outer.begin(), m_strand->outer.end());
+  for (const double error : m_errors) {
+    MeshBuffer part;
+    const std::uint32_t stride = side_stride(error, thickest, std::uint32_t(m_sides));
+    join(rows_apart(ring_distance(error, kBend)), stride, part);
+    if (m_strand->fimbriated) join_fimbriae(m_buffer.size() - m_fimbriae.size(), stride, part);
+    m_buffer.coarser.push_back(std::move(part.indices));
+  }
+}
+
+}  // namespace trocar::view

@@ -1,0 +1,165 @@
+// What is drawn of the pelvis beyond its simulated bodies: fimbriae, the bore of tubes, bowel that goes on.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <trocar/geometry/tri_mesh.hpp>
+#include <trocar/render/backend.hpp>
+#include <trocar/scene/compile.hpp>
+#include <trocar/scene/reader.hpp>
+#include <trocar/view/bowel_loops.hpp>
+#include <trocar/view/fimbria.hpp>
+#include <trocar/view/gut_line.hpp>
+#include <trocar/view/tube_drawing.hpp>
+
+namespace trocar::view {
+namespace {
+
+const sim::Model& pelvis() {
+  static const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/gynaecology/scene.json"));
+  return model;
+}
+
+const BowelLoops& loops() {
+  static const BowelLoops made = bowel_loops(pelvis(), WallSurface(pelvis()));
+  return made;
+}
+
+const sim::SolidModel& solid(const std::string& look) {
+  const auto found =
+      std::find_if(pelvis().solids.begin(), pelvis().solids.end(), [&](const auto& s) { return s.look == look; });
+  if (found == pelvis().solids.end()) throw std::runtime_error("no " + look);
+  return *found;
+}
+
+/// How far outside a skin a point lies, by the plane of the nearest vertex [m].
+double above(const tissue::Skin& skin, Vec3d p) {
+  double nearest = 1, height = 0;
+  for (std::size_t v = 0; v < skin.rest.size(); ++v) {
+    const Vec3d way = p - vec_cast<double>(skin.rest[v]);
+    if (const double d = length(way); d < nearest) {
+      nearest = d;
+      height = dot(way, vec_cast<double>(skin.rest_normal[v]));
+    }
+  }
+  return height;
+}
+
+/// Middles of a gut's rings.
+std::vector<Vec3d> line_of(const MeshBuffer& gut) {
+  std::vector<Vec3d> line;
+  for (std::size_t i = 0; i + kGutSides <= gut.positions.size(); i += kGutSides) {
+    Vec3d sum{};
+    for (std::size_t k = 0; k < kGutSides; ++k) sum += (1.0 / kGutSides) * vec_cast<double>(gut.positions[i + k]);
+    line.push_back(sum);
+  }
+  return line;
+}
+
+int pieces_of_surface(const MeshBuffer& b) {
+  geometry::TriMesh mesh;
+  for (const Vec3f& p : b.positions) mesh.positions.push_back(vec_cast<double>(p));
+  for (std::size_t i = 0; i + 2 < b.indices.size(); i += 3)
+    mesh.triangles.push_back({int(b.indices[i]), int(b.indices[i + 1]), int(b.indices[i + 2])});
+  mesh = geometry::merged_vertices(mesh, 1e-7);
+  std::vector<int> root(mesh.positions.size());
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&](int v) {
+    while (root[std::size_t(v)] != v) v = root[std::size_t(v)] = root[std::size_t(root[std::size_t(v)])];
+    return v;
+  };
+  for (const auto& t : mesh.triangles) {
+    root[std::size_t(find(t[0]))] = find(t[1]);
+    root[std::size_t(find(t[2]))] = find(t[1]);
+  }
+  std::vector<int> used;
+  for (const auto& t : mesh.triangles) used.push_back(find(t[0]));
+  std::sort(used.begin(), used.end());
+  return int(std::unique(used.begin(), used.end()) - used.begin());
+}
+
+TEST(Fimbriae, AreOneSurfaceWithTheirTube) {
+  for (const char* name : {"tube_left", "tube_right"})
+    EXPECT_EQ(pieces_of_surface(TubeDrawing(pelvis(), pelvis().strand_index(name)).drawn()), 1) << name;
+}
+
+TEST(Fimbriae, LieOnTheOvaryAndNotInIt) {
+  for (const char* side : {"left", "right"}) {
+    const TubeDrawing tube(pelvis(), pelvis().strand_index(std::string("tube_") + side));
+    const auto ovary = std::find_if(pelvis().solids.begin(), pelvis().solids.end(),
+                                    [&](const auto& s) { return s.name == std::string("ovary_") + side; });
+    ASSERT_NE(ovary, pelvis().solids.end());
+    double nearest = 1;
+    FimbriaSite any;
+    any.radius = 0.004;
+    for (const Vec3f& p : std::span(tube.drawn().positions).last(fimbriae(any).size()))
+      nearest = std::min(nearest, above(ovary->fine, vec_cast<double>(p)));
+    EXPECT_LT(nearest, 0.001) << side;
+    EXPECT_GT(nearest, -0.0016) << side;
+  }
+}
+
+TEST(TubeDrawing, StaysWithinAMillimetreAndAHalfOfTheSimulatedTube) {
+  const int strand = pelvis().strand_index("tube_left");
+  const TubeDrawing tube(pelvis(), strand);
+  const interactions::StrandBody& body = pelvis().bodies[std::size_t(strand)];
+  const std::vector<double>& outer = pelvis().strands[std::size_t(strand)].outer;
+  double thinnest = 1, thickest = 0;
+  for (std::size_t n = 4; n + 5 < body.model.rest.size(); ++n) {  // between the uterus and the bell
+    const Vec3d middle = body.model.rest[n], along = normalised(body.model.rest[n + 1] - body.model.rest[n - 1]);
+    double farthest = 0;
+    for (const Vec3f& p : tube.drawn().positions) {
+      const Vec3d d = vec_cast<double>(p) - middle;
+      if (std::fabs(dot(d, along)) > 0.0008 || length(d) > 0.012) continue;
+      farthest = std::max(farthest, length(d));
+    }
+    EXPECT_NEAR(farthest, outer[n], 0.0015) << n;
+    thinnest = std::min(thinnest, farthest);
+    thickest = std::max(thickest, farthest);
+  }
+  EXPECT_LT(thinnest, 0.002);   // the isthmus
+  EXPECT_GT(thickest, 0.0038);  // the ampulla
+}
+
+TEST(BowelLoops, TheLargeBowelsEndIsInsideWhatGoesOnFromIt) {
+  const std::vector<Vec3d> line = line_of(loops().large);
+  ASSERT_GT(line.size(), 10u);
+  const Vec3d end = line[5], onward = normalised(line[8] - line[2]);
+  int looked = 0;
+  for (const Vec3f& v : solid("bowel").fine.rest) {
+    const Vec3d d = vec_cast<double>(v) - end;
+    if (length(d) > 0.025 || dot(d, onward) < 0.003) continue;
+    ++looked;
+    double nearest = 1, around = 0;
+    for (std::size_t i = 0; i < loops().large.positions.size(); ++i) {
+      const Vec3d p = vec_cast<double>(loops().large.positions[i]);
+      if (const double far = length(p - vec_cast<double>(v)); far < nearest) {
+        nearest = far;
+        around = dot(vec_cast<double>(v) - p, vec_cast<double>(loops().large.normals[i]));
+      }
+    }
+    EXPECT_LT(around, 0.001);
+  }
+  EXPECT_GT(looked, 10);
+}
+
+TEST(BowelLoops, SmallBowelIsBesideItselfAndBesideTheLarge) {
+  const std::vector<Vec3d> line = line_of(loops().small);
+  ASSERT_GT(line.size(), 100u);
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    for (std::size_t j = i + 16; j < line.size(); ++j) EXPECT_GT(length(line[i] - line[j]), 0.015) << i << " " << j;
+    EXPECT_GT(above(solid("bowel").fine, line[i]), 0.006) << i;
+  }
+}
+
+TEST(BowelLoops, ScenesWithoutLargeBowelHaveNone) {
+  const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/cutting/scene.json"));
+  EXPECT_EQ(bowel_loops(model, WallSurface(model)).small.size(), 0u);
+}
+
+}  // namespace
+}  // namespace trocar::view
