@@ -89,11 +89,11 @@ Material peritoneum() {
   m.mottle_size = 0.024f;
   m.mottle = 0.6f;
   m.bump = 0.08f;
-  m.wetness = 0.42f;
+  m.wetness = 0.52f;
   m.tint = srgb(204, 150, 112);  // fat below it
   m.film_size = 0.0021f;         // of muscle fibres that shimmer through: its film is as smooth as it is wide
-  m.film_bump = 0.05f;
-  m.film_roughness = 0.16f;
+  m.film_bump = 0.07f;
+  m.film_roughness = 0.14f;
   m.two_sided = true;
   return m;
 }
@@ -255,8 +255,10 @@ Material omentum() {
   m.lobule_contrast = 0.06f;
   m.vessels = 1;
   m.vessel_tile = 0.04f;
-  m.film_bump = 0.3f;
-  m.film_size = 0.0024f;
+  m.wetness = 0.66f;
+  m.film_roughness = 0.085f;
+  m.film_bump = 0.26f;
+  m.film_size = 0.0032f;
   m.tint = srgb(206, 130, 124);
   m.two_sided = true;
   return m;
