@@ -332,10 +332,10 @@ Pattern lining_pattern() {
     float fork = 40, side = 1;
     for (float y = 0; y < size; y += 0.8f) {  // winds, and meets itself over the tile's edge
       const double k = 2 * portable::pi * double(y) / size;
-      const float x = at + 46 * float(portable::sin(k + double(phase))) +
-                      11 * float(portable::sin(3 * k + 1 + double(phase))) +
+      const float x = at + 36 * float(portable::sin(k + double(phase))) +
+                      8 * float(portable::sin(3 * k + 1 + double(phase))) +
                       3.2f * float(portable::sin(7 * k + 2 + double(phase))) + 0.7f * float(portable::sin(19 * k));
-      const float slope = float(46 * portable::cos(k + double(phase)) * 2 * portable::pi / size);
+      const float slope = float(36 * portable::cos(k + double(phase)) * 2 * portable::pi / size);
       const float heading = 0.5f * float(portable::pi) - slope;
       dab_pair(red, veins, b, x, y, heading, 0);
       fork -= 0.8f;

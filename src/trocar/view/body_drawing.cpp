@@ -47,7 +47,7 @@ BodyDrawing::BodyDrawing(const sim::Model& model, render::Backend& backend)
   make_tubes(walls);
   make_cuttables(backend);
   for (int i = 0; i < model.organs(); ++i)
-    if (look(model.organ_look(i)).continued) m_livers.emplace_back(model, i, walls, backend);
+    if (look(model.organ_look(i)).continued) m_livers.emplace_back(model, i, liver_shape(i), walls, backend);
   make_aprons(walls);
   const render::OpennessBaker baker = shading();
   for (CuttableDrawing& c : m_cuttables) c.shade(baker);
@@ -65,6 +65,16 @@ BodyDrawing::BodyDrawing(const sim::Model& model, render::Backend& backend)
   }
   make_vessels(backend);
   make_membranes(backend);
+}
+
+LiverShape BodyDrawing::liver_shape(int organ) const {
+  const auto solids = int(m_model->solids.size());
+  if (organ >= solids) {
+    const CuttableDrawing& body = m_cuttables[std::size_t(organ - solids)];
+    return {body.positions(), body.indices()};
+  }
+  const tissue::Skin& body = m_model->solids[std::size_t(organ)].fine;
+  return {body.rest, flat_indices(body)};
 }
 
 void BodyDrawing::make_tubes(const WallSurface& walls) {

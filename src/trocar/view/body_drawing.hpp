@@ -60,6 +60,7 @@ class BodyDrawing {
     Joint joint;
   };
 
+  LiverShape liver_shape(int organ) const;
   void make_tubes(const WallSurface& walls);
   void make_cuttables(render::Backend& backend);
   render::OpennessBaker shading() const;

@@ -139,7 +139,7 @@ MeshBuffer omentum_on(const tissue::Skin& wall, Vec3d gravity, const MeshBuffer&
     const double patch = smooth(0.2, 0.9, waves(point.p + Vec3d{0.3, 0.3, 0}, 0.03));
     Paint paint;
     paint.openness = to_byte(0.72 + 0.28 * smooth(0.001, 0.007, thick));
-    paint.tint = to_byte(std::max({0.4 * patch, 0.45 * groove, 0.9 * smooth(0.005, 0, deep)}));
+    paint.tint = to_byte(std::max({0.4 * patch, 0.45 * groove, 0.9 * smooth(0.008, 0, deep)}));
     b.add(vec_cast<float>(point.p + thick * point.n), paint);
   }
   for (const auto& [i, j, k] : net.triangles) b.triangle(std::uint32_t(i), std::uint32_t(j), std::uint32_t(k));
