@@ -126,7 +126,7 @@ TEST(Cavity, OrgansLieInIt) {
 TEST(LiverDome, LeavesTheSimulatedEdgeWithoutAStep) {
   const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/cutting/scene.json"));
   const tissue::Skin& body = model.skin(0);
-  const MeshBuffer dome = LiverShape(body.rest, flat_indices(body)).dome();
+  const MeshBuffer dome = LiverShape(body.rest, flat_indices(body)).dome(WallSurface(model));
   ASSERT_GT(dome.indices.size(), 3000u);
   std::vector<std::uint8_t> used(dome.size(), 0);
   for (const std::uint32_t v : dome.indices) used[v] = 1;

@@ -56,6 +56,8 @@ BodyDrawing::BodyDrawing(const sim::Model& model, render::Backend& backend)
   make_on_organs(walls, backend);
   for (const sim::WallModel& w : model.walls) make_wall(w, baker, backend);
   for (const MeshBuffer& apron : m_apron_shapes) m_aprons.emplace_back(backend, apron.data());
+  for (const MeshBuffer& apron : m_far_apron_shapes)
+    if (apron.size() > 0) m_far_aprons.emplace_back(backend, apron.data());
   make_surroundings(walls, baker, backend);
   for (TubeDrawing& t : m_tubes) t.create(shaded(baker, t.drawn().positions, t.drawn().normals), backend);
   make_joints(walls, backend);
@@ -105,7 +107,8 @@ render::OpennessBaker BodyDrawing::shading() const {
     occluders.push_back({m_model->walls[i].skin.rest, indices[solids + i]});
   for (const CuttableDrawing& c : m_cuttables) occluders.push_back({c.positions(), c.indices()});
   for (const TubeDrawing& t : m_tubes) occluders.push_back({t.drawn().positions, t.drawn().indices});
-  for (const MeshBuffer& a : m_apron_shapes) occluders.push_back({a.positions, a.indices});
+  for (const std::vector<MeshBuffer>* shapes : {&m_apron_shapes, &m_far_apron_shapes})
+    for (const MeshBuffer& a : *shapes) occluders.push_back({a.positions, a.indices});
   for (const LiverDome& l : m_livers) occluders.push_back({l.buffer().positions, l.buffer().indices});
   return render::OpennessBaker(occluders, kShadeCell, kShadeReach);
 }
@@ -158,10 +161,11 @@ void BodyDrawing::make_aprons(const WallSurface& walls) {
   for (std::size_t i = 0; i < m_model->walls.size(); ++i) {
     const sim::WallModel& wall = m_model->walls[i];
     if (!look(wall.look).omentum) continue;
-    MeshBuffer apron = omentum_on(wall.skin, m_model->gravity, walls.cavity());
+    MeshBuffer apron = omentum_on(wall.skin, m_model->gravity);
     if (apron.size() == 0) continue;
     m_apron_shapes.push_back(std::move(apron));
     m_apron_on.push_back(i);
+    m_far_apron_shapes.push_back(omentum_beyond(wall.skin, m_model->gravity, walls.cavity()));
   }
 }
 
@@ -286,6 +290,7 @@ DrawItem BodyDrawing::as_lining(DrawItem item) const {
 
 void BodyDrawing::list_surroundings(const FirstParts& first, const Listing& to) {
   to.add(m_cavity, as_lining(item({}, *m_wall_look, first.cavity)), m_details.cavity);
+  for (const OwnedMesh& apron : m_far_aprons) to.add(item(apron.handle(), look("omentum"), first.cavity));
   if (m_loops.handle().id) to.add(item(m_loops.handle(), look("small_bowel"), first.cavity));
 }
 

@@ -18,7 +18,7 @@ constexpr double kDeepest = 0.85;
 LiverDome::LiverDome(const sim::Model& model, int organ, const LiverShape& shape, const WallSurface& wall,
                      render::Backend& backend)
     : m_model(&model), m_organ(organ), m_pose(tissue::make_pose(model.skin(organ))) {
-  m_dome.shape = shape.dome();
+  m_dome.shape = shape.dome(wall);
   m_falciform.shape = shape.falciform(wall);
   for (Part* part : {&m_dome, &m_falciform}) {
     part->rest = part->shape.positions;

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include <trocar/render/mesh_arrays.hpp>
 #include <trocar/view/fair_surface.hpp>
@@ -19,6 +21,7 @@ constexpr double kFalls = -0.27;  // slope of the body's upper side from which o
 constexpr int kEvenJoin = 30;     // passes over the line where it does
 constexpr double kHold = 1, kLoose = 8e-6, kFirm = 6e-4;  // weights, see fairest()
 constexpr double kSunk = 0.00022;                         // [m] times (rings into the body)^2
+constexpr double kBehindWall = 0.003;                     // [m]
 constexpr int kOverlap = 3;                               // rings
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
@@ -31,6 +34,32 @@ double wished(double beside, double up) {
   const double lobes = 0.022 * smooth(0, -0.09, beside) - 0.012 * smooth(0.02, 0.1, beside);
   const double over = std::max(0.0, up - 0.045);
   return lobes + 0.03 * up - over * over / 0.075;
+}
+
+/// Leaves what lies before the wall, cut along it.
+void cut_at_wall(MeshBuffer& b, const WallSurface& wall) {
+  std::vector<float> before;
+  for (const Vec3f& f : b.positions) {
+    const WallSurface::Place place = wall.nearest(vec_cast<double>(f));
+    before.push_back(place.there ? float(dot(vec_cast<double>(f) - place.point, place.normal) + kBehindWall) : 1.0f);
+  }
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> cuts;
+  const auto cut = [&](std::uint32_t i, std::uint32_t j) {
+    const auto [found, anew] = cuts.try_emplace(std::minmax(i, j), b.size());
+    const float t = before[i] / (before[i] - before[j]);
+    if (anew) b.add(b.positions[i] + t * (b.positions[j] - b.positions[i]));
+    return found->second;
+  };
+  const std::vector<std::uint32_t> whole = std::exchange(b.indices, {});
+  for (std::size_t t = 0; t + 2 < whole.size(); t += 3) {
+    std::vector<std::uint32_t> left;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t i = whole[t + k], j = whole[t + (k + 1) % 3];
+      if (before[i] > 0) left.push_back(i);
+      if ((before[i] > 0) != (before[j] > 0)) left.push_back(cut(i, j));
+    }
+    for (std::size_t k = 2; k < left.size(); ++k) b.triangle(left[0], left[k - 1], left[k]);
+  }
 }
 
 }  // namespace
@@ -201,7 +230,7 @@ double LiverShape::height(double x, double y) const {
   return (1 - t) * in_column(c) + t * in_column(c + 1);
 }
 
-MeshBuffer LiverShape::dome() const {
+MeshBuffer LiverShape::dome(const WallSurface& wall) const {
   MeshBuffer b;
   const std::vector<int> depth = depths();
   const std::size_t n = m_columns.size();
@@ -238,6 +267,7 @@ MeshBuffer LiverShape::dome() const {
   };
   below(0, m_first + 1);
   below(m_last - 1, n - 1);
+  cut_at_wall(b, wall);
   render::vertex_normals(b.positions, b.indices, b.normals);
   return b;
 }

@@ -14,7 +14,8 @@ class LiverShape {
   LiverShape(std::span<const Vec3f> points, std::span<const std::uint32_t> triangles);
 
   /// What is drawn of it: the upper side, sunk into the body where they overlap, and a thin lower margin to both sides.
-  MeshBuffer dome() const;
+  /// It ends where a wall is.
+  MeshBuffer dome(const WallSurface& wall) const;
   /// The falciform ligament from the dome to the wall; its free border is a round cord. Paint::tint: fat.
   MeshBuffer falciform(const WallSurface& wall) const;
   double height(double x, double y) const;  ///< of the upper side [m]

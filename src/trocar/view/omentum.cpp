@@ -115,22 +115,17 @@ void take(std::span<const Vec3f> points, std::span<const Vec3f> normals, std::sp
   }
 }
 
-}  // namespace
-
-MeshBuffer omentum_on(const tissue::Skin& wall, Vec3d gravity, const MeshBuffer& beyond) {
+Ground ground_of(const tissue::Skin& wall, Vec3d gravity) {
   Ground ground{normalised(-1.0 * gravity, Vec3d{0, 0, 1})};
   for (const Vec3f& x : wall.rest) {
     ground.lowest = std::min(ground.lowest, dot(vec_cast<double>(x), ground.up));
     ground.highest = std::max(ground.highest, dot(vec_cast<double>(x), ground.up));
   }
+  return ground;
+}
+
+MeshBuffer apron(Net net, const Ground& ground) {
   MeshBuffer b;
-  if (!(ground.highest > ground.lowest)) return b;
-  Net net;
-  std::vector<std::uint32_t> triangles;
-  for (const auto& t : wall.triangles)
-    for (const int v : t) triangles.push_back(std::uint32_t(v));
-  take(wall.rest, wall.rest_normal, triangles, ground, net);
-  take(beyond.positions, beyond.normals, beyond.indices, ground, net);
   for (int i = 0; i < kHalvings; ++i) net.divide();
   for (const Point& point : net.points) {
     const double deep = ground.inside_at(point.p);
@@ -145,6 +140,26 @@ MeshBuffer omentum_on(const tissue::Skin& wall, Vec3d gravity, const MeshBuffer&
   for (const auto& [i, j, k] : net.triangles) b.triangle(std::uint32_t(i), std::uint32_t(j), std::uint32_t(k));
   render::vertex_normals(b.positions, b.indices, b.normals);
   return b;
+}
+
+}  // namespace
+
+MeshBuffer omentum_on(const tissue::Skin& wall, Vec3d gravity) {
+  const Ground ground = ground_of(wall, gravity);
+  Net net;
+  if (!(ground.highest > ground.lowest)) return {};
+  std::vector<std::uint32_t> triangles;
+  for (const auto& t : wall.triangles)
+    for (const int v : t) triangles.push_back(std::uint32_t(v));
+  take(wall.rest, wall.rest_normal, triangles, ground, net);
+  return apron(std::move(net), ground);
+}
+
+MeshBuffer omentum_beyond(const tissue::Skin& wall, Vec3d gravity, const MeshBuffer& beyond) {
+  const Ground ground = ground_of(wall, gravity);
+  Net net;
+  if (ground.highest > ground.lowest) take(beyond.positions, beyond.normals, beyond.indices, ground, net);
+  return apron(std::move(net), ground);
 }
 
 }  // namespace trocar::view
