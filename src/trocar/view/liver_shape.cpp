@@ -12,13 +12,14 @@
 namespace trocar::view {
 namespace {
 
-constexpr double kStep = 0.003;   // [m] between columns and rows
-constexpr int kRows = 56;         // from the edge towards the head
-constexpr double kBeside = 0.06;  // [m] beyond the body to either side
-constexpr double kInset = 0.009;  // [m] of the body's ends, which are round: there the dome goes straight on
-constexpr double kTip = 0.002;    // [m] of them: nothing is to be told there
-constexpr double kFalls = -0.27;  // slope of the body's upper side from which on the dome takes over
-constexpr int kEvenJoin = 30;     // passes over the line where it does
+constexpr double kStep = 0.003;    // [m] between columns and rows
+constexpr int kRows = 56;          // from the edge towards the head
+constexpr double kBeside = 0.06;   // [m] beyond the body to either side
+constexpr double kInset = 0.009;   // [m] of the body's ends, which are round: there the dome goes straight on
+constexpr double kTip = 0.002;     // [m] of them: nothing is to be told there
+constexpr double kDroops = 0.014;  // [m] beyond the body's ends its margin begins to sink
+constexpr double kFalls = -0.27;   // slope of the body's upper side from which on the dome takes over
+constexpr int kEvenJoin = 30;      // passes over the line where it does
 constexpr double kHold = 1, kLoose = 8e-6, kFirm = 6e-4;  // weights, see fairest()
 constexpr double kSunk = 0.00022;                         // [m] times (rings into the body)^2
 constexpr double kBehindWall = 0.003;                     // [m]
@@ -207,11 +208,13 @@ void LiverShape::fair() {
       const double d = std::fabs(c.x - m_columns[end].x);
       const double falls = (m_z[at(end, k)] - m_z[at(inner, k)]) / (2 * kStep);
       const double profile = m_z[at(end, k)] + std::clamp(falls, -0.4, 0.4) * d * std::exp(-d / 0.012);
+      const double past = std::max(0.0, d - kDroops), droop = 1.3 * past * past / (0.02 + past);
+      wish[p] -= droop * smooth(0.09, 0.02, offset_of(k));  // its ends sink into what is around, no point stands out
       if (k >= m_columns[end].join || std::isnan(profile)) continue;
       const double close = smooth(0.03, 0.004, offset_of(k));
       const double capped = smooth(0.02, 0.009, d);  // it goes over the body's rounded end
-      wish[p] =
-          profile + (1 - capped) * 0.35 * (wish[p] - profile) * smooth(0.012, 0.04, offset_of(k)) + 0.0004 * capped;
+      wish[p] = profile - droop + (1 - capped) * 0.35 * (wish[p] - profile) * smooth(0.012, 0.04, offset_of(k)) +
+                0.0004 * capped;
       weight[p] = std::max(weight[p], 0.02 * std::max(close * close, capped));
     }
   m_z = fairest(net, wish, weight);
