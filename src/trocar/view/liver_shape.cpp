@@ -17,7 +17,7 @@ constexpr int kRows = 56;          // from the edge towards the head
 constexpr double kBeside = 0.06;   // [m] beyond the body to either side
 constexpr double kInset = 0.009;   // [m] of the body's ends, which are round: there the dome goes straight on
 constexpr double kTip = 0.002;     // [m] of them: nothing is to be told there
-constexpr double kDroops = 0.014;  // [m] beyond the body's ends its margin begins to sink
+constexpr double kDroops = 0.009;  // [m] beyond the body's ends its margin begins to sink
 constexpr double kFalls = -0.27;   // slope of the body's upper side from which on the dome takes over
 constexpr int kEvenJoin = 30;      // passes over the line where it does
 constexpr double kHold = 1, kLoose = 8e-6, kFirm = 6e-4;  // weights, see fairest()
@@ -116,6 +116,8 @@ void LiverShape::scan(std::span<const Vec3f> points, std::span<const std::uint32
     const double slope = std::clamp((e.low - before.low) / std::fabs(e.x - before.x), -0.7, 0.7);
     m_columns[i].low =
         e.low + slope * d * std::exp(-d / 0.022) + 0.0015 * waves({m_columns[i].x, 0.3, 0}, 0.03) * smooth(0, 0.02, d);
+    const double past = std::max(0.0, d - kDroops);
+    m_columns[i].low += 1.1 * past * past / (0.02 + past);  // and turns towards the head
     m_columns[i].edge = e.edge;
   };
   for (std::size_t i = 0; i < begin; ++i) lead_on(begin, begin + 4, i);
@@ -208,7 +210,7 @@ void LiverShape::fair() {
       const double d = std::fabs(c.x - m_columns[end].x);
       const double falls = (m_z[at(end, k)] - m_z[at(inner, k)]) / (2 * kStep);
       const double profile = m_z[at(end, k)] + std::clamp(falls, -0.4, 0.4) * d * std::exp(-d / 0.012);
-      const double past = std::max(0.0, d - kDroops), droop = 1.3 * past * past / (0.02 + past);
+      const double past = std::max(0.0, d - kDroops), droop = 1.15 * past * past / (0.02 + past);
       wish[p] -= droop * smooth(0.09, 0.02, offset_of(k));  // its ends sink into what is around, no point stands out
       if (k >= m_columns[end].join || std::isnan(profile)) continue;
       const double close = smooth(0.03, 0.004, offset_of(k));
