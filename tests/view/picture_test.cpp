@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <trocar/geometry/nearest.hpp>
 #include <trocar/render/backend.hpp>
 #include <trocar/scene/compile.hpp>
 #include <trocar/scene/reader.hpp>
@@ -14,6 +15,7 @@
 #include <trocar/view/drape.hpp>
 #include <trocar/view/fold_pattern.hpp>
 #include <trocar/view/instrument_shapes.hpp>
+#include <trocar/view/liver_dome.hpp>
 #include <trocar/view/looks.hpp>
 #include <trocar/view/scene_view.hpp>
 
@@ -87,25 +89,78 @@ TEST(CuttableDrawing, ACutGapesAtItsMouthAndNothingMovesFarFromIt) {
   EXPECT_TRUE(drawing.cut());
 }
 
-TEST(Cavity, PeritoneumGoesOnFromEveryPointOfAWallsBorder) {
-  for (const sim::WallModel& wall : pelvis().walls) {
-    const MeshBuffer around = around_wall(pelvis(), wall.skin, std::vector<Paint>(wall.skin.rest.size()));
-    const MeshBuffer cavity = cavity_around(pelvis());
-    std::map<std::pair<int, int>, int> edges;
-    for (const auto& t : wall.skin.triangles)
-      for (std::size_t k = 0; k < 3; ++k) ++edges[std::minmax(t[k], t[(k + 1) % 3])];
-    int border = 0;
-    for (const auto& [edge, count] : edges) {
-      if (count != 1) continue;
-      ++border;
-      EXPECT_LT(to_nearest(wall.skin.rest[std::size_t(edge.first)], around.positions), 1e-6f);
+TEST(Cavity, GoesOnFromEveryPointOfAWallsBorderAndLeavesNoGap) {
+  const MeshBuffer cavity = cavity_around(pelvis());
+  const auto wholly = [&](Vec3d p) {  // how far from its surface
+    double least = 1;
+    for (std::size_t t = 0; t < cavity.indices.size(); t += 3) {
+      const auto at = [&](std::size_t k) { return vec_cast<double>(cavity.positions[cavity.indices[t + k]]); };
+      if (length(at(0) - p) < 0.03)
+        least = std::min(least, geometry::closest_on_triangle(p, at(0), at(1), at(2)).distance2);
     }
-    ASSERT_GT(border, 10);
-    ASSERT_EQ(around.positions.size() % std::size_t(border), 0u);
-    const std::size_t rows = around.positions.size() / std::size_t(border);
-    for (std::size_t end = rows - 1; end < around.positions.size(); end += rows)
-      EXPECT_LT(to_nearest(around.positions[end], cavity.positions), 0.03f);  // on the egg, between its vertices
+    return std::sqrt(least);
+  };
+  for (const sim::WallModel& wall : pelvis().walls)
+    for (const std::vector<int>& loop : border_loops(wall.skin)) {
+      ASSERT_GT(loop.size(), 10u);
+      for (std::size_t i = 0; i < loop.size(); i += 7)
+        EXPECT_LT(wholly(vec_cast<double>(wall.skin.rest[std::size_t(loop[i])])), 0.0015);
+    }
+}
+
+TEST(Cavity, OrgansLieInIt) {
+  const MeshBuffer cavity = cavity_around(pelvis());
+  for (const sim::SolidModel& organ : pelvis().solids) {
+    int outside = 0;
+    for (std::size_t v = 0; v < organ.fine.rest.size(); v += 40) {
+      const Vec3f p = organ.fine.rest[v];
+      const auto nearest = std::min_element(cavity.positions.begin(), cavity.positions.end(),
+                                            [&](Vec3f a, Vec3f b) { return dot(a - p, a - p) < dot(b - p, b - p); });
+      if (length(*nearest - p) < 0.012f)  // others are nearer to a wall of the scene
+        outside += dot(p - *nearest, cavity.normals[std::size_t(nearest - cavity.positions.begin())]) < -0.001f;
+    }
+    EXPECT_EQ(outside, 0) << organ.name;
   }
+}
+
+TEST(LiverDome, LeavesTheSimulatedEdgeWithoutAStep) {
+  const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/cutting/scene.json"));
+  const tissue::Skin& body = model.skin(0);
+  const MeshBuffer dome = LiverShape(body.rest, flat_indices(body)).dome(WallSurface(model));
+  ASSERT_GT(dome.indices.size(), 3000u);
+  std::vector<std::uint8_t> used(dome.size(), 0);
+  for (const std::uint32_t v : dome.indices) used[v] = 1;
+  tissue::Box box;
+  for (int v = 0; v < body.size(); ++v)
+    if (body.at_surface(v)) box.add(body.rest[std::size_t(v)]);
+  int close = 0, beyond = 0;
+  for (std::uint32_t i = 0; i < dome.size(); ++i) {
+    if (!used[i]) continue;
+    close += to_nearest(dome.positions[i], body.rest) < 0.003f;
+    beyond += dome.positions[i].x < box.low.x - 0.03f || dome.positions[i].x > box.high.x + 0.03f;
+  }
+  EXPECT_GT(close, 100);   // it begins on the body ...
+  EXPECT_GT(beyond, 400);  // ... and goes on to both sides
+}
+
+TEST(LiverDome, FollowsItsBodyAndHoldsStillFarFromIt) {
+  const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/cutting/scene.json"));
+  auto backend = render::make_null_backend();
+  const WallSurface walls(model);
+  LiverDome dome(model, 0, LiverShape(model.skin(0).rest, flat_indices(model.skin(0))), walls, *backend);
+  sim::State state = sim::initial_state(model);
+  const std::vector<Vec3f> before = dome.buffer().positions;
+  dome.update(state);
+  for (tissue::NodeState& n : state.cuttables[0].nodes) n.z += 0.005f;
+  dome.update(state);
+  float most = 0, least = 1;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const float way = length(dome.buffer().positions[i] - before[i]);
+    most = std::max(most, way);
+    least = std::min(least, way);
+  }
+  EXPECT_NEAR(most, 0.005f, 0.0008f);
+  EXPECT_LT(least, 1e-6f);
 }
 
 TEST(Drape, EndsBelowWhatIsAroundAndFollowsItsOrgan) {

@@ -283,9 +283,9 @@ struct Branch {
 void dab_pair(Canvas& red, Canvas& veins, const Branch& b, float x, float y, float heading, float share) {
   const float thin = b.order == 0 ? 1.0f : 1 - 0.55f * share;
   const float faint = b.order == 0 ? 1.0f : std::min(1.0f, (1.15f - share) * (b.order > 1 ? 1.0f : 2.2f));
-  const float tone = (b.order == 0 ? 0.95f : b.order == 1 ? 0.85f : 0.62f) * faint;
-  const float radius = std::max(0.45f, b.radius * thin);
-  const float aside = b.red ? 2.3f * radius + 1.2f : 0.0f;
+  const float tone = (b.order == 0 ? 0.95f : b.order == 1 ? 0.85f : 0.72f) * faint;
+  const float radius = std::max(0.55f, b.radius * thin);
+  const float aside = b.red ? 2.2f * radius + 0.9f : 0.0f;
   if (b.red) red.dab(x, y, radius, tone, 0.9f);
   if (b.vein)
     veins.dab(x - aside * float(portable::sin(double(heading))), y + aside * float(portable::cos(double(heading))),
@@ -298,7 +298,7 @@ void grow_lining(Canvas& red, Canvas& veins, const Branch& b, std::vector<Branch
   float fork = b.length * float(random.uniform(0.12, 0.3));
   const float step = 0.8f, reach = 9 + 7 * b.radius;
   for (float way = 0; way < b.length; way += step) {
-    turn += (step / reach) * (-1.5f * turn - 1.1f * sway + 4.4f * float(random.uniform(-1, 1)));
+    turn += (step / reach) * (-1.5f * turn - 1.1f * sway + 5.5f * float(random.uniform(-1, 1)));
     sway += (step / reach) * 2 * turn;
     const float heading = b.goal + sway;
     x += step * float(portable::cos(double(heading)));
@@ -332,10 +332,10 @@ Pattern lining_pattern() {
     float fork = 40, side = 1;
     for (float y = 0; y < size; y += 0.8f) {  // winds, and meets itself over the tile's edge
       const double k = 2 * portable::pi * double(y) / size;
-      const float x = at + 46 * float(portable::sin(k + double(phase))) +
-                      15 * float(portable::sin(3 * k + 1 + double(phase))) +
+      const float x = at + 36 * float(portable::sin(k + double(phase))) +
+                      8 * float(portable::sin(3 * k + 1 + double(phase))) +
                       3.2f * float(portable::sin(7 * k + 2 + double(phase))) + 0.7f * float(portable::sin(19 * k));
-      const float slope = float(46 * portable::cos(k + double(phase)) * 2 * portable::pi / size);
+      const float slope = float(36 * portable::cos(k + double(phase)) * 2 * portable::pi / size);
       const float heading = 0.5f * float(portable::pi) - slope;
       dab_pair(red, veins, b, x, y, heading, 0);
       fork -= 0.8f;

@@ -35,7 +35,7 @@ Pattern arcade_pattern();
 
 /// 1024^2, RG as above, tiles: what an abdominal wall carries. Trunks cross the whole tile along y, an artery with a
 /// vein beside it; branches leave them on alternate sides, 0.6 as wide, twigs 0.35, and thin out into nothing.
-inline constexpr int kLiningTileWidth = 130;  ///< tile edge / width of a trunk
+inline constexpr int kLiningTileWidth = 170;  ///< tile edge / width of a trunk
 Pattern lining_pattern();
 
 }  // namespace trocar::render

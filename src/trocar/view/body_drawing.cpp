@@ -54,7 +54,7 @@ BodyDrawing::BodyDrawing(const sim::Model& model, render::Backend& backend)
   make_cuttables(backend);
   m_bowel = bowel_loops(model, walls);
   for (int i = 0; i < model.organs(); ++i)
-    if (look(model.organ_look(i)).continued) m_livers.emplace_back(model, i, walls, backend);
+    if (look(model.organ_look(i)).continued) m_livers.emplace_back(model, i, liver_shape(i), walls, backend);
   make_aprons(walls);
   const render::OpennessBaker baker = shading();
   for (CuttableDrawing& c : m_cuttables) c.shade(baker);
@@ -63,6 +63,8 @@ BodyDrawing::BodyDrawing(const sim::Model& model, render::Backend& backend)
   make_on_organs(walls, backend);
   for (const sim::WallModel& w : model.walls) make_wall(w, baker, backend);
   for (const MeshBuffer& apron : m_apron_shapes) m_aprons.emplace_back(backend, apron.data());
+  for (const MeshBuffer& apron : m_far_apron_shapes)
+    if (apron.size() > 0) m_far_aprons.emplace_back(backend, apron.data());
   make_surroundings(walls, baker, backend);
   for (TubeDrawing& t : m_tubes) t.create(shaded(baker, t.drawn().positions, t.drawn().normals), backend);
   make_joints(walls, backend);
@@ -72,6 +74,16 @@ BodyDrawing::BodyDrawing(const sim::Model& model, render::Backend& backend)
   }
   make_vessels(backend);
   make_membranes(backend);
+}
+
+LiverShape BodyDrawing::liver_shape(int organ) const {
+  const auto solids = int(m_model->solids.size());
+  if (organ >= solids) {
+    const CuttableDrawing& body = m_cuttables[std::size_t(organ - solids)];
+    return {body.positions(), body.indices()};
+  }
+  const tissue::Skin& body = m_model->solids[std::size_t(organ)].fine;
+  return {body.rest, flat_indices(body)};
 }
 
 void BodyDrawing::make_tubes(const WallSurface& walls) {
@@ -103,7 +115,8 @@ render::OpennessBaker BodyDrawing::shading() const {
   for (const CuttableDrawing& c : m_cuttables) occluders.push_back({c.positions(), c.indices()});
   for (const TubeDrawing& t : m_tubes) occluders.push_back({t.drawn().positions, t.drawn().indices});
   for (const MeshBuffer* gut : {&m_bowel.small, &m_bowel.large}) occluders.push_back({gut->positions, gut->indices});
-  for (const MeshBuffer& a : m_apron_shapes) occluders.push_back({a.positions, a.indices});
+  for (const std::vector<MeshBuffer>* shapes : {&m_apron_shapes, &m_far_apron_shapes})
+    for (const MeshBuffer& a : *shapes) occluders.push_back({a.positions, a.indices});
   for (const LiverDome& l : m_livers) occluders.push_back({l.buffer().positions, l.buffer().indices});
   return render::OpennessBaker(occluders, kShadeCell, kShadeReach);
 }
@@ -156,10 +169,11 @@ void BodyDrawing::make_aprons(const WallSurface& walls) {
   for (std::size_t i = 0; i < m_model->walls.size(); ++i) {
     const sim::WallModel& wall = m_model->walls[i];
     if (!look(wall.look).omentum) continue;
-    MeshBuffer apron = omentum_on(wall.skin, m_model->gravity, walls.cavity());
+    MeshBuffer apron = omentum_on(wall.skin, m_model->gravity);
     if (apron.size() == 0) continue;
     m_apron_shapes.push_back(std::move(apron));
     m_apron_on.push_back(i);
+    m_far_apron_shapes.push_back(omentum_beyond(wall.skin, m_model->gravity, walls.cavity()));
   }
 }
 
@@ -293,6 +307,7 @@ DrawItem BodyDrawing::as_lining(DrawItem item) const {
 
 void BodyDrawing::list_surroundings(const FirstParts& first, const Listing& to) {
   to.add(m_cavity, as_lining(item({}, *m_wall_look, first.cavity)), m_details.cavity);
+  for (const OwnedMesh& apron : m_far_aprons) to.add(item(apron.handle(), look("omentum"), first.cavity));
   if (m_loops.handle().id) to.add(item(m_loops.handle(), look("small_bowel"), first.cavity));
   if (m_large_loop.handle().id) to.add(item(m_large_loop.handle(), look("bowel"), first.cavity));
 }

@@ -63,6 +63,7 @@ class BodyDrawing {
     Joint joint;
   };
 
+  LiverShape liver_shape(int organ) const;
   void make_tubes(const WallSurface& walls);
   void make_cuttables(render::Backend& backend);
   render::OpennessBaker shading() const;
@@ -103,8 +104,8 @@ class BodyDrawing {
   std::vector<std::size_t> m_membrane_of, m_pouch_of;  ///< their numbers in the Model
   std::vector<DrawnVessels> m_vessels;
   std::vector<const Look*> m_vessel_look;
-  std::vector<OwnedMesh> m_walls, m_aprons;
-  std::vector<MeshBuffer> m_apron_shapes;
+  std::vector<OwnedMesh> m_walls, m_aprons, m_far_aprons;  ///< far: on the cavity
+  std::vector<MeshBuffer> m_apron_shapes, m_far_apron_shapes;
   std::vector<std::size_t> m_apron_on;  ///< walls
   std::vector<LiverDome> m_livers;
   MeshBuffer m_cavity_shape;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kHalvings = 5;                              // of an icosahedron's edges: 6 mm on average
 constexpr int kBelow = 3;                                 // rings of the cavity that lie below a wall
-constexpr double kSunk = 0.0003;                          // [m] times (rings from the wall's border)^2
+constexpr double kSunk = 0.00015;                         // [m] times (rings from the wall's border)^2
 constexpr double kHold = 1, kNear = 1.5e-6, kFar = 4e-5;  // weights, see fairest()
 
 tissue::Box bounds_of(const sim::Model& model) {

@@ -15,10 +15,10 @@ constexpr double kDeepest = 0.85;
 
 }  // namespace
 
-LiverDome::LiverDome(const sim::Model& model, int organ, const WallSurface& wall, render::Backend& backend)
+LiverDome::LiverDome(const sim::Model& model, int organ, const LiverShape& shape, const WallSurface& wall,
+                     render::Backend& backend)
     : m_model(&model), m_organ(organ), m_pose(tissue::make_pose(model.skin(organ))) {
-  const LiverShape shape(skin());
-  m_dome.shape = shape.dome();
+  m_dome.shape = shape.dome(wall);
   m_falciform.shape = shape.falciform(wall);
   for (Part* part : {&m_dome, &m_falciform}) {
     part->rest = part->shape.positions;
@@ -61,7 +61,10 @@ void LiverDome::move(Part& part) {
 
 void LiverDome::shade(const render::OpennessBaker& baker) {
   for (Part* part : {&m_dome, &m_falciform}) {
+    const std::vector<Paint> own = part->shape.paint;  // where it runs out into nothing
     baker.bake(part->shape.positions, part->shape.normals, part->shape.paint);
+    for (std::size_t i = 0; i < own.size(); ++i)
+      part->shape.paint[i].openness = std::uint8_t(part->shape.paint[i].openness * own[i].openness / 255);
     part->mesh.update(part->shape);
   }
 }

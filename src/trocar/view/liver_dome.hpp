@@ -3,7 +3,7 @@
 // where they overlap, and that goes along where that moves. With it the falciform ligament, a sheet from the dome to
 // the wall.
 //
-//   LiverDome dome(model, organ, wall_surface, backend);
+//   LiverDome dome(model, organ, LiverShape(points, triangles), wall_surface, backend);
 //   dome.shade(baker);            // once
 //   dome.update(state);           // after a step
 #pragma once
@@ -21,7 +21,9 @@ namespace trocar::view {
 class LiverDome {
  public:
   /// @param organ number of a body whose lower edge points to the feet
-  LiverDome(const sim::Model& model, int organ, const WallSurface& wall, render::Backend& backend);
+  /// @param shape of it as drawn
+  LiverDome(const sim::Model& model, int organ, const LiverShape& shape, const WallSurface& wall,
+            render::Backend& backend);
 
   void shade(const render::OpennessBaker& baker);
   /// The recess between it and the diaphragm is deep: less light comes there than the baker's reach says.

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include <trocar/render/mesh_arrays.hpp>
 #include <trocar/view/fair_surface.hpp>
@@ -10,14 +12,17 @@
 namespace trocar::view {
 namespace {
 
-constexpr double kStep = 0.003;   // [m] between columns and rows
-constexpr int kRows = 56;         // from the edge towards the head
-constexpr double kBeside = 0.06;  // [m] beyond the body to either side
-constexpr double kInset = 0.009;  // [m] of the body's ends, which are round: there the dome goes straight on
-constexpr double kFalls = -0.27;  // slope of the body's upper side from which on the dome takes over
-constexpr int kEvenJoin = 30;     // passes over the line where it does
+constexpr double kStep = 0.003;    // [m] between columns and rows
+constexpr int kRows = 56;          // from the edge towards the head
+constexpr double kBeside = 0.06;   // [m] beyond the body to either side
+constexpr double kInset = 0.009;   // [m] of the body's ends, which are round: there the dome goes straight on
+constexpr double kTip = 0.002;     // [m] of them: nothing is to be told there
+constexpr double kDroops = 0.009;  // [m] beyond the body's ends its margin begins to sink
+constexpr double kFalls = -0.27;   // slope of the body's upper side from which on the dome takes over
+constexpr int kEvenJoin = 30;      // passes over the line where it does
 constexpr double kHold = 1, kLoose = 8e-6, kFirm = 6e-4;  // weights, see fairest()
 constexpr double kSunk = 0.00022;                         // [m] times (rings into the body)^2
+constexpr double kBehindWall = 0.003;                     // [m]
 constexpr int kOverlap = 3;                               // rings
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
@@ -32,55 +37,98 @@ double wished(double beside, double up) {
   return lobes + 0.03 * up - over * over / 0.075;
 }
 
+/// Leaves what lies before the wall, cut along it.
+void cut_at_wall(MeshBuffer& b, const WallSurface& wall) {
+  std::vector<float> before;
+  for (const Vec3f& f : b.positions) {
+    const WallSurface::Place place = wall.nearest(vec_cast<double>(f));
+    before.push_back(place.there ? float(dot(vec_cast<double>(f) - place.point, place.normal) + kBehindWall) : 1.0f);
+  }
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> cuts;
+  const auto cut = [&](std::uint32_t i, std::uint32_t j) {
+    const auto [found, anew] = cuts.try_emplace(std::minmax(i, j), b.size());
+    const float t = before[i] / (before[i] - before[j]);
+    if (anew) b.add(b.positions[i] + t * (b.positions[j] - b.positions[i]));
+    return found->second;
+  };
+  const std::vector<std::uint32_t> whole = std::exchange(b.indices, {});
+  for (std::size_t t = 0; t + 2 < whole.size(); t += 3) {
+    std::vector<std::uint32_t> left;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t i = whole[t + k], j = whole[t + (k + 1) % 3];
+      if (before[i] > 0) left.push_back(i);
+      if ((before[i] > 0) != (before[j] > 0)) left.push_back(cut(i, j));
+    }
+    for (std::size_t k = 2; k < left.size(); ++k) b.triangle(left[0], left[k - 1], left[k]);
+  }
+}
+
 }  // namespace
 
-LiverShape::LiverShape(const tissue::Skin& body) {
-  scan(body);
-  lead_on();
+LiverShape::LiverShape(std::span<const Vec3f> points, std::span<const std::uint32_t> triangles) {
+  scan(points, triangles);
+  find_join();
   fair();
 }
 
 double LiverShape::y_of(std::size_t column, int row) const { return m_columns[column].low + offset_of(row); }
 
-/// Edge and upper side of the body.
-void LiverShape::scan(const tissue::Skin& body) {
+/// Upper side of the body, and its edge, which goes on beyond its ends.
+void LiverShape::scan(std::span<const Vec3f> points, std::span<const std::uint32_t> triangles) {
   double from = 1e9, to = -1e9;
-  for (int v = 0; v < body.size(); ++v) {
-    if (!body.at_surface(v)) continue;
-    from = std::min(from, double(body.rest[std::size_t(v)].x));
-    to = std::max(to, double(body.rest[std::size_t(v)].x));
+  for (const std::uint32_t v : triangles) {
+    from = std::min(from, double(points[v].x));
+    to = std::max(to, double(points[v].x));
   }
   for (double x = from - kBeside; x < to + kBeside; x += kStep) m_columns.push_back({x, 1e9, 0, 0});
   m_z.assign(m_columns.size() * std::size_t(kRows), kNone);
-  for (std::size_t i = 0; i < m_columns.size(); ++i)
-    if (m_columns[i].x > from + kInset && m_columns[i].x < to - kInset) {
-      if (m_first == 0) m_first = i;
-      m_last = i;
-    }
+  std::size_t begin = 0, end = 0;  // columns that meet the body at all
+  for (std::size_t i = 0; i < m_columns.size(); ++i) {
+    const double x = m_columns[i].x;
+    if (x > from + kTip && begin == 0) begin = i;
+    if (x < to - kTip) end = i;
+    if (x > from + kInset && m_first == 0) m_first = i;
+    if (x < to - kInset) m_last = i;
+  }
   std::vector<double> count(m_columns.size(), 0.0);
   const auto each_near = [&](double reach, auto&& take) {
-    for (int v = 0; v < body.size(); ++v) {
-      if (!body.at_surface(v)) continue;
-      const Vec3d p = vec_cast<double>(body.rest[std::size_t(v)]);
-      for (std::size_t i = m_first; i <= m_last; ++i)
+    for (const std::uint32_t v : triangles) {
+      const Vec3d p = vec_cast<double>(points[v]);
+      for (std::size_t i = begin; i <= end; ++i)
         if (std::fabs(p.x - m_columns[i].x) < reach) take(m_columns[i], count[i], p);
     }
   };
-  each_near(0.005, [](Column& c, double&, Vec3d p) { c.low = std::min(c.low, p.y); });
-  each_near(0.005, [](Column& c, double& n, Vec3d p) {
+  each_near(0.004, [](Column& c, double&, Vec3d p) { c.low = std::min(c.low, p.y); });
+  each_near(0.004, [](Column& c, double& n, Vec3d p) {
     if (p.y > c.low + 0.003) return;
     c.edge += p.z;
     n += 1;
   });
-  for (std::size_t i = m_first; i <= m_last; ++i) m_columns[i].edge /= std::max(1.0, count[i]);
-  for (int pass = 0; pass < 4; ++pass)
-    for (std::size_t i = m_first + 1; i < m_last; ++i) {
+  for (std::size_t i = begin; i <= end; ++i) m_columns[i].edge /= std::max(1.0, count[i]);
+  for (int pass = 0; pass < 6; ++pass)
+    for (std::size_t i = begin + 1; i < end; ++i) {
       m_columns[i].low = 0.5 * m_columns[i].low + 0.25 * (m_columns[i - 1].low + m_columns[i + 1].low);
       m_columns[i].edge = 0.5 * m_columns[i].edge + 0.25 * (m_columns[i - 1].edge + m_columns[i + 1].edge);
     }
-  for (const auto& t : body.triangles) {  // the upper side: the highest triangle over a point
-    const Vec3d a = vec_cast<double>(body.rest[std::size_t(t[0])]), b = vec_cast<double>(body.rest[std::size_t(t[1])]),
-                c = vec_cast<double>(body.rest[std::size_t(t[2])]);
+  const auto lead_on = [&](std::size_t from_column, std::size_t inner, std::size_t i) {
+    const Column &e = m_columns[from_column], &before = m_columns[inner];
+    const double d = std::fabs(m_columns[i].x - e.x);
+    const double slope = std::clamp((e.low - before.low) / std::fabs(e.x - before.x), -0.7, 0.7);
+    m_columns[i].low =
+        e.low + slope * d * std::exp(-d / 0.022) + 0.0015 * waves({m_columns[i].x, 0.3, 0}, 0.03) * smooth(0, 0.02, d);
+    const double past = std::max(0.0, d - kDroops);
+    m_columns[i].low += 1.1 * past * past / (0.02 + past);  // and turns towards the head
+    m_columns[i].edge = e.edge;
+  };
+  for (std::size_t i = 0; i < begin; ++i) lead_on(begin, begin + 4, i);
+  for (std::size_t i = end + 1; i < m_columns.size(); ++i) lead_on(end, end - 4, i);
+  for (std::size_t i = 0; i < m_columns.size(); ++i)  // around the body's ends, not inside them
+    m_columns[i].low -= 0.0012 * (i < m_first  ? smooth(m_columns[m_first].x, m_columns[begin].x, m_columns[i].x)
+                                  : i > m_last ? smooth(m_columns[m_last].x, m_columns[end].x, m_columns[i].x)
+                                               : 0);
+  for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {  // the upper side: the highest triangle over a point
+    const Vec3d a = vec_cast<double>(points[triangles[t]]), b = vec_cast<double>(points[triangles[t + 1]]),
+                c = vec_cast<double>(points[triangles[t + 2]]);
     const double twice = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
     if (!(twice > 1e-12)) continue;
     for (std::size_t i = m_first; i <= m_last; ++i) {
@@ -99,8 +147,8 @@ void LiverShape::scan(const tissue::Skin& body) {
   }
 }
 
-/// Where the dome begins on the body, and the edge beyond its ends.
-void LiverShape::lead_on() {
+/// Where the dome begins on the body.
+void LiverShape::find_join() {
   std::vector<double> join(m_columns.size(), 0.0);
   for (std::size_t i = m_first; i <= m_last; ++i) {
     int k = 4;
@@ -112,17 +160,6 @@ void LiverShape::lead_on() {
   for (int pass = 0; pass < kEvenJoin; ++pass)
     for (std::size_t i = m_first + 1; i < m_last; ++i) join[i] = 0.5 * join[i] + 0.25 * (join[i - 1] + join[i + 1]);
   for (std::size_t i = m_first; i <= m_last; ++i) m_columns[i].join = int(join[i]);
-  const auto beyond = [&](std::size_t end, std::size_t inner, std::size_t i) {
-    const Column &e = m_columns[end], &before = m_columns[inner];
-    const double d = std::fabs(m_columns[i].x - e.x);
-    const double slope = std::clamp((e.low - before.low) / std::fabs(e.x - before.x), -0.6, 0.6);
-    m_columns[i].low =
-        e.low + slope * d * std::exp(-d / 0.03) + 0.0015 * waves({m_columns[i].x, 0.3, 0}, 0.03) * smooth(0, 0.02, d);
-    m_columns[i].low -= 0.0016 * smooth(0, 0.004, d);
-    m_columns[i].edge = e.edge;
-  };
-  for (std::size_t i = 0; i < m_first; ++i) beyond(m_first, m_first + 4, i);
-  for (std::size_t i = m_last + 1; i < m_columns.size(); ++i) beyond(m_last, m_last - 4, i);
 }
 
 /// Rings into what is the body's own, 0 outside.
@@ -169,12 +206,17 @@ void LiverShape::fair() {
       if (c.join > 0) continue;
       // Beside the body its margin goes on as it is at its end.
       const std::size_t end = i < m_first ? m_first : m_last;
-      const double profile = m_z[at(end, k)];
+      const std::size_t inner = i < m_first ? m_first + 2 : m_last - 2;
+      const double d = std::fabs(c.x - m_columns[end].x);
+      const double falls = (m_z[at(end, k)] - m_z[at(inner, k)]) / (2 * kStep);
+      const double profile = m_z[at(end, k)] + std::clamp(falls, -0.4, 0.4) * d * std::exp(-d / 0.012);
+      const double past = std::max(0.0, d - kDroops), droop = 1.15 * past * past / (0.02 + past);
+      wish[p] -= droop * smooth(0.09, 0.02, offset_of(k));  // its ends sink into what is around, no point stands out
       if (k >= m_columns[end].join || std::isnan(profile)) continue;
-      const double d = std::fabs(c.x - m_columns[end].x), close = smooth(0.03, 0.004, offset_of(k));
+      const double close = smooth(0.03, 0.004, offset_of(k));
       const double capped = smooth(0.02, 0.009, d);  // it goes over the body's rounded end
-      wish[p] =
-          profile + (1 - capped) * 0.35 * (wish[p] - profile) * smooth(0.012, 0.04, offset_of(k)) + 0.0004 * capped;
+      wish[p] = profile - droop + (1 - capped) * 0.35 * (wish[p] - profile) * smooth(0.012, 0.04, offset_of(k)) +
+                0.0004 * capped;
       weight[p] = std::max(weight[p], 0.02 * std::max(close * close, capped));
     }
   m_z = fairest(net, wish, weight);
@@ -193,7 +235,7 @@ double LiverShape::height(double x, double y) const {
   return (1 - t) * in_column(c) + t * in_column(c + 1);
 }
 
-MeshBuffer LiverShape::dome() const {
+MeshBuffer LiverShape::dome(const WallSurface& wall) const {
   MeshBuffer b;
   const std::vector<int> depth = depths();
   const std::size_t n = m_columns.size();
@@ -201,7 +243,10 @@ MeshBuffer LiverShape::dome() const {
     for (int k = 0; k < kRows; ++k) {
       const double x = m_columns[i].x, y = y_of(i, k);
       const double own = std::min(depth[at(i, k)], kOverlap + 1);
-      const double uneven = 0.0006 * waves({x, y, m_z[at(i, k)]}, 0.024) * smooth(0.0, 0.01, offset_of(k));
+      const double beyond = m_columns[i].join > 0
+                                ? y - y_of(i, m_columns[i].join)
+                                : std::min(offset_of(k), std::fabs(x - m_columns[i < m_first ? m_first : m_last].x));
+      const double uneven = 0.0006 * waves({x, y, m_z[at(i, k)]}, 0.024) * smooth(0.002, 0.02, beyond);
       b.add(vec_cast<float>(Vec3d{x, y, m_z[at(i, k)] + uneven - kSunk * own * own}));
     }
   const auto v = [&](std::size_t i, int k) { return std::uint32_t(at(i, k)); };
@@ -227,6 +272,7 @@ MeshBuffer LiverShape::dome() const {
   };
   below(0, m_first + 1);
   below(m_last - 1, n - 1);
+  cut_at_wall(b, wall);
   render::vertex_normals(b.positions, b.indices, b.normals);
   return b;
 }
@@ -252,6 +298,7 @@ MeshBuffer LiverShape::falciform(const WallSurface& wall) const {
             0.0022 * (1 - smooth(0, 0.12, t)) * (1 - smooth(0, 0.3, s));
       p.x += 0.005 * slack * waves({p.x, p.y, p.z}, 0.05);
       Paint paint;
+      paint.openness = to_byte(smooth(0, 0.13, t));  // it runs out on the liver
       paint.tint = to_byte(0.85 * smooth(0.16, 0.02, s + 0.05 * waves(p, 0.012)) +
                            0.5 * smooth(0.2, 0.9, waves(p, 0.021)) * smooth(0.1, 0, std::min(t, 1 - t)));
       b.add(vec_cast<float>(p), paint);
@@ -271,7 +318,8 @@ MeshBuffer LiverShape::falciform(const WallSurface& wall) const {
       const double a = 6.28318530717959 * r / kRound;
       const Vec3d out = std::cos(a) * u + std::sin(a) * w;
       const double radius = ends * (0.0014 + 0.0005 * waves(p + 0.01 * out, 0.013));
-      b.add(vec_cast<float>(p + radius * out), Paint{255, 0, 0, to_byte(0.92 - 0.5 * smooth(0.2, 0, double(k) / kUp))});
+      b.add(vec_cast<float>(p + radius * out),
+            Paint{to_byte(smooth(0.02, 0.22, double(k) / kUp)), 0, 0, to_byte(0.92 * smooth(0, 0.3, double(k) / kUp))});
       b.normals.push_back(vec_cast<float>(out));
     }
   }

@@ -3,7 +3,6 @@
 // can.
 #pragma once
 
-#include <trocar/tissue/skin.hpp>
 #include <trocar/view/mesh_buffer.hpp>
 #include <trocar/view/wall_surface.hpp>
 
@@ -11,11 +10,12 @@ namespace trocar::view {
 
 class LiverShape {
  public:
-  /// @param body its skin; the lower edge points to the feet (-y)
-  explicit LiverShape(const tissue::Skin& body);
+  /// @param points, triangles the body's skin as drawn; its lower edge points to the feet (-y)
+  LiverShape(std::span<const Vec3f> points, std::span<const std::uint32_t> triangles);
 
   /// What is drawn of it: the upper side, sunk into the body where they overlap, and a thin lower margin to both sides.
-  MeshBuffer dome() const;
+  /// It ends where a wall is.
+  MeshBuffer dome(const WallSurface& wall) const;
   /// The falciform ligament from the dome to the wall; its free border is a round cord. Paint::tint: fat.
   MeshBuffer falciform(const WallSurface& wall) const;
   double height(double x, double y) const;  ///< of the upper side [m]
@@ -29,8 +29,8 @@ class LiverShape {
   int rows() const { return int(m_z.size() / m_columns.size()); }
   std::size_t at(std::size_t column, int row) const { return column * std::size_t(rows()) + std::size_t(row); }
   double y_of(std::size_t column, int row) const;
-  void scan(const tissue::Skin& body);
-  void lead_on();
+  void scan(std::span<const Vec3f> points, std::span<const std::uint32_t> triangles);
+  void find_join();
   void fair();
   std::vector<int> depths() const;
 

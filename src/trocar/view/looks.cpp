@@ -101,16 +101,16 @@ Material veiled(Vec3f main, Vec3f broad, Vec3f fine) {
 }
 
 Material peritoneum() {
-  Material m = with_vessels(tissue(srgb(180, 118, 121), srgb(187, 128, 126), srgb(166, 99, 106)), 0.8f, 0.13f);
+  Material m = with_vessels(tissue(srgb(180, 118, 121), srgb(188, 129, 126), srgb(172, 107, 112)), 0.8f, 0.13f);
   m.lining = true;
   m.mottle_size = 0.024f;
   m.mottle = 0.6f;
   m.bump = 0.08f;
-  m.wetness = 0.42f;
+  m.wetness = 0.52f;
   m.tint = srgb(204, 150, 112);  // fat below it
   m.film_size = 0.0021f;         // of muscle fibres that shimmer through: its film is as smooth as it is wide
-  m.film_bump = 0.05f;
-  m.film_roughness = 0.16f;
+  m.film_bump = 0.07f;
+  m.film_roughness = 0.14f;
   m.two_sided = true;
   return m;
 }
@@ -150,7 +150,7 @@ Material upper_abdomen() {
   Material m = peritoneum();
   m.colour = srgb(146, 84, 89);
   m.colour_b = srgb(155, 94, 94);
-  m.colour_c = srgb(130, 69, 76);
+  m.colour_c = srgb(137, 75, 81);
   m.tint = srgb(174, 116, 88);
   return m;
 }
@@ -307,8 +307,10 @@ Material omentum() {
   m.lobule_contrast = 0.06f;
   m.vessels = 1;
   m.vessel_tile = 0.04f;
-  m.film_bump = 0.3f;
-  m.film_size = 0.0024f;
+  m.wetness = 0.56f;
+  m.film_roughness = 0.09f;
+  m.film_bump = 0.2f;
+  m.film_size = 0.0032f;
   m.tint = srgb(206, 130, 124);
   m.two_sided = true;
   return m;

@@ -9,7 +9,7 @@
 namespace trocar::view {
 namespace {
 
-constexpr double kReaches = 0.37;  // share of the wall's height up to which it lies, in the mean
+constexpr double kReaches = 0.4;  // share of the wall's height up to which it lies, in the mean
 constexpr int kHalvings = 2;       // of the wall's edges: lobes are finer than its triangles
 constexpr double kMargin = 0.006;  // [m] beyond its border, below the wall
 
@@ -115,22 +115,17 @@ void take(std::span<const Vec3f> points, std::span<const Vec3f> normals, std::sp
   }
 }
 
-}  // namespace
-
-MeshBuffer omentum_on(const tissue::Skin& wall, Vec3d gravity, const MeshBuffer& beyond) {
+Ground ground_of(const tissue::Skin& wall, Vec3d gravity) {
   Ground ground{normalised(-1.0 * gravity, Vec3d{0, 0, 1})};
   for (const Vec3f& x : wall.rest) {
     ground.lowest = std::min(ground.lowest, dot(vec_cast<double>(x), ground.up));
     ground.highest = std::max(ground.highest, dot(vec_cast<double>(x), ground.up));
   }
+  return ground;
+}
+
+MeshBuffer apron(Net net, const Ground& ground) {
   MeshBuffer b;
-  if (!(ground.highest > ground.lowest)) return b;
-  Net net;
-  std::vector<std::uint32_t> triangles;
-  for (const auto& t : wall.triangles)
-    for (const int v : t) triangles.push_back(std::uint32_t(v));
-  take(wall.rest, wall.rest_normal, triangles, ground, net);
-  take(beyond.positions, beyond.normals, beyond.indices, ground, net);
   for (int i = 0; i < kHalvings; ++i) net.divide();
   for (const Point& point : net.points) {
     const double deep = ground.inside_at(point.p);
@@ -139,12 +134,32 @@ MeshBuffer omentum_on(const tissue::Skin& wall, Vec3d gravity, const MeshBuffer&
     const double patch = smooth(0.2, 0.9, waves(point.p + Vec3d{0.3, 0.3, 0}, 0.03));
     Paint paint;
     paint.openness = to_byte(0.72 + 0.28 * smooth(0.001, 0.007, thick));
-    paint.tint = to_byte(std::max({0.4 * patch, 0.45 * groove, 0.9 * smooth(0.005, 0, deep)}));
+    paint.tint = to_byte(std::max({0.4 * patch, 0.45 * groove, 0.9 * smooth(0.008, 0, deep)}));
     b.add(vec_cast<float>(point.p + thick * point.n), paint);
   }
   for (const auto& [i, j, k] : net.triangles) b.triangle(std::uint32_t(i), std::uint32_t(j), std::uint32_t(k));
   render::vertex_normals(b.positions, b.indices, b.normals);
   return b;
+}
+
+}  // namespace
+
+MeshBuffer omentum_on(const tissue::Skin& wall, Vec3d gravity) {
+  const Ground ground = ground_of(wall, gravity);
+  Net net;
+  if (!(ground.highest > ground.lowest)) return {};
+  std::vector<std::uint32_t> triangles;
+  for (const auto& t : wall.triangles)
+    for (const int v : t) triangles.push_back(std::uint32_t(v));
+  take(wall.rest, wall.rest_normal, triangles, ground, net);
+  return apron(std::move(net), ground);
+}
+
+MeshBuffer omentum_beyond(const tissue::Skin& wall, Vec3d gravity, const MeshBuffer& beyond) {
+  const Ground ground = ground_of(wall, gravity);
+  Net net;
+  if (ground.highest > ground.lowest) take(beyond.positions, beyond.normals, beyond.indices, ground, net);
+  return apron(std::move(net), ground);
 }
 
 }  // namespace trocar::view

@@ -8,7 +8,8 @@ namespace trocar::view {
 
 /// On the part of a wall that lies lowest, as gravity [m/s^2] says; empty where none does. Its border is ragged and
 /// runs out under the wall.
-/// @param beyond  what goes on from the wall's border, where there is any
-MeshBuffer omentum_on(const tissue::Skin& wall, Vec3d gravity, const MeshBuffer& beyond = {});
+MeshBuffer omentum_on(const tissue::Skin& wall, Vec3d gravity);
+/// The same on what goes on from the wall's border.
+MeshBuffer omentum_beyond(const tissue::Skin& wall, Vec3d gravity, const MeshBuffer& beyond);
 
 }  // namespace trocar::view

@@ -315,12 +315,14 @@ void main() {
   flecks *= 0.35;
 #endif
   wet *= 0.6 + 0.3 * flecks;
+  film_slope *= 0.3 + 0.7 * INVERSE_SQUARE;  // a room's lamps are large: they do not sparkle
   vec3 m = normalize(N + along_surface(to_eye(film_slope + relief * 0.6), N));
   vec3 H = normalize(lit.direction + V);
   float facing = clamp(nl * 4.0, 0.0, 1.0) * open;
   // Ripples of a pixel or less are as rough as their normals differ [Kaplanyan 16].
   vec3 turn_x = dFdx(m), turn_y = dFdy(m);
   float film2 = FILM2 + min(0.12 * (dot(turn_x, turn_x) + dot(turn_y, turn_y)), 0.06);
+  film2 += 0.03 * (1.0 - INVERSE_SQUARE);
   float mh = clamp(dot(m, H), 0.0, 1.0), nh = clamp(dot(n, H), 0.0, 1.0);
   float gloss = 0.42 * FRESNEL * (wet * (0.4 + 1.3 * flecks) * lobe(mh, film2) + (0.35 + 0.65 * wet) * lobe(nh, ROUGH2)) * facing * lit.power;
   float grazing = FRESNEL + (1.0 - FRESNEL) * rim * rim * (1.0 - nv);
