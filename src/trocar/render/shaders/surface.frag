@@ -223,7 +223,7 @@ void main() {
     float at = BURN + 0.30 * (patchy.a - 0.5) + 0.24 * (folds.a - 0.5);
     float pale = smoothstep(0.0, 0.36, BURN + 0.10 * (patchy.a - 0.5) * smoothstep(0.0, 0.2, BURN));
     crust = smoothstep(0.34, 0.60, at);
-    float burnt = smoothstep(0.55, 1.10, at + 0.16 * (grain.g - 0.5));
+    float burnt = smoothstep(0.46, 0.92, at + 0.16 * (grain.g - 0.5));
     float crack = crust * (1.0 - smoothstep(0.02, 0.10, abs(patchy.r - 0.5 + 0.10 * (folds.g - 0.5))));
     glassy = crust * smoothstep(0.46, 0.60, grain.b);
     albedo = mix(albedo, vec3(0.66, 0.47, 0.39) * (0.88 + 0.24 * folds.a), 0.8 * pale);
