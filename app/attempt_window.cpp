@@ -151,7 +151,7 @@ void AttemptWindow::picture(Live& live, Choice& choice) {
 
 /// Where processors draw, they are the simulation's first: it keeps real time, pictures get cheaper.
 bool AttemptWindow::crowds_simulation(const Snapshot& now) const {
-  return m_stage.draws_on_processors() && !stands_still() && now.speed < kLagging;
+  return m_stage.context->draws_on_processors() && !stands_still() && now.speed < kLagging;
 }
 
 /// Once a second: how fast pictures come and time passes, and at which of the governor's levels.

@@ -61,6 +61,7 @@ render::Image Pictures::still(const sim::State& state, view::ViewOptions options
   render::Frame frame = this->frame(state, options);
   for (int i = 0; i <= kSettling; ++i) {
     frame.tick = state.tick + std::uint64_t(i) * 2000;
+    frame.quality.samples = i == kSettling ? 4 : 1;
     draw_for(m_eyes, *m_backend, frame, render::Target::off_screen(m_size.width, m_size.height));
   }
   return read(options);

@@ -35,11 +35,6 @@ Window open_window(const PlayerOptions& options) {
   }
 }
 
-/// Where the processor draws, the quick pictures begin at the lowest quality: the governor raises it if there is room.
-std::size_t first_level(const std::string& driver) {
-  return driver.find("llvmpipe") != std::string::npos ? render::quality_levels().size() - 1 : 0;
-}
-
 }  // namespace
 
 Player::Player(Window& window, const Lesson& lesson, const sim::Recording& recording, const PlayerOptions& options,
@@ -52,7 +47,7 @@ Player::Player(Window& window, const Lesson& lesson, const sim::Recording& recor
       m_context(render::GlContext::adopt_current()),
       m_backend(render::make_gl_backend(*m_context)),
       m_view(lesson.model, *m_backend),
-      m_governor(render::Governor::Limits{}, first_level(m_context->description())),
+      m_governor(render::Governor::Limits{}, render::first_level(m_context->draws_on_processors())),
       m_footage(lesson.model, recording.keyframes),
       m_reel(lesson, recording, Reel::Options{}),
       m_line(m_reel.last()),

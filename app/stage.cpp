@@ -32,6 +32,7 @@ Stage::Stage(const WindowOptions& o)
       window("Trocar", first_size(o, settings), two_eyes(settings).mode == render::StereoMode::quad_buffer),
       context(render::GlContext::adopt_current()),
       backend(render::make_gl_backend(*context)),
+      governor({}, render::first_level(context->draws_on_processors())),
       log(EventLog::path_of(o.log)) {
   for (const core::Fault& f : setting_faults) core::log::warn("{}", core::to_string(f));
   if (!o.trainee.empty()) settings.trainee = training::clean_name(o.trainee);
@@ -47,8 +48,6 @@ Stage::~Stage() {
   }
   keep_settings();
 }
-
-bool Stage::draws_on_processors() const { return context->description().find("llvmpipe") != std::string::npos; }
 
 bool Stage::wants_to_close() const { return window.wants_to_close() || interrupted(); }
 

@@ -40,7 +40,6 @@ class Stage {
   ReportOpener reports;
 
   bool wants_to_close() const;
-  bool draws_on_processors() const;  ///< no graphics card does
   /// The view of this lesson's scene; made anew where it is another lesson than last time.
   view::SceneView& view_of(const Lesson& lesson);
   void drop_view();  ///< the lesson is about to go

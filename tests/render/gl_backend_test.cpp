@@ -69,7 +69,8 @@ TEST_F(GlBackend, EveryShaderVariantCompilesAndLinks) {
                                      std::string("SHADING=") + shading + ",DETAIL=" + detail + extra));
   for (const char* extra : {"", "LIT"}) EXPECT_NO_THROW(programs.get("flat.vert", "flat.frag", extra));
   for (const char* shape : {"full.vert", "disc.vert"}) {
-    for (const char* extra : {"", "EFFECTS", "RODS", "EFFECTS,RODS", "SMOKE", "EFFECTS,RODS,SMOKE"})
+    for (const char* extra :
+         {"", "EFFECTS", "RODS", "EFFECTS,RODS", "SMOKE", "EFFECTS,RODS,SMOKE", "EFFECTS,RODS,SAMPLED"})
       EXPECT_NO_THROW(programs.get(shape, "develop.frag", extra));
     for (const char* extra : {"", "FRINGE", "FRINGE,SMOOTH", "SOILED", "SOILED,UNEVEN",
                               "FRINGE,SMOOTH,SOILED,UNEVEN,SMEARED,WIPED,DROPS", "SOILED,SMEARED,WIPED"})
@@ -80,6 +81,7 @@ TEST_F(GlBackend, EveryShaderVariantCompilesAndLinks) {
     EXPECT_NO_THROW(programs.get("tile.vert", "wet.frag", detail));
     EXPECT_NO_THROW(programs.get("full.vert", "smoke.frag", detail));
   }
+  for (const char* extra : {"", "SAMPLED"}) EXPECT_NO_THROW(programs.get("shade.vert", "shade.frag", extra));
   EXPECT_NO_THROW(programs.get("splat.vert", "splat.frag"));
   EXPECT_NO_THROW(programs.get("full.vert", "shrink.frag", "SPREAD=1.0"));
   EXPECT_NO_THROW(programs.get("full.vert", "meter.frag"));
@@ -457,6 +459,34 @@ TEST_F(GlBackend, APictureIsTheSameWhetherItIsTimedOrNot) {
   backend->profile(&costs);
   EXPECT_EQ(draw(200, 150).rgb, quiet.rgb);
   backend->profile(nullptr);
+}
+
+TEST_F(GlBackend, SeveralSamplesAPixelTakeTheStepsOffAnOutline) {
+  frame.look = plain_look();
+  frame.camera = look_at({0, 0, 0.2f}, {0, 0, 0}, {0, 1, 0});
+  Material even = white();
+  even.shading = Shading::unlit;
+  frame.look.exposure_ev = -3;  // not clipped
+  frame.items = {{white_ball({0, 0, 0}, 0.05f), even, {}, false}};
+  // How far rows lie apart where they cross the outline, against the circle that it is [px].
+  const auto unevenness = [&](int samples) {
+    frame.quality = {1, 0, 1, samples};  // without the lens pass's own smoothing
+    const Image image = draw(200, 200);
+    std::vector<double> width;
+    for (int y = 60; y < 140; ++y) {
+      double lit = 0;
+      const auto light = [&](int x) {
+        return light_of(image.rgb[3 * (std::size_t(y) * 200 + std::size_t(x))] / 255.0);
+      };
+      for (int x = 100; x < 200; ++x) lit += light(x) / light(100);
+      width.push_back(lit);
+    }
+    double sum = 0;
+    for (std::size_t i = 1; i + 1 < width.size(); ++i) sum += std::fabs(width[i - 1] - 2 * width[i] + width[i + 1]);
+    return sum / double(width.size() - 2);
+  };
+  const double steps = unevenness(1), smooth = unevenness(4);
+  EXPECT_LT(smooth, 0.6 * steps) << smooth << " of " << steps;
 }
 
 TEST_F(GlBackend, ACoarserLevelDrawsItsOwnTriangles) {

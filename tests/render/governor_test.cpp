@@ -38,11 +38,14 @@ TEST(Governor, VeryLateFramesStepFartherDownAtOnceButNotToTheBottom) {
   EXPECT_EQ(governor.level(), 3u);
 }
 
-TEST(Governor, ThingsGetCoarserBeforeThePictureGetsSmaller) {
+TEST(Governor, OutlinesGetStepsAndThingsCoarserBeforeThePictureGetsSmaller) {
   const auto levels = quality_levels();
-  EXPECT_EQ(levels[1].render_scale, 1.0f);
-  EXPECT_EQ(levels[1].detail, 2);
-  EXPECT_GT(levels[1].coarser, 1.0f);
+  EXPECT_GT(levels[0].samples, 1);
+  EXPECT_EQ(levels[1].samples, 1);
+  EXPECT_EQ(levels[1].coarser, 1.0f);
+  EXPECT_EQ(levels[2].render_scale, 1.0f);
+  EXPECT_EQ(levels[2].detail, 2);
+  EXPECT_GT(levels[2].coarser, 1.0f);
 }
 
 TEST(Governor, NeverLeavesTheTable) {
@@ -70,18 +73,18 @@ TEST(Governor, OneHiccupIsForgiven) {
 
 TEST(Governor, ComesBackWhenThereIsRoom) {
   Governor governor;
-  take(governor, 80 * kMs, 2 * 4);
-  ASSERT_EQ(governor.level(), 6u);
+  take(governor, 80 * kMs, 3 * 4);
+  ASSERT_EQ(governor.level(), 7u);
   take(governor, 8 * kMs, 2000);
   EXPECT_EQ(governor.level(), 0u);
 }
 
 TEST(Governor, StaysWhereTheBetterLevelWouldBeLate) {
   Governor governor;
-  take(governor, 80 * kMs, 2 * 4);
-  ASSERT_EQ(governor.level(), 6u);
-  take(governor, 38 * kMs, 5000);  // level 5 would take well over 50 ms
-  EXPECT_EQ(governor.level(), 6u);
+  take(governor, 80 * kMs, 3 * 4);
+  ASSERT_EQ(governor.level(), 7u);
+  take(governor, 38 * kMs, 5000);  // level 6 would take well over 50 ms
+  EXPECT_EQ(governor.level(), 7u);
 }
 
 // A machine whose true cost is not what the prediction says: each level above `good` is late.
@@ -101,11 +104,11 @@ TEST(Governor, DoesNotSwingBackAndForth) {
 }
 
 TEST(Governor, MorePicturesInAFrameStepDownAtOnceAndFewerMayComeUpSoon) {
-  Governor governor;
+  Governor governor({}, 1);
   take(governor, 35 * kMs, 100);
-  ASSERT_EQ(governor.level(), 0u);
+  ASSERT_EQ(governor.level(), 1u);
   governor.load_becomes(2);  // 70 ms are to be expected
-  EXPECT_GT(governor.level(), 1u) << "before a single frame was late";
+  EXPECT_GT(governor.level(), 2u) << "before a single frame was late";
   const std::size_t low = governor.level();
   governor.load_becomes(2);
   EXPECT_EQ(governor.level(), low) << "said twice, it is no other load";
@@ -152,7 +155,9 @@ class SimulatedMachine {
   double cost(std::size_t level) const {
     const Quality q = quality_levels()[level];
     const double effects = q.detail == 2 ? 1 : (q.detail == 1 ? 0.88 : 0.72);
-    return m_factor * kMs * (17 + 8 / double(q.coarser) + 90 * double(q.render_scale * q.render_scale) * effects);
+    return m_factor * kMs *
+           (17 + 8 / double(q.coarser) +
+            double(q.render_scale * q.render_scale) * (90 * effects + (q.samples > 1 ? 150 : 0)));
   }
   /// For so long [s]; the pictures of each second.
   std::vector<int> run(double seconds) {

@@ -123,9 +123,10 @@ struct Quality {
                    ///< walls only; 0 no vessels or film ripples either
 
   float coarser = 1;  ///< things get coarser at this part of their distances: 2 at half of them (view/detail.hpp)
+  int samples = 1;    ///< a pixel of opaque things: 4 makes their outlines smooth
 
   friend bool operator==(Quality a, Quality b) {
-    return a.render_scale == b.render_scale && a.detail == b.detail && a.coarser == b.coarser;
+    return a.render_scale == b.render_scale && a.detail == b.detail && a.samples == b.samples && a.coarser == b.coarser;
   }
 };
 

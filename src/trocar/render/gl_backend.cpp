@@ -47,7 +47,7 @@ GlBackend::GlBackend(GlContext& context) : m_context(context) {
 }
 
 void GlBackend::on_prepare(std::span<const DrawItem> items) {
-  for (const Quality& quality : {Quality{1, 2}, Quality{1, 1}, Quality{1, 0}}) {
+  for (const Quality& quality : {Quality{1, 2, 1, 4}, Quality{1, 2}, Quality{1, 1}, Quality{1, 0}}) {
     Frame frame;
     frame.quality = quality;
     frame.rods = {Rod{{0, 0, -0.01f}, {0, 0, -0.02f}}};  // instruments are in view in most frames
@@ -61,6 +61,7 @@ void GlBackend::on_prepare(std::span<const DrawItem> items) {
           for (bool stained : {false, true}) draw_item(frame, item, blended, stained);
     }
     set_blending(false);
+    resolve_pass(frame);
     m_smokes = false;
     shade_pass(frame, layout);
     shrink_pass();
@@ -108,6 +109,7 @@ std::span<const GlBackend::Pass> GlBackend::passes() {
          if (d.frame.look.mask) b.mask_pass(d.layout);
        }},
       {"opaque", [](GlBackend& b, const Drawing& d) { b.scene_pass(d.frame, d.opaque, false); }},
+      {"smooth edges", [](GlBackend& b, const Drawing& d) { b.resolve_pass(d.frame); }},
       {"pool", [](GlBackend& b, const Drawing& d) { b.sheet_pass(d.frame, d.layout); }},
       {"translucent", [](GlBackend& b, const Drawing& d) { b.scene_pass(d.frame, d.translucent, true); }},
       {"drops and films", [](GlBackend& b, const Drawing& d) { b.splat_pass(d.frame, d.layout); }},

@@ -129,6 +129,7 @@ class GlBackend final : public CheckedBackend {
   void resample(const GlPicture& from, GlPicture& to, const char* spread);
   /// A quarter as wide and high, then smoothed, so that enlarging it shows no steps.
   void shrink(const GlPicture& from, GlPicture& rough, GlPicture& smooth, GLenum format = GL_RGBA16F);
+  void resolve_pass(const Frame& frame);
   void shrink_pass();
   /// Exposure lives in two pictures of one pixel an eye; this reads one and writes the other.
   void meter_pass(const Frame& frame, const Target& target, const Layout& layout);
@@ -161,6 +162,7 @@ class GlBackend final : public CheckedBackend {
   GlPrograms m_programs;
   GlTexture m_noise, m_cells, m_vessels, m_arcade;
   GlVertexArray m_no_vertices;
+  GlSampledPicture m_sampled;
   GlPicture m_scene, m_shade, m_small, m_smaller, m_developed, m_own, m_left, m_right, m_bed, m_smoke;
   std::array<GlPicture, 3> m_blur_rough, m_blur;
   std::array<GlPicture, 3> m_wet;  ///< field, thickness, film; the first one's framebuffer draws into all of them

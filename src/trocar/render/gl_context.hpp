@@ -19,6 +19,8 @@ class GlContext {
   virtual void make_current() = 0;
   /// The driver was reset and has forgotten everything that it was given. Asks a driver that can tell.
   bool lost() const;
+  /// No graphics card does.
+  bool draws_on_processors() const { return m_description.find("llvmpipe") != std::string::npos; }
   /// "vendor / renderer / version", for logs and reports.
   const std::string& description() const { return m_description; }
 

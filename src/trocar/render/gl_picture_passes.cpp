@@ -77,9 +77,9 @@ void GlBackend::develop_pass(const Frame& frame, const Layout& layout) {
   const Memory& memory = m_memory[std::size_t(frame.eye)];
   const bool effects = frame.quality.detail > 1 && (look.bloom > 0 || look.defocus > 0 || look.contact > 0);
   const bool rods = m_rod_count > 0;
-  GlProgram& program =
-      m_programs.get(view_shape(look), "develop.frag",
-                     std::string(effects ? "EFFECTS," : "") + (rods ? "RODS," : "") + (m_smokes ? "SMOKE," : ""));
+  GlProgram& program = m_programs.get(view_shape(look), "develop.frag",
+                                      std::string(effects ? "EFFECTS," : "") + (rods ? "RODS," : "") +
+                                          (frame.quality.samples > 1 ? "SAMPLED," : "") + (m_smokes ? "SMOKE," : ""));
   program.use();
   program.set("u_scene", kUnitPicture);
   program.set("u_small", kUnitSmall);

@@ -80,7 +80,7 @@ std::array<float, 8> GlBackend::reach_of(int rod, float aspect, float tan_half) 
 
 void GlBackend::shade_pass(const Frame& frame, const Layout& layout) {
   if (m_rod_count == 0) return;
-  m_shade.resize(layout.scene_w, layout.scene_h, GL_RGBA8, false, GL_NEAREST);
+  m_shade.resize(layout.scene_w, layout.scene_h, GL_RGBA8, false, GL_LINEAR);
   m_shade.bind();
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER, m_scene.depth.id());
   glClearColor(1, 1, 1, 1);
@@ -94,7 +94,7 @@ void GlBackend::shade_pass(const Frame& frame, const Layout& layout) {
   glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
   glStencilFunc(GL_EQUAL, 0, 1);
   glDisable(GL_CULL_FACE);
-  GlProgram& program = m_programs.get("shade.vert", "shade.frag");
+  GlProgram& program = m_programs.get("shade.vert", "shade.frag", frame.quality.samples > 1 ? "SAMPLED" : "");
   program.use();
   bind_texture(kUnitPicture, GL_TEXTURE_2D, m_scene.colour.id());
   program.set("u_scene", kUnitPicture);

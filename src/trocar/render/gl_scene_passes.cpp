@@ -20,6 +20,10 @@ constexpr float kGhost = 0.3f, kGhostRim = 0.7f;  // how much of themselves tran
 void GlBackend::begin_scene(const Frame& frame, const Target& target, const Layout& layout) {
   m_scene.resize(layout.scene_w, layout.scene_h, GL_RGBA16F, true, GL_LINEAR);
   m_scene.bind();
+  if (frame.quality.samples > 1) {
+    m_sampled.resize(layout.scene_w, layout.scene_h, frame.quality.samples);
+    m_sampled.bind();
+  }
   const Camera& camera = frame.camera;
   m_view = view_matrix(camera.rotation, camera.position);
   m_shift = camera.shift;
@@ -80,6 +84,12 @@ void GlBackend::scene_pass(const Frame& frame, std::span<const DrawItem* const> 
   }
   glDisable(GL_STENCIL_TEST);
   set_blending(false);
+}
+
+void GlBackend::resolve_pass(const Frame& frame) {
+  if (frame.quality.samples <= 1) return;
+  m_sampled.resolve(m_scene);
+  m_scene.bind();
 }
 
 void GlBackend::draw_edges(const DrawItem& item) {

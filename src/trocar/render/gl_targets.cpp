@@ -57,4 +57,37 @@ void GlPicture::bind() const {
   glViewport(0, 0, width, height);
 }
 
+void GlSampledPicture::resize(int w, int h, int wanted) {
+  w = std::max(w, 1);
+  h = std::max(h, 1);
+  if (framebuffer && w == width && h == height && wanted == samples) return;
+  width = w;
+  height = h;
+  samples = wanted;
+  framebuffer = new_framebuffer();
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
+  const auto attach = [&](GlRenderbuffer& buffer, GLenum format, GLenum as) {
+    buffer = new_renderbuffer();
+    glBindRenderbuffer(GL_RENDERBUFFER, buffer.id());
+    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, w, h);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, as, GL_RENDERBUFFER, buffer.id());
+  };
+  attach(colour, GL_RGBA16F, GL_COLOR_ATTACHMENT0);
+  attach(depth, GL_DEPTH24_STENCIL8, GL_DEPTH_STENCIL_ATTACHMENT);
+  if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+    throw std::runtime_error("the graphics driver refuses a picture format that the renderer needs");
+}
+
+void GlSampledPicture::bind() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
+  glViewport(0, 0, width, height);
+}
+
+void GlSampledPicture::resolve(const GlPicture& into) const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer.id());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, into.framebuffer.id());
+  glBlitFramebuffer(0, 0, width, height, 0, 0, width, height,
+                    GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT, GL_NEAREST);
+}
+
 }  // namespace trocar::render

@@ -17,4 +17,18 @@ struct GlPicture {
   void bind() const;
 };
 
+/// What a scene is drawn into when its edges are to be smooth: several samples a pixel, which resolve() brings
+/// together.
+struct GlSampledPicture {
+  int width = 0, height = 0, samples = 0;
+  GlRenderbuffer colour, depth;
+  GlFramebuffer framebuffer;
+
+  /// RGBA16F with depth and stencil. Makes it anew unless it is like that already.
+  void resize(int w, int h, int samples);
+  void bind() const;
+  /// Colour (averaged), depth and stencil into a picture of this size.
+  void resolve(const GlPicture& into) const;
+};
+
 }  // namespace trocar::render

@@ -8,17 +8,19 @@ namespace trocar::render {
 
 namespace {
 
-constexpr Quality kLevels[] = {{1.0f, 2, 1},    {1.0f, 2, 1.6f}, {0.85f, 2, 1.6f}, {0.7f, 2, 1.6f},
-                               {0.7f, 1, 1.6f}, {0.5f, 1, 2},    {0.5f, 0, 2.5f},  {0.4f, 0, 4}};
+constexpr Quality kLevels[] = {{1.0f, 2, 1, 4}, {1.0f, 2, 1}, {1.0f, 2, 1.6f}, {0.85f, 2, 1.6f}, {0.7f, 2, 1.6f},
+                               {0.7f, 1, 1.6f}, {0.5f, 1, 2}, {0.5f, 0, 2.5f}, {0.4f, 0, 4}};
 constexpr int kLongestPatience = 1800;
 constexpr std::size_t kFarthestStep = 3;  ///< levels down at a time: the prediction is not that good
 
-/// Cost of a frame against the best quality's: what is paid for a picture, for triangles and for fragments (fitted to
+/// Cost of a frame against the best quality's without smooth outlines: what is paid for a picture, for triangles, for
+/// fragments and for their samples (fitted to
 /// `trocar bench gynaecology/bleeding-control --picture` on llvmpipe).
 double relative_cost(const Quality& q) {
   const double effects = q.detail == 2 ? 1.0 : (q.detail == 1 ? 0.85 : 0.6);
   const double scale = double(q.render_scale);
-  return 0.15 + 0.1 / double(q.coarser) + 0.75 * scale * scale * effects;
+  const double sampling = q.samples > 1 ? 1.3 : 0.0;
+  return 0.15 + 0.1 / double(q.coarser) + (0.75 * effects + sampling) * scale * scale;
 }
 
 int count_bits(unsigned x) {
@@ -30,6 +32,8 @@ int count_bits(unsigned x) {
 }  // namespace
 
 std::span<const Quality> quality_levels() { return kLevels; }
+
+std::size_t first_level(bool on_processors) { return on_processors ? std::size(kLevels) - 3 : 0; }
 
 Governor::Governor(Limits limits, std::size_t start_level)
     : m_limits(limits), m_level(std::min(start_level, std::size(kLevels) - 1)), m_patience(limits.calm_frames) {}

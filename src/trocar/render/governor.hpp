@@ -18,6 +18,8 @@ namespace trocar::render {
 
 /// Best first.
 std::span<const Quality> quality_levels();
+/// Where to begin: with the best, or, where processors draw, where two of them get along; it goes up if there is room.
+std::size_t first_level(bool on_processors);
 
 class Governor {
  public:

@@ -15,8 +15,8 @@ constexpr double kPi = 3.14159265358979;
 constexpr int kAround = 40;
 constexpr double kCollarFrom = -0.0072;  // [m] where a hook's white collar begins
 // Blood is what clings there after work, burn what chars there: SceneView says how much of it is on an instrument.
-const Paint kClean{255, 0, 0, 0}, kShaded{110, 0, 0, 0}, kHollow{40, 0, 0, 90}, kUsed{235, 120, 0, 0};
-const Paint kCrevice{110, 230, 0, 0}, kElectrode{235, 110, 150, 0};
+const Paint kClean{255, 0, 0, 0}, kShaded{110, 0, 0, 0}, kHollow{40, 0, 0, 90}, kUsed{235, 190, 0, 0};
+const Paint kJoint{70, 40, 0, 150}, kElectrode{235, 110, 150, 0};
 
 void merge(MeshBuffer& to, const MeshBuffer& part) { append(to, part, Mat3f::identity(), {}); }
 
@@ -103,11 +103,12 @@ MeshBuffer grasper_jaw(const ToolModel& tool) {
   };
   const Outline window = stadium(0.37 * length, 0.87 * length, 0.52 * half);
   const Height inside = [=](double y, double z) {
-    if (z < 0.006) return 0.00012;
+    if (z < 0.006) return 0.00006;
     const double phase = z / 0.0011 - std::floor(z / 0.0011);
     const double teeth = 0.00034 * (phase < 0.5 ? 2 * phase : 2 - 2 * phase);
-    const double across = std::fabs(y) / half;  // they end before the window, and are ground off at the edge
-    return teeth * smooth(0.5, 0.66, across) * (1 - 0.6 * smooth(0.85, 1.0, across)) + 0.00012;
+    // They end before the window, and are ground off at the edge, where closed jaws meet without a gap.
+    const double across = std::fabs(y) / (half * neck(z)), edge = smooth(0.8, 0.96, across);
+    return (teeth * smooth(0.5, 0.66, across) + 0.00012) * (1 - edge) + 0.00001;
   };
   const Height outside = [=](double y, double z) {
     const double across = std::min(1.0, std::fabs(y) / (half * neck(z)));
@@ -120,7 +121,7 @@ MeshBuffer grasper_jaw(const ToolModel& tool) {
     if (!face) return Paint{255, to_byte(0.5 * works * smooth(0.3 * length, length, z)), 0, 0};
     return Paint{std::uint8_t(90 + deep * 130), to_byte(works * (1.15 - 0.6 * deep)), 0, 0};
   });
-  merge(b, beam({0.0009, 0, -0.0045}, {0.0008, 0, 0.0015}, 0.0009, 0.5 * half, 0.4, kCrevice));
+  merge(b, beam({0.0009, 0, -0.0045}, {0.0008, 0, 0.0015}, 0.0009, 0.5 * half, 0.4, kJoint));
   return b;
 }
 
@@ -168,6 +169,21 @@ MeshBuffer insulator(const ToolModel& tool, double from, double end, double end_
                 kAround);
 }
 
+/// The bevel that is ground along a blade's edge: it slants from the outer face to the middle plane.
+MeshBuffer ground_edge(const std::vector<BarSection>& blade) {
+  constexpr double kBevel = 0.0007;  // [m]
+  std::vector<BarSection> sections;
+  for (std::size_t i = 4; i < blade.size(); ++i) {
+    const BarSection& of = blade[i];
+    const double edge = of.centre.x - of.wide.x, inner = of.centre.y - of.deep.y, outer = of.centre.y + of.deep.y;
+    const double wide = std::min(kBevel, of.wide.x);
+    const Vec3d low{edge - 0.00012, inner + 0.00003, of.centre.z}, high{edge + wide, outer - 0.00004, of.centre.z};
+    const Vec3d half = 0.5 * (high - low), out = normalised(Vec3d{-half.y, half.x, 0}, Vec3d{0, 1, 0});
+    sections.push_back({0.5 * (low + high), half, 0.00003 * out, kClean});
+  }
+  return bar(sections, 0.1);
+}
+
 /// Blade of curved scissors: a wedge beside the middle plane, both blades bent the same way. @param bend along y [m]
 MeshBuffer blade(const ToolModel& tool, double bend) {
   const double length = tool.jaw_length, high = 0.95 * tool.jaw_width, thick = 0.62 * tool.jaw_thickness;
@@ -183,7 +199,9 @@ MeshBuffer blade(const ToolModel& tool, double bend) {
     sections.push_back({centre, {0.5 * (back - edge), 0, 0}, {0, 0.5 * thick * narrow, 0}, kUsed});
     sections.back().paint.blood = to_byte(0.55 * smooth(0.1, 0.6, w));
   }
-  return bar(sections, 0.22);
+  MeshBuffer b = bar(sections, 0.22);
+  merge(b, ground_edge(sections));
+  return b;
 }
 
 /// Jaw of a clip applier: a back with two rails, between which a leg of the clip slides.
@@ -194,11 +212,14 @@ MeshBuffer applier_jaw(const ToolModel& tool) {
   const auto back = [&](double z, double low, double high, double wide) {
     return BarSection{{0.5 * (low + high), 0, z}, 0.5 * (high - low) * x, wide * y, kClean};
   };
-  merge(b, bar({back(-0.009, 0.0002, thick, 0.7 * half), back(0, 0.3 * thick, thick, 0.85 * half),
-                back(0.25 * length, 0.42 * thick, thick, half), back(0.9 * length, 0.42 * thick, 0.92 * thick, half),
-                back(0.98 * length, 0.42 * thick, 0.8 * thick, 0.85 * half),
-                back(length, 0.42 * thick, 0.62 * thick, 0.6 * half)},
-               0.3));
+  merge(b,
+        bar({back(-0.009, 0.0002, thick, 0.7 * half), back(-0.003, 0.2 * thick, 1.3 * thick, 0.75 * half),
+             back(0.1 * length, 0.3 * thick, 1.45 * thick, 0.72 * half),
+             back(0.35 * length, 0.42 * thick, 1.35 * thick, 0.85 * half),
+             back(0.8 * length, 0.42 * thick, 1.05 * thick, half), back(0.9 * length, 0.42 * thick, 0.95 * thick, half),
+             back(0.98 * length, 0.42 * thick, 0.8 * thick, 0.85 * half),
+             back(length, 0.42 * thick, 0.62 * thick, 0.6 * half)},
+            0.3));
   for (const double side : {-1.0, 1.0}) {
     const double rail = 0.5 * (half - 0.5 * 0.0013), at = side * (half - rail);
     const auto section = [&](double z, double low) {
@@ -240,7 +261,8 @@ MeshBuffer side_hole(double tube_radius, double angle, double z, double radius) 
 
 /// A tube whose end is the bore, with eight holes of 1 mm around it.
 MeshBuffer irrigator_tube(const ToolModel& tool) {
-  const double r = tool.shaft_radius, bore = 0.0015, end = tool.jaw_length + 0.5 * tool.jaw_thickness;
+  const double r = tool.shaft_radius, bore = std::max(0.0015, 0.74 * tool.shaft_radius),
+               end = tool.jaw_length + 0.5 * tool.jaw_thickness;
   MeshBuffer b = open_shaft(tool, end, std::max(r - bore, 0.2 * r));
   for (int i = 0; i < 8; ++i)
     merge(b, side_hole(r, (i + 0.5 * (i % 2)) * 0.5 * kPi, end - (i < 4 ? 0.004 : 0.0075), 0.0005));

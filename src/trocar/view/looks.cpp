@@ -246,8 +246,8 @@ Material metal(Vec3f bright, Vec3f dull, float roughness) {
   m.colour_c = dull;
   m.tint = srgb(24, 24, 26);
   m.roughness = roughness;
-  m.mottle_size = 0.0025f;
-  m.fibre_stretch = 9;
+  m.mottle_size = 0.0016f;
+  m.fibre_stretch = 24;
   m.bump = 0.05f;
   m.soil = 0;
   return m;

@@ -26,7 +26,9 @@ Paint paint_of(int row, int side) {
   const double wave = 0.5 + 0.5 * varied(side / 2, 7), x = outwards(row);
   Paint p;
   p.openness = row < kLip ? std::uint8_t(row == 0 ? 6 : 20) : to_byte(0.16 + 0.84 * smooth(0, 0.5, x));
-  p.blood = row < kLip ? std::uint8_t(120) : to_byte(0.38 * (1 - smooth(0, 0.06 + 0.2 * wave, x)));
+  // Most of the rim is clean; here and there a thin dark line of blood.
+  const double bled = smooth(0.45, 0.85, 0.5 + 0.5 * varied(side / 5, 11));
+  p.blood = row < kLip ? to_byte(0.1 + 0.3 * bled) : to_byte(0.3 * bled * (1 - smooth(0, 0.04 + 0.1 * wave, x)));
   return p;
 }
 

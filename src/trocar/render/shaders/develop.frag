@@ -1,5 +1,5 @@
 // Scene light to picture values, before the lens: focus, contact shade, veil, exposure, camera curve. Variants: EFFECTS, RODS,
-// SMOKE.
+// SMOKE, SAMPLED (what is a shadow's border at an outline has to be as smooth as that).
 // The scene's alpha is the distance of the nearest opaque surface [m].
 precision highp float;
 precision highp int;
@@ -60,7 +60,12 @@ void main() {
   vec3 colour = scene.rgb;
   float outline = 0.0;  // of a thing that stands before others: for the lens pass, which smooths steps there
 #ifdef RODS
+#ifdef SAMPLED
+  vec2 aside = 0.5 / vec2(textureSize(u_scene, 0));
+  vec3 shade = 0.5 * (texture(u_rod_shade, v_uv + aside).rgb + texture(u_rod_shade, v_uv - aside).rgb);
+#else
   vec3 shade = texelFetch(u_rod_shade, ivec2(gl_FragCoord.xy), 0).rgb;
+#endif
   colour = paled(colour * shaded_by(shade.rg), 1.0 - shade.b);
 #endif
 #ifdef EFFECTS
@@ -77,7 +82,9 @@ void main() {
   // the side that the ring light is off the lens; red stays longest.
   float unit = scene.a * u_depth.w;  // height of the picture at this distance
   vec2 behind = (vec2(scene.a) - vec2(soft.a, softer.a)) / (unit * vec2(0.02, 0.05));
-  behind = clamp(behind, 0.0, 1.0) * clamp(3.0 - 0.5 * behind, 0.0, 1.0);
+  // What stands far before it touches nothing and leaves no rim (instruments' shadows are another pass).
+  vec2 touches = clamp(vec2(1.5, 2.2) - behind.y, 0.0, 1.0);
+  behind = clamp(behind, 0.0, 1.0) * clamp(3.0 - 0.5 * behind, 0.0, 1.0) * touches;
   float open = 1.0 - u_depth.z * max(0.8 * behind.x, 0.6 * behind.y);
   colour *= vec3(open, open * open, open * open);
   outline = clamp(abs(scene.a - soft.a) / (unit * 0.007), 0.0, 1.0);

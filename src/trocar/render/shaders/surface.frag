@@ -164,16 +164,16 @@ void main() {
   float plain = max(SCATTER, max(0.9 * blood, char_));  // no longer a mirror
   float ao = OPENNESS;
   float rim = min(1.0 - nv, 0.8), schlick = rim * rim * rim * rim;  // no further: the last pixel would be a dot
-  vec3 mirror = mix(0.65 * grey, vec3(0.04), plain);
+  vec3 mirror = mix(0.95 * grey, vec3(0.04), plain);
   mirror += (vec3(0.9) - mirror) * (schlick * (1.0 - 0.5 * char_));
   // Scratches and moisture break a highlight up along the axis.
   float broken = (0.1 + 1.3 * smoothstep(0.35, 0.7, broad.a)) * (0.12 + 1.0 * smoothstep(0.42, 0.64, fine.r));
   broken = mix(0.5, broken, clamp(20.0 * BUMP, 0.0, 1.0));  // what is polished has none
-  vec3 gloss = mix(1.5 * grey, vec3(0.28), max(SCATTER, blood)) * (0.12 * lobe(nh, alpha2) * broken * (1.0 - 0.8 * blurred));
-  gloss /= 1.0 + 1.35 * gloss;  // the lamp is no point: long lines do not clip
+  vec3 gloss = mix(1.5 * grey, vec3(0.28), max(SCATTER, blood)) * (mix(0.2, 0.12, plain) * lobe(nh, alpha2) * broken * (1.0 - 0.8 * blurred));
+  gloss /= 1.0 + 0.8 * gloss;  // the lamp is no point: long lines do not clip
   vec3 around = mirrored(reflect(-V, n), 0.04, mix(0.6, 3.0, rim) * lit.bounce);  // the lens itself is dark
-  vec3 even = LIGHT_COLOUR * lit.power * (mix(0.27, 0.75, plain) * nl * nl + 0.03 * lobe(nh, 0.35));
-  even += (BOUNCE * (1.0 + 3.0 * rim) + vec3(AMBIENT)) * lit.bounce;
+  vec3 even = LIGHT_COLOUR * lit.power * (mix(0.13, 0.75, plain) * nl * nl + mix(0.012, 0.03, plain) * lobe(nh, 0.35));
+  even += (BOUNCE * (mix(0.5, 1.0, plain) + 3.0 * rim) + vec3(AMBIENT)) * lit.bounce;
   vec3 colour = (grey * even + LIGHT_COLOUR * lit.power * gloss + around * mirror) * ao;
 #ifdef FOGGY
   colour = through_air(colour, v_eye);
