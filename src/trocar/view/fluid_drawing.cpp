@@ -18,7 +18,7 @@ constexpr float kCellsScatter = 1.6e3f;  // [1/m] red cells, forward scattering 
 constexpr float kBloodOrange = 7e3f;  // [1/m] mean of whole blood at 585 to 600 nm, tabulated [Prahl 1999], as Optics
 constexpr float kShutter = 0.005f;    // [s] a camera's: what flies is a streak
 constexpr float kWhole = 0.014f;      // [m] from its hole: so far a jet of blood is whole
-constexpr float kSpray = 0.036f;      // [m] ... and from here on spray
+constexpr float kSpray = 0.028f;      // [m] ... and from here on spray
 constexpr float kWag = 0.035f;        // how far a jet's drops stray aside, a share of their way
 constexpr int kShards = 5;            // what a drop of spray is drawn as
 constexpr float kFreshJet = 0.006f;   // [m] blood that has come less far shows where its hole is
@@ -234,7 +234,7 @@ bool FluidDrawing::link(const fluids::DropletState& d, std::int32_t i, std::int3
   if (thin < kThinnestLink * size) return false;
   // It swells and narrows on its way before it breaks [Rayleigh 1878], and each beat of the heart sends a thicker part.
   const float swell = 0.5f * std::sin(0.9f * float(id % 4096)) + 0.5f * std::sin(0.37f * float(id % 4096) + 1);
-  thin *= 0.85f - std::min(way / kWhole, 1.0f) * (0.22f - 0.14f * own(id, 22) - 0.20f * swell);
+  thin *= 0.85f - std::min(way / kWhole, 1.0f) * (0.22f - 0.16f * own(id, 22) - 0.28f * swell);
   Splat s;
   s.from = drawn_at(m_model->droplets, d, i), s.to = drawn_at(m_model->droplets, d, j);
   s.radius = thin;

@@ -282,7 +282,7 @@ void main() {
   float wet = smoothstep(1.0 - WETNESS - 0.2, 1.0 - WETNESS + 0.2, wet_noise);
 #ifdef STAINED
   film_slope *= 1.0 - 0.5 * raw;
-  wet = max(mix(wet, glassy, crust), smoothstep(0.1, 0.3, blood));
+  wet = max(mix(wet, glassy, crust), (0.75 - 0.35 * raw) * smoothstep(0.1, 0.4, blood));
 #endif
   // What mirrors the lamp is broken again by the film's thickness: flecks in clumps, no rings around its bumps.
   float flecks = smoothstep(0.34, 0.66, fine.g + 0.6 * (broad.b - 0.5));
