@@ -30,7 +30,7 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
 #ifdef UNEVEN
   // One side of a lens is colder than the other; where drops have run together one sees better.
   vec4 patches = texture(u_noise, vec3(at * 0.16, 0.83)), drops = texture(u_noise, vec3(at * 1.9, 0.57));
-  fog *= (0.40 + 0.75 * smoothstep(0.2, 0.75, patches.a)) * (1.0 + 0.40 * dot(at, vec2(-0.75, 0.65)));
+  fog *= (0.50 + 0.75 * smoothstep(0.2, 0.75, patches.a)) * (1.0 + 0.40 * dot(at, vec2(-0.75, 0.65)));
   beads = (smoothstep(0.30, 0.80, drops.a) - 0.4) * clamp(2.0 * fog, 0.0, 1.0);
   fog *= 1.0 - 0.3 * beads;
 #endif
