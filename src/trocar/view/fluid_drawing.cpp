@@ -24,6 +24,7 @@ constexpr int kShards = 5;            // what a drop of spray is drawn as
 constexpr float kFreshJet = 0.006f;   // [m] blood that has come less far shows where its hole is
 constexpr float kThinStreak = 0.08e-3f, kWideStreak = 0.19e-3f;  // [m] half of what a shard's streak is wide
 constexpr float kDensestStreak = 28e-6f;                         // [m]
+constexpr float kShreds = 0.12f, kShred = 110e-6f;               // from so broken on links are shreds; [m] how thick
 constexpr float kStreakDense = 0.35f;     // its amount, of what it would be at rest: a shutter smears light, not blood
 constexpr float kBleedsAsFilm = 0.3f;     // share of blood from which a drop on tissue is film at once
 constexpr float kLongestLink = 9.0f;      // in radii: a jet's drops hang together up to here
@@ -239,6 +240,12 @@ bool FluidDrawing::link(const fluids::DropletState& d, std::int32_t i, std::int3
   s.from = drawn_at(m_model->droplets, d, i), s.to = drawn_at(m_model->droplets, d, j);
   s.radius = thin;
   s.height = thin;
+  if (broken > kShreds) {  // what is left of it there has no ends like a rod's
+    const Vec3f longer = 0.35f * (s.to - s.from);
+    s.kind = SplatKind::streak;
+    s.from -= longer, s.to += longer;
+    s.height = kShred;
+  }
   s.share = shares_of(d.volume[std::size_t(i)]);
   s.dark = darkness(now, d.blood[std::size_t(i)], s.share);
   liquid.splats.push_back(s);

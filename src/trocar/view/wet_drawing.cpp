@@ -110,7 +110,9 @@ void WetDrawing::list_stumps(const sim::State& state, render::Liquid& liquid) co
     const std::size_t e = std::size_t(interactions::place_at(body, cut.s).element);
     const auto stump = [&](std::size_t at, std::size_t before) {
       const Vec3d out = normalised(x[at] - x[before], {1, 0, 0});
-      const FilmPlace end{vec_cast<float>(x[at]), vec_cast<float>(out)};
+      // The stump is drawn as long as the tube was: half an element beyond its last node.
+      const double beyond = 0.5 * length(body.model.rest[e + 1] - body.model.rest[e]);
+      const FilmPlace end{vec_cast<float>(x[at] + beyond * out), vec_cast<float>(out)};
       const Wound wound{liquid.down, {1, 0, 0}, 0.7f};
       list_stump(wound, end, float(body.model.radius[std::min(e, body.model.radius.size() - 1)]), surface, liquid);
     };
