@@ -101,23 +101,23 @@ void WetDrawing::list(const sim::State& state, render::Frame& frame) {
 
 /// Both ends of every strand that is cut through.
 void WetDrawing::list_stumps(const sim::State& state, render::Liquid& liquid) const {
-  const auto surface = [&](const FilmPlace& place) { return on_strand(state, place); };
   for (int n = 0; n < state.cut_count; ++n) {
     const interactions::Cut& cut = state.cuts[std::size_t(n)];
     if (cut.strand < 0 || cut.fraction < interactions::kThrough) continue;
     const interactions::StrandBody& body = m_model->bodies[std::size_t(cut.strand)];
     const std::vector<Vec3d>& x = state.strands[std::size_t(cut.strand)].x;
-    const std::size_t e = std::size_t(interactions::place_at(body, cut.s).element);
-    const auto stump = [&](std::size_t at, std::size_t before) {
+    const interactions::StrandPlace place = interactions::place_at(body, cut.s);
+    const std::size_t e = std::size_t(place.element);
+    const double element = length(body.model.rest[e + 1] - body.model.rest[e]);
+    const auto stump = [&](std::size_t at, std::size_t before, double beyond) {
+      // Stumps are drawn as long as the tube was there.
       const Vec3d out = normalised(x[at] - x[before], {1, 0, 0});
-      // The stump is drawn as long as the tube was: half an element beyond its last node.
-      const double beyond = 0.5 * length(body.model.rest[e + 1] - body.model.rest[e]);
       const FilmPlace end{vec_cast<float>(x[at] + beyond * out), vec_cast<float>(out)};
       const Wound wound{liquid.down, {1, 0, 0}, 0.7f};
-      list_stump(wound, end, float(body.model.radius[std::min(e, body.model.radius.size() - 1)]), surface, liquid);
+      list_stump(wound, end, float(body.model.radius[std::min(e, body.model.radius.size() - 1)]), liquid);
     };
-    if (e > 0) stump(e, e - 1);
-    if (e + 2 < x.size()) stump(e + 1, e + 2);
+    if (e > 0) stump(e, e - 1, place.w * element);
+    if (e + 2 < x.size()) stump(e + 1, e + 2, (1 - place.w) * element);
   }
 }
 

@@ -91,18 +91,16 @@ void list_wound(const Wound& wound, const FilmPlace& hole, const SurfaceNear& su
   if (beyond_crest(wound, other_side, surface)) list_rivulet(wound, other_side, surface, liquid);
 }
 
-void list_stump(const Wound& wound, const FilmPlace& end, float radius, const SurfaceNear& surface,
-                render::Liquid& liquid) {
+void list_stump(const Wound& wound, const FilmPlace& end, float radius, render::Liquid& liquid) {
   const Vec3f one = any_perpendicular(end.normal), other = cross(end.normal, one);
   for (int n = 0; n < kStumpPatches; ++n) {
     const float angle = 6.2832f * (float(n) + 0.4f * own(n)) / kStumpPatches;
     const Vec3f out = std::cos(angle) * one + std::sin(angle) * other;
     const float behind = 0.1e-3f + 0.3e-3f * (1 + own(100 + n));
-    FilmPlace place{end.position + radius * out - behind * end.normal, out};
-    if (surface) place = surface(place);
+    const FilmPlace place{end.position + radius * out - behind * end.normal, out};
     const float wide = 0.55e-3f * (1 + 0.5f * own(200 + n));
     liquid.splats.push_back(film(wound, place, wide, (26 + 20 * own(300 + n)) * 1e-6f));
-    if (n % 4 == 1) list_rivulet(wound, place, surface, liquid, 0.3f);
+    if (n % 4 == 1) list_rivulet(wound, place, {}, liquid, 0.3f);
   }
   // Its lumen and wall are wet with it, too.
   liquid.splats.push_back(film(wound, end, 0.55f * radius, 60e-6f));

@@ -33,7 +33,6 @@ void list_wound(const Wound& wound, const FilmPlace& hole, const SurfaceNear& su
 /// What is cut through oozes: patches around its end, and runs that start there.
 /// @param end     middle of the cut face; its normal points out of the stump
 /// @param radius  of the stump [m]
-void list_stump(const Wound& wound, const FilmPlace& end, float radius, const SurfaceNear& surface,
-                render::Liquid& liquid);
+void list_stump(const Wound& wound, const FilmPlace& end, float radius, render::Liquid& liquid);
 
 }  // namespace trocar::view
