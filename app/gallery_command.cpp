@@ -2,6 +2,8 @@
 // every instrument, an exchange, how a shadow tells height, clips and a cut, coagulation, smoke and the fogged lens,
 // bleeding, figures in colour, ways to show parts, both eyes, and from outside.
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -160,8 +162,22 @@ void clips_and_cut(const sim::Model& model, const sim::State& start, Shots& shot
   shots.take_outside(state, "cut", "cut between them", options);
 }
 
-/// Scissors go into the edge of each organ that can be cut, three bites deep; then they draw back.
+/// Three places along the edge of an organ that is nearest to a port, `apart` [m] from each other.
+std::array<Vec3d, 3> places_along_edge(const std::vector<Vec3d>& skin, Vec3d port, double apart) {
+  const Vec3d middle = nearest(skin, port), side = normalised(cross(middle - port, Vec3d{0, 0, 1}), {1, 0, 0});
+  std::array<Vec3d, 3> places;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3d want = middle + (k - 1) * apart * side;
+    const auto off = [&](Vec3d p) { return length(p - port) + 4 * std::fabs(dot(p - want, side)); };
+    places[std::size_t(k)] =
+        *std::min_element(skin.begin(), skin.end(), [&](Vec3d p, Vec3d q) { return off(p) < off(q); });
+  }
+  return places;
+}
+
+/// Scissors cut three times into the edge of each organ that can be cut; then they draw back.
 void bites(const sim::Model& model, const sim::State& start, Shots& shots) {
+  constexpr double kApart = 0.016;  // [m]
   for (std::size_t h = 0; h < model.hands.size(); ++h) {
     const interactions::ToolModel& tool = model.placed(h);
     if (tool.kind != interactions::ToolKind::scissors) continue;
@@ -169,22 +185,28 @@ void bites(const sim::Model& model, const sim::State& start, Shots& shots) {
       sim::State state = start;
       sim::Work work = sim::make_work(model);
       sim::Input input = model.start;
-      const Vec3d port = model.hands[h].port, edge = nearest(skin_of(model, organ), port);
-      const auto go = [&](double beyond, double handle, int ticks) {
+      const Vec3d port = model.hands[h].port;
+      const auto go = [&](Vec3d edge, double beyond, double handle, int ticks) {
         const Vec3d tip = edge + beyond * normalised(edge - port);
         input.tools[h] = sim::tool_input(kinematics::inverse(port, tip, double(input.tools[h].roll)), float(handle));
         for (int i = 0; i < ticks; ++i) sim::step(model, input, state, work);
       };
       const std::string& name = model.organ_name(organ);
-      const ViewOptions options = close_up(model, edge, 0.07);
-      go(-0.02, 0, 600);
-      for (int bite = 1; bite <= 3; ++bite) {
-        go(0.009 * bite, 0, 500);
-        if (bite == 1) shots.take_outside(state, name + " between blades", name + " between open blades", options);
-        go(0.009 * bite, 1, 300);
-        go(0.009 * bite, 0, 200);
+      const std::array<Vec3d, 3> places = places_along_edge(skin_of(model, organ), port, kApart);
+      const ViewOptions options = close_up(model, places[1], 0.07);
+      for (const Vec3d& edge : places) {
+        go(edge, -0.02, 0, 600);
+        go(edge, 0.008, 0, 500);
+        if (&edge == &places[0])
+          shots.take_outside(state, name + " between blades", name + " between open blades", options);
+        for (const double deep : {0.008, 0.014}) {
+          go(edge, deep, 0, 300);
+          go(edge, deep, 1, 300);
+          go(edge, deep, 0, 200);
+        }
+        go(edge, -0.03, 0, 500);
       }
-      go(-0.04, 1, 1500);
+      go(places[1], -0.04, 1, 1500);
       shots.take_outside(state, name + " cut", name + ", cut three times", options);
       shots.take(state, name + " cut endoscope", "the same through the endoscope");
     }

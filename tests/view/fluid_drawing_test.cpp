@@ -146,10 +146,10 @@ TEST(FluidDrawing, DropsSideBySideAreNoStrand) {
   for (const render::Splat& s : frame.liquid.splats) EXPECT_LT(std::fabs(s.from.x - s.to.x), 1e-6f);
 }
 
-TEST(FluidDrawing, ACapHasItsDropsVolume) {
+TEST(FluidDrawing, ACapOfWaterHasItsDropsVolume) {
   Scene scene;
   fluids::DropletState& d = scene.s.droplets;
-  add_drop(scene.m.droplets, {0, 0, 0.01f}, {0, 0, 0}, {.blood = 4 * kMicrolitre}, d);
+  add_drop(scene.m.droplets, {0, 0, 0.01f}, {0, 0, 0}, {.saline = 4 * kMicrolitre}, d);
   d.body[0] = 3;
   d.ground[0].offset = 0.01f;
   for (const float speed : {0.0f, 0.02f, 0.2f}) {
@@ -165,6 +165,64 @@ TEST(FluidDrawing, ACapHasItsDropsVolume) {
     EXPECT_LT(h, 0.8 * a) << "no bead";
     EXPECT_NEAR(tail, speed > 0.1f ? 0.0032 : (speed > 0 ? 0.0011 : 0), 0.0006);
   }
+}
+
+/// Of a film: its height times (1 - r^2)^2, over its round ends and what is between.
+double volume_of(const render::Splat& s) {
+  const double reach = double(render::kSplatReach * s.radius), tail = double(length(s.to - s.from));
+  return double(s.height) * (3.14159265 / 3 * reach * reach + 16.0 / 15 * reach * tail);
+}
+
+TEST(FluidDrawing, BloodThatLandsIsFilmOfItsVolumeWithATailUpTheWall) {
+  Scene scene;
+  fluids::DropletState& d = scene.s.droplets;
+  add_drop(scene.m.droplets, {0.01f, 0, 0.02f}, {0, 0, 0}, {.blood = 4 * kMicrolitre}, d);
+  d.body[0] = 3;
+  d.ground[0].normal = {1, 0, 0}, d.ground[0].offset = 0.01f;
+  double volume = 0, thickest = 0, head = 0, top = 0;
+  for (const render::Splat& s : scene.listed().liquid.splats) {
+    EXPECT_EQ(s.kind, render::SplatKind::film) << "no bead with a glint of its own";
+    volume += volume_of(s);
+    const double z = 0.5 * double(s.from.z + s.to.z);
+    if (double(s.height) > thickest) thickest = double(s.height), head = z;
+    top = std::max(top, z);
+  }
+  EXPECT_NEAR(volume, 4e-9, 0.05 * 4e-9);
+  EXPECT_GT(top, head + 0.002) << "the tail is above the thick head";
+}
+
+TEST(FluidDrawing, SprayIsFaintAndThin) {
+  Scene scene;
+  scene.spurt(90);
+  int streaks = 0, thin = 0;
+  for (const render::Splat& s : scene.listed().liquid.splats) {
+    if (s.kind != render::SplatKind::streak) continue;
+    ++streaks;
+    EXPECT_LE(s.height, 120e-6f) << "what is smeared by its speed covers little";
+    thin += s.radius <= 0.3e-3f && s.height <= 40e-6f;
+  }
+  EXPECT_GT(streaks, 10);
+  EXPECT_GT(thin, streaks / 2);
+}
+
+TEST(FluidDrawing, ARivuletRunsDownFromAWoundAndHangsBelow) {
+  // A rod of 3 mm along y; the hole is on its side, towards +x and up.
+  constexpr float kRadius = 0.003f;
+  const SurfaceNear rod = [](const FilmPlace& place) {
+    const Vec3f out = normalised(Vec3f{place.position.x, 0, place.position.z}, Vec3f{0, 0, 1});
+    FilmPlace on = place;
+    on.position = Vec3f{0, place.position.y, 0} + kRadius * out, on.normal = out;
+    return on;
+  };
+  render::Liquid liquid;
+  const Vec3f out = normalised(Vec3f{1, 0, 0.5f}, Vec3f{});
+  list_wound({}, {kRadius * out, out}, rod, liquid);
+  float lowest = 1;
+  for (const render::Splat& s : liquid.splats) {
+    lowest = std::min(lowest, s.to.z);
+    EXPECT_NEAR(std::hypot(s.to.x, s.to.z), kRadius, 0.0006f) << "it lies on the tissue";
+  }
+  EXPECT_LT(lowest, -0.9f * kRadius);
 }
 
 TEST(FluidDrawing, AFilmDarkensAsItClotsAndIsDarkFromTheFirstWhereItCameFromAVein) {

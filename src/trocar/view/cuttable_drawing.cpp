@@ -21,7 +21,7 @@ constexpr std::uint8_t kLooseOpenness = 230;  // of pieces that have come off, w
 constexpr std::uint8_t kLoosePale = 190;      // they have bled out
 constexpr float kGrain = 0.0005f;             // [m] torn lobules of what is bare
 constexpr float kGape = 0.0019f;              // [m] how far either side of a cut draws back
-constexpr float kFrayed = 0.0011f;            // [m] how far a rim strays from the straight line of its cells
+constexpr float kFrayed = 0.0008f;            // [m] how far a rim strays from the straight line of its cells
 constexpr int kDrawnAlong = 3;                // rings of nodes that go with it
 
 /// Nodes at which the inside is bare: the skin ends there, so it has no relief that would leave a gap.

@@ -18,12 +18,13 @@ constexpr float kCellsScatter = 1.6e3f;  // [1/m] red cells, forward scattering 
 constexpr float kBloodOrange = 7e3f;  // [1/m] mean of whole blood at 585 to 600 nm, tabulated [Prahl 1999], as Optics
 constexpr float kShutter = 0.005f;    // [s] a camera's: what flies is a streak
 constexpr float kWhole = 0.014f;      // [m] from its hole: so far a jet of blood is whole
-constexpr float kSpray = 0.036f;      // [m] ... and from here on spray
+constexpr float kSpray = 0.028f;      // [m] ... and from here on spray
 constexpr float kWag = 0.035f;        // how far a jet's drops stray aside, a share of their way
 constexpr int kShards = 5;            // what a drop of spray is drawn as
 constexpr float kFreshJet = 0.006f;   // [m] blood that has come less far shows where its hole is
 constexpr float kThinStreak = 0.08e-3f, kWideStreak = 0.19e-3f;  // [m] half of what a shard's streak is wide
 constexpr float kDensestStreak = 28e-6f;                         // [m]
+constexpr float kShreds = 0.12f, kShred = 110e-6f;               // from so broken on links are shreds; [m] how thick
 constexpr float kStreakDense = 0.35f;     // its amount, of what it would be at rest: a shutter smears light, not blood
 constexpr float kBleedsAsFilm = 0.3f;     // share of blood from which a drop on tissue is film at once
 constexpr float kLongestLink = 9.0f;      // in radii: a jet's drops hang together up to here
@@ -234,11 +235,17 @@ bool FluidDrawing::link(const fluids::DropletState& d, std::int32_t i, std::int3
   if (thin < kThinnestLink * size) return false;
   // It swells and narrows on its way before it breaks [Rayleigh 1878], and each beat of the heart sends a thicker part.
   const float swell = 0.5f * std::sin(0.9f * float(id % 4096)) + 0.5f * std::sin(0.37f * float(id % 4096) + 1);
-  thin *= 0.85f - std::min(way / kWhole, 1.0f) * (0.22f - 0.14f * own(id, 22) - 0.20f * swell);
+  thin *= 0.85f - std::min(way / kWhole, 1.0f) * (0.22f - 0.16f * own(id, 22) - 0.28f * swell);
   Splat s;
   s.from = drawn_at(m_model->droplets, d, i), s.to = drawn_at(m_model->droplets, d, j);
   s.radius = thin;
   s.height = thin;
+  if (broken > kShreds) {  // what is left of it there has no ends like a rod's
+    const Vec3f longer = 0.35f * (s.to - s.from);
+    s.kind = SplatKind::streak;
+    s.from -= longer, s.to += longer;
+    s.height = kShred;
+  }
   s.share = shares_of(d.volume[std::size_t(i)]);
   s.dark = darkness(now, d.blood[std::size_t(i)], s.share);
   liquid.splats.push_back(s);

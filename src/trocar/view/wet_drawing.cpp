@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include <trocar/interactions/cut.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/view/looks.hpp>
 #include <trocar/view/wet_drawing.hpp>
@@ -95,6 +96,29 @@ void WetDrawing::list(const sim::State& state, render::Frame& frame) {
   }
   const auto surface = [&](const FilmPlace& place) { return on_strand(state, place); };
   m_drawing.list({state.fluids, state.pool_floor, m_places, m_sheer, surface}, frame);
+  list_stumps(state, frame.liquid);
+}
+
+/// Both ends of every strand that is cut through.
+void WetDrawing::list_stumps(const sim::State& state, render::Liquid& liquid) const {
+  for (int n = 0; n < state.cut_count; ++n) {
+    const interactions::Cut& cut = state.cuts[std::size_t(n)];
+    if (cut.strand < 0 || cut.fraction < interactions::kThrough) continue;
+    const interactions::StrandBody& body = m_model->bodies[std::size_t(cut.strand)];
+    const std::vector<Vec3d>& x = state.strands[std::size_t(cut.strand)].x;
+    const interactions::StrandPlace place = interactions::place_at(body, cut.s);
+    const std::size_t e = std::size_t(place.element);
+    const double element = length(body.model.rest[e + 1] - body.model.rest[e]);
+    const auto stump = [&](std::size_t at, std::size_t before, double beyond) {
+      // Stumps are drawn as long as the tube was there.
+      const Vec3d out = normalised(x[at] - x[before], {1, 0, 0});
+      const FilmPlace end{vec_cast<float>(x[at] + beyond * out), vec_cast<float>(out)};
+      const Wound wound{liquid.down, {1, 0, 0}, 0.7f};
+      list_stump(wound, end, float(body.model.radius[std::min(e, body.model.radius.size() - 1)]), liquid);
+    };
+    if (e > 0) stump(e, e - 1, place.w * element);
+    if (e + 2 < x.size()) stump(e + 1, e + 2, (1 - place.w) * element);
+  }
 }
 
 /// A place next to strands, laid on the surface of all of them: that of the one it is deepest in.

@@ -21,6 +21,7 @@ class WetDrawing {
  private:
   void measure_places();
   void pose(const sim::State& state);
+  void list_stumps(const sim::State& state, render::Liquid& liquid) const;
   FilmPlace on_strand(const sim::State& state, const FilmPlace& place) const;
 
   const sim::Model* m_model;

@@ -12,7 +12,7 @@ constexpr float kPitThick = 450e-6f;      // [m] of the blood in it
 constexpr int kWelling = 7, kSmears = 5;  // patches of blood around it, thick and thin
 constexpr float kStep = 0.7e-3f;          // [m] between two links of the rivulet
 constexpr int kLinks = 22;
-constexpr int kToCrest = 7;
+constexpr int kToCrest = 7, kStumpPatches = 9;
 constexpr float kUnderside = 0.94f;  // cosine between surface and fall at which a rivulet ends as a hanging drop
 
 float own(int which) { return 2 * float(varied(977, which)) - 1; }
@@ -38,14 +38,15 @@ FilmPlace moved(const FilmPlace& place, Vec3f by, const SurfaceNear& surface) {
   return surface ? surface(next) : next;
 }
 
-void list_rivulet(const Wound& wound, FilmPlace at, const SurfaceNear& surface, render::Liquid& liquid) {
-  const int links = surface ? kLinks : kLinks / 3;  // a plane leaves the tissue soon
+void list_rivulet(const Wound& wound, FilmPlace at, const SurfaceNear& surface, render::Liquid& liquid,
+                  float share = 1) {
+  const int links = int(share * float(surface ? kLinks : kLinks / 3));  // a plane leaves the tissue soon
   for (int n = 0; n < links; ++n) {
     const Vec3f fall = along_surface(wound.down, at.normal);
     const Vec3f across = cross(at.normal, normalised(fall, any_perpendicular(at.normal)));
     const float wind = 0.5f * std::sin(0.8f * float(n)) + 0.3f * own(n);
     const FilmPlace next = moved(at, kStep * (normalised(fall, Vec3f{}) + wind * across), surface);
-    const float wide = 0.52e-3f * (1 + 0.3f * own(40 + n)), thick = (150 - 3 * float(n)) * 1e-6f;
+    const float wide = 0.52e-3f * (1 + 0.3f * own(40 + n)), thick = share * (150 - 3 * float(n)) * 1e-6f;
     render::Splat s = film(wound, at, wide, thick * (0.75f + 0.3f * own(80 + n)));
     s.to = next.position;
     liquid.splats.push_back(s);
@@ -88,6 +89,21 @@ void list_wound(const Wound& wound, const FilmPlace& hole, const SurfaceNear& su
   list_rivulet(wound, hole, surface, liquid);
   FilmPlace other_side = hole;
   if (beyond_crest(wound, other_side, surface)) list_rivulet(wound, other_side, surface, liquid);
+}
+
+void list_stump(const Wound& wound, const FilmPlace& end, float radius, render::Liquid& liquid) {
+  const Vec3f one = any_perpendicular(end.normal), other = cross(end.normal, one);
+  for (int n = 0; n < kStumpPatches; ++n) {
+    const float angle = 6.2832f * (float(n) + 0.4f * own(n)) / kStumpPatches;
+    const Vec3f out = std::cos(angle) * one + std::sin(angle) * other;
+    const float behind = 0.1e-3f + 0.3e-3f * (1 + own(100 + n));
+    const FilmPlace place{end.position + radius * out - behind * end.normal, out};
+    const float wide = 0.55e-3f * (1 + 0.5f * own(200 + n));
+    liquid.splats.push_back(film(wound, place, wide, (26 + 20 * own(300 + n)) * 1e-6f));
+    if (n % 4 == 1) list_rivulet(wound, place, {}, liquid, 0.3f);
+  }
+  // Its lumen and wall are wet with it, too.
+  liquid.splats.push_back(film(wound, end, 0.55f * radius, 60e-6f));
 }
 
 }  // namespace trocar::view

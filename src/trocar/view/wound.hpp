@@ -30,4 +30,9 @@ struct Wound {
 /// @param surface  may be empty: then all of it lies in the hole's plane
 void list_wound(const Wound& wound, const FilmPlace& hole, const SurfaceNear& surface, render::Liquid& liquid);
 
+/// What is cut through oozes: patches around its end, and runs that start there.
+/// @param end     middle of the cut face; its normal points out of the stump
+/// @param radius  of the stump [m]
+void list_stump(const Wound& wound, const FilmPlace& end, float radius, render::Liquid& liquid);
+
 }  // namespace trocar::view

@@ -52,11 +52,11 @@ void main() {
   // Small unrest on top of the waves that the simulation knows.
   vec4 slow = texture(u_noise, vec3(place.xy * 9.0, 0.13 * u_eye.w));
   vec4 quick = texture(u_noise, vec3(place.yx * 31.0, 0.21 * u_eye.w));
-  vec3 unrest = (slow.rgb * 2.0 - 1.0) * 0.034 + (quick.rgb * 2.0 - 1.0) * 0.018;
+  vec3 unrest = (slow.rgb * 2.0 - 1.0) * 0.050 + (quick.rgb * 2.0 - 1.0) * 0.024;
 #if DETAIL == 2
   // Where it is thin it follows the tissue's relief, which stands still.
   float thin = exp(-max(v_depth_cover.x, 0.0) / 0.0005);
-  unrest += (texture(u_noise, place * 38.0).rgb * 2.0 - 1.0) * (0.25 * thin);
+  unrest += (texture(u_noise, place * 38.0).rgb * 2.0 - 1.0) * (0.42 * thin);
 #endif
   vec3 n = normalize(v_normal);
   float gap = max(straight.a - far, 0.0), shore = smoothstep(0.0, 0.0016, gap);
@@ -88,7 +88,7 @@ void main() {
 
   float facing = clamp(0.1 + 0.9 * dot(n, lit.direction), 0.0, 1.0);
   vec3 light = LIGHT_COLOUR * (lit.power * facing) + (BOUNCE + vec3(AMBIENT)) * lit.bounce;
-  vec3 deep = deep_colour(amount, v_mix.w) * (0.85 + 0.75 * smoothstep(0.25, 0.8, 0.7 * slow.a + 0.3 * quick.a));
+  vec3 deep = deep_colour(amount, v_mix.w) * (0.85 + 0.75 * smoothstep(0.25, 0.8, 0.6 * slow.a + 0.4 * quick.a)) * (0.86 + 0.28 * quick.g);
   vec3 colour = bed * through + deep * light * (1.0 - through);
 #if DETAIL >= 1
   float froth = v_mix.z * smoothstep(0.55, 0.75, quick.a + 0.3 * v_mix.z);
@@ -101,7 +101,7 @@ void main() {
   colour = mix(colour, mirrored(r, lit.bounce, quick.g), share_back);
   // The rim is a bent mirror all along: its line of light is thin and even, no row of beads.
   vec3 shine = highlight(n, V, lit, u_shine.y);
-  colour += mix(shine, min(shine, LIGHT_COLOUR * (0.16 * lit.power)), rim);
+  colour += mix(shine, min(shine, LIGHT_COLOUR * (0.45 * lit.power)), rim);
   colour = mix(below.rgb, colour, edge);
   o_colour = vec4(colour, far);
 }

@@ -44,7 +44,8 @@ void main() {
       sigma *= 0.06 + 1.95 * smoothstep(0.30, 0.72, 0.65 * curls.a + 0.35 * curls.g);
       // It hangs much thicker on one side than on the other, in banks.
       vec3 drifts = p - 0.3 * u_risen;
-      sigma *= 1.0 + 0.72 * sin(dot(drifts, vec3(21.0, 9.0, 13.0))) + 0.26 * sin(dot(drifts, vec3(-17.0, 52.0, 38.0)));
+      float bank = 0.5 + 0.42 * sin(dot(drifts, vec3(38.0, 9.0, 13.0)) + 5.0) + 0.12 * sin(dot(drifts, vec3(-47.0, 52.0, 68.0)));
+      sigma *= 0.14 + 1.15 * bank * bank * bank;
 #endif
       float taken = 1.0 - exp(-sigma * stride);
       Lit lit = light_at(way * d);

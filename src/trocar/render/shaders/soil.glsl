@@ -29,10 +29,11 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
   float beads = 0.0;
 #ifdef UNEVEN
   // One side of a lens is colder than the other; where drops have run together one sees better.
-  vec4 patches = texture(u_noise, vec3(at * 0.16, 0.83)), drops = texture(u_noise, vec3(at * 0.85, 0.57));
-  fog *= (0.42 + 1.0 * smoothstep(0.25, 0.7, patches.a)) * (1.0 + 0.30 * dot(at, vec2(-0.75, 0.65)));
-  beads = smoothstep(0.60, 0.78, drops.a) * clamp(4.0 * fog * (1.0 - 0.5 * fog), 0.0, 1.0);
-  fog *= 1.0 - 0.35 * beads;
+  vec4 patches = texture(u_noise, vec3(at * 0.16, 0.83));
+  vec4 drops = texture(u_noise, vec3(mat2(0.8, 0.6, -0.6, 0.8) * at * 1.1 + 0.12 * patches.rg, 0.57));
+  fog *= (0.50 + 0.75 * smoothstep(0.2, 0.75, patches.a)) * (0.95 + 0.55 * dot(at, vec2(-0.75, 0.65)));
+  beads = (smoothstep(0.30, 0.80, drops.a) - 0.4) * clamp(2.0 * fog, 0.0, 1.0);
+  fog *= 1.0 - 0.3 * beads;
 #endif
   fog = clamp(fog, 0.0, 1.0);
 
@@ -72,7 +73,7 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
   picture = blurred(uv, picture, by);
   vec3 veil = mix(mean, vec3(light), 0.55);
   picture = mix(picture, veil * 1.15 + 0.05, 0.55 * fog);
-  picture *= 1.0 + 0.10 * (beads - 0.3 * smoothstep(0.02, 0.4, beads) * (1.0 - beads));
+  picture *= 1.0 + 0.03 * beads;
   picture = mix(picture, veil * u_smear.rgb * 1.05 + 0.02, 0.33 * greasy);
 
 #ifdef DROPS

@@ -245,7 +245,7 @@ void main() {
     float at = BURN + 0.30 * (patchy.a - 0.5) + 0.24 * (folds.a - 0.5);
     float pale = smoothstep(0.0, 0.36, BURN + 0.10 * (patchy.a - 0.5) * smoothstep(0.0, 0.2, BURN));
     crust = smoothstep(0.34, 0.60, at);
-    float burnt = smoothstep(0.55, 1.10, at + 0.16 * (grain.g - 0.5));
+    float burnt = smoothstep(0.46, 0.92, at + 0.16 * (grain.g - 0.5));
     float crack = crust * (1.0 - smoothstep(0.02, 0.10, abs(patchy.r - 0.5 + 0.10 * (folds.g - 0.5))));
     glassy = crust * smoothstep(0.46, 0.60, grain.b);
     albedo = mix(albedo, vec3(0.66, 0.47, 0.39) * (0.88 + 0.24 * folds.a), 0.8 * pale);
@@ -307,7 +307,7 @@ void main() {
   float wet = smoothstep(1.0 - WETNESS - 0.2, 1.0 - WETNESS + 0.2, wet_noise);
 #ifdef STAINED
   film_slope *= 1.0 - 0.5 * raw;
-  wet = max(mix(wet, glassy, crust), smoothstep(0.1, 0.3, blood));
+  wet = max(mix(wet, glassy, crust), (0.75 - 0.35 * raw) * smoothstep(0.1, 0.4, blood));
 #endif
   // What mirrors the lamp is broken again by the film's thickness: flecks in clumps, no rings around its bumps.
   float flecks = smoothstep(0.34, 0.66, fine.g + 0.6 * (broad.b - 0.5));

@@ -61,8 +61,10 @@ void main() {
     vec2 aside = 0.00045 / pixel * u_size.zw;
     float lower = film_at(film_uv + fall.xy * 1.6 * aside);
     float edge = clamp(1.0 - lower / max(stain, 1.0e-7), 0.0, 1.0);
+#if DETAIL >= 1
     vec2 grows = vec2(film_at(film_uv + vec2(aside.x, 0.0)), film_at(film_uv + vec2(0.0, aside.y))) - stain;
     film_rise = vec3(clamp(grows / 0.00045, vec2(-0.4), vec2(0.4)), 0.0);
+#endif
     film *= (0.30 + 1.2 * smoothstep(0.25, 0.75, 0.6 * streak + 0.4 * fine.a)) * (1.0 + 1.1 * edge * edge);
     stain = dot(film.rgb, vec3(1.0));
   }
