@@ -101,7 +101,7 @@ Material veiled(Vec3f main, Vec3f broad, Vec3f fine) {
 }
 
 Material peritoneum() {
-  Material m = with_vessels(tissue(srgb(180, 118, 121), srgb(188, 129, 126), srgb(172, 107, 112)), 0.8f, 0.13f);
+  Material m = with_vessels(tissue(srgb(180, 118, 121), srgb(190, 132, 123), srgb(170, 104, 115)), 0.8f, 0.13f);
   m.lining = true;
   m.mottle_size = 0.024f;
   m.mottle = 0.6f;

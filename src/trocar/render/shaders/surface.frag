@@ -205,7 +205,7 @@ void main() {
   albedo = mix(albedo, TINT, tint);
 #endif
 #ifdef LINING
-  albedo *= 1.0 + vec3(0.02, 0.06, -0.06) * (broad.g - 0.5);
+  albedo *= 1.0 + vec3(0.0, 0.09, -0.13) * (broad.g - 0.5);
 #else
   albedo *= 1.0 + vec3(0.0, 0.08, -0.17) * (broad.g - 0.5);  // towards yellow here, mauve there
 #endif
