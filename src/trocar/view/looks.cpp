@@ -44,9 +44,9 @@ Material tube() {
   m.mottle_size = 0.011f;
   m.mottle = 0.6f;
   m.bump = 0.1f;
-  m.glow_amount = 0.2f;          // through the thin rims of the fimbriae
-  m.tint = srgb(180, 86, 92);    // fimbriae: mucosa
-  m.film_size = 0.0042f;         // as long as the tube is thick: one broken sheen, no beads
+  m.glow_amount = 0.2f;        // through the thin rims of the fimbriae
+  m.tint = srgb(180, 86, 92);  // fimbriae: mucosa
+  m.film_size = 0.0042f;       // as long as the tube is thick: one broken sheen, no beads
   m.film_bump = 0.3f;
   m.film_roughness = 0.07f;
   m.wetness = 0.9f;
