@@ -36,7 +36,6 @@ struct Leaf {
   double lean;      ///< [rad] outwards at its end, more than at the rim
   double sway;      ///< [rad] sideways
   double reaches;   ///< 0..1: how far it is drawn to the ovary
-  double notch;     ///< 0..1: its end parts in two
   int seed;
   double middle() const { return 0.5 * (from + to); }
 };
@@ -45,7 +44,8 @@ Vec3d outwards(double angle) { return {0, std::cos(angle), std::sin(angle)}; }
 Vec3d around(double angle) { return {0, -std::sin(angle), std::cos(angle)}; }
 double apart(double a, double b) { return std::fabs(std::remainder(a - b, 2 * kPi)); }
 
-/// Unequal shares of the rim; every other leaf is shorter, stands up and belongs to the inner order.
+/// Unequal shares of the rim in three orders: long ones that fall outwards, middling ones, and between them short ones
+/// that stand up around the mouth.
 std::vector<Leaf> leaves_of(const FimbriaSite& site) {
   std::vector<Leaf> leaves(kLeaves);
   std::vector<double> border(kLeaves + 1);
@@ -56,14 +56,14 @@ std::vector<Leaf> leaves_of(const FimbriaSite& site) {
   const double to_ovary = std::atan2(site.land.z, site.land.y);
   for (int i = 0; i < kLeaves; ++i) {
     Leaf& f = leaves[std::size_t(i)];
-    const bool inner = i % 2 == 1;
+    const int order = i % 2 == 1 ? 2 : (i / 2) % 2;
+    constexpr double longest[] = {1.55, 1.2, 0.8}, falls[] = {1.6, 0.95, 0.2};
     f.seed = seed + i;
     f.from = border[std::size_t(i)];
     f.to = border[std::size_t(i) + 1];
-    f.length = site.radius * (inner ? 1.05 : 1.6) * (0.6 + 0.8 * varied(f.seed, 4));
-    f.lean = (inner ? 0.3 : 1.7) + 1.1 * (varied(f.seed, 6) - 0.5);
-    f.sway = 1.3 * (varied(f.seed, 8) - 0.5);
-    f.notch = varied(f.seed, 5) > 0.55 ? 1.0 : 0.1;
+    f.length = site.radius * longest[order] * (0.75 + 0.5 * varied(f.seed, 4));
+    f.lean = falls[order] + 0.8 * (varied(f.seed, 6) - 0.5);
+    f.sway = 1.1 * (varied(f.seed, 8) - 0.5);
     const double off = apart(f.middle(), to_ovary);
     f.reaches = site.ovary ? smooth(1.2, 0.35, off) : 0;
   }
@@ -73,7 +73,6 @@ std::vector<Leaf> leaves_of(const FimbriaSite& site) {
     });
     for (Leaf& f : leaves) f.reaches = std::min(f.reaches, 0.75);
     nearest->reaches = 1;
-    nearest->notch = 0.1;
   }
   return leaves;
 }
@@ -144,22 +143,19 @@ Spines spine_of(const Leaf& f, const FimbriaSite& site) {
   return own;
 }
 
-/// Half the width over half the share of the rim: widest before the middle, lobed edges, a round end.
+/// Half the width over half the share of the rim: a petal, widest beyond its middle, with soft scallops and a round
+/// end.
 double half_width(const Leaf& f, double u, bool right) {
   const int k = 2 * f.seed + (right ? 1 : 0);
-  const double body = 1 + (0.22 + 0.3 * varied(f.seed, 23)) * smooth(0, 0.4, u) - 0.45 * smooth(0.4, 1.0, u);
-  // Round lobes with narrow clefts between them.
-  const double turn = (6 + 3 * varied(k, 2)) * u + 3.1 * varied(k, 1);
-  const double lobes = smooth(0.05, 0.35, u) * (0.42 * std::pow(std::fabs(std::sin(turn)), 0.7) - 0.24);
-  const double tip = std::sqrt(std::max(0.0, 1 - std::pow(std::max(0.0, (u - 0.7) / 0.3), 2)));
-  return (body + lobes) * (0.16 + 0.84 * tip);
+  const double body = 1 + (0.25 + 0.4 * varied(f.seed, 23)) * smooth(0.05, 0.6, u);
+  const double turn = (7 + 4 * varied(k, 2)) * u + 6.3 * varied(k, 1);
+  const double scallops = 0.13 * smooth(0.1, 0.35, u) * std::sin(turn);
+  const double cap = std::max(0.0, (u - 0.62) / 0.38);
+  return (body + scallops) * (0.03 + 0.97 * std::sqrt(std::max(0.0, 1 - cap * cap)));
 }
 
 /// How far the column at `w` (-1..1 across) goes, over the leaf's length.
-double reach(const Leaf& f, double w) {
-  const double split = f.notch * 0.22 * std::exp(-w * w / 0.05);
-  return 1 - 0.1 * w * w - split - 0.025 * (1 + std::sin(8 * w + f.seed)) * (1 - w * w);
-}
+double reach(const Leaf& f, double w) { return 1 - 0.12 * w * w - 0.03 * (1 + std::sin(2.5 * w + f.seed)); }
 
 /// How high the folds of the inner side stand at a column of the rim, 0..1; each has its own height.
 double fold_at(int column) {
@@ -184,10 +180,10 @@ Sheets place_on(const Leaf& f, const Spines& spine, const FimbriaSite& site, int
   const double sector = 0.5 * (f.to - f.from) * kBell.back()[1] * site.radius;
   const double half = sector * half_width(f, v, w > 0);
   // Edges are longer than the middle: they rise and fall in a frill, and the leaf is a shallow trough.
-  const double edge = std::fabs(w) * w * w, loose = smooth(0.05, 0.5, v);
+  const double edge = std::fabs(w) * w * w, loose = smooth(0.05, 0.5, v) * (1 - 0.7 * smooth(0.8, 1, v));
   const double phase = 6.3 * varied(f.seed, w > 0 ? 21 : 22);
   const double frill =
-      loose * (0.00052 * edge * std::sin(15 * v + phase) + 0.0003 * w * w * std::sin(27 * v + 1.7 * phase));
+      loose * (0.0005 * edge * std::sin(9 * v + phase) + 0.00016 * w * w * std::sin(16 * v + 1.7 * phase));
   const double trough = (f.reaches >= 1 ? 0.05 : 0.5 * varied(f.seed, 12) - 0.1) * half * w * w;
   const double pleats = kPleat * smooth(0, 0.15, v) * (1 - 0.6 * v) * (fold - 0.3);
   const double thick =
