@@ -57,7 +57,7 @@ std::vector<Leaf> leaves_of(const FimbriaSite& site) {
   for (int i = 0; i < kLeaves; ++i) {
     Leaf& f = leaves[std::size_t(i)];
     const int order = i % 2 == 1 ? 2 : (i / 2) % 2;
-    constexpr double longest[] = {1.55, 1.2, 0.8}, falls[] = {1.6, 0.95, 0.2};
+    constexpr double longest[] = {1.55, 1.2, 0.8}, falls[] = {1.15, 0.7, 0.15};
     f.seed = seed + i;
     f.from = border[std::size_t(i)];
     f.to = border[std::size_t(i) + 1];
@@ -116,13 +116,23 @@ Spines landing(const Leaf& f, const FimbriaSite& site) {
   const double far = length(b - a);
   const Vec3d da = (1.1 * far) * (std::cos(kRimLean) * Vec3d{1, 0, 0} + std::sin(kRimLean) * out),
               db = (1.3 * far) * normalised(site.slide - 0.25 * site.normal, site.slide);
+  Vec3d carried = side;
   for (int i = 0; i <= kRings; ++i) {
     const double t = along_leaf(i), u = 1 - t;
     const Vec3d p = (u * u * (1 + 2 * t)) * a + (t * t * (3 - 2 * t)) * b + (u * u * t) * da - (t * t * u) * db;
     const Vec3d along = normalised((6 * t * u) * (b - a) + (u * (1 - 3 * t)) * da + (t * (3 * t - 2)) * db, site.slide);
-    const Vec3d lying = cross(-site.normal, along), wish = (1 - t) * side + t * (dot(lying, side) < 0 ? -lying : lying);
-    const Vec3d across = normalised(wish - dot(wish, along) * along, any_perpendicular(along));
-    spine[std::size_t(i)] = {p, along, across, cross(along, across)};
+    carried = normalised(carried - dot(carried, along) * along, any_perpendicular(along));
+    spine[std::size_t(i)] = {p, along, carried, cross(along, carried)};
+  }
+  // What it must turn about itself to lie flat at the end is shared out along it.
+  const Spine& last = spine[kRings];
+  const Vec3d lying = cross(-site.normal, last.along);
+  const double turn = std::remainder(std::atan2(dot(lying, last.flat), dot(lying, last.across)), kPi);
+  for (int i = 0; i <= kRings; ++i) {
+    Spine& s = spine[std::size_t(i)];
+    const double by = turn * smooth(0.1, 0.8, along_leaf(i));
+    s.across = std::cos(by) * s.across + std::sin(by) * s.flat;
+    s.flat = cross(s.along, s.across);
   }
   return spine;
 }
@@ -186,8 +196,8 @@ Sheets place_on(const Leaf& f, const Spines& spine, const FimbriaSite& site, int
       loose * (0.0005 * edge * std::sin(9 * v + phase) + 0.00016 * w * w * std::sin(16 * v + 1.7 * phase));
   const double trough = (f.reaches >= 1 ? 0.05 : 0.5 * varied(f.seed, 12) - 0.1) * half * w * w;
   const double pleats = kPleat * smooth(0, 0.15, v) * (1 - 0.6 * v) * (fold - 0.3);
-  const double thick =
-      kWall * (1.05 - 0.75 * smooth(0, 0.9, v)) * std::sqrt(std::max(0.0, 1 - w * w)) * (ring == kRings ? 0 : 1);
+  const double cap = std::max(0.0, (v - 0.7) / 0.3), fleshy = std::sqrt(std::max(0.0, 1 - cap * cap));
+  const double thick = kWall * (1.05 - 0.3 * v) * fleshy * std::sqrt(std::max(0.0, 1 - w * w));
   // At the root the leaf's line follows the rim.
   const double angle = f.from + (f.to - f.from) * double(column) / kLeafColumns, root = smooth(0.3, 0, v);
   const auto& rim = kBell.back();

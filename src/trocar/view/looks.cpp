@@ -35,7 +35,7 @@ Material uterus() {
   m.bump = 0.12f;
   m.film_bump = 0.34f;
   m.film_roughness = 0.065f;
-  m.film_size = 0.0015f;
+  m.film_size = 0.0019f;
   return m;
 }
 
@@ -60,7 +60,7 @@ Material ovary() {
   m.bump = 0.14f;
   m.film_roughness = 0.065f;
   m.film_bump = 0.32f;
-  m.film_size = 0.0014f;
+  m.film_size = 0.0018f;
   m.glow_amount = 0.1f;
   m.tint = srgb(196, 166, 172);  // a follicle
   return m;
@@ -123,15 +123,15 @@ Material bladder() {
   m.two_sided = false;
   m.colour = srgb(196, 126, 132);
   m.colour_b = srgb(208, 148, 146);
-  m.colour_c = srgb(178, 102, 116);
+  m.colour_c = srgb(186, 114, 122);
   m.tint = srgb(202, 144, 138);
   m.mottle_size = 0.013f;
   m.mottle = 0.6f;
   m.vessel_tile = 0.05f;
-  m.wetness = 0.62f;
-  m.film_size = 0.0016f;
-  m.film_bump = 0.32f;
-  m.film_roughness = 0.07f;
+  m.wetness = 0.5f;
+  m.film_size = 0.0024f;
+  m.film_bump = 0.28f;
+  m.film_roughness = 0.075f;
   return m;
 }
 
@@ -141,7 +141,7 @@ Material bowel() {
   m.mottle = 0.6f;
   m.glow_amount = 0.1f;
   m.film_bump = 0.34f;
-  m.film_size = 0.0015f;
+  m.film_size = 0.0019f;
   m.film_roughness = 0.06f;
   m.wetness = 0.9f;
   m.tint = srgb(228, 178, 158);  // its bands
@@ -165,7 +165,7 @@ Material small_bowel() {
   m.mottle = 0.5f;
   m.glow_amount = 0.1f;
   m.film_bump = 0.34f;
-  m.film_size = 0.0015f;
+  m.film_size = 0.0019f;
   m.film_roughness = 0.06f;
   m.wetness = 0.9f;
   return m;
@@ -283,19 +283,19 @@ Material fat() {
 /// Tags on the large bowel: soft, salmon, under a thin wet serosa, with capillaries.
 Material epiploic() {
   Material m = fat();
-  m.colour = srgb(230, 168, 142);
-  m.colour_b = srgb(236, 186, 146);
-  m.colour_c = srgb(220, 142, 126);
-  m.lobule_size = 0.0022f;
-  m.lobule_depth = 0.03f;
-  m.lobule_contrast = 0.03f;
+  m.colour = srgb(236, 164, 150);
+  m.colour_b = srgb(240, 182, 156);
+  m.colour_c = srgb(222, 136, 132);
+  m.lobule_size = 0.0028f;
+  m.lobule_depth = 0.02f;
+  m.lobule_contrast = 0;
   m.vessels = 0.7f;
   m.glow_amount = 0.2f;
   m.vessel_tile = 0.012f;
-  m.wetness = 0.85f;
+  m.wetness = 0.95f;
   m.film_bump = 0.3f;
-  m.film_size = 0.0015f;
-  m.film_roughness = 0.07f;
+  m.film_size = 0.002f;
+  m.film_roughness = 0.06f;
   m.tint = srgb(206, 130, 120);  // where it runs out on the bowel
   return m;
 }
