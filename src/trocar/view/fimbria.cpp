@@ -86,7 +86,7 @@ using Spines = std::array<Spine, kRings + 1>;
 /// Rings stand closer towards the tip.
 double along_leaf(int ring) {
   const double t = double(ring) / kRings;
-  return 0.55 * t + 0.45 * std::sin(0.5 * kPi * t);
+  return 0.35 * t + 0.65 * std::sin(0.5 * kPi * t);
 }
 
 /// By its own bend and weight.
@@ -153,15 +153,19 @@ Spines spine_of(const Leaf& f, const FimbriaSite& site) {
   return own;
 }
 
+/// 1 up to the round end, 0 at the tip.
+double round_end(double u, double end) {
+  return std::sqrt(std::max(0.0, 1 - std::pow(std::max(0.0, (u - 1 + end) / end), 2.4)));
+}
+
 /// Half the width over half the share of the rim: a petal, widest beyond its middle, with soft scallops and a round
 /// end.
-double half_width(const Leaf& f, double u, bool right) {
+double half_width(const Leaf& f, double u, double end, bool right) {
   const int k = 2 * f.seed + (right ? 1 : 0);
   const double body = 1 + (0.25 + 0.4 * varied(f.seed, 23)) * smooth(0.05, 0.6, u);
   const double turn = (7 + 4 * varied(k, 2)) * u + 6.3 * varied(k, 1);
   const double scallops = 0.13 * smooth(0.1, 0.35, u) * std::sin(turn);
-  const double cap = std::max(0.0, (u - 0.62) / 0.38);
-  return (body + scallops) * (0.03 + 0.97 * std::sqrt(std::max(0.0, 1 - cap * cap)));
+  return (body + scallops) * (0.03 + 0.97 * round_end(u, end));
 }
 
 /// How far the column at `w` (-1..1 across) goes, over the leaf's length.
@@ -188,7 +192,8 @@ Sheets place_on(const Leaf& f, const Spines& spine, const FimbriaSite& site, int
   const Vec3d point = (1 - t) * a.point + t * b.point, across = (1 - t) * a.across + t * b.across,
               flat = (1 - t) * a.flat + t * b.flat;
   const double sector = 0.5 * (f.to - f.from) * kBell.back()[1] * site.radius;
-  const double half = sector * half_width(f, v, w > 0);
+  const double end = std::clamp(1.5 * sector / f.length, 0.2, 0.55);
+  const double half = sector * half_width(f, v, end, w > 0);
   // Edges are longer than the middle: they rise and fall in a frill, and the leaf is a shallow trough.
   const double edge = std::fabs(w) * w * w, loose = smooth(0.05, 0.5, v) * (1 - 0.7 * smooth(0.8, 1, v));
   const double phase = 6.3 * varied(f.seed, w > 0 ? 21 : 22);
@@ -196,8 +201,7 @@ Sheets place_on(const Leaf& f, const Spines& spine, const FimbriaSite& site, int
       loose * (0.0005 * edge * std::sin(9 * v + phase) + 0.00016 * w * w * std::sin(16 * v + 1.7 * phase));
   const double trough = (f.reaches >= 1 ? 0.05 : 0.5 * varied(f.seed, 12) - 0.1) * half * w * w;
   const double pleats = kPleat * smooth(0, 0.15, v) * (1 - 0.6 * v) * (fold - 0.3);
-  const double cap = std::max(0.0, (v - 0.7) / 0.3), fleshy = std::sqrt(std::max(0.0, 1 - cap * cap));
-  const double thick = kWall * (1.05 - 0.3 * v) * fleshy * std::sqrt(std::max(0.0, 1 - w * w));
+  const double thick = kWall * (1.05 - 0.3 * v) * round_end(v, end) * std::sqrt(std::max(0.0, 1 - w * w));
   // At the root the leaf's line follows the rim.
   const double angle = f.from + (f.to - f.from) * double(column) / kLeafColumns, root = smooth(0.3, 0, v);
   const auto& rim = kBell.back();

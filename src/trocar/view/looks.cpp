@@ -40,7 +40,7 @@ Material uterus() {
 }
 
 Material tube() {
-  Material m = with_vessels(tissue(srgb(194, 124, 125), srgb(206, 150, 138), srgb(178, 98, 106)), 0.75f, 0.024f);
+  Material m = with_vessels(tissue(srgb(194, 124, 125), srgb(206, 150, 138), srgb(184, 108, 112)), 0.75f, 0.024f);
   m.mottle_size = 0.011f;
   m.mottle = 0.6f;
   m.bump = 0.1f;
@@ -401,12 +401,7 @@ std::vector<Look> make_looks() {
       {"bladder",
        bladder(),
        false,
-       {.broad = 0.0014,
-        .broad_size = 0.03,
-        .fine = 0.0002,
-        .fine_size = 0.008,
-        .creases = 0.0024,
-        .crease_size = 0.026},
+       {.broad = 0.0014, .broad_size = 0.03, .fine = 0.0002, .fine_size = 0.008},
        0,
        0,
        true},

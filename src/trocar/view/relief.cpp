@@ -78,21 +78,6 @@ void add_lopsided(const Relief& relief, const tissue::Skin& skin, std::vector<fl
   }
 }
 
-/// A slack skin lies in round folds across the body; the narrow furrows between them begin and end anywhere and lie in
-/// shade.
-void add_creases(const Relief& relief, const tissue::Skin& skin, std::vector<float>& height,
-                 std::vector<Paint>& paint) {
-  for (std::size_t i = 0; i < height.size(); ++i) {
-    const Vec3d p = vec_cast<double>(skin.rest[i]);
-    const Vec3d bent = p + Vec3d{0, 0.16 * relief.crease_size * waves(p, 1.7 * relief.crease_size), 0};
-    const double across = waves({0.42 * bent.x, bent.y, bent.z}, 2 * relief.crease_size);
-    const double there = smooth(-0.45, 0.25, waves(p + Vec3d{0.05, 0.03, 0}, 2.2 * relief.crease_size));
-    const double furrow = there * std::pow(std::max(0.0, 1 - std::fabs(across) / 0.75), 2);
-    height[i] -= float(relief.creases * furrow);
-    paint[i].openness = std::uint8_t(paint[i].openness * (1 - 0.3 * furrow));
-  }
-}
-
 /// Scars of an ovary: short furrows, each in a direction of its own.
 void add_scars(const Relief& relief, const tissue::Skin& skin, std::vector<float>& height) {
   const int seed = int(std::fabs(skin.rest.front().y) * 1e6f) % 9973 + (skin.rest.front().x < 0 ? 20011 : 0);
@@ -187,7 +172,6 @@ std::vector<float> heights(const Relief& relief, const tissue::Skin& skin, std::
   if (relief.haustra > 0) add_haustra(relief, skin, height, paint);
   if (relief.follicles > 0) add_follicles(relief, skin, height, paint);
   if (relief.scars > 0) add_scars(relief, skin, height);
-  if (relief.creases > 0) add_creases(relief, skin, height, paint);
   if (relief.ripe > 0) add_ripe(relief, skin, height, paint);
   if (relief.lopsided > 0) add_lopsided(relief, skin, height);
   add_roots(relief, skin, height);

@@ -19,7 +19,6 @@ struct Relief {
   double lopsided = 0;                      ///< flat and full places of an organ as a whole, each organ's own [m]
   double haustra = 0, haustra_size = 0.03;  ///< height and distance of a large gut's bulges along its length [m];
                                             ///< three bands run along between them
-  double creases = 0, crease_size = 0.02;   ///< depth and distance of the furrows of a slack skin, which run across [m]
 
   /// Places where a strand grows out: the surface rises to meet it.
   struct Root {
@@ -29,8 +28,7 @@ struct Relief {
   std::vector<Root> roots = {};
 
   bool any() const {
-    return broad > 0 || fine > 0 || follicles > 0 || haustra > 0 || lopsided > 0 || ripe > 0 || creases > 0 ||
-           !roots.empty();
+    return broad > 0 || fine > 0 || follicles > 0 || haustra > 0 || lopsided > 0 || ripe > 0 || !roots.empty();
   }
 };
 
