@@ -17,7 +17,7 @@ constexpr float kSunk = 0.004f;     // [m] the hem below what it runs out on
 constexpr float kOnWall = 0.0015f;  // [m] ... or a wall
 constexpr double kTwoPi = 6.28318530717959;
 
-constexpr double kFolds = 0.0032, kFoldSize = 0.021;  // [m] depth of the furrows of an empty bladder's sheet, distance
+constexpr double kFolds = 0.0026, kFoldSize = 0.021;  // [m] depth of the furrows of an empty bladder's sheet, distance
 
 /// 0..1: round folds run across the sheet; the narrow furrows between them begin and end anywhere.
 double furrow_at(Vec3d p) {
@@ -116,7 +116,7 @@ Drape::Drape(const sim::Model& model, int solid, const std::vector<OrganDrawing>
 void Drape::fold() {
   for (std::size_t i = 0; i < m_buffer.rest.size(); ++i) {
     const double w = double(i % kRings) / (kRings - 1);
-    m_fold.push_back(float(kFolds * (0.35 - furrow_at(vec_cast<double>(m_buffer.rest[i]))) * smooth(0.62, 0.4, w)));
+    m_fold.push_back(float(kFolds * (0.35 - furrow_at(vec_cast<double>(m_buffer.rest[i]))) * smooth(0.74, 0.4, w)));
   }
 }
 

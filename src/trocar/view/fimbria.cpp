@@ -169,7 +169,7 @@ double half_width(const Leaf& f, double u, double end, bool right) {
 }
 
 /// How far the column at `w` (-1..1 across) goes, over the leaf's length.
-double reach(const Leaf& f, double w) { return 1 - 0.12 * w * w - 0.03 * (1 + std::sin(2.5 * w + f.seed)); }
+double reach(const Leaf& f, double w) { return 0.97 - 0.03 * std::sin(2.5 * w + f.seed); }
 
 /// How high the folds of the inner side stand at a column of the rim, 0..1; each has its own height.
 double fold_at(int column) {
