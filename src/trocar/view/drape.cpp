@@ -8,8 +8,8 @@
 namespace trocar::view {
 namespace {
 
-constexpr int kSpokes = 108, kOnRings = 18, kRings = 38;  // on the organ; all
-constexpr std::size_t kHemRows = 16;                      // that take on the wall's normal
+constexpr int kSpokes = 72, kOnRings = 18, kRings = 38;  // on the organ; all
+constexpr std::size_t kHemRows = 16;                     // that take on the wall's normal
 constexpr float kAway = 0.036f;     // [m] how far from the organ's rim its sheet reaches a wall, about
 constexpr float kOver = 0.0022f;    // [m] above the organ, whose relief is that high
 constexpr float kShoulder = 0.7f;   // [rad] how far the plane leans that touches the organ where the sheet leaves it
@@ -17,12 +17,13 @@ constexpr float kSunk = 0.004f;     // [m] the hem below what it runs out on
 constexpr float kOnWall = 0.0015f;  // [m] ... or a wall
 constexpr double kTwoPi = 6.28318530717959;
 
-constexpr double kFolds = 0.0026, kFoldSize = 0.021;  // [m] depth of the furrows of an empty bladder's sheet, distance
+constexpr double kFolds = 0.0028, kFoldSize = 0.019;  // [m] depth of the furrows of an empty bladder's sheet, distance
+constexpr double kLifted = 0.6;                       // share of it that the folds stand above the sheet
 
 /// 0..1: round folds run across the sheet; the narrow furrows between them begin and end anywhere.
 double furrow_at(Vec3d p) {
   const Vec3d bent = p + Vec3d{0, 0.2 * kFoldSize * waves(p, 1.6 * kFoldSize), 0};
-  const double across = waves({0.45 * bent.x, bent.y, bent.z}, 1.8 * kFoldSize);
+  const double across = waves({0.45 * bent.x, bent.y, bent.z}, 1.5 * kFoldSize);
   const double there = smooth(-0.5, 0.2, waves(p + Vec3d{0.05, 0.03, 0}, 2.4 * kFoldSize));
   return there * std::pow(std::max(0.0, 1 - std::fabs(across) / 0.8), 1.6);
 }
@@ -105,7 +106,7 @@ Drape::Drape(const sim::Model& model, int solid, const std::vector<OrganDrawing>
       const double w = double(r) / (kRings - 1);
       const double wall = m_spokes[std::size_t(k)].hem.solid < 0 ? 1 : 0;  // on the womb it keeps its own
       // Goes over into the wall's colour; furrows lie in shade.
-      const double deep = std::clamp(0.35 - double(m_fold[i]) / kFolds, 0.0, 1.0);
+      const double deep = std::clamp(kLifted - double(m_fold[i]) / kFolds, 0.0, 1.0);
       m_buffer.paint[i] = {
           to_byte((1 - (0.1 + 0.18 * wall) * smooth(0.4, 0.7, w) * smooth(1, 0.85, w)) * (1 - 0.4 * deep)), 0, 0,
           to_byte(wall * smooth(0.55, 0.95, w))};
@@ -116,7 +117,7 @@ Drape::Drape(const sim::Model& model, int solid, const std::vector<OrganDrawing>
 void Drape::fold() {
   for (std::size_t i = 0; i < m_buffer.rest.size(); ++i) {
     const double w = double(i % kRings) / (kRings - 1);
-    m_fold.push_back(float(kFolds * (0.35 - furrow_at(vec_cast<double>(m_buffer.rest[i]))) * smooth(0.74, 0.4, w)));
+    m_fold.push_back(float(kFolds * (kLifted - furrow_at(vec_cast<double>(m_buffer.rest[i]))) * smooth(0.85, 0.3, w)));
   }
 }
 

@@ -35,7 +35,7 @@ Material uterus() {
   m.bump = 0.12f;
   m.film_bump = 0.34f;
   m.film_roughness = 0.065f;
-  m.film_size = 0.0019f;
+  m.film_size = 0.0016f;
   return m;
 }
 
@@ -60,7 +60,7 @@ Material ovary() {
   m.bump = 0.14f;
   m.film_roughness = 0.065f;
   m.film_bump = 0.32f;
-  m.film_size = 0.0018f;
+  m.film_size = 0.0015f;
   m.glow_amount = 0.1f;
   m.tint = srgb(196, 166, 172);  // a follicle
   return m;
@@ -122,14 +122,14 @@ Material bladder() {
   m.lining = false;
   m.two_sided = false;
   m.colour = srgb(196, 126, 132);
-  m.colour_b = srgb(208, 148, 146);
+  m.colour_b = srgb(210, 150, 144);
   m.colour_c = srgb(186, 114, 122);
   m.tint = srgb(202, 144, 138);
   m.mottle_size = 0.013f;
   m.mottle = 0.6f;
   m.vessel_tile = 0.05f;
   m.wetness = 0.5f;
-  m.film_size = 0.0024f;
+  m.film_size = 0.002f;
   m.film_bump = 0.28f;
   m.film_roughness = 0.075f;
   return m;
@@ -141,7 +141,7 @@ Material bowel() {
   m.mottle = 0.6f;
   m.glow_amount = 0.1f;
   m.film_bump = 0.34f;
-  m.film_size = 0.0019f;
+  m.film_size = 0.0016f;
   m.film_roughness = 0.06f;
   m.wetness = 0.9f;
   m.tint = srgb(228, 178, 158);  // its bands
@@ -165,7 +165,7 @@ Material small_bowel() {
   m.mottle = 0.5f;
   m.glow_amount = 0.1f;
   m.film_bump = 0.34f;
-  m.film_size = 0.0019f;
+  m.film_size = 0.0016f;
   m.film_roughness = 0.06f;
   m.wetness = 0.9f;
   return m;
