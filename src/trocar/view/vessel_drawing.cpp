@@ -25,6 +25,7 @@ constexpr double kDrawnIn = 0.6;         // ... by this share of the mean of the
 constexpr double kMostDrawnIn = 0.0025;  // [m] ... at most
 constexpr double kDives = 0.003;         // [m] seen of a vessel that leaves its fold
 constexpr double kNestled = 0.6;         // radii below an organ's surface
+constexpr double kBuried = 0.0045;       // [m] there, where a vessel of a fold goes into an organ
 constexpr double kWinding = 0.0006;      // [m] to either side, in a fold
 
 /// A line through places at s, cubic between them.
@@ -69,12 +70,13 @@ std::vector<Vec3d> drawn_line(const Run& run, const Curve& curve, const interact
   return line;
 }
 
-/// A vessel that rides on an organ lies in its surface, one that a fold carries in the fold: lines are drawn by hand
-/// and run up to some millimetres beside.
+/// A vessel that rides on an organ lies in its surface, one that a fold carries in the fold, from where it goes deep into
+/// the organ: lines are drawn by hand and run up to some millimetres beside.
 interactions::VesselPath nestled(interactions::VesselPath path) {
+  const bool fold = in_a_fold(path);
   for (interactions::VesselPoint& p : path.points) {
     if (p.hold.kind == interactions::VesselHold::organ)
-      p.hold.offset.z = std::min(p.hold.offset.z, -kNestled * p.radius);
+      p.hold.offset.z = std::min(p.hold.offset.z, fold ? -kBuried : -kNestled * p.radius);
     if (p.hold.kind == interactions::VesselHold::membrane) p.hold.offset.z = 0;
   }
   return path;
@@ -156,17 +158,20 @@ void VesselDrawing::update(const sim::State& state) {
   m_mesh.replace(m_buffer.data());
 }
 
-/// Does another vessel go on from this end?
+/// Does another vessel go on from this end? Of a fold's vessels: one that is drawn in the fold, too.
 bool VesselDrawing::leads_on(int vessel, int end) const {
   const auto end_of = [this](std::size_t v, int which) {
     const auto& points = m_model->vessels.list[v].path.points;
     return which == 0 ? points.front().drawn : points.back().drawn;
   };
   const Vec3d here = end_of(std::size_t(vessel), end);
-  for (std::size_t v = 0; v < m_model->vessels.list.size(); ++v)
+  const bool fold = in_a_fold(m_model->vessels.list[std::size_t(vessel)].path);
+  for (std::size_t v = 0; v < m_model->vessels.list.size(); ++v) {
+    if (fold && !in_a_fold(m_model->vessels.list[v].path)) continue;
     for (const int other : {0, 1})
       if (int(v) != vessel && m_model->vessels.list[v].vein == m_veins && length(end_of(v, other) - here) < kSameNode)
         return true;
+  }
   return false;
 }
 
