@@ -18,16 +18,16 @@ constexpr double kWidest = 0.016;  // [m] from below the ligament to a flank's f
 constexpr double kOver = 0.62;     // share of the ligament from where on its flanks close over it ...
 constexpr double kClosed = 0.86;   // ... and where they have
 constexpr double kOverAll = 0.12, kClosedAll = 0.32;  // the same where it carries nothing
-constexpr double kLostOver = 0.014;                   // [m] of wall along which a ridge goes down and is lost ...
+constexpr double kLostOver = 0.034;                   // [m] of wall along which a ridge goes down and is lost ...
 constexpr double kLostDepth = 0.0014;                 // [m] ... below it
-constexpr double kShallow = 0.0005;                   // [m] above it until then
+constexpr double kShallow = 2.8;                      // radii of the ligament that it rises above it before that
 constexpr double kCrest = 1.15;                       // radii from the ligament's axis to what covers it
-constexpr double kCovers = 1.1;         // radii from the axis: nearer than that it would not cover the ligament
-constexpr double kAround = 6.5;         // radii: how far its slope is that of the ligament's side
-constexpr double kLoose = 0.0004;       // [m] what covers a ligament keeps off it
-constexpr double kTucked = 0.0012;      // [m] the border lies below the wall
-constexpr double kAtWall = 0.006;       // [m] nearer than that, down is the wall's normal
-constexpr int kInWall = 6, kGlide = 6;  // stations where the ligament is in the wall, and beyond its end
+constexpr double kCovers = 1.1;          // radii from the axis: nearer than that it would not cover the ligament
+constexpr double kAround = 6.5;          // radii: how far its slope is that of the ligament's side
+constexpr double kLoose = 0.0004;        // [m] what covers a ligament keeps off it
+constexpr double kTucked = 0.0012;       // [m] the border lies below the wall
+constexpr double kAtWall = 0.006;        // [m] nearer than that, down is the wall's normal
+constexpr int kInWall = 6, kGlide = 13;  // stations where the ligament is in the wall, and beyond its end
 
 /// Is it what folds hang on, or does a vessel run in it?
 bool carries(const sim::Model& model, int strand) {
@@ -100,6 +100,12 @@ void Ridge::add_root(const TubeRoot& root) {
   }
 }
 
+/// How high its crest is above the wall that it runs out on, at least [m].
+double Ridge::crest_above(const Station& st) {
+  const double left = (1 - st.gone) * (1 - st.gone);
+  return kShallow * st.radius * left - kLostDepth * (1 - left);
+}
+
 /// Then on along the wall, down to below it.
 void Ridge::add_glide(const WallSurface& walls) {
   const Station last = m_stations.back();
@@ -112,7 +118,7 @@ void Ridge::add_glide(const WallSurface& walls) {
     Station st = last;
     st.beyond = true;
     st.gone = double(i) / kGlide;
-    st.at = on - (kCrest * st.radius + kLostDepth) * wall.normal;
+    st.at = on + (crest_above(st) - kCrest * st.radius) * wall.normal;
     st.along = onward;
     m_stations.push_back(st);
   }
@@ -150,7 +156,7 @@ void Ridge::find_feet(const WallSurface& walls) {
   for (Station& st : m_stations) {  // its crest does not dive: it goes down to the wall and on along that
     const WallSurface::Place wall = walls.nearest(st.at);
     const double crest = dot(st.at - wall.point, wall.normal) + kCrest * st.radius;
-    st.lift = std::max(0.0, kShallow - crest - st.gone * st.gone * (kShallow + kLostDepth)) * wall.normal;
+    st.lift = std::max(0.0, crest_above(st) - crest) * wall.normal;
   }
   settle_beyond();
   even_out(4, [](Station& st) -> Vec3d& { return st.side; });
@@ -159,7 +165,7 @@ void Ridge::find_feet(const WallSurface& walls) {
     st.side = normalised(st.side, any_perpendicular(st.along));
     const double high = std::max(0.0, dot(st.at - st.floor, st.normal[0]));
     const double uneven = 1 + 0.3 * waves(st.floor, 0.021);
-    const double wide = (1 - 0.4 * st.gone) * std::min(kWidest, 1.6 * st.radius + 0.002 + 0.5 * high) * uneven;
+    const double wide = (1 + 0.4 * st.gone) * std::min(kWidest, 1.6 * st.radius + 0.002 + 0.5 * high) * uneven;
     for (const int flank : {0, 1}) st.foot[flank] = st.floor + ((flank ? -wide : wide)) * st.side;
   }
   for (const int flank : {0, 1}) {

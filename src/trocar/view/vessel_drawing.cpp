@@ -70,8 +70,8 @@ std::vector<Vec3d> drawn_line(const Run& run, const Curve& curve, const interact
   return line;
 }
 
-/// A vessel that rides on an organ lies in its surface, one that a fold carries in the fold, from where it goes deep into
-/// the organ: lines are drawn by hand and run up to some millimetres beside.
+/// A vessel that rides on an organ lies in its surface, one that a fold carries in the fold, from where it goes deep
+/// into the organ: lines are drawn by hand and run up to some millimetres beside.
 interactions::VesselPath nestled(interactions::VesselPath path) {
   const bool fold = in_a_fold(path);
   for (interactions::VesselPoint& p : path.points) {
