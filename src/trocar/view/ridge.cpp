@@ -20,9 +20,11 @@ constexpr double kClosed = 0.86;   // ... and where they have
 constexpr double kOverAll = 0.12, kClosedAll = 0.32;  // the same where it carries nothing
 constexpr double kLostOver = 0.034;                   // [m] of wall along which a ridge goes down and is lost ...
 constexpr double kLostDepth = 0.0014;                 // [m] ... below it
-constexpr double kShallow = 2.8;                      // radii of the ligament that it rises above it before that
+constexpr double kShallow = 2.2;                      // radii of the ligament that it rises above it before that
+constexpr double kFlatter = 1.2;                      // and how much rounder it grows
+constexpr double kTurns = 8;                          // radii above the wall where its sections begin to turn
 constexpr double kCrest = 1.15;                       // radii from the ligament's axis to what covers it
-constexpr double kCovers = 1.1;          // radii from the axis: nearer than that it would not cover the ligament
+constexpr double kCovers = 1.2;          // radii from the axis: nearer than that it would not cover the ligament
 constexpr double kAround = 6.5;          // radii: how far its slope is that of the ligament's side
 constexpr double kLoose = 0.0004;        // [m] what covers a ligament keeps off it
 constexpr double kTucked = 0.0012;       // [m] the border lies below the wall
@@ -103,7 +105,7 @@ void Ridge::add_root(const TubeRoot& root) {
 /// How high its crest is above the wall that it runs out on, at least [m].
 double Ridge::crest_above(const Station& st) {
   const double left = (1 - st.gone) * (1 - st.gone);
-  return kShallow * st.radius * left - kLostDepth * (1 - left);
+  return kShallow * st.radius / (1 + kFlatter * st.gone) * left - kLostDepth * (1 - left);
 }
 
 /// Then on along the wall, down to below it.
@@ -118,6 +120,7 @@ void Ridge::add_glide(const WallSurface& walls) {
     Station st = last;
     st.beyond = true;
     st.gone = double(i) / kGlide;
+    st.radius *= 1 + kFlatter * st.gone;
     st.at = on + (crest_above(st) - kCrest * st.radius) * wall.normal;
     st.along = onward;
     m_stations.push_back(st);
@@ -136,6 +139,12 @@ void Ridge::find_feet(const WallSurface& walls) {
   };
   for (Station& st : m_stations) st.floor = walls.nearest(st.at).point;
   even_out(6, [](Station& st) -> Vec3d& { return st.floor; });
+  for (Station& st : m_stations) {  // its crest does not dive: it goes down to the wall and on along that
+    const WallSurface::Place wall = walls.nearest(st.at);
+    const double crest = dot(st.at - wall.point, wall.normal) + kCrest * st.radius;
+    st.lift = std::max(0.0, crest_above(st) - crest) * wall.normal;
+  }
+  settle_beyond();
   bool in_wall = false;
   double to_wall = m_body->length();  // of the ligament
   for (Station& st : m_stations) {
@@ -146,6 +155,9 @@ void Ridge::find_feet(const WallSurface& walls) {
       in_wall = true;
       to_wall = std::min(to_wall, st.s);
     }
+    // Sections of what comes down steeply would cross those of what runs on along the wall: they turn in time.
+    const double upright = smooth(kTurns * st.radius, st.radius, dot(st.at - st.floor, below.normal));
+    st.along = normalised(st.along - upright * dot(st.along, below.normal) * below.normal, st.along);
     const Vec3d down = st.beyond ? -below.normal : st.floor - st.at - kAtWall * below.normal;
     st.side = normalised(cross(st.along, normalised(down, -below.normal)), any_perpendicular(st.along));
   }
@@ -153,12 +165,6 @@ void Ridge::find_feet(const WallSurface& walls) {
     st.depth = smooth(kFrom, kDown, st.s / to_wall);
     st.over = m_covered ? smooth(kOverAll, kClosedAll, st.s / to_wall) : smooth(kOver, kClosed, st.s / to_wall);
   }
-  for (Station& st : m_stations) {  // its crest does not dive: it goes down to the wall and on along that
-    const WallSurface::Place wall = walls.nearest(st.at);
-    const double crest = dot(st.at - wall.point, wall.normal) + kCrest * st.radius;
-    st.lift = std::max(0.0, crest_above(st) - crest) * wall.normal;
-  }
-  settle_beyond();
   even_out(4, [](Station& st) -> Vec3d& { return st.side; });
   for (std::size_t i = 0; i < n; ++i) {
     Station& st = m_stations[i];
@@ -187,6 +193,11 @@ void Ridge::settle_beyond() {
       if (m_stations[i].beyond)
         m_stations[i].at =
             0.4 * m_stations[i].at + 0.3 * (m_stations[i - 1].at + m_stations[i - 1].lift + m_stations[i + 1].at);
+  for (std::size_t i = 1; i < m_stations.size(); ++i) {  // the ligament dives into the wall, the ridge runs along it
+    Station& st = m_stations[i];
+    const Station &before = m_stations[i - 1], &after = m_stations[std::min(i + 1, m_stations.size() - 1)];
+    if (st.beyond) st.along = normalised(after.at - before.at - before.lift, st.along);
+  }
 }
 
 /// One crest, no seam, where the flanks meet.
