@@ -20,7 +20,7 @@ constexpr double kClosed = 0.86;   // ... and where they have
 constexpr double kOverAll = 0.12, kClosedAll = 0.32;  // the same where it carries nothing
 constexpr double kLostOver = 0.034;                   // [m] of wall along which a ridge goes down and is lost ...
 constexpr double kLostDepth = 0.0014;                 // [m] ... below it
-constexpr double kShallow = 2.2;                      // radii of the ligament that it rises above it before that
+constexpr double kShallow = 3.0;                      // radii of the ligament that it rises above it before that
 constexpr double kFlatter = 1.2;                      // and how much rounder it grows
 constexpr double kTurns = 8;                          // radii above the wall where its sections begin to turn
 constexpr double kCrest = 1.15;                       // radii from the ligament's axis to what covers it
@@ -29,7 +29,7 @@ constexpr double kAround = 6.5;          // radii: how far its slope is that of 
 constexpr double kLoose = 0.0004;        // [m] what covers a ligament keeps off it
 constexpr double kTucked = 0.0012;       // [m] the border lies below the wall
 constexpr double kAtWall = 0.006;        // [m] nearer than that, down is the wall's normal
-constexpr int kInWall = 6, kGlide = 13;  // stations where the ligament is in the wall, and beyond its end
+constexpr int kInWall = 2, kGlide = 12;  // stations where the ligament is in the wall, and beyond its end
 
 /// Is it what folds hang on, or does a vessel run in it?
 bool carries(const sim::Model& model, int strand) {
@@ -111,7 +111,8 @@ double Ridge::crest_above(const Station& st) {
 /// Then on along the wall, down to below it.
 void Ridge::add_glide(const WallSurface& walls) {
   const Station last = m_stations.back();
-  Vec3d on = walls.nearest(last.at).point, onward = on - walls.nearest(m_stations[m_stations.size() - 6].at).point;
+  Vec3d on = walls.nearest(last.at).point,
+        onward = on - walls.nearest(m_stations[m_stations.size() - 1 - kInWall - 3].at).point;
   onward = normalised(onward, last.along);
   for (int i = 1; i <= kGlide; ++i) {
     const WallSurface::Place wall = walls.nearest(on + (kLostOver / kGlide) * onward);
@@ -171,11 +172,11 @@ void Ridge::find_feet(const WallSurface& walls) {
     st.side = normalised(st.side, any_perpendicular(st.along));
     const double high = std::max(0.0, dot(st.at - st.floor, st.normal[0]));
     const double uneven = 1 + 0.3 * waves(st.floor, 0.021);
-    const double wide = (1 + 0.4 * st.gone) * std::min(kWidest, 1.6 * st.radius + 0.002 + 0.5 * high) * uneven;
+    const double wide = (st.beyond ? 1.5 : 1.0) * std::min(kWidest, 1.6 * st.radius + 0.002 + 0.5 * high) * uneven;
     for (const int flank : {0, 1}) st.foot[flank] = st.floor + ((flank ? -wide : wide)) * st.side;
   }
   for (const int flank : {0, 1}) {
-    even_out(8, [flank](Station& st) -> Vec3d& { return st.foot[flank]; });
+    even_out(14, [flank](Station& st) -> Vec3d& { return st.foot[flank]; });
     for (Station& st : m_stations) {
       const WallSurface::Place at = walls.nearest(st.foot[flank]);
       st.foot[flank] = at.point;
