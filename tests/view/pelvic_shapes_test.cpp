@@ -12,6 +12,7 @@
 #include <trocar/scene/compile.hpp>
 #include <trocar/scene/reader.hpp>
 #include <trocar/view/bowel_loops.hpp>
+#include <trocar/view/fat_tags.hpp>
 #include <trocar/view/fimbria.hpp>
 #include <trocar/view/gut_line.hpp>
 #include <trocar/view/tube_drawing.hpp>
@@ -123,6 +124,24 @@ TEST(TubeDrawing, StaysWithinAMillimetreAndAHalfOfTheSimulatedTube) {
   }
   EXPECT_LT(thinnest, 0.002);   // the isthmus
   EXPECT_GT(thickest, 0.0038);  // the ampulla
+}
+
+TEST(FatTags, StandWithBroadFeetOnTheBowelsSkin) {
+  auto backend = render::make_null_backend();
+  const sim::SolidModel& bowel = solid("bowel");
+  const OrganDrawing organ(bowel, {}, std::vector<Paint>(bowel.fine.rest.size()), *backend);
+  const FatTags tags(organ, bowel, 6, pelvis().gravity, *backend);
+  int feet = 0;
+  double out = 0;
+  for (std::size_t i = 0; i < tags.buffer().positions.size(); ++i) {
+    const double high = above(bowel.fine, vec_cast<double>(tags.buffer().positions[i]));
+    out = std::max(out, high);
+    if (tags.buffer().paint[i].tint < 255) continue;
+    ++feet;
+    EXPECT_LT(high, 0.0005);
+  }
+  EXPECT_GT(feet, 300);
+  EXPECT_GT(out, 0.003);  // and hang from there
 }
 
 TEST(BowelLoops, TheLargeBowelsEndIsInsideWhatGoesOnFromIt) {

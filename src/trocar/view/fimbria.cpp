@@ -147,7 +147,7 @@ Spines spine_of(const Leaf& f, const FimbriaSite& site) {
 /// Half the width over half the share of the rim: widest before the middle, lobed edges, a round end.
 double half_width(const Leaf& f, double u, bool right) {
   const int k = 2 * f.seed + (right ? 1 : 0);
-  const double body = 1 + (0.1 + 0.3 * varied(f.seed, 23)) * smooth(0, 0.4, u) - 0.45 * smooth(0.4, 1.0, u);
+  const double body = 1 + (0.22 + 0.3 * varied(f.seed, 23)) * smooth(0, 0.4, u) - 0.45 * smooth(0.4, 1.0, u);
   // Round lobes with narrow clefts between them.
   const double turn = (6 + 3 * varied(k, 2)) * u + 3.1 * varied(k, 1);
   const double lobes = smooth(0.05, 0.35, u) * (0.42 * std::pow(std::fabs(std::sin(turn)), 0.7) - 0.24);

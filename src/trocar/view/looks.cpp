@@ -44,9 +44,9 @@ Material tube() {
   m.mottle_size = 0.011f;
   m.mottle = 0.6f;
   m.bump = 0.1f;
-  m.glow_amount = 0.2f;          // through the thin rims of the fimbriae
-  m.tint = srgb(180, 86, 92);    // fimbriae: mucosa
-  m.film_size = 0.0042f;         // as long as the tube is thick: one broken sheen, no beads
+  m.glow_amount = 0.2f;        // through the thin rims of the fimbriae
+  m.tint = srgb(180, 86, 92);  // fimbriae: mucosa
+  m.film_size = 0.0042f;       // as long as the tube is thick: one broken sheen, no beads
   m.film_bump = 0.3f;
   m.film_roughness = 0.07f;
   m.wetness = 0.9f;
@@ -101,7 +101,7 @@ Material veiled(Vec3f main, Vec3f broad, Vec3f fine) {
 }
 
 Material peritoneum() {
-  Material m = with_vessels(tissue(srgb(180, 118, 121), srgb(188, 129, 126), srgb(172, 107, 112)), 0.8f, 0.13f);
+  Material m = with_vessels(tissue(srgb(180, 118, 121), srgb(190, 132, 123), srgb(170, 104, 115)), 0.8f, 0.13f);
   m.lining = true;
   m.mottle_size = 0.024f;
   m.mottle = 0.6f;
@@ -360,7 +360,7 @@ Material insulation() {
 
 /// Ceramic and PTFE: white, so that it clips before all else.
 Material ceramic() {
-  Material m = metal(srgb(204, 201, 194), srgb(196, 192, 184), 0.36f);
+  Material m = metal(srgb(228, 225, 217), srgb(219, 215, 206), 0.36f);
   m.fibre_stretch = 1;
   m.mottle_size = 0.004f;
   m.bump = 0.01f;
@@ -444,7 +444,7 @@ std::vector<Look> make_looks() {
       {"adhesion", adhesion(), true, {}},
       {"falciform", falciform(), true, {}},
       {"steel", metal(srgb(148, 147, 152), srgb(128, 128, 134), 0.3f), false, {}},
-      {"polished_steel", polished(srgb(168, 167, 172), srgb(150, 150, 156), 0.22f, 0.05f), false, {}},
+      {"polished_steel", polished(srgb(142, 141, 147), srgb(122, 122, 129), 0.2f, 0.03f), false, {}},
       {"matte_steel", metal(srgb(128, 129, 133), srgb(114, 115, 120), 0.46f), false, {}},
       {"insulated", insulation(), false, {}},
       {"ceramic", ceramic(), false, {}},

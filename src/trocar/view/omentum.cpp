@@ -9,7 +9,7 @@
 namespace trocar::view {
 namespace {
 
-constexpr double kReaches = 0.4;  // share of the wall's height up to which it lies, in the mean
+constexpr double kReaches = 0.4;   // share of the wall's height up to which it lies, in the mean
 constexpr int kHalvings = 2;       // of the wall's edges: lobes are finer than its triangles
 constexpr double kMargin = 0.006;  // [m] beyond its border, below the wall
 

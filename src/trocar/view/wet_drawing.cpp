@@ -113,7 +113,7 @@ void WetDrawing::list_stumps(const sim::State& state, render::Liquid& liquid) co
       // Stumps are drawn as long as the tube was there.
       const Vec3d out = normalised(x[at] - x[before], {1, 0, 0});
       const FilmPlace end{vec_cast<float>(x[at] + beyond * out), vec_cast<float>(out)};
-      const Wound wound{liquid.down, {1, 0, 0}, 0.7f};
+      const Wound wound{liquid.down, {1, 0, 0}, 1};
       list_stump(wound, end, float(body.model.radius[std::min(e, body.model.radius.size() - 1)]), liquid);
     };
     if (e > 0) stump(e, e - 1, place.w * element);

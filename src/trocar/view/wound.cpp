@@ -99,11 +99,11 @@ void list_stump(const Wound& wound, const FilmPlace& end, float radius, render::
     const float behind = 0.1e-3f + 0.3e-3f * (1 + own(100 + n));
     const FilmPlace place{end.position + radius * out - behind * end.normal, out};
     const float wide = 0.55e-3f * (1 + 0.5f * own(200 + n));
-    liquid.splats.push_back(film(wound, place, wide, (26 + 20 * own(300 + n)) * 1e-6f));
-    if (n % 4 == 1) list_rivulet(wound, place, {}, liquid, 0.3f);
+    liquid.splats.push_back(film(wound, place, wide, (15 + 11 * own(300 + n)) * 1e-6f));
+    if (n % 4 == 1) list_rivulet(wound, place, {}, liquid, 0.2f);
   }
   // Its lumen and wall are wet with it, too.
-  liquid.splats.push_back(film(wound, end, 0.55f * radius, 60e-6f));
+  liquid.splats.push_back(film(wound, end, 0.55f * radius, 24e-6f));
 }
 
 }  // namespace trocar::view
