@@ -13,7 +13,8 @@ constexpr double kBend = 0.005;          // [m] radius with which vessels curve,
 constexpr double kBloody = 0.004;        // [m] of a stump
 constexpr double kMostShift = 0.35;      // of the radius, however large the gain
 constexpr double kNarrowed = 0.7;        // share of the radius that a clip takes
-constexpr double kTaper = 0.016;         // [m] over which a vessel that ends thins out
+constexpr double kTaper = 0.008;         // [m] over which a vessel that ends thins out ...
+constexpr double kTaperInFold = 0.016;   // ... in a fold
 constexpr double kThinnest = 0.2;        // share of the radius at such an end
 constexpr double kInFold = 0.8;          // share of the radius: half of it is in the fold
 constexpr double kSameNode = 0.0012;     // [m] ends that meet
@@ -84,10 +85,10 @@ interactions::VesselPath nestled(interactions::VesselPath path) {
 
 /// Share of the radius, less towards an end that leads nowhere.
 template <class Run>
-double thinned(const Run& run, double s, double length) {
+double thinned(const Run& run, double s, double length, double taper) {
   double share = 1;
-  if (run.fades_from) share = std::min(share, smooth(0, kTaper, (s - run.from) * length));
-  if (run.fades_to) share = std::min(share, smooth(0, kTaper, (run.to - s) * length));
+  if (run.fades_from) share = std::min(share, smooth(0, taper, (s - run.from) * length));
+  if (run.fades_to) share = std::min(share, smooth(0, taper, (run.to - s) * length));
   return kThinnest + (1 - kThinnest) * share;
 }
 
@@ -315,7 +316,8 @@ void VesselDrawing::place_run(const Run& run, const sim::State& state) {
     tangent = normalised(line[std::min(i + 1, line.size() - 1)] - line[i > 0 ? i - 1 : 0], tangent);
     normal = normalised(normal - dot(normal, tangent) * tangent, any_perpendicular(tangent));
     const Vec3d beside = cross(tangent, normal), at = line[i];
-    const double drawn = (fold ? kInFold : 1) * vessel_radius(path, s) * thinned(run, s, path.length);
+    const double drawn =
+        (fold ? kInFold : 1) * vessel_radius(path, s) * thinned(run, s, path.length, fold ? kTaperInFold : kTaper);
     const vessels::WallReading wall = read_wall(m_model->vessels.flow, state.flow, run.vessel, s, vessel.gain);
     double radius = drawn + std::clamp(wall.shift, -kMostShift * drawn, kMostShift * drawn);
     for (int c = 0; c < state.vessel_clip_count; ++c) {
