@@ -179,7 +179,7 @@ TEST(Ridge, OfALigamentThatCarriesNothingCoversItAndIsLostInTheWall) {
   EXPECT_EQ(covered, 2);
 }
 
-TEST(SheetCrescent, LeavesItsStrandAndItsWallAlongThemAndHasNoEdge) {
+TEST(SheetCrescent, LeavesItsStrandAndItsWallAlongThemAndHasAThinBorder) {
   const auto backend = render::make_null_backend();
   int crescents = 0;
   for (int i = 0; i < int(pelvis().sheets.size()); ++i) {
@@ -202,7 +202,12 @@ TEST(SheetCrescent, LeavesItsStrandAndItsWallAlongThemAndHasNoEdge) {
     ++crescents;
   }
   EXPECT_EQ(crescents, 2);
-  for (int r = 0; r <= 10; ++r) EXPECT_LT(SheetCrescent::paint(SheetCrescent::kSteps, r / 10.0).openness, 10);
+  for (int r = 0; r < 9; ++r) {
+    const int border = SheetCrescent::paint(SheetCrescent::kSteps, r / 10.0).openness;
+    EXPECT_GT(border, 100) << "it does not run out into a mist";
+    EXPECT_LT(border, SheetCrescent::paint(1, r / 10.0).openness - 50) << "and is sheerer than what it ends";
+  }
+  EXPECT_LT(SheetCrescent::paint(SheetCrescent::kSteps, 1).openness, 10) << "but in the wall";
 }
 
 TEST(Adhesions, TaperBetweenTwoFeetThatLieInWhatTheyHangOn) {

@@ -323,12 +323,12 @@ void BodyDrawing::list(bool with_walls, const FirstParts& first, const Listing& 
            m_model->walls[i].skin.rest);
   for (std::size_t i = 0; with_walls && i < m_aprons.size(); ++i)
     to.add(item(m_aprons[i].handle(), look("omentum"), first.wall + m_apron_on[i]));
-  list_organs(first, to);
+  list_organs(with_walls, first, to);
   for (const LiverDome& l : m_livers) l.list(with_walls, first.organ + std::size_t(l.organ()), to);
   list_tubes(with_walls, first, to);
   list_vessels(false, first, to);
   if (with_walls && m_adhesions->mesh().id) to.add(item(m_adhesions->mesh(), look("adhesion"), first.cavity));
-  list_folds(first, to);
+  list_folds(with_walls, first, to);
   list_vessels(true, first, to);
 }
 
@@ -350,7 +350,7 @@ void BodyDrawing::list_vessels(bool in_folds, const FirstParts& first, const Lis
   }
 }
 
-void BodyDrawing::list_organs(const FirstParts& first, const Listing& to) {
+void BodyDrawing::list_organs(bool with_walls, const FirstParts& first, const Listing& to) {
   for (std::size_t i = 0; i < m_organs.size(); ++i)
     to.add(item(m_organs[i].mesh(), look(m_model->solids[i].look), first.organ + i), m_details.organs[i],
            m_organs[i].positions(), m_burns[i].any() || m_organs[i].dented() || held(interactions::kSolidBase + i));
@@ -360,7 +360,7 @@ void BodyDrawing::list_organs(const FirstParts& first, const Listing& to) {
                m_details.cuttables[i], m_cuttables[i].positions());
     drawn.material.two_sided = m_cuttables[i].cut();  // what is cut off may lie inside out
   }
-  for (std::size_t i = 0; i < m_drapes.size(); ++i) {
+  for (std::size_t i = 0; with_walls && i < m_drapes.size(); ++i) {  // the wall's peritoneum
     DrawItem drape = item(m_drapes[i].mesh(), *m_drape_look[i], first.cavity);
     drape.material.two_sided = true;
     drape.material.tint = look("peritoneum").material.colour;
@@ -396,10 +396,11 @@ void BodyDrawing::list_tubes(bool with_walls, const FirstParts& first, const Lis
   }
 }
 
-void BodyDrawing::list_folds(const FirstParts& first, const Listing& to) {
+void BodyDrawing::list_folds(bool with_walls, const FirstParts& first, const Listing& to) {
   for (std::size_t i = 0; i < m_sheets.size(); ++i)
-    to.add(item(m_sheets[i].mesh(), look(m_model->sheets[i].look), first.fold + i), m_details.sheets[i],
-           m_sheets[i].buffer().positions);
+    if (with_walls || !m_sheets[i].has_hem())  // without the wall that it is lost on it would be a cloud
+      to.add(item(m_sheets[i].mesh(), look(m_model->sheets[i].look), first.fold + i), m_details.sheets[i],
+             m_sheets[i].buffer().positions);
   const auto look_of = [&](std::size_t membrane) -> const Look& { return look(m_model->membranes[membrane].look); };
   for (std::size_t i = 0; i < m_membranes.size(); ++i)
     to.add(item(m_membranes[i].mesh(), look_of(m_membrane_of[i]), first.membrane + m_membrane_of[i]),

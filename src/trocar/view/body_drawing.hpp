@@ -76,9 +76,9 @@ class BodyDrawing {
   void make_vessels(render::Backend& backend);
   void make_membranes(render::Backend& backend);
   bool held(std::size_t body) const;
-  void list_organs(const FirstParts& first, const Listing& to);
+  void list_organs(bool with_walls, const FirstParts& first, const Listing& to);
   void list_tubes(bool with_walls, const FirstParts& first, const Listing& to);
-  void list_folds(const FirstParts& first, const Listing& to);
+  void list_folds(bool with_walls, const FirstParts& first, const Listing& to);
   void list_vessels(bool in_folds, const FirstParts& first, const Listing& to);
 
   render::DrawItem as_lining(render::DrawItem item) const;

@@ -226,6 +226,13 @@ Material fold(float alpha) {
   return m;
 }
 
+/// Where it runs out on a wall it takes on that one's colour (tint).
+Material broad_ligament() {
+  Material m = fold(0.68f);
+  m.tint = peritoneum().colour;
+  return m;
+}
+
 /// Sheer and milky: what lies behind it is seen as through ground glass, with hardly a glint.
 Material mesosalpinx() {
   Material m = fold(0.46f);
@@ -437,7 +444,7 @@ std::vector<Look> make_looks() {
       {"upper_abdomen", upper_abdomen(), false, {}, 0, 0, false, true},
       {"omentum", omentum(), false, {}},
       {"mesosalpinx", mesosalpinx(), true, {}},
-      {"broad_ligament", fold(0.68f), true, {}},
+      {"broad_ligament", broad_ligament(), true, {}},
       {"adhesion", adhesion(), true, {}},
       {"falciform", falciform(), true, {}},
       {"steel", metal(srgb(148, 147, 152), srgb(128, 128, 134), 0.3f), false, {}},

@@ -18,16 +18,18 @@ constexpr double kWidest = 0.016;  // [m] from below the ligament to a flank's f
 constexpr double kOver = 0.62;     // share of the ligament from where on its flanks close over it ...
 constexpr double kClosed = 0.86;   // ... and where they have
 constexpr double kOverAll = 0.12, kClosedAll = 0.32;  // the same where it carries nothing
-constexpr double kLostOver = 0.014;                   // [m] of wall along which a ridge goes down and is lost ...
+constexpr double kLostOver = 0.034;                   // [m] of wall along which a ridge goes down and is lost ...
 constexpr double kLostDepth = 0.0014;                 // [m] ... below it
-constexpr double kShallow = 0.0005;                   // [m] above it until then
+constexpr double kShallow = 3.0;                      // radii of the ligament that it rises above it before that
+constexpr double kFlatter = 1.2;                      // and how much rounder it grows
+constexpr double kTurns = 8;                          // radii above the wall where its sections begin to turn
 constexpr double kCrest = 1.15;                       // radii from the ligament's axis to what covers it
-constexpr double kCovers = 1.1;         // radii from the axis: nearer than that it would not cover the ligament
-constexpr double kAround = 6.5;         // radii: how far its slope is that of the ligament's side
-constexpr double kLoose = 0.0004;       // [m] what covers a ligament keeps off it
-constexpr double kTucked = 0.0012;      // [m] the border lies below the wall
-constexpr double kAtWall = 0.006;       // [m] nearer than that, down is the wall's normal
-constexpr int kInWall = 6, kGlide = 6;  // stations where the ligament is in the wall, and beyond its end
+constexpr double kCovers = 1.32;         // radii from the axis: nearer than that it would not cover the ligament
+constexpr double kAround = 6.5;          // radii: how far its slope is that of the ligament's side
+constexpr double kLoose = 0.0004;        // [m] what covers a ligament keeps off it
+constexpr double kTucked = 0.0012;       // [m] the border lies below the wall
+constexpr double kAtWall = 0.006;        // [m] nearer than that, down is the wall's normal
+constexpr int kInWall = 2, kGlide = 12;  // stations where the ligament is in the wall, and beyond its end
 
 /// Is it what folds hang on, or does a vessel run in it?
 bool carries(const sim::Model& model, int strand) {
@@ -100,10 +102,17 @@ void Ridge::add_root(const TubeRoot& root) {
   }
 }
 
+/// How high its crest is above the wall that it runs out on, at least [m].
+double Ridge::crest_above(const Station& st) {
+  const double left = (1 - st.gone) * (1 - st.gone);
+  return kShallow * st.radius / (1 + kFlatter * st.gone) * left - kLostDepth * (1 - left);
+}
+
 /// Then on along the wall, down to below it.
 void Ridge::add_glide(const WallSurface& walls) {
   const Station last = m_stations.back();
-  Vec3d on = walls.nearest(last.at).point, onward = on - walls.nearest(m_stations[m_stations.size() - 6].at).point;
+  Vec3d on = walls.nearest(last.at).point,
+        onward = on - walls.nearest(m_stations[m_stations.size() - 1 - kInWall - 3].at).point;
   onward = normalised(onward, last.along);
   for (int i = 1; i <= kGlide; ++i) {
     const WallSurface::Place wall = walls.nearest(on + (kLostOver / kGlide) * onward);
@@ -112,7 +121,8 @@ void Ridge::add_glide(const WallSurface& walls) {
     Station st = last;
     st.beyond = true;
     st.gone = double(i) / kGlide;
-    st.at = on - (kCrest * st.radius + kLostDepth) * wall.normal;
+    st.radius *= 1 + kFlatter * st.gone;
+    st.at = on + (crest_above(st) - kCrest * st.radius) * wall.normal;
     st.along = onward;
     m_stations.push_back(st);
   }
@@ -130,6 +140,12 @@ void Ridge::find_feet(const WallSurface& walls) {
   };
   for (Station& st : m_stations) st.floor = walls.nearest(st.at).point;
   even_out(6, [](Station& st) -> Vec3d& { return st.floor; });
+  for (Station& st : m_stations) {  // its crest does not dive: it goes down to the wall and on along that
+    const WallSurface::Place wall = walls.nearest(st.at);
+    const double crest = dot(st.at - wall.point, wall.normal) + kCrest * st.radius;
+    st.lift = std::max(0.0, crest_above(st) - crest) * wall.normal;
+  }
+  settle_beyond();
   bool in_wall = false;
   double to_wall = m_body->length();  // of the ligament
   for (Station& st : m_stations) {
@@ -140,6 +156,9 @@ void Ridge::find_feet(const WallSurface& walls) {
       in_wall = true;
       to_wall = std::min(to_wall, st.s);
     }
+    // Sections of what comes down steeply would cross those of what runs on along the wall: they turn in time.
+    const double upright = smooth(kTurns * st.radius, st.radius, dot(st.at - st.floor, below.normal));
+    st.along = normalised(st.along - upright * dot(st.along, below.normal) * below.normal, st.along);
     const Vec3d down = st.beyond ? -below.normal : st.floor - st.at - kAtWall * below.normal;
     st.side = normalised(cross(st.along, normalised(down, -below.normal)), any_perpendicular(st.along));
   }
@@ -147,23 +166,17 @@ void Ridge::find_feet(const WallSurface& walls) {
     st.depth = smooth(kFrom, kDown, st.s / to_wall);
     st.over = m_covered ? smooth(kOverAll, kClosedAll, st.s / to_wall) : smooth(kOver, kClosed, st.s / to_wall);
   }
-  for (Station& st : m_stations) {  // its crest does not dive: it goes down to the wall and on along that
-    const WallSurface::Place wall = walls.nearest(st.at);
-    const double crest = dot(st.at - wall.point, wall.normal) + kCrest * st.radius;
-    st.lift = std::max(0.0, kShallow - crest - st.gone * st.gone * (kShallow + kLostDepth)) * wall.normal;
-  }
-  settle_beyond();
   even_out(4, [](Station& st) -> Vec3d& { return st.side; });
   for (std::size_t i = 0; i < n; ++i) {
     Station& st = m_stations[i];
     st.side = normalised(st.side, any_perpendicular(st.along));
     const double high = std::max(0.0, dot(st.at - st.floor, st.normal[0]));
     const double uneven = 1 + 0.3 * waves(st.floor, 0.021);
-    const double wide = (1 - 0.4 * st.gone) * std::min(kWidest, 1.6 * st.radius + 0.002 + 0.5 * high) * uneven;
+    const double wide = (st.beyond ? 1.5 : 1.0) * std::min(kWidest, 1.6 * st.radius + 0.002 + 0.5 * high) * uneven;
     for (const int flank : {0, 1}) st.foot[flank] = st.floor + ((flank ? -wide : wide)) * st.side;
   }
   for (const int flank : {0, 1}) {
-    even_out(8, [flank](Station& st) -> Vec3d& { return st.foot[flank]; });
+    even_out(14, [flank](Station& st) -> Vec3d& { return st.foot[flank]; });
     for (Station& st : m_stations) {
       const WallSurface::Place at = walls.nearest(st.foot[flank]);
       st.foot[flank] = at.point;
@@ -181,6 +194,11 @@ void Ridge::settle_beyond() {
       if (m_stations[i].beyond)
         m_stations[i].at =
             0.4 * m_stations[i].at + 0.3 * (m_stations[i - 1].at + m_stations[i - 1].lift + m_stations[i + 1].at);
+  for (std::size_t i = 1; i < m_stations.size(); ++i) {  // the ligament dives into the wall, the ridge runs along it
+    Station& st = m_stations[i];
+    const Station &before = m_stations[i - 1], &after = m_stations[std::min(i + 1, m_stations.size() - 1)];
+    if (st.beyond) st.along = normalised(after.at - before.at - before.lift, st.along);
+  }
 }
 
 /// One crest, no seam, where the flanks meet.

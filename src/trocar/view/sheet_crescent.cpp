@@ -12,7 +12,7 @@ constexpr double kSunk = 0.0022;    // [m] the fold ends below the wall
 constexpr double kHollow = 0.55;    // of the border's span: how far it keeps to the strand, and to the wall
 constexpr double kUneven = 0.0014;  // [m] of the free border
 constexpr double kRim = 0.3;        // of the way to the border: there it thickens and pales
-constexpr double kLost = 0.36;      // of a column: there it goes over into the wall
+constexpr double kLost = 0.12;      // of a column: there it goes over into the wall
 
 }  // namespace
 
@@ -60,7 +60,9 @@ Paint SheetCrescent::paint(int step, double v) {
   const double u = double(step) / kSteps;
   const double wall = 1 - smooth(1 - kLost, 1, v) * smooth(0, 0.3, u);
   const double rim = smooth(1 - kRim, 0.9, u);
-  return {to_byte(wall * (1 - 0.98 * smooth(0.74, 1, u))), 0, 0, to_byte(0.22 * rim * wall)};
+  const double edge = 1 - 0.45 * smooth(0.85, 1, u);  // thin, and yet an edge: nothing ends in a mist
+  const double walls = smooth(0.35, 0.9, v) * smooth(0, 0.5, u);
+  return {to_byte(edge * wall), 0, 0, to_byte(std::max(0.22 * rim, 0.9 * walls))};
 }
 
 }  // namespace trocar::view

@@ -13,18 +13,20 @@ constexpr double kBend = 0.005;          // [m] radius with which vessels curve,
 constexpr double kBloody = 0.004;        // [m] of a stump
 constexpr double kMostShift = 0.35;      // of the radius, however large the gain
 constexpr double kNarrowed = 0.7;        // share of the radius that a clip takes
-constexpr double kTaper = 0.008;         // [m] over which a vessel that ends thins out
+constexpr double kTaper = 0.008;         // [m] over which a vessel that ends thins out ...
+constexpr double kTaperInFold = 0.016;   // ... in a fold
 constexpr double kThinnest = 0.2;        // share of the radius at such an end
 constexpr double kInFold = 0.8;          // share of the radius: half of it is in the fold
 constexpr double kSameNode = 0.0012;     // [m] ends that meet
 constexpr int kSofter = 8;               // passes that round the line's corners ...
 constexpr int kSofterInFold = 22;        // ... in a fold, where nothing bends a vessel sharply
-constexpr double kFade = 0.006;          // [m] over which one that ends in a fold is lost in it
-constexpr double kMeeting = 0.006;       // [m] beside a place where vessels of a fold meet, that is rounded ...
+constexpr double kFade = 0.009;          // [m] over which one that ends in a fold is lost in it
+constexpr double kMeeting = 0.009;       // [m] beside a place where vessels of a fold meet, that is rounded ...
 constexpr double kDrawnIn = 0.6;         // ... by this share of the mean of the ways there ...
-constexpr double kMostDrawnIn = 0.0025;  // [m] ... at most
+constexpr double kMostDrawnIn = 0.0045;  // [m] ... at most
 constexpr double kDives = 0.003;         // [m] seen of a vessel that leaves its fold
 constexpr double kNestled = 0.6;         // radii below an organ's surface
+constexpr double kBuried = 0.0045;       // [m] there, where a vessel of a fold goes into an organ
 constexpr double kWinding = 0.0006;      // [m] to either side, in a fold
 
 /// A line through places at s, cubic between them.
@@ -69,12 +71,13 @@ std::vector<Vec3d> drawn_line(const Run& run, const Curve& curve, const interact
   return line;
 }
 
-/// A vessel that rides on an organ lies in its surface, one that a fold carries in the fold: lines are drawn by hand
-/// and run up to some millimetres beside.
+/// A vessel that rides on an organ lies in its surface, one that a fold carries in the fold, from where it goes deep
+/// into the organ: lines are drawn by hand and run up to some millimetres beside.
 interactions::VesselPath nestled(interactions::VesselPath path) {
+  const bool fold = in_a_fold(path);
   for (interactions::VesselPoint& p : path.points) {
     if (p.hold.kind == interactions::VesselHold::organ)
-      p.hold.offset.z = std::min(p.hold.offset.z, -kNestled * p.radius);
+      p.hold.offset.z = std::min(p.hold.offset.z, fold ? -kBuried : -kNestled * p.radius);
     if (p.hold.kind == interactions::VesselHold::membrane) p.hold.offset.z = 0;
   }
   return path;
@@ -82,10 +85,10 @@ interactions::VesselPath nestled(interactions::VesselPath path) {
 
 /// Share of the radius, less towards an end that leads nowhere.
 template <class Run>
-double thinned(const Run& run, double s, double length) {
+double thinned(const Run& run, double s, double length, double taper) {
   double share = 1;
-  if (run.fades_from) share = std::min(share, smooth(0, kTaper, (s - run.from) * length));
-  if (run.fades_to) share = std::min(share, smooth(0, kTaper, (run.to - s) * length));
+  if (run.fades_from) share = std::min(share, smooth(0, taper, (s - run.from) * length));
+  if (run.fades_to) share = std::min(share, smooth(0, taper, (run.to - s) * length));
   return kThinnest + (1 - kThinnest) * share;
 }
 
@@ -156,17 +159,20 @@ void VesselDrawing::update(const sim::State& state) {
   m_mesh.replace(m_buffer.data());
 }
 
-/// Does another vessel go on from this end?
+/// Does another vessel go on from this end? Of a fold's vessels: one that is drawn in the fold, too.
 bool VesselDrawing::leads_on(int vessel, int end) const {
   const auto end_of = [this](std::size_t v, int which) {
     const auto& points = m_model->vessels.list[v].path.points;
     return which == 0 ? points.front().drawn : points.back().drawn;
   };
   const Vec3d here = end_of(std::size_t(vessel), end);
-  for (std::size_t v = 0; v < m_model->vessels.list.size(); ++v)
+  const bool fold = in_a_fold(m_model->vessels.list[std::size_t(vessel)].path);
+  for (std::size_t v = 0; v < m_model->vessels.list.size(); ++v) {
+    if (fold && !in_a_fold(m_model->vessels.list[v].path)) continue;
     for (const int other : {0, 1})
       if (int(v) != vessel && m_model->vessels.list[v].vein == m_veins && length(end_of(v, other) - here) < kSameNode)
         return true;
+  }
   return false;
 }
 
@@ -310,7 +316,8 @@ void VesselDrawing::place_run(const Run& run, const sim::State& state) {
     tangent = normalised(line[std::min(i + 1, line.size() - 1)] - line[i > 0 ? i - 1 : 0], tangent);
     normal = normalised(normal - dot(normal, tangent) * tangent, any_perpendicular(tangent));
     const Vec3d beside = cross(tangent, normal), at = line[i];
-    const double drawn = (fold ? kInFold : 1) * vessel_radius(path, s) * thinned(run, s, path.length);
+    const double drawn =
+        (fold ? kInFold : 1) * vessel_radius(path, s) * thinned(run, s, path.length, fold ? kTaperInFold : kTaper);
     const vessels::WallReading wall = read_wall(m_model->vessels.flow, state.flow, run.vessel, s, vessel.gain);
     double radius = drawn + std::clamp(wall.shift, -kMostShift * drawn, kMostShift * drawn);
     for (int c = 0; c < state.vessel_clip_count; ++c) {
