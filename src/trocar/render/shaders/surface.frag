@@ -205,7 +205,11 @@ void main() {
   albedo = mix(albedo, TINT, tint);
 #endif
 #ifdef LINING
-  albedo *= 1.0 + vec3(0.0, 0.09, -0.13) * (broad.g - 0.5);
+  // Yellow here, violet there, paler and redder; below it fibres and fat of a millimetre or two.
+  albedo *= 1.0 + vec3(0.0, 0.16, -0.26) * (broad.g - 0.5) + vec3(0.12, -0.12, -0.04) * (broad.r - 0.5);
+#if DETAIL >= 1
+  albedo *= 1.0 + vec3(0.22, 0.3, 0.26) * (ripple.a - 0.5) + vec3(0.0, 0.1, -0.16) * (ripple.g - 0.5);
+#endif
 #else
   albedo *= 1.0 + vec3(0.0, 0.08, -0.17) * (broad.g - 0.5);  // towards yellow here, mauve there
 #endif
@@ -214,7 +218,7 @@ void main() {
 #ifdef LOBULES
   vec4 cell = texture(u_cells, p * CELL_SCALE + slope * 0.012);
   float seam = 1.0 - smoothstep(0.0, 0.42, cell.a);
-  seam *= seam;
+  seam *= seam * (0.25 + 0.75 * smoothstep(0.3, 0.7, broad.b));  // lobules run together here and there
   relief += (CELL_DEPTH * 2.6) * (cell.rgb * 2.0 - 1.0);
   albedo *= 1.0 - CELL_CONTRAST * seam * vec3(0.22, 0.55, 0.60);
 #else
@@ -275,7 +279,7 @@ void main() {
 
   // Light wraps past the terminator, red the furthest; crevices keep red longest.
   vec3 wrapped = clamp((vec3(nl) + WRAP) / (1.0 + WRAP), 0.0, 1.0);
-  float open = clamp(OPENNESS * (1.0 - 0.35 * seam), 0.02, 1.0);
+  float open = clamp(OPENNESS * (1.0 - min(0.35, 1.6 * CELL_CONTRAST) * seam), 0.02, 1.0);
   vec3 ao = open * mix(vec3(sqrt(open)), vec3(1.0), vec3(1.0, 0.0, 0.05));
   vec3 direct = LIGHT_COLOUR * lit.power * wrapped * mix(ao, vec3(1.0), 0.35);
   vec3 indirect = (BOUNCE + vec3(AMBIENT)) * (lit.bounce * ao);
@@ -314,8 +318,9 @@ void main() {
 #ifdef LINING
   flecks *= 0.35;
 #endif
+  flecks = mix(0.45, flecks, 0.15 + 0.85 * INVERSE_SQUARE);
   wet *= 0.6 + 0.3 * flecks;
-  film_slope *= 0.3 + 0.7 * INVERSE_SQUARE;  // a room's lamps are large: they do not sparkle
+  film_slope *= 0.1 + 0.9 * INVERSE_SQUARE;  // a room's lamps are large: they do not sparkle
   vec3 m = normalize(N + along_surface(to_eye(film_slope + relief * 0.6), N));
   vec3 H = normalize(lit.direction + V);
   float facing = clamp(nl * 4.0, 0.0, 1.0) * open;
