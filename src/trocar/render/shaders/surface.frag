@@ -87,6 +87,13 @@ vec2 vessels_at(vec3 p, vec3 n) {
   vec3 side = normalize(vec3(FIBRE_AXIS.y, -FIBRE_AXIS.x, 0.001)), up = cross(FIBRE_AXIS, side);
   return texture(u_vessels, vec2(dot(off, side), dot(off, up)) * (acos(along) * inversesqrt(dot(off, off)) * kLiningBall) * VESSEL_SCALE + 0.37).rg;
 }
+#elif defined(LOBULES)
+// Seen from where one looks at it, as lobules turn their faces everywhere; what turns far away has none.
+vec2 vessels_at(vec3 p, vec3 n) {
+  const vec3 towards = vec3(0.0, -0.5, 0.866);
+  return texture(u_vessels, vec2(p.x, dot(p, cross(vec3(1.0, 0.0, 0.0), towards))) * VESSEL_SCALE).rg *
+         smoothstep(0.1, 0.35, abs(dot(n, towards)));
+}
 #else
 // Trees are drawn in the plane that the rest surface faces most and fade out towards the next plane.
 vec2 vessels_at(vec3 p, vec3 n) {
@@ -208,7 +215,7 @@ void main() {
   // Yellow here, violet there, paler and redder; below it fibres and fat of a millimetre or two.
   albedo *= 1.0 + vec3(0.0, 0.16, -0.26) * (broad.g - 0.5) + vec3(0.12, -0.12, -0.04) * (broad.r - 0.5);
 #if DETAIL >= 1
-  albedo *= 1.0 + vec3(0.22, 0.3, 0.26) * (ripple.a - 0.5) + vec3(0.0, 0.1, -0.16) * (ripple.g - 0.5);
+  albedo *= 1.0 + 0.3 * (vec3(0.8, 1.1, 1.0) * (ripple.a - 0.5) + 0.6 * (broad.b - 0.5)) + vec3(0.0, 0.1, -0.16) * (ripple.g - 0.5);
 #endif
 #else
   albedo *= 1.0 + vec3(0.0, 0.08, -0.17) * (broad.g - 0.5);  // towards yellow here, mauve there
