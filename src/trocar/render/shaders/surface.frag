@@ -146,7 +146,7 @@ void main() {
   vec3 slope = broad.rgb * 2.0 - 1.0;
 #if SHADING != 1 && DETAIL >= 1
 #ifdef LINING
-  vec4 ripple = texture(u_noise, kTurn * (p * vec3(0.3, 1.0, 1.0)).zxy * FILM_SCALE);  // muscle runs across
+  vec4 ripple = texture(u_noise, kTurn * (p * vec3(0.7, 1.0, 1.0)).zxy * FILM_SCALE);  // muscle runs across
 #else
   vec4 ripple = texture(u_noise, kTurn * p.zxy * FILM_SCALE);
 #endif
@@ -313,7 +313,11 @@ void main() {
   float wet_noise = broad.b;
 #endif
 #ifdef LINING
-  film_slope = FILM_BUMP * (broad.rgb * 2.0 - 1.0 + 0.4 * (broad.gbr * 2.0 - 1.0));  // broad sheens, no frost
+  film_slope = FILM_BUMP * (broad.rgb * 2.0 - 1.0 + 0.4 * (broad.gbr * 2.0 - 1.0));  // broad sheens, no frost ...
+#if DETAIL >= 1
+  float crest = smoothstep(0.56, 0.7, broad.a);  // ... flecks on what stands out
+  film_slope += (2.6 * crest * FILM_BUMP) * (ripple.rgb * 2.0 - 1.0);
+#endif
 #endif
   float wet = smoothstep(1.0 - WETNESS - 0.2, 1.0 - WETNESS + 0.2, wet_noise);
 #ifdef STAINED
@@ -323,7 +327,11 @@ void main() {
   // What mirrors the lamp is broken again by the film's thickness: flecks in clumps, no rings around its bumps.
   float flecks = smoothstep(0.34, 0.66, fine.g + 0.6 * (broad.b - 0.5));
 #ifdef LINING
+#if DETAIL >= 1
+  flecks *= 0.35 + 0.65 * crest;
+#else
   flecks *= 0.35;
+#endif
 #endif
   flecks = mix(0.45, flecks, 0.15 + 0.85 * INVERSE_SQUARE);
   wet *= 0.6 + 0.3 * flecks;
