@@ -213,9 +213,9 @@ void main() {
 #endif
 #ifdef LINING
   // Yellow here, violet there, paler and redder; below it fibres and fat of a millimetre or two.
-  albedo *= 1.0 + vec3(0.0, 0.16, -0.26) * (broad.g - 0.5) + vec3(0.12, -0.12, -0.04) * (broad.r - 0.5);
+  albedo *= 1.0 + vec3(0.0, 0.11, -0.17) * (broad.g - 0.5) + vec3(0.1, -0.1, -0.02) * (broad.r - 0.5);
 #if DETAIL >= 1
-  albedo *= 1.0 + 0.3 * (vec3(0.8, 1.1, 1.0) * (ripple.a - 0.5) + 0.6 * (broad.b - 0.5)) + vec3(0.0, 0.1, -0.16) * (ripple.g - 0.5);
+  albedo *= 1.0 + 0.3 * (vec3(0.8, 1.1, 1.0) * (ripple.a - 0.5) + 0.5 * (broad.b - 0.5)) + vec3(0.0, 0.1, -0.16) * (ripple.g - 0.5);
 #endif
 #else
   albedo *= 1.0 + vec3(0.0, 0.08, -0.17) * (broad.g - 0.5);  // towards yellow here, mauve there
@@ -325,7 +325,7 @@ void main() {
   wet = max(mix(wet, glassy, crust), (0.75 - 0.35 * raw) * smoothstep(0.1, 0.4, blood));
 #endif
   // What mirrors the lamp is broken again by the film's thickness: flecks in clumps, no rings around its bumps.
-  float flecks = smoothstep(0.34, 0.66, fine.g + 0.6 * (broad.b - 0.5));
+  float flecks = smoothstep(0.34, 0.66, fine.g + 0.5 * (broad.b - 0.5));
 #ifdef LINING
 #if DETAIL >= 1
   flecks *= 0.35 + 0.65 * crest;
