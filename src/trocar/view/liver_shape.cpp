@@ -322,10 +322,10 @@ MeshBuffer LiverShape::falciform(const WallSurface& wall) const {
   // sinks before its margin.
   std::vector<Vec3d> way;
   for (int k = 0; k <= kOn; ++k) {
-    const double x = b.positions[0].x, s = double(k) / kOn, low = y_of(column, 0);
+    const double x = b.positions[0].x, s = 0.45 + 0.55 * k / kOn, low = y_of(column, 0);
     const double y = low + s * (b.positions[0].y - low);
     way.push_back(
-        {x + 0.0012 * waves({x, y, 0}, 0.02) * (1 - s), y, height(x, y) - 0.0012 - 0.0045 * (1 - s) * (1 - s)});
+        {x + 0.0012 * waves({x, y, 0}, 0.02) * (1 - s), y, height(x, y) - 0.0012 - 0.014 * (1 - s) * (1 - s)});
   }
   for (std::size_t k = 1; k <= std::size_t(kUp); ++k) way.push_back(vec_cast<double>(b.positions[k]));
   const std::uint32_t cord = b.size();
