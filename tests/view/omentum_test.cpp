@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -35,11 +36,11 @@ TEST(Omentum, LiesOnTheLowestPartOfAWallOnly) {
   ASSERT_GT(fat.size(), 1000u);
   double thickest = 0;
   for (const Vec3f& p : fat.positions) {
-    EXPECT_LT(p.z, 0.55f * 0.256f);  // of the bowl's height
+    EXPECT_LT(p.z, 0.6f * 0.256f);  // of the bowl's height
     thickest = std::max(thickest, over_bowl(p));
   }
   EXPECT_GT(thickest, 0.004);
-  EXPECT_LT(thickest, 0.015);
+  EXPECT_LT(thickest, 0.022);  // upright, on a slope
 }
 
 TEST(Omentum, RunsOutUnderTheWallSoThatNoEdgeShows) {
@@ -50,9 +51,10 @@ TEST(Omentum, RunsOutUnderTheWallSoThatNoEdgeShows) {
   int border = 0;
   for (const auto& [edge, triangles] : edges) {
     EXPECT_LE(triangles, 2);
-    if (triangles == 2) continue;
+    const Vec3f& p = fat.positions[edge.first];
+    if (triangles == 2 || std::max(std::fabs(p.x), std::fabs(p.y)) > 0.14f) continue;  // there the bowl itself ends
     ++border;
-    EXPECT_LT(over_bowl(fat.positions[edge.first]), 1e-4);
+    EXPECT_LT(over_bowl(p), 1e-4);
   }
   EXPECT_GT(border, 50);
 }

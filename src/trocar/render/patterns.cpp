@@ -349,12 +349,12 @@ Pattern lining_pattern() {
       if (!branches.back().red && !branches.back().vein) branches.back().red = true;
     }
   };
-  lay_trunk(0.22f * size, 0.4f, true, trunk);
-  lay_trunk(0.74f * size, 2.9f, true, 0.75f * trunk);
-  lay_trunk(0.5f * size, 4.6f, false, 0.55f * trunk);
-  lay_trunk(0.97f * size, 1.3f, true, 0.45f * trunk);
+  lay_trunk(0.16f * size, 0.4f, true, trunk);
+  lay_trunk(0.66f * size, 2.9f, true, 0.75f * trunk);
+  lay_trunk(0.30f * size, 4.6f, false, 0.55f * trunk);
+  lay_trunk(0.78f * size, 1.3f, true, 0.45f * trunk);
   for (std::size_t i = 0; i < branches.size(); ++i) grow_lining(red, veins, Branch(branches[i]), branches, random);
-  grow(red, {36, 0.8f, 1.1f, 0.55f, 0.8f, 1.5f}, random);  // a fine net between
+  grow(red, {60, 0.8f, 1.2f, 0.6f, 0.8f, 1.5f}, random);  // a fine net between
   return pattern_of(red, veins, 0);
 }
 

@@ -17,7 +17,7 @@ constexpr int kRows = 56;          // from the edge towards the head
 constexpr double kBeside = 0.06;   // [m] beyond the body to either side
 constexpr double kInset = 0.009;   // [m] of the body's ends, which are round: there the dome goes straight on
 constexpr double kTip = 0.002;     // [m] of them: nothing is to be told there
-constexpr double kDroops = 0.009;  // [m] beyond the body's ends its margin begins to sink
+constexpr double kDroops = 0.012;  // [m] beyond the body's ends its margin begins to sink
 constexpr double kFalls = -0.27;   // slope of the body's upper side from which on the dome takes over
 constexpr int kEvenJoin = 30;      // passes over the line where it does
 constexpr double kHold = 1, kLoose = 8e-6, kFirm = 6e-4;  // weights, see fairest()
@@ -210,7 +210,7 @@ void LiverShape::fair() {
       const double d = std::fabs(c.x - m_columns[end].x);
       const double falls = (m_z[at(end, k)] - m_z[at(inner, k)]) / (2 * kStep);
       const double profile = m_z[at(end, k)] + std::clamp(falls, -0.4, 0.4) * d * std::exp(-d / 0.012);
-      const double past = std::max(0.0, d - kDroops), droop = 1.15 * past * past / (0.02 + past);
+      const double past = std::max(0.0, d - kDroops), droop = 0.6 * past * past / (0.02 + past);
       wish[p] -= droop * smooth(0.09, 0.02, offset_of(k));  // its ends sink into what is around, no point stands out
       if (k >= m_columns[end].join || std::isnan(profile)) continue;
       const double close = smooth(0.03, 0.004, offset_of(k));
@@ -277,10 +277,22 @@ MeshBuffer LiverShape::dome(const WallSurface& wall) const {
   return b;
 }
 
+/// How far it is from there along the dome until that reaches the wall [m].
+double LiverShape::up_to_the_wall(std::size_t column, double begins, const WallSurface& wall) const {
+  double y = begins + 0.01;
+  for (; y < y_of(column, kRows - 1); y += kStep) {
+    const Vec3d p{m_columns[column].x, y, height(m_columns[column].x, y)};
+    const WallSurface::Place place = wall.nearest(p);
+    if (place.there && dot(p - place.point, place.normal) < 0.001) break;
+  }
+  return y - begins;
+}
+
 MeshBuffer LiverShape::falciform(const WallSurface& wall) const {
-  constexpr int kAlong = 26, kUp = 20, kRound = 8;
+  constexpr int kAlong = 40, kUp = 20, kRound = 8, kOn = 16;
   const std::size_t column = m_first + (m_last - m_first) / 5;
-  const double begins = y_of(column, m_columns[column].join) + 0.004, reach = 0.085;
+  const double begins = y_of(column, m_columns[column].join) + 0.004;
+  const double reach = up_to_the_wall(column, begins, wall);
   MeshBuffer b;
   for (int i = 0; i <= kAlong; ++i)
     for (int k = 0; k <= kUp; ++k) {
@@ -306,24 +318,34 @@ MeshBuffer LiverShape::falciform(const WallSurface& wall) const {
   for (int i = 0; i < kAlong; ++i)
     join_rows(b, std::uint32_t(i * (kUp + 1)), std::uint32_t((i + 1) * (kUp + 1)), kUp + 1, false);
   render::vertex_normals(b.positions, b.indices, b.normals);
-  // The round ligament in its border, with fat around it.
+  // The round ligament in its border, with fat around it: from the wall down onto the liver, into which it
+  // sinks before its margin.
+  std::vector<Vec3d> way;
+  for (int k = 0; k <= kOn; ++k) {
+    const double x = b.positions[0].x, s = 0.45 + 0.55 * k / kOn, low = y_of(column, 0);
+    const double y = low + s * (b.positions[0].y - low);
+    way.push_back(
+        {x + 0.0012 * waves({x, y, 0}, 0.02) * (1 - s), y, height(x, y) - 0.0012 - 0.014 * (1 - s) * (1 - s)});
+  }
+  for (std::size_t k = 1; k <= std::size_t(kUp); ++k) way.push_back(vec_cast<double>(b.positions[k]));
   const std::uint32_t cord = b.size();
-  for (int k = 0; k <= kUp; ++k) {
-    const auto here = std::size_t(k), next = std::size_t(std::min(k + 1, kUp)),
-               before = std::size_t(std::max(k - 1, 0));
-    const Vec3d axis = normalised(vec_cast<double>(b.positions[next] - b.positions[before]), Vec3d{0, 0, 1});
-    const Vec3d u = any_perpendicular(axis), w = cross(axis, u), p = vec_cast<double>(b.positions[here]);
-    const double ends = 1 + 0.7 * smooth(0.3, 0.05, double(k) / kUp);
+  const std::size_t last = way.size() - 1;
+  for (std::size_t here = 0; here <= last; ++here) {
+    const Vec3d axis = normalised(way[std::min(here + 1, last)] - way[here > 0 ? here - 1 : 0], Vec3d{0, 0, 1});
+    const Vec3d u = any_perpendicular(axis), w = cross(axis, u), p = way[here];
+    const double above = std::max(0.0, double(here) - kOn) / kUp;
+    const double ends = 0.85 + 0.75 * smooth(0.4, 0.05, above);
+    const double thins = smooth(0.1 * kOn, 1.3 * kOn, double(here));
     for (int r = 0; r < kRound; ++r) {
       const double a = 6.28318530717959 * r / kRound;
       const Vec3d out = std::cos(a) * u + std::sin(a) * w;
-      const double radius = ends * (0.0014 + 0.0005 * waves(p + 0.01 * out, 0.013));
-      b.add(vec_cast<float>(p + radius * out),
-            Paint{to_byte(smooth(0.02, 0.22, double(k) / kUp)), 0, 0, to_byte(0.92 * smooth(0, 0.3, double(k) / kUp))});
+      const double fat = waves(p + 0.004 * out, 0.009);
+      const double radius = ends * (0.0013 + 0.0004 * waves(p + 0.01 * out, 0.013) + 0.0003 * fat);
+      b.add(vec_cast<float>(p + radius * out), Paint{255, 0, 0, to_byte((0.25 + 0.55 * thins) + 0.2 * fat)});
       b.normals.push_back(vec_cast<float>(out));
     }
   }
-  for (std::uint32_t k = 0; k < kUp; ++k) join_rows(b, cord + k * kRound, cord + (k + 1) * kRound, kRound, true);
+  for (std::uint32_t k = 0; k < last; ++k) join_rows(b, cord + k * kRound, cord + (k + 1) * kRound, kRound, true);
   return b;
 }
 

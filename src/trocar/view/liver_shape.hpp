@@ -16,7 +16,8 @@ class LiverShape {
   /// What is drawn of it: the upper side, sunk into the body where they overlap, and a thin lower margin to both sides.
   /// It ends where a wall is.
   MeshBuffer dome(const WallSurface& wall) const;
-  /// The falciform ligament from the dome to the wall; its free border is a round cord. Paint::tint: fat.
+  /// The falciform ligament from the dome to the wall; its free border is a round cord, which
+  /// goes on along the liver and sinks into it. Paint::tint: fat.
   MeshBuffer falciform(const WallSurface& wall) const;
   double height(double x, double y) const;  ///< of the upper side [m]
 
@@ -32,6 +33,7 @@ class LiverShape {
   void scan(std::span<const Vec3f> points, std::span<const std::uint32_t> triangles);
   void find_join();
   void fair();
+  double up_to_the_wall(std::size_t column, double begins, const WallSurface& wall) const;
   std::vector<int> depths() const;
 
   std::vector<Column> m_columns;

@@ -181,10 +181,10 @@ Material stomach() {
 }
 
 Material liver() {
-  Material m = with_vessels(tissue(srgb(98, 62, 71), srgb(106, 69, 76), srgb(87, 54, 62)), 0.12f, 0.03f);
+  Material m = with_vessels(tissue(srgb(99, 61, 67), srgb(110, 70, 73), srgb(84, 50, 57)), 0.12f, 0.03f);
   m.mottle_size = 0.0035f;
-  m.mottle = 0.22f;
-  m.bump = 0.03f;
+  m.mottle = 0.4f;
+  m.bump = 0.04f;
   m.roughness = 0.62f;
   m.wetness = 0.9f;
   m.film_roughness = 0.08f;
@@ -269,9 +269,13 @@ Material adhesion() {
 
 /// A thin sheet with fat in its free border.
 Material falciform() {
-  Material m = fold(0.5f);
-  m.vessel_tile = 0.045f;
-  m.tint = srgb(222, 172, 140);
+  Material m = fold(0.4f);
+  m.colour = srgb(192, 130, 122);
+  m.colour_b = srgb(202, 152, 128);
+  m.colour_c = srgb(176, 108, 108);
+  m.vessel_tile = 0.06f;
+  m.rim_alpha = 0.7f;
+  m.tint = srgb(204, 148, 112);
   return m;
 }
 
@@ -310,14 +314,15 @@ Material epiploic() {
 /// Lobules on lobules (omentum.cpp): these are the smallest. Towards its border and in grooves it is salmon (tint).
 Material omentum() {
   Material m = fat();
-  m.colour = srgb(228, 166, 144);
-  m.colour_b = srgb(236, 184, 152);
-  m.colour_c = srgb(216, 142, 126);
+  m.colour = srgb(228, 164, 138);
+  m.colour_b = srgb(240, 192, 140);
+  m.colour_c = srgb(216, 138, 126);
+  m.mottle_size = 0.013f;
   m.lobule_size = 0.0036f;
   m.lobule_depth = 0.06f;
   m.lobule_contrast = 0.06f;
   m.vessels = 1;
-  m.vessel_tile = 0.04f;
+  m.vessel_tile = 0.1f;
   m.wetness = 0.56f;
   m.film_roughness = 0.09f;
   m.film_bump = 0.2f;

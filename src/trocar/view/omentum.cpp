@@ -9,7 +9,7 @@
 namespace trocar::view {
 namespace {
 
-constexpr double kReaches = 0.4;   // share of the wall's height up to which it lies, in the mean
+constexpr double kReaches = 0.47;  // share of the wall's height up to which it lies, in the mean
 constexpr int kHalvings = 2;       // of the wall's edges: lobes are finer than its triangles
 constexpr double kMargin = 0.006;  // [m] beyond its border, below the wall
 
@@ -40,8 +40,8 @@ double pillows(Vec3d p, double size) {
 
 /// How far inside its border a point lies [m]: tongues, frills on them. @param above the wall's lowest point [m]
 double inside(Vec3d p, double above, double whole) {
-  const double tongues = 0.016 * waves(p, 0.062) + 0.005 * waves(p + Vec3d{0.2, 0, 0.1}, 0.027);
-  const double frills = 0.0015 * waves(p + Vec3d{0.3, 0.2, 0}, 0.011) + 0.0004 * waves(p, 0.0052);
+  const double tongues = 0.011 * waves(p, 0.07) + 0.0035 * waves(p + Vec3d{0.2, 0, 0.1}, 0.03);
+  const double frills = 0.0009 * waves(p + Vec3d{0.3, 0.2, 0}, 0.012);
   return kReaches * whole - above + tongues + frills;
 }
 
@@ -51,9 +51,9 @@ double thickness(Vec3d p, double deep) {
   if (deep <= 0) return std::max(-0.0012, 0.5 * deep);
   const double lip = 0.0015 * (1 - std::exp(-deep / 0.003));
   const double grown = smooth(0, 0.02, deep);
-  const double swell = 0.0022 + 0.002 * waves(p, 0.043);
-  const double lobes = 0.003 * pillows(p + Vec3d{0.4, 0.1, 0.2}, 0.024);
-  const double lobules = 0.0011 * pillows(p + Vec3d{0.1, 0.5, 0.3}, 0.0095);
+  const double swell = 0.0034 + 0.0034 * waves(p, 0.052);
+  const double lobes = 0.0042 * pillows(p + Vec3d{0.4, 0.1, 0.2}, 0.024);
+  const double lobules = 0.0015 * pillows(p + Vec3d{0.1, 0.5, 0.3}, 0.0095);
   return lip + grown * (swell + lobes) + (0.3 + 0.7 * grown) * smooth(0, 0.004, deep) * lobules;
 }
 

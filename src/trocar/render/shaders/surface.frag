@@ -87,6 +87,13 @@ vec2 vessels_at(vec3 p, vec3 n) {
   vec3 side = normalize(vec3(FIBRE_AXIS.y, -FIBRE_AXIS.x, 0.001)), up = cross(FIBRE_AXIS, side);
   return texture(u_vessels, vec2(dot(off, side), dot(off, up)) * (acos(along) * inversesqrt(dot(off, off)) * kLiningBall) * VESSEL_SCALE + 0.37).rg;
 }
+#elif defined(LOBULES)
+// Seen from where one looks at it, as lobules turn their faces everywhere; what turns far away has none.
+vec2 vessels_at(vec3 p, vec3 n) {
+  const vec3 towards = vec3(0.0, -0.5, 0.866);
+  return texture(u_vessels, vec2(p.x, dot(p, cross(vec3(1.0, 0.0, 0.0), towards))) * VESSEL_SCALE).rg *
+         smoothstep(0.1, 0.35, abs(dot(n, towards)));
+}
 #else
 // Trees are drawn in the plane that the rest surface faces most and fade out towards the next plane.
 vec2 vessels_at(vec3 p, vec3 n) {
@@ -139,7 +146,7 @@ void main() {
   vec3 slope = broad.rgb * 2.0 - 1.0;
 #if SHADING != 1 && DETAIL >= 1
 #ifdef LINING
-  vec4 ripple = texture(u_noise, kTurn * (p * vec3(0.3, 1.0, 1.0)).zxy * FILM_SCALE);  // muscle runs across
+  vec4 ripple = texture(u_noise, kTurn * (p * vec3(0.7, 1.0, 1.0)).zxy * FILM_SCALE);  // muscle runs across
 #else
   vec4 ripple = texture(u_noise, kTurn * p.zxy * FILM_SCALE);
 #endif
@@ -205,7 +212,11 @@ void main() {
   albedo = mix(albedo, TINT, tint);
 #endif
 #ifdef LINING
-  albedo *= 1.0 + vec3(0.0, 0.09, -0.13) * (broad.g - 0.5);
+  // Yellow here, violet there, paler and redder; below it fibres and fat of a millimetre or two.
+  albedo *= 1.0 + vec3(0.0, 0.11, -0.17) * (broad.g - 0.5) + vec3(0.1, -0.1, -0.02) * (broad.r - 0.5);
+#if DETAIL >= 1
+  albedo *= 1.0 + 0.3 * (vec3(0.8, 1.1, 1.0) * (ripple.a - 0.5) + 0.5 * (broad.b - 0.5)) + vec3(0.0, 0.1, -0.16) * (ripple.g - 0.5);
+#endif
 #else
   albedo *= 1.0 + vec3(0.0, 0.08, -0.17) * (broad.g - 0.5);  // towards yellow here, mauve there
 #endif
@@ -214,7 +225,7 @@ void main() {
 #ifdef LOBULES
   vec4 cell = texture(u_cells, p * CELL_SCALE + slope * 0.012);
   float seam = 1.0 - smoothstep(0.0, 0.42, cell.a);
-  seam *= seam;
+  seam *= seam * (0.25 + 0.75 * smoothstep(0.3, 0.7, broad.b));  // lobules run together here and there
   relief += (CELL_DEPTH * 2.6) * (cell.rgb * 2.0 - 1.0);
   albedo *= 1.0 - CELL_CONTRAST * seam * vec3(0.22, 0.55, 0.60);
 #else
@@ -275,7 +286,7 @@ void main() {
 
   // Light wraps past the terminator, red the furthest; crevices keep red longest.
   vec3 wrapped = clamp((vec3(nl) + WRAP) / (1.0 + WRAP), 0.0, 1.0);
-  float open = clamp(OPENNESS * (1.0 - 0.35 * seam), 0.02, 1.0);
+  float open = clamp(OPENNESS * (1.0 - min(0.35, 1.6 * CELL_CONTRAST) * seam), 0.02, 1.0);
   vec3 ao = open * mix(vec3(sqrt(open)), vec3(1.0), vec3(1.0, 0.0, 0.05));
   vec3 direct = LIGHT_COLOUR * lit.power * wrapped * mix(ao, vec3(1.0), 0.35);
   vec3 indirect = (BOUNCE + vec3(AMBIENT)) * (lit.bounce * ao);
@@ -302,7 +313,11 @@ void main() {
   float wet_noise = broad.b;
 #endif
 #ifdef LINING
-  film_slope = FILM_BUMP * (broad.rgb * 2.0 - 1.0 + 0.4 * (broad.gbr * 2.0 - 1.0));  // broad sheens, no frost
+  film_slope = FILM_BUMP * (broad.rgb * 2.0 - 1.0 + 0.4 * (broad.gbr * 2.0 - 1.0));  // broad sheens, no frost ...
+#if DETAIL >= 1
+  float crest = smoothstep(0.56, 0.7, broad.a);  // ... flecks on what stands out
+  film_slope += (2.6 * crest * FILM_BUMP) * (ripple.rgb * 2.0 - 1.0);
+#endif
 #endif
   float wet = smoothstep(1.0 - WETNESS - 0.2, 1.0 - WETNESS + 0.2, wet_noise);
 #ifdef STAINED
@@ -310,12 +325,17 @@ void main() {
   wet = max(mix(wet, glassy, crust), (0.75 - 0.35 * raw) * smoothstep(0.1, 0.4, blood));
 #endif
   // What mirrors the lamp is broken again by the film's thickness: flecks in clumps, no rings around its bumps.
-  float flecks = smoothstep(0.34, 0.66, fine.g + 0.6 * (broad.b - 0.5));
+  float flecks = smoothstep(0.34, 0.66, fine.g + 0.5 * (broad.b - 0.5));
 #ifdef LINING
+#if DETAIL >= 1
+  flecks *= 0.35 + 0.65 * crest;
+#else
   flecks *= 0.35;
 #endif
+#endif
+  flecks = mix(0.45, flecks, 0.15 + 0.85 * INVERSE_SQUARE);
   wet *= 0.6 + 0.3 * flecks;
-  film_slope *= 0.3 + 0.7 * INVERSE_SQUARE;  // a room's lamps are large: they do not sparkle
+  film_slope *= 0.1 + 0.9 * INVERSE_SQUARE;  // a room's lamps are large: they do not sparkle
   vec3 m = normalize(N + along_surface(to_eye(film_slope + relief * 0.6), N));
   vec3 H = normalize(lit.direction + V);
   float facing = clamp(nl * 4.0, 0.0, 1.0) * open;
