@@ -13,6 +13,7 @@ using render::DrawItem;
 namespace {
 
 constexpr double kSleeveShows = 0.018;     // [m] of a trocar's sleeve inside the wall
+constexpr float kBeforeFolds = 0.1f;       // [m] its part that shows through is drawn after all of them
 constexpr float kClipThroughFold = 0.75f;  // how much of a clip shows through a sheer fold
 
 render::Mat4 to_world(const Placement& p) { return render::placement(p.rotation, p.translation); }
@@ -134,6 +135,7 @@ void MetalDrawing::list_clips(const sim::State& state, const FirstParts& first, 
     // Its tips have gone through the fold beside the tube, which is whole in the simulation: they show through it.
     drawn.translucent = true;
     drawn.material.alpha = kClipThroughFold;
+    drawn.nearer = kBeforeFolds;
     to.add(drawn);
   }
 }

@@ -25,8 +25,8 @@ bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
 
 /// An uneven rim's course, about -1..1.
 double ragged(int seed, double angle) {
-  return 0.45 * std::sin(2 * angle + 1.9 * seed) + 0.4 * std::sin(3 * angle + 2.6 * seed + 1) +
-         0.35 * std::sin(5 * angle + 4.1 * seed + 2) + 0.2 * std::sin(7 * angle + 0.7 * seed);
+  return 0.55 * std::sin(2 * angle + 1.9 * seed) + 0.5 * std::sin(3 * angle + 2.6 * seed + 1) +
+         0.15 * std::sin(5 * angle + 4.1 * seed + 2);
 }
 
 /// 0..1: to one side a stump oozes.

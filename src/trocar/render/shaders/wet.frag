@@ -96,13 +96,15 @@ void main() {
   float facing = clamp(0.25 + 0.75 * dot(n, lit.direction), 0.0, 1.0);
   vec3 light = LIGHT_COLOUR * (lit.power * facing) + (BOUNCE + vec3(AMBIENT)) * lit.bounce;
   // What flies is lit from all round.
-  vec3 deep = deep_colour(amount, dark) * (1.0 + 0.5 * flying);
+  // What lies is dark and uneven, as its cells gather here and there.
+  float lying = (0.42 + 0.5 * smoothstep(0.25, 0.75, 0.6 * fine.a + 0.4 * streak)) * (1.0 - flying);
+  vec3 deep = deep_colour(amount, dark) * (lying + 1.35 * flying) + vec3(0.0, 0.002, 0.0035) * lying;
   vec3 colour = below * through + deep * light * (1.0 - through);
 
   // Wet: the lamp in drops, broken by the tissue's unevenness in films; the walls where seen at a grazing angle. What
   // flies is too quick to be seen to shine.
   float gloss = smoothstep(4.0e-6, 2.5e-5, stain) * (1.0 - cover) * (1.0 - flying);
-  vec3 shine = cover * (1.0 - 0.75 * flying) * highlight(n, V, lit, u_shine.y);
+  vec3 shine = cover * (1.0 - 0.93 * flying) * highlight(n, V, lit, u_shine.y);
 #if DETAIL >= 1
   vec3 wrinkle = (fine.rgb * 2.0 - 1.0) * 0.45 + (texture(u_noise, place.zxy * 11.0).rgb * 2.0 - 1.0) * 0.35;
   vec3 m = normalize(base + vec3(dot(wrinkle, u_right), dot(wrinkle, u_up), 0.0) - film_rise);
