@@ -12,7 +12,7 @@ constexpr int kPuffs = 26;
 constexpr double kPlumeTime = 0.9;    // [s] that a puff is seen
 constexpr double kPlumeSpeed = 0.07;  // [m/s] upwards
 constexpr double kPlumeGrows = 0.20;  // of its way, in radius
-constexpr double kPlumeDense = 0.26;
+constexpr double kPlumeDense = 0.42;
 constexpr double kSmokes = 0.15;  // [s] of current until tissue smokes
 
 constexpr float kClear = 0.01f;  // [g/m^3] everywhere below it: nothing to be seen
@@ -51,7 +51,7 @@ void list_plumes(const sim::Model& model, const sim::State& state, render::Frame
       puff.centre = vec_cast<float>(hand.at + high * up + (bend + stray * (2 * varied(own, 1) - 1)) * side +
                                     (stray * (2 * varied(own, 2) - 1)) * other);
       puff.radius = float(0.0016 + kPlumeGrows * high * (0.6 + 0.8 * varied(own, 3)));
-      puff.density = float(kPlumeDense * (1 - age) * (1 - 0.6 * age) * std::min(1.0, 12 * age + 0.4));
+      puff.density = float(kPlumeDense * (1 - age) * (1 - age) * std::min(1.0, 12 * age + 0.4));
       frame.puffs.push_back(puff);
     }
   }

@@ -134,12 +134,12 @@ Paint TubeDrawing::paint_at(const Layout& layout, double s, double angle, Paint 
   Paint p = own;
   for (const Clip& clip : layout.clips) {
     const double d = std::fabs(s - clip.s);
-    const double pale = 0.13 * clip.cover * smooth(kBlanched, 0.0008, d);
+    const double pale = 0.19 * clip.cover * smooth(kBlanched, 0.0008, d);
     p.burn = std::max(p.burn, to_byte(pale));
   }
   for (const StrandPiece& piece : layout.pieces) {
     if (own.blood > 0) {  // a raw face has its own
-      p.blood = std::uint8_t(std::min(255.0, own.blood + 95 * oozes(angle)));
+      p.blood = std::uint8_t(std::min(255.0, own.blood + 45 * oozes(angle)));
       break;
     }
     const double stain = kBloodied * (0.8 + 0.6 * std::sin(angle + 1) + 0.4 * std::sin(3 * angle));

@@ -12,7 +12,7 @@ constexpr float kPitThick = 260e-6f;      // [m] of the blood in it
 constexpr int kWelling = 7, kSmears = 5;  // patches of blood around it, thick and thin
 constexpr float kStep = 0.7e-3f;          // [m] between two links of the rivulet
 constexpr int kLinks = 22;
-constexpr int kToCrest = 7, kStumpPatches = 9;
+constexpr int kToCrest = 7, kStumpPatches = 5;
 constexpr float kUnderside = 0.94f;  // cosine between surface and fall at which a rivulet ends as a hanging drop
 
 float own(int which) { return 2 * float(varied(977, which)) - 1; }
@@ -100,7 +100,7 @@ void list_stump(const Wound& wound, const FilmPlace& end, float radius, render::
     const FilmPlace place{end.position + radius * out - behind * end.normal, out};
     const float wide = 0.55e-3f * (1 + 0.5f * own(200 + n));
     liquid.splats.push_back(film(wound, place, wide, (6 + 5 * own(300 + n)) * 1e-6f));
-    if (n % 4 == 1) list_rivulet(wound, place, {}, liquid, 0.2f);
+    if (n % 4 == 1) list_rivulet(wound, place, {}, liquid, 0.15f);
   }
   // Its lumen and wall are wet with it, too.
   liquid.splats.push_back(film(wound, end, 0.5f * radius, 8e-6f));
