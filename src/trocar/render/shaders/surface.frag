@@ -242,14 +242,14 @@ void main() {
                  textureLod(u_noise, kTurn * v_rest * 200.0, 0.0) +
                  textureLod(u_noise, kTurn * (v_rest - 0.0005 * inwards) * 200.0, 0.0);
     folds *= 1.0 / 3.0;
-    float at = 1.12 * BURN + 0.26 * (patchy.a - 0.5) + 0.22 * (folds.a - 0.5);
+    float at = 1.3 * BURN + 0.26 * (patchy.a - 0.5) + 0.22 * (folds.a - 0.5);
     float pale = smoothstep(0.0, 0.36, BURN + 0.10 * (patchy.a - 0.5) * smoothstep(0.0, 0.2, BURN));
     crust = smoothstep(0.34, 0.60, at);
     float burnt = smoothstep(0.46, 0.92, at + 0.16 * (grain.g - 0.5));
     float crack = crust * (1.0 - smoothstep(0.02, 0.10, abs(patchy.r - 0.5 + 0.10 * (folds.g - 0.5))));
     glassy = crust * smoothstep(0.40, 0.56, grain.b);
-    albedo = mix(albedo, vec3(0.66, 0.47, 0.39) * (0.88 + 0.24 * folds.a), 0.8 * pale);
-    vec3 charred = mix(vec3(0.25, 0.098, 0.050), vec3(0.066, 0.021, 0.012), smoothstep(0.0, 0.5, burnt));
+    albedo = mix(albedo, vec3(0.67, 0.455, 0.395) * (0.88 + 0.24 * folds.a), 0.8 * pale);
+    vec3 charred = mix(vec3(0.24, 0.082, 0.045), vec3(0.066, 0.020, 0.012), smoothstep(0.0, 0.5, burnt));
     charred = mix(charred, vec3(0.0135, 0.0050, 0.0038), smoothstep(0.4, 1.0, burnt));
     albedo = mix(albedo, charred * (0.65 + 0.7 * grain.a), 0.95 * crust);
     albedo *= 1.0 - 0.7 * crack;
