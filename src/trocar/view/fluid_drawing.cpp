@@ -17,7 +17,7 @@ using render::SplatKind;
 constexpr float kCellsScatter = 1.6e3f;  // [1/m] red cells, forward scattering left out: blood is no red glass
 constexpr float kBloodOrange = 7e3f;  // [1/m] mean of whole blood at 585 to 600 nm, tabulated [Prahl 1999], as Optics
 constexpr float kShutter = 0.005f;    // [s] a camera's: what flies is a streak
-constexpr float kWhole = 0.008f;      // [m] from its hole: so far a jet of blood is whole
+constexpr float kWhole = 0.010f;      // [m] from its hole: so far a jet of blood is whole
 constexpr float kSpray = 0.024f;      // [m] ... and from here on spray
 constexpr float kWag = 0.075f;        // how far a jet's drops stray aside, a share of their way
 constexpr int kShards = 5;            // what a drop of spray is drawn as

@@ -21,7 +21,7 @@ const int kSteps = 8;
 const int kSteps = 6;
 #endif
 
-const float kLeastSeen = 0.34;  // of the light from behind
+const float kByLaw = 0.55, kLeastSeen = 0.33;  // of the light from behind
 
 void main() {
   vec3 way = normalize(vec3((2.0 * v_uv - 1.0) * u_tan.xy + vec2(u_tan.z, 0.0), -1.0));
@@ -57,7 +57,8 @@ void main() {
     }
   }
   // A camera's gain and the surgeon's eye go on seeing shapes where the eye alone would not: no denser than this (our choice).
-  float kept = kLeastSeen + (1.0 - kLeastSeen) * clear;
+  float knee = kByLaw - kLeastSeen;
+  float kept = clear > kByLaw ? clear : kLeastSeen + knee * exp((clear - kByLaw) / knee);
   back *= (1.0 - kept) / max(1.0 - clear, 1.0e-4);
   o_smoke = vec4(back, kept, far);
 }
