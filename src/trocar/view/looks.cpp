@@ -353,7 +353,7 @@ Material insulation() {
 
 /// Ceramic and PTFE: white, so that it clips before all else.
 Material ceramic() {
-  Material m = metal(srgb(204, 201, 194), srgb(196, 192, 184), 0.36f);
+  Material m = metal(srgb(228, 225, 217), srgb(219, 215, 206), 0.36f);
   m.fibre_stretch = 1;
   m.mottle_size = 0.004f;
   m.bump = 0.01f;
@@ -437,7 +437,7 @@ std::vector<Look> make_looks() {
       {"adhesion", adhesion(), true, {}},
       {"falciform", falciform(), true, {}},
       {"steel", metal(srgb(148, 147, 152), srgb(128, 128, 134), 0.3f), false, {}},
-      {"polished_steel", polished(srgb(168, 167, 172), srgb(150, 150, 156), 0.22f, 0.05f), false, {}},
+      {"polished_steel", polished(srgb(142, 141, 147), srgb(122, 122, 129), 0.2f, 0.03f), false, {}},
       {"matte_steel", metal(srgb(128, 129, 133), srgb(114, 115, 120), 0.46f), false, {}},
       {"insulated", insulation(), false, {}},
       {"ceramic", ceramic(), false, {}},

@@ -190,7 +190,7 @@ void main() {
   vec3 gloss = mix(1.5 * grey, vec3(0.28), max(SCATTER, blood)) * (mix(0.2, 0.12, plain) * lobe(nh, alpha2) * broken * (1.0 - 0.8 * blurred));
   gloss /= 1.0 + 0.8 * gloss;  // the lamp is no point: long lines do not clip
   vec3 around = mirrored(reflect(-V, n), 0.04, mix(0.6, 3.0, rim) * lit.bounce);  // the lens itself is dark
-  vec3 even = LIGHT_COLOUR * lit.power * (mix(0.13, 0.75, plain) * nl * nl + mix(0.012, 0.03, plain) * lobe(nh, 0.35));
+  vec3 even = LIGHT_COLOUR * lit.power * (mix(0.08, 0.75, plain) * nl * nl + mix(0.012, 0.03, plain) * lobe(nh, 0.35));
   even += (BOUNCE * (mix(0.5, 1.0, plain) + 3.0 * rim) + vec3(AMBIENT)) * lit.bounce;
   vec3 colour = (grey * even + LIGHT_COLOUR * lit.power * gloss + around * mirror) * ao;
 #ifdef FOGGY
