@@ -91,7 +91,7 @@ TEST(FluidDrawing, AJetIsWholeAtItsHoleAndSprayFartherOff) {
     far += length(p - hole) > 0.05f;
   }
   std::sort(drops.begin(), drops.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  ASSERT_GT(drops.size(), 2u);
+  ASSERT_GE(drops.size(), 2u);
   ASSERT_GT(far, 3u);
   for (std::size_t n = 0; n + 1 < drops.size(); ++n)
     for (float share = 0; share <= 1; share += 0.1f) {

@@ -8,7 +8,7 @@ namespace trocar::view {
 constexpr float kBelow = 0.0003f;  // [m] skins' flat triangles cut through cells of the border
 constexpr double kMargin =
     0.0028;  // [m] so far around what is coagulated tissue is drawn paler than it was (our choice)
-constexpr double kSmoothing = 0.0048;  // [m]
+constexpr double kSmoothing = 0.0044;  // [m]
 constexpr int kMostMargin = 100;       // Paint::burn: coagulated, no more
 
 std::uint8_t burn_of(const tissue::HeatReading& reading) {
