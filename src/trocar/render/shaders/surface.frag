@@ -242,7 +242,7 @@ void main() {
                  textureLod(u_noise, kTurn * v_rest * 200.0, 0.0) +
                  textureLod(u_noise, kTurn * (v_rest - 0.0005 * inwards) * 200.0, 0.0);
     folds *= 1.0 / 3.0;
-    float at = 1.3 * BURN + 0.26 * (patchy.a - 0.5) + 0.22 * (folds.a - 0.5);
+    float at = 1.1 * BURN + 0.26 * (patchy.a - 0.5) + 0.22 * (folds.a - 0.5);
     float pale = smoothstep(0.0, 0.36, BURN + 0.10 * (patchy.a - 0.5) * smoothstep(0.0, 0.2, BURN));
     crust = smoothstep(0.34, 0.60, at);
     float burnt = smoothstep(0.46, 0.92, at + 0.16 * (grain.g - 0.5));
