@@ -105,11 +105,11 @@ void main() {
   // Wet: the lamp in drops, broken by the tissue's unevenness in films; the walls where seen at a grazing angle. What
   // flies is too quick to be seen to shine.
   float gloss = smoothstep(4.0e-6, 2.5e-5, stain) * (1.0 - cover) * (1.0 - flying);
-  vec3 shine = cover * (1.0 - 0.93 * flying) * highlight(n, V, lit, u_shine.y);
+  vec3 shine = cover * (1.0 - 0.78 * flying) * highlight(n, V, lit, u_shine.y);
 #if DETAIL >= 1
   vec3 wrinkle = (fine.rgb * 2.0 - 1.0) * 0.45 + (texture(u_noise, place.zxy * 11.0).rgb * 2.0 - 1.0) * 0.35;
   vec3 m = normalize(base + vec3(dot(wrinkle, u_right), dot(wrinkle, u_up), 0.0) - film_rise);
-  shine += gloss * min(highlight(m, V, lit, 3.0 * u_shine.z), LIGHT_COLOUR * (0.05 * lit.power));
+  shine += gloss * min(highlight(m, V, lit, 3.0 * u_shine.z), LIGHT_COLOUR * (0.07 * lit.power));
 #endif
   float nv = clamp(dot(n, V), 0.0, 1.0);
   shine += (BOUNCE * 3.0 + vec3(AMBIENT)) * (lit.bounce * min(mirror_share(nv), 0.2) * (cover + 0.5 * gloss));
