@@ -98,7 +98,7 @@ void burn(const sim::Model& model, const sim::State& start, Shots& shots) {
   r.go(hook.hand, place - 0.03 * in);
   shots.take_outside(r.state, "burn", "what the hook has left behind", close_up(model, place, 0.03));
   r.input.pedals = sim::kWipe;
-  r.run(kSecond);
+  r.run(kSecond * 7 / 5);  // half across
   shots.take(r.state, "wiping the lens", "the lens is wiped");
   r.input.pedals = 0;
   r.run(12 * kSecond);

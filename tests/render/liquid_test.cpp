@@ -303,6 +303,8 @@ TEST_F(Liquids, SmokeTakesContrastByItsLaw) {
   // The ray to pixel 30 is longer than the one down the middle by a few per cent.
   const double aside = std::sqrt(1 + 0.25 * std::pow(std::tan(0.5 * double(frame.camera.vertical_fov)), 2));
   EXPECT_NEAR(contrast() / clear, std::exp(-0.7 * 8 * 0.08 * aside), 0.04);
+  frame.smoke.kappa = 10;
+  EXPECT_NEAR(contrast() / clear, 0.56, 0.07) << "more than half is left however thick it is";
 }
 
 TEST_F(Liquids, WhatIsBeforeTheSmokeStaysClear) {

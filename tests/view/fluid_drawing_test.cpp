@@ -87,11 +87,11 @@ TEST(FluidDrawing, AJetIsWholeAtItsHoleAndSprayFartherOff) {
   std::size_t far = 0;
   for (std::size_t i = 0; i < std::size_t(d.count); ++i) {
     const Vec3f p{d.x[i], d.y[i], d.z[i]};
-    if (length(p - hole) < 0.014f) drops.push_back({d.id[i], p});
+    if (length(p - hole) < 0.010f) drops.push_back({d.id[i], p});
     far += length(p - hole) > 0.05f;
   }
   std::sort(drops.begin(), drops.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  ASSERT_GT(drops.size(), 2u);
+  ASSERT_GE(drops.size(), 2u);
   ASSERT_GT(far, 3u);
   for (std::size_t n = 0; n + 1 < drops.size(); ++n)
     for (float share = 0; share <= 1; share += 0.1f) {

@@ -163,14 +163,19 @@ void GlBackend::puff_pass(const Frame& frame) {
   program.set("u_projection", m_projection);
   program.set_vec4s("u_frame", m_frame_rows);
   program.set("u_noise", kUnitNoise);
+  program.set("u_right", frame.camera.rotation.column(0));
+  program.set("u_up", frame.camera.rotation.column(1));
+  constexpr float kRise = 0.06f;  // [m/s] of a plume's curls, about as fast as its puffs
+  const Vec3f risen = (kRise * 1e-3f * float(frame.tick % 1000000)) * frame.smoke.up;
   set_blending(true);
   glDisable(GL_CULL_FACE);
   glBindVertexArray(m_no_vertices.id());
   for (const SeenPuff& seen : m_puffs) {
     const Puff& puff = *seen.puff;
     program.set("u_puff", seen.eye.x, seen.eye.y, seen.eye.z, puff.radius);
-    // Its own curls, carried along: the pattern belongs to the place it came from only as far as it moves slowly.
-    program.set("u_look", puff.density, 3 * puff.centre.x, 3 * puff.centre.y, 3 * puff.centre.z + puff.radius);
+    const Vec3f curls = puff.centre - risen;
+    program.set("u_look", puff.density, curls.x, curls.y, curls.z);
+    program.set("u_reach", puff.radius);
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   }
   set_blending(false);

@@ -7,7 +7,7 @@ namespace trocar::view {
 namespace {
 
 // Our choice, by eye.
-constexpr double kRunning = 0.20;     // share of the rim's vertices from which a run starts
+constexpr double kRunning = 0.30;     // share of the rim's vertices from which a run starts
 constexpr float kStep = 0.0011f;      // [m] between two links of a run
 constexpr float kShortest = 0.004f;   // [m]
 constexpr float kWide = 0.42e-3f;     // [m]
@@ -34,7 +34,7 @@ Place on_skin(const CutSkin& skin, Place place) {
 
 void list_run(const CutSkin& skin, Place at, int own, render::Liquid& liquid) {
   const auto u = [own](int which) { return float(varied(own, which)); };
-  const float far = kShortest + (kOozeReach - kShortest) * u(1) * u(1), wide = kWide * (0.7f + 0.8f * u(2));
+  const float far = kShortest + (kOozeReach - kShortest) * u(1), wide = kWide * (0.7f + 0.8f * u(2));
   const int links = int(far / kStep);
   for (int n = 0; n < links; ++n) {
     const Vec3f fall = liquid.down - dot(liquid.down, at.normal) * at.normal;

@@ -17,9 +17,9 @@ using render::SplatKind;
 constexpr float kCellsScatter = 1.6e3f;  // [1/m] red cells, forward scattering left out: blood is no red glass
 constexpr float kBloodOrange = 7e3f;  // [1/m] mean of whole blood at 585 to 600 nm, tabulated [Prahl 1999], as Optics
 constexpr float kShutter = 0.005f;    // [s] a camera's: what flies is a streak
-constexpr float kWhole = 0.014f;      // [m] from its hole: so far a jet of blood is whole
-constexpr float kSpray = 0.028f;      // [m] ... and from here on spray
-constexpr float kWag = 0.035f;        // how far a jet's drops stray aside, a share of their way
+constexpr float kWhole = 0.010f;      // [m] from its hole: so far a jet of blood is whole
+constexpr float kSpray = 0.024f;      // [m] ... and from here on spray
+constexpr float kWag = 0.075f;        // how far a jet's drops stray aside, a share of their way
 constexpr int kShards = 5;            // what a drop of spray is drawn as
 constexpr float kFreshJet = 0.006f;   // [m] blood that has come less far shows where its hole is
 constexpr float kThinStreak = 0.08e-3f, kWideStreak = 0.19e-3f;  // [m] half of what a shard's streak is wide
@@ -293,7 +293,9 @@ void FluidDrawing::list_spray(const fluids::DropletState& d, const Flying& drop,
     // No two fly alike: some are overtaken, some stray.
     const float slower = 1 - apart * (n == 0 ? 0.35f : 0.75f) * std::fabs(u(2));
     const Vec3f strays = aside(v, d.id[k] * 13u + std::uint32_t(n), 1.0f) * (0.25f * apart * length(v) / kWag);
-    Splat s = streak(place + to_side + ahead, slower * v + strays, size, share);
+    // Shards tumble: what the shutter smears of them is short, each at its own angle.
+    const Vec3f smeared = (1 - apart * (0.55f + 0.35f * std::fabs(u(3)))) * (slower * v + 2.0f * strays);
+    Splat s = streak(place + to_side + ahead, smeared, size, share);
     s.dark = dark;
     liquid.splats.push_back(s);
   }

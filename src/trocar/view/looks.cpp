@@ -458,7 +458,7 @@ std::vector<Look> make_looks() {
       {"insulated", insulation(), false, {}},
       {"ceramic", ceramic(), false, {}},
       {"sleeve", metal(srgb(130, 131, 137), srgb(116, 118, 124), 0.38f), false, {}},
-      {"titanium", polished(srgb(188, 188, 193), srgb(172, 173, 178), 0.26f, 0.5f), false, {}},
+      {"titanium", polished(srgb(222, 222, 227), srgb(206, 207, 212), 0.22f, 0.62f), false, {}},
   };
 }
 

@@ -25,8 +25,8 @@ bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
 
 /// An uneven rim's course, about -1..1.
 double ragged(int seed, double angle) {
-  return 0.45 * std::sin(2 * angle + 1.9 * seed) + 0.4 * std::sin(3 * angle + 2.6 * seed + 1) +
-         0.35 * std::sin(5 * angle + 4.1 * seed + 2) + 0.2 * std::sin(7 * angle + 0.7 * seed);
+  return 0.55 * std::sin(2 * angle + 1.9 * seed) + 0.5 * std::sin(3 * angle + 2.6 * seed + 1) +
+         0.15 * std::sin(5 * angle + 4.1 * seed + 2);
 }
 
 /// 0..1: to one side a stump oozes.
@@ -134,12 +134,12 @@ Paint TubeDrawing::paint_at(const Layout& layout, double s, double angle, Paint 
   Paint p = own;
   for (const Clip& clip : layout.clips) {
     const double d = std::fabs(s - clip.s);
-    const double pale = 0.13 * clip.cover * smooth(kBlanched, 0.0008, d);
+    const double pale = 0.19 * clip.cover * smooth(kBlanched, 0.0008, d);
     p.burn = std::max(p.burn, to_byte(pale));
   }
   for (const StrandPiece& piece : layout.pieces) {
     if (own.blood > 0) {  // a raw face has its own
-      p.blood = std::uint8_t(std::min(255.0, own.blood + 95 * oozes(angle)));
+      p.blood = std::uint8_t(std::min(255.0, own.blood + 45 * oozes(angle)));
       break;
     }
     const double stain = kBloodied * (0.8 + 0.6 * std::sin(angle + 1) + 0.4 * std::sin(3 * angle));

@@ -8,11 +8,11 @@ namespace {
 
 // Our choice, all of them: from the look of small arteries that bleed in endoscopic films.
 constexpr float kPit = 0.45e-3f;          // [m] radius of the hole's dark middle
-constexpr float kPitThick = 450e-6f;      // [m] of the blood in it
+constexpr float kPitThick = 260e-6f;      // [m] of the blood in it
 constexpr int kWelling = 7, kSmears = 5;  // patches of blood around it, thick and thin
 constexpr float kStep = 0.7e-3f;          // [m] between two links of the rivulet
 constexpr int kLinks = 22;
-constexpr int kToCrest = 7, kStumpPatches = 9;
+constexpr int kToCrest = 7, kStumpPatches = 5;
 constexpr float kUnderside = 0.94f;  // cosine between surface and fall at which a rivulet ends as a hanging drop
 
 float own(int which) { return 2 * float(varied(977, which)) - 1; }
@@ -46,13 +46,13 @@ void list_rivulet(const Wound& wound, FilmPlace at, const SurfaceNear& surface, 
     const Vec3f across = cross(at.normal, normalised(fall, any_perpendicular(at.normal)));
     const float wind = 0.5f * std::sin(0.8f * float(n)) + 0.3f * own(n);
     const FilmPlace next = moved(at, kStep * (normalised(fall, Vec3f{}) + wind * across), surface);
-    const float wide = 0.52e-3f * (1 + 0.3f * own(40 + n)), thick = share * (150 - 3 * float(n)) * 1e-6f;
+    const float wide = 0.52e-3f * (1 + 0.3f * own(40 + n)), thick = share * (62 - 1.5f * float(n)) * 1e-6f;
     render::Splat s = film(wound, at, wide, thick * (0.75f + 0.3f * own(80 + n)));
     s.to = next.position;
     liquid.splats.push_back(s);
     at = next;
     if (dot(at.normal, wound.down) < kUnderside) continue;
-    liquid.splats.push_back(film(wound, at, 0.9e-3f, 300e-6f));
+    liquid.splats.push_back(film(wound, at, 0.9e-3f, 110e-6f));
     return;
   }
 }
@@ -80,8 +80,8 @@ void list_wound(const Wound& wound, const FilmPlace& hole, const SurfaceNear& su
     s.from -= long_way, s.to += long_way;
     liquid.splats.push_back(s);
   };
-  for (int n = 0; n < kWelling; ++n) patch(n, 0.8e-3f, 1.2e-3f, 0.55e-3f, 110e-6f);
-  for (int n = 0; n < kSmears; ++n) patch(kWelling + n, 2.6e-3f, 1.0e-3f, 0.75e-3f, 16e-6f);
+  for (int n = 0; n < kWelling; ++n) patch(n, 0.8e-3f, 1.2e-3f, 0.60e-3f, 38e-6f);
+  for (int n = 0; n < kSmears; ++n) patch(kWelling + n, 2.6e-3f, 1.0e-3f, 0.95e-3f, 9e-6f);
   render::Splat pit = film(wound, hole, kPit, kPitThick);
   pit.from -= (0.5f * kPit) * one, pit.to += (0.5f * kPit) * one;
   pit.dark = 0.7f;
@@ -99,11 +99,11 @@ void list_stump(const Wound& wound, const FilmPlace& end, float radius, render::
     const float behind = 0.1e-3f + 0.3e-3f * (1 + own(100 + n));
     const FilmPlace place{end.position + radius * out - behind * end.normal, out};
     const float wide = 0.55e-3f * (1 + 0.5f * own(200 + n));
-    liquid.splats.push_back(film(wound, place, wide, (15 + 11 * own(300 + n)) * 1e-6f));
-    if (n % 4 == 1) list_rivulet(wound, place, {}, liquid, 0.2f);
+    liquid.splats.push_back(film(wound, place, wide, (6 + 5 * own(300 + n)) * 1e-6f));
+    if (n % 4 == 1) list_rivulet(wound, place, {}, liquid, 0.15f);
   }
   // Its lumen and wall are wet with it, too.
-  liquid.splats.push_back(film(wound, end, 0.55f * radius, 24e-6f));
+  liquid.splats.push_back(film(wound, end, 0.5f * radius, 8e-6f));
 }
 
 }  // namespace trocar::view

@@ -1,7 +1,9 @@
 #include "common.glsl"
 
 uniform sampler3D u_noise;
-uniform vec4 u_look;  // density, three numbers that make each puff its own
+uniform vec4 u_look;  // density, where its curls' middle is [m]
+uniform vec3 u_right, u_up;  // the eye's axes in the world
+uniform float u_reach;       // radius [m]
 in vec2 v_corner;
 in vec3 v_eye;
 out vec4 o_colour;
@@ -9,10 +11,12 @@ out vec4 o_colour;
 void main() {
   float r2 = dot(v_corner, v_corner);
   float body = clamp(1.0 - r2, 0.0, 1.0);
-  // Curls eat into its rim, so that puffs which overlap are one plume and no balls.
-  float curls = 0.65 * texture(u_noise, vec3(v_corner * 0.075, 0.0) + u_look.yzw).a +
-                0.35 * texture(u_noise, vec3(v_corner * 0.21, 0.4) + u_look.zwy).a;
-  float alpha = clamp(u_look.x * smoothstep(0.0, 1.5, body * body * (0.35 + 1.8 * smoothstep(0.25, 0.75, curls))), 0.0, 0.95);
+  // Puffs that overlap share one field of curls, which rises with them: they are one plume and no balls.
+  vec3 at = u_look.yzw + u_reach * (v_corner.x * u_right + v_corner.y * u_up);
+  vec4 swirl = texture(u_noise, at * 9.0);
+  vec3 drawn = at + 0.005 * (swirl.rgb * 2.0 - 1.0);
+  float curls = 0.6 * texture(u_noise, drawn * 17.0).a + 0.4 * texture(u_noise, drawn.zxy * 46.0).a;
+  float alpha = clamp(u_look.x * body * body * (0.12 + 1.5 * smoothstep(0.28, 0.80, curls)), 0.0, 0.95);
   Lit lit = light_at(v_eye);
   vec3 colour = FOG_COLOUR * (min(lit.power, 6.0) * 0.6 + 0.25 * lit.bounce);
   o_colour = vec4(colour * alpha, alpha);

@@ -101,7 +101,10 @@ void main() {
   colour = mix(colour, mirrored(r, lit.bounce, quick.g), share_back);
   // The rim is a bent mirror all along: its line of light is thin and even, no row of beads.
   vec3 shine = highlight(n, V, lit, u_shine.y);
-  colour += mix(shine, min(shine, LIGHT_COLOUR * (0.45 * lit.power)), rim);
+  colour += mix(shine, min(shine, LIGHT_COLOUR * (0.10 * lit.power)), smoothstep(0.0, 0.25, rim));
+  // Its waves are finer than a pixel and broad: a soft sheen where it is turned to the lamp, broken by the clouds' unrest.
+  float turned = clamp(dot(n, normalize(lit.direction + V)), 0.0, 1.0);
+  colour += LIGHT_COLOUR * (0.022 * lit.power * lobe(turned, 0.16) * (0.4 + 0.6 * smoothstep(0.2, 0.8, slow.g)));
   colour = mix(below.rgb, colour, edge);
   o_colour = vec4(colour, far);
 }

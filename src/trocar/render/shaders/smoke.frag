@@ -21,6 +21,8 @@ const int kSteps = 8;
 const int kSteps = 6;
 #endif
 
+const float kByLaw = 0.68, kLeastSeen = 0.58;  // of the light from behind
+
 void main() {
   vec3 way = normalize(vec3((2.0 * v_uv - 1.0) * u_tan.xy + vec2(u_tan.z, 0.0), -1.0));
   float far = texture(u_scene, v_uv).a;
@@ -54,5 +56,9 @@ void main() {
       clear *= 1.0 - taken;
     }
   }
-  o_smoke = vec4(back, clear, far);
+  // A camera's gain and the surgeon's eye go on seeing shapes where the eye alone would not: no denser than this (our choice).
+  float knee = kByLaw - kLeastSeen;
+  float kept = clear > kByLaw ? clear : kLeastSeen + knee * exp((clear - kByLaw) / knee);
+  back *= (1.0 - kept) / max(1.0 - clear, 1.0e-4);
+  o_smoke = vec4(back, kept, far);
 }

@@ -57,22 +57,22 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
     float side = dot(at, u_soil.wz) + 0.18 * (streaks - 0.5) + 0.12 * dot(at, vec2(-u_soil.z, u_soil.w)) * sin(9.0 * u_smear.w);
     float edge = mix(-1.7, 1.7, u_smear.w);
     float wiped = 1.0 - smoothstep(edge - 0.28, edge + 0.1, side);
-    float off = (side - edge) / 0.42;
+    float off = (side - edge) / 0.27;
     swab = clamp(1.6 - off * off + 0.35 * (broad.g - 0.5), 0.0, 1.0);
     swab = swab * swab * (3.0 - 2.0 * swab);
-    fog *= 1.0 - wiped * (0.62 + 0.38 * (1.0 - streaks));
-    smear = max(smear, 0.85 * wiped * exp(-1.5 * clamp(edge - side, 0.0, 3.0)));
+    fog *= 1.0 - wiped * (0.90 + 0.10 * smoothstep(0.15, 0.6, 1.0 - streaks));
+    smear = max(smear, 0.55 * wiped * exp(-4.0 * clamp(edge - side, 0.0, 3.0)));
 #endif
 
   float greasy = 0.0;
 #ifdef SMEARED
-  greasy = smear * (0.25 + 0.75 * streaks);
+  greasy = smear * (0.10 + 0.90 * streaks * streaks);
 #endif
 
   float by = max(fog, 0.55 * greasy);
   picture = blurred(uv, picture, by);
   vec3 veil = mix(mean, vec3(light), 0.55);
-  picture = mix(picture, veil * 1.15 + 0.05, 0.55 * fog);
+  picture = mix(picture, veil * 0.98 + 0.03, 0.46 * fog);
   picture *= 1.0 + 0.03 * beads;
   picture = mix(picture, veil * u_smear.rgb * 1.05 + 0.02, 0.33 * greasy);
 

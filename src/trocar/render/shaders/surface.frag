@@ -253,15 +253,15 @@ void main() {
                  textureLod(u_noise, kTurn * v_rest * 200.0, 0.0) +
                  textureLod(u_noise, kTurn * (v_rest - 0.0005 * inwards) * 200.0, 0.0);
     folds *= 1.0 / 3.0;
-    float at = BURN + 0.30 * (patchy.a - 0.5) + 0.24 * (folds.a - 0.5);
+    float at = 1.1 * BURN + 0.26 * (patchy.a - 0.5) + 0.22 * (folds.a - 0.5);
     float pale = smoothstep(0.0, 0.36, BURN + 0.10 * (patchy.a - 0.5) * smoothstep(0.0, 0.2, BURN));
     crust = smoothstep(0.34, 0.60, at);
     float burnt = smoothstep(0.46, 0.92, at + 0.16 * (grain.g - 0.5));
     float crack = crust * (1.0 - smoothstep(0.02, 0.10, abs(patchy.r - 0.5 + 0.10 * (folds.g - 0.5))));
-    glassy = crust * smoothstep(0.46, 0.60, grain.b);
-    albedo = mix(albedo, vec3(0.66, 0.47, 0.39) * (0.88 + 0.24 * folds.a), 0.8 * pale);
-    vec3 charred = mix(vec3(0.24, 0.105, 0.045), vec3(0.060, 0.023, 0.011), smoothstep(0.0, 0.5, burnt));
-    charred = mix(charred, vec3(0.0125, 0.0056, 0.0038), smoothstep(0.4, 1.0, burnt));
+    glassy = crust * smoothstep(0.40, 0.56, grain.b);
+    albedo = mix(albedo, vec3(0.67, 0.455, 0.395) * (0.88 + 0.24 * folds.a), 0.8 * pale);
+    vec3 charred = mix(vec3(0.24, 0.082, 0.045), vec3(0.066, 0.020, 0.012), smoothstep(0.0, 0.5, burnt));
+    charred = mix(charred, vec3(0.0135, 0.0050, 0.0038), smoothstep(0.4, 1.0, burnt));
     albedo = mix(albedo, charred * (0.65 + 0.7 * grain.a), 0.95 * crust);
     albedo *= 1.0 - 0.7 * crack;
     vec3 puckered = folds.rgb * 2.0 - 1.0;
@@ -276,7 +276,7 @@ void main() {
   float blood = clamp(cover * (0.16 + 0.84 * BLOOD) * (0.8 + 0.4 * broad.a), 0.0, 1.0);
   albedo *= exp(-blood * vec3(2.1, 5.4, 4.8));
   float raw = smoothstep(0.5, 0.85, blood);
-  albedo = mix(albedo, vec3(0.062, 0.0068, 0.0080) * (0.45 + 1.1 * smoothstep(0.25, 0.75, fine.a)), raw);
+  albedo = mix(albedo, vec3(0.046, 0.0046, 0.0056) * (0.30 + 1.25 * smoothstep(0.25, 0.75, fine.a)), raw);
   relief += (fine.rgb * 2.0 - 1.0) * (0.35 * raw);
 #endif
 
@@ -350,6 +350,9 @@ void main() {
   vec3 around = 0.7 * mirrored(reflect(-V, m), 0.03, lit.bounce);
 #else
   vec3 around = (BOUNCE * 1.5 + vec3(AMBIENT) * 0.5) * lit.bounce;
+#endif
+#ifdef STAINED
+  gloss *= 1.0 + 2.5 * glassy;  // charred protein is as smooth as glass here and there
 #endif
   vec3 shine = LIGHT_COLOUR * gloss + around * (grazing * wet * open);
 

@@ -65,7 +65,7 @@ void main() {
     vec2 grows = vec2(film_at(film_uv + vec2(aside.x, 0.0)), film_at(film_uv + vec2(0.0, aside.y))) - stain;
     film_rise = vec3(clamp(grows / 0.00045, vec2(-0.4), vec2(0.4)), 0.0);
 #endif
-    film *= (0.30 + 1.2 * smoothstep(0.25, 0.75, 0.6 * streak + 0.4 * fine.a)) * (1.0 + 1.1 * edge * edge);
+    film *= (0.30 + 1.2 * smoothstep(0.25, 0.75, 0.6 * streak + 0.4 * fine.a)) * (1.0 + 0.7 * edge * edge);
     stain = dot(film.rgb, vec3(1.0));
   }
 
@@ -86,7 +86,8 @@ void main() {
   // No liquid that moves is as smooth as glass.
   vec3 n = normalize(base - vec3(rise - (fine.gb - 0.5) * 0.34, 0.0));
   vec3 amount = thick.rgb / max(field.w, 1.0e-6) * (cover * max(in_drop, mix(0.03, 0.3, flying)));
-  float dark = clamp(mark - 2.0 * flying, 0.0, 1.0);
+  // Beside streaks, which only mark, the sum says nothing.
+  float dark = clamp(mark - 2.0 * flying, 0.0, 1.0) * step(mark, 3.0);
   dark = mix(film.w / max(stain, 1.0e-7), dark, cover);
   amount += film.rgb;
   vec3 through = let_through(2.0 * amount, dark);
@@ -96,13 +97,15 @@ void main() {
   float facing = clamp(0.25 + 0.75 * dot(n, lit.direction), 0.0, 1.0);
   vec3 light = LIGHT_COLOUR * (lit.power * facing) + (BOUNCE + vec3(AMBIENT)) * lit.bounce;
   // What flies is lit from all round.
-  vec3 deep = deep_colour(amount, dark) * (1.0 + 0.5 * flying);
+  // What lies is dark and uneven, as its cells gather here and there.
+  float lying = (0.34 + 0.40 * smoothstep(0.25, 0.75, 0.6 * fine.a + 0.4 * streak)) * (1.0 - flying);
+  vec3 deep = deep_colour(amount, dark) * (lying + 1.35 * flying) + vec3(0.0, 0.0045, 0.0065) * lying;
   vec3 colour = below * through + deep * light * (1.0 - through);
 
   // Wet: the lamp in drops, broken by the tissue's unevenness in films; the walls where seen at a grazing angle. What
   // flies is too quick to be seen to shine.
   float gloss = smoothstep(4.0e-6, 2.5e-5, stain) * (1.0 - cover) * (1.0 - flying);
-  vec3 shine = cover * (1.0 - 0.75 * flying) * highlight(n, V, lit, u_shine.y);
+  vec3 shine = cover * (1.0 - 0.78 * flying) * highlight(n, V, lit, u_shine.y);
 #if DETAIL >= 1
   vec3 wrinkle = (fine.rgb * 2.0 - 1.0) * 0.45 + (texture(u_noise, place.zxy * 11.0).rgb * 2.0 - 1.0) * 0.35;
   vec3 m = normalize(base + vec3(dot(wrinkle, u_right), dot(wrinkle, u_up), 0.0) - film_rise);
