@@ -166,6 +166,18 @@ TEST(BowelLoops, TheLargeBowelsEndIsInsideWhatGoesOnFromIt) {
   EXPECT_GT(looked, 10);
 }
 
+TEST(BowelLoops, TheRectumGoesOnFromItsOtherEndAndIsLostBelow) {
+  const std::vector<Vec3d> line = line_of(loops().large);
+  const tissue::Skin& bowel = solid("bowel").fine;
+  Vec3d tip = line[5];
+  for (const Vec3f& v : bowel.rest)
+    if (length(vec_cast<double>(v) - line[5]) > length(tip - line[5])) tip = vec_cast<double>(v);
+  double nearest = 1;
+  for (const Vec3d& p : line) nearest = std::min(nearest, length(p - tip));
+  EXPECT_LT(nearest, 0.02);
+  EXPECT_GT(dot(line.back() - tip, normalised(pelvis().gravity)), 0.02);
+}
+
 TEST(BowelLoops, SmallBowelIsBesideItselfAndBesideTheLarge) {
   const std::vector<Vec3d> line = line_of(loops().small);
   ASSERT_GT(line.size(), 100u);

@@ -75,13 +75,14 @@ class Floor {
   const WallSurface* m_walls;
 };
 
-/// Where a large bowel's skin ends towards the border: the end's middle, its way out of there, its radius.
+/// Where a large bowel's skin ends: the end's middle, its way out of there, its radius.
 struct GutEnd {
   Vec3d middle, onward;
   double radius = 0;
 };
 
-GutEnd end_of(const tissue::Skin& skin, const std::vector<Edge>& edges) {
+/// The skin's vertex nearest to the border.
+Vec3d tip_at(const tissue::Skin& skin, const std::vector<Edge>& edges) {
   Vec3d tip{};
   double nearest = 1;
   for (const Vec3f& v : skin.rest)
@@ -90,6 +91,18 @@ GutEnd end_of(const tissue::Skin& skin, const std::vector<Edge>& edges) {
         nearest = d;
         tip = vec_cast<double>(v);
       }
+  return tip;
+}
+
+/// Its vertex farthest from there: the other end.
+Vec3d tip_beyond(const tissue::Skin& skin, Vec3d first) {
+  Vec3d tip = first;
+  for (const Vec3f& v : skin.rest)
+    if (length(vec_cast<double>(v) - first) > length(tip - first)) tip = vec_cast<double>(v);
+  return tip;
+}
+
+GutEnd end_at(const tissue::Skin& skin, Vec3d tip) {
   const auto mean = [&](double from, double to) {
     Vec3d sum{};
     int count = 0;
@@ -131,18 +144,34 @@ GutLine large_bowel(const GutEnd& end, const Floor& floor) {
   return line;
 }
 
+/// At its other end the rectum goes on behind the womb and down below the floor of the pouch.
+GutLine rectum(const GutEnd& end, Vec3d up) {
+  const Vec3d away = normalised(end.onward - dot(end.onward, up) * up, end.onward);
+  const Vec3d knots[] = {end.middle - kBack * end.onward,        end.middle,
+                         end.middle + 0.012 * end.onward,        end.middle + 0.026 * away - 0.006 * up,
+                         end.middle + 0.036 * away - 0.022 * up, end.middle + 0.04 * away - 0.05 * up};
+  GutLine line;
+  line.points = line_through(knots);
+  for (std::size_t i = 0; i < line.points.size(); ++i) {
+    const double along = kGutStep * double(i) - kBack;
+    line.radius.push_back(end.radius * (0.8 + 0.18 * smooth(-0.6 * kBack, 0.004, along)));
+    line.hold.push_back(1);
+  }
+  return line;
+}
+
 /// From beyond the border in and out again, each leg beside the one before, then back over them and out.
 GutLine small_bowel(const Floor& floor) {
   constexpr double low = 0.9 * kRadius, high = 2.5 * kRadius;
   struct Knot {
     double t, in, high;
   };
-  constexpr Knot knots[] = {{0.50, -0.055, -0.03}, {0.50, -0.030, low},  {0.51, 0.004, low},  {0.53, 0.028, low},
-                            {0.575, 0.044, low},   {0.63, 0.034, low},   {0.64, 0.014, low},  {0.65, -0.010, low},
-                            {0.69, -0.026, low},   {0.74, -0.012, low},  {0.745, 0.020, low}, {0.755, 0.044, low},
-                            {0.80, 0.060, low},    {0.865, 0.048, low},  {0.875, 0.024, low}, {0.82, 0.002, 0.022},
-                            {0.74, 0.012, high},   {0.66, 0.022, high},  {0.60, 0.006, high}, {0.58, -0.030, high},
-                            {0.56, -0.055, 0.01},  {0.55, -0.075, -0.03}};
+  constexpr Knot knots[] = {{0.50, -0.055, -0.03}, {0.50, -0.030, low},  {0.51, 0.004, low},   {0.53, 0.028, low},
+                            {0.575, 0.044, low},   {0.63, 0.034, low},   {0.64, 0.014, low},   {0.65, -0.010, low},
+                            {0.69, -0.026, low},   {0.74, -0.012, low},  {0.745, 0.020, low},  {0.755, 0.034, low},
+                            {0.79, 0.045, low},    {0.86, 0.050, low},   {0.95, 0.046, low},   {1.0, 0.028, low},
+                            {0.96, 0.006, low},    {0.88, 0.0, 0.022},   {0.74, 0.012, high},  {0.66, 0.022, high},
+                            {0.60, 0.006, high},   {0.58, -0.030, high}, {0.56, -0.055, 0.01}, {0.55, -0.075, -0.03}};
   std::vector<Vec3d> places;
   for (const Knot& k : knots) places.push_back(floor.at(k.t, k.in, k.high));
   GutLine line;
@@ -164,7 +193,7 @@ BowelLoops bowel_loops(const sim::Model& model, const WallSurface& walls) {
   if (model.walls.empty() || large == model.solids.end()) return loops;
   const std::vector<Edge> edges = floor_of(model, model.walls.front().skin);
   if (edges.size() < 8) return loops;
-  const GutEnd end = end_of(large->fine, edges);
+  const GutEnd end = end_at(large->fine, tip_at(large->fine, edges));
   const Floor floor(edges, walls, end.middle);
   std::vector<GutLine> lines{large_bowel(end, floor), small_bowel(floor)};
   std::vector<Vec3d> bodies;
@@ -172,6 +201,10 @@ BowelLoops bowel_loops(const sim::Model& model, const WallSurface& walls) {
   settle(lines, bodies, walls);
   const Vec3d up = -normalised(model.gravity, Vec3d{0, 0, -1});
   loops.large = gut(lines[0], up, 1);
+  const MeshBuffer other = gut(rectum(end_at(large->fine, tip_beyond(large->fine, end.middle)), up), up, 3);
+  append(loops.large, other, Mat3f::identity(), {});
+  loops.large.rest.insert(loops.large.rest.end(), other.rest.begin(), other.rest.end());
+  loops.large.normals.insert(loops.large.normals.end(), other.normals.begin(), other.normals.end());
   loops.small = gut(lines[1], up, 2);
   return loops;
 }

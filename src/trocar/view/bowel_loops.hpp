@@ -1,6 +1,6 @@
 // Bowel that is not simulated: below the border of a wall that is a floor there would be an empty bowl. The large bowel
-// goes on out of view, loops of small bowel lie on the other side of it. Drawing only; they do not move, instruments
-// pass through them.
+// goes on out of view at both ends, loops of small bowel lie on the other side of it. Drawing only; they do not move,
+// instruments pass through them.
 #pragma once
 
 #include <trocar/view/mesh_buffer.hpp>
@@ -9,7 +9,8 @@
 namespace trocar::view {
 
 struct BowelLoops {
-  MeshBuffer small, large;
+  MeshBuffer small;
+  MeshBuffer large;  ///< what goes on from its end at the border, then from its other end
 };
 
 /// Empty where no organ of the scene is large bowel that they could lie beside, or no border is a floor.

@@ -8,14 +8,25 @@
 namespace trocar::view {
 namespace {
 
-constexpr int kSpokes = 72, kOnRings = 12, kRings = 26;  // on the organ; all
-constexpr std::size_t kHemRows = 11;                     // that take on the wall's normal
+constexpr int kSpokes = 72, kOnRings = 18, kRings = 38;  // on the organ; all
+constexpr std::size_t kHemRows = 16;                     // that take on the wall's normal
 constexpr float kAway = 0.036f;     // [m] how far from the organ's rim its sheet reaches a wall, about
 constexpr float kOver = 0.0022f;    // [m] above the organ, whose relief is that high
 constexpr float kShoulder = 0.7f;   // [rad] how far the plane leans that touches the organ where the sheet leaves it
 constexpr float kSunk = 0.004f;     // [m] the hem below what it runs out on
 constexpr float kOnWall = 0.0015f;  // [m] ... or a wall
 constexpr double kTwoPi = 6.28318530717959;
+
+constexpr double kFolds = 0.0028, kFoldSize = 0.019;  // [m] depth of the furrows of an empty bladder's sheet, distance
+constexpr double kLifted = 0.6;                       // share of it that the folds stand above the sheet
+
+/// 0..1: round folds run across the sheet; the narrow furrows between them begin and end anywhere.
+double furrow_at(Vec3d p) {
+  const Vec3d bent = p + Vec3d{0, 0.2 * kFoldSize * waves(p, 1.6 * kFoldSize), 0};
+  const double across = waves({0.45 * bent.x, bent.y, bent.z}, 1.5 * kFoldSize);
+  const double there = smooth(-0.5, 0.2, waves(p + Vec3d{0.05, 0.03, 0}, 2.4 * kFoldSize));
+  return there * std::pow(std::max(0.0, 1 - std::fabs(across) / 0.8), 1.6);
+}
 
 Vec3f middle_of(std::span<const Vec3f> points) {
   Vec3f sum{};
@@ -87,15 +98,27 @@ Drape::Drape(const sim::Model& model, int solid, const std::vector<OrganDrawing>
     join_rows(m_buffer, (k + 1) % kSpokes * kRings, k * kRings, kRings, false);
   place(organs);
   m_buffer.rest = m_buffer.positions;
+  fold();
+  place(organs);
   for (int k = 0; k < kSpokes; ++k)
     for (int r = 0; r < kRings; ++r) {
       const std::size_t i = std::size_t(k * kRings + r);
       const double w = double(r) / (kRings - 1);
-      // Goes over into the wall's colour.
-      m_buffer.paint[i] = {to_byte(1 - 0.28 * smooth(0.45, 0.65, w) * smooth(1, 0.85, w)), 0, 0,
-                           to_byte(smooth(0.55, 0.95, w))};
+      const double wall = m_spokes[std::size_t(k)].hem.solid < 0 ? 1 : 0;  // on the womb it keeps its own
+      // Goes over into the wall's colour; furrows lie in shade.
+      const double deep = std::clamp(kLifted - double(m_fold[i]) / kFolds, 0.0, 1.0);
+      m_buffer.paint[i] = {
+          to_byte((1 - (0.1 + 0.18 * wall) * smooth(0.4, 0.7, w) * smooth(1, 0.85, w)) * (1 - 0.4 * deep)), 0, 0,
+          to_byte(wall * smooth(0.55, 0.95, w))};
     }
   m_mesh = OwnedMesh(backend, m_buffer.data());
+}
+
+void Drape::fold() {
+  for (std::size_t i = 0; i < m_buffer.rest.size(); ++i) {
+    const double w = double(i % kRings) / (kRings - 1);
+    m_fold.push_back(float(kFolds * (kLifted - furrow_at(vec_cast<double>(m_buffer.rest[i]))) * smooth(0.85, 0.3, w)));
+  }
 }
 
 void Drape::place(const std::vector<OrganDrawing>& organs) {
@@ -124,7 +147,7 @@ void Drape::place(const std::vector<OrganDrawing>& organs) {
     }
     // It leaves the organ on its tangent, to the hem.
     const Vec3f b = m_buffer.positions[k * kRings + kOnRings - 1],
-                before = m_buffer.positions[k * kRings + kOnRings - 4];
+                before = m_buffer.positions[k * kRings + kOnRings - 6];
     const Vec3f slope = normalised(b - before, m_spokes[k].out), way = m_hem[k] - b;
     // On a wall it ends along it, as a fillet does: an edge there would catch the light like the rim of a dish.
     const Hem& hem = m_spokes[k].hem;
@@ -148,6 +171,7 @@ void Drape::place(const std::vector<OrganDrawing>& organs) {
         Vec3f& p = m_buffer.positions[k * kRings + r];
         p = 0.5f * p + 0.25f * (m_buffer.positions[k * kRings + r - 1] + m_buffer.positions[k * kRings + r + 1]);
       }
+  for (std::size_t i = 0; i < m_fold.size(); ++i) m_buffer.positions[i] += m_fold[i] * m_up;
   render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);
   for (std::size_t k = 0; k < m_spokes.size(); ++k)  // no seam: as the wall's at the hem
     for (std::size_t r = kRings - kHemRows; r < kRings && m_spokes[k].hem.solid < 0; ++r) {

@@ -36,7 +36,9 @@ class Drape {
     Hem hem;
   };
   void place(const std::vector<OrganDrawing>& organs);
+  void fold();  ///< from the positions at rest
 
+  std::vector<float> m_fold;  ///< [m] how high each vertex stands: the sheet is slack
   int m_solid;
   Vec3f m_up;  ///< away from what the organ rests on
   std::vector<Spoke> m_spokes;

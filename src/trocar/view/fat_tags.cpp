@@ -12,9 +12,9 @@ constexpr double kApart = 0.0085;                   // [m] between two tags of m
 constexpr double kSunk = 0.0022;                    // [m] a tag's foot lies below the skin
 constexpr float kAround = 0.02f, kUnder = 0.0009f;  // [m] skin around a tag; the foot's edge lies below it
 constexpr int kSides = 24, kRings = 18;
-constexpr int kLobes = 14;
-constexpr int kParts = 3;       // mounds of a tag, at most
-constexpr double kBend = 0.17;  // how fast a tag turns to hang down, a ring
+constexpr int kLobes = 10;
+constexpr int kParts = 3;      // mounds of a tag, at most
+constexpr double kBend = 0.3;  // how fast a tag turns to hang down, a ring
 
 Mat3f frame_at(const OrganDrawing& organ, std::uint32_t at, std::uint32_t beside) {
   const Vec3f n = organ.normals()[at], way = organ.positions()[beside] - organ.positions()[at];
@@ -27,18 +27,18 @@ double lobes(Vec3d out, int seed) {
   double most = 0;
   for (int k = 0; k < kLobes; ++k) {
     const double up = 2 * varied(seed, 41 + k) - 1, turn = kTwoPi * varied(seed, 61 + k);
-    const double level = std::sqrt(1 - up * up), size = 0.3 + 0.5 * varied(seed, 81 + k) * varied(seed, 101 + k);
+    const double level = std::sqrt(1 - up * up), size = 0.45 + 0.3 * varied(seed, 81 + k);
     const Vec3d centre{level * std::cos(turn), level * std::sin(turn), up};
     const double far = length(out - centre) / size;
     most = std::max(most, size * std::sqrt(std::max(0.0, 1 - 0.8 * far * far)));
   }
-  return 0.72 + 0.45 * most;
+  return 0.88 + 0.18 * most;
 }
 
 /// How wide a mound is at `u` (0 foot .. 1 tip), of its width.
 double profile(double u) {
-  const double body = std::sqrt(std::max(0.0, 1 - std::pow(std::max(0.0, u - 0.3) / 0.7, 2)));
-  return body * (0.8 + 0.25 * smooth(0.25, 0.6, u));
+  const double body = std::sqrt(std::max(0.0, 1 - std::pow(std::max(0.0, u - 0.52) / 0.48, 2)));
+  return body * (0.8 + 0.3 * smooth(0.25, 0.62, u));
 }
 
 /// Its foot runs out on the bowel: how much wider it is `high` above the skin [m], of its width.
@@ -50,8 +50,8 @@ double skirt(double high) {
 /// A lobed mound of fat: broad on the bowel, then hanging over along `down` (unit, in the same frame).
 MeshBuffer mound(Vec3d down, int seed, double size) {
   MeshBuffer b;
-  const double length = size * (0.0062 + 0.0034 * varied(seed, 21)), wide = size * (0.0030 + 0.0014 * varied(seed, 22));
-  const double flat = 0.62 + 0.3 * varied(seed, 23), turned = kTwoPi * varied(seed, 24);
+  const double length = size * (0.0082 + 0.0048 * varied(seed, 21)), wide = size * (0.0027 + 0.0012 * varied(seed, 22));
+  const double flat = 0.5 + 0.3 * varied(seed, 23), turned = kTwoPi * varied(seed, 24);
   Vec3d p{0, 0, -kSunk}, along = normalised(Vec3d{0.45 * down.x, 0.45 * down.y, 1}),
                          x{std::cos(turned), std::sin(turned), 0};
   std::uint32_t before = 0;
@@ -72,7 +72,7 @@ MeshBuffer mound(Vec3d down, int seed, double size) {
         const double level = std::sqrt(std::max(0.0, 1 - std::pow(2 * u - 1, 2)));
         const double lump = 1 + smooth(0.2, 0.45, u) * (lobes({level * c, level * s, 2 * u - 1}, seed) - 1);
         Paint own = paint;  // furrows between the lobes lie in shade
-        own.openness = to_byte(paint.openness / 255.0 * (0.6 + 0.4 * smooth(0.7, 0.98, lump)));
+        own.openness = to_byte(paint.openness / 255.0 * (0.8 + 0.2 * smooth(0.84, 1.0, lump)));
         b.add(vec_cast<float>(p + (r * lump) * (c * x + flat * s * y) + (0.5 * wide * (lump - 1)) * along), own);
       }
       if (i == 1)

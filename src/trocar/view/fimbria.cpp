@@ -36,7 +36,6 @@ struct Leaf {
   double lean;      ///< [rad] outwards at its end, more than at the rim
   double sway;      ///< [rad] sideways
   double reaches;   ///< 0..1: how far it is drawn to the ovary
-  double notch;     ///< 0..1: its end parts in two
   int seed;
   double middle() const { return 0.5 * (from + to); }
 };
@@ -45,7 +44,8 @@ Vec3d outwards(double angle) { return {0, std::cos(angle), std::sin(angle)}; }
 Vec3d around(double angle) { return {0, -std::sin(angle), std::cos(angle)}; }
 double apart(double a, double b) { return std::fabs(std::remainder(a - b, 2 * kPi)); }
 
-/// Unequal shares of the rim; every other leaf is shorter, stands up and belongs to the inner order.
+/// Unequal shares of the rim in three orders: long ones that fall outwards, middling ones, and between them short ones
+/// that stand up around the mouth.
 std::vector<Leaf> leaves_of(const FimbriaSite& site) {
   std::vector<Leaf> leaves(kLeaves);
   std::vector<double> border(kLeaves + 1);
@@ -56,14 +56,14 @@ std::vector<Leaf> leaves_of(const FimbriaSite& site) {
   const double to_ovary = std::atan2(site.land.z, site.land.y);
   for (int i = 0; i < kLeaves; ++i) {
     Leaf& f = leaves[std::size_t(i)];
-    const bool inner = i % 2 == 1;
+    const int order = i % 2 == 1 ? 2 : (i / 2) % 2;
+    constexpr double longest[] = {1.55, 1.2, 0.8}, falls[] = {1.15, 0.7, 0.15};
     f.seed = seed + i;
     f.from = border[std::size_t(i)];
     f.to = border[std::size_t(i) + 1];
-    f.length = site.radius * (inner ? 1.05 : 1.6) * (0.6 + 0.8 * varied(f.seed, 4));
-    f.lean = (inner ? 0.3 : 1.7) + 1.1 * (varied(f.seed, 6) - 0.5);
-    f.sway = 1.3 * (varied(f.seed, 8) - 0.5);
-    f.notch = varied(f.seed, 5) > 0.55 ? 1.0 : 0.1;
+    f.length = site.radius * longest[order] * (0.75 + 0.5 * varied(f.seed, 4));
+    f.lean = falls[order] + 0.8 * (varied(f.seed, 6) - 0.5);
+    f.sway = 1.1 * (varied(f.seed, 8) - 0.5);
     const double off = apart(f.middle(), to_ovary);
     f.reaches = site.ovary ? smooth(1.2, 0.35, off) : 0;
   }
@@ -73,7 +73,6 @@ std::vector<Leaf> leaves_of(const FimbriaSite& site) {
     });
     for (Leaf& f : leaves) f.reaches = std::min(f.reaches, 0.75);
     nearest->reaches = 1;
-    nearest->notch = 0.1;
   }
   return leaves;
 }
@@ -87,7 +86,7 @@ using Spines = std::array<Spine, kRings + 1>;
 /// Rings stand closer towards the tip.
 double along_leaf(int ring) {
   const double t = double(ring) / kRings;
-  return 0.55 * t + 0.45 * std::sin(0.5 * kPi * t);
+  return 0.35 * t + 0.65 * std::sin(0.5 * kPi * t);
 }
 
 /// By its own bend and weight.
@@ -117,13 +116,23 @@ Spines landing(const Leaf& f, const FimbriaSite& site) {
   const double far = length(b - a);
   const Vec3d da = (1.1 * far) * (std::cos(kRimLean) * Vec3d{1, 0, 0} + std::sin(kRimLean) * out),
               db = (1.3 * far) * normalised(site.slide - 0.25 * site.normal, site.slide);
+  Vec3d carried = side;
   for (int i = 0; i <= kRings; ++i) {
     const double t = along_leaf(i), u = 1 - t;
     const Vec3d p = (u * u * (1 + 2 * t)) * a + (t * t * (3 - 2 * t)) * b + (u * u * t) * da - (t * t * u) * db;
     const Vec3d along = normalised((6 * t * u) * (b - a) + (u * (1 - 3 * t)) * da + (t * (3 * t - 2)) * db, site.slide);
-    const Vec3d lying = cross(-site.normal, along), wish = (1 - t) * side + t * (dot(lying, side) < 0 ? -lying : lying);
-    const Vec3d across = normalised(wish - dot(wish, along) * along, any_perpendicular(along));
-    spine[std::size_t(i)] = {p, along, across, cross(along, across)};
+    carried = normalised(carried - dot(carried, along) * along, any_perpendicular(along));
+    spine[std::size_t(i)] = {p, along, carried, cross(along, carried)};
+  }
+  // What it must turn about itself to lie flat at the end is shared out along it.
+  const Spine& last = spine[kRings];
+  const Vec3d lying = cross(-site.normal, last.along);
+  const double turn = std::remainder(std::atan2(dot(lying, last.flat), dot(lying, last.across)), kPi);
+  for (int i = 0; i <= kRings; ++i) {
+    Spine& s = spine[std::size_t(i)];
+    const double by = turn * smooth(0.1, 0.8, along_leaf(i));
+    s.across = std::cos(by) * s.across + std::sin(by) * s.flat;
+    s.flat = cross(s.along, s.across);
   }
   return spine;
 }
@@ -144,22 +153,23 @@ Spines spine_of(const Leaf& f, const FimbriaSite& site) {
   return own;
 }
 
-/// Half the width over half the share of the rim: widest before the middle, lobed edges, a round end.
-double half_width(const Leaf& f, double u, bool right) {
+/// 1 up to the round end, 0 at the tip.
+double round_end(double u, double end) {
+  return std::sqrt(std::max(0.0, 1 - std::pow(std::max(0.0, (u - 1 + end) / end), 2.4)));
+}
+
+/// Half the width over half the share of the rim: a petal, widest beyond its middle, with soft scallops and a round
+/// end.
+double half_width(const Leaf& f, double u, double end, bool right) {
   const int k = 2 * f.seed + (right ? 1 : 0);
-  const double body = 1 + (0.22 + 0.3 * varied(f.seed, 23)) * smooth(0, 0.4, u) - 0.45 * smooth(0.4, 1.0, u);
-  // Round lobes with narrow clefts between them.
-  const double turn = (6 + 3 * varied(k, 2)) * u + 3.1 * varied(k, 1);
-  const double lobes = smooth(0.05, 0.35, u) * (0.42 * std::pow(std::fabs(std::sin(turn)), 0.7) - 0.24);
-  const double tip = std::sqrt(std::max(0.0, 1 - std::pow(std::max(0.0, (u - 0.7) / 0.3), 2)));
-  return (body + lobes) * (0.16 + 0.84 * tip);
+  const double body = 1 + (0.25 + 0.4 * varied(f.seed, 23)) * smooth(0.05, 0.6, u);
+  const double turn = (7 + 4 * varied(k, 2)) * u + 6.3 * varied(k, 1);
+  const double scallops = 0.13 * smooth(0.1, 0.35, u) * std::sin(turn);
+  return (body + scallops) * (0.03 + 0.97 * round_end(u, end));
 }
 
 /// How far the column at `w` (-1..1 across) goes, over the leaf's length.
-double reach(const Leaf& f, double w) {
-  const double split = f.notch * 0.22 * std::exp(-w * w / 0.05);
-  return 1 - 0.1 * w * w - split - 0.025 * (1 + std::sin(8 * w + f.seed)) * (1 - w * w);
-}
+double reach(const Leaf& f, double w) { return 0.97 - 0.03 * std::sin(2.5 * w + f.seed); }
 
 /// How high the folds of the inner side stand at a column of the rim, 0..1; each has its own height.
 double fold_at(int column) {
@@ -182,16 +192,16 @@ Sheets place_on(const Leaf& f, const Spines& spine, const FimbriaSite& site, int
   const Vec3d point = (1 - t) * a.point + t * b.point, across = (1 - t) * a.across + t * b.across,
               flat = (1 - t) * a.flat + t * b.flat;
   const double sector = 0.5 * (f.to - f.from) * kBell.back()[1] * site.radius;
-  const double half = sector * half_width(f, v, w > 0);
+  const double end = std::clamp(1.5 * sector / f.length, 0.2, 0.55);
+  const double half = sector * half_width(f, v, end, w > 0);
   // Edges are longer than the middle: they rise and fall in a frill, and the leaf is a shallow trough.
-  const double edge = std::fabs(w) * w * w, loose = smooth(0.05, 0.5, v);
+  const double edge = std::fabs(w) * w * w, loose = smooth(0.05, 0.5, v) * (1 - 0.7 * smooth(0.8, 1, v));
   const double phase = 6.3 * varied(f.seed, w > 0 ? 21 : 22);
   const double frill =
-      loose * (0.00052 * edge * std::sin(15 * v + phase) + 0.0003 * w * w * std::sin(27 * v + 1.7 * phase));
+      loose * (0.0005 * edge * std::sin(9 * v + phase) + 0.00016 * w * w * std::sin(16 * v + 1.7 * phase));
   const double trough = (f.reaches >= 1 ? 0.05 : 0.5 * varied(f.seed, 12) - 0.1) * half * w * w;
   const double pleats = kPleat * smooth(0, 0.15, v) * (1 - 0.6 * v) * (fold - 0.3);
-  const double thick =
-      kWall * (1.05 - 0.75 * smooth(0, 0.9, v)) * std::sqrt(std::max(0.0, 1 - w * w)) * (ring == kRings ? 0 : 1);
+  const double thick = kWall * (1.05 - 0.3 * v) * round_end(v, end) * std::sqrt(std::max(0.0, 1 - w * w));
   // At the root the leaf's line follows the rim.
   const double angle = f.from + (f.to - f.from) * double(column) / kLeafColumns, root = smooth(0.3, 0, v);
   const auto& rim = kBell.back();

@@ -33,22 +33,22 @@ Material uterus() {
   m.mottle_size = 0.014f;
   m.mottle = 0.5f;
   m.bump = 0.12f;
-  m.film_bump = 0.24f;
-  m.film_roughness = 0.095f;
-  m.film_size = 0.0032f;
+  m.film_bump = 0.34f;
+  m.film_roughness = 0.065f;
+  m.film_size = 0.0016f;
   return m;
 }
 
 Material tube() {
-  Material m = with_vessels(tissue(srgb(194, 124, 125), srgb(206, 150, 138), srgb(178, 98, 106)), 0.75f, 0.024f);
+  Material m = with_vessels(tissue(srgb(194, 124, 125), srgb(206, 150, 138), srgb(184, 108, 112)), 0.75f, 0.024f);
   m.mottle_size = 0.011f;
   m.mottle = 0.6f;
   m.bump = 0.1f;
   m.glow_amount = 0.2f;        // through the thin rims of the fimbriae
   m.tint = srgb(180, 86, 92);  // fimbriae: mucosa
-  m.film_size = 0.0042f;       // as long as the tube is thick: one broken sheen, no beads
-  m.film_bump = 0.3f;
-  m.film_roughness = 0.07f;
+  m.film_size = 0.0013f;       // much finer than the tube is thick: flecks in clumps, no row of beads
+  m.film_bump = 0.36f;
+  m.film_roughness = 0.06f;
   m.wetness = 0.9f;
   return m;
 }
@@ -58,8 +58,9 @@ Material ovary() {
   m.mottle_size = 0.008f;
   m.mottle = 0.35f;
   m.bump = 0.14f;
-  m.film_roughness = 0.09f;
-  m.film_bump = 0.22f;
+  m.film_roughness = 0.065f;
+  m.film_bump = 0.32f;
+  m.film_size = 0.0015f;
   m.glow_amount = 0.1f;
   m.tint = srgb(196, 166, 172);  // a follicle
   return m;
@@ -70,9 +71,10 @@ Material ligament(Vec3f main, Vec3f broad, Vec3f fine) {
   m.mottle_size = 0.009f;
   m.mottle = 0.6f;
   m.bump = 0.12f;
-  m.film_bump = 0.16f;
-  m.film_size = 0.0065f;  // longer than the cord is thick: no row of beads
-  m.film_roughness = 0.1f;
+  m.film_bump = 0.26f;
+  m.film_size = 0.0015f;  // finer than the cord is thick: no row of beads
+  m.wetness = 0.6f;
+  m.film_roughness = 0.08f;
   m.tint = srgb(206, 128, 122);
   return m;
 }
@@ -119,16 +121,17 @@ Material bladder() {
   Material m = peritoneum();  // it lies below the peritoneum
   m.lining = false;
   m.two_sided = false;
-  m.wetness = 0.45f;
-  m.film_size = 0.005f;
-  m.mottle = 0.4f;
-  m.colour = srgb(204, 136, 128);
-  m.colour_b = srgb(214, 158, 142);
-  m.colour_c = srgb(188, 114, 112);
+  m.colour = srgb(196, 126, 132);
+  m.colour_b = srgb(210, 150, 144);
+  m.colour_c = srgb(186, 114, 122);
+  m.tint = srgb(202, 144, 138);
+  m.mottle_size = 0.013f;
+  m.mottle = 0.6f;
   m.vessel_tile = 0.05f;
-  m.mottle_size = 0.019f;
-  m.wetness = 0.36f;  // rather dull: its rim is a fold that would shine like a dish's
-  m.film_roughness = 0.1f;
+  m.wetness = 0.5f;
+  m.film_size = 0.002f;
+  m.film_bump = 0.28f;
+  m.film_roughness = 0.075f;
   return m;
 }
 
@@ -137,9 +140,9 @@ Material bowel() {
   m.mottle_size = 0.012f;
   m.mottle = 0.6f;
   m.glow_amount = 0.1f;
-  m.film_bump = 0.26f;
-  m.film_size = 0.0042f;
-  m.film_roughness = 0.07f;
+  m.film_bump = 0.34f;
+  m.film_size = 0.0016f;
+  m.film_roughness = 0.06f;
   m.wetness = 0.9f;
   m.tint = srgb(228, 178, 158);  // its bands
   return m;
@@ -161,9 +164,9 @@ Material small_bowel() {
   m.mottle_size = 0.014f;
   m.mottle = 0.5f;
   m.glow_amount = 0.1f;
-  m.film_bump = 0.24f;
-  m.film_size = 0.0048f;
-  m.film_roughness = 0.07f;
+  m.film_bump = 0.34f;
+  m.film_size = 0.0016f;
+  m.film_roughness = 0.06f;
   m.wetness = 0.9f;
   return m;
 }
@@ -284,21 +287,22 @@ Material fat() {
   return m;
 }
 
-/// Tags on the large bowel: salmon to amber, under a thin dull serosa, with capillaries.
+/// Tags on the large bowel: soft, salmon, under a thin wet serosa, with capillaries.
 Material epiploic() {
   Material m = fat();
-  m.colour = srgb(222, 152, 122);
-  m.colour_b = srgb(228, 172, 130);
-  m.colour_c = srgb(208, 124, 108);
-  m.lobule_size = 0.0026f;
-  m.lobule_depth = 0.08f;
-  m.lobule_contrast = 0.12f;
-  m.vessels = 1;
+  m.colour = srgb(236, 164, 150);
+  m.colour_b = srgb(240, 182, 156);
+  m.colour_c = srgb(222, 136, 132);
+  m.lobule_size = 0.0028f;
+  m.lobule_depth = 0.02f;
+  m.lobule_contrast = 0;
+  m.vessels = 0.7f;
+  m.glow_amount = 0.2f;
   m.vessel_tile = 0.012f;
-  m.wetness = 0.5f;
+  m.wetness = 0.95f;
   m.film_bump = 0.3f;
-  m.film_size = 0.0016f;
-  m.film_roughness = 0.16f;
+  m.film_size = 0.002f;
+  m.film_roughness = 0.06f;
   m.tint = srgb(206, 130, 120);  // where it runs out on the bowel
   return m;
 }
@@ -404,7 +408,7 @@ std::vector<Look> make_looks() {
       {"bladder",
        bladder(),
        false,
-       {.broad = 0.0012, .broad_size = 0.024, .fine = 0.0003, .fine_size = 0.008},
+       {.broad = 0.0014, .broad_size = 0.03, .fine = 0.0002, .fine_size = 0.008},
        0,
        0,
        true},

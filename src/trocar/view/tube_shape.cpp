@@ -14,6 +14,13 @@ constexpr double kContracts = 0.0022;  // [m] of a cut end
 constexpr double kIsthmus = 0.027;     // [m] of a uterine tube that is narrow and straight
 constexpr double kCoil = 0.0006;       // [m] its drawn line winds about the simulated one
 
+/// A smooth number in -1..1 along `x` whose swings differ in height and length: no even chain.
+double swing(double x, int seed) {
+  const double cell = std::floor(x), t = x - cell;
+  const auto at = [&](double c) { return 2 * varied(int(c), seed) - 1; };
+  return at(cell) + (at(cell + 1) - at(cell)) * (t * t * (3 - 2 * t));
+}
+
 }  // namespace
 
 double TubeDrawing::radius_at(double s) const {
@@ -40,9 +47,9 @@ double TubeDrawing::winding(double s) const {
 
 /// Its bore is uneven: wide places and waists that are drawn, not simulated.
 double TubeDrawing::bore(double s) const {
-  const double k = 2 * kPi * s, seed = 2.3 * m_index;
-  const double ampulla = 0.09 * std::sin(k / 0.0193 + seed) + 0.035 * std::sin(k / 0.0107 + 1.7 * seed + 1);
-  return 1 + winding(s) * ampulla + 0.03 * std::sin(k / 0.0071 + seed);
+  const int seed = 300 + 7 * m_index;
+  const double ampulla = 0.13 * swing(s / 0.0117, seed) + 0.05 * swing(s / 0.0049, seed + 1);
+  return 1 + winding(s) * ampulla + 0.04 * swing(s / 0.0041, seed + 2);
 }
 
 /// And so is its way: it coils gently about the simulated line.
@@ -56,8 +63,10 @@ Vec3d TubeDrawing::coiled(double s, const CurveFrame& f) const {
 
 double TubeDrawing::outline(double s, double angle) const {
   const double k = 2 * kPi * s, seed = 1.7 * m_index;
-  return 1 + 0.035 * std::sin(k / 0.0093 + 1.6 * std::sin(angle + seed)) +
-         0.03 * std::sin(2 * angle + k / 0.017 + seed) + 0.018 * std::sin(3 * angle - k / 0.0061 + 2 * seed);
+  const int own = 500 + 7 * m_index;
+  return 1 + 0.045 * swing(s / 0.0063 + 0.5 * std::sin(angle + seed), own) +
+         0.03 * std::sin(2 * angle + 4 * swing(s / 0.019, own + 1) + seed) +
+         0.018 * std::sin(3 * angle - k / 0.0061 + 2 * seed);
 }
 
 bool TubeDrawing::hosted(int node) const {
