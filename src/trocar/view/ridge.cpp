@@ -21,6 +21,7 @@ constexpr double kOverAll = 0.12, kClosedAll = 0.32;  // the same where it carri
 constexpr double kLostOver = 0.034;                   // [m] of wall along which a ridge goes down and is lost ...
 constexpr double kLostDepth = 0.0014;                 // [m] ... below it
 constexpr double kShallow = 3.0;                      // radii of the ligament that it rises above it before that
+constexpr double kShallowLaden = 0.4;                 // the same of one that carries something
 constexpr double kFlatter = 1.2;                      // and how much rounder it grows
 constexpr double kTurns = 8;                          // radii above the wall where its sections begin to turn
 constexpr double kCrest = 1.15;                       // radii from the ligament's axis to what covers it
@@ -103,9 +104,9 @@ void Ridge::add_root(const TubeRoot& root) {
 }
 
 /// How high its crest is above the wall that it runs out on, at least [m].
-double Ridge::crest_above(const Station& st) {
+double Ridge::crest_above(const Station& st) const {
   const double left = (1 - st.gone) * (1 - st.gone);
-  return kShallow * st.radius / (1 + kFlatter * st.gone) * left - kLostDepth * (1 - left);
+  return (m_covered ? kShallow : kShallowLaden) * st.radius / (1 + kFlatter * st.gone) * left - kLostDepth * (1 - left);
 }
 
 /// Then on along the wall, down to below it.

@@ -45,7 +45,7 @@ class Ridge {
   void place_flank(const Station& st, Vec3d at, int flank, std::size_t first);
   void add_root(const TubeRoot& root);
   void add_glide(const WallSurface& walls);
-  static double crest_above(const Station& station);
+  double crest_above(const Station& station) const;
   void settle_beyond();
   void even_crest(std::size_t station);
   void burn(const sim::State& state);
