@@ -165,7 +165,7 @@ void Drape::place(const std::vector<OrganDrawing>& organs) {
     }
   }
   // Along each spoke corners are rounded, too.
-  for (int pass = 0; pass < 3; ++pass)
+  for (int pass = 0; pass < 16; ++pass)
     for (std::size_t k = 0; k < m_spokes.size(); ++k)
       for (std::size_t r = 1; r + 1 < kRings; ++r) {
         Vec3f& p = m_buffer.positions[k * kRings + r];

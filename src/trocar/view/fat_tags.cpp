@@ -11,6 +11,7 @@ constexpr double kTwoPi = 6.28318530717959;
 constexpr double kApart = 0.0085;                   // [m] between two tags of middle size
 constexpr double kSunk = 0.0022;                    // [m] a tag's foot lies below the skin
 constexpr float kAround = 0.02f, kUnder = 0.0009f;  // [m] skin around a tag; the foot's edge lies below it
+constexpr float kFarthestPull = 0.0045f;            // [m] of a foot down to the skin
 constexpr int kSides = 24, kRings = 18;
 constexpr int kLobes = 10;
 constexpr int kParts = 3;      // mounds of a tag, at most
@@ -102,11 +103,13 @@ MeshBuffer tag_shape(Vec3d down, int seed, double size) {
 }
 
 /// The foot (what is tinted) comes to lie on the skin around, wherever that bends away.
-void lay_on(const OrganDrawing& organ, std::uint32_t at, const Mat3f& turn, MeshBuffer& shape) {
+/// @return how far that pulled it at most [m]
+float lay_on(const OrganDrawing& organ, std::uint32_t at, const Mat3f& turn, MeshBuffer& shape) {
   const std::span<const Vec3f> skin = organ.positions();
   std::vector<std::uint32_t> near;
   for (std::uint32_t v = 0; v < skin.size(); ++v)
     if (length(skin[v] - skin[at]) < kAround) near.push_back(v);
+  float farthest = 0;
   for (std::uint32_t i = 0; i < shape.size(); ++i) {
     if (shape.paint[i].tint == 0) continue;
     const Vec3f p = skin[at] + turn * shape.positions[i];
@@ -115,8 +118,12 @@ void lay_on(const OrganDrawing& organ, std::uint32_t at, const Mat3f& turn, Mesh
     });
     const Vec3f n = organ.normals()[v];
     const float high = dot(p - skin[v], n) + kUnder;
-    if (high > 0) shape.positions[i] += transposed(turn) * ((-high * float(shape.paint[i].tint) / 255) * n);
+    if (high <= 0) continue;
+    const float pulled = high * float(shape.paint[i].tint) / 255;
+    shape.positions[i] -= transposed(turn) * (pulled * n);
+    farthest = std::max(farthest, pulled);
   }
+  return farthest;
 }
 
 }  // namespace
@@ -136,7 +143,7 @@ FatTags::FatTags(const OrganDrawing& organ, const sim::SolidModel& solid, int co
     Vec3d down = vec_cast<double>(transposed(turn) * vec_cast<float>(normalised(gravity, Vec3d{0, 0, -1})));
     down.z = std::max(down.z, -0.25);  // lies on the bowel, not in it
     tag.shape = tag_shape(down, k, size);
-    lay_on(organ, tag.at, turn, tag.shape);
+    if (lay_on(organ, tag.at, turn, tag.shape) > kFarthestPull) continue;  // in a groove: it would be a scrap
     m_tags.push_back(std::move(tag));
   }
   for (const Tag& tag : m_tags) append(m_buffer, tag.shape, Mat3f::identity(), {});

@@ -294,19 +294,19 @@ Material fat() {
 /// Tags on the large bowel: soft, salmon, under a thin wet serosa, with capillaries.
 Material epiploic() {
   Material m = fat();
-  m.colour = srgb(236, 164, 150);
-  m.colour_b = srgb(240, 182, 156);
-  m.colour_c = srgb(222, 136, 132);
+  m.colour = srgb(234, 168, 136);
+  m.colour_b = srgb(240, 186, 144);
+  m.colour_c = srgb(222, 140, 122);
   m.lobule_size = 0.0028f;
   m.lobule_depth = 0.02f;
   m.lobule_contrast = 0;
   m.vessels = 0.7f;
   m.glow_amount = 0.2f;
   m.vessel_tile = 0.012f;
-  m.wetness = 0.95f;
+  m.wetness = 0.7f;
   m.film_bump = 0.3f;
   m.film_size = 0.002f;
-  m.film_roughness = 0.06f;
+  m.film_roughness = 0.1f;
   m.tint = srgb(206, 130, 120);  // where it runs out on the bowel
   return m;
 }
@@ -342,7 +342,7 @@ Material metal(Vec3f bright, Vec3f dull, float roughness) {
   m.tint = srgb(24, 24, 26);
   m.roughness = roughness;
   m.mottle_size = 0.0016f;
-  m.fibre_stretch = 24;
+  m.fibre_stretch = 9;
   m.bump = 0.05f;
   m.soil = 0;
   return m;
@@ -458,7 +458,7 @@ std::vector<Look> make_looks() {
       {"insulated", insulation(), false, {}},
       {"ceramic", ceramic(), false, {}},
       {"sleeve", metal(srgb(130, 131, 137), srgb(116, 118, 124), 0.38f), false, {}},
-      {"titanium", polished(srgb(222, 222, 227), srgb(206, 207, 212), 0.22f, 0.62f), false, {}},
+      {"titanium", polished(srgb(190, 190, 195), srgb(174, 175, 180), 0.3f, 0.5f), false, {}},
   };
 }
 

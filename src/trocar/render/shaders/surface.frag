@@ -194,8 +194,8 @@ void main() {
   // Scratches and moisture break a highlight up along the axis.
   float broken = (0.1 + 1.3 * smoothstep(0.35, 0.7, broad.a)) * (0.12 + 1.0 * smoothstep(0.42, 0.64, fine.r));
   broken = mix(0.5, broken, clamp(20.0 * BUMP, 0.0, 1.0));  // what is polished has none
-  vec3 gloss = mix(1.5 * grey, vec3(0.28), max(SCATTER, blood)) * (mix(0.2, 0.12, plain) * lobe(nh, alpha2) * broken * (1.0 - 0.8 * blurred));
-  gloss /= 1.0 + 0.8 * gloss;  // the lamp is no point: long lines do not clip
+  vec3 gloss = mix(1.5 * grey, vec3(0.28), max(SCATTER, blood)) * (mix(0.15, 0.12, plain) * lobe(nh, alpha2) * broken * (1.0 - 0.8 * blurred));
+  gloss /= 1.0 + 1.35 * gloss;  // the lamp is no point: long lines do not clip
   vec3 around = mirrored(reflect(-V, n), 0.04, mix(0.6, 3.0, rim) * lit.bounce);  // the lens itself is dark
   vec3 even = LIGHT_COLOUR * lit.power * (mix(0.08, 0.75, plain) * nl * nl + mix(0.012, 0.03, plain) * lobe(nh, 0.35));
   even += (BOUNCE * (mix(0.5, 1.0, plain) + 3.0 * rim) + vec3(AMBIENT)) * lit.bounce;
