@@ -225,11 +225,16 @@ void outside(const sim::Model& model, const sim::State& start, Shots& shots) {
   shots.take_outside(start, "organs", "the organs alone", options);
 }
 
-void add_scene(Json& list, const std::string& name, const std::filesystem::path& folder, PictureSize size) {
+struct Wanted {
+  std::string folder, scene, only, size = "800x600";
+};
+
+void add_scene(Json& list, const std::string& name, const Wanted& wanted) {
+  const PictureSize size = parse_size(wanted.size);
   const std::unique_ptr<Lesson> lesson = load_lesson(name);
   const sim::Model& model = lesson->model;
   Pictures pictures(model, size);
-  Shots shots(pictures, folder / name);
+  Shots shots(pictures, std::filesystem::path(wanted.folder) / name, wanted.only);
   const sim::State start = sim::initial_state(model);
   shots.take(start, "endoscope", "through the endoscope, as placed");
   organs(model, start, shots);
@@ -249,14 +254,15 @@ void add_scene(Json& list, const std::string& name, const std::filesystem::path&
   for (const std::string& file : shots.files()) list.push_back(file);
 }
 
-int gallery(const std::string& folder, const std::string& scene, const PictureSize size, bool json) {
+int gallery(const Wanted& wanted, bool json) {
   const std::vector<scene::SceneEntry> all = scene::list_scenes(scenes_folder());
+  const std::string& scene = wanted.scene;
   if (!scene.empty() && std::none_of(all.begin(), all.end(), [&](const auto& s) { return s.name == scene; }))
     throw core::BadInput({{{"--scene", 0, 0}, fmt::format("expected a scene (see trocar list), got '{}'", scene)}});
-  make_folder(folder);
+  make_folder(wanted.folder);
   Json files = Json::array();
   for (const scene::SceneEntry& s : all)
-    if (scene.empty() || s.name == scene) add_scene(files, s.name, folder, size);
+    if (scene.empty() || s.name == scene) add_scene(files, s.name, wanted);
   if (json)
     print({{"pictures", files}});
   else
@@ -267,18 +273,14 @@ int gallery(const std::string& folder, const std::string& scene, const PictureSi
 }  // namespace
 
 void add_gallery(CLI::App& program, Chosen& chosen) {
-  struct Options {
-    std::string folder, scene, size = "800x600";
-  };
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<Wanted>();
   CLI::App* c = add_command(program, chosen, "gallery", "Write pictures of every scene to a folder",
                             "trocar gallery pictures --size 1024x768");
   c->add_option("folder", o->folder, "where the pictures go")->required();
   c->add_option("--scene", o->scene, "only this one");
+  c->add_option("--only", o->only, "pictures whose name has this; the others are not drawn");
   c->add_option("--size", o->size, "of pictures")->capture_default_str();
-  c->callback([o, &chosen] {
-    chosen.run = [o, &chosen] { return gallery(o->folder, o->scene, parse_size(o->size), chosen.json); };
-  });
+  c->callback([o, &chosen] { chosen.run = [o, &chosen] { return gallery(*o, chosen.json); }; });
 }
 
 }  // namespace trocar::app

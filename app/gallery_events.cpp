@@ -197,9 +197,10 @@ void styles(const sim::State& start, Pictures& pictures, Shots& shots) {
 void eyes(const sim::Model& model, const sim::State& start, PictureSize size, Shots& shots) {
   for (const StereoName& n : kStereoNames) {
     if (!n.mode || n.mode == render::StereoMode::quad_buffer) continue;
+    const std::string what = fmt::format("two eyes {}", n.name);
+    if (!shots.wants(what)) continue;
     Pictures pictures(model, size, {{n.mode, {}, false}, {}});
-    shots.take_image(start, fmt::format("two eyes {}", n.name), fmt::format("for two eyes: {}", n.meaning),
-                     pictures.still(start));
+    shots.take_image(start, what, fmt::format("for two eyes: {}", n.meaning), pictures.still(start));
   }
 }
 

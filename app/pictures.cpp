@@ -67,7 +67,8 @@ render::Image Pictures::still(const sim::State& state, view::ViewOptions options
   return read(options);
 }
 
-Shots::Shots(Pictures& pictures, const std::filesystem::path& folder) : m_pictures(pictures), m_folder(folder) {
+Shots::Shots(Pictures& pictures, const std::filesystem::path& folder, std::string only)
+    : m_pictures(pictures), m_folder(folder), m_only(std::move(only)) {
   make_folder(folder);
 }
 
@@ -81,9 +82,13 @@ std::string file_part(std::string text) {
 
 }  // namespace
 
-bool Shots::full() {
-  if (int(m_files.size()) < kMaxShots) return false;
-  ++m_left_out;
+bool Shots::skips(const std::string& what) {
+  const bool full = int(m_files.size()) >= kMaxShots;
+  if (wants(what) && !full) return false;
+  if (full)
+    ++m_left_out;
+  else
+    ++m_next;
   return true;
 }
 
@@ -93,14 +98,17 @@ void Shots::take(const sim::State& state, const std::string& what, const std::st
 
 void Shots::take_outside(const sim::State& state, const std::string& what, const std::string& text,
                          const view::ViewOptions& options) {
-  if (full()) return;
-  take_image(state, what, text, m_pictures.still(state, options));
+  if (!skips(what)) write(state, what, text, m_pictures.still(state, options));
 }
 
 void Shots::take_image(const sim::State& state, const std::string& what, const std::string& text,
                        const render::Image& image) {
-  if (full()) return;
-  const std::string name = fmt::format("{:03}-{}.png", m_files.size(), file_part(what));
+  if (!skips(what)) write(state, what, text, image);
+}
+
+void Shots::write(const sim::State& state, const std::string& what, const std::string& text,
+                  const render::Image& image) {
+  const std::string name = fmt::format("{:03}-{}.png", m_next++, file_part(what));
   const std::string path = (m_folder / name).string();
   render::write_png(path, image);
   m_files.push_back(path);

@@ -66,8 +66,9 @@ class Pictures {
 /// Numbered PNG files that say what they show, and index.json.
 class Shots {
  public:
-  /// Creates the folder.  @throws core::EnvironmentLacks
-  Shots(Pictures& pictures, const std::filesystem::path& folder);
+  /// Creates the folder. @param only  pictures whose name has this; the others are counted, but not drawn
+  /// @throws core::EnvironmentLacks
+  Shots(Pictures& pictures, const std::filesystem::path& folder, std::string only = {});
 
   /// "007-clipped.png" or so; `text` goes to the index. Beyond kMaxShots nothing more is drawn (and the index says so).
   void take(const sim::State& state, const std::string& what, const std::string& text);
@@ -76,6 +77,7 @@ class Shots {
   /// A picture that somebody else drew.
   void take_image(const sim::State& state, const std::string& what, const std::string& text,
                   const render::Image& image);
+  bool wants(const std::string& what) const { return what.find(m_only) != std::string::npos; }
   void write_index() const;
   const std::vector<std::string>& files() const { return m_files; }
   std::string index_file() const { return (m_folder / "index.json").string(); }
@@ -83,10 +85,13 @@ class Shots {
   static constexpr int kMaxShots = 200;
 
  private:
-  bool full();  ///< and one more is left out
+  bool skips(const std::string& what);  ///< a picture that is not wanted, or one too many
+  void write(const sim::State& state, const std::string& what, const std::string& text, const render::Image& image);
 
   Pictures& m_pictures;
   std::filesystem::path m_folder;
+  std::string m_only;
+  int m_next = 0;  ///< number of a picture, drawn or not
   std::vector<std::string> m_files;
   Json m_index = Json::array();
   int m_left_out = 0;
