@@ -57,12 +57,12 @@ std::vector<Leaf> leaves_of(const FimbriaSite& site) {
   for (int i = 0; i < kLeaves; ++i) {
     Leaf& f = leaves[std::size_t(i)];
     const int order = i % 2 == 1 ? 2 : (i / 2) % 2;
-    constexpr double longest[] = {1.7, 1.3, 0.85}, falls[] = {1.2, 0.65, 0.05};
+    constexpr double longest[] = {1.7, 1.3, 0.85}, falls[] = {1.05, 0.5, 0.0};
     f.seed = seed + i;
     f.from = border[std::size_t(i)];
     f.to = border[std::size_t(i) + 1];
     f.length = site.radius * longest[order] * (0.7 + 0.6 * varied(f.seed, 4));
-    f.lean = falls[order] + 1.0 * (varied(f.seed, 6) - 0.5);
+    f.lean = falls[order] + 0.8 * (varied(f.seed, 6) - 0.5);
     f.sway = 1.3 * (varied(f.seed, 8) - 0.5);
     const double off = apart(f.middle(), to_ovary);
     f.reaches = site.ovary ? smooth(1.2, 0.35, off) : 0;
@@ -162,7 +162,7 @@ double round_end(double u, double end) {
 /// round end.
 double half_width(const Leaf& f, double u, double end, bool right) {
   const int k = 2 * f.seed + (right ? 1 : 0);
-  const double body = 1 + (0.15 + 0.4 * varied(f.seed, 23)) * smooth(0.05, 0.5, u) - 0.4 * smooth(0.45, 1, u);
+  const double body = 1 + (0.3 + 0.5 * varied(f.seed, 23)) * smooth(0.05, 0.5, u) - 0.45 * smooth(0.5, 1, u);
   const double turn = (8 + 5 * varied(k, 2)) * u + 6.3 * varied(k, 1);
   const double scallops = smooth(0.1, 0.35, u) * (0.15 * std::sin(turn) + 0.09 * std::sin(2.3 * turn + k));
   return (body + scallops) * (0.03 + 0.97 * round_end(u, end));
@@ -198,7 +198,7 @@ Sheets place_on(const Leaf& f, const Spines& spine, const FimbriaSite& site, int
   const double edge = std::fabs(w) * w * w, loose = smooth(0.05, 0.5, v) * (1 - 0.7 * smooth(0.8, 1, v));
   const double phase = 6.3 * varied(f.seed, w > 0 ? 21 : 22);
   const double frill =
-      loose * (0.0005 * edge * std::sin(9 * v + phase) + 0.00016 * w * w * std::sin(16 * v + 1.7 * phase));
+      loose * (0.0006 * edge * std::sin(9 * v + phase) + 0.00016 * w * w * std::sin(16 * v + 1.7 * phase));
   const double trough = (f.reaches >= 1 ? 0.05 : 0.5 * varied(f.seed, 12) - 0.1) * half * w * w;
   const double pleats = kPleat * smooth(0, 0.15, v) * (1 - 0.6 * v) * (fold - 0.3);
   const double thick = kWall * (1.05 - 0.3 * v) * round_end(v, end) * std::sqrt(std::max(0.0, 1 - w * w));

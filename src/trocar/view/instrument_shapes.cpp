@@ -144,7 +144,7 @@ MeshBuffer bipolar_tine(const ToolModel& tool) {
 /// The paddle of bipolar forceps: narrow, flat and smooth inside, blunt; its back is insulated nearly to the tip.
 MeshBuffer bipolar_paddle(const ToolModel& tool) {
   const double length = tool.jaw_length, half = 0.5 * tool.jaw_width, deep = 0.45 * tool.jaw_thickness;
-  const auto works = [](double u) { return Paint{240, to_byte(0.3 * u), to_byte(0.25 + 0.6 * smooth(0.3, 1, u)), 0}; };
+  const auto works = [](double u) { return Paint{240, to_byte(0.3 * u), to_byte(0.2 + 0.5 * smooth(0.3, 1, u)), 0}; };
   std::vector<BarSection> sections;
   for (int i = 0; i <= 12; ++i) {
     const double u = i / 12.0, z = (0.44 + 0.56 * u) * length;

@@ -130,7 +130,7 @@ Material bladder() {
   m.mottle_size = 0.013f;
   m.mottle = 0.6f;
   m.vessel_tile = 0.05f;
-  m.wetness = 0.5f;
+  m.wetness = 0.6f;
   m.film_size = 0.002f;
   m.film_bump = 0.28f;
   m.film_roughness = 0.075f;
@@ -460,7 +460,7 @@ std::vector<Look> make_looks() {
       {"insulated", insulation(), false, {}},
       {"ceramic", ceramic(), false, {}},
       {"sleeve", metal(srgb(130, 131, 137), srgb(116, 118, 124), 0.38f), false, {}},
-      {"titanium", polished(srgb(190, 190, 195), srgb(174, 175, 180), 0.3f, 0.5f), false, {}},
+      {"titanium", polished(srgb(140, 140, 146), srgb(124, 125, 131), 0.42f, 0.15f), false, {}},
   };
 }
 

@@ -186,7 +186,7 @@ void main() {
   float blood = smoothstep(-0.05, 0.2, smeared - 0.75 * ragged * (1.0 - smeared)) * step(0.01, smeared);
   float char_ = smoothstep(0.3, 0.6, BURN * SOIL * (0.5 + ragged));
   grey = mix(grey, vec3(0.10, 0.006, 0.007), 0.92 * blood);
-  float heated = smoothstep(0.1, 0.34, BURN * SOIL * (0.7 + 0.6 * ragged));  // what current has boiled on it: tan, brown
+  float heated = smoothstep(0.1, 0.45, BURN * SOIL * (0.4 + 1.2 * ragged));  // what current has boiled on it: tan, brown
   grey = mix(grey, grey * vec3(0.55, 0.34, 0.2) + vec3(0.02, 0.01, 0.004), 0.85 * heated);
   grey = mix(grey, vec3(0.016, 0.013, 0.012), 0.9 * char_);
   float plain = max(SCATTER, max(0.9 * blood, char_));  // no longer a mirror
@@ -198,15 +198,16 @@ void main() {
   float broken = (0.15 + 1.2 * smoothstep(0.35, 0.7, broad.a)) * (0.35 + 0.8 * smoothstep(0.42, 0.64, fine.r));
   broken = mix(0.5, broken, clamp(20.0 * BUMP, 0.0, 1.0));  // what is polished has none
 #if DETAIL >= 1
-  vec4 moisture = texture(u_noise, kTurn * v_rest * 95.0);
-  broken *= 0.3 + 1.1 * smoothstep(0.36, 0.6, moisture.a);
-  float bead = smoothstep(0.62, 0.74, moisture.a) * smoothstep(0.4, 0.6, moisture.g);
+  vec4 moisture = texture(u_noise, kTurn * (v_rest - FIBRE_AXIS * (0.6 * dot(FIBRE_AXIS, v_rest))) * 60.0);
+  broken *= 0.5 + 0.8 * smoothstep(0.25, 0.75, moisture.a);
+  float bead = smoothstep(0.55, 0.8, moisture.a) * smoothstep(0.5, 0.75, fine.g);
 #else
   const float bead = 0.0;
 #endif
   vec3 gloss = mix(1.5 * grey, vec3(0.28), max(SCATTER, blood)) * (mix(0.15, 0.12, plain) * lobe(nh, alpha2) * broken * (1.0 - 0.8 * blurred));
-  gloss /= 1.0 + mix(2.8, 0.7, bead) * gloss;  // the lamp is no point: long lines do not clip
+  gloss /= 1.0 + mix(4.0, 0.6, bead) * gloss;  // the lamp is no point: long lines do not clip
   vec3 around = mirrored(reflect(-V, n), 0.04, mix(0.6, 3.0, rim) * lit.bounce);  // the lens itself is dark
+  around = mix(vec3(0.3 * lit.bounce), around, INVERSE_SQUARE);  // a room is no cavity
   vec3 even = LIGHT_COLOUR * lit.power * (mix(0.08, 0.75, plain) * nl * nl + mix(0.012, 0.03, plain) * lobe(nh, 0.35));
   even += (BOUNCE * (mix(0.5, 1.0, plain) + 3.0 * rim) + vec3(AMBIENT)) * lit.bounce;
   vec3 colour = (grey * even + LIGHT_COLOUR * lit.power * gloss + around * mirror) * ao;
