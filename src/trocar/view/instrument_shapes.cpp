@@ -159,7 +159,7 @@ MeshBuffer bipolar_paddle(const ToolModel& tool) {
 /// browned.
 MeshBuffer insulator(const ToolModel& tool, double from, double end, double end_radius) {
   const double r = 0.97 * tool.shaft_radius, step = end - 0.4 * (end - from);
-  const Paint browned{225, 0, 90, 0}, sooted{190, 30, 150, 0};
+  const Paint browned{225, 0, 140, 0}, sooted{190, 30, 210, 0};
   return turned({{from, 0, kShaded},
                  {from, r, kShaded},
                  {from, r, kShaded},

@@ -353,16 +353,17 @@ void main() {
 #endif
   flecks = mix(0.45, flecks, 0.15 + 0.85 * INVERSE_SQUARE);
   wet *= 0.6 + 0.3 * flecks;
+  wet = mix(0.45, wet, INVERSE_SQUARE);
   film_slope *= 0.1 + 0.9 * INVERSE_SQUARE;  // a room's lamps are large: they do not sparkle
   vec3 m = normalize(N + along_surface(to_eye(film_slope + relief * 0.6), N));
   vec3 H = normalize(lit.direction + V);
   float facing = clamp(nl * 4.0, 0.0, 1.0) * open;
   // Ripples of a pixel or less are as rough as their normals differ [Kaplanyan 16].
   vec3 turn_x = dFdx(m), turn_y = dFdy(m);
-  float film2 = FILM2 * mix(4.0, 1.0, wrinkled) + min(0.12 * (dot(turn_x, turn_x) + dot(turn_y, turn_y)), 0.06);
+  float film2 = FILM2 * mix(4.0, 1.4, wrinkled) + min(0.12 * (dot(turn_x, turn_x) + dot(turn_y, turn_y)), 0.06);
   film2 += 0.03 * (1.0 - INVERSE_SQUARE);
   float mh = clamp(dot(m, H), 0.0, 1.0), nh = clamp(dot(n, H), 0.0, 1.0);
-  float gloss = 0.42 * FRESNEL * (wet * (0.4 + 1.3 * flecks) * lobe(mh, film2) + (0.35 + 0.65 * wet) * lobe(nh, ROUGH2)) * facing * lit.power;
+  float gloss = 0.42 * FRESNEL * (wet * (0.4 + 1.3 * flecks) * mix(1.1, 2.5, wrinkled) * lobe(mh, film2) + (0.35 + 0.65 * wet) * lobe(nh, ROUGH2)) * facing * lit.power;
   float grazing = FRESNEL + (1.0 - FRESNEL) * rim * rim * (1.0 - nv);
 #if SHADING == 2
   vec3 around = 0.7 * mirrored(reflect(-V, m), 0.03, lit.bounce);
