@@ -155,7 +155,7 @@ Spines spine_of(const Leaf& f, const FimbriaSite& site) {
 
 /// 1 up to the round end, 0 at the tip.
 double round_end(double u, double end) {
-  return std::sqrt(std::max(0.0, 1 - std::pow(std::max(0.0, (u - 1 + end) / end), 2.4)));
+  return std::sqrt(std::max(0.0, 1 - std::pow(std::max(0.0, (u - 1 + end) / end), 2.0)));
 }
 
 /// Half the width over half the share of the rim: a slender frond, widest in its middle, with soft scallops and a
@@ -192,7 +192,7 @@ Sheets place_on(const Leaf& f, const Spines& spine, const FimbriaSite& site, int
   const Vec3d point = (1 - t) * a.point + t * b.point, across = (1 - t) * a.across + t * b.across,
               flat = (1 - t) * a.flat + t * b.flat;
   const double sector = 0.5 * (f.to - f.from) * kBell.back()[1] * site.radius;
-  const double end = std::clamp(1.5 * sector / f.length, 0.2, 0.55);
+  const double end = std::clamp(2.4 * sector / f.length, 0.35, 0.7);
   const double half = sector * half_width(f, v, end, w > 0);
   // Edges are longer than the middle: they rise and fall in a frill, and the leaf is a shallow trough.
   const double edge = std::fabs(w) * w * w, loose = smooth(0.05, 0.5, v) * (1 - 0.7 * smooth(0.8, 1, v));

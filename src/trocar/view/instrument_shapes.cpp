@@ -115,7 +115,7 @@ MeshBuffer grasper_jaw(const ToolModel& tool) {
     const double body = thick * (1.2 - 0.38 * smooth(0.002, 0.3 * length, z) - 0.24 * smooth(0.3 * length, length, z));
     return body * (0.5 + 0.5 * std::sqrt(1 - 0.98 * across * across));
   };
-  MeshBuffer b = plate(outer, window, inside, outside, 208, 7, [=](bool face, double, double z) {
+  MeshBuffer b = plate(outer, window, inside, outside, 208, 6, [=](bool face, double, double z) {
     const double phase = z / 0.0011 - std::floor(z / 0.0011), deep = phase < 0.5 ? 1 - phase : phase;
     const double works = smooth(0.004, 0.012, z);
     if (!face) return Paint{255, to_byte(0.5 * works * smooth(0.3 * length, length, z)), 0, 0};
@@ -326,8 +326,8 @@ std::vector<InstrumentPart> instrument_parts(const ToolModel& tool) {
       break;
     case ToolKind::clip_applier:
       parts.push_back({Joint::body, "steel", open_shaft(tool, -0.002, 0.0008)});
-      parts.push_back({Joint::jaw_a, "steel", applier_jaw(tool)});
-      parts.push_back({Joint::jaw_b, "steel", applier_jaw(tool)});
+      parts.push_back({Joint::jaw_a, "matte_steel", applier_jaw(tool)});
+      parts.push_back({Joint::jaw_b, "matte_steel", applier_jaw(tool)});
       break;
     case ToolKind::suction_irrigator:
       parts.push_back({Joint::body, "matte_steel", irrigator_tube(tool)});

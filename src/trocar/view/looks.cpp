@@ -48,9 +48,9 @@ Material tube() {
   m.glow_amount = 0.2f;        // through the thin rims of the fimbriae
   m.tint = srgb(182, 76, 86);  // fimbriae: mucosa
   m.film_size = 0.0013f;       // much finer than the tube is thick: flecks in clumps, no row of beads
-  m.film_bump = 0.28f;
+  m.film_bump = 0.24f;
   m.film_roughness = 0.06f;
-  m.wetness = 0.85f;
+  m.wetness = 0.72f;
   return m;
 }
 
@@ -405,7 +405,7 @@ std::vector<Look> make_looks() {
         .follicle_radius = 0.0034,
         .scars = 9,
         .ripe = 0.0056,
-        .lopsided = 0.0009},
+        .lopsided = 0.0012},
        0,
        2},
       {"round_ligament", cord, false, {}},

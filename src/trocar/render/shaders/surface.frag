@@ -205,9 +205,9 @@ void main() {
   const float bead = 0.0;
 #endif
   vec3 gloss = mix(1.5 * grey, vec3(0.28), max(SCATTER, blood)) * (mix(0.15, 0.12, plain) * lobe(nh, alpha2) * broken * (1.0 - 0.8 * blurred));
-  gloss /= 1.0 + mix(4.0, 0.6, bead) * gloss;  // the lamp is no point: long lines do not clip
+  gloss /= 1.0 + mix(5.0, 0.6, bead) * gloss;  // the lamp is no point: long lines do not clip
   vec3 around = mirrored(reflect(-V, n), 0.04, mix(0.6, 3.0, rim) * lit.bounce);  // the lens itself is dark
-  around = mix(vec3(0.3 * lit.bounce), around, INVERSE_SQUARE);  // a room is no cavity
+  around = mix(vec3((0.1 + 0.3 * smoothstep(-0.2, 0.8, reflect(-V, n).y)) * lit.bounce), around, INVERSE_SQUARE);  // a room
   vec3 even = LIGHT_COLOUR * lit.power * (mix(0.08, 0.75, plain) * nl * nl + mix(0.012, 0.03, plain) * lobe(nh, 0.35));
   even += (BOUNCE * (mix(0.5, 1.0, plain) + 3.0 * rim) + vec3(AMBIENT)) * lit.bounce;
   vec3 colour = (grey * even + LIGHT_COLOUR * lit.power * gloss + around * mirror) * ao;
@@ -343,24 +343,31 @@ void main() {
   wet = max(mix(wet, glassy, crust), (0.75 - 0.35 * raw) * smoothstep(0.1, 0.4, blood));
 #endif
   // What mirrors the lamp is broken again by the film's thickness: flecks in clumps, no rings around its bumps.
+#if DETAIL >= 1
   float flecks = smoothstep(0.34, 0.66, fine.g + 0.5 * (broad.b - 0.5));
 #ifdef LINING
-#if DETAIL >= 1
   flecks *= 0.35 + 0.65 * crest;
-#else
-  flecks *= 0.35;
-#endif
 #endif
   flecks = mix(0.45, flecks, 0.15 + 0.85 * INVERSE_SQUARE);
+#elif defined(LINING)
+  const float flecks = 0.17;
+#else
+  const float flecks = 0.45;
+#endif
   wet *= 0.6 + 0.3 * flecks;
   wet = mix(0.45, wet, INVERSE_SQUARE);
   film_slope *= 0.1 + 0.9 * INVERSE_SQUARE;  // a room's lamps are large: they do not sparkle
   vec3 m = normalize(N + along_surface(to_eye(film_slope + relief * 0.6), N));
   vec3 H = normalize(lit.direction + V);
   float facing = clamp(nl * 4.0, 0.0, 1.0) * open;
+  float film2 = FILM2 * mix(4.0, 1.4, wrinkled);
+#if DETAIL >= 1
   // Ripples of a pixel or less are as rough as their normals differ [Kaplanyan 16].
   vec3 turn_x = dFdx(m), turn_y = dFdy(m);
-  float film2 = FILM2 * mix(4.0, 1.4, wrinkled) + min(0.12 * (dot(turn_x, turn_x) + dot(turn_y, turn_y)), 0.06);
+  film2 += min(0.12 * (dot(turn_x, turn_x) + dot(turn_y, turn_y)), 0.06);
+#else
+  film2 += 0.008;
+#endif
   film2 += 0.03 * (1.0 - INVERSE_SQUARE);
   float mh = clamp(dot(m, H), 0.0, 1.0), nh = clamp(dot(n, H), 0.0, 1.0);
   float gloss = 0.42 * FRESNEL * (wet * (0.4 + 1.3 * flecks) * mix(1.1, 2.5, wrinkled) * lobe(mh, film2) + (0.35 + 0.65 * wet) * lobe(nh, ROUGH2)) * facing * lit.power;
