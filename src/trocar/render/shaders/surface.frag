@@ -319,7 +319,7 @@ void main() {
   vec3 q = v_rest * (6.2832 / kClumps);
   float clump = 0.5 + 0.2 * (sin(q.x + 1.3 * sin(0.71 * q.y)) * cos(0.83 * q.y + 0.9 * sin(0.64 * q.z)) +
                              sin(0.77 * q.z + 1.1 * sin(0.59 * q.x) + 0.3 * q.y)) + 0.5 * (broad.b - 0.5);
-  float wrinkled = smoothstep(-0.1, 0.1, clump + 0.4 * WETNESS - 0.9);
+  float wrinkled = smoothstep(-0.1, 0.1, clump + 0.4 * WETNESS - 0.9) * INVERSE_SQUARE;  // none in a room
 #ifdef STAINED
   wrinkled = max(wrinkled, crust);
 #endif
