@@ -203,11 +203,11 @@ TEST(SheetCrescent, LeavesItsStrandAndItsWallAlongThemAndHasAThinBorder) {
   }
   EXPECT_EQ(crescents, 2);
   for (int r = 0; r < 9; ++r) {
-    const int border = SheetCrescent::paint(SheetCrescent::kSteps, r / 10.0).openness;
+    const int border = SheetCrescent::paint(SheetCrescent::kSteps, r / 10.0, false).openness;
     EXPECT_GT(border, 100) << "it does not run out into a mist";
-    EXPECT_LT(border, SheetCrescent::paint(1, r / 10.0).openness - 50) << "and is sheerer than what it ends";
+    EXPECT_LT(border, SheetCrescent::paint(1, r / 10.0, false).openness - 50) << "and is sheerer than what it ends";
   }
-  EXPECT_LT(SheetCrescent::paint(SheetCrescent::kSteps, 1).openness, 10) << "but in the wall";
+  EXPECT_LT(SheetCrescent::paint(SheetCrescent::kSteps, 1, false).openness, 10) << "but in the wall";
 }
 
 TEST(Adhesions, TaperBetweenTwoFeetThatLieInWhatTheyHangOn) {
