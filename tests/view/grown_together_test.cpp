@@ -210,6 +210,51 @@ TEST(SheetCrescent, LeavesItsStrandAndItsWallAlongThemAndHasAThinBorder) {
   EXPECT_LT(SheetCrescent::paint(SheetCrescent::kSteps, 1, false).openness, 10) << "but in the wall";
 }
 
+TEST(SheetCrescent, OfTheBroadLigamentGoesOnAlongTheInfundibulopelvicOneAndFollowsIt) {
+  const auto backend = render::make_null_backend();
+  int hung = 0;
+  for (int i = 0; i < int(pelvis().sheets.size()); ++i) {
+    const std::string& name = pelvis().sheets[std::size_t(i)].name;
+    if (name.find("front") == std::string::npos) continue;
+    const int ligament = pelvis().strand_index("infundibulopelvic_ligament" + name.substr(name.rfind('_')));
+    ASSERT_GE(ligament, 0);
+    const interactions::StrandBody& body = pelvis().bodies[std::size_t(ligament)];
+    SheetDrawing sheet(pelvis(), i, *backend, {}, &walls());
+    sim::State state = sim::initial_state(pelvis());
+    for (const double moved : {0.0, 0.005}) {
+      for (Vec3d& x : state.strands[std::size_t(ligament)].x) x.z += moved;
+      sheet.update(state);
+      for (const double share : {0.5, 0.7, 0.9}) {
+        const Vec3d on = point_at(body, state.strands[std::size_t(ligament)], place_at(body, share * body.length()));
+        double least = 1;
+        for (const Vec3f& p : sheet.buffer().positions) least = std::min(least, length(vec_cast<double>(p) - on));
+        EXPECT_LT(least, 0.003) << "no window between them";
+      }
+    }
+    ++hung;
+  }
+  EXPECT_EQ(hung, 2);
+}
+
+TEST(Ridge, OfALigamentThatMeetsTheWallHeadOnDoesNotGoOnBeyondItsCollar) {
+  const auto backend = render::make_null_backend();
+  int head_on = 0;
+  for (int i = 0; i < int(pelvis().strands.size()); ++i) {
+    if (pelvis().strands[std::size_t(i)].end.kind != sim::StrandEndModel::fixed) continue;
+    const TubeDrawing tube(pelvis(), i, {}, &walls());
+    const bool round = pelvis().strands[std::size_t(i)].name.find("round") != std::string::npos;
+    EXPECT_EQ(Ridge::meets_head_on(pelvis(), tube, i, walls()), round);
+    if (!round) continue;
+    const Ridge ridge(pelvis(), tube, i, walls(), *backend);
+    const std::vector<Vec3d>& rest = pelvis().bodies[std::size_t(i)].model.rest;
+    const Vec3d along = normalised(rest.back() - rest[rest.size() - 2]);
+    for (const Vec3f& p : ridge.buffer().positions)
+      EXPECT_LT(dot(vec_cast<double>(p) - rest.back(), along), 0.01) << "no spike on the wall";
+    ++head_on;
+  }
+  EXPECT_EQ(head_on, 2);
+}
+
 TEST(Adhesions, TaperBetweenTwoFeetThatLieInWhatTheyHangOn) {
   const auto backend = render::make_null_backend();
   const std::vector<OrganDrawing> organs = drawn_organs(*backend);

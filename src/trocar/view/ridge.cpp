@@ -30,6 +30,8 @@ constexpr double kCovers = 1.32;         // radii from the axis: nearer than tha
 constexpr double kAround = 6.5;          // radii: how far its slope is that of the ligament's side
 constexpr double kAroundAll = 11;        // the same of one that carries nothing: broad shoulders
 constexpr double kWidestAll = 0.021;     // [m] and its feet
+constexpr double kGathers = 0.6;         // share of one that ends in a collar: from here on its flanks draw in
+constexpr double kHeadOn = 0.75;         // sine of the angle to the wall
 constexpr double kLoose = 0.0004;        // [m] what covers a ligament keeps off it
 constexpr double kTucked = 0.0012;       // [m] the border lies below the wall
 constexpr double kAtWall = 0.006;        // [m] nearer than that, down is the wall's normal
@@ -60,6 +62,7 @@ Ridge::Ridge(const sim::Model& model, const TubeDrawing& tube, int strand, const
     : m_body(&model.bodies[std::size_t(strand)]),
       m_strand(strand),
       m_covered(!carries(model, strand)),
+      m_head_on(meets_head_on(model, tube, strand, walls)),
       m_marks(model, strand) {
   const tissue::StrandState rest = tissue::rest_state(m_body->model);
   const StrandPiece all{0, m_body->nodes() - 1, 0, m_body->length(), false, false};
@@ -77,8 +80,10 @@ Ridge::Ridge(const sim::Model& model, const TubeDrawing& tube, int strand, const
     st.radius = 1.06 * std::max(outer[node], outer[node + 1]) + kLoose;
     m_stations.push_back(st);
   }
-  add_root(tube.end_root());
-  add_glide(walls);
+  if (!m_head_on) {
+    add_root(tube.end_root());
+    add_glide(walls);
+  }
   find_feet(walls);
   for (int i = 0; i < 2 * int(m_stations.size()) * kRows; ++i) m_buffer.add({});
   const auto row = [this](std::size_t flank, std::size_t i) {
@@ -90,6 +95,11 @@ Ridge::Ridge(const sim::Model& model, const TubeDrawing& tube, int strand, const
   place(curve);
   m_buffer.rest = m_buffer.positions;
   m_mesh = OwnedMesh(backend, m_buffer.data());
+}
+
+bool Ridge::meets_head_on(const sim::Model& model, const TubeDrawing& tube, int strand, const WallSurface& walls) {
+  const TubeNeck& neck = tube.neck(false);
+  return neck.far > 0 && carries(model, strand) && dot(neck.along, walls.nearest(neck.end).normal) < -kHeadOn;
 }
 
 /// On along the ligament's way into the wall, which stays in space.
@@ -168,14 +178,17 @@ void Ridge::find_feet(const WallSurface& walls) {
   }
   for (Station& st : m_stations) {
     st.depth = m_covered ? smooth(kFromAll, kDownAll, st.s / to_wall) : smooth(kFrom, kDown, st.s / to_wall);
-    st.over = m_covered ? smooth(kOverAll, kClosedAll, st.s / to_wall) : smooth(kOver, kClosed, st.s / to_wall);
+    st.over = m_head_on   ? 0
+              : m_covered ? smooth(kOverAll, kClosedAll, st.s / to_wall)
+                          : smooth(kOver, kClosed, st.s / to_wall);
   }
   even_out(4, [](Station& st) -> Vec3d& { return st.side; });
   for (std::size_t i = 0; i < n; ++i) {
     Station& st = m_stations[i];
     st.side = normalised(st.side, any_perpendicular(st.along));
     const double high = std::max(0.0, dot(st.at - st.floor, st.normal[0]));
-    const double uneven = 1 + 0.3 * waves(st.floor, 0.021);
+    const double uneven = (1 + 0.3 * waves(st.floor, 0.021)) *
+                          (m_head_on ? smooth(m_body->length(), kGathers * m_body->length(), st.s) : 1);
     const double wide = (st.beyond ? 1.5 : 1.0) *
                         std::min(m_covered ? kWidestAll : kWidest, 1.6 * st.radius + 0.002 + 0.5 * high) * uneven;
     for (const int flank : {0, 1}) st.foot[flank] = st.floor + ((flank ? -wide : wide)) * st.side;

@@ -13,8 +13,9 @@ constexpr double kSunk = 0.0022;    // [m] the fold ends below the wall
 constexpr double kHollow = 0.55;    // of the border's span: how far it keeps to the strand, and to the wall
 constexpr double kUneven = 0.0014;  // [m] of the free border
 constexpr double kRim = 0.3;        // of the way to the border: there it thickens and pales
-constexpr double kLost = 0.12;      // of a column: there it goes over into the wall
+constexpr double kLost = 0.18;      // of a column: there it goes over into the wall
 constexpr double kMeets = 0.4;      // of the border: there it has come down to a ligament
+constexpr double kFlat = 1.0;       // how much of the way to the wall's tangent it turns on arriving
 constexpr double kInWall = 0.007;   // [m] from the wall: a strand that ends there needs no crescent
 constexpr double kPucker = 0.0011;  // [m] soft folds that run from the strand to the wall
 constexpr double kContact = 0.35;   // how much darker it is where it meets that
@@ -55,6 +56,7 @@ SheetCrescent::SheetCrescent(Vec3d base, std::span<const Vec3d> beside, std::spa
   for (int pass = 0; pass < 4; ++pass)  // walls bend, and where they do the nearest place on them jumps
     for (std::size_t k = 1; k < kSteps; ++k)
       m_on_wall[k] = 0.5 * m_on_wall[k] + 0.25 * (m_on_wall[k - 1] + m_on_wall[k + 1]);
+  for (const Vec3d& p : m_on_wall) m_normal.push_back(walls.nearest(p).normal);
 }
 
 /// From the tip on the strand to the wall: it leaves along the one and arrives along the other.
@@ -90,16 +92,32 @@ void SheetCrescent::place(std::span<const Vec3f> column, std::span<const Vec3f> 
           vec_cast<float>(coons(k) + (u * u1 * u1) * turn + (kPucker * slack * pucker) * across);
     }
   }
+  lay_on_wall(rows, out);
+}
+
+/// It does not stand on the wall but runs out on it: each column arrives along that.
+void SheetCrescent::lay_on_wall(std::size_t rows, std::span<Vec3f> out) const {
+  for (int k = 1; k <= kSteps; ++k) {
+    const std::span<Vec3f> column = out.subspan(std::size_t(k - 1) * rows, rows);
+    const Vec3d n = m_normal[std::size_t(k)];
+    const Vec3d arrives = double(rows - 1) * vec_cast<double>(column[rows - 1] - column[rows - 2]);
+    const Vec3d level = normalised(arrives - dot(arrives, n) * n, arrives);
+    const Vec3d turn = (kFlat * smooth(0, 0.4, double(k) / kSteps)) * (length(arrives) * level - arrives);
+    for (std::size_t r = 0; r < rows; ++r) {
+      const double v = double(r) / double(rows - 1);
+      column[r] += vec_cast<float>((v * v * (v - 1)) * turn);
+    }
+  }
 }
 
 Paint SheetCrescent::paint(int step, double v, bool hung) {
   const double u = double(step) / kSteps;
-  const double wall = 1 - smooth(1 - kLost, 1, v) * smooth(0, 0.3, u);
+  const double wall = 1 - smooth(1 - kLost, 1, v) * smooth(0, 0.15, u);
   const double held = hung ? smooth(0.6 * kMeets, kMeets, v) : 0;  // on a ligament: no border
   const double rim = (1 - held) * smooth(1 - kRim, 0.9, u);
   // Thin, and yet an edge: nothing ends in a mist. What lies against a ligament is in its shade.
   const double edge = 1 - (0.45 + held * (kContact - 0.45)) * smooth(0.85, 1, u);
-  const double walls = smooth(0.35, 0.9, v) * smooth(0, 0.5, u), dense = hung ? wall_share(u, v) : 0;
+  const double walls = smooth(0.35, 0.9, v) * smooth(-0.2, 0.25, u), dense = hung ? wall_share(u, v) : 0;
   return {to_byte(edge * wall), 0, 0, to_byte(std::max({0.22 * rim, 0.9 * walls, dense}))};
 }
 

@@ -38,7 +38,10 @@ class SheetCrescent {
  private:
   Vec3d free_border(double v, Vec3d tip, Vec3d along) const;
 
+  void lay_on_wall(std::size_t rows, std::span<Vec3f> out) const;
+
   std::vector<Vec3d> m_on_wall;  ///< (kSteps + 1) from the base to where the free border arrives
+  std::vector<Vec3d> m_normal;   ///< of the wall there
 };
 
 }  // namespace trocar::view
