@@ -31,6 +31,7 @@ constexpr double kAround = 6.5;          // radii: how far its slope is that of 
 constexpr double kAroundAll = 11;        // the same of one that carries nothing: broad shoulders
 constexpr double kWidestAll = 0.021;     // [m] and its feet
 constexpr double kGathers = 0.6;         // share of one that ends in a collar: from here on its flanks draw in
+constexpr double kGathered = 0.5;        // ... to this share of their width
 constexpr double kHeadOn = 0.75;         // sine of the angle to the wall
 constexpr double kLoose = 0.0004;        // [m] what covers a ligament keeps off it
 constexpr double kTucked = 0.0012;       // [m] the border lies below the wall
@@ -47,6 +48,9 @@ bool carries(const sim::Model& model, int strand) {
            return std::any_of(v.path.points.begin(), v.path.points.end(), rides);
          });
 }
+
+/// How wide the flanks still are of a ligament that ends in a collar.
+double gathered(double share) { return kGathered + (1 - kGathered) * smooth(1, kGathers, share); }
 
 /// A point that is at least so far from an axis.
 Vec3d outside(Vec3d p, Vec3d axis, Vec3d along, double far) {
@@ -187,8 +191,7 @@ void Ridge::find_feet(const WallSurface& walls) {
     Station& st = m_stations[i];
     st.side = normalised(st.side, any_perpendicular(st.along));
     const double high = std::max(0.0, dot(st.at - st.floor, st.normal[0]));
-    const double uneven = (1 + 0.3 * waves(st.floor, 0.021)) *
-                          (m_head_on ? smooth(m_body->length(), kGathers * m_body->length(), st.s) : 1);
+    const double uneven = (1 + 0.3 * waves(st.floor, 0.021)) * (m_head_on ? gathered(st.s / m_body->length()) : 1);
     const double wide = (st.beyond ? 1.5 : 1.0) *
                         std::min(m_covered ? kWidestAll : kWidest, 1.6 * st.radius + 0.002 + 0.5 * high) * uneven;
     for (const int flank : {0, 1}) st.foot[flank] = st.floor + ((flank ? -wide : wide)) * st.side;
