@@ -14,7 +14,7 @@ constexpr float kAim = 0.014f;                         // [m] outwards and up: w
 constexpr float kApart = 0.016f;                       // [m] between two
 constexpr float kSunk = 0.0012f;                       // [m] both ends, in what they hang on
 constexpr float kSag = 0.08f;                          // of the length
-constexpr double kFoot = 0.11;                         // of the length: there it is lost in what it hangs on ...
+constexpr double kFoot = 0.24;                         // of the length: there it is lost in what it hangs on ...
 constexpr double kTongue = 0.3;                        // ... and so much earlier at its sides: no foot is square
 
 std::size_t nearest_vertex(Vec3f p, const tissue::Skin& skin) {
@@ -40,7 +40,7 @@ bool Adhesions::Veil::near(Vec3f p, const tissue::Skin& skin) const {
 }
 
 Adhesions::Adhesions(const std::vector<OrganDrawing>& organs, const sim::Model& model, const WallSurface& walls,
-                     render::Backend& backend)
+                     render::Backend& backend, const Detail& detail)
     : m_down(normalised(vec_cast<float>(model.gravity), Vec3f{0, 0, -1})) {
   for (std::size_t i = 0; i < organs.size(); ++i)
     choose(i, look(model.solids[i].look).adhesions, model.solids[i].fine, walls);
@@ -55,6 +55,7 @@ Adhesions::Adhesions(const std::vector<OrganDrawing>& organs, const sim::Model& 
   }
   place(organs);
   m_buffer.rest = m_buffer.positions;
+  coarsen(m_buffer, detail, kBends);
   m_mesh = OwnedMesh(backend, m_buffer.data());
 }
 
@@ -119,7 +120,10 @@ void Adhesions::place_veil(const Veil& veil, const OrganDrawing& organ, std::siz
 }
 
 void Adhesions::update(const std::vector<OrganDrawing>& organs) {
-  if (m_veils.empty()) return;
+  std::uint64_t version = 0;
+  for (const Veil& veil : m_veils) version += organs[veil.organ].version();
+  if (version == m_version) return;
+  m_version = version;
   place(organs);
   m_mesh.move(m_buffer.positions, m_buffer.normals);
 }

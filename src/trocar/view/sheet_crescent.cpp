@@ -77,7 +77,9 @@ void SheetCrescent::place(std::span<const Vec3f> column, std::span<const Vec3f> 
   for (std::size_t r = 0; r < rows; ++r) {
     const double v = double(r) / double(rows - 1), v1 = 1 - v;
     const Vec3d own = vec_cast<double>(column[r]);
-    const Vec3d far = ligament.empty() ? free_border(v, tip, along) : hung_border(v, tip, along, ligament);
+    const Vec3d far = ligament.empty() ? free_border(v, tip, along)
+                                       : hung_border(v, tip, along, ligament) +
+                                             smooth(0.75, 1, v) * (last - ligament.back());  // below the wall
     const auto coons = [&](int k) {
       const double u = double(k) / kSteps, u1 = 1 - u;
       const Vec3d sides = u1 * own + u * far + v1 * beside[std::size_t(k)] + v * m_on_wall[std::size_t(k)];
