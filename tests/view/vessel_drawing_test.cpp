@@ -92,7 +92,7 @@ TEST(VesselDrawing, OfAFoldGetsThinnerOnItsWay) {
   const auto radius = [&](std::size_t ring) {  // of rings of eight
     return double(length(drawn.buffer().positions[8 * ring] - drawn.buffer().positions[8 * ring + 4])) / 2;
   };
-  EXPECT_GT(radius(4), 1.3 * radius(30)) << "the first one is a tubal artery, 60 mm long";
+  EXPECT_GT(radius(14), 1.15 * radius(22)) << "the first one is a tubal artery; its ends thin out besides";
 }
 
 TEST(VesselDrawing, AClipOnNothingButAVesselIsDrawnThere) {
