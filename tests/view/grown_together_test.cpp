@@ -195,7 +195,7 @@ TEST(SheetCrescent, LeavesItsStrandAndItsWallAlongThemAndHasAThinBorder) {
       const Vec3d p = vec_cast<double>(drawn.buffer().positions[v]);
       to_tip = std::min(to_tip, length(p - tip));
       const WallSurface::Place wall = walls().nearest(p);
-      if (length(p - wall.point) < 0.003 && drawn.buffer().paint[v].openness < 20) ++at_wall;
+      if (length(p - wall.point) < 0.009 && drawn.buffer().paint[v].openness < 20) ++at_wall;
     }
     EXPECT_LT(to_tip, 0.004) << "it narrows along the tube";
     EXPECT_GT(at_wall, 6) << "and is lost where it meets the wall";

@@ -77,9 +77,7 @@ void SheetCrescent::place(std::span<const Vec3f> column, std::span<const Vec3f> 
   for (std::size_t r = 0; r < rows; ++r) {
     const double v = double(r) / double(rows - 1), v1 = 1 - v;
     const Vec3d own = vec_cast<double>(column[r]);
-    const Vec3d far = ligament.empty() ? free_border(v, tip, along)
-                                       : hung_border(v, tip, along, ligament) +
-                                             smooth(0.9, 1, v) * (last - ligament.back());  // below the wall
+    const Vec3d far = ligament.empty() ? free_border(v, tip, along) : hung_border(v, tip, along, ligament);
     const auto coons = [&](int k) {
       const double u = double(k) / kSteps, u1 = 1 - u;
       const Vec3d sides = u1 * own + u * far + v1 * beside[std::size_t(k)] + v * m_on_wall[std::size_t(k)];
@@ -104,7 +102,7 @@ void SheetCrescent::lay_on_wall(std::size_t rows, std::span<Vec3f> out) const {
     const Vec3d n = m_normal[std::size_t(k)];
     const Vec3d arrives = double(rows - 1) * vec_cast<double>(column[rows - 1] - column[rows - 2]);
     const Vec3d level = normalised(arrives - dot(arrives, n) * n, arrives);
-    const double u = double(k) / kSteps, inner = smooth(0, 0.4, u) * smooth(1, 0.8, u);  // its border stays
+    const double inner = smooth(0, 0.4, double(k) / kSteps);
     const Vec3d turn = (kFlat * inner) * (length(arrives) * level - arrives);
     for (std::size_t r = 0; r < rows; ++r) {
       const double v = double(r) / double(rows - 1);
