@@ -195,7 +195,7 @@ TEST(SheetCrescent, LeavesItsStrandAndItsWallAlongThemAndHasAThinBorder) {
       const Vec3d p = vec_cast<double>(drawn.buffer().positions[v]);
       to_tip = std::min(to_tip, length(p - tip));
       const WallSurface::Place wall = walls().nearest(p);
-      if (length(p - wall.point) < 0.003 && drawn.buffer().paint[v].openness < 20) ++at_wall;
+      if (length(p - wall.point) < 0.009 && drawn.buffer().paint[v].openness < 20) ++at_wall;
     }
     EXPECT_LT(to_tip, 0.004) << "it narrows along the tube";
     EXPECT_GT(at_wall, 6) << "and is lost where it meets the wall";
@@ -203,11 +203,56 @@ TEST(SheetCrescent, LeavesItsStrandAndItsWallAlongThemAndHasAThinBorder) {
   }
   EXPECT_EQ(crescents, 2);
   for (int r = 0; r < 9; ++r) {
-    const int border = SheetCrescent::paint(SheetCrescent::kSteps, r / 10.0).openness;
+    const int border = SheetCrescent::paint(SheetCrescent::kSteps, r / 10.0, false).openness;
     EXPECT_GT(border, 100) << "it does not run out into a mist";
-    EXPECT_LT(border, SheetCrescent::paint(1, r / 10.0).openness - 50) << "and is sheerer than what it ends";
+    EXPECT_LT(border, SheetCrescent::paint(1, r / 10.0, false).openness - 50) << "and is sheerer than what it ends";
   }
-  EXPECT_LT(SheetCrescent::paint(SheetCrescent::kSteps, 1).openness, 10) << "but in the wall";
+  EXPECT_LT(SheetCrescent::paint(SheetCrescent::kSteps, 1, false).openness, 10) << "but in the wall";
+}
+
+TEST(SheetCrescent, OfTheBroadLigamentGoesOnAlongTheInfundibulopelvicOneAndFollowsIt) {
+  const auto backend = render::make_null_backend();
+  int hung = 0;
+  for (int i = 0; i < int(pelvis().sheets.size()); ++i) {
+    const std::string& name = pelvis().sheets[std::size_t(i)].name;
+    if (name.find("front") == std::string::npos) continue;
+    const int ligament = pelvis().strand_index("infundibulopelvic_ligament" + name.substr(name.rfind('_')));
+    ASSERT_GE(ligament, 0);
+    const interactions::StrandBody& body = pelvis().bodies[std::size_t(ligament)];
+    SheetDrawing sheet(pelvis(), i, *backend, {}, &walls());
+    sim::State state = sim::initial_state(pelvis());
+    for (const double moved : {0.0, 0.005}) {
+      for (Vec3d& x : state.strands[std::size_t(ligament)].x) x.z += moved;
+      sheet.update(state);
+      for (const double share : {0.5, 0.7, 0.9}) {
+        const Vec3d on = point_at(body, state.strands[std::size_t(ligament)], place_at(body, share * body.length()));
+        double least = 1;
+        for (const Vec3f& p : sheet.buffer().positions) least = std::min(least, length(vec_cast<double>(p) - on));
+        EXPECT_LT(least, 0.003) << "no window between them";
+      }
+    }
+    ++hung;
+  }
+  EXPECT_EQ(hung, 2);
+}
+
+TEST(Ridge, OfALigamentThatMeetsTheWallHeadOnDoesNotGoOnBeyondItsCollar) {
+  const auto backend = render::make_null_backend();
+  int head_on = 0;
+  for (int i = 0; i < int(pelvis().strands.size()); ++i) {
+    if (pelvis().strands[std::size_t(i)].end.kind != sim::StrandEndModel::fixed) continue;
+    const TubeDrawing tube(pelvis(), i, {}, &walls());
+    const bool round = pelvis().strands[std::size_t(i)].name.find("round") != std::string::npos;
+    EXPECT_EQ(Ridge::meets_head_on(pelvis(), tube, i, walls()), round);
+    if (!round) continue;
+    const Ridge ridge(pelvis(), tube, i, walls(), *backend);
+    const std::vector<Vec3d>& rest = pelvis().bodies[std::size_t(i)].model.rest;
+    const Vec3d along = normalised(rest.back() - rest[rest.size() - 2]);
+    for (const Vec3f& p : ridge.buffer().positions)
+      EXPECT_LT(dot(vec_cast<double>(p) - rest.back(), along), 0.01) << "no spike on the wall";
+    ++head_on;
+  }
+  EXPECT_EQ(head_on, 2);
 }
 
 TEST(Adhesions, TaperBetweenTwoFeetThatLieInWhatTheyHangOn) {

@@ -85,6 +85,16 @@ TEST(VesselDrawing, WhatAFoldCarriesIsDrawnWithinItAfterEveryFold) {
   EXPECT_EQ(within, 2) << "arteries and veins";
 }
 
+TEST(VesselDrawing, OfAFoldGetsThinnerOnItsWay) {
+  const sim::Model pelvis = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/bleeding/scene.json"));
+  const auto backend = render::make_null_backend();
+  const VesselDrawing drawn(pelvis, false, *backend, {}, VesselDrawing::Lie::in_a_fold);
+  const auto radius = [&](std::size_t ring) {  // of rings of eight
+    return double(length(drawn.buffer().positions[8 * ring] - drawn.buffer().positions[8 * ring + 4])) / 2;
+  };
+  EXPECT_GT(radius(14), 1.15 * radius(22)) << "the first one is a tubal artery; its ends thin out besides";
+}
+
 TEST(VesselDrawing, AClipOnNothingButAVesselIsDrawnThere) {
   const sim::Model pelvis = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/bleeding/scene.json"));
   const auto backend = render::make_null_backend();

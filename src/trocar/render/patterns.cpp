@@ -231,6 +231,42 @@ Pattern vessel_pattern() {
   return pattern_of(red, veins, 0);
 }
 
+namespace {
+
+/// A twig of a fold: winds, thins out, forks at an acute angle, and ends before the fold's borders.
+struct FoldTwig {
+  float x, y, heading, radius, length;  // texels, [rad]
+  int forks;
+};
+
+void grow_twig(Canvas& canvas, const FoldTwig& twig, core::Random& random) {
+  float x = twig.x, y = twig.y, side = random.uniform() < 0.5 ? -1.0f : 1.0f;
+  const float phase = float(random.uniform(0, 6)), reach = 9 + 5 * twig.radius;
+  float fork = twig.length * float(random.uniform(0.22, 0.4));
+  int forks = twig.forks;
+  for (float way = 0; way < twig.length; way += 0.8f) {
+    if (y < 4 || y > float(canvas.rows) - 5) return;
+    const float left = 1 - way / twig.length;
+    canvas.dab(x, y, std::max(0.5f, twig.radius * (0.3f + 0.7f * left)), 0.5f + 0.45f * std::min(1.0f, 2.5f * left),
+               0.8f);
+    const float heading = twig.heading + 0.38f * float(portable::sin(double(way / reach + phase))) +
+                          0.2f * float(portable::sin(double(2.7f * way / reach + 2 * phase)));
+    x += 0.8f * float(portable::cos(double(heading)));
+    y += 0.8f * float(portable::sin(double(heading)));
+    fork -= 0.8f;
+    if (fork > 0 || forks == 0) continue;
+    --forks;
+    side = -side;
+    fork = twig.length * float(random.uniform(0.15, 0.35));
+    grow_twig(canvas,
+              {x, y, heading + side * float(random.uniform(0.5, 0.95)), twig.radius * (0.3f + 0.5f * left),
+               (0.35f + 0.4f * left) * twig.length * float(random.uniform(0.6, 1.0)), forks},
+              random);
+  }
+}
+
+}  // namespace
+
 Pattern arcade_pattern() {
   constexpr int size = 1024, rows = 512;
   core::Random random(0xA2CADE);
@@ -240,32 +276,42 @@ Pattern arcade_pattern() {
     return 0.25f * rows + 26 * float(portable::sin(double(2 * k))) + 12 * float(portable::sin(double(5 * k + 1))) +
            5 * float(portable::sin(double(17 * k))) + 2.5f * float(portable::sin(double(41 * k + 2)));
   };
+  // Feeders come up from the root, lean over into the arcade, and are widest there; between two of them it is narrow.
+  constexpr float kJoins[] = {0.15f * size, 0.47f * size, 0.83f * size};
+  const auto from_feeder = [&](float x) {
+    float least = size;
+    for (const float join : kJoins)
+      for (const float turn : {-float(size), 0.0f, float(size)}) least = std::min(least, std::fabs(x + turn - join));
+    return std::min(1.0f, least / (0.19f * size));
+  };
   for (float x = 0; x < size; x += 0.7f) {
-    red.dab(x, arch(x), 4.2f + float(portable::sin(double(6.28318531f * x / size))), 1, 0.9f);
-    veins.dab(x, arch(x + 6) + 15, 6.5f, 0.9f, 2.2f);
+    const float narrow = 1 - 0.62f * from_feeder(x);
+    red.dab(x, arch(x), 4.6f * narrow, 1, 0.9f);
+    veins.dab(x, arch(x + 6) + 15, 6.5f * narrow, 0.9f, 2.2f);
   }
-  // Feeders from the root.
-  for (const float foot : {0.08f * size, 0.43f * size, 0.76f * size}) {
-    const float lean = 0.3f * rows * (foot < 0.5f * size ? 1.0f : -1.0f);
-    for (float u = 0; u <= 1; u += 0.002f) {
-      const float sway = 10 * float(portable::sin(double(9 * u + foot))) + 4 * float(portable::sin(double(31 * u)));
-      const float x = foot + lean * (1 - u) * (1 - u) + sway, y = rows + (arch(foot) - rows) * u;
-      red.dab(x, y, 3.8f, 1, 0.9f);
-      veins.dab(x + 13, y, 6, 0.9f, 2.2f);
+  float lean = 0.34f * rows;
+  for (const float join : kJoins) {
+    for (float u = 0; u <= 1; u += 0.002f) {  // u: from the arcade down, along it first
+      const float sway = 8 * float(portable::sin(double(7 * u + join))) + 4 * float(portable::sin(double(23 * u)));
+      const float x = join + lean * u * (1.6f - 0.6f * u) + u * (2 - u) * sway;
+      const float y = arch(join) + (rows - 1 - arch(join)) * u * (0.45f + 0.55f * u);
+      red.dab(x, y, 3.6f + 0.9f * u, 1, 0.9f);
+      veins.dab(x + 13, y, 5.2f + 1.4f * u, 0.9f, 2.2f);
     }
+    lean = -0.8f * lean;
   }
-  // Twigs to the tube, at right angles.
-  for (float x = 0; x < size; x += float(random.uniform(26, 62))) {
-    const float top = arch(x), bow = float(random.uniform(-16, 16)), thick = float(random.uniform(0.9, 2.0));
-    const float fork = float(random.uniform(0.35, 0.8));
-    for (float u = 0; u <= 1; u += 0.004f) {
-      const float way = x + bow * u * u + 2.2f * float(portable::sin(double(15 * u + x)));
-      red.dab(way, top * (1 - u), std::max(0.6f, thick * (1 - 0.5f * u)), 0.95f, 0.8f);
-      if (u > fork) red.dab(way + 34 * (u - fork), top * (1 - u), 0.75f * thick, 0.8f, 0.8f);
-      if (thick > 1.5f) veins.dab(way + 5, top * (1 - u), 2.2f * (1 - 0.4f * u), 0.7f, 1.4f);
-    }
+  // Twigs to the tube leave it at acute angles, some to either side; fewer and finer ones to the root.
+  float side = 1;
+  for (float x = 0; x < size; x += float(random.uniform(18, 58))) {
+    side = random.uniform() < 0.3 ? side : -side;
+    const bool down = random.uniform() < 0.25;
+    const float steep = float(random.uniform(0.75, 1.25)) * (down ? 1.0f : -1.0f);
+    const float heading = side > 0 ? steep : float(portable::pi) - steep;
+    const float radius = float(random.uniform(0.8, 2.1)) * (down ? 0.8f : 1.0f) * (1 - 0.35f * from_feeder(x));
+    grow_twig(red, {x, arch(x), heading, radius, float(random.uniform(70, 210)), 3}, random);
+    if (radius > 1.5f) grow_twig(veins, {x + 6, arch(x) + 6, heading, 1.5f * radius, 90, 0}, random);
   }
-  grow(red, {10, 1.3f, 2.2f, 0.8f, 0.75f, 1.3f}, random);
+  grow(red, {6, 1.2f, 1.8f, 0.75f, 0.75f, 1.3f}, random);
   grow(red, {26, 0.8f, 1.2f, 0.65f, 0.7f, 1.4f}, random);
   return pattern_of(red, veins, rows);
 }

@@ -14,7 +14,8 @@ constexpr float kAim = 0.014f;                         // [m] outwards and up: w
 constexpr float kApart = 0.016f;                       // [m] between two
 constexpr float kSunk = 0.0012f;                       // [m] both ends, in what they hang on
 constexpr float kSag = 0.08f;                          // of the length
-constexpr double kFoot = 0.13;                         // of the length: there it is lost in what it hangs on
+constexpr double kFoot = 0.24;                         // of the length: there it is lost in what it hangs on ...
+constexpr double kTongue = 0.3;                        // ... and so much earlier at its sides: no foot is square
 
 std::size_t nearest_vertex(Vec3f p, const tissue::Skin& skin) {
   std::size_t best = 0;
@@ -26,7 +27,8 @@ std::size_t nearest_vertex(Vec3f p, const tissue::Skin& skin) {
 /// Thin and soft at its borders, dense where it is narrow, gone in its feet. @param u along @param v across, -1 .. 1
 Paint paint_at(double u, double v) {
   const double end = std::min(u, 1 - u), border = std::fabs(v);
-  const double foot = smooth(0, kFoot, end), soft = smooth(1.02, 0.5, border);
+  const double ragged = 0.35 * std::sin(7 * v + 3) + 0.65, sides = kTongue * border * border * ragged;
+  const double foot = smooth(0.4 * sides, kFoot + sides, end), soft = smooth(1.02, 0.5, border);
   return {to_byte(0.62 * foot * (0.3 + 0.7 * soft)), 0, 0,
           to_byte(0.12 + 0.5 * smooth(0.1, 0.4, end) * (1 - 0.7 * border))};
 }

@@ -209,7 +209,8 @@ void BodyDrawing::make_joints(const WallSurface& walls, render::Backend& backend
       if (m_tubes[i].neck(at_start).far <= 0) continue;
       const sim::StrandEndModel& end = at_start ? m_model->strands[i].start : m_model->strands[i].end;
       if (end.kind != sim::StrandEndModel::hosted) {
-        if (!at_start && !m_model->walls.empty() && is_ridge(m_model->strands[i])) continue;
+        const bool ridge = !at_start && !m_model->walls.empty() && is_ridge(m_model->strands[i]);
+        if (ridge && !Ridge::meets_head_on(*m_model, m_tubes[i], int(i), walls)) continue;
         m_details.joints.emplace_back(levels_of(*m_model, m_model->strands[i].name));
         m_joints.push_back({i, -1, Joint(m_tubes[i], at_start, walls, backend, m_details.joints.back())});
         continue;

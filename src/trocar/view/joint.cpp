@@ -139,7 +139,7 @@ void Joint::place(const TubeDrawing& tube, const OrganDrawing* organ) {
       const double w = std::min(1.0, double(t));
       const double under = organ ? organ->paint()[m_below[v]].burn / 255.0 : 0;
       const double burnt = smooth(0, 0.35, w) * (under + smooth(0.6, 1, w) * (burn - under));
-      const double tint = std::max((organ ? 0.95 : 0.35) * smooth(0.85, 0.05, w), below * w);
+      const double tint = std::max((organ ? 0.95 : 0.8) * smooth(0.85, 0.05, w), below * w);
       m_buffer.paint[v] = {to_byte((1 - w) * 0.92 + w * open), 0, to_byte(burnt), to_byte(tint)};
     }
   }

@@ -81,14 +81,16 @@ Material ligament(Vec3f main, Vec3f broad, Vec3f fine) {
   return m;
 }
 
-/// Seen through its sheath: paler than blood.
+/// Seen through the peritoneum: paler than blood, and lit as that is, not as a cord on it.
 Material vessel(Vec3f main, Vec3f broad, Vec3f fine) {
   Material m = tissue(main, broad, fine);
   m.mottle_size = 0.006f;
   m.mottle = 0.4f;
   m.film_size = 0.0018f;
-  m.film_bump = 0.12f;  // under a film: few glints of its own
-  m.wetness = 0.25f;
+  m.film_bump = 0.12f;
+  m.wetness = 0.05f;  // under a film: no glints of its own
+  m.fresnel = 0.006f;
+  m.wrap = {0.8f, 0.75f, 0.75f};
   return m;
 }
 
@@ -230,7 +232,11 @@ Material fold(float alpha) {
 
 /// Where it runs out on a wall it takes on that one's colour (tint).
 Material broad_ligament() {
-  Material m = fold(0.68f);
+  Material m = fold(0.78f);
+  m.wetness = 0.28f;
+  m.film_size = 0.0021f;
+  m.film_bump = 0.09f;
+  m.film_roughness = 0.15f;
   m.tint = peritoneum().colour;
   return m;
 }

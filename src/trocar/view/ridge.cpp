@@ -18,15 +18,21 @@ constexpr double kWidest = 0.016;  // [m] from below the ligament to a flank's f
 constexpr double kOver = 0.62;     // share of the ligament from where on its flanks close over it ...
 constexpr double kClosed = 0.86;   // ... and where they have
 constexpr double kOverAll = 0.12, kClosedAll = 0.32;  // the same where it carries nothing
-constexpr double kLostOver = 0.034;                   // [m] of wall along which a ridge goes down and is lost ...
-constexpr double kLostDepth = 0.0014;                 // [m] ... below it
-constexpr double kShallow = 3.0;                      // radii of the ligament that it rises above it before that
-constexpr double kShallowLaden = 0.4;                 // the same of one that carries something
-constexpr double kFlatter = 1.2;                      // and how much rounder it grows
-constexpr double kTurns = 8;                          // radii above the wall where its sections begin to turn
-constexpr double kCrest = 1.15;                       // radii from the ligament's axis to what covers it
+constexpr double kFromAll = -0.12, kDownAll = 0.24;
+constexpr double kLostOver = 0.034;      // [m] of wall along which a ridge goes down and is lost ...
+constexpr double kLostDepth = 0.0014;    // [m] ... below it
+constexpr double kShallow = 3.0;         // radii of the ligament that it rises above it before that
+constexpr double kShallowLaden = 0.4;    // the same of one that carries something
+constexpr double kFlatter = 1.2;         // and how much rounder it grows
+constexpr double kTurns = 8;             // radii above the wall where its sections begin to turn
+constexpr double kCrest = 1.15;          // radii from the ligament's axis to what covers it
 constexpr double kCovers = 1.32;         // radii from the axis: nearer than that it would not cover the ligament
 constexpr double kAround = 6.5;          // radii: how far its slope is that of the ligament's side
+constexpr double kAroundAll = 11;        // the same of one that carries nothing: broad shoulders
+constexpr double kWidestAll = 0.021;     // [m] and its feet
+constexpr double kGathers = 0.6;         // share of one that ends in a collar: from here on its flanks draw in
+constexpr double kGathered = 0.5;        // ... to this share of their width
+constexpr double kHeadOn = 0.75;         // sine of the angle to the wall
 constexpr double kLoose = 0.0004;        // [m] what covers a ligament keeps off it
 constexpr double kTucked = 0.0012;       // [m] the border lies below the wall
 constexpr double kAtWall = 0.006;        // [m] nearer than that, down is the wall's normal
@@ -42,6 +48,9 @@ bool carries(const sim::Model& model, int strand) {
            return std::any_of(v.path.points.begin(), v.path.points.end(), rides);
          });
 }
+
+/// How wide the flanks still are of a ligament that ends in a collar.
+double gathered(double share) { return kGathered + (1 - kGathered) * smooth(1, kGathers, share); }
 
 /// Of a row, from the ligament to the wall; the last is tucked in.
 double share_down(int row) { return std::min(1.0, double(row) / (kRows - 2)); }
@@ -60,6 +69,7 @@ Ridge::Ridge(const sim::Model& model, const TubeDrawing& tube, int strand, const
     : m_body(&model.bodies[std::size_t(strand)]),
       m_strand(strand),
       m_covered(!carries(model, strand)),
+      m_head_on(meets_head_on(model, tube, strand, walls)),
       m_marks(model, strand) {
   const tissue::StrandState rest = tissue::rest_state(m_body->model);
   const StrandPiece all{0, m_body->nodes() - 1, 0, m_body->length(), false, false};
@@ -77,8 +87,10 @@ Ridge::Ridge(const sim::Model& model, const TubeDrawing& tube, int strand, const
     st.radius = 1.06 * std::max(outer[node], outer[node + 1]) + kLoose;
     m_stations.push_back(st);
   }
-  add_root(tube.end_root());
-  add_glide(walls);
+  if (!m_head_on) {
+    add_root(tube.end_root());
+    add_glide(walls);
+  }
   find_feet(walls);
   for (int i = 0; i < 2 * int(m_stations.size()) * kRows; ++i) m_buffer.add({});
   const auto row = [this](std::size_t flank, std::size_t i) {
@@ -92,6 +104,11 @@ Ridge::Ridge(const sim::Model& model, const TubeDrawing& tube, int strand, const
   m_buffer.rest = m_buffer.positions;
   coarsen(m_buffer, detail, kBends);
   m_mesh = OwnedMesh(backend, m_buffer.data());
+}
+
+bool Ridge::meets_head_on(const sim::Model& model, const TubeDrawing& tube, int strand, const WallSurface& walls) {
+  const TubeNeck& neck = tube.neck(false);
+  return neck.far > 0 && carries(model, strand) && dot(neck.along, walls.nearest(neck.end).normal) < -kHeadOn;
 }
 
 /// On along the ligament's way into the wall, which stays in space.
@@ -169,16 +186,19 @@ void Ridge::find_feet(const WallSurface& walls) {
     st.side = normalised(cross(st.along, normalised(down, -below.normal)), any_perpendicular(st.along));
   }
   for (Station& st : m_stations) {
-    st.depth = smooth(kFrom, kDown, st.s / to_wall);
-    st.over = m_covered ? smooth(kOverAll, kClosedAll, st.s / to_wall) : smooth(kOver, kClosed, st.s / to_wall);
+    st.depth = m_covered ? smooth(kFromAll, kDownAll, st.s / to_wall) : smooth(kFrom, kDown, st.s / to_wall);
+    st.over = m_head_on   ? 0
+              : m_covered ? smooth(kOverAll, kClosedAll, st.s / to_wall)
+                          : smooth(kOver, kClosed, st.s / to_wall);
   }
   even_out(4, [](Station& st) -> Vec3d& { return st.side; });
   for (std::size_t i = 0; i < n; ++i) {
     Station& st = m_stations[i];
     st.side = normalised(st.side, any_perpendicular(st.along));
     const double high = std::max(0.0, dot(st.at - st.floor, st.normal[0]));
-    const double uneven = 1 + 0.3 * waves(st.floor, 0.021);
-    const double wide = (st.beyond ? 1.5 : 1.0) * std::min(kWidest, 1.6 * st.radius + 0.002 + 0.5 * high) * uneven;
+    const double uneven = (1 + 0.3 * waves(st.floor, 0.021)) * (m_head_on ? gathered(st.s / m_body->length()) : 1);
+    const double wide = (st.beyond ? 1.5 : 1.0) *
+                        std::min(m_covered ? kWidestAll : kWidest, 1.6 * st.radius + 0.002 + 0.5 * high) * uneven;
     for (const int flank : {0, 1}) st.foot[flank] = st.floor + ((flank ? -wide : wide)) * st.side;
   }
   for (const int flank : {0, 1}) {
@@ -260,7 +280,7 @@ void Ridge::place_flank(const Station& st, Vec3d at, int flank, std::size_t firs
   const Vec3d level = normalised(out - dot(out, n) * n, out);
   const double reach = length(end - top);
   // Narrow above, hollow below: it leaves the ligament around that and arrives flat on the wall.
-  const double round = std::min(reach, kAround * st.radius);
+  const double round = std::min(reach, (m_covered ? kAroundAll : kAround) * st.radius);
   const Vec3d leaves = (reach + st.over * (round - reach)) *
                        normalised((0.49 + 0.5 * st.over) * out + (0.87 - 0.6 * st.over) * down),
               arrives = ((0.9 + 0.4 * st.over) * spread * reach) * level;
@@ -279,8 +299,8 @@ void Ridge::paint() {
     const Station& st = m_stations[v / kRows % m_stations.size()];
     const double t = share_down(int(v % kRows));
     // The tint is the ligament's colour, which is near to that of the fat below a wall's peritoneum.
-    const double own =
-        (1 - 0.45 * smooth(0.5, 1, st.over)) * smooth(0.5 - 0.15 * st.over, 0, t) * (st.beyond ? 0.5 : 1.0);
+    const double own = (1 - 0.45 * smooth(0.5, 1, st.over)) * smooth(0.5 - 0.15 * st.over, 0, t) *
+                       (st.beyond ? 0.5 : 1.0) * (m_covered ? 0.6 : 1.0);
     const double fat = fat_below(vec_cast<double>(m_buffer.positions[v]));
     m_buffer.paint[v].openness = to_byte(0.78 + 0.22 * std::fabs(1 - 2 * t));
     m_buffer.paint[v].tint = to_byte(std::max(own, 0.6 * fat * smooth(0, 0.5, t)));

@@ -18,11 +18,15 @@ constexpr double kPaleEdge = 0.22;    // of kTearReach: whitish beside a tear
 constexpr double kSag = 0.10;         // of the width, where the fold is as drawn
 constexpr double kRipple = 0.0006;    // [m]
 constexpr std::size_t kFaded = 6;     // columns over which a free edge runs out
+constexpr int kBlended = 14;          // columns over which it takes on the colour of a wall that it goes on to
 constexpr int kMarginSteps = 4;       // columns between an edge and the organ it runs out on
 constexpr double kMarginFar = 0.012;  // [m] to that
 constexpr int kEvenPasses = 4;
-constexpr double kTopOffset = 0.3;  // radii of the strand: there the fold begins, well within it
-constexpr double kCrescent = 0.3;   // of the width: the margin's free border starts this far from the strand
+constexpr double kTopOffset = 0.3;       // radii of the strand: there the fold begins, well within it
+constexpr double kCrescent = 0.3;        // of the width: the margin's free border starts this far from the strand
+constexpr double kLigamentNear = 0.03;   // [m] from where the margin's border would be free
+constexpr double kLigamentAside = 0.12;  // of the ligament: how much farther along it the border arrives
+constexpr int kLigamentPoints = 8;
 constexpr int kHemRows = 7;         // from a base in the air to the wall
 constexpr double kHemFar = 0.06;    // [m] at most
 constexpr double kHemSunk = 0.002;  // [m] below the wall
@@ -119,7 +123,7 @@ void SheetDrawing::connect() {
       const double whole = whole_beside_tear(m_columns[c].gap, m_columns[c].s, v);
       const double torn = smooth(kTear, 0.6 * kTear, v) * smooth(kPaleEdge, 0.5 * kPaleEdge, m_columns[c].gap);
       m_buffer.add({}, {to_byte(end * whole * (0.62 + 0.38 * smooth(0, 0.25, thin))), 0,
-                        to_byte(0.17 * torn * smooth(0.6, 1, whole)), 0});
+                        to_byte(0.17 * torn * smooth(0.6, 1, whole)), to_byte(wall_tint(left, v))});
     }
   for (std::size_t c = 0; c + 1 < m_columns.size(); ++c) {
     if (m_columns[c].twin == int(c) + 1) continue;
@@ -138,6 +142,12 @@ void SheetDrawing::connect() {
       m_buffer.quad(at(c, r), at(c, r + 1), at(c + 1, r + 1), at(c + 1, r));
 }
 
+/// Of a sheet that goes on to a wall: as much of that one's colour as what goes on has where it begins.
+double SheetDrawing::wall_tint(std::size_t columns_left, double v) const {
+  if (m_onto[1].strand < 0) return 0;
+  return SheetCrescent::paint(0, v, true).tint / 255.0 * smooth(double(kBlended), 0, double(columns_left));
+}
+
 /// Columns beyond an end, and their cells.
 void SheetDrawing::connect_end(bool at_end) {
   const int steps = beyond(at_end);
@@ -146,7 +156,7 @@ void SheetDrawing::connect_end(bool at_end) {
   for (int k = 1; k <= steps; ++k) {
     const std::uint32_t row = m_buffer.size();
     for (int r = 0; r < kRows; ++r)
-      m_buffer.add({}, m_crescent[at_end] ? SheetCrescent::paint(k, double(r) / (kRows - 1))
+      m_buffer.add({}, m_crescent[at_end] ? SheetCrescent::paint(k, double(r) / (kRows - 1), m_onto[at_end].strand >= 0)
                                           : Paint{to_byte(1 - double(k) / kMarginSteps), 0, 0, 0});
     join_rows(m_buffer, at_end ? before : row, at_end ? row : before, kRows, false);
     before = row;
@@ -222,12 +232,51 @@ std::vector<Vec3d> SheetDrawing::beside(bool at_end, const StrandCurve& curve) c
   return line;
 }
 
+/// The nearest one that goes from an organ to the wall, and that the sheet does not hang on already.
+SheetDrawing::Ligament SheetDrawing::ligament_near(Vec3d tip) const {
+  Ligament best;
+  double nearest = kLigamentNear;
+  for (int k = 0; k < int(m_model->strands.size()); ++k) {
+    const sim::StrandModel& strand = m_model->strands[std::size_t(k)];
+    const auto carries = [k](const sim::BasePoint& b) { return b.strand == k; };
+    if (k == m_sheet->strand || std::any_of(m_sheet->base.begin(), m_sheet->base.end(), carries)) continue;
+    if (strand.start.kind != sim::StrandEndModel::hosted || strand.end.kind != sim::StrandEndModel::fixed) continue;
+    const interactions::StrandBody& body = m_model->bodies[std::size_t(k)];
+    for (std::size_t n = 0; n < body.model.rest.size(); ++n) {
+      const double far = length(body.model.rest[n] - tip);
+      if (far >= nearest) continue;
+      nearest = far;
+      best = {k, std::min(body.arc[n] + kLigamentAside * body.length(), 0.7 * body.length())};
+    }
+  }
+  return best;
+}
+
+std::vector<Vec3d> SheetDrawing::ligament_points(bool at_end, const sim::State& state) const {
+  std::vector<Vec3d> points;
+  const Ligament& onto = m_onto[at_end];
+  if (onto.strand < 0) return points;
+  const auto strand = std::size_t(onto.strand);
+  const interactions::StrandBody& body = m_model->bodies[strand];
+  for (int i = 0; i < kLigamentPoints; ++i) {
+    const double s = onto.from + (body.length() - onto.from) * i / (kLigamentPoints - 1);
+    points.push_back(point_at(body, state.strands[strand], place_at(body, s)));
+  }
+  return points;
+}
+
 void SheetDrawing::find_crescent(bool at_end, const WallSurface& walls) {
   const sim::State rest = sim::initial_state(*m_model);
   const StrandCurve curve(*m_body, rest.strands[std::size_t(m_sheet->strand)], m_pieces);
   const std::size_t c = at_end ? m_columns.size() - 1 : 0;
-  SheetCrescent crescent(vec_cast<double>(m_buffer.positions[c * kRows + kRows - 1]), beside(at_end, curve), walls);
-  if (crescent.there()) m_crescent[at_end] = std::move(crescent);
+  const std::vector<Vec3d> strand = beside(at_end, curve);
+  m_onto[at_end] = ligament_near(strand.back());
+  SheetCrescent crescent(vec_cast<double>(m_buffer.positions[c * kRows + kRows - 1]), strand,
+                         ligament_points(at_end, rest), walls);
+  if (crescent.there())
+    m_crescent[at_end] = std::move(crescent);
+  else
+    m_onto[at_end] = {};
 }
 
 void SheetDrawing::find_margin(bool at_end) {
@@ -266,10 +315,12 @@ void SheetDrawing::place_margin(const sim::State& state, bool at_end) {
   }
 }
 
-void SheetDrawing::place_crescent(const StrandCurve& curve, bool at_end) {
+void SheetDrawing::place_crescent(const sim::State& state, const StrandCurve& curve, bool at_end) {
   const std::size_t edge = (at_end ? m_columns.size() - 1 : 0) * kRows;
   const std::span<Vec3f> all(m_buffer.positions);
-  m_crescent[at_end]->place(all.subspan(edge, kRows), beside(at_end, curve),
+  const std::size_t inner = at_end ? edge - kRows : edge + kRows;
+  m_crescent[at_end]->place(all.subspan(edge, kRows), all.subspan(inner, kRows), beside(at_end, curve),
+                            ligament_points(at_end, state),
                             all.subspan(m_beyond_first[at_end], std::size_t(SheetCrescent::kSteps) * kRows));
 }
 
@@ -341,7 +392,7 @@ void SheetDrawing::place(const sim::State& state) {
     if (m_columns[c].twin == int(c) + 1) close_tear(c);
   for (const bool at_end : {false, true})
     if (m_crescent[at_end])
-      place_crescent(curve, at_end);
+      place_crescent(state, curve, at_end);
     else if (!m_margin[at_end].empty())
       place_margin(state, at_end);
   if (!m_hem.empty()) place_hem();

@@ -37,17 +37,25 @@ class SheetDrawing {
     int organ = -1, vertex = -1;
   };
   void find_ends(const WallSurface& walls);
+  /// Part of a ligament that runs to the wall beside an end.
+  struct Ligament {
+    int strand = -1;
+    double from = 0;  ///< [m] of it: there the sheet meets it
+  };
   void find_margin(bool at_end);
+  Ligament ligament_near(Vec3d tip) const;
+  std::vector<Vec3d> ligament_points(bool at_end, const sim::State& state) const;
   void find_crescent(bool at_end, const WallSurface& walls);
   std::vector<Vec3d> beside(bool at_end, const StrandCurve& curve) const;
   int beyond(bool at_end) const;
   void find_hem(const WallSurface& walls);
   void place_hem();
   void place_margin(const sim::State& state, bool at_end);
-  void place_crescent(const StrandCurve& curve, bool at_end);
+  void place_crescent(const sim::State& state, const StrandCurve& curve, bool at_end);
   void lay_out(std::vector<StrandPiece> pieces);
   void connect();
   void connect_end(bool at_end);
+  double wall_tint(std::size_t columns_left, double v) const;
   void lay_pattern();
   void place(const sim::State& state);
   void even_out(std::vector<Vec3d>& of_columns) const;
@@ -66,6 +74,7 @@ class SheetDrawing {
   std::vector<double> m_rest_width;            ///< (columns) drawn
   std::vector<Margin> m_margin[2];             ///< (rows) at the first and last column; empty: no organ is near
   std::optional<SheetCrescent> m_crescent[2];  ///< there the sheet goes over to a wall
+  Ligament m_onto[2];                          ///< which ligament that one's border runs along
   std::size_t m_beyond_first[2] = {0, 0};      ///< vertices of either
   std::vector<Vec3d> m_hem;                    ///< (columns) where the sheet ends below its base; empty: at its base
   std::uint32_t m_hem_first = 0;               ///< vertex

@@ -10,6 +10,8 @@ namespace {
 
 constexpr double kPi = 3.14159265358979;
 constexpr double kRootFlare = 0.12;    // how much wider a strand is where it grows out of an organ
+constexpr double kThinsInWall = 0.6;   // share of the radius that one loses before a wall ...
+constexpr double kThinsFrom = 0.8;     // ... from here on along it
 constexpr double kContracts = 0.0022;  // [m] of a cut end
 constexpr double kIsthmus = 0.027;     // [m] of a uterine tube that is narrow and straight
 constexpr double kCoil = 0.0006;       // [m] its drawn line winds about the simulated one
@@ -35,6 +37,8 @@ double TubeDrawing::radius_at(double s) const {
   if (m_strand->fimbriated) radius *= bell_flare(m_body->length() - s) * bore(s);
   if (hosted(0)) radius *= 1 + kRootFlare * std::exp(-s / (0.9 * r.front()));
   if (hosted(m_body->nodes() - 1)) radius *= 1 + kRootFlare * std::exp(-(m_body->length() - s) / (0.9 * r.back()));
+  if (m_strand->end.kind == sim::StrandEndModel::fixed)  // it goes into a wall, below what covers it there
+    radius *= 1 - kThinsInWall * smooth(kThinsFrom * m_body->length(), m_body->length(), s);
   return radius;
 }
 

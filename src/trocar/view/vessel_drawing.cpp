@@ -20,12 +20,15 @@ constexpr double kInFold = 0.8;          // share of the radius: half of it is i
 constexpr double kSameNode = 0.0012;     // [m] ends that meet
 constexpr int kSofter = 8;               // passes that round the line's corners ...
 constexpr int kSofterInFold = 22;        // ... in a fold, where nothing bends a vessel sharply
+constexpr int kWide = 15;                // of these reach twice as far
 constexpr double kFade = 0.009;          // [m] over which one that ends in a fold is lost in it
 constexpr double kMeeting = 0.009;       // [m] beside a place where vessels of a fold meet, that is rounded ...
 constexpr double kDrawnIn = 0.6;         // ... by this share of the mean of the ways there ...
 constexpr double kMostDrawnIn = 0.0045;  // [m] ... at most
 constexpr double kDives = 0.003;         // [m] seen of a vessel that leaves its fold
-constexpr double kNestled = 0.6;         // radii below an organ's surface
+constexpr double kNestled = 0.82;        // radii below an organ's surface: hardly a ridge
+constexpr double kTrunk = 1.2;           // of the radius, where a vessel of a fold comes from ...
+constexpr double kTwig = 0.55;           // ... and at its other end: drawn the more uneven
 constexpr double kBuried = 0.0045;       // [m] there, where a vessel of a fold goes into an organ
 constexpr double kWinding = 0.0006;      // [m] to either side, in a fold
 
@@ -55,7 +58,11 @@ std::vector<Vec3d> drawn_line(const Run& run, const Curve& curve, const interact
   for (const double s : run.s) line.push_back(curve.at(s));
   for (int pass = 0; pass < (in_a_fold(path) ? kSofterInFold : kSofter); ++pass) {
     old = line;
-    for (std::size_t i = 1; i + 1 < line.size(); ++i) line[i] = 0.5 * old[i] + 0.25 * (old[i - 1] + old[i + 1]);
+    const std::size_t wide = in_a_fold(path) && pass < kWide ? 2 : 1, n = line.size();
+    for (std::size_t i = 1; i + 1 < n; ++i) {
+      const std::size_t far = std::min({wide, i, n - 1 - i});
+      line[i] = 0.5 * old[i] + 0.25 * (old[i - far] + old[i + far]);
+    }
   }
   if (!in_a_fold(path)) return line;
   old = line;
@@ -316,8 +323,9 @@ void VesselDrawing::place_run(const Run& run, const sim::State& state) {
     tangent = normalised(line[std::min(i + 1, line.size() - 1)] - line[i > 0 ? i - 1 : 0], tangent);
     normal = normalised(normal - dot(normal, tangent) * tangent, any_perpendicular(tangent));
     const Vec3d beside = cross(tangent, normal), at = line[i];
+    const double in_fold = kInFold * (kTrunk + (kTwig - kTrunk) * s);
     const double drawn =
-        (fold ? kInFold : 1) * vessel_radius(path, s) * thinned(run, s, path.length, fold ? kTaperInFold : kTaper);
+        (fold ? in_fold : 1) * vessel_radius(path, s) * thinned(run, s, path.length, fold ? kTaperInFold : kTaper);
     const vessels::WallReading wall = read_wall(m_model->vessels.flow, state.flow, run.vessel, s, vessel.gain);
     double radius = drawn + std::clamp(wall.shift, -kMostShift * drawn, kMostShift * drawn);
     for (int c = 0; c < state.vessel_clip_count; ++c) {
