@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include <trocar/fluids/fluids.hpp>
+#include <trocar/fluids/optics.hpp>
 #include <trocar/render/liquid.hpp>
 #include <trocar/view/wound.hpp>
 

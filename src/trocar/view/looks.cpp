@@ -358,6 +358,17 @@ Material polished(Vec3f bright, Vec3f dull, float roughness, float scatter) {
   return m;
 }
 
+/// Titanium: greyer than steel, with a soft sheen.
+Material satin(Vec3f bright, Vec3f dull) {
+  Material m = metal(bright, dull, 0.33f);
+  m.scatter = 0.12f;
+  m.mottle = 0.7f;
+  m.mottle_size = 0.0007f;
+  m.fibre_stretch = 4;
+  m.bump = 0.07f;
+  return m;
+}
+
 /// The plastic tube around a shaft.
 Material insulation() {
   Material m = metal(srgb(92, 91, 97), srgb(82, 81, 88), 0.4f);
@@ -458,7 +469,7 @@ std::vector<Look> make_looks() {
       {"insulated", insulation(), false, {}},
       {"ceramic", ceramic(), false, {}},
       {"sleeve", metal(srgb(130, 131, 137), srgb(116, 118, 124), 0.38f), false, {}},
-      {"titanium", polished(srgb(190, 190, 195), srgb(174, 175, 180), 0.3f, 0.5f), false, {}},
+      {"titanium", satin(srgb(126, 125, 129), srgb(98, 97, 102)), false, {}},
   };
 }
 

@@ -206,6 +206,7 @@ std::size_t TubeDrawing::nearest_first(double s) const {
 
 void TubeDrawing::place(const StrandCurve& curve, std::vector<Vec3f>& positions) const {
   positions.resize(m_buffer.paint.size());
+  const Vec3d up = -1.0 * normalised(m_model->gravity, {0, 0, -1});
   std::size_t v = 0;
   for (const TubeRow& row : m_rows) {
     const CurveFrame f = frame_of(row, curve);
@@ -218,8 +219,9 @@ void TubeDrawing::place(const StrandCurve& curve, std::vector<Vec3f>& positions)
       const double a = 2 * kPi * k / m_sides;
       const double lobes = row.scallop * ragged(row.piece + m_index, a);
       const double r = row.radius * (outline(row.s, a) + lobes);
-      const Vec3d p = centre + r * (std::cos(a) * f.normal + std::sin(a) * f.binormal) +
-                      (row.along < 0 ? -1 : 1) * (0.9 * lobes * row.radius) * f.tangent;
+      const Vec3d out = std::cos(a) * f.normal + std::sin(a) * f.binormal;
+      const double beyond = (row.along < 0 ? -0.9 : 0.9) * lobes - row.slant * dot(out, up);
+      const Vec3d p = centre + r * out + (beyond * row.radius) * f.tangent;
       positions[v++] = vec_cast<float>(p);
     }
   }
