@@ -361,7 +361,7 @@ Material polished(Vec3f bright, Vec3f dull, float roughness, float scatter) {
 /// Titanium: greyer than steel, with a soft sheen.
 Material satin(Vec3f bright, Vec3f dull) {
   Material m = metal(bright, dull, 0.33f);
-  m.scatter = 0.12f;
+  m.scatter = 0.34f;
   m.mottle = 0.7f;
   m.mottle_size = 0.0007f;
   m.fibre_stretch = 4;
@@ -469,7 +469,7 @@ std::vector<Look> make_looks() {
       {"insulated", insulation(), false, {}},
       {"ceramic", ceramic(), false, {}},
       {"sleeve", metal(srgb(130, 131, 137), srgb(116, 118, 124), 0.38f), false, {}},
-      {"titanium", satin(srgb(126, 125, 129), srgb(98, 97, 102)), false, {}},
+      {"titanium", satin(srgb(158, 157, 162), srgb(132, 131, 137)), false, {}},
   };
 }
 
