@@ -17,7 +17,8 @@ inline constexpr int kDrapeSupports = 6;
 class Drape {
  public:
   /// @param organs one per solid of the model, as drawn at rest
-  Drape(const sim::Model& model, int solid, const std::vector<OrganDrawing>& organs, render::Backend& backend);
+  Drape(const sim::Model& model, int solid, const std::vector<OrganDrawing>& organs, render::Backend& backend,
+        const Detail& detail = {});
 
   void update(const std::vector<OrganDrawing>& organs);
   render::MeshHandle mesh() const { return m_mesh.handle(); }
@@ -40,7 +41,9 @@ class Drape {
 
   std::vector<float> m_fold;  ///< [m] how high each vertex stands: the sheet is slack
   int m_solid;
-  Vec3f m_up;  ///< away from what the organ rests on
+  std::vector<int> m_follows;   ///< organs
+  std::uint64_t m_version = 0;  ///< of these, together
+  Vec3f m_up;                   ///< away from what the organ rests on
   std::vector<Spoke> m_spokes;
   std::vector<Vec3f> m_hem, m_even;  ///< (spokes) scratch
   MeshBuffer m_buffer;

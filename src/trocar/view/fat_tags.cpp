@@ -163,7 +163,8 @@ void FatTags::place(const OrganDrawing& organ) {
 }
 
 void FatTags::update(const OrganDrawing& organ) {
-  if (m_tags.empty()) return;
+  if (m_tags.empty() || m_version == organ.version()) return;
+  m_version = organ.version();
   place(organ);
   m_mesh.move(m_buffer.positions, m_buffer.normals);
 }

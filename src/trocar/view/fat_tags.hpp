@@ -28,6 +28,7 @@ class FatTags {
   void place(const OrganDrawing& organ);
 
   std::vector<Tag> m_tags;
+  std::uint64_t m_version = 0;  ///< of the organ
   MeshBuffer m_buffer;
   OwnedMesh m_mesh;
 };
