@@ -20,9 +20,9 @@ constexpr float kWag = 0.075f;       // how far a jet's drops stray aside, a sha
 constexpr int kShards = 5;           // what a drop of spray is drawn as
 constexpr float kFreshJet = 0.006f;  // [m] blood that has come less far shows where its hole is
 constexpr float kThinStreak = 0.08e-3f, kWideStreak = 0.19e-3f;  // [m] half of what a shard's streak is wide
-constexpr float kDensestStreak = 46e-6f;                         // [m]
+constexpr float kDensestStreak = 28e-6f;                         // [m]
 constexpr float kShreds = 0.12f, kShred = 110e-6f;               // from so broken on links are shreds; [m] how thick
-constexpr float kStreakDense = 0.5f;    // its amount, of what it would be at rest: a shutter smears light, not blood
+constexpr float kStreakDense = 0.35f;   // its amount, of what it would be at rest: a shutter smears light, not blood
 constexpr float kLongestLink = 9.0f;    // in radii: a jet's drops hang together up to here
 constexpr float kThinnestLink = 0.30f;  // in radii: ... and until the thread between them is so thin
 
