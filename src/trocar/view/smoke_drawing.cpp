@@ -12,8 +12,8 @@ constexpr int kPuffs = 26;
 constexpr double kPlumeTime = 0.9;    // [s] that a puff is seen
 constexpr double kPlumeSpeed = 0.07;  // [m/s] upwards
 constexpr double kPlumeGrows = 0.20;  // of its way, in radius
-constexpr double kPlumeDense = 0.85;
-constexpr double kPlumeFoot = 0.0013, kPlumeThin = 0.009;  // [m] radius at the tip; and at which it is half as dense
+constexpr double kPlumeDense = 0.62;
+constexpr double kPlumeFoot = 0.0013, kPlumeThin = 0.006;  // [m] radius at the tip; and at which it is half as dense
 constexpr double kSmokes = 0.15;                           // [s] of current until tissue smokes
 
 constexpr float kClear = 0.01f;  // [g/m^3] everywhere below it: nothing to be seen

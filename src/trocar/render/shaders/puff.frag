@@ -18,6 +18,6 @@ void main() {
   float curls = 0.6 * texture(u_noise, drawn * 17.0).a + 0.4 * texture(u_noise, drawn.zxy * 46.0).a;
   float alpha = clamp(u_look.x * body * body * (0.12 + 1.5 * smoothstep(0.28, 0.80, curls)), 0.0, 0.95);
   Lit lit = light_at(v_eye);
-  vec3 colour = FOG_COLOUR * (min(lit.power, 6.0) * 0.9 + 0.35 * lit.bounce);
+  vec3 colour = FOG_COLOUR * (min(lit.power, 6.0) * 0.6 + 0.25 * lit.bounce);
   o_colour = vec4(colour * alpha, alpha);
 }
