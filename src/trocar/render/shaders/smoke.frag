@@ -21,7 +21,7 @@ const int kSteps = 8;
 const int kSteps = 6;
 #endif
 
-const float kByLaw = 0.84, kLeastSeen = 0.76;  // of the light from behind
+const float kByLaw = 0.68, kLeastSeen = 0.58;  // of the light from behind
 
 void main() {
   vec3 way = normalize(vec3((2.0 * v_uv - 1.0) * u_tan.xy + vec2(u_tan.z, 0.0), -1.0));

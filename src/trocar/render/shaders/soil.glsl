@@ -12,7 +12,7 @@ uniform int u_drop_count;
 
 vec3 blurred(vec2 uv, vec3 sharp, float by) {
   vec3 soft = texture(u_blur, uv).rgb, softer = texture(u_blurrer, uv).rgb;
-  return mix(mix(sharp, soft, clamp(by * 1.5, 0.0, 0.80)), softer, clamp((by - 0.5) * 1.2, 0.0, 0.6));
+  return mix(mix(sharp, soft, clamp(by * 2.4, 0.0, 1.0)), softer, clamp((by - 0.35) * 1.7, 0.0, 1.0));
 }
 
 vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
@@ -31,7 +31,7 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
   // One side of a lens is colder than the other; where drops have run together one sees better.
   vec4 patches = texture(u_noise, vec3(at * 0.16, 0.83));
   vec4 drops = texture(u_noise, vec3(mat2(0.8, 0.6, -0.6, 0.8) * at * 1.1 + 0.12 * patches.rg, 0.57));
-  fog *= (0.22 + 1.0 * smoothstep(0.25, 0.70, patches.a)) * (0.85 + 0.75 * dot(at, vec2(-0.75, 0.65)));
+  fog *= (0.50 + 0.75 * smoothstep(0.2, 0.75, patches.a)) * (0.95 + 0.55 * dot(at, vec2(-0.75, 0.65)));
   beads = (smoothstep(0.30, 0.80, drops.a) - 0.4) * clamp(2.0 * fog, 0.0, 1.0);
   fog *= 1.0 - 0.3 * beads;
 #endif
@@ -71,7 +71,7 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
   float by = max(fog, 0.55 * greasy);
   picture = blurred(uv, picture, by);
   vec3 veil = mix(mean, vec3(light), 0.30);
-  picture = mix(picture, veil * 0.98 + 0.02, 0.30 * fog);
+  picture = mix(picture, veil * 0.98 + 0.03, 0.46 * fog);
   picture *= 1.0 + 0.07 * beads;
   picture = mix(picture, veil * u_smear.rgb * 1.05 + 0.02, 0.33 * greasy);
 
