@@ -73,6 +73,28 @@ TEST(Openness, AnOpenBallIsOpenAndTheInsideOfABallIsNot) {
   EXPECT_LT(mean(paint), 110);
 }
 
+TEST(Openness, EvenedOutHasNoTeethAndKeepsItsMean) {
+  const sample::Shape strip = sample::sheet(40, 1, [](float u, float v) { return Vec3f{u, v, 0}; });
+  std::vector<Paint> paint(strip.positions.size());
+  for (std::size_t i = 0; i < paint.size(); ++i)
+    paint[i].openness = strip.positions[i].y > 0.5f && i % 2 == 0 ? 40 : 240;
+  const auto range = [&] {
+    int low = 255, high = 0;
+    for (const Paint p : paint) low = std::min<int>(low, p.openness), high = std::max<int>(high, p.openness);
+    return high - low;
+  };
+  const auto mean = [&] {
+    double sum = 0;
+    for (const Paint p : paint) sum += p.openness / double(paint.size());
+    return sum;
+  };
+  const double before = mean();
+  ASSERT_GT(range(), 150);
+  even_openness(strip.triangles, paint, 8);
+  EXPECT_LT(range(), 60);
+  EXPECT_NEAR(mean(), before, 15);
+}
+
 TEST(Patterns, AreTheSameEveryTimeAndTile) {
   const Pattern noise = noise_pattern();
   EXPECT_EQ(noise.texels, noise_pattern().texels);

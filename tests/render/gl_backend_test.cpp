@@ -1,6 +1,8 @@
 // The GL backend on whatever OpenGL this machine has, without a display. A machine without EGL fails here: setup
 // installs Mesa's software driver.
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 #include <epoxy/gl.h>
@@ -292,6 +294,33 @@ TEST_F(GlBackend, RestCoordinatesCarryThePattern) {
   double difference = 0;
   for (std::size_t i = 0; i < a.rgb.size(); ++i) difference += std::abs(a.rgb[i] - b.rgb[i]);
   EXPECT_LT(difference / double(a.rgb.size()), 0.2);
+}
+
+TEST_F(GlBackend, AFilmSparklesInClumpsTheWetterTheMore) {
+  frame.look = plain_look();
+  const sample::Shape bulge = sample::sphere({0, 0, -0.10f}, 0.05f, 96);
+  Material tissue;
+  tissue.mottle = 0;
+  tissue.film_size = 0.0016f;
+  tissue.film_bump = 0.24f;
+  frame.items = {{sample::create(*backend, bulge), tissue, {}, false}};
+  // Shares of pixels that are brighter than all around them, a grid of 8 x 8.
+  const auto glints = [&](float wetness) {
+    frame.items[0].material.wetness = wetness;
+    const Image image = draw(320, 320);
+    const auto red_free = [&](int x, int y) { return int(image.rgb[3 * (std::size_t(y) * 320 + std::size_t(x)) + 1]); };
+    std::vector<double> share(64, 0.0);
+    for (int y = 6; y < 314; ++y)
+      for (int x = 6; x < 314; ++x) {
+        const int around = red_free(x - 6, y) + red_free(x + 6, y) + red_free(x, y - 6) + red_free(x, y + 6);
+        if (red_free(x, y) > around / 4 + 20) share[std::size_t(y / 40 * 8 + x / 40)] += 1.0 / (40 * 40);
+      }
+    return share;
+  };
+  const auto sum = [](const std::vector<double>& v) { return std::accumulate(v.begin(), v.end(), 0.0); };
+  const std::vector<double> dry = glints(0.3f), wet = glints(0.9f);
+  EXPECT_GT(sum(wet), 1.5 * sum(dry));
+  EXPECT_GT(*std::max_element(dry.begin(), dry.end()), 5 * sum(dry) / 64) << "spread evenly";
 }
 
 /// A flat floor of tissue 80 mm before the lens, without pattern or gloss, and a rod `above` it [m] across the picture.

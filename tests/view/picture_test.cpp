@@ -8,6 +8,7 @@
 
 #include <trocar/geometry/nearest.hpp>
 #include <trocar/render/backend.hpp>
+#include <trocar/render/mesh_arrays.hpp>
 #include <trocar/scene/compile.hpp>
 #include <trocar/scene/reader.hpp>
 #include <trocar/view/cavity.hpp>
@@ -18,6 +19,7 @@
 #include <trocar/view/liver_dome.hpp>
 #include <trocar/view/looks.hpp>
 #include <trocar/view/scene_view.hpp>
+#include <trocar/view/shapes.hpp>
 
 namespace trocar::view {
 namespace {
@@ -263,6 +265,26 @@ TEST(InstrumentShapes, ASleeveLetsEveryInstrumentOfItsHandThrough) {
       EXPECT_NEAR(reach, 0.03f, 0.001f);
     }
   }
+}
+
+TEST(Shapes, APlateWithAWindowIsOneClosedSurfaceWithBrokenEdges) {
+  const auto circle = [](double radius) {
+    return [radius](double u) { return Vec3d{0, radius * std::cos(6.283185 * u), radius * std::sin(6.283185 * u)}; };
+  };
+  const auto flat = [](double at) { return [at](double, double) { return at; }; };
+  const MeshBuffer b =
+      plate(circle(2), circle(1), flat(0), flat(1), 32, 4, [](bool, double, double) { return Paint{}; });
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+  for (std::size_t i = 0; i < b.indices.size(); ++i) ++edges[{b.indices[i], b.indices[i % 3 == 2 ? i - 2 : i + 1]}];
+  for (const auto& [edge, count] : edges) {
+    EXPECT_EQ(count, 1);
+    EXPECT_EQ(edges.count({edge.second, edge.first}), 1u);  // each edge has a triangle on both sides
+  }
+  std::vector<Vec3f> normals;
+  render::vertex_normals(b.positions, b.indices, normals);
+  int slanting = 0;
+  for (const Vec3f n : normals) slanting += std::fabs(n.x) > 0.2f && std::fabs(n.x) < 0.9f;
+  EXPECT_GE(slanting, 4 * 32);
 }
 
 TEST(FoldPattern, IsFatAlongTheRootAndSheerBetween) {

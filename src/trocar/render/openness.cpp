@@ -95,4 +95,21 @@ void OpennessBaker::bake(std::span<const Vec3f> positions, std::span<const Vec3f
     paint[i].openness = std::uint8_t(std::clamp(255.0f * openness_at(positions[i], normals[i]) + 0.5f, 0.0f, 255.0f));
 }
 
+void even_openness(std::span<const std::uint32_t> triangles, std::span<Paint> paint, int passes) {
+  std::vector<float> sum(paint.size()), count(paint.size());
+  for (int pass = 0; pass < passes; ++pass) {
+    std::fill(sum.begin(), sum.end(), 0.0f);
+    std::fill(count.begin(), count.end(), 0.0f);
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      const std::size_t next = i % 3 == 2 ? i - 2 : i + 1;
+      sum[triangles[i]] += float(paint[triangles[next]].openness);
+      sum[triangles[next]] += float(paint[triangles[i]].openness);
+      ++count[triangles[i]];
+      ++count[triangles[next]];
+    }
+    for (std::size_t v = 0; v < paint.size(); ++v)
+      if (count[v] > 0) paint[v].openness = std::uint8_t(0.5f * (float(paint[v].openness) + sum[v] / count[v]) + 0.5f);
+  }
+}
+
 }  // namespace trocar::render

@@ -36,4 +36,8 @@ class OpennessBaker {
   std::vector<bool> m_cells;
 };
 
+/// Takes each vertex' openness halfway to the mean of those that it shares triangles with, `passes` times: where a mesh
+/// runs into another at a small angle, rays meet that at one vertex and miss it at the next.
+void even_openness(std::span<const std::uint32_t> triangles, std::span<Paint> paint, int passes);
+
 }  // namespace trocar::render

@@ -8,10 +8,10 @@ namespace trocar::view {
 namespace {
 
 constexpr double kPi = 3.14159265358979;
-constexpr int kRings = 20;          // along a leaf
-constexpr double kWall = 0.00042;   // [m] half the thickness of the rim's wall
-constexpr double kPleat = 0.00026;  // [m] height of the folds on the inner side
-constexpr int kFolds = 2;           // of them on a leaf
+constexpr int kRings = 18;          // along a leaf
+constexpr double kWall = 0.0002;    // [m] half the thickness of the rim's wall
+constexpr double kPleat = 0.00022;  // [m] height of the folds on the inner side
+constexpr int kFolds = 1;           // of them on a leaf
 
 /// Rings of the bell beyond the tube's end: forwards and outwards, in radii of the end.
 constexpr std::array<std::array<double, 2>, 4> kBell{{{0.14, 1.01}, {0.34, 1.05}, {0.52, 1.12}, {0.68, 1.24}}};
@@ -57,13 +57,13 @@ std::vector<Leaf> leaves_of(const FimbriaSite& site) {
   for (int i = 0; i < kLeaves; ++i) {
     Leaf& f = leaves[std::size_t(i)];
     const int order = i % 2 == 1 ? 2 : (i / 2) % 2;
-    constexpr double longest[] = {1.55, 1.2, 0.8}, falls[] = {1.15, 0.7, 0.15};
+    constexpr double longest[] = {1.7, 1.3, 0.85}, falls[] = {1.05, 0.5, 0.0};
     f.seed = seed + i;
     f.from = border[std::size_t(i)];
     f.to = border[std::size_t(i) + 1];
-    f.length = site.radius * longest[order] * (0.75 + 0.5 * varied(f.seed, 4));
+    f.length = site.radius * longest[order] * (0.7 + 0.6 * varied(f.seed, 4));
     f.lean = falls[order] + 0.8 * (varied(f.seed, 6) - 0.5);
-    f.sway = 1.1 * (varied(f.seed, 8) - 0.5);
+    f.sway = 1.3 * (varied(f.seed, 8) - 0.5);
     const double off = apart(f.middle(), to_ovary);
     f.reaches = site.ovary ? smooth(1.2, 0.35, off) : 0;
   }
@@ -155,16 +155,16 @@ Spines spine_of(const Leaf& f, const FimbriaSite& site) {
 
 /// 1 up to the round end, 0 at the tip.
 double round_end(double u, double end) {
-  return std::sqrt(std::max(0.0, 1 - std::pow(std::max(0.0, (u - 1 + end) / end), 2.4)));
+  return std::sqrt(std::max(0.0, 1 - std::pow(std::max(0.0, (u - 1 + end) / end), 2.0)));
 }
 
-/// Half the width over half the share of the rim: a petal, widest beyond its middle, with soft scallops and a round
-/// end.
+/// Half the width over half the share of the rim: a slender frond, widest in its middle, with soft scallops and a
+/// round end.
 double half_width(const Leaf& f, double u, double end, bool right) {
   const int k = 2 * f.seed + (right ? 1 : 0);
-  const double body = 1 + (0.25 + 0.4 * varied(f.seed, 23)) * smooth(0.05, 0.6, u);
-  const double turn = (7 + 4 * varied(k, 2)) * u + 6.3 * varied(k, 1);
-  const double scallops = 0.13 * smooth(0.1, 0.35, u) * std::sin(turn);
+  const double body = 1 + (0.3 + 0.5 * varied(f.seed, 23)) * smooth(0.05, 0.5, u) - 0.45 * smooth(0.5, 1, u);
+  const double turn = (8 + 5 * varied(k, 2)) * u + 6.3 * varied(k, 1);
+  const double scallops = smooth(0.1, 0.35, u) * (0.15 * std::sin(turn) + 0.09 * std::sin(2.3 * turn + k));
   return (body + scallops) * (0.03 + 0.97 * round_end(u, end));
 }
 
@@ -192,13 +192,13 @@ Sheets place_on(const Leaf& f, const Spines& spine, const FimbriaSite& site, int
   const Vec3d point = (1 - t) * a.point + t * b.point, across = (1 - t) * a.across + t * b.across,
               flat = (1 - t) * a.flat + t * b.flat;
   const double sector = 0.5 * (f.to - f.from) * kBell.back()[1] * site.radius;
-  const double end = std::clamp(1.5 * sector / f.length, 0.2, 0.55);
+  const double end = std::clamp(2.4 * sector / f.length, 0.35, 0.7);
   const double half = sector * half_width(f, v, end, w > 0);
   // Edges are longer than the middle: they rise and fall in a frill, and the leaf is a shallow trough.
   const double edge = std::fabs(w) * w * w, loose = smooth(0.05, 0.5, v) * (1 - 0.7 * smooth(0.8, 1, v));
   const double phase = 6.3 * varied(f.seed, w > 0 ? 21 : 22);
   const double frill =
-      loose * (0.0005 * edge * std::sin(9 * v + phase) + 0.00016 * w * w * std::sin(16 * v + 1.7 * phase));
+      loose * (0.0006 * edge * std::sin(9 * v + phase) + 0.00016 * w * w * std::sin(16 * v + 1.7 * phase));
   const double trough = (f.reaches >= 1 ? 0.05 : 0.5 * varied(f.seed, 12) - 0.1) * half * w * w;
   const double pleats = kPleat * smooth(0, 0.15, v) * (1 - 0.6 * v) * (fold - 0.3);
   const double thick = kWall * (1.05 - 0.3 * v) * round_end(v, end) * std::sqrt(std::max(0.0, 1 - w * w));
@@ -216,10 +216,10 @@ Paint painted(double openness, double tint) { return {to_byte(openness), 0, 0, t
 /// The inner side is the mucosa's deep rose, darker between folds; the rims let light through.
 Paint of_leaf(int column, double fold, double v, bool inside) {
   const double w = 2.0 * column / kLeafColumns - 1;
-  const double rim = std::max(std::pow(std::fabs(w), 3.0), smooth(0.72, 1.0, v));
+  const double rim = std::max(std::pow(std::fabs(w), 4.0), smooth(0.84, 1.0, v));
   const double groove = 1 - std::min(1.0, 1.5 * fold);
-  if (inside) return painted(1 - 0.38 * groove * (1 - rim) * (1 - 0.5 * v), (0.95 - 0.25 * fold) * (1 - 0.72 * rim));
-  return painted(0.95, (0.75 * smooth(0, 0.35, v)) * (1 - 0.8 * rim));
+  if (inside) return painted(1 - 0.45 * groove * (1 - rim) * (1 - 0.5 * v), (1 - 0.2 * fold) * (1 - 0.6 * rim));
+  return painted(0.95, (0.85 * smooth(0, 0.35, v)) * (1 - 0.65 * rim));
 }
 
 /// Vertices of the outside, from the tube's end to the rim; the last row is the rim.

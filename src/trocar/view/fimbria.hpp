@@ -11,8 +11,8 @@ namespace trocar::view {
 
 inline constexpr double kBellLength = 0.007;                ///< of tube that widens to its end [m]
 inline constexpr double kBellFlare = 1.22;                  ///< end's radius over the tube's
-inline constexpr int kLeaves = 16;                          ///< of the rim
-inline constexpr int kLeafColumns = 9;                      ///< across a leaf
+inline constexpr int kLeaves = 24;                          ///< of the rim
+inline constexpr int kLeafColumns = 6;                      ///< across a leaf
 inline constexpr int kRimColumns = kLeaves * kLeafColumns;  ///< vertices of the first ring, which the tube goes on to
 
 /// Coordinates: x along the tube's direction from its end's centre, y and z along the end frame's normal and binormal.

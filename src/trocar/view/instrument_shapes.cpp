@@ -16,7 +16,7 @@ constexpr int kAround = 40;
 constexpr double kCollarFrom = -0.0072;  // [m] where a hook's white collar begins
 // Blood is what clings there after work, burn what chars there: SceneView says how much of it is on an instrument.
 const Paint kClean{255, 0, 0, 0}, kShaded{110, 0, 0, 0}, kHollow{40, 0, 0, 90}, kUsed{235, 190, 0, 0};
-const Paint kJoint{70, 40, 0, 150}, kElectrode{235, 110, 150, 0};
+const Paint kJoint{70, 40, 0, 150};
 
 void merge(MeshBuffer& to, const MeshBuffer& part) { append(to, part, Mat3f::identity(), {}); }
 
@@ -115,7 +115,7 @@ MeshBuffer grasper_jaw(const ToolModel& tool) {
     const double body = thick * (1.2 - 0.38 * smooth(0.002, 0.3 * length, z) - 0.24 * smooth(0.3 * length, length, z));
     return body * (0.5 + 0.5 * std::sqrt(1 - 0.98 * across * across));
   };
-  MeshBuffer b = plate(outer, window, inside, outside, 208, 8, [=](bool face, double, double z) {
+  MeshBuffer b = plate(outer, window, inside, outside, 208, 6, [=](bool face, double, double z) {
     const double phase = z / 0.0011 - std::floor(z / 0.0011), deep = phase < 0.5 ? 1 - phase : phase;
     const double works = smooth(0.004, 0.012, z);
     if (!face) return Paint{255, to_byte(0.5 * works * smooth(0.3 * length, length, z)), 0, 0};
@@ -144,27 +144,33 @@ MeshBuffer bipolar_tine(const ToolModel& tool) {
 /// The paddle of bipolar forceps: narrow, flat and smooth inside, blunt; its back is insulated nearly to the tip.
 MeshBuffer bipolar_paddle(const ToolModel& tool) {
   const double length = tool.jaw_length, half = 0.5 * tool.jaw_width, deep = 0.45 * tool.jaw_thickness;
+  const auto works = [](double u) { return Paint{240, to_byte(0.3 * u), to_byte(0.2 + 0.5 * smooth(0.3, 1, u)), 0}; };
   std::vector<BarSection> sections;
   for (int i = 0; i <= 12; ++i) {
     const double u = i / 12.0, z = (0.44 + 0.56 * u) * length;
     const double blunt = std::sqrt(std::max(0.04, 1 - std::pow(std::max(0.0, (u - 0.8) / 0.2), 2)));
     const double wide = (0.5 + 0.18 * smooth(0, 0.4, u)) * half * blunt, thick = deep * (0.8 + 0.2 * blunt);
-    sections.push_back({{0.5 * thick + 0.00004, 0, z}, {0.5 * thick, 0, 0}, {0, wide, 0}, kElectrode});
+    sections.push_back({{0.5 * thick + 0.00004, 0, z}, {0.5 * thick, 0, 0}, {0, wide, 0}, works(u)});
   }
   return bar(sections, 0.3);
 }
 
-/// A white end on an insulated shaft: ceramic or PTFE from `from` to `end` [m], narrower at its end.
+/// A white end on an insulated shaft: ceramic or PTFE from `from` to `end` [m], narrower at its end, which heat has
+/// browned.
 MeshBuffer insulator(const ToolModel& tool, double from, double end, double end_radius) {
-  const double r = 0.97 * tool.shaft_radius;
+  const double r = 0.97 * tool.shaft_radius, step = end - 0.4 * (end - from);
+  const Paint browned{225, 0, 140, 0}, sooted{190, 30, 210, 0};
   return turned({{from, 0, kShaded},
                  {from, r, kShaded},
                  {from, r, kShaded},
                  {from + 0.0003, r, kClean},
-                 {end - 0.4 * (end - from), r, kClean},
-                 {end - 0.0005, end_radius + 0.0002, kClean},
-                 {end, end_radius - 0.0002, kClean},
-                 {end, end_radius - 0.0002, kClean},
+                 {step - 0.0002, r, kClean},
+                 {step, r - 0.0002, kClean},
+                 {step + 0.3 * (end - step), end_radius + 0.3 * (r - end_radius), kClean},
+                 {step + 0.6 * (end - step), end_radius + 0.0003, browned},
+                 {end - 0.0005, end_radius + 0.0002, sooted},
+                 {end, end_radius - 0.0002, sooted},
+                 {end, end_radius - 0.0002, sooted},
                  {end, 0, kShaded}},
                 kAround);
 }
@@ -280,20 +286,25 @@ MeshBuffer blunt_rod(const ToolModel& tool) {
   return turned(outline, kAround);
 }
 
-/// A hook's bare wire, bent at its end: the foot looks to where jaws would open.
+/// A hook's bare wire, bent at its end: the foot looks to where jaws would open. Its end is flattened, and what it is
+/// used with is brown and black.
 MeshBuffer hook_wire(const ToolModel& tool) {
-  constexpr double turn = 0.0012;
-  const double r = 0.5 * tool.jaw_width, tip = tool.jaw_length - r, foot = 0.95 * tool.shaft_radius;
+  constexpr double turn = 0.0011, thin = 0.72;
+  const double r = 0.5 * thin * tool.jaw_width, tip = tool.jaw_length - r, foot = 1.03 * tool.shaft_radius;
   const Vec3d x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
-  std::vector<BarSection> sections{{-0.003 * z, r * x, r * y, kShaded}, {(tip - turn) * z, r * x, r * y, kClean}};
+  const auto used = [](double share) { return Paint{to_byte(1 - 0.1 * share), 0, to_byte(0.75 * share), 0}; };
+  std::vector<BarSection> sections{{-0.003 * z, r * x, r * y, kShaded}};
+  for (const double u : {0.2, 0.6, 1.0}) sections.push_back({(u * (tip - turn)) * z, r * x, r * y, used(0.6 * u)});
   for (int i = 1; i <= 6; ++i) {
     const double a = 0.5 * kPi * i / 6, c = std::cos(a), s = std::sin(a);
     const Vec3d across = c * x - s * z;
-    sections.push_back({(turn * (1 - c)) * x + (tip - turn + turn * s) * z, r * across, r * y, kElectrode});
+    sections.push_back({(turn * (1 - c)) * x + (tip - turn + turn * s) * z, (r * (1 - 0.12 * s)) * across,
+                        (r * (1 + 0.1 * s)) * y, used(0.65 + 0.2 * s)});
   }
-  sections.push_back({(foot - 0.4 * r) * x + tip * z, -r * z, r * y, kElectrode});
-  sections.push_back({foot * x + tip * z, -0.6 * r * z, 0.6 * r * y, kElectrode});
-  return bar(sections, 1.0);
+  sections.push_back({(foot - 0.5 * r) * x + tip * z, -0.8 * r * z, 1.12 * r * y, used(1)});
+  sections.push_back({(foot - 0.12 * r) * x + tip * z, -0.66 * r * z, 0.98 * r * y, used(1)});
+  sections.push_back({foot * x + tip * z, -0.4 * r * z, 0.7 * r * y, used(1)});
+  return bar(sections, 0.8);
 }
 
 }  // namespace
@@ -315,8 +326,8 @@ std::vector<InstrumentPart> instrument_parts(const ToolModel& tool) {
       break;
     case ToolKind::clip_applier:
       parts.push_back({Joint::body, "steel", open_shaft(tool, -0.002, 0.0008)});
-      parts.push_back({Joint::jaw_a, "steel", applier_jaw(tool)});
-      parts.push_back({Joint::jaw_b, "steel", applier_jaw(tool)});
+      parts.push_back({Joint::jaw_a, "matte_steel", applier_jaw(tool)});
+      parts.push_back({Joint::jaw_b, "matte_steel", applier_jaw(tool)});
       break;
     case ToolKind::suction_irrigator:
       parts.push_back({Joint::body, "matte_steel", irrigator_tube(tool)});

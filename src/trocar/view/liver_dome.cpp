@@ -65,6 +65,7 @@ void LiverDome::shade(const render::OpennessBaker& baker) {
   for (Part* part : {&m_dome, &m_falciform}) {
     const std::vector<Paint> own = part->shape.paint;  // where it runs out into nothing
     baker.bake(part->shape.positions, part->shape.normals, part->shape.paint);
+    render::even_openness(part->shape.indices, part->shape.paint, 6);
     for (std::size_t i = 0; i < own.size(); ++i)
       part->shape.paint[i].openness = std::uint8_t(part->shape.paint[i].openness * own[i].openness / 255);
     part->mesh.update(part->shape);

@@ -33,9 +33,10 @@ Material uterus() {
   m.mottle_size = 0.014f;
   m.mottle = 0.5f;
   m.bump = 0.12f;
-  m.film_bump = 0.34f;
-  m.film_roughness = 0.065f;
+  m.film_bump = 0.3f;
+  m.film_roughness = 0.075f;
   m.film_size = 0.0016f;
+  m.wetness = 0.62f;  // one broad sheen, few flecks
   return m;
 }
 
@@ -45,11 +46,11 @@ Material tube() {
   m.mottle = 0.6f;
   m.bump = 0.1f;
   m.glow_amount = 0.2f;        // through the thin rims of the fimbriae
-  m.tint = srgb(180, 86, 92);  // fimbriae: mucosa
+  m.tint = srgb(182, 76, 86);  // fimbriae: mucosa
   m.film_size = 0.0013f;       // much finer than the tube is thick: flecks in clumps, no row of beads
-  m.film_bump = 0.36f;
+  m.film_bump = 0.24f;
   m.film_roughness = 0.06f;
-  m.wetness = 0.9f;
+  m.wetness = 0.72f;
   return m;
 }
 
@@ -58,9 +59,10 @@ Material ovary() {
   m.mottle_size = 0.008f;
   m.mottle = 0.35f;
   m.bump = 0.14f;
-  m.film_roughness = 0.065f;
-  m.film_bump = 0.32f;
+  m.film_roughness = 0.1f;
+  m.film_bump = 0.24f;
   m.film_size = 0.0015f;
+  m.wetness = 0.5f;  // pearly
   m.glow_amount = 0.1f;
   m.tint = srgb(196, 166, 172);  // a follicle
   return m;
@@ -128,7 +130,7 @@ Material bladder() {
   m.mottle_size = 0.013f;
   m.mottle = 0.6f;
   m.vessel_tile = 0.05f;
-  m.wetness = 0.5f;
+  m.wetness = 0.6f;
   m.film_size = 0.002f;
   m.film_bump = 0.28f;
   m.film_roughness = 0.075f;
@@ -140,10 +142,10 @@ Material bowel() {
   m.mottle_size = 0.012f;
   m.mottle = 0.6f;
   m.glow_amount = 0.1f;
-  m.film_bump = 0.34f;
+  m.film_bump = 0.26f;
   m.film_size = 0.0016f;
   m.film_roughness = 0.06f;
-  m.wetness = 0.9f;
+  m.wetness = 0.75f;
   m.tint = srgb(228, 178, 158);  // its bands
   return m;
 }
@@ -164,10 +166,10 @@ Material small_bowel() {
   m.mottle_size = 0.014f;
   m.mottle = 0.5f;
   m.glow_amount = 0.1f;
-  m.film_bump = 0.34f;
+  m.film_bump = 0.26f;
   m.film_size = 0.0016f;
   m.film_roughness = 0.06f;
-  m.wetness = 0.9f;
+  m.wetness = 0.75f;
   return m;
 }
 
@@ -186,8 +188,8 @@ Material liver() {
   m.mottle = 0.4f;
   m.bump = 0.04f;
   m.roughness = 0.62f;
-  m.wetness = 0.9f;
-  m.film_roughness = 0.08f;
+  m.wetness = 0.66f;
+  m.film_roughness = 0.09f;
   m.film_bump = 0.22f;
   m.film_size = 0.0028f;
   m.tint = srgb(166, 104, 100);  // a thin edge
@@ -343,7 +345,7 @@ Material metal(Vec3f bright, Vec3f dull, float roughness) {
   m.roughness = roughness;
   m.mottle_size = 0.0016f;
   m.fibre_stretch = 9;
-  m.bump = 0.05f;
+  m.bump = 0.03f;
   m.soil = 0;
   return m;
 }
@@ -414,7 +416,7 @@ std::vector<Look> make_looks() {
         .follicle_radius = 0.0034,
         .scars = 9,
         .ripe = 0.0056,
-        .lopsided = 0.0009},
+        .lopsided = 0.0012},
        0,
        2},
       {"round_ligament", cord, false, {}},

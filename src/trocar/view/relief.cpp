@@ -61,6 +61,9 @@ void add_ripe(const Relief& relief, const tissue::Skin& skin, std::vector<float>
   }
   for (std::size_t i = 0; i < skin.rest.size(); ++i) {
     const double d = double(length(skin.rest[i] - skin.rest[centre])) / relief.ripe;
+    if (luteum)  // the whole ovary is duskier for it, here and there
+      paint[i].tint =
+          std::max(paint[i].tint, to_byte(0.45 * smooth(-0.3, 0.5, waves(vec_cast<double>(skin.rest[i]), 0.021))));
     if (d >= 1) continue;
     const double dome = (1 - d * d) * (1 - 0.3 * d * d);
     height[i] += float(relief.ripe * (0.3 * dome - (luteum ? 0.16 * smooth(0.35, 0, d) : 0)));

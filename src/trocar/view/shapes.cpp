@@ -73,34 +73,28 @@ MeshBuffer bar(const std::vector<BarSection>& sections, double roundness) {
 
 MeshBuffer plate(const Outline& outer, const Outline& inner, const Height& low, const Height& high, int around,
                  int across, const std::function<Paint(bool inside, double y, double z)>& paint) {
+  constexpr double kBevel = 0.09, kSideBevel = 0.16;  // share of the way across and of the height, where an edge turns
   MeshBuffer b;
   const auto count = std::uint32_t(around);
-  const auto add_row = [&](double t, const Height& height, bool inside) {
+  // Rows go once around the frame's cross-section. Its edges belong to both faces, so that they are worn round.
+  const auto go_on = [&](double t, double up, bool inside) {
     const std::uint32_t row = b.size();
     for (int i = 0; i < around; ++i) {
       const double u = double(i) / around;
       const Vec3d o = outer(u), n = inner(u), p = o + t * (n - o);
-      b.add(vec_cast<float>(Vec3d{height(p.y, p.z), p.y, p.z}), paint(inside, p.y, p.z));
+      const double x = up * high(p.y, p.z) + (1 - up) * low(p.y, p.z);
+      b.add(vec_cast<float>(Vec3d{x, p.y, p.z}), paint(inside, p.y, p.z));
     }
-    return row;
+    if (row > 0) join_rows(b, row - count, row, count, true);
   };
-  const auto face = [&](const Height& height, bool inside) {
-    std::uint32_t before = add_row(0, height, inside);
-    for (int k = 1; k <= across; ++k) {
-      const std::uint32_t row = add_row(double(k) / across, height, inside);
-      if (inside)
-        join_rows(b, row, before, count, true);
-      else
-        join_rows(b, before, row, count, true);
-      before = row;
-    }
-  };
-  face(high, false);
-  face(low, true);
-  const std::uint32_t out_low = add_row(0, low, false), out_high = add_row(0, high, false);
-  join_rows(b, out_low, out_high, count, true);
-  const std::uint32_t in_low = add_row(1, low, false), in_high = add_row(1, high, false);
-  join_rows(b, in_high, in_low, count, true);
+  std::vector<double> way{0, kBevel};
+  for (int k = 1; k < across; ++k) way.push_back(double(k) / across);
+  way.insert(way.end(), {1 - kBevel, 1});
+  for (const double t : way) go_on(t, 1, false);
+  for (const double up : {1 - kSideBevel, kSideBevel}) go_on(1, up, false);
+  for (std::size_t k = way.size(); k-- > 0;) go_on(way[k], 0, k > 0 && k + 1 < way.size());
+  for (const double up : {kSideBevel, 1 - kSideBevel}) go_on(0, up, false);
+  join_rows(b, b.size() - count, 0, count, true);
   return b;
 }
 

@@ -31,7 +31,8 @@ using Outline = std::function<Vec3d(double)>;
 /// Height over the (y, z) plane [m].
 using Height = std::function<double(double y, double z)>;
 /// A plate between an outer and an inner outline (a window), from `low` to `high` along x. With equal parameters the
-/// outlines face each other. @param around points along each outline
+/// outlines face each other. Its edges are broken: worn steel shows a bright line there. @param around points along
+/// each outline
 MeshBuffer plate(const Outline& outer, const Outline& inner, const Height& low, const Height& high, int around,
                  int across, const std::function<Paint(bool inside, double y, double z)>& paint);
 

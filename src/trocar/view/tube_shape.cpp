@@ -52,9 +52,10 @@ double TubeDrawing::bore(double s) const {
   return 1 + winding(s) * ampulla + 0.04 * swing(s / 0.0041, seed + 2);
 }
 
-/// And so is its way: it coils gently about the simulated line.
+/// And so is its way: it coils gently about the simulated line, one tube in long bends, the other in short ones.
 Vec3d TubeDrawing::coiled(double s, const CurveFrame& f) const {
-  const double k = 2 * kPi * s, seed = 2.3 * m_index, amount = kCoil * winding(s);
+  const double own = varied(m_index, 91), seed = 2.3 * m_index;
+  const double k = 2 * kPi * s * (0.7 + 0.7 * own), amount = kCoil * (1.25 - 0.4 * own) * winding(s);
   if (amount <= 0) return {};
   const double a = std::sin(k / 0.0248 + seed) + 0.2 * std::sin(k / 0.0137 + 2 * seed),
                b = std::cos(k / 0.0291 + 1.4 * seed) + 0.2 * std::sin(k / 0.0153 + seed);

@@ -71,17 +71,21 @@ void main() {
 #ifdef EFFECTS
   vec4 soft = texture(u_small, v_uv);
   vec4 softer = texture(u_smaller, v_uv + u_shadow);
-  float near = min(scene.a, soft.a);
-  // The circle of confusion grows with 1/d: a disc of taps of the small picture, so that strong lights blur round.
-  float unsharp = 2.4 * (u_depth.x / max(near, 0.002) - 1.0);
-  if (unsharp > 0.0) {
+  // The circle of confusion grows with 1/d: a disc of taps of the small picture, so that strong lights blur round. What
+  // lies around counts by how far it is out of focus, so that a near thing's outline is soft, too.
+  float nearest = min(scene.a, soft.a);
+  if (nearest < 1.3 * u_depth.x) {
+    float unsharp = 2.4 * (u_depth.x / max(nearest, 0.002) - 1.0);
     vec2 radius = (0.7 + 1.5 * clamp(0.6 * (unsharp - 1.0), 0.0, 1.0)) / vec2(textureSize(u_small, 0));
     vec3 disc = soft.rgb;
+    float near = clamp(2.4 * (u_depth.x / max(scene.a, 0.002) - 1.0), 0.0, 1.0);
     for (int k = 0; k < 12; ++k) {
       float turn = 2.39996 * float(k), out_ = sqrt((float(k) + 0.7) / 12.0);  // a sunflower's seeds
-      disc += min(texture(u_small, v_uv + 1.25 * radius * out_ * vec2(cos(turn), sin(turn))).rgb, vec3(6.0));
+      vec4 tap = texture(u_small, v_uv + 1.25 * radius * out_ * vec2(cos(turn), sin(turn)));
+      disc += min(tap.rgb, vec3(6.0));
+      near += clamp(2.4 * (u_depth.x / max(tap.a, 0.002) - 1.0), 0.0, 1.0);
     }
-    colour = mix(colour, disc / 13.0, u_depth.y * min(unsharp, 1.0));
+    colour = mix(colour, disc / 13.0, u_depth.y * min(1.2 * near / 13.0, 1.0));
   }
   // Depth darkening [Luft 06]: what lies just behind the mean depth towards the lamp sees less light: a soft shadow to
   // the side that the ring light is off the lens; red stays longest.

@@ -63,6 +63,7 @@ out vec4 o_colour;
 // Turns axes between octaves of noise so that their lattices do not line up.
 const mat3 kTurn = mat3(0.36, 0.48, -0.8, -0.8, 0.60, 0.0, 0.48, 0.64, 0.60);
 
+const float kClumps = 0.014;     // [m] distance of the places where a film sparkles
 const float kLiningBall = 0.12;  // [m] radius of the ball that a lining's vessels are drawn on
 
 vec3 along_surface(vec3 v, vec3 n) { return v - n * dot(n, v); }
@@ -169,7 +170,7 @@ void main() {
   // Grinding runs along the axis, so a highlight spreads along it.
   vec3 H = normalize(lit.direction + V);
   vec3 axis = normalize(to_eye(FIBRE_AXIS));
-  H = normalize(H - axis * (0.85 * step(0.01, FIBRE_SQUEEZE) * dot(H, axis)));
+  H = normalize(H - axis * (0.7 * step(0.01, FIBRE_SQUEEZE) * dot(H, axis)));
   float nh = clamp(dot(n, H), 0.0, 1.0), nv = clamp(dot(n, V), 0.0, 1.0), nl = clamp(dot(n, lit.direction), 0.0, 1.0);
   // Edges of a pixel or less are as rough as their normals differ [Kaplanyan 16].
   vec3 turn_x = dFdx(N), turn_y = dFdy(N);
@@ -185,18 +186,28 @@ void main() {
   float blood = smoothstep(-0.05, 0.2, smeared - 0.75 * ragged * (1.0 - smeared)) * step(0.01, smeared);
   float char_ = smoothstep(0.3, 0.6, BURN * SOIL * (0.5 + ragged));
   grey = mix(grey, vec3(0.10, 0.006, 0.007), 0.92 * blood);
+  float heated = smoothstep(0.1, 0.45, BURN * SOIL * (0.4 + 1.2 * ragged));  // what current has boiled on it: tan, brown
+  grey = mix(grey, grey * vec3(0.55, 0.34, 0.2) + vec3(0.02, 0.01, 0.004), 0.85 * heated);
   grey = mix(grey, vec3(0.016, 0.013, 0.012), 0.9 * char_);
   float plain = max(SCATTER, max(0.9 * blood, char_));  // no longer a mirror
   float ao = OPENNESS;
   float rim = min(1.0 - nv, 0.8), schlick = rim * rim * rim * rim;  // no further: the last pixel would be a dot
   vec3 mirror = mix(0.95 * grey, vec3(0.04), plain);
   mirror += (vec3(0.9) - mirror) * (schlick * (1.0 - 0.5 * char_));
-  // Scratches and moisture break a highlight up along the axis.
-  float broken = (0.1 + 1.3 * smoothstep(0.35, 0.7, broad.a)) * (0.12 + 1.0 * smoothstep(0.42, 0.64, fine.r));
+  // Scratches break a highlight up along the axis, moisture in any direction: only where that stands in beads it clips.
+  float broken = (0.15 + 1.2 * smoothstep(0.35, 0.7, broad.a)) * (0.35 + 0.8 * smoothstep(0.42, 0.64, fine.r));
   broken = mix(0.5, broken, clamp(20.0 * BUMP, 0.0, 1.0));  // what is polished has none
+#if DETAIL >= 1
+  vec4 moisture = texture(u_noise, kTurn * (v_rest - FIBRE_AXIS * (0.6 * dot(FIBRE_AXIS, v_rest))) * 60.0);
+  broken *= 0.5 + 0.8 * smoothstep(0.25, 0.75, moisture.a);
+  float bead = smoothstep(0.55, 0.8, moisture.a) * smoothstep(0.5, 0.75, fine.g);
+#else
+  const float bead = 0.0;
+#endif
   vec3 gloss = mix(1.5 * grey, vec3(0.28), max(SCATTER, blood)) * (mix(0.15, 0.12, plain) * lobe(nh, alpha2) * broken * (1.0 - 0.8 * blurred));
-  gloss /= 1.0 + 1.35 * gloss;  // the lamp is no point: long lines do not clip
+  gloss /= 1.0 + mix(5.0, 0.6, bead) * gloss;  // the lamp is no point: long lines do not clip
   vec3 around = mirrored(reflect(-V, n), 0.04, mix(0.6, 3.0, rim) * lit.bounce);  // the lens itself is dark
+  around = mix(vec3((0.1 + 0.3 * smoothstep(-0.2, 0.8, reflect(-V, n).y)) * lit.bounce), around, INVERSE_SQUARE);  // a room
   vec3 even = LIGHT_COLOUR * lit.power * (mix(0.08, 0.75, plain) * nl * nl + mix(0.012, 0.03, plain) * lobe(nh, 0.35));
   even += (BOUNCE * (mix(0.5, 1.0, plain) + 3.0 * rim) + vec3(AMBIENT)) * lit.bounce;
   vec3 colour = (grey * even + LIGHT_COLOUR * lit.power * gloss + around * mirror) * ao;
@@ -303,20 +314,27 @@ void main() {
   vec3 thin = GLOW * (GLOW_AMOUNT * lit.power * rim * open);
   vec3 colour = albedo * (direct + indirect) + thin * albedo.r;
 
-  // The film on top has its own ripples; it is broken where the tissue is dry.
+  // The film on top has its own ripples; it is broken where the tissue is dry. Most of it is drawn out smooth and thin, a
+  // soft sheen as dull as what it lies on; in clumps it stands in wrinkles and bubbles, and only there it sparkles.
 #if DETAIL >= 1
-  // Smooth sheets of film here, wrinkled and bubbly there.
-  vec3 film_slope = (ripple.rgb * 2.0 - 1.0 + 0.35 * (fine.bra * 2.0 - 1.0)) *
-                    (FILM_BUMP * (0.35 + 1.3 * smoothstep(0.45, 0.75, broad.b)));
+  vec3 q = v_rest * (6.2832 / kClumps);
+  float clump = 0.5 + 0.2 * (sin(q.x + 1.3 * sin(0.71 * q.y)) * cos(0.83 * q.y + 0.9 * sin(0.64 * q.z)) +
+                             sin(0.77 * q.z + 1.1 * sin(0.59 * q.x) + 0.3 * q.y)) + 0.5 * (broad.b - 0.5);
+  float wrinkled = smoothstep(-0.1, 0.1, clump + 0.4 * WETNESS - 0.9) * INVERSE_SQUARE;  // none in a room
+#ifdef STAINED
+  wrinkled = max(wrinkled, crust);
+#endif
+  vec3 film_slope = (ripple.rgb * 2.0 - 1.0 + 0.35 * (fine.bra * 2.0 - 1.0)) * (FILM_BUMP * mix(0.2, 1.3, wrinkled));
   float wet_noise = 0.5 * (ripple.a + broad.b);
 #else
-  vec3 film_slope = slope * FILM_BUMP;
+  const float wrinkled = 0.4;
+  vec3 film_slope = slope * (0.5 * FILM_BUMP);
   float wet_noise = broad.b;
 #endif
 #ifdef LINING
   film_slope = FILM_BUMP * (broad.rgb * 2.0 - 1.0 + 0.4 * (broad.gbr * 2.0 - 1.0));  // broad sheens, no frost ...
 #if DETAIL >= 1
-  float crest = smoothstep(0.56, 0.7, broad.a);  // ... flecks on what stands out
+  float crest = smoothstep(0.56, 0.7, broad.a) * wrinkled;  // ... flecks here and there on what stands out
   film_slope += (2.6 * crest * FILM_BUMP) * (ripple.rgb * 2.0 - 1.0);
 #endif
 #endif
@@ -326,26 +344,34 @@ void main() {
   wet = max(mix(wet, glassy, crust), (0.75 - 0.35 * raw) * smoothstep(0.1, 0.4, blood));
 #endif
   // What mirrors the lamp is broken again by the film's thickness: flecks in clumps, no rings around its bumps.
+#if DETAIL >= 1
   float flecks = smoothstep(0.34, 0.66, fine.g + 0.5 * (broad.b - 0.5));
 #ifdef LINING
-#if DETAIL >= 1
   flecks *= 0.35 + 0.65 * crest;
-#else
-  flecks *= 0.35;
-#endif
 #endif
   flecks = mix(0.45, flecks, 0.15 + 0.85 * INVERSE_SQUARE);
+#elif defined(LINING)
+  const float flecks = 0.17;
+#else
+  const float flecks = 0.45;
+#endif
   wet *= 0.6 + 0.3 * flecks;
+  wet = mix(0.45, wet, INVERSE_SQUARE);
   film_slope *= 0.1 + 0.9 * INVERSE_SQUARE;  // a room's lamps are large: they do not sparkle
   vec3 m = normalize(N + along_surface(to_eye(film_slope + relief * 0.6), N));
   vec3 H = normalize(lit.direction + V);
   float facing = clamp(nl * 4.0, 0.0, 1.0) * open;
+  float film2 = FILM2 * mix(4.0, 1.4, wrinkled);
+#if DETAIL >= 1
   // Ripples of a pixel or less are as rough as their normals differ [Kaplanyan 16].
   vec3 turn_x = dFdx(m), turn_y = dFdy(m);
-  float film2 = FILM2 + min(0.12 * (dot(turn_x, turn_x) + dot(turn_y, turn_y)), 0.06);
+  film2 += min(0.12 * (dot(turn_x, turn_x) + dot(turn_y, turn_y)), 0.06);
+#else
+  film2 += 0.008;
+#endif
   film2 += 0.03 * (1.0 - INVERSE_SQUARE);
   float mh = clamp(dot(m, H), 0.0, 1.0), nh = clamp(dot(n, H), 0.0, 1.0);
-  float gloss = 0.42 * FRESNEL * (wet * (0.4 + 1.3 * flecks) * lobe(mh, film2) + (0.35 + 0.65 * wet) * lobe(nh, ROUGH2)) * facing * lit.power;
+  float gloss = 0.42 * FRESNEL * (wet * (0.4 + 1.3 * flecks) * mix(1.1, 2.5, wrinkled) * lobe(mh, film2) + (0.35 + 0.65 * wet) * lobe(nh, ROUGH2)) * facing * lit.power;
   float grazing = FRESNEL + (1.0 - FRESNEL) * rim * rim * (1.0 - nv);
 #if SHADING == 2
   vec3 around = 0.7 * mirrored(reflect(-V, m), 0.03, lit.bounce);
