@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <trocar/render/backend.hpp>
+#include <trocar/view/blood_run.hpp>
 #include <trocar/view/fluid_drawing.hpp>
 #include <trocar/view/lens.hpp>
 #include <trocar/view/smoke_drawing.hpp>
@@ -307,6 +308,36 @@ TEST(SmokeDrawing, ClearAirGivesNoneAndSmokeTheSimulationsGrid) {
   ASSERT_EQ(frame.smoke.density.size(), 64u);
   EXPECT_EQ(frame.smoke.density[5], 2);
   EXPECT_FLOAT_EQ(frame.smoke.kappa, float(scene.m.smoke.kappa));
+}
+
+/// Rising along u.
+std::vector<float> slope(const fluids::PoolModel& m) {
+  std::vector<float> floor;
+  for (int j = 0; j < m.ny; ++j)
+    for (int i = 0; i < m.nx; ++i) floor.push_back(0.5f * float(m.cell) * float(i));
+  return floor;
+}
+
+TEST(BloodRun, FollowsTheFallAndGrowsWhileTheWoundBleeds) {
+  Scene scene;
+  const std::vector<float> floor = slope(scene.m.pool);
+  render::Liquid young, old;
+  list_run({.wound = {0.012, 0, 0.03}, .since = 0.5}, scene.m.pool, scene.s.pool, floor, young);
+  list_run({.wound = {0.012, 0, 0.03}, .since = 1.5}, scene.m.pool, scene.s.pool, floor, old);
+  ASSERT_GT(young.splats.size(), 3u);
+  EXPECT_GT(old.splats.size(), 2 * young.splats.size());
+  for (const render::Splat& s : old.splats) {
+    EXPECT_LT(s.to.x, s.from.x);
+    EXPECT_LT(s.to.z, s.from.z);
+    EXPECT_NEAR(length(s.normal), 1, 1e-5);
+  }
+}
+
+TEST(BloodRun, IsNoneOnLevelGround) {
+  Scene scene;
+  render::Liquid liquid;
+  list_run({.wound = {0, 0, 0.03}, .since = 5}, scene.m.pool, scene.s.pool, {}, liquid);
+  EXPECT_TRUE(liquid.splats.empty());
 }
 
 TEST(Lens, IsCleanUntilItFogs) {

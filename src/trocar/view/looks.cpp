@@ -366,6 +366,17 @@ Material polished(Vec3f bright, Vec3f dull, float roughness, float scatter) {
   return m;
 }
 
+/// Titanium: greyer than steel, with a soft sheen.
+Material satin(Vec3f bright, Vec3f dull) {
+  Material m = metal(bright, dull, 0.33f);
+  m.scatter = 0.34f;
+  m.mottle = 0.7f;
+  m.mottle_size = 0.0007f;
+  m.fibre_stretch = 4;
+  m.bump = 0.07f;
+  return m;
+}
+
 /// The plastic tube around a shaft.
 Material insulation() {
   Material m = metal(srgb(92, 91, 97), srgb(82, 81, 88), 0.4f);
@@ -466,7 +477,7 @@ std::vector<Look> make_looks() {
       {"insulated", insulation(), false, {}},
       {"ceramic", ceramic(), false, {}},
       {"sleeve", metal(srgb(130, 131, 137), srgb(116, 118, 124), 0.38f), false, {}},
-      {"titanium", polished(srgb(140, 140, 146), srgb(124, 125, 131), 0.42f, 0.15f), false, {}},
+      {"titanium", satin(srgb(158, 157, 162), srgb(132, 131, 137)), false, {}},
   };
 }
 

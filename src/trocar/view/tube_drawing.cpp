@@ -226,13 +226,15 @@ std::size_t TubeDrawing::nearest_first(double s) const {
 
 void TubeDrawing::place(const StrandCurve& curve, std::vector<Vec3f>& positions) const {
   positions.resize(m_buffer.paint.size());
+  const Vec3d up = -1.0 * normalised(m_model->gravity, {0, 0, -1});
   std::size_t v = 0;
   for (const TubeRow& row : m_rows) {
     const CurveFrame f = frame_of(row, curve);
     const Vec3d centre = f.point + row.along * f.tangent;
     for (int k = 0; k < (row.radius == 0 ? 1 : m_sides); ++k, ++v) {
-      const Vec3d q = m_section[v];
-      positions[v] = vec_cast<float>(centre + q.x * f.normal + q.y * f.binormal + q.z * f.tangent);
+      const Vec3d q = m_section[v], aside = q.x * f.normal + q.y * f.binormal;
+      const double beyond = row.slant != 0 ? q.z - row.slant * dot(aside, up) : q.z;
+      positions[v] = vec_cast<float>(centre + aside + beyond * f.tangent);
     }
   }
   if (!m_strand->fimbriated) return;

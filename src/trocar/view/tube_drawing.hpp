@@ -25,6 +25,7 @@ struct TubeRow {
   double out = 0;       ///< beyond the end, share of the way to the root's target
   bool crease = false;  ///< a hard edge: not joined to the row before, which lies in the same place
   Paint paint;
+  double slant = 0;  ///< how far its upper side lies back along the tangent, in radii
 };
 
 /// Where a strand's end goes on below the surface of what holds it. An organ's moves with the strand's end frame, a

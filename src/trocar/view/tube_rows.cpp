@@ -14,6 +14,8 @@ namespace {
 constexpr double kStep = 0.0012;      // [m] between rings
 constexpr double kFineStep = 0.0004;  // [m] near a clip
 constexpr double kNearClip = 0.004;   // [m]
+constexpr double kSlant = 0.45;       // scissors cut askew: how far a stump's upper side lies back, in radii
+constexpr double kSlanted = 1.8;      // ... and how far along it, in radii
 constexpr double kBend = 0.01;        // [m] radius with which tubes curve, for rings that are left out
 
 }  // namespace
@@ -36,24 +38,24 @@ void TubeDrawing::add_raw_face(int piece, bool at_start) {
   const double s = at_start ? p.from : p.to, sign = at_start ? -1 : 1, r = radius_at(s) * contracted(p, s);
   const double open = m_strand->inner.empty() ? 0 : m_strand->inner[std::size_t(at_start ? p.first : p.last)];
   const double lumen = std::max(open, 0.22 * r);
-  // The serosa has drawn back from a pale ring of muscle, which has contracted; out of it pouts the lining, ragged and
-  // dusky, around a narrow dark lumen.
-  const Paint rim{235, 20, 0, 0}, muscle{225, 8, 24, 20}, mucosa{205, 12, 0, 215}, lining{150, 60, 0, 255};
-  const Paint dark{40, 190, 0, 255};
+  // The serosa has drawn back from a pale ring of muscle, which has contracted; within it the lining pouts, ragged and
+  // pale, and leads into a narrow dark lumen.
+  const Paint rim{235, 20, 0, 0}, muscle{225, 8, 24, 20}, mucosa{225, 6, 8, 225}, lining{150, 40, 0, 255};
+  const Paint dark{14, 235, 0, 255};
   std::vector<TubeRow> rows;
   const auto row = [&](double along, double radius, double ragged, Paint paint) {
-    rows.push_back({piece, s, sign * along, radius, ragged, 0, false, paint});
+    rows.push_back({piece, s, sign * along, radius, ragged, 0, false, paint, sign * kSlant});
   };
   row(0, r, 0, rim);
-  row(0.05 * r, 0.94 * r, 0.05, muscle);
-  row(0.13 * r, 0.85 * r, 0.05, muscle);
-  row(0.22 * r, 0.89 * r, 0.10, mucosa);
-  row(0.38 * r, 0.96 * r, 0.17, mucosa);
-  row(0.52 * r, 0.90 * r, 0.20, mucosa);
-  row(0.54 * r, 0.74 * r, 0.17, mucosa);
-  row(0.45 * r, std::min(1.3 * lumen, 0.54 * r), 0.12, lining);
-  row(0.18 * r, std::min(0.9 * lumen, 0.38 * r), 0.05, dark);
-  row(-0.4 * r, 0, 0, dark);
+  row(0.06 * r, 0.93 * r, 0.05, muscle);
+  row(0.10 * r, 0.82 * r, 0.05, muscle);
+  row(0.12 * r, 0.79 * r, 0.09, mucosa);
+  row(0.25 * r, 0.80 * r, 0.15, mucosa);
+  row(0.30 * r, 0.70 * r, 0.17, mucosa);
+  row(0.24 * r, 0.55 * r, 0.14, mucosa);
+  row(0.08 * r, std::min(1.5 * lumen, 0.44 * r), 0.12, lining);
+  row(-0.10 * r, std::min(1.1 * lumen, 0.36 * r), 0.05, dark);
+  row(-0.6 * r, 0, 0, dark);
   rows.front().crease = !at_start;
   if (at_start) std::reverse(rows.begin(), rows.end());
   m_rows.insert(m_rows.end(), rows.begin(), rows.end());
@@ -85,7 +87,11 @@ void TubeDrawing::add_piece(const Layout& layout, int piece) {
   add_start(piece);
   bool first = true;
   for (const double s : stations(layout, p)) {
-    m_rows.push_back({piece, s, 0, radius_at(s) * contracted(p, s), 0, 0, first && p.cut_start, {}});
+    const double r = radius_at(s) * contracted(p, s);
+    double slant = 0;
+    if (p.cut_start) slant -= kSlant * smooth(kSlanted * r, 0, s - p.from);
+    if (p.cut_end) slant += kSlant * smooth(kSlanted * r, 0, p.to - s);
+    m_rows.push_back({piece, s, 0, r, 0, 0, first && p.cut_start, {}, slant});
     first = false;
   }
   add_end(piece);

@@ -2,6 +2,8 @@
 
 #include <trocar/interactions/cut.hpp>
 #include <trocar/numerics/portable.hpp>
+#include <trocar/view/blood_run.hpp>
+#include <trocar/view/film_splats.hpp>
 #include <trocar/view/looks.hpp>
 #include <trocar/view/wet_drawing.hpp>
 
@@ -37,7 +39,8 @@ std::vector<double> areas_below(const interactions::StrandBody& strand) {
 
 }  // namespace
 
-WetDrawing::WetDrawing(const sim::Model& model) : m_model(&model), m_drawing(model.wet.model) {
+WetDrawing::WetDrawing(const sim::Model& model)
+    : m_model(&model), m_drawing(model.wet.model), m_hosts(sim::make_host_views(model)) {
   for (int i = 0; i < model.organs(); ++i) m_poses.push_back(tissue::make_pose(model.skin(i)));
   for (const sim::MembraneModel& m : model.membranes) m_poses.push_back(tissue::make_pose(m.skin));
   m_surfaces.resize(std::size_t(model.surfaces()));
@@ -97,6 +100,27 @@ void WetDrawing::list(const sim::State& state, render::Frame& frame) {
   const auto surface = [&](const FilmPlace& place) { return on_strand(state, place); };
   m_drawing.list({state.fluids, state.pool_floor, m_places, m_sheer, surface}, frame);
   list_stumps(state, frame.liquid);
+  list_runs(state, frame.liquid);
+}
+
+/// From every opening of a vessel, also when it bleeds no more.
+void WetDrawing::list_runs(const sim::State& state, render::Liquid& liquid) {
+  if (state.opening_count == 0) return;
+  const interactions::VesselHosts hosts = sim::look_at_hosts(*m_model, state, m_hosts);
+  std::vector<Vec3d> points;
+  for (int i = 0; i < state.opening_count; ++i) {
+    const interactions::VesselOpening& opening = state.openings[std::size_t(i)];
+    const sim::Vessel& vessel = m_model->vessels.list[std::size_t(opening.vessel)];
+    points.resize(vessel.path.points.size());
+    pose_vessel(vessel.path, hosts, points);
+    BloodRun run;
+    run.wound = vessel_spot(vessel.path, points, {}, opening.s).place;
+    run.since = sim::kTick * double(state.tick - std::min(state.tick, opening.tick));
+    fluids::Blood blood;
+    blood.venous = vessel.vein ? 1.0f : 0.0f;
+    run.dark = darkness(float(run.since), blood, {1, 0, 0});
+    list_run(run, m_model->wet.model.pool, state.fluids.pool, state.pool_floor, liquid);
+  }
 }
 
 /// Both ends of every strand that is cut through.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <trocar/interactions/fluid_contact.hpp>
+#include <trocar/sim/host_views.hpp>
 #include <trocar/sim/state.hpp>
 #include <trocar/view/fluid_drawing.hpp>
 
@@ -22,6 +23,7 @@ class WetDrawing {
   void measure_places();
   void pose(const sim::State& state);
   void list_stumps(const sim::State& state, render::Liquid& liquid) const;
+  void list_runs(const sim::State& state, render::Liquid& liquid);
   FilmPlace on_strand(const sim::State& state, const FilmPlace& place) const;
 
   const sim::Model* m_model;
@@ -29,6 +31,7 @@ class WetDrawing {
   std::vector<tissue::SkinPose> m_poses;          ///< (organs, membranes)
   std::vector<interactions::Surface> m_surfaces;  ///< (organs, walls)
   std::vector<interactions::SheetView> m_sheets;
+  sim::HostViews m_hosts;
   std::vector<FilmPlace> m_places;    ///< (film cells)
   std::vector<std::uint8_t> m_sheer;  ///< (bodies)
 };

@@ -26,7 +26,7 @@ vec3 mirrored(vec3 r, float bounce, float jitter) {
     float gap = length(p) - texture(u_bed, at).a;
     float met = smoothstep(-0.25 * reach, 0.35 * reach, gap) * (1.0 - smoothstep(1.2 * reach, 3.0 * reach, gap));
     met *= edge.x * edge.y * step(p.z, -0.004);
-    seen += left * met * min(texture(u_before, at).rgb, vec3(0.35));
+    seen += left * met * min(texture(u_before, at).rgb, vec3(0.8));
     left *= 1.0 - met;
     reach *= 1.75;
   }
@@ -95,13 +95,13 @@ void main() {
   colour = mix(colour, mix(vec3(0.55, 0.42, 0.40), vec3(0.45, 0.10, 0.10), share.x) * light, 0.7 * froth);
 #endif
 
-  // A little more than [Schlick 94] says: it is what tells liquid from paint (our choice).
-  float share_back = min(2.0 * mirror_share(nv) + 0.022, 1.0);
+  // More than [Schlick 94] says: it is what tells liquid from paint (our choice).
+  float share_back = min(3.0 * mirror_share(nv) + 0.05, 1.0);
   vec3 r = reflect(-V, n);
   colour = mix(colour, mirrored(r, lit.bounce, quick.g), share_back);
   // The rim is a bent mirror all along: its line of light is thin and even, no row of beads.
   vec3 shine = highlight(n, V, lit, u_shine.y);
-  colour += mix(shine, min(shine, LIGHT_COLOUR * (0.10 * lit.power)), smoothstep(0.0, 0.25, rim));
+  colour += mix(shine, min(shine, LIGHT_COLOUR * (0.28 * lit.power)), smoothstep(0.0, 0.25, rim));
   // Its waves are finer than a pixel and broad: a soft sheen where it is turned to the lamp, broken by the clouds' unrest.
   float turned = clamp(dot(n, normalize(lit.direction + V)), 0.0, 1.0);
   colour += LIGHT_COLOUR * (0.022 * lit.power * lobe(turned, 0.16) * (0.4 + 0.6 * smoothstep(0.2, 0.8, slow.g)));

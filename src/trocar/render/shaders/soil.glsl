@@ -53,13 +53,12 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
   float smear = u_soil.y;
   float swab = 0.0;
 #ifdef WIPED
-    // Its edge is a fold of gauze, and it leaves what its threads pass over.
-    float side = dot(at, u_soil.wz) + 0.18 * (streaks - 0.5) + 0.12 * dot(at, vec2(-u_soil.z, u_soil.w)) * sin(9.0 * u_smear.w);
+    // A fold of gauze, so near that it has no outline; it leaves what its threads pass over.
+    float lift = dot(at, vec2(-u_soil.z, u_soil.w));
+    float side = dot(at, u_soil.wz) + 0.35 * (broad.a - 0.5) + 0.10 * lift * lift + 0.10 * lift * sin(9.0 * u_smear.w);
     float edge = mix(-1.7, 1.7, u_smear.w);
-    float wiped = 1.0 - smoothstep(edge - 0.28, edge + 0.1, side);
-    float off = (side - edge) / 0.27;
-    swab = clamp(1.6 - off * off + 0.35 * (broad.g - 0.5), 0.0, 1.0);
-    swab = swab * swab * (3.0 - 2.0 * swab);
+    float wiped = 1.0 - smoothstep(edge - 0.35, edge + 0.15, side);
+    swab = 1.0 - smoothstep(0.04, 0.44, abs(side - edge));
     fog *= 1.0 - wiped * (0.90 + 0.10 * smoothstep(0.15, 0.6, 1.0 - streaks));
     smear = max(smear, 0.55 * wiped * exp(-4.0 * clamp(edge - side, 0.0, 3.0)));
 #endif
@@ -71,9 +70,9 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
 
   float by = max(fog, 0.55 * greasy);
   picture = blurred(uv, picture, by);
-  vec3 veil = mix(mean, vec3(light), 0.55);
+  vec3 veil = mix(mean, vec3(light), 0.30);
   picture = mix(picture, veil * 0.98 + 0.03, 0.46 * fog);
-  picture *= 1.0 + 0.03 * beads;
+  picture *= 1.0 + 0.07 * beads;
   picture = mix(picture, veil * u_smear.rgb * 1.05 + 0.02, 0.33 * greasy);
 
 #ifdef DROPS
@@ -95,11 +94,9 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
 #endif
   vec3 cloth = u_swab.rgb * (0.62 + 0.9 * light) * (0.85 + 0.3 * broad.a);
 #ifdef WIPED
-  // Gauze, far out of focus: folds, and threads that are drawn apart here and crowded there.
-  vec4 pulled = texture(u_noise, vec3(streak_at * 0.11, 0.45)), tuft = texture(u_noise, vec3(streak_at * 0.33, 0.05));
-  vec2 thread = sin(vec2(streak_at.x + 0.09 * pulled.r, streak_at.y + 0.11 * pulled.g) * vec2(47.0, 41.0) + 5.0 * tuft.rg);
-  float woven = 0.012 * (thread.x + 0.7 * thread.y) * smoothstep(0.3, 0.7, tuft.a);
-  cloth *= 0.80 + woven + 0.14 * streaks + 0.20 * (pulled.a - 0.4);
+  // Gauze, far out of focus: folds, and pink where it has taken blood up.
+  vec4 pulled = texture(u_noise, vec3(streak_at * 0.10, 0.45));
+  cloth *= (0.86 + 0.30 * (pulled.a - 0.4)) * mix(vec3(1.0), vec3(0.98, 0.91, 0.89), smoothstep(0.3, 0.8, pulled.g));
 #endif
   return mix(picture, min(cloth, vec3(0.93)), 0.995 * swab);
 }

@@ -250,8 +250,8 @@ void main() {
 #endif
 
 #ifdef STAINED
-  // Heat: a blanched margin that fades, then a tan crust, then brown to black towards the middle, with cracks. What has
-  // shrunk lies in folds that run towards the middle.
+  // Heat: a blanched margin that fades, then a dry crust, tan, browner towards the middle, with black specks and cracks.
+  // What has shrunk lies in folds that run towards the middle.
   float crust = 0.0, glassy = 0.0;
   vec3 rest_x = dFdx(v_rest), rest_y = dFdy(v_rest);
   vec2 burn_slope = vec2(dFdx(BURN), dFdy(BURN));
@@ -266,15 +266,16 @@ void main() {
     folds *= 1.0 / 3.0;
     float at = 1.1 * BURN + 0.26 * (patchy.a - 0.5) + 0.22 * (folds.a - 0.5);
     float pale = smoothstep(0.0, 0.36, BURN + 0.10 * (patchy.a - 0.5) * smoothstep(0.0, 0.2, BURN));
-    crust = smoothstep(0.34, 0.60, at);
-    float burnt = smoothstep(0.46, 0.92, at + 0.16 * (grain.g - 0.5));
-    float crack = crust * (1.0 - smoothstep(0.02, 0.10, abs(patchy.r - 0.5 + 0.10 * (folds.g - 0.5))));
-    glassy = crust * smoothstep(0.40, 0.56, grain.b);
-    albedo = mix(albedo, vec3(0.67, 0.455, 0.395) * (0.88 + 0.24 * folds.a), 0.8 * pale);
-    vec3 charred = mix(vec3(0.24, 0.082, 0.045), vec3(0.066, 0.020, 0.012), smoothstep(0.0, 0.5, burnt));
-    charred = mix(charred, vec3(0.0135, 0.0050, 0.0038), smoothstep(0.4, 1.0, burnt));
-    albedo = mix(albedo, charred * (0.65 + 0.7 * grain.a), 0.95 * crust);
-    albedo *= 1.0 - 0.7 * crack;
+    crust = smoothstep(0.30, 0.68, at);
+    float burnt = smoothstep(0.50, 1.05, at + 0.16 * (grain.g - 0.5));
+    float crack = burnt * (1.0 - smoothstep(0.01, 0.05, abs(patchy.r - 0.5 + 0.10 * (folds.g - 0.5)))) * smoothstep(0.4, 0.55, folds.r);
+    glassy = crust * smoothstep(0.56, 0.66, grain.b) * smoothstep(0.45, 0.6, folds.b);
+    albedo = mix(albedo, vec3(0.70, 0.53, 0.46) * (0.86 + 0.28 * folds.a), 0.86 * pale);
+    vec3 baked = mix(vec3(0.45, 0.265, 0.165), vec3(0.165, 0.066, 0.036), smoothstep(0.10, 0.75, burnt + 0.6 * (folds.a - 0.5)));
+    float speck = smoothstep(0.0, 0.10, 0.62 * grain.a + 0.38 * patchy.g + 0.20 * (burnt - 1.0) - 0.43);
+    baked = mix(baked * (0.75 + 0.5 * grain.r), vec3(0.0145, 0.0070, 0.0052), speck * smoothstep(0.25, 0.6, burnt));
+    albedo = mix(albedo, baked, 0.94 * crust);
+    albedo *= 1.0 - 0.55 * crack;
     vec3 puckered = folds.rgb * 2.0 - 1.0;
     relief += (puckered - inwards * dot(puckered, inwards)) * (0.5 * pale + 0.9 * crust);
     relief += crust * ((patchy.rgb * 2.0 - 1.0) * 0.55 + (grain.rgb * 2.0 - 1.0) * 0.45);
@@ -378,7 +379,7 @@ void main() {
   vec3 around = (BOUNCE * 1.5 + vec3(AMBIENT) * 0.5) * lit.bounce;
 #endif
 #ifdef STAINED
-  gloss *= 1.0 + 2.5 * glassy;  // charred protein is as smooth as glass here and there
+  gloss *= 1.0 + 1.2 * glassy;  // charred protein is as smooth as glass here and there
 #endif
   vec3 shine = LIGHT_COLOUR * gloss + around * (grazing * wet * open);
 

@@ -22,6 +22,9 @@ vec2 run_off(vec3 place, vec3 fall, float pixel, out float streak) {
   return fall.xy * ((0.0052 * (column.a - 0.5) + 0.0014 * (column.g - 0.5)) / pixel) * u_size.zw;
 }
 
+const float kThinOut = 1.1e-5;     // [m]
+const float kThroughTissue = 3.3;  // light that tissue scatters crosses the film on it more than twice
+
 float film_at(vec2 uv) { return dot(texture(u_film, uv).rgb, vec3(1.0e-3)); }
 
 void main() {
@@ -67,6 +70,9 @@ void main() {
 #endif
     film *= (0.30 + 1.2 * smoothstep(0.25, 0.75, 0.6 * streak + 0.4 * fine.a)) * (1.0 + 0.7 * edge * edge);
     stain = dot(film.rgb, vec3(1.0));
+    // Towards its border it runs out thin: there tissue shines through.
+    film *= 1.25 * stain / (stain + kThinOut);
+    stain = dot(film.rgb, vec3(1.0));
   }
 
   // Drops.
@@ -90,7 +96,7 @@ void main() {
   float dark = clamp(mark - 2.0 * flying, 0.0, 1.0) * step(mark, 3.0);
   dark = mix(film.w / max(stain, 1.0e-7), dark, cover);
   amount += film.rgb;
-  vec3 through = let_through(2.0 * amount, dark);
+  vec3 through = let_through(mix(kThroughTissue, 2.0, flying) * amount, dark);
 
   vec2 bend = -(n.xy - base.xy) * (0.35 * height * cover * max(in_drop, 0.0) / pixel) * u_size.zw;
   vec3 below = texture(u_bed, v_uv + clamp(bend, -0.03, 0.03)).rgb;
@@ -99,20 +105,21 @@ void main() {
   // What flies is lit from all round.
   // What lies is dark and uneven, as its cells gather here and there.
   float lying = (0.34 + 0.40 * smoothstep(0.25, 0.75, 0.6 * fine.a + 0.4 * streak)) * (1.0 - flying);
-  vec3 deep = deep_colour(amount, dark) * (lying + 1.35 * flying) + vec3(0.0, 0.0045, 0.0065) * lying;
+  vec3 deep = deep_colour(amount, dark) * (lying + 0.9 * flying) + vec3(0.0, 0.0045, 0.0065) * lying;
   vec3 colour = below * through + deep * light * (1.0 - through);
 
   // Wet: the lamp in drops, broken by the tissue's unevenness in films; the walls where seen at a grazing angle. What
-  // flies is too quick to be seen to shine.
-  float gloss = smoothstep(4.0e-6, 2.5e-5, stain) * (1.0 - cover) * (1.0 - flying);
-  vec3 shine = cover * (1.0 - 0.78 * flying) * highlight(n, V, lit, u_shine.y);
+  // flies wobbles: it glints here and there.
+  float gloss = smoothstep(5.0e-6, 2.5e-5, stain) * (1.0 - cover) * (1.0 - flying);
+  float glints = mix(1.0, 1.6 * smoothstep(0.52, 0.66, fine.r), flying);
+  vec3 shine = cover * glints * highlight(n, V, lit, u_shine.y * (1.0 + 3.0 * flying));
 #if DETAIL >= 1
-  vec3 wrinkle = (fine.rgb * 2.0 - 1.0) * 0.45 + (texture(u_noise, place.zxy * 11.0).rgb * 2.0 - 1.0) * 0.35;
+  vec3 wrinkle = (fine.rgb * 2.0 - 1.0) * 0.50 + (texture(u_noise, place.zxy * 11.0).rgb * 2.0 - 1.0) * 0.30;
   vec3 m = normalize(base + vec3(dot(wrinkle, u_right), dot(wrinkle, u_up), 0.0) - film_rise);
-  shine += gloss * min(highlight(m, V, lit, 3.0 * u_shine.z), LIGHT_COLOUR * (0.07 * lit.power));
+  shine += gloss * min(highlight(m, V, lit, 1.5 * u_shine.z), LIGHT_COLOUR * (0.55 * lit.power));
 #endif
   float nv = clamp(dot(n, V), 0.0, 1.0);
-  shine += (BOUNCE * 3.0 + vec3(AMBIENT)) * (lit.bounce * min(mirror_share(nv), 0.2) * (cover + 0.5 * gloss));
+  shine += (BOUNCE * 3.0 + vec3(AMBIENT)) * (lit.bounce * min(mirror_share(nv), 0.2) * (cover + gloss));
   // What flies casts no shadow on what is behind it.
   o_colour = vec4(colour + shine, mix(bed.a, min(far, bed.a), cover * (1.0 - flying)));
 }

@@ -1,0 +1,35 @@
+// What flies: drops that left one after the other become strands, others streaks, and a jet's hole bleeds.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <trocar/view/fluid_sight.hpp>
+
+namespace trocar::view {
+
+class JetDrawing {
+ public:
+  explicit JetDrawing(const fluids::FluidsModel& model) : m_model(&model) {}
+
+  /// Adds to liquid.splats. Reads liquid.down.
+  /// @param eye  the camera [m] world
+  void list(const FluidSight& sight, Vec3f eye, render::Liquid& liquid);
+
+ private:
+  struct Flying {
+    std::uint32_t id;
+    std::int32_t at;
+    bool in_strand;
+  };
+  void gather(const fluids::DropletState& drops);
+  std::size_t next_in_strand(const fluids::DropletState& drops, std::size_t n) const;
+  bool link(const fluids::DropletState& drops, std::int32_t i, std::int32_t j, render::Liquid& liquid) const;
+  void list_spray(const fluids::DropletState& drops, const Flying& drop, render::Liquid& liquid) const;
+  void list_holes(const FluidSight& sight, Vec3f eye, render::Liquid& liquid) const;
+
+  const fluids::FluidsModel* m_model;
+  std::vector<Flying> m_flying;
+};
+
+}  // namespace trocar::view
