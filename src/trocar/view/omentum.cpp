@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
 
+#include <trocar/geometry/quarter.hpp>
 #include <trocar/render/mesh_arrays.hpp>
 #include <trocar/view/omentum.hpp>
 #include <trocar/view/relief.hpp>
@@ -67,21 +67,12 @@ struct Net {
   std::vector<std::array<int, 3>> triangles;
 
   void divide() {
-    std::map<std::pair<int, int>, int> middles;
-    const auto middle = [&](int a, int b) {
-      const auto [found, anew] = middles.try_emplace(std::minmax(a, b), int(points.size()));
-      if (anew) {
-        const Point &i = points[std::size_t(a)], &j = points[std::size_t(b)];
-        points.push_back({0.5 * (i.p + j.p), normalised(i.n + j.n, i.n)});
-      }
-      return found->second;
-    };
-    std::vector<std::array<int, 3>> finer;
-    for (const auto& [a, b, c] : triangles) {
-      const int ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-      finer.insert(finer.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+    geometry::Quartered finer = geometry::quartered(triangles, int(points.size()));
+    for (const auto& [a, b] : finer.halved) {
+      const Point &i = points[std::size_t(a)], &j = points[std::size_t(b)];
+      points.push_back({0.5 * (i.p + j.p), normalised(i.n + j.n, i.n)});
     }
-    triangles = std::move(finer);
+    triangles = std::move(finer.triangles);
   }
 };
 
