@@ -182,7 +182,23 @@ void Drape::place(const std::vector<OrganDrawing>& organs) {
     }
 }
 
+/// Is what it hangs on elsewhere than when this was asked before?
+bool Drape::has_moved(const std::vector<OrganDrawing>& organs) {
+  m_now.clear();
+  for (const Spoke& s : m_spokes) {
+    for (const int v : s.on) m_now.push_back(organs[std::size_t(m_solid)].positions()[std::size_t(v)]);
+    if (s.hem.solid < 0) continue;
+    const OrganDrawing& other = organs[std::size_t(s.hem.solid)];
+    m_now.push_back(other.positions()[std::size_t(s.hem.vertex)]);
+    m_now.push_back(other.normals()[std::size_t(s.hem.vertex)]);
+  }
+  if (m_now == m_placed) return false;
+  m_placed = m_now;
+  return true;
+}
+
 void Drape::update(const std::vector<OrganDrawing>& organs) {
+  if (!has_moved(organs)) return;
   place(organs);
   m_mesh.move(m_buffer.positions, m_buffer.normals);
 }

@@ -36,13 +36,15 @@ class Drape {
     Hem hem;
   };
   void place(const std::vector<OrganDrawing>& organs);
+  bool has_moved(const std::vector<OrganDrawing>& organs);
   void fold();  ///< from the positions at rest
 
   std::vector<float> m_fold;  ///< [m] how high each vertex stands: the sheet is slack
   int m_solid;
   Vec3f m_up;  ///< away from what the organ rests on
   std::vector<Spoke> m_spokes;
-  std::vector<Vec3f> m_hem, m_even;  ///< (spokes) scratch
+  std::vector<Vec3f> m_hem, m_even;    ///< (spokes) scratch
+  std::vector<Vec3f> m_now, m_placed;  ///< what it hangs on: now, when it was placed
   MeshBuffer m_buffer;
   OwnedMesh m_mesh;
 };

@@ -1,7 +1,8 @@
-// Epiploic appendages: lobed mounds of fat, few and unequal, that hang on the large bowel in rows and tell it from the
+// Epiploic appendages: lobed flaps of fat, few and unequal, that hang on the large bowel in rows and tell it from the
 // small. They ride on the organ's drawn skin; mechanically they are nothing.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include <trocar/view/organ_drawing.hpp>
@@ -23,9 +24,10 @@ class FatTags {
   struct Tag {
     std::uint32_t at = 0, beside = 0;  ///< skin vertices: where it hangs, and which way its x axis points
     double size = 1;
-    MeshBuffer shape;  ///< in the frame (x, y, normal) of `at`
+    MeshBuffer shape;              ///< in the frame (x, y, normal) of `at`
+    std::array<Vec3f, 3> hangs{};  ///< where that frame was: `at`, `beside`, the normal
   };
-  void place(const OrganDrawing& organ);
+  bool place(const OrganDrawing& organ);
 
   std::vector<Tag> m_tags;
   MeshBuffer m_buffer;
