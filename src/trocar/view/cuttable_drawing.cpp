@@ -231,8 +231,8 @@ void CuttableDrawing::paint_skin() {
     m_paint[i].openness = loose ? kLooseOpenness : std::uint8_t(open + 0.5f);
     if (loose) m_paint[i].tint = kLoosePale;
     if (wound.empty() || loose) continue;
-    const Vec3f n = m_skin.skin.rest_normal[i];
-    const float stain = stained(m_skin.skin.rest[i], normalised(m_down - dot(m_down, n) * n, m_down), wound);
+    const Vec3f out = m_skin.skin.rest_normal[i];
+    const float stain = stained(m_skin.skin.rest[i], normalised(m_down - dot(m_down, out) * out, m_down), wound);
     m_paint[i].blood = std::uint8_t(edge > 0.999f ? float(kRimBlood) : float(kStain) * stain);
     if (edge > 0.999f) m_paint[i].tint = std::max(m_paint[i].tint, kRimPale);
   }

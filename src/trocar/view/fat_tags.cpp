@@ -53,9 +53,9 @@ MeshBuffer flap(Vec3d down, int seed, double size) {
   MeshBuffer b;
   const double length = size * (0.0085 + 0.006 * varied(seed, 21)), wide = size * (0.0036 + 0.0022 * varied(seed, 22));
   const double flat = 0.38 + 0.2 * varied(seed, 23), turned = 1.1 * (varied(seed, 24) - 0.5);
-  const Vec3d level = normalised(Vec3d{-down.y, down.x, 0}, Vec3d{1, 0, 0}), hangs{level.y, -level.x, 0};
+  const Vec3d across = normalised(Vec3d{-down.y, down.x, 0}, Vec3d{1, 0, 0}), hangs{across.y, -across.x, 0};
   Vec3d p{0, 0, -kSunk}, along = normalised(Vec3d{0.7 * down.x, 0.7 * down.y, 1}),
-                         x = std::cos(turned) * level + std::sin(turned) * hangs;
+                         x = std::cos(turned) * across + std::sin(turned) * hangs;
   std::uint32_t before = 0;
   for (int i = 0; i <= kRings; ++i) {
     const double u = double(i) / kRings;
