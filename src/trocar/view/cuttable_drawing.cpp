@@ -12,10 +12,10 @@ namespace {
 
 constexpr Paint kFlesh{150, 225, 0, 0};     // laid bare: raw
 constexpr std::uint8_t kDeepOpenness = 75;  // ... at a cut's bottom
-constexpr std::uint8_t kRimBlood = 55;      // on the skin at a cut's rim
-constexpr std::uint8_t kRimPale = 120;      // the capsule's edge: its look's tint
-constexpr float kStains = 0.004f;           // [m] how far from a cut its blood stains the skin
-constexpr std::uint8_t kStain = 150;
+constexpr std::uint8_t kRimBlood = 95;      // on the skin at a cut's rim
+constexpr std::uint8_t kRimPale = 56;       // the capsule's edge: its look's tint
+constexpr float kStains = 0.0075f;          // [m] how far from a cut its blood stains the skin
+constexpr std::uint8_t kStain = 215;
 constexpr float kRough = 0.6f;                // slope of the same
 constexpr std::uint8_t kLooseOpenness = 230;  // of pieces that have come off, which do not lie where they were baked
 constexpr std::uint8_t kLoosePale = 190;      // they have bled out
@@ -73,7 +73,7 @@ float at_rim(const tissue::FaceSkin& skin, const std::vector<std::uint8_t>& rim,
 float stained(Vec3f p, Vec3f fall, std::span<const Vec3f> rim) {
   const Vec3d q = vec_cast<double>(p);
   const float finger = float(smooth(-0.2, 0.7, waves({q.x, 0.2 * q.y, 0.2 * q.z}, 0.0065)));
-  const float runs = 1 / (1.5f + 4.5f * finger);
+  const float runs = 1 / (1.1f + 1.9f * finger);
   float nearest = 1;
   for (const Vec3f& r : rim) {
     const Vec3f d = p - r;

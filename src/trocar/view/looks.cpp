@@ -183,16 +183,16 @@ Material stomach() {
 }
 
 Material liver() {
-  Material m = with_vessels(tissue(srgb(99, 61, 67), srgb(108, 69, 73), srgb(88, 53, 60)), 0.34f, 0.045f);
+  Material m = with_vessels(tissue(srgb(99, 61, 67), srgb(108, 69, 73), srgb(88, 53, 60)), 0.17f, 0.034f);
   m.vessel_colour = srgb(150, 106, 110);  // a pale net below its capsule
-  m.mottle_size = 0.011f;
-  m.mottle = 0.35f;
+  m.mottle_size = 0.008f;
+  m.mottle = 0.5f;
   m.bump = 0.012f;
   m.roughness = 0.56f;
   m.wetness = 0.8f;
-  m.film_roughness = 0.1f;
-  m.film_bump = 0.09f;
-  m.film_size = 0.005f;
+  m.film_roughness = 0.085f;
+  m.film_bump = 0.17f;
+  m.film_size = 0.0036f;
   m.tint = srgb(166, 104, 100);  // a thin edge
   return m;
 }
@@ -317,22 +317,22 @@ Material epiploic() {
 /// Lobules on lobules (omentum.cpp): these are the smallest. Towards its border and in grooves it is salmon (tint).
 Material omentum() {
   Material m = fat();
-  m.colour = srgb(228, 162, 126);
-  m.colour_b = srgb(238, 186, 134);
-  m.colour_c = srgb(218, 142, 122);
-  m.mottle_size = 0.02f;
+  m.colour = srgb(230, 160, 130);
+  m.colour_b = srgb(238, 182, 134);
+  m.colour_c = srgb(222, 140, 124);
+  m.mottle_size = 0.014f;
   m.mottle = 0.45f;
   m.bump = 0.03f;
   m.lobule_size = 0.0046f;
-  m.lobule_depth = 0.04f;
-  m.lobule_contrast = 0.03f;
+  m.lobule_depth = 0.07f;
+  m.lobule_contrast = 0.05f;
   m.vessels = 0.75f;
   m.vessel_tile = 0.07f;
   m.vessel_colour = srgb(150, 54, 50);
   m.wetness = 0.6f;
   m.film_roughness = 0.085f;
-  m.film_bump = 0.14f;
-  m.film_size = 0.0042f;
+  m.film_bump = 0.2f;
+  m.film_size = 0.0034f;
   m.tint = srgb(206, 130, 124);
   m.two_sided = true;
   return m;

@@ -29,7 +29,7 @@ double lobules(Vec3d p, double size) {
         if (far < kTooFar) sum += std::exp(-kSharp * far);
       }
   const double nearest = -std::log(sum) / kSharp;
-  return std::clamp(1 - 1.15 * nearest, 0.0, 1.0);
+  return std::clamp(1 - 3.0 * nearest, 0.0, 1.0);
 }
 
 /// How far inside its border a point lies [m]: tongues, frills on them. @param above the wall's lowest point [m]
@@ -55,8 +55,8 @@ Fat fat_at(Vec3d p, double deep) {
   const double lobe = lobules(p + Vec3d{0.4, 0.1, 0.2}, 0.026);
   const double marked = 0.35 + 0.65 * smooth(-0.5, 0.6, waves(p + Vec3d{0.2, 0.6, 0.4}, 0.037));
   const double lobule = lobules(p + Vec3d{0.1, 0.5, 0.3}, 0.0105);
-  const double uneven = 0.0042 * lobe + 0.0017 * marked * lobule;
-  return {lip + grown * (swell + uneven) + 0.3 * (1 - grown) * smooth(0, 0.004, deep) * 0.0017 * lobule,
+  const double uneven = 0.0036 * lobe + 0.0016 * marked * lobule;
+  return {lip + grown * (swell + uneven) + 0.3 * (1 - grown) * smooth(0, 0.004, deep) * 0.0016 * lobule,
           std::max(0.6 * (1 - lobe) * (1 - lobe), marked * (1 - lobule) * (1 - lobule))};
 }
 
