@@ -9,12 +9,12 @@ namespace trocar::view {
 namespace {
 
 constexpr double kNearest = 0.005, kFarthest = 0.036;  // [m] from the organ to the wall
-constexpr float kSteepest = 0.6f;                     // sine: below an organ blood gathers, which would cut them off
-constexpr float kAim = 0.014f;                        // [m] outwards and up: what lies there is aimed at
-constexpr float kApart = 0.016f;                      // [m] between two
-constexpr float kSunk = 0.0012f;                      // [m] both ends, in what they hang on
-constexpr float kSag = 0.08f;                         // of the length
-constexpr double kFoot = 0.13;                        // of the length: there it is lost in what it hangs on
+constexpr float kSteepest = 0.6f;                      // sine: below an organ blood gathers, which would cut them off
+constexpr float kAim = 0.014f;                         // [m] outwards and up: what lies there is aimed at
+constexpr float kApart = 0.016f;                       // [m] between two
+constexpr float kSunk = 0.0012f;                       // [m] both ends, in what they hang on
+constexpr float kSag = 0.08f;                          // of the length
+constexpr double kFoot = 0.13;                         // of the length: there it is lost in what it hangs on
 
 std::size_t nearest_vertex(Vec3f p, const tissue::Skin& skin) {
   std::size_t best = 0;
@@ -38,7 +38,7 @@ bool Adhesions::Veil::near(Vec3f p, const tissue::Skin& skin) const {
 }
 
 Adhesions::Adhesions(const std::vector<OrganDrawing>& organs, const sim::Model& model, const WallSurface& walls,
-                     render::Backend& backend)
+                     render::Backend& backend, const Detail& detail)
     : m_down(normalised(vec_cast<float>(model.gravity), Vec3f{0, 0, -1})) {
   for (std::size_t i = 0; i < organs.size(); ++i)
     choose(i, look(model.solids[i].look).adhesions, model.solids[i].fine, walls);
@@ -53,6 +53,7 @@ Adhesions::Adhesions(const std::vector<OrganDrawing>& organs, const sim::Model& 
   }
   place(organs);
   m_buffer.rest = m_buffer.positions;
+  coarsen(m_buffer, detail, kBends);
   m_mesh = OwnedMesh(backend, m_buffer.data());
 }
 
@@ -117,7 +118,10 @@ void Adhesions::place_veil(const Veil& veil, const OrganDrawing& organ, std::siz
 }
 
 void Adhesions::update(const std::vector<OrganDrawing>& organs) {
-  if (m_veils.empty()) return;
+  std::uint64_t version = 0;
+  for (const Veil& veil : m_veils) version += organs[veil.organ].version();
+  if (version == m_version) return;
+  m_version = version;
   place(organs);
   m_mesh.move(m_buffer.positions, m_buffer.normals);
 }

@@ -17,7 +17,7 @@ class Adhesions {
  public:
   /// @param organs  one per solid of the model, as drawn at rest
   Adhesions(const std::vector<OrganDrawing>& organs, const sim::Model& model, const WallSurface& walls,
-            render::Backend& backend);
+            render::Backend& backend, const Detail& detail = {});
 
   void update(const std::vector<OrganDrawing>& organs);
   /// 0: there are none.
@@ -46,6 +46,7 @@ class Adhesions {
   void place_veil(const Veil& veil, const OrganDrawing& organ, std::size_t first);
 
   std::vector<Veil> m_veils;
+  std::uint64_t m_version = 0;  ///< of their organs, together
   Vec3f m_down;
   MeshBuffer m_buffer;
   OwnedMesh m_mesh;

@@ -62,9 +62,10 @@ BodyDrawing::BodyDrawing(const sim::Model& model, render::Backend& backend)
   make_organs(baker, backend);
   make_on_organs(walls, backend);
   for (const sim::WallModel& w : model.walls) make_wall(w, baker, backend);
-  for (const MeshBuffer& apron : m_apron_shapes) m_aprons.emplace_back(backend, apron.data());
+  for (std::size_t i = 0; i < m_apron_shapes.size(); ++i)
+    m_aprons.push_back(fixed(m_apron_shapes[i], model.walls[m_apron_on[i]].name, backend));
   for (const MeshBuffer& apron : m_far_apron_shapes)
-    if (apron.size() > 0) m_far_aprons.emplace_back(backend, apron.data());
+    if (apron.size() > 0) m_far_aprons.push_back(fixed(apron, "cavity", backend));
   make_surroundings(walls, baker, backend);
   for (TubeDrawing& t : m_tubes) t.create(shaded(baker, t.drawn().positions, t.drawn().normals), backend);
   make_joints(walls, backend);
@@ -74,6 +75,13 @@ BodyDrawing::BodyDrawing(const sim::Model& model, render::Backend& backend)
   }
   make_vessels(backend);
   make_membranes(backend);
+}
+
+/// As fine as the scene says for that part.
+BodyDrawing::Fixed BodyDrawing::fixed(const MeshBuffer& shape, const std::string& part,
+                                      render::Backend& backend) const {
+  const Detail detail(levels_of(*m_model, part));
+  return {rigid(shape, detail, backend), detail};
 }
 
 LiverShape BodyDrawing::liver_shape(int organ) const {
@@ -143,10 +151,12 @@ void BodyDrawing::make_on_organs(const WallSurface& walls, render::Backend& back
   for (int i = 0; i < int(m_organs.size()); ++i) {
     const Look& covered = look(m_model->solids[std::size_t(i)].look);
     if (!covered.draped) continue;
-    m_drapes.emplace_back(*m_model, i, m_organs, backend);
+    m_details.drapes.emplace_back(levels_of(*m_model, "cavity"));
+    m_drapes.emplace_back(*m_model, i, m_organs, backend, m_details.drapes.back());
     m_drape_look.push_back(&covered);
   }
-  m_adhesions.emplace(m_organs, *m_model, walls, backend);
+  m_details.adhesions = Detail(levels_of(*m_model, "cavity"));
+  m_adhesions.emplace(m_organs, *m_model, walls, backend, m_details.adhesions);
 }
 
 void BodyDrawing::make_wall(const sim::WallModel& wall, const render::OpennessBaker& baker, render::Backend& backend) {
@@ -189,7 +199,7 @@ void BodyDrawing::make_surroundings(const WallSurface& walls, const render::Open
   for (MeshBuffer* gut : {&m_bowel.small, &m_bowel.large}) {
     if (gut->size() == 0) continue;
     gut->paint = shaded(baker, gut->positions, gut->normals);
-    (gut == &m_bowel.small ? m_loops : m_large_loop) = OwnedMesh(backend, gut->data());
+    (gut == &m_bowel.small ? m_loops : m_large_loop) = fixed(*gut, "cavity", backend);
   }
 }
 
@@ -200,17 +210,21 @@ void BodyDrawing::make_joints(const WallSurface& walls, render::Backend& backend
       const sim::StrandEndModel& end = at_start ? m_model->strands[i].start : m_model->strands[i].end;
       if (end.kind != sim::StrandEndModel::hosted) {
         if (!at_start && !m_model->walls.empty() && is_ridge(m_model->strands[i])) continue;
-        m_joints.push_back({i, -1, Joint(m_tubes[i], at_start, walls, backend)});
+        m_details.joints.emplace_back(levels_of(*m_model, m_model->strands[i].name));
+        m_joints.push_back({i, -1, Joint(m_tubes[i], at_start, walls, backend, m_details.joints.back())});
         continue;
       }
       const auto organ = std::size_t(end.organ);
-      m_joints.push_back(
-          {i, end.organ, Joint(m_tubes[i], at_start, m_organs[organ], m_model->solids[organ].fine, backend)});
+      m_details.joints.emplace_back(levels_of(*m_model, m_model->solids[organ].name));
+      m_joints.push_back({i, end.organ,
+                          Joint(m_tubes[i], at_start, m_organs[organ], m_model->solids[organ].fine, backend,
+                                m_details.joints.back())});
     }
   for (std::size_t i = 0; i < m_tubes.size() && !m_model->walls.empty(); ++i) {
     const sim::StrandModel& strand = m_model->strands[i];
     if (!is_ridge(strand)) continue;
-    m_ridges.emplace_back(*m_model, m_tubes[i], int(i), walls, backend);
+    m_details.ridges.emplace_back(levels_of(*m_model, strand.name));
+    m_ridges.emplace_back(*m_model, m_tubes[i], int(i), walls, backend, m_details.ridges.back());
     m_ridge_of.push_back(i);
   }
 }
@@ -307,27 +321,28 @@ DrawItem BodyDrawing::as_lining(DrawItem item) const {
 
 void BodyDrawing::list_surroundings(const FirstParts& first, const Listing& to) {
   to.add(m_cavity, as_lining(item({}, *m_wall_look, first.cavity)), m_details.cavity);
-  for (const OwnedMesh& apron : m_far_aprons) to.add(item(apron.handle(), look("omentum"), first.cavity));
-  if (m_loops.handle().id) to.add(item(m_loops.handle(), look("small_bowel"), first.cavity));
-  if (m_large_loop.handle().id) to.add(item(m_large_loop.handle(), look("bowel"), first.cavity));
+  for (Fixed& apron : m_far_aprons) to.add(apron.mesh, item({}, look("omentum"), first.cavity), apron.detail);
+  if (m_loops) to.add(m_loops->mesh, item({}, look("small_bowel"), first.cavity), m_loops->detail);
+  if (m_large_loop) to.add(m_large_loop->mesh, item({}, look("bowel"), first.cavity), m_large_loop->detail);
 }
 
-void BodyDrawing::list_walls(const FirstParts& first, const Listing& to) const {
+void BodyDrawing::list_walls(const FirstParts& first, const Listing& to) {
   for (std::size_t i = 0; i < m_walls.size(); ++i)
-    to.add(item(m_walls[i].handle(), look(m_model->walls[i].look), first.wall + i));
+    to.add(as_lining(item(m_walls[i].handle(), look(m_model->walls[i].look), first.wall + i)), m_details.walls[i],
+           m_model->walls[i].skin.rest);
 }
 
 void BodyDrawing::list(bool with_walls, const FirstParts& first, const Listing& to) {
-  for (std::size_t i = 0; with_walls && i < m_walls.size(); ++i)
-    to.add(as_lining(item(m_walls[i].handle(), look(m_model->walls[i].look), first.wall + i)), m_details.walls[i],
-           m_model->walls[i].skin.rest);
+  if (with_walls) list_walls(first, to);
   for (std::size_t i = 0; with_walls && i < m_aprons.size(); ++i)
-    to.add(item(m_aprons[i].handle(), look("omentum"), first.wall + m_apron_on[i]));
+    to.add(m_aprons[i].mesh, item({}, look("omentum"), first.wall + m_apron_on[i]), m_aprons[i].detail);
   list_organs(with_walls, first, to);
-  for (const LiverDome& l : m_livers) l.list(with_walls, first.organ + std::size_t(l.organ()), to);
+  for (LiverDome& l : m_livers) l.list(with_walls, first.organ + std::size_t(l.organ()), to);
   list_tubes(with_walls, first, to);
   list_vessels(false, first, to);
-  if (with_walls && m_adhesions->mesh().id) to.add(item(m_adhesions->mesh(), look("adhesion"), first.cavity));
+  if (with_walls && m_adhesions->mesh().id)
+    to.add(item(m_adhesions->mesh(), look("adhesion"), first.cavity), m_details.adhesions,
+           m_adhesions->buffer().positions);
   list_folds(with_walls, first, to);
   list_vessels(true, first, to);
 }
@@ -364,7 +379,7 @@ void BodyDrawing::list_organs(bool with_walls, const FirstParts& first, const Li
     DrawItem drape = item(m_drapes[i].mesh(), *m_drape_look[i], first.cavity);
     drape.material.two_sided = true;
     drape.material.tint = look("peritoneum").material.colour;
-    to.add(drape);
+    to.add(drape, m_details.drapes[i], m_drapes[i].buffer().positions);
   }
   for (std::size_t i = 0; i < m_fat.size(); ++i)
     if (m_fat[i].mesh().id)
@@ -380,19 +395,20 @@ void BodyDrawing::list_tubes(bool with_walls, const FirstParts& first, const Lis
     if (strand.start.kind == sim::StrandEndModel::hosted && !strand.fimbriated)
       tube.material.tint = look(m_model->organ_look(strand.start.organ)).material.colour;
   }
-  for (const TubeJoint& j : m_joints) {
+  for (std::size_t i = 0; i < m_joints.size(); ++i) {
+    const TubeJoint& j = m_joints[i];
     if (j.organ < 0 && !with_walls) continue;
     const Look& onto = j.organ < 0 ? *m_wall_look : look(m_model->solids[std::size_t(j.organ)].look);
     // Made of what its organ is made of: it is shown, hidden and seen through with that.
     const std::size_t part = j.organ < 0 ? first.tube + j.tube : first.organ + std::size_t(j.organ);
     DrawItem joint = as_lining(item(j.joint.mesh(), onto, part));
     if (j.organ >= 0) joint.material.tint = look(m_model->strands[j.tube].look).material.colour;
-    to.add(joint);
+    to.add(joint, m_details.joints[i], j.joint.buffer().positions, j.organ >= 0 && m_burns[std::size_t(j.organ)].any());
   }
   for (std::size_t i = 0; with_walls && i < m_ridges.size(); ++i) {
     DrawItem ridge = as_lining(item(m_ridges[i].mesh(), *m_wall_look, first.tube + m_ridge_of[i]));
     ridge.material.tint = look(m_model->strands[m_ridge_of[i]].look).material.colour;
-    to.add(ridge);
+    to.add(ridge, m_details.ridges[i], m_ridges[i].buffer().positions, m_tubes[m_ridge_of[i]].burnt());
   }
 }
 

@@ -37,7 +37,7 @@ class BodyDrawing {
   /// What encloses the scene beyond the model's walls: seen from inside only.
   void list_surroundings(const FirstParts& first, const Listing& to);
   void list(bool with_walls, const FirstParts& first, const Listing& to);
-  void list_walls(const FirstParts& first, const Listing& to) const;
+  void list_walls(const FirstParts& first, const Listing& to);
 
   /// Blood that runs down from cut organs.
   void list_ooze(render::Liquid& liquid) const;
@@ -104,17 +104,26 @@ class BodyDrawing {
   std::vector<std::size_t> m_membrane_of, m_pouch_of;  ///< their numbers in the Model
   std::vector<DrawnVessels> m_vessels;
   std::vector<const Look*> m_vessel_look;
-  std::vector<OwnedMesh> m_walls, m_aprons, m_far_aprons;  ///< far: on the cavity
+  /// What never moves.
+  struct Fixed {
+    RigidMesh mesh;
+    Detail detail;
+  };
+  Fixed fixed(const MeshBuffer& shape, const std::string& part, render::Backend& backend) const;
+
+  std::vector<OwnedMesh> m_walls;
+  std::vector<Fixed> m_aprons, m_far_aprons;  ///< far: on the cavity
   std::vector<MeshBuffer> m_apron_shapes, m_far_apron_shapes;
   std::vector<std::size_t> m_apron_on;  ///< walls
   std::vector<LiverDome> m_livers;
   MeshBuffer m_cavity_shape;
   RigidMesh m_cavity;
   BowelLoops m_bowel;
-  OwnedMesh m_loops, m_large_loop;
+  std::optional<Fixed> m_loops, m_large_loop;
   struct Details {  ///< of what is numbered as above
-    std::vector<Detail> organs, cuttables, fat, tubes, sheets, membranes, pouches, vessels, walls;
-    Detail cavity;
+    std::vector<Detail> organs, cuttables, fat, drapes, tubes, joints, ridges, sheets, membranes, pouches, vessels,
+        walls;
+    Detail cavity, adhesions;
   } m_details;
   std::vector<std::int32_t> m_in_jaws;  ///< bodies that are held (interactions::Hold::body)
 };

@@ -9,6 +9,7 @@
 #include <trocar/sim/model.hpp>
 #include <trocar/tissue/face_skin.hpp>
 #include <trocar/view/dent.hpp>
+#include <trocar/view/moved.hpp>
 #include <trocar/view/heat_marks.hpp>
 #include <trocar/view/mesh_buffer.hpp>
 #include <trocar/view/relief.hpp>
@@ -67,7 +68,7 @@ class CuttableDrawing {
   std::vector<float> m_gape_weight;
   tissue::Box m_box;
   bool m_dented = false, m_burnt = false;
-  MovedNodes m_moved;
+  Moved m_moved;
   OwnedMesh m_mesh;
 };
 

@@ -14,15 +14,6 @@ constexpr double kReach = 0.0055;  // [m] ... and how wide
 
 }  // namespace
 
-bool MovedNodes::operator()(std::span<const tissue::NodeState> nodes) {
-  const auto same = [](const tissue::NodeState& a, const tissue::NodeState& b) {
-    return a.x == b.x && a.y == b.y && a.z == b.z;
-  };
-  if (std::equal(nodes.begin(), nodes.end(), m_drawn.begin(), m_drawn.end(), same)) return false;
-  m_drawn.assign(nodes.begin(), nodes.end());
-  return true;
-}
-
 bool near(const tissue::Box& box, std::span<const collision::Capsule> rods) {
   return std::any_of(rods.begin(), rods.end(), [&box](const collision::Capsule& rod) {
     return box.near_segment(rod.a, rod.b, rod.radius + 2 * kReach);

@@ -7,8 +7,9 @@
 namespace trocar::view {
 namespace {
 
-// Half a pixel is 0.07 mm at 60 mm.
-const std::vector<sim::DetailLevel> kDefault{{0.060, 0.00007, 2}, {0.120, 0.00015, 2}, {0.240, 0.0004, 0}};
+// Half a pixel is 0.07 mm at 60 mm. The last is for small pictures.
+const std::vector<sim::DetailLevel> kDefault{
+    {0.060, 0.00007, 2}, {0.120, 0.00015, 2}, {0.240, 0.0004, 0}, {0.600, 0.001, 0}};
 
 constexpr std::size_t kLooks = 96;     // points of a thing whose distance is looked at
 constexpr float kPaintLength = 1e-3f;  // [m] that a change of paint from none to all counts

@@ -54,7 +54,8 @@ void soften(std::vector<Vec3f>& ring, std::vector<Vec3f>& scratch, int passes) {
 
 }  // namespace
 
-Drape::Drape(const sim::Model& model, int solid, const std::vector<OrganDrawing>& organs, render::Backend& backend)
+Drape::Drape(const sim::Model& model, int solid, const std::vector<OrganDrawing>& organs, render::Backend& backend,
+             const Detail& detail)
     : m_solid(solid) {
   const std::span<const Vec3f> skin = organs[std::size_t(solid)].positions();
   const Vec3f centre = middle_of(skin);
@@ -91,6 +92,8 @@ Drape::Drape(const sim::Model& model, int solid, const std::vector<OrganDrawing>
       }
     }
     m_spokes.push_back(spoke);
+    for (const int organ : {solid, spoke.hem.solid})
+      if (organ >= 0 && std::count(m_follows.begin(), m_follows.end(), organ) == 0) m_follows.push_back(organ);
   }
   for (int k = 0; k < kSpokes; ++k)
     for (int r = 0; r < kRings; ++r) m_buffer.add({});
@@ -111,6 +114,7 @@ Drape::Drape(const sim::Model& model, int solid, const std::vector<OrganDrawing>
           to_byte((1 - (0.1 + 0.18 * wall) * smooth(0.4, 0.7, w) * smooth(1, 0.85, w)) * (1 - 0.4 * deep)), 0, 0,
           to_byte(wall * smooth(0.55, 0.95, w))};
     }
+  coarsen(m_buffer, detail, kBends);
   m_mesh = OwnedMesh(backend, m_buffer.data());
 }
 
@@ -182,23 +186,11 @@ void Drape::place(const std::vector<OrganDrawing>& organs) {
     }
 }
 
-/// Is what it hangs on elsewhere than when this was asked before?
-bool Drape::has_moved(const std::vector<OrganDrawing>& organs) {
-  m_now.clear();
-  for (const Spoke& s : m_spokes) {
-    for (const int v : s.on) m_now.push_back(organs[std::size_t(m_solid)].positions()[std::size_t(v)]);
-    if (s.hem.solid < 0) continue;
-    const OrganDrawing& other = organs[std::size_t(s.hem.solid)];
-    m_now.push_back(other.positions()[std::size_t(s.hem.vertex)]);
-    m_now.push_back(other.normals()[std::size_t(s.hem.vertex)]);
-  }
-  if (m_now == m_placed) return false;
-  m_placed = m_now;
-  return true;
-}
-
 void Drape::update(const std::vector<OrganDrawing>& organs) {
-  if (!has_moved(organs)) return;
+  std::uint64_t version = 0;
+  for (const int organ : m_follows) version += organs[std::size_t(organ)].version();
+  if (version == m_version) return;
+  m_version = version;
   place(organs);
   m_mesh.move(m_buffer.positions, m_buffer.normals);
 }

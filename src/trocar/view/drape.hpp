@@ -17,7 +17,8 @@ inline constexpr int kDrapeSupports = 6;
 class Drape {
  public:
   /// @param organs one per solid of the model, as drawn at rest
-  Drape(const sim::Model& model, int solid, const std::vector<OrganDrawing>& organs, render::Backend& backend);
+  Drape(const sim::Model& model, int solid, const std::vector<OrganDrawing>& organs, render::Backend& backend,
+        const Detail& detail = {});
 
   void update(const std::vector<OrganDrawing>& organs);
   render::MeshHandle mesh() const { return m_mesh.handle(); }
@@ -36,15 +37,15 @@ class Drape {
     Hem hem;
   };
   void place(const std::vector<OrganDrawing>& organs);
-  bool has_moved(const std::vector<OrganDrawing>& organs);
   void fold();  ///< from the positions at rest
 
   std::vector<float> m_fold;  ///< [m] how high each vertex stands: the sheet is slack
   int m_solid;
-  Vec3f m_up;  ///< away from what the organ rests on
+  std::vector<int> m_follows;   ///< organs
+  std::uint64_t m_version = 0;  ///< of these, together
+  Vec3f m_up;                   ///< away from what the organ rests on
   std::vector<Spoke> m_spokes;
-  std::vector<Vec3f> m_hem, m_even;    ///< (spokes) scratch
-  std::vector<Vec3f> m_now, m_placed;  ///< what it hangs on: now, when it was placed
+  std::vector<Vec3f> m_hem, m_even;  ///< (spokes) scratch
   MeshBuffer m_buffer;
   OwnedMesh m_mesh;
 };

@@ -140,7 +140,7 @@ FatTags::FatTags(const OrganDrawing& organ, const sim::SolidModel& solid, int co
       return length(skin.rest[t.at] - skin.rest[at]) < float(kApart * 0.5 * (size + t.size));
     };
     if (std::fabs(skin.rest_normal[at].z - 0.1f) > 0.4f || std::any_of(m_tags.begin(), m_tags.end(), close)) continue;
-    Tag tag{at, std::uint32_t(skin.neighbour[std::size_t(skin.neighbour_first[at])]), size, {}, {}};
+    Tag tag{at, std::uint32_t(skin.neighbour[std::size_t(skin.neighbour_first[at])]), size, {}};
     const Mat3f turn = frame_at(organ, tag.at, tag.beside);
     Vec3d down = vec_cast<double>(transposed(turn) * vec_cast<float>(normalised(gravity, Vec3d{0, 0, -1})));
     down.z = std::max(down.z, -0.25);  // lies on the bowel, not in it
@@ -155,28 +155,20 @@ FatTags::FatTags(const OrganDrawing& organ, const sim::SolidModel& solid, int co
   if (!m_tags.empty()) m_mesh = OwnedMesh(backend, m_buffer.data());
 }
 
-/// @return whether any of them has moved at all
-bool FatTags::place(const OrganDrawing& organ) {
-  bool moved = false;
+void FatTags::place(const OrganDrawing& organ) {
   std::size_t v = 0;
-  for (Tag& tag : m_tags) {
-    const std::array<Vec3f, 3> hangs{organ.positions()[tag.at], organ.positions()[tag.beside], organ.normals()[tag.at]};
-    if (hangs == tag.hangs) {
-      v += tag.shape.size();
-      continue;
-    }
-    moved = true;
-    tag.hangs = hangs;
+  for (const Tag& tag : m_tags) {
     const Mat3f turn = frame_at(organ, tag.at, tag.beside);
-    for (const Vec3f& p : tag.shape.positions) m_buffer.positions[v++] = hangs[0] + turn * p;
+    for (const Vec3f& p : tag.shape.positions) m_buffer.positions[v++] = organ.positions()[tag.at] + turn * p;
   }
-  if (moved) render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);
-  return moved;
+  render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);
 }
 
 void FatTags::update(const OrganDrawing& organ) {
-  if (m_tags.empty()) return;
-  if (place(organ)) m_mesh.move(m_buffer.positions, m_buffer.normals);
+  if (m_tags.empty() || m_version == organ.version()) return;
+  m_version = organ.version();
+  place(organ);
+  m_mesh.move(m_buffer.positions, m_buffer.normals);
 }
 
 }  // namespace trocar::view

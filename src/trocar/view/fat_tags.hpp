@@ -2,7 +2,6 @@
 // small. They ride on the organ's drawn skin; mechanically they are nothing.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include <trocar/view/organ_drawing.hpp>
@@ -24,12 +23,12 @@ class FatTags {
   struct Tag {
     std::uint32_t at = 0, beside = 0;  ///< skin vertices: where it hangs, and which way its x axis points
     double size = 1;
-    MeshBuffer shape;              ///< in the frame (x, y, normal) of `at`
-    std::array<Vec3f, 3> hangs{};  ///< where that frame was: `at`, `beside`, the normal
+    MeshBuffer shape;  ///< in the frame (x, y, normal) of `at`
   };
-  bool place(const OrganDrawing& organ);
+  void place(const OrganDrawing& organ);
 
   std::vector<Tag> m_tags;
+  std::uint64_t m_version = 0;  ///< of the organ
   MeshBuffer m_buffer;
   OwnedMesh m_mesh;
 };

@@ -56,7 +56,7 @@ Vec3d Joint::aside(const Meeting& m, const TubeNeck& neck, std::size_t k, double
 }
 
 Joint::Joint(const TubeDrawing& tube, bool at_start, const OrganDrawing& organ, const tissue::Skin& skin,
-             render::Backend& backend)
+             render::Backend& backend, const Detail& detail)
     : m_at_start(at_start), m_sides(tube.sides()) {
   const TubeNeck& neck = tube.neck(at_start);
   const Foot middle = foot_at(neck.end, organ, skin);
@@ -64,10 +64,11 @@ Joint::Joint(const TubeDrawing& tube, bool at_start, const OrganDrawing& organ, 
                             normalised(vec_cast<double>(mixed(middle.vertex, middle.share, organ.normals()))));
   for (std::size_t k = 0; k < neck.ring.size(); ++k)
     m_feet.push_back(foot_at(aside(m, neck, k, kSkirt + kSkirtRadii * neck.radius), organ, skin));
-  make(tube, &organ, backend);
+  make(tube, &organ, backend, detail);
 }
 
-Joint::Joint(const TubeDrawing& tube, bool at_start, const WallSurface& walls, render::Backend& backend)
+Joint::Joint(const TubeDrawing& tube, bool at_start, const WallSurface& walls, render::Backend& backend,
+             const Detail& detail)
     : m_at_start(at_start), m_sides(tube.sides()) {
   const TubeNeck& neck = tube.neck(at_start);
   const WallSurface::Place middle = walls.nearest(neck.end);
@@ -81,10 +82,10 @@ Joint::Joint(const TubeDrawing& tube, bool at_start, const WallSurface& walls, r
     foot.normal = vec_cast<float>(at.normal);
     m_feet.push_back(foot);
   }
-  make(tube, nullptr, backend);
+  make(tube, nullptr, backend, detail);
 }
 
-void Joint::make(const TubeDrawing& tube, const OrganDrawing* organ, render::Backend& backend) {
+void Joint::make(const TubeDrawing& tube, const OrganDrawing* organ, render::Backend& backend, const Detail& detail) {
   for (int i = 0; i < kRows * m_sides; ++i) m_buffer.add({});
   const auto row = [this](int i) { return std::uint32_t(i * m_sides); };
   for (int i = 0; i + 1 < kRows; ++i)
@@ -100,6 +101,7 @@ void Joint::make(const TubeDrawing& tube, const OrganDrawing* organ, render::Bac
       }
   }
   m_buffer.rest = m_buffer.positions;
+  coarsen(m_buffer, detail, kBends);
   m_mesh = OwnedMesh(backend, m_buffer.data());
 }
 
@@ -153,6 +155,9 @@ void Joint::place(const TubeDrawing& tube, const OrganDrawing* organ) {
 }
 
 void Joint::update(const TubeDrawing& tube, const OrganDrawing* organ) {
+  const std::uint64_t version = tube.version() + (organ ? organ->version() : 0);
+  if (version == m_version) return;
+  m_version = version;
   place(tube, organ);
   m_mesh.update(m_buffer);
 }

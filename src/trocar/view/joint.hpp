@@ -15,9 +15,10 @@ class Joint {
   /// @param tube    as drawn at rest; its end at_start is hosted by the organ
   /// @param organ   as drawn at rest  @param skin  the one it draws
   Joint(const TubeDrawing& tube, bool at_start, const OrganDrawing& organ, const tissue::Skin& skin,
-        render::Backend& backend);
+        render::Backend& backend, const Detail& detail = {});
   /// Into a wall.
-  Joint(const TubeDrawing& tube, bool at_start, const WallSurface& walls, render::Backend& backend);
+  Joint(const TubeDrawing& tube, bool at_start, const WallSurface& walls, render::Backend& backend,
+        const Detail& detail = {});
 
   /// @param organ  null: of a wall
   void update(const TubeDrawing& tube, const OrganDrawing* organ);
@@ -38,13 +39,14 @@ class Joint {
   };
   static Meeting meeting(const TubeNeck& neck, Vec3d at, Vec3d normal);
   static Vec3d aside(const Meeting& m, const TubeNeck& neck, std::size_t k, double skirt);
-  void make(const TubeDrawing& tube, const OrganDrawing* organ, render::Backend& backend);
+  void make(const TubeDrawing& tube, const OrganDrawing* organ, render::Backend& backend, const Detail& detail);
   Foot foot_at(Vec3d p, const OrganDrawing& organ, const tissue::Skin& skin) const;
   void place(const TubeDrawing& tube, const OrganDrawing* organ);
 
   bool m_at_start;
   int m_sides;
-  std::vector<Foot> m_feet;  ///< (sides)
+  std::uint64_t m_version = 0;  ///< of strand and organ, together
+  std::vector<Foot> m_feet;     ///< (sides)
   std::vector<std::uint32_t>
       m_below;  ///< (vertices) the organ's skin vertex below: what heat has left there shows here
   MeshBuffer m_buffer;

@@ -25,6 +25,8 @@ LiverDome::LiverDome(const sim::Model& model, int organ, const LiverShape& shape
   for (Part* part : {&m_dome, &m_falciform}) {
     part->rest = part->shape.positions;
     tie(*part);
+    part->detail = Detail(levels_of(model, model.organ_name(organ)));
+    coarsen(part->shape, part->detail, kBends);
     part->mesh = OwnedMesh(backend, part->shape.data());
   }
 }
@@ -107,11 +109,12 @@ void LiverDome::update(const sim::State& state) {
     follow(m_model->cuttables[std::size_t(m_organ - solids)].body, state.cuttables[std::size_t(m_organ - solids)]);
 }
 
-void LiverDome::list(bool with_walls, std::size_t part, const Listing& to) const {
+void LiverDome::list(bool with_walls, std::size_t part, const Listing& to) {
   render::DrawItem dome = item(m_dome.mesh.handle(), look(m_model->organ_look(m_organ)), part);
   dome.material.two_sided = true;
-  to.add(dome);
-  if (with_walls) to.add(item(m_falciform.mesh.handle(), look("falciform"), part));
+  to.add(dome, m_dome.detail, m_dome.shape.positions);
+  if (with_walls)
+    to.add(item(m_falciform.mesh.handle(), look("falciform"), part), m_falciform.detail, m_falciform.shape.positions);
 }
 
 }  // namespace trocar::view

@@ -15,6 +15,7 @@
 #include <trocar/view/dent.hpp>
 #include <trocar/view/listing.hpp>
 #include <trocar/view/liver_shape.hpp>
+#include <trocar/view/moved.hpp>
 
 namespace trocar::view {
 
@@ -29,7 +30,7 @@ class LiverDome {
   /// The recess between it and the diaphragm is deep: less light comes there than the baker's reach says.
   void shade_behind(std::span<const Vec3f> positions, std::span<const Vec3f> normals, std::span<Paint> paint) const;
   void update(const sim::State& state);
-  void list(bool with_walls, std::size_t part, const Listing& to) const;
+  void list(bool with_walls, std::size_t part, const Listing& to);
   int organ() const { return m_organ; }
   const MeshBuffer& buffer() const { return m_dome.shape; }  ///< as drawn now
 
@@ -45,6 +46,7 @@ class LiverDome {
     std::vector<Vec3f> rest;
     std::vector<Follow> follows;
     OwnedMesh mesh;
+    Detail detail;
   };
   const tissue::Skin& skin() const { return m_model->skin(m_organ); }
   void tie(Part& part) const;
@@ -55,7 +57,7 @@ class LiverDome {
   Part m_dome, m_falciform;
   tissue::SkinPose m_pose;
   std::vector<Vec3f> m_way;  ///< (skin) how far the body has moved [m]
-  MovedNodes m_moved;
+  Moved m_moved;
 };
 
 }  // namespace trocar::view

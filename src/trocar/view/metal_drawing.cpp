@@ -39,7 +39,7 @@ float pressure_of(const interactions::ToolState& tool) {
 }  // namespace
 
 MetalDrawing::MetalDrawing(const sim::Model& model, const MeshBuffer& cavity, render::Backend& backend)
-    : m_model(&model), m_lining(lining(look("peritoneum").material, model)) {
+    : m_model(&model), m_lining(lining(look("peritoneum").material, model)), m_clip_detail(levels_of(model, "clips")) {
   std::vector<PiercedWall> pierced;
   std::vector<std::vector<std::uint32_t>> indices;
   for (const sim::WallModel& w : model.walls) indices.push_back(flat_indices(w.skin));
@@ -69,7 +69,8 @@ void MetalDrawing::make_hand(std::size_t h, const std::vector<PiercedWall>& pier
   double widest = 0;
   for (const interactions::ToolModel& tool : hand.rack) widest = std::max(widest, tool.shaft_radius);
   const Vec3d axis = kinematics::forward(hand.port, start.tools[h].pose()).axis();
-  m_port_sites.emplace_back(hand.port, axis, widest + kSleeveWall, pierced, backend);
+  m_port_details.emplace_back(levels_of(*m_model, "cavity"));
+  m_port_sites.emplace_back(hand.port, axis, widest + kSleeveWall, pierced, backend, m_port_details.back());
   const double wall = m_port_sites.back().depth();
   m_sleeve_radius.push_back(widest);
   m_sleeve_end.push_back(kSleeveShows + std::max(0.0, wall));
@@ -81,7 +82,7 @@ void MetalDrawing::make_hand(std::size_t h, const std::vector<PiercedWall>& pier
     m_loaded.push_back(
         {int(h), int(drawn.size()) - 1, {backend, clip_shape(tool.clip_length, tool.parallel_gap).data()}});
     if (m_clips.count(tool.clip_length) == 0)
-      m_clips.emplace(tool.clip_length, OwnedMesh(backend, clip_shape(tool.clip_length, 0).data()));
+      m_clips.emplace(tool.clip_length, rigid(clip_shape(tool.clip_length, 0), m_clip_detail, backend));
   }
 }
 
@@ -110,17 +111,18 @@ void MetalDrawing::update(const sim::State& state) {
   }
 }
 
-void MetalDrawing::list_port_sites(const FirstParts& first, const Listing& to) const {
-  for (const PortSite& site : m_port_sites)
-    if (site.mesh().id) {
-      render::DrawItem tent = item(site.mesh(), look(site.look()), first.cavity);
-      tent.material.middle = m_lining.middle;
-      tent.material.fibre_axis = m_lining.fibre_axis;
-      to.add(tent);
-    }
+void MetalDrawing::list_port_sites(const FirstParts& first, const Listing& to) {
+  for (std::size_t h = 0; h < m_port_sites.size(); ++h) {
+    const PortSite& site = m_port_sites[h];
+    if (!site.mesh().id) continue;
+    render::DrawItem tent = item(site.mesh(), look(site.look()), first.cavity);
+    tent.material.middle = m_lining.middle;
+    tent.material.fibre_axis = m_lining.fibre_axis;
+    to.add(tent, m_port_details[h], site.buffer().positions);
+  }
 }
 
-void MetalDrawing::list_clips(const sim::State& state, const FirstParts& first, const Listing& to) const {
+void MetalDrawing::list_clips(const sim::State& state, const FirstParts& first, const Listing& to) {
   const sim::Model& model = *m_model;
   for (int i = 0; i < state.clip_count; ++i) {
     const interactions::Clip& c = state.clips[std::size_t(i)];
@@ -130,16 +132,16 @@ void MetalDrawing::list_clips(const sim::State& state, const FirstParts& first, 
     const ClipPress at = press_of(c, model, state);
     const Mat3f turn =
         Mat3f::from_columns(vec_cast<float>(at.open), vec_cast<float>(at.normal), vec_cast<float>(at.axis));
-    DrawItem drawn = item(mesh->second.handle(), *m_titanium, first.clips);
+    DrawItem drawn = item({}, *m_titanium, first.clips);
     const Vec3f bend = vec_cast<float>(at.centre + at.low * at.axis);
     drawn.transform = to_world({turn, bend});
-    to.add(drawn);
+    to.add(mesh->second, drawn, m_clip_detail);
     // Its tips have gone through the fold beside the tube, which is whole in the simulation: they show through it.
     drawn.translucent = true;
     drawn.material.alpha = kClipThroughFold;
     drawn.nearer = kBeforeFolds;
     drawn.transform = to_world({turn, bend + kBeforeItself * normalised(to.frame.camera.position - bend, Vec3f{})});
-    to.add(drawn);
+    to.add(mesh->second, drawn, m_clip_detail);
   }
 }
 

@@ -21,8 +21,8 @@ class MetalDrawing {
   void update(const sim::State& state);
   void list_tools(const sim::State& state, const std::vector<PartStyle>& styles, const FirstParts& first,
                   const Listing& to);
-  void list_clips(const sim::State& state, const FirstParts& first, const Listing& to) const;
-  void list_port_sites(const FirstParts& first, const Listing& to) const;
+  void list_clips(const sim::State& state, const FirstParts& first, const Listing& to);
+  void list_port_sites(const FirstParts& first, const Listing& to);
   void list_scope(Vec3d port, const kinematics::FulcrumPose& pose, const FirstParts& first, const Listing& to);
 
  private:
@@ -53,10 +53,12 @@ class MetalDrawing {
   std::vector<std::vector<std::vector<DrawnPart>>> m_tools;  ///< (hands, rack)
   std::vector<std::vector<DrawnPart>> m_sleeves;             ///< (hands)
   std::vector<PortSite> m_port_sites;                        ///< (hands)
+  std::vector<Detail> m_port_details;                        ///< (hands)
   std::vector<double> m_sleeve_end, m_sleeve_radius;         ///< (hands) from the port; inside [m]
   std::vector<DrawnPart> m_scope;
   std::vector<LoadedClip> m_loaded;
-  std::map<double, OwnedMesh> m_clips;  ///< closed ones, by their length [m]
+  std::map<double, RigidMesh> m_clips;  ///< closed ones, by their length [m]
+  Detail m_clip_detail;
   const Look* m_titanium = &look("titanium");
 };
 

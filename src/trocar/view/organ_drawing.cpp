@@ -134,6 +134,7 @@ void OrganDrawing::update(const tissue::NetworkState& state, std::span<const std
   const bool changed =
       open ? burnt || !std::equal(parted.begin(), parted.end(), m_parted.begin(), m_parted.end()) : was_open;
   if (!m_moved(state.nodes) && !changed && !burnt && !m_dented && !near(m_box, rods)) return;
+  ++m_version;
   tissue::pose_skin(view_of(m_solid->network, state), m_solid->fine, m_pose);
   render::vertex_normals(m_pose.position, m_indices, m_normals);
   lift();

@@ -7,6 +7,7 @@
 #include <trocar/view/detail.hpp>
 #include <trocar/view/heat_marks.hpp>
 #include <trocar/view/mesh_buffer.hpp>
+#include <trocar/view/moved.hpp>
 #include <trocar/view/relief.hpp>
 
 namespace trocar::view {
@@ -25,6 +26,8 @@ class OrganDrawing {
               std::span<const collision::Capsule> rods = {}, const HeatMarks* burnt = nullptr);
   render::MeshHandle mesh() const { return m_mesh.handle(); }
   bool dented() const { return m_dented; }  ///< by an instrument
+  /// Rises whenever it is drawn anew: what follows it looks whether it has to.
+  std::uint64_t version() const { return m_version; }
   /// As drawn now, per vertex of solid.fine.
   std::span<const Vec3f> positions() const { return m_pose.position; }
   std::span<const Vec3f> normals() const { return m_normals; }
@@ -59,7 +62,8 @@ class OrganDrawing {
   std::vector<float> m_height;         ///< relief; empty: none
   tissue::Box m_box;                   ///< of the drawn vertices
   bool m_dented = false;               ///< as drawn
-  MovedNodes m_moved;
+  std::uint64_t m_version = 1;
+  Moved m_moved;
   OwnedMesh m_mesh;
 };
 

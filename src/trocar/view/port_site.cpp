@@ -59,7 +59,8 @@ std::optional<Crossing> last_crossing(std::span<const PiercedWall> walls, Vec3d 
   return last;
 }
 
-PortSite::PortSite(Vec3d port, Vec3d axis, double radius, std::span<const PiercedWall> walls, render::Backend& backend)
+PortSite::PortSite(Vec3d port, Vec3d axis, double radius, std::span<const PiercedWall> walls, render::Backend& backend,
+                   const Detail& detail)
     : m_port(port), m_axis(axis), m_radius(radius) {
   // Where it comes in: past the port, or else the nearest wall behind it.
   std::optional<Crossing> hole = last_crossing(walls, port, axis, 0, kBehind);
@@ -90,6 +91,7 @@ PortSite::PortSite(Vec3d port, Vec3d axis, double radius, std::span<const Pierce
   for (int row = 0; row + 1 < kRows; ++row)
     join_rows(m_shape, std::uint32_t((row + 1) * kSides), std::uint32_t(row * kSides), kSides, true);
   shape(axis);
+  coarsen(m_shape, detail, kBends);
   m_mesh = OwnedMesh(backend, m_shape.data());
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <trocar/view/detail.hpp>
 #include <trocar/view/mesh_buffer.hpp>
 
 namespace trocar::view {
@@ -35,7 +36,8 @@ class PortSite {
  public:
   /// @param axis of the sleeve, into the body @param radius of the sleeve, outside [m]
   /// Nothing is drawn where the line crosses no wall near the port.
-  PortSite(Vec3d port, Vec3d axis, double radius, std::span<const PiercedWall> walls, render::Backend& backend);
+  PortSite(Vec3d port, Vec3d axis, double radius, std::span<const PiercedWall> walls, render::Backend& backend,
+           const Detail& detail = {});
 
   void update(Vec3d axis);
   render::MeshHandle mesh() const { return m_mesh.handle(); }

@@ -43,6 +43,9 @@ bool carries(const sim::Model& model, int strand) {
          });
 }
 
+/// Of a row, from the ligament to the wall; the last is tucked in.
+double share_down(int row) { return std::min(1.0, double(row) / (kRows - 2)); }
+
 /// A point that is at least so far from an axis.
 Vec3d outside(Vec3d p, Vec3d axis, Vec3d along, double far) {
   const Vec3d off = p - axis - dot(p - axis, along) * along;
@@ -53,7 +56,7 @@ Vec3d outside(Vec3d p, Vec3d axis, Vec3d along, double far) {
 }  // namespace
 
 Ridge::Ridge(const sim::Model& model, const TubeDrawing& tube, int strand, const WallSurface& walls,
-             render::Backend& backend)
+             render::Backend& backend, const Detail& detail)
     : m_body(&model.bodies[std::size_t(strand)]),
       m_strand(strand),
       m_covered(!carries(model, strand)),
@@ -85,7 +88,9 @@ Ridge::Ridge(const sim::Model& model, const TubeDrawing& tube, int strand, const
     for (std::size_t i = 0; i + 1 < m_stations.size(); ++i)
       join_rows(m_buffer, row(flank, flank ? i : i + 1), row(flank, flank ? i + 1 : i), kRows, false);
   place(curve);
+  paint();
   m_buffer.rest = m_buffer.positions;
+  coarsen(m_buffer, detail, kBends);
   m_mesh = OwnedMesh(backend, m_buffer.data());
 }
 
@@ -260,17 +265,25 @@ void Ridge::place_flank(const Station& st, Vec3d at, int flank, std::size_t firs
                        normalised((0.49 + 0.5 * st.over) * out + (0.87 - 0.6 * st.over) * down),
               arrives = ((0.9 + 0.4 * st.over) * spread * reach) * level;
   for (int r = 0; r < kRows; ++r) {
-    const double t = std::min(1.0, double(r) / (kRows - 2)), u = 1 - t;
+    const double t = share_down(r), u = 1 - t;
     Vec3d p = (u * u * (1 + 2 * t)) * top + (t * t * (3 - 2 * t)) * end + (u * u * t) * leaves - (t * t * u) * arrives;
     p = outside(p, at, st.along, kCovers * st.over * st.radius);
     if (r == kRows - 1) p = end + spread * (0.002 * level - kTucked * n);
     const std::size_t v = first + std::size_t(r);
     m_buffer.positions[v] = vec_cast<float>(p);
+  }
+}
+
+void Ridge::paint() {
+  for (std::size_t v = 0; v < m_buffer.paint.size(); ++v) {
+    const Station& st = m_stations[v / kRows % m_stations.size()];
+    const double t = share_down(int(v % kRows));
     // The tint is the ligament's colour, which is near to that of the fat below a wall's peritoneum.
     const double own =
         (1 - 0.45 * smooth(0.5, 1, st.over)) * smooth(0.5 - 0.15 * st.over, 0, t) * (st.beyond ? 0.5 : 1.0);
+    const double fat = fat_below(vec_cast<double>(m_buffer.positions[v]));
     m_buffer.paint[v].openness = to_byte(0.78 + 0.22 * std::fabs(1 - 2 * t));
-    m_buffer.paint[v].tint = to_byte(std::max(own, 0.6 * fat_below(p) * smooth(0, 0.5, t)));
+    m_buffer.paint[v].tint = to_byte(std::max(own, 0.6 * fat * smooth(0, 0.5, t)));
   }
 }
 
@@ -293,10 +306,13 @@ void Ridge::burn(const sim::State& state) {
 
 void Ridge::update(const sim::State& state) {
   const tissue::StrandState& now = state.strands[std::size_t(m_strand)];
-  const std::vector<StrandPiece> pieces =
+  std::vector<StrandPiece> pieces =
       pieces_of(*m_body, now.alive, {state.cuts.data(), std::size_t(state.cut_count)}, m_strand);
-  place(StrandCurve(*m_body, now, pieces));
-  if (m_marks.stirred(state)) {
+  const bool burnt = m_marks.stirred(state), cut = pieces != m_pieces;
+  if (!m_moved(now.x) && !burnt && !cut) return;
+  m_pieces = std::move(pieces);
+  place(StrandCurve(*m_body, now, m_pieces));
+  if (burnt) {
     burn(state);
     m_mesh.update(m_buffer);
   } else {

@@ -10,6 +10,7 @@
 #include <trocar/sim/state.hpp>
 #include <trocar/view/heat_marks.hpp>
 #include <trocar/view/mesh_buffer.hpp>
+#include <trocar/view/moved.hpp>
 #include <trocar/view/strand_curve.hpp>
 #include <trocar/view/tube_drawing.hpp>
 
@@ -19,7 +20,7 @@ class Ridge {
  public:
   /// @param tube  the ligament's drawing; its end is fixed in space
   Ridge(const sim::Model& model, const TubeDrawing& tube, int strand, const WallSurface& walls,
-        render::Backend& backend);
+        render::Backend& backend, const Detail& detail = {});
 
   void update(const sim::State& state);
   render::MeshHandle mesh() const { return m_mesh.handle(); }
@@ -43,6 +44,7 @@ class Ridge {
   void find_feet(const WallSurface& walls);
   void place(const StrandCurve& curve);
   void place_flank(const Station& st, Vec3d at, int flank, std::size_t first);
+  void paint();  ///< from the positions at rest
   void add_root(const TubeRoot& root);
   void add_glide(const WallSurface& walls);
   double crest_above(const Station& station) const;
@@ -55,6 +57,8 @@ class Ridge {
   bool m_covered;  ///< from its beginning
   std::vector<Station> m_stations;
   HeatMarks m_marks;
+  Moved m_moved;
+  std::vector<StrandPiece> m_pieces;  ///< as drawn
   MeshBuffer m_buffer;
   OwnedMesh m_mesh;
 };

@@ -94,12 +94,16 @@ void TubeDrawing::update(const sim::State& state) {
     const tissue::StrandState rest = tissue::rest_state(m_body->model);
     place(StrandCurve(*m_body, rest, m_layout.pieces), m_buffer.rest);
   }
-  const StrandCurve curve(*m_body, state.strands[std::size_t(m_index)], m_layout.pieces);
+  const tissue::StrandState& now = state.strands[std::size_t(m_index)];
+  const bool burnt = m_marks.stirred(state) || (changed && m_marks.any()), was_held = m_held;
+  const bool jaws = !jaws_on(m_index, *m_model, state).empty();
+  if (!m_moved(now.x) && !changed && !burnt && !jaws && !was_held) return;
+  ++m_version;
+  const StrandCurve curve(*m_body, now, m_layout.pieces);
   place(curve, m_buffer.positions);
   place_necks(curve);
-  press(state);
+  m_held = press(state);
   render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);
-  const bool burnt = m_marks.stirred(state) || (changed && m_marks.any());
   if (burnt) burn(state);
   if (changed)
     m_mesh.replace(m_buffer.data());
@@ -123,11 +127,14 @@ void TubeDrawing::burn(const sim::State& state) {
   }
 }
 
-void TubeDrawing::press(const sim::State& state) {
-  for (const ClipPress& clip : clips_on(m_index, *m_model, state))
+bool TubeDrawing::press(const sim::State& state) {
+  const std::vector<ClipPress> clips = clips_on(m_index, *m_model, state);
+  const std::vector<JawPress> jaws = jaws_on(m_index, *m_model, state);
+  for (const ClipPress& clip : clips)
     for (Vec3f& p : m_buffer.positions) p = vec_cast<float>(pressed(vec_cast<double>(p), clip));
-  for (const JawPress& jaws : jaws_on(m_index, *m_model, state))
-    for (Vec3f& p : m_buffer.positions) p = vec_cast<float>(pressed(vec_cast<double>(p), jaws));
+  for (const JawPress& held : jaws)
+    for (Vec3f& p : m_buffer.positions) p = vec_cast<float>(pressed(vec_cast<double>(p), held));
+  return !jaws.empty();
 }
 
 Paint TubeDrawing::paint_at(const Layout& layout, double s, double angle, Paint own) const {
@@ -163,7 +170,20 @@ void TubeDrawing::lay_out(const Layout& layout) {
   m_rows.clear();
   for (int piece = 0; piece < int(layout.pieces.size()); ++piece) add_piece(layout, piece);
   connect();
+  shape_sections();
   paint();
+}
+
+/// Every vertex of a ring, in its frame: that does not change when the strand moves.
+void TubeDrawing::shape_sections() {
+  m_section.clear();
+  for (const TubeRow& row : m_rows)
+    for (int k = 0; k < (row.radius == 0 ? 1 : m_sides); ++k) {
+      const double a = 2 * kPi * k / m_sides;
+      const double lobes = row.radius == 0 ? 0 : row.scallop * ragged(row.piece + m_index, a);
+      const double r = row.radius == 0 ? 0 : row.radius * (outline(row.s, a) + lobes);
+      m_section.push_back({r * std::cos(a), r * std::sin(a), (row.along < 0 ? -0.9 : 0.9) * lobes * row.radius});
+    }
 }
 
 void TubeDrawing::paint() {
@@ -210,17 +230,9 @@ void TubeDrawing::place(const StrandCurve& curve, std::vector<Vec3f>& positions)
   for (const TubeRow& row : m_rows) {
     const CurveFrame f = frame_of(row, curve);
     const Vec3d centre = f.point + row.along * f.tangent;
-    if (row.radius == 0) {
-      positions[v++] = vec_cast<float>(centre);
-      continue;
-    }
-    for (int k = 0; k < m_sides; ++k) {
-      const double a = 2 * kPi * k / m_sides;
-      const double lobes = row.scallop * ragged(row.piece + m_index, a);
-      const double r = row.radius * (outline(row.s, a) + lobes);
-      const Vec3d p = centre + r * (std::cos(a) * f.normal + std::sin(a) * f.binormal) +
-                      (row.along < 0 ? -1 : 1) * (0.9 * lobes * row.radius) * f.tangent;
-      positions[v++] = vec_cast<float>(p);
+    for (int k = 0; k < (row.radius == 0 ? 1 : m_sides); ++k, ++v) {
+      const Vec3d q = m_section[v];
+      positions[v] = vec_cast<float>(centre + q.x * f.normal + q.y * f.binormal + q.z * f.tangent);
     }
   }
   if (!m_strand->fimbriated) return;

@@ -8,6 +8,7 @@
 #include <trocar/render/openness.hpp>
 #include <trocar/view/detail.hpp>
 #include <trocar/view/heat_marks.hpp>
+#include <trocar/view/moved.hpp>
 #include <trocar/view/pinch.hpp>
 #include <trocar/view/strand_curve.hpp>
 #include <trocar/view/wall_surface.hpp>
@@ -59,6 +60,8 @@ class TubeDrawing {
   /// As it was last made: for the folds that hang on it, and for tests.
   const MeshBuffer& buffer() const { return m_buffer; }
   int sides() const { return m_sides; }
+  /// Rises whenever it is drawn anew: what follows it looks whether it has to.
+  std::uint64_t version() const { return m_version; }
   bool burnt() const { return m_marks.any(); }
   const TubeRoot& end_root() const { return m_end_root; }
   const TubeNeck& neck(bool at_start) const { return m_neck[at_start ? 0 : 1]; }
@@ -79,6 +82,7 @@ class TubeDrawing {
   double contracted(const StrandPiece& piece, double s) const;
   void add_raw_face(int piece, bool at_start);
   void connect();  ///< vertices and triangles of the rows
+  void shape_sections();
   void join(const std::vector<std::size_t>& rows, std::uint32_t stride, MeshBuffer& into) const;
   void join_fimbriae(std::uint32_t fingers, std::uint32_t stride, MeshBuffer& into) const;
   std::vector<std::size_t> rows_apart(double distance) const;
@@ -87,7 +91,7 @@ class TubeDrawing {
   void burn(const sim::State& state);         ///< what heat has left, over the paint
   std::size_t nearest_first(double s) const;  ///< first vertex of the baked row nearest to s
   void place(const StrandCurve& curve, std::vector<Vec3f>& positions) const;
-  void press(const sim::State& state);
+  bool press(const sim::State& state);  ///< true where jaws hold it
   Paint paint_at(const Layout& layout, double s, double angle, Paint own) const;
   double radius_at(double s) const;
   double outline(double s, double angle) const;
@@ -114,8 +118,12 @@ class TubeDrawing {
   Layout m_layout;
   std::vector<TubeRow> m_rows;
   std::vector<std::uint32_t> m_first;  ///< (rows) vertex
-  std::vector<double> m_errors;        ///< (levels) [m]
+  std::vector<Vec3d> m_section;  ///< (vertices of rows) across, along the curve's normal and binormal; along it [m]
+  std::vector<double> m_errors;  ///< (levels) [m]
   HeatMarks m_marks;
+  Moved m_moved;
+  bool m_held = false;  ///< by jaws, as drawn
+  std::uint64_t m_version = 1;
   MeshBuffer m_fimbriae;  ///< in the end's frame
   MeshBuffer m_buffer;
   std::vector<TubeRow> m_baked_rows;  ///< of the uncut tube

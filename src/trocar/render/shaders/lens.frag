@@ -1,5 +1,5 @@
-// What lens and camera do to the developed picture. Variants: FRINGE, SMOOTH, SOILED (and
-// those of soil.glsl).
+// What lens and camera do to the developed picture. Variants: FRINGE, SMOOTH (outlines without steps, and sharpened),
+// SOILED (and those of soil.glsl).
 precision highp float;
 precision highp int;
 uniform sampler2D u_picture;
@@ -46,6 +46,7 @@ void main() {
   picture.b = texture(u_picture, uv - shift).b;
 #endif
 
+#ifdef SMOOTH
   // The four diagonal neighbours serve twice: they say where outlines run, and they are the ring to sharpen against.
   vec2 px = u_texel * 1.05;
   vec3 a = texture(u_picture, uv + vec2(-px.x, px.y)).rgb, b = texture(u_picture, uv + px).rgb;
@@ -54,7 +55,6 @@ void main() {
   vec4 ring = vec4(dot(a, kLuma), dot(b, kLuma), dot(c, kLuma), dot(d, kLuma));
   float middle = dot(picture, kLuma);
   float step_up = middle - 0.25 * (ring.x + ring.y + ring.z + ring.w);
-#ifdef SMOOTH
   // Steps along an outline are blended along it [after Lottes 09].
   vec2 along_edge = vec2((ring.z + ring.w) - (ring.x + ring.y), (ring.x + ring.z) - (ring.y + ring.w));
   float least = mix(0.02, 0.10, developed.a);  // alpha: 0 at outlines, which show steps the most
@@ -67,9 +67,9 @@ void main() {
   float outline = (1.0 - developed.a) * (1.0 - smoothstep(0.7, 0.9, middle));  // but what glitters there does
   picture = mix(picture, 0.25 * (a + b + c + d), 0.4 * outline);
   step_up *= 1.0 - 0.6 * outline;
-#endif
   // Video sharpening: overshoot.
   picture += u_lens.z * clamp(step_up, -0.12, 0.12);
+#endif
 
 #ifdef SOILED
   picture = through_soil(picture, uv, from_centre / u_place.z);
