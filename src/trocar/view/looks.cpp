@@ -121,16 +121,16 @@ Material bladder() {
   Material m = peritoneum();  // it lies below the peritoneum
   m.lining = false;
   m.two_sided = false;
-  m.colour = srgb(196, 126, 132);
-  m.colour_b = srgb(210, 150, 144);
-  m.colour_c = srgb(186, 114, 122);
-  m.tint = srgb(202, 144, 138);
+  m.colour = srgb(198, 122, 124);
+  m.colour_b = srgb(216, 154, 136);
+  m.colour_c = srgb(180, 100, 108);
+  m.tint = srgb(206, 146, 128);
   m.mottle_size = 0.013f;
   m.mottle = 0.6f;
   m.vessel_tile = 0.05f;
-  m.wetness = 0.5f;
+  m.wetness = 0.6f;
   m.film_size = 0.002f;
-  m.film_bump = 0.28f;
+  m.film_bump = 0.32f;
   m.film_roughness = 0.075f;
   return m;
 }
@@ -297,14 +297,14 @@ Material fat() {
 /// Tags on the large bowel: soft, salmon, under a thin wet serosa, with capillaries.
 Material epiploic() {
   Material m = fat();
-  m.colour = srgb(234, 168, 136);
-  m.colour_b = srgb(240, 186, 144);
-  m.colour_c = srgb(222, 140, 122);
+  m.colour = srgb(222, 148, 126);
+  m.colour_b = srgb(228, 164, 130);
+  m.colour_c = srgb(212, 128, 116);
   m.lobule_size = 0.0028f;
   m.lobule_depth = 0.02f;
   m.lobule_contrast = 0;
   m.vessels = 0.7f;
-  m.glow_amount = 0.2f;
+  m.glow_amount = 0.14f;
   m.vessel_tile = 0.012f;
   m.wetness = 0.7f;
   m.film_bump = 0.3f;
