@@ -183,7 +183,7 @@ Material stomach() {
 }
 
 Material liver() {
-  Material m = with_vessels(tissue(srgb(99, 61, 67), srgb(108, 69, 73), srgb(88, 53, 60)), 0.17f, 0.034f);
+  Material m = with_vessels(tissue(srgb(99, 61, 67), srgb(108, 69, 73), srgb(88, 53, 60)), 0.26f, 0.038f);
   m.vessel_colour = srgb(150, 106, 110);  // a pale net below its capsule
   m.mottle_size = 0.008f;
   m.mottle = 0.5f;
