@@ -145,6 +145,26 @@ TEST(LiverDome, LeavesTheSimulatedEdgeWithoutAStep) {
   EXPECT_GT(beyond, 150);  // ... and goes on to both sides
 }
 
+TEST(LiverDome, RoundLigamentComesOverTheMarginAndRunsToTheWall) {
+  const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/cutting/scene.json"));
+  const tissue::Skin& body = model.skin(0);
+  const WallSurface walls(model);
+  const MeshBuffer falciform = LiverShape(body.rest, flat_indices(body)).falciform(walls);
+  float margin = 1, wall = 1;  // how near it comes to the one and to the other
+  Vec3f low = body.rest.front();
+  for (int v = 0; v < body.size(); ++v)
+    if (body.at_surface(v) && std::fabs(body.rest[std::size_t(v)].x - falciform.positions[0].x) < 0.004f &&
+        body.rest[std::size_t(v)].y < low.y)
+      low = body.rest[std::size_t(v)];
+  for (const Vec3f& p : falciform.positions) {
+    const WallSurface::Place place = walls.nearest(vec_cast<double>(p));
+    margin = std::min(margin, length(p - low));
+    wall = std::min(wall, float(length(vec_cast<double>(p) - place.point)));
+  }
+  EXPECT_LT(margin, 0.004f);
+  EXPECT_LT(wall, 0.002f);
+}
+
 TEST(LiverDome, FollowsItsBodyAndHoldsStillFarFromIt) {
   const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/cutting/scene.json"));
   auto backend = render::make_null_backend();

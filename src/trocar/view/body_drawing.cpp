@@ -104,7 +104,7 @@ void BodyDrawing::make_tubes(const WallSurface& walls) {
 void BodyDrawing::make_cuttables(render::Backend& backend) {
   for (std::size_t i = 0; i < m_model->cuttables.size(); ++i) {
     const std::size_t organ = m_model->solids.size() + i;
-    m_cuttables.emplace_back(m_model->cuttables[i], relief_of(int(organ), *m_model), backend);
+    m_cuttables.emplace_back(m_model->cuttables[i], relief_of(int(organ), *m_model), backend, m_model->gravity);
     m_details.cuttables.emplace_back(levels_of(*m_model, m_model->cuttables[i].name));
     m_cuttable_burns.emplace_back(*m_model, interactions::kSolidBase + std::int32_t(organ));
   }

@@ -4,6 +4,7 @@
 #include <map>
 #include <numeric>
 
+#include <trocar/geometry/quarter.hpp>
 #include <trocar/render/mesh_arrays.hpp>
 #include <trocar/view/cavity.hpp>
 #include <trocar/view/fair_surface.hpp>
@@ -51,7 +52,7 @@ struct Cavity {
 }  // namespace
 
 double fat_below(Vec3d p) {
-  return 0.5 * smooth(0.0, 0.9, 0.75 * waves(p, 0.052) + 0.4 * waves(p + Vec3d{0.3, 0.1, 0.2}, 0.019));
+  return 0.4 * smooth(0.0, 0.9, 0.75 * waves(p, 0.052) + 0.4 * waves(p + Vec3d{0.3, 0.1, 0.2}, 0.019));
 }
 
 namespace {
@@ -117,18 +118,10 @@ struct Ball {
     for (int i = 0; i < kHalvings; ++i) divide();
   }
   void divide() {
-    std::map<std::pair<int, int>, int> middles;
-    const auto middle = [&](int a, int b) {
-      const auto [found, anew] = middles.try_emplace(std::minmax(a, b), int(points.size()));
-      if (anew) points.push_back(normalised(points[std::size_t(a)] + points[std::size_t(b)]));
-      return found->second;
-    };
-    std::vector<std::array<int, 3>> finer;
-    for (const auto& [a, b, c] : triangles) {
-      const int ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-      finer.insert(finer.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
-    }
-    triangles = std::move(finer);
+    geometry::Quartered finer = geometry::quartered(triangles, int(points.size()));
+    for (const auto& [a, b] : finer.halved)
+      points.push_back(normalised(points[std::size_t(a)] + points[std::size_t(b)]));
+    triangles = std::move(finer.triangles);
   }
   std::vector<std::vector<int>> neighbours() const {
     std::vector<std::vector<int>> net(points.size());

@@ -12,10 +12,10 @@ namespace {
 
 constexpr Paint kFlesh{150, 225, 0, 0};     // laid bare: raw
 constexpr std::uint8_t kDeepOpenness = 75;  // ... at a cut's bottom
-constexpr std::uint8_t kRimBlood = 90;      // on the skin at a cut's rim
-constexpr std::uint8_t kRimPale = 26;       // the capsule's edge: its look's tint
-constexpr float kStains = 0.004f;           // [m] how far from a cut its blood stains the skin
-constexpr std::uint8_t kStain = 150;
+constexpr std::uint8_t kRimBlood = 95;      // on the skin at a cut's rim
+constexpr std::uint8_t kRimPale = 56;       // the capsule's edge: its look's tint
+constexpr float kStains = 0.0075f;          // [m] how far from a cut its blood stains the skin
+constexpr std::uint8_t kStain = 215;
 constexpr float kRough = 0.6f;                // slope of the same
 constexpr std::uint8_t kLooseOpenness = 230;  // of pieces that have come off, which do not lie where they were baked
 constexpr std::uint8_t kLoosePale = 190;      // they have bled out
@@ -68,18 +68,31 @@ float at_rim(const tissue::FaceSkin& skin, const std::vector<std::uint8_t>& rim,
   return sum;
 }
 
-/// How much blood stains the skin at `p`, 0 to 1: around what is cut, here more, there less.
-float stained(Vec3f p, std::span<const Vec3f> rim) {
-  double nearest = 1;
-  for (const Vec3f& r : rim) nearest = std::min(nearest, double(length(p - r)));
-  const double uneven = 0.5 + 0.8 * waves(vec_cast<double>(p), 0.007);
-  return float(smooth(double(kStains), 0.0, nearest) * std::clamp(uneven, 0.0, 1.0));
+/// How much blood stains the skin at `p`, 0 to 1: around what is cut, and in fingers below it, where it has run.
+/// @param fall unit, along the skin downwards
+float stained(Vec3f p, Vec3f fall, std::span<const Vec3f> rim) {
+  const Vec3d q = vec_cast<double>(p);
+  const float finger = float(smooth(-0.2, 0.7, waves({q.x, 0.2 * q.y, 0.2 * q.z}, 0.0065)));
+  const float runs = 1 / (1.1f + 1.9f * finger);
+  float nearest = 1;
+  for (const Vec3f& r : rim) {
+    const Vec3f d = p - r;
+    const float along = dot(d, fall), run = along > 0 ? runs * along : along;
+    nearest = std::min(nearest, dot(d, d) - along * along + run * run);
+  }
+  const double uneven = 0.55 + 0.7 * waves(q, 0.007);
+  return float(smooth(double(kStains), 0.0, std::sqrt(std::max(0.0, double(nearest)))) *
+               std::clamp(std::max(uneven, 0.8 * double(finger)), 0.0, 1.0));
 }
 
 }  // namespace
 
-CuttableDrawing::CuttableDrawing(const sim::CuttableOrgan& organ, Relief relief, render::Backend& backend)
-    : m_organ(&organ), m_relief(std::move(relief)), m_open(organ.body.drawn.rest.size(), 255) {
+CuttableDrawing::CuttableDrawing(const sim::CuttableOrgan& organ, Relief relief, render::Backend& backend,
+                                 Vec3d gravity)
+    : m_organ(&organ),
+      m_relief(std::move(relief)),
+      m_down(vec_cast<float>(normalised(gravity, Vec3d{0, 0, -1}))),
+      m_open(organ.body.drawn.rest.size(), 255) {
   const tissue::CuttableState rest = tissue::rest_state(organ.body);
   make_skin(rest);
   place(rest, {});
@@ -218,8 +231,9 @@ void CuttableDrawing::paint_skin() {
     m_paint[i].openness = loose ? kLooseOpenness : std::uint8_t(open + 0.5f);
     if (loose) m_paint[i].tint = kLoosePale;
     if (wound.empty() || loose) continue;
-    const float blood = std::max(float(kRimBlood) * edge, float(kStain) * stained(m_skin.skin.rest[i], wound));
-    m_paint[i].blood = std::uint8_t(blood);
+    const Vec3f out = m_skin.skin.rest_normal[i];
+    const float stain = stained(m_skin.skin.rest[i], normalised(m_down - dot(m_down, out) * out, m_down), wound);
+    m_paint[i].blood = std::uint8_t(edge > 0.999f ? float(kRimBlood) : float(kStain) * stain);
     if (edge > 0.999f) m_paint[i].tint = std::max(m_paint[i].tint, kRimPale);
   }
 }

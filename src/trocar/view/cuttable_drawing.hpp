@@ -18,7 +18,9 @@ namespace trocar::view {
 
 class CuttableDrawing {
  public:
-  CuttableDrawing(const sim::CuttableOrgan& organ, Relief relief, render::Backend& backend);
+  /// @param gravity  along which blood runs
+  CuttableDrawing(const sim::CuttableOrgan& organ, Relief relief, render::Backend& backend,
+                  Vec3d gravity = {0, 0, -9.81});
 
   /// How open its own surface lies, from what stands around it; once, before the first picture.
   void shade(const render::OpennessBaker& baker);
@@ -47,6 +49,7 @@ class CuttableDrawing {
 
   const sim::CuttableOrgan* m_organ;
   Relief m_relief;
+  Vec3f m_down;  ///< unit
   tissue::FaceSkin m_skin;
   std::uint64_t m_version = ~0ull;   ///< CuttableState::version of m_skin
   std::vector<std::uint8_t> m_open;  ///< (nodes) Paint::openness

@@ -8,13 +8,13 @@ namespace trocar::view {
 namespace {
 
 constexpr double kTwoPi = 6.28318530717959;
-constexpr double kApart = 0.0085;                   // [m] between two tags of middle size
+constexpr double kApart = 0.012;                    // [m] between two tags of middle size
 constexpr double kSunk = 0.0022;                    // [m] a tag's foot lies below the skin
 constexpr float kAround = 0.02f, kUnder = 0.0009f;  // [m] skin around a tag; the foot's edge lies below it
 constexpr float kFarthestPull = 0.0045f;            // [m] of a foot down to the skin
-constexpr int kSides = 24, kRings = 18;
+constexpr int kSides = 22, kRings = 15;
 constexpr int kLobes = 10;
-constexpr int kParts = 3;      // mounds of a tag, at most
+constexpr int kParts = 3;      // flaps of a tag, at most
 constexpr double kBend = 0.3;  // how fast a tag turns to hang down, a ring
 
 Mat3f frame_at(const OrganDrawing& organ, std::uint32_t at, std::uint32_t beside) {
@@ -33,13 +33,13 @@ double lobes(Vec3d out, int seed) {
     const double far = length(out - centre) / size;
     most = std::max(most, size * std::sqrt(std::max(0.0, 1 - 0.8 * far * far)));
   }
-  return 0.88 + 0.18 * most;
+  return 0.8 + 0.3 * most;
 }
 
-/// How wide a mound is at `u` (0 foot .. 1 tip), of its width.
+/// How wide a flap is at `u` (0 foot .. 1 tip), of its width: a broad foot, hardly a neck, a round end.
 double profile(double u) {
-  const double body = std::sqrt(std::max(0.0, 1 - std::pow(std::max(0.0, u - 0.52) / 0.48, 2)));
-  return body * (0.8 + 0.3 * smooth(0.25, 0.62, u));
+  const double body = std::sqrt(std::max(0.0, 1 - std::pow(std::max(0.0, u - 0.45) / 0.55, 2)));
+  return body * (0.9 + 0.15 * smooth(0.2, 0.6, u));
 }
 
 /// Its foot runs out on the bowel: how much wider it is `high` above the skin [m], of its width.
@@ -48,13 +48,14 @@ double skirt(double high) {
   return 1.1 * t * t;
 }
 
-/// A lobed mound of fat: broad on the bowel, then hanging over along `down` (unit, in the same frame).
-MeshBuffer mound(Vec3d down, int seed, double size) {
+/// A lobed flap of fat: broad on the bowel, then hanging over along `down` (unit, in the same frame), flat as it lies.
+MeshBuffer flap(Vec3d down, int seed, double size) {
   MeshBuffer b;
-  const double length = size * (0.0082 + 0.0048 * varied(seed, 21)), wide = size * (0.0027 + 0.0012 * varied(seed, 22));
-  const double flat = 0.5 + 0.3 * varied(seed, 23), turned = kTwoPi * varied(seed, 24);
-  Vec3d p{0, 0, -kSunk}, along = normalised(Vec3d{0.45 * down.x, 0.45 * down.y, 1}),
-                         x{std::cos(turned), std::sin(turned), 0};
+  const double length = size * (0.0085 + 0.006 * varied(seed, 21)), wide = size * (0.0036 + 0.0022 * varied(seed, 22));
+  const double flat = 0.38 + 0.2 * varied(seed, 23), turned = 1.1 * (varied(seed, 24) - 0.5);
+  const Vec3d across = normalised(Vec3d{-down.y, down.x, 0}, Vec3d{1, 0, 0}), hangs{across.y, -across.x, 0};
+  Vec3d p{0, 0, -kSunk}, along = normalised(Vec3d{0.7 * down.x, 0.7 * down.y, 1}),
+                         x = std::cos(turned) * across + std::sin(turned) * hangs;
   std::uint32_t before = 0;
   for (int i = 0; i <= kRings; ++i) {
     const double u = double(i) / kRings;
@@ -87,16 +88,17 @@ MeshBuffer mound(Vec3d down, int seed, double size) {
   return b;
 }
 
-/// One to three mounds that hang together, the first the largest.
+/// One to three flaps that hang together, side by side, the first the largest.
 MeshBuffer tag_shape(Vec3d down, int seed, double size) {
   MeshBuffer shape;
   const int parts = 1 + int(varied(seed, 34) * (size > 1.2 ? kParts - 0.01 : 1.7));
   for (int part = 0; part < parts; ++part) {
     const int own = kParts * seed + part;
-    const double turn = kTwoPi * varied(own, 32);
-    const Vec3d aside{std::cos(turn), std::sin(turn), 0};
-    const double place = part == 0 ? 0 : size * (0.0024 + 0.0016 * varied(own, 33));
-    append(shape, mound(normalised(down + (part == 0 ? 0.25 : 0.6) * aside), own, size * (part == 0 ? 1.0 : 0.7)),
+    const double side = varied(own, 32) < 0.5 ? -1 : 1, slant = 0.8 * (varied(own, 37) - 0.5);
+    const Vec3d level = normalised(Vec3d{-down.y, down.x, 0}, Vec3d{1, 0, 0});
+    const Vec3d aside = side * normalised(level + slant * Vec3d{level.y, -level.x, 0});
+    const double place = part == 0 ? 0 : size * (0.0034 + 0.0026 * varied(own, 33));
+    append(shape, flap(normalised(down + (part == 0 ? 0.2 : 0.5) * aside), own, size * (part == 0 ? 1.0 : 0.75)),
            Mat3f::identity(), vec_cast<float>(place * aside));
   }
   return shape;

@@ -1,4 +1,4 @@
-// Epiploic appendages: lobed mounds of fat, few and unequal, that hang on the large bowel in rows and tell it from the
+// Epiploic appendages: lobed flaps of fat, few and unequal, that hang on the large bowel in rows and tell it from the
 // small. They ride on the organ's drawn skin; mechanically they are nothing.
 #pragma once
 

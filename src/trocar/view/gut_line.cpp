@@ -12,7 +12,7 @@ constexpr double kPi = 3.14159265358979;
 constexpr int kSides = kGutSides, kPasses = 80;
 constexpr double kTouch = 0.96;                // of both radii: touching walls flatten each other
 constexpr double kOnFloor = 0.8;               // of the radius above a wall
-constexpr double kAlong = 1.5, kRound = 0.65;  // patterns: shorter along the gut, longer around it
+constexpr double kAlong = 1.2, kRound = 0.85;  // patterns: shorter along the gut, longer around it
 
 /// Two points of one line are neighbours, not in each other's way, when they are nearer than this along it [radii].
 constexpr double kOwnReach = 3.2;
@@ -110,7 +110,8 @@ MeshBuffer gut(const GutLine& line, Vec3d up, int patch) {
     for (int k = 0; k < kSides; ++k) {
       const double a = 2 * kPi * k / kSides - kPi;  // begins below, where nobody sees the patterns' seam
       const Vec3d dir = std::cos(a) * high + std::sin(a) * beside;
-      const double crease = 0.045 * bent * smooth(-0.1, 0.9, dot(dir, inward)) * std::sin(2 * kPi * way / 0.0065);
+      const double crease =
+          0.04 * bent * smooth(-0.1, 0.9, dot(dir, inward)) * waves({way, 0.3 * a * line.radius[i], 0}, 0.0095);
       const double r = line.radius[i] * (1 + squeeze + crease + 0.03 * waves(p + 0.006 * dir, 0.015));
       b.add(vec_cast<float>(p + r * dir));
       b.rest.push_back(vec_cast<float>(Vec3d{kAlong * way + 0.317 * patch, kRound * a * line.radius[i], 0}));

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/geometry/point_grid.hpp>
 #include <trocar/render/mesh_arrays.hpp>
 #include <trocar/view/liver_dome.hpp>
 
@@ -10,6 +11,7 @@ namespace {
 constexpr double kWhole = 0.004, kNothing = 0.045;  // [m] from the body: goes all its way, none of it
 constexpr float kTornOff = 0.02f;                   // [m] what has moved much farther has come off and is not followed
 
+constexpr float kCell = 0.006f;                     // [m] of the grid in which those places are found
 constexpr float kCoarse = 0.004f, kRecess = 0.07f;  // [m] what shades the recess above it, and from how far
 constexpr double kDeepest = 0.85;
 
@@ -31,16 +33,23 @@ LiverDome::LiverDome(const sim::Model& model, int organ, const LiverShape& shape
 
 /// Each vertex to the three nearest places of the body's surface.
 void LiverDome::tie(Part& part) const {
+  std::vector<std::uint8_t> surface;
+  for (int v = 0; v < skin().size(); ++v) surface.push_back(skin().at_surface(v) ? 1 : 0);
+  const geometry::PointGrid grid(skin().rest, kCell, surface);
   for (std::uint32_t i = 0; i < part.shape.size(); ++i) {
-    Follow f{i, {}, {}};
-    std::array<float, 3> far{1e9f, 1e9f, 1e9f};
-    for (int v = 0; v < skin().size(); ++v) {
-      if (!skin().at_surface(v)) continue;
-      const Vec3f d = skin().rest[std::size_t(v)] - part.rest[i];
-      float d2 = dot(d, d);
-      int on = v;
-      for (std::size_t k = 0; k < 3; ++k)
-        if (d2 < far[k]) std::swap(d2, far[k]), std::swap(on, f.on[k]);
+    Follow f;
+    std::array<float, 3> far;
+    for (float reach = grid.cell();; reach *= 2) {
+      f = {i, {}, {}};
+      far = {1e9f, 1e9f, 1e9f};
+      grid.visit(part.rest[i], reach, [&](std::uint32_t v) {
+        const Vec3f d = skin().rest[v] - part.rest[i];
+        float d2 = dot(d, d);
+        int on = int(v);
+        for (std::size_t k = 0; k < 3; ++k)
+          if (d2 < far[k]) std::swap(d2, far[k]), std::swap(on, f.on[k]);
+      });
+      if (far[2] <= reach * reach || reach > float(kNothing)) break;
     }
     const double share = smooth(kNothing, kWhole, std::sqrt(double(far[0])));
     if (!(share > 0)) continue;

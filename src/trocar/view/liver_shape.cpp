@@ -289,9 +289,9 @@ double LiverShape::up_to_the_wall(std::size_t column, double begins, const WallS
 }
 
 MeshBuffer LiverShape::falciform(const WallSurface& wall) const {
-  constexpr int kAlong = 40, kUp = 20, kRound = 8, kOn = 16;
+  constexpr int kAlong = 40, kUp = 20, kRound = 8, kOn = 10;
   const std::size_t column = m_first + (m_last - m_first) / 5;
-  const double begins = y_of(column, m_columns[column].join) + 0.004;
+  const double low = y_of(column, 0), begins = low + 0.003;
   const double reach = up_to_the_wall(column, begins, wall);
   MeshBuffer b;
   for (int i = 0; i <= kAlong; ++i)
@@ -299,15 +299,12 @@ MeshBuffer LiverShape::falciform(const WallSurface& wall) const {
       const double s = double(i) / kAlong, t = double(k) / kUp;
       const double y = begins + reach * s, x = m_columns[column].x + 0.004 * waves({0, y, 0}, 0.06);
       const Vec3d foot{x, y, height(x, y) - 0.0012};
-      const WallSurface::Place hung = wall.nearest({x + 0.006, y - 0.012 * (1 - s), foot.z + 0.09});
+      const WallSurface::Place hung = wall.nearest({x + 0.006, y - 0.016 * (1 - s), foot.z + 0.09});
       const Vec3d top = hung.there ? hung.point - 0.0012 * hung.normal : foot + Vec3d{0, 0, 0.06};
       Vec3d p = foot + t * (top - foot);
       const double slack = 4 * t * (1 - t);
-      p.y += 0.016 * slack * (1 - s);  // its border hangs in a bow ...
-      const double lies = (1 - smooth(0, 0.3, s)) * (1 - smooth(0, 0.32, t));
-      p.y -= 0.02 * lies;  // ... and leaves the liver gently, from a notch
-      p.z = std::max(p.z + (height(p.x, p.y) - height(p.x, p.y + 0.02 * lies)) * lies, height(p.x, p.y) - 0.004) -
-            0.0022 * (1 - smooth(0, 0.12, t)) * (1 - smooth(0, 0.3, s));
+      p.y += 0.02 * slack * (1 - s);  // its border hangs in a bow
+      p.z = std::max(p.z, height(p.x, p.y) - 0.004);
       p.x += 0.005 * slack * waves({p.x, p.y, p.z}, 0.05);
       Paint paint;
       paint.openness = to_byte(smooth(0, 0.13, t));  // it runs out on the liver
@@ -318,14 +315,14 @@ MeshBuffer LiverShape::falciform(const WallSurface& wall) const {
   for (int i = 0; i < kAlong; ++i)
     join_rows(b, std::uint32_t(i * (kUp + 1)), std::uint32_t((i + 1) * (kUp + 1)), kUp + 1, false);
   render::vertex_normals(b.positions, b.indices, b.normals);
-  // The round ligament in its border, with fat around it: from the wall down onto the liver, into which it
-  // sinks before its margin.
+  // The round ligament in its border, with fat around it: it comes out of the cleft below the liver, over the margin.
   std::vector<Vec3d> way;
-  for (int k = 0; k <= kOn; ++k) {
-    const double x = b.positions[0].x, s = 0.45 + 0.55 * k / kOn, low = y_of(column, 0);
-    const double y = low + s * (b.positions[0].y - low);
-    way.push_back(
-        {x + 0.0012 * waves({x, y, 0}, 0.02) * (1 - s), y, height(x, y) - 0.0012 - 0.014 * (1 - s) * (1 - s)});
+  const double x = b.positions[0].x, edge = m_columns[column].edge;
+  const Vec3d cleft{x, low + 0.009, edge - 0.009}, margin{x, low - 0.006, edge - 0.004};
+  const auto begin = vec_cast<double>(b.positions[1]);
+  for (int k = 0; k < kOn; ++k) {
+    const double u = double(k) / kOn, v = 1 - u;
+    way.push_back((v * v) * cleft + (2 * u * v) * margin + (u * u) * begin);
   }
   for (std::size_t k = 1; k <= std::size_t(kUp); ++k) way.push_back(vec_cast<double>(b.positions[k]));
   const std::uint32_t cord = b.size();
@@ -334,14 +331,13 @@ MeshBuffer LiverShape::falciform(const WallSurface& wall) const {
     const Vec3d axis = normalised(way[std::min(here + 1, last)] - way[here > 0 ? here - 1 : 0], Vec3d{0, 0, 1});
     const Vec3d u = any_perpendicular(axis), w = cross(axis, u), p = way[here];
     const double above = std::max(0.0, double(here) - kOn) / kUp;
-    const double ends = 0.85 + 0.75 * smooth(0.4, 0.05, above);
-    const double thins = smooth(0.1 * kOn, 1.3 * kOn, double(here));
+    const double ends = 0.9 + 0.9 * smooth(0.5, 0.0, above);  // thickest where it leaves the liver
     for (int r = 0; r < kRound; ++r) {
       const double a = 6.28318530717959 * r / kRound;
       const Vec3d out = std::cos(a) * u + std::sin(a) * w;
       const double fat = waves(p + 0.004 * out, 0.009);
-      const double radius = ends * (0.0013 + 0.0004 * waves(p + 0.01 * out, 0.013) + 0.0003 * fat);
-      b.add(vec_cast<float>(p + radius * out), Paint{255, 0, 0, to_byte((0.25 + 0.55 * thins) + 0.2 * fat)});
+      const double radius = ends * (0.0015 + 0.0004 * waves(p + 0.01 * out, 0.013) + 0.0003 * fat);
+      b.add(vec_cast<float>(p + radius * out), Paint{255, 0, 0, to_byte(0.8 + 0.2 * fat)});
       b.normals.push_back(vec_cast<float>(out));
     }
   }

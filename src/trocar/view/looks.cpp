@@ -113,7 +113,7 @@ Material peritoneum() {
   m.mottle = 0.6f;
   m.bump = 0.08f;
   m.wetness = 0.52f;
-  m.tint = srgb(204, 150, 112);  // fat below it
+  m.tint = srgb(192, 134, 118);  // fat below it
   m.film_size = 0.0021f;         // of muscle fibres that shimmer through: its film is as smooth as it is wide
   m.film_bump = 0.07f;
   m.film_roughness = 0.14f;
@@ -125,30 +125,31 @@ Material bladder() {
   Material m = peritoneum();  // it lies below the peritoneum
   m.lining = false;
   m.two_sided = false;
-  m.colour = srgb(196, 126, 132);
-  m.colour_b = srgb(210, 150, 144);
-  m.colour_c = srgb(186, 114, 122);
-  m.tint = srgb(202, 144, 138);
+  m.colour = srgb(198, 122, 124);
+  m.colour_b = srgb(216, 154, 136);
+  m.colour_c = srgb(180, 100, 108);
+  m.tint = srgb(206, 146, 128);
   m.mottle_size = 0.013f;
   m.mottle = 0.6f;
   m.vessel_tile = 0.05f;
   m.wetness = 0.6f;
   m.film_size = 0.002f;
-  m.film_bump = 0.28f;
+  m.film_bump = 0.32f;
   m.film_roughness = 0.075f;
   return m;
 }
 
 Material bowel() {
-  Material m = with_vessels(tissue(srgb(206, 124, 118), srgb(214, 148, 132), srgb(190, 104, 104)), 0.9f, 0.036f);
+  Material m = with_vessels(tissue(srgb(204, 130, 128), srgb(212, 150, 142), srgb(190, 112, 114)), 0.9f, 0.036f);
   m.mottle_size = 0.012f;
   m.mottle = 0.6f;
   m.glow_amount = 0.1f;
-  m.film_bump = 0.26f;
-  m.film_size = 0.0016f;
+  m.bump = 0.05f;
+  m.film_bump = 0.24f;
+  m.film_size = 0.0024f;
   m.film_roughness = 0.06f;
   m.wetness = 0.75f;
-  m.tint = srgb(228, 178, 158);  // its bands
+  m.tint = srgb(218, 174, 164);  // its bands
   return m;
 }
 
@@ -158,18 +159,19 @@ Material upper_abdomen() {
   m.colour = srgb(146, 84, 89);
   m.colour_b = srgb(155, 94, 94);
   m.colour_c = srgb(137, 75, 81);
-  m.tint = srgb(174, 116, 88);
+  m.tint = srgb(160, 101, 88);
   return m;
 }
 
 /// Thin walls, moist; no bands.
 Material small_bowel() {
-  Material m = with_vessels(tissue(srgb(208, 134, 122), srgb(216, 154, 138), srgb(196, 116, 110)), 0.85f, 0.03f);
+  Material m = with_vessels(tissue(srgb(206, 140, 134), srgb(214, 156, 146), srgb(194, 122, 120)), 0.85f, 0.03f);
   m.mottle_size = 0.014f;
   m.mottle = 0.5f;
   m.glow_amount = 0.1f;
-  m.film_bump = 0.26f;
-  m.film_size = 0.0016f;
+  m.bump = 0.05f;
+  m.film_bump = 0.24f;
+  m.film_size = 0.0024f;
   m.film_roughness = 0.06f;
   m.wetness = 0.75f;
   return m;
@@ -185,15 +187,16 @@ Material stomach() {
 }
 
 Material liver() {
-  Material m = with_vessels(tissue(srgb(99, 61, 67), srgb(110, 70, 73), srgb(84, 50, 57)), 0.12f, 0.03f);
-  m.mottle_size = 0.0035f;
-  m.mottle = 0.4f;
-  m.bump = 0.04f;
-  m.roughness = 0.62f;
+  Material m = with_vessels(tissue(srgb(99, 61, 67), srgb(108, 69, 73), srgb(88, 53, 60)), 0.26f, 0.038f);
+  m.vessel_colour = srgb(150, 106, 110);  // a pale net below its capsule
+  m.mottle_size = 0.008f;
+  m.mottle = 0.5f;
+  m.bump = 0.012f;
+  m.roughness = 0.56f;
   m.wetness = 0.66f;
-  m.film_roughness = 0.09f;
-  m.film_bump = 0.22f;
-  m.film_size = 0.0028f;
+  m.film_roughness = 0.085f;
+  m.film_bump = 0.17f;
+  m.film_size = 0.0036f;
   m.tint = srgb(166, 104, 100);  // a thin edge
   return m;
 }
@@ -302,14 +305,14 @@ Material fat() {
 /// Tags on the large bowel: soft, salmon, under a thin wet serosa, with capillaries.
 Material epiploic() {
   Material m = fat();
-  m.colour = srgb(234, 168, 136);
-  m.colour_b = srgb(240, 186, 144);
-  m.colour_c = srgb(222, 140, 122);
+  m.colour = srgb(222, 148, 126);
+  m.colour_b = srgb(228, 164, 130);
+  m.colour_c = srgb(212, 128, 116);
   m.lobule_size = 0.0028f;
   m.lobule_depth = 0.02f;
   m.lobule_contrast = 0;
   m.vessels = 0.7f;
-  m.glow_amount = 0.2f;
+  m.glow_amount = 0.14f;
   m.vessel_tile = 0.012f;
   m.wetness = 0.7f;
   m.film_bump = 0.3f;
@@ -322,19 +325,22 @@ Material epiploic() {
 /// Lobules on lobules (omentum.cpp): these are the smallest. Towards its border and in grooves it is salmon (tint).
 Material omentum() {
   Material m = fat();
-  m.colour = srgb(228, 164, 138);
-  m.colour_b = srgb(240, 192, 140);
-  m.colour_c = srgb(216, 138, 126);
-  m.mottle_size = 0.013f;
-  m.lobule_size = 0.0036f;
-  m.lobule_depth = 0.06f;
-  m.lobule_contrast = 0.06f;
-  m.vessels = 1;
-  m.vessel_tile = 0.1f;
-  m.wetness = 0.56f;
-  m.film_roughness = 0.09f;
+  m.colour = srgb(230, 160, 130);
+  m.colour_b = srgb(238, 182, 134);
+  m.colour_c = srgb(222, 140, 124);
+  m.mottle_size = 0.014f;
+  m.mottle = 0.45f;
+  m.bump = 0.03f;
+  m.lobule_size = 0.0046f;
+  m.lobule_depth = 0.07f;
+  m.lobule_contrast = 0.05f;
+  m.vessels = 0.75f;
+  m.vessel_tile = 0.07f;
+  m.vessel_colour = srgb(150, 54, 50);
+  m.wetness = 0.6f;
+  m.film_roughness = 0.085f;
   m.film_bump = 0.2f;
-  m.film_size = 0.0032f;
+  m.film_size = 0.0034f;
   m.tint = srgb(206, 130, 124);
   m.two_sided = true;
   return m;

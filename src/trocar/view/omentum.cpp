@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
 
+#include <trocar/geometry/quarter.hpp>
 #include <trocar/render/mesh_arrays.hpp>
 #include <trocar/view/omentum.hpp>
 #include <trocar/view/relief.hpp>
@@ -13,29 +13,23 @@ constexpr double kReaches = 0.47;  // share of the wall's height up to which it 
 constexpr int kHalvings = 2;       // of the wall's edges: lobes are finer than its triangles
 constexpr double kMargin = 0.006;  // [m] beyond its border, below the wall
 
-/// Distance from the nearest of jittered centres, and from the next one, in cells of one edge.
-struct Cells {
-  double nearest = 9, second = 9;
-};
-Cells cells_at(Vec3d q) {
+/// Round lobules of unequal size, about `size` [m] wide, that lie against each other: 1 on top .. 0 in a groove. Where
+/// they meet they are fused: grooves are soft.   [after Worley 96, with a smooth nearest]
+double lobules(Vec3d p, double size) {
+  constexpr double kSharp = 9, kTooFar = 1.35;  // the greater, the more a lobule is by itself; squared distance
+  const Vec3d q = (1 / size) * p;
   const int i0 = int(std::floor(q.x)), j0 = int(std::floor(q.y)), k0 = int(std::floor(q.z));
-  Cells c;
+  double sum = std::exp(-kSharp * kTooFar);
   for (int k = k0 - 1; k <= k0 + 1; ++k)
     for (int j = j0 - 1; j <= j0 + 1; ++j)
       for (int i = i0 - 1; i <= i0 + 1; ++i) {
         const int cell = i + 57 * j + 3251 * k;
-        const Vec3d centre{i + varied(cell, 81), j + varied(cell, 82), k + varied(cell, 83)};
-        const double d = length(q - centre);
-        c.second = std::min(c.second, std::max(d, c.nearest));
-        c.nearest = std::min(c.nearest, d);
+        const Vec3d off = q - Vec3d{i + varied(cell, 81), j + varied(cell, 82), k + varied(cell, 83)};
+        const double far = dot(off, off) * (0.75 + 0.5 * varied(cell, 84));
+        if (far < kTooFar) sum += std::exp(-kSharp * far);
       }
-  return c;
-}
-
-/// Lobules like pillows, `size` [m] wide: 0 in a groove .. 1 on top. Grooves are soft.
-double pillows(Vec3d p, double size) {
-  const Cells c = cells_at((1 / size) * p);
-  return smooth(0.02, 0.62, c.second - c.nearest);
+  const double nearest = -std::log(sum) / kSharp;
+  return std::clamp(1 - 3.0 * nearest, 0.0, 1.0);
 }
 
 /// How far inside its border a point lies [m]: tongues, frills on them. @param above the wall's lowest point [m]
@@ -45,16 +39,25 @@ double inside(Vec3d p, double above, double whole) {
   return kReaches * whole - above + tongues + frills;
 }
 
-/// Thickness [m]: broad swellings, lobes, and lobules on them; towards its border a thin, rounded lip. Beyond it lies
-/// below the wall.
-double thickness(Vec3d p, double deep) {
-  if (deep <= 0) return std::max(-0.0012, 0.5 * deep);
+/// What the apron is like in a place.
+struct Fat {
+  double thick = 0;   ///< [m]; below 0: under the wall
+  double groove = 0;  ///< 1 between lobules
+};
+
+/// Broad swellings, lobes, and lobules on them, in places more, in places fewer; towards its border a thin, rounded
+/// lip. Beyond it lies below the wall.
+Fat fat_at(Vec3d p, double deep) {
+  if (deep <= 0) return {std::max(-0.0012, 0.5 * deep), 0};
   const double lip = 0.0015 * (1 - std::exp(-deep / 0.003));
   const double grown = smooth(0, 0.02, deep);
   const double swell = 0.0034 + 0.0034 * waves(p, 0.052);
-  const double lobes = 0.0042 * pillows(p + Vec3d{0.4, 0.1, 0.2}, 0.024);
-  const double lobules = 0.0015 * pillows(p + Vec3d{0.1, 0.5, 0.3}, 0.0095);
-  return lip + grown * (swell + lobes) + (0.3 + 0.7 * grown) * smooth(0, 0.004, deep) * lobules;
+  const double lobe = lobules(p + Vec3d{0.4, 0.1, 0.2}, 0.026);
+  const double marked = 0.35 + 0.65 * smooth(-0.5, 0.6, waves(p + Vec3d{0.2, 0.6, 0.4}, 0.037));
+  const double lobule = lobules(p + Vec3d{0.1, 0.5, 0.3}, 0.0105);
+  const double uneven = 0.0036 * lobe + 0.0016 * marked * lobule;
+  return {lip + grown * (swell + uneven) + 0.3 * (1 - grown) * smooth(0, 0.004, deep) * 0.0016 * lobule,
+          std::max(0.6 * (1 - lobe) * (1 - lobe), marked * (1 - lobule) * (1 - lobule))};
 }
 
 struct Point {
@@ -67,21 +70,12 @@ struct Net {
   std::vector<std::array<int, 3>> triangles;
 
   void divide() {
-    std::map<std::pair<int, int>, int> middles;
-    const auto middle = [&](int a, int b) {
-      const auto [found, anew] = middles.try_emplace(std::minmax(a, b), int(points.size()));
-      if (anew) {
-        const Point &i = points[std::size_t(a)], &j = points[std::size_t(b)];
-        points.push_back({0.5 * (i.p + j.p), normalised(i.n + j.n, i.n)});
-      }
-      return found->second;
-    };
-    std::vector<std::array<int, 3>> finer;
-    for (const auto& [a, b, c] : triangles) {
-      const int ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-      finer.insert(finer.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+    geometry::Quartered finer = geometry::quartered(triangles, int(points.size()));
+    for (const auto& [a, b] : finer.halved) {
+      const Point &i = points[std::size_t(a)], &j = points[std::size_t(b)];
+      points.push_back({0.5 * (i.p + j.p), normalised(i.n + j.n, i.n)});
     }
-    triangles = std::move(finer);
+    triangles = std::move(finer.triangles);
   }
 };
 
@@ -129,13 +123,12 @@ MeshBuffer apron(Net net, const Ground& ground) {
   for (int i = 0; i < kHalvings; ++i) net.divide();
   for (const Point& point : net.points) {
     const double deep = ground.inside_at(point.p);
-    const double thick = thickness(point.p, deep);
-    const double groove = 1 - pillows(point.p + Vec3d{0.1, 0.5, 0.3}, 0.0095);
+    const Fat fat = fat_at(point.p, deep);
     const double patch = smooth(0.2, 0.9, waves(point.p + Vec3d{0.3, 0.3, 0}, 0.03));
     Paint paint;
-    paint.openness = to_byte(0.72 + 0.28 * smooth(0.001, 0.007, thick));
-    paint.tint = to_byte(std::max({0.4 * patch, 0.45 * groove, 0.9 * smooth(0.008, 0, deep)}));
-    b.add(vec_cast<float>(point.p + thick * point.n), paint);
+    paint.openness = to_byte((0.72 + 0.28 * smooth(0.001, 0.007, fat.thick)) * (1 - 0.3 * fat.groove));
+    paint.tint = to_byte(std::max({0.3 * patch, 0.4 * fat.groove, 0.9 * smooth(0.008, 0, deep)}));
+    b.add(vec_cast<float>(point.p + fat.thick * point.n), paint);
   }
   for (const auto& [i, j, k] : net.triangles) b.triangle(std::uint32_t(i), std::uint32_t(j), std::uint32_t(k));
   render::vertex_normals(b.positions, b.indices, b.normals);

@@ -9,7 +9,7 @@ namespace {
 constexpr double kTwoPi = 6.28318530717959;
 constexpr std::size_t kSlices = 16;
 constexpr double kBandHalf = 0.0028;                          // [m] half the width of a gut's band
-constexpr float kPatternAlong = 1.25f, kPatternRound = 0.8f;  // how fine a gut's patterns are
+constexpr float kPatternAlong = 1.12f, kPatternRound = 0.9f;  // how fine a gut's patterns are
 
 /// Longest extent of the body: the direction along which a gut is divided into bulges.
 Vec3d long_axis(const tissue::Skin& skin) {

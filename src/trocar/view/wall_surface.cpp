@@ -4,6 +4,12 @@
 #include <trocar/view/wall_surface.hpp>
 
 namespace trocar::view {
+namespace {
+
+constexpr float kCell = 0.008f;    // [m] about as long as an edge
+constexpr float kFarthest = 1e3f;  // [m] all of it, from wherever
+
+}  // namespace
 
 WallSurface::WallSurface(const sim::Model& model) {
   const auto take = [this](std::span<const Vec3f> points, std::span<const Vec3f> normals,
@@ -19,21 +25,31 @@ WallSurface::WallSurface(const sim::Model& model) {
   m_faces.resize(m_points.size());
   for (std::uint32_t t = 0; 3 * t < m_triangles.size(); ++t)
     for (std::uint32_t k = 0; k < 3; ++k) m_faces[m_triangles[3 * t + k]].push_back(t);
+  std::vector<std::uint8_t> used;
+  for (const std::vector<std::uint32_t>& faces : m_faces) used.push_back(faces.empty() ? 0 : 1);
+  m_grid.emplace(m_points, kCell, used);
+}
+
+/// Ever wider around the place.
+std::uint32_t WallSurface::nearest_vertex(Vec3f p) const {
+  std::uint32_t best = 0;
+  float least = 1e9f;
+  for (float reach = m_grid->cell();; reach *= 3) {
+    m_grid->visit(p, reach, [&](std::uint32_t i) {
+      const Vec3f d = m_points[i] - p;
+      const float d2 = dot(d, d);
+      if (d2 > least || (d2 == least && i > best)) return;
+      least = d2;
+      best = i;
+    });
+    if (least <= reach * reach || reach > kFarthest) return best;
+  }
 }
 
 /// The nearest vertex, then the nearest point of the triangles around it.
 WallSurface::Place WallSurface::nearest(Vec3d p) const {
-  if (m_points.empty()) return {};
-  const Vec3f q = vec_cast<float>(p);
-  std::size_t best = 0;
-  float least = 1e9f;
-  for (std::size_t i = 0; i < m_points.size(); ++i) {
-    const Vec3f d = m_points[i] - q;
-    if (const float d2 = dot(d, d); d2 < least && !m_faces[i].empty()) {
-      least = d2;
-      best = i;
-    }
-  }
+  if (!m_grid || m_grid->empty()) return {};
+  const std::uint32_t best = nearest_vertex(vec_cast<float>(p));
   Place place{vec_cast<double>(m_points[best]), vec_cast<double>(m_normals[best]), true};
   double nearest = 1e9;
   for (const std::uint32_t t : m_faces[best]) {

@@ -2,8 +2,10 @@
 // cavity. For what is drawn only and has to end on it.
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include <trocar/geometry/point_grid.hpp>
 #include <trocar/sim/model.hpp>
 #include <trocar/view/mesh_buffer.hpp>
 
@@ -21,10 +23,13 @@ class WallSurface {
   const MeshBuffer& cavity() const { return m_cavity; }  ///< what goes on from the walls' borders
 
  private:
+  std::uint32_t nearest_vertex(Vec3f p) const;
+
   MeshBuffer m_cavity;
   std::vector<Vec3f> m_points, m_normals;
   std::vector<std::uint32_t> m_triangles;
   std::vector<std::vector<std::uint32_t>> m_faces;  ///< (points) their triangles
+  std::optional<geometry::PointGrid> m_grid;        ///< of the points that have triangles
 };
 
 }  // namespace trocar::view

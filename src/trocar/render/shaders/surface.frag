@@ -224,9 +224,9 @@ void main() {
 #endif
 #ifdef LINING
   // Yellow here, violet there, paler and redder; below it fibres and fat of a millimetre or two.
-  albedo *= 1.0 + vec3(0.0, 0.11, -0.17) * (broad.g - 0.5) + vec3(0.1, -0.1, -0.02) * (broad.r - 0.5);
+  albedo *= 1.0 + vec3(0.0, 0.05, -0.07) * (broad.g - 0.5) + vec3(0.05, -0.05, -0.01) * (broad.r - 0.5);
 #if DETAIL >= 1
-  albedo *= 1.0 + 0.3 * (vec3(0.8, 1.1, 1.0) * (ripple.a - 0.5) + 0.5 * (broad.b - 0.5)) + vec3(0.0, 0.1, -0.16) * (ripple.g - 0.5);
+  albedo *= 1.0 + 0.3 * (vec3(0.8, 1.1, 1.0) * (ripple.a - 0.5) + 0.5 * (broad.b - 0.5)) + vec3(0.0, 0.05, -0.08) * (ripple.g - 0.5);
 #endif
 #else
   albedo *= 1.0 + vec3(0.0, 0.08, -0.17) * (broad.g - 0.5);  // towards yellow here, mauve there
