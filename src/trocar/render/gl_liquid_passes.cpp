@@ -11,7 +11,7 @@ namespace trocar::render {
 namespace {
 
 constexpr std::size_t kSplatFloats = 16;
-constexpr int kTile = 16;             // [px] of the scene: only those that liquid reaches are drawn
+constexpr int kTile = 8;             // [px] of the scene: only those that liquid reaches are drawn
 constexpr float kLeastTexel = 0.75f;  // no drop is drawn thinner, in texels of the field
 
 void attribute(GLuint index, GLint components, std::size_t floats, std::size_t first, GLuint divisor) {
@@ -189,8 +189,10 @@ void GlBackend::pack_splats(const Frame& frame, int field_height) {
     Bounds2 own;
     own.add(a, reach, m_projection);
     own.add(b, reach, m_projection);
+    const std::array<int, 4> box = own.pixels(m_scene.width, m_scene.height);
+    if (box[2] == 0 || box[3] == 0) continue;
     bounds.add(own);
-    mark_tiles(own.pixels(m_scene.width, m_scene.height));
+    mark_tiles(box);
     const float row[kSplatFloats] = {a.x, a.y, a.z, radius,     b.x,        b.y,        b.z,        s.height * thin,
                                      n.x, n.y, n.z, code_of(s), s.share[0], s.share[1], s.share[2], s.dark};
     m_splat_rows.insert(m_splat_rows.end(), row, row + kSplatFloats);

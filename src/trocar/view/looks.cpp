@@ -46,7 +46,7 @@ Material tube() {
   m.mottle = 0.6f;
   m.bump = 0.1f;
   m.glow_amount = 0.2f;        // through the thin rims of the fimbriae
-  m.tint = srgb(182, 76, 86);  // fimbriae: mucosa
+  m.tint = srgb(198, 112, 114);  // fimbriae: mucosa
   m.film_size = 0.0013f;       // much finer than the tube is thick: flecks in clumps, no row of beads
   m.film_bump = 0.24f;
   m.film_roughness = 0.06f;
@@ -187,16 +187,16 @@ Material stomach() {
 }
 
 Material liver() {
-  Material m = with_vessels(tissue(srgb(99, 61, 67), srgb(108, 69, 73), srgb(88, 53, 60)), 0.26f, 0.038f);
+  Material m = with_vessels(tissue(srgb(99, 61, 67), srgb(108, 69, 73), srgb(88, 53, 60)), 0.2f, 0.038f);
   m.vessel_colour = srgb(150, 106, 110);  // a pale net below its capsule
   m.mottle_size = 0.008f;
   m.mottle = 0.5f;
   m.bump = 0.012f;
   m.roughness = 0.56f;
   m.wetness = 0.66f;
-  m.film_roughness = 0.085f;
-  m.film_bump = 0.17f;
-  m.film_size = 0.0036f;
+  m.film_roughness = 0.06f;
+  m.film_bump = 0.27f;
+  m.film_size = 0.0023f;
   m.tint = srgb(166, 104, 100);  // a thin edge
   return m;
 }
@@ -332,15 +332,15 @@ Material omentum() {
   m.mottle = 0.45f;
   m.bump = 0.03f;
   m.lobule_size = 0.0046f;
-  m.lobule_depth = 0.07f;
-  m.lobule_contrast = 0.05f;
+  m.lobule_depth = 0.15f;
+  m.lobule_contrast = 0.2f;
   m.vessels = 0.75f;
   m.vessel_tile = 0.07f;
   m.vessel_colour = srgb(150, 54, 50);
-  m.wetness = 0.6f;
-  m.film_roughness = 0.085f;
-  m.film_bump = 0.2f;
-  m.film_size = 0.0034f;
+  m.wetness = 0.8f;
+  m.film_roughness = 0.06f;
+  m.film_bump = 0.25f;
+  m.film_size = 0.0016f;
   m.tint = srgb(206, 130, 124);
   m.two_sided = true;
   return m;

@@ -320,7 +320,7 @@ void main() {
   vec3 q = v_rest * (6.2832 / kClumps);
   float clump = 0.5 + 0.2 * (sin(q.x + 1.3 * sin(0.71 * q.y)) * cos(0.83 * q.y + 0.9 * sin(0.64 * q.z)) +
                              sin(0.77 * q.z + 1.1 * sin(0.59 * q.x) + 0.3 * q.y)) + 0.5 * (broad.b - 0.5);
-  float wrinkled = smoothstep(-0.1, 0.1, clump + 0.4 * WETNESS - 0.9) * INVERSE_SQUARE;  // none in a room
+  float wrinkled = smoothstep(-0.1, 0.1, clump + 0.4 * WETNESS - 0.8) * INVERSE_SQUARE;  // none in a room
 #ifdef STAINED
   wrinkled = max(wrinkled, crust);
 #endif
@@ -361,7 +361,7 @@ void main() {
   vec3 m = normalize(N + along_surface(to_eye(film_slope + relief * 0.6), N));
   vec3 H = normalize(lit.direction + V);
   float facing = clamp(nl * 4.0, 0.0, 1.0) * open;
-  float film2 = FILM2 * mix(4.0, 1.4, wrinkled);
+  float film2 = FILM2 * mix(4.0, 1.8, wrinkled);
 #if DETAIL >= 1
   // Ripples of a pixel or less are as rough as their normals differ [Kaplanyan 16].
   vec3 turn_x = dFdx(m), turn_y = dFdy(m);
@@ -371,7 +371,7 @@ void main() {
 #endif
   film2 += 0.03 * (1.0 - INVERSE_SQUARE);
   float mh = clamp(dot(m, H), 0.0, 1.0), nh = clamp(dot(n, H), 0.0, 1.0);
-  float gloss = 0.42 * FRESNEL * (wet * (0.4 + 1.3 * flecks) * mix(1.1, 2.5, wrinkled) * lobe(mh, film2) + (0.35 + 0.65 * wet) * lobe(nh, ROUGH2)) * facing * lit.power;
+  float gloss = 0.42 * FRESNEL * (wet * (0.4 + 1.3 * flecks) * mix(1.1, 7.0, wrinkled) * lobe(mh, film2) + (0.35 + 0.65 * wet) * lobe(nh, ROUGH2)) * facing * lit.power;
   float grazing = FRESNEL + (1.0 - FRESNEL) * rim * rim * (1.0 - nv);
 #if SHADING == 2
   vec3 around = 0.7 * mirrored(reflect(-V, m), 0.03, lit.bounce);

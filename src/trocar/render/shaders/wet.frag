@@ -55,16 +55,22 @@ void main() {
   vec3 down = vec3(dot(u_down, u_right), dot(u_down, u_up), dot(u_down, u_back));
   vec3 fall = down - base * dot(down, base);
   float streak = 0.5;
+#if DETAIL >= 1
   vec2 film_uv = uv + (1.0 - flying) * run_off(place, fall, pixel, streak);
+#else
+  vec2 film_uv = uv;
+  streak = fine.g;
+#endif
   vec4 film = texture(u_film, film_uv) * 1.0e-3;
   float stain = dot(film.rgb, vec3(1.0));
   vec3 film_rise = vec3(0.0);
   if (flying < 0.5 && stain > 1.0e-7) {
+    float edge = 0.0;
+#if DETAIL >= 1
     // It is thickest where it stops: at its lower edge.
     vec2 aside = 0.00045 / pixel * u_size.zw;
     float lower = film_at(film_uv + fall.xy * 1.6 * aside);
-    float edge = clamp(1.0 - lower / max(stain, 1.0e-7), 0.0, 1.0);
-#if DETAIL >= 1
+    edge = clamp(1.0 - lower / max(stain, 1.0e-7), 0.0, 1.0);
     vec2 grows = vec2(film_at(film_uv + vec2(aside.x, 0.0)), film_at(film_uv + vec2(0.0, aside.y))) - stain;
     film_rise = vec3(clamp(grows / 0.00045, vec2(-0.4), vec2(0.4)), 0.0);
 #endif
