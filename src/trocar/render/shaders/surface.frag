@@ -371,7 +371,7 @@ void main() {
 #endif
   film2 += 0.03 * (1.0 - INVERSE_SQUARE);
   float mh = clamp(dot(m, H), 0.0, 1.0), nh = clamp(dot(n, H), 0.0, 1.0);
-  float gloss = 0.42 * FRESNEL * (wet * (0.4 + 1.3 * flecks) * mix(1.1, 7.0, wrinkled) * lobe(mh, film2) + (0.35 + 0.65 * wet) * lobe(nh, ROUGH2)) * facing * lit.power;
+  float gloss = 0.42 * FRESNEL * (wet * (0.4 + 1.3 * flecks) * mix(1.1, 6.0, wrinkled) * lobe(mh, film2) + (0.35 + 0.65 * wet) * lobe(nh, ROUGH2)) * facing * lit.power;
   float grazing = FRESNEL + (1.0 - FRESNEL) * rim * rim * (1.0 - nv);
 #if SHADING == 2
   vec3 around = 0.7 * mirrored(reflect(-V, m), 0.03, lit.bounce);
