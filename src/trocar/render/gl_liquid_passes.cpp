@@ -11,7 +11,7 @@ namespace trocar::render {
 namespace {
 
 constexpr std::size_t kSplatFloats = 16;
-constexpr int kTile = 8;             // [px] of the scene: only those that liquid reaches are drawn
+constexpr int kTile = 8;              // [px] of the scene: only those that liquid reaches are drawn
 constexpr float kLeastTexel = 0.75f;  // no drop is drawn thinner, in texels of the field
 
 void attribute(GLuint index, GLint components, std::size_t floats, std::size_t first, GLuint divisor) {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979;
 constexpr int kGrooves = 5, kLegSteps = 3 * kGrooves, kBendSteps = 6;
-constexpr double kGrooveLeft = 0.72;      // of a leg's thickness, in its grooves
+constexpr double kGrooveLeft = 0.72;       // of a leg's thickness, in its grooves
 constexpr std::uint8_t kGrooveOpen = 120;  // of 255: little light reaches their ground
 
 /// The middle line of the wire, from the tip of one leg round the bend to the tip of the other.

@@ -9,9 +9,9 @@
 #include <trocar/sim/model.hpp>
 #include <trocar/tissue/face_skin.hpp>
 #include <trocar/view/dent.hpp>
-#include <trocar/view/moved.hpp>
 #include <trocar/view/heat_marks.hpp>
 #include <trocar/view/mesh_buffer.hpp>
+#include <trocar/view/moved.hpp>
 #include <trocar/view/relief.hpp>
 
 namespace trocar::view {
