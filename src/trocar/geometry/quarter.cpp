@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <cstdint>
-#include <unordered_map>
+#include <map>
 
 #include <trocar/geometry/quarter.hpp>
 
@@ -8,8 +8,7 @@ namespace trocar::geometry {
 
 Quartered quartered(std::span<const std::array<int, 3>> triangles, int vertices) {
   Quartered finer;
-  std::unordered_map<std::uint64_t, int> middles;
-  middles.reserve(2 * triangles.size());
+  std::map<std::uint64_t, int> middles;
   finer.triangles.reserve(4 * triangles.size());
   const auto middle = [&](int i, int j) {
     const auto [low, high] = std::minmax(i, j);
