@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <map>
 #include <set>
 #include <string>
 
@@ -770,6 +771,24 @@ TEST(ClipShape, HasTheSameVerticesOpenAndClosed) {
   }
   EXPECT_NEAR(length_of, 0.0085f, 0.0004f);
   EXPECT_LT(half, 0.0016f);
+}
+
+TEST(ClipShape, IsGroovedOnItsInnerSidesAndSmoothOutside) {
+  const MeshBuffer closed = clip_shape(0.0085, 0);
+  std::map<float, std::pair<float, float>> across;  // of a leg, by height: nearest to and farthest from the middle
+  for (const Vec3f& p : closed.positions) {
+    if (p.x < 0 || p.z < 0.003f) continue;
+    auto& [in, out] = across.try_emplace(std::round(1e5f * p.z), 1.0f, 0.0f).first->second;
+    in = std::min(in, p.x);
+    out = std::max(out, p.x);
+  }
+  float least_in = 1, most_in = 0, least_out = 1, most_out = 0;
+  for (const auto& [z, span] : across) {
+    least_in = std::min(least_in, span.first), most_in = std::max(most_in, span.first);
+    least_out = std::min(least_out, span.second), most_out = std::max(most_out, span.second);
+  }
+  EXPECT_GT(most_in - least_in, 0.0001f);
+  EXPECT_NEAR(most_out, least_out, 0.00002f);
 }
 
 TEST(Looks, EveryLookOfTheScenesIsKnown) {

@@ -85,8 +85,8 @@ struct SmokeVolume {
   int nx = 0, ny = 0, nz = 0;
   std::vector<float> density;              ///< (nx ny nz) [g/m^3]; empty = no smoke
   float kappa = 0.7f;                      ///< extinction [m^2/g]
-  Vec3f colour{0.625f, 0.585f, 0.575f};    ///< linear; red walls light it, too
-  Vec3f near_colour{0.62f, 0.47f, 0.37f};  ///< of what the lamp lights from close by
+  Vec3f colour{0.600f, 0.585f, 0.605f};    ///< linear; red walls light it, too
+  Vec3f near_colour{0.62f, 0.50f, 0.43f};  ///< of what the lamp lights from close by
   float rise = 0.05f;                      ///< how fast its curls go up [m/s]
   Vec3f up{0, 0, 1};
   bool empty() const { return density.empty(); }

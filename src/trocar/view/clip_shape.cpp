@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kPi = 3.14159265358979;
 constexpr int kGrooves = 5, kLegSteps = 3 * kGrooves, kBendSteps = 6;
-constexpr double kGrooveLeft = 0.72;       // of a leg's thickness, in its grooves
-constexpr std::uint8_t kGrooveOpen = 120;  // of 255: little light reaches their ground
+constexpr double kGrooveLeft = 0.72;  // of a leg's thickness, in its grooves
+constexpr double kBevel = 0.2;        // its edges are broken, its faces flat
 
 /// The middle line of the wire, from the tip of one leg round the bend to the tip of the other.
 std::vector<Vec3d> wire(double leg, double gap) {
@@ -31,7 +31,7 @@ std::vector<Vec3d> wire(double leg, double gap) {
   return line;
 }
 
-/// Legs are grooved across, so that tissue does not slip out between them.
+/// Legs are grooved across on their inner sides, so that tissue does not slip out between them.
 bool in_groove(std::size_t i, std::size_t count) {
   const std::size_t from_tip = std::min(i, count - 1 - i);
   return from_tip < std::size_t(kLegSteps) && from_tip % 3 == 2;
@@ -45,13 +45,12 @@ MeshBuffer clip_shape(double leg_length, double gap) {
   for (std::size_t i = 0; i < line.size(); ++i) {
     const Vec3d along = normalised(line[std::min(i + 1, line.size() - 1)] - line[i > 0 ? i - 1 : 0]);
     const Vec3d y{0, 1, 0};
-    const bool groove = in_groove(i, line.size());
-    const double thick = (groove ? kGrooveLeft : 1) * kClipLegThickness;
-    Paint paint;
-    if (groove) paint.openness = kGrooveOpen;
-    sections.push_back({line[i], (0.5 * thick) * cross(y, along), (0.5 * kClipLegWidth) * y, paint});
+    const double left = in_groove(i, line.size()) ? kGrooveLeft : 1;
+    const Vec3d inwards = cross(y, along);  // the wire runs up one leg and down the other
+    const double half = 0.5 * kClipLegThickness;
+    sections.push_back({line[i] - ((1 - left) * half) * inwards, (left * half) * inwards, (0.5 * kClipLegWidth) * y, {}});
   }
-  return bar(sections, 0.35);
+  return bar(sections, kBevel);
 }
 
 }  // namespace trocar::view

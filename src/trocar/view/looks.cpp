@@ -346,7 +346,7 @@ Material omentum() {
   return m;
 }
 
-/// Bare metal; a hand's instrument says how soiled it is.
+/// Bare metal, dull from use: a little of the light is scattered; a hand's instrument says how soiled it is.
 Material metal(Vec3f bright, Vec3f dull, float roughness) {
   Material m;
   m.shading = Shading::metal;
@@ -355,6 +355,7 @@ Material metal(Vec3f bright, Vec3f dull, float roughness) {
   m.colour_c = dull;
   m.tint = srgb(24, 24, 26);
   m.roughness = roughness;
+  m.scatter = 0.26f;
   m.mottle_size = 0.0016f;
   m.fibre_stretch = 9;
   m.bump = 0.03f;
@@ -374,12 +375,11 @@ Material polished(Vec3f bright, Vec3f dull, float roughness, float scatter) {
 
 /// Titanium: greyer than steel, with a soft sheen.
 Material satin(Vec3f bright, Vec3f dull) {
-  Material m = metal(bright, dull, 0.33f);
-  m.scatter = 0.34f;
-  m.mottle = 0.7f;
-  m.mottle_size = 0.0007f;
-  m.fibre_stretch = 4;
-  m.bump = 0.07f;
+  Material m = metal(bright, dull, 0.42f);
+  m.scatter = 0.8f;
+  m.mottle = 0.5f;
+  m.fibre_stretch = 6;
+  m.bump = 0.025f;
   return m;
 }
 
@@ -478,12 +478,12 @@ std::vector<Look> make_looks() {
       {"adhesion", adhesion(), true, {}},
       {"falciform", falciform(), true, {}},
       {"steel", metal(srgb(148, 147, 152), srgb(128, 128, 134), 0.3f), false, {}},
-      {"polished_steel", polished(srgb(142, 141, 147), srgb(122, 122, 129), 0.2f, 0.03f), false, {}},
+      {"polished_steel", polished(srgb(142, 141, 147), srgb(122, 122, 129), 0.2f, 0.16f), false, {}},
       {"matte_steel", metal(srgb(128, 129, 133), srgb(114, 115, 120), 0.46f), false, {}},
       {"insulated", insulation(), false, {}},
       {"ceramic", ceramic(), false, {}},
       {"sleeve", metal(srgb(130, 131, 137), srgb(116, 118, 124), 0.38f), false, {}},
-      {"titanium", satin(srgb(158, 157, 162), srgb(132, 131, 137)), false, {}},
+      {"titanium", satin(srgb(172, 172, 176), srgb(158, 158, 163)), false, {}},
   };
 }
 

@@ -13,9 +13,7 @@ using render::DrawItem;
 namespace {
 
 constexpr double kSleeveShows = 0.018;     // [m] of a trocar's sleeve inside the wall
-constexpr float kBeforeFolds = 0.1f;       // [m] its part that shows through is drawn after all of them
-constexpr float kBeforeItself = 0.15e-3f;  // [m] or it would fail against its own depth
-constexpr float kClipThroughFold = 0.75f;  // how much of a clip shows through a sheer fold
+constexpr float kBeforeFold = 1.2e-3f;  // [m] that a clip is drawn nearer
 
 render::Mat4 to_world(const Placement& p) { return render::placement(p.rotation, p.translation); }
 
@@ -134,13 +132,9 @@ void MetalDrawing::list_clips(const sim::State& state, const FirstParts& first, 
         Mat3f::from_columns(vec_cast<float>(at.open), vec_cast<float>(at.normal), vec_cast<float>(at.axis));
     DrawItem drawn = item({}, *m_titanium, first.clips);
     const Vec3f bend = vec_cast<float>(at.centre + at.low * at.axis);
-    drawn.transform = to_world({turn, bend});
-    to.add(mesh->second, drawn, m_clip_detail);
-    // Its tips have gone through the fold beside the tube, which is whole in the simulation: they show through it.
-    drawn.translucent = true;
-    drawn.material.alpha = kClipThroughFold;
-    drawn.nearer = kBeforeFolds;
-    drawn.transform = to_world({turn, bend + kBeforeItself * normalised(to.frame.camera.position - bend, Vec3f{})});
+    // Its legs pinch the fold beside the tube, too, which is whole in the simulation and would lie over them.
+    const Vec3f before_fold = kBeforeFold * normalised(to.frame.camera.position - bend, Vec3f{});
+    drawn.transform = to_world({turn, bend + before_fold});
     to.add(mesh->second, drawn, m_clip_detail);
   }
 }

@@ -86,7 +86,7 @@ std::vector<JawPress> jaws_on(int body, const sim::Model& model, const sim::Stat
 Vec3d pressed(Vec3d p, const ClipPress& press) {
   const Vec3d d = p - press.centre;
   const double side = std::fabs(dot(d, press.normal));
-  const double fade = 1.3 * press.radius + 0.0006;  // it runs out smoothly
+  const double fade = 1.0 * press.radius + 0.0005;  // it runs out smoothly, and close by: legs lie half buried
   if (side > 0.5 * kClipLegWidth + 1.6 * fade || dot(d, d) > 9 * press.radius * press.radius) return p;
   const double x = dot(d, press.open), z = dot(d, press.axis);
   double amount = smooth(0.5 * kClipLegWidth + fade, 0.5 * kClipLegWidth, side);
@@ -94,7 +94,7 @@ Vec3d pressed(Vec3d p, const ClipPress& press) {
   amount *= smooth(press.low - rim, press.low + rim, z) * smooth(press.high + rim, press.high - rim, z);
   // Gathered between the bend and the tips rather than spread, it bulges beside the legs.
   const double bulge =
-      0.06 * smooth(0.5 * kClipLegWidth + 1.6 * fade, 0.5 * kClipLegWidth + 0.6 * fade, side) * (1 - amount);
+      0.11 * smooth(0.5 * kClipLegWidth + 1.6 * fade, 0.5 * kClipLegWidth + 0.6 * fade, side) * (1 - amount);
   const double flattened = x * (1 + bulge + amount * (std::min(1.0, press.flat) - 1));
   double widened = z * (1 - 0.12 * amount + bulge);
   if (z > press.low) widened = std::max(widened, press.low + 0.5 * rim);

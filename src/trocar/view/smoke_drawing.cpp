@@ -12,8 +12,8 @@ constexpr int kPuffs = 26;
 constexpr double kPlumeTime = 0.9;    // [s] that a puff is seen
 constexpr double kPlumeSpeed = 0.07;  // [m/s] upwards
 constexpr double kPlumeGrows = 0.20;  // of its way, in radius
-constexpr double kPlumeDense = 0.62;
-constexpr double kPlumeFoot = 0.0013, kPlumeThin = 0.006;  // [m] radius at the tip; and at which it is half as dense
+constexpr double kPlumeDense = 0.64;
+constexpr double kPlumeFoot = 0.0013, kPlumeThin = 0.005;  // [m] radius at the tip; and at which it is half as dense
 constexpr double kSmokes = 0.15;                           // [s] of current until tissue smokes
 
 constexpr float kClear = 0.01f;  // [g/m^3] everywhere below it: nothing to be seen
@@ -47,14 +47,14 @@ void list_plumes(const sim::Model& model, const sim::State& state, render::Frame
       const double high = kPlumeSpeed * kPlumeTime * std::pow(age, 1.4), stray = 0.16 * high;
       // It bends as it rises, and sways.
       const double bend =
-          0.45 * high * high / (kPlumeSpeed * kPlumeTime) + 0.16 * high * std::sin(2.2 * now / kPuffs + 5 * age);
+          0.45 * high * high / (kPlumeSpeed * kPlumeTime) + 0.22 * high * std::sin(2.2 * now / kPuffs + 7 * age);
       render::Puff puff;
       puff.centre = vec_cast<float>(hand.at + high * up + (bend + stray * (2 * varied(own, 1) - 1)) * side +
                                     (stray * (2 * varied(own, 2) - 1)) * other);
       const double grown = kPlumeGrows * high * (0.6 + 0.8 * varied(own, 3));
       puff.radius = float(kPlumeFoot + grown);
       // Dense where it leaves the tissue; what widens thins out.
-      puff.density = float(kPlumeDense * (1 - age) / (1 + grown / kPlumeThin));
+      puff.density = float(kPlumeDense * std::pow(1 - age, 1.5) / (1 + grown / kPlumeThin));
       frame.puffs.push_back(puff);
     }
   }

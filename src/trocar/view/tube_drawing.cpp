@@ -231,9 +231,12 @@ void TubeDrawing::place(const StrandCurve& curve, std::vector<Vec3f>& positions)
   for (const TubeRow& row : m_rows) {
     const CurveFrame f = frame_of(row, curve);
     const Vec3d centre = f.point + row.along * f.tangent;
+    // Cut by an instrument that comes in from in front: what looks up and towards the endoscope's trocar lies back.
+    const Vec3d lean =
+        row.slant != 0 ? normalised(normalised(m_model->scope.port - centre, up) + 0.5 * up, up) : Vec3d{};
     for (int k = 0; k < (row.radius == 0 ? 1 : m_sides); ++k, ++v) {
       const Vec3d q = m_section[v], aside = q.x * f.normal + q.y * f.binormal;
-      const double beyond = row.slant != 0 ? q.z - row.slant * dot(aside, up) : q.z;
+      const double beyond = row.slant != 0 ? q.z - row.slant * dot(aside, lean) : q.z;
       positions[v] = vec_cast<float>(centre + aside + beyond * f.tangent);
     }
   }

@@ -14,7 +14,7 @@ namespace {
 constexpr double kStep = 0.0012;      // [m] between rings
 constexpr double kFineStep = 0.0004;  // [m] near a clip
 constexpr double kNearClip = 0.004;   // [m]
-constexpr double kSlant = 0.45;       // scissors cut askew: how far a stump's upper side lies back, in radii
+constexpr double kSlant = 0.85;       // scissors cut askew: how far a stump's near side lies back, in radii
 constexpr double kSlanted = 1.8;      // ... and how far along it, in radii
 constexpr double kBend = 0.01;        // [m] radius with which tubes curve, for rings that are left out
 
@@ -37,11 +37,11 @@ void TubeDrawing::add_raw_face(int piece, bool at_start) {
   const StrandPiece& p = m_layout.pieces[std::size_t(piece)];
   const double s = at_start ? p.from : p.to, sign = at_start ? -1 : 1, r = radius_at(s) * contracted(p, s);
   const double open = m_strand->inner.empty() ? 0 : m_strand->inner[std::size_t(at_start ? p.first : p.last)];
-  const double lumen = std::max(open, 0.22 * r);
+  const double lumen = std::clamp(open, 0.14 * r, 0.24 * r);
   // The serosa has drawn back from a pale ring of muscle, which has contracted; within it the lining pouts, ragged and
   // pale, and leads into a narrow dark lumen.
-  const Paint rim{235, 20, 0, 0}, muscle{225, 8, 24, 20}, mucosa{225, 6, 8, 225}, lining{150, 40, 0, 255};
-  const Paint dark{14, 235, 0, 255};
+  const Paint rim{235, 20, 0, 0}, muscle{235, 4, 30, 20}, mucosa{235, 3, 18, 225}, lining{150, 20, 8, 255};
+  const Paint dark{8, 200, 0, 255};
   std::vector<TubeRow> rows;
   const auto row = [&](double along, double radius, double ragged, Paint paint) {
     rows.push_back({piece, s, sign * along, radius, ragged, 0, false, paint, sign * kSlant});
@@ -52,9 +52,9 @@ void TubeDrawing::add_raw_face(int piece, bool at_start) {
   row(0.12 * r, 0.79 * r, 0.09, mucosa);
   row(0.25 * r, 0.80 * r, 0.15, mucosa);
   row(0.30 * r, 0.70 * r, 0.17, mucosa);
-  row(0.24 * r, 0.55 * r, 0.14, mucosa);
-  row(0.08 * r, std::min(1.5 * lumen, 0.44 * r), 0.12, lining);
-  row(-0.10 * r, std::min(1.1 * lumen, 0.36 * r), 0.05, dark);
+  row(0.26 * r, 0.52 * r, 0.18, mucosa);
+  row(0.10 * r, 1.45 * lumen, 0.22, lining);
+  row(0.0, lumen, 0.15, dark);
   row(-0.6 * r, 0, 0, dark);
   rows.front().crease = !at_start;
   if (at_start) std::reverse(rows.begin(), rows.end());

@@ -8,6 +8,8 @@ in vec2 v_corner;
 in vec3 v_eye;
 out vec4 o_colour;
 
+const vec3 kFresh = vec3(0.72, 0.74, 0.80);
+
 void main() {
   float r2 = dot(v_corner, v_corner);
   float body = clamp(1.0 - r2, 0.0, 1.0);
@@ -16,8 +18,12 @@ void main() {
   vec4 swirl = texture(u_noise, at * 9.0);
   vec3 drawn = at + 0.005 * (swirl.rgb * 2.0 - 1.0);
   float curls = 0.6 * texture(u_noise, drawn * 17.0).a + 0.4 * texture(u_noise, drawn.zxy * 46.0).a;
-  float alpha = clamp(u_look.x * body * body * (0.12 + 1.5 * smoothstep(0.28, 0.80, curls)), 0.0, 0.95);
+  // At its foot it is one strand; curls part it as it widens.
+  float parted = 0.12 + 1.5 * smoothstep(0.28, 0.80, curls);
+  parted = mix(0.9, parted, smoothstep(0.0012, 0.0045, u_reach));
+  float alpha = clamp(u_look.x * body * body * parted, 0.0, 0.95);
   Lit lit = light_at(v_eye);
-  vec3 colour = FOG_COLOUR * (min(lit.power, 6.0) * 0.6 + 0.25 * lit.bounce);
+  // Fresh droplets scatter blue the most; red walls light them, too.
+  vec3 colour = kFresh * (min(lit.power, 6.0) * 0.72) + FOG_COLOUR * (0.25 * lit.bounce);
   o_colour = vec4(colour * alpha, alpha);
 }

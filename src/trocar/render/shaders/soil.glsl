@@ -17,25 +17,23 @@ vec3 blurred(vec2 uv, vec3 sharp, float by) {
 
 vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
   const vec3 kLuma = vec3(0.3, 0.59, 0.11);
-  vec3 mean = texture(u_blurred, mix(uv, vec2(0.5), 0.75)).rgb;
+  vec3 mean = texture(u_blurred, mix(uv, vec2(0.5), 0.75)).rgb, around = texture(u_blurred, mix(uv, vec2(0.5), 0.15)).rgb;
   float light = dot(mean, kLuma);
 #ifdef UNEVEN
   vec4 broad = texture(u_noise, vec3(at * 0.055, 0.31));
 #else
   const vec4 broad = vec4(0.5);
 #endif
-  // It condenses from the rim inwards, in patches of fine drops that have run together here and there.
-  float fog = u_soil.x * (0.68 + 0.62 * broad.a + 0.22 * dot(at, at)) - 0.10 * (1.0 - u_soil.x);
+  // It condenses all over the glass, a little more towards the rim, which is colder.
+  float fog = clamp(u_soil.x * (0.90 + 0.15 * dot(at, at) + 0.3 * (broad.a - 0.5)), 0.0, 1.0);
+  vec2 bent = vec2(0.0);
   float beads = 0.0;
 #ifdef UNEVEN
-  // One side of a lens is colder than the other; where drops have run together one sees better.
-  vec4 patches = texture(u_noise, vec3(at * 0.16, 0.83));
-  vec4 drops = texture(u_noise, vec3(mat2(0.8, 0.6, -0.6, 0.8) * at * 1.1 + 0.12 * patches.rg, 0.57));
-  fog *= (0.50 + 0.75 * smoothstep(0.2, 0.75, patches.a)) * (0.95 + 0.55 * dot(at, vec2(-0.75, 0.65)));
-  beads = (smoothstep(0.30, 0.80, drops.a) - 0.4) * clamp(2.0 * fog, 0.0, 1.0);
-  fog *= 1.0 - 0.3 * beads;
+  // Drops too fine to be told apart bend light to all sides, as ground glass does.
+  vec4 drops = texture(u_noise, vec3(mat2(0.8, 0.6, -0.6, 0.8) * at * 6.0, 0.57));
+  bent = (drops.rg - 0.5) * (0.022 * fog);
+  beads = (drops.a - 0.5) * fog;
 #endif
-  fog = clamp(fog, 0.0, 1.0);
 
   // Streaks along the wiping.
   float streaks = 0.5;
@@ -58,7 +56,10 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
     float side = dot(at, u_soil.wz) + 0.35 * (broad.a - 0.5) + 0.10 * lift * lift + 0.10 * lift * sin(9.0 * u_smear.w);
     float edge = mix(-1.7, 1.7, u_smear.w);
     float wiped = 1.0 - smoothstep(edge - 0.35, edge + 0.15, side);
-    swab = 1.0 - smoothstep(0.04, 0.44, abs(side - edge));
+    swab = 1.0 - smoothstep(0.06, 0.34, abs(side - edge));
+    // A stroke clears a lane; beside it fog is pushed together and smeared.
+    float lane = 1.0 - smoothstep(0.45, 0.95, abs(lift + 0.25 * (broad.g - 0.5)) + 0.25 * (streaks - 0.5));
+    wiped *= 0.35 + 0.65 * lane;
     fog *= 1.0 - wiped * (0.90 + 0.10 * smoothstep(0.15, 0.6, 1.0 - streaks));
     smear = max(smear, 0.55 * wiped * exp(-4.0 * clamp(edge - side, 0.0, 3.0)));
 #endif
@@ -69,10 +70,11 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
 #endif
 
   float by = max(fog, 0.55 * greasy);
-  picture = blurred(uv, picture, by);
-  vec3 veil = mix(mean, vec3(light), 0.30);
-  picture = mix(picture, veil * 0.98 + 0.03, 0.46 * fog);
-  picture *= 1.0 + 0.07 * beads;
+  picture = blurred(uv + bent, picture, by);
+  // What drops turn aside comes from all around: the organs' own colours, milky, brightest where the lamp shines back.
+  vec3 veil = mix(mix(around, mean, 0.35), vec3(light), 0.12);
+  picture = mix(picture, veil * (1.05 - 0.13 * dot(at, at)) + 0.04, 0.46 * fog);
+  picture *= 1.0 + 0.10 * beads;
   picture = mix(picture, veil * u_smear.rgb * 1.05 + 0.02, 0.33 * greasy);
 
 #ifdef DROPS

@@ -193,7 +193,7 @@ void main() {
   float ao = OPENNESS;
   float rim = min(1.0 - nv, 0.8), schlick = rim * rim * rim * rim;  // no further: the last pixel would be a dot
   vec3 mirror = mix(0.95 * grey, vec3(0.04), plain);
-  mirror += (vec3(0.9) - mirror) * (schlick * (1.0 - 0.5 * char_));
+  mirror += (vec3(0.9) - mirror) * (0.6 * schlick * (1.0 - 0.5 * char_));  // worn: all of what is behind would look like glass
   // Scratches break a highlight up along the axis, moisture in any direction: only where that stands in beads it clips.
   float broken = (0.15 + 1.2 * smoothstep(0.35, 0.7, broad.a)) * (0.35 + 0.8 * smoothstep(0.42, 0.64, fine.r));
   broken = mix(0.5, broken, clamp(20.0 * BUMP, 0.0, 1.0));  // what is polished has none
@@ -334,8 +334,8 @@ void main() {
 #ifdef LINING
   film_slope = FILM_BUMP * (broad.rgb * 2.0 - 1.0 + 0.4 * (broad.gbr * 2.0 - 1.0));  // broad sheens, no frost ...
 #if DETAIL >= 1
-  float crest = smoothstep(0.56, 0.7, broad.a) * wrinkled;  // ... flecks here and there on what stands out
-  film_slope += (2.6 * crest * FILM_BUMP) * (ripple.rgb * 2.0 - 1.0);
+  float crest = smoothstep(0.50, 0.64, broad.a) * wrinkled;  // ... flecks here and there on what stands out
+  film_slope += (6.5 * crest * FILM_BUMP) * (ripple.rgb * 2.0 - 1.0);
 #endif
 #endif
   float wet = smoothstep(1.0 - WETNESS - 0.2, 1.0 - WETNESS + 0.2, wet_noise);
@@ -363,6 +363,9 @@ void main() {
   float facing = clamp(nl * 4.0, 0.0, 1.0) * open;
   float film2 = FILM2 * mix(4.0, 1.8, wrinkled);
 #if DETAIL >= 1
+#ifdef LINING
+  film2 *= 1.0 - 0.75 * crest;  // a bead of moisture is smoother than the wall that it stands on
+#endif
   // Ripples of a pixel or less are as rough as their normals differ [Kaplanyan 16].
   vec3 turn_x = dFdx(m), turn_y = dFdy(m);
   film2 += min(0.12 * (dot(turn_x, turn_x) + dot(turn_y, turn_y)), 0.06);
