@@ -52,8 +52,9 @@ void main() {
       float taken = 1.0 - exp(-sigma * stride);
       Lit lit = light_at(way * d);
       float near = exp(-d * 22.0);
-      // The lamp's light has come the same way through it.
-      back += clear * clear * taken * (0.10 * min(lit.power, 2.2) + 0.055 * lit.bounce) * vec2(1.0 - near, near);
+      // The lamp's light has come the same way through it; right before the lens its ring's beams have not met yet.
+      float reached = clear * smoothstep(0.003, 0.03, d);
+      back += clear * taken * reached * (0.10 * min(lit.power, 2.2) + 0.055 * lit.bounce) * vec2(1.0 - near, near);
       clear *= 1.0 - taken;
     }
   }

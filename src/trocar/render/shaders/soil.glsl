@@ -74,7 +74,7 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
   // What drops turn aside comes from all around: the organs' own colours, milky, brightest where the lamp shines back.
   vec3 veil = mix(mix(around, mean, 0.35), vec3(light), 0.12);
   picture = mix(picture, veil * (1.05 - 0.13 * dot(at, at)) + 0.04, 0.46 * fog);
-  picture *= 1.0 + 0.10 * beads;
+  picture *= 1.0 + 0.08 * beads;
   picture = mix(picture, veil * u_smear.rgb * 1.05 + 0.02, 0.33 * greasy);
 
 #ifdef DROPS

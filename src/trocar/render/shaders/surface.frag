@@ -347,7 +347,7 @@ void main() {
 #if DETAIL >= 1
   float flecks = smoothstep(0.34, 0.66, fine.g + 0.5 * (broad.b - 0.5));
 #ifdef LINING
-  flecks *= 0.35 + 0.65 * crest;
+  flecks *= 0.35 + 1.7 * crest;
 #endif
   flecks = mix(0.45, flecks, 0.15 + 0.85 * INVERSE_SQUARE);
 #elif defined(LINING)
@@ -364,7 +364,7 @@ void main() {
   float film2 = FILM2 * mix(4.0, 1.8, wrinkled);
 #if DETAIL >= 1
 #ifdef LINING
-  film2 *= 1.0 - 0.75 * crest;  // a bead of moisture is smoother than the wall that it stands on
+  film2 *= 1.0 - 0.6 * crest;  // a bead of moisture is smoother than the wall that it stands on
 #endif
   // Ripples of a pixel or less are as rough as their normals differ [Kaplanyan 16].
   vec3 turn_x = dFdx(m), turn_y = dFdy(m);
