@@ -48,7 +48,8 @@ MeshBuffer clip_shape(double leg_length, double gap) {
     const double left = in_groove(i, line.size()) ? kGrooveLeft : 1;
     const Vec3d inwards = cross(y, along);  // the wire runs up one leg and down the other
     const double half = 0.5 * kClipLegThickness;
-    sections.push_back({line[i] - ((1 - left) * half) * inwards, (left * half) * inwards, (0.5 * kClipLegWidth) * y, {}});
+    sections.push_back(
+        {line[i] - ((1 - left) * half) * inwards, (left * half) * inwards, (0.5 * kClipLegWidth) * y, {}});
   }
   return bar(sections, kBevel);
 }

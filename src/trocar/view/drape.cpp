@@ -9,6 +9,7 @@ namespace trocar::view {
 namespace {
 
 constexpr int kSpokes = 72, kOnRings = 18, kRings = 38;  // on the organ; all
+constexpr std::size_t kTop = 5;                          // rings of its crown
 constexpr std::size_t kHemRows = 16;                     // that take on the wall's normal
 constexpr float kAway = 0.036f;     // [m] how far from the organ's rim its sheet reaches a wall, about
 constexpr float kOver = 0.0022f;    // [m] above the organ, whose relief is that high
@@ -175,8 +176,12 @@ void Drape::place(const std::vector<OrganDrawing>& organs) {
         Vec3f& p = m_buffer.positions[k * kRings + r];
         p = 0.5f * p + 0.25f * (m_buffer.positions[k * kRings + r - 1] + m_buffer.positions[k * kRings + r + 1]);
       }
+  round_top();
   for (std::size_t i = 0; i < m_fold.size(); ++i) m_buffer.positions[i] += m_fold[i] * m_up;
   render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);
+  Vec3f crown{};
+  for (std::size_t k = 0; k < m_spokes.size(); ++k) crown += m_buffer.normals[k * kRings];
+  for (std::size_t k = 0; k < m_spokes.size(); ++k) m_buffer.normals[k * kRings] = normalised(crown, m_up);
   for (std::size_t k = 0; k < m_spokes.size(); ++k)  // no seam: as the wall's at the hem
     for (std::size_t r = kRings - kHemRows; r < kRings && m_spokes[k].hem.solid < 0; ++r) {
       Vec3f& n = m_buffer.normals[k * kRings + r];
@@ -184,6 +189,22 @@ void Drape::place(const std::vector<OrganDrawing>& organs) {
       const Vec3f hem = m_spokes[k].hem.normal;
       n = normalised((1 - w) * n + (dot(n, hem) < 0 ? -w : w) * hem, n);
     }
+}
+
+/// Spokes meet in a point of the organ's skin and may leave it the same way for a while: a straight crease. Their first
+/// rings become a cap.
+void Drape::round_top() {
+  Vec3f middle{};
+  for (std::size_t k = 0; k < m_spokes.size(); ++k)
+    middle += m_buffer.positions[k * kRings + kTop] / float(m_spokes.size());
+  const float high = dot(m_buffer.positions[0] - middle, m_up);
+  for (std::size_t k = 0; k < m_spokes.size(); ++k) {
+    const Vec3f rim = m_buffer.positions[k * kRings + kTop];
+    for (std::size_t r = 0; r < kTop; ++r) {
+      const float t = float(r) / float(kTop);
+      m_buffer.positions[k * kRings + r] = middle + t * (rim - middle) + (high * (1 - t * t)) * m_up;
+    }
+  }
 }
 
 void Drape::update(const std::vector<OrganDrawing>& organs) {

@@ -37,6 +37,7 @@ class Drape {
     Hem hem;
   };
   void place(const std::vector<OrganDrawing>& organs);
+  void round_top();
   void fold();  ///< from the positions at rest
 
   std::vector<float> m_fold;  ///< [m] how high each vertex stands: the sheet is slack

@@ -331,8 +331,10 @@ MeshBuffer LiverShape::falciform(const WallSurface& wall) const {
     const Vec3d axis = normalised(way[std::min(here + 1, last)] - way[here > 0 ? here - 1 : 0], Vec3d{0, 0, 1});
     const Vec3d u = any_perpendicular(axis), w = cross(axis, u), p = way[here];
     const double above = std::max(0.0, double(here) - kOn) / kUp;
-    const double below = smooth(0.9 * kOn, 0.2 * kOn, double(here));  // round the margin it thins out: no knob hangs there
-    const double ends = (0.9 + 0.9 * smooth(0.5, 0.0, above)) * (1 - 0.65 * below);  // thickest where it leaves the liver
+    const double below =
+        smooth(0.9 * kOn, 0.2 * kOn, double(here));  // round the margin it thins out: no knob hangs there
+    const double ends =
+        (0.9 + 0.9 * smooth(0.5, 0.0, above)) * (1 - 0.65 * below);  // thickest where it leaves the liver
     for (int r = 0; r < kRound; ++r) {
       const double a = 6.28318530717959 * r / kRound;
       const Vec3d out = std::cos(a) * u + std::sin(a) * w;

@@ -12,7 +12,7 @@ using render::DrawItem;
 
 namespace {
 
-constexpr double kSleeveShows = 0.018;     // [m] of a trocar's sleeve inside the wall
+constexpr double kSleeveShows = 0.018;  // [m] of a trocar's sleeve inside the wall
 constexpr float kBeforeFold = 1.2e-3f;  // [m] that a clip is drawn nearer
 
 render::Mat4 to_world(const Placement& p) { return render::placement(p.rotation, p.translation); }
