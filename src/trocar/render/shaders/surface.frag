@@ -334,7 +334,7 @@ void main() {
 #ifdef LINING
   film_slope = FILM_BUMP * (broad.rgb * 2.0 - 1.0 + 0.4 * (broad.gbr * 2.0 - 1.0));  // broad sheens, no frost ...
 #if DETAIL >= 1
-  float crest = smoothstep(0.50, 0.64, broad.a) * wrinkled;  // ... flecks here and there on what stands out
+  float crest = smoothstep(0.55, 0.68, broad.a) * wrinkled;  // ... flecks here and there on what stands out
   film_slope += (6.5 * crest * FILM_BUMP) * (ripple.rgb * 2.0 - 1.0);
 #endif
 #endif
@@ -347,7 +347,7 @@ void main() {
 #if DETAIL >= 1
   float flecks = smoothstep(0.34, 0.66, fine.g + 0.5 * (broad.b - 0.5));
 #ifdef LINING
-  flecks *= 0.35 + 1.7 * crest;
+  flecks *= 0.35 + 3.6 * crest;
 #endif
   flecks = mix(0.45, flecks, 0.15 + 0.85 * INVERSE_SQUARE);
 #elif defined(LINING)
