@@ -355,7 +355,7 @@ Material metal(Vec3f bright, Vec3f dull, float roughness) {
   m.colour_c = dull;
   m.tint = srgb(24, 24, 26);
   m.roughness = roughness;
-  m.scatter = 0.26f;
+  m.scatter = 0.14f;
   m.mottle_size = 0.0016f;
   m.fibre_stretch = 9;
   m.bump = 0.03f;

@@ -12,7 +12,7 @@ uniform int u_drop_count;
 
 vec3 blurred(vec2 uv, vec3 sharp, float by) {
   vec3 soft = texture(u_blur, uv).rgb, softer = texture(u_blurrer, uv).rgb;
-  return mix(mix(sharp, soft, clamp(by * 2.4, 0.0, 1.0)), softer, clamp((by - 0.48) * 1.7, 0.0, 1.0));
+  return mix(mix(sharp, soft, clamp(by * 2.4, 0.0, 1.0)), softer, clamp((by - 0.44) * 1.7, 0.0, 1.0));
 }
 
 vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
@@ -30,7 +30,7 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
   float beads = 0.0;
 #ifdef UNEVEN
   // Drops too fine to be told apart bend light to all sides, as ground glass does.
-  vec4 drops = texture(u_noise, vec3(mat2(0.8, 0.6, -0.6, 0.8) * at * 6.0, 0.57));
+  vec4 drops = texture(u_noise, vec3(mat2(0.8, 0.6, -0.6, 0.8) * at * 7.0, 0.57));
   bent = (drops.rg - 0.5) * (0.015 * fog);
   beads = (drops.a - 0.5) * fog;
 #endif
@@ -73,8 +73,8 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
   picture = blurred(uv + bent, picture, by);
   // What drops turn aside comes from all around: the organs' own colours, milky, brightest where the lamp shines back.
   vec3 veil = mix(mix(around, mean, 0.35), vec3(light), 0.12);
-  picture = mix(picture, veil * (1.12 - 0.16 * dot(at, at)) + 0.05, 0.46 * fog);
-  picture *= 1.0 + 0.08 * beads;
+  picture = mix(picture, veil * (1.10 - 0.16 * dot(at, at)) + 0.05, 0.48 * fog);
+  picture *= 1.0 + 0.09 * beads;
   picture = mix(picture, veil * u_smear.rgb * 1.05 + 0.02, 0.33 * greasy);
 
 #ifdef DROPS
@@ -94,7 +94,7 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
     picture = mix(picture, seen * u_drops[2 * i + 1].rgb, 0.9 * body);
   }
 #endif
-  vec3 cloth = u_swab.rgb * (0.55 + 0.8 * light) * (0.85 + 0.3 * broad.a);
+  vec3 cloth = u_swab.rgb * (0.68 + 0.85 * light) * (0.85 + 0.3 * broad.a);
 #ifdef WIPED
   // Gauze, far out of focus: soft folds along its edge, and pink where it has taken blood up.
   vec4 pulled = texture(u_noise, vec3(streak_at * 0.13, 0.45));

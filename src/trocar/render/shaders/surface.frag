@@ -193,7 +193,7 @@ void main() {
   float ao = OPENNESS;
   float rim = min(1.0 - nv, 0.8), schlick = rim * rim * rim * rim;  // no further: the last pixel would be a dot
   vec3 mirror = mix(0.95 * grey, vec3(0.04), plain);
-  mirror += (vec3(0.9) - mirror) * (0.6 * schlick * (1.0 - 0.5 * char_));  // worn: all of what is behind would look like glass
+  mirror += (vec3(0.9) - mirror) * (0.75 * schlick * (1.0 - 0.5 * char_));  // worn: all of what is behind would look like glass
   // Scratches break a highlight up along the axis, moisture in any direction: only where that stands in beads it clips.
   float broken = (0.15 + 1.2 * smoothstep(0.35, 0.7, broad.a)) * (0.35 + 0.8 * smoothstep(0.42, 0.64, fine.r));
   broken = mix(0.5, broken, clamp(20.0 * BUMP, 0.0, 1.0));  // what is polished has none
@@ -224,7 +224,7 @@ void main() {
 #endif
 #ifdef LINING
   // Yellow here, violet there, paler and redder; below it fibres and fat of a millimetre or two.
-  albedo *= 1.0 + vec3(0.0, 0.05, -0.07) * (broad.g - 0.5) + vec3(0.05, -0.05, -0.01) * (broad.r - 0.5);
+  albedo *= 1.0 + vec3(0.02, 0.07, -0.20) * (broad.g - 0.5) + vec3(0.05, -0.06, 0.04) * (broad.r - 0.5);
 #if DETAIL >= 1
   albedo *= 1.0 + 0.3 * (vec3(0.8, 1.1, 1.0) * (ripple.a - 0.5) + 0.5 * (broad.b - 0.5)) + vec3(0.0, 0.05, -0.08) * (ripple.g - 0.5);
 #endif
@@ -334,8 +334,8 @@ void main() {
 #ifdef LINING
   film_slope = FILM_BUMP * (broad.rgb * 2.0 - 1.0 + 0.4 * (broad.gbr * 2.0 - 1.0));  // broad sheens, no frost ...
 #if DETAIL >= 1
-  float crest = smoothstep(0.55, 0.68, broad.a) * wrinkled;  // ... flecks here and there on what stands out
-  film_slope += (6.5 * crest * FILM_BUMP) * (ripple.rgb * 2.0 - 1.0);
+  float crest = smoothstep(0.58, 0.70, broad.a) * wrinkled;  // ... flecks here and there on what stands out
+  film_slope += (5.5 * crest * FILM_BUMP) * (ripple.rgb * 2.0 - 1.0);
 #endif
 #endif
   float wet = smoothstep(1.0 - WETNESS - 0.2, 1.0 - WETNESS + 0.2, wet_noise);
@@ -347,7 +347,7 @@ void main() {
 #if DETAIL >= 1
   float flecks = smoothstep(0.34, 0.66, fine.g + 0.5 * (broad.b - 0.5));
 #ifdef LINING
-  flecks *= 0.35 + 3.6 * crest;
+  flecks *= 0.35 + 0.9 * crest;
 #endif
   flecks = mix(0.45, flecks, 0.15 + 0.85 * INVERSE_SQUARE);
 #elif defined(LINING)
@@ -364,7 +364,7 @@ void main() {
   float film2 = FILM2 * mix(4.0, 1.8, wrinkled);
 #if DETAIL >= 1
 #ifdef LINING
-  film2 *= 1.0 - 0.6 * crest;  // a bead of moisture is smoother than the wall that it stands on
+  film2 *= 1.0 - 0.7 * crest;  // a bead of moisture is smoother than the wall that it stands on
 #endif
   // Ripples of a pixel or less are as rough as their normals differ [Kaplanyan 16].
   vec3 turn_x = dFdx(m), turn_y = dFdy(m);
