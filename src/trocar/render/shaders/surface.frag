@@ -224,7 +224,7 @@ void main() {
 #endif
 #ifdef LINING
   // Yellow here, violet there, paler and redder; below it fibres and fat of a millimetre or two.
-  albedo *= 1.0 + vec3(0.02, 0.07, -0.20) * (broad.g - 0.5) + vec3(0.05, -0.06, 0.04) * (broad.r - 0.5);
+  albedo *= 1.0 + vec3(0.02, 0.08, -0.24) * (broad.g - 0.5) + vec3(0.05, -0.06, 0.04) * (broad.r - 0.5);
 #if DETAIL >= 1
   albedo *= 1.0 + 0.3 * (vec3(0.8, 1.1, 1.0) * (ripple.a - 0.5) + 0.5 * (broad.b - 0.5)) + vec3(0.0, 0.05, -0.08) * (ripple.g - 0.5);
 #endif
@@ -335,7 +335,7 @@ void main() {
   film_slope = FILM_BUMP * (broad.rgb * 2.0 - 1.0 + 0.4 * (broad.gbr * 2.0 - 1.0));  // broad sheens, no frost ...
 #if DETAIL >= 1
   float crest = smoothstep(0.58, 0.70, broad.a) * wrinkled;  // ... flecks here and there on what stands out
-  film_slope += (5.5 * crest * FILM_BUMP) * (ripple.rgb * 2.0 - 1.0);
+  film_slope += (4.8 * crest * FILM_BUMP) * (ripple.rgb * 2.0 - 1.0);
 #endif
 #endif
   float wet = smoothstep(1.0 - WETNESS - 0.2, 1.0 - WETNESS + 0.2, wet_noise);
