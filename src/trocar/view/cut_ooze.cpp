@@ -7,12 +7,13 @@ namespace trocar::view {
 namespace {
 
 // Our choice, by eye.
-constexpr double kRunning = 0.30;     // share of the rim's vertices from which a run starts
-constexpr float kStep = 0.0011f;      // [m] between two links of a run
-constexpr float kShortest = 0.004f;   // [m]
-constexpr float kWide = 0.42e-3f;     // [m]
-constexpr float kThick = 36e-6f;      // [m] at the rim; it thins out on its way, and swells where it stops
-constexpr float kMostLeft = 0.0035f;  // [m] beyond the skin's last vertex a run goes straight on
+constexpr double kRunning = 0.30;    // share of the rim's vertices from which a run starts
+constexpr float kStep = 0.0011f;     // [m] between two links of a run
+constexpr float kShortest = 0.004f;  // [m]
+constexpr float kWide = 0.42e-3f;    // [m]
+constexpr float kThick = 36e-6f;     // [m] at the rim; it thins out on its way, and swells where it stops
+constexpr float kSheetWide = 1.0e-3f, kSheetThick = 11e-6f;  // [m]
+constexpr float kMostLeft = 0.0035f;                         // [m] beyond the skin's last vertex a run goes straight on
 
 struct Place {
   Vec3f position, normal;
@@ -54,11 +55,37 @@ void list_run(const CutSkin& skin, Place at, int own, render::Liquid& liquid) {
   }
 }
 
+/// What wells over the lip there: a thin sheet.
+void list_sheet(const CutSkin& skin, std::uint32_t v, render::Liquid& liquid) {
+  Place at{skin.position[v], skin.normal[v]};
+  const int own = int(v);
+  const int links = 2 + int(3 * varied(own, 9));
+  for (int n = 0; n < links; ++n) {
+    const Vec3f fall = liquid.down - dot(liquid.down, at.normal) * at.normal;
+    const Place next = on_skin(skin, {at.position + kStep * fall, at.normal});
+    render::Splat s;
+    s.kind = render::SplatKind::film;
+    s.from = at.position, s.to = next.position;
+    s.normal = at.normal;
+    s.radius = kSheetWide * (1 - 0.12f * float(n));
+    s.height = kSheetThick * (1 - 0.15f * float(n));
+    s.dark = 1;
+    liquid.splats.push_back(s);
+    at = next;
+  }
+}
+
 }  // namespace
 
 void list_ooze(const CutSkin& skin, render::Liquid& liquid) {
-  for (const std::uint32_t v : skin.rim)
+  for (std::size_t i = 0; i < skin.rim.size(); ++i) {
+    const std::uint32_t v = skin.rim[i];
+    const Vec3f fall = liquid.down - dot(liquid.down, skin.normal[v]) * skin.normal[v];
+    const bool lower = dot(skin.outwards[i], fall) > 0.15f * length(fall);
+    if (!lower) continue;  // what comes from an upper lip runs into the cut
+    list_sheet(skin, v, liquid);
     if (varied(int(v), 5) < kRunning) list_run(skin, {skin.position[v], skin.normal[v]}, int(v), liquid);
+  }
 }
 
 }  // namespace trocar::view
