@@ -13,9 +13,9 @@ namespace {
 constexpr Paint kFlesh{150, 225, 0, 0};       // laid bare: raw
 constexpr std::uint8_t kDeepOpenness = 75;    // ... at a cut's bottom
 constexpr std::uint8_t kMouthBlood = 150;     // ... at its mouth, where one still sees that it is liver
-constexpr std::uint8_t kRimBlood = 120;       // on the skin at a cut's rim, which is wet with it
+constexpr std::uint8_t kRimBlood = 85;        // on the skin at a cut's rim, which is wet with it
 constexpr std::uint8_t kRimPale = 56;         // the capsule's edge: its look's tint
-constexpr float kStains = 0.0035f;            // [m] how far from a cut its blood stains the skin
+constexpr float kStains = 0.0026f;            // [m] how far from a cut its blood stains the skin
 constexpr float kLip = 0.0007f;               // [m] how far its lips are turned out ...
 constexpr float kLipAt = 0.0022f;             // [m] ... so far from the rim
 constexpr float kRough = 0.25f;               // slope of the same

@@ -19,10 +19,10 @@ vec2 run_off(vec3 place, vec3 fall, float pixel, out float streak) {
   vec3 squeezed = place - u_down * (0.88 * dot(u_down, place));
   vec4 column = texture(u_noise, squeezed * 47.0);
   streak = column.a;
-  return fall.xy * ((0.0052 * (column.a - 0.5) + 0.0014 * (column.g - 0.5)) / pixel) * u_size.zw;
+  return fall.xy * ((0.0044 * (column.a - 0.5)) / pixel) * u_size.zw;
 }
 
-const float kThinOut = 1.1e-5;     // [m]
+const float kLeast = 5.0e-6;         // [m] a film draws back from where there is less
 const float kThroughTissue = 3.3;  // light that tissue scatters crosses the film on it more than twice
 
 float film_at(vec2 uv) { return dot(texture(u_film, uv).rgb, vec3(1.0e-3)); }
@@ -64,21 +64,30 @@ void main() {
   vec4 film = texture(u_film, film_uv) * 1.0e-3;
   float stain = dot(film.rgb, vec3(1.0));
   vec3 film_rise = vec3(0.0);
-  if (flying < 0.5 && stain > 1.0e-7) {
-    float edge = 0.0;
+  // What covers the place in between is nearer to the eye.
+  if (flying < 0.5 && stain > 1.0e-7 && bed.a > far - 0.004) {
+    // Surface tension draws it together: a smooth border where there is enough of it, and a rim that stands up there.
+    // Where a column carries little it has drained away.
+    float least = kLeast * (0.6 + 1.8 * smoothstep(0.30, 0.62, 1.0 - streak)), soft = 0.35 * least, lower = stain;
 #if DETAIL >= 1
-    // It is thickest where it stops: at its lower edge.
     vec2 aside = 0.00045 / pixel * u_size.zw;
-    float lower = film_at(film_uv + fall.xy * 1.6 * aside);
-    edge = clamp(1.0 - lower / max(stain, 1.0e-7), 0.0, 1.0);
     vec2 grows = vec2(film_at(film_uv + vec2(aside.x, 0.0)), film_at(film_uv + vec2(0.0, aside.y))) - stain;
-    film_rise = vec3(clamp(grows / 0.00045, vec2(-0.4), vec2(0.4)), 0.0);
+    soft = clamp(1.2 * length(grows) * pixel / 0.00045, 0.12 * least, 0.6 * least);
+    lower = film_at(film_uv + fall.xy * 1.6 * aside);
 #endif
-    film *= (0.30 + 1.2 * smoothstep(0.25, 0.75, 0.6 * streak + 0.4 * fine.a)) * (1.0 + 0.7 * edge * edge);
+    float over = (stain - least) / least, rim = exp(-max(over, 0.0) * 1.4);
+    float there = smoothstep(-soft, soft, stain - least);
+    // It is thickest where it stops, at its lower edge, and has drained away from its upper one.
+    float edge = clamp(1.0 - lower / stain, -1.0, 1.0);
+    float drained = edge > 0.0 ? 1.0 + 1.5 * edge * edge : 1.0 + 0.55 * edge;
+    film *= there * drained * (0.26 + 0.55 * smoothstep(0.25, 0.75, 0.75 * streak + 0.25 * fine.a));
+#if DETAIL >= 1
+    film_rise = vec3(grows / max(length(grows), 1.0e-7) * (0.5 * rim * there), 0.0);
+#endif
     stain = dot(film.rgb, vec3(1.0));
-    // Towards its border it runs out thin: there tissue shines through.
-    film *= 1.25 * stain / (stain + kThinOut);
-    stain = dot(film.rgb, vec3(1.0));
+  } else if (flying < 0.5) {
+    film = vec4(0.0);
+    stain = 0.0;
   }
 
   // Drops.
@@ -110,7 +119,7 @@ void main() {
   vec3 light = LIGHT_COLOUR * (lit.power * facing) + (BOUNCE + vec3(AMBIENT)) * lit.bounce;
   // What flies is lit from all round.
   // What lies is dark and uneven, as its cells gather here and there.
-  float lying = (0.34 + 0.40 * smoothstep(0.25, 0.75, 0.6 * fine.a + 0.4 * streak)) * (1.0 - flying);
+  float lying = (0.24 + 0.22 * smoothstep(0.25, 0.75, 0.6 * fine.a + 0.4 * streak)) * (1.0 - flying);
   vec3 deep = deep_colour(amount, dark) * (lying + 0.9 * flying) + vec3(0.0, 0.0045, 0.0065) * lying;
   vec3 colour = below * through + deep * light * (1.0 - through);
 
@@ -120,9 +129,9 @@ void main() {
   float glints = mix(1.0, 1.6 * smoothstep(0.52, 0.66, fine.r), flying);
   vec3 shine = cover * glints * highlight(n, V, lit, u_shine.y * (1.0 + 3.0 * flying));
 #if DETAIL >= 1
-  vec3 wrinkle = (fine.rgb * 2.0 - 1.0) * 0.50 + (texture(u_noise, place.zxy * 11.0).rgb * 2.0 - 1.0) * 0.30;
+  vec3 wrinkle = (fine.rgb * 2.0 - 1.0) * 0.22 + (texture(u_noise, place.zxy * 11.0).rgb * 2.0 - 1.0) * 0.26;
   vec3 m = normalize(base + vec3(dot(wrinkle, u_right), dot(wrinkle, u_up), 0.0) - film_rise);
-  shine += gloss * min(highlight(m, V, lit, 1.5 * u_shine.z), LIGHT_COLOUR * (0.55 * lit.power));
+  shine += gloss * min(highlight(m, V, lit, 2.5 * u_shine.z), LIGHT_COLOUR * (0.55 * lit.power));
 #endif
   float nv = clamp(dot(n, V), 0.0, 1.0);
   shine += (BOUNCE * 3.0 + vec3(AMBIENT)) * (lit.bounce * min(mirror_share(nv), 0.2) * (cover + gloss));
