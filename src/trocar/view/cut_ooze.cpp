@@ -7,12 +7,12 @@ namespace trocar::view {
 namespace {
 
 // Our choice, by eye.
-constexpr double kRunning = 0.30;    // share of the rim's vertices from which a run starts
+constexpr double kRunning = 0.45;    // share of the rim's vertices from which a run starts
 constexpr float kStep = 0.0011f;     // [m] between two links of a run
 constexpr float kShortest = 0.004f;  // [m]
 constexpr float kWide = 0.42e-3f;    // [m]
 constexpr float kThick = 36e-6f;     // [m] at the rim; it thins out on its way, and swells where it stops
-constexpr float kSheetWide = 1.0e-3f, kSheetThick = 11e-6f;  // [m]
+constexpr float kSheetWide = 1.0e-3f, kSheetThick = 6e-6f;  // [m]
 constexpr float kUnderside = 0.4f;                           // cosine between skin and fall at which blood drips
 constexpr float kMostLeft = 0.0035f;                         // [m] beyond the skin's last vertex it ends
 

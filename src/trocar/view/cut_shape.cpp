@@ -8,7 +8,7 @@ namespace trocar::view {
 namespace {
 
 // Our choice, by eye.
-constexpr int kAlongRims = 9;     // steps of a half towards the mean: a cell's edge is three of them long
+constexpr int kAlongRims = 7;     // steps of a half towards the mean: a cell's edge is three of them long
 constexpr int kWithin = 6;        // ... of what is bare
 constexpr int kAround = 10;       // ... of the skin around
 constexpr float kRound = 0.012f;  // [m] how far from a rim it goes along

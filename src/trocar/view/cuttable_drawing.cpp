@@ -13,16 +13,16 @@ namespace {
 constexpr Paint kFlesh{150, 225, 0, 0};       // laid bare: raw
 constexpr std::uint8_t kDeepOpenness = 75;    // ... at a cut's bottom
 constexpr std::uint8_t kMouthBlood = 150;     // ... at its mouth, where one still sees that it is liver
-constexpr std::uint8_t kRimBlood = 85;        // on the skin at a cut's rim, which is wet with it
+constexpr std::uint8_t kRimBlood = 50;        // on the skin at a cut's rim, which is wet with it
 constexpr std::uint8_t kRimPale = 56;         // the capsule's edge: its look's tint
-constexpr float kStains = 0.0026f;            // [m] how far from a cut its blood stains the skin
+constexpr float kStains = 0.0018f;            // [m] how far from a cut its blood stains the skin
 constexpr float kLip = 0.0007f;               // [m] how far its lips are turned out ...
 constexpr float kLipAt = 0.0022f;             // [m] ... so far from the rim
-constexpr float kRough = 0.25f;               // slope of the same
+constexpr float kRough = 0.42f;               // slope of the same
 constexpr std::uint8_t kLooseOpenness = 230;  // of pieces that have come off, which do not lie where they were baked
 constexpr std::uint8_t kLoosePale = 190;      // they have bled out
 constexpr float kGrain = 0.0005f;             // [m] torn lobules of what is bare
-constexpr float kGape = 0.0019f;              // [m] how far either side of a cut draws back
+constexpr float kGape = 0.0024f;              // [m] how far either side of a cut draws back
 constexpr float kFrayed = 0.0004f;            // [m] how far a rim strays from the straight line of its cells
 constexpr int kDrawnAlong = 3;                // rings of nodes that go with it
 

@@ -121,8 +121,8 @@ bool JetDrawing::link(const fluids::DropletState& d, std::int32_t i, std::int32_
     const Vec3f longer = (0.35f + 0.5f * broken) * (s.to - s.from);
     s.kind = SplatKind::streak;
     s.from -= std::min(1.0f, way / length(longer)) * longer, s.to += longer;
-    s.radius *= kThinner * (1 - 0.45f * broken);
-    s.height = kThread + std::min(3 * broken, 1.0f) * (kShred * (1 - 0.6f * broken) - kThread);
+    s.radius *= kThinner * (1 - 0.6f * broken);
+    s.height = kThread + std::min(0.25f * way / kWhole + 2 * broken, 1.0f) * (kShred * (1 - 0.7f * broken) - kThread);
   }
   s.share = shares_of(d.volume[std::size_t(i)]);
   s.dark = darkness(now, d.blood[std::size_t(i)], s.share);

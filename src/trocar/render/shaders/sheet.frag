@@ -72,7 +72,7 @@ void main() {
   float wedge = min(clamp(inside * 2.5, 0.04, 1.0), 0.12 + 0.88 * shore);
   float depth = max(v_depth_cover.x, 0.0) * wedge * wedge;
   float slant = 1.0 / max(sqrt(1.0 - (1.0 - nv * nv) * 0.56), 0.3);  // of the bent ray
-  vec3 amount = share * depth;
+  vec3 amount = share * (depth + 1.5e-5);  // a film goes to its very border
   vec3 through = let_through(amount * (1.0 + slant), v_mix.w);
 
   vec2 bend = -n.xy * (0.25 * min(depth, 0.012) / pixel) * u_size.zw;
@@ -92,6 +92,7 @@ void main() {
 
   // More than [Schlick 94] says: it is what tells liquid from paint (our choice).
   float share_back = min(3.0 * mirror_share(nv) + 0.055, 0.5);
+  share_back *= 1.0 - 0.7 * rim;
   vec3 r = reflect(-V, n);
   colour = mix(colour, mirrored(r, lit.bounce), share_back);
   // The rim is a bent mirror all along: its line of light is thin and even, no row of beads.

@@ -17,9 +17,9 @@ float inside(vec2 uv) { return inside_of(texture(u_field, uv).w); }
 /// @param fall  down along the surface, eye space, shorter where it is level
 vec2 run_off(vec3 place, vec3 fall, float pixel, out float streak) {
   vec3 squeezed = place - u_down * (0.88 * dot(u_down, place));
-  vec4 column = texture(u_noise, squeezed * 47.0);
+  vec4 column = texture(u_noise, squeezed * 36.0);
   streak = column.a;
-  return fall.xy * ((0.0044 * (column.a - 0.5)) / pixel) * u_size.zw;
+  return fall.xy * ((0.0036 * (column.a - 0.5)) / pixel) * u_size.zw;
 }
 
 const float kLeast = 5.0e-6;         // [m] a film draws back from where there is less
@@ -37,12 +37,14 @@ void main() {
   // Outlines on tissue wander as it does.
   vec3 place = to_world(way * bed.a);
   vec4 fine = texture(u_noise, place * 38.0);
-  vec2 wander = (fine.rg - 0.5) * (0.0008 / pixel) * u_size.zw;
+  vec2 wander = (fine.rg - 0.5) * (0.0004 / pixel) * u_size.zw;
   vec4 marked = texture(u_thickness, v_uv);
-  float flying = smoothstep(0.9, 1.6, marked.w / max(dot(marked.rgb, vec3(1.0)), 1.0e-6));
+  float there = dot(marked.rgb, vec3(1.0));
+  float flying = smoothstep(0.9, 1.6, marked.w / max(there, 1.0e-6)) * step(0.0, there);
+  vec4 smear = max(-marked, 0.0) * (1.0e-3 * step(there, 0.0));  // of what flies fast
   vec2 uv = flying > 0.5 ? v_uv : v_uv + wander;
   field = texture(u_field, uv);
-  vec4 thick = texture(u_thickness, uv) * 1.0e-3;
+  vec4 thick = max(texture(u_thickness, uv), 0.0) * 1.0e-3;
   float all = max(dot(thick.rgb, vec3(1.0)), 1.0e-9), mark = thick.w / all;
   float far = field.z / max(field.w, 1.0e-6);
   vec3 eye = way * far;
@@ -65,7 +67,7 @@ void main() {
   float stain = dot(film.rgb, vec3(1.0));
   vec3 film_rise = vec3(0.0);
   // What covers the place in between is nearer to the eye.
-  if (flying < 0.5 && stain > 1.0e-7 && bed.a > far - 0.004) {
+  if (flying < 0.5 && stain > 1.0e-7 && bed.a > far - 0.0015 - 6.0 * pixel) {
     // Surface tension draws it together: a smooth border where there is enough of it, and a rim that stands up there.
     // Where a column carries little it has drained away.
     float least = kLeast * (0.6 + 1.8 * smoothstep(0.30, 0.62, 1.0 - streak)), soft = 0.35 * least, lower = stain;
@@ -76,13 +78,13 @@ void main() {
     lower = film_at(film_uv + fall.xy * 1.6 * aside);
 #endif
     float over = (stain - least) / least, rim = exp(-max(over, 0.0) * 1.4);
-    float there = smoothstep(-soft, soft, stain - least);
+    float wet = smoothstep(-soft, soft, stain - least);
     // It is thickest where it stops, at its lower edge, and has drained away from its upper one.
     float edge = clamp(1.0 - lower / stain, -1.0, 1.0);
     float drained = edge > 0.0 ? 1.0 + 1.5 * edge * edge : 1.0 + 0.55 * edge;
-    film *= there * drained * (0.26 + 0.55 * smoothstep(0.25, 0.75, 0.75 * streak + 0.25 * fine.a));
+    film *= wet * drained * (0.26 + 0.55 * smoothstep(0.25, 0.75, 0.75 * streak + 0.25 * fine.a));
 #if DETAIL >= 1
-    film_rise = vec3(grows / max(length(grows), 1.0e-7) * (0.5 * rim * there), 0.0);
+    film_rise = vec3(grows / max(length(grows), 1.0e-7) * (0.5 * rim * wet), 0.0);
 #endif
     stain = dot(film.rgb, vec3(1.0));
   } else if (flying < 0.5) {
@@ -107,10 +109,10 @@ void main() {
   // No liquid that moves is as smooth as glass.
   vec3 n = normalize(base - vec3(rise - (fine.gb - 0.5) * 0.34, 0.0));
   vec3 amount = thick.rgb / max(field.w, 1.0e-6) * (cover * max(in_drop, mix(0.03, 0.3, flying)));
-  // Beside streaks, which only mark, the sum says nothing.
-  float dark = clamp(mark - 2.0 * flying, 0.0, 1.0) * step(mark, 3.0);
-  dark = mix(film.w / max(stain, 1.0e-7), dark, cover);
-  amount += film.rgb;
+  float smeared = dot(smear.rgb, vec3(1.0)), thin = stain + smeared;
+  float dark = mix((film.w + smear.w) / max(thin, 1.0e-7), clamp(mark - 2.0 * flying, 0.0, 1.0), cover);
+  amount += film.rgb + smear.rgb;
+  flying = max(flying, smeared / max(thin, 1.0e-7) * (1.0 - cover));
   vec3 through = let_through(mix(kThroughTissue, 2.0, flying) * amount, dark);
 
   vec2 bend = -(n.xy - base.xy) * (0.35 * height * cover * max(in_drop, 0.0) / pixel) * u_size.zw;
