@@ -19,7 +19,7 @@ vec2 run_off(vec3 place, vec3 fall, float pixel, out float streak) {
   vec3 squeezed = place - u_down * (0.88 * dot(u_down, place));
   vec4 column = texture(u_noise, squeezed * 36.0);
   streak = column.a;
-  return fall.xy * ((0.0036 * (column.a - 0.5)) / pixel) * u_size.zw;
+  return fall.xy * ((0.0024 * (column.a - 0.5)) / pixel) * u_size.zw;
 }
 
 const float kLeast = 5.0e-6;         // [m] a film draws back from where there is less
@@ -70,11 +70,11 @@ void main() {
   if (flying < 0.5 && stain > 1.0e-7 && bed.a > far - 0.0015 - 6.0 * pixel) {
     // Surface tension draws it together: a smooth border where there is enough of it, and a rim that stands up there.
     // Where a column carries little it has drained away.
-    float least = kLeast * (0.6 + 1.8 * smoothstep(0.30, 0.62, 1.0 - streak)), soft = 0.35 * least, lower = stain;
+    float least = kLeast * (0.8 + 0.9 * smoothstep(0.25, 0.70, 1.0 - streak)), soft = 0.35 * least, lower = stain;
 #if DETAIL >= 1
     vec2 aside = 0.00045 / pixel * u_size.zw;
     vec2 grows = vec2(film_at(film_uv + vec2(aside.x, 0.0)), film_at(film_uv + vec2(0.0, aside.y))) - stain;
-    soft = clamp(1.2 * length(grows) * pixel / 0.00045, 0.12 * least, 0.6 * least);
+    soft = clamp(1.2 * length(grows) * pixel / 0.00045, 0.12 * least, 3.0 * least);
     lower = film_at(film_uv + fall.xy * 1.6 * aside);
 #endif
     float over = (stain - least) / least, rim = exp(-max(over, 0.0) * 1.4);
@@ -133,7 +133,7 @@ void main() {
 #if DETAIL >= 1
   vec3 wrinkle = (fine.rgb * 2.0 - 1.0) * 0.22 + (texture(u_noise, place.zxy * 11.0).rgb * 2.0 - 1.0) * 0.26;
   vec3 m = normalize(base + vec3(dot(wrinkle, u_right), dot(wrinkle, u_up), 0.0) - film_rise);
-  shine += gloss * min(highlight(m, V, lit, 2.5 * u_shine.z), LIGHT_COLOUR * (0.55 * lit.power));
+  shine += gloss * (min(highlight(m, V, lit, 2.5 * u_shine.z), LIGHT_COLOUR * (0.55 * lit.power)) + 0.5 * highlight(m, V, lit, 0.03));
 #endif
   float nv = clamp(dot(n, V), 0.0, 1.0);
   shine += (BOUNCE * 3.0 + vec3(AMBIENT)) * (lit.bounce * min(mirror_share(nv), 0.2) * (cover + gloss));
