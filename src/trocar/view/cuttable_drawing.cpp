@@ -11,9 +11,9 @@ namespace trocar::view {
 namespace {
 
 constexpr Paint kFlesh{150, 225, 0, 0};       // laid bare: raw
-constexpr std::uint8_t kDeepOpenness = 75;    // ... at a cut's bottom
-constexpr std::uint8_t kMouthBlood = 150;     // ... at its mouth, where one still sees that it is liver
-constexpr std::uint8_t kRimBlood = 50;        // on the skin at a cut's rim, which is wet with it
+constexpr std::uint8_t kDeepOpenness = 95;    // ... at a cut's bottom
+constexpr std::uint8_t kMouthBlood = 118;     // ... at its mouth, where one still sees that it is liver
+constexpr std::uint8_t kRimBlood = 80;        // on the skin at a cut's rim, which is wet with it
 constexpr std::uint8_t kRimPale = 56;         // the capsule's edge: its look's tint
 constexpr float kStains = 0.0018f;            // [m] how far from a cut its blood stains the skin
 constexpr float kLip = 0.0007f;               // [m] how far its lips are turned out ...
