@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Kills the program at random moments and looks at what is left: every recording replays up to its last second, the
 store opens and says who was interrupted, and nothing that ended is lost. Also: two programs on one store, a full disk,
-output that cannot be written.
+output that cannot be written, a fault of the program itself.
 
     kill_test.py PROGRAM [--kills 3] [--seed 1]
 
@@ -144,6 +144,21 @@ def check_store(trocar, expected):
     print(f"store: {states.count('interrupted')} interrupted, {states.count('finished')} finished", flush=True)
 
 
+def broken(trocar):
+    """A fault of the program itself, in the middle of an attempt: it says where, and the recording is whole."""
+    run = trocar.train("broken", 60)
+    while not trocar.events("broken"):
+        check(run.poll() is None, "the attempt ended before it could break")
+        time.sleep(0.01)
+    time.sleep(1)
+    run.send_signal(signal.SIGSEGV)
+    said = run.communicate()[1]
+    check(run.returncode == -signal.SIGSEGV, f"a broken program ended with {run.returncode}")
+    check("died of a fault of its own (SIGSEGV)" in said, f"a broken program said: {said}")
+    check(said.count("trocar(") > 2 or said.count("[0x") > 2, f"a broken program did not say where: {said}")
+    verify(trocar, "broken", max([e["tick"] for e in trocar.events("broken") if e["event"] == "time"], default=0))
+
+
 def two_at_once(trocar):
     runs = [trocar.train(f"both-{i}", 8, f"trainee {i}") for i in range(2)]  # long enough to be seen on a busy machine
     seen_running = 0
@@ -202,6 +217,7 @@ def main():
         trocar = Trocar(options.program, folder)
         try:
             kills(trocar, options.kills, random.Random(options.seed))
+            broken(trocar)
             two_at_once(trocar)
             full_disk(options.program, folder)
             full_output(trocar)
