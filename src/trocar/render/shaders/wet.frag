@@ -61,7 +61,7 @@ void main() {
   vec2 film_uv = uv + (1.0 - flying) * run_off(place, fall, pixel, streak);
 #else
   vec2 film_uv = uv;
-  streak = fine.g;
+  streak = 0.25 + 0.5 * fine.a;
 #endif
   vec4 film = texture(u_film, film_uv) * 1.0e-3;
   float stain = dot(film.rgb, vec3(1.0));
