@@ -48,10 +48,12 @@ struct Move {
 
 class Coarsening {
  public:
+  /// @param most error [m] that reach() will be asked for at most
   Coarsening(std::span<const Vec3f> positions, std::span<const std::uint32_t> triangles, std::span<const Vec3f> notes,
-             double longest_edge)
+             double longest_edge, double most)
       : m_notes(notes),
         m_longest(longest_edge),
+        m_most(most * most),
         m_place(positions.size()),
         m_quadric(positions.size()),
         m_drift(positions.size(), 0.0),
@@ -127,9 +129,8 @@ class Coarsening {
     return f[0] == v || f[1] == v || f[2] == v;
   }
 
-  /// Would the surface stay one without folds?
+  /// Would the surface stay one without folds? m_ring is around v.
   bool allowed(std::uint32_t v, std::uint32_t into) {
-    look_around(v, m_ring);
     look_around(into, m_other_ring);
     int common = 0;
     for (const auto& [w, faces] : m_ring)
@@ -150,21 +151,21 @@ class Coarsening {
     return true;
   }
 
-  /// Puts the vertex's cheapest move on the list.
+  /// Puts the vertex's cheapest move on the list. What it costs is asked first: whether it is allowed takes longer.
   void offer(std::uint32_t v) {
     if (m_fixed[v] || m_faces_at[v].empty()) return;
-    Move best{-1, v, 0, m_version[v]};
     look_around(v, m_ring);
-    const std::vector<std::pair<std::uint32_t, int>> ring = m_ring;
-    for (const auto& [w, faces] : ring) {
+    m_ways.clear();
+    for (const auto& [w, faces] : m_ring) {
       double cost = m_quadric[v].at(m_place[w]);
       if (!m_notes.empty()) cost = std::max(cost, noted(v, w) * noted(v, w));
-      if (best.cost >= 0 && cost >= best.cost) continue;
-      if (!allowed(v, w)) continue;
-      best.cost = cost;
-      best.into = w;
+      if (cost > m_most) continue;
+      const auto dearer =
+          std::upper_bound(m_ways.begin(), m_ways.end(), cost, [](double c, const Move& m) { return c < m.cost; });
+      m_ways.insert(dearer, {cost, v, w, m_version[v]});
     }
-    if (best.cost >= 0) m_moves.push(best);
+    const auto best = std::find_if(m_ways.begin(), m_ways.end(), [&](const Move& m) { return allowed(v, m.into); });
+    if (best != m_ways.end()) m_moves.push(*best);
   }
 
   void carry_out(const Move& move) {
@@ -192,7 +193,7 @@ class Coarsening {
   }
 
   std::span<const Vec3f> m_notes;
-  double m_longest;
+  double m_longest, m_most;  ///< [m], [m^2]
   std::vector<Vec3d> m_place;
   std::vector<Quadric> m_quadric;  ///< (n) of the planes that a vertex stands for
   std::vector<double> m_drift;     ///< (n) [m] of the notes
@@ -202,7 +203,8 @@ class Coarsening {
   std::vector<Face> m_face;
   std::vector<std::uint8_t> m_alive;
   std::priority_queue<Move> m_moves;
-  std::vector<std::pair<std::uint32_t, int>> m_ring, m_other_ring;  ///< scratch
+  std::vector<std::pair<std::uint32_t, int>> m_ring, m_other_ring;  ///< scratch, as is the next
+  std::vector<Move> m_ways;
 };
 
 }  // namespace
@@ -211,7 +213,8 @@ std::vector<std::vector<std::uint32_t>> coarsened(std::span<const Vec3f> positio
                                                   std::span<const std::uint32_t> triangles,
                                                   std::span<const Vec3f> notes, std::span<const double> errors,
                                                   double longest_edge) {
-  Coarsening coarsening(positions, triangles, notes, longest_edge);
+  const double most = errors.empty() ? 0 : *std::max_element(errors.begin(), errors.end());
+  Coarsening coarsening(positions, triangles, notes, longest_edge, most);
   std::vector<std::vector<std::uint32_t>> lists;
   for (const double error : errors) {
     coarsening.reach(error);

@@ -16,6 +16,7 @@ constexpr double kTent = 0.0042;        // [m] how far the peritoneum is drawn i
 constexpr double kAround = 0.013;       // [m] ... and how far around it
 constexpr double kLap = 0.0008;         // [m] how far it stands off the wall at least
 constexpr double kClear = 0.0006;       // [m] that the tent bulges off the sleeve
+constexpr double kMostSlope = 0.012;    // [m] that the wall leaves its plane there
 constexpr double kSunk = 0.0002;        // [m] of the outermost row under the wall: no border shows
 constexpr double kFlattest = 0.3;       // cosine: a sleeve that lies flatter on the wall is not followed
 
@@ -30,6 +31,24 @@ Paint paint_of(int row, int side) {
   const double bled = smooth(0.45, 0.85, 0.5 + 0.5 * varied(side / 5, 11));
   p.blood = row < kLip ? to_byte(0.1 + 0.3 * bled) : to_byte(0.3 * bled * (1 - smooth(0, 0.04 + 0.1 * wave, x)));
   return p;
+}
+
+/// Of each wall's triangles those that come near to a place: many lines are drawn there.
+std::vector<std::vector<std::uint32_t>> near_to(Vec3d place, double reach, std::span<const PiercedWall> walls) {
+  std::vector<std::vector<std::uint32_t>> lists(walls.size());
+  for (std::size_t w = 0; w < walls.size(); ++w) {
+    const auto& [positions, normals, indices, look] = walls[w];
+    for (std::size_t t = 0; t + 2 < indices.size(); t += 3) {
+      bool near = true;
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto [low, high] = std::minmax(
+            {positions[indices[t]][axis], positions[indices[t + 1]][axis], positions[indices[t + 2]][axis]});
+        near = near && double(low)<place[axis] + reach&& double(high)> place[axis] - reach;
+      }
+      if (near) lists[w].insert(lists[w].end(), {indices[t], indices[t + 1], indices[t + 2]});
+    }
+  }
+  return lists;
 }
 
 }  // namespace
@@ -73,6 +92,9 @@ PortSite::PortSite(Vec3d port, Vec3d axis, double radius, std::span<const Pierce
   if (dot(m_normal, axis) < kFlattest) return;
   m_u = normalised(cross(m_normal, Vec3d{0.3, 0.5, 0.8}), Vec3d{1, 0, 0});
   m_v = cross(m_normal, m_u);
+  const auto lists = near_to(m_centre, radius / kFlattest + kAround + kMostSlope, walls);
+  std::vector<PiercedWall> near(walls.begin(), walls.end());
+  for (std::size_t w = 0; w < near.size(); ++w) near[w].indices = lists[w];
   for (int row = 0; row < kRows; ++row)
     for (int k = 0; k < kSides; ++k) {
       const double angle = kTwoPi * k / kSides, x = outwards(row);
@@ -80,7 +102,7 @@ PortSite::PortSite(Vec3d port, Vec3d axis, double radius, std::span<const Pierce
       const double footprint = radius / length(way - dot(way, axis) * axis);  // of a sleeve that comes in aslant
       const double far = footprint * (0.84 + 0.1 * std::min(row, kLip)) + kAround * x;
       const Vec3d aside = m_centre + far * way;
-      const auto on = last_crossing(walls, aside, m_normal, -0.012, 0.012);
+      const auto on = last_crossing(near, aside, m_normal, -kMostSlope, kMostSlope);
       m_base.push_back(on ? on->point : aside);
       const Vec3d n = on ? on->normal : m_normal;
       m_wall_normal.push_back(vec_cast<float>(dot(n, m_normal) < 0 ? -n : n));
