@@ -135,6 +135,10 @@ void main() {
   vec3 m = normalize(base + vec3(dot(wrinkle, u_right), dot(wrinkle, u_up), 0.0) - film_rise);
   shine += gloss * (min(highlight(m, V, lit, 2.5 * u_shine.z), LIGHT_COLOUR * (0.55 * lit.power)) + 0.5 * highlight(m, V, lit, 0.03));
 #endif
+#if DETAIL >= 1
+  // A jet near its hole is round enough to glint along its middle.
+  shine += LIGHT_COLOUR * (0.17 * lit.power * smoothstep(2.2e-4, 4.0e-4, smeared) * smoothstep(0.45, 0.62, fine.r));
+#endif
   float nv = clamp(dot(n, V), 0.0, 1.0);
   shine += (BOUNCE * 3.0 + vec3(AMBIENT)) * (lit.bounce * min(mirror_share(nv), 0.2) * (cover + gloss));
   // What flies casts no shadow on what is behind it.
