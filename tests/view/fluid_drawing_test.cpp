@@ -104,7 +104,7 @@ TEST(FluidDrawing, AJetIsWholeAtItsHoleAndSprayFartherOff) {
   std::size_t spray = 0;
   for (const render::Splat& s : frame.liquid.splats)
     spray += s.kind == render::SplatKind::streak && length(0.5f * (s.from + s.to) - hole) > 0.05f;
-  EXPECT_GT(spray, 3 * far) << "each is drawn as shards";
+  EXPECT_GT(spray, 2 * far) << "each is drawn as shards";
 }
 
 TEST(FluidDrawing, TissueIsRedAroundAHoleThatSpurts) {
@@ -192,12 +192,18 @@ TEST(FluidDrawing, BloodThatLandsIsFilmOfItsVolumeWithATailUpTheWall) {
   EXPECT_GT(top, head + 0.002) << "the tail is above the thick head";
 }
 
+TEST(FluidDrawing, AJetOfBloodIsARibbonWithoutEndsOfRods) {
+  Scene scene;
+  scene.spurt(90);
+  for (const render::Splat& s : scene.listed().liquid.splats) EXPECT_NE(s.kind, render::SplatKind::flying);
+}
+
 TEST(FluidDrawing, SprayIsFaintAndThin) {
   Scene scene;
   scene.spurt(90);
   int streaks = 0, thin = 0;
   for (const render::Splat& s : scene.listed().liquid.splats) {
-    if (s.kind != render::SplatKind::streak) continue;
+    if (s.kind != render::SplatKind::streak || length(s.from - Vec3f{0, 0, 0.02f}) < 0.03f) continue;
     ++streaks;
     EXPECT_LE(s.height, 120e-6f) << "what is smeared by its speed covers little";
     thin += s.radius <= 0.3e-3f && s.height <= 40e-6f;

@@ -73,7 +73,7 @@ std::array<float, 8 * 4> packed(const Frame& frame) {
           fog.x,        fog.y,
           fog.z,        frame.look.fog,
           l.ambient,    0,
-          l.ring};
+          l.ring,       l.crevices};
 }
 
 }  // namespace trocar::render

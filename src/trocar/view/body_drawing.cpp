@@ -338,7 +338,8 @@ void BodyDrawing::list(bool with_walls, const FirstParts& first, const Listing& 
   for (std::size_t i = 0; with_walls && i < m_aprons.size(); ++i)
     to.add(m_aprons[i].mesh, item({}, look("omentum"), first.wall + m_apron_on[i]), m_aprons[i].detail);
   list_organs(with_walls, first, to);
-  for (LiverDome& l : m_livers) l.list(with_walls, first.organ + std::size_t(l.organ()), to);
+  for (std::size_t i = 0; with_walls && i < m_livers.size(); ++i)  // without the wall that it lies on it would be a rag
+    m_livers[i].list(first.organ + std::size_t(m_livers[i].organ()), to);
   list_tubes(with_walls, first, to);
   list_vessels(false, first, to);
   if (with_walls && m_adhesions->mesh().id)

@@ -66,6 +66,7 @@ render::Light light_for_analysis() {
   light.inverse_square = false;
   light.bounce = 0;
   light.ambient = 0.45f;
+  light.crevices = 0;
   light.intensity = 1 / (1 + light.ambient);  // what faces the lamp gets 1
   return light;
 }

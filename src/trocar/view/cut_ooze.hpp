@@ -13,6 +13,7 @@ namespace trocar::view {
 struct CutSkin {
   std::span<const Vec3f> position, normal;  ///< (vertices), as drawn
   std::span<const std::uint32_t> rim;       ///< vertices along the cut's edge
+  std::span<const Vec3f> outwards;          ///< (rim) along the skin away from the cut, unit; 0 where that is not known
   std::span<const std::uint32_t> around;    ///< ... and those as far as blood runs
 };
 

@@ -10,18 +10,20 @@
 namespace trocar::view {
 namespace {
 
-constexpr Paint kFlesh{150, 225, 0, 0};     // laid bare: raw
-constexpr std::uint8_t kDeepOpenness = 75;  // ... at a cut's bottom
-constexpr std::uint8_t kRimBlood = 95;      // on the skin at a cut's rim
-constexpr std::uint8_t kRimPale = 56;       // the capsule's edge: its look's tint
-constexpr float kStains = 0.0075f;          // [m] how far from a cut its blood stains the skin
-constexpr std::uint8_t kStain = 215;
-constexpr float kRough = 0.6f;                // slope of the same
+constexpr Paint kFlesh{150, 225, 0, 0};       // laid bare: raw
+constexpr std::uint8_t kDeepOpenness = 95;    // ... at a cut's bottom
+constexpr std::uint8_t kMouthBlood = 118;     // ... at its mouth, where one still sees that it is liver
+constexpr std::uint8_t kRimBlood = 80;        // on the skin at a cut's rim, which is wet with it
+constexpr std::uint8_t kRimPale = 56;         // the capsule's edge: its look's tint
+constexpr float kStains = 0.0018f;            // [m] how far from a cut its blood stains the skin
+constexpr float kLip = 0.0007f;               // [m] how far its lips are turned out ...
+constexpr float kLipAt = 0.0022f;             // [m] ... so far from the rim
+constexpr float kRough = 0.42f;               // slope of the same
 constexpr std::uint8_t kLooseOpenness = 230;  // of pieces that have come off, which do not lie where they were baked
 constexpr std::uint8_t kLoosePale = 190;      // they have bled out
 constexpr float kGrain = 0.0005f;             // [m] torn lobules of what is bare
-constexpr float kGape = 0.0019f;              // [m] how far either side of a cut draws back
-constexpr float kFrayed = 0.0008f;            // [m] how far a rim strays from the straight line of its cells
+constexpr float kGape = 0.0024f;              // [m] how far either side of a cut draws back
+constexpr float kFrayed = 0.0004f;            // [m] how far a rim strays from the straight line of its cells
 constexpr int kDrawnAlong = 3;                // rings of nodes that go with it
 
 /// Nodes at which the inside is bare: the skin ends there, so it has no relief that would leave a gap.
@@ -68,23 +70,6 @@ float at_rim(const tissue::FaceSkin& skin, const std::vector<std::uint8_t>& rim,
   return sum;
 }
 
-/// How much blood stains the skin at `p`, 0 to 1: around what is cut, and in fingers below it, where it has run.
-/// @param fall unit, along the skin downwards
-float stained(Vec3f p, Vec3f fall, std::span<const Vec3f> rim) {
-  const Vec3d q = vec_cast<double>(p);
-  const float finger = float(smooth(-0.2, 0.7, waves({q.x, 0.2 * q.y, 0.2 * q.z}, 0.0065)));
-  const float runs = 1 / (1.1f + 1.9f * finger);
-  float nearest = 1;
-  for (const Vec3f& r : rim) {
-    const Vec3f d = p - r;
-    const float along = dot(d, fall), run = along > 0 ? runs * along : along;
-    nearest = std::min(nearest, dot(d, d) - along * along + run * run);
-  }
-  const double uneven = 0.55 + 0.7 * waves(q, 0.007);
-  return float(smooth(double(kStains), 0.0, std::sqrt(std::max(0.0, double(nearest)))) *
-               std::clamp(std::max(uneven, 0.8 * double(finger)), 0.0, 1.0));
-}
-
 }  // namespace
 
 CuttableDrawing::CuttableDrawing(const sim::CuttableOrgan& organ, Relief relief, render::Backend& backend,
@@ -123,6 +108,7 @@ void CuttableDrawing::make_skin(const tissue::CuttableState& state) {
   m_indices = flat_indices(m_skin.skin);
   m_loose = loose_nodes(m_skin, m_open.size());
   find_cut();
+  m_shape.find(m_skin);
   paint_skin();
 }
 
@@ -196,7 +182,7 @@ void CuttableDrawing::fray() {
   for (std::size_t i = 0; i < m_pose.position.size() && !m_bare.empty(); ++i) {
     if (!m_at_rim[i]) continue;
     const Vec3d p = vec_cast<double>(m_skin.skin.rest[i]);
-    const Vec3d off{waves(p, 0.0051), waves(p + Vec3d{0.2, 0.5, 0.1}, 0.0047), waves(p + Vec3d{0.6, 0.3, 0.4}, 0.0043)};
+    const Vec3d off{waves(p, 0.0081), waves(p + Vec3d{0.2, 0.5, 0.1}, 0.0077), waves(p + Vec3d{0.6, 0.3, 0.4}, 0.0073)};
     m_pose.position[i] += kFrayed * vec_cast<float>(off);
   }
 }
@@ -207,43 +193,46 @@ void CuttableDrawing::paint_skin() {
   m_at_rim.clear();
   m_height.clear();
   if (m_relief.any()) m_height = heights(m_relief, m_skin.skin, m_paint);
+  if (!m_bare.empty()) m_height.resize(n);
   const std::vector<std::uint8_t> rim = rim_nodes(m_skin, m_open.size()), own = skin_nodes(m_skin, m_open.size());
-  find_rim(rim);
-  std::vector<Vec3f> wound;
-  for (const std::uint32_t i : m_rim) wound.push_back(m_skin.skin.rest[i]);
+  find_rim();
   for (std::size_t i = 0; i < n; ++i) {
-    const float edge = at_rim(m_skin, rim, i);
     const bool loose = m_loose[std::size_t(m_skin.corners[i][0])] != 0;
-    m_at_rim.push_back(edge > 0.999f);
-    if (!m_height.empty()) m_height[i] *= m_skin.bare[i] ? 0 : 1 - edge;
-    if (!m_height.empty() && m_skin.bare[i])
-      m_height[i] = kGrain * (1 - at_rim(m_skin, own, i)) * float(waves(vec_cast<double>(m_skin.skin.rest[i]), 0.0036));
+    m_at_rim.push_back(at_rim(m_skin, rim, i) > 0.999f);
     if (m_skin.bare[i]) {
-      m_paint[i] = kFlesh;
       const float mouth = at_rim(m_skin, own, i);
-      const float lit = float(kDeepOpenness) + mouth * float(kFlesh.openness - kDeepOpenness);
-      m_paint[i].openness = loose ? kLooseOpenness : std::uint8_t(lit);
-      if (loose) m_paint[i].blood = 0, m_paint[i].tint = kLoosePale;
+      m_height[i] = kGrain * (1 - mouth) * float(waves(vec_cast<double>(m_skin.skin.rest[i]), 0.0036));
+      m_paint[i] = kFlesh;
+      m_paint[i].openness = std::uint8_t(float(kDeepOpenness) + mouth * float(kFlesh.openness - kDeepOpenness));
+      m_paint[i].blood = std::uint8_t(float(kFlesh.blood) + mouth * (float(kMouthBlood) - float(kFlesh.blood)));
+      if (loose) m_paint[i] = {kLooseOpenness, 0, 0, kLoosePale};
       continue;
     }
     float open = 0;
     for (std::size_t k = 0; k < 3; ++k) open += m_skin.between[i][k] * float(m_open[std::size_t(m_skin.corners[i][k])]);
     m_paint[i].openness = loose ? kLooseOpenness : std::uint8_t(open + 0.5f);
     if (loose) m_paint[i].tint = kLoosePale;
-    if (wound.empty() || loose) continue;
-    const Vec3f out = m_skin.skin.rest_normal[i];
-    const float stain = stained(m_skin.skin.rest[i], normalised(m_down - dot(m_down, out) * out, m_down), wound);
-    m_paint[i].blood = std::uint8_t(edge > 0.999f ? float(kRimBlood) : float(kStain) * stain);
-    if (edge > 0.999f) m_paint[i].tint = std::max(m_paint[i].tint, kRimPale);
+    if (!m_bare.empty()) paint_lip(i, loose);
   }
 }
 
-void CuttableDrawing::find_rim(const std::vector<std::uint8_t>& rim_nodes) {
+/// The capsule's edge beside a cut: turned out, pale, wet with blood.
+void CuttableDrawing::paint_lip(std::size_t vertex, bool loose) {
+  const float far = m_shape.from_rim(vertex), off = (far - kLipAt) / kLipAt;
+  m_height[vertex] *= std::min(far / (2 * kLipAt), 1.0f);
+  if (loose) return;
+  if (far > 0) m_height[vertex] += kLip * std::exp(-off * off);
+  const double stain = smooth(double(kStains), 0.0, double(far));
+  m_paint[vertex].blood = std::uint8_t(double(kRimBlood) * stain);
+  if (far <= 0) m_paint[vertex].tint = std::max(m_paint[vertex].tint, kRimPale);
+}
+
+void CuttableDrawing::find_rim() {
   m_rim.clear(), m_around.clear();
   const std::vector<Vec3f>& rest = m_skin.skin.rest;
   for (std::size_t i = 0; i < rest.size(); ++i) {
     const bool loose = m_loose[std::size_t(m_skin.corners[i][0])] != 0;
-    if (!m_skin.bare[i] && !loose && at_rim(m_skin, rim_nodes, i) > 0.999f) m_rim.push_back(std::uint32_t(i));
+    if (!m_skin.bare[i] && !loose && m_shape.from_rim(i) <= 0) m_rim.push_back(std::uint32_t(i));
   }
   for (std::size_t i = 0; i < rest.size() && !m_rim.empty(); ++i) {
     const auto near = [&](std::uint32_t r) { return length(rest[i] - rest[r]) < kOozeReach; };
@@ -252,12 +241,22 @@ void CuttableDrawing::find_rim(const std::vector<std::uint8_t>& rim_nodes) {
 }
 
 void CuttableDrawing::list_ooze(render::Liquid& liquid) const {
-  view::list_ooze({m_pose.position, m_normals, m_rim, m_around}, liquid);
+  liquid.splats.insert(liquid.splats.end(), m_ooze.splats.begin(), m_ooze.splats.end());
+}
+
+/// What runs down from cuts, where they are now.
+void CuttableDrawing::run_blood() {
+  m_ooze.splats.clear();
+  m_ooze.down = m_down;
+  std::vector<Vec3f> outwards;
+  for (const std::uint32_t v : m_rim) outwards.push_back(m_shape.outwards(v));
+  view::list_ooze({m_pose.position, m_normals, m_rim, outwards, m_around}, m_ooze);
 }
 
 void CuttableDrawing::place(const tissue::CuttableState& state, std::span<const collision::Capsule> rods) {
   tissue::pose_skin(view_of(m_organ->body, state), m_skin.skin, m_pose);
   gape();
+  m_shape.smooth(m_pose.position);
   fray();
   m_normals.resize(m_pose.position.size());
   render::vertex_normals(m_pose.position, m_indices, m_normals);
@@ -274,6 +273,7 @@ void CuttableDrawing::place(const tissue::CuttableState& state, std::span<const 
       if (m_at_rim[i]) m_pose.position[i] = before[i];
   }
   if (m_dented) render::vertex_normals(m_pose.position, m_indices, m_normals);
+  run_blood();
   roughen();
 }
 

@@ -8,6 +8,7 @@
 #include <trocar/render/openness.hpp>
 #include <trocar/sim/model.hpp>
 #include <trocar/tissue/face_skin.hpp>
+#include <trocar/view/cut_shape.hpp>
 #include <trocar/view/dent.hpp>
 #include <trocar/view/heat_marks.hpp>
 #include <trocar/view/mesh_buffer.hpp>
@@ -40,7 +41,9 @@ class CuttableDrawing {
  private:
   void make_skin(const tissue::CuttableState& state);
   void paint_skin();
-  void find_rim(const std::vector<std::uint8_t>& rim_nodes);
+  void paint_lip(std::size_t vertex, bool loose);
+  void find_rim();
+  void run_blood();
   void find_cut();
   void gape();
   void fray();
@@ -66,6 +69,8 @@ class CuttableDrawing {
   std::vector<std::uint8_t> m_loose;       ///< (nodes) 1: of a piece that has come off
   std::vector<Vec3f> m_gape, m_gape_next;  ///< (nodes) [m]
   std::vector<float> m_gape_weight;
+  CutShape m_shape;
+  render::Liquid m_ooze;  ///< what runs from it, made anew when it moves
   tissue::Box m_box;
   bool m_dented = false, m_burnt = false;
   Moved m_moved;

@@ -13,11 +13,12 @@ using render::Splat;
 using render::SplatKind;
 
 // Our choice, all of them.
-constexpr float kBleedsAsFilm = 0.3f;     // share of blood from which a drop on tissue is film at once
-constexpr float kCapSpread = 2.0f;        // radius of a cap over that of its ball
-constexpr float kLongestTail = 4.0f;      // of a running drop, in radii
-constexpr float kTailSpeed = 0.05f;       // [m/s] at which the tail is half of it
-constexpr float kThinnestFilm = 0.4e-6f;  // [m] not drawn below
+constexpr float kBleedsAsFilm = 0.3f;  // share of blood from which a drop on tissue is film at once
+constexpr float kCapSpread = 2.0f;     // radius of a cap over that of its ball
+constexpr float kLongestTail = 4.0f;   // of a running drop, in radii
+constexpr float kTailSpeed = 0.05f;    // [m/s] at which the tail is half of it
+constexpr float kThickestSplash = 70e-6f, kMostSpread = 1.8f;  // [m]
+constexpr float kThinnestFilm = 0.4e-6f;                       // [m] not drawn below
 
 }  // namespace
 
@@ -93,6 +94,10 @@ void FilmDrawing::list_splash(const fluids::DropletState& d, std::int32_t i, boo
     s.normal = normal;
     s.from = middle - (0.5f * p.length * r) * along, s.to = middle + (0.5f * p.length * r) * along;
     s.radius = p.wide * r;
+    s.height = film_height(p.part * volume, s.radius, p.length * r);
+    // It spreads until it is thin.
+    const float spread = std::clamp(std::sqrt(s.height / kThickestSplash), 1.0f, kMostSpread);
+    s.radius *= spread;
     s.height = film_height(p.part * volume, s.radius, p.length * r);
     s.share = shares_of(d.volume[k]);
     s.dark = darkness(now_of(m_model->droplets, d), d.blood[k], s.share);

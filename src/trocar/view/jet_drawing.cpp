@@ -13,15 +13,16 @@ using render::Splat;
 using render::SplatKind;
 
 // Our choice, all of them: from the look of spurts in endoscopic films.
-constexpr float kShutter = 0.005f;   // [s] a camera's: what flies is a streak
+constexpr float kShutter = 0.006f;   // [s] a camera's: what flies is a streak
 constexpr float kWhole = 0.010f;     // [m] from its hole: so far a jet of blood is whole
-constexpr float kSpray = 0.024f;     // [m] ... and from here on spray
+constexpr float kSpray = 0.040f;     // [m] ... and from here on spray
 constexpr float kWag = 0.075f;       // how far a jet's drops stray aside, a share of their way
-constexpr int kShards = 5;           // what a drop of spray is drawn as
+constexpr int kShards = 3;           // what a drop of spray is drawn as
 constexpr float kFreshJet = 0.006f;  // [m] blood that has come less far shows where its hole is
-constexpr float kThinStreak = 0.08e-3f, kWideStreak = 0.19e-3f;  // [m] half of what a shard's streak is wide
-constexpr float kDensestStreak = 28e-6f;                         // [m]
-constexpr float kShreds = 0.12f, kShred = 110e-6f;               // from so broken on links are shreds; [m] how thick
+constexpr float kThinStreak = 0.06e-3f, kWideStreak = 0.13e-3f;  // [m] half of what a shard's streak is wide
+constexpr float kDensestStreak = 22e-6f;                         // [m]
+constexpr float kThread = 240e-6f, kShred = 70e-6f;  // [m] how thick a jet's blood looks near its hole, and torn up
+constexpr float kThinner = 0.75f;                    // of a link's radius: what the shutter smears has soft sides
 constexpr float kStreakDense = 0.35f;   // its amount, of what it would be at rest: a shutter smears light, not blood
 constexpr float kLongestLink = 9.0f;    // in radii: a jet's drops hang together up to here
 constexpr float kThinnestLink = 0.30f;  // in radii: ... and until the thread between them is so thin
@@ -105,7 +106,7 @@ bool JetDrawing::link(const fluids::DropletState& d, std::int32_t i, std::int32_
   const float r = d.radius[std::size_t(i)], other = d.radius[std::size_t(j)], size = std::max(r, other);
   const float now = now_of(m_model->droplets, d), way = come(m_model->droplets, d, i), broken = broken_up(way);
   const std::uint32_t id = d.id[std::size_t(i)];
-  if (float(varied(int(id & 0xffffff), 21)) < broken) return false;
+  if (float(varied(int(id & 0xffffff), 21)) < 1.6f * broken - 0.6f) return false;
   const float far = length(at(d, j) - at(d, i));
   float thin = std::min(std::sqrt(2.0f / 3 * (r * r * r + other * other * other) / far), 0.95f * size);
   if (thin < kThinnestLink * size) return false;
@@ -116,11 +117,12 @@ bool JetDrawing::link(const fluids::DropletState& d, std::int32_t i, std::int32_
   s.from = drawn_at(m_model->droplets, d, i), s.to = drawn_at(m_model->droplets, d, j);
   s.radius = thin;
   s.height = thin;
-  if (broken > kShreds) {  // what is left of it there has no ends like a rod's
-    const Vec3f longer = 0.35f * (s.to - s.from);
+  if (way > 0) {  // of blood that flies the shutter leaves a ribbon, without a rod's ends
+    const Vec3f longer = (0.35f + 0.5f * broken) * (s.to - s.from);
     s.kind = SplatKind::streak;
-    s.from -= longer, s.to += longer;
-    s.height = kShred;
+    s.from -= std::min(1.0f, way / length(longer)) * longer, s.to += longer;
+    s.radius *= kThinner * (1 - 0.6f * broken);
+    s.height = kThread + std::min(0.25f * way / kWhole + 2 * broken, 1.0f) * (kShred * (1 - 0.7f * broken) - kThread);
   }
   s.share = shares_of(d.volume[std::size_t(i)]);
   s.dark = darkness(now, d.blood[std::size_t(i)], s.share);
@@ -163,8 +165,8 @@ void JetDrawing::list_spray(const fluids::DropletState& d, const Flying& drop, L
     // No two fly alike: some are overtaken, some stray.
     const float slower = 1 - apart * (n == 0 ? 0.35f : 0.75f) * std::fabs(u(2));
     const Vec3f strays = aside(v, d.id[k] * 13u + std::uint32_t(n), 1.0f) * (0.25f * apart * length(v) / kWag);
-    // Shards tumble: what the shutter smears of them is short, each at its own angle.
-    const Vec3f smeared = (1 - apart * (0.55f + 0.35f * std::fabs(u(3)))) * (slower * v + 2.0f * strays);
+    // Shards tumble: what the shutter smears of some is shorter, each at its own angle.
+    const Vec3f smeared = (1 - apart * 0.6f * std::fabs(u(3))) * (slower * v + 2.0f * strays);
     Splat s = streak(place + to_side + ahead, smeared, size, share);
     s.dark = dark;
     liquid.splats.push_back(s);

@@ -110,12 +110,11 @@ void LiverDome::update(const sim::State& state) {
     follow(m_model->cuttables[std::size_t(m_organ - solids)].body, state.cuttables[std::size_t(m_organ - solids)]);
 }
 
-void LiverDome::list(bool with_walls, std::size_t part, const Listing& to) {
+void LiverDome::list(std::size_t part, const Listing& to) {
   render::DrawItem dome = item(m_dome.mesh.handle(), look(m_model->organ_look(m_organ)), part);
   dome.material.two_sided = true;
   to.add(dome, m_dome.detail, m_dome.shape.positions);
-  if (with_walls)
-    to.add(item(m_falciform.mesh.handle(), look("falciform"), part), m_falciform.detail, m_falciform.shape.positions);
+  to.add(item(m_falciform.mesh.handle(), look("falciform"), part), m_falciform.detail, m_falciform.shape.positions);
 }
 
 }  // namespace trocar::view

@@ -30,7 +30,7 @@ class LiverDome {
   /// The recess between it and the diaphragm is deep: less light comes there than the baker's reach says.
   void shade_behind(std::span<const Vec3f> positions, std::span<const Vec3f> normals, std::span<Paint> paint) const;
   void update(const sim::State& state);
-  void list(bool with_walls, std::size_t part, const Listing& to);
+  void list(std::size_t part, const Listing& to);
   int organ() const { return m_organ; }
   const MeshBuffer& buffer() const { return m_dome.shape; }  ///< as drawn now
 

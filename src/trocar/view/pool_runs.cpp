@@ -17,6 +17,7 @@ using render::Splat;
 constexpr float kLevelFloor = 0.35f, kSteepFloor = 0.8f;         // rise over run
 constexpr float kDeep = 0.0045f;                                 // [m]
 constexpr float kThickestRun = 48e-6f, kThickestStain = 22e-6f;  // [m] of what is drawn so, and of a tide's mark
+constexpr float kBelowPool = 0.7f;                               // cover of what the sheet hides
 constexpr float kTide = 0.0045f;                                 // [m] how far it reaches
 
 float smooth_step(float x) { return float(smooth(0.0, 1.0, double(x))); }
@@ -67,7 +68,8 @@ void PoolDrawing::list_runs(const FluidSight& sight, Liquid& liquid) const {
       const std::size_t k = std::size_t(j) * m_window.width + i;
       const int ci = m_window.i0 + i, cj = m_window.j0 + j;
       const float runs = runs_down(sight.state.pool, sight.floor, ci, cj) * depth_at(m, sight.state.pool, ci, cj);
-      if ((m_known[k] <= 0 && !(runs > 0)) || m_depth[k] > kPoolShallow) continue;  // far off, or below the pool
+      // Far off, or below the pool.
+      if ((m_known[k] <= 0 && !(runs > 0)) || m_depth[k] > kPoolShallow || m_cover[k] > kBelowPool) continue;
       const FilmPlace place = block_of(sight.floor, ci, cj);
       int wet_i = ci, wet_j = cj;
       float thickness = std::min(0.3f * runs, kThickestRun) * rivulets(place, down);

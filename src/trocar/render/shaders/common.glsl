@@ -14,6 +14,7 @@ uniform vec4 u_frame[8];
 #define AMBIENT u_frame[4].x
 #define MIRRORS u_frame[4].y             /* 1 if the picture before may be used for reflections */
 #define LIGHT_RING u_frame[4].z          /* radius of the luminous area [m] */
+#define CREVICES u_frame[4].w            /* how much of the baked openness shows */
 
 const float kNearestLight2 = 6.0e-5;  // [m^2] the ring is no point: fall-off stops within 8 mm
 

@@ -9,28 +9,23 @@ in vec4 v_mix;
 out vec4 o_colour;
 uniform sampler2D u_before;  // the picture before, small
 
-/// What the sheet mirrors: a ray through the picture in a few steps. It is dim and stretched by the surface's unrest, so
-/// what each step meets comes softly from a small picture, and fades in and out: no outline of the search itself shows.
-vec3 mirrored(vec3 r, float bounce, float jitter) {
+/// What the sheet mirrors, dim and soft: what the small picture shows some way along the ray, near and far. Nothing is
+/// searched for, so no outline of a search can show.
+vec3 mirrored(vec3 r, float bounce) {
   // Beyond the picture: the front wall, brighter where the lamp grazes it.
   vec3 walls = (vec3(0.24, 0.060, 0.052) + BOUNCE) * (0.9 * bounce);
 #if DETAIL < 2
   return walls;
 #else
   vec3 seen = vec3(0.0);
-  float left = 1.0, reach = 0.004 * (0.9 + 0.2 * jitter);
-  for (int i = 0; i < 6; ++i) {
-    vec3 p = v_eye + reach * r;
-    vec2 at = in_picture(p);
-    vec2 edge = clamp(5.0 * (0.5 - abs(at - 0.5)), 0.0, 1.0);
-    float gap = length(p) - texture(u_bed, at).a;
-    float met = smoothstep(-0.25 * reach, 0.35 * reach, gap) * (1.0 - smoothstep(1.2 * reach, 3.0 * reach, gap));
-    met *= edge.x * edge.y * step(p.z, -0.004);
-    seen += left * met * min(texture(u_before, at).rgb, vec3(0.8));
-    left *= 1.0 - met;
-    reach *= 1.75;
+  const vec3 reach = vec3(0.007, 0.018, 0.040), share = vec3(0.35, 0.4, 0.25);
+  for (int i = 0; i < 3; ++i) {
+    vec3 p = v_eye + reach[i] * r;
+    vec2 at = in_picture(p), edge = clamp(4.0 * (0.5 - abs(at - 0.5)), 0.0, 1.0);
+    float there = edge.x * edge.y * smoothstep(0.002, 0.012, -p.z);
+    seen += share[i] * mix(walls, min(texture(u_before, at).rgb, vec3(0.70, 0.50, 0.47)), there);
   }
-  return seen + left * walls;
+  return seen;
 #endif
 }
 
@@ -52,11 +47,11 @@ void main() {
   // Small unrest on top of the waves that the simulation knows.
   vec4 slow = texture(u_noise, vec3(place.xy * 9.0, 0.13 * u_eye.w));
   vec4 quick = texture(u_noise, vec3(place.yx * 31.0, 0.21 * u_eye.w));
-  vec3 unrest = (slow.rgb * 2.0 - 1.0) * 0.050 + (quick.rgb * 2.0 - 1.0) * 0.024;
+  vec3 unrest = (slow.rgb * 2.0 - 1.0) * 0.022 + (quick.rgb * 2.0 - 1.0) * 0.007;
 #if DETAIL == 2
   // Where it is thin it follows the tissue's relief, which stands still.
   float thin = exp(-max(v_depth_cover.x, 0.0) / 0.0005);
-  unrest += (texture(u_noise, place * 38.0).rgb * 2.0 - 1.0) * (0.42 * thin);
+  unrest += (texture(u_noise, place * 38.0).rgb * 2.0 - 1.0) * (0.12 * thin);
 #endif
   vec3 n = normalize(v_normal);
   float gap = max(straight.a - far, 0.0), shore = smoothstep(0.0, 0.0016, gap);
@@ -74,10 +69,10 @@ void main() {
   vec3 share = vec3(max(1.0 - v_mix.x - v_mix.y, 0.0), v_mix.xy);
   float cloud = 0.45 + 1.1 * smoothstep(0.2, 0.8, 0.6 * slow.a + 0.4 * quick.a);
   share.x = mix(share.x * cloud, share.x, share.x);
-  float wedge = min(clamp(inside * 1.7, 0.04, 1.0), 0.12 + 0.88 * shore);
-  float depth = max(v_depth_cover.x, 0.0) * wedge * wedge * wedge;
+  float wedge = min(clamp(inside * 2.5, 0.04, 1.0), 0.12 + 0.88 * shore);
+  float depth = max(v_depth_cover.x, 0.0) * wedge * wedge;
   float slant = 1.0 / max(sqrt(1.0 - (1.0 - nv * nv) * 0.56), 0.3);  // of the bent ray
-  vec3 amount = share * depth;
+  vec3 amount = share * (depth + 1.5e-5);  // a film goes to its very border
   vec3 through = let_through(amount * (1.0 + slant), v_mix.w);
 
   vec2 bend = -n.xy * (0.25 * min(depth, 0.012) / pixel) * u_size.zw;
@@ -88,7 +83,7 @@ void main() {
 
   float facing = clamp(0.1 + 0.9 * dot(n, lit.direction), 0.0, 1.0);
   vec3 light = LIGHT_COLOUR * (lit.power * facing) + (BOUNCE + vec3(AMBIENT)) * lit.bounce;
-  vec3 deep = deep_colour(amount, v_mix.w) * (0.85 + 0.75 * smoothstep(0.25, 0.8, 0.6 * slow.a + 0.4 * quick.a)) * (0.86 + 0.28 * quick.g);
+  vec3 deep = deep_colour(amount, v_mix.w) * (1.05 + 0.30 * smoothstep(0.25, 0.8, slow.a));
   vec3 colour = bed * through + deep * light * (1.0 - through);
 #if DETAIL >= 1
   float froth = v_mix.z * smoothstep(0.55, 0.75, quick.a + 0.3 * v_mix.z);
@@ -96,15 +91,17 @@ void main() {
 #endif
 
   // More than [Schlick 94] says: it is what tells liquid from paint (our choice).
-  float share_back = min(3.0 * mirror_share(nv) + 0.05, 1.0);
+  float share_back = min(3.0 * mirror_share(nv) + 0.055, 0.5);
+  share_back *= 1.0 - 0.7 * rim;
   vec3 r = reflect(-V, n);
-  colour = mix(colour, mirrored(r, lit.bounce, quick.g), share_back);
+  colour = mix(colour, mirrored(r, lit.bounce), share_back);
   // The rim is a bent mirror all along: its line of light is thin and even, no row of beads.
-  vec3 shine = highlight(n, V, lit, u_shine.y);
-  colour += mix(shine, min(shine, LIGHT_COLOUR * (0.28 * lit.power)), smoothstep(0.0, 0.25, rim));
+  float bent = smoothstep(0.0, 0.25, rim);
+  vec3 shine = highlight(n, V, lit, mix(u_shine.y, 0.06, bent));
+  colour += mix(shine, min(shine, LIGHT_COLOUR * (0.09 * lit.power)), bent);
   // Its waves are finer than a pixel and broad: a soft sheen where it is turned to the lamp, broken by the clouds' unrest.
   float turned = clamp(dot(n, normalize(lit.direction + V)), 0.0, 1.0);
-  colour += LIGHT_COLOUR * (0.022 * lit.power * lobe(turned, 0.16) * (0.4 + 0.6 * smoothstep(0.2, 0.8, slow.g)));
+  colour += LIGHT_COLOUR * (0.022 * lit.power * lobe(turned, 0.16) * (0.75 + 0.25 * smoothstep(0.2, 0.8, slow.g)));
   colour = mix(below.rgb, colour, edge);
   o_colour = vec4(colour, far);
 }

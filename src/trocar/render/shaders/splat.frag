@@ -48,10 +48,12 @@ void main() {
   f *= f;  // blobs that overlap grow little
   vec2 n = flies ? vec2(0.0) : v_normal.xy;
   if (kind > 1.5) {
-    // Of what is smeared by its speed only an amount is left, as of a film; marked, as nothing below it is wet.
+    // Of what is smeared by its speed only an amount is left, as of a film; but nothing below it is wet. It counts as
+    // less than nothing of a drop.
     o_field = vec4(n, min(own, far), 1.0) * (0.002 * (1.0 - far2 / (skirt * skirt)));
-    o_thickness = vec4(0.0, 0.0, 0.0, kind > 2.5 ? v_size.z * 1.0e3 * s * s : 0.0);
-    o_film = vec4(v_mix.rgb, v_mix.a) * (v_size.z * 1.0e3 * s * s);
+    vec4 amount = v_mix * (v_size.z * 1.0e3 * s * s);
+    o_thickness = kind > 2.5 ? -amount : vec4(0.0);
+    o_film = kind > 2.5 ? vec4(0.0) : amount;
   } else {
     o_field = vec4(n, own, 1.0) * f;
     // What flies is marked: it has no edge that runs out thin.

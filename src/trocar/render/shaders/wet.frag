@@ -17,12 +17,12 @@ float inside(vec2 uv) { return inside_of(texture(u_field, uv).w); }
 /// @param fall  down along the surface, eye space, shorter where it is level
 vec2 run_off(vec3 place, vec3 fall, float pixel, out float streak) {
   vec3 squeezed = place - u_down * (0.88 * dot(u_down, place));
-  vec4 column = texture(u_noise, squeezed * 47.0);
+  vec4 column = texture(u_noise, squeezed * 36.0);
   streak = column.a;
-  return fall.xy * ((0.0052 * (column.a - 0.5) + 0.0014 * (column.g - 0.5)) / pixel) * u_size.zw;
+  return fall.xy * ((0.0024 * (column.a - 0.5)) / pixel) * u_size.zw;
 }
 
-const float kThinOut = 1.1e-5;     // [m]
+const float kLeast = 5.0e-6;         // [m] a film draws back from where there is less
 const float kThroughTissue = 3.3;  // light that tissue scatters crosses the film on it more than twice
 
 float film_at(vec2 uv) { return dot(texture(u_film, uv).rgb, vec3(1.0e-3)); }
@@ -37,12 +37,14 @@ void main() {
   // Outlines on tissue wander as it does.
   vec3 place = to_world(way * bed.a);
   vec4 fine = texture(u_noise, place * 38.0);
-  vec2 wander = (fine.rg - 0.5) * (0.0008 / pixel) * u_size.zw;
+  vec2 wander = (fine.rg - 0.5) * (0.0004 / pixel) * u_size.zw;
   vec4 marked = texture(u_thickness, v_uv);
-  float flying = smoothstep(0.9, 1.6, marked.w / max(dot(marked.rgb, vec3(1.0)), 1.0e-6));
+  float there = dot(marked.rgb, vec3(1.0));
+  float flying = smoothstep(0.9, 1.6, marked.w / max(there, 1.0e-6)) * step(0.0, there);
+  vec4 smear = max(-marked, 0.0) * (1.0e-3 * step(there, 0.0));  // of what flies fast
   vec2 uv = flying > 0.5 ? v_uv : v_uv + wander;
   field = texture(u_field, uv);
-  vec4 thick = texture(u_thickness, uv) * 1.0e-3;
+  vec4 thick = max(texture(u_thickness, uv), 0.0) * 1.0e-3;
   float all = max(dot(thick.rgb, vec3(1.0)), 1.0e-9), mark = thick.w / all;
   float far = field.z / max(field.w, 1.0e-6);
   vec3 eye = way * far;
@@ -59,26 +61,35 @@ void main() {
   vec2 film_uv = uv + (1.0 - flying) * run_off(place, fall, pixel, streak);
 #else
   vec2 film_uv = uv;
-  streak = fine.g;
+  streak = 0.25 + 0.5 * fine.a;
 #endif
   vec4 film = texture(u_film, film_uv) * 1.0e-3;
   float stain = dot(film.rgb, vec3(1.0));
   vec3 film_rise = vec3(0.0);
-  if (flying < 0.5 && stain > 1.0e-7) {
-    float edge = 0.0;
+  // What covers the place in between is nearer to the eye.
+  if (flying < 0.5 && stain > 1.0e-7 && bed.a > far - 0.0015 - 6.0 * pixel) {
+    // Surface tension draws it together: a smooth border where there is enough of it, and a rim that stands up there.
+    // Where a column carries little it has drained away.
+    float least = kLeast * (0.8 + 0.9 * smoothstep(0.25, 0.70, 1.0 - streak)), soft = 0.35 * least, lower = stain;
 #if DETAIL >= 1
-    // It is thickest where it stops: at its lower edge.
     vec2 aside = 0.00045 / pixel * u_size.zw;
-    float lower = film_at(film_uv + fall.xy * 1.6 * aside);
-    edge = clamp(1.0 - lower / max(stain, 1.0e-7), 0.0, 1.0);
     vec2 grows = vec2(film_at(film_uv + vec2(aside.x, 0.0)), film_at(film_uv + vec2(0.0, aside.y))) - stain;
-    film_rise = vec3(clamp(grows / 0.00045, vec2(-0.4), vec2(0.4)), 0.0);
+    soft = clamp(1.2 * length(grows) * pixel / 0.00045, 0.12 * least, 3.0 * least);
+    lower = film_at(film_uv + fall.xy * 1.6 * aside);
 #endif
-    film *= (0.30 + 1.2 * smoothstep(0.25, 0.75, 0.6 * streak + 0.4 * fine.a)) * (1.0 + 0.7 * edge * edge);
+    float over = (stain - least) / least, rim = exp(-max(over, 0.0) * 1.4);
+    float wet = smoothstep(-soft, soft, stain - least);
+    // It is thickest where it stops, at its lower edge, and has drained away from its upper one.
+    float edge = clamp(1.0 - lower / stain, -1.0, 1.0);
+    float drained = edge > 0.0 ? 1.0 + 1.5 * edge * edge : 1.0 + 0.55 * edge;
+    film *= wet * drained * (0.26 + 0.55 * smoothstep(0.25, 0.75, 0.75 * streak + 0.25 * fine.a));
+#if DETAIL >= 1
+    film_rise = vec3(grows / max(length(grows), 1.0e-7) * (0.5 * rim * wet), 0.0);
+#endif
     stain = dot(film.rgb, vec3(1.0));
-    // Towards its border it runs out thin: there tissue shines through.
-    film *= 1.25 * stain / (stain + kThinOut);
-    stain = dot(film.rgb, vec3(1.0));
+  } else if (flying < 0.5) {
+    film = vec4(0.0);
+    stain = 0.0;
   }
 
   // Drops.
@@ -98,10 +109,10 @@ void main() {
   // No liquid that moves is as smooth as glass.
   vec3 n = normalize(base - vec3(rise - (fine.gb - 0.5) * 0.34, 0.0));
   vec3 amount = thick.rgb / max(field.w, 1.0e-6) * (cover * max(in_drop, mix(0.03, 0.3, flying)));
-  // Beside streaks, which only mark, the sum says nothing.
-  float dark = clamp(mark - 2.0 * flying, 0.0, 1.0) * step(mark, 3.0);
-  dark = mix(film.w / max(stain, 1.0e-7), dark, cover);
-  amount += film.rgb;
+  float smeared = dot(smear.rgb, vec3(1.0)), thin = stain + smeared;
+  float dark = mix((film.w + smear.w) / max(thin, 1.0e-7), clamp(mark - 2.0 * flying, 0.0, 1.0), cover);
+  amount += film.rgb + smear.rgb;
+  flying = max(flying, smeared / max(thin, 1.0e-7) * (1.0 - cover));
   vec3 through = let_through(mix(kThroughTissue, 2.0, flying) * amount, dark);
 
   vec2 bend = -(n.xy - base.xy) * (0.35 * height * cover * max(in_drop, 0.0) / pixel) * u_size.zw;
@@ -110,7 +121,7 @@ void main() {
   vec3 light = LIGHT_COLOUR * (lit.power * facing) + (BOUNCE + vec3(AMBIENT)) * lit.bounce;
   // What flies is lit from all round.
   // What lies is dark and uneven, as its cells gather here and there.
-  float lying = (0.34 + 0.40 * smoothstep(0.25, 0.75, 0.6 * fine.a + 0.4 * streak)) * (1.0 - flying);
+  float lying = (0.24 + 0.22 * smoothstep(0.25, 0.75, 0.6 * fine.a + 0.4 * streak)) * (1.0 - flying);
   vec3 deep = deep_colour(amount, dark) * (lying + 0.9 * flying) + vec3(0.0, 0.0045, 0.0065) * lying;
   vec3 colour = below * through + deep * light * (1.0 - through);
 
@@ -120,9 +131,13 @@ void main() {
   float glints = mix(1.0, 1.6 * smoothstep(0.52, 0.66, fine.r), flying);
   vec3 shine = cover * glints * highlight(n, V, lit, u_shine.y * (1.0 + 3.0 * flying));
 #if DETAIL >= 1
-  vec3 wrinkle = (fine.rgb * 2.0 - 1.0) * 0.50 + (texture(u_noise, place.zxy * 11.0).rgb * 2.0 - 1.0) * 0.30;
+  vec3 wrinkle = (fine.rgb * 2.0 - 1.0) * 0.22 + (texture(u_noise, place.zxy * 11.0).rgb * 2.0 - 1.0) * 0.26;
   vec3 m = normalize(base + vec3(dot(wrinkle, u_right), dot(wrinkle, u_up), 0.0) - film_rise);
-  shine += gloss * min(highlight(m, V, lit, 1.5 * u_shine.z), LIGHT_COLOUR * (0.55 * lit.power));
+  shine += gloss * (min(highlight(m, V, lit, 2.5 * u_shine.z), LIGHT_COLOUR * (0.55 * lit.power)) + 0.5 * highlight(m, V, lit, 0.03));
+#endif
+#if DETAIL >= 1
+  // A jet near its hole is round enough to glint along its middle.
+  shine += LIGHT_COLOUR * (0.17 * lit.power * smoothstep(2.2e-4, 4.0e-4, smeared) * smoothstep(0.45, 0.62, fine.r));
 #endif
   float nv = clamp(dot(n, V), 0.0, 1.0);
   shine += (BOUNCE * 3.0 + vec3(AMBIENT)) * (lit.bounce * min(mirror_share(nv), 0.2) * (cover + gloss));
