@@ -18,7 +18,7 @@ vec3 mirrored(vec3 r, float bounce) {
   return walls;
 #else
   vec3 seen = vec3(0.0);
-  const vec3 reach = vec3(0.007, 0.018, 0.040), share = vec3(0.35, 0.4, 0.25);
+  const vec3 reach = vec3(0.007, 0.018, 0.040), share = vec3(0.55, 0.35, 0.10);
   for (int i = 0; i < 3; ++i) {
     vec3 p = v_eye + reach[i] * r;
     vec2 at = in_picture(p), edge = clamp(4.0 * (0.5 - abs(at - 0.5)), 0.0, 1.0);
@@ -47,7 +47,7 @@ void main() {
   // Small unrest on top of the waves that the simulation knows.
   vec4 slow = texture(u_noise, vec3(place.xy * 9.0, 0.13 * u_eye.w));
   vec4 quick = texture(u_noise, vec3(place.yx * 31.0, 0.21 * u_eye.w));
-  vec3 unrest = (slow.rgb * 2.0 - 1.0) * 0.022 + (quick.rgb * 2.0 - 1.0) * 0.007;
+  vec3 unrest = (slow.rgb * 2.0 - 1.0) * 0.022 + (quick.rgb * 2.0 - 1.0) * (0.007 + 0.05 * smoothstep(0.52, 0.68, slow.a));
 #if DETAIL == 2
   // Where it is thin it follows the tissue's relief, which stands still.
   float thin = exp(-max(v_depth_cover.x, 0.0) / 0.0005);
@@ -91,7 +91,7 @@ void main() {
 #endif
 
   // More than [Schlick 94] says: it is what tells liquid from paint (our choice).
-  float share_back = min(3.0 * mirror_share(nv) + 0.055, 0.5);
+  float share_back = min(4.5 * mirror_share(nv) + 0.07, 0.6);
   share_back *= 1.0 - 0.7 * rim;
   vec3 r = reflect(-V, n);
   colour = mix(colour, mirrored(r, lit.bounce), share_back);

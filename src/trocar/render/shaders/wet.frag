@@ -19,10 +19,11 @@ vec2 run_off(vec3 place, vec3 fall, float pixel, out float streak) {
   vec3 squeezed = place - u_down * (0.88 * dot(u_down, place));
   vec4 column = texture(u_noise, squeezed * 36.0);
   streak = column.a;
-  return fall.xy * ((0.0024 * (column.a - 0.5)) / pixel) * u_size.zw;
+  return fall.xy * ((0.0044 * (column.a - 0.5) + 0.0012 * (column.g - 0.5)) / pixel) * u_size.zw;
 }
 
-const float kLeast = 5.0e-6;         // [m] a film draws back from where there is less
+const float kLeast = 2.0e-6;       // [m] a film draws back from where there is less
+const float kLevel = 2.2e-5;       // [m] at which it levels
 const float kThroughTissue = 3.3;  // light that tissue scatters crosses the film on it more than twice
 
 float film_at(vec2 uv) { return dot(texture(u_film, uv).rgb, vec3(1.0e-3)); }
@@ -37,7 +38,7 @@ void main() {
   // Outlines on tissue wander as it does.
   vec3 place = to_world(way * bed.a);
   vec4 fine = texture(u_noise, place * 38.0);
-  vec2 wander = (fine.rg - 0.5) * (0.0004 / pixel) * u_size.zw;
+  vec2 wander = (fine.rg - 0.5) * (0.0008 / pixel) * u_size.zw;
   vec4 marked = texture(u_thickness, v_uv);
   float there = dot(marked.rgb, vec3(1.0));
   float flying = smoothstep(0.9, 1.6, marked.w / max(there, 1.0e-6)) * step(0.0, there);
@@ -76,15 +77,21 @@ void main() {
     vec2 grows = vec2(film_at(film_uv + vec2(aside.x, 0.0)), film_at(film_uv + vec2(0.0, aside.y))) - stain;
     soft = clamp(1.2 * length(grows) * pixel / 0.00045, 0.12 * least, 3.0 * least);
     lower = film_at(film_uv + fall.xy * 1.6 * aside);
+    // Gaps narrower than that have closed.
+    float closed = 0.25 * (4.0 * stain + grows.x + grows.y + lower - stain);
+    film *= clamp(closed / stain, 0.6, 8.0);
+    stain = dot(film.rgb, vec3(1.0));
 #endif
     float over = (stain - least) / least, rim = exp(-max(over, 0.0) * 1.4);
     float wet = smoothstep(-soft, soft, stain - least);
     // It is thickest where it stops, at its lower edge, and has drained away from its upper one.
     float edge = clamp(1.0 - lower / stain, -1.0, 1.0);
-    float drained = edge > 0.0 ? 1.0 + 1.5 * edge * edge : 1.0 + 0.55 * edge;
-    film *= wet * drained * (0.26 + 0.55 * smoothstep(0.25, 0.75, 0.75 * streak + 0.25 * fine.a));
+    float drained = edge > 0.0 ? 1.0 + 0.8 * edge * edge : 1.0 + 0.25 * edge;
+    // What several drops brought runs together: a film is no map of where they fell.
+    float level = kLevel * (1.0 - exp(-stain / kLevel)) / stain;
+    film *= wet * drained * mix(level, 1.0, 0.15) * (0.55 + 0.45 * smoothstep(0.25, 0.75, 0.75 * streak + 0.25 * fine.a));
 #if DETAIL >= 1
-    film_rise = vec3(grows / max(length(grows), 1.0e-7) * (0.5 * rim * wet), 0.0);
+    film_rise = vec3(grows / max(length(grows), 1.0e-7) * (0.25 * rim * wet), 0.0);
 #endif
     stain = dot(film.rgb, vec3(1.0));
   } else if (flying < 0.5) {
@@ -133,7 +140,7 @@ void main() {
 #if DETAIL >= 1
   vec3 wrinkle = (fine.rgb * 2.0 - 1.0) * 0.22 + (texture(u_noise, place.zxy * 11.0).rgb * 2.0 - 1.0) * 0.26;
   vec3 m = normalize(base + vec3(dot(wrinkle, u_right), dot(wrinkle, u_up), 0.0) - film_rise);
-  shine += gloss * (min(highlight(m, V, lit, 2.5 * u_shine.z), LIGHT_COLOUR * (0.55 * lit.power)) + 0.5 * highlight(m, V, lit, 0.03));
+  shine += gloss * (min(highlight(m, V, lit, 2.5 * u_shine.z), LIGHT_COLOUR * (0.55 * lit.power)) + 0.15 * highlight(m, V, lit, 0.03));
 #endif
 #if DETAIL >= 1
   // A jet near its hole is round enough to glint along its middle.
