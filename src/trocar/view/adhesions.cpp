@@ -10,6 +10,8 @@ namespace {
 
 constexpr double kNearest = 0.005, kFarthest = 0.036;  // [m] from the organ to the wall
 constexpr float kSteepest = 0.6f;                      // sine: below an organ blood gathers, which would cut them off
+constexpr float kLate = 0.6f;                          // of the way: what is there already ...
+constexpr double kClear = 0.7;                         // sine: ... so flat over a wall would sink into it too soon
 constexpr float kAim = 0.014f;                         // [m] outwards and up: what lies there is aimed at
 constexpr float kApart = 0.016f;                       // [m] between two
 constexpr float kSunk = 0.0012f;                       // [m] both ends, in what they hang on
@@ -74,6 +76,8 @@ void Adhesions::choose(std::size_t organ, int count, const tissue::Skin& skin, c
     const float far = length(way);
     if (!wall.there || far < kNearest || far > kFarthest || dot(way, n) < 0.35f * far) continue;
     if (dot(way, m_down) > kSteepest * far) continue;
+    const Vec3d late = vec_cast<double>(p + kLate * way);
+    if (length(walls.nearest(late).point - late) < kClear * double((1 - kLate) * far)) continue;
     const Vec3f side = normalised(cross(way, vec_cast<float>(aim)), any_perpendicular(normalised(way)));
     const double wide = varied(seed + k, 7), half = 0.0034 + 0.0056 * wide * wide;
     Veil veil;
