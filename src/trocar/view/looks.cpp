@@ -309,9 +309,9 @@ Material epiploic() {
   m.colour_b = srgb(228, 164, 130);
   m.colour_c = srgb(212, 128, 116);
   m.lobule_size = 0.0028f;
-  m.lobule_depth = 0.02f;
-  m.lobule_contrast = 0;
-  m.vessels = 0.7f;
+  m.lobule_depth = 0.07f;
+  m.lobule_contrast = 0.05f;
+  m.vessels = 1.0f;
   m.glow_amount = 0.14f;
   m.vessel_tile = 0.012f;
   m.wetness = 0.7f;
@@ -375,8 +375,8 @@ Material polished(Vec3f bright, Vec3f dull, float roughness, float scatter) {
 
 /// Titanium: greyer than steel, with a soft sheen.
 Material satin(Vec3f bright, Vec3f dull) {
-  Material m = metal(bright, dull, 0.42f);
-  m.scatter = 0.8f;
+  Material m = metal(bright, dull, 0.34f);
+  m.scatter = 0.55f;
   m.mottle = 0.5f;
   m.fibre_stretch = 6;
   m.bump = 0.025f;

@@ -11,7 +11,7 @@ namespace {
 constexpr int kPuffs = 26;
 constexpr double kPlumeTime = 0.9;    // [s] that a puff is seen
 constexpr double kPlumeSpeed = 0.07;  // [m/s] upwards
-constexpr double kPlumeGrows = 0.20;  // of its way, in radius
+constexpr double kPlumeGrows = 0.30;  // of its way, in radius
 constexpr double kPlumeDense = 0.64;
 constexpr double kPlumeFoot = 0.0013, kPlumeThin = 0.005;  // [m] radius at the tip; and at which it is half as dense
 constexpr double kSmokes = 0.15;                           // [s] of current until tissue smokes
@@ -54,7 +54,7 @@ void list_plumes(const sim::Model& model, const sim::State& state, render::Frame
       const double grown = kPlumeGrows * high * (0.6 + 0.8 * varied(own, 3));
       puff.radius = float(kPlumeFoot + grown);
       // Dense where it leaves the tissue; what widens thins out.
-      puff.density = float(kPlumeDense * std::pow(1 - age, 1.5) / (1 + grown / kPlumeThin));
+      puff.density = float(kPlumeDense * std::pow(1 - age, 2.2) / (1 + grown / kPlumeThin));
       frame.puffs.push_back(puff);
     }
   }
