@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds the release preset with its tests, and runs them.
 #
-#   ./test.sh          the quick ones (with the first build under 15 minutes on two cores)
+#   ./test.sh          the quick ones (on two cores about a quarter of an hour, and as much again for the first build)
 #   ./test.sh soak     the long ones: abuse, kills, fuzzing, the matrix of compilers, instruction sets and threads
 #
 # TROCAR_FUZZ_SECONDS (default 600) is how long each fuzz target runs in the soak, two at a time.
