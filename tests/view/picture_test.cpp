@@ -65,6 +65,14 @@ struct CutLiver {
     tissue::CuttableWork work = tissue::make_work(organ.body);
     return tissue::cut(organ.body, blade, state, work).parted > 0;
   }
+  tissue::FaceSkin skin() const {
+    return tissue::face_skin(state.tets, organ.body.drawn.across, organ.body.row_of_node, tissue::kDrawnParts);
+  }
+  tissue::SkinPose pose(const tissue::FaceSkin& of) const {
+    tissue::SkinPose pose = tissue::make_pose(of.skin);
+    tissue::pose_skin(view_of(organ.body, state), of.skin, pose);
+    return pose;
+  }
 };
 
 TEST(CuttableDrawing, ACutGapesAtItsMouthAndNothingMovesFarFromIt) {
@@ -73,11 +81,8 @@ TEST(CuttableDrawing, ACutGapesAtItsMouthAndNothingMovesFarFromIt) {
   CuttableDrawing drawing(liver.organ, Relief{}, *backend);
   ASSERT_TRUE(liver.cut());
   drawing.update(liver.state);
-  const tissue::CuttableModel& body = liver.organ.body;
-  const tissue::FaceSkin skin =
-      tissue::face_skin(liver.state.tets, body.drawn.across, body.row_of_node, tissue::kDrawnParts);
-  tissue::SkinPose pose = tissue::make_pose(skin.skin);
-  tissue::pose_skin(view_of(body, liver.state), skin.skin, pose);
+  const tissue::FaceSkin skin = liver.skin();
+  const tissue::SkinPose pose = liver.pose(skin);
   ASSERT_EQ(pose.position.size(), drawing.positions().size());
   float most = 0, far = 0;
   for (std::size_t i = 0; i < pose.position.size(); ++i) {
@@ -123,11 +128,8 @@ float raggedness(const tissue::FaceSkin& skin, std::span<const Vec3f> positions)
 TEST(CuttableDrawing, ARimIsNoStairOfCells) {
   CutLiver liver;
   ASSERT_TRUE(liver.cut());
-  const tissue::CuttableModel& body = liver.organ.body;
-  const tissue::FaceSkin skin =
-      tissue::face_skin(liver.state.tets, body.drawn.across, body.row_of_node, tissue::kDrawnParts);
-  tissue::SkinPose pose = tissue::make_pose(skin.skin);
-  tissue::pose_skin(view_of(body, liver.state), skin.skin, pose);
+  const tissue::FaceSkin skin = liver.skin();
+  const tissue::SkinPose pose = liver.pose(skin);
   std::vector<Vec3f> smooth = pose.position;
   CutShape shape;
   shape.find(skin);
@@ -138,9 +140,7 @@ TEST(CuttableDrawing, ARimIsNoStairOfCells) {
 TEST(CuttableDrawing, SkinAndFleshMeetAlongARim) {
   CutLiver liver;
   ASSERT_TRUE(liver.cut());
-  const tissue::CuttableModel& body = liver.organ.body;
-  const tissue::FaceSkin skin =
-      tissue::face_skin(liver.state.tets, body.drawn.across, body.row_of_node, tissue::kDrawnParts);
+  const tissue::FaceSkin skin = liver.skin();
   const auto backend = render::make_null_backend();
   CuttableDrawing drawing(liver.organ, Relief{}, *backend);
   drawing.update(liver.state);
