@@ -15,6 +15,7 @@
 #include <trocar/view/cut_shape.hpp>
 #include <trocar/view/cuttable_drawing.hpp>
 #include <trocar/view/drape.hpp>
+#include <trocar/view/drip_stains.hpp>
 #include <trocar/view/fold_pattern.hpp>
 #include <trocar/view/instrument_shapes.hpp>
 #include <trocar/view/liver_dome.hpp>
@@ -169,6 +170,29 @@ TEST(CuttableDrawing, BloodRunsOverLowerLipsOnly) {
   ASSERT_GT(liquid.splats.size(), 5u);
   const Vec3f down = vec_cast<float>(normalised(liver.model.gravity, {0, 0, -1}));
   for (const render::Splat& s : liquid.splats) EXPECT_GT(dot(s.to - s.from, down), -0.0006f) << "it runs down";
+}
+
+TEST(DripStains, LieBelowWhatDripsOnTheFirstGroundThere) {
+  MeshBuffer table;  // 10 cm wide, its top 5 cm below the origin
+  for (const Vec3f corner : {Vec3f{-1, -1, -1}, Vec3f{1, -1, -1}, Vec3f{1, 1, -1}, Vec3f{-1, 1, -1}})
+    table.add(0.05f * corner);
+  table.quad(0, 1, 2, 3);
+  MeshBuffer floor = table;
+  for (Vec3f& p : floor.positions) p.z -= 0.02f;
+  DripStains stains;
+  stains.add_ground(floor);
+  stains.add_ground(table);
+  render::Liquid liquid;
+  stains.list(std::array{Vec3f{0.01f, 0.02f, 0}}, liquid);
+  ASSERT_GT(liquid.splats.size(), 3u);
+  for (const render::Splat& s : liquid.splats) {
+    EXPECT_NEAR(s.from.z, -0.05f, 1e-6f);
+    EXPECT_NEAR(s.normal.z, 1, 1e-6f);
+    EXPECT_LT(length(s.from - Vec3f{0.01f, 0.02f, -0.05f}), 0.01f);
+  }
+  liquid.splats.clear();
+  stains.list(std::array{Vec3f{0.2f, 0, 0}, Vec3f{0, 0, 0.2f}}, liquid);
+  EXPECT_TRUE(liquid.splats.empty()) << "beside it, and too high to be seen to fall there";
 }
 
 TEST(Cavity, GoesOnFromEveryPointOfAWallsBorderAndLeavesNoGap) {

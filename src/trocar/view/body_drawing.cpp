@@ -184,6 +184,9 @@ void BodyDrawing::make_aprons(const WallSurface& walls) {
     m_apron_shapes.push_back(std::move(apron));
     m_apron_on.push_back(i);
     m_far_apron_shapes.push_back(omentum_beyond(wall.skin, m_model->gravity, walls.cavity()));
+    if (m_cuttables.empty()) continue;
+    m_stains.add_ground(m_apron_shapes.back());
+    m_stains.add_ground(m_far_apron_shapes.back());
   }
 }
 
@@ -265,8 +268,11 @@ void BodyDrawing::make_membranes(render::Backend& backend) {
 }
 
 void BodyDrawing::list_ooze(render::Liquid& liquid) const {
-  for (const CuttableDrawing& c : m_cuttables)
-    if (c.cut()) c.list_ooze(liquid);
+  for (const CuttableDrawing& c : m_cuttables) {
+    if (!c.cut()) continue;
+    c.list_ooze(liquid);
+    m_stains.list(c.drips(), liquid);
+  }
 }
 
 std::vector<std::string> BodyDrawing::vessel_kinds() const {

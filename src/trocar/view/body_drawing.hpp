@@ -11,6 +11,7 @@
 #include <trocar/view/bowel_loops.hpp>
 #include <trocar/view/cuttable_drawing.hpp>
 #include <trocar/view/drape.hpp>
+#include <trocar/view/drip_stains.hpp>
 #include <trocar/view/fat_tags.hpp>
 #include <trocar/view/heat_marks.hpp>
 #include <trocar/view/joint.hpp>
@@ -115,6 +116,7 @@ class BodyDrawing {
   std::vector<Fixed> m_aprons, m_far_aprons;  ///< far: on the cavity
   std::vector<MeshBuffer> m_apron_shapes, m_far_apron_shapes;
   std::vector<std::size_t> m_apron_on;  ///< walls
+  DripStains m_stains;                  ///< on the aprons
   std::vector<LiverDome> m_livers;
   MeshBuffer m_cavity_shape;
   RigidMesh m_cavity;

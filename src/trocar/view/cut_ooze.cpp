@@ -7,14 +7,15 @@ namespace trocar::view {
 namespace {
 
 // Our choice, by eye.
-constexpr double kRunning = 0.45;    // share of the rim's vertices from which a run starts
+constexpr double kRunning = 0.6;     // share of the rim's vertices from which a run starts
 constexpr float kStep = 0.0011f;     // [m] between two links of a run
 constexpr float kShortest = 0.004f;  // [m]
 constexpr float kWide = 0.42e-3f;    // [m]
-constexpr float kThick = 36e-6f;     // [m] at the rim; it thins out on its way, and swells where it stops
+constexpr float kThick = 50e-6f;     // [m] at the rim; it thins out on its way, and swells where it stops
 constexpr float kSheetWide = 1.0e-3f, kSheetThick = 6e-6f;  // [m]
-constexpr float kUnderside = 0.4f;                           // cosine between skin and fall at which blood drips
-constexpr float kMostLeft = 0.0035f;                         // [m] beyond the skin's last vertex it ends
+constexpr float kDropWide = 0.9e-3f, kDropThick = 150e-6f;  // [m] what hangs there until it falls
+constexpr float kUnderside = 0.4f;                          // cosine between skin and fall at which blood drips
+constexpr float kMostLeft = 0.0035f;                        // [m] beyond the skin's last vertex it ends
 
 struct Place {
   Vec3f position, normal;
@@ -46,7 +47,7 @@ render::Splat film(const Place& from, const Place& to, float radius, float thick
   return s;
 }
 
-void list_run(const CutSkin& skin, Place at, int own, render::Liquid& liquid) {
+void list_run(const CutSkin& skin, Place at, int own, render::Liquid& liquid, std::vector<Vec3f>& drips) {
   const auto u = [own](int which) { return float(varied(own, which)); };
   const float far = kShortest + (kOozeReach - kShortest) * u(1), wide = kWide * (0.7f + 0.8f * u(2));
   const int links = int(far / kStep);
@@ -55,7 +56,11 @@ void list_run(const CutSkin& skin, Place at, int own, render::Liquid& liquid) {
     const Vec3f across = cross(at.normal, fall);
     const float wind = 0.45f * std::sin(0.55f * float(n) + 6 * u(3)) + 0.3f * (u(20 + n) - 0.5f);
     Place next{at.position + kStep * (normalised(fall, Vec3f{}) + wind * across), at.normal};
-    if (!on_skin(skin, next) || dot(next.normal, liquid.down) > kUnderside) return;  // it drips
+    if (!on_skin(skin, next) || dot(next.normal, liquid.down) > kUnderside) {
+      drips.push_back(at.position);
+      liquid.splats.push_back(film(at, at, kDropWide, kDropThick));
+      return;
+    }
     const float gone = float(n) / float(links), stops = n + 2 >= links ? 1.9f : 1.0f;
     liquid.splats.push_back(
         film(at, next, wide * (1.15f - 0.45f * gone) * std::sqrt(stops), kThick * (1 - 0.7f * gone) * stops));
@@ -79,15 +84,17 @@ void list_sheet(const CutSkin& skin, std::uint32_t v, render::Liquid& liquid) {
 
 }  // namespace
 
-void list_ooze(const CutSkin& skin, render::Liquid& liquid) {
+std::vector<Vec3f> list_ooze(const CutSkin& skin, render::Liquid& liquid) {
+  std::vector<Vec3f> drips;
   for (std::size_t i = 0; i < skin.rim.size(); ++i) {
     const std::uint32_t v = skin.rim[i];
     const Vec3f fall = liquid.down - dot(liquid.down, skin.normal[v]) * skin.normal[v];
     const bool lower = dot(skin.outwards[i], fall) > 0.15f * length(fall);
     if (!lower) continue;  // what comes from an upper lip runs into the cut
     list_sheet(skin, v, liquid);
-    if (varied(int(v), 5) < kRunning) list_run(skin, {skin.position[v], skin.normal[v]}, int(v), liquid);
+    if (varied(int(v), 5) < kRunning) list_run(skin, {skin.position[v], skin.normal[v]}, int(v), liquid, drips);
   }
+  return drips;
 }
 
 }  // namespace trocar::view

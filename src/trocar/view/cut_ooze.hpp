@@ -1,5 +1,5 @@
 // Blood that oozes from a cut organ, as drawn: runs that start at the cut's rim and follow the skin down, unequal, some
-// of them merging, and on over what lies below (drawn only).
+// of them merging, and drip where it turns under (drawn only).
 #pragma once
 
 #include <span>
@@ -19,7 +19,7 @@ struct CutSkin {
 
 inline constexpr float kOozeReach = 0.024f;  ///< [m] the longest run
 
-/// Adds films to liquid.splats.
-void list_ooze(const CutSkin& skin, render::Liquid& liquid);
+/// Adds films to liquid.splats. @returns from where blood drips
+std::vector<Vec3f> list_ooze(const CutSkin& skin, render::Liquid& liquid);
 
 }  // namespace trocar::view

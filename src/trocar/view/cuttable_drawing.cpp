@@ -10,8 +10,8 @@
 namespace trocar::view {
 namespace {
 
-constexpr Paint kFlesh{150, 225, 0, 0};       // laid bare: raw
-constexpr std::uint8_t kDeepOpenness = 95;    // ... at a cut's bottom
+constexpr Paint kFlesh{235, 200, 0, 0};       // laid bare: raw
+constexpr std::uint8_t kDeepOpenness = 190;   // ... at a cut's bottom
 constexpr std::uint8_t kMouthBlood = 118;     // ... at its mouth, where one still sees that it is liver
 constexpr std::uint8_t kRimBlood = 80;        // on the skin at a cut's rim, which is wet with it
 constexpr std::uint8_t kRimPale = 56;         // the capsule's edge: its look's tint
@@ -107,6 +107,7 @@ void CuttableDrawing::make_skin(const tissue::CuttableState& state) {
   m_pose = tissue::make_pose(m_skin.skin);
   m_indices = flat_indices(m_skin.skin);
   m_loose = loose_nodes(m_skin, m_open.size());
+  m_drips.clear();
   find_cut();
   m_shape.find(m_skin);
   paint_skin();
@@ -250,7 +251,8 @@ void CuttableDrawing::run_blood() {
   m_ooze.down = m_down;
   std::vector<Vec3f> outwards;
   for (const std::uint32_t v : m_rim) outwards.push_back(m_shape.outwards(v));
-  view::list_ooze({m_pose.position, m_normals, m_rim, outwards, m_around}, m_ooze);
+  const std::vector<Vec3f> drips = view::list_ooze({m_pose.position, m_normals, m_rim, outwards, m_around}, m_ooze);
+  if (m_drips.empty()) m_drips = drips;  // what has fallen stays there when the organ moves
 }
 
 void CuttableDrawing::place(const tissue::CuttableState& state, std::span<const collision::Capsule> rods) {

@@ -34,6 +34,8 @@ class CuttableDrawing {
   bool cut() const { return !m_bare.empty(); }
   /// Blood that runs down from cuts; after update().
   void list_ooze(render::Liquid& liquid) const;
+  /// From where it has dripped.
+  std::span<const Vec3f> drips() const { return m_drips; }
   /// As drawn now.
   std::span<const Vec3f> positions() const { return m_pose.position; }
   std::span<const std::uint32_t> indices() const { return m_indices; }
@@ -70,6 +72,7 @@ class CuttableDrawing {
   std::vector<Vec3f> m_gape, m_gape_next;  ///< (nodes) [m]
   std::vector<float> m_gape_weight;
   CutShape m_shape;
+  std::vector<Vec3f> m_drips;
   render::Liquid m_ooze;  ///< what runs from it, made anew when it moves
   tissue::Box m_box;
   bool m_dented = false, m_burnt = false;

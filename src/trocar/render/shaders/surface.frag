@@ -288,7 +288,7 @@ void main() {
   float blood = clamp(cover * (0.16 + 0.84 * BLOOD) * (0.8 + 0.4 * broad.a), 0.0, 1.0);
   albedo *= exp(-blood * vec3(2.1, 5.4, 4.8));
   float raw = smoothstep(0.5, 0.85, blood);
-  albedo = mix(albedo, vec3(0.046, 0.0046, 0.0056) * (0.30 + 1.25 * smoothstep(0.25, 0.75, fine.a)), raw);
+  albedo = mix(albedo, vec3(0.085, 0.0090, 0.0085) * (0.45 + 1.25 * smoothstep(0.25, 0.75, fine.a)), raw);
   relief += (fine.rgb * 2.0 - 1.0) * (0.35 * raw);
 #endif
 
