@@ -253,6 +253,7 @@ Json bench_qualities(Easel& easel, const std::vector<sim::State>& states) {
       processor.push_back(cost.processor_ms);
     }
     table.push_back({{"render_scale", quality.render_scale},
+                     {"samples", quality.samples},
                      {"detail", quality.detail},
                      {"coarser", quality.coarser},
                      {"wall_ms", median(wall)},
@@ -321,9 +322,9 @@ void print_picture_bench(const Json& r) {
                row["picture_ms"].get<double>());
   fmt::print("  whole pictures at the governor's qualities:\n");
   for (const Json& q : r["qualities"])
-    fmt::print("  scale {:.2f}, detail {}, coarser {:.1f}   {:7.2f} {:7.2f}\n", q["render_scale"].get<double>(),
-               q["detail"].get<int>(), q["coarser"].get<double>(), q["wall_ms"].get<double>(),
-               q["processor_ms"].get<double>());
+    fmt::print("  scale {:.2f}, samples {}, detail {}, coarser {:.1f}   {:7.2f} {:7.2f}\n",
+               q["render_scale"].get<double>(), q["samples"].get<int>(), q["detail"].get<int>(),
+               q["coarser"].get<double>(), q["wall_ms"].get<double>(), q["processor_ms"].get<double>());
 }
 
 }  // namespace trocar::app

@@ -135,6 +135,7 @@ TEST(Ridge, RunsFromItsLigamentToTheWallAndEndsBelowThat) {
   for (int i = 0; i < int(pelvis().strands.size()); ++i) {
     if (pelvis().strands[std::size_t(i)].end.kind != sim::StrandEndModel::fixed) continue;
     const TubeDrawing tube(pelvis(), i, {}, &walls());
+    if (Ridge::meets_head_on(pelvis(), tube, i, walls())) continue;
     const Ridge ridge(pelvis(), tube, i, walls(), *backend);
     const tissue::StrandState rest = tissue::rest_state(pelvis().bodies[std::size_t(i)].model);
     double to_ligament = 1, to_wall = 1;
@@ -148,7 +149,7 @@ TEST(Ridge, RunsFromItsLigamentToTheWallAndEndsBelowThat) {
     EXPECT_LT(to_wall, -0.0005) << "its border is tucked under the wall";
     ++ridges;
   }
-  EXPECT_EQ(ridges, 6);
+  EXPECT_EQ(ridges, 4);
 }
 
 TEST(Ridge, OfALigamentThatCarriesNothingCoversItAndIsLostInTheWall) {
@@ -236,23 +237,13 @@ TEST(SheetCrescent, OfTheBroadLigamentGoesOnAlongTheInfundibulopelvicOneAndFollo
   EXPECT_EQ(hung, 2);
 }
 
-TEST(Ridge, OfALigamentThatMeetsTheWallHeadOnDoesNotGoOnBeyondItsCollar) {
-  const auto backend = render::make_null_backend();
-  int head_on = 0;
+TEST(Ridge, ARoundLigamentMeetsTheWallHeadOnAndNeedsNone) {
   for (int i = 0; i < int(pelvis().strands.size()); ++i) {
     if (pelvis().strands[std::size_t(i)].end.kind != sim::StrandEndModel::fixed) continue;
     const TubeDrawing tube(pelvis(), i, {}, &walls());
     const bool round = pelvis().strands[std::size_t(i)].name.find("round") != std::string::npos;
     EXPECT_EQ(Ridge::meets_head_on(pelvis(), tube, i, walls()), round);
-    if (!round) continue;
-    const Ridge ridge(pelvis(), tube, i, walls(), *backend);
-    const std::vector<Vec3d>& rest = pelvis().bodies[std::size_t(i)].model.rest;
-    const Vec3d along = normalised(rest.back() - rest[rest.size() - 2]);
-    for (const Vec3f& p : ridge.buffer().positions)
-      EXPECT_LT(dot(vec_cast<double>(p) - rest.back(), along), 0.01) << "no spike on the wall";
-    ++head_on;
   }
-  EXPECT_EQ(head_on, 2);
 }
 
 TEST(Adhesions, TaperBetweenTwoFeetThatLieInWhatTheyHangOn) {

@@ -226,7 +226,7 @@ void BodyDrawing::make_joints(const WallSurface& walls, render::Backend& backend
     }
   for (std::size_t i = 0; i < m_tubes.size() && !m_model->walls.empty(); ++i) {
     const sim::StrandModel& strand = m_model->strands[i];
-    if (!is_ridge(strand)) continue;
+    if (!is_ridge(strand) || Ridge::meets_head_on(*m_model, m_tubes[i], int(i), walls)) continue;
     m_details.ridges.emplace_back(levels_of(*m_model, strand.name));
     m_ridges.emplace_back(*m_model, m_tubes[i], int(i), walls, backend, m_details.ridges.back());
     m_ridge_of.push_back(i);

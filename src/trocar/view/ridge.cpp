@@ -30,8 +30,6 @@ constexpr double kCovers = 1.32;         // radii from the axis: nearer than tha
 constexpr double kAround = 6.5;          // radii: how far its slope is that of the ligament's side
 constexpr double kAroundAll = 11;        // the same of one that carries nothing: broad shoulders
 constexpr double kWidestAll = 0.021;     // [m] and its feet
-constexpr double kGathers = 0.6;         // share of one that ends in a collar: from here on its flanks draw in
-constexpr double kGathered = 0.5;        // ... to this share of their width
 constexpr double kHeadOn = 0.75;         // sine of the angle to the wall
 constexpr double kLoose = 0.0004;        // [m] what covers a ligament keeps off it
 constexpr double kTucked = 0.0012;       // [m] the border lies below the wall
@@ -48,9 +46,6 @@ bool carries(const sim::Model& model, int strand) {
            return std::any_of(v.path.points.begin(), v.path.points.end(), rides);
          });
 }
-
-/// How wide the flanks still are of a ligament that ends in a collar.
-double gathered(double share) { return kGathered + (1 - kGathered) * smooth(1, kGathers, share); }
 
 /// Of a row, from the ligament to the wall; the last is tucked in.
 double share_down(int row) { return std::min(1.0, double(row) / (kRows - 2)); }
@@ -69,7 +64,6 @@ Ridge::Ridge(const sim::Model& model, const TubeDrawing& tube, int strand, const
     : m_body(&model.bodies[std::size_t(strand)]),
       m_strand(strand),
       m_covered(!carries(model, strand)),
-      m_head_on(meets_head_on(model, tube, strand, walls)),
       m_marks(model, strand) {
   const tissue::StrandState rest = tissue::rest_state(m_body->model);
   const StrandPiece all{0, m_body->nodes() - 1, 0, m_body->length(), false, false};
@@ -87,10 +81,8 @@ Ridge::Ridge(const sim::Model& model, const TubeDrawing& tube, int strand, const
     st.radius = 1.06 * std::max(outer[node], outer[node + 1]) + kLoose;
     m_stations.push_back(st);
   }
-  if (!m_head_on) {
-    add_root(tube.end_root());
-    add_glide(walls);
-  }
+  add_root(tube.end_root());
+  add_glide(walls);
   find_feet(walls);
   for (int i = 0; i < 2 * int(m_stations.size()) * kRows; ++i) m_buffer.add({});
   const auto row = [this](std::size_t flank, std::size_t i) {
@@ -187,16 +179,14 @@ void Ridge::find_feet(const WallSurface& walls) {
   }
   for (Station& st : m_stations) {
     st.depth = m_covered ? smooth(kFromAll, kDownAll, st.s / to_wall) : smooth(kFrom, kDown, st.s / to_wall);
-    st.over = m_head_on   ? 0
-              : m_covered ? smooth(kOverAll, kClosedAll, st.s / to_wall)
-                          : smooth(kOver, kClosed, st.s / to_wall);
+    st.over = m_covered ? smooth(kOverAll, kClosedAll, st.s / to_wall) : smooth(kOver, kClosed, st.s / to_wall);
   }
   even_out(4, [](Station& st) -> Vec3d& { return st.side; });
   for (std::size_t i = 0; i < n; ++i) {
     Station& st = m_stations[i];
     st.side = normalised(st.side, any_perpendicular(st.along));
     const double high = std::max(0.0, dot(st.at - st.floor, st.normal[0]));
-    const double uneven = (1 + 0.3 * waves(st.floor, 0.021)) * (m_head_on ? gathered(st.s / m_body->length()) : 1);
+    const double uneven = 1 + 0.3 * waves(st.floor, 0.021);
     const double wide = (st.beyond ? 1.5 : 1.0) *
                         std::min(m_covered ? kWidestAll : kWidest, 1.6 * st.radius + 0.002 + 0.5 * high) * uneven;
     for (const int flank : {0, 1}) st.foot[flank] = st.floor + ((flank ? -wide : wide)) * st.side;

@@ -22,8 +22,8 @@ class Ridge {
   Ridge(const sim::Model& model, const TubeDrawing& tube, int strand, const WallSurface& walls,
         render::Backend& backend, const Detail& detail = {});
 
-  /// Does it carry something and meet the wall nearly at a right angle? Then a collar ends it (joint.hpp), and its
-  /// ridge is the fold below it.
+  /// Does it carry something and meet the wall nearly at a right angle? Then a collar ends it (joint.hpp), and it needs
+  /// no ridge.
   static bool meets_head_on(const sim::Model& model, const TubeDrawing& tube, int strand, const WallSurface& walls);
 
   void update(const sim::State& state);
@@ -59,7 +59,6 @@ class Ridge {
   const interactions::StrandBody* m_body;
   int m_strand;
   bool m_covered;  ///< from its beginning
-  bool m_head_on;  ///< never
   std::vector<Station> m_stations;
   HeatMarks m_marks;
   Moved m_moved;
