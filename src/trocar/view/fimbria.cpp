@@ -10,8 +10,9 @@ namespace {
 constexpr double kPi = 3.14159265358979;
 constexpr int kRings = 18;          // along a leaf
 constexpr double kWall = 0.0002;    // [m] half the thickness of the rim's wall
-constexpr double kPleat = 0.00022;  // [m] height of the folds on the inner side
-constexpr int kFolds = 1;           // of them on a leaf
+constexpr double kPlump = 0.0006;   // [m] the same of a leaf
+constexpr double kPleat = 0.00034;  // [m] height of the folds on the inner side
+constexpr int kFolds = 2;           // of them on a leaf
 
 /// Rings of the bell beyond the tube's end: forwards and outwards, in radii of the end.
 constexpr std::array<std::array<double, 2>, 4> kBell{{{0.14, 1.01}, {0.34, 1.05}, {0.52, 1.12}, {0.68, 1.24}}};
@@ -164,7 +165,7 @@ double half_width(const Leaf& f, double u, double end, bool right) {
   const int k = 2 * f.seed + (right ? 1 : 0);
   const double body = 1 + (0.3 + 0.5 * varied(f.seed, 23)) * smooth(0.05, 0.5, u) - 0.45 * smooth(0.5, 1, u);
   const double turn = (8 + 5 * varied(k, 2)) * u + 6.3 * varied(k, 1);
-  const double scallops = smooth(0.1, 0.35, u) * (0.15 * std::sin(turn) + 0.09 * std::sin(2.3 * turn + k));
+  const double scallops = smooth(0.1, 0.35, u) * (0.10 * std::sin(turn) + 0.05 * std::sin(2.3 * turn + k));
   return (body + scallops) * (0.03 + 0.97 * round_end(u, end));
 }
 
@@ -198,10 +199,11 @@ Sheets place_on(const Leaf& f, const Spines& spine, const FimbriaSite& site, int
   const double edge = std::fabs(w) * w * w, loose = smooth(0.05, 0.5, v) * (1 - 0.7 * smooth(0.8, 1, v));
   const double phase = 6.3 * varied(f.seed, w > 0 ? 21 : 22);
   const double frill =
-      loose * (0.0006 * edge * std::sin(9 * v + phase) + 0.00016 * w * w * std::sin(16 * v + 1.7 * phase));
-  const double trough = (f.reaches >= 1 ? 0.05 : 0.5 * varied(f.seed, 12) - 0.1) * half * w * w;
+      loose * (0.0003 * edge * std::sin(9 * v + phase) + 0.00008 * w * w * std::sin(16 * v + 1.7 * phase));
+  const double trough = (f.reaches >= 1 ? 0.05 : 0.35 * varied(f.seed, 12) - 0.1) * half * w * w;
   const double pleats = kPleat * smooth(0, 0.15, v) * (1 - 0.6 * v) * (fold - 0.3);
-  const double thick = kWall * (1.05 - 0.3 * v) * round_end(v, end) * std::sqrt(std::max(0.0, 1 - w * w));
+  const double thick = (kWall + (kPlump - kWall) * smooth(0, 0.4, v) * (1 - 0.35 * v)) * round_end(v, end) *
+                       std::sqrt(std::max(0.0, 1 - w * w));
   // At the root the leaf's line follows the rim.
   const double angle = f.from + (f.to - f.from) * double(column) / kLeafColumns, root = smooth(0.3, 0, v);
   const auto& rim = kBell.back();

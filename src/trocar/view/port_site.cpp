@@ -17,6 +17,7 @@ constexpr double kAround = 0.013;       // [m] ... and how far around it
 constexpr double kLap = 0.0008;         // [m] how far it stands off the wall at least
 constexpr double kClear = 0.0006;       // [m] that the tent bulges off the sleeve
 constexpr double kMostSlope = 0.012;    // [m] that the wall leaves its plane there
+constexpr double kProud = 0.0003;       // [m] that it stands before the wall near the slit, which would cut through it
 constexpr double kSunk = 0.0002;        // [m] of the outermost row under the wall: no border shows
 constexpr double kFlattest = 0.3;       // cosine: a sleeve that lies flatter on the wall is not followed
 
@@ -117,6 +118,18 @@ PortSite::PortSite(Vec3d port, Vec3d axis, double radius, std::span<const Pierce
   m_mesh = OwnedMesh(backend, m_shape.data());
 }
 
+/// Of the wall at rest over its plane, so far from the hole's middle towards a side [m].
+double PortSite::wall_height(int side, double away) const {
+  const auto base = [&](int row) { return m_base[std::size_t(row * kSides + side)] - m_centre; };
+  const double angle = kTwoPi * side / kSides;
+  const Vec3d aside = std::cos(angle) * m_u + std::sin(angle) * m_v;
+  int row = 0;
+  while (row + 2 < kRows && dot(base(row + 1), aside) < away) ++row;
+  const double near = dot(base(row), aside), far = dot(base(row + 1), aside);
+  const double t = std::clamp((away - near) / std::max(far - near, 1e-9), 0.0, 1.0);
+  return (1 - t) * dot(base(row), m_normal) + t * dot(base(row + 1), m_normal);
+}
+
 void PortSite::shape(Vec3d axis) {
   m_axis = axis;
   const double steep = dot(axis, m_normal);
@@ -135,9 +148,11 @@ void PortSite::shape(Vec3d axis) {
       const Vec3d at_sleeve = hole + high * axis + (m_radius * (1.02 + slit)) * across;
       const double folds = 0.0003 * std::sin(11 * angle + 2 * std::sin(2 * angle)) * drawn * (1 - drawn) * 4;
       const std::size_t i = std::size_t(row * kSides + k);
-      m_shape.positions[i] =
-          vec_cast<float>(drawn * at_sleeve + (1 - drawn) * m_base[i] + (folds - kSunk * x * x * x) * m_normal +
-                          (4 * kClear * drawn * (1 - drawn)) * across);
+      Vec3d p =
+          drawn * at_sleeve + (1 - drawn) * m_base[i] + folds * m_normal + (4 * kClear * drawn * (1 - drawn)) * across;
+      const double short_of = wall_height(k, dot(p - m_centre, aside)) + kProud * (1 - x) - dot(p - m_centre, m_normal);
+      if (row >= kLip) p += std::max(short_of, 0.0) * m_normal;
+      m_shape.positions[i] = vec_cast<float>(p - (kSunk * x * x * x) * m_normal);
     }
   }
   render::vertex_normals(m_shape.positions, m_shape.indices, m_shape.normals);

@@ -48,6 +48,7 @@ class PortSite {
 
  private:
   void shape(Vec3d axis);
+  double wall_height(int side, double away) const;
 
   Vec3d m_port, m_axis, m_centre, m_normal, m_u, m_v;  ///< port, sleeve, hole in the wall and the wall's plane
   double m_radius = 0, m_depth = 0;
