@@ -737,6 +737,22 @@ TEST(PortSite, ATentRisesAlongTheSleeveAndEndsInTheWall) {
   }
 }
 
+TEST(PortSite, ATentStandsBeforeItsWallHoweverTheSleeveLeans) {
+  auto backend = render::make_null_backend();
+  const FlatWall wall;
+  const Vec3d port{0, 0, 0.01};
+  PortSite site(port, {0, 0, -1}, 0.0034, wall.walls, *backend);
+  for (const double lean : {0.0, 0.5, 1.0, 2.0})
+    for (const double turn : {0.0, 1.0, 2.5, 4.0}) {
+      site.update(normalised(Vec3d{lean * std::cos(turn), lean * std::sin(turn), -1}));
+      for (std::size_t i = 0; i < site.buffer().positions.size(); ++i) {
+        if (site.buffer().paint[i].openness < 30) continue;  // within the slit
+        const Vec3f p = site.buffer().positions[i];
+        EXPECT_GT(-p.z, length(Vec3f{p.x, p.y, 0}) < 0.012f ? 0.0f : -0.0004f) << lean << ' ' << turn;
+      }
+    }
+}
+
 TEST(PortSite, WithoutAWallNothingIsDrawn) {
   auto backend = render::make_null_backend();
   const FlatWall wall;

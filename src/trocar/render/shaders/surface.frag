@@ -86,7 +86,8 @@ vec2 vessels_at(vec3 p, vec3 n) {
   float along = clamp(dot(d, FIBRE_AXIS), -0.999, 0.999);
   vec3 off = d - along * FIBRE_AXIS;
   vec3 side = normalize(vec3(FIBRE_AXIS.y, -FIBRE_AXIS.x, 0.001)), up = cross(FIBRE_AXIS, side);
-  return texture(u_vessels, vec2(dot(off, side), dot(off, up)) * (acos(along) * inversesqrt(dot(off, off)) * kLiningBall) * VESSEL_SCALE + 0.37).rg;
+  vec2 at = vec2(dot(off, side), dot(off, up)) * (acos(along) * inversesqrt(dot(off, off)) * kLiningBall);
+  return texture(u_vessels, at * VESSEL_SCALE + 0.37).rg * smoothstep(0.18, 0.5, abs(dot(d, n)));  // not smeared along a steep place
 }
 #elif defined(LOBULES)
 // Seen from where one looks at it, as lobules turn their faces everywhere; what turns far away has none.
