@@ -255,6 +255,43 @@ TEST_F(GlBackend, BloodReddensAndDarkensWhatItCovers) {
   EXPECT_LT(bloody.at(36, 30)[1], clean.at(36, 30)[1] / 3);
 }
 
+TEST_F(GlBackend, CrevicesAreAsDarkAsAskedFor) {
+  frame.look = plain_look();
+  sample::Shape shape = sample::sphere({0, 0, -0.06f}, 0.02f, 32);
+  for (Paint& p : shape.paint) p.openness = 60;
+  frame.items.push_back({sample::create(*backend, shape), {}, {}, false});
+  double luma[3];
+  for (const int half : {0, 1, 2}) {
+    frame.light.crevices = 0.5f * float(half);
+    luma[half] = mean_luma(draw(60, 60));
+  }
+  EXPECT_LT(luma[2], 0.9 * luma[1]);
+  EXPECT_LT(luma[1], 0.95 * luma[0]);
+}
+
+TEST_F(GlBackend, OnlyWhatIsNearerThanTheFocusHasASoftOutline) {
+  Material even = white();
+  even.shading = Shading::unlit;
+  frame.camera = look_at({0, 0, 0}, {0, 0, -1}, {0, 1, 0});
+  sample::Shape wall = sample::sphere({0, 0, -0.6f}, 0.5f, 48);
+  wall.paint.assign(wall.paint.size(), Paint{0, 0, 0, 255});
+  const MeshHandle black_wall = sample::create(*backend, wall);
+  const auto steepest = [&](float distance, float defocus) {
+    frame.look = plain_look();
+    frame.look.exposure_ev = -3;  // not clipped
+    frame.look.defocus = defocus;
+    frame.items = {{white_ball({0, 0, -distance}, 0.3f * distance), even, {}, false}, {black_wall, even, {}, false}};
+    const Image image = draw(200, 200);
+    int most = 0;
+    for (int x = 100; x + 1 < 200; ++x)
+      most = std::max(most, std::abs(int(image.at(x, 100)[0]) - int(image.at(x + 1, 100)[0])));
+    return most;
+  };
+  const int sharp = steepest(0.06f, 0.8f);
+  EXPECT_GT(steepest(0.015f, 0), sharp);
+  EXPECT_LT(steepest(0.015f, 0.8f), 0.6 * sharp);
+}
+
 TEST_F(GlBackend, TranslucentItemsShowWhatIsBehind) {
   frame.look = plain_look();
   frame.items.push_back({white_ball({0, 0, -0.09f}, 0.02f), white(), {}, false});

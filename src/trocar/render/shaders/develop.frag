@@ -55,6 +55,8 @@ vec3 developed(vec3 x) {
   return clamp(1.075 * x * (6.2 * x + 0.5) / (x * (6.2 * x + 1.7) + 0.06), 0.0, 1.0);
 }
 
+const float kUnsharp = 2.4;  // blurred wholly at 0.7 of the nearest sharp distance
+
 void main() {
   vec4 scene = texelFetch(u_scene, ivec2(gl_FragCoord.xy), 0);
   vec3 colour = scene.rgb;
@@ -72,20 +74,29 @@ void main() {
   vec4 soft = texture(u_small, v_uv);
   vec4 softer = texture(u_smaller, v_uv + u_shadow);
   // The circle of confusion grows with 1/d: a disc of taps of the small picture, so that strong lights blur round. What
-  // lies around counts by how far it is out of focus, so that a near thing's outline is soft, too.
+  // is out of focus covers what is around it as far as that goes, so a near thing's outline is soft, too.
+  vec2 texel = 1.0 / vec2(textureSize(u_small, 0));
   float nearest = min(scene.a, soft.a);
-  if (nearest < 1.3 * u_depth.x) {
-    float unsharp = 2.4 * (u_depth.x / max(nearest, 0.002) - 1.0);
-    vec2 radius = (0.7 + 1.5 * clamp(0.6 * (unsharp - 1.0), 0.0, 1.0)) / vec2(textureSize(u_small, 0));
-    vec3 disc = soft.rgb;
-    float near = clamp(2.4 * (u_depth.x / max(scene.a, 0.002) - 1.0), 0.0, 1.0);
+  if (softer.a < 0.92 * scene.a)  // something before it is close by
+    for (int k = 0; k < 4; ++k) {
+      vec2 aside = float((k & 2) - 1) * ((k & 1) == 0 ? vec2(2.6, 0.0) : vec2(0.0, 2.6));
+      nearest = min(nearest, texture(u_small, v_uv + texel * aside).a);
+    }
+  if (nearest < u_depth.x) {
+    float unsharp = kUnsharp * (u_depth.x / max(nearest, 0.002) - 1.0), most = clamp(unsharp, 0.05, 1.0);
+    vec2 radius = (0.9 + 1.9 * clamp(0.6 * (unsharp - 1.0), 0.0, 1.0)) * texel;
+    vec4 before = vec4(0.0), behind_ = vec4(0.0);
     for (int k = 0; k < 12; ++k) {
       float turn = 2.39996 * float(k), out_ = sqrt((float(k) + 0.7) / 12.0);  // a sunflower's seeds
-      vec4 tap = texture(u_small, v_uv + 1.25 * radius * out_ * vec2(cos(turn), sin(turn)));
-      disc += min(tap.rgb, vec3(6.0));
-      near += clamp(2.4 * (u_depth.x / max(tap.a, 0.002) - 1.0), 0.0, 1.0);
+      vec4 tap = texture(u_small, v_uv + radius * out_ * vec2(cos(turn), sin(turn)));
+      vec4 light = vec4(min(tap.rgb, vec3(6.0)), 1.0);
+      float near = clamp(kUnsharp * (u_depth.x / max(tap.a, 0.002) - 1.0), 0.0, 1.0) / most;
+      before += light * near;
+      behind_ += light * max(1.0 - near, 0.0);
     }
-    colour = mix(colour, disc / 13.0, u_depth.y * min(1.2 * near / 13.0, 1.0));
+    if (scene.a > u_depth.x) behind_ = vec4(colour, 1.0);  // that is in focus
+    vec3 covers = before.rgb / max(before.w, 0.01), covered = behind_.w > 0.01 ? behind_.rgb / behind_.w : covers;
+    colour = mix(colour, mix(covered, covers, min(before.w / 12.0, 1.0)), u_depth.y * min(unsharp, 1.0));
   }
   // Depth darkening [Luft 06]: what lies just behind the mean depth towards the lamp sees less light: a soft shadow to
   // the side that the ring light is off the lens; red stays longest.
