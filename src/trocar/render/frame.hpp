@@ -69,8 +69,8 @@ struct EndoscopeLook {
   float focus_near = 0.030f;  ///< [m] nearer things are out of focus
   float defocus = 0.8f;       ///< 0 none .. 1: how much
   float contact = 0.3f;       ///< 0 none .. 1: darkening behind the edge of nearer things
-  float sharpen = 0.35f;      ///< video sharpening overshoot
-  float noise = 0.0006f;      ///< sensor noise at mid grey; more in the dark
+  float sharpen = 1.0f;       ///< video sharpening overshoot
+  float noise = 0.00085f;     ///< sensor noise at mid grey; more in the dark
   float saturation = 1;
   Vec3f white_balance = {1, 1, 1};
   // Air.
