@@ -140,7 +140,7 @@ void main() {
 #if DETAIL >= 1
   vec3 wrinkle = (fine.rgb * 2.0 - 1.0) * 0.22 + (texture(u_noise, place.zxy * 11.0).rgb * 2.0 - 1.0) * 0.26;
   vec3 m = normalize(base + vec3(dot(wrinkle, u_right), dot(wrinkle, u_up), 0.0) - film_rise);
-  shine += gloss * (min(highlight(m, V, lit, 2.5 * u_shine.z), LIGHT_COLOUR * (0.55 * lit.power)) + 0.15 * highlight(m, V, lit, 0.03));
+  shine += gloss * (min(highlight(m, V, lit, 1.6 * u_shine.z), LIGHT_COLOUR * (1.1 * lit.power)) + 0.15 * highlight(m, V, lit, 0.03));
 #endif
 #if DETAIL >= 1
   // A jet near its hole is round enough to glint along its middle.
