@@ -85,17 +85,17 @@ void main() {
   if (nearest < u_depth.x) {
     float unsharp = kUnsharp * (u_depth.x / max(nearest, 0.002) - 1.0), most = clamp(unsharp, 0.05, 1.0);
     vec2 radius = (0.9 + 1.9 * clamp(0.6 * (unsharp - 1.0), 0.0, 1.0)) * texel;
-    vec4 before = vec4(0.0), behind_ = vec4(0.0);
+    vec4 before = vec4(0.0), back = vec4(0.0);
     for (int k = 0; k < 12; ++k) {
       float turn = 2.39996 * float(k), out_ = sqrt((float(k) + 0.7) / 12.0);  // a sunflower's seeds
       vec4 tap = texture(u_small, v_uv + radius * out_ * vec2(cos(turn), sin(turn)));
       vec4 light = vec4(min(tap.rgb, vec3(6.0)), 1.0);
       float near = clamp(kUnsharp * (u_depth.x / max(tap.a, 0.002) - 1.0), 0.0, 1.0) / most;
       before += light * near;
-      behind_ += light * max(1.0 - near, 0.0);
+      back += light * max(1.0 - near, 0.0);
     }
-    if (scene.a > u_depth.x) behind_ = vec4(colour, 1.0);  // that is in focus
-    vec3 covers = before.rgb / max(before.w, 0.01), covered = behind_.w > 0.01 ? behind_.rgb / behind_.w : covers;
+    if (scene.a > u_depth.x) back = vec4(colour, 1.0);  // that is in focus
+    vec3 covers = before.rgb / max(before.w, 0.01), covered = back.w > 0.01 ? back.rgb / back.w : covers;
     colour = mix(colour, mix(covered, covers, min(before.w / 12.0, 1.0)), u_depth.y * min(unsharp, 1.0));
   }
   // Depth darkening [Luft 06]: what lies just behind the mean depth towards the lamp sees less light: a soft shadow to
