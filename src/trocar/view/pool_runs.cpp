@@ -20,7 +20,32 @@ constexpr float kThickestRun = 48e-6f, kThickestStain = 22e-6f;  // [m] of what 
 constexpr float kBelowPool = 0.7f;                               // cover of what the sheet hides
 constexpr float kTide = 0.0045f;                                 // [m] how far it reaches
 
+// Some of it runs ahead of the rest in tongues.
+constexpr float kTongues = 0.55f;                               // of blocks that have one
+constexpr float kShortTongue = 0.003f, kLongTongue = 0.0085f;   // [m]
+constexpr float kTongueWide = 0.00055f;                         // [m] half of it
+constexpr float kTongueThick = 1.5f, kThickestTongue = 26e-6f;  // over the film's; [m]
+constexpr int kBends = 3;
+
 float smooth_step(float x) { return float(smooth(0.0, 1.0, double(x))); }
+
+/// A thin run from the middle of a stain down, in bends, with a bead at its end.
+void list_tongue(const Splat& stain, std::uint32_t id, Liquid& liquid) {
+  const Vec3f along = liquid.down - dot(liquid.down, stain.normal) * stain.normal, across = cross(stain.normal, along);
+  const float far = kShortTongue + (kLongTongue - kShortTongue) * std::fabs(own(id, 61));
+  Splat s = stain;
+  s.radius = kTongueWide * (1 + 0.4f * own(id, 62));
+  s.height = std::min(kTongueThick * stain.height, kThickestTongue);
+  s.to = 0.5f * (stain.from + stain.to);
+  for (int bend = 0; bend < kBends; ++bend) {
+    s.from = s.to;
+    s.to = s.from + (far / kBends) * (along + 0.2f * own(id, 63 + bend) * across);
+    liquid.splats.push_back(s);
+  }
+  s.from = s.to;
+  s.radius *= 1.4f;
+  liquid.splats.push_back(s);
+}
 
 }  // namespace
 
@@ -85,6 +110,8 @@ void PoolDrawing::list_runs(const FluidSight& sight, Liquid& liquid) const {
       s.share = shares_of(mix_at(m, sight.state.pool, wet_i, wet_j));
       s.dark = darkness(now, sight.state.pool.shed, s.share);
       liquid.splats.push_back(s);
+      const auto id = std::uint32_t(ci + 977 * cj);
+      if (runs > 0 && std::fabs(own(id, 60)) < kTongues) list_tongue(s, id, liquid);
     }
 }
 

@@ -13,17 +13,17 @@ uniform sampler2D u_before;  // the picture before, small
 /// searched for, so no outline of a search can show.
 vec3 mirrored(vec3 r, float bounce) {
   // Beyond the picture: the front wall, brighter where the lamp grazes it.
-  vec3 walls = (vec3(0.24, 0.060, 0.052) + BOUNCE) * (0.9 * bounce);
+  vec3 walls = (vec3(0.24, 0.060, 0.052) + BOUNCE) * (0.45 * bounce);
 #if DETAIL < 2
   return walls;
 #else
   vec3 seen = vec3(0.0);
-  const vec3 reach = vec3(0.007, 0.018, 0.040), share = vec3(0.55, 0.35, 0.10);
+  const vec3 reach = vec3(0.009, 0.018, 0.034), share = vec3(0.45, 0.40, 0.15);
   for (int i = 0; i < 3; ++i) {
     vec3 p = v_eye + reach[i] * r;
     vec2 at = in_picture(p), edge = clamp(4.0 * (0.5 - abs(at - 0.5)), 0.0, 1.0);
     float there = edge.x * edge.y * smoothstep(0.002, 0.012, -p.z);
-    seen += share[i] * mix(walls, min(texture(u_before, at).rgb, vec3(0.70, 0.50, 0.47)), there);
+    seen += share[i] * mix(walls, min(texture(u_before, at).rgb, vec3(0.90, 0.66, 0.62)), there);
   }
   return seen;
 #endif
@@ -83,7 +83,7 @@ void main() {
 
   float facing = clamp(0.1 + 0.9 * dot(n, lit.direction), 0.0, 1.0);
   vec3 light = LIGHT_COLOUR * (lit.power * facing) + (BOUNCE + vec3(AMBIENT)) * lit.bounce;
-  vec3 deep = deep_colour(amount, v_mix.w) * (1.05 + 0.30 * smoothstep(0.25, 0.8, slow.a));
+  vec3 deep = deep_colour(amount, v_mix.w) * (1.45 + 0.30 * smoothstep(0.25, 0.8, slow.a));
   vec3 colour = bed * through + deep * light * (1.0 - through);
 #if DETAIL >= 1
   float froth = v_mix.z * smoothstep(0.55, 0.75, quick.a + 0.3 * v_mix.z);
@@ -91,7 +91,7 @@ void main() {
 #endif
 
   // More than [Schlick 94] says: it is what tells liquid from paint (our choice).
-  float share_back = min(4.5 * mirror_share(nv) + 0.07, 0.6);
+  float share_back = min(7.0 * mirror_share(nv) + 0.08, 0.6);
   share_back *= 1.0 - 0.7 * rim;
   vec3 r = reflect(-V, n);
   colour = mix(colour, mirrored(r, lit.bounce), share_back);

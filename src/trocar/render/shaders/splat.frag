@@ -22,14 +22,17 @@ void main() {
   float kind = v_size.w - (sheer ? 4.0 : 0.0);
   bool flies = kind < 0.5 || kind > 2.5;
   vec2 at = v_at;
-  float off = 0.0;
+  float off = 0.0, held = 1.0;
   if (flies) {
     if (far < own - 0.3 * reach) discard;
   } else {
     vec3 shown = v_eye * (far / own) - v_middle;
     off = dot(shown, v_normal);
-    if (abs(off) < max(0.0012 + 0.8 * reach, 0.0034))
+    float most = max(0.0012 + 0.8 * reach, 0.0034);
+    if (abs(off) < (kind > 1.5 ? 2.0 : 1.0) * most) {
       at = vec2(dot(shown, v_along), dot(shown, v_across));
+      held = 1.0 - smoothstep(0.45, 1.0, abs(off) / most);  // no border where the surface turns away; a film runs beyond
+    }
     else if (!sheer || far < own)
       discard;
     else
@@ -51,7 +54,7 @@ void main() {
     // Of what is smeared by its speed only an amount is left, as of a film; but nothing below it is wet. It counts as
     // less than nothing of a drop.
     o_field = vec4(n, min(own, far), 1.0) * (0.002 * (1.0 - far2 / (skirt * skirt)));
-    vec4 amount = v_mix * (v_size.z * 1.0e3 * s * s);
+    vec4 amount = v_mix * (v_size.z * 1.0e3 * s * s * held);
     o_thickness = kind > 2.5 ? -amount : vec4(0.0);
     o_film = kind > 2.5 ? vec4(0.0) : amount;
   } else {

@@ -225,7 +225,7 @@ void main() {
 #endif
 #ifdef LINING
   // Yellow here, violet there, paler and redder; below it fibres and fat of a millimetre or two.
-  albedo *= 1.0 + vec3(0.02, 0.08, -0.24) * (broad.g - 0.5) + vec3(0.05, -0.06, 0.04) * (broad.r - 0.5);
+  albedo *= 1.0 + vec3(0.01, 0.04, -0.11) * (broad.g - 0.5) + vec3(0.03, -0.03, 0.02) * (broad.r - 0.5);
 #if DETAIL >= 1
   albedo *= 1.0 + 0.3 * (vec3(0.8, 1.1, 1.0) * (ripple.a - 0.5) + 0.5 * (broad.b - 0.5)) + vec3(0.0, 0.05, -0.08) * (ripple.g - 0.5);
 #endif
@@ -335,8 +335,10 @@ void main() {
 #ifdef LINING
   film_slope = FILM_BUMP * (broad.rgb * 2.0 - 1.0 + 0.4 * (broad.gbr * 2.0 - 1.0));  // broad sheens, no frost ...
 #if DETAIL >= 1
-  float crest = smoothstep(0.58, 0.70, broad.a) * wrinkled;  // ... flecks here and there on what stands out
-  film_slope += (4.8 * crest * FILM_BUMP) * (ripple.rgb * 2.0 - 1.0);
+  float crest = smoothstep(0.52, 0.66, broad.a + 0.3 * (fine.b - 0.5)) * wrinkled;  // ... flecks here and there on what stands out
+  mat3 bead = kTurn * FILM_SCALE;
+  vec3 bead_x = bead * dFdx(v_rest), bead_y = bead * dFdy(v_rest);
+  if (crest > 0.0) film_slope += (11.0 * crest * FILM_BUMP) * (textureGrad(u_noise, bead * v_rest, bead_x, bead_y).rgb * 2.0 - 1.0);
 #endif
 #endif
   float wet = smoothstep(1.0 - WETNESS - 0.2, 1.0 - WETNESS + 0.2, wet_noise);
@@ -348,7 +350,7 @@ void main() {
 #if DETAIL >= 1
   float flecks = smoothstep(0.34, 0.66, fine.g + 0.5 * (broad.b - 0.5));
 #ifdef LINING
-  flecks *= 0.35 + 0.9 * crest;
+  flecks *= 0.35 + 2.2 * crest;
 #endif
   flecks = mix(0.45, flecks, 0.15 + 0.85 * INVERSE_SQUARE);
 #elif defined(LINING)
@@ -362,11 +364,14 @@ void main() {
   vec3 m = normalize(N + along_surface(to_eye(film_slope + relief * 0.6), N));
   vec3 H = normalize(lit.direction + V);
   float facing = clamp(nl * 4.0, 0.0, 1.0) * open;
+#if defined(LINING) && DETAIL >= 1
+  float sparkles = crest;  // a bead of moisture is smoother than the wall that it stands on
+  float film2 = FILM2 * mix(4.0, 0.6, crest);
+#else
+  float sparkles = wrinkled;
   float film2 = FILM2 * mix(4.0, 1.8, wrinkled);
-#if DETAIL >= 1
-#ifdef LINING
-  film2 *= 1.0 - 0.7 * crest;  // a bead of moisture is smoother than the wall that it stands on
 #endif
+#if DETAIL >= 1
   // Ripples of a pixel or less are as rough as their normals differ [Kaplanyan 16].
   vec3 turn_x = dFdx(m), turn_y = dFdy(m);
   film2 += min(0.12 * (dot(turn_x, turn_x) + dot(turn_y, turn_y)), 0.06);
@@ -375,7 +380,7 @@ void main() {
 #endif
   film2 += 0.03 * (1.0 - INVERSE_SQUARE);
   float mh = clamp(dot(m, H), 0.0, 1.0), nh = clamp(dot(n, H), 0.0, 1.0);
-  float gloss = 0.42 * FRESNEL * (wet * (0.4 + 1.3 * flecks) * mix(1.1, 6.0, wrinkled) * lobe(mh, film2) + (0.35 + 0.65 * wet) * lobe(nh, ROUGH2)) * facing * lit.power;
+  float gloss = 0.42 * FRESNEL * (wet * (0.4 + 1.3 * flecks) * mix(1.1, 6.0, sparkles) * lobe(mh, film2) + (0.35 + 0.65 * wet) * lobe(nh, ROUGH2)) * facing * lit.power;
   float grazing = FRESNEL + (1.0 - FRESNEL) * rim * rim * (1.0 - nv);
 #if SHADING == 2
   vec3 around = 0.7 * mirrored(reflect(-V, m), 0.03, lit.bounce);

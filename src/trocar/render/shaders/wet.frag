@@ -23,6 +23,7 @@ vec2 run_off(vec3 place, vec3 fall, float pixel, out float streak) {
 }
 
 const float kLeast = 2.0e-6;       // [m] a film draws back from where there is less
+const float kAside = 0.0009;       // [m] gaps narrower than that close
 const float kLevel = 2.2e-5;       // [m] at which it levels
 const float kThroughTissue = 3.3;  // light that tissue scatters crosses the film on it more than twice
 
@@ -73,11 +74,11 @@ void main() {
     // Where a column carries little it has drained away.
     float least = kLeast * (0.8 + 0.9 * smoothstep(0.25, 0.70, 1.0 - streak)), soft = 0.35 * least, lower = stain;
 #if DETAIL >= 1
-    vec2 aside = 0.00045 / pixel * u_size.zw;
+    vec2 aside = kAside / pixel * u_size.zw;
     vec2 grows = vec2(film_at(film_uv + vec2(aside.x, 0.0)), film_at(film_uv + vec2(0.0, aside.y))) - stain;
-    soft = clamp(1.2 * length(grows) * pixel / 0.00045, 0.12 * least, 3.0 * least);
+    soft = clamp(1.2 * length(grows) * pixel / kAside, 0.12 * least, 3.0 * least);
     lower = film_at(film_uv + fall.xy * 1.6 * aside);
-    // Gaps narrower than that have closed.
+    // Narrow gaps have closed.
     float closed = 0.25 * (4.0 * stain + grows.x + grows.y + lower - stain);
     film *= clamp(closed / stain, 0.6, 8.0);
     stain = dot(film.rgb, vec3(1.0));
