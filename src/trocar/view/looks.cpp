@@ -468,7 +468,7 @@ std::vector<Look> make_looks() {
       {"fat", epiploic(), false, {.broad = 0.001, .broad_size = 0.012, .fine = 0.0006, .fine_size = 0.005}},
       {"artery", artery, false, {}},
       {"vein", vein, false, {}},
-      {"artery_in_fold", veiled(srgb(142, 34, 42), srgb(150, 48, 52), srgb(122, 26, 34)), true, {}},
+      {"artery_in_fold", veiled(srgb(124, 32, 44), srgb(136, 46, 54), srgb(106, 26, 38)), true, {}},
       {"vein_in_fold", veiled(srgb(112, 62, 80), srgb(122, 76, 88), srgb(96, 48, 66)), true, {}},
       {"peritoneum", peritoneum(), false, {}},
       {"upper_abdomen", upper_abdomen(), false, {}, 0, 0, false, true},

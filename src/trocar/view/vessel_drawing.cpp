@@ -28,9 +28,9 @@ constexpr double kMostDrawnIn = 0.0045;  // [m] ... at most
 constexpr double kDives = 0.003;         // [m] seen of a vessel that leaves its fold
 constexpr double kNestled = 0.82;        // radii below an organ's surface: hardly a ridge
 constexpr double kTrunk = 1.2;           // of the radius, where a vessel of a fold comes from ...
-constexpr double kTwig = 0.55;           // ... and at its other end: drawn the more uneven
+constexpr double kTwig = 0.4;            // ... and at its other end: drawn the more uneven
 constexpr double kBuried = 0.0045;       // [m] there, where a vessel of a fold goes into an organ
-constexpr double kWinding = 0.0006;      // [m] to either side, in a fold
+constexpr double kWinding = 0.0011;      // [m] to either side, in a fold
 
 /// A line through places at s, cubic between them.
 struct Curve {
