@@ -9,8 +9,8 @@ constexpr float kClearance = 0.004f;                  // [m] above the middle of
 constexpr int kPatches = 4, kSpecks = 4;              // of a stain
 constexpr float kStain = 1.6e-3f, kSplash = 4.5e-3f;  // [m] how far they lie from its middle
 constexpr float kPatch = 1.1e-3f, kSpeck = 0.35e-3f;  // [m] radii
-constexpr float kThick = 32e-6f;                      // [m] of a patch
-constexpr float kRunsDown = 1.5f;                     // [patch radii] on a steep place
+constexpr float kThick = 20e-6f;                      // [m] of a patch
+constexpr float kRunsDown = 2.2f;                     // [patch radii] on a steep place
 
 }  // namespace
 

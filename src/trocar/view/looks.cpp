@@ -337,9 +337,9 @@ Material omentum() {
   m.vessels = 0.75f;
   m.vessel_tile = 0.07f;
   m.vessel_colour = srgb(150, 54, 50);
-  m.wetness = 0.8f;
+  m.wetness = 0.64f;
   m.film_roughness = 0.06f;
-  m.film_bump = 0.25f;
+  m.film_bump = 0.3f;
   m.film_size = 0.0016f;
   m.tint = srgb(206, 130, 124);
   m.two_sided = true;

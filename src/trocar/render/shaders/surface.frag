@@ -235,10 +235,11 @@ void main() {
   vec3 relief = BUMP * slope;
 
 #ifdef LOBULES
-  vec4 cell = texture(u_cells, p * CELL_SCALE + slope * 0.012);
+  vec4 cell = texture(u_cells, p * CELL_SCALE + slope * 0.012 + (broad.rgb - 0.5) * 0.05);  // of unequal sizes
+  float apart = 0.12 + 0.88 * smoothstep(0.35, 0.65, broad.b);  // lobules run together here and there
   float seam = 1.0 - smoothstep(0.0, 0.42, cell.a);
-  seam *= seam * (0.25 + 0.75 * smoothstep(0.3, 0.7, broad.b));  // lobules run together here and there
-  relief += (CELL_DEPTH * 2.6) * (cell.rgb * 2.0 - 1.0);
+  seam *= seam * apart;
+  relief += (CELL_DEPTH * 2.6 * (0.3 + 0.7 * apart)) * (cell.rgb * 2.0 - 1.0);
   albedo *= 1.0 - CELL_CONTRAST * seam * vec3(0.22, 0.55, 0.60);
 #else
   float seam = 0.0;
