@@ -111,16 +111,13 @@ std::span<const GlBackend::Pass> GlBackend::passes() {
        }},
       {"opaque", [](GlBackend& b, const Drawing& d) { b.scene_pass(d.frame, d.opaque, false); }},
       // Sample by sample: behind an outline's pixels a fold would be missing whole, and what is dark behind it be seen.
-      // A pool lies below folds, though, and needs the scene resolved.
-      {"translucent",
-       [](GlBackend& b, const Drawing& d) {
-         if (d.frame.liquid.triangles.empty()) b.scene_pass(d.frame, d.translucent, true);
-       }},
+      {"translucent", [](GlBackend& b, const Drawing& d) { b.scene_pass(d.frame, d.translucent, true); }},
       {"smooth edges", [](GlBackend& b, const Drawing& d) { b.resolve_pass(d.frame); }},
       {"pool", [](GlBackend& b, const Drawing& d) { b.sheet_pass(d.frame, d.layout); }},
+      // A pool needs the scene resolved, and hides what is before it: that once more.
       {"translucent before a pool",
        [](GlBackend& b, const Drawing& d) {
-         if (!d.frame.liquid.triangles.empty()) b.scene_pass(d.frame, d.translucent, true);
+         if (!d.frame.liquid.triangles.empty()) b.before_pool_pass(d.frame, d.translucent);
        }},
       {"drops and films", [](GlBackend& b, const Drawing& d) { b.splat_pass(d.frame, d.layout); }},
       {"puffs", [](GlBackend& b, const Drawing& d) { b.puff_pass(d.frame); }},

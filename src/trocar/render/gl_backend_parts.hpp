@@ -45,6 +45,7 @@ class GlBackend final : public CheckedBackend {
 
  private:
   static constexpr int kEyes = 8;
+  static constexpr GLint kStencilMetal = 1, kStencilPool = 2;  // bits of the scene's stencil: what shows there
 
   void on_store(std::uint32_t id, const MeshArrays& mesh) override { m_meshes.store(id, mesh); }
   void on_update(std::uint32_t id, std::span<const Vec3f> positions, std::span<const Vec3f> normals,
@@ -89,6 +90,7 @@ class GlBackend final : public CheckedBackend {
   static void set_blending(bool on);
   /// Metal is marked in the stencil: instruments do not shade themselves.
   void scene_pass(const Frame& frame, std::span<const DrawItem* const> items, bool blended);
+  void before_pool_pass(const Frame& frame, std::span<const DrawItem* const> translucent);
   void draw_edges(const DrawItem& item);
   void draw_item(const Frame& frame, const DrawItem& item, bool blended, bool stained);
   GlProgram& program_for(const Frame& frame, const Material& material, int detail, bool blended, bool stained);

@@ -123,7 +123,11 @@ void GlBackend::sheet_pass(const Frame& frame, const Layout&) {
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
   glDisable(GL_CULL_FACE);
+  glEnable(GL_STENCIL_TEST);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+  glStencilFunc(GL_ALWAYS, kStencilPool, kStencilPool);
   glDrawElements(GL_TRIANGLES, GLsizei(liquid.triangles.size()), GL_UNSIGNED_INT, nullptr);
+  glDisable(GL_STENCIL_TEST);
 }
 
 void GlBackend::bind_sheet(const Liquid& liquid) {

@@ -92,7 +92,7 @@ void GlBackend::shade_pass(const Frame& frame, const Layout& layout) {
   glDepthMask(GL_FALSE);
   glEnable(GL_STENCIL_TEST);
   glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
-  glStencilFunc(GL_EQUAL, 0, 1);
+  glStencilFunc(GL_EQUAL, 0, kStencilMetal);
   glDisable(GL_CULL_FACE);
   GlProgram& program = m_programs.get("shade.vert", "shade.frag", frame.quality.samples > 1 ? "SAMPLED" : "");
   program.use();

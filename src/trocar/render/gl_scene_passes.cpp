@@ -80,9 +80,19 @@ void GlBackend::scene_pass(const Frame& frame, std::span<const DrawItem* const> 
   if (!blended) glEnable(GL_STENCIL_TEST);
   glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
   for (const DrawItem* item : items) {
-    glStencilFunc(GL_ALWAYS, item->material.shading == Shading::metal ? 1 : 0, 1);
+    glStencilFunc(GL_ALWAYS, item->material.shading == Shading::metal ? kStencilMetal : 0, kStencilMetal);
     draw_item(frame, *item, blended, is_stained(item->mesh));
   }
+  glDisable(GL_STENCIL_TEST);
+  set_blending(false);
+}
+
+void GlBackend::before_pool_pass(const Frame& frame, std::span<const DrawItem* const> items) {
+  set_blending(true);
+  glEnable(GL_STENCIL_TEST);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+  glStencilFunc(GL_EQUAL, kStencilPool, kStencilPool);
+  for (const DrawItem* item : items) draw_item(frame, *item, true, is_stained(item->mesh));
   glDisable(GL_STENCIL_TEST);
   set_blending(false);
 }

@@ -51,8 +51,8 @@ in vec3 v_rest_normal;
 
 uniform float u_blended;  // 1: alpha says how opaque, 0: how far
 in vec3 v_eye;
-in vec3 v_normal;
-in vec4 v_paint;
+centroid in vec3 v_normal;
+centroid in vec4 v_paint;
 in vec3 v_rest;
 out vec4 o_colour;
 
@@ -193,7 +193,7 @@ void main() {
   float plain = max(SCATTER, max(0.9 * blood, char_));  // no longer a mirror
   float ao = OPENNESS;
   float rim = min(1.0 - nv, 0.8), schlick = rim * rim * rim * rim;  // no further: the last pixel would be a dot
-  vec3 mirror = mix(0.95 * grey, vec3(0.04), plain);
+  vec3 mirror = mix(0.8 * grey, vec3(0.04), plain);
   mirror += (vec3(0.9) - mirror) * (0.75 * schlick * (1.0 - 0.5 * char_));  // worn: all of what is behind would look like glass
   // Scratches break a highlight up along the axis, moisture in any direction: only where that stands in beads it clips.
   float broken = (0.15 + 1.2 * smoothstep(0.35, 0.7, broad.a)) * (0.35 + 0.8 * smoothstep(0.42, 0.64, fine.r));
@@ -205,11 +205,11 @@ void main() {
 #else
   const float bead = 0.0;
 #endif
-  vec3 gloss = mix(1.5 * grey, vec3(0.28), max(SCATTER, blood)) * (mix(0.15, 0.12, plain) * lobe(nh, alpha2) * broken * (1.0 - 0.8 * blurred));
-  gloss /= 1.0 + mix(5.0, 0.6, bead) * gloss;  // the lamp is no point: long lines do not clip
+  vec3 gloss = mix(1.5 * grey, vec3(0.28), max(SCATTER, blood)) * (mix(0.3, 0.12, plain) * lobe(nh, alpha2) * broken * (1.0 - 0.8 * blurred));
+  gloss /= 1.0 + mix(3.0, 0.6, bead) * gloss;  // the lamp is no point: long lines do not clip
   vec3 around = mirrored(reflect(-V, n), 0.04, mix(0.6, 3.0, rim) * lit.bounce);  // the lens itself is dark
   around = mix(vec3((0.1 + 0.3 * smoothstep(-0.2, 0.8, reflect(-V, n).y)) * lit.bounce), around, INVERSE_SQUARE);  // a room
-  vec3 even = LIGHT_COLOUR * lit.power * (mix(0.08, 0.75, plain) * nl * nl + mix(0.012, 0.03, plain) * lobe(nh, 0.35));
+  vec3 even = LIGHT_COLOUR * lit.power * (mix(0.045, 0.75, plain) * nl * nl + mix(0.012, 0.03, plain) * lobe(nh, 0.35));
   even += (BOUNCE * (mix(0.5, 1.0, plain) + 3.0 * rim) + vec3(AMBIENT)) * lit.bounce;
   vec3 colour = (grey * even + LIGHT_COLOUR * lit.power * gloss + around * mirror) * ao;
 #ifdef FOGGY

@@ -8,8 +8,8 @@ uniform mat4 u_model_view;
 uniform mat4 u_projection;
 
 out vec3 v_eye;
-out vec3 v_normal;
-out vec4 v_paint;
+centroid out vec3 v_normal;  // not beyond an outline, where it would turn away
+centroid out vec4 v_paint;
 out vec3 v_rest;
 #ifdef VESSELS
 out vec3 v_rest_normal;
