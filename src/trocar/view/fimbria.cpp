@@ -163,8 +163,8 @@ double round_end(double u, double end) {
 /// round end.
 double half_width(const Leaf& f, double u, double end, bool right) {
   const int k = 2 * f.seed + (right ? 1 : 0);
-  const double body = 1 + (0.3 + 0.5 * varied(f.seed, 23)) * smooth(0.05, 0.5, u) - 0.45 * smooth(0.5, 1, u);
-  const double turn = (8 + 5 * varied(k, 2)) * u + 6.3 * varied(k, 1);
+  const double body = 1 + (0.3 + 0.5 * varied(f.seed, 23)) * smooth(0.05, 0.5, u) - 0.62 * smooth(0.45, 1, u);
+  const double turn = (11 + 7 * varied(k, 2)) * u + 6.3 * varied(k, 1);
   const double scallops = smooth(0.1, 0.35, u) * (0.16 * std::sin(turn) + 0.09 * std::sin(2.3 * turn + k));
   return (body + scallops) * (0.03 + 0.97 * round_end(u, end));
 }
@@ -199,7 +199,7 @@ Sheets place_on(const Leaf& f, const Spines& spine, const FimbriaSite& site, int
   const double edge = std::fabs(w) * w * w, loose = smooth(0.05, 0.5, v) * (1 - 0.7 * smooth(0.8, 1, v));
   const double phase = 6.3 * varied(f.seed, w > 0 ? 21 : 22);
   const double frill =
-      loose * (0.0005 * edge * std::sin(9 * v + phase) + 0.00014 * w * w * std::sin(16 * v + 1.7 * phase));
+      loose * (0.0007 * edge * std::sin(12 * v + phase) + 0.00026 * w * w * std::sin(26 * v + 1.7 * phase));
   const double trough = (f.reaches >= 1 ? 0.05 : 0.35 * varied(f.seed, 12) - 0.1) * half * w * w;
   const double pleats = kPleat * smooth(0, 0.15, v) * (1 - 0.6 * v) * (fold - 0.3);
   const double thick = (kWall + (kPlump - kWall) * smooth(0, 0.4, v) * (1 - 0.35 * v)) * round_end(v, end) *
