@@ -66,7 +66,7 @@ TEST_F(GlBackend, EveryShaderVariantCompilesAndLinks) {
   for (const char* detail : {"0", "1", "2"})
     for (const char* shading : {"0", "1", "2"})
       for (const char* extra : {"", ",FINE", ",VESSELS", ",LOBULES", ",VESSELS,ARCADE,RODS",
-                                ",VESSELS,LOBULES,STAINED,FOGGY,TWO_SIDED,RODS"})
+                                ",VESSELS,LINING,TWO_SIDED", ",VESSELS,LOBULES,STAINED,FOGGY,TWO_SIDED,RODS"})
         EXPECT_NO_THROW(programs.get("surface.vert", "surface.frag",
                                      std::string("SHADING=") + shading + ",DETAIL=" + detail + extra));
   for (const char* extra : {"", "LIT"}) EXPECT_NO_THROW(programs.get("flat.vert", "flat.frag", extra));

@@ -233,6 +233,54 @@ TEST_F(Liquids, AFilmOnAPlateBesideItsOwnIsNotDrawn) {
   EXPECT_NE(draw().rgb, bare.rgb);
 }
 
+/// The last item becomes a veil that lets a share of what is behind it through.
+void make_veil(Frame& frame, float through) {
+  frame.items.back().translucent = true;
+  frame.items.back().material.alpha = 1 - through;
+}
+
+TEST_F(Liquids, AVeilBehindAnOutlineIsWholeBesideAPool) {
+  frame.quality = {1, 0, 1, 4};
+  sample::Shape ball = sample::sphere({0, 0, -0.05f}, 0.008f, 48);
+  ball.paint.assign(ball.paint.size(), Paint{220, 220, 220, 255});
+  Material paint;
+  paint.shading = Shading::unlit;
+  frame.items.push_back({sample::create(*backend, ball), paint, {}, false});
+  add_plate(0.07f, 220);
+  make_veil(frame, 0.1f);
+  const auto darkest = [&] {
+    const Image image = draw();
+    int least = 255;
+    for (int y = 30; y < 90; ++y)
+      for (int x = 30; x < 90; ++x) least = std::min(least, int(image.at(x, y)[0]));
+    return least;
+  };
+  const int alone = darkest();
+  add_sheet(frame.liquid, 0.002f, 0);
+  for (SheetVertex& v : frame.liquid.sheet) v.position.x += 0.06f;  // beside the ball
+  ASSERT_GT(alone, 100);
+  EXPECT_NEAR(darkest(), alone, 2);
+}
+
+TEST_F(Liquids, AVeilBeforeAPoolIsLaidOverItOnce) {
+  constexpr float kThrough = 0.6f;
+  frame.quality.detail = 1;  // no mirror image of the picture before
+  add_plate(0.065f, 20);
+  const auto light = [&] { return light_at(draw(), 60, 60, 0); };
+  add_plate(0.05f, 120);
+  make_veil(frame, kThrough);
+  const double over_dark = light();
+  frame.items.pop_back();
+  const double dark = light();
+  add_sheet(frame.liquid, 0.004f, 0);
+  const double pool = light();
+  add_plate(0.05f, 120);
+  make_veil(frame, kThrough);
+  ASSERT_GT(pool, 1.5 * dark);
+  const double expected = over_dark + double(kThrough) * (pool - dark);
+  EXPECT_NEAR(light(), expected, 0.05 * expected);
+}
+
 TEST_F(Liquids, ASheetTakesLightByTheLawOfBeerAndLambert) {
   add_plate(0.065f, 230);
   frame.liquid.look.fresnel = 0;

@@ -138,6 +138,24 @@ TEST(FluidDrawing, WhatRunsDownAWallIsFilmAndNoPool) {
   EXPECT_GT(steep_films, 8);
 }
 
+TEST(FluidDrawing, SomeOfWhatRunsDownAWallRunsAheadInThinTongues) {
+  Scene scene;
+  const fluids::PoolModel& pool = scene.m.pool;
+  std::vector<float> floor(std::size_t(pool.nx * pool.ny));
+  for (int j = 0; j < pool.ny; ++j)
+    for (int i = 0; i < pool.nx; ++i) floor[std::size_t(j * pool.nx + i)] = float(1.5 * i * pool.cell);
+  for (int j = 6; j < 26; ++j)
+    for (int i = 16; i < 22; ++i) pour(pool, i, j, {.blood = kMicrolitre / 2}, scene.s.pool);
+  float film = 1, tongue = 1, thickest = 0;  // how far down they come
+  for (const render::Splat& s : scene.listed({}, floor).liquid.splats)
+    if (s.radius < 0.001f)
+      tongue = std::min({tongue, s.from.z, s.to.z}), thickest = std::max(thickest, s.radius);
+    else
+      film = std::min({film, s.from.z, s.to.z});
+  EXPECT_LT(tongue, film - 0.001f);
+  EXPECT_GT(thickest, 0);
+}
+
 TEST(FluidDrawing, DropsSideBySideAreNoStrand) {
   Scene scene;
   for (int k = 0; k < 2; ++k)

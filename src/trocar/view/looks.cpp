@@ -375,8 +375,8 @@ Material polished(Vec3f bright, Vec3f dull, float roughness, float scatter) {
 
 /// Titanium: greyer than steel, with a soft sheen.
 Material satin(Vec3f bright, Vec3f dull) {
-  Material m = metal(bright, dull, 0.34f);
-  m.scatter = 0.55f;
+  Material m = metal(bright, dull, 0.3f);
+  m.scatter = 0.6f;
   m.mottle = 0.5f;
   m.fibre_stretch = 6;
   m.bump = 0.025f;
@@ -483,7 +483,7 @@ std::vector<Look> make_looks() {
       {"insulated", insulation(), false, {}},
       {"ceramic", ceramic(), false, {}},
       {"sleeve", metal(srgb(130, 131, 137), srgb(116, 118, 124), 0.38f), false, {}},
-      {"titanium", satin(srgb(172, 172, 176), srgb(158, 158, 163)), false, {}},
+      {"titanium", satin(srgb(205, 204, 206), srgb(190, 189, 192)), false, {}},
   };
 }
 
