@@ -300,7 +300,8 @@ void main() {
 
   // Light wraps past the terminator, red the furthest; crevices keep red longest.
   vec3 wrapped = clamp((vec3(nl) + WRAP) / (1.0 + WRAP), 0.0, 1.0);
-  float open = clamp(mix(1.0, OPENNESS, CREVICES) * (1.0 - min(0.35, 1.6 * CELL_CONTRAST) * seam), 0.02, 1.0);
+  float openness = max(OPENNESS, 0.65 * u_blended);  // a fold that runs out is no crevice
+  float open = clamp(mix(1.0, openness, CREVICES) * (1.0 - min(0.35, 1.6 * CELL_CONTRAST) * seam), 0.02, 1.0);
   vec3 ao = open * mix(vec3(sqrt(open)), vec3(1.0), vec3(1.0, 0.0, 0.05));
   vec3 direct = LIGHT_COLOUR * lit.power * wrapped * mix(ao, vec3(1.0), 0.35);
   vec3 indirect = (BOUNCE + vec3(AMBIENT)) * (lit.bounce * ao);
