@@ -460,7 +460,7 @@ std::vector<Look> make_looks() {
        0,
        2},
       {"stomach", stomach(), false, {.broad = 0.0008, .broad_size = 0.026, .fine = 0.00015, .fine_size = 0.008}},
-      {"liver", liver(), false, {.broad = 0.0006, .broad_size = 0.024}, 0, 0, false, false, true},
+      {"liver", liver(), false, {.broad = 0.0004, .broad_size = 0.037}, 0, 0, false, false, true},
       {"gallbladder",
        gallbladder(),
        false,
