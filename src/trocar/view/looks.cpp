@@ -107,7 +107,7 @@ Material veiled(Vec3f main, Vec3f broad, Vec3f fine) {
 }
 
 Material peritoneum() {
-  Material m = with_vessels(tissue(srgb(181, 119, 121), srgb(187, 128, 122), srgb(174, 109, 116)), 0.8f, 0.13f);
+  Material m = with_vessels(tissue(srgb(180, 118, 121), srgb(190, 132, 123), srgb(170, 104, 115)), 0.8f, 0.13f);
   m.lining = true;
   m.mottle_size = 0.024f;
   m.mottle = 0.6f;
@@ -125,9 +125,9 @@ Material bladder() {
   Material m = peritoneum();  // it lies below the peritoneum
   m.lining = false;
   m.two_sided = false;
-  m.colour = srgb(199, 124, 125);
-  m.colour_b = srgb(209, 141, 132);
-  m.colour_c = srgb(188, 109, 115);
+  m.colour = srgb(198, 122, 124);
+  m.colour_b = srgb(216, 154, 136);
+  m.colour_c = srgb(180, 100, 108);
   m.tint = srgb(206, 146, 128);
   m.mottle_size = 0.013f;
   m.mottle = 0.6f;

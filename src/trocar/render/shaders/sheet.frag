@@ -47,7 +47,7 @@ void main() {
   // Small unrest on top of the waves that the simulation knows.
   vec4 slow = texture(u_noise, vec3(place.xy * 9.0, 0.13 * u_eye.w));
   vec4 quick = texture(u_noise, vec3(place.yx * 31.0, 0.21 * u_eye.w));
-  vec3 unrest = (slow.rgb * 2.0 - 1.0) * 0.022 + (quick.rgb * 2.0 - 1.0) * (0.007 + 0.05 * smoothstep(0.52, 0.68, slow.a));
+  vec3 unrest = (slow.rgb * 2.0 - 1.0) * 0.022 + (quick.rgb * 2.0 - 1.0) * (0.007 + 0.11 * smoothstep(0.50, 0.66, slow.a));
 #if DETAIL == 2
   // Where it is thin it follows the tissue's relief, which stands still.
   float thin = exp(-max(v_depth_cover.x, 0.0) / 0.0005);
@@ -95,13 +95,14 @@ void main() {
   share_back *= 1.0 - 0.7 * rim;
   vec3 r = reflect(-V, n);
   colour = mix(colour, mirrored(r, lit.bounce), share_back);
-  // The rim is a bent mirror all along: its line of light is thin and even, no row of beads.
+  // The rim is a bent mirror all along: its line of light is thin, brighter here and there.
   float bent = smoothstep(0.0, 0.25, rim);
   vec3 shine = highlight(n, V, lit, mix(u_shine.y, 0.06, bent));
-  colour += mix(shine, min(shine, LIGHT_COLOUR * (0.09 * lit.power)), bent);
+  colour += mix(shine, min(shine, LIGHT_COLOUR * ((0.09 + 0.4 * smoothstep(0.52, 0.66, quick.a)) * lit.power)), bent);
   // Its waves are finer than a pixel and broad: a soft sheen where it is turned to the lamp, broken by the clouds' unrest.
   float turned = clamp(dot(n, normalize(lit.direction + V)), 0.0, 1.0);
   colour += LIGHT_COLOUR * (0.022 * lit.power * lobe(turned, 0.16) * (0.75 + 0.25 * smoothstep(0.2, 0.8, slow.g)));
-  colour = mix(below.rgb, colour, edge);
+  // Where it cuts through what stands in it the depth buffer's steps would show.
+  colour = mix(below.rgb, colour, edge * smoothstep(0.0, 0.0005, gap));
   o_colour = vec4(colour, far);
 }

@@ -225,7 +225,7 @@ void main() {
 #endif
 #ifdef LINING
   // Yellow here, violet there, paler and redder; below it fibres and fat of a millimetre or two.
-  albedo *= 1.0 + vec3(0.01, 0.04, -0.11) * (broad.g - 0.5) + vec3(0.03, -0.03, 0.02) * (broad.r - 0.5);
+  albedo *= 1.0 + vec3(0.02, 0.08, -0.24) * (broad.g - 0.5) + vec3(0.05, -0.06, 0.04) * (broad.r - 0.5);
 #if DETAIL >= 1
   albedo *= 1.0 + 0.3 * (vec3(0.8, 1.1, 1.0) * (ripple.a - 0.5) + 0.5 * (broad.b - 0.5)) + vec3(0.0, 0.05, -0.08) * (ripple.g - 0.5);
 #endif
