@@ -305,6 +305,28 @@ TEST_F(GlBackend, TranslucentItemsShowWhatIsBehind) {
   EXPECT_GT(both, alone + 30);
 }
 
+TEST_F(GlBackend, AFoldThatRunsOutOnAWallIsNoDarkCrease) {
+  frame.look = plain_look();
+  const auto plate = [&](float off, std::uint8_t openness) {
+    sample::Shape shape = sample::sheet(2, 2, [off](float u, float v) {
+      return Vec3f{0.08f * (u - 0.5f), 0.08f * (v - 0.5f), -off};
+    });
+    shape.paint.assign(shape.paint.size(), Paint{openness, 0, 0, 0});
+    return sample::create(*backend, shape);
+  };
+  Material tissue;
+  tissue.mottle = 0, tissue.wetness = 0, tissue.fresnel = 0;
+  Material fold = tissue;
+  fold.alpha = fold.rim_alpha = 0.9f;
+  frame.items.push_back({plate(0.061f, 255), tissue, {}, false});
+  const int wall = draw(60, 60).at(30, 30)[1];
+  for (const int openness : {255, 120, 60, 20}) {
+    frame.items.push_back({plate(0.06f, std::uint8_t(openness)), fold, {}, true});
+    EXPECT_GT(draw(60, 60).at(30, 30)[1], 0.85 * wall) << "as open as " << openness;
+    frame.items.pop_back();
+  }
+}
+
 TEST_F(GlBackend, RestCoordinatesCarryThePattern) {
   frame.look = plain_look();
   Material spotted;
