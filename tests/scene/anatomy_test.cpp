@@ -191,26 +191,35 @@ TEST(Anatomy, TheUterusIsThatOfAnAdult) {
   EXPECT_NEAR(report_of("uterus").volume * 1e6, 52, 8);
 }
 
-TEST(Anatomy, TheOvariesAreFifteenByTwentyByThirty) {
-  for (const char* name : {"ovary_left", "ovary_right"}) {
-    EXPECT_NEAR(report_of(name).volume * 1e6, 4.7, 0.5) << name;  // of an ellipsoid of these axes
+/// No one's two sides are alike: the left ovary is the larger one, the right tube the shorter one.
+struct SideFigures {
+  const char *ovary, *tube;
+  double ovary_mL, ovary_mm, tube_mm;
+};
+constexpr SideFigures kSides[] = {{"ovary_left", "tube_left", 5.4, 31, 105},
+                                  {"ovary_right", "tube_right", 3.9, 27.5, 94}};
+
+TEST(Anatomy, TheOvariesHaveTheirSizes) {
+  for (const SideFigures& side : kSides) {
+    EXPECT_NEAR(report_of(side.ovary).volume * 1e6, side.ovary_mL, 0.3) << side.ovary;
     for (const Cloud& c : organs())
-      if (c.name == name) {
+      if (c.name == side.ovary) {
         double longest = 0;
         for (const Vec3d p : c.points)
           for (const Vec3d q : c.points) longest = std::max(longest, length(p - q));
-        EXPECT_NEAR(longest * 1000, 30, 1) << name;
+        EXPECT_NEAR(longest * 1000, side.ovary_mm, 1) << side.ovary;
       }
   }
 }
 
 TEST(Anatomy, TheTubesHaveIsthmusAmpullaAndInfundibulum) {
   const sim::Model& m = gynaecology().model;
-  for (const char* name : {"tube_left", "tube_right"}) {
-    EXPECT_NEAR(m.bodies[std::size_t(m.strand_index(name))].length() * 1000, 97, 4) << name;
+  for (const SideFigures& side : kSides) {
+    const char* name = side.tube;
+    EXPECT_NEAR(m.bodies[std::size_t(m.strand_index(name))].length() * 1000, side.tube_mm, 1) << name;
     const Strand& tube = strand(name);
     EXPECT_NEAR(2 * radius_mm(tube, 15), 3.1, 0.2);
-    EXPECT_NEAR(2 * radius_mm(tube, 80), 8, 0.2);
+    EXPECT_NEAR(2 * radius_mm(tube, 0.84 * side.tube_mm), 8, 0.2);
     ASSERT_EQ(tube.landmarks.size(), 4u);
     EXPECT_EQ(tube.landmarks[0].name, "isthmus");
     EXPECT_EQ(tube.landmarks[0].to, 0.025);
@@ -218,6 +227,19 @@ TEST(Anatomy, TheTubesHaveIsthmusAmpullaAndInfundibulum) {
     EXPECT_TRUE(tube.fimbriated);
     EXPECT_TRUE(tube.cuttable);
   }
+}
+
+TEST(Anatomy, TheSidesAreNotEachOthersMirrorImage) {
+  const auto middle = [](const char* name) {
+    const std::vector<Cloud> all = organs();
+    const Cloud& c = *std::find_if(all.begin(), all.end(), [&](const Cloud& o) { return o.name == name; });
+    Vec3d sum;
+    for (const Vec3d p : c.points) sum += p;
+    return (1000.0 / double(c.points.size())) * sum;
+  };
+  const Vec3d left = middle("ovary_left"), right = middle("ovary_right");
+  EXPECT_GT(length(left - Vec3d{-right.x, right.y, right.z}), 5);
+  EXPECT_LT(middle("uterus").x, -3) << "it leans to the patient's right";
 }
 
 TEST(Anatomy, LeftIsAtPositiveXAndRightAtNegative) {

@@ -203,7 +203,7 @@ TEST(Pouch, AFoldOfTheGynaecologySceneTearsWhereItIsWeak) {
   for (scene::Tissue& t : d.tissues)
     if (t.name == "peritoneal_fold") t.failure_strain = 0.5;
   const Model m = scene::compile(d);
-  const int tube = m.strand_index("tube_right");
+  const int tube = m.strand_index("tube_left");
   ASSERT_GE(tube, 0);
   int fold = -1;
   for (size_t i = 0; i < m.membranes.size(); ++i)

@@ -165,11 +165,11 @@ bool BleedingSurgeon::sees_jaw() const {
 
 void BleedingSurgeon::look_at_clip() {
   // If the legs' tips stay hidden: from the midline, then from the side; one is seen past the artery's carrier.
-  constexpr double kPatience = 2, kAside = 0.03;  // [s] [m]
+  constexpr double kPatience = 1, kAside = 0.03;  // [s] [m]
   const Vec3d at = clipped().place;
   if (errs("E4.2")) return want(at - Vec3d{2 * at.x, 0, 0});  // the other side of the patient
-  const double aside[] = {0, kAside, -kAside};
-  const double x = aside[int(m_unseen / kPatience) % 3];
+  constexpr double kAsides[] = {0, kAside, -kAside, 1.6 * kAside, -1.6 * kAside};
+  const double x = kAsides[int(m_unseen / kPatience) % 5];
   want(at - Vec3d{at.x > 0 ? x : -x, 0, 0});
 }
 
@@ -296,7 +296,7 @@ void BleedingSurgeon::enter() {
 void BleedingSurgeon::inspect() {
   look_at_clip();
   if (!errs("E4.2")) want(m_arms[m_applier].tip);
-  m_distance = 0.052 + 0.008 * double(int(m_in_phase / 1.5) % 4);
+  m_distance = m_seen_from = 0.052 + 0.008 * double(int(m_in_phase / 1.5) % 4);
   aim(0, kTrack);
   if (!m_arms.grip(m_applier, kHalf, 1.6)) return;
   const bool careless = errs("E4.2") || errs("E12") || errs("A3.2") || errs("A3.3");
@@ -309,6 +309,7 @@ void BleedingSurgeon::inspect() {
 
 void BleedingSurgeon::close() {
   look_at_clip();
+  m_distance = m_seen_from + (m_unseen > 0.5 ? 0.008 * double(int(m_unseen / 1.5) % 4) : 0);
   if (!errs("E4.2")) want(m_arms[m_applier].tip);
   aim(0, kTrack);
   const double quick = errs("A3.4") ? 0.4 : 1;

@@ -118,6 +118,7 @@ class BleedingSurgeon final : public Expert {
   std::array<Vec3d, 8> m_points{};
   int m_point_count = 0;
   double m_distance = 0.06;  ///< of the lens from what it shows [m]
+  double m_seen_from = 0.06;  ///< [m] where the camera saw the legs
 };
 
 }  // namespace trocar::training

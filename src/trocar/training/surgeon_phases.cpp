@@ -236,7 +236,7 @@ double Surgeon::cut_inside() const {
   const interactions::ToolModel& t = tool(side().scissors);
   if (flawed("A1.7")) return t.jaw_length - m_exercise.goal.cut_depth - 0.0065;
   if (flawed("A1.10")) return t.jaw_length;
-  return 0.72 * t.jaw_length;  // near the blades' ends: spare the fold behind the tube
+  return 0.82 * t.jaw_length;  // near the blades' ends: spare the fold behind the tube
 }
 
 bool Surgeon::clip_fits() const {

@@ -154,7 +154,7 @@ void TubeDrawing::add_root(int piece, bool at_start) {
 CurveFrame TubeDrawing::sunk(const TubeRow& row, CurveFrame f, const StrandCurve& curve) const {
   for (const bool at_start : {true, false}) {
     const TubeRoot& root = at_start ? m_start_root : m_end_root;
-    if (!root.there || root.in_space) continue;
+    if (!root.there || root.in_space || root.sink <= 0) continue;
     const double end = at_start ? 0 : m_body->length(), far = std::fabs(row.s - end);
     const int piece = at_start ? 0 : int(m_layout.pieces.size()) - 1;
     if (row.piece != piece || far > 4 * root.sink) continue;
