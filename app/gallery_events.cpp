@@ -32,13 +32,13 @@ struct Running {
   void run(std::uint64_t ticks) {
     for (std::uint64_t i = 0; i < ticks; ++i) sim::step(model, input, state, work);
   }
-  /// A hand's tip goes to a point in a second.
-  void go(std::size_t hand, Vec3d to) {
+  /// A hand's tip goes to a point in a second, turned about its shaft.
+  void go(std::size_t hand, Vec3d to, double roll = 0) {
     const Vec3d port = model.hands[hand].port, from = kinematics::forward(port, state.tools[hand].pose()).tip;
     for (std::uint64_t i = 1; i <= kSecond; ++i) {
       const Vec3d tip = from + (double(i) / double(kSecond)) * (to - from);
       const auto instrument = input.tools[hand].instrument;
-      input.tools[hand] = sim::tool_input(kinematics::inverse(port, tip, 0), 0);
+      input.tools[hand] = sim::tool_input(kinematics::inverse(port, tip, roll), 0);
       input.tools[hand].instrument = instrument;
       run(1);
     }
@@ -86,8 +86,9 @@ void burn(const sim::Model& model, const sim::State& start, Shots& shots) {
   Running r(model, start);
   r.state.tools[hook.hand].instrument = hook.instrument;
   r.input.tools[hook.hand].instrument = hook.instrument;
-  const Vec3d port = model.hands[hook.hand].port, place = nearest(skin_of(model, 0), port);
-  const Vec3d in = normalised(place - port);
+  // Where both the hook comes to and the endoscope looks on.
+  const Vec3d port = model.hands[hook.hand].port;
+  const Vec3d place = nearest(skin_of(model, 0), 0.5 * (port + model.scope.port)), in = normalised(place - port);
   r.go(hook.hand, place + 0.001 * in);
   r.input.pedals = sim::kBlue;
   r.run(4 * kSecond);
@@ -147,14 +148,20 @@ void analysis(const sim::Model& model, const sim::State& start, Shots& shots) {
     const Vec3d tip = kinematics::forward(port, start.tools[hand].pose()).tip;
     const Vec3d place = nearest_tissue(model, start, tip);
     const Vec3d past = 0.4 * model.placed(hand).jaw_length * normalised(place - port);
-    r.go(hand, place + past);
-    r.input.tools[hand].handle = 1;
-    r.run(kSecond / 2);
+    double roll = 0;
+    for (const double turned : {0.0, 0.8, 1.6, 2.4}) {  // as it lies between the jaws
+      r.state = start;
+      r.input = model.start;
+      r.go(hand, place + past, roll = turned);
+      r.input.tools[hand].handle = 1;
+      r.run(kSecond / 2);
+      if (r.state.tools[hand].holds > 0) break;
+    }
     const auto instrument = r.input.tools[hand].instrument;
     const Vec3d up = place + past + kPull * normalised(port - place);
     for (std::uint64_t i = 1; i <= kSecond; ++i) {
       const Vec3d at = place + past + (double(i) / double(kSecond)) * (up - place - past);
-      r.input.tools[hand] = sim::tool_input(kinematics::inverse(port, at, 0), 1);
+      r.input.tools[hand] = sim::tool_input(kinematics::inverse(port, at, roll), 1);
       r.input.tools[hand].instrument = instrument;
       r.run(1);
     }

@@ -44,7 +44,7 @@ struct Light {
   float reference_distance = 0.06f;  ///< [m]
   bool inverse_square = true;        ///< false: the same everywhere (operating room, analysis views)
   float bounce = 0.035f;             ///< light that the walls return, as a share
-  Vec3f bounce_colour = {1.0f, 0.36f, 0.30f};
+  Vec3f bounce_colour = {1.0f, 0.31f, 0.37f};
   float ambient = 0;   ///< white light from everywhere (0 inside a body)
   float crevices = 1;  ///< how much of Paint::openness shows (0 where shades would be taken for figures)
 };

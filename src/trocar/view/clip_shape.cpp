@@ -11,7 +11,7 @@ namespace {
 constexpr double kPi = 3.14159265358979;
 constexpr int kGrooves = 5, kLegSteps = 3 * kGrooves, kBendSteps = 6;
 constexpr double kGrooveLeft = 0.72;  // of a leg's thickness, in its grooves
-constexpr double kBevel = 0.2;        // its edges are broken, its faces flat
+constexpr double kBevel = 0.42;       // its edges are broken, its faces flat
 
 /// The middle line of the wire, from the tip of one leg round the bend to the tip of the other.
 std::vector<Vec3d> wire(double leg, double gap) {

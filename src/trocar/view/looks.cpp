@@ -55,7 +55,7 @@ Material tube() {
 }
 
 Material ovary() {
-  Material m = with_vessels(tissue(srgb(214, 186, 177), srgb(222, 200, 182), srgb(196, 156, 156)), 0.5f, 0.026f);
+  Material m = with_vessels(tissue(srgb(218, 192, 180), srgb(226, 206, 186), srgb(196, 156, 156)), 0.5f, 0.026f);
   m.mottle_size = 0.008f;
   m.mottle = 0.35f;
   m.bump = 0.14f;
@@ -77,7 +77,7 @@ Material ligament(Vec3f main, Vec3f broad, Vec3f fine) {
   m.film_size = 0.0015f;  // finer than the cord is thick: no row of beads
   m.wetness = 0.6f;
   m.film_roughness = 0.08f;
-  m.tint = srgb(206, 128, 122);
+  m.tint = srgb(202, 142, 144);  // the uterus
   return m;
 }
 
@@ -107,13 +107,13 @@ Material veiled(Vec3f main, Vec3f broad, Vec3f fine) {
 }
 
 Material peritoneum() {
-  Material m = with_vessels(tissue(srgb(180, 118, 121), srgb(190, 132, 123), srgb(170, 104, 115)), 0.8f, 0.13f);
+  Material m = with_vessels(tissue(srgb(180, 118, 121), srgb(196, 140, 116), srgb(164, 98, 114)), 0.8f, 0.13f);
   m.lining = true;
   m.mottle_size = 0.024f;
-  m.mottle = 0.6f;
+  m.mottle = 0.4f;
   m.bump = 0.08f;
   m.wetness = 0.52f;
-  m.tint = srgb(192, 134, 118);  // fat below it
+  m.tint = srgb(204, 148, 106);  // fat below it
   m.film_size = 0.0021f;         // of muscle fibres that shimmer through: its film is as smooth as it is wide
   m.film_bump = 0.07f;
   m.film_roughness = 0.14f;
@@ -126,11 +126,11 @@ Material bladder() {
   m.lining = false;
   m.two_sided = false;
   m.colour = srgb(198, 122, 124);
-  m.colour_b = srgb(216, 154, 136);
+  m.colour_b = srgb(220, 162, 128);
   m.colour_c = srgb(180, 100, 108);
-  m.tint = srgb(206, 146, 128);
+  m.tint = srgb(214, 160, 118);
   m.mottle_size = 0.013f;
-  m.mottle = 0.6f;
+  m.mottle = 0.4f;
   m.vessel_tile = 0.05f;
   m.wetness = 0.6f;
   m.film_size = 0.002f;
@@ -219,7 +219,7 @@ Material gallbladder() {
 }
 
 Material fold(float alpha) {
-  Material m = with_vessels(tissue(srgb(214, 160, 154), srgb(226, 182, 164), srgb(200, 136, 132)), 1.0f, 0.03f);
+  Material m = with_vessels(tissue(srgb(214, 160, 154), srgb(228, 186, 158), srgb(200, 136, 132)), 1.0f, 0.03f);
   m.mottle_size = 0.016f;
   m.mottle = 0.45f;
   m.alpha = alpha;
@@ -248,7 +248,7 @@ Material broad_ligament() {
 Material mesosalpinx() {
   Material m = fold(0.46f);
   m.colour = srgb(206, 158, 152);
-  m.colour_b = srgb(218, 178, 162);
+  m.colour_b = srgb(222, 184, 154);
   m.colour_c = srgb(196, 140, 138);
   m.mottle_size = 0.009f;
   m.mottle = 0.6f;
@@ -305,9 +305,9 @@ Material fat() {
 /// Tags on the large bowel: soft, salmon, under a thin wet serosa, with capillaries.
 Material epiploic() {
   Material m = fat();
-  m.colour = srgb(222, 148, 126);
-  m.colour_b = srgb(228, 164, 130);
-  m.colour_c = srgb(212, 128, 116);
+  m.colour = srgb(222, 148, 119);
+  m.colour_b = srgb(229, 165, 121);
+  m.colour_c = srgb(212, 127, 111);
   m.lobule_size = 0.0028f;
   m.lobule_depth = 0.07f;
   m.lobule_contrast = 0.05f;
@@ -332,11 +332,11 @@ Material omentum() {
   m.mottle = 0.45f;
   m.bump = 0.03f;
   m.lobule_size = 0.0046f;
-  m.lobule_depth = 0.15f;
+  m.lobule_depth = 0.19f;
   m.lobule_contrast = 0.2f;
-  m.vessels = 0.75f;
+  m.vessels = 0.5f;
   m.vessel_tile = 0.07f;
-  m.vessel_colour = srgb(150, 54, 50);
+  m.vessel_colour = srgb(166, 56, 48);
   m.wetness = 0.64f;
   m.film_roughness = 0.06f;
   m.film_bump = 0.3f;
@@ -375,8 +375,8 @@ Material polished(Vec3f bright, Vec3f dull, float roughness, float scatter) {
 
 /// Titanium: greyer than steel, with a soft sheen.
 Material satin(Vec3f bright, Vec3f dull) {
-  Material m = metal(bright, dull, 0.3f);
-  m.scatter = 0.6f;
+  Material m = metal(bright, dull, 0.24f);
+  m.scatter = 0.52f;
   m.mottle = 0.5f;
   m.fibre_stretch = 6;
   m.bump = 0.025f;
@@ -405,7 +405,10 @@ Material ceramic() {
 std::vector<Look> make_looks() {
   const Material cord = ligament(srgb(212, 160, 148), srgb(224, 184, 164), srgb(192, 124, 122));
   const Material pale_cord = ligament(srgb(216, 168, 156), srgb(228, 192, 172), srgb(200, 138, 134));
-  const Material pedicle = ligament(srgb(200, 130, 124), srgb(214, 160, 138), srgb(174, 96, 102));
+  Material sacral = ligament(srgb(188, 130, 127), srgb(200, 148, 132), srgb(174, 110, 114));  // below the peritoneum
+  sacral.wetness = 0.4f;
+  Material pedicle = ligament(srgb(200, 130, 124), srgb(214, 160, 138), srgb(174, 96, 102));
+  pedicle.tint = srgb(214, 184, 172);  // the ovary
   const Material artery = vessel(srgb(134, 50, 52), srgb(148, 64, 60), srgb(112, 38, 44));
   const Material vein = vessel(srgb(104, 60, 70), srgb(118, 74, 78), srgb(88, 46, 60));
   const Material neutral = tissue(srgb(196, 134, 130), srgb(204, 150, 142), srgb(182, 112, 112));
@@ -433,7 +436,7 @@ std::vector<Look> make_looks() {
        2},
       {"round_ligament", cord, false, {}},
       {"ovarian_ligament", pale_cord, false, {}},
-      {"uterosacral_ligament", cord, false, {}},
+      {"uterosacral_ligament", sacral, false, {}},
       {"infundibulopelvic_ligament", pedicle, false, {}},
       {"bladder",
        bladder(),

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kRows = 11;             // strand to base
 constexpr double kStep = 0.0016;      // [m] between columns
-constexpr double kTear = 0.5;         // of the width, how deep a cut's gap goes
+constexpr double kTear = 0.24;        // of the width, how deep a cut's gap goes
 constexpr double kTearReach = 0.012;  // [m] along the strand on either side
 constexpr double kRagged = 0.0011;    // [m] how uneven a torn edge is
 constexpr double kPaleEdge = 0.22;    // of kTearReach: whitish beside a tear

@@ -160,8 +160,10 @@ Paint TubeDrawing::paint_at(const Layout& layout, double s, double angle, Paint 
     if (round < nick.fraction + 0.1)
       p.blood = std::max(p.blood, to_byte(smooth(0.0012, 0.0003, std::fabs(s - nick.s))));
   }
-  if (hosted(0) && !m_strand->fimbriated)  // goes over into its organ's colour
-    p.tint = std::max(p.tint, to_byte(0.85 * smooth(4 * m_strand->outer.front(), 0.3 * m_strand->outer.front(), s)));
+  if (hosted(0) && !m_strand->fimbriated) {  // goes over into its organ's colour, which its collar has
+    const double radius = m_strand->outer.front(), collar = std::max(m_neck[0].far, 0.3 * radius);
+    p.tint = std::max(p.tint, to_byte(0.85 * smooth(collar + 3 * radius, collar, s)));
+  }
   return p;
 }
 

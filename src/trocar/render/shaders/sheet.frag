@@ -91,7 +91,7 @@ void main() {
 #endif
 
   // More than [Schlick 94] says: it is what tells liquid from paint (our choice).
-  float share_back = min(7.0 * mirror_share(nv) + 0.08, 0.6);
+  float share_back = min(7.0 * mirror_share(nv) + 0.045, 0.6);
   share_back *= 1.0 - 0.7 * rim;
   vec3 r = reflect(-V, n);
   colour = mix(colour, mirrored(r, lit.bounce), share_back);
