@@ -189,6 +189,7 @@ class Surgeon final : public Expert {
   std::array<Vec3d, 8> m_points{};  ///< what the camera shall show
   int m_point_count = 0;
   double m_distance = 0.06;
+  double m_seen_from = 0.06;  ///< [m] where the camera saw the legs
   void want(Vec3d p) {
     if (m_point_count < int(m_points.size())) m_points[size_t(m_point_count++)] = p;
   }

@@ -210,7 +210,10 @@ void Surgeon::lift() {
     return;
   }
   keep_presented();
-  if (wanted_slant() > 0) return slant(m_applier, m_clip_place) > wanted_slant() - 0.02 ? go(Phase::decide) : void();
+  if (wanted_slant() > 0) {  // pushed down, the jaws leave the picture first
+    want(m_arms[w.grasper].tip);
+    return slant(m_applier, m_clip_place) > wanted_slant() - 0.02 ? go(Phase::decide) : void();
+  }
   const bool good = std::fabs(slant(m_applier, m_clip_place)) < 0.13 && pull() > g.present_pull.low + 0.08 &&
                     pull() < 0.9 * g.present_pull.high &&
                     straightness_of(*m_model, *m_state, w.tube, w.ampulla_from) > g.present_straightness + 0.002;
@@ -306,7 +309,7 @@ void Surgeon::inspect_clip() {
   look_at_clip();
   // Where a jaw's tip is hidden, another distance or side may show it, and a tube deeper between the legs.
   m_unseen += sees_jaws(m_applier) ? 0 : sim::kTick;
-  m_distance = 0.052 + 0.008 * double(int(m_in_phase / 1.5) % 4);
+  m_distance = m_seen_from = 0.052 + 0.008 * double(int(m_in_phase / 1.5) % 4);
   if (m_in_phase > 0.5 && !sees_jaws(m_applier)) m_spare = std::max(0.0007, m_spare - 0.0003 * sim::kTick);
   aim(m_applier, m_clip_place, clip_inside(), 0, kTrack);
   // Half closed, the legs' tips show beyond the tube; a little further, if not.
@@ -320,6 +323,7 @@ void Surgeon::inspect_clip() {
 
 void Surgeon::close_clip() {
   look_at_clip();
+  m_distance = m_seen_from;
   aim(m_applier, m_clip_place, clip_inside(), 0, kTrack);
   const double whole = flawed("A1.8") ? 0.6 : 2.6;  // [share of the closing time] from open to closed
   if (!m_arms.grip(m_applier, 1, whole * m_exercise.goal.clip_closing) || m_state->clip_count == m_clips_before) return;
