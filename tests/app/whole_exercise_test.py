@@ -110,6 +110,8 @@ class Surgeon(Trainee):
             goal = add(add(self.held_at, self.upwards, self.raised), self.outwards, self.drawn)
             self.lead(grasper)
             self.move(lambda: goal, 0.5, "presenting the tube")
+        if abs(self.slant(tube, s_clip)) < 0.2 and 0.4 < self.eyes.tool(grasper)["pull_N"] < 1.9:
+            return  # as square as this tube gets; the exercise lets 15 degrees pass
         raise Failed(f"not presented: slant {self.slant(tube, s_clip):.2f}, pull {self.eyes.tool(grasper)['pull_N']:.2f} N")
 
     def grasp(self, tube, grasper, side):
