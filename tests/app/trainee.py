@@ -409,13 +409,15 @@ class Trainee:
             return tick > start + 1000 * limit or (before is not None and math.dist(before[1], at) < still_mm)
         self.eyes.wait("what is led to come to rest", still, 120)
 
-    def show(self, points, distance_mm=60.0):
-        """Turns the endoscope until all these points [mm] are well inside its picture, then as near as that allows."""
+    def show(self, points, distance_mm=60.0, aside=(0.0, 0.0)):
+        """Turns the endoscope until all these points [mm] are well inside its picture, then as near as that allows.
+        `aside` [tan] to the right and upwards: not straight at them, so that the lens sees them from another side."""
         for _ in range(12):
             picture = self.eyes.pose["picture"]
             port = picture["port_mm"]
             ways = [add(p, port, -1) for p in points]
             wanted = unit([sum(c) for c in zip(*map(unit, ways))])
+            wanted = unit(add(add(wanted, picture["right"], aside[0]), picture["up"], aside[1]))
             cone = math.tan(0.36 * picture["field_rad"])
             depth = 130.0
             for way in ways:

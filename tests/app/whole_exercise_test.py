@@ -145,10 +145,11 @@ class Surgeon(Trainee):
         return math.acos(min(1.0, abs(dot(cross(tool["shaft"], tool["opening"]), self.eyes.point(tube, s)[1]))))
 
     def see_both_tips(self, at):
-        """Both legs' tips must be seen when the clip closes: nearer or from farther off, if need be."""
-        for distance in (None, 55.0, 75.0, 45.0):
-            if distance:
-                self.show([at, self.eyes.tool(APPLIER)["tip_mm"]], distance)
+        """Both legs' tips must be seen when the clip closes: nearer, from farther off or from aside, if need be."""
+        looks = [(55.0, (0.0, 0.0))] + [(75.0, (0.18 * x, 0.18 * y)) for x, y in ((0, -1), (0, 0), (0, 1), (1, 0), (-1, 0))]
+        for look in (None, *looks):
+            if look:
+                self.show([at, self.eyes.tool(APPLIER)["tip_mm"]], *look)
                 self.lead(APPLIER)
                 self.hands.take_up()
             self.eyes.later(0.25)
@@ -181,7 +182,7 @@ class Surgeon(Trainee):
         s = next(0.5 * (a + b) for a, b in zip(clips, clips[1:]) if 6 < b - a < 12)
         cuts = self.eyes.pose["cuts"]
         self.park(APPLIER)
-        self.reach(scissors, tube, s, lambda: 0.72 * self.eyes.tool(scissors)["jaw_mm"], "cutting")
+        self.reach(scissors, tube, s, lambda: 0.82 * self.eyes.tool(scissors)["jaw_mm"], "cutting")
         if not any(self.eyes.tool(scissors)["seen"]):
             self.show([self.eyes.point(tube, s)[0], self.eyes.tool(scissors)["tip_mm"]])
             self.lead(scissors)
