@@ -182,10 +182,12 @@ class Surgeon(Trainee):
         s = next(0.5 * (a + b) for a, b in zip(clips, clips[1:]) if 6 < b - a < 12)
         cuts = self.eyes.pose["cuts"]
         self.park(APPLIER)
-        self.reach(scissors, tube, s, lambda: 0.82 * self.eyes.tool(scissors)["jaw_mm"], "cutting")
+        inside = lambda: 0.84 * self.eyes.tool(scissors)["jaw_mm"]  # over the whole tube, yet not far into the fold
+        self.reach(scissors, tube, s, inside, "cutting")
         if not any(self.eyes.tool(scissors)["seen"]):
             self.show([self.eyes.point(tube, s)[0], self.eyes.tool(scissors)["tip_mm"]])
             self.lead(scissors)
+        self.move(self.before(scissors, tube, s, inside, 0), 0.4, "cutting: just so")
         self.squeeze(lambda: self.eyes.pose["cuts"] > cuts, "the cut")
         self.hands.let_go()
         self.eyes.wait("the scissors to open", lambda: self.eyes.tool()["handle"] < 0.05, 60)

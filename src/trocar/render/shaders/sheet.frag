@@ -9,7 +9,10 @@ in vec4 v_mix;
 out vec4 o_colour;
 uniform sampler2D u_before;  // the picture before, small
 
-/// What the sheet mirrors, dim and soft: what the small picture shows some way along the ray, near and far. Nothing is
+const float kDrawsBack = 0.0035;  // [m] along the eye's way, our choice
+const float kStain = 2.0e-5;      // [m] of what it leaves there
+
+/// What the sheet mirrors: what the picture shows along the ray, near and far, as far as it lies there. Nothing is
 /// searched for, so no outline of a search can show.
 vec3 mirrored(vec3 r, float bounce) {
   // Beyond the picture: the front wall, brighter where the lamp grazes it.
@@ -18,14 +21,19 @@ vec3 mirrored(vec3 r, float bounce) {
   return walls;
 #else
   vec3 seen = vec3(0.0);
-  const vec3 reach = vec3(0.009, 0.018, 0.034), share = vec3(0.45, 0.40, 0.15);
-  for (int i = 0; i < 3; ++i) {
-    vec3 p = v_eye + reach[i] * r;
-    vec2 at = in_picture(p), edge = clamp(4.0 * (0.5 - abs(at - 0.5)), 0.0, 1.0);
-    float there = edge.x * edge.y * smoothstep(0.002, 0.012, -p.z);
-    seen += share[i] * mix(walls, min(texture(u_before, at).rgb, vec3(0.90, 0.66, 0.62)), there);
+  float found = 0.25, reach = 0.0035;  // [m]
+  seen = 0.25 * walls;
+  for (int i = 0; i < 6; ++i) {
+    vec3 p = v_eye + reach * r;
+    vec2 at = in_picture(p), edge = clamp(6.0 * (0.5 - abs(at - 0.5)), 0.0, 1.0);
+    vec4 there = texture(u_bed, at);
+    float off = (there.a - length(p)) / (0.5 * reach);
+    float weight = edge.x * edge.y * smoothstep(0.002, 0.012, -p.z) / (1.0 + off * off * off * off);
+    seen += weight * min(there.rgb, vec3(0.90, 0.66, 0.62));
+    found += weight;
+    reach *= 1.8;
   }
-  return seen;
+  return seen / found;
 #endif
 }
 
@@ -47,17 +55,28 @@ void main() {
   // Small unrest on top of the waves that the simulation knows.
   vec4 slow = texture(u_noise, vec3(place.xy * 9.0, 0.13 * u_eye.w));
   vec4 quick = texture(u_noise, vec3(place.yx * 31.0, 0.21 * u_eye.w));
-  vec3 unrest = (slow.rgb * 2.0 - 1.0) * 0.022 + (quick.rgb * 2.0 - 1.0) * (0.007 + 0.11 * smoothstep(0.50, 0.66, slow.a));
+  vec3 unrest = (slow.rgb * 2.0 - 1.0) * 0.022 + (quick.rgb * 2.0 - 1.0) * (0.006 + 0.035 * smoothstep(0.50, 0.66, slow.a));
 #if DETAIL == 2
   // Where it is thin it follows the tissue's relief, which stands still.
   float thin = exp(-max(v_depth_cover.x, 0.0) / 0.0005);
   unrest += (texture(u_noise, place * 38.0).rgb * 2.0 - 1.0) * (0.12 * thin);
 #endif
   vec3 n = normalize(v_normal);
-  float gap = max(straight.a - far, 0.0), shore = smoothstep(0.0, 0.0016, gap);
+  // What it wets is uneven: here it stands higher, there it has drawn back and left a stain.
+  float uneven = 0.8 * texture(u_noise, place * 13.0).g + 0.2 * texture(u_noise, place * 47.0).r;
+  float gap = straight.a - far - kDrawsBack * smoothstep(0.38, 0.60, uneven);
+  float shore = smoothstep(0.0, 0.0016, gap);
   float rim = max(exp(-inside * 6.0), 0.8 - 0.8 * shore);
-  // Towards the inside of the border, in eye space.
-  vec3 inward = cover_slope.x * normalize(ddx) + cover_slope.y * normalize(ddy);
+  // Towards the inside of the border, in eye space: of the sheet's own, or of what stands in it.
+  vec2 slope = cover_slope;
+#if DETAIL >= 1
+  if (shore < 1.0) {
+    vec2 step = 2.0 * u_size.zw;
+    slope = vec2(texture(u_bed, uv + vec2(step.x, 0.0)).a, texture(u_bed, uv + vec2(0.0, step.y)).a) - straight.a -
+            2.0 * vec2(dFdx(far), dFdy(far));
+  }
+#endif
+  vec3 inward = slope.x * normalize(ddx) + slope.y * normalize(ddy);
   inward -= n * dot(n, inward);
   float steep = length(inward);
   inward = steep > 1.0e-5 ? inward / steep : vec3(0.0);
@@ -83,7 +102,7 @@ void main() {
 
   float facing = clamp(0.1 + 0.9 * dot(n, lit.direction), 0.0, 1.0);
   vec3 light = LIGHT_COLOUR * (lit.power * facing) + (BOUNCE + vec3(AMBIENT)) * lit.bounce;
-  vec3 deep = deep_colour(amount, v_mix.w) * (1.45 + 0.30 * smoothstep(0.25, 0.8, slow.a));
+  vec3 deep = deep_colour(amount, v_mix.w) * (1.25 + 0.25 * smoothstep(0.25, 0.8, slow.a));
   vec3 colour = bed * through + deep * light * (1.0 - through);
 #if DETAIL >= 1
   float froth = v_mix.z * smoothstep(0.55, 0.75, quick.a + 0.3 * v_mix.z);
@@ -91,7 +110,7 @@ void main() {
 #endif
 
   // More than [Schlick 94] says: it is what tells liquid from paint (our choice).
-  float share_back = min(7.0 * mirror_share(nv) + 0.045, 0.6);
+  float share_back = min(4.5 * mirror_share(nv) + 0.02, 0.5);
   share_back *= 1.0 - 0.7 * rim;
   vec3 r = reflect(-V, n);
   colour = mix(colour, mirrored(r, lit.bounce), share_back);
@@ -103,6 +122,7 @@ void main() {
   float turned = clamp(dot(n, normalize(lit.direction + V)), 0.0, 1.0);
   colour += LIGHT_COLOUR * (0.022 * lit.power * lobe(turned, 0.16) * (0.75 + 0.25 * smoothstep(0.2, 0.8, slow.g)));
   // Where it cuts through what stands in it the depth buffer's steps would show.
-  colour = mix(below.rgb, colour, edge * smoothstep(0.0, 0.0005, gap));
+  vec3 stained = below.rgb * let_through(share * (kStain * smoothstep(-kDrawsBack, 0.0, gap)), v_mix.w);
+  colour = mix(stained, colour, edge * smoothstep(0.0, 0.0005, gap));
   o_colour = vec4(colour, far);
 }

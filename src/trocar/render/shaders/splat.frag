@@ -12,7 +12,7 @@ layout(location = 0) out vec4 o_field;
 layout(location = 1) out vec4 o_thickness;
 layout(location = 2) out vec4 o_film;
 
-const float kSkirt = 0.0016;  // as in splat.vert
+const float kSkirt = 0.0024;  // as in splat.vert
 
 void main() {
   ivec2 last = textureSize(u_scene, 0) - 1;

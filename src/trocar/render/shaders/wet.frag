@@ -19,13 +19,15 @@ vec2 run_off(vec3 place, vec3 fall, float pixel, out float streak) {
   vec3 squeezed = place - u_down * (0.88 * dot(u_down, place));
   vec4 column = texture(u_noise, squeezed * 36.0);
   streak = column.a;
-  return fall.xy * ((0.0044 * (column.a - 0.5) + 0.0012 * (column.g - 0.5)) / pixel) * u_size.zw;
+  return fall.xy * ((0.0040 * (column.a - 0.5) + 0.0010 * (column.g - 0.5)) / pixel) * u_size.zw;
 }
 
 const float kLeast = 2.0e-6;       // [m] a film draws back from where there is less
 const float kAside = 0.0009;       // [m] gaps narrower than that close
-const float kLevel = 2.2e-5;       // [m] at which it levels
-const float kThroughTissue = 3.3;  // light that tissue scatters crosses the film on it more than twice
+const float kLevel = 4.5e-5;       // [m] at which it levels
+const float kThroughTissue = 4.5;  // light that tissue scatters crosses the film on it more than twice
+
+const float kSheen = 0.022;        // of the lamp, where a film faces it; our choice, from frames of films
 
 float film_at(vec2 uv) { return dot(texture(u_film, uv).rgb, vec3(1.0e-3)); }
 
@@ -76,7 +78,7 @@ void main() {
 #if DETAIL >= 1
     vec2 aside = kAside / pixel * u_size.zw;
     vec2 grows = vec2(film_at(film_uv + vec2(aside.x, 0.0)), film_at(film_uv + vec2(0.0, aside.y))) - stain;
-    soft = clamp(1.2 * length(grows) * pixel / kAside, 0.12 * least, 3.0 * least);
+    soft = clamp(2.0 * length(grows) * pixel / kAside, 0.5 * least, 4.0 * least);
     lower = film_at(film_uv + fall.xy * 1.6 * aside);
     // Narrow gaps have closed.
     float closed = 0.25 * (4.0 * stain + grows.x + grows.y + lower - stain);
@@ -129,7 +131,7 @@ void main() {
   vec3 light = LIGHT_COLOUR * (lit.power * facing) + (BOUNCE + vec3(AMBIENT)) * lit.bounce;
   // What flies is lit from all round.
   // What lies is dark and uneven, as its cells gather here and there.
-  float lying = (0.24 + 0.22 * smoothstep(0.25, 0.75, 0.6 * fine.a + 0.4 * streak)) * (1.0 - flying);
+  float lying = (0.15 + 0.17 * smoothstep(0.25, 0.75, 0.6 * fine.a + 0.4 * streak)) * (1.0 - flying);
   vec3 deep = deep_colour(amount, dark) * (lying + 0.9 * flying) + vec3(0.0, 0.008, 0.019) * lying;
   vec3 colour = below * through + deep * light * (1.0 - through);
 
@@ -139,9 +141,12 @@ void main() {
   float glints = mix(1.0, 1.6 * smoothstep(0.52, 0.66, fine.r), flying);
   vec3 shine = cover * glints * highlight(n, V, lit, u_shine.y * (1.0 + 3.0 * flying));
 #if DETAIL >= 1
-  vec3 wrinkle = (fine.rgb * 2.0 - 1.0) * 0.22 + (texture(u_noise, place.zxy * 11.0).rgb * 2.0 - 1.0) * 0.26;
+  vec3 wrinkle = (fine.rgb * 2.0 - 1.0) * 0.50 + (texture(u_noise, place.zxy * 11.0).rgb * 2.0 - 1.0) * 0.50;
   vec3 m = normalize(base + vec3(dot(wrinkle, u_right), dot(wrinkle, u_up), 0.0) - film_rise);
   shine += gloss * (min(highlight(m, V, lit, 1.6 * u_shine.z), LIGHT_COLOUR * (1.1 * lit.power)) + 0.15 * highlight(m, V, lit, 0.03));
+  // Its waves are finer than a pixel: a soft sheen wherever it is turned to the lamp, which pales its red.
+  float turned = clamp(dot(m, normalize(lit.direction + V)), 0.0, 1.0);
+  shine += LIGHT_COLOUR * (kSheen * gloss * lit.power * lobe(turned, 0.35));
 #endif
 #if DETAIL >= 1
   // A jet near its hole is round enough to glint along its middle.
