@@ -107,13 +107,13 @@ Material veiled(Vec3f main, Vec3f broad, Vec3f fine) {
 }
 
 Material peritoneum() {
-  Material m = with_vessels(tissue(srgb(180, 118, 121), srgb(196, 140, 116), srgb(164, 98, 114)), 0.8f, 0.13f);
+  Material m = with_vessels(tissue(srgb(180, 118, 120), srgb(191, 133, 117), srgb(168, 102, 112)), 0.8f, 0.13f);
   m.lining = true;
   m.mottle_size = 0.024f;
-  m.mottle = 0.4f;
+  m.mottle = 0.3f;
   m.bump = 0.08f;
   m.wetness = 0.52f;
-  m.tint = srgb(204, 148, 106);  // fat below it
+  m.tint = srgb(199, 142, 109);  // fat below it
   m.film_size = 0.0021f;         // of muscle fibres that shimmer through: its film is as smooth as it is wide
   m.film_bump = 0.07f;
   m.film_roughness = 0.14f;
@@ -126,11 +126,11 @@ Material bladder() {
   m.lining = false;
   m.two_sided = false;
   m.colour = srgb(198, 122, 124);
-  m.colour_b = srgb(220, 162, 128);
-  m.colour_c = srgb(180, 100, 108);
-  m.tint = srgb(214, 160, 118);
+  m.colour_b = srgb(212, 150, 126);
+  m.colour_c = srgb(184, 106, 109);
+  m.tint = srgb(208, 152, 119);
   m.mottle_size = 0.013f;
-  m.mottle = 0.4f;
+  m.mottle = 0.3f;
   m.vessel_tile = 0.05f;
   m.wetness = 0.6f;
   m.film_size = 0.002f;

@@ -20,7 +20,7 @@ render::Mat4 to_world(const Placement& p) { return render::placement(p.rotation,
 /// How much of Paint's blood and burn is on a hand's instrument, 0..1. It passed a bleeding wall; each grip that
 /// slipped, each cut and each vessel that opened adds to it, and current burns it on.
 float soil_on(const sim::State& state, std::size_t hand) {
-  constexpr double kPassedTheWall = 0.54, kSlip = 0.06, kHold = 0.1, kCut = 0.07, kOpened = 0.2, kScar = 0.004;
+  constexpr double kPassedTheWall = 0.8, kSlip = 0.06, kHold = 0.1, kCut = 0.07, kOpened = 0.2, kScar = 0.004;
   const interactions::ToolState& tool = state.tools[hand];
   double soil = kPassedTheWall + kSlip * std::min(tool.slipped, 4) + (tool.holds > 0 ? kHold : 0);
   soil += kCut * std::min(state.cut_count, 5) + kOpened * std::min(state.opening_count, 2);

@@ -21,15 +21,15 @@ constexpr double kOverAll = 0.12, kClosedAll = 0.32;  // the same where it carri
 constexpr double kFromAll = -0.12, kDownAll = 0.24;
 constexpr double kLostOver = 0.034;      // [m] of wall along which a ridge goes down and is lost ...
 constexpr double kLostDepth = 0.0014;    // [m] ... below it
-constexpr double kShallow = 3.0;         // radii of the ligament that it rises above it before that
+constexpr double kShallow = 1.5;         // radii of the ligament that it rises above it before that
 constexpr double kShallowLaden = 0.4;    // the same of one that carries something
 constexpr double kFlatter = 1.2;         // and how much rounder it grows
 constexpr double kTurns = 8;             // radii above the wall where its sections begin to turn
 constexpr double kCrest = 1.15;          // radii from the ligament's axis to what covers it
 constexpr double kCovers = 1.32;         // radii from the axis: nearer than that it would not cover the ligament
 constexpr double kAround = 6.5;          // radii: how far its slope is that of the ligament's side
-constexpr double kAroundAll = 11;        // the same of one that carries nothing: broad shoulders
-constexpr double kWidestAll = 0.021;     // [m] and its feet
+constexpr double kAroundAll = 16;        // the same of one that carries nothing: broad shoulders
+constexpr double kWidestAll = 0.036;     // [m] and its feet
 constexpr double kHeadOn = 0.75;         // sine of the angle to the wall
 constexpr double kLoose = 0.0004;        // [m] what covers a ligament keeps off it
 constexpr double kTucked = 0.0012;       // [m] the border lies below the wall
@@ -188,7 +188,7 @@ void Ridge::find_feet(const WallSurface& walls) {
     const double high = std::max(0.0, dot(st.at - st.floor, st.normal[0]));
     const double uneven = 1 + 0.3 * waves(st.floor, 0.021);
     const double wide = (st.beyond ? 1.5 : 1.0) *
-                        std::min(m_covered ? kWidestAll : kWidest, 1.6 * st.radius + 0.002 + 0.5 * high) * uneven;
+                        std::min(m_covered ? kWidestAll : kWidest, 1.6 * st.radius + 0.002 + (m_covered ? 1.1 : 0.5) * high) * uneven;
     for (const int flank : {0, 1}) st.foot[flank] = st.floor + ((flank ? -wide : wide)) * st.side;
   }
   for (const int flank : {0, 1}) {

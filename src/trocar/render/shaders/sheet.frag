@@ -63,7 +63,7 @@ void main() {
 #endif
   vec3 n = normalize(v_normal);
   // What it wets is uneven: here it stands higher, there it has drawn back and left a stain.
-  float uneven = 0.8 * texture(u_noise, place * 13.0).g + 0.2 * texture(u_noise, place * 47.0).r;
+  float uneven = 0.88 * texture(u_noise, place * 13.0).g + 0.12 * texture(u_noise, place * 41.0).r;
   float gap = straight.a - far - kDrawsBack * smoothstep(0.38, 0.60, uneven);
   float shore = smoothstep(0.0, 0.0016, gap);
   float rim = max(exp(-inside * 6.0), 0.8 - 0.8 * shore);

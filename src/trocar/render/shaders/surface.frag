@@ -225,10 +225,10 @@ void main() {
 #endif
 #ifdef LINING
   // Yellow here, violet there, paler and redder; below it fibres and fat of a millimetre or two.
-  albedo *= 1.0 + vec3(0.02, 0.06, -0.14) * (broad.g - 0.5) + vec3(0.03, -0.03, 0.02) * (broad.r - 0.5);
+  albedo *= 1.0 + vec3(0.02, 0.04, -0.10) * (broad.g - 0.5) + vec3(0.03, -0.03, 0.02) * (broad.r - 0.5);
   // Fat below it, broad and soft.
   float fat = smoothstep(-0.3, 1.0, sin(dot(v_rest, vec3(51.0, 39.0, 27.0)) + 1.7 * sin(dot(v_rest, vec3(-33.0, 47.0, 58.0)))));
-  albedo *= 1.0 + vec3(0.03, 0.10, -0.24) * fat;
+  albedo *= 1.0 + vec3(0.02, 0.05, -0.13) * fat;
 #if DETAIL >= 1
   albedo *= 1.0 + 0.3 * (vec3(0.8, 1.1, 1.0) * (ripple.a - 0.5) + 0.5 * (broad.b - 0.5)) + vec3(0.0, 0.05, -0.08) * (ripple.g - 0.5);
 #endif
