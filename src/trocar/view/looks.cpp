@@ -33,9 +33,9 @@ Material uterus() {
   m.mottle_size = 0.014f;
   m.mottle = 0.5f;
   m.bump = 0.12f;
-  m.film_bump = 0.3f;
+  m.film_bump = 0.24f;
   m.film_roughness = 0.075f;
-  m.film_size = 0.0016f;
+  m.film_size = 0.0013f;
   m.wetness = 0.62f;  // one broad sheen, few flecks
   return m;
 }

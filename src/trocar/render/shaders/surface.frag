@@ -340,10 +340,10 @@ void main() {
 #ifdef LINING
   film_slope = FILM_BUMP * (broad.rgb * 2.0 - 1.0 + 0.4 * (broad.gbr * 2.0 - 1.0));  // broad sheens, no frost ...
 #if DETAIL >= 1
-  float crest = smoothstep(0.52, 0.66, broad.a + 0.3 * (fine.b - 0.5)) * wrinkled;  // ... flecks here and there on what stands out
+  float crest = smoothstep(0.55, 0.66, broad.a + 0.3 * (fine.b - 0.5)) * wrinkled;  // ... flecks here and there on what stands out
   mat3 bead = kTurn * FILM_SCALE;
   vec3 bead_x = bead * dFdx(v_rest), bead_y = bead * dFdy(v_rest);
-  if (crest > 0.0) film_slope += (11.0 * crest * FILM_BUMP) * (textureGrad(u_noise, bead * v_rest, bead_x, bead_y).rgb * 2.0 - 1.0);
+  if (crest > 0.0) film_slope += (6.5 * crest * FILM_BUMP) * (textureGrad(u_noise, bead * v_rest, bead_x, bead_y).rgb * 2.0 - 1.0);
 #endif
 #endif
   float wet = smoothstep(1.0 - WETNESS - 0.2, 1.0 - WETNESS + 0.2, wet_noise);
