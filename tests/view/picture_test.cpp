@@ -195,6 +195,24 @@ TEST(DripStains, LieBelowWhatDripsOnTheFirstGroundThere) {
   EXPECT_TRUE(liquid.splats.empty()) << "beside it, and too high to be seen to fall there";
 }
 
+TEST(DripStains, RunDownASlope) {
+  MeshBuffer slope;  // falls towards +x
+  for (const Vec3f corner : {Vec3f{-1, -1, 0.5f}, Vec3f{1, -1, -0.5f}, Vec3f{1, 1, -0.5f}, Vec3f{-1, 1, 0.5f}})
+    slope.add(0.05f * corner);
+  slope.quad(0, 1, 2, 3);
+  DripStains stains;
+  stains.add_ground(slope);
+  render::Liquid liquid;
+  stains.list(std::array{Vec3f{0, 0, 0.05f}}, liquid);
+  float lowest = 0, highest = 0;
+  for (const render::Splat& s : liquid.splats) lowest = std::max(lowest, s.to.x), highest = std::min(highest, s.from.x);
+  EXPECT_GT(lowest, 0.009f);
+  EXPECT_GT(highest, -0.007f) << "only specks lie above";
+  const std::size_t one = liquid.splats.size();
+  stains.list(std::array{Vec3f{0, 0, 0.05f}, Vec3f{0.001f, 0, 0.05f}}, liquid);
+  EXPECT_LT(liquid.splats.size(), 3 * one) << "drops that land in one place make one stain";
+}
+
 TEST(Cavity, GoesOnFromEveryPointOfAWallsBorderAndLeavesNoGap) {
   const MeshBuffer cavity = cavity_around(pelvis());
   const auto wholly = [&](Vec3d p) {  // how far from its surface

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <trocar/view/cut_ooze.hpp>
@@ -7,15 +8,19 @@ namespace trocar::view {
 namespace {
 
 // Our choice, by eye.
-constexpr double kRunning = 0.6;     // share of the rim's vertices from which a run starts
+constexpr double kRunning = 0.35;    // share of the lip's vertices from which a run starts
 constexpr float kStep = 0.0011f;     // [m] between two links of a run
 constexpr float kShortest = 0.004f;  // [m]
 constexpr float kWide = 0.42e-3f;    // [m]
-constexpr float kThick = 50e-6f;     // [m] at the rim; it thins out on its way, and swells where it stops
-constexpr float kSheetWide = 1.0e-3f, kSheetThick = 6e-6f;  // [m]
-constexpr float kDropWide = 0.9e-3f, kDropThick = 150e-6f;  // [m] what hangs there until it falls
-constexpr float kUnderside = 0.4f;                          // cosine between skin and fall at which blood drips
-constexpr float kMostLeft = 0.0035f;                        // [m] beyond the skin's last vertex it ends
+constexpr float kThick = 200e-6f;    // [m] at the lip; it thins out on its way, and swells where it stops
+constexpr float kSheetWide = 0.6e-3f, kSheetThick = 160e-6f;  // [m] so much that its darkest is at the lip
+constexpr float kBelowLip = 0.6e-3f;                          // [m] how far from the rim that begins
+constexpr float kDropWide = 0.9e-3f, kDropThick = 260e-6f;    // [m] what hangs there until it falls
+constexpr float kHangs = 0.0011f, kHanging = 0.55e-3f;        // [m] how far down, and its radius
+constexpr float kApart = 0.006f, kHangsBelow = 0.3f;          // [m] and cosine between skin and fall
+constexpr float kUnderside = 0.4f;                            // cosine between skin and fall at which blood drips
+constexpr float kMostLeft = 0.0035f;                          // [m] beyond the skin's last vertex it ends
+constexpr float kCut = 0.008f, kBrim = 0.0022f;               // [m] a cut's size; it spills this far above its lowest
 
 struct Place {
   Vec3f position, normal;
@@ -47,9 +52,33 @@ render::Splat film(const Place& from, const Place& to, float radius, float thick
   return s;
 }
 
+/// What lies on the lip hardly reaches back into the cut, where its border would be a line across what is raw.
+Place below_lip(const CutSkin& skin, std::uint32_t v, Vec3f down) {
+  const Place lip{skin.position[v], skin.normal[v]};
+  Place below{lip.position + kBelowLip * (down - dot(down, lip.normal) * lip.normal), lip.normal};
+  return on_skin(skin, below) ? below : lip;
+}
+
+/// Drops that hang there until they fall, none beside another.
+void hang(const CutSkin& skin, std::span<const Vec3f> drips, render::Liquid& liquid) {
+  for (std::size_t i = 0; i < drips.size(); ++i) {
+    const auto beside = [&](Vec3f other) { return length(other - drips[i]) < kApart; };
+    if (std::any_of(drips.begin(), drips.begin() + std::ptrdiff_t(i), beside)) continue;
+    Place at{drips[i], {}};
+    if (!on_skin(skin, at) || dot(at.normal, liquid.down) < kHangsBelow) continue;
+    render::Splat s;
+    s.kind = render::SplatKind::flying;
+    s.from = at.position, s.to = at.position + kHangs * liquid.down;
+    s.radius = s.height = kHanging;
+    s.normal = at.normal;
+    s.dark = 1;
+    liquid.splats.push_back(s);
+  }
+}
+
 void list_run(const CutSkin& skin, Place at, int own, render::Liquid& liquid, std::vector<Vec3f>& drips) {
   const auto u = [own](int which) { return float(varied(own, which)); };
-  const float far = kShortest + (kOozeReach - kShortest) * u(1), wide = kWide * (0.7f + 0.8f * u(2));
+  const float far = kShortest + (kOozeReach - kShortest) * u(1), wide = kWide * (0.7f + 1.3f * u(2) * u(2));
   const int links = int(far / kStep);
   for (int n = 0; n < links; ++n) {
     const Vec3f fall = liquid.down - dot(liquid.down, at.normal) * at.normal;
@@ -68,18 +97,31 @@ void list_run(const CutSkin& skin, Place at, int own, render::Liquid& liquid, st
   }
 }
 
-/// What wells over the lip there: a thin sheet.
-void list_sheet(const CutSkin& skin, std::uint32_t v, render::Liquid& liquid) {
-  Place at{skin.position[v], skin.normal[v]};
-  const int links = 2 + int(3 * varied(int(v), 9));
+/// What wells over the lip there: a sheet that hides what is below it and runs out downwards.
+void list_sheet(const CutSkin& skin, Place at, int own, render::Liquid& liquid) {
+  const int links = 2 + int(4 * varied(own, 9));
   for (int n = 0; n < links; ++n) {
     const Vec3f fall = liquid.down - dot(liquid.down, at.normal) * at.normal;
     Place next{at.position + kStep * fall, at.normal};
     if (!on_skin(skin, next)) return;
-    const float gone = float(n) / 5;
-    liquid.splats.push_back(film(at, next, kSheetWide * (1 - 0.6f * gone), kSheetThick * (1 - 0.7f * gone)));
+    const float gone = float(n) / float(links);
+    liquid.splats.push_back(film(at, next, kSheetWide * (1 - 0.5f * gone), kSheetThick * (1 - 0.75f * gone)));
     at = next;
   }
+}
+
+bool lower_lip(const CutSkin& skin, std::size_t i, Vec3f down) {
+  const Vec3f n = skin.normal[skin.rim[i]], fall = down - dot(down, n) * n;
+  return dot(skin.outwards[i], fall) > 0.4f * length(fall);
+}
+
+/// A cut is full of blood: at its lowest place it spills, whichever way the lip faces there.
+bool lowest(const CutSkin& skin, std::size_t i, Vec3f down) {
+  const Vec3f p = skin.position[skin.rim[i]];
+  return std::all_of(skin.rim.begin(), skin.rim.end(), [&](std::uint32_t other) {
+    const Vec3f off = skin.position[other] - p;
+    return dot(off, off) > kCut * kCut || dot(off, down) < kBrim;
+  });
 }
 
 }  // namespace
@@ -88,12 +130,13 @@ std::vector<Vec3f> list_ooze(const CutSkin& skin, render::Liquid& liquid) {
   std::vector<Vec3f> drips;
   for (std::size_t i = 0; i < skin.rim.size(); ++i) {
     const std::uint32_t v = skin.rim[i];
-    const Vec3f fall = liquid.down - dot(liquid.down, skin.normal[v]) * skin.normal[v];
-    const bool lower = dot(skin.outwards[i], fall) > 0.15f * length(fall);
-    if (!lower) continue;  // what comes from an upper lip runs into the cut
-    list_sheet(skin, v, liquid);
-    if (varied(int(v), 5) < kRunning) list_run(skin, {skin.position[v], skin.normal[v]}, int(v), liquid, drips);
+    const bool lower = lower_lip(skin, i, liquid.down);
+    if (!lower && !lowest(skin, i, liquid.down)) continue;  // what comes from an upper lip runs into the cut
+    const Place from = lower ? below_lip(skin, v, liquid.down) : Place{skin.position[v], skin.normal[v]};
+    list_sheet(skin, from, int(v), liquid);
+    if (varied(int(v), 5) < kRunning) list_run(skin, from, int(v), liquid, drips);
   }
+  hang(skin, drips, liquid);
   return drips;
 }
 

@@ -10,19 +10,20 @@
 namespace trocar::view {
 namespace {
 
-constexpr Paint kFlesh{235, 200, 0, 0};       // laid bare: raw
-constexpr std::uint8_t kDeepOpenness = 190;   // ... at a cut's bottom
-constexpr std::uint8_t kMouthBlood = 118;     // ... at its mouth, where one still sees that it is liver
-constexpr std::uint8_t kRimBlood = 80;        // on the skin at a cut's rim, which is wet with it
-constexpr std::uint8_t kRimPale = 56;         // the capsule's edge: its look's tint
-constexpr float kStains = 0.0018f;            // [m] how far from a cut its blood stains the skin
-constexpr float kLip = 0.0007f;               // [m] how far its lips are turned out ...
+constexpr Paint kFlesh{85, 235, 0, 0};        // laid bare: raw
+constexpr std::uint8_t kDeepOpenness = 30;    // ... at a cut's bottom
+constexpr std::uint8_t kMouthBlood = 215;     // ... at its mouth, where the lamp shows more of it
+constexpr std::uint8_t kRimBlood = 45;        // on the skin at a cut's rim, which is wet with it
+constexpr std::uint8_t kRimPale = 75;         // the capsule's edge: its look's tint
+constexpr float kStains = 0.0014f;            // [m] how far from a cut its blood stains the skin
+constexpr float kLip = 0.0003f;               // [m] how far its lips are turned out ...
 constexpr float kLipAt = 0.0022f;             // [m] ... so far from the rim
-constexpr float kRough = 0.42f;               // slope of the same
+constexpr float kRough = 0.7f;                // slope of torn flesh, which breaks up what it mirrors
 constexpr std::uint8_t kLooseOpenness = 230;  // of pieces that have come off, which do not lie where they were baked
-constexpr std::uint8_t kLoosePale = 190;      // they have bled out
-constexpr float kGrain = 0.0005f;             // [m] torn lobules of what is bare
-constexpr float kGape = 0.0024f;              // [m] how far either side of a cut draws back
+constexpr std::uint8_t kLoosePale = 60;       // their capsule has bled out
+constexpr float kGrain = 0.0007f;             // [m] torn lobules of what is bare
+constexpr float kGranular = 0.5f;             // how much darker it is between them
+constexpr float kGape = 0.0017f;              // [m] how far either side of a cut draws back
 constexpr float kFrayed = 0.0004f;            // [m] how far a rim strays from the straight line of its cells
 constexpr int kDrawnAlong = 3;                // rings of nodes that go with it
 
@@ -204,9 +205,11 @@ void CuttableDrawing::paint_skin() {
       const float mouth = at_rim(m_skin, own, i);
       m_height[i] = kGrain * (1 - mouth) * float(waves(vec_cast<double>(m_skin.skin.rest[i]), 0.0036));
       m_paint[i] = kFlesh;
-      m_paint[i].openness = std::uint8_t(float(kDeepOpenness) + mouth * float(kFlesh.openness - kDeepOpenness));
+      const float open = float(kDeepOpenness) + mouth * float(kFlesh.openness - kDeepOpenness);
+      const float grain = float(waves(vec_cast<double>(m_skin.skin.rest[i]) + Vec3d{0.5, 0.2, 0.4}, 0.0031));
+      m_paint[i].openness = std::uint8_t(open * (1 + kGranular * grain));
       m_paint[i].blood = std::uint8_t(float(kFlesh.blood) + mouth * (float(kMouthBlood) - float(kFlesh.blood)));
-      if (loose) m_paint[i] = {kLooseOpenness, 0, 0, kLoosePale};
+      if (loose) m_paint[i].openness = kLooseOpenness;
       continue;
     }
     float open = 0;

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include <trocar/view/drip_stains.hpp>
 
 namespace trocar::view {
@@ -5,12 +8,18 @@ namespace {
 
 // Our choice, by eye.
 constexpr float kFarthest = 0.15f;                    // [m] a drop falls
-constexpr float kClearance = 0.004f;                  // [m] above the middle of a stain its patches are let down from
+constexpr float kClearance = 0.004f;                  // [m] above the ground, from where patches are let down on it
+constexpr float kMerges = 0.005f;                     // [m] drops that land closer than this make one stain
 constexpr int kPatches = 4, kSpecks = 4;              // of a stain
-constexpr float kStain = 1.6e-3f, kSplash = 4.5e-3f;  // [m] how far they lie from its middle
-constexpr float kPatch = 1.1e-3f, kSpeck = 0.35e-3f;  // [m] radii
-constexpr float kThick = 20e-6f;                      // [m] of a patch
+constexpr float kStain = 1.6e-3f, kSplash = 5.5e-3f;  // [m] how far they lie from its middle
+constexpr float kPatch = 0.9e-3f, kSpeck = 0.35e-3f;  // [m] radii
+constexpr float kThick = 170e-6f;                     // [m] of a patch
 constexpr float kRunsDown = 2.2f;                     // [patch radii] on a steep place
+constexpr float kStep = 1.2e-3f;                      // [m] between two links of a run
+constexpr int kLinks = 11, kMoreLinks = 3;            // of one drop's run, and for every other drop
+constexpr float kRunWide = 0.75e-3f;                  // [m] half its width where it begins
+constexpr float kLevel = 0.06f;                       // slope on which it stands
+constexpr float kKeeps = 0.65f;                       // share of its direction that a run keeps from link to link
 
 }  // namespace
 
@@ -43,32 +52,80 @@ bool DripStains::land(Vec3f from, Vec3f down, Landing& at) const {
   return found;
 }
 
+render::Splat DripStains::film(const Landing& from, Vec3f to, float radius, float thick) {
+  render::Splat s;
+  s.kind = render::SplatKind::film;
+  s.from = from.position, s.to = to;
+  s.normal = from.normal;
+  s.radius = radius;
+  s.height = thick;
+  s.dark = 1;
+  return s;
+}
+
+bool DripStains::let_down(Vec3f at, Vec3f down, Landing& here) const {
+  return land(at - kClearance * down, down, here);
+}
+
 /// Patches are let down one by one, so that they lie on lobules and in grooves.
-void DripStains::list_stain(Landing at, int own, render::Liquid& liquid) const {
+void DripStains::list_stain(Landing at, int own, float drops, render::Liquid& liquid) const {
   const Vec3f down = liquid.down;
   const auto u = [own](int which) { return float(varied(own, which)); };
+  const float grown = std::sqrt(std::min(drops, 6.0f));
   const auto add = [&](int n, float far, float radius, float thick) {
     const Vec3f level{2 * u(10 * n + 1) - 1, 2 * u(10 * n + 2) - 1, 2 * u(10 * n + 3) - 1};
     const Vec3f off = far * (level - dot(level, down) * down);
     Landing here;
-    if (!land(at.position + off - kClearance * down, down, here)) return;
-    render::Splat s;
-    s.kind = render::SplatKind::film;
-    s.from = s.to = here.position;
-    s.to += (kRunsDown * radius) * (down - dot(down, here.normal) * here.normal);
-    s.normal = here.normal;
-    s.radius = radius * (0.6f + 0.8f * u(10 * n + 4));
-    s.height = thick;
-    s.dark = 1;
-    liquid.splats.push_back(s);
+    if (!let_down(at.position + off, down, here)) return;
+    const float wide = radius * (0.6f + 0.8f * u(10 * n + 4));
+    const Vec3f runs = (kRunsDown * radius) * (down - dot(down, here.normal) * here.normal);
+    liquid.splats.push_back(film(here, here.position + runs, wide, thick));
   };
-  for (int n = 0; n < kPatches; ++n) add(n, kStain, kPatch, kThick);
+  for (int n = 0; n < kPatches; ++n) add(n, kStain * grown, kPatch * std::sqrt(grown), kThick);
   for (int n = kPatches; n < kPatches + kSpecks; ++n) add(n, kSplash, kSpeck, 0.6f * kThick);
+  list_run(at, own, drops, liquid);
+}
+
+/// Blood that runs on from a stain follows the ground's fall, so that it finds furrows, and spreads where that is
+/// level.
+void DripStains::list_run(Landing at, int own, float drops, render::Liquid& liquid) const {
+  const Vec3f down = liquid.down;
+  const int links = kLinks + int(kMoreLinks * std::min(drops, 4.0f) + 4 * varied(own, 301));
+  Vec3f way{};
+  for (int n = 0; n < links; ++n) {
+    const Vec3f fall = down - dot(down, at.normal) * at.normal;
+    way = kKeeps * way + (1 - kKeeps) * fall;
+    Landing next;
+    const float gone = float(n) / float(links);
+    const bool stands = length(way) < kLevel || n + 1 == links;
+    if (stands || !let_down(at.position + kStep * normalised(way, down), down, next)) {
+      liquid.splats.push_back(film(at, at.position, 2.2f * kRunWide, 0.8f * kThick));
+      return;
+    }
+    const float wide = kRunWide * (1.3f - 0.6f * gone) * (0.75f + 0.5f * float(varied(own, 310 + n)));
+    liquid.splats.push_back(film(at, next.position, wide, kThick * (1 - 0.3f * gone)));
+    at = next;
+  }
 }
 
 void DripStains::list(std::span<const Vec3f> drips, render::Liquid& liquid) const {
-  for (std::size_t i = 0; i < drips.size(); ++i)
-    if (Landing at; land(drips[i], liquid.down, at)) list_stain(at, 3001 + int(i), liquid);
+  struct Stain {
+    Landing at;
+    int own;
+    float drops;
+  };
+  std::vector<Stain> stains;
+  for (std::size_t i = 0; i < drips.size(); ++i) {
+    Landing at;
+    if (!land(drips[i], liquid.down, at)) continue;
+    const auto near = [&](const Stain& s) { return length(s.at.position - at.position) < kMerges; };
+    const auto merged = std::find_if(stains.begin(), stains.end(), near);
+    if (merged != stains.end())
+      merged->drops += 1;
+    else
+      stains.push_back({at, 3001 + int(i), 1});
+  }
+  for (const Stain& s : stains) list_stain(s.at, s.own, s.drops, liquid);
 }
 
 }  // namespace trocar::view

@@ -1,5 +1,5 @@
-// Blood that has dripped from a cut onto what lies below it and does not move, as drawn: patches that run down a
-// little, with specks around them (drawn only; in the simulation such blood is on its way to the pool).
+// Blood that has dripped from a cut onto what lies below it and does not move, as drawn: patches with specks around
+// them, and a run down the ground's furrows (drawn only; in the simulation such blood is on its way to the pool).
 #pragma once
 
 #include <span>
@@ -29,7 +29,11 @@ class DripStains {
     Vec3f position, normal;
   };
   bool land(Vec3f from, Vec3f down, Landing& at) const;
-  void list_stain(Landing at, int own, render::Liquid& liquid) const;
+  /// Onto the ground right below a place that lies about on it.
+  bool let_down(Vec3f at, Vec3f down, Landing& here) const;
+  static render::Splat film(const Landing& from, Vec3f to, float radius, float thick);
+  void list_stain(Landing at, int own, float drops, render::Liquid& liquid) const;
+  void list_run(Landing at, int own, float drops, render::Liquid& liquid) const;
 
   std::vector<Ground> m_grounds;
 };

@@ -187,16 +187,17 @@ Material stomach() {
 }
 
 Material liver() {
-  Material m = with_vessels(tissue(srgb(99, 61, 67), srgb(108, 69, 73), srgb(88, 53, 60)), 0.2f, 0.038f);
+  Material m = with_vessels(tissue(srgb(84, 46, 51), srgb(92, 53, 56), srgb(75, 40, 46)), 0.15f, 0.038f);
   m.vessel_colour = srgb(150, 106, 110);  // a pale net below its capsule
   m.mottle_size = 0.008f;
   m.mottle = 0.5f;
   m.bump = 0.012f;
-  m.roughness = 0.56f;
-  m.wetness = 0.66f;
-  m.film_roughness = 0.06f;
-  m.film_bump = 0.27f;
-  m.film_size = 0.0023f;
+  m.roughness = 0.72f;
+  m.wetness = 0.45f;
+  m.film_roughness = 0.05f;
+  m.film_bump = 0.5f;
+  m.film_size = 0.0017f;
+  m.fresnel = 0.016f;            // the capsule is matte but for the film's flecks, and so is what a cut lays bare
   m.tint = srgb(166, 104, 100);  // a thin edge
   return m;
 }
@@ -332,15 +333,15 @@ Material omentum() {
   m.mottle = 0.45f;
   m.bump = 0.03f;
   m.lobule_size = 0.0046f;
-  m.lobule_depth = 0.19f;
-  m.lobule_contrast = 0.2f;
-  m.vessels = 0.5f;
+  m.lobule_depth = 0.14f;
+  m.lobule_contrast = 0.04f;
+  m.vessels = 0.7f;
   m.vessel_tile = 0.07f;
   m.vessel_colour = srgb(166, 56, 48);
-  m.wetness = 0.64f;
-  m.film_roughness = 0.06f;
-  m.film_bump = 0.3f;
-  m.film_size = 0.0016f;
+  m.wetness = 0.56f;
+  m.film_roughness = 0.05f;
+  m.film_bump = 0.16f;
+  m.film_size = 0.0024f;
   m.tint = srgb(206, 130, 124);
   m.two_sided = true;
   return m;

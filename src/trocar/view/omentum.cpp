@@ -52,10 +52,10 @@ Fat fat_at(Vec3d p, double deep) {
   const double lip = 0.0015 * (1 - std::exp(-deep / 0.003));
   const double grown = smooth(0, 0.02, deep);
   const double swell = 0.0034 + 0.0034 * waves(p, 0.052);
-  const double lobe = lobules(p + Vec3d{0.4, 0.1, 0.2}, 0.026);
-  const double marked = 0.35 + 0.65 * smooth(-0.5, 0.6, waves(p + Vec3d{0.2, 0.6, 0.4}, 0.037));
-  const double lobule = lobules(p + Vec3d{0.1, 0.5, 0.3}, 0.0105);
-  const double uneven = 0.0036 * lobe + 0.0016 * marked * lobule;
+  const double lobe = lobules(p + Vec3d{0.4, 0.1, 0.2}, 0.022);
+  const double marked = 0.5 + 0.5 * smooth(-0.5, 0.5, waves(p + Vec3d{0.2, 0.6, 0.4}, 0.037));
+  const double lobule = lobules(p + Vec3d{0.1, 0.5, 0.3}, 0.0072);
+  const double uneven = 0.0034 * lobe + 0.0020 * marked * lobule;
   return {lip + grown * (swell + uneven) + 0.3 * (1 - grown) * smooth(0, 0.004, deep) * 0.0016 * lobule,
           std::max(0.6 * (1 - lobe) * (1 - lobe), marked * (1 - lobule) * (1 - lobule))};
 }
@@ -126,7 +126,7 @@ MeshBuffer apron(Net net, const Ground& ground) {
     const Fat fat = fat_at(point.p, deep);
     const double patch = smooth(0.2, 0.9, waves(point.p + Vec3d{0.3, 0.3, 0}, 0.03));
     Paint paint;
-    paint.openness = to_byte((0.72 + 0.28 * smooth(0.001, 0.007, fat.thick)) * (1 - 0.3 * fat.groove));
+    paint.openness = to_byte((0.72 + 0.28 * smooth(0.001, 0.007, fat.thick)) * (1 - 0.45 * fat.groove));
     paint.tint = to_byte(std::max({0.3 * patch, 0.4 * fat.groove, 0.9 * smooth(0.008, 0, deep)}));
     b.add(vec_cast<float>(point.p + fat.thick * point.n), paint);
   }
