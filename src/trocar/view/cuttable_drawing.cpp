@@ -18,7 +18,7 @@ constexpr std::uint8_t kRimPale = 75;         // the capsule's edge: its look's 
 constexpr float kStains = 0.0014f;            // [m] how far from a cut its blood stains the skin
 constexpr float kLip = 0.0003f;               // [m] how far its lips are turned out ...
 constexpr float kLipAt = 0.0022f;             // [m] ... so far from the rim
-constexpr float kRough = 0.7f;                // slope of torn flesh, which breaks up what it mirrors
+constexpr float kRough = 0.9f;                // slope of torn flesh, which breaks up what it mirrors
 constexpr std::uint8_t kLooseOpenness = 230;  // of pieces that have come off, which do not lie where they were baked
 constexpr std::uint8_t kLoosePale = 60;       // their capsule has bled out
 constexpr float kGrain = 0.0007f;             // [m] torn lobules of what is bare
@@ -203,13 +203,12 @@ void CuttableDrawing::paint_skin() {
     m_at_rim.push_back(at_rim(m_skin, rim, i) > 0.999f);
     if (m_skin.bare[i]) {
       const float mouth = at_rim(m_skin, own, i);
-      m_height[i] = kGrain * (1 - mouth) * float(waves(vec_cast<double>(m_skin.skin.rest[i]), 0.0036));
+      m_height[i] = kGrain * (1 - mouth) * float(waves(vec_cast<double>(m_skin.skin.rest[i]), 0.0027));
       m_paint[i] = kFlesh;
       const float open = float(kDeepOpenness) + mouth * float(kFlesh.openness - kDeepOpenness);
       const float grain = float(waves(vec_cast<double>(m_skin.skin.rest[i]) + Vec3d{0.5, 0.2, 0.4}, 0.0031));
       m_paint[i].openness = std::uint8_t(open * (1 + kGranular * grain));
       m_paint[i].blood = std::uint8_t(float(kFlesh.blood) + mouth * (float(kMouthBlood) - float(kFlesh.blood)));
-      if (loose) m_paint[i].openness = kLooseOpenness;
       continue;
     }
     float open = 0;
@@ -288,7 +287,7 @@ void CuttableDrawing::roughen() {
   for (std::size_t i = 0; i < m_normals.size(); ++i) {
     if (!m_skin.bare[i]) continue;
     const Vec3d p = vec_cast<double>(m_skin.skin.rest[i]);
-    const Vec3d off{waves(p, 0.0047), waves(p + Vec3d{0.3, 0.1, 0.2}, 0.0043), waves(p + Vec3d{0.7, 0.5, 0.1}, 0.0051)};
+    const Vec3d off{waves(p, 0.0029), waves(p + Vec3d{0.3, 0.1, 0.2}, 0.0026), waves(p + Vec3d{0.7, 0.5, 0.1}, 0.0031)};
     m_normals[i] = normalised(m_normals[i] + kRough * vec_cast<float>(off), m_normals[i]);
   }
 }
