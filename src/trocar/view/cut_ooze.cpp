@@ -8,6 +8,7 @@ namespace trocar::view {
 namespace {
 
 // Our choice, by eye.
+constexpr float kDark = 0.7f;        // venous, not yet clotted
 constexpr double kRunning = 0.35;    // share of the lip's vertices from which a run starts
 constexpr float kStep = 0.0011f;     // [m] between two links of a run
 constexpr float kShortest = 0.004f;  // [m]
@@ -48,7 +49,7 @@ render::Splat film(const Place& from, const Place& to, float radius, float thick
   s.normal = normalised(from.normal + to.normal, from.normal);
   s.radius = radius;
   s.height = thick;
-  s.dark = 1;  // from liver's veins and capillaries
+  s.dark = kDark;
   return s;
 }
 
@@ -71,7 +72,7 @@ void hang(const CutSkin& skin, std::span<const Vec3f> drips, render::Liquid& liq
     s.from = at.position, s.to = at.position + kHangs * liquid.down;
     s.radius = s.height = kHanging;
     s.normal = at.normal;
-    s.dark = 1;
+    s.dark = kDark;
     liquid.splats.push_back(s);
   }
 }

@@ -7,6 +7,7 @@ namespace trocar::view {
 namespace {
 
 // Our choice, by eye.
+constexpr float kDark = 0.7f;                         // venous, not yet clotted
 constexpr float kFarthest = 0.15f;                    // [m] a drop falls
 constexpr float kClearance = 0.004f;                  // [m] above the ground, from where patches are let down on it
 constexpr float kMerges = 0.005f;                     // [m] drops that land closer than this make one stain
@@ -59,7 +60,7 @@ render::Splat DripStains::film(const Landing& from, Vec3f to, float radius, floa
   s.normal = from.normal;
   s.radius = radius;
   s.height = thick;
-  s.dark = 1;
+  s.dark = kDark;
   return s;
 }
 

@@ -24,10 +24,10 @@ vec2 run_off(vec3 place, vec3 fall, float pixel, out float streak) {
 
 const float kLeast = 2.0e-6;       // [m] a film draws back from where there is less
 const float kAside = 0.0009;       // [m] gaps narrower than that close
-const float kLevel = 4.5e-5;       // [m] at which it levels
+const float kLevel = 3.0e-5;       // [m] at which it levels
 const float kThroughTissue = 4.5;  // light that tissue scatters crosses the film on it more than twice
 
-const float kSheen = 0.022;        // of the lamp, where a film faces it; our choice, from frames of films
+const float kSheen = 0.007;        // of the lamp, where a film faces it; our choice, from frames of films
 
 float film_at(vec2 uv) { return dot(texture(u_film, uv).rgb, vec3(1.0e-3)); }
 
@@ -131,8 +131,8 @@ void main() {
   vec3 light = LIGHT_COLOUR * (lit.power * facing) + (BOUNCE + vec3(AMBIENT)) * lit.bounce;
   // What flies is lit from all round.
   // What lies is dark and uneven, as its cells gather here and there.
-  float lying = (0.15 + 0.17 * smoothstep(0.25, 0.75, 0.6 * fine.a + 0.4 * streak)) * (1.0 - flying);
-  vec3 deep = deep_colour(amount, dark) * (lying + 0.9 * flying) + vec3(0.0, 0.008, 0.019) * lying;
+  float lying = (0.27 + 0.22 * smoothstep(0.25, 0.75, 0.6 * fine.a + 0.4 * streak)) * (1.0 - flying);
+  vec3 deep = deep_colour(amount, dark) * (lying + 0.9 * flying) + vec3(0.0, 0.003, 0.007) * lying;
   vec3 colour = below * through + deep * light * (1.0 - through);
 
   // Wet: the lamp in drops, broken by the tissue's unevenness in films; the walls where seen at a grazing angle. What
@@ -153,7 +153,8 @@ void main() {
   shine += LIGHT_COLOUR * (0.17 * lit.power * smoothstep(2.2e-4, 4.0e-4, smeared) * smoothstep(0.45, 0.62, fine.r));
 #endif
   float nv = clamp(dot(n, V), 0.0, 1.0);
-  shine += (BOUNCE * 3.0 + vec3(AMBIENT)) * (lit.bounce * min(mirror_share(nv), 0.2) * (cover + gloss));
+  float mirrors = mirror_share(nv);
+  shine += (BOUNCE * 3.0 + vec3(AMBIENT)) * (lit.bounce * (min(mirrors, 0.2) * cover + min(mirrors, 0.05) * gloss));
   // What flies casts no shadow on what is behind it.
   o_colour = vec4(colour + shine, mix(bed.a, min(far, bed.a), cover * (1.0 - flying)));
 }
