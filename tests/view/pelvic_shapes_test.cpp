@@ -83,9 +83,24 @@ int pieces_of_surface(const MeshBuffer& b) {
   return int(std::unique(used.begin(), used.end()) - used.begin());
 }
 
-TEST(Fimbriae, AreOneSurfaceWithTheirTube) {
+TEST(Fimbriae, HaveABellThatIsOneSurfaceWithTheirTube) {
   for (const char* name : {"tube_left", "tube_right"})
-    EXPECT_EQ(pieces_of_surface(TubeDrawing(pelvis(), pelvis().strand_index(name)).drawn()), 1) << name;
+    EXPECT_EQ(pieces_of_surface(TubeDrawing(pelvis(), pelvis().strand_index(name)).drawn()), 1 + kFronds) << name;
+}
+
+TEST(Fimbriae, GrowOutOfTheBell) {
+  FimbriaSite site;
+  site.radius = 0.004;
+  site.down = {0, 0, -1};
+  const MeshBuffer b = fimbriae(site);
+  const std::uint32_t pole = 11 * kRimColumns, frond = (b.size() - pole - 1) / kFronds;
+  ASSERT_EQ(pole + 1 + frond * kFronds, b.size());
+  for (std::uint32_t f = 0; f < kFronds; ++f) {
+    float nearest = 1;
+    for (std::uint32_t v = 0; v < pole; ++v)
+      nearest = std::min(nearest, length(b.positions[v] - b.positions[pole + 1 + f * frond]));
+    EXPECT_LT(nearest, 0.25f * float(site.radius)) << f;
+  }
 }
 
 TEST(Fimbriae, LieOnTheOvaryAndNotInIt) {

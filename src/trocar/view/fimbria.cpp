@@ -2,124 +2,151 @@
 #include <array>
 #include <cmath>
 
+#include <trocar/render/mesh_arrays.hpp>
 #include <trocar/view/fimbria.hpp>
 
 namespace trocar::view {
 namespace {
 
 constexpr double kPi = 3.14159265358979;
-constexpr int kRings = 18;          // along a leaf
-constexpr double kWall = 0.0002;    // [m] half the thickness of the rim's wall
-constexpr double kPlump = 0.00042;  // [m] the same of a leaf
-constexpr double kPleat = 0.00034;  // [m] height of the folds on the inner side
-constexpr int kFolds = 2;           // of them on a leaf
+constexpr int kRings = 30;            // along a frond ...
+constexpr int kCapRings = 6;          // ... of which so many round off its end
+constexpr std::uint32_t kAcross = 3;  // vertices across each of its sides
+constexpr double kThick = 0.00036;    // [m] half of a frond's thickness
+constexpr double kGroove = 0.00025;   // [m] depth of the furrow between the folds of its inner side
+constexpr double kWave = 0.0020;      // [m] from crest to crest of its frill
+constexpr double kMostWaves = 4.2;    // that its rings can follow
+constexpr double kFrill = 0.00042;    // [m] how far that goes to either side, at the most
 
-/// Rings of the bell beyond the tube's end: forwards and outwards, in radii of the end.
-constexpr std::array<std::array<double, 2>, 4> kBell{{{0.14, 1.01}, {0.34, 1.05}, {0.52, 1.12}, {0.68, 1.24}}};
-constexpr double kRimLean = 0.85;  // [rad] from the tube's direction outwards, of the wall at the rim
-
-/// The inside, from below the rim to the mouth: as the bell, and how much light gets there.
-struct FunnelRow {
-  double along, radius, openness;
+/// The bell beyond the tube's end, over its rim and down to the mouth: forwards and outwards, in radii of the end, and
+/// how much light gets there.
+struct BellRow {
+  double along, radius, openness, mucosa;
 };
-constexpr std::array<FunnelRow, 7> kFunnel{{{0.50, 1.04, 0.92},
-                                            {0.24, 0.84, 0.74},
-                                            {-0.06, 0.63, 0.50},
-                                            {-0.36, 0.44, 0.26},
-                                            {-0.64, 0.32, 0.12},
-                                            {-0.94, 0.22, 0.05},
-                                            {-1.25, 0.12, 0.02}}};
+constexpr std::array<BellRow, 11> kBell{{{0.14, 1.01, 1.00, 0.0},
+                                         {0.36, 1.08, 1.00, 0.05},
+                                         {0.56, 1.20, 1.00, 0.2},
+                                         {0.68, 1.30, 0.95, 0.5},
+                                         {0.74, 1.27, 0.85, 0.8},
+                                         {0.64, 1.10, 0.70, 1.0},
+                                         {0.40, 0.86, 0.50, 1.0},
+                                         {0.02, 0.62, 0.32, 1.0},
+                                         {-0.36, 0.42, 0.20, 1.0},
+                                         {-0.80, 0.26, 0.08, 1.0},
+                                         {-1.20, 0.12, 0.02, 1.0}}};
 
-/// One leaf: where it grows, how far, and how it bends.
-struct Leaf {
-  double from, to;  ///< of the rim [rad]
-  double length;    ///< [m]
-  double lean;      ///< [rad] outwards at its end, more than at the rim
-  double sway;      ///< [rad] sideways
-  double reaches;   ///< 0..1: how far it is drawn to the ovary
+/// Fronds grow in rows, from the rim inwards: long ones that fall outwards, and shorter ones that stand around the
+/// mouth. Lengths in radii of the tube's end, angles from the tube's direction outwards.
+struct FrondRow {
+  int count;
+  double along, radius;  ///< of their roots
+  double length, half_width;
+  double lean, falls;  ///< [rad] at the root, and how much more at the tip
+};
+constexpr std::array<FrondRow, 4> kRows{{{22, 0.35, 1.03, 1.65, 0.155, 0.72, 0.75},
+                                         {17, 0.66, 1.22, 1.35, 0.15, 0.75, 0.50},
+                                         {13, 0.50, 0.98, 1.10, 0.14, 0.45, 0.40},
+                                         {8, 0.20, 0.72, 1.00, 0.13, 0.15, 0.25}}};
+static_assert(kRows[0].count + kRows[1].count + kRows[2].count + kRows[3].count == kFronds);
+constexpr int kClump = 3;  // neighbours that cling together
+
+/// One frond: where it grows, how far, and how it bends.
+struct Frond {
+  Vec3d root;           ///< [m]
+  double angle;         ///< around the rim [rad]
+  double length, half;  ///< half its width [m]
+  double end;           ///< of its length: what is rounded off
+  double lean, falls;   ///< as FrondRow
+  double sway, twist;   ///< sideways, and about itself, at its end [rad]
+  double reaches;       ///< 0..1: how far it is drawn to the ovary
   int seed;
-  double middle() const { return 0.5 * (from + to); }
 };
 
 Vec3d outwards(double angle) { return {0, std::cos(angle), std::sin(angle)}; }
 Vec3d around(double angle) { return {0, -std::sin(angle), std::cos(angle)}; }
 double apart(double a, double b) { return std::fabs(std::remainder(a - b, 2 * kPi)); }
+double swing(int i, int k) { return 2 * varied(i, k) - 1; }
 
-/// Unequal shares of the rim in three orders: long ones that fall outwards, middling ones, and between them short ones
-/// that stand up around the mouth.
-std::vector<Leaf> leaves_of(const FimbriaSite& site) {
-  std::vector<Leaf> leaves(kLeaves);
-  std::vector<double> border(kLeaves + 1);
-  const int seed = 1000 * site.seed;
-  for (int i = 0; i < kLeaves; ++i)
-    border[std::size_t(i)] = 2 * kPi * (i + 0.55 * (varied(seed + i, 3) - 0.5)) / kLeaves;
-  border[kLeaves] = border[0] + 2 * kPi;
-  const double to_ovary = std::atan2(site.land.z, site.land.y);
-  for (int i = 0; i < kLeaves; ++i) {
-    Leaf& f = leaves[std::size_t(i)];
-    const int order = i % 2 == 1 ? 2 : (i / 2) % 2;
-    constexpr double longest[] = {1.7, 1.3, 0.85}, falls[] = {1.05, 0.5, 0.0};
-    f.seed = seed + i;
-    f.from = border[std::size_t(i)];
-    f.to = border[std::size_t(i) + 1];
-    f.length = site.radius * longest[order] * (0.7 + 0.6 * varied(f.seed, 4));
-    f.lean = falls[order] + 0.8 * (varied(f.seed, 6) - 0.5);
-    f.sway = 1.3 * (varied(f.seed, 8) - 0.5);
-    const double off = apart(f.middle(), to_ovary);
-    f.reaches = site.ovary ? smooth(1.2, 0.35, off) : 0;
-  }
-  if (site.ovary) {  // the nearest of all gets there
-    const auto nearest = std::min_element(leaves.begin(), leaves.end(), [&](const Leaf& a, const Leaf& b) {
-      return apart(a.middle(), to_ovary) < apart(b.middle(), to_ovary);
-    });
-    for (Leaf& f : leaves) f.reaches = std::min(f.reaches, 0.75);
-    nearest->reaches = 1;
-  }
-  return leaves;
+Frond grown(const FimbriaSite& site, const FrondRow& row, int i, int index) {
+  Frond f;
+  f.seed = 1000 * site.seed + index;
+  const int clump = 1000 * site.seed + 500 + index / kClump;
+  // Those of a clump lean the same way, and towards its middle.
+  const double aside = index % kClump - 0.5 * (kClump - 1);
+  f.angle = 2 * kPi * (i + 0.45 * swing(f.seed, 3) - 0.1 * aside) / row.count + 0.4 * row.count;
+  f.root = site.radius * (row.along * Vec3d{1, 0, 0} + row.radius * outwards(f.angle));
+  f.length = site.radius * row.length * (1 + 0.3 * swing(f.seed, 4));
+  f.half = site.radius * row.half_width * (1 + 0.35 * swing(f.seed, 5));
+  f.end = std::min(0.4, 1.1 * f.half / f.length);
+  f.lean = row.lean + 0.1 * swing(f.seed, 6);
+  f.falls = row.falls + 0.6 * swing(clump, 7) + 0.3 * swing(f.seed, 7);
+  f.sway = 0.3 * swing(clump, 8) + 0.3 * swing(f.seed, 8) - 0.15 * aside;
+  f.twist = 1.0 * swing(f.seed, 9);
+  f.reaches = 0;
+  return f;
 }
 
-/// A place on a leaf's middle line.
+std::vector<Frond> fronds_of(const FimbriaSite& site) {
+  std::vector<Frond> fronds;
+  for (const FrondRow& row : kRows)
+    for (int i = 0; i < row.count; ++i) fronds.push_back(grown(site, row, i, int(fronds.size())));
+  if (!site.ovary) return fronds;
+  const double to_ovary = std::atan2(site.land.z, site.land.y);
+  const auto outer = fronds.begin() + kRows[0].count;
+  for (auto f = fronds.begin(); f != outer; ++f) f->reaches = 0.75 * smooth(1.2, 0.35, apart(f->angle, to_ovary));
+  const auto nearest = std::min_element(fronds.begin(), outer, [&](const Frond& a, const Frond& b) {
+    return apart(a.angle, to_ovary) < apart(b.angle, to_ovary);
+  });
+  nearest->reaches = 1;  // it gets there
+  return fronds;
+}
+
+/// A place on a frond's middle line.
 struct Spine {
   Vec3d point, along, across, flat;  ///< unit; flat: out of the inner side
 };
 using Spines = std::array<Spine, kRings + 1>;
 
-/// Rings stand closer towards the tip.
-double along_leaf(int ring) {
-  const double t = double(ring) / kRings;
-  return 0.35 * t + 0.65 * std::sin(0.5 * kPi * t);
+/// Rings stand closer where its end is rounded off.
+double along_frond(const Frond& f, int ring) {
+  constexpr int body = kRings - kCapRings;
+  if (ring <= body) return (1 - f.end) * ring / body;
+  return 1 - f.end + f.end * std::sin(0.5 * kPi * (ring - body) / kCapRings);
+}
+
+void turn(Spine& s, double by) {
+  s.across = std::cos(by) * s.across + std::sin(by) * s.flat;
+  s.flat = cross(s.along, s.across);
 }
 
 /// By its own bend and weight.
-Spines hanging(const Leaf& f, const FimbriaSite& site) {
+Spines hanging(const Frond& f, const FimbriaSite& site) {
   Spines spine;
-  const Vec3d out = outwards(f.middle()), side = around(f.middle());
-  const auto& rim = kBell.back();
-  Vec3d p = site.radius * (rim[0] * Vec3d{1, 0, 0} + rim[1] * out);
+  const Vec3d out = outwards(f.angle), side = around(f.angle);
+  Vec3d p = f.root;
   for (int i = 0; i <= kRings; ++i) {
-    const double u = along_leaf(i), lean = kRimLean + f.lean * u + 0.16 * std::sin(5.5 * u + f.seed);
+    const double u = along_frond(f, i), lean = f.lean + f.falls * u + 0.25 * std::sin(5 * u + f.seed) * u;
     Vec3d t = std::cos(lean) * Vec3d{1, 0, 0} + std::sin(lean) * out;
     t = std::cos(f.sway * u) * t + std::sin(f.sway * u) * side;
-    t = normalised(t + (0.75 * u) * site.down, t);
+    t = normalised(t + (0.9 * u) * site.down, t);
     const Vec3d across = normalised(side - dot(side, t) * t, any_perpendicular(t));
     spine[std::size_t(i)] = {p, t, across, cross(t, across)};
-    if (i < kRings) p += (f.length * (along_leaf(i + 1) - u)) * t;
+    turn(spine[std::size_t(i)], f.twist * u);
+    if (i < kRings) p += (f.length * (along_frond(f, i + 1) - u)) * t;
   }
   return spine;
 }
 
-/// A curve from the rim to the ovary, along which the leaf's inner side comes to lie on it.
-Spines landing(const Leaf& f, const FimbriaSite& site) {
+/// A curve from the rim to the ovary, along which the frond's inner side comes to lie on it.
+Spines landing(const Frond& f, const FimbriaSite& site) {
   Spines spine;
-  const Vec3d out = outwards(f.middle()), side = around(f.middle());
-  const auto& rim = kBell.back();
-  const Vec3d a = site.radius * (rim[0] * Vec3d{1, 0, 0} + rim[1] * out), b = site.land;
+  const Vec3d out = outwards(f.angle), side = around(f.angle), a = f.root, b = site.land;
   const double far = length(b - a);
-  const Vec3d da = (1.1 * far) * (std::cos(kRimLean) * Vec3d{1, 0, 0} + std::sin(kRimLean) * out),
+  const Vec3d da = (1.1 * far) * (std::cos(f.lean) * Vec3d{1, 0, 0} + std::sin(f.lean) * out),
               db = (1.3 * far) * normalised(site.slide - 0.25 * site.normal, site.slide);
   Vec3d carried = side;
   for (int i = 0; i <= kRings; ++i) {
-    const double t = along_leaf(i), u = 1 - t;
+    const double t = along_frond(f, i), u = 1 - t;
     const Vec3d p = (u * u * (1 + 2 * t)) * a + (t * t * (3 - 2 * t)) * b + (u * u * t) * da - (t * t * u) * db;
     const Vec3d along = normalised((6 * t * u) * (b - a) + (u * (1 - 3 * t)) * da + (t * (3 * t - 2)) * db, site.slide);
     carried = normalised(carried - dot(carried, along) * along, any_perpendicular(along));
@@ -128,17 +155,12 @@ Spines landing(const Leaf& f, const FimbriaSite& site) {
   // What it must turn about itself to lie flat at the end is shared out along it.
   const Spine& last = spine[kRings];
   const Vec3d lying = cross(-site.normal, last.along);
-  const double turn = std::remainder(std::atan2(dot(lying, last.flat), dot(lying, last.across)), kPi);
-  for (int i = 0; i <= kRings; ++i) {
-    Spine& s = spine[std::size_t(i)];
-    const double by = turn * smooth(0.1, 0.8, along_leaf(i));
-    s.across = std::cos(by) * s.across + std::sin(by) * s.flat;
-    s.flat = cross(s.along, s.across);
-  }
+  const double all = std::remainder(std::atan2(dot(lying, last.flat), dot(lying, last.across)), kPi);
+  for (int i = 0; i <= kRings; ++i) turn(spine[std::size_t(i)], all * smooth(0.1, 0.8, along_frond(f, i)));
   return spine;
 }
 
-Spines spine_of(const Leaf& f, const FimbriaSite& site) {
+Spines spine_of(const Frond& f, const FimbriaSite& site) {
   Spines own = hanging(f, site);
   if (f.reaches <= 0) return own;
   const Spines drawn = landing(f, site);
@@ -159,165 +181,142 @@ double round_end(double u, double end) {
   return std::sqrt(std::max(0.0, 1 - std::pow(std::max(0.0, (u - 1 + end) / end), 2.0)));
 }
 
-/// Half the width over half the share of the rim: a slender frond, widest in its middle, with soft scallops and a
-/// round end.
-double half_width(const Leaf& f, double u, double end, bool right) {
-  const int k = 2 * f.seed + (right ? 1 : 0);
-  const double body = 1 + (0.3 + 0.5 * varied(f.seed, 23)) * smooth(0.05, 0.5, u) - 0.62 * smooth(0.45, 1, u);
-  const double turn = (11 + 7 * varied(k, 2)) * u + 6.3 * varied(k, 1);
-  const double scallops = smooth(0.1, 0.35, u) * (0.16 * std::sin(turn) + 0.09 * std::sin(2.3 * turn + k));
-  return (body + scallops) * (0.03 + 0.97 * round_end(u, end));
-}
-
-/// How far the column at `w` (-1..1 across) goes, over the leaf's length.
-double reach(const Leaf& f, double w) { return 0.97 - 0.03 * std::sin(2.5 * w + f.seed); }
-
-/// How high the folds of the inner side stand at a column of the rim, 0..1; each has its own height.
-double fold_at(int column) {
-  const double turn = double(kFolds * column) / kLeafColumns, own = varied(int(turn), 77);
-  return (0.25 + 0.75 * own) * (0.5 - 0.5 * std::cos(2 * kPi * turn));
-}
-
 struct Sheets {
   Vec3d middle, inner;  ///< between both sides; half the thickness towards the inner one
+  Vec3d groove;         ///< and how deep the inner one is cut in
+  double rim;           ///< 0 in the middle .. 1 at the edge
+  double crest;         ///< -1..1: where the frill stands towards the inner side
 };
 
-Sheets place_on(const Leaf& f, const Spines& spine, const FimbriaSite& site, int ring, int column, double fold) {
-  const double w = 2.0 * column / kLeafColumns - 1, v = along_leaf(ring);
-  const double u = v * (1 + (reach(f, w) - 1) * v), at = std::clamp(u, 0.0, 1.0);
-  // The spine at u, between its own rings.
-  int i = 0;
-  while (i + 2 <= kRings && along_leaf(i + 1) < at) ++i;
-  const double t = (at - along_leaf(i)) / (along_leaf(i + 1) - along_leaf(i));
-  const Spine &a = spine[std::size_t(i)], &b = spine[std::size_t(i) + 1];
-  const Vec3d point = (1 - t) * a.point + t * b.point, across = (1 - t) * a.across + t * b.across,
-              flat = (1 - t) * a.flat + t * b.flat;
-  const double sector = 0.5 * (f.to - f.from) * kBell.back()[1] * site.radius;
-  const double end = std::clamp(2.4 * sector / f.length, 0.35, 0.7);
-  const double half = sector * half_width(f, v, end, w > 0);
-  // Edges are longer than the middle: they rise and fall in a frill, and the leaf is a shallow trough.
-  const double edge = std::fabs(w) * w * w, loose = smooth(0.05, 0.5, v) * (1 - 0.7 * smooth(0.8, 1, v));
-  const double phase = 6.3 * varied(f.seed, w > 0 ? 21 : 22);
-  const double frill =
-      loose * (0.0007 * edge * std::sin(12 * v + phase) + 0.00026 * w * w * std::sin(26 * v + 1.7 * phase));
-  const double trough = (f.reaches >= 1 ? 0.05 : 0.35 * varied(f.seed, 12) - 0.1) * half * w * w;
-  const double pleats = kPleat * smooth(0, 0.15, v) * (1 - 0.6 * v) * (fold - 0.3);
-  const double thick = (kWall + (kPlump - kWall) * smooth(0, 0.4, v) * (1 - 0.35 * v)) * round_end(v, end) *
-                       std::sqrt(std::max(0.0, 1 - w * w));
-  // At the root the leaf's line follows the rim.
-  const double angle = f.from + (f.to - f.from) * double(column) / kLeafColumns, root = smooth(0.3, 0, v);
-  const auto& rim = kBell.back();
-  const Vec3d on_rim = site.radius * (rim[0] * Vec3d{1, 0, 0} + rim[1] * outwards(angle));
-  const Vec3d base = spine[0].point + (sector * w) * spine[0].across;
-  const Vec3d p = point + (w * half) * across + (frill + trough + pleats) * flat + root * (on_rim - base);
-  return {p, thick * normalised(flat, a.flat)};
+/// A frond's edges are much longer than its middle: they swing to and fro across it and along it, in a frill with
+/// smaller folds on it, each side by its own measure.
+Sheets place_on(const Frond& f, const Spines& spine, double span, int ring, int column) {
+  const Spine& s = spine[std::size_t(ring)];
+  const double w = 2.0 * column / (int(kAcross) - 1) - 1, u = along_frond(f, ring), e = std::pow(std::fabs(w), 1.5);
+  const int side = 2 * f.seed + (w > 0 ? 1 : 0);
+  const double tip = round_end(u, f.end);
+  const double body = (0.4 + 0.4 * smooth(0, 0.2, u) + 0.3 * smooth(0.2, 0.65, u)) * (0.03 + 0.97 * tip);
+  const double waves = std::min(span / kWave, kMostWaves) * (0.7 + 0.3 * varied(side, 21));
+  const double phase = 2 * kPi * (waves * (u + 0.07 * std::sin(6 * u + side)) + varied(side, 22));
+  const double loose = smooth(0.08, 0.45, u) * (f.reaches >= 1 ? 0.4 : 1) * tip;
+  const double swell = kFrill * loose * (1 + 0.4 * std::sin(0.37 * phase + 3 * side));
+  const double up = std::sin(phase) + 0.25 * std::sin(1.7 * phase + side);
+  const double trough = 0.3 * swing(f.seed, 12) * f.half * w * w;
+  const double across = w * f.half * body * (1 + 0.12 * loose * std::cos(phase + 0.8));
+  const double on = -0.12 * swell * e * std::cos(phase + 0.5);
+  const double thick =
+      kThick * (0.3 + 0.7 * smooth(0, 0.2, u)) * (1.15 - 0.4 * u) * tip * std::sqrt(std::max(0.0, 1 - w * w));
+  const Vec3d p = s.point + across * s.across + (swell * e * up + trough) * s.flat + on * s.along;
+  // Its inner side has folds of its own, which run along it.
+  const double groove = kGroove * smooth(0.02, 0.3, u) * tip * std::pow(1 - std::fabs(w), 2.0);
+  return {p, thick * s.flat, groove * s.flat, std::max(e * e, 1 - tip), up * e};
 }
 
 Paint painted(double openness, double tint) { return {to_byte(openness), 0, 0, to_byte(tint)}; }
 
-/// The inner side is the mucosa's deep rose, darker between folds; the rims let light through.
-Paint of_leaf(int column, double fold, double v, bool inside) {
-  const double w = 2.0 * column / kLeafColumns - 1;
-  const double rim = std::max(std::pow(std::fabs(w), 4.0), smooth(0.84, 1.0, v));
-  const double groove = 1 - std::min(1.0, 1.5 * fold);
-  if (inside) return painted(1 - 0.45 * groove * (1 - rim) * (1 - 0.5 * v), (1 - 0.2 * fold) * (1 - 0.6 * rim));
-  return painted(0.95, (0.85 * smooth(0, 0.35, v)) * (1 - 0.65 * rim));
-}
-
-/// Vertices of the outside, from the tube's end to the rim; the last row is the rim.
-std::vector<std::uint32_t> add_bell(MeshBuffer& b, const FimbriaSite& site, const std::vector<double>& angle) {
+void add_bell(MeshBuffer& b, const FimbriaSite& site) {
   for (std::size_t row = 0; row < kBell.size(); ++row) {
-    const double share = double(row) / double(kBell.size() - 1);
+    const BellRow& r = kBell[row];
     for (int k = 0; k < kRimColumns; ++k) {
-      const double even = 2 * kPi * k / kRimColumns, a = (1 - share) * even + share * angle[std::size_t(k)];
-      const double edge = double(k % kLeafColumns) / kLeafColumns, w = 2 * edge - 1;
-      const double out =
-          kWall / site.radius * (row + 1 == kBell.size() ? std::sqrt(std::max(0.0, 1 - w * w)) - 0.3 : 0);
-      const Vec3d normal = std::sin(kRimLean) * Vec3d{-1, 0, 0} + std::cos(kRimLean) * outwards(a);
-      const Vec3d p = site.radius * (kBell[row][0] * Vec3d{1, 0, 0} + kBell[row][1] * outwards(a) + out * normal);
-      b.add(vec_cast<float>(p), painted(1, 0.05 * share));
+      const double a = 2 * kPi * k / kRimColumns;
+      // Mucosa lies in folds that run down to the mouth, and the rim follows them.
+      const double folds = std::sin(7 * a + 1.3 * std::sin(2 * a + site.seed)) + 0.5 * std::sin(12 * a + site.seed);
+      const double out = r.radius * (1 + 0.05 * folds * r.mucosa);
+      const Vec3d p = site.radius * (r.along * Vec3d{1, 0, 0} + out * outwards(a));
+      b.add(vec_cast<float>(p), painted(r.openness * (1 - 0.1 * r.mucosa * folds), r.mucosa));
     }
     if (row > 0)
       join_rows(b, std::uint32_t(row - 1) * kRimColumns, std::uint32_t(row) * kRimColumns, kRimColumns, true);
   }
-  std::vector<std::uint32_t> rim;
-  for (int k = 0; k < kRimColumns; ++k) rim.push_back(std::uint32_t(kBell.size() - 1) * kRimColumns + std::uint32_t(k));
-  return rim;
+  const std::uint32_t pole = b.add({float(-1.3 * site.radius), 0, 0}, painted(0.02, 1));
+  join_pole(b, pole - kRimColumns, kRimColumns, pole, true);
 }
 
-/// The rim's inner row: its own vertices, but for those where two leaves part.
-std::vector<std::uint32_t> add_inner_rim(MeshBuffer& b, const std::vector<std::uint32_t>& rim,
-                                         const std::vector<double>& angle) {
-  std::vector<std::uint32_t> inner = rim;
-  for (int k = 0; k < kRimColumns; ++k) {
-    if (k % kLeafColumns == 0) continue;
-    const double w = 2.0 * (k % kLeafColumns) / kLeafColumns - 1, thick = 2 * kWall * std::sqrt(1 - w * w);
-    const Vec3d in = std::sin(kRimLean) * Vec3d{1, 0, 0} - std::cos(kRimLean) * outwards(angle[std::size_t(k)]);
-    const Vec3d p = vec_cast<double>(b.positions[rim[std::size_t(k)]]) + (thick + 0.4 * kPleat * fold_at(k)) * in;
-    inner[std::size_t(k)] = b.add(vec_cast<float>(p), of_leaf(k % kLeafColumns, fold_at(k), 0, true));
-  }
-  return inner;
-}
-
-void add_leaf(MeshBuffer& b, const Leaf& f, int index, const FimbriaSite& site, const std::vector<std::uint32_t>& rim,
-              const std::vector<std::uint32_t>& inner_rim) {
+/// Both sides of a frond have their own vertices at its edge, each with the normal of its side: one that looked
+/// sideways would be dark, and a real edge lets light through.
+void add_frond(MeshBuffer& b, const Frond& f, const FimbriaSite& site) {
   const Spines spine = spine_of(f, site);
-  std::vector<std::uint32_t> outside, inside;  // of the row before
-  for (int j = 0; j <= kLeafColumns; ++j) {
-    const auto k = std::size_t((index * kLeafColumns + j) % kRimColumns);
-    outside.push_back(rim[k]);
-    inside.push_back(inner_rim[k]);
-  }
-  for (int i = 1; i <= kRings; ++i) {
-    std::vector<std::uint32_t> out_row, in_row;
-    for (int j = 0; j <= kLeafColumns; ++j) {
-      const double v = along_leaf(i), fold = fold_at(index * kLeafColumns + j);
-      const Sheets s = place_on(f, spine, site, i, j, fold);
-      // At the edge both lie in the same place, each with the normal of its side: a rim that looked sideways would
-      // be dark, and a real one lets light through.
-      out_row.push_back(b.add(vec_cast<float>(s.middle - s.inner), of_leaf(j, fold, v, false)));
-      in_row.push_back(b.add(vec_cast<float>(s.middle + s.inner), of_leaf(j, fold, v, true)));
+  double span = 0;
+  for (std::size_t i = 1; i < spine.size(); ++i) span += length(spine[i].point - spine[i - 1].point);
+  for (int i = 0; i <= kRings; ++i) {
+    const double u = along_frond(f, i);
+    for (std::uint32_t j = 0; j < 2 * kAcross; ++j) {
+      const bool behind = j >= kAcross;
+      const Sheets s = place_on(f, spine, span, i, int(j % kAcross));
+      const double dip = std::max(0.0, behind ? s.crest : -s.crest);
+      const double tint =
+          (0.45 + 0.2 * swing(f.seed, 31) + 0.55 * dip) * (1 - 0.8 * s.rim * (1 - dip)) * smooth(0, 0.3, u);
+      const double open = (1 - 0.45 * std::min(1.0, dip)) * (behind ? 1 : 1 - 0.2 * (1 - s.rim));
+      const Vec3d p = behind ? s.middle - s.inner : s.middle + s.inner - s.groove;
+      b.add(vec_cast<float>(p), painted(open, tint));
     }
-    for (std::size_t j = 0; j < std::size_t(kLeafColumns); ++j) {
-      b.quad(outside[j], outside[j + 1], out_row[j + 1], out_row[j]);
-      b.quad(inside[j + 1], inside[j], in_row[j], in_row[j + 1]);
+    const std::uint32_t in = b.size() - 2 * kAcross, out = in + kAcross;
+    for (std::uint32_t j = 0; j + 1 < kAcross; ++j) {
+      if (i == 0) {
+        b.quad(in + j, in + j + 1, out + j + 1, out + j);
+        continue;
+      }
+      b.quad(in + j + 1 - 2 * kAcross, in + j - 2 * kAcross, in + j, in + j + 1);
+      b.quad(out + j - 2 * kAcross, out + j + 1 - 2 * kAcross, out + j + 1, out + j);
     }
-    outside = std::move(out_row);
-    inside = std::move(in_row);
   }
 }
 
-void add_funnel(MeshBuffer& b, const std::vector<std::uint32_t>& rim, const FimbriaSite& site,
-                const std::vector<double>& angle) {
-  std::vector<std::uint32_t> before = rim;
-  for (const FunnelRow& row : kFunnel) {
-    std::vector<std::uint32_t> now;
-    for (int k = 0; k < kRimColumns; ++k) {
-      const double fold = fold_at(k) * smooth(0.05, 0.3, row.radius), out = row.radius - 0.1 * (fold - 0.3);
-      const Vec3d p = site.radius * (row.along * Vec3d{1, 0, 0} + out * outwards(angle[std::size_t(k)]));
-      now.push_back(b.add(vec_cast<float>(p), painted(row.openness * (0.65 + 0.35 * fold), 1)));
-    }
-    for (std::size_t k = 0; k < std::size_t(kRimColumns); ++k) {
-      const std::size_t next = (k + 1) % kRimColumns;
-      b.quad(before[k], before[next], now[next], now[k]);
-    }
-    before = std::move(now);
+/// A piece of surface as a disc that takes light from what it faces. [Bunnell 05]
+struct Disc {
+  Vec3f place, normal;
+  float area;
+};
+
+std::vector<Disc> discs_of(const MeshBuffer& b, const std::vector<Vec3f>& normals) {
+  constexpr std::uint32_t kEvery = 11;  // vertices: next to no two in the same place of a ring
+  std::vector<float> area(b.size());
+  for (std::size_t i = 0; i + 2 < b.indices.size(); i += 3) {
+    const Vec3f p = b.positions[b.indices[i]];
+    const float third = length(cross(b.positions[b.indices[i + 1]] - p, b.positions[b.indices[i + 2]] - p)) / 6;
+    for (std::size_t k = 0; k < 3; ++k) area[b.indices[i + k]] += third;
   }
-  const std::uint32_t pole = b.add({float(-1.15 * site.radius), 0, 0}, painted(0.03, 1));
-  for (std::size_t k = 0; k < std::size_t(kRimColumns); ++k) b.triangle(before[k], before[(k + 1) % kRimColumns], pole);
+  std::vector<Disc> discs;
+  for (std::uint32_t v = 0; v < b.size(); v += kEvery) {
+    float all = 0;
+    for (std::uint32_t k = v; k < std::min(v + kEvery, b.size()); ++k) all += area[k];
+    discs.push_back({b.positions[v], normals[v], all});
+  }
+  return discs;
+}
+
+/// Fronds shade each other: deep between them it is dark and red, their tips are open and pale.
+void shade(MeshBuffer& b) {
+  constexpr float kFar = 0.004f;  // [m] beyond that, what is baked for the whole scene says enough
+  std::vector<Vec3f> normals;
+  render::vertex_normals(b.positions, b.indices, normals);
+  const std::vector<Disc> discs = discs_of(b, normals);
+  for (std::uint32_t v = 0; v < b.size(); ++v) {
+    const Vec3f p = b.positions[v] + 0.0001f * normals[v];
+    float covered = 0;
+    for (const Disc& d : discs) {
+      const Vec3f way = d.place - p;
+      const float far2 = dot(way, way);
+      const float facing = dot(way, normals[v]);
+      if (facing <= 0 || far2 > kFar * kFar) continue;
+      const float far = std::sqrt(far2);
+      const float seen = std::fabs(dot(way, d.normal)) / far;  // either side hides what is behind
+      covered += facing / far * (0.3f + 0.7f * seen) * d.area / (3.14f * far2 + d.area) * (1 - far / kFar);
+    }
+    const double open = std::exp(-2.6 * double(covered));
+    Paint& paint = b.paint[v];
+    paint.tint = to_byte(paint.tint / 255.0 + 0.5 * (1 - open) * (1 - paint.tint / 255.0));
+    paint.openness = to_byte(paint.openness / 255.0 * open);
+  }
 }
 
 }  // namespace
 
 MeshBuffer fimbriae(const FimbriaSite& site) {
-  const std::vector<Leaf> leaves = leaves_of(site);
-  std::vector<double> angle;
-  for (const Leaf& f : leaves)
-    for (int j = 0; j < kLeafColumns; ++j) angle.push_back(f.from + (f.to - f.from) * double(j) / kLeafColumns);
   MeshBuffer b;
-  const std::vector<std::uint32_t> rim = add_bell(b, site, angle), inner = add_inner_rim(b, rim, angle);
-  for (int i = 0; i < kLeaves; ++i) add_leaf(b, leaves[std::size_t(i)], i, site, rim, inner);
-  add_funnel(b, inner, site, angle);
+  add_bell(b, site);
+  for (const Frond& f : fronds_of(site)) add_frond(b, f, site);
+  shade(b);
   return b;
 }
 
