@@ -11,11 +11,11 @@ constexpr double kTwoPi = 6.28318530717959;
 constexpr double kApart = 0.012;                    // [m] between two tags of middle size
 constexpr double kSunk = 0.0022;                    // [m] a tag's foot lies below the skin
 constexpr float kAround = 0.02f, kUnder = 0.0009f;  // [m] skin around a tag; the foot's edge lies below it
-constexpr float kFarthestPull = 0.0045f;            // [m] of a foot down to the skin
-constexpr int kSides = 22, kRings = 15;
-constexpr int kLobes = 10;
-constexpr int kParts = 3;      // flaps of a tag, at most
-constexpr double kBend = 0.3;  // how fast a tag turns to hang down, a ring
+constexpr float kFarthestPull = 0.0036f;            // [m] of a foot down to the skin
+constexpr int kSides = 22, kRings = 18;
+constexpr int kLobes = 13;
+constexpr int kParts = 3;       // flaps of a tag, at most
+constexpr double kBend = 0.42;  // how fast a tag turns to hang down, a ring
 
 Mat3f frame_at(const OrganDrawing& organ, std::uint32_t at, std::uint32_t beside) {
   const Vec3f n = organ.normals()[at], way = organ.positions()[beside] - organ.positions()[at];
@@ -31,15 +31,15 @@ double lobes(Vec3d out, int seed) {
     const double level = std::sqrt(1 - up * up), size = 0.45 + 0.3 * varied(seed, 81 + k);
     const Vec3d centre{level * std::cos(turn), level * std::sin(turn), up};
     const double far = length(out - centre) / size;
-    most = std::max(most, size * std::sqrt(std::max(0.0, 1 - 0.8 * far * far)));
+    most = std::max(most, (0.4 + size) * std::sqrt(std::max(0.0, 1 - 0.9 * far * far)));
   }
-  return 0.8 + 0.3 * most;
+  return 0.62 + 0.5 * most;
 }
 
-/// How wide a flap is at `u` (0 foot .. 1 tip), of its width: a broad foot, hardly a neck, a round end.
+/// How wide a flap is at `u` (0 foot .. 1 tip), of its width: a stalk, then a body with a round end.
 double profile(double u) {
-  const double body = std::sqrt(std::max(0.0, 1 - std::pow(std::max(0.0, u - 0.45) / 0.55, 2)));
-  return body * (0.9 + 0.15 * smooth(0.2, 0.6, u));
+  const double body = std::sqrt(std::max(0.0, 1 - std::pow(std::max(0.0, u - 0.68) / 0.32, 2)));
+  return body * (0.42 + 0.66 * smooth(0.22, 0.62, u));
 }
 
 /// Its foot runs out on the bowel: how much wider it is `high` above the skin [m], of its width.
@@ -52,7 +52,7 @@ double skirt(double high) {
 MeshBuffer flap(Vec3d down, int seed, double size) {
   MeshBuffer b;
   const double length = size * (0.0085 + 0.006 * varied(seed, 21)), wide = size * (0.0036 + 0.0022 * varied(seed, 22));
-  const double flat = 0.38 + 0.2 * varied(seed, 23), turned = 1.1 * (varied(seed, 24) - 0.5);
+  const double flat = 0.32 + 0.2 * varied(seed, 23), turned = 1.1 * (varied(seed, 24) - 0.5);
   const Vec3d across = normalised(Vec3d{-down.y, down.x, 0}, Vec3d{1, 0, 0}), hangs{across.y, -across.x, 0};
   Vec3d p{0, 0, -kSunk}, along = normalised(Vec3d{0.7 * down.x, 0.7 * down.y, 1}),
                          x = std::cos(turned) * across + std::sin(turned) * hangs;
@@ -74,7 +74,7 @@ MeshBuffer flap(Vec3d down, int seed, double size) {
         const double level = std::sqrt(std::max(0.0, 1 - std::pow(2 * u - 1, 2)));
         const double lump = 1 + smooth(0.2, 0.45, u) * (lobes({level * c, level * s, 2 * u - 1}, seed) - 1);
         Paint own = paint;  // furrows between the lobes lie in shade
-        own.openness = to_byte(paint.openness / 255.0 * (0.8 + 0.2 * smooth(0.84, 1.0, lump)));
+        own.openness = to_byte(paint.openness / 255.0 * (0.7 + 0.3 * smooth(0.75, 1.05, lump)));
         b.add(vec_cast<float>(p + (r * lump) * (c * x + flat * s * y) + (0.5 * wide * (lump - 1)) * along), own);
       }
       if (i == 1)

@@ -140,7 +140,7 @@ Material bladder() {
 }
 
 Material bowel() {
-  Material m = with_vessels(tissue(srgb(204, 130, 128), srgb(212, 150, 142), srgb(190, 112, 114)), 0.9f, 0.036f);
+  Material m = with_vessels(tissue(srgb(200, 120, 119), srgb(208, 140, 132), srgb(188, 104, 107)), 0.9f, 0.036f);
   m.mottle_size = 0.012f;
   m.mottle = 0.6f;
   m.glow_amount = 0.1f;
@@ -149,7 +149,7 @@ Material bowel() {
   m.film_size = 0.0024f;
   m.film_roughness = 0.06f;
   m.wetness = 0.75f;
-  m.tint = srgb(218, 174, 164);  // its bands
+  m.tint = srgb(216, 184, 171);  // its bands
   return m;
 }
 
@@ -306,16 +306,16 @@ Material fat() {
 /// Tags on the large bowel: soft, salmon, under a thin wet serosa, with capillaries.
 Material epiploic() {
   Material m = fat();
-  m.colour = srgb(222, 148, 119);
-  m.colour_b = srgb(229, 165, 121);
-  m.colour_c = srgb(212, 127, 111);
+  m.colour = srgb(231, 161, 124);
+  m.colour_b = srgb(238, 180, 132);
+  m.colour_c = srgb(222, 141, 117);
   m.lobule_size = 0.0028f;
   m.lobule_depth = 0.07f;
   m.lobule_contrast = 0.05f;
   m.vessels = 1.0f;
-  m.glow_amount = 0.14f;
+  m.glow_amount = 0.22f;
   m.vessel_tile = 0.012f;
-  m.wetness = 0.7f;
+  m.wetness = 0.8f;
   m.film_bump = 0.3f;
   m.film_size = 0.002f;
   m.film_roughness = 0.1f;
