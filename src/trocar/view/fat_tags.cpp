@@ -12,7 +12,7 @@ constexpr double kApart = 0.012;                    // [m] between two tags of m
 constexpr double kSunk = 0.0022;                    // [m] a tag's foot lies below the skin
 constexpr float kAround = 0.02f, kUnder = 0.0009f;  // [m] skin around a tag; the foot's edge lies below it
 constexpr float kFarthestPull = 0.0036f;            // [m] of a foot down to the skin
-constexpr int kSides = 22, kRings = 18;
+constexpr int kSides = 22, kRings = 15;
 constexpr int kLobes = 13;
 constexpr int kParts = 3;       // flaps of a tag, at most
 constexpr double kBend = 0.42;  // how fast a tag turns to hang down, a ring

@@ -9,14 +9,12 @@ namespace trocar::view {
 namespace {
 
 constexpr double kPi = 3.14159265358979;
-constexpr int kRings = 30;            // along a frond ...
-constexpr int kCapRings = 6;          // ... of which so many round off its end
-constexpr std::uint32_t kAcross = 3;  // vertices across each of its sides
-constexpr double kThick = 0.00036;    // [m] half of a frond's thickness
-constexpr double kGroove = 0.00025;   // [m] depth of the furrow between the folds of its inner side
-constexpr double kWave = 0.0020;      // [m] from crest to crest of its frill
-constexpr double kMostWaves = 4.2;    // that its rings can follow
-constexpr double kFrill = 0.00042;    // [m] how far that goes to either side, at the most
+constexpr int kRings = 24;          // along a frond ...
+constexpr int kCapRings = 5;        // ... of which so many round off its end
+constexpr double kThick = 0.00020;  // [m] half of a frond's thickness
+constexpr double kWave = 0.0020;    // [m] from crest to crest of its frill
+constexpr double kMostWaves = 3.9;  // that its rings can follow
+constexpr double kFrill = 0.00054;  // [m] how far that goes to either side, at the most
 
 /// The bell beyond the tube's end, over its rim and down to the mouth: forwards and outwards, in radii of the end, and
 /// how much light gets there.
@@ -43,10 +41,10 @@ struct FrondRow {
   double length, half_width;
   double lean, falls;  ///< [rad] at the root, and how much more at the tip
 };
-constexpr std::array<FrondRow, 4> kRows{{{22, 0.35, 1.03, 1.65, 0.155, 0.72, 0.75},
-                                         {17, 0.66, 1.22, 1.35, 0.15, 0.75, 0.50},
-                                         {13, 0.50, 0.98, 1.10, 0.14, 0.45, 0.40},
-                                         {8, 0.20, 0.72, 1.00, 0.13, 0.15, 0.25}}};
+constexpr std::array<FrondRow, 4> kRows{{{22, 0.34, 1.01, 1.65, 0.15, 0.74, 0.75},
+                                         {15, 0.66, 1.22, 1.35, 0.145, 0.75, 0.50},
+                                         {10, 0.50, 0.98, 1.10, 0.14, 0.45, 0.40},
+                                         {6, 0.20, 0.72, 1.00, 0.13, 0.15, 0.25}}};
 static_assert(kRows[0].count + kRows[1].count + kRows[2].count + kRows[3].count == kFronds);
 constexpr int kClump = 3;  // neighbours that cling together
 
@@ -181,35 +179,35 @@ double round_end(double u, double end) {
   return std::sqrt(std::max(0.0, 1 - std::pow(std::max(0.0, (u - 1 + end) / end), 2.0)));
 }
 
-struct Sheets {
-  Vec3d middle, inner;  ///< between both sides; half the thickness towards the inner one
-  Vec3d groove;         ///< and how deep the inner one is cut in
-  double rim;           ///< 0 in the middle .. 1 at the edge
-  double crest;         ///< -1..1: where the frill stands towards the inner side
+/// A vertex of a frond's cross-section: -1..1 across, and whether on its inner (1) or outer (-1) side or edge (0).
+struct Corner {
+  double across, side;
+};
+constexpr std::array<Corner, 6> kCorners{{{1, 0}, {0.62, 1}, {-0.62, 1}, {-1, 0}, {-0.62, -1}, {0.62, -1}}};
+
+struct Place {
+  Vec3d point;
+  double dip;  ///< 0 .. 1: how deep in a fold of the frill
 };
 
-/// A frond's edges are much longer than its middle: they swing to and fro across it and along it, in a frill with
-/// smaller folds on it, each side by its own measure.
-Sheets place_on(const Frond& f, const Spines& spine, double span, int ring, int column) {
+/// A frond's edges are much longer than its middle: they swing to and fro across it and along it, in a frill, each by
+/// its own measure.
+Place place_on(const Frond& f, const Spines& spine, double span, int ring, Corner corner) {
   const Spine& s = spine[std::size_t(ring)];
-  const double w = 2.0 * column / (int(kAcross) - 1) - 1, u = along_frond(f, ring), e = std::pow(std::fabs(w), 1.5);
+  const double w = corner.across, u = along_frond(f, ring), tip = round_end(u, f.end), grown = smooth(0, 0.2, u);
   const int side = 2 * f.seed + (w > 0 ? 1 : 0);
-  const double tip = round_end(u, f.end);
-  const double body = (0.4 + 0.4 * smooth(0, 0.2, u) + 0.3 * smooth(0.2, 0.65, u)) * (0.03 + 0.97 * tip);
   const double waves = std::min(span / kWave, kMostWaves) * (0.7 + 0.3 * varied(side, 21));
   const double phase = 2 * kPi * (waves * (u + 0.07 * std::sin(6 * u + side)) + varied(side, 22));
   const double loose = smooth(0.08, 0.45, u) * (f.reaches >= 1 ? 0.4 : 1) * tip;
   const double swell = kFrill * loose * (1 + 0.4 * std::sin(0.37 * phase + 3 * side));
   const double up = std::sin(phase) + 0.25 * std::sin(1.7 * phase + side);
-  const double trough = 0.3 * swing(f.seed, 12) * f.half * w * w;
-  const double across = w * f.half * body * (1 + 0.12 * loose * std::cos(phase + 0.8));
-  const double on = -0.12 * swell * e * std::cos(phase + 0.5);
-  const double thick =
-      kThick * (0.3 + 0.7 * smooth(0, 0.2, u)) * (1.15 - 0.4 * u) * tip * std::sqrt(std::max(0.0, 1 - w * w));
-  const Vec3d p = s.point + across * s.across + (swell * e * up + trough) * s.flat + on * s.along;
-  // Its inner side has folds of its own, which run along it.
-  const double groove = kGroove * smooth(0.02, 0.3, u) * tip * std::pow(1 - std::fabs(w), 2.0);
-  return {p, thick * s.flat, groove * s.flat, std::max(e * e, 1 - tip), up * e};
+  const double wide = f.half * tip * (0.45 + 0.45 * grown + 0.35 * smooth(0.2, 0.65, u));
+  const double across = w * wide * (1 + 0.12 * loose * std::cos(phase + 0.8));
+  const double trough = 0.3 * swing(f.seed, 12) * f.half * w * w, edge = std::fabs(w) * std::sqrt(std::fabs(w));
+  const double thick = kThick * tip * (0.3 + 0.7 * grown) * (1.15 - 0.4 * u);
+  const Vec3d p = s.point + across * s.across + (swell * edge * up + trough + corner.side * thick) * s.flat -
+                  (0.12 * swell * edge * std::cos(phase + 0.5)) * s.along;
+  return {p, std::max(0.0, -corner.side * up * loose)};
 }
 
 Paint painted(double openness, double tint) { return {to_byte(openness), 0, 0, to_byte(tint)}; }
@@ -232,34 +230,31 @@ void add_bell(MeshBuffer& b, const FimbriaSite& site) {
   join_pole(b, pole - kRimColumns, kRimColumns, pole, true);
 }
 
-/// Both sides of a frond have their own vertices at its edge, each with the normal of its side: one that looked
-/// sideways would be dark, and a real edge lets light through.
+/// Deep rose along its middle and in the folds of its frill; its edges and tip are thin and paler.
 void add_frond(MeshBuffer& b, const Frond& f, const FimbriaSite& site) {
   const Spines spine = spine_of(f, site);
   double span = 0;
   for (std::size_t i = 1; i < spine.size(); ++i) span += length(spine[i].point - spine[i - 1].point);
-  for (int i = 0; i <= kRings; ++i) {
-    const double u = along_frond(f, i);
-    for (std::uint32_t j = 0; j < 2 * kAcross; ++j) {
-      const bool behind = j >= kAcross;
-      const Sheets s = place_on(f, spine, span, i, int(j % kAcross));
-      const double dip = std::max(0.0, behind ? s.crest : -s.crest);
-      const double tint =
-          (0.45 + 0.2 * swing(f.seed, 31) + 0.55 * dip) * (1 - 0.8 * s.rim * (1 - dip)) * smooth(0, 0.3, u);
-      const double open = (1 - 0.45 * std::min(1.0, dip)) * (behind ? 1 : 1 - 0.2 * (1 - s.rim));
-      const Vec3d p = behind ? s.middle - s.inner : s.middle + s.inner - s.groove;
-      b.add(vec_cast<float>(p), painted(open, tint));
+  const std::uint32_t root = b.add(vec_cast<float>(spine[0].point - kThick * spine[0].along), painted(1, 0));
+  std::uint32_t row = root + 1;
+  for (int i = 0; i < kRings; ++i) {
+    const double u = along_frond(f, i), mucosa = smooth(0, 0.3, u), thin = 1 - round_end(u, f.end);
+    for (const Corner& c : kCorners) {
+      const Place place = place_on(f, spine, span, i, c);
+      const double pale = std::max(c.side == 0 ? 1.0 : 0.0, thin);
+      const double tint = (0.36 + 0.2 * swing(f.seed, 31) + 0.6 * place.dip) * (1 - 0.8 * pale * (1 - place.dip));
+      const double open = (1 - 0.45 * std::min(1.0, place.dip)) * (c.side > 0 ? 0.8 + 0.2 * thin : 1);
+      b.add(vec_cast<float>(place.point), painted(open, tint * mucosa));
     }
-    const std::uint32_t in = b.size() - 2 * kAcross, out = in + kAcross;
-    for (std::uint32_t j = 0; j + 1 < kAcross; ++j) {
-      if (i == 0) {
-        b.quad(in + j, in + j + 1, out + j + 1, out + j);
-        continue;
-      }
-      b.quad(in + j + 1 - 2 * kAcross, in + j - 2 * kAcross, in + j, in + j + 1);
-      b.quad(out + j - 2 * kAcross, out + j + 1 - 2 * kAcross, out + j + 1, out + j);
-    }
+    const auto corners = std::uint32_t(kCorners.size());
+    if (i == 0)
+      join_pole(b, row, corners, root, false);
+    else
+      join_rows(b, row, row + corners, corners, true);
+    row = b.size() - corners;
   }
+  const std::uint32_t tip = b.add(vec_cast<float>(spine[kRings].point), painted(1, 0));
+  join_pole(b, row, std::uint32_t(kCorners.size()), tip, true);
 }
 
 /// A piece of surface as a disc that takes light from what it faces. [Bunnell 05]
@@ -288,6 +283,7 @@ std::vector<Disc> discs_of(const MeshBuffer& b, const std::vector<Vec3f>& normal
 /// Fronds shade each other: deep between them it is dark and red, their tips are open and pale.
 void shade(MeshBuffer& b) {
   constexpr float kFar = 0.004f;  // [m] beyond that, what is baked for the whole scene says enough
+  constexpr double kDark = 2.6;   // beyond what is hidden: what is reflected there goes through wet mucosa again
   std::vector<Vec3f> normals;
   render::vertex_normals(b.positions, b.indices, normals);
   const std::vector<Disc> discs = discs_of(b, normals);
@@ -303,7 +299,7 @@ void shade(MeshBuffer& b) {
       const float seen = std::fabs(dot(way, d.normal)) / far;  // either side hides what is behind
       covered += facing / far * (0.3f + 0.7f * seen) * d.area / (3.14f * far2 + d.area) * (1 - far / kFar);
     }
-    const double open = std::exp(-2.6 * double(covered));
+    const double open = std::exp(-kDark * double(covered));
     Paint& paint = b.paint[v];
     paint.tint = to_byte(paint.tint / 255.0 + 0.5 * (1 - open) * (1 - paint.tint / 255.0));
     paint.openness = to_byte(paint.openness / 255.0 * open);

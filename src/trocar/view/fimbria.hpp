@@ -12,7 +12,7 @@ namespace trocar::view {
 inline constexpr double kBellLength = 0.007;  ///< of tube that widens to its end [m]
 inline constexpr double kBellFlare = 1.22;    ///< end's radius over the tube's
 inline constexpr int kRimColumns = 48;        ///< vertices of the first ring, which the tube goes on to
-inline constexpr int kFronds = 60;
+inline constexpr int kFronds = 53;
 
 /// Coordinates: x along the tube's direction from its end's centre, y and z along the end frame's normal and binormal.
 struct FimbriaSite {
