@@ -118,7 +118,6 @@ void GlBackend::sheet_pass(const Frame& frame, const Layout&) {
   program.use();
   set_liquid(frame, program);
   program.set("u_view", m_view);
-  program.set("u_before", kUnitSmall);
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);

@@ -7,7 +7,6 @@ in vec3 v_normal;
 in vec2 v_depth_cover;
 in vec4 v_mix;
 out vec4 o_colour;
-uniform sampler2D u_before;  // the picture before, small
 
 const float kDrawsBack = 0.0035;  // [m] along the eye's way, our choice
 const float kStain = 2.0e-5;      // [m] of what it leaves there
