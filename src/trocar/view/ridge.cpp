@@ -21,7 +21,7 @@ constexpr double kOverAll = 0.12, kClosedAll = 0.32;  // the same where it carri
 constexpr double kFromAll = -0.12, kDownAll = 0.24;
 constexpr double kLostOver = 0.034;      // [m] of wall along which a ridge goes down and is lost ...
 constexpr double kLostDepth = 0.0014;    // [m] ... below it
-constexpr double kShallow = 1.5;         // radii of the ligament that it rises above it before that
+constexpr double kShallow = 3.0;         // radii of the ligament that it rises above it before that
 constexpr double kShallowLaden = 0.4;    // the same of one that carries something
 constexpr double kFlatter = 1.2;         // and how much rounder it grows
 constexpr double kTurns = 8;             // radii above the wall where its sections begin to turn
