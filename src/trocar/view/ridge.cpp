@@ -187,8 +187,9 @@ void Ridge::find_feet(const WallSurface& walls) {
     st.side = normalised(st.side, any_perpendicular(st.along));
     const double high = std::max(0.0, dot(st.at - st.floor, st.normal[0]));
     const double uneven = 1 + 0.3 * waves(st.floor, 0.021);
-    const double wide = (st.beyond ? 1.5 : 1.0) *
-                        std::min(m_covered ? kWidestAll : kWidest, 1.6 * st.radius + 0.002 + (m_covered ? 1.1 : 0.5) * high) * uneven;
+    const double wide =
+        (st.beyond ? 1.5 : 1.0) *
+        std::min(m_covered ? kWidestAll : kWidest, 1.6 * st.radius + 0.002 + (m_covered ? 1.1 : 0.5) * high) * uneven;
     for (const int flank : {0, 1}) st.foot[flank] = st.floor + ((flank ? -wide : wide)) * st.side;
   }
   for (const int flank : {0, 1}) {
