@@ -210,10 +210,24 @@ TEST(FluidDrawing, BloodThatLandsIsFilmOfItsVolumeWithATailUpTheWall) {
   EXPECT_GT(top, head + 0.002) << "the tail is above the thick head";
 }
 
-TEST(FluidDrawing, AJetOfBloodIsARibbonWithoutEndsOfRods) {
+TEST(FluidDrawing, AJetIsAnEvenRodNearItsHoleAndTornIntoUnevenPiecesFartherOff) {
   Scene scene;
   scene.spurt(90);
-  for (const render::Splat& s : scene.listed().liquid.splats) EXPECT_NE(s.kind, render::SplatKind::flying);
+  struct Range {
+    float least = 1, most = 0;
+    void add(float x) { least = std::min(least, x), most = std::max(most, x); }
+  } near, far;
+  float faintest = 1;
+  for (const render::Splat& s : scene.listed().liquid.splats) {
+    if (s.kind != render::SplatKind::flying) continue;
+    const float way = length(s.from - Vec3f{0, 0, 0.02f});
+    if (way < 0.004f) near.add(s.radius);
+    if (way > 0.03f) far.add(s.radius), faintest = std::min(faintest, s.height / s.radius);
+  }
+  ASSERT_GT(near.most, 0);
+  EXPECT_LT(near.most, 1.5f * near.least);
+  EXPECT_GT(far.most, 2 * far.least);
+  EXPECT_LT(faintest, 0.1f) << "its pieces have soft ends";
 }
 
 TEST(FluidDrawing, SprayIsFaintAndThin) {

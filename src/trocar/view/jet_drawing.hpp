@@ -1,4 +1,5 @@
-// What flies: drops that left one after the other become strands, others streaks, and a jet's hole bleeds.
+// What flies: drops that left one after the other are a jet, whole near its hole and torn into beads and spray farther
+// off, others rain; and a jet's hole bleeds.
 #pragma once
 
 #include <cstdint>
@@ -24,12 +25,10 @@ class JetDrawing {
   };
   void gather(const fluids::DropletState& drops);
   std::size_t next_in_strand(const fluids::DropletState& drops, std::size_t n) const;
-  bool link(const fluids::DropletState& drops, std::int32_t i, std::int32_t j, render::Liquid& liquid) const;
-  void list_spray(const fluids::DropletState& drops, const Flying& drop, render::Liquid& liquid) const;
   void list_holes(const FluidSight& sight, Vec3f eye, render::Liquid& liquid) const;
 
   const fluids::FluidsModel* m_model;
-  std::vector<Flying> m_flying;
+  std::vector<Flying> m_flying;  ///< the last to leave first
 };
 
 }  // namespace trocar::view

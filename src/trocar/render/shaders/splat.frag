@@ -13,6 +13,9 @@ layout(location = 1) out vec4 o_thickness;
 layout(location = 2) out vec4 o_film;
 
 const float kSkirt = 0.0024;  // as in splat.vert
+const float kReach = 1.7;     // as there
+const float kRoot = 0.0010;   // [m] so far before a surface it is whole
+const float kNoGlint = 0.6;   // sine of how far what is smeared turns away from the lamp
 
 void main() {
   ivec2 last = textureSize(u_scene, 0) - 1;
@@ -23,9 +26,7 @@ void main() {
   bool flies = kind < 0.5 || kind > 2.5;
   vec2 at = v_at;
   float off = 0.0, held = 1.0;
-  if (flies) {
-    if (far < own - 0.3 * reach) discard;
-  } else {
+  if (!flies) {
     vec3 shown = v_eye * (far / own) - v_middle;
     off = dot(shown, v_normal);
     float most = max(0.0012 + 0.8 * reach, 0.0034);
@@ -38,29 +39,34 @@ void main() {
     else
       off = 0.0;
   }
-  float along = max(abs(at.x) - v_size.x, 0.0);
-  if (kind > 2.5) {  // a spindle
-    float share = at.x / (v_size.x + reach);
-    at.y /= 1.0 - 0.72 * share * share;
+  float along = max(abs(at.x) - v_size.x, 0.0), fades = 1.0;
+  if (kind > 2.5) {  // a spindle: its ends are smeared most
+    float share = at.x / (v_size.x + reach), rest = 1.0 - share * share;
+    at.y /= 0.28 + 0.72 * rest;
+    fades = rest;
   }
   float far2 = along * along + at.y * at.y + 0.4 * off * off, skirt = reach;
   if (kind > 1.5 && kind < 2.5) skirt += kSkirt;
   if (far2 >= skirt * skirt) discard;
+  float shows = 1.0;
+  if (flies) {  // It is round, so its near side comes out of tissue first; and it grows out of what wets that.
+    float before = far - own + sqrt(max(reach * reach / (kReach * kReach) - far2, 0.0));
+    if (before <= 0.0) discard;
+    shows = smoothstep(0.0, kRoot, before);
+  }
   float s = max(1.0 - far2 / (reach * reach), 0.0);
   float f = s * s;
-  f *= f;  // blobs that overlap grow little
-  vec2 n = flies ? vec2(0.0) : v_normal.xy;
-  if (kind > 1.5) {
-    // Of what is smeared by its speed only an amount is left, as of a film; but nothing below it is wet. It counts as
-    // less than nothing of a drop.
-    o_field = vec4(n, min(own, far), 1.0) * (0.002 * (1.0 - far2 / (skirt * skirt)));
-    vec4 amount = v_mix * (v_size.z * 1.0e3 * s * s * held);
-    o_thickness = kind > 2.5 ? -amount : vec4(0.0);
-    o_film = kind > 2.5 ? vec4(0.0) : amount;
+  f *= f * shows;  // blobs that overlap grow little
+  if (kind > 1.5 && kind < 2.5) {
+    o_field = vec4(v_normal.xy, min(own, far), 1.0) * (0.002 * (1.0 - far2 / (skirt * skirt)));
+    o_thickness = vec4(0.0);
+    o_film = v_mix * (v_size.z * 1.0e3 * s * s * held);
   } else {
+    // What is smeared by its speed has no glint.
+    vec2 n = flies ? (kind > 2.5 ? kNoGlint * v_across.xy : vec2(0.0)) : v_normal.xy;
     o_field = vec4(n, own, 1.0) * f;
     // What flies is marked: it has no edge that runs out thin.
-    o_thickness = vec4(v_mix.rgb, v_mix.a + (flies ? 2.0 : 0.0)) * (v_size.z * 1.0e3 * f);
+    o_thickness = vec4(v_mix.rgb, v_mix.a + (flies ? 2.0 : 0.0)) * (v_size.z * 1.0e3 * f * fades);
     o_film = vec4(0.0);
   }
 }
