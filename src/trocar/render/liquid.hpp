@@ -38,7 +38,7 @@ enum class SplatKind : std::uint8_t {
   flying,  ///< round, in the air
   lying,   ///< a cap on a surface
   film,    ///< a stain: no body of its own
-  streak   ///< in the air, smeared by its speed: thin at both ends, only an amount, as a film is
+  streak   ///< in the air, smeared by its speed: thin and faint at both ends, without a glint
 };
 
 inline constexpr float kSplatReach = 1.7f;  ///< how far a splat's field goes, in radii: as in splat.vert

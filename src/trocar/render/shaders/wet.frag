@@ -44,11 +44,10 @@ void main() {
   vec2 wander = (fine.rg - 0.5) * (0.0008 / pixel) * u_size.zw;
   vec4 marked = texture(u_thickness, v_uv);
   float there = dot(marked.rgb, vec3(1.0));
-  float flying = smoothstep(0.9, 1.6, marked.w / max(there, 1.0e-6)) * step(0.0, there);
-  vec4 smear = max(-marked, 0.0) * (1.0e-3 * step(there, 0.0));  // of what flies fast
+  float flying = smoothstep(0.9, 1.6, marked.w / max(there, 1.0e-6));
   vec2 uv = flying > 0.5 ? v_uv : v_uv + wander;
   field = texture(u_field, uv);
-  vec4 thick = max(texture(u_thickness, uv), 0.0) * 1.0e-3;
+  vec4 thick = texture(u_thickness, uv) * 1.0e-3;
   float all = max(dot(thick.rgb, vec3(1.0)), 1.0e-9), mark = thick.w / all;
   float far = field.z / max(field.w, 1.0e-6);
   vec3 eye = way * far;
@@ -119,10 +118,8 @@ void main() {
   // No liquid that moves is as smooth as glass.
   vec3 n = normalize(base - vec3(rise - (fine.gb - 0.5) * 0.34, 0.0));
   vec3 amount = thick.rgb / max(field.w, 1.0e-6) * (cover * max(in_drop, mix(0.03, 0.3, flying)));
-  float smeared = dot(smear.rgb, vec3(1.0)), thin = stain + smeared;
-  float dark = mix((film.w + smear.w) / max(thin, 1.0e-7), clamp(mark - 2.0 * flying, 0.0, 1.0), cover);
-  amount += film.rgb + smear.rgb;
-  flying = max(flying, smeared / max(thin, 1.0e-7) * (1.0 - cover));
+  float dark = mix(film.w / max(stain, 1.0e-7), clamp(mark - 2.0 * flying, 0.0, 1.0), cover);
+  amount += film.rgb;
   vec3 through = let_through(mix(kThroughTissue, 2.0, flying) * amount, dark);
 
   vec2 bend = -(n.xy - base.xy) * (0.35 * height * cover * max(in_drop, 0.0) / pixel) * u_size.zw;
@@ -147,10 +144,6 @@ void main() {
   // Its waves are finer than a pixel: a soft sheen wherever it is turned to the lamp, which pales its red.
   float turned = clamp(dot(m, normalize(lit.direction + V)), 0.0, 1.0);
   shine += LIGHT_COLOUR * (kSheen * gloss * lit.power * lobe(turned, 0.35));
-#endif
-#if DETAIL >= 1
-  // A jet near its hole is round enough to glint along its middle.
-  shine += LIGHT_COLOUR * (0.17 * lit.power * smoothstep(2.2e-4, 4.0e-4, smeared) * smoothstep(0.45, 0.62, fine.r));
 #endif
   float nv = clamp(dot(n, V), 0.0, 1.0);
   float mirrors = mirror_share(nv);
