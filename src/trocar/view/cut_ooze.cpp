@@ -13,15 +13,15 @@ constexpr double kRunning = 0.35;    // share of the lip's vertices from which a
 constexpr float kStep = 0.0011f;     // [m] between two links of a run
 constexpr float kShortest = 0.004f;  // [m]
 constexpr float kWide = 0.42e-3f;    // [m]
-constexpr float kThick = 200e-6f;    // [m] at the lip; it thins out on its way, and swells where it stops
-constexpr float kSheetWide = 0.6e-3f, kSheetThick = 160e-6f;  // [m] so much that its darkest is at the lip
-constexpr float kBelowLip = 0.6e-3f;                          // [m] how far from the rim that begins
-constexpr float kDropWide = 0.9e-3f, kDropThick = 260e-6f;    // [m] what hangs there until it falls
-constexpr float kHangs = 0.0011f, kHanging = 0.55e-3f;        // [m] how far down, and its radius
-constexpr float kApart = 0.006f, kHangsBelow = 0.3f;          // [m] and cosine between skin and fall
-constexpr float kUnderside = 0.4f;                            // cosine between skin and fall at which blood drips
-constexpr float kMostLeft = 0.0035f;                          // [m] beyond the skin's last vertex it ends
-constexpr float kCut = 0.008f, kBrim = 0.0022f;               // [m] a cut's size; it spills this far above its lowest
+constexpr float kThick = 60e-6f;     // [m] at the lip; it thins out on its way, and swells where it stops
+constexpr float kSheetWide = 0.6e-3f, kSheetThick = 45e-6f;  // [m] so much that its darkest is at the lip
+constexpr float kBelowLip = 0.6e-3f;                         // [m] how far from the rim that begins
+constexpr float kDropWide = 0.9e-3f, kDropThick = 110e-6f;   // [m] what hangs there until it falls
+constexpr float kHangs = 0.0011f, kHanging = 0.55e-3f;       // [m] how far down, and its radius
+constexpr float kApart = 0.006f, kHangsBelow = 0.3f;         // [m] and cosine between skin and fall
+constexpr float kUnderside = 0.4f;                           // cosine between skin and fall at which blood drips
+constexpr float kMostLeft = 0.0035f;                         // [m] beyond the skin's last vertex it ends
+constexpr float kCut = 0.008f, kBrim = 0.0022f;              // [m] a cut's size; it spills this far above its lowest
 
 struct Place {
   Vec3f position, normal;

@@ -14,7 +14,7 @@ constexpr float kMerges = 0.005f;                     // [m] drops that land clo
 constexpr int kPatches = 4, kSpecks = 4;              // of a stain
 constexpr float kStain = 1.6e-3f, kSplash = 5.5e-3f;  // [m] how far they lie from its middle
 constexpr float kPatch = 0.9e-3f, kSpeck = 0.35e-3f;  // [m] radii
-constexpr float kThick = 170e-6f;                     // [m] of a patch
+constexpr float kThick = 34e-6f;                      // [m] of a patch
 constexpr float kRunsDown = 2.2f;                     // [patch radii] on a steep place
 constexpr float kStep = 1.2e-3f;                      // [m] between two links of a run
 constexpr int kLinks = 11, kMoreLinks = 3;            // of one drop's run, and for every other drop

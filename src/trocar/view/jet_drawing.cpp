@@ -16,13 +16,13 @@ using render::SplatKind;
 constexpr float kColumn = 1 / 1.89f;  // of a drop's radius: that of the column that makes it
 constexpr float kGrowth = 0.34f;      // the fastest wave's rate, times sqrt(rho a^3 / sigma)
 // Our choice, all of the rest: from the look of spurts in endoscopic films.
-constexpr float kSoonest = 2.6f, kLatest = 4.6f;  // a neck closes after so many times of growth
-constexpr float kSecondNeck = 0.45f;              // share of beads that tear in two ...
+constexpr float kSoonest = 3.6f, kLatest = 6.6f;  // a neck closes after so many times of growth
+constexpr float kSecondNeck = 0.25f;              // share of beads that tear in two ...
 constexpr float kLater = 1.3f;                    // ... so many times of growth later
 constexpr float kAnywhere = 0.22f;                // in beads: how far a neck is from the middle between two
-constexpr float kBulge = 0.6f;                    // in column radii: what necks lose, middles win
-constexpr float kDrawsIn = 0.4f;                  // of its length: a bead that has come off becomes rounder
-constexpr float kBall = 1.3f;                     // in column radii: such a bead's half width, before it is torn
+constexpr float kBulge = 0.25f;                   // in column radii: what necks lose, middles win
+constexpr float kDrawsIn = 0.15f;                 // of its length: a bead that has come off becomes rounder
+constexpr float kBall = 1.05f;                    // in column radii: such a bead's half width, before it is torn
 constexpr float kTorn = 0.2f;                     // of that: what most lose to drops too small to show
 constexpr int kMostRods = 9;                      // that a bead is drawn as
 constexpr float kThinnest = 0.14f;                // in column radii: of threads that show
@@ -30,7 +30,7 @@ constexpr float kRagged = 0.10f;                  // of a column's radius
 constexpr float kUsual = 1.5f;                    // [m/s] pressure that drives blood quicker widens its hole
 constexpr float kSprayed = 0.45f;                 // share of a jet's radius that spray takes, far off
 constexpr float kFar = 0.035f;                    // [m]
-constexpr float kShutter = 1.0e-3f;               // [s] a camera's in so bright a field: what flies is a streak
+constexpr float kShutter = 4.0e-3f;               // [s] a camera's: what flies is a streak
 constexpr float kGreen = 18e-6f;                  // [m] of blood lets 1/e of green light through, there and back
 constexpr float kWag = 0.05f;                     // how far a jet strays aside, a share of its way ...
 constexpr float kLongestWag = 0.045f;             // [m] ... up to here: drops land where the simulation says
@@ -41,7 +41,7 @@ constexpr int kMostSpray = 4;                                  // drops from a n
 constexpr float kThinSpray = 0.05e-3f, kWideSpray = 0.25e-3f;  // [m] radius
 constexpr float kRainDrop = 0.66e-3f;  // [m] radius: what has joined to larger drops is drawn as several
 constexpr int kMostRain = 9;
-constexpr float kRainShows = 0.7f;    // of their radius: the rest are drops too small to show
+constexpr float kRainShows = 0.45f;   // of their radius: the rest are drops too small to show
 constexpr float kRainSpread = 4.0f;   // in radii of the large one
 constexpr float kRoot = 0.4e-3f;      // [m] above its hole a jet begins: round, below it is the pit
 constexpr float kFreshJet = 0.006f;   // [m] blood that has come less far shows where its hole is

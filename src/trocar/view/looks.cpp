@@ -33,9 +33,9 @@ Material uterus() {
   m.mottle_size = 0.014f;
   m.mottle = 0.5f;
   m.bump = 0.12f;
-  m.film_bump = 0.24f;
+  m.film_bump = 0.27f;
   m.film_roughness = 0.075f;
-  m.film_size = 0.0013f;
+  m.film_size = 0.0015f;
   m.wetness = 0.62f;  // one broad sheen, few flecks
   return m;
 }
@@ -48,7 +48,7 @@ Material tube() {
   m.glow_amount = 0.3f;        // through the thin rims of the fimbriae
   m.tint = srgb(168, 60, 68);  // fimbriae: mucosa
   m.film_size = 0.0013f;       // much finer than the tube is thick: flecks in clumps, no row of beads
-  m.film_bump = 0.24f;
+  m.film_bump = 0.27f;
   m.film_roughness = 0.06f;
   m.wetness = 0.72f;
   return m;
@@ -60,7 +60,7 @@ Material ovary() {
   m.mottle = 0.35f;
   m.bump = 0.14f;
   m.film_roughness = 0.1f;
-  m.film_bump = 0.24f;
+  m.film_bump = 0.27f;
   m.film_size = 0.0015f;
   m.wetness = 0.5f;  // pearly
   m.glow_amount = 0.1f;
@@ -145,7 +145,7 @@ Material bowel() {
   m.mottle = 0.6f;
   m.glow_amount = 0.1f;
   m.bump = 0.05f;
-  m.film_bump = 0.24f;
+  m.film_bump = 0.27f;
   m.film_size = 0.0024f;
   m.film_roughness = 0.06f;
   m.wetness = 0.75f;
@@ -170,7 +170,7 @@ Material small_bowel() {
   m.mottle = 0.5f;
   m.glow_amount = 0.1f;
   m.bump = 0.05f;
-  m.film_bump = 0.24f;
+  m.film_bump = 0.27f;
   m.film_size = 0.0024f;
   m.film_roughness = 0.06f;
   m.wetness = 0.75f;

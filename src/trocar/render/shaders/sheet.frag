@@ -8,7 +8,7 @@ in vec2 v_depth_cover;
 in vec4 v_mix;
 out vec4 o_colour;
 
-const float kDrawsBack = 0.0035;  // [m] along the eye's way, our choice
+const float kDrawsBack = 0.0020;  // [m] along the eye's way, our choice
 const float kStain = 2.0e-5;      // [m] of what it leaves there
 
 /// What the sheet mirrors: what the picture shows along the ray, near and far, as far as it lies there. Nothing is
@@ -62,8 +62,8 @@ void main() {
 #endif
   vec3 n = normalize(v_normal);
   // What it wets is uneven: here it stands higher, there it has drawn back and left a stain.
-  float uneven = 0.88 * texture(u_noise, place * 13.0).g + 0.12 * texture(u_noise, place * 41.0).r;
-  float gap = straight.a - far - kDrawsBack * smoothstep(0.38, 0.60, uneven);
+  float uneven = texture(u_noise, place * 11.0).g;
+  float gap = straight.a - far - kDrawsBack * smoothstep(0.30, 0.70, uneven);
   float shore = smoothstep(0.0, 0.0016, gap);
   float rim = max(exp(-inside * 6.0), 0.8 - 0.8 * shore);
   // Towards the inside of the border, in eye space: of the sheet's own, or of what stands in it.

@@ -226,9 +226,10 @@ void main() {
 #ifdef LINING
   // Yellow here, violet there, paler and redder; below it fibres and fat of a millimetre or two.
   albedo *= 1.0 + vec3(0.02, 0.04, -0.10) * (broad.g - 0.5) + vec3(0.03, -0.03, 0.02) * (broad.r - 0.5);
-  // Fat below it, broad and soft.
-  float fat = smoothstep(-0.3, 1.0, sin(dot(v_rest, vec3(51.0, 39.0, 27.0)) + 1.7 * sin(dot(v_rest, vec3(-33.0, 47.0, 58.0)))));
-  albedo *= 1.0 + vec3(0.02, 0.05, -0.13) * fat;
+  // Over a hand's breadth it goes from mauve to brown-orange, where fat lies below it, and from pale to red.
+  float fat = smoothstep(-0.5, 1.0, sin(dot(v_rest, vec3(30.0, 23.0, 16.0)) + 1.3 * sin(dot(v_rest, vec3(-20.0, 28.0, 35.0)))));
+  float red = sin(dot(v_rest, vec3(-25.0, 14.0, 31.0)) + 1.1 * sin(dot(v_rest, vec3(27.0, 31.0, -12.0))));
+  albedo *= 1.0 + vec3(0.02, 0.09, -0.21) * fat - vec3(0.02, 0.08, 0.06) * red;
 #if DETAIL >= 1
   albedo *= 1.0 + 0.3 * (vec3(0.8, 1.1, 1.0) * (ripple.a - 0.5) + 0.5 * (broad.b - 0.5)) + vec3(0.0, 0.05, -0.08) * (ripple.g - 0.5);
 #endif
@@ -340,10 +341,10 @@ void main() {
 #ifdef LINING
   film_slope = FILM_BUMP * (broad.rgb * 2.0 - 1.0 + 0.4 * (broad.gbr * 2.0 - 1.0));  // broad sheens, no frost ...
 #if DETAIL >= 1
-  float crest = smoothstep(0.55, 0.66, broad.a + 0.3 * (fine.b - 0.5)) * wrinkled;  // ... flecks here and there on what stands out
+  float crest = smoothstep(0.53, 0.66, broad.a + 0.3 * (fine.b - 0.5)) * wrinkled;  // ... flecks here and there on what stands out
   mat3 bead = kTurn * FILM_SCALE;
   vec3 bead_x = bead * dFdx(v_rest), bead_y = bead * dFdy(v_rest);
-  if (crest > 0.0) film_slope += (6.5 * crest * FILM_BUMP) * (textureGrad(u_noise, bead * v_rest, bead_x, bead_y).rgb * 2.0 - 1.0);
+  if (crest > 0.0) film_slope += (6.0 * crest * FILM_BUMP) * (textureGrad(u_noise, bead * v_rest, bead_x, bead_y).rgb * 2.0 - 1.0);
 #endif
 #endif
   float wet = smoothstep(1.0 - WETNESS - 0.2, 1.0 - WETNESS + 0.2, wet_noise);
@@ -370,9 +371,11 @@ void main() {
   vec3 H = normalize(lit.direction + V);
   float facing = clamp(nl * 4.0, 0.0, 1.0) * open;
 #if defined(LINING) && DETAIL >= 1
+  const float kSparkle = 9.0;
   float sparkles = crest;  // a bead of moisture is smoother than the wall that it stands on
   float film2 = FILM2 * mix(4.0, 0.6, crest);
 #else
+  const float kSparkle = 6.0;
   float sparkles = wrinkled;
   float film2 = FILM2 * mix(4.0, 1.8, wrinkled);
 #endif
@@ -385,7 +388,7 @@ void main() {
 #endif
   film2 += 0.03 * (1.0 - INVERSE_SQUARE);
   float mh = clamp(dot(m, H), 0.0, 1.0), nh = clamp(dot(n, H), 0.0, 1.0);
-  float gloss = 0.42 * FRESNEL * (wet * (0.4 + 1.3 * flecks) * mix(1.1, 6.0, sparkles) * lobe(mh, film2) + (0.35 + 0.65 * wet) * lobe(nh, ROUGH2)) * facing * lit.power;
+  float gloss = 0.42 * FRESNEL * (wet * (0.4 + 1.3 * flecks) * mix(1.1, kSparkle, sparkles) * lobe(mh, film2) + (0.35 + 0.65 * wet) * lobe(nh, ROUGH2)) * facing * lit.power;
   float grazing = FRESNEL + (1.0 - FRESNEL) * rim * rim * (1.0 - nv);
 #if SHADING == 2
   vec3 around = 0.7 * mirrored(reflect(-V, m), 0.03, lit.bounce);
