@@ -46,9 +46,9 @@ Material tube() {
   m.mottle = 0.6f;
   m.bump = 0.1f;
   m.glow_amount = 0.3f;        // through the thin rims of the fimbriae
-  m.tint = srgb(168, 60, 68);  // fimbriae: mucosa
+  m.tint = srgb(184, 84, 88);  // fimbriae: mucosa
   m.film_size = 0.0013f;       // much finer than the tube is thick: flecks in clumps, no row of beads
-  m.film_bump = 0.27f;
+  m.film_bump = 0.24f;
   m.film_roughness = 0.06f;
   m.wetness = 0.72f;
   return m;
@@ -60,7 +60,7 @@ Material ovary() {
   m.mottle = 0.35f;
   m.bump = 0.14f;
   m.film_roughness = 0.1f;
-  m.film_bump = 0.27f;
+  m.film_bump = 0.24f;
   m.film_size = 0.0015f;
   m.wetness = 0.5f;  // pearly
   m.glow_amount = 0.1f;
@@ -145,7 +145,7 @@ Material bowel() {
   m.mottle = 0.6f;
   m.glow_amount = 0.1f;
   m.bump = 0.05f;
-  m.film_bump = 0.27f;
+  m.film_bump = 0.24f;
   m.film_size = 0.0024f;
   m.film_roughness = 0.06f;
   m.wetness = 0.75f;
@@ -170,7 +170,7 @@ Material small_bowel() {
   m.mottle = 0.5f;
   m.glow_amount = 0.1f;
   m.bump = 0.05f;
-  m.film_bump = 0.27f;
+  m.film_bump = 0.24f;
   m.film_size = 0.0024f;
   m.film_roughness = 0.06f;
   m.wetness = 0.75f;
@@ -195,8 +195,8 @@ Material liver() {
   m.roughness = 0.72f;
   m.wetness = 0.45f;
   m.film_roughness = 0.05f;
-  m.film_bump = 0.5f;
-  m.film_size = 0.0017f;
+  m.film_bump = 0.36f;
+  m.film_size = 0.0011f;
   m.fresnel = 0.016f;            // the capsule is matte but for the film's flecks, and so is what a cut lays bare
   m.tint = srgb(166, 104, 100);  // a thin edge
   return m;

@@ -26,7 +26,7 @@ vec3 mirrored(vec3 r, float bounce) {
     vec3 p = v_eye + reach * r;
     vec2 at = in_picture(p), edge = clamp(6.0 * (0.5 - abs(at - 0.5)), 0.0, 1.0);
     vec4 there = texture(u_bed, at);
-    float off = (there.a - length(p)) / (0.5 * reach);
+    float off = (there.a - length(p)) / reach;
     float weight = edge.x * edge.y * smoothstep(0.002, 0.012, -p.z) / (1.0 + off * off * off * off);
     seen += weight * min(there.rgb, vec3(0.90, 0.66, 0.62));
     found += weight;
@@ -101,7 +101,7 @@ void main() {
 
   float facing = clamp(0.1 + 0.9 * dot(n, lit.direction), 0.0, 1.0);
   vec3 light = LIGHT_COLOUR * (lit.power * facing) + (BOUNCE + vec3(AMBIENT)) * lit.bounce;
-  vec3 deep = deep_colour(amount, v_mix.w) * (1.25 + 0.25 * smoothstep(0.25, 0.8, slow.a));
+  vec3 deep = deep_colour(amount, v_mix.w) * (1.0 + 0.2 * smoothstep(0.25, 0.8, slow.a));
   vec3 colour = bed * through + deep * light * (1.0 - through);
 #if DETAIL >= 1
   float froth = v_mix.z * smoothstep(0.55, 0.75, quick.a + 0.3 * v_mix.z);
@@ -109,7 +109,7 @@ void main() {
 #endif
 
   // More than [Schlick 94] says: it is what tells liquid from paint (our choice).
-  float share_back = min(4.5 * mirror_share(nv) + 0.02, 0.5);
+  float share_back = min(4.0 * mirror_share(nv) + 0.01, 0.5);
   share_back *= 1.0 - 0.7 * rim;
   vec3 r = reflect(-V, n);
   colour = mix(colour, mirrored(r, lit.bounce), share_back);

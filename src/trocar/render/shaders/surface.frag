@@ -341,10 +341,10 @@ void main() {
 #ifdef LINING
   film_slope = FILM_BUMP * (broad.rgb * 2.0 - 1.0 + 0.4 * (broad.gbr * 2.0 - 1.0));  // broad sheens, no frost ...
 #if DETAIL >= 1
-  float crest = smoothstep(0.53, 0.66, broad.a + 0.3 * (fine.b - 0.5)) * wrinkled;  // ... flecks here and there on what stands out
+  float crest = smoothstep(0.57, 0.68, broad.a + 0.3 * (fine.b - 0.5)) * wrinkled;  // ... flecks here and there on what stands out
   mat3 bead = kTurn * FILM_SCALE;
   vec3 bead_x = bead * dFdx(v_rest), bead_y = bead * dFdy(v_rest);
-  if (crest > 0.0) film_slope += (6.0 * crest * FILM_BUMP) * (textureGrad(u_noise, bead * v_rest, bead_x, bead_y).rgb * 2.0 - 1.0);
+  if (crest > 0.0) film_slope += (5.0 * crest * FILM_BUMP) * (textureGrad(u_noise, bead * v_rest, bead_x, bead_y).rgb * 2.0 - 1.0);
 #endif
 #endif
   float wet = smoothstep(1.0 - WETNESS - 0.2, 1.0 - WETNESS + 0.2, wet_noise);
@@ -371,7 +371,7 @@ void main() {
   vec3 H = normalize(lit.direction + V);
   float facing = clamp(nl * 4.0, 0.0, 1.0) * open;
 #if defined(LINING) && DETAIL >= 1
-  const float kSparkle = 9.0;
+  const float kSparkle = 12.0;
   float sparkles = crest;  // a bead of moisture is smoother than the wall that it stands on
   float film2 = FILM2 * mix(4.0, 0.6, crest);
 #else
