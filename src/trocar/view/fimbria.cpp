@@ -283,6 +283,7 @@ std::vector<Disc> discs_of(const MeshBuffer& b, const std::vector<Vec3f>& normal
 /// Fronds shade each other: deep between them it is dark and red, their tips are open and pale.
 void shade(MeshBuffer& b) {
   constexpr float kFar = 0.004f;  // [m] beyond that, what is baked for the whole scene says enough
+  constexpr double kLeast = 0.4;  // thin mucosa lets light through: there are no black slits at roots
   constexpr double kDark = 2.6;   // beyond what is hidden: what is reflected there goes through wet mucosa again
   std::vector<Vec3f> normals;
   render::vertex_normals(b.positions, b.indices, normals);
@@ -299,7 +300,7 @@ void shade(MeshBuffer& b) {
       const float seen = std::fabs(dot(way, d.normal)) / far;  // either side hides what is behind
       covered += facing / far * (0.3f + 0.7f * seen) * d.area / (3.14f * far2 + d.area) * (1 - far / kFar);
     }
-    const double open = std::exp(-kDark * double(covered));
+    const double open = kLeast + (1 - kLeast) * std::exp(-kDark * double(covered));
     Paint& paint = b.paint[v];
     paint.tint = to_byte(paint.tint / 255.0 + 0.5 * (1 - open) * (1 - paint.tint / 255.0));
     paint.openness = to_byte(paint.openness / 255.0 * open);
