@@ -22,6 +22,9 @@ uint scrambled(uint x) {
   return (word >> 22u) ^ word;
 }
 
+const vec3 kLuma = vec3(0.3, 0.59, 0.11);
+const float kSharedColour = 0.75;  // of a pixel's colour is its neighbours'
+
 void main() {
   vec2 from_centre = gl_FragCoord.xy - u_place.xy;
   float r = length(from_centre) / u_place.z;
@@ -51,7 +54,6 @@ void main() {
   vec2 px = u_texel * 1.05;
   vec3 a = texture(u_picture, uv + vec2(-px.x, px.y)).rgb, b = texture(u_picture, uv + px).rgb;
   vec3 c = texture(u_picture, uv - px).rgb, d = texture(u_picture, uv + vec2(px.x, -px.y)).rgb;
-  const vec3 kLuma = vec3(0.3, 0.59, 0.11);
   vec4 ring = vec4(dot(a, kLuma), dot(b, kLuma), dot(c, kLuma), dot(d, kLuma));
   float middle = dot(picture, kLuma);
   float step_up = middle - 0.25 * (ring.x + ring.y + ring.z + ring.w);
@@ -69,6 +71,10 @@ void main() {
   step_up *= 1.0 - 0.6 * outline;
   // Video sharpening: overshoot.
   picture += u_lens.z * clamp(step_up, -0.12, 0.12);
+  // Video has half as many samples of colour as of brightness; what is clipped has no colour.
+  vec3 around = 0.25 * (a + b + c + d);
+  float bright = dot(picture, kLuma), shared = kSharedColour * (1.0 - smoothstep(0.6, 0.9, middle));
+  picture = bright + mix(picture - bright, around - dot(around, kLuma), shared);
 #endif
 
 #ifdef SOILED
@@ -79,5 +85,8 @@ void main() {
   vec3 grain = vec3(float(seed & 1023u), float((seed >> 10u) & 1023u), float((seed >> 20u) & 1023u)) / 1023.0 - 0.5;
   grain = mix(vec3(grain.g), grain, 0.03);
   picture += grain * (u_sensor.x * 3.4 * (1.4 - 0.8 * picture.g));
-  o_colour = vec4(picture * edge, 1.0);
+  // Brightness and differences of colour have 8 bits each, as in video: rounded one by one, channels would be noisy.
+  picture *= edge;
+  float brightness = dot(picture, kLuma);
+  o_colour = vec4((floor(255.0 * brightness + 0.5) + floor(255.0 * (picture - brightness) + 0.5)) / 255.0, 1.0);
 }
