@@ -131,10 +131,11 @@ Material bladder() {
   m.tint = srgb(208, 152, 119);
   m.mottle_size = 0.013f;
   m.mottle = 0.3f;
+  m.vessels = 1.4f;
   m.vessel_tile = 0.05f;
   m.wetness = 0.6f;
   m.film_size = 0.002f;
-  m.film_bump = 0.32f;
+  m.film_bump = 0.4f;
   m.film_roughness = 0.075f;
   return m;
 }
@@ -187,17 +188,17 @@ Material stomach() {
 }
 
 Material liver() {
-  Material m = with_vessels(tissue(srgb(84, 46, 51), srgb(92, 53, 56), srgb(75, 40, 46)), 0.15f, 0.038f);
+  Material m = with_vessels(tissue(srgb(84, 46, 51), srgb(92, 53, 56), srgb(75, 40, 46)), 0.23f, 0.038f);
   m.vessel_colour = srgb(150, 106, 110);  // a pale net below its capsule
   m.mottle_size = 0.008f;
-  m.mottle = 0.5f;
+  m.mottle = 0.95f;
   m.bump = 0.012f;
   m.roughness = 0.72f;
-  m.wetness = 0.45f;
+  m.wetness = 0.66f;
   m.film_roughness = 0.05f;
   m.film_bump = 0.36f;
-  m.film_size = 0.0011f;
-  m.fresnel = 0.016f;            // the capsule is matte but for the film's flecks, and so is what a cut lays bare
+  m.film_size = 0.0016f;
+  m.fresnel = 0.02f;             // the capsule is matte but for the film's flecks, and so is what a cut lays bare
   m.tint = srgb(166, 104, 100);  // a thin edge
   return m;
 }

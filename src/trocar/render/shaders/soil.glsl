@@ -70,11 +70,12 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
 #endif
 
   float by = max(fog, 0.55 * greasy);
-  picture = blurred(uv + bent, picture, by);
+  // Between the drops light comes straight through.
+  picture = mix(blurred(uv + bent, picture, by), picture, 0.42);
   // What drops turn aside comes from all around: the organs' own colours, milky, brightest where the lamp shines back.
   vec3 veil = mix(mix(around, mean, 0.35), vec3(light), 0.12);
   picture = mix(picture, veil * (1.10 - 0.16 * dot(at, at)) + 0.05, 0.48 * fog);
-  picture *= 1.0 + 0.09 * beads;
+  picture *= 1.0 + 0.12 * beads;
   picture = mix(picture, veil * u_smear.rgb * 1.05 + 0.02, 0.33 * greasy);
 
 #ifdef DROPS
