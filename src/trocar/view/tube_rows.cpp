@@ -39,7 +39,7 @@ void TubeDrawing::add_raw_face(int piece, bool at_start) {
   const double open = m_strand->inner.empty() ? 0 : m_strand->inner[std::size_t(at_start ? p.first : p.last)];
   const double lumen = std::clamp(open, 0.07 * r, 0.12 * r);
   // The serosa has drawn back from a pale ring of muscle, which has contracted; within it the lining pouts, ragged and
-  // pale, and leads into a narrow dark lumen.
+  // rosy, and leads into a narrow dark lumen.
   const Paint rim{235, 20, 0, 0}, muscle{235, 4, 30, 20}, mucosa{235, 3, 18, 225}, lining{150, 20, 8, 255};
   const Paint dark{8, 200, 0, 255};
   std::vector<TubeRow> rows;
