@@ -48,7 +48,7 @@ double light_of(double picture) {
   double low = 0, high = 1;
   for (int i = 0; i < 60; ++i) {
     const double x = 0.5 * (low + high);
-    const double y = 1.075 * x * (6.2 * x + 0.5) / (x * (6.2 * x + 1.7) + 0.06);
+    const double y = 1.25 * x * (6.2 * x + 3.7) / (x * (6.2 * x + 5.4) + 0.78);
     (y < picture ? low : high) = x;
   }
   return 0.5 * (low + high);

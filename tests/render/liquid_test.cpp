@@ -150,7 +150,7 @@ class Liquids : public GlFixture {
     double low = 0, high = 1;
     for (int i = 0; i < 60; ++i) {
       const double x = 0.5 * (low + high);
-      const double y = 1.075 * x * (6.2 * x + 0.5) / (x * (6.2 * x + 1.7) + 0.06);
+      const double y = 1.25 * x * (6.2 * x + 3.7) / (x * (6.2 * x + 5.4) + 0.78);
       (y < picture ? low : high) = x;
     }
     return 0.5 * (low + high);
@@ -303,7 +303,7 @@ TEST_F(Liquids, ASheetTakesLightByTheLawOfBeerAndLambert) {
 }
 
 TEST_F(Liquids, OrangeGoesFirstSoThinBloodTakesRedAndDeepBloodLetsTheRestThrough) {
-  add_plate(0.065f, 230);
+  add_plate(0.065f, 180);
   frame.liquid.look.fresnel = 0;
   frame.liquid.look.kinds[0].deep = {0, 0, 0};
   frame.liquid.look.kinds[0].orange = 7e3f;

@@ -131,7 +131,7 @@ Material bladder() {
   m.tint = srgb(208, 152, 119);
   m.mottle_size = 0.013f;
   m.mottle = 0.3f;
-  m.vessels = 1.4f;
+  m.vessels = 1.2f;
   m.vessel_tile = 0.05f;
   m.wetness = 0.6f;
   m.film_size = 0.002f;

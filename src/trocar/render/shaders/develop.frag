@@ -52,7 +52,7 @@ vec3 in_smoke(vec3 colour, float far) {
 // Camera curve with the display's gamma in it: toe, straight middle, long shoulder, clipped; each channel on its own,
 // so that what is bright pales [form after Hejl & Burgess-Dawson 10].
 vec3 developed(vec3 x) {
-  return clamp(1.075 * x * (6.2 * x + 0.5) / (x * (6.2 * x + 1.7) + 0.06), 0.0, 1.0);
+  return clamp(1.25 * x * (6.2 * x + 3.7) / (x * (6.2 * x + 5.4) + 0.78), 0.0, 1.0);
 }
 
 const float kUnsharp = 2.4;  // blurred wholly at 0.7 of the nearest sharp distance

@@ -23,6 +23,7 @@ uint scrambled(uint x) {
 }
 
 const vec3 kLuma = vec3(0.3, 0.59, 0.11);
+const vec2 kChipsApart = vec2(0.30, 0.22);  // of the shift at the rim
 const float kSharedColour = 0.75;  // of a pixel's colour is its neighbours'
 
 void main() {
@@ -44,9 +45,11 @@ void main() {
   vec4 developed = texture(u_picture, uv);
   vec3 picture = developed.rgb;
 #ifdef FRINGE
-  vec2 shift = from_centre * (u_lens.y * r / u_place.z) * u_box.zw;
-  picture.r = texture(u_picture, uv + shift).r;
-  picture.b = texture(u_picture, uv - shift).b;
+  // Red and blue lie a little apart: the more, the nearer the rim, and a little everywhere, as a camera's three chips do
+  // not lie on each other to the pixel. Only what is steep keeps it where neighbours share their colour.
+  vec2 shift = (from_centre * (u_lens.y * r / u_place.z) + kChipsApart * u_lens.y) * u_box.zw;
+  vec2 fringe = vec2(texture(u_picture, uv + shift).r, texture(u_picture, uv - shift).b) - picture.rb;
+  fringe *= smoothstep(0.1, 0.35, abs(fringe));
 #endif
 
 #ifdef SMOOTH
@@ -75,6 +78,10 @@ void main() {
   vec3 around = 0.25 * (a + b + c + d);
   float bright = dot(picture, kLuma), shared = kSharedColour * (1.0 - smoothstep(0.6, 0.9, middle));
   picture = bright + mix(picture - bright, around - dot(around, kLuma), shared);
+#endif
+
+#ifdef FRINGE
+  picture.rb += fringe;
 #endif
 
 #ifdef SOILED

@@ -64,6 +64,7 @@ out vec4 o_colour;
 const mat3 kTurn = mat3(0.36, 0.48, -0.8, -0.8, 0.60, 0.0, 0.48, 0.64, 0.60);
 
 const float kClumps = 0.014;     // [m] distance of the places where a film sparkles
+const float kFoldWidth = 0.10, kFoldSlope = 0.35;  // of a lining's low folds: in values of the noise, and how steep
 const float kLiningBall = 0.12;  // [m] radius of the ball that a lining's vessels are drawn on
 
 vec3 along_surface(vec3 v, vec3 n) { return v - n * dot(n, v); }
@@ -97,22 +98,16 @@ vec2 vessels_at(vec3 p, vec3 n) {
          smoothstep(0.1, 0.35, abs(dot(n, towards)));
 }
 #else
-// Trees are drawn in the plane that the rest surface faces most and fade out towards the next plane.
+// Trees are drawn in the planes that the rest surface faces. Beside a place where it turns from one to the next both are
+// seen: each fades out only where it would be smeared, so that a trunk does not end where the other plane begins.
 vec2 vessels_at(vec3 p, vec3 n) {
-  vec3 a = abs(n);
-  vec2 uv;
-  float margin;
-  if (a.x > a.y && a.x > a.z) {
-    uv = p.yz + vec2(0.37, 0.11);
-    margin = a.x - max(a.y, a.z);
-  } else if (a.y > a.z) {
-    uv = p.zx + vec2(0.71, 0.53);
-    margin = a.y - max(a.x, a.z);
-  } else {
-    uv = p.xy;
-    margin = a.z - max(a.x, a.y);
-  }
-  return texture(u_vessels, uv * VESSEL_SCALE).rg * smoothstep(0.0, 0.2, margin);
+  vec3 at = p * VESSEL_SCALE, step_x = dFdx(at), step_y = dFdy(at), facing = smoothstep(0.45, 0.66, abs(n));
+  vec2 off_zx = VESSEL_SCALE * vec2(0.71, 0.53), off_yz = VESSEL_SCALE * vec2(0.37, 0.11);
+  vec2 seen = vec2(0.0);
+  if (facing.x > 0.0) seen = facing.x * textureGrad(u_vessels, at.yz + off_yz, step_x.yz, step_y.yz).rg;
+  if (facing.y > 0.0) seen = max(seen, facing.y * textureGrad(u_vessels, at.zx + off_zx, step_x.zx, step_y.zx).rg);
+  if (facing.z > 0.0) seen = max(seen, facing.z * textureGrad(u_vessels, at.xy, step_x.xy, step_y.xy).rg);
+  return seen;
 }
 #endif
 #endif
@@ -237,6 +232,12 @@ void main() {
   albedo *= 1.0 + vec3(-0.01, 0.09, -0.21) * (broad.g - 0.5);  // towards yellow here, mauve there
 #endif
   vec3 relief = BUMP * slope;
+#if defined(LINING) && DETAIL >= 1
+  // Low, winding folds in which it lies here and there.
+  float from_crest = (broad.a + 0.05 * (fine.b - 0.5) - 0.5) / kFoldWidth;
+  float fold = exp(-from_crest * from_crest) * smoothstep(0.32, 0.52, broad.g);
+  relief -= (2.0 * from_crest * fold * kFoldSlope) * (broad.rgb * 2.0 - 1.0);
+#endif
 
 #ifdef LOBULES
   vec4 cell = texture(u_cells, p * CELL_SCALE + slope * 0.012 + (broad.rgb - 0.5) * 0.05);  // of unequal sizes
@@ -341,7 +342,9 @@ void main() {
 #ifdef LINING
   film_slope = FILM_BUMP * (broad.rgb * 2.0 - 1.0 + 0.4 * (broad.gbr * 2.0 - 1.0));  // broad sheens, no frost ...
 #if DETAIL >= 1
-  float crest = smoothstep(0.57, 0.68, broad.a + 0.3 * (fine.b - 0.5)) * wrinkled;  // ... flecks here and there on what stands out
+  // ... flecks here and there on crests of its folds and on what stands out
+  float crest = smoothstep(0.5, 0.85, fold + 0.6 * (fine.b - 0.5)) * (0.35 + 0.65 * wrinkled);
+  crest = max(crest, 0.9 * smoothstep(0.61, 0.7, broad.a + 0.3 * (fine.b - 0.5)) * wrinkled);
   mat3 bead = kTurn * FILM_SCALE;
   vec3 bead_x = bead * dFdx(v_rest), bead_y = bead * dFdy(v_rest);
   if (crest > 0.0) film_slope += (5.0 * crest * FILM_BUMP) * (textureGrad(u_noise, bead * v_rest, bead_x, bead_y).rgb * 2.0 - 1.0);
@@ -373,7 +376,7 @@ void main() {
 #if defined(LINING) && DETAIL >= 1
   const float kSparkle = 12.0;
   float sparkles = crest;  // a bead of moisture is smoother than the wall that it stands on
-  float film2 = FILM2 * mix(4.0, 0.6, crest);
+  float film2 = FILM2 * mix(4.0, 1.0, crest);
 #else
   const float kSparkle = 6.0;
   float sparkles = wrinkled;
