@@ -57,7 +57,7 @@ struct EndoscopeLook {
   float notch = 1;             ///< 0 none .. 1: small orientation notch on the rim
   float notch_angle = 0;       ///< [rad] clockwise from 12 o'clock (turns with the scope)
   float barrel = 0.10f;        ///< how much less the rim is magnified than the centre
-  float fringe_px = 1.6f;      ///< chromatic shift at the rim [px of a 600 px high picture]
+  float fringe_px = 1.0f;      ///< chromatic shift at the rim [px of a 600 px high picture]
   float vignette = 0.6f;       ///< 0 none .. 1 = cos^4 of the field angle
   // Camera.
   bool auto_exposure = true;

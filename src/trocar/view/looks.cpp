@@ -45,9 +45,9 @@ Material tube() {
   m.mottle_size = 0.011f;
   m.mottle = 0.6f;
   m.bump = 0.1f;
-  m.glow_amount = 0.3f;        // through the thin rims of the fimbriae
-  m.tint = srgb(184, 84, 88);  // fimbriae: mucosa
-  m.film_size = 0.0013f;       // much finer than the tube is thick: flecks in clumps, no row of beads
+  m.glow_amount = 0.38f;         // through the thin rims of the fimbriae
+  m.tint = srgb(198, 100, 102);  // fimbriae: mucosa
+  m.film_size = 0.0013f;         // much finer than the tube is thick: flecks in clumps, no row of beads
   m.film_bump = 0.24f;
   m.film_roughness = 0.06f;
   m.wetness = 0.72f;

@@ -23,7 +23,7 @@ uint scrambled(uint x) {
 }
 
 const vec3 kLuma = vec3(0.3, 0.59, 0.11);
-const vec2 kChipsApart = vec2(0.30, 0.22);  // of the shift at the rim
+const vec2 kChipsApart = vec2(0.45, 0.33);  // of the shift at the rim
 const float kSharedColour = 0.75;  // of a pixel's colour is its neighbours'
 
 void main() {
@@ -49,7 +49,7 @@ void main() {
   // not lie on each other to the pixel. Only what is steep keeps it where neighbours share their colour.
   vec2 shift = (from_centre * (u_lens.y * r / u_place.z) + kChipsApart * u_lens.y) * u_box.zw;
   vec2 fringe = vec2(texture(u_picture, uv + shift).r, texture(u_picture, uv - shift).b) - picture.rb;
-  fringe *= smoothstep(0.1, 0.35, abs(fringe));
+  fringe *= smoothstep(0.15, 0.45, abs(fringe));
 #endif
 
 #ifdef SMOOTH
