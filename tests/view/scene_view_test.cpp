@@ -790,11 +790,22 @@ TEST(ClipShape, HasTheSameVerticesOpenAndClosed) {
   EXPECT_LT(half, 0.0016f);
 }
 
+TEST(ClipShape, AnOpenOneIsAChevronWhoseLegsLieInTheJaws) {
+  constexpr double kGap = 0.006;
+  float narrowest = 1, at_bend = 0;
+  for (const Vec3f& p : clip_shape(0.0085, kGap).positions) {
+    if (p.z > 0.005f && p.z < 0.008f) narrowest = std::min(narrowest, std::fabs(p.x));
+    if (p.z < 0.0002f) at_bend = std::max(at_bend, std::fabs(p.x));
+  }
+  EXPECT_NEAR(narrowest, kClipHalfGap + 0.5 * kGap, 1e-5);
+  EXPECT_LT(at_bend, 0.0012f) << "no eye stands out there";
+}
+
 TEST(ClipShape, IsGroovedOnItsInnerSidesAndSmoothOutside) {
   const MeshBuffer closed = clip_shape(0.0085, 0);
   std::map<float, std::pair<float, float>> across;  // of a leg, by height: nearest to and farthest from the middle
   for (const Vec3f& p : closed.positions) {
-    if (p.x < 0 || p.z < 0.003f) continue;
+    if (p.x < 0 || p.z < 0.003f || p.z > 0.0082f) continue;  // its tips are bevelled
     auto& [in, out] = across.try_emplace(std::round(1e5f * p.z), 1.0f, 0.0f).first->second;
     in = std::min(in, p.x);
     out = std::max(out, p.x);

@@ -15,7 +15,8 @@ constexpr double kPi = 3.14159265358979;
 constexpr int kAround = 40;
 constexpr double kCollarFrom = -0.0072;  // [m] where a hook's white collar begins
 // Blood is what clings there after work, burn what chars there: SceneView says how much of it is on an instrument.
-const Paint kClean{255, 0, 0, 0}, kShaded{110, 0, 0, 0}, kHollow{40, 0, 0, 90}, kUsed{235, 190, 0, 0};
+const Paint kClean{255, 0, 0, 0}, kShaded{110, 0, 0, 0}, kHollow{40, 0, 0, 90}, kUsed{235, 190, 0, 0},
+    kSmeared{235, 80, 0, 0};
 const Paint kJoint{70, 40, 0, 150};
 
 void merge(MeshBuffer& to, const MeshBuffer& part) { append(to, part, Mat3f::identity(), {}); }
@@ -218,21 +219,23 @@ MeshBuffer applier_jaw(const ToolModel& tool) {
   const auto back = [&](double z, double low, double high, double wide) {
     return BarSection{{0.5 * (low + high), 0, z}, 0.5 * (high - low) * x, wide * y, kClean};
   };
-  merge(b,
-        bar({back(-0.009, 0.0002, thick, 0.7 * half), back(-0.003, 0.2 * thick, 1.3 * thick, 0.75 * half),
-             back(0.1 * length, 0.3 * thick, 1.45 * thick, 0.72 * half),
-             back(0.35 * length, 0.42 * thick, 1.35 * thick, 0.85 * half),
-             back(0.8 * length, 0.42 * thick, 1.05 * thick, half), back(0.9 * length, 0.42 * thick, 0.95 * thick, half),
-             back(0.98 * length, 0.42 * thick, 0.8 * thick, 0.85 * half),
-             back(length, 0.42 * thick, 0.62 * thick, 0.6 * half)},
-            0.3));
+  merge(b, bar({back(-0.009, 0.0002, thick, 0.7 * half), back(-0.003, 0.2 * thick, 1.3 * thick, 0.75 * half),
+                back(0.1 * length, 0.3 * thick, 1.45 * thick, 0.72 * half),
+                back(0.35 * length, 0.42 * thick, 1.35 * thick, 0.85 * half),
+                back(0.8 * length, 0.42 * thick, 1.05 * thick, 0.93 * half),
+                back(0.9 * length, 0.42 * thick, 0.95 * thick, 0.93 * half),
+                back(0.98 * length, 0.42 * thick, 0.8 * thick, 0.85 * half),
+                back(length, 0.42 * thick, 0.62 * thick, 0.6 * half)},
+               0.3));
   for (const double side : {-1.0, 1.0}) {
     const double rail = 0.5 * (half - 0.5 * 0.0013), at = side * (half - rail);
-    const auto section = [&](double z, double low) {
-      return BarSection{{0.5 * (low + 0.6 * thick), at, z}, 0.5 * (0.6 * thick - low) * x, rail * y, kUsed};
+    // They are as high as the back nearly everywhere: a seam in the jaw's side would look dotted from afar.
+    const auto section = [&](double z, double low, double high) {
+      return BarSection{{0.5 * (low + high), at, z}, 0.5 * (high - low) * x, rail * y, kSmeared};
     };
-    merge(b, bar({section(0.1 * length, 0.3 * thick), section(0.25 * length, 0.0001), section(0.95 * length, 0.0001),
-                  section(0.995 * length, 0.0003)},
+    merge(b, bar({section(0.1 * length, 0.3 * thick, 1.3 * thick), section(0.25 * length, 0.0001, 1.28 * thick),
+                  section(0.8 * length, 0.0001, 0.97 * thick), section(0.95 * length, 0.0001, 0.78 * thick),
+                  section(0.995 * length, 0.0003, 0.56 * thick)},
                  0.3));
   }
   return b;

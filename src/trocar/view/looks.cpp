@@ -375,13 +375,13 @@ Material polished(Vec3f bright, Vec3f dull, float roughness, float scatter) {
   return m;
 }
 
-/// Titanium: greyer than steel, with a soft sheen.
+/// Titanium: paler than steel and less of a mirror, without grinding marks: it glints where it is bent.
 Material satin(Vec3f bright, Vec3f dull) {
-  Material m = metal(bright, dull, 0.24f);
-  m.scatter = 0.52f;
+  Material m = metal(bright, dull, 0.2f);
+  m.scatter = 0.55f;
   m.mottle = 0.5f;
-  m.fibre_stretch = 6;
-  m.bump = 0.025f;
+  m.fibre_stretch = 1;
+  m.bump = 0.012f;
   return m;
 }
 
@@ -488,7 +488,7 @@ std::vector<Look> make_looks() {
       {"insulated", insulation(), false, {}},
       {"ceramic", ceramic(), false, {}},
       {"sleeve", metal(srgb(130, 131, 137), srgb(116, 118, 124), 0.38f), false, {}},
-      {"titanium", satin(srgb(205, 204, 206), srgb(190, 189, 192)), false, {}},
+      {"titanium", satin(srgb(240, 239, 241), srgb(218, 217, 221)), false, {}},
   };
 }
 

@@ -14,6 +14,8 @@ namespace {
 
 constexpr double kSleeveShows = 0.018;  // [m] of a trocar's sleeve inside the wall
 constexpr float kBeforeFold = 1.2e-3f;  // [m] that a clip is drawn nearer
+constexpr float kInJaws = 0.5f;         // share of the light that comes between open jaws
+constexpr double kInGroove = 0.00025;   // [m] that the legs of a loaded clip lie below the faces of the jaws
 
 render::Mat4 to_world(const Placement& p) { return render::placement(p.rotation, p.translation); }
 
@@ -104,7 +106,7 @@ void MetalDrawing::update(const sim::State& state) {
     if (state.tools[std::size_t(l.hand)].instrument != l.instrument) continue;
     const interactions::ToolModel& tool = m_model->tool(state, std::size_t(l.hand));
     const double open = tool.parallel_gap * drawn_aperture(state, std::size_t(l.hand));
-    const MeshBuffer shape = clip_shape(tool.clip_length, std::max(0.0, open - 2 * kClipHalfGap));
+    const MeshBuffer shape = clip_shape(tool.clip_length, std::max(0.0, open - 2 * kClipHalfGap + 2 * kInGroove));
     l.mesh.move(shape.positions, {});
   }
 }
@@ -187,6 +189,9 @@ void MetalDrawing::list_loaded(const sim::State& state, std::size_t h, const Fir
     place.translation += float(clip_seat(m_model->tool(state, h))) * place.rotation.column(2);
     DrawItem drawn = item(l.mesh.handle(), *m_titanium, first.tool + h);
     drawn.transform = to_world(place);
+    const float lit =
+        1 - (1 - kInJaws) * float(smooth(0, 0.6, tool.aperture));  // closed, as it is when it has been set
+    for (Vec3f* c : {&drawn.material.colour, &drawn.material.colour_b, &drawn.material.colour_c}) *c = lit * *c;
     to.add(drawn);
   }
 }

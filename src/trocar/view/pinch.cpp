@@ -15,6 +15,9 @@ Vec3d in_world(const double (&v)[3], const interactions::StrandFrame& f) {
   return v[0] * f.tangent + v[1] * f.normal + v[2] * f.binormal;
 }
 
+// Shares of a tube's radius, our choice: how far it bulges and gathers beside a clip, and is drawn in between its legs.
+constexpr double kBulge = 0.12, kGathers = 0.1, kDrawnIn = 0.25;
+
 double leg_length(const Clip& clip) { return clip.length > 0 ? clip.length : kClipLength; }
 
 bool holds(const interactions::ToolState& tool, int body) {
@@ -85,20 +88,20 @@ std::vector<JawPress> jaws_on(int body, const sim::Model& model, const sim::Stat
 
 Vec3d pressed(Vec3d p, const ClipPress& press) {
   const Vec3d d = p - press.centre;
-  const double side = std::fabs(dot(d, press.normal));
-  const double fade = 1.0 * press.radius + 0.0005;  // it runs out smoothly, and close by: legs lie half buried
-  if (side > 0.5 * kClipLegWidth + 1.6 * fade || dot(d, d) > 9 * press.radius * press.radius) return p;
+  const double beside = std::fabs(dot(d, press.normal)) - 0.5 * kClipLegWidth, fade = 1.35 * press.radius + 0.0003;
+  if (beside > fade || dot(d, d) > 9 * press.radius * press.radius) return p;
   const double x = dot(d, press.open), z = dot(d, press.axis);
-  double amount = smooth(0.5 * kClipLegWidth + fade, 0.5 * kClipLegWidth, side);
   const double rim = 0.0004;
-  amount *= smooth(press.low - rim, press.low + rim, z) * smooth(press.high + rim, press.high - rim, z);
-  // Gathered between the bend and the tips rather than spread, it bulges beside the legs.
-  const double bulge =
-      0.11 * smooth(0.5 * kClipLegWidth + 1.6 * fade, 0.5 * kClipLegWidth + 0.6 * fade, side) * (1 - amount);
-  const double flattened = x * (1 + bulge + amount * (std::min(1.0, press.flat) - 1));
-  double widened = z * (1 - 0.12 * amount + bulge);
-  if (z > press.low) widened = std::max(widened, press.low + 0.5 * rim);
-  return p + (flattened - x) * press.open + (widened - z) * press.axis;
+  const double between = smooth(press.low - rim, press.low + rim, z) * smooth(press.high + rim, press.high - rim, z);
+  // Steepest right at the legs, which lie half buried; and there it is gathered like a purse.
+  const double near = 1 - std::clamp(beside / fade, 0.0, 1.0), amount = between * near * near * (1.5 - 0.5 * near);
+  const double angle = std::atan2(x, z) + (dot(d, press.normal) > 0 ? 0.7 : 0);
+  const double gathers = std::sin(4 * angle + 1) + 0.6 * std::sin(3 * angle + 2.4);
+  const double bulge = between * (4 * near * (1 - near) * kBulge + kGathers * gathers * smooth(0.05, 0.7, near));
+  const double flattened = x * ((1 + bulge) * (1 - amount) + amount * std::min(1.0, press.flat));
+  double drawn_in = z * (1 + bulge * (1 - amount) - kDrawnIn * amount);
+  if (z > press.low) drawn_in = std::max(drawn_in, press.low + 0.5 * rim);
+  return p + (flattened - x) * press.open + (drawn_in - z) * press.axis;
 }
 
 Vec3d pressed(Vec3d p, const JawPress& press) {

@@ -23,8 +23,8 @@ struct JawPress {
   double length = 0, half_width = 0;  ///< of the jaws [m]
 };
 
-/// Half the clear space between the legs of a closed clip, and how wide a leg is [m].
-inline constexpr double kClipHalfGap = 0.00035, kClipLegWidth = 0.0011, kClipLegThickness = 0.0007;
+/// Half the clear space between the legs of a closed clip, and how wide and thick a leg is [m].
+inline constexpr double kClipHalfGap = 0.00025, kClipLegWidth = 0.0011, kClipLegThickness = 0.00085;
 /// Legs of clips whose applier does not say how long they are [m].
 inline constexpr double kClipLength = 0.0085;
 

@@ -15,8 +15,11 @@ using interactions::Cut;
 namespace {
 
 constexpr double kPi = 3.14159265358979;
-constexpr double kBlanched = 0.0034;  // [m] beside a clip's legs
-constexpr double kBloodied = 0.0016;  // [m] beside a cut
+constexpr double kBlanched = 0.0030;   // [m] from a clip's middle: blood is pressed out of what its legs hold ...
+constexpr double kCongested = 0.0058;  // [m] ... and stands beside that
+constexpr double kShade = 0.0014;      // [m] beside a clip's legs, where little light comes
+constexpr double kGathered = 0.0028;   // [m] from its middle: there it lies in small folds that run to the legs
+constexpr double kBloodied = 0.0019;   // [m] beside a cut
 
 template <class T>
 bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
@@ -24,7 +27,7 @@ bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
 }
 
 /// An uneven rim's course, about -1..1.
-double ragged(int seed, double angle) {
+double ragged(double seed, double angle) {
   return 0.55 * std::sin(2 * angle + 1.9 * seed) + 0.5 * std::sin(3 * angle + 2.6 * seed + 1) +
          0.15 * std::sin(5 * angle + 4.1 * seed + 2);
 }
@@ -141,16 +144,23 @@ Paint TubeDrawing::paint_at(const Layout& layout, double s, double angle, Paint 
   Paint p = own;
   for (const Clip& clip : layout.clips) {
     const double d = std::fabs(s - clip.s);
-    const double pale = 0.19 * clip.cover * smooth(kBlanched, 0.0008, d);
+    const double pale = 0.21 * clip.cover * smooth(kBlanched, 0.0012, d);
     p.burn = std::max(p.burn, to_byte(pale));
+    const double red = smooth(0.0018, kBlanched, d) * smooth(kCongested, kBlanched, d);
+    p.blood = std::max(p.blood, to_byte(0.19 * clip.cover * red * (0.75 + 0.35 * ragged(m_index, angle))));
+    const double shade = smooth(0.5 * kClipLegWidth + kShade, 0.4 * kClipLegWidth, d);
+    const double gathered =
+        smooth(kGathered, 0.5 * kClipLegWidth, d) * std::max(0.0, ragged(0.37, angle + (s > clip.s ? 0.8 : 0)));
+    p.openness = std::uint8_t(p.openness * (1 - clip.cover * std::min(0.9, 0.88 * shade + 0.7 * gathered)));
   }
   for (const StrandPiece& piece : layout.pieces) {
     if (own.blood > 0) {  // a raw face has its own
-      p.blood = std::uint8_t(std::min(255.0, own.blood + 45 * oozes(angle)));
+      p.blood =
+          std::uint8_t(std::clamp(own.blood + 130 * oozes(angle) + 26 * ragged(m_index + 0.5, angle), 8.0, 255.0));
       break;
     }
     const double stain = kBloodied * (0.8 + 0.6 * std::sin(angle + 1) + 0.4 * std::sin(3 * angle));
-    const double much = 0.2 + 0.3 * oozes(angle);
+    const double much = 0.3 + 0.35 * oozes(angle);
     if (piece.cut_start && s >= piece.from)
       p.blood = std::max(p.blood, to_byte(much * smooth(stain, 0, s - piece.from)));
     if (piece.cut_end && s <= piece.to) p.blood = std::max(p.blood, to_byte(much * smooth(stain, 0, piece.to - s)));
@@ -182,9 +192,10 @@ void TubeDrawing::shape_sections() {
   for (const TubeRow& row : m_rows)
     for (int k = 0; k < (row.radius == 0 ? 1 : m_sides); ++k) {
       const double a = 2 * kPi * k / m_sides;
-      const double lobes = row.radius == 0 ? 0 : row.scallop * ragged(row.piece + m_index, a);
+      const double lobes = row.radius == 0 ? 0 : row.scallop * ragged(row.piece + m_index + row.turn, a);
       const double r = row.radius == 0 ? 0 : row.radius * (outline(row.s, a) + lobes);
-      m_section.push_back({r * std::cos(a), r * std::sin(a), (row.along < 0 ? -0.9 : 0.9) * lobes * row.radius});
+      m_section.push_back(
+          {r * std::cos(a), r * std::sin(a), (row.along < 0 || row.slant < 0 ? -0.9 : 0.9) * lobes * row.radius});
     }
 }
 

@@ -26,6 +26,7 @@ struct TubeRow {
   bool crease = false;  ///< a hard edge: not joined to the row before, which lies in the same place
   Paint paint;
   double slant = 0;  ///< how far its upper side lies back along the tangent, in radii
+  double turn = 0;   ///< of its scallops against those of the piece's rim, in their seed
 };
 
 /// Where a strand's end goes on below the surface of what holds it. An organ's moves with the strand's end frame, a

@@ -16,7 +16,8 @@ constexpr double kFineStep = 0.0004;  // [m] near a clip
 constexpr double kNearClip = 0.004;   // [m]
 constexpr double kSlant = 0.85;       // scissors cut askew: how far a stump's near side lies back, in radii
 constexpr double kSlanted = 1.8;      // ... and how far along it, in radii
-constexpr double kBend = 0.01;        // [m] radius with which tubes curve, for rings that are left out
+constexpr double kTorn = 0.10, kTornFrom = 0.0012;  // share of the radius and [m]: how ragged its edge is
+constexpr double kBend = 0.01;                      // [m] radius with which tubes curve, for rings that are left out
 
 }  // namespace
 
@@ -38,24 +39,26 @@ void TubeDrawing::add_raw_face(int piece, bool at_start) {
   const double s = at_start ? p.from : p.to, sign = at_start ? -1 : 1, r = radius_at(s) * contracted(p, s);
   const double open = m_strand->inner.empty() ? 0 : m_strand->inner[std::size_t(at_start ? p.first : p.last)];
   const double lumen = std::clamp(open, 0.07 * r, 0.12 * r);
-  // The serosa has drawn back from a pale ring of muscle, which has contracted; within it the lining pouts, ragged and
-  // rosy, and leads into a narrow dark lumen.
-  const Paint rim{235, 20, 0, 0}, muscle{235, 4, 30, 20}, mucosa{235, 3, 18, 225}, lining{150, 20, 8, 255};
-  const Paint dark{8, 200, 0, 255};
+  // The serosa has drawn back, its torn edge red; the muscle has contracted within it, and the lining pouts over both
+  // in wet, uneven lobes around what is left of the lumen: a slit with a clot in it.
+  const Paint rim{170, 125, 0, 0}, muscle{190, 24, 24, 30}, mucosa{165, 32, 0, 170}, lining{130, 90, 0, 225};
+  const Paint slit{120, 150, 0, 255}, clot{60, 225, 0, 255};
   std::vector<TubeRow> rows;
-  const auto row = [&](double along, double radius, double ragged, Paint paint) {
-    rows.push_back({piece, s, sign * along, radius, ragged, 0, false, paint, sign * kSlant});
+  const auto row = [&](double along, double radius, double scallop, Paint paint) {
+    const double turn = 0.09 * double(rows.size());
+    rows.push_back({piece, s, sign * along, radius, scallop, 0, false, paint, sign * kSlant, turn});
   };
-  row(0, r, 0, rim);
-  row(0.06 * r, 0.93 * r, 0.05, muscle);
-  row(0.10 * r, 0.82 * r, 0.05, muscle);
-  row(0.12 * r, 0.79 * r, 0.09, mucosa);
-  row(0.25 * r, 0.80 * r, 0.15, mucosa);
-  row(0.30 * r, 0.70 * r, 0.17, mucosa);
-  row(0.26 * r, 0.52 * r, 0.18, mucosa);
-  row(0.10 * r, 1.45 * lumen, 0.22, lining);
-  row(0.0, lumen, 0.15, dark);
-  row(-0.6 * r, 0, 0, dark);
+  row(0, r, kTorn, rim);
+  row(0.09 * r, 0.98 * r, 0.14, muscle);
+  row(0.17 * r, 0.88 * r, 0.15, muscle);
+  row(0.19 * r, 0.83 * r, 0.16, mucosa);
+  row(0.37 * r, 0.84 * r, 0.19, mucosa);
+  row(0.50 * r, 0.68 * r, 0.23, mucosa);
+  row(0.50 * r, 0.50 * r, 0.27, mucosa);
+  row(0.40 * r, 0.34 * r, 0.36, lining);
+  row(0.24 * r, 2.2 * lumen, 0.50, slit);
+  row(0.14 * r, 1.2 * lumen, 0.50, clot);
+  row(0.10 * r, 0, 0, clot);
   rows.front().crease = !at_start;
   if (at_start) std::reverse(rows.begin(), rows.end());
   m_rows.insert(m_rows.end(), rows.begin(), rows.end());
@@ -91,7 +94,9 @@ void TubeDrawing::add_piece(const Layout& layout, int piece) {
     double slant = 0;
     if (p.cut_start) slant -= kSlant * smooth(kSlanted * r, 0, s - p.from);
     if (p.cut_end) slant += kSlant * smooth(kSlanted * r, 0, p.to - s);
-    m_rows.push_back({piece, s, 0, r, 0, 0, first && p.cut_start, {}, slant});
+    const double torn =
+        std::max(p.cut_start ? smooth(kTornFrom, 0, s - p.from) : 0, p.cut_end ? smooth(kTornFrom, 0, p.to - s) : 0);
+    m_rows.push_back({piece, s, 0, r, kTorn * torn, 0, first && p.cut_start, {}, slant});
     first = false;
   }
   add_end(piece);

@@ -12,7 +12,8 @@ constexpr float kPitThick = 260e-6f;      // [m] of the blood in it
 constexpr int kWelling = 7, kSmears = 5;  // patches of blood around it, thick and thin
 constexpr float kStep = 0.7e-3f;          // [m] between two links of the rivulet
 constexpr int kLinks = 22;
-constexpr int kToCrest = 7, kStumpPatches = 5;
+constexpr int kToCrest = 7, kStumpPatches = 7, kStumpSmears = 5;
+constexpr float kSmeared = 2.2e-6f;  // [m] of blood beside a stump
 constexpr float kUnderside = 0.94f;  // cosine between surface and fall at which a rivulet ends as a hanging drop
 
 float own(int which) { return 2 * float(varied(977, which)) - 1; }
@@ -93,17 +94,27 @@ void list_wound(const Wound& wound, const FilmPlace& hole, const SurfaceNear& su
 
 void list_stump(const Wound& wound, const FilmPlace& end, float radius, render::Liquid& liquid) {
   const Vec3f one = any_perpendicular(end.normal), other = cross(end.normal, one);
-  for (int n = 0; n < kStumpPatches; ++n) {
-    const float angle = 6.2832f * (float(n) + 0.4f * own(n)) / kStumpPatches;
+  const auto around = [&](float angle, float behind) {
     const Vec3f out = std::cos(angle) * one + std::sin(angle) * other;
-    const float behind = 0.1e-3f + 0.3e-3f * (1 + own(100 + n));
-    const FilmPlace place{end.position + radius * out - behind * end.normal, out};
-    const float wide = 0.55e-3f * (1 + 0.5f * own(200 + n));
-    liquid.splats.push_back(film(wound, place, wide, (6 + 5 * own(300 + n)) * 1e-6f));
-    if (n % 4 == 1) list_rivulet(wound, place, {}, liquid, 0.15f);
+    return FilmPlace{end.position + radius * out - behind * end.normal, out};
+  };
+  for (int n = 0; n < kStumpPatches; ++n) {  // a crust on its edge, thicker below, where it oozes
+    const float angle = 6.2832f * (float(n) + 0.4f * own(n)) / kStumpPatches;
+    const FilmPlace place = around(angle, 0.1e-3f + 0.3e-3f * (1 + own(100 + n)));
+    const float low = 0.5f + 0.5f * dot(place.normal, wound.down);
+    liquid.splats.push_back(film(wound, place, 0.45e-3f * (1 + 0.5f * own(200 + n)), (16 + 14 * low) * 1e-6f));
+    if (n % 3 == 1) list_rivulet(wound, place, {}, liquid, 0.2f + 0.3f * low);
   }
-  // Its lumen and wall are wet with it, too.
-  liquid.splats.push_back(film(wound, end, 0.5f * radius, 8e-6f));
+  for (int n = 0; n < kStumpSmears; ++n) {  // behind it a thin smear here and there
+    const float far = 0.9e-3f + 2.0e-3f * float(varied(979, n));
+    render::Splat s = film(wound, around(6.2832f * float(varied(978, n)), far), 0.5e-3f, kSmeared);
+    s.from += (0.4e-3f + 0.3f * far) * end.normal;
+    liquid.splats.push_back(s);
+  }
+  // It gathers at the lowest place of its face.
+  const Vec3f low = along_surface(wound.down, end.normal);
+  const FilmPlace gathers{end.position + 0.85f * radius * low, normalised(end.normal + low, end.normal)};
+  liquid.splats.push_back(film(wound, gathers, 0.5f * radius, 30e-6f));
 }
 
 }  // namespace trocar::view
