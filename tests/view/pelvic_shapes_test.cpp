@@ -141,22 +141,49 @@ TEST(TubeDrawing, StaysWithinAMillimetreAndAHalfOfTheSimulatedTube) {
   EXPECT_GT(thickest, 0.0038);  // the ampulla
 }
 
-TEST(FatTags, StandWithBroadFeetOnTheBowelsSkin) {
+TEST(FatTags, RiseFromTheBowelsSkinWithoutABorderAndHangOver) {
   auto backend = render::make_null_backend();
   const sim::SolidModel& bowel = solid("bowel");
   const OrganDrawing organ(bowel, {}, std::vector<Paint>(bowel.fine.rest.size()), *backend);
   const FatTags tags(organ, bowel, 6, pelvis().gravity, *backend);
-  int feet = 0;
+  int feet = 0, over = 0;
   double out = 0;
   for (std::size_t i = 0; i < tags.buffer().positions.size(); ++i) {
-    const double high = above(bowel.fine, vec_cast<double>(tags.buffer().positions[i]));
+    const Vec3f p = tags.buffer().positions[i], n = tags.buffer().normals[i];
+    const double high = above(bowel.fine, vec_cast<double>(p));
     out = std::max(out, high);
+    over += high > 0.001 && dot(vec_cast<double>(n), pelvis().gravity) > 0.5 * length(pelvis().gravity);
     if (tags.buffer().paint[i].tint < 255) continue;
     ++feet;
-    EXPECT_LT(high, 0.0005);
+    EXPECT_LT(high, 0.0005);  // what has the bowel's colour lies on it or below
   }
   EXPECT_GT(feet, 300);
-  EXPECT_GT(out, 0.003);  // and hang from there
+  EXPECT_GT(over, 200);  // their undersides
+  EXPECT_GT(out, 0.004);
+}
+
+TEST(FatTags, AreBroaderThanTheyAreHighAndNoneIsNearAnother) {
+  auto backend = render::make_null_backend();
+  const sim::SolidModel& bowel = solid("bowel");
+  const OrganDrawing organ(bowel, {}, std::vector<Paint>(bowel.fine.rest.size()), *backend);
+  const FatTags one(organ, bowel, 1, pelvis().gravity, *backend), six(organ, bowel, 6, pelvis().gravity, *backend);
+  const std::size_t each = one.buffer().positions.size();
+  ASSERT_EQ(six.buffer().positions.size(), 6 * each);
+  std::vector<Vec3d> middles;
+  for (std::size_t first = 0; first < six.buffer().positions.size(); first += each) {
+    Vec3d sum{};
+    double wide = 0, high = 0;
+    const Vec3f middle = six.buffer().positions[first];
+    for (std::size_t i = first; i < first + each; ++i) {
+      const Vec3f p = six.buffer().positions[i];
+      sum += (1.0 / double(each)) * vec_cast<double>(p);
+      wide = std::max(wide, double(length(p - middle)));
+      high = std::max(high, above(bowel.fine, vec_cast<double>(p)));
+    }
+    EXPECT_GT(2 * wide, 1.5 * high);
+    for (const Vec3d& other : middles) EXPECT_GT(length(other - sum), 0.008);
+    middles.push_back(sum);
+  }
 }
 
 TEST(BowelLoops, TheLargeBowelsEndIsInsideWhatGoesOnFromIt) {

@@ -1,7 +1,9 @@
-// Epiploic appendages: lobed flaps of fat, few and unequal, that hang on the large bowel in rows and tell it from the
-// small. They ride on the organ's drawn skin; mechanically they are nothing.
+// Epiploic appendages: lobed cushions of fat, unequal, that hang on the large bowel in rows and tell it from the small.
+// Each rises from the bowel's skin without a border and hangs over in tongues. They ride on the organ's drawn skin;
+// mechanically they are nothing.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include <trocar/view/organ_drawing.hpp>
@@ -19,11 +21,17 @@ class FatTags {
   render::MeshHandle mesh() const { return m_mesh.handle(); }
   const MeshBuffer& buffer() const { return m_buffer; }
 
+  /// A place in a triangle of the skin.
+  struct OnSkin {
+    std::array<std::uint32_t, 3> corner{};
+    Vec3f weight;
+  };
+
  private:
   struct Tag {
-    std::uint32_t at = 0, beside = 0;  ///< skin vertices: where it hangs, and which way its x axis points
-    double size = 1;
-    MeshBuffer shape;  ///< in the frame (x, y, normal) of `at`
+    std::uint32_t at = 0, beside = 0;  ///< skin vertices: its middle, and which way its frame's x axis points
+    std::vector<OnSkin> on;            ///< (its vertices)
+    std::vector<Vec3f> off;            ///< from there, in its frame (x, y, normal) [m]
   };
   void place(const OrganDrawing& organ);
 

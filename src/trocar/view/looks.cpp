@@ -304,26 +304,6 @@ Material fat() {
   return m;
 }
 
-/// Tags on the large bowel: soft, salmon, under a thin wet serosa, with capillaries.
-Material epiploic() {
-  Material m = fat();
-  m.colour = srgb(231, 161, 124);
-  m.colour_b = srgb(238, 180, 132);
-  m.colour_c = srgb(222, 141, 117);
-  m.lobule_size = 0.0028f;
-  m.lobule_depth = 0.07f;
-  m.lobule_contrast = 0.05f;
-  m.vessels = 1.0f;
-  m.glow_amount = 0.22f;
-  m.vessel_tile = 0.012f;
-  m.wetness = 0.8f;
-  m.film_bump = 0.3f;
-  m.film_size = 0.002f;
-  m.film_roughness = 0.1f;
-  m.tint = srgb(206, 130, 120);  // where it runs out on the bowel
-  return m;
-}
-
 /// Lobules on lobules (omentum.cpp): these are the smallest. Towards its border and in grooves it is salmon (tint).
 Material omentum() {
   Material m = fat();
@@ -345,6 +325,26 @@ Material omentum() {
   m.film_size = 0.0024f;
   m.tint = srgb(206, 130, 124);
   m.two_sided = true;
+  return m;
+}
+
+/// Tags on the large bowel: what the omentum is made of, below a thin wet serosa, with finer capillaries.
+Material epiploic() {
+  Material m = omentum();
+  m.colour = srgb(224, 146, 116);
+  m.colour_b = srgb(234, 168, 122);
+  m.colour_c = srgb(212, 124, 108);
+  m.lobule_size = 0.0036f;
+  m.lobule_depth = 0.2f;
+  m.lobule_contrast = 0.07f;
+  m.vessels = 0.85f;
+  m.vessel_tile = 0.026f;
+  m.wetness = 1;  // sparkles everywhere
+  m.film_bump = 0.34f;
+  m.film_size = 0.002f;
+  m.glow_amount = 0.22f;  // through the thin borders of its tongues
+  m.two_sided = false;
+  m.tint = bowel().colour;  // where it grows out of that
   return m;
 }
 
@@ -456,7 +456,7 @@ std::vector<Look> make_looks() {
         .fine_size = 0.006,
         .haustra = 0.0024,
         .haustra_size = 0.023},
-       13,
+       18,
        7},
       {"small_bowel",
        small_bowel(),
