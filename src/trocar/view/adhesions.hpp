@@ -1,12 +1,13 @@
-// Strings and veils of whitish tissue between an organ and the wall beside it, as most abdomens have a few. Each is
-// drawn thin between two triangular feet that lie in what it hangs on. Drawing only: they follow the organ, and
-// instruments pass through them.
+// Strings and veils of whitish tissue between an organ and the wall or bowel beside it, as most abdomens have a few:
+// slack, thin, with concave borders and finer strands in them, between two feet like fans that lie in what they hang
+// on. None comes near a tube. Drawing only: they follow the organ, and instruments pass through them.
 //
-//   Adhesions adhesions(organs, model, walls, backend);
+//   Adhesions adhesions(organs, model, walls, {bowel_loops}, backend);
 //   adhesions.update(organs);                            // after the organs
 #pragma once
 
 #include <array>
+#include <functional>
 
 #include <trocar/view/organ_drawing.hpp>
 #include <trocar/view/wall_surface.hpp>
@@ -15,37 +16,57 @@ namespace trocar::view {
 
 class Adhesions {
  public:
+  /// A surface that does not move, on which some begin.
+  struct Still {
+    const MeshBuffer* shape = nullptr;  ///< with normals
+    int to_wall = 0;                    ///< so many from there to the wall, at most
+    int from_gut = 0;                   ///< so many to there from each organ that is large bowel, at most
+    bool strings = false;               ///< hardly a veil among them
+  };
+
   /// @param organs  one per solid of the model, as drawn at rest
   Adhesions(const std::vector<OrganDrawing>& organs, const sim::Model& model, const WallSurface& walls,
-            render::Backend& backend, const Detail& detail = {});
+            std::span<const Still> still, render::Backend& backend, const Detail& detail = {});
 
   void update(const std::vector<OrganDrawing>& organs);
   /// 0: there are none.
   render::MeshHandle mesh() const { return m_mesh.handle(); }
   const MeshBuffer& buffer() const { return m_buffer; }
 
-  static constexpr int kAlong = 23, kAcross = 9;  ///< vertices of a veil
+  static constexpr int kAlong = 23, kAcross = 15;  ///< vertices of a veil
+  static constexpr float kFromTubes = 0.009f;      ///< [m] from a uterine tube's middle at least, at rest
 
  private:
-  /// A vertex of a foot in an organ's skin: beside one of the skin's.
+  using Nearest = std::function<WallSurface::Place(Vec3d)>;
+  /// What some begin on.
+  struct Source {
+    int organ = -1;  ///< -1: it does not move
+    std::span<const Vec3f> points, normals;
+    int seed = 0;
+    double veils = 0.65;  ///< share of them; the others are strings
+  };
+  /// A vertex of a foot in a surface: beside one of the surface's.
   struct OnSkin {
     std::size_t vertex = 0;
     Vec3f beside;
   };
-  /// From a line on an organ's skin to one on the wall.
+  /// From a line on one surface to one on another that does not move.
   struct Veil {
-    std::size_t organ = 0;
+    Source on;
     std::array<OnSkin, kAcross> from;
-    std::array<Vec3f, kAcross> to;  ///< in the wall
-    float waist = 0.3f;             ///< width in the middle, as a share of the feet's
+    std::array<Vec3f, kAcross> to;
+    float waist = 0.3f;  ///< width in the middle, as a share of the feet's
+    float sag = 0.08f;   ///< of the length
     int seed = 0;
-    bool near(Vec3f p, const tissue::Skin& skin) const;
   };
-  void choose(std::size_t organ, int count, const tissue::Skin& skin, const WallSurface& walls);
+  void choose(const Source& source, int count, const Nearest& nearest);
+  bool clear(const Veil& veil) const;
   void place(const std::vector<OrganDrawing>& organs);
-  void place_veil(const Veil& veil, const OrganDrawing& organ, std::size_t first);
+  void place_veil(const Veil& veil, std::span<const Vec3f> points, std::span<const Vec3f> normals,
+                  std::span<Vec3f> out) const;
 
   std::vector<Veil> m_veils;
+  std::vector<Vec3f> m_tubes;   ///< middles of what they stay away from
   std::uint64_t m_version = 0;  ///< of their organs, together
   Vec3f m_down;
   MeshBuffer m_buffer;

@@ -15,6 +15,7 @@ constexpr double kShadeCell = 0.001f, kShadeReach = 0.018f;  // [m] what shades 
 constexpr float kBeforeWall = 0.004f;                        // [m]
 // [m] in the order of what is translucent: before every fold that is in the picture
 constexpr float kAfterFolds = 0.1f;
+constexpr int kLoopToWall = 4, kLoopToGut = 3;  // adhesions of the small bowel
 
 /// The look's unevenness, and a rise where each strand grows out.
 Relief relief_of(int organ, const sim::Model& model) {
@@ -156,7 +157,9 @@ void BodyDrawing::make_on_organs(const WallSurface& walls, render::Backend& back
     m_drape_look.push_back(&covered);
   }
   m_details.adhesions = Detail(levels_of(*m_model, "cavity"));
-  m_adhesions.emplace(m_organs, *m_model, walls, backend, m_details.adhesions);
+  std::vector<Adhesions::Still> still{{&m_bowel.small, kLoopToWall, kLoopToGut}};
+  for (const LiverDome& l : m_livers) still.push_back({&l.buffer(), look(m_model->organ_look(l.organ())).adhesions, 0, true});
+  m_adhesions.emplace(m_organs, *m_model, walls, still, backend, m_details.adhesions);
 }
 
 void BodyDrawing::make_wall(const sim::WallModel& wall, const render::OpennessBaker& baker, render::Backend& backend) {

@@ -268,13 +268,14 @@ Material mesosalpinx() {
 
 /// Whitish, thin.
 Material adhesion() {
-  Material m = fold(0.4f);
-  m.colour = srgb(214, 176, 166);
-  m.colour_b = srgb(222, 192, 178);
-  m.colour_c = srgb(204, 150, 144);
-  m.tint = srgb(220, 186, 172);  // where it is drawn thin
-  m.vessels = 0;
-  m.wetness = 0.25f;
+  Material m = fold(0.42f);
+  m.colour = srgb(202, 156, 148);
+  m.colour_b = srgb(210, 170, 156);
+  m.colour_c = srgb(190, 134, 128);
+  m.tint = srgb(218, 184, 174);  // strands in it
+  m.vessels = 0.55f;             // fine ones, here and there
+  m.vessel_tile = 0.02f;
+  m.wetness = 0.22f;
   m.film_bump = 0.1f;
   m.rim_alpha = 0.5f;
   return m;
@@ -435,7 +436,7 @@ std::vector<Look> make_looks() {
         .ripe = 0.0056,
         .lopsided = 0.0012},
        0,
-       2},
+       3},
       {"round_ligament", cord, false, {}},
       {"ovarian_ligament", pale_cord, false, {}},
       {"uterosacral_ligament", sacral, false, {}},
@@ -457,7 +458,7 @@ std::vector<Look> make_looks() {
         .haustra = 0.0024,
         .haustra_size = 0.023},
        18,
-       7},
+       9},
       {"small_bowel",
        small_bowel(),
        false,
@@ -465,7 +466,7 @@ std::vector<Look> make_looks() {
        0,
        2},
       {"stomach", stomach(), false, {.broad = 0.0008, .broad_size = 0.026, .fine = 0.00015, .fine_size = 0.008}},
-      {"liver", liver(), false, {.broad = 0.0004, .broad_size = 0.037}, 0, 0, false, false, true},
+      {"liver", liver(), false, {.broad = 0.0004, .broad_size = 0.037}, 0, 9, false, false, true},
       {"gallbladder",
        gallbladder(),
        false,
