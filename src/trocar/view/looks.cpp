@@ -188,17 +188,17 @@ Material stomach() {
 }
 
 Material liver() {
-  Material m = with_vessels(tissue(srgb(84, 46, 51), srgb(92, 53, 56), srgb(75, 40, 46)), 0.23f, 0.038f);
+  Material m = with_vessels(tissue(srgb(84, 46, 51), srgb(92, 53, 56), srgb(75, 40, 46)), 0.11f, 0.026f);
   m.vessel_colour = srgb(150, 106, 110);  // a pale net below its capsule
   m.mottle_size = 0.008f;
-  m.mottle = 0.95f;
+  m.mottle = 0.65f;
   m.bump = 0.012f;
   m.roughness = 0.72f;
-  m.wetness = 0.66f;
-  m.film_roughness = 0.05f;
-  m.film_bump = 0.36f;
-  m.film_size = 0.0016f;
-  m.fresnel = 0.02f;             // the capsule is matte but for the film's flecks, and so is what a cut lays bare
+  m.wetness = 0.6f;
+  m.film_roughness = 0.033f;
+  m.film_bump = 0.22f;  // so smooth that it sparkles only where it faces the lamp, in flecks with hard edges
+  m.film_size = 0.0013f;
+  m.fresnel = 0.014f;            // the capsule is matte but for the film's flecks, and so is what a cut lays bare
   m.tint = srgb(166, 104, 100);  // a thin edge
   return m;
 }
