@@ -12,6 +12,7 @@
 #include <trocar/scene/compile.hpp>
 #include <trocar/scene/reader.hpp>
 #include <trocar/view/cavity.hpp>
+#include <trocar/view/cut_ooze.hpp>
 #include <trocar/view/cut_shape.hpp>
 #include <trocar/view/cuttable_drawing.hpp>
 #include <trocar/view/drape.hpp>
@@ -138,6 +139,26 @@ TEST(CuttableDrawing, ARimIsNoStairOfCells) {
   EXPECT_LT(raggedness(skin, smooth), 0.6f * raggedness(skin, pose.position));
 }
 
+TEST(CuttableDrawing, ASlitKeepsItsLength) {
+  CutLiver liver;
+  ASSERT_TRUE(liver.cut());
+  const tissue::FaceSkin skin = liver.skin();
+  const tissue::SkinPose pose = liver.pose(skin);
+  std::vector<Vec3f> smooth = pose.position;
+  CutShape shape;
+  shape.find(skin);
+  shape.smooth(smooth);
+  const auto length_of = [&](std::span<const Vec3f> positions) {
+    float longest = 0;
+    for (std::size_t a = 0; a < positions.size(); ++a)
+      for (std::size_t b = 0; b < a; ++b)
+        if (shape.from_rim(a) <= 0 && shape.from_rim(b) <= 0)
+          longest = std::max(longest, length(positions[a] - positions[b]));
+    return longest;
+  };
+  EXPECT_GT(length_of(smooth), 0.95f * length_of(pose.position));
+}
+
 TEST(CuttableDrawing, SkinAndFleshMeetAlongARim) {
   CutLiver liver;
   ASSERT_TRUE(liver.cut());
@@ -159,17 +180,49 @@ TEST(CuttableDrawing, SkinAndFleshMeetAlongARim) {
   EXPECT_GT(pairs, 10);
 }
 
-TEST(CuttableDrawing, BloodRunsOverLowerLipsOnly) {
-  CutLiver liver;
-  ASSERT_TRUE(liver.cut());
-  const auto backend = render::make_null_backend();
-  CuttableDrawing drawing(liver.organ, Relief{}, *backend, liver.model.gravity);
-  drawing.update(liver.state);
+/// An upright wall with a level slit in its middle.
+struct SlitWall {
+  Vec3f down{0, 0, -1};
+  std::vector<Vec3f> position, normal, outwards;
+  std::vector<std::uint32_t> rim, around;
+  SlitWall() {
+    for (int i = -20; i <= 20; ++i)
+      for (int j = -20; j <= 20; ++j) {
+        if (std::abs(j) < 2) continue;
+        around.push_back(std::uint32_t(position.size()));
+        if (std::abs(j) == 2 && std::abs(i) < 5)
+          rim.push_back(around.back()), outwards.push_back({0, 0, 0.5f * float(j)});
+        position.push_back({0.001f * float(i), 0, 0.001f * float(j)});
+        normal.push_back({0, -1, 0});
+      }
+  }
+  CutSkin skin() const { return {position, normal, rim, outwards, around}; }
+};
+
+TEST(CutOoze, BloodRunsOverLowerLipsOnly) {
+  const SlitWall wall;
   render::Liquid liquid;
-  drawing.list_ooze(liquid);
+  liquid.down = wall.down;
+  list_ooze(wall.skin(), liquid);
   ASSERT_GT(liquid.splats.size(), 5u);
-  const Vec3f down = vec_cast<float>(normalised(liver.model.gravity, {0, 0, -1}));
-  for (const render::Splat& s : liquid.splats) EXPECT_GT(dot(s.to - s.from, down), -0.0006f) << "it runs down";
+  for (const render::Splat& s : liquid.splats) {
+    EXPECT_LT(s.from.z, -0.002f) << "below the slit";
+    EXPECT_LT(s.to.z, s.from.z) << "it runs down";
+  }
+}
+
+TEST(CutOoze, ASheetHangsBelowALowerLip) {
+  const SlitWall wall;
+  const std::vector<float> sheet = sheet_below(wall.skin(), wall.position, wall.down);
+  float below = 0;
+  for (std::size_t k = 0; k < sheet.size(); ++k) {
+    const Vec3f p = wall.position[wall.around[k]];
+    if (p.z > 0 || p.z < -0.012f || std::fabs(p.x) > 0.007f)
+      EXPECT_EQ(sheet[k], 0) << "at " << p.x << ' ' << p.z;
+    else
+      below = std::max(below, sheet[k]);
+  }
+  EXPECT_GT(below, 0.9f);
 }
 
 TEST(DripStains, LieBelowWhatDripsOnTheFirstGroundThere) {

@@ -1,5 +1,5 @@
-// Blood that oozes from a cut organ, as drawn: runs that start at the cut's rim and follow the skin down, unequal, some
-// of them merging, and drip where it turns under (drawn only).
+// Blood that oozes from a cut organ, as drawn: a sheet over the cut's lower lip, and runs that start there and follow
+// the skin down, unequal, some of them merging, and drip where it turns under (drawn only).
 #pragma once
 
 #include <span>
@@ -21,5 +21,9 @@ inline constexpr float kOozeReach = 0.024f;  ///< [m] the longest run
 
 /// Adds films to liquid.splats. @returns from where blood drips
 std::vector<Vec3f> list_ooze(const CutSkin& skin, render::Liquid& liquid);
+
+/// How much of the sheet lies on the skin, 0..1 (around).
+/// @param rest  (vertices) [m]
+std::vector<float> sheet_below(const CutSkin& skin, std::span<const Vec3f> rest, Vec3f down);
 
 }  // namespace trocar::view

@@ -8,10 +8,11 @@ namespace trocar::view {
 namespace {
 
 // Our choice, by eye.
-constexpr int kAlongRims = 7;     // steps of a half towards the mean: a cell's edge is three of them long
-constexpr int kWithin = 6;        // ... of what is bare
-constexpr int kAround = 10;       // ... of the skin around
-constexpr float kRound = 0.012f;  // [m] how far from a rim it goes along
+constexpr int kAlongRims = 7;        // steps of a half towards the mean: a cell's edge is three of them long
+constexpr int kWithin = 6;           // ... of what is bare
+constexpr int kAround = 10;          // ... of the skin around
+constexpr float kRound = 0.012f;     // [m] how far from a rim it goes along
+constexpr float kSamePlace = 1e-5f;  // [m] at rest: the two sides of a slit
 
 using Key = std::array<int, 6>;
 
@@ -37,6 +38,7 @@ void CutShape::find(const tissue::FaceSkin& skin) {
   measure(skin, edges);
   keep_near(edges);
   list_beside(edges);
+  find_ends(skin);
 }
 
 /// Which vertices lie in one place, and all edges between such places, each once.
@@ -116,12 +118,28 @@ void CutShape::list_beside(std::span<const Edge> edges) {
   }
 }
 
+/// Where both sides of a slit meet: smoothing would draw it shut from there.
+void CutShape::find_ends(const tissue::FaceSkin& skin) {
+  std::vector<Vec3f> rest(m_kind.size());
+  for (std::size_t v = 0; v < m_spot.size(); ++v)
+    if (m_spot[v] >= 0) rest[std::size_t(m_spot[v])] = skin.skin.rest[v];
+  m_end.assign(m_kind.size(), 0);
+  for (std::size_t i = 0; i < m_kind.size(); ++i) {
+    if (m_kind[i] == Kind::skin) continue;
+    for (std::int32_t k = m_first[i]; k < m_first[i + 1]; ++k)
+      for (std::int32_t l = m_first[i]; l < k; ++l) {
+        const Vec3f apart = rest[std::size_t(m_beside[std::size_t(k)])] - rest[std::size_t(m_beside[std::size_t(l)])];
+        if (length(apart) < kSamePlace) m_end[i] = 1;
+      }
+  }
+}
+
 template <class Wanted>
 void CutShape::relax(float share, Wanted&& wanted) {
   for (std::size_t i = 0; i < m_kind.size(); ++i) {
     m_next[i] = m_place[i];
     const std::int32_t first = m_first[i], last = m_first[i + 1];
-    if (!wanted(m_kind[i]) || first == last) continue;
+    if (!wanted(m_kind[i]) || m_end[i] || first == last) continue;
     Vec3f sum;
     for (std::int32_t k = first; k < last; ++k) sum += m_place[std::size_t(m_beside[std::size_t(k)])];
     m_next[i] = (1 - share) * m_place[i] + (share / float(last - first)) * sum;

@@ -40,6 +40,7 @@ class CutShape {
   void measure(const tissue::FaceSkin& skin, std::span<const Edge> edges);
   void keep_near(std::vector<Edge>& edges);
   void list_beside(std::span<const Edge> edges);
+  void find_ends(const tissue::FaceSkin& skin);
   void look_outwards();
   /// Towards the mean of their neighbours.
   template <class Wanted>
@@ -48,6 +49,7 @@ class CutShape {
   std::vector<int> m_spot;   ///< (vertices) where they are: those of skin and flesh at a rim are in one; -1: far off
   std::vector<Kind> m_kind;  ///< (spots)
   std::vector<float> m_far;  ///< (spots) from the rim [m]
+  std::vector<std::uint8_t> m_end;              ///< (spots) 1: of a slit
   std::vector<std::int32_t> m_first;            ///< (spots + 1) into m_beside
   std::vector<std::int32_t> m_beside;           ///< neighbours; along a rim only those on it
   std::vector<Vec3f> m_place, m_shift, m_next;  ///< (spots) [m]

@@ -10,20 +10,23 @@
 namespace trocar::view {
 namespace {
 
-constexpr Paint kFlesh{85, 235, 0, 0};        // laid bare: raw
-constexpr std::uint8_t kDeepOpenness = 30;    // ... at a cut's bottom
-constexpr std::uint8_t kMouthBlood = 215;     // ... at its mouth, where the lamp shows more of it
-constexpr std::uint8_t kRimBlood = 45;        // on the skin at a cut's rim, which is wet with it
-constexpr std::uint8_t kRimPale = 75;         // the capsule's edge: its look's tint
+constexpr Paint kFlesh{220, 235, 0, 0};     // laid bare: raw, as solid right up to the skin as below it
+constexpr std::uint8_t kDeepOpenness = 95;  // ... at a cut's bottom: dark, but tissue, no hole
+constexpr Paint kEdge{235, 70, 0, 190};     // the capsule's cut edge, drawn back: a thin line of the look's tint ...
+constexpr double kEdgeHidden = 70, kEdgeWave = 0.0063;  // ... here and there below blood; [m]
+constexpr std::uint8_t kRimBlood = 70;                  // on the skin at a cut's rim, which is wet with it
+constexpr std::uint8_t kRimPale = 40;                   // ... and bled out: the look's tint
+constexpr float kCut = 0.0035f;               // [m] how far into a cut blood stands behind the lip that it spills over
+constexpr std::uint8_t kCover = 235;          // where what wells out of it covers that
 constexpr float kStains = 0.0014f;            // [m] how far from a cut its blood stains the skin
 constexpr float kLip = 0.0003f;               // [m] how far its lips are turned out ...
 constexpr float kLipAt = 0.0022f;             // [m] ... so far from the rim
-constexpr float kRough = 0.9f;                // slope of torn flesh, which breaks up what it mirrors
+constexpr float kRough = 0.3f;                // slope of torn flesh, which breaks up what it mirrors
 constexpr std::uint8_t kLooseOpenness = 230;  // of pieces that have come off, which do not lie where they were baked
 constexpr std::uint8_t kLoosePale = 60;       // their capsule has bled out
 constexpr float kGrain = 0.0007f;             // [m] torn lobules of what is bare
-constexpr float kGranular = 0.5f;             // how much darker it is between them
 constexpr float kGape = 0.0017f;              // [m] how far either side of a cut draws back
+constexpr float kDeepGape = 0.0008f;          // [m] ... below its mouth: a cleft, not a hole below a rim
 constexpr float kFrayed = 0.0004f;            // [m] how far a rim strays from the straight line of its cells
 constexpr int kDrawnAlong = 3;                // rings of nodes that go with it
 
@@ -159,7 +162,7 @@ void CuttableDrawing::gape() {
       }
   }
   for (std::size_t i = 0; i < m_gape.size(); ++i)
-    if (m_gape_weight[i] > 0) m_gape[i] *= (m_loose[i] ? 0 : kGape) / m_gape_weight[i];
+    if (m_gape_weight[i] > 0) m_gape[i] *= (m_loose[i] ? 0 : (m_mouth[i] ? kGape : kDeepGape)) / m_gape_weight[i];
   const std::vector<float> pulled = m_gape_weight;
   for (int pass = 0; pass < kDrawnAlong; ++pass) {
     m_gape_next.assign(m_gape.size(), Vec3f{});
@@ -196,19 +199,22 @@ void CuttableDrawing::paint_skin() {
   m_height.clear();
   if (m_relief.any()) m_height = heights(m_relief, m_skin.skin, m_paint);
   if (!m_bare.empty()) m_height.resize(n);
-  const std::vector<std::uint8_t> rim = rim_nodes(m_skin, m_open.size()), own = skin_nodes(m_skin, m_open.size());
+  const std::vector<std::uint8_t> rim = rim_nodes(m_skin, m_open.size());
+  m_mouth = skin_nodes(m_skin, m_open.size());
   find_rim();
   for (std::size_t i = 0; i < n; ++i) {
     const bool loose = m_loose[std::size_t(m_skin.corners[i][0])] != 0;
     m_at_rim.push_back(at_rim(m_skin, rim, i) > 0.999f);
     if (m_skin.bare[i]) {
-      const float mouth = at_rim(m_skin, own, i);
-      m_height[i] = kGrain * (1 - mouth) * float(waves(vec_cast<double>(m_skin.skin.rest[i]), 0.0027));
+      const Vec3d at = vec_cast<double>(m_skin.skin.rest[i]);
+      const float mouth = at_rim(m_skin, m_mouth, i);
+      m_height[i] = kGrain * (1 - mouth) * float(waves(at, 0.0027));
       m_paint[i] = kFlesh;
-      const float open = float(kDeepOpenness) + mouth * float(kFlesh.openness - kDeepOpenness);
-      const float grain = float(waves(vec_cast<double>(m_skin.skin.rest[i]) + Vec3d{0.5, 0.2, 0.4}, 0.0031));
-      m_paint[i].openness = std::uint8_t(open * (1 + kGranular * grain));
-      m_paint[i].blood = std::uint8_t(float(kFlesh.blood) + mouth * (float(kMouthBlood) - float(kFlesh.blood)));
+      m_paint[i].openness = std::uint8_t(float(kDeepOpenness) + mouth * float(kFlesh.openness - kDeepOpenness));
+      if (m_shape.from_rim(i) <= 0) {
+        m_paint[i] = kEdge;
+        m_paint[i].blood = std::uint8_t(double(kEdge.blood) + kEdgeHidden * waves(at, kEdgeWave));
+      }
       continue;
     }
     float open = 0;
@@ -226,7 +232,8 @@ void CuttableDrawing::paint_lip(std::size_t vertex, bool loose) {
   if (loose) return;
   if (far > 0) m_height[vertex] += kLip * std::exp(-off * off);
   const double stain = smooth(double(kStains), 0.0, double(far));
-  m_paint[vertex].blood = std::uint8_t(double(kRimBlood) * stain);
+  const double wave = waves(vec_cast<double>(m_skin.skin.rest[vertex]), kEdgeWave);
+  m_paint[vertex].blood = std::uint8_t(double(kRimBlood) * (1 + 0.6 * wave) * stain);
   if (far <= 0) m_paint[vertex].tint = std::max(m_paint[vertex].tint, kRimPale);
 }
 
@@ -247,20 +254,48 @@ void CuttableDrawing::list_ooze(render::Liquid& liquid) const {
   liquid.splats.insert(liquid.splats.end(), m_ooze.splats.begin(), m_ooze.splats.end());
 }
 
+std::vector<Vec3f> CuttableDrawing::outwards() const {
+  std::vector<Vec3f> outwards;
+  for (const std::uint32_t v : m_rim) outwards.push_back(m_shape.outwards(v));
+  return outwards;
+}
+
 /// What runs down from cuts, where they are now.
 void CuttableDrawing::run_blood() {
   m_ooze.splats.clear();
   m_ooze.down = m_down;
-  std::vector<Vec3f> outwards;
-  for (const std::uint32_t v : m_rim) outwards.push_back(m_shape.outwards(v));
-  const std::vector<Vec3f> drips = view::list_ooze({m_pose.position, m_normals, m_rim, outwards, m_around}, m_ooze);
+  const std::vector<Vec3f> drips = view::list_ooze({m_pose.position, m_normals, m_rim, outwards(), m_around}, m_ooze);
   if (m_drips.empty()) m_drips = drips;  // what has fallen stays there when the organ moves
+}
+
+/// What has welled up by the time of the cut, and sticks there: it hangs over the cut's lower lip, and stands inside.
+void CuttableDrawing::paint_blood() {
+  const std::vector<Vec3f>& x = m_pose.position;
+  const std::vector<float> sheet = sheet_below({x, m_normals, m_rim, outwards(), m_around}, m_skin.skin.rest, m_down);
+  std::vector<std::uint32_t> lip;  // over which it spills
+  for (std::size_t k = 0; k < sheet.size(); ++k) {
+    cover(m_around[k], double(sheet[k]));
+    if (sheet[k] > 0.5f && m_shape.from_rim(m_around[k]) <= 0) lip.push_back(m_around[k]);
+  }
+  for (std::size_t i = 0; i < x.size() && !lip.empty(); ++i) {
+    if (!m_skin.bare[i]) continue;
+    float far = kCut;
+    for (const std::uint32_t v : lip) far = std::min(far, length(x[v] - x[i]));
+    cover(i, smooth(double(kCut), 0.4 * double(kCut), double(far)));
+  }
+}
+
+/// @param share  of so much blood that nothing shows through
+void CuttableDrawing::cover(std::size_t vertex, double share) {
+  Paint& p = m_paint[vertex];
+  p.blood = std::max(p.blood, std::uint8_t(double(kCover) * share));
+  p.tint = std::max(p.tint, to_byte(smooth(0.5, 1.0, share)));  // smooth: no granules
 }
 
 void CuttableDrawing::place(const tissue::CuttableState& state, std::span<const collision::Capsule> rods) {
   tissue::pose_skin(view_of(m_organ->body, state), m_skin.skin, m_pose);
-  gape();
   m_shape.smooth(m_pose.position);
+  gape();
   fray();
   m_normals.resize(m_pose.position.size());
   render::vertex_normals(m_pose.position, m_indices, m_normals);
@@ -304,6 +339,7 @@ void CuttableDrawing::update(const tissue::CuttableState& state, std::span<const
   if (!m_moved(state.nodes) && !changed && !m_burnt && !m_dented && !near(m_box, rods)) return;
   if (changed) make_skin(state);
   place(state, rods);
+  if (changed) paint_blood();
   if (changed)
     m_mesh.replace({.positions = m_pose.position,
                     .normals = m_normals,

@@ -45,7 +45,10 @@ class CuttableDrawing {
   void paint_skin();
   void paint_lip(std::size_t vertex, bool loose);
   void find_rim();
+  std::vector<Vec3f> outwards() const;
   void run_blood();
+  void paint_blood();
+  void cover(std::size_t vertex, double share);
   void find_cut();
   void gape();
   void fray();
@@ -68,6 +71,7 @@ class CuttableDrawing {
   /// What gapes: vertices of the bare triangles, nodes around them and their neighbours along the skin.
   std::vector<std::array<std::uint32_t, 3>> m_bare;
   std::vector<std::array<int, 2>> m_beside;
+  std::vector<std::uint8_t> m_mouth;       ///< (nodes) 1: on the body's own surface
   std::vector<std::uint8_t> m_loose;       ///< (nodes) 1: of a piece that has come off
   std::vector<Vec3f> m_gape, m_gape_next;  ///< (nodes) [m]
   std::vector<float> m_gape_weight;

@@ -294,9 +294,17 @@ void main() {
   float cover = smoothstep(0.0, 0.24, 1.2 * BLOOD - 0.5 * ragged * (1.0 - BLOOD)) * smoothstep(0.0, 0.03, BLOOD);
   float blood = clamp(cover * (0.16 + 0.84 * BLOOD) * (0.8 + 0.4 * broad.a), 0.0, 1.0);
   albedo *= exp(-blood * vec3(2.1, 5.4, 4.8));
-  float raw = smoothstep(0.5, 0.85, blood);
-  albedo = mix(albedo, vec3(0.085, 0.0090, 0.0085) * (0.45 + 1.25 * smoothstep(0.25, 0.75, fine.a)), raw);
-  relief += (fine.rgb * 2.0 - 1.0) * (0.35 * raw);
+  // Cut faces: maroon, granular; where blood stands on them (tint) dark and smooth.
+  float raw = smoothstep(0.5, 0.85, blood), standing = 0.0, beaded = 1.0;
+  if (raw > 0.0) {
+    vec4 grain = textureGrad(u_noise, kTurn * v_rest * 330.0, rest_x * 330.0, rest_y * 330.0);
+    standing = raw * smoothstep(0.3, 0.7, tint + 0.5 * (broad.a - 0.5) + 0.3 * (fine.a - 0.5));
+    float granular = 0.55 + 0.5 * smoothstep(0.3, 0.7, fine.a) + 0.7 * (grain.a - 0.5);
+    vec3 flesh = mix(vec3(0.068, 0.0122, 0.0120) * granular, vec3(0.036, 0.0019, 0.0021), 0.85 * standing);
+    albedo = mix(albedo, flesh, raw);
+    beaded = mix(1.0, 0.9 * smoothstep(0.46, 0.60, 0.4 * grain.r + 0.6 * fine.r), raw);  // wet on its grains, not between
+    relief += ((fine.rgb * 2.0 - 1.0) * 0.25 + (grain.rgb * 2.0 - 1.0) * 0.35) * (raw - 0.5 * standing);
+  }
 #endif
 
   vec3 n = normalize(N + along_surface(to_eye(relief), N));
@@ -389,6 +397,9 @@ void main() {
 #else
   film2 += 0.008;
 #endif
+#ifdef STAINED
+  film2 *= 1.0 - 0.5 * standing;
+#endif
   film2 += 0.03 * (1.0 - INVERSE_SQUARE);
   float mh = clamp(dot(m, H), 0.0, 1.0), nh = clamp(dot(n, H), 0.0, 1.0);
   float gloss = 0.42 * FRESNEL * (wet * (0.4 + 1.3 * flecks) * mix(1.1, kSparkle, sparkles) * lobe(mh, film2) + (0.35 + 0.65 * wet) * lobe(nh, ROUGH2)) * facing * lit.power;
@@ -399,7 +410,7 @@ void main() {
   vec3 around = (BOUNCE * 1.5 + vec3(AMBIENT) * 0.5) * lit.bounce;
 #endif
 #ifdef STAINED
-  gloss *= 1.0 + 1.2 * glassy;  // charred protein is as smooth as glass here and there
+  gloss *= beaded * (1.0 + 1.2 * glassy);  // charred protein is as smooth as glass here and there
 #endif
   vec3 shine = LIGHT_COLOUR * gloss + around * (grazing * wet * open);
 
