@@ -276,20 +276,25 @@ TEST_F(GlBackend, OnlyWhatIsNearerThanTheFocusHasASoftOutline) {
   sample::Shape wall = sample::sphere({0, 0, -0.6f}, 0.5f, 48);
   wall.paint.assign(wall.paint.size(), Paint{0, 0, 0, 255});
   const MeshHandle black_wall = sample::create(*backend, wall);
-  const auto steepest = [&](float distance, float defocus) {
+  const auto steepest = [&](float distance, float aperture) {
     frame.look = plain_look();
     frame.look.exposure_ev = -3;  // not clipped
-    frame.look.defocus = defocus;
+    frame.look.aperture = aperture;
     frame.items = {{white_ball({0, 0, -distance}, 0.3f * distance), even, {}, false}, {black_wall, even, {}, false}};
-    const Image image = draw(200, 200);
+    const Image image = draw(400, 400);
     int most = 0;
-    for (int x = 100; x + 1 < 200; ++x)
-      most = std::max(most, std::abs(int(image.at(x, 100)[0]) - int(image.at(x + 1, 100)[0])));
+    for (int x = 200; x + 1 < 400; ++x)
+      most = std::max(most, std::abs(int(image.at(x, 200)[0]) - int(image.at(x + 1, 200)[0])));
     return most;
   };
-  const int sharp = steepest(0.06f, 0.8f);
-  EXPECT_GT(steepest(0.015f, 0), sharp);
-  EXPECT_LT(steepest(0.015f, 0.8f), 0.6 * sharp);
+  const float pupil = EndoscopeLook{}.aperture, pinhole = 1e-6f;
+  const int sharp = steepest(0.06f, pupil);
+  EXPECT_EQ(steepest(0.15f, pupil), steepest(0.15f, pinhole)) << "what is far is in focus";
+  EXPECT_GT(sharp, 0.95 * steepest(0.06f, pinhole)) << "so is where one works";
+  EXPECT_GT(steepest(0.035f, pupil), 0.6 * sharp) << "and a close-up, nearly";
+  EXPECT_GT(steepest(0.015f, pinhole), 0.95 * sharp);
+  EXPECT_LT(steepest(0.025f, pupil), 0.8 * sharp);
+  EXPECT_LT(steepest(0.015f, pupil), 0.45 * sharp);
 }
 
 TEST_F(GlBackend, TranslucentItemsShowWhatIsBehind) {

@@ -133,8 +133,9 @@ void check_frame(const Frame& frame, const Target& target, const char* call) {
       finite(light.position) && finite(light.colour) && std::isfinite(light.intensity) && light.reference_distance > 0,
       call, "light is not finite");
   const EndoscopeLook& look = frame.look;
-  require(look.mask_diameter > 0 && std::isfinite(look.exposure_ev) && look.exposure_seconds > 0 && look.fog >= 0, call,
-          "look holds a value out of range");
+  require(look.mask_diameter > 0 && std::isfinite(look.exposure_ev) && look.exposure_seconds > 0 && look.fog >= 0 &&
+              look.focus > 0 && look.aperture >= 0,
+          call, "look holds a value out of range");
   for (const Puff& puff : frame.puffs)
     require(finite(puff.centre) && puff.radius > 0 && std::isfinite(puff.density), call, "a puff is not finite");
   check_soil(look.soil, call);

@@ -48,7 +48,7 @@ EndoscopeLook plain_look() {
   look.notch = look.barrel = look.fringe_px = look.vignette = 0;
   look.auto_exposure = false;
   look.exposure_ev = 1;
-  look.bloom = look.sharpen = look.noise = look.defocus = look.contact = 0;
+  look.bloom = look.sharpen = look.noise = look.aperture = look.contact = 0;
   return look;
 }
 

@@ -66,7 +66,7 @@ void GlBackend::on_prepare(std::span<const DrawItem> items) {
     m_smokes = false;
     shade_pass(frame, layout);
     shrink_pass();
-    develop_pass(frame, layout);
+    develop_pass(frame, target, layout);
     lens_pass(frame, target, layout);
   }
   m_small_eye = -1;
@@ -129,7 +129,7 @@ std::span<const GlBackend::Pass> GlBackend::passes() {
          b.m_small_eye = d.frame.eye;
          b.meter_pass(d.frame, d.target, d.layout);
        }},
-      {"developing", [](GlBackend& b, const Drawing& d) { b.develop_pass(d.frame, d.layout); }},
+      {"developing", [](GlBackend& b, const Drawing& d) { b.develop_pass(d.frame, d.target, d.layout); }},
       {"dirt",
        [](GlBackend& b, const Drawing& d) {
          if (!d.frame.look.soil.clean()) b.soil_pass();

@@ -136,7 +136,7 @@ class GlBackend final : public CheckedBackend {
   void shrink_pass();
   /// Exposure lives in two pictures of one pixel an eye; this reads one and writes the other.
   void meter_pass(const Frame& frame, const Target& target, const Layout& layout);
-  void develop_pass(const Frame& frame, const Layout& layout);
+  void develop_pass(const Frame& frame, const Target& target, const Layout& layout);
   void lens_pass(const Frame& frame, const Target& target, const Layout& layout);
   void draw_full();
   /// Only the endoscope's circle of a picture that it is centred in; without a mask all of it.

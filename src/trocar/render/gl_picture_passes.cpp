@@ -70,12 +70,12 @@ void GlBackend::meter_pass(const Frame& frame, const Target& target, const Layou
   memory = {next, frame.tick, true};
 }
 
-void GlBackend::develop_pass(const Frame& frame, const Layout& layout) {
+void GlBackend::develop_pass(const Frame& frame, const Target& target, const Layout& layout) {
   m_developed.resize(layout.scene_w, layout.scene_h, GL_RGBA8, false, GL_LINEAR);
   m_developed.bind();
   const EndoscopeLook& look = frame.look;
   const Memory& memory = m_memory[std::size_t(frame.eye)];
-  const bool effects = frame.quality.detail > 1 && (look.bloom > 0 || look.defocus > 0 || look.contact > 0);
+  const bool effects = frame.quality.detail > 1 && (look.bloom > 0 || look.aperture > 0 || look.contact > 0);
   const bool rods = m_rod_count > 0;
   GlProgram& program = m_programs.get(view_shape(look), "develop.frag",
                                       std::string(effects ? "EFFECTS," : "") + (rods ? "RODS," : "") +
@@ -90,7 +90,9 @@ void GlBackend::develop_pass(const Frame& frame, const Layout& layout) {
   const bool remembered = look.auto_exposure && memory.known;
   program.set("u_camera", look.exposure_ev, remembered ? float(frame.eye) : -1.0f, look.bloom, look.saturation);
   program.set("u_place", layout.radius / float(layout.box_w), layout.radius / float(layout.box_h), look.vignette, 0);
-  program.set("u_depth", look.focus_near, look.defocus, look.contact, 2 * std::tan(frame.camera.vertical_fov / 2));
+  const float height = 2 * std::tan(frame.camera.vertical_fov / 2);
+  const float lines = float(layout.scene_h) * float(target.height) / float(layout.box_h);
+  program.set("u_depth", 1 / look.focus, look.aperture * lines / height, look.contact, height);
   const Vec3f lamp = frame.light.position;
   const float off = std::max(1e-6f, std::sqrt(lamp.x * lamp.x + lamp.y * lamp.y));
   const float aspect = float(layout.box_h) / float(layout.box_w);

@@ -17,7 +17,8 @@ constexpr double kCollarFrom = -0.0072;  // [m] where a hook's white collar begi
 // Blood is what clings there after work, burn what chars there: SceneView says how much of it is on an instrument.
 const Paint kClean{255, 0, 0, 0}, kShaded{110, 0, 0, 0}, kHollow{40, 0, 0, 90}, kUsed{235, 190, 0, 0},
     kSmeared{235, 80, 0, 0};
-const Paint kJoint{70, 40, 0, 150};
+const Paint kJoint{110, 150, 0, 60};
+constexpr double kTooth = 0.0011;  // [m] from one cross tooth of a grasper to the next
 
 void merge(MeshBuffer& to, const MeshBuffer& part) { append(to, part, Mat3f::identity(), {}); }
 
@@ -27,39 +28,75 @@ MeshBuffer beam(Vec3d from, Vec3d to, double half_x, double half_y, double round
   return bar({{from, half_x * x, half_y * y, paint}, {to, half_x * x, half_y * y, paint}}, roundness);
 }
 
-MeshBuffer pin(double radius, double half_length) {
+/// Blood that stays in a joint: most at the pivot, none a few millimetres off it. @param z from the pivot [m]
+Paint stained(double z, double most) {
+  const double share = smooth(0.0062, 0.0012, std::fabs(z + 0.0006));
+  return {to_byte(1 - 0.3 * share), to_byte(most * share), 0, 0};
+}
+
+/// The ring around a rivet's head, where blood dries, and the head, slightly domed; +y and -y alike.
+MeshBuffer rivet(double radius, double cheek, double half_length) {
+  const Paint ring{70, 215, 0, 90};
   MeshBuffer b;
-  const MeshBuffer upright = turned({{-half_length, 0, kClean},
-                                     {-half_length, 0.8 * radius, kClean},
-                                     {-0.96 * half_length, radius, kClean},
-                                     {0.96 * half_length, radius, kClean},
-                                     {half_length, 0.8 * radius, kClean},
-                                     {half_length, 0, kClean}},
-                                    18);
-  append(b, upright, Mat3f::from_columns({0, 0, 1}, {1, 0, 0}, {0, 1, 0}), {});
+  for (const double side : {-1.0, 1.0}) {
+    const MeshBuffer upright = turned({{cheek, 0, ring},
+                                       {cheek, 1.36 * radius, ring},
+                                       {cheek + 0.00005, 1.3 * radius, ring},
+                                       {cheek + 0.00005, radius, ring},
+                                       {cheek + 0.00005, radius, kClean},
+                                       {half_length - 0.00006, radius, kClean},
+                                       {half_length, 0.84 * radius, kClean},
+                                       {half_length + 0.00005, 0.45 * radius, kClean},
+                                       {half_length + 0.00006, 0, kClean}},
+                                      18);
+    append(b, upright, Mat3f::from_columns({0, 0, 1}, {float(side), 0, 0}, {0, float(side), 0}), {});
+  }
   return b;
 }
 
-/// Fork with a rivet that carries two turning jaws.
+/// Fork with a rivet that carries two turning jaws; between its cheeks the rod that drives them.
 MeshBuffer hinge(double radius) {
   MeshBuffer b;
-  const double cheek = 0.2 * radius, at = 0.64 * radius;
+  const double cheek = 0.19 * radius, at = 0.64 * radius, wide = 0.56 * radius;
   merge(b, turned({{-0.0105, radius * 0.99, kClean},
                    {-0.0105, radius * 0.99, kClean},
+                   {-0.0093, radius * 0.99, kClean},
+                   {-0.0091, radius * 0.94, kShaded},
+                   {-0.0089, radius * 0.99, kClean},
                    {-0.0068, radius * 0.99, kClean},
                    {-0.0058, radius * 0.86, kClean},
-                   {-0.0058, 0, kShaded}},
+                   {-0.0058, radius * 0.86, kJoint},
+                   {-0.0058, 0, kJoint}},
                   kAround));
   for (const double side : {-1.0, 1.0}) {
     const Vec3d x{1, 0, 0}, y{0, 1, 0};
-    const auto section = [&](double z, double half) {
-      return BarSection{{0, side * at, z}, half * x, cheek * y, kClean};
-    };
-    merge(b, bar({section(-0.0075, 0.52 * radius), section(-0.003, 0.52 * radius), section(0.0, 0.52 * radius),
-                  section(0.0010, 0.44 * radius), section(0.0016, 0.24 * radius)},
-                 0.25));
+    std::vector<BarSection> sections;
+    for (const double z : {-0.0075, -0.0055, -0.0040, -0.0028, -0.0016, -0.0006, 0.0003, 0.0009, 0.0013, 0.0016}) {
+      // Straight behind the rivet, round before it.
+      const double round = std::sqrt(std::max(0.03, 1 - std::pow(std::max(0.0, z + 0.0002) / 0.0018, 2)));
+      sections.push_back({{0, side * at, z}, wide * round * x, cheek * y, stained(z, 0.33)});
+    }
+    merge(b, bar(sections, 0.12));
   }
-  merge(b, pin(0.3 * radius, 0.93 * radius));
+  merge(b, beam({0, 0, -0.0075}, {0, 0, -0.0022}, 0.26 * radius, 0.36 * radius, 0.3, kJoint));
+  merge(b, rivet(0.3 * radius, at + cheek, 0.93 * radius));
+  return b;
+}
+
+/// Root of a jaw, between the fork's cheeks beside its fellow's: an eye around the rivet with a short arm behind it.
+MeshBuffer jaw_root(double radius) {
+  MeshBuffer b;
+  const double from = 0.02 * radius, to = 0.42 * radius, eye = 0.5 * radius;
+  const MeshBuffer upright = turned({{from, 0, kJoint},
+                                     {from, eye, kJoint},
+                                     {from, eye, kJoint},
+                                     {to, eye, kJoint},
+                                     {to, eye, kJoint},
+                                     {to, 0, kJoint}},
+                                    20);
+  append(b, upright, Mat3f::from_columns({0, 0, 1}, {1, 0, 0}, {0, 1, 0}), {});
+  const double middle = 0.5 * (from + to);
+  merge(b, beam({0.0004, middle, -0.0019}, {0.0008, middle, 0.0015}, 0.0005, middle - from, 0.4, kJoint));
   return b;
 }
 
@@ -105,24 +142,30 @@ MeshBuffer grasper_jaw(const ToolModel& tool) {
   const Outline window = stadium(0.37 * length, 0.87 * length, 0.52 * half);
   const Height inside = [=](double y, double z) {
     if (z < 0.006) return 0.00006;
-    const double phase = z / 0.0011 - std::floor(z / 0.0011);
+    const double phase = z / kTooth - std::floor(z / kTooth);
     const double teeth = 0.00034 * (phase < 0.5 ? 2 * phase : 2 - 2 * phase);
-    // They end before the window, and are ground off at the edge, where closed jaws meet without a gap.
+    // They end before the window; at the edge they are lower, and their tops meet when the jaws are closed.
     const double across = std::fabs(y) / (half * neck(z)), edge = smooth(0.8, 0.96, across);
-    return (teeth * smooth(0.5, 0.66, across) + 0.00012) * (1 - edge) + 0.00001;
+    const double side = 1 - 0.35 * edge - 0.65 * smooth(0.9, 1, z / length);
+    return teeth * smooth(0.5, 0.66, across) * side + 0.00012 * (1 - edge) + 0.00001;
   };
   const Height outside = [=](double y, double z) {
     const double across = std::min(1.0, std::fabs(y) / (half * neck(z)));
     const double body = thick * (1.2 - 0.38 * smooth(0.002, 0.3 * length, z) - 0.24 * smooth(0.3 * length, length, z));
-    return body * (0.5 + 0.5 * std::sqrt(1 - 0.98 * across * across));
+    // Milled: a back that is nearly flat, and slants to its edges.
+    return body * (1 - 0.06 * across * across - 0.44 * smooth(0.6, 0.98, across));
   };
-  MeshBuffer b = plate(outer, window, inside, outside, 208, 6, [=](bool face, double, double z) {
-    const double phase = z / 0.0011 - std::floor(z / 0.0011), deep = phase < 0.5 ? 1 - phase : phase;
-    const double works = smooth(0.004, 0.012, z);
-    if (!face) return Paint{255, to_byte(0.5 * works * smooth(0.3 * length, length, z)), 0, 0};
-    return Paint{std::uint8_t(90 + deep * 130), to_byte(works * (1.15 - 0.6 * deep)), 0, 0};
+  MeshBuffer b = plate(outer, window, inside, outside, 208, 6, [=](bool face, double y, double z) {
+    const double phase = z / kTooth - std::floor(z / kTooth), deep = phase < 0.5 ? 1 - phase : phase;
+    const double works = smooth(0.004, 0.012, z), across = std::fabs(y) / (half * neck(z));
+    if (face) return Paint{std::uint8_t(90 + deep * 130), to_byte(works * (1.2 - 0.55 * deep)), 0, 0};
+    // Outside it stays in the window's corners, at the teeth and on the tip.
+    const bool rim = across < 0.56 && z > 0.36 * length && z < 0.88 * length;
+    const double edge = smooth(0.9, 1, across) * (1 - 0.5 * deep), tip = 0.4 * smooth(0.7, 1, z / length);
+    const double blood = rim ? 0.42 : std::max({0.62 * works * edge, tip, stained(z, 0.33).blood / 255.0});
+    return Paint{to_byte(rim ? 0.6 : 1 - 0.25 * edge), to_byte(blood), 0, 0};
   });
-  merge(b, beam({0.0009, 0, -0.0045}, {0.0008, 0, 0.0015}, 0.0009, 0.5 * half, 0.4, kJoint));
+  merge(b, jaw_root(tool.shaft_radius));
   return b;
 }
 
@@ -196,18 +239,19 @@ MeshBuffer blade(const ToolModel& tool, double bend) {
   const double length = tool.jaw_length, high = 0.95 * tool.jaw_width, thick = 0.62 * tool.jaw_thickness;
   std::vector<BarSection> sections;
   for (int i = 0; i <= 14; ++i) {
-    const double u = i / 14.0, z = -0.004 + (length + 0.004) * u;
+    const double u = i / 14.0, z = -0.0016 + (length + 0.0016) * u;
     const double w = std::max(0.0, z) / length;
-    const double back = high * (0.8 + 0.2 * smooth(-0.004, 0.003, z)) * (1 - 0.78 * std::pow(w, 1.6));
+    const double back = high * (0.45 + 0.55 * smooth(-0.002, 0.003, z)) * (1 - 0.78 * std::pow(w, 1.6));
     const double edge = -0.00035 * smooth(0, 0.004, z) * (1 - 0.5 * w);
     const double narrow = 1 - 0.45 * w;
     const double shift = bend * w * w;
     const Vec3d centre{0.5 * (back + edge), 0.02e-3 + 0.5 * thick * narrow + shift, z};
     sections.push_back({centre, {0.5 * (back - edge), 0, 0}, {0, 0.5 * thick * narrow, 0}, kUsed});
-    sections.back().paint.blood = to_byte(0.55 * smooth(0.1, 0.6, w));
+    sections.back().paint.blood = to_byte(0.32 * std::max(smooth(0.1, 0.6, w), smooth(0.3, 0, w)));
   }
   MeshBuffer b = bar(sections, 0.22);
   merge(b, ground_edge(sections));
+  merge(b, jaw_root(tool.shaft_radius));
   return b;
 }
 

@@ -388,7 +388,7 @@ Material satin(Vec3f bright, Vec3f dull) {
 
 /// The plastic tube around a shaft.
 Material insulation() {
-  Material m = metal(srgb(92, 91, 97), srgb(82, 81, 88), 0.4f);
+  Material m = metal(srgb(84, 86, 90), srgb(72, 74, 79), 0.34f);
   m.bump = 0.03f;
   m.fibre_stretch = 10;
   m.scatter = 0.75f;
@@ -483,8 +483,8 @@ std::vector<Look> make_looks() {
       {"broad_ligament", broad_ligament(), true, {}},
       {"adhesion", adhesion(), true, {}},
       {"falciform", falciform(), true, {}},
-      {"steel", metal(srgb(148, 147, 152), srgb(128, 128, 134), 0.3f), false, {}},
-      {"polished_steel", polished(srgb(142, 141, 147), srgb(122, 122, 129), 0.2f, 0.16f), false, {}},
+      {"steel", metal(srgb(146, 148, 151), srgb(118, 120, 124), 0.3f), false, {}},
+      {"polished_steel", polished(srgb(140, 142, 146), srgb(118, 120, 125), 0.2f, 0.2f), false, {}},
       {"matte_steel", metal(srgb(128, 129, 133), srgb(114, 115, 120), 0.46f), false, {}},
       {"insulated", insulation(), false, {}},
       {"ceramic", ceramic(), false, {}},

@@ -9,7 +9,7 @@ uniform sampler2D u_smaller;   // 1/16
 uniform sampler2D u_exposure;  // stops, one column an eye
 uniform vec4 u_camera;         // exposure on top [stops], memory column or -1, bloom, saturation
 uniform vec4 u_place;          // radius of the view in picture sizes (x, y), vignette
-uniform vec4 u_depth;          // nearest sharp distance [m], defocus, contact, picture height at 1 m [m]
+uniform vec4 u_depth;          // 1 / focus [1/m], aperture [px m], contact, picture height at 1 m [m]
 uniform vec2 u_shadow;         // how far towards the lamp to look
 uniform vec3 u_white;
 #ifdef RODS
@@ -55,7 +55,12 @@ vec3 developed(vec3 x) {
   return clamp(1.25 * x * (6.2 * x + 3.7) / (x * (6.2 * x + 5.4) + 0.78), 0.0, 1.0);
 }
 
-const float kUnsharp = 2.4;  // blurred wholly at 0.7 of the nearest sharp distance
+const float kSeen = 1.1;   // [px] smaller circles are the camera's own: so is all behind the focus
+const float kWide = 8.0;   // [px] larger circles are taken from the small picture, so that taps leave no gaps
+const float kMost = 22.0;  // [px]
+
+// Diameter of the circle of confusion of what stands before the focus [px].
+float circle_of(float distance) { return u_depth.y * (1.0 / max(distance, 0.002) - u_depth.x); }
 
 void main() {
   vec4 scene = texelFetch(u_scene, ivec2(gl_FragCoord.xy), 0);
@@ -73,30 +78,33 @@ void main() {
 #ifdef EFFECTS
   vec4 soft = texture(u_small, v_uv);
   vec4 softer = texture(u_smaller, v_uv + u_shadow);
-  // The circle of confusion grows with 1/d: a disc of taps of the small picture, so that strong lights blur round. What
-  // is out of focus covers what is around it as far as that goes, so a near thing's outline is soft, too.
-  vec2 texel = 1.0 / vec2(textureSize(u_small, 0));
+  // The circle of confusion grows with 1/d: a disc of taps, so that strong lights blur round. What is out of focus covers
+  // what is around it as far as that goes, so a near thing's outline is soft, too.
   float nearest = min(scene.a, soft.a);
-  if (softer.a < 0.92 * scene.a)  // something before it is close by
+  if (softer.a < 0.92 * scene.a) {  // something before it is close by
+    vec2 texel = 2.6 / vec2(textureSize(u_small, 0));
     for (int k = 0; k < 4; ++k) {
-      vec2 aside = float((k & 2) - 1) * ((k & 1) == 0 ? vec2(2.6, 0.0) : vec2(0.0, 2.6));
-      nearest = min(nearest, texture(u_small, v_uv + texel * aside).a);
+      vec2 aside = float((k & 2) - 1) * ((k & 1) == 0 ? vec2(texel.x, 0.0) : vec2(0.0, texel.y));
+      nearest = min(nearest, texture(u_small, v_uv + aside).a);
     }
-  if (nearest < u_depth.x) {
-    float unsharp = kUnsharp * (u_depth.x / max(nearest, 0.002) - 1.0), most = clamp(unsharp, 0.05, 1.0);
-    vec2 radius = (0.9 + 1.9 * clamp(0.6 * (unsharp - 1.0), 0.0, 1.0)) * texel;
+  }
+  float circle = circle_of(nearest);
+  if (circle > kSeen) {
+    vec2 radius = 0.5 * min(circle, kMost) / vec2(textureSize(u_scene, 0));
+    int taps = circle > 3.0 ? 12 : 5;
     vec4 before = vec4(0.0), back = vec4(0.0);
-    for (int k = 0; k < 12; ++k) {
-      float turn = 2.39996 * float(k), out_ = sqrt((float(k) + 0.7) / 12.0);  // a sunflower's seeds
-      vec4 tap = texture(u_small, v_uv + radius * out_ * vec2(cos(turn), sin(turn)));
+    for (int k = 0; k < taps; ++k) {
+      float turn = 2.39996 * float(k), out_ = sqrt((float(k) + 0.7) / float(taps));  // a sunflower's seeds
+      vec2 at = v_uv + radius * out_ * vec2(cos(turn), sin(turn));
+      vec4 tap = circle > kWide ? texture(u_small, at) : texture(u_scene, at);
       vec4 light = vec4(min(tap.rgb, vec3(6.0)), 1.0);
-      float near = clamp(kUnsharp * (u_depth.x / max(tap.a, 0.002) - 1.0), 0.0, 1.0) / most;
+      float near = clamp(circle_of(tap.a) / circle, 0.0, 1.0);
       before += light * near;
-      back += light * max(1.0 - near, 0.0);
+      back += light * (1.0 - near);
     }
-    if (scene.a > u_depth.x) back = vec4(colour, 1.0);  // that is in focus
+    if (circle_of(scene.a) < kSeen) back = vec4(colour, 1.0);  // that is in focus
     vec3 covers = before.rgb / max(before.w, 0.01), covered = back.w > 0.01 ? back.rgb / back.w : covers;
-    colour = mix(colour, mix(covered, covers, min(before.w / 12.0, 1.0)), u_depth.y * min(unsharp, 1.0));
+    colour = mix(colour, mix(covered, covers, min(before.w / float(taps), 1.0)), min(circle - kSeen, 1.0));
   }
   // Depth darkening [Luft 06]: what lies just behind the mean depth towards the lamp sees less light: a soft shadow to
   // the side that the ring light is off the lens; red stays longest.

@@ -177,35 +177,48 @@ void main() {
   nl = mix(nl, 0.65, blurred);
   vec3 grey = mix(COLOUR_A, COLOUR_B, MOTTLE * fine.a);
   grey = mix(grey, TINT, v_paint.w);
-  // Blood dries where the work is done: in crevices first, with a ragged edge; char in flakes.
-  float ragged = 0.6 * fine.a + 0.4 * broad.a, smeared = BLOOD * SOIL;
-  float blood = smoothstep(-0.05, 0.2, smeared - 0.75 * ragged * (1.0 - smeared)) * step(0.01, smeared);
+  // Blood dries where the work is done, in crevices first: opaque patches with an edge, nearly black where it is thick,
+  // brown-red where it runs out; char in flakes.
+#if DETAIL >= 1
+  vec4 moisture = texture(u_noise, kTurn * (v_rest - FIBRE_AXIS * (0.6 * dot(FIBRE_AXIS, v_rest))) * 60.0);
+  float ragged = 0.65 * moisture.a + 0.35 * fine.a;
+#else
+  float ragged = 0.6 * fine.a + 0.4 * broad.a;
+#endif
+  float smeared = BLOOD * SOIL;
+  float thick = (smeared - 0.75 * ragged * (1.0 - smeared)) * step(0.01, smeared);
+  float blood = smoothstep(0.0, 0.07, thick);
   float char_ = smoothstep(0.3, 0.6, BURN * SOIL * (0.5 + ragged));
-  grey = mix(grey, vec3(0.10, 0.006, 0.007), 0.92 * blood);
+  grey = mix(grey, mix(vec3(0.052, 0.0054, 0.0046), vec3(0.021, 0.0029, 0.0025), smoothstep(0.03, 0.25, thick)), blood);
   float heated = smoothstep(0.1, 0.45, BURN * SOIL * (0.4 + 1.2 * ragged));  // what current has boiled on it: tan, brown
   grey = mix(grey, grey * vec3(0.55, 0.34, 0.2) + vec3(0.02, 0.01, 0.004), 0.85 * heated);
   grey = mix(grey, vec3(0.016, 0.013, 0.012), 0.9 * char_);
-  float plain = max(SCATTER, max(0.9 * blood, char_));  // no longer a mirror
+  float plain = max(SCATTER, max(blood, char_));  // no longer a mirror
+  float bare = 1.0 - max(blood, char_);
   float ao = OPENNESS;
   float rim = min(1.0 - nv, 0.8), schlick = rim * rim * rim * rim;  // no further: the last pixel would be a dot
-  vec3 mirror = mix(0.8 * grey, vec3(0.04), plain);
-  mirror += (vec3(0.9) - mirror) * (0.75 * schlick * (1.0 - 0.5 * char_));  // worn: all of what is behind would look like glass
+  // Worn steel spreads what it mirrors: all of what is right behind, in its colours, would look like glass.
+  vec3 mirror = mix(0.5 * grey, vec3(0.03), plain);
+  mirror += (vec3(0.6) - mirror) * (0.45 * schlick * (0.15 + 0.85 * bare));
   // Scratches break a highlight up along the axis, moisture in any direction: only where that stands in beads it clips.
   float broken = (0.15 + 1.2 * smoothstep(0.35, 0.7, broad.a)) * (0.35 + 0.8 * smoothstep(0.42, 0.64, fine.r));
   broken = mix(0.5, broken, clamp(20.0 * BUMP, 0.0, 1.0));  // what is polished has none
 #if DETAIL >= 1
-  vec4 moisture = texture(u_noise, kTurn * (v_rest - FIBRE_AXIS * (0.6 * dot(FIBRE_AXIS, v_rest))) * 60.0);
   broken *= 0.5 + 0.8 * smoothstep(0.25, 0.75, moisture.a);
   float bead = smoothstep(0.55, 0.8, moisture.a) * smoothstep(0.5, 0.75, fine.g);
 #else
   const float bead = 0.0;
 #endif
   vec3 gloss = mix(1.5 * grey, vec3(0.28), max(SCATTER, blood)) * (mix(0.3, 0.12, plain) * lobe(nh, alpha2) * broken * (1.0 - 0.8 * blurred));
-  gloss /= 1.0 + mix(3.0, 0.6, bead) * gloss;  // the lamp is no point: long lines do not clip
+  gloss /= 1.0 + mix(1.8, 0.5, bead) * gloss;  // the lamp is no point: long lines hardly clip
+  gloss *= 0.25 + 0.75 * bare;
   vec3 around = mirrored(reflect(-V, n), 0.04, mix(0.6, 3.0, rim) * lit.bounce);  // the lens itself is dark
   around = mix(vec3((0.1 + 0.3 * smoothstep(-0.2, 0.8, reflect(-V, n).y)) * lit.bounce), around, INVERSE_SQUARE);  // a room
-  vec3 even = LIGHT_COLOUR * lit.power * (mix(0.045, 0.75, plain) * nl * nl + mix(0.012, 0.03, plain) * lobe(nh, 0.35));
-  even += (BOUNCE * (mix(0.5, 1.0, plain) + 3.0 * rim) + vec3(AMBIENT)) * lit.bounce;
+  vec3 from_below = around * clamp(0.9 - 0.6 * n.y - 1.2 * nv, 0.0, 1.0);
+  around = mix(around, vec3(dot(around, vec3(0.4, 0.4, 0.2))), 0.4 * bare);
+  // The lamp straight on, which is strong near the lens, what comes from all around, and tissue's pink from below.
+  vec3 even = LIGHT_COLOUR * lit.power * (mix(0.07, mix(0.13, 0.62, step(0.99, SCATTER)), plain) * nl * nl + mix(0.02, 0.012, plain) * lobe(nh, 0.35));
+  even += (BOUNCE * (mix(0.5, 1.0, plain) + 3.0 * rim) + vec3(mix(0.04, 0.21, plain) + AMBIENT)) * lit.bounce + from_below;
   vec3 colour = (grey * even + LIGHT_COLOUR * lit.power * gloss + around * mirror) * ao;
 #ifdef FOGGY
   colour = through_air(colour, v_eye);
