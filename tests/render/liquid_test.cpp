@@ -352,7 +352,7 @@ TEST_F(Liquids, SmokeTakesContrastByItsLaw) {
   const double aside = std::sqrt(1 + 0.25 * std::pow(std::tan(0.5 * double(frame.camera.vertical_fov)), 2));
   EXPECT_NEAR(contrast() / clear, std::exp(-0.7 * 8 * 0.08 * aside), 0.04);
   frame.smoke.kappa = 10;
-  EXPECT_NEAR(contrast() / clear, 0.56, 0.07) << "more than half is left however thick it is";
+  EXPECT_NEAR(contrast() / clear, 0.63, 0.05) << "more than half is left however thick it is";
 }
 
 TEST_F(Liquids, WhatIsBeforeTheSmokeStaysClear) {

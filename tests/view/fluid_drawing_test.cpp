@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <gtest/gtest.h>
 
@@ -336,16 +337,35 @@ TEST(FluidDrawing, NonsenseIsLeftOut) {
   EXPECT_EQ(scene.listed(places).liquid.splats.size(), 1u);
 }
 
-TEST(SmokeDrawing, ClearAirGivesNoneAndSmokeTheSimulationsGrid) {
+TEST(SmokeDrawing, ClearAirGivesNoneAndSmokeAGridLikeTheSimulations) {
   Scene scene;
   render::Frame frame;
   list_smoke(scene.m.smoke, scene.s.smoke, frame);
   EXPECT_TRUE(frame.smoke.empty());
-  scene.s.smoke.density[5] = 2;
+  std::fill(scene.s.smoke.density.begin(), scene.s.smoke.density.end(), 2.0f);
   list_smoke(scene.m.smoke, scene.s.smoke, frame);
   ASSERT_EQ(frame.smoke.density.size(), 64u);
-  EXPECT_EQ(frame.smoke.density[5], 2);
+  for (const float d : frame.smoke.density) EXPECT_FLOAT_EQ(d, 2) << "mixed smoke hangs nowhere thicker";
   EXPECT_FLOAT_EQ(frame.smoke.kappa, float(scene.m.smoke.kappa));
+}
+
+TEST(SmokeDrawing, NewSmokeHangsAsAVeilAndGoesAsItGoes) {
+  Scene scene;
+  render::Frame frame, thinner, fogged;
+  scene.s.smoke.density[5] = 2;
+  list_smoke(scene.m.smoke, scene.s.smoke, frame);
+  const auto all = [](const render::Frame& f) {
+    return std::accumulate(f.smoke.density.begin(), f.smoke.density.end(), 0.0f);
+  };
+  for (const float d : frame.smoke.density) EXPECT_GT(d, 0);
+  EXPECT_GT(all(frame), 2);
+  scene.s.smoke.density[5] = 0.2f;
+  list_smoke(scene.m.smoke, scene.s.smoke, thinner);
+  EXPECT_NEAR(all(thinner), 0.1f * all(frame), 1e-4f) << "all of it follows the State";
+  scene.s.smoke.density[5] = 2;
+  scene.s.smoke.fog = 0.6;
+  list_smoke(scene.m.smoke, scene.s.smoke, fogged);
+  EXPECT_NEAR(all(fogged), 2, 1e-4f) << "none on top of fog";
 }
 
 /// Rising along u.

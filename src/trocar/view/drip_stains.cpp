@@ -20,6 +20,8 @@ constexpr float kStep = 1.2e-3f;                      // [m] between two links o
 constexpr int kLinks = 11, kMoreLinks = 3;            // of one drop's run, and for every other drop
 constexpr float kRunWide = 0.75e-3f;                  // [m] half its width where it begins
 constexpr float kLevel = 0.06f;                       // slope on which it stands
+constexpr float kSoaked = 3.0f;                       // radii as far as it soaks around what lies
+constexpr float kSoakedThick = 1.8e-6f;               // [m] there: it stains and does not cover
 constexpr float kKeeps = 0.65f;                       // share of its direction that a run keeps from link to link
 
 }  // namespace
@@ -64,6 +66,12 @@ render::Splat DripStains::film(const Landing& from, Vec3f to, float radius, floa
   return s;
 }
 
+/// A film, and a faint stain around it where it has soaked into what it lies on.
+void DripStains::lay(const Landing& from, Vec3f to, float radius, float thick, render::Liquid& liquid) {
+  liquid.splats.push_back(film(from, to, radius, thick));
+  liquid.splats.push_back(film(from, to, kSoaked * radius, kSoakedThick));
+}
+
 bool DripStains::let_down(Vec3f at, Vec3f down, Landing& here) const {
   return land(at - kClearance * down, down, here);
 }
@@ -80,10 +88,10 @@ void DripStains::list_stain(Landing at, int own, float drops, render::Liquid& li
     if (!let_down(at.position + off, down, here)) return;
     const float wide = radius * (0.6f + 0.8f * u(10 * n + 4));
     const Vec3f runs = (kRunsDown * radius) * (down - dot(down, here.normal) * here.normal);
-    liquid.splats.push_back(film(here, here.position + runs, wide, thick));
+    lay(here, here.position + runs, wide, thick, liquid);
   };
   for (int n = 0; n < kPatches; ++n) add(n, kStain * grown, kPatch * std::sqrt(grown), kThick);
-  for (int n = kPatches; n < kPatches + kSpecks; ++n) add(n, kSplash, kSpeck, 0.6f * kThick);
+  for (int n = kPatches; n < kPatches + kSpecks; ++n) add(n, kSplash, kSpeck, 0.4f * kThick);
   list_run(at, own, drops, liquid);
 }
 
@@ -100,11 +108,11 @@ void DripStains::list_run(Landing at, int own, float drops, render::Liquid& liqu
     const float gone = float(n) / float(links);
     const bool stands = length(way) < kLevel || n + 1 == links;
     if (stands || !let_down(at.position + kStep * normalised(way, down), down, next)) {
-      liquid.splats.push_back(film(at, at.position, 2.2f * kRunWide, 0.8f * kThick));
+      lay(at, at.position, 2.2f * kRunWide, 0.8f * kThick, liquid);
       return;
     }
     const float wide = kRunWide * (1.3f - 0.6f * gone) * (0.75f + 0.5f * float(varied(own, 310 + n)));
-    liquid.splats.push_back(film(at, next.position, wide, kThick * (1 - 0.3f * gone)));
+    lay(at, next.position, wide, kThick * (1 - 0.3f * gone), liquid);
     at = next;
   }
 }

@@ -32,6 +32,7 @@ class DripStains {
   /// Onto the ground right below a place that lies about on it.
   bool let_down(Vec3f at, Vec3f down, Landing& here) const;
   static render::Splat film(const Landing& from, Vec3f to, float radius, float thick);
+  static void lay(const Landing& from, Vec3f to, float radius, float thick, render::Liquid& liquid);
   void list_stain(Landing at, int own, float drops, render::Liquid& liquid) const;
   void list_run(Landing at, int own, float drops, render::Liquid& liquid) const;
 

@@ -8,7 +8,7 @@ in vec2 v_corner;
 in vec3 v_eye;
 out vec4 o_colour;
 
-const vec3 kFresh = vec3(0.72, 0.74, 0.80);
+const vec3 kFresh = vec3(0.70, 0.73, 0.80), kFoot = vec3(0.80, 0.64, 0.52);
 
 void main() {
   float r2 = dot(v_corner, v_corner);
@@ -23,7 +23,8 @@ void main() {
   parted = mix(0.9, parted, smoothstep(0.0012, 0.0045, u_reach));
   float alpha = clamp(u_look.x * body * body * parted, 0.0, 0.95);
   Lit lit = light_at(v_eye);
-  // Fresh droplets scatter blue the most; red walls light them, too.
-  vec3 colour = kFresh * (min(lit.power, 6.0) * 0.72) + FOG_COLOUR * (0.25 * lit.bounce);
+  // Fresh droplets scatter blue the most; at a plume's foot, brown with what burns, they are warm. Red walls light them.
+  vec3 fresh = mix(kFoot, kFresh, smoothstep(0.002, 0.009, u_reach));
+  vec3 colour = fresh * (min(lit.power, 6.0) * 0.72) + FOG_COLOUR * (0.25 * lit.bounce);
   o_colour = vec4(colour * alpha, alpha);
 }

@@ -29,6 +29,24 @@ const float kThroughTissue = 4.5;  // light that tissue scatters crosses the fil
 
 const float kSheen = 0.007;        // of the lamp, where a film faces it; our choice, from frames of films
 
+const float kStands = 36.0;        // a film's slopes over those of what colours it; our choice, so that it glints
+const float kFurrow = 0.0016;      // [m] how far aside the ground's relief is looked up
+const float kFills = 1100.0;       // [1/m] more of a film where the ground is lower than around
+const float kRounded = 1.0e-3;     // of a distance, to which the picture rounds it
+const float kStep = 0.0015;        // [m] what differs by more is another thing's outline
+
+/// How much lower than around the ground is [m], and its slopes to the right and up. Not across outlines.
+vec3 relief(float here, float pixel) {
+  vec2 aside = kFurrow / pixel * u_size.zw;
+  vec2 x = vec2(aside.x, 0.0), y = vec2(0.0, aside.y);
+  vec4 around = vec4(texture(u_bed, v_uv + x).a, texture(u_bed, v_uv - x).a, texture(u_bed, v_uv + y).a,
+                     texture(u_bed, v_uv - y).a);
+  vec2 lower = vec2(here) - 0.5 * (around.xz + around.yw);
+  vec2 one = step(abs(lower), vec2(kStep)), slope = (around.xz - around.yw) * (0.5 / kFurrow) * one;
+  lower = sign(lower) * max(abs(lower) - kRounded * here, 0.0) * one;
+  return vec3(0.5 * (lower.x + lower.y), clamp(slope, -2.0, 2.0));
+}
+
 float film_at(vec2 uv) { return dot(texture(u_film, uv).rgb, vec3(1.0e-3)); }
 
 void main() {
@@ -68,7 +86,7 @@ void main() {
 #endif
   vec4 film = texture(u_film, film_uv) * 1.0e-3;
   float stain = dot(film.rgb, vec3(1.0));
-  vec3 film_rise = vec3(0.0);
+  vec3 film_rise = vec3(0.0), ground = vec3(0.0);
   // What covers the place in between is nearer to the eye.
   if (flying < 0.5 && stain > 1.0e-7 && bed.a > far - 0.0015 - 6.0 * pixel) {
     // Surface tension draws it together: a smooth border where there is enough of it, and a rim that stands up there.
@@ -91,9 +109,16 @@ void main() {
     float drained = edge > 0.0 ? 1.0 + 0.8 * edge * edge : 1.0 + 0.25 * edge;
     // What several drops brought runs together: a film is no map of where they fell.
     float level = kLevel * (1.0 - exp(-stain / kLevel)) / stain;
+#if DETAIL >= 1
+    // It gathers in furrows and runs off what stands out.
+    ground = relief(bed.a, pixel);
+    film *= clamp(1.0 + kFills * ground.x, 0.55, 1.8);
+#endif
     film *= wet * drained * mix(level, 1.0, 0.15) * (0.55 + 0.45 * smoothstep(0.25, 0.75, 0.75 * streak + 0.25 * fine.a));
 #if DETAIL >= 1
-    film_rise = vec3(grows / max(length(grows), 1.0e-7) * (0.25 * rim * wet), 0.0);
+    // It stands up at its borders, and is level within.
+    float stands = kStands / kAside * exp(-0.8 * stain / kLevel);
+    film_rise = vec3(grows * (0.25 * rim * wet / max(length(grows), 1.0e-7) + stands), 0.0);
 #endif
     stain = dot(film.rgb, vec3(1.0));
   } else if (flying < 0.5) {
@@ -139,7 +164,9 @@ void main() {
   vec3 shine = cover * glints * highlight(n, V, lit, u_shine.y * (1.0 + 3.0 * flying));
 #if DETAIL >= 1
   vec3 wrinkle = (fine.rgb * 2.0 - 1.0) * 0.50 + (texture(u_noise, place.zxy * 11.0).rgb * 2.0 - 1.0) * 0.50;
-  vec3 m = normalize(base + vec3(dot(wrinkle, u_right), dot(wrinkle, u_up), 0.0) - film_rise);
+  // It lies as the ground does; across an outline as its splats do.
+  vec3 lies = dot(ground.yz, ground.yz) > 0.0 ? normalize(base + normalize(vec3(ground.yz, 1.0))) : base;
+  vec3 m = normalize(lies + vec3(dot(wrinkle, u_right), dot(wrinkle, u_up), 0.0) - film_rise);
   shine += gloss * (min(highlight(m, V, lit, 1.6 * u_shine.z), LIGHT_COLOUR * (1.1 * lit.power)) + 0.15 * highlight(m, V, lit, 0.03));
   // Its waves are finer than a pixel: a soft sheen wherever it is turned to the lamp, which pales its red.
   float turned = clamp(dot(m, normalize(lit.direction + V)), 0.0, 1.0);
