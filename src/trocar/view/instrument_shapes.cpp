@@ -83,7 +83,7 @@ MeshBuffer hinge(double radius) {
   return b;
 }
 
-/// Root of a jaw, between the fork's cheeks beside its fellow's: an eye around the rivet with a short arm behind it.
+/// Root of a jaw, between the fork's cheeks beside its fellow's: an eye around the rivet.
 MeshBuffer jaw_root(double radius) {
   MeshBuffer b;
   const double from = 0.02 * radius, to = 0.42 * radius, eye = 0.5 * radius;
@@ -96,7 +96,7 @@ MeshBuffer jaw_root(double radius) {
                                     20);
   append(b, upright, Mat3f::from_columns({0, 0, 1}, {1, 0, 0}, {0, 1, 0}), {});
   const double middle = 0.5 * (from + to);
-  merge(b, beam({0.0004, middle, -0.0019}, {0.0008, middle, 0.0015}, 0.0005, middle - from, 0.4, kJoint));
+  merge(b, beam({0.0004, middle, -0.0008}, {0.0008, middle, 0.0015}, 0.0005, middle - from, 0.4, kJoint));
   return b;
 }
 

@@ -285,7 +285,7 @@ Material adhesion() {
 Material falciform() {
   Material m = fold(0.4f);
   m.colour = srgb(192, 130, 122);
-  m.colour_b = srgb(202, 152, 128);
+  m.colour_b = srgb(200, 146, 131);
   m.colour_c = srgb(176, 108, 108);
   m.vessel_tile = 0.06f;
   m.rim_alpha = 0.7f;
@@ -308,9 +308,9 @@ Material fat() {
 /// Lobules on lobules (omentum.cpp): these are the smallest. Towards its border and in grooves it is salmon (tint).
 Material omentum() {
   Material m = fat();
-  m.colour = srgb(230, 160, 130);
-  m.colour_b = srgb(238, 182, 134);
-  m.colour_c = srgb(222, 140, 124);
+  m.colour = srgb(228, 154, 137);
+  m.colour_b = srgb(236, 172, 142);
+  m.colour_c = srgb(218, 134, 127);
   m.mottle_size = 0.014f;
   m.mottle = 0.45f;
   m.bump = 0.03f;

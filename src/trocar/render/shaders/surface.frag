@@ -189,7 +189,7 @@ void main() {
   float thick = (smeared - 0.75 * ragged * (1.0 - smeared)) * step(0.01, smeared);
   float blood = smoothstep(0.0, 0.07, thick);
   float char_ = smoothstep(0.3, 0.6, BURN * SOIL * (0.5 + ragged));
-  grey = mix(grey, mix(vec3(0.052, 0.0054, 0.0046), vec3(0.021, 0.0029, 0.0025), smoothstep(0.03, 0.25, thick)), blood);
+  grey = mix(grey, mix(vec3(0.080, 0.0075, 0.0065), vec3(0.036, 0.0042, 0.0036), smoothstep(0.03, 0.25, thick)), blood);
   float heated = smoothstep(0.1, 0.45, BURN * SOIL * (0.4 + 1.2 * ragged));  // what current has boiled on it: tan, brown
   grey = mix(grey, grey * vec3(0.55, 0.34, 0.2) + vec3(0.02, 0.01, 0.004), 0.85 * heated);
   grey = mix(grey, vec3(0.016, 0.013, 0.012), 0.9 * char_);
@@ -210,7 +210,7 @@ void main() {
   const float bead = 0.0;
 #endif
   vec3 gloss = mix(1.5 * grey, vec3(0.28), max(SCATTER, blood)) * (mix(0.3, 0.12, plain) * lobe(nh, alpha2) * broken * (1.0 - 0.8 * blurred));
-  gloss /= 1.0 + mix(1.8, 0.5, bead) * gloss;  // the lamp is no point: long lines hardly clip
+  gloss /= 1.0 + mix(3.0, 0.8, bead) * gloss;  // the lamp is no point: long lines hardly clip
   gloss *= 0.25 + 0.75 * bare;
   vec3 around = mirrored(reflect(-V, n), 0.04, mix(0.6, 3.0, rim) * lit.bounce);  // the lens itself is dark
   around = mix(vec3((0.1 + 0.3 * smoothstep(-0.2, 0.8, reflect(-V, n).y)) * lit.bounce), around, INVERSE_SQUARE);  // a room
@@ -364,7 +364,7 @@ void main() {
   film_slope = FILM_BUMP * (broad.rgb * 2.0 - 1.0 + 0.4 * (broad.gbr * 2.0 - 1.0));  // broad sheens, no frost ...
 #if DETAIL >= 1
   // ... flecks here and there on crests of its folds and on what stands out
-  float crest = smoothstep(0.5, 0.85, fold + 0.6 * (fine.b - 0.5)) * (0.35 + 0.65 * wrinkled);
+  float crest = smoothstep(0.5, 0.85, fold + 1.2 * (fine.b - 0.5)) * (0.35 + 0.65 * wrinkled);
   crest = max(crest, 0.9 * smoothstep(0.61, 0.7, broad.a + 0.3 * (fine.b - 0.5)) * wrinkled);
   mat3 bead = kTurn * FILM_SCALE;
   vec3 bead_x = bead * dFdx(v_rest), bead_y = bead * dFdy(v_rest);
