@@ -30,7 +30,7 @@ double encoded(double c) { return c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(
 
 /// The light that the camera's curve (develop.frag) shows as `shown`: with f the curve, f(x) = shown is quadratic in x.
 double light_shown_as(double shown) {
-  const double a = 1.075 * 6.2 - 6.2 * shown, b = 1.075 * 0.5 - 1.7 * shown, c = -0.06 * shown;
+  const double a = 1.25 * 6.2 - 6.2 * shown, b = 1.25 * 3.7 - 5.4 * shown, c = -0.78 * shown;
   return (-b + std::sqrt(b * b - 4 * a * c)) / (2 * a);
 }
 
