@@ -158,7 +158,8 @@ void BodyDrawing::make_on_organs(const WallSurface& walls, render::Backend& back
   }
   m_details.adhesions = Detail(levels_of(*m_model, "cavity"));
   std::vector<Adhesions::Still> still{{&m_bowel.small, kLoopToWall, kLoopToGut}};
-  for (const LiverDome& l : m_livers) still.push_back({&l.buffer(), look(m_model->organ_look(l.organ())).adhesions, 0, true});
+  for (const LiverDome& l : m_livers)
+    still.push_back({&l.buffer(), look(m_model->organ_look(l.organ())).adhesions, 0, true});
   m_adhesions.emplace(m_organs, *m_model, walls, still, backend, m_details.adhesions);
 }
 
