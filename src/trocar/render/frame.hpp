@@ -62,9 +62,9 @@ struct EndoscopeLook {
   // Camera.
   bool auto_exposure = true;
   float exposure_ev = 0;          ///< [stops] on top; with auto_exposure off this is all there is
-  float exposure_key = 0.122f;    ///< mean scene level that auto exposure aims at (linear)
+  float exposure_key = 0.133f;    ///< mean scene level that auto exposure aims at (linear)
   float exposure_seconds = 0.4f;  ///< time constant
-  float exposure_range_ev = 3;    ///< limits, both ways
+  float exposure_range_ev = 4;    ///< limits, both ways
   float bloom = 0.05f;
   // A rod lens is focused once, for the middle distance; a point at d blurs to aperture |1/d - 1/focus|, as an angle.
   // Both figures are our choice: rigid endoscopes are at f/8 to f/12, with a camera that sees 60 degrees on a third of

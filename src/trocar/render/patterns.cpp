@@ -87,6 +87,17 @@ constexpr float kThinnestTwig = 0.5f;
 
 float until_fork(float radius, core::Random& random) { return float(random.uniform(10, 28)) + 11 * radius; }
 
+/// A vessel that comes upon another one runs into it, thinner: it has no blunt end before it.
+void join(Canvas& canvas, const Twig& t, float heading, float way, const Habit& habit) {
+  constexpr float kStep = 0.5f;  // texels
+  const float x = float(portable::cos(heading)), y = float(portable::sin(heading));
+  for (float s = 0; s < way; s += kStep) {
+    const float radius = std::max(kThinnestTwig, t.radius * (1 - 0.75f * s / way));
+    canvas.dab(t.x + s * x, t.y + s * y, radius, habit.strength * std::min(1.0f, 0.3f + 0.25f * radius),
+               habit.softness);
+  }
+}
+
 /// One branch from where it starts to where it thins out or meets another vessel; its forks go onto `tips`.
 /// Murray's law at each fork: r0^3 = r1^3 + r2^3.
 void grow_branch(Canvas& canvas, Twig t, const Habit& habit, std::vector<Twig>& tips, core::Random& random) {
@@ -107,7 +118,7 @@ void grow_branch(Canvas& canvas, Twig t, const Habit& habit, std::vector<Twig>& 
     const float ahead = 2.5f * t.radius + 3;
     if (age > 3 * born_radius + 14 &&
         canvas.at(t.x + ahead * float(portable::cos(heading)), t.y + ahead * float(portable::sin(heading))) > 0.15f)
-      return;
+      return join(canvas, t, heading, ahead, habit);
     const float tone = std::min(1.0f, 0.3f + 0.25f * t.radius);
     canvas.dab(t.x, t.y, t.radius, habit.strength * tone, habit.softness);
     t.radius -= 0.0022f * step;

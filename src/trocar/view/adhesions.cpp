@@ -61,7 +61,7 @@ Adhesions::Adhesions(const std::vector<OrganDrawing>& organs, const sim::Model& 
   for (std::size_t i = 0; i < organs.size(); ++i) {
     const Look& own = look(model.solids[i].look);
     const tissue::Skin& skin = model.solids[i].fine;
-    choose({int(i), skin.rest, skin.rest_normal, 400 + 37 * int(i)}, own.continued ? 0 : own.adhesions, wall);
+    choose({int(i), skin.rest, skin.rest_normal, 400 + 37 * int(i)}, own.adhesions, wall);
     for (const Still& other : still)
       if (own.fat_tags > 0 && other.shape->size() > 0)
         choose({int(i), skin.rest, skin.rest_normal, 700 + 37 * int(i), 1}, other.from_gut,
@@ -69,8 +69,7 @@ Adhesions::Adhesions(const std::vector<OrganDrawing>& organs, const sim::Model& 
   }
   for (std::size_t i = 0; i < still.size(); ++i)
     if (still[i].shape->size() > 0)
-      choose({-1, still[i].shape->positions, still[i].shape->normals, 900 + 37 * int(i), still[i].strings ? 0.0 : 0.65},
-             still[i].to_wall, wall);
+      choose({-1, still[i].shape->positions, still[i].shape->normals, 900 + 37 * int(i)}, still[i].to_wall, wall);
   if (m_veils.empty()) return;
   for (const Veil& veil : m_veils) {
     const std::uint32_t first = m_buffer.size();

@@ -21,7 +21,6 @@ class Adhesions {
     const MeshBuffer* shape = nullptr;  ///< with normals
     int to_wall = 0;                    ///< so many from there to the wall, at most
     int from_gut = 0;                   ///< so many to there from each organ that is large bowel, at most
-    bool strings = false;               ///< hardly a veil among them
   };
 
   /// @param organs  one per solid of the model, as drawn at rest

@@ -157,9 +157,7 @@ void BodyDrawing::make_on_organs(const WallSurface& walls, render::Backend& back
     m_drape_look.push_back(&covered);
   }
   m_details.adhesions = Detail(levels_of(*m_model, "cavity"));
-  std::vector<Adhesions::Still> still{{&m_bowel.small, kLoopToWall, kLoopToGut}};
-  for (const LiverDome& l : m_livers)
-    still.push_back({&l.buffer(), look(m_model->organ_look(l.organ())).adhesions, 0, true});
+  const Adhesions::Still still[] = {{&m_bowel.small, kLoopToWall, kLoopToGut}};
   m_adhesions.emplace(m_organs, *m_model, walls, still, backend, m_details.adhesions);
 }
 

@@ -289,7 +289,7 @@ double LiverShape::up_to_the_wall(std::size_t column, double begins, const WallS
 }
 
 MeshBuffer LiverShape::falciform(const WallSurface& wall) const {
-  constexpr int kAlong = 40, kUp = 20, kRound = 8, kOn = 10;
+  constexpr int kAlong = 40, kUp = 20, kRound = 12, kOn = 10, kSofter = 6;
   const std::size_t column = m_first + (m_last - m_first) / 5;
   const double low = y_of(column, 0), begins = low + 0.003;
   const double reach = up_to_the_wall(column, begins, wall);
@@ -325,11 +325,15 @@ MeshBuffer LiverShape::falciform(const WallSurface& wall) const {
     way.push_back((v * v) * cleft + (2 * u * v) * margin + (u * u) * begin);
   }
   for (std::size_t k = 1; k <= std::size_t(kUp); ++k) way.push_back(vec_cast<double>(b.positions[k]));
+  for (int pass = 0; pass < kSofter; ++pass)
+    for (std::size_t k = 1; k + 1 < way.size(); ++k) way[k] = 0.5 * way[k] + 0.25 * (way[k - 1] + way[k + 1]);
   const std::uint32_t cord = b.size();
   const std::size_t last = way.size() - 1;
+  Vec3d beside{1, 0, 0};  // goes along with the line, so that it does not twist
   for (std::size_t here = 0; here <= last; ++here) {
     const Vec3d axis = normalised(way[std::min(here + 1, last)] - way[here > 0 ? here - 1 : 0], Vec3d{0, 0, 1});
-    const Vec3d u = any_perpendicular(axis), w = cross(axis, u), p = way[here];
+    beside = normalised(beside - dot(beside, axis) * axis, any_perpendicular(axis));
+    const Vec3d u = beside, w = cross(axis, u), p = way[here];
     const double above = std::max(0.0, double(here) - kOn) / kUp;
     const double below =
         smooth(0.9 * kOn, 0.2 * kOn, double(here));  // round the margin it thins out: no knob hangs there
@@ -339,7 +343,7 @@ MeshBuffer LiverShape::falciform(const WallSurface& wall) const {
       const double a = 6.28318530717959 * r / kRound;
       const Vec3d out = std::cos(a) * u + std::sin(a) * w;
       const double fat = waves(p + 0.004 * out, 0.009);
-      const double radius = ends * (0.0015 + 0.0004 * waves(p + 0.01 * out, 0.013) + 0.0003 * fat);
+      const double radius = ends * (0.0015 + 0.0004 * waves(p + 0.01 * out, 0.013) + 0.0004 * fat);
       b.add(vec_cast<float>(p + radius * out), Paint{255, 0, 0, to_byte(0.8 + 0.2 * fat)});
       b.normals.push_back(vec_cast<float>(out));
     }

@@ -289,7 +289,7 @@ Material falciform() {
   m.colour_c = srgb(176, 108, 108);
   m.vessel_tile = 0.06f;
   m.rim_alpha = 0.7f;
-  m.tint = srgb(204, 148, 112);
+  m.tint = srgb(210, 156, 134);
   return m;
 }
 
@@ -466,7 +466,7 @@ std::vector<Look> make_looks() {
        0,
        2},
       {"stomach", stomach(), false, {.broad = 0.0008, .broad_size = 0.026, .fine = 0.00015, .fine_size = 0.008}},
-      {"liver", liver(), false, {.broad = 0.0004, .broad_size = 0.037}, 0, 9, false, false, true},
+      {"liver", liver(), false, {.broad = 0.0004, .broad_size = 0.037}, 0, 0, false, false, true},
       {"gallbladder",
        gallbladder(),
        false,

@@ -12,7 +12,7 @@ void main() {
   for (int j = 0; j < 16; ++j)
     for (int i = 0; i < 16; ++i) {
       vec2 at = (vec2(float(i), float(j)) + 0.5) / 8.0 - 1.0;
-      float w = max(1.0 - 0.6 * dot(at, at), 0.0) * step(dot(at, at), 1.0);
+      float w = max(1.0 - 0.35 * dot(at, at), 0.0) * step(dot(at, at), 1.0);
       vec3 c = texture(u_picture, 0.5 + at * u_radius).rgb;
       sum += w * sqrt(max(dot(c, vec3(0.2126, 0.7152, 0.0722)), 0.0));
       weight += w;

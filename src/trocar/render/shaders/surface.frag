@@ -415,7 +415,11 @@ void main() {
 #endif
   film2 += 0.03 * (1.0 - INVERSE_SQUARE);
   float mh = clamp(dot(m, H), 0.0, 1.0), nh = clamp(dot(n, H), 0.0, 1.0);
-  float gloss = 0.42 * FRESNEL * (wet * (0.4 + 1.3 * flecks) * mix(1.1, kSparkle, sparkles) * lobe(mh, film2) + (0.35 + 0.65 * wet) * lobe(nh, ROUGH2)) * facing * lit.power;
+  float glint = lobe(mh, film2);
+#if defined(LINING) && DETAIL >= 1
+  glint *= mix(1.0, smoothstep(0.02, 0.22, glint * film2), crest);  // where a bead does not mirror the lamp it is dull
+#endif
+  float gloss = 0.42 * FRESNEL * (wet * (0.4 + 1.3 * flecks) * mix(1.1, kSparkle, sparkles) * glint + (0.35 + 0.65 * wet) * lobe(nh, ROUGH2)) * facing * lit.power;
   float grazing = FRESNEL + (1.0 - FRESNEL) * rim * rim * (1.0 - nv);
 #if SHADING == 2
   vec3 around = 0.7 * mirrored(reflect(-V, m), 0.03, lit.bounce);
