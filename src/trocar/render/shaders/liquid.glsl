@@ -48,6 +48,14 @@ vec3 highlight(vec3 n, vec3 V, Lit lit, float alpha2) {
   return LIGHT_COLOUR * (0.31 * u_shine.x * lobe(nh, alpha2) * facing * lit.power);
 }
 
+/// The lamp's share in what is seen of tissue: whiter than any, and brighter than any could be in this light. A film on
+/// it shines there as well, and colours only what comes from below it.
+float glint_of(vec3 seen, Lit lit) {
+  const float kPalest = 0.60, kBrightest = 0.30;  // green to red, and green to the lamp; our choice
+  float white = (seen.g - kPalest * seen.r) / (1.0 - kPalest);
+  return max(min(white, seen.g - kBrightest * (lit.power + BOUNCE.g * lit.bounce)), 0.0);
+}
+
 /// Reflectance at this angle [Schlick 94].
 float mirror_share(float nv) {
   float g = 1.0 - nv, g2 = g * g;

@@ -9,7 +9,11 @@ in vec4 v_mix;
 out vec4 o_colour;
 
 const float kDrawsBack = 0.0020;  // [m] along the eye's way, our choice
-const float kStain = 2.0e-5;      // [m] of what it leaves there
+const float kStain = 6.0e-5;      // [m] along light's way, of what it leaves there
+const float kBorder = 5.0e-5;     // [m] of it at its very border, where it climbs what it wets
+const vec3 kPoolSends = vec3(2.2, 1.5, 1.5);  // of blood's colour, more from a pool than through a drop; our choice
+const float kFlecks = 0.9;                    // of the lamp; our choice
+const float kDull = 0.12;                     // what is darker than this does not show in blood's mirror; our choice
 
 /// What the sheet mirrors: what the picture shows along the ray, near and far, as far as it lies there. Nothing is
 /// searched for, so no outline of a search can show.
@@ -90,7 +94,7 @@ void main() {
   float wedge = min(clamp(inside * 2.5, 0.04, 1.0), 0.12 + 0.88 * shore);
   float depth = max(v_depth_cover.x, 0.0) * wedge * wedge;
   float slant = 1.0 / max(sqrt(1.0 - (1.0 - nv * nv) * 0.56), 0.3);  // of the bent ray
-  vec3 amount = share * (depth + 1.5e-5);  // a film goes to its very border
+  vec3 amount = share * (depth + kBorder);
   vec3 through = let_through(amount * (1.0 + slant), v_mix.w);
 
   vec2 bend = -n.xy * (0.25 * min(depth, 0.012) / pixel) * u_size.zw;
@@ -101,7 +105,9 @@ void main() {
 
   float facing = clamp(0.1 + 0.9 * dot(n, lit.direction), 0.0, 1.0);
   vec3 light = LIGHT_COLOUR * (lit.power * facing) + (BOUNCE + vec3(AMBIENT)) * lit.bounce;
+  float bent = smoothstep(0.0, 0.25, rim);
   vec3 deep = deep_colour(amount, v_mix.w) * (1.0 + 0.2 * smoothstep(0.25, 0.8, slow.a));
+  deep *= mix(vec3(1.0), kPoolSends * (1.0 - 0.5 * bent), share.x);
   vec3 colour = bed * through + deep * light * (1.0 - through);
 #if DETAIL >= 1
   float froth = v_mix.z * smoothstep(0.55, 0.75, quick.a + 0.3 * v_mix.z);
@@ -112,15 +118,21 @@ void main() {
   float share_back = min(4.0 * mirror_share(nv) + 0.01, 0.5);
   share_back *= 1.0 - 0.7 * rim;
   vec3 r = reflect(-V, n);
-  colour = mix(colour, mirrored(r, lit.bounce), share_back);
-  // The rim is a bent mirror all along: its line of light is thin, brighter here and there.
-  float bent = smoothstep(0.0, 0.25, rim);
+  vec3 mirror = mirrored(r, lit.bounce);
+  mirror *= mix(vec3(1.0), mirror / (mirror + kDull), share.x);
+  colour = mix(colour, mirror, share_back);
+  // The rim is a bent mirror all along: its line of light is thin, and broken.
+  float broken = smoothstep(0.52, 0.66, quick.a);
   vec3 shine = highlight(n, V, lit, mix(u_shine.y, 0.06, bent));
-  colour += mix(shine, min(shine, LIGHT_COLOUR * ((0.09 + 0.4 * smoothstep(0.52, 0.66, quick.a)) * lit.power)), bent);
+  colour += mix(shine, min(shine, LIGHT_COLOUR * ((mix(0.09, 0.02, share.x) + 0.4 * broken) * lit.power)), bent);
   // Its waves are finer than a pixel and broad: a soft sheen where it is turned to the lamp, broken by the clouds' unrest.
   float turned = clamp(dot(n, normalize(lit.direction + V)), 0.0, 1.0);
   colour += LIGHT_COLOUR * (0.022 * lit.power * lobe(turned, 0.16) * (0.75 + 0.25 * smoothstep(0.2, 0.8, slow.g)));
   // Where it cuts through what stands in it the depth buffer's steps would show.
+  // Waves turn lines of it to the lamp, here and there, most where it is turned there itself.
+  float toward = smoothstep(0.10, 0.40, lobe(turned, 0.16)), wave = texture(u_noise, vec3(place.xy * 22.0, 0.05 * u_eye.w)).r;
+  float line = 1.0 - smoothstep(0.0, 0.035, abs(wave - 0.5));
+  colour += LIGHT_COLOUR * (kFlecks * lit.power * toward * line * smoothstep(0.56, 0.64, slow.b) * share.x);
   vec3 stained = below.rgb * let_through(share * (kStain * smoothstep(-kDrawsBack, 0.0, gap)), v_mix.w);
   colour = mix(stained, colour, edge * smoothstep(0.0, 0.0005, gap));
   o_colour = vec4(colour, far);

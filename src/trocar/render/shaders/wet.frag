@@ -27,6 +27,8 @@ const float kAside = 0.0009;       // [m] gaps narrower than that close
 const float kLevel = 3.0e-5;       // [m] at which it levels
 const float kThroughTissue = 4.5;  // light that tissue scatters crosses the film on it more than twice
 
+const float kLost = 1.0e4;         // [1/m] of red that a film's cells turn aside into tissue, where it ends; our choice
+const float kPatch = 0.25;         // of a film's thickness: where a column has drained
 const float kSheen = 0.007;        // of the lamp, where a film faces it; our choice, from frames of films
 
 const float kStands = 36.0;        // a film's slopes over those of what colours it; our choice, so that it glints
@@ -35,12 +37,19 @@ const float kFills = 1100.0;       // [1/m] more of a film where the ground is l
 const float kRounded = 1.0e-3;     // of a distance, to which the picture rounds it
 const float kStep = 0.0015;        // [m] what differs by more is another thing's outline
 
+vec3 middle_of(vec3 a, vec3 b, vec3 c, vec3 d) {
+  return 0.5 * (a + b + c + d - max(max(a, b), max(c, d)) - min(min(a, b), min(c, d)));
+}
+
 /// How much lower than around the ground is [m], and its slopes to the right and up. Not across outlines.
-vec3 relief(float here, float pixel) {
+/// @param around_it  its colour without what is thin on it, vessels and glints
+vec3 relief(float here, float pixel, out vec3 around_it) {
   vec2 aside = kFurrow / pixel * u_size.zw;
   vec2 x = vec2(aside.x, 0.0), y = vec2(0.0, aside.y);
-  vec4 around = vec4(texture(u_bed, v_uv + x).a, texture(u_bed, v_uv - x).a, texture(u_bed, v_uv + y).a,
-                     texture(u_bed, v_uv - y).a);
+  vec4 right = texture(u_bed, v_uv + x), left = texture(u_bed, v_uv - x), up = texture(u_bed, v_uv + y),
+       low = texture(u_bed, v_uv - y);
+  vec4 around = vec4(right.a, left.a, up.a, low.a);
+  around_it = middle_of(right.rgb, left.rgb, up.rgb, low.rgb);
   vec2 lower = vec2(here) - 0.5 * (around.xz + around.yw);
   vec2 one = step(abs(lower), vec2(kStep)), slope = (around.xz - around.yw) * (0.5 / kFurrow) * one;
   lower = sign(lower) * max(abs(lower) - kRounded * here, 0.0) * one;
@@ -86,7 +95,7 @@ void main() {
 #endif
   vec4 film = texture(u_film, film_uv) * 1.0e-3;
   float stain = dot(film.rgb, vec3(1.0));
-  vec3 film_rise = vec3(0.0), ground = vec3(0.0);
+  vec3 film_rise = vec3(0.0), ground = vec3(0.0), around_it = bed.rgb;
   // What covers the place in between is nearer to the eye.
   if (flying < 0.5 && stain > 1.0e-7 && bed.a > far - 0.0015 - 6.0 * pixel) {
     // Surface tension draws it together: a smooth border where there is enough of it, and a rim that stands up there.
@@ -109,12 +118,13 @@ void main() {
     float drained = edge > 0.0 ? 1.0 + 0.8 * edge * edge : 1.0 + 0.25 * edge;
     // What several drops brought runs together: a film is no map of where they fell.
     float level = kLevel * (1.0 - exp(-stain / kLevel)) / stain;
+    float column = smoothstep(0.30, 0.70, 0.8 * streak + 0.2 * fine.a);
 #if DETAIL >= 1
     // It gathers in furrows and runs off what stands out.
-    ground = relief(bed.a, pixel);
+    ground = relief(bed.a, pixel, around_it);
     film *= clamp(1.0 + kFills * ground.x, 0.55, 1.8);
 #endif
-    film *= wet * drained * mix(level, 1.0, 0.15) * (0.55 + 0.45 * smoothstep(0.25, 0.75, 0.75 * streak + 0.25 * fine.a));
+    film *= wet * drained * mix(level, 1.0, 0.15) * mix(kPatch, 1.15, column);
 #if DETAIL >= 1
     // It stands up at its borders, and is level within.
     float stands = kStands / kAside * exp(-0.8 * stain / kLevel);
@@ -146,9 +156,15 @@ void main() {
   float dark = mix(film.w / max(stain, 1.0e-7), clamp(mark - 2.0 * flying, 0.0, 1.0), cover);
   amount += film.rgb;
   vec3 through = let_through(mix(kThroughTissue, 2.0, flying) * amount, dark);
+  through.r *= exp(-kLost * film.r);
 
   vec2 bend = -(n.xy - base.xy) * (0.35 * height * cover * max(in_drop, 0.0) / pixel) * u_size.zw;
   vec3 below = texture(u_bed, v_uv + clamp(bend, -0.03, 0.03)).rgb;
+  float covers = smoothstep(2.0e-6, 1.0e-5, stain) * (1.0 - cover);
+  float glint = covers * glint_of(below, lit);
+  // Cells blur what is below them.
+  float blurred = 0.85 * smoothstep(5.0e-6, 3.0e-5, film.r) * (1.0 - cover);
+  below = mix(below - glint, around_it - glint_of(around_it, lit), blurred);
   float facing = clamp(0.25 + 0.75 * dot(n, lit.direction), 0.0, 1.0);
   vec3 light = LIGHT_COLOUR * (lit.power * facing) + (BOUNCE + vec3(AMBIENT)) * lit.bounce;
   // What flies is lit from all round.
@@ -161,7 +177,7 @@ void main() {
   // flies wobbles: it glints here and there.
   float gloss = smoothstep(5.0e-6, 2.5e-5, stain) * (1.0 - cover) * (1.0 - flying);
   float glints = mix(1.0, 1.6 * smoothstep(0.52, 0.66, fine.r), flying);
-  vec3 shine = cover * glints * highlight(n, V, lit, u_shine.y * (1.0 + 3.0 * flying));
+  vec3 shine = vec3(glint) + cover * glints * highlight(n, V, lit, u_shine.y * (1.0 + 3.0 * flying));
 #if DETAIL >= 1
   vec3 wrinkle = (fine.rgb * 2.0 - 1.0) * 0.50 + (texture(u_noise, place.zxy * 11.0).rgb * 2.0 - 1.0) * 0.50;
   // It lies as the ground does; across an outline as its splats do.
