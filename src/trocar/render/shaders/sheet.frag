@@ -11,9 +11,11 @@ out vec4 o_colour;
 const float kDrawsBack = 0.0020;  // [m] along the eye's way, our choice
 const float kStain = 6.0e-5;      // [m] along light's way, of what it leaves there
 const float kBorder = 5.0e-5;     // [m] of it at its very border, where it climbs what it wets
-const vec3 kPoolSends = vec3(2.2, 1.5, 1.5);  // of blood's colour, more from a pool than through a drop; our choice
-const float kFlecks = 0.9;                    // of the lamp; our choice
-const float kDull = 0.12;                     // what is darker than this does not show in blood's mirror; our choice
+const vec3 kPoolSends = vec3(2.1, 1.2, 1.3);  // of blood's colour, more from a pool than through a drop; our choice
+const float kFlecks = 1.6;                    // of the lamp; our choice
+// [1/m] where along and across both of them are in the noise: long waves, and ripples that break their light
+const mat2 kWaves = mat2(15.0, -12.0, 13.0, 52.0), kRipples = mat2(47.0, 30.0, -80.0, 118.0);
+const float kDull = 0.06;                     // what is darker than this does not show in blood's mirror; our choice
 
 /// What the sheet mirrors: what the picture shows along the ray, near and far, as far as it lies there. Nothing is
 /// searched for, so no outline of a search can show.
@@ -103,11 +105,12 @@ void main() {
   // Wet tissue is darker and fuller in colour than dry.
   vec3 bed = below.rgb * mix(vec3(1.0), vec3(0.86, 0.80, 0.80), edge);
 
-  float facing = clamp(0.1 + 0.9 * dot(n, lit.direction), 0.0, 1.0);
+  // What comes back from within has been turned aside there: a bent surface dims it little.
+  float facing = clamp(0.1 + 0.9 * dot(mix(n, level, 0.7 * share.x), lit.direction), 0.0, 1.0);
   vec3 light = LIGHT_COLOUR * (lit.power * facing) + (BOUNCE + vec3(AMBIENT)) * lit.bounce;
   float bent = smoothstep(0.0, 0.25, rim);
-  vec3 deep = deep_colour(amount, v_mix.w) * (1.0 + 0.2 * smoothstep(0.25, 0.8, slow.a));
-  deep *= mix(vec3(1.0), kPoolSends * (1.0 - 0.5 * bent), share.x);
+  vec3 deep = deep_colour(amount, v_mix.w) * (0.9 + 0.4 * smoothstep(0.25, 0.8, slow.a));
+  deep *= mix(vec3(1.0), kPoolSends * (1.0 - 0.45 * bent), share.x);
   vec3 colour = bed * through + deep * light * (1.0 - through);
 #if DETAIL >= 1
   float froth = v_mix.z * smoothstep(0.55, 0.75, quick.a + 0.3 * v_mix.z);
@@ -115,7 +118,7 @@ void main() {
 #endif
 
   // More than [Schlick 94] says: it is what tells liquid from paint (our choice).
-  float share_back = min(4.0 * mirror_share(nv) + 0.01, 0.5);
+  float share_back = min(mix(4.0, 6.0, share.x) * mirror_share(nv) + 0.01, 0.5);
   share_back *= 1.0 - 0.7 * rim;
   vec3 r = reflect(-V, n);
   vec3 mirror = mirrored(r, lit.bounce);
@@ -130,9 +133,10 @@ void main() {
   colour += LIGHT_COLOUR * (0.022 * lit.power * lobe(turned, 0.16) * (0.75 + 0.25 * smoothstep(0.2, 0.8, slow.g)));
   // Where it cuts through what stands in it the depth buffer's steps would show.
   // Waves turn lines of it to the lamp, here and there, most where it is turned there itself.
-  float toward = smoothstep(0.10, 0.40, lobe(turned, 0.16)), wave = texture(u_noise, vec3(place.xy * 22.0, 0.05 * u_eye.w)).r;
-  float line = 1.0 - smoothstep(0.0, 0.035, abs(wave - 0.5));
-  colour += LIGHT_COLOUR * (kFlecks * lit.power * toward * line * smoothstep(0.56, 0.64, slow.b) * share.x);
+  float toward = smoothstep(0.10, 0.40, lobe(turned, 0.16)), wave = texture(u_noise, vec3(kWaves * place.xy, 0.05 * u_eye.w)).r;
+  vec4 ripple = texture(u_noise, vec3(kRipples * place.xy, 0.05 * u_eye.w));
+  float fleck = smoothstep(0.79, 0.93, 0.5 * (wave + ripple.g) + 0.7 * (slow.b - 0.5) + 0.12 * bent);
+  colour += LIGHT_COLOUR * (kFlecks * lit.power * toward * fleck * share.x);
   vec3 stained = below.rgb * let_through(share * (kStain * smoothstep(-kDrawsBack, 0.0, gap)), v_mix.w);
   colour = mix(stained, colour, edge * smoothstep(0.0, 0.0005, gap));
   o_colour = vec4(colour, far);

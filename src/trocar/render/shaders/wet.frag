@@ -18,7 +18,7 @@ float inside(vec2 uv) { return inside_of(texture(u_field, uv).w); }
 vec2 run_off(vec3 place, vec3 fall, float pixel, out float streak) {
   vec3 squeezed = place - u_down * (0.88 * dot(u_down, place));
   vec4 column = texture(u_noise, squeezed * 36.0);
-  streak = column.a;
+  streak = mix(column.a, column.b, 0.35);
   return fall.xy * ((0.0040 * (column.a - 0.5) + 0.0010 * (column.g - 0.5)) / pixel) * u_size.zw;
 }
 
@@ -115,7 +115,7 @@ void main() {
     float wet = smoothstep(-soft, soft, stain - least);
     // It is thickest where it stops, at its lower edge, and has drained away from its upper one.
     float edge = clamp(1.0 - lower / stain, -1.0, 1.0);
-    float drained = edge > 0.0 ? 1.0 + 0.8 * edge * edge : 1.0 + 0.25 * edge;
+    float drained = edge > 0.0 ? 1.0 + 0.8 * edge * edge : 1.0 + 0.75 * edge;
     // What several drops brought runs together: a film is no map of where they fell.
     float level = kLevel * (1.0 - exp(-stain / kLevel)) / stain;
     float column = smoothstep(0.30, 0.70, 0.8 * streak + 0.2 * fine.a);
@@ -170,7 +170,7 @@ void main() {
   // What flies is lit from all round.
   // What lies is dark and uneven, as its cells gather here and there.
   float lying = (0.27 + 0.22 * smoothstep(0.25, 0.75, 0.6 * fine.a + 0.4 * streak)) * (1.0 - flying);
-  vec3 deep = deep_colour(amount, dark) * (lying + 0.9 * flying) + vec3(0.0, 0.003, 0.007) * lying;
+  vec3 deep = deep_colour(amount, dark) * (lying + 0.9 * flying) + vec3(0.0, 0.012, 0.017) * lying;
   vec3 colour = below * through + deep * light * (1.0 - through);
 
   // Wet: the lamp in drops, broken by the tissue's unevenness in films; the walls where seen at a grazing angle. What
