@@ -9,6 +9,7 @@
 
 #include <trocar/geometry/tri_mesh.hpp>
 #include <trocar/render/backend.hpp>
+#include <trocar/render/mesh_arrays.hpp>
 #include <trocar/scene/compile.hpp>
 #include <trocar/scene/reader.hpp>
 #include <trocar/view/bowel_loops.hpp>
@@ -83,24 +84,51 @@ int pieces_of_surface(const MeshBuffer& b) {
   return int(std::unique(used.begin(), used.end()) - used.begin());
 }
 
-TEST(Fimbriae, HaveABellThatIsOneSurfaceWithTheirTube) {
+TEST(Fimbriae, OfTheRimAreOneSurfaceWithTheirTube) {
   for (const char* name : {"tube_left", "tube_right"})
-    EXPECT_EQ(pieces_of_surface(TubeDrawing(pelvis(), pelvis().strand_index(name)).drawn()), 1 + kFronds) << name;
+    EXPECT_EQ(pieces_of_surface(TubeDrawing(pelvis(), pelvis().strand_index(name)).drawn()), 1 + kFoldFronds) << name;
 }
 
-TEST(Fimbriae, GrowOutOfTheBell) {
+TEST(Fimbriae, OfTheFoldsRiseOutOfTheBell) {
   FimbriaSite site;
   site.radius = 0.004;
   site.down = {0, 0, -1};
   const MeshBuffer b = fimbriae(site);
-  const std::uint32_t pole = 11 * kRimColumns, frond = (b.size() - pole - 1) / kFronds;
-  ASSERT_EQ(pole + 1 + frond * kFronds, b.size());
-  for (std::uint32_t f = 0; f < kFronds; ++f) {
+  const std::uint32_t bell = 11 * kRimColumns;
+  std::vector<std::uint32_t> part(b.size());
+  for (std::uint32_t v = 0; v < b.size(); ++v) part[v] = v;
+  const auto first = [&](std::uint32_t v) {
+    while (part[v] != v) v = part[v];
+    return v;
+  };
+  for (std::size_t i = 0; i + 2 < b.indices.size(); i += 3)
+    for (const std::size_t k : {1, 2}) {
+      const std::uint32_t one = first(b.indices[i]), other = first(b.indices[i + k]);
+      part[std::max(one, other)] = std::min(one, other);
+    }
+  int fronds = 0;
+  for (std::uint32_t v = bell; v < b.size(); ++v) {
+    if (first(v) != v) continue;  // its root is a frond's first vertex
+    ++fronds;
     float nearest = 1;
-    for (std::uint32_t v = 0; v < pole; ++v)
-      nearest = std::min(nearest, length(b.positions[v] - b.positions[pole + 1 + f * frond]));
-    EXPECT_LT(nearest, 0.25f * float(site.radius)) << f;
+    for (std::uint32_t w = 0; w < bell; ++w) nearest = std::min(nearest, length(b.positions[w] - b.positions[v]));
+    EXPECT_LT(nearest, 0.25f * float(site.radius)) << v;
   }
+  EXPECT_EQ(fronds, kFoldFronds);
+}
+
+TEST(Fimbriae, LeaveTheRimWithoutAnEdge) {
+  FimbriaSite site;
+  site.radius = 0.004;
+  site.down = {0, 0, -1};
+  const MeshBuffer b = fimbriae(site);
+  std::vector<Vec3f> normals;
+  render::vertex_normals(b.positions, b.indices, normals);
+  const std::uint32_t rim = 3 * kRimColumns;  // the last row of the bell's outer side
+  int bent = 0;
+  for (std::uint32_t k = 0; k < std::uint32_t(kRimColumns); ++k)
+    bent += dot(normals[rim + k], normals[rim - std::uint32_t(kRimColumns) + k]) < 0.8f;
+  EXPECT_LE(bent, kRimFronds) << "but between two of them";
 }
 
 TEST(Fimbriae, LieOnTheOvaryAndNotInIt) {

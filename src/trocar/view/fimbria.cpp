@@ -9,44 +9,48 @@ namespace trocar::view {
 namespace {
 
 constexpr double kPi = 3.14159265358979;
-constexpr int kRings = 24;          // along a frond ...
-constexpr int kCapRings = 5;        // ... of which so many round off its end
-constexpr double kThick = 0.00020;  // [m] half of a frond's thickness
-constexpr double kWave = 0.0020;    // [m] from crest to crest of its frill
-constexpr double kMostWaves = 3.9;  // that its rings can follow
-constexpr double kFrill = 0.00054;  // [m] how far that goes to either side, at the most
+constexpr int kRings = 25;             // along a frond ...
+constexpr int kCapRings = 6;           // ... of which so many round off its end
+constexpr double kThick = 0.00024;     // [m] half of a frond's thickness
+constexpr double kWave = 0.0021;       // [m] from crest to crest of its frill
+constexpr double kMostWaves = 3.3;     // that its rings can follow
+constexpr double kFrill = 0.00044;     // [m] how far that goes to either side, at the most
+constexpr double kLobes = 1.45;        // scallops of its edge a wave of its frill
+constexpr double kOwnRoot = 0.3;       // of its length: on it a frond goes over from the bell's shape to its own
+constexpr std::size_t kFoldSides = 6;  // vertices around a frond that grows out of a fold
 
-/// The bell beyond the tube's end, over its rim and down to the mouth: forwards and outwards, in radii of the end, and
-/// how much light gets there.
+/// The bell beyond the tube's end, over its rim and down to the mouth: forwards and outwards, in radii of the end, how
+/// much light gets there, how pale it is, and how far out of it (inwards where negative) the folds stand that run on
+/// into the fronds.
 struct BellRow {
-  double along, radius, openness, mucosa;
+  double along, radius, openness, tint, fold;
 };
-constexpr std::array<BellRow, 11> kBell{{{0.14, 1.01, 1.00, 0.0},
-                                         {0.36, 1.08, 1.00, 0.05},
-                                         {0.56, 1.20, 1.00, 0.2},
-                                         {0.68, 1.30, 0.95, 0.5},
-                                         {0.74, 1.27, 0.85, 0.8},
-                                         {0.64, 1.10, 0.70, 1.0},
-                                         {0.40, 0.86, 0.50, 1.0},
-                                         {0.02, 0.62, 0.32, 1.0},
-                                         {-0.36, 0.42, 0.20, 1.0},
-                                         {-0.80, 0.26, 0.08, 1.0},
-                                         {-1.20, 0.12, 0.02, 1.0}}};
+constexpr std::array<BellRow, 11> kBell{{{0.14, 1.01, 1.00, 0.0, 0.0},
+                                         {0.30, 1.06, 1.00, 0.04, 0.008},
+                                         {0.44, 1.13, 1.00, 0.12, 0.02},
+                                         {0.56, 1.22, 1.00, 0.26, 0.035},
+                                         {0.63, 1.12, 0.85, 0.30, -0.04},
+                                         {0.52, 0.99, 0.72, 0.26, -0.06},
+                                         {0.34, 0.83, 0.58, 0.20, -0.08},
+                                         {0.02, 0.62, 0.38, 0.12, -0.09},
+                                         {-0.36, 0.42, 0.22, 0.06, -0.09},
+                                         {-0.80, 0.26, 0.10, 0.0, -0.06},
+                                         {-1.20, 0.12, 0.04, 0.0, 0.0}}};
+constexpr std::size_t kOuterRim = 3;  // fronds grow between this row and the next
 
-/// Fronds grow in rows, from the rim inwards: long ones that fall outwards, and shorter ones that stand around the
-/// mouth. Lengths in radii of the tube's end, angles from the tube's direction outwards.
+/// Fronds that grow out of the folds within the bell stand around the mouth in rows. Lengths in radii of the tube's
+/// end, angles from the tube's direction outwards.
 struct FrondRow {
   int count;
-  double along, radius;  ///< of their roots
+  double along, radius;  ///< of their roots, below the bell's inner side
   double length, half_width;
   double lean, falls;  ///< [rad] at the root, and how much more at the tip
 };
-constexpr std::array<FrondRow, 4> kRows{{{22, 0.34, 1.01, 1.65, 0.15, 0.74, 0.75},
-                                         {15, 0.66, 1.22, 1.35, 0.145, 0.75, 0.50},
-                                         {10, 0.50, 0.98, 1.10, 0.14, 0.45, 0.40},
-                                         {6, 0.20, 0.72, 1.00, 0.13, 0.15, 0.25}}};
-static_assert(kRows[0].count + kRows[1].count + kRows[2].count + kRows[3].count == kFronds);
-constexpr int kClump = 3;  // neighbours that cling together
+constexpr std::array<FrondRow, 2> kRows{
+    {{16, 0.38, 0.89, 1.65, 0.145, 0.66, 0.55}, {9, 0.10, 0.69, 1.45, 0.13, 0.50, 0.20}}};
+static_assert(kRows[0].count + kRows[1].count == kFoldFronds);
+constexpr FrondRow kRim{kRimFronds, 0, 0, 1.30, 0, 0.70, 0.80};  // those of the rim: their roots are its own
+constexpr int kClump = 3;                                        // neighbours that cling together
 
 /// One frond: where it grows, how far, and how it bends.
 struct Frond {
@@ -54,6 +58,7 @@ struct Frond {
   double angle;         ///< around the rim [rad]
   double length, half;  ///< half its width [m]
   double end;           ///< of its length: what is rounded off
+  double root_lean;     ///< [rad] as the bell's wall, which it grows out of
   double lean, falls;   ///< as FrondRow
   double sway, twist;   ///< sideways, and about itself, at its end [rad]
   double reaches;       ///< 0..1: how far it is drawn to the ovary
@@ -65,33 +70,93 @@ Vec3d around(double angle) { return {0, -std::sin(angle), std::cos(angle)}; }
 double apart(double a, double b) { return std::fabs(std::remainder(a - b, 2 * kPi)); }
 double swing(int i, int k) { return 2 * varied(i, k) - 1; }
 
-Frond grown(const FimbriaSite& site, const FrondRow& row, int i, int index) {
+/// Column of the rim at which its i-th frond begins: they are of unequal width.
+int border(const FimbriaSite& site, int i) {
+  constexpr int each = kRimColumns / kRimFronds;
+  return each * i + int(std::lround(1.45 * swing(1000 * site.seed + i % kRimFronds, 2)));
+}
+
+/// -1 between two fronds of the rim .. 1 in the middle of one.
+double fold_at(const FimbriaSite& site, int column) {
+  for (int i = 0; i <= kRimFronds; ++i) {
+    const int from = border(site, i - 1 + kRimFronds) - kRimColumns, to = border(site, i);
+    if (column <= to) return -std::cos(2 * kPi * (column - from) / (to - from));
+  }
+  return fold_at(site, column - kRimColumns);
+}
+
+Vec3d on_bell(const FimbriaSite& site, std::size_t row, int column) {
+  const BellRow& r = kBell[row];
+  const double a = 2 * kPi * column / kRimColumns;
+  // Its rim is uneven too.
+  const double uneven =
+      r.openness < 0.3 ? 0 : 3 * r.tint * (std::sin(2 * a + site.seed) + std::sin(5 * a + 3 * site.seed));
+  const double out = r.radius * (1 + r.fold * fold_at(site, column));
+  return site.radius * ((r.along + 0.05 * uneven) * Vec3d{1, 0, 0} + out * outwards(a));
+}
+
+/// Where two rows of the rim bound a frond: outer side onwards around the bell, inner side back.
+std::vector<std::uint32_t> root_loop(const FimbriaSite& site, int i) {
+  std::vector<std::uint32_t> loop;
+  const auto vertex = [](std::size_t row, int column) {
+    return std::uint32_t(int(row) * kRimColumns + (column + kRimColumns) % kRimColumns);
+  };
+  const int from = border(site, i), to = i + 1 < kRimFronds ? border(site, i + 1) : border(site, 0) + kRimColumns;
+  for (int k = from; k <= to; ++k) loop.push_back(vertex(kOuterRim, k));
+  for (int k = to; k >= from; --k) loop.push_back(vertex(kOuterRim + 1, k));
+  return loop;
+}
+
+Frond grown(const FimbriaSite& site, const FrondRow& row, int index) {
   Frond f;
   f.seed = 1000 * site.seed + index;
   const int clump = 1000 * site.seed + 500 + index / kClump;
   // Those of a clump lean the same way, and towards its middle.
   const double aside = index % kClump - 0.5 * (kClump - 1);
-  f.angle = 2 * kPi * (i + 0.45 * swing(f.seed, 3) - 0.1 * aside) / row.count + 0.4 * row.count;
-  f.root = site.radius * (row.along * Vec3d{1, 0, 0} + row.radius * outwards(f.angle));
-  f.length = site.radius * row.length * (1 + 0.3 * swing(f.seed, 4));
-  f.half = site.radius * row.half_width * (1 + 0.35 * swing(f.seed, 5));
-  f.end = std::min(0.4, 1.1 * f.half / f.length);
-  f.lean = row.lean + 0.1 * swing(f.seed, 6);
-  f.falls = row.falls + 0.6 * swing(clump, 7) + 0.3 * swing(f.seed, 7);
-  f.sway = 0.3 * swing(clump, 8) + 0.3 * swing(f.seed, 8) - 0.15 * aside;
-  f.twist = 1.0 * swing(f.seed, 9);
+  f.length = site.radius * row.length * (1 + 0.25 * swing(f.seed, 4) + 0.2 * swing(clump, 4));
+  f.lean = row.lean + 0.12 * swing(f.seed, 6);
+  f.falls = row.falls + 0.5 * swing(clump, 7) + 0.25 * swing(f.seed, 7);
+  f.sway = 0.3 * swing(clump, 8) + 0.2 * swing(f.seed, 8) - 0.35 * aside;
+  f.twist = 0.8 * swing(f.seed, 9);
+  f.root_lean = 0.66;
   f.reaches = 0;
+  return f;
+}
+
+void set_width(Frond& f, double half) {
+  f.half = half;
+  f.end = std::min(0.45, half / f.length);
+}
+
+Frond rim_frond(const FimbriaSite& site, int i) {
+  Frond f = grown(site, kRim, i);
+  const int from = border(site, i), to = i + 1 < kRimFronds ? border(site, i + 1) : border(site, 0) + kRimColumns;
+  f.angle = kPi * (from + to) / kRimColumns;
+  const std::vector<std::uint32_t> loop = root_loop(site, i);
+  f.root = {};
+  for (const std::uint32_t v : loop)
+    f.root += on_bell(site, v / kRimColumns, int(v % kRimColumns)) / double(loop.size());
+  set_width(f, site.radius * kBell[kOuterRim].radius * kPi * (to - from) / kRimColumns);
+  return f;
+}
+
+Frond fold_frond(const FimbriaSite& site, const FrondRow& row, int i, int index) {
+  Frond f = grown(site, row, index);
+  f.angle = 2 * kPi * (i + 0.35 * swing(f.seed, 3)) / row.count + 0.4 * row.count;
+  f.root = site.radius * (row.along * Vec3d{1, 0, 0} + row.radius * outwards(f.angle));
+  set_width(f, site.radius * row.half_width * (1 + 0.35 * swing(f.seed, 5)));
   return f;
 }
 
 std::vector<Frond> fronds_of(const FimbriaSite& site) {
   std::vector<Frond> fronds;
+  for (int i = 0; i < kRimFronds; ++i) fronds.push_back(rim_frond(site, i));
   for (const FrondRow& row : kRows)
-    for (int i = 0; i < row.count; ++i) fronds.push_back(grown(site, row, i, int(fronds.size())));
+    for (int i = 0; i < row.count; ++i) fronds.push_back(fold_frond(site, row, i, int(fronds.size())));
   if (!site.ovary) return fronds;
   const double to_ovary = std::atan2(site.land.z, site.land.y);
-  const auto outer = fronds.begin() + kRows[0].count;
-  for (auto f = fronds.begin(); f != outer; ++f) f->reaches = 0.75 * smooth(1.2, 0.35, apart(f->angle, to_ovary));
+  const auto outer = fronds.begin() + kRimFronds;
+  for (auto f = fronds.begin(); f != outer; ++f) f->reaches = 0.5 * smooth(1.0, 0.35, apart(f->angle, to_ovary));
   const auto nearest = std::min_element(fronds.begin(), outer, [&](const Frond& a, const Frond& b) {
     return apart(a.angle, to_ovary) < apart(b.angle, to_ovary);
   });
@@ -123,10 +188,13 @@ Spines hanging(const Frond& f, const FimbriaSite& site) {
   const Vec3d out = outwards(f.angle), side = around(f.angle);
   Vec3d p = f.root;
   for (int i = 0; i <= kRings; ++i) {
-    const double u = along_frond(f, i), lean = f.lean + f.falls * u + 0.25 * std::sin(5 * u + f.seed) * u;
+    const double u = along_frond(f, i), own = smooth(0, 0.5, u);
+    const double bent = f.lean + f.falls * u + 0.45 * std::sin(5.5 * u + f.seed);
+    const double lean = f.root_lean + own * (bent - f.root_lean);
+    const double aside = own * (f.sway * (0.4 + 0.6 * u) + 0.35 * std::sin(5 * u + 2.3 * f.seed));
     Vec3d t = std::cos(lean) * Vec3d{1, 0, 0} + std::sin(lean) * out;
-    t = std::cos(f.sway * u) * t + std::sin(f.sway * u) * side;
-    t = normalised(t + (0.9 * u) * site.down, t);
+    t = std::cos(aside) * t + std::sin(aside) * side;
+    t = normalised(t + (0.8 * u) * site.down, t);
     const Vec3d across = normalised(side - dot(side, t) * t, any_perpendicular(t));
     spine[std::size_t(i)] = {p, t, across, cross(t, across)};
     turn(spine[std::size_t(i)], f.twist * u);
@@ -179,35 +247,39 @@ double round_end(double u, double end) {
   return std::sqrt(std::max(0.0, 1 - std::pow(std::max(0.0, (u - 1 + end) / end), 2.0)));
 }
 
-/// A vertex of a frond's cross-section: -1..1 across, and whether on its inner (1) or outer (-1) side or edge (0).
+/// A vertex of a frond's cross-section: -1..1 across, and -1..1 out of its inner side.
 struct Corner {
   double across, side;
 };
-constexpr std::array<Corner, 6> kCorners{{{1, 0}, {0.62, 1}, {-0.62, 1}, {-1, 0}, {-0.62, -1}, {0.62, -1}}};
+
+Corner corner_of(std::size_t k, std::size_t count) {
+  const double a = 2 * kPi * (double(k) + 0.5) / double(count);
+  return {-std::cos(a), -std::sin(a)};
+}
+
+/// Half its width over that at its root: it has a belly, and tapers.
+double belly(double u) { return 1 + 0.5 * smooth(0.1, 0.45, u) - 1.1 * smooth(0.4, 1.0, u); }
 
 struct Place {
-  Vec3d point;
-  double dip;  ///< 0 .. 1: how deep in a fold of the frill
+  Vec3d offset;  ///< from the middle line [m]
+  double dip;    ///< 0 .. 1: how deep in a fold of the frill
 };
 
-/// A frond's edges are much longer than its middle: they swing to and fro across it and along it, in a frill, each by
-/// its own measure.
+/// A frond's edges are longer than its middle: they swing to and fro across it in a soft frill, each by its own
+/// measure, and are scalloped.
 Place place_on(const Frond& f, const Spines& spine, double span, int ring, Corner corner) {
   const Spine& s = spine[std::size_t(ring)];
-  const double w = corner.across, u = along_frond(f, ring), tip = round_end(u, f.end), grown = smooth(0, 0.2, u);
+  const double w = corner.across, u = along_frond(f, ring), tip = round_end(u, f.end);
   const int side = 2 * f.seed + (w > 0 ? 1 : 0);
-  const double waves = std::min(span / kWave, kMostWaves) * (0.7 + 0.3 * varied(side, 21));
-  const double phase = 2 * kPi * (waves * (u + 0.07 * std::sin(6 * u + side)) + varied(side, 22));
-  const double loose = smooth(0.08, 0.45, u) * (f.reaches >= 1 ? 0.4 : 1) * tip;
-  const double swell = kFrill * loose * (1 + 0.4 * std::sin(0.37 * phase + 3 * side));
-  const double up = std::sin(phase) + 0.25 * std::sin(1.7 * phase + side);
-  const double wide = f.half * tip * (0.45 + 0.45 * grown + 0.35 * smooth(0.2, 0.65, u));
-  const double across = w * wide * (1 + 0.12 * loose * std::cos(phase + 0.8));
-  const double trough = 0.3 * swing(f.seed, 12) * f.half * w * w, edge = std::fabs(w) * std::sqrt(std::fabs(w));
-  const double thick = kThick * tip * (0.3 + 0.7 * grown) * (1.15 - 0.4 * u);
-  const Vec3d p = s.point + across * s.across + (swell * edge * up + trough + corner.side * thick) * s.flat -
-                  (0.12 * swell * edge * std::cos(phase + 0.5)) * s.along;
-  return {p, std::max(0.0, -corner.side * up * loose)};
+  const double waves = std::min(span / kWave, kMostWaves) * (0.75 + 0.25 * varied(side, 21));
+  const double phase = 2 * kPi * (waves * (u + 0.05 * std::sin(6 * u + side)) + varied(side, 22));
+  const double loose = smooth(0.12, 0.5, u) * (f.reaches >= 1 ? 0.5 : 1) * tip;
+  const double up = std::sin(phase);
+  const double across = w * f.half * belly(u) * tip * (1 + 0.18 * loose * std::sin(kLobes * phase + side));
+  const double edge = w * w, cup = 0.35 * swing(f.seed, 12) * f.half * edge * loose;
+  const double thick = kThick * tip * (1.1 - 0.5 * u);
+  return {across * s.across + (kFrill * loose * edge * up + cup + corner.side * thick) * s.flat,
+          std::max(0.0, (corner.side < 0 ? up : -up) * loose * edge)};
 }
 
 Paint painted(double openness, double tint) { return {to_byte(openness), 0, 0, to_byte(tint)}; }
@@ -216,45 +288,69 @@ void add_bell(MeshBuffer& b, const FimbriaSite& site) {
   for (std::size_t row = 0; row < kBell.size(); ++row) {
     const BellRow& r = kBell[row];
     for (int k = 0; k < kRimColumns; ++k) {
-      const double a = 2 * kPi * k / kRimColumns;
-      // Mucosa lies in folds that run down to the mouth, and the rim follows them.
-      const double folds = std::sin(7 * a + 1.3 * std::sin(2 * a + site.seed)) + 0.5 * std::sin(12 * a + site.seed);
-      const double out = r.radius * (1 + 0.05 * folds * r.mucosa);
-      const Vec3d p = site.radius * (r.along * Vec3d{1, 0, 0} + out * outwards(a));
-      b.add(vec_cast<float>(p), painted(r.openness * (1 - 0.1 * r.mucosa * folds), r.mucosa));
+      const double groove = row > kOuterRim ? 0.5 - 0.5 * fold_at(site, k) : 0;
+      b.add(vec_cast<float>(on_bell(site, row, k)),
+            painted(r.openness * (1 - 0.3 * groove), r.tint * (1 - 0.5 * groove)));
     }
-    if (row > 0)
+    if (row > 0 && row != kOuterRim + 1)
       join_rows(b, std::uint32_t(row - 1) * kRimColumns, std::uint32_t(row) * kRimColumns, kRimColumns, true);
   }
-  const std::uint32_t pole = b.add({float(-1.3 * site.radius), 0, 0}, painted(0.02, 1));
+  const std::uint32_t pole = b.add({float(-1.3 * site.radius), 0, 0}, painted(0.04, 0));
   join_pole(b, pole - kRimColumns, kRimColumns, pole, true);
 }
 
-/// Deep rose along its middle and in the folds of its frill; its edges and tip are thin and paler.
-void add_frond(MeshBuffer& b, const Frond& f, const FimbriaSite& site) {
+void join_loops(MeshBuffer& b, const std::vector<std::uint32_t>& low, const std::vector<std::uint32_t>& high) {
+  for (std::size_t i = 0; i < low.size(); ++i) {
+    const std::size_t j = (i + 1) % low.size();
+    b.quad(low[i], low[j], high[j], high[i]);
+  }
+}
+
+/// Rose along its middle and in the folds of its frill; its edges and tip are thin and paler.
+Paint paint_on(const Frond& f, double u, Corner corner, double dip) {
+  const double thin = 1 - round_end(u, f.end), edge = smooth(0.6, 1.0, std::fabs(corner.across));
+  const double rim = std::max(edge, thin) * smooth(0.05, 0.4, u);
+  const double own = 0.55 + 0.2 * swing(f.seed, 31), root = kBell[kOuterRim].tint;
+  const double tint = root + smooth(0, 0.35, u) * (own - root);
+  return painted((0.78 + 0.14 * rim + 0.08 * smooth(0.3, 0, u)) * (1 - 0.25 * dip),
+                 (tint + (1 - tint) * rim) * (1 - 0.4 * dip));
+}
+
+/// Onwards from a closed row of vertices, its root.
+void add_frond(MeshBuffer& b, const Frond& f, const FimbriaSite& site, std::vector<std::uint32_t> row) {
   const Spines spine = spine_of(f, site);
   double span = 0;
   for (std::size_t i = 1; i < spine.size(); ++i) span += length(spine[i].point - spine[i - 1].point);
-  const std::uint32_t root = b.add(vec_cast<float>(spine[0].point - kThick * spine[0].along), painted(1, 0));
-  std::uint32_t row = root + 1;
-  for (int i = 0; i < kRings; ++i) {
-    const double u = along_frond(f, i), mucosa = smooth(0, 0.3, u), thin = 1 - round_end(u, f.end);
-    for (const Corner& c : kCorners) {
-      const Place place = place_on(f, spine, span, i, c);
-      const double pale = std::max(c.side == 0 ? 1.0 : 0.0, thin);
-      const double tint = (0.36 + 0.2 * swing(f.seed, 31) + 0.6 * place.dip) * (1 - 0.8 * pale * (1 - place.dip));
-      const double open = (1 - 0.45 * std::min(1.0, place.dip)) * (c.side > 0 ? 0.8 + 0.2 * thin : 1);
-      b.add(vec_cast<float>(place.point), painted(open, tint * mucosa));
+  std::vector<Vec3d> root;
+  for (const std::uint32_t v : row) root.push_back(vec_cast<double>(b.positions[v]) - spine[0].point);
+  for (int i = 1; i < kRings; ++i) {
+    const double u = along_frond(f, i), own = smooth(0, kOwnRoot, u);
+    std::vector<std::uint32_t> next;
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      const Corner corner = corner_of(k, row.size());
+      const Place place = place_on(f, spine, span, i, corner);
+      const Vec3d offset = (1 - own) * root[k] + own * place.offset;
+      next.push_back(b.add(vec_cast<float>(spine[std::size_t(i)].point + offset), paint_on(f, u, corner, place.dip)));
     }
-    const auto corners = std::uint32_t(kCorners.size());
-    if (i == 0)
-      join_pole(b, row, corners, root, false);
-    else
-      join_rows(b, row, row + corners, corners, true);
-    row = b.size() - corners;
+    join_loops(b, row, next);
+    row = std::move(next);
   }
-  const std::uint32_t tip = b.add(vec_cast<float>(spine[kRings].point), painted(1, 0));
-  join_pole(b, row, std::uint32_t(kCorners.size()), tip, true);
+  const std::uint32_t tip = b.add(vec_cast<float>(spine[kRings].point), painted(1, 1));
+  join_pole(b, row.front(), std::uint32_t(row.size()), tip, true);
+}
+
+/// A small closed end below the bell's inner side, out of which a fold rises.
+std::vector<std::uint32_t> add_root(MeshBuffer& b, const Frond& f, const FimbriaSite& site) {
+  const Spine s = spine_of(f, site)[0];
+  std::vector<std::uint32_t> row;
+  const std::uint32_t pole = b.add(vec_cast<float>(s.point - kThick * s.along), painted(0.7, 0.2));
+  for (std::size_t k = 0; k < kFoldSides; ++k) {
+    const Corner c = corner_of(k, kFoldSides);
+    const Vec3d offset = (0.5 * f.half * c.across) * s.across + (0.5 * kThick * c.side) * s.flat;
+    row.push_back(b.add(vec_cast<float>(s.point + offset), painted(0.7, 0.2)));
+  }
+  join_pole(b, row.front(), kFoldSides, pole, false);
+  return row;
 }
 
 /// A piece of surface as a disc that takes light from what it faces. [Bunnell 05]
@@ -280,11 +376,11 @@ std::vector<Disc> discs_of(const MeshBuffer& b, const std::vector<Vec3f>& normal
   return discs;
 }
 
-/// Fronds shade each other: deep between them it is dark and red, their tips are open and pale.
+/// Fronds shade each other: deep between them it is darker and red, their tips are open and pale.
 void shade(MeshBuffer& b) {
   constexpr float kFar = 0.004f;  // [m] beyond that, what is baked for the whole scene says enough
-  constexpr double kLeast = 0.4;  // thin mucosa lets light through: there are no black slits at roots
-  constexpr double kDark = 2.6;   // beyond what is hidden: what is reflected there goes through wet mucosa again
+  constexpr double kLeast = 0.5;  // thin mucosa lets light through: there are no black slits at roots
+  constexpr double kDark = 2.0;   // beyond what is hidden: what is reflected there goes through wet mucosa again
   std::vector<Vec3f> normals;
   render::vertex_normals(b.positions, b.indices, normals);
   const std::vector<Disc> discs = discs_of(b, normals);
@@ -302,7 +398,7 @@ void shade(MeshBuffer& b) {
     }
     const double open = kLeast + (1 - kLeast) * std::exp(-kDark * double(covered));
     Paint& paint = b.paint[v];
-    paint.tint = to_byte(paint.tint / 255.0 + 0.5 * (1 - open) * (1 - paint.tint / 255.0));
+    paint.tint = to_byte(paint.tint / 255.0 * open);
     paint.openness = to_byte(paint.openness / 255.0 * open);
   }
 }
@@ -312,7 +408,11 @@ void shade(MeshBuffer& b) {
 MeshBuffer fimbriae(const FimbriaSite& site) {
   MeshBuffer b;
   add_bell(b, site);
-  for (const Frond& f : fronds_of(site)) add_frond(b, f, site);
+  const std::vector<Frond> fronds = fronds_of(site);
+  for (int i = 0; i < kRimFronds + kFoldFronds; ++i) {
+    const Frond& f = fronds[std::size_t(i)];
+    add_frond(b, f, site, i < kRimFronds ? root_loop(site, i) : add_root(b, f, site));
+  }
   shade(b);
   return b;
 }

@@ -1,6 +1,7 @@
-// The open end of a uterine tube: its wall flares to a bell, whose inside narrows to the mouth, and from the bell's rim
-// and inside grow many narrow fronds with frilled edges, in clumps. Each is a closed surface whose root is hidden in
-// the bell's wall. Made in the frame of the tube's end, with which it moves rigidly.
+// The open end of a uterine tube: its wall flares to a bell, whose inside narrows to the mouth. Its rim runs out into
+// tapering fronds with frilled edges, in clumps: one surface with the bell, whose folds they go on from. Within stand
+// more of them, closed surfaces that rise out of its inner side. Made in the frame of the tube's end, with which it
+// moves rigidly.
 #pragma once
 
 #include <vector>
@@ -11,8 +12,9 @@ namespace trocar::view {
 
 inline constexpr double kBellLength = 0.007;  ///< of tube that widens to its end [m]
 inline constexpr double kBellFlare = 1.22;    ///< end's radius over the tube's
-inline constexpr int kRimColumns = 48;        ///< vertices of the first ring, which the tube goes on to
-inline constexpr int kFronds = 53;
+inline constexpr int kRimColumns = 96;        ///< vertices of the first ring, which the tube goes on to
+inline constexpr int kRimFronds = 24;         ///< that the rim runs out into
+inline constexpr int kFoldFronds = 25;        ///< that stand within
 
 /// Coordinates: x along the tube's direction from its end's centre, y and z along the end frame's normal and binormal.
 struct FimbriaSite {

@@ -46,7 +46,7 @@ Material tube() {
   m.mottle = 0.6f;
   m.bump = 0.1f;
   m.glow_amount = 0.38f;         // through the thin rims of the fimbriae
-  m.tint = srgb(198, 100, 102);  // fimbriae: mucosa
+  m.tint = srgb(240, 188, 184);  // fimbriae: thin mucosa
   m.film_size = 0.0013f;         // much finer than the tube is thick: flecks in clumps, no row of beads
   m.film_bump = 0.24f;
   m.film_roughness = 0.06f;
