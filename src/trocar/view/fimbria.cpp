@@ -15,6 +15,7 @@ constexpr double kThick = 0.00024;     // [m] half of a frond's thickness
 constexpr double kWave = 0.0021;       // [m] from crest to crest of its frill
 constexpr double kMostWaves = 3.3;     // that its rings can follow
 constexpr double kFrill = 0.00044;     // [m] how far that goes to either side, at the most
+constexpr double kSlack = 0.0011;      // [m] by which one that reaches the ovary swings aside on its way
 constexpr double kLobes = 1.45;        // scallops of its edge a wave of its frill
 constexpr double kOwnRoot = 0.3;       // of its length: on it a frond goes over from the bell's shape to its own
 constexpr std::size_t kFoldSides = 6;  // vertices around a frond that grows out of a fold
@@ -117,7 +118,7 @@ Frond grown(const FimbriaSite& site, const FrondRow& row, int index) {
   f.lean = row.lean + 0.12 * swing(f.seed, 6);
   f.falls = row.falls + 0.5 * swing(clump, 7) + 0.25 * swing(f.seed, 7);
   f.sway = 0.3 * swing(clump, 8) + 0.2 * swing(f.seed, 8) - 0.35 * aside;
-  f.twist = 0.8 * swing(f.seed, 9);
+  f.twist = 0.5 * swing(f.seed, 9);
   f.root_lean = 0.66;
   f.reaches = 0;
   return f;
@@ -213,7 +214,9 @@ Spines landing(const Frond& f, const FimbriaSite& site) {
   Vec3d carried = side;
   for (int i = 0; i <= kRings; ++i) {
     const double t = along_frond(f, i), u = 1 - t;
-    const Vec3d p = (u * u * (1 + 2 * t)) * a + (t * t * (3 - 2 * t)) * b + (u * u * t) * da - (t * t * u) * db;
+    const double aside = kSlack * std::sin(2 * kPi * t + f.seed) * smooth(0, 0.4, t) * smooth(1, 0.7, t);
+    const Vec3d p =
+        (u * u * (1 + 2 * t)) * a + (t * t * (3 - 2 * t)) * b + (u * u * t) * da - (t * t * u) * db + aside * side;
     const Vec3d along = normalised((6 * t * u) * (b - a) + (u * (1 - 3 * t)) * da + (t * (3 * t - 2)) * db, site.slide);
     carried = normalised(carried - dot(carried, along) * along, any_perpendicular(along));
     spine[std::size_t(i)] = {p, along, carried, cross(along, carried)};
@@ -258,7 +261,7 @@ Corner corner_of(std::size_t k, std::size_t count) {
 }
 
 /// Half its width over that at its root: it has a belly, and tapers.
-double belly(double u) { return 1 + 0.5 * smooth(0.1, 0.45, u) - 1.1 * smooth(0.4, 1.0, u); }
+double belly(double u) { return 1 + 0.45 * smooth(0.05, 0.4, u) - 0.98 * smooth(0.35, 1.0, u); }
 
 struct Place {
   Vec3d offset;  ///< from the middle line [m]
@@ -273,7 +276,7 @@ Place place_on(const Frond& f, const Spines& spine, double span, int ring, Corne
   const int side = 2 * f.seed + (w > 0 ? 1 : 0);
   const double waves = std::min(span / kWave, kMostWaves) * (0.75 + 0.25 * varied(side, 21));
   const double phase = 2 * kPi * (waves * (u + 0.05 * std::sin(6 * u + side)) + varied(side, 22));
-  const double loose = smooth(0.12, 0.5, u) * (f.reaches >= 1 ? 0.5 : 1) * tip;
+  const double loose = smooth(0.12, 0.5, u) * tip;
   const double up = std::sin(phase);
   const double across = w * f.half * belly(u) * tip * (1 + 0.18 * loose * std::sin(kLobes * phase + side));
   const double edge = w * w, cup = 0.35 * swing(f.seed, 12) * f.half * edge * loose;
@@ -312,7 +315,7 @@ Paint paint_on(const Frond& f, double u, Corner corner, double dip) {
   const double rim = std::max(edge, thin) * smooth(0.05, 0.4, u);
   const double own = 0.55 + 0.2 * swing(f.seed, 31), root = kBell[kOuterRim].tint;
   const double tint = root + smooth(0, 0.35, u) * (own - root);
-  return painted((0.78 + 0.14 * rim + 0.08 * smooth(0.3, 0, u)) * (1 - 0.25 * dip),
+  return painted((0.64 + 0.2 * rim + 0.36 * smooth(0.3, 0, u) * (1 - rim)) * (1 - 0.25 * dip),
                  (tint + (1 - tint) * rim) * (1 - 0.4 * dip));
 }
 
