@@ -133,7 +133,8 @@ void main() {
   colour += LIGHT_COLOUR * (0.022 * lit.power * lobe(turned, 0.16) * (0.75 + 0.25 * smoothstep(0.2, 0.8, slow.g)));
   // Where it cuts through what stands in it the depth buffer's steps would show.
   // Waves turn lines of it to the lamp, here and there, most where it is turned there itself.
-  float toward = smoothstep(0.10, 0.40, lobe(turned, 0.16)), wave = texture(u_noise, vec3(kWaves * place.xy, 0.05 * u_eye.w)).r;
+  float toward = smoothstep(0.10, 0.40, lobe(turned, 0.16));
+  float wave = texture(u_noise, vec3(kWaves * place.xy, 0.05 * u_eye.w)).r;
   vec4 ripple = texture(u_noise, vec3(kRipples * place.xy, 0.05 * u_eye.w));
   float fleck = smoothstep(0.79, 0.93, 0.5 * (wave + ripple.g) + 0.7 * (slow.b - 0.5) + 0.12 * bent);
   colour += LIGHT_COLOUR * (kFlecks * lit.power * toward * fleck * share.x);
