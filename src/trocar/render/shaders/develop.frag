@@ -62,60 +62,96 @@ const float kMost = 22.0;  // [px]
 // Diameter of the circle of confusion of what stands before the focus [px].
 float circle_of(float distance) { return u_depth.y * (1.0 / max(distance, 0.002) - u_depth.x); }
 
+#if defined(EFFECTS) || (defined(RODS) && defined(SAMPLED))
+// A pixel on an outline has a mean of distances and of lights: shade belongs to that share of it that is behind.
+struct Outline {
+  float is, behind;       // 0..1: it is one; the share that is behind
+  float far;              // [m]
+  ivec2 near_at, far_at;  // the pixels beside it
+};
+
+Outline on_outline(ivec2 at, float distance, float unit, float near_one) {
+  Outline o = Outline(0.0, 1.0, distance, at, at);
+  if (near_one < 0.4) return o;
+  float nearest = distance;
+  for (int k = 0; k < 4; ++k) {
+    ivec2 beside = at + (k < 2 ? ivec2(2 * k - 1, 0) : ivec2(0, 2 * k - 5));
+    float d = texelFetch(u_scene, beside, 0).a;
+    if (d > o.far) o.far = d, o.far_at = beside;
+    if (d < nearest) nearest = d, o.near_at = beside;
+  }
+  float apart = o.far - nearest;
+  o.is = clamp(apart / (0.02 * unit) - 0.5, 0.0, 1.0);
+  o.behind = clamp((distance - nearest) / max(apart, 0.0001), 0.0, 1.0);
+  return o;
+}
+#endif
+
 void main() {
-  vec4 scene = texelFetch(u_scene, ivec2(gl_FragCoord.xy), 0);
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  vec4 scene = texelFetch(u_scene, pixel, 0);
   vec3 colour = scene.rgb;
   float outline = 0.0;  // of a thing that stands before others: for the lens pass, which smooths steps there
+#if defined(EFFECTS) || (defined(RODS) && defined(SAMPLED))
+  vec4 soft = texture(u_small, v_uv);
+  float unit = scene.a * u_depth.w;  // height of the picture at this distance
+  outline = clamp(abs(scene.a - soft.a) / (unit * 0.007), 0.0, 1.0);
+  Outline on = on_outline(pixel, scene.a, unit, outline);
+#endif
 #ifdef RODS
+  vec3 shade = texelFetch(u_rod_shade, pixel, 0).rgb;
 #ifdef SAMPLED
-  vec2 aside = 0.5 / vec2(textureSize(u_scene, 0));
-  vec3 shade = 0.5 * (texture(u_rod_shade, v_uv + aside).rgb + texture(u_rod_shade, v_uv - aside).rgb);
-#else
-  vec3 shade = texelFetch(u_rod_shade, ivec2(gl_FragCoord.xy), 0).rgb;
+  if (on.is > 0.0) {
+    vec3 before = texelFetch(u_rod_shade, on.near_at, 0).rgb, behind_it = texelFetch(u_rod_shade, on.far_at, 0).rgb;
+    shade = mix(shade, mix(before, behind_it, on.behind), on.is);
+  }
 #endif
   colour = paled(colour * shaded_by(shade.rg), 1.0 - shade.b);
 #endif
 #ifdef EFFECTS
-  vec4 soft = texture(u_small, v_uv);
   vec4 softer = texture(u_smaller, v_uv + u_shadow);
   // The circle of confusion grows with 1/d: a disc of taps, so that strong lights blur round. What is out of focus covers
   // what is around it as far as that goes, so a near thing's outline is soft, too.
-  float nearest = min(scene.a, soft.a);
-  if (softer.a < 0.92 * scene.a) {  // something before it is close by
-    vec2 texel = 2.6 / vec2(textureSize(u_small, 0));
-    for (int k = 0; k < 4; ++k) {
-      vec2 aside = float((k & 2) - 1) * ((k & 1) == 0 ? vec2(texel.x, 0.0) : vec2(0.0, texel.y));
-      nearest = min(nearest, texture(u_small, v_uv + aside).a);
+  float nearest = min(scene.a, soft.a), farthest = max(scene.a, soft.a);
+  if (softer.a < 0.95 * scene.a) {  // something before it is close by
+    vec2 reach = 0.5 * kMost / vec2(textureSize(u_scene, 0));
+    for (int k = 0; k < 8; ++k) {
+      float far = texture(u_small, v_uv + reach * vec2(cos(0.7854 * float(k)), sin(0.7854 * float(k)))).a;
+      nearest = min(nearest, far);
+      farthest = max(farthest, far);
     }
   }
   float circle = circle_of(nearest);
   if (circle > kSeen) {
     vec2 radius = 0.5 * min(circle, kMost) / vec2(textureSize(u_scene, 0));
     int taps = circle > 3.0 ? 12 : 5;
+    float apart = 1.0 / max(scene.a - nearest, 0.001);
     vec4 before = vec4(0.0), back = vec4(0.0);
     for (int k = 0; k < taps; ++k) {
       float turn = 2.39996 * float(k), out_ = sqrt((float(k) + 0.7) / float(taps));  // a sunflower's seeds
       vec2 at = v_uv + radius * out_ * vec2(cos(turn), sin(turn));
       vec4 tap = circle > kWide ? texture(u_small, at) : texture(u_scene, at);
       vec4 light = vec4(min(tap.rgb, vec3(6.0)), 1.0);
-      float near = clamp(circle_of(tap.a) / circle, 0.0, 1.0);
+      float near = clamp((scene.a - tap.a) * apart, 0.0, 1.0);  // of a mean of distances: the share that is near
       before += light * near;
       back += light * (1.0 - near);
     }
-    if (circle_of(scene.a) < kSeen) back = vec4(colour, 1.0);  // that is in focus
     vec3 covers = before.rgb / max(before.w, 0.01), covered = back.w > 0.01 ? back.rgb / back.w : covers;
-    colour = mix(colour, mix(covered, covers, min(before.w / float(taps), 1.0)), min(circle - kSeen, 1.0));
+    // What is covered is sharp where that is in focus; a pixel on the outline itself is both.
+    float sharp = smoothstep(0.4, 0.8, (scene.a - nearest) / max(farthest - nearest, 0.001));
+    covered = mix(covered, colour, sharp * clamp(2.0 - circle_of(scene.a) / kSeen, 0.0, 1.0));
+    colour = mix(colour, mix(covered, covers, before.w / float(taps)), min(circle - kSeen, 1.0));
   }
   // Depth darkening [Luft 06]: what lies just behind the mean depth towards the lamp sees less light: a soft shadow to
   // the side that the ring light is off the lens; red stays longest.
-  float unit = scene.a * u_depth.w;  // height of the picture at this distance
-  vec2 behind = (vec2(scene.a) - vec2(soft.a, softer.a)) / (unit * vec2(0.02, 0.05));
+  colour = mix(colour, min(colour, 1.4 * soft.rgb), on.is);  // one sample that glitters there would be a spark
+  vec2 behind = (vec2(on.far) - vec2(soft.a, softer.a)) / (unit * vec2(0.02, 0.05));
   // What stands far before it touches nothing and leaves no rim (instruments' shadows are another pass).
   vec2 touches = clamp(vec2(1.5, 2.2) - behind.y, 0.0, 1.0);
   behind = clamp(behind, 0.0, 1.0) * clamp(3.0 - 0.5 * behind, 0.0, 1.0) * touches;
   float open = 1.0 - u_depth.z * max(0.4 * behind.x, 0.6 * behind.y);
+  open = mix(1.0, open, mix(1.0, on.behind, on.is));
   colour *= vec3(open, open * open, open * open);
-  outline = clamp(abs(scene.a - soft.a) / (unit * 0.007), 0.0, 1.0);
   colour = mix(colour, min(0.6 * soft.rgb + 0.4 * softer.rgb, vec3(8.0)), u_camera.z);
 #endif
 #ifdef SMOKE
