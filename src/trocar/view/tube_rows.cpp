@@ -39,10 +39,10 @@ void TubeDrawing::add_raw_face(int piece, bool at_start) {
   const double s = at_start ? p.from : p.to, sign = at_start ? -1 : 1, r = radius_at(s) * contracted(p, s);
   const double open = m_strand->inner.empty() ? 0 : m_strand->inner[std::size_t(at_start ? p.first : p.last)];
   const double lumen = std::clamp(open, 0.07 * r, 0.12 * r);
-  // The serosa has drawn back, its torn edge red; the muscle has contracted within it, and the lining pouts over both
-  // in wet, uneven lobes around what is left of the lumen: a slit with a clot in it.
-  const Paint rim{170, 125, 0, 0}, muscle{190, 24, 24, 30}, mucosa{165, 32, 0, 170}, lining{130, 90, 0, 225};
-  const Paint slit{120, 150, 0, 255}, clot{60, 225, 0, 255};
+  // The serosa has drawn back, a thin film of blood on its torn edge; the muscle has contracted within it into a pale
+  // ring, and the lining pouts over both in wet, pink lobes around what is left of the lumen: a slit with a clot in it.
+  const Paint rim{190, 70, 0, 0}, muscle{215, 6, 44, 0}, mucosa{205, 8, 22, 60}, lining{165, 40, 8, 90};
+  const Paint slit{90, 190, 0, 200}, clot{45, 235, 0, 255};
   std::vector<TubeRow> rows;
   const auto row = [&](double along, double radius, double scallop, Paint paint) {
     const double turn = 0.09 * double(rows.size());

@@ -12,7 +12,7 @@ constexpr float kPitThick = 260e-6f;      // [m] of the blood in it
 constexpr int kWelling = 7, kSmears = 5;  // patches of blood around it, thick and thin
 constexpr float kStep = 0.7e-3f;          // [m] between two links of the rivulet
 constexpr int kLinks = 22;
-constexpr int kToCrest = 7, kStumpPatches = 7, kStumpSmears = 5;
+constexpr int kToCrest = 7, kStumpPatches = 4, kStumpSmears = 5;
 constexpr float kSmeared = 2.2e-6f;  // [m] of blood beside a stump
 constexpr float kUnderside = 0.94f;  // cosine between surface and fall at which a rivulet ends as a hanging drop
 
@@ -102,7 +102,7 @@ void list_stump(const Wound& wound, const FilmPlace& end, float radius, render::
     const float angle = 6.2832f * (float(n) + 0.4f * own(n)) / kStumpPatches;
     const FilmPlace place = around(angle, 0.1e-3f + 0.3e-3f * (1 + own(100 + n)));
     const float low = 0.5f + 0.5f * dot(place.normal, wound.down);
-    liquid.splats.push_back(film(wound, place, 0.45e-3f * (1 + 0.5f * own(200 + n)), (16 + 14 * low) * 1e-6f));
+    liquid.splats.push_back(film(wound, place, 0.3e-3f * (1 + 0.5f * own(200 + n)), (12 + 26 * low) * 1e-6f));
     if (n % 3 == 1) list_rivulet(wound, place, {}, liquid, 0.2f + 0.3f * low);
   }
   for (int n = 0; n < kStumpSmears; ++n) {  // behind it a thin smear here and there
@@ -111,10 +111,10 @@ void list_stump(const Wound& wound, const FilmPlace& end, float radius, render::
     s.from += (0.4e-3f + 0.3f * far) * end.normal;
     liquid.splats.push_back(s);
   }
-  // It gathers at the lowest place of its face.
+  // It gathers at the lowest place of its edge.
   const Vec3f low = along_surface(wound.down, end.normal);
-  const FilmPlace gathers{end.position + 0.85f * radius * low, normalised(end.normal + low, end.normal)};
-  liquid.splats.push_back(film(wound, gathers, 0.5f * radius, 30e-6f));
+  const FilmPlace gathers{end.position + 0.98f * radius * low, normalised(0.4f * end.normal + low, end.normal)};
+  liquid.splats.push_back(film(wound, gathers, 0.25f * radius, 60e-6f));
 }
 
 }  // namespace trocar::view
