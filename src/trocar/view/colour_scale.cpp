@@ -65,7 +65,7 @@ render::Light light_for_analysis() {
   light.colour = {1, 1, 1};
   light.inverse_square = false;
   light.bounce = 0;
-  light.ambient = 0.45f;
+  light.ambient = 0.12f;  // little: shape is seen by shade
   light.crevices = 0;
   light.intensity = 1 / (1 + light.ambient);  // what faces the lamp gets 1
   return light;
