@@ -50,7 +50,7 @@ void border_loads(std::span<const BorderHold> holds, std::span<const tissue::Bor
     } else {
       SkinLoad load;
       load.d = d;
-      load.f0 = force + d * skin_velocity(holders.nodes[i], *holders.skins[i], hold.vertex);
+      load.f0 = force + d * counted_on(skin_velocity(holders.nodes[i], *holders.skins[i], hold.vertex));
       add_skin_load(holders.nodes[i], *holders.skins[i], hold.vertex, load, {Owner::strand_end, 0, 0}, organ_loads[i]);
     }
   }

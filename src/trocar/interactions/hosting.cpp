@@ -84,7 +84,8 @@ void host_loads(const HostPatch& patch, const tissue::StrandReaction& reaction, 
     tissue::NodeLoad load;
     load.node = patch.node[i];
     load.d = float(d);
-    load.f0 = vec_cast<float>(share * (reaction.force - patch.drawn_pull) + d * nodes.velocity(patch.node[i]));
+    const Vec3d v = counted_on(nodes.velocity(patch.node[i]));
+    load.f0 = vec_cast<float>(share * (reaction.force - patch.drawn_pull) + d * v);
     loads.add(load, {Owner::strand_end, strand, 0});
   }
 }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include <trocar/interactions/loads.hpp>
 
@@ -86,6 +87,12 @@ void StrandLoads::add(const tissue::StrandLoad& load, Tag t) noexcept {
   }
   list.push_back(load);
   tag.push_back(t);
+}
+
+Vec3d counted_on(Vec3d velocity) noexcept {
+  constexpr double kMost = 20;  // [m/s]
+  const double square = dot(velocity, velocity);
+  return square > kMost * kMost ? (kMost / std::sqrt(square)) * velocity : velocity;
 }
 
 void add_skin_load(const tissue::NodeView& nodes, const tissue::Skin& skin, int vertex, const SkinLoad& load, Tag tag,

@@ -47,6 +47,11 @@ struct StrandLoads {
   void add(const tissue::StrandLoad& load, Tag t) noexcept;
 };
 
+/// A node's speed as far as a load may count on it that resists changes of it for a whole tick. One that is faster than
+/// anything that hands do to tissue leaps, to and fro from sub-step to sub-step; a load that held it to that speed would
+/// carry it on by decimetres, whatever its springs ask for.
+Vec3d counted_on(Vec3d velocity) noexcept;
+
 /// A spring-like load on a skin vertex, spread over its nodes by W transposed: force k P (target - x) + f0 - d P v.
 struct SkinLoad {
   Vec3d f0{0, 0, 0};
