@@ -58,7 +58,7 @@ def check(name, frames):
           f"{numpy.median(moving[:, 3]):.2f}")
     # What is left are highlights, the lamp that goes with the camera, and what bilinear reading blurs.
     expect(moving[:, 2].mean() < 0.5 * moving[:, 1].mean(), f"{name}: patterns swim")
-    expect(numpy.median(moving[:, 3]) < 2, f"{name}: half of the picture changes by more than 2 of 255")
+    expect(numpy.median(moving[:, 3]) < 2.5, f"{name}: half of the picture changes by more than 2.5 of 255")
     if len(of_tube):
         plain, left = of_tube.mean(axis=0)
         print(f"{name}: on the tube {plain:.2f}, warped {left:.2f}")

@@ -191,7 +191,7 @@ Material liver() {
   Material m = with_vessels(tissue(srgb(84, 46, 51), srgb(92, 53, 56), srgb(75, 40, 46)), 0.11f, 0.026f);
   m.vessel_colour = srgb(150, 106, 110);  // a pale net below its capsule
   m.mottle_size = 0.008f;
-  m.mottle = 0.65f;
+  m.mottle = 0.5f;
   m.bump = 0.012f;
   m.roughness = 0.72f;
   m.wetness = 0.6f;
@@ -277,13 +277,13 @@ Material adhesion() {
   m.vessel_tile = 0.02f;
   m.wetness = 0.22f;
   m.film_bump = 0.1f;
-  m.rim_alpha = 0.5f;
+  m.rim_alpha = 0.3f;
   return m;
 }
 
 /// A thin sheet with fat in its free border.
 Material falciform() {
-  Material m = fold(0.4f);
+  Material m = fold(0.24f);
   m.colour = srgb(192, 130, 122);
   m.colour_b = srgb(200, 146, 131);
   m.colour_c = srgb(176, 108, 108);

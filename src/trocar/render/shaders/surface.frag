@@ -210,14 +210,14 @@ void main() {
   const float bead = 0.0;
 #endif
   vec3 gloss = mix(1.5 * grey, vec3(0.28), max(SCATTER, blood)) * (mix(0.3, 0.12, plain) * lobe(nh, alpha2) * broken * (1.0 - 0.8 * blurred));
-  gloss /= 1.0 + mix(3.0, 0.8, bead) * gloss;  // the lamp is no point: long lines hardly clip
+  gloss /= 1.0 + mix(5.0, 0.8, bead) * gloss;  // the lamp is no point: long lines hardly clip
   gloss *= 0.25 + 0.75 * bare;
   vec3 around = mirrored(reflect(-V, n), 0.04, mix(0.6, 3.0, rim) * lit.bounce);  // the lens itself is dark
   around = mix(vec3((0.1 + 0.3 * smoothstep(-0.2, 0.8, reflect(-V, n).y)) * lit.bounce), around, INVERSE_SQUARE);  // a room
   vec3 from_below = around * clamp(0.9 - 0.6 * n.y - 1.2 * nv, 0.0, 1.0);
   around = mix(around, vec3(dot(around, vec3(0.4, 0.4, 0.2))), 0.4 * bare);
   // The lamp straight on, which is strong near the lens, what comes from all around, and tissue's pink from below.
-  vec3 even = LIGHT_COLOUR * lit.power * (mix(0.07, mix(0.13, 0.62, step(0.99, SCATTER)), plain) * nl * nl + mix(0.02, 0.012, plain) * lobe(nh, 0.35));
+  vec3 even = LIGHT_COLOUR * lit.power * (mix(0.045, mix(0.13, 0.62, step(0.99, SCATTER)), plain) * nl * nl + mix(0.02, 0.012, plain) * lobe(nh, 0.35));
   even += (BOUNCE * (mix(0.5, 1.0, plain) + 3.0 * rim) + vec3(mix(0.04, 0.21, plain) + AMBIENT)) * lit.bounce + from_below;
   vec3 colour = (grey * even + LIGHT_COLOUR * lit.power * gloss + around * mirror) * ao;
 #ifdef FOGGY
