@@ -26,7 +26,7 @@ std::size_t bytes_of(const sim::State& s) {
     bytes += size_of(strand.x) + size_of(strand.v) + size_of(strand.scale) + size_of(strand.alive) +
              size_of(strand.foundation_scale);
   for (const std::vector<std::uint8_t>& parted : s.parted) bytes += size_of(parted);
-  bytes += size_of(s.membranes) + size_of(s.sheet_side) + size_of(s.sheet_near) + size_of(s.torn);
+  bytes += size_of(s.membranes) + size_of(s.sheet_side) + size_of(s.sheet_bond) + size_of(s.torn);
   for (const tissue::MembraneState& sheet : s.membranes)
     bytes += size_of(sheet.network.nodes) + size_of(sheet.network.scale) + size_of(sheet.network.tet_phase) +
              size_of(sheet.torn);

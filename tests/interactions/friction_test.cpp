@@ -228,8 +228,9 @@ struct Cloth {
     loads.clear();
     Touching touching = rubbing.touching();
     const SheetView view{{&skin, &pose, nodes}, torn, sheet.network.fixed, 0.00025};
+    SheetBond bond = SheetBond::none;
     double gap = 0;
-    tool_on_sheet(touching, ToolState{}, kMembraneBase, view, side, loads, gap);
+    tool_on_sheet(touching, ToolState{}, kMembraneBase, view, side, bond, loads, gap);
     loads.sort();
     ASSERT_TRUE(advance(sheet, {}, loads.sorted, loads.reaction, state, work).fine());
     rubbing.on_tissue = {0, 0, 0};

@@ -26,6 +26,7 @@ struct Drum {
   ToolShape before;
   TouchBook book, next;
   bool moved = false;
+  SheetBond bond = SheetBond::none;
 
   Drum() {
     tissue::MembraneDescription d;
@@ -67,12 +68,15 @@ struct Drum {
     const Capsule away{{1, 1, 1}, {1, 1, 1.01}, 0.001};
     shape.part[kShaft] = rod;
     shape.part[kJawA] = shape.part[kJawB] = away;
+    return step_with(shape);
+  }
+  bool step_with(const ToolShape& shape) {
     pose_skin(view_of(sheet.network, state.network), skin, pose);
     loads.clear();
     const SheetView view{{&skin, &pose, view_of(sheet.network, state.network)}, torn, sheet.network.fixed, 0.00025};
     Touching touching(0, moved ? before : shape, shape, 0, book, next);
     double gap = 0;
-    tool_on_sheet(touching, ToolState{}, kMembraneBase, view, side, loads, gap);
+    tool_on_sheet(touching, ToolState{}, kMembraneBase, view, side, bond, loads, gap);
     before = shape;
     moved = true;
     loads.sort();
@@ -130,6 +134,36 @@ TEST(Fold, WhatGoesAroundItsEdgeIsForgotten) {
   EXPECT_TRUE(known);
   ASSERT_TRUE(drum.step({{0, 0, 0.05}, {0, 0, 0.02}, 0.001}));
   for (const Vec3f& s : drum.side) EXPECT_EQ(dot(s, s), 0);
+}
+
+/// A shaft along z, and before its end `tip` a head that is wider.
+ToolShape with_head(Vec3d tip) {
+  ToolShape shape;
+  const Vec3d pivot = tip + Vec3d{0, 0, 0.008}, half{0.0025, 0, 0};
+  shape.pivot = pivot;
+  shape.frame.tip = tip;
+  shape.part[kShaft] = {pivot + Vec3d{0, 0, 0.08}, pivot, 0.0025};
+  shape.part[kJawA] = {pivot + half, tip + half, 0.0025};
+  shape.part[kJawB] = {pivot - half, tip - half, 0.0025};
+  return shape;
+}
+
+TEST(Fold, AShaftThatIsThroughComesOutWithItsHeadAndTakesNothingAlong) {
+  Drum drum;
+  double highest = 0;
+  for (int i = 0; i < 110; ++i) {  // at 0.4 m/s
+    ASSERT_TRUE(drum.step_with(with_head({0.0003, 0.0004, -0.03 + 0.0004 * i})));
+    highest = std::max(highest, drum.height(6, 6));
+    if (i < 20) {
+      EXPECT_EQ(drum.bond, SheetBond::through) << i;
+    }
+  }
+  EXPECT_LT(highest, 0.0005);
+  EXPECT_EQ(length(drum.felt), 0);
+  EXPECT_EQ(drum.bond, SheetBond::none);
+  // From now on it is an instrument like any other.
+  for (int i = 0; i < 60; ++i) ASSERT_TRUE(drum.step_with(with_head({0.0003, 0.0004, 0.0136 - 0.0004 * i})));
+  EXPECT_LT(drum.height(6, 6), -0.007);
 }
 
 /// An instrument of the small scene through a port of the test's own.

@@ -154,6 +154,22 @@ bool impales(const Capsule& rod, const SheetView& sheet) noexcept {
   return through % 2 == 1;  // twice: it lies across, in a trough that it has pressed in
 }
 
+/// Is any part of the instrument in the fold, or at it?
+bool at_sheet(const ToolShape& shape, const SheetView& sheet) noexcept {
+  const Surface& surface = sheet.surface;
+  for (const Capsule& rod : shape.part) {
+    const double sum = rod.radius + sheet.half_thickness;
+    if (!meets_box(surface.pose->bounds, rod.a, rod.b, sum)) continue;
+    for (std::size_t i = 0; i < surface.skin->triangles.size(); ++i) {
+      const auto& t = surface.skin->triangles[i];
+      const auto near = geometry::closest_segment_triangle(rod.a, rod.b, surface.position(t[0]), surface.position(t[1]),
+                                                           surface.position(t[2]));
+      if (!sheet.parted[i] && near.distance2 < sum * sum) return true;
+    }
+  }
+  return false;
+}
+
 /// What closing jaws have between them is not to be pushed out: a triangle is known from outside or not at all.
 bool begins_inside(const Capsule& rod, const Corners& t, Vec3f side) noexcept {
   if (dot(side, side) > 0) return false;
@@ -163,8 +179,8 @@ bool begins_inside(const Capsule& rod, const Corners& t, Vec3f side) noexcept {
 
 }  // namespace
 
-bool tool_on_sheet(Touching& c, const ToolState& tool_state, int body, const SheetView& sheet, std::span<Vec3f> side,
-                   NetworkLoads& loads, double& gap) noexcept {
+void tool_on_sheet(Touching& c, const ToolState& tool_state, int body, const SheetView& sheet, std::span<Vec3f> side,
+                   SheetBond& bond, NetworkLoads& loads, double& gap) noexcept {
   const ToolShape& shape = c.shape;
   const Surface& surface = sheet.surface;
   const tissue::Skin& skin = *surface.skin;
@@ -177,10 +193,15 @@ bool tool_on_sheet(Touching& c, const ToolState& tool_state, int body, const She
   };
   constexpr double kTick = 1e-3;
   const auto before = [&surface](int node) { return surface.position(node) - kTick * surface.nodes.velocity(node); };
-  const bool shaft_through = impales(shape.part[kShaft], sheet);  // comes off over the jaws, if at all
-  const bool jaws_through = shaft_through || (gap_of(shape) > kWide &&
-                                              (impales(shape.part[kJawA], sheet) || impales(shape.part[kJawB], sheet)));
-  bool remembers = false;
+  if (impales(shape.part[kShaft], sheet) || (bond == SheetBond::through && at_sheet(shape, sheet))) {
+    if (bond == SheetBond::noted) std::fill(side.begin(), side.end(), Vec3f{});
+    bond = SheetBond::through;
+    gap = kLost;
+    return;
+  }
+  const bool jaws_through =
+      gap_of(shape) > kWide && (impales(shape.part[kJawA], sheet) || impales(shape.part[kJawB], sheet));
+  bond = SheetBond::none;
   gap = kRemember;
   for (const int part : {kShaft, kBothJaws, kJawA, kJawB}) {
     const bool both = part == kBothJaws;
@@ -190,7 +211,7 @@ bool tool_on_sheet(Touching& c, const ToolState& tool_state, int body, const She
     const double most = 0.9 * (both ? kRemember : rod.radius + sheet.half_thickness + kRemember);
     const bool near = meets_box(surface.pose->bounds, rod.a, rod.b, reach);
     const bool near_at_all = near || meets_box(surface.pose->bounds, rod.a, rod.b, std::max(reach, rod.radius + kLost));
-    const bool through = part == kShaft ? shaft_through : jaws_through;
+    const bool through = part != kShaft && jaws_through;
     for (std::size_t i = 0; i < skin.triangles.size(); ++i) {
       Vec3f& memory = side[i * std::size_t(kSheetParts) + std::size_t(part)];
       const auto& t = skin.triangles[i];
@@ -222,7 +243,7 @@ bool tool_on_sheet(Touching& c, const ToolState& tool_state, int body, const She
         continue;
       }
       const Meeting touch = meet_on_the_way(rod0, rod, corners0, corners, sheet.half_thickness, most, memory);
-      remembers = remembers || dot(memory, memory) > 0;
+      if (dot(memory, memory) > 0) bond = SheetBond::noted;
       gap = std::min(gap, touch.distance);
       if (touch.depth <= -kGrazes) continue;
       const std::int32_t number = c.note(body, int(i), part);
@@ -231,7 +252,6 @@ bool tool_on_sheet(Touching& c, const ToolState& tool_state, int body, const She
       if (touch.depth > 0) push(surface, t, touch, depth, {Owner::tool_contact, c.tool, number}, loads);
     }
   }
-  return remembers;
 }
 
 }  // namespace trocar::interactions

@@ -3,6 +3,10 @@
 // sheet back to there, as far in a tick as the rod has moved and some more. So nothing passes through it: a rod is
 // remembered from 2 mm before it touches, and where it or the sheet moves farther than that in a tick it is looked at
 // in between. What lies between the jaws, a little of the fold or all of it, has a jaw on either side.
+//
+// A fold that a shaft has got through all the same (as where it is held) lets it go: nothing of the instrument touches
+// it again before all of it is out. Contact that came back as the shaft's end is drawn into the hole would close the
+// fold about its neck, and the fold would come along.
 #pragma once
 
 #include <span>
@@ -24,11 +28,18 @@ struct SheetView {
   double pinch_reach = 0;
 };
 
+/// What an instrument has to do with a sheet from one tick to the next.
+enum class SheetBond : std::uint8_t {
+  none,
+  noted,   ///< something is remembered of a side
+  through  ///< its shaft goes through the sheet, or has and is not out yet
+};
+
 /// @param body  how holds name this membrane
 /// @param side  (triangles x kSheetParts) State: unit vector from the rod to the sheet when they last were near
-/// @param gap   out: no axis of the instrument is nearer to the sheet than this [m]
-/// @return true while anything is remembered
-bool tool_on_sheet(Touching& touching, const ToolState& tool_state, int body, const SheetView& sheet,
-                   std::span<Vec3f> side, NetworkLoads& loads, double& gap) noexcept;
+/// @param bond  State: in: of the last tick, out: of this one
+/// @param gap   out: no axis of the instrument is nearer to the sheet than this [m], or it may go where it likes
+void tool_on_sheet(Touching& touching, const ToolState& tool_state, int body, const SheetView& sheet,
+                   std::span<Vec3f> side, SheetBond& bond, NetworkLoads& loads, double& gap) noexcept;
 
 }  // namespace trocar::interactions

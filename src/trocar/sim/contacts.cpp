@@ -13,14 +13,14 @@ void touch_sheets(StepContext& c, size_t t, interactions::Touching& touching) no
   const interactions::ToolShape& shape = c.work.shapes[t];
   for (size_t i = 0; i < c.model.membranes.size(); ++i) {
     const size_t sides = c.model.membranes[i].sheet.triangles.size() * size_t(interactions::kSheetParts);
-    std::uint8_t& near = c.state.sheet_near[t * c.model.membranes.size() + i];
+    interactions::SheetBond& bond = c.state.sheet_bond[t * c.model.membranes.size() + i];
     const tissue::Box& box = c.work.sheet_poses[i].bounds;
     double& gap = c.work.sheet_gaps[t * c.model.membranes.size() + i];
     gap = kNearSheet;
-    if (near || interactions::meets_box(box, shape.part[interactions::kShaft].a, shape.frame.tip, kNearSheet))
-      near = interactions::tool_on_sheet(touching, c.state.tools[t], interactions::kMembraneBase + int(i),
-                                         c.work.sheets[i], {c.state.sheet_side.data() + at, sides},
-                                         c.work.membrane_loads[i], gap);
+    if (bond != interactions::SheetBond::none ||
+        interactions::meets_box(box, shape.part[interactions::kShaft].a, shape.frame.tip, kNearSheet))
+      interactions::tool_on_sheet(touching, c.state.tools[t], interactions::kMembraneBase + int(i), c.work.sheets[i],
+                                  {c.state.sheet_side.data() + at, sides}, bond, c.work.membrane_loads[i], gap);
     at += sides;
   }
 }

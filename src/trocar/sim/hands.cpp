@@ -45,7 +45,7 @@ void change_instrument(StepContext& c, size_t t, std::int32_t wanted) noexcept {
   for (Vec3f& side : sides_of(c, t)) side = {};
   const size_t each = c.state.sheet_side.size() / c.model.hands.size(), membranes = c.model.membranes.size();
   std::fill_n(c.state.sheet_side.begin() + std::ptrdiff_t(t * each), each, Vec3f{});
-  std::fill_n(c.state.sheet_near.begin() + std::ptrdiff_t(t * membranes), membranes, std::uint8_t(0));
+  std::fill_n(c.state.sheet_bond.begin() + std::ptrdiff_t(t * membranes), membranes, interactions::SheetBond::none);
   tell(c, Event::exchanged, int(t), wanted);
 }
 

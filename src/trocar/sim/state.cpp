@@ -69,7 +69,7 @@ State initial_state(const Model& model) {
   size_t triangles = 0;
   for (const MembraneModel& m : model.membranes) triangles += m.sheet.triangles.size();
   s.sheet_side.resize(model.hands.size() * triangles * size_t(interactions::kSheetParts));
-  s.sheet_near.resize(model.hands.size() * model.membranes.size());
+  s.sheet_bond.resize(model.hands.size() * model.membranes.size());
   s.touches.resize(model.hands.size());
   for (size_t t = 0; t < model.hands.size(); ++t) interactions::start_here(s.tools[t], s.touches[t]);
   s.seen.resize(model.samples.size());
@@ -121,7 +121,7 @@ std::uint64_t hash_of(const State& s) noexcept {
   h.add(s.seen);
   for (const auto& membrane : s.membranes) add_to_hash(h, membrane);
   h.add(s.sheet_side);
-  h.add(s.sheet_near);
+  h.add(s.sheet_bond);
   for (const auto* bodies : {&s.overstretched_organs, &s.overstretched_membranes, &s.overstretched_strands})
     for (const std::vector<std::uint8_t>& counters : *bodies) h.add(counters);
   for (const std::vector<std::uint8_t>& torn : s.torn) h.add(torn);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <trocar/interactions/membrane_contact.hpp>
 #include <trocar/interactions/tool_contact.hpp>
 #include <trocar/interactions/vessel_tools.hpp>
 #include <trocar/sim/model.hpp>
@@ -57,8 +58,8 @@ struct State {
   std::vector<Vec3f> tool_side;                   ///< (tools x elements of all strands x kToolParts)
   std::vector<std::vector<std::uint8_t>> parted;  ///< (solids) per triangle of the drawn skin: 1 = cut open
   std::vector<Vec3f> sheet_side;                  ///< (hands x triangles of all membranes x kSheetParts)
-  std::vector<std::uint8_t> sheet_near;           ///< (hands x membranes) 1 = something is noted in sheet_side
-  std::vector<std::vector<std::uint8_t>> torn;    ///< (membranes) per triangle: 1 = cut open
+  std::vector<interactions::SheetBond> sheet_bond;  ///< (hands x membranes)
+  std::vector<std::vector<std::uint8_t>> torn;      ///< (membranes) per triangle: 1 = cut open
   /// For how long nodes have been stretched beyond what they bear (tissue/overstretch.hpp): rows of organs and of
   /// membranes, nodes of strands; empty for bodies that never tear.
   std::vector<std::vector<std::uint8_t>> overstretched_organs, overstretched_membranes, overstretched_strands;
