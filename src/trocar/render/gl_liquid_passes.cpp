@@ -254,18 +254,22 @@ void GlBackend::bind_splats() {
 
 GLsizei GlBackend::splat_count() const { return GLsizei(m_splat_rows.size() / kSplatFloats); }
 
-void GlBackend::wet_pass(const Frame& frame, const Layout&) {
-  keep_bed();
-  GlProgram& program = m_programs.get("tile.vert", "wet.frag", "DETAIL=" + std::to_string(frame.quality.detail));
+/// Only pixels that liquid reaches pass the stencil's test afterwards.
+void GlBackend::mark_wet() {
+  GlProgram& program = m_programs.get("tile.vert", "wet_mark.frag");
   program.use();
-  set_liquid(frame, program);
-  const char* names[3] = {"u_field", "u_thickness", "u_film"};
-  for (int k = 0; k < 3; ++k) {
-    program.set(names[k], kUnitWet + k);
-    bind_texture(kUnitWet + k, GL_TEXTURE_2D, m_wet[std::size_t(k)].colour.id());
-  }
-  program.set("u_part", float(wet_part(frame.quality)));
-  program.set("u_texel", 1.0f / float(m_wet[0].width), 1.0f / float(m_wet[0].height));
+  program.set("u_field", kUnitWet);
+  glEnable(GL_STENCIL_TEST);
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  glStencilFunc(GL_ALWAYS, kStencilWet, kStencilWet);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+  draw_tiles();
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glStencilFunc(GL_EQUAL, kStencilWet, kStencilWet);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);  // what writes nothing is tested before it is shaded
+}
+
+void GlBackend::bind_tiles() {
   if (!m_tile_buffer) {
     m_tile_layout = new_vertex_array();
     m_tile_buffer = new_buffer();
@@ -276,7 +280,26 @@ void GlBackend::wet_pass(const Frame& frame, const Layout&) {
   glBindVertexArray(m_tile_layout.id());
   glBindBuffer(GL_ARRAY_BUFFER, m_tile_buffer.id());
   glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(m_tile_rows.size() * sizeof(float)), m_tile_rows.data(), GL_STREAM_DRAW);
+}
+
+void GlBackend::draw_tiles() const {
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(m_tile_rows.size() / 4));
+}
+
+void GlBackend::wet_pass(const Frame& frame, const Layout&) {
+  keep_bed();
+  bind_tiles();
+  for (int k = 0; k < 3; ++k) bind_texture(kUnitWet + k, GL_TEXTURE_2D, m_wet[std::size_t(k)].colour.id());
+  mark_wet();
+  GlProgram& program = m_programs.get("tile.vert", "wet.frag", "DETAIL=" + std::to_string(frame.quality.detail));
+  program.use();
+  set_liquid(frame, program);
+  const char* names[3] = {"u_field", "u_thickness", "u_film"};
+  for (int k = 0; k < 3; ++k) program.set(names[k], kUnitWet + k);
+  program.set("u_part", float(wet_part(frame.quality)));
+  program.set("u_texel", 1.0f / float(m_wet[0].width), 1.0f / float(m_wet[0].height));
+  draw_tiles();
+  glDisable(GL_STENCIL_TEST);
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_TRUE);
 }

@@ -12,7 +12,7 @@ layout(location = 0) out vec4 o_field;
 layout(location = 1) out vec4 o_thickness;
 layout(location = 2) out vec4 o_film;
 
-const float kSkirt = 0.0024;  // as in splat.vert
+const float kSkirt = 0.0018;  // as in splat.vert
 const float kReach = 1.7;     // as there
 const float kRoot = 0.0010;   // [m] so far before a surface it is whole
 const float kNoGlint = 0.6;   // sine of how far what is smeared turns away from the lamp

@@ -22,6 +22,7 @@ vec2 run_off(vec3 place, vec3 fall, float pixel, out float streak) {
   return fall.xy * ((0.0040 * (column.a - 0.5) + 0.0010 * (column.g - 0.5)) / pixel) * u_size.zw;
 }
 
+const float kNone = 1.0e-7;        // [m] of liquid that nobody sees
 const float kLeast = 2.0e-6;       // [m] a film draws back from where there is less
 const float kAside = 0.0009;       // [m] gaps narrower than that close
 const float kLevel = 3.0e-5;       // [m] at which it levels
@@ -60,7 +61,6 @@ float film_at(vec2 uv) { return dot(texture(u_film, uv).rgb, vec3(1.0e-3)); }
 
 void main() {
   vec4 field = texture(u_field, v_uv);
-  if (field.w < 0.00002) discard;
   vec4 bed = texelFetch(u_bed, ivec2(gl_FragCoord.xy), 0);
   vec3 way = normalize(vec3((2.0 * v_uv - 1.0) * u_tan.xy + vec2(u_tan.z, 0.0), -1.0)), V = -way;
   float pixel = -way.z * bed.a * 2.0 * u_tan.y * u_size.w;  // [m]
@@ -97,7 +97,7 @@ void main() {
   float stain = dot(film.rgb, vec3(1.0));
   vec3 film_rise = vec3(0.0), ground = vec3(0.0), around_it = bed.rgb;
   // What covers the place in between is nearer to the eye.
-  if (flying < 0.5 && stain > 1.0e-7 && bed.a > far - 0.0015 - 6.0 * pixel) {
+  if (flying < 0.5 && stain > kNone && bed.a > far - 0.0015 - 6.0 * pixel) {
     // Surface tension draws it together: a smooth border where there is enough of it, and a rim that stands up there.
     // Where a column carries little it has drained away.
     float least = kLeast * (0.8 + 0.9 * smoothstep(0.25, 0.70, 1.0 - streak)), soft = 0.35 * least, lower = stain;
