@@ -113,6 +113,7 @@ class GlBackend final : public CheckedBackend {
   void mark_tiles(const std::array<int, 4>& box);
   void pack_tiles();
   void wet_pass(const Frame& frame, const Layout& layout);
+  void mark_pool(GLsizei count);
   void mark_wet();
   void bind_tiles();
   void draw_tiles() const;

@@ -114,19 +114,36 @@ void GlBackend::sheet_pass(const Frame& frame, const Layout&) {
   if (frame.quality.detail > 1) m_wet_box = all;
   keep_bed();
   bind_sheet(liquid);
+  const auto count = GLsizei(liquid.triangles.size());
+  glDisable(GL_BLEND);
+  glDisable(GL_CULL_FACE);
+  glEnable(GL_STENCIL_TEST);
+  mark_pool(count);
   GlProgram& program = m_programs.get("sheet.vert", "sheet.frag", "DETAIL=" + std::to_string(frame.quality.detail));
   program.use();
   set_liquid(frame, program);
   program.set("u_view", m_view);
+  glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, nullptr);
+  glDisable(GL_STENCIL_TEST);
+  glDepthMask(GL_TRUE);
+}
+
+/// Only what shows of the sheet passes the tests of depth and stencil afterwards.
+void GlBackend::mark_pool(GLsizei count) {
+  GlProgram& program = m_programs.get("sheet.vert", "sheet_mark.frag");
+  program.use();
+  program.set("u_view", m_view);
+  program.set("u_projection", m_projection);
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_TRUE);
-  glDisable(GL_BLEND);
-  glDisable(GL_CULL_FACE);
-  glEnable(GL_STENCIL_TEST);
-  glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   glStencilFunc(GL_ALWAYS, kStencilPool, kStencilPool);
-  glDrawElements(GL_TRIANGLES, GLsizei(liquid.triangles.size()), GL_UNSIGNED_INT, nullptr);
-  glDisable(GL_STENCIL_TEST);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+  glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, nullptr);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glDepthMask(GL_FALSE);
+  glStencilFunc(GL_EQUAL, kStencilPool, kStencilPool);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
 }
 
 void GlBackend::bind_sheet(const Liquid& liquid) {
@@ -282,9 +299,7 @@ void GlBackend::bind_tiles() {
   glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(m_tile_rows.size() * sizeof(float)), m_tile_rows.data(), GL_STREAM_DRAW);
 }
 
-void GlBackend::draw_tiles() const {
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(m_tile_rows.size() / 4));
-}
+void GlBackend::draw_tiles() const { glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(m_tile_rows.size() / 4)); }
 
 void GlBackend::wet_pass(const Frame& frame, const Layout&) {
   keep_bed();

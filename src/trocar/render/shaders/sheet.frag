@@ -1,5 +1,5 @@
 // Liquid that has gathered: what lies below, bent and coloured by its depth, what is around in its mirror, the lamp, and
-// a border that climbs what it wets. Variants: DETAIL.
+// a border that climbs what it wets. Drawn where sheet_mark.frag was. Variants: DETAIL.
 #include "common.glsl"
 #include "liquid.glsl"
 in vec3 v_eye;
@@ -46,7 +46,6 @@ void main() {
   float inside = v_depth_cover.y - 0.333;
   vec2 cover_slope = vec2(dFdx(v_depth_cover.y), dFdy(v_depth_cover.y));
   vec3 ddx = dFdx(v_eye), ddy = dFdy(v_eye);
-  if (inside < 0.0) discard;
   float edge = clamp(inside / max(length(cover_slope), 1.0e-4), 0.0, 1.0);
   vec2 uv = gl_FragCoord.xy * u_size.zw;
   // Where it meets what stands in it, it runs out thin as well.
