@@ -35,6 +35,7 @@ const float kSheen = 0.007;        // of the lamp, where a film faces it; our ch
 const float kStands = 36.0;        // a film's slopes over those of what colours it; our choice, so that it glints
 const float kFurrow = 0.0016;      // [m] how far aside the ground's relief is looked up
 const float kFills = 1100.0;       // [1/m] more of a film where the ground is lower than around
+const vec2 kBeside = vec2(0.60, 0.35);  // where the lamp is beside the lens, for what is thin and round; our choice
 const float kRounded = 1.0e-3;     // of a distance, to which the picture rounds it
 const float kStep = 0.0015;        // [m] what differs by more is another thing's outline
 
@@ -65,17 +66,18 @@ void main() {
   vec3 way = normalize(vec3((2.0 * v_uv - 1.0) * u_tan.xy + vec2(u_tan.z, 0.0), -1.0)), V = -way;
   float pixel = -way.z * bed.a * 2.0 * u_tan.y * u_size.w;  // [m]
 
-  // Outlines on tissue wander as it does.
-  vec3 place = to_world(way * bed.a);
-  vec4 fine = texture(u_noise, place * 38.0);
-  vec2 wander = (fine.rg - 0.5) * (0.0008 / pixel) * u_size.zw;
   vec4 marked = texture(u_thickness, v_uv);
   float there = dot(marked.rgb, vec3(1.0));
   float flying = smoothstep(0.9, 1.6, marked.w / max(there, 1.0e-6));
+  // Outlines on tissue wander as it does.
+  vec3 place = to_world(way * (flying > 0.5 ? field.z / max(field.w, 1.0e-6) : bed.a));
+  vec4 fine = texture(u_noise, place * 38.0);
+  vec2 wander = (fine.rg - 0.5) * (0.0008 / pixel) * u_size.zw;
   vec2 uv = flying > 0.5 ? v_uv : v_uv + wander;
   field = texture(u_field, uv);
   vec4 thick = texture(u_thickness, uv) * 1.0e-3;
   float all = max(dot(thick.rgb, vec3(1.0)), 1.0e-9), mark = thick.w / all;
+  if (flying < 0.5 && mark > 1.6) thick = vec4(0.0);  // what flies past is no outline on tissue
   float far = field.z / max(field.w, 1.0e-6);
   vec3 eye = way * far;
   Lit lit = light_at(eye);
@@ -143,7 +145,7 @@ void main() {
     in_drop = inside(uv);
     slope = vec2(inside(uv + vec2(u_texel.x, 0.0)) - inside(uv - vec2(u_texel.x, 0.0)),
                  inside(uv + vec2(0.0, u_texel.y)) - inside(uv - vec2(0.0, u_texel.y))) * (0.5 / u_part);  // a pixel
-    float soft = clamp(0.7 * length(slope), 0.03, 0.3);
+    float soft = clamp(mix(0.7, 1.2, flying) * length(slope), 0.03, mix(0.3, 0.6, flying));
     cover = smoothstep(-soft, soft, in_drop);
   }
   float height = all / max(field.w, 1.0e-6);
@@ -170,14 +172,17 @@ void main() {
   // What flies is lit from all round.
   // What lies is dark and uneven, as its cells gather here and there.
   float lying = (0.27 + 0.22 * smoothstep(0.25, 0.75, 0.6 * fine.a + 0.4 * streak)) * (1.0 - flying);
-  vec3 deep = deep_colour(amount, dark) * (lying + 0.9 * flying) + vec3(0.0, 0.012, 0.017) * lying;
+  // One side of a column is towards the lamp beside the lens, the other is in its own shade.
+  float sunny = smoothstep(-0.9, 0.8, dot(n.xy, kBeside)) * (0.75 + 0.5 * smoothstep(0.3, 0.7, fine.a));
+  vec3 deep = deep_colour(amount, dark) * (lying + mix(0.36, 1.2, sunny) * flying) + vec3(0.0, 0.012, 0.017) * lying;
   vec3 colour = below * through + deep * light * (1.0 - through);
 
   // Wet: the lamp in drops, broken by the tissue's unevenness in films; the walls where seen at a grazing angle. What
   // flies wobbles: it glints here and there.
   float gloss = smoothstep(5.0e-6, 2.5e-5, stain) * (1.0 - cover) * (1.0 - flying);
-  float glints = mix(1.0, 1.6 * smoothstep(0.52, 0.66, fine.r), flying);
-  vec3 shine = vec3(glint) + cover * glints * highlight(n, V, lit, u_shine.y * (1.0 + 3.0 * flying));
+  float glints = mix(1.0, 1.4 * smoothstep(0.40, 0.62, fine.r), flying);
+  vec3 toward = normalize(n - vec3(0.7 * flying * kBeside, 0.0));
+  vec3 shine = vec3(glint) + cover * glints * highlight(toward, V, lit, u_shine.y * (1.0 + 5.0 * flying));
 #if DETAIL >= 1
   vec3 wrinkle = (fine.rgb * 2.0 - 1.0) * 0.50 + (texture(u_noise, place.zxy * 11.0).rgb * 2.0 - 1.0) * 0.50;
   // It lies as the ground does; across an outline as its splats do.
