@@ -32,7 +32,8 @@ const float kLost = 1.0e4;         // [1/m] of red that a film's cells turn asid
 const float kPatch = 0.25;         // of a film's thickness: where a column has drained
 const float kSheen = 0.007;        // of the lamp, where a film faces it; our choice, from frames of films
 
-const float kStands = 36.0;        // a film's slopes over those of what colours it; our choice, so that it glints
+const float kRim = 1.6;            // more of it at its border, where surface tension holds it
+const float kStands = 60.0;        // a film's slopes over those of what colours it; our choice, so that it glints
 const float kFurrow = 0.0016;      // [m] how far aside the ground's relief is looked up
 const float kFills = 1100.0;       // [1/m] more of a film where the ground is lower than around
 const vec2 kBeside = vec2(0.60, 0.35);  // where the lamp is beside the lens, for what is thin and round; our choice
@@ -106,7 +107,7 @@ void main() {
 #if DETAIL >= 1
     vec2 aside = kAside / pixel * u_size.zw;
     vec2 grows = vec2(film_at(film_uv + vec2(aside.x, 0.0)), film_at(film_uv + vec2(0.0, aside.y))) - stain;
-    soft = clamp(2.0 * length(grows) * pixel / kAside, 0.5 * least, 4.0 * least);
+    soft = clamp(2.0 * length(grows) * pixel / kAside, 0.4 * least, 2.0 * least);
     lower = film_at(film_uv + fall.xy * 1.6 * aside);
     // Narrow gaps have closed.
     float closed = 0.25 * (4.0 * stain + grows.x + grows.y + lower - stain);
@@ -126,6 +127,7 @@ void main() {
     ground = relief(bed.a, pixel, around_it);
     film *= clamp(1.0 + kFills * ground.x, 0.55, 1.8);
 #endif
+    film *= 1.0 + kRim * rim;
     film *= wet * drained * mix(level, 1.0, 0.15) * mix(kPatch, 1.15, column);
 #if DETAIL >= 1
     // It stands up at its borders, and is level within.
@@ -188,7 +190,7 @@ void main() {
   // It lies as the ground does; across an outline as its splats do.
   vec3 lies = dot(ground.yz, ground.yz) > 0.0 ? normalize(base + normalize(vec3(ground.yz, 1.0))) : base;
   vec3 m = normalize(lies + vec3(dot(wrinkle, u_right), dot(wrinkle, u_up), 0.0) - film_rise);
-  shine += gloss * (min(highlight(m, V, lit, 1.6 * u_shine.z), LIGHT_COLOUR * (1.1 * lit.power)) + 0.15 * highlight(m, V, lit, 0.03));
+  shine += gloss * (min(highlight(m, V, lit, 3.0 * u_shine.z), LIGHT_COLOUR * (1.1 * lit.power)) + 0.15 * highlight(m, V, lit, 0.03));
   // Its waves are finer than a pixel: a soft sheen wherever it is turned to the lamp, which pales its red.
   float turned = clamp(dot(m, normalize(lit.direction + V)), 0.0, 1.0);
   shine += LIGHT_COLOUR * (kSheen * gloss * lit.power * lobe(turned, 0.35));
