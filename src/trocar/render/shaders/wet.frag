@@ -15,10 +15,10 @@ float inside(vec2 uv) { return inside_of(texture(u_field, uv).w); }
 /// Films run: where a place squeezed along the fall is noisy, all of a column lies lower or higher, so that a film's
 /// lower edge is drawn out into fingers, and what ran apart merges.
 /// @param fall  down along the surface, eye space, shorter where it is level
-vec2 run_off(vec3 place, vec3 fall, float pixel, out float streak) {
+/// @param column  noise drawn out along the fall
+vec2 run_off(vec3 place, vec3 fall, float pixel, out vec4 column) {
   vec3 squeezed = place - u_down * (0.88 * dot(u_down, place));
-  vec4 column = texture(u_noise, squeezed * 36.0);
-  streak = mix(column.a, column.b, 0.35);
+  column = texture(u_noise, squeezed * 36.0);
   return fall.xy * ((0.0040 * (column.a - 0.5) + 0.0010 * (column.g - 0.5)) / pixel) * u_size.zw;
 }
 
@@ -29,7 +29,7 @@ const float kLevel = 3.0e-5;       // [m] at which it levels
 const float kThroughTissue = 4.5;  // light that tissue scatters crosses the film on it more than twice
 
 const float kLost = 1.0e4;         // [1/m] of red that a film's cells turn aside into tissue, where it ends; our choice
-const float kPatch = 0.25;         // of a film's thickness: where a column has drained
+const float kPatch = 0.18;         // of a film's thickness: where a column has drained
 const float kSheen = 0.007;        // of the lamp, where a film faces it; our choice, from frames of films
 
 const float kRim = 1.6;            // more of it at its border, where surface tension holds it
@@ -91,7 +91,9 @@ void main() {
   vec3 fall = down - base * dot(down, base);
   float streak = 0.5;
 #if DETAIL >= 1
-  vec2 film_uv = uv + (1.0 - flying) * run_off(place, fall, pixel, streak);
+  vec4 column;
+  vec2 film_uv = uv + (1.0 - flying) * run_off(place, fall, pixel, column);
+  streak = mix(column.a, column.b, 0.35);
 #else
   vec2 film_uv = uv;
   streak = 0.25 + 0.5 * fine.a;
@@ -121,14 +123,14 @@ void main() {
     float drained = edge > 0.0 ? 1.0 + 0.8 * edge * edge : 1.0 + 0.75 * edge;
     // What several drops brought runs together: a film is no map of where they fell.
     float level = kLevel * (1.0 - exp(-stain / kLevel)) / stain;
-    float column = smoothstep(0.30, 0.70, 0.8 * streak + 0.2 * fine.a);
+    float full = smoothstep(0.32, 0.66, 0.8 * streak + 0.2 * fine.a);
 #if DETAIL >= 1
     // It gathers in furrows and runs off what stands out.
     ground = relief(bed.a, pixel, around_it);
     film *= clamp(1.0 + kFills * ground.x, 0.55, 1.8);
 #endif
     film *= 1.0 + kRim * rim;
-    film *= wet * drained * mix(level, 1.0, 0.15) * mix(kPatch, 1.15, column);
+    film *= wet * drained * mix(level, 1.0, 0.15) * mix(kPatch, 1.2, full);
 #if DETAIL >= 1
     // It stands up at its borders, and is level within.
     float stands = kStands / kAside * exp(-0.8 * stain / kLevel);
@@ -186,7 +188,7 @@ void main() {
   vec3 toward = normalize(n - vec3(0.7 * flying * kBeside, 0.0));
   vec3 shine = vec3(glint) + cover * glints * highlight(toward, V, lit, u_shine.y * (1.0 + 5.0 * flying));
 #if DETAIL >= 1
-  vec3 wrinkle = (fine.rgb * 2.0 - 1.0) * 0.50 + (texture(u_noise, place.zxy * 11.0).rgb * 2.0 - 1.0) * 0.50;
+  vec3 wrinkle = (fine.rgb * 2.0 - 1.0) * 0.35 + (column.rgb * 2.0 - 1.0) * 0.75;  // its ridges run down
   // It lies as the ground does; across an outline as its splats do.
   vec3 lies = dot(ground.yz, ground.yz) > 0.0 ? normalize(base + normalize(vec3(ground.yz, 1.0))) : base;
   vec3 m = normalize(lies + vec3(dot(wrinkle, u_right), dot(wrinkle, u_up), 0.0) - film_rise);
