@@ -85,6 +85,8 @@ TEST_F(GlBackend, EveryShaderVariantCompilesAndLinks) {
   }
   for (const char* extra : {"", "SAMPLED"}) EXPECT_NO_THROW(programs.get("shade.vert", "shade.frag", extra));
   EXPECT_NO_THROW(programs.get("splat.vert", "splat.frag"));
+  EXPECT_NO_THROW(programs.get("tile.vert", "wet_mark.frag"));
+  EXPECT_NO_THROW(programs.get("sheet.vert", "sheet_mark.frag"));
   EXPECT_NO_THROW(programs.get("full.vert", "shrink.frag", "SPREAD=1.0"));
   EXPECT_NO_THROW(programs.get("full.vert", "meter.frag"));
   EXPECT_NO_THROW(programs.get("mask.vert", "mask.frag"));

@@ -245,6 +245,31 @@ TEST(FluidDrawing, SprayIsFaintAndThin) {
   EXPECT_GT(thin, streaks / 2);
 }
 
+TEST(FluidDrawing, ThreadsComeOffAJetOnItsWayOnlyAndFanOut) {
+  Scene scene;
+  scene.spurt(90);
+  const render::Frame frame = scene.listed();
+  const Vec3f hole{0, 0, 0.02f};
+  // How far from every rod of the column.
+  const auto aside = [&](const render::Splat& s) {
+    float least = 1;
+    for (const render::Splat& rod : frame.liquid.splats)
+      if (rod.kind == render::SplatKind::flying) least = std::min(least, to_axis(0.5f * (s.from + s.to), rod));
+    return least;
+  };
+  float near = 0, far = 0;
+  int at_hole = 0;
+  for (const render::Splat& s : frame.liquid.splats) {
+    if (s.kind != render::SplatKind::streak) continue;
+    const float way = length(0.5f * (s.from + s.to) - hole);
+    at_hole += way < 0.004f;
+    if (way < 0.015f) near = std::max(near, aside(s));
+    if (way > 0.025f && way < 0.045f) far = std::max(far, aside(s));
+  }
+  EXPECT_EQ(at_hole, 0);
+  EXPECT_GT(far, near);
+}
+
 TEST(FluidDrawing, ARivuletRunsDownFromAWoundAndHangsBelow) {
   // A rod of 3 mm along y; the hole is on its side, towards +x and up.
   constexpr float kRadius = 0.003f;

@@ -285,6 +285,26 @@ TEST(Adhesions, TaperBetweenTwoFeetThatLieInWhatTheyHangOn) {
   }
 }
 
+TEST(Adhesions, AreWebsWithoutAnOutlineOrAnEnd) {
+  const auto backend = render::make_null_backend();
+  const std::vector<OrganDrawing> organs = drawn_organs(*backend);
+  const Adhesions adhesions(organs, pelvis(), walls(), {}, *backend);
+  constexpr std::size_t kRow = Adhesions::kAcross, kVeil = kRow * Adhesions::kAlong;
+  const std::vector<Paint>& paint = adhesions.buffer().paint;
+  int sheer = 0, dense = 0;
+  for (std::size_t v = 0; v < paint.size(); ++v) {
+    const std::size_t i = v % kVeil / kRow, j = v % kRow;
+    if (i == 0 || i + 1 == Adhesions::kAlong) {
+      EXPECT_LT(paint[v].openness, 6) << "a foot";  // surface.frag: nothing below 2 %
+    } else if (j > 1 && j + 2 < kRow && i > Adhesions::kAlong / 3 && i < 2 * Adhesions::kAlong / 3) {
+      sheer += paint[v].openness < 50;
+      dense += paint[v].openness > 85;
+    }
+  }
+  EXPECT_GT(sheer, dense) << "more of it is gaps than strands";
+  EXPECT_GT(dense, sheer / 20);
+}
+
 TEST(Adhesions, HangBetweenAnOrganAndTheWallAndFollowTheOrgan) {
   const auto backend = render::make_null_backend();
   std::vector<OrganDrawing> organs = drawn_organs(*backend);

@@ -45,7 +45,8 @@ class GlBackend final : public CheckedBackend {
 
  private:
   static constexpr int kEyes = 8;
-  static constexpr GLint kStencilMetal = 1, kStencilPool = 2;  // bits of the scene's stencil: what shows there
+  // Bits of the scene's stencil: what shows there.
+  static constexpr GLint kStencilMetal = 1, kStencilPool = 2, kStencilWet = 4;
 
   void on_store(std::uint32_t id, const MeshArrays& mesh) override { m_meshes.store(id, mesh); }
   void on_update(std::uint32_t id, std::span<const Vec3f> positions, std::span<const Vec3f> normals,
@@ -112,6 +113,10 @@ class GlBackend final : public CheckedBackend {
   void mark_tiles(const std::array<int, 4>& box);
   void pack_tiles();
   void wet_pass(const Frame& frame, const Layout& layout);
+  void mark_pool(GLsizei count);
+  void mark_wet();
+  void bind_tiles();
+  void draw_tiles() const;
   void set_liquid(const Frame& frame, GlProgram& program);
   /// Marches through the smoke at a fifth of the scene's size or less.
   void smoke_pass(const Frame& frame);

@@ -114,19 +114,36 @@ void GlBackend::sheet_pass(const Frame& frame, const Layout&) {
   if (frame.quality.detail > 1) m_wet_box = all;
   keep_bed();
   bind_sheet(liquid);
+  const auto count = GLsizei(liquid.triangles.size());
+  glDisable(GL_BLEND);
+  glDisable(GL_CULL_FACE);
+  glEnable(GL_STENCIL_TEST);
+  mark_pool(count);
   GlProgram& program = m_programs.get("sheet.vert", "sheet.frag", "DETAIL=" + std::to_string(frame.quality.detail));
   program.use();
   set_liquid(frame, program);
   program.set("u_view", m_view);
+  glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, nullptr);
+  glDisable(GL_STENCIL_TEST);
+  glDepthMask(GL_TRUE);
+}
+
+/// Only what shows of the sheet passes the tests of depth and stencil afterwards.
+void GlBackend::mark_pool(GLsizei count) {
+  GlProgram& program = m_programs.get("sheet.vert", "sheet_mark.frag");
+  program.use();
+  program.set("u_view", m_view);
+  program.set("u_projection", m_projection);
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_TRUE);
-  glDisable(GL_BLEND);
-  glDisable(GL_CULL_FACE);
-  glEnable(GL_STENCIL_TEST);
-  glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   glStencilFunc(GL_ALWAYS, kStencilPool, kStencilPool);
-  glDrawElements(GL_TRIANGLES, GLsizei(liquid.triangles.size()), GL_UNSIGNED_INT, nullptr);
-  glDisable(GL_STENCIL_TEST);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+  glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, nullptr);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glDepthMask(GL_FALSE);
+  glStencilFunc(GL_EQUAL, kStencilPool, kStencilPool);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
 }
 
 void GlBackend::bind_sheet(const Liquid& liquid) {
@@ -254,18 +271,22 @@ void GlBackend::bind_splats() {
 
 GLsizei GlBackend::splat_count() const { return GLsizei(m_splat_rows.size() / kSplatFloats); }
 
-void GlBackend::wet_pass(const Frame& frame, const Layout&) {
-  keep_bed();
-  GlProgram& program = m_programs.get("tile.vert", "wet.frag", "DETAIL=" + std::to_string(frame.quality.detail));
+/// Only pixels that liquid reaches pass the stencil's test afterwards.
+void GlBackend::mark_wet() {
+  GlProgram& program = m_programs.get("tile.vert", "wet_mark.frag");
   program.use();
-  set_liquid(frame, program);
-  const char* names[3] = {"u_field", "u_thickness", "u_film"};
-  for (int k = 0; k < 3; ++k) {
-    program.set(names[k], kUnitWet + k);
-    bind_texture(kUnitWet + k, GL_TEXTURE_2D, m_wet[std::size_t(k)].colour.id());
-  }
-  program.set("u_part", float(wet_part(frame.quality)));
-  program.set("u_texel", 1.0f / float(m_wet[0].width), 1.0f / float(m_wet[0].height));
+  program.set("u_field", kUnitWet);
+  glEnable(GL_STENCIL_TEST);
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  glStencilFunc(GL_ALWAYS, kStencilWet, kStencilWet);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+  draw_tiles();
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glStencilFunc(GL_EQUAL, kStencilWet, kStencilWet);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);  // what writes nothing is tested before it is shaded
+}
+
+void GlBackend::bind_tiles() {
   if (!m_tile_buffer) {
     m_tile_layout = new_vertex_array();
     m_tile_buffer = new_buffer();
@@ -276,7 +297,24 @@ void GlBackend::wet_pass(const Frame& frame, const Layout&) {
   glBindVertexArray(m_tile_layout.id());
   glBindBuffer(GL_ARRAY_BUFFER, m_tile_buffer.id());
   glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(m_tile_rows.size() * sizeof(float)), m_tile_rows.data(), GL_STREAM_DRAW);
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(m_tile_rows.size() / 4));
+}
+
+void GlBackend::draw_tiles() const { glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(m_tile_rows.size() / 4)); }
+
+void GlBackend::wet_pass(const Frame& frame, const Layout&) {
+  keep_bed();
+  bind_tiles();
+  for (int k = 0; k < 3; ++k) bind_texture(kUnitWet + k, GL_TEXTURE_2D, m_wet[std::size_t(k)].colour.id());
+  mark_wet();
+  GlProgram& program = m_programs.get("tile.vert", "wet.frag", "DETAIL=" + std::to_string(frame.quality.detail));
+  program.use();
+  set_liquid(frame, program);
+  const char* names[3] = {"u_field", "u_thickness", "u_film"};
+  for (int k = 0; k < 3; ++k) program.set(names[k], kUnitWet + k);
+  program.set("u_part", float(wet_part(frame.quality)));
+  program.set("u_texel", 1.0f / float(m_wet[0].width), 1.0f / float(m_wet[0].height));
+  draw_tiles();
+  glDisable(GL_STENCIL_TEST);
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_TRUE);
 }

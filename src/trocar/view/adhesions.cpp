@@ -15,9 +15,14 @@ constexpr double kClear = 0.7;                        // sine: ... so flat over 
 constexpr float kAim = 0.014f;                        // [m] outwards and up: what lies there is aimed at
 constexpr float kApart = 0.014f;                      // [m] between two
 constexpr float kSunk = 0.0012f;                      // [m] both ends, in what they hang on
-constexpr double kFoot = 0.24;                        // of the length: there it is lost in what it hangs on ...
-constexpr double kFimbriae = 0.014;                   // [m] so long
-constexpr double kTongue = 0.3;                       // ... and so much earlier at its sides: no foot is square
+constexpr double kFoot = 0.30;                        // of the length: there it is lost in what it hangs on ...
+// Our choice, from the look of adhesions in endoscopic films.
+constexpr double kWhole = 0.42;      // openness from which the material's opacity counts in full (surface.frag)
+constexpr double kSheer = 0.34;      // of that, between strands
+constexpr double kFrayed = 0.16;     // of half the width
+constexpr double kCord = 0.84;       // of half the width: where a border is rolled up
+constexpr double kFimbriae = 0.014;  // [m] so long
+constexpr double kTongue = 0.3;      // ... and so much earlier at its sides: no foot is square
 
 std::size_t nearest_vertex(Vec3f p, std::span<const Vec3f> points) {
   std::size_t best = 0;
@@ -31,18 +36,23 @@ WallSurface::Place nearest_on(const MeshBuffer& shape, Vec3d p) {
   return {vec_cast<double>(shape.positions[v]), vec_cast<double>(shape.normals[v]), true};
 }
 
-/// Sheer, with strands that run along it, some of them in its free borders; gone in its feet.
+/// Hardly there between strands that run along it, some of them rolled up at its free borders, with gaps; frayed at
+/// its borders and gone in its feet.
 /// @param u along @param v across, -1 .. 1 @param waist see Veil
 Paint paint_at(double u, double v, double waist, int seed) {
-  const double end = std::min(u, 1 - u), border = std::fabs(v);
+  const double end = std::min(u, 1 - u), border = std::fabs(v), side = v > 0 ? 1 : -1;
   const double ragged = 0.35 * std::sin(7 * v + 3) + 0.65, sides = kTongue * border * border * ragged;
-  const double foot = smooth(0.4 * sides, kFoot + sides, end), soft = smooth(1.04, 0.86, border);
+  const double foot = smooth(0.3 * sides, kFoot + sides, end);
+  const double frayed = border + kFrayed * std::sin(11 * u + seed + 2 * side) * std::sin(23 * u + 1.3 * seed);
+  const double soft = smooth(1.0, 0.7, frayed);
   const double across = v + 0.12 * std::sin(5 * u + seed);
-  const double strands = smooth(0.3, 1, std::sin(9 * across + 1.7 * seed) * std::sin(5.3 * across + 0.9 * seed));
-  const double edge = 0.5 * smooth(0.7, 0.92, border) * (0.4 + 0.6 * varied(seed, v > 0 ? 11 : 12));
+  const double strands = smooth(0.2, 0.9, std::sin(9 * across + 1.7 * seed) * std::sin(5.3 * across + 0.9 * seed));
+  const double cord = smooth(0.22, 0.06, std::fabs(frayed - kCord)) * (0.3 + 0.7 * varied(seed, v > 0 ? 11 : 12));
+  const double torn = smooth(-0.2, 0.7, std::sin(6 * u + 4 * v + seed) + std::sin(13 * v - 3 * u + 2 * seed));
   const double narrow = smooth(0.4, 0.12, waist);  // a string is denser
-  const double dense = std::max({0.34 * strands, edge * soft, 0.25 * narrow * (1 - 0.6 * border)});
-  return {to_byte(0.6 * foot * (0.25 + 0.75 * soft)), 0, 0, to_byte(0.08 + smooth(0.06, 0.4, end) * dense)};
+  const double web = std::max({kSheer * torn, 0.85 * strands, cord, 0.7 * narrow * (1 - 0.6 * border)});
+  const double dense = std::max({0.30 * strands, 0.42 * cord, 0.25 * narrow * (1 - 0.6 * border)});
+  return {to_byte(kWhole * foot * soft * web), 0, 0, to_byte(smooth(0.06, 0.4, end) * soft * dense)};
 }
 
 }  // namespace

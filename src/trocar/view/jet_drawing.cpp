@@ -16,38 +16,46 @@ using render::SplatKind;
 constexpr float kColumn = 1 / 1.89f;  // of a drop's radius: that of the column that makes it
 constexpr float kGrowth = 0.34f;      // the fastest wave's rate, times sqrt(rho a^3 / sigma)
 // Our choice, all of the rest: from the look of spurts in endoscopic films.
-constexpr float kSoonest = 3.6f, kLatest = 6.6f;  // a neck closes after so many times of growth
+constexpr float kSoonest = 2.6f, kLatest = 6.0f;  // a neck closes after so many times of growth
 constexpr float kSecondNeck = 0.25f;              // share of beads that tear in two ...
 constexpr float kLater = 1.3f;                    // ... so many times of growth later
-constexpr float kAnywhere = 0.22f;                // in beads: how far a neck is from the middle between two
+constexpr float kHangTogether = 0.4f;             // share of beads that never part from the next: ligaments
+constexpr float kAnywhere = 0.40f;                // in beads: how far a neck is from the middle between two
 constexpr float kBulge = 0.25f;                   // in column radii: what necks lose, middles win
 constexpr float kDrawsIn = 0.15f;                 // of its length: a bead that has come off becomes rounder
 constexpr float kBall = 1.05f;                    // in column radii: such a bead's half width, before it is torn
-constexpr float kTorn = 0.2f;                     // of that: what most lose to drops too small to show
-constexpr int kMostRods = 9;                      // that a bead is drawn as
+constexpr float kTorn = 0.3f;                     // of that: what most lose to drops too small to show
+constexpr int kMostRods = 14;                     // that a bead is drawn as
 constexpr float kThinnest = 0.14f;                // in column radii: of threads that show
-constexpr float kRagged = 0.10f;                  // of a column's radius
+constexpr float kRagged = 0.22f;                  // of a column's radius
+constexpr float kPulse = 0.22f;                   // of a column's radius: it does not leave evenly
 constexpr float kUsual = 1.5f;                    // [m/s] pressure that drives blood quicker widens its hole
 constexpr float kSprayed = 0.45f;                 // share of a jet's radius that spray takes, far off
 constexpr float kFar = 0.035f;                    // [m]
 constexpr float kShutter = 4.0e-3f;               // [s] a camera's: what flies is a streak
 constexpr float kGreen = 18e-6f;                  // [m] of blood lets 1/e of green light through, there and back
-constexpr float kWag = 0.05f;                     // how far a jet strays aside, a share of its way ...
+constexpr float kWag = 0.10f;                     // how far a jet strays aside, a share of its way ...
 constexpr float kLongestWag = 0.045f;             // [m] ... up to here: drops land where the simulation says
 constexpr float kWavers = 0.025f;                 // [m] ... of which it wavers as much as it will
 constexpr float kBeadStrays = 0.08f;              // of a jet's speed
 constexpr float kSprayStrays = 0.16f;
 constexpr int kMostSpray = 4;                                  // drops from a neck
 constexpr float kThinSpray = 0.05e-3f, kWideSpray = 0.25e-3f;  // [m] radius
+constexpr float kFirstThread = 0.005f;                         // [m] a column goes so far before threads come off it
+constexpr float kThickThread = 0.34e-3f;                       // [m] radius
+constexpr float kFan = 0.10f;                                  // how far threads are aside, a share of their way
+constexpr int kMostThreads = 5;                                // from a drop of the simulation
 constexpr float kRainDrop = 0.66e-3f;  // [m] radius: what has joined to larger drops is drawn as several
 constexpr int kMostRain = 9;
-constexpr float kRainShows = 0.45f;   // of their radius: the rest are drops too small to show
-constexpr float kRainSpread = 4.0f;   // in radii of the large one
-constexpr float kRoot = 0.4e-3f;      // [m] above its hole a jet begins: round, below it is the pit
-constexpr float kFreshJet = 0.006f;   // [m] blood that has come less far shows where its hole is
-constexpr float kLongestLink = 9.0f;  // in radii: drops hang together up to here
-constexpr float kRod = 1.5f;          // in radii: about how long one is
-constexpr float kStep = 1.1f;         // in radii: rods with such gaps, round ends left out, make one (splat.frag)
+constexpr float kRainShows = 0.45f;        // of their radius: the rest are drops too small to show
+constexpr float kRainSpread = 4.0f;        // in radii of the large one
+constexpr float kFootThick = 180e-6f;      // [m] of the pool it wells up from
+constexpr float kThinnestFoot = 0.25e-3f;  // [m]
+constexpr float kRoot = 0.4e-3f;           // [m] above its hole a jet begins: round, below it is the pit
+constexpr float kFreshJet = 0.006f;        // [m] blood that has come less far shows where its hole is
+constexpr float kLongestLink = 9.0f;       // in radii: drops hang together up to here
+constexpr float kRod = 1.5f;               // in radii: about how long one is
+constexpr float kStep = 1.1f;              // in radii: rods with such gaps, round ends left out, make one (splat.frag)
 
 /// How far a jet's blood has come since it left its vessel [m]; 0 of other fluids, which do not know it and hang
 /// together better.
@@ -71,6 +79,12 @@ Vec3f wag(Vec3f along, std::uint32_t id, float way) {
   const float k = float(id % 65536), wavers = 0.6f * std::min(way / kWavers, 1.0f);
   return beside(along, kWag * (0.5f * std::sin(0.017f * k) + wavers * std::sin(0.33f * k + 1)),
                 kWag * (0.5f * std::sin(0.013f * k + 2) + wavers * std::sin(0.27f * k)));
+}
+
+/// -1 .. 1: waves of unequal length that go along with the blood.
+float pulse(std::uint32_t id) {
+  const float k = float(id % 65536);
+  return 0.5f * std::sin(0.71f * k) + 0.5f * std::sin(0.29f * k + 2);
 }
 
 /// Where a piece strays, as a share of its speed along `along`.
@@ -135,6 +149,7 @@ class Strand {
   void find_necks();
   void list_bead(const Neck& a, const Neck& b, Liquid& liquid) const;
   void list_spray(const Neck& neck, Liquid& liquid) const;
+  void list_threads(const Node& n, Liquid& liquid) const;
 
   std::vector<Node> m_nodes;
   std::vector<Neck> m_necks;
@@ -163,6 +178,7 @@ void Strand::even_out() {
     n.radius = std::min(radius[std::size_t(i)], most);
     if (n.way > 0) {
       n.radius *= std::clamp(length(n.velocity) / kUsual, 0.8f, 1.2f);
+      n.radius *= 1 + kPulse * pulse(n.id) * std::min(n.way / kWavers, 1.0f);
       n.radius *= 1 - kSprayed * float(smooth(0, double(kFar), double(n.way)));
     } else {
       // Other fluids: as far as it is drawn out.
@@ -188,7 +204,7 @@ void Strand::find_necks() {
     const float closes = kSoonest + (kLatest - kSoonest) * mine(43);
     if (mine(44) < kSecondNeck && n.way > 0)
       m_necks.push_back({float(k) + 0.2f * own(n.id, 45), n.grown - closes - kLater, n.id + 0x10000});
-    if (k + 1 < m_nodes.size())
+    if (k + 1 < m_nodes.size() && !(mine(47) < kHangTogether && n.way > 0))
       m_necks.push_back({float(k) + 0.5f + kAnywhere * own(n.id, 46), n.grown - closes, n.id});
   }
   m_necks.push_back(end(float(m_nodes.size()) - 0.5f, 42));
@@ -282,9 +298,43 @@ void Strand::list_spray(const Neck& neck, Liquid& liquid) const {
   }
 }
 
+/// What the air tears off a column's sides: thin threads along the flight, more and farther out on the way.
+void Strand::list_threads(const Node& n, Liquid& liquid) const {
+  const double torn = smooth(double(kFirstThread), double(kFar), double(n.way));
+  const int count = int(float(kMostThreads) * float(torn) + float(varied(int(n.id & 0xffffff), 160)));
+  const Vec3f along = normalised(n.velocity, Vec3f{0, 0, 1});
+  for (int k = 0; k < count && torn > 0; ++k) {
+    const float size = float(varied(int(n.id & 0xffffff), 170 + k));
+    const float r = kThinSpray + (kThickThread - kThinSpray) * size * size;
+    const Vec3f side = strays(along, n.id, 180 + 4 * k);
+    const float out = 0.9f * n.radius + kFan * std::min(n.way, kLongestWag) * (1 - 0.7f * size);
+    liquid.splats.push_back(
+        streak(n, n.place + out * side, n.velocity + (kFan * length(n.velocity)) * side, r, 14 * r));
+  }
+}
+
 void Strand::list(Liquid& liquid) const {
+  for (const Node& n : m_nodes)
+    if (n.way > 0) list_threads(n, liquid);
   for (std::size_t k = 0; k + 1 < m_necks.size(); ++k) list_bead(m_necks[k], m_necks[k + 1], liquid);
   for (std::size_t k = 1; k + 1 < m_necks.size(); ++k) list_spray(m_necks[k], liquid);
+}
+
+/// A jet wells up out of a small pool around its hole, deepest there, drawn out down the tissue.
+void list_foot(const Node& n, const FilmPlace& hole, Vec3f down, Liquid& liquid) {
+  const Vec3f fall = down - dot(down, hole.normal) * hole.normal;
+  const float wide = std::max(n.radius, kThinnestFoot);
+  constexpr float kPatches[][2] = {{0, 2.4f}, {2.2f, 2.0f}, {4.4f, 1.5f}};  // in column radii: lower; radius
+  for (const auto& [lower, radius] : kPatches) {
+    Splat s;
+    s.kind = SplatKind::film;
+    s.from = s.to = hole.position + (lower * wide) * fall;
+    s.from -= (0.8f * wide) * fall;
+    s.normal = hole.normal;
+    s.radius = radius * wide, s.height = kFootThick / (1 + 0.5f * lower);
+    s.share = n.share, s.dark = n.dark;
+    liquid.splats.push_back(s);
+  }
 }
 
 /// A drop on its own; what has joined to a large one is several, some of them small.
@@ -368,7 +418,9 @@ void JetDrawing::list_holes(const FluidSight& sight, Vec3f eye, Liquid& liquid) 
     wound.down = liquid.down;
     wound.share = shares_of(d.volume[k]);
     wound.dark = darkness(now, d.blood[k], wound.share);
-    list_wound(wound, sight.surface ? sight.surface(facing) : facing, sight.surface, liquid);
+    const FilmPlace place = sight.surface ? sight.surface(facing) : facing;
+    list_wound(wound, place, sight.surface, liquid);
+    list_foot(node_of(m_model->droplets, d, drop.at), place, liquid.down, liquid);
   }
 }
 

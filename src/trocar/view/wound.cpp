@@ -85,7 +85,7 @@ void list_wound(const Wound& wound, const FilmPlace& hole, const SurfaceNear& su
   for (int n = 0; n < kSmears; ++n) patch(kWelling + n, 2.6e-3f, 1.0e-3f, 0.95e-3f, 9e-6f);
   render::Splat pit = film(wound, hole, kPit, kPitThick);
   pit.from -= (0.5f * kPit) * one, pit.to += (0.5f * kPit) * one;
-  pit.dark = 0.7f;
+  pit.dark = 0.35f;
   liquid.splats.push_back(pit);
   list_rivulet(wound, hole, surface, liquid);
   FilmPlace other_side = hole;

@@ -1,5 +1,5 @@
 // Liquid that has gathered: what lies below, bent and coloured by its depth, what is around in its mirror, the lamp, and
-// a border that climbs what it wets. Variants: DETAIL.
+// a border that climbs what it wets. Drawn where sheet_mark.frag was. Variants: DETAIL.
 #include "common.glsl"
 #include "liquid.glsl"
 in vec3 v_eye;
@@ -14,19 +14,22 @@ const float kBorder = 5.0e-5;     // [m] of it at its very border, where it clim
 const vec3 kPoolSends = vec3(2.1, 1.2, 1.3);  // of blood's colour, more from a pool than through a drop; our choice
 const float kFlecks = 1.6;                    // of the lamp; our choice
 // [1/m] where along and across both of them are in the noise: long waves, and ripples that break their light
-const mat2 kWaves = mat2(15.0, -12.0, 13.0, 52.0), kRipples = mat2(47.0, 30.0, -80.0, 118.0);
+const mat2 kWaves = mat2(15.0, -12.0, 12.0, 30.0), kRipples = mat2(47.0, 30.0, -52.0, 74.0);
+const float kDeep = 0.007, kDarkens = 0.22;   // [m] at which it is darker by so much; our choice
+const float kBlurred = 0.5;                   // share of a step that a mirrored ray is stepped farther or less far
 const float kDull = 0.06;                     // what is darker than this does not show in blood's mirror; our choice
 
 /// What the sheet mirrors: what the picture shows along the ray, near and far, as far as it lies there. Nothing is
 /// searched for, so no outline of a search can show.
-vec3 mirrored(vec3 r, float bounce) {
+/// @param grain  0 .. 1, a pixel's own: what is mirrored is blurred by ripples finer than that
+vec3 mirrored(vec3 r, float bounce, float grain) {
   // Beyond the picture: the front wall, brighter where the lamp grazes it.
   vec3 walls = (vec3(0.24, 0.060, 0.052) + BOUNCE) * (0.45 * bounce);
 #if DETAIL < 2
   return walls;
 #else
   vec3 seen = vec3(0.0);
-  float found = 0.25, reach = 0.0035;  // [m]
+  float found = 0.25, reach = 0.0035 * (1.0 + kBlurred * (grain - 0.5));  // [m]
   seen = 0.25 * walls;
   for (int i = 0; i < 6; ++i) {
     vec3 p = v_eye + reach * r;
@@ -34,7 +37,7 @@ vec3 mirrored(vec3 r, float bounce) {
     vec4 there = texture(u_bed, at);
     float off = (there.a - length(p)) / reach;
     float weight = edge.x * edge.y * smoothstep(0.002, 0.012, -p.z) / (1.0 + off * off * off * off);
-    seen += weight * min(there.rgb, vec3(0.90, 0.66, 0.62));
+    seen += weight * min(there.rgb, vec3(0.60, 0.44, 0.41));
     found += weight;
     reach *= 1.8;
   }
@@ -46,7 +49,6 @@ void main() {
   float inside = v_depth_cover.y - 0.333;
   vec2 cover_slope = vec2(dFdx(v_depth_cover.y), dFdy(v_depth_cover.y));
   vec3 ddx = dFdx(v_eye), ddy = dFdy(v_eye);
-  if (inside < 0.0) discard;
   float edge = clamp(inside / max(length(cover_slope), 1.0e-4), 0.0, 1.0);
   vec2 uv = gl_FragCoord.xy * u_size.zw;
   // Where it meets what stands in it, it runs out thin as well.
@@ -109,7 +111,8 @@ void main() {
   float facing = clamp(0.1 + 0.9 * dot(mix(n, level, 0.7 * share.x), lit.direction), 0.0, 1.0);
   vec3 light = LIGHT_COLOUR * (lit.power * facing) + (BOUNCE + vec3(AMBIENT)) * lit.bounce;
   float bent = smoothstep(0.0, 0.25, rim);
-  vec3 deep = deep_colour(amount, v_mix.w) * (0.9 + 0.4 * smoothstep(0.25, 0.8, slow.a));
+  vec3 deep = deep_colour(amount, v_mix.w) * (0.78 + 0.5 * smoothstep(0.25, 0.8, slow.a));
+  deep *= 1.0 - kDarkens * smoothstep(0.0, kDeep, depth);
   deep *= mix(vec3(1.0), kPoolSends * (1.0 - 0.45 * bent), share.x);
   vec3 colour = bed * through + deep * light * (1.0 - through);
 #if DETAIL >= 1
@@ -118,10 +121,14 @@ void main() {
 #endif
 
   // More than [Schlick 94] says: it is what tells liquid from paint (our choice).
-  float share_back = min(mix(4.0, 6.0, share.x) * mirror_share(nv) + 0.01, 0.5);
+  float share_back = min(mix(4.0, 8.0, share.x) * mirror_share(nv) + 0.01, 0.5);
   share_back *= 1.0 - 0.7 * rim;
   vec3 r = reflect(-V, n);
-  vec3 mirror = mirrored(r, lit.bounce);
+  float grain = fract(52.983 * fract(dot(gl_FragCoord.xy, vec2(0.06711, 0.00584))));
+  vec3 mirror = mirrored(r, lit.bounce, grain);
+  vec2 other = 0.5 - mod(floor(gl_FragCoord.xy), 2.0);  // the mean of four pixels, each with its own steps
+  mirror += other.x * dFdx(mirror);
+  mirror += other.y * dFdy(mirror);
   mirror *= mix(vec3(1.0), mirror / (mirror + kDull), share.x);
   colour = mix(colour, mirror, share_back);
   // The rim is a bent mirror all along: its line of light is thin, and broken.
@@ -136,7 +143,7 @@ void main() {
   float toward = smoothstep(0.10, 0.40, lobe(turned, 0.16));
   float wave = texture(u_noise, vec3(kWaves * place.xy, 0.05 * u_eye.w)).r;
   vec4 ripple = texture(u_noise, vec3(kRipples * place.xy, 0.05 * u_eye.w));
-  float fleck = smoothstep(0.79, 0.93, 0.5 * (wave + ripple.g) + 0.7 * (slow.b - 0.5) + 0.12 * bent);
+  float fleck = smoothstep(0.83, 1.02, 0.5 * (wave + ripple.g) + 0.7 * (slow.b - 0.5) + 0.12 * bent);
   colour += LIGHT_COLOUR * (kFlecks * lit.power * toward * fleck * share.x);
   vec3 stained = below.rgb * let_through(share * (kStain * smoothstep(-kDrawsBack, 0.0, gap)), v_mix.w);
   colour = mix(stained, colour, edge * smoothstep(0.0, 0.0005, gap));

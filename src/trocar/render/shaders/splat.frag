@@ -12,9 +12,10 @@ layout(location = 0) out vec4 o_field;
 layout(location = 1) out vec4 o_thickness;
 layout(location = 2) out vec4 o_film;
 
-const float kSkirt = 0.0024;  // as in splat.vert
+const float kSkirt = 0.0018;  // as in splat.vert
 const float kReach = 1.7;     // as there
 const float kRoot = 0.0010;   // [m] so far before a surface it is whole
+const float kRound = 0.75;    // sine of how far a column's sides turn away
 const float kNoGlint = 0.6;   // sine of how far what is smeared turns away from the lamp
 
 void main() {
@@ -62,8 +63,8 @@ void main() {
     o_thickness = vec4(0.0);
     o_film = v_mix * (v_size.z * 1.0e3 * s * s * held);
   } else {
-    // What is smeared by its speed has no glint.
-    vec2 n = flies ? (kind > 2.5 ? kNoGlint * v_across.xy : vec2(0.0)) : v_normal.xy;
+    // A column turns away to its sides; what is smeared by its speed has no glint.
+    vec2 n = flies ? (kind > 2.5 ? kNoGlint : kRound * clamp(at.y * kReach / reach, -1.0, 1.0)) * v_across.xy : v_normal.xy;
     o_field = vec4(n, own, 1.0) * f;
     // What flies is marked: it has no edge that runs out thin.
     o_thickness = vec4(v_mix.rgb, v_mix.a + (flies ? 2.0 : 0.0)) * (v_size.z * 1.0e3 * f * fades);

@@ -11,7 +11,7 @@ flat out vec4 v_size;   // half length of the axis, reach of the field, height, 
 flat out vec4 v_mix;
 
 const float kReach = 1.7;
-const float kSkirt = 0.0024;  // [m] around a film, where only its normal is known: it runs there (wet.frag)
+const float kSkirt = 0.0018;  // [m] around a film, where only its normal is known: it runs there (wet.frag)
 
 void main() {
   float kind = mod(a_normal.w, 4.0);
