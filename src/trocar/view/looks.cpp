@@ -388,7 +388,7 @@ Material satin(Vec3f bright, Vec3f dull) {
 
 /// The plastic tube around a shaft.
 Material insulation() {
-  Material m = metal(srgb(84, 86, 90), srgb(72, 74, 79), 0.34f);
+  Material m = metal(srgb(80, 79, 84), srgb(69, 69, 74), 0.34f);
   m.bump = 0.03f;
   m.fibre_stretch = 10;
   m.scatter = 0.75f;

@@ -96,7 +96,8 @@ void main() {
   vec4 soft = texture(u_small, v_uv);
   float unit = scene.a * u_depth.w;  // height of the picture at this distance
   outline = clamp(abs(scene.a - soft.a) / (unit * 0.007), 0.0, 1.0);
-  Outline on = on_outline(pixel, scene.a, unit, outline);
+  // A pixel half covered may be as far as the small picture's mean there, but not as far as its neighbours.
+  Outline on = on_outline(pixel, scene.a, unit, max(outline, clamp(fwidth(scene.a) / (unit * 0.014), 0.0, 1.0)));
 #endif
 #ifdef RODS
   vec3 shade = texelFetch(u_rod_shade, pixel, 0).rgb;
