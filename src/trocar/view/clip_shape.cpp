@@ -51,16 +51,28 @@ bool in_groove(std::size_t i, std::size_t count) {
   return from_tip > 1 && from_tip < std::size_t(kLegSteps) && from_tip % 3 == 0;
 }
 
-/// Corners of the section, once around, in half extents: (inwards, across). Edges outside are bevelled.
-std::array<Vec3d, 8> corners(double thick, double wide) {
+constexpr std::uint32_t kCorners = 9, kDomed = 3;  // of the section; the first of them lie on its domed outside
+
+/// Corners of the section, once around, in half extents: (inwards, across). Edges are bevelled, and the outside is
+/// domed, so that it shows the lamp as a line.
+std::array<Vec3d, kCorners> corners(double thick, double wide) {
+  constexpr double kDome = 0.7;
   const double x = 1 - 2 * kChamfer / thick, y = 1 - 2 * kChamfer / wide;
-  return {{{-1, -y, 0}, {-x, -1, 0}, {x, -1, 0}, {1, -y, 0}, {1, y, 0}, {x, 1, 0}, {-x, 1, 0}, {-1, y, 0}}};
+  return {{{-1, y, 0},
+           {-1 - kDome, 0, 0},
+           {-1, -y, 0},
+           {-x, -1, 0},
+           {x, -1, 0},
+           {1, -y, 0},
+           {1, y, 0},
+           {x, 1, 0},
+           {-x, 1, 0}}};
 }
 
-/// Every corner twice: edges are hard, each face has its own normals.
+/// Every corner twice: edges are hard, each face has its own normals; but a domed face is one.
 void join_faces(MeshBuffer& b, std::uint32_t low, std::uint32_t high) {
-  for (std::uint32_t i = 0; i < 8; ++i) {
-    const std::uint32_t from = 2 * i + 1, to = (2 * i + 2) % 16;
+  for (std::uint32_t i = 0; i < kCorners; ++i) {
+    const std::uint32_t from = 2 * i + 1, to = (i + 1 < kDomed - 1 ? 2 * i + 3 : 2 * i + 2) % (2 * kCorners);
     b.quad(low + from, low + to, high + to, high + from);
   }
 }
@@ -69,7 +81,7 @@ void join_faces(MeshBuffer& b, std::uint32_t low, std::uint32_t high) {
 
 MeshBuffer clip_shape(double leg_length, double gap) {
   const std::vector<WirePlace> line = wire(leg_length, gap);
-  const std::array<Vec3d, 8> shape = corners(kClipLegThickness, kClipLegWidth);
+  const std::array<Vec3d, kCorners> shape = corners(kClipLegThickness, kClipLegWidth);
   const Vec3d y{0, 1, 0};
   MeshBuffer b;
   const auto add_row = [&](std::size_t i, bool twice) {
@@ -97,7 +109,7 @@ MeshBuffer clip_shape(double leg_length, double gap) {
   }
   for (const std::size_t end : {std::size_t(0), line.size() - 1}) {
     const std::uint32_t row = add_row(end, false);
-    join_pole(b, row, 8, b.add(vec_cast<float>(line[end].at), kOutside), end > 0);
+    join_pole(b, row, kCorners, b.add(vec_cast<float>(line[end].at), kOutside), end > 0);
   }
   return b;
 }

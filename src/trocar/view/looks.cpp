@@ -46,11 +46,11 @@ Material tube() {
   m.mottle = 0.6f;
   m.bump = 0.1f;
   m.glow_amount = 0.38f;         // through the thin rims of the fimbriae
-  m.tint = srgb(240, 188, 184);  // fimbriae: thin mucosa
+  m.tint = srgb(186, 104, 115);  // fimbriae: lining, as soft as velvet
   m.film_size = 0.0013f;         // much finer than the tube is thick: flecks in clumps, no row of beads
   m.film_bump = 0.24f;
   m.film_roughness = 0.06f;
-  m.wetness = 0.72f;
+  m.wetness = 0.54f;
   return m;
 }
 
@@ -376,12 +376,12 @@ Material polished(Vec3f bright, Vec3f dull, float roughness, float scatter) {
   return m;
 }
 
-/// Titanium: paler than steel and less of a mirror, without grinding marks: it glints where it is bent.
+/// Titanium: paler than steel and less of a mirror, drawn as a wire: it glints where it is bent and along its edges.
 Material satin(Vec3f bright, Vec3f dull) {
-  Material m = metal(bright, dull, 0.2f);
-  m.scatter = 0.55f;
+  Material m = metal(bright, dull, 0.44f);
+  m.scatter = 0.5f;
   m.mottle = 0.5f;
-  m.fibre_stretch = 1;
+  m.fibre_stretch = 3;
   m.bump = 0.012f;
   return m;
 }
@@ -489,7 +489,7 @@ std::vector<Look> make_looks() {
       {"insulated", insulation(), false, {}},
       {"ceramic", ceramic(), false, {}},
       {"sleeve", metal(srgb(130, 131, 137), srgb(116, 118, 124), 0.38f), false, {}},
-      {"titanium", satin(srgb(240, 239, 241), srgb(218, 217, 221)), false, {}},
+      {"titanium", satin(srgb(244, 240, 239), srgb(220, 217, 219)), false, {}},
   };
 }
 
