@@ -11,12 +11,13 @@ namespace {
 constexpr double kPi = 3.14159265358979;
 constexpr int kGrooves = 5, kLegSteps = 3 * kGrooves, kBendSteps = 7;
 constexpr double kGrooveLeft = 0.76;  // of a leg's thickness, in its grooves
-constexpr double kChamfer = 0.00019;  // [m] its edges are bevelled
+constexpr double kChamfer = 0.00023;  // [m] its edges are bevelled
 constexpr double kTip = 0.00022;      // [m] and so are its tips
 constexpr double kSpread = 0.0042;    // [m] an open one is a chevron down to here, from there its legs are parallel
 constexpr double kBendWider = 0.12;   // share by which the wire is flattened where it was bent
 constexpr double kAskew = 0.00011;    // [m] tips that met never lie quite on each other
-const Paint kOutside{255, 0, 0, 0}, kInside{60, 0, 0, 40};  // little light comes between the legs
+// Bevels are bright beside what is between them; little light comes between the legs.
+const Paint kBevel{255, 0, 0, 0}, kOutside{165, 0, 0, 0}, kInside{60, 0, 0, 40};
 
 /// A place on the middle line of the wire, and the share of the full section it has there.
 struct WirePlace {
@@ -56,7 +57,7 @@ constexpr std::uint32_t kCorners = 9, kDomed = 3;  // of the section; the first 
 /// Corners of the section, once around, in half extents: (inwards, across). Edges are bevelled, and the outside is
 /// domed, so that it shows the lamp as a line.
 std::array<Vec3d, kCorners> corners(double thick, double wide) {
-  constexpr double kDome = 0.7;
+  constexpr double kDome = 0.6;
   const double x = 1 - 2 * kChamfer / thick, y = 1 - 2 * kChamfer / wide;
   return {{{-1, y, 0},
            {-1 - kDome, 0, 0},
@@ -97,7 +98,7 @@ MeshBuffer clip_shape(double leg_length, double gap) {
     for (const Vec3d& q : shape) {
       const double in = q.x > 0 ? (2 * left - 1) * q.x : q.x;
       const Vec3f p = vec_cast<float>(at(i) + (half * in) * inwards + (wide * q.y) * y);
-      for (int k = 0; k < (twice ? 2 : 1); ++k) b.add(p, q.x > 0 ? kInside : kOutside);
+      for (int k = 0; k < (twice ? 2 : 1); ++k) b.add(p, q.x > 0 ? kInside : q.x > -1 || k == (q.y > 0 ? 0 : 1) ? kBevel : kOutside);
     }
     return row;
   };

@@ -171,7 +171,7 @@ void main() {
   // Grinding runs along the axis, so a highlight spreads along it.
   vec3 H = normalize(lit.direction + V);
   vec3 axis = normalize(to_eye(FIBRE_AXIS));
-  H = normalize(H - axis * (0.7 * step(0.01, FIBRE_SQUEEZE) * dot(H, axis)));
+  H = normalize(H - axis * (0.85 * step(0.01, FIBRE_SQUEEZE) * dot(H, axis)));
   float nh = clamp(dot(n, H), 0.0, 1.0), nv = clamp(dot(n, V), 0.0, 1.0), nl = clamp(dot(n, lit.direction), 0.0, 1.0);
   // Edges of a pixel or less are as rough as their normals differ [Kaplanyan 16].
   vec3 turn_x = dFdx(N), turn_y = dFdy(N);
