@@ -17,7 +17,7 @@ constexpr double kSpread = 0.0042;    // [m] an open one is a chevron down to he
 constexpr double kBendWider = 0.12;   // share by which the wire is flattened where it was bent
 constexpr double kAskew = 0.00011;    // [m] tips that met never lie quite on each other
 // Bevels are bright beside what is between them; little light comes between the legs.
-const Paint kBevel{255, 0, 0, 0}, kOutside{165, 0, 0, 0}, kInside{60, 0, 0, 40};
+const Paint kBevel{255, 0, 0, 0}, kOutside{215, 0, 0, 0}, kInside{60, 0, 0, 40};
 
 /// A place on the middle line of the wire, and the share of the full section it has there.
 struct WirePlace {
@@ -57,17 +57,17 @@ constexpr std::uint32_t kCorners = 9, kDomed = 3;  // of the section; the first 
 /// Corners of the section, once around, in half extents: (inwards, across). Edges are bevelled, and the outside is
 /// domed, so that it shows the lamp as a line.
 std::array<Vec3d, kCorners> corners(double thick, double wide) {
-  constexpr double kDome = 0.6;
+  constexpr double kDome = 0.5;
   const double x = 1 - 2 * kChamfer / thick, y = 1 - 2 * kChamfer / wide;
-  return {{{-1, y, 0},
-           {-1 - kDome, 0, 0},
-           {-1, -y, 0},
-           {-x, -1, 0},
+  return {{{-1 + kDome, y, 0},
+           {-1, 0, 0},
+           {-1 + kDome, -y, 0},
+           {kDome - x, -1, 0},
            {x, -1, 0},
            {1, -y, 0},
            {1, y, 0},
            {x, 1, 0},
-           {-x, 1, 0}}};
+           {kDome - x, 1, 0}}};
 }
 
 /// Every corner twice: edges are hard, each face has its own normals; but a domed face is one.
@@ -95,10 +95,12 @@ MeshBuffer clip_shape(double leg_length, double gap) {
     const double bent = smooth(0.0016, 0, at(i).z);
     const double wide = 0.5 * kClipLegWidth * line[i].share * (1 + kBendWider * bent);
     const std::uint32_t row = b.size();
-    for (const Vec3d& q : shape) {
+    for (std::size_t c = 0; c < shape.size(); ++c) {
+      const Vec3d q = shape[c];
       const double in = q.x > 0 ? (2 * left - 1) * q.x : q.x;
       const Vec3f p = vec_cast<float>(at(i) + (half * in) * inwards + (wide * q.y) * y);
-      for (int k = 0; k < (twice ? 2 : 1); ++k) b.add(p, q.x > 0 ? kInside : q.x > -1 || k == (q.y > 0 ? 0 : 1) ? kBevel : kOutside);
+      for (int k = 0; k < (twice ? 2 : 1); ++k)
+        b.add(p, q.x > 0.5 ? kInside : c >= kDomed || (c != 1 && k == int(c / 2)) ? kBevel : kOutside);
     }
     return row;
   };

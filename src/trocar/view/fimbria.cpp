@@ -295,8 +295,7 @@ void add_bell(MeshBuffer& b, const FimbriaSite& site) {
     const BellRow& r = kBell[row];
     for (int k = 0; k < kRimColumns; ++k) {
       const double groove = row > kOuterRim ? 0.5 - 0.5 * fold_at(site, k) : 0;
-      b.add(vec_cast<float>(on_bell(site, row, k)),
-            painted(r.openness * (1 - 0.3 * groove), rose_of_bell(row)));
+      b.add(vec_cast<float>(on_bell(site, row, k)), painted(r.openness * (1 - 0.3 * groove), rose_of_bell(row)));
     }
     if (row > 0 && row != kOuterRim + 1)
       join_rows(b, std::uint32_t(row - 1) * kRimColumns, std::uint32_t(row) * kRimColumns, kRimColumns, true);

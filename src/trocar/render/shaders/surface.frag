@@ -194,7 +194,7 @@ void main() {
   float film = clamp((smeared - 0.9 * (ragged - 0.2) * (1.0 - smeared)) * 2.0, 0.0, 1.0) * step(0.01, smeared);
   vec3 through = exp(-film * vec3(2.2, 5.2, 4.8));
   float clotted = smoothstep(0.45, 0.95, film);
-  float dried = smoothstep(0.0, 0.12, film) * smoothstep(0.45, 0.14, film);
+  float dried = smoothstep(0.0, 0.12, film) * (1.0 - smoothstep(0.14, 0.45, film));
   float blood = smoothstep(0.1, 0.75, film);  // how little of a mirror it leaves
   grey = mix(grey * through, vec3(0.038, 0.0052, 0.0045), 0.9 * clotted);
   grey = mix(grey, vec3(0.058, 0.021, 0.013), 0.45 * dried);
