@@ -11,12 +11,13 @@ namespace {
 constexpr double kPi = 3.14159265358979;
 constexpr int kGrooves = 5, kLegSteps = 3 * kGrooves, kBendSteps = 7;
 constexpr double kGrooveLeft = 0.76;  // of a leg's thickness, in its grooves
-constexpr double kChamfer = 0.00019;  // [m] its edges are bevelled
+constexpr double kChamfer = 0.00023;  // [m] its edges are bevelled
 constexpr double kTip = 0.00022;      // [m] and so are its tips
 constexpr double kSpread = 0.0042;    // [m] an open one is a chevron down to here, from there its legs are parallel
 constexpr double kBendWider = 0.12;   // share by which the wire is flattened where it was bent
 constexpr double kAskew = 0.00011;    // [m] tips that met never lie quite on each other
-const Paint kOutside{255, 0, 0, 0}, kInside{60, 0, 0, 40};  // little light comes between the legs
+// Bevels are bright beside what is between them; little light comes between the legs.
+const Paint kBevel{255, 0, 0, 0}, kOutside{215, 0, 0, 0}, kInside{60, 0, 0, 40};
 
 /// A place on the middle line of the wire, and the share of the full section it has there.
 struct WirePlace {
@@ -51,16 +52,28 @@ bool in_groove(std::size_t i, std::size_t count) {
   return from_tip > 1 && from_tip < std::size_t(kLegSteps) && from_tip % 3 == 0;
 }
 
-/// Corners of the section, once around, in half extents: (inwards, across). Edges outside are bevelled.
-std::array<Vec3d, 8> corners(double thick, double wide) {
+constexpr std::uint32_t kCorners = 9, kDomed = 3;  // of the section; the first of them lie on its domed outside
+
+/// Corners of the section, once around, in half extents: (inwards, across). Edges are bevelled, and the outside is
+/// domed, so that it shows the lamp as a line.
+std::array<Vec3d, kCorners> corners(double thick, double wide) {
+  constexpr double kDome = 0.5;
   const double x = 1 - 2 * kChamfer / thick, y = 1 - 2 * kChamfer / wide;
-  return {{{-1, -y, 0}, {-x, -1, 0}, {x, -1, 0}, {1, -y, 0}, {1, y, 0}, {x, 1, 0}, {-x, 1, 0}, {-1, y, 0}}};
+  return {{{-1 + kDome, y, 0},
+           {-1, 0, 0},
+           {-1 + kDome, -y, 0},
+           {kDome - x, -1, 0},
+           {x, -1, 0},
+           {1, -y, 0},
+           {1, y, 0},
+           {x, 1, 0},
+           {kDome - x, 1, 0}}};
 }
 
-/// Every corner twice: edges are hard, each face has its own normals.
+/// Every corner twice: edges are hard, each face has its own normals; but a domed face is one.
 void join_faces(MeshBuffer& b, std::uint32_t low, std::uint32_t high) {
-  for (std::uint32_t i = 0; i < 8; ++i) {
-    const std::uint32_t from = 2 * i + 1, to = (2 * i + 2) % 16;
+  for (std::uint32_t i = 0; i < kCorners; ++i) {
+    const std::uint32_t from = 2 * i + 1, to = (i + 1 < kDomed - 1 ? 2 * i + 3 : 2 * i + 2) % (2 * kCorners);
     b.quad(low + from, low + to, high + to, high + from);
   }
 }
@@ -69,7 +82,7 @@ void join_faces(MeshBuffer& b, std::uint32_t low, std::uint32_t high) {
 
 MeshBuffer clip_shape(double leg_length, double gap) {
   const std::vector<WirePlace> line = wire(leg_length, gap);
-  const std::array<Vec3d, 8> shape = corners(kClipLegThickness, kClipLegWidth);
+  const std::array<Vec3d, kCorners> shape = corners(kClipLegThickness, kClipLegWidth);
   const Vec3d y{0, 1, 0};
   MeshBuffer b;
   const auto add_row = [&](std::size_t i, bool twice) {
@@ -82,10 +95,12 @@ MeshBuffer clip_shape(double leg_length, double gap) {
     const double bent = smooth(0.0016, 0, at(i).z);
     const double wide = 0.5 * kClipLegWidth * line[i].share * (1 + kBendWider * bent);
     const std::uint32_t row = b.size();
-    for (const Vec3d& q : shape) {
+    for (std::size_t c = 0; c < shape.size(); ++c) {
+      const Vec3d q = shape[c];
       const double in = q.x > 0 ? (2 * left - 1) * q.x : q.x;
       const Vec3f p = vec_cast<float>(at(i) + (half * in) * inwards + (wide * q.y) * y);
-      for (int k = 0; k < (twice ? 2 : 1); ++k) b.add(p, q.x > 0 ? kInside : kOutside);
+      for (int k = 0; k < (twice ? 2 : 1); ++k)
+        b.add(p, q.x > 0.5 ? kInside : c >= kDomed || (c != 1 && k == int(c / 2)) ? kBevel : kOutside);
     }
     return row;
   };
@@ -97,7 +112,7 @@ MeshBuffer clip_shape(double leg_length, double gap) {
   }
   for (const std::size_t end : {std::size_t(0), line.size() - 1}) {
     const std::uint32_t row = add_row(end, false);
-    join_pole(b, row, 8, b.add(vec_cast<float>(line[end].at), kOutside), end > 0);
+    join_pole(b, row, kCorners, b.add(vec_cast<float>(line[end].at), kOutside), end > 0);
   }
   return b;
 }

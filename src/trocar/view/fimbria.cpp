@@ -14,17 +14,17 @@ constexpr int kCapRings = 6;           // ... of which so many round off its end
 constexpr double kThick = 0.00024;     // [m] half of a frond's thickness
 constexpr double kWave = 0.0021;       // [m] from crest to crest of its frill
 constexpr double kMostWaves = 3.3;     // that its rings can follow
-constexpr double kFrill = 0.00044;     // [m] how far that goes to either side, at the most
+constexpr double kFrill = 0.00058;     // [m] how far that goes to either side, at the most
 constexpr double kSlack = 0.0011;      // [m] by which one that reaches the ovary swings aside on its way
 constexpr double kLobes = 1.45;        // scallops of its edge a wave of its frill
 constexpr double kOwnRoot = 0.3;       // of its length: on it a frond goes over from the bell's shape to its own
 constexpr std::size_t kFoldSides = 6;  // vertices around a frond that grows out of a fold
 
 /// The bell beyond the tube's end, over its rim and down to the mouth: forwards and outwards, in radii of the end, how
-/// much light gets there, how pale it is, and how far out of it (inwards where negative) the folds stand that run on
+/// much light gets there, how thin it is, and how far out of it (inwards where negative) the folds stand that run on
 /// into the fronds.
 struct BellRow {
-  double along, radius, openness, tint, fold;
+  double along, radius, openness, thin, fold;
 };
 constexpr std::array<BellRow, 11> kBell{{{0.14, 1.01, 1.00, 0.0, 0.0},
                                          {0.30, 1.06, 1.00, 0.04, 0.008},
@@ -48,9 +48,9 @@ struct FrondRow {
   double lean, falls;  ///< [rad] at the root, and how much more at the tip
 };
 constexpr std::array<FrondRow, 2> kRows{
-    {{16, 0.38, 0.89, 1.65, 0.145, 0.66, 0.55}, {9, 0.10, 0.69, 1.45, 0.13, 0.50, 0.20}}};
+    {{16, 0.38, 0.89, 1.45, 0.25, 0.66, 0.55}, {9, 0.10, 0.69, 1.25, 0.22, 0.50, 0.20}}};
 static_assert(kRows[0].count + kRows[1].count == kFoldFronds);
-constexpr FrondRow kRim{kRimFronds, 0, 0, 1.30, 0, 0.70, 0.80};  // those of the rim: their roots are its own
+constexpr FrondRow kRim{kRimFronds, 0, 0, 1.20, 0, 0.70, 0.95};  // those of the rim: their roots are its own
 constexpr int kClump = 3;                                        // neighbours that cling together
 
 /// One frond: where it grows, how far, and how it bends.
@@ -65,6 +65,9 @@ struct Frond {
   double reaches;       ///< 0..1: how far it is drawn to the ovary
   int seed;
 };
+
+/// 0..1: how much of a row of the bell is lining, which is a deeper rose than the tube.
+double rose_of_bell(std::size_t row) { return row > kOuterRim ? 0.85 : 1.8 * kBell[row].thin; }
 
 Vec3d outwards(double angle) { return {0, std::cos(angle), std::sin(angle)}; }
 Vec3d around(double angle) { return {0, -std::sin(angle), std::cos(angle)}; }
@@ -91,7 +94,7 @@ Vec3d on_bell(const FimbriaSite& site, std::size_t row, int column) {
   const double a = 2 * kPi * column / kRimColumns;
   // Its rim is uneven too.
   const double uneven =
-      r.openness < 0.3 ? 0 : 3 * r.tint * (std::sin(2 * a + site.seed) + std::sin(5 * a + 3 * site.seed));
+      r.openness < 0.3 ? 0 : 3 * r.thin * (std::sin(2 * a + site.seed) + std::sin(5 * a + 3 * site.seed));
   const double out = r.radius * (1 + r.fold * fold_at(site, column));
   return site.radius * ((r.along + 0.05 * uneven) * Vec3d{1, 0, 0} + out * outwards(a));
 }
@@ -261,7 +264,7 @@ Corner corner_of(std::size_t k, std::size_t count) {
 }
 
 /// Half its width over that at its root: it has a belly, and tapers.
-double belly(double u) { return 1 + 0.45 * smooth(0.05, 0.4, u) - 0.98 * smooth(0.35, 1.0, u); }
+double belly(double u) { return 1 + 0.55 * smooth(0.05, 0.45, u) - 0.85 * smooth(0.45, 1.0, u); }
 
 struct Place {
   Vec3d offset;  ///< from the middle line [m]
@@ -278,7 +281,7 @@ Place place_on(const Frond& f, const Spines& spine, double span, int ring, Corne
   const double phase = 2 * kPi * (waves * (u + 0.05 * std::sin(6 * u + side)) + varied(side, 22));
   const double loose = smooth(0.12, 0.5, u) * tip;
   const double up = std::sin(phase);
-  const double across = w * f.half * belly(u) * tip * (1 + 0.18 * loose * std::sin(kLobes * phase + side));
+  const double across = w * f.half * belly(u) * tip * (1 + 0.24 * loose * std::sin(kLobes * phase + side));
   const double edge = w * w, cup = 0.35 * swing(f.seed, 12) * f.half * edge * loose;
   const double thick = kThick * tip * (1.1 - 0.5 * u);
   return {across * s.across + (kFrill * loose * edge * up + cup + corner.side * thick) * s.flat,
@@ -292,8 +295,7 @@ void add_bell(MeshBuffer& b, const FimbriaSite& site) {
     const BellRow& r = kBell[row];
     for (int k = 0; k < kRimColumns; ++k) {
       const double groove = row > kOuterRim ? 0.5 - 0.5 * fold_at(site, k) : 0;
-      b.add(vec_cast<float>(on_bell(site, row, k)),
-            painted(r.openness * (1 - 0.3 * groove), r.tint * (1 - 0.5 * groove)));
+      b.add(vec_cast<float>(on_bell(site, row, k)), painted(r.openness * (1 - 0.3 * groove), rose_of_bell(row)));
     }
     if (row > 0 && row != kOuterRim + 1)
       join_rows(b, std::uint32_t(row - 1) * kRimColumns, std::uint32_t(row) * kRimColumns, kRimColumns, true);
@@ -309,14 +311,15 @@ void join_loops(MeshBuffer& b, const std::vector<std::uint32_t>& low, const std:
   }
 }
 
-/// Rose along its middle and in the folds of its frill; its edges and tip are thin and paler.
+/// Deep rose along its middle and in the folds of its frill; its edges and tip are thin and paler. Velvet: it shines
+/// little but there.
 Paint paint_on(const Frond& f, double u, Corner corner, double dip) {
   const double thin = 1 - round_end(u, f.end), edge = smooth(0.6, 1.0, std::fabs(corner.across));
   const double rim = std::max(edge, thin) * smooth(0.05, 0.4, u);
-  const double own = 0.55 + 0.2 * swing(f.seed, 31), root = kBell[kOuterRim].tint;
+  const double own = 0.75 + 0.2 * swing(f.seed, 31), root = rose_of_bell(kOuterRim);
   const double tint = root + smooth(0, 0.35, u) * (own - root);
-  return painted((0.64 + 0.2 * rim + 0.36 * smooth(0.3, 0, u) * (1 - rim)) * (1 - 0.25 * dip),
-                 (tint + (1 - tint) * rim) * (1 - 0.4 * dip));
+  return painted((0.56 + 0.26 * rim + 0.44 * smooth(0.3, 0, u) * (1 - rim)) * (1 - 0.25 * dip),
+                 (tint + (1 - tint) * 0.5 * dip) * (1 - 0.85 * rim));
 }
 
 /// Onwards from a closed row of vertices, its root.
@@ -401,7 +404,6 @@ void shade(MeshBuffer& b) {
     }
     const double open = kLeast + (1 - kLeast) * std::exp(-kDark * double(covered));
     Paint& paint = b.paint[v];
-    paint.tint = to_byte(paint.tint / 255.0 * open);
     paint.openness = to_byte(paint.openness / 255.0 * open);
   }
 }

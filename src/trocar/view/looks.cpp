@@ -46,11 +46,11 @@ Material tube() {
   m.mottle = 0.6f;
   m.bump = 0.1f;
   m.glow_amount = 0.38f;         // through the thin rims of the fimbriae
-  m.tint = srgb(240, 188, 184);  // fimbriae: thin mucosa
+  m.tint = srgb(186, 104, 115);  // fimbriae: lining, as soft as velvet
   m.film_size = 0.0013f;         // much finer than the tube is thick: flecks in clumps, no row of beads
   m.film_bump = 0.24f;
   m.film_roughness = 0.06f;
-  m.wetness = 0.72f;
+  m.wetness = 0.54f;
   return m;
 }
 
@@ -141,16 +141,16 @@ Material bladder() {
 }
 
 Material bowel() {
-  Material m = with_vessels(tissue(srgb(200, 120, 119), srgb(208, 140, 132), srgb(188, 104, 107)), 0.9f, 0.036f);
+  Material m = with_vessels(tissue(srgb(198, 121, 121), srgb(205, 137, 132), srgb(189, 108, 111)), 0.9f, 0.036f);
   m.mottle_size = 0.012f;
-  m.mottle = 0.6f;
+  m.mottle = 0.45f;
   m.glow_amount = 0.1f;
   m.bump = 0.05f;
   m.film_bump = 0.24f;
   m.film_size = 0.0024f;
   m.film_roughness = 0.06f;
   m.wetness = 0.75f;
-  m.tint = srgb(216, 184, 171);  // its bands
+  m.tint = srgb(206, 158, 153);  // its bands
   return m;
 }
 
@@ -166,7 +166,7 @@ Material upper_abdomen() {
 
 /// Thin walls, moist; no bands.
 Material small_bowel() {
-  Material m = with_vessels(tissue(srgb(206, 140, 134), srgb(214, 156, 146), srgb(194, 122, 120)), 0.85f, 0.03f);
+  Material m = with_vessels(tissue(srgb(209, 138, 139), srgb(216, 154, 149), srgb(198, 121, 125)), 0.85f, 0.03f);
   m.mottle_size = 0.014f;
   m.mottle = 0.5f;
   m.glow_amount = 0.1f;
@@ -332,17 +332,17 @@ Material omentum() {
 /// Tags on the large bowel: what the omentum is made of, below a thin wet serosa, with finer capillaries.
 Material epiploic() {
   Material m = omentum();
-  m.colour = srgb(224, 146, 116);
+  m.colour = srgb(224, 152, 118);
   m.colour_b = srgb(234, 168, 122);
-  m.colour_c = srgb(212, 124, 108);
-  m.lobule_size = 0.0036f;
-  m.lobule_depth = 0.2f;
-  m.lobule_contrast = 0.07f;
-  m.vessels = 0.85f;
-  m.vessel_tile = 0.026f;
+  m.colour_c = srgb(212, 130, 110);
+  m.lobule_size = 0.0026f;
+  m.lobule_depth = 0.32f;
+  m.lobule_contrast = 0.2f;
+  m.vessels = 1;
+  m.vessel_tile = 0.02f;
   m.wetness = 1;  // sparkles everywhere
   m.film_bump = 0.34f;
-  m.film_size = 0.002f;
+  m.film_size = 0.0014f;
   m.glow_amount = 0.22f;  // through the thin borders of its tongues
   m.two_sided = false;
   m.tint = bowel().colour;  // where it grows out of that
@@ -376,19 +376,19 @@ Material polished(Vec3f bright, Vec3f dull, float roughness, float scatter) {
   return m;
 }
 
-/// Titanium: paler than steel and less of a mirror, without grinding marks: it glints where it is bent.
+/// Titanium: paler than steel and less of a mirror, drawn as a wire: it glints where it is bent and along its edges.
 Material satin(Vec3f bright, Vec3f dull) {
-  Material m = metal(bright, dull, 0.2f);
-  m.scatter = 0.55f;
+  Material m = metal(bright, dull, 0.5f);
+  m.scatter = 0.6f;
   m.mottle = 0.5f;
   m.fibre_stretch = 1;
-  m.bump = 0.012f;
+  m.bump = 0.035f;
   return m;
 }
 
 /// The plastic tube around a shaft.
 Material insulation() {
-  Material m = metal(srgb(84, 86, 90), srgb(72, 74, 79), 0.34f);
+  Material m = metal(srgb(80, 79, 84), srgb(69, 69, 74), 0.34f);
   m.bump = 0.03f;
   m.fibre_stretch = 10;
   m.scatter = 0.75f;
@@ -489,7 +489,7 @@ std::vector<Look> make_looks() {
       {"insulated", insulation(), false, {}},
       {"ceramic", ceramic(), false, {}},
       {"sleeve", metal(srgb(130, 131, 137), srgb(116, 118, 124), 0.38f), false, {}},
-      {"titanium", satin(srgb(240, 239, 241), srgb(218, 217, 221)), false, {}},
+      {"titanium", satin(srgb(244, 240, 239), srgb(220, 217, 219)), false, {}},
   };
 }
 

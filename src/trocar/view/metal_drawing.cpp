@@ -173,7 +173,7 @@ void MetalDrawing::list_rods(const sim::State& state, std::size_t h, render::Fra
   for (int k = 0; k < interactions::kToolParts; ++k) {  // a jaw is wider than it is thick
     const collision::Capsule& rod = shape.part[k];
     const double half =
-        k == interactions::kShaft ? rod.radius : std::max(rod.radius, 0.4 * m_model->tool(state, h).jaw_width);
+        k == interactions::kShaft ? rod.radius : std::max(rod.radius, 0.3 * m_model->tool(state, h).jaw_width);
     frame.rods.push_back(
         {vec_cast<float>(rod.a), vec_cast<float>(rod.b), float(half), k == interactions::kShaft ? 0 : pressed});
   }

@@ -16,7 +16,7 @@ Vec3d in_world(const double (&v)[3], const interactions::StrandFrame& f) {
 }
 
 // Shares of a tube's radius, our choice: how far it bulges and gathers beside a clip, and is drawn in between its legs.
-constexpr double kBulge = 0.12, kGathers = 0.1, kDrawnIn = 0.25;
+constexpr double kBulge = 0.2, kGathers = 0.1, kDrawnIn = 0.25;
 
 double leg_length(const Clip& clip) { return clip.length > 0 ? clip.length : kClipLength; }
 

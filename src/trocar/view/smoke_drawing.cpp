@@ -13,7 +13,7 @@ constexpr int kPuffs = 26;
 constexpr double kPlumeTime = 0.9;    // [s] that a puff is seen
 constexpr double kPlumeSpeed = 0.06;  // [m/s] upwards
 constexpr double kPlumeGrows = 0.42;  // of its way, in radius
-constexpr double kPlumeDense = 0.64;
+constexpr double kPlumeDense = 0.85;
 constexpr double kPlumeFoot = 0.0013, kPlumeThin = 0.005;  // [m] radius at the tip; and at which it is half as dense
 constexpr double kSmokes = 0.15;                           // [s] of current until tissue smokes
 

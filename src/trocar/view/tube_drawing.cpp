@@ -19,7 +19,7 @@ constexpr double kBlanched = 0.0030;   // [m] from a clip's middle: blood is pre
 constexpr double kCongested = 0.0058;  // [m] ... and stands beside that
 constexpr double kShade = 0.0014;      // [m] beside a clip's legs, where little light comes
 constexpr double kGathered = 0.0028;   // [m] from its middle: there it lies in small folds that run to the legs
-constexpr double kBloodied = 0.0019;   // [m] beside a cut
+constexpr double kBloodied = 0.0026;   // [m] beside a cut
 constexpr int kFlesh = 20;             // of Paint's blood: a raw face has less where it is muscle and lining
 
 template <class T>
@@ -162,8 +162,8 @@ Paint TubeDrawing::paint_at(const Layout& layout, double s, double angle, Paint 
       p.blood = std::uint8_t(std::clamp(own.blood + bleeds * uneven, 4.0, 255.0));
       break;
     }
-    const double stain = kBloodied * (0.8 + 0.6 * std::sin(angle + 1) + 0.4 * std::sin(3 * angle));
-    const double much = 0.3 + 0.35 * oozes(angle);
+    const double stain = kBloodied * std::max(0.15, 0.6 + 0.5 * ragged(m_index + 0.2, angle) + 0.4 * oozes(angle));
+    const double much = 0.24 + 0.22 * oozes(angle);
     if (piece.cut_start && s >= piece.from)
       p.blood = std::max(p.blood, to_byte(much * smooth(stain, 0, s - piece.from)));
     if (piece.cut_end && s <= piece.to) p.blood = std::max(p.blood, to_byte(much * smooth(stain, 0, piece.to - s)));

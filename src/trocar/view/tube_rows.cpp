@@ -14,6 +14,7 @@ namespace {
 constexpr double kStep = 0.0012;      // [m] between rings
 constexpr double kFineStep = 0.0004;  // [m] near a clip
 constexpr double kNearClip = 0.004;   // [m]
+constexpr double kNearCut = 0.003;    // [m] blood on it has a ragged border
 constexpr double kSlant = 0.85;       // scissors cut askew: how far a stump's near side lies back, in radii
 constexpr double kSlanted = 1.8;      // ... and how far along it, in radii
 constexpr double kTorn = 0.10, kTornFrom = 0.0012;  // share of the radius and [m]: how ragged its edge is
@@ -28,6 +29,10 @@ std::vector<double> TubeDrawing::stations(const Layout& layout, const StrandPiec
   for (const Clip& clip : layout.clips)
     for (double d = -kNearClip; d <= kNearClip; d += kFineStep)
       if (clip.s + d > piece.from + 1e-5 && clip.s + d < piece.to - 1e-5) at.push_back(clip.s + d);
+  for (double d = kFineStep; d < kNearCut; d += kFineStep) {
+    if (piece.cut_start && piece.from + d < piece.to) at.push_back(piece.from + d);
+    if (piece.cut_end && piece.to - d > piece.from) at.push_back(piece.to - d);
+  }
   std::sort(at.begin(), at.end());
   at.erase(std::unique(at.begin(), at.end(), [](double a, double b) { return b - a < 1e-5; }), at.end());
   at.back() = piece.to;
@@ -41,24 +46,24 @@ void TubeDrawing::add_raw_face(int piece, bool at_start) {
   const double lumen = std::clamp(open, 0.07 * r, 0.12 * r);
   // The serosa has drawn back, a thin film of blood on its torn edge; the muscle has contracted within it into a pale
   // ring, and the lining pouts over both in wet, pink lobes around what is left of the lumen: a slit with a clot in it.
-  const Paint rim{190, 70, 0, 0}, muscle{215, 6, 44, 0}, mucosa{205, 8, 22, 60}, lining{165, 40, 8, 90};
-  const Paint slit{90, 190, 0, 200}, clot{45, 235, 0, 255};
+  const Paint rim{190, 60, 30, 0}, muscle{195, 19, 34, 40}, mucosa{190, 42, 0, 150}, lining{150, 84, 0, 200};
+  const Paint slit{100, 150, 0, 220}, clot{60, 215, 0, 255};
   std::vector<TubeRow> rows;
   const auto row = [&](double along, double radius, double scallop, Paint paint) {
     const double turn = 0.09 * double(rows.size());
     rows.push_back({piece, s, sign * along, radius, scallop, 0, false, paint, sign * kSlant, turn});
   };
   row(0, r, kTorn, rim);
-  row(0.09 * r, 0.98 * r, 0.14, muscle);
-  row(0.17 * r, 0.88 * r, 0.15, muscle);
-  row(0.19 * r, 0.83 * r, 0.16, mucosa);
-  row(0.37 * r, 0.84 * r, 0.19, mucosa);
-  row(0.50 * r, 0.68 * r, 0.23, mucosa);
-  row(0.50 * r, 0.50 * r, 0.27, mucosa);
+  row(0.09 * r, 0.97 * r, 0.18, muscle);
+  row(0.17 * r, 0.90 * r, 0.20, muscle);
+  row(0.20 * r, 0.86 * r, 0.20, mucosa);
+  row(0.34 * r, 0.82 * r, 0.22, mucosa);
+  row(0.50 * r, 0.66 * r, 0.30, mucosa);
+  row(0.52 * r, 0.48 * r, 0.36, mucosa);
   row(0.40 * r, 0.34 * r, 0.36, lining);
-  row(0.24 * r, 2.2 * lumen, 0.50, slit);
-  row(0.14 * r, 1.2 * lumen, 0.50, clot);
-  row(0.10 * r, 0, 0, clot);
+  row(0.28 * r, 1.7 * lumen, 0.50, slit);
+  row(0.20 * r, 0.8 * lumen, 0.50, clot);
+  row(0.16 * r, 0, 0, clot);
   rows.front().crease = !at_start;
   if (at_start) std::reverse(rows.begin(), rows.end());
   m_rows.insert(m_rows.end(), rows.begin(), rows.end());

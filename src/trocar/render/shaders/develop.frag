@@ -43,7 +43,7 @@ vec3 in_smoke(vec3 colour, float far) {
   // Light that smoke has turned aside on its way does not meet again: glints go first, then outlines.
   float haze = 1.0 - sum.b;
   vec3 mean = texture(u_smaller, v_uv).rgb;
-  colour = mix(colour, min(colour, 1.1 * mean + 0.01), min(2.2 * haze, 1.0));
+  colour = mix(colour, min(colour, 1.1 * mean + 0.01), min(3.4 * haze, 1.0));
   colour = mix(colour, texture(u_small, v_uv).rgb, min(1.1 * haze, 0.9));
   return colour * sum.b + u_smoke_colour * sum.r + u_smoke_near * sum.g;
 }
@@ -96,7 +96,8 @@ void main() {
   vec4 soft = texture(u_small, v_uv);
   float unit = scene.a * u_depth.w;  // height of the picture at this distance
   outline = clamp(abs(scene.a - soft.a) / (unit * 0.007), 0.0, 1.0);
-  Outline on = on_outline(pixel, scene.a, unit, outline);
+  // A pixel half covered may be as far as the small picture's mean there, but not as far as its neighbours.
+  Outline on = on_outline(pixel, scene.a, unit, max(outline, clamp(fwidth(scene.a) / (unit * 0.014), 0.0, 1.0)));
 #endif
 #ifdef RODS
   vec3 shade = texelFetch(u_rod_shade, pixel, 0).rgb;

@@ -24,7 +24,7 @@ void main() {
   float alpha = clamp(u_look.x * body * body * parted, 0.0, 0.95);
   Lit lit = light_at(v_eye);
   // Fresh droplets scatter blue the most; at a plume's foot, brown with what burns, they are warm. Red walls light them.
-  vec3 fresh = mix(kFoot, kFresh, smoothstep(0.002, 0.009, u_reach));
+  vec3 fresh = mix(kFoot, kFresh, smoothstep(0.004, 0.013, u_reach));
   vec3 colour = fresh * (min(lit.power, 6.0) * 0.72) + FOG_COLOUR * (0.25 * lit.bounce);
   o_colour = vec4(colour * alpha, alpha);
 }

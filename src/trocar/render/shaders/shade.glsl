@@ -6,7 +6,7 @@
 // instrument, and 25 mm look like 8.
 const float kShadowSpread = 6.0;
 const float kShadowSoft = 2.0;
-const float kContact = 0.0022;  // [m] nearer than this a surface is dark right under an instrument
+const float kContact = 0.0016;  // [m] nearer than this a surface is dark right under an instrument
 
 /// What a rod leaves at a point: of the lamp (x) and of the light from around (y).
 /// Closest points of two segments as in [Ericson 05, 5.1.9].
@@ -29,8 +29,11 @@ vec2 shade_of_rod(vec3 eye, vec3 lamp, float ring, vec4 rod, vec4 way) {
   return vec2(1.0 - covered, 1.0 - 0.65 * under * under);
 }
 
-/// What is left of the light: red the most, which has gone through tissue.
-vec3 shaded_by(vec2 shade) { return mix(vec3(shade.x * mix(1.0, shade.y, 0.75)), vec3(1.0), vec3(0.22, 0.08, 0.09)); }
+/// What is left of the light: red the most, which has gone through tissue; right under an instrument it is hardly else.
+vec3 shaded_by(vec2 shade) {
+  vec3 contact = 1.0 - (1.0 - shade.y) * vec3(0.45, 0.85, 0.82);
+  return mix(vec3(shade.x), vec3(1.0), vec3(0.28, 0.09, 0.09)) * contact;
+}
 
 /// How far a point is from a rod's surface [m].
 float gap_of_rod(vec3 eye, vec4 rod, vec4 way) {
@@ -41,5 +44,5 @@ float gap_of_rod(vec3 eye, vec4 rod, vec4 way) {
 /// Pressed tissue gives its blood away and pales. share: how much, 0..1
 vec3 paled(vec3 colour, float share) {
   float grey = dot(colour, vec3(0.42, 0.4, 0.18));
-  return mix(colour, grey * vec3(1.3, 1.02, 0.94), 0.45 * share);
+  return mix(colour, grey * vec3(1.4, 1.0, 0.93), 0.34 * share);
 }

@@ -63,7 +63,7 @@ void main() {
       // It hangs much thicker on one side than on the other, in banks.
       vec3 drifts = p - 0.3 * u_risen;
       float bank = 0.5 + 0.42 * sin(dot(drifts, vec3(38.0, 9.0, 13.0)) + 5.0) + 0.12 * sin(dot(drifts, vec3(-47.0, 52.0, 68.0)));
-      sigma *= 0.30 + 0.95 * bank * bank * bank;
+      sigma *= 0.18 + 1.25 * bank * bank * bank;
 #endif
       float taken = 1.0 - exp(-sigma * stride);
       Lit lit = light_at(way * d);

@@ -67,6 +67,11 @@ const float kClumps = 0.014;     // [m] distance of the places where a film spar
 const float kFoldWidth = 0.10, kFoldSlope = 0.35;  // of a lining's low folds: in values of the noise, and how steep
 const float kLiningBall = 0.12;  // [m] radius of the ball that a lining's vessels are drawn on
 
+#if SHADING == 1
+const float kSteelLit = 1.3;  // metal near the lens is no brighter than under this much of the lamp's light
+const float kLine = 1.9, kSheen = 1.15;  // of that, mirrored as a line and as a sheen about it
+#endif
+
 vec3 along_surface(vec3 v, vec3 n) { return v - n * dot(n, v); }
 vec3 to_eye(vec3 rest_direction) { return mat3(u_model_view) * rest_direction; }
 
@@ -166,7 +171,7 @@ void main() {
   // Grinding runs along the axis, so a highlight spreads along it.
   vec3 H = normalize(lit.direction + V);
   vec3 axis = normalize(to_eye(FIBRE_AXIS));
-  H = normalize(H - axis * (0.7 * step(0.01, FIBRE_SQUEEZE) * dot(H, axis)));
+  H = normalize(H - axis * (0.85 * step(0.01, FIBRE_SQUEEZE) * dot(H, axis)));
   float nh = clamp(dot(n, H), 0.0, 1.0), nv = clamp(dot(n, V), 0.0, 1.0), nl = clamp(dot(n, lit.direction), 0.0, 1.0);
   // Edges of a pixel or less are as rough as their normals differ [Kaplanyan 16].
   vec3 turn_x = dFdx(N), turn_y = dFdy(N);
@@ -177,23 +182,27 @@ void main() {
   nl = mix(nl, 0.65, blurred);
   vec3 grey = mix(COLOUR_A, COLOUR_B, MOTTLE * fine.a);
   grey = mix(grey, TINT, v_paint.w);
-  // Blood dries where the work is done, in crevices first: opaque patches with an edge, nearly black where it is thick,
-  // brown-red where it runs out; char in flakes.
+  // Blood lies where the work is done, in crevices first: a film that instruments and tissue have wiped along it, through
+  // which metal shines where it is thin; it dries brown where it runs out. Char in flakes.
 #if DETAIL >= 1
   vec4 moisture = texture(u_noise, kTurn * (v_rest - FIBRE_AXIS * (0.6 * dot(FIBRE_AXIS, v_rest))) * 60.0);
-  float ragged = 0.65 * moisture.a + 0.35 * fine.a;
+  float ragged = 0.45 * moisture.a + 0.25 * fine.a + 0.3 * broad.a;
 #else
   float ragged = 0.6 * fine.a + 0.4 * broad.a;
 #endif
   float smeared = BLOOD * SOIL;
-  float thick = (smeared - 0.75 * ragged * (1.0 - smeared)) * step(0.01, smeared);
-  float blood = smoothstep(0.0, 0.07, thick);
+  float film = clamp((smeared - 0.9 * (ragged - 0.2) * (1.0 - smeared)) * 2.0, 0.0, 1.0) * step(0.01, smeared);
+  vec3 through = exp(-film * vec3(2.2, 5.2, 4.8));
+  float clotted = smoothstep(0.45, 0.95, film);
+  float dried = smoothstep(0.0, 0.12, film) * (1.0 - smoothstep(0.14, 0.45, film));
+  float blood = smoothstep(0.1, 0.75, film);  // how little of a mirror it leaves
+  grey = mix(grey * through, vec3(0.038, 0.0052, 0.0045), 0.9 * clotted);
+  grey = mix(grey, vec3(0.058, 0.021, 0.013), 0.45 * dried);
   float char_ = smoothstep(0.3, 0.6, BURN * SOIL * (0.5 + ragged));
-  grey = mix(grey, mix(vec3(0.080, 0.0075, 0.0065), vec3(0.036, 0.0042, 0.0036), smoothstep(0.03, 0.25, thick)), blood);
   float heated = smoothstep(0.1, 0.45, BURN * SOIL * (0.4 + 1.2 * ragged));  // what current has boiled on it: tan, brown
   grey = mix(grey, grey * vec3(0.55, 0.34, 0.2) + vec3(0.02, 0.01, 0.004), 0.85 * heated);
   grey = mix(grey, vec3(0.016, 0.013, 0.012), 0.9 * char_);
-  float plain = max(SCATTER, max(blood, char_));  // no longer a mirror
+  float plain = max(SCATTER, max(0.5 * blood, char_));  // no longer a mirror
   float bare = 1.0 - max(blood, char_);
   float ao = OPENNESS;
   float rim = min(1.0 - nv, 0.8), schlick = rim * rim * rim * rim;  // no further: the last pixel would be a dot
@@ -204,22 +213,25 @@ void main() {
   float broken = (0.15 + 1.2 * smoothstep(0.35, 0.7, broad.a)) * (0.35 + 0.8 * smoothstep(0.42, 0.64, fine.r));
   broken = mix(0.5, broken, clamp(20.0 * BUMP, 0.0, 1.0));  // what is polished has none
 #if DETAIL >= 1
-  broken *= 0.5 + 0.8 * smoothstep(0.25, 0.75, moisture.a);
-  float bead = smoothstep(0.55, 0.8, moisture.a) * smoothstep(0.5, 0.75, fine.g);
-#else
-  const float bead = 0.0;
+  broken *= 0.35 + 0.95 * smoothstep(0.3, 0.7, moisture.a);
 #endif
-  vec3 gloss = mix(1.5 * grey, vec3(0.28), max(SCATTER, blood)) * (mix(0.3, 0.12, plain) * lobe(nh, alpha2) * broken * (1.0 - 0.8 * blurred));
-  gloss /= 1.0 + mix(5.0, 0.8, bead) * gloss;  // the lamp is no point: long lines hardly clip
-  gloss *= 0.25 + 0.75 * bare;
+  // A mirror's picture of the lamp is as bright from near as from far; only what is scattered falls off. So it is one
+  // thin line, which clips where it is whole, in a sheen that never does.
+  lit.bounce *= 1.25 * inversesqrt(1.0 + lit.bounce * lit.bounce);
+  float lamp = lit.power * inversesqrt(1.0 + lit.power * lit.power / (kSteelLit * kSteelLit));
+  float line2 = 0.10 * ROUGH2 + min(0.1 * turns, 0.05);
+  float line = lobe(nh, line2) * line2 * min(1.0, 0.25 * ROUGH2 / line2) * smoothstep(0.25, 0.75, broken);
+  float sheen = lobe(nh, alpha2) * alpha2 * broken * (1.0 - 0.8 * blurred);
+  vec3 gloss = mix(vec3(1.0), vec3(0.5), plain) * (kLine * line * bare * bare) + mix(grey, vec3(0.12), plain) * (kSheen * sheen);
+  gloss *= mix(through, vec3(1.0), 0.1);
   vec3 around = mirrored(reflect(-V, n), 0.04, mix(0.6, 3.0, rim) * lit.bounce);  // the lens itself is dark
   around = mix(vec3((0.1 + 0.3 * smoothstep(-0.2, 0.8, reflect(-V, n).y)) * lit.bounce), around, INVERSE_SQUARE);  // a room
   vec3 from_below = around * clamp(0.9 - 0.6 * n.y - 1.2 * nv, 0.0, 1.0);
   around = mix(around, vec3(dot(around, vec3(0.4, 0.4, 0.2))), 0.4 * bare);
   // The lamp straight on, which is strong near the lens, what comes from all around, and tissue's pink from below.
-  vec3 even = LIGHT_COLOUR * lit.power * (mix(0.045, mix(0.13, 0.62, step(0.99, SCATTER)), plain) * nl * nl + mix(0.02, 0.012, plain) * lobe(nh, 0.35));
-  even += (BOUNCE * (mix(0.5, 1.0, plain) + 3.0 * rim) + vec3(mix(0.04, 0.21, plain) + AMBIENT)) * lit.bounce + from_below;
-  vec3 colour = (grey * even + LIGHT_COLOUR * lit.power * gloss + around * mirror) * ao;
+  vec3 even = LIGHT_COLOUR * lamp * (mix(0.028, mix(0.13, 0.62, step(0.99, SCATTER)), plain) * nl * nl + 0.012 * lobe(nh, 0.35));
+  even += (BOUNCE * (mix(0.3, 1.0, plain) + 3.0 * rim) + vec3(mix(0.02, 0.21, plain) + AMBIENT)) * lit.bounce + from_below;
+  vec3 colour = (grey * even + LIGHT_COLOUR * lamp * gloss + around * mirror) * ao;
 #ifdef FOGGY
   colour = through_air(colour, v_eye);
 #endif
