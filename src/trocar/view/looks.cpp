@@ -238,7 +238,7 @@ Material fold(float alpha) {
 /// Where it runs out on a wall it takes on that one's colour (tint).
 Material broad_ligament() {
   Material m = fold(0.78f);
-  m.wetness = 0.28f;
+  m.wetness = 0.12f;
   m.film_size = 0.0021f;
   m.film_bump = 0.09f;
   m.film_roughness = 0.15f;
