@@ -262,7 +262,7 @@ void main() {
 #endif
 
 #ifdef LOBULES
-  vec4 cell = texture(u_cells, p * CELL_SCALE + slope * 0.012 + (broad.rgb - 0.5) * 0.05);  // of unequal sizes
+  vec4 cell = texture(u_cells, p * CELL_SCALE + slope * 0.008 + (broad.rgb - 0.5) * 0.05);  // of unequal sizes
   float apart = 0.12 + 0.88 * smoothstep(0.35, 0.65, broad.b);  // lobules run together here and there
   float seam = 1.0 - smoothstep(0.0, 0.42, cell.a);
   seam *= seam * apart;
@@ -321,8 +321,8 @@ void main() {
   if (raw > 0.0) {
     vec4 grain = textureGrad(u_noise, kTurn * v_rest * 330.0, rest_x * 330.0, rest_y * 330.0);
     standing = raw * smoothstep(0.3, 0.7, tint + 0.5 * (broad.a - 0.5) + 0.3 * (fine.a - 0.5));
-    float granular = 0.55 + 0.5 * smoothstep(0.3, 0.7, fine.a) + 0.7 * (grain.a - 0.5);
-    vec3 flesh = mix(vec3(0.068, 0.0122, 0.0120) * granular, vec3(0.036, 0.0019, 0.0021), 0.85 * standing);
+    float granular = 0.6 + 0.5 * smoothstep(0.3, 0.7, fine.a) + 0.8 * (grain.a - 0.5);
+    vec3 flesh = mix(vec3(0.100, 0.0215, 0.0185) * granular, vec3(0.046, 0.0021, 0.0024), 0.85 * standing);
     albedo = mix(albedo, flesh, raw);
     beaded = mix(1.0, 0.9 * smoothstep(0.46, 0.60, 0.4 * grain.r + 0.6 * fine.r), raw);  // wet on its grains, not between
     relief += ((fine.rgb * 2.0 - 1.0) * 0.25 + (grain.rgb * 2.0 - 1.0) * 0.35) * (raw - 0.5 * standing);
@@ -440,7 +440,7 @@ void main() {
   vec3 around = (BOUNCE * 1.5 + vec3(AMBIENT) * 0.5) * lit.bounce;
 #endif
 #ifdef STAINED
-  gloss *= beaded * (1.0 + 1.2 * glassy);  // charred protein is as smooth as glass here and there
+  gloss *= beaded * (1.0 + 1.2 * glassy + 2.5 * raw);  // charred protein is as smooth as glass here and there
 #endif
   vec3 shine = LIGHT_COLOUR * gloss + around * (grazing * wet * open);
 
