@@ -188,7 +188,7 @@ Material stomach() {
 }
 
 Material liver() {
-  Material m = with_vessels(tissue(srgb(86, 50, 53), srgb(91, 54, 56), srgb(81, 46, 50)), 0.11f, 0.026f);
+  Material m = with_vessels(tissue(srgb(85, 50, 55), srgb(90, 54, 58), srgb(80, 46, 52)), 0.11f, 0.026f);
   m.vessel_colour = srgb(150, 106, 110);  // a pale net below its capsule
   m.mottle_size = 0.008f;
   m.mottle = 0.4f;        // smooth
