@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include <trocar/view/body_drawing.hpp>
 #include <trocar/view/bowel_loops.hpp>
@@ -12,6 +13,8 @@ using render::DrawItem;
 namespace {
 
 constexpr double kShadeCell = 0.001f, kShadeReach = 0.018f;  // [m] what shades what
+constexpr float kMarginCell = 0.003f, kMarginReach = 0.07f;  // [m] what a liver's margin shades, from how far
+constexpr double kMarginOpen = 0.94, kMarginDeepest = 0.12;  // where it does not; what is left right under it
 constexpr float kBeforeWall = 0.004f;                        // [m]
 // [m] in the order of what is translucent: before every fold that is in the picture
 constexpr float kAfterFolds = 0.1f;
@@ -63,6 +66,7 @@ BodyDrawing::BodyDrawing(const sim::Model& model, render::Backend& backend)
   make_organs(baker, backend);
   make_on_organs(walls, backend);
   for (const sim::WallModel& w : model.walls) make_wall(w, baker, backend);
+  shade_aprons();
   for (std::size_t i = 0; i < m_apron_shapes.size(); ++i)
     m_aprons.push_back(fixed(m_apron_shapes[i], model.walls[m_apron_on[i]].name, backend));
   for (const MeshBuffer& apron : m_far_apron_shapes)
@@ -190,6 +194,26 @@ void BodyDrawing::make_aprons(const WallSurface& walls) {
     m_stains.add_ground(m_apron_shapes.back());
     m_stains.add_ground(m_far_apron_shapes.back());
   }
+}
+
+/// A liver's margin lies on the omentum, or close over it: dark along it.
+void BodyDrawing::shade_aprons() {
+  std::vector<render::Occluder> above;
+  for (const CuttableDrawing& c : m_cuttables) above.push_back({c.positions(), c.indices()});
+  for (const LiverDome& l : m_livers) above.push_back({l.buffer().positions, l.buffer().indices});
+  if (m_livers.empty()) return;
+  const render::OpennessBaker baker(above, kMarginCell, kMarginReach);
+  for (std::vector<MeshBuffer>* shapes : {&m_apron_shapes, &m_far_apron_shapes})
+    for (MeshBuffer& apron : *shapes) {
+      std::vector<Paint> below(apron.size());
+      baker.bake(apron.positions, apron.normals, below);
+      for (std::size_t i = 0; i < below.size(); ++i) {
+        const double open = std::min(1.0, below[i].openness / (255 * kMarginOpen));
+        const double lit = std::max(kMarginDeepest, std::pow(open, 5));
+        apron.paint[i].openness = std::uint8_t(apron.paint[i].openness * lit);
+        apron.paint[i].tint = std::max(apron.paint[i].tint, to_byte(1 - lit));  // and redder
+      }
+    }
 }
 
 void BodyDrawing::make_surroundings(const WallSurface& walls, const render::OpennessBaker& baker,

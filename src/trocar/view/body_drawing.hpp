@@ -72,6 +72,7 @@ class BodyDrawing {
   void make_on_organs(const WallSurface& walls, render::Backend& backend);
   void make_aprons(const WallSurface& walls);
   void make_wall(const sim::WallModel& wall, const render::OpennessBaker& baker, render::Backend& backend);
+  void shade_aprons();
   void make_surroundings(const WallSurface& walls, const render::OpennessBaker& baker, render::Backend& backend);
   void make_joints(const WallSurface& walls, render::Backend& backend);
   void make_vessels(render::Backend& backend);

@@ -52,7 +52,7 @@ struct Cavity {
 }  // namespace
 
 double fat_below(Vec3d p) {
-  return 0.3 * smooth(0.0, 0.9, 0.75 * waves(p, 0.052) + 0.4 * waves(p + Vec3d{0.3, 0.1, 0.2}, 0.019));
+  return 0.4 * smooth(0.0, 0.9, 0.75 * waves(p, 0.052) + 0.4 * waves(p + Vec3d{0.3, 0.1, 0.2}, 0.019));
 }
 
 namespace {

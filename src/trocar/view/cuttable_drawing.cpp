@@ -10,9 +10,9 @@
 namespace trocar::view {
 namespace {
 
-constexpr Paint kFlesh{220, 235, 0, 0};     // laid bare: raw, as solid right up to the skin as below it
-constexpr std::uint8_t kDeepOpenness = 95;  // ... at a cut's bottom: dark, but tissue, no hole
-constexpr Paint kEdge{235, 70, 0, 190};     // the capsule's cut edge, drawn back: a thin line of the look's tint ...
+constexpr Paint kFlesh{220, 235, 0, 0};      // laid bare: raw, as solid right up to the skin as below it
+constexpr std::uint8_t kDeepOpenness = 150;  // ... at a cut's bottom: dark, but tissue, no hole
+constexpr Paint kEdge{235, 70, 0, 190};      // the capsule's cut edge, drawn back: a thin line of the look's tint ...
 constexpr double kEdgeHidden = 70, kEdgeWave = 0.0063;  // ... here and there below blood; [m]
 constexpr std::uint8_t kRimBlood = 70;                  // on the skin at a cut's rim, which is wet with it
 constexpr std::uint8_t kRimPale = 40;                   // ... and bled out: the look's tint
@@ -27,7 +27,7 @@ constexpr std::uint8_t kLoosePale = 60;       // their capsule has bled out
 constexpr float kGrain = 0.0007f;             // [m] torn lobules of what is bare
 constexpr float kGape = 0.0017f;              // [m] how far either side of a cut draws back
 constexpr float kDeepGape = 0.0008f;          // [m] ... below its mouth: a cleft, not a hole below a rim
-constexpr float kFrayed = 0.0004f;            // [m] how far a rim strays from the straight line of its cells
+constexpr float kFrayed = 0.0006f;            // [m] how far a rim strays from the straight line of its cells
 constexpr int kDrawnAlong = 3;                // rings of nodes that go with it
 
 /// Nodes at which the inside is bare: the skin ends there, so it has no relief that would leave a gap.
@@ -188,7 +188,9 @@ void CuttableDrawing::fray() {
     if (!m_at_rim[i]) continue;
     const Vec3d p = vec_cast<double>(m_skin.skin.rest[i]);
     const Vec3d off{waves(p, 0.0081), waves(p + Vec3d{0.2, 0.5, 0.1}, 0.0077), waves(p + Vec3d{0.6, 0.3, 0.4}, 0.0073)};
-    m_pose.position[i] += kFrayed * vec_cast<float>(off);
+    const Vec3d torn{waves(p, 0.0031), waves(p + Vec3d{0.1, 0.7, 0.2}, 0.0029),
+                     waves(p + Vec3d{0.5, 0.2, 0.3}, 0.0033)};
+    m_pose.position[i] += kFrayed * vec_cast<float>(off + 0.5 * torn);
   }
 }
 

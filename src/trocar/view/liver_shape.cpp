@@ -24,6 +24,7 @@ constexpr double kHold = 1, kLoose = 8e-6, kFirm = 6e-4;  // weights, see faires
 constexpr double kSunk = 0.00022;                         // [m] times (rings into the body)^2
 constexpr double kBehindWall = 0.003;                     // [m]
 constexpr int kOverlap = 3;                               // rings
+constexpr double kTucked = 0.0032, kTuckedTo = 0.012;     // [m] the ends of its margin into the body, up to there
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// [m] from the edge to a row; the first ones lie close, as the margin is round.
@@ -239,6 +240,9 @@ MeshBuffer LiverShape::dome(const WallSurface& wall) const {
   MeshBuffer b;
   const std::vector<int> depth = depths();
   const std::size_t n = m_columns.size();
+  const auto within_body = [&](std::size_t i) {
+    return smooth(kStep, -kStep, std::max(m_columns[m_first].x - m_columns[i].x, m_columns[i].x - m_columns[m_last].x));
+  };
   for (std::size_t i = 0; i < n; ++i)
     for (int k = 0; k < kRows; ++k) {
       const double x = m_columns[i].x, y = y_of(i, k);
@@ -247,7 +251,8 @@ MeshBuffer LiverShape::dome(const WallSurface& wall) const {
                                 ? y - y_of(i, m_columns[i].join)
                                 : std::min(offset_of(k), std::fabs(x - m_columns[i < m_first ? m_first : m_last].x));
       const double uneven = 0.0006 * waves({x, y, m_z[at(i, k)]}, 0.024) * smooth(0.002, 0.02, beyond);
-      b.add(vec_cast<float>(Vec3d{x, y, m_z[at(i, k)] + uneven - kSunk * own * own}));
+      const double tucked = kTucked * within_body(i) * smooth(kTuckedTo, 0, offset_of(k));
+      b.add(vec_cast<float>(Vec3d{x, y + tucked, m_z[at(i, k)] + uneven - kSunk * own * own}));
     }
   const auto v = [&](std::size_t i, int k) { return std::uint32_t(at(i, k)); };
   for (std::size_t i = 0; i + 1 < n; ++i)
@@ -262,7 +267,8 @@ MeshBuffer LiverShape::dome(const WallSurface& wall) const {
     for (std::size_t i = first; i <= last; ++i)
       for (int k = 1; k <= kBelow; ++k) {
         const double off = offset_of(2 * k), thick = 0.0105 * std::sqrt(std::min(1.0, off / 0.03));
-        b.add(vec_cast<float>(Vec3d{m_columns[i].x, m_columns[i].low + off, m_z[at(i, 0)] - thick}));
+        b.add(vec_cast<float>(
+            Vec3d{m_columns[i].x, m_columns[i].low + off + kTucked * within_body(i), m_z[at(i, 0)] - thick}));
       }
     const auto low = [&](std::size_t i, int k) {
       return k == 0 ? v(i, 0) : begin + std::uint32_t(i - first) * kBelow + std::uint32_t(k - 1);

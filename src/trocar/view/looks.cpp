@@ -160,7 +160,7 @@ Material upper_abdomen() {
   m.colour = srgb(146, 84, 89);
   m.colour_b = srgb(155, 94, 94);
   m.colour_c = srgb(137, 75, 81);
-  m.tint = srgb(160, 101, 88);
+  m.tint = srgb(172, 116, 86);
   return m;
 }
 
@@ -188,17 +188,18 @@ Material stomach() {
 }
 
 Material liver() {
-  Material m = with_vessels(tissue(srgb(84, 46, 51), srgb(92, 53, 56), srgb(75, 40, 46)), 0.11f, 0.026f);
+  Material m = with_vessels(tissue(srgb(85, 50, 55), srgb(90, 54, 58), srgb(80, 46, 52)), 0.11f, 0.026f);
   m.vessel_colour = srgb(150, 106, 110);  // a pale net below its capsule
   m.mottle_size = 0.008f;
-  m.mottle = 0.5f;
+  m.mottle = 0.4f;        // smooth
+  m.glow_amount = 0.02f;  // no bright line along its edge
   m.bump = 0.012f;
   m.roughness = 0.72f;
-  m.wetness = 0.6f;
-  m.film_roughness = 0.033f;
+  m.wetness = 0.76f;  // unbroken: a dry place would be a dark blotch where the dome turns away
+  m.film_roughness = 0.03f;
   m.film_bump = 0.22f;  // so smooth that it sparkles only where it faces the lamp, in flecks with hard edges
   m.film_size = 0.0013f;
-  m.fresnel = 0.014f;            // the capsule is matte but for the film's flecks, and so is what a cut lays bare
+  m.fresnel = 0.012f;            // the capsule is matte but for the film's flecks, and so is what a cut lays bare
   m.tint = srgb(166, 104, 100);  // a thin edge
   return m;
 }
@@ -238,7 +239,7 @@ Material fold(float alpha) {
 /// Where it runs out on a wall it takes on that one's colour (tint).
 Material broad_ligament() {
   Material m = fold(0.78f);
-  m.wetness = 0.28f;
+  m.wetness = 0.12f;
   m.film_size = 0.0021f;
   m.film_bump = 0.09f;
   m.film_roughness = 0.15f;
@@ -309,14 +310,14 @@ Material fat() {
 Material omentum() {
   Material m = fat();
   m.colour = srgb(228, 154, 137);
-  m.colour_b = srgb(236, 172, 142);
-  m.colour_c = srgb(218, 134, 127);
+  m.colour_b = srgb(238, 176, 128);
+  m.colour_c = srgb(216, 128, 120);
   m.mottle_size = 0.014f;
-  m.mottle = 0.45f;
+  m.mottle = 0.65f;
   m.bump = 0.03f;
-  m.lobule_size = 0.0046f;
-  m.lobule_depth = 0.14f;
-  m.lobule_contrast = 0.04f;
+  m.lobule_size = 0.0044f;
+  m.lobule_depth = 0.2f;
+  m.lobule_contrast = 0.09f;
   m.vessels = 0.7f;
   m.vessel_tile = 0.07f;
   m.vessel_colour = srgb(166, 56, 48);

@@ -63,6 +63,10 @@ out vec4 o_colour;
 // Turns axes between octaves of noise so that their lattices do not line up.
 const mat3 kTurn = mat3(0.36, 0.48, -0.8, -0.8, 0.60, 0.0, 0.48, 0.64, 0.60);
 
+const float kSheenWaves = 290.0;  // [rad/m] of a lining's film, 2 pi over 22 mm
+const float kBeadWaves = 1500.0;  // [rad/m] of the moisture that stands on it, 2 pi over 4 mm
+const float kBeadSlope = 0.38, kBead2 = 0.02, kBeads = 60.0;  // of a bead: how steep, (its alpha)^2, how bright
+const float kDullest2 = 0.008;   // (alpha of a film)^2 up to which it sparkles where it stands in wrinkles
 const float kClumps = 0.014;     // [m] distance of the places where a film sparkles
 const float kFoldWidth = 0.10, kFoldSlope = 0.35;  // of a lining's low folds: in values of the noise, and how steep
 const float kLiningBall = 0.12;  // [m] radius of the ball that a lining's vessels are drawn on
@@ -93,7 +97,12 @@ vec2 vessels_at(vec3 p, vec3 n) {
   vec3 off = d - along * FIBRE_AXIS;
   vec3 side = normalize(vec3(FIBRE_AXIS.y, -FIBRE_AXIS.x, 0.001)), up = cross(FIBRE_AXIS, side);
   vec2 at = vec2(dot(off, side), dot(off, up)) * (acos(along) * inversesqrt(dot(off, off)) * kLiningBall);
-  return texture(u_vessels, at * VESSEL_SCALE + 0.37).rg * smoothstep(0.18, 0.5, abs(dot(d, n)));  // not smeared along a steep place
+  at = at * VESSEL_SCALE + 0.37;
+  // A wall is mostly seen aslant, so a pixel covers a long strip of the picture: two looks along it, each one level finer,
+  // or trunks would be sheared by the texels of a level that is too coarse across the strip.
+  vec2 step_x = dFdx(at), step_y = dFdy(at), strip = 0.25 * (dot(step_x, step_x) > dot(step_y, step_y) ? step_x : step_y);
+  vec2 seen = texture(u_vessels, at + strip, -1.2).rg + texture(u_vessels, at - strip, -1.2).rg;
+  return (0.5 * smoothstep(0.2, 0.55, abs(dot(d, n)))) * seen;  // not smeared along a steep place
 }
 #elif defined(LOBULES)
 // Seen from where one looks at it, as lobules turn their faces everywhere; what turns far away has none.
@@ -249,9 +258,9 @@ void main() {
   // Over a hand's breadth it goes from mauve to brown-orange, where fat lies below it, and from pale to red.
   float fat = smoothstep(-0.5, 1.0, sin(dot(v_rest, vec3(30.0, 23.0, 16.0)) + 1.3 * sin(dot(v_rest, vec3(-20.0, 28.0, 35.0)))));
   float red = sin(dot(v_rest, vec3(-25.0, 14.0, 31.0)) + 1.1 * sin(dot(v_rest, vec3(27.0, 31.0, -12.0))));
-  albedo *= 1.0 + vec3(0.02, 0.09, -0.21) * fat - vec3(0.02, 0.08, 0.06) * red;
+  albedo *= 1.0 + vec3(0.02, 0.09, -0.23) * fat - vec3(0.03, 0.11, 0.04) * red;
 #if DETAIL >= 1
-  albedo *= 1.0 + 0.3 * (vec3(0.8, 1.1, 1.0) * (ripple.a - 0.5) + 0.5 * (broad.b - 0.5)) + vec3(0.0, 0.05, -0.08) * (ripple.g - 0.5);
+  albedo *= 1.0 + 0.3 * (vec3(0.55, 1.25, 1.1) * (ripple.a - 0.5) + vec3(0.35, 0.6, 0.55) * (broad.b - 0.5)) + vec3(0.0, 0.05, -0.08) * (ripple.g - 0.5);
 #endif
 #else
   albedo *= 1.0 + vec3(-0.01, 0.09, -0.21) * (broad.g - 0.5);  // towards yellow here, mauve there
@@ -265,7 +274,7 @@ void main() {
 #endif
 
 #ifdef LOBULES
-  vec4 cell = texture(u_cells, p * CELL_SCALE + slope * 0.012 + (broad.rgb - 0.5) * 0.05);  // of unequal sizes
+  vec4 cell = texture(u_cells, p * CELL_SCALE + slope * 0.008 + (broad.rgb - 0.5) * 0.05);  // of unequal sizes
   float apart = 0.12 + 0.88 * smoothstep(0.35, 0.65, broad.b);  // lobules run together here and there
   float seam = 1.0 - smoothstep(0.0, 0.42, cell.a);
   seam *= seam * apart;
@@ -324,8 +333,8 @@ void main() {
   if (raw > 0.0) {
     vec4 grain = textureGrad(u_noise, kTurn * v_rest * 330.0, rest_x * 330.0, rest_y * 330.0);
     standing = raw * smoothstep(0.3, 0.7, tint + 0.5 * (broad.a - 0.5) + 0.3 * (fine.a - 0.5));
-    float granular = 0.55 + 0.5 * smoothstep(0.3, 0.7, fine.a) + 0.7 * (grain.a - 0.5);
-    vec3 flesh = mix(vec3(0.068, 0.0122, 0.0120) * granular, vec3(0.036, 0.0019, 0.0021), 0.85 * standing);
+    float granular = 0.6 + 0.5 * smoothstep(0.3, 0.7, fine.a) + 0.8 * (grain.a - 0.5);
+    vec3 flesh = mix(vec3(0.100, 0.0215, 0.0185) * granular, vec3(0.046, 0.0021, 0.0024), 0.85 * standing);
     albedo = mix(albedo, flesh, raw);
     beaded = mix(1.0, 0.9 * smoothstep(0.46, 0.60, 0.4 * grain.r + 0.6 * fine.r), raw);  // wet on its grains, not between
     relief += ((fine.rgb * 2.0 - 1.0) * 0.25 + (grain.rgb * 2.0 - 1.0) * 0.35) * (raw - 0.5 * standing);
@@ -372,16 +381,23 @@ void main() {
   vec3 film_slope = slope * (0.5 * FILM_BUMP);
   float wet_noise = broad.b;
 #endif
-#ifdef LINING
-  film_slope = FILM_BUMP * (broad.rgb * 2.0 - 1.0 + 0.4 * (broad.gbr * 2.0 - 1.0));  // broad sheens, no frost ...
-#if DETAIL >= 1
-  // ... flecks here and there on crests of its folds and on what stands out
+#if defined(LINING) && DETAIL >= 1
+  // A wall has one broad, soft sheen; it sparkles in beads of moisture, which stand on crests of its folds and on what
+  // stands out. Both are waves, not a noise of voxels: near the lens those would be seen, with corners.
+  vec3 wide = v_rest * kSheenWaves;
+  film_slope = FILM_BUMP * sin(wide + 1.4 * sin(0.63 * wide.yzx + 2.0));
   float crest = smoothstep(0.5, 0.85, fold + 1.2 * (fine.b - 0.5)) * (0.35 + 0.65 * wrinkled);
-  crest = max(crest, 0.9 * smoothstep(0.61, 0.7, broad.a + 0.3 * (fine.b - 0.5)) * wrinkled);
-  mat3 bead = kTurn * FILM_SCALE;
-  vec3 bead_x = bead * dFdx(v_rest), bead_y = bead * dFdy(v_rest);
-  if (crest > 0.0) film_slope += (5.0 * crest * FILM_BUMP) * (textureGrad(u_noise, bead * v_rest, bead_x, bead_y).rgb * 2.0 - 1.0);
-#endif
+  crest = max(crest, (0.4 + 0.5 * smoothstep(0.61, 0.7, broad.a + 0.3 * (fine.b - 0.5))) * wrinkled);
+  vec3 bead = kTurn * v_rest * kBeadWaves;
+  float in_pixel = length(fwidth(bead));  // [rad]
+  vec3 bead_slope = vec3(0.0);
+  if (crest > 0.0) {
+    bead += 1.7 * sin(0.57 * bead.zxy + 3.0 * wide);
+    vec3 turned = sin(bead + 1.2 * sin(1.31 * bead.yzx));
+    bead_slope = (kBeadSlope * smoothstep(3.5, 1.2, in_pixel)) * (turned + 0.45 * sin(2.3 * bead.zxy + 1.6 * turned));
+  }
+#elif defined(LINING)
+  film_slope = FILM_BUMP * (broad.rgb * 2.0 - 1.0);
 #endif
   float wet = smoothstep(1.0 - WETNESS - 0.2, 1.0 - WETNESS + 0.2, wet_noise);
 #ifdef STAINED
@@ -391,9 +407,6 @@ void main() {
   // What mirrors the lamp is broken again by the film's thickness: flecks in clumps, no rings around its bumps.
 #if DETAIL >= 1
   float flecks = smoothstep(0.34, 0.66, fine.g + 0.5 * (broad.b - 0.5));
-#ifdef LINING
-  flecks *= 0.35 + 2.2 * crest;
-#endif
   flecks = mix(0.45, flecks, 0.15 + 0.85 * INVERSE_SQUARE);
 #elif defined(LINING)
   const float flecks = 0.17;
@@ -407,13 +420,11 @@ void main() {
   vec3 H = normalize(lit.direction + V);
   float facing = clamp(nl * 4.0, 0.0, 1.0) * open;
 #if defined(LINING) && DETAIL >= 1
-  const float kSparkle = 12.0;
-  float sparkles = crest;  // a bead of moisture is smoother than the wall that it stands on
-  float film2 = FILM2 * mix(4.0, 1.0, crest);
+  const float kSparkle = 1.1, sparkles = 0.0;
+  float film2 = 4.0 * FILM2;
 #else
   const float kSparkle = 6.0;
-  float sparkles = wrinkled;
-  float film2 = FILM2 * mix(4.0, 1.8, wrinkled);
+  float sparkles = wrinkled * min(1.0, kDullest2 / FILM2), film2 = FILM2 * mix(4.0, 1.8, wrinkled);
 #endif
 #if DETAIL >= 1
   // Ripples of a pixel or less are as rough as their normals differ [Kaplanyan 16].
@@ -429,7 +440,9 @@ void main() {
   float mh = clamp(dot(m, H), 0.0, 1.0), nh = clamp(dot(n, H), 0.0, 1.0);
   float glint = lobe(mh, film2);
 #if defined(LINING) && DETAIL >= 1
-  glint *= mix(1.0, smoothstep(0.02, 0.22, glint * film2), crest);  // where a bead does not mirror the lamp it is dull
+  vec3 b = normalize(m + along_surface(to_eye(bead_slope), N));
+  float mirrors = lobe(clamp(dot(b, H), 0.0, 1.0), kBead2) * kBead2;  // 1: right at the lens
+  glint = 0.35 * glint + kBeads * smoothstep(1.0 - 0.9 * crest, 1.1 - 0.7 * crest, mirrors);
 #endif
   float gloss = 0.42 * FRESNEL * (wet * (0.4 + 1.3 * flecks) * mix(1.1, kSparkle, sparkles) * glint + (0.35 + 0.65 * wet) * lobe(nh, ROUGH2)) * facing * lit.power;
   float grazing = FRESNEL + (1.0 - FRESNEL) * rim * rim * (1.0 - nv);
@@ -439,7 +452,7 @@ void main() {
   vec3 around = (BOUNCE * 1.5 + vec3(AMBIENT) * 0.5) * lit.bounce;
 #endif
 #ifdef STAINED
-  gloss *= beaded * (1.0 + 1.2 * glassy);  // charred protein is as smooth as glass here and there
+  gloss *= beaded * (1.0 + 1.2 * glassy + 2.5 * raw);  // charred protein is as smooth as glass here and there
 #endif
   vec3 shine = LIGHT_COLOUR * gloss + around * (grazing * wet * open);
 
