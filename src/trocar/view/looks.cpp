@@ -285,12 +285,12 @@ Material adhesion() {
 /// A thin sheet with fat in its free border.
 Material falciform() {
   Material m = fold(0.24f);
-  m.colour = srgb(192, 130, 122);
-  m.colour_b = srgb(200, 146, 131);
-  m.colour_c = srgb(176, 108, 108);
+  m.colour = srgb(172, 112, 106);
+  m.colour_b = srgb(180, 126, 112);
+  m.colour_c = srgb(158, 92, 94);
   m.vessel_tile = 0.06f;
   m.rim_alpha = 0.7f;
-  m.tint = srgb(210, 156, 134);
+  m.tint = srgb(182, 128, 108);
   return m;
 }
 

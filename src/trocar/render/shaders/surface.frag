@@ -64,8 +64,8 @@ out vec4 o_colour;
 const mat3 kTurn = mat3(0.36, 0.48, -0.8, -0.8, 0.60, 0.0, 0.48, 0.64, 0.60);
 
 const float kSheenWaves = 290.0;  // [rad/m] of a lining's film, 2 pi over 22 mm
-const float kBeadWaves = 1500.0;  // [rad/m] of the moisture that stands on it, 2 pi over 4 mm
-const float kBeadSlope = 0.38, kBead2 = 0.02, kBeads = 60.0;  // of a bead: how steep, (its alpha)^2, how bright
+const float kBeadWaves = 1100.0;  // [rad/m] of the moisture that stands on it, 2 pi over 5.7 mm
+const float kBeadSlope = 0.46, kBead2 = 0.035, kBeads = 60.0;  // of a bead: how steep, (its alpha)^2, how bright
 const float kDullest2 = 0.008;   // (alpha of a film)^2 up to which it sparkles where it stands in wrinkles
 const float kClumps = 0.014;     // [m] distance of the places where a film sparkles
 const float kFoldWidth = 0.10, kFoldSlope = 0.35;  // of a lining's low folds: in values of the noise, and how steep
@@ -382,12 +382,13 @@ void main() {
   float wet_noise = broad.b;
 #endif
 #if defined(LINING) && DETAIL >= 1
-  // A wall has one broad, soft sheen; it sparkles in beads of moisture, which stand on crests of its folds and on what
-  // stands out. Both are waves, not a noise of voxels: near the lens those would be seen, with corners.
+  // A wall has one broad, soft sheen; it sparkles in beads of moisture, which stand on crests of its folds, on what
+  // stands out and in patches elsewhere. Both are waves, not a noise of voxels: near the lens those would be seen, with corners.
   vec3 wide = v_rest * kSheenWaves;
   film_slope = FILM_BUMP * sin(wide + 1.4 * sin(0.63 * wide.yzx + 2.0));
   float crest = smoothstep(0.5, 0.85, fold + 1.2 * (fine.b - 0.5)) * (0.35 + 0.65 * wrinkled);
   crest = max(crest, (0.4 + 0.5 * smoothstep(0.61, 0.7, broad.a + 0.3 * (fine.b - 0.5))) * wrinkled);
+  crest = max(crest, 0.5 * smoothstep(0.53, 0.8, broad.b));
   vec3 bead = kTurn * v_rest * kBeadWaves;
   float in_pixel = length(fwidth(bead));  // [rad]
   vec3 bead_slope = vec3(0.0);
