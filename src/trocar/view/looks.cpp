@@ -191,7 +191,7 @@ Material liver() {
   Material m = with_vessels(tissue(srgb(85, 50, 55), srgb(90, 54, 58), srgb(80, 46, 52)), 0.11f, 0.026f);
   m.vessel_colour = srgb(150, 106, 110);  // a pale net below its capsule
   m.mottle_size = 0.008f;
-  m.mottle = 0.4f;        // smooth
+  m.mottle = 0.55f;
   m.glow_amount = 0.02f;  // no bright line along its edge
   m.bump = 0.012f;
   m.roughness = 0.72f;

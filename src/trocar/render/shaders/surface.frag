@@ -393,8 +393,8 @@ void main() {
   float in_pixel = length(fwidth(bead));  // [rad]
   vec3 bead_slope = vec3(0.0);
   if (crest > 0.0) {
-    bead += 1.7 * sin(0.57 * bead.zxy + 3.0 * wide);
-    vec3 turned = sin(bead + 1.2 * sin(1.31 * bead.yzx));
+    bead += 1.0 * sin(0.57 * bead.zxy + 3.0 * wide);
+    vec3 turned = sin(bead + 0.7 * sin(1.31 * bead.yzx));
     bead_slope = (kBeadSlope * smoothstep(3.5, 1.2, in_pixel)) * (turned + 0.45 * sin(2.3 * bead.zxy + 1.6 * turned));
   }
 #elif defined(LINING)
