@@ -188,12 +188,12 @@ Material stomach() {
 }
 
 Material liver() {
-  Material m = with_vessels(tissue(srgb(85, 50, 55), srgb(90, 54, 58), srgb(80, 46, 52)), 0.11f, 0.026f);
+  Material m = with_vessels(tissue(srgb(85, 50, 55), srgb(90, 54, 58), srgb(80, 46, 52)), 0.17f, 0.026f);
   m.vessel_colour = srgb(150, 106, 110);  // a pale net below its capsule
   m.mottle_size = 0.008f;
-  m.mottle = 0.55f;
+  m.mottle = 0.9f;
   m.glow_amount = 0.02f;  // no bright line along its edge
-  m.bump = 0.012f;
+  m.bump = 0.016f;
   m.roughness = 0.72f;
   m.wetness = 0.76f;  // unbroken: a dry place would be a dark blotch where the dome turns away
   m.film_roughness = 0.03f;
