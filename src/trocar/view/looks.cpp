@@ -379,8 +379,8 @@ Material polished(Vec3f bright, Vec3f dull, float roughness, float scatter) {
 
 /// Titanium: paler than steel and less of a mirror, drawn as a wire: it glints where it is bent and along its edges.
 Material satin(Vec3f bright, Vec3f dull) {
-  Material m = metal(bright, dull, 0.5f);
-  m.scatter = 0.6f;
+  Material m = metal(bright, dull, 0.42f);
+  m.scatter = 0.7f;
   m.mottle = 0.5f;
   m.fibre_stretch = 1;
   m.bump = 0.035f;
@@ -389,16 +389,16 @@ Material satin(Vec3f bright, Vec3f dull) {
 
 /// The plastic tube around a shaft.
 Material insulation() {
-  Material m = metal(srgb(80, 79, 84), srgb(69, 69, 74), 0.34f);
+  Material m = metal(srgb(84, 83, 88), srgb(74, 73, 78), 0.34f);
   m.bump = 0.03f;
   m.fibre_stretch = 10;
   m.scatter = 0.75f;
   return m;
 }
 
-/// Ceramic and PTFE: white, so that it clips before all else.
+/// Ceramic and PTFE: white, used.
 Material ceramic() {
-  Material m = metal(srgb(228, 225, 217), srgb(219, 215, 206), 0.36f);
+  Material m = metal(srgb(208, 203, 192), srgb(188, 181, 168), 0.36f);
   m.fibre_stretch = 1;
   m.mottle_size = 0.004f;
   m.bump = 0.01f;

@@ -205,13 +205,13 @@ void main() {
   float clotted = smoothstep(0.45, 0.95, film);
   float dried = smoothstep(0.0, 0.12, film) * (1.0 - smoothstep(0.14, 0.45, film));
   float blood = smoothstep(0.1, 0.75, film);  // how little of a mirror it leaves
-  grey = mix(grey * through, vec3(0.038, 0.0052, 0.0045), 0.9 * clotted);
-  grey = mix(grey, vec3(0.058, 0.021, 0.013), 0.45 * dried);
+  grey = mix(grey * through, vec3(0.080, 0.0095, 0.0080), 0.9 * clotted);
+  grey = mix(grey, vec3(0.090, 0.032, 0.020), 0.45 * dried);
   float char_ = smoothstep(0.3, 0.6, BURN * SOIL * (0.5 + ragged));
   float heated = smoothstep(0.1, 0.45, BURN * SOIL * (0.4 + 1.2 * ragged));  // what current has boiled on it: tan, brown
   grey = mix(grey, grey * vec3(0.55, 0.34, 0.2) + vec3(0.02, 0.01, 0.004), 0.85 * heated);
   grey = mix(grey, vec3(0.016, 0.013, 0.012), 0.9 * char_);
-  float plain = max(SCATTER, max(0.5 * blood, char_));  // no longer a mirror
+  float plain = max(SCATTER, max(0.8 * blood, char_));  // no longer a mirror
   float bare = 1.0 - max(blood, char_);
   float ao = OPENNESS;
   float rim = min(1.0 - nv, 0.8), schlick = rim * rim * rim * rim;  // no further: the last pixel would be a dot
@@ -238,7 +238,7 @@ void main() {
   vec3 from_below = around * clamp(0.9 - 0.6 * n.y - 1.2 * nv, 0.0, 1.0);
   around = mix(around, vec3(dot(around, vec3(0.4, 0.4, 0.2))), 0.4 * bare);
   // The lamp straight on, which is strong near the lens, what comes from all around, and tissue's pink from below.
-  vec3 even = LIGHT_COLOUR * lamp * (mix(0.028, mix(0.13, 0.62, step(0.99, SCATTER)), plain) * nl * nl + 0.012 * lobe(nh, 0.35));
+  vec3 even = LIGHT_COLOUR * lamp * (mix(0.028, mix(0.13, 0.42, smoothstep(0.5, 1.0, SCATTER)), plain) * nl * nl + 0.012 * lobe(nh, 0.35));
   even += (BOUNCE * (mix(0.3, 1.0, plain) + 3.0 * rim) + vec3(mix(0.02, 0.21, plain) + AMBIENT)) * lit.bounce + from_below;
   vec3 colour = (grey * even + LIGHT_COLOUR * lamp * gloss + around * mirror) * ao;
 #ifdef FOGGY
@@ -258,7 +258,7 @@ void main() {
   // Over a hand's breadth it goes from mauve to brown-orange, where fat lies below it, and from pale to red.
   float fat = smoothstep(-0.5, 1.0, sin(dot(v_rest, vec3(30.0, 23.0, 16.0)) + 1.3 * sin(dot(v_rest, vec3(-20.0, 28.0, 35.0)))));
   float red = sin(dot(v_rest, vec3(-25.0, 14.0, 31.0)) + 1.1 * sin(dot(v_rest, vec3(27.0, 31.0, -12.0))));
-  albedo *= 1.0 + vec3(0.02, 0.09, -0.23) * fat - vec3(0.03, 0.11, 0.04) * red;
+  albedo *= 1.0 + vec3(0.01, 0.07, -0.18) * fat - vec3(0.03, 0.11, 0.04) * red;
 #if DETAIL >= 1
   albedo *= 1.0 + 0.3 * (vec3(0.55, 1.25, 1.1) * (ripple.a - 0.5) + vec3(0.35, 0.6, 0.55) * (broad.b - 0.5)) + vec3(0.0, 0.05, -0.08) * (ripple.g - 0.5);
 #endif
@@ -383,19 +383,20 @@ void main() {
 #endif
 #if defined(LINING) && DETAIL >= 1
   // A wall has one broad, soft sheen; it sparkles in beads of moisture, which stand on crests of its folds, on what
-  // stands out and in patches elsewhere. Both are waves, not a noise of voxels: near the lens those would be seen, with corners.
+  // stands out and in patches elsewhere. Both are waves, not a noise of voxels: near the lens those would be seen, with
+  // corners.
   vec3 wide = v_rest * kSheenWaves;
   film_slope = FILM_BUMP * sin(wide + 1.4 * sin(0.63 * wide.yzx + 2.0));
   float crest = smoothstep(0.5, 0.85, fold + 1.2 * (fine.b - 0.5)) * (0.35 + 0.65 * wrinkled);
   crest = max(crest, (0.4 + 0.5 * smoothstep(0.61, 0.7, broad.a + 0.3 * (fine.b - 0.5))) * wrinkled);
-  crest = max(crest, 0.5 * smoothstep(0.53, 0.8, broad.b));
+  crest = max(crest, 0.42 * smoothstep(0.55, 0.8, broad.b));
   vec3 bead = kTurn * v_rest * kBeadWaves;
   float in_pixel = length(fwidth(bead));  // [rad]
   vec3 bead_slope = vec3(0.0);
   if (crest > 0.0) {
-    bead += 1.0 * sin(0.57 * bead.zxy + 3.0 * wide);
+    bead += sin(0.57 * bead.zxy + 3.0 * wide);
     vec3 turned = sin(bead + 0.7 * sin(1.31 * bead.yzx));
-    bead_slope = (kBeadSlope * smoothstep(3.5, 1.2, in_pixel)) * (turned + 0.45 * sin(2.3 * bead.zxy + 1.6 * turned));
+    bead_slope = (kBeadSlope * smoothstep(3.5, 1.2, in_pixel)) * (turned + 0.25 * sin(2.3 * bead.zxy + turned));
   }
 #elif defined(LINING)
   film_slope = FILM_BUMP * (broad.rgb * 2.0 - 1.0);
@@ -421,11 +422,10 @@ void main() {
   vec3 H = normalize(lit.direction + V);
   float facing = clamp(nl * 4.0, 0.0, 1.0) * open;
 #if defined(LINING) && DETAIL >= 1
-  const float kSparkle = 1.1, sparkles = 0.0;
+  const float sparkle = 1.1;
   float film2 = 4.0 * FILM2;
 #else
-  const float kSparkle = 6.0;
-  float sparkles = wrinkled * min(1.0, kDullest2 / FILM2), film2 = FILM2 * mix(4.0, 1.8, wrinkled);
+  float sparkle = mix(1.1, 6.0, wrinkled * min(1.0, kDullest2 / FILM2)), film2 = FILM2 * mix(4.0, 1.8, wrinkled);
 #endif
 #if DETAIL >= 1
   // Ripples of a pixel or less are as rough as their normals differ [Kaplanyan 16].
@@ -445,7 +445,7 @@ void main() {
   float mirrors = lobe(clamp(dot(b, H), 0.0, 1.0), kBead2) * kBead2;  // 1: right at the lens
   glint = 0.35 * glint + kBeads * smoothstep(1.0 - 0.9 * crest, 1.1 - 0.7 * crest, mirrors);
 #endif
-  float gloss = 0.42 * FRESNEL * (wet * (0.4 + 1.3 * flecks) * mix(1.1, kSparkle, sparkles) * glint + (0.35 + 0.65 * wet) * lobe(nh, ROUGH2)) * facing * lit.power;
+  float gloss = 0.42 * FRESNEL * (wet * (0.4 + 1.3 * flecks) * sparkle * glint + (0.35 + 0.65 * wet) * lobe(nh, ROUGH2)) * facing * lit.power;
   float grazing = FRESNEL + (1.0 - FRESNEL) * rim * rim * (1.0 - nv);
 #if SHADING == 2
   vec3 around = 0.7 * mirrored(reflect(-V, m), 0.03, lit.bounce);
