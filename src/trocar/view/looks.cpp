@@ -389,7 +389,7 @@ Material satin(Vec3f bright, Vec3f dull) {
 
 /// The plastic tube around a shaft.
 Material insulation() {
-  Material m = metal(srgb(84, 83, 88), srgb(74, 73, 78), 0.34f);
+  Material m = metal(srgb(66, 65, 69), srgb(57, 57, 61), 0.34f);
   m.bump = 0.03f;
   m.fibre_stretch = 10;
   m.scatter = 0.75f;

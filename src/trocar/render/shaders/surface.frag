@@ -389,14 +389,14 @@ void main() {
   film_slope = FILM_BUMP * sin(wide + 1.4 * sin(0.63 * wide.yzx + 2.0));
   float crest = smoothstep(0.5, 0.85, fold + 1.2 * (fine.b - 0.5)) * (0.35 + 0.65 * wrinkled);
   crest = max(crest, (0.4 + 0.5 * smoothstep(0.61, 0.7, broad.a + 0.3 * (fine.b - 0.5))) * wrinkled);
-  crest = max(crest, 0.42 * smoothstep(0.55, 0.8, broad.b));
+  crest = max(crest, 0.5 * smoothstep(0.53, 0.8, broad.b));
   vec3 bead = kTurn * v_rest * kBeadWaves;
   float in_pixel = length(fwidth(bead));  // [rad]
   vec3 bead_slope = vec3(0.0);
   if (crest > 0.0) {
     bead += sin(0.57 * bead.zxy + 3.0 * wide);
     vec3 turned = sin(bead + 0.7 * sin(1.31 * bead.yzx));
-    bead_slope = (kBeadSlope * smoothstep(3.5, 1.2, in_pixel)) * (turned + 0.25 * sin(2.3 * bead.zxy + turned));
+    bead_slope = (kBeadSlope * smoothstep(3.5, 1.2, in_pixel)) * (turned + 0.45 * sin(2.3 * bead.zxy + 1.6 * turned));
   }
 #elif defined(LINING)
   film_slope = FILM_BUMP * (broad.rgb * 2.0 - 1.0);
