@@ -3,7 +3,7 @@
 //
 //   Live live(session, source);          // source null: the hands lead, see put()
 //   live.put(input);                      // newest command, from the drawing thread
-//   if (live.refresh()) draw(live.snapshot().state);
+//   if (live.refresh()) draw(live.snapshot().state);      // copied when asked for, and at no other time
 //   live.stop();                          // joins; then the Session may be used again
 #pragma once
 
@@ -42,7 +42,9 @@ class Live {
   void put(const sim::Input& input) { m_commands.put(input); }
   void pause(bool on) { m_paused.store(on, std::memory_order_relaxed); }
 
-  bool refresh() { return m_published.refresh(); }
+  /// Asks for the State as it is now and has it a tick later. False, and snapshot() as it was, when time stands still
+  /// or the simulation takes longer than a few milliseconds (drawing thread only).
+  bool refresh();
   const Snapshot& snapshot() const { return m_published.latest(); }
   /// What has happened since the last call.
   std::vector<Moment> take_moments();
@@ -54,6 +56,7 @@ class Live {
 
  private:
   void loop();
+  void publish_if_wanted();
   void publish();
   void pass_moments();
   void measure_speed();
@@ -64,7 +67,7 @@ class Live {
   std::uint64_t m_limit;
   devices::Mailbox<sim::Input> m_commands;
   sim::Published<Snapshot> m_published;
-  std::atomic<bool> m_stop{false}, m_paused{false};
+  std::atomic<bool> m_stop{false}, m_paused{false}, m_wanted{false};
 
   // The simulation thread's own.
   sim::Input m_command;

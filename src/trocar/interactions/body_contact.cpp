@@ -19,13 +19,17 @@ bool touches(const Surface& surface, int vertex, Vec3d p, double depth) noexcept
   return depth > 0 && depth <= kDeepest && length(p - surface.position(vertex)) <= kBeside;
 }
 
-/// Looks for the vertex nearest to p: always near the last one, far from it only when it is its turn.
-/// @return is it near enough for contact?
-bool beside(const Surface& surface, Vec3d p, std::uint64_t turn, std::int32_t& vertex) noexcept {
+/// Far from the last vertex that was nearest, and not yet its turn to be looked for again?
+bool waits(const Surface& surface, Vec3d p, std::uint64_t turn, int vertex) noexcept {
   constexpr double kFar = 0.025;       // [m]
   constexpr std::uint64_t kTurns = 8;  // in which nothing comes from there to here
+  return geometry::distance2(surface.position(vertex), p) > kFar * kFar && turn % kTurns != 0;
+}
+
+/// Looks for the vertex nearest to p from the last one on.
+/// @return is it near enough for contact?
+bool beside(const Surface& surface, Vec3d p, std::int32_t& vertex) noexcept {
   constexpr double kBeside2 = kBeside * kBeside * 1.000001;
-  if (geometry::distance2(surface.position(vertex), p) > kFar * kFar && turn % kTurns != 0) return false;
   vertex = walk_to_nearest(surface, vertex, p);
   return geometry::distance2(surface.position(vertex), p) <= kBeside2;
 }
@@ -55,8 +59,8 @@ void strand_on_surface(const SurfacePair& pair, const StrandBody& body, const ti
   for (size_t i = 0; i < pair.sample.size(); ++i) {
     const int node = pair.sample[i];
     const Vec3d p = state.x[size_t(node)];
-    if (!surface.pose->bounds.reaches(p, 0.006)) continue;
-    if (!beside(surface, p, tick + i, nearest[i])) continue;
+    if (!surface.pose->bounds.reaches(p, 0.006) || waits(surface, p, tick + i, nearest[i])) continue;
+    if (!beside(surface, p, nearest[i])) continue;
     const Clearance c = clearance_at(surface, nearest[i], p);
     const double depth = double(pair.radius[i]) - c.distance - double(pair.overlap[i]);
     if (!touches(surface, nearest[i], p, depth) || surface.torn(nearest[i])) continue;
@@ -84,10 +88,10 @@ void solid_on_surface(const SurfacePair& pair, const Surface& samples, const Sur
   const double share = surface_loads ? 0.5 : 1.0;
   for (size_t i = 0; i < pair.sample.size(); ++i) {
     const int v = pair.sample[i];
-    if (!samples.skin->at_surface(v) || samples.torn(v)) continue;
+    if (!samples.skin->at_surface(v)) continue;
     const Vec3d p = samples.position(v);
-    if (!surface.pose->bounds.reaches(p, 0.004)) continue;
-    if (!beside(surface, p, tick + i, nearest[i])) continue;
+    if (!surface.pose->bounds.reaches(p, 0.004) || waits(surface, p, tick + i, nearest[i])) continue;
+    if (samples.torn(v) || !beside(surface, p, nearest[i])) continue;  // torn() reads eight nodes: it comes late
     const Clearance c = clearance_at(surface, nearest[i], p);
     const double depth = -c.distance - double(pair.overlap[i]);
     if (!touches(surface, nearest[i], p, depth) || surface.torn(nearest[i])) continue;

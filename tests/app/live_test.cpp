@@ -1,0 +1,61 @@
+// The simulation on its own thread: what the drawing thread gets to see of it, and when.
+#include "live.hpp"
+
+#include <gtest/gtest.h>
+
+#include "lesson.hpp"
+
+namespace trocar::app {
+namespace {
+
+using namespace std::chrono_literals;
+
+const Lesson& scene() {
+  static const std::unique_ptr<Lesson> lesson = load_lesson("gynaecology");
+  return *lesson;
+}
+
+/// Asks until something newer has come.
+bool newer(Live& live) {
+  for (int i = 0; i < 2000; ++i) {
+    if (live.refresh()) return true;
+    std::this_thread::sleep_for(5ms);
+  }
+  return false;
+}
+
+TEST(Live, EveryPictureThatAsksGetsALaterStateThanTheOneBefore) {
+  Session session(scene(), 1);
+  Live live(session, nullptr, 0);
+  std::uint64_t before = 0;
+  for (int i = 0; i < 20; ++i) {
+    ASSERT_TRUE(newer(live));
+    EXPECT_GT(live.snapshot().state.tick, before);
+    before = live.snapshot().state.tick;
+  }
+}
+
+TEST(Live, WhileTimeStandsStillThePictureShowsTheTickItStandsAt) {
+  Session session(scene(), 1);
+  Live live(session, nullptr, 0);
+  ASSERT_TRUE(newer(live));
+  live.pause(true);
+  ASSERT_TRUE(newer(live));  // this may have been asked for before
+  ASSERT_TRUE(newer(live));
+  const std::uint64_t shown = live.snapshot().state.tick;
+  live.stop();
+  EXPECT_EQ(shown, session.state().tick);
+}
+
+TEST(Live, NobodyWaitsForASimulationThatHasEnded) {
+  Session session(scene(), 1);
+  Live live(session, nullptr, 10);
+  while (!live.snapshot().finished) ASSERT_TRUE(newer(live));
+  EXPECT_EQ(live.snapshot().state.tick, 10u);
+  live.stop();
+  EXPECT_TRUE(live.refresh()) << "the last copy, made as it ends";
+  EXPECT_FALSE(live.refresh());
+}
+
+}  // namespace
+}  // namespace trocar::app
