@@ -5,7 +5,10 @@ times a second where tubes and instruments are; hands are a mouse and keys (xdot
 import json
 import math
 import os
+import shutil
 import subprocess
+import sys
+import tempfile
 import time
 
 METRES_PER_PIXEL = 1e-4   # devices::HandSettings
@@ -512,3 +515,63 @@ class Trainee:
             return self.eyes.wait(what, until, limit)
         finally:
             self.eyes.wait("the handle to close", lambda: self.eyes.tool()["handle"] > 0.97, limit)
+
+
+class Room:
+    """The real window, and a robot before it.
+
+    folder       where it may write; its data folder is in there
+    environment  of every program that is to find that data
+    """
+
+    def __init__(self, program, folder, gamepad, words):
+        self.program, self.folder = program, folder
+        log, pipe = os.path.join(folder, "log.jsonl"), os.path.join(folder, "pad")
+        self.environment = dict(os.environ, TROCAR_DATA=os.path.join(folder, "data"), BROWSER="true")
+        if os.path.exists(log):
+            os.remove(log)
+        if gamepad:
+            if not os.path.exists(pipe):
+                os.mkfifo(pipe)
+            self.environment["TROCAR_GAMEPAD"] = pipe
+        self.process = subprocess.Popen([program, "train", "--size", "1000x640", "--log", log, *words], cwd=folder,
+                                        env=self.environment, stdout=subprocess.PIPE if "--json" in words else None,
+                                        text=True)
+        self.eyes = Eyes(log, self.process)
+        self.hands = Pad(self.eyes, pipe) if gamepad else MouseAndKeys(self.eyes)
+
+    def leave(self):
+        if self.process.poll() is None:
+            self.process.kill()
+        self.process.wait()
+
+
+def in_a_room(usage, work, words):
+    """Does work(room) with the words of the command line: PROGRAM [--gamepad] [FOLDER]. `words` go to the program.
+
+    Returns the exit status: 0 passed, 1 failed, 77 something to run it with is missing."""
+    gamepad = "--gamepad" in sys.argv
+    given = [w for w in sys.argv[1:] if w != "--gamepad"]
+    if not given:
+        sys.exit(usage)
+    if not shutil.which("xdotool"):
+        print("xdotool is missing: apt-get install xdotool")
+        return 77
+    keep = len(given) > 1
+    folder = os.path.abspath(given[1]) if keep else tempfile.mkdtemp()
+    os.makedirs(folder, exist_ok=True)
+    room = None
+    try:
+        room = Room(os.path.abspath(given[0]), folder, gamepad, words)
+        work(room)
+    except (Failed, subprocess.TimeoutExpired) as failure:
+        for event in room.eyes.events[-25:] if room else []:
+            print(event)
+        print(f"FAILED ({'gamepad' if gamepad else 'mouse and keys'}): {failure}")
+        return 1
+    finally:
+        if room:
+            room.leave()
+        if not keep:
+            shutil.rmtree(folder, ignore_errors=True)
+    return 0

@@ -10,14 +10,9 @@ missing.
 """
 import json
 import math
-import os
-import shutil
-import subprocess
 import sys
-import tempfile
-import time
 
-from trainee import Eyes, Failed, MouseAndKeys, Over, Pad, Trainee, add, cross, dot, unit
+from trainee import Failed, Over, Trainee, add, cross, dot, in_a_room, unit
 
 SIDES = [  # tube, who grasps, who cuts, towards which side the tube is lifted
     ("tube_left", "left_lateral", "right_lateral", 1),
@@ -262,52 +257,17 @@ def operate(eyes, hands):
     return end
 
 
-def main():
-    words = [w for w in sys.argv[1:] if w != "--gamepad"]
-    if not words:
-        sys.exit(__doc__)
-    if not shutil.which("xdotool"):
-        print("xdotool is missing: apt-get install xdotool")
-        return 77
-    program = os.path.abspath(words[0])
-    keep = len(words) > 1
-    folder = os.path.abspath(words[1]) if keep else tempfile.mkdtemp()
-    os.makedirs(folder, exist_ok=True)
-    path, pipe = os.path.join(folder, "log.jsonl"), os.path.join(folder, "pad")
-    environment = dict(os.environ, TROCAR_DATA=os.path.join(folder, "data"), BROWSER="true")
-    if os.path.exists(path):
-        os.remove(path)
-    if "--gamepad" in sys.argv:
-        if not os.path.exists(pipe):
-            os.mkfifo(pipe)
-        environment["TROCAR_GAMEPAD"] = pipe
-    process = subprocess.Popen([program, "train", "--size", "1000x640", "--log", path, "--trainee", "robot", "--json"],
-                               cwd=folder, env=environment, stdout=subprocess.PIPE, text=True)
-    eyes = Eyes(path, process)
-    try:
-        hands = Pad(eyes, pipe) if "--gamepad" in sys.argv else MouseAndKeys(eyes)
-        end = operate(eyes, hands)
-        out, _ = process.communicate(timeout=120)
-        result = json.loads(out)
-        a = result["assessment"]
-        print(f"{hands.name}: score {a['score']['total']:.0f}, {a['exercise_seconds']:.0f} s of exercise, "
-              f"errors {[e['code'] for e in a['errors']]}")
-        undone = [s["name"] for s in a["steps"] if not s["done"]]
-        if undone or end["interrupted"] or not result["passed"]:
-            raise Failed(f"not passed; not done: {undone}")
-    except (Failed, subprocess.TimeoutExpired) as failure:
-        for e in eyes.events[-25:]:
-            print(e)
-        print(f"FAILED ({'gamepad' if '--gamepad' in sys.argv else 'mouse and keys'}): {failure}")
-        return 1
-    finally:
-        if process.poll() is None:
-            process.kill()
-        process.wait()
-        if not keep:
-            shutil.rmtree(folder, ignore_errors=True)
-    return 0
+def whole_exercise(room):
+    end = operate(room.eyes, room.hands)
+    out, _ = room.process.communicate(timeout=120)
+    result = json.loads(out)
+    a = result["assessment"]
+    print(f"{room.hands.name}: score {a['score']['total']:.0f}, {a['exercise_seconds']:.0f} s of exercise, "
+          f"errors {[e['code'] for e in a['errors']]}")
+    undone = [s["name"] for s in a["steps"] if not s["done"]]
+    if undone or end["interrupted"] or not result["passed"]:
+        raise Failed(f"not passed; not done: {undone}")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(in_a_room(__doc__, whole_exercise, ["--trainee", "robot", "--json"]))

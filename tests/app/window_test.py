@@ -9,15 +9,13 @@ Exit: 0 passed, 1 failed, 77 something to run it with is missing. FOLDER keeps w
 import json
 import math
 import os
-import shutil
 import struct
 import subprocess
 import sys
-import tempfile
 import time
 import zlib
 
-from trainee import Eyes, Failed, MouseAndKeys, Pad, Trainee, add, xdo
+from trainee import Failed, Trainee, add, in_a_room, xdo
 
 PATIENCE = 300            # [s] for everything at the end
 
@@ -223,45 +221,12 @@ def check_store(program, folder, environment):
             raise Failed(f"the recording {a['recording']} does not verify")
 
 
-def main():
-    words = [w for w in sys.argv[1:] if w != "--gamepad"]
-    if not words:
-        sys.exit(__doc__)
-    if not shutil.which("xdotool"):
-        print("xdotool is missing: apt-get install xdotool")
-        return 77
-    program = os.path.abspath(words[0])
-    keep = len(words) > 1
-    folder = os.path.abspath(words[1]) if keep else tempfile.mkdtemp()
-    os.makedirs(folder, exist_ok=True)
-    path, pipe = os.path.join(folder, "log.jsonl"), os.path.join(folder, "pad")
-    environment = dict(os.environ, TROCAR_DATA=os.path.join(folder, "data"), BROWSER="true")
-    if os.path.exists(path):
-        os.remove(path)
-    if "--gamepad" in sys.argv:
-        if not os.path.exists(pipe):
-            os.mkfifo(pipe)
-        environment["TROCAR_GAMEPAD"] = pipe
-    process = subprocess.Popen([program, "train", "--size", "1000x640", "--log", path, "--trainee", "window test"],
-                               cwd=folder, env=environment)
-    try:
-        eyes = Eyes(path, process)
-        hands = Pad(eyes, pipe) if "--gamepad" in sys.argv else MouseAndKeys(eyes)
-        operate(eyes, hands, folder)
-        process.terminate()  # as closing the window does
-        process.wait(60)
-        check_store(program, folder, environment)
-    except (Failed, subprocess.TimeoutExpired) as failure:
-        print(f"FAILED ({'gamepad' if '--gamepad' in sys.argv else 'mouse and keys'}): {failure}")
-        return 1
-    finally:
-        if process.poll() is None:
-            process.kill()
-        process.wait()
-        if not keep:
-            shutil.rmtree(folder, ignore_errors=True)
-    return 0
+def whole_window(room):
+    operate(room.eyes, room.hands, room.folder)
+    room.process.terminate()  # as closing the window does
+    room.process.wait(60)
+    check_store(room.program, room.folder, room.environment)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(in_a_room(__doc__, whole_window, ["--trainee", "window test"]))

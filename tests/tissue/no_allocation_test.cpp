@@ -1,38 +1,12 @@
-// The step's law: no allocation. Every operator new of this program counts.
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
+// The step's law: no allocation.
 #include <gtest/gtest.h>
 
 #include <trocar/tissue/membrane.hpp>
 #include <trocar/tissue/strand.hpp>
 
+#include "../count_allocations.hpp"
 #include "heat_setup.hpp"
 #include "test_bodies.hpp"
-
-namespace {
-std::atomic<long> g_allocations{0};
-void* counted(std::size_t size, std::size_t alignment) {
-  ++g_allocations;
-  const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
-  void* p = std::aligned_alloc(alignment, rounded ? rounded : alignment);
-  if (!p) throw std::bad_alloc();
-  return p;
-}
-}  // namespace
-
-void* operator new(std::size_t size) { return counted(size, alignof(std::max_align_t)); }
-void* operator new(std::size_t size, std::align_val_t alignment) { return counted(size, std::size_t(alignment)); }
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  ++g_allocations;
-  return std::malloc(size ? size : 1);
-}
-void operator delete(void* p, const std::nothrow_t&) noexcept { std::free(p); }
-void operator delete(void* p) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t) noexcept { std::free(p); }
-void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
 
 namespace trocar::tissue {
 namespace {
