@@ -127,36 +127,38 @@ float raggedness(const tissue::FaceSkin& skin, std::span<const Vec3f> positions)
   return sum / float(std::max(count, 1));
 }
 
-TEST(CuttableDrawing, ARimIsNoStairOfCells) {
+/// A cut's skin as it lies, and as it is drawn.
+struct SmoothedCut {
   CutLiver liver;
-  ASSERT_TRUE(liver.cut());
-  const tissue::FaceSkin skin = liver.skin();
-  const tissue::SkinPose pose = liver.pose(skin);
+  bool there = liver.cut();
+  tissue::FaceSkin skin = liver.skin();
+  tissue::SkinPose pose = liver.pose(skin);
   std::vector<Vec3f> smooth = pose.position;
   CutShape shape;
-  shape.find(skin);
-  shape.smooth(smooth);
-  EXPECT_LT(raggedness(skin, smooth), 0.6f * raggedness(skin, pose.position));
+  SmoothedCut() {
+    shape.find(skin);
+    shape.smooth(smooth);
+  }
+};
+
+TEST(CuttableDrawing, ARimIsNoStairOfCells) {
+  const SmoothedCut cut;
+  ASSERT_TRUE(cut.there);
+  EXPECT_LT(raggedness(cut.skin, cut.smooth), 0.6f * raggedness(cut.skin, cut.pose.position));
 }
 
 TEST(CuttableDrawing, ASlitKeepsItsLength) {
-  CutLiver liver;
-  ASSERT_TRUE(liver.cut());
-  const tissue::FaceSkin skin = liver.skin();
-  const tissue::SkinPose pose = liver.pose(skin);
-  std::vector<Vec3f> smooth = pose.position;
-  CutShape shape;
-  shape.find(skin);
-  shape.smooth(smooth);
+  const SmoothedCut cut;
+  ASSERT_TRUE(cut.there);
   const auto length_of = [&](std::span<const Vec3f> positions) {
     float longest = 0;
     for (std::size_t a = 0; a < positions.size(); ++a)
       for (std::size_t b = 0; b < a; ++b)
-        if (shape.from_rim(a) <= 0 && shape.from_rim(b) <= 0)
+        if (cut.shape.from_rim(a) <= 0 && cut.shape.from_rim(b) <= 0)
           longest = std::max(longest, length(positions[a] - positions[b]));
     return longest;
   };
-  EXPECT_GT(length_of(smooth), 0.95f * length_of(pose.position));
+  EXPECT_GT(length_of(cut.smooth), 0.95f * length_of(cut.pose.position));
 }
 
 TEST(CuttableDrawing, SkinAndFleshMeetAlongARim) {
