@@ -46,7 +46,7 @@ Material tube() {
   m.mottle = 0.6f;
   m.bump = 0.1f;
   m.glow_amount = 0.38f;         // through the thin rims of the fimbriae
-  m.tint = srgb(186, 104, 115);  // fimbriae: lining, as soft as velvet
+  m.tint = srgb(188, 114, 121);  // fimbriae: lining, as soft as velvet
   m.film_size = 0.0013f;         // much finer than the tube is thick: flecks in clumps, no row of beads
   m.film_bump = 0.24f;
   m.film_roughness = 0.06f;
@@ -379,9 +379,9 @@ Material polished(Vec3f bright, Vec3f dull, float roughness, float scatter) {
 
 /// Titanium: paler than steel and less of a mirror, drawn as a wire: it glints where it is bent and along its edges.
 Material satin(Vec3f bright, Vec3f dull) {
-  Material m = metal(bright, dull, 0.42f);
-  m.scatter = 0.7f;
-  m.mottle = 0.5f;
+  Material m = metal(bright, dull, 0.33f);
+  m.scatter = 0.82f;
+  m.mottle = 0.7f;
   m.fibre_stretch = 1;
   m.bump = 0.035f;
   return m;

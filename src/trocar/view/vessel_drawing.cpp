@@ -7,9 +7,10 @@ namespace trocar::view {
 namespace {
 
 constexpr std::uint32_t kAround = 8;
-constexpr double kRing = 0.00125;        // [m] from ring to ring
+constexpr double kRing = 0.001;          // [m] from ring to ring
 constexpr double kClipWide = 0.0014;     // [m] a clip narrows the vessel so far to either side
-constexpr double kBend = 0.005;          // [m] radius with which vessels curve, for rings that are left out
+constexpr double kBend = 0.005;          // [m] radius with which vessels curve, for rings that are left out ...
+constexpr double kBendInFold = 0.002;    // ... in a fold, where they wind
 constexpr double kBloody = 0.004;        // [m] of a stump
 constexpr double kMostShift = 0.35;      // of the radius, however large the gain
 constexpr double kNarrowed = 0.7;        // share of the radius that a clip takes
@@ -72,8 +73,8 @@ std::vector<Vec3d> drawn_line(const Run& run, const Curve& curve, const interact
     beside = normalised(beside - dot(beside, along) * along, any_perpendicular(along));
     const double way = run.s[i] * path.length, ends = std::min(run.s[i] - run.from, run.to - run.s[i]) * path.length;
     const double far = kWinding * smooth(0, 0.006, ends);
-    line[i] += far * (std::sin(520 * way + 1.5 * std::sin(230 * way)) * beside +
-                      std::sin(430 * way + 1.3) * cross(along, beside));
+    line[i] += far * (std::sin(400 * way + 0.9 * std::sin(170 * way)) * beside +
+                      std::sin(360 * way + 1.3) * cross(along, beside));
   }
   return line;
 }
@@ -218,9 +219,10 @@ void VesselDrawing::lay_out(const sim::State& state) {
   for (const Run& run : m_runs) join(run, 1, 1, m_buffer);
   for (const double error : m_errors) {
     MeshBuffer part;
-    const auto apart = std::max<std::size_t>(1, std::size_t(ring_distance(error, kBend) / kRing));
     for (const Run& run : m_runs) {
       const interactions::VesselPath& path = m_model->vessels.list[std::size_t(run.vessel)].path;
+      const double bend = in_a_fold(path) ? kBendInFold : kBend;
+      const auto apart = std::max<std::size_t>(1, std::size_t(ring_distance(error, bend) / kRing));
       const double radius = std::max(vessel_radius(path, run.from), vessel_radius(path, run.to));
       join(run, apart, side_stride(error, radius, kAround), part);
     }

@@ -67,7 +67,8 @@ const float kSheenWaves = 290.0;  // [rad/m] of a lining's film, 2 pi over 22 mm
 const float kBeadWaves = 1100.0;  // [rad/m] of the moisture that stands on it, 2 pi over 5.7 mm
 const float kBeadSlope = 0.46, kBead2 = 0.035, kBeads = 60.0;  // of a bead: how steep, (its alpha)^2, how bright
 const float kDullest2 = 0.008;   // (alpha of a film)^2 up to which it sparkles where it stands in wrinkles
-const float kClumps = 0.014;     // [m] distance of the places where a film sparkles
+const float kClumps = 0.014;     // [m] distance of the places where a film sparkles ...
+const float kWetPlaces = 0.06;   // ... and of those where it does so most
 const float kFoldWidth = 0.10, kFoldSlope = 0.35;  // of a lining's low folds: in values of the noise, and how steep
 const float kLiningBall = 0.12;  // [m] radius of the ball that a lining's vessels are drawn on
 
@@ -258,12 +259,12 @@ void main() {
   // Over a hand's breadth it goes from mauve to brown-orange, where fat lies below it, and from pale to red.
   float fat = smoothstep(-0.5, 1.0, sin(dot(v_rest, vec3(30.0, 23.0, 16.0)) + 1.3 * sin(dot(v_rest, vec3(-20.0, 28.0, 35.0)))));
   float red = sin(dot(v_rest, vec3(-25.0, 14.0, 31.0)) + 1.1 * sin(dot(v_rest, vec3(27.0, 31.0, -12.0))));
-  albedo *= 1.0 + vec3(0.01, 0.07, -0.18) * fat - vec3(0.03, 0.11, 0.04) * red;
+  albedo *= 1.0 + vec3(0.02, 0.03, -0.36) * (fat - 0.45) - vec3(0.03, 0.11, 0.06) * red;
 #if DETAIL >= 1
   albedo *= 1.0 + 0.3 * (vec3(0.55, 1.25, 1.1) * (ripple.a - 0.5) + vec3(0.35, 0.6, 0.55) * (broad.b - 0.5)) + vec3(0.0, 0.05, -0.08) * (ripple.g - 0.5);
 #endif
 #else
-  albedo *= 1.0 + vec3(-0.01, 0.09, -0.21) * (broad.g - 0.5);  // towards yellow here, mauve there
+  albedo *= 1.0 + vec3(-0.01, 0.10, -0.30) * (broad.g - 0.5);  // towards yellow here, mauve there
 #endif
   vec3 relief = BUMP * slope;
 #if defined(LINING) && DETAIL >= 1
@@ -371,13 +372,16 @@ void main() {
   float clump = 0.5 + 0.2 * (sin(q.x + 1.3 * sin(0.71 * q.y)) * cos(0.83 * q.y + 0.9 * sin(0.64 * q.z)) +
                              sin(0.77 * q.z + 1.1 * sin(0.59 * q.x) + 0.3 * q.y)) + 0.5 * (broad.b - 0.5);
   float wrinkled = smoothstep(-0.1, 0.1, clump + 0.4 * WETNESS - 0.8) * INVERSE_SQUARE;  // none in a room
+  // Moisture gathers: here a palm of tissue is wet, there one is nearly dry.
+  q = v_rest * (6.2832 / kWetPlaces);
+  float wetter = smoothstep(-0.5, 0.5, sin(q.x + 1.2 * sin(0.8 * q.y + 1.0)) * cos(0.9 * q.z + 0.7 * sin(0.7 * q.x)) + 0.4 * sin(1.3 * q.y + 0.6 * q.z));
 #ifdef STAINED
   wrinkled = max(wrinkled, crust);
 #endif
   vec3 film_slope = (ripple.rgb * 2.0 - 1.0 + 0.35 * (fine.bra * 2.0 - 1.0)) * (FILM_BUMP * mix(0.2, 1.3, wrinkled));
   float wet_noise = 0.5 * (ripple.a + broad.b);
 #else
-  const float wrinkled = 0.4;
+  const float wrinkled = 0.4, wetter = 0.75;
   vec3 film_slope = slope * (0.5 * FILM_BUMP);
   float wet_noise = broad.b;
 #endif
@@ -390,6 +394,7 @@ void main() {
   float crest = smoothstep(0.5, 0.85, fold + 1.2 * (fine.b - 0.5)) * (0.35 + 0.65 * wrinkled);
   crest = max(crest, (0.4 + 0.5 * smoothstep(0.61, 0.7, broad.a + 0.3 * (fine.b - 0.5))) * wrinkled);
   crest = max(crest, 0.5 * smoothstep(0.53, 0.8, broad.b));
+  crest = min(crest * mix(0.15, 1.25, wetter), 0.78);  // at 1 it would be all white
   vec3 bead = kTurn * v_rest * kBeadWaves;
   float in_pixel = length(fwidth(bead));  // [rad]
   vec3 bead_slope = vec3(0.0);
@@ -425,7 +430,7 @@ void main() {
   const float sparkle = 1.1;
   float film2 = 4.0 * FILM2;
 #else
-  float sparkle = mix(1.1, 6.0, wrinkled * min(1.0, kDullest2 / FILM2)), film2 = FILM2 * mix(4.0, 1.8, wrinkled);
+  float sparkle = mix(1.1, 7.0, wrinkled * min(1.0, kDullest2 / FILM2)) * mix(0.3, 1.15, wetter), film2 = FILM2 * mix(4.0, 1.8, wrinkled);
 #endif
 #if DETAIL >= 1
   // Ripples of a pixel or less are as rough as their normals differ [Kaplanyan 16].
@@ -443,7 +448,8 @@ void main() {
 #if defined(LINING) && DETAIL >= 1
   vec3 b = normalize(m + along_surface(to_eye(bead_slope), N));
   float mirrors = lobe(clamp(dot(b, H), 0.0, 1.0), kBead2) * kBead2;  // 1: right at the lens
-  glint = 0.35 * glint + kBeads * smoothstep(1.0 - 0.9 * crest, 1.1 - 0.7 * crest, mirrors);
+  mirrors = smoothstep(0.90 - 0.9 * crest, 1.04 - 0.7 * crest, mirrors) * smoothstep(0.15, 0.4, crest);  // no lone pixel
+  glint = 0.35 * glint + kBeads * mirrors;
 #endif
   float gloss = 0.42 * FRESNEL * (wet * (0.4 + 1.3 * flecks) * sparkle * glint + (0.35 + 0.65 * wet) * lobe(nh, ROUGH2)) * facing * lit.power;
   float grazing = FRESNEL + (1.0 - FRESNEL) * rim * rim * (1.0 - nv);
