@@ -202,6 +202,7 @@ void main() {
 #endif
   float smeared = BLOOD * SOIL;
   float film = clamp((smeared - 0.9 * (ragged - 0.2) * (1.0 - smeared)) * 2.0, 0.0, 1.0) * step(0.01, smeared);
+  film *= 1.0 - 0.9 * blurred;  // edges are wiped bright
   vec3 through = exp(-film * vec3(2.2, 5.2, 4.8));
   float clotted = smoothstep(0.45, 0.95, film);
   float dried = smoothstep(0.0, 0.12, film) * (1.0 - smoothstep(0.14, 0.45, film));
