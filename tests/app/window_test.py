@@ -15,7 +15,7 @@ import sys
 import time
 import zlib
 
-from trainee import Failed, Trainee, add, in_a_room, xdo
+from trainee import Failed, Pad, Trainee, add, in_a_room, xdo
 
 PATIENCE = 300            # [s] for everything at the end
 
