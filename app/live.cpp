@@ -12,7 +12,7 @@ constexpr auto kDebt = std::chrono::milliseconds(30);  // that much is caught up
 constexpr std::uint64_t kAftermath = 1500;             // ticks shown after the last step is done
 constexpr double kSpeedWindow = 0.25;                  // [s]
 constexpr double kSlow = 0.97;
-// A copy takes a third of a tick and throws the simulation's data out of the cache: none is made that nobody draws.
+// A copy takes nearly half a tick and throws the simulation's data out of the cache: none is made that nobody draws.
 constexpr auto kPatience = std::chrono::milliseconds(4);  // of who asked for one
 constexpr auto kLookEvery = std::chrono::microseconds(50);
 

@@ -3,7 +3,7 @@
 //
 //   Live live(session, source);          // source null: the hands lead, see put()
 //   live.put(input);                      // newest command, from the drawing thread
-//   if (live.refresh()) draw(live.snapshot().state);      // copied when asked for, and at no other time
+//   if (live.refresh()) draw(live.snapshot().state);      // copied when asked for, and as it ends
 //   live.stop();                          // joins; then the Session may be used again
 #pragma once
 
@@ -42,8 +42,8 @@ class Live {
   void put(const sim::Input& input) { m_commands.put(input); }
   void pause(bool on) { m_paused.store(on, std::memory_order_relaxed); }
 
-  /// Asks for the State as it is now and has it a tick later. False, and snapshot() as it was, when time stands still
-  /// or the simulation takes longer than a few milliseconds (drawing thread only).
+  /// Asks for the State as it is now and has it a tick later. False, and snapshot() as it was, when nothing newer
+  /// has come: time stands still, or a tick takes longer than a few milliseconds (drawing thread only).
   bool refresh();
   const Snapshot& snapshot() const { return m_published.latest(); }
   /// What has happened since the last call.
