@@ -188,10 +188,10 @@ Material stomach() {
 }
 
 Material liver() {
-  Material m = with_vessels(tissue(srgb(85, 50, 55), srgb(90, 54, 58), srgb(80, 46, 52)), 0.17f, 0.026f);
+  Material m = with_vessels(tissue(srgb(74, 42, 46), srgb(89, 50, 53), srgb(70, 39, 43)), 0.15f, 0.026f);
   m.vessel_colour = srgb(150, 106, 110);  // a pale net below its capsule
   m.mottle_size = 0.008f;
-  m.mottle = 0.9f;
+  m.mottle = 0.7f;        // one colour over a hand's breadth
   m.glow_amount = 0.02f;  // no bright line along its edge
   m.bump = 0.016f;
   m.roughness = 0.72f;
@@ -467,7 +467,7 @@ std::vector<Look> make_looks() {
        0,
        2},
       {"stomach", stomach(), false, {.broad = 0.0008, .broad_size = 0.026, .fine = 0.00015, .fine_size = 0.008}},
-      {"liver", liver(), false, {.broad = 0.0004, .broad_size = 0.037}, 0, 0, false, false, true},
+      {"liver", liver(), false, {.broad = 0.0013, .broad_size = 0.022}, 0, 0, false, false, true},
       {"gallbladder",
        gallbladder(),
        false,

@@ -12,7 +12,7 @@ uniform int u_drop_count;
 
 vec3 blurred(vec2 uv, vec3 sharp, float by) {
   vec3 soft = texture(u_blur, uv).rgb, softer = texture(u_blurrer, uv).rgb;
-  return mix(mix(sharp, soft, clamp(by * 2.4, 0.0, 1.0)), softer, clamp((by - 0.44) * 1.7, 0.0, 1.0));
+  return mix(mix(sharp, soft, clamp(by * 2.4, 0.0, 1.0)), softer, clamp((by - 0.44) * 0.85, 0.0, 1.0));
 }
 
 vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
@@ -24,8 +24,9 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
 #else
   const vec4 broad = vec4(0.5);
 #endif
-  // It condenses all over the glass, a little more towards the rim, which is colder.
-  float fog = clamp(u_soil.x * (0.90 + 0.15 * dot(at, at) + 0.3 * (broad.a - 0.5)), 0.0, 1.0);
+  // It condenses all over the glass, more towards the rim, which is colder, to one side, and in patches.
+  float thicker = dot(at, vec2(0.20, -0.14)) + 0.9 * (broad.a - 0.5);
+  float fog = clamp(u_soil.x * (0.84 + 0.15 * dot(at, at) + thicker), 0.0, 1.0);
   vec2 bent = vec2(0.0);
   float beads = 0.0;
 #ifdef UNEVEN
@@ -56,7 +57,7 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
     float side = dot(at, u_soil.wz) + 0.35 * (broad.a - 0.5) + 0.10 * lift * lift + 0.10 * lift * sin(9.0 * u_smear.w);
     float edge = mix(-1.7, 1.7, u_smear.w);
     float wiped = 1.0 - smoothstep(edge - 0.35, edge + 0.15, side);
-    swab = 1.0 - smoothstep(0.06, 0.34, abs(side - edge));
+    swab = 1.0 - smoothstep(0.06, 0.34, abs(side - edge + 0.16 * (streaks - 0.5)));
     // A stroke clears a lane; beside it fog is pushed together and smeared.
     float lane = 1.0 - smoothstep(0.45, 0.95, abs(lift + 0.25 * (broad.g - 0.5)) + 0.25 * (streaks - 0.5));
     wiped *= 0.35 + 0.65 * lane;
@@ -70,11 +71,15 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
 #endif
 
   float by = max(fog, 0.55 * greasy);
-  // Between the drops light comes straight through.
-  picture = mix(blurred(uv + bent, picture, by), picture, 0.42);
+  // Between the drops light comes straight through, but no glint is left as sharp as it was.
+  vec3 soft = blurred(uv + bent, picture, by);
+  picture = mix(soft, min(picture, mix(vec3(1.0), 1.2 * soft + 0.03, min(2.0 * by, 1.0))), 0.55);
   // What drops turn aside comes from all around: the organs' own colours, milky, brightest where the lamp shines back.
+  // Warm where the light is, bluish grey beside it.
   vec3 veil = mix(mix(around, mean, 0.35), vec3(light), 0.12);
-  picture = mix(picture, veil * (1.10 - 0.16 * dot(at, at)) + 0.05, 0.48 * fog);
+  float beside = smoothstep(0.1, 0.9, length(at - vec2(-0.15, 0.2)));
+  vec3 milk = mix(mix(veil, light * vec3(1.24, 0.97, 0.84), 0.45), mix(veil, light * vec3(0.93, 0.98, 1.10), 0.7), beside);
+  picture = mix(picture, milk * (1.14 - 0.22 * dot(at, at)) + 0.05, 0.48 * fog);
   picture *= 1.0 + 0.12 * beads;
   picture = mix(picture, veil * u_smear.rgb * 1.05 + 0.02, 0.33 * greasy);
 

@@ -69,6 +69,7 @@ const float kBeadSlope = 0.46, kBead2 = 0.035, kBeads = 60.0;  // of a bead: how
 const float kDullest2 = 0.008;   // (alpha of a film)^2 up to which it sparkles where it stands in wrinkles
 const float kClumps = 0.014;     // [m] distance of the places where a film sparkles ...
 const float kWetPlaces = 0.06;   // ... and of those where it does so most
+const float kBarePlaces = 0.036; // [m] distance of the places where serosa has trunks only
 const float kFoldWidth = 0.10, kFoldSlope = 0.35;  // of a lining's low folds: in values of the noise, and how steep
 const float kLiningBall = 0.12;  // [m] radius of the ball that a lining's vessels are drawn on
 
@@ -265,7 +266,8 @@ void main() {
   albedo *= 1.0 + 0.3 * (vec3(0.55, 1.25, 1.1) * (ripple.a - 0.5) + vec3(0.35, 0.6, 0.55) * (broad.b - 0.5)) + vec3(0.0, 0.05, -0.08) * (ripple.g - 0.5);
 #endif
 #else
-  albedo *= 1.0 + vec3(-0.01, 0.10, -0.30) * (broad.g - 0.5);  // towards yellow here, mauve there
+  float hues = min(6.0 * length(COLOUR_B - COLOUR_C), 1.0);  // towards yellow here, mauve there: not what is of one colour
+  albedo *= 1.0 + vec3(-0.01, 0.10, -0.30) * (hues * (broad.g - 0.5));
 #endif
   vec3 relief = BUMP * slope;
 #if defined(LINING) && DETAIL >= 1
@@ -287,7 +289,14 @@ void main() {
 #endif
 
 #ifdef VESSELS
-  vec2 vessel = vessels_at(v_rest, v_rest_normal) * VESSEL_AMOUNT;
+  vec2 vessel = vessels_at(v_rest, v_rest_normal);
+#if !defined(LINING) && !defined(ARCADE) && !defined(LOBULES)
+  // Half of a serosa is nearly bare: only what is thick, so dark, is seen there.
+  vec3 place = v_rest * (6.2832 / kBarePlaces);
+  float grown = smoothstep(-0.25, 0.45, sin(place.x + 1.4 * sin(0.7 * place.y + 0.5)) * cos(0.9 * place.z + 1.1 * sin(0.6 * place.x)) + 0.5 * sin(0.8 * place.y + 1.3));
+  vessel.r *= mix(0.12 + 0.88 * smoothstep(0.45, 0.85, vessel.r), 1.0, grown);
+#endif
+  vessel *= VESSEL_AMOUNT;
   albedo = mix(albedo, albedo * vec3(0.62, 0.5, 0.72), vessel.g);
   albedo = mix(albedo, VESSEL_COLOUR, vessel.r * 0.85);
 #endif
