@@ -404,8 +404,8 @@ void main() {
   float crest = smoothstep(0.5, 0.85, fold + 1.2 * (fine.b - 0.5)) * (0.35 + 0.65 * wrinkled);
   crest = max(crest, (0.4 + 0.5 * smoothstep(0.61, 0.7, broad.a + 0.3 * (fine.b - 0.5))) * wrinkled);
   crest = max(crest, 0.5 * smoothstep(0.53, 0.8, broad.b));
-  crest = min(crest * mix(0.15, 1.25, wetter), 0.78);  // at 1 it would be all white
-  vec3 bead = kTurn * v_rest * kBeadWaves;
+  crest = min(crest * mix(-0.1, 1.2, wetter), 0.78);  // at 1 it would be all white
+  vec3 bead = kTurn * (v_rest * vec3(1.0, 1.0, 0.4)) * kBeadWaves;  // drawn out downwards, as it runs
   float in_pixel = length(fwidth(bead));  // [rad]
   vec3 bead_slope = vec3(0.0);
   if (crest > 0.0) {
@@ -459,6 +459,7 @@ void main() {
   vec3 b = normalize(m + along_surface(to_eye(bead_slope), N));
   float mirrors = lobe(clamp(dot(b, H), 0.0, 1.0), kBead2) * kBead2;  // 1: right at the lens
   mirrors = smoothstep(0.90 - 0.9 * crest, 1.04 - 0.7 * crest, mirrors) * smoothstep(0.15, 0.4, crest);  // no lone pixel
+  mirrors *= smoothstep(0.40, 0.56, 0.6 * ripple.a + 0.4 * broad.r);  // broken, else it would be hooks and commas
   glint = 0.35 * glint + kBeads * mirrors;
 #endif
   float gloss = 0.42 * FRESNEL * (wet * (0.4 + 1.3 * flecks) * sparkle * glint + (0.35 + 0.65 * wet) * lobe(nh, ROUGH2)) * facing * lit.power;
