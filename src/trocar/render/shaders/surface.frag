@@ -239,9 +239,9 @@ void main() {
   vec3 around = mirrored(reflect(-V, n), 0.04, mix(0.6, 3.0, rim) * lit.bounce);  // the lens itself is dark
   around = mix(vec3((0.1 + 0.3 * smoothstep(-0.2, 0.8, reflect(-V, n).y)) * lit.bounce), around, INVERSE_SQUARE);  // a room
   vec3 from_below = around * clamp(0.9 - 0.6 * n.y - 1.2 * nv, 0.0, 1.0);
-  around = mix(around, vec3(dot(around, vec3(0.4, 0.4, 0.2))), 0.4 * bare);
+  around = mix(around, vec3(dot(around, vec3(0.3, 0.45, 0.25))), 0.75 * bare);
   // The lamp straight on, which is strong near the lens, what comes from all around, and tissue's pink from below.
-  vec3 even = LIGHT_COLOUR * lamp * (mix(0.028, mix(0.13, 0.42, smoothstep(0.5, 1.0, SCATTER)), plain) * nl * nl + 0.012 * lobe(nh, 0.35));
+  vec3 even = LIGHT_COLOUR * lamp * (mix(0.045, mix(0.13, 0.42, smoothstep(0.5, 1.0, SCATTER)), plain) * nl * nl + 0.012 * lobe(nh, 0.35));
   even += (BOUNCE * (mix(0.3, 1.0, plain) + 3.0 * rim) + vec3(mix(0.02, 0.21, plain) + AMBIENT)) * lit.bounce + from_below;
   vec3 colour = (grey * even + LIGHT_COLOUR * lamp * gloss + around * mirror) * ao;
 #ifdef FOGGY
@@ -294,7 +294,7 @@ void main() {
   // Half of a serosa is nearly bare: only what is thick, so dark, is seen there.
   vec3 place = v_rest * (6.2832 / kBarePlaces);
   float grown = smoothstep(-0.25, 0.45, sin(place.x + 1.4 * sin(0.7 * place.y + 0.5)) * cos(0.9 * place.z + 1.1 * sin(0.6 * place.x)) + 0.5 * sin(0.8 * place.y + 1.3));
-  vessel.r *= mix(0.12 + 0.88 * smoothstep(0.45, 0.85, vessel.r), 1.0, grown);
+  vessel.r *= mix(0.1 + 0.9 * vessel.r * vessel.r, 1.0, grown);
 #endif
   vessel *= VESSEL_AMOUNT;
   albedo = mix(albedo, albedo * vec3(0.62, 0.5, 0.72), vessel.g);
