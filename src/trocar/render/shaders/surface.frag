@@ -65,7 +65,7 @@ const mat3 kTurn = mat3(0.36, 0.48, -0.8, -0.8, 0.60, 0.0, 0.48, 0.64, 0.60);
 
 const float kSheenWaves = 290.0;  // [rad/m] of a lining's film, 2 pi over 22 mm
 const float kBeadWaves = 1100.0;  // [rad/m] of the moisture that stands on it, 2 pi over 5.7 mm
-const float kBeadSlope = 0.46, kBead2 = 0.035, kBeads = 60.0;  // of a bead: how steep, (its alpha)^2, how bright
+const float kBeadSlope = 0.46, kBead2 = 0.035, kBeads = 90.0;  // of a bead: how steep, (its alpha)^2, how bright
 const float kDullest2 = 0.008;   // (alpha of a film)^2 up to which it sparkles where it stands in wrinkles
 const float kClumps = 0.014;     // [m] distance of the places where a film sparkles ...
 const float kWetPlaces = 0.06;   // ... and of those where it does so most
@@ -225,7 +225,7 @@ void main() {
   float broken = (0.15 + 1.2 * smoothstep(0.35, 0.7, broad.a)) * (0.35 + 0.8 * smoothstep(0.42, 0.64, fine.r));
   broken = mix(0.5, broken, clamp(20.0 * BUMP, 0.0, 1.0));  // what is polished has none
 #if DETAIL >= 1
-  broken *= 0.35 + 0.95 * smoothstep(0.3, 0.7, moisture.a);
+  broken *= 0.2 + 1.1 * smoothstep(0.36, 0.64, moisture.a);
 #endif
   // A mirror's picture of the lamp is as bright from near as from far; only what is scattered falls off. So it is one
   // thin line, which clips where it is whole, in a sheen that never does.
@@ -404,8 +404,8 @@ void main() {
   float crest = smoothstep(0.5, 0.85, fold + 1.2 * (fine.b - 0.5)) * (0.35 + 0.65 * wrinkled);
   crest = max(crest, (0.4 + 0.5 * smoothstep(0.61, 0.7, broad.a + 0.3 * (fine.b - 0.5))) * wrinkled);
   crest = max(crest, 0.5 * smoothstep(0.53, 0.8, broad.b));
-  crest = min(crest * mix(-0.1, 1.2, wetter), 0.78);  // at 1 it would be all white
-  vec3 bead = kTurn * (v_rest * vec3(1.0, 1.0, 0.4)) * kBeadWaves;  // drawn out downwards, as it runs
+  crest = min(crest * mix(0.14, 1.25, wetter), 0.86);  // at 1 it would be all white
+  vec3 bead = kTurn * (v_rest * vec3(1.0, 1.0, 0.6)) * kBeadWaves;  // drawn out downwards, as it runs
   float in_pixel = length(fwidth(bead));  // [rad]
   vec3 bead_slope = vec3(0.0);
   if (crest > 0.0) {
@@ -459,7 +459,7 @@ void main() {
   vec3 b = normalize(m + along_surface(to_eye(bead_slope), N));
   float mirrors = lobe(clamp(dot(b, H), 0.0, 1.0), kBead2) * kBead2;  // 1: right at the lens
   mirrors = smoothstep(0.90 - 0.9 * crest, 1.04 - 0.7 * crest, mirrors) * smoothstep(0.15, 0.4, crest);  // no lone pixel
-  mirrors *= smoothstep(0.40, 0.56, 0.6 * ripple.a + 0.4 * broad.r);  // broken, else it would be hooks and commas
+  mirrors *= smoothstep(0.34, 0.46, 0.6 * ripple.a + 0.4 * broad.r);  // broken, else it would be hooks and commas
   glint = 0.35 * glint + kBeads * mirrors;
 #endif
   float gloss = 0.42 * FRESNEL * (wet * (0.4 + 1.3 * flecks) * sparkle * glint + (0.35 + 0.65 * wet) * lobe(nh, ROUGH2)) * facing * lit.power;
