@@ -16,25 +16,25 @@ using render::SplatKind;
 constexpr float kColumn = 1 / 1.89f;  // of a drop's radius: that of the column that makes it
 constexpr float kGrowth = 0.34f;      // the fastest wave's rate, times sqrt(rho a^3 / sigma)
 // Our choice, all of the rest: from the look of spurts in endoscopic films.
-constexpr float kSoonest = 2.6f, kLatest = 6.0f;  // a neck closes after so many times of growth
+constexpr float kSoonest = 1.7f, kLatest = 4.2f;  // a neck closes after so many times of growth
 constexpr float kSecondNeck = 0.25f;              // share of beads that tear in two ...
 constexpr float kLater = 1.3f;                    // ... so many times of growth later
 constexpr float kHangTogether = 0.4f;             // share of beads that never part from the next: ligaments
 constexpr float kAnywhere = 0.40f;                // in beads: how far a neck is from the middle between two
 constexpr float kBulge = 0.25f;                   // in column radii: what necks lose, middles win
 constexpr float kDrawsIn = 0.15f;                 // of its length: a bead that has come off becomes rounder
-constexpr float kBall = 1.05f;                    // in column radii: such a bead's half width, before it is torn
+constexpr float kBall = 0.85f;                    // in column radii: such a bead's half width, before it is torn
 constexpr float kTorn = 0.3f;                     // of that: what most lose to drops too small to show
 constexpr int kMostRods = 14;                     // that a bead is drawn as
 constexpr float kThinnest = 0.14f;                // in column radii: of threads that show
-constexpr float kRagged = 0.22f;                  // of a column's radius
-constexpr float kPulse = 0.22f;                   // of a column's radius: it does not leave evenly
+constexpr float kRagged = 0.32f;                  // of a column's radius
+constexpr float kPulse = 0.32f;                   // of a column's radius: it does not leave evenly
 constexpr float kUsual = 1.5f;                    // [m/s] pressure that drives blood quicker widens its hole
 constexpr float kSprayed = 0.45f;                 // share of a jet's radius that spray takes, far off
 constexpr float kFar = 0.035f;                    // [m]
 constexpr float kShutter = 4.0e-3f;               // [s] a camera's: what flies is a streak
 constexpr float kGreen = 18e-6f;                  // [m] of blood lets 1/e of green light through, there and back
-constexpr float kWag = 0.10f;                     // how far a jet strays aside, a share of its way ...
+constexpr float kWag = 0.13f;                     // how far a jet strays aside, a share of its way ...
 constexpr float kLongestWag = 0.045f;             // [m] ... up to here: drops land where the simulation says
 constexpr float kWavers = 0.025f;                 // [m] ... of which it wavers as much as it will
 constexpr float kBeadStrays = 0.08f;              // of a jet's speed
