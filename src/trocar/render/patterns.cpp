@@ -81,9 +81,21 @@ struct Habit {
   float thinnest, thickest;  ///< radius of a root [texels]
   float strength, softness;  ///< of the stroke
   float wander;              ///< how much it meanders [rad]
+  bool spares = false;       ///< it leaves some places bare
 };
 
 constexpr float kThinnestTwig = 0.5f;
+constexpr float kTwig = 2.4f;  // texels of radius: what is thicker runs through a bare place, too
+constexpr float kThins = 0.0022f,
+                kDies = 0.035f;  // of its radius that a twig loses a texel, and what more it does there
+
+/// 0 .. 1: half of a serosa is nearly bare. Tiles.
+float bare(float x, float y, int size) {
+  const double u = 2 * portable::pi * double(x) / size, v = 2 * portable::pi * double(y) / size;
+  const double wave = portable::sin(2 * u + 1.1 * portable::sin(v)) * portable::cos(v - 0.8 * portable::sin(u)) +
+                      0.55 * portable::sin(3 * v + u + 1.3);
+  return smooth(std::clamp(0.5f + 1.4f * float(wave), 0.0f, 1.0f));
+}
 
 float until_fork(float radius, core::Random& random) { return float(random.uniform(10, 28)) + 11 * radius; }
 
@@ -121,7 +133,8 @@ void grow_branch(Canvas& canvas, Twig t, const Habit& habit, std::vector<Twig>& 
       return join(canvas, t, heading, ahead, habit);
     const float tone = std::min(1.0f, 0.3f + 0.25f * t.radius);
     canvas.dab(t.x, t.y, t.radius, habit.strength * tone, habit.softness);
-    t.radius -= 0.0022f * step;
+    t.radius -= kThins * step;
+    if (habit.spares && t.radius < kTwig) t.radius -= kDies * bare(t.x, t.y, canvas.size) * step;
     t.until_fork -= step;
     if (t.until_fork > 0) continue;
     const float share = float(random.uniform(0.1, 0.45));  // of r^3, into the side branch
@@ -235,9 +248,9 @@ Pattern vessel_pattern() {
   core::Random random(0x5E55E1);
   constexpr float largest = 0.5f * size / kVesselTileWidth;
   Canvas red(size, size), veins = red;
-  grow(red, {3, 0.6f * largest, 0.8f * largest, 1.0f, 0.8f, 1.1f}, random);
-  grow(red, {14, 1.6f, 2.6f, 0.9f, 0.75f, 1.3f}, random);
-  grow(red, {70, 1.0f, 1.5f, 0.7f, 0.65f, 1.4f}, random);
+  grow(red, {3, 0.6f * largest, 0.8f * largest, 1.0f, 0.8f, 1.1f, true}, random);
+  grow(red, {14, 1.6f, 2.6f, 0.9f, 0.75f, 1.3f, true}, random);
+  grow(red, {70, 1.0f, 1.5f, 0.7f, 0.65f, 1.4f, true}, random);
   grow(veins, {4, 0.7f * largest, largest, 0.9f, 2.0f, 0.8f}, random);
   return pattern_of(red, veins, 0);
 }

@@ -69,7 +69,6 @@ const float kBeadSlope = 0.46, kBead2 = 0.035, kBeads = 90.0;  // of a bead: how
 const float kDullest2 = 0.008;   // (alpha of a film)^2 up to which it sparkles where it stands in wrinkles
 const float kClumps = 0.014;     // [m] distance of the places where a film sparkles ...
 const float kWetPlaces = 0.06;   // ... and of those where it does so most
-const float kBarePlaces = 0.036; // [m] distance of the places where serosa has trunks only
 const float kFoldWidth = 0.10, kFoldSlope = 0.35;  // of a lining's low folds: in values of the noise, and how steep
 const float kLiningBall = 0.12;  // [m] radius of the ball that a lining's vessels are drawn on
 
@@ -289,14 +288,7 @@ void main() {
 #endif
 
 #ifdef VESSELS
-  vec2 vessel = vessels_at(v_rest, v_rest_normal);
-#if !defined(LINING) && !defined(ARCADE) && !defined(LOBULES)
-  // Half of a serosa is nearly bare: only what is thick, so dark, is seen there.
-  vec3 place = v_rest * (6.2832 / kBarePlaces);
-  float grown = smoothstep(-0.25, 0.45, sin(place.x + 1.4 * sin(0.7 * place.y + 0.5)) * cos(0.9 * place.z + 1.1 * sin(0.6 * place.x)) + 0.5 * sin(0.8 * place.y + 1.3));
-  vessel.r *= mix(0.1 + 0.9 * vessel.r * vessel.r, 1.0, grown);
-#endif
-  vessel *= VESSEL_AMOUNT;
+  vec2 vessel = vessels_at(v_rest, v_rest_normal) * VESSEL_AMOUNT;
   albedo = mix(albedo, albedo * vec3(0.62, 0.5, 0.72), vessel.g);
   albedo = mix(albedo, VESSEL_COLOUR, vessel.r * 0.85);
 #endif
