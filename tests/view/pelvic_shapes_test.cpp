@@ -16,6 +16,7 @@
 #include <trocar/view/fat_tags.hpp>
 #include <trocar/view/fimbria.hpp>
 #include <trocar/view/gut_line.hpp>
+#include <trocar/view/omentum_lobe.hpp>
 #include <trocar/view/tube_drawing.hpp>
 
 namespace trocar::view {
@@ -260,6 +261,36 @@ TEST(BowelLoops, SmallBowelIsBesideItselfAndBesideTheLarge) {
 TEST(BowelLoops, ScenesWithoutLargeBowelHaveNone) {
   const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/cutting/scene.json"));
   EXPECT_EQ(bowel_loops(model, WallSurface(model)).small.size(), 0u);
+  EXPECT_EQ(bowel_loops(model, WallSurface(model)).omentum.size(), 0u);
+}
+
+TEST(OmentumLobe, LiesOnWhatIsBelowItAndEndsInABorder) {
+  const Vec3d up{0, 0, 1};
+  LobeOutline outline;
+  for (int j = 0; j <= 30; ++j) {
+    outline.border.push_back({0.002 * j, 0, 0});
+    outline.root.push_back({0.002 * j, 0.06, 0});
+  }
+  std::vector<Vec3d> below;  // a floor with a ridge 10 mm high across the middle
+  for (int j = -10; j <= 40; ++j)
+    for (int i = -10; i <= 40; ++i) below.push_back({0.002 * j, 0.002 * i, i > 12 && i < 18 ? 0.01 : 0.0});
+  const MeshBuffer lobe = omentum_lobe(outline, below, up);
+  ASSERT_GT(lobe.size(), 0u);
+  for (std::size_t v = outline.border.size(); v < lobe.size(); ++v) {
+    EXPECT_LT(lobe.positions[v].z, 0.02f) << v;
+    const bool on_the_ridge = std::fabs(lobe.positions[v].y - 0.03f) < 0.002f;
+    EXPECT_GT(lobe.positions[v].z, on_the_ridge ? 0.0095f : -0.0005f) << v;
+  }
+  for (std::size_t v = 0; v < outline.border.size(); ++v) EXPECT_LT(lobe.positions[v].z, 0.001f) << "tucked under";
+  EXPECT_EQ(omentum_lobe(outline, {}, up).size(), 0u);
+}
+
+TEST(OmentumLobe, CoversTheFloorsBorderInThePelvisAndNotThePouch) {
+  const MeshBuffer& lobe = loops().omentum;
+  ASSERT_GT(lobe.size(), 0u);
+  EXPECT_LT(lobe.indices.size() / 3, 9000u);
+  const Vec3d pool{0, -0.150, -0.165};
+  for (const Vec3f& p : lobe.positions) EXPECT_GT(length(vec_cast<double>(p) - pool), 0.03);
 }
 
 }  // namespace

@@ -9,20 +9,28 @@ namespace trocar::view {
 namespace {
 
 constexpr double kNearest = 0.005, kFarthest = 0.04;  // [m] from what they begin on to what they end on
+constexpr double kCurtain = 0.018;                    // [m] shorter curtains would not be seen to span
+constexpr float kLevel = 0.1f;                        // sine: steeper ones would hang down to where blood gathers
+constexpr int kFromLarge = 3, kFromStill = 2;         // curtains, at most
 constexpr float kSteepest = 0.6f;                     // sine: below an organ blood gathers, which would cut them off
 constexpr float kLate = 0.6f;                         // of the way: what is there already ...
 constexpr double kClear = 0.7;                        // sine: ... so flat over a wall would sink into it too soon
 constexpr float kAim = 0.014f;                        // [m] outwards and up: what lies there is aimed at
 constexpr float kApart = 0.014f;                      // [m] between two
+constexpr float kOffSkin = 0.003f;                    // [m] a broad foot follows a gut that bends away below it
 constexpr float kSunk = 0.0012f;                      // [m] both ends, in what they hang on
 constexpr double kFoot = 0.30;                        // of the length: there it is lost in what it hangs on ...
 // Our choice, from the look of adhesions in endoscopic films.
-constexpr double kWhole = 0.42;      // openness from which the material's opacity counts in full (surface.frag)
-constexpr double kSheer = 0.34;      // of that, between strands
-constexpr double kFrayed = 0.16;     // of half the width
-constexpr double kCord = 0.84;       // of half the width: where a border is rolled up
-constexpr double kFimbriae = 0.014;  // [m] so long
-constexpr double kTongue = 0.3;      // ... and so much earlier at its sides: no foot is square
+constexpr double kWhole = 0.42;         // openness from which the material's opacity counts in full (surface.frag)
+constexpr double kSheer = 0.46;         // of that, between strands
+constexpr double kCurtainSheer = 0.76;  // the same of a curtain
+constexpr double kFrayed = 0.1;         // of half the width
+constexpr double kCord = 0.84;          // of half the width: where a border is rolled up
+constexpr double kHem = 0.85;           // of half the width: where a veil's border is folded over
+constexpr double kString = 0.2, kBroad = 0.34;  // waists
+constexpr double kVeilFoot = 0.18;              // ... and of a veil's length
+constexpr double kFimbriae = 0.014;             // [m] so long
+constexpr double kTongue = 0.3;                 // ... and so much earlier at its sides: no foot is square
 
 std::size_t nearest_vertex(Vec3f p, std::span<const Vec3f> points) {
   std::size_t best = 0;
@@ -36,22 +44,25 @@ WallSurface::Place nearest_on(const MeshBuffer& shape, Vec3d p) {
   return {vec_cast<double>(shape.positions[v]), vec_cast<double>(shape.normals[v]), true};
 }
 
-/// Hardly there between strands that run along it, some of them rolled up at its free borders, with gaps; frayed at
-/// its borders and gone in its feet.
-/// @param u along @param v across, -1 .. 1 @param waist see Veil
-Paint paint_at(double u, double v, double waist, int seed) {
+/// A veil is whole but thin, with borders folded over; a string is hardly there between strands that run along it, some
+/// of them rolled up at its free borders, with gaps. Frayed at its borders and gone in its feet.
+/// @param u along @param v across, -1 .. 1 @param waist see Veil @param sheer of a veil between its strands
+Paint paint_at(double u, double v, double waist, double sheer, int seed) {
   const double end = std::min(u, 1 - u), border = std::fabs(v), side = v > 0 ? 1 : -1;
   const double ragged = 0.35 * std::sin(7 * v + 3) + 0.65, sides = kTongue * border * border * ragged;
-  const double foot = smooth(0.3 * sides, kFoot + sides, end);
+  const double foot = smooth(0.3 * sides, (waist > kString ? kVeilFoot : kFoot) + sides, end);
   const double frayed = border + kFrayed * std::sin(11 * u + seed + 2 * side) * std::sin(23 * u + 1.3 * seed);
-  const double soft = smooth(1.0, 0.7, frayed);
+  const double broad = smooth(kString, kBroad, waist);  // 0: a string, which is denser
+  const double soft = smooth(1.0, 0.7 + 0.14 * broad, frayed);
   const double across = v + 0.12 * std::sin(5 * u + seed);
-  const double strands = smooth(0.2, 0.9, std::sin(9 * across + 1.7 * seed) * std::sin(5.3 * across + 0.9 * seed));
+  const double strands = smooth(0.2, 0.9, std::sin(6 * across + 1.7 * seed) * std::sin(3.7 * across + 0.9 * seed));
   const double cord = smooth(0.22, 0.06, std::fabs(frayed - kCord)) * (0.3 + 0.7 * varied(seed, v > 0 ? 11 : 12));
   const double torn = smooth(-0.2, 0.7, std::sin(6 * u + 4 * v + seed) + std::sin(13 * v - 3 * u + 2 * seed));
-  const double narrow = smooth(0.4, 0.12, waist);  // a string is denser
-  const double web = std::max({kSheer * torn, 0.85 * strands, cord, 0.7 * narrow * (1 - 0.6 * border)});
-  const double dense = std::max({0.30 * strands, 0.42 * cord, 0.25 * narrow * (1 - 0.6 * border)});
+  const double narrow = (1 - broad) * 0.7 * (1 - 0.6 * border);
+  const double hem = broad * smooth(0.17, 0.04, std::fabs(frayed - kHem));
+  const double veil = sheer * (broad + (1 - broad) * torn) * (0.55 + 0.45 * torn);
+  const double web = std::max({veil, (0.85 - 0.3 * broad) * strands, (1 - broad) * cord, narrow, hem});
+  const double dense = std::max({0.30 * strands, 0.42 * cord, 0.36 * narrow, 0.7 * hem});
   return {to_byte(kWhole * foot * soft * web), 0, 0, to_byte(smooth(0.06, 0.4, end) * soft * dense)};
 }
 
@@ -71,12 +82,16 @@ Adhesions::Adhesions(const std::vector<OrganDrawing>& organs, const sim::Model& 
   for (std::size_t i = 0; i < organs.size(); ++i) {
     const Look& own = look(model.solids[i].look);
     const tissue::Skin& skin = model.solids[i].fine;
+    if (own.fat_tags > 0) choose({int(i), skin.rest, skin.rest_normal, 150 + 37 * int(i), 1, true}, kFromLarge, wall);
     choose({int(i), skin.rest, skin.rest_normal, 400 + 37 * int(i)}, own.adhesions, wall);
     for (const Still& other : still)
       if (own.fat_tags > 0 && other.shape->size() > 0)
         choose({int(i), skin.rest, skin.rest_normal, 700 + 37 * int(i), 1}, other.from_gut,
                [&](Vec3d p) { return nearest_on(*other.shape, p); });
   }
+  for (std::size_t i = 0; i < still.size(); ++i)
+    if (still[i].shape->size() > 0 && still[i].to_wall > 0)
+      choose({-1, still[i].shape->positions, still[i].shape->normals, 1300 + 37 * int(i), 1, true}, kFromStill, wall);
   for (std::size_t i = 0; i < still.size(); ++i)
     if (still[i].shape->size() > 0)
       choose({-1, still[i].shape->positions, still[i].shape->normals, 900 + 37 * int(i)}, still[i].to_wall, wall);
@@ -85,7 +100,8 @@ Adhesions::Adhesions(const std::vector<OrganDrawing>& organs, const sim::Model& 
     const std::uint32_t first = m_buffer.size();
     for (int i = 0; i < kAlong; ++i)
       for (int j = 0; j < kAcross; ++j)
-        m_buffer.add({}, paint_at(double(i) / (kAlong - 1), 2.0 * j / (kAcross - 1) - 1, veil.waist, veil.seed));
+        m_buffer.add({}, paint_at(double(i) / (kAlong - 1), 2.0 * j / (kAcross - 1) - 1, veil.waist,
+                                  veil.on.curtains ? kCurtainSheer : kSheer, veil.seed));
     for (int i = 0; i + 1 < kAlong; ++i)
       join_rows(m_buffer, first + std::uint32_t(i * kAcross), first + std::uint32_t((i + 1) * kAcross), kAcross, false);
   }
@@ -106,6 +122,13 @@ bool Adhesions::clear(const Veil& veil) const {
   });
 }
 
+Adhesions::Width Adhesions::width_of(const Source& source, int seed) {
+  const double size = varied(seed, 7);
+  if (source.curtains) return {0.017 + 0.005 * size, 0.56};
+  if (varied(seed, 9) < source.veils) return {0.009 + 0.008 * size, 0.36 + 0.2 * varied(seed, 8)};
+  return {(source.veils > 0 ? 0.0034 : 0.0024) + 0.003 * size, 0.1 + 0.1 * varied(seed, 8)};
+}
+
 /// Places on the source from where something is near, none near another.
 void Adhesions::choose(const Source& source, int count, const Nearest& nearest) {
   const std::size_t before = m_veils.size();
@@ -121,21 +144,21 @@ void Adhesions::choose(const Source& source, int count, const Nearest& nearest) 
     const WallSurface::Place wall = nearest(vec_cast<double>(p + kAim * (n - m_down)) + 0.016 * aim);
     const Vec3f way = vec_cast<float>(wall.point) - p;
     const float far = length(way);
-    if (!wall.there || far < kNearest || far > kFarthest || dot(way, n) < 0.35f * far) continue;
-    if (dot(way, m_down) > kSteepest * far) continue;
+    if (!wall.there || far < (source.curtains ? kCurtain : kNearest) || far > kFarthest || dot(way, n) < 0.35f * far)
+      continue;
+    if (dot(way, m_down) > (source.curtains ? kLevel : kSteepest) * far) continue;
     const Vec3d late = vec_cast<double>(p + kLate * way);
     if (length(nearest(late).point - late) < kClear * double((1 - kLate) * far)) continue;
     const Vec3f side = normalised(cross(way, m_down + 1.2f * vec_cast<float>(aim)), any_perpendicular(normalised(way)));
-    const double size = varied(seed, 7);
-    const bool broad = varied(seed, 9) < source.veils;
-    const double half = broad ? 0.009 + 0.008 * size : (source.veils > 0 ? 0.0034 : 0.0024) + 0.003 * size;
+    const auto [half, waist] = width_of(source, seed);
     Veil veil{source, {}, {}, 0, 0, seed};
-    veil.waist = float(broad ? 0.36 + 0.2 * varied(seed, 8) : 0.1 + 0.1 * varied(seed, 8));
+    veil.waist = float(waist);
     veil.sag = float(0.05 + 0.15 * varied(seed, 10));
     for (std::size_t j = 0; j < kAcross; ++j) {
       const Vec3f beside = float(half * (2.0 * double(j) / (kAcross - 1) - 1)) * side;
       const std::size_t vertex = j == kAcross / 2 ? v : nearest_vertex(p + beside, source.points);
-      veil.from[j] = {vertex, p + beside - source.points[vertex]};
+      const Vec3f off = p + beside - source.points[vertex];
+      veil.from[j] = {vertex, (kOffSkin / std::max(length(off), kOffSkin)) * off};
       const WallSurface::Place foot = nearest(wall.point + 1.3 * vec_cast<double>(beside));
       veil.to[j] = vec_cast<float>(foot.point) - kSunk * vec_cast<float>(foot.normal);
     }
@@ -173,7 +196,7 @@ void Adhesions::place_veil(const Veil& veil, std::span<const Vec3f> points, std:
     const Vec3f sag = (veil.sag * far * middle) * m_down;
     for (std::size_t j = 0; j < kAcross; ++j) {
       const Vec3f beside = (1 - u) * (from[j] - a) + u * (veil.to[j] - b);
-      const float ripple = 0.12f * middle * std::sin(1.1f * float(j) + 5 * u + float(veil.seed));
+      const float ripple = 0.2f * middle * std::sin(1.1f * float(j) + 5 * u + float(veil.seed));
       out[std::size_t(i) * kAcross + j] =
           a + u * (b - a) + sag + narrow * beside + (ripple * narrow * length(beside)) * m_down;
     }

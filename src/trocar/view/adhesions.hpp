@@ -1,6 +1,7 @@
 // Strings and veils of whitish tissue between an organ and the wall or bowel beside it, as most abdomens have a few:
-// slack, thin, with concave borders and finer strands in them, between two feet like fans that lie in what they hang
-// on. None comes near a tube. Drawing only: they follow the organ, and instruments pass through them.
+// slack, thin, with concave borders, folded over, and finer strands in them, between two feet like fans that lie in
+// what they hang on. Curtains are the broadest: they span level from large or small bowel to a wall. None comes near a
+// tube. Drawing only: they follow the organ, and instruments pass through them.
 //
 //   Adhesions adhesions(organs, model, walls, {bowel_loops}, backend);
 //   adhesions.update(organs);                            // after the organs
@@ -42,7 +43,8 @@ class Adhesions {
     int organ = -1;  ///< -1: it does not move
     std::span<const Vec3f> points, normals;
     int seed = 0;
-    double veils = 0.65;  ///< share of them; the others are strings
+    double veils = 0.65;    ///< share of them; the others are strings
+    bool curtains = false;  ///< all are veils, broader and longer than others
   };
   /// A vertex of a foot in a surface: beside one of the surface's.
   struct OnSkin {
@@ -58,6 +60,11 @@ class Adhesions {
     float sag = 0.08f;   ///< of the length
     int seed = 0;
   };
+  struct Width {
+    double half = 0;   ///< of a foot [m]
+    double waist = 0;  ///< see Veil
+  };
+  static Width width_of(const Source& source, int seed);
   void choose(const Source& source, int count, const Nearest& nearest);
   bool clear(const Veil& veil) const;
   void place(const std::vector<OrganDrawing>& organs);

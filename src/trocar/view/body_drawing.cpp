@@ -18,7 +18,8 @@ constexpr double kMarginOpen = 0.94, kMarginDeepest = 0.12;  // where it does no
 constexpr float kBeforeWall = 0.004f;                        // [m]
 // [m] in the order of what is translucent: before every fold that is in the picture
 constexpr float kAfterFolds = 0.1f;
-constexpr int kLoopToWall = 4, kLoopToGut = 3;  // adhesions of the small bowel
+constexpr double kFatGlow = 0.4;  // of the light that is left in the omentum's creases: it goes through fat
+constexpr int kLoopToWall = 3, kLoopToGut = 1;  // adhesions of the small bowel
 
 /// The look's unevenness, and a rise where each strand grows out.
 Relief relief_of(int organ, const sim::Model& model) {
@@ -127,7 +128,8 @@ render::OpennessBaker BodyDrawing::shading() const {
     occluders.push_back({m_model->walls[i].skin.rest, indices[solids + i]});
   for (const CuttableDrawing& c : m_cuttables) occluders.push_back({c.positions(), c.indices()});
   for (const TubeDrawing& t : m_tubes) occluders.push_back({t.drawn().positions, t.drawn().indices});
-  for (const MeshBuffer* gut : {&m_bowel.small, &m_bowel.large}) occluders.push_back({gut->positions, gut->indices});
+  for (const MeshBuffer* gut : {&m_bowel.small, &m_bowel.large, &m_bowel.omentum})
+    occluders.push_back({gut->positions, gut->indices});
   for (const std::vector<MeshBuffer>* shapes : {&m_apron_shapes, &m_far_apron_shapes})
     for (const MeshBuffer& a : *shapes) occluders.push_back({a.positions, a.indices});
   for (const LiverDome& l : m_livers) occluders.push_back({l.buffer().positions, l.buffer().indices});
@@ -229,6 +231,13 @@ void BodyDrawing::make_surroundings(const WallSurface& walls, const render::Open
     if (gut->size() == 0) continue;
     gut->paint = shaded(baker, gut->positions, gut->normals);
     (gut == &m_bowel.small ? m_loops : m_large_loop) = fixed(*gut, "cavity", backend);
+  }
+  if (MeshBuffer& lobe = m_bowel.omentum; lobe.size() > 0) {
+    const std::vector<Paint> shade = shaded(baker, lobe.positions, lobe.normals);
+    for (std::size_t i = 0; i < shade.size(); ++i)
+      lobe.paint[i].openness =
+          std::uint8_t(lobe.paint[i].openness * (kFatGlow + (1 - kFatGlow) * shade[i].openness / 255));
+    m_lobe = fixed(lobe, "cavity", backend);
   }
 }
 
@@ -356,6 +365,7 @@ void BodyDrawing::list_surroundings(const FirstParts& first, const Listing& to) 
   to.add(m_cavity, as_lining(item({}, *m_wall_look, first.cavity)), m_details.cavity);
   for (Fixed& apron : m_far_aprons) to.add(apron.mesh, item({}, look("omentum"), first.cavity), apron.detail);
   if (m_loops) to.add(m_loops->mesh, item({}, look("small_bowel"), first.cavity), m_loops->detail);
+  if (m_lobe) to.add(m_lobe->mesh, item({}, look("omentum_border"), first.cavity), m_lobe->detail);
   if (m_large_loop) to.add(m_large_loop->mesh, item({}, look("bowel"), first.cavity), m_large_loop->detail);
 }
 

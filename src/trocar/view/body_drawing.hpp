@@ -122,7 +122,7 @@ class BodyDrawing {
   MeshBuffer m_cavity_shape;
   RigidMesh m_cavity;
   BowelLoops m_bowel;
-  std::optional<Fixed> m_loops, m_large_loop;
+  std::optional<Fixed> m_loops, m_large_loop, m_lobe;
   struct Details {  ///< of what is numbered as above
     std::vector<Detail> organs, cuttables, fat, drapes, tubes, joints, ridges, sheets, membranes, pouches, vessels,
         walls;

@@ -5,6 +5,7 @@
 #include <trocar/view/cavity.hpp>
 #include <trocar/view/gut_line.hpp>
 #include <trocar/view/looks.hpp>
+#include <trocar/view/omentum_lobe.hpp>
 #include <trocar/view/relief.hpp>
 
 namespace trocar::view {
@@ -160,7 +161,8 @@ GutLine rectum(const GutEnd& end, Vec3d up) {
   return line;
 }
 
-/// From beyond the border in and out again, each leg beside the one before, then back over them and out.
+/// From beyond the border in and out again, each leg beside the one before, then back over them, into the pouch as far
+/// as it stays clear of where blood gathers, and out.
 GutLine small_bowel(const Floor& floor) {
   constexpr double low = 0.9 * kRadius, high = 2.5 * kRadius;
   struct Knot {
@@ -169,9 +171,10 @@ GutLine small_bowel(const Floor& floor) {
   constexpr Knot knots[] = {{0.50, -0.055, -0.03}, {0.50, -0.030, low},  {0.51, 0.004, low},   {0.53, 0.028, low},
                             {0.575, 0.044, low},   {0.63, 0.034, low},   {0.64, 0.014, low},   {0.65, -0.010, low},
                             {0.69, -0.026, low},   {0.74, -0.012, low},  {0.745, 0.020, low},  {0.755, 0.034, low},
-                            {0.79, 0.045, low},    {0.86, 0.050, low},   {0.95, 0.046, low},   {1.0, 0.028, low},
-                            {0.96, 0.006, low},    {0.88, 0.0, 0.022},   {0.74, 0.012, high},  {0.66, 0.022, high},
-                            {0.60, 0.006, high},   {0.58, -0.030, high}, {0.56, -0.055, 0.01}, {0.55, -0.075, -0.03}};
+                            {0.79, 0.045, low},    {0.86, 0.050, low},   {0.95, 0.046, low},   {1.0, 0.040, 0.020},
+                            {0.96, 0.050, high},   {0.88, 0.058, high},  {0.80, 0.056, high},  {0.75, 0.040, high},
+                            {0.72, 0.020, high},   {0.66, 0.014, high},  {0.62, 0.030, high},  {0.56, 0.036, high},
+                            {0.54, 0.004, high},   {0.56, -0.030, high}, {0.56, -0.055, 0.01}, {0.55, -0.075, -0.03}};
   std::vector<Vec3d> places;
   for (const Knot& k : knots) places.push_back(floor.at(k.t, k.in, k.high));
   GutLine line;
@@ -182,6 +185,41 @@ GutLine small_bowel(const Floor& floor) {
     line.hold.push_back(smooth(0.045, 0.015, kGutStep * double(std::min(i, n - 1 - i))));
   }
   return line;
+}
+
+/// The omentum hangs over the floor's border in two tongues; between them the pouch stays open.
+LobeOutline lobe_outline(const Floor& floor) {
+  struct Knot {
+    double t, in;
+  };
+  constexpr Knot knots[] = {{0.10, -0.03}, {0.16, 0.010}, {0.22, 0.029}, {0.29, 0.030}, {0.36, 0.012}, {0.50, 0.002},
+                            {0.62, 0.022}, {0.70, 0.038}, {0.78, 0.046}, {0.86, 0.044}, {0.93, 0.022}, {1.0, -0.02}};
+  constexpr double root = -0.045, step = 0.0016;  // [m]
+  LobeOutline outline;
+  const auto columns = std::size_t(floor.length_of() / step);
+  for (std::size_t i = 0, k = 0; i < columns; ++i) {
+    const double t = knots[0].t + (1 - knots[0].t) * double(i) / double(columns - 1);
+    while (k + 2 < std::size(knots) && knots[k + 1].t < t) ++k;
+    const double in = knots[k].in + (knots[k + 1].in - knots[k].in) * smooth(knots[k].t, knots[k + 1].t, t);
+    outline.border.push_back(floor.at(t, in, 0));
+    outline.root.push_back(floor.at(t, root, 0));
+  }
+  return outline;
+}
+
+/// Everything that it may lie on.
+std::vector<Vec3d> ground_of(const sim::Model& model, const tissue::Skin& large, const BowelLoops& loops,
+                             const WallSurface& walls) {
+  std::vector<Vec3d> points;
+  const auto take = [&](const std::vector<Vec3f>& from) {
+    for (const Vec3f& p : from) points.push_back(vec_cast<double>(p));
+  };
+  take(large.rest);
+  take(model.walls.front().skin.rest);
+  take(walls.cavity().positions);
+  take(loops.small.positions);
+  take(loops.large.positions);
+  return points;
 }
 
 }  // namespace
@@ -206,6 +244,7 @@ BowelLoops bowel_loops(const sim::Model& model, const WallSurface& walls) {
   loops.large.rest.insert(loops.large.rest.end(), other.rest.begin(), other.rest.end());
   loops.large.normals.insert(loops.large.normals.end(), other.normals.begin(), other.normals.end());
   loops.small = gut(lines[1], up, 2);
+  loops.omentum = omentum_lobe(lobe_outline(floor), ground_of(model, large->fine, loops, walls), up);
   return loops;
 }
 

@@ -269,11 +269,11 @@ Material mesosalpinx() {
 
 /// Whitish, thin.
 Material adhesion() {
-  Material m = fold(0.42f);
-  m.colour = srgb(202, 156, 148);
-  m.colour_b = srgb(210, 170, 156);
-  m.colour_c = srgb(190, 134, 128);
-  m.tint = srgb(218, 184, 174);  // strands in it
+  Material m = fold(0.72f);
+  m.colour = srgb(218, 184, 176);
+  m.colour_b = srgb(224, 194, 180);
+  m.colour_c = srgb(206, 164, 156);
+  m.tint = srgb(234, 214, 204);  // strands in it
   m.vessels = 0.55f;             // fine ones, here and there
   m.vessel_tile = 0.02f;
   m.wetness = 0.22f;
@@ -347,6 +347,24 @@ Material epiploic() {
   m.glow_amount = 0.22f;  // through the thin borders of its tongues
   m.two_sided = false;
   m.tint = bowel().colour;  // where it grows out of that
+  return m;
+}
+
+/// Its lower border in the pelvis: near the lens, thin, wet, with smaller lobules.
+Material omentum_border() {
+  Material m = omentum();
+  m.colour = srgb(230, 163, 134);
+  m.colour_b = srgb(240, 182, 132);
+  m.colour_c = srgb(221, 142, 126);
+  m.mottle_size = 0.011f;
+  m.lobule_size = 0.0034f;
+  m.lobule_depth = 0.3f;
+  m.lobule_contrast = 0.11f;
+  m.vessels = 0.85f;
+  m.vessel_tile = 0.05f;
+  m.wetness = 0.9f;
+  m.film_bump = 0.26f;
+  m.film_size = 0.0018f;
   return m;
 }
 
@@ -480,6 +498,7 @@ std::vector<Look> make_looks() {
       {"peritoneum", peritoneum(), false, {}},
       {"upper_abdomen", upper_abdomen(), false, {}, 0, 0, false, true},
       {"omentum", omentum(), false, {}},
+      {"omentum_border", omentum_border(), false, {}},
       {"mesosalpinx", mesosalpinx(), true, {}},
       {"broad_ligament", broad_ligament(), true, {}},
       {"adhesion", adhesion(), true, {}},
