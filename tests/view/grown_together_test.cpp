@@ -334,7 +334,7 @@ TEST(Adhesions, NoneComesNearATubeOrItsFimbriae) {
   const auto backend = render::make_null_backend();
   const std::vector<OrganDrawing> organs = drawn_organs(*backend);
   const BowelLoops loops = bowel_loops(pelvis(), walls());
-  const Adhesions::Still still[] = {{&loops.small, 4, 3}};
+  const Adhesions::Still still[] = {{&loops.small, 4}};
   const Adhesions adhesions(organs, pelvis(), walls(), still, *backend);
   int tubes = 0;
   for (std::size_t i = 0; i < pelvis().strands.size(); ++i) {
@@ -351,7 +351,7 @@ TEST(Adhesions, AlsoHangOnBowelThatDoesNotMoveAndStayThere) {
   const auto backend = render::make_null_backend();
   std::vector<OrganDrawing> organs = drawn_organs(*backend);
   const BowelLoops loops = bowel_loops(pelvis(), walls());
-  const Adhesions::Still still[] = {{&loops.small, 4, 0}};
+  const Adhesions::Still still[] = {{&loops.small, 4}};
   const Adhesions fewer(organs, pelvis(), walls(), {}, *backend);
   Adhesions adhesions(organs, pelvis(), walls(), still, *backend);
   const std::size_t first = fewer.buffer().positions.size();

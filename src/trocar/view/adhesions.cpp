@@ -39,11 +39,6 @@ std::size_t nearest_vertex(Vec3f p, std::span<const Vec3f> points) {
   return best;
 }
 
-WallSurface::Place nearest_on(const MeshBuffer& shape, Vec3d p) {
-  const std::size_t v = nearest_vertex(vec_cast<float>(p), shape.positions);
-  return {vec_cast<double>(shape.positions[v]), vec_cast<double>(shape.normals[v]), true};
-}
-
 /// A veil is whole but thin, with borders folded over; a string is hardly there between strands that run along it, some
 /// of them rolled up at its free borders, with gaps. Frayed at its borders and gone in its feet.
 /// @param u along @param v across, -1 .. 1 @param waist see Veil @param sheer of a veil between its strands
@@ -78,23 +73,18 @@ Adhesions::Adhesions(const std::vector<OrganDrawing>& organs, const sim::Model& 
     for (const Vec3d& p : rest) m_tubes.push_back(vec_cast<float>(p));
     for (int k = 1; k <= 3; ++k) m_tubes.push_back(vec_cast<float>(end + (k * kFimbriae / 3) * onward));
   }
-  const Nearest wall = [&](Vec3d p) { return walls.nearest(p); };
   for (std::size_t i = 0; i < organs.size(); ++i) {
     const Look& own = look(model.solids[i].look);
     const tissue::Skin& skin = model.solids[i].fine;
-    if (own.fat_tags > 0) choose({int(i), skin.rest, skin.rest_normal, 150 + 37 * int(i), 1, true}, kFromLarge, wall);
-    choose({int(i), skin.rest, skin.rest_normal, 400 + 37 * int(i)}, own.adhesions, wall);
-    for (const Still& other : still)
-      if (own.fat_tags > 0 && other.shape->size() > 0)
-        choose({int(i), skin.rest, skin.rest_normal, 700 + 37 * int(i), 1}, other.from_gut,
-               [&](Vec3d p) { return nearest_on(*other.shape, p); });
+    if (own.fat_tags > 0) choose({int(i), skin.rest, skin.rest_normal, 150 + 37 * int(i), 1, true}, kFromLarge, walls);
+    choose({int(i), skin.rest, skin.rest_normal, 400 + 37 * int(i)}, own.adhesions, walls);
   }
   for (std::size_t i = 0; i < still.size(); ++i)
     if (still[i].shape->size() > 0 && still[i].to_wall > 0)
-      choose({-1, still[i].shape->positions, still[i].shape->normals, 1300 + 37 * int(i), 1, true}, kFromStill, wall);
+      choose({-1, still[i].shape->positions, still[i].shape->normals, 1300 + 37 * int(i), 1, true}, kFromStill, walls);
   for (std::size_t i = 0; i < still.size(); ++i)
     if (still[i].shape->size() > 0)
-      choose({-1, still[i].shape->positions, still[i].shape->normals, 900 + 37 * int(i)}, still[i].to_wall, wall);
+      choose({-1, still[i].shape->positions, still[i].shape->normals, 900 + 37 * int(i)}, still[i].to_wall, walls);
   if (m_veils.empty()) return;
   for (const Veil& veil : m_veils) {
     const std::uint32_t first = m_buffer.size();
@@ -130,7 +120,7 @@ Adhesions::Width Adhesions::width_of(const Source& source, int seed) {
 }
 
 /// Places on the source from where something is near, none near another.
-void Adhesions::choose(const Source& source, int count, const Nearest& nearest) {
+void Adhesions::choose(const Source& source, int count, const WallSurface& walls) {
   const std::size_t before = m_veils.size();
   for (int k = 0; k < 80 * count && int(m_veils.size() - before) < count; ++k) {
     const int seed = source.seed + k;
@@ -141,14 +131,14 @@ void Adhesions::choose(const Source& source, int count, const Nearest& nearest) 
     };
     if (std::any_of(m_veils.begin(), m_veils.end(), close)) continue;
     const Vec3d aim{varied(seed, 4) - 0.5, varied(seed, 5) - 0.5, varied(seed, 6) - 0.5};
-    const WallSurface::Place wall = nearest(vec_cast<double>(p + kAim * (n - m_down)) + 0.016 * aim);
+    const WallSurface::Place wall = walls.nearest(vec_cast<double>(p + kAim * (n - m_down)) + 0.016 * aim);
     const Vec3f way = vec_cast<float>(wall.point) - p;
     const float far = length(way);
     if (!wall.there || far < (source.curtains ? kCurtain : kNearest) || far > kFarthest || dot(way, n) < 0.35f * far)
       continue;
     if (dot(way, m_down) > (source.curtains ? kLevel : kSteepest) * far) continue;
     const Vec3d late = vec_cast<double>(p + kLate * way);
-    if (length(nearest(late).point - late) < kClear * double((1 - kLate) * far)) continue;
+    if (length(walls.nearest(late).point - late) < kClear * double((1 - kLate) * far)) continue;
     const Vec3f side = normalised(cross(way, m_down + 1.2f * vec_cast<float>(aim)), any_perpendicular(normalised(way)));
     const auto [half, waist] = width_of(source, seed);
     Veil veil{source, {}, {}, 0, 0, seed};
@@ -159,7 +149,7 @@ void Adhesions::choose(const Source& source, int count, const Nearest& nearest) 
       const std::size_t vertex = j == kAcross / 2 ? v : nearest_vertex(p + beside, source.points);
       const Vec3f off = p + beside - source.points[vertex];
       veil.from[j] = {vertex, (kOffSkin / std::max(length(off), kOffSkin)) * off};
-      const WallSurface::Place foot = nearest(wall.point + 1.3 * vec_cast<double>(beside));
+      const WallSurface::Place foot = walls.nearest(wall.point + 1.3 * vec_cast<double>(beside));
       veil.to[j] = vec_cast<float>(foot.point) - kSunk * vec_cast<float>(foot.normal);
     }
     if (clear(veil)) m_veils.push_back(veil);

@@ -1,4 +1,4 @@
-// Strings and veils of whitish tissue between an organ and the wall or bowel beside it, as most abdomens have a few:
+// Strings and veils of whitish tissue between an organ or bowel and the wall beside it, as most abdomens have a few:
 // slack, thin, with concave borders, folded over, and finer strands in them, between two feet like fans that lie in
 // what they hang on. Curtains are the broadest: they span level from large or small bowel to a wall. None comes near a
 // tube. Drawing only: they follow the organ, and instruments pass through them.
@@ -8,7 +8,6 @@
 #pragma once
 
 #include <array>
-#include <functional>
 
 #include <trocar/view/organ_drawing.hpp>
 #include <trocar/view/wall_surface.hpp>
@@ -21,7 +20,6 @@ class Adhesions {
   struct Still {
     const MeshBuffer* shape = nullptr;  ///< with normals
     int to_wall = 0;                    ///< so many from there to the wall, at most
-    int from_gut = 0;                   ///< so many to there from each organ that is large bowel, at most
   };
 
   /// @param organs  one per solid of the model, as drawn at rest
@@ -37,7 +35,6 @@ class Adhesions {
   static constexpr float kFromTubes = 0.009f;      ///< [m] from a uterine tube's middle at least, at rest
 
  private:
-  using Nearest = std::function<WallSurface::Place(Vec3d)>;
   /// What some begin on.
   struct Source {
     int organ = -1;  ///< -1: it does not move
@@ -65,7 +62,7 @@ class Adhesions {
     double waist = 0;  ///< see Veil
   };
   static Width width_of(const Source& source, int seed);
-  void choose(const Source& source, int count, const Nearest& nearest);
+  void choose(const Source& source, int count, const WallSurface& walls);
   bool clear(const Veil& veil) const;
   void place(const std::vector<OrganDrawing>& organs);
   void place_veil(const Veil& veil, std::span<const Vec3f> points, std::span<const Vec3f> normals,

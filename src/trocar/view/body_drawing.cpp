@@ -19,7 +19,7 @@ constexpr float kBeforeWall = 0.004f;                        // [m]
 // [m] in the order of what is translucent: before every fold that is in the picture
 constexpr float kAfterFolds = 0.1f;
 constexpr double kFatGlow = 0.4;  // of the light that is left in the omentum's creases: it goes through fat
-constexpr int kLoopToWall = 3, kLoopToGut = 1;  // adhesions of the small bowel
+constexpr int kLoopToWall = 3;    // adhesions of the small bowel
 
 /// The look's unevenness, and a rise where each strand grows out.
 Relief relief_of(int organ, const sim::Model& model) {
@@ -163,7 +163,7 @@ void BodyDrawing::make_on_organs(const WallSurface& walls, render::Backend& back
     m_drape_look.push_back(&covered);
   }
   m_details.adhesions = Detail(levels_of(*m_model, "cavity"));
-  const Adhesions::Still still[] = {{&m_bowel.small, kLoopToWall, kLoopToGut}};
+  const Adhesions::Still still[] = {{&m_bowel.small, kLoopToWall}};
   m_adhesions.emplace(m_organs, *m_model, walls, still, backend, m_details.adhesions);
 }
 
