@@ -85,9 +85,9 @@ struct Habit {
 };
 
 constexpr float kThinnestTwig = 0.5f;
-constexpr float kTwig = 2.4f;  // texels of radius: what is thicker runs through a bare place, too
-constexpr float kThins = 0.0022f,
-                kDies = 0.035f;  // of its radius that a twig loses a texel, and what more it does there
+constexpr float kTwig = 2.4f;      // texels of radius: what is thicker runs through a bare place, too
+constexpr float kThins = 0.0022f;  // of its radius that a twig loses a texel ...
+constexpr float kDies = 0.035f;    // ... and what more it does in a bare place
 
 /// 0 .. 1: half of a serosa is nearly bare. Tiles.
 float bare(float x, float y, int size) {
