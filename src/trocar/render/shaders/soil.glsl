@@ -73,13 +73,13 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
   float by = max(fog, 0.55 * greasy);
   // Between the drops light comes straight through, but no glint is left as sharp as it was.
   vec3 soft = blurred(uv + bent, picture, by);
-  picture = mix(soft, min(picture, mix(vec3(1.0), 1.2 * soft + 0.03, min(2.0 * by, 1.0))), 0.46);
+  picture = mix(soft, min(picture, mix(vec3(1.0), 1.2 * soft + 0.03, min(2.0 * by, 1.0))), 0.5);
   // What drops turn aside comes from all around: the organs' own colours, milky, brightest where the lamp shines back.
   // Warm where the light is, bluish grey beside it.
   vec3 veil = mix(mix(around, mean, 0.35), vec3(light), 0.12);
   float beside = smoothstep(0.1, 0.9, length(at - vec2(-0.15, 0.2)));
   vec3 milk = mix(mix(veil, light * vec3(1.24, 0.97, 0.84), 0.45), mix(veil, light * vec3(0.93, 0.98, 1.10), 0.7), beside);
-  picture = mix(picture, milk * (1.14 - 0.22 * dot(at, at)) + 0.05, 0.53 * fog);
+  picture = mix(picture, milk * (1.14 - 0.22 * dot(at, at)) + 0.05, 0.6 * fog);
   picture *= 1.0 + 0.12 * beads;
   picture = mix(picture, veil * u_smear.rgb * 1.05 + 0.02, 0.33 * greasy);
 
