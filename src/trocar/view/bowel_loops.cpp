@@ -192,7 +192,7 @@ LobeOutline lobe_outline(const Floor& floor) {
   struct Knot {
     double t, in;
   };
-  constexpr Knot knots[] = {{0.10, -0.03}, {0.16, 0.010}, {0.22, 0.029}, {0.29, 0.030}, {0.36, 0.012}, {0.50, 0.002},
+  constexpr Knot knots[] = {{0.10, -0.03}, {0.16, 0.010}, {0.21, 0.026}, {0.26, 0.028}, {0.34, 0.019}, {0.46, 0.004},
                             {0.62, 0.004}, {0.70, 0.016}, {0.78, 0.036}, {0.86, 0.042}, {0.93, 0.022}, {1.0, -0.02}};
   constexpr double root = -0.045, step = 0.0016;  // [m]
   LobeOutline outline;

@@ -19,7 +19,7 @@ constexpr float kGrowth = 0.34f;      // the fastest wave's rate, times sqrt(rho
 constexpr float kSoonest = 1.7f, kLatest = 4.2f;  // a neck closes after so many times of growth
 constexpr float kSecondNeck = 0.25f;              // share of beads that tear in two ...
 constexpr float kLater = 1.3f;                    // ... so many times of growth later
-constexpr float kHangTogether = 0.4f;             // share of beads that never part from the next: ligaments
+constexpr float kHangTogether = 0.6f;             // share of beads that never part from the next: ligaments
 constexpr float kAnywhere = 0.40f;                // in beads: how far a neck is from the middle between two
 constexpr float kBulge = 0.25f;                   // in column radii: what necks lose, middles win
 constexpr float kDrawsIn = 0.15f;                 // of its length: a bead that has come off becomes rounder

@@ -146,11 +146,11 @@ Material bowel() {
   m.mottle = 0.45f;
   m.glow_amount = 0.1f;
   m.bump = 0.05f;
-  m.film_bump = 0.24f;
+  m.film_bump = 0.13f;  // calm: a gut's highlight is a line along it
   m.film_size = 0.0024f;
   m.film_roughness = 0.06f;
-  m.wetness = 0.75f;
-  m.tint = srgb(206, 158, 153);  // its bands
+  m.wetness = 0.95f;
+  m.tint = srgb(215, 174, 167);  // its bands
   return m;
 }
 
@@ -171,10 +171,10 @@ Material small_bowel() {
   m.mottle = 0.5f;
   m.glow_amount = 0.1f;
   m.bump = 0.05f;
-  m.film_bump = 0.24f;
+  m.film_bump = 0.13f;
   m.film_size = 0.0024f;
   m.film_roughness = 0.06f;
-  m.wetness = 0.75f;
+  m.wetness = 0.95f;
   return m;
 }
 
@@ -191,7 +191,7 @@ Material liver() {
   Material m = with_vessels(tissue(srgb(74, 42, 46), srgb(89, 50, 53), srgb(70, 39, 43)), 0.15f, 0.026f);
   m.vessel_colour = srgb(150, 106, 110);  // a pale net below its capsule
   m.mottle_size = 0.008f;
-  m.mottle = 0.7f;        // one colour over a hand's breadth
+  m.mottle = 0.65f;       // one colour over a hand's breadth
   m.glow_amount = 0.02f;  // no bright line along its edge
   m.bump = 0.016f;
   m.roughness = 0.72f;

@@ -150,7 +150,7 @@ void main() {
   // What stands far before it touches nothing and leaves no rim (instruments' shadows are another pass).
   vec2 touches = clamp(vec2(1.5, 2.2) - behind.y, 0.0, 1.0);
   behind = clamp(behind, 0.0, 1.0) * clamp(3.0 - 0.5 * behind, 0.0, 1.0) * touches;
-  float open = 1.0 - u_depth.z * max(0.4 * behind.x, 0.6 * behind.y);
+  float open = 1.0 - u_depth.z * max(0.8 * behind.x, 0.9 * behind.y);
   open = mix(1.0, open, mix(1.0, on.behind, on.is));
   colour *= vec3(open, open * open, open * open);
   colour = mix(colour, min(0.6 * soft.rgb + 0.4 * softer.rgb, vec3(8.0)), u_camera.z);

@@ -23,7 +23,7 @@ const int kSteps = 6;
 
 const float kByLaw = 0.70, kLeastSeen = 0.64;  // of the light from behind
 
-const float kFromAround = 0.24;  // of the lamp's light on what is around: tissue sends it on, and smoke again
+const float kFromAround = 0.32;  // of the lamp's light on what is around: tissue sends it on, and smoke again
 
 /// The lamp's power where tissue is in the mean. Far places weigh most, so a shaft that passes is not seen in it.
 float power_around() {
