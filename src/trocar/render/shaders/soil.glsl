@@ -57,7 +57,7 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
     float side = dot(at, u_soil.wz) + 0.35 * (broad.a - 0.5) + 0.10 * lift * lift + 0.10 * lift * sin(9.0 * u_smear.w);
     float edge = mix(-1.7, 1.7, u_smear.w);
     float wiped = 1.0 - smoothstep(edge - 0.35, edge + 0.15, side);
-    swab = 1.0 - smoothstep(0.06, 0.34, abs(side - edge + 0.16 * (streaks - 0.5)));
+    swab = 1.0 - smoothstep(0.06, 0.34, abs(side - edge));
     // A stroke clears a lane; beside it fog is pushed together and smeared.
     float lane = 1.0 - smoothstep(0.45, 0.95, abs(lift + 0.25 * (broad.g - 0.5)) + 0.25 * (streaks - 0.5));
     wiped *= 0.35 + 0.65 * lane;
