@@ -146,7 +146,7 @@ Material bowel() {
   m.mottle = 0.45f;
   m.glow_amount = 0.1f;
   m.bump = 0.05f;
-  m.film_bump = 0.13f;  // calm: a gut's highlight is a line along it
+  m.film_bump = 0.18f;
   m.film_size = 0.0024f;
   m.film_roughness = 0.06f;
   m.wetness = 0.95f;
@@ -171,7 +171,7 @@ Material small_bowel() {
   m.mottle = 0.5f;
   m.glow_amount = 0.1f;
   m.bump = 0.05f;
-  m.film_bump = 0.13f;
+  m.film_bump = 0.32f;
   m.film_size = 0.0024f;
   m.film_roughness = 0.06f;
   m.wetness = 0.95f;

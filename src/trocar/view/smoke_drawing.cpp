@@ -22,7 +22,7 @@ constexpr float kClear = 0.01f;  // [g/m^3] everywhere below it: nothing to be s
 // The veil: our choice, by eye.
 constexpr float kVeilWide = 0.060f;   // [m] its spread
 constexpr float kVeilAside = 0.025f;  // [m] how far its middle lies from that of the smoke
-constexpr float kVeilDense = 9.0f;    // of what the same smoke would make in a cloud so wide: a camera's gain shows it
+constexpr float kVeilDense = 6.5f;    // of what the same smoke would make in a cloud so wide: a camera's gain shows it
 constexpr float kFogHides = 2.0f;     // of the veil, by fog on the lens: all of it where that is half fogged
 constexpr int kSpreads = 2;           // how often what is drawn is spread by a cell to each side
 

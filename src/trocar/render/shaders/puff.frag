@@ -21,7 +21,7 @@ void main() {
   // At its foot it is one strand; curls part it as it widens.
   float parted = 0.12 + 1.5 * smoothstep(0.28, 0.80, curls);
   parted = mix(0.9, parted, smoothstep(0.0012, 0.0045, u_reach));
-  float alpha = clamp(u_look.x * body * body * parted, 0.0, 0.95);
+  float alpha = clamp(0.6 * u_look.x * body * body * body * parted, 0.0, 0.6);  // what lies below is seen through it
   Lit lit = light_at(v_eye);
   // Fresh droplets scatter blue the most; at a plume's foot, brown with what burns, they are warm. Red walls light them.
   vec3 fresh = mix(kFoot, kFresh, smoothstep(0.004, 0.013, u_reach));

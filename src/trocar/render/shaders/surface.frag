@@ -73,7 +73,7 @@ const float kFoldWidth = 0.10, kFoldSlope = 0.35;  // of a lining's low folds: i
 const float kLiningBall = 0.12;  // [m] radius of the ball that a lining's vessels are drawn on
 
 #if SHADING == 1
-const float kSteelLit = 1.3;  // metal near the lens is no brighter than under this much of the lamp's light
+const float kSteelLit = 1.0;  // metal near the lens is no brighter than under this much of the lamp's light
 const float kLine = 1.9, kSheen = 1.15;  // of that, mirrored as a line and as a sheen about it
 #endif
 
@@ -195,7 +195,7 @@ void main() {
   // Blood lies where the work is done, in crevices first: a film that instruments and tissue have wiped along it, through
   // which metal shines where it is thin; it dries brown where it runs out. Char in flakes.
 #if DETAIL >= 1
-  vec4 moisture = texture(u_noise, kTurn * (v_rest - FIBRE_AXIS * (0.3 * dot(FIBRE_AXIS, v_rest))) * 90.0);
+  vec4 moisture = texture(u_noise, kTurn * (v_rest - FIBRE_AXIS * (0.3 * dot(FIBRE_AXIS, v_rest))) * 70.0);
   float ragged = 0.45 * moisture.a + 0.25 * fine.a + 0.3 * broad.a;
 #else
   float ragged = 0.6 * fine.a + 0.4 * broad.a;
@@ -204,7 +204,7 @@ void main() {
   float film = clamp((smeared - 0.9 * (ragged - 0.2) * (1.0 - smeared)) * 2.0, 0.0, 1.0) * step(0.01, smeared);
   film *= 1.0 - 0.9 * blurred;  // edges are wiped bright
   vec3 through = exp(-film * vec3(2.2, 5.2, 4.8));
-  float clotted = smoothstep(0.25, 0.7, film);
+  float clotted = smoothstep(0.3, 0.9, film);
   float dried = smoothstep(0.0, 0.12, film) * (1.0 - smoothstep(0.14, 0.45, film));
   float blood = smoothstep(0.1, 0.75, film);  // how little of a mirror it leaves
   grey = mix(grey * through, vec3(0.080, 0.0095, 0.0080), 0.9 * clotted);
@@ -218,13 +218,13 @@ void main() {
   float ao = OPENNESS;
   float rim = min(1.0 - nv, 0.8), schlick = rim * rim * rim * rim;  // no further: the last pixel would be a dot
   // Worn steel spreads what it mirrors: all of what is right behind, in its colours, would look like glass.
-  vec3 mirror = mix(0.3 * grey, vec3(0.03), plain);
+  vec3 mirror = mix(0.42 * grey, vec3(0.03), plain);
   mirror += (vec3(0.6) - mirror) * (0.45 * schlick * (0.15 + 0.85 * bare));
   // Scratches break a highlight up along the axis, moisture in any direction: only where that stands in beads it clips.
   float broken = (0.15 + 1.2 * smoothstep(0.35, 0.7, broad.a)) * (0.35 + 0.8 * smoothstep(0.42, 0.64, fine.r));
   broken = mix(0.5, broken, clamp(20.0 * BUMP, 0.0, 1.0));  // what is polished has none
 #if DETAIL >= 1
-  broken *= 0.2 + 1.1 * smoothstep(0.36, 0.64, moisture.a);
+  broken *= 0.4 + 0.8 * smoothstep(0.36, 0.64, moisture.a);
 #endif
   // A mirror's picture of the lamp is as bright from near as from far; only what is scattered falls off. So it is one
   // thin line, which clips where it is whole, in a sheen that never does.
@@ -240,7 +240,7 @@ void main() {
   vec3 from_below = around * clamp(0.9 - 0.6 * n.y - 1.2 * nv, 0.0, 1.0);
   around = mix(around, vec3(dot(around, vec3(0.3, 0.45, 0.25))), 0.75 * bare);
   // The lamp straight on, which is strong near the lens, what comes from all around, and tissue's pink from below.
-  vec3 even = LIGHT_COLOUR * lamp * (mix(0.085, mix(0.13, 0.42, smoothstep(0.5, 1.0, SCATTER)), plain) * nl * nl + 0.012 * lobe(nh, 0.35));
+  vec3 even = LIGHT_COLOUR * lamp * (mix(0.055, mix(0.13, 0.42, smoothstep(0.5, 1.0, SCATTER)), plain) * nl * nl + 0.012 * lobe(nh, 0.35));
   even += (BOUNCE * (mix(0.3, 1.0, plain) + 3.0 * rim) + vec3(mix(0.02, 0.21, plain) + AMBIENT)) * lit.bounce + from_below;
   vec3 colour = (grey * even + LIGHT_COLOUR * lamp * gloss + around * mirror) * ao;
 #ifdef FOGGY
