@@ -147,10 +147,18 @@ void main() {
   // the side that the ring light is off the lens; red stays longest.
   colour = mix(colour, min(colour, 1.4 * soft.rgb), on.is);  // one sample that glitters there would be a spark
   vec2 behind = (vec2(on.far) - vec2(soft.a, softer.a)) / (unit * vec2(0.02, 0.05));
-  // What stands far before it touches nothing and leaves no rim (instruments' shadows are another pass).
+  // What stands far before it touches nothing and leaves no rim (instruments' shadows are another pass); at the border of
+  // a mean it seems near, so what is around counts, too.
   vec2 touches = clamp(vec2(1.5, 2.2) - behind.y, 0.0, 1.0);
+  if (max(behind.x, behind.y) > 0.02) {
+    vec2 reach = 18.0 / vec2(textureSize(u_scene, 0));
+    float stands = nearest;
+    for (int k = 0; k < 4; ++k)
+      stands = min(stands, texture(u_smaller, v_uv + reach * vec2(ivec2(2 * (k & 1) - 1, (k & 2) - 1))).a);
+    touches *= 1.0 - smoothstep(0.08, 0.2, (scene.a - stands) / unit);
+  }
   behind = clamp(behind, 0.0, 1.0) * clamp(3.0 - 0.5 * behind, 0.0, 1.0) * touches;
-  float open = 1.0 - u_depth.z * max(0.8 * behind.x, 0.9 * behind.y);
+  float open = 1.0 - u_depth.z * max(0.9 * behind.x, 0.7 * behind.y);
   open = mix(1.0, open, mix(1.0, on.behind, on.is));
   colour *= vec3(open, open * open, open * open);
   colour = mix(colour, min(0.6 * soft.rgb + 0.4 * softer.rgb, vec3(8.0)), u_camera.z);

@@ -78,7 +78,7 @@ vec3 through_soil(vec3 picture, vec2 uv, vec2 at) {
   // Warm where the light is, bluish grey beside it.
   vec3 veil = mix(mix(around, mean, 0.35), vec3(light), 0.12);
   float beside = smoothstep(0.1, 0.9, length(at - vec2(-0.15, 0.2)));
-  vec3 milk = mix(mix(veil, light * vec3(1.24, 0.97, 0.84), 0.45), mix(veil, light * vec3(0.93, 0.98, 1.10), 0.7), beside);
+  vec3 milk = mix(mix(veil, light * vec3(1.16, 0.98, 0.87), 0.6), mix(veil, light * vec3(0.95, 0.99, 1.08), 0.75), beside);
   picture = mix(picture, milk * (1.14 - 0.22 * dot(at, at)) + 0.05, 0.6 * fog);
   picture *= 1.0 + 0.12 * beads;
   picture = mix(picture, veil * u_smear.rgb * 1.05 + 0.02, 0.33 * greasy);

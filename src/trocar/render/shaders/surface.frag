@@ -335,7 +335,7 @@ void main() {
   float raw = smoothstep(0.5, 0.85, blood), standing = 0.0, beaded = 1.0;
   if (raw > 0.0) {
     vec4 grain = textureGrad(u_noise, kTurn * v_rest * 330.0, rest_x * 330.0, rest_y * 330.0);
-    standing = raw * smoothstep(0.3, 0.7, tint + 0.5 * (broad.a - 0.5) + 0.3 * (fine.a - 0.5));
+    standing = raw * smoothstep(0.3, 0.7, 0.3 + 0.8 * tint + 0.5 * (broad.a - 0.5) + 0.3 * (fine.a - 0.5));
     float granular = 0.6 + 0.5 * smoothstep(0.3, 0.7, fine.a) + 0.8 * (grain.a - 0.5);
     vec3 flesh = mix(vec3(0.100, 0.0215, 0.0185) * granular, vec3(0.046, 0.0021, 0.0024), 0.85 * standing);
     albedo = mix(albedo, flesh, raw);
