@@ -126,12 +126,19 @@ void bleed(const sim::Model& model, const sim::State& start, Shots& shots) {
 
 namespace {
 
-/// Of the strands' nodes and the organs' skins, what lies nearest to p.
+/// The strands' nodes are what one grasps; an organ's skin only where it is much nearer to p.
 Vec3d nearest_tissue(const sim::Model& model, const sim::State& state, Vec3d p) {
-  std::vector<Vec3d> places;
-  for (const tissue::StrandState& s : state.strands) places.insert(places.end(), s.x.begin(), s.x.end());
-  for (int i = 0; places.empty() && i < model.organs(); ++i) places = skin_of(model, i);
-  return places.empty() ? p : nearest(places, p);
+  constexpr double kPreferred = 2;  // a strand may be this much farther away
+  std::vector<Vec3d> strands, skins;
+  for (const tissue::StrandState& s : state.strands) strands.insert(strands.end(), s.x.begin(), s.x.end());
+  for (int i = 0; i < model.organs(); ++i) {
+    const std::vector<Vec3d> skin = skin_of(model, i);
+    skins.insert(skins.end(), skin.begin(), skin.end());
+  }
+  if (strands.empty() && skins.empty()) return p;
+  if (skins.empty()) return nearest(strands, p);
+  const Vec3d skin = nearest(skins, p), strand = strands.empty() ? skin : nearest(strands, p);
+  return length(strand - p) > kPreferred * length(skin - p) ? skin : strand;
 }
 
 }  // namespace

@@ -239,6 +239,12 @@ void Guard::catch_leaps(const NodeState* in, NodeState* out) const noexcept {
     if (fast > 2 * kCaught && (is_caught(dot(before, before)) || dot(v, before) < 0))
       move_to(out[r], in[r], (kCaught / fast) * v, float(b.dt));
   }
+  if (!at_work()) return;
+  for (int r = 0; r < b.rows; ++r) {
+    const Vec3f v = speed(out[r]);
+    const float square = dot(v, v);
+    if (square > kWild * kWild) move_to(out[r], in[r], (kCaught / std::sqrt(square)) * v, float(b.dt));
+  }
 }
 
 Vec3f Guard::drift(std::span<const NodeState> nodes) const noexcept {
