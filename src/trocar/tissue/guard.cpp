@@ -240,10 +240,10 @@ void Guard::catch_leaps(const NodeState* in, NodeState* out) const noexcept {
       move_to(out[r], in[r], (kCaught / fast) * v, float(b.dt));
   }
   if (!at_work()) return;
-  for (int r = 0; r < b.rows; ++r) {
+  for (int r = 0; r < b.rows; ++r) {  // what grows within a tick was not listed when it began
     const Vec3f v = speed(out[r]);
     const float square = dot(v, v);
-    if (square > kWild * kWild) move_to(out[r], in[r], (kCaught / std::sqrt(square)) * v, float(b.dt));
+    if (square > kWild * kWild) move_to(out[r], in[r], (kWild / std::sqrt(square)) * v, float(b.dt));
   }
 }
 
