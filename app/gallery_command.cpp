@@ -29,13 +29,20 @@ Vec3d on_strand(const sim::Model& model, const sim::State& state, int strand, do
   return point_at(body, state.strands[std::size_t(strand)], place_at(body, s));
 }
 
+/// From 75 mm, or so far that no part of the organ is nearer to the lens than its picture can bear.
+ViewOptions close_up_of(const sim::Model& model, const std::vector<Vec3d>& skin) {
+  constexpr double kDistance = 0.075, kNearest = 0.045;  // [m]
+  Vec3d middle{};
+  for (Vec3d p : skin) middle += p / double(skin.size());
+  ViewOptions options = close_up(model, middle, kDistance);
+  const double gap = length(nearest(skin, options.eye) - options.eye);
+  return close_up(model, middle, kDistance + std::max(0.0, kNearest - gap));
+}
+
 void organs(const sim::Model& model, const sim::State& start, Shots& shots) {
   for (int i = 0; i < model.organs(); ++i) {
-    const std::vector<Vec3d> skin = skin_of(model, i);
-    Vec3d middle{};
-    for (Vec3d p : skin) middle += p / double(skin.size());
     const std::string& name = model.organ_name(i);
-    shots.take_outside(start, name, fmt::format("{}, close up", name), close_up(model, middle, 0.075));
+    shots.take_outside(start, name, fmt::format("{}, close up", name), close_up_of(model, skin_of(model, i)));
   }
 }
 

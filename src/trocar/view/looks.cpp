@@ -182,8 +182,11 @@ Material stomach() {
   Material m = with_vessels(tissue(srgb(200, 124, 116), srgb(208, 140, 126), srgb(184, 106, 102)), 1.0f, 0.046f);
   m.mottle_size = 0.022f;
   m.mottle = 0.5f;
-  m.film_bump = 0.2f;
-  m.film_size = 0.004f;
+  m.bump = 0.05f;
+  m.film_bump = 0.32f;
+  m.film_size = 0.002f;
+  m.film_roughness = 0.05f;
+  m.wetness = 0.9f;
   return m;
 }
 
