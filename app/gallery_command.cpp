@@ -34,8 +34,8 @@ ViewOptions close_up_of(const sim::Model& model, const std::vector<Vec3d>& skin)
   constexpr double kDistance = 0.075, kNearest = 0.045;  // [m]
   Vec3d middle{};
   for (Vec3d p : skin) middle += p / double(skin.size());
-  ViewOptions options = close_up(model, middle, kDistance);
-  const double gap = length(nearest(skin, options.eye) - options.eye);
+  const Vec3d eye = close_up(model, middle, kDistance).eye;
+  const double gap = length(nearest(skin, eye) - eye);
   return close_up(model, middle, kDistance + std::max(0.0, kNearest - gap));
 }
 
