@@ -1,4 +1,4 @@
-# The three functions every folder uses. A module is a static library of the sources in its folder; its tests and
+# The three functions every folder uses. A module is a static library of the sources in its folder's rooms; its tests and
 # benchmarks are the files in the folder of the same name under tests/ and bench/:
 #   tests/NAME/*_test.cpp  the quick ones, in every run of ctest's `quick` label
 #   tests/NAME/*_soak.cpp  the long ones, label `soak`, run by `./test.sh soak`
@@ -14,8 +14,8 @@ endif()
 set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O2 -g")
 
 find_program(TROCAR_CCACHE ccache)
-if(TROCAR_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${TROCAR_CCACHE})
+if(TROCAR_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)  # the sloppiness is what lets it keep objects made with a PCH
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${TROCAR_CCACHE})
 endif()
 
 # Determinism law: no fused multiply-add unless written, no fast-math, errno and traps are nobody's business.
@@ -51,10 +51,23 @@ else()
   target_link_libraries(trocar_text INTERFACE fmt::fmt spdlog::spdlog)
 endif()
 
+# What takes longest to read is read once a target: the JSON library, text, and with COMMAND_LINE its parser. Optimising
+# what runs once a second or once an attempt, or a test's own lines, is not worth the minutes either.
+function(trocar_quick_options target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1> $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+endfunction()
+function(trocar_quick_build target)
+  cmake_parse_arguments(arg "COMMAND_LINE" "" "" ${ARGN})
+  target_precompile_headers(${target} PRIVATE <nlohmann/json.hpp> <fmt/format.h> <algorithm> <array> <filesystem>
+                            <functional> <map> <memory> <optional> <span> <string> <vector>
+                            $<$<BOOL:${arg_COMMAND_LINE}>:<CLI/CLI.hpp$<ANGLE-R>>)
+  trocar_quick_options(${target})
+endfunction()
+
 # trocar_module(NAME [DEPENDS module...] [LIBS target...])
 function(trocar_module name)
   cmake_parse_arguments(arg "" "" "DEPENDS;LIBS" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   set(target trocar_${name})
   list(TRANSFORM arg_DEPENDS PREPEND trocar_)
   if(sources)
@@ -73,6 +86,9 @@ endfunction()
 function(trocar_test_executable target prefix label timeout sources depends libs)
   add_executable(${target} ${sources})
   target_link_libraries(${target} PRIVATE ${depends} ${libs} GTest::gtest_main)
+  target_precompile_headers(${target} PRIVATE <gtest/gtest.h> <algorithm> <array> <filesystem> <functional> <memory>
+                            <span> <string> <vector>)
+  trocar_quick_options(${target})
   target_compile_definitions(${target} PRIVATE TROCAR_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                                                TROCAR_BINARY_DIR="${PROJECT_BINARY_DIR}")
   gtest_discover_tests(${target} TEST_PREFIX ${prefix}. DISCOVERY_TIMEOUT 60

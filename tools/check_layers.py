@@ -4,7 +4,8 @@
     tools/check_layers.py [ROOT]      ROOT: a checkout (default: this one). Exit 0 clean, 1 with one line a fault.
 
 Three tables say it all: ALLOWED (folders), FOREIGN (libraries), FORBIDDEN (constructs in folders whose results must
-be the same bits everywhere). An exception is one line in EXCEPTIONS with its reason; one that is no longer needed is
+be the same bits everywhere). Rooms within a folder (tissue/heat) may include each other as long as there is no circle
+between them, which is found, not listed; and no room holds more than MOST_FILES. An exception is one line in EXCEPTIONS with its reason; one that is no longer needed is
 itself a fault, so the list cannot rot.
 """
 import re
@@ -29,18 +30,22 @@ ALLOWED = {
     "studies": GEOMETRY + ["kinematics", "collision", "scene"],
     "training": SIM_BELOW + ["sim", "scene"],
     "devices": CORE,
+    "attempt": SIM_BELOW + ["sim", "scene", "training", "devices"],  # no window: tests/attempt looks at what it links
     "render": GEOMETRY,
     "view": SIM_BELOW + ["sim", "render"],
+    "pictures": SIM_BELOW + ["sim", "scene", "training", "devices", "attempt", "render", "view"],
+    "reports": SIM_BELOW + ["sim", "scene", "training", "devices", "attempt", "render", "view", "pictures"],
     "modeller": SIM_BELOW + ["sim", "scene", "render", "view"],
 }
 APP_MAY = sorted(set(ALLOWED))
+MOST_FILES = 40  # in one room
 
 # What a header from outside looks like -> the folders ("app" is one of them) that may include it
 FOREIGN = [
     (re.compile(r"^(GL|GLES\d*|EGL|KHR|GLFW|epoxy|X11)/"), ["render", "app"]),
-    (re.compile(r"^(imgui|backends/imgui|implot)"), ["render", "modeller", "app"]),
-    (re.compile(r"^(stb/)?stb_"), ["render", "app"]),
-    (re.compile(r"^nlohmann/"), ["scene", "training", "app"]),
+    (re.compile(r"^(imgui|backends/imgui|implot)"), ["render", "pictures", "modeller", "app"]),
+    (re.compile(r"^(stb/)?stb_"), ["render", "pictures", "app"]),
+    (re.compile(r"^nlohmann/"), ["core", "scene", "training", "app"]),
     (re.compile(r"^CLI/"), ["app"]),
     (re.compile(r"^sqlite3\.h"), ["training"]),
     (re.compile(r"^zlib\.h"), ["geometry"]),
@@ -79,7 +84,7 @@ FORBIDDEN = [(re.compile(pattern), folders, why) for pattern, folders, why in FO
 
 # (path, text that the faulty line contains) -> why it may stay
 EXCEPTIONS = {
-    ("src/trocar/sim/recording.hpp", "<cstdio>"): "writes and reads files; the step does not include it",
+    ("src/trocar/sim/recording/recording.hpp", "<cstdio>"): "writes and reads files; the step does not include it",
     ("src/trocar/numerics/portable.hpp", "double "): "declares our own sin, cos, ...: the replacement itself",
     ("src/trocar/numerics/portable.cpp", ""): "defines our own sin, cos, ... and calls them among each other",
 }
@@ -126,6 +131,63 @@ def faults_of(path, folder, text):
                 yield code.count("\n", 0, m.start()) + 1, f"{m.group(0).strip()}: {why}"
 
 
+def room_of(path):
+    """The folder of a file below src/ or app/, as its includes write it: trocar/tissue/heat, shell."""
+    parts = path.parts[:-1]
+    return "/".join(parts[1:] if parts[0] in ("src", "app") else parts) or "."
+
+
+def circles(graph):
+    """Rooms that reach themselves, in sets (Tarjan's strongly connected components of more than one room)."""
+    index, low, stack, found = {}, {}, [], []
+
+    def visit(room):
+        index[room] = low[room] = len(index)
+        stack.append(room)
+        for other in sorted(graph.get(room, ())):
+            if other not in index:
+                visit(other)
+                low[room] = min(low[room], low[other])
+            elif other in stack:
+                low[room] = min(low[room], index[other])
+        if low[room] == index[room]:
+            at = stack.index(room)
+            found.append(stack[at:])
+            del stack[at:]
+
+    for room in sorted(graph):
+        if room not in index:
+            visit(room)
+    return [sorted(group) for group in found if len(group) > 1]
+
+
+def room_faults(root):
+    """Yields one line a fault of the rooms: circles, with the includes that close them, and rooms that are too full."""
+    graph, witnesses, members = {}, {}, {}
+    for path, _ in files_of(root):
+        path = path.relative_to(root)
+        room = room_of(path)
+        members[room] = members.get(room, 0) + 1
+        text = (root / path).read_text(encoding="utf-8")
+        code = COMMENT_OR_TEXT.sub(blank, text)
+        for m in INCLUDE.finditer(text):
+            target = m.group(1) or m.group(2)
+            if "/" not in target or not code[m.start():m.end()].lstrip().startswith("#"):
+                continue
+            if not (target.startswith("trocar/") or (m.group(2) and path.parts[0] == "app")):
+                continue
+            other = target.rsplit("/", 1)[0]
+            if other != room:
+                graph.setdefault(room, set()).add(other)
+                witnesses.setdefault((room, other), f"{path.as_posix()}:{text.count(chr(10), 0, m.start()) + 1}")
+    for group in circles(graph):
+        edges = [f"{a} -> {b} ({witnesses[a, b]})" for a in group for b in group if (a, b) in witnesses]
+        yield f"{group[0]}: rooms include each other in a circle: {'; '.join(edges)}"
+    for room, count in sorted(members.items()):
+        if count > MOST_FILES:
+            yield f"{room}: {count} files in one room, at most {MOST_FILES}"
+
+
 def files_of(root):
     """Yields (path, folder) for every source file under the law."""
     for path in sorted((root / "src" / "trocar").rglob("*")):
@@ -153,6 +215,7 @@ def main():
                 used.add(key)
             else:
                 found.append(f"{name}:{line}: {message}")
+    found += room_faults(root)
     if (root / "tools" / "check_layers.py").resolve() == Path(__file__).resolve():
         found += [f"{k[0]}: the exception for '{k[1]}' is not needed any more" for k in EXCEPTIONS if k not in used]
     if count == 0:

@@ -11,14 +11,14 @@
 #include <vector>
 
 #include <trocar/fluids/fluids.hpp>
-#include <trocar/render/gl_context.hpp>
-#include <trocar/scene/compile.hpp>
-#include <trocar/scene/reader.hpp>
-#include <trocar/sim/step.hpp>
-#include <trocar/view/fluid_drawing.hpp>
-#include <trocar/view/lens.hpp>
-#include <trocar/view/scene_view.hpp>
-#include <trocar/view/smoke_drawing.hpp>
+#include <trocar/render/gl/gl_context.hpp>
+#include <trocar/scene/compile/compile.hpp>
+#include <trocar/scene/files/reader.hpp>
+#include <trocar/sim/stages/step.hpp>
+#include <trocar/view/fluids/fluid_drawing.hpp>
+#include <trocar/view/fluids/lens.hpp>
+#include <trocar/view/fluids/smoke_drawing.hpp>
+#include <trocar/view/scene/scene_view.hpp>
 
 #include "organ_contacts.hpp"
 

@@ -10,7 +10,7 @@
 
 #include <trocar/fluids/fluids.hpp>
 #include <trocar/fluids/optics.hpp>
-#include <trocar/render/image.hpp>
+#include <trocar/render/frame/image.hpp>
 
 namespace {
 

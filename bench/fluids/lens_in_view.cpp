@@ -7,12 +7,12 @@
 #include <cstdlib>
 #include <string>
 
-#include <trocar/render/gl_context.hpp>
-#include <trocar/scene/compile.hpp>
-#include <trocar/scene/reader.hpp>
-#include <trocar/sim/step.hpp>
-#include <trocar/sim/visibility.hpp>
-#include <trocar/view/scene_view.hpp>
+#include <trocar/render/gl/gl_context.hpp>
+#include <trocar/scene/compile/compile.hpp>
+#include <trocar/scene/files/reader.hpp>
+#include <trocar/sim/stages/step.hpp>
+#include <trocar/sim/stages/visibility.hpp>
+#include <trocar/view/scene/scene_view.hpp>
 
 using namespace trocar;
 

@@ -8,8 +8,8 @@
 
 #include <trocar/fluids/droplets.hpp>
 #include <trocar/fluids/pool.hpp>
-#include <trocar/sim/state.hpp>
-#include <trocar/view/fluid_drawing.hpp>
+#include <trocar/sim/model/state.hpp>
+#include <trocar/view/fluids/fluid_drawing.hpp>
 
 namespace trocar {
 

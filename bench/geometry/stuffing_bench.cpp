@@ -1,8 +1,8 @@
 // A closed mesh into a field, and into a body of about ten thousand cells.
 #include <benchmark/benchmark.h>
 
-#include <trocar/geometry/loft.hpp>
-#include <trocar/geometry/stuffing.hpp>
+#include <trocar/geometry/surfaces/loft.hpp>
+#include <trocar/geometry/tets/stuffing.hpp>
 
 namespace trocar::geometry {
 namespace {

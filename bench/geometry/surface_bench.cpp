@@ -11,7 +11,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include <trocar/geometry/block_boxes.hpp>
+#include <trocar/geometry/surfaces/block_boxes.hpp>
 
 #ifdef TROCAR_BULLET
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>

@@ -17,7 +17,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include <trocar/interactions/fluid_contact.hpp>
+#include <trocar/interactions/wetting/fluid_contact.hpp>
 
 #include "everything.hpp"
 
@@ -163,7 +163,7 @@ void TissueAlone(benchmark::State& state) {
   tick.tell(state, "tick_us");
 }
 
-/// The fluids' stage as sim/wetting.cpp has it, but for valves.
+/// The fluids' stage as sim/stages/wetting.cpp has it, but for valves.
 struct FluidsTick {
   double plan = 0, answer = 0, resolve = 0, pool = 0, smoke = 0;
 

@@ -6,9 +6,9 @@
 
 #include <benchmark/benchmark.h>
 
-#include <trocar/scene/compile.hpp>
-#include <trocar/scene/reader.hpp>
-#include <trocar/sim/step.hpp>
+#include <trocar/scene/compile/compile.hpp>
+#include <trocar/scene/files/reader.hpp>
+#include <trocar/sim/stages/step.hpp>
 
 using namespace trocar;
 

@@ -7,10 +7,10 @@
 #include <benchmark/benchmark.h>
 
 #include <trocar/core/parallel.hpp>
-#include <trocar/scene/compile.hpp>
-#include <trocar/scene/reader.hpp>
-#include <trocar/sim/step.hpp>
-#include <trocar/training/surgeon.hpp>
+#include <trocar/scene/compile/compile.hpp>
+#include <trocar/scene/files/reader.hpp>
+#include <trocar/sim/stages/step.hpp>
+#include <trocar/training/expert/surgeon.hpp>
 
 using namespace trocar;
 

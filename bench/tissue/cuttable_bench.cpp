@@ -2,8 +2,8 @@
 // tick needs.
 #include <benchmark/benchmark.h>
 
-#include <trocar/tissue/cuttable.hpp>
-#include <trocar/tissue/lattice_springs.hpp>
+#include <trocar/tissue/network/lattice_springs.hpp>
+#include <trocar/tissue/tets/cuttable.hpp>
 
 namespace {
 

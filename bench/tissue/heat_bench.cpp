@@ -7,8 +7,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include <trocar/tissue/electrosurgery.hpp>
-#include <trocar/tissue/heat_look.hpp>
+#include <trocar/tissue/heat/electrosurgery.hpp>
+#include <trocar/tissue/heat/heat_look.hpp>
 
 namespace {
 

@@ -4,9 +4,9 @@
 //   ninja -C build/release heat_picture && build/release/bench/tissue/heat_picture OUT.png
 #include <cstdio>
 
-#include <trocar/render/image.hpp>
-#include <trocar/tissue/electrosurgery.hpp>
-#include <trocar/tissue/heat_look.hpp>
+#include <trocar/render/frame/image.hpp>
+#include <trocar/tissue/heat/electrosurgery.hpp>
+#include <trocar/tissue/heat/heat_look.hpp>
 
 namespace {
 

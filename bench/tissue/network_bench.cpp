@@ -9,9 +9,9 @@
 #include <benchmark/benchmark.h>
 
 #include <trocar/core/parallel.hpp>
-#include <trocar/tissue/lattice_springs.hpp>
-#include <trocar/tissue/network.hpp>
-#include <trocar/tissue/strand.hpp>
+#include <trocar/tissue/network/lattice_springs.hpp>
+#include <trocar/tissue/network/network.hpp>
+#include <trocar/tissue/strand/strand.hpp>
 
 #ifdef TROCAR_BULLET
 #include <BulletSoftBody/btSoftBody.h>

@@ -3,7 +3,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include <trocar/training/metrics.hpp>
+#include <trocar/training/metrics/metrics.hpp>
 
 using namespace trocar;
 using namespace trocar::training;

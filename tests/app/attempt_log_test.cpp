@@ -1,11 +1,10 @@
 // What an attempt leaves on the disk when not everything there is as it should be.
-#include "attempt_log.hpp"
-
 #include <fstream>
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <trocar/attempt/attempt_log.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/log.hpp>
 
@@ -17,9 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const Lesson& lesson() {
+const attempt::Lesson& lesson() {
   static const auto made = [] {
-    auto l = std::make_unique<Lesson>();
+    auto l = std::make_unique<attempt::Lesson>();
     l->name = "small";
     l->model = small::model();
     return l;
@@ -52,9 +51,9 @@ class AttemptLogTest : public testing::Test {
     chmod(folder.c_str(), 0555);
   }
   /// Ten ticks; what is said of them.
-  static Json attempt(training::Store& store, const AttemptPlan& plan) {
-    Session session(lesson(), 1);
-    AttemptLog log(&store, session, plan);
+  static Json attempt(training::Store& store, const attempt::AttemptPlan& plan) {
+    attempt::Session session(lesson(), 1);
+    attempt::AttemptLog log(&store, session, plan);
     for (int i = 0; i < 10; ++i) session.advance(lesson().model.start);
     Json result = session.result(false);
     log.end(result, training::AttemptState::finished);
@@ -87,7 +86,7 @@ TEST_F(AttemptLogTest, WhereTheDataFolderCannotBeWrittenNothingIsLostAndTheNextO
 
 TEST_F(AttemptLogTest, WithoutTheRecordingThatWasAskedForTheAttemptNeverBegan) {
   training::Store store(data());
-  AttemptPlan plan;
+  attempt::AttemptPlan plan;
   plan.recording = "/proc/nowhere/a.rec";
   EXPECT_THROW(attempt(store, plan), core::EnvironmentLacks);
   EXPECT_TRUE(store.list().empty());
@@ -103,7 +102,7 @@ TEST_F(AttemptLogTest, AnOlderRecordingThatCannotBeKeptIsNotWrittenOver) {
   const int failed = test::elsewhere([&] {
     if (!test::become_nobody()) return 77;
     training::Store store(data());
-    AttemptPlan plan;
+    attempt::AttemptPlan plan;
     plan.recording = file;
     try {
       attempt(store, plan);

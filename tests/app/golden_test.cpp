@@ -6,17 +6,17 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <trocar/sim/step.hpp>
+#include <trocar/attempt/lesson.hpp>
+#include <trocar/pictures/pictures.hpp>
+#include <trocar/sim/stages/step.hpp>
 
-#include "gallery_events.hpp"
-#include "lesson.hpp"
+#include "commands/gallery_events.hpp"
 #include "picture_difference.hpp"
-#include "pictures.hpp"
 
 namespace trocar::app {
 namespace {
 
-constexpr PictureSize kSize{320, 240};
+constexpr pictures::PictureSize kSize{320, 240};
 constexpr double kMean = 1.0, kWorst = 6.0;  ///< CIE L*a*b*; two graphics drivers may differ by less
 
 struct View {
@@ -43,9 +43,9 @@ std::filesystem::path golden(const std::string& name) {
 }
 
 render::Image picture_of(const View& view) {
-  const std::unique_ptr<Lesson> lesson = load_lesson(view.scene);
+  const std::unique_ptr<attempt::Lesson> lesson = attempt::load_lesson(view.scene);
   const sim::Model& model = lesson->model;
-  Pictures pictures(model, kSize, {{}, parse_show(view.show)});
+  pictures::Pictures pictures(model, kSize, {{}, pictures::parse_show(view.show)});
   const sim::State start = sim::initial_state(model);
   if (view.organ < 0) return pictures.still(start);
   const std::vector<Vec3d> skin = skin_of(model, view.organ);

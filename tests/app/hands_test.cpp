@@ -4,19 +4,18 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/sim/visibility.hpp>
-
-#include "hand_names.hpp"
-#include "hand_pilot.hpp"
-#include "lesson.hpp"
-#include "session.hpp"
-#include "sources.hpp"
+#include <trocar/attempt/hand_names.hpp>
+#include <trocar/attempt/hand_pilot.hpp>
+#include <trocar/attempt/lesson.hpp>
+#include <trocar/attempt/session.hpp>
+#include <trocar/attempt/sources.hpp>
+#include <trocar/sim/stages/visibility.hpp>
 
 namespace trocar::app {
 namespace {
 
-const Lesson& scene() {
-  static const std::unique_ptr<Lesson> lesson = load_lesson("gynaecology");
+const attempt::Lesson& scene() {
+  static const std::unique_ptr<attempt::Lesson> lesson = attempt::load_lesson("gynaecology");
   return *lesson;
 }
 
@@ -35,7 +34,7 @@ devices::HandSample mouse(float dx, float dy) {
 TEST(HandPilot, TheLedTipGoesWhereTheMouseGoesInThePicture) {
   const sim::State state = sim::initial_state(scene().model);
   const kinematics::ScopeFrame view = sim::scope_of(scene().model, state);
-  HandPilot pilot(scene().model);
+  attempt::HandPilot pilot(scene().model);
   const Vec3d before = commanded(scene().model.start, 0);
   const sim::Input input = pilot.lead(mouse(30, -20), state);
   const Vec3d moved = commanded(input, 0) - before;
@@ -45,12 +44,12 @@ TEST(HandPilot, TheLedTipGoesWhereTheMouseGoesInThePicture) {
 }
 
 TEST(HandPilot, ValvesOfTheLedSuctionIrrigatorArePedalsOfItsHand) {
-  static const std::unique_ptr<Lesson> lesson = load_lesson("bleeding");
+  static const std::unique_ptr<attempt::Lesson> lesson = attempt::load_lesson("bleeding");
   const sim::Model& model = lesson->model;
   sim::State state = sim::initial_state(model);
   const int tube = model.hands[1].find("suction_irrigator");
   ASSERT_GE(tube, 0) << "it fits a 5 mm trocar";
-  HandPilot pilot(model);
+  attempt::HandPilot pilot(model);
   devices::HandSample sample = mouse(0, 0);
   sample.held.set(devices::Key::a);
   pilot.choose(1);
@@ -68,22 +67,22 @@ TEST(HandPilot, ValvesOfTheLedSuctionIrrigatorArePedalsOfItsHand) {
 }
 
 TEST(PatientInWords, SaysPulseAndPressuresWhichFallWithTheLossAndByHowMuchThePulseIsEnlarged) {
-  static const std::unique_ptr<Lesson> lesson = load_lesson("bleeding");
+  static const std::unique_ptr<attempt::Lesson> lesson = attempt::load_lesson("bleeding");
   sim::State state = sim::initial_state(lesson->model);
-  const std::vector<std::string> before = patient_in_words(lesson->model, state);
+  const std::vector<std::string> before = attempt::patient_in_words(lesson->model, state);
   ASSERT_EQ(before.size(), 3u);
   EXPECT_EQ(before[0], "pulse 72/min, 120/80 mmHg");
   EXPECT_EQ(before[1], "gas in the abdomen 12 mmHg");
   EXPECT_EQ(before[2], "arteries' pulse shown and felt 5 times");
   state.fluids.gas.pressure /= 2;
-  EXPECT_EQ(patient_in_words(lesson->model, state)[1], "gas in the abdomen 6 mmHg, low");
+  EXPECT_EQ(attempt::patient_in_words(lesson->model, state)[1], "gas in the abdomen 6 mmHg, low");
   state.flow.bled = 2'000'000'000'000;  // two litres
-  EXPECT_EQ(patient_in_words(lesson->model, state)[0], "pulse 133/min, 73/59 mmHg");
-  EXPECT_TRUE(patient_in_words(scene().model, sim::initial_state(scene().model)).empty());
+  EXPECT_EQ(attempt::patient_in_words(lesson->model, state)[0], "pulse 133/min, 73/59 mmHg");
+  EXPECT_TRUE(attempt::patient_in_words(scene().model, sim::initial_state(scene().model)).empty());
 }
 
 TEST(FluidAccount, AddsUp) {
-  static const std::unique_ptr<Lesson> lesson = load_lesson("bleeding");
+  static const std::unique_ptr<attempt::Lesson> lesson = attempt::load_lesson("bleeding");
   sim::State state = sim::initial_state(lesson->model);
   fluids::Ledger& ledger = state.fluids.ledger;
   fluids::receive(ledger, fluids::Source::kBled, fluids::Place::kDroplets, {.blood = 5 * fluids::kMillilitre});
@@ -91,10 +90,10 @@ TEST(FluidAccount, AddsUp) {
   fluids::move(ledger, fluids::Place::kDroplets, fluids::Place::kFilm, {.blood = fluids::kMillilitre});
   fluids::move(ledger, fluids::Place::kDroplets, fluids::Place::kPool, {.blood = fluids::kMillilitre});
   fluids::move(ledger, fluids::Place::kPool, fluids::Place::kSucked, {.saline = 3 * fluids::kMillilitre});
-  EXPECT_EQ(fluid_account(lesson->model, state),
+  EXPECT_EQ(attempt::fluid_account(lesson->model, state),
             (std::vector<std::string>{"bled 5.0 mL", "irrigated 20.0 mL", "in the pool 18.0 mL", "sucked away 3.0 mL",
                                       "drops and film 4.0 mL"}));
-  EXPECT_TRUE(fluid_account(scene().model, sim::initial_state(scene().model)).empty());
+  EXPECT_TRUE(attempt::fluid_account(scene().model, sim::initial_state(scene().model)).empty());
 }
 
 TEST(FlagNames, EveryFlagOfAStepHasOne) {
@@ -104,24 +103,24 @@ TEST(FlagNames, EveryFlagOfAStepHasOne) {
         std::uint32_t(sim::StepReport::kTooManyLoads), std::uint32_t(sim::StepReport::kBadInput),
         std::uint32_t(sim::StepReport::kBookFull), std::uint32_t(sim::StepReport::kBloodFlow),
         std::uint32_t(sim::StepReport::kHeatFull), std::uint32_t(sim::StepReport::kDropsFull)})
-    EXPECT_EQ(flag_names(flag).size(), 1u) << flag;
-  EXPECT_EQ(flag_names(sim::StepReport::kDropsFull | sim::StepReport::kBookFull).size(), 2u);
+    EXPECT_EQ(attempt::flag_names(flag).size(), 1u) << flag;
+  EXPECT_EQ(attempt::flag_names(sim::StepReport::kDropsFull | sim::StepReport::kBookFull).size(), 2u);
 }
 
 TEST(LensInWords, SaysFogAndAWipeAndNothingOfAClearLensOrWhereThereAreNoFluids) {
-  static const std::unique_ptr<Lesson> lesson = load_lesson("bleeding");
+  static const std::unique_ptr<attempt::Lesson> lesson = attempt::load_lesson("bleeding");
   sim::State state = sim::initial_state(lesson->model);
-  EXPECT_EQ(lens_in_words(lesson->model, state), "");
+  EXPECT_EQ(attempt::lens_in_words(lesson->model, state), "");
   state.fluids.smoke.fog = 0.4;
-  EXPECT_EQ(lens_in_words(lesson->model, state), "lens fogged, 40 %");
+  EXPECT_EQ(attempt::lens_in_words(lesson->model, state), "lens fogged, 40 %");
   state.fluids.smoke.wipe_left = 4.2;
-  EXPECT_EQ(lens_in_words(lesson->model, state), "lens is being wiped, 5 s");
-  EXPECT_EQ(lens_in_words(scene().model, sim::initial_state(scene().model)), "");
+  EXPECT_EQ(attempt::lens_in_words(lesson->model, state), "lens is being wiped, 5 s");
+  EXPECT_EQ(attempt::lens_in_words(scene().model, sim::initial_state(scene().model)), "");
 }
 
 TEST(HandPilot, TheOthersKeepPoseAndGrip) {
   const sim::State state = sim::initial_state(scene().model);
-  HandPilot pilot(scene().model);
+  attempt::HandPilot pilot(scene().model);
   devices::HandSample close = mouse(5, 5);
   close.left_button = true;
   for (int i = 0; i < 60; ++i) pilot.lead(close, state);
@@ -138,7 +137,7 @@ TEST(HandPilot, TheOthersKeepPoseAndGrip) {
 
 TEST(HandPilot, AnInsertionWaitsUnderTheTrocarUntilItIsSeen) {
   sim::State state = sim::initial_state(scene().model);
-  HandPilot pilot(scene().model);
+  attempt::HandPilot pilot(scene().model);
   devices::HandSample back = mouse(0, 0);  // out as far as a changed instrument is
   back.wheel = -60;
   const auto give = [&](const devices::HandSample& sample) {
@@ -169,7 +168,7 @@ TEST(HandPilot, AnInsertionWaitsUnderTheTrocarUntilItIsSeen) {
 
 TEST(HandPilot, EClockwiseSeenFromTheHand) {
   const sim::State state = sim::initial_state(scene().model);
-  HandPilot pilot(scene().model);
+  attempt::HandPilot pilot(scene().model);
   devices::HandSample roll = mouse(0, 0);
   roll.held.set(devices::Key::e);
   const kinematics::TipFrame before =
@@ -185,7 +184,7 @@ TEST(HandPilot, TheViewGoesWhereTheMouseGoes) {
   const sim::Model& model = scene().model;
   sim::State state = sim::initial_state(model);
   const kinematics::ScopeFrame before = sim::scope_of(model, state);
-  HandPilot pilot(model);
+  attempt::HandPilot pilot(model);
   devices::HandSample choose = mouse(0, 0);
   choose.pressed.set(devices::Key::zero);
   pilot.lead(choose, state);
@@ -197,7 +196,7 @@ TEST(HandPilot, TheViewGoesWhereTheMouseGoes) {
 
 TEST(SmoothInput, ArrivesWithoutOvershoot) {
   sim::Input target = scene().model.start;
-  SmoothInput smooth(target);
+  attempt::SmoothInput smooth(target);
   target.tools[0].depth += 0.02f;
   float last = scene().model.start.tools[0].depth;
   for (int i = 0; i < 300; ++i) {
@@ -220,9 +219,9 @@ TEST(MotionSource, HandsComeIntoTheSceneByARotationWithTheirCentroidWhereTheInst
     trial.samples.push_back(s);
   }
   const sim::Model& model = scene().model;
-  const auto hands = place_hands(model, trial);
+  const auto hands = attempt::place_hands(model, trial);
   const kinematics::ScopeFrame view = sim::scope_of(model, sim::initial_state(model));
-  for (const HandPlacement& hand : hands) {
+  for (const attempt::HandPlacement& hand : hands) {
     const interactions::ToolModel& tool = model.placed(size_t(hand.tool));
     const Vec3d start = commanded(model.start, hand.tool);
     EXPECT_NEAR(length(hand.to_scene(hand.centroid) - start), 0, 1e-12);
@@ -237,10 +236,10 @@ TEST(MotionSource, HandsComeIntoTheSceneByARotationWithTheirCentroidWhereTheInst
 }
 
 TEST(Session, ForcesAreHeldAgainstTheExercisesOwnLimits) {
-  const std::unique_ptr<Lesson> lesson = load_lesson("gynaecology/sterilisation");
+  const std::unique_ptr<attempt::Lesson> lesson = attempt::load_lesson("gynaecology/sterilisation");
   lesson->exercise->goal.pull_limit = 3.25;
   lesson->exercise->goal.pinch_limit = 12.5;
-  Session session(*lesson, 1);
+  attempt::Session session(*lesson, 1);
   for (int i = 0; i < 200; ++i) session.advance(lesson->model.start);
   const Json forces = session.result(false)["metrics"]["both"]["forces"];
   EXPECT_EQ(forces["pull"]["limit_N"], 3.25);
@@ -248,7 +247,7 @@ TEST(Session, ForcesAreHeldAgainstTheExercisesOwnLimits) {
 }
 
 TEST(Session, DrawingOrNotWatchingOrNotTheSameBits) {
-  Session watched(scene(), 1), alone(scene(), 2);
+  attempt::Session watched(scene(), 1), alone(scene(), 2);
   sim::Input input = scene().model.start;
   for (int i = 0; i < 200; ++i) {
     input.tools[0].depth += 1e-4f;

@@ -6,13 +6,13 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/error.hpp>
-#include <trocar/scene/compile.hpp>
+#include <trocar/pictures/analysis_choice.hpp>
+#include <trocar/pictures/legend_drawing.hpp>
+#include <trocar/scene/compile/compile.hpp>
 
 #include "../sim/small_scene.hpp"
-#include "analysis_choice.hpp"
-#include "legend_drawing.hpp"
-#include "panes.hpp"
-#include "settings.hpp"
+#include "shell/panes.hpp"
+#include "shell/settings.hpp"
 
 namespace trocar::app {
 namespace {
@@ -149,14 +149,14 @@ TEST(Panes, ATallPaneShowsTheWholeCircleAndAWideOneIsAsItWas) {
 }
 
 TEST(AnalysisChoice, NamesQuantitiesAndTheirRanges) {
-  EXPECT_FALSE(parse_analysis("").on());
-  const view::AnalysisOptions o = parse_analysis("strain:35,forces:5,pressure");
+  EXPECT_FALSE(pictures::parse_analysis("").on());
+  const view::AnalysisOptions o = pictures::parse_analysis("strain:35,forces:5,pressure");
   EXPECT_TRUE(o.strain && o.forces && o.pressure && !o.springs);
   EXPECT_NEAR(o.strain_range, 0.35, 1e-12);
   EXPECT_NEAR(o.force_length, 0.005, 1e-12);
   EXPECT_NEAR(o.pressure_most, 120, 1e-12);
   for (const char* bad : {"stress", "strain:", "strain:0", "strain:x", "strain:1e9", "forces:5mm", "strain forces"})
-    EXPECT_THROW(static_cast<void>(parse_analysis(bad)), core::BadInput) << bad;
+    EXPECT_THROW(static_cast<void>(pictures::parse_analysis(bad)), core::BadInput) << bad;
 }
 
 TEST(LegendPainter, DrawsTheScalesColoursIntoThePictureAndNothingWhereThereIsNone) {
@@ -164,7 +164,7 @@ TEST(LegendPainter, DrawsTheScalesColoursIntoThePictureAndNothingWhereThereIsNon
   o.strain = true;
   render::Image image{400, 300, std::vector<std::uint8_t>(3 * 400 * 300, 100)};
   const render::Image before = image;
-  LegendPainter painter;
+  pictures::LegendPainter painter;
   painter.paint({}, image);
   EXPECT_EQ(image.rgb, before.rgb);
   painter.paint(legend_of(o), image);

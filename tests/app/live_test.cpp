@@ -1,22 +1,21 @@
 // The simulation on its own thread: what the drawing thread gets to see of it, and when.
-#include "live.hpp"
-
 #include <gtest/gtest.h>
 
-#include "lesson.hpp"
+#include <trocar/attempt/lesson.hpp>
+#include <trocar/attempt/live.hpp>
 
 namespace trocar::app {
 namespace {
 
 using namespace std::chrono_literals;
 
-const Lesson& scene() {
-  static const std::unique_ptr<Lesson> lesson = load_lesson("gynaecology");
+const attempt::Lesson& scene() {
+  static const std::unique_ptr<attempt::Lesson> lesson = attempt::load_lesson("gynaecology");
   return *lesson;
 }
 
 /// Asks until something newer has come.
-bool newer(Live& live) {
+bool newer(attempt::Live& live) {
   for (int i = 0; i < 2000; ++i) {
     if (live.refresh()) return true;
     std::this_thread::sleep_for(5ms);
@@ -25,8 +24,8 @@ bool newer(Live& live) {
 }
 
 TEST(Live, EveryPictureThatAsksGetsALaterStateThanTheOneBefore) {
-  Session session(scene(), 1);
-  Live live(session, nullptr, 0);
+  attempt::Session session(scene(), 1);
+  attempt::Live live(session, nullptr, 0);
   std::uint64_t before = 0;
   for (int i = 0; i < 20; ++i) {
     ASSERT_TRUE(newer(live));
@@ -36,8 +35,8 @@ TEST(Live, EveryPictureThatAsksGetsALaterStateThanTheOneBefore) {
 }
 
 TEST(Live, WhileTimeStandsStillThePictureShowsTheTickItStandsAt) {
-  Session session(scene(), 1);
-  Live live(session, nullptr, 0);
+  attempt::Session session(scene(), 1);
+  attempt::Live live(session, nullptr, 0);
   ASSERT_TRUE(newer(live));
   live.pause(true);
   ASSERT_TRUE(newer(live));  // this may have been asked for before
@@ -48,8 +47,8 @@ TEST(Live, WhileTimeStandsStillThePictureShowsTheTickItStandsAt) {
 }
 
 TEST(Live, NobodyWaitsForASimulationThatHasEnded) {
-  Session session(scene(), 1);
-  Live live(session, nullptr, 10);
+  attempt::Session session(scene(), 1);
+  attempt::Live live(session, nullptr, 10);
   while (!live.snapshot().finished) ASSERT_TRUE(newer(live));
   EXPECT_EQ(live.snapshot().state.tick, 10u);
   live.stop();

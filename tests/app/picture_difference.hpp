@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include <trocar/render/image.hpp>
+#include <trocar/render/frame/image.hpp>
 
 namespace trocar::app {
 

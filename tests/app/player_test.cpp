@@ -6,20 +6,20 @@
 
 #include <gtest/gtest.h>
 
+#include <trocar/attempt/footage.hpp>
+#include <trocar/attempt/kept_states.hpp>
+#include <trocar/attempt/reel.hpp>
+#include <trocar/attempt/session.hpp>
+#include <trocar/attempt/timeline.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/random.hpp>
+#include <trocar/pictures/camera_choice.hpp>
+#include <trocar/pictures/film_plan.hpp>
+#include <trocar/pictures/shown_parts.hpp>
+#include <trocar/pictures/two_eyes.hpp>
 
 #include "../sim/small_scene.hpp"
-#include "camera_choice.hpp"
-#include "film_plan.hpp"
-#include "footage.hpp"
-#include "kept_states.hpp"
-#include "player_keys.hpp"
-#include "player_reel.hpp"
-#include "player_timeline.hpp"
-#include "session.hpp"
-#include "shown_parts.hpp"
-#include "two_eyes.hpp"
+#include "player/player_keys.hpp"
 
 namespace trocar::app {
 namespace {
@@ -27,7 +27,7 @@ namespace {
 // --- timeline ---
 
 TEST(Timeline, EveryTickLiesWhereItsPlaceLeadsBackToIt) {
-  Timeline line(60'000);
+  attempt::Timeline line(60'000);
   for (const std::uint64_t tick : {0ull, 1ull, 12'345ull, 59'999ull, 60'000ull})
     EXPECT_EQ(line.tick_at(line.place(double(tick))), tick);
   line.zoom(0.01, 30'000);
@@ -38,12 +38,12 @@ TEST(Timeline, EveryTickLiesWhereItsPlaceLeadsBackToIt) {
 }
 
 TEST(Timeline, ZoomKeepsWhatIsUnderThePointerAndStaysInside) {
-  Timeline line(60'000);
+  attempt::Timeline line(60'000);
   line.zoom(0.25, 20'000);
   EXPECT_NEAR(line.place(20'000), 1.0 / 3, 1e-9);
   EXPECT_NEAR(line.to() - line.from(), 15'000, 1e-6);
   line.zoom(1e-9, 20'000);
-  EXPECT_NEAR(line.to() - line.from(), double(kFrameTicks), 1e-6);
+  EXPECT_NEAR(line.to() - line.from(), double(attempt::kFrameTicks), 1e-6);
   line.pan(-1e6);
   EXPECT_EQ(line.from(), 0);
   line.pan(1e9);
@@ -53,7 +53,7 @@ TEST(Timeline, ZoomKeepsWhatIsUnderThePointerAndStaysInside) {
 }
 
 TEST(Timeline, FollowsWhatLeavesTheVisibleStretchAndNothingElse) {
-  Timeline line(60'000);
+  attempt::Timeline line(60'000);
   line.zoom(0.1, 0);
   line.follow(3000);
   EXPECT_EQ(line.from(), 0);
@@ -64,7 +64,7 @@ TEST(Timeline, FollowsWhatLeavesTheVisibleStretchAndNothingElse) {
 }
 
 TEST(Timeline, ARecordingOfNothingDividesByNothing) {
-  Timeline line(0);
+  attempt::Timeline line(0);
   EXPECT_EQ(line.place(0), 0);
   EXPECT_EQ(line.tick_at(0.5), 0u);
   line.zoom(0.5, 0);
@@ -73,73 +73,74 @@ TEST(Timeline, ARecordingOfNothingDividesByNothing) {
 }
 
 TEST(Timeline, GridLinesLeaveRoomForTheirLabels) {
-  Timeline line(3'600'000);
+  attempt::Timeline line(3'600'000);
   EXPECT_EQ(line.grid(10), 500);
   line.zoom(1.0 / 3600, 0);
   EXPECT_EQ(line.grid(10), 0.1);
 }
 
 TEST(Timeline, MarksFollowOneAnotherBothWays) {
-  using Kind = TimelineMark::Kind;
-  std::vector<TimelineMark> marks{{Kind::error, 500, "b"}, {Kind::event, 100, "a"}, {Kind::step, 500, "c"}};
-  sort_marks(marks);
+  using Kind = attempt::TimelineMark::Kind;
+  std::vector<attempt::TimelineMark> marks{{Kind::error, 500, "b"}, {Kind::event, 100, "a"}, {Kind::step, 500, "c"}};
+  attempt::sort_marks(marks);
   EXPECT_EQ(marks[1].text, "b");
-  EXPECT_EQ(next_mark(marks, 0)->tick, 100u);
-  EXPECT_EQ(next_mark(marks, 100)->tick, 500u);
-  EXPECT_EQ(next_mark(marks, 500), nullptr);
-  EXPECT_EQ(previous_mark(marks, 500)->tick, 100u);
-  EXPECT_EQ(previous_mark(marks, 100), nullptr);
-  EXPECT_EQ(next_mark({}, 0), nullptr);
+  EXPECT_EQ(attempt::next_mark(marks, 0)->tick, 100u);
+  EXPECT_EQ(attempt::next_mark(marks, 100)->tick, 500u);
+  EXPECT_EQ(attempt::next_mark(marks, 500), nullptr);
+  EXPECT_EQ(attempt::previous_mark(marks, 500)->tick, 100u);
+  EXPECT_EQ(attempt::previous_mark(marks, 100), nullptr);
+  EXPECT_EQ(attempt::next_mark({}, 0), nullptr);
 }
 
 TEST(Timeline, SpeedsGoFromATenthToEightfold) {
   double speed = 1;
-  for (int i = 0; i < 20; ++i) speed = next_speed(speed, true);
+  for (int i = 0; i < 20; ++i) speed = attempt::next_speed(speed, true);
   EXPECT_EQ(speed, 8);
-  for (int i = 0; i < 20; ++i) speed = next_speed(speed, false);
+  for (int i = 0; i < 20; ++i) speed = attempt::next_speed(speed, false);
   EXPECT_EQ(speed, 0.1);
-  EXPECT_EQ(next_speed(0.7, true), 1);
-  EXPECT_EQ(next_speed(0.7, false), 0.5);
+  EXPECT_EQ(attempt::next_speed(0.7, true), 1);
+  EXPECT_EQ(attempt::next_speed(0.7, false), 0.5);
 }
 
 TEST(FilmPlan, PicturesLastAsLongAsTheSpeedSays) {
-  const FilmPlan plan{2000, 6000, 0.25};
+  const pictures::FilmPlan plan{2000, 6000, 0.25};
   EXPECT_EQ(plan.pictures(), 400u);  // 4 s, four times as long, 25 a second
   EXPECT_EQ(plan.tick(0), 2000u);
   EXPECT_EQ(plan.tick(1), 2010u);
   EXPECT_LE(plan.tick(plan.pictures() - 1), 6000u);
-  EXPECT_EQ((FilmPlan{100, 100, 1}).pictures(), 1u);
+  EXPECT_EQ((pictures::FilmPlan{100, 100, 1}).pictures(), 1u);
 }
 
 // --- cameras ---
 
 TEST(CameraChoice, NamesAndAnglesAreReadAndNonsenseIsRefused) {
-  EXPECT_TRUE(parse_camera("endoscope").endoscope);
-  for (const CameraPreset& preset : kCameraPresets) EXPECT_FALSE(parse_camera(preset.name).endoscope);
-  const CameraChoice free = parse_camera("free:90,0,250");
-  const view::Orbit orbit = orbit_of(free, {});
+  EXPECT_TRUE(pictures::parse_camera("endoscope").endoscope);
+  for (const pictures::CameraPreset& preset : pictures::kCameraPresets)
+    EXPECT_FALSE(pictures::parse_camera(preset.name).endoscope);
+  const pictures::CameraChoice free = pictures::parse_camera("free:90,0,250");
+  const view::Orbit orbit = pictures::orbit_of(free, {});
   EXPECT_NEAR(orbit.eye().x, 0.25, 1e-12);  // from the patient's left
   EXPECT_NEAR(orbit.eye().z, 0, 1e-12);
   for (const char* bad : {"", "back", "free:", "free:1,2", "free:1,2,3,4", "free:0,89,250", "free:0,0,5",
                           "free:nan,0,250", "free:0,nan,250", "free:0,0,nan", "free:0,0,inf"})
-    EXPECT_THROW(parse_camera(bad), core::BadInput) << bad;
+    EXPECT_THROW(pictures::parse_camera(bad), core::BadInput) << bad;
 }
 
 TEST(Pictures, AreForTwoEyesAsAsked) {
-  EXPECT_FALSE(parse_stereo("off").on());
-  const TwoEyes eyes = parse_stereo("anaglyph:5,60");
+  EXPECT_FALSE(pictures::parse_stereo("off").on());
+  const pictures::TwoEyes eyes = pictures::parse_stereo("anaglyph:5,60");
   EXPECT_EQ(eyes.mode, render::StereoMode::anaglyph);
   EXPECT_FLOAT_EQ(eyes.eyes.base, 0.005f);
   EXPECT_FLOAT_EQ(eyes.eyes.convergence, 0.06f);
-  EXPECT_EQ(parse_stereo("rows").mode, render::StereoMode::row_interlaced);
+  EXPECT_EQ(pictures::parse_stereo("rows").mode, render::StereoMode::row_interlaced);
   for (const char* bad : {"", "on", "anaglyph:5", "anaglyph:5,60,1", "rows:nan,60", "rows:99,60", "quad-buffer"})
-    EXPECT_THROW(parse_stereo(bad), core::BadInput) << bad;
+    EXPECT_THROW(pictures::parse_stereo(bad), core::BadInput) << bad;
 }
 
 TEST(Pictures, ShowPartsAsAskedAndLaterWordsWin) {
   const std::vector<view::ScenePart> parts{{"uterus", view::PartGroup::organs}, {"tube", view::PartGroup::tubes}};
   using view::PartStyle;
-  const auto styles = [&](const char* text) { return styles_of(parse_show(text), parts); };
+  const auto styles = [&](const char* text) { return pictures::styles_of(pictures::parse_show(text), parts); };
   EXPECT_TRUE(styles("").empty());
   EXPECT_EQ(styles("organs=hidden,tube=wireframe"), (std::vector{PartStyle::hidden, PartStyle::wireframe}));
   EXPECT_EQ(styles("organs=hidden,uterus=transparent"), (std::vector{PartStyle::transparent, PartStyle::shaded}));
@@ -178,8 +179,8 @@ TEST(PadReader, AButtonCountsOnceAndAHeldCrossRepeats) {
     ticks += c.ticks;
   }
   EXPECT_EQ(toggles, 1);
-  EXPECT_GE(ticks, 6 * int(kFrameTicks));
-  EXPECT_LE(ticks, 10 * int(kFrameTicks));
+  EXPECT_GE(ticks, 6 * int(attempt::kFrameTicks));
+  EXPECT_LE(ticks, 10 * int(attempt::kFrameTicks));
 }
 
 TEST(PadReader, ARestingStickDoesNothing) {
@@ -206,8 +207,8 @@ sim::State small_state(std::uint64_t tick) {
 }
 
 TEST(KeptStates, StayWithinTheirMemoryAndEvenlySpread) {
-  const std::size_t each = bytes_of(small_state(0));
-  KeptStates kept(20 * each, 100);
+  const std::size_t each = attempt::bytes_of(small_state(0));
+  attempt::KeptStates kept(20 * each, 100);
   for (std::uint64_t tick = 0; tick <= 50'000; ++tick) {
     if (kept.wants(tick)) kept.keep(small_state(tick));
     ASSERT_LE(kept.bytes(), 20 * each);
@@ -223,7 +224,7 @@ TEST(KeptStates, StayWithinTheirMemoryAndEvenlySpread) {
 }
 
 TEST(KeptStates, OneIsKeptHoweverLittleMemoryThereIs) {
-  KeptStates kept(1, 10);
+  attempt::KeptStates kept(1, 10);
   for (std::uint64_t tick = 0; tick <= 100; ++tick)
     if (kept.wants(tick)) kept.keep(small_state(tick));
   ASSERT_NE(kept.before(100), nullptr);
@@ -231,7 +232,7 @@ TEST(KeptStates, OneIsKeptHoweverLittleMemoryThereIs) {
 }
 
 TEST(RecentStates, TheNewestFewStayAndTheNearestIsFound) {
-  RecentStates recent(3);
+  attempt::RecentStates recent(3);
   EXPECT_EQ(recent.before(5), nullptr);
   for (const std::uint64_t tick : {40, 80, 120, 160}) recent.keep(small_state(tick));
   EXPECT_EQ(recent.before(100)->tick, 80u);
@@ -242,7 +243,7 @@ TEST(RecentStates, TheNewestFewStayAndTheNearestIsFound) {
 // --- a recording ---
 
 struct Recorded {
-  Lesson lesson;
+  attempt::Lesson lesson;
   sim::Recording recording;
   std::vector<std::uint64_t> hash;  ///< of the State, by tick
 };
@@ -252,7 +253,7 @@ const Recorded& recorded() {
     auto r = std::make_unique<Recorded>();
     r->lesson.name = "small";
     r->lesson.model = small::model();
-    Session session(r->lesson, 1);
+    attempt::Session session(r->lesson, 1);
     small::Hands hands(r->lesson.model);
     r->recording.header.model_hash = r->lesson.model.hash;
     r->recording.complete = true;
@@ -272,7 +273,7 @@ const Recorded& recorded() {
 }
 
 /// Waits until the reel has the exact State of a tick.
-bool arrives(Reel& reel, std::uint64_t tick) {
+bool arrives(attempt::Reel& reel, std::uint64_t tick) {
   reel.look_at(tick, false);
   for (int i = 0; i < 30'000; ++i) {
     reel.refresh();
@@ -282,7 +283,7 @@ bool arrives(Reel& reel, std::uint64_t tick) {
   return false;
 }
 
-bool looks_through(const Reel& reel) {
+bool looks_through(const attempt::Reel& reel) {
   for (int i = 0; i < 60'000 && !reel.complete(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   return reel.complete();
 }
@@ -290,7 +291,7 @@ bool looks_through(const Reel& reel) {
 TEST(Footage, IsExactAtKeyframesAndHalfwayBetweenThem) {
   const Recorded& r = recorded();
   const sim::Model& model = r.lesson.model;
-  Footage footage(model, r.recording.keyframes);
+  attempt::Footage footage(model, r.recording.keyframes);
   sim::State key = sim::initial_state(model), next = key;
   for (const std::size_t i : {0u, 7u, 20u, 43u}) {
     ASSERT_TRUE(sim::restore_display(model, r.recording.keyframes[i].bytes, key));
@@ -325,23 +326,23 @@ TEST(Footage, AKeyframeThatDoesNotFitEndsIt) {
   const Recorded& r = recorded();
   std::vector<sim::Keyframe> keys(r.recording.keyframes.begin(), r.recording.keyframes.begin() + 10);
   keys[5].bytes.pop_back();
-  Footage footage(r.lesson.model, keys);
+  attempt::Footage footage(r.lesson.model, keys);
   footage.at(450);
   footage.at(520);
   EXPECT_FALSE(footage.sound());
   EXPECT_EQ(footage.last(), 400u);
   EXPECT_EQ(sim::display_bytes(r.lesson.model, footage.at(800)), keys[4].bytes);
   keys = {r.recording.keyframes[0], r.recording.keyframes[2], r.recording.keyframes[1]};
-  Footage backwards(r.lesson.model, keys);
+  attempt::Footage backwards(r.lesson.model, keys);
   EXPECT_FALSE(backwards.sound());
   EXPECT_EQ(backwards.count(), 2u);
 }
 
 TEST(Reel, ScrubbingBackAndForthGivesTheVeryStatesOfTheAttempt) {
   const Recorded& r = recorded();
-  Reel::Options options;
+  attempt::Reel::Options options;
   options.threads = 1;
-  Reel reel(r.lesson, r.recording, options);
+  attempt::Reel reel(r.lesson, r.recording, options);
   ASSERT_TRUE(reel.replays());
   ASSERT_EQ(reel.last(), r.recording.inputs.size());
   core::Random random(7);
@@ -369,17 +370,17 @@ TEST(Reel, ScrubbingBackAndForthGivesTheVeryStatesOfTheAttempt) {
 
 TEST(Reel, FindsEveryEventWithItsTick) {
   const Recorded& r = recorded();
-  Reel reel(r.lesson, r.recording, {});
+  attempt::Reel reel(r.lesson, r.recording, {});
   ASSERT_TRUE(looks_through(reel));
-  Findings found;
+  attempt::Findings found;
   std::uint64_t version = 0;
   ASSERT_TRUE(reel.findings(version, found));
   EXPECT_FALSE(reel.findings(version, found));
   EXPECT_TRUE(found.difference.empty()) << found.difference;
-  EXPECT_EQ(reel.differs_from(), Reel::kNowhere);
+  EXPECT_EQ(reel.differs_from(), attempt::Reel::kNowhere);
   std::map<std::string, int> seen;
   std::uint64_t before = 0;
-  for (const TimelineMark& m : found.marks) {
+  for (const attempt::TimelineMark& m : found.marks) {
     EXPECT_GE(m.tick, before);
     before = m.tick;
     ++seen[m.text.substr(0, m.text.find(' '))];
@@ -390,10 +391,10 @@ TEST(Reel, FindsEveryEventWithItsTick) {
 
 TEST(Reel, KeepsWithinItsMemory) {
   const Recorded& r = recorded();
-  Reel::Options options;
+  attempt::Reel::Options options;
   options.spacing = 100;
-  options.budget = 6 * bytes_of(sim::initial_state(r.lesson.model));
-  Reel reel(r.lesson, r.recording, options);
+  options.budget = 6 * attempt::bytes_of(sim::initial_state(r.lesson.model));
+  attempt::Reel reel(r.lesson, r.recording, options);
   ASSERT_TRUE(looks_through(reel));
   EXPECT_LE(reel.kept_bytes(), options.budget);
   EXPECT_GT(reel.spacing(), options.spacing);
@@ -405,10 +406,10 @@ TEST(Reel, SaysFromWhereDoingItAgainIsNotWhatWasRecorded) {
   const Recorded& r = recorded();
   sim::Recording changed = r.recording;
   changed.hashes[20].hash ^= 1;  // after 2000 ticks
-  Reel reel(r.lesson, changed, {});
+  attempt::Reel reel(r.lesson, changed, {});
   ASSERT_TRUE(looks_through(reel));
   EXPECT_EQ(reel.differs_from(), 1901u);
-  Findings found;
+  attempt::Findings found;
   std::uint64_t version = 0;
   reel.findings(version, found);
   EXPECT_NE(found.difference.find("0:02.000"), std::string::npos) << found.difference;
@@ -422,18 +423,18 @@ TEST(Reel, AnotherPhysicsIsNotDoneAgainAndItsKeyframesTellWhatHappened) {
   other.header.model_hash ^= 1;
   other.result_json = R"({"assessment":{"steps":[{"name":"Clip","done":true,"at_s":2.5},{"name":"Cut","done":false}],)"
                       R"("errors":[{"code":"A1.1","meaning":"no","at_s":1.25}]}})";
-  Reel reel(r.lesson, other, {});
+  attempt::Reel reel(r.lesson, other, {});
   EXPECT_FALSE(reel.replays());
   EXPECT_EQ(reel.last(), r.recording.keyframes.back().tick);
   ASSERT_TRUE(looks_through(reel));
-  Findings found;
+  attempt::Findings found;
   std::uint64_t version = 0;
   ASSERT_TRUE(reel.findings(version, found));
   int clips = 0, cuts = 0, errors = 0;
-  for (const TimelineMark& m : found.marks) {
+  for (const attempt::TimelineMark& m : found.marks) {
     clips += m.text == "a clip closed";
     cuts += m.text == "a cut";
-    errors += m.kind == TimelineMark::Kind::error && m.tick == 1250;
+    errors += m.kind == attempt::TimelineMark::Kind::error && m.tick == 1250;
   }
   EXPECT_EQ(clips, 2);
   EXPECT_GE(cuts, 1);
@@ -447,8 +448,8 @@ TEST(Reel, AResultThatIsNonsenseGivesNothing) {
   for (const char* text :
        {"", "{", "[]", "{\"assessment\":3}", "{\"assessment\":{\"steps\":[3,{\"done\":1}],\"errors\":{}}}",
         "{\"assessment\":{\"steps\":[{\"name\":7,\"done\":true,\"at_s\":\"x\"}]}}"})
-    EXPECT_LE(findings_of_result(text).marks.size(), 1u) << text;
-  EXPECT_TRUE(findings_of_result("").marks.empty());
+    EXPECT_LE(attempt::findings_of_result(text).marks.size(), 1u) << text;
+  EXPECT_TRUE(attempt::findings_of_result("").marks.empty());
 }
 
 }  // namespace

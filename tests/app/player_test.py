@@ -3,7 +3,7 @@
 
     tools/with_xvfb.sh python3 tests/app/player_test.py PATH/TO/trocar [FOLDER]
 
-The eyes are the window's event log (--log), the hands xdotool, the gamepad the seam of app/gamepads.hpp. What is exact is
+The eyes are the window's event log (--log), the hands xdotool, the gamepad the seam of app/shell/gamepads.hpp. What is exact is
 told by the State's hash: it must be the same whenever the same tick is looked at, and at the end that of the attempt.
 Exit: 0 passed, 1 failed, 77 something to run it with is missing. FOLDER keeps what was written.
 """

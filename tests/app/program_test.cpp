@@ -1,5 +1,5 @@
 // The command line as scripts meet it: exit codes, JSON, and recordings that verify or do not.
-#include "program.hpp"
+#include "commands/program.hpp"
 
 #include <cstdlib>
 #include <filesystem>
@@ -9,9 +9,8 @@
 #include <unistd.h>
 
 #include <trocar/core/error.hpp>
-#include <trocar/sim/recording.hpp>
-
-#include "json.hpp"
+#include <trocar/core/json.hpp>
+#include <trocar/sim/recording/recording.hpp>
 
 namespace trocar::app {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/sim/publish.hpp>
+#include <trocar/sim/recording/publish.hpp>
 
 namespace trocar::sim {
 namespace {

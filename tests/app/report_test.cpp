@@ -5,11 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/training/trace.hpp>
-
-#include "export.hpp"
-#include "report_page.hpp"
-#include "report_svg.hpp"
+#include <trocar/reports/export.hpp>
+#include <trocar/reports/report_page.hpp>
+#include <trocar/reports/report_svg.hpp>
+#include <trocar/training/metrics/trace.hpp>
 
 namespace trocar::app {
 namespace {
@@ -68,10 +67,10 @@ training::Trace circles() {
   return trace;
 }
 
-Report report() {
+reports::Report report() {
   Attempt a = attempt(3, "Grace <b>", 81.5, 0.9);
   a.trace = to_bytes(circles());
-  Report r = gather(nullptr, a);
+  reports::Report r = gather(nullptr, a);
   r.history = {attempt(1, "Grace <b>", 40, 2.0), attempt(2, "Grace <b>", 60, 1.5), a};
   return r;
 }
@@ -83,17 +82,17 @@ std::size_t count(const std::string& text, const std::string& what) {
 }
 
 TEST(ReportPage, ShowsTheScoreWithEveryComponentAndTheirSum) {
-  const std::string page = report_html(report());
+  const std::string page = reports::report_html(report());
   for (const char* text : {"63.5", "23.5", "-5.5", "81.5", "70.6", "29.4", "pass mark 80", "left out"})
     EXPECT_NE(page.find(text), std::string::npos) << text;
   EXPECT_NE(page.find(">Passed<"), std::string::npos);
 }
 
 TEST(ReportPage, EscapesWhatPeopleWrote) {
-  Report r = report();
+  reports::Report r = report();
   r.names = true;
   r.pictures = {{"moment-01.png", "\"><script>alert(1)</script>", 3}};
-  const std::string page = report_html(r);
+  const std::string page = reports::report_html(r);
   EXPECT_EQ(page.find("<near>"), std::string::npos);
   EXPECT_NE(page.find("too &lt;near&gt; &amp; deep"), std::string::npos);
   EXPECT_NE(page.find("Grace &lt;b&gt;"), std::string::npos);
@@ -102,15 +101,15 @@ TEST(ReportPage, EscapesWhatPeopleWrote) {
 }
 
 TEST(ReportPage, NamesNobodyUnlessAsked) {
-  Report r = report();
+  reports::Report r = report();
   r.attempt.recording = "/home/grace/data/a.rec";
-  const std::string page = report_html(r);
+  const std::string page = reports::report_html(r);
   EXPECT_EQ(page.find("Grace"), std::string::npos);
   EXPECT_EQ(page.find("/home/"), std::string::npos) << "a path is a name, too";
 }
 
 TEST(ReportPage, NeedsNoNetwork) {
-  const std::string page = report_html(report());
+  const std::string page = reports::report_html(report());
   EXPECT_EQ(count(page, "http"), count(page, "http://www.w3.org/2000/svg")) << "a namespace's name, nothing fetched";
   EXPECT_EQ(page.find("@import"), std::string::npos);
   EXPECT_EQ(page.find("url("), std::string::npos);
@@ -118,7 +117,7 @@ TEST(ReportPage, NeedsNoNetwork) {
 }
 
 TEST(ReportPage, EveryDrawingIsDescribed) {
-  const std::string page = report_html(report());
+  const std::string page = reports::report_html(report());
   EXPECT_GE(count(page, "role=\"img\""), 9u);
   // One is drawn by the script and has a label, all others title and description.
   EXPECT_EQ(count(page, "role=\"img\"") - 1, count(page, "<desc "));
@@ -126,7 +125,7 @@ TEST(ReportPage, EveryDrawingIsDescribed) {
 }
 
 TEST(ReportPage, DrawsPathsSpeedsForcesAndTheirLimits) {
-  const std::string page = report_html(report());
+  const std::string page = reports::report_html(report());
   for (const char* id : {"id=\"turn\"", "id=\"view-front\"", "id=\"view-feet\"", "id=\"view-side\"", "id=\"speed\"",
                          "id=\"force-pull\"", "id=\"timeline\""})
     EXPECT_NE(page.find(id), std::string::npos) << id;
@@ -134,20 +133,20 @@ TEST(ReportPage, DrawsPathsSpeedsForcesAndTheirLimits) {
 }
 
 TEST(ReportPage, ShowsTheLearningCurveAndTheSpreadOfEarlierAttempts) {
-  const std::string page = report_html(report());
+  const std::string page = reports::report_html(report());
   EXPECT_NE(page.find("before (2)"), std::string::npos);
   EXPECT_NE(page.find("1750 (1500 to 2000)"), std::string::npos) << "path of both [mm]: median and range";
   EXPECT_NE(page.find("From 40 at first to 81.5 now, 3 attempts."), std::string::npos);
-  Report first = report();
+  reports::Report first = report();
   first.history.resize(1);
-  EXPECT_EQ(report_html(first).find("Learning curve"), std::string::npos);
+  EXPECT_EQ(reports::report_html(first).find("Learning curve"), std::string::npos);
 }
 
 TEST(ReportPage, ComparesWithTheScriptedSurgeon) {
-  Report r = report();
-  EXPECT_NE(report_html(r).find("--compare demo"), std::string::npos);
+  reports::Report r = report();
+  EXPECT_NE(reports::report_html(r).find("--compare demo"), std::string::npos);
   r.scripted = attempt(9, "scripted surgeon", 99, 0.31);
-  const std::string page = report_html(r);
+  const std::string page = reports::report_html(r);
   EXPECT_NE(page.find("scripted surgeon</th>"), std::string::npos);
   EXPECT_NE(page.find(">310<"), std::string::npos) << "its path [mm]";
 }
@@ -158,7 +157,7 @@ TEST(ReportPage, AnInterruptedAttemptSaysHowFarItCame) {
   a.exercise = "e";
   a.state = AttemptState::interrupted;
   a.seconds = 83;
-  const std::string page = report_html(gather(nullptr, a));
+  const std::string page = reports::report_html(gather(nullptr, a));
   EXPECT_NE(page.find("Interrupted"), std::string::npos);
   EXPECT_NE(page.find("1:23"), std::string::npos);
 }
@@ -171,17 +170,17 @@ TEST(ReportPage, StrangeResultsAreNoHarm) {
         R"({"assessment":{"sides":[{"side":7,"clips":[{"a":[1]}]}],"thresholds":{"a":7}},"passed":"yes"})"}) {
     Attempt a = attempt(1, "x", 1, 1);
     a.result = text;
-    EXPECT_FALSE(report_html(gather(nullptr, a)).empty()) << text;
+    EXPECT_FALSE(reports::report_html(gather(nullptr, a)).empty()) << text;
   }
 }
 
 TEST(Plots, KeepExtremesWhenThinned) {
-  Series s{"s", {}, {}, 0};
+  reports::Series s{"s", {}, {}, 0};
   for (int i = 0; i < 100000; ++i) {
     s.x.push_back(i);
     s.y.push_back(i == 51234 ? 9 : i == 777 ? -9 : 0);
   }
-  const Series t = thinned(s, 100);
+  const reports::Series t = thinned(s, 100);
   EXPECT_LE(t.x.size(), 400u);
   EXPECT_EQ(*std::max_element(t.y.begin(), t.y.end()), 9);
   EXPECT_EQ(*std::min_element(t.y.begin(), t.y.end()), -9);
@@ -189,7 +188,7 @@ TEST(Plots, KeepExtremesWhenThinned) {
 }
 
 TEST(Plots, AreDrawnOfNothingAndOfConstants) {
-  Plot p;
+  reports::Plot p;
   p.series = {{"s", {}, {}, 0}};
   EXPECT_FALSE(svg(p).empty());
   p.series = {{"s", {1, 2}, {std::nan(""), std::nan("")}, 0}};
@@ -200,20 +199,20 @@ TEST(Plots, AreDrawnOfNothingAndOfConstants) {
 }
 
 TEST(Export, IsATableThatSpreadsheetsTakeForDataOnly) {
-  EXPECT_EQ(csv_field("plain"), "plain");
-  EXPECT_EQ(csv_field("a,b"), "\"a,b\"");
-  EXPECT_EQ(csv_field("say \"no\""), "\"say \"\"no\"\"\"");
-  EXPECT_EQ(csv_field("=1+1"), "'=1+1");
-  EXPECT_EQ(csv_field("-1.5"), "-1.5");
+  EXPECT_EQ(reports::csv_field("plain"), "plain");
+  EXPECT_EQ(reports::csv_field("a,b"), "\"a,b\"");
+  EXPECT_EQ(reports::csv_field("say \"no\""), "\"say \"\"no\"\"\"");
+  EXPECT_EQ(reports::csv_field("=1+1"), "'=1+1");
+  EXPECT_EQ(reports::csv_field("-1.5"), "-1.5");
   const std::string csv =
-      attempts_csv({attempt(1, "Ada", 40, 2), attempt(2, "=Bob", 50, 1), attempt(3, "Ada", 60, 1)}, false);
+      reports::attempts_csv({attempt(1, "Ada", 40, 2), attempt(2, "=Bob", 50, 1), attempt(3, "Ada", 60, 1)}, false);
   EXPECT_EQ(count(csv, "\r\n"), 4u);
   EXPECT_EQ(csv.find("Ada"), std::string::npos);
   EXPECT_EQ(count(csv, ",T1,"), 2u);
   EXPECT_EQ(count(csv, ",T2,"), 1u);
   EXPECT_NE(csv.find("both.forces.pull.max_N"), std::string::npos);
   EXPECT_NE(csv.find("hands.left_lateral.path_m"), std::string::npos);
-  EXPECT_NE(attempts_csv({attempt(2, "=Bob", 50, 1)}, true).find("'=Bob"), std::string::npos);
+  EXPECT_NE(reports::attempts_csv({attempt(2, "=Bob", 50, 1)}, true).find("'=Bob"), std::string::npos);
   // Every line has as many fields as the first.
   std::istringstream lines(csv);
   std::string line, first;
@@ -222,7 +221,7 @@ TEST(Export, IsATableThatSpreadsheetsTakeForDataOnly) {
 }
 
 TEST(Export, AsJsonCarriesTheWholeResult) {
-  const Json list = attempts_json({attempt(1, "Ada", 40, 2)}, true);
+  const Json list = reports::attempts_json({attempt(1, "Ada", 40, 2)}, true);
   EXPECT_EQ(list[0]["trainee"], "Ada");
   EXPECT_EQ(list[0]["score"], 40);
   EXPECT_EQ(list[0]["result"]["metrics"]["both"]["path_m"], 2);

@@ -1,6 +1,6 @@
 """A robot trainee for the real window: eyes are the window's event log (--log), which tells what is on the screen and ten
 times a second where tubes and instruments are; hands are a mouse and keys (xdotool) or an emulated gamepad
-(TROCAR_GAMEPAD, the mapping layer's seam: see app/gamepads.hpp). Every wait has a limit.
+(TROCAR_GAMEPAD, the mapping layer's seam: see app/shell/gamepads.hpp). Every wait has a limit.
 """
 import json
 import math

@@ -6,8 +6,9 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "json.hpp"
-#include "program.hpp"
+#include <trocar/core/json.hpp>
+
+#include "commands/program.hpp"
 
 namespace trocar::app {
 namespace {

@@ -7,12 +7,12 @@
 #include <unistd.h>
 
 #include <trocar/core/error.hpp>
-#include <trocar/training/attempt.hpp>
+#include <trocar/training/store/attempt.hpp>
 
 #include "../other_process.hpp"
-#include "feedback.hpp"
-#include "gamepads.hpp"
-#include "settings.hpp"
+#include "shell/gamepads.hpp"
+#include "shell/settings.hpp"
+#include "trainer/feedback.hpp"
 
 namespace trocar::app {
 namespace {

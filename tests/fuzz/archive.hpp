@@ -2,7 +2,7 @@
 // file main.json.
 #pragma once
 
-#include <trocar/scene/json.hpp>
+#include <trocar/scene/json/json.hpp>
 
 #include "target.hpp"
 

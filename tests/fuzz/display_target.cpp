@@ -1,6 +1,6 @@
 // Display keyframes: what a recording holds of a State, given to the Model of a small scene.
-#include <trocar/scene/compile.hpp>
-#include <trocar/sim/state.hpp>
+#include <trocar/scene/compile/compile.hpp>
+#include <trocar/sim/model/state.hpp>
 
 #include "../sim/small_scene.hpp"
 #include "targets.hpp"

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <sstream>
 
-#include <trocar/training/exercise.hpp>
+#include <trocar/training/exercise/exercise.hpp>
 
 #include "archive.hpp"
 #include "targets.hpp"

@@ -5,10 +5,10 @@
 #include <cstring>
 
 #include <trocar/core/random.hpp>
-#include <trocar/scene/json_text.hpp>
-#include <trocar/scene/reader.hpp>
-#include <trocar/scene/vessel_file.hpp>
-#include <trocar/training/exercise.hpp>
+#include <trocar/scene/files/reader.hpp>
+#include <trocar/scene/files/vessel_file.hpp>
+#include <trocar/scene/json/json_text.hpp>
+#include <trocar/training/exercise/exercise.hpp>
 
 #include "archive.hpp"
 

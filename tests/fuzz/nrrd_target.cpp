@@ -4,9 +4,9 @@
 #include <stdexcept>
 
 #include <trocar/core/error.hpp>
-#include <trocar/geometry/mesh_source.hpp>
-#include <trocar/geometry/nrrd.hpp>
-#include <trocar/geometry/stuffing.hpp>
+#include <trocar/geometry/formats/mesh_source.hpp>
+#include <trocar/geometry/formats/nrrd.hpp>
+#include <trocar/geometry/tets/stuffing.hpp>
 
 #include "../geometry/nrrd_bytes.hpp"
 #include "targets.hpp"

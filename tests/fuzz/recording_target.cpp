@@ -8,7 +8,7 @@
 #include <trocar/core/error.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/core/random.hpp>
-#include <trocar/sim/recording.hpp>
+#include <trocar/sim/recording/recording.hpp>
 
 #include "targets.hpp"
 

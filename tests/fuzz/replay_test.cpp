@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/scene/reader.hpp>
+#include <trocar/scene/files/reader.hpp>
 
 #include "archive.hpp"
 #include "json_mutation.hpp"

@@ -5,10 +5,10 @@
 #include <fstream>
 #include <sstream>
 
-#include <trocar/scene/compile.hpp>
-#include <trocar/scene/reader.hpp>
-#include <trocar/scene/writer.hpp>
-#include <trocar/sim/step.hpp>
+#include <trocar/scene/compile/compile.hpp>
+#include <trocar/scene/files/reader.hpp>
+#include <trocar/scene/files/writer.hpp>
+#include <trocar/sim/stages/step.hpp>
 
 #include "../sim/small_scene.hpp"
 #include "archive.hpp"

@@ -1,8 +1,8 @@
 // The settings reader. It takes what is right and leaves the rest, so whatever comes out must be within the limits.
-#include <trocar/training/attempt.hpp>
+#include <trocar/training/store/attempt.hpp>
 
-#include "../../app/paths.hpp"
-#include "../../app/settings.hpp"
+#include <trocar/attempt/paths.hpp>
+#include "shell/settings.hpp"
 #include "archive.hpp"
 #include "targets.hpp"
 

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include <trocar/core/random.hpp>
-#include <trocar/scene/capacity.hpp>
+#include <trocar/scene/description/capacity.hpp>
 
 #include "targets.hpp"
 

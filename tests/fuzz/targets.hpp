@@ -1,8 +1,8 @@
 // The targets' functions and what they share.
 #pragma once
 
-#include <trocar/scene/description.hpp>
-#include <trocar/sim/step.hpp>
+#include <trocar/scene/description/description.hpp>
+#include <trocar/sim/stages/step.hpp>
 
 #include "target.hpp"
 

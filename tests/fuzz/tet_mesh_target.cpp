@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include <trocar/core/error.hpp>
-#include <trocar/geometry/tet_files.hpp>
+#include <trocar/geometry/formats/tet_files.hpp>
 
 #include "../geometry/mesh_bytes.hpp"
 #include "targets.hpp"

@@ -5,8 +5,8 @@
 #include <trocar/core/error.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/core/random.hpp>
-#include <trocar/training/metrics.hpp>
-#include <trocar/training/trace.hpp>
+#include <trocar/training/metrics/metrics.hpp>
+#include <trocar/training/metrics/trace.hpp>
 
 #include "targets.hpp"
 

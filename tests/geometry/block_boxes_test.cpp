@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
-#include <trocar/geometry/block_boxes.hpp>
+#include <trocar/geometry/surfaces/block_boxes.hpp>
 
 #include "shapes.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/geometry/cell_mask.hpp>
-#include <trocar/geometry/nearest.hpp>
+#include <trocar/geometry/surfaces/nearest.hpp>
+#include <trocar/geometry/volumes/cell_mask.hpp>
 
 namespace trocar::geometry {
 namespace {

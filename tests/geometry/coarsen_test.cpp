@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/geometry/coarsen.hpp>
+#include <trocar/geometry/surfaces/coarsen.hpp>
 
 #include "shapes.hpp"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 
-#include <trocar/geometry/tet_cut.hpp>
+#include <trocar/geometry/tets/tet_cut.hpp>
 
 namespace trocar::geometry {
 

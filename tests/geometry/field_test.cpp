@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
-#include <trocar/geometry/field.hpp>
-#include <trocar/geometry/nearest.hpp>
+#include <trocar/geometry/surfaces/nearest.hpp>
+#include <trocar/geometry/volumes/field.hpp>
 
 #include "shapes.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/geometry/frames.hpp>
+#include <trocar/geometry/curves/frames.hpp>
 #include <trocar/numerics/portable.hpp>
 
 using namespace trocar;

@@ -5,8 +5,8 @@
 
 #include <trocar/core/hash.hpp>
 #include <trocar/core/random.hpp>
-#include <trocar/geometry/embed.hpp>
-#include <trocar/geometry/lattice.hpp>
+#include <trocar/geometry/volumes/embed.hpp>
+#include <trocar/geometry/volumes/lattice.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/numerics/quat.hpp>
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/hash.hpp>
-#include <trocar/geometry/loft.hpp>
+#include <trocar/geometry/surfaces/loft.hpp>
 #include <trocar/numerics/portable.hpp>
 
 using namespace trocar;

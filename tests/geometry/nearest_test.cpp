@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
-#include <trocar/geometry/nearest.hpp>
+#include <trocar/geometry/surfaces/nearest.hpp>
 
 using namespace trocar;
 using namespace trocar::geometry;

@@ -8,8 +8,8 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/core/random.hpp>
-#include <trocar/geometry/nrrd.hpp>
-#include <trocar/geometry/stuffing.hpp>
+#include <trocar/geometry/formats/nrrd.hpp>
+#include <trocar/geometry/tets/stuffing.hpp>
 
 #include "nrrd_bytes.hpp"
 

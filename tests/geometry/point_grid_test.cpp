@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/geometry/point_grid.hpp>
+#include <trocar/geometry/surfaces/point_grid.hpp>
 
 namespace trocar::geometry {
 namespace {

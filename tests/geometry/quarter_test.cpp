@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include <trocar/geometry/quarter.hpp>
-#include <trocar/geometry/tri_mesh.hpp>
+#include <trocar/geometry/curves/quarter.hpp>
+#include <trocar/geometry/surfaces/tri_mesh.hpp>
 
 namespace trocar::geometry {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 
-#include <trocar/geometry/tri_mesh.hpp>
+#include <trocar/geometry/surfaces/tri_mesh.hpp>
 
 namespace trocar::geometry {
 

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
-#include <trocar/geometry/polyline.hpp>
-#include <trocar/geometry/spline.hpp>
+#include <trocar/geometry/curves/polyline.hpp>
+#include <trocar/geometry/curves/spline.hpp>
 #include <trocar/numerics/portable.hpp>
 
 using namespace trocar;

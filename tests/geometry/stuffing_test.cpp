@@ -7,9 +7,9 @@
 
 #include <trocar/core/hash.hpp>
 #include <trocar/core/random.hpp>
-#include <trocar/geometry/loft.hpp>
-#include <trocar/geometry/nearest.hpp>
-#include <trocar/geometry/stuffing.hpp>
+#include <trocar/geometry/surfaces/loft.hpp>
+#include <trocar/geometry/surfaces/nearest.hpp>
+#include <trocar/geometry/tets/stuffing.hpp>
 
 #include "shapes.hpp"
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
-#include <trocar/geometry/tet_cut.hpp>
+#include <trocar/geometry/tets/tet_cut.hpp>
 
 #include "cut_checks.hpp"
 

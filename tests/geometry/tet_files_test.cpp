@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
-#include <trocar/geometry/tet_files.hpp>
+#include <trocar/geometry/formats/tet_files.hpp>
 
 #include "mesh_bytes.hpp"
 #include "tets.hpp"

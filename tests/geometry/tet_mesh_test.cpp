@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
-#include <trocar/geometry/tet_mesh.hpp>
+#include <trocar/geometry/tets/tet_mesh.hpp>
 
 #include "tets.hpp"
 

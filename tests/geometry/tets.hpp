@@ -1,7 +1,7 @@
 // Tetrahedral meshes for tests.
 #pragma once
 
-#include <trocar/geometry/tet_mesh.hpp>
+#include <trocar/geometry/tets/tet_mesh.hpp>
 
 namespace trocar::geometry {
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/error.hpp>
-#include <trocar/geometry/tri_mesh.hpp>
+#include <trocar/geometry/surfaces/tri_mesh.hpp>
 #include <trocar/numerics/portable.hpp>
 
 #include "shapes.hpp"

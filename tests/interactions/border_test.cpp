@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/interactions/border.hpp>
+#include <trocar/interactions/couplings/border.hpp>
 
 using namespace trocar;
 using namespace trocar::interactions;

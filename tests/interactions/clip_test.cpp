@@ -2,7 +2,7 @@
 // the arithmetic is plain.
 #include <gtest/gtest.h>
 
-#include <trocar/interactions/clip.hpp>
+#include <trocar/interactions/verbs/clip.hpp>
 #include <trocar/numerics/portable.hpp>
 
 #include "straight_tube.hpp"

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
-#include <trocar/interactions/cut.hpp>
-#include <trocar/tissue/lattice_springs.hpp>
+#include <trocar/interactions/verbs/cut.hpp>
+#include <trocar/tissue/network/lattice_springs.hpp>
 
 namespace trocar::interactions {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <trocar/core/random.hpp>
 #include <trocar/fluids/fluids.hpp>
-#include <trocar/geometry/nearest.hpp>
-#include <trocar/interactions/fluid_contact.hpp>
-#include <trocar/interactions/nearest_skin.hpp>
+#include <trocar/geometry/surfaces/nearest.hpp>
+#include <trocar/interactions/contact/nearest_skin.hpp>
+#include <trocar/interactions/wetting/fluid_contact.hpp>
 
 #include "../geometry/shapes.hpp"
 #include "straight_tube.hpp"

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/interactions/membrane_contact.hpp>
-#include <trocar/interactions/tool_contact.hpp>
-#include <trocar/tissue/membrane.hpp>
+#include <trocar/interactions/instrument/membrane_contact.hpp>
+#include <trocar/interactions/instrument/tool_contact.hpp>
+#include <trocar/tissue/membrane/membrane.hpp>
 
 using namespace trocar;
 using namespace trocar::interactions;

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
-#include <trocar/interactions/hosting.hpp>
-#include <trocar/sim/step.hpp>
-#include <trocar/tissue/lattice_springs.hpp>
+#include <trocar/interactions/couplings/hosting.hpp>
+#include <trocar/sim/stages/step.hpp>
+#include <trocar/tissue/network/lattice_springs.hpp>
 
 using namespace trocar;
 using namespace trocar::interactions;
@@ -91,8 +91,8 @@ struct Thrown {
 
 TEST(Hosting, ANodeThatLeapsIsNotCarriedOn) {
   // The pull resists changes of speed for a tick, and a node that leaps at one sub-step's end comes back in the next.
-  // Held to its speed it would be 0.2 m away, its springs strained by more than it had brought (1.1 J). In an ovary that
-  // three instruments squeezed that grew to 139 J.
+  // Held to its speed it would be 0.2 m away, its springs strained by more than it had brought (1.1 J). In an ovary
+  // that three instruments squeezed that grew to 139 J.
   const Thrown leaps({400, 0, 0});
   EXPECT_LT(leaps.way, 0.06) << "[m]";
   EXPECT_LT(leaps.brought_in, 0) << "[J]";

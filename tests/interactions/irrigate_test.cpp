@@ -1,7 +1,7 @@
 // Where a suction-irrigator's bore ends, and what places of film belong to.
 #include <gtest/gtest.h>
 
-#include <trocar/interactions/irrigate.hpp>
+#include <trocar/interactions/verbs/irrigate.hpp>
 
 using namespace trocar;
 using namespace trocar::interactions;

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/interactions/cut.hpp>
+#include <trocar/interactions/verbs/cut.hpp>
 
 #include "../sim/small_scene.hpp"
 

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/interactions/piece_contact.hpp>
-#include <trocar/tissue/cuttable_skin.hpp>
-#include <trocar/tissue/lattice_springs.hpp>
+#include <trocar/interactions/contact/piece_contact.hpp>
+#include <trocar/tissue/network/lattice_springs.hpp>
+#include <trocar/tissue/tets/cuttable_skin.hpp>
 
 namespace trocar::interactions {
 namespace {

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
-#include <trocar/interactions/scarred_spring.hpp>
-#include <trocar/tissue/lattice_springs.hpp>
+#include <trocar/interactions/couplings/scarred_spring.hpp>
+#include <trocar/tissue/network/lattice_springs.hpp>
 
 using namespace trocar;
 using namespace trocar::interactions;

@@ -6,12 +6,12 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/interactions/self_contact.hpp>
-#include <trocar/scene/compile.hpp>
-#include <trocar/scene/reader.hpp>
-#include <trocar/sim/work.hpp>
-#include <trocar/tissue/cuttable_skin.hpp>
-#include <trocar/tissue/lattice_springs.hpp>
+#include <trocar/interactions/contact/self_contact.hpp>
+#include <trocar/scene/compile/compile.hpp>
+#include <trocar/scene/files/reader.hpp>
+#include <trocar/sim/model/work.hpp>
+#include <trocar/tissue/network/lattice_springs.hpp>
+#include <trocar/tissue/tets/cuttable_skin.hpp>
 
 #include "../sim/small_scene.hpp"
 

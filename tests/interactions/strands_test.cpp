@@ -1,7 +1,7 @@
 // Strands that touch each other: neither passes the other, and what was dragged to the wrong side goes home.
 #include <gtest/gtest.h>
 
-#include <trocar/interactions/body_contact.hpp>
+#include <trocar/interactions/contact/body_contact.hpp>
 
 #include "straight_tube.hpp"
 

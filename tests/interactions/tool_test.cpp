@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
-#include <trocar/interactions/tool.hpp>
+#include <trocar/interactions/instrument/tool.hpp>
 #include <trocar/numerics/portable.hpp>
 
 using namespace trocar;

@@ -2,7 +2,7 @@
 // or an instrument would draw both sides along by a thread of nothing.
 #include <gtest/gtest.h>
 
-#include <trocar/interactions/tool_contact.hpp>
+#include <trocar/interactions/instrument/tool_contact.hpp>
 
 namespace trocar::interactions {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
-#include <trocar/geometry/nearest.hpp>
+#include <trocar/geometry/surfaces/nearest.hpp>
 
 #include "tunnel_trials.hpp"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <trocar/core/random.hpp>
-#include <trocar/geometry/nearest.hpp>
+#include <trocar/geometry/surfaces/nearest.hpp>
 
 #include "../sim/small_scene.hpp"
 

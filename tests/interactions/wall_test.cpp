@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
-#include <trocar/interactions/lever.hpp>
-#include <trocar/sim/visibility.hpp>
+#include <trocar/interactions/instrument/lever.hpp>
+#include <trocar/sim/stages/visibility.hpp>
 
 #include "../sim/small_scene.hpp"
 

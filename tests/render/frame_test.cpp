@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/render/frame.hpp>
-#include <trocar/render/mesh_arrays.hpp>
-#include <trocar/render/openness.hpp>
-#include <trocar/render/patterns.hpp>
+#include <trocar/render/frame/frame.hpp>
+#include <trocar/render/meshes/mesh_arrays.hpp>
+#include <trocar/render/meshes/openness.hpp>
+#include <trocar/render/meshes/patterns.hpp>
 
 #include "sample_scene.hpp"
 

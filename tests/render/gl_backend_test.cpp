@@ -9,10 +9,10 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/error.hpp>
-#include <trocar/render/backend.hpp>
-#include <trocar/render/gl_context.hpp>
-#include <trocar/render/gl_program.hpp>
-#include <trocar/render/governor.hpp>
+#include <trocar/render/backend/backend.hpp>
+#include <trocar/render/frame/governor.hpp>
+#include <trocar/render/gl/gl_context.hpp>
+#include <trocar/render/gl/gl_program.hpp>
 
 #include "gl_fixture.hpp"
 #include "sample_scene.hpp"

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/error.hpp>
-#include <trocar/render/backend.hpp>
-#include <trocar/render/gl_context.hpp>
+#include <trocar/render/backend/backend.hpp>
+#include <trocar/render/gl/gl_context.hpp>
 
 namespace trocar::render {
 

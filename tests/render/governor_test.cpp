@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/render/governor.hpp>
+#include <trocar/render/frame/governor.hpp>
 
 namespace trocar::render {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/error.hpp>
-#include <trocar/render/image.hpp>
+#include <trocar/render/frame/image.hpp>
 
 namespace trocar::render {
 namespace {

@@ -1,7 +1,7 @@
 // What a picture shows where: depth, normals, parts and flow against closed forms.
 #include <cmath>
 
-#include <trocar/render/layers.hpp>
+#include <trocar/render/backend/layers.hpp>
 
 #include "gl_fixture.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/render/backend.hpp>
+#include <trocar/render/backend/backend.hpp>
 
 namespace trocar::render {
 namespace {

@@ -5,9 +5,9 @@
 #include <ctime>
 #include <string>
 
-#include <trocar/render/backend.hpp>
-#include <trocar/render/gl_context.hpp>
-#include <trocar/render/governor.hpp>
+#include <trocar/render/backend/backend.hpp>
+#include <trocar/render/frame/governor.hpp>
+#include <trocar/render/gl/gl_context.hpp>
 
 #include "sample_scene.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include <trocar/render/openness.hpp>
+#include <trocar/render/meshes/openness.hpp>
 
 namespace trocar::render::sample {
 

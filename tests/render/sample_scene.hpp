@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include <trocar/render/backend.hpp>
-#include <trocar/render/frame.hpp>
+#include <trocar/render/backend/backend.hpp>
+#include <trocar/render/frame/frame.hpp>
 
 namespace trocar::render::sample {
 

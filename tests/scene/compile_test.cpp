@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/scene/reader.hpp>
+#include <trocar/scene/files/reader.hpp>
 
 #include "../sim/small_scene.hpp"
 

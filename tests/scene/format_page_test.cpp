@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <trocar/scene/reader.hpp>
-#include <trocar/scene/vessel_file.hpp>
+#include <trocar/scene/files/reader.hpp>
+#include <trocar/scene/files/vessel_file.hpp>
 
 #include "files.hpp"
 

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include <trocar/core/random.hpp>
-#include <trocar/scene/json.hpp>
-#include <trocar/scene/json_text.hpp>
+#include <trocar/scene/json/json.hpp>
+#include <trocar/scene/json/json_text.hpp>
 
 #include "files.hpp"
 

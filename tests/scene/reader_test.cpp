@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
-#include <trocar/scene/reader.hpp>
+#include <trocar/scene/files/reader.hpp>
 
 #include "files.hpp"
 

@@ -10,11 +10,11 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/scene/compile_vessels.hpp>
-#include <trocar/scene/reader.hpp>
-#include <trocar/scene/vary.hpp>
-#include <trocar/scene/writer.hpp>
-#include <trocar/sim/circulation.hpp>
+#include <trocar/scene/compile/compile_vessels.hpp>
+#include <trocar/scene/description/vary.hpp>
+#include <trocar/scene/files/reader.hpp>
+#include <trocar/scene/files/writer.hpp>
+#include <trocar/sim/stages/circulation.hpp>
 
 #include "../sim/small_scene.hpp"
 

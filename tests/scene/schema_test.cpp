@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <trocar/scene/reader.hpp>
-#include <trocar/scene/schema.hpp>
-#include <trocar/scene/vessel_file.hpp>
-#include <trocar/training/exercise.hpp>
+#include <trocar/scene/files/reader.hpp>
+#include <trocar/scene/files/vessel_file.hpp>
+#include <trocar/scene/json/schema.hpp>
+#include <trocar/training/exercise/exercise.hpp>
 
 #include "files.hpp"
 

@@ -1,9 +1,9 @@
 // Solids of tetrahedra in files: meshes, voxels and lofts that can be cut, and what is wrong with them.
 #include <gtest/gtest.h>
 
-#include <trocar/geometry/tet_files.hpp>
-#include <trocar/scene/compile.hpp>
-#include <trocar/scene/reader.hpp>
+#include <trocar/geometry/formats/tet_files.hpp>
+#include <trocar/scene/compile/compile.hpp>
+#include <trocar/scene/files/reader.hpp>
 
 #include "../sim/small_scene.hpp"
 #include "files.hpp"

@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/scene/compile.hpp>
-#include <trocar/scene/reader.hpp>
-#include <trocar/scene/vary.hpp>
-#include <trocar/sim/step.hpp>
+#include <trocar/scene/compile/compile.hpp>
+#include <trocar/scene/description/vary.hpp>
+#include <trocar/scene/files/reader.hpp>
+#include <trocar/sim/stages/step.hpp>
 
 namespace trocar::scene {
 namespace {

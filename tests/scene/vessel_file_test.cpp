@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/scene/reader.hpp>
-#include <trocar/scene/vessel_file.hpp>
+#include <trocar/scene/files/reader.hpp>
+#include <trocar/scene/files/vessel_file.hpp>
 #include <trocar/vessels/flow.hpp>
 
 namespace trocar::scene {

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
-#include <trocar/scene/reader.hpp>
-#include <trocar/scene/writer.hpp>
+#include <trocar/scene/files/reader.hpp>
+#include <trocar/scene/files/writer.hpp>
 
 #include "files.hpp"
 

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include <trocar/core/random.hpp>
-#include <trocar/sim/step.hpp>
+#include <trocar/sim/stages/step.hpp>
 
 namespace trocar::abuse {
 

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/scene/compile.hpp>
-#include <trocar/scene/reader.hpp>
+#include <trocar/scene/compile/compile.hpp>
+#include <trocar/scene/files/reader.hpp>
 
 #include "abuse.hpp"
 

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <trocar/fluids/fluids.hpp>
-#include <trocar/sim/circulation.hpp>
-#include <trocar/sim/recording.hpp>
+#include <trocar/sim/recording/recording.hpp>
+#include <trocar/sim/stages/circulation.hpp>
 
 #include "small_scene.hpp"
 

@@ -1,7 +1,7 @@
 // The cavity's ends: what has been torn or cut off stays in the patient, and what is where it belongs is not touched.
 #include <gtest/gtest.h>
 
-#include <trocar/sim/containing.hpp>
+#include <trocar/sim/stages/containing.hpp>
 
 #include "abuse.hpp"
 #include "small_scene.hpp"

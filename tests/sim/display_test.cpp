@@ -6,7 +6,7 @@
 
 #include <trocar/core/random.hpp>
 #include <trocar/fluids/shown_fluids.hpp>
-#include <trocar/tissue/heat_look.hpp>
+#include <trocar/tissue/heat/heat_look.hpp>
 
 #include "small_energy.hpp"
 

@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/sim/heating.hpp>
-#include <trocar/sim/visibility.hpp>
-#include <trocar/tissue/heat_look.hpp>
+#include <trocar/sim/stages/heating.hpp>
+#include <trocar/sim/stages/visibility.hpp>
+#include <trocar/tissue/heat/heat_look.hpp>
 
 #include "small_energy.hpp"
 

@@ -13,9 +13,9 @@
 
 #include <trocar/core/random.hpp>
 #include <trocar/fluids/fluids.hpp>
-#include <trocar/scene/compile.hpp>
-#include <trocar/scene/reader.hpp>
-#include <trocar/sim/step.hpp>
+#include <trocar/scene/compile/compile.hpp>
+#include <trocar/scene/files/reader.hpp>
+#include <trocar/sim/stages/step.hpp>
 
 namespace trocar::everything {
 

@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include <trocar/core/parallel.hpp>
-#include <trocar/sim/recording.hpp>
+#include <trocar/sim/recording/recording.hpp>
 
 using namespace trocar;
 using namespace trocar::sim;

@@ -7,7 +7,7 @@
 
 #include <trocar/core/parallel.hpp>
 #include <trocar/fluids/fluids.hpp>
-#include <trocar/interactions/irrigate.hpp>
+#include <trocar/interactions/verbs/irrigate.hpp>
 #include <trocar/numerics/portable.hpp>
 
 #include "small_scene.hpp"

@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #include <trocar/core/random.hpp>
-#include <trocar/sim/recording.hpp>
+#include <trocar/sim/recording/recording.hpp>
 
 #include "small_energy.hpp"
 

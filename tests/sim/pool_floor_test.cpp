@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/scene/compile.hpp>
-#include <trocar/scene/reader.hpp>
-#include <trocar/sim/pool_floor.hpp>
+#include <trocar/scene/compile/compile.hpp>
+#include <trocar/scene/files/reader.hpp>
+#include <trocar/sim/model/pool_floor.hpp>
 
 namespace trocar::sim {
 namespace {

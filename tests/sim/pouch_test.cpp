@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/interactions/cut.hpp>
-#include <trocar/scene/compile.hpp>
-#include <trocar/scene/reader.hpp>
-#include <trocar/sim/step.hpp>
+#include <trocar/interactions/verbs/cut.hpp>
+#include <trocar/scene/compile/compile.hpp>
+#include <trocar/scene/files/reader.hpp>
+#include <trocar/sim/stages/step.hpp>
 
 using namespace trocar;
 using namespace trocar::sim;

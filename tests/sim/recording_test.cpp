@@ -12,7 +12,7 @@
 #include <trocar/core/error.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/core/random.hpp>
-#include <trocar/sim/recording.hpp>
+#include <trocar/sim/recording/recording.hpp>
 
 using namespace trocar;
 using namespace trocar::sim;

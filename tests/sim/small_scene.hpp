@@ -7,8 +7,8 @@
 //   while (!hands.done()) step(model, hands.next(state), state, work);
 #pragma once
 
-#include <trocar/scene/compile.hpp>
-#include <trocar/sim/step.hpp>
+#include <trocar/scene/compile/compile.hpp>
+#include <trocar/sim/stages/step.hpp>
 
 namespace trocar::small {
 

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
-#include <trocar/geometry/nearest.hpp>
-#include <trocar/sim/visibility.hpp>
+#include <trocar/geometry/surfaces/nearest.hpp>
+#include <trocar/sim/stages/visibility.hpp>
 
 #include "small_scene.hpp"
 

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/tissue/lattice_springs.hpp>
-#include <trocar/tissue/strand.hpp>
+#include <trocar/tissue/network/lattice_springs.hpp>
+#include <trocar/tissue/strand/strand.hpp>
 
 #include "linear_solve.hpp"
 #include "validation.hpp"

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
-#include <trocar/geometry/stuffing.hpp>
-#include <trocar/tissue/cuttable.hpp>
+#include <trocar/geometry/tets/stuffing.hpp>
+#include <trocar/tissue/tets/cuttable.hpp>
 
 #include "../geometry/cut_checks.hpp"
 

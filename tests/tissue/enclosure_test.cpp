@@ -5,9 +5,9 @@
 #include <vector>
 
 #include <trocar/core/random.hpp>
-#include <trocar/geometry/loft.hpp>
-#include <trocar/geometry/tri_mesh.hpp>
-#include <trocar/tissue/membrane.hpp>
+#include <trocar/geometry/surfaces/loft.hpp>
+#include <trocar/geometry/surfaces/tri_mesh.hpp>
+#include <trocar/tissue/membrane/membrane.hpp>
 
 #include "linear_solve.hpp"
 #include "validation.hpp"

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <trocar/numerics/portable.hpp>
-#include <trocar/tissue/force_wave.hpp>
+#include <trocar/tissue/network/force_wave.hpp>
 
 using namespace trocar;
 using namespace trocar::tissue;

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/tissue/lattice_springs.hpp>
+#include <trocar/tissue/network/lattice_springs.hpp>
 
 #include "linear_solve.hpp"
 #include "validation.hpp"

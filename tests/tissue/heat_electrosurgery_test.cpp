@@ -1,8 +1,8 @@
 // Generator, electrode, sealing: what they do at all. How near that is to measurements: heat_calibration_test.cpp.
 #include <gtest/gtest.h>
 
-#include <trocar/tissue/electrosurgery_seal.hpp>
-#include <trocar/tissue/heat_look.hpp>
+#include <trocar/tissue/heat/electrosurgery_seal.hpp>
+#include <trocar/tissue/heat/heat_look.hpp>
 
 #include "heat_setup.hpp"
 

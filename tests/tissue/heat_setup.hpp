@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <trocar/tissue/electrosurgery.hpp>
-#include <trocar/tissue/heat.hpp>
+#include <trocar/tissue/heat/electrosurgery.hpp>
+#include <trocar/tissue/heat/heat.hpp>
 
 #include "validation.hpp"
 

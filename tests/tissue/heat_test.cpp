@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <trocar/numerics/portable.hpp>
-#include <trocar/tissue/heat_look.hpp>
+#include <trocar/tissue/heat/heat_look.hpp>
 
 #include "heat_setup.hpp"
 

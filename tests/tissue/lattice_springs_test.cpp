@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
-#include <trocar/tissue/lattice_springs.hpp>
+#include <trocar/tissue/network/lattice_springs.hpp>
 
 #include "linear_solve.hpp"
 

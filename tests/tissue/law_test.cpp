@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/tissue/law.hpp>
-#include <trocar/tissue/network_reference.hpp>
+#include <trocar/tissue/base/law.hpp>
+#include <trocar/tissue/network/network_reference.hpp>
 
 #include "test_bodies.hpp"
 #include "validation.hpp"

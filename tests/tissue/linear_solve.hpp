@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <trocar/numerics/conjugate_gradient.hpp>
-#include <trocar/tissue/network.hpp>
+#include <trocar/tissue/network/network.hpp>
 
 namespace trocar::tissue {
 

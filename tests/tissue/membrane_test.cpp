@@ -7,7 +7,7 @@
 
 #include <trocar/core/random.hpp>
 #include <trocar/numerics/portable.hpp>
-#include <trocar/tissue/membrane.hpp>
+#include <trocar/tissue/membrane/membrane.hpp>
 
 using namespace trocar;
 using namespace trocar::tissue;

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/parallel.hpp>
-#include <trocar/tissue/network.hpp>
-#include <trocar/tissue/network_reference.hpp>
+#include <trocar/tissue/network/network.hpp>
+#include <trocar/tissue/network/network_reference.hpp>
 
 #include "test_bodies.hpp"
 

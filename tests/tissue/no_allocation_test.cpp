@@ -1,8 +1,8 @@
 // The step's law: no allocation.
 #include <gtest/gtest.h>
 
-#include <trocar/tissue/membrane.hpp>
-#include <trocar/tissue/strand.hpp>
+#include <trocar/tissue/membrane/membrane.hpp>
+#include <trocar/tissue/strand/strand.hpp>
 
 #include "../count_allocations.hpp"
 #include "heat_setup.hpp"

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/tissue/network_reference.hpp>
+#include <trocar/tissue/network/network_reference.hpp>
 
 #include "test_bodies.hpp"
 #include "validation.hpp"

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/tissue/lattice_springs.hpp>
-#include <trocar/tissue/overstretch.hpp>
+#include <trocar/tissue/failure/overstretch.hpp>
+#include <trocar/tissue/network/lattice_springs.hpp>
 
 namespace trocar::tissue {
 namespace {

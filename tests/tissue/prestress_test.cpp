@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/tissue/lattice_springs.hpp>
-#include <trocar/tissue/prestress.hpp>
+#include <trocar/tissue/network/lattice_springs.hpp>
+#include <trocar/tissue/network/prestress.hpp>
 
 namespace trocar::tissue {
 namespace {

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
-#include <trocar/tissue/lattice_springs.hpp>
-#include <trocar/tissue/network_reference.hpp>
-#include <trocar/tissue/tet_springs.hpp>
+#include <trocar/tissue/network/lattice_springs.hpp>
+#include <trocar/tissue/network/network_reference.hpp>
+#include <trocar/tissue/tets/tet_springs.hpp>
 
 #include "validation.hpp"
 

@@ -14,10 +14,10 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/geometry/tet_files.hpp>
-#include <trocar/tissue/network_reference.hpp>
-#include <trocar/tissue/prestress.hpp>
-#include <trocar/tissue/tet_springs.hpp>
+#include <trocar/geometry/formats/tet_files.hpp>
+#include <trocar/tissue/network/network_reference.hpp>
+#include <trocar/tissue/network/prestress.hpp>
+#include <trocar/tissue/tets/tet_springs.hpp>
 
 #include "linear_solve.hpp"
 #include "tet_fem.hpp"

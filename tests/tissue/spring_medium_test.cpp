@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
-#include <trocar/tissue/spring_medium.hpp>
+#include <trocar/tissue/network/spring_medium.hpp>
 
 namespace trocar::tissue {
 namespace {

@@ -1,12 +1,12 @@
 // How long a step may be: the boundary between calm and blow-up, bisected with the integrator itself, against the
-// formulas of tissue/stability.hpp; one spring, and a lattice.
+// formulas of tissue/network/stability.hpp; one spring, and a lattice.
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
-#include <trocar/tissue/network_reference.hpp>
-#include <trocar/tissue/stability.hpp>
+#include <trocar/tissue/network/network_reference.hpp>
+#include <trocar/tissue/network/stability.hpp>
 
 #include "linear_solve.hpp"
 #include "test_bodies.hpp"

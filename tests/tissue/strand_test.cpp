@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/tissue/strand.hpp>
+#include <trocar/tissue/strand/strand.hpp>
 
 namespace trocar::tissue {
 namespace {

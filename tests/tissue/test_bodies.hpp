@@ -2,8 +2,8 @@
 #pragma once
 
 #include <trocar/core/random.hpp>
-#include <trocar/tissue/lattice_springs.hpp>
-#include <trocar/tissue/network.hpp>
+#include <trocar/tissue/network/lattice_springs.hpp>
+#include <trocar/tissue/network/network.hpp>
 
 namespace trocar::tissue::test {
 

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
-#include <trocar/tissue/lattice_springs.hpp>
-#include <trocar/tissue/tet_springs.hpp>
+#include <trocar/tissue/network/lattice_springs.hpp>
+#include <trocar/tissue/tets/tet_springs.hpp>
 
 #include "linear_solve.hpp"
 

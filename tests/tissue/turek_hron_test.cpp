@@ -12,8 +12,8 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/tissue/lattice_springs.hpp>
-#include <trocar/tissue/network_reference.hpp>
+#include <trocar/tissue/network/lattice_springs.hpp>
+#include <trocar/tissue/network/network_reference.hpp>
 
 #include "validation.hpp"
 

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
-#include <trocar/tissue/cuttable.hpp>
-#include <trocar/tissue/lattice_springs.hpp>
+#include <trocar/tissue/network/lattice_springs.hpp>
+#include <trocar/tissue/tets/cuttable.hpp>
 
 namespace trocar::tissue {
 namespace {

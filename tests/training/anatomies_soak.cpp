@@ -2,11 +2,11 @@
 // lying elsewhere, tissue up to a fifth softer or stiffer, and with a hand that trembles.
 #include <gtest/gtest.h>
 
-#include <trocar/scene/compile.hpp>
-#include <trocar/scene/reader.hpp>
-#include <trocar/scene/vary.hpp>
-#include <trocar/training/monitor.hpp>
-#include <trocar/training/surgeon.hpp>
+#include <trocar/scene/compile/compile.hpp>
+#include <trocar/scene/description/vary.hpp>
+#include <trocar/scene/files/reader.hpp>
+#include <trocar/training/exercise/monitor.hpp>
+#include <trocar/training/expert/surgeon.hpp>
 
 using namespace trocar;
 using namespace trocar::training;

@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/scene/compile.hpp>
-#include <trocar/scene/reader.hpp>
-#include <trocar/training/expert.hpp>
-#include <trocar/training/monitor.hpp>
+#include <trocar/scene/compile/compile.hpp>
+#include <trocar/scene/files/reader.hpp>
+#include <trocar/training/exercise/monitor.hpp>
+#include <trocar/training/expert/expert.hpp>
 
 namespace trocar::training {
 namespace {
@@ -75,8 +75,8 @@ TEST_P(BleedingFlaw, TriggersItsError) {
   EXPECT_EQ(a.monitor.score().failed, a.exercise.penalty(GetParam())->fail);
 }
 INSTANTIATE_TEST_SUITE_P(Codes, BleedingFlaw,
-                         testing::Values("E4.2", "E6", "E7", "E7.1", "E7.2", "E8", "E9.1", "E9.2", "E9.3", "E10", "E12", "A3.2",
-                                         "A3.3", "A3.4"),
+                         testing::Values("E4.2", "E6", "E7", "E7.1", "E7.2", "E8", "E9.1", "E9.2", "E9.3", "E10", "E12",
+                                         "A3.2", "A3.3", "A3.4"),
                          [](const auto& of) {
                            std::string name = of.param;
                            std::replace(name.begin(), name.end(), '.', '_');

@@ -5,11 +5,11 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/scene/compile.hpp>
-#include <trocar/scene/reader.hpp>
-#include <trocar/training/expert.hpp>
-#include <trocar/training/hands.hpp>
-#include <trocar/training/monitor.hpp>
+#include <trocar/scene/compile/compile.hpp>
+#include <trocar/scene/files/reader.hpp>
+#include <trocar/training/exercise/hands.hpp>
+#include <trocar/training/exercise/monitor.hpp>
+#include <trocar/training/expert/expert.hpp>
 
 namespace trocar::training {
 namespace {

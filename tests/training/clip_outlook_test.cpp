@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include <trocar/interactions/clip.hpp>
+#include <trocar/interactions/verbs/clip.hpp>
 #include <trocar/kinematics/fulcrum.hpp>
 #include <trocar/numerics/portable.hpp>
-#include <trocar/training/clip_outlook.hpp>
+#include <trocar/training/exercise/clip_outlook.hpp>
 
 #include "two_sides.hpp"
 

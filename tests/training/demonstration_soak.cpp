@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
-#include <trocar/scene/compile.hpp>
-#include <trocar/scene/reader.hpp>
-#include <trocar/training/monitor.hpp>
-#include <trocar/training/surgeon.hpp>
+#include <trocar/scene/compile/compile.hpp>
+#include <trocar/scene/files/reader.hpp>
+#include <trocar/training/exercise/monitor.hpp>
+#include <trocar/training/expert/surgeon.hpp>
 
 using namespace trocar;
 using namespace trocar::training;

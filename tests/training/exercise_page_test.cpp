@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <trocar/training/exercise.hpp>
+#include <trocar/training/exercise/exercise.hpp>
 
 using namespace trocar::training;
 

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <trocar/training/exercise.hpp>
+#include <trocar/training/exercise/exercise.hpp>
 
 using namespace trocar;
 using namespace trocar::training;

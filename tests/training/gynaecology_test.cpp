@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
-#include <trocar/scene/compile.hpp>
-#include <trocar/scene/reader.hpp>
-#include <trocar/sim/step.hpp>
-#include <trocar/sim/visibility.hpp>
+#include <trocar/scene/compile/compile.hpp>
+#include <trocar/scene/files/reader.hpp>
+#include <trocar/sim/stages/step.hpp>
+#include <trocar/sim/stages/visibility.hpp>
 
 using namespace trocar;
 using namespace trocar::sim;

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <trocar/core/random.hpp>
-#include <trocar/training/metrics_parts.hpp>
+#include <trocar/training/metrics/metrics_parts.hpp>
 
 #include "traces.hpp"
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
-#include <trocar/training/smoothness.hpp>
+#include <trocar/training/metrics/smoothness.hpp>
 
 using namespace trocar;
 using namespace trocar::training;

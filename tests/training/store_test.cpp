@@ -13,9 +13,9 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/core/log.hpp>
-#include <trocar/sim/recording.hpp>
-#include <trocar/training/database.hpp>
-#include <trocar/training/store.hpp>
+#include <trocar/sim/recording/recording.hpp>
+#include <trocar/training/store/database.hpp>
+#include <trocar/training/store/store.hpp>
 
 #include "../other_process.hpp"
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <trocar/core/random.hpp>
-#include <trocar/training/study.hpp>
+#include <trocar/training/metrics/study.hpp>
 
 using namespace trocar::training;
 

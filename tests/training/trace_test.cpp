@@ -4,7 +4,7 @@
 #include <trocar/core/error.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/core/random.hpp>
-#include <trocar/training/trace.hpp>
+#include <trocar/training/metrics/trace.hpp>
 
 #include "../sim/small_scene.hpp"
 #include "traces.hpp"

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include <trocar/training/trace.hpp>
+#include <trocar/training/metrics/trace.hpp>
 
 namespace trocar::traces {
 

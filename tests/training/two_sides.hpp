@@ -3,7 +3,7 @@
 // goes.
 #pragma once
 
-#include <trocar/training/monitor.hpp>
+#include <trocar/training/exercise/monitor.hpp>
 
 #include "../sim/small_scene.hpp"
 

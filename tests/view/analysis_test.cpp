@@ -5,13 +5,13 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/render/backend.hpp>
-#include <trocar/render/gl_context.hpp>
-#include <trocar/scene/reader.hpp>
-#include <trocar/sim/step.hpp>
-#include <trocar/view/analysis_drawing.hpp>
-#include <trocar/view/scene_view.hpp>
-#include <trocar/view/surface_strain.hpp>
+#include <trocar/render/backend/backend.hpp>
+#include <trocar/render/gl/gl_context.hpp>
+#include <trocar/scene/files/reader.hpp>
+#include <trocar/sim/stages/step.hpp>
+#include <trocar/view/analysis/analysis_drawing.hpp>
+#include <trocar/view/analysis/surface_strain.hpp>
+#include <trocar/view/scene/scene_view.hpp>
 
 #include "../sim/small_scene.hpp"
 

@@ -4,13 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/error.hpp>
-#include <trocar/render/gl_context.hpp>
-#include <trocar/scene/compile.hpp>
-#include <trocar/scene/reader.hpp>
-#include <trocar/view/detail.hpp>
-#include <trocar/view/organ_drawing.hpp>
-#include <trocar/view/scene_view.hpp>
-#include <trocar/view/tube_drawing.hpp>
+#include <trocar/render/gl/gl_context.hpp>
+#include <trocar/scene/compile/compile.hpp>
+#include <trocar/scene/files/reader.hpp>
+#include <trocar/view/base/level_of_detail.hpp>
+#include <trocar/view/bodies/organ_drawing.hpp>
+#include <trocar/view/bodies/tube_drawing.hpp>
+#include <trocar/view/scene/scene_view.hpp>
 
 namespace trocar::view {
 namespace {

@@ -6,11 +6,11 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/render/backend.hpp>
-#include <trocar/view/blood_run.hpp>
-#include <trocar/view/fluid_drawing.hpp>
-#include <trocar/view/lens.hpp>
-#include <trocar/view/smoke_drawing.hpp>
+#include <trocar/render/backend/backend.hpp>
+#include <trocar/view/fluids/blood_run.hpp>
+#include <trocar/view/fluids/fluid_drawing.hpp>
+#include <trocar/view/fluids/lens.hpp>
+#include <trocar/view/fluids/smoke_drawing.hpp>
 
 namespace trocar::view {
 namespace {

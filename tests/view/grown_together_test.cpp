@@ -6,19 +6,19 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/geometry/nearest.hpp>
-#include <trocar/render/backend.hpp>
-#include <trocar/scene/compile.hpp>
-#include <trocar/scene/reader.hpp>
-#include <trocar/view/adhesions.hpp>
-#include <trocar/view/bowel_loops.hpp>
-#include <trocar/view/cavity.hpp>
-#include <trocar/view/joint.hpp>
-#include <trocar/view/ridge.hpp>
-#include <trocar/view/scene_view.hpp>
-#include <trocar/view/sheet_crescent.hpp>
-#include <trocar/view/sheet_drawing.hpp>
-#include <trocar/view/vessel_drawing.hpp>
+#include <trocar/geometry/surfaces/nearest.hpp>
+#include <trocar/render/backend/backend.hpp>
+#include <trocar/scene/compile/compile.hpp>
+#include <trocar/scene/files/reader.hpp>
+#include <trocar/view/anatomy/adhesions.hpp>
+#include <trocar/view/anatomy/bowel_loops.hpp>
+#include <trocar/view/anatomy/joint.hpp>
+#include <trocar/view/anatomy/ridge.hpp>
+#include <trocar/view/bodies/cavity.hpp>
+#include <trocar/view/bodies/sheet_crescent.hpp>
+#include <trocar/view/bodies/sheet_drawing.hpp>
+#include <trocar/view/bodies/vessel_drawing.hpp>
+#include <trocar/view/scene/scene_view.hpp>
 
 namespace trocar::view {
 namespace {

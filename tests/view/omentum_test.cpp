@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/view/omentum.hpp>
+#include <trocar/view/anatomy/omentum.hpp>
 
 namespace trocar::view {
 namespace {

@@ -7,17 +7,17 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/geometry/tri_mesh.hpp>
-#include <trocar/render/backend.hpp>
-#include <trocar/render/mesh_arrays.hpp>
-#include <trocar/scene/compile.hpp>
-#include <trocar/scene/reader.hpp>
-#include <trocar/view/bowel_loops.hpp>
-#include <trocar/view/fat_tags.hpp>
-#include <trocar/view/fimbria.hpp>
-#include <trocar/view/gut_line.hpp>
-#include <trocar/view/omentum_lobe.hpp>
-#include <trocar/view/tube_drawing.hpp>
+#include <trocar/geometry/surfaces/tri_mesh.hpp>
+#include <trocar/render/backend/backend.hpp>
+#include <trocar/render/meshes/mesh_arrays.hpp>
+#include <trocar/scene/compile/compile.hpp>
+#include <trocar/scene/files/reader.hpp>
+#include <trocar/view/anatomy/bowel_loops.hpp>
+#include <trocar/view/anatomy/fat_tags.hpp>
+#include <trocar/view/anatomy/gut_line.hpp>
+#include <trocar/view/anatomy/omentum_lobe.hpp>
+#include <trocar/view/bodies/fimbria.hpp>
+#include <trocar/view/bodies/tube_drawing.hpp>
 
 namespace trocar::view {
 namespace {

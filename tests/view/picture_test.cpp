@@ -6,23 +6,23 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/geometry/nearest.hpp>
-#include <trocar/render/backend.hpp>
-#include <trocar/render/mesh_arrays.hpp>
-#include <trocar/scene/compile.hpp>
-#include <trocar/scene/reader.hpp>
-#include <trocar/view/cavity.hpp>
-#include <trocar/view/cut_ooze.hpp>
-#include <trocar/view/cut_shape.hpp>
-#include <trocar/view/cuttable_drawing.hpp>
-#include <trocar/view/drape.hpp>
-#include <trocar/view/drip_stains.hpp>
-#include <trocar/view/fold_pattern.hpp>
-#include <trocar/view/instrument_shapes.hpp>
-#include <trocar/view/liver_dome.hpp>
-#include <trocar/view/looks.hpp>
-#include <trocar/view/scene_view.hpp>
-#include <trocar/view/shapes.hpp>
+#include <trocar/geometry/surfaces/nearest.hpp>
+#include <trocar/render/backend/backend.hpp>
+#include <trocar/render/meshes/mesh_arrays.hpp>
+#include <trocar/scene/compile/compile.hpp>
+#include <trocar/scene/files/reader.hpp>
+#include <trocar/view/anatomy/drape.hpp>
+#include <trocar/view/anatomy/liver_dome.hpp>
+#include <trocar/view/base/fold_pattern.hpp>
+#include <trocar/view/base/looks.hpp>
+#include <trocar/view/bodies/cavity.hpp>
+#include <trocar/view/bodies/cut_ooze.hpp>
+#include <trocar/view/bodies/cut_shape.hpp>
+#include <trocar/view/bodies/cuttable_drawing.hpp>
+#include <trocar/view/fluids/drip_stains.hpp>
+#include <trocar/view/instruments/instrument_shapes.hpp>
+#include <trocar/view/instruments/shapes.hpp>
+#include <trocar/view/scene/scene_view.hpp>
 
 namespace trocar::view {
 namespace {

@@ -1,10 +1,10 @@
 // A second endoscope: through a place of the abdominal wall that nobody uses, aimed by hand, with its own picture.
 #include <gtest/gtest.h>
 
-#include <trocar/scene/compile.hpp>
-#include <trocar/scene/reader.hpp>
-#include <trocar/view/cameras.hpp>
-#include <trocar/view/second_scope.hpp>
+#include <trocar/scene/compile/compile.hpp>
+#include <trocar/scene/files/reader.hpp>
+#include <trocar/view/base/cameras.hpp>
+#include <trocar/view/scene/second_scope.hpp>
 
 namespace trocar::view {
 namespace {

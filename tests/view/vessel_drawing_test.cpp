@@ -4,11 +4,11 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/render/backend.hpp>
-#include <trocar/scene/reader.hpp>
-#include <trocar/sim/step.hpp>
-#include <trocar/view/scene_view.hpp>
-#include <trocar/view/vessel_drawing.hpp>
+#include <trocar/render/backend/backend.hpp>
+#include <trocar/scene/files/reader.hpp>
+#include <trocar/sim/stages/step.hpp>
+#include <trocar/view/bodies/vessel_drawing.hpp>
+#include <trocar/view/scene/scene_view.hpp>
 
 #include "../sim/small_scene.hpp"
 

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include <trocar/render/gl_context.hpp>
-#include <trocar/scene/compile.hpp>
-#include <trocar/scene/reader.hpp>
-#include <trocar/sim/step.hpp>
-#include <trocar/view/scene_view.hpp>
+#include <trocar/render/gl/gl_context.hpp>
+#include <trocar/scene/compile/compile.hpp>
+#include <trocar/scene/files/reader.hpp>
+#include <trocar/sim/stages/step.hpp>
+#include <trocar/view/scene/scene_view.hpp>
 
 using namespace trocar;
 

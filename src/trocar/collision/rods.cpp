@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include <trocar/collision/rods.hpp>
-#include <trocar/geometry/nearest.hpp>
+#include <trocar/geometry/surfaces/nearest.hpp>
 
 namespace trocar::collision {
 

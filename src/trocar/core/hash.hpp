@@ -3,12 +3,16 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <type_traits>
 #include <vector>
 
 namespace trocar::core {
 
 std::uint64_t hash_bytes(const void* data, std::size_t size, std::uint64_t seed = 0) noexcept;
+
+/// 16 hex digits.
+std::string hex(std::uint64_t hash);
 
 /// Accumulates a hash over values and arrays, in call order. Types must have no padding bytes.
 class Hasher {

@@ -6,7 +6,7 @@ foreach(file ${files})
   file(READ ${file} text)
   string(APPEND entries "    {\"${name}\", R\"glsl(${text})glsl\"},\n")
 endforeach()
-file(WRITE ${OUTPUT}.new "#include <trocar/render/shader_text.hpp>
+file(WRITE ${OUTPUT}.new "#include <trocar/render/gl/shader_text.hpp>
 
 namespace trocar::render {
 

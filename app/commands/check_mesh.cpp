@@ -1,0 +1,91 @@
+#include "commands/check_mesh.hpp"
+
+#include <string>
+
+#include <fmt/format.h>
+
+#include <trocar/core/files.hpp>
+#include <trocar/geometry/formats/tet_files.hpp>
+
+namespace trocar::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+Json as_json(Vec3d p) { return {p.x, p.y, p.z}; }
+
+Json as_json(const geometry::TetFacts& f) {
+  Json out{{"nodes", f.nodes}, {"cells", f.cells}, {"volume_ml", f.volume * 1e6}};
+  if (f.nodes > f.unused_nodes) out["box_m"] = {as_json(f.box.low), as_json(f.box.high)};
+  out.update({{"smallest_cell_ml", f.smallest_volume * 1e6},
+              {"largest_cell_ml", f.largest_volume * 1e6},
+              {"smallest_dihedral_deg", f.smallest_dihedral},
+              {"parts", f.parts},
+              {"surface_triangles", f.surface_triangles},
+              {"odd_edges", f.odd_edges},
+              {"crowded_faces", f.crowded_faces},
+              {"overlapping_faces", f.overlapping_faces},
+              {"inverted", f.inverted},
+              {"flat", f.flat},
+              {"duplicate_cells", f.duplicate_cells},
+              {"duplicate_nodes", f.duplicate_nodes},
+              {"unused_nodes", f.unused_nodes}});
+  return out;
+}
+
+/// What repair() leaves as it is, because there is more than one way to mend it.
+Json left_as_is(const geometry::TetFacts& mended) {
+  Json out = Json::array();
+  if (mended.parts > 1) out.push_back(fmt::format("{} parts that share no face", mended.parts));
+  if (mended.odd_edges > 0)
+    out.push_back(fmt::format(
+        "{} edge{} of the surface at which not exactly two of its triangles meet: cells that touch in an edge "
+        "only, or cracks",
+        mended.odd_edges, mended.odd_edges == 1 ? "" : "s"));
+  return out;
+}
+
+}  // namespace
+
+bool is_mesh_file(const fs::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return extension == ".msh" || extension == ".vtk";
+}
+
+Json describe_mesh(const fs::path& path, double unit) {
+  const geometry::TetFile file =
+      geometry::read_tets(core::read_file(path, geometry::kMaxMeshBytes), path.generic_string(), unit);
+  const geometry::TetRepair repaired = geometry::repair(file.mesh);
+  if (repaired.mesh.cells.empty())
+    throw core::BadInput({{{path.generic_string(), 0, 0}, "expected cells with a volume, got flat ones only"}});
+  const geometry::TetFacts mended = geometry::inspect(repaired.mesh);
+  Json out{{"file", path.string()}, {"kind", "tetrahedra"}, {"format", file.format}, {"notes", file.notes}};
+  out["mesh"] = as_json(geometry::inspect(file.mesh));
+  out["repairs"] = Json::array();
+  for (const geometry::Mended& m : repaired.mended) out["repairs"].push_back(geometry::in_words(m));
+  out["left_as_is"] = left_as_is(mended);
+  if (!repaired.mended.empty()) out["repaired"] = as_json(mended);
+  return out;
+}
+
+void print_mesh(const Json& m) {
+  const auto facts = [](const char* what, const Json& f) {
+    fmt::print(
+        "  {}: {} nodes, {} tetrahedra, {:.4g} ml (cells {:.3g} to {:.3g} ml), smallest dihedral angle {:.3g} "
+        "degrees,\n    {} triangles on the surface, {} part{}\n",
+        what, f["nodes"].get<int>(), f["cells"].get<int>(), f["volume_ml"].get<double>(),
+        f["smallest_cell_ml"].get<double>(), f["largest_cell_ml"].get<double>(),
+        f["smallest_dihedral_deg"].get<double>(), f["surface_triangles"].get<int>(), f["parts"].get<int>(),
+        f["parts"].get<int>() == 1 ? "" : "s");
+  };
+  facts(m["format"].get<std::string>().c_str(), m["mesh"]);
+  for (const Json& note : m["notes"]) fmt::print("  {}\n", note.get<std::string>());
+  for (const Json& repair : m["repairs"]) fmt::print("  to mend: {}\n", repair.get<std::string>());
+  for (const Json& left : m["left_as_is"]) fmt::print("  not mended: {}\n", left.get<std::string>());
+  if (m.contains("repaired")) facts("mended", m["repaired"]);
+}
+
+}  // namespace trocar::app

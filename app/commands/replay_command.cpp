@@ -1,0 +1,107 @@
+// trocar replay: a recording in a window (player.hpp), or without one: every state hash compared, pictures and a film
+// of any part of it from any camera (replay_headless.hpp).
+#include <fmt/format.h>
+
+#include <trocar/core/error.hpp>
+#include <trocar/core/log.hpp>
+#include <trocar/pictures/analysis_choice.hpp>
+
+#include "commands/command.hpp"
+#include "commands/replay_headless.hpp"
+#include "player/player.hpp"
+
+namespace trocar::app {
+namespace {
+
+struct Options {
+  std::string size, data, camera = "endoscope", stereo = "off", show, analysis, exercise, log;
+  ReplayOptions replay;
+  bool headless = false;
+};
+
+Json head(const sim::Recording& recording, const ReplayOptions& o) {
+  Json out{{"recording", o.file},
+           {"exercise", recording.header.exercise},
+           {"program_version", recording.header.program_version},
+           {"complete", recording.complete},
+           {"interrupted", recording.interrupted}};
+  if (!recording.damage.empty()) out["damage"] = recording.damage;
+  return out;
+}
+
+int say(const ReplayOptions& o, const Json& result, bool json) {
+  const bool failed = o.verify && !result.value("verified", false);
+  if (json) {
+    print(result);
+  } else if (o.verify) {
+    fmt::print("{}: {}\n", o.file,
+               failed ? result.value("difference", std::string("not verified"))
+                      : fmt::format("verified, {} hashes", result["hashes_compared"].get<std::size_t>()));
+  } else if (result.value("played", std::string()) == "keyframes") {
+    fmt::print("{}: {} keyframes\n", o.file, result["keyframes"].get<std::size_t>());
+  } else {
+    fmt::print("{}: {} ticks\n", o.file, result.value("ticks", std::uint64_t(0)));
+  }
+  return failed ? core::kGoalNotReached : core::kDone;
+}
+
+int replay(Options o, bool json) {
+  if (!o.size.empty()) o.replay.size = pictures::parse_size(o.size);
+  o.replay.camera = pictures::parse_camera(o.camera);
+  pictures::check_data_rate(o.replay.data.rate);
+  o.replay.data.folder = o.data;
+  o.replay.look = {pictures::parse_stereo(o.stereo), pictures::parse_show(o.show),
+                   pictures::parse_analysis(o.analysis)};
+  if (!(o.replay.speed >= pictures::kSlowest && o.replay.speed <= pictures::kFastest))
+    throw core::BadInput(
+        {{{"--slow", 0, 0}, fmt::format("expected {} to {}, got {}", pictures::kSlowest, pictures::kFastest, o.replay.speed)}});
+  const sim::Recording recording = sim::read_recording(o.replay.file);
+  if (!recording.damage.empty()) core::log::warn("{}: {}", o.replay.file, recording.damage);
+  const std::string& exercise = o.exercise.empty() ? recording.header.exercise : o.exercise;
+  const bool window =
+      !json && !o.headless && !o.replay.verify && o.replay.shots.empty() && o.replay.video.empty() && o.data.empty();
+  if (window) {
+    PlayerOptions player{o.replay.file, exercise, o.log, {1280, 800}, o.replay.look.eyes};
+    if (!o.size.empty()) player.size = o.replay.size;
+    run_player(recording, player);
+    return core::kDone;
+  }
+  const std::unique_ptr<attempt::Lesson> lesson = attempt::load_lesson(exercise, recording.header.seed);
+  Json result = head(recording, o.replay);
+  result.update(replay_headless(*lesson, recording, o.replay));
+  return say(o.replay, result, json);
+}
+
+}  // namespace
+
+void add_replay(CLI::App& program, Chosen& chosen) {
+  auto o = std::make_shared<Options>();
+  CLI::App* c =
+      add_command(program, chosen, "replay", "Do a recording again: look at it, film it, verify it",
+                  "trocar replay a.rec\n"
+                  "  trocar replay a.rec --verify\n"
+                  "  trocar replay a.rec --shots pictures --camera front\n"
+                  "  trocar replay a.rec --video a.mp4 --camera free:120,30,250 --from 12 --to 20 --slow 0.25");
+  c->add_option("recording", o->replay.file, "a recording (train --record)")->required();
+  c->add_flag("--verify", o->replay.verify, "compare the model's and every state's hash; exit 1 where they differ");
+  c->add_option("--exercise", o->exercise, "where the recording's exercise is now, if it was a path that moved");
+  c->add_option("--shots", o->replay.shots, "write pictures to this folder");
+  c->add_option("--video", o->replay.video, "write a film, H.264 (needs ffmpeg)");
+  c->add_option("--data", o->data, pictures::kDataHelp);
+  c->add_option("--data-rate", o->replay.data.rate, "frames per simulated second")->capture_default_str();
+  c->add_option("--camera", o->camera,
+                "of pictures and film: endoscope | front | side | above | surgeon | free:YAW,PITCH,DISTANCE [deg, mm]")
+      ->capture_default_str();
+  c->add_option("--stereo", o->stereo, pictures::kStereoHelp)->capture_default_str();
+  c->add_option("--show", o->show, pictures::kShowHelp);
+  c->add_option("--analysis", o->analysis, pictures::kAnalysisHelp);
+  c->add_option("--from", o->replay.from, "first moment of pictures and film [s]")->check(CLI::Range(0.0, 14400.0));
+  c->add_option("--to", o->replay.to, "last moment [s]; the end if not given")->check(CLI::Range(0.0, 14400.0));
+  c->add_option("--slow", o->replay.speed, "speed of the film: 0.25 takes four times as long");
+  c->add_option("--size", o->size, "of pictures (800x600 if not given) or window");
+  c->add_flag("--headless", o->headless, "no window, whatever else is asked for");
+  c->add_option("--log", o->log, "window: write events as JSON lines to this file");
+  c->callback([o, &chosen] { chosen.run = [o, &chosen] { return replay(*o, chosen.json); }; });
+}
+
+}  // namespace trocar::app

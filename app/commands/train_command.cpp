@@ -1,0 +1,181 @@
+// trocar train: an exercise, done by hand in a window, or by a source of inputs with or without one.
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include <trocar/attempt/attempt_log.hpp>
+#include <trocar/attempt/interrupt.hpp>
+#include <trocar/attempt/paths.hpp>
+#include <trocar/attempt/sources.hpp>
+#include <trocar/core/error.hpp>
+#include <trocar/core/json.hpp>
+#include <trocar/pictures/analysis_choice.hpp>
+#include <trocar/pictures/headless.hpp>
+#include <trocar/reports/report_page.hpp>
+
+#include "commands/command.hpp"
+#include "shell/event_log.hpp"
+#include "trainer/window_loop.hpp"
+
+namespace trocar::app {
+namespace {
+
+struct Options {
+  std::string exercise, input = "mouse", record, shots, video, report, data, size, stereo = "off", show, analysis,
+                        trainee, log;
+  double seconds = 0, data_rate = pictures::kDataRate;
+  std::uint64_t seed = 0;
+  bool headless = false, familiarisation = false, no_store = false;
+};
+
+constexpr std::uint64_t kLogTimeEvery = 250;  ///< ticks
+
+int exit_code(const Json& result, const std::string& input) {
+  if (result.contains("failure") || result.contains("interrupted")) return core::kGoalNotReached;
+  // A recorded motion knows nothing of the exercise: its goal is to be performed to its end.
+  if (input.rfind("motion:", 0) == 0 || result["passed"].is_null()) return core::kDone;
+  return result["passed"].get<bool>() ? core::kDone : core::kGoalNotReached;
+}
+
+/// The result in a few lines, for people.
+void tell(const Json& result) {
+  if (result["passed"].is_null()) {
+    fmt::print("done: {:.1f} s\n", result["simulated_seconds"].get<double>());
+  } else {
+    const Json& a = result["assessment"];
+    fmt::print("{}: score {:.0f} of 100 in {:.0f} s\n", result["passed"].get<bool>() ? "passed" : "not passed",
+               a["score"]["total"].get<double>(), result["exercise_seconds"].get<double>());
+    for (const Json& step : a["steps"])
+      fmt::print("  [{}] {}\n", step["done"].get<bool>() ? "x" : " ", step["name"].get<std::string>());
+    for (const Json& e : a["errors"])
+      fmt::print("  error {}: {} (-{:.0f})\n", e["code"].get<std::string>(), e["meaning"].get<std::string>(),
+                 e["points"].get<double>());
+  }
+  if (result.contains("failure")) fmt::print("{}\n", result["failure"].get<std::string>());
+  for (const char* key : {"recording", "report"})
+    if (result.contains(key)) fmt::print("{}: {}\n", key, result[key].get<std::string>());
+}
+
+/// A finite number of seconds above 0, at most a day.
+std::string check_seconds(const std::string& text) {
+  char* end = nullptr;
+  const double v = std::strtod(text.c_str(), &end);
+  return end != text.c_str() && *end == 0 && v > 0 && v <= 86400
+             ? ""
+             : "expected seconds above 0, at most 86400, got " + text;
+}
+
+attempt::AttemptPlan plan_of(const Options& o) {
+  attempt::AttemptPlan plan;
+  plan.trainee = o.trainee;
+  plan.mode = o.familiarisation ? training::AttemptMode::familiarisation : attempt::mode_of_input(o.input);
+  plan.input = o.input;
+  plan.recording = o.record;
+  plan.record = !o.headless;  // a script that wants a recording names it
+  return plan;
+}
+
+Json train_headless(const Options& o, const attempt::Lesson& lesson, training::Store* store,
+                    pictures::PictureSize size) {
+  const std::unique_ptr<attempt::InputSource> source = attempt::make_source(lesson, o.input);
+  attempt::Session session(lesson);
+  EventLog events(o.log);
+  attempt::AttemptLog log(store, session, plan_of(o));
+  events.event("attempt", {{"exercise", lesson.name}, {"recording", log.attempt().recording}});
+  const pictures::HeadlessOptions what{
+      .shots = o.shots,
+      .video = o.video,
+      .data = {o.data, o.data_rate},
+      .size = size,
+      .look = {pictures::parse_stereo(o.stereo), pictures::parse_show(o.show), pictures::parse_analysis(o.analysis)},
+      .seconds = o.seconds};
+  const pictures::Leftovers left = pictures::run_headless(session, *source, what, [&] {
+    for (const attempt::Moment& m : session.moments()) events.moment(lesson.model, m);
+    if (session.state().tick % kLogTimeEvery == 0) events.event("time", {{"tick", session.state().tick}});
+    return true;
+  });
+  const bool aborted = attempt::interrupted() && !(session.monitor() && session.monitor()->finished());
+  Json result = session.result(aborted);
+  result["input"] = o.input;
+  result["slow_motion_share"] = 0.0;
+  result.update(source->describe());
+  log.end(result, aborted ? training::AttemptState::aborted : training::AttemptState::finished);
+  events.event("end", {{"interrupted", aborted}, {"passed", result["passed"]}, {"ticks", result["ticks"]}});
+  result.update(left);
+  if (!o.report.empty()) result["report"] = reports::write_report(o.report, result, store, &session);
+  return result;
+}
+
+WindowOptions window_options(const Options& o, training::Store* store) {
+  WindowOptions w;
+  w.exercise = o.exercise;
+  w.record = o.record;
+  w.trainee = o.trainee;
+  w.input = o.input;
+  w.log = o.log;
+  if (!o.size.empty()) w.size = pictures::parse_size(o.size);
+  w.seconds = o.seconds;
+  w.familiarisation = o.familiarisation;
+  w.store = store;
+  return w;
+}
+
+int train(const Options& o, bool json) {
+  const bool hands = o.input == "mouse" || o.input == "gamepad";
+  if (o.headless && hands)
+    throw core::BadInput({{{"--headless", 0, 0},
+                           fmt::format("expected --input demo, motion:FILE or replay:FILE with it, got {}", o.input)}});
+  if (o.exercise.empty() && (o.headless || !hands))
+    throw core::BadInput({{{"train", 0, 0}, "expected an exercise (see trocar list), got none"}});
+  // Faults are told before anything is begun.
+  pictures::check_data_rate(o.data_rate);
+  static_cast<void>(pictures::parse_stereo(o.stereo)), static_cast<void>(pictures::parse_show(o.show));
+  static_cast<void>(pictures::parse_analysis(o.analysis));
+  const pictures::PictureSize size = pictures::parse_size(o.size.empty() ? "800x600" : o.size);
+  std::unique_ptr<attempt::Lesson> lesson = o.exercise.empty() ? nullptr : attempt::load_lesson(o.exercise, o.seed);
+  std::unique_ptr<training::Store> store;
+  if (!o.no_store) store = std::make_unique<training::Store>(attempt::data_folder());
+  Json result = o.headless ? train_headless(o, *lesson, store.get(), size)
+                           : run_window(std::move(lesson), window_options(o, store.get()));
+  if (result.is_null()) return core::kDone;  // the window was closed before anything was begun
+  if (!o.report.empty() && !o.headless) result["report"] = reports::write_report(o.report, result, store.get());
+  if (json)
+    print(result);
+  else
+    tell(result);
+  return o.exercise.empty() ? int(core::kDone) : exit_code(result, o.input);
+}
+
+}  // namespace
+
+void add_train(CLI::App& program, Chosen& chosen) {
+  auto options = std::make_shared<Options>();
+  CLI::App* c = add_command(program, chosen, "train", "Do an exercise, in a window or headless",
+                            "trocar train gynaecology/sterilisation\n"
+                            "  trocar train gynaecology/sterilisation --input demo --headless --record a.rec --shots "
+                            "shots --json");
+  c->add_option("exercise", options->exercise, "a name that `trocar list` shows, or a path; without one: start screen");
+  c->add_option("--input", options->input,
+                "mouse | gamepad (hands, by any device) | demo | motion:FILE[#OPERATOR/TRIAL] | replay:FILE")
+      ->capture_default_str();
+  c->add_flag("--headless", options->headless, "no window, as fast as it goes");
+  c->add_option("--record", options->record, "write the recording to this file");
+  c->add_option("--shots", options->shots, "headless: write pictures to this folder");
+  c->add_option("--video", options->video, "headless: write a film (needs ffmpeg)");
+  c->add_option("--data", options->data, std::string("headless: ") + pictures::kDataHelp);
+  c->add_option("--data-rate", options->data_rate, "frames per simulated second")->capture_default_str();
+  c->add_option("--report", options->report, "write an HTML report to this folder");
+  c->add_option("--size", options->size, "of pictures (default 800x600) or window (default: as last time)");
+  c->add_option("--stereo", options->stereo, std::string("headless: ") + pictures::kStereoHelp)->capture_default_str();
+  c->add_option("--show", options->show, std::string("headless: ") + pictures::kShowHelp);
+  c->add_option("--analysis", options->analysis, std::string("headless: ") + pictures::kAnalysisHelp);
+  c->add_option("--trainee", options->trainee, "whose attempt it is; default: guest");
+  c->add_flag("--familiarisation", options->familiarisation, "getting to know it: no score, no verdict");
+  c->add_option("--seed", options->seed, "vary the anatomy by this number; 0: as drawn")->capture_default_str();
+  c->add_flag("--no-store", options->no_store, "leave nothing in the session store");
+  c->add_option("--seconds", options->seconds, "stop after so much simulated time")->check(check_seconds);
+  c->add_option("--log", options->log, "write what happens as JSON lines to this file");
+  c->callback([options, &chosen] { chosen.run = [options, &chosen] { return train(*options, chosen.json); }; });
+}
+
+}  // namespace trocar::app

@@ -1,0 +1,26 @@
+// The player's lower edge: buttons, speed, and the timeline with its marks. Dear ImGui; says what was asked for,
+// changes nothing but its own state and what is visible of the time.
+#pragma once
+
+#include <trocar/attempt/reel.hpp>
+
+#include "player/player_keys.hpp"
+
+namespace trocar::app {
+
+struct BarContent {
+  const attempt::Findings& found;
+  std::uint64_t now = 0;
+  std::uint64_t known_until = 0;
+  std::uint64_t differs_from = attempt::Reel::kNowhere;
+  bool playing = false, endoscope = true, inset = true;
+  double speed = 1;
+};
+
+inline constexpr float kBarHeight = 164;  ///< times the display's scale [px]
+
+/// @param seek set to the tick that the pointer asks for; unchanged where it does not
+void draw_bar(const BarContent& content, attempt::Timeline& line, float width, float top, float height,
+              PlayerCommands& commands, std::uint64_t& seek);
+
+}  // namespace trocar::app

@@ -1,0 +1,201 @@
+#include "shell/settings.hpp"
+
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <trocar/attempt/paths.hpp>
+#include <trocar/core/json.hpp>
+#include <trocar/scene/json/shape.hpp>
+#include <trocar/training/store/store.hpp>
+
+namespace trocar::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+namespace keys = scene::keys;
+
+constexpr const char* kOff = "off";
+
+std::vector<std::string> second_window_names() {
+  std::vector<std::string> names = names_in(kPaneNames);
+  names.insert(names.begin(), kOff);
+  return names;
+}
+
+const scene::Shape& settings_shape() {
+  static const scene::Shape shape{
+      "settings",
+      "What a person has chosen for the trainer's window.",
+      {scene::needed(keys::format(1)),
+       keys::flag("left_handed", "mouse buttons, gamepad sides, order of the hands"),
+       keys::number("mouse", kLeastSense, kMostSense, "sensitivity"),
+       keys::number("wheel", kLeastSense, kMostSense, "sensitivity"),
+       keys::number("keyboard", kLeastSense, kMostSense, "sensitivity"),
+       keys::number("gamepad", kLeastSense, kMostSense, "sensitivity"),
+       keys::flag("invert_x", "instrument moves against the hand, sideways"),
+       keys::flag("invert_y", "instrument moves against the hand, up and down"),
+       keys::flag("invert_view_x", "endoscope, sideways"),
+       keys::flag("invert_view_y", "endoscope, up and down"),
+       keys::flag("mirrored_picture", "left and right of the picture exchanged"),
+       keys::choice("stereo", pictures::stereo_names(), "pictures for two eyes"),
+       keys::number("eye_distance_mm", pictures::kLeastBase, pictures::kMostBase, "between the two eyes"),
+       keys::number("convergence_mm", pictures::kLeastConvergence, pictures::kMostConvergence, "to what lies on the screen"),
+       keys::flag("swap_eyes", "for screens that have them the other way round"),
+       keys::choice("layout", names_in(kLayoutNames), "of the window's panes"),
+       keys::choice("pane_1", names_in(kPaneNames), "what the first pane shows"),
+       keys::choice("pane_2", names_in(kPaneNames), "the second"),
+       keys::choice("pane_3", names_in(kPaneNames), "the third"),
+       keys::choice("pane_4", names_in(kPaneNames), "the fourth"),
+       keys::choice("second_window", second_window_names(), "what the window for a second screen shows"),
+       keys::number("volume", 0, 1, "of sounds"),
+       keys::number("text_size", kLeastText, kMostText, "of all texts"),
+       keys::integer("window_width", kLeastWidth, kMostPixels, "[px]"),
+       keys::integer("window_height", kLeastHeight, kMostPixels, "[px]"),
+       keys::text("trainee", "the last one"),
+       keys::flag("show_hint", "the three things to know, before an attempt")}};
+  return shape;
+}
+
+constexpr const char* kPaneKeys[kMostPanes] = {"pane_1", "pane_2", "pane_3", "pane_4"};
+
+/// Panes that name the same thing twice are put right: what is named last gives way.
+LayoutChoice read_views(const scene::JsonObject& o) {
+  LayoutChoice views;
+  views.layout = Layout(number_of(kLayoutNames, o.text("layout", name_of(views.layout))));
+  for (int i = kMostPanes - 1; i >= 0; --i) {
+    const PaneShows usual = views.panes[std::size_t(i)];
+    views.put(i, PaneShows(number_of(kPaneNames, o.text(kPaneKeys[i], name_of(usual)))));
+  }
+  const std::string elsewhere = o.text("second_window", kOff);
+  if (elsewhere != kOff) views.elsewhere = PaneShows(number_of(kPaneNames, elsewhere));
+  return views;
+}
+
+}  // namespace
+
+fs::path settings_file() { return attempt::data_folder() / "settings.json"; }
+
+Settings read_settings(const fs::path& file, std::vector<core::Fault>& faults, const scene::MemoryFiles* memory) {
+  Settings s;
+  std::error_code error;
+  if (!memory && !fs::exists(file, error)) return s;
+  const scene::JsonDocument document = scene::load_json(file, faults, memory);
+  const scene::JsonObject o(document.root, settings_shape(), document.file, faults);
+  s.left_handed = o.flag("left_handed", s.left_handed);
+  s.mouse = o.number("mouse", s.mouse);
+  s.wheel = o.number("wheel", s.wheel);
+  s.keyboard = o.number("keyboard", s.keyboard);
+  s.gamepad = o.number("gamepad", s.gamepad);
+  s.invert_x = o.flag("invert_x", s.invert_x);
+  s.invert_y = o.flag("invert_y", s.invert_y);
+  s.invert_view_x = o.flag("invert_view_x", s.invert_view_x);
+  s.invert_view_y = o.flag("invert_view_y", s.invert_view_y);
+  s.mirrored_picture = o.flag("mirrored_picture", s.mirrored_picture);
+  s.stereo = o.text("stereo", s.stereo);
+  s.eye_distance = o.number("eye_distance_mm", s.eye_distance);
+  s.convergence = o.number("convergence_mm", s.convergence);
+  s.swap_eyes = o.flag("swap_eyes", s.swap_eyes);
+  s.views = read_views(o);
+  s.volume = o.number("volume", s.volume);
+  s.text_size = o.number("text_size", s.text_size);
+  s.window_width = o.integer("window_width", s.window_width);
+  s.window_height = o.integer("window_height", s.window_height);
+  s.trainee = training::clean_name(o.text("trainee"));
+  s.show_hint = o.flag("show_hint", s.show_hint);
+  return s;
+}
+
+std::string settings_text(const Settings& s) {
+  const Json json{{"format", 1},
+                  {"left_handed", s.left_handed},
+                  {"mouse", s.mouse},
+                  {"wheel", s.wheel},
+                  {"keyboard", s.keyboard},
+                  {"gamepad", s.gamepad},
+                  {"invert_x", s.invert_x},
+                  {"invert_y", s.invert_y},
+                  {"invert_view_x", s.invert_view_x},
+                  {"invert_view_y", s.invert_view_y},
+                  {"mirrored_picture", s.mirrored_picture},
+                  {"stereo", s.stereo},
+                  {"eye_distance_mm", s.eye_distance},
+                  {"convergence_mm", s.convergence},
+                  {"swap_eyes", s.swap_eyes},
+                  {"layout", name_of(s.views.layout)},
+                  {"pane_1", name_of(s.views.panes[0])},
+                  {"pane_2", name_of(s.views.panes[1])},
+                  {"pane_3", name_of(s.views.panes[2])},
+                  {"pane_4", name_of(s.views.panes[3])},
+                  {"second_window", s.views.elsewhere ? name_of(*s.views.elsewhere) : kOff},
+                  {"volume", s.volume},
+                  {"text_size", s.text_size},
+                  {"window_width", s.window_width},
+                  {"window_height", s.window_height},
+                  {"trainee", s.trainee},
+                  {"show_hint", s.show_hint}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void write_settings(const fs::path& file, const Settings& settings) {
+  training::make_own_folder(file.parent_path());  // the data folder: names are nobody else's business
+  attempt::make_folder(file.parent_path());
+  fs::path fresh = file;
+  fresh += fmt::format(".{}.new", getpid());  // two programs at once write two files
+  const std::string text = settings_text(settings);
+  std::FILE* out = std::fopen(fresh.c_str(), "w");
+  bool good = out && std::fwrite(text.data(), 1, text.size(), out) == text.size();
+  good = good && std::fflush(out) == 0 && fsync(fileno(out)) == 0;
+  if (out) good = std::fclose(out) == 0 && good;
+  std::error_code error;
+  if (good) fs::rename(fresh, file, error);
+  if (good && !error) return;
+  std::error_code ignored;
+  fs::remove(fresh, ignored);
+  throw core::EnvironmentLacks(
+      fmt::format("cannot write {}: make room or allow writing; the settings hold until the end", file.string()));
+}
+
+bool forget_in_settings(const fs::path& file, const std::string& trainee) {
+  std::vector<core::Fault> ignored;
+  Settings s = read_settings(file, ignored);
+  if (s.trainee.empty() || s.trainee != trainee) return false;
+  s.trainee.clear();
+  write_settings(file, s);
+  return true;
+}
+
+pictures::TwoEyes two_eyes(const Settings& s) {
+  pictures::TwoEyes eyes;
+  for (const pictures::StereoName& known : pictures::kStereoNames)
+    if (s.stereo == known.name) eyes.mode = known.mode;
+  eyes.eyes = {float(1e-3 * s.eye_distance), float(1e-3 * s.convergence)};
+  eyes.swapped = s.swap_eyes;
+  return eyes;
+}
+
+devices::HandSettings hand_settings(const Settings& s, int instruments) {
+  devices::HandSettings h;
+  h.instruments = instruments;
+  h.metres_per_pixel *= float(s.mouse);
+  h.view_per_pixel *= float(s.mouse);
+  h.roll_per_pixel *= float(s.mouse);
+  h.metres_per_notch *= float(s.wheel);
+  h.key_speed *= float(s.keyboard);
+  h.key_view *= float(s.keyboard);
+  h.roll_per_second *= float(s.keyboard);
+  h.stick_speed *= float(s.gamepad);
+  h.stick_roll *= float(s.gamepad);
+  h.stick_view *= float(s.gamepad);
+  h.left_handed = s.left_handed;
+  h.invert_x = s.invert_x;
+  h.invert_y = s.invert_y;
+  h.invert_view_x = s.invert_view_x;
+  h.invert_view_y = s.invert_view_y;
+  return h;
+}
+
+}  // namespace trocar::app

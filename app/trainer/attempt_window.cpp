@@ -1,0 +1,401 @@
+#include "trainer/attempt_window.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <trocar/attempt/hand_names.hpp>
+#include <trocar/attempt/paths.hpp>
+#include <trocar/attempt/sources.hpp>
+#include <trocar/core/error.hpp>
+#include <trocar/core/log.hpp>
+
+#include "shell/display_panel.hpp"
+#include "shell/layout_panel.hpp"
+#include "shell/ui.hpp"
+
+namespace trocar::app {
+
+using training::AttemptMode;
+using training::AttemptState;
+
+namespace {
+
+constexpr double kSlowest = 0.05;
+constexpr double kLagging = 0.95;
+constexpr double kFullRate = 62, kYieldingRate = 24;  // [pictures/s] at most; the second while the simulation lags
+
+bool by_hand(const std::string& input) { return input == "mouse" || input == "gamepad"; }
+
+double pull_limit(const attempt::Lesson& lesson) {
+  return lesson.exercise ? lesson.exercise->handling().pull_limit : 5.0;
+}
+
+}  // namespace
+
+AttemptWindow::AttemptWindow(Stage& stage, const attempt::Lesson& lesson, const attempt::AttemptPlan& plan)
+    : m_stage(stage),
+      m_lesson(lesson),
+      m_plan(plan),
+      m_session(lesson),
+      m_log(stage.options.store, m_session, plan),
+      m_panes(lesson.model) {
+  if (by_hand(plan.input)) {
+    m_pilot = std::make_unique<attempt::HandPilot>(lesson.model);
+    m_pilot->set(hand_settings(stage.settings, 0));
+    m_hint = stage.settings.show_hint;
+  } else {
+    m_source = attempt::make_source(lesson, plan.input);
+  }
+  m_gamepad_used = plan.input == "gamepad";
+  if (m_session.monitor()) m_steps = m_session.monitor()->steps();
+  stage.window.set_title("Trocar: " + (lesson.title.empty() ? lesson.name : lesson.title));
+}
+
+double AttemptWindow::now_seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// While it is only practice, people are told what their clip would be worth.
+std::optional<training::ClipOutlook> AttemptWindow::outlook(const sim::State& state) const {
+  if (m_plan.mode != AttemptMode::familiarisation || !m_lesson.exercise) return std::nullopt;
+  if (m_lesson.exercise->kind != training::Exercise::Kind::sterilisation) return std::nullopt;
+  for (int h = 0; h < attempt::hand_count(m_lesson.model); ++h)
+    if (auto o = training::clip_outlook(m_lesson.exercise->goal, m_lesson.model, state, h)) return o;
+  return std::nullopt;
+}
+
+std::string AttemptWindow::mode_text() const {
+  if (m_plan.mode == AttemptMode::familiarisation) return "familiarisation: no score";
+  if (m_plan.mode == AttemptMode::demonstration) return "demonstration";
+  return m_lesson.exercise ? "" : "free practice";
+}
+
+/// Is it scored? Then organs are not looked through.
+bool AttemptWindow::counts() const { return m_plan.mode == AttemptMode::assessed && !m_steps.empty(); }
+
+/// While it counts there is nothing but what the endoscope sees.
+LayoutChoice AttemptWindow::layout() const {
+  LayoutChoice choice = m_stage.settings.views;
+  if (!counts() || m_over) return choice;
+  LayoutChoice plain;
+  if (choice.elsewhere) plain.elsewhere = PaneShows::endoscope;
+  return plain;
+}
+
+std::string AttemptWindow::screen_name() const {
+  return m_over      ? "result"
+         : m_hint    ? "hint"
+         : m_display ? "display"
+         : m_views   ? "views"
+         : m_paused  ? "pause"
+         : m_rack    ? "rack"
+                     : "exercise";
+}
+
+Choice AttemptWindow::run() {
+  m_stage.log.event("attempt", {{"exercise", m_lesson.name},
+                                {"mode", name_of(m_plan.mode)},
+                                {"trainee", m_log.attempt().trainee},
+                                {"recording", m_log.attempt().recording}});
+  const double seconds = m_stage.options.seconds;
+  attempt::Live live(m_session, m_source.get(), seconds > 0 ? std::uint64_t(1000 * seconds) : 0);
+  Choice choice = Choice::none;
+  const auto goes_on = [&] {
+    return choice != Choice::restart && choice != Choice::start_screen && choice != Choice::quit;
+  };
+  while (goes_on() && !m_stage.wants_to_close()) picture(live, choice);
+  if (!m_over) end(live, Ending::left);
+  return m_stage.wants_to_close() ? Choice::quit : choice;
+}
+
+/// Does time stand still?
+bool AttemptWindow::stands_still() const {
+  return m_paused || m_hint || m_over || m_stage.overlay() != Stage::Overlay::none;
+}
+
+void AttemptWindow::hold(const std::string& why) {
+  if (m_over) return;
+  m_paused = true;
+  m_rack = false;
+  m_why_paused = why;
+}
+
+void AttemptWindow::picture(attempt::Live& live, Choice& choice) {
+  Window& window = m_stage.window;
+  const bool hands = m_pilot && !stands_still() && !m_rack;
+  window.set_picture_rate(stands_still() || live.snapshot().speed < 0.97 ? kYieldingRate : kFullRate);
+  m_stage.begin_picture(hands);
+  look_at_keys();
+  live.pause(stands_still());
+  live.refresh();
+  const attempt::Snapshot& now = live.snapshot();
+  lead(live, now);
+  tell(live);
+  warn_of_pull(now);
+  ask_for_the_eye(now);
+  if (now.finished && !m_over) end(live, Ending::came_to_its_end);
+  draw_scene(now);
+  draw_over(now, choice);
+  if (choice == Choice::finish) {
+    end(live, Ending::finished_early);
+    choice = Choice::none;
+  }
+  std::filesystem::path pictures = m_log.attempt().recording;
+  if (pictures.empty()) pictures = "trocar";
+  m_stage.end_picture(screen_name(), pictures);
+  m_stage.governor.frame_took(window.picture_time(), crowds_simulation(now));
+  log_rate(now);
+}
+
+/// Where processors draw, they are the simulation's first: it keeps real time, pictures get cheaper.
+bool AttemptWindow::crowds_simulation(const attempt::Snapshot& now) const {
+  return m_stage.context->draws_on_processors() && !stands_still() && now.speed < kLagging;
+}
+
+/// Once a second: how fast pictures come and time passes, and at which of the governor's levels.
+void AttemptWindow::log_rate(const attempt::Snapshot& now) {
+  if (!m_stage.log.on()) return;
+  ++m_pictures;
+  m_slowest = std::min(m_slowest, now.speed);
+  const double time = now_seconds(), took = time - m_rate_since;
+  if (took < 1) return;
+  if (m_rate_since > 0)
+    m_stage.log.event("rate", {{"tick", now.state.tick},
+                               {"pictures_per_second", std::round(10 * double(m_pictures) / took) / 10},
+                               {"slowest", std::round(100 * m_slowest) / 100},
+                               {"still", stands_still()},
+                               {"level", m_stage.governor.level()}});
+  m_rate_since = time;
+  m_pictures = 0;
+  m_slowest = 1;
+}
+
+void AttemptWindow::look_at_keys() {
+  const Window& window = m_stage.window;
+  if (window.gamepads().lost() && m_gamepad_used)
+    hold("The gamepad is gone: plug it in again, or go on with mouse and keyboard.");
+  if (m_had_focus && !window.focused() && m_pilot && !stands_still()) hold("Another window came to the front.");
+  m_had_focus = window.focused();
+  m_gamepad_used |= touched(window.gamepads().state());
+  if (window.keys().second) {
+    std::optional<PaneShows>& elsewhere = m_stage.settings.views.elsewhere;
+    elsewhere = elsewhere ? std::nullopt : std::optional(PaneShows::endoscope);
+    m_stage.keep_settings();
+  }
+  if (window.keys().layout && !counts()) {
+    Layout& layout = m_stage.settings.views.layout;
+    layout = after(layout);
+    m_stage.keep_settings();
+  }
+  if (m_stage.overlay() != Stage::Overlay::none || m_over || m_hint || m_display || m_views) return;
+  const bool back = window.keys().back, pause = window.keys().pause;
+  if (m_rack && back) {
+    m_rack = false;
+  } else if (back || pause) {
+    m_paused = !m_paused;
+    m_rack = false;
+    m_why_paused.clear();
+  }
+}
+
+void AttemptWindow::lead(attempt::Live& live, const attempt::Snapshot& now) {
+  if (!m_pilot) return;
+  devices::HandSample sample = m_stage.window.hands();
+  sample.dt *=
+      float(std::clamp(now.speed, kSlowest, 1.0));  // where time is slow, held keys and sticks are as slow
+  const bool still = stands_still() || m_rack;
+  if (still) {
+    if (m_rack && !stands_still()) live.put(m_pilot->rest(sample.dt, now.state));
+  } else {
+    if (m_was_still) {
+      m_pilot->set(hand_settings(m_stage.settings, 0));
+      m_pilot->take_up(sample);
+    }
+    live.put(m_pilot->lead(sample, now.state));
+    if (m_pilot->command().rack) m_rack = true;
+  }
+  m_was_still = still;
+}
+
+void AttemptWindow::tell(attempt::Live& live) {
+  const attempt::Snapshot& now = live.snapshot();
+  for (const attempt::Moment& m : live.take_moments()) {
+    const Notice* notice = m_feedback.add(m, now.seconds, now_seconds());
+    if (notice && notice->tone) m_stage.sound.play(*notice->tone);
+    m_stage.log.moment(m_lesson.model, m);
+  }
+  if (const std::string warning = m_log.warning(); warning != m_told_warning) {
+    m_told_warning = warning;
+    m_feedback.add(ui::Mark::warning, warning, now.seconds, now_seconds());
+  }
+  m_stage.log.pose(m_lesson.model, now, m_pilot ? m_pilot->hands().led : 0);
+}
+
+void AttemptWindow::warn_of_pull(const attempt::Snapshot& now) {
+  if (!m_pilot || stands_still()) return;
+  double pull = 0;
+  for (int h = 0; h < attempt::hand_count(m_lesson.model); ++h) pull = std::max(pull, attempt::pull_on(now.state, h));
+  if (m_pull_warning.due(pull, pull_limit(m_lesson), now_seconds())) m_stage.sound.play(Tone::warning);
+}
+
+/// An instrument that comes in waits under its trocar until it is in the picture.
+void AttemptWindow::ask_for_the_eye(const attempt::Snapshot& now) {
+  if (!m_pilot || stands_still()) return;
+  int waits = -1;
+  for (int h = 0; h < attempt::hand_count(m_lesson.model); ++h)
+    if (m_pilot->waits_for_eye(h)) waits = h;
+  if (waits == m_asked_for_eye) return;
+  m_asked_for_eye = waits;
+  if (waits < 0) return;
+  const std::string name = attempt::hand_name(m_lesson.model, waits);
+  const bool gamepad = m_gamepad_used && m_stage.window.gamepads().present();
+  m_feedback.add(ui::Mark::warning,
+                 fmt::format("{}: out of view. Turn the endoscope ({}) towards it, and it comes in", name,
+                             gamepad ? "shoulder button" : "key 0"),
+                 now.seconds, now_seconds());
+  m_stage.log.event("waits-for-eye", {{"tick", now.state.tick}, {"tool", m_lesson.model.hands[size_t(waits)].name}});
+}
+
+void AttemptWindow::draw_panes(const attempt::Snapshot& now) {
+  const render::Quality quality = m_stage.governor.quality();
+  view::SceneView& view = m_stage.view_of(m_lesson);
+  m_panes.draw_others({view, *m_stage.backend, now.state, now.state.tick, quality, m_styles}, false);
+  const Panes::Pane& first = m_panes.first();
+  view::ViewOptions options = m_panes.options(first.shows);
+  options.quality = quality;
+  options.styles = m_styles;
+  options.picture_height = double(first.area.height);
+  render::Frame frame = view.frame(now.state, options);
+  fit_to(first.area, frame);
+  const bool scope = first.shows == PaneShows::endoscope || first.shows == PaneShows::second_scope;
+  const render::Target part = window_target(first.area, m_stage.window.height());
+  const bool copied = m_stage.size_elsewhere().width > 0 && !m_panes.canvas_elsewhere();
+  m_stage.draw_scene(frame, part, scope, [this, part, first_eye = copied]() mutable {
+    if (std::exchange(first_eye, false)) m_stage.first_pane.copy(part);
+    m_panes.lay_others(m_stage.window.height(), m_stage.settings.mirrored_picture);
+  });
+  m_panes.write_over(layout().count() > 1);
+}
+
+/// For tests that drive the window: which panes there are, and where their cameras look.
+void AttemptWindow::tell_views(const LayoutChoice& choice) {
+  if (!m_stage.log.on()) return;
+  Json panes = Json::array();
+  for (const Panes::Pane& p : m_panes.panes())
+    if (!p.elsewhere)
+      panes.push_back({{"shows", name_of(p.shows)}, {"area", {p.area.x, p.area.y, p.area.width, p.area.height}}});
+  const PaneCameras& cameras = m_panes.cameras;
+  const Json line{{"layout", name_of(choice.layout)},
+                  {"panes", panes},
+                  {"outside_yaw", cameras.outside.yaw},
+                  {"second_yaw", cameras.second.pose.yaw},
+                  {"pressure", cameras.analysis.pressure}};
+  if (std::string text = line.dump(); text != m_told_views) {
+    m_told_views = std::move(text);
+    m_stage.log.event("views", line);
+  }
+}
+
+void AttemptWindow::draw_scene(const attempt::Snapshot& now) {
+  const Window& window = m_stage.window;
+  const float panel = panel_width(float(window.width()), window.scale());
+  const int width = std::max(1, window.width() - int(panel)), height = std::max(1, window.height());
+  LayoutChoice choice = layout();
+  m_panes.lay_out(choice, {0, 0, float(width), float(height)}, window.scale(), m_stage.size_elsewhere());
+  m_panes.listen();
+  m_stage.governor.load_becomes(m_panes.load());
+  draw_panes(now);
+  m_stage.show_elsewhere(choice, m_panes.canvas_elsewhere(),
+                         choice.elsewhere ? m_panes.legend_of_pane(*choice.elsewhere) : view::Legend{});
+  if (!choice.elsewhere) m_stage.settings.views.elsewhere.reset();
+  tell_views(choice);
+  ui::set_middle(float(width));
+  const PanelContent content{m_lesson,
+                             now,
+                             m_pilot ? &m_pilot->hands() : nullptr,
+                             m_plan.input == "demo" ? "the scripted surgeon" : m_plan.input,
+                             m_log.attempt().trainee,
+                             mode_text(),
+                             m_steps,
+                             m_feedback,
+                             stands_still(),
+                             m_gamepad_used && m_stage.window.gamepads().present(),
+                             pull_limit(m_lesson),
+                             outlook(now.state)};
+  draw_panel(content, float(width), panel, float(height));
+  if (!stands_still()) draw_notices(m_feedback, now_seconds(), float(width), float(height));
+}
+
+void AttemptWindow::draw_over(const attempt::Snapshot& now, Choice& choice) {
+  choice = Choice::none;  // what was chosen in the last picture has been done
+  if (m_stage.overlay() != Stage::Overlay::none) return;
+  const bool gamepad = m_stage.window.gamepads().present();
+  if (m_over) {
+    choice = draw_result(m_result, mode_text(), m_stage.options.store != nullptr, m_stage.reports.say());
+  } else if (m_hint) {
+    if (draw_hint(gamepad, m_hint_again) == Choice::resume) {
+      m_hint = false;
+      m_stage.settings.show_hint = m_hint_again;
+      m_stage.keep_settings();
+    }
+  } else if (m_display) {
+    if (draw_display(m_stage.view_of(m_lesson).parts(), m_styles) || m_stage.window.keys().back) m_display = false;
+  } else if (m_views) {
+    if (draw_layout_panel(m_stage.settings.views, m_panes) || m_stage.window.keys().back) {
+      m_views = false;
+      m_stage.keep_settings();
+    }
+  } else if (m_paused) {
+    choice = draw_pause(m_why_paused, m_log.attempt().recording, counts(), !counts());
+  } else if (m_rack) {
+    draw_the_rack(now);
+  }
+  if (choice == Choice::resume) m_paused = false, m_why_paused.clear();
+  if (choice == Choice::display) m_display = true;
+  if (choice == Choice::views) m_views = true;
+  if (choice == Choice::settings) m_stage.open(Stage::Overlay::settings);
+  if (choice == Choice::help) m_stage.open(Stage::Overlay::help);
+  if (choice == Choice::report) m_stage.reports.open(m_stage.options.store, m_log.attempt().uuid);
+}
+
+void AttemptWindow::draw_the_rack(const attempt::Snapshot& now) {
+  const Window& window = m_stage.window;
+  const float picture = float(window.width()) - panel_width(float(window.width()), window.scale());
+  const RackChoice c = draw_rack(m_lesson.model, now.state, m_pilot->hands(), picture);
+  if (c.hand != -2) m_pilot->choose(c.hand);
+  if (c.instrument >= 0) m_pilot->take(c.instrument);
+  if (c.panel_keys != 0) m_pilot->press(c.panel_keys);
+  if (c.insert) m_pilot->insert();
+  if (c.ratchet) m_pilot->toggle_ratchet();
+  if (c.fine) m_pilot->toggle_fine();
+  if (c.pause) hold("");
+  if (c.close || c.instrument >= 0 || c.insert || c.ratchet || c.fine) m_rack = false;
+}
+
+void AttemptWindow::end(attempt::Live& live, Ending ending) {
+  live.stop();
+  tell(live);
+  // Practice has no goal, so closing the window is its proper end.
+  // So is closing it in the moment between the last step and the result.
+  const bool left = ending == Ending::left && m_session.monitor() && !m_session.monitor()->finished();
+  m_result = m_session.result(left);
+  if (ending == Ending::finished_early && m_session.monitor() && !m_session.monitor()->finished()) {
+    m_result["finished_early"] = true;
+    if (m_result["passed"].is_boolean()) m_result["passed"] = false;
+  }
+  m_result["input"] = m_plan.input;
+  m_result["slow_motion_share"] = live.slow_share();
+  if (m_source) m_result.update(m_source->describe());
+  m_log.end(m_result, left ? AttemptState::aborted : AttemptState::finished);
+  m_stage.log.event("end", {{"interrupted", left}, {"passed", m_result["passed"]}, {"ticks", m_result["ticks"]}});
+  if (ending == Ending::came_to_its_end) m_stage.sound.play(Tone::finished);
+  if (!m_log.attempt().recording.empty()) core::log::info("recording: {}", m_log.attempt().recording);
+  m_over = true;
+  m_rack = m_paused = m_hint = false;
+}
+
+}  // namespace trocar::app

@@ -1,0 +1,77 @@
+// One attempt in the window, from the first tick to the end of its recording: hands or a source lead, the panel guides,
+// pause, rack, help, result.
+//
+//   AttemptWindow attempt(stage, lesson, plan);
+//   const Choice next = attempt.run();        // restart, start_screen or quit
+#pragma once
+
+#include <trocar/attempt/attempt_log.hpp>
+#include <trocar/attempt/hand_pilot.hpp>
+#include <trocar/attempt/live.hpp>
+
+#include "shell/panes.hpp"
+#include "trainer/feedback.hpp"
+#include "trainer/panel.hpp"
+#include "trainer/trainer_window.hpp"
+
+namespace trocar::app {
+
+class AttemptWindow {
+ public:
+  /// @param plan.input "mouse" or "gamepad": hands; else a source, see make_source()
+  AttemptWindow(Stage& stage, const attempt::Lesson& lesson, const attempt::AttemptPlan& plan);
+  ~AttemptWindow() { m_stage.close_elsewhere(); }
+
+  Choice run();
+  const Json& result() const { return m_result; }
+  const std::string& recording() const { return m_log.attempt().recording; }
+
+ private:
+  enum class Ending { came_to_its_end, finished_early, left };
+
+  void picture(attempt::Live& live, Choice& choice);
+  void look_at_keys();
+  void hold(const std::string& why);
+  bool stands_still() const;
+  void lead(attempt::Live& live, const attempt::Snapshot& now);
+  void tell(attempt::Live& live);
+  void warn_of_pull(const attempt::Snapshot& now);
+  void ask_for_the_eye(const attempt::Snapshot& now);
+  bool crowds_simulation(const attempt::Snapshot& now) const;
+  void log_rate(const attempt::Snapshot& now);
+  void draw_scene(const attempt::Snapshot& now);
+  void draw_panes(const attempt::Snapshot& now);
+  void tell_views(const LayoutChoice& choice);
+  void draw_over(const attempt::Snapshot& now, Choice& choice);
+  void draw_the_rack(const attempt::Snapshot& now);
+  void end(attempt::Live& live, Ending ending);
+  bool counts() const;
+  LayoutChoice layout() const;
+  std::string screen_name() const;
+  std::string mode_text() const;
+  std::optional<training::ClipOutlook> outlook(const sim::State& state) const;
+  double now_seconds() const;
+
+  Stage& m_stage;
+  const attempt::Lesson& m_lesson;
+  attempt::AttemptPlan m_plan;
+  attempt::Session m_session;
+  attempt::AttemptLog m_log;
+  std::unique_ptr<attempt::HandPilot> m_pilot;
+  std::unique_ptr<attempt::InputSource> m_source;
+  std::vector<training::StepStatus> m_steps;
+  Feedback m_feedback;
+  PullWarning m_pull_warning;
+  std::string m_told_warning, m_told_views, m_why_paused;
+  Json m_result;
+  bool m_hint = false, m_hint_again = false, m_paused = false, m_rack = false, m_over = false;
+  bool m_display = false, m_views = false;
+  Panes m_panes;
+  std::vector<view::PartStyle> m_styles;  ///< of the scene's parts
+  bool m_was_still = true, m_gamepad_used = false, m_had_focus = false;
+  int m_pictures = 0;  ///< since m_rate_since
+  double m_rate_since = 0, m_slowest = 1;
+  int m_asked_for_eye = -1;  ///< hand whose insertion waits to be seen, as told
+};
+
+}  // namespace trocar::app

@@ -1,0 +1,31 @@
+// The trainee's program: start screen, settings, help, and the exercise with picture, panel and result. The simulation
+// runs on a thread of its own at 1 kHz and is never waited for nor skipped. Slow machines show slow motion, and say so.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include <trocar/attempt/lesson.hpp>
+#include <trocar/pictures/picture_size.hpp>
+#include <trocar/training/store/store.hpp>
+
+namespace trocar::app {
+
+struct WindowOptions {
+  std::string exercise;         ///< preselected on the start screen; empty: the first
+  std::string record;           ///< file; empty: a name of our own in the user's data folder
+  std::string trainee;          ///< empty: the last one
+  std::string input = "mouse";  ///< mouse or gamepad: hands, by whatever device; or a source: see make_source()
+  std::string log;              ///< JSON lines of events; empty: $TROCAR_WINDOW_LOG, or none
+  std::optional<pictures::PictureSize> size;  ///< nothing: as last time
+  double seconds = 0;                         ///< 0: no limit
+  bool familiarisation = false;               ///< no score
+  training::Store* store = nullptr;           ///< null: nothing is kept but recordings that were asked for
+};
+
+/// Opens the window: with a lesson straight in the exercise, without one on the start screen. Returns the last
+/// attempt's result when it is closed; null where there was none.
+/// @throws core::EnvironmentLacks without a display or OpenGL 3.3
+Json run_window(std::unique_ptr<attempt::Lesson> lesson, const WindowOptions& options);
+
+}  // namespace trocar::app

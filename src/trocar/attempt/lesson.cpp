@@ -1,0 +1,57 @@
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include <trocar/attempt/lesson.hpp>
+#include <trocar/attempt/paths.hpp>
+#include <trocar/attempt/sources.hpp>
+#include <trocar/core/error.hpp>
+#include <trocar/core/log.hpp>
+#include <trocar/scene/compile/compile.hpp>
+#include <trocar/scene/description/vary.hpp>
+#include <trocar/scene/files/reader.hpp>
+#include <trocar/scene/json/json.hpp>
+
+namespace trocar::attempt {
+
+std::unique_ptr<training::Monitor> Lesson::monitor(bool scored) const {
+  const training::Mode mode = scored ? training::Mode::assessed : training::Mode::familiarisation;
+  return exercise ? std::make_unique<training::Monitor>(*exercise, model, mode) : nullptr;
+}
+
+std::unique_ptr<InputSource> Lesson::surgeon() const {
+  if (!exercise)
+    throw core::BadInput({{{name, 0, 0}, "expected an exercise that the scripted surgeon knows, got a bare scene"}});
+  return std::make_unique<SurgeonSource>(*exercise, model);
+}
+
+bool is_exercise(const std::filesystem::path& path) {
+  std::vector<core::Fault> faults;
+  const scene::JsonDocument document = scene::load_json(path, faults);
+  const scene::JsonMember* scene = document.root.find("scene");
+  return scene && scene->value.kind == scene::JsonValue::Kind::string;
+}
+
+std::unique_ptr<Lesson> load_lesson(const std::string& exercise, std::uint64_t seed) {
+  const auto started = std::chrono::steady_clock::now();
+  auto lesson = std::make_unique<Lesson>();
+  lesson->name = exercise;
+  lesson->file = lesson->scene = find_exercise(exercise, scenes_folder());
+  if (is_exercise(lesson->file)) {
+    lesson->exercise = training::read_exercise(lesson->file);
+    lesson->scene = lesson->exercise->scene;
+    lesson->title = lesson->exercise->title;
+  }
+  scene::Description description = scene::read_scene(lesson->scene);
+  if (!lesson->exercise) lesson->title = description.title;
+  lesson->seed = seed;
+  scene::vary(description, seed);
+  core::log::info("compiling {}", lesson->scene.string());
+  lesson->model = scene::compile(description);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - started;
+  lesson->monitor();  // an exercise that does not fit its scene is told here, not when somebody starts it
+  core::log::info("compiled in {:.1f} s: {} free nodes", took.count(), lesson->model.free_nodes());
+  return lesson;
+}
+
+}  // namespace trocar::attempt

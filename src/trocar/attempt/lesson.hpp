@@ -1,0 +1,48 @@
+// An exercise ready to be done: its scene compiled, who watches it, who can demonstrate it. A bare scene is a lesson
+// without a goal: free practice.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <trocar/core/json.hpp>
+#include <trocar/sim/stages/step.hpp>
+#include <trocar/training/exercise/monitor.hpp>
+
+namespace trocar::attempt {
+
+/// Where inputs come from when no hand leads: a file, a recording, the scripted surgeon. One per attempt.
+class InputSource {
+ public:
+  virtual ~InputSource() = default;
+  /// The input of the next tick, from the State as it stands; false: there is no more, the attempt ends.
+  virtual bool next(const sim::State& state, sim::Input& input) = 0;
+  /// What the tick made of it.
+  virtual void after(const sim::State&) {}
+  /// What there is to say about it in the result.
+  virtual Json describe() const { return Json::object(); }
+};
+
+struct Lesson {
+  std::string name;  ///< "gynaecology/sterilisation", or the path as given
+  std::string title;
+  std::filesystem::path file, scene;
+  std::uint64_t seed = 0;  ///< of the anatomy; 0: as drawn
+  sim::Model model;
+  std::optional<training::Exercise> exercise;  ///< nothing for a bare scene
+
+  std::unique_ptr<training::Monitor> monitor(bool scored = true) const;  ///< null for a bare scene
+  std::unique_ptr<InputSource> surgeon() const;  ///< @throws core::BadInput where nobody knows how
+};
+
+/// Exercise files name a scene; scene files do not. False also for what cannot be read.
+bool is_exercise(const std::filesystem::path& path);
+
+/// Reads and compiles what EXERCISE names; tells on stderr when that takes a while.
+/// @param seed varies the anatomy within its healthy range; 0: as drawn. A recording's header holds it.
+/// @throws core::BadInput, core::EnvironmentLacks
+std::unique_ptr<Lesson> load_lesson(const std::string& exercise, std::uint64_t seed = 0);
+
+}  // namespace trocar::attempt

@@ -1,0 +1,108 @@
+#include <algorithm>
+#include <cstdlib>
+#include <string_view>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include <trocar/attempt/lesson.hpp>
+#include <trocar/attempt/paths.hpp>
+#include <trocar/core/error.hpp>
+#include <trocar/scene/files/reader.hpp>
+#include <trocar/scene/json/json.hpp>
+
+namespace trocar::attempt {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value ? value : "";
+}
+
+std::string title_of(const fs::path& path) {
+  std::vector<core::Fault> faults;
+  const scene::JsonDocument document = scene::load_json(path, faults);
+  const scene::JsonMember* title = document.root.find("title");
+  return title ? title->value.text : std::string{};
+}
+
+}  // namespace
+
+fs::path scenes_folder() {
+  std::error_code error;
+  if (const std::string given = environment("TROCAR_SCENES"); !given.empty()) {
+    if (!fs::is_directory(given, error))
+      throw core::EnvironmentLacks(
+          fmt::format("TROCAR_SCENES names '{}', which is no folder: unset or correct it", given));
+    return given;
+  }
+  const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
+  for (const fs::path& candidate :
+       {program / "../../scenes", program / "../share/trocar/scenes", fs::path(TROCAR_SOURCE_DIR) / "scenes"})
+    if (fs::is_directory(candidate, error)) return fs::weakly_canonical(candidate, error);
+  throw core::EnvironmentLacks("there is no folder 'scenes' near the program: set TROCAR_SCENES to it");
+}
+
+std::vector<ExerciseEntry> list_exercises(const fs::path& scenes) {
+  std::vector<ExerciseEntry> list;
+  for (const scene::SceneEntry& s : scene::list_scenes(scenes)) {
+    std::error_code error;
+    for (const fs::directory_entry& file : fs::directory_iterator(s.path.parent_path(), error))
+      if (file.path().extension() == ".json" && is_exercise(file.path()))
+        list.push_back({s.name + "/" + file.path().stem().string(), title_of(file.path()), file.path()});
+  }
+  constexpr std::string_view kFirst = "gynaecology/sterilisation";  // what people begin with
+  std::sort(list.begin(), list.end(), [&](const ExerciseEntry& a, const ExerciseEntry& b) {
+    return std::pair(a.name != kFirst, a.name) < std::pair(b.name != kFirst, b.name);
+  });
+  return list;
+}
+
+std::vector<ExerciseEntry> list_trainings(const fs::path& scenes) {
+  std::vector<ExerciseEntry> list = list_exercises(scenes);
+  const auto is_in = [&list](const std::string& scene) {
+    return std::any_of(list.begin(), list.end(),
+                       [&](const ExerciseEntry& e) { return e.name.rfind(scene + "/", 0) == 0; });
+  };
+  for (const scene::SceneEntry& s : scene::list_scenes(scenes))
+    if (!is_in(s.name)) list.push_back({s.name, s.title, s.path, false});
+  return list;
+}
+
+fs::path find_exercise(const std::string& name, const fs::path& scenes) {
+  std::error_code error;
+  for (const fs::path& candidate : {fs::path(name), scenes / (name + ".json"), scenes / name / "scene.json"})
+    if (fs::is_regular_file(candidate, error)) return candidate;
+  std::vector<std::string> known;
+  for (const ExerciseEntry& e : list_exercises(scenes)) known.push_back(e.name);
+  for (const scene::SceneEntry& s : scene::list_scenes(scenes)) known.push_back(s.name);
+  throw core::BadInput({{{name, 0, 0}, scene::unknown_name("a file, an exercise or a scene", name, known)}});
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder))
+    throw core::EnvironmentLacks(fmt::format("cannot create the folder {}: {}", folder.string(), error.message()));
+}
+
+fs::path data_folder() {
+  if (const std::string given = environment("TROCAR_DATA"); !given.empty()) return given;
+  if (const std::string data = environment("XDG_DATA_HOME"); !data.empty()) return fs::path(data) / "trocar";
+  const std::string home = environment("HOME");
+  return fs::path(home.empty() ? "." : home) / ".local/share/trocar";
+}
+
+fs::path unused(const fs::path& path) {
+  fs::path candidate = path;
+  for (int i = 2; fs::exists(candidate); ++i) {
+    candidate = path;
+    candidate.replace_filename(fmt::format("{}-{}{}", path.stem().string(), i, path.extension().string()));
+  }
+  return candidate;
+}
+
+}  // namespace trocar::attempt

@@ -1,0 +1,295 @@
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <trocar/attempt/session.hpp>
+#include <trocar/core/error.hpp>
+#include <trocar/core/hash.hpp>
+#include <trocar/core/log.hpp>
+#include <trocar/training/exercise/hands.hpp>
+
+namespace trocar::attempt {
+namespace {
+
+struct FlagName {
+  std::uint32_t bit;
+  const char* name;
+};
+constexpr FlagName kFlags[] = {
+    {tissue::StepReport::kNonFinite, "non_finite"},     {tissue::StepReport::kInverted, "inverted_cells"},
+    {tissue::StepReport::kBadLoad, "bad_load"},         {tissue::StepReport::kIndefinite, "indefinite"},
+    {sim::StepReport::kTooManyLoads, "too_many_loads"}, {sim::StepReport::kBadInput, "bad_input"},
+    {sim::StepReport::kBookFull, "book_full"},          {sim::StepReport::kHeatFull, "heat_full"},
+    {sim::StepReport::kDropsFull, "drops_full"},        {sim::StepReport::kBloodFlow, "blood_flow"},
+};
+
+std::string body_name(const sim::Model& model, std::int32_t body) {
+  if (body < 0) return "nothing";
+  if (body >= interactions::kMembraneBase) return model.membranes[size_t(body - interactions::kMembraneBase)].name;
+  if (body >= interactions::kSolidBase) return model.organ_name(body - interactions::kSolidBase);
+  return model.strands[size_t(body)].name;
+}
+
+std::string cut_name(const sim::Model& model, const interactions::Cut& cut) {
+  if (cut.solid >= 0) return model.organ_name(cut.solid);
+  if (cut.strand < 0 && cut.membrane >= 0) return model.membranes[size_t(cut.membrane)].name;
+  return body_name(model, cut.strand);
+}
+
+}  // namespace
+
+std::filesystem::path keep_older(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error) || std::filesystem::file_size(path, error) == 0) return {};
+  std::filesystem::path kept;
+  for (int n = 1; kept.empty() || std::filesystem::exists(kept, error); ++n)
+    kept = path.parent_path() / fmt::format("{}-older-{}{}", path.stem().string(), n, path.extension().string());
+  std::filesystem::rename(path, kept, error);
+  if (error)
+    throw core::EnvironmentLacks(
+        fmt::format("{} is there and cannot be kept under another name ({}): record to another file or move that one",
+                    path.string(), error.message()));
+  core::log::info("{} was there: it is now {}", path.string(), kept.string());
+  return kept;
+}
+
+std::vector<std::string> flag_names(std::uint32_t flags) {
+  std::vector<std::string> names;
+  for (const FlagName& f : kFlags)
+    if (flags & f.bit) names.emplace_back(f.name);
+  return names;
+}
+
+Session::Session(const Lesson& lesson, int threads)
+    : m_lesson(lesson),
+      m_pool(threads),
+      m_state(sim::initial_state(lesson.model)),
+      m_work(sim::make_work(lesson.model, &m_pool)),
+      m_monitor(lesson.monitor()),
+      m_trace(lesson.model) {
+  for (size_t t = 0; t < lesson.model.hands.size(); ++t) m_tip[t] = training::tip_of(lesson.model, m_state, t);
+  if (m_monitor) m_steps_done.resize(m_monitor->steps().size());
+}
+
+void Session::record(const std::filesystem::path& path, const training::Attempt& attempt) {
+  sim::RecordingHeader header;
+  header.model_hash = m_lesson.model.hash;
+  header.seed = m_lesson.seed;
+  header.exercise = m_lesson.name;
+  header.program_version = TROCAR_VERSION;
+  header.metadata_json = Json{{"trainee", attempt.trainee}, {"input", attempt.input},   {"started", attempt.started},
+                              {"uuid", attempt.uuid},       {"number", attempt.number}, {"mode", name_of(attempt.mode)},
+                              {"title", attempt.title}}
+                             .dump(-1, ' ', false, Json::error_handler_t::replace);
+  m_writer = std::make_unique<sim::RecordingWriter>(path, header);
+  m_recording = path;
+  m_writer->hash(m_state.tick, mark());
+  m_writer->keyframe(m_state.tick, sim::display_bytes(m_lesson.model, m_state));
+  m_writer->flush();
+}
+
+const sim::StepReport& Session::advance(const sim::Input& input) {
+  m_moments.clear();
+  if (!m_broken.empty()) return m_report;
+  if (m_writer) m_writer->tick(m_state.tick, input);
+  m_inputs_hash = core::hash_bytes(&input, sizeof input, m_inputs_hash);
+  m_report = sim::step(m_lesson.model, input, m_state, m_work);
+  m_flags |= m_report.flags;
+  if (!m_report.fine())
+    m_broken = fmt::format("the tissue's motion failed in tick {} (body {}, node {}): a fault of the simulation",
+                           m_state.tick, m_report.first_bad_body, m_report.first_bad_index);
+  for (size_t t = 0; t < m_lesson.model.hands.size(); ++t) {
+    const Vec3d tip = training::tip_of(m_lesson.model, m_state, t);
+    m_path[t] += length(tip - m_tip[t]);
+    m_tip[t] = tip;
+  }
+  if (m_monitor) m_monitor->update(m_lesson.model, m_state, m_report);
+  m_trace.update(m_lesson.model, m_state, m_report);
+  if (m_exercise_from < 0 && m_monitor && m_monitor->seconds() > 0)
+    m_exercise_from = double(m_state.tick) * sim::kTick - m_monitor->seconds();
+  collect_moments();
+  keep_moments();
+  if (m_writer && m_state.tick % sim::kHashEvery == 0) m_writer->hash(m_state.tick, mark());
+  if (m_writer && m_state.tick % sim::kKeyframeEvery == 0)
+    m_writer->keyframe(m_state.tick, sim::display_bytes(m_lesson.model, m_state));
+  note_failure();
+  return m_report;
+}
+
+void Session::note_failure() {
+  if (!m_writer || m_writer->failure().empty()) return;
+  const std::lock_guard lock(m_failure_lock);
+  if (!m_recording_failure.empty()) return;
+  m_recording_failure = m_writer->failure();
+  core::log::error("{}", m_recording_failure);
+}
+
+std::string Session::recording_failure() const {
+  const std::lock_guard lock(m_failure_lock);
+  return m_recording_failure;
+}
+
+std::vector<std::uint8_t> Session::trace_bytes() const { return training::to_bytes(m_trace.trace()); }
+
+void Session::keep_moments() {
+  for (const Moment& m : m_moments) {
+    if (m_kept.size() >= kMaxKept) return;
+    if (m.what == "closed-empty") continue;
+    m_kept.push_back({m, {}});
+    if (m_kept.size() <= kMaxLooks) m_kept.back().display = sim::display_bytes(m_lesson.model, m_state);
+  }
+}
+
+std::uint64_t Session::mark() const {
+  core::Hasher hasher;
+  hasher.add(sim::hash_of(m_state));
+  hasher.add(m_inputs_hash);
+  return hasher.value();
+}
+
+void Session::add_moment(const char* what, int tool, std::string text) {
+  m_moments.push_back({m_state.tick, what, tool, std::move(text)});
+}
+
+void Session::collect_moments() {
+  using Kind = sim::Event::Kind;
+  const sim::Model& model = m_lesson.model;
+  for (int i = 0; i < m_report.event_count; ++i) {
+    const sim::Event& e = m_report.events[i];
+    const std::string& who = model.tool(m_state, size_t(e.tool)).name;
+    ++m_counts[size_t(e.kind)];
+    switch (e.kind) {
+      case Kind::none:
+        break;
+      case Kind::grasped:
+        add_moment("grasped", e.tool, fmt::format("{} grasped {}", who, body_name(model, e.index)));
+        break;
+      case Kind::released:
+        add_moment("released", e.tool, who + " let go");
+        break;
+      case Kind::slipped:
+        add_moment("slipped", e.tool, who + " slipped");
+        break;
+      case Kind::clipped:
+        add_moment("clipped", e.tool,
+                   fmt::format("clip on {}", body_name(model, m_state.clips[size_t(e.index)].strand)));
+        break;
+      case Kind::dropped_clip:
+        add_moment("clip-dropped", e.tool, "a clip closed on nothing");
+        break;
+      case Kind::exchanged:
+        add_moment("exchanged", e.tool, fmt::format("{}: {}", model.hands[size_t(e.tool)].name, who));
+        break;
+      case Kind::torn:
+        add_moment("torn", e.tool, body_name(model, e.index) + " tore");
+        break;
+      case Kind::parted:
+        add_moment("parted", e.tool, fmt::format("{} parted {}", who, body_name(model, e.index)));
+        break;
+      case Kind::cut:
+        add_moment("cut", e.tool, fmt::format("{} cut {}", who, cut_name(model, m_state.cuts[size_t(e.index)])));
+        break;
+    }
+  }
+  for (size_t t = 0; t < model.hands.size(); ++t) {
+    const interactions::ToolState& tool = m_state.tools[t];
+    const bool empty =
+        model.tool(m_state, t).kind == interactions::ToolKind::grasper && tool.holds == 0 && tool.aperture < 0.05;
+    if (empty && !m_closed_empty[t])
+      add_moment("closed-empty", int(t), model.tool(m_state, t).name + " closed on nothing");
+    m_closed_empty[t] = empty;
+  }
+  if (!m_monitor) return;
+  for (size_t i = 0; i < m_steps_done.size(); ++i) {
+    const training::StepStatus& step = m_monitor->steps()[i];
+    if (step.done && !m_steps_done[i]) add_moment("step-done", -1, step.name);
+    m_steps_done[i] = step.done;
+  }
+  for (; m_errors_told < m_monitor->errors().size(); ++m_errors_told) {
+    const training::ErrorMade& error = m_monitor->errors()[m_errors_told];
+    add_moment("error", -1, fmt::format("{}: {}", error.code, error.meaning));
+    m_moments.back().code = error.code;
+    m_moments.back().hint = error.hint;
+  }
+}
+
+Json Session::result(bool interrupted) const {
+  const sim::Model& model = m_lesson.model;
+  const bool passed = !interrupted && m_broken.empty() && m_monitor && m_monitor->score().passed;
+  Json r;
+  r["exercise"] = m_lesson.name;
+  r["seed"] = m_lesson.seed;
+  r["passed"] = m_monitor && m_scored ? Json(passed) : Json(nullptr);
+  if (!m_broken.empty()) r["failure"] = m_broken;
+  if (interrupted) r["interrupted"] = true;
+  // Two clocks: all that was simulated, and what counts, from the first motion of an instrument to the last goal.
+  r["simulated_seconds"] = double(m_state.tick) * sim::kTick;
+  if (m_monitor) {
+    r["exercise_seconds"] = m_monitor->seconds();
+    r["assessment"] = Json::parse(m_monitor->result_json());
+  }
+  if (m_exercise_from >= 0) r["exercise_from_s"] = m_exercise_from;
+  r["metrics"] = Json::parse(training::metrics_json(m_trace.trace(), metrics_options()));
+  Json tools = Json::array();
+  for (size_t t = 0; t < model.hands.size(); ++t)
+    tools.push_back({{"name", model.tool(m_state, t).name},
+                     {"trocar", model.hands[t].name},
+                     {"path_length_mm", m_path[t] * 1000},
+                     {"clips_left", m_state.tools[t].clips_left},
+                     {"slips", m_state.tools[t].slipped}});
+  r["instruments"] = tools;
+  r["grasps"] = m_counts[sim::Event::grasped];
+  r["clips"] = m_counts[sim::Event::clipped];
+  r["clips_dropped"] = m_counts[sim::Event::dropped_clip];
+  r["cuts"] = m_counts[sim::Event::cut];
+  r["tears"] = m_counts[sim::Event::torn];
+  Json moments = Json::array();
+  for (const KeptMoment& k : m_kept)
+    moments.push_back({{"tick", k.moment.tick}, {"what", k.moment.what}, {"text", k.moment.text}});
+  r["moments"] = moments;
+  r["flags"] = flag_names(m_flags);
+  r["tissue_survived"] = m_broken.empty();
+  r["ticks"] = m_state.tick;
+  r["state_hash"] = core::hex(sim::hash_of(m_state));
+  r["model_hash"] = core::hex(model.hash);
+  if (m_writer) r["recording"] = m_recording.string();
+  return r;
+}
+
+/// Motion is measured up to the last step that was done; an attempt that is not finished, to its end. Forces are held
+/// against the limits that its errors are held against.
+training::MetricsOptions Session::metrics_options() const {
+  training::MetricsOptions options;
+  if (m_lesson.exercise) {
+    options.force_limits[training::kPull] = m_lesson.exercise->handling().pull_limit;
+    options.force_limits[training::kPinch] = m_lesson.exercise->handling().pinch_limit;
+  }
+  if (!m_monitor || !m_monitor->finished() || m_exercise_from < 0) return options;
+  options.end = 0;
+  for (const training::StepStatus& step : m_monitor->steps()) options.end = std::max(options.end, step.at);
+  return options;
+}
+
+void Session::set_scored(bool scored) {
+  m_scored = scored;
+  if (m_state.tick == 0) m_monitor = m_lesson.monitor(scored);
+}
+
+std::string Session::finish(const Json& result) {
+  if (!m_writer) return {};
+  if (m_state.tick % sim::kHashEvery != 0) m_writer->hash(m_state.tick, mark());
+  m_writer->finish(result.dump(-1, ' ', false, Json::error_handler_t::replace));
+  note_failure();
+  m_writer.reset();
+  if (const std::string fault = recording_failure(); !fault.empty()) return fault;
+  const int file = open(m_recording.c_str(), O_RDONLY | O_CLOEXEC);  // a power cut takes nothing back
+  const bool safe = file >= 0 && fsync(file) == 0;
+  if (file >= 0) close(file);
+  return safe ? "" : fmt::format("recording {}: {}", m_recording.string(), std::strerror(errno));
+}
+
+}  // namespace trocar::attempt

@@ -1,0 +1,229 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include <trocar/core/decimal.hpp>
+#include <trocar/geometry/formats/mesh_source.hpp>
+
+namespace trocar::geometry {
+namespace {
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v'; }
+bool is_space(char c) { return is_blank(c) || c == '\n'; }
+
+std::size_t word_end(std::string_view text, std::size_t at) {
+  while (at < text.size() && !is_space(text[at])) ++at;
+  return at;
+}
+
+}  // namespace
+
+std::string quoted(std::string_view text) {
+  constexpr std::size_t limit = 40;
+  std::string out = "'";
+  for (const char c : text.substr(0, limit)) out += c >= ' ' && c <= '~' ? c : '?';
+  return out + (text.size() > limit ? "...'" : "'");
+}
+
+std::string_view MeshSource::line() {
+  const std::size_t from = m_at, end = std::min(m_bytes.find('\n', from), m_bytes.size());
+  m_at = std::min(end + 1, m_bytes.size());
+  std::string_view text = m_bytes.substr(from, end - from);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  return text;
+}
+
+void MeshSource::skip_space() {
+  while (m_at < m_bytes.size() && is_space(m_bytes[m_at])) ++m_at;
+}
+
+std::string_view MeshSource::word() {
+  skip_space();
+  const std::size_t from = m_at;
+  m_at = word_end(m_bytes, from);
+  return m_bytes.substr(from, m_at - from);
+}
+
+std::string_view MeshSource::peek_word() {
+  skip_space();
+  return m_bytes.substr(m_at, word_end(m_bytes, m_at) - m_at);
+}
+
+bool MeshSource::word_on_line() {
+  while (m_at < m_bytes.size() && is_blank(m_bytes[m_at])) ++m_at;
+  return m_at < m_bytes.size() && m_bytes[m_at] != '\n';
+}
+
+void MeshSource::begin_value() {
+  if (binary()) return;
+  if (m_by_line)
+    word_on_line();
+  else
+    skip_space();
+}
+
+bool MeshSource::value_follows() {
+  begin_value();
+  return word_on_line();
+}
+
+void MeshSource::begin_record() {
+  if (!binary()) skip_space();
+}
+
+void MeshSource::end_record() {
+  if (binary() || !m_by_line) return;
+  if (word_on_line()) fault(m_at, fmt::format("expected the end of the line, got {}", shown(m_at)));
+  skip_line();
+}
+
+void MeshSource::skip_line() {
+  if (!binary()) line();
+}
+
+std::string MeshSource::shown(std::size_t at) const {
+  while (at < m_bytes.size() && is_blank(m_bytes[at])) ++at;
+  if (at >= m_bytes.size()) return "the end of the file";
+  if (m_bytes[at] == '\n') return "the end of the line";
+  return quoted(m_bytes.substr(at, word_end(m_bytes, at) - at));
+}
+
+bool MeshSource::number_word(std::string_view& text, std::size_t& at, const char* what) {
+  if (!value_follows()) {
+    if (left() == 0) lose(m_at, fmt::format("expected {}, got the end of the file", what));
+    fault(m_at, fmt::format("expected {}, got {}", what, shown(m_at)));
+    return false;
+  }
+  at = m_at;
+  text = word();
+  return true;
+}
+
+const unsigned char* MeshSource::take(int width, const char* what) {
+  if (left() < std::size_t(width))
+    lose(m_at, fmt::format("expected {} of {} bytes, got the end of the file after {}", what, width, left()));
+  const auto* from = reinterpret_cast<const unsigned char*>(m_bytes.data()) + m_at;
+  m_at += std::size_t(width);
+  return from;
+}
+
+namespace {
+
+/// The number that the machine has where these bytes stand.
+template <class T>
+T from_bytes(const unsigned char* bytes, bool swapped) {
+  std::array<unsigned char, sizeof(T)> own{};
+  for (std::size_t i = 0; i < sizeof(T); ++i) own[i] = bytes[swapped ? sizeof(T) - 1 - i : i];
+  T value;
+  std::memcpy(&value, own.data(), sizeof(T));
+  return value;
+}
+
+}  // namespace
+
+bool MeshSource::integer(std::int64_t& value, int width, const char* what) {
+  value = 0;
+  if (binary()) {
+    const unsigned char* bytes = take(width, what);
+    const bool swapped = m_form == Form::binary_swapped;
+    value = width == 8   ? from_bytes<std::int64_t>(bytes, swapped)
+            : width == 4 ? from_bytes<std::int32_t>(bytes, swapped)
+            : width == 2 ? from_bytes<std::int16_t>(bytes, swapped)
+                         : from_bytes<std::int8_t>(bytes, swapped);
+    return true;
+  }
+  std::string_view text;
+  std::size_t at = 0;
+  if (!number_word(text, at, what)) return false;
+  const auto number = core::to_integer(text);
+  if (number)
+    value = *number;
+  else
+    fault(at, fmt::format("expected {}, got {}", what, quoted(text)));
+  return number.has_value();
+}
+
+bool MeshSource::real(double& value, int width, const char* what) {
+  value = 0;
+  std::string_view text;
+  std::size_t at = m_at;
+  if (binary()) {
+    const unsigned char* bytes = take(width, what);
+    const bool swapped = m_form == Form::binary_swapped;
+    value = width == 8 ? from_bytes<double>(bytes, swapped) : double(from_bytes<float>(bytes, swapped));
+    if (std::isfinite(value)) return true;
+    fault(at, fmt::format("expected {}, got {}", what, value));
+    value = 0;
+    return false;
+  }
+  if (!number_word(text, at, what)) return false;
+  if (core::is_decimal(text)) value = core::to_double(text);
+  if (core::is_decimal(text) && std::isfinite(value)) return true;
+  fault(at, fmt::format("expected {}, got {}", what, quoted(text)));
+  value = 0;
+  return false;
+}
+
+std::size_t MeshSource::count(const char* things, std::size_t least, int width) {
+  begin_value();
+  const std::size_t from = m_at;
+  std::int64_t value = 0;
+  if (!integer(value, width, fmt::format("the number of {}", things).c_str())) finish();
+  const std::size_t most = left() / least;
+  if (value < 0) lose(from, fmt::format("expected the number of {}, got {}", things, value));
+  if (std::uint64_t(value) > most)
+    lose(from, fmt::format("expected at most {} {}, for which the {} bytes that follow have room, got {} announced",
+                           most, things, left(), value));
+  return std::size_t(value);
+}
+
+void MeshSource::skip_bytes(std::uint64_t bytes, const char* what) {
+  if (bytes > left()) lose(m_at, fmt::format("expected {} bytes of {}, got {}", bytes, what, left()));
+  m_at += std::size_t(bytes);
+}
+
+void MeshSource::fault(std::size_t at, std::string message) {
+  m_faults.push_back({at, binary(), std::move(message)});
+  if (m_faults.size() < kMaxMeshFaults) return;
+  m_faults.push_back({at, binary(), "expected fewer faults: from here on none is told"});
+  tell_all();
+}
+
+void MeshSource::lose(std::size_t at, std::string message) {
+  m_faults.push_back({at, binary(), std::move(message)});
+  tell_all();
+}
+
+void MeshSource::finish() const {
+  if (!m_faults.empty()) tell_all();
+}
+
+void MeshSource::tell_all() const {
+  std::vector<Fault> sorted = m_faults;
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Fault& a, const Fault& b) { return a.at < b.at; });
+  std::vector<core::Fault> told;
+  std::size_t at = 0, line_start = 0;
+  int line = 1;
+  for (const Fault& fault : sorted) {
+    if (fault.at == kWholeFile) {
+      told.push_back({{m_file, 0, 0}, fault.message});
+      continue;
+    }
+    for (; at < std::min(fault.at, m_bytes.size()); ++at)
+      if (m_bytes[at] == '\n') {
+        ++line;
+        line_start = at + 1;
+      }
+    if (fault.binary)
+      told.push_back({{m_file, 0, 0}, fmt::format("at byte {}: {}", fault.at, fault.message)});
+    else
+      told.push_back({{m_file, line, int(fault.at - line_start) + 1}, fault.message});
+  }
+  throw core::BadInput(std::move(told));
+}
+
+}  // namespace trocar::geometry

@@ -1,0 +1,210 @@
+#include <algorithm>
+
+#include <trocar/collision/rods.hpp>
+#include <trocar/geometry/surfaces/nearest.hpp>
+#include <trocar/interactions/contact/body_contact.hpp>
+#include <trocar/interactions/contact/body_friction.hpp>
+
+namespace trocar::interactions {
+namespace {
+
+constexpr double kStiffness = 150;    // [N/m] per sample, implicit on both sides
+constexpr double kDamping = 0.05;     // [N s/m]
+constexpr double kQuickest = 0.0006;  // [m] a tick that two organs are moved apart
+constexpr double kDeepest = 0.010;    // [m] deeper than this is not contact but another side of the body
+constexpr double kBeside = 0.012;     // [m] farther than this from the nearest vertex, its plane says nothing
+constexpr double kJoined = 0.030;     // [m] drawn no farther apart than this, strands are joined by a fold
+
+bool touches(const Surface& surface, int vertex, Vec3d p, double depth) noexcept {
+  return depth > 0 && depth <= kDeepest && length(p - surface.position(vertex)) <= kBeside;
+}
+
+/// Far from the last vertex that was nearest, and not yet its turn to be looked for again?
+bool waits(const Surface& surface, Vec3d p, std::uint64_t turn, int vertex) noexcept {
+  constexpr double kFar = 0.025;       // [m]
+  constexpr std::uint64_t kTurns = 8;  // in which nothing comes from there to here
+  return geometry::distance2(surface.position(vertex), p) > kFar * kFar && turn % kTurns != 0;
+}
+
+/// Looks for the vertex nearest to p from the last one on.
+/// @return is it near enough for contact?
+bool beside(const Surface& surface, Vec3d p, std::int32_t& vertex) noexcept {
+  constexpr double kBeside2 = kBeside * kBeside * 1.000001;
+  vertex = walk_to_nearest(surface, vertex, p);
+  return geometry::distance2(surface.position(vertex), p) <= kBeside2;
+}
+
+/// Pushes surface vertex `v` along -n by the share of the depth that its body takes.
+void push_surface(const Surface& surface, int v, Vec3d n, double depth, NetworkLoads* loads) noexcept {
+  if (!loads) return;
+  SkinLoad back;
+  back.k = kStiffness;
+  back.shift = -0.5 * std::min(depth, kQuickest) * n;
+  back.dir = n;
+  back.d = kDamping;
+  add_skin_load(surface.nodes, *surface.skin, v, back, {Owner::body, 0, 0}, *loads);
+}
+
+/// Where a wall is touched, nothing moves.
+Vec3d velocity_of(const Surface& surface, int v) noexcept {
+  return surface.moves() ? tissue::skin_velocity(surface.nodes, *surface.skin, v) : Vec3d{0, 0, 0};
+}
+
+}  // namespace
+
+void strand_on_surface(const SurfacePair& pair, const StrandBody& body, const tissue::StrandState& state,
+                       const Surface& surface, std::uint64_t tick, std::span<std::int32_t> nearest,
+                       StrandLoads& strand_loads, NetworkLoads* surface_loads) noexcept {
+  const double share = surface_loads ? 0.5 : 1.0;
+  for (size_t i = 0; i < pair.sample.size(); ++i) {
+    const int node = pair.sample[i];
+    const Vec3d p = state.x[size_t(node)];
+    if (!surface.pose->bounds.reaches(p, 0.006) || waits(surface, p, tick + i, nearest[i])) continue;
+    if (!beside(surface, p, nearest[i])) continue;
+    const Clearance c = clearance_at(surface, nearest[i], p);
+    const double depth = double(pair.radius[i]) - c.distance - double(pair.overlap[i]);
+    if (!touches(surface, nearest[i], p, depth) || surface.torn(nearest[i])) continue;
+    const int e = std::min(node, body.nodes() - 2);
+    tissue::StrandLoad load;
+    load.element = e;
+    load.w = node == e ? 0.0 : 1.0;
+    load.k = kStiffness;
+    load.dir = c.normal;
+    load.d = kDamping;
+    load.x0 = p + share * std::min(depth, kQuickest) * c.normal;
+    strand_loads.add(load, {Owner::body, 0, 0});
+    push_surface(surface, nearest[i], c.normal, depth, surface_loads);
+    const Vec3d ours = state.v[size_t(node)], theirs = velocity_of(surface, nearest[i]);
+    const BodyRub rub = body_rub(kStiffness * share * std::min(depth, kQuickest), c.normal, ours, theirs);
+    rub_strand(e, load.w, rub, theirs, strand_loads);
+    if (surface_loads) rub_skin(surface, nearest[i], rub, ours, *surface_loads);
+  }
+}
+
+void solid_on_surface(const SurfacePair& pair, const Surface& samples, const Surface& surface, std::uint64_t tick,
+                      std::span<std::int32_t> nearest, NetworkLoads& sample_loads,
+                      NetworkLoads* surface_loads) noexcept {
+  if (!surface.pose->bounds.near_box(samples.pose->bounds, 0.002f)) return;
+  const double share = surface_loads ? 0.5 : 1.0;
+  for (size_t i = 0; i < pair.sample.size(); ++i) {
+    const int v = pair.sample[i];
+    if (!samples.skin->at_surface(v)) continue;
+    const Vec3d p = samples.position(v);
+    if (!surface.pose->bounds.reaches(p, 0.004) || waits(surface, p, tick + i, nearest[i])) continue;
+    if (samples.torn(v) || !beside(surface, p, nearest[i])) continue;  // torn() reads eight nodes: it comes late
+    const Clearance c = clearance_at(surface, nearest[i], p);
+    const double depth = -c.distance - double(pair.overlap[i]);
+    if (!touches(surface, nearest[i], p, depth) || surface.torn(nearest[i])) continue;
+    SkinLoad load;
+    load.k = kStiffness;
+    load.shift = share * std::min(depth, kQuickest) * c.normal;
+    load.dir = c.normal;
+    load.d = kDamping;
+    add_skin_load(samples.nodes, *samples.skin, v, load, {Owner::body, 0, 0}, sample_loads);
+    push_surface(surface, nearest[i], c.normal, depth, surface_loads);
+    const Vec3d ours = velocity_of(samples, v), theirs = velocity_of(surface, nearest[i]);
+    const BodyRub rub = body_rub(kStiffness * share * std::min(depth, kQuickest), c.normal, ours, theirs);
+    rub_skin(samples, v, rub, theirs, sample_loads);
+    if (surface_loads) rub_skin(surface, nearest[i], rub, ours, *surface_loads);
+  }
+}
+
+namespace {
+
+collision::Capsule rod(const StrandBody& body, const tissue::StrandState& state, int element) noexcept {
+  const size_t e = size_t(element);
+  return {state.x[e], state.x[e + 1], body.model.radius[e]};
+}
+
+double middle_distance(const tissue::StrandState& a, int i, const tissue::StrandState& b, int j) noexcept {
+  const Vec3d d = a.x[size_t(i)] + a.x[size_t(i) + 1] - b.x[size_t(j)] - b.x[size_t(j) + 1];
+  return dot(d, d);
+}
+
+/// The element of b whose middle is nearest to that of a's element i, downhill from `start`.
+int walk_along(const tissue::StrandState& a, int i, const tissue::StrandState& b, int start, int last,
+               double& best) noexcept {
+  int j = std::clamp(start, 0, last);
+  best = middle_distance(a, i, b, j);
+  for (int step = 0; step < 64; ++step) {
+    const int from = j;
+    for (int next : {from - 1, from + 1}) {
+      if (next < 0 || next > last) continue;
+      const double d = middle_distance(a, i, b, next);
+      if (d >= best) continue;
+      best = d;
+      j = next;
+    }
+    if (j == from) break;
+  }
+  return j;
+}
+
+/// Are two elements too far apart for anything to be remembered?
+/// @param apart2  square of twice the distance of their middles [m^2]
+bool out_of_reach(const StrandBody& a, const tissue::StrandState& a_state, int i, const StrandBody& b,
+                  const tissue::StrandState& b_state, int j, double apart2) noexcept {
+  const size_t k = size_t(i), l = size_t(j);
+  const double reach = a.model.radius[k] + b.model.radius[l] + collision::kLost;
+  const double size2 =
+      geometry::distance2(a_state.x[k], a_state.x[k + 1]) + geometry::distance2(b_state.x[l], b_state.x[l + 1]);
+  return apart2 > 8 * reach * reach + 4 * size2;  // (r + s)^2 <= 2 (r^2 + s^2), with s half of both lengths
+}
+
+/// How much a contact counts that pushes element i of a along n from element j of b. Strands that were drawn side by
+/// side are joined there by a fold of peritoneum that is not simulated: one that was dragged to the other side of its
+/// neighbour has nothing to rest on, and must not be kept from going home.
+double share_of(const StrandBody& a, int i, const StrandBody& b, int j, Vec3d n) noexcept {
+  const Vec3d drawn =
+      a.model.rest[size_t(i)] + a.model.rest[size_t(i) + 1] - b.model.rest[size_t(j)] - b.model.rest[size_t(j) + 1];
+  const double apart = length(drawn);
+  if (apart > 2 * kJoined || !(apart > 1e-6)) return 1;
+  const double along = dot(drawn, n) / apart;
+  return std::clamp((along + 0.6) / 0.3, 0.0, 1.0);
+}
+
+}  // namespace
+
+void strand_on_strand(const StrandPair& pair, const StrandBody& a, const tissue::StrandState& a_state,
+                      const StrandBody& b, const tissue::StrandState& b_state, std::span<std::int32_t> nearest,
+                      std::span<Vec3f> side, StrandLoads& a_loads, StrandLoads& b_loads) noexcept {
+  const int last = b.nodes() - 2;
+  for (int i = 0; i + 1 < a.nodes(); ++i) {
+    if (!a_state.alive[size_t(i)]) continue;
+    double apart2 = 0;
+    const int j = walk_along(a_state, i, b_state, nearest[size_t(i)], last, apart2);
+    nearest[size_t(i)] = j;
+    if (!b_state.alive[size_t(j)] || out_of_reach(a, a_state, i, b, b_state, j, apart2)) {
+      side[size_t(i)] = {0, 0, 0};
+      continue;
+    }
+    const collision::RodContact c = collision::touch(rod(b, b_state, j), rod(a, a_state, i), side[size_t(i)]);
+    const double deep = c.depth - double(pair.overlap[size_t(i)]);
+    if (deep <= 0 || deep > kDeepest) continue;
+    const double counts = share_of(a, i, b, j, c.normal);
+    if (!(counts > 0)) {
+      side[size_t(i)] = {0, 0, 0};
+      continue;
+    }
+    const double depth = std::min(deep, kQuickest);
+    tissue::StrandLoad on_a, on_b;
+    on_a.k = on_b.k = counts * kStiffness;
+    on_a.d = on_b.d = counts * kDamping;
+    on_a.dir = on_b.dir = c.normal;
+    on_a.element = i;
+    on_a.w = c.t;
+    on_a.x0 = c.on_second + 0.5 * depth * c.normal;
+    on_b.element = j;
+    on_b.w = c.s;
+    on_b.x0 = c.on_first - 0.5 * depth * c.normal;
+    a_loads.add(on_a, {Owner::body, 0, 0});
+    b_loads.add(on_b, {Owner::body, 0, 0});
+    const Vec3d ours = (1 - c.t) * a_state.v[size_t(i)] + c.t * a_state.v[size_t(i) + 1];
+    const Vec3d theirs = (1 - c.s) * b_state.v[size_t(j)] + c.s * b_state.v[size_t(j) + 1];
+    const BodyRub rub = body_rub(on_a.k * 0.5 * depth, c.normal, ours, theirs);
+    rub_strand(i, c.t, rub, theirs, a_loads);
+    rub_strand(j, c.s, rub, ours, b_loads);
+  }
+}
+
+}  // namespace trocar::interactions

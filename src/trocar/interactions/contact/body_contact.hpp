@@ -1,0 +1,49 @@
+// Organs touch organs: sample points (strand nodes, skin vertices) against a surface, and strands against strands.
+// Where two bodies overlap in the drawn shape already (an attachment), only what comes on top is pushed apart, so that
+// the drawn shape stays in equilibrium.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <trocar/interactions/contact/surface.hpp>
+#include <trocar/interactions/couplings/loads.hpp>
+#include <trocar/interactions/couplings/strand_body.hpp>
+
+namespace trocar::interactions {
+
+/// The sample points of one body that are tested against one surface. `overlap` is how far each one lies inside the
+/// contact distance as drawn [m]; samples that never take part are left out at compile.
+struct SurfacePair {
+  std::int32_t strand = -1, solid = -1, membrane = -1;  ///< whose samples: one of the three is set
+  std::int32_t surface = 0;                             ///< which surface: organs first, then walls
+  std::vector<std::int32_t> sample;                     ///< strand nodes, skin vertices, or membrane nodes
+  std::vector<float> radius;                            ///< of each sample [m]; 0 for skin vertices
+  std::vector<float> overlap;
+};
+
+/// One strand against another: elements of `a` from..to, tested against all of `b`.
+struct StrandPair {
+  std::int32_t a = 0, b = 0;
+  std::vector<float> overlap;  ///< per element of a
+};
+
+/// @param nearest (samples) State: vertex where each sample was last; of samples far from there it is looked for in
+/// turn
+/// @param tick    whose turn it is
+/// @param owner_loads  loads of the strand or solid whose samples these are (one is used)
+void strand_on_surface(const SurfacePair& pair, const StrandBody& body, const tissue::StrandState& state,
+                       const Surface& surface, std::uint64_t tick, std::span<std::int32_t> nearest,
+                       StrandLoads& strand_loads, NetworkLoads* surface_loads) noexcept;
+void solid_on_surface(const SurfacePair& pair, const Surface& samples, const Surface& surface, std::uint64_t tick,
+                      std::span<std::int32_t> nearest, NetworkLoads& sample_loads,
+                      NetworkLoads* surface_loads) noexcept;
+
+/// @param nearest (elements of a) State: element of b that was nearest last
+/// @param side    (elements of a) State: unit vector from b to a where they are near, so that they cannot cross
+void strand_on_strand(const StrandPair& pair, const StrandBody& a, const tissue::StrandState& a_state,
+                      const StrandBody& b, const tissue::StrandState& b_state, std::span<std::int32_t> nearest,
+                      std::span<Vec3f> side, StrandLoads& a_loads, StrandLoads& b_loads) noexcept;
+
+}  // namespace trocar::interactions

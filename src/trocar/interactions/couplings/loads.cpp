@@ -1,0 +1,117 @@
+#include <algorithm>
+#include <cmath>
+
+#include <trocar/interactions/couplings/loads.hpp>
+
+namespace trocar::interactions {
+
+namespace {
+
+/// Adds an isotropic load to another on the same node: k1 (x1 - x) + k2 (x2 - x) = (k1 + k2) (mean - x).
+void merge(const tissue::NodeLoad& load, tissue::NodeLoad& into) noexcept {
+  const float k = into.k + load.k;
+  if (k > 0) into.x0 = (into.k / k) * into.x0 + (load.k / k) * load.x0;
+  into.f0 += load.f0;
+  into.k = k;
+  into.d += load.d;
+}
+
+}  // namespace
+
+void NetworkLoads::reserve(std::size_t capacity) {
+  gathered.reserve(capacity);
+  sorted.reserve(capacity);
+  tag.reserve(capacity);
+  order.reserve(capacity);
+  owner.reserve(capacity);
+  reaction.reserve(capacity);
+}
+
+void NetworkLoads::clear() noexcept {
+  gathered.clear();
+  tag.clear();
+  overflowed = false;
+}
+
+void NetworkLoads::add(const tissue::NodeLoad& load, Tag t) noexcept {
+  if (gathered.size() == gathered.capacity()) {
+    overflowed = true;
+    return;
+  }
+  gathered.push_back(load);
+  tag.push_back(t);
+}
+
+void NetworkLoads::sort() noexcept {
+  order.clear();
+  for (std::size_t i = 0; i < gathered.size(); ++i) order.push_back(std::uint64_t(gathered[i].node) << 32 | i);
+  std::sort(order.begin(), order.end());
+  sorted.clear();
+  owner.clear();
+  for (const std::uint64_t key : order) {
+    const std::size_t i = std::size_t(key & 0xffffffffu);
+    const tissue::NodeLoad& load = gathered[i];
+    const Tag& t = tag[i];
+    const bool anonymous = t.owner == Owner::anchor || t.owner == Owner::strand_end;
+    if (anonymous && !sorted.empty() && owner.back().owner == Owner::anchor && sorted.back().node == load.node) {
+      merge(load, sorted.back());
+    } else {
+      sorted.push_back(load);
+      owner.push_back(anonymous ? Tag{Owner::anchor, 0, 0} : t);
+    }
+  }
+  reaction.assign(sorted.size(), Vec3f{});
+}
+
+bool NetworkLoads::handled() const noexcept {
+  return std::any_of(tag.begin(), tag.end(),
+                     [](const Tag& t) { return t.owner == Owner::tool_contact || t.owner == Owner::tool_hold; });
+}
+
+void StrandLoads::reserve(std::size_t capacity) {
+  list.reserve(capacity);
+  tag.reserve(capacity);
+  reaction.reserve(capacity);
+}
+
+void StrandLoads::clear() noexcept {
+  list.clear();
+  tag.clear();
+  overflowed = false;
+}
+
+void StrandLoads::add(const tissue::StrandLoad& load, Tag t) noexcept {
+  if (list.size() == list.capacity()) {
+    overflowed = true;
+    return;
+  }
+  list.push_back(load);
+  tag.push_back(t);
+}
+
+Vec3d counted_on(Vec3d velocity) noexcept {
+  constexpr double kMost = 20;  // [m/s]
+  const double square = dot(velocity, velocity);
+  return square > kMost * kMost ? (kMost / std::sqrt(square)) * velocity : velocity;
+}
+
+void add_skin_load(const tissue::NodeView& nodes, const tissue::Skin& skin, int vertex, const SkinLoad& load, Tag tag,
+                   NetworkLoads& loads, float least) noexcept {
+  const tissue::SkinWeights& w = skin.weights[std::size_t(vertex)];
+  const Vec3f origin = vec_cast<float>(nodes.origin);
+  for (std::size_t j = 0; j < 8; ++j) {
+    const float share = w.weight[j];
+    if (share < least) continue;
+    const tissue::NodeState& n = nodes.rows[std::size_t(w.row[j])];
+    tissue::NodeLoad node;
+    node.node = w.node[j];
+    node.f0 = share * vec_cast<float>(load.f0);
+    node.k = share * float(load.k);
+    node.x0 = Vec3f{n.x, n.y, n.z} + origin + vec_cast<float>(load.shift);
+    node.dir = vec_cast<float>(load.dir);
+    node.d = share * float(load.d);
+    loads.add(node, tag);
+  }
+}
+
+}  // namespace trocar::interactions

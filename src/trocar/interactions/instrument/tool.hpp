@@ -1,0 +1,116 @@
+// An instrument in the body: its shape (shaft and two jaws as capsules), its pose through the trocar, and the space
+// between its jaws, in which it grips, clips or cuts.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <trocar/collision/rods.hpp>
+#include <trocar/kinematics/fulcrum.hpp>
+#include <trocar/tissue/heat/electrosurgery.hpp>
+#include <trocar/tissue/heat/electrosurgery_seal.hpp>
+
+namespace trocar::interactions {
+
+enum class ToolKind : std::int32_t { grasper, clip_applier, scissors, probe, suction_irrigator, hook, bipolar };
+
+/// What current leaves from: a hook's wire, the pads of bipolar jaws.
+struct ElectrodeModel {
+  bool there = false;
+  tissue::ElectrodeDescription current;
+  tissue::SealDescription seal;
+};
+
+struct ToolModel {
+  std::string name;
+  ToolKind kind = ToolKind::probe;
+  Vec3d port;
+  kinematics::FulcrumLimits limits;
+  double shaft_radius = 0.0025, shaft_length = 0.310;                    ///< [m]
+  double jaw_length = 0.020, jaw_width = 0.003, jaw_thickness = 0.0015;  ///< [m]
+  double opening = 1.0;                                                  ///< full angle between the open jaws [rad]
+  double parallel_gap = 0;  ///< > 0: parallel jaws with this gap when open [m]
+  double pinch_max = 15;    ///< force between the jaws, handle closed on tissue [N]
+  double friction = 1.67;   ///< pull borne per pinch
+  /// Coulomb's coefficient of shaft and jaws on tissue. Polished steel on wet tissue: 0.05 to 0.2 in the literature;
+  /// the figure is our choice.
+  double rubbing = 0.1;
+  double clip_length = 0;  ///< [m]
+  std::int32_t clips = 0;  ///< in the magazine at the start
+  ElectrodeModel electrode;
+};
+
+inline constexpr int kMaxHolds = 12;  ///< tissue points between one pair of jaws
+
+/// A point of tissue held between the jaws, in the jaw frame (opening, normal, axis from the pivot).
+struct Hold {
+  std::int32_t body = -1;    ///< strand index, organ index + kSolidBase, or membrane index + kMembraneBase
+  std::int32_t element = 0;  ///< strand element, skin vertex, or membrane node
+  float weight = 0;          ///< place within the strand element, 0..1
+  float local[3] = {0, 0, 0};
+  float force[3] = {0, 0, 0};  ///< of this point on the tissue in the last tick [N]
+};
+inline constexpr std::int32_t kSolidBase = 1 << 16, kMembraneBase = 1 << 17;
+
+/// State of one instrument. Plain old data without padding: hashed and saved as bytes.
+struct ToolState {
+  double yaw = 0, pitch = 0, roll = 0, depth = 0;  ///< where it is (follows the input, bounded in speed)
+  double aperture = 1;                             ///< 1 open .. 0 closed; tissue between the jaws keeps it open
+  double handle = 0;                               ///< where the handle is
+  double pinch = 0;                                ///< force between the jaws [N]
+  double contact_force[3] = {0, 0, 0};             ///< of the tissue on the instrument, last tick [N]
+  double pull[3] = {0, 0, 0};                      ///< of the held tissue on the jaws, last tick [N]
+  double closed_for = 0;                           ///< how long the jaws took from half to fully closed so far [s]
+  std::int32_t clips_left = 0;
+  std::int16_t armed = 0;  ///< above 0: jaws have been open since the last clip or cut, so wide; below: see cut.hpp
+  std::int16_t letting_go = 0;  ///< a grip is loose because the hand has opened it
+  std::int32_t holds = 0;       ///< used entries of hold[]
+  std::int32_t slipped = 0;     ///< slips so far
+  std::int32_t instrument = 0;  ///< which of the hand's rack this is
+  std::int32_t changes = 0;     ///< instruments changed so far
+  Hold hold[kMaxHolds];
+
+  kinematics::FulcrumPose pose() const { return {yaw, pitch, roll, depth}; }
+};
+static_assert(sizeof(ToolState) == 14 * 8 + 6 * 4 + kMaxHolds * sizeof(Hold), "no padding");
+
+using collision::Capsule;
+
+inline constexpr int kShaft = 0, kJawA = 1, kJawB = 2, kToolParts = 3;
+/// For folds, too, both jaws together: closed ones are a blunt rod, and nothing gets between them.
+inline constexpr int kBothJaws = kToolParts, kSheetParts = kToolParts + 1;
+
+/// Where an instrument is in space this tick.
+struct ToolShape {
+  kinematics::TipFrame frame;  ///< tip of the closed jaws
+  Vec3d pivot;                 ///< where the jaws hinge
+  Capsule part[kToolParts];
+  Vec3d velocity[kToolParts];  ///< of each part's far end [m/s]
+  double half_angle = 0;       ///< of each jaw from the axis [rad]
+  double half_gap = 0;         ///< at the pivot (parallel jaws) [m]
+
+  /// Half the clear distance between the jaws at `along` [m] from the pivot.
+  double half_opening(double along) const { return half_gap + along * tangent; }
+  double tangent = 0;  ///< of half_angle
+};
+
+/// Shape at `pose` and `aperture`; the velocity is left zero.
+ToolShape shape_of(const ToolModel& model, const kinematics::FulcrumPose& pose, double aperture) noexcept;
+
+/// A point in the jaw frame: x along the opening direction, y along the jaw-plane normal, z along the axis from pivot.
+Vec3d to_jaw(const ToolShape& shape, Vec3d world) noexcept;
+Vec3d from_jaw(const ToolShape& shape, Vec3d local) noexcept;
+Vec3d direction_from_jaw(const ToolShape& shape, Vec3d local) noexcept;
+
+/// The aperture at which the jaws touch tissue of `thickness` lying `along` from the pivot.
+double aperture_at(const ToolModel& model, double thickness, double along) noexcept;
+
+/// Moves the instrument towards the commanded pose, no faster than hands can: 0.6 m/s at the tip and 4 rad/s, roll 8
+/// rad/s, handle 8 /s.
+struct ToolCommand {
+  kinematics::FulcrumPose pose;
+  double handle = 0;
+};
+void follow(const ToolModel& model, const ToolCommand& command, double dt, ToolState& state) noexcept;
+
+}  // namespace trocar::interactions

@@ -1,0 +1,41 @@
+// An instrument touches tissue: shaft and jaws against organ skins and strands. The contact pushes the tissue away
+// from the instrument, implicitly, so the force is the tissue's reaction and not a penalty; friction holds it
+// (touch.hpp).
+//
+// Nothing tunnels, whatever the speed: contacts push as far in a tick as the instrument has moved and some more, and
+// State remembers from which side it came. A strand's element has a side of each rod. A vertex of an organ's skin that
+// finds itself behind the instrument's axis is pushed inwards along its own normal, down to 25 mm, if it or a neighbour
+// was near the instrument in the last tick, or the axis was outside then; so the far side of a thin organ is left
+// alone. Closed jaws, thinner than the skin's triangles, are also pressed against those.
+#pragma once
+
+#include <span>
+
+#include <trocar/interactions/contact/surface.hpp>
+#include <trocar/interactions/couplings/loads.hpp>
+#include <trocar/interactions/couplings/strand_body.hpp>
+#include <trocar/interactions/instrument/touch.hpp>
+
+namespace trocar::interactions {
+
+/// @param body  how holds name this organ
+void tool_on_surface(Touching& touching, int body, const Surface& surface, NetworkLoads& loads) noexcept;
+
+/// @param side  (elements x kToolParts) State: on which side of each of this tool's rods an element lies
+///              (collision::touch)
+void tool_on_strand(const ToolModel& model, Touching& touching, const ToolState& tool_state, const StrandBody& body,
+                    int strand, const tissue::StrandState& state, std::span<Vec3f> side, StrandLoads& loads) noexcept;
+
+/// How a strand element lies between the jaws.
+struct BetweenJaws {
+  bool inside = false;   ///< in the space between the jaws, or within the jaws' width beside their mid-plane
+  bool crosses = false;  ///< it passes through the jaws' mid-plane: one that lies alongside the jaws does not
+  double w = 0;          ///< place within the element nearest to the jaws' mid-plane
+  Vec3d local;           ///< that point in the jaw frame
+};
+BetweenJaws between_jaws(const ToolModel& model, const ToolShape& shape, const StrandBody& body,
+                         const tissue::StrandState& state, int element) noexcept;
+/// The same of anything straight with these ends.
+BetweenJaws between_jaws(const ToolModel& model, const ToolShape& shape, Vec3d a, Vec3d b, double radius) noexcept;
+
+}  // namespace trocar::interactions

@@ -1,0 +1,20 @@
+// Char glues tissue to an electrode: a point of the tissue is held as between jaws, and torn off by a pull that the
+// electrode's figures say (tissue/heat/electrosurgery.hpp).
+#pragma once
+
+#include <trocar/interactions/verbs/grasp.hpp>
+
+namespace trocar::interactions {
+
+/// The point stays where it is beside the instrument.
+Hold stuck_at(const ToolShape& shape, const TissueView& view, Hold point) noexcept;
+
+/// How hard it is pulled at [N].
+double stuck_pull(const ToolShape& shape, const TissueView& view, const Hold& stuck) noexcept;
+
+/// Pulls the point towards its place beside the instrument; what that takes is felt as contact.
+void stuck_load(const ToolShape& shape, int tool_index, const TissueView& view, const Hold& stuck,
+                std::span<StrandLoads> strand_loads, std::span<NetworkLoads> organ_loads,
+                std::span<NetworkLoads> membrane_loads) noexcept;
+
+}  // namespace trocar::interactions

@@ -1,0 +1,103 @@
+#include <algorithm>
+
+#include <trocar/interactions/instrument/tool_contact.hpp>
+#include <trocar/interactions/verbs/clip.hpp>
+#include <trocar/numerics/portable.hpp>
+
+namespace trocar::interactions {
+namespace {
+
+constexpr double kOpenEnough = 0.8;   // aperture at which a fresh clip drops into the jaws
+constexpr double kHalfClosed = 0.5;   // closing time counts from here
+constexpr double kShut = 0.04;        // aperture at which the clip is set
+constexpr double kClipStiffness = 6;  // of a clipped element, times its own: titanium holds it straight
+constexpr double kTick = 1e-3;        // [s]
+
+struct Catch {
+  int strand = -1;
+  StrandPlace place;
+  Vec3d local;
+  double cover = 0;
+};
+
+Catch caught(const ToolModel& model, const ToolShape& shape, const TissueView& view) noexcept {
+  Catch best;
+  double nearest = 1e9;
+  for (size_t s = 0; s < view.strands.size(); ++s) {
+    const StrandBody& body = view.strands[s];
+    for (int e = 0; e + 1 < body.nodes(); ++e) {
+      if (!view.strand_states[s].alive[size_t(e)]) continue;
+      const BetweenJaws where = between_jaws(model, shape, body, view.strand_states[s], e);
+      if (!where.inside) continue;
+      const double off = std::fabs(where.local.y);
+      const double cover = leg_cover(from_bend(model, where.local.z), body.model.radius[size_t(e)], model.clip_length);
+      if (cover <= 0 || off >= nearest) continue;
+      nearest = off;
+      best = {int(s), {e, where.w}, where.local, cover};
+    }
+  }
+  return best;
+}
+
+void store(double (&out)[3], Vec3d v, const StrandFrame& f) noexcept {
+  out[0] = dot(v, f.tangent);
+  out[1] = dot(v, f.normal);
+  out[2] = dot(v, f.binormal);
+}
+
+}  // namespace
+
+// The clip sits at the end of the jaws.
+double from_bend(const ToolModel& model, double along) noexcept {
+  return along - (model.jaw_length - model.clip_length);
+}
+
+double leg_cover(double along, double radius, double length) noexcept {
+  const double from = std::max(0.0, along - radius), to = std::min(length, along + radius);
+  return std::clamp((to - from) / (2 * radius), 0.0, 1.0);
+}
+
+StrandPlace fit_clip(const ToolModel& model, const ToolShape& shape, const TissueView& view, Clip& clip) noexcept {
+  const Catch c = caught(model, shape, view);
+  clip.strand = c.strand;
+  if (c.strand < 0) return c.place;
+  const StrandBody& body = view.strands[size_t(c.strand)];
+  const StrandFrame frame = frame_at(body, view.strand_states[size_t(c.strand)], c.place);
+  clip.s = arc_at(body, c.place);
+  clip.cover = c.cover;
+  clip.theta = portable::acos(std::min(1.0, std::fabs(dot(shape.frame.normal(), frame.tangent))));
+  clip.reach = from_bend(model, c.local.z);
+  store(clip.opening, shape.frame.opening(), frame);
+  store(clip.axis, shape.frame.axis(), frame);
+  return c.place;
+}
+
+bool update_clip_applier(const ToolModel& model, const ToolShape& shape, int tool_index, const TissueView& view,
+                         std::span<tissue::StrandState> strand_states, int tips_visible, std::uint64_t tick,
+                         ToolState& tool, ClipBook book) noexcept {
+  if (tool.aperture > kOpenEnough && tool.clips_left > 0) tool.armed = 1;
+  if (tool.aperture > kHalfClosed) tool.closed_for = 0;
+  if (!tool.armed) return false;
+  if (tool.aperture > kShut) {
+    if (tool.aperture <= kHalfClosed) tool.closed_for += kTick;
+    return false;
+  }
+  tool.armed = 0;
+  --tool.clips_left;
+  if (book.count == kMaxClips) return false;
+  Clip& clip = book.clips[size_t(book.count++)];
+  clip = {};
+  clip.tick = tick;
+  clip.tool = tool_index;
+  clip.length = model.clip_length;
+  clip.tips_visible = tips_visible;
+  clip.closing_time = tool.closed_for;
+  const StrandPlace place = fit_clip(model, shape, view, clip);
+  if (clip.strand >= 0) {  // what is half cut is not healed
+    double& scale = strand_states[size_t(clip.strand)].scale[size_t(place.element)];
+    scale = std::min(scale, 1.0) * kClipStiffness;
+  }
+  return true;
+}
+
+}  // namespace trocar::interactions

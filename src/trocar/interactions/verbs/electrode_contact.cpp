@@ -1,0 +1,197 @@
+#include <algorithm>
+#include <cmath>
+
+#include <trocar/geometry/surfaces/nearest.hpp>
+#include <trocar/interactions/contact/nearest_skin.hpp>
+#include <trocar/interactions/verbs/electrode_contact.hpp>
+
+namespace trocar::interactions {
+namespace {
+
+constexpr double kSearch = 0.009;  // [m] sparks, the wire's radius, and the way to a vertex of a skin's triangle
+constexpr double kFirmly = 0.3;    // [N] a wire pressed with this is in contact all round.  Our choice
+constexpr double kLightly = 0.3;   // share of the contact when it only just touches.        Our choice
+constexpr double kFirmPinch = 5;   // [N] the same of jaws' pads.                             Our choice
+
+Vec3d rest_of(const tissue::Skin& skin, const std::array<int, 3>& corner, Vec3d weights) noexcept {
+  Vec3d p;
+  for (std::size_t k = 0; k < 3; ++k) p += weights[int(k)] * vec_cast<double>(skin.rest[std::size_t(corner[k])]);
+  return p;
+}
+
+Vec3d rest_normal(const tissue::Skin& skin, const std::array<int, 3>& corner, Vec3d weights) noexcept {
+  Vec3d n;
+  for (std::size_t k = 0; k < 3; ++k) n += weights[int(k)] * vec_cast<double>(skin.rest_normal[std::size_t(corner[k])]);
+  return normalised(n, vec_cast<double>(skin.rest_normal[std::size_t(corner[0])]));
+}
+
+int nearest_corner(const std::array<int, 3>& corner, Vec3d weights) noexcept {
+  std::size_t most = 0;
+  for (std::size_t k = 1; k < 3; ++k)
+    if (weights[int(k)] > weights[int(most)]) most = k;
+  return corner[most];
+}
+
+/// Looks at bodies one after the other and keeps the nearest.
+class WireSearch {
+ public:
+  WireSearch(const ToolShape& shape, Vec3d from) noexcept : m_shape(shape), m_from(from) {}
+
+  ElectrodeTouch best;
+
+  void organ(const Surface& surface, std::int32_t body) noexcept {
+    if (!surface.pose->bounds.reaches(m_from, kSearch)) return;
+    const int vertex = nearest_vertex_near(surface, m_from, kSearch);
+    if (vertex < 0 || surface.torn(vertex)) return;
+    const SkinPoint p = nearest_skin_point(surface, vertex, m_from);
+    const bool inside = dot(m_from - p.point, p.normal) < 0;
+    if (!take(body, p.point, inside)) return;
+    keep(rest_of(*surface.skin, p.vertex, p.weights), p.normal);
+    best.inwards = -1.0 * rest_normal(*surface.skin, p.vertex, p.weights);
+    best.point.element = nearest_corner(p.vertex, p.weights);
+  }
+
+  void sheet(const SheetView& view, std::int32_t body) noexcept {
+    const Surface& surface = view.surface;
+    if (!surface.pose->bounds.reaches(m_from, kSearch)) return;
+    const int vertex = nearest_vertex_near(surface, m_from, kSearch);
+    if (vertex < 0) return;
+    const tissue::Skin& skin = *surface.skin;
+    for (int k = skin.face_first[std::size_t(vertex)]; k < skin.face_first[std::size_t(vertex) + 1]; ++k) {
+      const int face = skin.face[std::size_t(k)];
+      if (view.parted[std::size_t(face)]) continue;
+      const auto& t = skin.triangles[std::size_t(face)];
+      const auto on =
+          geometry::closest_on_triangle(m_from, surface.position(t[0]), surface.position(t[1]), surface.position(t[2]));
+      const Vec3d off = m_from - on.point;
+      const double apart = length(off), half = view.half_thickness;
+      const Vec3d up = normalised(off, surface.normal(vertex));
+      if (!take(body, on.point + std::min(half, apart) * up, apart < half)) continue;
+      keep(rest_of(skin, t, on.weights), up);
+      const double side = dot(up, surface.normal(vertex)) < 0 ? 1 : -1;
+      best.inwards = side * rest_normal(skin, t, on.weights);
+      best.point.element = nearest_corner(t, on.weights);
+    }
+  }
+
+  void strand(const StrandBody& body, const tissue::StrandState& state, std::int32_t number) noexcept {
+    int element = -1;
+    double w = 0;
+    for (int e = 0; e + 1 < body.nodes(); ++e) {
+      if (!state.alive[std::size_t(e)]) continue;
+      const Vec3d a = state.x[std::size_t(e)], b = state.x[std::size_t(e) + 1];
+      const double radius = body.model.radius[std::size_t(e)], share = geometry::closest_on_segment(m_from, a, b);
+      const Vec3d axis = a + share * (b - a), off = m_from - axis;
+      const double apart = length(off);
+      if (apart > radius + kSearch) continue;
+      const Vec3d up = normalised(off, any_perpendicular(normalised(b - a, {1, 0, 0})));
+      if (!take(number, axis + std::min(radius, apart) * up, apart < radius)) continue;
+      element = e, w = share;
+      keep({0, std::min(radius, apart), 0}, up);
+    }
+    if (element >= 0) on_strand(body, state, {element, w});
+  }
+
+ private:
+  bool take(std::int32_t body, Vec3d place, bool inside) noexcept {
+    // As thick as closed jaws are that tissue meets (tool_contact.hpp).
+    const Vec3d along = m_shape.frame.tip - m_shape.pivot;
+    const Vec3d axis = m_shape.pivot + geometry::closest_on_segment(place, m_shape.pivot, m_shape.frame.tip) * along;
+    const double apart = length(place - axis) - m_shape.part[kJawA].radius - m_shape.part[kJawB].radius;
+    const double gap = inside || apart <= kTouches ? 0.0 : apart;
+    const double away = length(m_from - place);
+    if (best.contact.body >= 0 && (gap > best.contact.gap || (gap == best.contact.gap && away >= m_away))) return false;
+    m_away = away;
+    best.contact.body = body;
+    best.contact.gap = gap;
+    best.place = place;
+    best.point.body = body;
+    best.point.weight = 0;
+    return true;
+  }
+  void keep(Vec3d rest, Vec3d normal) noexcept {
+    best.contact.a = best.contact.b = rest;
+    best.normal = normal;
+  }
+  void on_strand(const StrandBody& body, const tissue::StrandState& state, StrandPlace at) noexcept {
+    const StrandFrame frame = frame_at(body, state, at);
+    const double out = best.contact.a.y, y = dot(best.normal, frame.normal), z = dot(best.normal, frame.binormal);
+    best.point.element = at.element;
+    best.point.weight = float(at.w);
+    keep({arc_at(body, at), out * y, out * z}, best.normal);
+    best.inwards = normalised(Vec3d{0, -y, -z}, Vec3d{0, -1, 0});
+  }
+
+  const ToolShape& m_shape;
+  Vec3d m_from;
+  double m_away = 0;
+};
+
+ElectrodeTouch wire_touch(const ToolShape& shape, const ToolState& tool, const TissueView& view) noexcept {
+  ElectrodeTouch best;
+  for (const double back : {0.0, 0.5 * kBareWire, kBareWire}) {
+    WireSearch search(shape, shape.frame.tip - back * shape.frame.axis());
+    for (std::size_t i = 0; i < view.solids.size(); ++i) search.organ(view.solids[i], kSolidBase + std::int32_t(i));
+    for (std::size_t i = 0; i < view.strands.size(); ++i)
+      search.strand(view.strands[i], view.strand_states[i], std::int32_t(i));
+    for (std::size_t i = 0; i < view.membranes.size(); ++i)
+      search.sheet(view.membranes[i], kMembraneBase + std::int32_t(i));
+    const tissue::ElectrodeContact& c = search.best.contact;
+    if (c.body >= 0 && (best.contact.body < 0 || c.gap < best.contact.gap)) best = search.best;
+  }
+  const double force = length(Vec3d{tool.contact_force[0], tool.contact_force[1], tool.contact_force[2]});
+  best.contact.pressed = kLightly + (1 - kLightly) * std::min(force / kFirmly, 1.0);
+  return best;
+}
+
+/// A held point's place at rest. Of a strand: on its axis.
+Vec3d rest_of(const TissueView& view, const Hold& hold) noexcept {
+  if (hold.body >= kMembraneBase)
+    return vec_cast<double>(
+        view.membranes[std::size_t(hold.body - kMembraneBase)].surface.skin->rest[std::size_t(hold.element)]);
+  if (hold.body >= kSolidBase)
+    return vec_cast<double>(view.solids[std::size_t(hold.body - kSolidBase)].skin->rest[std::size_t(hold.element)]);
+  return {arc_at(view.strands[std::size_t(hold.body)], {hold.element, double(hold.weight)}), 0, 0};
+}
+
+ElectrodeTouch pads_touch(const ToolShape& shape, const ToolState& tool, const TissueView& view) noexcept {
+  ElectrodeTouch out;
+  if (tool.holds == 0) return out;
+  out.contact.body = tool.hold[0].body;
+  out.point = tool.hold[0];
+  Vec3d sum[2];
+  int count[2] = {0, 0};
+  for (int i = 0; i < tool.holds; ++i) {
+    const Hold& hold = tool.hold[i];
+    if (hold.body != out.contact.body) continue;
+    const std::size_t side = hold.local[0] > 0 ? 0 : 1;
+    sum[side] += rest_of(view, hold);
+    ++count[side];
+    out.place += held_point(view, hold);
+  }
+  out.place = out.place / double(count[0] + count[1]);
+  out.normal = shape.frame.opening();
+  const std::size_t one = count[0] > 0 ? 0 : 1, other = count[1] > 0 ? 1 : 0;
+  out.contact.a = sum[one] / double(count[one]);
+  out.contact.b = sum[other] / double(count[other]);
+  out.contact.pressed = std::clamp(tool.pinch / kFirmPinch, 0.0, 1.0);
+  if (out.contact.body >= kSolidBase) return out;
+  const std::size_t strand = std::size_t(out.contact.body);
+  const StrandPlace at{tool.hold[0].element, double(tool.hold[0].weight)};
+  const StrandFrame frame = frame_at(view.strands[strand], view.strand_states[strand], at);
+  const double radius = view.strands[strand].model.radius[std::size_t(at.element)];
+  const double s = 0.5 * (out.contact.a.x + out.contact.b.x), y = dot(out.normal, frame.normal),
+               z = dot(out.normal, frame.binormal);
+  out.contact.a = {s, radius * y, radius * z};
+  out.contact.b = {s, -radius * y, -radius * z};
+  return out;
+}
+
+}  // namespace
+
+ElectrodeTouch electrode_touch(const ToolModel& model, const ToolShape& shape, const ToolState& tool,
+                               const TissueView& view) noexcept {
+  return model.electrode.current.bipolar ? pads_touch(shape, tool, view) : wire_touch(shape, tool, view);
+}
+
+}  // namespace trocar::interactions

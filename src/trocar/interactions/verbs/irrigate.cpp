@@ -1,0 +1,39 @@
+#include <trocar/interactions/verbs/irrigate.hpp>
+
+namespace trocar::interactions {
+namespace {
+
+/// Jaws of this kind are round rods that lie together: their ends are the tube's.
+Vec3d end_of(const ToolModel& tool, const ToolShape& shape) noexcept {
+  return shape.frame.tip + (0.5 * tool.jaw_thickness) * shape.frame.axis();
+}
+
+}  // namespace
+
+Bore bore_of(const ToolModel& tool, const ToolShape& now, const ToolShape& before, double dt) noexcept {
+  const Vec3d end = end_of(tool, now);
+  return {end, now.frame.axis(), (end - end_of(tool, before)) / dt};
+}
+
+fluids::Capsule tube_of(const ToolModel& tool, const ToolShape& now, const ToolShape& before, double dt) noexcept {
+  const Bore bore = bore_of(tool, now, before, dt);
+  fluids::Capsule tube;
+  tube.a = vec_cast<float>(now.part[kShaft].a);
+  tube.b = vec_cast<float>(bore.end - tool.shaft_radius * bore.axis);
+  tube.radius = float(tool.shaft_radius);
+  tube.va = vec_cast<float>((now.part[kShaft].a - before.part[kShaft].a) / dt);
+  tube.vb = vec_cast<float>(bore.velocity);
+  return tube;
+}
+
+WetTarget target_of(std::span<const std::int32_t> first, int surfaces, int sheets, std::int32_t body,
+                    std::int32_t place) noexcept {
+  if (body < 0 || body + 1 >= std::int32_t(first.size())) return {};
+  const std::int32_t number = place - first[std::size_t(body)];
+  if (number < 0 || place >= first[std::size_t(body) + 1]) return {};
+  if (body < surfaces) return {WetTarget::surface, body, number};
+  if (body < surfaces + sheets) return {WetTarget::sheet, body - surfaces, number / 2};
+  return {WetTarget::strand, body - surfaces - sheets, number};
+}
+
+}  // namespace trocar::interactions

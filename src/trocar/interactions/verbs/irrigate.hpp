@@ -1,0 +1,37 @@
+// The suction-irrigator at tissue: where its bore ends and what lies on it, and the push of the drops that land.
+//
+//   const Bore bore = bore_of(tool, shape, before, tick);
+//   valve.blocked = covered(bodies, bore.end, kPlugs);                  // tissue plugs a port that it is so near to
+//   const WetTarget hit = target_of(first, surfaces, sheets, impact.body, impact.film);   // in the next tick
+//
+// Drops move when tissue has moved: what they push, it feels in the next tick (sim::State::impacts).
+#pragma once
+
+#include <trocar/interactions/instrument/tool.hpp>
+#include <trocar/interactions/wetting/fluid_contact.hpp>
+
+namespace trocar::interactions {
+
+/// [m] tissue nearer than that to a port of suction plugs it.                                              Our choice
+inline constexpr double kPlugs = 0.001;
+
+/// One bore for both ways, out of the end of a blunt tube.
+struct Bore {
+  Vec3d end, axis, velocity;  ///< of the tube's round end, where tissue meets it [m]; unit, out of the bore; [m/s]
+};
+Bore bore_of(const ToolModel& tool, const ToolShape& now, const ToolShape& before, double dt) noexcept;
+
+/// The tube as a body of the fluids: one capsule that ends where its bore does, so that no drop is born inside.
+fluids::Capsule tube_of(const ToolModel& tool, const ToolShape& now, const ToolShape& before, double dt) noexcept;
+
+/// What a place of film is part of, and where there.
+struct WetTarget {
+  enum Kind : std::int32_t { none, surface, sheet, strand } kind = none;
+  std::int32_t index = 0;   ///< of its kind; surfaces: organs, then walls
+  std::int32_t vertex = 0;  ///< of the skin; node of a fold or strand
+};
+/// @param first  film_places(...)
+WetTarget target_of(std::span<const std::int32_t> first, int surfaces, int sheets, std::int32_t body,
+                    std::int32_t place) noexcept;
+
+}  // namespace trocar::interactions

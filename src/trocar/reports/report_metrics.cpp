@@ -1,0 +1,197 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include <trocar/reports/report_metrics.hpp>
+#include <trocar/reports/report_svg.hpp>
+
+namespace trocar::reports {
+namespace {
+
+struct Row {
+  const char* key;  ///< within a hand's metrics
+  const char* name;
+  const char* unit;
+  double scale;
+  const char* better;  ///< which way is better, if that is known
+};
+
+constexpr Row kRows[] = {
+    {"path_m", "path length", "mm", 1000, "less"},
+    {"economy", "economy of motion", "", 1, "more"},
+    {"depth_m", "travel along the shaft", "mm", 1000, "less"},
+    {"depth_reversals_near_target", "reversals near a target", "", 1, "less"},
+    {"angular_path_rad", "turning", "rad", 1, "less"},
+    {"ldlj", "smoothness, LDLJ", "", 1, "closer to 0"},
+    {"sparc", "smoothness, SPARC", "", 1, "closer to 0"},
+    {"movements", "movements", "", 1, "less"},
+    {"idle_fraction", "idle", "%", 100, ""},
+    {"mean_speed_m_per_s", "mean speed", "mm/s", 1000, ""},
+    {"peak_speed_m_per_s", "peak speed", "mm/s", 1000, ""},
+    {"forces/pull/max_N", "largest pull", "N", 1, "less"},
+    {"forces/pull/rms_N", "pull, root mean square", "N", 1, ""},
+    {"forces/pull/impulse_Ns", "pull, over time", "N s", 1, "less"},
+    {"forces/pull/above_limit_s", "pull above its limit", "s", 1, "less"},
+    {"forces/pinch/max_N", "largest pinch", "N", 1, "less"},
+    {"forces/pinch/above_limit_s", "pinch above its limit", "s", 1, "less"},
+    {"forces/contact/max_N", "largest contact", "N", 1, "less"},
+    {"forces/contact/impulse_Ns", "contact, over time", "N s", 1, "less"},
+};
+constexpr Row kWhole[] = {
+    {"exercise_seconds", "time", "s", 1, "less"},
+    {"metrics/bimanual/path_ratio", "shorter path to longer", "", 1, ""},
+    {"metrics/bimanual/simultaneous_fraction", "both hands moving", "%", 100, "more"},
+    {"metrics/bimanual/speed_correlation", "correlation of speeds", "", 1, ""},
+};
+
+std::string number(std::optional<double> v, double scale) {
+  if (!v || !std::isfinite(*v)) return "–";
+  const double x = *v * scale;
+  if (x == std::round(x) && std::fabs(x) < 1e6) return fmt::format("{:.0f}", x);
+  return std::fabs(x) >= 100  ? fmt::format("{:.0f}", x)
+         : std::fabs(x) >= 10 ? fmt::format("{:.1f}", x)
+                              : fmt::format("{:.2f}", x);
+}
+
+Json result_of(const training::Attempt& a) {
+  Json r = Json::parse(a.result, nullptr, false);
+  return r.is_object() ? r : Json::object();
+}
+
+/// Median and range of the attempts before this one.
+std::string spread(std::vector<double> values, double scale) {
+  if (values.empty()) return "–";
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  const double median = n % 2 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
+  if (n == 1) return number(median, scale);
+  return fmt::format("{} ({} to {})", number(median, scale), number(values.front(), scale),
+                     number(values.back(), scale));
+}
+
+struct Earlier {
+  std::vector<Json> results;
+  std::vector<double> all(const std::string& pointer) const {
+    std::vector<double> out;
+    for (const Json& r : results)
+      if (const auto v = number_in(r, pointer); v && std::isfinite(*v)) out.push_back(*v);
+    return out;
+  }
+};
+
+std::string cells(const Report& r, const Earlier& earlier, const std::optional<Json>& scripted, const Row& row,
+                  const std::string& pointer, std::size_t hands, bool per_hand) {
+  std::string out = fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td>", row.name, row.unit);
+  for (std::size_t h = 0; h < hands; ++h)
+    out += "<td class=\"n\">" +
+           (per_hand ? number(number_in(r.result, fmt::format("/metrics/hands/{}/{}", h, row.key)), row.scale)
+                     : std::string()) +
+           "</td>";
+  out += "<td class=\"n\">" + number(number_in(r.result, pointer), row.scale) + "</td>";
+  if (!earlier.results.empty()) out += "<td class=\"n\">" + spread(earlier.all(pointer), row.scale) + "</td>";
+  if (scripted) out += "<td class=\"n\">" + number(number_in(*scripted, pointer), row.scale) + "</td>";
+  return out + fmt::format("<td class=\"note\">{}</td></tr>\n", row.better);
+}
+
+struct Curve {
+  const char *id, *title, *unit;
+  std::vector<double> values;
+};
+
+std::string curve(const Report& r, const Curve& c, int emphasised) {
+  Plot p;
+  p.id = c.id;
+  p.title = fmt::format("{} over attempts", c.title);
+  p.x_label = "attempt";
+  p.y_label = *c.unit ? fmt::format("{} [{}]", c.title, c.unit) : c.title;
+  p.points = p.whole_x = true;
+  p.emphasised = emphasised;
+  p.width = 380;
+  p.height = 210;
+  Series s{c.title, {}, c.values, 0};
+  double first = std::numeric_limits<double>::quiet_NaN(), last = first;
+  for (std::size_t i = 0; i < c.values.size(); ++i) {
+    s.x.push_back(double(i + 1));
+    if (!std::isfinite(c.values[i])) continue;
+    if (!std::isfinite(first)) first = c.values[i];
+    last = c.values[i];
+  }
+  if (!std::isfinite(first)) return "";
+  p.description = fmt::format("From {:.4g} at first to {:.4g} now, {} attempts.", first, last, c.values.size());
+  if (std::string_view(c.id) == "curve-score")
+    if (const auto mark = number_in(r.result, "/assessment/score/pass_mark")) p.levels = {{*mark, "pass mark"}};
+  p.series.push_back(std::move(s));
+  return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", svg(p), c.title);
+}
+
+}  // namespace
+
+std::string metrics_section(const Report& r) {
+  if (!r.result.contains("metrics") || !r.result["metrics"].is_object()) return "";
+  Earlier earlier;
+  for (const training::Attempt& a : r.history)
+    if (a.uuid != r.attempt.uuid) earlier.results.push_back(result_of(a));
+  std::optional<Json> scripted;
+  if (r.scripted) scripted = result_of(*r.scripted);
+  const Json& metrics = r.result["metrics"];
+  const std::size_t hands = metrics.contains("hands") && metrics["hands"].is_array() ? metrics["hands"].size() : 0;
+
+  std::string out =
+      "<section><h2>Metrics</h2>\n<div class=\"wide\"><table><caption>What each means is in docs/metrics.md. “Before” "
+      "is the "
+      "median of the trainee's earlier attempts at this exercise, with their "
+      "range.</caption>\n<thead><tr><th>metric</th>"
+      "<th>unit</th>";
+  for (std::size_t h = 0; h < hands; ++h)
+    out += fmt::format("<th class=\"n\">{}</th>", escaped(text_in(metrics["hands"][h], "name")));
+  out += "<th class=\"n\">all</th>";
+  if (!earlier.results.empty()) out += fmt::format("<th class=\"n\">before ({})</th>", earlier.results.size());
+  if (scripted) out += "<th class=\"n\">scripted surgeon</th>";
+  out += "<th>better is</th></tr></thead><tbody>\n";
+  for (const Row& row : kWhole) out += cells(r, earlier, scripted, row, std::string("/") + row.key, hands, false);
+  for (const Row& row : kRows)
+    out += cells(r, earlier, scripted, row, std::string("/metrics/both/") + row.key, hands, true);
+  if (scripted)
+    out += cells(r, earlier, scripted, {"", "score", "of 100", 1, "more"}, "/assessment/score/total", hands, false);
+  out += "</tbody></table></div>\n";
+  if (scripted)
+    out += fmt::format(
+        "<p class=\"note\">The scripted surgeon did the same anatomy in attempt {}. It is a programme that "
+        "reads the simulation, no standard of skill.</p>\n",
+        r.scripted->number);
+  else
+    out +=
+        "<p class=\"note\">For a comparison with the scripted surgeon on the same anatomy: "
+        "trocar report --compare demo.</p>\n";
+  return out + "</section>\n";
+}
+
+std::string learning_section(const Report& r) {
+  if (r.history.size() < 2) return "";
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  Curve curves[] = {
+      {"curve-score", "score", "", {}}, {"curve-time", "time", "s", {}}, {"curve-path", "path length", "mm", {}}};
+  int here = -1;
+  for (std::size_t i = 0; i < r.history.size(); ++i) {
+    const training::Attempt& a = r.history[i];
+    const Json result = result_of(a);
+    curves[0].values.push_back(a.score.value_or(none));
+    // An attempt that did not reach its end has no time to compare.
+    const Json::json_pointer finished("/assessment/finished");
+    const bool whole = result.contains(finished) && result[finished] == true;
+    curves[1].values.push_back(whole ? number_in(result, "/exercise_seconds").value_or(none) : none);
+    curves[2].values.push_back(whole ? 1000 * number_in(result, "/metrics/both/path_m").value_or(none) : none);
+    if (a.uuid == r.attempt.uuid) here = int(i);
+  }
+  std::string out = fmt::format(
+      "<section><h2>Learning curve</h2>\n<p>{} attempts at this exercise, in the order in which "
+      "they began; this one is ringed. Time and path only where the exercise was done to its end.</p>\n"
+      "<div class=\"views curves\">\n",
+      r.history.size());
+  for (const Curve& c : curves) out += curve(r, c, here);
+  return out + "</div></section>\n";
+}
+
+}  // namespace trocar::reports

@@ -1,0 +1,102 @@
+#include <trocar/kinematics/fulcrum.hpp>
+#include <trocar/scene/compile/compile_hands.hpp>
+
+namespace trocar::scene {
+namespace {
+
+interactions::ToolKind tool_kind(InstrumentKind kind) {
+  switch (kind) {
+    case InstrumentKind::grasper:
+      return interactions::ToolKind::grasper;
+    case InstrumentKind::clip_applier:
+      return interactions::ToolKind::clip_applier;
+    case InstrumentKind::scissors:
+      return interactions::ToolKind::scissors;
+    case InstrumentKind::suction_irrigator:
+      return interactions::ToolKind::suction_irrigator;
+    case InstrumentKind::hook:
+      return interactions::ToolKind::hook;
+    case InstrumentKind::bipolar:
+      return interactions::ToolKind::bipolar;
+    case InstrumentKind::probe:
+      break;
+  }
+  return interactions::ToolKind::probe;
+}
+
+interactions::ElectrodeModel electrode_of(const Instrument& i) {
+  interactions::ElectrodeModel out;
+  if (!has_electrode(i.kind)) return out;
+  out.there = true;
+  if (i.kind == InstrumentKind::bipolar) out.current = tissue::bipolar_jaws();
+  out.current.radius = i.electrode.radius;
+  out.current.efficiency = i.electrode.efficiency;
+  out.current.stick_force = i.electrode.stick_force;
+  if (i.electrode.seals > 0) (out.current.bipolar ? out.seal.pressed : out.seal.bare) = i.electrode.seals;
+  return out;
+}
+
+interactions::ToolModel tool_of(const Instrument& i, Vec3d port) {
+  interactions::ToolModel tool;
+  tool.name = i.name;
+  tool.kind = tool_kind(i.kind);
+  tool.port = port;
+  tool.shaft_radius = i.shaft_radius;
+  tool.shaft_length = i.shaft_length;
+  tool.jaw_length = i.jaw_length;
+  tool.jaw_width = i.jaw_width;
+  tool.jaw_thickness = i.jaw_thickness;
+  tool.opening = i.opening;
+  tool.parallel_gap = i.parallel_gap;
+  tool.pinch_max = i.pinch_max;
+  tool.friction = i.friction;
+  tool.clip_length = i.clip_length;
+  tool.clips = i.clips;
+  tool.electrode = electrode_of(i);
+  return tool;
+}
+
+template <class List>
+const auto* named(const List& list, const std::string& name) {
+  for (const auto& entry : list)
+    if (entry.name == name) return &entry;
+  return static_cast<decltype(list.data())>(nullptr);
+}
+
+constexpr double kPlay = 1e-4;  // [m] a shaft of the trocar's own nominal size fits
+
+/// The placed instrument first, then the others in the scene's order.
+std::vector<interactions::ToolModel> rack_of(const Description& d, const Instrument& placed, const Port& port) {
+  std::vector<interactions::ToolModel> rack{tool_of(placed, port.position)};
+  for (const Instrument& i : d.instruments) {
+    const bool fits = 2 * i.shaft_radius <= port.diameter + kPlay;
+    if (fits && i.name != placed.name && rack.size() < size_t(sim::kMaxRack)) rack.push_back(tool_of(i, port.position));
+  }
+  return rack;
+}
+
+}  // namespace
+
+void compile_hands(const Description& d, sim::Model& model, std::vector<core::Fault>& faults) {
+  for (const Placement& p : d.placements) {
+    if (model.hands.size() == size_t(sim::kMaxTools)) {
+      faults.push_back({p.at, "expected at most " + std::to_string(sim::kMaxTools) + " tools, got another"});
+      return;
+    }
+    const Instrument* instrument = named(d.instruments, p.instrument);
+    const Port* port = named(d.ports, p.port);
+    if (!instrument || !port) continue;  // the reader has told
+    model.start.tools[model.hands.size()] = sim::tool_input(kinematics::inverse(port->position, p.tip, p.roll), 0.0f);
+    model.hands.push_back({port->name, port->position, rack_of(d, *instrument, *port)});
+  }
+  const Port* port = named(d.ports, d.scope_placement.port);
+  model.scope.port = port ? port->position : Vec3d{};
+  model.scope.angle = d.scope.angle;
+  model.scope.field_of_view = d.scope.field_of_view;
+  model.scope.shaft_radius = d.scope.shaft_radius;
+  const kinematics::FulcrumPose pose =
+      kinematics::inverse(model.scope.port, d.scope_placement.tip, d.scope_placement.roll);
+  model.start.scope = {float(pose.yaw), float(pose.pitch), float(pose.roll), float(pose.depth), 0.0f};
+}
+
+}  // namespace trocar::scene

@@ -1,0 +1,15 @@
+// Hands at trocars: which instruments go through each, where hands and endoscope begin.
+#pragma once
+
+#include <vector>
+
+#include <trocar/scene/description/description.hpp>
+#include <trocar/sim/model/model.hpp>
+
+namespace trocar::scene {
+
+/// Fills Model::hands, scope and start. Every instrument of the scene that fits a hand's trocar is in its rack, the
+/// placed one first.
+void compile_hands(const Description& description, sim::Model& model, std::vector<core::Fault>& faults);
+
+}  // namespace trocar::scene

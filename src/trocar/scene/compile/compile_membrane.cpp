@@ -1,0 +1,210 @@
+#include <algorithm>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include <trocar/geometry/curves/polyline.hpp>
+#include <trocar/geometry/surfaces/nearest.hpp>
+#include <trocar/scene/compile/compile_membrane.hpp>
+
+namespace trocar::scene {
+namespace {
+
+constexpr double kStretchDamping = 0.0004;  // [s] times stiffness; a fold is wet, but sub-steps pay for more
+constexpr double kBendingDamping = 0.0005;  // [s] times stiffness
+constexpr double kDrag = 1;                 // [1/s] against space, as solids: more would be honey
+
+constexpr int kMostFoldNodes = 20'000;
+
+struct Grid {
+  int columns = 0, rows = 0;
+  std::vector<Vec3d> top, base;  // (columns) both borders
+  std::vector<double> arc;       // (columns) of the strand
+};
+
+Grid grid_of(const Membrane& membrane, const interactions::StrandBody& body) {
+  Grid g;
+  const double from = std::min(membrane.from, body.length()), to = std::min(membrane.to, body.length());
+  g.columns = std::max(3, int((to - from) / membrane.spacing + 0.5) + 1);
+  g.base = geometry::sampled_by_arc(geometry::interpolated(membrane.base), g.columns);
+  double height = 0;
+  for (int c = 0; c < g.columns; ++c) {
+    const double s = from + (to - from) * c / (g.columns - 1);
+    const interactions::StrandPlace p = interactions::place_at(body, s);
+    const Vec3d a = body.model.rest[size_t(p.element)], b = body.model.rest[size_t(p.element) + 1];
+    g.arc.push_back(s);
+    g.top.push_back(a + p.w * (b - a));
+    height += length(g.base[size_t(c)] - g.top.back()) / g.columns;
+  }
+  g.rows = std::max(3, int(std::min(1e6, height / membrane.spacing) + 0.5) + 1);
+  return g;
+}
+
+}  // namespace
+
+interactions::BorderHold hold_near(const std::vector<std::string>& names, double reach, Vec3d p,
+                                   const sim::Model& model) {
+  interactions::BorderHold best;
+  best.offset = p;
+  double nearest = reach;
+  for (const std::string& name : names) {
+    const int strand = model.strand_index(name);
+    if (strand >= 0) {
+      const interactions::StrandBody& body = model.bodies[size_t(strand)];
+      for (int e = 0; e + 1 < body.nodes(); ++e) {
+        const Vec3d a = body.model.rest[size_t(e)], b = body.model.rest[size_t(e) + 1];
+        const double w = geometry::closest_on_segment(p, a, b);
+        const Vec3d at = a + w * (b - a);
+        const double distance = length(p - at) - body.model.radius[size_t(e)];
+        if (distance >= nearest) continue;
+        nearest = distance;
+        best.kind = interactions::BorderHold::strand;
+        best.index = strand;
+        best.place = {e, w};
+        best.vertex = -1;
+        best.offset = p - at;
+      }
+    }
+    if (const int i = model.organ_index(name); i >= 0) {
+      const tissue::Skin& skin = model.skin(i);
+      for (int v = 0; v < skin.size(); ++v) {
+        const Vec3d at = vec_cast<double>(skin.rest[size_t(v)]);
+        const double distance = length(p - at);
+        if (distance >= nearest || !skin.at_surface(v)) continue;
+        nearest = distance;
+        best.kind = interactions::BorderHold::organ;
+        best.index = std::int32_t(i);
+        best.place = {};
+        best.vertex = v;
+        best.offset = p - at;
+      }
+    }
+  }
+  return best;
+}
+
+tissue::Skin skin_of(const tissue::MembraneModel& sheet) {
+  tissue::Skin skin;
+  const int n = sheet.nodes();
+  skin.triangles = sheet.triangles;
+  for (int i = 0; i < n; ++i) {
+    skin.weights.push_back(tissue::SkinWeights::at(i, sheet.network.row_of_node[size_t(i)]));
+    skin.rest.push_back(vec_cast<float>(sheet.network.rest[size_t(i)]));
+  }
+  std::vector<Vec3d> normal(size_t(n), Vec3d{});
+  for (const auto& t : skin.triangles) {
+    const Vec3d a = vec_cast<double>(skin.rest[size_t(t[0])]), b = vec_cast<double>(skin.rest[size_t(t[1])]),
+                c = vec_cast<double>(skin.rest[size_t(t[2])]);
+    for (int v : t) normal[size_t(v)] += cross(b - a, c - a);
+  }
+  for (const Vec3d& v : normal) skin.rest_normal.push_back(vec_cast<float>(normalised(v, Vec3d{0, 0, 1})));
+  index_skin(skin);
+  return skin;
+}
+
+namespace {
+
+/// Way of each node from the strand's surface along its column, as drawn.
+std::vector<float> depth_of(const tissue::MembraneModel& sheet, const interactions::StrandBody& body, const Grid& g) {
+  std::vector<float> depth(size_t(sheet.nodes()));
+  for (int c = 0; c < g.columns; ++c) {
+    double way = -body.model.radius[size_t(interactions::place_at(body, g.arc[size_t(c)]).element)];
+    for (int r = 0; r < g.rows; ++r) {
+      const size_t i = size_t(r * g.columns + c);
+      if (r > 0) way += length(sheet.network.rest[i] - sheet.network.rest[i - size_t(g.columns)]);
+      depth[i] = float(way);
+    }
+  }
+  return depth;
+}
+
+}  // namespace
+
+void note_drawn_pulls(sim::MembraneModel& m) {
+  tissue::MembraneWork work = tissue::make_work(m.sheet);
+  std::vector<tissue::BorderPull> pulls(m.holds.size());
+  tissue::border_pulls(m.sheet, tissue::rest_state(m.sheet), work, pulls);
+  for (size_t h = 0; h < m.holds.size(); ++h) m.holds[h].drawn_pull = pulls[h].force;
+}
+
+void add_report(const sim::MembraneModel& m, CompileReport& report) {
+  BodyReport r;
+  r.name = m.name;
+  r.kind = m.sheet.closed() ? "pouch" : "membrane";
+  r.nodes = m.sheet.nodes();
+  r.springs = m.sheet.network.springs;
+  r.substeps = m.sheet.bend_steps * m.sheet.network.substeps;
+  r.dt_limit = m.sheet.network.dt_limit;
+  for (double each : m.sheet.network.mass) r.mass += each;
+  r.residual = m.sheet.settled_residual;
+  if (m.sheet.enclosure.kind != tissue::Enclosure::none) {
+    r.volume = m.sheet.enclosure.volume;
+    r.pressure = m.sheet.enclosure.pressure;
+  }
+  report.bodies.push_back(r);
+}
+
+void compile_membrane(const Membrane& membrane, const Tissue& tissue, Vec3d gravity, sim::Model& model,
+                      std::vector<core::Fault>& faults, CompileReport* report) {
+  sim::MembraneModel out;
+  out.name = membrane.name;
+  out.look = membrane.look;
+  out.tissue = membrane.tissue;
+  out.strand = model.strand_index(membrane.strand);
+  out.cuttable = membrane.cuttable;
+  out.failure_strain = tissue.failure_strain;
+  if (out.strand < 0) return;
+  const interactions::StrandBody& body = model.bodies[size_t(out.strand)];
+  const Grid g = grid_of(membrane, body);
+  if (double(g.rows) * g.columns > kMostFoldNodes) {  // a fold far wider than long: only now is its width known
+    faults.push_back({membrane.spacing_at, fmt::format("membrane '{}': expected a spacing that gives at most {} nodes, "
+                                                       "got {:.3g}",
+                                                       membrane.name, kMostFoldNodes, double(g.rows) * g.columns)});
+    return;
+  }
+  out.from = g.arc.front();
+  out.to = g.arc.back();
+  tissue::MembraneDescription d;
+  d.columns = g.columns;
+  d.rows = g.rows;
+  for (int r = 0; r < g.rows; ++r)
+    for (int c = 0; c < g.columns; ++c) {
+      const double v = double(r) / (g.rows - 1);
+      d.positions.push_back(g.top[size_t(c)] + v * (g.base[size_t(c)] - g.top[size_t(c)]));
+      d.held.push_back(r == 0 || r + 1 == g.rows);
+    }
+  d.thickness = membrane.thickness;
+  d.youngs_modulus = tissue.young;
+  d.law = {tissue.p1, tissue.p2, tissue.strain_cap};
+  d.density = tissue.density;
+  d.damping_time = kStretchDamping;
+  d.bending_damping_time = kBendingDamping;
+  d.global_damping = kDrag;
+  d.gravity = gravity;
+  try {
+    out.sheet = tissue::build(d, sim::kTick);
+  } catch (const std::invalid_argument& e) {
+    faults.push_back(
+        {membrane.at, "membrane '" + membrane.name + "': expected a fold that can be built, got: " + e.what()});
+    return;
+  }
+  for (int node : out.sheet.held_nodes) {
+    const int c = node % g.columns;
+    if (node >= g.columns) {
+      out.holds.push_back(hold_near(membrane.base_on, membrane.base_reach, d.positions[size_t(node)], model));
+      continue;
+    }
+    interactions::BorderHold hold;
+    hold.kind = interactions::BorderHold::strand;
+    hold.index = out.strand;
+    hold.place = interactions::place_at(body, g.arc[size_t(c)]);
+    out.holds.push_back(hold);
+  }
+  note_drawn_pulls(out);
+  out.skin = skin_of(out.sheet);
+  out.depth = depth_of(out.sheet, body, g);
+  if (report) add_report(out, *report);
+  model.membranes.push_back(std::move(out));
+}
+
+}  // namespace trocar::scene

@@ -1,0 +1,28 @@
+// A fold of a scene becomes a membrane: a grid between the strand and the base, what its borders ride on, its sheet.
+#pragma once
+
+#include <vector>
+
+#include <trocar/scene/compile/compile.hpp>
+#include <trocar/scene/description/description.hpp>
+
+namespace trocar::scene {
+
+/// Appends to Model::membranes. Solids and strands must be compiled before.
+void compile_membrane(const Membrane& membrane, const Tissue& tissue, Vec3d gravity, sim::Model& model,
+                      std::vector<core::Fault>& faults, CompileReport* report);
+
+/// A closed wall. Appends to Model::membranes, as above.
+void compile_pouch(const Pouch& pouch, const Tissue& tissue, Vec3d gravity, sim::Model& model,
+                   std::vector<core::Fault>& faults, CompileReport* report);
+
+/// The body of those named that is nearest to p and within reach, and the place on it; else space.
+interactions::BorderHold hold_near(const std::vector<std::string>& names, double reach, Vec3d p,
+                                   const sim::Model& model);
+/// The sheet's nodes as a skin: one vertex a node.
+tissue::Skin skin_of(const tissue::MembraneModel& sheet);
+/// What the sheet does to its holders in the drawn shape.
+void note_drawn_pulls(sim::MembraneModel& membrane);
+void add_report(const sim::MembraneModel& membrane, CompileReport& report);
+
+}  // namespace trocar::scene

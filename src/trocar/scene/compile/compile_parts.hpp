@@ -1,0 +1,29 @@
+// What compiling lattices and compiling tetrahedra have in common. Private to the folder.
+#pragma once
+
+#include <vector>
+
+#include <trocar/scene/compile/compile.hpp>
+
+namespace trocar::scene {
+
+/// The points' numbers along a Morton curve: what is near each other in this order is near in space.
+std::vector<int> along_curve(const std::vector<Vec3d>& points);
+
+/// Nodes within the solid's anchors: held (in `fixed`, tissue::Held bits, one for each of the positions), or hung from
+/// space by the springs returned, whose stiffnesses add up to the anchor's.
+std::vector<tissue::Anchor> anchor_nodes(const Solid& solid, const std::vector<Vec3d>& positions,
+                                         std::vector<std::uint8_t>& fixed, std::vector<core::Fault>& faults);
+
+/// Spring damping that costs the time step little: a seventh of the undamped limit, but no more than the tissue's own.
+double damping_time(const tissue::NetworkDescription& undamped, double wanted);
+
+/// Which k and d (4b) is given at a node: of its stiffest spring ("the dominating spring"), or of all its springs.
+enum class Dominating { stiffest_spring, all_springs };
+/// What (4b) as printed allows, for the record.                                    [KCM99 eq.4]
+double printed_limit(const tissue::NetworkDescription& network, Dominating dominating);
+
+/// False, and a fault, where the organ would need too many.
+bool few_substeps(const Solid& solid, int substeps, std::vector<core::Fault>& faults);
+
+}  // namespace trocar::scene

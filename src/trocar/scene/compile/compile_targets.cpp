@@ -1,0 +1,83 @@
+#include <algorithm>
+#include <cmath>
+
+#include <trocar/scene/compile/compile_targets.hpp>
+
+namespace trocar::scene {
+namespace {
+
+void add_target(sim::Model& model, sim::VisibilityTarget target, const std::vector<sim::VisibilitySample>& samples) {
+  target.first = std::int32_t(model.samples.size());
+  target.count = std::int32_t(samples.size());
+  for (sim::VisibilitySample s : samples) {
+    s.target = std::int32_t(model.targets.size());
+    model.samples.push_back(s);
+  }
+  model.targets.push_back(target);
+}
+
+/// Both jaw tips, and the shaft between trocar and jaws.
+void add_hand(sim::Model& model, std::int32_t hand) {
+  const std::string& name = model.hands[size_t(hand)].name;
+  for (std::int32_t jaw = 0; jaw < 2; ++jaw)
+    add_target(model, {sim::VisibilityTarget::jaw, name + (jaw == 0 ? ".jaw_a" : ".jaw_b"), hand, 0, 0}, {{0, jaw, 0}});
+  std::vector<sim::VisibilitySample> track;
+  for (double share : {0.4, 0.6, 0.8, 0.95}) track.push_back({0, 0, share});
+  add_target(model, {sim::VisibilityTarget::shaft, name + ".shaft", hand, 0, 0}, track);
+}
+
+/// One sample an element, from start to end: for following a tube, and for the stumps where it was cut.
+void add_trace(sim::Model& model, std::int32_t strand) {
+  std::vector<sim::VisibilitySample> samples;
+  for (std::int32_t e = 0; e + 1 < model.bodies[size_t(strand)].nodes(); ++e) samples.push_back({0, e, 0.5});
+  add_target(model, {sim::VisibilityTarget::strand, model.strands[size_t(strand)].name + ".trace", strand, 0, 0},
+             samples);
+}
+
+/// Where a vessel opens by itself: the place of its host that is next to it.
+void add_bleeder(sim::Model& model) {
+  const sim::Bleeder& b = model.vessels.bleeder;
+  if (b.vessel < 0) return;
+  const std::vector<interactions::VesselPoint>& points = model.vessels.list[size_t(b.vessel)].path.points;
+  const auto nearest = std::min_element(points.begin(), points.end(), [&b](const auto& p, const auto& q) {
+    return std::fabs(p.s - b.s) < std::fabs(q.s - b.s);
+  });
+  const interactions::VesselHold& hold = nearest->hold;
+  if (hold.kind == interactions::VesselHold::strand)
+    add_target(model, {sim::VisibilityTarget::strand, "bleeder", hold.index, 0, 0}, {{0, hold.element, hold.w}});
+  if (hold.kind == interactions::VesselHold::organ)
+    add_target(model, {sim::VisibilityTarget::organ, "bleeder", hold.index, 0, 0}, {{0, hold.vertex[0], 0}});
+}
+
+}  // namespace
+
+void compile_targets(sim::Model& model) {
+  for (size_t t = 0; t < model.hands.size(); ++t) add_hand(model, std::int32_t(t));
+  for (size_t i = 0; i < model.strands.size(); ++i)
+    for (const sim::LandmarkModel& l : model.strands[i].landmarks) {
+      std::vector<sim::VisibilitySample> samples;
+      constexpr int kSamples = 5;
+      for (int k = 0; k < kSamples; ++k) {
+        const interactions::StrandPlace p =
+            interactions::place_at(model.bodies[i], l.from + (l.to - l.from) * (k + 0.5) / kSamples);
+        samples.push_back({0, p.element, p.w});
+      }
+      add_target(model, {sim::VisibilityTarget::strand, model.strands[i].name + "." + l.name, std::int32_t(i), 0, 0},
+                 samples);
+    }
+  for (size_t i = 0; i < model.strands.size(); ++i)
+    if (!model.strands[i].landmarks.empty()) add_trace(model, std::int32_t(i));
+  for (int i = 0; i < model.organs(); ++i) {
+    std::vector<sim::VisibilitySample> samples;
+    std::vector<std::int32_t> outside;
+    for (int v = 0; v < model.skin(i).size(); ++v)
+      if (model.skin(i).at_surface(v)) outside.push_back(v);
+    constexpr size_t kSamples = 16;
+    for (size_t k = 0; k < kSamples; ++k)
+      samples.push_back({0, outside[(2 * k + 1) * outside.size() / (2 * kSamples)], 0});
+    add_target(model, {sim::VisibilityTarget::organ, model.organ_name(i), i, 0, 0}, samples);
+  }
+  add_bleeder(model);
+}
+
+}  // namespace trocar::scene

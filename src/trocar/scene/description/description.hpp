@@ -1,0 +1,330 @@
+// What a person writes in a scene file, with names and places in the file: editable, no indices, no physics state.
+// compile() turns it into a sim::Model. All lengths are in metres here (files say _mm), angles in radians.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <trocar/core/error.hpp>
+#include <trocar/geometry/tets/tet_mesh.hpp>
+#include <trocar/numerics/vec3.hpp>
+#include <trocar/scene/description/vessel_tree.hpp>
+
+namespace trocar::scene {
+
+/// One row of the tissue table. sigma = E eps (1 + P1 |eps| + P2 eps^2), linear beyond strain_cap.  [KCM99 eq.5]
+struct Tissue {
+  std::string name;
+  double density = 1050;      ///< [kg/m^3]
+  double young = 0;           ///< E [Pa]
+  double poisson = 0.25;      ///< nu of organs, 1/4 to 0.45; strands and folds do not use it
+  double p1 = 0, p2 = 0;      ///< shape factors
+  double strain_cap = 0.2;    ///< the law continues linearly beyond it
+  double failure_strain = 0;  ///< tears beyond it (0: never)
+  double damping_ms = 2;      ///< stiffness-proportional damping, a time [ms]
+  std::string source;         ///< literature or "ours": of the figures that have no source of their own below
+  std::array<std::string, 8> source_of;  ///< in the order of kTissueFigures; empty: `source`
+  core::Location at;
+};
+/// The figures of a tissue, as files name them.
+struct TissueFigure {
+  const char* key;
+  double Tissue::*value;
+};
+inline constexpr std::array<TissueFigure, 8> kTissueFigures{{{"density_kg_m3", &Tissue::density},
+                                                             {"young_Pa", &Tissue::young},
+                                                             {"poisson", &Tissue::poisson},
+                                                             {"p1", &Tissue::p1},
+                                                             {"p2", &Tissue::p2},
+                                                             {"strain_cap", &Tissue::strain_cap},
+                                                             {"failure_strain", &Tissue::failure_strain},
+                                                             {"damping_ms", &Tissue::damping_ms}}};
+
+/// A section of a lofted body: a super-ellipse with two half-axis vectors.
+struct Section {
+  Vec3d centre, across, deep;
+  double squareness = 2;  ///< 2 = ellipse
+};
+
+/// A place on a body: the nodes within `radius` of `centre` are fixed (stiffness 0) or sprung to space.
+struct Anchor {
+  Vec3d centre;
+  double radius = 0;
+  double stiffness = 0;  ///< total [N/m]; 0 = rigidly fixed
+  core::Location at;
+};
+
+/// Tetrahedra from a file: a mesh, or what fills a label of a voxel volume.
+struct TetSource {
+  std::string file;    ///< as named, relative to the file that names it
+  double unit = 1e-3;  ///< of a mesh's coordinates [m]
+  int label = 0;       ///< of voxels; 0: a mesh
+  int smoothing = 1;   ///< of the label's steps, in passes
+  Vec3d place;         ///< where the file's origin goes [m]
+  geometry::TetMesh mesh;
+};
+
+/// A volumetric organ: a spline loft or tetrahedra from a file. A loft is filled with an elastic lattice of cubic
+/// cells, or with tetrahedra where it can be cut.
+struct Solid {
+  std::string name, tissue, look;
+  std::vector<Section> sections;  ///< empty where there are tets
+  std::optional<TetSource> tets;
+  bool cuttable = false;
+  Vec3d fibre{0, 0, 0};    ///< direction, any length; zero: isotropic. Tetrahedra only
+  double fibre_ratio = 1;  ///< E along the fibres over E across
+  double cell = 0;         ///< lattice edge [m]; 0 for a mesh
+  double skin_edge = 0;    ///< contact skin's edge length [m]
+  double fine_edge = 0;    ///< drawn skin's edge length [m]
+  std::vector<Anchor> anchors;
+  core::Location at, cell_at;
+};
+
+struct StrandStation {
+  double s = 0;       ///< arc length from the start [m]
+  double radius = 0;  ///< outer [m]
+  double lumen = 0;   ///< lumen radius [m], 0 = solid cord
+};
+
+/// Where a strand's end hangs: on a solid organ at a point (its skin nearest to that point), at a fixed point in space,
+/// or free (organ empty and fixed false).
+struct StrandEnd {
+  std::string organ;  ///< empty: not on an organ
+  bool fixed = false;
+  core::Location at;
+};
+
+/// A named stretch of a strand, used by exercises ("isthmus", "ampulla", "fimbria").
+struct Landmark {
+  std::string name;
+  double from = 0, to = 0;  ///< arc length [m]
+};
+
+/// A thin tube or cord: cubic spline centre-line through the points, implicit strand.
+struct Strand {
+  std::string name, tissue, look;
+  std::vector<Vec3d> centreline;        ///< interpolated points [m]
+  std::vector<StrandStation> stations;  ///< radius and lumen along it, linear in between
+  std::vector<Landmark> landmarks;
+  StrandEnd start, end;
+  double spacing = 0.0025;      ///< node distance [m]
+  double foundation = 0;        ///< elastic foundation per length [N/m^2]: the mesentery's hold
+  double foundation_limit = 0;  ///< displacement at which the foundation's stiffness has doubled [m]; 0: linear
+  bool cuttable = true;
+  bool fimbriated = false;  ///< the end flares into fimbriae
+  core::Location at, spacing_at;
+};
+
+/// A surface that does not move: a NURBS patch from a grid of control points (rows x columns), drawn and touched.
+struct Wall {
+  std::string name, look;
+  int rows = 0, columns = 0;
+  std::vector<Vec3d> net;  ///< rows * columns control points [m], normal = d/drow x d/dcolumn points to the free side
+  double edge = 0.004;     ///< tessellation [m]
+  core::Location at;
+};
+
+/// A thin translucent fold drawn between a strand and a line of points that ride on other bodies or on space.
+/// Mechanically it is the strand's foundation in this version.
+struct Sheet {
+  std::string name, look, strand;
+  double from = 0, to = 0;  ///< the strand's arc length [m]
+  std::vector<Vec3d> base;  ///< polyline of the fold's other border [m]
+  std::string base_organ;   ///< solid or strand that the base rides on; empty: space
+  core::Location at;
+};
+
+/// A thin fold that is a body of its own: a membrane between a stretch of a strand and a base line. Points of the base
+/// that lie within `base_reach` of one of the bodies `base_on` ride on it, the others stay in space.
+struct Membrane {
+  std::string name, tissue, look, strand;
+  double from = 0, to = 0;           ///< the strand's arc length [m]
+  std::vector<Vec3d> base;           ///< polyline of the other border, in the same direction [m]
+  std::vector<std::string> base_on;  ///< solids and strands
+  double base_reach = 0.004;         ///< [m]
+  double thickness = 0;              ///< [m]
+  double spacing = 0.0025;           ///< of its nodes [m]
+  bool cuttable = true;
+  core::Location at, spacing_at;
+};
+
+/// What a pouch is filled with.
+struct Contents {
+  enum Kind { nothing, constant, liquid, gas } kind = nothing;
+  double pressure = 0;  ///< over the surroundings, as drawn [Pa]
+  double bulk = 2e5;    ///< of a liquid [Pa]
+  double density = 0;   ///< [kg/m^3]
+};
+
+/// A thin closed wall around something: gallbladder, bladder. The wall's nodes within a ball of `held` (anchors, all
+/// rigid) ride on the nearest of the bodies `held_on` within `held_reach`, or stay in space.
+struct Pouch {
+  std::string name, tissue, look;
+  std::vector<Section> sections;
+  double thickness = 0;    ///< [m]
+  double spacing = 0.004;  ///< of its nodes [m]
+  std::vector<Anchor> held;
+  std::vector<std::string> held_on;  ///< solids and strands
+  double held_reach = 0.004;         ///< [m]
+  Contents contents;
+  bool cuttable = true;
+  core::Location at, spacing_at;
+};
+
+struct Port {
+  std::string name;
+  Vec3d position;
+  double diameter = 0.005;
+  core::Location at;
+};
+
+/// Fluids of a scene: where they gather.
+struct FluidsSetting {
+  Vec3d pool_middle;                 ///< of the square field in which a pool can be [m]
+  double pool_size = 0.160;          ///< its edge [m]
+  std::vector<std::string> pool_on;  ///< solids whose tops are part of its floor, beside the walls
+  int drops = 4096;                  ///< at a time
+  core::Location at;
+};
+
+/// Vessels that open by themselves, one an attempt: what exercises on bleeding begin with.
+struct BleederSetting {
+  struct Hole {
+    std::string vessel;
+    double at = 0.5;           ///< 0 .. 1 along it
+    double diameter = 0.5e-3;  ///< [m]
+    core::Location where;
+  };
+  double opens = 5;  ///< [s] after the start
+  std::vector<Hole> holes;
+  int which = 0;  ///< of the holes; vary() chooses
+};
+
+/// The generator's panel, and how much heat is remembered. A scene that has it computes heat.
+struct EnergySetting {
+  bool blend = false;                                             ///< what the yellow pedal gives, else cut
+  double yellow_watts = 40, blue_watts = 40, bipolar_watts = 30;  ///< [W]
+  double cell = 0.0005;                                           ///< of the heat's grid [m]
+  int bricks = 256, awake = 128;                                  ///< tissue::HeatDescription
+  core::Location at;
+};
+
+/// Waves of contraction that run along a hollow organ: peristalsis.
+struct WaveSetting {
+  struct Station {
+    double s = 0;         ///< way along the centre line [m]
+    double pressure = 0;  ///< at the crest [Pa]
+    double speed = 0;     ///< [m/s]
+    core::Location at;
+  };
+  std::string solid;
+  std::vector<Vec3d> centreline;  ///< points, in the waves' direction [m]; empty: the centres of the solid's sections
+  std::vector<Station> stations;  ///< linear in between
+  double per_minute = 3;
+  double width = 0.010;     ///< sigma of a wave's profile [m]
+  double first = 0;         ///< when a crest is at the line's beginning [s]
+  double cycle = 60;        ///< [s]
+  double active_share = 1;  ///< of a cycle
+  core::Location at, width_at, solid_at, centreline_at;
+};
+
+/// Breathing: what hangs in space on the diaphragm and below it goes along.
+struct BreathingSetting {
+  struct Carried {
+    std::string body;
+    double share = 1;  ///< of the amplitude
+    core::Location at;
+  };
+  double per_minute = 13;
+  double amplitude = 0.010;      ///< from end-expiration to end-inspiration [m]
+  Vec3d direction{0, -1, 0};     ///< of inspiration, any length
+  std::vector<Carried> carries;  ///< solids, strands, membranes, pouches
+  core::Location at;
+};
+
+/// How finely some things are drawn, by how far off they are (view/base/level_of_detail.hpp). No levels: in full,
+/// always.
+struct DetailSetting {
+  struct Level {
+    double from = 0, error = 0;  ///< sim::DetailLevel [m]
+    int surface = 2;
+  };
+  std::vector<std::string> of;  ///< bodies, walls, instruments, ports, and kDrawnNames
+  std::vector<Level> levels;
+  core::Location at;
+};
+/// What is drawn and has no name of its own in a file.
+inline constexpr std::array<const char*, 4> kDrawnNames{"cavity", "endoscope", "arteries", "veins"};
+
+/// The part of an instrument that current leaves from.
+struct ElectrodeSetting {
+  double radius = 0.001;     ///< of its contact [m]
+  double efficiency = 0.45;  ///< share of the generator's power that heats tissue
+  double stick_force = 2;    ///< to tear it off char [N]
+  double seals = 0;          ///< largest outer diameter of vessels that it seals [m]; 0: 1 mm bare, 3 mm between jaws
+};
+
+enum class InstrumentKind { grasper, clip_applier, scissors, probe, suction_irrigator, hook, bipolar };
+
+inline bool has_electrode(InstrumentKind kind) {
+  return kind == InstrumentKind::hook || kind == InstrumentKind::bipolar;
+}
+
+/// An instrument's shape and grip. Jaws open symmetrically in the plane of the shaft axis and the opening direction.
+struct Instrument {
+  std::string name, title;
+  InstrumentKind kind = InstrumentKind::probe;
+  double shaft_radius = 0.0025, shaft_length = 0.310;
+  double jaw_length = 0.020, jaw_width = 0.003, jaw_thickness = 0.0015;
+  double opening = 1.0;     ///< full opening between the jaws [rad], or for parallel jaws
+  double parallel_gap = 0;  ///< clip applier: gap between parallel jaws when open [m] (then opening = 0)
+  double pinch_max = 15;    ///< force between the jaws when the handle is fully closed on tissue [N]
+  double friction = 1.67;   ///< pull the grip bears per pinch force: profiled jaws hold 5 N with 3 N [Heijnsdijk 04]
+  double clip_length = 0.0085;  ///< clip applier: length of a closed clip [m]
+  int clips = 0;                ///< clips in the magazine
+  ElectrodeSetting electrode;   ///< of hooks and bipolar forceps
+  core::Location at;
+};
+
+struct Scope {
+  double angle = 0;             ///< 0, 30 or 45 degrees [rad]
+  double field_of_view = 1.22;  ///< full cone [rad]
+  double shaft_radius = 0.005, shaft_length = 0.310;
+};
+
+/// Where an instrument or the scope stands at the start: through which port, aimed at which point, how deep.
+struct Placement {
+  std::string instrument;  ///< empty for the scope
+  std::string port;
+  Vec3d tip;  ///< tip position at the start [m]
+  double roll = 0;
+  core::Location at;
+};
+
+struct Description {
+  std::string name, title, file;
+  Vec3d gravity{0, 0, -9.81};  ///< [m/s^2], patient frame: tilt included
+  std::vector<Tissue> tissues;
+  std::vector<Solid> solids;
+  std::vector<Strand> strands;
+  std::vector<Wall> walls;
+  std::vector<Sheet> sheets;
+  std::vector<Membrane> membranes;
+  std::vector<Pouch> pouches;
+  std::vector<VesselTree> vessels;  ///< heart and blood are the first one's
+  std::optional<FluidsSetting> fluids;
+  std::optional<BleederSetting> bleeder;
+  std::optional<EnergySetting> energy;
+  std::vector<WaveSetting> peristalsis;
+  std::optional<BreathingSetting> breathing;
+  std::vector<DetailSetting> detail;
+  std::vector<Port> ports;
+  std::vector<Instrument> instruments;
+  std::vector<Placement> placements;  ///< tools, in hand order: [0] left, [1] right, [2] assistant/third
+  Scope scope;
+  Placement scope_placement;
+};
+
+}  // namespace trocar::scene

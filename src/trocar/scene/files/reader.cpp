@@ -1,0 +1,170 @@
+#include <algorithm>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include <trocar/scene/files/reader.hpp>
+#include <trocar/scene/files/reader_parts.hpp>
+#include <trocar/scene/files/vessel_file.hpp>
+
+namespace trocar::scene {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kMaxIncludeDepth = 16;
+
+/// Faults in the order in which a person meets them: file by file as read, then by place.
+void sort_faults(std::vector<core::Fault>& faults) {
+  std::vector<std::string> files;
+  const auto rank = [&](const core::Fault& f) {
+    return std::find(files.begin(), files.end(), f.at.file) - files.begin();
+  };
+  for (const core::Fault& f : faults)
+    if (rank(f) == std::ptrdiff_t(files.size())) files.push_back(f.at.file);
+  std::stable_sort(faults.begin(), faults.end(), [&](const core::Fault& a, const core::Fault& b) {
+    const auto ra = rank(a), rb = rank(b);
+    if (ra != rb) return ra < rb;
+    return a.at.line != b.at.line ? a.at.line < b.at.line : a.at.column < b.at.column;
+  });
+}
+
+std::vector<fs::path> sorted_entries(const fs::path& folder) {
+  std::vector<fs::path> paths;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) paths.push_back(entry.path());
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+}  // namespace
+
+void Reading::include(const fs::path& path, const core::Location& from, const Shape& shape, Read read) {
+  const auto refuse = [&](std::string message) { tell(m_faults, {from, std::move(message)}); };
+  std::error_code error;
+  const fs::path canonical = m_memory ? path : fs::weakly_canonical(path, error);
+  std::string chain;
+  bool cycle = false;
+  for (const auto& [open, name] : m_open) {
+    cycle = cycle || open == canonical;
+    if (cycle) chain += name + " -> ";
+  }
+  if (cycle)
+    return refuse(fmt::format("expected files that do not include each other in a circle, got {}{}", chain,
+                              path.generic_string()));
+  if (m_open.size() >= kMaxIncludeDepth)
+    return refuse(fmt::format("expected at most {} files inside each other, got more", kMaxIncludeDepth));
+  if (++m_files > kMaxFiles) return refuse(fmt::format("expected at most {} files, got more", kMaxFiles));
+  if (!m_open.empty() && !(m_memory ? m_memory->count(path) > 0 : fs::is_regular_file(path, error)))
+    return refuse(fmt::format("expected the name of a file, got \"{}\" (there is no file {})",
+                              path.filename().generic_string(), path.generic_string()));
+  m_open.emplace_back(canonical, path.generic_string());
+  const JsonDocument document = load_json(path, m_faults, m_memory);
+  (this->*read)(JsonObject(document.root, shape, document.file, m_faults), path.parent_path());
+  m_open.pop_back();
+}
+
+void Reading::includes(const JsonObject& o, const char* key, const fs::path& folder, const Shape& shape, Read read,
+                       Read read_here) {
+  const std::vector<JsonValue>& items = o.values(key);
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (items[i].kind != JsonValue::Kind::string) continue;
+    const fs::path named(items[i].text);
+    if (named.empty() || named.is_absolute())
+      o.fault(o.at(key, i), fmt::format("expected a file name relative to this file, got {}", shown(items[i])));
+    else
+      include((folder / named).lexically_normal(), o.at(key, i), shape, read);
+  }
+  for (const JsonObject& object : o.objects(key)) (this->*read_here)(object, folder);
+}
+
+Description read_scene(const fs::path& path, const MemoryFiles* memory) {
+  std::vector<core::Fault> faults;
+  Reading reading(faults, memory);
+  reading.scene_file(path);
+  reading.resolve();
+  reading.check_together();
+  sort_faults(faults);
+  if (!faults.empty()) throw core::BadInput(std::move(faults));
+  return std::move(reading.description);
+}
+
+FileKind kind_of_file(const fs::path& path, const MemoryFiles* memory) {
+  std::vector<core::Fault> ignored;
+  const JsonDocument document = load_json(path, ignored, memory);
+  const auto has = [&](const char* key) { return document.root.find(key) != nullptr; };
+  if (has("scene")) return FileKind::exercise;
+  if (has("scope") || has("ports") || has("tools")) return FileKind::scene;
+  if (has("vessels") || has("sources")) return FileKind::vessels;
+  if (has("kind")) return FileKind::instrument;
+  if (has("solids") || has("strands") || has("walls") || has("sheets") || has("membranes") || has("organs"))
+    return FileKind::organ;
+  return has("tissues") ? FileKind::tissue : FileKind::scene;
+}
+
+std::vector<Tissue> read_tissues(const fs::path& path) {
+  std::vector<core::Fault> faults;
+  Reading reading(faults, nullptr);
+  reading.tissue_file(path);
+  sort_faults(faults);
+  if (!faults.empty()) throw core::BadInput(std::move(faults));
+  return std::move(reading.description.tissues);
+}
+
+std::vector<core::Fault> check_file(const fs::path& path, const MemoryFiles* memory) {
+  std::vector<core::Fault> faults;
+  Reading reading(faults, memory);
+  switch (kind_of_file(path, memory)) {
+    case FileKind::scene:
+      reading.scene_file(path);
+      reading.resolve();
+      break;
+    case FileKind::organ:
+      reading.organ_file(path);
+      break;
+    case FileKind::instrument:
+      reading.instrument_file(path);
+      break;
+    case FileKind::tissue:
+      reading.tissue_file(path);
+      break;
+    case FileKind::vessels:
+      read_vessels(path, faults, memory);
+      break;
+    case FileKind::exercise:
+      load_json(path, faults, memory);
+      break;
+  }
+  reading.check_together();
+  sort_faults(faults);
+  return faults;
+}
+
+std::vector<SceneEntry> list_scenes(const fs::path& folder) {
+  std::vector<SceneEntry> entries;
+  for (const fs::path& path : sorted_entries(folder)) {
+    const fs::path file = path / "scene.json";
+    std::error_code error;
+    if (!fs::is_regular_file(file, error)) continue;
+    std::vector<core::Fault> ignored;
+    const JsonDocument document = load_json(file, ignored);
+    const JsonMember* title = document.root.find("title");
+    entries.push_back({path.filename().generic_string(), title ? title->value.text : "", file});
+  }
+  return entries;
+}
+
+std::vector<InstrumentEntry> list_instruments(const fs::path& folder) {
+  std::vector<InstrumentEntry> entries;
+  for (const fs::path& path : sorted_entries(folder)) {
+    std::vector<core::Fault> faults;
+    if (path.extension() != ".json") continue;
+    const JsonDocument document = load_json(path, faults);
+    const JsonObject o(document.root, instrument_shape(), document.file, faults);
+    if (faults.empty()) entries.push_back({o.text("name"), o.text("kind"), o.text("title"), path});
+  }
+  return entries;
+}
+
+}  // namespace trocar::scene

@@ -1,0 +1,248 @@
+// Everything about a scene that does not change while it runs: compiled once, const, shared by any number of States.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <trocar/fluids/fluids.hpp>
+#include <trocar/geometry/volumes/cell_mask.hpp>
+#include <trocar/interactions/contact/body_contact.hpp>
+#include <trocar/interactions/contact/self_contact.hpp>
+#include <trocar/interactions/contact/skin_grid.hpp>
+#include <trocar/interactions/contact/surface.hpp>
+#include <trocar/interactions/couplings/border.hpp>
+#include <trocar/interactions/couplings/hosting.hpp>
+#include <trocar/interactions/couplings/strand_body.hpp>
+#include <trocar/interactions/couplings/vessel_path.hpp>
+#include <trocar/interactions/instrument/tool.hpp>
+#include <trocar/sim/model/input.hpp>
+#include <trocar/sim/model/motion.hpp>
+#include <trocar/tissue/heat/electrosurgery.hpp>
+#include <trocar/tissue/network/prestress.hpp>
+#include <trocar/tissue/tets/cuttable_skin.hpp>
+#include <trocar/vessels/flow.hpp>
+
+namespace trocar::sim {
+
+inline constexpr double kTick = 1e-3;  ///< [s]
+
+/// A volumetric organ.
+struct SolidModel {
+  std::string name, look, tissue;
+  double cell = 0;  ///< lattice edge [m]
+  tissue::NetworkModel network;
+  std::vector<tissue::Anchor> anchors;  ///< springs to space
+  tissue::Skin skin;                    ///< contact and clips
+  tissue::Skin fine;                    ///< drawn: the same surface, more vertices
+  double failure_strain = 0;            ///< 0: it never tears
+};
+
+/// A volumetric organ that can be cut anywhere. Organs are numbered: solids first, then these.
+struct CuttableOrgan {
+  std::string name, look, tissue;
+  double cell = 0;  ///< a typical edge [m]
+  tissue::CuttableModel body;
+  tissue::CuttableSkin skin;  ///< uncut; what is touched, held and drawn
+  double failure_strain = 0;  ///< 0: it never tears
+};
+
+/// A stretch of a strand with a name: isthmus, ampulla, fimbria.
+struct LandmarkModel {
+  std::string name;
+  double from = 0, to = 0;  ///< arc length [m]
+};
+
+/// What holds a strand's end: nothing, space, or an organ.
+struct StrandEndModel {
+  enum Kind : std::int32_t { free, fixed, hosted } kind = free;
+  std::int32_t organ = -1;
+  interactions::HostPatch patch;
+};
+
+struct StrandModel {
+  std::string name, look, tissue;
+  std::vector<double> outer, inner;  ///< (n) radius and lumen radius at the nodes [m], for drawing and clips
+  StrandEndModel start, end;
+  std::vector<LandmarkModel> landmarks;
+  bool fimbriated = false;
+  double failure_strain = 0;  ///< 0: it never tears
+};
+
+struct WallModel {
+  std::string name, look;
+  tissue::Skin skin;  ///< weights unused
+  tissue::SkinPose pose;
+};
+
+/// A point of a sheet's base line and what it rides on.
+struct BasePoint {
+  Vec3d rest;
+  std::int32_t organ = -1;  ///< rides on this organ's skin vertex ...
+  std::int32_t vertex = -1;
+  std::int32_t strand = -1;  ///< ... or on this strand, or (both -1) on space
+  interactions::StrandPlace place;
+};
+
+/// A thin fold, drawn between a strand and its base; mechanically it is the strand's foundation.
+struct SheetModel {
+  std::string name, look;
+  std::int32_t strand = -1;
+  double from = 0, to = 0;  ///< arc length [m]
+  std::vector<BasePoint> base;
+};
+
+/// A thin fold with mechanics of its own: its border hangs on a strand, its base on other bodies and on space.
+struct MembraneModel {
+  std::string name, look, tissue;
+  std::int32_t strand = -1;  ///< on row 0
+  double from = 0, to = 0;   ///< arc length [m]
+  bool cuttable = true;
+  tissue::MembraneModel sheet;
+  tissue::Skin skin;                            ///< the sheet's own nodes and triangles, one skin vertex per node
+  double pinch_reach = 0;                       ///< of a pouch (interactions::SheetView) [m]
+  std::vector<float> depth;                     ///< (nodes) way from the strand's surface, as drawn [m]
+  std::vector<interactions::BorderHold> holds;  ///< (held nodes)
+  double failure_strain = 0;                    ///< 0: it never tears
+};
+
+/// An artery or a vein: the flow's segment of the same number, and where it runs.
+struct Vessel {
+  std::string name;
+  bool vein = false;
+  double gain = 1;           ///< of what the pulse does to its surroundings, and of what is shown; 1 = physical
+  double mean_pressure = 0;  ///< in its middle, at rest [Pa]
+  interactions::VesselPath path;
+
+  bool pulses() const noexcept { return gain > 0; }
+};
+/// From a distance on something is drawn with fewer triangles and a simpler surface (view/base/level_of_detail.hpp).
+struct DetailLevel {
+  double from = 0;   ///< [m] in a picture 600 px high through a lens of 70 degrees
+  double error = 0;  ///< [m] by which its surface may depart from the full one
+  int surface = 2;   ///< how much of its patterns is drawn, as render::Quality::detail
+};
+struct DrawnDetail {
+  std::string name;  ///< as in the scene
+  std::vector<DetailLevel> levels;
+};
+
+/// A vessel that opens by itself.
+struct Bleeder {
+  std::int32_t vessel = -1;  ///< -1: none does
+  double s = 0;              ///< 0 .. 1 along it
+  double area = 0;           ///< of the hole [m^2]
+  std::uint64_t tick = 0;    ///< when
+};
+struct VesselsModel {
+  std::vector<Vessel> list;
+  Bleeder bleeder;
+  vessels::FlowModel flow;
+  vessels::FlowState start;  ///< after some seconds of heartbeat
+
+  bool there() const noexcept { return !list.empty(); }
+};
+
+/// Fluids, where a scene has any.
+struct WetModel {
+  bool there = false;
+  fluids::FluidsModel model;
+  std::vector<float> floor;        ///< of the pool without organs, (ny x nx) [m]
+  std::vector<int> floor_organs;   ///< that are part of it as they lie
+  std::vector<std::int32_t> film;  ///< (bodies + 1) where the places of film of each begin (interactions::WetBodies)
+  std::vector<interactions::SkinGrid> grids;  ///< (walls) for what drops meet there
+};
+
+/// Current and heat, where a scene has them.
+struct EnergyModel {
+  bool there = false;
+  tissue::HeatModel heat;
+  tissue::GeneratorPanel panel;                   ///< as it is set at the beginning
+  std::vector<geometry::CellMask> organs, folds;  ///< what of them is tissue (heat_bodies.hpp)
+};
+
+/// A hand at a trocar, and the instruments that go through it.
+struct HandModel {
+  std::string name;                           ///< of the trocar: "left_lateral"
+  Vec3d port;                                 ///< its fulcrum [m]
+  std::vector<interactions::ToolModel> rack;  ///< 1..kMaxRack; the first is in the hand at the start
+
+  int find(const std::string& instrument) const;  ///< number in the rack, -1 if it is not there
+};
+
+struct ScopeModel {
+  Vec3d port;
+  kinematics::FulcrumLimits limits;
+  double angle = 0;            ///< of the oblique view [rad]
+  double field_of_view = 1.2;  ///< full cone [rad]
+  double shaft_radius = 0.005;
+};
+
+/// Something whose visibility the simulation knows: `visible` when at least half of its samples are seen.
+struct VisibilityTarget {
+  enum Kind : std::int32_t { jaw, shaft, strand, organ } kind = jaw;
+  std::string name;                   ///< "tube_left.isthmus", "uterus", "left_lateral.jaw_a", "left_lateral.shaft"
+  std::int32_t index = 0;             ///< hand, strand or organ
+  std::int32_t first = 0, count = 0;  ///< samples
+};
+struct VisibilitySample {
+  std::int32_t target = 0;
+  std::int32_t where = 0;  ///< jaw 0/1, strand element, skin vertex
+  double w = 0;            ///< within the element; shaft: share of the way from the trocar to the jaws
+};
+
+struct State;
+
+/// A Model names things; State and Work have only numbers.
+struct Model {
+  std::string name, file;
+  Vec3d gravity;
+  std::vector<SolidModel> solids;
+  std::vector<CuttableOrgan> cuttables;
+  std::vector<StrandModel> strands;
+  std::vector<interactions::StrandBody> bodies;  ///< (strands) their mechanics, side by side as interactions want them
+  std::vector<WallModel> walls;
+  std::vector<SheetModel> sheets;
+  std::vector<MembraneModel> membranes;
+  VesselsModel vessels;
+  WetModel wet;
+  EnergyModel energy;
+  MotionModel motion;
+  tissue::Box cavity{{-1e9f, -1e9f, -1e9f}, {1e9f, 1e9f, 1e9f}};  ///< nothing leaves it (containing.hpp)
+  std::vector<HandModel> hands;                                   ///< at most kMaxTools
+  ScopeModel scope;
+  Input start;  ///< everything as placed
+  std::vector<interactions::SurfacePair> surface_pairs;
+  std::vector<interactions::StrandPair> strand_pairs;
+  std::vector<interactions::SelfPair> self_pairs;  ///< of organs that can be folded onto themselves
+  std::vector<std::int32_t> nearest_at_start;      ///< initial State::nearest
+  std::vector<VisibilityTarget> targets;
+  std::vector<VisibilitySample> samples;
+  std::vector<DrawnDetail> drawn_detail;  ///< nothing that the step reads: not in the hash
+  std::uint64_t hash = 0;
+
+  /// The instrument that hand `hand` has in its trocar.
+  const interactions::ToolModel& tool(const State& state, size_t hand) const noexcept;
+  /// The one it begins with.
+  const interactions::ToolModel& placed(size_t hand) const noexcept { return hands[hand].rack.front(); }
+
+  bool irrigates() const noexcept;  ///< there are fluids, and a suction-irrigator in a rack
+  int free_nodes() const;           ///< nodes that move, all bodies
+  int organs() const { return int(solids.size() + cuttables.size()); }
+  int surfaces() const { return organs() + int(walls.size()); }  ///< organs first
+  const std::string& organ_name(int organ) const;
+  const std::string& organ_look(int organ) const;
+  const tissue::Skin& skin(int organ) const;              ///< as drawn
+  int organ_index(const std::string& organ) const;        ///< -1 if there is none
+  int strand_index(const std::string& strand) const;      ///< -1 if there is none
+  int membrane_index(const std::string& membrane) const;  ///< -1 if there is none
+  int target_index(const std::string& target) const;      ///< -1 if there is none
+  int vessel_index(const std::string& vessel) const;      ///< -1 if there is none
+  int hand_index(const std::string& trocar) const;        ///< -1 if there is none
+};
+
+/// Sets Model::hash from everything that the step reads.
+void seal(Model& model);
+
+}  // namespace trocar::sim

@@ -1,0 +1,105 @@
+// All that a replay needs, and nothing else: flat arrays, copyable, hashable, saved and restored at any tick.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <trocar/interactions/instrument/membrane_contact.hpp>
+#include <trocar/interactions/instrument/tool_contact.hpp>
+#include <trocar/interactions/verbs/vessel_tools.hpp>
+#include <trocar/sim/model/model.hpp>
+
+namespace trocar::sim {
+
+/// What the valves of a hand's suction-irrigator do in a tick: bits of State::valves.
+enum Valve : std::uint8_t {
+  kIrrigates = 1,
+  kSucks = 2,
+  kPlugged = 4,   ///< sucks, but tissue lies on the port: nothing flows
+  kSucksGas = 8,  ///< there is less liquid than it could take
+};
+/// What a hand's electrode is and was at. No padding.
+struct ElectrodeHand {
+  tissue::ElectrodeState current;
+  Vec3d at{0, 0, 0};             ///< the tissue's point that it was last at [m]
+  Vec3d a{0, 0, 0}, b{0, 0, 0};  ///< ends of what touched there, in that body's frame of heat [m]
+  Vec3d parted{0, 0, 0};         ///< where it last parted tissue, in that body's frame of heat [m]
+  std::int32_t body = -1, parted_body = -1;
+  std::int32_t changes = 0;  ///< ToolState::changes of the instrument that this is
+  interactions::Hold stuck;  ///< what sticks to it; body -1: nothing
+};
+static_assert(sizeof(ElectrodeHand) == sizeof(tissue::ElectrodeState) + 12 * 8 + 3 * 4 + sizeof(interactions::Hold),
+              "no padding");
+
+/// A spring of a lattice or a fold that heat has changed (scarring.hpp).
+struct Scar {
+  std::int32_t body = -1;    ///< as holds number bodies
+  std::int32_t spring = -1;  ///< of its network; of bodies that can be cut: the cell that all its springs belong to
+  float share = 1;           ///< of its length that is left
+  float stiff = 1;           ///< times its stiffness
+};
+inline constexpr std::int32_t kMaxScarred = 1024;
+
+struct State {
+  std::uint64_t tick = 0;  ///< ticks made
+  std::vector<tissue::NetworkState> solids;
+  std::vector<tissue::CuttableState> cuttables;
+  std::vector<tissue::StrandState> strands;
+  std::vector<tissue::MembraneState> membranes;
+  std::array<interactions::ToolState, kMaxTools> tools;
+  std::array<std::int32_t, kMaxTools * kMaxRack> magazine{};  ///< clips in instruments that are put down, hand by hand
+  ScopeInput scope;                                           ///< where the scope is
+  std::array<interactions::Clip, interactions::kMaxClips> clips;
+  std::array<interactions::Cut, interactions::kMaxCuts> cuts;
+  std::int32_t clip_count = 0, cut_count = 0;
+  std::vector<std::int32_t> nearest;              ///< contact caches: one per sample of each pair, in the Model's order
+  std::vector<Vec3f> strand_side;                 ///< per element of each strand pair's first strand
+  std::vector<Vec3f> tool_side;                   ///< (tools x elements of all strands x kToolParts)
+  std::vector<std::vector<std::uint8_t>> parted;  ///< (solids) per triangle of the drawn skin: 1 = cut open
+  std::vector<Vec3f> sheet_side;                  ///< (hands x triangles of all membranes x kSheetParts)
+  std::vector<interactions::SheetBond> sheet_bond;  ///< (hands x membranes)
+  std::vector<std::vector<std::uint8_t>> torn;      ///< (membranes) per triangle: 1 = cut open
+  /// For how long nodes have been stretched beyond what they bear (tissue/failure/overstretch.hpp): rows of organs and
+  /// of membranes, nodes of strands; empty for bodies that never tear.
+  std::vector<std::vector<std::uint8_t>> overstretched_organs, overstretched_membranes, overstretched_strands;
+  std::vector<interactions::TouchBook> touches;  ///< (hands) what instruments were near and where it sticks to them
+  /// Blood, and what opens and closes its vessels; all empty in scenes without vessels.
+  vessels::FlowState flow;
+  std::vector<interactions::VesselOpening> openings;   ///< (kMaxOpenings)
+  std::vector<interactions::VesselClip> vessel_clips;  ///< (kMaxVesselClips)
+  std::int32_t opening_count = 0, vessel_clip_count = 0;
+  /// Heat, electrodes and what they seal; all empty in scenes without energy.
+  tissue::HeatState heat;
+  tissue::GeneratorPanel panel;
+  std::vector<ElectrodeHand> electrodes;        ///< (hands)
+  std::vector<interactions::VesselSeal> seals;  ///< (kMaxSeals)
+  std::int32_t seal_count = 0;
+  std::vector<Scar> scarred;  ///< (kMaxScarred)
+  std::int32_t scarred_count = 0;
+  fluids::FluidsState fluids;     ///< empty in scenes without fluids
+  std::vector<float> pool_floor;  ///< of the pool, (ny x nx) [m]; walls and organs
+  /// What drops gave to tissue in the last tick: it goes to the bodies in the next. Empty without a suction-irrigator.
+  std::vector<fluids::Impact> impacts;  ///< (drops' capacity) the first `impact_count`
+  std::int32_t impact_count = 0;
+  std::array<std::uint8_t, kMaxTools> valves{};  ///< (hands) Valve, in the last tick
+  std::vector<std::uint8_t> seen;                ///< (samples) 1 = in view when last looked
+};
+
+State initial_state(const Model& model);
+/// Bodies as drawn and nothing else: for compile, before the Model is complete.
+State drawn_bodies(const Model& model);
+
+/// Where an organ's nodes are: valid until its next tick.
+tissue::NodeView nodes_of(const Model& model, const State& state, int organ) noexcept;
+
+/// 64-bit hash of all of it.
+std::uint64_t hash_of(const State& state) noexcept;
+
+/// What drawing needs of a State, for 10 Hz keyframes that another version of the physics can still show.
+std::vector<std::uint8_t> display_bytes(const Model& model, const State& state);
+/// Puts a keyframe's content into a State made from the same scene. False, and the State unchanged, where it does not
+/// fit: another length, a place that is not finite, an index that names nothing.
+bool restore_display(const Model& model, const std::vector<std::uint8_t>& bytes, State& state);
+
+}  // namespace trocar::sim

@@ -1,0 +1,52 @@
+// What a tick says about itself: what happened in it, and whether all is well.
+#pragma once
+
+#include <cstdint>
+
+#include <trocar/tissue/base/report.hpp>
+
+namespace trocar::sim {
+
+struct Event {
+  enum Kind : std::int32_t {
+    none,
+    grasped,
+    released,
+    slipped,
+    clipped,
+    dropped_clip,
+    cut,
+    exchanged,
+    torn,
+    parted
+  } kind = none;
+  std::int32_t tool = 0;
+  /// The clip's or the cut's number in the State's book; grasped: the body held (interactions::Hold::body);
+  /// parted: the body that current has cut, likewise; torn: the body that tore, likewise, under the hand that pulls or
+  /// presses most; exchanged: the new instrument's number in the rack; released and slipped: -1.
+  std::int32_t index = 0;
+};
+inline constexpr int kMaxEvents = 24, kRoomForTears = 8;  ///< all; of those, only for tears
+
+/// What a tick says about itself. Flags of tissue::StepReport keep their meaning; the others are the step's own.
+struct StepReport {
+  enum Flag : std::uint32_t {
+    kTooManyLoads = 1u << 16,  ///< contacts did not fit the reserved capacity: some were left out this tick
+    kBadInput =
+        1u << 17,  ///< an input was not finite (that hand stayed), or its instrument not in the rack (not exchanged)
+    kBookFull = 1u << 18,   ///< the book of clips or cuts, or what an organ keeps for cuts, is full: clips are lost,
+                            ///< blades no longer cut, tears open no further
+    kBloodFlow = 1u << 19,  ///< blood flow found no solution and was not advanced; restore a State
+    kHeatFull = 1u << 22,   ///< no room for more heated tissue: raise "bricks" or "awake" of the scene's energy
+    kDropsFull = 1u << 20,  ///< no room for more drops of fluid: what flowed went straight into the pool
+  };
+  std::uint32_t flags = 0;
+  int first_bad_body = -1;   ///< organs first, then strands, then membranes
+  int first_bad_index = -1;  ///< node of that body
+  Event events[kMaxEvents];
+  int event_count = 0;
+
+  bool fine() const { return (flags & (tissue::StepReport::kNonFinite | tissue::StepReport::kIndefinite)) == 0; }
+};
+
+}  // namespace trocar::sim

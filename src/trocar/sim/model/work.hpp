@@ -1,0 +1,88 @@
+// Scratch of the step: reserved once, filled anew in every tick. Overwriting it with NaN between ticks changes nothing.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <trocar/interactions/couplings/loads.hpp>
+#include <trocar/interactions/instrument/wall_stop.hpp>
+#include <trocar/interactions/verbs/grasp.hpp>
+#include <trocar/interactions/wetting/fluid_contact.hpp>
+#include <trocar/sim/model/host_views.hpp>
+#include <trocar/sim/model/state.hpp>
+
+namespace trocar::sim {
+
+/// Blood that leaves a vessel in this tick. A vessel that is cut through has two of these.
+struct Bleed {
+  Vec3d place;                  ///< of the opening's middle, at the end of the tick [m]
+  Vec3d direction{0, 0, 1};     ///< out of the opening, unit
+  double area = 0;              ///< that is open [m^2]
+  double speed = 0;             ///< mean of the tick [m/s]
+  std::int64_t picolitres = 0;  ///< to be booked as they are
+  std::int32_t opening = -1;    ///< slot in State::openings
+  std::int32_t side = 0;        ///< 0: the stump towards the vessel's beginning
+  bool vein = false;            ///< dark blood
+  bool fed = false;             ///< a way leads here from a source
+};
+
+struct Work {
+  core::ThreadPool* pool = nullptr;             ///< may be null; never changes a bit of the result
+  std::vector<tissue::SkinPose> poses;          ///< (organs)
+  std::vector<interactions::Surface> surfaces;  ///< (organs + walls)
+  std::array<interactions::ToolShape, kMaxTools> shapes;
+  std::array<interactions::ToolShape, kMaxTools> shapes_before;  ///< where they were when the tick began
+  std::vector<interactions::TouchBook> touches;                  ///< (hands) this tick's
+  std::array<interactions::WallStop, kMaxTools> wall_stops;      ///< (hands)
+  std::vector<interactions::NetworkLoads> organ_loads;           ///< (organs)
+  std::vector<interactions::StrandLoads> strand_loads;
+  std::vector<tissue::NetworkWork> solid_work;
+  std::vector<tissue::CuttableWork> cuttable_work;
+  std::vector<tissue::StrandWork> strand_work;
+  std::vector<std::array<tissue::StrandEnd, 2>> ends;  ///< (strands)
+  std::vector<std::array<tissue::StrandReaction, 2>> end_reactions;
+  std::vector<std::int32_t> parts;   ///< (nodes of the largest organ) what hangs together, for cuts
+  std::vector<std::uint8_t> beyond;  ///< (rows of the largest organ or membrane) springs stretched too far
+  std::vector<tissue::StepReport> organ_reports, strand_reports, membrane_reports;
+  std::vector<tissue::SkinPose> sheet_poses;    ///< (membranes)
+  std::vector<interactions::SheetView> sheets;  ///< (membranes)
+  std::vector<double> sheet_gaps;               ///< (hands x membranes) apart by at least this much [m]
+  std::vector<interactions::NetworkLoads> membrane_loads;
+  std::vector<tissue::MembraneWork> membrane_work;
+  std::vector<std::vector<tissue::BorderPull>> pulls;  ///< (membranes)(held nodes)
+  std::vector<std::vector<Vec3d>> targets;             ///< (membranes)(held nodes)
+  std::vector<Vec3d> wave_force;                       ///< (nodes of the largest organ with waves) [N]
+  HostViews hosts;
+  std::vector<std::vector<Vec3d>> vessel_points;  ///< (vessels)(points of the path) [m]
+  std::vector<std::uint8_t> vessel_posed;         ///< (vessels) 0: its points are not known in this tick
+  vessels::FlowWork flow;
+  std::vector<vessels::Opening> open;
+  std::vector<vessels::Clip> closed;
+  std::vector<vessels::OpeningFlow> flows;
+  std::vector<vessels::WallReading> walls;  ///< (vessels) in their middles
+  std::vector<std::uint8_t> busy;           ///< (vessels) scratch of that
+  std::vector<std::int32_t> impact_at;      ///< (places of film) the impact that sums up all there
+  std::vector<Bleed> bleeds;                ///< (2 kMaxOpenings) for whoever takes up the blood, after the flow's stage
+  int bleed_count = 0;
+  tissue::HeatWork heat;
+  std::array<tissue::HeatSource, 2 * kMaxTools> heat_sources;
+  fluids::Boiled steam;  ///< what boiled off in this tick, for the fluids
+  bool current_flows = false;
+  fluids::FluidsWork fluids;
+  interactions::WetWork wet;
+  std::vector<fluids::Opening> wounds;  ///< (2 kMaxOpenings) sides of openings
+  std::array<fluids::Capsule, kMaxTools * interactions::kToolParts> wet_tools;
+  std::array<fluids::SuctionIrrigator, kMaxTools> valves;  ///< (hands) closed where there is none
+  std::vector<tissue::NodeView> nodes;                     ///< (organs) of the State; anew in every tick
+  std::vector<tissue::CuttableSkin> cuttable_skins;
+  std::vector<const tissue::Skin*> skins;                      ///< (organs) of the Model, or the above
+  std::vector<int> organ_order, strand_order, membrane_order;  ///< by how much there is to do, for the threads
+  std::vector<int> skin_order;                                 ///< (organs + membranes) the same
+};
+
+Work make_work(const Model& model, core::ThreadPool* pool = nullptr);
+
+/// Overwrites every number in the scratch with NaN or nonsense (tests of the law).
+void poison(Work& work) noexcept;
+
+}  // namespace trocar::sim

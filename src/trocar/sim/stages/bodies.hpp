@@ -1,0 +1,19 @@
+// Stages: bodies and what ties them to each other and to space.
+#pragma once
+
+#include <trocar/sim/model/step_context.hpp>
+
+namespace trocar::sim {
+
+/// Loads start afresh with the springs that hang organs in space.
+void hang_organs(StepContext& context) noexcept;
+/// Folds pull on what carries them.
+void pull_on_borders(StepContext& context) noexcept;
+/// Strands: implicit, ends where their hosts put them, pulling on them.
+void advance_strands(StepContext& context) noexcept;
+/// Organs: explicit networks in their own sub-steps.
+void advance_organs(StepContext& context) noexcept;
+/// Folds: borders go where their holders have gone.
+void advance_membranes(StepContext& context) noexcept;
+
+}  // namespace trocar::sim

@@ -1,0 +1,154 @@
+#include <algorithm>
+#include <cmath>
+
+#include <trocar/sim/stages/hands.hpp>
+#include <trocar/sim/stages/stage.hpp>
+
+namespace trocar::sim {
+namespace {
+
+using interactions::Owner;
+
+bool finite(const ToolInput& t) noexcept {
+  return std::isfinite(t.yaw) && std::isfinite(t.pitch) && std::isfinite(t.roll) && std::isfinite(t.depth) &&
+         std::isfinite(t.handle);
+}
+
+float stepped(float from, float to, float most) noexcept { return from + std::clamp(to - from, -most, most); }
+
+constexpr double kParked = 0.012;  // [m] an instrument is changed with its tip this deep: in the trocar's sleeve
+
+constexpr double kIntoWall = 0.0003;  // [m] a tick
+
+/// The memory of which side of each strand the hand's instrument is on.
+std::span<Vec3f> sides_of(StepContext& c, size_t t) noexcept {
+  const size_t each = c.state.tool_side.size() / c.model.hands.size();
+  return {c.state.tool_side.data() + t * each, each};
+}
+
+/// Puts the instrument down and takes number `wanted` of the rack.
+void change_instrument(StepContext& c, size_t t, std::int32_t wanted) noexcept {
+  interactions::ToolState& tool = c.state.tools[t];
+  std::int32_t* magazine = c.state.magazine.data() + t * size_t(kMaxRack);
+  magazine[tool.instrument] = tool.clips_left;
+  interactions::ToolState next;
+  next.yaw = tool.yaw;
+  next.pitch = tool.pitch;
+  next.roll = tool.roll;
+  next.depth = tool.depth;
+  next.slipped = tool.slipped;
+  next.changes = tool.changes + 1;
+  next.instrument = wanted;
+  next.clips_left = magazine[wanted];
+  tool = next;
+  interactions::start_here(next, c.state.touches[t]);
+  for (Vec3f& side : sides_of(c, t)) side = {};
+  const size_t each = c.state.sheet_side.size() / c.model.hands.size(), membranes = c.model.membranes.size();
+  std::fill_n(c.state.sheet_side.begin() + std::ptrdiff_t(t * each), each, Vec3f{});
+  std::fill_n(c.state.sheet_bond.begin() + std::ptrdiff_t(t * membranes), membranes, interactions::SheetBond::none);
+  tell(c, Event::exchanged, int(t), wanted);
+}
+
+/// What would go into a wall stays at it.
+void stop_at_walls(StepContext& c, size_t t, const kinematics::FulcrumPose& wanted,
+                   const kinematics::FulcrumPose& before) noexcept {
+  for (const WallModel& wall : c.model.walls) {
+    const interactions::Surface surface{&wall.skin, &wall.pose, {}};
+    const interactions::WallStop stop =
+        interactions::stop_at_walls(c.model.tool(c.state, t), wanted, before, {&surface, 1}, c.state.tools[t]);
+    if (stop.stopped) c.work.wall_stops[t] = stop;
+  }
+}
+
+/// One hand follows its input. While it wants another instrument it lets go of the tissue, draws back and changes.
+void move_hand(StepContext& c, size_t t) noexcept {
+  const ToolInput& in = c.input.tools[t];
+  interactions::ToolState& tool = c.state.tools[t];
+  const bool known = in.instrument >= 0 && size_t(in.instrument) < c.model.hands[t].rack.size();
+  if (!known) c.report.flags |= StepReport::kBadInput;
+  interactions::ToolCommand command{pose_of(in), double(in.handle)};
+  if (known && in.instrument != tool.instrument) {
+    command = {tool.pose(), 0};
+    if (tool.holds == 0) command.pose.depth = kParked;
+    if (tool.holds == 0 && tool.depth <= kParked) change_instrument(c, t, in.instrument);
+  }
+  const kinematics::FulcrumPose wanted = command.pose, before = tool.pose();
+  // At a wall the way in is of no use: most of the speed goes along it.
+  if (c.state.touches[t].near(interactions::kWallBody, 0))
+    command.pose.depth = std::min(command.pose.depth, tool.depth + kIntoWall);
+  interactions::follow(c.model.tool(c.state, t), command, kTick, tool);
+  stop_at_walls(c, t, wanted, before);
+}
+
+void add_force(double (&sum)[3], Vec3d f) noexcept {
+  sum[0] += f.x;
+  sum[1] += f.y;
+  sum[2] += f.z;
+}
+
+void account(StepContext& c, interactions::Tag tag, Vec3d force) noexcept {
+  if (tag.owner == Owner::tool_contact) {
+    add_force(c.state.tools[size_t(tag.index)].contact_force, -force);
+    interactions::press_on(c.work.touches[size_t(tag.index)], tag.sub, force);
+  }
+  if (tag.owner != Owner::tool_hold) return;
+  float(&on_tissue)[3] = c.state.tools[size_t(tag.index)].hold[tag.sub].force;
+  on_tissue[0] += float(force.x);
+  on_tissue[1] += float(force.y);
+  on_tissue[2] += float(force.z);
+}
+
+}  // namespace
+
+// Hands: instruments and scope follow the input, no faster than hands can.
+void move_hands(StepContext& c) noexcept {
+  for (size_t t = 0; t < c.model.hands.size(); ++t) {
+    c.work.wall_stops[t] = {};
+    if (finite(c.input.tools[t]))
+      move_hand(c, t);
+    else
+      c.report.flags |= StepReport::kBadInput;
+  }
+  const ScopeInput& in = c.input.scope;
+  if (!finite({in.yaw, in.pitch, in.roll, in.depth, in.post})) {
+    c.report.flags |= StepReport::kBadInput;
+    return;
+  }
+  const kinematics::FulcrumPose goal = kinematics::clamped(pose_of(in), c.model.scope.limits);
+  ScopeInput& s = c.state.scope;
+  s.yaw = stepped(s.yaw, float(goal.yaw), 0.004f);
+  s.pitch = stepped(s.pitch, float(goal.pitch), 0.004f);
+  s.roll = stepped(s.roll, float(goal.roll), 0.008f);
+  s.depth = stepped(s.depth, float(goal.depth), 0.0006f);
+  s.post = stepped(s.post, in.post, 0.008f);
+}
+
+void tell_lost(StepContext& c, size_t t, int slips_before) noexcept {
+  tell(c, c.state.tools[t].slipped > slips_before ? Event::slipped : Event::released, int(t), -1);
+}
+
+// What the tissue did to the instruments; slip.
+void feel(StepContext& c) noexcept {
+  for (interactions::ToolState& tool : c.state.tools) {
+    for (double& f : tool.contact_force) f = 0;
+    for (interactions::Hold& h : tool.hold) h.force[0] = h.force[1] = h.force[2] = 0;
+  }
+  for (const interactions::StrandLoads& l : c.work.strand_loads)
+    for (size_t i = 0; i < l.list.size(); ++i) account(c, l.tag[i], l.reaction[i]);
+  for (const interactions::NetworkLoads& l : c.work.organ_loads)
+    for (size_t i = 0; i < l.sorted.size(); ++i) account(c, l.owner[i], vec_cast<double>(l.reaction[i]));
+  for (const interactions::NetworkLoads& l : c.work.membrane_loads)
+    for (size_t i = 0; i < l.sorted.size(); ++i) account(c, l.owner[i], vec_cast<double>(l.reaction[i]));
+  const interactions::TissueView view = tissue_of(c);
+  for (size_t t = 0; t < c.model.hands.size(); ++t) {
+    interactions::ToolState& tool = c.state.tools[t];
+    const interactions::WallStop& wall = c.work.wall_stops[t];
+    if (wall.stopped) add_force(tool.contact_force, wall.force * wall.normal);
+    const int held = tool.holds, slips = tool.slipped;
+    interactions::slip(c.model.tool(c.state, t), c.work.shapes[t], view, tool);
+    if (held > 0 && tool.holds == 0) tell_lost(c, t, slips);
+    interactions::remember(tool, c.work.touches[t], c.state.touches[t]);
+  }
+}
+
+}  // namespace trocar::sim

@@ -1,0 +1,152 @@
+#include <algorithm>
+#include <cmath>
+
+#include <trocar/interactions/verbs/adhesion.hpp>
+#include <trocar/interactions/verbs/electrode_contact.hpp>
+#include <trocar/sim/stages/current_cut.hpp>
+#include <trocar/sim/stages/heat_bodies.hpp>
+#include <trocar/sim/stages/heating.hpp>
+#include <trocar/sim/stages/scarring.hpp>
+#include <trocar/sim/stages/sealing.hpp>
+#include <trocar/sim/stages/stage.hpp>
+
+namespace trocar::sim {
+namespace {
+
+using interactions::ElectrodeTouch;
+
+constexpr double kWarmTip = 0.5;  // [K] off 37 C: what is less warms nothing
+constexpr double kStill = 0.01;   // of ElectrodeState::stuck
+
+/// Is there anything to compute of this hand's electrode?
+bool at_work(const ElectrodeHand& hand, tissue::EnergyMode mode) noexcept {
+  return mode != tissue::EnergyMode::off || std::fabs(hand.current.tip - tissue::kBodyHeat) > kWarmTip ||
+         hand.current.stuck > kStill;
+}
+
+/// Tissue that has burst gives way: the wire is at the bottom of the groove that it has made. In a strand that it has
+/// gone through it turns to what is left of the section beside it.
+void sink(const StepContext& c, ElectrodeTouch& touch) noexcept {
+  const double step = 0.5 * c.model.energy.heat.cell;
+  if (!(dot(touch.inwards, touch.inwards) > 0) || touch.contact.gap > 0) return;
+  const auto parted = [&](Vec3d p) { return has_burst(c, touch.contact.body, p); };
+  Vec3d p = touch.contact.a;
+  for (double deep = 0; deep < interactions::kBareWire && parted(p); deep += step) p += step * touch.inwards;
+  touch.contact.a = touch.contact.b = p;
+  if (touch.contact.body >= interactions::kSolidBase) return;
+  const Section section = section_of(c, touch.contact.body, touch.point.element, p.x);
+  if (dot(p - section.middle, touch.inwards) < section.reach) return;  // not through yet
+  for (const Vec3d side : section.around)
+    if (!parted(side)) touch.contact.a = touch.contact.b = side;
+}
+
+/// Hands that have changed their instrument hold one that is cold and clean.
+ElectrodeHand& electrode_of(StepContext& c, size_t t) noexcept {
+  ElectrodeHand& hand = c.state.electrodes[t];
+  const std::int32_t changes = c.state.tools[t].changes;
+  if (hand.changes != changes) hand = {};
+  hand.changes = changes;
+  return hand;
+}
+
+ElectrodeTouch touch_of(const StepContext& c, size_t t, tissue::EnergyMode mode) noexcept {
+  if (!at_work(c.state.electrodes[t], mode)) return {};
+  ElectrodeTouch touch =
+      interactions::electrode_touch(c.model.tool(c.state, t), c.work.shapes[t], c.state.tools[t], tissue_of(c));
+  sink(c, touch);
+  return touch;
+}
+
+constexpr double kGlues = 0.2;  // of ElectrodeState::stuck: tissue is pulled along from there on
+
+void stick(StepContext& c, size_t t, const ElectrodeTouch& touch, ElectrodeHand& hand) noexcept {
+  if (hand.stuck.body >= 0 || hand.current.stuck < kGlues) return;
+  hand.stuck = interactions::stuck_at(c.work.shapes[t], tissue_of(c), touch.point);
+}
+
+/// Is there still something to stick to?
+bool is_whole(const StepContext& c, const interactions::Hold& stuck) noexcept {
+  if (stuck.body >= interactions::kMembraneBase) return true;
+  if (stuck.body >= interactions::kSolidBase) {
+    const size_t organ = size_t(stuck.body - interactions::kSolidBase);
+    return stuck.element < c.work.skins[organ]->size() && !c.work.surfaces[organ].torn(stuck.element);
+  }
+  return c.state.strands[size_t(stuck.body)].alive[size_t(stuck.element)] != 0;
+}
+
+/// One hand's electrode in one tick. @param used  entries of Work::heat_sources so far
+void work_electrode(StepContext& c, size_t t, int& used) noexcept {
+  ElectrodeHand& hand = electrode_of(c, t);
+  const EnergyModel& energy = c.model.energy;
+  const interactions::ElectrodeModel& electrode = c.model.tool(c.state, t).electrode;
+  if (!electrode.there) return;
+  const tissue::FootSwitch pedals = foot_switch(c.input);
+  const bool works = c.state.heat.tick % std::uint64_t(energy.heat.period) == 0;
+  ElectrodeTouch touch;
+  if (works) touch = touch_of(c, t, tissue::asked_mode(electrode.current, c.state.panel, pedals));
+  const tissue::Discharge d = tissue::energise(electrode.current, c.state.panel, pedals, touch.contact, energy.heat,
+                                               tissue_shape(c.model), c.state.heat, c.work.heat, hand.current);
+  for (const tissue::HeatSource& source : d.span()) c.work.heat_sources[size_t(used++)] = source;
+  c.work.current_flows = c.work.current_flows || d.flows;
+  if (!works) return;
+  hand.body = touch.contact.body;
+  if (hand.body < 0) return;
+  hand.at = touch.place;
+  hand.a = touch.contact.a, hand.b = touch.contact.b;
+  if (touch.contact.gap == 0) stick(c, t, touch, hand);
+  seal_vessels(c, t, touch);
+  scar_tissue(c, touch);
+  if (d.flows && tissue::curve_of(d.mode).bursts) part_tissue(c, t, touch);
+}
+
+/// Steam leaves where the electrode is that makes it.
+void note_steam(StepContext& c, const tissue::HeatReport& report) noexcept {
+  c.work.steam = {};
+  if (!(report.boiled > 0)) return;
+  int from = -1;
+  for (size_t t = 0; t < c.state.electrodes.size(); ++t) {
+    const ElectrodeHand& hand = c.state.electrodes[t];
+    if (hand.current.joules > 0 && (from < 0 || hand.body == report.boiled_body)) from = int(t);
+  }
+  if (from < 0) return;
+  c.work.steam.at = c.state.electrodes[size_t(from)].at;
+  c.work.steam.kilograms = report.boiled;
+}
+
+}  // namespace
+
+// Char on electrodes.
+void stick_tissue(StepContext& c) noexcept {
+  if (!c.model.energy.there) return;
+  const interactions::TissueView view = tissue_of(c);
+  for (size_t t = 0; t < c.model.hands.size(); ++t) {
+    ElectrodeHand& hand = electrode_of(c, t);
+    if (hand.stuck.body < 0) continue;
+    const interactions::ToolShape& shape = c.work.shapes[t];
+    const double bears = c.model.tool(c.state, t).electrode.current.stick_force * hand.current.stuck;
+    if (is_whole(c, hand.stuck) && interactions::stuck_pull(shape, view, hand.stuck) <= bears) {
+      interactions::stuck_load(shape, int(t), view, hand.stuck, c.work.strand_loads, c.work.organ_loads,
+                               c.work.membrane_loads);
+      continue;
+    }
+    tissue::tear_off(hand.current);
+    hand.stuck = {};
+  }
+}
+
+// Current and heat.
+void heat_tissue(StepContext& c) noexcept {
+  c.work.current_flows = false;
+  c.work.steam = {};
+  if (!c.model.energy.there) return;
+  tissue::press(panel_keys(c.input), c.state.panel);
+  int used = 0;
+  for (size_t t = 0; t < c.model.hands.size(); ++t) work_electrode(c, t, used);
+  const tissue::HeatReport report = tissue::advance(c.model.energy.heat, {c.work.heat_sources.data(), size_t(used)},
+                                                    tissue_shape(c.model), c.state.heat, c.work.heat);
+  if (report.flags & (tissue::HeatReport::kBricksFull | tissue::HeatReport::kAwakeFull))
+    c.report.flags |= StepReport::kHeatFull;
+  note_steam(c, report);
+}
+
+}  // namespace trocar::sim

@@ -1,0 +1,16 @@
+// Stage: where skins are.
+#pragma once
+
+#include <trocar/sim/model/step_context.hpp>
+
+namespace trocar::sim {
+
+/// Skins: x = W q, boxes.
+void pose_skins(StepContext& context) noexcept;
+
+/// Where organs' nodes are: their States change places when they advance.
+void view_organs(StepContext& context) noexcept;
+/// Anew, when blades have moved its nodes.
+void pose_cuttable(StepContext& context, size_t cuttable) noexcept;
+
+}  // namespace trocar::sim

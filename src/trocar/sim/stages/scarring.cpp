@@ -1,0 +1,197 @@
+#include <algorithm>
+#include <array>
+
+#include <trocar/interactions/couplings/scarred_spring.hpp>
+#include <trocar/sim/stages/current_cut.hpp>
+#include <trocar/sim/stages/scarring.hpp>
+#include <trocar/sim/stages/stage.hpp>
+#include <trocar/tissue/heat/heat_look.hpp>
+
+namespace trocar::sim {
+namespace {
+
+using interactions::ElectrodeTouch, interactions::kMembraneBase, interactions::kSolidBase;
+
+constexpr double kAround = 0.008;  // [m] from an electrode to the middle of springs that it may change
+constexpr float kTold = 0.005f;    // a spring that shrinks less stays as it is
+constexpr int kTurns = 8;          // steps of the heat in which all of a body is looked at
+constexpr std::array kAlong{0.1, 0.3, 0.5, 0.7, 0.9};
+
+const tissue::NetworkModel* network_of(const Model& m, std::int32_t body) noexcept {
+  if (body >= kMembraneBase) return &m.membranes[size_t(body - kMembraneBase)].sheet.network;
+  const size_t organ = size_t(body - kSolidBase);
+  return organ < m.solids.size() ? &m.solids[organ].network : nullptr;
+}
+
+/// Of an organ that can be cut.
+size_t cuttable_of(const Model& m, std::int32_t body) noexcept { return size_t(body - kSolidBase) - m.solids.size(); }
+
+// ---- what heat leaves
+
+struct Change {
+  float share = 0;  ///< of a length that is left
+  float stiff = 0;  ///< factor on a stiffness
+};
+Change change_at(const StepContext& c, std::int32_t body, Vec3d at) noexcept {
+  const tissue::HeatReading reading = tissue::reading(c.model.energy.heat, c.state.heat, body, at);
+  return {tissue::shrinkage(reading), tissue::stiffness(reading)};
+}
+/// The mean of `count` places; place(i) says where they were drawn.
+template <class Place>
+Change mean_change(const StepContext& c, std::int32_t body, int count, Place&& place) noexcept {
+  Change mean;
+  for (int i = 0; i < count; ++i) {
+    const Change one = change_at(c, body, place(i));
+    mean.share += one.share / float(count);
+    mean.stiff += one.stiff / float(count);
+  }
+  return mean;
+}
+
+/// The entry of that spring, or a new one; null where there is no room.
+Scar* entry_of(StepContext& c, std::int32_t body, std::int32_t spring) noexcept {
+  const auto end = c.state.scarred.begin() + c.state.scarred_count;
+  const auto found = std::find_if(c.state.scarred.begin(), end,
+                                  [body, spring](const Scar& s) { return s.body == body && s.spring == spring; });
+  if (found != end) return &*found;
+  if (c.state.scarred_count == kMaxScarred) {
+    c.report.flags |= StepReport::kHeatFull;
+    return nullptr;
+  }
+  c.state.scarred[size_t(c.state.scarred_count++)] = {body, spring, 1, 1};
+  return &*end;
+}
+
+void note(StepContext& c, std::int32_t body, std::int32_t spring, const Change& change) noexcept {
+  if (change.share > 1 - kTold) return;
+  Scar* entry = entry_of(c, body, spring);
+  if (!entry) return;
+  entry->share = std::min(entry->share, change.share);
+  entry->stiff = std::max(entry->stiff, change.stiff);
+}
+
+bool near(Vec3d a, Vec3d b) noexcept { return dot(a - b, a - b) <= kAround * kAround; }
+
+/// The part of `count` whose turn it is.
+struct Turn {
+  int first, last;
+  Turn(const StepContext& c, int count) noexcept {
+    const int turn = int(c.state.heat.tick / std::uint64_t(c.model.energy.heat.period) % std::uint64_t(kTurns));
+    first = int(std::int64_t(count) * turn / kTurns), last = int(std::int64_t(count) * (turn + 1) / kTurns);
+  }
+};
+
+void scar_springs(StepContext& c, const tissue::NetworkModel& m, std::int32_t body, Vec3d electrode) noexcept {
+  const Turn turn(c, m.springs);
+  for (int s = turn.first; s < turn.last; ++s) {
+    const Vec3d a = m.rest[size_t(m.spring_nodes[size_t(2 * s)])],
+                b = m.rest[size_t(m.spring_nodes[size_t(2 * s + 1)])];
+    if (!near(0.5 * (a + b), electrode)) continue;
+    note(c, body, s, mean_change(c, body, int(kAlong.size()), [&](int i) { return a + kAlong[size_t(i)] * (b - a); }));
+  }
+}
+
+/// At the cell's middle and half way from there to its corners, as drawn: heat does not move with what snaps to a
+/// blade.
+void scar_cells(StepContext& c, std::int32_t body, Vec3d electrode) noexcept {
+  const geometry::CuttableTets& drawn = c.model.cuttables[cuttable_of(c.model, body)].body.drawn;
+  const Turn turn(c, int(drawn.cells.size()));
+  for (size_t t = size_t(turn.first); t < size_t(turn.last); ++t) {
+    Vec3d middle;
+    for (const std::int32_t node : drawn.cells[t]) middle += 0.25 * drawn.rest[size_t(node)];
+    if (!near(middle, electrode)) continue;
+    note(c, body, std::int32_t(t), mean_change(c, body, 5, [&](int i) {
+           return i == 0 ? middle : 0.5 * (middle + drawn.rest[size_t(drawn.cells[t][size_t(i - 1)])]);
+         }));
+  }
+}
+
+/// Coagulated strands: their step is implicit, so that any stiffness is stable. What was cut in part stays weak.
+void scar_strand(StepContext& c, const ElectrodeTouch& touch) noexcept {
+  const std::int32_t strand = touch.contact.body;
+  const Section section = section_of(c, strand, touch.point.element, touch.contact.a.x);
+  const Change change =
+      mean_change(c, strand, 5, [&](int i) { return i == 0 ? section.middle : section.around[size_t(i - 1)]; });
+  tissue::StrandState& s = c.state.strands[size_t(strand)];
+  double &share = s.shrunk[size_t(touch.point.element)], &scale = s.scale[size_t(touch.point.element)];
+  share = std::min(share, double(change.share));
+  if (scale >= 1) scale = std::max(scale, double(change.stiff));
+}
+
+// ---- what it does
+
+/// A body's nodes and the loads of a tick on them.
+struct Nodes {
+  tissue::NodeView view;
+  interactions::NetworkLoads& loads;
+  double tick = 0;  ///< [s]
+};
+
+void pull(const Nodes& nodes, int a, int b, double k, double l, const Scar& scar) noexcept {
+  pull_scarred(nodes.view, {a, b, k, l, double(scar.share), double(scar.stiff)}, nodes.tick, nodes.loads);
+}
+
+void pull_spring(const tissue::NetworkModel& m, const tissue::NetworkState& state, const Nodes& nodes,
+                 const Scar& scar) noexcept {
+  const double k = double(tissue::spring_scale(m, state, scar.spring)) * tissue::spring_stiffness(m, scar.spring);
+  pull(nodes, m.spring_nodes[size_t(2 * scar.spring)], m.spring_nodes[size_t(2 * scar.spring + 1)], k,
+       double(m.spring_rest[size_t(scar.spring)]), scar);
+}
+
+/// A cell's share of the springs along its edges and across its faces.
+void pull_cell(const tissue::CuttableModel& m, const geometry::CuttableTets& tets, const Nodes& nodes,
+               const Scar& scar) noexcept {
+  const tissue::CellSprings& brings = m.brings[size_t(scar.spring)];
+  const geometry::Tet& cell = tets.cells[size_t(scar.spring)];
+  const auto pull_between = [&](int a, int b, float k_l2, float ratio) {
+    const double drawn = length(tets.rest[size_t(b)] - tets.rest[size_t(a)]);
+    pull(nodes, a, b, double(k_l2) / (drawn * drawn), double(ratio) * drawn, scar);
+  };
+  for (size_t e = 0; e < 6; ++e)
+    pull_between(cell[size_t(tissue::kCellEdges[e][0])], cell[size_t(tissue::kCellEdges[e][1])], brings.edge[e],
+                 brings.edge_ratio[e]);
+  for (size_t f = 0; f < 4; ++f) {
+    const std::int32_t beyond = tets.across[size_t(scar.spring)][f];
+    if (beyond < 0) continue;
+    const geometry::Tet& faces = tets.across[size_t(beyond)];
+    const auto face = std::find(faces.begin(), faces.end(), scar.spring) - faces.begin();
+    pull_between(cell[f], tets.cells[size_t(beyond)][size_t(face)], brings.cross[f], brings.cross_ratio[f]);
+  }
+}
+
+}  // namespace
+
+void scar_tissue(StepContext& c, const ElectrodeTouch& touch) noexcept {
+  const std::int32_t body = touch.contact.body;
+  if (body < kSolidBase) return scar_strand(c, touch);
+  const Vec3d electrode = 0.5 * (touch.contact.a + touch.contact.b);
+  if (const tissue::NetworkModel* network = network_of(c.model, body))
+    scar_springs(c, *network, body, electrode);
+  else
+    scar_cells(c, body, electrode);
+}
+
+void pull_scars(StepContext& c) noexcept {
+  for (int i = 0; i < c.state.scarred_count; ++i) {
+    const Scar& scar = c.state.scarred[size_t(i)];
+    if (scar.body >= kMembraneBase) {
+      const size_t fold = size_t(scar.body - kMembraneBase);
+      const tissue::NetworkModel& m = c.model.membranes[fold].sheet.network;
+      const tissue::NetworkState& s = c.state.membranes[fold].network;
+      pull_spring(m, s, {view_of(m, s), c.work.membrane_loads[fold], m.tick}, scar);
+      continue;
+    }
+    const size_t organ = size_t(scar.body - kSolidBase);
+    if (organ < c.model.solids.size()) {
+      const tissue::NetworkModel& m = c.model.solids[organ].network;
+      pull_spring(m, c.state.solids[organ], {view_of(m, c.state.solids[organ]), c.work.organ_loads[organ], m.tick},
+                  scar);
+      continue;
+    }
+    const tissue::CuttableModel& m = c.model.cuttables[cuttable_of(c.model, scar.body)].body;
+    const tissue::CuttableState& s = c.state.cuttables[cuttable_of(c.model, scar.body)];
+    pull_cell(m, s.tets, {view_of(m, s), c.work.organ_loads[organ], m.tick}, scar);
+  }
+}
+
+}  // namespace trocar::sim

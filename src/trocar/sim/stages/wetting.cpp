@@ -1,0 +1,208 @@
+#include <algorithm>
+
+#include <trocar/interactions/verbs/irrigate.hpp>
+#include <trocar/sim/model/pool_floor.hpp>
+#include <trocar/sim/stages/stage.hpp>
+#include <trocar/sim/stages/visibility.hpp>
+#include <trocar/sim/stages/wetting.hpp>
+
+namespace trocar::sim {
+namespace {
+
+/// Bodies as fluids meet them: skins as posed in this tick, nodes as they move now.
+interactions::WetBodies wet_bodies(StepContext& c) noexcept {
+  for (size_t i = 0; i < size_t(c.model.organs()); ++i) c.work.surfaces[i].nodes = c.work.nodes[i];
+  for (size_t i = 0; i < c.model.membranes.size(); ++i)
+    c.work.sheets[i].surface.nodes = view_of(c.model.membranes[i].sheet.network, c.state.membranes[i].network);
+  return {c.work.surfaces, c.work.sheets, c.model.bodies, c.state.strands, c.model.wet.film, c.model.wet.grids};
+}
+
+/// An opening's side keeps its number for as long as it is there.
+void lay_out_bleeding(StepContext& c) noexcept {
+  for (fluids::Opening& o : c.work.wounds) o = {};
+  for (int i = 0; i < c.work.bleed_count; ++i) {
+    const Bleed& b = c.work.bleeds[size_t(i)];
+    fluids::Opening& o = c.work.wounds[size_t(2 * b.opening + b.side)];
+    o.position = vec_cast<float>(b.place);
+    o.direction = vec_cast<float>(b.direction);
+    o.area = b.area;
+    o.flow.blood = b.picolitres;
+    o.venous = b.vein ? 1 : 0;
+  }
+}
+
+bool is_irrigator(const interactions::ToolModel& tool) noexcept {
+  return tool.kind == interactions::ToolKind::suction_irrigator;
+}
+
+fluids::Capsule part_of(const collision::Capsule& now, const collision::Capsule& was) noexcept {
+  fluids::Capsule out;
+  out.a = vec_cast<float>(now.a);
+  out.b = vec_cast<float>(now.b);
+  out.radius = float(now.radius);
+  out.va = vec_cast<float>((now.a - was.a) / kTick);
+  out.vb = vec_cast<float>((now.b - was.b) / kTick);
+  return out;
+}
+
+/// @param bodies  of tissue, whose numbers come first
+int lay_out_instruments(StepContext& c, int bodies) noexcept {
+  size_t n = 0;
+  for (size_t t = 0; t < c.model.hands.size(); ++t) {
+    const interactions::ToolModel& tool = c.model.tool(c.state, t);
+    const interactions::ToolShape &now = c.work.shapes[t], &was = c.work.shapes_before[t];
+    for (int k = 0; k < interactions::kToolParts; ++k) {
+      if (is_irrigator(tool) && k != interactions::kShaft) continue;
+      fluids::Capsule& out = c.work.wet_tools[n++];
+      out = is_irrigator(tool) ? tube_of(tool, now, was, kTick) : part_of(now.part[k], was.part[k]);
+      out.body = bodies + int(t) * interactions::kToolParts + k;
+    }
+  }
+  return int(n);
+}
+
+/// Valves of the instruments that have them. While a hand puts its instrument away nothing flows.
+void lay_out_valves(StepContext& c, const interactions::WetBodies& bodies) noexcept {
+  c.work.valves = {};
+  for (size_t t = 0; t < c.model.hands.size(); ++t) {
+    const interactions::ToolModel& tool = c.model.tool(c.state, t);
+    if (!is_irrigator(tool) || c.input.tools[t].instrument != c.state.tools[t].instrument) continue;
+    const interactions::Bore bore = bore_of(tool, c.work.shapes[t], c.work.shapes_before[t], kTick);
+    fluids::SuctionIrrigator& out = c.work.valves[t];
+    out.tip = vec_cast<float>(bore.end);
+    out.direction = vec_cast<float>(bore.axis);
+    out.velocity = vec_cast<float>(bore.velocity);
+    out.irrigation = (c.input.pedals & irrigates(int(t))) != 0 ? 1 : 0;
+    out.suction = (c.input.pedals & sucks(int(t))) != 0 ? 1 : 0;
+    out.blocked = out.suction > 0 && covered(bodies, bore.end, interactions::kPlugs);
+  }
+}
+
+/// A pedal that stays down wipes again and again.
+fluids::SmokeInput what_the_lens_meets(const StepContext& c) noexcept {
+  fluids::SmokeInput out;
+  out.wipe = (c.input.pedals & kWipe) != 0 && !(c.state.fluids.smoke.wipe_left > 0);
+  out.lens = scope_of(c.model, c.state).eye;
+  return out;
+}
+
+void note_valves(StepContext& c, const fluids::FluidsReport& report) noexcept {
+  for (size_t t = 0; t < c.model.hands.size(); ++t) {
+    const fluids::SuctionIrrigator& v = c.work.valves[t];
+    const fluids::ToolResult& r = report.tools[t];
+    c.state.valves[t] = std::uint8_t((v.irrigation > 0 ? kIrrigates : 0) | (v.suction > 0 ? kSucks : 0) |
+                                     (r.clogged ? kPlugged : 0) | (r.gas_flow > 0 ? kSucksGas : 0));
+  }
+}
+
+/// What hits one place, as one. Where nothing is known of the place it is a body that nothing pushes.
+void sum_up_impacts(std::span<const fluids::Impact> all, StepContext& c) noexcept {
+  for (const fluids::Impact& hit : all)
+    if (hit.film >= 0) c.work.impact_at[size_t(hit.film)] = -1;
+  int& count = c.state.impact_count = 0;
+  for (const fluids::Impact& hit : all) {
+    if (hit.film < 0) continue;
+    std::int32_t& at = c.work.impact_at[size_t(hit.film)];
+    if (at < 0) {
+      at = count;
+      c.state.impacts[size_t(count++)] = hit;
+      continue;
+    }
+    c.state.impacts[size_t(at)].impulse += hit.impulse;
+    c.state.impacts[size_t(at)].mass += hit.mass;
+  }
+}
+
+/// For the next tick: fluids move when the bodies have moved. Crowds of drops push together where they hit one place.
+void keep_impacts(StepContext& c) noexcept {
+  const fluids::DropletWork& drops = c.work.fluids.droplets;
+  const std::span<const fluids::Impact> all(drops.impacts.data(), size_t(drops.impact_count));
+  if (drops.ways > 1) return sum_up_impacts(all, c);
+  c.state.impact_count = drops.impact_count;
+  std::copy(all.begin(), all.end(), c.state.impacts.begin());
+}
+
+/// A drop pushes what it hits and goes on with it, as in an inelastic collision: with the force alone a few milligrams
+/// of fold would be thrown ahead of the drop.
+///   f dt = P + m (v - v')      P the drop's momentum relative to the surface, m its mass, v before, v' after
+struct Push {
+  Vec3d impulse, dir;
+  double mass = 0;
+  explicit Push(const fluids::Impact& hit) noexcept
+      : impulse(vec_cast<double>(hit.impulse)), dir(normalised(impulse)), mass(double(hit.mass)) {}
+  Vec3d force(Vec3d velocity) const noexcept { return (1 / kTick) * (impulse + (mass * dot(velocity, dir)) * dir); }
+  double drag() const noexcept { return mass / kTick; }
+};
+
+void press_surface(StepContext& c, size_t i, int vertex, const Push& push) noexcept {
+  if (i >= size_t(c.model.organs()) || vertex >= c.work.skins[i]->size()) return;  // a wall
+  const tissue::NodeView& nodes = c.work.nodes[i];
+  interactions::SkinLoad load;
+  load.f0 = push.force(tissue::skin_velocity(nodes, *c.work.skins[i], vertex));
+  load.dir = push.dir;
+  load.d = push.drag();
+  add_skin_load(nodes, *c.work.skins[i], vertex, load, {}, c.work.organ_loads[i]);
+}
+
+void press_sheet(StepContext& c, size_t i, int node, const Push& push) noexcept {
+  const tissue::NodeView nodes = view_of(c.model.membranes[i].sheet.network, c.state.membranes[i].network);
+  tissue::NodeLoad load;
+  load.node = node;
+  load.f0 = vec_cast<float>(push.force(nodes.velocity(node)));
+  load.dir = vec_cast<float>(push.dir);
+  load.d = float(push.drag());
+  c.work.membrane_loads[i].add(load, {});
+}
+
+void press_strand(StepContext& c, size_t i, int node, const Push& push) noexcept {
+  const int last = c.model.bodies[i].nodes() - 2;
+  tissue::StrandLoad load;
+  load.element = std::min(node, last);
+  load.w = node > last ? 1 : 0;
+  load.f0 = push.force(c.state.strands[i].v[size_t(node)]);
+  load.dir = push.dir;
+  load.d = push.drag();
+  c.work.strand_loads[i].add(load, {});
+}
+
+}  // namespace
+
+void press_with_drops(StepContext& c) noexcept {
+  using interactions::WetTarget;
+  for (int i = 0; i < c.state.impact_count; ++i) {
+    const fluids::Impact& hit = c.state.impacts[size_t(i)];
+    const WetTarget at = interactions::target_of(c.model.wet.film, c.model.surfaces(), int(c.model.membranes.size()),
+                                                 hit.body, hit.film);
+    const Push push(hit);
+    if (at.kind == WetTarget::surface) press_surface(c, size_t(at.index), at.vertex, push);
+    if (at.kind == WetTarget::sheet) press_sheet(c, size_t(at.index), at.vertex, push);
+    if (at.kind == WetTarget::strand) press_strand(c, size_t(at.index), at.vertex, push);
+  }
+}
+
+void move_fluids(StepContext& c) noexcept {
+  if (!c.model.wet.there) return;
+  lay_out_bleeding(c);
+  const interactions::WetBodies bodies = wet_bodies(c);
+  const int tools = lay_out_instruments(c, bodies.count());
+  lay_out_valves(c, bodies);
+  fluids::FluidsInput input;
+  input.openings = c.work.wounds;
+  input.capsules = {c.work.wet_tools.data(), size_t(tools)};
+  input.tools = {c.work.valves.data(), c.model.hands.size()};
+  follow_floor(c.model, c.work.surfaces, c.state);
+  input.floor = c.state.pool_floor;
+  input.smoke = what_the_lens_meets(c);
+  if (c.work.steam.kilograms > 0) input.boiled = {&c.work.steam, 1};
+  input.smoke.coagulating = c.work.current_flows;
+  begin_tick(c.model.wet.model, input, c.state.fluids, c.work.fluids);
+  answer_drops(bodies, normalised(c.model.gravity, {0, 0, -1}), c.state.fluids.droplets, c.work.fluids.droplets,
+               c.work.wet);
+  const fluids::FluidsReport report = finish_tick(c.model.wet.model, input, c.state.fluids, c.work.fluids);
+  if (report.report.flags & fluids::FluidReport::kDropletsFull) c.report.flags |= StepReport::kDropsFull;
+  if (c.state.impacts.empty()) return;
+  note_valves(c, report);
+  keep_impacts(c);
+}
+
+}  // namespace trocar::sim

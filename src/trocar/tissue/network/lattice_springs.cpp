@@ -1,0 +1,102 @@
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include <trocar/tissue/network/lattice_springs.hpp>
+
+namespace trocar::tissue {
+namespace {
+
+struct Share {
+  int a, b;
+  double k;
+};
+
+constexpr int kEdges[12][2] = {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3},
+                               {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+constexpr int kDiagonals[12][2] = {{0, 3}, {1, 2}, {4, 7}, {5, 6}, {0, 5}, {1, 4},
+                                   {2, 7}, {3, 6}, {0, 6}, {2, 4}, {1, 7}, {3, 5}};
+// Four corners cut off and the middle; its edges are face diagonals, so its cells move only with springs.
+constexpr int kTets[5][4] = {{0, 1, 2, 4}, {3, 1, 7, 2}, {5, 1, 4, 7}, {6, 2, 7, 4}, {1, 2, 4, 7}};
+
+double volume6(Vec3d o, Vec3d a, Vec3d b, Vec3d c) { return dot(a - o, cross(b - o, c - o)); }
+
+double cell_volume(std::span<const Vec3d> x, const std::array<int, 8>& c) {
+  double six = 0;
+  for (const auto& t : kTets) six += volume6(x[c[t[0]]], x[c[t[1]]], x[c[t[2]]], x[c[t[3]]]);
+  return six / 6;
+}
+
+/// k = 0.4 E V / l^2, which is 0.4 E l on a cube (l = its edge, also for the diagonals, whose square is twice l^2),
+/// shared among the cells that meet at the spring.
+void add_cell_springs(std::span<const Vec3d> x, const std::array<int, 8>& c, double stiffness, double volume,
+                      std::vector<Share>& shares) {
+  const auto add = [&](const int(&pair)[2], double share) {
+    const int a = std::min(c[pair[0]], c[pair[1]]), b = std::max(c[pair[0]], c[pair[1]]);
+    const Vec3d d = x[b] - x[a];
+    shares.push_back({a, b, share * 0.4 * stiffness * volume / dot(d, d)});
+  };
+  for (const auto& e : kEdges) add(e, 0.25);
+  for (const auto& e : kDiagonals) add(e, 0.5 * 2);  // 2: V / (l_diagonal^2 / 2)
+}
+
+}  // namespace
+
+LatticeNetwork lattice_network(std::span<const Vec3d> corners, std::span<const std::array<int, 8>> cells,
+                               std::span<const double> fill, const LatticeMaterial& material) {
+  if (!(material.youngs_modulus > 0 && material.density > 0))
+    throw std::invalid_argument("lattice: expected youngs_modulus > 0 and density > 0");
+  if (!fill.empty() && fill.size() != cells.size())
+    throw std::invalid_argument("lattice: expected one fill per cell, got " + std::to_string(fill.size()));
+  LatticeNetwork out;
+  NetworkDescription& d = out.network;
+  d.positions.assign(corners.begin(), corners.end());
+  d.mass.assign(corners.size(), 0.0);
+  d.fixed.assign(corners.size(), kFree);
+  std::vector<Share> shares;
+  shares.reserve(cells.size() * 24);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const auto& c = cells[i];
+    const double volume = cell_volume(corners, c);
+    if (!(volume > 0)) throw std::invalid_argument("lattice: cell " + std::to_string(i) + ": expected positive volume");
+    const double part = fill.empty() ? 1 : std::min(1.0, std::max(fill[i], material.min_fill));
+    for (int corner : c) d.mass[corner] += material.density * volume * part / 8;
+    add_cell_springs(corners, c, material.youngs_modulus * part, volume, shares);
+    for (const auto& t : kTets) {
+      const std::array<int, 4> tet{c[t[0]], c[t[1]], c[t[2]], c[t[3]]};
+      if (!(volume6(corners[tet[0]], corners[tet[1]], corners[tet[2]], corners[tet[3]]) > 0.05 * volume)) continue;
+      d.tets.push_back(tet);
+      out.cell_of_tet.push_back(int(i));
+    }
+  }
+  std::stable_sort(shares.begin(), shares.end(),
+                   [](const Share& p, const Share& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
+  for (std::size_t i = 0; i < shares.size();) {
+    SpringDescription e;
+    e.a = shares[i].a, e.b = shares[i].b;
+    for (; i < shares.size() && shares[i].a == e.a && shares[i].b == e.b; ++i) e.k += shares[i].k;
+    e.rest_length = length(corners[e.b] - corners[e.a]);
+    e.p1 = material.p1, e.p2 = material.p2, e.cap = material.cap;
+    e.damping = material.damping_time * e.k;
+    d.springs.push_back(e);
+  }
+  return out;
+}
+
+BoxLattice box_lattice(int nx, int ny, int nz, double spacing, Vec3d lowest) {
+  BoxLattice box;
+  box.nx = nx, box.ny = ny, box.nz = nz;
+  for (int k = 0; k <= nz; ++k)
+    for (int j = 0; j <= ny; ++j)
+      for (int i = 0; i <= nx; ++i) box.corners.push_back(lowest + Vec3d{i * spacing, j * spacing, k * spacing});
+  for (int k = 0; k < nz; ++k)
+    for (int j = 0; j < ny; ++j)
+      for (int i = 0; i < nx; ++i)
+        box.cells.push_back({box.corner(i, j, k), box.corner(i + 1, j, k), box.corner(i, j + 1, k),
+                             box.corner(i + 1, j + 1, k), box.corner(i, j, k + 1), box.corner(i + 1, j, k + 1),
+                             box.corner(i, j + 1, k + 1), box.corner(i + 1, j + 1, k + 1)});
+  return box;
+}
+
+}  // namespace trocar::tissue

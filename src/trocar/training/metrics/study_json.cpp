@@ -1,0 +1,56 @@
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include <trocar/training/metrics/study.hpp>
+
+namespace trocar::training {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json spread_json(const Spread& s) {
+  return {{"count", s.count},           {"min", number(s.least)}, {"q1", number(s.lower)},
+          {"median", number(s.median)}, {"q3", number(s.upper)},  {"max", number(s.most)}};
+}
+
+Json ranged_json(const Ranged& r) {
+  return {{"value", number(r.value)}, {"low", number(r.low)}, {"high", number(r.high)}};
+}
+
+Json metric_json(const Study& study, const MetricStudy& m) {
+  Json j{{"key", m.column->key}, {"title", m.column->title}, {"unit", m.column->unit}};
+  j["spread"] = spread_json(m.all);
+  j["by_person"] = Json::object();
+  for (std::size_t p = 0; p < study.persons.size(); ++p) {
+    j["by_person"][study.persons[p]] = spread_json(m.by_person[p]);
+    j["by_person"][study.persons[p]]["rho"] = number(m.person_rho[p]);
+  }
+  j["by_repetition"] = Json::array();
+  for (const Spread& s : m.by_repetition) j["by_repetition"].push_back(spread_json(s));
+  j["trend"] = {{"slope_per_repetition", ranged_json(m.trend.slope)},
+                {"spearman_pooled", ranged_json(m.trend.pooled)},
+                {"spearman_within", ranged_json(m.trend.within)}};
+  return j;
+}
+
+}  // namespace
+
+std::string study_json(const Study& study) {
+  Json j{{"persons", study.persons},
+         {"ranges", "low and high: the figure when each person in turn is left out"},
+         {"metrics", Json::array()},
+         {"attempts", Json::array()}};
+  for (const MetricStudy& m : study.metrics)
+    if (m.all.count > 0) j["metrics"].push_back(metric_json(study, m));
+  for (const StudyAttempt& a : study.attempts) {
+    Json attempt{{"person", a.person}, {"trial", a.trial}, {"repetition", a.repetition}};
+    attempt["metrics"] = Json::parse(metrics_json(a.metrics));
+    j["attempts"].push_back(attempt);
+  }
+  return j.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace trocar::training

@@ -1,0 +1,67 @@
+#include <trocar/view/analysis/scene_parts.hpp>
+
+namespace trocar::view {
+
+SceneParts::SceneParts(const sim::Model& model, const std::vector<std::string>& kinds)
+    : vessel_kinds(std::uint16_t(kinds.size())) {
+  const auto add = [this](const std::string& name, PartGroup group) {
+    list.push_back({name, group});
+    return std::uint16_t(list.size());
+  };
+  const auto begins = [this] { return std::uint16_t(list.size() + 1); };
+  first.organ = begins();
+  for (int i = 0; i < model.organs(); ++i) add(model.organ_name(i), PartGroup::organs);
+  first.tube = begins();
+  for (const sim::StrandModel& s : model.strands) add(s.name, PartGroup::tubes);
+  first.fold = begins();
+  for (const sim::SheetModel& s : model.sheets) add(s.name, PartGroup::folds);
+  first.membrane = begins();
+  for (const sim::MembraneModel& m : model.membranes)  // a closed one is a hollow organ
+    add(m.name, m.sheet.closed() ? PartGroup::organs : PartGroup::folds);
+  first.vessel = begins();
+  for (const std::string& kind : kinds) add(kind, PartGroup::vessels);
+  first.wall = begins();
+  for (const sim::WallModel& w : model.walls) add(w.name, PartGroup::walls);
+  first.cavity = add("cavity", PartGroup::walls);
+  first.tool = begins();
+  for (const sim::HandModel& h : model.hands) add(h.name, PartGroup::instruments);
+  first.scope = add("endoscope", PartGroup::instruments);
+  first.clips = add("clips", PartGroup::clips);
+  if (!model.wet.there) return;
+  first.liquid = add("blood and water", PartGroup::fluids);
+  first.smoke = add("smoke", PartGroup::fluids);
+}
+
+std::uint16_t SceneParts::of(BodyKind kind, std::size_t i) const {
+  switch (kind) {
+    case BodyKind::organ:
+      return std::uint16_t(first.organ + i);
+    case BodyKind::strand:
+      return std::uint16_t(first.tube + i);
+    case BodyKind::membrane:
+      return std::uint16_t(first.membrane + i);
+    case BodyKind::arteries:
+      return first.vessel;
+    case BodyKind::veins:
+      return std::uint16_t(first.vessel + vessel_kinds - 1);
+    case BodyKind::tools:
+      break;
+  }
+  return 0;
+}
+
+PartStyle style_of(const std::vector<PartStyle>& styles, std::uint16_t part) {
+  return part > 0 && part <= styles.size() ? styles[part - std::size_t(1)] : PartStyle::shaded;
+}
+
+void apply(const std::vector<PartStyle>& styles, render::Frame& frame) {
+  if (styles.empty()) return;
+  std::erase_if(frame.items, [&](const render::DrawItem& i) { return style_of(styles, i.part) == PartStyle::hidden; });
+  for (render::DrawItem& i : frame.items) {
+    const PartStyle style = style_of(styles, i.part);
+    if (style == PartStyle::transparent) i.style = render::DrawStyle::transparent;
+    if (style == PartStyle::wireframe) i.style = render::DrawStyle::wireframe;
+  }
+}
+
+}  // namespace trocar::view

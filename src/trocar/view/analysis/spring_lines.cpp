@@ -1,0 +1,95 @@
+#include <algorithm>
+
+#include <trocar/view/analysis/spring_lines.hpp>
+
+namespace trocar::view {
+namespace {
+
+/// Lines one after the other, begun anew each time.
+class Lines {
+ public:
+  Lines(const AnalysisOptions& options, FalseColourMesh& to)
+      : m_options(options), m_to(to), m_before(to.buffer.size()) {
+    m_to.buffer.positions.clear(), m_to.buffer.paint.clear(), m_to.buffer.indices.clear(), m_to.value.clear();
+  }
+  void add(Vec3d a, Vec3d b, double strain) {
+    const render::Paint paint = paint_shown_as(colour_of_strain(m_options, strain));
+    for (const Vec3d end : {a, b}) {
+      m_to.buffer.indices.push_back(m_to.buffer.add(vec_cast<float>(end), paint));
+      m_to.value.push_back(float(strain));
+    }
+  }
+  void show(render::Backend& backend) { m_to.show(backend, m_to.buffer.size() != m_before, render::Primitive::lines); }
+
+ private:
+  const AnalysisOptions& m_options;
+  FalseColourMesh& m_to;
+  std::uint32_t m_before;
+};
+
+void add_network(const tissue::NetworkModel& model, const tissue::NetworkState& state, Lines& to) {
+  for (int s = 0; s < model.springs; ++s) {
+    if (spring_scale(model, state, s) <= 0) continue;
+    const int a = model.spring_nodes[2 * std::size_t(s)], b = model.spring_nodes[2 * std::size_t(s) + 1];
+    to.add(position(model, state, a), position(model, state, b), spring_strain(model, state, s));
+  }
+}
+
+std::vector<std::array<std::int32_t, 2>> edges_of(const geometry::CuttableTets& tets) {
+  std::vector<std::array<std::int32_t, 2>> edges;
+  for (const geometry::Tet& cell : tets.cells)
+    for (const auto& [i, j] : tissue::kCellEdges) {
+      const std::int32_t a = cell[std::size_t(i)], b = cell[std::size_t(j)];
+      edges.push_back({std::min(a, b), std::max(a, b)});
+    }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+void add_strand(const tissue::StrandModel& model, const tissue::StrandState& state, Lines& to) {
+  for (std::size_t e = 0; e + 1 < state.x.size(); ++e)
+    if (state.alive[e]) to.add(state.x[e], state.x[e + 1], element_strain(model, state, int(e)));
+}
+
+}  // namespace
+
+SpringLines::SpringLines(const sim::Model& model)
+    : m_model(&model),
+      m_organs(std::size_t(model.organs())),
+      m_strands(model.strands.size()),
+      m_membranes(model.membranes.size()),
+      m_edges(model.cuttables.size()),
+      m_edges_of(model.cuttables.size(), ~std::uint64_t(0)) {}
+
+void SpringLines::update(const sim::State& state, const AnalysisOptions& o, render::Backend& backend) {
+  for (std::size_t i = 0; i < m_model->solids.size(); ++i) {
+    Lines lines(o, m_organs[i]);
+    add_network(m_model->solids[i].network, state.solids[i], lines);
+    lines.show(backend);
+  }
+  for (std::size_t i = 0; i < m_model->cuttables.size(); ++i) {
+    const tissue::CuttableState& now = state.cuttables[i];
+    if (m_edges_of[i] != now.version) m_edges[i] = edges_of(now.tets), m_edges_of[i] = now.version;
+    Lines lines(o, m_organs[m_model->solids.size() + i]);
+    const tissue::NodeView nodes = view_of(m_model->cuttables[i].body, now);
+    for (const auto& [a, b] : m_edges[i]) {
+      const double drawn = length(now.tets.rest[std::size_t(b)] - now.tets.rest[std::size_t(a)]);
+      const Vec3d from = nodes.position(a), to = nodes.position(b);
+      lines.add(from, to, drawn > 0 ? length(to - from) / drawn - 1 : 0);
+    }
+    lines.show(backend);
+  }
+  for (std::size_t i = 0; i < m_strands.size(); ++i) {
+    Lines lines(o, m_strands[i]);
+    add_strand(m_model->bodies[i].model, state.strands[i], lines);
+    lines.show(backend);
+  }
+  for (std::size_t i = 0; i < m_membranes.size(); ++i) {
+    Lines lines(o, m_membranes[i]);
+    add_network(m_model->membranes[i].sheet.network, state.membranes[i].network, lines);
+    lines.show(backend);
+  }
+}
+
+}  // namespace trocar::view

@@ -1,0 +1,83 @@
+#include <algorithm>
+#include <cmath>
+
+#include <trocar/geometry/surfaces/coarsen.hpp>
+#include <trocar/view/base/level_of_detail.hpp>
+
+namespace trocar::view {
+namespace {
+
+// Half a pixel is 0.07 mm at 60 mm. The last is for small pictures.
+const std::vector<sim::DetailLevel> kDefault{
+    {0.060, 0.00007, 2}, {0.120, 0.00015, 2}, {0.240, 0.0004, 0}, {0.600, 0.001, 0}};
+
+constexpr std::size_t kLooks = 96;     // points of a thing whose distance is looked at
+constexpr float kPaintLength = 1e-3f;  // [m] that a change of paint from none to all counts
+constexpr float kMargin = 0.25f;       // [rad] beside the picture
+constexpr std::uint32_t kLeastSides = 4;
+
+}  // namespace
+
+std::vector<sim::DetailLevel> levels_of(const sim::Model& model, const std::string& name) {
+  for (const sim::DrawnDetail& d : model.drawn_detail)
+    if (d.name == name) return d.levels;
+  return kDefault;
+}
+
+std::uint8_t Detail::level_at(double distance, int eye) {
+  std::uint8_t& level = m_level[std::size_t(eye)];
+  while (level < m_levels.size() && distance > m_levels[level].from * (1 + kHysteresis)) ++level;
+  while (level > 0 && distance < m_levels[level - std::size_t(1)].from * (1 - kHysteresis)) --level;
+  return level;
+}
+
+std::uint8_t Detail::surface(std::uint8_t level) const {
+  return level == 0 ? std::uint8_t(2) : std::uint8_t(m_levels[level - std::size_t(1)].surface);
+}
+
+DetailEye::DetailEye(const render::Camera& camera, double height, const render::Quality& quality, int eye)
+    : position(camera.position), forward(-camera.rotation.column(2)), index(eye) {
+  const float half = camera.vertical_fov / 2;
+  const float corner = std::atan(1.7f * std::tan(half));  // pictures are wider than high
+  edge = std::cos(std::min(corner + kMargin, 3.0f));
+  scale = kReferenceHeight / (height * double(quality.render_scale)) * std::tan(double(half)) / kReferenceTangent *
+          double(quality.coarser);
+}
+
+double DetailEye::distance(std::span<const Vec3f> points, const render::Mat4& transform) const {
+  float nearest = 1e9f;
+  for (std::size_t i = 0; i < points.size(); i += std::max<std::size_t>(1, points.size() / kLooks)) {
+    const Vec3f way = render::transform_point(transform, points[i]) - position;
+    const float far = length(way);
+    nearest = std::min(nearest, dot(way, forward) < edge * far ? 2 * far : far);
+  }
+  return scale * double(nearest);
+}
+
+std::vector<std::vector<std::uint32_t>> coarser_lists(std::span<const Vec3f> positions,
+                                                      std::span<const std::uint32_t> indices,
+                                                      std::span<const Paint> paint, const Detail& detail,
+                                                      double longest_edge) {
+  if (detail.levels().empty()) return {};
+  std::vector<Vec3f> notes;
+  for (const Paint& p : paint)
+    notes.push_back((kPaintLength / 255) * Vec3f{float(p.openness), float(p.tint), float(p.blood) + float(p.burn)});
+  std::vector<double> errors;
+  for (const sim::DetailLevel& level : detail.levels()) errors.push_back(level.error);
+  return geometry::coarsened(positions, indices, notes, errors, longest_edge);
+}
+
+void coarsen(MeshBuffer& mesh, const Detail& detail, double longest_edge) {
+  mesh.coarser = coarser_lists(mesh.positions, mesh.indices, mesh.paint, detail, longest_edge);
+}
+
+double ring_distance(double error, double bend) { return std::sqrt(8 * bend * error); }
+
+std::uint32_t side_stride(double error, double radius, std::uint32_t sides) {
+  std::uint32_t stride = 1;
+  for (std::uint32_t wider = 2; sides % wider == 0 && sides / wider >= kLeastSides; wider *= 2)
+    if (radius * (1 - std::cos(3.14159265358979 * wider / sides)) <= error) stride = wider;
+  return stride;
+}
+
+}  // namespace trocar::view

@@ -1,0 +1,118 @@
+#include <algorithm>
+#include <cmath>
+
+#include <trocar/sim/model/host_views.hpp>
+#include <trocar/view/base/mesh_buffer.hpp>
+#include <trocar/view/base/pinch.hpp>
+
+namespace trocar::view {
+
+using interactions::Clip;
+
+namespace {
+
+Vec3d in_world(const double (&v)[3], const interactions::StrandFrame& f) {
+  return v[0] * f.tangent + v[1] * f.normal + v[2] * f.binormal;
+}
+
+// Shares of a tube's radius, our choice: how far it bulges and gathers beside a clip, and is drawn in between its legs.
+constexpr double kBulge = 0.2, kGathers = 0.1, kDrawnIn = 0.25;
+
+double leg_length(const Clip& clip) { return clip.length > 0 ? clip.length : kClipLength; }
+
+bool holds(const interactions::ToolState& tool, int body) {
+  const int n = std::min(tool.holds, interactions::kMaxHolds);
+  return std::any_of(tool.hold, tool.hold + std::max(0, n), [body](const auto& h) { return h.body == body; });
+}
+
+struct ClipSeat {
+  Vec3d centre;
+  interactions::StrandFrame frame;
+  double radius = 0;
+};
+ClipSeat seat_on_strand(const Clip& clip, const sim::Model& model, const sim::State& state) {
+  const std::size_t strand = std::size_t(clip.strand);
+  const interactions::StrandBody& body = model.bodies[strand];
+  const interactions::StrandPlace place = place_at(body, clip.s);
+  return {point_at(body, state.strands[strand], place), frame_at(body, state.strands[strand], place),
+          body.model.radius[std::size_t(place.element)]};
+}
+ClipSeat seat_on_vessel(const Clip& clip, const sim::Model& model, const sim::State& state) {
+  const int vessel = clip.vessel - 1;
+  const interactions::VesselPath& path = model.vessels.list[std::size_t(vessel)].path;
+  sim::HostViews views = sim::make_host_views(model);
+  std::vector<Vec3d> points(path.points.size());
+  pose_vessel(path, sim::look_at_hosts(model, state, views), points);
+  std::array<double, interactions::kMaxOpenings> cuts;
+  const double s = std::clamp(clip.s / path.length, 0.0, 1.0);
+  const interactions::VesselSpot spot = vessel_spot(path, points, sim::cuts_of(state, vessel, cuts), s);
+  return {spot.place, vessel_frame(path, spot), vessel_radius(path, s)};
+}
+
+}  // namespace
+
+ClipPress press_of(const Clip& clip, const sim::Model& model, const sim::State& state) {
+  const auto [centre, frame, radius] =
+      clip.strand >= 0 ? seat_on_strand(clip, model, state) : seat_on_vessel(clip, model, state);
+  ClipPress press;
+  press.centre = centre;
+  press.axis = normalised(in_world(clip.axis, frame), frame.binormal);
+  const Vec3d open = in_world(clip.opening, frame);
+  press.open = normalised(open - dot(open, press.axis) * press.axis, any_perpendicular(press.axis));
+  press.normal = cross(press.axis, press.open);
+  press.radius = radius;
+  press.flat = kClipHalfGap / press.radius;
+  press.low = -clip.reach;
+  press.high = leg_length(clip) - clip.reach;
+  return press;
+}
+
+std::vector<ClipPress> clips_on(int strand, const sim::Model& model, const sim::State& state) {
+  std::vector<ClipPress> presses;
+  for (int i = 0; i < state.clip_count; ++i)
+    if (state.clips[std::size_t(i)].strand == strand)
+      presses.push_back(press_of(state.clips[std::size_t(i)], model, state));
+  return presses;
+}
+
+std::vector<JawPress> jaws_on(int body, const sim::Model& model, const sim::State& state) {
+  std::vector<JawPress> presses;
+  for (std::size_t t = 0; t < model.hands.size(); ++t) {
+    const interactions::ToolState& tool = state.tools[t];
+    if (!holds(tool, body)) continue;
+    const interactions::ToolModel& m = model.tool(state, t);
+    presses.push_back({interactions::shape_of(m, tool.pose(), tool.aperture), m.jaw_length, 0.5 * m.jaw_width});
+  }
+  return presses;
+}
+
+Vec3d pressed(Vec3d p, const ClipPress& press) {
+  const Vec3d d = p - press.centre;
+  const double beside = std::fabs(dot(d, press.normal)) - 0.5 * kClipLegWidth, fade = 1.35 * press.radius + 0.0003;
+  if (beside > fade || dot(d, d) > 9 * press.radius * press.radius) return p;
+  const double x = dot(d, press.open), z = dot(d, press.axis);
+  const double rim = 0.0004;
+  const double between = smooth(press.low - rim, press.low + rim, z) * smooth(press.high + rim, press.high - rim, z);
+  // Steepest right at the legs, which lie half buried; and there it is gathered like a purse.
+  const double near = 1 - std::clamp(beside / fade, 0.0, 1.0), amount = between * near * near * (1.5 - 0.5 * near);
+  const double angle = std::atan2(x, z) + (dot(d, press.normal) > 0 ? 0.7 : 0);
+  const double gathers = std::sin(4 * angle + 1) + 0.6 * std::sin(3 * angle + 2.4);
+  const double bulge = between * (4 * near * (1 - near) * kBulge + kGathers * gathers * smooth(0.05, 0.7, near));
+  const double flattened = x * ((1 + bulge) * (1 - amount) + amount * std::min(1.0, press.flat));
+  double drawn_in = z * (1 + bulge * (1 - amount) - kDrawnIn * amount);
+  if (z > press.low) drawn_in = std::max(drawn_in, press.low + 0.5 * rim);
+  return p + (flattened - x) * press.open + (drawn_in - z) * press.axis;
+}
+
+Vec3d pressed(Vec3d p, const JawPress& press) {
+  const Vec3d q = interactions::to_jaw(press.shape, p);
+  const double beyond = std::max({std::fabs(q.y) - press.half_width, q.z - press.length, -q.z, 0.0});
+  if (beyond > 0.006) return p;
+  const double along = std::clamp(q.z, 0.0, press.length);
+  const double limit = std::max(0.0, press.shape.half_opening(along)) + 1e-4 + 0.9 * beyond + 60 * beyond * beyond;
+  if (std::fabs(q.x) <= limit || std::fabs(q.x) > 0.012) return p;
+  const double x = q.x > 0 ? limit : -limit;
+  return p + (x - q.x) * press.shape.frame.opening();
+}
+
+}  // namespace trocar::view

@@ -1,0 +1,40 @@
+// Where clips and closed jaws press drawn tissue flat. The simulation knows a tube as a line with a radius; its picture
+// must not stick out through the metal that holds it.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <trocar/sim/model/state.hpp>
+
+namespace trocar::view {
+
+/// Two parallel legs of a clip around a tube.
+struct ClipPress {
+  Vec3d centre, open, axis, normal;  ///< of the tube between the legs; unit directions, normal = axis x open
+  double flat = 0.3;                 ///< radius share that is left across the legs
+  double radius = 0;                 ///< of the tube [m]
+  double low = 0, high = 0;          ///< legs from and to, along the axis from the centre [m]
+};
+
+/// Closed jaws that hold something.
+struct JawPress {
+  interactions::ToolShape shape;
+  double length = 0, half_width = 0;  ///< of the jaws [m]
+};
+
+/// Half the clear space between the legs of a closed clip, and how wide and thick a leg is [m].
+inline constexpr double kClipHalfGap = 0.00025, kClipLegWidth = 0.0011, kClipLegThickness = 0.00085;
+/// Legs of clips whose applier does not say how long they are [m].
+inline constexpr double kClipLength = 0.0085;
+
+ClipPress press_of(const interactions::Clip& clip, const sim::Model& model, const sim::State& state);
+/// Clips on a strand.
+std::vector<ClipPress> clips_on(int strand, const sim::Model& model, const sim::State& state);
+/// Jaws that hold that body (a strand index, or a solid index + interactions::kSolidBase).
+std::vector<JawPress> jaws_on(int body, const sim::Model& model, const sim::State& state);
+
+Vec3d pressed(Vec3d p, const ClipPress& press);
+Vec3d pressed(Vec3d p, const JawPress& press);
+
+}  // namespace trocar::view

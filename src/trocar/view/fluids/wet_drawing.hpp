@@ -1,0 +1,39 @@
+// The fluids of a scene in its picture: where places of film lie now, which bodies are drawn translucent; the rest is
+// FluidDrawing's.
+#pragma once
+
+#include <vector>
+
+#include <trocar/interactions/wetting/fluid_contact.hpp>
+#include <trocar/sim/model/host_views.hpp>
+#include <trocar/sim/model/state.hpp>
+#include <trocar/view/fluids/fluid_drawing.hpp>
+
+namespace trocar::view {
+
+class WetDrawing {
+ public:
+  /// @param model  with fluids; must outlive this
+  explicit WetDrawing(const sim::Model& model);
+
+  /// Adds to frame.liquid.
+  void list(const sim::State& state, render::Frame& frame);
+
+ private:
+  void measure_places();
+  void pose(const sim::State& state);
+  void list_stumps(const sim::State& state, render::Liquid& liquid) const;
+  void list_runs(const sim::State& state, render::Liquid& liquid);
+  FilmPlace on_strand(const sim::State& state, const FilmPlace& place) const;
+
+  const sim::Model* m_model;
+  FluidDrawing m_drawing;
+  std::vector<tissue::SkinPose> m_poses;          ///< (organs, membranes)
+  std::vector<interactions::Surface> m_surfaces;  ///< (organs, walls)
+  std::vector<interactions::SheetView> m_sheets;
+  sim::HostViews m_hosts;
+  std::vector<FilmPlace> m_places;    ///< (film cells)
+  std::vector<std::uint8_t> m_sheer;  ///< (bodies)
+};
+
+}  // namespace trocar::view
