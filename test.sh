@@ -1,9 +1,12 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds the release preset with its tests, and runs them.
 #
-#   ./test.sh          the quick ones (on two cores about a quarter of an hour, and as much again for the first build)
+#   ./test.sh          the quick ones: unit, scene and window (on two cores some minutes, and a quarter of an hour for
+#                      the first build)
+#   ./test.sh unit     bodies, numbers and files by themselves: what one runs often; or scene, window: those alone
 #   ./test.sh soak     the long ones: abuse, kills, fuzzing, the matrix of compilers, instruction sets and threads
 #
+# The last line is `N passed, N failed, N skipped`; above it stands what failed, and what was skipped and why.
 # TROCAR_FUZZ_SECONDS (default 600) is how long each fuzz target runs in the soak, two at a time.
 # No display and no network (apt aside) needed. Exit 0 only if every test that ran passed and at least one ran.
 set -euo pipefail
@@ -11,8 +14,9 @@ cd "$(dirname "$0")"
 which=${1:-quick}
 case "$which" in
   quick) job=test; filter=(-LE '^soak$') ;;
+  unit | scene | window) job=test; filter=(-L "^$which$") ;;
   soak) job=soak; filter=(-L '^soak$' -E '^house\.DeterminismMatrix$') ;;
-  *) sed -n '2,9s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+  *) sed -n '2,12s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
 esac
 
 tools/setup.sh $job
@@ -21,20 +25,20 @@ begun=$SECONDS
 tools/build.sh --tests
 built=$((SECONDS - begun))
 
-log=$(mktemp)
-trap 'rm -f "$log"' EXIT
-tests() {
+junit=$PWD/build/release/test-results/junit.xml
+summary=build/release/test-results/summary.txt
+tests() {  # the summary's exit code counts: it knows every case
   local status=0
-  ctest --test-dir build/release "${filter[@]}" --output-on-failure --no-tests=error -j "$(nproc)" 2>&1 | tee "$log" ||
-    status=$?
-  skipped=$(grep -c '\*\*\*Skipped' "$log" || true)
-  ran=$(grep -cE '^ *[0-9]+/[0-9]+ Test ' "$log" || true)
+  rm -rf build/release/test-results
+  mkdir -p build/release/test-results
+  ctest --test-dir build/release "${filter[@]}" --output-on-failure --no-tests=error -j "$(nproc)" \
+    --output-junit "$junit" || status=$?
   echo
-  echo "test: $ran $which tests, of which $skipped skipped"
+  tools/test_summary.py "$junit" build/release/test-results | tee "$summary" || status=$?
   return $status
 }
 
-if [ "$which" = quick ]; then
+if [ "$which" != soak ]; then
   tests && exit 0 || exit $?
 fi
 
@@ -62,4 +66,13 @@ echo
 printf '%-26s %6d s  %s\n' "build" "$built" ""
 for i in "${!parts[@]}"; do printf '%-26s %6d s  %s\n' "${parts[$i]}" "${times[$i]}" "${results[$i]}"; done
 printf '%-26s %6d s\n' "together" "$((SECONDS - begun))"
+read -r passed _ broken _ skipped _ < <(tail -1 "$summary")
+for result in "${results[@]:1}"; do
+  case $result in
+    passed) ((passed += 1)) ;;
+    skipped*) ((skipped += 1)) ;;
+    *) ((broken += 1)) ;;
+  esac
+done
+echo "$passed passed, $broken failed, $skipped skipped"
 exit $failed

@@ -1,6 +1,6 @@
 # The three functions every folder uses. A module is a static library of the sources in its folder's rooms; its tests and
 # benchmarks are the files in the folder of the same name under tests/ and bench/:
-#   tests/NAME/*_test.cpp  the quick ones, in every run of ctest's `quick` label
+#   tests/NAME/*_test.cpp  the quick ones, label `unit`, or `scene` where whole scenes are compiled and run
 #   tests/NAME/*_soak.cpp  the long ones, label `soak`, run by `./test.sh soak`
 #   bench/NAME/*_bench.cpp
 set(CMAKE_CXX_STANDARD 20)
@@ -82,31 +82,60 @@ function(trocar_module name)
   endif()
 endfunction()
 
-# One executable of GoogleTest cases, each of them known to ctest under LABEL.
-function(trocar_test_executable target prefix label timeout sources depends libs)
-  add_executable(${target} ${sources})
-  target_link_libraries(${target} PRIVATE ${depends} ${libs} GTest::gtest_main)
-  target_precompile_headers(${target} PRIVATE <gtest/gtest.h> <algorithm> <array> <filesystem> <functional> <memory>
-                            <span> <string> <vector>)
-  trocar_quick_options(${target})
-  target_compile_definitions(${target} PRIVATE TROCAR_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
-                                               TROCAR_BINARY_DIR="${PROJECT_BINARY_DIR}")
-  gtest_discover_tests(${target} TEST_PREFIX ${prefix}. DISCOVERY_TIMEOUT 60
-                       PROPERTIES LABELS ${label} TIMEOUT ${timeout})
+# Entries of ctest for an executable of GoogleTest cases: one for all of them, so that what they share (a compiled scene)
+# is made once; or, where that takes long, SHARDS that run beside each other. Results go to test-results/ENTRY.json.
+function(trocar_test_entries target name label shards)
+  set(seconds 600)
+  if(label STREQUAL soak)
+    set(seconds 3600)
+  endif()
+  foreach(shard RANGE 1 ${shards})
+    set(entry ${name})
+    if(shards GREATER 1)
+      set(entry ${name}.${shard})
+    endif()
+    math(EXPR index "${shard} - 1")
+    add_test(NAME ${entry} COMMAND ${target})
+    set(environment GTEST_BRIEF=1 GTEST_OUTPUT=json:${PROJECT_BINARY_DIR}/test-results/${entry}.json
+                    GTEST_TOTAL_SHARDS=${shards} GTEST_SHARD_INDEX=${index} TROCAR_TEST_SECONDS=${seconds})
+    math(EXPR killed "${seconds} + 60")
+    set_tests_properties(${entry} PROPERTIES LABELS ${label} TIMEOUT ${killed} ENVIRONMENT "${environment}")
+  endforeach()
   set_property(GLOBAL APPEND PROPERTY TROCAR_TEST_TARGETS ${target})
 endfunction()
 
-# trocar_test(NAME DEPENDS module... [LIBS target...]): tests/NAME/*_test.cpp -> NAME_test, *_soak.cpp -> NAME_soak
+# One executable of GoogleTest cases.
+function(trocar_test_executable target sources depends libs)
+  add_executable(${target} ${sources})
+  target_link_libraries(${target} PRIVATE ${depends} ${libs} trocar_test_main)
+  target_precompile_headers(${target} REUSE_FROM trocar_test_main)
+  trocar_quick_options(${target})
+  file(RELATIVE_PATH built ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR})  # tests/main.cpp goes to the source folder
+  target_compile_definitions(${target} PRIVATE TROCAR_SOURCE_DIR="." TROCAR_BINARY_DIR="${built}")
+endfunction()
+
+# trocar_test(NAME DEPENDS module... [LIBS target...] [LABEL unit|scene] [SHARDS n] [SOAK_SHARDS n]):
+#   tests/NAME/*_test.cpp -> NAME_test, entry NAME (NAME.1, NAME.2, ... of several shards) under LABEL
+#   tests/NAME/*_soak.cpp -> NAME_soak, entry NAME_soak under soak
 function(trocar_test name)
-  cmake_parse_arguments(arg "" "" "DEPENDS;LIBS" ${ARGN})
+  cmake_parse_arguments(arg "" "LABEL;SHARDS;SOAK_SHARDS" "DEPENDS;LIBS" ${ARGN})
   list(TRANSFORM arg_DEPENDS PREPEND trocar_)
   file(GLOB quick CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
   file(GLOB soak CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_soak.cpp)
+  foreach(given LABEL=unit SHARDS=1 SOAK_SHARDS=1)
+    string(REPLACE "=" ";" given ${given})
+    list(GET given 0 key)
+    if(NOT arg_${key})
+      list(GET given 1 arg_${key})
+    endif()
+  endforeach()
   if(quick)
-    trocar_test_executable(${name}_test ${name} quick 300 "${quick}" "${arg_DEPENDS}" "${arg_LIBS}")
+    trocar_test_executable(${name}_test "${quick}" "${arg_DEPENDS}" "${arg_LIBS}")
+    trocar_test_entries(${name}_test ${name} ${arg_LABEL} ${arg_SHARDS})
   endif()
   if(soak)
-    trocar_test_executable(${name}_soak ${name} soak 3600 "${soak}" "${arg_DEPENDS}" "${arg_LIBS}")
+    trocar_test_executable(${name}_soak "${soak}" "${arg_DEPENDS}" "${arg_LIBS}")
+    trocar_test_entries(${name}_soak ${name}_soak soak ${arg_SOAK_SHARDS})
   endif()
 endfunction()
 

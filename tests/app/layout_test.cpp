@@ -7,7 +7,6 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/pictures/analysis_choice.hpp>
-#include <trocar/pictures/legend_drawing.hpp>
 #include <trocar/scene/compile/compile.hpp>
 
 #include "../sim/small_scene.hpp"
@@ -146,40 +145,6 @@ TEST(Panes, ATallPaneShowsTheWholeCircleAndAWideOneIsAsItWas) {
   fit_to({0, 0, 300, 600}, frame);
   EXPECT_NEAR(frame.look.mask_diameter, 0.5f, 1e-6f);
   EXPECT_NEAR(std::tan(frame.camera.vertical_fov / 2), 2 * std::tan(0.5f), 1e-5f);
-}
-
-TEST(AnalysisChoice, NamesQuantitiesAndTheirRanges) {
-  EXPECT_FALSE(pictures::parse_analysis("").on());
-  const view::AnalysisOptions o = pictures::parse_analysis("strain:35,forces:5,pressure");
-  EXPECT_TRUE(o.strain && o.forces && o.pressure && !o.springs);
-  EXPECT_NEAR(o.strain_range, 0.35, 1e-12);
-  EXPECT_NEAR(o.force_length, 0.005, 1e-12);
-  EXPECT_NEAR(o.pressure_most, 120, 1e-12);
-  for (const char* bad : {"stress", "strain:", "strain:0", "strain:x", "strain:1e9", "forces:5mm", "strain forces"})
-    EXPECT_THROW(static_cast<void>(pictures::parse_analysis(bad)), core::BadInput) << bad;
-}
-
-TEST(LegendPainter, DrawsTheScalesColoursIntoThePictureAndNothingWhereThereIsNone) {
-  view::AnalysisOptions o;
-  o.strain = true;
-  render::Image image{400, 300, std::vector<std::uint8_t>(3 * 400 * 300, 100)};
-  const render::Image before = image;
-  pictures::LegendPainter painter;
-  painter.paint({}, image);
-  EXPECT_EQ(image.rgb, before.rgb);
-  painter.paint(legend_of(o), image);
-  for (const double strain : {-0.19, 0.0, 0.19}) {
-    const view::Colour wanted = colour_of_strain(o, strain);
-    int found = 0;
-    for (std::size_t i = 0; i < image.rgb.size(); i += 3)
-      found += std::abs(image.rgb[i] - 255 * double(wanted.r)) < 9 &&
-               std::abs(image.rgb[i + 1] - 255 * double(wanted.g)) < 9 &&
-               std::abs(image.rgb[i + 2] - 255 * double(wanted.b)) < 9;
-    EXPECT_GT(found, 20) << strain;
-  }
-  render::Image tiny{20, 10, std::vector<std::uint8_t>(600, 7)};
-  painter.paint(legend_of(o), tiny);
-  EXPECT_EQ(tiny.rgb, std::vector<std::uint8_t>(600, 7)) << "it does not fit";
 }
 
 }  // namespace

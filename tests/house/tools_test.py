@@ -35,8 +35,13 @@ def LayerCheckFindsEachFault():
         "core/a.hpp": ("#include <trocar/numerics/vec3.hpp>", "core may not include numerics"),
         "view/a.cpp": ("#include <trocar/training/x.hpp>", "view may not include training"),
         "training/a.cpp": ("  #  include <trocar/devices/x.hpp>", "training may not include devices"),
+        "attempt/a.cpp": ("#include <trocar/view/x.hpp>", "attempt may not include view"),
+        "attempt/b.cpp": ("#include <trocar/render/x.hpp>", "attempt may not include render"),
+        "pictures/a.cpp": ("#include <trocar/reports/x.hpp>", "pictures may not include reports"),
         "view/b.cpp": ("#include <epoxy/gl.h>", "render, app only"),
-        "sim/a.cpp": ("#include <nlohmann/json.hpp>", "scene, training, app only"),
+        "attempt/c.cpp": ("#include <GLFW/glfw3.h>", "render, app only"),
+        "attempt/d.cpp": ("#include <imgui.h>", "render, pictures, modeller, app only"),
+        "sim/a.cpp": ("#include <nlohmann/json.hpp>", "core, scene, training, app only"),
         "sim/b.cpp": ("double a = std::sin(1.0);", "trocar::portable"),
         "tissue/b.cpp": ("float a = powf(x, 2);", "libm"),
         "collision/a.cpp": ("double a = ::exp(x);", "libm"),
@@ -72,6 +77,48 @@ def LayerCheckFindsEachFault():
         expect("harmless" not in text, f"a harmless line was refused:\n{text}")
     with tempfile.TemporaryDirectory() as folder:
         expect(tool("check_layers.py", folder)[0] == 1, "a folder without sources passed")
+    circles_are_found()
+    full_rooms_are_found()
+
+
+def circles_are_found():
+    """Rooms of one folder, and folders of the program, that include each other: two, three, and none by comments."""
+    def check(**files):
+        with tempfile.TemporaryDirectory() as folder:
+            for name, other in files.items():
+                room = name.replace("_", "/")
+                line = f'#include "{other[4:]}/x.hpp"' if other.startswith("app/") else f"#include <trocar/{other}/x.hpp>"
+                put(Path(folder), f"{room}/a.cpp" if room.startswith("app/") else f"src/trocar/{room}/a.cpp", f"\n{line}\n")
+            put(Path(folder), "src/trocar/tissue/network/b.cpp", "// #include <trocar/tissue/heat/x.hpp>\n")
+            return tool("check_layers.py", folder)
+
+    code, text = check(tissue_heat="tissue/network", tissue_strand="tissue/network", sim_stages="tissue/heat")
+    expect(code == 0, f"rooms without a circle were refused: {text}")
+    code, text = check(tissue_heat="tissue/network", tissue_network="tissue/heat")
+    expect(code == 1 and "rooms include each other in a circle" in text and
+           "trocar/tissue/heat -> trocar/tissue/network (src/trocar/tissue/heat/a.cpp:2)" in text and
+           "trocar/tissue/network -> trocar/tissue/heat (src/trocar/tissue/network/a.cpp:2)" in text,
+           f"a circle of two rooms passed: {text}")
+    code, text = check(tissue_heat="tissue/network", tissue_network="tissue/strand", tissue_strand="tissue/heat")
+    expect(code == 1 and text.count(" -> ") == 3, f"a circle of three rooms passed: {text}")
+    code, text = check(app_shell="app/player", app_player="app/shell")
+    expect(code == 1 and "shell -> player (app/shell/a.cpp:2)" in text, f"a circle in the program passed: {text}")
+    code, text = check(app_shell="app/shell")
+    expect(code == 0, f"a room that includes itself was refused: {text}")
+
+
+def full_rooms_are_found():
+    with tempfile.TemporaryDirectory() as folder:
+        root = Path(folder)
+        for i in range(40):
+            put(root, f"src/trocar/view/anatomy/part_{i}.hpp", "int x;\n")
+        put(root, "src/trocar/view/base/part.hpp", "int x;\n")
+        code, text = tool("check_layers.py", root)
+        expect(code == 0, f"a room of 40 files was refused: {text}")
+        put(root, "src/trocar/view/anatomy/one_more.cpp", "int y;\n")
+        code, text = tool("check_layers.py", root)
+        expect(code == 1 and "trocar/view/anatomy: 41 files in one room, at most 40" in text,
+               f"a room of 41 files passed: {text}")
 
 
 def EquationCheckFindsEachFault():

@@ -1,4 +1,4 @@
-// The player without its window: timeline, kept States, footage between keyframes, and the thread that does a recording
+// What a player needs without its window: timeline, kept States, footage between keyframes, and the thread that does a recording
 // again. The recording is of the small scene: a tube grasped, lifted, clipped twice and cut in 4.4 seconds.
 #include <chrono>
 #include <map>
@@ -13,15 +13,10 @@
 #include <trocar/attempt/timeline.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/random.hpp>
-#include <trocar/pictures/camera_choice.hpp>
-#include <trocar/pictures/film_plan.hpp>
-#include <trocar/pictures/shown_parts.hpp>
-#include <trocar/pictures/two_eyes.hpp>
 
 #include "../sim/small_scene.hpp"
-#include "player/player_keys.hpp"
 
-namespace trocar::app {
+namespace trocar::attempt {
 namespace {
 
 // --- timeline ---
@@ -100,101 +95,6 @@ TEST(Timeline, SpeedsGoFromATenthToEightfold) {
   EXPECT_EQ(speed, 0.1);
   EXPECT_EQ(attempt::next_speed(0.7, true), 1);
   EXPECT_EQ(attempt::next_speed(0.7, false), 0.5);
-}
-
-TEST(FilmPlan, PicturesLastAsLongAsTheSpeedSays) {
-  const pictures::FilmPlan plan{2000, 6000, 0.25};
-  EXPECT_EQ(plan.pictures(), 400u);  // 4 s, four times as long, 25 a second
-  EXPECT_EQ(plan.tick(0), 2000u);
-  EXPECT_EQ(plan.tick(1), 2010u);
-  EXPECT_LE(plan.tick(plan.pictures() - 1), 6000u);
-  EXPECT_EQ((pictures::FilmPlan{100, 100, 1}).pictures(), 1u);
-}
-
-// --- cameras ---
-
-TEST(CameraChoice, NamesAndAnglesAreReadAndNonsenseIsRefused) {
-  EXPECT_TRUE(pictures::parse_camera("endoscope").endoscope);
-  for (const pictures::CameraPreset& preset : pictures::kCameraPresets)
-    EXPECT_FALSE(pictures::parse_camera(preset.name).endoscope);
-  const pictures::CameraChoice free = pictures::parse_camera("free:90,0,250");
-  const view::Orbit orbit = pictures::orbit_of(free, {});
-  EXPECT_NEAR(orbit.eye().x, 0.25, 1e-12);  // from the patient's left
-  EXPECT_NEAR(orbit.eye().z, 0, 1e-12);
-  for (const char* bad : {"", "back", "free:", "free:1,2", "free:1,2,3,4", "free:0,89,250", "free:0,0,5",
-                          "free:nan,0,250", "free:0,nan,250", "free:0,0,nan", "free:0,0,inf"})
-    EXPECT_THROW(pictures::parse_camera(bad), core::BadInput) << bad;
-}
-
-TEST(Pictures, AreForTwoEyesAsAsked) {
-  EXPECT_FALSE(pictures::parse_stereo("off").on());
-  const pictures::TwoEyes eyes = pictures::parse_stereo("anaglyph:5,60");
-  EXPECT_EQ(eyes.mode, render::StereoMode::anaglyph);
-  EXPECT_FLOAT_EQ(eyes.eyes.base, 0.005f);
-  EXPECT_FLOAT_EQ(eyes.eyes.convergence, 0.06f);
-  EXPECT_EQ(pictures::parse_stereo("rows").mode, render::StereoMode::row_interlaced);
-  for (const char* bad : {"", "on", "anaglyph:5", "anaglyph:5,60,1", "rows:nan,60", "rows:99,60", "quad-buffer"})
-    EXPECT_THROW(pictures::parse_stereo(bad), core::BadInput) << bad;
-}
-
-TEST(Pictures, ShowPartsAsAskedAndLaterWordsWin) {
-  const std::vector<view::ScenePart> parts{{"uterus", view::PartGroup::organs}, {"tube", view::PartGroup::tubes}};
-  using view::PartStyle;
-  const auto styles = [&](const char* text) { return pictures::styles_of(pictures::parse_show(text), parts); };
-  EXPECT_TRUE(styles("").empty());
-  EXPECT_EQ(styles("organs=hidden,tube=wireframe"), (std::vector{PartStyle::hidden, PartStyle::wireframe}));
-  EXPECT_EQ(styles("organs=hidden,uterus=transparent"), (std::vector{PartStyle::transparent, PartStyle::shaded}));
-  EXPECT_NO_THROW(styles("clips=hidden")) << "a group that this scene has nothing of";
-  for (const char* bad : {"uterus", "uterus=", "=hidden", "uterus=blue", "liver=hidden"})
-    EXPECT_THROW(styles(bad), core::BadInput) << bad;
-}
-
-TEST(Orbit, KeepsItsDistanceWhenTurnedAndNeverTipsOver) {
-  view::Orbit orbit;
-  orbit.target = {0.1, -0.2, 0.05};
-  for (int i = 0; i < 200; ++i) orbit.turn(0.3, 0.2);
-  EXPECT_NEAR(length(orbit.eye() - orbit.target), orbit.distance, 1e-12);
-  EXPECT_LT(orbit.pitch, 1.5708);
-  orbit.zoom(1e9);
-  EXPECT_LE(orbit.distance, 1.5);
-  orbit.zoom(1e-9);
-  EXPECT_GE(orbit.distance, 0.03);
-  const Vec3d before = orbit.eye() - orbit.target;
-  orbit.pan(0.1, 0.2);
-  EXPECT_NEAR(length(orbit.eye() - orbit.target - before), 0, 1e-12);
-}
-
-// --- gamepad ---
-
-TEST(PadReader, AButtonCountsOnceAndAHeldCrossRepeats) {
-  PadReader reader;
-  devices::Gamepad pad;
-  pad.set(devices::Button::a);
-  pad.set(devices::Button::right);
-  int toggles = 0, ticks = 0;
-  for (int i = 0; i < 60; ++i) {  // a second at 60 pictures
-    PlayerCommands c;
-    reader.read(pad, 1.0 / 60, c);
-    toggles += c.toggle_play;
-    ticks += c.ticks;
-  }
-  EXPECT_EQ(toggles, 1);
-  EXPECT_GE(ticks, 6 * int(attempt::kFrameTicks));
-  EXPECT_LE(ticks, 10 * int(attempt::kFrameTicks));
-}
-
-TEST(PadReader, ARestingStickDoesNothing) {
-  PadReader reader;
-  PlayerCommands c;
-  devices::Gamepad pad;
-  pad.left_x = 0.1f;
-  pad.right_y = -0.12f;
-  reader.read(pad, 0.1, c);
-  EXPECT_EQ(c.scrub, 0);
-  EXPECT_EQ(c.turn_pitch, 0);
-  pad.left_x = 1;
-  reader.read(pad, 0.1, c);
-  EXPECT_GT(c.scrub, 0);
 }
 
 // --- kept States ---
@@ -453,4 +353,4 @@ TEST(Reel, AResultThatIsNonsenseGivesNothing) {
 }
 
 }  // namespace
-}  // namespace trocar::app
+}  // namespace trocar::attempt

@@ -11,7 +11,7 @@
 #include "../other_process.hpp"
 #include "../sim/small_scene.hpp"
 
-namespace trocar::app {
+namespace trocar::attempt {
 namespace {
 
 namespace fs = std::filesystem;
@@ -134,4 +134,4 @@ TEST_F(AttemptLogTest, AStrangersFolderInTheTemporaryOneIsNotWrittenTo) {
 }
 
 }  // namespace
-}  // namespace trocar::app
+}  // namespace trocar::attempt

@@ -10,7 +10,7 @@
 #include <trocar/reports/report_svg.hpp>
 #include <trocar/training/metrics/trace.hpp>
 
-namespace trocar::app {
+namespace trocar::reports {
 namespace {
 
 using training::Attempt;
@@ -228,4 +228,4 @@ TEST(Export, AsJsonCarriesTheWholeResult) {
 }
 
 }  // namespace
-}  // namespace trocar::app
+}  // namespace trocar::reports

@@ -11,7 +11,7 @@
 #include <trocar/attempt/sources.hpp>
 #include <trocar/sim/stages/visibility.hpp>
 
-namespace trocar::app {
+namespace trocar::attempt {
 namespace {
 
 const attempt::Lesson& scene() {
@@ -261,4 +261,4 @@ TEST(Session, DrawingOrNotWatchingOrNotTheSameBits) {
 }
 
 }  // namespace
-}  // namespace trocar::app
+}  // namespace trocar::attempt

@@ -4,7 +4,7 @@
 #include <trocar/attempt/lesson.hpp>
 #include <trocar/attempt/live.hpp>
 
-namespace trocar::app {
+namespace trocar::attempt {
 namespace {
 
 using namespace std::chrono_literals;
@@ -57,4 +57,4 @@ TEST(Live, NobodyWaitsForASimulationThatHasEnded) {
 }
 
 }  // namespace
-}  // namespace trocar::app
+}  // namespace trocar::attempt
