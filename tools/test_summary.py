@@ -59,6 +59,8 @@ def outcomes_of(entry, results):
 
 def main():
     junit, results = Path(sys.argv[1]), Path(sys.argv[2])
+    if not junit.is_file():
+        sys.exit(f"{junit}: ctest wrote no results: it was stopped, or found no tests")
     count, why_skipped = defaultdict(int), defaultdict(list)
     failed = []
     for entry in ET.parse(junit).getroot().iter("testcase"):

@@ -8,6 +8,7 @@
 
 #include <trocar/numerics/fft.hpp>
 #include <trocar/numerics/portable.hpp>
+#include <trocar/sim/stages/motion.hpp>
 
 #include "small_scene.hpp"
 

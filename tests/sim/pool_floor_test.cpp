@@ -7,6 +7,7 @@
 #include <trocar/scene/compile/compile.hpp>
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/sim/model/pool_floor.hpp>
+#include <trocar/sim/stages/step.hpp>
 
 namespace trocar::sim {
 namespace {
