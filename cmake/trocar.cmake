@@ -85,7 +85,7 @@ endfunction()
 # Entries of ctest for an executable of GoogleTest cases: one for all of them, so that what they share (a compiled scene)
 # is made once; or, where that takes long, SHARDS that run beside each other. Results go to test-results/ENTRY.json.
 function(trocar_test_entries target name label shards)
-  set(seconds 600)
+  set(seconds 1800)
   if(label STREQUAL soak)
     set(seconds 3600)
   endif()

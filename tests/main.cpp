@@ -46,9 +46,9 @@ void name_what_dies() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::filesystem::current_path(TROCAR_CHECKOUT);  // first: parameters of cases are read when GoogleTest begins
   testing::InitGoogleTest(&argc, argv);
   testing::UnitTest::GetInstance()->listeners().Append(new Running);
-  std::filesystem::current_path(TROCAR_CHECKOUT);
   name_what_dies();
   return RUN_ALL_TESTS();
 }
