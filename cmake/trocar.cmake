@@ -64,6 +64,21 @@ function(trocar_quick_build target)
   trocar_quick_options(${target})
 endfunction()
 
+# trocar_embed(TARGET HEADER NAMESPACE TYPE FUNCTION file...): the files' texts become a part of the library, in a source
+# file made by the build that defines `std::span<const TYPE> FUNCTION()` of HEADER (a TYPE is {name, text}).
+function(trocar_embed target header namespace type function)
+  set(output ${CMAKE_CURRENT_BINARY_DIR}/${function}.cpp)
+  string(REPLACE ";" "," list "${ARGN}")
+  add_custom_command(
+    OUTPUT ${output}
+    COMMAND ${CMAKE_COMMAND} "-DFILES=${list}" -DOUTPUT=${output} -DHEADER=${header} -DNAMESPACE=${namespace}
+            -DTYPE=${type} -DFUNCTION=${function} -P ${PROJECT_SOURCE_DIR}/cmake/embed_texts.cmake
+    DEPENDS ${ARGN} ${PROJECT_SOURCE_DIR}/cmake/embed_texts.cmake
+    COMMENT "Embedding texts: ${function}"
+    VERBATIM)
+  target_sources(${target} PRIVATE ${output})
+endfunction()
+
 # trocar_module(NAME [DEPENDS module...] [LIBS target...])
 function(trocar_module name)
   cmake_parse_arguments(arg "" "" "DEPENDS;LIBS" ${ARGN})

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/reports/report_data.hpp>
 #include <trocar/reports/report_metrics.hpp>
 #include <trocar/reports/report_svg.hpp>
 
@@ -81,26 +82,39 @@ struct Earlier {
   }
 };
 
-std::string cells(const Report& r, const Earlier& earlier, const std::optional<Json>& scripted, const Row& row,
-                  const std::string& pointer, std::size_t hands, bool per_hand) {
-  std::string out = fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td>", row.name, row.unit);
-  for (std::size_t h = 0; h < hands; ++h)
-    out += "<td class=\"n\">" +
-           (per_hand ? number(number_in(r.result, fmt::format("/metrics/hands/{}/{}", h, row.key)), row.scale)
-                     : std::string()) +
-           "</td>";
-  out += "<td class=\"n\">" + number(number_in(r.result, pointer), row.scale) + "</td>";
-  if (!earlier.results.empty()) out += "<td class=\"n\">" + spread(earlier.all(pointer), row.scale) + "</td>";
-  if (scripted) out += "<td class=\"n\">" + number(number_in(*scripted, pointer), row.scale) + "</td>";
-  return out + fmt::format("<td class=\"note\">{}</td></tr>\n", row.better);
-}
+/// A row of the table: each hand's, all together, what there was before, the scripted surgeon's.
+class Rows {
+ public:
+  Rows(const Report& report, const Earlier& earlier, const std::optional<Json>& scripted, std::size_t hands)
+      : m_report(report), m_earlier(earlier), m_scripted(scripted), m_hands(hands) {}
+
+  void add(const Row& row, const std::string& pointer, bool per_hand) {
+    Json cells = Json::array();
+    for (std::size_t h = 0; h < m_hands; ++h)
+      cells.push_back(
+          per_hand ? number(number_in(m_report.result, fmt::format("/metrics/hands/{}/{}", h, row.key)), row.scale)
+                   : "");
+    cells.push_back(number(number_in(m_report.result, pointer), row.scale));
+    if (!m_earlier.results.empty()) cells.push_back(spread(m_earlier.all(pointer), row.scale));
+    if (m_scripted) cells.push_back(number(number_in(*m_scripted, pointer), row.scale));
+    m_rows.push_back({{"name", row.name}, {"unit", row.unit}, {"cells", cells}, {"better", row.better}});
+  }
+  Json list() && { return std::move(m_rows); }
+
+ private:
+  const Report& m_report;
+  const Earlier& m_earlier;
+  const std::optional<Json>& m_scripted;
+  std::size_t m_hands;
+  Json m_rows = Json::array();
+};
 
 struct Curve {
   const char *id, *title, *unit;
   std::vector<double> values;
 };
 
-std::string curve(const Report& r, const Curve& c, int emphasised) {
+Json curve(const Report& r, const Curve& c, int emphasised) {
   Plot p;
   p.id = c.id;
   p.title = fmt::format("{} over attempts", c.title);
@@ -118,58 +132,39 @@ std::string curve(const Report& r, const Curve& c, int emphasised) {
     if (!std::isfinite(first)) first = c.values[i];
     last = c.values[i];
   }
-  if (!std::isfinite(first)) return "";
+  if (!std::isfinite(first)) return nullptr;
   p.description = fmt::format("From {:.4g} at first to {:.4g} now, {} attempts.", first, last, c.values.size());
   if (std::string_view(c.id) == "curve-score")
     if (const auto mark = number_in(r.result, "/assessment/score/pass_mark")) p.levels = {{*mark, "pass mark"}};
   p.series.push_back(std::move(s));
-  return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", svg(p), c.title);
+  return {{"drawing", svg(p)}, {"title", c.title}};
 }
 
 }  // namespace
 
-std::string metrics_section(const Report& r) {
-  if (!r.result.contains("metrics") || !r.result["metrics"].is_object()) return "";
+Json metrics_data(const Report& r) {
+  if (!r.result.contains("metrics") || !r.result["metrics"].is_object()) return nullptr;
   Earlier earlier;
   for (const training::Attempt& a : r.history)
     if (a.uuid != r.attempt.uuid) earlier.results.push_back(result_of(a));
   std::optional<Json> scripted;
   if (r.scripted) scripted = result_of(*r.scripted);
-  const Json& metrics = r.result["metrics"];
-  const std::size_t hands = metrics.contains("hands") && metrics["hands"].is_array() ? metrics["hands"].size() : 0;
+  Json hands = Json::array();
+  if (const Json& list = part_of(r.result["metrics"], "hands"); list.is_array())
+    for (const Json& hand : list) hands.push_back(text_in(hand, "name"));
 
-  std::string out =
-      "<section><h2>Metrics</h2>\n<div class=\"wide\"><table><caption>What each means is in docs/metrics.md. “Before” "
-      "is the "
-      "median of the trainee's earlier attempts at this exercise, with their "
-      "range.</caption>\n<thead><tr><th>metric</th>"
-      "<th>unit</th>";
-  for (std::size_t h = 0; h < hands; ++h)
-    out += fmt::format("<th class=\"n\">{}</th>", escaped(text_in(metrics["hands"][h], "name")));
-  out += "<th class=\"n\">all</th>";
-  if (!earlier.results.empty()) out += fmt::format("<th class=\"n\">before ({})</th>", earlier.results.size());
-  if (scripted) out += "<th class=\"n\">scripted surgeon</th>";
-  out += "<th>better is</th></tr></thead><tbody>\n";
-  for (const Row& row : kWhole) out += cells(r, earlier, scripted, row, std::string("/") + row.key, hands, false);
-  for (const Row& row : kRows)
-    out += cells(r, earlier, scripted, row, std::string("/metrics/both/") + row.key, hands, true);
-  if (scripted)
-    out += cells(r, earlier, scripted, {"", "score", "of 100", 1, "more"}, "/assessment/score/total", hands, false);
-  out += "</tbody></table></div>\n";
-  if (scripted)
-    out += fmt::format(
-        "<p class=\"note\">The scripted surgeon did the same anatomy in attempt {}. It is a programme that "
-        "reads the simulation, no standard of skill.</p>\n",
-        r.scripted->number);
-  else
-    out +=
-        "<p class=\"note\">For a comparison with the scripted surgeon on the same anatomy: "
-        "trocar report --compare demo.</p>\n";
-  return out + "</section>\n";
+  Rows rows(r, earlier, scripted, hands.size());
+  for (const Row& row : kWhole) rows.add(row, std::string("/") + row.key, false);
+  for (const Row& row : kRows) rows.add(row, std::string("/metrics/both/") + row.key, true);
+  if (scripted) rows.add({"", "score", "of 100", 1, "more"}, "/assessment/score/total", false);
+  return {{"hands", hands},
+          {"before", earlier.results.empty() ? "" : std::to_string(earlier.results.size())},
+          {"scripted", scripted ? std::to_string(r.scripted->number) : ""},
+          {"rows", std::move(rows).list()}};
 }
 
-std::string learning_section(const Report& r) {
-  if (r.history.size() < 2) return "";
+Json learning_data(const Report& r) {
+  if (r.history.size() < 2) return nullptr;
   const double none = std::numeric_limits<double>::quiet_NaN();
   Curve curves[] = {
       {"curve-score", "score", "", {}}, {"curve-time", "time", "s", {}}, {"curve-path", "path length", "mm", {}}};
@@ -185,13 +180,10 @@ std::string learning_section(const Report& r) {
     curves[2].values.push_back(whole ? 1000 * number_in(result, "/metrics/both/path_m").value_or(none) : none);
     if (a.uuid == r.attempt.uuid) here = int(i);
   }
-  std::string out = fmt::format(
-      "<section><h2>Learning curve</h2>\n<p>{} attempts at this exercise, in the order in which "
-      "they began; this one is ringed. Time and path only where the exercise was done to its end.</p>\n"
-      "<div class=\"views curves\">\n",
-      r.history.size());
-  for (const Curve& c : curves) out += curve(r, c, here);
-  return out + "</div></section>\n";
+  Json drawn = Json::array();
+  for (const Curve& c : curves)
+    if (Json one = curve(r, c, here); !one.is_null()) drawn.push_back(std::move(one));
+  return {{"attempts", std::to_string(r.history.size())}, {"curves", drawn}};
 }
 
 }  // namespace trocar::reports

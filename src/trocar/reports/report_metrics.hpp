@@ -2,13 +2,11 @@
 // did, and the learning curve.
 #pragma once
 
-#include <string>
-
 #include <trocar/reports/report.hpp>
 
 namespace trocar::reports {
 
-std::string metrics_section(const Report& report);   ///< empty where nothing was measured
-std::string learning_section(const Report& report);  ///< empty before the second attempt
+Json metrics_data(const Report& report);   ///< null where nothing was measured
+Json learning_data(const Report& report);  ///< null before the second attempt
 
 }  // namespace trocar::reports

@@ -41,7 +41,7 @@ Box box_of(const Trace& trace) {
   return box;
 }
 
-std::string views(const Trace& trace, const Box& box) {
+Json views(const Trace& trace, const Box& box) {
   struct View {
     const char *id, *title, *right, *up;
     double Vec3d::*x;
@@ -52,7 +52,7 @@ std::string views(const Trace& trace, const Box& box) {
       {"view-front", "From in front of the patient", "patient's left", "cranial", &Vec3d::x, &Vec3d::y, 1},
       {"view-feet", "From the patient's feet", "patient's left", "anterior", &Vec3d::x, &Vec3d::z, 1},
       {"view-side", "From the patient's left", "cranial", "anterior", &Vec3d::y, &Vec3d::z, 1}};
-  std::string out = "<div class=\"views\">\n";
+  Json out = Json::array();
   for (const View& v : kViews) {
     Projection p;
     p.id = v.id;
@@ -71,9 +71,9 @@ std::string views(const Trace& trace, const Box& box) {
       }
       p.paths.push_back(std::move(s));
     }
-    out += fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", svg(p), v.title);
+    out.push_back({{"drawing", svg(p)}, {"title", v.title}});
   }
-  return out + "</div>\n";
+  return out;
 }
 
 /// The paths as data for the page's script.
@@ -96,14 +96,7 @@ std::string turnable(const Trace& trace, const Box& box) {
   std::string json = data.dump(-1, ' ', false, Json::error_handler_t::replace);
   // No text of ours can end the script element that it stands in.
   for (std::size_t at = 0; (at = json.find('<', at)) != std::string::npos;) json.replace(at, 1, "\\u003c");
-  return "<div id=\"turn-box\"><svg id=\"turn\" viewBox=\"0 0 600 600\" tabindex=\"0\" role=\"img\" aria-label=\"Paths "
-         "of "
-         "the instruments' tips in space; turn them with the arrow keys or by dragging. The three views below show the "
-         "same."
-         "\"></svg><p class=\"note\"><label>Shown up to <input type=\"range\" id=\"part\" min=\"1\" max=\"100\" "
-         "value=\"100\"></label> of the time. Drag, or use the arrow keys, to turn.</p></div>\n"
-         "<script type=\"application/json\" id=\"paths\">" +
-         json + "</script>\n";
+  return json;
 }
 
 std::vector<double> times(const Trace& trace) {
@@ -139,10 +132,10 @@ std::string speeds(const Report& r, const std::vector<double>& t) {
   p.description = fmt::format("Up to {:.0f} mm/s. Smoothed at {:.0f} Hz.", fastest, training::kMotionCutoff);
   p.levels = {{1000 * training::kMovingSpeed, "moving"}};
   p.marks = error_marks(r.result);
-  return "<h3>Speed</h3>\n" + svg(p);
+  return svg(p);
 }
 
-std::string forces(const Report& r, const std::vector<double>& t) {
+Json forces(const Report& r, const std::vector<double>& t) {
   struct Kind {
     const char *key, *title, *what;
     double (*size)(const training::TraceSample&);
@@ -152,7 +145,7 @@ std::string forces(const Report& r, const std::vector<double>& t) {
       {"pinch", "Pinch", "between the jaws", [](const training::TraceSample& s) { return s.pinch; }},
       {"contact", "Contact", "of touched tissue on the instrument",
        [](const training::TraceSample& s) { return size_of(s.contact); }}};
-  std::string out;
+  Json out = Json::array();
   for (const Kind& k : kKinds) {
     Plot p;
     p.id = fmt::format("force-{}", k.key);
@@ -170,28 +163,31 @@ std::string forces(const Report& r, const std::vector<double>& t) {
       p.series.push_back(std::move(s));
     }
     if (most < kLeastShown) {
-      out += fmt::format("<p class=\"note\">{}: never above {} N.</p>\n", p.title, kLeastShown);
+      out.push_back({{"title", p.title}, {"none", fmt::format("{}", kLeastShown)}});
       continue;
     }
     p.description = fmt::format("At most {:.2f} N.", most);
     if (const auto limit = number_in(r.result, fmt::format("/metrics/both/forces/{}/limit_N", k.key)))
       if (*limit < 4 * most) p.levels = {{*limit, fmt::format("limit {:.3g} N", *limit)}};
     p.marks = error_marks(r.result);
-    out += fmt::format("<h3>{} <span class=\"note\">{}</span></h3>\n", k.title, k.what) + svg(p);
+    out.push_back({{"name", k.title}, {"what", k.what}, {"drawing", svg(p)}});
   }
   return out;
 }
 
 }  // namespace
 
-std::string motion_section(const Report& r) {
-  if (!r.trace || double(r.trace->size()) < kFewest || r.trace->hands.empty()) return "";
+Json motion_data(const Report& r) {
+  if (!r.trace || double(r.trace->size()) < kFewest || r.trace->hands.empty()) return nullptr;
   std::vector<Series> hands;
   for (std::size_t h = 0; h < r.trace->hands.size(); ++h) hands.push_back({r.trace->hands[h].name, {}, {}, int(h % 6)});
   const Box box = box_of(*r.trace);
   const std::vector<double> t = times(*r.trace);
-  return "<section><h2>Motion</h2>\n" + legend(hands) + turnable(*r.trace, box) + views(*r.trace, box) + speeds(r, t) +
-         forces(r, t) + "</section>\n";
+  return {{"legend", legend(hands)},
+          {"paths", turnable(*r.trace, box)},
+          {"views", views(*r.trace, box)},
+          {"speed", speeds(r, t)},
+          {"forces", forces(r, t)}};
 }
 
 }  // namespace trocar::reports

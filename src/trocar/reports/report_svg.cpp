@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/reports/page_template.hpp>
 #include <trocar/reports/report_svg.hpp>
 
 namespace trocar::reports {
@@ -92,34 +93,6 @@ std::string mark(double x, double y, const PlotMark& m) {
 }
 
 }  // namespace
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  out.reserve(text.size());
-  for (const char c : text) {
-    switch (c) {
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '&':
-        out += "&amp;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\'':
-        out += "&#39;";
-        break;
-      default:
-        // Control characters are not allowed in a page whatever they are written as.
-        if (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t') out += c;
-    }
-  }
-  return out;
-}
 
 std::string minutes(double seconds) {
   const int whole = std::isfinite(seconds) ? int(std::lround(std::clamp(seconds, -1e6, 1e6))) : 0;

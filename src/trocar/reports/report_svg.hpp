@@ -7,9 +7,6 @@
 
 namespace trocar::reports {
 
-/// Text as HTML and SVG want it, also within quotes.
-std::string escaped(const std::string& text);
-
 struct Series {
   std::string name;
   std::vector<double> x, y;  ///< NaN interrupts the line

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/reports/page_template.hpp>
 #include <trocar/reports/trials_page.hpp>
 
 namespace trocar::reports {
@@ -18,23 +19,6 @@ constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                     "#56b4e9", "#b8860b", "#000000", "#888"};
 
 const char* colour(std::size_t i) { return kColours[i % std::size(kColours)]; }
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '&')
-      out += "&amp;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c >= ' ' || c == '\n' ? c : ' ';
-  }
-  return out;
-}
 
 /// The minus that is as wide as a digit.
 std::string typeset(std::string number) {
@@ -54,7 +38,7 @@ std::string with_range(const training::Ranged& r, std::string (*shown)(double)) 
 
 std::string heading(const MetricStudy& m) {
   const std::string unit = m.column->unit;
-  return escaped(m.column->title) + (unit.empty() ? "" : " [" + unit + "]");
+  return m.column->title + (unit.empty() ? "" : " [" + unit + "]");
 }
 
 // --- drawings ---
@@ -142,88 +126,54 @@ std::string points(const Study& study, const MetricStudy& m, const Axes& a) {
 
 std::string drawing(const Study& study, const MetricStudy& m) {
   const Axes a = axes_for(m);
-  return fmt::format(
-      "<figure><figcaption>{}</figcaption><svg viewBox=\"0 0 {} {}\" role=\"img\">\n{}{}{}</svg></figure>\n",
-      heading(m), a.width, a.height, frame(a), band(m, a), points(study, m, a));
+  return fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\">\n{}{}{}</svg>", a.width, a.height, frame(a), band(m, a),
+                     points(study, m, a));
 }
 
-// --- tables ---
+// --- the page's data ---
 
-std::string spread_table(const Study& study) {
-  std::string out =
-      "<table><tr><th>Metric</th><th>median</th><th>quartiles</th><th>range</th><th>change per repetition</th>"
-      "<th>ρ pooled</th><th>ρ within people</th></tr>\n";
-  for (const MetricStudy& m : study.metrics) {
-    if (m.all.count == 0) continue;
-    out += fmt::format(
-        "<tr><td>{}</td><td>{}</td><td>{} … {}</td><td>{} … {}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-        heading(m), figure(m.all.median), figure(m.all.lower), figure(m.all.upper), figure(m.all.least),
-        figure(m.all.most), with_range(m.trend.slope, slope), with_range(m.trend.pooled, rho),
-        with_range(m.trend.within, rho));
-  }
-  return out + "</table>\n";
-}
-
-std::string person_table(const Study& study) {
-  std::string out = "<table><tr><th>Metric: median (ρ with repetition)</th>";
+Json metric_data(const Study& study, const MetricStudy& m) {
+  Json people = Json::array();
   for (std::size_t p = 0; p < study.persons.size(); ++p)
-    out += fmt::format("<th><span style=\"color:{}\">●</span> {}</th>", colour(p), escaped(study.persons[p]));
-  out += "</tr>\n";
-  for (const MetricStudy& m : study.metrics) {
-    if (m.all.count == 0) continue;
-    out += "<tr><td>" + heading(m) + "</td>";
-    for (std::size_t p = 0; p < study.persons.size(); ++p)
-      out += fmt::format("<td>{} <small>({})</small></td>", figure(m.by_person[p].median), rho(m.person_rho[p]));
-    out += "</tr>\n";
-  }
-  return out + "</table>\n";
+    people.push_back({{"median", figure(m.by_person[p].median)}, {"rho", rho(m.person_rho[p])}});
+  return {{"heading", heading(m)},
+          {"drawing", drawing(study, m)},
+          {"median", figure(m.all.median)},
+          {"lower", figure(m.all.lower)},
+          {"upper", figure(m.all.upper)},
+          {"least", figure(m.all.least)},
+          {"most", figure(m.all.most)},
+          {"slope", with_range(m.trend.slope, slope)},
+          {"pooled", with_range(m.trend.pooled, rho)},
+          {"within", with_range(m.trend.within, rho)},
+          {"by_person", people}};
 }
 
-/// What the durations say, in words, with the figures.
-std::string learning(const Study& study) {
+/// What the durations say, for a sentence with figures; null where nothing was repeated.
+Json learning(const Study& study) {
   const MetricStudy& m = study.metrics.front();
-  if (m.by_repetition.size() < 2 || m.all.count == 0) return "";
-  const Spread &first = m.by_repetition.front(), &last = m.by_repetition.back();
-  const auto better = std::count_if(m.person_rho.begin(), m.person_rho.end(), [](double own) { return own < 0; });
-  return fmt::format(
-      "<p class=\"lead\">Duration changes by <b>{}</b> s with each repetition (each person with an offset of their "
-      "own). "
-      "Spearman's ρ between repetition and duration: {} over all attempts, {} within people. In brackets: the range "
-      "when "
-      "each person in turn is left out. Median of the first attempts {} s, of the last {} s. {} of {} people became "
-      "quicker (ρ &lt; 0).</p>\n",
-      with_range(m.trend.slope, slope), with_range(m.trend.pooled, rho), with_range(m.trend.within, rho),
-      figure(first.median), figure(last.median), better, study.persons.size());
+  if (m.by_repetition.size() < 2 || m.all.count == 0) return nullptr;
+  const auto quicker = std::count_if(m.person_rho.begin(), m.person_rho.end(), [](double own) { return own < 0; });
+  return {{"slope", with_range(m.trend.slope, slope)},     {"pooled", with_range(m.trend.pooled, rho)},
+          {"within", with_range(m.trend.within, rho)},     {"first", figure(m.by_repetition.front().median)},
+          {"last", figure(m.by_repetition.back().median)}, {"quicker", std::to_string(quicker)}};
 }
-
-constexpr const char* kStyle =
-    "body{font:15px/1.5 system-ui,sans-serif;max-width:78em;margin:2em auto;padding:0 1em;color:#222}"
-    "table{border-collapse:collapse;margin:.5em 0}th,td{text-align:left;padding:.2em .7em;border-bottom:1px solid #ddd;"
-    "font-variant-numeric:tabular-nums}figure{display:inline-block;width:24.5em;margin:.5em;vertical-align:top}"
-    "figcaption{font-weight:600}svg{width:100%;height:auto}svg text{font:11px system-ui,sans-serif;fill:#555}"
-    ".grid{stroke:#e4e4e4;fill:none}.band{fill:#0072b2;opacity:.12}.median{stroke:#333;stroke-width:1.6;fill:none}"
-    "small{color:#666;white-space:nowrap}.lead{font-size:1.1em}";
 
 }  // namespace
 
 std::string trials_html(const Study& study, const std::string& title, const std::vector<std::string>& remarks) {
-  std::string page = fmt::format(
-      "<!doctype html>\n<html lang=\"en\"><meta charset=\"utf-8\"><meta name=\"viewport\" "
-      "content=\"width=device-width\">\n<title>{0}</title><style>{1}</style>\n<h1>{0}</h1>\n<p>{2} attempts of {3} "
-      "people.</p>\n",
-      escaped(title), kStyle, study.attempts.size(), study.persons.size());
-  page += learning(study);
-  for (const std::string& remark : remarks) page += "<p>" + escaped(remark) + "</p>\n";
-  page += "<h2>With repetition</h2>\n<p>A dot is an attempt, a colour a person (";
+  Json persons = Json::array(), metrics = Json::array();
   for (std::size_t p = 0; p < study.persons.size(); ++p)
-    page +=
-        fmt::format("{}<span style=\"color:{}\">●</span> {}", p > 0 ? ", " : "", colour(p), escaped(study.persons[p]));
-  page += "); the line runs through the medians, the band between the quartiles.</p>\n";
+    persons.push_back({{"name", study.persons[p]}, {"colour", colour(p)}, {"first", p == 0}});
   for (const MetricStudy& m : study.metrics)
-    if (m.all.count > 0) page += drawing(study, m);
-  page += "<h2>Spread and trend</h2>\n" + spread_table(study);
-  page += "<h2>People</h2>\n" + person_table(study);
-  return page + "</html>\n";
+    if (m.all.count > 0) metrics.push_back(metric_data(study, m));
+  return fill(page_text("study.html"), {{"title", title},
+                                        {"attempts", std::to_string(study.attempts.size())},
+                                        {"people", std::to_string(study.persons.size())},
+                                        {"learning", learning(study)},
+                                        {"remarks", remarks},
+                                        {"persons", persons},
+                                        {"metrics", metrics}});
 }
 
 }  // namespace trocar::reports

@@ -1,4 +1,4 @@
-// The shader files as strings, put into the library by the build (embed_shaders.cmake).
+// The shader files as strings, put into the library by the build (trocar_embed in cmake/trocar.cmake).
 #pragma once
 
 #include <span>
