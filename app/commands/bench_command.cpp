@@ -17,6 +17,7 @@
 #include "commands/bench_inputs.hpp"
 #include "commands/bench_picture.hpp"
 #include "commands/command.hpp"
+#include "commands/number_options.hpp"
 
 namespace trocar::app {
 namespace {
@@ -208,14 +209,16 @@ void add_bench(CLI::App& program, Chosen& chosen) {
   c->add_option("names", o->names,
                 "gynaecology, an exercise, a scene, or kernel (one spring); without: gynaecology and kernel");
   c->add_option("--json", o->file, "write the numbers to this file, or with - to standard output")->expected(0, 1);
-  c->add_option("--seconds", o->seconds, "simulated time at most")->capture_default_str()->check(CLI::PositiveNumber);
+  c->add_option("--seconds", o->seconds, "simulated time at most")
+      ->capture_default_str()
+      ->check(number_above(0, kLongestRun, "s"));
   c->add_flag("--picture", o->picture, "what a picture costs, pass by pass, at each detail, and each quality in whole");
   c->add_option("--size", o->size, "of the picture")->capture_default_str();
   c->add_option("--frames", o->pictures.frames, "pictures a figure, of which it is the median")
       ->capture_default_str()
-      ->check(CLI::Range(3, 300));
+      ->transform(whole_number(3, 300));
   c->add_option("--at", o->pictures.at, "of which moment [s]; without: the one that costs most")
-      ->check(CLI::NonNegativeNumber);
+      ->check(number_between(0, kLongestRun, "s"));
   c->callback([o, c, &chosen] {
     o->json = chosen.json = c->count("--json") > 0 && (o->file.empty() || o->file == "-");
     if (chosen.json) o->file.clear();

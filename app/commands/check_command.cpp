@@ -18,6 +18,7 @@
 #include "commands/check_mesh.hpp"
 #include "commands/check_vessels.hpp"
 #include "commands/command.hpp"
+#include "commands/number_options.hpp"
 
 namespace trocar::app {
 
@@ -337,7 +338,7 @@ void add_check(CLI::App& program, Chosen& chosen) {
                 "scenes, organs, instruments, tissue tables, vessels, exercises; meshes of tetrahedra (.msh, .vtk)")
       ->required();
   c->add_option("--unit-mm", *unit_mm, "the unit of meshes' coordinates in mm")
-      ->check(CLI::Range(1e-6, 1e6))
+      ->check(number_between(1e-6, 1e6, "mm"))
       ->capture_default_str();
   c->callback([=, &chosen] { chosen.run = [=, &chosen] { return check(*files, *unit_mm * 1e-3, chosen.json); }; });
 }

@@ -18,6 +18,7 @@
 
 #include "commands/command.hpp"
 #include "commands/gallery_events.hpp"
+#include "commands/gallery_names.hpp"
 
 namespace trocar::app {
 namespace {
@@ -266,10 +267,19 @@ int gallery(const Wanted& wanted, bool json) {
   const std::string& scene = wanted.scene;
   if (!scene.empty() && std::none_of(all.begin(), all.end(), [&](const auto& s) { return s.name == scene; }))
     throw core::BadInput({{{"--scene", 0, 0}, fmt::format("expected a scene (see trocar list), got '{}'", scene)}});
+  if (!wanted.only.empty()) {
+    std::vector<scene::Description> wanted_scenes;
+    for (const scene::SceneEntry& s : all)
+      if (scene.empty() || s.name == scene) wanted_scenes.push_back(scene::read_scene(s.path));
+    check_picture_name(wanted.only, wanted_scenes);
+  }
   attempt::make_folder(wanted.folder);
   Json files = Json::array();
   for (const scene::SceneEntry& s : all)
     if (scene.empty() || s.name == scene) add_scene(files, s.name, wanted);
+  if (files.empty())
+    throw core::BadInput(
+        {{{"--only", 0, 0}, fmt::format("expected a picture of these scenes, none is '{}'", wanted.only)}});
   if (json)
     print({{"pictures", files}});
   else

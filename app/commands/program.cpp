@@ -25,7 +25,7 @@ void check_command(const CLI::App& program, const std::string& word) {
     known.push_back(command->get_name());
   for (const std::string& name : known)
     if (name == word) return;
-  throw core::BadInput({{{"trocar", 0, 0}, scene::unknown_name("a command", word, known)}});
+  throw core::BadInput({{{"trocar", 0, 0}, scene::unknown_name("command", word, known)}});
 }
 
 /// A variable that is set and wrong would otherwise be left aside without a word.

@@ -7,6 +7,7 @@
 #include <trocar/pictures/analysis_choice.hpp>
 
 #include "commands/command.hpp"
+#include "commands/number_options.hpp"
 #include "commands/replay_headless.hpp"
 #include "player/player.hpp"
 
@@ -52,9 +53,6 @@ int replay(Options o, bool json) {
   o.replay.data.folder = o.data;
   o.replay.look = {pictures::parse_stereo(o.stereo), pictures::parse_show(o.show),
                    pictures::parse_analysis(o.analysis)};
-  if (!(o.replay.speed >= pictures::kSlowest && o.replay.speed <= pictures::kFastest))
-    throw core::BadInput(
-        {{{"--slow", 0, 0}, fmt::format("expected {} to {}, got {}", pictures::kSlowest, pictures::kFastest, o.replay.speed)}});
   const sim::Recording recording = sim::read_recording(o.replay.file);
   if (!recording.damage.empty()) core::log::warn("{}: {}", o.replay.file, recording.damage);
   const std::string& exercise = o.exercise.empty() ? recording.header.exercise : o.exercise;
@@ -83,21 +81,27 @@ void add_replay(CLI::App& program, Chosen& chosen) {
                   "  trocar replay a.rec --shots pictures --camera front\n"
                   "  trocar replay a.rec --video a.mp4 --camera free:120,30,250 --from 12 --to 20 --slow 0.25");
   c->add_option("recording", o->replay.file, "a recording (train --record)")->required();
-  c->add_flag("--verify", o->replay.verify, "compare the model's and every state's hash; exit 1 where they differ");
+  c->add_flag("--verify", o->replay.verify,
+              "compare the model's and every state's hash; exit 1 where they differ or the recording has no end");
   c->add_option("--exercise", o->exercise, "where the recording's exercise is now, if it was a path that moved");
   c->add_option("--shots", o->replay.shots, "write pictures to this folder");
   c->add_option("--video", o->replay.video, "write a film, H.264 (needs ffmpeg)");
   c->add_option("--data", o->data, pictures::kDataHelp);
-  c->add_option("--data-rate", o->replay.data.rate, "frames per simulated second")->capture_default_str();
+  c->add_option("--data-rate", o->replay.data.rate, "frames per simulated second")
+      ->capture_default_str()
+      ->check(number_between(pictures::kLeastDataRate, pictures::kMostDataRate, "frames a second"));
   c->add_option("--camera", o->camera,
                 "of pictures and film: endoscope | front | side | above | surgeon | free:YAW,PITCH,DISTANCE [deg, mm]")
       ->capture_default_str();
   c->add_option("--stereo", o->stereo, pictures::kStereoHelp)->capture_default_str();
   c->add_option("--show", o->show, pictures::kShowHelp);
   c->add_option("--analysis", o->analysis, pictures::kAnalysisHelp);
-  c->add_option("--from", o->replay.from, "first moment of pictures and film [s]")->check(CLI::Range(0.0, 14400.0));
-  c->add_option("--to", o->replay.to, "last moment [s]; the end if not given")->check(CLI::Range(0.0, 14400.0));
-  c->add_option("--slow", o->replay.speed, "speed of the film: 0.25 takes four times as long");
+  c->add_option("--from", o->replay.from, "first moment of pictures and film [s]")
+      ->check(number_between(0, kLongestRecording, "s"));
+  c->add_option("--to", o->replay.to, "last moment [s]; the end if not given")
+      ->check(number_between(0, kLongestRecording, "s"));
+  c->add_option("--slow", o->replay.speed, "speed of the film: 0.25 takes four times as long")
+      ->check(number_between(pictures::kSlowest, pictures::kFastest, ""));
   c->add_option("--size", o->size, "of pictures (800x600 if not given) or window");
   c->add_flag("--headless", o->headless, "no window, whatever else is asked for");
   c->add_option("--log", o->log, "window: write events as JSON lines to this file");

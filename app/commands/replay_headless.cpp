@@ -46,8 +46,10 @@ class Verifier {
     if (m_differs_at == 0) return "the first state differs before any tick";
     return fmt::format("the state differs after tick {}; it agreed until tick {}", m_differs_at, m_last_good);
   }
+  std::uint64_t last_good() const { return m_last_good; }
   void describe(Json& out) const {
     out["hashes_compared"] = m_agreed + (differs() ? 1 : 0);
+    if (m_agreed > 0) out["verified_until_tick"] = m_last_good;
     if (!differs()) return;
     out["differs_between_ticks"] = {m_last_good, m_differs_at};
   }
@@ -135,14 +137,17 @@ void take_shots(Camera& camera, const attempt::Session& session, const pictures:
 
 void judge(const Verifier& verifier, const attempt::Session& session, const sim::Recording& recording, bool good,
            Json& out) {
-  const bool sound = recording.complete || recording.interrupted;  // a killed attempt is what it is
-  out["verified"] = good && session.broken().empty() && verifier.agreed() > 0 && sound;
+  out["verified"] = good && session.broken().empty() && verifier.agreed() > 0 && recording.complete;
   verifier.describe(out);
   if (!good) out["difference"] = verifier.difference();
   if (good && verifier.agreed() == 0) out["difference"] = "the recording holds no state hash to compare";
-  if (good && !sound)
-    out["difference"] = fmt::format("the file is damaged ({}); what could be read, until tick {}, agrees",
-                                    recording.damage, recording.inputs.size());
+  if (!good || verifier.agreed() == 0 || recording.complete) return;
+  // Killed, or cut off between two blocks by somebody: nothing tells which, nor what is missing.
+  out["difference"] =
+      recording.interrupted
+          ? fmt::format("verified up to tick {}; the recording ends early, without an end mark", verifier.last_good())
+          : fmt::format("the file is damaged ({}); what could be read, until tick {}, agrees", recording.damage,
+                        recording.inputs.size());
 }
 
 /// The inputs again. With --verify all of them, otherwise as far as pictures are wanted.

@@ -1,6 +1,4 @@
 // trocar train: an exercise, done by hand in a window, or by a source of inputs with or without one.
-#include <cstdlib>
-
 #include <fmt/format.h>
 
 #include <trocar/attempt/attempt_log.hpp>
@@ -14,6 +12,7 @@
 #include <trocar/reports/report_page.hpp>
 
 #include "commands/command.hpp"
+#include "commands/number_options.hpp"
 #include "shell/event_log.hpp"
 #include "trainer/window_loop.hpp"
 
@@ -31,6 +30,7 @@ struct Options {
 constexpr std::uint64_t kLogTimeEvery = 250;  ///< ticks
 
 int exit_code(const Json& result, const std::string& input) {
+  if (result.contains("log_failure")) return core::kEnvironment;  // told already
   if (result.contains("failure") || result.contains("interrupted")) return core::kGoalNotReached;
   // A recorded motion knows nothing of the exercise: its goal is to be performed to its end.
   if (input.rfind("motion:", 0) == 0 || result["passed"].is_null()) return core::kDone;
@@ -54,15 +54,6 @@ void tell(const Json& result) {
   if (result.contains("failure")) fmt::print("{}\n", result["failure"].get<std::string>());
   for (const char* key : {"recording", "report"})
     if (result.contains(key)) fmt::print("{}: {}\n", key, result[key].get<std::string>());
-}
-
-/// A finite number of seconds above 0, at most a day.
-std::string check_seconds(const std::string& text) {
-  char* end = nullptr;
-  const double v = std::strtod(text.c_str(), &end);
-  return end != text.c_str() && *end == 0 && v > 0 && v <= 86400
-             ? ""
-             : "expected seconds above 0, at most 86400, got " + text;
 }
 
 attempt::AttemptPlan plan_of(const Options& o) {
@@ -101,6 +92,7 @@ Json train_headless(const Options& o, const attempt::Lesson& lesson, training::S
   result.update(source->describe());
   log.end(result, aborted ? training::AttemptState::aborted : training::AttemptState::finished);
   events.event("end", {{"interrupted", aborted}, {"passed", result["passed"]}, {"ticks", result["ticks"]}});
+  if (!events.failure().empty()) result["log_failure"] = events.failure();
   result.update(left);
   if (!o.report.empty()) result["report"] = reports::write_report(o.report, result, store, &session);
   return result;
@@ -143,7 +135,9 @@ int train(const Options& o, bool json) {
     print(result);
   else
     tell(result);
-  return o.exercise.empty() ? int(core::kDone) : exit_code(result, o.input);
+  // Without an exercise named on the command line there is no one goal to reach, but a log to be written all the same.
+  if (o.exercise.empty() && !result.contains("log_failure")) return core::kDone;
+  return exit_code(result, o.input);
 }
 
 }  // namespace
@@ -163,7 +157,9 @@ void add_train(CLI::App& program, Chosen& chosen) {
   c->add_option("--shots", options->shots, "headless: write pictures to this folder");
   c->add_option("--video", options->video, "headless: write a film (needs ffmpeg)");
   c->add_option("--data", options->data, std::string("headless: ") + pictures::kDataHelp);
-  c->add_option("--data-rate", options->data_rate, "frames per simulated second")->capture_default_str();
+  c->add_option("--data-rate", options->data_rate, "frames per simulated second")
+      ->capture_default_str()
+      ->check(number_between(pictures::kLeastDataRate, pictures::kMostDataRate, "frames a second"));
   c->add_option("--report", options->report, "write an HTML report to this folder");
   c->add_option("--size", options->size, "of pictures (default 800x600) or window (default: as last time)");
   c->add_option("--stereo", options->stereo, std::string("headless: ") + pictures::kStereoHelp)->capture_default_str();
@@ -171,9 +167,12 @@ void add_train(CLI::App& program, Chosen& chosen) {
   c->add_option("--analysis", options->analysis, std::string("headless: ") + pictures::kAnalysisHelp);
   c->add_option("--trainee", options->trainee, "whose attempt it is; default: guest");
   c->add_flag("--familiarisation", options->familiarisation, "getting to know it: no score, no verdict");
-  c->add_option("--seed", options->seed, "vary the anatomy by this number; 0: as drawn")->capture_default_str();
+  c->add_option("--seed", options->seed, "vary the anatomy by this number; 0: as drawn")
+      ->capture_default_str()
+      ->transform(whole_number(0, kLargestSeed));
   c->add_flag("--no-store", options->no_store, "leave nothing in the session store");
-  c->add_option("--seconds", options->seconds, "stop after so much simulated time")->check(check_seconds);
+  c->add_option("--seconds", options->seconds, "stop after so much simulated time")
+      ->check(number_above(0, kLongestRun, "s"));
   c->add_option("--log", options->log, "write what happens as JSON lines to this file");
   c->callback([options, &chosen] { chosen.run = [options, &chosen] { return train(*options, chosen.json); }; });
 }

@@ -171,6 +171,7 @@ void run_player(const sim::Recording& recording, PlayerOptions options) {
   if (!lesson) return;
   Player player(window, *lesson, recording, options, log);
   player.run();
+  if (!log.failure().empty()) throw core::EnvironmentLacks(log.failure());
 }
 
 }  // namespace trocar::app

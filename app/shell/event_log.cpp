@@ -1,11 +1,14 @@
 #include "shell/event_log.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/log.hpp>
 #include <trocar/sim/stages/visibility.hpp>
 
 namespace trocar::app {
@@ -75,7 +78,7 @@ std::string EventLog::path_of(const std::string& given) {
   return !given.empty() ? given : from_environment ? from_environment : "";
 }
 
-EventLog::EventLog(const std::string& path) {
+EventLog::EventLog(const std::string& path) : m_path(path) {
   if (path.empty()) return;
   m_file.reset(std::fopen(path.c_str(), "w"));
   if (!m_file) throw core::EnvironmentLacks(fmt::format("cannot write the log {}: check the folder", path));
@@ -86,8 +89,10 @@ void EventLog::event(const std::string& name, const Json& details) {
   Json line{{"event", name}};
   line.update(details);
   const std::string text = line.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
-  std::fputs(text.c_str(), m_file.get());
-  std::fflush(m_file.get());
+  const bool written = std::fputs(text.c_str(), m_file.get()) >= 0 && std::fflush(m_file.get()) == 0;
+  if (written || !m_failure.empty()) return;
+  m_failure = fmt::format("lines of the log {} are lost: {}", m_path, std::strerror(errno ? errno : EIO));
+  core::log::error("{}", m_failure);
 }
 
 void EventLog::moment(const sim::Model& model, const attempt::Moment& moment) {

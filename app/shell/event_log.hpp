@@ -29,12 +29,15 @@ class EventLog {
   /// At most ten times a second of simulated time. @param led instrument, or -1 for the scope
   void pose(const sim::Model& model, const attempt::Snapshot& now, int led);
   bool on() const { return m_file != nullptr; }
+  /// Empty, or why lines are missing from the file (the disk is full): told on stderr when it began.
+  const std::string& failure() const { return m_failure; }
 
  private:
   struct Close {
     void operator()(std::FILE* f) const { std::fclose(f); }
   };
   std::unique_ptr<std::FILE, Close> m_file;
+  std::string m_path, m_failure;
   std::uint64_t m_next_pose = 0, m_last_tick = 0;
 };
 

@@ -90,6 +90,13 @@ class Trainer {
     }
   }
 
+  /// Lines of the log that are lost are lost output, whatever else went well.
+  void tell_lost_log(Json& result) const {
+    if (m_stage.log.failure().empty()) return;
+    if (result.is_null()) throw core::EnvironmentLacks(m_stage.log.failure());
+    result["log_failure"] = m_stage.log.failure();
+  }
+
  private:
   attempt::AttemptPlan first_plan() const {
     attempt::AttemptPlan plan;
@@ -240,7 +247,10 @@ StartChoice Trainer::start_screen() {
 
 Json run_window(std::unique_ptr<attempt::Lesson> lesson, const WindowOptions& options) {
   attempt::catch_interrupts();
-  return Trainer(std::move(lesson), options).run();
+  Trainer trainer(std::move(lesson), options);
+  Json result = trainer.run();
+  trainer.tell_lost_log(result);
+  return result;
 }
 
 }  // namespace trocar::app

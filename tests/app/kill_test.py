@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Kills the program at random moments and looks at what is left: every recording replays up to its last second, the
 store opens and says who was interrupted, and nothing that ended is lost. Also: two programs on one store, a full disk,
-output that cannot be written, a fault of the program itself.
+files that may not grow, output that cannot be written, a fault of the program itself.
 
     kill_test.py PROGRAM [--kills 3] [--seed 1]
 
@@ -11,6 +11,7 @@ import argparse
 import json
 import os
 import random
+import resource
 import signal
 import subprocess
 import sys
@@ -34,16 +35,17 @@ def check(condition, what):
 class Trocar:
     def __init__(self, program, folder):
         self.program, self.folder = program, Path(folder)
+        self.folder.mkdir(exist_ok=True)
         self.data = self.folder / "data"
         self.environment = dict(os.environ, TROCAR_DATA=str(self.data), TMPDIR=str(self.folder))
         self.environment.setdefault("TROCAR_THREADS", "1")
 
-    def train(self, name, seconds, trainee="ada"):
+    def train(self, name, seconds, trainee="ada", before=None):
         """Starts an attempt; its recording and its log are called `name`."""
         return subprocess.Popen(
             [self.program, "train", EXERCISE, "--input", "demo", "--headless", "--seconds", str(seconds), "--json",
              "--trainee", trainee, "--record", self.recording(name), "--log", self.log(name)],
-            env=self.environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            env=self.environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, preexec_fn=before)
 
     def recording(self, name):
         return str(self.data / "recordings" / f"{name}.rec")
@@ -65,6 +67,10 @@ class Trocar:
         done = subprocess.run([self.program, *words], env=self.environment, capture_output=True, text=True)
         check(done.returncode == expect, f"{words}: exit {done.returncode}, not {expect}\n{done.stdout}\n{done.stderr}")
         return done.stdout
+
+    def replay(self, path, *words):
+        return subprocess.run([self.program, "replay", path, *words, "--json"], env=self.environment,
+                              capture_output=True, text=True)
 
     def attempts(self):
         return json.loads(self.run("report", "--list", "--json"))["attempts"]
@@ -101,8 +107,16 @@ def verify(trocar, name, reached):
     if not os.path.exists(path):
         check(reached == 0, f"{name}: {reached} ticks were made, and there is no recording")
         return "before the recording"
-    result = json.loads(trocar.run("replay", path, "--verify", "--json"))
-    check(result["verified"], f"{name}: {result.get('difference')}")
+    replayed = trocar.replay(path, "--verify")
+    result = json.loads(replayed.stdout)
+    if result["complete"]:
+        check(result["verified"] and replayed.returncode == 0, f"{name}: {result.get('difference')}")
+    else:  # as far as it goes, and it says that this is not the end
+        check(not result["verified"] and replayed.returncode == 1, f"{name}: without an end, and verified")
+        check("the recording ends early" in result["difference"] or "the file is damaged" in result["difference"],
+              f"{name}: {result['difference']}")
+        check("differs_between_ticks" not in result, f"{name}: {result['difference']}")
+        check(result["verified_until_tick"] >= result["ticks"] - 100, f"{name}: {result}")
     check(result["ticks"] >= reached - LOST_AT_MOST,
           f"{name}: replays {result['ticks']} ticks of at least {reached}")
     return f"{result['ticks']} of at least {reached} ticks"
@@ -197,6 +211,22 @@ def full_disk(program, folder):
         subprocess.run(["umount", "-l", disk], check=False)
 
 
+def small_files(program, folder):
+    """No file may grow beyond some kilobytes (ulimit -f): told, and the result is kept all the same."""
+    trocar = Trocar(program, Path(folder) / "limited")
+    limit = 100 * 1024
+    run = trocar.train("limited", 20, before=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
+    out, err = run.communicate()
+    check(run.returncode in (0, 1, 3), f"with small files only, it ended with {run.returncode}: {err}")
+    check("File too large" in err, f"files that may not grow are not told:\n{err}")
+    result = json.loads(out)
+    check(result["ticks"] == 20000, f"with small files only: {result['ticks']} ticks")
+    check(any("File too large" in n for n in result["notices"]), "the result does not tell of the small files")
+    a = trocar.attempts()[0]
+    check(a["state"] == "finished" and a["ticks"] == 20000, f"small files: {a}")
+    print("small files: told, the result is kept", flush=True)
+
+
 def full_output(trocar):
     for words in (["list", "--json"], ["list"], ["report", "--list"], ["--help"]):
         with open("/dev/full", "w") as full:
@@ -220,6 +250,7 @@ def main():
             broken(trocar)
             two_at_once(trocar)
             full_disk(options.program, folder)
+            small_files(options.program, folder)
             full_output(trocar)
         except Failed as failed:
             print(f"FAILED: {failed}", file=sys.stderr)

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <trocar/core/error.hpp>
@@ -291,6 +292,101 @@ TEST_F(Program, AWrongNumberOfThreadsIsBadInput) {
   }
   unsetenv("TROCAR_THREADS");
   EXPECT_EQ(trocar({"list"}).exit, core::kDone);
+}
+
+TEST_F(Program, NumbersOfOptionsAreFiniteAndWithinBounds) {
+  const std::vector<std::vector<std::string>> wrong{
+      {"train", "gynaecology", "--seed", "-1"},
+      {"train", "gynaecology", "--seed", "1.5"},
+      {"train", "gynaecology", "--seed", "0x10"},
+      {"train", "gynaecology", "--seed", "18446744073709551617"},
+      {"train", "gynaecology", "--seconds", "nan"},
+      {"train", "gynaecology", "--seconds", "0"},
+      {"train", "gynaecology", "--data-rate", "nan"},
+      {"check", "a.msh", "--unit-mm", "nan"},
+      {"check", "a.msh", "--unit-mm", "0"},
+      {"replay", "a.rec", "--from", "nan"},
+      {"replay", "a.rec", "--to", "NaN"},
+      {"replay", "a.rec", "--to", "inf"},
+      {"replay", "a.rec", "--slow", "nan"},
+      {"bench", "kernel", "--seconds", "nan"},
+      {"bench", "gynaecology", "--at", "nan"},
+      {"bench", "gynaecology", "--at", "-1"},
+      {"bench", "gynaecology", "--frames", "3.5"},
+      {"bench", "gynaecology", "--frames", "0x10"},
+      {"train", "gynaecology", "--seconds", "1e999"},
+  };
+  for (const std::vector<std::string>& words : wrong) {
+    const Outcome o = trocar(words);
+    EXPECT_EQ(o.exit, core::kBadInput) << words[0] << ' ' << words[2] << ' ' << words[3];
+    EXPECT_NE((o.out + o.err).find(words[2] + ": expected a "), std::string::npos) << o.out << o.err;
+    EXPECT_NE((o.out + o.err).find("got '" + words[3] + "'"), std::string::npos) << o.out << o.err;
+  }
+}
+
+TEST_F(Program, AWholeNumberIsDecimalWhateverItBeginsWith) {
+  const Outcome o = trocar({"train", "gynaecology", "--input", "motion:" + motion_file(), "--headless", "--seconds",
+                            "0.01", "--seed", "010", "--no-store", "--json"});
+  ASSERT_EQ(o.exit, core::kDone) << o.err;
+  EXPECT_EQ(o.json()["seed"], 10);
+}
+
+TEST_F(Program, APictureNameThatNoPictureHasIsToldBeforeAnythingIsDrawn) {
+  const Outcome o = trocar({"gallery", file("pictures"), "--only", "wiped lense"});
+  EXPECT_EQ(o.exit, core::kBadInput);
+  EXPECT_NE(o.err.find("did you mean \"wiped lens\"?"), std::string::npos) << o.err;
+  EXPECT_FALSE(fs::exists(file("pictures")));
+  // Of another scene than the chosen one.
+  EXPECT_EQ(trocar({"gallery", file("pictures"), "--scene", "digestive", "--only", "tube_left"}).exit, core::kBadInput);
+}
+
+TEST_F(Program, ALogThatCannotBeWrittenIsToldOnceAndInTheExitCode) {
+  const Outcome o = trocar({"train", "gynaecology", "--input", "motion:" + motion_file(), "--headless", "--seconds",
+                            "0.6", "--log", "/dev/full", "--no-store", "--json"});
+  EXPECT_EQ(o.exit, core::kEnvironment);
+  const std::size_t told = o.err.find("/dev/full are lost: No space left");
+  ASSERT_NE(told, std::string::npos) << o.err;
+  EXPECT_EQ(o.err.find("/dev/full", told + 1), std::string::npos) << "once: " << o.err;
+  EXPECT_NE(o.json()["log_failure"].get<std::string>().find("No space left"), std::string::npos);
+  EXPECT_EQ(o.json()["ticks"], 600) << "the result is there all the same";
+}
+
+TEST_F(Program, AStoreThatIsNoFileIsToldInsteadOfWaitedFor) {
+  ASSERT_EQ(trocar({"report", "--list"}).exit, core::kDone) << "there is a store now";
+  for (const char* name : {"data/sessions.sqlite-wal", "data/sessions.sqlite-journal", "data/sessions.sqlite"}) {
+    fs::remove(file(name));
+    ASSERT_EQ(mkfifo(file(name).c_str(), 0600), 0);
+    alarm(60);  // it would wait for ever
+    const Outcome o = trocar({"report", "--list"});
+    alarm(0);
+    EXPECT_EQ(o.exit, core::kEnvironment) << o.err;
+    EXPECT_NE(o.err.find(file(name) + ": expected a file"), std::string::npos) << o.err;
+    fs::remove(file(name));
+  }
+}
+
+TEST_F(Program, ARecordingThatEndsBetweenTwoBlocksIsVerifiedOnlyUpToThere) {
+  ASSERT_EQ(trocar({"train", "gynaecology", "--input", "motion:" + motion_file(), "--headless", "--seconds", "1.5",
+                    "--record", file("a.rec"), "--no-store"})
+                .exit,
+            core::kDone);
+  const sim::Recording whole = sim::read_recording(file("a.rec"));
+  {
+    sim::RecordingWriter writer(file("cut.rec"), whole.header);  // ends without finish(), at a block's end
+    std::size_t mark = 0;
+    for (std::size_t tick = 0; tick < 1000; ++tick) {
+      for (; mark < whole.hashes.size() && whole.hashes[mark].tick == tick; ++mark)
+        writer.hash(tick, whole.hashes[mark].hash);
+      writer.tick(tick, whole.inputs[tick]);
+    }
+  }
+  const Outcome o = trocar({"replay", file("cut.rec"), "--verify", "--json"});
+  EXPECT_EQ(o.exit, core::kGoalNotReached);
+  EXPECT_FALSE(o.json()["verified"].get<bool>());
+  EXPECT_EQ(o.json()["verified_until_tick"], 900);
+  EXPECT_NE(o.json()["difference"].get<std::string>().find("verified up to tick 900; the recording ends early"),
+            std::string::npos)
+      << o.out;
 }
 
 TEST_F(Program, WhatCannotBeWrittenIsToldBeforeAnythingIsDone) {

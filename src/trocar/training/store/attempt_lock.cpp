@@ -80,7 +80,7 @@ void AttemptLock::sweep(const std::filesystem::path& folder) {
 }
 
 bool AttemptLock::is_held(const std::filesystem::path& folder, const std::string& uuid) {
-  const int file = open(lock_of(folder, uuid).c_str(), O_RDONLY | O_CLOEXEC);
+  const int file = open(lock_of(folder, uuid).c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (file < 0) return false;
   const bool held = flock(file, LOCK_SH | LOCK_NB) != 0;
   close(file);

@@ -22,6 +22,17 @@ std::string uri_of(const std::filesystem::path& path, const char* query) {
   return out + query;
 }
 
+/// Opening a FIFO waits for somebody at its other end. SQLite opens what it finds under these names.
+void refuse_what_is_no_file(const std::filesystem::path& path) {
+  for (const char* end : {"", "-wal", "-journal", "-shm"}) {
+    const std::filesystem::path at = path.string() + end;
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(at, error);
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+      throw DatabaseFault(at.string() + ": expected a file, this is a folder, FIFO or device", SQLITE_CANTOPEN);
+  }
+}
+
 }  // namespace
 
 DatabaseFault::DatabaseFault(const std::string& what, int code) : std::runtime_error(what), m_code(code & 0xff) {}
@@ -29,6 +40,7 @@ bool DatabaseFault::damaged() const { return m_code == SQLITE_CORRUPT || m_code 
 
 Database::Database(const std::filesystem::path& path, Access access) : m_path(path.string()) {
   const std::filesystem::path absolute = std::filesystem::absolute(path);
+  refuse_what_is_no_file(absolute);
   const bool writes = access == Access::write;
   bool good = writes ? open(uri_of(absolute, ""), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE)
                      : open(uri_of(absolute, ""), SQLITE_OPEN_READONLY);

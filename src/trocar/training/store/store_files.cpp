@@ -44,7 +44,7 @@ std::string read_file(const fs::path& path, std::size_t most) {
 
 std::string write_file(const fs::path& path, const void* bytes, std::size_t size) {
   const std::string part = path.string() + ".part";
-  const int file = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+  const int file = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NONBLOCK, 0600);
   if (file < 0) return std::strerror(errno);
   const char* at = static_cast<const char*>(bytes);
   bool good = true;
