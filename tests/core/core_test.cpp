@@ -11,6 +11,7 @@
 #include <trocar/core/hash.hpp>
 #include <trocar/core/log.hpp>
 #include <trocar/core/parallel.hpp>
+#include <trocar/core/printable.hpp>
 #include <trocar/core/random.hpp>
 
 using namespace trocar::core;
@@ -142,4 +143,19 @@ TEST(Log, WritesToStandardErrorAtOrAboveTheLevel) {
   const std::string text = testing::internal::GetCapturedStderr();
   EXPECT_EQ(text.find("unseen"), std::string::npos);
   EXPECT_NE(text.find("warning: seen 2"), std::string::npos) << text;
+}
+
+TEST(Printable, NothingThatATerminalWouldObeyIsLeft) {
+  EXPECT_EQ(printable(std::string_view("a\0b\x1b[31m\n\x7f", 10)), "a\\u0000b\\u001b[31m\\u000a\\u007f");
+  EXPECT_EQ(printable("\xc2\x9b"
+                      "2J \xe2\x80\xae \xe2\x81\xa6"),
+            "\\u009b2J \\u202e \\u2066");
+  EXPECT_EQ(printable("\xc3\xa4 \xe2\x82\xac \xe2\x80\x94 \xf0\x9f\x98\x80"),
+            "\xc3\xa4 \xe2\x82\xac \xe2\x80\x94 \xf0\x9f\x98\x80");
+}
+
+TEST(BadInput, AFaultWithControlCharactersNeitherEndsTheTextNorReachesTheTerminal) {
+  const BadInput bad(
+      {{{"a\x1b.json", 1, 2}, std::string("expected a name, got \"x\0y\"", 26)}, {{"b.json", 3, 4}, "second"}});
+  EXPECT_STREQ(bad.what(), "a\\u001b.json:1:2: expected a name, got \"x\\u0000y\"\nb.json:3:4: second");
 }

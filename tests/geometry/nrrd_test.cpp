@@ -120,7 +120,7 @@ TEST(Nrrd, FaultsSayWhereAndWhatWasExpected) {
   expect_fault("kinds: domain", "space units: \"mm\" \"cm\" \"mm\"\nkinds: domain",
                "expected the same unit for all axes, got 'cm'");
   expect_fault("kinds: domain domain domain", "kinds", "a.nrrd:8:1: expected 'field: value', got 'kinds'");
-  expect_fault("type: int16\n", "", "a.nrrd: expected the field 'type', got none");
+  expect_fault("type: int16\n", "", "a.nrrd:12:1: expected the field 'type', got none");
   expect_fault("space: left-posterior-superior\n", "", "expected the field 'space', got none");
   expect_fault("7 8", "7 8 9", "a.nrrd:15:13: expected the end of the file after 12 values, got '9'");
   expect_fault("7 8", "7", "expected a whole number, got the end of the file");

@@ -200,7 +200,7 @@ TEST(TetFiles, FaultsSayWhereAndWhatWasExpected) {
   EXPECT_EQ(faults_of(replaced(kVtk, "UNSTRUCTURED_GRID", "POLYDATA")),
             "a.msh:4:9: expected UNSTRUCTURED_GRID, as tetrahedra need, got 'POLYDATA'");
   EXPECT_EQ(faults_of(replaced(kVtk, "5 10 10", "5 9 9")),
-            "a.msh: expected tetrahedra, got 2 quadrangles, 1 triangles");
+            "a.msh:1:1: expected tetrahedra, got 2 quadrangles, 1 triangles");
   EXPECT_EQ(faults_of(replaced(kVtk, "5 10 10", "10 10 10")),
             "a.msh:9:3: expected 4 nodes of a cell of type 10, got 3");
 }
@@ -241,8 +241,11 @@ TEST(TetFiles, NumbersThatAreNotFiniteOrAbsurdAreFaults) {
   nan.all<double>(std::nan(""));
   std::string binary = gmsh2_binary(false);
   const std::size_t at = binary.find("$Nodes\n5\n") + 9 + 4 + 8;
-  EXPECT_EQ(faults_of(binary.replace(at, 8, nan.bytes)),
-            "a.msh: at byte " + std::to_string(at) + ": expected a y coordinate, got nan");
+  const std::size_t line_feed = binary.rfind('\n', at),
+                    line = 1 + std::count(binary.begin(), binary.begin() + at, '\n');
+  EXPECT_EQ(faults_of(binary.replace(at, 8, nan.bytes)), "a.msh:" + std::to_string(line) + ":" +
+                                                             std::to_string(at - line_feed) + ": at byte " +
+                                                             std::to_string(at) + ": expected a y coordinate, got nan");
 }
 
 TEST(TetFiles, AnnouncedCountsAreBelievedAsFarAsTheFileReaches) {
@@ -299,7 +302,7 @@ TEST(TetFiles, WhatIsNoMeshFileIsSaidToBeNone) {
   EXPECT_EQ(faults_of("<?xml version=\"1.0\"?>"), formats + "XML");
   EXPECT_EQ(faults_of("\x1b[31mred"), formats + "'?[31mred'");
   EXPECT_EQ(faults_of("$Nodes\n0\n$EndNodes\n"), "a.msh:1:1: expected $MeshFormat in front of $Nodes, got none");
-  EXPECT_EQ(faults_of("$Comments\n$EndComments\n"), "a.msh: expected $MeshFormat or $NOD, got neither");
+  EXPECT_EQ(faults_of("$Comments\n$EndComments\n"), "a.msh:1:1: expected $MeshFormat or $NOD, got neither");
 }
 
 TEST_F(SharedMesh, TheLiverOfVersion1HasItsNodesCellsAndVolume) {

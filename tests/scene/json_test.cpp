@@ -183,6 +183,19 @@ bool has_key_twice(const Faults& faults) {
   return true;
 }
 
+TEST(Json, ATextThatHoldsNulIsAFaultAndTheNextOnesAreToldToo) {
+  EXPECT_EQ(faults_of("{\"a\": \"x.msh\\u0000/etc\", \"b\": [nan, \"\\u0000\"]}"),
+            (Faults{"1:13 expected a character of a text, got \\u0000", "1:32 expected a finite number, got nan",
+                    "1:38 expected a character of a text, got \\u0000"}));
+  EXPECT_EQ(faults_of("{\"a\\u0000\": 1, \"b\": 2}"), Faults{"1:4 expected a character of a text, got \\u0000"});
+}
+
+TEST(Json, WhatAFaultShowsATerminalDoesNotObey) {
+  const JsonValue v = parsed("\"\\u001b[2J\\n\"");
+  EXPECT_EQ(v.text, "\x1b[2J\n");
+  EXPECT_EQ(shown(v), "\"\\u001b[2J\\u000a\"");
+}
+
 TEST(Json, AcceptsWhatAnotherReaderAcceptsAndNothingElse) {
   const std::string good =
       "{\"name\": \"uterus\", \"n\": [1, -2.5e-3, 0], // note\n \"o\": {\"t\": true, \"f\": false, \"z\": null}, /* c "

@@ -1,3 +1,4 @@
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -369,14 +370,64 @@ const char* kOrgan =
 
 TEST(Reader, OrgansComeFromFilesNamedRelativeToTheirOwn) {
   const Folder folder;
-  folder.write("organs/a.json", "{\"format\": 1, \"organs\": [\"deeper/b.json\"]}");
-  folder.write("organs/deeper/b.json", kOrgan);
-  const auto path = folder.write("scenes/scene.json", scene_with({{6, "\"organs\": [\"../organs/a.json\", {"}}));
+  folder.write("scenes/organs/a.json", "{\"format\": 1, \"organs\": [\"deeper/b.json\"]}");
+  folder.write("scenes/organs/deeper/b.json", kOrgan);
+  const auto path = folder.write("scenes/small/scene.json", scene_with({{6, "\"organs\": [\"../organs/a.json\", {"}}));
   EXPECT_EQ(told(faults_of_file(path)), Faults{});
   const Description d = read_scene(path);
   ASSERT_EQ(d.solids.size(), 2u);
   EXPECT_EQ(d.solids[0].name, "far");
-  EXPECT_EQ(d.solids[0].at.file, (folder.path() / "organs/deeper/b.json").generic_string());
+  EXPECT_EQ(d.solids[0].at.file, (folder.path() / "scenes/organs/deeper/b.json").generic_string());
+}
+
+/// A variable of the environment for as long as a test needs it.
+class Declared {
+ public:
+  Declared(const char* name, const std::string& value) : m_name(name) { setenv(name, value.c_str(), 1); }
+  ~Declared() { unsetenv(m_name); }
+  Declared(const Declared&) = delete;
+  Declared& operator=(const Declared&) = delete;
+
+ private:
+  const char* m_name;
+};
+
+TEST(Reader, OnlyFilesOfTheTreeOrOfADeclaredLibraryAreOpened) {
+  const Folder folder;
+  folder.write("elsewhere/secret.json", kOrgan);
+  const std::string tree = std::filesystem::canonical(folder.path()).generic_string() + "/mine";
+  const auto refused = [&](const std::string& name) {
+    return one("6:12 expected a file in " + tree + " or in a library that TROCAR_LIBRARY declares, got \"" + name +
+               "\"");
+  };
+  const auto naming = [&](const std::string& name) {
+    return folder.write("mine/scene.json", scene_with({{6, "\"organs\": [\"" + name + "\", {"}}));
+  };
+  EXPECT_EQ(told(faults_of_file(naming("../elsewhere/secret.json"))), refused("../elsewhere/secret.json"));
+  std::filesystem::create_symlink("../elsewhere/secret.json", folder.path() / "mine" / "link.json");
+  EXPECT_EQ(told(faults_of_file(naming("link.json"))), refused("link.json"));
+  std::string up = "../../../../../../../../../../../../etc/passwd";
+  EXPECT_EQ(told(faults_of_file(naming(up))), refused(up));
+  const Declared library("TROCAR_LIBRARY", "/nowhere:" + (folder.path() / "elsewhere").string());
+  EXPECT_EQ(told(faults_of_file(naming("../elsewhere/secret.json"))), Faults{});
+  EXPECT_EQ(told(faults_of_file(naming(up))), refused(up));
+}
+
+TEST(Reader, AMeshOutsideOfTheTreeIsNotOpened) {
+  const Folder folder;
+  const std::string name = "../../../../../../../../../../../../etc/passwd";
+  const auto path = folder.write(
+      "organ.json",
+      "{\"format\": 1, \"solids\": [{\"name\": \"x\", \"tissue\": \"y\",\n\"mesh\": {\"file\": \"" + name + "\"}}]}");
+  EXPECT_EQ(told(check_file(path)),
+            one("2:18 expected a file in " + std::filesystem::canonical(folder.path()).generic_string() +
+                " or in a library that TROCAR_LIBRARY declares, got \"" + name + "\""));
+}
+
+TEST(Reader, AnUnknownNameIsToldInWordsThatFit) {
+  EXPECT_EQ(unknown_name("command", "chek", {"check", "list"}),
+            "expected a known command (check, list), got \"chek\" (did you mean \"check\"?)");
+  EXPECT_EQ(unknown_name("organ", "x", {}), "expected an organ (none is known), got \"x\"");
 }
 
 TEST(Reader, FaultsOfAllFilesAreToldTogether) {

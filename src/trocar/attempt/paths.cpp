@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
 #include <string_view>
 #include <system_error>
 
@@ -8,6 +9,8 @@
 #include <trocar/attempt/lesson.hpp>
 #include <trocar/attempt/paths.hpp>
 #include <trocar/core/error.hpp>
+#include <trocar/core/printable.hpp>
+#include <trocar/scene/files/library.hpp>
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/scene/json/json.hpp>
 
@@ -26,23 +29,17 @@ std::string title_of(const fs::path& path) {
   std::vector<core::Fault> faults;
   const scene::JsonDocument document = scene::load_json(path, faults);
   const scene::JsonMember* title = document.root.find("title");
-  return title ? title->value.text : std::string{};
+  return title ? core::printable(title->value.text) : std::string{};
 }
 
 }  // namespace
 
 fs::path scenes_folder() {
   std::error_code error;
-  if (const std::string given = environment("TROCAR_SCENES"); !given.empty()) {
-    if (!fs::is_directory(given, error))
-      throw core::EnvironmentLacks(
-          fmt::format("TROCAR_SCENES names '{}', which is no folder: unset or correct it", given));
-    return given;
-  }
-  const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
-  for (const fs::path& candidate :
-       {program / "../../scenes", program / "../share/trocar/scenes", fs::path(TROCAR_SOURCE_DIR) / "scenes"})
-    if (fs::is_directory(candidate, error)) return fs::weakly_canonical(candidate, error);
+  if (const std::string given = environment("TROCAR_SCENES"); !given.empty() && !fs::is_directory(given, error))
+    throw core::EnvironmentLacks(
+        fmt::format("TROCAR_SCENES names '{}', which is no folder: unset or correct it", given));
+  if (const std::optional<fs::path> found = scene::found_scenes_folder()) return *found;
   throw core::EnvironmentLacks("there is no folder 'scenes' near the program: set TROCAR_SCENES to it");
 }
 
@@ -79,7 +76,7 @@ fs::path find_exercise(const std::string& name, const fs::path& scenes) {
   std::vector<std::string> known;
   for (const ExerciseEntry& e : list_exercises(scenes)) known.push_back(e.name);
   for (const scene::SceneEntry& s : scene::list_scenes(scenes)) known.push_back(s.name);
-  throw core::BadInput({{{name, 0, 0}, scene::unknown_name("a file, an exercise or a scene", name, known)}});
+  throw core::BadInput({{{name, 0, 0}, scene::unknown_name("file, exercise or scene", name, known)}});
 }
 
 void make_folder(const fs::path& folder) {

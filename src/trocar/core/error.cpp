@@ -1,6 +1,7 @@
 #include <utility>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/printable.hpp>
 
 namespace trocar::core {
 namespace {
@@ -23,7 +24,7 @@ std::string to_string(const Fault& fault) {
     if (fault.at.column > 0) text += ':' + std::to_string(fault.at.column);
   }
   if (!text.empty()) text += ": ";
-  return text + fault.message;
+  return printable(text + fault.message);
 }
 
 BadInput::BadInput(std::vector<Fault> faults) : std::runtime_error(joined(faults)), m_faults(std::move(faults)) {}

@@ -78,7 +78,7 @@ const GmshType& GmshParts::known_type(std::size_t at, std::int64_t type) {
 
 void GmshParts::resolve() {
   in.set_form(form);
-  if (version == 0 && in.faults() == 0) in.lose(kWholeFile, "expected $MeshFormat or $NOD, got neither");
+  if (version == 0 && in.faults() == 0) in.lose(0, "expected $MeshFormat or $NOD, got neither");
   std::stable_sort(nodes.begin(), nodes.end(), [](const Node& a, const Node& b) { return a.tag < b.tag; });
   for (std::size_t i = 1; i < nodes.size(); ++i)
     if (nodes[i].tag == nodes[i - 1].tag)
@@ -88,7 +88,7 @@ void GmshParts::resolve() {
     for (int k = 0; k < 4; ++k) corners[k] = index_of(cell.tags[k], cell.at);
     mesh.cells.push_back(corners);
   }
-  if (cells.empty() && in.faults() == 0) in.lose(kWholeFile, "expected tetrahedra, got " + left_out.instead());
+  if (cells.empty() && in.faults() == 0) in.lose(0, "expected tetrahedra, got " + left_out.instead());
 }
 
 int GmshParts::index_of(std::int64_t tag, std::size_t at) {

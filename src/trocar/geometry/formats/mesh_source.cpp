@@ -209,19 +209,13 @@ void MeshSource::tell_all() const {
   std::size_t at = 0, line_start = 0;
   int line = 1;
   for (const Fault& fault : sorted) {
-    if (fault.at == kWholeFile) {
-      told.push_back({{m_file, 0, 0}, fault.message});
-      continue;
-    }
     for (; at < std::min(fault.at, m_bytes.size()); ++at)
       if (m_bytes[at] == '\n') {
         ++line;
         line_start = at + 1;
       }
-    if (fault.binary)
-      told.push_back({{m_file, 0, 0}, fmt::format("at byte {}: {}", fault.at, fault.message)});
-    else
-      told.push_back({{m_file, line, int(fault.at - line_start) + 1}, fault.message});
+    const core::Location place{m_file, line, int(fault.at - line_start) + 1};
+    told.push_back({place, fault.binary ? fmt::format("at byte {}: {}", fault.at, fault.message) : fault.message});
   }
   throw core::BadInput(std::move(told));
 }

@@ -8,7 +8,9 @@
 //   if (in.real(x, 8, "an x coordinate")) ...    // false: told already
 //   in.finish();                                 // throws core::BadInput with all faults
 //
-// Faults are kept by byte position; lines and columns are counted once, when they are told. Used by the readers only.
+// Faults are kept by byte position; lines and columns are counted once, when they are told. Among the machine's own
+// numbers lines end where a byte happens to be a line feed, so that the byte is told beside them. What is wrong with
+// the file as a whole is told at its beginning. Used by the readers only.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +24,6 @@ namespace trocar::geometry {
 
 inline constexpr std::size_t kMaxMeshBytes = 256u << 20;
 inline constexpr std::size_t kMaxMeshFaults = 50;  ///< told of one file; then reading stops
-/// The place of a fault that has none within the file.
-inline constexpr std::size_t kWholeFile = std::size_t(-1);
 
 class MeshSource {
  public:

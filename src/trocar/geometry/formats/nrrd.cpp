@@ -169,14 +169,15 @@ class HeaderReader {
   Header m_header;
   std::vector<std::string> m_seen;
   std::string_view m_value;
-  std::size_t m_at = 0;  ///< of the value
+  std::size_t m_at = 0;   ///< of the value
+  std::size_t m_end = 0;  ///< of the line that ends the header
 
   std::size_t place(std::string_view text) const { return std::size_t(text.data() - m_in.all().data()); }
   std::string got() const { return m_value.empty() ? "nothing" : quoted(m_value); }
 
   void require(bool there, const char* field) {
     if (!there && std::find(m_seen.begin(), m_seen.end(), field) == m_seen.end())
-      m_in.fault(kWholeFile, fmt::format("expected the field '{}', got none", field));
+      m_in.fault(m_end, fmt::format("expected the field '{}', got none", field));
   }
 
   void magic() {
@@ -188,6 +189,7 @@ class HeaderReader {
   /// False at the empty line that ends the header.
   bool line() {
     if (m_in.left() == 0) m_in.lose(m_in.at(), "expected an empty line and the data, got the end of the file");
+    m_end = m_in.at();
     const std::string_view text = m_in.line();
     if (text.empty()) return false;
     if (text[0] == '#') return true;
@@ -561,7 +563,7 @@ void place(const Header& header, Voxels& voxels) {
 Voxels read_nrrd(std::string_view bytes, const std::string& file, std::size_t most_voxels) {
   MeshSource in(bytes, file);
   if (bytes.size() > kMaxMeshBytes)
-    in.lose(kWholeFile, fmt::format("expected at most {} MiB, got {} bytes", kMaxMeshBytes >> 20, bytes.size()));
+    in.lose(0, fmt::format("expected at most {} MiB, got {} bytes", kMaxMeshBytes >> 20, bytes.size()));
   const Header header = HeaderReader(in, most_voxels).read();
   Voxels voxels;
   place(header, voxels);

@@ -10,7 +10,7 @@ namespace trocar::geometry {
 TetFile read_tets(std::string_view bytes, const std::string& file, double scale) {
   if (bytes.size() > kMaxMeshBytes)
     throw core::BadInput(
-        {{{file, 0, 0}, fmt::format("expected at most {} bytes, got {}", kMaxMeshBytes, bytes.size())}});
+        {{{file, 1, 1}, fmt::format("expected at most {} bytes, got {}", kMaxMeshBytes, bytes.size())}});
   MeshSource in(bytes, file);
   const std::string_view first = in.peek_word();
   if (first.substr(0, 1) == "$") return read_gmsh(in, scale);

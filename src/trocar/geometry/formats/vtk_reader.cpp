@@ -185,14 +185,13 @@ class VtkReader {
     const std::size_t cells = m_start.empty() ? 0 : m_start.size() - 1;
     if (!m_have_points || m_start.empty() || m_types.size() != cells) {
       m_in.finish();
-      m_in.lose(kWholeFile,
-                fmt::format("expected POINTS, CELLS and as many CELL_TYPES, got {} points, {} cells, {} types",
-                            m_out.mesh.points.size(), cells, m_types.size()));
+      m_in.lose(0, fmt::format("expected POINTS, CELLS and as many CELL_TYPES, got {} points, {} cells, {} types",
+                               m_out.mesh.points.size(), cells, m_types.size()));
     }
     m_in.set_form(m_values.form);
     for (std::size_t c = 0; c < cells; ++c) cell(c);
     if (m_out.mesh.cells.empty() && m_in.faults() == 0)
-      m_in.lose(kWholeFile, "expected tetrahedra, got " + m_left_out.instead());
+      m_in.lose(0, "expected tetrahedra, got " + m_left_out.instead());
   }
 
   void cell(std::size_t c) {
@@ -200,7 +199,7 @@ class VtkReader {
     const VtkCell* type = vtk_cell(m_types[c]);
     const bool fits = !type || (type->exactly ? nodes == type->nodes : nodes >= type->nodes);
     if (!fits) {
-      const std::size_t at = m_start[c] < std::int64_t(m_at.size()) ? m_at[m_start[c]] : kWholeFile;
+      const std::size_t at = m_start[c] < std::int64_t(m_at.size()) ? m_at[m_start[c]] : m_in.all().size();
       return m_in.fault(at, fmt::format("expected {}{} nodes of a cell of type {}, got {}",
                                         type->exactly ? "" : "at least ", type->nodes, type->type, nodes));
     }

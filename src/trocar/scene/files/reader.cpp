@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/printable.hpp>
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/scene/files/reader_parts.hpp>
 #include <trocar/scene/files/vessel_file.hpp>
@@ -43,6 +44,7 @@ std::vector<fs::path> sorted_entries(const fs::path& folder) {
 void Reading::include(const fs::path& path, const core::Location& from, const Shape& shape, Read read) {
   const auto refuse = [&](std::string message) { tell(m_faults, {from, std::move(message)}); };
   std::error_code error;
+  if (!m_memory && m_open.empty()) m_library.emplace(path);
   const fs::path canonical = m_memory ? path : fs::weakly_canonical(path, error);
   std::string chain;
   bool cycle = false;
@@ -73,6 +75,8 @@ void Reading::includes(const JsonObject& o, const char* key, const fs::path& fol
     const fs::path named(items[i].text);
     if (named.empty() || named.is_absolute())
       o.fault(o.at(key, i), fmt::format("expected a file name relative to this file, got {}", shown(items[i])));
+    else if (m_library && !m_library->holds(folder / named))
+      o.fault(o.at(key, i), m_library->refusal(items[i].text));
     else
       include((folder / named).lexically_normal(), o.at(key, i), shape, read);
   }
@@ -150,7 +154,7 @@ std::vector<SceneEntry> list_scenes(const fs::path& folder) {
     std::vector<core::Fault> ignored;
     const JsonDocument document = load_json(file, ignored);
     const JsonMember* title = document.root.find("title");
-    entries.push_back({path.filename().generic_string(), title ? title->value.text : "", file});
+    entries.push_back({path.filename().generic_string(), title ? core::printable(title->value.text) : "", file});
   }
   return entries;
 }
@@ -162,7 +166,7 @@ std::vector<InstrumentEntry> list_instruments(const fs::path& folder) {
     if (path.extension() != ".json") continue;
     const JsonDocument document = load_json(path, faults);
     const JsonObject o(document.root, instrument_shape(), document.file, faults);
-    if (faults.empty()) entries.push_back({o.text("name"), o.text("kind"), o.text("title"), path});
+    if (faults.empty()) entries.push_back({o.text("name"), o.text("kind"), core::printable(o.text("title")), path});
   }
   return entries;
 }

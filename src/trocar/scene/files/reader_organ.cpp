@@ -97,6 +97,10 @@ std::optional<std::string> Reading::bytes_of(const JsonObject& o, const fs::path
     o.fault("file", fmt::format("expected a file name relative to this file, got \"{}\"", named.generic_string()));
     return {};
   }
+  if (m_library && !m_library->holds(folder / named)) {
+    o.fault("file", m_library->refusal(named.generic_string()));
+    return {};
+  }
   if (++m_files > kMaxFiles) {
     o.fault("file", fmt::format("expected at most {} files, got more", kMaxFiles));
     return {};

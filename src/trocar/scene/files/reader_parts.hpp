@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <trocar/numerics/portable.hpp>
+#include <trocar/scene/files/library.hpp>
 #include <trocar/scene/files/reader.hpp>
 
 namespace trocar::scene {
@@ -121,7 +122,8 @@ class Reading {
   void check_sheet(const SheetEnd& sheet);
 
   std::vector<core::Fault>& m_faults;
-  const MemoryFiles* m_memory;  ///< where not null, files are looked up there
+  const MemoryFiles* m_memory;       ///< where not null, files are looked up there
+  std::optional<Library> m_library;  ///< what files on the disk may name
   std::vector<Reference> m_references;
   std::vector<std::pair<std::filesystem::path, std::string>> m_open;  ///< files being read: canonical path, shown name
   std::vector<Placement> m_tools;  ///< tools and scope whose reach is checked when ports and instruments are known

@@ -2,11 +2,13 @@
 #include <fstream>
 #include <sstream>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include <trocar/core/decimal.hpp>
 #include <trocar/core/files.hpp>
+#include <trocar/core/printable.hpp>
 #include <trocar/scene/json/json.hpp>
 
 namespace trocar::scene {
@@ -86,12 +88,13 @@ bool looks_not_finite(std::string_view word) {
   return lower == "nan" || lower == "inf" || lower == "infinity";
 }
 
+/// As a fault shows it: short, and nothing that a terminal would obey.
 std::string shortened(std::string_view text) {
   constexpr std::size_t limit = 40;
-  if (text.size() <= limit) return std::string(text);
+  if (text.size() <= limit) return core::printable(text);
   std::size_t end = limit;
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
-  return std::string(text.substr(0, end)) + "...";
+  return core::printable(text.substr(0, end)) + "...";
 }
 
 /// Recursion is bounded by kMaxJsonDepth, so the depth of the input never meets the depth of the machine's stack.
@@ -123,7 +126,8 @@ class Parser {
   std::size_t m_at = 0;
   Place m_place;
   int m_values = 0;
-  bool m_lost = false;  ///< the structure cannot be followed any further
+  bool m_has_nul = false;  ///< the string that is being read
+  bool m_lost = false;     ///< the structure cannot be followed any further
 
   bool at_end() const { return m_at >= m_text.size(); }
   char peek(std::size_t ahead = 0) const { return m_at + ahead < m_text.size() ? m_text[m_at + ahead] : '\0'; }
@@ -163,7 +167,7 @@ class Parser {
     if (peek() == '"') return "a string";
     if (static_cast<unsigned char>(peek()) < 0x20) return fmt::format("control character 0x{:02x}", int(peek()));
     const int length = utf8_length(m_text, m_at);
-    return fmt::format("'{}'", m_text.substr(m_at, std::size_t(length)));
+    return fmt::format("'{}'", core::printable(m_text.substr(m_at, std::size_t(length))));
   }
 
   bool well_encoded() {
@@ -264,7 +268,7 @@ class Parser {
              fmt::format("expected '\"' to close the string that began at {}:{}, got {}", at.line, at.column, what));
       } else if (peek() == '"') {
         next();
-        return v;
+        return std::exchange(m_has_nul, false) ? broken(at) : v;
       } else if (static_cast<unsigned char>(peek()) < 0x20) {
         lost(m_place, fmt::format("expected a character of a string, got control character 0x{:02x}", int(peek())));
       } else if (peek() == '\\') {
@@ -312,6 +316,10 @@ class Parser {
   void unicode_escape(std::string& out, Place at) {
     const int first = hex4();
     if (first < 0) return lost(at, "expected four hexadecimal digits after \\u");
+    if (first == 0) {
+      m_has_nul = true;
+      return fault(at, "expected a character of a text, got \\u0000");  // texts of the system end there
+    }
     if (first < 0xd800 || first > 0xdfff) return append_utf8(out, unsigned(first));
     if (first < 0xdc00 && peek() == '\\' && peek(1) == 'u') {
       next(), next();

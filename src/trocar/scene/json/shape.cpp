@@ -379,8 +379,8 @@ std::string unknown_name(std::string_view what, std::string_view word, const std
   value.text = std::string(word);
   const std::string guess = nearest(word, known);
   const std::string list = known.empty() ? "none is known" : joined(known);
-  return fmt::format("expected {} {} ({}), got {}{}", known.empty() ? "a" : "a known", what, list, shown(value),
-                     guess.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", guess));
+  return fmt::format("expected {} ({}), got {}{}", known.empty() ? article(what) : fmt::format("a known {}", what),
+                     list, shown(value), guess.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", guess));
 }
 
 }  // namespace trocar::scene

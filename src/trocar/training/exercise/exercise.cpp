@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/scene/files/library.hpp>
 #include <trocar/training/exercise/exercise.hpp>
 
 namespace trocar::training {
@@ -316,6 +317,8 @@ Exercise read_exercise(const std::filesystem::path& path, const scene::MemoryFil
     e.title = o.text("title");
     e.summary = o.text("summary");
     e.scene = path.parent_path() / o.text("scene");
+    if (const scene::Library library(path); !memory && o.has("scene") && !library.holds(e.scene))
+      o.fault("scene", library.refusal(o.text("scene")));
     if (sterilisation)
       read_goal(o, e.goal);
     else

@@ -1,0 +1,72 @@
+#include <algorithm>
+#include <cstdlib>
+#include <string_view>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include <trocar/scene/files/library.hpp>
+
+namespace trocar::scene {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value ? value : "";
+}
+
+fs::path resolved(const fs::path& path) {
+  std::error_code error;
+  const fs::path found = fs::weakly_canonical(fs::absolute(path, error), error);
+  return error ? fs::path() : found;
+}
+
+fs::path tree_of(const fs::path& file) {
+  const fs::path folder = resolved(file).parent_path();
+  for (fs::path above = folder; above.has_relative_path(); above = above.parent_path())
+    if (above.filename() == "scenes") return above;
+  return folder;
+}
+
+bool lies_in(const fs::path& file, const fs::path& folder) {
+  const auto [in_folder, in_file] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
+  return in_folder == folder.end() && in_file != file.end();
+}
+
+}  // namespace
+
+std::optional<fs::path> found_scenes_folder() {
+  std::error_code error;
+  if (const std::string given = environment("TROCAR_SCENES"); fs::is_directory(given, error)) return given;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
+  for (const fs::path& candidate :
+       {program / "../../scenes", program / "../share/trocar/scenes", fs::path(TROCAR_SOURCE_DIR) / "scenes"})
+    if (fs::is_directory(candidate, error)) return fs::weakly_canonical(candidate, error);
+  return {};
+}
+
+Library::Library(const fs::path& first) : m_folders{tree_of(first)} {
+  if (const std::optional<fs::path> scenes = found_scenes_folder()) m_folders.push_back(resolved(*scenes));
+  const std::string declared = environment("TROCAR_LIBRARY");
+  for (std::string_view rest = declared; !rest.empty();) {
+    const std::size_t end = std::min(rest.find(':'), rest.size());
+    if (end > 0) m_folders.push_back(resolved(rest.substr(0, end)));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+}
+
+bool Library::holds(const fs::path& file) const {
+  const fs::path whole = resolved(file);
+  return std::any_of(m_folders.begin(), m_folders.end(),
+                     [&](const fs::path& folder) { return !folder.empty() && lies_in(whole, folder); });
+}
+
+std::string Library::refusal(const std::string& name) const {
+  return fmt::format("expected a file in {} or in a library that TROCAR_LIBRARY declares, got \"{}\"",
+                     m_folders.front().generic_string(), name);
+}
+
+}  // namespace trocar::scene
