@@ -87,7 +87,7 @@ Cost cost_of(const sim::Model& model, const std::string& body) {
                       : cost_of(model.cuttables[i - solids].body, unloaded);
   }
   if (const int i = model.strand_index(body); i >= 0)
-    return cost_of(model.bodies[std::size_t(i)].model,
+    return cost_of(model.strand_bodies[std::size_t(i)].model,
                    [](const auto& m, auto& s, auto& w) { advance(m, {}, {}, {}, {}, s, w); });
   if (const int i = model.membrane_index(body); i >= 0)
     return cost_of(model.membranes[std::size_t(i)].sheet,

@@ -26,7 +26,7 @@ namespace {
 using view::ViewOptions;
 
 Vec3d on_strand(const sim::Model& model, const sim::State& state, int strand, double s) {
-  const interactions::StrandBody& body = model.bodies[std::size_t(strand)];
+  const interactions::StrandBody& body = model.strand_bodies[std::size_t(strand)];
   return point_at(body, state.strands[std::size_t(strand)], place_at(body, s));
 }
 
@@ -50,9 +50,9 @@ void organs(const sim::Model& model, const sim::State& start, pictures::Shots& s
 /// Along each tube: where it leaves its organ among cords that look like it, its middle, and its open end.
 void tubes(const sim::Model& model, const sim::State& start, pictures::Shots& shots) {
   for (int i = 0; i < int(model.strands.size()); ++i) {
-    const sim::StrandModel& strand = model.strands[std::size_t(i)];
+    const sim::StrandAnatomy& strand = model.strands[std::size_t(i)];
     if (!strand.fimbriated) continue;
-    const double length = model.bodies[std::size_t(i)].length();
+    const double length = model.strand_bodies[std::size_t(i)].length();
     const auto take = [&](double s, double distance, const std::string& what, const std::string& text) {
       shots.take_outside(start, strand.name + " " + what, strand.name + ": " + text,
                          close_up(model, on_strand(model, start, i, s), distance));
@@ -160,7 +160,7 @@ void clips_and_cut(const sim::Model& model, const sim::State& start, pictures::S
   cut.strand = strand;
   cut.s = 0.021;
   cut.fraction = 1;
-  const int element = place_at(model.bodies[std::size_t(strand)], cut.s).element;
+  const int element = place_at(model.strand_bodies[std::size_t(strand)], cut.s).element;
   tissue::cut_element(state.strands[std::size_t(strand)], element);
   std::vector<Vec3d>& x = state.strands[std::size_t(strand)].x;
   for (std::size_t i = std::size_t(element) + 1; i < x.size(); ++i) {  // the ends draw apart

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/tick.hpp>
 #include <trocar/pictures/analysis_choice.hpp>
 #include <trocar/pictures/camera_choice.hpp>
 #include <trocar/render/frame/image.hpp>
@@ -18,7 +19,7 @@ using view::ViewOptions;
 
 namespace {
 
-constexpr std::uint64_t kSecond = 1000;  // [ticks]
+constexpr std::uint64_t kSecond = core::kTicksPerSecond;  // [ticks]
 
 /// The scene at work, with an input that stays until it is changed.
 struct Running {

@@ -11,6 +11,7 @@
 #include <trocar/core/error.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/core/log.hpp>
+#include <trocar/core/tick.hpp>
 #include <trocar/pictures/pictures.hpp>
 #include <trocar/pictures/shot_moments.hpp>
 
@@ -215,7 +216,9 @@ Json play_keyframes(const attempt::Lesson& lesson, const sim::Recording& recordi
 
 pictures::FilmPlan plan_of(const ReplayOptions& o, std::uint64_t last) {
   const auto ticks = [last](double seconds) {  // not a number: the end
-    return seconds * 1000 < double(last) ? std::uint64_t(seconds * 1000 + 0.5) : last;
+    return seconds * double(core::kTicksPerSecond) < double(last)
+               ? std::uint64_t(seconds * double(core::kTicksPerSecond) + 0.5)
+               : last;
   };
   const pictures::FilmPlan plan{ticks(o.from), o.to < 0 ? last : ticks(o.to), o.speed};
   const bool past = !(o.from * 1000 <= double(last));

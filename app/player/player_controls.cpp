@@ -4,6 +4,8 @@
 
 #include <imgui.h>
 
+#include <trocar/core/tick.hpp>
+
 #include "player/player_parts.hpp"
 
 namespace trocar::app {
@@ -118,7 +120,7 @@ void Player::seek(std::uint64_t tick) {
 
 void Player::play_on() {
   if (!m_playing) return;
-  m_now += m_window.picture_time() * 1000 * m_speed;
+  m_now += m_window.picture_time() * double(core::kTicksPerSecond) * m_speed;
   m_asked_at = Clock::now();
   if (m_now < double(m_line.last())) return;
   m_now = double(m_line.last());

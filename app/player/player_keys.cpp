@@ -8,6 +8,7 @@
 #include <GLFW/glfw3.h>
 
 #include <trocar/attempt/timeline.hpp>
+#include <trocar/core/tick.hpp>
 
 namespace trocar::app {
 namespace {
@@ -16,7 +17,7 @@ constexpr double kTurnRate = 1.4, kPanRate = 0.6, kZoomRate = 1.2;  // a second,
 constexpr double kScrubRate = 0.5;                                  // visible stretches a second, stick at its end
 constexpr double kDead = 0.15;                                      // share of a stick's way that is rest
 constexpr double kRepeatAfter = 0.4, kRepeatEvery = 0.08;           // [s]
-constexpr int kSecond = 1000;                                       // [ticks]
+constexpr int kSecond = int(core::kTicksPerSecond);                 // [ticks]
 
 constexpr double kTap = 0.05;  // [s] a key that was only tapped counts as held so long
 

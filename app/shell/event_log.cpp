@@ -22,10 +22,10 @@ Json landmarks(const sim::Model& model, const sim::State& state) {
   Json out = Json::object();
   for (std::size_t i = 0; i < model.strands.size(); ++i)
     for (const sim::LandmarkModel& l : model.strands[i].landmarks) {
-      const interactions::StrandPlace place = interactions::place_at(model.bodies[i], 0.5 * (l.from + l.to));
+      const interactions::StrandPlace place = interactions::place_at(model.strand_bodies[i], 0.5 * (l.from + l.to));
       out[model.strands[i].name + "." + l.name] = {
-          {"at_mm", millimetres(interactions::point_at(model.bodies[i], state.strands[i], place))},
-          {"along", direction(interactions::tangent_at(model.bodies[i], state.strands[i], place))},
+          {"at_mm", millimetres(interactions::point_at(model.strand_bodies[i], state.strands[i], place))},
+          {"along", direction(interactions::tangent_at(model.strand_bodies[i], state.strands[i], place))},
           {"from_mm", 1000 * l.from},
           {"to_mm", 1000 * l.to}};
     }
@@ -56,7 +56,7 @@ Json clips(const sim::Model& model, const sim::State& state) {
 Json courses(const sim::Model& model, const sim::State& state) {
   Json out = Json::object();
   for (std::size_t i = 0; i < model.strands.size(); ++i) {
-    const interactions::StrandBody& body = model.bodies[i];
+    const interactions::StrandBody& body = model.strand_bodies[i];
     const double whole = body.length();
     Json points = Json::array();
     const int pieces = std::clamp(int(whole / 0.004), 2, 40);

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <trocar/core/random.hpp>
 
 namespace trocar::app {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846, kLoudest = 0.8;
+constexpr double kPi = std::numbers::pi, kLoudest = 0.8;
 constexpr double kAttack = 0.004, kRelease = 0.012;  // [s]
 
 /// A sound that grows note by note.

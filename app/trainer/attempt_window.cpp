@@ -12,6 +12,7 @@
 #include <trocar/attempt/sources.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/log.hpp>
+#include <trocar/core/tick.hpp>
 
 #include "shell/display_panel.hpp"
 #include "shell/layout_panel.hpp"
@@ -102,7 +103,8 @@ Choice AttemptWindow::run() {
                                 {"trainee", m_log.attempt().trainee},
                                 {"recording", m_log.attempt().recording}});
   const double seconds = m_stage.options.seconds;
-  attempt::Live live(m_session, m_source.get(), seconds > 0 ? std::uint64_t(1000 * seconds) : 0);
+  attempt::Live live(m_session, m_source.get(),
+                     seconds > 0 ? std::uint64_t(double(core::kTicksPerSecond) * seconds) : 0);
   Choice choice = Choice::none;
   const auto goes_on = [&] {
     return choice != Choice::restart && choice != Choice::start_screen && choice != Choice::quit;
@@ -205,8 +207,7 @@ void AttemptWindow::look_at_keys() {
 void AttemptWindow::lead(attempt::Live& live, const attempt::Snapshot& now) {
   if (!m_pilot) return;
   devices::HandSample sample = m_stage.window.hands();
-  sample.dt *=
-      float(std::clamp(now.speed, kSlowest, 1.0));  // where time is slow, held keys and sticks are as slow
+  sample.dt *= float(std::clamp(now.speed, kSlowest, 1.0));  // where time is slow, held keys and sticks are as slow
   const bool still = stands_still() || m_rack;
   if (still) {
     if (m_rack && !stands_still()) live.put(m_pilot->rest(sample.dt, now.state));

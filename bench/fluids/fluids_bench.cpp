@@ -37,7 +37,7 @@ struct Pelvis {
   FluidsWork w;
   std::vector<float> floor;
   Capsule tool{.a = {0.02f, 0.01f, 0.002f}, .b = {0.1f, 0.05f, 0.2f}, .radius = 0.0025f, .body = 9};
-  std::vector<Opening> openings;
+  std::vector<Outlet> openings;
   Boiled boiled{{0, 0, 0.04}, 9e-9};
   int wanted;
   core::Random random{42};

@@ -98,9 +98,9 @@ struct Demo {
   }
   void tick() {
     const double time = 1e-3 * double(++t);
-    std::vector<fluids::Opening> openings;
+    std::vector<fluids::Outlet> openings;
     if (time > story.cut && time < story.clipped) {
-      fluids::Opening o;
+      fluids::Outlet o;
       o.direction = normalised(0.6f * outward + Vec3f{-0.22f, 0.22f, 1.0f});
       o.position = artery + 0.001f * outward;
       o.area = 2.0e-6;

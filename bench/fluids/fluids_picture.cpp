@@ -36,7 +36,7 @@ struct Demo {
   FluidsWork w = make_work(m);
   std::vector<float> floor;
   Capsule tool{.a = {0.045f, 0.03f, 0.004f}, .b = {0.09f, 0.07f, 0.2f}, .radius = 0.0025f, .body = 9};
-  std::vector<Opening> openings;
+  std::vector<Outlet> openings;
   std::vector<SuctionIrrigator> tools;
   Boiled boiled{{-0.03, 0.03, 0.04}, 6e-9};
 
@@ -59,7 +59,7 @@ struct Demo {
   }
   void tick(int t) {
     const double beat = 0.55 + 0.45 * std::sin(0.0075 * t);
-    Opening o;
+    Outlet o;
     o.position = {-0.04f, -0.02f, 0.042f}, o.direction = {0.5f, 0.1f, 0.86f};
     o.direction = normalised(o.direction);
     o.area = 1.0e-6, o.flow.blood = std::int64_t(1.3e6 * beat);

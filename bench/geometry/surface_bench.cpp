@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <numbers>
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -40,7 +41,7 @@ struct Organ {
   Organ() {
     for (int j = 0; j < kDeep; ++j)
       for (int i = 0; i < kRound; ++i) {
-        const double u = 2 * 3.14159265358979 * i / kRound, v = 3.14159265358979 * (j + 0.5) / kDeep;
+        const double u = 2 * std::numbers::pi * i / kRound, v = std::numbers::pi * (j + 0.5) / kDeep;
         rest.push_back({0.040 * std::sin(v) * std::cos(u), 0.025 * std::sin(v) * std::sin(u), 0.020 * std::cos(v)});
       }
     for (int j = 0; j + 1 < kDeep; ++j)

@@ -171,7 +171,7 @@ struct FluidsTick {
     const fluids::FluidsModel& m = s.model.wet.model;
     fluids::FluidsState& state = s.state.fluids;
     fluids::FluidsWork& work = s.work.fluids;
-    const interactions::WetBodies bodies{s.work.surfaces, s.work.sheets,    s.model.bodies,
+    const interactions::WetBodies bodies{s.work.surfaces, s.work.sheets,    s.model.strand_bodies,
                                          s.state.strands, s.model.wet.film, s.model.wet.grids};
     const std::span<const fluids::Capsule> tools(s.work.wet_tools.data(), 4);
     fluids::Below below{m.pool, s.model.wet.floor, state.pool, state.ledger};

@@ -53,7 +53,7 @@ void tick(benchmark::State& bench) {
   FlowState state = rest_state(model);
   FlowWork work = make_work(model);
   std::vector<Opening> openings(static_cast<std::size_t>(sites));
-  std::vector<Clip> clips(static_cast<std::size_t>(sites));
+  std::vector<Occlusion> clips(static_cast<std::size_t>(sites));
   std::vector<OpeningFlow> flows(openings.size());
   for (int i = 0; i < sites; ++i) {
     const int segment = (i * 7 + 3) % segments;

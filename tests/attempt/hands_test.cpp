@@ -9,6 +9,7 @@
 #include <trocar/attempt/lesson.hpp>
 #include <trocar/attempt/session.hpp>
 #include <trocar/attempt/sources.hpp>
+#include <trocar/sim/recording/keyframe.hpp>
 #include <trocar/sim/stages/visibility.hpp>
 
 namespace trocar::attempt {

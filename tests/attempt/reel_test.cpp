@@ -1,5 +1,5 @@
-// What a player needs without its window: timeline, kept States, footage between keyframes, and the thread that does a recording
-// again. The recording is of the small scene: a tube grasped, lifted, clipped twice and cut in 4.4 seconds.
+// What a player needs without its window: timeline, kept States, footage between keyframes, and the thread that does a
+// recording again. The recording is of the small scene: a tube grasped, lifted, clipped twice and cut in 4.4 seconds.
 #include <chrono>
 #include <map>
 #include <thread>
@@ -13,6 +13,7 @@
 #include <trocar/attempt/timeline.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/random.hpp>
+#include <trocar/sim/recording/keyframe.hpp>
 
 #include "../sim/small_scene.hpp"
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <set>
 #include <stdexcept>
 
@@ -89,7 +90,7 @@ TEST(Drops, FindEveryNeighbourWithinReachOnce) {
     const DropletState s0 = b.s.droplets;
     const float reach = std::min(1.5f * (2 * s0.radius[0]), 2.6e-3f), rest = 0.9f * (2 * s0.radius[0]);
     std::vector<Vec3d> v(300);
-    const double dt = 4e-3, k = 3.14159265358979 * 0.056;
+    const double dt = 4e-3, k = std::numbers::pi * 0.056;
     const double m = mass(widened(s0.volume[0]), b.m.droplets.density), both = m / 2;
     const double damping = dt * k + std::sqrt(k * both);
     const auto way = [&s0](int i, int j) {
@@ -225,7 +226,7 @@ TEST(Film, IsWashedByWaterThatRunsOverIt) {
 TEST(Film, ThatHoldsTooMuchLetsDropsGo) {
   Scene b(small_scene());
   b.plates = {slope(1.0)};
-  Opening ooze;
+  Outlet ooze;
   ooze.flow.blood = 20'000, ooze.film = 3, ooze.area = 1e-6;
   b.openings = {ooze};
   int most = 0;
@@ -327,13 +328,13 @@ TEST(Drops, WithoutRoomGoStraightIntoThePoolAndSayIt) {
 
 TEST(Drops, HostileOpeningsAreBoundedAndBooked) {
   Scene b(small_scene());
-  Opening endless = test::bleeding({0, 0, 0.1f}, {1, 0, 0}, 1e-6, 1e-6);
+  Outlet endless = test::bleeding({0, 0, 0.1f}, {1, 0, 0}, 1e-6, 1e-6);
   endless.flow.blood = std::numeric_limits<std::int64_t>::max();
-  Opening nowhere = test::bleeding({kNan, 0, 0.1f}, {1, 0, 0}, 1e-6, 1e-6);
-  Opening aimless = test::bleeding({0, 0, 0.1f}, {0, 0, kNan}, 1e-6, 1e-6);
-  Opening negative = test::bleeding({0, 0, 0.1f}, {1, 0, 0}, -1e-6, 1e-6);
-  Opening pinhole = test::bleeding({0, 0, 0.1f}, {1, 0, 0}, 1e-6, double(kNan));
-  Opening lost = test::bleeding({0, 0, 0.1f}, {1, 0, 0}, 1e-6, 1e-6);
+  Outlet nowhere = test::bleeding({kNan, 0, 0.1f}, {1, 0, 0}, 1e-6, 1e-6);
+  Outlet aimless = test::bleeding({0, 0, 0.1f}, {0, 0, kNan}, 1e-6, 1e-6);
+  Outlet negative = test::bleeding({0, 0, 0.1f}, {1, 0, 0}, -1e-6, 1e-6);
+  Outlet pinhole = test::bleeding({0, 0, 0.1f}, {1, 0, 0}, 1e-6, double(kNan));
+  Outlet lost = test::bleeding({0, 0, 0.1f}, {1, 0, 0}, 1e-6, 1e-6);
   lost.film = 4711;
   b.openings = {endless, nowhere, aimless, negative, pinhole, lost};
   for (int t = 0; t < 30; ++t) {
@@ -388,7 +389,7 @@ TEST(Drops, InOnePlaceCostNoMoreThanTheirBound) {
 TEST(Drops, RadiusIsThatOfABall) {
   for (std::int64_t pl = 1; pl < 2'000'000'000; pl = pl * 3 / 2 + 1) {
     const double r = double(radius_of(pl));
-    EXPECT_NEAR(4.0 / 3 * 3.14159265358979 * r * r * r * 1e15 / double(pl), 1, 1e-5);
+    EXPECT_NEAR(4.0 / 3 * std::numbers::pi * r * r * r * 1e15 / double(pl), 1, 1e-5);
   }
 }
 

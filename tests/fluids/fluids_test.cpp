@@ -17,7 +17,7 @@ using test::small_scene;
 /// An artery that spurts on a slope, oozing, irrigation and suction, an instrument that stirs, smoke, a heaving floor.
 void stir(Scene& b, int t) {
   const double beat = 0.6 + 0.4 * std::sin(0.0075 * t);
-  Opening ooze;
+  Outlet ooze;
   ooze.flow = {.blood = 3000, .bile = 800}, ooze.film = 5, ooze.area = 1e-6;
   b.openings = {test::bleeding({-0.03f, 0, 0.07f}, {0.6f, 0, 0.8f}, 3e-6 * beat, 2e-6), ooze};
   b.plates = {

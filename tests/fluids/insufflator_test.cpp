@@ -3,13 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <trocar/core/tick.hpp>
 #include <trocar/fluids/insufflator.hpp>
 
 using namespace trocar::fluids;
 
 namespace {
 
-constexpr double kTick = 1e-3, kLitrePerMinute = 1e-3 / 60, kPascalPerMmHg = 133.322;
+using trocar::core::kTick;
+constexpr double kLitrePerMinute = 1e-3 / 60, kPascalPerMmHg = 133.322;
 
 double pressure_after(double seconds, double sucked) {
   const Insufflator i;

@@ -1,5 +1,6 @@
 // Jets and drains against Torricelli, and what a jet does to what it hits.
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -124,7 +125,7 @@ TEST(Jet, BreaksIntoDropsOfRayleighsSizeAsFarAsTheyAreAllowed) {
   b.openings = {test::bleeding({0, 0, 0.1f}, {0, 1, 0}, 1.0 * hole, hole)};
   for (int t = 0; t < 30; ++t) b.tick();
   ASSERT_GT(b.s.droplets.count, 3);
-  const double jet = 2 * std::sqrt(hole / 3.14159265);
+  const double jet = 2 * std::sqrt(hole / std::numbers::pi);
   EXPECT_NEAR(2 * double(b.s.droplets.radius[0]) / (1.89 * jet), 1, 0.01);
 }
 

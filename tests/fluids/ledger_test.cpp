@@ -92,7 +92,7 @@ void happens(test::Scene& b, core::Random& r) {
       break;
     }
     default: {  // tissue oozes
-      Opening o;
+      Outlet o;
       o.flow = some, o.film = std::int32_t(up_to(r, 99)), o.area = 1e-6;
       const std::uint64_t tick = b.s.droplets.tick;
       plan(b.m.droplets, {&o, 1}, b.s.droplets, b.w.droplets, below);

@@ -22,7 +22,7 @@ struct Scene {
   FluidsWork w;
   std::vector<float> floor;
   std::vector<Plate> plates;
-  std::vector<Opening> openings;
+  std::vector<Outlet> openings;
   std::vector<SuctionIrrigator> tools;
   std::vector<Capsule> capsules;
   std::vector<Drain> drains;
@@ -94,8 +94,8 @@ inline FluidsDescription small_scene() {
 }
 
 /// `flow` in cubic metres per second of blood out of a hole of `area`.
-inline Opening bleeding(Vec3f at, Vec3f direction, double flow, double area) {
-  Opening o;
+inline Outlet bleeding(Vec3f at, Vec3f direction, double flow, double area) {
+  Outlet o;
   o.position = at, o.direction = direction, o.area = area;
   o.flow.blood = std::int64_t(std::round(flow * 1e-3 * kPicolitresPerM3));
   return o;

@@ -1,6 +1,6 @@
 // Display keyframes: what a recording holds of a State, given to the Model of a small scene.
 #include <trocar/scene/compile/compile.hpp>
-#include <trocar/sim/model/state.hpp>
+#include <trocar/sim/recording/keyframe.hpp>
 
 #include "../sim/small_scene.hpp"
 #include "targets.hpp"

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
@@ -25,7 +26,7 @@ double turns(const TriMesh& mesh, Vec3d p) {
     const double la = length(a), lb = length(b), lc = length(c);
     sum += 2 * std::atan2(dot(a, cross(b, c)), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
   }
-  return sum / (4 * M_PI);
+  return sum / (4 * std::numbers::pi);
 }
 double searched_distance(const TriMesh& mesh, Vec3d p) {
   double best = 1e9;
@@ -112,7 +113,8 @@ TEST(Field, OfNeedlesCostsNoMoreThanOfOthers) {
   TriMesh fan;  // a double cone of 20000 needles, each as long as the box, upright and lying
   constexpr int n = 10000;
   fan.positions = {{0, 0, 1}, {0, 0, -1}};
-  for (int i = 0; i < n; ++i) fan.positions.push_back({std::cos(2 * M_PI * i / n), std::sin(2 * M_PI * i / n), 0});
+  for (int i = 0; i < n; ++i)
+    fan.positions.push_back({std::cos(2 * std::numbers::pi * i / n), std::sin(2 * std::numbers::pi * i / n), 0});
   for (int i = 0; i < n; ++i) {
     fan.triangles.push_back({0, 2 + i, 2 + (i + 1) % n});
     fan.triangles.push_back({1, 2 + (i + 1) % n, 2 + i});

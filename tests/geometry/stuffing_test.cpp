@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
@@ -64,7 +65,7 @@ double order(double coarse, double fine) { return std::log2(coarse / fine); }
 }  // namespace
 
 TEST(Stuffing, BallsAreClosedWellShapedAndTheirVolumeConvergesWithOrderTwo) {
-  const double r = 0.03, exact = 4.0 / 3 * M_PI * r * r * r;
+  const double r = 0.03, exact = 4.0 / 3 * std::numbers::pi * r * r * r;
   std::vector<double> errors, off;
   for (const double cell : {0.008, 0.004, 0.002}) {
     const Field field = ball(r, {0.001, 0.0007, -0.0004});
@@ -91,7 +92,7 @@ TEST(Stuffing, ATorusKeepsItsHole) {
   const TriMesh surface = surface_of(body).mesh;
   const int vertices = int(surface.positions.size()), faces = int(surface.triangles.size());
   EXPECT_EQ(vertices - int(edges(surface).size()) + faces, 0) << "Euler's number of a torus";
-  EXPECT_NEAR(report.volume / (2 * M_PI * M_PI * 0.03 * 0.01 * 0.01), 1, 0.03);
+  EXPECT_NEAR(report.volume / (2 * std::numbers::pi * std::numbers::pi * 0.03 * 0.01 * 0.01), 1, 0.03);
 }
 
 TEST(Stuffing, TheLoftedUterusBecomesABody) {
@@ -147,7 +148,7 @@ TEST(Stuffing, ARodThickerThanACubeAndAHalfHoldsTogetherAndAThinnerOneIsNotCalle
   const double cell = 0.003;
   for (const double share : {2.0, 1.5, 1.0, 0.8}) {  // thickness in cubes
     const Field field = rod(0.06, 0.5 * share * cell);
-    const double exact = M_PI * 0.25 * share * share * cell * cell * (0.06 + 2.0 / 3 * share * cell);
+    const double exact = std::numbers::pi * 0.25 * share * share * cell * cell * (0.06 + 2.0 / 3 * share * cell);
     StuffingReport report;
     try {
       const TetMesh body = stuffed(field, cell);

@@ -55,7 +55,7 @@ struct Body {
     for (const Tet& c : tets.cells) least = std::min(least, least_dihedral(drawn_corners(tets, c)));
     return least;
   }
-  CutBook cut(const Blade& blade) { return geometry::cut(tets, blade, now, work); }
+  CutResult cut(const Blade& blade) { return geometry::cut(tets, blade, now, work); }
   /// Volumes of the pieces that hang together over faces, largest first.
   std::vector<double> pieces() const {
     std::vector<double> out;
@@ -95,7 +95,7 @@ Blade rectangle(Vec3d middle, Vec3d u, Vec3d v) {
 
 TEST(TetCut, ABladeThroughTheWholeBodyMakesTwoPiecesThatAreAsLargeAsTheyShould) {
   Body b(6, 6, 12, 0.005, 400);
-  const CutBook book = b.cut(rectangle({0.015, 0.015, 0.0222}, {0.05, 0.003, 0.004}, {0, 0.05, 0.006}));
+  const CutResult book = b.cut(rectangle({0.015, 0.015, 0.0222}, {0.05, 0.003, 0.004}, {0, 0.05, 0.006}));
   EXPECT_FALSE(book.full);
   EXPECT_GT(book.parted, 0);
   EXPECT_EQ(book.doubled, b.tets.nodes - book.first_new);
@@ -112,7 +112,7 @@ TEST(TetCut, TheNewFacesLieAlongTheBlade) {
   Body b(8, 8, 8, 0.004, 400, 0.15);
   const Blade blade = rectangle({0.016, 0.016, 0.0143}, {0.05, 0, 0.004}, {0, 0.05, -0.003});
   const Vec3d n = normalised(cross(blade.corner[1] - blade.corner[0], blade.corner[2] - blade.corner[0]));
-  const CutBook book = b.cut(blade);
+  const CutResult book = b.cut(blade);
   double off = 0;
   for (std::int32_t i = book.first_new; i < b.tets.nodes; ++i)
     off += std::fabs(dot(b.tets.rest[size_t(i)] - blade.corner[0], n)) / book.doubled;
@@ -122,7 +122,7 @@ TEST(TetCut, TheNewFacesLieAlongTheBlade) {
 
 TEST(TetCut, ABladeThatEndsInsideLeavesOnePieceWithASlit) {
   Body b(6, 6, 6, 0.005, 400);
-  const CutBook book = b.cut(rectangle({0.0, 0.015, 0.0143}, {0.016, 0, 0}, {0, 0.05, 0}));
+  const CutResult book = b.cut(rectangle({0.0, 0.015, 0.0143}, {0.016, 0, 0}, {0, 0.05, 0}));
   EXPECT_GT(book.parted, 10);
   EXPECT_GT(book.doubled, 0);
   EXPECT_EQ(b.pieces().size(), 1u);
@@ -134,7 +134,7 @@ TEST(TetCut, ABladeBesideTheBodyDoesNothing) {
   const std::vector<Tet> before = b.tets.cells;
   for (const Blade& blade : {rectangle({0.05, 0, 0}, {0, 0.02, 0}, {0, 0, 0.02}), Blade{},
                              rectangle({0.007, 0.007, 0.007}, {0.02, 0, 0}, {0.02, 0, 0})}) {
-    const CutBook book = b.cut(blade);
+    const CutResult book = b.cut(blade);
     EXPECT_EQ(book.parted + book.doubled + book.snapped, 0);
   }
   EXPECT_EQ(b.tets.cells, before);
@@ -144,7 +144,7 @@ TEST(TetCut, ACutThroughADeformedBodyLiesWhereTheTissueWasThen) {
   // Bent by a quarter: the plane z = const of the bent body is none of the drawn one.
   Body b(4, 4, 12, 0.005, 400);
   for (Vec3d& p : b.now) p.x += 8 * p.z * p.z;
-  const CutBook book = b.cut(rectangle({0.02, 0.01, 0.031}, {0.1, 0, 0}, {0, 0.05, 0}));
+  const CutResult book = b.cut(rectangle({0.02, 0.01, 0.031}, {0.1, 0, 0}, {0, 0.05, 0}));
   ASSERT_EQ(b.pieces().size(), 2u);
   EXPECT_NEAR(b.pieces()[1] / b.volume_before, 1 - 0.031 / 0.06, 0.03);
   EXPECT_LT(std::fabs(book.volume), 1e-3 * b.volume_before);
@@ -152,7 +152,7 @@ TEST(TetCut, ACutThroughADeformedBodyLiesWhereTheTissueWasThen) {
 
 TEST(TetCut, WithoutSpareNodesItSaysSoAndStaysSound) {
   Body b(5, 5, 5, 0.005, 3);
-  const CutBook book = b.cut(rectangle({0.0125, 0.0125, 0.012}, {0.05, 0, 0}, {0, 0.05, 0}));
+  const CutResult book = b.cut(rectangle({0.0125, 0.0125, 0.012}, {0.05, 0, 0}, {0, 0.05, 0}));
   EXPECT_TRUE(book.full);
   EXPECT_EQ(book.doubled, 3);
   EXPECT_EQ(size_t(b.tets.nodes), b.tets.rest.size());
@@ -170,7 +170,7 @@ TEST(TetCut, AThousandRandomCutsKeepVolumeShapeAndAClosedSurface) {
   for (int i = 0; i < 1000; ++i) {
     const Vec3d middle{random.uniform(0, 0.05), random.uniform(0, 0.04), random.uniform(0, 0.03)};
     const Vec3d u = any(0.012), v = any(0.012);
-    const CutBook book = b.cut(rectangle(middle, u, v - (dot(u, v) / dot(u, u)) * u));
+    const CutResult book = b.cut(rectangle(middle, u, v - (dot(u, v) / dot(u, u)) * u));
     ASSERT_FALSE(book.full) << i;
     booked += book.volume;
     parted += book.parted;

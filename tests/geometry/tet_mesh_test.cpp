@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -56,7 +57,7 @@ TEST(TetMesh, FactsOfOneCellAreThoseOfGeometry) {
   EXPECT_DOUBLE_EQ(f.volume, 1.0 / 6);
   EXPECT_DOUBLE_EQ(f.smallest_volume, 1.0 / 6);
   EXPECT_DOUBLE_EQ(f.largest_volume, 1.0 / 6);
-  EXPECT_NEAR(f.smallest_dihedral, std::acos(1 / std::sqrt(3.0)) * 180 / M_PI, 1e-10);
+  EXPECT_NEAR(f.smallest_dihedral, std::acos(1 / std::sqrt(3.0)) * 180 / std::numbers::pi, 1e-10);
   EXPECT_EQ(f.box.high, (Vec3d{1, 1, 1}));
   EXPECT_EQ(f.surface_triangles, 4);
   EXPECT_EQ(f.odd_edges, 0);

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <trocar/core/tick.hpp>
 #include <trocar/interactions/contact/body_contact.hpp>
 #include <trocar/interactions/contact/body_friction.hpp>
 #include <trocar/interactions/contact/piece_contact.hpp>
@@ -14,7 +15,8 @@
 namespace trocar::interactions {
 namespace {
 
-constexpr double kTick = 1e-3, kG = 9.81;
+using core::kTick;
+constexpr double kG = 9.81;
 
 Vec3d tilted(double slope) { return {kG * std::sin(slope), 0, -kG * std::cos(slope)}; }
 

@@ -1,8 +1,10 @@
 // Borders of a membrane on what carries them: the nodes follow, the holders feel, nothing runs away.
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
+#include <trocar/core/tick.hpp>
 #include <trocar/interactions/couplings/border.hpp>
 
 using namespace trocar;
@@ -10,7 +12,7 @@ using namespace trocar::interactions;
 
 namespace {
 
-constexpr double kTick = 1e-3;
+using core::kTick;
 
 /// A free strand along x with a sheet that hangs from it; the sheet's other border is free.
 struct Hanging {
@@ -138,7 +140,7 @@ TEST(Border, MomentumGoesOverFromStrandToSheet) {
     for (double m : h.bodies[0].model.mass) whole_mass += m;
     whole_mass += sheet_mass;
     for (int i = 0; i < 300; ++i) {
-      const double ramp = i < 60 ? 0.5 * (1 - std::cos(i * 2 * 3.14159265 / 60)) : 0;
+      const double ramp = i < 60 ? 0.5 * (1 - std::cos(i * 2 * std::numbers::pi / 60)) : 0;
       const Vec3d each = ramp / h.bodies[0].nodes() * push;
       h.force = each;
       given += kTick * ramp * push;

@@ -157,7 +157,7 @@ TEST(Cut, AcrossItNothingPulls) {
   ASSERT_GT(t.tool(small::kGrasper).holds, 0);
   ASSERT_EQ(t.tool(small::kGrasper).hold[0].body, small::kTube);
   t.steps(2000);
-  const int cut = place_at(t.model.bodies[small::kTube], t.state.cuts[0].s).element;
+  const int cut = place_at(t.model.strand_bodies[small::kTube], t.state.cuts[0].s).element;
   const std::vector<Vec3d> before = t.state.strands[small::kTube].x;
   const Vec3d tip = t.work.shapes[small::kGrasper].frame.tip;
   t.carry(small::kGrasper, tip, tip + Vec3d{0.010, 0, 0.010}, 0.05);

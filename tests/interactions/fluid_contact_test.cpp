@@ -85,7 +85,7 @@ struct Scene {
     d.pool = {.origin = {-0.1, -0.1, -0.1}, .nx = 160, .ny = 160};
     d.droplets.capacity = 2048;
     d.droplets.film_cells = first.back();
-    if (crowd) fluids::for_a_crowd(d.droplets);
+    if (crowd) fluids::set_crowd_level_of_detail(d.droplets);
     m = fluids::build(d);
     s = fluids::initial_state(m);
     w = fluids::make_work(m);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <trocar/core/tick.hpp>
 #include <trocar/interactions/instrument/membrane_contact.hpp>
 #include <trocar/interactions/instrument/tool_contact.hpp>
 #include <trocar/tissue/membrane/membrane.hpp>
@@ -13,7 +14,8 @@ using namespace trocar::interactions;
 
 namespace {
 
-constexpr double kTick = 1e-3, kG = 9.81;
+using core::kTick;
+constexpr double kG = 9.81;
 constexpr double kThick = 2.0;  ///< radius of the shaft that is a plane [m]
 
 Vec3d tilted(double slope) { return {kG * std::sin(slope), 0, -kG * std::cos(slope)}; }

@@ -31,7 +31,7 @@ struct Grip : small::Table {
     tip += by;
     steps(700);
   }
-  TissueView view() const { return {model.bodies, state.strands, {work.surfaces.data(), model.solids.size()}}; }
+  TissueView view() const { return {model.strand_bodies, state.strands, {work.surfaces.data(), model.solids.size()}}; }
 };
 
 sim::Model with_grasper(double pinch, double friction) {
@@ -52,7 +52,7 @@ TEST(Grasp, ClosingJawsHoldWhatLiesBetweenThem) {
   EXPECT_EQ(g.count(sim::Event::grasped), 1);
   EXPECT_EQ(g.count(sim::Event::released), 0);
   // At 56 mm of arc length: the strand begins at x = -1 mm.
-  const double s = arc_at(g.model.bodies[kTube], {tool.hold[0].element, double(tool.hold[0].weight)});
+  const double s = arc_at(g.model.strand_bodies[kTube], {tool.hold[0].element, double(tool.hold[0].weight)});
   EXPECT_NEAR(s, 0.056, 0.003);
 }
 
@@ -120,7 +120,7 @@ TEST(Grasp, ThePullIsWhatTheFoundationTheOrganAndTheWeightDo) {
   for (double rise : {0.004, 0.004, 0.004}) {
     g.lift({0, 0, rise}, 0.02);
     g.steps(2000);
-    const tissue::StrandModel& m = g.model.bodies[kTube].model;
+    const tissue::StrandModel& m = g.model.strand_bodies[kTube].model;
     const tissue::StrandState& s = g.state.strands[kTube];
     Vec3d on_tube{0, 0, 0};
     for (int i = 0; i < m.nodes; ++i) {
@@ -247,7 +247,7 @@ TEST(Grasp, AfterASlipTheTissueComesBack) {
   ASSERT_EQ(g.tool(kGrasper).slipped, 1);
   g.carry(kGrasper, g.tip, {0.055, 0, 0.04}, 0.1);
   g.steps(3000);
-  const tissue::StrandModel& tube = m.bodies[kTube].model;
+  const tissue::StrandModel& tube = m.strand_bodies[kTube].model;
   double worst = 0;
   for (int i = 0; i < tube.nodes; ++i)
     worst = std::max(worst, length(g.state.strands[kTube].x[size_t(i)] - tube.rest[size_t(i)]));

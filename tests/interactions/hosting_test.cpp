@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
+#include <trocar/core/tick.hpp>
 #include <trocar/interactions/couplings/hosting.hpp>
 #include <trocar/sim/stages/step.hpp>
 #include <trocar/tissue/network/lattice_springs.hpp>
@@ -13,7 +14,7 @@ using namespace trocar::interactions;
 
 namespace {
 
-constexpr double kTick = 1e-3;
+using core::kTick;
 
 tissue::NetworkDescription block(double young, double density) {
   const tissue::BoxLattice box = tissue::box_lattice(4, 4, 4, 0.005, {-0.020, -0.010, -0.010});
@@ -125,13 +126,13 @@ sim::Model floating(double block_young, double block_density, double strand_youn
   d.prescribed[0] = 1;
   d.damping_time = 0.004;
   body.model = tissue::build(d, kTick);
-  sim::StrandModel strand;
+  sim::StrandAnatomy strand;
   strand.name = "strand";
   strand.start.kind = sim::StrandEndModel::hosted;
   strand.start.organ = 0;
   strand.start.patch = make_patch(m.solids[0].network.rest, m.solids[0].network.mass, kRoot, 0.010);
   m.strands.push_back(strand);
-  m.bodies.push_back(body);
+  m.strand_bodies.push_back(body);
   return m;
 }
 
@@ -151,7 +152,7 @@ Motion motion(const sim::Model& m, const sim::State& s) {
   const tissue::NetworkModel& network = m.solids[0].network;
   for (int n = 0; n < network.nodes; ++n)
     add(network.mass[size_t(n)], tissue::position(network, s.solids[0], n), tissue::velocity(network, s.solids[0], n));
-  const tissue::StrandModel& strand = m.bodies[0].model;
+  const tissue::StrandModel& strand = m.strand_bodies[0].model;
   for (int n = 0; n < strand.nodes; ++n)
     add(strand.mass[size_t(n)], s.strands[0].x[size_t(n)], s.strands[0].v[size_t(n)]);
   r.energy = r.kinetic + tissue::energy(network, s.solids[0]).elastic + tissue::energy(strand, s.strands[0]).stretch +

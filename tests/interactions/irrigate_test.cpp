@@ -1,6 +1,7 @@
 // Where a suction-irrigator's bore ends, and what places of film belong to.
 #include <gtest/gtest.h>
 
+#include <trocar/core/tick.hpp>
 #include <trocar/interactions/verbs/irrigate.hpp>
 
 using namespace trocar;
@@ -8,7 +9,7 @@ using namespace trocar::interactions;
 
 namespace {
 
-constexpr double kTick = 1e-3;
+using core::kTick;
 
 ToolModel tube() {
   ToolModel t;

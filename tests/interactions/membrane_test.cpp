@@ -181,7 +181,7 @@ TEST(Fold, IsGraspedBesideTheTubeAndFollowsTheJaws) {
   small::Table t(small::model());
   t.step();
   Tool grasper(small::kGrasper, {0.017, 0.060, -0.008}, {0.017, -0.004, -0.008}, 0);
-  const TissueView view{t.model.bodies, t.state.strands, {}, t.work.sheets};
+  const TissueView view{t.model.strand_bodies, t.state.strands, {}, t.work.sheets};
   ToolState tool;
   for (int i = 0; i <= 400; ++i) {
     tool.handle = std::min(1.0, i / 300.0);
@@ -218,7 +218,7 @@ TEST(Fold, IsGraspedBesideTheTubeAndFollowsTheJaws) {
 TEST(Fold, ScissorsPartItAsDeepAsTheyReachAndSayHowDeep) {
   for (double reach : {0.004, 0.008}) {
     small::Table t(small::model());
-    const sim::MembraneModel& fold = t.model.membranes[0];
+    const sim::MembraneBody& fold = t.model.membranes[0];
     const Tool scissors(small::kScissors, {0.017, 0, 0.1}, {0.017, 0, -reach}, 1.57079632679489662);
     const FoldCut cut = cut_membrane(closed_blades(scissors.model, scissors.shape(0.1)), fold.sheet, fold.depth,
                                      t.state.membranes[0], t.state.torn[0], t.work.parts);
@@ -248,7 +248,7 @@ TEST(Fold, ACutThroughItLetsTheTubeRiseFartherThere) {
   // Whole, the fold holds the tube down; cut all through it holds it less.
   const auto lifted = [](bool cut) {
     small::Table t(small::model());
-    const sim::MembraneModel& fold = t.model.membranes[0];
+    const sim::MembraneBody& fold = t.model.membranes[0];
     if (cut)
       for (int s = 0; s < fold.sheet.network.springs; ++s)
         cut_spring(fold.sheet.network, t.state.membranes[0].network, s);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
+#include <trocar/core/tick.hpp>
 #include <trocar/interactions/couplings/scarred_spring.hpp>
 #include <trocar/tissue/network/lattice_springs.hpp>
 
@@ -12,7 +13,8 @@ using namespace trocar::interactions;
 
 namespace {
 
-constexpr double kTick = 1e-3, kLong = 0.040;
+using core::kTick;
+constexpr double kLong = 0.040;
 
 /// A bar of 40 x 10 x 10 mm along x; its end at x = 0 may be held in x.
 struct Bar {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <iostream>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -148,7 +149,7 @@ TEST(SelfContact, LimbsThatArePressedTogetherTouchAndDoNotPass) {
 double folded(bool contact) {
   Body b(
       28, 3, 2, [](Vec3d) { return true; }, [](Vec3d p) { return p.x < 11 * kCell && p.z < 1e-9; });
-  const double middle = 14 * kCell, top = 2 * kCell, pi = 3.14159265358979;
+  const double middle = 14 * kCell, top = 2 * kCell, pi = std::numbers::pi;
   for (int t = 0; t < 3000; ++t) {
     const double angle = pi * std::min(1.0, t / 1500.0), down = 0.018 * std::clamp((t - 1500) / 1000.0, 0.0, 1.0);
     b.hands.clear();
@@ -275,7 +276,7 @@ scene::Description horseshoe() {
   };
   for (double y : {0.060, 0.045, 0.030, 0.015}) section({-0.012, y, 0}, {-1, 0, 0});
   for (int i = 1; i < 8; ++i) {
-    const double a = 3.14159265358979 * i / 8, c = std::cos(a), q = std::sin(a);
+    const double a = std::numbers::pi * i / 8, c = std::cos(a), q = std::sin(a);
     section({-0.012 * c, -0.012 * q, 0}, {-c, -q, 0});
   }
   for (double y : {0.015, 0.030, 0.045, 0.060}) section({0.012, y, 0}, {1, 0, 0});

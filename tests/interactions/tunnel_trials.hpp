@@ -126,7 +126,7 @@ class Trials {
     // Trials come from all sides: no limit of a trocar may keep the instrument from where it is put.
     for (interactions::ToolModel& t : m_model.hands[0].rack) t.limits.angle = t.limits.roll = 4, t.limits.depth_max = 1;
     if (kind == Kind::strand)
-      for (int e = 0; e + 1 < m_model.bodies[0].nodes(); ++e) m_frame.edges.push_back({e, e + 1});
+      for (int e = 0; e + 1 < m_model.strand_bodies[0].nodes(); ++e) m_frame.edges.push_back({e, e + 1});
     else
       add_triangles(kind == Kind::fold ? m_model.membranes[0].skin.triangles : m_model.skin(0).triangles, m_frame);
     m_net.resize(m_frame.edges.size());
@@ -134,8 +134,8 @@ class Trials {
       for (const int node : m_model.membranes[0].sheet.held_nodes)
         if (m_model.membranes[0].sheet.network.rest[size_t(node)].z < -0.008)
           m_held.push_back(m_model.membranes[0].sheet.network.rest[size_t(node)]);
-    for (const sim::StrandModel& strand : m_model.strands) {
-      const tissue::StrandModel& body = m_model.bodies[size_t(&strand - m_model.strands.data())].model;
+    for (const sim::StrandAnatomy& strand : m_model.strands) {
+      const tissue::StrandModel& body = m_model.strand_bodies[size_t(&strand - m_model.strands.data())].model;
       if (strand.start.kind == sim::StrandEndModel::fixed) m_held.push_back(body.rest.front());
       if (strand.end.kind == sim::StrandEndModel::fixed) m_held.push_back(body.rest.back());
     }

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
@@ -26,7 +27,7 @@ std::vector<Complex> slow_transform(const std::vector<Complex>& x) {
   std::vector<Complex> sums(x.size());
   for (std::size_t k = 0; k < x.size(); ++k)
     for (std::size_t j = 0; j < x.size(); ++j) {
-      const double angle = -2 * M_PI * double(j * k % x.size()) / double(x.size());
+      const double angle = -2 * std::numbers::pi * double(j * k % x.size()) / double(x.size());
       const double c = std::cos(angle), s = std::sin(angle);
       sums[k].re += x[j].re * c - x[j].im * s;
       sums[k].im += x[j].re * s + x[j].im * c;
@@ -63,7 +64,7 @@ TEST(Fft, KeepsEnergy) {
 TEST(Fft, AToneFillsItsOwnBinOnly) {
   const std::size_t n = 256;
   std::vector<double> x(n);
-  for (std::size_t i = 0; i < n; ++i) x[i] = std::sin(2 * M_PI * 20 * double(i) / double(n));
+  for (std::size_t i = 0; i < n; ++i) x[i] = std::sin(2 * std::numbers::pi * 20 * double(i) / double(n));
   const std::vector<double> m = magnitude_spectrum(x, n);
   ASSERT_EQ(m.size(), n / 2 + 1);
   for (std::size_t k = 0; k < m.size(); ++k) EXPECT_NEAR(m[k], k == 20 ? double(n) / 2 : 0, 1e-11) << k;

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <complex>
+#include <numbers>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
@@ -16,7 +17,7 @@ constexpr double kRate = 50, kCutoff = 10;
 
 /// Gain of one run at `frequency`, from the coefficients.
 double gain(const LowPass& filter, double frequency) {
-  const std::complex<double> back = std::polar(1.0, -2 * M_PI * frequency / kRate);  // 1 / z
+  const std::complex<double> back = std::polar(1.0, -2 * std::numbers::pi * frequency / kRate);  // 1 / z
   std::complex<double> product = 1;
   for (const Biquad& s : filter.sections)
     product *= (s.b0 + back * (s.b1 + back * s.b2)) / (1.0 + back * (s.a1 + back * s.a2));
@@ -25,7 +26,7 @@ double gain(const LowPass& filter, double frequency) {
 
 std::vector<double> tone(double frequency, double phase, std::size_t n = 2000) {
   std::vector<double> x(n);
-  for (std::size_t i = 0; i < n; ++i) x[i] = std::sin(2 * M_PI * frequency * double(i) / kRate + phase);
+  for (std::size_t i = 0; i < n; ++i) x[i] = std::sin(2 * std::numbers::pi * frequency * double(i) / kRate + phase);
   return x;
 }
 
@@ -35,7 +36,7 @@ TEST(LowPass, HasTheGainOfAButterworthFilter) {
   for (const int order : {2, 4, 8}) {
     const LowPass filter = butterworth_low_pass(order, kCutoff, kRate);
     for (const double f : {0.0, 1.0, 5.0, 10.0, 15.0, 20.0, 24.0}) {
-      const double warped = std::tan(M_PI * f / kRate) / std::tan(M_PI * kCutoff / kRate);
+      const double warped = std::tan(std::numbers::pi * f / kRate) / std::tan(std::numbers::pi * kCutoff / kRate);
       EXPECT_NEAR(gain(filter, f), 1 / std::sqrt(1 + std::pow(warped, 2 * order)), 1e-12) << order << ' ' << f;
     }
   }

@@ -2,6 +2,7 @@
 // law.
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 
 #include <epoxy/gl.h>
@@ -384,7 +385,7 @@ TEST_F(Liquids, AWipeClearsFogWhereItHasPassed) {
   add_plate(0.06f, 5, 0, 1);
   const Image clear = draw(240, 240);
   frame.look.soil.fog = 1;
-  frame.look.soil.smear_angle = 3.14159265f;  // from the right to the left
+  frame.look.soil.smear_angle = std::numbers::pi_v<float>;  // from the right to the left
   const Image fogged = draw(240, 240);
   frame.look.soil.wipe = 0.55f;  // the swab is in the middle: the right side is wiped, the left still fogged
   const Image wiped = draw(240, 240);

@@ -1,6 +1,7 @@
 #include "sample_scene.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include <trocar/render/meshes/openness.hpp>
 
@@ -8,7 +9,7 @@ namespace trocar::render::sample {
 
 namespace {
 
-constexpr float kPi = 3.14159265f;
+constexpr float kPi = std::numbers::pi_v<float>;
 
 /// Wavy unevenness, so that nothing is a perfect solid.
 float waves(Vec3f p, float size) {

@@ -75,8 +75,8 @@ struct Ball {
   double from_start, to_end;  ///< along the strand [m]
 };
 std::vector<Ball> balls_of(std::size_t strand) {
-  const interactions::StrandBody& body = gynaecology().model.bodies[strand];
-  const sim::StrandModel& model = gynaecology().model.strands[strand];
+  const interactions::StrandBody& body = gynaecology().model.strand_bodies[strand];
+  const sim::StrandAnatomy& model = gynaecology().model.strands[strand];
   std::vector<Ball> balls;
   for (std::size_t i = 0; i + 1 < body.model.rest.size(); ++i)
     for (const double w : {0.0, 0.25, 0.5, 0.75}) {
@@ -110,7 +110,7 @@ TEST(Anatomy, CordsPassOrgansAndWallsExceptAtTheirRoots) {
   const sim::Model& m = gynaecology().model;
   const std::vector<Cloud> solids = organs(), bowl = walls();
   for (std::size_t k = 0; k < m.strands.size(); ++k) {
-    const sim::StrandModel& strand = m.strands[k];
+    const sim::StrandAnatomy& strand = m.strands[k];
     for (const Ball& ball : balls_of(k)) {
       for (std::size_t j = 0; j < solids.size(); ++j) {
         const bool start_here = strand.start.organ == std::int32_t(j) && ball.from_start < kRoot;
@@ -148,8 +148,8 @@ TEST(Anatomy, RootsSitOnTheSkinsThatCarryThem) {
       EXPECT_LT(h, 0.0007) << m.strands[k].name;
       EXPECT_GT(h, -0.0015) << m.strands[k].name;
     };
-    check(m.strands[k].start, m.bodies[k].model.rest.front());
-    check(m.strands[k].end, m.bodies[k].model.rest.back());
+    check(m.strands[k].start, m.strand_bodies[k].model.rest.front());
+    check(m.strands[k].end, m.strand_bodies[k].model.rest.back());
   }
 }
 
@@ -216,7 +216,7 @@ TEST(Anatomy, TheTubesHaveIsthmusAmpullaAndInfundibulum) {
   const sim::Model& m = gynaecology().model;
   for (const SideFigures& side : kSides) {
     const char* name = side.tube;
-    EXPECT_NEAR(m.bodies[std::size_t(m.strand_index(name))].length() * 1000, side.tube_mm, 1) << name;
+    EXPECT_NEAR(m.strand_bodies[std::size_t(m.strand_index(name))].length() * 1000, side.tube_mm, 1) << name;
     const Strand& tube = strand(name);
     EXPECT_NEAR(2 * radius_mm(tube, 15), 3.1, 0.2);
     EXPECT_NEAR(2 * radius_mm(tube, 0.84 * side.tube_mm), 8, 0.2);
@@ -259,7 +259,7 @@ TEST(Anatomy, TheWholeSceneHasSixToSevenAndAHalfThousandFreeNodes) {
 double lifted_mm(const char* name, double s, double newton) {
   const sim::Model& m = gynaecology().model;
   const std::size_t tube = std::size_t(m.strand_index(name));
-  const interactions::StrandBody& body = m.bodies[tube];
+  const interactions::StrandBody& body = m.strand_bodies[tube];
   const interactions::StrandPlace place = interactions::place_at(body, s);
   sim::State state = sim::initial_state(m);
   sim::Work work = sim::make_work(m);
@@ -297,7 +297,7 @@ TEST(Anatomy, AMesosalpinxHangsFromEachTube) {
   for (const char* side : {"left", "right"}) {
     const int i = m.membrane_index(std::string("mesosalpinx_") + side);
     ASSERT_GE(i, 0);
-    const sim::MembraneModel& fold = m.membranes[std::size_t(i)];
+    const sim::MembraneBody& fold = m.membranes[std::size_t(i)];
     EXPECT_EQ(fold.strand, m.strand_index(std::string("tube_") + side));
     int on[3] = {0, 0, 0};
     for (const interactions::BorderHold& hold : fold.holds) ++on[hold.kind];

@@ -79,8 +79,8 @@ TEST(Compile, TheModelHasWhatTheDescriptionNames) {
   ASSERT_EQ(m.hands.size(), 3u);
   EXPECT_EQ(m.placed(small::kApplier).kind, interactions::ToolKind::clip_applier);
   EXPECT_EQ(m.placed(small::kApplier).clips, 20);
-  EXPECT_NEAR(m.bodies[small::kTube].length(), 0.081, 1e-6);
-  EXPECT_FALSE(m.bodies[small::kCord].cuttable);
+  EXPECT_NEAR(m.strand_bodies[small::kTube].length(), 0.081, 1e-6);
+  EXPECT_FALSE(m.strand_bodies[small::kCord].cuttable);
   EXPECT_EQ(m.strands[small::kTube].start.kind, sim::StrandEndModel::hosted);
   EXPECT_EQ(m.strands[small::kTube].end.kind, sim::StrandEndModel::free);
   EXPECT_EQ(m.strands[small::kCord].start.kind, sim::StrandEndModel::fixed);
@@ -111,9 +111,9 @@ TEST(Compile, TheDrawnShapeIsTheEquilibriumButForThePulse) {
       for (int n = 0; n < m.solids[i].network.nodes; ++n)
         worst = std::max(
             worst, length(tissue::position(m.solids[i].network, s.solids[i], n) - m.solids[i].network.rest[size_t(n)]));
-    for (size_t i = 0; i < m.bodies.size(); ++i)
+    for (size_t i = 0; i < m.strand_bodies.size(); ++i)
       for (size_t n = 0; n < s.strands[i].x.size(); ++n)
-        worst = std::max(worst, length(s.strands[i].x[n] - m.bodies[i].model.rest[n]));
+        worst = std::max(worst, length(s.strands[i].x[n] - m.strand_bodies[i].model.rest[n]));
     for (size_t i = 0; i < m.membranes.size(); ++i)
       for (int n = 0; n < m.membranes[i].sheet.nodes(); ++n) {
         const tissue::NetworkModel& network = m.membranes[i].sheet.network;

@@ -120,9 +120,10 @@ TEST(Vary, AVariedSceneRestsAsDrawn) {
     sim::State s = sim::initial_state(m);
     sim::Work w = sim::make_work(m);
     for (int t = 0; t < 1000; ++t) ASSERT_EQ(step(m, m.start, s, w).flags, 0u) << seed << " tick " << t;
-    for (size_t i = 0; i < m.bodies.size(); ++i)
+    for (size_t i = 0; i < m.strand_bodies.size(); ++i)
       for (size_t n = 0; n < s.strands[i].x.size(); ++n)
-        ASSERT_LT(length(s.strands[i].x[n] - m.bodies[i].model.rest[n]), 2e-4) << seed << " " << m.strands[i].name;
+        ASSERT_LT(length(s.strands[i].x[n] - m.strand_bodies[i].model.rest[n]), 2e-4)
+            << seed << " " << m.strands[i].name;
   }
 }
 

@@ -76,8 +76,8 @@ TEST(VesselFile, EachSideOfACutUterineArteryBleedsAndBothNeedAClip) {
   const VesselTree& tree = pelvis();
   const vessels::FlowModel model = vessels::build(tree.graph);
   const int uterine = number_of(tree, "uterine_upper_left");
-  using vessels::Clip;
-  const auto bled = [&](std::vector<Clip> clips) {
+  using vessels::Occlusion;
+  const auto bled = [&](std::vector<Occlusion> clips) {
     vessels::FlowState state = vessels::settled_state(model, 5);
     vessels::FlowWork work = vessels::make_work(model);
     const std::vector<vessels::Opening> cut{{.segment = uterine,
@@ -86,7 +86,7 @@ TEST(VesselFile, EachSideOfACutUterineArteryBleedsAndBothNeedAClip) {
                                              .area = vessels::lumen_area(model, state, uterine, 0.5),
                                              .outside = 12 * kMmHg}};
     std::vector<vessels::OpeningFlow> flow(1);
-    for (Clip& c : clips) c.segment = uterine, c.cover = 1;
+    for (Occlusion& c : clips) c.segment = uterine, c.cover = 1;
     double sum[2] = {0, 0};
     for (int t = 0; t < 2000; ++t) {
       vessels::advance(model, {.openings = cut, .clips = clips}, flow, state, work);

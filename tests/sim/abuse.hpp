@@ -76,7 +76,8 @@ inline double energy(const sim::Model& m, const sim::State& s) {
     const tissue::NetworkEnergy e = tissue::energy(m.solids[i].network, s.solids[i]);
     sum += e.kinetic + e.elastic + e.gravity;
   }
-  for (size_t i = 0; i < m.bodies.size(); ++i) sum += tissue::energy(m.bodies[i].model, s.strands[i]).total();
+  for (size_t i = 0; i < m.strand_bodies.size(); ++i)
+    sum += tissue::energy(m.strand_bodies[i].model, s.strands[i]).total();
   for (size_t i = 0; i < m.membranes.size(); ++i) sum += tissue::energy(m.membranes[i].sheet, s.membranes[i]).total();
   for (size_t i = 0; i < m.cuttables.size(); ++i) sum += energy(m.cuttables[i].body, s.cuttables[i]);
   return sum;
@@ -115,8 +116,8 @@ struct Round {
 inline sim::Model untearable(sim::Model model) {
   for (sim::SolidModel& m : model.solids) m.failure_strain = 0;
   for (sim::CuttableOrgan& m : model.cuttables) m.failure_strain = 0;
-  for (sim::StrandModel& m : model.strands) m.failure_strain = 0;
-  for (sim::MembraneModel& m : model.membranes) m.failure_strain = 0;
+  for (sim::StrandAnatomy& m : model.strands) m.failure_strain = 0;
+  for (sim::MembraneBody& m : model.membranes) m.failure_strain = 0;
   sim::seal(model);
   return model;
 }

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <trocar/fluids/fluids.hpp>
+#include <trocar/sim/recording/keyframe.hpp>
 #include <trocar/sim/recording/recording.hpp>
 #include <trocar/sim/stages/circulation.hpp>
 

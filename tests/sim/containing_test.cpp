@@ -27,7 +27,7 @@ const Model& loose() {
     m.solids[0].anchors.clear();
     m.cuttables[0].body.anchors.clear();
     m.strands[0].start.kind = StrandEndModel::free;
-    std::fill(m.bodies[0].model.foundation.begin(), m.bodies[0].model.foundation.end(), 0);
+    std::fill(m.strand_bodies[0].model.foundation.begin(), m.strand_bodies[0].model.foundation.end(), 0);
     seal(m);
     return m;
   }();

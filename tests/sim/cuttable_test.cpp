@@ -1,6 +1,8 @@
 // An organ that can be cut anywhere, in a scene: what one closing of the scissors does to it, and to what is drawn.
 #include <gtest/gtest.h>
 
+#include <trocar/sim/recording/keyframe.hpp>
+
 #include "small_scene.hpp"
 
 using namespace trocar;

@@ -6,6 +6,7 @@
 
 #include <trocar/core/random.hpp>
 #include <trocar/fluids/shown_fluids.hpp>
+#include <trocar/sim/recording/keyframe.hpp>
 #include <trocar/tissue/heat/heat_look.hpp>
 
 #include "small_energy.hpp"
@@ -158,7 +159,7 @@ void expect_drawable(const Model& m, const State& s) {
       } else {
         ASSERT_TRUE(body >= 0 && body < int(m.strands.size()));
         ASSERT_GE(t.hold[h].element, 0);
-        ASSERT_LT(t.hold[h].element, m.bodies[size_t(body)].nodes() - 1);
+        ASSERT_LT(t.hold[h].element, m.strand_bodies[size_t(body)].nodes() - 1);
       }
     }
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -229,7 +230,7 @@ Stump stump_of(double radius, std::uint32_t pedals) {
   o.vessel = small::kTubeArtery;
   o.s = 0.25;
   o.through = 1;
-  o.area = 3.14159 * radius * radius;
+  o.area = std::numbers::pi * radius * radius;
   t.state.opening_count = 1;
   const double x = 0.001 + 0.25 * path.length;
   t.carry(kHook, {0.026, 0.02, 0.05}, {x, 0, 0.020}, 0.2);
@@ -450,7 +451,7 @@ TEST(Energy, ATubeThatIsCoagulatedAcrossIsShorterThere) {
   const int e = int(element - shrunk.begin());
   const tissue::StrandState& s = t.state.strands[small::kTube];
   const double now =
-      length(s.x[size_t(e) + 1] - s.x[size_t(e)]) / t.model.bodies[small::kTube].model.rest_length[size_t(e)];
+      length(s.x[size_t(e) + 1] - s.x[size_t(e)]) / t.model.strand_bodies[small::kTube].model.rest_length[size_t(e)];
   std::printf("    element %d: %.3f of its length at rest, %.3f as it is\n", e, *element, now);
   EXPECT_LT(*element, 0.95);
   EXPECT_GE(*element, 0.8 - 1e-6);

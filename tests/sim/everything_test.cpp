@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <trocar/core/parallel.hpp>
+#include <trocar/sim/recording/keyframe.hpp>
 #include <trocar/sim/recording/recording.hpp>
 
 using namespace trocar;

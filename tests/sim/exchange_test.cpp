@@ -52,7 +52,7 @@ TEST(Exchange, TheInstrumentIsChangedAtTheTrocarAndGoesInAgain) {
 
 TEST(Exchange, HeldTissueIsLetGoBeforeTheInstrumentIsDrawnBack) {
   Table t(small::model());
-  const interactions::StrandBody& tube = t.model.bodies[small::kTube];
+  const interactions::StrandBody& tube = t.model.strand_bodies[small::kTube];
   const interactions::ToolModel& grasper = t.model.placed(kGrasper);
   const Vec3d at = interactions::point_at(tube, t.state.strands[small::kTube], interactions::place_at(tube, 0.056));
   t.carry(kGrasper, {0.055, 0, 0.04}, at + (grasper.jaw_length - 0.012) * normalised(at - grasper.port), 0.2);

@@ -152,7 +152,7 @@ TEST(Irrigation, OrgansStrandsAndFoldsPlugThePort) {
   step(m, m.start, s, w);
   for (std::size_t i = 0; i < w.surfaces.size(); ++i)
     if (int(i) < m.organs()) w.surfaces[i].nodes = w.nodes[i];
-  const interactions::WetBodies bodies{w.surfaces, w.sheets, m.bodies, s.strands, m.wet.film, m.wet.grids};
+  const interactions::WetBodies bodies{w.surfaces, w.sheets, m.strand_bodies, s.strands, m.wet.film, m.wet.grids};
   const auto plugged = [&](Vec3d p) { return covered(bodies, p, interactions::kPlugs); };
   const Vec3d tube = 0.5 * (s.strands[small::kTube].x[20] + s.strands[small::kTube].x[21]);
   const Vec3d up{0, 0, 1};

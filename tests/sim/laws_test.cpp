@@ -492,7 +492,8 @@ double extent(const Model& m, const State& s) {
 double kinetic_energy(const Model& m, const State& s) {
   double sum = 0;
   for (size_t i = 0; i < m.solids.size(); ++i) sum += tissue::energy(m.solids[i].network, s.solids[i]).kinetic;
-  for (size_t i = 0; i < m.bodies.size(); ++i) sum += tissue::energy(m.bodies[i].model, s.strands[i]).kinetic;
+  for (size_t i = 0; i < m.strand_bodies.size(); ++i)
+    sum += tissue::energy(m.strand_bodies[i].model, s.strands[i]).kinetic;
   return sum;
 }
 

@@ -273,13 +273,13 @@ const Breath& breath() {
     State s = initial_state(m);
     Work w = make_work(m);
     Breath b;
-    const size_t middle = m.bodies[small::kCord].model.rest.size() / 2;
+    const size_t middle = m.strand_bodies[small::kCord].model.rest.size() / 2;
     while (s.tick < 14000) {
       step(m, m.start, s, w);
       const Vec3d organ = shift(m, s, 0);
       b.organ.push_back(-organ.y);
       b.pad.push_back(-shift(m, s, 1).y);
-      b.cord.push_back(-(s.strands[small::kCord].x[middle] - m.bodies[small::kCord].model.rest[middle]).y);
+      b.cord.push_back(-(s.strands[small::kCord].x[middle] - m.strand_bodies[small::kCord].model.rest[middle]).y);
       b.across = std::max({b.across, std::fabs(organ.x), std::fabs(organ.z)});
       b.bar =
           std::max(b.bar, length(position(m.cuttables[0].body, s.cuttables[0], 0) - m.cuttables[0].body.drawn.rest[0]));

@@ -209,7 +209,7 @@ TEST(Pouch, AFoldOfTheGynaecologySceneTearsWhereItIsWeak) {
   for (size_t i = 0; i < m.membranes.size(); ++i)
     if (m.membranes[i].strand == tube) fold = int(i);
   ASSERT_GE(fold, 0);
-  const interactions::StrandBody& body = m.bodies[size_t(tube)];
+  const interactions::StrandBody& body = m.strand_bodies[size_t(tube)];
   const Vec3d middle = body.model.rest[size_t(body.nodes() * 6 / 10)];
   const Vec3d start = m.hands[kGrasper].port + 0.5 * (middle - m.hands[kGrasper].port);
   const Story story = told(m, {kGrasper, start, middle, 500, 600, 1000, {0, 0, 3e-5}, 0.98}, 3500);

@@ -7,6 +7,8 @@
 //   while (!hands.done()) step(model, hands.next(state), state, work);
 #pragma once
 
+#include <numbers>
+
 #include <trocar/scene/compile/compile.hpp>
 #include <trocar/sim/stages/step.hpp>
 
@@ -252,7 +254,7 @@ class Hands {
   }
   /// The tube at arc length s comes to lie `inside` from the hinge.
   void aim(const sim::State& state, int tool, double s, double inside) {
-    const interactions::StrandBody& body = m_model.bodies[kTube];
+    const interactions::StrandBody& body = m_model.strand_bodies[kTube];
     const interactions::ToolModel& t = m_model.placed(size_t(tool));
     const Vec3d at = interactions::point_at(body, state.strands[kTube], interactions::place_at(body, s));
     move(tool, at + (t.jaw_length - inside) * normalised(at - t.port));
@@ -262,14 +264,14 @@ class Hands {
     h += std::clamp(to - h, -1.0 / ticks, 1.0 / ticks);
   }
   double roll(const sim::State& state, size_t tool) {
-    const interactions::StrandBody& body = m_model.bodies[kTube];
+    const interactions::StrandBody& body = m_model.strand_bodies[kTube];
     const double s = tool == size_t(kGrasper) ? 0.056 : 0.021;
     const bool at_bar = tool == size_t(kScissors) && m_at > 4400;
     const Vec3d along =
         at_bar ? Vec3d{1, 0, 0} : tangent_at(body, state.strands[kTube], interactions::place_at(body, s));
     const kinematics::FulcrumPose pose = kinematics::inverse(m_model.hands[tool].port, m_tip[tool], 0);
     double wanted = kinematics::roll_towards(pose, along);
-    const double half = 3.14159265358979323846, now = double(m_input.tools[tool].roll);
+    const double half = std::numbers::pi, now = double(m_input.tools[tool].roll);
     while (wanted - now > 0.5 * half) wanted -= half;
     while (wanted - now < -0.5 * half) wanted += half;
     return now + std::clamp(wanted - now, -0.004, 0.004);

@@ -84,9 +84,10 @@ TEST(Sight, AgreesWithATestOfEveryTriangle) {
     const auto near_axis = [&](Vec3d a, Vec3d b, double radius) {
       return geometry::closest_segments(from, end, a, b).distance2 < radius * radius;
     };
-    for (size_t s = 0; s < p.model.bodies.size(); ++s)
+    for (size_t s = 0; s < p.model.strand_bodies.size(); ++s)
       for (size_t e = 0; e + 1 < p.state.strands[s].x.size(); ++e)
-        hit = hit || near_axis(p.state.strands[s].x[e], p.state.strands[s].x[e + 1], p.model.bodies[s].model.radius[e]);
+        hit = hit ||
+              near_axis(p.state.strands[s].x[e], p.state.strands[s].x[e + 1], p.model.strand_bodies[s].model.radius[e]);
     for (size_t t = 0; t < p.model.hands.size(); ++t)
       for (const interactions::Capsule& c : p.work.shapes[t].part) hit = hit || near_axis(c.a, c.b, c.radius);
     hidden += hit;
@@ -128,7 +129,7 @@ TEST(Visibility, TheConesEdgeIsWhereTheFieldOfViewEnds) {
     p.work.shapes[small::kGrasper].part[interactions::kJawA].b = tip;
     p.state.seen.assign(p.state.seen.size(), 0);
     for (size_t i = 0; i <= p.model.samples.size(); ++i) {
-      look(p.model, p.state, p.work);
+      update_visibility(p.model, p.state, p.work);
       ++p.state.tick;
     }
     EXPECT_EQ(bool(p.state.seen[sample]), off < 0) << angle;

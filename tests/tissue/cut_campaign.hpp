@@ -93,7 +93,7 @@ inline void run(const Campaign& campaign, int cuts) {
     Blade blade;
     blade.corners = 4;
     blade.corner = {middle - u - v, middle + u - v, middle + u + v, middle - u + v};
-    const geometry::CutBook book = cut(model, blade, state, work);
+    const geometry::CutResult book = cut(model, blade, state, work);
     ASSERT_FALSE(book.full) << i;
     parted += book.parted;
     for (int tick = 0; tick < 2; ++tick) ASSERT_TRUE(advance(model, {}, {}, state, work).fine()) << i;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -12,7 +13,7 @@ namespace trocar::tissue {
 namespace {
 
 using geometry::Blade;
-using geometry::CutBook;
+using geometry::CutResult;
 
 /// A bar of nx x ny x nz cubes of six tetrahedra each, inner points moved a little.
 CuttableDescription bar(int nx, int ny, int nz, double h = 0.005) {
@@ -58,7 +59,7 @@ struct Body {
   void ticks(int n) {
     for (int i = 0; i < n; ++i) ASSERT_TRUE(advance(model, {}, {}, state, work).fine()) << i;
   }
-  CutBook cut(const Blade& b) { return tissue::cut(model, b, state, work); }
+  CutResult cut(const Blade& b) { return tissue::cut(model, b, state, work); }
   double mass() const {
     double sum = 0;
     for (int i = 0; i < state.tets.nodes; ++i) sum += mass_of(model, state, i);
@@ -117,7 +118,7 @@ TEST(Cuttable, WhatIsCutOffFallsFreelyAndTheRestStaysUp) {
   Body b(hung(4, 4, 12));
   const double mass = b.mass();
   b.ticks(50);
-  const CutBook book = b.cut(rectangle({0.01, 0.01, 0.0222}, {0.05, 0.002, 0.002}, {0, 0.05, 0.001}));
+  const CutResult book = b.cut(rectangle({0.01, 0.01, 0.0222}, {0.05, 0.002, 0.002}, {0, 0.05, 0.001}));
   ASSERT_GT(book.parted, 0);
   EXPECT_NEAR(b.mass(), mass + b.model.density * book.volume, 1e-9 * mass) << "to the last microgram";
   const double low = b.lowest();
@@ -157,7 +158,7 @@ TEST(Cuttable, AStretchedBarGapesWhereItIsCutHalfThrough) {
     n.x *= 1.1f;
   }
   b.ticks(300);
-  const CutBook book = b.cut(rectangle({0.0302, 0.01, 0.02}, {0, 0.05, 0}, {0, 0, 0.0095}));
+  const CutResult book = b.cut(rectangle({0.0302, 0.01, 0.02}, {0, 0.05, 0}, {0, 0, 0.0095}));
   ASSERT_GT(book.doubled, 0);
   b.ticks(500);
   double gap = 0;
@@ -178,7 +179,7 @@ TEST(Cuttable, ManyRandomCutsInALivingBodyStayFiniteAndBounded) {
     const auto any = [&] { return random.uniform(-0.012, 0.012); };
     const Vec3d middle{random.uniform(0, 0.04), random.uniform(0, 0.03), random.uniform(0, 0.05)};
     const Vec3d u{any(), any(), any()}, v{any(), any(), any()};
-    const CutBook book = b.cut(rectangle(middle, u, v - (dot(u, v) / dot(u, u)) * u));
+    const CutResult book = b.cut(rectangle(middle, u, v - (dot(u, v) / dot(u, u)) * u));
     ASSERT_FALSE(book.full) << i;
     b.ticks(20);
     ASSERT_LT(b.fastest(), 30) << i;  // pieces fall for two seconds in all
@@ -242,7 +243,7 @@ TEST(Cuttable, ANodeWithMoreSpringsThanCutsLeaveRoomForIsRefused) {
   CuttableDescription d;
   d.points = {{0, 0, 0}, {0, 0, 0.05}};
   for (int i = 0; i < n; ++i) {
-    const double a = 2 * 3.14159265358979 * i / n;
+    const double a = 2 * std::numbers::pi * i / n;
     d.points.push_back({0.05 * std::cos(a), 0.05 * std::sin(a), 0.025});
   }
   for (int i = 0; i < n; ++i) d.cells.push_back({0, 1, 2 + i, 2 + (i + 1) % n});

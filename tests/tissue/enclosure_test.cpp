@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <trocar/core/random.hpp>
+#include <trocar/core/tick.hpp>
 #include <trocar/geometry/surfaces/loft.hpp>
 #include <trocar/geometry/surfaces/tri_mesh.hpp>
 #include <trocar/tissue/membrane/membrane.hpp>
@@ -20,7 +21,8 @@ using test::kPi;
 
 namespace {
 
-constexpr double kTick = 1e-3, kRadius = 0.02;
+using core::kTick;
+constexpr double kRadius = 0.02;
 
 /// A sphere of triangles: an icosahedron whose triangles are split `times` times, as many times finer each.
 geometry::TriMesh sphere(int times) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
+#include <trocar/core/tick.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/tissue/membrane/membrane.hpp>
 
@@ -14,7 +15,7 @@ using namespace trocar::tissue;
 
 namespace {
 
-constexpr double kTick = 1e-3;
+using core::kTick;
 
 /// A flat sheet in the plane z = 0 from the corner at the origin, columns along x, rows along y, nothing held.
 MembraneDescription sheet(int columns, int rows, double width, double height) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -79,7 +80,7 @@ TEST(Strand, StretchFollowsThePolynomial) {
   StrandDescription d = straight(8, 0.07, 0.002, 60e3, 0.001);
   d.law = {4, 40, 0.8};
   Trial run(d);
-  const double area = 3.14159265358979 * (4e-6 - 1e-6);
+  const double area = std::numbers::pi * (4e-6 - 1e-6);
   for (double strain : {0.05, 0.3, 0.6}) {
     const double force = 60e3 * area * strain * (1 + 4 * strain + 40 * strain * strain);
     const StrandLoad load{.element = 6, .w = 1, .f0 = {force, 0, 0}};
@@ -148,7 +149,7 @@ TEST(Strand, HangingChainSwingsAtItsFirstFrequency) {
     }
     previous = now;
   }
-  const double omega = 3.14159265358979 * (crossings - 1) / (last - first);
+  const double omega = std::numbers::pi * (crossings - 1) / (last - first);
   EXPECT_NEAR(omega, 1.2024 * std::sqrt(9.81 / chain), 0.02 * omega);
 }
 

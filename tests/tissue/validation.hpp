@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -16,7 +17,7 @@
 
 namespace trocar::tissue::test {
 
-inline constexpr double kPi = 3.14159265358979323846;
+inline constexpr double kPi = std::numbers::pi;
 
 template <class Real>
 const char* precision() {

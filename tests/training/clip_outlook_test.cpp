@@ -18,7 +18,7 @@ using two_sides::kLeft;
 /// Open jaws of a loaded applier around a place on a strand, `inside` from the ends of the legs, turned by `off` from
 /// straight across.
 void reach_around(Attempt& a, int strand, double s, double inside, double off) {
-  const interactions::StrandBody& body = a.model.bodies[size_t(strand)];
+  const interactions::StrandBody& body = a.model.strand_bodies[size_t(strand)];
   const tissue::StrandState& shape = a.state.strands[size_t(strand)];
   const interactions::StrandPlace place = interactions::place_at(body, s);
   const Vec3d point = interactions::point_at(body, shape, place);
@@ -135,7 +135,7 @@ TEST(ClipOutlook, WhatIsForetoldIsWhatIsSet) {
   tool.clips_left = 1;
   tool.aperture = 0.03;
   const interactions::ToolModel& applier = a.model.tool(a.state, kApplier);
-  const interactions::TissueView view{a.model.bodies, a.state.strands, {}};
+  const interactions::TissueView view{a.model.strand_bodies, a.state.strands, {}};
   ASSERT_TRUE(interactions::update_clip_applier(applier, interactions::shape_of(applier, tool.pose(), tool.aperture),
                                                 kApplier, view, a.state.strands, 2, 1, tool,
                                                 {a.state.clips, a.state.clip_count}));

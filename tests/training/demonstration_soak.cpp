@@ -152,7 +152,7 @@ TEST_P(WildHands, LeaveTheShippedSceneFiniteAndInsideThePatient) {
     ASSERT_TRUE(report.fine()) << "tick " << t << " body " << report.first_bad_body;
     if (t % 100 != 0) continue;
     constexpr double kOut = 0.05;
-    for (size_t i = 0; i < m.bodies.size(); ++i)
+    for (size_t i = 0; i < m.strand_bodies.size(); ++i)
       for (Vec3d p : s.strands[i].x) ASSERT_LT(outside(m.cavity, p), kOut) << m.strands[i].name << " tick " << t;
     for (size_t i = 0; i < m.solids.size(); ++i)
       for (int n = 0; n < m.solids[i].network.nodes; ++n)

@@ -2,6 +2,7 @@
 // it implies. Here the State is written by hand, quickly; flaws_soak.cpp has the scripted surgeon make each for real.
 #include <algorithm>
 #include <functional>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -16,7 +17,7 @@ using two_sides::kLeft;
 
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
+constexpr double kDegree = std::numbers::pi / 180;
 
 struct Mistake {
   const char* code;
@@ -281,7 +282,7 @@ TEST(Errors, OutOfViewAnInstrumentMayRestTrembleAndBeDrawnBack) {
   a.seconds(3);
   const double yaw = t.yaw;
   for (int i = 0; i < 3000; ++i) {  // 0.3 mm at 10 Hz
-    t.yaw = yaw + 0.0003 / t.depth * std::sin(2 * 3.14159265 * 10 * i * 1e-3);
+    t.yaw = yaw + 0.0003 / t.depth * std::sin(2 * std::numbers::pi * 10 * i * 1e-3);
     a.tick();
   }
   while (t.depth > 0.05) {

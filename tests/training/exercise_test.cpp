@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <numbers>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -69,7 +70,7 @@ TEST_F(ExerciseFile, AsShippedItIsReadInMetresRadiansAndSeconds) {
   EXPECT_TRUE(fs::exists(e.scene)) << e.scene;
   EXPECT_DOUBLE_EQ(e.goal.first_clip.low, 0.012);
   EXPECT_DOUBLE_EQ(e.goal.first_clip.high, 0.020);
-  EXPECT_NEAR(e.goal.clip_angle, 15 * 3.14159265358979 / 180, 1e-12);
+  EXPECT_NEAR(e.goal.clip_angle, 15 * std::numbers::pi / 180, 1e-12);
   EXPECT_DOUBLE_EQ(e.goal.cut_margin, 0.002);
   EXPECT_DOUBLE_EQ(e.goal.pull_limit, 4);
   EXPECT_DOUBLE_EQ(e.goal.present_pull.low, 0.3);

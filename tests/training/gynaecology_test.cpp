@@ -45,14 +45,15 @@ Moved moved(const Model& m, const State& s) {
       take(length(node_place(m, s, int(i), n) - m.solids[i].network.rest[size_t(n)]), m.solids[i].name);
   for (size_t i = 0; i < m.strands.size(); ++i)
     for (size_t n = 0; n < s.strands[i].x.size(); ++n)
-      take(length(s.strands[i].x[n] - m.bodies[i].model.rest[n]), m.strands[i].name);
+      take(length(s.strands[i].x[n] - m.strand_bodies[i].model.rest[n]), m.strands[i].name);
   return r;
 }
 
 double kinetic_energy(const Model& m, const State& s) {
   double sum = 0;
   for (size_t i = 0; i < m.solids.size(); ++i) sum += tissue::energy(m.solids[i].network, s.solids[i]).kinetic;
-  for (size_t i = 0; i < m.bodies.size(); ++i) sum += tissue::energy(m.bodies[i].model, s.strands[i]).kinetic;
+  for (size_t i = 0; i < m.strand_bodies.size(); ++i)
+    sum += tissue::energy(m.strand_bodies[i].model, s.strands[i]).kinetic;
   return sum;
 }
 
@@ -97,7 +98,7 @@ TEST(Gynaecology, TubeAndUterusComeBackAfterAPull) {
   const int tube = m.strand_index("tube_left"), uterus = solid_index("uterus");
   ASSERT_GE(tube, 0);
   ASSERT_GE(uterus, 0);
-  const interactions::StrandBody& body = m.bodies[size_t(tube)];
+  const interactions::StrandBody& body = m.strand_bodies[size_t(tube)];
   const interactions::StrandPlace held = interactions::place_at(body, 0.045);
   const Vec3d from = interactions::point_at(body, s.strands[size_t(tube)], held);
   StepReport report;
@@ -151,7 +152,7 @@ TEST(Gynaecology, BearsWildHands) {
   // Of tissue that does not tear: what is torn can be drawn as far as hands go.
   Model m = gynaecology();
   for (SolidModel& solid : m.solids) solid.failure_strain = 0;
-  for (StrandModel& strand : m.strands) strand.failure_strain = 0;
+  for (StrandAnatomy& strand : m.strands) strand.failure_strain = 0;
   seal(m);
   State s = initial_state(m);
   Work w = make_work(m);

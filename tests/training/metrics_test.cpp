@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <numbers>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -146,7 +147,8 @@ TEST(Metrics, DepthReversalsCountTurnsOfMoreThanThreeMillimetres) {
   const Quatd turn = quat_from_two_vectors(Vec3d{0, 0, -1}, Vec3d{1, 0, 0});
   const auto swing = [&](double amplitude) {
     return traces::make(1, 10, [&](int, double t) {
-      TraceSample s = at({0.05 - amplitude / 2 * std::cos(2 * M_PI * 0.5 * t) + 0.001 * std::sin(10 * t), 0, 0});
+      TraceSample s =
+          at({0.05 - amplitude / 2 * std::cos(2 * std::numbers::pi * 0.5 * t) + 0.001 * std::sin(10 * t), 0, 0});
       s.orientation = turn;
       return s;
     });
@@ -242,7 +244,7 @@ TEST(Metrics, ForcesOfAKnownCourse) {
 TEST(Metrics, ForceVolumeIsTheEllipsoidOfThreeDeviationsHoweverItLies) {
   std::vector<Vec3d> force;
   for (int i = 0; i < 8; ++i) force.push_back({i & 1 ? 1.0 : -1.0, i & 2 ? 2.0 : -2.0, i & 4 ? 0.5 : -0.5});
-  const double expected = 4.0 / 3 * M_PI * 3 * 6 * 1.5;
+  const double expected = 4.0 / 3 * std::numbers::pi * 3 * 6 * 1.5;
   EXPECT_NEAR(force_metrics(force, 50, 4).volume, expected, 1e-9);
   const Quatd turn = quat_from_axis_angle(Vec3d{1, 2, 3}, 1.1);
   for (Vec3d& f : force) f = rotate(turn, f);

@@ -1,6 +1,7 @@
 // What the monitor makes of a State: steps, in whichever order they come, and the score with its components. The State
 // is written by hand; what the step makes of hands is tested elsewhere, and errors have their own file.
 #include <functional>
+#include <numbers>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -16,7 +17,7 @@ using two_sides::kRight;
 
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
+constexpr double kDegree = std::numbers::pi / 180;
 
 TEST(Monitor, APerfectAttemptEarnsAllPointsAndHasNoError) {
   Attempt a;
@@ -107,7 +108,7 @@ TEST(Monitor, LostForASecondTheTubeIsFollowedFromTheFimbriaeAgain) {
 
 TEST(Monitor, WhatIsCoveredAnInstrumentsTipCanFollow) {
   Attempt a;
-  const auto& body = a.model.bodies[kLeft];
+  const auto& body = a.model.strand_bodies[kLeft];
   a.look("tube_left.trace", false);
   a.look("tube_left.fimbria", true);
   const auto lay_tip = [&](double s) {
@@ -325,7 +326,7 @@ TEST(Monitor, AClipBesideTheCutInTheSameElementStillClosesItsStump) {
     a.survey();
     a.identify();
     a.present(kLeft);
-    const interactions::StrandBody& tube = a.model.bodies[size_t(kLeft)];
+    const interactions::StrandBody& tube = a.model.strand_bodies[size_t(kLeft)];
     double cut = 0;
     for (double s = 0.0185; s < 0.0225; s += 0.0001) {
       const double clip = s + (outer ? 0.0021 : -0.0021);

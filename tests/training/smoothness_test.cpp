@@ -1,5 +1,6 @@
 // Published vectors and properties of the smoothness measures.
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -70,7 +71,8 @@ TEST(Smoothness, HesitationAndTremorAreLessSmooth) {
     const double t = -2 + 0.01 * double(i), a = t + 0.8, b = t - 0.8;
     hesitant[i] = std::exp(-5 * a * a) + std::exp(-5 * b * b);
   }
-  for (std::size_t i = 0; i < trembling.size(); ++i) trembling[i] += 0.05 * std::sin(2 * M_PI * 6 * 0.01 * double(i));
+  for (std::size_t i = 0; i < trembling.size(); ++i)
+    trembling[i] += 0.05 * std::sin(2 * std::numbers::pi * 6 * 0.01 * double(i));
   for (const std::vector<double>& worse : {hesitant, trembling}) {
     EXPECT_LT(spectral_arc_length(worse, 100), spectral_arc_length(bell(), 100) - 0.05);
     EXPECT_LT(log_dimensionless_jerk(worse, 100), log_dimensionless_jerk(bell(), 100) - 0.5);
@@ -81,7 +83,7 @@ TEST(Smoothness, FrequenciesAboveTheCutOffAreNotLookedAt) {
   std::vector<double> v(1000);
   for (std::size_t i = 0; i < v.size(); ++i) v[i] = std::exp(-2e-5 * (double(i) - 500) * (double(i) - 500));
   const double smooth = spectral_arc_length(v, 100);
-  for (std::size_t i = 0; i < v.size(); ++i) v[i] *= 1 + 0.5 * std::sin(2 * M_PI * 20 * 0.01 * double(i));
+  for (std::size_t i = 0; i < v.size(); ++i) v[i] *= 1 + 0.5 * std::sin(2 * std::numbers::pi * 20 * 0.01 * double(i));
   EXPECT_NEAR(spectral_arc_length(v, 100), smooth, 1e-3);
   EXPECT_LT(spectral_arc_length(v, 100, {.cutoff = 25}), smooth - 0.3);
 }

@@ -93,7 +93,7 @@ struct Attempt {
     grasper.pinch = 5;
   }
   void hold_tube(int tube, double s, double pull) {
-    hold(tube, interactions::place_at(model.bodies[size_t(tube)], s).element, pull);
+    hold(tube, interactions::place_at(model.strand_bodies[size_t(tube)], s).element, pull);
   }
   void let_go() {
     state.tools[kGrasper].holds = 0;
@@ -138,7 +138,7 @@ struct Attempt {
   }
   void cut(const interactions::Cut& c) {
     if (c.strand >= 0 && c.fraction >= 0.99) {
-      const interactions::StrandPlace place = interactions::place_at(model.bodies[size_t(c.strand)], c.s);
+      const interactions::StrandPlace place = interactions::place_at(model.strand_bodies[size_t(c.strand)], c.s);
       tissue::cut_element(state.strands[size_t(c.strand)], place.element);
     }
     state.cuts[size_t(state.cut_count++)] = c;

@@ -239,15 +239,15 @@ TEST(Bleeding, OneSolutionATickIsEnoughButWhereSomethingOpens) {
 }
 
 TEST(Bleeding, AnastomosisNeedsAClipOnEitherSide) {
-  const auto flow_with = [](std::vector<Clip> clips) {
+  const auto flow_with = [](std::vector<Occlusion> clips) {
     Simulation sim(pelvis(), 5);
     sim.openings = {hole(kUterine, 0.5, 1e-3)};
     sim.clips = std::move(clips);
     sim.run(2);
     return sim.flows[0].flow[0];
   };
-  const Clip near{.segment = kUterine, .s = 0.3, .cover = 1}, far{.segment = kUterine, .s = 0.7, .cover = 1};
-  const Clip arcade{.segment = kArcade, .s = 0.5, .cover = 1};
+  const Occlusion near{.segment = kUterine, .s = 0.3, .cover = 1}, far{.segment = kUterine, .s = 0.7, .cover = 1};
+  const Occlusion arcade{.segment = kArcade, .s = 0.5, .cover = 1};
   EXPECT_GT(flow_with({}), flow_with({near}));
   EXPECT_GT(flow_with({near}), 10 * kMlPerMinute);
   EXPECT_GT(flow_with({far}), 10 * kMlPerMinute);

@@ -108,7 +108,7 @@ struct Case {
   FlowState start;
   FlowWork work;
   std::vector<Opening> openings;
-  std::vector<Clip> clips;
+  std::vector<Occlusion> clips;
   std::vector<OpeningFlow> flows;
   std::vector<unsigned> state;  // of each segment
 

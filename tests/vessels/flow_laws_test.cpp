@@ -43,7 +43,7 @@ struct Surgeon {
   core::Random random;
   int segments;
   std::vector<Opening> openings = std::vector<Opening>(16);
-  std::vector<Clip> clips = std::vector<Clip>(16);
+  std::vector<Occlusion> clips = std::vector<Occlusion>(16);
   explicit Surgeon(int n, std::uint64_t seed) : random(seed), segments(n) {}
   void act(int tick) {
     if (tick % 97 != 0) return;
@@ -55,7 +55,7 @@ struct Surgeon {
       o.area = random.uniform(1e-8, 4e-6), o.outside = random.uniform(0, 15 * kMmHg);
       o.sealed = random.next() % 4 ? 0 : random.uniform();
     }
-    Clip& c = clips[random.next() % clips.size()];
+    Occlusion& c = clips[random.next() % clips.size()];
     c = {};
     if (random.next() % 2)
       c = {.segment = int(random.next() % std::uint64_t(segments)),
@@ -153,7 +153,7 @@ TEST(FlowLaws, StaysCalmForTenMinutesOfCutsAndClipsAtRandom) {
   Operation untouched;  // and when all is taken off, everything is again as if nothing had been
   untouched.model.heart.response = a.model.heart.response;
   untouched.state.beat = a.state.beat, untouched.state.breath = a.state.breath;
-  a.surgeon.openings.assign(16, Opening{}), a.surgeon.clips.assign(16, Clip{});
+  a.surgeon.openings.assign(16, Opening{}), a.surgeon.clips.assign(16, Occlusion{});
   untouched.surgeon = a.surgeon;
   for (int t = 1; t < 20'000; ++t) {
     if (t % 97 == 0) continue;  // the surgeon rests
@@ -210,7 +210,7 @@ void disturb(Simulation& sim, core::Random& r) {
     o.area = spread(r, 1e-13, 1e-3), o.outside = r.uniform(-2e4, 2e4);
     o.sealed = r.next() % 3 ? 0 : r.uniform(-1, 2);
   }
-  for (Clip& c : sim.clips)
+  for (Occlusion& c : sim.clips)
     if (r.next() % 3 == 0)
       c = {.segment = int(r.next() % sim.model.segments.size()), .s = place(), .cover = r.next() % 3 ? r.uniform() : 1};
 }

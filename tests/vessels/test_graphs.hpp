@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,7 @@
 
 namespace trocar::vessels::test {
 
-inline constexpr double kPi = 3.14159265358979323846;
+inline constexpr double kPi = std::numbers::pi;
 inline constexpr double kMmHg = kPascalPerMmHg;
 inline constexpr double kMlPerMinute = 1e-6 / 60;
 
@@ -43,7 +44,7 @@ struct Simulation {
   FlowState state;
   FlowWork work;
   std::vector<Opening> openings;
-  std::vector<Clip> clips;
+  std::vector<Occlusion> clips;
   std::vector<OpeningFlow> flows;
   explicit Simulation(const VesselGraph& graph, double settle = 0)
       : model(build(graph)), state(settled_state(model, settle)), work(make_work(model)) {}

@@ -94,7 +94,7 @@ TEST(SurfaceStrain, IsTheLargestStretchWhicheverWayTheTriangleLies) {
 sim::State with_stretched_cord(double strain) {
   sim::State state = sim::initial_state(small::model());
   tissue::StrandState& cord = state.strands[small::kCord];
-  const tissue::StrandModel& model = small::model().bodies[small::kCord].model;
+  const tissue::StrandModel& model = small::model().strand_bodies[small::kCord].model;
   for (std::size_t i = 1; i < cord.x.size(); ++i)
     cord.x[i] = cord.x[i - 1] + Vec3d{(1 + strain) * model.rest_length[i - 1], 0, 0};
   return state;

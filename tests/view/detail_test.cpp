@@ -1,5 +1,6 @@
 // How finely things are drawn, by how far off they are: when levels change, what they save, and that it is not seen.
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -53,7 +54,7 @@ TEST(Detail, WithoutLevelsEverythingIsThere) {
 
 TEST(DetailEye, AThingChangesAtTheSameSizeInPixels) {
   render::Camera camera;
-  camera.vertical_fov = float(70 * 3.14159265358979 / 180);
+  camera.vertical_fov = float(70 * std::numbers::pi / 180);
   const std::vector<Vec3f> at{{0, 0, -0.1f}};
   EXPECT_NEAR(DetailEye(camera, 600, {}, 0).distance(at), 0.1, 1e-4);
   EXPECT_NEAR(DetailEye(camera, 1200, {}, 0).distance(at), 0.05, 1e-4);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 #include <gtest/gtest.h>
@@ -41,7 +42,7 @@ struct Scene {
   }
   /// A jet of 1 mm^2 upwards with nothing to meet.
   void spurt(int ticks) {
-    fluids::Opening o;
+    fluids::Outlet o;
     o.position = {0, 0, 0.02f}, o.direction = {0.6f, 0, 0.8f}, o.area = 1e-6;
     o.flow.blood = 1'200'000;
     for (int t = 0; t < ticks; ++t) {
@@ -180,7 +181,7 @@ TEST(FluidDrawing, ACapOfWaterHasItsDropsVolume) {
     EXPECT_EQ(s.kind, render::SplatKind::lying);
     // Its profile is a parabola across, and the same along its axis.
     const double a = double(s.radius), h = double(s.height), tail = double(length(s.to - s.from));
-    const double volume = 3.14159265 / 2 * h * a * a + 4.0 / 3 * a * h * tail;
+    const double volume = std::numbers::pi / 2 * h * a * a + 4.0 / 3 * a * h * tail;
     EXPECT_NEAR(volume, 4e-9, 0.05 * 4e-9) << speed;
     EXPECT_LT(h, 0.8 * a) << "no bead";
     EXPECT_NEAR(tail, speed > 0.1f ? 0.0032 : (speed > 0 ? 0.0011 : 0), 0.0006);
@@ -190,7 +191,7 @@ TEST(FluidDrawing, ACapOfWaterHasItsDropsVolume) {
 /// Of a film: its height times (1 - r^2)^2, over its round ends and what is between.
 double volume_of(const render::Splat& s) {
   const double reach = double(render::kSplatReach * s.radius), tail = double(length(s.to - s.from));
-  return double(s.height) * (3.14159265 / 3 * reach * reach + 16.0 / 15 * reach * tail);
+  return double(s.height) * (std::numbers::pi / 3 * reach * reach + 16.0 / 15 * reach * tail);
 }
 
 TEST(FluidDrawing, BloodThatLandsIsFilmOfItsVolumeWithATailUpTheWall) {

@@ -151,7 +151,7 @@ TEST(Ridge, RunsFromItsLigamentToTheWallAndEndsBelowThat) {
     const TubeDrawing tube(pelvis(), i, {}, &walls());
     if (Ridge::meets_head_on(pelvis(), tube, i, walls())) continue;
     const Ridge ridge(pelvis(), tube, i, walls(), *backend);
-    const tissue::StrandState rest = tissue::rest_state(pelvis().bodies[std::size_t(i)].model);
+    const tissue::StrandState rest = tissue::rest_state(pelvis().strand_bodies[std::size_t(i)].model);
     double to_ligament = 1, to_wall = 1;
     for (const Vec3f& f : ridge.buffer().positions) {
       const Vec3d p = vec_cast<double>(f);
@@ -173,7 +173,7 @@ TEST(Ridge, OfALigamentThatCarriesNothingCoversItAndIsLostInTheWall) {
     if (pelvis().strands[std::size_t(i)].name.find("uterosacral") == std::string::npos) continue;
     const TubeDrawing tube(pelvis(), i, {}, &walls());
     const Ridge ridge(pelvis(), tube, i, walls(), *backend);
-    const interactions::StrandBody& body = pelvis().bodies[std::size_t(i)];
+    const interactions::StrandBody& body = pelvis().strand_bodies[std::size_t(i)];
     for (const Vec3f& f : ridge.buffer().positions) {  // none of it lies within the ligament, from its middle on
       const Vec3d p = vec_cast<double>(f);
       for (int n = body.nodes() / 2; n + 1 < body.nodes(); ++n) {
@@ -197,11 +197,11 @@ TEST(Ridge, OfALigamentThatCarriesNothingCoversItAndIsLostInTheWall) {
 TEST(SheetCrescent, LeavesItsStrandAndItsWallAlongThemAndHasAThinBorder) {
   const auto backend = render::make_null_backend();
   int crescents = 0;
-  for (int i = 0; i < int(pelvis().sheets.size()); ++i) {
-    const sim::SheetModel& sheet = pelvis().sheets[std::size_t(i)];
+  for (int i = 0; i < int(pelvis().drawn_folds.size()); ++i) {
+    const sim::DrawnFold& sheet = pelvis().drawn_folds[std::size_t(i)];
     if (sheet.name.find("front") == std::string::npos) continue;
     const SheetDrawing drawn(pelvis(), i, *backend, {}, &walls());
-    const interactions::StrandBody& tube = pelvis().bodies[std::size_t(sheet.strand)];
+    const interactions::StrandBody& tube = pelvis().strand_bodies[std::size_t(sheet.strand)];
     const Vec3d tip = point_at(tube, sim::initial_state(pelvis()).strands[std::size_t(sheet.strand)],
                                place_at(tube, sheet.to + SheetCrescent::kAlong));
     double to_tip = 1;
@@ -228,12 +228,12 @@ TEST(SheetCrescent, LeavesItsStrandAndItsWallAlongThemAndHasAThinBorder) {
 TEST(SheetCrescent, OfTheBroadLigamentGoesOnAlongTheInfundibulopelvicOneAndFollowsIt) {
   const auto backend = render::make_null_backend();
   int hung = 0;
-  for (int i = 0; i < int(pelvis().sheets.size()); ++i) {
-    const std::string& name = pelvis().sheets[std::size_t(i)].name;
+  for (int i = 0; i < int(pelvis().drawn_folds.size()); ++i) {
+    const std::string& name = pelvis().drawn_folds[std::size_t(i)].name;
     if (name.find("front") == std::string::npos) continue;
     const int ligament = pelvis().strand_index("infundibulopelvic_ligament" + name.substr(name.rfind('_')));
     ASSERT_GE(ligament, 0);
-    const interactions::StrandBody& body = pelvis().bodies[std::size_t(ligament)];
+    const interactions::StrandBody& body = pelvis().strand_bodies[std::size_t(ligament)];
     SheetDrawing sheet(pelvis(), i, *backend, {}, &walls());
     sim::State state = sim::initial_state(pelvis());
     for (const double moved : {0.0, 0.005}) {
@@ -340,7 +340,7 @@ TEST(Adhesions, NoneComesNearATubeOrItsFimbriae) {
   for (std::size_t i = 0; i < pelvis().strands.size(); ++i) {
     if (!pelvis().strands[i].fimbriated) continue;
     ++tubes;
-    for (const Vec3d& tube : pelvis().bodies[i].model.rest)
+    for (const Vec3d& tube : pelvis().strand_bodies[i].model.rest)
       for (const Vec3f& p : adhesions.buffer().positions)
         ASSERT_GT(length(vec_cast<double>(p) - tube), 0.99 * double(Adhesions::kFromTubes));
   }
@@ -374,8 +374,8 @@ TEST(Adhesions, AlsoHangOnBowelThatDoesNotMoveAndStayThere) {
 TEST(SheetDrawing, ABaseInTheAirGoesOnToTheWall) {
   const auto backend = render::make_null_backend();
   int hanging = 0;
-  for (int i = 0; i < int(pelvis().sheets.size()); ++i) {
-    const auto& base = pelvis().sheets[std::size_t(i)].base;
+  for (int i = 0; i < int(pelvis().drawn_folds.size()); ++i) {
+    const auto& base = pelvis().drawn_folds[std::size_t(i)].base;
     if (std::any_of(base.begin(), base.end(), [](const sim::BasePoint& b) { return b.organ >= 0 || b.strand >= 0; }))
       continue;
     const SheetDrawing sheet(pelvis(), i, *backend, {}, &walls());
@@ -384,7 +384,7 @@ TEST(SheetDrawing, ABaseInTheAirGoesOnToTheWall) {
       const WallSurface::Place wall = walls().nearest(vec_cast<double>(f));
       below += length(wall.point - vec_cast<double>(f)) < 0.004;
     }
-    EXPECT_GT(below, 10) << pelvis().sheets[std::size_t(i)].name;
+    EXPECT_GT(below, 10) << pelvis().drawn_folds[std::size_t(i)].name;
     ++hanging;
   }
   EXPECT_GE(hanging, 2);

@@ -151,7 +151,7 @@ TEST(Fimbriae, LieOnTheOvaryAndNotInIt) {
 TEST(TubeDrawing, StaysWithinAMillimetreAndAHalfOfTheSimulatedTube) {
   const int strand = pelvis().strand_index("tube_left");
   const TubeDrawing tube(pelvis(), strand);
-  const interactions::StrandBody& body = pelvis().bodies[std::size_t(strand)];
+  const interactions::StrandBody& body = pelvis().strand_bodies[std::size_t(strand)];
   const std::vector<double>& outer = pelvis().strands[std::size_t(strand)].outer;
   double thinnest = 1, thickest = 0;
   for (std::size_t n = 4; n + 5 < body.model.rest.size(); ++n) {  // between the uterus and the bell

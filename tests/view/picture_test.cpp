@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -506,7 +507,7 @@ TEST(Relief, ABowelHasThreeBandsWithBulgesBetween) {
   constexpr int kAround = 120, kAlong = 80;
   for (int j = 0; j < kAlong; ++j)
     for (int i = 0; i < kAround; ++i) {
-      const double a = 2 * 3.14159265358979 * i / kAround;
+      const double a = 2 * std::numbers::pi * i / kAround;
       skin.rest.push_back(vec_cast<float>(Vec3d{0.0012 * j, 0.012 * std::cos(a), 0.012 * std::sin(a)}));
       skin.rest_normal.push_back(vec_cast<float>(Vec3d{0, std::cos(a), std::sin(a)}));
     }

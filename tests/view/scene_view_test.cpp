@@ -58,7 +58,8 @@ void cut(sim::State& state, int strand, double s, double fraction = 1) {
   c.s = s;
   c.fraction = fraction;
   if (fraction < 1) return;
-  tissue::cut_element(state.strands[std::size_t(strand)], place_at(pelvis().bodies[std::size_t(strand)], s).element);
+  tissue::cut_element(state.strands[std::size_t(strand)],
+                      place_at(pelvis().strand_bodies[std::size_t(strand)], s).element);
 }
 
 void clip(sim::State& state, int strand, double s, double cover = 1) {
@@ -102,7 +103,7 @@ TEST(SceneView, EveryFrameIsDrawableFromStartToEnd) {
   expect_drawable(view, *backend, state);
   cut(state, left_tube(), 0.0255);  // the next element: one node between two cuts
   cut(state, left_tube(), 0.0002);
-  cut(state, left_tube(), pelvis().bodies[std::size_t(left_tube())].length() - 0.0002);
+  cut(state, left_tube(), pelvis().strand_bodies[std::size_t(left_tube())].length() - 0.0002);
   expect_drawable(view, *backend, state);
   expect_drawable(view, *backend, sim::initial_state(pelvis()));  // a replay that starts again
 }
@@ -222,7 +223,7 @@ TEST(SceneView, AClipIsDrawnOnItsHostAndADroppedOneIsNot) {
   clip(state, left_tube(), 0.02);
   const render::Frame frame = view.frame(state, {});
   ASSERT_EQ(frame.items.size(), before + 1);
-  const interactions::StrandBody& body = pelvis().bodies[std::size_t(left_tube())];
+  const interactions::StrandBody& body = pelvis().strand_bodies[std::size_t(left_tube())];
   const Vec3d host = point_at(body, state.strands[std::size_t(left_tube())], place_at(body, 0.02));
   const Vec3d eye = vec_cast<double>(frame.camera.position), to_eye = normalised(eye - host);
   double aside = 1, nearer = 0;  // of the metal that lies most nearly on the line from the host to the eye
@@ -255,12 +256,12 @@ TEST(TubeDrawing, BothStumpsOfACutAreClosedAndEndAtTheCut) {
   sim::State state = sim::initial_state(pelvis());
   cut(state, left_tube(), 0.0231);
   tissue::StrandState& strand = state.strands[std::size_t(left_tube())];
-  const int element = place_at(pelvis().bodies[std::size_t(left_tube())], 0.0231).element;
+  const int element = place_at(pelvis().strand_bodies[std::size_t(left_tube())], 0.0231).element;
   for (std::size_t i = std::size_t(element) + 1; i < strand.x.size(); ++i) strand.x[i].x += 0.02;
   tube.update(state);
   const geometry::TriMesh mesh = welded(tube.buffer());
   EXPECT_TRUE(geometry::check_edges(mesh).closed());
-  const interactions::StrandBody& body = pelvis().bodies[std::size_t(left_tube())];
+  const interactions::StrandBody& body = pelvis().strand_bodies[std::size_t(left_tube())];
   const auto pieces = pieces_of(body, strand.alive, {state.cuts.data(), 1}, left_tube());
   ASSERT_EQ(pieces.size(), 2u);
   const StrandCurve curve(body, strand, pieces);
@@ -339,9 +340,9 @@ TEST(TubeDrawing, RestCoordinatesDoNotMoveWhenTheTubeIsCut) {
 }
 
 TEST(SheetDrawing, TheFoldHangsOnItsTubeAndSplitsWhereThatIsCut) {
-  ASSERT_FALSE(pelvis().sheets.empty());
+  ASSERT_FALSE(pelvis().drawn_folds.empty());
   auto backend = render::make_null_backend();
-  const int strand = pelvis().sheets[0].strand;
+  const int strand = pelvis().drawn_folds[0].strand;
   SheetDrawing sheet(pelvis(), 0, *backend);
   sim::State state = sim::initial_state(pelvis());
   sheet.update(state);
@@ -352,7 +353,7 @@ TEST(SheetDrawing, TheFoldHangsOnItsTubeAndSplitsWhereThatIsCut) {
   EXPECT_NEAR(sheet.buffer().positions[0].z - before.positions[0].z, 0.01f, 0.002f);  // on the tube
   const std::size_t base = before.positions.size() - 1;
   EXPECT_LT(length(sheet.buffer().positions[base] - before.positions[base]), 1e-4f);  // on the base line
-  const double middle = 0.5 * (pelvis().sheets[0].from + pelvis().sheets[0].to);
+  const double middle = 0.5 * (pelvis().drawn_folds[0].from + pelvis().drawn_folds[0].to);
   cut(state, strand, middle);
   sheet.update(state);
   EXPECT_GT(geometry::check_edges(welded(sheet.buffer())).open, geometry::check_edges(welded(before)).open - 1);
@@ -822,9 +823,9 @@ TEST(ClipShape, IsGroovedOnItsInnerSidesAndSmoothOutside) {
 TEST(Looks, EveryLookOfTheScenesIsKnown) {
   const auto known = [](const std::string& name) { return look(name).name == name; };
   for (const sim::SolidModel& s : pelvis().solids) EXPECT_TRUE(known(s.look)) << s.look;
-  for (const sim::StrandModel& s : pelvis().strands) EXPECT_TRUE(known(s.look)) << s.look;
+  for (const sim::StrandAnatomy& s : pelvis().strands) EXPECT_TRUE(known(s.look)) << s.look;
   for (const sim::WallModel& w : pelvis().walls) EXPECT_TRUE(known(w.look)) << w.look;
-  for (const sim::SheetModel& s : pelvis().sheets) EXPECT_TRUE(known(s.look)) << s.look;
+  for (const sim::DrawnFold& s : pelvis().drawn_folds) EXPECT_TRUE(known(s.look)) << s.look;
 }
 
 TEST(Looks, AnUnknownNameIsANeutralTissue) { EXPECT_EQ(look("no such look").name, "neutral"); }

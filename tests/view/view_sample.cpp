@@ -62,7 +62,7 @@ const Shot kShots[] = {
 /// Two clips on the left tube and a cut between them, ends drawn apart.
 void operate(const sim::Model& model, sim::State& state) {
   const int strand = std::max(0, model.strand_index("tube_left"));
-  const interactions::StrandBody& body = model.bodies[std::size_t(strand)];
+  const interactions::StrandBody& body = model.strand_bodies[std::size_t(strand)];
   tissue::StrandState& tube = state.strands[std::size_t(strand)];
   for (const double s : {0.016, 0.030}) {
     interactions::Clip& clip = state.clips[std::size_t(state.clip_count++)];
@@ -99,7 +99,7 @@ void hover(const sim::Model& model, sim::State& state, sim::Work& work, double a
 /// The grasper takes the left tube's ampulla and lifts it.
 void grasp(const sim::Model& model, sim::State& state, sim::Work& work) {
   const int strand = std::max(0, model.strand_index("tube_left"));
-  const interactions::StrandBody& body = model.bodies[std::size_t(strand)];
+  const interactions::StrandBody& body = model.strand_bodies[std::size_t(strand)];
   sim::Input input = model.start;
   const auto go = [&](Vec3d tip, double handle, int ticks) {
     const kinematics::FulcrumPose pose = kinematics::inverse(model.hands[0].port, tip, double(input.tools[0].roll));
@@ -165,7 +165,7 @@ int main(int argc, char** argv) {
   states[6] = states[1];
   if (const int tube = model.strand_index("tube_left"); tube >= 0) {  // the ends drawn apart
     std::vector<Vec3d>& x = states[6].strands[std::size_t(tube)].x;
-    const auto cut = std::size_t(place_at(model.bodies[std::size_t(tube)], 0.0231).element);
+    const auto cut = std::size_t(place_at(model.strand_bodies[std::size_t(tube)], 0.0231).element);
     for (std::size_t i = cut + 1; i < x.size(); ++i) {
       const double far = double(i - cut) / 6;
       x[i] += std::max(0.0, 1 - 0.2 * far) * Vec3d{0.006, 0.004 - 0.003 * far, 0.003};

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include <trocar/attempt/footage.hpp>
+#include <trocar/sim/recording/keyframe.hpp>
 
 namespace trocar::attempt {
 namespace {

@@ -2,11 +2,12 @@
 
 #include <trocar/attempt/hand_pilot.hpp>
 #include <trocar/attempt/live.hpp>
+#include <trocar/core/tick.hpp>
 
 namespace trocar::attempt {
 namespace {
 
-constexpr auto kTickTime = std::chrono::milliseconds(1);
+constexpr auto kTickTime = std::chrono::microseconds(1'000'000 / core::kTicksPerSecond);
 constexpr auto kDebt = std::chrono::milliseconds(30);  // that much is caught up with; more becomes slow motion
 constexpr std::uint64_t kAftermath = 1500;             // ticks shown after the last step is done
 constexpr double kSpeedWindow = 0.25;                  // [s]

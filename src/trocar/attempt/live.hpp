@@ -13,8 +13,8 @@
 #include <thread>
 
 #include <trocar/attempt/session.hpp>
+#include <trocar/core/triple_buffer.hpp>
 #include <trocar/devices/mailbox.hpp>
-#include <trocar/sim/recording/publish.hpp>
 
 namespace trocar::attempt {
 
@@ -65,7 +65,7 @@ class Live {
   InputSource* m_source;
   std::uint64_t m_limit;
   devices::Mailbox<sim::Input> m_commands;
-  sim::Published<Snapshot> m_published;
+  core::TripleBuffer<Snapshot> m_published;
   std::atomic<bool> m_stop{false}, m_paused{false}, m_wanted{false};
 
   // The simulation thread's own.

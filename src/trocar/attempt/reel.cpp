@@ -7,6 +7,7 @@
 
 #include <trocar/attempt/footage.hpp>
 #include <trocar/attempt/reel.hpp>
+#include <trocar/core/tick.hpp>
 #include <trocar/training/store/json_fields.hpp>
 
 namespace trocar::attempt {
@@ -28,7 +29,7 @@ int threads_of(int wanted) {
 
 std::uint64_t tick_of(const Json& at_seconds) {
   const double seconds = at_seconds.is_number() ? at_seconds.get<double>() : -1;
-  return seconds >= 0 && seconds < 1e6 ? std::uint64_t(std::llround(seconds * 1000)) : 0;
+  return seconds >= 0 && seconds < 1e6 ? std::uint64_t(std::llround(seconds * double(core::kTicksPerSecond))) : 0;
 }
 
 /// The members of a list that are objects: the result is a file's content, so anything may stand there.

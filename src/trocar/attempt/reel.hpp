@@ -19,7 +19,7 @@
 #include <trocar/attempt/kept_states.hpp>
 #include <trocar/attempt/session.hpp>
 #include <trocar/attempt/timeline.hpp>
-#include <trocar/sim/recording/publish.hpp>
+#include <trocar/core/triple_buffer.hpp>
 #include <trocar/sim/recording/recording.hpp>
 
 namespace trocar::attempt {
@@ -101,7 +101,7 @@ class Reel {
   const Options m_options;
   const bool m_replays;
   const std::uint64_t m_last;
-  sim::Published<sim::State> m_published;
+  core::TripleBuffer<sim::State> m_published;
   std::atomic<std::uint64_t> m_target{0}, m_known{0}, m_way{0}, m_differs_from{kNowhere};
   std::atomic<std::uint64_t> m_spacing{0};
   std::atomic<std::size_t> m_kept_bytes{0};

@@ -10,6 +10,7 @@
 #include <trocar/core/error.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/core/log.hpp>
+#include <trocar/sim/recording/keyframe.hpp>
 #include <trocar/training/exercise/hands.hpp>
 
 namespace trocar::attempt {

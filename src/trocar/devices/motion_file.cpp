@@ -7,6 +7,7 @@
 #include <set>
 #include <string_view>
 
+#include <trocar/core/tick.hpp>
 #include <trocar/devices/motion_file.hpp>
 
 namespace trocar::devices {
@@ -355,7 +356,9 @@ MotionCurve::MotionCurve(const MotionTrial& trial) {
                                               s[i].time - s[i - 1].time, s[i + 1].time - s[i].time);
 }
 
-std::uint64_t MotionCurve::ticks() const { return std::uint64_t(std::ceil(duration() * 1000)) + 1; }
+std::uint64_t MotionCurve::ticks() const {
+  return std::uint64_t(std::ceil(duration() * double(core::kTicksPerSecond))) + 1;
+}
 
 MotionSample MotionCurve::at(double time) const {
   if (!(time > 0)) return m_knots.front().sample;

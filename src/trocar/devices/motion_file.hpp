@@ -28,6 +28,7 @@
 #include <vector>
 
 #include <trocar/core/error.hpp>
+#include <trocar/core/tick.hpp>
 
 namespace trocar::devices {
 
@@ -93,7 +94,7 @@ class MotionCurve {
   std::uint64_t ticks() const;                                    ///< of 1 ms, the last row included
 
   MotionSample at(double time) const;  ///< [s] since the first row, clamped to the trial
-  MotionSample at_tick(std::uint64_t tick) const { return at(double(tick) * 0.001); }
+  MotionSample at_tick(std::uint64_t tick) const { return at(double(tick) * core::kTick); }
 
  private:
   struct Knot {

@@ -18,7 +18,7 @@ void require(bool holds, const char* what) {
   if (!holds) throw std::invalid_argument(what);
 }
 bool power_of_two(int n) { return n > 0 && (n & (n - 1)) == 0; }
-Blood fresh(const DropletModel& m, const DropletState& s, const Opening& o) {
+Blood fresh(const DropletModel& m, const DropletState& s, const Outlet& o) {
   return {now_of(m, s), o.venous > 0 ? std::min(o.venous, 1.0f) : 0.0f};  // NaN counts as none
 }
 bool finite(Vec3f p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
@@ -53,7 +53,7 @@ Mix bounded_flow(const Mix& flow, FluidReport& report, std::int32_t index) {
 }
 
 /// Drops of one opening in one tick, along the way that the jet covers in it; speed v = Q / A.
-void break_up(const DropletModel& m, const Opening& o, const Mix& in, std::int32_t index, DropletState& s, Below& below,
+void break_up(const DropletModel& m, const Outlet& o, const Mix& in, std::int32_t index, DropletState& s, Below& below,
               FluidReport& report) {
   Mix& forming = s.forming[std::size_t(index)];
   receive(below.ledger, o.source, Place::kDroplets, in);
@@ -80,7 +80,7 @@ void break_up(const DropletModel& m, const Opening& o, const Mix& in, std::int32
   forming = {};
 }
 
-void ooze(const DropletModel& m, const Opening& o, const Mix& in, DropletState& s, Below& below) {
+void ooze(const DropletModel& m, const Outlet& o, const Mix& in, DropletState& s, Below& below) {
   receive(below.ledger, o.source, Place::kFilm, in);
   SmallMix& place = s.film[std::size_t(o.film)];
   const Mix fits = share(in, std::int64_t(kMostInACell) - place.total());
@@ -91,10 +91,10 @@ void ooze(const DropletModel& m, const Opening& o, const Mix& in, DropletState& 
   if (!(fits == in)) detail::put_into_pool(o.position, in - fits, fresh(m, s, o), Place::kFilm, below);
 }
 
-void open_up(const DropletModel& m, std::span<const Opening> openings, DropletState& s, Below& below,
+void open_up(const DropletModel& m, std::span<const Outlet> openings, DropletState& s, Below& below,
              FluidReport& report) {
   for (std::int32_t i = 0; i < std::int32_t(openings.size()); ++i) {
-    const Opening& o = openings[std::size_t(i)];
+    const Outlet& o = openings[std::size_t(i)];
     const Mix in = bounded_flow(o.flow, report, i);
     if (in.empty()) continue;
     const bool placed = finite(o.position) && finite(o.direction) && finite(o.velocity) &&
@@ -217,7 +217,7 @@ constexpr float kWasQuick = 1.0f;
 
 /// In a crowd a drop on a surface is asked for in every second of its turns, a slow one in every fourth. In bits of the
 /// tick and the drop's name that are zero when it is.
-std::uint32_t unasked_turns(const DropletModel& m, const DropletState& s, std::int32_t i) {
+std::uint32_t skipped_turns(const DropletModel& m, const DropletState& s, std::int32_t i) {
   if (m.fly_period == 1) return 0;
   const Vec3f ground = s.ground[i].velocity, along = Vec3f{s.vx[i], s.vy[i], s.vz[i]} - ground;
   const bool slow = dot(ground, ground) < kSlow * kSlow && dot(along, along) < kSlow * kSlow;
@@ -233,7 +233,7 @@ void ask(const DropletModel& m, std::uint32_t newborn, const DropletState& s, Dr
     const std::uint32_t turn = s.id[i] + std::uint32_t(s.tick);
     const bool flies = s.body[i] < 0;
     const std::uint32_t unasked =
-        flies ? std::uint32_t(ways_of(w, {s.vx[i], s.vy[i], s.vz[i]}, kWasQuick)) - 1 : unasked_turns(m, s, i);
+        flies ? std::uint32_t(ways_of(w, {s.vx[i], s.vy[i], s.vz[i]}, kWasQuick)) - 1 : skipped_turns(m, s, i);
     const bool asks = int((turn & unasked) == 0) | (int(flies) & int(s.id[i] >= newborn));
     w.question_of[k] = asks ? w.questions : flies ? -1 : kRunsUnasked;
     w.asking[w.questions] = i;
@@ -254,7 +254,7 @@ void ask_for_film(const DropletModel& m, const DropletState& s, DropletWork& w) 
 
 }  // namespace
 
-void for_a_crowd(DropletDescription& d) noexcept {
+void set_crowd_level_of_detail(DropletDescription& d) noexcept {
   d.run_period = 16;
   d.fly_period = 8;
   d.pair_parts = 8;
@@ -317,7 +317,7 @@ bool add_drop(const DropletModel& m, Vec3f p, Vec3f v, const Mix& volume, Drople
   return true;
 }
 
-FluidReport plan(const DropletModel& m, std::span<const Opening> openings, DropletState& s, DropletWork& w,
+FluidReport plan(const DropletModel& m, std::span<const Outlet> openings, DropletState& s, DropletWork& w,
                  Below& below) noexcept {
   FluidReport report;
   const std::uint32_t newborn = s.next_id;

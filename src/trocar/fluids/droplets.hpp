@@ -24,7 +24,7 @@
 // Drops on surfaces move on every fourth tick, a quarter of them on each. Forces between drops are looked at on every
 // fourth tick (those in flight) and on every eighth (those on surfaces, among themselves, half of the pairs each time);
 // films and the pool's surface at similar rates (our choice, for speed). Descriptions made for crowds may ask for
-// longer periods (for_a_crowd()).
+// longer periods (set_crowd_level_of_detail()).
 //
 // Volumes are whole picolitres (mix.hpp). Arrays are by drop, 0 .. count - 1; a drop that ends leaves its place to the
 // last one. `id` names a drop for as long as it lives.
@@ -36,6 +36,7 @@
 #include <vector>
 
 #include <trocar/core/hash.hpp>
+#include <trocar/core/tick.hpp>
 #include <trocar/fluids/capsule.hpp>
 #include <trocar/fluids/ledger.hpp>
 #include <trocar/fluids/pool.hpp>
@@ -70,7 +71,7 @@ struct DropletDescription {
 };
 
 struct DropletModel : DropletDescription {
-  double tick = 1e-3;  ///< [s]
+  double tick = core::kTick;  ///< [s]
 };
 
 /// What a running drop runs on: points x with normal . x = offset.
@@ -103,7 +104,7 @@ struct DropletState {
 };
 
 /// Where fluid comes out. Its index in the span is its name from tick to tick.
-struct Opening {
+struct Outlet {
   Vec3f position{0, 0, 0}, direction{0, 0, 1};  ///< direction: unit
   Vec3f velocity{0, 0, 0};                      ///< of the opening itself [m/s]
   double area = 0;                              ///< [m^2]
@@ -171,9 +172,9 @@ inline int ways_of(const DropletWork& work, Vec3f velocity, float quick = 1.2f) 
 /// ticks ahead, quick ones on every fourth; those on surfaces move on every sixteenth and are asked for on every second
 /// of these turns, slow ones on slow ground on every fourth; pairs on surfaces are looked at an eighth at a time. Our
 /// choice
-void for_a_crowd(DropletDescription& description) noexcept;
+void set_crowd_level_of_detail(DropletDescription& description) noexcept;
 /// @throws std::invalid_argument naming what is out of range
-DropletModel build(const DropletDescription& description, double tick = 1e-3);
+DropletModel build(const DropletDescription& description, double tick = core::kTick);
 DropletState no_droplets(const DropletModel& model);
 DropletWork make_work(const DropletModel& model);
 
@@ -186,7 +187,7 @@ struct Below {
 };
 
 /// First half of a tick.
-FluidReport plan(const DropletModel& model, std::span<const Opening> openings, DropletState& state, DropletWork& work,
+FluidReport plan(const DropletModel& model, std::span<const Outlet> openings, DropletState& state, DropletWork& work,
                  Below& below) noexcept;
 /// Second half. @param capsules  instruments; drops cling to them and run down on them
 FluidReport resolve(const DropletModel& model, std::span<const Capsule> capsules, DropletState& state,

@@ -22,8 +22,8 @@ double irrigation_flow(const Lines& l, const SuctionIrrigator& tool) {
 int open_nozzles(const FluidsModel& m, const FluidsInput& in, FluidsState& s, FluidsWork& w) {
   const std::size_t tools = std::min(in.tools.size(), std::size_t(kMostTools));
   for (std::size_t k = 0; k < kMostTools; ++k) {
-    Opening& o = w.openings[k];
-    o = Opening{};
+    Outlet& o = w.openings[k];
+    o = Outlet{};
     if (k >= tools || !(valve(in.tools[k].irrigation) > 0)) continue;
     const SuctionIrrigator& tool = in.tools[k];
     o.position = tool.tip, o.direction = tool.direction, o.velocity = tool.velocity;
@@ -87,7 +87,7 @@ FluidsState initial_state(const FluidsModel& m) {
 }
 
 FluidsWork make_work(const FluidsModel& m) {
-  return {make_work(m.pool), make_work(m.droplets), make_work(m.smoke), std::vector<Opening>(kMostOpenings)};
+  return {make_work(m.pool), make_work(m.droplets), make_work(m.smoke), std::vector<Outlet>(kMostOpenings)};
 }
 
 FluidReport begin_tick(const FluidsModel& m, const FluidsInput& in, FluidsState& s, FluidsWork& w) noexcept {
@@ -164,7 +164,7 @@ void poison(FluidsWork& w) noexcept {
   std::fill(d.pairs.begin(), d.pairs.end(), DropletWork::Pair{0x5a5a5a5a, 0x5a5a5a5a});
   d.pair_count = d.questions = d.ways = d.film_questions = d.impact_count = 0x5a5a5a5a;
   floats(w.smoke.rise), floats(w.smoke.next);
-  Opening wild;
+  Outlet wild;
   wild.position = {nan, nan, nan}, wild.flow = {77, 77, 77};
   std::fill(w.openings.begin(), w.openings.end(), wild);
 }

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include <trocar/core/hash.hpp>
+#include <trocar/core/tick.hpp>
 #include <trocar/fluids/droplets.hpp>
 #include <trocar/fluids/insufflator.hpp>
 #include <trocar/fluids/jet.hpp>
@@ -44,7 +45,7 @@ struct FluidsModel {
   SmokeModel smoke;
   Lines lines;
   Insufflator insufflator;
-  double tick = 1e-3;  ///< [s]
+  double tick = core::kTick;  ///< [s]
 };
 
 struct FluidsState {
@@ -60,7 +61,7 @@ struct FluidsWork {
   PoolWork pool;
   DropletWork droplets;
   SmokeWork smoke;
-  std::vector<Opening> openings;  ///< (kMostOpenings) tools' nozzles first
+  std::vector<Outlet> openings;  ///< (kMostOpenings) tools' nozzles first
 };
 
 /// One bore, two valves.
@@ -78,7 +79,7 @@ struct Boiled {
 };
 
 struct FluidsInput {
-  std::span<const Opening> openings;        ///< bleeding; the first kMostOpenings - kMostTools count
+  std::span<const Outlet> openings;         ///< bleeding; the first kMostOpenings - kMostTools count
   std::span<const SuctionIrrigator> tools;  ///< the first kMostTools count
   std::span<const Capsule> capsules;
   std::span<const float> floor;  ///< as PoolInput
@@ -100,7 +101,7 @@ struct FluidsReport {
 };
 
 /// @throws std::invalid_argument naming what is out of range
-FluidsModel build(const FluidsDescription& description, double tick = 1e-3);
+FluidsModel build(const FluidsDescription& description, double tick = core::kTick);
 FluidsState initial_state(const FluidsModel& model);
 FluidsWork make_work(const FluidsModel& model);
 

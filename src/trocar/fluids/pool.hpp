@@ -27,6 +27,7 @@
 #include <vector>
 
 #include <trocar/core/hash.hpp>
+#include <trocar/core/tick.hpp>
 #include <trocar/fluids/capsule.hpp>
 #include <trocar/fluids/ledger.hpp>
 #include <trocar/fluids/report.hpp>
@@ -53,10 +54,10 @@ struct PoolDescription {
 
 struct PoolModel : PoolDescription {
   Vec3d up{0, 0, 1};
-  double tick = 1e-3;       ///< [s]
-  int stride = 0;           ///< of a row in the arrays: nx + 1
-  float height_per_pl = 0;  ///< depth of a picolitre on a cell [m]
-  float fastest = 0;        ///< bound of speeds: half a cell a step [m/s]
+  double tick = core::kTick;  ///< [s]
+  int stride = 0;             ///< of a row in the arrays: nx + 1
+  float height_per_pl = 0;    ///< depth of a picolitre on a cell [m]
+  float fastest = 0;          ///< bound of speeds: half a cell a step [m/s]
 
   std::size_t size() const { return std::size_t(ny + 4) * stride + 16; }
   /// Place of cell (i, j) in the arrays; also of the faces between it and (i - 1, j), (i, j - 1).
@@ -102,7 +103,7 @@ struct PoolInput {
 };
 
 /// @throws std::invalid_argument naming what is out of range
-PoolModel build(const PoolDescription& description, double tick = 1e-3);
+PoolModel build(const PoolDescription& description, double tick = core::kTick);
 PoolState empty_pool(const PoolModel& model);
 PoolWork make_work(const PoolModel& model);
 

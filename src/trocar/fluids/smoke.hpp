@@ -20,6 +20,7 @@
 #include <vector>
 
 #include <trocar/core/hash.hpp>
+#include <trocar/core/tick.hpp>
 #include <trocar/numerics/vec3.hpp>
 
 namespace trocar::fluids {
@@ -43,7 +44,7 @@ struct SmokeDescription {
 };
 
 struct SmokeModel : SmokeDescription {
-  double tick = 1e-3;  ///< [s]
+  double tick = core::kTick;  ///< [s]
   int cells() const { return nx * ny * nz; }
 };
 
@@ -68,7 +69,7 @@ struct SmokeInput {
 };
 
 /// @throws std::invalid_argument naming what is out of range
-SmokeModel build(const SmokeDescription& description, double tick = 1e-3);
+SmokeModel build(const SmokeDescription& description, double tick = core::kTick);
 SmokeState clear_air(const SmokeModel& model);
 SmokeWork make_work(const SmokeModel& model);
 

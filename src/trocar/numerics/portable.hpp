@@ -2,6 +2,8 @@
 // The step and the scene compiler use these and never libm's. Accuracy: a few ulp over the stated ranges (tests).
 #pragma once
 
+#include <numbers>
+
 namespace trocar::portable {
 
 double sin(double x) noexcept;  ///< |x| <= 1e4
@@ -12,6 +14,6 @@ double asin(double x) noexcept;  ///< clamps |x| > 1
 double exp(double x) noexcept;   ///< 0 below -708, clamps above 709
 double log(double x) noexcept;   ///< x > 0
 
-inline constexpr double pi = 3.14159265358979323846;
+inline constexpr double pi = std::numbers::pi;
 
 }  // namespace trocar::portable

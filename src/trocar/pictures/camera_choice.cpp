@@ -1,5 +1,6 @@
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -9,7 +10,7 @@
 namespace trocar::pictures {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
+constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kNearest_mm = 30, kFarthest_mm = 1500;
 
 CameraChoice outside(double yaw_deg, double pitch_deg, double distance_mm) {

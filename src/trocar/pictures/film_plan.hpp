@@ -6,6 +6,7 @@
 
 #include <cstdint>
 
+#include <trocar/core/tick.hpp>
 #include <trocar/pictures/video.hpp>
 
 namespace trocar::pictures {
@@ -16,8 +17,8 @@ struct FilmPlan {
   std::uint64_t from = 0, to = 0;  ///< ticks, from <= to
   double speed = 1;                ///< kSlowest .. kFastest
 
-  double ticks_per_picture() const { return 1000.0 / kVideoRate * speed; }
-  double seconds() const { return double(to - from) * 1e-3 / speed; }  ///< of the film
+  double ticks_per_picture() const { return double(core::kTicksPerSecond) / kVideoRate * speed; }
+  double seconds() const { return double(to - from) * core::kTick / speed; }  ///< of the film
   /// At least one; together they last seconds() to within one picture.
   std::uint64_t pictures() const {
     const auto whole = std::uint64_t(seconds() * kVideoRate + 0.5);

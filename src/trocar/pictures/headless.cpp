@@ -1,5 +1,6 @@
 #include <trocar/attempt/interrupt.hpp>
 #include <trocar/attempt/progress.hpp>
+#include <trocar/core/tick.hpp>
 #include <trocar/pictures/headless.hpp>
 #include <trocar/pictures/pictures.hpp>
 #include <trocar/pictures/shot_moments.hpp>
@@ -8,7 +9,7 @@
 namespace trocar::pictures {
 namespace {
 
-constexpr std::uint64_t kTicksPerVideoFrame = 1000 / kVideoRate;
+constexpr std::uint64_t kTicksPerVideoFrame = core::kTicksPerSecond / kVideoRate;
 
 }  // namespace
 
@@ -34,7 +35,8 @@ Leftovers run_headless(attempt::Session& session, attempt::InputSource& source, 
   };
   add_data();
 
-  const std::uint64_t limit = options.seconds > 0 ? std::uint64_t(options.seconds * 1000) : ~std::uint64_t(0);
+  const std::uint64_t limit =
+      options.seconds > 0 ? std::uint64_t(options.seconds * double(core::kTicksPerSecond)) : ~std::uint64_t(0);
   const std::uint64_t begin = session.state().tick;
   attempt::Progress progress(begin);
   sim::Input input = model.start;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/core/tick.hpp>
 #include <trocar/pictures/shot_moments.hpp>
 
 namespace trocar::pictures {
@@ -18,7 +19,7 @@ std::vector<ShotMoment> moments_to_show(const attempt::Session& session, std::ui
     if (std::string_view(m.what) != "closed-empty") out.push_back({m.what, m.text});
   const std::uint64_t tick = session.state().tick;
   if (session.moments().empty() && tick > since && tick % kTicksPerShot == 0)
-    out.push_back({"time", fmt::format("after {} s", tick / 1000)});
+    out.push_back({"time", fmt::format("after {} s", tick / core::kTicksPerSecond)});
   return out;
 }
 

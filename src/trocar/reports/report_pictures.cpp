@@ -9,6 +9,7 @@
 #include <trocar/core/log.hpp>
 #include <trocar/pictures/pictures.hpp>
 #include <trocar/reports/report.hpp>
+#include <trocar/sim/recording/keyframe.hpp>
 #include <trocar/sim/recording/recording.hpp>
 
 namespace trocar::reports {

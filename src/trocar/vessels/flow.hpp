@@ -104,7 +104,7 @@ struct Opening {
 };
 
 /// A clip around a segment; on the same place as an opening it counts as nearer to `from`. Cover <= 0: not used.
-struct Clip {
+struct Occlusion {
   int segment = -1;
   double s = 0;      ///< 0 .. 1 along the segment
   double cover = 0;  ///< enclosed share of the lumen's width
@@ -112,7 +112,7 @@ struct Clip {
 
 struct FlowInput {
   std::span<const Opening> openings;  ///< at most settings.max_openings
-  std::span<const Clip> clips;        ///< at most settings.max_clips
+  std::span<const Occlusion> clips;   ///< at most settings.max_clips
   double infusion = 0;                ///< [m^3/s]
 };
 

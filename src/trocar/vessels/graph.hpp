@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include <trocar/core/tick.hpp>
 #include <trocar/vessels/heart.hpp>
 
 namespace trocar::vessels {
@@ -79,7 +80,7 @@ struct Blood {
 
 /// How the model is cut into cells and what its openings do; defaults are our choice unless said.
 struct FlowSettings {
-  double tick = 1e-3;            ///< [s]
+  double tick = core::kTick;     ///< [s]
   double implicitness = 0.55;    ///< 1/2 = second order and undamped; above it fast ringing dies: (1/2, 1]
   double cell_travel = 2;        ///< longest cell, in distances that a wave travels in a tick
   double closing_cover = 0.98;   ///< a clip of at least this cover closes; as of lumen.hpp

@@ -42,7 +42,7 @@ void insert(FlowWork& w, const FlowSite& site) {
   w.sites[i] = site;
 }
 
-void gather_clip(const FlowModel& m, const Clip& clip, int index, ClipState& slot, FlowWork& w) {
+void gather_clip(const FlowModel& m, const Occlusion& clip, int index, ClipState& slot, FlowWork& w) {
   const FlowSegment& segment = m.segments[clip.segment];
   FlowSite site;
   site.segment = clip.segment, site.index = index;
@@ -148,7 +148,7 @@ struct Walk {
 void gather_sites(const FlowModel& m, const FlowInput& in, FlowState& s, FlowWork& w, FlowReport& report) noexcept {
   w.site_count = 0;
   for (std::size_t i = 0; i < s.clips.size(); ++i) {
-    const Clip clip = i < in.clips.size() ? in.clips[i] : Clip{};
+    const Occlusion clip = i < in.clips.size() ? in.clips[i] : Occlusion{};
     const bool wanted = clip.segment != -1 && !(clip.cover <= 0);
     const bool good = placed(m, clip.segment, clip.s) && finite(clip.cover);
     if (wanted && !good) complain(report, FlowReport::kBadClip, i);

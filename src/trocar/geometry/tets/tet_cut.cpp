@@ -52,7 +52,7 @@ class Cutter {
     m_book.first_new = b.nodes;
   }
 
-  CutBook run() noexcept {
+  CutResult run() noexcept {
     w.touched_count = 0;
     if (!m_plane.flat) return m_book;
     gather_cells(b.cells, w.begin, w.around);
@@ -255,7 +255,7 @@ class Cutter {
   BladePlane m_plane;
   std::span<Vec3d> m_now;
   CutWork& w;
-  CutBook m_book;
+  CutResult m_book;
 };
 
 }  // namespace
@@ -321,7 +321,7 @@ CutWork make_work(const CuttableTets& body) {
   return w;
 }
 
-CutBook cut(CuttableTets& body, const Blade& blade, std::span<Vec3d> now, CutWork& work) noexcept {
+CutResult cut(CuttableTets& body, const Blade& blade, std::span<Vec3d> now, CutWork& work) noexcept {
   return Cutter(body, blade, now, work).run();
 }
 

@@ -5,7 +5,7 @@
 //
 //   CuttableTets body = cuttable(points, cells, spare_nodes);
 //   CutWork work = make_work(body);
-//   CutBook book = cut(body, blade, now, work);     // now: where the nodes are, at the moment of the cut
+//   CutResult book = cut(body, blade, now, work);     // now: where the nodes are, at the moment of the cut
 //
 // cut() takes no memory and throws nothing; the same body, blade and positions give the same bits.
 // Source: snapping and splitting as in [Nienhuys & van der Stappen 2001]; which cells part and how fans of cells keep
@@ -39,7 +39,7 @@ CuttableTets cuttable(std::span<const Vec3d> points, std::span<const Tet> cells,
 
 inline constexpr double kLeastDihedral = 10;  ///< no snap makes a smaller angle [degrees]
 
-struct CutBook {
+struct CutResult {
   int snapped = 0, refused = 0;  ///< nodes that moved to the blade; that should have and stayed
   int parted = 0;                ///< faces
   int doubled = 0;               ///< nodes that were made
@@ -67,7 +67,7 @@ CutWork make_work(const CuttableTets& body);
 
 /// @param now  (nodes) current positions [m]: nodes that snap move along with their drawn positions; (capacity) must be
 ///             given, doubles are put where their source is
-CutBook cut(CuttableTets& body, const Blade& blade, std::span<Vec3d> now, CutWork& work) noexcept;
+CutResult cut(CuttableTets& body, const Blade& blade, std::span<Vec3d> now, CutWork& work) noexcept;
 
 /// The cells at each node, ascending: those of node i are around[begin[i]] to around[begin[i + 1] - 1].
 /// @param begin  (nodes + 1)  @param around  (4 cells)

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include <trocar/core/tick.hpp>
 #include <trocar/geometry/surfaces/nearest.hpp>
 #include <trocar/interactions/instrument/membrane_contact.hpp>
 #include <trocar/interactions/instrument/needle.hpp>
@@ -191,8 +192,9 @@ void tool_on_sheet(Touching& c, const ToolState& tool_state, int body, const She
           if (tool_state.hold[h].element == v) return true;
     return false;
   };
-  constexpr double kTick = 1e-3;
-  const auto before = [&surface](int node) { return surface.position(node) - kTick * surface.nodes.velocity(node); };
+  const auto before = [&surface](int node) {
+    return surface.position(node) - core::kTick * surface.nodes.velocity(node);
+  };
   if (impales(shape.part[kShaft], sheet) || (bond == SheetBond::through && at_sheet(shape, sheet))) {
     if (bond == SheetBond::noted) std::fill(side.begin(), side.end(), Vec3f{});
     bond = SheetBond::through;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include <trocar/core/tick.hpp>
 #include <trocar/geometry/surfaces/nearest.hpp>
 #include <trocar/interactions/contact/nearest_skin.hpp>
 #include <trocar/interactions/instrument/tool_contact.hpp>
@@ -71,8 +72,7 @@ bool was_near(const Touching& c, int body, const Surface& surface, int v) noexce
 
 /// Was the part's axis outside the skin at that vertex?
 bool was_outside(const Touching& c, int part, const Surface& surface, int v, Vec3d p, Vec3d n) noexcept {
-  constexpr double kTick = 1e-3;
-  const Vec3d p0 = p - kTick * tissue::skin_velocity(surface.nodes, *surface.skin, v);
+  const Vec3d p0 = p - core::kTick * tissue::skin_velocity(surface.nodes, *surface.skin, v);
   return dot(p0 - collision::nearest_on_axis(c.before.part[part], p0), n) <= 0;
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include <trocar/core/tick.hpp>
 #include <trocar/interactions/instrument/lever.hpp>
 #include <trocar/interactions/instrument/wall_stop.hpp>
 
@@ -128,14 +129,14 @@ Rub Touching::rub(std::int32_t number, const Contact& c, Vec3d anchored_now) noe
     return r;
   }
   // It slips: the anchor is dragged along behind the point that is nearest now.
-  constexpr double kTick = 1e-3, kSlow = 0.01;  // [s], [m/s]
+  constexpr double kSlow = 0.01;  // [m/s]
   r.to = (kGive / far) * off;
   for (int k = 0; k < 2; ++k) t.weight[k] = float(c.weight[k]);
   put(t.anchor, into(frame, c.point + r.to));
   if (!(bound > 0)) return r;
   float here[3];
   put(here, into(frame, c.point));
-  const Vec3d surface = (c.point - out_of(frame_of(before, t.part), here)) / kTick;
+  const Vec3d surface = (c.point - out_of(frame_of(before, t.part), here)) / core::kTick;
   Vec3d slip = surface - c.velocity;
   slip -= dot(slip, c.normal) * c.normal;
   const double speed = length(slip);

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include <trocar/core/tick.hpp>
 #include <trocar/interactions/instrument/tool_contact.hpp>
 #include <trocar/interactions/verbs/clip.hpp>
 #include <trocar/numerics/portable.hpp>
@@ -11,7 +12,6 @@ constexpr double kOpenEnough = 0.8;   // aperture at which a fresh clip drops in
 constexpr double kHalfClosed = 0.5;   // closing time counts from here
 constexpr double kShut = 0.04;        // aperture at which the clip is set
 constexpr double kClipStiffness = 6;  // of a clipped element, times its own: titanium holds it straight
-constexpr double kTick = 1e-3;        // [s]
 
 struct Catch {
   int strand = -1;
@@ -79,7 +79,7 @@ bool update_clip_applier(const ToolModel& model, const ToolShape& shape, int too
   if (tool.aperture > kHalfClosed) tool.closed_for = 0;
   if (!tool.armed) return false;
   if (tool.aperture > kShut) {
-    if (tool.aperture <= kHalfClosed) tool.closed_for += kTick;
+    if (tool.aperture <= kHalfClosed) tool.closed_for += core::kTick;
     return false;
   }
   tool.armed = 0;

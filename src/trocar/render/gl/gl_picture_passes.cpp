@@ -2,6 +2,7 @@
 #include <cmath>
 #include <string>
 
+#include <trocar/core/tick.hpp>
 #include <trocar/render/gl/gl_backend_parts.hpp>
 
 namespace trocar::render {
@@ -48,7 +49,8 @@ void GlBackend::shrink_pass() {
 void GlBackend::meter_pass(const Frame& frame, const Target& target, const Layout& layout) {
   Memory& memory = m_memory[std::size_t(frame.eye)];
   if (!frame.look.auto_exposure || !frame.metering) return;
-  const double seconds = memory.known && frame.tick >= memory.tick ? 1e-3 * double(frame.tick - memory.tick) : 1e9;
+  const double seconds =
+      memory.known && frame.tick >= memory.tick ? core::kTick * double(frame.tick - memory.tick) : 1e9;
   const float lag = float(1 - std::exp(-std::min(seconds, 1e3) / double(frame.look.exposure_seconds)));
   const int next = 1 - memory.current;
   for (GlPicture& picture : m_exposure) picture.resize(kEyes, 1, GL_R32F, false, GL_NEAREST);

@@ -77,7 +77,7 @@ sim::StrandEndModel compile_end(const StrandEnd& end, Vec3d at, const sim::Model
 }
 
 /// What the strand does to its hosts in the drawn shape: their prestress knows nothing of it, so it is taken off.
-void note_drawn_pull(const tissue::StrandModel& model, sim::StrandModel& strand) {
+void note_drawn_pull(const tissue::StrandModel& model, sim::StrandAnatomy& strand) {
   std::vector<tissue::StrandEnd> ends;
   for (int node : model.prescribed_nodes) ends.push_back({model.rest[size_t(node)], {0, 0, 0}});
   std::vector<tissue::StrandReaction> reactions(ends.size());
@@ -104,7 +104,7 @@ void compile_strand(const Strand& strand, const Tissue& tissue, Vec3d gravity, s
   body.arc.push_back(0);
   for (int e = 0; e < elements; ++e)
     body.arc.push_back(body.arc.back() + length(d.positions[size_t(e) + 1] - d.positions[size_t(e)]));
-  sim::StrandModel out;
+  sim::StrandAnatomy out;
   out.name = strand.name;
   out.look = strand.look;
   out.tissue = strand.tissue;
@@ -160,7 +160,7 @@ void compile_strand(const Strand& strand, const Tissue& tissue, Vec3d gravity, s
     report->bodies.push_back(r);
   }
   model.strands.push_back(std::move(out));
-  model.bodies.push_back(std::move(body));
+  model.strand_bodies.push_back(std::move(body));
 }
 
 /// The place on a strand nearest to p (as drawn).
@@ -178,12 +178,12 @@ interactions::StrandPlace nearest_place(const interactions::StrandBody& body, Ve
   return best;
 }
 
-sim::SheetModel compile_sheet(const Sheet& sheet, const sim::Model& model) {
-  sim::SheetModel out;
+sim::DrawnFold compile_sheet(const Sheet& sheet, const sim::Model& model) {
+  sim::DrawnFold out;
   out.name = sheet.name;
   out.look = sheet.look;
   out.strand = model.strand_index(sheet.strand);
-  const double length = out.strand >= 0 ? model.bodies[size_t(out.strand)].length() : 0;
+  const double length = out.strand >= 0 ? model.strand_bodies[size_t(out.strand)].length() : 0;
   out.from = std::min(sheet.from, length);
   out.to = std::min(sheet.to, length);
   for (Vec3d p : sheet.base) {
@@ -199,7 +199,7 @@ sim::SheetModel compile_sheet(const Sheet& sheet, const sim::Model& model) {
       point.vertex = v;
     }
     point.strand = model.strand_index(sheet.base_organ);
-    if (point.strand >= 0) point.place = nearest_place(model.bodies[size_t(point.strand)], p);
+    if (point.strand >= 0) point.place = nearest_place(model.strand_bodies[size_t(point.strand)], p);
     out.base.push_back(point);
   }
   return out;
@@ -241,7 +241,7 @@ sim::Model compile(const Description& d, CompileReport* report) {
     const Tissue* tissue = find_tissue(d, pouch.tissue);
     if (tissue) compile_pouch(pouch, *tissue, d.gravity, model, faults, report);
   }
-  for (const Sheet& sheet : d.sheets) model.sheets.push_back(compile_sheet(sheet, model));
+  for (const Sheet& sheet : d.sheets) model.drawn_folds.push_back(compile_sheet(sheet, model));
   compile_vessels(d, model, faults, report);
   compile_fluids(d, model, faults);
   compile_energy(d, model, faults);

@@ -53,8 +53,8 @@ bool rooted(const sim::StrandEndModel& end, int surface) {
 }
 
 void pair_strand(sim::Model& model, const Drawn& drawn, int strand, int surface) {
-  const interactions::StrandBody& body = model.bodies[size_t(strand)];
-  const sim::StrandModel& names = model.strands[size_t(strand)];
+  const interactions::StrandBody& body = model.strand_bodies[size_t(strand)];
+  const sim::StrandAnatomy& names = model.strands[size_t(strand)];
   const interactions::Surface& s = drawn.surface[size_t(surface)];
   interactions::SurfacePair pair;
   pair.strand = strand;
@@ -127,7 +127,7 @@ void pair_cuttable(sim::Model& model, const Drawn& drawn, int organ, int wall) {
 }
 
 /// What a membrane hangs on, it touches there.
-bool carries(const sim::MembraneModel& membrane, int organ) {
+bool carries(const sim::MembraneBody& membrane, int organ) {
   for (const interactions::BorderHold& hold : membrane.holds)
     if (hold.kind == interactions::BorderHold::organ && hold.index == organ) return true;
   return false;
@@ -149,7 +149,7 @@ std::vector<bool> away_from_base(const tissue::MembraneModel& sheet) {
 
 /// The inner nodes of a membrane against a surface; not next to a base that rides on that surface.
 void pair_membrane(sim::Model& model, const Drawn& drawn, int membrane, int surface) {
-  const sim::MembraneModel& m = model.membranes[size_t(membrane)];
+  const sim::MembraneBody& m = model.membranes[size_t(membrane)];
   const interactions::Surface& s = drawn.surface[size_t(surface)];
   const bool rides = surface < model.organs() && carries(m, surface);
   interactions::SurfacePair pair;
@@ -169,7 +169,7 @@ void pair_membrane(sim::Model& model, const Drawn& drawn, int membrane, int surf
 }
 
 void pair_strands(sim::Model& model, int a, int b) {
-  const interactions::StrandBody &first = model.bodies[size_t(a)], &second = model.bodies[size_t(b)];
+  const interactions::StrandBody &first = model.strand_bodies[size_t(a)], &second = model.strand_bodies[size_t(b)];
   interactions::StrandPair pair;
   pair.a = a;
   pair.b = b;

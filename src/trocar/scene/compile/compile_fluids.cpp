@@ -67,8 +67,8 @@ std::vector<std::int32_t> places_of_film(const sim::Model& model) {
   std::vector<const tissue::Skin*> surfaces, sheets;
   for (int i = 0; i < model.organs(); ++i) surfaces.push_back(&model.skin(i));
   for (const sim::WallModel& wall : model.walls) surfaces.push_back(&wall.skin);
-  for (const sim::MembraneModel& m : model.membranes) sheets.push_back(&m.skin);
-  return interactions::film_places(surfaces, sheets, model.bodies);
+  for (const sim::MembraneBody& m : model.membranes) sheets.push_back(&m.skin);
+  return interactions::film_places(surfaces, sheets, model.strand_bodies);
 }
 
 }  // namespace
@@ -87,7 +87,7 @@ void compile_fluids(const Description& d, sim::Model& model, std::vector<core::F
   out.pool.gravity = length(d.gravity);
   out.droplets.capacity = f.drops;
   if (f.drops > kCrowd) {
-    fluids::for_a_crowd(out.droplets);
+    fluids::set_crowd_level_of_detail(out.droplets);
     out.pool.first = kCrowdsPool;
   }
   model.wet.film = places_of_film(model);

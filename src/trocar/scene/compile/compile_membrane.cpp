@@ -50,7 +50,7 @@ interactions::BorderHold hold_near(const std::vector<std::string>& names, double
   for (const std::string& name : names) {
     const int strand = model.strand_index(name);
     if (strand >= 0) {
-      const interactions::StrandBody& body = model.bodies[size_t(strand)];
+      const interactions::StrandBody& body = model.strand_bodies[size_t(strand)];
       for (int e = 0; e + 1 < body.nodes(); ++e) {
         const Vec3d a = body.model.rest[size_t(e)], b = body.model.rest[size_t(e) + 1];
         const double w = geometry::closest_on_segment(p, a, b);
@@ -120,14 +120,14 @@ std::vector<float> depth_of(const tissue::MembraneModel& sheet, const interactio
 
 }  // namespace
 
-void note_drawn_pulls(sim::MembraneModel& m) {
+void note_drawn_pulls(sim::MembraneBody& m) {
   tissue::MembraneWork work = tissue::make_work(m.sheet);
   std::vector<tissue::BorderPull> pulls(m.holds.size());
   tissue::border_pulls(m.sheet, tissue::rest_state(m.sheet), work, pulls);
   for (size_t h = 0; h < m.holds.size(); ++h) m.holds[h].drawn_pull = pulls[h].force;
 }
 
-void add_report(const sim::MembraneModel& m, CompileReport& report) {
+void add_report(const sim::MembraneBody& m, CompileReport& report) {
   BodyReport r;
   r.name = m.name;
   r.kind = m.sheet.closed() ? "pouch" : "membrane";
@@ -146,7 +146,7 @@ void add_report(const sim::MembraneModel& m, CompileReport& report) {
 
 void compile_membrane(const Membrane& membrane, const Tissue& tissue, Vec3d gravity, sim::Model& model,
                       std::vector<core::Fault>& faults, CompileReport* report) {
-  sim::MembraneModel out;
+  sim::MembraneBody out;
   out.name = membrane.name;
   out.look = membrane.look;
   out.tissue = membrane.tissue;
@@ -154,7 +154,7 @@ void compile_membrane(const Membrane& membrane, const Tissue& tissue, Vec3d grav
   out.cuttable = membrane.cuttable;
   out.failure_strain = tissue.failure_strain;
   if (out.strand < 0) return;
-  const interactions::StrandBody& body = model.bodies[size_t(out.strand)];
+  const interactions::StrandBody& body = model.strand_bodies[size_t(out.strand)];
   const Grid g = grid_of(membrane, body);
   if (double(g.rows) * g.columns > kMostFoldNodes) {  // a fold far wider than long: only now is its width known
     faults.push_back({membrane.spacing_at, fmt::format("membrane '{}': expected a spacing that gives at most {} nodes, "

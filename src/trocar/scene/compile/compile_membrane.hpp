@@ -22,7 +22,7 @@ interactions::BorderHold hold_near(const std::vector<std::string>& names, double
 /// The sheet's nodes as a skin: one vertex a node.
 tissue::Skin skin_of(const tissue::MembraneModel& sheet);
 /// What the sheet does to its holders in the drawn shape.
-void note_drawn_pulls(sim::MembraneModel& membrane);
-void add_report(const sim::MembraneModel& membrane, CompileReport& report);
+void note_drawn_pulls(sim::MembraneBody& membrane);
+void add_report(const sim::MembraneBody& membrane, CompileReport& report);
 
 }  // namespace trocar::scene

@@ -65,7 +65,7 @@ void compile_pouch(const Pouch& pouch, const Tissue& tissue, Vec3d gravity, sim:
   d.global_damping = kDrag;
   d.gravity = gravity;
   d.enclosure = enclosure_of(pouch.contents);
-  sim::MembraneModel out;
+  sim::MembraneBody out;
   out.name = pouch.name;
   out.look = pouch.look;
   out.tissue = pouch.tissue;

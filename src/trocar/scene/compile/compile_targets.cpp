@@ -29,7 +29,7 @@ void add_hand(sim::Model& model, std::int32_t hand) {
 /// One sample an element, from start to end: for following a tube, and for the stumps where it was cut.
 void add_trace(sim::Model& model, std::int32_t strand) {
   std::vector<sim::VisibilitySample> samples;
-  for (std::int32_t e = 0; e + 1 < model.bodies[size_t(strand)].nodes(); ++e) samples.push_back({0, e, 0.5});
+  for (std::int32_t e = 0; e + 1 < model.strand_bodies[size_t(strand)].nodes(); ++e) samples.push_back({0, e, 0.5});
   add_target(model, {sim::VisibilityTarget::strand, model.strands[size_t(strand)].name + ".trace", strand, 0, 0},
              samples);
 }
@@ -59,7 +59,7 @@ void compile_targets(sim::Model& model) {
       constexpr int kSamples = 5;
       for (int k = 0; k < kSamples; ++k) {
         const interactions::StrandPlace p =
-            interactions::place_at(model.bodies[i], l.from + (l.to - l.from) * (k + 0.5) / kSamples);
+            interactions::place_at(model.strand_bodies[i], l.from + (l.to - l.from) * (k + 0.5) / kSamples);
         samples.push_back({0, p.element, p.w});
       }
       add_target(model, {sim::VisibilityTarget::strand, model.strands[i].name + "." + l.name, std::int32_t(i), 0, 0},

@@ -79,7 +79,7 @@ struct Ride {
 };
 
 Ride ride_on_strand(const Carrier& c, Vec3d p, const sim::Model& model) {
-  const interactions::StrandBody& body = model.bodies[size_t(c.index)];
+  const interactions::StrandBody& body = model.strand_bodies[size_t(c.index)];
   Ride best;
   for (int e = 0; e + 1 < body.nodes(); ++e) {
     const Vec3d a = body.model.rest[size_t(e)], b = body.model.rest[size_t(e) + 1];

@@ -28,7 +28,7 @@ interactions::VesselHosts look_at_hosts(const Model& model, const State& state, 
   for (size_t i = 0; i < v.organs.size(); ++i) v.organs[i] = nodes_of(model, state, int(i));
   for (size_t i = 0; i < v.membranes.size(); ++i)
     v.membranes[i] = view_of(model.membranes[i].sheet.network, state.membranes[i].network);
-  return {model.bodies, state.strands, v.organs, v.skins, state.cuttables, v.membranes, state.torn};
+  return {model.strand_bodies, state.strands, v.organs, v.skins, state.cuttables, v.membranes, state.torn};
 }
 
 interactions::VesselHosts look_at_hosts_of_all(const Model& model, const State& state, HostViews& v) noexcept {

@@ -54,8 +54,8 @@ int Model::free_nodes() const {
     for (std::uint8_t held : s.network.fixed) n += held != tissue::kHeld;
   for (const CuttableOrgan& c : cuttables)
     for (int i = 0; i < c.body.own_nodes; ++i) n += c.body.fixed[size_t(i)] != tissue::kHeld;
-  for (const interactions::StrandBody& b : bodies) n += b.nodes() - int(b.model.prescribed_nodes.size());
-  for (const MembraneModel& m : membranes) n += m.sheet.nodes() - int(m.sheet.held_nodes.size());
+  for (const interactions::StrandBody& b : strand_bodies) n += b.nodes() - int(b.model.prescribed_nodes.size());
+  for (const MembraneBody& m : membranes) n += m.sheet.nodes() - int(m.sheet.held_nodes.size());
   return n;
 }
 
@@ -115,14 +115,14 @@ void seal(Model& model) {
     tissue::add_to_hash(h, c.body);
     h.add(c.failure_strain);
   }
-  for (const interactions::StrandBody& b : model.bodies) interactions::add_to_hash(h, b);
-  for (const StrandModel& s : model.strands) {
+  for (const interactions::StrandBody& b : model.strand_bodies) interactions::add_to_hash(h, b);
+  for (const StrandAnatomy& s : model.strands) {
     add_patch(h, s.start);
     add_patch(h, s.end);
     h.add(s.failure_strain);
   }
   for (const WallModel& w : model.walls) add_to_hash(h, w.skin);
-  for (const MembraneModel& m : model.membranes) {
+  for (const MembraneBody& m : model.membranes) {
     add_to_hash(h, m.sheet);
     add_to_hash(h, m.skin);
     h.add(m.strand);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <trocar/core/tick.hpp>
 #include <trocar/fluids/fluids.hpp>
 #include <trocar/geometry/volumes/cell_mask.hpp>
 #include <trocar/interactions/contact/body_contact.hpp>
@@ -26,7 +27,7 @@
 
 namespace trocar::sim {
 
-inline constexpr double kTick = 1e-3;  ///< [s]
+using core::kTick;
 
 /// A volumetric organ.
 struct SolidModel {
@@ -61,7 +62,8 @@ struct StrandEndModel {
   interactions::HostPatch patch;
 };
 
-struct StrandModel {
+/// A strand as it is known, drawn and held at its ends; what moves is Model::strand_bodies.
+struct StrandAnatomy {
   std::string name, look, tissue;
   std::vector<double> outer, inner;  ///< (n) radius and lumen radius at the nodes [m], for drawing and clips
   StrandEndModel start, end;
@@ -86,7 +88,7 @@ struct BasePoint {
 };
 
 /// A thin fold, drawn between a strand and its base; mechanically it is the strand's foundation.
-struct SheetModel {
+struct DrawnFold {
   std::string name, look;
   std::int32_t strand = -1;
   double from = 0, to = 0;  ///< arc length [m]
@@ -94,7 +96,7 @@ struct SheetModel {
 };
 
 /// A thin fold with mechanics of its own: its border hangs on a strand, its base on other bodies and on space.
-struct MembraneModel {
+struct MembraneBody {
   std::string name, look, tissue;
   std::int32_t strand = -1;  ///< on row 0
   double from = 0, to = 0;   ///< arc length [m]
@@ -200,11 +202,12 @@ struct Model {
   Vec3d gravity;
   std::vector<SolidModel> solids;
   std::vector<CuttableOrgan> cuttables;
-  std::vector<StrandModel> strands;
-  std::vector<interactions::StrandBody> bodies;  ///< (strands) their mechanics, side by side as interactions want them
+  std::vector<StrandAnatomy> strands;
+  std::vector<interactions::StrandBody>
+      strand_bodies;  ///< (strands) their mechanics, side by side as interactions want them
   std::vector<WallModel> walls;
-  std::vector<SheetModel> sheets;
-  std::vector<MembraneModel> membranes;
+  std::vector<DrawnFold> drawn_folds;
+  std::vector<MembraneBody> membranes;
   VesselsModel vessels;
   WetModel wet;
   EnergyModel energy;

@@ -96,10 +96,4 @@ tissue::NodeView nodes_of(const Model& model, const State& state, int organ) noe
 /// 64-bit hash of all of it.
 std::uint64_t hash_of(const State& state) noexcept;
 
-/// What drawing needs of a State, for 10 Hz keyframes that another version of the physics can still show.
-std::vector<std::uint8_t> display_bytes(const Model& model, const State& state);
-/// Puts a keyframe's content into a State made from the same scene. False, and the State unchanged, where it does not
-/// fit: another length, a place that is not finite, an index that names nothing.
-bool restore_display(const Model& model, const std::vector<std::uint8_t>& bytes, State& state);
-
 }  // namespace trocar::sim

@@ -127,9 +127,9 @@ void order_bodies(const Model& model, Work& w) {
   std::vector<double> organs, strands, membranes, skins;
   for (const SolidModel& s : model.solids) organs.push_back(double(s.network.springs) * s.network.substeps);
   for (const CuttableOrgan& c : model.cuttables) organs.push_back(16.0 * c.body.packs * c.body.substeps);
-  for (const interactions::StrandBody& b : model.bodies) strands.push_back(b.nodes());
+  for (const interactions::StrandBody& b : model.strand_bodies) strands.push_back(b.nodes());
   for (const tissue::SkinPose& p : w.poses) skins.push_back(double(p.position.size()));
-  for (const MembraneModel& m : model.membranes) {
+  for (const MembraneBody& m : model.membranes) {
     membranes.push_back(double(m.sheet.network.springs) * m.sheet.network.substeps * m.sheet.bend_steps);
     skins.push_back(double(m.skin.weights.size()));
   }
@@ -163,7 +163,7 @@ Work make_work(const Model& model, core::ThreadPool* pool) {
     w.beyond.resize(std::max(w.beyond.size(), size_t(c.body.rows)));
   }
   w.nodes.resize(size_t(model.organs()));
-  for (const interactions::StrandBody& b : model.bodies) {
+  for (const interactions::StrandBody& b : model.strand_bodies) {
     w.strand_work.push_back(tissue::make_work(b.model));
     w.strand_loads.emplace_back().reserve(kStrandLoads);
   }
@@ -178,7 +178,7 @@ Work make_work(const Model& model, core::ThreadPool* pool) {
   w.end_reactions.resize(model.strands.size());
   w.organ_reports.resize(size_t(model.organs()));
   w.strand_reports.resize(model.strands.size());
-  for (const MembraneModel& m : model.membranes) {
+  for (const MembraneBody& m : model.membranes) {
     w.sheet_poses.push_back(tissue::make_pose(m.skin));
     w.membrane_loads.emplace_back().reserve(kMembraneLoads);
     w.membrane_work.push_back(tissue::make_work(m.sheet, kMembraneLoads));
@@ -202,7 +202,7 @@ Work make_work(const Model& model, core::ThreadPool* pool) {
   if (model.energy.there) w.heat = tissue::make_work(model.energy.heat);
   if (model.wet.there) {
     w.fluids = fluids::make_work(model.wet.model);
-    w.wet = interactions::make_wet_work(model.bodies, model.wet.film);
+    w.wet = interactions::make_wet_work(model.strand_bodies, model.wet.film);
     w.impact_at.resize(size_t(model.wet.film.back()));
     w.wounds.resize(2 * interactions::kMaxOpenings);
   }

@@ -57,7 +57,7 @@ struct Work {
   std::vector<std::uint8_t> vessel_posed;         ///< (vessels) 0: its points are not known in this tick
   vessels::FlowWork flow;
   std::vector<vessels::Opening> open;
-  std::vector<vessels::Clip> closed;
+  std::vector<vessels::Occlusion> closed;
   std::vector<vessels::OpeningFlow> flows;
   std::vector<vessels::WallReading> walls;  ///< (vessels) in their middles
   std::vector<std::uint8_t> busy;           ///< (vessels) scratch of that
@@ -70,7 +70,7 @@ struct Work {
   bool current_flows = false;
   fluids::FluidsWork fluids;
   interactions::WetWork wet;
-  std::vector<fluids::Opening> wounds;  ///< (2 kMaxOpenings) sides of openings
+  std::vector<fluids::Outlet> wounds;  ///< (2 kMaxOpenings) sides of openings
   std::array<fluids::Capsule, kMaxTools * interactions::kToolParts> wet_tools;
   std::array<fluids::SuctionIrrigator, kMaxTools> valves;  ///< (hands) closed where there is none
   std::vector<tissue::NodeView> nodes;                     ///< (organs) of the State; anew in every tick

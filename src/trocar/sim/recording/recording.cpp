@@ -16,14 +16,15 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/core/hash.hpp>
+#include <trocar/core/tick.hpp>
 #include <trocar/sim/recording/recording.hpp>
 
 namespace trocar::sim {
 namespace {
 
 constexpr std::array<std::uint8_t, 8> kSignature = {0x93, 'T', 'R', 'O', 'C', 'A', 'R', '\n'};
-constexpr std::uint32_t kBlockMagic = 0x4b424352;  // "RCBK"
-constexpr std::uint64_t kTicksPerBlock = 1000;     // what a killed process can lose
+constexpr std::uint32_t kBlockMagic = 0x4b424352;                // "RCBK"
+constexpr std::uint64_t kTicksPerBlock = core::kTicksPerSecond;  // what a killed process can lose
 constexpr std::size_t kBlockHead = 40, kCheckedHead = 32;
 
 enum Kind : std::uint32_t { kHead = 1, kInputs = 2, kHashes = 3, kKeyframe = 4, kEnd = 5 };

@@ -23,6 +23,7 @@
 #include <string>
 #include <vector>
 
+#include <trocar/core/tick.hpp>
 #include <trocar/sim/model/input.hpp>
 
 namespace trocar::sim {
@@ -31,7 +32,8 @@ inline constexpr int kHashEvery = 100;      ///< ticks between state hashes
 inline constexpr int kKeyframeEvery = 100;  ///< ticks between display keyframes (10 Hz)
 
 inline constexpr std::uint32_t kRecordingFormat = 2;
-inline constexpr std::uint64_t kMaxTicks = 4 * 3600 * 1000;  ///< a recording's length: four hours (1.5 GB of Input)
+inline constexpr std::uint64_t kMaxTicks =
+    4 * 3600 * core::kTicksPerSecond;  ///< a recording's length: four hours (1.5 GB of Input)
 
 struct RecordingHeader {
   std::uint32_t format = kRecordingFormat;

@@ -100,8 +100,8 @@ void pull_on_borders(StepContext& c) noexcept {
 // Strands: implicit, ends where their hosts put them, pulling on them.
 void advance_strands(StepContext& c) noexcept {
   for_each(c.work.pool, c.work.strand_order, [&c](size_t i) noexcept {
-    const StrandModel& strand = c.model.strands[i];
-    const interactions::StrandBody& body = c.model.bodies[i];
+    const StrandAnatomy& strand = c.model.strands[i];
+    const interactions::StrandBody& body = c.model.strand_bodies[i];
     interactions::StrandLoads& loads = c.work.strand_loads[i];
     tissue::StrandState& state = c.state.strands[i];
     const Carried by_breath = carried_strand(c, i);
@@ -116,7 +116,7 @@ void advance_strands(StepContext& c) noexcept {
                         loads.reaction, state, c.work.strand_work[i], {by_breath.x, by_breath.v});
   });
   for (size_t i = 0; i < c.model.strands.size(); ++i) {
-    const StrandModel& strand = c.model.strands[i];
+    const StrandAnatomy& strand = c.model.strands[i];
     size_t ends = 0;
     for (const StrandEndModel* end : {&strand.start, &strand.end}) {
       if (end->kind == StrandEndModel::free) continue;
@@ -154,7 +154,7 @@ void advance_organs(StepContext& c) noexcept {
 // Folds: borders go where their holders have gone.
 void advance_membranes(StepContext& c) noexcept {
   for_each(c.work.pool, c.work.membrane_order, [&c](size_t i) noexcept {
-    const MembraneModel& m = c.model.membranes[i];
+    const MembraneBody& m = c.model.membranes[i];
     const interactions::Holders holders = holders_of(c);
     const Carried by_breath = carried_membrane(c, i);
     for (size_t h = 0; h < m.holds.size(); ++h) {

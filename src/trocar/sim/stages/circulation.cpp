@@ -153,7 +153,7 @@ Within within_strand(const interactions::StrandBody& body, int strand, const Ves
 }  // namespace
 
 void open_vessels_within(StepContext& c, int strand, int element, int hand) noexcept {
-  const interactions::StrandBody& body = c.model.bodies[size_t(strand)];
+  const interactions::StrandBody& body = c.model.strand_bodies[size_t(strand)];
   const double middle = 0.5 * (body.arc[size_t(element)] + body.arc[size_t(element) + 1]);
   for (size_t v = 0; v < c.model.vessels.list.size(); ++v)
     for (size_t i = 0; i + 1 < path_of(c, v).points.size(); ++i)
@@ -176,7 +176,7 @@ bool close_vessel(StepContext& c, const interactions::VesselClip& closed) noexce
 void clip_within(StepContext& c, int number) noexcept {
   const interactions::Clip& clip = c.state.clips[size_t(number)];
   if (clip.strand < 0) return;
-  const interactions::StrandBody& body = c.model.bodies[size_t(clip.strand)];
+  const interactions::StrandBody& body = c.model.strand_bodies[size_t(clip.strand)];
   for (size_t v = 0; v < c.model.vessels.list.size(); ++v)
     for (size_t i = 0; i + 1 < path_of(c, v).points.size(); ++i) {
       const Within at = within_strand(body, clip.strand, path_of(c, v), i, clip.s);
@@ -334,7 +334,7 @@ void lay_out(StepContext& c) noexcept {
   }
   lay_out_seals(s, std::span(c.work.closed).subspan(interactions::kMaxVesselClips));
   for (size_t i = 0; i < size_t(interactions::kMaxVesselClips); ++i) {
-    vessels::Clip& out = c.work.closed[i];
+    vessels::Occlusion& out = c.work.closed[i];
     out = {};
     if (int(i) >= s.vessel_clip_count) continue;
     const interactions::VesselClip& clip = s.vessel_clips[i];

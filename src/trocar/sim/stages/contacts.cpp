@@ -8,7 +8,7 @@ namespace {
 /// An instrument on folds. Far from one that it was not near before there is nothing to do, and nothing to forget.
 void touch_sheets(StepContext& c, size_t t, interactions::Touching& touching) noexcept {
   size_t triangles = 0;
-  for (const MembraneModel& m : c.model.membranes) triangles += m.sheet.triangles.size();
+  for (const MembraneBody& m : c.model.membranes) triangles += m.sheet.triangles.size();
   size_t at = t * triangles * size_t(interactions::kSheetParts);
   const interactions::ToolShape& shape = c.work.shapes[t];
   for (size_t i = 0; i < c.model.membranes.size(); ++i) {
@@ -58,9 +58,9 @@ void touch_tissue(StepContext& c) noexcept {
       interactions::tool_on_surface(touching, interactions::kSolidBase + int(i), c.work.surfaces[i],
                                     c.work.organ_loads[i]);
     for (size_t i = 0; i < c.model.strands.size(); ++i) {
-      const size_t sides = size_t(c.model.bodies[i].nodes() - 1) * size_t(interactions::kToolParts);
-      interactions::tool_on_strand(tool, touching, c.state.tools[t], c.model.bodies[i], int(i), c.state.strands[i],
-                                   {c.state.tool_side.data() + at, sides}, c.work.strand_loads[i]);
+      const size_t sides = size_t(c.model.strand_bodies[i].nodes() - 1) * size_t(interactions::kToolParts);
+      interactions::tool_on_strand(tool, touching, c.state.tools[t], c.model.strand_bodies[i], int(i),
+                                   c.state.strands[i], {c.state.tool_side.data() + at, sides}, c.work.strand_loads[i]);
       at += sides;
     }
     touch_sheets(c, t, touching);
@@ -88,7 +88,8 @@ void touch_organs(StepContext& c) noexcept {
     interactions::NetworkLoads* back = surface.moves() ? &c.work.organ_loads[size_t(p.surface)] : nullptr;
     if (p.strand >= 0) {
       const size_t i = size_t(p.strand);
-      strand_on_surface(p, c.model.bodies[i], s.strands[i], surface, s.tick, nearest, c.work.strand_loads[i], back);
+      strand_on_surface(p, c.model.strand_bodies[i], s.strands[i], surface, s.tick, nearest, c.work.strand_loads[i],
+                        back);
     } else if (p.membrane >= 0) {
       const size_t i = size_t(p.membrane);
       solid_on_surface(p, c.work.sheets[i].surface, surface, s.tick, nearest, c.work.membrane_loads[i], back);
@@ -100,8 +101,9 @@ void touch_organs(StepContext& c) noexcept {
   size_t side = 0;
   for (const interactions::StrandPair& p : c.model.strand_pairs) {
     const size_t n = p.overlap.size(), a = size_t(p.a), b = size_t(p.b);
-    strand_on_strand(p, c.model.bodies[a], s.strands[a], c.model.bodies[b], s.strands[b], {s.nearest.data() + at, n},
-                     {s.strand_side.data() + side, n}, c.work.strand_loads[a], c.work.strand_loads[b]);
+    strand_on_strand(p, c.model.strand_bodies[a], s.strands[a], c.model.strand_bodies[b], s.strands[b],
+                     {s.nearest.data() + at, n}, {s.strand_side.data() + side, n}, c.work.strand_loads[a],
+                     c.work.strand_loads[b]);
     at += n;
     side += n;
   }

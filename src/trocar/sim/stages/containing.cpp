@@ -73,9 +73,9 @@ tissue::Box cavity_around(const Model& model) {
   for (const SolidModel& s : model.solids)
     for (Vec3d p : s.network.rest) box.add(vec_cast<float>(p));
   for (int i = 0; i < model.organs(); ++i) add(model.skin(i), box);
-  for (const interactions::StrandBody& b : model.bodies)
+  for (const interactions::StrandBody& b : model.strand_bodies)
     for (Vec3d p : b.model.rest) box.add(vec_cast<float>(p));
-  for (const MembraneModel& m : model.membranes) add(m.skin, box);
+  for (const MembraneBody& m : model.membranes) add(m.skin, box);
   for (const WallModel& w : model.walls) add(w.skin, box);
   for (const HandModel& h : model.hands) box.add(vec_cast<float>(h.port));
   box.add(vec_cast<float>(model.scope.port));

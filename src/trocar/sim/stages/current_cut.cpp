@@ -41,14 +41,14 @@ bool part_solid(StepContext& c, size_t t, const ElectrodeTouch& touch, size_t i)
 bool part_cuttable(StepContext& c, size_t t, const ElectrodeTouch& touch, size_t i) noexcept {
   const CuttableOrgan& organ = c.model.cuttables[i];
   const geometry::Blade blade = blade_at(c, t, touch, std::max(kLeast, 0.6 * organ.cell));
-  const geometry::CutBook book = tissue::cut(organ.body, blade, c.state.cuttables[i], c.work.cuttable_work[i]);
+  const geometry::CutResult book = tissue::cut(organ.body, blade, c.state.cuttables[i], c.work.cuttable_work[i]);
   if (book.full) c.report.flags |= StepReport::kBookFull;
   if (book.parted > 0) open_vessels(c, blade, {Carriers::organ, std::int32_t(c.model.solids.size() + i)}, int(t));
   return book.parted > 0;
 }
 
 bool part_fold(StepContext& c, size_t t, const ElectrodeTouch& touch, size_t i) noexcept {
-  const MembraneModel& m = c.model.membranes[i];
+  const MembraneBody& m = c.model.membranes[i];
   if (!m.cuttable) return false;
   const geometry::Blade blade = blade_at(c, t, touch, kLeast);
   const int severed =
@@ -67,7 +67,7 @@ bool burst_across(const StepContext& c, std::int32_t strand, int element, double
 
 bool part_strand(StepContext& c, size_t t, const ElectrodeTouch& touch) noexcept {
   const std::int32_t strand = touch.contact.body;
-  const interactions::StrandBody& body = c.model.bodies[size_t(strand)];
+  const interactions::StrandBody& body = c.model.strand_bodies[size_t(strand)];
   tissue::StrandState& state = c.state.strands[size_t(strand)];
   if (!body.cuttable || !state.alive[size_t(touch.point.element)]) return false;
   if (!burst_across(c, strand, touch.point.element, touch.contact.a.x)) return false;
@@ -89,7 +89,7 @@ bool part_body(StepContext& c, size_t t, const ElectrodeTouch& touch) noexcept {
 }  // namespace
 
 Section section_of(const StepContext& c, std::int32_t strand, int element, double s) noexcept {
-  const double r = 0.6 * c.model.bodies[size_t(strand)].model.radius[size_t(element)];
+  const double r = 0.6 * c.model.strand_bodies[size_t(strand)].model.radius[size_t(element)];
   return {r, {s, 0, 0}, {Vec3d{s, r, 0}, Vec3d{s, -r, 0}, Vec3d{s, 0, r}, Vec3d{s, 0, -r}}};
 }
 

@@ -7,8 +7,6 @@
 namespace trocar::sim {
 namespace {
 
-using interactions::Owner;
-
 bool finite(const ToolInput& t) noexcept {
   return std::isfinite(t.yaw) && std::isfinite(t.pitch) && std::isfinite(t.roll) && std::isfinite(t.depth) &&
          std::isfinite(t.handle);
@@ -80,24 +78,6 @@ void move_hand(StepContext& c, size_t t) noexcept {
   stop_at_walls(c, t, wanted, before);
 }
 
-void add_force(double (&sum)[3], Vec3d f) noexcept {
-  sum[0] += f.x;
-  sum[1] += f.y;
-  sum[2] += f.z;
-}
-
-void account(StepContext& c, interactions::Tag tag, Vec3d force) noexcept {
-  if (tag.owner == Owner::tool_contact) {
-    add_force(c.state.tools[size_t(tag.index)].contact_force, -force);
-    interactions::press_on(c.work.touches[size_t(tag.index)], tag.sub, force);
-  }
-  if (tag.owner != Owner::tool_hold) return;
-  float(&on_tissue)[3] = c.state.tools[size_t(tag.index)].hold[tag.sub].force;
-  on_tissue[0] += float(force.x);
-  on_tissue[1] += float(force.y);
-  on_tissue[2] += float(force.z);
-}
-
 }  // namespace
 
 // Hands: instruments and scope follow the input, no faster than hands can.
@@ -125,30 +105,6 @@ void move_hands(StepContext& c) noexcept {
 
 void tell_lost(StepContext& c, size_t t, int slips_before) noexcept {
   tell(c, c.state.tools[t].slipped > slips_before ? Event::slipped : Event::released, int(t), -1);
-}
-
-// What the tissue did to the instruments; slip.
-void feel(StepContext& c) noexcept {
-  for (interactions::ToolState& tool : c.state.tools) {
-    for (double& f : tool.contact_force) f = 0;
-    for (interactions::Hold& h : tool.hold) h.force[0] = h.force[1] = h.force[2] = 0;
-  }
-  for (const interactions::StrandLoads& l : c.work.strand_loads)
-    for (size_t i = 0; i < l.list.size(); ++i) account(c, l.tag[i], l.reaction[i]);
-  for (const interactions::NetworkLoads& l : c.work.organ_loads)
-    for (size_t i = 0; i < l.sorted.size(); ++i) account(c, l.owner[i], vec_cast<double>(l.reaction[i]));
-  for (const interactions::NetworkLoads& l : c.work.membrane_loads)
-    for (size_t i = 0; i < l.sorted.size(); ++i) account(c, l.owner[i], vec_cast<double>(l.reaction[i]));
-  const interactions::TissueView view = tissue_of(c);
-  for (size_t t = 0; t < c.model.hands.size(); ++t) {
-    interactions::ToolState& tool = c.state.tools[t];
-    const interactions::WallStop& wall = c.work.wall_stops[t];
-    if (wall.stopped) add_force(tool.contact_force, wall.force * wall.normal);
-    const int held = tool.holds, slips = tool.slipped;
-    interactions::slip(c.model.tool(c.state, t), c.work.shapes[t], view, tool);
-    if (held > 0 && tool.holds == 0) tell_lost(c, t, slips);
-    interactions::remember(tool, c.work.touches[t], c.state.touches[t]);
-  }
 }
 
 }  // namespace trocar::sim

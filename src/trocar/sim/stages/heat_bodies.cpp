@@ -20,13 +20,13 @@ void fill_from(const geometry::CellMask& mask, Vec3d corner, double cell, std::s
 }
 
 /// Outer radius at arc length s, as drawn.
-double radius_at(const StrandModel& strand, const interactions::StrandBody& body, double s) noexcept {
+double radius_at(const StrandAnatomy& strand, const interactions::StrandBody& body, double s) noexcept {
   const interactions::StrandPlace at = place_at(body, s);
   const std::size_t e = std::size_t(at.element);
   return strand.outer[e] + at.w * (strand.outer[e + 1] - strand.outer[e]);
 }
 
-void fill_strand(const StrandModel& strand, const interactions::StrandBody& body, Vec3d corner, double cell,
+void fill_strand(const StrandAnatomy& strand, const interactions::StrandBody& body, Vec3d corner, double cell,
                  std::span<std::uint8_t> out) noexcept {
   double radius[kBrickSide];
   for (int i = 0; i < kBrickSide; ++i) {
@@ -48,7 +48,7 @@ void fill_body(const void* context, std::int32_t body, Vec3d corner, double cell
   using interactions::kMembraneBase, interactions::kSolidBase;
   if (body >= kMembraneBase) return fill_from(model.energy.folds[size_t(body - kMembraneBase)], corner, cell, tissue);
   if (body >= kSolidBase) return fill_from(model.energy.organs[size_t(body - kSolidBase)], corner, cell, tissue);
-  fill_strand(model.strands[size_t(body)], model.bodies[size_t(body)], corner, cell, tissue);
+  fill_strand(model.strands[size_t(body)], model.strand_bodies[size_t(body)], corner, cell, tissue);
 }
 
 }  // namespace
@@ -57,7 +57,7 @@ void note_heat_bodies(Model& model) {
   const double cell = model.energy.heat.cell;
   for (int i = 0; i < model.organs(); ++i)
     model.energy.organs.push_back(geometry::cells_inside(model.skin(i).rest, model.skin(i).triangles, cell));
-  for (const MembraneModel& m : model.membranes)
+  for (const MembraneBody& m : model.membranes)
     model.energy.folds.push_back(
         geometry::cells_near(m.skin.rest, m.skin.triangles, cell, std::max(0.5 * m.sheet.thickness, kJoined * cell)));
 }

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <trocar/interactions/verbs/adhesion.hpp>
 #include <trocar/interactions/verbs/electrode_contact.hpp>
+#include <trocar/sim/stages/adhesion.hpp>
 #include <trocar/sim/stages/current_cut.hpp>
 #include <trocar/sim/stages/heat_bodies.hpp>
 #include <trocar/sim/stages/heating.hpp>
@@ -40,38 +40,12 @@ void sink(const StepContext& c, ElectrodeTouch& touch) noexcept {
     if (!parted(side)) touch.contact.a = touch.contact.b = side;
 }
 
-/// Hands that have changed their instrument hold one that is cold and clean.
-ElectrodeHand& electrode_of(StepContext& c, size_t t) noexcept {
-  ElectrodeHand& hand = c.state.electrodes[t];
-  const std::int32_t changes = c.state.tools[t].changes;
-  if (hand.changes != changes) hand = {};
-  hand.changes = changes;
-  return hand;
-}
-
 ElectrodeTouch touch_of(const StepContext& c, size_t t, tissue::EnergyMode mode) noexcept {
   if (!at_work(c.state.electrodes[t], mode)) return {};
   ElectrodeTouch touch =
       interactions::electrode_touch(c.model.tool(c.state, t), c.work.shapes[t], c.state.tools[t], tissue_of(c));
   sink(c, touch);
   return touch;
-}
-
-constexpr double kGlues = 0.2;  // of ElectrodeState::stuck: tissue is pulled along from there on
-
-void stick(StepContext& c, size_t t, const ElectrodeTouch& touch, ElectrodeHand& hand) noexcept {
-  if (hand.stuck.body >= 0 || hand.current.stuck < kGlues) return;
-  hand.stuck = interactions::stuck_at(c.work.shapes[t], tissue_of(c), touch.point);
-}
-
-/// Is there still something to stick to?
-bool is_whole(const StepContext& c, const interactions::Hold& stuck) noexcept {
-  if (stuck.body >= interactions::kMembraneBase) return true;
-  if (stuck.body >= interactions::kSolidBase) {
-    const size_t organ = size_t(stuck.body - interactions::kSolidBase);
-    return stuck.element < c.work.skins[organ]->size() && !c.work.surfaces[organ].torn(stuck.element);
-  }
-  return c.state.strands[size_t(stuck.body)].alive[size_t(stuck.element)] != 0;
 }
 
 /// One hand's electrode in one tick. @param used  entries of Work::heat_sources so far
@@ -93,7 +67,7 @@ void work_electrode(StepContext& c, size_t t, int& used) noexcept {
   if (hand.body < 0) return;
   hand.at = touch.place;
   hand.a = touch.contact.a, hand.b = touch.contact.b;
-  if (touch.contact.gap == 0) stick(c, t, touch, hand);
+  if (touch.contact.gap == 0) begin_adhesion(c, t, touch, hand);
   seal_vessels(c, t, touch);
   scar_tissue(c, touch);
   if (d.flows && tissue::curve_of(d.mode).bursts) part_tissue(c, t, touch);
@@ -114,25 +88,6 @@ void note_steam(StepContext& c, const tissue::HeatReport& report) noexcept {
 }
 
 }  // namespace
-
-// Char on electrodes.
-void stick_tissue(StepContext& c) noexcept {
-  if (!c.model.energy.there) return;
-  const interactions::TissueView view = tissue_of(c);
-  for (size_t t = 0; t < c.model.hands.size(); ++t) {
-    ElectrodeHand& hand = electrode_of(c, t);
-    if (hand.stuck.body < 0) continue;
-    const interactions::ToolShape& shape = c.work.shapes[t];
-    const double bears = c.model.tool(c.state, t).electrode.current.stick_force * hand.current.stuck;
-    if (is_whole(c, hand.stuck) && interactions::stuck_pull(shape, view, hand.stuck) <= bears) {
-      interactions::stuck_load(shape, int(t), view, hand.stuck, c.work.strand_loads, c.work.organ_loads,
-                               c.work.membrane_loads);
-      continue;
-    }
-    tissue::tear_off(hand.current);
-    hand.stuck = {};
-  }
-}
 
 // Current and heat.
 void heat_tissue(StepContext& c) noexcept {

@@ -1,13 +1,9 @@
-// Stages: what sticks to electrodes is pulled along; current passes from electrodes into tissue, heat spreads, vessels
-// seal, tissue parts under a continuous wave.
+// Stage: current passes from electrodes into tissue, heat spreads, vessels seal, tissue parts under a continuous wave.
 #pragma once
 
 #include <trocar/sim/model/step_context.hpp>
 
 namespace trocar::sim {
-
-/// Among the loads of a tick: char sticks to electrodes.
-void stick_tissue(StepContext& context) noexcept;
 
 /// Nothing in scenes without energy. Leaves Work::steam and Work::current_flows for the fluids.
 void heat_tissue(StepContext& context) noexcept;

@@ -49,7 +49,7 @@ void cut_cuttables(StepContext& c, size_t t, const geometry::Blade& blade) noexc
     const size_t organ = c.model.solids.size() + i;
     if (!blades_near(c, t, organ, c.model.tool(s, t).jaw_length)) continue;
     if (s.cut_count == interactions::kMaxCuts) return;
-    const geometry::CutBook book =
+    const geometry::CutResult book =
         tissue::cut(c.model.cuttables[i].body, blade, s.cuttables[i], c.work.cuttable_work[i]);
     if (book.snapped + book.parted > 0) pose_cuttable(c, i);  // nodes have moved to the blade
     if (book.full) c.report.flags |= StepReport::kBookFull;
@@ -75,7 +75,7 @@ void cut_folds(StepContext& c, size_t t, const geometry::Blade& blade, bool clos
   State& s = c.state;
   const interactions::ToolShape& shape = c.work.shapes[t];
   for (size_t i = 0; i < c.model.membranes.size(); ++i) {
-    const MembraneModel& m = c.model.membranes[i];
+    const MembraneBody& m = c.model.membranes[i];
     if (m.sheet.closed() != closed_walls) continue;
     if (!m.cuttable || !c.work.sheet_poses[i].bounds.near_segment(shape.pivot, shape.frame.tip, 0.005)) continue;
     const int place = place_in_book(s, t, m.strand);
@@ -102,13 +102,13 @@ void open_with_strands(StepContext& c, size_t t, int first_cut) noexcept {
   for (int i = first_cut; i < c.state.cut_count; ++i) {
     const interactions::Cut& cut = c.state.cuts[size_t(i)];
     if (cut.strand < 0 || cut.fraction < interactions::kThrough) continue;
-    open_vessels_within(c, cut.strand, place_at(c.model.bodies[size_t(cut.strand)], cut.s).element, int(t));
+    open_vessels_within(c, cut.strand, place_at(c.model.strand_bodies[size_t(cut.strand)], cut.s).element, int(t));
   }
 }
 
 /// What closing blades cut before they meet.
 void cut_flesh(StepContext& c, size_t t) noexcept {
-  const auto closed = [](const MembraneModel& m) { return m.sheet.closed(); };
+  const auto closed = [](const MembraneBody& m) { return m.sheet.closed(); };
   const bool walls = std::any_of(c.model.membranes.begin(), c.model.membranes.end(), closed);
   if (c.model.cuttables.empty() && !walls) return;
   const std::optional<geometry::Blade> blade =

@@ -5,7 +5,7 @@ namespace trocar::sim {
 namespace {
 
 void pose_sheet(StepContext& c, size_t i) noexcept {
-  const MembraneModel& m = c.model.membranes[i];
+  const MembraneBody& m = c.model.membranes[i];
   const tissue::NodeView nodes = view_of(m.sheet.network, c.state.membranes[i].network);
   tissue::pose_skin(nodes, m.skin, c.work.sheet_poses[i]);
   c.work.sheets[i] = {{&m.skin, &c.work.sheet_poses[i], nodes},

@@ -121,8 +121,8 @@ double sealed_share(const State& s, int opening) noexcept {
   return 0;
 }
 
-void lay_out_seals(const State& s, std::span<vessels::Clip> out) noexcept {
-  for (vessels::Clip& clip : out) clip = {};
+void lay_out_seals(const State& s, std::span<vessels::Occlusion> out) noexcept {
+  for (vessels::Occlusion& clip : out) clip = {};
   for (int i = 0; i < s.seal_count; ++i) {
     const VesselSeal& seal = s.seals[size_t(i)];
     if (seal.opening >= 0 || !holds(seal)) continue;

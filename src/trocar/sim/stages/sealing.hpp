@@ -14,6 +14,6 @@ void seal_vessels(StepContext& context, size_t hand, const interactions::Electro
 /// The share of an opening that heat keeps shut: 0 or 1.
 double sealed_share(const State& state, int opening) noexcept;
 /// Seals that hold, as clips that the flow knows. @param out  (2 kMaxSeals)
-void lay_out_seals(const State& state, std::span<vessels::Clip> out) noexcept;
+void lay_out_seals(const State& state, std::span<vessels::Occlusion> out) noexcept;
 
 }  // namespace trocar::sim

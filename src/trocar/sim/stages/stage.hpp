@@ -12,11 +12,11 @@ namespace trocar::sim {
 inline constexpr double kNearSheet = 0.03;
 
 inline interactions::TissueView tissue_of(const StepContext& c) noexcept {
-  return {c.model.bodies, c.state.strands, {c.work.surfaces.data(), size_t(c.model.organs())}, c.work.sheets};
+  return {c.model.strand_bodies, c.state.strands, {c.work.surfaces.data(), size_t(c.model.organs())}, c.work.sheets};
 }
 
 inline interactions::Holders holders_of(const StepContext& c) noexcept {
-  return {c.model.bodies, c.state.strands, c.work.nodes, c.work.skins};
+  return {c.model.strand_bodies, c.state.strands, c.work.nodes, c.work.skins};
 }
 
 inline void tell(StepContext& c, Event::Kind kind, int tool, int index) noexcept {

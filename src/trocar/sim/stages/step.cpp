@@ -1,3 +1,4 @@
+#include <trocar/sim/stages/adhesion.hpp>
 #include <trocar/sim/stages/bodies.hpp>
 #include <trocar/sim/stages/circulation.hpp>
 #include <trocar/sim/stages/contacts.hpp>
@@ -7,6 +8,7 @@
 #include <trocar/sim/stages/jaws.hpp>
 #include <trocar/sim/stages/motion.hpp>
 #include <trocar/sim/stages/posing.hpp>
+#include <trocar/sim/stages/reaction_forces.hpp>
 #include <trocar/sim/stages/scarring.hpp>
 #include <trocar/sim/stages/step.hpp>
 #include <trocar/sim/stages/tearing.hpp>
@@ -17,7 +19,7 @@ namespace trocar::sim {
 namespace {
 
 // Eyes: what the endoscope sees.
-void see(StepContext& c) noexcept { look(c.model, c.state, c.work); }
+void see_samples(StepContext& c) noexcept { update_visibility(c.model, c.state, c.work); }
 
 // Reports.
 void sum_up(StepContext& c) noexcept {
@@ -50,7 +52,7 @@ constexpr Stage kStages[] = {
     {"work jaws", work_jaws},
     {"touch tissue", touch_tissue},
     {"touch organs", touch_organs},
-    {"stick", stick_tissue},
+    {"stick", apply_adhesion},
     {"pull scars", pull_scars},
     {"beat", beat},
     {"press with drops", press_with_drops},
@@ -59,12 +61,12 @@ constexpr Stage kStages[] = {
     {"advance organs", advance_organs},
     {"advance membranes", advance_membranes},
     {"contain", contain},
-    {"feel", feel},
+    {"feel", gather_reaction_forces},
     {"heat tissue", heat_tissue},
     {"tear", tear_tissue},
     {"let blood flow", let_blood_flow},
     {"move fluids", move_fluids},
-    {"see", see},
+    {"see", see_samples},
     {"sum up", sum_up},
 };
 

@@ -75,14 +75,14 @@ bool tear_cuttable(StepContext& c, size_t i) noexcept {
       tissue::find_overstretch(tissue::springs_of(organ.body, state, work), organ.failure_strain, look(c, organ_index),
                                c.state.overstretched_organs[organ_index], c.work.beyond);
   if (!tear.found) return false;
-  const geometry::CutBook book = tissue::cut(organ.body, tear.blade(1.0), state, work);
+  const geometry::CutResult book = tissue::cut(organ.body, tear.blade(1.0), state, work);
   if (book.full) c.report.flags |= StepReport::kBookFull;
   if (book.parted > 0) open_vessels(c, tear.blade(1.0), {Carriers::organ, std::int32_t(organ_index)}, -1);
   return opened(book.parted > 0, c.state.overstretched_organs[organ_index]);
 }
 
 bool tear_membrane(StepContext& c, size_t i) noexcept {
-  const MembraneModel& m = c.model.membranes[i];
+  const MembraneBody& m = c.model.membranes[i];
   tissue::MembraneState& state = c.state.membranes[i];
   const tissue::Overstretch tear = tissue::find_overstretch(tissue::springs_of(m.sheet.network, state.network),
                                                             m.failure_strain, look(c, size_t(c.model.organs()) + i),
@@ -95,7 +95,7 @@ bool tear_membrane(StepContext& c, size_t i) noexcept {
 }
 
 bool tear_strand(StepContext& c, size_t i) noexcept {
-  const int element = tissue::find_overstretch(c.model.bodies[i].model, c.state.strands[i],
+  const int element = tissue::find_overstretch(c.model.strand_bodies[i].model, c.state.strands[i],
                                                c.model.strands[i].failure_strain, c.state.overstretched_strands[i]);
   if (element >= 0) tissue::cut_element(c.state.strands[i], element);
   if (element >= 0) open_vessels_within(c, int(i), element, -1);

@@ -61,7 +61,7 @@ Vec3d sample_point(const Model& model, const State& state, const Work& work, con
     return port + sample.w * (work.shapes[i].pivot - port);
   }
   if (target.kind == VisibilityTarget::organ) return work.surfaces[i].position(sample.where);
-  const interactions::StrandBody& body = model.bodies[i];
+  const interactions::StrandBody& body = model.strand_bodies[i];
   const Vec3d centre = point_at(body, state.strands[i], {sample.where, sample.w});
   return centre + body.model.radius[size_t(sample.where)] * normalised(eye - centre);
 }
@@ -112,12 +112,12 @@ bool unoccluded(const Model& model, const State& state, const Work& work, Vec3d 
   for (size_t s = 0; s < size_t(model.organs()); ++s)
     if (hits_surface(work.surfaces[s], eye, end)) return false;
   if (behind_wall(model, eye, end)) return false;
-  for (size_t s = 0; s < model.bodies.size(); ++s) {
+  for (size_t s = 0; s < model.strand_bodies.size(); ++s) {
     if (int(s) == skip_strand) continue;
     const tissue::StrandState& strand = state.strands[s];
     for (size_t e = 0; e + 1 < strand.x.size(); ++e)
       if (strand.alive[e] &&
-          collision::passes_within(eye, end, strand.x[e], strand.x[e + 1], model.bodies[s].model.radius[e]))
+          collision::passes_within(eye, end, strand.x[e], strand.x[e + 1], model.strand_bodies[s].model.radius[e]))
         return false;
   }
   for (size_t t = 0; t < model.hands.size(); ++t) {
@@ -128,7 +128,7 @@ bool unoccluded(const Model& model, const State& state, const Work& work, Vec3d 
   return true;
 }
 
-void look(const Model& model, State& state, const Work& work) noexcept {
+void update_visibility(const Model& model, State& state, const Work& work) noexcept {
   if (model.samples.empty()) return;
   const kinematics::ScopeFrame scope = scope_of(model, state);
   for (int k = 0; k < kLooksPerTick; ++k) {

@@ -12,7 +12,7 @@ inline constexpr int kLooksPerTick = 2;
 kinematics::ScopeFrame scope_of(const Model& model, const State& state) noexcept;
 
 /// Looks at the samples whose turn it is and notes in State::seen whether they are in view and unoccluded.
-void look(const Model& model, State& state, const Work& work) noexcept;
+void update_visibility(const Model& model, State& state, const Work& work) noexcept;
 
 /// Share of the target's samples that were seen when last looked at.
 double visible_share(const Model& model, const State& state, int target) noexcept;

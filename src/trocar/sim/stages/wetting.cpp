@@ -14,15 +14,15 @@ interactions::WetBodies wet_bodies(StepContext& c) noexcept {
   for (size_t i = 0; i < size_t(c.model.organs()); ++i) c.work.surfaces[i].nodes = c.work.nodes[i];
   for (size_t i = 0; i < c.model.membranes.size(); ++i)
     c.work.sheets[i].surface.nodes = view_of(c.model.membranes[i].sheet.network, c.state.membranes[i].network);
-  return {c.work.surfaces, c.work.sheets, c.model.bodies, c.state.strands, c.model.wet.film, c.model.wet.grids};
+  return {c.work.surfaces, c.work.sheets, c.model.strand_bodies, c.state.strands, c.model.wet.film, c.model.wet.grids};
 }
 
 /// An opening's side keeps its number for as long as it is there.
 void lay_out_bleeding(StepContext& c) noexcept {
-  for (fluids::Opening& o : c.work.wounds) o = {};
+  for (fluids::Outlet& o : c.work.wounds) o = {};
   for (int i = 0; i < c.work.bleed_count; ++i) {
     const Bleed& b = c.work.bleeds[size_t(i)];
-    fluids::Opening& o = c.work.wounds[size_t(2 * b.opening + b.side)];
+    fluids::Outlet& o = c.work.wounds[size_t(2 * b.opening + b.side)];
     o.position = vec_cast<float>(b.place);
     o.direction = vec_cast<float>(b.direction);
     o.area = b.area;
@@ -155,7 +155,7 @@ void press_sheet(StepContext& c, size_t i, int node, const Push& push) noexcept 
 }
 
 void press_strand(StepContext& c, size_t i, int node, const Push& push) noexcept {
-  const int last = c.model.bodies[i].nodes() - 2;
+  const int last = c.model.strand_bodies[i].nodes() - 2;
   tissue::StrandLoad load;
   load.element = std::min(node, last);
   load.w = node > last ? 1 : 0;

@@ -31,6 +31,7 @@
 #include <vector>
 
 #include <trocar/core/hash.hpp>
+#include <trocar/core/tick.hpp>
 #include <trocar/numerics/vec3.hpp>
 
 namespace trocar::tissue {
@@ -74,7 +75,7 @@ struct HeatDescription {
 struct HeatModel : HeatDescription {
   static constexpr int kRateSteps = 16;     ///< of the table, a kelvin
   static constexpr double kRateUpTo = 140;  ///< [C]; above it damage is complete at once in any case
-  double tick = 1e-3, step = 8e-3;          ///< [s]
+  double tick = core::kTick, step = 8e-3;   ///< [s]
   std::vector<float> rate;                  ///< damage rate from damage_from on [1/s]
   std::uint32_t index_mask = 0;             ///< size of HeatState::index - 1
 
@@ -197,7 +198,7 @@ struct HeatReport {
 };
 
 /// @throws std::invalid_argument naming what is out of range
-HeatModel build(const HeatDescription& description, double tick = 1e-3);
+HeatModel build(const HeatDescription& description, double tick = core::kTick);
 HeatState cold(const HeatModel& model);
 HeatWork make_work(const HeatModel& model);
 

@@ -383,11 +383,11 @@ std::span<const std::uint8_t> folded_rows(const CuttableModel& m, const Cuttable
   return mark_folded(w.guarded, s.tet_phase, w.folded);
 }
 
-geometry::CutBook cut(const CuttableModel& m, const geometry::Blade& blade, CuttableState& s,
-                      CuttableWork& w) noexcept {
+geometry::CutResult cut(const CuttableModel& m, const geometry::Blade& blade, CuttableState& s,
+                        CuttableWork& w) noexcept {
   make_current(m, s, w);
   for (int i = 0; i < s.tets.nodes; ++i) w.now[std::size_t(i)] = position(m, s, i);
-  const geometry::CutBook book = geometry::cut(s.tets, blade, w.now, w.cut);
+  const geometry::CutResult book = geometry::cut(s.tets, blade, w.now, w.cut);
   if (book.snapped + book.parted == 0) return book;
   for (int i = 0; i < book.first_new; ++i)
     if (w.cut.at_blade[std::size_t(i)]) set_position(m, s, i, w.now[std::size_t(i)]);

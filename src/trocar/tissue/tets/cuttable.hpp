@@ -12,7 +12,7 @@
 //   CuttableState state = rest_state(model);
 //   CuttableWork work = make_work(model);
 //   advance(model, loads, reactions, state, work);            // 1 ms
-//   geometry::CutBook book = cut(model, blade, state, work);
+//   geometry::CutResult book = cut(model, blade, state, work);
 // Cells that collapse are pushed open as those of a network are (guard.hpp), piece by piece.
 #pragma once
 
@@ -123,8 +123,8 @@ StepReport advance(const CuttableModel& model, std::span<const NodeLoad> loads, 
 void make_current(const CuttableModel& model, const CuttableState& state, CuttableWork& work) noexcept;
 
 /// Parts the body where the blade is now (world frame).
-geometry::CutBook cut(const CuttableModel& model, const geometry::Blade& blade, CuttableState& state,
-                      CuttableWork& work) noexcept;
+geometry::CutResult cut(const CuttableModel& model, const geometry::Blade& blade, CuttableState& state,
+                        CuttableWork& work) noexcept;
 
 inline NodeView view_of(const CuttableModel& model, const CuttableState& state) noexcept {
   return {state.nodes, model.row_of_node, model.origin};

@@ -32,7 +32,7 @@ std::optional<ClipOutlook> clip_outlook(const Sterilisation& goal, const sim::Mo
   if (applier.kind != interactions::ToolKind::clip_applier || !tool.armed) return std::nullopt;
   const interactions::ToolShape shape = interactions::shape_of(applier, tool.pose(), tool.aperture);
   interactions::TissueView view;
-  view.strands = model.bodies;
+  view.strands = model.strand_bodies;
   view.strand_states = state.strands;
   interactions::Clip clip;
   interactions::fit_clip(applier, shape, view, clip);

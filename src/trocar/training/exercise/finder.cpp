@@ -44,7 +44,7 @@ std::int32_t Finder::body(const Named& named) const {
   if (o >= 0) return interactions::kSolidBase + o;
   const int fold = model.membrane_index(named.name);
   if (fold >= 0) return interactions::kMembraneBase + fold;
-  if (index_of(model.sheets, named.name) < 0) {
+  if (index_of(model.drawn_folds, named.name) < 0) {
     std::vector<std::string> known = names_of(model.strands);
     for (const std::string& n : organ_names()) known.push_back(n);
     faults.push_back({named.at, scene::unknown_name("body of the scene", named.name, known)});
@@ -54,9 +54,9 @@ std::int32_t Finder::body(const Named& named) const {
 
 int Finder::fold(const std::string& name, const core::Location& at) const {
   const int i = model.membrane_index(name);
-  if (i < 0 && index_of(model.sheets, name) < 0) {
+  if (i < 0 && index_of(model.drawn_folds, name) < 0) {
     std::vector<std::string> known = names_of(model.membranes);
-    for (const std::string& n : names_of(model.sheets)) known.push_back(n);
+    for (const std::string& n : names_of(model.drawn_folds)) known.push_back(n);
     faults.push_back({at, scene::unknown_name("fold of the scene", name, known)});
   }
   return i;

@@ -19,7 +19,7 @@ Following::Following(const Sterilisation& goal, const sim::Model& model, int str
   const sim::VisibilityTarget& t = model.targets[size_t(m_target)];
   for (int i = t.first; i < t.first + t.count; ++i) {
     const sim::VisibilitySample& s = model.samples[size_t(i)];
-    m_arc.push_back(interactions::arc_at(model.bodies[size_t(strand)], {s.where, s.w}));
+    m_arc.push_back(interactions::arc_at(model.strand_bodies[size_t(strand)], {s.where, s.w}));
   }
   m_first = int(m_arc.size()) - 1;
   for (const sim::LandmarkModel& l : model.strands[size_t(strand)].landmarks)
@@ -37,7 +37,8 @@ bool Following::followed(const sim::Model& model, const sim::State& state, std::
   const size_t i = size_t(model.targets[size_t(m_target)].first + sample);
   if (state.seen[i]) return true;
   const interactions::StrandPlace place{model.samples[i].where, model.samples[i].w};
-  const Vec3d at = interactions::point_at(model.bodies[size_t(m_strand)], state.strands[size_t(m_strand)], place);
+  const Vec3d at =
+      interactions::point_at(model.strand_bodies[size_t(m_strand)], state.strands[size_t(m_strand)], place);
   return std::any_of(tips.begin(), tips.end(), [&](Vec3d tip) { return length(tip - at) < m_touch; });
 }
 

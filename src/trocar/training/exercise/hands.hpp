@@ -18,7 +18,7 @@ inline Vec3d place_of(const sim::Model& model, const sim::State& state, const si
   const sim::VisibilityTarget& t = model.targets[size_t(sample.target)];
   const size_t i = size_t(t.index);
   if (t.kind == sim::VisibilityTarget::strand)
-    return interactions::point_at(model.bodies[i], state.strands[i], {sample.where, sample.w});
+    return interactions::point_at(model.strand_bodies[i], state.strands[i], {sample.where, sample.w});
   return tissue::skin_point(nodes_of(model, state, t.index), model.skin(t.index), sample.where);
 }
 
@@ -26,12 +26,12 @@ inline Vec3d place_of(const sim::Model& model, const sim::State& state, const si
 inline double held_arc(const sim::Model& model, const sim::State& state, size_t hand, int strand) {
   const interactions::ToolState& tool = state.tools[hand];
   if (tool.holds == 0 || tool.hold[0].body != strand) return -1;
-  return interactions::arc_at(model.bodies[size_t(strand)], {tool.hold[0].element, double(tool.hold[0].weight)});
+  return interactions::arc_at(model.strand_bodies[size_t(strand)], {tool.hold[0].element, double(tool.hold[0].weight)});
 }
 
 /// Chord over length of strand `strand` up to arc length `to`, or up to a cut before it.
 inline double straightness_of(const sim::Model& model, const sim::State& state, int strand, double to) {
-  const interactions::StrandBody& body = model.bodies[size_t(strand)];
+  const interactions::StrandBody& body = model.strand_bodies[size_t(strand)];
   const tissue::StrandState& s = state.strands[size_t(strand)];
   double way = 0;
   size_t last = 0;

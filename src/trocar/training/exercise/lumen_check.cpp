@@ -3,7 +3,7 @@
 namespace trocar::training {
 
 LumenCheck::LumenCheck(const sim::Model& model, int strand, double closing_cover)
-    : m_strand(strand), m_nodes(model.bodies[size_t(strand)].nodes()), m_cover(float(closing_cover)) {
+    : m_strand(strand), m_nodes(model.strand_bodies[size_t(strand)].nodes()), m_cover(float(closing_cover)) {
   // A chain of segments between the strand's nodes; segment e is the element e.
   for (std::int32_t e = 0; e + 1 < m_nodes; ++e) m_segments.push_back({e, e + 1});
   m_cuts.resize(m_segments.size());
@@ -26,7 +26,7 @@ bool LumenCheck::leads(int from, int to, std::int32_t cuts) {
 /// The element that a clip closes; -1: none. A clip within an element that is cut closes the next one on its own side
 /// of the cut.
 int LumenCheck::closed_by(const sim::Model& model, const sim::State& state, const interactions::Clip& clip) const {
-  const interactions::StrandBody& body = model.bodies[size_t(m_strand)];
+  const interactions::StrandBody& body = model.strand_bodies[size_t(m_strand)];
   const int element = interactions::place_at(body, clip.s).element;
   if (state.strands[size_t(m_strand)].alive[size_t(element)]) return element;
   for (int i = 0; i < state.cut_count; ++i) {

@@ -15,7 +15,7 @@ namespace {
 constexpr double kEnough = 1e-9;  // [s] of rounding in sums of samples
 
 Vec3d place_on(const sim::Model& model, const sim::State& state, int strand, double s) {
-  const interactions::StrandBody& body = model.bodies[size_t(strand)];
+  const interactions::StrandBody& body = model.strand_bodies[size_t(strand)];
   return interactions::point_at(body, state.strands[size_t(strand)], interactions::place_at(body, s));
 }
 
@@ -209,7 +209,7 @@ void SterilisationJudge::judge_clip(const sim::Model& model, const sim::State& s
   if (clip.closing_time < g.clip_closing) make_error("A1.8", i, where);
   SideFacts& f = side.facts;
   if (f.clip_count == int(f.clips.size())) return;
-  SideFacts::Clip& fact = f.clips[size_t(f.clip_count++)];
+  SideFacts::ClipFact& fact = f.clips[size_t(f.clip_count++)];
   fact = {clip.s, clip.theta, clip.cover, clip.closing_time, clip.tips_visible, false, false, m_board.now()};
   fact.counts = m_board.errors().size() == before && place_of_a_clip(g, clip.s);
   if (m_board.errors().size() == before) place_clip(side, f.clip_count - 1, clip.s, where);
@@ -300,7 +300,7 @@ Json side_json(const Side& side, const SideFacts& f, const LumenCheck& lumen) {
   const double degrees = 180 / portable::pi;
   Json j{{"side", side.name}, {"tube", side.tube}, {"clips", Json::array()}, {"cuts", Json::array()}};
   for (int i = 0; i < f.clip_count; ++i) {
-    const SideFacts::Clip& c = f.clips[size_t(i)];
+    const SideFacts::ClipFact& c = f.clips[size_t(i)];
     j["clips"].push_back({{"s_mm", c.s * 1000},
                           {"angle_deg", c.theta * degrees},
                           {"cover", c.cover},

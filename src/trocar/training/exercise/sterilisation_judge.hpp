@@ -13,7 +13,7 @@ namespace trocar::training {
 
 /// What is known of one side; for results and for whoever shows them.
 struct SideFacts {
-  struct Clip {
+  struct ClipFact {
     double s = 0, theta = 0, cover = 0, closing = 0;  ///< [m] [rad] - [s]
     int tips_visible = 0;
     bool counts = false;  ///< rightly set in a place of a clip: a pair may be made with it
@@ -25,7 +25,7 @@ struct SideFacts {
     bool good = false;
     double at = 0;
   };
-  std::array<Clip, interactions::kMaxClips> clips{};
+  std::array<ClipFact, interactions::kMaxClips> clips{};
   std::array<Cut, interactions::kMaxCuts> cuts{};
   int clip_count = 0, cut_count = 0;
   std::array<double, 2> pair{-1, -1};              ///< where the first and the second clip are [m], below 0: not yet

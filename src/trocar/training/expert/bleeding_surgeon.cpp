@@ -105,7 +105,7 @@ double BleedingSurgeon::inside() const {
 }
 
 BleedingSurgeon::Carrier BleedingSurgeon::on_strand(int strand, interactions::StrandPlace place) const {
-  const interactions::StrandBody& body = m_model->bodies[size_t(strand)];
+  const interactions::StrandBody& body = m_model->strand_bodies[size_t(strand)];
   const tissue::StrandState& state = m_state->strands[size_t(strand)];
   return {interactions::point_at(body, state, place), interactions::tangent_at(body, state, place),
           body.model.radius[size_t(place.element)]};
@@ -113,7 +113,7 @@ BleedingSurgeon::Carrier BleedingSurgeon::on_strand(int strand, interactions::St
 
 BleedingSurgeon::Carrier BleedingSurgeon::elsewhere() const {
   const int tube = m_model->strand_index(m_goal.delicate[place().x > 0 ? 0 : 1].name);
-  const interactions::StrandBody& body = m_model->bodies[size_t(tube)];
+  const interactions::StrandBody& body = m_model->strand_bodies[size_t(tube)];
   return on_strand(tube, interactions::place_at(body, 0.35 * body.length()));
 }
 
@@ -124,7 +124,7 @@ BleedingSurgeon::Carrier BleedingSurgeon::clipped() const {
   if (hold.kind != interactions::VesselHold::strand)
     return {at.place, at.along, path().points[size_t(at.after)].radius};
   // The point before the place: what is left lies along the strand.
-  const interactions::StrandBody& body = m_model->bodies[size_t(hold.index)];
+  const interactions::StrandBody& body = m_model->strand_bodies[size_t(hold.index)];
   Carrier c = on_strand(hold.index, {hold.element, hold.w});
   const double ahead = dot(at.place - c.place, c.along);
   return on_strand(hold.index,

@@ -12,7 +12,7 @@ namespace {
 constexpr double kIdleDepth = 0.042;  // [m] an instrument that waits hangs under its trocar
 constexpr double kTravel = 0.045;     // [m/s]
 
-int landmark_of(const sim::StrandModel& strand, const char* name) {
+int landmark_of(const sim::StrandAnatomy& strand, const char* name) {
   for (size_t i = 0; i < strand.landmarks.size(); ++i)
     if (strand.landmarks[i].name == name) return int(i);
   return -1;
@@ -87,9 +87,9 @@ Surgeon::Surgeon(const Exercise& exercise, const sim::Model& model, const Manner
     if (w.tube < 0 || w.trace_target < 0) {
       faults.push_back({s.tube_at, "expected a tube with landmarks, got \"" + s.tube + "\""});
     } else {
-      const sim::StrandModel& strand = model.strands[size_t(w.tube)];
+      const sim::StrandAnatomy& strand = model.strands[size_t(w.tube)];
       const int isthmus = landmark_of(strand, "isthmus"), fimbria = landmark_of(strand, "fimbria");
-      const double length = model.bodies[size_t(w.tube)].length();
+      const double length = model.strand_bodies[size_t(w.tube)].length();
       w.ampulla_from = isthmus >= 0 ? strand.landmarks[size_t(isthmus)].to : 0.25 * length;
       w.ampulla_to = fimbria >= 0 ? strand.landmarks[size_t(fimbria)].from : 0.9 * length;
       w.following = Following(g, model, w.tube);
@@ -100,12 +100,12 @@ Surgeon::Surgeon(const Exercise& exercise, const sim::Model& model, const Manner
 }
 
 Vec3d Surgeon::tube_point(double s) const {
-  const interactions::StrandBody& tube = m_model->bodies[size_t(m_strand)];
+  const interactions::StrandBody& tube = m_model->strand_bodies[size_t(m_strand)];
   return interactions::point_at(tube, m_state->strands[size_t(m_strand)], interactions::place_at(tube, s));
 }
 
 Vec3d Surgeon::tube_tangent(double s) const {
-  const interactions::StrandBody& tube = m_model->bodies[size_t(m_strand)];
+  const interactions::StrandBody& tube = m_model->strand_bodies[size_t(m_strand)];
   return interactions::tangent_at(tube, m_state->strands[size_t(m_strand)], interactions::place_at(tube, s));
 }
 
@@ -173,7 +173,7 @@ Vec3d Surgeon::sample_point(const sim::VisibilitySample& sample) const {
   const sim::VisibilityTarget& t = m_model->targets[size_t(sample.target)];
   const size_t i = size_t(t.index);
   if (t.kind == sim::VisibilityTarget::strand)
-    return interactions::point_at(m_model->bodies[i], m_state->strands[i], {sample.where, sample.w});
+    return interactions::point_at(m_model->strand_bodies[i], m_state->strands[i], {sample.where, sample.w});
   return vec_cast<double>(m_model->skin(t.index).rest[size_t(sample.where)]);
 }
 

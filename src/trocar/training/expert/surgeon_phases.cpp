@@ -229,7 +229,7 @@ Vec3d Surgeon::other_side() const {
 double Surgeon::clip_inside() const {
   // The tube next to the clip's bend, so that both legs' tips come into view beyond it; nearer while they do not.
   const interactions::ToolModel& t = tool(m_applier);
-  const interactions::StrandBody& tube = m_model->bodies[size_t(m_strand)];
+  const interactions::StrandBody& tube = m_model->strand_bodies[size_t(m_strand)];
   const double radius = tube.model.radius[size_t(interactions::place_at(tube, m_clip_place).element)];
   if (flawed("A1.3")) return t.jaw_length - 0.3 * radius;
   return t.jaw_length - t.clip_length + radius + m_spare;
@@ -247,7 +247,7 @@ bool Surgeon::clip_fits() const {
   const interactions::ToolModel& t = tool(m_applier);
   const interactions::ToolShape shape =
       interactions::shape_of(t, tool_state(m_applier).pose(), tool_state(m_applier).aperture);
-  const interactions::StrandBody& tube = m_model->bodies[size_t(m_strand)];
+  const interactions::StrandBody& tube = m_model->strand_bodies[size_t(m_strand)];
   const interactions::StrandPlace place = interactions::place_at(tube, m_clip_place);
   const Vec3d local = interactions::to_jaw(shape, tube_point(m_clip_place));
   const double radius = tube.model.radius[size_t(place.element)];
@@ -275,7 +275,7 @@ void Surgeon::reach_clip() {
   if (flawed("A1.9")) m_clip_place = g.first_clip.high - 0.001;
   if (flawed("E11")) {
     m_target_strand = m_model->strand_index(g.forbidden.front().name);
-    m_clip_place = 0.5 * m_model->bodies[size_t(m_target_strand)].length();
+    m_clip_place = 0.5 * m_model->strand_bodies[size_t(m_target_strand)].length();
   }
   m_clips_before = m_state->clip_count;
   keep_presented();
@@ -406,7 +406,7 @@ void Surgeon::check() {
   clear_the_way(w.scissors);
   clear_the_way(m_applier);
   const int cut = cut_element();
-  const interactions::StrandBody& tube = m_model->bodies[size_t(w.tube)];
+  const interactions::StrandBody& tube = m_model->strand_bodies[size_t(w.tube)];
   want(tube_point(std::max(0.0, tube.arc[size_t(cut)] - 0.003)));
   want(tube_point(tube.arc[size_t(cut) + 1] + 0.003));
   m_distance = 0.05 + 0.01 * double(int(m_in_phase / 4) % 4);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/core/tick.hpp>
 #include <trocar/training/metrics/trace.hpp>
 #include <trocar/training/metrics/trace_channels.hpp>
 
@@ -88,7 +89,8 @@ void TraceRecorder::update(const sim::Model& model, const sim::State& state, con
   m_full = m_trace.size() == kMaxTraceSamples || (!first && state.tick != m_next);
   if (m_full) return;
   if (first)
-    m_trace.start = double(state.tick) / 1000;  // not times 0.001: the double nearest to the decimal, as in CSV
+    m_trace.start = double(state.tick) /
+                    double(core::kTicksPerSecond);  // not times 0.001: the double nearest to the decimal, as in CSV
   m_next = state.tick + kTraceEvery;
   for (std::size_t h = 0; h < m_trace.hands.size(); ++h) {
     m_trace.hands[h].samples.push_back(sample_of(model, state, h));

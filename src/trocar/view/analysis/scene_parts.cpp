@@ -12,11 +12,11 @@ SceneParts::SceneParts(const sim::Model& model, const std::vector<std::string>& 
   first.organ = begins();
   for (int i = 0; i < model.organs(); ++i) add(model.organ_name(i), PartGroup::organs);
   first.tube = begins();
-  for (const sim::StrandModel& s : model.strands) add(s.name, PartGroup::tubes);
+  for (const sim::StrandAnatomy& s : model.strands) add(s.name, PartGroup::tubes);
   first.fold = begins();
-  for (const sim::SheetModel& s : model.sheets) add(s.name, PartGroup::folds);
+  for (const sim::DrawnFold& s : model.drawn_folds) add(s.name, PartGroup::folds);
   first.membrane = begins();
-  for (const sim::MembraneModel& m : model.membranes)  // a closed one is a hollow organ
+  for (const sim::MembraneBody& m : model.membranes)  // a closed one is a hollow organ
     add(m.name, m.sheet.closed() ? PartGroup::organs : PartGroup::folds);
   first.vessel = begins();
   for (const std::string& kind : kinds) add(kind, PartGroup::vessels);

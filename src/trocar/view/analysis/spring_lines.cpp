@@ -82,7 +82,7 @@ void SpringLines::update(const sim::State& state, const AnalysisOptions& o, rend
   }
   for (std::size_t i = 0; i < m_strands.size(); ++i) {
     Lines lines(o, m_strands[i]);
-    add_strand(m_model->bodies[i].model, state.strands[i], lines);
+    add_strand(m_model->strand_bodies[i].model, state.strands[i], lines);
     lines.show(backend);
   }
   for (std::size_t i = 0; i < m_membranes.size(); ++i) {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include <trocar/view/analysis/strain_surfaces.hpp>
@@ -119,7 +120,7 @@ void StrainSurfaces::update_membrane(std::size_t i, const sim::State& state, con
 /// Two rings an element, so that each has its own colour; what is cut through has none.
 void StrainSurfaces::update_strand(std::size_t i, const sim::State& state, const AnalysisOptions& o,
                                    render::Backend& backend) {
-  const tissue::StrandModel& body = m_model->bodies[i].model;
+  const tissue::StrandModel& body = m_model->strand_bodies[i].model;
   const tissue::StrandState& now = state.strands[i];
   FalseColourMesh& mesh = m_strands[i];
   const std::vector<std::uint32_t> before = std::exchange(mesh.buffer.indices, {});
@@ -131,7 +132,7 @@ void StrainSurfaces::update_strand(std::size_t i, const sim::State& state, const
     across = normalised(across - dot(across, tangent) * tangent, any_perpendicular(tangent));
     for (int side = first ? 1 : 0; side < (last ? 1 : 2); ++side)  // the end of one element, the beginning of the next
       for (std::uint32_t k = 0; k < kAround; ++k) {
-        const double angle = 2 * 3.14159265358979323846 * k / kAround;
+        const double angle = 2 * std::numbers::pi * k / kAround;
         const Vec3d out = std::cos(angle) * across + std::sin(angle) * cross(tangent, across);
         mesh.buffer.positions.push_back(vec_cast<float>(now.x[node] + m_model->strands[i].outer[node] * out));
         mesh.buffer.normals.push_back(vec_cast<float>(out));

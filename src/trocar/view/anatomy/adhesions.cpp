@@ -68,7 +68,7 @@ Adhesions::Adhesions(const std::vector<OrganDrawing>& organs, const sim::Model& 
     : m_down(normalised(vec_cast<float>(model.gravity), Vec3f{0, 0, -1})) {
   for (std::size_t i = 0; i < model.strands.size(); ++i) {
     if (!model.strands[i].fimbriated) continue;
-    const std::vector<Vec3d>& rest = model.bodies[i].model.rest;
+    const std::vector<Vec3d>& rest = model.strand_bodies[i].model.rest;
     const Vec3d end = rest.back(), onward = normalised(end - rest[rest.size() - 2]);
     for (const Vec3d& p : rest) m_tubes.push_back(vec_cast<float>(p));
     for (int k = 1; k <= 3; ++k) m_tubes.push_back(vec_cast<float>(end + (k * kFimbriae / 3) * onward));

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <trocar/render/meshes/mesh_arrays.hpp>
 #include <trocar/view/anatomy/gut_line.hpp>
@@ -8,7 +9,7 @@
 namespace trocar::view {
 namespace {
 
-constexpr double kPi = 3.14159265358979;
+constexpr double kPi = std::numbers::pi;
 constexpr int kSides = kGutSides, kPasses = 80;
 constexpr double kTouch = 0.96;                // of both radii: touching walls flatten each other
 constexpr double kOnFloor = 0.8;               // of the radius above a wall

@@ -41,7 +41,8 @@ bool carries(const sim::Model& model, int strand) {
   const auto rides = [strand](const interactions::VesselPoint& p) {
     return p.hold.kind == interactions::VesselHold::strand && p.hold.index == strand;
   };
-  return std::any_of(model.sheets.begin(), model.sheets.end(), [&](const auto& s) { return s.strand == strand; }) ||
+  return std::any_of(model.drawn_folds.begin(), model.drawn_folds.end(),
+                     [&](const auto& s) { return s.strand == strand; }) ||
          std::any_of(model.vessels.list.begin(), model.vessels.list.end(), [&](const sim::Vessel& v) {
            return std::any_of(v.path.points.begin(), v.path.points.end(), rides);
          });
@@ -61,7 +62,7 @@ Vec3d outside(Vec3d p, Vec3d axis, Vec3d along, double far) {
 
 Ridge::Ridge(const sim::Model& model, const TubeDrawing& tube, int strand, const WallSurface& walls,
              render::Backend& backend, const Detail& detail)
-    : m_body(&model.bodies[std::size_t(strand)]),
+    : m_body(&model.strand_bodies[std::size_t(strand)]),
       m_strand(strand),
       m_covered(!carries(model, strand)),
       m_marks(model, strand) {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <trocar/view/base/cameras.hpp>
 
@@ -56,7 +57,7 @@ EndoscopeLook room_look() {
 namespace {
 
 constexpr double kSteepest = 1.54, kNearest = 0.03, kFarthest = 1.5;  // [rad], [m]
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kPi = std::numbers::pi;
 
 struct Box {
   Vec3d low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9};
@@ -88,9 +89,9 @@ void Orbit::zoom(double factor) { distance = std::clamp(distance * factor, kNear
 
 Orbit orbit_around(const sim::Model& model) {
   Box box;
-  for (const interactions::StrandBody& strand : model.bodies)
+  for (const interactions::StrandBody& strand : model.strand_bodies)
     for (Vec3d p : strand.model.rest) box.add(p);
-  for (int i = 0; model.bodies.empty() && i < model.organs(); ++i)
+  for (int i = 0; model.strand_bodies.empty() && i < model.organs(); ++i)
     for (int v = 0; v < model.skin(i).size(); ++v)
       if (model.skin(i).at_surface(v)) box.add(vec_cast<double>(model.skin(i).rest[std::size_t(v)]));
   Orbit orbit;

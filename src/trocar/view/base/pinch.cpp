@@ -32,7 +32,7 @@ struct ClipSeat {
 };
 ClipSeat seat_on_strand(const Clip& clip, const sim::Model& model, const sim::State& state) {
   const std::size_t strand = std::size_t(clip.strand);
-  const interactions::StrandBody& body = model.bodies[strand];
+  const interactions::StrandBody& body = model.strand_bodies[strand];
   const interactions::StrandPlace place = place_at(body, clip.s);
   return {point_at(body, state.strands[strand], place), frame_at(body, state.strands[strand], place),
           body.model.radius[std::size_t(place.element)]};

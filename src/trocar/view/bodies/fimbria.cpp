@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include <trocar/render/meshes/mesh_arrays.hpp>
 #include <trocar/view/bodies/fimbria.hpp>
@@ -8,7 +9,7 @@
 namespace trocar::view {
 namespace {
 
-constexpr double kPi = 3.14159265358979;
+constexpr double kPi = std::numbers::pi;
 constexpr int kRings = 25;             // along a frond ...
 constexpr int kCapRings = 6;           // ... of which so many round off its end
 constexpr double kThick = 0.00024;     // [m] half of a frond's thickness

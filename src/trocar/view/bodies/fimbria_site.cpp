@@ -15,7 +15,7 @@ struct Touch {
 };
 
 /// The organ nearest to the end of what the strand does not itself grow from.
-Touch nearest_organ(const sim::Model& model, const sim::StrandModel& strand, Vec3d at) {
+Touch nearest_organ(const sim::Model& model, const sim::StrandAnatomy& strand, Vec3d at) {
   Touch best;
   for (std::size_t i = 0; i < model.solids.size(); ++i) {
     if (strand.start.kind == sim::StrandEndModel::hosted && std::size_t(strand.start.organ) == i) continue;
@@ -36,7 +36,7 @@ std::size_t nearest_vertex(const tissue::Skin& skin, Vec3d p) {
 }  // namespace
 
 FimbriaSite fimbria_site(const sim::Model& model, int strand, const CurveFrame& end) {
-  const sim::StrandModel& tube = model.strands[std::size_t(strand)];
+  const sim::StrandAnatomy& tube = model.strands[std::size_t(strand)];
   const auto local = [&end](Vec3d v) { return Vec3d{dot(v, end.tangent), dot(v, end.normal), dot(v, end.binormal)}; };
   FimbriaSite site;
   site.radius = kBellFlare * tube.outer.back();

@@ -25,7 +25,7 @@ class MembraneDrawing {
   std::vector<Vec3d> flat_places()
       const;  ///< of the drawn vertices: between the body's nodes as drawn, without ripples
 
-  const sim::MembraneModel* m_membrane;
+  const sim::MembraneBody* m_membrane;
   int m_index, m_columns, m_rows;        ///< of the drawn grid
   std::vector<std::uint8_t> m_torn;      ///< as drawn last
   std::vector<std::uint8_t> m_edge;      ///< (drawn vertices) 1: of a tear

@@ -29,7 +29,7 @@ class PouchDrawing {
   void place(const tissue::MembraneState& state);
   void paint();
 
-  const sim::MembraneModel* m_membrane;
+  const sim::MembraneBody* m_membrane;
   int m_index;
   std::vector<std::uint8_t> m_torn;    ///< as drawn last
   std::vector<Place> m_places;         ///< (drawn vertices)

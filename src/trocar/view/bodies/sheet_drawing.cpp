@@ -49,7 +49,7 @@ double hem_openness(std::size_t column, std::size_t columns, int row) {
 
 Vec3d rest_of(const sim::BasePoint& b, const sim::Model& model) {
   if (b.organ >= 0) return vec_cast<double>(model.skin(b.organ).rest[std::size_t(b.vertex)]);
-  const interactions::StrandBody& body = model.bodies[std::size_t(b.strand)];
+  const interactions::StrandBody& body = model.strand_bodies[std::size_t(b.strand)];
   const std::size_t e = std::size_t(b.place.element);
   return body.model.rest[e] + b.place.w * (body.model.rest[e + 1] - body.model.rest[e]);
 }
@@ -63,8 +63,8 @@ Vec3d skin_now(const sim::Model& model, const sim::State& state, int organ, int 
 SheetDrawing::SheetDrawing(const sim::Model& model, int sheet, render::Backend& backend, const Detail& detail,
                            const WallSurface* walls)
     : m_model(&model),
-      m_sheet(&model.sheets[std::size_t(sheet)]),
-      m_body(&model.bodies[std::size_t(m_sheet->strand)]),
+      m_sheet(&model.drawn_folds[std::size_t(sheet)]),
+      m_body(&model.strand_bodies[std::size_t(m_sheet->strand)]),
       m_base(m_sheet->base.size()) {
   double way = 0;
   for (std::size_t i = 0; i < m_sheet->base.size(); ++i) {
@@ -237,11 +237,11 @@ SheetDrawing::Ligament SheetDrawing::ligament_near(Vec3d tip) const {
   Ligament best;
   double nearest = kLigamentNear;
   for (int k = 0; k < int(m_model->strands.size()); ++k) {
-    const sim::StrandModel& strand = m_model->strands[std::size_t(k)];
+    const sim::StrandAnatomy& strand = m_model->strands[std::size_t(k)];
     const auto carries = [k](const sim::BasePoint& b) { return b.strand == k; };
     if (k == m_sheet->strand || std::any_of(m_sheet->base.begin(), m_sheet->base.end(), carries)) continue;
     if (strand.start.kind != sim::StrandEndModel::hosted || strand.end.kind != sim::StrandEndModel::fixed) continue;
-    const interactions::StrandBody& body = m_model->bodies[std::size_t(k)];
+    const interactions::StrandBody& body = m_model->strand_bodies[std::size_t(k)];
     for (std::size_t n = 0; n < body.model.rest.size(); ++n) {
       const double far = length(body.model.rest[n] - tip);
       if (far >= nearest) continue;
@@ -257,7 +257,7 @@ std::vector<Vec3d> SheetDrawing::ligament_points(bool at_end, const sim::State& 
   const Ligament& onto = m_onto[at_end];
   if (onto.strand < 0) return points;
   const auto strand = std::size_t(onto.strand);
-  const interactions::StrandBody& body = m_model->bodies[strand];
+  const interactions::StrandBody& body = m_model->strand_bodies[strand];
   for (int i = 0; i < kLigamentPoints; ++i) {
     const double s = onto.from + (body.length() - onto.from) * i / (kLigamentPoints - 1);
     points.push_back(point_at(body, state.strands[strand], place_at(body, s)));
@@ -329,7 +329,7 @@ Vec3d SheetDrawing::base_point(std::size_t i, const sim::State& state) const {
   if (b.organ >= 0) return b.rest + skin_now(*m_model, state, b.organ, b.vertex) - rest_of(b, *m_model);
   if (b.strand < 0) return b.rest;
   const std::size_t k = std::size_t(b.strand);
-  return b.rest + point_at(m_model->bodies[k], state.strands[k], b.place) - rest_of(b, *m_model);
+  return b.rest + point_at(m_model->strand_bodies[k], state.strands[k], b.place) - rest_of(b, *m_model);
 }
 
 /// Rest coordinates: those of a fold with an arcade are its own, others' are where it is drawn.

@@ -65,7 +65,7 @@ class SheetDrawing {
   Vec3d base_at(double share) const;
 
   const sim::Model* m_model;
-  const sim::SheetModel* m_sheet;
+  const sim::DrawnFold* m_sheet;
   const interactions::StrandBody* m_body;
   std::vector<StrandPiece> m_pieces;
   std::vector<Column> m_columns;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 
 #include <trocar/interactions/verbs/cut.hpp>
 #include <trocar/render/meshes/mesh_arrays.hpp>
@@ -14,7 +15,7 @@ using interactions::Cut;
 
 namespace {
 
-constexpr double kPi = 3.14159265358979;
+constexpr double kPi = std::numbers::pi;
 constexpr double kBlanched = 0.0030;   // [m] from a clip's middle: blood is pressed out of what its legs hold ...
 constexpr double kCongested = 0.0058;  // [m] ... and stands beside that
 constexpr double kShade = 0.0014;      // [m] beside a clip's legs, where little light comes
@@ -45,7 +46,7 @@ bool TubeDrawing::Layout::same(const Layout& other) const {
 TubeDrawing::TubeDrawing(const sim::Model& model, int strand, const Detail& detail, const WallSurface* walls)
     : m_model(&model),
       m_strand(&model.strands[std::size_t(strand)]),
-      m_body(&model.bodies[std::size_t(strand)]),
+      m_body(&model.strand_bodies[std::size_t(strand)]),
       m_index(strand),
       m_marks(model, strand) {
   const double thickest = *std::max_element(m_strand->outer.begin(), m_strand->outer.end());

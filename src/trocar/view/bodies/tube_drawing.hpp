@@ -112,7 +112,7 @@ class TubeDrawing {
   std::vector<double> stations(const Layout& layout, const StrandPiece& piece) const;
 
   const sim::Model* m_model;
-  const sim::StrandModel* m_strand;
+  const sim::StrandAnatomy* m_strand;
   const interactions::StrandBody* m_body;
   int m_index, m_sides;
   TubeRoot m_start_root, m_end_root;

@@ -1,13 +1,14 @@
 // Where a strand goes on below the surface of what holds it.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <trocar/view/bodies/tube_drawing.hpp>
 
 namespace trocar::view {
 namespace {
 
-constexpr double kPi = 3.14159265358979;
+constexpr double kPi = std::numbers::pi;
 constexpr double kRootDepth = 1.6;      // radii below the organ's surface where it ends
 constexpr double kRootSlide = 0.022;    // [m] a ligament goes on along a wall ...
 constexpr double kRootBelow = 0.003;    // [m] ... to below its surface

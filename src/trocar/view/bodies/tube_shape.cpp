@@ -1,6 +1,7 @@
 // How wide a strand is drawn, and which way it goes: the simulated line and radius, made uneven.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <trocar/view/bodies/fimbria.hpp>
 #include <trocar/view/bodies/tube_drawing.hpp>
@@ -8,7 +9,7 @@
 namespace trocar::view {
 namespace {
 
-constexpr double kPi = 3.14159265358979;
+constexpr double kPi = std::numbers::pi;
 constexpr double kRootFlare = 0.12;    // how much wider a strand is where it grows out of an organ
 constexpr double kThinsInWall = 0.6;   // share of the radius that one loses before a wall ...
 constexpr double kThinsFrom = 0.8;     // ... from here on along it

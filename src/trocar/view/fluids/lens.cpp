@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include <trocar/core/tick.hpp>
 #include <trocar/view/base/mesh_buffer.hpp>
 #include <trocar/view/fluids/lens.hpp>
 
@@ -34,7 +36,7 @@ void Lens::splash(double strength, const fluids::Mix& mix, std::uint32_t seed) {
 /// Time since the frame before [s]. Who goes back in a recording looks through a lens of that time.
 double Lens::since_last(std::uint64_t tick) {
   if (tick < m_tick) clear();
-  const double passed = 1e-3 * double(tick - std::min(tick, m_tick));
+  const double passed = core::kTick * double(tick - std::min(tick, m_tick));
   m_tick = tick;
   return passed;
 }
@@ -61,7 +63,7 @@ void Lens::list(const fluids::SmokeModel& model, const fluids::SmokeState& state
     const float done = kStrokes * float(std::clamp(1 - state.wipe_left / model.wipe_time, 0.0, 1.0));
     stroke = std::min(std::floor(done), kStrokes - 1);
     soil.wipe = std::min(done - stroke, 1.0f);
-    if (int(stroke) % 2 == 1) soil.smear_angle += 3.14159265f;
+    if (int(stroke) % 2 == 1) soil.smear_angle += std::numbers::pi_v<float>;
     if (stroke > 0) soil.fog = 0;  // the first stroke has taken it
     if (stroke > 0) soil.smear = float(kSmearLeft);
   }

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numeric>
 
+#include <trocar/core/tick.hpp>
 #include <trocar/view/base/mesh_buffer.hpp>
 #include <trocar/view/fluids/smoke_drawing.hpp>
 
@@ -122,7 +123,7 @@ void list_plumes(const sim::Model& model, const sim::State& state, render::Frame
   for (std::size_t h = 0; h < state.electrodes.size(); ++h) {
     const sim::ElectrodeHand& hand = state.electrodes[h];
     if (hand.body < 0 || !(hand.current.on_time > kSmokes)) continue;
-    const double now = 1e-3 * double(state.tick % 1000000) / kPlumeTime * kPuffs, first = std::floor(now);
+    const double now = core::kTick * double(state.tick % 1000000) / kPlumeTime * kPuffs, first = std::floor(now);
     for (int k = 0; k < kPuffs; ++k) {
       const double age = (now - first + k) / kPuffs;  // 0 .. 1 of its time
       if (age * kPlumeTime > hand.current.on_time) continue;

@@ -42,7 +42,7 @@ std::vector<double> areas_below(const interactions::StrandBody& strand) {
 WetDrawing::WetDrawing(const sim::Model& model)
     : m_model(&model), m_drawing(model.wet.model), m_hosts(sim::make_host_views(model)) {
   for (int i = 0; i < model.organs(); ++i) m_poses.push_back(tissue::make_pose(model.skin(i)));
-  for (const sim::MembraneModel& m : model.membranes) m_poses.push_back(tissue::make_pose(m.skin));
+  for (const sim::MembraneBody& m : model.membranes) m_poses.push_back(tissue::make_pose(m.skin));
   m_surfaces.resize(std::size_t(model.surfaces()));
   m_sheets.resize(model.membranes.size());
   m_places.resize(std::size_t(model.wet.film.back()));
@@ -62,8 +62,8 @@ void WetDrawing::measure_places() {
   std::size_t body = 0;
   for (int i = 0; i < m_model->organs(); ++i) put(body++, areas_around(m_model->skin(i)), 1);
   for (const sim::WallModel& wall : m_model->walls) put(body++, areas_around(wall.skin), 1);
-  for (const sim::MembraneModel& m : m_model->membranes) put(body++, areas_around(m.skin), 2);
-  for (const interactions::StrandBody& strand : m_model->bodies) put(body++, areas_below(strand), 1);
+  for (const sim::MembraneBody& m : m_model->membranes) put(body++, areas_around(m.skin), 2);
+  for (const interactions::StrandBody& strand : m_model->strand_bodies) put(body++, areas_below(strand), 1);
 }
 
 void WetDrawing::pose(const sim::State& state) {
@@ -76,7 +76,7 @@ void WetDrawing::pose(const sim::State& state) {
   for (std::size_t i = 0; i < m_model->walls.size(); ++i)
     m_surfaces[organs + i] = {&m_model->walls[i].skin, &m_model->walls[i].pose, {}};
   for (std::size_t i = 0; i < m_sheets.size(); ++i) {
-    const sim::MembraneModel& m = m_model->membranes[i];
+    const sim::MembraneBody& m = m_model->membranes[i];
     const tissue::NodeView nodes = view_of(m.sheet.network, state.membranes[i].network);
     pose_skin(nodes, m.skin, m_poses[organs + i]);
     m_sheets[i] = {{&m.skin, &m_poses[organs + i], nodes},
@@ -89,7 +89,7 @@ void WetDrawing::pose(const sim::State& state) {
 
 void WetDrawing::list(const sim::State& state, render::Frame& frame) {
   pose(state);
-  const interactions::WetBodies bodies{m_surfaces, m_sheets, m_model->bodies, state.strands, m_model->wet.film};
+  const interactions::WetBodies bodies{m_surfaces, m_sheets, m_model->strand_bodies, state.strands, m_model->wet.film};
   const Vec3d down = normalised(m_model->gravity, {0, 0, -1});
   for (std::size_t i = 0; i < m_places.size(); ++i) {
     if (state.fluids.droplets.film[i].total() == 0) continue;
@@ -128,7 +128,7 @@ void WetDrawing::list_stumps(const sim::State& state, render::Liquid& liquid) co
   for (int n = 0; n < state.cut_count; ++n) {
     const interactions::Cut& cut = state.cuts[std::size_t(n)];
     if (cut.strand < 0 || cut.fraction < interactions::kThrough) continue;
-    const interactions::StrandBody& body = m_model->bodies[std::size_t(cut.strand)];
+    const interactions::StrandBody& body = m_model->strand_bodies[std::size_t(cut.strand)];
     const std::vector<Vec3d>& x = state.strands[std::size_t(cut.strand)].x;
     const interactions::StrandPlace place = interactions::place_at(body, cut.s);
     const std::size_t e = std::size_t(place.element);
@@ -150,13 +150,13 @@ FilmPlace WetDrawing::on_strand(const sim::State& state, const FilmPlace& place)
   const Vec3d p = vec_cast<double>(place.position);
   double nearest = kStrandReach;
   FilmPlace found = place;
-  for (std::size_t i = 0; i < m_model->bodies.size(); ++i) {
+  for (std::size_t i = 0; i < m_model->strand_bodies.size(); ++i) {
     const std::vector<Vec3d>& x = state.strands[i].x;
     for (std::size_t k = 0; k + 1 < x.size(); ++k) {
       const Vec3d way = x[k + 1] - x[k];
       const double t = std::clamp(dot(p - x[k], way) / std::max(dot(way, way), 1e-12), 0.0, 1.0);
       const Vec3d axis = x[k] + t * way, out = normalised(p - axis, vec_cast<double>(place.normal));
-      const double radius = m_model->bodies[i].model.radius[k], off = length(p - axis) - radius;
+      const double radius = m_model->strand_bodies[i].model.radius[k], off = length(p - axis) - radius;
       if (off >= nearest) continue;
       nearest = off;
       found.position = vec_cast<float>(axis + radius * out);

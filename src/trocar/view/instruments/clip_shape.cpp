@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include <trocar/view/base/pinch.hpp>
 #include <trocar/view/instruments/clip_shape.hpp>
@@ -8,7 +9,7 @@
 namespace trocar::view {
 namespace {
 
-constexpr double kPi = 3.14159265358979;
+constexpr double kPi = std::numbers::pi;
 constexpr int kGrooves = 5, kLegSteps = 3 * kGrooves, kBendSteps = 7;
 constexpr double kGrooveLeft = 0.76;  // of a leg's thickness, in its grooves
 constexpr double kChamfer = 0.00023;  // [m] its edges are bevelled

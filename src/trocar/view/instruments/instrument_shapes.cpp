@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <trocar/view/instruments/instrument_shapes.hpp>
 #include <trocar/view/instruments/shapes.hpp>
@@ -11,7 +12,7 @@ using interactions::ToolKind;
 using interactions::ToolModel;
 using Joint = InstrumentPart::Joint;
 
-constexpr double kPi = 3.14159265358979;
+constexpr double kPi = std::numbers::pi;
 constexpr int kAround = 40;
 constexpr double kCollarFrom = -0.0072;  // [m] where a hook's white collar begins
 // Blood is what clings there after work, burn what chars there: SceneView says how much of it is on an instrument.

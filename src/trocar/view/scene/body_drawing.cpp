@@ -25,8 +25,8 @@ constexpr int kLoopToWall = 3;    // adhesions of the small bowel
 Relief relief_of(int organ, const sim::Model& model) {
   Relief relief = look(model.organ_look(organ)).relief;
   for (std::size_t i = 0; i < model.strands.size(); ++i) {
-    const sim::StrandModel& strand = model.strands[i];
-    const std::vector<Vec3d>& rest = model.bodies[i].model.rest;
+    const sim::StrandAnatomy& strand = model.strands[i];
+    const std::vector<Vec3d>& rest = model.strand_bodies[i].model.rest;
     const auto hangs = [&](const sim::StrandEndModel& end) {
       return end.kind == sim::StrandEndModel::hosted && end.organ == organ;
     };
@@ -37,7 +37,7 @@ Relief relief_of(int organ, const sim::Model& model) {
 }
 
 /// Runs from an organ to a wall: a ridge covers where it goes into that.
-bool is_ridge(const sim::StrandModel& strand) {
+bool is_ridge(const sim::StrandAnatomy& strand) {
   return strand.start.kind == sim::StrandEndModel::hosted && strand.end.kind == sim::StrandEndModel::fixed;
 }
 
@@ -75,8 +75,8 @@ BodyDrawing::BodyDrawing(const sim::Model& model, render::Backend& backend)
   make_surroundings(walls, baker, backend);
   for (TubeDrawing& t : m_tubes) t.create(shaded(baker, t.drawn().positions, t.drawn().normals), backend);
   make_joints(walls, backend);
-  for (int i = 0; i < int(model.sheets.size()); ++i) {
-    m_details.sheets.emplace_back(levels_of(model, model.sheets[std::size_t(i)].name));
+  for (int i = 0; i < int(model.drawn_folds.size()); ++i) {
+    m_details.sheets.emplace_back(levels_of(model, model.drawn_folds[std::size_t(i)].name));
     m_sheets.emplace_back(model, i, backend, m_details.sheets.back(), &walls);
   }
   make_vessels(backend);
@@ -260,7 +260,7 @@ void BodyDrawing::make_joints(const WallSurface& walls, render::Backend& backend
                                 m_details.joints.back())});
     }
   for (std::size_t i = 0; i < m_tubes.size() && !m_model->walls.empty(); ++i) {
-    const sim::StrandModel& strand = m_model->strands[i];
+    const sim::StrandAnatomy& strand = m_model->strands[i];
     if (!is_ridge(strand) || Ridge::meets_head_on(*m_model, m_tubes[i], int(i), walls)) continue;
     m_details.ridges.emplace_back(levels_of(*m_model, strand.name));
     m_ridges.emplace_back(*m_model, m_tubes[i], int(i), walls, backend, m_details.ridges.back());
@@ -433,7 +433,7 @@ void BodyDrawing::list_organs(bool with_walls, const FirstParts& first, const Li
 
 void BodyDrawing::list_tubes(bool with_walls, const FirstParts& first, const Listing& to) {
   for (std::size_t i = 0; i < m_tubes.size(); ++i) {
-    const sim::StrandModel& strand = m_model->strands[i];
+    const sim::StrandAnatomy& strand = m_model->strands[i];
     DrawItem& tube = to.add(item(m_tubes[i].mesh(), look(strand.look), first.tube + i), m_details.tubes[i],
                             m_tubes[i].buffer().positions, m_tubes[i].burnt() || held(i));
     if (strand.start.kind == sim::StrandEndModel::hosted && !strand.fimbriated)
@@ -459,7 +459,7 @@ void BodyDrawing::list_tubes(bool with_walls, const FirstParts& first, const Lis
 void BodyDrawing::list_folds(bool with_walls, const FirstParts& first, const Listing& to) {
   for (std::size_t i = 0; i < m_sheets.size(); ++i)
     if (with_walls || !m_sheets[i].has_hem())  // without the wall that it is lost on it would be a cloud
-      to.add(item(m_sheets[i].mesh(), look(m_model->sheets[i].look), first.fold + i), m_details.sheets[i],
+      to.add(item(m_sheets[i].mesh(), look(m_model->drawn_folds[i].look), first.fold + i), m_details.sheets[i],
              m_sheets[i].buffer().positions);
   const auto look_of = [&](std::size_t membrane) -> const Look& { return look(m_model->membranes[membrane].look); };
   for (std::size_t i = 0; i < m_membranes.size(); ++i)

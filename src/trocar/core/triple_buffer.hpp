@@ -1,7 +1,7 @@
-// The newest value from the simulation's thread to the drawing's, without a lock and without waiting: a triple buffer
-// whose three values were made beforehand, so that copying a State into one allocates nothing.
+// A triple buffer: the newest value from one thread to another, without a lock and without waiting. Its three values
+// are made beforehand, so that copying a State into one allocates nothing.
 //
-//   Published<State> published(initial_state(model));
+//   TripleBuffer<State> published(initial_state(model));
 //   published.next() = state;  published.publish();      // the simulation's thread, some ticks apart
 //   if (published.refresh()) draw(published.latest());    // the drawing thread, at display rate
 //
@@ -10,15 +10,16 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 
-namespace trocar::sim {
+namespace trocar::core {
 
 template <class T>
-class Published {
+class TripleBuffer {
  public:
   /// All three slots start as copies of `first`, with its capacities; it is what latest() gives before any publish().
-  explicit Published(const T& first) : m_slots{{first}, {first}, {first}} {}
+  explicit TripleBuffer(const T& first) : m_slots{{first}, {first}, {first}} {}
 
   /// The slot to fill (writer's thread only). It holds an older value.
   T& next() noexcept { return m_slots[m_writing].value; }
@@ -45,4 +46,4 @@ class Published {
   alignas(kCacheLine) std::uint32_t m_reading = 2;  // the reader's own
 };
 
-}  // namespace trocar::sim
+}  // namespace trocar::core

@@ -2,18 +2,18 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/sim/recording/publish.hpp>
+#include <trocar/core/triple_buffer.hpp>
 
-namespace trocar::sim {
+namespace trocar::core {
 namespace {
 
 struct Pair {
   std::vector<std::uint64_t> a = std::vector<std::uint64_t>(64), b = a;
 };
 
-TEST(Published, TheReaderNeverSeesAHalfWrittenValueNorAnOlderOneAfterANewer) {
+TEST(TripleBuffer, TheReaderNeverSeesAHalfWrittenValueNorAnOlderOneAfterANewer) {
   constexpr std::uint64_t kLast = 20000;
-  Published<Pair> published{Pair{}};
+  TripleBuffer<Pair> published{Pair{}};
   std::thread writer([&] {
     for (std::uint64_t i = 1; i <= kLast; ++i) {
       Pair& p = published.next();
@@ -37,8 +37,8 @@ TEST(Published, TheReaderNeverSeesAHalfWrittenValueNorAnOlderOneAfterANewer) {
   EXPECT_FALSE(published.refresh());
 }
 
-TEST(Published, BeforeAnythingIsPublishedTheFirstValueIsRead) {
-  Published<int> published(7);
+TEST(TripleBuffer, BeforeAnythingIsPublishedTheFirstValueIsRead) {
+  TripleBuffer<int> published(7);
   EXPECT_FALSE(published.refresh());
   EXPECT_EQ(published.latest(), 7);
   published.next() = 8;
@@ -47,9 +47,9 @@ TEST(Published, BeforeAnythingIsPublishedTheFirstValueIsRead) {
   EXPECT_EQ(published.latest(), 8);
 }
 
-TEST(Published, CopyingIntoASlotReusesItsMemory) {
+TEST(TripleBuffer, CopyingIntoASlotReusesItsMemory) {
   const std::vector<int> big(1000, 1);
-  Published<std::vector<int>> published(big);
+  TripleBuffer<std::vector<int>> published(big);
   for (int i = 0; i < 9; ++i) {
     const int* before = published.next().data();
     published.next() = big;
@@ -60,4 +60,4 @@ TEST(Published, CopyingIntoASlotReusesItsMemory) {
 }
 
 }  // namespace
-}  // namespace trocar::sim
+}  // namespace trocar::core

@@ -1,0 +1,90 @@
+#include <trocar/sim/model/pool_floor.hpp>
+#include <trocar/sim/model/state.hpp>
+
+namespace trocar::sim {
+namespace {
+
+/// Room for the counters of bodies that may tear.
+void make_counters(const Model& model, State& s) {
+  const auto counters = [](double failure, size_t size) { return std::vector<std::uint8_t>(failure > 0 ? size : 0); };
+  for (const SolidModel& m : model.solids)
+    s.overstretched_organs.push_back(counters(m.failure_strain, size_t(m.network.rows)));
+  for (const CuttableOrgan& m : model.cuttables)
+    s.overstretched_organs.push_back(counters(m.failure_strain, size_t(m.body.rows)));
+  for (const MembraneBody& m : model.membranes)
+    s.overstretched_membranes.push_back(counters(m.failure_strain, size_t(m.sheet.network.rows)));
+  for (size_t i = 0; i < model.strands.size(); ++i)
+    s.overstretched_strands.push_back(
+        counters(model.strands[i].failure_strain, size_t(model.strand_bodies[i].nodes())));
+}
+
+}  // namespace
+
+State drawn_bodies(const Model& model) {
+  State s;
+  for (const SolidModel& solid : model.solids) {
+    s.solids.push_back(tissue::rest_state(solid.network));
+    s.parted.emplace_back(solid.fine.triangles.size(), std::uint8_t(0));
+  }
+  for (const CuttableOrgan& c : model.cuttables) s.cuttables.push_back(tissue::rest_state(c.body));
+  for (const interactions::StrandBody& body : model.strand_bodies) s.strands.push_back(tissue::rest_state(body.model));
+  for (const MembraneBody& m : model.membranes) {
+    s.membranes.push_back(tissue::rest_state(m.sheet));
+    s.torn.emplace_back(m.sheet.triangles.size(), std::uint8_t(0));
+  }
+  return s;
+}
+
+State initial_state(const Model& model) {
+  State s = drawn_bodies(model);
+  for (size_t t = 0; t < model.hands.size(); ++t) {
+    interactions::ToolState& tool = s.tools[t];
+    const ToolInput& in = model.start.tools[t];
+    tool.yaw = in.yaw;
+    tool.pitch = in.pitch;
+    tool.roll = in.roll;
+    tool.depth = in.depth;
+    tool.handle = in.handle;
+    tool.aperture = 1.0 - double(in.handle);
+    tool.clips_left = model.placed(t).clips;
+    for (size_t i = 0; i < model.hands[t].rack.size(); ++i)
+      s.magazine[t * size_t(kMaxRack) + i] = model.hands[t].rack[i].clips;
+  }
+  s.scope = model.start.scope;
+  s.nearest = model.nearest_at_start;
+  size_t sides = 0;
+  for (const interactions::StrandPair& p : model.strand_pairs) sides += p.overlap.size();
+  s.strand_side.resize(sides);
+  size_t elements = 0;
+  for (const interactions::StrandBody& body : model.strand_bodies) elements += size_t(body.nodes() - 1);
+  s.tool_side.resize(model.hands.size() * elements * size_t(interactions::kToolParts));
+  size_t triangles = 0;
+  for (const MembraneBody& m : model.membranes) triangles += m.sheet.triangles.size();
+  s.sheet_side.resize(model.hands.size() * triangles * size_t(interactions::kSheetParts));
+  s.sheet_bond.resize(model.hands.size() * model.membranes.size());
+  s.touches.resize(model.hands.size());
+  for (size_t t = 0; t < model.hands.size(); ++t) interactions::start_here(s.tools[t], s.touches[t]);
+  s.seen.resize(model.samples.size());
+  if (model.vessels.there()) {
+    s.flow = model.vessels.start;
+    s.openings.resize(interactions::kMaxOpenings);
+    s.vessel_clips.resize(interactions::kMaxVesselClips);
+  }
+  if (model.energy.there) {
+    s.heat = tissue::cold(model.energy.heat);
+    s.panel = model.energy.panel;
+    s.electrodes.resize(model.hands.size());
+    s.seals.resize(interactions::kMaxSeals);
+    s.scarred.resize(size_t(kMaxScarred));
+    for (tissue::StrandState& strand : s.strands) strand.shrunk.assign(strand.alive.size(), 1.0);
+  }
+  if (model.wet.there) {
+    s.fluids = fluids::initial_state(model.wet.model);
+    lay_floor(model, s);
+  }
+  if (model.irrigates()) s.impacts.resize(size_t(model.wet.model.droplets.capacity));
+  make_counters(model, s);
+  return s;
+}
+
+}  // namespace trocar::sim

@@ -1,0 +1,73 @@
+#include <algorithm>
+#include <cmath>
+
+#include <trocar/sim/recording/keyframe_check.hpp>
+
+namespace trocar::sim::keyframe {
+namespace {
+
+bool names_tissue(const Model& model, const interactions::Hold& hold) {
+  const std::int32_t b = hold.body, solid = b - interactions::kSolidBase, fold = b - interactions::kMembraneBase;
+  int elements = 0;
+  if (b >= 0 && size_t(b) < model.strand_bodies.size()) elements = model.strand_bodies[size_t(b)].nodes() - 1;
+  if (solid >= 0 && solid < model.organs()) elements = model.skin(solid).size();
+  if (fold >= 0 && size_t(fold) < model.membranes.size()) elements = model.membranes[size_t(fold)].sheet.nodes();
+  return hold.element >= 0 && hold.element < elements;
+}
+
+bool sound(const Model& model, int rack, const interactions::ToolState& t) {
+  for (double v : {t.yaw, t.pitch, t.roll, t.depth, t.aperture, t.handle})
+    if (!(std::fabs(v) < 1e3)) return false;
+  if (t.instrument < 0 || t.instrument >= rack) return false;
+  if (t.holds < 0 || t.holds > interactions::kMaxHolds) return false;
+  for (int i = 0; i < t.holds; ++i)
+    if (!names_tissue(model, t.hold[i])) return false;
+  return true;
+}
+
+}  // namespace
+
+bool sound(const geometry::CuttableTets& b) {
+  constexpr double least6 = 1e-16;  // [m^3]
+  const auto cells = std::int32_t(b.cells.size());
+  for (std::int32_t n = 0; n < b.nodes; ++n) {
+    if (b.source[size_t(n)] < 0 || b.source[size_t(n)] > n) return false;
+    for (int k = 0; k < 3; ++k)
+      if (!(std::fabs(b.rest[size_t(n)][k]) < 1e3)) return false;
+  }
+  for (size_t c = 0; c < b.cells.size(); ++c)
+    for (size_t k = 0; k < 4; ++k)
+      if (b.cells[c][k] < 0 || b.cells[c][k] >= b.nodes || b.across[c][k] < -1 || b.across[c][k] >= cells) return false;
+  for (size_t c = 0; c < b.cells.size(); ++c) {
+    const auto x = [&](size_t k) { return b.rest[size_t(b.cells[c][k])]; };
+    if (!(dot(x(1) - x(0), cross(x(2) - x(0), x(3) - x(0))) > least6)) return false;
+    for (const std::int32_t u : b.across[c]) {
+      if (u < 0) continue;
+      const geometry::Tet& back = b.across[size_t(u)];
+      if (std::find(back.begin(), back.end(), std::int32_t(c)) == back.end()) return false;
+    }
+  }
+  return true;
+}
+
+bool sound(const Model& model, const State& s) {
+  for (size_t t = 0; t < s.tools.size(); ++t)
+    if (!sound(model, t < model.hands.size() ? int(model.hands[t].rack.size()) : 1, s.tools[t])) return false;
+  for (float v : {s.scope.yaw, s.scope.pitch, s.scope.roll, s.scope.depth, s.scope.post})
+    if (!(std::fabs(v) < 1e3f)) return false;
+  const auto names_strand = [&model](std::int32_t i, double place) {
+    return i >= -1 && i < std::int32_t(model.strands.size()) && std::isfinite(place);
+  };
+  for (int i = 0; i < s.clip_count; ++i)
+    if (!names_strand(s.clips[size_t(i)].strand, s.clips[size_t(i)].s) || s.clips[size_t(i)].vessel < 0 ||
+        s.clips[size_t(i)].vessel > std::int32_t(model.vessels.list.size()))
+      return false;
+  for (int i = 0; i < s.cut_count; ++i)
+    if (!names_strand(s.cuts[size_t(i)].strand, s.cuts[size_t(i)].s) || s.cuts[size_t(i)].solid < -1 ||
+        s.cuts[size_t(i)].solid >= model.organs() || s.cuts[size_t(i)].membrane < -1 ||
+        s.cuts[size_t(i)].membrane >= std::int32_t(model.membranes.size()) || !std::isfinite(s.cuts[size_t(i)].fold))
+      return false;
+  return true;
+}
+
+}  // namespace trocar::sim::keyframe

@@ -1,0 +1,82 @@
+#include <trocar/fluids/shown_fluids.hpp>
+#include <trocar/sim/recording/keyframe.hpp>
+#include <trocar/sim/recording/keyframe_bytes.hpp>
+#include <trocar/tissue/heat/heat_scars.hpp>
+
+namespace trocar::sim {
+namespace {
+
+using namespace keyframe;
+
+/// The few triangles that are cut open, by number.
+std::vector<std::uint32_t> open_triangles(const std::vector<std::uint8_t>& parted) {
+  std::vector<std::uint32_t> open;
+  for (size_t t = 0; t < parted.size(); ++t)
+    if (parted[t]) open.push_back(std::uint32_t(t));
+  return open;
+}
+
+/// What a cut has made of a body, and where its nodes are.
+void put_body(std::vector<std::uint8_t>& out, const tissue::CuttableModel& m, const tissue::CuttableState& s) {
+  const size_t nodes = size_t(s.tets.nodes);
+  put(out, &s.tets.nodes, 1);
+  put_changes(out, s.tets.source, m.drawn.source, nodes);
+  put_changes(out, s.tets.rest, m.drawn.rest, nodes);
+  put_changes(out, s.tets.cells, m.drawn.cells, s.tets.cells.size());
+  put_changes(out, s.tets.across, m.drawn.across, s.tets.across.size());
+  for (int n = 0; n < s.tets.nodes; ++n) put_place(out, tissue::position(m, s, n), s.tets.rest[size_t(n)]);
+}
+
+void put_vessels(std::vector<std::uint8_t>& out, const State& s) {
+  for_flow([&out](const auto& values) { put(out, values.data(), values.size()); }, s);
+  put(out, &s.flow.bled, 1);
+  put(out, &s.opening_count, 1);
+  put(out, s.openings.data(), size_t(s.opening_count));
+  put(out, &s.vessel_clip_count, 1);
+  put(out, s.vessel_clips.data(), size_t(s.vessel_clip_count));
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> display_bytes(const Model& model, const State& s) {
+  std::vector<std::uint8_t> out;
+  put(out, &s.tick, 1);
+  for (size_t i = 0; i < s.solids.size(); ++i) {
+    const tissue::NetworkModel& network = model.solids[i].network;
+    for (int n = 0; n < network.nodes; ++n)
+      put_place(out, tissue::position(network, s.solids[i], n), network.rest[size_t(n)]);
+  }
+  for (size_t i = 0; i < s.cuttables.size(); ++i) put_body(out, model.cuttables[i].body, s.cuttables[i]);
+  for (size_t i = 0; i < s.strands.size(); ++i) {
+    const tissue::StrandState& strand = s.strands[i];
+    for (size_t n = 0; n < strand.x.size(); ++n) put_place(out, strand.x[n], model.strand_bodies[i].model.rest[n]);
+    put(out, strand.alive.data(), strand.alive.size());
+  }
+  for (size_t i = 0; i < s.membranes.size(); ++i) {
+    const tissue::NetworkModel& network = model.membranes[i].sheet.network;
+    for (int n = 0; n < network.nodes; ++n)
+      put_place(out, tissue::position(network, s.membranes[i].network, n), network.rest[size_t(n)]);
+  }
+  put(out, &s.tools, 1);
+  put(out, &s.scope, 1);
+  put(out, &s.clip_count, 1);
+  put(out, s.clips.data(), size_t(s.clip_count));
+  put(out, &s.cut_count, 1);
+  put(out, s.cuts.data(), size_t(s.cut_count));
+  for (const auto* bodies : {&s.parted, &s.torn})
+    for (const std::vector<std::uint8_t>& parted : *bodies) {
+      const std::vector<std::uint32_t> open = open_triangles(parted);
+      const auto n = std::uint32_t(open.size());
+      put(out, &n, 1);
+      put(out, open.data(), open.size());
+    }
+  if (model.vessels.there()) put_vessels(out, s);
+  if (model.energy.there) {
+    put(out, s.electrodes.data(), s.electrodes.size());
+    tissue::put_scars(s.heat, out);
+  }
+  if (model.wet.there) fluids::put_shown(model.wet.model, s.fluids, out);
+  return out;
+}
+
+}  // namespace trocar::sim
