@@ -66,6 +66,7 @@ int run_program(int argc, const char* const* argv) {
   add_check(program, chosen);
   add_gallery(program, chosen);
   add_list(program, chosen);
+  add_facts(program, chosen);
   add_bench(program, chosen);
   add_report(program, chosen);
   add_trials(program, chosen);

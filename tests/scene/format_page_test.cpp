@@ -54,6 +54,8 @@ std::string values_of(const Key& key) {
       return fmt::format("array of {}{}", many, anchor_of(key.shape().name));
     case Type::includes:
       return fmt::format("array of file names or {}", anchor_of(key.shape().name));
+    case Type::any:
+      return "see the meaning";
   }
   return "";
 }

@@ -112,6 +112,8 @@ class Writer {
         put(either, "anyOf", json_array({type("string"), reference(key.shape())}));
         return array(std::move(either), key.min_count, key.max_count);
       }
+      case Type::any:
+        return json_object();
     }
     return json_object();
   }

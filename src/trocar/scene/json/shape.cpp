@@ -91,6 +91,8 @@ class Check {
         return list(value, [this](const JsonValue& v) { return object(v); });
       case Type::includes:
         return list(value, [this](const JsonValue& v) { return v.kind == Kind::string || object(v); });
+      case Type::any:
+        return value.kind != Kind::broken;
     }
     return false;
   }
@@ -234,6 +236,7 @@ Key includes(std::string name, const Shape& (*shape)(), std::string meaning) {
   key.shape = shape;
   return key;
 }
+Key any(std::string name, std::string meaning) { return row(std::move(name), Type::any, std::move(meaning)); }
 Key format(int version) { return needed(integer("format", version, version, "version of this kind of file")); }
 }  // namespace keys
 

@@ -42,6 +42,7 @@ struct Key {
     object,    ///< an object of `shape`
     objects,   ///< array of objects of `shape`
     includes,  ///< array of relative file names or objects of `shape`
+    any,       ///< whatever its reader makes of it
   };
   std::string name;
   Type type = Type::text;
@@ -76,6 +77,7 @@ Key grid(std::string name, double low, double high, std::size_t min_count, std::
 Key object(std::string name, const Shape& (*shape)(), std::string meaning);
 Key objects(std::string name, const Shape& (*shape)(), std::size_t min_count, std::string meaning);
 Key includes(std::string name, const Shape& (*shape)(), std::string meaning);
+Key any(std::string name, std::string meaning);
 Key format(int version);  ///< "format": the version of the file's keys
 }  // namespace keys
 Key needed(Key key);  ///< the same row, required

@@ -6,12 +6,10 @@
 namespace trocar::training {
 
 Following::Following(const Sterilisation& goal, const sim::Model& model, int strand)
-    : m_to(goal.trace_to),
-      m_speed(goal.trace_speed),
-      m_gap(goal.trace_gap),
-      m_pause(goal.trace_pause),
-      m_touch(goal.trace_touch),
-      m_strand(strand) {
+    : Following({goal.trace_to, goal.trace_speed, goal.trace_gap, goal.trace_pause, goal.trace_touch}, model, strand) {}
+
+Following::Following(const FollowingLimits& limits, const sim::Model& model, int strand)
+    : m_limits(limits), m_strand(strand) {
   const std::string& name = model.strands[size_t(strand)].name;
   m_target = model.target_index(name + ".trace");
   m_fimbria = model.target_index(name + ".fimbria");
@@ -39,7 +37,7 @@ bool Following::followed(const sim::Model& model, const sim::State& state, std::
   const interactions::StrandPlace place{model.samples[i].where, model.samples[i].w};
   const Vec3d at =
       interactions::point_at(model.strand_bodies[size_t(m_strand)], state.strands[size_t(m_strand)], place);
-  return std::any_of(tips.begin(), tips.end(), [&](Vec3d tip) { return length(tip - at) < m_touch; });
+  return std::any_of(tips.begin(), tips.end(), [&](Vec3d tip) { return length(tip - at) < m_limits.touch; });
 }
 
 void Following::update(const sim::Model& model, const sim::State& state, std::span<const Vec3d> tips, double dt) {
@@ -49,9 +47,9 @@ void Following::update(const sim::Model& model, const sim::State& state, std::sp
     m_front = m_first;
     m_credit = m_lost_for = 0;
   }
-  m_credit = std::min(m_credit + m_speed * dt, m_gap);
+  m_credit = std::min(m_credit + m_limits.speed * dt, m_limits.gap);
   bool held = false;
-  for (int next = m_front; next >= 0 && m_arc[size_t(m_front)] - m_arc[size_t(next)] <= m_gap; --next) {
+  for (int next = m_front; next >= 0 && m_arc[size_t(m_front)] - m_arc[size_t(next)] <= m_limits.gap; --next) {
     if (!followed(model, state, tips, next)) continue;
     held = true;
     const double way = m_arc[size_t(m_front)] - m_arc[size_t(next)];
@@ -60,8 +58,8 @@ void Following::update(const sim::Model& model, const sim::State& state, std::sp
     m_front = next;
   }
   m_lost_for = held ? 0 : m_lost_for + dt;
-  if (m_lost_for > m_pause) m_front = -1;
-  m_done = m_front >= 0 && m_arc[size_t(m_front)] <= m_to;
+  if (m_lost_for > m_limits.pause) m_front = -1;
+  m_done = m_front >= 0 && m_arc[size_t(m_front)] <= m_limits.to;
 }
 
 }  // namespace trocar::training

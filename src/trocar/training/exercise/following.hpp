@@ -11,10 +11,20 @@
 
 namespace trocar::training {
 
+/// What counts as following, in SI.
+struct FollowingLimits {
+  double to = 0;     ///< arc length up to which it has to be followed
+  double speed = 0;  ///< no faster than this
+  double gap = 0;    ///< a covered stretch that may be skipped
+  double pause = 0;  ///< lost longer than this, it starts over
+  double touch = 0;  ///< a tip this near follows as well as the eye
+};
+
 class Following {
  public:
   Following() = default;
   /// @param strand  a tube with a landmark "fimbria" and a visibility target "NAME.trace"
+  Following(const FollowingLimits& limits, const sim::Model& model, int strand);
   Following(const Sterilisation& goal, const sim::Model& model, int strand);
 
   /// Once a sample. @param tips  of instruments that are in the body; @param dt  since the last call [s]
@@ -27,7 +37,7 @@ class Following {
  private:
   bool followed(const sim::Model& model, const sim::State& state, std::span<const Vec3d> tips, int sample) const;
 
-  double m_to = 0, m_speed = 0, m_gap = 0, m_pause = 0, m_touch = 0;
+  FollowingLimits m_limits;
   int m_strand = -1, m_target = -1, m_fimbria = -1;
   std::vector<double> m_arc;  ///< of the trace's samples, rising [m]
   int m_first = 0;            ///< sample at the fimbriae, where following begins

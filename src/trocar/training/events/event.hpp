@@ -1,0 +1,67 @@
+// An event: something that happened in a tick, with attributes. Some are what the step reports (grasped, cut), some are
+// noticed by watching the State (pulled too hard for too long). Exercises name them to say which acts count.
+//
+// A new event is one file that defines an EventKind, and one line in registry.cpp.
+#pragma once
+
+#include <array>
+
+#include <trocar/sim/model/step_report.hpp>
+#include <trocar/training/facts/fact.hpp>
+
+namespace trocar::training {
+
+struct Happening {
+  std::int32_t hand = -1;
+  std::int32_t body = kNoBody;        ///< as holds number bodies
+  std::int32_t number = -1;           ///< of a clip or a cut in the State's book
+  const std::string* name = nullptr;  ///< of the body or the vessel; null: none
+  Vec3d tip, where;                   ///< the instrument's tip; the place on the body, else the tip [m]
+  const char* detail = "";
+};
+
+/// Those of one kind in a tick; what does not fit is not told.
+struct Happenings {
+  std::array<Happening, 16> list;
+  int count = 0;
+  void add(const Happening& h) {
+    if (count < int(list.size())) list[size_t(count++)] = h;
+  }
+};
+
+/// Notices one kind of event with its arguments, in one attempt.
+class Noticer {
+ public:
+  virtual ~Noticer() = default;
+  virtual void tick(const Look&, const sim::StepReport&, Happenings&) {}
+  virtual void sample(const Look&, double, Happenings&) {}  ///< fifty times a second; how long since the last time [s]
+};
+
+/// A number or a truth of one happening.
+struct Attribute {
+  std::string_view name;
+  std::string_view meaning;
+  Value (*value)(const Look& look, const Happening& h);
+  bool is_truth = false;
+};
+
+struct EventKind {
+  std::string_view name;
+  std::vector<Parameter> parameters;
+  std::vector<Attribute> attributes;
+  std::string_view meaning;
+  std::string_view (*lacks)(const sim::Model& model);
+  std::unique_ptr<Noticer> (*watch)(const sim::Model& model, const Arguments& arguments);
+  bool has_body = false;  ///< it happens to a body: rules may ask for "on"
+  bool of_hold = false;   ///< it happens to what a hand holds, or has just held
+};
+
+template <class N>
+std::unique_ptr<Noticer> noticing(const sim::Model& model, const Arguments& arguments) {
+  return std::make_unique<N>(model, arguments);
+}
+
+/// The name of a body as holds number it; null for kNoBody.
+const std::string* name_of_body(const sim::Model& model, std::int32_t body);
+
+}  // namespace trocar::training

@@ -1,0 +1,52 @@
+#include <trocar/sim/stages/visibility.hpp>
+#include <trocar/training/events/registry.hpp>
+#include <trocar/training/exercise/hands.hpp>
+
+namespace trocar::training {
+namespace {
+
+/// Is a vertex of an organ's skin, or a node of a strand or a fold, that near to the lens?
+bool touches(const Look& look, Vec3d eye, double near, std::int32_t& body) {
+  const sim::Model& model = look.model;
+  for (int i = 0; i < model.organs(); ++i) {
+    const tissue::NodeView nodes = nodes_of(model, look.state, i);
+    const tissue::Skin& skin = model.skin(i);
+    for (int v = 0; v < skin.size(); ++v)
+      if (length(tissue::skin_point(nodes, skin, v) - eye) < near) return body = interactions::kSolidBase + i, true;
+  }
+  for (size_t i = 0; i < model.strands.size(); ++i)
+    for (const Vec3d& x : look.state.strands[i].x)
+      if (length(x - eye) < near) return body = std::int32_t(i), true;
+  return false;
+}
+
+class LensTouched final : public Noticer {
+ public:
+  LensTouched(const sim::Model&, const Arguments& a) : m_near(a[0].number()) {}
+  void sample(const Look& look, double, Happenings& out) override {
+    constexpr int kEvery = 5;  // samples: ten times a second
+    if (++m_sample % kEvery != 0) return;
+    const Vec3d eye = sim::scope_of(look.model, look.state).eye;
+    std::int32_t body = kNoBody;
+    const bool now = touches(look, eye, m_near, body);
+    if (now && !m_touching) out.add({-1, body, -1, name_of_body(look.model, body), eye, eye});
+    m_touching = now;
+  }
+
+ private:
+  double m_near;
+  int m_sample = 0;
+  bool m_touching = false;
+};
+
+}  // namespace
+
+const EventKind kLensTouched{"lens_touched",
+                             {{"within_mm", ArgumentKind::number, "so near is a touch", true, 0, 100}},
+                             {},
+                             "The endoscope's lens comes this near to tissue; once until it is farther away.",
+                             anywhere,
+                             &noticing<LensTouched>,
+                             true};
+
+}  // namespace trocar::training

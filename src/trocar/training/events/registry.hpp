@@ -1,0 +1,20 @@
+// All events that exercises can be written with, one line each.
+#pragma once
+
+#include <span>
+
+#include <trocar/training/events/event.hpp>
+
+namespace trocar::training {
+
+extern const EventKind kGrasped, kReleased, kSlipped, kExchanged, kTorn, kParted;
+extern const EventKind kClipped, kClipLost, kCut;
+extern const EventKind kOverpulled, kOverpinched, kCollided, kMovedBlind, kInsertedBlind;
+extern const EventKind kActivated, kIdleActivation, kEnergyOffTarget, kHotTip, kHeatSpread;
+extern const EventKind kLensTouched;
+
+std::span<const EventKind* const> event_kinds();
+/// Null: there is none of that name.
+const EventKind* find_event(std::string_view name);
+
+}  // namespace trocar::training

@@ -1,0 +1,70 @@
+// What the step reports of hands: grasped, released, slipped, exchanged, torn, parted by current.
+#include <trocar/training/events/registry.hpp>
+#include <trocar/training/exercise/hands.hpp>
+#include <trocar/training/exercise/watches.hpp>
+
+namespace trocar::training {
+namespace {
+
+template <sim::Event::Kind kind, bool has_body>
+class Reported final : public Noticer {
+ public:
+  Reported(const sim::Model&, const Arguments&) {}
+  void tick(const Look& look, const sim::StepReport& report, Happenings& out) override {
+    for (int i = 0; i < report.event_count; ++i) {
+      const sim::Event& e = report.events[i];
+      if (e.kind != kind) continue;
+      const Vec3d tip = tip_of(look.model, look.state, size_t(e.tool));
+      const std::int32_t body = has_body ? e.index : kNoBody;
+      out.add({e.tool, body, -1, name_of_body(look.model, body), tip, tip});
+    }
+  }
+};
+
+/// Once a body for as long as it goes on tearing.
+class Torn final : public Noticer {
+ public:
+  Torn(const sim::Model&, const Arguments&) {}
+  void tick(const Look& look, const sim::StepReport& report, Happenings& out) override {
+    if (report.event_count == 0) return;
+    Mishaps mishaps;
+    m_watch.update(look.model, look.state, report, mishaps);
+    for (int i = 0; i < mishaps.count; ++i) {
+      const Mishap& m = mishaps.list[size_t(i)];
+      out.add({m.hand, kNoBody, -1, nullptr, m.where, m.where});
+    }
+  }
+
+ private:
+  TearWatch m_watch;
+};
+
+using sim::Event;
+
+}  // namespace
+
+const std::string* name_of_body(const sim::Model& model, std::int32_t body) {
+  if (body < 0) return nullptr;
+  if (body >= interactions::kMembraneBase) return &model.membranes[size_t(body - interactions::kMembraneBase)].name;
+  if (body >= interactions::kSolidBase) return &model.organ_name(body - interactions::kSolidBase);
+  return &model.strands[size_t(body)].name;
+}
+
+const EventKind kGrasped{
+    "grasped", {}, {}, "Jaws took hold of a body.", anywhere, &noticing<Reported<Event::grasped, true>>, true};
+const EventKind kReleased{
+    "released", {}, {}, "A hand let go of what it held.", anywhere, &noticing<Reported<Event::released, false>>};
+const EventKind kSlipped{
+    "slipped", {}, {}, "A grip slipped off.", anywhere, &noticing<Reported<Event::slipped, false>>, false, true};
+const EventKind kExchanged{"exchanged", {},
+                           {},          "Another instrument came into a trocar.",
+                           anywhere,    &noticing<Reported<Event::exchanged, false>>};
+const EventKind kParted{"parted", {}, {}, "Current cut a body.", anywhere, &noticing<Reported<Event::parted, true>>,
+                        true};
+const EventKind kTorn{
+    "torn",   {},
+    {},       "Tissue tore where it was pulled or pressed; told once a body for as long as it goes on.",
+    anywhere, &noticing<Torn>,
+    false,    true};
+
+}  // namespace trocar::training

@@ -1,0 +1,81 @@
+#include <trocar/training/facts/registry.hpp>
+#include <trocar/training/observe/clip_pair.hpp>
+
+namespace trocar::training {
+namespace {
+
+ClipPair::Span span(const Argument& a) { return {a.low, a.high}; }
+
+class Pair : public Observer {
+ public:
+  Pair(const sim::Model&, const Arguments& a)
+      : m_pair({span(a[1]), span(a[2]), span(a[3]), span(a[4]), a[5].number(), a[6].number(), a[7].number()},
+               a[0].index) {}
+  void happened(const Look& look) override { m_pair.update(look.state); }
+
+ protected:
+  ClipPair m_pair;
+};
+class FirstSet final : public Pair {
+ public:
+  using Pair::Pair;
+  Value value(const Look&) const override { return m_pair.first_set(); }
+};
+class SecondSet final : public Pair {
+ public:
+  using Pair::Pair;
+  Value value(const Look&) const override { return m_pair.second_set(); }
+};
+class Misplaced final : public Pair {
+ public:
+  using Pair::Pair;
+  Value value(const Look&) const override { return m_pair.misplaced(); }
+};
+class Apart final : public Pair {
+ public:
+  using Pair::Pair;
+  Value value(const Look&) const override { return m_pair.paired() ? Value(m_pair.apart()) : kUnknown; }
+};
+
+std::vector<Parameter> parameters() {
+  return {{"of", ArgumentKind::strand, "which tube"},
+          {"first_mm", ArgumentKind::range, "where the inner clip belongs, from the tube's beginning"},
+          {"second_mm", ArgumentKind::range, "where the outer one belongs"},
+          {"apart_mm", ArgumentKind::range, "between the two"},
+          {"stretch_mm", ArgumentKind::range, "the stretch of the tube that may be clipped"},
+          {"angle_deg", ArgumentKind::number, "off the cross-section, at most", true, 0, 90},
+          {"cover", ArgumentKind::number, "share of the cross-section between the legs, at least", true, 0, 1},
+          {"closing_s", ArgumentKind::number, "shortest closing time", true, 0, 60}};
+}
+
+}  // namespace
+
+const Fact kClipsFirstSet{"clips.first_set",
+                          parameters(),
+                          0,
+                          1,
+                          "A clip that is well set is where the first belongs, alone or with a second.",
+                          anywhere,
+                          &remembering<FirstSet>,
+                          true};
+const Fact kClipsSecondSet{"clips.second_set",
+                           parameters(),
+                           0,
+                           1,
+                           "A clip that is well set is where the second belongs, alone or with a first.",
+                           anywhere,
+                           &remembering<SecondSet>,
+                           true};
+const Fact kClipsMisplaced{"clips.misplaced",
+                           parameters(),
+                           0,
+                           1,
+                           "The tube's last clip is well set, but makes no pair and is in no place of one.",
+                           anywhere,
+                           &remembering<Misplaced>,
+                           true};
+const Fact kClipsApart{
+    "clips.apart_mm", parameters(),       0, 1000, "Between the two clips of the pair. Unknown until there is one.",
+    anywhere,         &remembering<Apart>};
+
+}  // namespace trocar::training

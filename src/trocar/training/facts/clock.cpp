@@ -1,0 +1,12 @@
+#include <trocar/training/facts/registry.hpp>
+
+namespace trocar::training {
+namespace {
+
+Value seconds(const Look& look, const Arguments&) { return look.now(); }
+
+}  // namespace
+
+const Fact kClock{"attempt.time_s", {}, 0, 36000, "Since the scene began.", anywhere, &stateless<seconds>};
+
+}  // namespace trocar::training

@@ -1,0 +1,62 @@
+#include <algorithm>
+
+#include <trocar/training/exercise/hands.hpp>
+#include <trocar/training/facts/registry.hpp>
+
+namespace trocar::training {
+namespace {
+
+Value holds(const Look& look, const Arguments& a) {
+  const interactions::ToolState& tool = look.state.tools[size_t(a[0].index)];
+  if (tool.holds == 0) return false;
+  if (!a[1].given) return true;
+  return std::find(a[1].bodies.begin(), a[1].bodies.end(), tool.hold[0].body) != a[1].bodies.end();
+}
+
+Value held_at(const Look& look, const Arguments& a) {
+  const double s = held_arc(look.model, look.state, size_t(a[0].index), a[1].index);
+  return s >= 0 ? Value(s) : kUnknown;
+}
+
+Value holds_between(const Look& look, const Arguments& a) {
+  const double s = held_arc(look.model, look.state, size_t(a[0].index), a[1].index);
+  if (s < 0) return false;
+  double from = 0, to = 1e9;
+  for (const sim::LandmarkModel& l : look.model.strands[size_t(a[1].index)].landmarks) {
+    if (l.name == a[2].word) from = l.to;
+    if (l.name == a[3].word) to = l.from;
+  }
+  return s >= from && s <= to;
+}
+
+}  // namespace
+
+const Fact kHandHolds{"hand.holds",
+                      {{"hand", ArgumentKind::hand, "whose jaws"},
+                       {"any_of", ArgumentKind::bodies, "bodies; none named: anything", false}},
+                      0,
+                      1,
+                      "The jaws hold one of these bodies.",
+                      anywhere,
+                      &stateless<holds>,
+                      true};
+const Fact kHandHeldAt{"hand.held_at_mm",
+                       {{"hand", ArgumentKind::hand, "whose jaws"}, {"strand", ArgumentKind::strand, "what they hold"}},
+                       0,
+                       1000,
+                       "Where along the strand the jaws hold it, from its beginning. Unknown while they do not.",
+                       anywhere,
+                       &stateless<held_at>};
+const Fact kHandHoldsBetween{"hand.holds_between",
+                             {{"hand", ArgumentKind::hand, "whose jaws"},
+                              {"strand", ArgumentKind::strand, "what they hold"},
+                              {"after", ArgumentKind::word, "landmark of the strand behind whose end"},
+                              {"before", ArgumentKind::word, "landmark before whose beginning"}},
+                             0,
+                             1,
+                             "The jaws hold the strand between two of its landmarks.",
+                             anywhere,
+                             &stateless<holds_between>,
+                             true};
+
+}  // namespace trocar::training

@@ -1,0 +1,54 @@
+#include <trocar/training/facts/registry.hpp>
+
+namespace trocar::training {
+namespace {
+
+/// The material point that a hand's electrode was last at.
+const sim::ElectrodeHand* touched(const Look& look, const Arguments& a) {
+  const sim::ElectrodeHand& e = look.state.electrodes[size_t(a[0].index)];
+  return e.body >= 0 ? &e : nullptr;
+}
+
+Value temperature(const Look& look, const Arguments& a) {
+  const sim::ElectrodeHand* e = touched(look, a);
+  if (!e) return kUnknown;
+  return double(tissue::reading(look.model.energy.heat, look.state.heat, e->body, 0.5 * (e->a + e->b)).temperature);
+}
+
+Value dead_beyond(const Look& look, const Arguments& a) {
+  const sim::ElectrodeHand* e = touched(look, a);
+  if (!e) return kUnknown;
+  const tissue::Treated place[] = {{e->a, e->b}};
+  return tissue::spread(look.model.energy.heat, look.state.heat, e->body, place);
+}
+
+Value active(const Look& look, const Arguments& a) {
+  return look.state.electrodes[size_t(a[0].index)].current.now.mode != tissue::EnergyMode::off;
+}
+
+std::string_view needs_energy(const sim::Model& model) { return model.energy.there ? "" : "energy"; }
+
+std::vector<Parameter> hand() { return {{"hand", ArgumentKind::hand, "whose electrode"}}; }
+
+}  // namespace
+
+const Fact kTissueTemperature{"tissue.temperature_C",
+                              hand(),
+                              0,
+                              400,
+                              "Of the tissue where the hand's electrode was last. Unknown before it was at any.",
+                              needs_energy,
+                              &stateless<temperature>};
+const Fact kTissueDeadBeyond{"tissue.dead_beyond_mm",
+                             hand(),
+                             0,
+                             1000,
+                             "How far from where the hand's electrode was last its body's tissue has died; dear: up to "
+                             "a millisecond. Unknown before it was at any.",
+                             needs_energy,
+                             &stateless<dead_beyond>};
+const Fact kHandActive{
+    "hand.active",      hand(), 0, 1, "The pedal of this hand's instrument is pressed.", needs_energy,
+    &stateless<active>, true};
+
+}  // namespace trocar::training

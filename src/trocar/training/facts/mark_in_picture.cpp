@@ -1,0 +1,62 @@
+// Where a mark lies in the picture: how far from its middle, how far from the lens, how it faces it. All unknown while
+// the mark is not in view.
+#include <trocar/numerics/portable.hpp>
+#include <trocar/sim/stages/visibility.hpp>
+#include <trocar/training/facts/registry.hpp>
+#include <trocar/training/observe/marks.hpp>
+
+namespace trocar::training {
+namespace {
+
+Value off_centre(const Look& look, const Arguments& a) {
+  if (!sim::visible(look.model, look.state, a[0].index)) return kUnknown;
+  const kinematics::ScopeFrame scope = sim::scope_of(look.model, look.state);
+  const Vec3d to = place_of_mark(look.model, look.state, a[0].index) - scope.eye;
+  const double ahead = dot(to, scope.forward);
+  if (ahead <= 0) return kUnknown;
+  const double aside = length(to - ahead * scope.forward);
+  const double half = 0.5 * look.model.scope.field_of_view;
+  return aside / ahead * portable::cos(half) / portable::sin(half);
+}
+
+Value distance(const Look& look, const Arguments& a) {
+  if (!sim::visible(look.model, look.state, a[0].index)) return kUnknown;
+  return length(place_of_mark(look.model, look.state, a[0].index) - sim::scope_of(look.model, look.state).eye);
+}
+
+Value facing(const Look& look, const Arguments& a) {
+  if (!sim::visible(look.model, look.state, a[0].index)) return kUnknown;
+  const std::optional<Vec3d> normal = normal_of_mark(look.model, look.state, a[0].index);
+  if (!normal) return kUnknown;
+  const Vec3d to_eye =
+      normalised(sim::scope_of(look.model, look.state).eye - place_of_mark(look.model, look.state, a[0].index));
+  return portable::atan2(length(cross(*normal, to_eye)), dot(*normal, to_eye));
+}
+
+}  // namespace
+
+const Fact kMarkOffCentre{"mark.off_centre",
+                          {{"of", ArgumentKind::mark, "what is looked at"}},
+                          0,
+                          10,
+                          "How far it is from the picture's middle, as a share of the picture's radius. Unknown while "
+                          "it is not in view.",
+                          anywhere,
+                          &stateless<off_centre>};
+const Fact kMarkDistance{"mark.distance_mm",
+                         {{"of", ArgumentKind::mark, "what is looked at"}},
+                         0,
+                         1000,
+                         "From the lens to its middle. Unknown while it is not in view.",
+                         anywhere,
+                         &stateless<distance>};
+const Fact kMarkFacing{"mark.facing_deg",
+                       {{"of", ArgumentKind::mark, "an organ that is looked at"}},
+                       0,
+                       180,
+                       "Between the line from it to the lens and the direction in which its surface faces. Unknown "
+                       "while it is not in view, and for what faces every way.",
+                       anywhere,
+                       &stateless<facing>};
+
+}  // namespace trocar::training

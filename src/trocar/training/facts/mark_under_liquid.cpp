@@ -1,0 +1,24 @@
+#include <trocar/training/facts/registry.hpp>
+#include <trocar/training/observe/liquid.hpp>
+#include <trocar/training/observe/marks.hpp>
+
+namespace trocar::training {
+namespace {
+
+Value under(const Look& look, const Arguments& a) {
+  return drowned(look.model, look.state, place_of_mark(look.model, look.state, a[0].index));
+}
+std::string_view needs_fluids(const sim::Model& model) { return model.wet.there ? "" : "fluids"; }
+
+}  // namespace
+
+const Fact kMarkUnderLiquid{"mark.under_liquid",
+                            {{"of", ArgumentKind::mark, "which"}},
+                            0,
+                            1,
+                            "The pool stands over its middle, deeper than one sees through.",
+                            needs_fluids,
+                            &stateless<under>,
+                            true};
+
+}  // namespace trocar::training

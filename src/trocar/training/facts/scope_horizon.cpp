@@ -1,0 +1,30 @@
+#include <trocar/numerics/portable.hpp>
+#include <trocar/sim/stages/visibility.hpp>
+#include <trocar/training/facts/registry.hpp>
+
+namespace trocar::training {
+namespace {
+
+Value horizon(const Look& look, const Arguments&) {
+  constexpr double kSteep = 0.1;  // sine of the angle to the plumb line below which a picture has no horizon
+  const double g = length(look.model.gravity);
+  if (g <= 0) return kUnknown;
+  const Vec3d up = -1 / g * look.model.gravity;
+  const kinematics::ScopeFrame scope = sim::scope_of(look.model, look.state);
+  const double x = dot(up, scope.right), y = dot(up, scope.up);
+  if (x * x + y * y < kSteep * kSteep) return kUnknown;
+  return portable::atan2(x, y);
+}
+
+}  // namespace
+
+const Fact kScopeHorizon{"scope.horizon_deg",
+                         {},
+                         -180,
+                         180,
+                         "How far the picture is turned from upright; to the right above 0. Unknown while the scope "
+                         "looks straight up or down.",
+                         anywhere,
+                         &stateless<horizon>};
+
+}  // namespace trocar::training

@@ -1,0 +1,70 @@
+#include <trocar/training/exercise/hands.hpp>
+#include <trocar/training/exercise/lumen_check.hpp>
+#include <trocar/training/facts/registry.hpp>
+
+namespace trocar::training {
+namespace {
+
+/// Clips and cuts are all that changes a lumen, so it is looked at in ticks that report an event.
+class Lumen : public Observer {
+ public:
+  Lumen(const sim::Model& model, const Arguments& a) : m_check(model, a[0].index, a[1].number()) {}
+  void happened(const Look& look) override { m_check.update(look.model, look.state); }
+
+ protected:
+  LumenCheck m_check;
+};
+
+class Occluded final : public Lumen {
+ public:
+  using Lumen::Lumen;
+  Value value(const Look&) const override { return m_check.occluded(); }
+};
+
+class StumpsClosed final : public Lumen {
+ public:
+  using Lumen::Lumen;
+  Value value(const Look&) const override { return m_check.severed() ? Value(m_check.stumps_closed()) : kUnknown; }
+};
+
+class StumpsInView final : public Lumen {
+ public:
+  StumpsInView(const sim::Model& model, const Arguments& a)
+      : Lumen(model, a), m_trace(model.target_index(model.strands[size_t(a[0].index)].name + ".trace")) {}
+  Value value(const Look& look) const override {
+    if (!m_check.severed()) return kUnknown;
+    return stumps_in_view(look.model, look.state, m_trace, m_check.cut_element());
+  }
+
+ private:
+  int m_trace;
+};
+
+std::vector<Parameter> parameters() {
+  return {{"of", ArgumentKind::strand, "which tube"},
+          {"cover", ArgumentKind::number, "share of the cross-section from which a clip closes it", true, 0, 1}};
+}
+
+}  // namespace
+
+const Fact kStrandOccluded{
+    "strand.occluded", parameters(),           0,   1, "No way leads through the tube from its beginning to its end.",
+    anywhere,          &remembering<Occluded>, true};
+const Fact kStrandStumpsClosed{"strand.stumps_closed",
+                               parameters(),
+                               0,
+                               1,
+                               "A clip that closes it sits on either side of every cut. Unknown before it is cut.",
+                               anywhere,
+                               &remembering<StumpsClosed>,
+                               true};
+const Fact kStrandStumpsInView{"strand.stumps_in_view",
+                               parameters(),
+                               0,
+                               1,
+                               "Both ends that the first cut made are in view. Unknown before it is cut.",
+                               anywhere,
+                               &remembering<StumpsInView>,
+                               true};
+
+}  // namespace trocar::training

@@ -1,0 +1,41 @@
+#include <trocar/training/exercise/hands.hpp>
+#include <trocar/training/facts/registry.hpp>
+
+namespace trocar::training {
+namespace {
+
+Value straightness(const Look& look, const Arguments& a) {
+  const size_t i = size_t(a[0].index);
+  double to = look.model.strand_bodies[i].arc.back();
+  for (const sim::LandmarkModel& l : look.model.strands[i].landmarks)
+    if (a[1].given && l.name == a[1].word) to = l.to;
+  return straightness_of(look.model, look.state, a[0].index, to);
+}
+
+Value severed(const Look& look, const Arguments& a) {
+  for (const std::uint8_t alive : look.state.strands[size_t(a[0].index)].alive)
+    if (!alive) return true;
+  return false;
+}
+
+}  // namespace
+
+const Fact kStrandStraightness{"strand.straightness",
+                               {{"of", ArgumentKind::strand, "which"},
+                                {"to", ArgumentKind::word, "landmark up to whose end; none: all of it", false}},
+                               0,
+                               1,
+                               "The chord over the length of the strand from its beginning, or of what is left of it "
+                               "before a cut; 1 is straight.",
+                               anywhere,
+                               &stateless<straightness>};
+const Fact kStrandSevered{"strand.severed",
+                          {{"of", ArgumentKind::strand, "which"}},
+                          0,
+                          1,
+                          "It has been cut or torn through somewhere.",
+                          anywhere,
+                          &stateless<severed>,
+                          true};
+
+}  // namespace trocar::training

@@ -1,0 +1,48 @@
+#include <trocar/training/exercise/hands.hpp>
+#include <trocar/training/observe/marks.hpp>
+
+namespace trocar::training {
+namespace {
+
+Vec3d place_of_sample(const sim::Model& model, const sim::State& state, const sim::VisibilityTarget& target,
+                      const sim::VisibilitySample& sample) {
+  if (target.kind == sim::VisibilityTarget::strand || target.kind == sim::VisibilityTarget::organ)
+    return place_of(model, state, sample);
+  const Vec3d tip = tip_of(model, state, size_t(target.index));
+  if (target.kind == sim::VisibilityTarget::jaw) return tip;
+  const Vec3d port = model.hands[size_t(target.index)].port;
+  return port + sample.w * (tip - port);
+}
+
+}  // namespace
+
+Vec3d place_of_mark(const sim::Model& model, const sim::State& state, int mark) {
+  const sim::VisibilityTarget& target = model.targets[size_t(mark)];
+  Vec3d sum{};
+  for (int i = target.first; i < target.first + target.count; ++i)
+    sum += place_of_sample(model, state, target, model.samples[size_t(i)]);
+  return target.count > 0 ? sum / double(target.count) : sum;
+}
+
+std::optional<Vec3d> normal_of_mark(const sim::Model& model, const sim::State& state, int mark) {
+  constexpr double kCancel = 0.3;  // of the samples' normals: less is a surface that goes all around
+  const sim::VisibilityTarget& target = model.targets[size_t(mark)];
+  if (target.kind != sim::VisibilityTarget::organ || target.count == 0) return std::nullopt;
+  const tissue::Skin& skin = model.skin(target.index);
+  const tissue::NodeView nodes = nodes_of(model, state, target.index);
+  Vec3d sum{};
+  for (int i = target.first; i < target.first + target.count; ++i) {
+    const int v = model.samples[size_t(i)].where;
+    Vec3d around{};
+    for (int k = skin.face_first[size_t(v)]; k < skin.face_first[size_t(v) + 1]; ++k) {
+      const auto& t = skin.triangles[size_t(skin.face[size_t(k)])];
+      const Vec3d a = tissue::skin_point(nodes, skin, t[0]);
+      around += cross(tissue::skin_point(nodes, skin, t[1]) - a, tissue::skin_point(nodes, skin, t[2]) - a);
+    }
+    sum += normalised(around);
+  }
+  if (length(sum) < kCancel * target.count) return std::nullopt;
+  return normalised(sum);
+}
+
+}  // namespace trocar::training
