@@ -75,9 +75,9 @@ struct World {
   void aim(const char* name, Vec3d off) {
     const Vec3d at = place_of_mark(model, state, mark(name).index);
     const kinematics::FulcrumPose pose = kinematics::inverse(model.scope.port, at + off, 0);
-    state.scope.yaw = pose.yaw;
-    state.scope.pitch = pose.pitch;
-    state.scope.depth = pose.depth;
+    state.scope.yaw = float(pose.yaw);
+    state.scope.pitch = float(pose.pitch);
+    state.scope.depth = float(pose.depth);
   }
 };
 
@@ -144,7 +144,7 @@ TEST(Facts, AMarkLiesInThePictureOnlyWhileItIsSeen) {
 
 TEST(Facts, TheHorizonIsWhereThePictureIsTurnedTo) {
   World w;
-  w.state.scope.pitch = 0.9;
+  w.state.scope.pitch = 0.9f;
   const double before = w.value(kScopeHorizon, {}).number;
   w.state.scope.roll += float(20 * kDegree);
   const Value turned = w.value(kScopeHorizon, {});
@@ -391,7 +391,9 @@ TEST(Events, OfHandsAreWhatTheStepReports) {
     EXPECT_EQ(n.tick(), 0) << one.kind.name;
     EXPECT_EQ(n.report(one.reported, kGrasper, kCord), 1) << one.kind.name;
     EXPECT_EQ(n.seen.list[0].hand, kGrasper);
-    if (one.kind.has_body) EXPECT_EQ(*n.seen.list[0].name, "cord");
+    if (one.kind.has_body) {
+      EXPECT_EQ(*n.seen.list[0].name, "cord");
+    }
     EXPECT_EQ(n.report(sim::Event::none, kGrasper, 0), 0) << one.kind.name;
   }
 }
