@@ -59,7 +59,7 @@ std::vector<Attribute> attributes() {
       {"closing_s", "how long the jaws took from half open",
        [](const Look& l, const Happening& h) -> Value { return clip_of(l, h).closing_time; }},
       {"tips_visible", "of the two jaw tips, when it closed",
-       [](const Look& l, const Happening& h) -> Value { return double(clip_of(l, h).tips_visible); }},
+       [](const Look& l, const Happening& h) -> Value { return double(clip_of(l, h).tips_visible); }, false, true},
       {"under_liquid", "the pool stood over the jaws",
        [](const Look& l, const Happening& h) -> Value { return l.model.wet.there && drowned(l.model, l.state, h.tip); },
        true},

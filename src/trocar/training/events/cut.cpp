@@ -84,7 +84,7 @@ std::vector<Attribute> attributes() {
        }},
       {"depth_mm", "how deep the blades went into the fold behind the strand, or into the fold", depth},
       {"tips_visible", "of the two jaw tips, when it was cut",
-       [](const Look& l, const Happening& h) -> Value { return double(cut_of(l, h).tips_visible); }},
+       [](const Look& l, const Happening& h) -> Value { return double(cut_of(l, h).tips_visible); }, false, true},
       {"between_clips", "clips sit on the strand on both sides of the cut", between_clips, true},
       {"to_clip_mm", "from the strand's nearest clip; unknown without any", to_clip},
   };

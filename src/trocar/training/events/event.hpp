@@ -42,7 +42,7 @@ struct Attribute {
   std::string_view name;
   std::string_view meaning;
   Value (*value)(const Look& look, const Happening& h);
-  bool is_truth = false;
+  bool is_truth = false, is_count = false;
 };
 
 struct EventKind {
