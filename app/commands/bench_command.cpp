@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <trocar/attempt/lesson.hpp>
+#include <trocar/attempt/paths.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/core/json.hpp>
@@ -166,8 +167,12 @@ struct Options {
   PictureBench pictures;
 };
 
-/// A scene's name stands for the exercise that the surgeon knows.
-std::string exercise_of(const std::string& name) { return name == "gynaecology" ? "gynaecology/sterilisation" : name; }
+/// A scene's name stands for the first of its exercises.
+std::string exercise_of(const std::string& name) {
+  for (const attempt::ExerciseEntry& e : attempt::list_exercises(attempt::scenes_folder()))
+    if (e.name.starts_with(name + "/")) return e.name;
+  return name;
+}
 
 Json bench_one(const std::string& name, const Options& o) {
   if (o.picture) return bench_picture(exercise_of(name), o.seconds, o.pictures);

@@ -13,7 +13,7 @@ std::vector<sim::Input> operation(const attempt::Lesson& lesson, double seconds)
   std::vector<sim::Input> inputs;
   sim::Input input = lesson.model.start;
   while (double(inputs.size()) * sim::kTick < seconds && !session.finished() && source->next(session.state(), input)) {
-    session.advance(input);
+    source->after(session.state(), session.advance(input));
     inputs.push_back(input);
   }
   return inputs;

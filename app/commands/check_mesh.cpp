@@ -34,18 +34,6 @@ Json as_json(const geometry::TetFacts& f) {
   return out;
 }
 
-/// What repair() leaves as it is, because there is more than one way to mend it.
-Json left_as_is(const geometry::TetFacts& mended) {
-  Json out = Json::array();
-  if (mended.parts > 1) out.push_back(fmt::format("{} parts that share no face", mended.parts));
-  if (mended.odd_edges > 0)
-    out.push_back(fmt::format(
-        "{} edge{} of the surface at which not exactly two of its triangles meet: cells that touch in an edge "
-        "only, or cracks",
-        mended.odd_edges, mended.odd_edges == 1 ? "" : "s"));
-  return out;
-}
-
 }  // namespace
 
 bool is_mesh_file(const fs::path& path) {
@@ -66,8 +54,9 @@ Json describe_mesh(const fs::path& path, double unit) {
   out["mesh"] = as_json(geometry::inspect(file.mesh));
   out["repairs"] = Json::array();
   for (const geometry::Mended& m : repaired.mended) out["repairs"].push_back(geometry::in_words(m));
-  out["left_as_is"] = left_as_is(mended);
+  out["left_as_is"] = geometry::left_as_is(mended);
   if (!repaired.mended.empty()) out["repaired"] = as_json(mended);
+  out["verdict"] = out["repairs"].empty() && out["left_as_is"].empty() ? "good" : "to mend";
   return out;
 }
 

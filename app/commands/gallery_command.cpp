@@ -14,6 +14,7 @@
 #include <trocar/pictures/camera_choice.hpp>
 #include <trocar/pictures/pictures.hpp>
 #include <trocar/scene/files/reader.hpp>
+#include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/stages/visibility.hpp>
 
 #include "commands/command.hpp"
@@ -189,7 +190,8 @@ void bites(const sim::Model& model, const sim::State& start, pictures::Shots& sh
   for (std::size_t h = 0; h < model.hands.size(); ++h) {
     const interactions::ToolModel& tool = model.placed(h);
     if (tool.kind != interactions::ToolKind::scissors) continue;
-    for (int organ = int(model.solids.size()); organ < model.organs(); ++organ) {
+    sim::visit_cuttables(model, [&](auto body) {
+      const int organ = int(body.organ());
       sim::State state = start;
       sim::Work work = sim::make_work(model);
       sim::Input input = model.start;
@@ -217,7 +219,7 @@ void bites(const sim::Model& model, const sim::State& start, pictures::Shots& sh
       go(places[1], -0.04, 1, 1500);
       shots.take_outside(state, name + " cut", name + ", cut three times", options);
       shots.take(state, name + " cut endoscope", "the same through the endoscope");
-    }
+    });
   }
 }
 

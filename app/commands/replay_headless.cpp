@@ -14,6 +14,7 @@
 #include <trocar/core/tick.hpp>
 #include <trocar/pictures/pictures.hpp>
 #include <trocar/pictures/shot_moments.hpp>
+#include <trocar/sim/recording/shown_difference.hpp>
 
 #include "commands/command.hpp"
 
@@ -25,7 +26,8 @@ constexpr std::size_t kKeyframesPerShot = 50;
 /// Compares the session with the recording's hashes as it passes them.
 class Verifier {
  public:
-  explicit Verifier(const std::vector<sim::HashMark>& marks) : m_marks(marks) {}
+  Verifier(const sim::Model& model, const sim::Recording& recording)
+      : m_model(model), m_recording(recording), m_marks(recording.hashes) {}
 
   /// False at the first difference.
   bool check(const attempt::Session& session) {
@@ -34,6 +36,7 @@ class Verifier {
     if (m_next == m_marks.size() || m_marks[m_next].tick != tick) return true;
     if (session.mark() != m_marks[m_next].hash) {
       m_differs_at = tick;
+      m_told = sim::told_difference(m_model, m_recording, session.state());
       return false;
     }
     ++m_agreed;
@@ -44,8 +47,9 @@ class Verifier {
   std::size_t agreed() const { return m_agreed; }
   bool differs() const { return m_differs_at != kNever; }
   std::string difference() const {
-    if (m_differs_at == 0) return "the first state differs before any tick";
-    return fmt::format("the state differs after tick {}; it agreed until tick {}", m_differs_at, m_last_good);
+    const std::string told = m_told.empty() ? "" : "; " + m_told;
+    if (m_differs_at == 0) return "the first state differs before any tick" + told;
+    return fmt::format("the state differs after tick {}; it agreed until tick {}{}", m_differs_at, m_last_good, told);
   }
   std::uint64_t last_good() const { return m_last_good; }
   void describe(Json& out) const {
@@ -57,7 +61,10 @@ class Verifier {
 
  private:
   static constexpr std::uint64_t kNever = ~std::uint64_t(0);
+  const sim::Model& m_model;
+  const sim::Recording& m_recording;
   const std::vector<sim::HashMark>& m_marks;
+  std::string m_told;
   std::size_t m_next = 0, m_agreed = 0;
   std::uint64_t m_last_good = 0, m_differs_at = kNever;
 };
@@ -158,7 +165,7 @@ Json play_inputs(const attempt::Lesson& lesson, const sim::Recording& recording,
   attempt::Session session(lesson);
   session.set_scored(training::mode_in_header(recording.header.metadata_json) !=
                      training::AttemptMode::familiarisation);
-  Verifier verifier(recording.hashes);
+  Verifier verifier(lesson.model, recording);
   attempt::Progress progress(0, recording.inputs.size());
   const bool to_the_end = o.verify || o.to < 0;
   bool good = !o.verify || verifier.check(session);
@@ -221,11 +228,12 @@ pictures::FilmPlan plan_of(const ReplayOptions& o, std::uint64_t last) {
                : last;
   };
   const pictures::FilmPlan plan{ticks(o.from), o.to < 0 ? last : ticks(o.to), o.speed};
-  const bool past = !(o.from * 1000 <= double(last));
+  const bool past = !(o.from * double(core::kTicksPerSecond) <= double(last));
   if (past || plan.from > plan.to)
-    throw core::BadInput({{{past ? "--from" : "--to", 0, 0},
-                           fmt::format("expected a part of the recording's {:.3f} s, got {} to {}", double(last) * 1e-3,
-                                       o.from, o.to < 0 ? "the end" : fmt::format("{}", o.to))}});
+    throw core::BadInput(
+        {{{past ? "--from" : "--to", 0, 0},
+          fmt::format("expected a part of the recording's {:.3f} s, got {} to {}", double(last) * core::kTick, o.from,
+                      o.to < 0 ? "the end" : fmt::format("{}", o.to))}});
   return plan;
 }
 

@@ -5,6 +5,7 @@
 #include <trocar/attempt/interrupt.hpp>
 #include <trocar/attempt/paths.hpp>
 #include <trocar/attempt/sources.hpp>
+#include <trocar/attempt/standing.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/json.hpp>
 #include <trocar/pictures/analysis_choice.hpp>
@@ -102,6 +103,7 @@ WindowOptions window_options(const Options& o, training::Store* store) {
   WindowOptions w;
   w.exercise = o.exercise;
   w.record = o.record;
+  w.seed = o.seed;
   w.trainee = o.trainee;
   w.input = o.input;
   w.log = o.log;
@@ -125,6 +127,7 @@ int train(const Options& o, bool json) {
   static_cast<void>(pictures::parse_analysis(o.analysis));
   const pictures::PictureSize size = pictures::parse_size(o.size.empty() ? "800x600" : o.size);
   std::unique_ptr<attempt::Lesson> lesson = o.exercise.empty() ? nullptr : attempt::load_lesson(o.exercise, o.seed);
+  if (lesson) attempt::warn_of_sinking(lesson->model);
   std::unique_ptr<training::Store> store;
   if (!o.no_store) store = std::make_unique<training::Store>(attempt::data_folder());
   Json result = o.headless ? train_headless(o, *lesson, store.get(), size)

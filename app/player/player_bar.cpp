@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <trocar/core/tick.hpp>
 #include <trocar/pictures/camera_choice.hpp>
 
 #include "shell/ui.hpp"
@@ -74,8 +75,9 @@ std::string grid_text(double seconds, double step) {
 
 void draw_grid(ImDrawList& to, const attempt::Timeline& line, const Field& field, float scale) {
   const double step = line.grid(int((field.high.x - field.low.x) / (80 * scale)));
-  for (double s = std::ceil(line.from() * 1e-3 / step) * step; s * 1e3 <= line.to(); s += step) {
-    const float x = field.x(line, s * 1e3);
+  for (double s = std::ceil(line.from() * core::kTick / step) * step; s * double(core::kTicksPerSecond) <= line.to();
+       s += step) {
+    const float x = field.x(line, s * double(core::kTicksPerSecond));
     to.AddLine({x, field.low.y}, {x, field.high.y}, IM_COL32(255, 255, 255, 26));
     to.AddText({x + 3 * scale, field.high.y + 2 * scale}, IM_COL32(170, 175, 182, 255), grid_text(s, step).c_str());
   }

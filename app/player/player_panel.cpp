@@ -4,6 +4,7 @@
 #include <imgui.h>
 
 #include <trocar/attempt/hand_names.hpp>
+#include <trocar/core/tick.hpp>
 
 #include "player/player_keys.hpp"
 #include "shell/ui.hpp"
@@ -18,8 +19,9 @@ void draw_where(const PlayerPanelContent& c) {
     ui::text("exact: done again from the inputs", ui::kBlue);
   else if (!c.replays || c.differs)
     ui::text("from keyframes, ten a second", ui::kOrange);
-  else if (c.way_to_go > 1000)
-    ui::text(fmt::format("keyframes; {:.1f} s of the recording until exact", double(c.way_to_go) * 1e-3), ui::kGrey);
+  else if (c.way_to_go > core::kTicksPerSecond)
+    ui::text(fmt::format("keyframes; {:.1f} s of the recording until exact", double(c.way_to_go) * core::kTick),
+             ui::kGrey);
   else
     ui::text("keyframes; the exact picture follows", ui::kGrey);
 }

@@ -45,7 +45,7 @@ bool draw_display(const std::vector<view::ScenePart>& parts, std::vector<PartSty
   ui::title("Display");
   const float room = 0.97f * ImGui::GetIO().DisplaySize.y - 120 * ui::scale();
   ImGui::BeginChild("parts", {0, std::min(room, 540 * ui::scale())}, false, ImGuiWindowFlags_NavFlattened);
-  for (int g = 0; g <= int(PartGroup::fluids); ++g) {
+  for (int g = 0; g <= int(PartGroup::objects); ++g) {
     const auto of_group = [&](std::size_t i) { return parts[i].group == PartGroup(g); };
     std::size_t count = 0;
     for (std::size_t i = 0; i < parts.size(); ++i) count += of_group(i);

@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <trocar/core/random.hpp>
+#include <trocar/numerics/portable.hpp>
 
 namespace trocar::app {
 namespace {
 
-constexpr double kPi = std::numbers::pi, kLoudest = 0.8;
+constexpr double kLoudest = 0.8;
 constexpr double kAttack = 0.004, kRelease = 0.012;  // [s]
 
 /// A sound that grows note by note.
@@ -20,8 +20,9 @@ class Sketch {
   /// @param at begin [s], length [s], hertz, level 0..1; `rough` adds a beating neighbour
   void note(double at, double length, double hertz, double level, double rough = 0) {
     each(at, length, [&](double t) {
-      const double pure = std::sin(2 * kPi * hertz * t) + 0.3 * std::sin(4 * kPi * hertz * t);
-      return level * std::exp(-3 * t / length) * (pure + rough * std::sin(2 * kPi * 1.06 * hertz * t)) / (1.3 + rough);
+      const double pure = std::sin(2 * portable::pi * hertz * t) + 0.3 * std::sin(4 * portable::pi * hertz * t);
+      return level * std::exp(-3 * t / length) * (pure + rough * std::sin(2 * portable::pi * 1.06 * hertz * t)) /
+             (1.3 + rough);
     });
   }
   /// Noise that dies away: metal on metal.

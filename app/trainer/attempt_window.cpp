@@ -32,7 +32,12 @@ constexpr double kFullRate = 62, kYieldingRate = 24;  // [pictures/s] at most; t
 bool by_hand(const std::string& input) { return input == "mouse" || input == "gamepad"; }
 
 double pull_limit(const attempt::Lesson& lesson) {
-  return lesson.exercise ? lesson.exercise->handling().pull_limit : 5.0;
+  return lesson.exercise ? lesson.exercise->limit("pull_limit_N", 5.0) : 5.0;
+}
+
+std::string window_title(const attempt::Lesson& lesson) {
+  const std::string title = "Trocar: " + (lesson.title.empty() ? lesson.name : lesson.title);
+  return lesson.seed == 0 ? title : fmt::format("{}, anatomy {}", title, lesson.seed);
 }
 
 }  // namespace
@@ -53,7 +58,7 @@ AttemptWindow::AttemptWindow(Stage& stage, const attempt::Lesson& lesson, const 
   }
   m_gamepad_used = plan.input == "gamepad";
   if (m_session.monitor()) m_steps = m_session.monitor()->steps();
-  stage.window.set_title("Trocar: " + (lesson.title.empty() ? lesson.name : lesson.title));
+  stage.window.set_title(window_title(lesson));
 }
 
 double AttemptWindow::now_seconds() const {
@@ -61,12 +66,10 @@ double AttemptWindow::now_seconds() const {
 }
 
 /// While it is only practice, people are told what their clip would be worth.
-std::optional<training::ClipOutlook> AttemptWindow::outlook(const sim::State& state) const {
-  if (m_plan.mode != AttemptMode::familiarisation || !m_lesson.exercise) return std::nullopt;
-  if (m_lesson.exercise->kind != training::Exercise::Kind::sterilisation) return std::nullopt;
-  for (int h = 0; h < attempt::hand_count(m_lesson.model); ++h)
-    if (auto o = training::clip_outlook(m_lesson.exercise->goal, m_lesson.model, state, h)) return o;
-  return std::nullopt;
+std::optional<training::Foretold> AttemptWindow::outlook(const attempt::Snapshot& now) {
+  if (m_plan.mode != AttemptMode::familiarisation || !m_lesson.exercise || m_over) return std::nullopt;
+  if (!m_outlook) m_outlook = std::make_unique<training::Outlook>(*m_lesson.exercise, m_lesson.model, m_lesson.seed);
+  return m_outlook->of(m_lesson.model, now.state, now.step_done);
 }
 
 std::string AttemptWindow::mode_text() const {
@@ -326,7 +329,7 @@ void AttemptWindow::draw_scene(const attempt::Snapshot& now) {
                              stands_still(),
                              m_gamepad_used && m_stage.window.gamepads().present(),
                              pull_limit(m_lesson),
-                             outlook(now.state)};
+                             outlook(now)};
   draw_panel(content, float(width), panel, float(height));
   if (!stands_still()) draw_notices(m_feedback, now_seconds(), float(width), float(height));
 }

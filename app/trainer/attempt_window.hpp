@@ -49,7 +49,7 @@ class AttemptWindow {
   LayoutChoice layout() const;
   std::string screen_name() const;
   std::string mode_text() const;
-  std::optional<training::ClipOutlook> outlook(const sim::State& state) const;
+  std::optional<training::Foretold> outlook(const attempt::Snapshot& now);
   double now_seconds() const;
 
   Stage& m_stage;
@@ -60,6 +60,7 @@ class AttemptWindow {
   std::unique_ptr<attempt::HandPilot> m_pilot;
   std::unique_ptr<attempt::InputSource> m_source;
   std::vector<training::StepStatus> m_steps;
+  std::unique_ptr<training::Outlook> m_outlook;  ///< made when it is first asked
   Feedback m_feedback;
   PullWarning m_pull_warning;
   std::string m_told_warning, m_told_views, m_why_paused;

@@ -135,30 +135,15 @@ void draw_hands(const PanelContent& c) {
   ui::text("0 endoscope", scope ? ui::kWhite : ui::kGrey);
 }
 
-void draw_finding(bool fits, const std::string& good, const std::string& bad) {
-  ui::mark(fits ? Mark::done : Mark::warning);
-  ui::text(fits ? good : bad, fits ? ui::kWhite : ui::kOrange);
-}
-
-/// What a clip would be worth if it were set now: depth and angle are hard to judge in a flat picture at first.
+/// What an act would be worth if it were done now: depth and angle are hard to judge in a flat picture at first.
 void draw_outlook(const PanelContent& c) {
-  if (!c.outlook || !c.lesson.exercise) return;
-  const training::ClipOutlook& o = *c.outlook;
-  const training::Sterilisation& goal = c.lesson.exercise->goal;
-  const auto mm = [](double m) { return fmt::format("{:.0f}", 1e3 * m); };
-  const auto range = [&mm](const training::Range& r) { return mm(r.low) + " to " + mm(r.high); };
+  if (!c.outlook) return;
   ui::heading("If you close now");
-  if (!o.tube)
-    return draw_finding(false, "",
-                        "between the jaws: " + attempt::in_words(c.lesson.model.strands[size_t(o.strand)].name));
-  draw_finding(o.in_place, mm(o.s) + " mm from the uterus",
-               fmt::format("{} mm from the uterus: one clip at {}, one at {}, {} apart", mm(o.s),
-                           range(goal.first_clip), range(goal.second_clip), range(goal.clip_distance)));
-  draw_finding(
-      o.across, "straight across the tube",
-      fmt::format("{:.0f} degrees off straight across: at most {:.0f}", o.theta / kDegree, goal.clip_angle / kDegree));
-  draw_finding(o.encloses, "the whole tube between the jaws", "the tube is not wholly between the jaws: go further");
-  draw_finding(o.seen(), "both jaw tips in view", fmt::format("{} of 2 jaw tips in view", o.tips_visible));
+  if (!c.outlook->on.empty()) ui::text("between the jaws: " + attempt::in_words(c.outlook->on), ui::kGrey);
+  for (const training::Foretold::Finding& f : c.outlook->findings) {
+    ui::mark(f.fits ? Mark::done : Mark::warning);
+    ui::text(f.text, f.fits ? ui::kWhite : ui::kOrange);
+  }
 }
 
 /// The hardest pull of all hands, and the hardest push at a trocar; the limit of the pull is a line in the bar, what is
@@ -493,10 +478,10 @@ void draw_errors(const Json& errors) {
   ui::heading(errors.empty() ? "No errors" : "Errors");
   for (const Json& e : errors) {
     ui::mark(e.value("fail", false) ? Mark::error : Mark::warning);
-    ui::text(fmt::format(
-        "{}  {}{}", clock_text(e.value("at_s", e.value("at", 0.0))), e.value("meaning", std::string()),
-        e.contains("points") && e["points"].get<double>() > 0 ? fmt::format("  (-{:.0f})", e["points"].get<double>())
-                                                              : std::string()));
+    ui::text(fmt::format("{}  {}{}", clock_text(e.value("at_s", e.value("at", 0.0))), e.value("meaning", std::string()),
+                         e.contains("points") && e["points"].get<double>() > 0
+                             ? fmt::format("  (-{:.0f})", e["points"].get<double>())
+                             : std::string()));
   }
 }
 

@@ -8,7 +8,7 @@
 
 #include <trocar/attempt/hand_pilot.hpp>
 #include <trocar/attempt/live.hpp>
-#include <trocar/training/exercise/clip_outlook.hpp>
+#include <trocar/training/exercise/outlook.hpp>
 
 #include "trainer/feedback.hpp"
 
@@ -23,9 +23,9 @@ struct PanelContent {
   std::string mode;                         ///< "familiarisation: no score", or empty
   std::vector<training::StepStatus> steps;  ///< names and hints; done and now come from the snapshot
   const Feedback& feedback;
-  bool paused = false, gamepad = false;               ///< gamepad: the keys at its foot are a gamepad's
-  double pull_limit = 5;                              ///< [N]
-  std::optional<training::ClipOutlook> outlook = {};  ///< of a clip about to be set; told while familiarising
+  bool paused = false, gamepad = false;            ///< gamepad: the keys at its foot are a gamepad's
+  double pull_limit = 5;                           ///< [N]
+  std::optional<training::Foretold> outlook = {};  ///< of what a hand is about to do; told while familiarising
 };
 
 /// Its width beside a window of `width` [px].

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <random>
 
 #include <fmt/format.h>
 
@@ -88,6 +89,30 @@ int draw_exercises(const StartContent& c) {
             {.width = ImGui::GetContentRegionAvail().x / ui::scale(), .height = 32, .primary = int(i) == c.selected}))
       chosen = int(i);
   }
+  return chosen;
+}
+
+/// Whose body it is, and where it bleeds: the same number brings the same one back.
+std::optional<std::uint64_t> draw_anatomy(const StartContent& c) {
+  std::optional<std::uint64_t> chosen;
+  ui::text("Anatomy", ui::kGrey);
+  const float width = ImGui::GetContentRegionAvail().x / ui::scale(), gap = 4, step = 34, word = 0.27f * width;
+  if (ui::button("-##anatomy", {.width = step, .enabled = c.seed > 0, .tip = "the one before"})) chosen = c.seed - 1;
+  ImGui::SameLine(0, gap * ui::scale());
+  int number = int(std::min<std::uint64_t>(c.seed, kMostAnatomies));
+  ImGui::SetNextItemWidth((width - 2 * step - 2 * word - 4 * gap) * ui::scale());
+  if (ImGui::InputInt("##anatomy", &number, 0, 0, ImGuiInputTextFlags_EnterReturnsTrue))
+    chosen = std::uint64_t(std::clamp(number, 0, int(kMostAnatomies)));
+  ui::note_widget("anatomy number");
+  ImGui::SameLine(0, gap * ui::scale());
+  if (ui::button("+##anatomy", {.width = step, .enabled = c.seed < kMostAnatomies, .tip = "the next one"}))
+    chosen = c.seed + 1;
+  ImGui::SameLine(0, gap * ui::scale());
+  if (ui::button("another", {.width = word, .tip = "somebody whose anatomy is another: organs, and where it bleeds"}))
+    chosen = 1 + std::random_device{}() % kMostAnatomies;
+  ImGui::SameLine(0, gap * ui::scale());
+  if (ui::button("as drawn", {.width = word, .enabled = c.seed != 0, .tip = "0: as the scene's file has it"}))
+    chosen = 0;
   return chosen;
 }
 
@@ -187,6 +212,7 @@ StartAnswer draw_start(const StartContent& c, StartMemory& memory) {
   ImGui::Dummy({0, 4 * ui::scale()});
   answer.selected = draw_exercises(c);
   ImGui::Dummy({0, 2 * ui::scale()});
+  answer.seed = draw_anatomy(c);
   answer.trainee_changed = draw_trainee(c, memory);
   draw_devices(c);
   answer.report_of = draw_past(c);
@@ -252,7 +278,8 @@ void draw_stereo_settings(Settings& s, bool quad_buffers) {
         "This window has no quad buffers: one eye is shown. Start again; if that does not help, the graphics "
         "driver has none for this screen.");
   ui::slider("between the eyes [mm]", s.eye_distance, pictures::kLeastBase, pictures::kMostBase, "%.1f", false);
-  ui::slider("to what lies on the screen [mm]", s.convergence, pictures::kLeastConvergence, pictures::kMostConvergence, "%.0f", true);
+  ui::slider("to what lies on the screen [mm]", s.convergence, pictures::kLeastConvergence, pictures::kMostConvergence,
+             "%.0f", true);
   ui::checkbox("eyes exchanged (if what is near looks far)", s.swap_eyes);
 }
 

@@ -2,6 +2,8 @@
 // button that says what to do.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,7 @@ struct ExerciseFacts {
 struct StartContent {
   const std::vector<attempt::ExerciseEntry>& exercises;
   int selected = 0;
+  std::uint64_t seed = 0;  ///< of the anatomy; 0: as drawn
   const ExerciseFacts& facts;
   bool ready = false;   ///< the scene is there
   std::string failure;  ///< why not
@@ -37,6 +40,9 @@ struct StartContent {
 
 enum class StartChoice { none, start, familiarise, demonstrate, report, settings, help, quit };
 
+/// Anatomies that the screen offers are numbered 0, as drawn, to this; the command line knows more.
+inline constexpr std::uint64_t kMostAnatomies = 9999;
+
 /// The screen's own memory.
 struct StartMemory {
   char trainee[training::kLongestName + 1] = {};
@@ -46,9 +52,10 @@ struct StartMemory {
 
 struct StartAnswer {
   StartChoice choice = StartChoice::none;
-  int selected = -1;             ///< another exercise
-  bool trainee_changed = false;  ///< the name in the memory is another one now
-  std::int64_t report_of = 0;    ///< number of a past attempt
+  int selected = -1;                  ///< another exercise
+  std::optional<std::uint64_t> seed;  ///< another anatomy
+  bool trainee_changed = false;       ///< the name in the memory is another one now
+  std::int64_t report_of = 0;         ///< number of a past attempt
 };
 StartAnswer draw_start(const StartContent& content, StartMemory& memory);
 

@@ -76,6 +76,7 @@ class Trainer {
     trainee.copy(m_memory.trainee, training::kLongestName);
     for (std::size_t i = 0; i < m_exercises.size(); ++i)
       if (m_exercises[i].name == options.exercise) m_selected = int(i);
+    m_seed = options.seed;
   }
 
   Json run() {
@@ -139,6 +140,7 @@ class Trainer {
   attempt::LessonShelf m_shelf;
   std::vector<attempt::ExerciseEntry> m_exercises;
   int m_selected = 0;
+  std::uint64_t m_seed = 0;  ///< of the anatomy
   StartMemory m_memory;
   Past m_past;
   Preview m_preview;
@@ -147,9 +149,8 @@ class Trainer {
 
 /// A step's title without its side, in the middle of a sentence.
 std::string title_of(const training::Exercise& e, const std::string& task) {
-  const auto is_it = [&task](const training::TaskText& t) { return t.name == task; };
-  const auto found = std::find_if(e.tasks.begin(), e.tasks.end(), is_it);
-  std::string title = found == e.tasks.end() ? task : found->title;
+  const training::StepText* step = e.step(task);
+  std::string title = step && step->title.find('{') == std::string::npos ? step->title : task;
   if (!title.empty() && title[0] >= 'A' && title[0] <= 'Z') title[0] = char(title[0] - 'A' + 'a');
   return title;
 }
@@ -181,6 +182,7 @@ ExerciseFacts Trainer::facts_of(const attempt::Lesson* lesson) {
 
 void Trainer::take_answer(const StartAnswer& answer) {
   if (answer.selected >= 0) m_selected = answer.selected;
+  m_seed = answer.seed.value_or(m_seed);
   if (answer.trainee_changed) {
     m_stage.settings.trainee = training::clean_name(m_memory.trainee);
     m_past = read_past(m_stage.options.store, m_stage.settings.trainee);
@@ -204,10 +206,11 @@ StartChoice Trainer::start_screen() {
   ExerciseFacts facts;
   const attempt::Lesson* shown = nullptr;
   while (!m_stage.wants_to_close()) {
-    if (!m_exercises.empty() && m_exercises[size_t(m_selected)].name != m_shelf.wanted()) {
+    if (!m_exercises.empty() &&
+        (m_exercises[size_t(m_selected)].name != m_shelf.wanted() || m_seed != m_shelf.seed())) {
       m_stage.drop_view();  // before the lesson that it shows is gone
       m_preview.forget();
-      m_shelf.want(m_exercises[size_t(m_selected)].name);
+      m_shelf.want(m_exercises[size_t(m_selected)].name, m_seed);
     }
     m_stage.begin_picture(false);
     const attempt::Lesson* lesson = m_shelf.poll();
@@ -219,6 +222,7 @@ StartChoice Trainer::start_screen() {
     glClear(GL_COLOR_BUFFER_BIT);
     const StartContent content{m_exercises,
                                m_selected,
+                               m_seed,
                                facts,
                                lesson != nullptr,
                                m_shelf.failure(),

@@ -14,6 +14,7 @@ namespace trocar::app {
 struct WindowOptions {
   std::string exercise;         ///< preselected on the start screen; empty: the first
   std::string record;           ///< file; empty: a name of our own in the user's data folder
+  std::uint64_t seed = 0;       ///< of the anatomy on the start screen
   std::string trainee;          ///< empty: the last one
   std::string input = "mouse";  ///< mouse or gamepad: hands, by whatever device; or a source: see make_source()
   std::string log;              ///< JSON lines of events; empty: $TROCAR_WINDOW_LOG, or none

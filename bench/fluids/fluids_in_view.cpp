@@ -83,9 +83,9 @@ struct Demo {
     return state;
   }
   int solid(const std::string& look) const {
-    for (std::size_t i = 0; i < scene.solids.size(); ++i)
-      if (scene.solids[i].look == look || scene.solids[i].name == look) return int(i);
-    return -1;
+    const auto at = std::find_if(scene.solids.begin(), scene.solids.end(),
+                                 [&](const auto& body) { return body.look == look || body.name == look; });
+    return at == scene.solids.end() ? -1 : int(at - scene.solids.begin());
   }
   fluids::Contact answer(const OrganContacts::Near& near, float reach) const {
     if (near.triangle < 0 || near.off > reach) return {};

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include <trocar/sim/model/bodies.hpp>
+
 namespace trocar {
 namespace {
 
@@ -33,14 +35,14 @@ Vec3f closest(Vec3f p, Vec3f a, Vec3f b, Vec3f c) {
 }  // namespace
 
 OrganContacts::OrganContacts(const sim::Model& model, const sim::State& state) {
-  solids = int(model.solids.size());
-  for (std::size_t i = 0; i < model.solids.size(); ++i) {
-    tissue::SkinPose pose = tissue::make_pose(model.solids[i].fine);
-    pose_skin(view_of(model.solids[i].network, state.solids[i]), model.solids[i].fine, pose);
-    add(pose.position, model.solids[i].fine.triangles, std::int32_t(i));
-  }
-  for (std::size_t i = 0; i < model.walls.size(); ++i)
-    add(model.walls[i].skin.rest, model.walls[i].skin.triangles, std::int32_t(model.solids.size() + i));
+  sim::visit_solids(model, [&](auto r) {
+    const sim::SolidModel& solid = model_of(model, r);
+    tissue::SkinPose pose = tissue::make_pose(solid.fine);
+    pose_skin(view_of(solid.network, state.solids[r.index]), solid.fine, pose);
+    add(pose.position, solid.fine.triangles, solids++);
+  });
+  std::int32_t wall = solids;
+  for (const sim::WallModel& w : model.walls) add(w.skin.rest, w.skin.triangles, wall++);
   sort_into_cells();
   make_places();
 }

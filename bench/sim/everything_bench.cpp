@@ -95,7 +95,7 @@ struct Scene {
 enum Part { kTissue, kVessels, kHeat, kFluids, kParts };
 Part part_of(std::string_view stage) {
   if (stage == "pose vessels" || stage == "beat" || stage == "let blood flow") return kVessels;
-  if (stage == "stick" || stage == "heat tissue") return kHeat;
+  if (stage == "adhere" || stage == "heat tissue") return kHeat;
   if (stage == "press with drops" || stage == "move fluids") return kFluids;
   return kTissue;
 }

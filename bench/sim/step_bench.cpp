@@ -10,7 +10,7 @@
 #include <trocar/scene/compile/compile.hpp>
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/sim/stages/step.hpp>
-#include <trocar/training/expert/surgeon.hpp>
+#include <trocar/training/expert/expert.hpp>
 
 using namespace trocar;
 
@@ -26,11 +26,11 @@ struct Scene {
   sim::Input input;
 
   Scene() {
-    training::Surgeon surgeon(exercise, model);
+    const std::unique_ptr<training::Expert> surgeon = training::make_expert(exercise, model);
     sim::Work work = sim::make_work(model);
     while (pulling.tick < kPulling) {
-      input = surgeon.next(model, pulling);
-      step(model, input, pulling, work);
+      input = surgeon->next(model, pulling);
+      surgeon->after(model, pulling, step(model, input, pulling, work));
     }
   }
 };

@@ -15,7 +15,7 @@ namespace {
 using namespace trocar;
 using namespace trocar::tissue;
 
-void fill_below(const void*, std::int32_t, Vec3d corner, double cell, std::span<std::uint8_t> tissue) noexcept {
+void fill_below(const void*, BodyId, Vec3d corner, double cell, std::span<std::uint8_t> tissue) noexcept {
   for (int c = 0; c < kBrickCells; ++c) tissue[c] = corner.z + (c / (kBrickSide * kBrickSide) + 0.5) * cell < 0;
 }
 
@@ -41,7 +41,7 @@ struct Hook {
     const Vec3d at{5e-3 * std::cos(angle), 5e-3 * std::sin(angle), -0.1e-3};
     const TissueShape shape{nullptr, fill_below};
     const Discharge d =
-        energise(e, panel, {.yellow = false, .blue = true}, {.body = 0, .a = at, .b = at}, m, shape, s, w, es);
+        energise(e, panel, {.yellow = false, .blue = true}, {.body = BodyId::strand(0), .a = at, .b = at}, m, shape, s, w, es);
     flags |= advance(m, d.span(), shape, s, w).flags;
   }
 };
@@ -88,7 +88,7 @@ void heat_reading(benchmark::State& state) {
   Vec3f sum{};
   for (auto _ : state) {
     x = x < 6e-3 ? x + 1e-5 : -6e-3;
-    sum += colour(look(reading(h.m, h.s, 0, {x, 0.3 * x, -0.5e-3})), {0.8f, 0.4f, 0.4f});
+    sum += colour(look(reading(h.m, h.s, BodyId::strand(0), {x, 0.3 * x, -0.5e-3})), {0.8f, 0.4f, 0.4f});
   }
   benchmark::DoNotOptimize(sum);
 }

@@ -13,7 +13,7 @@ namespace {
 using namespace trocar;
 using namespace trocar::tissue;
 
-void fill_below(const void*, std::int32_t, Vec3d corner, double cell, std::span<std::uint8_t> tissue) noexcept {
+void fill_below(const void*, BodyId, Vec3d corner, double cell, std::span<std::uint8_t> tissue) noexcept {
   for (int c = 0; c < kBrickCells; ++c) tissue[c] = corner.z + (c / (kBrickSide * kBrickSide) + 0.5) * cell < 0;
 }
 
@@ -30,7 +30,7 @@ struct Tissue {
     const TissueShape shape{nullptr, fill_below};
     for (int t = 0; t < ticks; ++t) {
       const Vec3d at = from + (double(t) / ticks) * (to - from);
-      const Discharge d = energise(e, panel, pedals, {.body = 0, .a = at, .b = at}, m, shape, s, w, es);
+      const Discharge d = energise(e, panel, pedals, {.body = BodyId::strand(0), .a = at, .b = at}, m, shape, s, w, es);
       advance(m, d.span(), shape, s, w);
     }
   }
@@ -61,7 +61,7 @@ int main(int argc, char** argv) {
     for (int i = 0; i < kWidth; ++i) {
       const double x = (i - kWidth / 2) * kPixel;
       const Vec3d at = j < kCut ? Vec3d{x, (kCut / 2 - j) * kPixel, -1e-4} : Vec3d{x, 0, -(j - kCut) * kPixel};
-      const Vec3f c = j == kCut ? Vec3f{} : colour(look(reading(tissue.m, tissue.s, 0, at)), {0.62f, 0.28f, 0.25f});
+      const Vec3f c = j == kCut ? Vec3f{} : colour(look(reading(tissue.m, tissue.s, BodyId::strand(0), at)), {0.62f, 0.28f, 0.25f});
       for (const float v : {c.x, c.y, c.z}) picture.rgb.push_back(std::uint8_t(v * 255 + 0.5f));
     }
   render::write_png(argv[1], picture);

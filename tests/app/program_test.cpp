@@ -1,6 +1,4 @@
 // The command line as scripts meet it: exit codes, JSON, and recordings that verify or do not.
-#include "commands/program.hpp"
-
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -13,28 +11,12 @@
 #include <trocar/core/json.hpp>
 #include <trocar/sim/recording/recording.hpp>
 
+#include "run_program.hpp"
+
 namespace trocar::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Outcome {
-  int exit = -1;
-  std::string out, err;
-  Json json() const { return Json::parse(out, nullptr, false); }
-};
-
-Outcome trocar(std::vector<std::string> words) {
-  std::vector<const char*> argv{"trocar"};
-  for (const std::string& w : words) argv.push_back(w.c_str());
-  testing::internal::CaptureStdout();
-  testing::internal::CaptureStderr();
-  Outcome o;
-  o.exit = run_program(int(argv.size()), argv.data());
-  o.out = testing::internal::GetCapturedStdout();
-  o.err = testing::internal::GetCapturedStderr();
-  return o;
-}
 
 std::string read(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
@@ -162,8 +144,20 @@ TEST_F(Program, CheckTellsEveryFaultOfAMesh) {
   EXPECT_NE(o.err.find("none.vtk: expected a file, got none of this name"), std::string::npos) << o.err;
 }
 
-TEST_F(Program, CheckSaysWhatTheExerciseCompilesTo) {
-  const Outcome o = trocar({"check", TROCAR_SOURCE_DIR "/scenes/gynaecology/sterilisation.json", "--json"});
+TEST_F(Program, CheckSaysWhatAnExerciseIsMadeOf) {
+  const Outcome o = trocar({"check", TROCAR_SOURCE_DIR "/scenes/gynaecology/bleeding-control.json", "--json"});
+  ASSERT_EQ(o.exit, core::kDone) << o.err;
+  const Json exercise = o.json()["files"][0];
+  EXPECT_EQ(exercise["steps"].size(), 5u);
+  EXPECT_EQ(exercise["steps"][0]["step"], "find");
+  for (const Json& error : exercise["errors"])
+    EXPECT_TRUE(error["fails"].get<bool>() || error["points"].get<double>() > 0) << error.dump();
+  EXPECT_FALSE(exercise["facts"].empty());
+  EXPECT_FALSE(exercise["events"].empty());
+}
+
+TEST_F(Program, CheckSaysWhatTheSceneCompilesTo) {
+  const Outcome o = trocar({"check", TROCAR_SOURCE_DIR "/scenes/gynaecology/scene.json", "--json"});
   ASSERT_EQ(o.exit, core::kDone) << o.err;
   const Json scene = o.json()["files"][0];
   EXPECT_GE(scene["free_nodes"].get<int>(), 6000);

@@ -238,8 +238,10 @@ TEST(MotionSource, HandsComeIntoTheSceneByARotationWithTheirCentroidWhereTheInst
 
 TEST(Session, ForcesAreHeldAgainstTheExercisesOwnLimits) {
   const std::unique_ptr<attempt::Lesson> lesson = attempt::load_lesson("gynaecology/sterilisation");
-  lesson->exercise->goal.pull_limit = 3.25;
-  lesson->exercise->goal.pinch_limit = 12.5;
+  for (training::Limit& limit : lesson->exercise->limits) {
+    if (limit.name == "pull_limit_N") limit.low = limit.high = 3.25;
+    if (limit.name == "pinch_limit_N") limit.low = limit.high = 12.5;
+  }
   attempt::Session session(*lesson, 1);
   for (int i = 0; i < 200; ++i) session.advance(lesson->model.start);
   const Json forces = session.result(false)["metrics"]["both"]["forces"];

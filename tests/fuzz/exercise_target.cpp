@@ -22,10 +22,21 @@ void exercise_file(Bytes bytes) {
   }
 }
 
+/// The shipped exercises, each packed with the common rules that it includes.
 std::vector<Seed> exercise_seeds() {
-  std::stringstream text;
-  text << std::ifstream(TROCAR_SOURCE_DIR "/scenes/gynaecology/sterilisation.json", std::ios::binary).rdbuf();
-  return {{"sterilisation", bytes_of(text.str())}};
+  const auto text_of = [](const std::string& file) {
+    std::stringstream text;
+    text << std::ifstream(TROCAR_SOURCE_DIR "/scenes/" + file, std::ios::binary).rdbuf();
+    return text.str();
+  };
+  std::vector<Seed> seeds;
+  for (const char* name : {"sterilisation", "bleeding-control"}) {
+    scene::MemoryFiles files{{kMainFile, text_of("gynaecology/" + std::string(name) + ".json")}};
+    for (const char* common : {"handling", "clips", "energy", "bleeding"})
+      files["../common/" + std::string(common) + ".json"] = text_of("common/" + std::string(common) + ".json");
+    seeds.push_back({name, bytes_of(packed(files))});
+  }
+  return seeds;
 }
 
 }  // namespace trocar::fuzz

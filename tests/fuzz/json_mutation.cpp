@@ -29,8 +29,8 @@ const std::vector<scene::Key>& known_keys() {
                                           &scene::instrument_shape(),
                                           &scene::tissue_shape(),
                                           &scene::vessels_shape(),
-                                          &training::sterilisation_shape(),
-                                          &training::bleeding_control_shape()};
+                                          &training::exercise_shape(),
+                                          &training::common_rules_shape()};
     for (std::size_t i = 0; i < open.size(); ++i) {
       if (std::find(seen.begin(), seen.end(), open[i]->name) != seen.end()) continue;
       seen.push_back(open[i]->name);

@@ -102,7 +102,7 @@ struct Block {
     pose_skin(nodes, skin, pose);
     loads.clear();
     Touching touching = rubbing.touching();
-    tool_on_surface(touching, kSolidBase, {&skin, &pose, nodes}, loads);
+    tool_on_surface(touching, BodyId::organ(0), {&skin, &pose, nodes}, loads);
     loads.sort();
     ASSERT_TRUE(advance(model, loads.sorted, loads.reaction, state, work).fine());
     rubbing.on_tissue = {0, 0, 0};
@@ -165,7 +165,7 @@ struct Cord {
   void step() {
     loads.clear();
     Touching touching = rubbing.touching();
-    tool_on_strand(tool, touching, ToolState{}, body, 0, state, side, loads);
+    tool_on_strand(tool, touching, ToolState{}, body, BodyId::strand(0), state, side, loads);
     loads.reaction.assign(loads.list.size(), Vec3d{});
     ASSERT_TRUE(advance(body.model, ends, loads.list, on_holders, loads.reaction, state, work).fine());
     rubbing.on_tissue = {0, 0, 0};
@@ -232,7 +232,7 @@ struct Cloth {
     const SheetView view{{&skin, &pose, nodes}, torn, sheet.network.fixed, 0.00025};
     SheetBond bond = SheetBond::none;
     double gap = 0;
-    tool_on_sheet(touching, ToolState{}, kMembraneBase, view, side, bond, loads, gap);
+    tool_on_sheet(touching, ToolState{}, BodyId::membrane(0), view, side, bond, loads, gap);
     loads.sort();
     ASSERT_TRUE(advance(sheet, {}, loads.sorted, loads.reaction, state, work).fine());
     rubbing.on_tissue = {0, 0, 0};

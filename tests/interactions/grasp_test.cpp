@@ -31,7 +31,7 @@ struct Grip : small::Table {
     tip += by;
     steps(700);
   }
-  TissueView view() const { return {model.strand_bodies, state.strands, {work.surfaces.data(), model.solids.size()}}; }
+  TissueView view() const { return {model.strand_bodies, state.strands, {work.surfaces.data(), size_t(model.organs())}}; }
 };
 
 sim::Model with_grasper(double pinch, double friction) {
@@ -48,7 +48,7 @@ TEST(Grasp, ClosingJawsHoldWhatLiesBetweenThem) {
   const Grip g;
   const ToolState& tool = g.tool(kGrasper);
   ASSERT_GT(tool.holds, 0);
-  for (int i = 0; i < tool.holds; ++i) EXPECT_EQ(tool.hold[i].body, kTube);
+  for (int i = 0; i < tool.holds; ++i) EXPECT_EQ(tool.hold[i].body, BodyId::strand(kTube));
   EXPECT_EQ(g.count(sim::Event::grasped), 1);
   EXPECT_EQ(g.count(sim::Event::released), 0);
   // At 56 mm of arc length: the strand begins at x = -1 mm.
@@ -263,8 +263,8 @@ TEST(Grasp, AFoldOfAnOrganIsHeldAndFollows) {
   t.close_slowly(kGrasper, 1, 500);
   const ToolState& tool = t.tool(kGrasper);
   ASSERT_GT(tool.holds, 0);
-  ASSERT_GE(tool.hold[0].body, kSolidBase);
-  const int solid = tool.hold[0].body - kSolidBase, vertex = tool.hold[0].element;
+  ASSERT_TRUE(tool.hold[0].body.is(BodyKind::organ));
+  const int solid = int(tool.hold[0].body.index()), vertex = tool.hold[0].element;
   const Vec3d before = t.work.surfaces[size_t(solid)].position(vertex);
   t.carry(kGrasper, in, in + Vec3d{0, 0, 0.010}, 0.05);
   t.steps(500);

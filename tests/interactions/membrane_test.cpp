@@ -76,7 +76,7 @@ struct Drum {
     const SheetView view{{&skin, &pose, view_of(sheet.network, state.network)}, torn, sheet.network.fixed, 0.00025};
     Touching touching(0, moved ? before : shape, shape, 0, book, next);
     double gap = 0;
-    tool_on_sheet(touching, ToolState{}, kMembraneBase, view, side, bond, loads, gap);
+    tool_on_sheet(touching, ToolState{}, BodyId::membrane(0), view, side, bond, loads, gap);
     before = shape;
     moved = true;
     loads.sort();
@@ -190,7 +190,7 @@ TEST(Fold, IsGraspedBesideTheTubeAndFollowsTheJaws) {
   ASSERT_GE(tool.holds, 2);
   EXPECT_GT(tool.pinch, 0.5 * grasper.model.pinch_max);
   for (int h = 0; h < tool.holds; ++h) {
-    ASSERT_EQ(tool.hold[h].body, kMembraneBase);
+    ASSERT_EQ(tool.hold[h].body, BodyId::membrane(0));
     EXPECT_NE(t.model.membranes[0].sheet.network.fixed[size_t(tool.hold[h].element)], tissue::kHeld);
   }
   // The jaws draw it 4 mm aside; it comes along and pulls back.
@@ -200,7 +200,7 @@ TEST(Fold, IsGraspedBesideTheTubeAndFollowsTheJaws) {
     std::vector<StrandLoads> strands(2);
     std::vector<NetworkLoads> solids(2), folds(1);
     folds[0].reserve(64);
-    hold_loads(grasper.shape(tool.aperture), 0, view, tool, strands, solids, folds);
+    hold_loads(grasper.shape(tool.aperture), 0, view, tool, {strands, solids, folds});
     folds[0].sort();
     const tissue::MembraneModel& sheet = t.model.membranes[0].sheet;
     ASSERT_TRUE(

@@ -50,7 +50,7 @@ struct Gap {
     Touching touching(0.3, before, now, 0, last, next);
     NetworkLoads loads;
     loads.reserve(256);
-    tool_on_surface(touching, kSolidBase, surface, loads);
+    tool_on_surface(touching, BodyId::organ(0), surface, loads);
     loads.sort();
     return loads.sorted.size();
   }

@@ -167,7 +167,7 @@ TEST(ReportPage, StrangeResultsAreNoHarm) {
        {"", "[]", "7", R"({"assessment":7})", R"({"assessment":{"score":[],"steps":7,"errors":[7,null]}})",
         R"({"metrics":{"hands":7,"both":[]},"moments":[7,{"tick":"x"}],"exercise_seconds":"x","notices":7})",
         R"({"metrics":{"hands":[7,{"name":7}]}})", R"({"assessment":{"steps":[{"done":true,"at_s":1e308}]}})",
-        R"({"assessment":{"sides":[{"side":7,"clips":[{"a":[1]}]}],"thresholds":{"a":7}},"passed":"yes"})"}) {
+        R"({"assessment":{"details":[{"side":7,"clips":[{"a":[1]}]}],"thresholds":{"a":7}},"passed":"yes"})"}) {
     Attempt a = attempt(1, "x", 1, 1);
     a.result = text;
     EXPECT_FALSE(reports::report_html(gather(nullptr, a)).empty()) << text;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <trocar/scene/files/look_file.hpp>
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/scene/files/vessel_file.hpp>
 
@@ -75,7 +76,8 @@ void add_tables(const Shape& shape, std::vector<std::string>& done, std::string&
 TEST(FormatPage, TablesOfKeysAreTheReaders) {
   std::string tables;
   std::vector<std::string> done;
-  for (const Shape* shape : {&scene_shape(), &organ_shape(), &instrument_shape(), &tissue_shape(), &vessels_shape()})
+  for (const Shape* shape :
+       {&scene_shape(), &organ_shape(), &instrument_shape(), &tissue_shape(), &vessels_shape(), &look_shape()})
     add_tables(*shape, done, tables);
   const std::string marker = "<!-- from here on written from the reader's tables -->\n";
   const std::string page = text_of(TROCAR_SOURCE_DIR "/docs/scene_format.md");

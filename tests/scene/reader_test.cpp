@@ -352,7 +352,8 @@ TEST(Reader, AllFaultsComeInOnePassInTheOrderOfTheFile) {
                  {7, R"("solids": [{"name": "ball", "tissue": @"hard", "cell_mm": @0, "sections": [)"},
                  {20, R"("tools": [{"instrument": "stick", "port": @"none", "tip_mm": @[0, 0]}],)"}}),
       (Faults{"expected a known key of a scene ($schema, format, name, title, gravity_m_s2, tissues, organs, vessels, "
-              "fluids, bleeder, energy, peristalsis, breathing, detail, instruments, ports, tools, scope), got "
+              "fluids, bleeder, energy, peristalsis, breathing, detail, marks, variation, instruments, ports, tools, "
+              "scope, rigids), got "
               "\"titel\" (did "
               "you mean \"title\"?)",
               "expected a number in [1, 25000] for \"density_kg_m3\", got -1", "expected a finite number, got 1e999",
@@ -544,6 +545,26 @@ TEST(Reader, SpoiledFilesNeverCrashAndFaultsAlwaysHaveAPlace) {
     }
   }
   EXPECT_GT(faulty, 1200);
+}
+
+TEST(Reader, AVariationNamesBodiesThatAreThereAndFiguresThatFit) {
+  const auto faults = [](const std::string& variation) {
+    return faults_of({{18, kScene[17] + " \"variation\": " + variation + ","}});
+  };
+  EXPECT_EQ(
+      faults(
+          R"({"regions": [{"around": "cord", "scale": 0.1, "turn_deg": 5}], "girths": [{"of": ["ball"], "radius": 0.1}]})"),
+      Faults{});
+  EXPECT_EQ(
+      faults(R"({"regions": [{"around": @"chord", "shift_mm": 3}], "girths": [{"of": [@"bll"], "radius": 0.1}]})"),
+      (Faults{R"(expected a known solid or strand (ball, cord), got "chord" (did you mean "cord"?))",
+              R"(expected a known solid, strand, membrane or pouch (ball, cord), got "bll" (did you mean "ball"?))"}));
+  EXPECT_EQ(faults(R"({"regions": [@{"scale": 0.1}, @{"around": "cord", "centre_mm": [0, 0, 0]}]})"),
+            (Faults{"expected either \"around\" or \"centre_mm\", got none",
+                    "expected either \"around\" or \"centre_mm\", got both"}));
+  EXPECT_EQ(faults(R"({"regions": [{"around": "cord", "near_mm": 30, "far_mm": @20, "axis": @[0, 0, 0]}]})"),
+            (Faults{"expected more than near_mm = 30, got 20", "expected a direction, got none"}));
+  EXPECT_EQ(faults(R"(@{"bleeder": true})"), one("expected a bleeder whose hole can vary, got none in this scene"));
 }
 
 }  // namespace

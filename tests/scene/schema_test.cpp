@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <trocar/scene/files/look_file.hpp>
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/scene/files/vessel_file.hpp>
 #include <trocar/scene/json/schema.hpp>
@@ -26,8 +27,9 @@ const Published kPublished[] = {{"scene.schema.json", scene_shape},
                                 {"instrument.schema.json", instrument_shape},
                                 {"tissue.schema.json", tissue_shape},
                                 {"vessel.schema.json", vessels_shape},
-                                {"exercise.schema.json", training::sterilisation_shape},
-                                {"bleeding_control.schema.json", training::bleeding_control_shape}};
+                                {"look.schema.json", look_shape},
+                                {"exercise.schema.json", training::exercise_shape},
+                                {"common_rules.schema.json", training::common_rules_shape}};
 
 TEST(Schema, PublishedFilesSayWhatTheReaderObeys) {
   for (const Published& p : kPublished) {

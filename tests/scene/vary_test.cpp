@@ -127,5 +127,90 @@ TEST(Vary, AVariedSceneRestsAsDrawn) {
   }
 }
 
+const Description& digestive() {
+  static const Description read = read_scene(TROCAR_SOURCE_DIR "/scenes/digestive/scene.json");
+  return read;
+}
+
+TEST(Vary, ASceneThatDeclaresNothingIsTheSameForEverySeed) {
+  Description d = drawn();
+  d.variation.reset();
+  const std::uint64_t hash = compile(d).hash;
+  vary(d, 5);
+  EXPECT_EQ(compile(d).hash, hash);
+}
+
+TEST(Vary, ARegionAroundASolidShiftsAndTurnsItAndNothingFarAway) {
+  double most_shift = 0, most_turn = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    Description d = digestive();
+    VariationSetting::Region& region = d.variation->regions.at(0);
+    region.near = 0.1, region.far = 0.2;
+    vary(d, seed);
+    const Solid &now = named(d.solids, "stomach"), &before = named(digestive().solids, "stomach");
+    Vec3d shift;
+    for (size_t i = 0; i < now.sections.size(); ++i)
+      shift += (now.sections[i].centre - before.sections[i].centre) / double(now.sections.size());
+    most_shift = std::max(most_shift, length(shift));
+    EXPECT_LE(length(shift), 0.0061 * std::sqrt(3)) << seed;
+    const Vec3d a = before.sections.back().centre - before.sections.front().centre;
+    const Vec3d b = now.sections.back().centre - now.sections.front().centre;
+    const double turn = std::fabs(std::atan2(a.x * b.y - a.y * b.x, a.x * b.x + a.y * b.y));
+    most_turn = std::max(most_turn, turn);
+    EXPECT_LE(turn, 1.5 * region.turn) << seed;
+    for (size_t w = 0; w < d.walls.size(); ++w)
+      for (size_t i = 0; i < d.walls[w].net.size(); ++i)
+        if (length(digestive().walls[w].net[i] - before.sections[before.sections.size() / 2].centre) > 0.3) {
+          EXPECT_EQ(d.walls[w].net[i], digestive().walls[w].net[i]);
+        }
+  }
+  EXPECT_GT(most_shift, 0.003);
+  EXPECT_GT(most_turn, 0.5 * digestive().variation->regions[0].turn);
+}
+
+TEST(Vary, GirthsMakeBodiesThickerOrThinnerWhereTheyAre) {
+  double least = 9, most = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    Description d = digestive();
+    d.variation->regions.clear();
+    vary(d, seed);
+    const Solid &now = named(d.solids, "jejunum"), &before = named(digestive().solids, "jejunum");
+    const double share = length(now.sections[0].across) / length(before.sections[0].across);
+    least = std::min(least, share), most = std::max(most, share);
+    for (size_t i = 0; i < now.sections.size(); ++i) {
+      EXPECT_EQ(now.sections[i].centre, before.sections[i].centre);
+      EXPECT_NEAR(length(now.sections[i].deep) / length(before.sections[i].deep), share, 1e-12);
+    }
+    EXPECT_EQ(named(d.solids, "stomach").sections[0].across, named(digestive().solids, "stomach").sections[0].across);
+  }
+  EXPECT_GE(least, 0.9);
+  EXPECT_LE(most, 1.1);
+  EXPECT_GT(most - least, 0.1);
+}
+
+TEST(Vary, APlaceOfBleedingIsChosenOnlyWhereThatIsDeclared) {
+  const Description pelvis = read_scene(TROCAR_SOURCE_DIR "/scenes/bleeding_control/scene.json");
+  std::vector<int> chosen(pelvis.bleeder->holes.size());
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    Description d = pelvis;
+    vary(d, seed);
+    ++chosen.at(size_t(d.bleeder->which));
+    d = pelvis;
+    d.variation->bleeder = false;
+    vary(d, seed);
+    EXPECT_EQ(d.bleeder->which, 0);
+  }
+  for (const int times : chosen) EXPECT_GT(times, 0);
+}
+
+TEST(Vary, EveryShippedSceneThatVariesCompilesAsAnotherOne) {
+  for (const char* name : {"cutting", "gallbladder", "digestive"}) {
+    Description d = read_scene(std::string(TROCAR_SOURCE_DIR "/scenes/") + name + "/scene.json");
+    const std::uint64_t as_drawn = compile(d).hash;
+    vary(d, 2);
+    EXPECT_NE(compile(d).hash, as_drawn) << name;
+  }
+}
+
 }  // namespace
 }  // namespace trocar::scene

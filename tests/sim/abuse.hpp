@@ -40,6 +40,12 @@ inline std::vector<Body> bodies_of(const sim::Model& m) {
   return all;
 }
 
+/// Its number in that list.
+inline size_t number_of(const sim::Model& m, const std::string& name) {
+  const std::vector<Body> all = bodies_of(m);
+  return size_t(std::find_if(all.begin(), all.end(), [&](const Body& b) { return b.name == name; }) - all.begin());
+}
+
 inline std::vector<Vec3d> places(const sim::Model& m, const sim::State& s, const Body& b) {
   std::vector<Vec3d> p;
   const auto network = [&p](const tissue::NetworkModel& model, const tissue::NetworkState& state) {

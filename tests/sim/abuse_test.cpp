@@ -12,9 +12,7 @@ TEST(Abuse, OrgansBearSomeSecondsAndReturnToTheirShape) {
   const sim::Model model =
       abuse::untearable(scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/gynaecology/scene.json")));
   abuse::Attack attack(model, 3);
-  const int tube = model.strand_index("tube_left");
-  ASSERT_GE(tube, 0);
-  const abuse::Round r = attack.round(model.solids.size() + size_t(tube), 6);
+  const abuse::Round r = attack.round(abuse::number_of(model, "tube_left"), 6);
   EXPECT_EQ(r.first_bad_tick, 0u) << "flags " << r.flags;
   EXPECT_GT(r.grasps, 0);
   EXPECT_TRUE(r.let_go);
@@ -50,7 +48,7 @@ TEST(Abuse, ALiverCutAtRandomStaysFinite) {
 TEST(Abuse, TissueThatTearsStaysFinite) {
   const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/gynaecology/scene.json"));
   abuse::Attack attack(model, 3);
-  const abuse::Round r = attack.round(model.solids.size() + size_t(model.strand_index("tube_left")), 4);
+  const abuse::Round r = attack.round(abuse::number_of(model, "tube_left"), 4);
   std::printf("%d tears, at most %.3f J and %.1f N\n", r.tears, r.most_energy, r.most_force);
   EXPECT_EQ(r.first_bad_tick, 0u) << "flags " << r.flags;
   EXPECT_GT(r.tears, 0);
@@ -97,7 +95,7 @@ TEST(Abuse, HandsThatJumpWithAnyBitsOfPedalsLeaveNumbersFiniteAndTheAccountExact
       }
     if (random.uniform() < 0.02) in.pedals = std::uint32_t(random.next());
     const sim::StepReport report = step(model, in, s, w);
-    ASSERT_TRUE(report.fine()) << "tick " << t << " body " << report.first_bad_body;
+    ASSERT_TRUE(report.fine()) << "tick " << t << " body " << report.first_bad_body.code();
     if (t % 50 != 0) continue;
     ASSERT_EQ(abuse::broken(model, s), "") << "tick " << t;
   }
@@ -108,7 +106,7 @@ TEST(Abuse, AFilledGallbladderBearsItAndKeepsItsContents) {
   const sim::Model model =
       abuse::untearable(scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/gallbladder/scene.json")));
   abuse::Attack attack(model, 6);
-  const abuse::Round r = attack.round(model.solids.size() + model.strands.size(), 4);
+  const abuse::Round r = attack.round(abuse::number_of(model, "gallbladder"), 4);
   EXPECT_EQ(r.organ, "gallbladder");
   std::printf("%d grasps, at most %.3f J and %.1f N, %.2f %% off after the rest\n", r.grasps, r.most_energy,
               r.most_force, 100 * r.worst().share);
@@ -136,7 +134,7 @@ TEST(Abuse, AnInstrumentDrivenThroughALiverLeavesNumbersFinite) {
     const double way = std::min(1.0, 1e-3 * (t + 1));
     in.tools[0] = sim::tool_input(kinematics::inverse(port, from + way * (behind - from), 0.0), 0);
     const sim::StepReport report = sim::step(model, in, s, w);
-    ASSERT_TRUE(report.fine()) << "tick " << t << " body " << report.first_bad_body;
+    ASSERT_TRUE(report.fine()) << "tick " << t << " body " << report.first_bad_body.code();
     most = std::max(most, abuse::energy(model, s) - rest);
   }
   const int tears = int(s.cuttables[0].tets.nodes) - model.cuttables[0].body.own_nodes;

@@ -241,8 +241,8 @@ struct Still {
     pose_vessels(c);
     const auto& path = m.vessels.list[size_t(vessel)].path;
     const interactions::VesselSpot spot = vessel_spot(path, w.vessel_points[size_t(vessel)], {}, at);
-    for (const Carriers carriers : {Carriers{}, Carriers{Carriers::organ, small::kBar}})
-      open_vessels(c, geometry::square_blade(spot.place, spot.along, 0.002), carriers, small::kScissors);
+    for (const BodyId carrier : {BodyId{}, BodyId::organ(small::kBar)})
+      open_vessels(c, geometry::square_blade(spot.place, spot.along, 0.002), carrier, small::kScissors);
   }
   void clip(int vessel, double at, double cover = 1) {
     s.vessel_clips[size_t(s.vessel_clip_count++)] = {at, cover, s.tick, vessel, 0};

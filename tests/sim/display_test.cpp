@@ -6,6 +6,7 @@
 
 #include <trocar/core/random.hpp>
 #include <trocar/fluids/shown_fluids.hpp>
+#include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/recording/keyframe.hpp>
 #include <trocar/tissue/heat/heat_look.hpp>
 
@@ -74,7 +75,7 @@ TEST(Display, ScarsComeBackInShades) {
   int burnt = 0;
   for (double deep = 0; deep < 0.006; deep += 2e-4) {
     const auto look_at = [&](const State& s) {
-      return tissue::look(tissue::reading(m.energy.heat, s.heat, interactions::kSolidBase, top - Vec3d{0, 0, deep}));
+      return tissue::look(tissue::reading(m.energy.heat, s.heat, BodyId::organ(0), top - Vec3d{0, 0, deep}));
     };
     const tissue::HeatLook was = look_at(t.state), now = look_at(shown);
     EXPECT_NEAR(was.pale, now.pale, 0.12f) << deep;
@@ -151,16 +152,9 @@ void expect_drawable(const Model& m, const State& s) {
     ASSERT_TRUE(t.holds >= 0 && t.holds <= interactions::kMaxHolds);
     for (double v : {t.yaw, t.pitch, t.roll, t.depth, t.aperture}) ASSERT_TRUE(std::isfinite(v));
     for (int h = 0; h < t.holds; ++h) {
-      const int body = t.hold[h].body;
-      if (body >= interactions::kSolidBase) {
-        ASSERT_LT(body - interactions::kSolidBase, int(m.solids.size()));
-        ASSERT_GE(t.hold[h].element, 0);
-        ASSERT_LT(t.hold[h].element, m.solids[size_t(body - interactions::kSolidBase)].skin.size());
-      } else {
-        ASSERT_TRUE(body >= 0 && body < int(m.strands.size()));
-        ASSERT_GE(t.hold[h].element, 0);
-        ASSERT_LT(t.hold[h].element, m.strand_bodies[size_t(body)].nodes() - 1);
-      }
+      ASSERT_TRUE(has(m, t.hold[h].body));
+      ASSERT_GE(t.hold[h].element, 0);
+      ASSERT_LT(t.hold[h].element, places_on(m, t.hold[h].body));
     }
   }
   ASSERT_TRUE(s.clip_count >= 0 && s.clip_count <= interactions::kMaxClips);
@@ -171,7 +165,7 @@ void expect_drawable(const Model& m, const State& s) {
   }
   for (int i = 0; i < s.cut_count; ++i) {
     ASSERT_TRUE(s.cuts[size_t(i)].strand >= -1 && s.cuts[size_t(i)].strand < int(m.strands.size()));
-    ASSERT_TRUE(s.cuts[size_t(i)].solid >= -1 && s.cuts[size_t(i)].solid < int(m.solids.size()));
+    ASSERT_TRUE(s.cuts[size_t(i)].solid == -1 || has(m, BodyId::organ(size_t(s.cuts[size_t(i)].solid))));
   }
 }
 

@@ -19,9 +19,9 @@ using small::kBipolar, small::kHook;
 
 namespace {
 
-constexpr std::int32_t kOrgan = interactions::kSolidBase;
+constexpr BodyId kOrgan = BodyId::organ(0);
 
-tissue::HeatReading reading_at(const small::Table& t, std::int32_t body, Vec3d at) {
+tissue::HeatReading reading_at(const small::Table& t, BodyId body, Vec3d at) {
   return tissue::reading(t.model.energy.heat, t.state.heat, body, at);
 }
 
@@ -252,7 +252,7 @@ Stump stump_of(double radius, std::uint32_t pedals) {
   t.input.pedals = 0;
   s.after = mean(300);
   std::printf("    outer %.2f mm: %.2f mL/min before, %.3f after; body %d, %.0f C, %d seals\n", 1e3 * s.outer, s.before,
-              s.after, t.state.electrodes[kHook].body, t.state.electrodes[kHook].current.tip, t.state.seal_count);
+              s.after, t.state.electrodes[kHook].body.code(), t.state.electrodes[kHook].current.tip, t.state.seal_count);
   return s;
 }
 
@@ -282,7 +282,7 @@ TEST(Energy, BipolarJawsSealTheArteryInATubeThatTheyHold) {
   t.close_slowly(kBipolar, 1, 300);
   t.steps(100);
   ASSERT_GT(t.tool(kBipolar).holds, 0);
-  ASSERT_EQ(t.tool(kBipolar).hold[0].body, small::kTube);
+  ASSERT_EQ(t.tool(kBipolar).hold[0].body, BodyId::strand(small::kTube));
   t.input.pedals = kBlue;
   t.steps(3000);
   ASSERT_GT(t.state.seal_count, 0);
@@ -352,7 +352,7 @@ double scarred_edges(const small::Table& t, float share) {
   double now = 0, drawn = 0;
   for (int i = 0; i < t.state.scarred_count; ++i) {
     const Scar& scar = t.state.scarred[size_t(i)];
-    if (scar.body != interactions::kSolidBase + small::kBar || scar.share > share) continue;
+    if (scar.body != BodyId::organ(small::kBar) || scar.share > share) continue;
     const geometry::Tet& cell = bar.tets.cells[size_t(scar.spring)];
     for (const auto& edge : tissue::kCellEdges) {
       const int a = cell[size_t(edge[0])], b = cell[size_t(edge[1])];
@@ -474,7 +474,7 @@ TEST(Energy, CharSticksToTheWireUntilItIsTornOff) {
   const int vertex = hand.stuck.element;
   const double before = height(vertex);
   double highest = 0, hardest = 0;
-  for (int i = 0; i < 800 && hand.stuck.body >= 0; ++i) {
+  for (int i = 0; i < 800 && hand.stuck.body.exists(); ++i) {
     t.point(kHook, small::kOnOrgan + Vec3d{0, 0, 2e-5 * i});
     t.step();
     highest = std::max(highest, height(vertex) - before);
@@ -482,7 +482,7 @@ TEST(Energy, CharSticksToTheWireUntilItIsTornOff) {
   }
   std::printf("    stuck %.2f: tissue came %.2f mm along, %.2f N\n", hand.current.stuck, 1e3 * highest, hardest);
   EXPECT_GT(highest, 0.5e-3);
-  EXPECT_EQ(hand.stuck.body, -1) << "2 N tear it off";
+  EXPECT_FALSE(hand.stuck.body.exists()) << "2 N tear it off";
   EXPECT_EQ(hand.current.stuck, 0);
   EXPECT_LT(hardest, 2.5);
 }

@@ -10,6 +10,7 @@
 #include <trocar/core/parallel.hpp>
 #include <trocar/sim/recording/keyframe.hpp>
 #include <trocar/sim/recording/recording.hpp>
+#include <trocar/sim/recording/shown_difference.hpp>
 
 using namespace trocar;
 using namespace trocar::sim;
@@ -88,13 +89,22 @@ const Session& session() {
   return recorded;
 }
 
+/// Of the last first_difference(): what is drawn otherwise than in the recording.
+std::string differing_field;
+
 /// Steps a State on through a recording. @return the first mark whose hash is another, or kTicks + 1
 std::uint64_t first_difference(const Recording& recording, State s, Work w, bool poisoned = false) {
+  differing_field.clear();
   while (s.tick < recording.inputs.size()) {
-    if (s.tick % kHashEvery == 0 && hash_of(s) != recording.hashes[s.tick / kHashEvery].hash) return s.tick;
+    if (s.tick % kHashEvery == 0 && hash_of(s) != recording.hashes[s.tick / kHashEvery].hash) {
+      if (s.tick % kKeyframeEvery == 0)
+        differing_field = shown_difference(model(), recording.keyframes[s.tick / kKeyframeEvery].bytes, s);
+      return s.tick;
+    }
     if (poisoned) poison(w);
     step(model(), recording.inputs[s.tick], s, w);
   }
+  differing_field = sim::first_difference(session().end, s);
   return hash_of(s) == hash_of(session().end) ? kTicks + 1 : kTicks;
 }
 
@@ -126,11 +136,14 @@ TEST(Everything, ARecordingOfItVerifiesFromItsStartAndFromTheMiddleOnAnyThreads)
   ASSERT_TRUE(recording.complete) << recording.damage;
   ASSERT_EQ(recording.inputs.size(), kTicks);
   core::ThreadPool two(2);
-  EXPECT_EQ(first_difference(recording, start(), make_work(model()), true), kTicks + 1) << "scratch full of NaN";
-  EXPECT_EQ(first_difference(recording, start(), make_work(model(), &two)), kTicks + 1) << "two threads";
-  EXPECT_EQ(first_difference(recording, session().middle, make_work(model())), kTicks + 1) << "from the middle";
+  EXPECT_EQ(first_difference(recording, start(), make_work(model()), true), kTicks + 1)
+      << "scratch full of NaN: " << differing_field;
+  EXPECT_EQ(first_difference(recording, start(), make_work(model(), &two)), kTicks + 1)
+      << "two threads: " << differing_field;
+  EXPECT_EQ(first_difference(recording, session().middle, make_work(model())), kTicks + 1)
+      << "from the middle: " << differing_field;
   EXPECT_EQ(first_difference(recording, session().middle, make_work(model(), &two)), kTicks + 1)
-      << "from the middle, two threads";
+      << "from the middle, two threads: " << differing_field;
 }
 
 TEST(Everything, AnInputThatDiffersInOneBitOfAPedalIsNoticed) {

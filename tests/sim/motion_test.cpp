@@ -8,7 +8,7 @@
 
 #include <trocar/numerics/fft.hpp>
 #include <trocar/numerics/portable.hpp>
-#include <trocar/sim/stages/motion.hpp>
+#include <trocar/sim/bodies/breathing.hpp>
 
 #include "small_scene.hpp"
 

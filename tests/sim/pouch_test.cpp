@@ -91,9 +91,9 @@ Way to_fundus(double depth, int close, double back) {
 Way hold_and_pull() { return to_fundus(0.004, 250, 4e-5); }
 Way poke() { return {kGrasper, {-0.030, 0.070, -0.070}, {-0.022, 0.112, -0.110}, 1000, 5000, 5000, {0, 0, 0}}; }
 
-bool told_of(const Story& story, Event::Kind kind, std::int32_t body) {
+bool told_of(const Story& story, Event::Kind kind, BodyId body) {
   return std::any_of(story.events.begin(), story.events.end(),
-                     [&](const Event& e) { return e.kind == kind && (body < 0 || e.index == body); });
+                     [&](const Event& e) { return e.kind == kind && (!body.exists() || e.body() == body); });
 }
 std::ptrdiff_t torn_triangles(const State& s, size_t membrane) {
   return std::count(s.torn[membrane].begin(), s.torn[membrane].end(), 1);
@@ -163,7 +163,7 @@ TEST(Pouch, ScissorsThatCloseOnItsTautWallOpenItAndItRunsOut) {
   for (const double depth : {0.004, 0.007, 0.010}) {
     const Way way{kScissors, centre - 0.05 * along, centre - (0.0125 - depth) * along, 350, 450, 5000, {0, 0, 0}, 1.0};
     const Story story = told(strong(), way, 1600);
-    EXPECT_TRUE(told_of(story, Event::cut, -1)) << depth;
+    EXPECT_TRUE(told_of(story, Event::cut, {})) << depth;
     EXPECT_EQ(story.end.membranes[0].enclosure.leaking, 1u) << depth;
     EXPECT_LT(story.end.membranes[0].enclosure.pressure, 30) << depth;
   }
@@ -184,7 +184,7 @@ TEST(Pouch, GraspedAtItsFundusAndPulledItHoldsAndGivesBack) {
 TEST(Pouch, GraspedAtItsFundusAndPulledTooFarItTearsAndRunsOut) {
   const Story& story = pulled();
   EXPECT_GE(story.most_held, 1);
-  EXPECT_TRUE(told_of(story, Event::torn, interactions::kMembraneBase));
+  EXPECT_TRUE(told_of(story, Event::torn, BodyId::membrane(0)));
   EXPECT_GT(torn_triangles(story.end, 0), 0);
   EXPECT_EQ(story.end.membranes[0].enclosure.leaking, 1u);
   EXPECT_LT(story.end.membranes[0].enclosure.tightness, 0.5);
@@ -214,7 +214,7 @@ TEST(Pouch, AFoldOfTheGynaecologySceneTearsWhereItIsWeak) {
   const Vec3d start = m.hands[kGrasper].port + 0.5 * (middle - m.hands[kGrasper].port);
   const Story story = told(m, {kGrasper, start, middle, 500, 600, 1000, {0, 0, 3e-5}, 0.98}, 3500);
   EXPECT_GT(story.most_held, 0);
-  EXPECT_TRUE(told_of(story, Event::torn, interactions::kMembraneBase + fold));
+  EXPECT_TRUE(told_of(story, Event::torn, BodyId::membrane(size_t(fold))));
   EXPECT_GT(torn_triangles(story.end, size_t(fold)), 0);
   EXPECT_EQ(story.end.membranes[size_t(fold)].enclosure.leaking, 0u) << "nothing is enclosed";
 }

@@ -73,14 +73,14 @@ const Pull& plain() {
   return made;
 }
 
-bool has_torn(const Pull& p, std::int32_t low, std::int32_t high) {
-  return std::any_of(p.torn.begin(), p.torn.end(), [&](const Event& e) { return e.index >= low && e.index < high; });
+bool has_torn(const Pull& p, BodyKind kind) {
+  return std::any_of(p.torn.begin(), p.torn.end(), [&](const Event& e) { return e.body().is(kind); });
 }
 
 TEST(Tearing, ATubeThatIsLiftedTooFarTearsAndItsFoldTears) {
   const Pull& p = plain();
-  EXPECT_TRUE(has_torn(p, 0, interactions::kSolidBase)) << "the tube";
-  EXPECT_TRUE(has_torn(p, interactions::kMembraneBase, 2 * interactions::kMembraneBase)) << "its fold";
+  EXPECT_TRUE(has_torn(p, BodyKind::strand)) << "the tube";
+  EXPECT_TRUE(has_torn(p, BodyKind::membrane)) << "its fold";
   for (const Event& e : p.torn) EXPECT_EQ(e.tool, small::kGrasper) << "the hand that did it";
   const std::vector<std::uint8_t>& alive = p.end.strands[small::kTube].alive;
   EXPECT_GT(std::count(alive.begin(), alive.end(), 0), 0);
@@ -99,8 +99,8 @@ TEST(Tearing, TwoThreadsGiveTheSameBits) { EXPECT_EQ(pulled(false, 2).hashes, pl
 TEST(Tearing, NoGripHoldsWhatHasParted) {
   for (const interactions::ToolState& tool : plain().end.tools)
     for (int h = 0; h < tool.holds; ++h) {
-      if (tool.hold[h].body >= interactions::kSolidBase) continue;
-      EXPECT_TRUE(plain().end.strands[size_t(tool.hold[h].body)].alive[size_t(tool.hold[h].element)]);
+      if (!tool.hold[h].body.is(BodyKind::strand)) continue;
+      EXPECT_TRUE(plain().end.strands[tool.hold[h].body.index()].alive[size_t(tool.hold[h].element)]);
     }
 }
 

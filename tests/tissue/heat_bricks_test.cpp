@@ -10,21 +10,21 @@
 namespace trocar::tissue::test {
 namespace {
 
-HeatSource coagulating(Vec3d at, std::int32_t body = 0, double watts = 15) {
+HeatSource coagulating(Vec3d at, BodyId body = BodyId::strand(0), double watts = 15) {
   return {.body = body, .a = at, .b = at, .radius = 1e-3, .reach = 2, .watts = watts};
 }
 
 /// A hook that wanders, stops, and comes back.
 HeatSource wandering(int tick) {
   const double x = 4e-3 * ((tick / 500) % 5) - 8e-3;
-  return coagulating({x, 1e-3 * (tick / 2500), -0.3e-3}, 0, tick % 2500 < 1500 ? 20 : 0);
+  return coagulating({x, 1e-3 * (tick / 2500), -0.3e-3}, BodyId::strand(0), tick % 2500 < 1500 ? 20 : 0);
 }
 
 TEST(HeatBricks, CooledTissueSleepsAndKeepsWhatHappenedToIt) {
   Heated h(HeatDescription{}, half_space());
   const HeatSource q = coagulating(kJustBelow);
   h.run(2, {&q, 1});
-  const HeatReading hot = reading(h.m, h.s, 0, kTopCells);
+  const HeatReading hot = reading(h.m, h.s, BodyId::strand(0), kTopCells);
   EXPECT_GT(hot.coagulated, 0.99f);
   EXPECT_LT(hot.water, 0.9f);
   h.run(150);
@@ -35,20 +35,20 @@ TEST(HeatBricks, CooledTissueSleepsAndKeepsWhatHappenedToIt) {
   EXPECT_LT(h.s.books.dropped, 0.15 * h.s.books.given);
   std::printf("    dropped by falling asleep: %.2f %% of what was given, conducted beyond: %.2f %%\n",
               100 * h.s.books.dropped / h.s.books.given, 100 * h.s.books.conducted / h.s.books.given);
-  const HeatReading asleep = reading(h.m, h.s, 0, kTopCells);
+  const HeatReading asleep = reading(h.m, h.s, BodyId::strand(0), kTopCells);
   EXPECT_EQ(asleep.temperature, 37);
   EXPECT_LT(asleep.water, hot.water + 1e-6f);
   EXPECT_GE(asleep.coagulated, hot.coagulated);
 
-  const HeatSource little = coagulating(kJustBelow, 0, 2);
+  const HeatSource little = coagulating(kJustBelow, BodyId::strand(0), 2);
   h.run(0.1, {&little, 1});
   EXPECT_GT(bricks_awake(h.s), 0);
-  EXPECT_GE(reading(h.m, h.s, 0, kTopCells).coagulated, asleep.coagulated);
+  EXPECT_GE(reading(h.m, h.s, BodyId::strand(0), kTopCells).coagulated, asleep.coagulated);
 }
 
 TEST(HeatBricks, WhatWasOnlyWarmIsForgotten) {
   Heated h(HeatDescription{}, half_space());
-  const HeatSource q = coagulating(kJustBelow, 0, 0.05);
+  const HeatSource q = coagulating(kJustBelow, BodyId::strand(0), 0.05);
   h.run(3, {&q, 1});
   EXPECT_GT(h.celsius(kTopCells), 39);
   EXPECT_GT(bricks_used(h.s), 0);
@@ -60,20 +60,20 @@ TEST(HeatBricks, WhatWasOnlyWarmIsForgotten) {
 TEST(HeatBricks, WhereABrickLiesInMemoryChangesNoBit) {
   Heated alone(HeatDescription{}, half_space()), crowded(HeatDescription{}, half_space());
   for (int t = 0; t < 400; ++t) {
-    const HeatSource other = coagulating({0.011, -0.007, -1e-3}, 3);
+    const HeatSource other = coagulating({0.011, -0.007, -1e-3}, BodyId::strand(3));
     crowded.tick({&other, 1});
   }
   for (int t = 0; t < 400; ++t) alone.tick();
   for (int t = 0; t < 6000; ++t) {
-    const HeatSource both[] = {coagulating({0.011, -0.007, -1e-3}, 3, t % 1000 < 300 ? 15 : 0), wandering(t)};
+    const HeatSource both[] = {coagulating({0.011, -0.007, -1e-3}, BodyId::strand(3), t % 1000 < 300 ? 15 : 0), wandering(t)};
     alone.tick({both + 1, 1});
     crowded.tick(both);
   }
   int compared = 0;
   for (double x = -0.012; x < 0.012; x += 0.4e-3)
     for (double z = -4e-3; z < 0; z += 0.4e-3) {
-      const HeatReading a = reading(alone.m, alone.s, 0, {x, 0.5e-3, z});
-      const HeatReading b = reading(crowded.m, crowded.s, 0, {x, 0.5e-3, z});
+      const HeatReading a = reading(alone.m, alone.s, BodyId::strand(0), {x, 0.5e-3, z});
+      const HeatReading b = reading(crowded.m, crowded.s, BodyId::strand(0), {x, 0.5e-3, z});
       ASSERT_EQ(std::memcmp(&a, &b, sizeof a), 0) << x << " " << z;
       compared += a.temperature > 40;
     }
@@ -145,7 +145,7 @@ TEST(HeatBricks, FullMeansSaidAndBookedNotLost) {
   d.bricks = 6;
   d.awake = 4;
   Heated h(d);
-  const HeatSource q = coagulating({0, 0, 0}, 0, 20);
+  const HeatSource q = coagulating({0, 0, 0}, BodyId::strand(0), 20);
   h.run(8, {&q, 1});
   const HeatSource elsewhere = coagulating({0.01, 0.01, 0.01});
   for (int t = 0; t < 8; ++t) h.tick({&elsewhere, 1});
@@ -165,7 +165,7 @@ TEST(HeatBricks, FullMeansSaidAndBookedNotLost) {
 TEST(HeatBricks, TissueIsAskedForOncePerBrick) {
   static int asked;
   asked = 0;
-  const TissueShape counting{nullptr, [](const void* c, std::int32_t body, Vec3d corner, double cell,
+  const TissueShape counting{nullptr, [](const void* c, BodyId body, Vec3d corner, double cell,
                                          std::span<std::uint8_t> tissue) noexcept {
                                ++asked;
                                fill_below(c, body, corner, cell, tissue);
@@ -179,7 +179,7 @@ TEST(HeatBricks, TissueIsAskedForOncePerBrick) {
 
 TEST(HeatBricks, EveryTickDoesItsShare) {
   Heated h(HeatDescription{}, half_space());
-  const HeatSource q = coagulating(kJustBelow, 0, 20);
+  const HeatSource q = coagulating(kJustBelow, BodyId::strand(0), 20);
   h.run(8, {&q, 1});
   int least = 1000, most = 0, all = 0;
   for (int t = 0; t < h.m.period; ++t) {
@@ -198,8 +198,8 @@ TEST(HeatBricks, WarmthOfTheEdgeThatIsNotComputedHardlyMatters) {
   fine.sleep = 0.02;
   fine.bricks = fine.awake = 1024;
   Heated a(coarse, half_space()), b(fine, half_space());
-  const HeatSource q = coagulating(kJustBelow, 0, 15);
-  const HeatSource off = coagulating(kJustBelow, 0, 0);
+  const HeatSource q = coagulating(kJustBelow, BodyId::strand(0), 15);
+  const HeatSource off = coagulating(kJustBelow, BodyId::strand(0), 0);
   for (int t = 0; t < 10000; ++t) {
     a.tick({t < 4000 ? &q : &off, 1});
     b.tick({t < 4000 ? &q : &off, 1});

@@ -21,11 +21,11 @@ Track drawn_through(double watts) {
   o.panel.yellow_watts = watts;
   for (int t = 0; t < 2500; ++t) {
     const double x = -0.01 + 8e-6 * t;
-    o.press(kYellow, {.body = 0, .a = {x, 0, -0.1e-3}, .b = {x, 0, -2e-3}});
+    o.press(kYellow, {.body = BodyId::strand(0), .a = {x, 0, -0.1e-3}, .b = {x, 0, -2e-3}});
   }
   EXPECT_EQ(o.flags, 0u);
   const Vec3d middle{-2e-3, 0, -1e-3};
-  const HeatReading r = reading(o.m, o.s, 0, middle);
+  const HeatReading r = reading(o.m, o.s, BodyId::strand(0), middle);
   return {double(r.coagulated), 2 * o.coagulated_to(middle, {0, 1, 0}), double(r.parted), double(r.peak)};
 }
 
@@ -59,18 +59,18 @@ TEST(Calibration, DeadTissueReachesAsFarAsReadingsSay) {
   Operated o(HeatDescription{}, half_space());
   o.press_for(2, kBlue, tip_at(kJustBelow));
   const std::array<Treated, 1> tip{{{kJustBelow, kJustBelow}}}, aside{{{kJustBelow, kJustBelow + Vec3d{0.02, 0, 0}}}};
-  const double reach = spread(o.m, o.s, 0, tip);
+  const double reach = spread(o.m, o.s, BodyId::strand(0), tip);
   EXPECT_NEAR(reach, o.coagulated_to(kTopCells), 1.5 * o.m.cell) << "[m]";
-  EXPECT_LE(spread(o.m, o.s, 0, aside), reach) << "what lies along the way of an electrode is nearer to it";
-  EXPECT_EQ(spread(o.m, o.s, 1, tip), 0) << "another body";
-  EXPECT_EQ(spread(o.m, o.s, 0, {}), 0);
+  EXPECT_LE(spread(o.m, o.s, BodyId::strand(0), aside), reach) << "what lies along the way of an electrode is nearer to it";
+  EXPECT_EQ(spread(o.m, o.s, BodyId::strand(1), tip), 0) << "another body";
+  EXPECT_EQ(spread(o.m, o.s, BodyId::strand(0), {}), 0);
 }
 
 TEST(Calibration, BipolarJawsSpread45DegreesAsMeasuredInOneSecondAndLessInTwo) {
   Operated o(HeatDescription{}, half_space());
   o.e = bipolar_jaws();
   o.panel.bipolar_watts = 60;
-  const ElectrodeContact c{.body = 0, .a = {0, 0, -0.3e-3}, .b = {0, 0, -2.7e-3}};
+  const ElectrodeContact c{.body = BodyId::strand(0), .a = {0, 0, -0.3e-3}, .b = {0, 0, -2.7e-3}};
   const Vec3d middle{0, 0, -1.5e-3};
   o.press_for(1, kBlue, c);
   const double one = o.spread_of(45, middle);

@@ -62,7 +62,7 @@ TEST(Electrode, ItsPowerFallsAsTissueDries) {
     if (bipolar) o.e = bipolar_jaws();
     o.panel.blue_watts = o.panel.bipolar_watts = 60;
     const ElectrodeContact c =
-        bipolar ? ElectrodeContact{.body = 0, .a = {0, 0, -0.3e-3}, .b = {0, 0, -2.7e-3}} : tip_at(kJustBelow);
+        bipolar ? ElectrodeContact{.body = BodyId::strand(0), .a = {0, 0, -0.3e-3}, .b = {0, 0, -2.7e-3}} : tip_at(kJustBelow);
     o.press_for(0.104, kBlue, c);
     const double z_wet = o.last.impedance, watts = o.last.tissue;
     o.press_for(bipolar ? 4 : 10, kBlue, c);
@@ -147,7 +147,7 @@ TEST(Electrode, SticksToCharAndNotToBoilingTissue) {
   EXPECT_GT(stuck_at, 1);
   EXPECT_LE(hottest_free, 150.5);
   EXPECT_NEAR(o.last.tear_force, 2, 0.05);
-  EXPECT_GT(look(reading(o.m, o.s, 0, kTopCells)).char_, 0.5f);
+  EXPECT_GT(look(reading(o.m, o.s, BodyId::strand(0), kTopCells)).char_, 0.5f);
   tear_off(o.es);
   o.press_for(0.1, {}, {});
   EXPECT_EQ(o.last.tear_force, 0);
@@ -157,7 +157,7 @@ TEST(Electrode, OnlyAContinuousWaveParts) {
   for (const FootSwitch pedals : {kYellow, kBlue}) {
     Operated o(HeatDescription{}, half_space());
     o.press_for(1, pedals, tip_at(kJustBelow));
-    const HeatReading r = reading(o.m, o.s, 0, kTopCells);
+    const HeatReading r = reading(o.m, o.s, BodyId::strand(0), kTopCells);
     EXPECT_GT(r.coagulated, 0.99f);
     EXPECT_EQ(r.parted, pedals.yellow ? 1 : 0);
   }

@@ -12,13 +12,13 @@
 namespace trocar::tissue::test {
 
 /// Tissue below z = 0.
-inline void fill_below(const void*, std::int32_t, Vec3d corner, double cell, std::span<std::uint8_t> tissue) noexcept {
+inline void fill_below(const void*, BodyId, Vec3d corner, double cell, std::span<std::uint8_t> tissue) noexcept {
   for (int c = 0; c < kBrickCells; ++c) tissue[c] = corner.z + (c / (kBrickSide * kBrickSide) + 0.5) * cell < 0;
 }
 inline TissueShape half_space() { return {nullptr, fill_below}; }
 
 /// One brick of tissue, [0, 8 cells)^3, in gas.
-inline void fill_cube(const void*, std::int32_t, Vec3d corner, double cell, std::span<std::uint8_t> tissue) noexcept {
+inline void fill_cube(const void*, BodyId, Vec3d corner, double cell, std::span<std::uint8_t> tissue) noexcept {
   const bool inside =
       std::fabs(corner.x) < 0.5 * cell && std::fabs(corner.y) < 0.5 * cell && std::fabs(corner.z) < 0.5 * cell;
   std::fill(tissue.begin(), tissue.end(), std::uint8_t(inside));
@@ -44,7 +44,7 @@ struct Heated {
   void run(double seconds, std::span<const HeatSource> sources = {}) {
     for (int t = 0; t < int(seconds / m.tick + 0.5); ++t) tick(sources);
   }
-  double celsius(Vec3d at, std::int32_t body = 0) const { return double(reading(m, s, body, at).temperature); }
+  double celsius(Vec3d at, BodyId body = BodyId::strand(0)) const { return double(reading(m, s, body, at).temperature); }
   /// Given over booked, less 1. Only between steps.
   double imbalance() const {
     const HeatBooks& b = s.books;
@@ -56,7 +56,7 @@ struct Heated {
   double spread(Vec3d from, Vec3d way, double above, What what) const {
     double farthest = 0;
     for (double r = 0; r < 0.03; r += 2e-5)
-      if (double(what(reading(m, s, 0, from + r * way))) > above) farthest = r;
+      if (double(what(reading(m, s, BodyId::strand(0), from + r * way))) > above) farthest = r;
     return farthest;
   }
   double spread_of(double celsius_above, Vec3d from, Vec3d way = {1, 0, 0}) const {
@@ -107,6 +107,6 @@ struct Operated : Heated {
   }
 };
 inline constexpr Vec3d kJustBelow{0, 0, -0.1e-3}, kTopCells{0, 0, -0.25e-3};
-inline ElectrodeContact tip_at(Vec3d at) { return {.body = 0, .a = at, .b = at}; }
+inline ElectrodeContact tip_at(Vec3d at) { return {.body = BodyId::strand(0), .a = at, .b = at}; }
 
 }  // namespace trocar::tissue::test

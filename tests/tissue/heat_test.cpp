@@ -141,7 +141,7 @@ TEST(Heat, SixtyHundredAndDryTakeTheirEnergies) {
   const Vec3d middle = q.a;
   const double to_60 = energy_until(h, q, [&] { return h.celsius(middle) >= 60; });
   const double to_100 = energy_until(h, q, [&] { return h.celsius(middle) >= 99.9999; });
-  const double to_dry = energy_until(h, q, [&] { return reading(h.m, h.s, 0, middle).water < 1e-4f; });
+  const double to_dry = energy_until(h, q, [&] { return reading(h.m, h.s, BodyId::strand(0), middle).water < 1e-4f; });
   expect_within("to 60 C, 0.088 J/mm^3", "f32", to_60 / 0.088 - 1, 0.01);
   expect_within("to 100 C, 0.24 J/mm^3", "f32", to_100 / 0.24 - 1, 0.01);
   expect_within("from there until dry, 1.68 J/mm^3", "f32", (to_dry - to_100) / 1.68 - 1, 0.01);
@@ -159,7 +159,7 @@ TEST(Heat, BoilingHoldsAHundredDegreesUntilDry) {
   for (; water > 1e-4f && ticks < 100000; ++ticks) {
     ASSERT_NEAR(h.celsius(middle), 100, 1e-3);
     h.tick({&q, 1});
-    const float now = reading(h.m, h.s, 0, middle).water;
+    const float now = reading(h.m, h.s, BodyId::strand(0), middle).water;
     ASSERT_LE(now, water);
     water = now;
   }
@@ -181,7 +181,7 @@ TEST(Heat, DamageAtAConstantTemperatureIsArrheniusTimesTime) {
     const double wanted = std::exp(std::log(7.4e39) - 257.7e3 / (8.314462618 * (celsius + 273.15))) * seconds;
     expect_within("damage of 10 s at " + std::to_string(int(celsius)) + " C", "f32",
                   (double(h.s.damage[0]) - before) / wanted - 1, 0.005);
-    EXPECT_NEAR(double(reading(h.m, h.s, 0, q.a).coagulated), 1 - std::exp(-double(h.s.damage[0])), 1e-5);
+    EXPECT_NEAR(double(reading(h.m, h.s, BodyId::strand(0), q.a).coagulated), 1 - std::exp(-double(h.s.damage[0])), 1e-5);
   }
   EXPECT_EQ(damage_rate({}, 42.9), 0);
 }
@@ -218,7 +218,7 @@ TEST(Heat, RefusesNonsense) {
   const HeatSource in_gas{.a = {0, 0, 0.02}, .b = {0, 0, 0.02}, .watts = 1};
   EXPECT_EQ(advance(h.m, {&in_gas, 1}, h.shape, h.s, h.w).flags, std::uint32_t(HeatReport::kMissed));
   EXPECT_EQ(h.s.books.given, 0);
-  EXPECT_EQ(reading(h.m, h.s, 0, {nan, 0, 0}).temperature, 37);
+  EXPECT_EQ(reading(h.m, h.s, BodyId::strand(0), {nan, 0, 0}).temperature, 37);
   EXPECT_THROW(build(HeatDescription{.cell = 1e-3}), std::invalid_argument);
   EXPECT_THROW(build(HeatDescription{.cell = 0.1e-3, .period = 64}), std::invalid_argument);
   EXPECT_THROW(build(HeatDescription{.sleep = 2}), std::invalid_argument);

@@ -82,7 +82,7 @@ TEST(NoAllocation, WhereCurrentHeatsTissueThatBoilsWakesAndSleeps) {
     const Vec3d at{2e-3 * (t / 1000), 0, -0.1e-3};
     o.press({.yellow = false, .blue = t < 6000}, t < 8000 ? test::tip_at(at) : ElectrodeContact{});
   }
-  reading(o.m, o.s, 0, {0, 0, 0});
+  reading(o.m, o.s, BodyId::strand(0), {0, 0, 0});
   EXPECT_EQ(g_allocations, before);
   EXPECT_TRUE(o.flags & HeatReport::kAwakeFull);
   EXPECT_GT(o.boiled, 1e-6);

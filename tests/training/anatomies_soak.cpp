@@ -5,8 +5,9 @@
 #include <trocar/scene/compile/compile.hpp>
 #include <trocar/scene/description/vary.hpp>
 #include <trocar/scene/files/reader.hpp>
+#include <trocar/sim/stages/step.hpp>
 #include <trocar/training/exercise/monitor.hpp>
-#include <trocar/training/expert/surgeon.hpp>
+#include <trocar/training/expert/expert.hpp>
 
 using namespace trocar;
 using namespace trocar::training;
@@ -22,12 +23,13 @@ TEST_P(Anatomy, TheSurgeonPassesOnBothSides) {
   scene::vary(d, seed);
   const sim::Model m = scene::compile(d);
   Monitor monitor(e, m);
-  Surgeon surgeon(e, m, {{0.0002, seed}, ""});
+  const std::unique_ptr<Expert> surgeon = make_expert(e, m, {{0.0002, seed}}, seed);
   sim::State s = sim::initial_state(m);
   sim::Work w = sim::make_work(m);
-  while (!surgeon.done() && s.tick < 500000) {
-    const sim::StepReport report = step(m, surgeon.next(m, s), s, w);
+  while (!surgeon->done() && s.tick < 500000) {
+    const sim::StepReport report = step(m, surgeon->next(m, s), s, w);
     ASSERT_TRUE(report.fine()) << "tick " << s.tick;
+    surgeon->after(m, s, report);
     monitor.update(m, s, report);
   }
   for (const StepStatus& step : monitor.steps()) EXPECT_TRUE(step.done) << step.name;

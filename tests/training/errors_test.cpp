@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <trocar/sim/model/bodies.hpp>
+
 #include "two_sides.hpp"
 
 using namespace trocar;
@@ -85,11 +87,7 @@ void wave(Attempt& a, int hand, double speed, double time) {
   }
 }
 
-int pad(const Attempt& a) {
-  for (size_t i = 0; i < a.model.solids.size(); ++i)
-    if (a.model.solids[i].name == "pad") return interactions::kSolidBase + int(i);
-  return -1;
-}
+BodyId pad(const Attempt& a) { return sim::body_of(a.model, "pad"); }
 
 const Mistake kMistakes[] = {
     {"E1",

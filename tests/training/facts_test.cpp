@@ -26,13 +26,18 @@ constexpr double kDegree = 3.14159265358979323846 / 180;
 Argument number(double v) { return {true, -1, v, v, {}, {}}; }
 Argument range(double low, double high) { return {true, -1, low, high, {}, {}}; }
 Argument word(const char* w) { return {true, -1, 0, 0, w, {}}; }
-Argument bodies(std::vector<std::int32_t> list) { return {true, -1, 0, 0, {}, std::move(list)}; }
+Argument bodies(const std::vector<int>& strands) {
+  Argument a{true, -1, 0, 0, {}, {}};
+  for (const int i : strands) a.bodies.push_back(BodyId::strand(size_t(i)));
+  return a;
+}
 
 /// A State that a test writes, and facts of it.
 struct World {
-  const sim::Model& model = two_sides::model();
+  const sim::Model& model;
   sim::State state = sim::initial_state(model);
 
+  explicit World(const sim::Model& of = two_sides::model()) : model(of) {}
   Look look() const { return {model, state}; }
   Argument named(ArgumentKind kind, const std::string& name) const {
     Argument a{true, -1, 0, 0, {}, {}};
@@ -53,10 +58,10 @@ struct World {
       if (t.name.rfind(name, 0) == 0)
         for (int i = t.first; i < t.first + t.count; ++i) state.seen[size_t(i)] = seen;
   }
-  void hold(int body, double pull) {
+  void hold(int strand, double pull) {
     interactions::ToolState& tool = state.tools[kGrasper];
     tool.holds = 1;
-    tool.hold[0].body = body;
+    tool.hold[0].body = BodyId::strand(size_t(strand));
     tool.pull[2] = pull;
     tool.pinch = 5;
   }
@@ -140,6 +145,41 @@ TEST(Facts, AMarkLiesInThePictureOnlyWhileItIsSeen) {
   EXPECT_GT(w.value(kMarkOffCentre, pad).number, off) << "farther from the middle";
   expect_value(w.value(kMarkDistance, pad), 0.05, 1e-6);
   EXPECT_UNKNOWN(w.value(kMarkFacing, pad)) << "a closed surface faces every way";
+}
+
+/// The small scene with a disc and a stripe around the left tube.
+const sim::Model& marked() {
+  static const sim::Model compiled = [] {
+    scene::Description d = small::description();
+    d.strands = {two_sides::tube("tube_left", 1), two_sides::tube("tube_right", -1), small::cord()};
+    d.membranes.clear();
+    d.vessels.clear();
+    scene::MarkSetting disc;
+    disc.name = "disc";
+    disc.place = {0, 0, 0.02};
+    disc.normal = {0, 1, 1};
+    scene::MarkSetting stripe;
+    stripe.name = "stripe";
+    stripe.on = "tube_left";
+    stripe.stripe = true;
+    stripe.s = 0.020;
+    stripe.size = 0.001;
+    d.marks = {disc, stripe};
+    return scene::compile(d);
+  }();
+  return compiled;
+}
+
+TEST(Facts, ADiscIsAsFarAsItsMiddleAndFacesWhereItsNormalDoes) {
+  World w{marked()};
+  w.see("disc", true);
+  w.aim("disc", {0, 0, 0.05});
+  expect_value(w.value(kMarkDistance, {w.mark("disc")}), 0.05, 1e-6);
+  expect_value(w.value(kMarkFacing, {w.mark("disc")}), 45 * kDegree, 1e-5);
+  w.aim("disc", {0, 0.03, 0.03});
+  expect_value(w.value(kMarkFacing, {w.mark("disc")}), 0, 1e-5);
+  w.see("stripe", true);
+  EXPECT_UNKNOWN(w.value(kMarkFacing, {w.mark("stripe")})) << "it goes all around";
 }
 
 TEST(Facts, TheHorizonIsWhereThePictureIsTurnedTo) {
@@ -342,7 +382,7 @@ TEST(Facts, WhatIsPartedIsAShareOfTheSurface) {
   World w;
   const Argument organ = w.named(ArgumentKind::body, "organ");
   expect_value(w.value(kBodyParted, {organ}), 0);
-  std::vector<std::uint8_t>& open = w.state.parted[size_t(organ.index - interactions::kSolidBase)];
+  std::vector<std::uint8_t>& open = w.state.parted[organ.body().index()];
   for (size_t i = 0; i < open.size() / 2; ++i) open[i] = 1;
   expect_value(w.value(kBodyParted, {organ}), 0.5, 0.01);
   EXPECT_UNKNOWN(w.value(kBodyParted, {w.named(ArgumentKind::body, "cord")}));
@@ -350,6 +390,7 @@ TEST(Facts, WhatIsPartedIsAShareOfTheSurface) {
 
 /// Events of one kind that a State brings.
 struct Noticed : World {
+  explicit Noticed(const sim::Model& of = two_sides::model()) : World(of) {}
   std::unique_ptr<Noticer> noticer;
   Happenings seen;
   void watch(const EventKind& kind, const Arguments& a = {}) {
@@ -414,7 +455,7 @@ TEST(Events, AClipHasAPlaceAndAMannerOrIsLost) {
   interactions::Clip& c = n.clip(kLeft, 0.016);
   c.theta = 0.1;
   EXPECT_EQ(n.tick(), 1);
-  EXPECT_EQ(n.seen.list[0].body, kLeft);
+  EXPECT_EQ(n.seen.list[0].body, BodyId::strand(kLeft));
   expect_value(n.attribute(kClipped, "s_mm"), 0.016);
   expect_value(n.attribute(kClipped, "angle_deg"), 0.1);
   expect_value(n.attribute(kClipped, "cover"), 1);
@@ -428,6 +469,41 @@ TEST(Events, AClipHasAPlaceAndAMannerOrIsLost) {
   EXPECT_EQ(lost.tick(), 1);
   n.clip(-1, 0);
   EXPECT_EQ(n.tick(), 0) << "a clip that is lost is on nothing";
+}
+
+TEST(Events, AClipIsAWayFromTheStripeAndFromClipsThatWereThereBefore) {
+  Noticed n(marked());
+  n.watch(kClipped);
+  n.clip(kLeft, 0.0212);
+  EXPECT_EQ(n.tick(), 1);
+  expect_value(n.attribute(kClipped, "to_mark_mm"), 0.0012);
+  EXPECT_UNKNOWN(n.attribute(kClipped, "to_clip_mm"));
+  n.clip(kLeft, 0.0197);
+  EXPECT_EQ(n.tick(), 1);
+  expect_value(n.attribute(kClipped, "to_mark_mm"), 0.0003);
+  expect_value(n.attribute(kClipped, "to_clip_mm"), 0.0015);
+  n.clip(kCord, 0.0197);
+  EXPECT_EQ(n.tick(), 1);
+  EXPECT_UNKNOWN(n.attribute(kClipped, "to_mark_mm")) << "the cord has no stripe";
+  EXPECT_UNKNOWN(n.attribute(kClipped, "to_clip_mm"));
+}
+
+TEST(Events, AMarkThatWasHeldInTheMiddleIsLostOnceItIsOutOfView) {
+  Noticed n(marked());
+  n.watch(kMarkLost, {n.mark("disc"), number(0.1), number(0.5), number(0.2)});
+  n.see("disc", true);
+  const Vec3d disc = place_of_mark(n.model, n.state, n.mark("disc").index);
+  n.aim("disc", 0.05 * normalised(n.model.scope.port - disc));
+  EXPECT_EQ(n.tick(400), 0);
+  n.see("disc", false);
+  EXPECT_EQ(n.tick(1000), 0) << "it was in the middle in passing only";
+  n.see("disc", true);
+  EXPECT_EQ(n.tick(600), 0);
+  n.see("disc", false);
+  EXPECT_EQ(n.tick(150), 0) << "out of view for a moment";
+  EXPECT_EQ(n.tick(100), 1);
+  EXPECT_EQ(*n.seen.list[0].name, "disc");
+  EXPECT_EQ(n.tick(1000), 0) << "told once";
 }
 
 TEST(Events, ACutKnowsTheClipsBesideIt) {
@@ -456,7 +532,7 @@ TEST(Events, ACutKnowsTheClipsBesideIt) {
   organ = {};
   organ.solid = 0;
   EXPECT_EQ(n.tick(), 1);
-  EXPECT_EQ(n.seen.list[0].body, interactions::kSolidBase);
+  EXPECT_EQ(n.seen.list[0].body, BodyId::organ(0));
   EXPECT_UNKNOWN(n.attribute(kCut, "fraction"));
 }
 

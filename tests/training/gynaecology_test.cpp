@@ -163,7 +163,7 @@ TEST(Gynaecology, BearsWildHands) {
   for (int t = 0; t < 8000; ++t) {
     in = abusive(random, m, in);
     const StepReport report = step(m, in, s, w);
-    ASSERT_TRUE(report.fine()) << "tick " << t << " body " << report.first_bad_body;
+    ASSERT_TRUE(report.fine()) << "tick " << t << " body " << report.first_bad_body.code();
     events += report.event_count;
     if (t % 20 != 0) continue;
     const Moved now = moved(m, s);

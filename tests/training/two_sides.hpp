@@ -3,9 +3,12 @@
 // goes.
 #pragma once
 
+#include <nlohmann/json.hpp>
+
 #include <trocar/training/exercise/monitor.hpp>
 
 #include "../sim/small_scene.hpp"
+#include "changed_exercise.hpp"
 
 namespace trocar::two_sides {
 
@@ -34,20 +37,24 @@ inline const sim::Model& model() {
   return compiled;
 }
 
-/// The shipped exercise's thresholds, steps and penalties, on the small scene's bodies.
+/// The shipped exercise's file with the small scene's bodies in it, and whatever else a test changes.
+inline training::Exercise exercise_with(const std::vector<std::pair<std::string, std::string>>& changes = {}) {
+  std::vector<std::pair<std::string, std::string>> all{
+      {"\"of\": \"uterus\"", "\"of\": \"organ\""},
+      {"\"ovary\": \"ovary_left\"", "\"ovary\": \"pad\""},
+      {"\"ovary\": \"ovary_right\"", "\"ovary\": \"pad\""},
+      {"\"mesosalpinx\": \"mesosalpinx_left\"", "\"mesosalpinx\": []"},
+      {"\"mesosalpinx\": \"mesosalpinx_right\"", "\"mesosalpinx\": []"},
+      {R"("delicate": ["$side.tube", "ovary_left", "ovary_right", "mesosalpinx_left", "mesosalpinx_right"])",
+       R"("delicate": ["$side.tube"])"},
+      {R"({"name": "rectosigmoid", "title": "the bowel"}],)", R"({"name": "pad", "title": "the pad"}],)"},
+      {R"({"name": "round_ligament_left", "title": "the left round ligament"})",
+       R"({"name": "cord", "title": "the cord"})"}};
+  all.insert(all.end(), changes.begin(), changes.end());
+  return training::read_exercise(kChanged, changed_exercise("gynaecology/sterilisation.json", all));
+}
 inline const training::Exercise& exercise() {
-  static const training::Exercise made = [] {
-    training::Exercise e = training::read_exercise(TROCAR_SOURCE_DIR "/scenes/gynaecology/sterilisation.json");
-    e.goal.uterus = "organ";
-    for (training::Side& side : e.goal.sides) {
-      side.ovary = "pad";
-      side.mesosalpinx.clear();
-    }
-    e.goal.forbidden = {{"cord", "the cord", {}}};
-    e.goal.delicate = {};
-    e.goal.bowel = {{"pad", "the pad", {}}};
-    return e;
-  }();
+  static const training::Exercise made = exercise_with();
   return made;
 }
 
@@ -57,7 +64,8 @@ struct Attempt {
   sim::State state = sim::initial_state(model);
   training::Monitor monitor;
 
-  explicit Attempt(training::Mode mode = training::Mode::assessed) : monitor(exercise(), model, mode) {
+  explicit Attempt(training::Mode mode = training::Mode::assessed, const training::Exercise& of = exercise())
+      : monitor(of, model, mode) {
     for (std::uint8_t& seen : state.seen) seen = 1;
   }
 
@@ -84,7 +92,7 @@ struct Attempt {
     for (std::uint8_t& seen : state.seen) seen = 0;
   }
 
-  void hold(int body, int element, double pull) {
+  void hold(BodyId body, int element, double pull) {
     interactions::ToolState& grasper = state.tools[kGrasper];
     grasper.holds = 1;
     grasper.hold[0].body = body;
@@ -93,7 +101,7 @@ struct Attempt {
     grasper.pinch = 5;
   }
   void hold_tube(int tube, double s, double pull) {
-    hold(tube, interactions::place_at(model.strand_bodies[size_t(tube)], s).element, pull);
+    hold(BodyId::strand(size_t(tube)), interactions::place_at(model.strand_bodies[size_t(tube)], s).element, pull);
   }
   void let_go() {
     state.tools[kGrasper].holds = 0;
@@ -166,6 +174,13 @@ struct Attempt {
     for (const training::StepStatus& s : monitor.steps())
       if (s.task == task && (s.side == side || s.side.empty())) return s.done;
     return false;
+  }
+  /// What the result tells of a side.
+  nlohmann::json detail(const std::string& side, const std::string& name) const {
+    const nlohmann::json result = nlohmann::json::parse(monitor.result_json());
+    for (const auto& d : result["details"])
+      if (d["side"] == side && d.contains(name)) return d[name];
+    return nullptr;
   }
   std::vector<std::string> codes() const {
     std::vector<std::string> made;

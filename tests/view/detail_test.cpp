@@ -170,14 +170,14 @@ TEST_F(DetailPictures, WhatAnInstrumentHoldsOrDentsIsInFull) {
     return -1;
   };
   sim::State state = sim::initial_state(pelvis());
-  const int tube = pelvis().strand_index("tube_left");
+  const BodyId tube = sim::body_of(pelvis(), "tube_left");
   EXPECT_GT(level_of("tube_left", state), 0);
   EXPECT_GT(level_of("uterus", state), 0);
   state.tools[0].holds = 1;
   state.tools[0].hold[0].body = tube;
   EXPECT_EQ(level_of("tube_left", state), 0);
   EXPECT_GT(level_of("uterus", state), 0);
-  state.tools[0].hold[0].body = interactions::kSolidBase + pelvis().organ_index("uterus");
+  state.tools[0].hold[0].body = sim::body_of(pelvis(), "uterus");
   EXPECT_EQ(level_of("uterus", state), 0);
   EXPECT_GT(level_of("tube_left", state), 0);
   state.tools[0].holds = 0;

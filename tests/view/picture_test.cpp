@@ -367,7 +367,7 @@ TEST(Drape, EndsBelowWhatIsAroundAndFollowsItsOrgan) {
   auto backend = render::make_null_backend();
   const int bladder = solid_with_look("bladder");
   ASSERT_GE(bladder, 0);
-  ASSERT_TRUE(look("bladder").draped);
+  ASSERT_TRUE(look(pelvis(), "bladder").has(Look::Generator::drape));
   std::vector<OrganDrawing> organs = drawn_organs(*backend);
   Drape drape(pelvis(), bladder, organs, *backend);
   const std::vector<Vec3f> before = drape.buffer().positions;
@@ -453,7 +453,7 @@ TEST(InstrumentShapes, ASleeveLetsEveryInstrumentOfItsHandThrough) {
     double widest = 0;
     for (const interactions::ToolModel& tool : hand.rack) widest = std::max(widest, tool.shaft_radius);
     for (const InstrumentPart& part : sleeve_parts(widest, 0.03)) {
-      EXPECT_NE(look(part.look).name, "neutral");
+      EXPECT_NE(look(pelvis(), part.look).name, "neutral");
       float reach = -1;
       for (const Vec3f& p : part.mesh.positions) {
         reach = std::max(reach, p.z);
@@ -486,7 +486,7 @@ TEST(Shapes, APlateWithAWindowIsOneClosedSurfaceWithBrokenEdges) {
 }
 
 TEST(FoldPattern, IsFatAlongTheRootAndSheerBetween) {
-  const render::Material& m = look("mesosalpinx").material;
+  const render::Material& m = look(pelvis(), "mesosalpinx").material;
   EXPECT_TRUE(m.arcade);
   EXPECT_FLOAT_EQ(m.vessel_tile, float(kFoldTile));
   int root = 0, middle = 0, border = 0;

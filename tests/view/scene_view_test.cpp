@@ -431,11 +431,11 @@ TEST(HeatMarks, WhatIsCoagulatedIsBurntThereAndNowhereElse) {
   sim::State state = sim::initial_state(m);
   const int uterus = m.organ_index("uterus");
   const tissue::Skin& skin = m.skin(uterus);
-  HeatMarks marks(m, interactions::kSolidBase + uterus, below_skin(skin));
+  HeatMarks marks(m, BodyId::organ(std::size_t(uterus)), below_skin(skin));
   EXPECT_FALSE(marks.update(state));
   const Vec3d at = vec_cast<double>(skin.rest[0]);
   tissue::HeatSource source;
-  source.body = interactions::kSolidBase + uterus;
+  source.body = BodyId::organ(std::size_t(uterus));
   source.a = source.b = at;
   source.radius = 1.5e-3;
   source.watts = 20;
@@ -608,7 +608,7 @@ TEST(InstrumentShapes, PartsStayWithinTheirTrocarAndFaceOut) {
   for (const sim::HandModel& hand : bleeding().hands)
     for (const interactions::ToolModel& tool : hand.rack)
       for (const InstrumentPart& part : instrument_parts(tool)) {
-        EXPECT_NE(look(part.look).name, "neutral") << part.look;
+        EXPECT_NE(look(pelvis(), part.look).name, "neutral") << part.look;
         const geometry::TriMesh mesh = welded(part.mesh);
         EXPECT_GT(geometry::volume(mesh), 0) << tool.name;
         for (const Vec3f& p : part.mesh.positions) {
@@ -627,7 +627,7 @@ TEST(InstrumentShapes, ASuctionIrrigatorEndsWhereItsBoreDoesAndHasHolesAroundIt)
   tool.opening = 0;
   const std::vector<InstrumentPart> parts = instrument_parts(tool);
   ASSERT_EQ(parts.size(), 1u);
-  EXPECT_EQ(look(parts[0].look).name, "matte_steel");
+  EXPECT_EQ(look(pelvis(), parts[0].look).name, "matte_steel");
   const interactions::ToolShape shape = shape_of(tool, {0, 0, 0, 0.1}, 0);
   const double end = to_jaw(shape, bore_of(tool, shape, shape, 1e-3).end).z;
   float most = 0;
@@ -678,7 +678,7 @@ TEST(InstrumentShapes, ElectrodesAreHeldByWhiteInsulators) {
     const std::vector<InstrumentPart> parts = instrument_parts(tool_of(kind));
     EXPECT_TRUE(std::any_of(parts.begin(), parts.end(), [](const InstrumentPart& p) { return p.look == "ceramic"; }));
   }
-  const Vec3f white = look("ceramic").material.colour;
+  const Vec3f white = look(pelvis(), "ceramic").material.colour;
   EXPECT_GT(std::min({white.x, white.y, white.z}), 0.5f);
 }
 
@@ -821,18 +821,36 @@ TEST(ClipShape, IsGroovedOnItsInnerSidesAndSmoothOutside) {
 }
 
 TEST(Looks, EveryLookOfTheScenesIsKnown) {
-  const auto known = [](const std::string& name) { return look(name).name == name; };
+  const auto known = [](const std::string& name) { return look(pelvis(), name).name == name; };
   for (const sim::SolidModel& s : pelvis().solids) EXPECT_TRUE(known(s.look)) << s.look;
   for (const sim::StrandAnatomy& s : pelvis().strands) EXPECT_TRUE(known(s.look)) << s.look;
   for (const sim::WallModel& w : pelvis().walls) EXPECT_TRUE(known(w.look)) << w.look;
   for (const sim::DrawnFold& s : pelvis().drawn_folds) EXPECT_TRUE(known(s.look)) << s.look;
 }
 
-TEST(Looks, AnUnknownNameIsANeutralTissue) { EXPECT_EQ(look("no such look").name, "neutral"); }
+TEST(Looks, MaterialsAreWhatTheFilesSay) {
+  const render::Material& liver = look(pelvis(), "liver").material;
+  EXPECT_EQ(liver.colour, render::srgb(74, 42, 46));
+  EXPECT_EQ(liver.vessel_colour, render::srgb(150, 106, 110));
+  EXPECT_EQ(liver.film_size, 0.0013f);
+  EXPECT_EQ(look(pelvis(), "uterus").material.vessel_colour, render::Material{}.vessel_colour) << "not said: as usual";
+  EXPECT_EQ(look(pelvis(), "uterus").relief.lopsided, 0.0019);
+  EXPECT_EQ(look(pelvis(), "bowel").count(Look::Generator::fat_tags), 18);
+  EXPECT_FALSE(look(pelvis(), "uterus").has(Look::Generator::drape));
+}
+
+TEST(Looks, AModelWithoutABookIsNeutralAllOver) {
+  const sim::Model bare;
+  EXPECT_EQ(look(bare, "liver").name, "neutral");
+  EXPECT_EQ(all_looks(bare).size(), 1u);
+}
+
+TEST(Looks, AnUnknownNameIsANeutralTissue) { EXPECT_EQ(look(pelvis(), "no such look").name, "neutral"); }
 
 TEST(Looks, TissuesAreRedderThanGreenAndNotGreenButForBileShiningThrough) {
-  for (const Look& l : all_looks()) {
-    if (l.material.shading != render::Shading::tissue || l.name == std::string("gallbladder")) continue;
+  for (const Look& l : all_looks(pelvis())) {
+    const bool of_a_box = l.moulded || l.name == std::string("board");
+    if (l.material.shading != render::Shading::tissue || of_a_box || l.name == std::string("gallbladder")) continue;
     for (const Vec3f& c : {l.material.colour, l.material.colour_b, l.material.colour_c, l.material.tint}) {
       EXPECT_GT(c.x, c.y) << l.name;
       EXPECT_TRUE(c.x > c.z || l.name == std::string("vein")) << l.name;  // veins shine bluish through their walls

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include <trocar/attempt/footage.hpp>
+#include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/recording/keyframe.hpp>
 
 namespace trocar::attempt {
@@ -59,8 +60,9 @@ void blend(const sim::Model& model, const sim::State& a, const sim::State& b, do
   out = a;
   if (!(f > 0)) return;
   out.tick = a.tick + std::uint64_t(f * double(b.tick - a.tick));
-  for (std::size_t i = 0; i < model.solids.size(); ++i)
-    blend_network(model.solids[i].network, a.solids[i], b.solids[i], f, out.solids[i]);
+  sim::visit_solids(model, [&](auto r) {
+    blend_network(model_of(model, r).network, a.solids[r.index], b.solids[r.index], f, out.solids[r.index]);
+  });
   for (std::size_t i = 0; i < model.cuttables.size(); ++i)
     blend_body(model.cuttables[i].body, a.cuttables[i], b.cuttables[i], f, out.cuttables[i]);
   for (std::size_t i = 0; i < out.strands.size(); ++i)
@@ -69,6 +71,11 @@ void blend(const sim::Model& model, const sim::State& a, const sim::State& b, do
   for (std::size_t i = 0; i < model.membranes.size(); ++i)
     blend_network(model.membranes[i].sheet.network, a.membranes[i].network, b.membranes[i].network, f,
                   out.membranes[i].network);
+  interactions::ObjectKinds::for_each([&](auto kind) {
+    using K = decltype(kind);
+    kind.blend(interactions::part_of<K>(a.objects), interactions::part_of<K>(b.objects), f,
+               interactions::part_of<K>(out.objects));
+  });
   for (std::size_t t = 0; t < out.tools.size(); ++t) blend_tool(a.tools[t], b.tools[t], f, out.tools[t]);
   blend_scope(a.scope, b.scope, f, out.scope);
   blend_lens(a.fluids.smoke, b.fluids.smoke, f, out.fluids.smoke);

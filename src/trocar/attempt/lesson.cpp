@@ -16,13 +16,13 @@ namespace trocar::attempt {
 
 std::unique_ptr<training::Monitor> Lesson::monitor(bool scored) const {
   const training::Mode mode = scored ? training::Mode::assessed : training::Mode::familiarisation;
-  return exercise ? std::make_unique<training::Monitor>(*exercise, model, mode) : nullptr;
+  return exercise ? std::make_unique<training::Monitor>(*exercise, model, mode, seed) : nullptr;
 }
 
 std::unique_ptr<InputSource> Lesson::surgeon() const {
   if (!exercise)
     throw core::BadInput({{{name, 0, 0}, "expected an exercise that the scripted surgeon knows, got a bare scene"}});
-  return std::make_unique<SurgeonSource>(*exercise, model);
+  return std::make_unique<SurgeonSource>(*exercise, model, seed);
 }
 
 bool is_exercise(const std::filesystem::path& path) {
@@ -37,20 +37,26 @@ std::unique_ptr<Lesson> load_lesson(const std::string& exercise, std::uint64_t s
   auto lesson = std::make_unique<Lesson>();
   lesson->name = exercise;
   lesson->file = lesson->scene = find_exercise(exercise, scenes_folder());
+  training::Faults faults;  // of the exercise: told together with what the scene lacks for it
   if (is_exercise(lesson->file)) {
-    lesson->exercise = training::read_exercise(lesson->file);
+    lesson->exercise = training::read_exercise(lesson->file, faults);
     lesson->scene = lesson->exercise->scene;
     lesson->title = lesson->exercise->title;
+    if (!std::filesystem::is_regular_file(lesson->scene) && !faults.empty()) throw core::BadInput(std::move(faults));
   }
   scene::Description description = scene::read_scene(lesson->scene);
   if (!lesson->exercise) lesson->title = description.title;
   lesson->seed = seed;
   scene::vary(description, seed);
   core::log::info("compiling {}", lesson->scene.string());
-  lesson->model = scene::compile(description);
+  scene::CompileReport report;
+  lesson->model = scene::compile(description, &report);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - started;
-  lesson->monitor();  // an exercise that does not fit its scene is told here, not when somebody starts it
+  // An exercise that does not fit its scene is told here, not when somebody starts it.
+  if (lesson->exercise) training::check_in_scene(*lesson->exercise, lesson->model, faults);
+  if (!faults.empty()) throw core::BadInput(std::move(faults));
   core::log::info("compiled in {:.1f} s: {} free nodes", took.count(), lesson->model.free_nodes());
+  for (const core::Fault& doubt : report.doubts) core::log::warn("{}", core::to_string(doubt));
   return lesson;
 }
 

@@ -20,13 +20,13 @@ class InputSource {
   /// The input of the next tick, from the State as it stands; false: there is no more, the attempt ends.
   virtual bool next(const sim::State& state, sim::Input& input) = 0;
   /// What the tick made of it.
-  virtual void after(const sim::State&) {}
+  virtual void after(const sim::State&, const sim::StepReport&) {}
   /// What there is to say about it in the result.
   virtual Json describe() const { return Json::object(); }
 };
 
 struct Lesson {
-  std::string name;  ///< "gynaecology/sterilisation", or the path as given
+  std::string name;  ///< "SCENE/EXERCISE", or the path as given
   std::string title;
   std::filesystem::path file, scene;
   std::uint64_t seed = 0;  ///< of the anatomy; 0: as drawn

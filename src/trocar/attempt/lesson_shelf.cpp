@@ -5,9 +5,9 @@
 
 namespace trocar::attempt {
 
-void LessonShelf::want(const std::string& exercise) {
-  if (exercise == m_wanted) return;
-  m_wanted = exercise;
+void LessonShelf::want(const std::string& exercise, std::uint64_t seed) {
+  if (m_wanted == Order{exercise, seed}) return;
+  m_wanted = {exercise, seed};
   m_failure.clear();
   if (!m_future.valid()) begin();
 }
@@ -15,7 +15,7 @@ void LessonShelf::want(const std::string& exercise) {
 void LessonShelf::begin() {
   m_lesson.reset();
   m_loading = m_wanted;
-  m_future = std::async(std::launch::async, [name = m_wanted] { return load_lesson(name); });
+  m_future = std::async(std::launch::async, [order = m_wanted] { return load_lesson(order.exercise, order.seed); });
 }
 
 const Lesson* LessonShelf::poll() {
@@ -27,7 +27,7 @@ const Lesson* LessonShelf::poll() {
     }
     if (m_loading != m_wanted) begin();
   }
-  return m_lesson && m_lesson->name == m_wanted ? m_lesson.get() : nullptr;
+  return m_lesson && m_wanted == Order{m_lesson->name, m_lesson->seed} ? m_lesson.get() : nullptr;
 }
 
 }  // namespace trocar::attempt

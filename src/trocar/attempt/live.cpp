@@ -71,9 +71,9 @@ void Live::loop() {
       input = smooth.step(m_command);
     }
     if (!m_finished) {
-      m_session.advance(input);
+      const sim::StepReport& report = m_session.advance(input);
       m_pending.insert(m_pending.end(), m_session.moments().begin(), m_session.moments().end());
-      if (m_source) m_source->after(m_session.state());
+      if (m_source) m_source->after(m_session.state(), report);
       const std::uint64_t ticks = m_session.state().tick;
       if (m_session.finished() && m_end == kNever) m_end = m_session.broken().empty() ? ticks + kAftermath : ticks;
       m_finished = ticks >= m_end || (m_limit > 0 && ticks >= m_limit);

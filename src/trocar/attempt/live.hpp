@@ -18,12 +18,10 @@
 
 namespace trocar::attempt {
 
-inline constexpr int kMaxGuideSteps = 16;
-
 /// What the drawing thread sees of the attempt.
 struct Snapshot {
   sim::State state;
-  std::array<bool, kMaxGuideSteps> step_done{}, step_missed{};
+  std::array<bool, training::kMaxSteps> step_done{}, step_missed{};  ///< an exercise has no more
   int current_step = 0;
   double seconds = 0;     ///< on the exercise's clock
   double speed = 1;       ///< simulated per real time in the last quarter of a second

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cstdlib>
 #include <optional>
-#include <string_view>
 #include <system_error>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -25,11 +25,16 @@ std::string environment(const char* name) {
   return value ? value : "";
 }
 
-std::string title_of(const fs::path& path) {
+ExerciseEntry entry_of(const std::string& name, const fs::path& path) {
   std::vector<core::Fault> faults;
   const scene::JsonDocument document = scene::load_json(path, faults);
-  const scene::JsonMember* title = document.root.find("title");
-  return title ? core::printable(title->value.text) : std::string{};
+  ExerciseEntry entry{name, "", path};
+  if (const scene::JsonMember* title = document.root.find("title")) entry.title = core::printable(title->value.text);
+  if (const scene::JsonMember* scene = document.root.find("scene"))
+    entry.scene = (path.parent_path() / scene->value.text).lexically_normal();
+  const scene::JsonMember* order = document.root.find("order");
+  if (order && order->value.number >= 0 && order->value.number < entry.order) entry.order = int(order->value.number);
+  return entry;
 }
 
 }  // namespace
@@ -45,27 +50,27 @@ fs::path scenes_folder() {
 
 std::vector<ExerciseEntry> list_exercises(const fs::path& scenes) {
   std::vector<ExerciseEntry> list;
-  for (const scene::SceneEntry& s : scene::list_scenes(scenes)) {
-    std::error_code error;
-    for (const fs::directory_entry& file : fs::directory_iterator(s.path.parent_path(), error))
+  std::error_code error;
+  for (const fs::directory_entry& folder : fs::directory_iterator(scenes, error)) {
+    std::error_code no_folder;
+    for (const fs::directory_entry& file : fs::directory_iterator(folder.path(), no_folder))
       if (file.path().extension() == ".json" && is_exercise(file.path()))
-        list.push_back({s.name + "/" + file.path().stem().string(), title_of(file.path()), file.path()});
+        list.push_back(entry_of(folder.path().filename().string() + "/" + file.path().stem().string(), file.path()));
   }
-  constexpr std::string_view kFirst = "gynaecology/sterilisation";  // what people begin with
-  std::sort(list.begin(), list.end(), [&](const ExerciseEntry& a, const ExerciseEntry& b) {
-    return std::pair(a.name != kFirst, a.name) < std::pair(b.name != kFirst, b.name);
+  std::sort(list.begin(), list.end(), [](const ExerciseEntry& a, const ExerciseEntry& b) {
+    return std::tie(a.order, a.name) < std::tie(b.order, b.name);
   });
   return list;
 }
 
 std::vector<ExerciseEntry> list_trainings(const fs::path& scenes) {
   std::vector<ExerciseEntry> list = list_exercises(scenes);
-  const auto is_in = [&list](const std::string& scene) {
+  const auto is_used = [&list](const fs::path& scene) {
     return std::any_of(list.begin(), list.end(),
-                       [&](const ExerciseEntry& e) { return e.name.rfind(scene + "/", 0) == 0; });
+                       [&](const ExerciseEntry& e) { return e.scene == scene.lexically_normal(); });
   };
   for (const scene::SceneEntry& s : scene::list_scenes(scenes))
-    if (!is_in(s.name)) list.push_back({s.name, s.title, s.path, false});
+    if (!is_used(s.path)) list.push_back({s.name, s.title, s.path, false});
   return list;
 }
 

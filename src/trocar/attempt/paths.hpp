@@ -12,17 +12,19 @@ namespace trocar::attempt {
 std::filesystem::path scenes_folder();
 
 struct ExerciseEntry {
-  std::string name;  ///< "gynaecology/sterilisation"
+  std::string name;  ///< "FOLDER/EXERCISE"
   std::string title;
   std::filesystem::path path;
-  bool task = true;  ///< false: a bare scene, for free practice
+  bool task = true;                  ///< false: a bare scene, for free practice
+  int order = 1000;                  ///< in lists: those with less come first
+  std::filesystem::path scene = {};  ///< of an exercise: in which it is done
 };
-/// The exercise files in scenes/SCENE/: the one that people begin with, then by name.
+/// The exercise files in the folders of `scenes`: in the order that their files say, then by name.
 std::vector<ExerciseEntry> list_exercises(const std::filesystem::path& scenes);
-/// The same, and after them the scenes that have no exercise.
+/// The same, and after them the scenes in which none of them is done.
 std::vector<ExerciseEntry> list_trainings(const std::filesystem::path& scenes);
 
-/// The file that EXERCISE means: a path, or a name under `scenes` ("gynaecology/sterilisation", or "gynaecology" for
+/// The file that EXERCISE means: a path, or a name under `scenes` ("gynaecology/EXERCISE", or "gynaecology" for
 /// the bare scene).  @throws core::BadInput with what is there
 std::filesystem::path find_exercise(const std::string& name, const std::filesystem::path& scenes);
 

@@ -8,6 +8,7 @@
 #include <trocar/attempt/footage.hpp>
 #include <trocar/attempt/reel.hpp>
 #include <trocar/core/tick.hpp>
+#include <trocar/sim/recording/shown_difference.hpp>
 #include <trocar/training/store/json_fields.hpp>
 
 namespace trocar::attempt {
@@ -205,7 +206,9 @@ void Reel::note(Explorer& e) {
     ++m_version;
   }
   if (differs && m_findings.difference.empty()) {
-    m_findings.difference = fmt::format("doing it again differs from the recording at {}", clock_text(tick));
+    const std::string told = sim::told_difference(m_lesson.model, m_recording, session.state());
+    m_findings.difference = fmt::format("doing it again differs from the recording at {}{}{}", clock_text(tick),
+                                        told.empty() ? "" : "; ", told);
     m_findings.marks.push_back({TimelineMark::Kind::damage, tick, m_findings.difference});
     ++m_version;
     const std::uint64_t agreed = e.next_hash > 0 ? hashes[e.next_hash - 1].tick : 0;

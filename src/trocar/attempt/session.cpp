@@ -10,8 +10,9 @@
 #include <trocar/core/error.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/core/log.hpp>
+#include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/recording/keyframe.hpp>
-#include <trocar/training/exercise/hands.hpp>
+#include <trocar/training/observe/hands.hpp>
 
 namespace trocar::attempt {
 namespace {
@@ -27,19 +28,6 @@ constexpr FlagName kFlags[] = {
     {sim::StepReport::kBookFull, "book_full"},          {sim::StepReport::kHeatFull, "heat_full"},
     {sim::StepReport::kDropsFull, "drops_full"},        {sim::StepReport::kBloodFlow, "blood_flow"},
 };
-
-std::string body_name(const sim::Model& model, std::int32_t body) {
-  if (body < 0) return "nothing";
-  if (body >= interactions::kMembraneBase) return model.membranes[size_t(body - interactions::kMembraneBase)].name;
-  if (body >= interactions::kSolidBase) return model.organ_name(body - interactions::kSolidBase);
-  return model.strands[size_t(body)].name;
-}
-
-std::string cut_name(const sim::Model& model, const interactions::Cut& cut) {
-  if (cut.solid >= 0) return model.organ_name(cut.solid);
-  if (cut.strand < 0 && cut.membrane >= 0) return model.membranes[size_t(cut.membrane)].name;
-  return body_name(model, cut.strand);
-}
 
 }  // namespace
 
@@ -102,7 +90,7 @@ const sim::StepReport& Session::advance(const sim::Input& input) {
   m_flags |= m_report.flags;
   if (!m_report.fine())
     m_broken = fmt::format("the tissue's motion failed in tick {} (body {}, node {}): a fault of the simulation",
-                           m_state.tick, m_report.first_bad_body, m_report.first_bad_index);
+                           m_state.tick, sim::name_of(m_lesson.model, m_report.first_bad_body), m_report.first_bad_index);
   for (size_t t = 0; t < m_lesson.model.hands.size(); ++t) {
     const Vec3d tip = training::tip_of(m_lesson.model, m_state, t);
     m_path[t] += length(tip - m_tip[t]);
@@ -167,7 +155,7 @@ void Session::collect_moments() {
       case Kind::none:
         break;
       case Kind::grasped:
-        add_moment("grasped", e.tool, fmt::format("{} grasped {}", who, body_name(model, e.index)));
+        add_moment("grasped", e.tool, fmt::format("{} grasped {}", who, sim::name_of(model, e.body())));
         break;
       case Kind::released:
         add_moment("released", e.tool, who + " let go");
@@ -177,7 +165,7 @@ void Session::collect_moments() {
         break;
       case Kind::clipped:
         add_moment("clipped", e.tool,
-                   fmt::format("clip on {}", body_name(model, m_state.clips[size_t(e.index)].strand)));
+                   fmt::format("clip on {}", sim::name_of(model, BodyId::maybe(BodyKind::strand, m_state.clips[size_t(e.index)].strand))));
         break;
       case Kind::dropped_clip:
         add_moment("clip-dropped", e.tool, "a clip closed on nothing");
@@ -186,13 +174,13 @@ void Session::collect_moments() {
         add_moment("exchanged", e.tool, fmt::format("{}: {}", model.hands[size_t(e.tool)].name, who));
         break;
       case Kind::torn:
-        add_moment("torn", e.tool, body_name(model, e.index) + " tore");
+        add_moment("torn", e.tool, sim::name_of(model, e.body()) + " tore");
         break;
       case Kind::parted:
-        add_moment("parted", e.tool, fmt::format("{} parted {}", who, body_name(model, e.index)));
+        add_moment("parted", e.tool, fmt::format("{} parted {}", who, sim::name_of(model, e.body())));
         break;
       case Kind::cut:
-        add_moment("cut", e.tool, fmt::format("{} cut {}", who, cut_name(model, m_state.cuts[size_t(e.index)])));
+        add_moment("cut", e.tool, fmt::format("{} cut {}", who, sim::name_of(model, m_state.cuts[size_t(e.index)].body())));
         break;
     }
   }
@@ -266,8 +254,9 @@ Json Session::result(bool interrupted) const {
 training::MetricsOptions Session::metrics_options() const {
   training::MetricsOptions options;
   if (m_lesson.exercise) {
-    options.force_limits[training::kPull] = m_lesson.exercise->handling().pull_limit;
-    options.force_limits[training::kPinch] = m_lesson.exercise->handling().pinch_limit;
+    double &pull = options.force_limits[training::kPull], &pinch = options.force_limits[training::kPinch];
+    pull = m_lesson.exercise->limit("pull_limit_N", pull);
+    pinch = m_lesson.exercise->limit("pinch_limit_N", pinch);
   }
   if (!m_monitor || !m_monitor->finished() || m_exercise_from < 0) return options;
   options.end = 0;

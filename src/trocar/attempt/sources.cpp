@@ -7,8 +7,9 @@
 #include <trocar/attempt/sources.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/log.hpp>
+#include <trocar/core/tick.hpp>
 #include <trocar/kinematics/fulcrum.hpp>
-#include <trocar/training/exercise/hands.hpp>
+#include <trocar/training/observe/hands.hpp>
 
 namespace trocar::attempt {
 
@@ -24,8 +25,16 @@ bool SurgeonSource::next(const sim::State& state, sim::Input& input) {
   return true;
 }
 
+void SurgeonSource::after(const sim::State& state, const sim::StepReport& report) {
+  m_expert->after(m_model, state, report);
+}
+
 Json SurgeonSource::describe() const {
-  return {{"surgeon", {{"doing", m_expert->doing()}, {"done", m_expert->done()}, {"gave_up", m_expert->gave_up()}}}};
+  return {{"surgeon",
+           {{"doing", m_expert->doing()},
+            {"done", m_expert->done()},
+            {"gave_up", m_expert->gave_up()},
+            {"difficulties", m_expert->difficulties()}}}};
 }
 
 Vec3d HandPlacement::to_scene(const std::array<double, 3>& tip) const {
@@ -91,7 +100,7 @@ MotionSource::MotionSource(const sim::Model& model, const std::string& argument)
     hand.last_tip = hand.start;
     farthest = std::max(farthest, length(hand.place.to_scene(m_trial.samples.front().hand(which).tip) - hand.start));
   }
-  m_approach = std::uint64_t(1000 * std::max(kApproachLeast, farthest / kApproachSpeed));
+  m_approach = std::uint64_t(double(core::kTicksPerSecond) * std::max(kApproachLeast, farthest / kApproachSpeed));
 }
 
 void MotionSource::aim(Hand& hand, devices::Hand which, std::uint64_t tick, sim::ToolInput& input) {
@@ -128,7 +137,7 @@ bool MotionSource::next(const sim::State&, sim::Input& input) {
   return true;
 }
 
-void MotionSource::after(const sim::State& state) {
+void MotionSource::after(const sim::State& state, const sim::StepReport&) {
   for (const devices::Hand which : {devices::Hand::left, devices::Hand::right}) {
     Hand& hand = m_hands[size_t(which)];
     const Vec3d tip = training::tip_of(m_model, state, size_t(hand.place.tool));

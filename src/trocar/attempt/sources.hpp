@@ -34,9 +34,10 @@ class ReplaySource : public InputSource {
 /// The scripted surgeon: reads the State as an eye would and does the exercise.
 class SurgeonSource : public InputSource {
  public:
-  SurgeonSource(const training::Exercise& exercise, const sim::Model& model)
-      : m_model(model), m_expert(training::make_expert(exercise, model)) {}
+  SurgeonSource(const training::Exercise& exercise, const sim::Model& model, std::uint64_t seed)
+      : m_model(model), m_expert(training::make_expert(exercise, model, {}, seed)) {}
   bool next(const sim::State& state, sim::Input& input) override;
+  void after(const sim::State& state, const sim::StepReport& report) override;
   Json describe() const override;
 
  private:
@@ -62,7 +63,7 @@ class MotionSource : public InputSource {
  public:
   MotionSource(const sim::Model& model, const std::string& argument);  ///< @throws core::BadInput
   bool next(const sim::State& state, sim::Input& input) override;
-  void after(const sim::State& state) override;
+  void after(const sim::State& state, const sim::StepReport& report) override;
   Json describe() const override;
 
  private:

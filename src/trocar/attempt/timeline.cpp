@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <trocar/attempt/timeline.hpp>
+#include <trocar/core/tick.hpp>
 
 namespace trocar::attempt {
 
@@ -58,7 +59,7 @@ void Timeline::keep_inside(double width) {
 }
 
 double Timeline::grid(int labels) const {
-  const double least = (m_to - m_from) * 1e-3 / std::max(1, labels);
+  const double least = (m_to - m_from) * core::kTick / std::max(1, labels);
   for (double decade = 0.01; decade < 1e5; decade *= 10)
     for (const double step : {1.0, 2.0, 5.0})
       if (decade * step >= least) return decade * step;

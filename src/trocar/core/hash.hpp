@@ -28,6 +28,7 @@ class Hasher {
     add(static_cast<std::uint64_t>(values.size()));
     m_hash = hash_bytes(values.data(), values.size() * sizeof(T), m_hash);
   }
+  void add_bytes(const void* data, std::size_t size) noexcept { m_hash = hash_bytes(data, size, m_hash); }
   std::uint64_t value() const noexcept { return m_hash; }
 
  private:

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include <trocar/core/field_hash.hpp>
 #include <trocar/fluids/droplets.hpp>
 #include <trocar/numerics/portable.hpp>
 
@@ -389,20 +390,6 @@ void remove_empty(DropletState& s) noexcept {
 
 }  // namespace detail
 
-void add_to_hash(core::Hasher& hasher, const DropletState& s) noexcept {
-  hasher.add(s.count);
-  hasher.add(s.next_id);
-  const auto used = [&](const auto& a) { hasher.add(core::hash_bytes(a.data(), std::size_t(s.count) * sizeof a[0])); };
-  for (const auto* a : {&s.x, &s.y, &s.z, &s.vx, &s.vy, &s.vz, &s.radius}) used(*a);
-  used(s.body);
-  used(s.ground);
-  used(s.volume);
-  used(s.id);
-  used(s.blood);
-  hasher.add(s.film);
-  hasher.add(s.film_blood);
-  hasher.add(s.forming);
-  hasher.add(s.tick);
-}
+void add_to_hash(core::Hasher& h, const DropletState& s) noexcept { core::add_fields(h, s); }
 
 }  // namespace trocar::fluids

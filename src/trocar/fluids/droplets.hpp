@@ -35,6 +35,7 @@
 #include <span>
 #include <vector>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/core/tick.hpp>
 #include <trocar/fluids/capsule.hpp>
@@ -72,6 +73,21 @@ struct DropletDescription {
 
 struct DropletModel : DropletDescription {
   double tick = core::kTick;  ///< [s]
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("capacity", s.capacity), v("film_cells", s.film_cells), v("film_capacity", s.film_capacity),
+        v("gravity", s.gravity, core::kNotHashed), v("density", s.density, core::kNotHashed),
+        v("viscosity", s.viscosity, core::kNotHashed), v("surface_tension", s.surface_tension, core::kNotHashed),
+        v("gas_density", s.gas_density, core::kNotHashed), v("gas_viscosity", s.gas_viscosity, core::kNotHashed),
+        v("smallest", s.smallest, core::kNotHashed), v("largest", s.largest, core::kNotHashed),
+        v("largest_running", s.largest_running, core::kNotHashed),
+        v("film_thickness", s.film_thickness, core::kNotHashed), v("hysteresis", s.hysteresis, core::kNotHashed),
+        v("running_height", s.running_height, core::kNotHashed), v("overhang", s.overhang, core::kNotHashed),
+        v("splash", s.splash, core::kNotHashed), v("pair_period", s.pair_period, core::kNotHashed),
+        v("run_period", s.run_period, core::kNotHashed), v("pair_parts", s.pair_parts, core::kNotHashed),
+        v("fly_period", s.fly_period, core::kNotHashed), v("tick", s.tick, core::kNotHashed);
+  }
 };
 
 /// What a running drop runs on: points x with normal . x = offset.
@@ -80,11 +96,23 @@ struct Ground {
   float offset = 0;
   Vec3f velocity{0, 0, 0};  ///< of the surface [m/s]
   std::int32_t film = -1;   ///< place of the film below the drop, -1 = none
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("normal", s.normal), v("offset", s.offset), v("velocity", s.velocity), v("film", s.film);
+  }
 };
 
 struct SmallMix {  ///< of a drop or a film's place [pL]
   std::int32_t blood = 0, saline = 0, bile = 0;
   std::int64_t total() const { return std::int64_t(blood) + saline + bile; }
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("blood", s.blood), v("saline", s.saline), v("bile", s.bile);
+  }
 };
 inline Mix widened(const SmallMix& m) { return {m.blood, m.saline, m.bile}; }
 
@@ -101,6 +129,17 @@ struct DropletState {
   std::vector<Blood> film_blood;                   ///< (film cells)
   std::array<Mix, kMostOpenings> forming{};        ///< what hangs at an opening until it is a drop
   std::uint64_t tick = 0;
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("count", s.count), v("next_id", s.next_id), v("x", s.x, core::first(s.count)), v("y", s.y, core::first(s.count)),
+        v("z", s.z, core::first(s.count)), v("vx", s.vx, core::first(s.count)), v("vy", s.vy, core::first(s.count)),
+        v("vz", s.vz, core::first(s.count)), v("radius", s.radius, core::first(s.count)),
+        v("body", s.body, core::first(s.count)), v("ground", s.ground, core::first(s.count)),
+        v("volume", s.volume, core::first(s.count)), v("id", s.id, core::first(s.count)),
+        v("blood", s.blood, core::first(s.count)), v("film", s.film), v("film_blood", s.film_blood),
+        v("forming", s.forming), v("tick", s.tick);
+  }
 };
 
 /// Where fluid comes out. Its index in the span is its name from tick to tick.
@@ -128,6 +167,12 @@ struct Impact {
   Vec3f point{0, 0, 0};
   Vec3f impulse{0, 0, 0};  ///< of the drop's motion relative to the surface [N s]
   float mass = 0;          ///< of the drop, which goes on with the surface [kg]
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("body", s.body), v("film", s.film), v("point", s.point), v("impulse", s.impulse), v("mass", s.mass);
+  }
 };
 
 struct DropletWork {
@@ -157,6 +202,19 @@ struct DropletWork {
   };
   std::vector<Pair> pairs;  ///< (16 capacity) within reach; the first pair_count
   int pair_count = 0;
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("to_x", s.to_x), v("to_y", s.to_y), v("to_z", s.to_z), v("asking", s.asking), v("answers", s.answers),
+        v("questions", s.questions), v("ways", s.ways), v("overfull", s.overfull), v("film_answers", s.film_answers),
+        v("film_questions", s.film_questions), v("impacts", s.impacts), v("impact_count", s.impact_count),
+        v("movers", s.movers), v("near", s.near), v("question_of", s.question_of), v("mover_count", s.mover_count),
+        v("emptied", s.emptied), v("bucket_first", s.bucket_first), v("filled", s.filled), v("chosen", s.chosen),
+        v("sorted", s.sorted), v("cell_of", s.cell_of), v("own_cell", s.own_cell), v("sx", s.sx), v("sy", s.sy),
+        v("sz", s.sz), v("svx", s.svx), v("svy", s.svy), v("svz", s.svz), v("sr", s.sr), v("sm", s.sm), v("jx", s.jx),
+        v("jy", s.jy), v("jz", s.jz), v("joined", s.joined), v("neighbours", s.neighbours), v("pairs", s.pairs),
+        v("pair_count", s.pair_count);
+  }
 };
 
 inline constexpr int kFilmQuestions = 64;

@@ -3,6 +3,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include <trocar/core/field_hash.hpp>
+#include <trocar/core/poison.hpp>
 #include <trocar/fluids/fluids.hpp>
 
 namespace trocar::fluids {
@@ -127,46 +129,8 @@ bool audit(const FluidsModel& m, const FluidsState& s) noexcept {
          content(m.pool, s.pool) == at(s.ledger, Place::kPool);
 }
 
-void add_to_hash(core::Hasher& hasher, const FluidsState& s) noexcept {
-  add_to_hash(hasher, s.pool);
-  add_to_hash(hasher, s.droplets);
-  add_to_hash(hasher, s.smoke);
-  add_to_hash(hasher, s.ledger);
-  hasher.add(s.gas);
-  hasher.add(s.irrigation_carry);
-  hasher.add(s.suction_carry);
-}
+void add_to_hash(core::Hasher& h, const FluidsState& s) noexcept { core::add_fields(h, s); }
 
-void poison(FluidsWork& w) noexcept {
-  const float nan = std::numeric_limits<float>::quiet_NaN();
-  const auto floats = [nan](std::vector<float>& a) { std::fill(a.begin(), a.end(), nan); };
-  const auto ints = [](std::vector<std::int32_t>& a) { std::fill(a.begin(), a.end(), 0x5a5a5a5a); };
-  PoolWork& p = w.pool;
-  for (auto* a : {&p.bed, &p.depth, &p.eta, &p.volume, &p.inertia, &p.extra, &p.under, &p.rhs, &p.flux, &p.sweep,
-                  &p.answer, &p.flux_v, &p.keep})
-    floats(*a);
-  floats(p.tops);
-  for (auto& a : p.strip) floats(a);
-  ints(p.moved_u), ints(p.moved_v);
-  DropletWork& d = w.droplets;
-  for (auto* a :
-       {&d.to_x, &d.to_y, &d.to_z, &d.sx, &d.sy, &d.sz, &d.svx, &d.svy, &d.svz, &d.sr, &d.sm, &d.jx, &d.jy, &d.jz})
-    floats(*a);
-  for (auto* a : {&d.asking, &d.movers, &d.near, &d.question_of, &d.chosen, &d.sorted, &d.cell_of, &d.own_cell,
-                  &d.joined, &d.neighbours, &d.overfull})
-    ints(*a);
-  std::fill(d.bucket_first.begin(), d.bucket_first.end(), 0x5a5a5a5au);
-  std::fill(d.filled.begin(), d.filled.end(), 0x5a5a5a5a5a5a5a5au);
-  const Contact nowhere{{nan, nan, nan}, {nan, nan, nan}, {nan, nan, nan}, 77, 77};
-  std::fill(d.answers.begin(), d.answers.end(), nowhere);
-  std::fill(d.film_answers.begin(), d.film_answers.end(), nowhere);
-  std::fill(d.impacts.begin(), d.impacts.end(), Impact{77, 77, {nan, nan, nan}, {nan, nan, nan}, nan});
-  std::fill(d.pairs.begin(), d.pairs.end(), DropletWork::Pair{0x5a5a5a5a, 0x5a5a5a5a});
-  d.pair_count = d.questions = d.ways = d.film_questions = d.impact_count = 0x5a5a5a5a;
-  floats(w.smoke.rise), floats(w.smoke.next);
-  Outlet wild;
-  wild.position = {nan, nan, nan}, wild.flow = {77, 77, 77};
-  std::fill(w.openings.begin(), w.openings.end(), wild);
-}
+void poison(FluidsWork& w) noexcept { core::poison_fields(w); }
 
 }  // namespace trocar::fluids

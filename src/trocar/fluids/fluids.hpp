@@ -17,6 +17,7 @@
 #include <span>
 #include <vector>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/core/tick.hpp>
 #include <trocar/fluids/droplets.hpp>
@@ -46,6 +47,13 @@ struct FluidsModel {
   Lines lines;
   Insufflator insufflator;
   double tick = core::kTick;  ///< [s]
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("pool", s.pool), v("droplets", s.droplets), v("smoke", s.smoke, core::kNotHashed),
+        v("lines", s.lines, core::kNotHashed), v("insufflator", s.insufflator, core::kNotHashed),
+        v("tick", s.tick, core::kNotHashed);
+  }
 };
 
 struct FluidsState {
@@ -55,6 +63,12 @@ struct FluidsState {
   Ledger ledger;
   CavityGas gas;
   std::array<double, kMostTools> irrigation_carry{}, suction_carry{};  ///< [pL]
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("pool", s.pool), v("droplets", s.droplets), v("smoke", s.smoke), v("ledger", s.ledger), v("gas", s.gas),
+        v("irrigation_carry", s.irrigation_carry), v("suction_carry", s.suction_carry);
+  }
 };
 
 struct FluidsWork {
@@ -62,6 +76,11 @@ struct FluidsWork {
   DropletWork droplets;
   SmokeWork smoke;
   std::vector<Outlet> openings;  ///< (kMostOpenings) tools' nozzles first
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("pool", s.pool), v("droplets", s.droplets), v("smoke", s.smoke), v("openings", s.openings);
+  }
 };
 
 /// One bore, two valves.

@@ -8,6 +8,8 @@
 //   advance(insufflator, sucked, 1e-3, gas);
 #pragma once
 
+#include <trocar/core/fields.hpp>
+
 namespace trocar::fluids {
 
 struct Insufflator {
@@ -19,6 +21,12 @@ struct Insufflator {
 struct CavityGas {
   double pressure = 0;  ///< [Pa]
   double flow = 0;      ///< q of the last tick [m^3/s]
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("pressure", s.pressure), v("flow", s.flow);
+  }
 };
 
 CavityGas full(const Insufflator& insufflator) noexcept;

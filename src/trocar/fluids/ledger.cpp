@@ -1,3 +1,4 @@
+#include <trocar/core/field_hash.hpp>
 #include <trocar/fluids/ledger.hpp>
 
 namespace trocar::fluids {
@@ -15,9 +16,6 @@ bool balanced(const Ledger& ledger) noexcept {
   return imbalance(ledger).empty();
 }
 
-void add_to_hash(core::Hasher& hasher, const Ledger& ledger) noexcept {
-  for (const Mix& m : ledger.in) hasher.add(m);
-  for (const Mix& m : ledger.at) hasher.add(m);
-}
+void add_to_hash(core::Hasher& hasher, const Ledger& ledger) noexcept { core::add_fields(hasher, ledger); }
 
 }  // namespace trocar::fluids

@@ -12,6 +12,7 @@
 
 #include <array>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/fluids/mix.hpp>
 
@@ -24,6 +25,11 @@ inline constexpr int kSources = 2, kPlaces = 5;
 struct Ledger {
   std::array<Mix, kSources> in;  ///< since the beginning [pL]
   std::array<Mix, kPlaces> at;   ///< now; sucked and drained: since the beginning [pL]
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("in", s.in, core::kEach), v("at", s.at, core::kEach);
+  }
 };
 
 inline void receive(Ledger& ledger, Source source, Place to, const Mix& m) noexcept {

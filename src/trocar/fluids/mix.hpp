@@ -8,6 +8,8 @@
 
 #include <cstdint>
 
+#include <trocar/core/fields.hpp>
+
 namespace trocar::fluids {
 
 inline constexpr double kPicolitresPerM3 = 1e15;
@@ -37,12 +39,24 @@ struct Mix {
   friend constexpr bool operator==(const Mix& a, const Mix& b) {
     return a.blood == b.blood && a.saline == b.saline && a.bile == b.bile;
   }
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("blood", s.blood), v("saline", s.saline), v("bile", s.bile);
+  }
 };
 
 /// What blood is besides how much: in the mean, when several come together.
 struct Blood {
   float born = 0;    ///< when it left the vessels [s]
   float venous = 0;  ///< share of it that came from veins, 0 .. 1
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("born", s.born), v("venous", s.venous);
+  }
 };
 /// Mean of two bloods by their volumes [pL].
 Blood mean(Blood a, std::int64_t volume_a, Blood b, std::int64_t volume_b) noexcept;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <trocar/core/field_hash.hpp>
 #include <trocar/fluids/pool.hpp>
 
 namespace trocar::fluids {
@@ -221,20 +222,6 @@ Mix content(const PoolModel& m, const PoolState& s) noexcept {
   return sum;
 }
 
-void add_to_hash(core::Hasher& hasher, const PoolState& s) noexcept {
-  hasher.add(s.blood);
-  hasher.add(s.saline);
-  hasher.add(s.bile);
-  hasher.add(s.u);
-  hasher.add(s.v);
-  hasher.add(s.held);
-  hasher.add(s.shed);
-  hasher.add(s.churn), hasher.add(s.next);
-  hasher.add(s.drain_carry);
-  hasher.add(s.highest);
-  hasher.add(s.first_row);
-  hasher.add(s.last_row);
-  hasher.add(s.tick);
-}
+void add_to_hash(core::Hasher& h, const PoolState& s) noexcept { core::add_fields(h, s); }
 
 }  // namespace trocar::fluids

@@ -26,6 +26,7 @@
 #include <span>
 #include <vector>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/core/tick.hpp>
 #include <trocar/fluids/capsule.hpp>
@@ -63,6 +64,17 @@ struct PoolModel : PoolDescription {
   /// Place of cell (i, j) in the arrays; also of the faces between it and (i - 1, j), (i, j - 1).
   int at(int i, int j) const { return (j + 1) * stride + i; }
   double dt() const { return tick * period; }
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("origin", s.origin), v("u", s.u), v("v", s.v), v("nx", s.nx), v("ny", s.ny), v("cell", s.cell),
+        v("gravity", s.gravity, core::kNotHashed), v("vertical_inertia", s.vertical_inertia, core::kNotHashed),
+        v("inertia_depth", s.inertia_depth, core::kNotHashed), v("friction", s.friction, core::kNotHashed),
+        v("viscosity", s.viscosity, core::kNotHashed), v("damping", s.damping, core::kNotHashed),
+        v("period", s.period, core::kNotHashed), v("first", s.first, core::kNotHashed), v("up", s.up, core::kNotHashed),
+        v("tick", s.tick, core::kNotHashed), v("stride", s.stride, core::kNotHashed),
+        v("height_per_pl", s.height_per_pl, core::kNotHashed), v("fastest", s.fastest, core::kNotHashed);
+  }
 };
 
 struct PoolState {
@@ -76,6 +88,13 @@ struct PoolState {
   float churn = 0;         ///< most that passed a face in the last step, as height of a cell over time [m/s]
   std::uint64_t next = 0;  ///< tick of the next step
   std::uint64_t tick = 0;
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("blood", s.blood), v("saline", s.saline), v("bile", s.bile), v("u", s.u), v("v", s.v), v("held", s.held),
+        v("shed", s.shed), v("churn", s.churn), v("next", s.next), v("drain_carry", s.drain_carry),
+        v("highest", s.highest), v("first_row", s.first_row), v("last_row", s.last_row), v("tick", s.tick);
+  }
 };
 
 struct PoolWork {
@@ -87,6 +106,14 @@ struct PoolWork {
   std::vector<std::int32_t> moved_u, moved_v;          ///< (size) of faces, one species [pL]
   std::vector<float> tops;                             ///< (nx) the highest of each column
   std::vector<float> strip[4];                         ///< (16 (nx + 1)) sixteen rows, turned
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("bed", s.bed), v("depth", s.depth), v("eta", s.eta), v("volume", s.volume), v("inertia", s.inertia),
+        v("extra", s.extra), v("under", s.under), v("rhs", s.rhs), v("flux", s.flux), v("sweep", s.sweep),
+        v("answer", s.answer), v("flux_v", s.flux_v), v("keep", s.keep), v("moved_u", s.moved_u),
+        v("moved_v", s.moved_v), v("tops", s.tops), v("strip", s.strip);
+  }
 };
 
 /// A hole in the bed. An open one takes everything that reaches its cell, the others by Q = Cd a sqrt(2 g h).

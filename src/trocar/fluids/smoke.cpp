@@ -2,6 +2,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <trocar/core/field_hash.hpp>
 #include <trocar/fluids/smoke.hpp>
 #include <trocar/numerics/portable.hpp>
 
@@ -159,12 +160,6 @@ double visibility(const SmokeModel& m, const SmokeState& s, Vec3d from, Vec3d to
   return portable::exp(-m.kappa * depth * (far / samples));
 }
 
-void add_to_hash(core::Hasher& hasher, const SmokeState& s) noexcept {
-  hasher.add(s.density);
-  hasher.add(s.fog);
-  hasher.add(s.on_time);
-  hasher.add(s.wipe_left);
-  hasher.add(s.tick);
-}
+void add_to_hash(core::Hasher& h, const SmokeState& s) noexcept { core::add_fields(h, s); }
 
 }  // namespace trocar::fluids

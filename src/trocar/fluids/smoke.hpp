@@ -19,6 +19,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/core/tick.hpp>
 #include <trocar/numerics/vec3.hpp>
@@ -54,10 +55,20 @@ struct SmokeState {
   double on_time = 0;          ///< t_on [s]
   double wipe_left = 0;        ///< [s] > 0 while the lens is being wiped
   std::uint64_t tick = 0;
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("density", s.density), v("fog", s.fog), v("on_time", s.on_time), v("wipe_left", s.wipe_left), v("tick", s.tick);
+  }
 };
 
 struct SmokeWork {
   std::vector<float> rise, next;  ///< (cells)
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("rise", s.rise), v("next", s.next);
+  }
 };
 
 struct SmokeInput {

@@ -14,6 +14,6 @@ double asin(double x) noexcept;  ///< clamps |x| > 1
 double exp(double x) noexcept;   ///< 0 below -708, clamps above 709
 double log(double x) noexcept;   ///< x > 0
 
-inline constexpr double pi = std::numbers::pi;
+inline constexpr double pi = std::numbers::pi;  ///< the one that all of Trocar uses
 
 }  // namespace trocar::portable

@@ -1,16 +1,16 @@
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include <trocar/core/error.hpp>
+#include <trocar/numerics/portable.hpp>
 #include <trocar/pictures/camera_choice.hpp>
 
 namespace trocar::pictures {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kDegree = portable::pi / 180;
 constexpr double kNearest_mm = 30, kFarthest_mm = 1500;
 
 CameraChoice outside(double yaw_deg, double pitch_deg, double distance_mm) {

@@ -5,6 +5,7 @@
 
 #include <trocar/attempt/paths.hpp>
 #include <trocar/core/error.hpp>
+#include <trocar/core/tick.hpp>
 #include <trocar/pictures/data_frames.hpp>
 #include <trocar/pictures/npy.hpp>
 
@@ -65,7 +66,7 @@ DataFrames::DataFrames(const sim::Model& model, DataOptions options, PictureSize
       m_size(size),
       m_two_eyes(look.eyes),
       m_pictures(model, size, {{}, look.shown}),
-      m_period(1000 / m_options.rate) {
+      m_period(double(core::kTicksPerSecond) / m_options.rate) {
   if (std::filesystem::exists(m_options.folder / "frames.jsonl"))
     throw core::BadInput(
         {{{m_options.folder.string(), 0, 0}, "expected a folder without frames, got one with frames.jsonl"}});

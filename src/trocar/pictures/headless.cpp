@@ -44,8 +44,7 @@ Leftovers run_headless(attempt::Session& session, attempt::InputSource& source, 
     return !attempt::interrupted() && session.broken().empty() && session.state().tick < limit;
   };
   while (goes_on() && source.next(session.state(), input)) {
-    session.advance(input);
-    source.after(session.state());
+    source.after(session.state(), session.advance(input));
     if (shots)
       for (const ShotMoment& m : moments_to_show(session, begin)) shots->take(session.state(), m.what, m.text);
     if (video && session.state().tick % kTicksPerVideoFrame == 0) video->add(pictures->draw(session.state()));

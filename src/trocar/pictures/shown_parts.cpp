@@ -16,7 +16,8 @@ using view::PartStyle;
 namespace {
 
 constexpr const char* kStyles[] = {"shaded", "transparent", "wireframe", "hidden"};
-constexpr const char* kGroups[] = {"organs", "tubes", "folds", "vessels", "walls", "instruments", "clips", "fluids"};
+constexpr const char* kGroups[] = {"organs",      "tubes", "folds", "vessels", "walls",
+                                   "instruments", "clips", "marks", "fluids",  "objects"};
 
 [[noreturn]] void refuse(const std::string& what) { throw core::BadInput({{{"--show", 0, 0}, what}}); }
 

@@ -339,7 +339,7 @@ Json page_data(const Report& r) {
           {"steps", steps(part_of(a, "steps"))},
           {"errors", errors(part_of(a, "errors"))},
           {"pictures", moments(r)},
-          {"sides", sides(part_of(a, "sides"))},
+          {"sides", sides(part_of(a, "details"))},
           {"motion", motion_data(r)},
           {"metrics", metrics_data(r)},
           {"learning", learning_data(r)},

@@ -16,6 +16,8 @@
 #include <utility>
 #include <vector>
 
+#include <trocar/core/fields.hpp>
+
 namespace trocar::vessels {
 
 struct Elimination {
@@ -26,6 +28,13 @@ struct Elimination {
   std::vector<int> fill;    ///< for rows with several later neighbours x, y in turn: where A(x, y) stands
   std::vector<int> entry_of_link;  ///< (links) where A(row of a, row of b) stands; ^ 1: the other way round
   std::size_t values() const { return 2 * later.size(); }
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("row_of", s.row_of), v("later", s.later), v("rows", s.rows, core::kNotHashed),
+        v("start", s.start, core::kNotHashed), v("fill", s.fill, core::kNotHashed),
+        v("entry_of_link", s.entry_of_link, core::kNotHashed);
+  }
 };
 
 /// Several links may join the same two nodes (they share an entry).

@@ -24,6 +24,7 @@
 #include <span>
 #include <vector>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/vessels/elimination.hpp>
 #include <trocar/vessels/graph.hpp>
@@ -52,6 +53,13 @@ struct FlowSegment {
   double reference = 0;          ///< p_ref [Pa]
   double cut_resistance = 0;     ///< pressure over flow of this segment cut through, what a partial clip is measured by
   bool vein = false;
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("from", s.from), v("to", s.to), v("first", s.first), v("cells", s.cells), v("vein", s.vein),
+        v("length", s.length), v("radius", s.radius), v("taper", s.taper), v("rest", s.rest), v("give", s.give),
+        v("reference", s.reference), v("cut_resistance", s.cut_resistance);
+  }
 };
 
 struct FlowEnd {
@@ -62,6 +70,12 @@ struct FlowEnd {
   double pressure = 0;     ///< [Pa]
   double conductance = 0;  ///< of all of it within a tick: flow per pressure at the row
   double storage = 0;      ///< C / dt
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("row", s.row), v("near", s.near), v("inner", s.inner), v("far", s.far), v("pressure", s.pressure),
+        v("conductance", s.conductance), v("storage", s.storage);
+  }
 };
 
 struct FlowSource {
@@ -70,6 +84,12 @@ struct FlowSource {
   bool venous = false;
   double pressure = 0, conductance = 0;
   std::vector<double> wave;
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("row", s.row), v("kind", s.kind), v("venous", s.venous), v("pressure", s.pressure),
+        v("conductance", s.conductance), v("wave", s.wave), v("node", s.node, core::kNotHashed);
+  }
 };
 
 /// Const after build(), shared by any number of simulations.
@@ -89,6 +109,15 @@ struct FlowModel {
   Blood blood;
   FlowSettings settings;
   int drain_ticks = 0;
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("nodes", s.nodes), v("segments", s.segments), v("cells", s.cells), v("give", s.give), v("give2", s.give2),
+        v("low", s.low), v("high", s.high), v("start_pressure", s.start_pressure), v("plan", s.plan), v("beat", s.beat),
+        v("heart.response", s.heart.response, core::kPartOfField), v("ends", s.ends), v("sources", s.sources),
+        v("heart", s.heart), v("blood", s.blood), v("settings", s.settings),
+        v("beat_mean", s.beat_mean, core::kNotHashed), v("drain_ticks", s.drain_ticks, core::kNotHashed);
+  }
 };
 
 /// Something that blood gets out by. Index in the input's span = slot in State and in the outputs; a slot that is not
@@ -135,11 +164,25 @@ struct OpeningState {
   std::int32_t segment = -1, cell = -1;      ///< -1: not in use
   std::int32_t kind = 0, ticks_cut_off = 0;  ///< side 0
   std::int32_t ticks_cut_off_other = 0, unused = 0;
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("at", s.at), v("before", s.before), v("clot", s.clot), v("flow", s.flow), v("pressure", s.pressure),
+        v("remainder", s.remainder), v("segment", s.segment), v("cell", s.cell), v("kind", s.kind),
+        v("ticks_cut_off", s.ticks_cut_off), v("ticks_cut_off_other", s.ticks_cut_off_other), v("unused", s.unused);
+  }
 };
 
 struct ClipState {
   double at = 0, before = 0;
   std::int32_t cell = -1, closed = 0;
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("at", s.at), v("before", s.before), v("cell", s.cell), v("closed", s.closed);
+  }
 };
 
 struct FlowState {
@@ -152,6 +195,13 @@ struct FlowState {
   double beat = 0, breath = 0;         ///< phases, 0 .. 1
   std::int64_t bled = 0, infused = 0;  ///< [pL] since the start
   double infusion_remainder = 0;       ///< [pL]
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("p", s.p), v("dp", s.dp), v("owed", s.owed), v("q", s.q), v("dq", s.dq), v("end_pressure", s.end_pressure),
+        v("openings", s.openings), v("clips", s.clips), v("beat", s.beat), v("breath", s.breath), v("bled", s.bled),
+        v("infused", s.infused), v("infusion_remainder", s.infusion_remainder);
+  }
 };
 
 /// Scratch. Sites are the openings and clips of this tick in the order of their places.
@@ -191,6 +241,14 @@ struct FlowWork {
   std::vector<std::int32_t> part;              ///< (nodes) connected part
   std::vector<std::int8_t> part_fed, blocked;  ///< (nodes), (segments)
   int site_count = 0, chain_count = 0;
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("capacity", s.capacity), v("extra", s.extra), v("ahead", s.ahead), v("diagonal", s.diagonal), v("x", s.x),
+        v("values", s.values), v("flow0", s.flow0), v("flow_a", s.flow_a), v("flow_b", s.flow_b), v("sites", s.sites),
+        v("chains", s.chains), v("points", s.points), v("part", s.part), v("part_fed", s.part_fed),
+        v("blocked", s.blocked), v("site_count", s.site_count), v("chain_count", s.chain_count);
+  }
 };
 
 struct FlowReport {

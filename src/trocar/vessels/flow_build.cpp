@@ -12,7 +12,6 @@
 namespace trocar::vessels {
 namespace {
 
-constexpr double kPi = portable::pi;
 constexpr std::size_t kMaxEntries = 4'000'000;  // of the elimination: 64 MB of a tick's work
 constexpr double kSourceResistance = 1e-6;      // of the wave resistance of what a source feeds, where none is given
 
@@ -72,9 +71,9 @@ void Builder::cell(const FlowSegment& f, int number, int a, int b) {
   FlowCell c;
   c.a = a, c.b = b;
   c.rest = f.rest, c.give = f.give;
-  c.area_a = kPi * ra * ra, c.area_b = kPi * rb * rb, c.area = kPi * square((ra + rb) / 2);
+  c.area_a = portable::pi * ra * ra, c.area_b = portable::pi * rb * rb, c.area = portable::pi * square((ra + rb) / 2);
   c.inertia = rho * dx / (graph.settings.implicitness * dt);
-  c.friction = 2 * (graph.blood.profile + 2) * kPi * graph.blood.viscosity * dx;
+  c.friction = 2 * (graph.blood.profile + 2) * portable::pi * graph.blood.viscosity * dx;
   c.carried = 2 * rho * dx * c.area * c.give / dt;
   c.courant = dt / dx;
   give.resize(std::size_t(rows), 0), give2.resize(std::size_t(rows), 0), reference.resize(std::size_t(rows), 0);
@@ -128,7 +127,7 @@ void Builder::source(const VesselSource& s) {
   double least = std::numeric_limits<double>::infinity();
   for (const VesselSegment& v : graph.segments)
     if (v.from == s.node || v.to == s.node)
-      least = std::min(least, graph.blood.density * wave_speed(v, graph.blood) / (kPi * v.radius * v.radius));
+      least = std::min(least, graph.blood.density * wave_speed(v, graph.blood) / (portable::pi * v.radius * v.radius));
   f.conductance = 1 / (s.resistance > 0 ? s.resistance : kSourceResistance * std::min(least, 1e15));
   m.sources.push_back(std::move(f));
 }
@@ -165,7 +164,7 @@ void Builder::cut_resistances() {
   for (std::size_t i = 0; i < m.segments.size(); ++i) {
     const FlowSegment& s = m.segments[i];
     const double r = std::min(least[s.from], least[s.to]) + flow_resistance(graph.segments[i], graph.blood);
-    const double a = graph.settings.discharge * kPi * square(s.radius + s.taper / 2);
+    const double a = graph.settings.discharge * portable::pi * square(s.radius + s.taper / 2);
     const double orifice = graph.blood.density / (2 * a * a);
     m.segments[i].cut_resistance = (r + std::sqrt(r * r + 4 * orifice * p)) / 2;
   }

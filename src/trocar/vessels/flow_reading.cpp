@@ -1,6 +1,7 @@
 // What others read from the State of the flow: walls, lumens, pressures, hashes.
 #include <algorithm>
 
+#include <trocar/core/field_hash.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/vessels/sites.hpp>
 
@@ -91,39 +92,8 @@ double node_pressure(const FlowModel& m, const FlowState& state, int node) noexc
   return node >= 0 && node < m.nodes ? state.p[m.plan.row_of[node]] : 0;
 }
 
-void add_to_hash(core::Hasher& hasher, const FlowModel& m) noexcept {
-  hasher.add(m.nodes);
-  for (const FlowSegment& s : m.segments) {
-    hasher.add(s.from), hasher.add(s.to), hasher.add(s.first), hasher.add(s.cells), hasher.add(int(s.vein));
-    for (const double x : {s.length, s.radius, s.taper, s.rest, s.give, s.reference, s.cut_resistance}) hasher.add(x);
-  }
-  hasher.add(m.cells), hasher.add(m.give), hasher.add(m.give2), hasher.add(m.low), hasher.add(m.high),
-      hasher.add(m.start_pressure);
-  hasher.add(m.plan.row_of), hasher.add(m.plan.later), hasher.add(m.beat), hasher.add(m.heart.response);
-  for (const FlowEnd& e : m.ends) {
-    hasher.add(e.row);
-    for (const double x : {e.near, e.inner, e.far, e.pressure, e.conductance, e.storage}) hasher.add(x);
-  }
-  for (const FlowSource& s : m.sources) {
-    hasher.add(s.row), hasher.add(int(s.kind)), hasher.add(int(s.venous));
-    hasher.add(s.pressure), hasher.add(s.conductance), hasher.add(s.wave);
-  }
-  const FlowSettings& f = m.settings;
-  for (const double x :
-       {m.heart.rate, m.heart.systolic, m.heart.diastolic, m.heart.breaths, m.heart.arterial_swing,
-        m.heart.venous_swing, m.blood.density, m.blood.viscosity, m.blood.profile, f.tick, f.implicitness,
-        f.closing_cover, f.discharge, f.drain_time, f.ooze_speed, f.clot_area, f.clot_time_small, f.clot_time_large})
-    hasher.add(x);
-  hasher.add(f.max_openings), hasher.add(f.max_clips);
-}
+void add_to_hash(core::Hasher& h, const FlowModel& m) noexcept { core::add_fields(h, m); }
 
-void add_to_hash(core::Hasher& hasher, const FlowState& s) noexcept {
-  hasher.add(s.p), hasher.add(s.dp), hasher.add(s.owed);
-  hasher.add(s.q), hasher.add(s.dq);
-  hasher.add(s.end_pressure);
-  hasher.add(s.openings), hasher.add(s.clips);
-  hasher.add(s.beat), hasher.add(s.breath);
-  hasher.add(s.bled), hasher.add(s.infused), hasher.add(s.infusion_remainder);
-}
+void add_to_hash(core::Hasher& h, const FlowState& s) noexcept { core::add_fields(h, s); }
 
 }  // namespace trocar::vessels

@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/core/tick.hpp>
 #include <trocar/vessels/heart.hpp>
 
@@ -76,6 +77,12 @@ struct Blood {
   double viscosity = 3.5e-3;  ///< [Pa s]
   double profile = 2;         ///< exponent of the velocity profile: friction 2 (profile + 2) pi mu u; 2 = Poiseuille's
   double volume = 5e-3;       ///< of the patient [m^3]; a loss counts by its share of it
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("density", s.density), v("viscosity", s.viscosity), v("profile", s.profile),
+        v("volume", s.volume, core::kNotHashed);
+  }
 };
 
 /// How the model is cut into cells and what its openings do; defaults are our choice unless said.
@@ -92,6 +99,15 @@ struct FlowSettings {
   double clot_time_large = 300;  ///< those of nearly clot_area in this [s]
   double cavity_pressure = 12 * kPascalPerMmHg;  ///< that a partial clip's resistance is figured with [Pa]
   int max_openings = 64, max_clips = 64;
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("tick", s.tick), v("implicitness", s.implicitness), v("closing_cover", s.closing_cover),
+        v("discharge", s.discharge), v("drain_time", s.drain_time), v("ooze_speed", s.ooze_speed),
+        v("clot_area", s.clot_area), v("clot_time_small", s.clot_time_small), v("clot_time_large", s.clot_time_large),
+        v("max_openings", s.max_openings), v("max_clips", s.max_clips),
+        v("cell_travel", s.cell_travel, core::kNotHashed), v("cavity_pressure", s.cavity_pressure, core::kNotHashed);
+  }
 };
 
 struct VesselGraph {

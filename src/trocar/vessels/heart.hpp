@@ -6,6 +6,8 @@
 #include <array>
 #include <vector>
 
+#include <trocar/core/fields.hpp>
+
 namespace trocar::vessels {
 
 /// How the circulation answers to a loss: factors at a lost volume, straight lines between, constant beyond the last.
@@ -30,6 +32,13 @@ struct Heart {
                                         {2.0e-3, 0.68, 0.5, 1.85},
                                         {2.5e-3, 0.45, 0.4, 1.95},
                                         {3.5e-3, 0.1, 0.3, 0.6}}};
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("rate", s.rate), v("systolic", s.systolic), v("diastolic", s.diastolic), v("breaths", s.breaths),
+        v("arterial_swing", s.arterial_swing), v("venous_swing", s.venous_swing), v("shape", s.shape, core::kNotHashed),
+        v("response", s.response, core::kNotHashed);
+  }
 };
 
 /// The textbooks' beat in `steps` equal steps: 0 at its start, 1 at its peak, mean 1/3.

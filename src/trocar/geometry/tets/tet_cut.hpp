@@ -17,6 +17,7 @@
 #include <span>
 #include <vector>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/geometry/tets/blade.hpp>
 #include <trocar/numerics/vec3.hpp>
 
@@ -31,6 +32,11 @@ struct CuttableTets {
   std::int32_t nodes = 0;            ///< how many of the capacity are there
   std::vector<Tet> cells;            ///< corners, positive volume
   std::vector<Tet> across;           ///< cell beyond each face, or -1
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("rest", s.rest), v("source", s.source), v("nodes", s.nodes), v("cells", s.cells), v("across", s.across);
+  }
 };
 
 /// Throws std::invalid_argument for corners that do not exist, cells without positive volume, or a face of more than
@@ -62,6 +68,14 @@ struct CutWork {
   std::vector<std::uint8_t> seen;              ///< (cells)
   std::vector<std::int32_t> touched;           ///< after a cut: (cells) those whose nodes moved or changed ...
   std::int32_t touched_count = 0;              ///< ... so many
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("height", s.height), v("at_blade", s.at_blade), v("nearest", s.nearest), v("towards", s.towards),
+        v("target_rest", s.target_rest), v("target_now", s.target_now), v("side", s.side), v("begin", s.begin),
+        v("around", s.around), v("fan", s.fan), v("seen", s.seen), v("touched", s.touched),
+        v("touched_count", s.touched_count);
+  }
 };
 CutWork make_work(const CuttableTets& body);
 

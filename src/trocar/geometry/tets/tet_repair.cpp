@@ -122,6 +122,16 @@ TetRepair repair(const TetMesh& broken, double tolerance) {
   return out;
 }
 
+std::vector<std::string> left_as_is(const TetFacts& mended) {
+  std::vector<std::string> out;
+  if (mended.parts > 1) out.push_back(std::to_string(mended.parts) + " parts that share no face");
+  if (mended.odd_edges > 0)
+    out.push_back(std::to_string(mended.odd_edges) + " edge" + (mended.odd_edges == 1 ? "" : "s") +
+                  " of the surface at which not exactly two of its triangles meet: cells that touch in an edge only, "
+                  "or cracks");
+  return out;
+}
+
 std::string in_words(const Mended& mended) {
   const bool one = mended.count == 1;
   const auto words = [&]() -> const char* {

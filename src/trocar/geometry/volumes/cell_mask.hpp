@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/numerics/vec3.hpp>
 
 namespace trocar::geometry {
@@ -33,6 +34,12 @@ struct CellMask {
   void set(int x, int y, int z) noexcept {
     const std::size_t bit = number(x, y, z);
     bits[bit / 8] = std::uint8_t(bits[bit / 8] | (1u << (bit % 8)));
+  }
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("bits", s.bits), v("cell", s.cell, core::kNotHashed), v("first", s.first, core::kNotHashed),
+        v("count", s.count, core::kNotHashed);
   }
 };
 

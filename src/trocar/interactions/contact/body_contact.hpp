@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/interactions/contact/surface.hpp>
 #include <trocar/interactions/couplings/loads.hpp>
 #include <trocar/interactions/couplings/strand_body.hpp>
@@ -21,12 +22,23 @@ struct SurfacePair {
   std::vector<std::int32_t> sample;                     ///< strand nodes, skin vertices, or membrane nodes
   std::vector<float> radius;                            ///< of each sample [m]; 0 for skin vertices
   std::vector<float> overlap;
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("strand", s.strand), v("solid", s.solid), v("membrane", s.membrane), v("surface", s.surface),
+        v("sample", s.sample), v("radius", s.radius), v("overlap", s.overlap);
+  }
 };
 
 /// One strand against another: elements of `a` from..to, tested against all of `b`.
 struct StrandPair {
   std::int32_t a = 0, b = 0;
   std::vector<float> overlap;  ///< per element of a
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("a", s.a), v("b", s.b), v("overlap", s.overlap);
+  }
 };
 
 /// @param nearest (samples) State: vertex where each sample was last; of samples far from there it is looked for in

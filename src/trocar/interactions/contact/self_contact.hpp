@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/interactions/contact/surface.hpp>
 #include <trocar/interactions/couplings/loads.hpp>
 
@@ -29,6 +30,12 @@ struct SelfPair {
 
   bool other(std::size_t i, int vertex) const noexcept {
     return vertex < 64 * words && (others[i * std::size_t(words) + std::size_t(vertex / 64)] >> (vertex % 64) & 1u);
+  }
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("organ", s.organ), v("sample", s.sample), v("overlap", s.overlap), v("others", s.others),
+        v("words", s.words, core::kNotHashed);
   }
 };
 

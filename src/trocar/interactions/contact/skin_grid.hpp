@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/tissue/network/skin.hpp>
 
 namespace trocar::interactions {
@@ -21,6 +22,12 @@ struct SkinGrid {
   std::vector<std::uint64_t> filled;        ///< a bit a cell: has it any? Small enough to be at hand
 
   int nearest(const tissue::Skin& skin, Vec3d p) const noexcept;
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("origin", s.origin), v("reach", s.reach), v("per_cell", s.per_cell), v("cells", s.cells), v("first", s.first),
+        v("vertex", s.vertex), v("filled", s.filled);
+  }
 };
 
 /// @param reach  [m]

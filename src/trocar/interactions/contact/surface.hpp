@@ -2,6 +2,7 @@
 // vertex, found by walking downhill over the mesh from where it was last tick (that index is State).
 #pragma once
 
+#include <trocar/core/fields.hpp>
 #include <trocar/tissue/network/skin.hpp>
 
 namespace trocar::interactions {
@@ -20,6 +21,11 @@ struct Surface {
   bool torn(int vertex) const noexcept;
   /// The same for the edge between two neighbours.
   bool torn(int vertex, int neighbour) const noexcept;
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("skin", s.skin), v("pose", s.pose), v("nodes", s.nodes), v("torn_beyond", s.torn_beyond);
+  }
 };
 
 /// Of a lattice: a vertex is torn off where one of its carriers is farther away than five times the cells' diagonal.

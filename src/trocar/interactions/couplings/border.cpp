@@ -1,3 +1,4 @@
+#include <trocar/core/field_hash.hpp>
 #include <trocar/interactions/couplings/border.hpp>
 
 namespace trocar::interactions {
@@ -56,14 +57,6 @@ void border_loads(std::span<const BorderHold> holds, std::span<const tissue::Bor
   }
 }
 
-void add_to_hash(core::Hasher& h, const BorderHold& hold) noexcept {
-  h.add(std::int32_t(hold.kind));
-  h.add(hold.index);
-  h.add(std::int32_t(hold.place.element));
-  h.add(hold.place.w);
-  h.add(hold.vertex);
-  h.add(hold.offset);
-  h.add(hold.drawn_pull);
-}
+void add_to_hash(core::Hasher& hasher, const BorderHold& hold) noexcept { core::add_fields(hasher, hold); }
 
 }  // namespace trocar::interactions

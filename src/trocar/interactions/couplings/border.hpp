@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/interactions/couplings/loads.hpp>
 #include <trocar/interactions/couplings/strand_body.hpp>
 #include <trocar/tissue/membrane/membrane.hpp>
@@ -25,6 +26,12 @@ struct BorderHold {
   std::int32_t vertex = -1;   ///< of the organ's skin
   Vec3d offset{0, 0, 0};      ///< from there to the node as drawn [m]
   Vec3d drawn_pull{0, 0, 0};  ///< of the sheet in the drawn shape: its holder is drawn bearing it already [N]
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("kind", s.kind), v("index", s.index), v("place", s.place), v("vertex", s.vertex), v("offset", s.offset),
+        v("drawn_pull", s.drawn_pull);
+  }
 };
 
 /// Bodies that may hold a border, and where their loads go.

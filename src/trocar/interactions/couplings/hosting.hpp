@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/interactions/couplings/loads.hpp>
 
 namespace trocar::interactions {
@@ -15,6 +16,11 @@ struct HostPatch {
   std::vector<float> weight;
   Vec3d offset{0, 0, 0};      ///< drawn end minus the patch's weighted mean (zero but for rounding) [m]
   Vec3d drawn_pull{0, 0, 0};  ///< of the strand in the drawn shape: the organ is drawn bearing it already [N]
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("node", s.node), v("weight", s.weight), v("offset", s.offset), v("drawn_pull", s.drawn_pull);
+  }
 };
 
 /// Smooth weights around `point` over the nodes within `radius`, corrected to be affine-exact.

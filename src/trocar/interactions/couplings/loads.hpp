@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/tissue/network/network.hpp>
 #include <trocar/tissue/network/skin.hpp>
 #include <trocar/tissue/strand/strand.hpp>
@@ -33,6 +34,12 @@ struct NetworkLoads {
   void add(const tissue::NodeLoad& load, Tag t) noexcept;
   void sort() noexcept;
   bool handled() const noexcept;  ///< an instrument touches or holds it
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("gathered", s.gathered), v("sorted", s.sorted), v("tag", s.tag), v("order", s.order), v("owner", s.owner),
+        v("reaction", s.reaction), v("overflowed", s.overflowed);
+  }
 };
 
 /// Loads on a strand.
@@ -45,6 +52,11 @@ struct StrandLoads {
   void reserve(std::size_t capacity);
   void clear() noexcept;
   void add(const tissue::StrandLoad& load, Tag t) noexcept;
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("list", s.list), v("tag", s.tag), v("reaction", s.reaction), v("overflowed", s.overflowed);
+  }
 };
 
 /// A node's speed as far as a load may count on it that resists changes of it for a whole tick. One that is faster than

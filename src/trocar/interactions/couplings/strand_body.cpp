@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include <trocar/core/field_hash.hpp>
 #include <trocar/interactions/couplings/strand_body.hpp>
 
 namespace trocar::interactions {
@@ -79,10 +80,6 @@ StrandFrame frame_at(const StrandBody& body, const tissue::StrandState& state, S
   return {t, n, cross(t, n)};
 }
 
-void add_to_hash(core::Hasher& hasher, const StrandBody& body) noexcept {
-  add_to_hash(hasher, body.model);
-  hasher.add(body.arc);
-  hasher.add(std::int32_t(body.cuttable));
-}
+void add_to_hash(core::Hasher& hasher, const StrandBody& body) noexcept { core::add_fields(hasher, body); }
 
 }  // namespace trocar::interactions

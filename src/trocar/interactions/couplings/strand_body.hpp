@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <trocar/core/body_id.hpp>
+#include <trocar/core/fields.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/tissue/strand/strand.hpp>
 
@@ -17,12 +19,22 @@ struct StrandBody {
 
   int nodes() const { return model.nodes; }
   double length() const { return arc.back(); }
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("model", s.model), v("arc", s.arc), v("cuttable", s.cuttable);
+  }
 };
 
 /// A material point: element and place within it.
 struct StrandPlace {
   int element = 0;
   double w = 0;  ///< 0..1
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("element", s.element), v("w", s.w);
+  }
 };
 StrandPlace place_at(const StrandBody& body, double s) noexcept;
 double arc_at(const StrandBody& body, StrandPlace place) noexcept;
@@ -58,6 +70,14 @@ struct Clip {
   std::int32_t vessel = 0;        ///< above 0: no strand lay between the legs, but this vessel + 1; s, axes are on it
 
   bool dropped() const noexcept { return strand < 0 && vessel == 0; }
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("s", s.s), v("theta", s.theta), v("cover", s.cover), v("closing_time", s.closing_time), v("opening", s.opening),
+        v("axis", s.axis), v("reach", s.reach), v("length", s.length), v("tick", s.tick), v("strand", s.strand),
+        v("tool", s.tool), v("tips_visible", s.tips_visible), v("vessel", s.vessel);
+  }
 };
 static_assert(sizeof(Clip) == 12 * 8 + 8 + 4 * 4, "no padding");
 
@@ -74,6 +94,20 @@ struct Cut {
   std::int32_t solid = -1;     ///< organ whose springs and skin the blades parted
   std::int32_t membrane = -1;  ///< fold that the blades parted, alone or with its strand
   std::int32_t reserved = 0;
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("s", s.s), v("fraction", s.fraction), v("beyond", s.beyond), v("fold", s.fold), v("tick", s.tick),
+        v("strand", s.strand), v("tool", s.tool), v("tips_visible", s.tips_visible), v("solid", s.solid),
+        v("membrane", s.membrane), v("reserved", s.reserved);
+  }
+
+  /// What was cut: a strand before the fold that it carries.
+  BodyId body() const noexcept {
+    if (strand >= 0) return BodyId::strand(std::size_t(strand));
+    return solid >= 0 ? BodyId::organ(std::size_t(solid)) : BodyId::maybe(BodyKind::membrane, membrane);
+  }
 };
 static_assert(sizeof(Cut) == 4 * 8 + 8 + 6 * 4, "no padding");
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include <trocar/core/field_hash.hpp>
 #include <trocar/interactions/couplings/vessel_path.hpp>
 
 namespace trocar::interactions {
@@ -201,14 +202,6 @@ int pieces_of(const VesselPath& path, std::span<const Vec3d> points, std::span<c
   return 2;
 }
 
-void add_to_hash(core::Hasher& h, const VesselPath& path) noexcept {
-  h.add(path.length);
-  for (const VesselPoint& p : path.points) {
-    h.add(p.drawn), h.add(p.s), h.add(p.radius), h.add(p.node), h.add(p.turn);
-    h.add(std::int32_t(p.hold.kind)), h.add(p.hold.index), h.add(p.hold.element), h.add(p.hold.w);
-    h.add(p.hold.vertex), h.add(p.hold.share), h.add(p.hold.offset);
-    for (std::size_t k = 0; k < 2; ++k) h.add(p.near[k]), h.add(p.share[k]);
-  }
-}
+void add_to_hash(core::Hasher& hasher, const VesselPath& path) noexcept { core::add_fields(hasher, path); }
 
 }  // namespace trocar::interactions

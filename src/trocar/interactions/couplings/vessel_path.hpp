@@ -12,6 +12,8 @@
 #include <span>
 #include <vector>
 
+#include <trocar/core/body_id.hpp>
+#include <trocar/core/fields.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/interactions/couplings/strand_body.hpp>
 #include <trocar/tissue/network/skin.hpp>
@@ -28,6 +30,18 @@ struct VesselHold {
   std::array<std::int32_t, 3> vertex{-1, -1, -1};  ///< of the triangle
   std::array<double, 4> share{0, 0, 0, 0};         ///< of these, or of the cell's corners
   Vec3d offset{0, 0, 0};                           ///< from there; triangle: along edge, across, normal [m]
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("kind", s.kind), v("index", s.index), v("element", s.element), v("w", s.w), v("vertex", s.vertex),
+        v("share", s.share), v("offset", s.offset);
+  }
+
+  BodyId carrier() const noexcept {  ///< none: space
+    if (kind == space) return {};
+    const BodyKind body = kind == strand ? BodyKind::strand : kind == membrane ? BodyKind::membrane : BodyKind::organ;
+    return BodyId::maybe(body, index);
+  }
 };
 
 struct VesselPoint {
@@ -44,12 +58,24 @@ struct VesselPoint {
   /// Nothing carries it, nor what lies behind it on one side: the vessel runs below the peritoneum there, where no
   /// instrument meets it and no eye sees it.
   bool covered() const noexcept { return hold.kind == VesselHold::space && near[1] < 0; }
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("drawn", s.drawn), v("s", s.s), v("radius", s.radius), v("node", s.node), v("turn", s.turn), v("hold", s.hold),
+        v("near[0]", s.near[0]), v("share[0]", s.share[0]), v("near[1]", s.near[1]), v("share[1]", s.share[1]),
+        v("along", s.along, core::kNotHashed);
+  }
 };
 
 /// Const after compile.
 struct VesselPath {
   double length = 0;                ///< of the drawn line [m]
   std::vector<VesselPoint> points;  ///< two or more, s ascending from 0 to 1
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("length", s.length), v("points", s.points);
+  }
 };
 
 /// Bodies that carry vessels, as they are now.

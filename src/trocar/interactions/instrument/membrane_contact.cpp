@@ -180,7 +180,7 @@ bool begins_inside(const Capsule& rod, const Corners& t, Vec3f side) noexcept {
 
 }  // namespace
 
-void tool_on_sheet(Touching& c, const ToolState& tool_state, int body, const SheetView& sheet, std::span<Vec3f> side,
+void tool_on_sheet(Touching& c, const ToolState& tool_state, BodyId body, const SheetView& sheet, std::span<Vec3f> side,
                    SheetBond& bond, NetworkLoads& loads, double& gap) noexcept {
   const ToolShape& shape = c.shape;
   const Surface& surface = sheet.surface;

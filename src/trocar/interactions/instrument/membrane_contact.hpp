@@ -11,6 +11,7 @@
 
 #include <span>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/interactions/contact/surface.hpp>
 #include <trocar/interactions/couplings/loads.hpp>
 #include <trocar/interactions/instrument/touch.hpp>
@@ -26,6 +27,12 @@ struct SheetView {
   /// Of a closed wall, whose nodes are too far apart to bulge between jaws: beside them, within this, they are pinched
   /// into a fold all the same [m].
   double pinch_reach = 0;
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("surface", s.surface), v("parted", s.parted), v("fixed", s.fixed), v("half_thickness", s.half_thickness),
+        v("pinch_reach", s.pinch_reach);
+  }
 };
 
 /// What an instrument has to do with a sheet from one tick to the next.
@@ -39,7 +46,7 @@ enum class SheetBond : std::uint8_t {
 /// @param side  (triangles x kSheetParts) State: unit vector from the rod to the sheet when they last were near
 /// @param bond  State: in: of the last tick, out: of this one
 /// @param gap   out: no axis of the instrument is nearer to the sheet than this [m], or it may go where it likes
-void tool_on_sheet(Touching& touching, const ToolState& tool_state, int body, const SheetView& sheet,
+void tool_on_sheet(Touching& touching, const ToolState& tool_state, BodyId body, const SheetView& sheet,
                    std::span<Vec3f> side, SheetBond& bond, NetworkLoads& loads, double& gap) noexcept;
 
 }  // namespace trocar::interactions

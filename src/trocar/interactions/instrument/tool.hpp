@@ -6,6 +6,8 @@
 #include <string>
 
 #include <trocar/collision/rods.hpp>
+#include <trocar/core/body_id.hpp>
+#include <trocar/core/fields.hpp>
 #include <trocar/kinematics/fulcrum.hpp>
 #include <trocar/tissue/heat/electrosurgery.hpp>
 #include <trocar/tissue/heat/electrosurgery_seal.hpp>
@@ -19,6 +21,11 @@ struct ElectrodeModel {
   bool there = false;
   tissue::ElectrodeDescription current;
   tissue::SealDescription seal;
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("current", s.current), v("seal", s.seal), v("there", s.there, core::kNotHashed);
+  }
 };
 
 struct ToolModel {
@@ -38,19 +45,34 @@ struct ToolModel {
   double clip_length = 0;  ///< [m]
   std::int32_t clips = 0;  ///< in the magazine at the start
   ElectrodeModel electrode;
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("kind", s.kind), v("port", s.port), v("limits", s.limits), v("shaft_radius", s.shaft_radius),
+        v("shaft_length", s.shaft_length), v("jaw_length", s.jaw_length), v("jaw_width", s.jaw_width),
+        v("jaw_thickness", s.jaw_thickness), v("opening", s.opening), v("parallel_gap", s.parallel_gap),
+        v("pinch_max", s.pinch_max), v("friction", s.friction), v("rubbing", s.rubbing),
+        v("clip_length", s.clip_length), v("clips", s.clips),
+        v("electrode", s.electrode, core::only_if(s.electrode.there)), v("name", s.name, core::kNotHashed);
+  }
 };
 
 inline constexpr int kMaxHolds = 12;  ///< tissue points between one pair of jaws
 
 /// A point of tissue held between the jaws, in the jaw frame (opening, normal, axis from the pivot).
 struct Hold {
-  std::int32_t body = -1;    ///< strand index, organ index + kSolidBase, or membrane index + kMembraneBase
+  BodyId body;
   std::int32_t element = 0;  ///< strand element, skin vertex, or membrane node
   float weight = 0;          ///< place within the strand element, 0..1
   float local[3] = {0, 0, 0};
   float force[3] = {0, 0, 0};  ///< of this point on the tissue in the last tick [N]
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("body", s.body), v("element", s.element), v("weight", s.weight), v("local", s.local), v("force", s.force);
+  }
 };
-inline constexpr std::int32_t kSolidBase = 1 << 16, kMembraneBase = 1 << 17;
 
 /// State of one instrument. Plain old data without padding: hashed and saved as bytes.
 struct ToolState {
@@ -71,6 +93,16 @@ struct ToolState {
   Hold hold[kMaxHolds];
 
   kinematics::FulcrumPose pose() const { return {yaw, pitch, roll, depth}; }
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("yaw", s.yaw), v("pitch", s.pitch), v("roll", s.roll), v("depth", s.depth), v("aperture", s.aperture),
+        v("handle", s.handle), v("pinch", s.pinch), v("contact_force", s.contact_force), v("pull", s.pull),
+        v("closed_for", s.closed_for), v("clips_left", s.clips_left), v("armed", s.armed),
+        v("letting_go", s.letting_go), v("holds", s.holds), v("slipped", s.slipped), v("instrument", s.instrument),
+        v("changes", s.changes), v("hold", s.hold);
+  }
 };
 static_assert(sizeof(ToolState) == 14 * 8 + 6 * 4 + kMaxHolds * sizeof(Hold), "no padding");
 

@@ -62,7 +62,7 @@ void rub_vertex(Touching& c, std::int32_t number, const Surface& surface, int v,
 }
 
 /// Was the instrument near this patch of the skin in the last tick?
-bool was_near(const Touching& c, int body, const Surface& surface, int v) noexcept {
+bool was_near(const Touching& c, BodyId body, const Surface& surface, int v) noexcept {
   if (c.last.near(body, v)) return true;
   const tissue::Skin& skin = *surface.skin;
   for (int k = skin.neighbour_first[size_t(v)]; k < skin.neighbour_first[size_t(v) + 1]; ++k)
@@ -77,7 +77,7 @@ bool was_outside(const Touching& c, int part, const Surface& surface, int v, Vec
 }
 
 /// One vertex against one part.
-void touch_vertex(Touching& c, int body, const Surface& surface, int v, int part, NetworkLoads& loads) noexcept {
+void touch_vertex(Touching& c, BodyId body, const Surface& surface, int v, int part, NetworkLoads& loads) noexcept {
   const Capsule& rod = c.shape.part[part];
   const Vec3d p = surface.position(v), from = p - collision::nearest_on_axis(rod, p);
   const double distance = length(from);
@@ -102,7 +102,7 @@ void touch_vertex(Touching& c, int body, const Surface& surface, int v, int part
 }
 
 /// An edge so long that the shaft fits between its vertices. Edges are numbered after the vertices.
-void shaft_on_edge(Touching& c, int body, const Surface& surface, int v, int k, NetworkLoads& loads) noexcept {
+void shaft_on_edge(Touching& c, BodyId body, const Surface& surface, int v, int k, NetworkLoads& loads) noexcept {
   const tissue::Skin& skin = *surface.skin;
   const Capsule& rod = c.shape.part[kShaft];
   const int u = skin.neighbour[size_t(k)];
@@ -129,7 +129,7 @@ void shaft_on_edge(Touching& c, int body, const Surface& surface, int v, int k, 
   }
 }
 
-void shaft_on_edges(Touching& c, int body, const Surface& surface, int v, NetworkLoads& loads) noexcept {
+void shaft_on_edges(Touching& c, BodyId body, const Surface& surface, int v, NetworkLoads& loads) noexcept {
   const tissue::Skin& skin = *surface.skin;
   const double r = c.shape.part[kShaft].radius, least2 = 1.6 * 1.6 * r * r;
   for (int k = skin.neighbour_first[size_t(v)]; k < skin.neighbour_first[size_t(v) + 1]; ++k) {
@@ -139,7 +139,7 @@ void shaft_on_edges(Touching& c, int body, const Surface& surface, int v, Networ
   }
 }
 
-void part_on_surface(Touching& c, int body, const Surface& surface, int part, NetworkLoads& loads) noexcept {
+void part_on_surface(Touching& c, BodyId body, const Surface& surface, int part, NetworkLoads& loads) noexcept {
   const tissue::SkinPose& pose = *surface.pose;
   const Capsule& rod = c.shape.part[part];
   const double reach2 = (rod.radius + kBehind) * (rod.radius + kBehind);
@@ -166,7 +166,7 @@ void part_on_surface(Touching& c, int body, const Surface& surface, int part, Ne
 }
 
 /// Number `ball` of the balls along closed jaws presses the skin in, whatever lies between the skin's vertices.
-void press(Touching& c, int body, const Surface& surface, int ball, Vec3d p, Vec3d before, double radius,
+void press(Touching& c, BodyId body, const Surface& surface, int ball, Vec3d p, Vec3d before, double radius,
            NetworkLoads& loads) noexcept {
   const std::int32_t element = -1 - ball;
   const Touch* was = c.last.find(body, element, kJawA);
@@ -194,7 +194,7 @@ void press(Touching& c, int body, const Surface& surface, int ball, Vec3d p, Vec
 
 /// Closed jaws are a blunt rod that is thinner than the skin's triangles: points along it are pressed against the skin.
 /// Open jaws are not, so that a fold can rise between them.
-void closed_jaws_on_surface(Touching& c, int body, const Surface& surface, NetworkLoads& loads) noexcept {
+void closed_jaws_on_surface(Touching& c, BodyId body, const Surface& surface, NetworkLoads& loads) noexcept {
   const Capsule &a = c.shape.part[kJawA], &b = c.shape.part[kJawB];
   if (length(a.b - b.b) > 2.5 * (a.radius + b.radius)) return;
   constexpr double kSpacing = 0.002;
@@ -208,7 +208,7 @@ void closed_jaws_on_surface(Touching& c, int body, const Surface& surface, Netwo
 
 }  // namespace
 
-void tool_on_surface(Touching& touching, int body, const Surface& surface, NetworkLoads& loads) noexcept {
+void tool_on_surface(Touching& touching, BodyId body, const Surface& surface, NetworkLoads& loads) noexcept {
   for (int part = 0; part < kToolParts; ++part) part_on_surface(touching, body, surface, part, loads);
   closed_jaws_on_surface(touching, body, surface, loads);
 }
@@ -257,7 +257,7 @@ void channel(const ToolShape& shape, const BetweenJaws& where, double radius, in
 constexpr int kBetween = kToolParts;  // where others note a part: it runs between the jaws
 
 /// Nothing gets between jaws that are closed; what was there when they closed stays.
-bool may_be_between(const Touching& c, const BetweenJaws& where, const StrandBody& body, int strand, int e) noexcept {
+bool may_be_between(const Touching& c, const BetweenJaws& where, const StrandBody& body, BodyId strand, int e) noexcept {
   constexpr double kSqueezed = 0.35;
   if (c.shape.half_opening(std::max(where.local.z, 0.0)) >= kSqueezed * body.model.radius[size_t(e)]) return true;
   for (int near = e - 1; near <= e + 1; ++near)
@@ -272,7 +272,7 @@ double gives_way(const tissue::StrandModel& model, int element, double w) noexce
 }
 
 /// A strand element is pushed off a part of the instrument and held back across that.
-void push_strand(Touching& touching, int strand, const tissue::StrandModel& model, const tissue::StrandState& state,
+void push_strand(Touching& touching, BodyId strand, const tissue::StrandModel& model, const tissue::StrandState& state,
                  int element, int part, const collision::RodContact& c, StrandLoads& loads) noexcept {
   const Vec3d a = state.x[size_t(element)], b = state.x[size_t(element) + 1];
   const std::int32_t number = touching.note(strand, element, part);
@@ -344,7 +344,7 @@ bool near_jaws(const Reach& r, Vec3d a, double length2, double radius) noexcept 
 }  // namespace
 
 void tool_on_strand(const ToolModel& model, Touching& touching, const ToolState& tool_state, const StrandBody& body,
-                    int strand, const tissue::StrandState& state, std::span<Vec3f> side, StrandLoads& loads) noexcept {
+                    BodyId strand, const tissue::StrandState& state, std::span<Vec3f> side, StrandLoads& loads) noexcept {
   const ToolShape& shape = touching.shape;
   const auto is_held = [&](int element) {
     for (int h = 0; h < tool_state.holds; ++h)

@@ -19,12 +19,12 @@
 namespace trocar::interactions {
 
 /// @param body  how holds name this organ
-void tool_on_surface(Touching& touching, int body, const Surface& surface, NetworkLoads& loads) noexcept;
+void tool_on_surface(Touching& touching, BodyId body, const Surface& surface, NetworkLoads& loads) noexcept;
 
 /// @param side  (elements x kToolParts) State: on which side of each of this tool's rods an element lies
 ///              (collision::touch)
 void tool_on_strand(const ToolModel& model, Touching& touching, const ToolState& tool_state, const StrandBody& body,
-                    int strand, const tissue::StrandState& state, std::span<Vec3f> side, StrandLoads& loads) noexcept;
+                    BodyId strand, const tissue::StrandState& state, std::span<Vec3f> side, StrandLoads& loads) noexcept;
 
 /// How a strand element lies between the jaws.
 struct BetweenJaws {

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include <trocar/core/field_hash.hpp>
 #include <trocar/core/tick.hpp>
 #include <trocar/interactions/instrument/lever.hpp>
 #include <trocar/interactions/instrument/wall_stop.hpp>
@@ -47,7 +48,7 @@ void put(float (&to)[3], Vec3d from) noexcept {
 
 }  // namespace
 
-const Touch* TouchBook::find(std::int32_t body, std::int32_t element, std::int32_t part) const noexcept {
+const Touch* TouchBook::find(BodyId body, std::int32_t element, std::int32_t part) const noexcept {
   Touch key;
   key.body = body;
   key.element = element;
@@ -56,7 +57,7 @@ const Touch* TouchBook::find(std::int32_t body, std::int32_t element, std::int32
   return at != touch + count && at->body == body && at->element == element && at->part == part ? at : nullptr;
 }
 
-bool TouchBook::near(std::int32_t body, std::int32_t element) const noexcept {
+bool TouchBook::near(BodyId body, std::int32_t element) const noexcept {
   Touch key;
   key.body = body;
   key.element = element;
@@ -85,7 +86,7 @@ Touching::Touching(double friction, const ToolShape& was_at, const ToolShape& is
   for (int part = 0; part < kToolParts; ++part) m_way[part] = collision::way_of(before.part[part], shape.part[part]);
 }
 
-std::int32_t Touching::note(std::int32_t body, std::int32_t element, std::int32_t part, std::int32_t vertex) noexcept {
+std::int32_t Touching::note(BodyId body, std::int32_t element, std::int32_t part, std::int32_t vertex) noexcept {
   if (next.count == kMaxTouches) return 0;
   Touch& t = next.touch[next.count++];
   t = {};
@@ -96,7 +97,7 @@ std::int32_t Touching::note(std::int32_t body, std::int32_t element, std::int32_
   return next.count;
 }
 
-const Touch* Touching::anchored(std::int32_t body, std::int32_t element, std::int32_t part) const noexcept {
+const Touch* Touching::anchored(BodyId body, std::int32_t element, std::int32_t part) const noexcept {
   const Touch* was = last.find(body, element, part);
   return was && was->anchored ? was : nullptr;
 }
@@ -158,21 +159,17 @@ void press_on(TouchBook& next, std::int32_t number, Vec3d force) noexcept {
 void remember(const ToolState& tool, TouchBook& next, TouchBook& book) noexcept {
   std::sort(next.touch, next.touch + next.count, before_in_book);
   for (Touch* t = next.touch; t != next.touch + next.count; ++t)
-    t->force = std::clamp(t->force, 0.0f, t->body == kWallBody ? kMostAtWall : kMostPress);
+    t->force = std::clamp(t->force, 0.0f, t->body.is(BodyKind::wall) ? kMostAtWall : kMostPress);
   std::copy(next.touch, next.touch + next.count, book.touch);
   start_here(tool, book);
   book.count = next.count;
 }
 
-void add_to_hash(core::Hasher& hasher, const TouchBook& book) noexcept {
-  for (double v : {book.yaw, book.pitch, book.roll, book.depth, book.aperture}) hasher.add(v);
-  hasher.add(book.count);
-  for (int i = 0; i < book.count; ++i) hasher.add(book.touch[i]);
-}
+void add_to_hash(core::Hasher& hasher, const TouchBook& book) noexcept { core::add_fields(hasher, book); }
 
 void note_wall(const WallStop& stop, Touching& touching) noexcept {
   if (!stop.stopped) return;
-  const std::int32_t number = touching.note(kWallBody, 0, stop.part);
+  const std::int32_t number = touching.note(BodyId::wall(), 0, stop.part);
   if (number == 0) return;
   Touch& t = touching.next.touch[number - 1];
   t.anchored = 1;

@@ -12,6 +12,7 @@
 
 #include <cstdint>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/interactions/instrument/tool.hpp>
 
@@ -22,7 +23,7 @@ inline constexpr double kGrazes = 0.0001;  ///< apart by less than this [m] fric
 
 /// One point of a body near one part of an instrument. No padding.
 struct Touch {
-  std::int32_t body = -1;       ///< as Hold::body
+  BodyId body;                  ///< or a wall
   std::int32_t element = 0;     ///< skin vertex, strand element, triangle of a sheet; balls of jaws: below 0
   std::int32_t part = 0;        ///< of the instrument
   std::int32_t vertex = -1;     ///< balls: of the skin, where they were nearest
@@ -31,6 +32,13 @@ struct Touch {
   float weight[2] = {0, 0};     ///< the tissue's point within the element: of its second and third corner
   float anchor[3] = {0, 0, 0};  ///< where that point sticks, in the part's frame [m]
   float normal[3] = {0, 0, 0};  ///< this tick's, from the instrument to the tissue
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("body", s.body), v("element", s.element), v("part", s.part), v("vertex", s.vertex), v("anchored", s.anchored),
+        v("force", s.force), v("weight", s.weight), v("anchor", s.anchor), v("normal", s.normal);
+  }
 };
 static_assert(sizeof(Touch) == 14 * 4, "no padding");
 
@@ -40,8 +48,15 @@ struct TouchBook {
   std::int32_t count = 0, reserved = 0;
   Touch touch[kMaxTouches];  ///< ascending in body, element, part
 
-  const Touch* find(std::int32_t body, std::int32_t element, std::int32_t part) const noexcept;
-  bool near(std::int32_t body, std::int32_t element) const noexcept;  ///< any part
+  const Touch* find(BodyId body, std::int32_t element, std::int32_t part) const noexcept;
+  bool near(BodyId body, std::int32_t element) const noexcept;  ///< any part
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("yaw", s.yaw), v("pitch", s.pitch), v("roll", s.roll), v("depth", s.depth), v("aperture", s.aperture),
+        v("count", s.count), v("touch", s.touch, core::FieldNote{.first = s.count, .each = true}),
+        v("reserved", s.reserved, core::kNotHashed);
+  }
 };
 
 /// An instrument that has not moved and touches nothing.
@@ -92,14 +107,14 @@ class Touching {
   double way(int part) const noexcept { return m_way[part]; }  ///< that a part has moved [m]
 
   /// Notes that a point is near; a number for reactions' tags, 0 where the book is full.
-  std::int32_t note(std::int32_t body, std::int32_t element, std::int32_t part, std::int32_t vertex = -1) noexcept;
+  std::int32_t note(BodyId body, std::int32_t element, std::int32_t part, std::int32_t vertex = -1) noexcept;
 
   /// A noted point touches: is it to be held back across the normal?
   /// @param number    of the note
   /// @param anchored  where the tissue's point with the weights that were anchored is now
   Rub rub(std::int32_t number, const Contact& contact, Vec3d anchored) noexcept;
   /// The anchored weights of a point, if it was touched in the last tick.
-  const Touch* anchored(std::int32_t body, std::int32_t element, std::int32_t part) const noexcept;
+  const Touch* anchored(BodyId body, std::int32_t element, std::int32_t part) const noexcept;
 
  private:
   double m_friction;

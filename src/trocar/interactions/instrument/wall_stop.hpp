@@ -13,8 +13,6 @@
 
 namespace trocar::interactions {
 
-inline constexpr std::int32_t kWallBody = -2;  ///< Touch::body of a wall
-
 struct WallStop {
   bool stopped = false;
   std::int32_t part = kShaft;

@@ -3,8 +3,7 @@
 namespace trocar::interactions {
 namespace {
 
-constexpr double kStiffness = 500;  // [N/m]    Our choice: 2 N tear it off 4 mm away
-constexpr double kDamping = 0.5;    // [N s/m]  Our choice
+constexpr HoldLaw kStuck{500, 0.5};  // Our choice: 2 N tear it off 4 mm away
 
 Vec3d target_of(const ToolShape& shape, const Hold& stuck) noexcept {
   return from_jaw(shape, {stuck.local[0], stuck.local[1], stuck.local[2]});
@@ -19,38 +18,12 @@ Hold stuck_at(const ToolShape& shape, const TissueView& view, Hold point) noexce
 }
 
 double stuck_pull(const ToolShape& shape, const TissueView& view, const Hold& stuck) noexcept {
-  return kStiffness * length(target_of(shape, stuck) - held_point(view, stuck));
+  return kStuck.stiffness * length(target_of(shape, stuck) - held_point(view, stuck));
 }
 
 void stuck_load(const ToolShape& shape, int tool_index, const TissueView& view, const Hold& stuck,
-                std::span<StrandLoads> strand_loads, std::span<NetworkLoads> organ_loads,
-                std::span<NetworkLoads> membrane_loads) noexcept {
-  const Vec3d target = target_of(shape, stuck);
-  const Tag tag{Owner::tool_contact, tool_index, 0};
-  if (stuck.body >= kMembraneBase) {
-    tissue::NodeLoad load;
-    load.node = stuck.element;
-    load.k = float(kStiffness);
-    load.d = float(kDamping);
-    load.x0 = vec_cast<float>(target);
-    membrane_loads[std::size_t(stuck.body - kMembraneBase)].add(load, tag);
-  } else if (stuck.body >= kSolidBase) {
-    const std::size_t organ = std::size_t(stuck.body - kSolidBase);
-    const Surface& surface = view.solids[organ];
-    SkinLoad load;
-    load.k = kStiffness;
-    load.d = kDamping;
-    load.shift = target - surface.position(stuck.element);
-    add_skin_load(surface.nodes, *surface.skin, stuck.element, load, tag, organ_loads[organ]);
-  } else {
-    tissue::StrandLoad load;
-    load.element = stuck.element;
-    load.w = double(stuck.weight);
-    load.k = kStiffness;
-    load.d = kDamping;
-    load.x0 = target;
-    strand_loads[std::size_t(stuck.body)].add(load, tag);
-  }
+                BodyLoads loads) noexcept {
+  pull_to(view, stuck, target_of(shape, stuck), kStuck, {Owner::tool_contact, tool_index, 0}, loads);
 }
 
 }  // namespace trocar::interactions

@@ -2,7 +2,7 @@
 // electrode's figures say (tissue/heat/electrosurgery.hpp).
 #pragma once
 
-#include <trocar/interactions/verbs/grasp.hpp>
+#include <trocar/interactions/verbs/held.hpp>
 
 namespace trocar::interactions {
 
@@ -14,7 +14,6 @@ double stuck_pull(const ToolShape& shape, const TissueView& view, const Hold& st
 
 /// Pulls the point towards its place beside the instrument; what that takes is felt as contact.
 void stuck_load(const ToolShape& shape, int tool_index, const TissueView& view, const Hold& stuck,
-                std::span<StrandLoads> strand_loads, std::span<NetworkLoads> organ_loads,
-                std::span<NetworkLoads> membrane_loads) noexcept;
+                BodyLoads loads) noexcept;
 
 }  // namespace trocar::interactions

@@ -39,7 +39,7 @@ class WireSearch {
 
   ElectrodeTouch best;
 
-  void organ(const Surface& surface, std::int32_t body) noexcept {
+  void organ(const Surface& surface, BodyId body) noexcept {
     if (!surface.pose->bounds.reaches(m_from, kSearch)) return;
     const int vertex = nearest_vertex_near(surface, m_from, kSearch);
     if (vertex < 0 || surface.torn(vertex)) return;
@@ -51,7 +51,7 @@ class WireSearch {
     best.point.element = nearest_corner(p.vertex, p.weights);
   }
 
-  void sheet(const SheetView& view, std::int32_t body) noexcept {
+  void sheet(const SheetView& view, BodyId body) noexcept {
     const Surface& surface = view.surface;
     if (!surface.pose->bounds.reaches(m_from, kSearch)) return;
     const int vertex = nearest_vertex_near(surface, m_from, kSearch);
@@ -74,7 +74,7 @@ class WireSearch {
     }
   }
 
-  void strand(const StrandBody& body, const tissue::StrandState& state, std::int32_t number) noexcept {
+  void strand(const StrandBody& body, const tissue::StrandState& state, BodyId number) noexcept {
     int element = -1;
     double w = 0;
     for (int e = 0; e + 1 < body.nodes(); ++e) {
@@ -93,14 +93,14 @@ class WireSearch {
   }
 
  private:
-  bool take(std::int32_t body, Vec3d place, bool inside) noexcept {
+  bool take(BodyId body, Vec3d place, bool inside) noexcept {
     // As thick as closed jaws are that tissue meets (tool_contact.hpp).
     const Vec3d along = m_shape.frame.tip - m_shape.pivot;
     const Vec3d axis = m_shape.pivot + geometry::closest_on_segment(place, m_shape.pivot, m_shape.frame.tip) * along;
     const double apart = length(place - axis) - m_shape.part[kJawA].radius - m_shape.part[kJawB].radius;
     const double gap = inside || apart <= kTouches ? 0.0 : apart;
     const double away = length(m_from - place);
-    if (best.contact.body >= 0 && (gap > best.contact.gap || (gap == best.contact.gap && away >= m_away))) return false;
+    if (best.contact.body.exists() && (gap > best.contact.gap || (gap == best.contact.gap && away >= m_away))) return false;
     m_away = away;
     best.contact.body = body;
     best.contact.gap = gap;
@@ -131,27 +131,17 @@ ElectrodeTouch wire_touch(const ToolShape& shape, const ToolState& tool, const T
   ElectrodeTouch best;
   for (const double back : {0.0, 0.5 * kBareWire, kBareWire}) {
     WireSearch search(shape, shape.frame.tip - back * shape.frame.axis());
-    for (std::size_t i = 0; i < view.solids.size(); ++i) search.organ(view.solids[i], kSolidBase + std::int32_t(i));
+    for (std::size_t i = 0; i < view.organs.size(); ++i) search.organ(view.organs[i], BodyId::organ(i));
     for (std::size_t i = 0; i < view.strands.size(); ++i)
-      search.strand(view.strands[i], view.strand_states[i], std::int32_t(i));
+      search.strand(view.strands[i], view.strand_states[i], BodyId::strand(i));
     for (std::size_t i = 0; i < view.membranes.size(); ++i)
-      search.sheet(view.membranes[i], kMembraneBase + std::int32_t(i));
+      search.sheet(view.membranes[i], BodyId::membrane(i));
     const tissue::ElectrodeContact& c = search.best.contact;
-    if (c.body >= 0 && (best.contact.body < 0 || c.gap < best.contact.gap)) best = search.best;
+    if (c.body.exists() && (!best.contact.body.exists() || c.gap < best.contact.gap)) best = search.best;
   }
   const double force = length(Vec3d{tool.contact_force[0], tool.contact_force[1], tool.contact_force[2]});
   best.contact.pressed = kLightly + (1 - kLightly) * std::min(force / kFirmly, 1.0);
   return best;
-}
-
-/// A held point's place at rest. Of a strand: on its axis.
-Vec3d rest_of(const TissueView& view, const Hold& hold) noexcept {
-  if (hold.body >= kMembraneBase)
-    return vec_cast<double>(
-        view.membranes[std::size_t(hold.body - kMembraneBase)].surface.skin->rest[std::size_t(hold.element)]);
-  if (hold.body >= kSolidBase)
-    return vec_cast<double>(view.solids[std::size_t(hold.body - kSolidBase)].skin->rest[std::size_t(hold.element)]);
-  return {arc_at(view.strands[std::size_t(hold.body)], {hold.element, double(hold.weight)}), 0, 0};
 }
 
 ElectrodeTouch pads_touch(const ToolShape& shape, const ToolState& tool, const TissueView& view) noexcept {
@@ -165,7 +155,7 @@ ElectrodeTouch pads_touch(const ToolShape& shape, const ToolState& tool, const T
     const Hold& hold = tool.hold[i];
     if (hold.body != out.contact.body) continue;
     const std::size_t side = hold.local[0] > 0 ? 0 : 1;
-    sum[side] += rest_of(view, hold);
+    sum[side] += drawn_point(view, hold);
     ++count[side];
     out.place += held_point(view, hold);
   }
@@ -175,8 +165,8 @@ ElectrodeTouch pads_touch(const ToolShape& shape, const ToolState& tool, const T
   out.contact.a = sum[one] / double(count[one]);
   out.contact.b = sum[other] / double(count[other]);
   out.contact.pressed = std::clamp(tool.pinch / kFirmPinch, 0.0, 1.0);
-  if (out.contact.body >= kSolidBase) return out;
-  const std::size_t strand = std::size_t(out.contact.body);
+  if (!out.contact.body.is(BodyKind::strand)) return out;
+  const std::size_t strand = out.contact.body.index();
   const StrandPlace at{tool.hold[0].element, double(tool.hold[0].weight)};
   const StrandFrame frame = frame_at(view.strands[strand], view.strand_states[strand], at);
   const double radius = view.strands[strand].model.radius[std::size_t(at.element)];

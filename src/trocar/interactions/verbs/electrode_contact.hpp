@@ -1,11 +1,11 @@
 // Where an electrode is at tissue, in the frame in which heat and scars stay with that tissue (tissue/heat/heat.hpp):
 //   organs, folds  places as drawn [m]; the nearest point of the touched skin or of the sheet, by its corners
 //   strands        (arc length as drawn, across, across) [m] in the frame that goes along the strand without twist
-// Bodies are numbered as holds number them (Hold::body). Walls conduct nothing: they have no place that heat could
+// Walls conduct nothing: they have no place that heat could
 // have.
 //
 //   ElectrodeTouch t = electrode_touch(model, shape, tool_state, view);
-//   if (t.contact.body >= 0) energise(..., t.contact, ...);
+//   if (t.contact.body.exists()) energise(..., t.contact, ...);
 #pragma once
 
 #include <trocar/interactions/verbs/grasp.hpp>
@@ -14,7 +14,7 @@
 namespace trocar::interactions {
 
 struct ElectrodeTouch {
-  tissue::ElectrodeContact contact;  ///< body as Hold::body; -1: none near
+  tissue::ElectrodeContact contact;  ///< body: none where none is near
   Vec3d place;                       ///< the tissue's point [m]
   Vec3d normal{0, 0, 1};             ///< there, out of the tissue; between jaws: their opening
   Hold point;                        ///< the tissue's point that is nearest to that and can be held; `local` is not set

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/geometry/tets/blade.hpp>
 #include <trocar/interactions/couplings/vessel_path.hpp>
 #include <trocar/interactions/instrument/tool.hpp>
@@ -22,6 +23,13 @@ struct VesselOpening {
   std::int32_t through = 0;  ///< 1: cut through, two stumps; 0: a hole
   std::int32_t tool = -1;    ///< the hand that cut; -1: it tore
   std::int32_t reserved = 0;
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("s", s.s), v("area", s.area), v("tick", s.tick), v("vessel", s.vessel), v("through", s.through),
+        v("tool", s.tool), v("reserved", s.reserved);
+  }
 };
 static_assert(sizeof(VesselOpening) == 3 * 8 + 4 * 4, "no padding");
 
@@ -32,6 +40,12 @@ struct VesselClip {
   std::uint64_t tick = 0;
   std::int32_t vessel = -1;
   std::int32_t clip = -1;  ///< number in the book of clips
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("s", s.s), v("cover", s.cover), v("tick", s.tick), v("vessel", s.vessel), v("clip", s.clip);
+  }
 };
 static_assert(sizeof(VesselClip) == 3 * 8 + 2 * 4, "no padding");
 
@@ -42,6 +56,13 @@ struct VesselSeal {
   std::uint64_t tick = 0;  ///< when it was last heated
   std::int32_t vessel = -1;
   std::int32_t opening = -1;  ///< the hole that it closes, else -1
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("from", s.from), v("to", s.to), v("state", s.state), v("tick", s.tick), v("vessel", s.vessel),
+        v("opening", s.opening);
+  }
 };
 static_assert(sizeof(VesselSeal) == 5 * 8 + 2 * 4, "no padding");
 

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include <trocar/geometry/surfaces/nearest.hpp>
@@ -376,16 +375,6 @@ WetWork make_wet_work(std::span<const StrandBody> strands, std::span<const std::
   w.normal.resize(std::size_t(first.back()));
   w.normal_known.resize(w.normal.size());
   return w;
-}
-
-void poison(WetWork& w) noexcept {
-  const auto scribble = [](auto& a) {
-    if (!a.empty()) std::memset(static_cast<void*>(a.data()), 0xff, a.size() * sizeof a[0]);
-  };
-  for (int k = 0; k < 3; ++k) scribble(w.blocks.low[k]), scribble(w.blocks.high[k]);
-  scribble(w.blocks.body), scribble(w.blocks.block), scribble(w.blocks.inside), scribble(w.blocks.hit),
-      scribble(w.hits);
-  scribble(w.bounds), scribble(w.near), scribble(w.pieces), scribble(w.normal), scribble(w.normal_known);
 }
 
 void answer_drops(const WetBodies& bodies, Vec3d down, const fluids::DropletState& s, fluids::DropletWork& w,

@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/fluids/droplets.hpp>
 #include <trocar/interactions/contact/skin_grid.hpp>
 #include <trocar/interactions/couplings/strand_body.hpp>
@@ -42,6 +43,12 @@ struct WetWork {
     std::vector<std::int32_t> body, block;  ///< block: its number in the skin, -1: the whole body
     std::vector<std::int32_t> inside, hit;  ///< 1: met by what is looked at now; those that are
     int count = 0;
+
+    template <class S, class V>
+    static void fields(S& s, V&& v) {
+      v("low", s.low), v("high", s.high), v("body", s.body), v("block", s.block), v("inside", s.inside),
+          v("hit", s.hit), v("count", s.count);
+    }
   };
   Blocks blocks;
   /// A body that may be met, and which of its blocks: hits[first] .. hits[last - 1]; none: all.
@@ -54,11 +61,15 @@ struct WetWork {
   std::vector<std::int32_t> first_piece;   ///< (strands + 1)
   std::vector<Vec3d> normal;               ///< (places of film) of skins' vertices that somebody has asked for
   std::vector<std::uint8_t> normal_known;  ///< (places of film)
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("bounds", s.bounds), v("blocks", s.blocks), v("near", s.near), v("hits", s.hits), v("pieces", s.pieces),
+        v("first_piece", s.first_piece, core::kMadeOnce), v("normal", s.normal), v("normal_known", s.normal_known);
+  }
 };
 /// @param first  as in WetBodies; only sizes are looked at
 WetWork make_wet_work(std::span<const StrandBody> strands, std::span<const std::int32_t> first);
-/// Overwrites all of it with NaN and nonsense (tests of the law).
-void poison(WetWork& work) noexcept;
 
 /// Where each body's places of film begin; the last number is how many there are. Only sizes are looked at.
 /// @param skins   (surfaces), then `sheets` of folds

@@ -15,7 +15,7 @@ constexpr std::size_t kFarthestStep = 3;  ///< levels down at a time: the predic
 
 /// Cost of a frame against the best quality's without smooth outlines: what is paid for a picture, for triangles, for
 /// fragments and for their samples (fitted to
-/// `trocar bench gynaecology/bleeding-control --picture` on llvmpipe).
+/// `trocar bench EXERCISE --picture` of the one with blood, on llvmpipe).
 double relative_cost(const Quality& q) {
   const double effects = q.detail == 2 ? 1.0 : (q.detail == 1 ? 0.85 : 0.6);
   const double scale = double(q.render_scale);

@@ -5,9 +5,11 @@
 #include <trocar/numerics/portable.hpp>
 #include <trocar/scene/compile/compile.hpp>
 #include <trocar/scene/compile/compile_contacts.hpp>
+#include <trocar/scene/compile/compile_doubts.hpp>
 #include <trocar/scene/compile/compile_energy.hpp>
 #include <trocar/scene/compile/compile_fluids.hpp>
 #include <trocar/scene/compile/compile_hands.hpp>
+#include <trocar/scene/compile/compile_marks.hpp>
 #include <trocar/scene/compile/compile_membrane.hpp>
 #include <trocar/scene/compile/compile_motion.hpp>
 #include <trocar/scene/compile/compile_solid.hpp>
@@ -15,6 +17,7 @@
 #include <trocar/scene/compile/compile_tets.hpp>
 #include <trocar/scene/compile/compile_vessels.hpp>
 #include <trocar/scene/description/capacity.hpp>
+#include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/stages/containing.hpp>
 
 namespace trocar::scene {
@@ -43,12 +46,11 @@ StrandStation station_at(const std::vector<StrandStation>& stations, double s) {
 /// Over a few cells the organ takes the strand's pull.
 interactions::HostPatch patch_on(const sim::Model& model, int organ, Vec3d at) {
   const auto reach = [](double cell) { return std::max(0.005, 2.2 * cell); };
-  const size_t i = size_t(organ), solids = model.solids.size();
-  if (i < solids) {
-    const sim::SolidModel& s = model.solids[i];
+  if (const std::int32_t lattice = lattice_of(model, organ); lattice >= 0) {
+    const sim::SolidModel& s = model.solids[size_t(lattice)];
     return interactions::make_patch(s.network.rest, s.network.mass, at, reach(s.cell));
   }
-  const sim::CuttableOrgan& c = model.cuttables[i - solids];
+  const sim::CuttableOrgan& c = sim::cuttable_of(model, organ);
   const size_t nodes = size_t(c.body.own_nodes);
   std::vector<double> mass(nodes, 0.0);
   for (const geometry::Tet& cell : c.body.drawn.cells) {
@@ -241,18 +243,22 @@ sim::Model compile(const Description& d, CompileReport* report) {
     const Tissue* tissue = find_tissue(d, pouch.tissue);
     if (tissue) compile_pouch(pouch, *tissue, d.gravity, model, faults, report);
   }
+  ObjectScenes::for_each([&](auto kind) { kind.compile(settings_of(kind, d.objects), model); });
   for (const Sheet& sheet : d.sheets) model.drawn_folds.push_back(compile_sheet(sheet, model));
   compile_vessels(d, model, faults, report);
   compile_fluids(d, model, faults);
   compile_energy(d, model, faults);
   compile_motion(d, model, faults);
+  compile_marks(d, model, faults);
   compile_hands(d, model, faults);
   if (!faults.empty()) throw core::BadInput(faults);
   compile_contacts(model);
   compile_targets(model);
   note_detail(d, model);
+  model.looks = d.looks;
   model.cavity = sim::cavity_around(model);
   sim::seal(model);
+  if (report) find_doubts(d, model, report->doubts);
   return model;
 }
 

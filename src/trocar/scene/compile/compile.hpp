@@ -29,6 +29,7 @@ struct BodyReport {
 };
 struct CompileReport {
   std::vector<BodyReport> bodies;
+  std::vector<core::Fault> doubts;  ///< what can be built and is hardly meant: see compile_doubts.hpp
 };
 
 /// Throws core::BadInput where the Description, although well formed, cannot be built (an organ that nothing holds, a

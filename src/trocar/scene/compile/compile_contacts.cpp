@@ -2,7 +2,7 @@
 
 #include <trocar/geometry/surfaces/nearest.hpp>
 #include <trocar/scene/compile/compile_contacts.hpp>
-#include <trocar/sim/model/state.hpp>
+#include <trocar/sim/model/bodies.hpp>
 
 namespace trocar::scene {
 namespace {
@@ -198,8 +198,7 @@ void pair_strands(sim::Model& model, int a, int b) {
 }
 
 double cell_of(const sim::Model& model, int organ) {
-  const size_t i = size_t(organ), n = model.solids.size();
-  return i < n ? model.solids[i].cell : model.cuttables[i - n].cell;
+  return visit_organ(model, size_t(organ), [&](auto ref) { return model_of(model, ref).cell; });
 }
 
 /// An organ against itself. No part is known to be near: samples have not looked yet.
@@ -220,7 +219,7 @@ void compile_contacts(sim::Model& model) {
     for (int s = 0; s < model.surfaces(); ++s) pair_strand(model, drawn, i, s);
   for (int i = 0; i < organs; ++i)
     for (int s = 0; s < model.surfaces(); ++s)
-      if (s >= organs && i >= int(model.solids.size()))
+      if (s >= organs && lattice_of(model, i) < 0)
         pair_cuttable(model, drawn, i, s);
       else if (s >= organs || s < i)
         pair_solid(model, drawn, i, s);

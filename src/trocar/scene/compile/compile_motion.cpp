@@ -1,14 +1,14 @@
 #include <stdexcept>
 
 #include <trocar/scene/compile/compile_motion.hpp>
+#include <trocar/sim/model/bodies.hpp>
 
 namespace trocar::scene {
 namespace {
 
 /// Number of a solid in the Model, -1 where it is not there or can be cut.
 int lattice_of(const sim::Model& model, const std::string& solid) {
-  const int organ = model.organ_index(solid);
-  return organ < int(model.solids.size()) ? organ : -1;
+  return sim::lattice_of(model, model.organ_index(solid));
 }
 
 std::vector<Vec3d> centreline_of(const Description& d, const WaveSetting& wave) {

@@ -49,6 +49,14 @@ void add_bleeder(sim::Model& model) {
     add_target(model, {sim::VisibilityTarget::organ, "bleeder", hold.index, 0, 0}, {{0, hold.vertex[0], 0}});
 }
 
+void add_mark(sim::Model& model, std::int32_t mark) {
+  const sim::MarkModel& m = model.marks[size_t(mark)];
+  std::vector<sim::VisibilitySample> samples;
+  for (std::int32_t k = 0; k < (m.is_stripe() ? sim::kStripeSamples : sim::kDiscSamples); ++k)
+    samples.push_back({0, k, 0});
+  add_target(model, {sim::VisibilityTarget::mark, m.name, mark, 0, 0}, samples);
+}
+
 }  // namespace
 
 void compile_targets(sim::Model& model) {
@@ -78,6 +86,7 @@ void compile_targets(sim::Model& model) {
     add_target(model, {sim::VisibilityTarget::organ, model.organ_name(i), i, 0, 0}, samples);
   }
   add_bleeder(model);
+  for (size_t i = 0; i < model.marks.size(); ++i) add_mark(model, std::int32_t(i));
 }
 
 }  // namespace trocar::scene

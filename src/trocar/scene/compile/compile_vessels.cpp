@@ -8,6 +8,7 @@
 #include <trocar/geometry/surfaces/nearest.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/scene/compile/compile_vessels.hpp>
+#include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/model/host_views.hpp>
 
 namespace trocar::scene {
@@ -69,7 +70,7 @@ std::optional<Carrier> carrier_of(const std::string& name, const sim::Model& mod
   if (const int i = model.membrane_index(name); i >= 0) return Carrier{VesselHold::membrane, i};
   const int i = model.organ_index(name);
   if (i < 0) return std::nullopt;
-  return Carrier{size_t(i) < model.solids.size() ? VesselHold::organ : VesselHold::cell, i};
+  return Carrier{lattice_of(model, i) >= 0 ? VesselHold::organ : VesselHold::cell, i};
 }
 
 /// A way to ride on a body, and how far that is from the point.
@@ -116,7 +117,7 @@ Ride ride_on_skin(const Carrier& c, Vec3d p, const sim::Model& model) {
 
 /// In the cell that it lies in, or the nearest one, continued beyond its faces.
 Ride ride_in_cell(const Carrier& c, Vec3d p, const sim::Model& model) {
-  const geometry::CuttableTets& body = model.cuttables[size_t(c.index) - model.solids.size()].body.drawn;
+  const geometry::CuttableTets& body = sim::cuttable_of(model, c.index).body.drawn;
   Ride best;
   for (size_t i = 0; i < body.cells.size(); ++i) {
     const auto x = [&](size_t k) { return body.rest[size_t(body.cells[i][k])]; };

@@ -3,14 +3,21 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <trocar/core/error.hpp>
 #include <trocar/geometry/tets/tet_mesh.hpp>
+#include <trocar/numerics/portable.hpp>
 #include <trocar/numerics/vec3.hpp>
 #include <trocar/scene/description/vessel_tree.hpp>
+#include <trocar/scene/objects/object_scenes.hpp>
+
+namespace trocar::sim {
+struct Lookbook;
+}
 
 namespace trocar::scene {
 
@@ -58,12 +65,13 @@ struct Anchor {
 
 /// Tetrahedra from a file: a mesh, or what fills a label of a voxel volume.
 struct TetSource {
-  std::string file;    ///< as named, relative to the file that names it
-  double unit = 1e-3;  ///< of a mesh's coordinates [m]
-  int label = 0;       ///< of voxels; 0: a mesh
-  int smoothing = 1;   ///< of the label's steps, in passes
-  Vec3d place;         ///< where the file's origin goes [m]
-  geometry::TetMesh mesh;
+  std::string file;                 ///< as named, relative to the file that names it
+  double unit = 1e-3;               ///< of a mesh's coordinates [m]
+  int label = 0;                    ///< of voxels; 0: a mesh
+  int smoothing = 1;                ///< of the label's steps, in passes
+  Vec3d place;                      ///< where the file's origin goes [m]
+  geometry::TetMesh mesh;           ///< as mended where the file's was not sound
+  std::vector<std::string> doubts;  ///< what was mended, and what has several ways to be
 };
 
 /// A volumetric organ: a spline loft or tetrahedra from a file. A loft is filled with an elastic lattice of cubic
@@ -83,9 +91,9 @@ struct Solid {
 };
 
 struct StrandStation {
-  double s = 0;       ///< arc length from the start [m]
-  double radius = 0;  ///< outer [m]
-  double lumen = 0;   ///< lumen radius [m], 0 = solid cord
+  double s = 0;           ///< arc length from the start [m]
+  double radius = 0.001;  ///< outer [m]
+  double lumen = 0;       ///< lumen radius [m], 0 = solid cord
 };
 
 /// Where a strand's end hangs: on a solid organ at a point (its skin nearest to that point), at a fixed point in space,
@@ -173,6 +181,19 @@ struct Pouch {
   core::Location at, spacing_at;
 };
 
+/// A mark that exercises look for or work at: a disc in space or on a body or wall, a stripe around a strand.
+struct MarkSetting {
+  std::string name, on;  ///< `on` empty: it stays in space
+  bool stripe = false;   ///< else a disc
+  Vec3d place;           ///< of a disc [m]
+  Vec3d normal;          ///< of a disc, any length; zero: out of the surface that it lies on
+  double s = 0;          ///< of a stripe: its middle's arc length [m]
+  double size = 0.005;   ///< diameter of a disc, width of a stripe [m]
+  std::string label, colour;
+  core::Location at;
+};
+inline constexpr std::array<const char*, 6> kMarkColours{"white", "yellow", "orange", "green", "blue", "black"};
+
 struct Port {
   std::string name;
   Vec3d position;
@@ -186,6 +207,7 @@ struct FluidsSetting {
   double pool_size = 0.160;          ///< its edge [m]
   std::vector<std::string> pool_on;  ///< solids whose tops are part of its floor, beside the walls
   int drops = 4096;                  ///< at a time
+  double pool_at_start = 0;          ///< blood that lies there when it begins [m^3]
   core::Location at;
 };
 
@@ -199,7 +221,7 @@ struct BleederSetting {
   };
   double opens = 5;  ///< [s] after the start
   std::vector<Hole> holes;
-  int which = 0;  ///< of the holes; vary() chooses
+  int which = 0;  ///< of the holes; vary() chooses where the scene says so
 };
 
 /// The generator's panel, and how much heat is remembered. A scene that has it computes heat.
@@ -214,9 +236,9 @@ struct EnergySetting {
 /// Waves of contraction that run along a hollow organ: peristalsis.
 struct WaveSetting {
   struct Station {
-    double s = 0;         ///< way along the centre line [m]
-    double pressure = 0;  ///< at the crest [Pa]
-    double speed = 0;     ///< [m/s]
+    double s = 0;          ///< way along the centre line [m]
+    double pressure = 0;   ///< at the crest [Pa]
+    double speed = 0.010;  ///< [m/s]
     core::Location at;
   };
   std::string solid;
@@ -258,6 +280,37 @@ struct DetailSetting {
 /// What is drawn and has no name of its own in a file.
 inline constexpr std::array<const char*, 4> kDrawnNames{"cavity", "endoscope", "arteries", "veins"};
 
+/// What of a scene is another one with another seed, and by how much at most (vary.hpp).
+struct VariationSetting {
+  /// A part of space that is bent with all that lies there, whole about its middle, fading out further off.
+  struct Region {
+    std::string around;      ///< a strand: its beginning; a solid: the middle of its sections; empty: `centre`
+    Vec3d centre;            ///< [m]
+    Vec3d towards;           ///< only on this side of the middle, any length; zero: all around
+    double begins = -0.001;  ///< way in that direction at which it begins [m]
+    double whole = 0.016;    ///< and at which it is whole
+    double near = 0.055;     ///< whole within this distance of the middle [m]
+    double far = 0.120;      ///< nothing beyond
+    double scale = 0;        ///< of lengths, relative
+    double length = 0;       ///< of lengths along `axis`, relative
+    double shift = 0;        ///< along each axis [m]
+    double turn = 0;         ///< about `axis` [rad]
+    Vec3d axis{0, 0, 1};     ///< any length
+    core::Location at, around_at;
+  };
+  /// Thicker or thinner: all of these by one share.
+  struct Girth {
+    std::vector<std::string> of;  ///< solids, strands, pouches
+    double radius = 0;            ///< half axes and radii, relative
+  };
+  std::vector<Region> regions;
+  std::vector<Girth> girths;
+  double stiffness = 0;   ///< of every tissue, relative
+  double foundation = 0;  ///< of every strand's hold, relative
+  bool bleeder = false;   ///< which of its holes opens
+  core::Location at;
+};
+
 /// The part of an instrument that current leaves from.
 struct ElectrodeSetting {
   double radius = 0.001;     ///< of its contact [m]
@@ -289,8 +342,8 @@ struct Instrument {
 };
 
 struct Scope {
-  double angle = 0;             ///< 0, 30 or 45 degrees [rad]
-  double field_of_view = 1.22;  ///< full cone [rad]
+  double angle = 0;                                ///< 0, 30 or 45 degrees [rad]
+  double field_of_view = 70 * portable::pi / 180;  ///< full cone [rad]
   double shaft_radius = 0.005, shaft_length = 0.310;
 };
 
@@ -310,6 +363,7 @@ struct Description {
   std::vector<Solid> solids;
   std::vector<Strand> strands;
   std::vector<Wall> walls;
+  ObjectSettings objects;
   std::vector<Sheet> sheets;
   std::vector<Membrane> membranes;
   std::vector<Pouch> pouches;
@@ -320,6 +374,9 @@ struct Description {
   std::vector<WaveSetting> peristalsis;
   std::optional<BreathingSetting> breathing;
   std::vector<DetailSetting> detail;
+  std::optional<VariationSetting> variation;
+  std::shared_ptr<const sim::Lookbook> looks;  ///< those that are there; null: none
+  std::vector<MarkSetting> marks;
   std::vector<Port> ports;
   std::vector<Instrument> instruments;
   std::vector<Placement> placements;  ///< tools, in hand order: [0] left, [1] right, [2] assistant/third

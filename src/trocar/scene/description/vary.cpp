@@ -1,9 +1,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include <trocar/core/random.hpp>
 #include <trocar/geometry/curves/polyline.hpp>
+#include <trocar/numerics/portable.hpp>
 #include <trocar/scene/description/vary.hpp>
 
 namespace trocar::scene {
@@ -14,19 +18,28 @@ double smooth(double from, double to, double v) {
   return t * t * (3 - 2 * t);
 }
 
-/// One side's displacement of space: scaled about the tube's root and shifted, nothing at the uterus and far away.
+/// What a seed made of a region: a displacement of space about its middle, nothing far away.
 struct Field {
-  Vec3d root;
-  double side = 1;  ///< +1: the patient's left
-  double scale = 0;
+  VariationSetting::Region region;
+  Vec3d root, towards, axis;  ///< the directions are units, `towards` may be zero
+  double scale = 0, length = 0, turn = 0;
   Vec3d shift;
 
   Vec3d at(Vec3d p) const {
-    constexpr double kBegins = -0.001, kWhole = 0.016;  // [m] to the side of the root
-    constexpr double kNear = 0.055, kFar = 0.120;       // [m] from the root: fades in between
     const Vec3d d = p - root;
-    const double weight = smooth(kBegins, kWhole, side * d.x) * (1 - smooth(kNear, kFar, length(d)));
-    return weight * (scale * d + shift);
+    const bool sided = trocar::length(towards) > 0;
+    const double aside = sided ? smooth(region.begins, region.whole, dot(towards, d)) : 1;
+    const double weight = aside * (1 - smooth(region.near, region.far, trocar::length(d)));
+    Vec3d moved = scale * d + shift;
+    if (length != 0) moved += length * dot(axis, d) * axis;
+    if (turn != 0) moved += turned(d) - d;
+    return weight * moved;
+  }
+
+ private:
+  Vec3d turned(Vec3d d) const {
+    const double c = portable::cos(turn), s = portable::sin(turn);
+    return c * d + s * cross(axis, d) + (1 - c) * dot(axis, d) * axis;
   }
 };
 
@@ -123,36 +136,62 @@ void bend(Vessel& vessel, vessels::VesselSegment& segment, const Warp& warp) {
 
 double around_one(core::Random& random, double most) { return 1 + random.uniform(-most, most); }
 
-Warp drawn_warp(const Description& d, core::Random& random, const Variation& most) {
+/// The middle of what a region is around; none where there is no such body.
+std::optional<Vec3d> middle_of(const VariationSetting::Region& region, const Description& d) {
+  if (region.around.empty()) return region.centre;
+  for (const Strand& s : d.strands)
+    if (s.name == region.around && !s.centreline.empty()) return s.centreline.front();
+  for (const Solid& s : d.solids) {
+    if (s.name != region.around) continue;
+    std::vector<Vec3d> points;
+    for (const Section& section : s.sections) points.push_back(section.centre);
+    if (s.tets) points = s.tets->mesh.points;
+    Vec3d sum;
+    for (const Vec3d& p : points) sum += p;
+    if (!points.empty()) return sum / double(points.size());
+  }
+  return {};
+}
+
+Warp drawn_warp(const Description& d, core::Random& random) {
   Warp warp;
-  for (const double side : {1.0, -1.0}) {  // both are drawn, whether the scene has them or not
+  for (const VariationSetting::Region& region : d.variation->regions) {
     Field field;
-    field.side = side;
-    field.scale = random.uniform(-most.length, most.length);
-    for (double* axis : {&field.shift.x, &field.shift.y, &field.shift.z})
-      *axis = random.uniform(-most.shift, most.shift);
-    for (const Strand& s : d.strands) {
-      if (!s.fimbriated || s.centreline.empty() || side * s.centreline.back().x <= 0) continue;
-      field.root = s.centreline.front();
-      warp.fields.push_back(field);
-      break;
-    }
+    field.region = region;
+    if (length(region.towards) > 0) field.towards = normalised(region.towards);
+    field.axis = normalised(region.axis);
+    const auto draw = [&](double most) { return most > 0 ? random.uniform(-most, most) : 0; };
+    field.scale = draw(region.scale);
+    for (double* axis : {&field.shift.x, &field.shift.y, &field.shift.z}) *axis = draw(region.shift);
+    field.length = draw(region.length);
+    field.turn = draw(region.turn);
+    const std::optional<Vec3d> middle = middle_of(region, d);
+    if (!middle) continue;
+    field.root = *middle;
+    warp.fields.push_back(field);
   }
   return warp;
 }
 
-}  // namespace
+/// Everything of this name, by the same share.
+void thicken(Description& d, const std::string& name, double share) {
+  const auto sections = [&](auto& body) {
+    if (body.name != name) return;
+    for (Section& s : body.sections) s.across = share * s.across, s.deep = share * s.deep;
+  };
+  for (Solid& s : d.solids) sections(s);
+  for (Pouch& p : d.pouches) sections(p);
+  for (Strand& s : d.strands)
+    if (s.name == name)
+      for (StrandStation& at : s.stations) at.radius *= share, at.lumen *= share;
+  for (Membrane& m : d.membranes)
+    if (m.name == name) m.thickness *= share;
+}
 
-void vary(Description& d, std::uint64_t seed, const Variation& most) {
-  if (seed == 0) return;
-  core::Random random(seed);
-  const Warp warp = drawn_warp(d, random, most);
-  for (Tissue& t : d.tissues) t.young *= around_one(random, most.stiffness);
+/// Everything that is drawn goes along with space.
+void bend(Description& d, const Warp& warp) {
   std::vector<ArcMap> maps;
-  for (Strand& s : d.strands) {
-    s.foundation *= around_one(random, most.stiffness);
-    maps.push_back(bend(s, warp));
-  }
+  for (Strand& s : d.strands) maps.push_back(bend(s, warp));
   for (Solid& s : d.solids) bend(s, warp);
   for (Pouch& p : d.pouches) bend(p, warp);
   for (Wall& w : d.walls)
@@ -169,9 +208,32 @@ void vary(Description& d, std::uint64_t seed, const Variation& most) {
     for (size_t i = 0; i < tree.vessels.size(); ++i) bend(tree.vessels[i], tree.graph.segments[i], warp);
   for (WaveSetting& wave : d.peristalsis)
     for (Vec3d& p : wave.centreline) p = warp(p);
-  if (d.bleeder) d.bleeder->which = int(random.uniform() * double(d.bleeder->holes.size()));
+  for (MarkSetting& mark : d.marks) {
+    mark.place = warp(mark.place);
+    for (size_t i = 0; i < d.strands.size(); ++i)
+      if (mark.stripe && d.strands[i].name == mark.on && !maps[i].before.empty()) mark.s = maps[i](mark.s);
+  }
   for (Sheet& sheet : d.sheets) bend_fold(sheet);
   for (Membrane& membrane : d.membranes) bend_fold(membrane);
+}
+
+}  // namespace
+
+void vary(Description& d, std::uint64_t seed) {
+  if (seed == 0 || !d.variation) return;
+  const VariationSetting& most = *d.variation;
+  core::Random random(seed);
+  const Warp warp = drawn_warp(d, random);
+  if (most.stiffness > 0)
+    for (Tissue& t : d.tissues) t.young *= around_one(random, most.stiffness);
+  if (most.foundation > 0)
+    for (Strand& s : d.strands) s.foundation *= around_one(random, most.foundation);
+  if (most.bleeder && d.bleeder) d.bleeder->which = int(random.uniform() * double(d.bleeder->holes.size()));
+  if (!warp.fields.empty()) bend(d, warp);
+  for (const VariationSetting::Girth& girth : most.girths) {
+    const double share = around_one(random, girth.radius);
+    for (const std::string& name : girth.of) thicken(d, name, share);
+  }
 }
 
 }  // namespace trocar::scene

@@ -1,6 +1,6 @@
-// The same scene with another anatomy: longer or shorter tubes, adnexa that lie elsewhere, softer or stiffer tissue.
-// Space itself is bent, smoothly and without folding, and everything that a scene draws is bent with it; so what hung
-// together still does, and what lay apart still does.
+// The same scene with another anatomy, as far as it declares one ("variation"): bodies that lie elsewhere, longer or
+// shorter, turned, thicker, softer; another place that bleeds. Space itself is bent, smoothly and without folding, and
+// everything that a scene draws is bent with it; so what hung together still does, and what lay apart still does.
 //
 //   scene::Description d = scene::read_scene(path);
 //   scene::vary(d, 7);                    // seed 0 leaves everything as drawn
@@ -13,15 +13,9 @@
 
 namespace trocar::scene {
 
-/// How far a seed may go.  Our choice
-struct Variation {
-  double length = 0.20;     ///< of each side's adnexa, tube length above all, relative
-  double shift = 0.003;     ///< of each side's adnexa along each axis [m]
-  double stiffness = 0.20;  ///< of every tissue and every fold, relative
-};
-
-/// Deterministic to the bit: the same description and seed give the same result everywhere. Sides are those of the
-/// patient's midline (x = 0); each side's field begins where its fimbriated strand begins.
-void vary(Description& description, std::uint64_t seed, const Variation& most = {});
+/// Deterministic to the bit: the same description and seed give the same result everywhere. Figures are drawn in the
+/// order of the declaration: each region's scale, shift along x, y, z, length and turn (as far as they are declared),
+/// stiffness of the tissues, foundation of the strands, the bleeder, girths.
+void vary(Description& description, std::uint64_t seed);
 
 }  // namespace trocar::scene

@@ -36,16 +36,22 @@ bool lies_in(const fs::path& file, const fs::path& folder) {
   return in_folder == folder.end() && in_file != file.end();
 }
 
-}  // namespace
-
-std::optional<fs::path> found_scenes_folder() {
+/// Without regard to $TROCAR_SCENES.
+std::optional<fs::path> programs_scenes_folder() {
   std::error_code error;
-  if (const std::string given = environment("TROCAR_SCENES"); fs::is_directory(given, error)) return given;
   const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
   for (const fs::path& candidate :
        {program / "../../scenes", program / "../share/trocar/scenes", fs::path(TROCAR_SOURCE_DIR) / "scenes"})
     if (fs::is_directory(candidate, error)) return fs::weakly_canonical(candidate, error);
   return {};
+}
+
+}  // namespace
+
+std::optional<fs::path> found_scenes_folder() {
+  std::error_code error;
+  if (const std::string given = environment("TROCAR_SCENES"); fs::is_directory(given, error)) return given;
+  return programs_scenes_folder();
 }
 
 Library::Library(const fs::path& first) : m_folders{tree_of(first)} {
@@ -62,6 +68,18 @@ bool Library::holds(const fs::path& file) const {
   const fs::path whole = resolved(file);
   return std::any_of(m_folders.begin(), m_folders.end(),
                      [&](const fs::path& folder) { return !folder.empty() && lies_in(whole, folder); });
+}
+
+std::vector<fs::path> Library::looks() const {
+  std::vector<fs::path> folders;
+  std::error_code error;
+  std::vector<fs::path> trees = m_folders;
+  if (const std::optional<fs::path> own = programs_scenes_folder()) trees.push_back(resolved(*own));
+  for (const fs::path& tree : trees) {
+    const bool again = std::find(folders.begin(), folders.end(), tree / "looks") != folders.end();
+    if (!again && fs::is_directory(tree / "looks", error)) folders.push_back(tree / "looks");
+  }
+  return folders;
 }
 
 std::string Library::refusal(const std::string& name) const {

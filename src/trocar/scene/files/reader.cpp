@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <trocar/core/printable.hpp>
+#include <trocar/scene/files/look_file.hpp>
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/scene/files/reader_parts.hpp>
 #include <trocar/scene/files/vessel_file.hpp>
@@ -41,7 +42,7 @@ std::vector<fs::path> sorted_entries(const fs::path& folder) {
 
 }  // namespace
 
-void Reading::include(const fs::path& path, const core::Location& from, const Shape& shape, Read read) {
+void Reading::include(const fs::path& path, const core::Location& from, const Shape& shape, const Read& read) {
   const auto refuse = [&](std::string message) { tell(m_faults, {from, std::move(message)}); };
   std::error_code error;
   if (!m_memory && m_open.empty()) m_library.emplace(path);
@@ -63,12 +64,12 @@ void Reading::include(const fs::path& path, const core::Location& from, const Sh
                               path.filename().generic_string(), path.generic_string()));
   m_open.emplace_back(canonical, path.generic_string());
   const JsonDocument document = load_json(path, m_faults, m_memory);
-  (this->*read)(JsonObject(document.root, shape, document.file, m_faults), path.parent_path());
+  read(JsonObject(document.root, shape, document.file, m_faults), path.parent_path());
   m_open.pop_back();
 }
 
-void Reading::includes(const JsonObject& o, const char* key, const fs::path& folder, const Shape& shape, Read read,
-                       Read read_here) {
+void Reading::includes(const JsonObject& o, const char* key, const fs::path& folder, const Shape& shape,
+                       const Read& read, const Read& read_here) {
   const std::vector<JsonValue>& items = o.values(key);
   for (std::size_t i = 0; i < items.size(); ++i) {
     if (items[i].kind != JsonValue::Kind::string) continue;
@@ -80,13 +81,47 @@ void Reading::includes(const JsonObject& o, const char* key, const fs::path& fol
     else
       include((folder / named).lexically_normal(), o.at(key, i), shape, read);
   }
-  for (const JsonObject& object : o.objects(key)) (this->*read_here)(object, folder);
+  for (const JsonObject& object : o.objects(key)) read_here(object, folder);
+}
+
+void Reading::instrument_file(const fs::path& path) {
+  include(path, {path.generic_string(), 0, 0}, instrument_file_keys(),
+          one_more(instrument_file_keys(), description.instruments));
+}
+
+void Reading::tissues(const JsonObject& o, const fs::path& folder) {
+  includes(o, "tissues", folder, tissue_file_keys(), into(tissue_file_keys()), one_more(tissue(), description.tissues));
+}
+
+void Reading::organs(const JsonObject& o, const fs::path& folder) {
+  includes(o, "organs", folder, organ_file_keys(), into(organ_file_keys()), into(organ_keys()));
+}
+
+void Reading::instruments(const JsonObject& o, const fs::path& folder) {
+  includes(o, "instruments", folder, instrument_file_keys(), one_more(instrument_file_keys(), description.instruments),
+           one_more(instrument(), description.instruments));
+}
+
+void Reading::vessels(const JsonObject& o, const fs::path& folder) {
+  const Read read = [this](const JsonObject& file, const fs::path&) {
+    VesselTree tree = read_vessels(file, m_faults);
+    for (const Vessel& v : tree.vessels)
+      for (std::size_t i = 0; i < v.rides_on.size(); ++i)
+        m_references.push_back({Reference::To::carrier, v.rides_on[i], v.rides_at[i]});
+    if (tree.says_heart && !description.vessels.empty())
+      tell(m_faults, {tree.heart_at,
+                      "expected heart and blood of a patient in the scene's first file of vessels, got some "
+                      "in a second one"});
+    description.vessels.push_back(std::move(tree));
+  };
+  includes(o, "vessels", folder, vessels_shape(), read, read);
 }
 
 Description read_scene(const fs::path& path, const MemoryFiles* memory) {
   std::vector<core::Fault> faults;
   Reading reading(faults, memory);
   reading.scene_file(path);
+  reading.looks(path);
   reading.resolve();
   reading.check_together();
   sort_faults(faults);
@@ -98,9 +133,11 @@ FileKind kind_of_file(const fs::path& path, const MemoryFiles* memory) {
   std::vector<core::Fault> ignored;
   const JsonDocument document = load_json(path, ignored, memory);
   const auto has = [&](const char* key) { return document.root.find(key) != nullptr; };
+  if (path.parent_path().filename() == "looks") return FileKind::look;
   if (has("scene")) return FileKind::exercise;
   if (has("scope") || has("ports") || has("tools")) return FileKind::scene;
   if (has("vessels") || has("sources")) return FileKind::vessels;
+  if (has("inherits") || has("colour") || has("surroundings")) return FileKind::look;
   if (has("kind")) return FileKind::instrument;
   if (has("solids") || has("strands") || has("walls") || has("sheets") || has("membranes") || has("organs"))
     return FileKind::organ;
@@ -122,10 +159,15 @@ std::vector<core::Fault> check_file(const fs::path& path, const MemoryFiles* mem
   switch (kind_of_file(path, memory)) {
     case FileKind::scene:
       reading.scene_file(path);
+      reading.looks(path);
       reading.resolve();
       break;
     case FileKind::organ:
       reading.organ_file(path);
+      reading.looks(path);
+      break;
+    case FileKind::look:
+      LookShelf({path.parent_path()}, faults, memory);
       break;
     case FileKind::instrument:
       reading.instrument_file(path);
@@ -170,5 +212,10 @@ std::vector<InstrumentEntry> list_instruments(const fs::path& folder) {
   }
   return entries;
 }
+
+const Shape& scene_shape() { return scene_file_keys(); }
+const Shape& organ_shape() { return organ_file_keys(); }
+const Shape& instrument_shape() { return instrument_file_keys(); }
+const Shape& tissue_shape() { return tissue_file_keys(); }
 
 }  // namespace trocar::scene

@@ -26,13 +26,13 @@ Description read_scene(const std::filesystem::path& path, const MemoryFiles* mem
 /// Reads a tissue table. Throws core::BadInput with every fault.
 std::vector<Tissue> read_tissues(const std::filesystem::path& path);
 
-enum class FileKind { scene, organ, instrument, tissue, vessels, exercise };
-/// A file's kind, by the keys that only this kind has; a scene where nothing tells.
+enum class FileKind { scene, organ, instrument, tissue, vessels, exercise, look };
+/// A file's kind: a look in a folder `looks`, else by the keys that only this kind has; a scene where nothing tells.
 FileKind kind_of_file(const std::filesystem::path& path, const MemoryFiles* memory = nullptr);
 
 /// Checks one file by its kind. What is not a scene is checked on its own: names that only a scene could resolve (a
-/// tissue, another organ) are left open. Of an exercise only the JSON is checked here; training knows its keys.
-/// Returns the faults; empty means good.
+/// tissue, another organ) are left open. A look is checked with all of its folder. Of an exercise only the JSON is
+/// checked here; training knows its keys. Returns the faults; empty means good.
 std::vector<core::Fault> check_file(const std::filesystem::path& path, const MemoryFiles* memory = nullptr);
 
 struct SceneEntry {

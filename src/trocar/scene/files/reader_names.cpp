@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <trocar/scene/description/capacity.hpp>
+#include <trocar/scene/files/look_file.hpp>
 #include <trocar/scene/files/reader_parts.hpp>
 
 namespace trocar::scene {
@@ -30,8 +31,12 @@ const char* noun(Reference::To to) {
       return "port";
     case Reference::To::instrument:
       return "instrument";
+    case Reference::To::look:
+      return "look";
     case Reference::To::drawn:
       return "body, wall, instrument, port, cavity, endoscope, arteries or veins";
+    case Reference::To::marked:
+      return "solid, wall or strand";
   }
   return "";
 }
@@ -63,13 +68,21 @@ void check_unique(const char* what, const std::vector<NamedPlace>& things, std::
 
 }  // namespace
 
-void Reading::refer(Reference::To to, const JsonObject& o, const char* key) {
-  if (o.has(key)) m_references.push_back({to, o.text(key), o.at(key)});
+void Reading::looks(const std::filesystem::path& first) {
+  const std::vector<std::filesystem::path> beside{first.parent_path() / "looks"};
+  const LookShelf shelf(m_library ? m_library->looks() : beside, m_faults, m_memory);
+  description.looks = shelf.book();
+  if (m_memory && shelf.empty()) return;  // a scene that is nothing but a text
+  const std::vector<std::string> known = shelf.names();
+  for (const Reference& reference : m_references)
+    if (reference.to == Reference::To::look && std::find(known.begin(), known.end(), reference.name) == known.end())
+      tell(m_faults, {reference.at, unknown_name("look", reference.name, known)});
 }
 
 void Reading::resolve() {
   if (crowded()) return;
   for (const Reference& reference : m_references) {
+    if (reference.to == Reference::To::look) continue;
     const std::vector<std::string> known = names(reference.to);
     if (std::find(known.begin(), known.end(), reference.name) == known.end())
       tell(m_faults, {reference.at, unknown_name(noun(reference.to), reference.name, known)});
@@ -83,6 +96,9 @@ void Reading::check_together() {
   for (const Placement& tool : m_tools) check_tool(tool);
   for (const SheetEnd& sheet : m_sheet_ends) check_sheet(sheet);
   for (const WaveSetting& wave : description.peristalsis) check_wave(wave);
+  for (const MarkSetting& mark : description.marks) check_mark(mark);
+  if (description.variation && description.variation->bleeder && !description.bleeder)
+    tell(m_faults, {description.variation->at, "expected a bleeder whose hole can vary, got none in this scene"});
 }
 
 bool Reading::crowded() {
@@ -100,12 +116,16 @@ std::vector<std::string> Reading::names(Reference::To to) const {
   if (to == To::tissue) add_names(description.tissues, all);
   if (to == To::solid || to == To::solid_or_strand) add_names(description.solids, all);
   if (to == To::strand || to == To::solid_or_strand) add_names(description.strands, all);
+  if (to == To::marked) {
+    add_names(description.solids, all), add_names(description.walls, all), add_names(description.strands, all);
+  }
   if (to == To::vessel)
     for (const VesselTree& tree : description.vessels) add_names(tree.vessels, all);
   if (to == To::drawn) {
     add_names(description.solids, all), add_names(description.strands, all), add_names(description.walls, all);
     add_names(description.sheets, all), add_names(description.membranes, all), add_names(description.pouches, all);
     add_names(description.instruments, all), add_names(description.ports, all);
+    ObjectScenes::for_each([&](auto kind) { add_names(settings_of(kind, description.objects), all); });
     all.insert(all.end(), kDrawnNames.begin(), kDrawnNames.end());
   }
   if (to == To::port) add_names(description.ports, all);
@@ -123,7 +143,8 @@ void Reading::check_names() {
     for (const auto& body : list) organs.emplace_back(body.name, body.at);
   };
   add(description.solids), add(description.strands), add(description.walls), add(description.sheets);
-  add(description.membranes), add(description.pouches);
+  add(description.membranes), add(description.pouches), add(description.marks);
+  ObjectScenes::for_each([&](auto kind) { add(settings_of(kind, description.objects)); });
   check_unique("organ", organs, m_faults);
 }
 
@@ -166,6 +187,44 @@ void Reading::check_sheet(const SheetEnd& sheet) {
     if (strand.name == sheet.strand && beyond(sheet.to, whole))
       tell(m_faults, {sheet.at, fmt::format("expected an arc length on \"{}\" (at most {:.1f} mm), got {}", strand.name,
                                             whole * 1000, sheet.to * 1000)});
+  }
+}
+
+/// Stripes go around strands, discs do not lie on them.
+void Reading::check_mark(const MarkSetting& mark) {
+  const auto named = [&](const auto& thing) { return thing.name == mark.on; };
+  const auto strand = std::find_if(description.strands.begin(), description.strands.end(), named);
+  const bool around = strand != description.strands.end();
+  if (mark.stripe && !around)
+    tell(m_faults, {mark.at, fmt::format("expected a strand that the stripe goes around, got \"{}\"", mark.on)});
+  if (!mark.stripe && around)
+    tell(m_faults, {mark.at, fmt::format("expected at_mm of a stripe on the strand \"{}\", got a disc", mark.on)});
+  if (!mark.stripe || !around) return;
+  const double whole = curve_length(strand->centreline);
+  if (beyond(mark.s, whole))
+    tell(m_faults, {mark.at, fmt::format("expected an arc length on \"{}\" (at most {:.1f} mm), got {}", mark.on,
+                                         whole * 1000, mark.s * 1000)});
+}
+
+/// Do its organ and its stations fit it?
+void Reading::check_wave(const WaveSetting& wave) {
+  for (const Solid& solid : description.solids) {
+    if (solid.name != wave.solid || wave.solid.empty()) continue;
+    if (solid.cuttable)
+      tell(m_faults, {wave.solid_at, fmt::format("expected a solid that is not cuttable, got \"{}\"", solid.name)});
+    std::vector<Vec3d> line = wave.centreline;
+    if (line.empty())
+      for (const Section& s : solid.sections) line.push_back(s.centre);
+    if (line.size() < 2) {
+      tell(m_faults, {wave.at, fmt::format("expected \"centreline_mm\" for \"{}\", which has no sections, got none",
+                                           solid.name)});
+      continue;
+    }
+    const double whole = curve_length(line);
+    for (const WaveSetting::Station& s : wave.stations)
+      if (beyond(s.s, whole))
+        tell(m_faults, {s.at, fmt::format("expected a way on the centre line (at most {:.1f} mm), got {}", whole * 1000,
+                                          s.s * 1000)});
   }
 }
 

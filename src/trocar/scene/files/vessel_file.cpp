@@ -5,8 +5,9 @@
 
 #include <fmt/format.h>
 
-#include <trocar/scene/files/reader_parts.hpp>
+#include <trocar/scene/files/keys.hpp>
 #include <trocar/scene/files/vessel_file.hpp>
+#include <trocar/scene/files/vessel_keys.hpp>
 
 namespace trocar::scene {
 
@@ -16,10 +17,6 @@ using vessels::GraphFault;
 
 constexpr double kMeet = 0.005;     // [m] within which paths meet at a node
 constexpr double kTortuous = 0.95;  // a vessel's length is no less than this share of its path's
-
-double from_mmhg(double p) { return p * vessels::kPascalPerMmHg; }
-double from_resistance(double r) { return r * (vessels::kPascalPerMmHg * 1e6); }  // mmHg s/mL
-double from_ml_min(double q) { return q / 60e6; }
 
 /// A key of a file for a field of the graph.
 struct KeyOf {
@@ -48,51 +45,33 @@ class VesselReading {
 
   VesselTree read() {
     const std::size_t before = m_faults.size();
-    m_tree.name = m_file.text("name");
-    m_tree.at = m_file.at();
+    vessel_file_keys().read(m_file, m_tree, m_context);
     m_tree.text = m_file.value();
-    m_tree.pulse_gain = m_file.number("pulse_gain", 1);
     m_tree.says_heart = m_file.names("heart") || m_file.names("blood_L");
     m_tree.heart_at = m_file.at(m_file.names("heart") ? "heart" : "blood_L");
-    m_tree.graph.tree = m_file.flag("tree");
-    m_tree.graph.blood.volume = m_file.number("blood_L", 5) / 1000;
-    heart();
+    for (const JsonObject& o : m_file.objects("heart")) heart().read(m_heart.emplace(o), m_tree.graph.heart, m_context);
     m_vessels = m_file.objects("vessels");
-    for (const JsonObject& o : m_vessels) vessel(o);
+    for (const JsonObject& o : m_vessels) add_vessel(o);
     m_tree.graph.nodes = int(m_tree.nodes.size());
     check_names();
     check_meetings();
     m_sources = m_file.objects("sources");
-    for (const JsonObject& o : m_sources) source(o);
+    for (const JsonObject& o : m_sources) add_source(o);
     m_ends = m_file.objects("ends");
     const bool sound = m_faults.size() == before;
-    for (const JsonObject& o : m_ends) end(o, sound);
+    for (const JsonObject& o : m_ends) add_end(o, sound);
     if (m_faults.size() == before) check_graph();
     return std::move(m_tree);
   }
 
  private:
-  void heart() {
-    vessels::Heart& h = m_tree.graph.heart;
-    for (const JsonObject& o : m_file.objects("heart")) {
-      m_heart = o;
-      h.rate = o.number("rate_per_min", h.rate);
-      h.breaths = o.number("breaths_per_min", h.breaths);
-      if (o.has("systolic_mmHg")) h.systolic = from_mmhg(o.number("systolic_mmHg"));
-      if (o.has("diastolic_mmHg")) h.diastolic = from_mmhg(o.number("diastolic_mmHg"));
-      if (o.has("arterial_swing_mmHg")) h.arterial_swing = from_mmhg(o.number("arterial_swing_mmHg"));
-      if (o.has("venous_swing_mmHg")) h.venous_swing = from_mmhg(o.number("venous_swing_mmHg"));
-    }
-  }
-
   int node(const std::string& name) {
     if (name.empty()) return -1;
     const auto [at, fresh] = m_node.try_emplace(name, int(m_tree.nodes.size()));
     if (fresh) m_tree.nodes.push_back(name);
     return at->second;
   }
-  int known_node(const JsonObject& o) {
-    const std::string name = o.text("node");
+  int known_node(const JsonObject& o, const std::string& name) {
     const auto at = m_node.find(name);
     if (at != m_node.end()) return at->second;
     if (o.has("node")) o.fault("node", unknown_name("node", name, some_nodes()));
@@ -104,84 +83,47 @@ class VesselReading {
     return {m_tree.nodes.begin(), m_tree.nodes.begin() + std::ptrdiff_t(std::min(kMost, m_tree.nodes.size()))};
   }
 
-  void vessel(const JsonObject& o) {
-    Vessel v;
-    v.name = o.text("name");
-    v.path = from_mm(o.points("path_mm"));
-    v.rides_on = o.texts("rides_on");
-    for (std::size_t i = 0; i < v.rides_on.size(); ++i) v.rides_at.push_back(o.at("rides_on", i));
-    v.reach = from_mm(o.number("reach_mm", 4));
-    v.at = o.at();
-    vessels::VesselSegment s;
-    s.from = node(o.text("from"));
-    s.to = node(o.text("to"));
-    const double path = curve_length(v.path);
-    s.length = o.has("length_mm") ? from_mm(o.number("length_mm")) : path;
-    if (o.has("length_mm") && o.has("path_mm") && s.length < kTortuous * path)
+  void add_vessel(const JsonObject& o) {
+    VesselLine line = vessel().made(o, m_context);
+    line.from = node(line.from_node);
+    line.to = node(line.to_node);
+    const double path = curve_length(line.path);
+    if (!o.has("length_mm")) line.length = path;
+    if (o.has("length_mm") && o.has("path_mm") && line.length < kTortuous * path)
       o.fault("length_mm",
-              fmt::format("expected at least its path's length, {:.4g} mm, got {:.4g}", 1e3 * path, 1e3 * s.length));
-    s.radius = from_mm(o.number("radius_mm"));
-    s.radius_to = from_mm(o.number("radius_to_mm", 0));
-    wall(o, s.wall);
-    s.loss = o.number("loss", 0);
-    s.vein = m_file.text("kind") == "veins";
-    m_tree.graph.segments.push_back(s);
-    m_tree.vessels.push_back(std::move(v));
+              fmt::format("expected at least its path's length, {:.4g} mm, got {:.4g}", 1e3 * path, 1e3 * line.length));
+    line.vein = m_file.text("kind") == "veins";
+    m_tree.graph.segments.push_back(line);
+    m_tree.vessels.push_back(std::move(line));
   }
 
-  static void wall(const JsonObject& o, vessels::VesselWall& w) {
-    w.wave_speed = o.number("wave_speed_m_s", 0);
-    w.modulus = 1e3 * o.number("modulus_kPa", 0);
-    w.thickness = from_mm(o.number("thickness_mm", 0));
-    w.poisson = o.number("poisson", 0);
-    const bool both = o.names("modulus_kPa") && o.names("thickness_mm");
-    const bool any = o.names("modulus_kPa") || o.names("thickness_mm") || o.names("poisson");
-    if (o.names("wave_speed_m_s") ? any : !both)
-      o.fault(o.at(), fmt::format("expected either \"wave_speed_m_s\" or \"modulus_kPa\" and \"thickness_mm\", got {}",
-                                  o.names("wave_speed_m_s") ? "both" : (any ? "one of the two" : "none")));
-  }
-
-  void source(const JsonObject& o) {
-    vessels::VesselSource s;
-    s.node = known_node(o);
-    const bool steady = o.text("kind", "heart") == "steady";
-    s.kind = steady ? vessels::VesselSource::Kind::steady : vessels::VesselSource::Kind::heart;
-    s.pressure = steady ? from_mmhg(o.number("pressure_mmHg", 93)) : 0;
-    if (!steady && o.has("pressure_mmHg"))
-      o.fault("pressure_mmHg", "expected a pressure of a steady source only, as the heart has its own, got one");
-    s.resistance = from_resistance(o.number("resistance_mmHg_s_mL", 0));
-    s.venous = o.flag("venous");
-    m_tree.graph.sources.push_back(s);
+  void add_source(const JsonObject& o) {
+    SourceLine line = vessel_source().made(o, m_context);
+    line.node = known_node(o, line.name_of_node);
+    m_tree.graph.sources.push_back(line);
   }
 
   /// @param sound  without faults so far: a flow can be matched to the vessel that brings it
-  void end(const JsonObject& o, bool sound) {
-    vessels::VesselEnd e;
-    e.node = known_node(o);
-    e.r_near = from_resistance(o.number("near_mmHg_s_mL", 0));
-    e.r_far = from_resistance(o.number("far_mmHg_s_mL", 0));
-    e.compliance = o.number("compliance_mL_mmHg", 0) / (vessels::kPascalPerMmHg * 1e6);
-    e.pressure = from_mmhg(o.number("pressure_mmHg", 5));
-    const bool resists = o.names("near_mmHg_s_mL") || o.names("far_mmHg_s_mL");
-    if (o.names("flow_mL_min") == resists)
-      o.fault(o.at(), fmt::format("expected either \"flow_mL_min\" or resistances, got {}", resists ? "both" : "none"));
-    if (sound && e.node >= 0 && o.has("flow_mL_min")) matched(o, e);
-    m_tree.graph.ends.push_back(e);
+  void add_end(const JsonObject& o, bool sound) {
+    EndLine line = vessel_end().made(o, m_context);
+    line.node = known_node(o, line.name_of_node);
+    if (sound && line.node >= 0 && o.has("flow_mL_min")) match(o, line);
+    m_tree.graph.ends.push_back(line);
   }
 
-  void matched(const JsonObject& o, vessels::VesselEnd& e) {
+  void match(const JsonObject& o, EndLine& line) {
     const auto& segments = m_tree.graph.segments;
-    const auto brings = [&](const vessels::VesselSegment& s) { return s.to == e.node; };
+    const auto brings = [&](const vessels::VesselSegment& s) { return s.to == line.node; };
     const auto it = std::find_if(segments.begin(), segments.end(), brings);
     if (it == segments.end())
-      return o.fault("node", fmt::format("expected a node that a vessel leads to, got \"{}\"", o.text("node")));
-    const double beyond = e.pressure, at = from_mmhg(o.number("at_mmHg", 90));
-    if (at <= beyond)
+      return o.fault("node", fmt::format("expected a node that a vessel leads to, got \"{}\"", line.name_of_node));
+    const double beyond = line.pressure;
+    if (line.flow_pressure <= beyond)
       return o.fault(o.at("at_mmHg"), "expected a pressure above that beyond the end, got one that is not");
     const double usual = vessels::VesselEnd{}.pressure;  // matched_end() counts from there
-    e = vessels::matched_end(m_tree.graph, int(it - segments.begin()), at - beyond + usual,
-                             from_ml_min(o.number("flow_mL_min")), o.number("time_s", 1));
-    e.pressure = beyond;
+    static_cast<vessels::VesselEnd&>(line) = vessels::matched_end(
+        m_tree.graph, int(it - segments.begin()), line.flow_pressure - beyond + usual, line.flow, line.time);
+    line.pressure = beyond;
   }
 
   void check_names() {
@@ -251,6 +193,8 @@ class VesselReading {
 
   const JsonObject& m_file;
   std::vector<core::Fault>& m_faults;
+  std::vector<Reference> m_references;  // none: a file alone knows no bodies
+  Context m_context{{}, nullptr, m_references};
   VesselTree m_tree;
   std::map<std::string, int> m_node;
   std::vector<JsonObject> m_vessels, m_ends, m_sources;
@@ -274,6 +218,21 @@ VesselTree read_vessels(const std::filesystem::path& path, const MemoryFiles* me
   VesselTree tree = read_vessels(path, faults, memory);
   if (!faults.empty()) throw core::BadInput(std::move(faults));
   return tree;
+}
+
+const Shape& vessels_shape() { return vessel_file_keys(); }
+
+JsonValue written_vessels(const VesselTree& tree) {
+  JsonValue o = tree.text;
+  for (JsonMember& member : o.members) {
+    if (member.key != "vessels") continue;
+    for (std::size_t i = 0; i < member.value.items.size() && i < tree.vessels.size(); ++i) {
+      const JsonValue now = vessel().written({tree.vessels[i], tree.graph.segments[i], {}, {}});
+      for (JsonMember& key : member.value.items[i].members)
+        if (key.key == "path_mm" || key.key == "length_mm") key.value = now.find(key.key)->value;
+    }
+  }
+  return o;
 }
 
 }  // namespace trocar::scene

@@ -23,6 +23,9 @@ VesselTree read_vessels(const std::filesystem::path& path, std::vector<core::Fau
 /// The same of a file that is open already.
 VesselTree read_vessels(const JsonObject& file, std::vector<core::Fault>& faults);
 
+/// As it was read, but for the places of its paths, which may have been moved.
+JsonValue written_vessels(const VesselTree& tree);
+
 const Shape& vessels_shape();
 
 }  // namespace trocar::scene

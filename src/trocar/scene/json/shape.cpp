@@ -220,20 +220,20 @@ Key grid(std::string name, double low, double high, std::size_t min_count, std::
   key.min_count = min_count;
   return key;
 }
-Key object(std::string name, const Shape& (*shape)(), std::string meaning) {
+Key object(std::string name, std::function<const Shape&()> shape, std::string meaning) {
   Key key = row(std::move(name), Type::object, std::move(meaning));
-  key.shape = shape;
+  key.shape = std::move(shape);
   return key;
 }
-Key objects(std::string name, const Shape& (*shape)(), std::size_t min_count, std::string meaning) {
+Key objects(std::string name, std::function<const Shape&()> shape, std::size_t min_count, std::string meaning) {
   Key key = row(std::move(name), Type::objects, std::move(meaning));
-  key.shape = shape;
+  key.shape = std::move(shape);
   key.min_count = min_count;
   return key;
 }
-Key includes(std::string name, const Shape& (*shape)(), std::string meaning) {
+Key includes(std::string name, std::function<const Shape&()> shape, std::string meaning) {
   Key key = row(std::move(name), Type::includes, std::move(meaning));
-  key.shape = shape;
+  key.shape = std::move(shape);
   return key;
 }
 Key any(std::string name, std::string meaning) { return row(std::move(name), Type::any, std::move(meaning)); }

@@ -15,6 +15,7 @@
 //   const double d = o.number("diameter_mm") / 1000;     // 0 where the file says nothing valid
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -49,7 +50,7 @@ struct Key {
   std::string meaning;  ///< one line for people: what it is, the default
   double low = 0, high = 0;
   std::vector<std::string> choices;
-  const Shape& (*shape)() = nullptr;  ///< a function, so that tables may refer to each other
+  std::function<const Shape&()> shape;  ///< a function, so that tables may refer to each other
   std::size_t min_count = 0, max_count = 1000;
   bool required = false;
 };
@@ -74,9 +75,9 @@ Key choice(std::string name, std::vector<std::string> choices, std::string meani
 Key vec3(std::string name, double low, double high, std::string meaning);
 Key points(std::string name, double low, double high, std::size_t min_count, std::string meaning);
 Key grid(std::string name, double low, double high, std::size_t min_count, std::string meaning);
-Key object(std::string name, const Shape& (*shape)(), std::string meaning);
-Key objects(std::string name, const Shape& (*shape)(), std::size_t min_count, std::string meaning);
-Key includes(std::string name, const Shape& (*shape)(), std::string meaning);
+Key object(std::string name, std::function<const Shape&()> shape, std::string meaning);
+Key objects(std::string name, std::function<const Shape&()> shape, std::size_t min_count, std::string meaning);
+Key includes(std::string name, std::function<const Shape&()> shape, std::string meaning);
 Key any(std::string name, std::string meaning);
 Key format(int version);  ///< "format": the version of the file's keys
 }  // namespace keys

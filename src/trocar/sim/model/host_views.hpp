@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/sim/model/state.hpp>
 
 namespace trocar::sim {
@@ -17,6 +18,12 @@ struct HostViews {
   };
   std::vector<Corner> ridden;
   std::vector<std::vector<Vec3d>> corners;  ///< (organs)(skin vertices) where those are [m]
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("organs", s.organs), v("membranes", s.membranes), v("skins", s.skins, core::kMadeOnce),
+        v("ridden", s.ridden, core::kMadeOnce), v("corners", s.corners);
+  }
 };
 HostViews make_host_views(const Model& model);
 

@@ -1,3 +1,4 @@
+#include <trocar/fluids/pool_fill.hpp>
 #include <trocar/sim/model/pool_floor.hpp>
 #include <trocar/sim/model/state.hpp>
 
@@ -32,6 +33,7 @@ State drawn_bodies(const Model& model) {
     s.membranes.push_back(tissue::rest_state(m.sheet));
     s.torn.emplace_back(m.sheet.triangles.size(), std::uint8_t(0));
   }
+  s.objects = interactions::start_of(model.objects);
   return s;
 }
 
@@ -81,6 +83,9 @@ State initial_state(const Model& model) {
   if (model.wet.there) {
     s.fluids = fluids::initial_state(model.wet.model);
     lay_floor(model, s);
+    const fluids::Mix poured =
+        fluids::fill_level(model.wet.model.pool, s.pool_floor, model.wet.pool_at_start, s.fluids.pool);
+    fluids::receive(s.fluids.ledger, fluids::Source::kBled, fluids::Place::kPool, poured);
   }
   if (model.irrigates()) s.impacts.resize(size_t(model.wet.model.droplets.capacity));
   make_counters(model, s);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <type_traits>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/kinematics/fulcrum.hpp>
 
 namespace trocar::sim {
@@ -16,11 +17,24 @@ inline constexpr int kMaxRack = 8;   ///< instruments that one hand may choose f
 struct ToolInput {
   float yaw = 0, pitch = 0, roll = 0, depth = 0, handle = 0;
   std::int32_t instrument = 0;  ///< 0: the one that it began with
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("yaw", s.yaw), v("pitch", s.pitch), v("roll", s.roll), v("depth", s.depth), v("handle", s.handle),
+        v("instrument", s.instrument);
+  }
 };
 
 /// The endoscope: `roll` turns the camera head (the picture), `post` the light post (an oblique view's direction).
 struct ScopeInput {
   float yaw = 0, pitch = 0, roll = 0, depth = 0, post = 0;
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("yaw", s.yaw), v("pitch", s.pitch), v("roll", s.roll), v("depth", s.depth), v("post", s.post);
+  }
 };
 
 /// Bits of Input::pedals: foot switches, and valves on the handles of suction-irrigators.
@@ -38,6 +52,12 @@ struct Input {
   ScopeInput scope;
   ToolInput tools[kMaxTools];
   std::uint32_t pedals = 0;  ///< Pedal, irrigates(), sucks(), keys of the panel
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("scope", s.scope), v("tools", s.tools), v("pedals", s.pedals);
+  }
 };
 static_assert(std::is_trivially_copyable_v<Input> && sizeof(Input) == 20 + kMaxTools * 24 + 4, "no padding");
 

@@ -3,9 +3,11 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/core/tick.hpp>
 #include <trocar/fluids/fluids.hpp>
 #include <trocar/geometry/volumes/cell_mask.hpp>
@@ -18,7 +20,9 @@
 #include <trocar/interactions/couplings/strand_body.hpp>
 #include <trocar/interactions/couplings/vessel_path.hpp>
 #include <trocar/interactions/instrument/tool.hpp>
+#include <trocar/interactions/objects/object_kinds.hpp>
 #include <trocar/sim/model/input.hpp>
+#include <trocar/sim/model/mark.hpp>
 #include <trocar/sim/model/motion.hpp>
 #include <trocar/tissue/heat/electrosurgery.hpp>
 #include <trocar/tissue/network/prestress.hpp>
@@ -29,6 +33,8 @@ namespace trocar::sim {
 
 using core::kTick;
 
+struct Lookbook;
+
 /// A volumetric organ.
 struct SolidModel {
   std::string name, look, tissue;
@@ -38,6 +44,13 @@ struct SolidModel {
   tissue::Skin skin;                    ///< contact and clips
   tissue::Skin fine;                    ///< drawn: the same surface, more vertices
   double failure_strain = 0;            ///< 0: it never tears
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("network", s.network), v("skin", s.skin), v("fine", s.fine), v("failure_strain", s.failure_strain),
+        v("anchors", s.anchors), v("name", s.name, core::kNotHashed), v("look", s.look, core::kNotHashed),
+        v("tissue", s.tissue, core::kNotHashed), v("cell", s.cell, core::kNotHashed);
+  }
 };
 
 /// A volumetric organ that can be cut anywhere. Organs are numbered: solids first, then these.
@@ -47,12 +60,24 @@ struct CuttableOrgan {
   tissue::CuttableModel body;
   tissue::CuttableSkin skin;  ///< uncut; what is touched, held and drawn
   double failure_strain = 0;  ///< 0: it never tears
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("body", s.body), v("failure_strain", s.failure_strain), v("name", s.name, core::kNotHashed),
+        v("look", s.look, core::kNotHashed), v("tissue", s.tissue, core::kNotHashed),
+        v("cell", s.cell, core::kNotHashed), v("skin", s.skin, core::kNotHashed);
+  }
 };
 
 /// A stretch of a strand with a name: isthmus, ampulla, fimbria.
 struct LandmarkModel {
   std::string name;
   double from = 0, to = 0;  ///< arc length [m]
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("name", s.name), v("from", s.from), v("to", s.to);
+  }
 };
 
 /// What holds a strand's end: nothing, space, or an organ.
@@ -60,6 +85,11 @@ struct StrandEndModel {
   enum Kind : std::int32_t { free, fixed, hosted } kind = free;
   std::int32_t organ = -1;
   interactions::HostPatch patch;
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("kind", s.kind), v("organ", s.organ), v("patch", s.patch);
+  }
 };
 
 /// A strand as it is known, drawn and held at its ends; what moves is Model::strand_bodies.
@@ -70,12 +100,26 @@ struct StrandAnatomy {
   std::vector<LandmarkModel> landmarks;
   bool fimbriated = false;
   double failure_strain = 0;  ///< 0: it never tears
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("start", s.start), v("end", s.end), v("failure_strain", s.failure_strain), v("name", s.name, core::kNotHashed),
+        v("look", s.look, core::kNotHashed), v("tissue", s.tissue, core::kNotHashed),
+        v("outer", s.outer, core::kNotHashed), v("inner", s.inner, core::kNotHashed),
+        v("landmarks", s.landmarks, core::kNotHashed), v("fimbriated", s.fimbriated, core::kNotHashed);
+  }
 };
 
 struct WallModel {
   std::string name, look;
   tissue::Skin skin;  ///< weights unused
   tissue::SkinPose pose;
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("skin", s.skin), v("name", s.name, core::kNotHashed), v("look", s.look, core::kNotHashed),
+        v("pose", s.pose, core::kNotHashed);
+  }
 };
 
 /// A point of a sheet's base line and what it rides on.
@@ -93,6 +137,11 @@ struct DrawnFold {
   std::int32_t strand = -1;
   double from = 0, to = 0;  ///< arc length [m]
   std::vector<BasePoint> base;
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("name", s.name), v("look", s.look), v("strand", s.strand), v("from", s.from), v("to", s.to), v("base", s.base);
+  }
 };
 
 /// A thin fold with mechanics of its own: its border hangs on a strand, its base on other bodies and on space.
@@ -107,6 +156,14 @@ struct MembraneBody {
   std::vector<float> depth;                     ///< (nodes) way from the strand's surface, as drawn [m]
   std::vector<interactions::BorderHold> holds;  ///< (held nodes)
   double failure_strain = 0;                    ///< 0: it never tears
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("sheet", s.sheet), v("skin", s.skin), v("strand", s.strand), v("cuttable", s.cuttable), v("depth", s.depth),
+        v("pinch_reach", s.pinch_reach), v("failure_strain", s.failure_strain), v("holds", s.holds),
+        v("name", s.name, core::kNotHashed), v("look", s.look, core::kNotHashed),
+        v("tissue", s.tissue, core::kNotHashed), v("from", s.from, core::kNotHashed), v("to", s.to, core::kNotHashed);
+  }
 };
 
 /// An artery or a vein: the flow's segment of the same number, and where it runs.
@@ -118,6 +175,12 @@ struct Vessel {
   interactions::VesselPath path;
 
   bool pulses() const noexcept { return gain > 0; }
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("path", s.path), v("gain", s.gain), v("mean_pressure", s.mean_pressure), v("vein", s.vein),
+        v("name", s.name, core::kNotHashed);
+  }
 };
 /// From a distance on something is drawn with fewer triangles and a simpler surface (view/base/level_of_detail.hpp).
 struct DetailLevel {
@@ -128,6 +191,11 @@ struct DetailLevel {
 struct DrawnDetail {
   std::string name;  ///< as in the scene
   std::vector<DetailLevel> levels;
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("name", s.name), v("levels", s.levels);
+  }
 };
 
 /// A vessel that opens by itself.
@@ -136,6 +204,11 @@ struct Bleeder {
   double s = 0;              ///< 0 .. 1 along it
   double area = 0;           ///< of the hole [m^2]
   std::uint64_t tick = 0;    ///< when
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("vessel", s.vessel), v("s", s.s), v("area", s.area), v("tick", s.tick);
+  }
 };
 struct VesselsModel {
   std::vector<Vessel> list;
@@ -144,6 +217,13 @@ struct VesselsModel {
   vessels::FlowState start;  ///< after some seconds of heartbeat
 
   bool there() const noexcept { return !list.empty(); }
+
+  static constexpr bool kOwnHash = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("flow", s.flow), v("list", s.list), v("bleeder", s.bleeder, core::only_if(s.bleeder.vessel >= 0)),
+        v("start", s.start, core::kNotHashed);
+  }
 };
 
 /// Fluids, where a scene has any.
@@ -154,6 +234,15 @@ struct WetModel {
   std::vector<int> floor_organs;   ///< that are part of it as they lie
   std::vector<std::int32_t> film;  ///< (bodies + 1) where the places of film of each begin (interactions::WetBodies)
   std::vector<interactions::SkinGrid> grids;  ///< (walls) for what drops meet there
+  fluids::Mix pool_at_start;                  ///< that lies there when it begins [pL]
+
+  static constexpr bool kOwnHash = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("model", s.model), v("floor", s.floor), v("floor_organs", s.floor_organs), v("film", s.film),
+        v("pool_at_start", s.pool_at_start, core::only_if(!s.pool_at_start.empty())),
+        v("there", s.there, core::kNotHashed), v("grids", s.grids, core::kNotHashed);
+  }
 };
 
 /// Current and heat, where a scene has them.
@@ -162,6 +251,13 @@ struct EnergyModel {
   tissue::HeatModel heat;
   tissue::GeneratorPanel panel;                   ///< as it is set at the beginning
   std::vector<geometry::CellMask> organs, folds;  ///< what of them is tissue (heat_bodies.hpp)
+
+  static constexpr bool kOwnHash = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("heat", s.heat), v("panel", s.panel), v("organs", s.organs), v("folds", s.folds),
+        v("there", s.there, core::kNotHashed);
+  }
 };
 
 /// A hand at a trocar, and the instruments that go through it.
@@ -171,6 +267,12 @@ struct HandModel {
   std::vector<interactions::ToolModel> rack;  ///< 1..kMaxRack; the first is in the hand at the start
 
   int find(const std::string& instrument) const;  ///< number in the rack, -1 if it is not there
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("rack", s.rack, core::FieldNote{.sized = true}), v("name", s.name, core::kNotHashed),
+        v("port", s.port, core::kNotHashed);
+  }
 };
 
 struct ScopeModel {
@@ -179,19 +281,35 @@ struct ScopeModel {
   double angle = 0;            ///< of the oblique view [rad]
   double field_of_view = 1.2;  ///< full cone [rad]
   double shaft_radius = 0.005;
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("port", s.port), v("limits", s.limits), v("angle", s.angle), v("field_of_view", s.field_of_view),
+        v("shaft_radius", s.shaft_radius, core::kNotHashed);
+  }
 };
 
 /// Something whose visibility the simulation knows: `visible` when at least half of its samples are seen.
 struct VisibilityTarget {
-  enum Kind : std::int32_t { jaw, shaft, strand, organ } kind = jaw;
+  enum Kind : std::int32_t { jaw, shaft, strand, organ, mark } kind = jaw;
   std::string name;                   ///< "tube_left.isthmus", "uterus", "left_lateral.jaw_a", "left_lateral.shaft"
-  std::int32_t index = 0;             ///< hand, strand or organ
+  std::int32_t index = 0;             ///< hand, strand, organ or mark
   std::int32_t first = 0, count = 0;  ///< samples
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("kind", s.kind), v("name", s.name), v("index", s.index), v("first", s.first), v("count", s.count);
+  }
 };
 struct VisibilitySample {
   std::int32_t target = 0;
-  std::int32_t where = 0;  ///< jaw 0/1, strand element, skin vertex
+  std::int32_t where = 0;  ///< jaw 0/1, strand element, skin vertex; of a mark its number (mark_sample)
   double w = 0;            ///< within the element; shaft: share of the way from the trocar to the jaws
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("target", s.target), v("where", s.where), v("w", s.w);
+  }
 };
 
 struct State;
@@ -208,6 +326,7 @@ struct Model {
   std::vector<WallModel> walls;
   std::vector<DrawnFold> drawn_folds;
   std::vector<MembraneBody> membranes;
+  interactions::ObjectModels objects;
   VesselsModel vessels;
   WetModel wet;
   EnergyModel energy;
@@ -220,9 +339,11 @@ struct Model {
   std::vector<interactions::StrandPair> strand_pairs;
   std::vector<interactions::SelfPair> self_pairs;  ///< of organs that can be folded onto themselves
   std::vector<std::int32_t> nearest_at_start;      ///< initial State::nearest
+  std::vector<MarkModel> marks;
   std::vector<VisibilityTarget> targets;
   std::vector<VisibilitySample> samples;
   std::vector<DrawnDetail> drawn_detail;  ///< nothing that the step reads: not in the hash
+  std::shared_ptr<const Lookbook> looks;  ///< neither is this: what surfaces look like (looks.hpp), null: all neutral
   std::uint64_t hash = 0;
 
   /// The instrument that hand `hand` has in its trocar.
@@ -243,7 +364,26 @@ struct Model {
   int target_index(const std::string& target) const;      ///< -1 if there is none
   int vessel_index(const std::string& vessel) const;      ///< -1 if there is none
   int hand_index(const std::string& trocar) const;        ///< -1 if there is none
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("gravity", s.gravity), v("solids", s.solids), v("cuttables", s.cuttables), v("strand_bodies", s.strand_bodies),
+        v("strands", s.strands), v("walls", s.walls), v("membranes", s.membranes), v("hands", s.hands),
+        v("scope", s.scope), v("start", s.start), v("cavity", s.cavity), v("surface_pairs", s.surface_pairs),
+        v("strand_pairs", s.strand_pairs), v("self_pairs", s.self_pairs), v("samples", s.samples), v("marks", s.marks),
+        v("vessels", s.vessels, core::only_if(s.vessels.there())), v("wet", s.wet, core::only_if(s.wet.there)),
+        v("energy", s.energy, core::only_if(s.energy.there)), v("motion", s.motion, core::only_if(s.motion.there())),
+        v("objects", s.objects), v("name", s.name, core::kNotHashed), v("file", s.file, core::kNotHashed),
+        v("drawn_folds", s.drawn_folds, core::kNotHashed), v("nearest_at_start", s.nearest_at_start, core::kNotHashed),
+        v("targets", s.targets, core::kNotHashed), v("looks", s.looks, core::kNotHashed),
+        v("drawn_detail", s.drawn_detail, core::kNotHashed), v("hash", s.hash, core::kNotHashed);
+  }
 };
+
+/// Of parts that a scene may lack, with what their figures do not say: see model.cpp.
+void add_to_hash(core::Hasher& hasher, const VesselsModel& vessels) noexcept;
+void add_to_hash(core::Hasher& hasher, const WetModel& wet) noexcept;
+void add_to_hash(core::Hasher& hasher, const EnergyModel& energy) noexcept;
 
 /// Sets Model::hash from everything that the step reads.
 void seal(Model& model);

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/tissue/network/force_wave.hpp>
 
@@ -23,12 +24,23 @@ struct BreathingModel {
   std::vector<std::vector<std::int32_t>> held;     ///< (solids) their rigidly held nodes
 
   bool there() const noexcept { return period > 0; }
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("period", s.period), v("way", s.way), v("organs", s.organs), v("strands", s.strands), v("membranes", s.membranes),
+        v("held", s.held, core::kNotHashed);
+  }
 };
 
 /// Waves of one organ. An organ may have several.
 struct PeristalsisModel {
   std::int32_t solid = -1;
   tissue::ForceWaveModel wave;
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("solid", s.solid), v("wave", s.wave);
+  }
 };
 
 struct MotionModel {
@@ -36,6 +48,11 @@ struct MotionModel {
   std::vector<PeristalsisModel> peristalsis;
 
   bool there() const noexcept { return breathing.there() || !peristalsis.empty(); }
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("breathing", s.breathing, core::only_if(s.breathing.there())), v("peristalsis", s.peristalsis);
+  }
 };
 
 void add_to_hash(core::Hasher& hasher, const MotionModel& motion) noexcept;

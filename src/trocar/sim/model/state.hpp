@@ -3,8 +3,10 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/interactions/instrument/membrane_contact.hpp>
 #include <trocar/interactions/instrument/tool_contact.hpp>
 #include <trocar/interactions/verbs/vessel_tools.hpp>
@@ -25,19 +27,32 @@ struct ElectrodeHand {
   Vec3d at{0, 0, 0};             ///< the tissue's point that it was last at [m]
   Vec3d a{0, 0, 0}, b{0, 0, 0};  ///< ends of what touched there, in that body's frame of heat [m]
   Vec3d parted{0, 0, 0};         ///< where it last parted tissue, in that body's frame of heat [m]
-  std::int32_t body = -1, parted_body = -1;
+  BodyId body, parted_body;
   std::int32_t changes = 0;  ///< ToolState::changes of the instrument that this is
-  interactions::Hold stuck;  ///< what sticks to it; body -1: nothing
+  interactions::Hold stuck;  ///< what sticks to it; no body: nothing
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("current", s.current), v("at", s.at), v("a", s.a), v("b", s.b), v("parted", s.parted), v("body", s.body),
+        v("parted_body", s.parted_body), v("changes", s.changes), v("stuck", s.stuck);
+  }
 };
 static_assert(sizeof(ElectrodeHand) == sizeof(tissue::ElectrodeState) + 12 * 8 + 3 * 4 + sizeof(interactions::Hold),
               "no padding");
 
 /// A spring of a lattice or a fold that heat has changed (scarring.hpp).
 struct Scar {
-  std::int32_t body = -1;    ///< as holds number bodies
+  BodyId body;
   std::int32_t spring = -1;  ///< of its network; of bodies that can be cut: the cell that all its springs belong to
   float share = 1;           ///< of its length that is left
   float stiff = 1;           ///< times its stiffness
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("body", s.body), v("spring", s.spring), v("share", s.share), v("stiff", s.stiff);
+  }
 };
 inline constexpr std::int32_t kMaxScarred = 1024;
 
@@ -47,6 +62,7 @@ struct State {
   std::vector<tissue::CuttableState> cuttables;
   std::vector<tissue::StrandState> strands;
   std::vector<tissue::MembraneState> membranes;
+  interactions::ObjectStates objects;
   std::array<interactions::ToolState, kMaxTools> tools;
   std::array<std::int32_t, kMaxTools * kMaxRack> magazine{};  ///< clips in instruments that are put down, hand by hand
   ScopeInput scope;                                           ///< where the scope is
@@ -84,6 +100,31 @@ struct State {
   std::int32_t impact_count = 0;
   std::array<std::uint8_t, kMaxTools> valves{};  ///< (hands) Valve, in the last tick
   std::vector<std::uint8_t> seen;                ///< (samples) 1 = in view when last looked
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    // Parts that a scene may lack are hashed where it has them.
+    const bool bleeds = !s.openings.empty(), heats = !s.electrodes.empty();
+    const bool wet = !s.fluids.droplets.x.empty(), irrigates = !s.impacts.empty();
+    v("tick", s.tick), v("solids", s.solids), v("cuttables", s.cuttables), v("strands", s.strands), v("tools", s.tools),
+        v("magazine", s.magazine), v("scope", s.scope), v("clips", s.clips), v("cuts", s.cuts),
+        v("clip_count", s.clip_count), v("cut_count", s.cut_count), v("nearest", s.nearest),
+        v("strand_side", s.strand_side), v("tool_side", s.tool_side), v("touches", s.touches), v("seen", s.seen),
+        v("membranes", s.membranes), v("sheet_side", s.sheet_side), v("sheet_bond", s.sheet_bond),
+        v("overstretched_organs", s.overstretched_organs), v("overstretched_membranes", s.overstretched_membranes),
+        v("overstretched_strands", s.overstretched_strands), v("torn", s.torn), v("parted", s.parted),
+        v("flow", s.flow, core::only_if(bleeds)), v("openings", s.openings, core::only_if(bleeds)),
+        v("vessel_clips", s.vessel_clips, core::only_if(bleeds)),
+        v("opening_count", s.opening_count, core::only_if(bleeds)),
+        v("vessel_clip_count", s.vessel_clip_count, core::only_if(bleeds)), v("heat", s.heat, core::only_if(heats)),
+        v("panel", s.panel, core::only_if(heats)), v("electrodes", s.electrodes, core::only_if(heats)),
+        v("seals", s.seals, core::only_if(heats)), v("seal_count", s.seal_count, core::only_if(heats)),
+        v("scarred_count", s.scarred_count, core::only_if(heats)),
+        v("scarred", s.scarred, core::FieldNote{.hashed = heats, .first = s.scarred_count}),
+        v("fluids", s.fluids, core::only_if(wet)), v("pool_floor", s.pool_floor, core::only_if(wet)),
+        v("valves", s.valves, core::only_if(irrigates)), v("impact_count", s.impact_count, core::only_if(irrigates)),
+        v("impacts", s.impacts, core::FieldNote{.hashed = irrigates, .first = s.impact_count}), v("objects", s.objects);
+  }
 };
 
 State initial_state(const Model& model);
@@ -95,5 +136,9 @@ tissue::NodeView nodes_of(const Model& model, const State& state, int organ) noe
 
 /// 64-bit hash of all of it.
 std::uint64_t hash_of(const State& state) noexcept;
+
+/// The first field in which two States of one Model differ, and both values: "solids[2].nodes[17].vx: 0.25 and 0.5".
+/// Empty where none does.
+std::string first_difference(const State& a, const State& b);
 
 }  // namespace trocar::sim

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include <trocar/core/body_id.hpp>
 #include <trocar/tissue/base/report.hpp>
 
 namespace trocar::sim {
@@ -21,10 +22,13 @@ struct Event {
     parted
   } kind = none;
   std::int32_t tool = 0;
-  /// The clip's or the cut's number in the State's book; grasped: the body held (interactions::Hold::body);
+  /// The clip's or the cut's number in the State's book; grasped: the body held (BodyId::code);
   /// parted: the body that current has cut, likewise; torn: the body that tore, likewise, under the hand that pulls or
   /// presses most; exchanged: the new instrument's number in the rack; released and slipped: -1.
   std::int32_t index = 0;
+
+  /// The body that `index` says, of a kind of event that says one.
+  BodyId body() const noexcept { return BodyId::of_code(index); }
 };
 inline constexpr int kMaxEvents = 24, kRoomForTears = 8;  ///< all; of those, only for tears
 
@@ -41,7 +45,7 @@ struct StepReport {
     kDropsFull = 1u << 20,  ///< no room for more drops of fluid: what flowed went straight into the pool
   };
   std::uint32_t flags = 0;
-  int first_bad_body = -1;   ///< organs first, then strands, then membranes
+  BodyId first_bad_body;
   int first_bad_index = -1;  ///< node of that body
   Event events[kMaxEvents];
   int event_count = 0;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/interactions/couplings/loads.hpp>
 #include <trocar/interactions/instrument/wall_stop.hpp>
 #include <trocar/interactions/verbs/grasp.hpp>
@@ -49,6 +50,7 @@ struct Work {
   std::vector<double> sheet_gaps;               ///< (hands x membranes) apart by at least this much [m]
   std::vector<interactions::NetworkLoads> membrane_loads;
   std::vector<tissue::MembraneWork> membrane_work;
+  interactions::ObjectWork objects;
   std::vector<std::vector<tissue::BorderPull>> pulls;  ///< (membranes)(held nodes)
   std::vector<std::vector<Vec3d>> targets;             ///< (membranes)(held nodes)
   std::vector<Vec3d> wave_force;                       ///< (nodes of the largest organ with waves) [N]
@@ -78,6 +80,28 @@ struct Work {
   std::vector<const tissue::Skin*> skins;                      ///< (organs) of the Model, or the above
   std::vector<int> organ_order, strand_order, membrane_order;  ///< by how much there is to do, for the threads
   std::vector<int> skin_order;                                 ///< (organs + membranes) the same
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("pool", s.pool, core::kMadeOnce), v("poses", s.poses), v("surfaces", s.surfaces), v("shapes", s.shapes),
+        v("shapes_before", s.shapes_before), v("touches", s.touches), v("wall_stops", s.wall_stops),
+        v("organ_loads", s.organ_loads), v("strand_loads", s.strand_loads), v("solid_work", s.solid_work),
+        v("cuttable_work", s.cuttable_work), v("strand_work", s.strand_work), v("ends", s.ends),
+        v("end_reactions", s.end_reactions), v("parts", s.parts), v("beyond", s.beyond),
+        v("organ_reports", s.organ_reports), v("strand_reports", s.strand_reports),
+        v("membrane_reports", s.membrane_reports), v("sheet_poses", s.sheet_poses), v("sheets", s.sheets),
+        v("sheet_gaps", s.sheet_gaps), v("membrane_loads", s.membrane_loads), v("membrane_work", s.membrane_work),
+        v("objects", s.objects), v("pulls", s.pulls), v("targets", s.targets), v("wave_force", s.wave_force),
+        v("hosts", s.hosts), v("vessel_points", s.vessel_points), v("vessel_posed", s.vessel_posed), v("flow", s.flow),
+        v("open", s.open), v("closed", s.closed), v("flows", s.flows), v("walls", s.walls), v("busy", s.busy),
+        v("impact_at", s.impact_at), v("bleeds", s.bleeds), v("bleed_count", s.bleed_count), v("heat", s.heat),
+        v("heat_sources", s.heat_sources), v("steam", s.steam), v("current_flows", s.current_flows),
+        v("fluids", s.fluids), v("wet", s.wet), v("wounds", s.wounds), v("wet_tools", s.wet_tools),
+        v("valves", s.valves), v("nodes", s.nodes), v("cuttable_skins", s.cuttable_skins),
+        v("skins", s.skins, core::kMadeOnce), v("organ_order", s.organ_order, core::kMadeOnce),
+        v("strand_order", s.strand_order, core::kMadeOnce), v("membrane_order", s.membrane_order, core::kMadeOnce),
+        v("skin_order", s.skin_order, core::kMadeOnce);
+  }
 };
 
 Work make_work(const Model& model, core::ThreadPool* pool = nullptr);

@@ -1,18 +1,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/recording/keyframe_check.hpp>
 
 namespace trocar::sim::keyframe {
 namespace {
 
 bool names_tissue(const Model& model, const interactions::Hold& hold) {
-  const std::int32_t b = hold.body, solid = b - interactions::kSolidBase, fold = b - interactions::kMembraneBase;
-  int elements = 0;
-  if (b >= 0 && size_t(b) < model.strand_bodies.size()) elements = model.strand_bodies[size_t(b)].nodes() - 1;
-  if (solid >= 0 && solid < model.organs()) elements = model.skin(solid).size();
-  if (fold >= 0 && size_t(fold) < model.membranes.size()) elements = model.membranes[size_t(fold)].sheet.nodes();
-  return hold.element >= 0 && hold.element < elements;
+  return hold.element >= 0 && hold.element < places_on(model, hold.body);
 }
 
 bool sound(const Model& model, int rack, const interactions::ToolState& t) {

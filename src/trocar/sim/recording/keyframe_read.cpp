@@ -1,6 +1,7 @@
 #include <utility>
 
 #include <trocar/fluids/shown_fluids.hpp>
+#include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/model/pool_floor.hpp>
 #include <trocar/sim/recording/keyframe.hpp>
 #include <trocar/sim/recording/keyframe_bytes.hpp>
@@ -72,11 +73,11 @@ bool restore_display(const Model& model, const std::vector<std::uint8_t>& bytes,
   State s = state;
   Source in{bytes};
   in.take(&s.tick, 1);
-  for (size_t i = 0; i < s.solids.size(); ++i) {
-    const tissue::NetworkModel& network = model.solids[i].network;
+  visit_solids(model, [&](SolidRef r) {
+    const tissue::NetworkModel& network = model_of(model, r).network;
     for (int n = 0; in.good && n < network.nodes; ++n)
-      tissue::set_position(network, s.solids[i], n, in.take_place(network.rest[size_t(n)]));
-  }
+      tissue::set_position(network, s.solids[r.index], n, in.take_place(network.rest[size_t(n)]));
+  });
   for (size_t i = 0; i < s.cuttables.size(); ++i) take_body(in, model.cuttables[i].body, s.cuttables[i]);
   for (size_t i = 0; i < s.strands.size(); ++i) {
     tissue::StrandState& strand = s.strands[i];
@@ -112,6 +113,11 @@ bool restore_display(const Model& model, const std::vector<std::uint8_t>& bytes,
   if (model.vessels.there()) take_vessels(in, model, s);
   if (model.energy.there) take_heat(in, model, s);
   if (model.wet.there) take_fluids(in, model, s.fluids);
+  interactions::ObjectKinds::for_each([&](auto kind) {
+    auto& states = interactions::part_of<decltype(kind)>(s.objects);
+    kind.shown(states, [&in](auto* values, size_t n) { in.take(values, n); });
+    in.good = in.good && kind.sound(states);
+  });
   if (!in.good || in.at != bytes.size() || !sound(model, s)) return false;
   if (model.wet.there) lay_floor(model, s);
   state = std::move(s);

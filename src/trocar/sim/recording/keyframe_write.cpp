@@ -1,4 +1,5 @@
 #include <trocar/fluids/shown_fluids.hpp>
+#include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/recording/keyframe.hpp>
 #include <trocar/sim/recording/keyframe_bytes.hpp>
 #include <trocar/tissue/heat/heat_scars.hpp>
@@ -41,11 +42,11 @@ void put_vessels(std::vector<std::uint8_t>& out, const State& s) {
 std::vector<std::uint8_t> display_bytes(const Model& model, const State& s) {
   std::vector<std::uint8_t> out;
   put(out, &s.tick, 1);
-  for (size_t i = 0; i < s.solids.size(); ++i) {
-    const tissue::NetworkModel& network = model.solids[i].network;
+  visit_solids(model, [&](SolidRef r) {
+    const tissue::NetworkModel& network = model_of(model, r).network;
     for (int n = 0; n < network.nodes; ++n)
-      put_place(out, tissue::position(network, s.solids[i], n), network.rest[size_t(n)]);
-  }
+      put_place(out, tissue::position(network, s.solids[r.index], n), network.rest[size_t(n)]);
+  });
   for (size_t i = 0; i < s.cuttables.size(); ++i) put_body(out, model.cuttables[i].body, s.cuttables[i]);
   for (size_t i = 0; i < s.strands.size(); ++i) {
     const tissue::StrandState& strand = s.strands[i];
@@ -76,6 +77,10 @@ std::vector<std::uint8_t> display_bytes(const Model& model, const State& s) {
     tissue::put_scars(s.heat, out);
   }
   if (model.wet.there) fluids::put_shown(model.wet.model, s.fluids, out);
+  interactions::ObjectKinds::for_each([&](auto kind) {
+    kind.shown(interactions::part_of<decltype(kind)>(s.objects),
+               [&out](const auto* values, size_t n) { put(out, values, n); });
+  });
   return out;
 }
 

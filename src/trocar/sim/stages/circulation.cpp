@@ -64,18 +64,10 @@ void open_vessel(StepContext& c, int vessel, double s, double share, int hand) n
   o->tick = c.state.tick;
 }
 
-bool rides_on(const StepContext& c, const VesselHold& hold, Carriers carriers) noexcept {
+bool rides_on(const StepContext& c, const VesselHold& hold, BodyId carrier) noexcept {
   const bool flesh = hold.kind == VesselHold::cell ||
                      (hold.kind == VesselHold::membrane && c.model.membranes[size_t(hold.index)].sheet.closed());
-  switch (carriers.kind) {
-    case Carriers::organ:
-      return (hold.kind == VesselHold::cell || hold.kind == VesselHold::organ) && hold.index == carriers.index;
-    case Carriers::membrane:
-      return hold.kind == VesselHold::membrane && hold.index == carriers.index;
-    case Carriers::all_but_flesh:
-      break;
-  }
-  return !flesh;
+  return carrier.exists() ? hold.carrier() == carrier : !flesh;
 }
 
 bool out_of_reach(const VesselPath& path, int i) noexcept {
@@ -105,7 +97,7 @@ const std::vector<Vec3d>& points_of(StepContext& c, size_t v) noexcept {
   return points;
 }
 
-void open_vessels(StepContext& c, const geometry::Blade& blade, Carriers carriers, int hand) noexcept {
+void open_vessels(StepContext& c, const geometry::Blade& blade, BodyId carrier, int hand) noexcept {
   const geometry::BladePlane plane(blade);
   if (!plane.flat) return;
   double reach = 0.006;  // a piece may be so long
@@ -116,8 +108,8 @@ void open_vessels(StepContext& c, const geometry::Blade& blade, Carriers carrier
     const std::vector<Vec3d>& points = points_of(c, v);
     for (int i = 0; i + 1 < int(points.size()); ++i) {
       if (out_of_reach(path, i) || !near(blade, points[size_t(i)], reach)) continue;
-      if (!rides_on(c, path.points[size_t(i)].hold, carriers) &&
-          !rides_on(c, path.points[size_t(i) + 1].hold, carriers))
+      if (!rides_on(c, path.points[size_t(i)].hold, carrier) &&
+          !rides_on(c, path.points[size_t(i) + 1].hold, carrier))
         continue;
       VesselPiece piece[2];
       const int pieces = pieces_of(path, points, cuts_of(c.state, int(v), places), i, piece);
@@ -159,6 +151,12 @@ void open_vessels_within(StepContext& c, int strand, int element, int hand) noex
     for (size_t i = 0; i + 1 < path_of(c, v).points.size(); ++i)
       if (const Within at = within_strand(body, strand, path_of(c, v), i, middle); at.there)
         open_vessel(c, int(v), at.s, 1, hand);
+}
+
+void open_vessels(StepContext& c, BodyId body, const Parting& parting, int hand) noexcept {
+  if (!parting.parted) return;
+  if (body.is(BodyKind::strand)) return open_vessels_within(c, int(body.index()), parting.element, hand);
+  open_vessels(c, parting.blade, body, hand);
 }
 
 namespace {
@@ -224,6 +222,13 @@ void clip_vessels(StepContext& c, size_t hand, int number) noexcept {
 
 namespace {
 
+/// A node of the cell that a point rides in.
+std::int32_t corner_of(const StepContext& c, const VesselHold& hold, size_t corner) noexcept {
+  return visit_organ(c.model, size_t(hold.index), Overloaded{
+    [&](SolidRef) { return std::int32_t(-1); },
+    [&](CuttableRef organ) { return c.state.cuttables[organ.index].tets.cells[size_t(hold.element)][corner]; }});
+}
+
 /// Puts a force on what carries a point.
 void push(StepContext& c, const interactions::VesselPoint& p, Vec3d force, interactions::Tag tag = {}) noexcept {
   const size_t i = size_t(p.hold.index);
@@ -244,11 +249,10 @@ void push(StepContext& c, const interactions::VesselPoint& p, Vec3d force, inter
     case VesselHold::membrane:
       return c.work.membrane_loads[i].add(load, tag);
     case VesselHold::cell: {
-      const geometry::Tet& cell = c.state.cuttables[i - c.model.solids.size()].tets.cells[size_t(p.hold.element)];
       size_t most = 0;
       for (size_t k = 1; k < 4; ++k)
         if (p.hold.share[k] > p.hold.share[most]) most = k;
-      load.node = cell[most];
+      load.node = corner_of(c, p.hold, most);
       return c.work.organ_loads[i].add(load, tag);
     }
     case VesselHold::space:

@@ -2,6 +2,7 @@
 // and tears do to vessels, for the stages that work these.
 #pragma once
 
+#include <trocar/sim/bodies/parting.hpp>
 #include <trocar/sim/model/step_context.hpp>
 
 namespace trocar::sim {
@@ -17,15 +18,14 @@ void beat(StepContext& context) noexcept;
 /// A tick of blood flow with the openings and clips of the State; Work::bleeds says what leaves, where, which way.
 void let_blood_flow(StepContext& context) noexcept;
 
-/// Which vessels a blade opens: those that ride on one kind of body or one body, or on whatever is cut without flesh.
-struct Carriers {
-  enum Kind : std::int32_t { all_but_flesh, organ, membrane } kind = all_but_flesh;
-  std::int32_t index = -1;  ///< organ, membrane
-};
-/// @param hand  -1: it tears
-void open_vessels(StepContext& context, const geometry::Blade& blade, Carriers carriers, int hand) noexcept;
+/// Which vessels a blade opens.
+/// @param carrier  those that ride on that body; none: on whatever is cut without flesh
+/// @param hand     -1: it tears
+void open_vessels(StepContext& context, const geometry::Blade& blade, BodyId carrier, int hand) noexcept;
 /// A strand has been cut through in `element`: so are the vessels within it.
 void open_vessels_within(StepContext& context, int strand, int element, int hand) noexcept;
+/// Those of what a body has lost its hold of.
+void open_vessels(StepContext& context, BodyId body, const Parting& parting, int hand) noexcept;
 
 /// A clip has been set: what it closes of vessels. Where no strand lay between its legs, it may lie on a vessel.
 void clip_vessels(StepContext& context, size_t hand, int clip) noexcept;

@@ -16,10 +16,10 @@ struct Section {
   std::array<Vec3d, 4> around;
 };
 /// @param s  arc length [m], within that element
-Section section_of(const StepContext& context, std::int32_t strand, int element, double s) noexcept;
+Section section_of(const StepContext& context, BodyId strand, int element, double s) noexcept;
 
 /// Has the tissue burst there? In the body's frame of heat [m].
-bool has_burst(const StepContext& context, std::int32_t body, Vec3d at) noexcept;
+bool has_burst(const StepContext& context, BodyId body, Vec3d at) noexcept;
 
 /// Once in a step of the heat, for a hand whose electrode gives a continuous wave to the tissue at `touch`.
 void part_tissue(StepContext& context, size_t hand, const interactions::ElectrodeTouch& touch) noexcept;

@@ -72,7 +72,7 @@ void move_hand(StepContext& c, size_t t) noexcept {
   }
   const kinematics::FulcrumPose wanted = command.pose, before = tool.pose();
   // At a wall the way in is of no use: most of the speed goes along it.
-  if (c.state.touches[t].near(interactions::kWallBody, 0))
+  if (c.state.touches[t].near(BodyId::wall(), 0))
     command.pose.depth = std::min(command.pose.depth, tool.depth + kIntoWall);
   interactions::follow(c.model.tool(c.state, t), command, kTick, tool);
   stop_at_walls(c, t, wanted, before);

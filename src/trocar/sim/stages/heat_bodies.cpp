@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/stages/heat_bodies.hpp>
 
 namespace trocar::sim {
@@ -26,8 +27,9 @@ double radius_at(const StrandAnatomy& strand, const interactions::StrandBody& bo
   return strand.outer[e] + at.w * (strand.outer[e + 1] - strand.outer[e]);
 }
 
-void fill_strand(const StrandAnatomy& strand, const interactions::StrandBody& body, Vec3d corner, double cell,
-                 std::span<std::uint8_t> out) noexcept {
+void fill(const Model& model, StrandRef r, Vec3d corner, double cell, std::span<std::uint8_t> out) noexcept {
+  const StrandAnatomy& strand = model_of(model, r);
+  const interactions::StrandBody& body = model.strand_bodies[r.index];
   double radius[kBrickSide];
   for (int i = 0; i < kBrickSide; ++i) {
     const double s = corner.x + (i + 0.5) * cell;
@@ -42,13 +44,18 @@ void fill_strand(const StrandAnatomy& strand, const interactions::StrandBody& bo
     }
 }
 
-void fill_body(const void* context, std::int32_t body, Vec3d corner, double cell,
-               std::span<std::uint8_t> tissue) noexcept {
+void fill(const Model& model, MembraneRef r, Vec3d corner, double cell, std::span<std::uint8_t> out) noexcept {
+  fill_from(model.energy.folds[r.index], corner, cell, out);
+}
+
+template <class Organ>
+void fill(const Model& model, Organ r, Vec3d corner, double cell, std::span<std::uint8_t> out) noexcept {
+  fill_from(model.energy.organs[r.organ()], corner, cell, out);
+}
+
+void fill_body(const void* context, BodyId body, Vec3d corner, double cell, std::span<std::uint8_t> tissue) noexcept {
   const Model& model = *static_cast<const Model*>(context);
-  using interactions::kMembraneBase, interactions::kSolidBase;
-  if (body >= kMembraneBase) return fill_from(model.energy.folds[size_t(body - kMembraneBase)], corner, cell, tissue);
-  if (body >= kSolidBase) return fill_from(model.energy.organs[size_t(body - kSolidBase)], corner, cell, tissue);
-  fill_strand(model.strands[size_t(body)], model.strand_bodies[size_t(body)], corner, cell, tissue);
+  visit(model, body, [&](auto ref) { fill(model, ref, corner, cell, tissue); });
 }
 
 }  // namespace

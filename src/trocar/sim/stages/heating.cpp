@@ -33,7 +33,7 @@ void sink(const StepContext& c, ElectrodeTouch& touch) noexcept {
   Vec3d p = touch.contact.a;
   for (double deep = 0; deep < interactions::kBareWire && parted(p); deep += step) p += step * touch.inwards;
   touch.contact.a = touch.contact.b = p;
-  if (touch.contact.body >= interactions::kSolidBase) return;
+  if (!touch.contact.body.is(BodyKind::strand)) return;
   const Section section = section_of(c, touch.contact.body, touch.point.element, p.x);
   if (dot(p - section.middle, touch.inwards) < section.reach) return;  // not through yet
   for (const Vec3d side : section.around)
@@ -64,7 +64,7 @@ void work_electrode(StepContext& c, size_t t, int& used) noexcept {
   c.work.current_flows = c.work.current_flows || d.flows;
   if (!works) return;
   hand.body = touch.contact.body;
-  if (hand.body < 0) return;
+  if (!hand.body.exists()) return;
   hand.at = touch.place;
   hand.a = touch.contact.a, hand.b = touch.contact.b;
   if (touch.contact.gap == 0) begin_adhesion(c, t, touch, hand);

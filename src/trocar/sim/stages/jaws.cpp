@@ -3,10 +3,10 @@
 
 #include <trocar/interactions/verbs/clip.hpp>
 #include <trocar/interactions/verbs/cut.hpp>
+#include <trocar/sim/bodies/bodies.hpp>
 #include <trocar/sim/stages/circulation.hpp>
 #include <trocar/sim/stages/hands.hpp>
 #include <trocar/sim/stages/jaws.hpp>
-#include <trocar/sim/stages/posing.hpp>
 #include <trocar/sim/stages/stage.hpp>
 #include <trocar/sim/stages/visibility.hpp>
 
@@ -28,36 +28,28 @@ bool blades_near(const StepContext& c, size_t t, size_t organ, double margin) no
   return c.work.poses[organ].bounds.near_segment(shape.pivot, shape.frame.tip, margin);
 }
 
+/// What cannot be recorded is not cut.
+bool book_is_full(const StepContext& c) noexcept { return c.state.cut_count == interactions::kMaxCuts; }
+
 /// Blades that have just closed sever springs of lattices.
 void cut_lattices(StepContext& c, size_t t) noexcept {
-  State& s = c.state;
-  const geometry::Blade blade = interactions::closed_blades(c.model.tool(s, t), c.work.shapes[t]);
-  for (size_t i = 0; i < c.model.solids.size(); ++i) {
-    if (!blades_near(c, t, i, 0.005)) continue;
-    if (s.cut_count == interactions::kMaxCuts) return;  // what cannot be recorded is not cut
-    const SolidModel& solid = c.model.solids[i];
-    const int severed =
-        interactions::cut_organ(blade, solid.network, solid.fine, s.solids[i], s.parted[i], c.work.parts);
-    if (severed > 0) record_organ_cut(c, t, i);
-  }
+  const geometry::Blade blade = interactions::closed_blades(c.model.tool(c.state, t), c.work.shapes[t]);
+  visit_solids(c.model, [&](SolidRef solid) {
+    if (book_is_full(c) || !blades_near(c, t, solid.organ(), 0.005)) return;
+    if (cut(c, solid, blade).parted) record_organ_cut(c, t, solid.organ());
+  });
 }
 
 /// Closing blades part the cells of organs that can be cut.
 void cut_cuttables(StepContext& c, size_t t, const geometry::Blade& blade) noexcept {
-  State& s = c.state;
-  for (size_t i = 0; i < c.model.cuttables.size(); ++i) {
-    const size_t organ = c.model.solids.size() + i;
-    if (!blades_near(c, t, organ, c.model.tool(s, t).jaw_length)) continue;
-    if (s.cut_count == interactions::kMaxCuts) return;
-    const geometry::CutResult book =
-        tissue::cut(c.model.cuttables[i].body, blade, s.cuttables[i], c.work.cuttable_work[i]);
-    if (book.snapped + book.parted > 0) pose_cuttable(c, i);  // nodes have moved to the blade
-    if (book.full) c.report.flags |= StepReport::kBookFull;
-    if (book.parted > 0) {
-      record_organ_cut(c, t, organ);
-      open_vessels(c, blade, {Carriers::organ, std::int32_t(organ)}, int(t));
-    }
-  }
+  visit_cuttables(c.model, [&](CuttableRef organ) {
+    if (book_is_full(c) || !blades_near(c, t, organ.organ(), c.model.tool(c.state, t).jaw_length)) return;
+    const Parting parting = cut(c, organ, blade);
+    if (parting.moved > 0) pose_again(c, organ);  // nodes have moved to the blade
+    if (!parting.parted) return;
+    record_organ_cut(c, t, organ.organ());
+    open_vessels(c, organ.id(), parting, int(t));
+  });
 }
 
 /// Where in the book these blades' cut of a membrane's strand stands that was made in this tick; else its end.
@@ -74,16 +66,15 @@ int place_in_book(const State& s, size_t t, std::int32_t strand) noexcept {
 void cut_folds(StepContext& c, size_t t, const geometry::Blade& blade, bool closed_walls) noexcept {
   State& s = c.state;
   const interactions::ToolShape& shape = c.work.shapes[t];
-  for (size_t i = 0; i < c.model.membranes.size(); ++i) {
-    const MembraneBody& m = c.model.membranes[i];
-    if (m.sheet.closed() != closed_walls) continue;
-    if (!m.cuttable || !c.work.sheet_poses[i].bounds.near_segment(shape.pivot, shape.frame.tip, 0.005)) continue;
+  visit_membranes(c.model, [&](MembraneRef r) {
+    const MembraneBody& m = model_of(c.model, r);
+    if (m.sheet.closed() != closed_walls) return;
+    if (!m.cuttable || !c.work.sheet_poses[r.index].bounds.near_segment(shape.pivot, shape.frame.tip, 0.005)) return;
     const int place = place_in_book(s, t, m.strand);
-    if (place == interactions::kMaxCuts) continue;  // what cannot be recorded is not cut
-    const interactions::FoldCut fold =
-        interactions::cut_membrane(blade, m.sheet, m.depth, s.membranes[i], s.torn[i], c.work.parts);
-    if (fold.severed == 0) continue;
-    if (closed_walls) open_vessels(c, blade, {Carriers::membrane, std::int32_t(i)}, int(t));
+    if (place == interactions::kMaxCuts) return;  // what cannot be recorded is not cut
+    const Parting fold = cut(c, r, blade);
+    if (!fold.parted) return;
+    if (closed_walls) open_vessels(c, r.id(), fold, int(t));
     interactions::Cut& cut = s.cuts[size_t(place)];
     if (place == s.cut_count) {
       ++s.cut_count;
@@ -91,10 +82,10 @@ void cut_folds(StepContext& c, size_t t, const geometry::Blade& blade, bool clos
       cut.tick = s.tick;
       cut.tool = std::int32_t(t);
     }
-    cut.membrane = std::int32_t(i);
+    cut.membrane = std::int32_t(r.index);
     cut.fold = fold.depth;
     cut.tips_visible = jaw_tips_visible(c.model, c.state, int(t));
-  }
+  });
 }
 
 /// Vessels within strands that these blades have just cut through.

@@ -10,7 +10,5 @@ void pose_skins(StepContext& context) noexcept;
 
 /// Where organs' nodes are: their States change places when they advance.
 void view_organs(StepContext& context) noexcept;
-/// Anew, when blades have moved its nodes.
-void pose_cuttable(StepContext& context, size_t cuttable) noexcept;
 
 }  // namespace trocar::sim

@@ -38,6 +38,10 @@ void gather_reaction_forces(StepContext& c) noexcept {
     for (size_t i = 0; i < l.sorted.size(); ++i) account(c, l.owner[i], vec_cast<double>(l.reaction[i]));
   for (const interactions::NetworkLoads& l : c.work.membrane_loads)
     for (size_t i = 0; i < l.sorted.size(); ++i) account(c, l.owner[i], vec_cast<double>(l.reaction[i]));
+  interactions::ObjectKinds::for_each([&c](auto kind) {
+    kind.account(interactions::part_of<decltype(kind)>(c.work.objects), kTick,
+                 [&c](interactions::Tag tag, Vec3d force) { account(c, tag, force); });
+  });
   const interactions::TissueView view = tissue_of(c);
   for (size_t t = 0; t < c.model.hands.size(); ++t) {
     interactions::ToolState& tool = c.state.tools[t];

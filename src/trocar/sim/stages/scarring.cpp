@@ -2,6 +2,7 @@
 #include <array>
 
 #include <trocar/interactions/couplings/scarred_spring.hpp>
+#include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/stages/current_cut.hpp>
 #include <trocar/sim/stages/scarring.hpp>
 #include <trocar/sim/stages/stage.hpp>
@@ -10,21 +11,12 @@
 namespace trocar::sim {
 namespace {
 
-using interactions::ElectrodeTouch, interactions::kMembraneBase, interactions::kSolidBase;
+using interactions::ElectrodeTouch;
 
 constexpr double kAround = 0.008;  // [m] from an electrode to the middle of springs that it may change
 constexpr float kTold = 0.005f;    // a spring that shrinks less stays as it is
 constexpr int kTurns = 8;          // steps of the heat in which all of a body is looked at
 constexpr std::array kAlong{0.1, 0.3, 0.5, 0.7, 0.9};
-
-const tissue::NetworkModel* network_of(const Model& m, std::int32_t body) noexcept {
-  if (body >= kMembraneBase) return &m.membranes[size_t(body - kMembraneBase)].sheet.network;
-  const size_t organ = size_t(body - kSolidBase);
-  return organ < m.solids.size() ? &m.solids[organ].network : nullptr;
-}
-
-/// Of an organ that can be cut.
-size_t cuttable_of(const Model& m, std::int32_t body) noexcept { return size_t(body - kSolidBase) - m.solids.size(); }
 
 // ---- what heat leaves
 
@@ -32,13 +24,13 @@ struct Change {
   float share = 0;  ///< of a length that is left
   float stiff = 0;  ///< factor on a stiffness
 };
-Change change_at(const StepContext& c, std::int32_t body, Vec3d at) noexcept {
+Change change_at(const StepContext& c, BodyId body, Vec3d at) noexcept {
   const tissue::HeatReading reading = tissue::reading(c.model.energy.heat, c.state.heat, body, at);
   return {tissue::shrinkage(reading), tissue::stiffness(reading)};
 }
 /// The mean of `count` places; place(i) says where they were drawn.
 template <class Place>
-Change mean_change(const StepContext& c, std::int32_t body, int count, Place&& place) noexcept {
+Change mean_change(const StepContext& c, BodyId body, int count, Place&& place) noexcept {
   Change mean;
   for (int i = 0; i < count; ++i) {
     const Change one = change_at(c, body, place(i));
@@ -49,7 +41,7 @@ Change mean_change(const StepContext& c, std::int32_t body, int count, Place&& p
 }
 
 /// The entry of that spring, or a new one; null where there is no room.
-Scar* entry_of(StepContext& c, std::int32_t body, std::int32_t spring) noexcept {
+Scar* entry_of(StepContext& c, BodyId body, std::int32_t spring) noexcept {
   const auto end = c.state.scarred.begin() + c.state.scarred_count;
   const auto found = std::find_if(c.state.scarred.begin(), end,
                                   [body, spring](const Scar& s) { return s.body == body && s.spring == spring; });
@@ -62,7 +54,7 @@ Scar* entry_of(StepContext& c, std::int32_t body, std::int32_t spring) noexcept 
   return &*end;
 }
 
-void note(StepContext& c, std::int32_t body, std::int32_t spring, const Change& change) noexcept {
+void note(StepContext& c, BodyId body, std::int32_t spring, const Change& change) noexcept {
   if (change.share > 1 - kTold) return;
   Scar* entry = entry_of(c, body, spring);
   if (!entry) return;
@@ -81,7 +73,7 @@ struct Turn {
   }
 };
 
-void scar_springs(StepContext& c, const tissue::NetworkModel& m, std::int32_t body, Vec3d electrode) noexcept {
+void scar_springs(StepContext& c, const tissue::NetworkModel& m, BodyId body, Vec3d electrode) noexcept {
   const Turn turn(c, m.springs);
   for (int s = turn.first; s < turn.last; ++s) {
     const Vec3d a = m.rest[size_t(m.spring_nodes[size_t(2 * s)])],
@@ -91,10 +83,21 @@ void scar_springs(StepContext& c, const tissue::NetworkModel& m, std::int32_t bo
   }
 }
 
+Vec3d middle_of(const ElectrodeTouch& touch) noexcept { return 0.5 * (touch.contact.a + touch.contact.b); }
+
+void scar(StepContext& c, const ElectrodeTouch& touch, SolidRef solid) noexcept {
+  scar_springs(c, model_of(c.model, solid).network, solid.id(), middle_of(touch));
+}
+void scar(StepContext& c, const ElectrodeTouch& touch, MembraneRef membrane) noexcept {
+  scar_springs(c, model_of(c.model, membrane).sheet.network, membrane.id(), middle_of(touch));
+}
+
 /// At the cell's middle and half way from there to its corners, as drawn: heat does not move with what snaps to a
 /// blade.
-void scar_cells(StepContext& c, std::int32_t body, Vec3d electrode) noexcept {
-  const geometry::CuttableTets& drawn = c.model.cuttables[cuttable_of(c.model, body)].body.drawn;
+void scar(StepContext& c, const ElectrodeTouch& touch, CuttableRef organ) noexcept {
+  const BodyId body = organ.id();
+  const Vec3d electrode = middle_of(touch);
+  const geometry::CuttableTets& drawn = model_of(c.model, organ).body.drawn;
   const Turn turn(c, int(drawn.cells.size()));
   for (size_t t = size_t(turn.first); t < size_t(turn.last); ++t) {
     Vec3d middle;
@@ -107,12 +110,12 @@ void scar_cells(StepContext& c, std::int32_t body, Vec3d electrode) noexcept {
 }
 
 /// Coagulated strands: their step is implicit, so that any stiffness is stable. What was cut in part stays weak.
-void scar_strand(StepContext& c, const ElectrodeTouch& touch) noexcept {
-  const std::int32_t strand = touch.contact.body;
+void scar(StepContext& c, const ElectrodeTouch& touch, StrandRef r) noexcept {
+  const BodyId strand = r.id();
   const Section section = section_of(c, strand, touch.point.element, touch.contact.a.x);
   const Change change =
       mean_change(c, strand, 5, [&](int i) { return i == 0 ? section.middle : section.around[size_t(i - 1)]; });
-  tissue::StrandState& s = c.state.strands[size_t(strand)];
+  tissue::StrandState& s = c.state.strands[r.index];
   double &share = s.shrunk[size_t(touch.point.element)], &scale = s.scale[size_t(touch.point.element)];
   share = std::min(share, double(change.share));
   if (scale >= 1) scale = std::max(scale, double(change.stiff));
@@ -159,38 +162,33 @@ void pull_cell(const tissue::CuttableModel& m, const geometry::CuttableTets& tet
   }
 }
 
+void pull(StepContext& c, const Scar& scar, SolidRef r) noexcept {
+  const tissue::NetworkModel& m = model_of(c.model, r).network;
+  const tissue::NetworkState& s = c.state.solids[r.index];
+  pull_spring(m, s, {view_of(m, s), c.work.organ_loads[r.organ()], m.tick}, scar);
+}
+void pull(StepContext& c, const Scar& scar, CuttableRef r) noexcept {
+  const tissue::CuttableModel& m = model_of(c.model, r).body;
+  const tissue::CuttableState& s = c.state.cuttables[r.index];
+  pull_cell(m, s.tets, {view_of(m, s), c.work.organ_loads[r.organ()], m.tick}, scar);
+}
+void pull(StepContext& c, const Scar& scar, MembraneRef r) noexcept {
+  const tissue::NetworkModel& m = model_of(c.model, r).sheet.network;
+  const tissue::NetworkState& s = c.state.membranes[r.index].network;
+  pull_spring(m, s, {view_of(m, s), c.work.membrane_loads[r.index], m.tick}, scar);
+}
+void pull(StepContext&, const Scar&, StrandRef) noexcept {}  // those have changed themselves
+
 }  // namespace
 
 void scar_tissue(StepContext& c, const ElectrodeTouch& touch) noexcept {
-  const std::int32_t body = touch.contact.body;
-  if (body < kSolidBase) return scar_strand(c, touch);
-  const Vec3d electrode = 0.5 * (touch.contact.a + touch.contact.b);
-  if (const tissue::NetworkModel* network = network_of(c.model, body))
-    scar_springs(c, *network, body, electrode);
-  else
-    scar_cells(c, body, electrode);
+  visit(c.model, touch.contact.body, [&](auto body) { scar(c, touch, body); });
 }
 
 void pull_scars(StepContext& c) noexcept {
   for (int i = 0; i < c.state.scarred_count; ++i) {
     const Scar& scar = c.state.scarred[size_t(i)];
-    if (scar.body >= kMembraneBase) {
-      const size_t fold = size_t(scar.body - kMembraneBase);
-      const tissue::NetworkModel& m = c.model.membranes[fold].sheet.network;
-      const tissue::NetworkState& s = c.state.membranes[fold].network;
-      pull_spring(m, s, {view_of(m, s), c.work.membrane_loads[fold], m.tick}, scar);
-      continue;
-    }
-    const size_t organ = size_t(scar.body - kSolidBase);
-    if (organ < c.model.solids.size()) {
-      const tissue::NetworkModel& m = c.model.solids[organ].network;
-      pull_spring(m, c.state.solids[organ], {view_of(m, c.state.solids[organ]), c.work.organ_loads[organ], m.tick},
-                  scar);
-      continue;
-    }
-    const tissue::CuttableModel& m = c.model.cuttables[cuttable_of(c.model, scar.body)].body;
-    const tissue::CuttableState& s = c.state.cuttables[cuttable_of(c.model, scar.body)];
-    pull_cell(m, s.tets, {view_of(m, s), c.work.organ_loads[organ], m.tick}, scar);
+    visit(c.model, scar.body, [&](auto body) { pull(c, scar, body); });
   }
 }
 

@@ -1,3 +1,4 @@
+#include <trocar/sim/bodies/bodies.hpp>
 #include <trocar/sim/stages/adhesion.hpp>
 #include <trocar/sim/stages/bodies.hpp>
 #include <trocar/sim/stages/circulation.hpp>
@@ -18,28 +19,20 @@
 namespace trocar::sim {
 namespace {
 
-// Eyes: what the endoscope sees.
-void see_samples(StepContext& c) noexcept { update_visibility(c.model, c.state, c.work); }
+// What the endoscope sees.
+void look_for_targets(StepContext& c) noexcept { update_visibility(c.model, c.state, c.work); }
 
 // Reports.
 void sum_up(StepContext& c) noexcept {
-  const auto take = [&c](const tissue::StepReport& r, int body) {
-    c.report.flags |= r.flags;
-    if (!r.fine() && c.report.first_bad_body < 0) {
-      c.report.first_bad_body = body;
-      c.report.first_bad_index = r.first_bad;
-    }
-  };
-  const int organs = c.model.organs();
-  for (int i = 0; i < organs; ++i) take(c.work.organ_reports[size_t(i)], i);
-  for (size_t i = 0; i < c.model.strands.size(); ++i) take(c.work.strand_reports[i], organs + int(i));
-  const int before = organs + int(c.model.strands.size());
-  for (size_t i = 0; i < c.model.membranes.size(); ++i) take(c.work.membrane_reports[i], before + int(i));
+  visit_bodies(c.model, [&c](auto body) {
+    const tissue::StepReport r = report_of(c, body);
+    c.report.flags |= r.flags | (overloaded(c, body) ? StepReport::kTooManyLoads : 0u);
+    if (r.fine() || c.report.first_bad_body.exists()) return;
+    c.report.first_bad_body = body.id();
+    c.report.first_bad_index = r.first_bad;
+  });
   for (const interactions::TouchBook& book : c.state.touches)
     c.report.flags |= book.count == interactions::kMaxTouches ? StepReport::kTooManyLoads : 0u;
-  for (const auto& l : c.work.membrane_loads) c.report.flags |= l.overflowed ? StepReport::kTooManyLoads : 0u;
-  for (const auto& l : c.work.organ_loads) c.report.flags |= l.overflowed ? StepReport::kTooManyLoads : 0u;
-  for (const auto& l : c.work.strand_loads) c.report.flags |= l.overflowed ? StepReport::kTooManyLoads : 0u;
   ++c.state.tick;
 }
 
@@ -52,7 +45,7 @@ constexpr Stage kStages[] = {
     {"work jaws", work_jaws},
     {"touch tissue", touch_tissue},
     {"touch organs", touch_organs},
-    {"stick", apply_adhesion},
+    {"adhere", apply_adhesion},
     {"pull scars", pull_scars},
     {"beat", beat},
     {"press with drops", press_with_drops},
@@ -60,13 +53,14 @@ constexpr Stage kStages[] = {
     {"advance strands", advance_strands},
     {"advance organs", advance_organs},
     {"advance membranes", advance_membranes},
+    {"advance objects", advance_objects},
     {"contain", contain},
-    {"feel", gather_reaction_forces},
+    {"gather reactions", gather_reaction_forces},
     {"heat tissue", heat_tissue},
     {"tear", tear_tissue},
     {"let blood flow", let_blood_flow},
     {"move fluids", move_fluids},
-    {"see", see_samples},
+    {"look for targets", look_for_targets},
     {"sum up", sum_up},
 };
 

@@ -60,16 +60,30 @@ Vec3d sample_point(const Model& model, const State& state, const Work& work, con
     const Vec3d port = model.hands[i].port;
     return port + sample.w * (work.shapes[i].pivot - port);
   }
+  if (target.kind == VisibilityTarget::mark) return mark_sample(model, state, model.marks[i], sample.where, eye);
   if (target.kind == VisibilityTarget::organ) return work.surfaces[i].position(sample.where);
   const interactions::StrandBody& body = model.strand_bodies[i];
   const Vec3d centre = point_at(body, state.strands[i], {sample.where, sample.w});
   return centre + body.model.radius[size_t(sample.where)] * normalised(eye - centre);
 }
 
-bool faces_eye(const Model& model, const Work& work, const VisibilitySample& sample, Vec3d point, Vec3d eye) noexcept {
+bool faces_eye(const Model& model, const State& state, const Work& work, const VisibilitySample& sample, Vec3d point,
+               Vec3d eye) noexcept {
   const VisibilityTarget& target = model.targets[size_t(sample.target)];
+  if (target.kind == VisibilityTarget::mark) {
+    const MarkModel& mark = model.marks[size_t(target.index)];
+    return mark.is_stripe() || dot(pose_of(model, state, mark).normal, eye - point) > 0;
+  }
   if (target.kind != VisibilityTarget::organ) return true;
   return dot(work.surfaces[size_t(target.index)].normal(sample.where), eye - point) > 0;
+}
+
+/// The strand whose own tissue does not hide the target, -1 if there is none.
+int strand_of(const Model& model, const VisibilityTarget& target) noexcept {
+  if (target.kind == VisibilityTarget::strand) return target.index;
+  if (target.kind != VisibilityTarget::mark) return -1;
+  const MarkModel& mark = model.marks[size_t(target.index)];
+  return mark.is_stripe() ? mark.body : -1;
 }
 
 /// Is no fold between the eye and the point?
@@ -88,10 +102,10 @@ bool sees(const Model& model, const State& state, const Work& work, const Visibi
   const Vec3d p = sample_point(model, state, work, sample, scope.eye);
   const double half = 0.5 * kMaskShare * model.scope.field_of_view;
   if (dot(normalised(p - scope.eye), scope.forward) < portable::cos(half)) return false;
-  if (!faces_eye(model, work, sample, p, scope.eye)) return false;
+  if (!faces_eye(model, state, work, sample, p, scope.eye)) return false;
   const bool own = target.kind == VisibilityTarget::jaw || target.kind == VisibilityTarget::shaft;
   const int tool = own ? target.index : -1;
-  const int strand = target.kind == VisibilityTarget::strand ? target.index : -1;
+  const int strand = strand_of(model, target);
   // Folds are translucent: an instrument right behind one is seen through it, an organ is not told apart.
   return unoccluded(model, state, work, scope.eye, p, 0.0015, tool, strand) &&
          (own || before_folds(work, scope.eye, p, 0.0015));

@@ -20,7 +20,7 @@ HeatSource source_of(const ElectrodeDescription& e, const ElectrodeContact& c, c
   return q;
 }
 
-bool is_near(const ElectrodeContact& c) noexcept { return c.body >= 0 && c.gap >= 0 && c.gap < 1 && c.pressed >= 0; }
+bool is_near(const ElectrodeContact& c) noexcept { return c.body.exists() && c.gap >= 0 && c.gap < 1 && c.pressed >= 0; }
 
 /// A source for all the ticks until the next one.
 void add_source(HeatSource q, double watts, const HeatModel& model, Discharge& d) noexcept {

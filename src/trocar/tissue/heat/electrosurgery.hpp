@@ -22,6 +22,7 @@
 #include <cstdint>
 #include <span>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/numerics/vec3.hpp>
 #include <trocar/tissue/heat/heat.hpp>
@@ -49,6 +50,13 @@ struct GeneratorPanel {
   double bipolar_watts = 30;
   EnergyMode yellow = EnergyMode::cut;  ///< or blend
   std::uint32_t held = 0;               ///< keys that were down at the last press()
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("yellow_watts", s.yellow_watts), v("blue_watts", s.blue_watts), v("bipolar_watts", s.bipolar_watts),
+        v("yellow", s.yellow), v("held", s.held);
+  }
 };
 static_assert(sizeof(GeneratorPanel) == 3 * 8 + 2 * 4, "no padding");
 
@@ -83,13 +91,21 @@ struct ElectrodeDescription {
   double tip_share = 0.02;                       ///< of the generator's power that heats the electrode
   double sticks_from = 150, sticks_fully = 200;  ///< [C]
   double stick_force = 2;                        ///< to tear off what sticks fully [N]
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("bipolar", s.bipolar), v("radius", s.radius), v("efficiency", s.efficiency), v("back", s.back), v("wet", s.wet),
+        v("tip_capacity", s.tip_capacity), v("tip_contact", s.tip_contact), v("tip_air", s.tip_air),
+        v("tip_share", s.tip_share), v("sticks_from", s.sticks_from), v("sticks_fully", s.sticks_fully),
+        v("stick_force", s.stick_force);
+  }
 };
 inline constexpr double kHotTip = 42;  ///< touching with a tip above it hurts [C]
 ElectrodeDescription bipolar_jaws() noexcept;
 
 /// Where the electrode is at tissue, or how far from it.
 struct ElectrodeContact {
-  std::int32_t body = -1;        ///< -1: nothing near
+  BodyId body;                   ///< none: nothing near
   Vec3d a{0, 0, 0}, b{0, 0, 0};  ///< ends of what touches (a = b: a tip), or both jaws' pads; rest frame [m]
   double gap = 0;                ///< to the tissue; 0 touches [m]
   double pressed = 1;            ///< share of the electrode's radius that is in contact, 0.1 to 1
@@ -105,6 +121,13 @@ struct DischargeFigures {
   double tissue = 0;                  ///< what of it heats tissue [W]
   double impedance = 0;               ///< [Ohm], 0 if nothing flows
   double tear_force = 0;              ///< that tearing off what sticks would take [N]
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("mode", s.mode), v("flows", s.flows), v("hot_touch", s.hot_touch), v("unused", s.unused), v("output", s.output),
+        v("tissue", s.tissue), v("impedance", s.impedance), v("tear_force", s.tear_force);
+  }
 };
 
 struct ElectrodeState {
@@ -113,6 +136,12 @@ struct ElectrodeState {
   double joules = 0;       ///< given to tissue as current, since the beginning
   double on_time = 0;      ///< this activation [s]
   DischargeFigures now;
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("tip", s.tip), v("stuck", s.stuck), v("joules", s.joules), v("on_time", s.on_time), v("now", s.now);
+  }
 };
 
 struct Discharge : DischargeFigures {

@@ -8,6 +8,7 @@
 // `needed` 100 asks for 2 s at 80 C, a quarter of a second at 90 C: our choice, as are strength and brittleness.
 #pragma once
 
+#include <trocar/core/fields.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/tissue/heat/heat.hpp>
 
@@ -19,6 +20,12 @@ struct SealDescription {
   double needed = 100;      ///< S
   double brittle = 0.6;     ///< what char takes from the quality
   double strongest = 80e3;  ///< [Pa], 600 mmHg
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("bare", s.bare), v("pressed", s.pressed), v("needed", s.needed), v("brittle", s.brittle),
+        v("strongest", s.strongest);
+  }
 };
 inline SealDescription sealing_forceps() noexcept {
   SealDescription d;
@@ -29,6 +36,12 @@ inline SealDescription sealing_forceps() noexcept {
 struct SealState {
   double damage = 0;  ///< S
   double char_ = 0;   ///< worst so far, 0 .. 1
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("damage", s.damage), v("char_", s.char_);
+  }
 };
 
 struct SealInput {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <trocar/core/field_hash.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/tissue/heat/heat_bricks.hpp>
 
@@ -286,7 +287,7 @@ int bricks_awake(const HeatState& s) noexcept {
   return int(s.owner.size()) - int(std::count(s.owner.begin(), s.owner.end(), -1));
 }
 
-HeatReading reading(const HeatModel& m, const HeatState& s, std::int32_t body, Vec3d at) noexcept {
+HeatReading reading(const HeatModel& m, const HeatState& s, BodyId body, Vec3d at) noexcept {
   HeatReading r;
   if (!near(at)) return r;
   const Place1 px = place(at.x, m.cell), py = place(at.y, m.cell), pz = place(at.z, m.cell);
@@ -322,7 +323,7 @@ HeatReading reading(const HeatModel& m, const HeatState& s, std::int32_t body, V
   return r;
 }
 
-bool heated_box(const HeatModel& m, const HeatState& s, std::int32_t body, Vec3d& low, Vec3d& high) noexcept {
+bool heated_box(const HeatModel& m, const HeatState& s, BodyId body, Vec3d& low, Vec3d& high) noexcept {
   bool any = false;
   const double side = kBrickSide * m.cell;
   for (int b = 0; b < m.bricks; ++b) {
@@ -337,7 +338,7 @@ bool heated_box(const HeatModel& m, const HeatState& s, std::int32_t body, Vec3d
   return any;
 }
 
-double spread(const HeatModel& m, const HeatState& s, std::int32_t body, std::span<const Treated> treated) noexcept {
+double spread(const HeatModel& m, const HeatState& s, BodyId body, std::span<const Treated> treated) noexcept {
   double farthest2 = 0;
   for (std::size_t b = 0; b < s.slot.size() && !treated.empty(); ++b) {
     if (s.slot[b] == HeatState::kUnused || s.key[b].body != body) continue;
@@ -386,31 +387,6 @@ void add_to_hash(core::Hasher& hasher, const HeatState& s) noexcept {
   hasher.add(s.tick);
 }
 
-void add_to_hash(core::Hasher& hasher, const HeatModel& m) noexcept {
-  const HeatDescription& d = m;
-  for (const double v : {d.cell,
-                         d.density,
-                         d.heat_capacity,
-                         d.conductivity,
-                         d.dry_conductivity,
-                         d.water,
-                         d.water_capacity,
-                         d.latent_heat,
-                         d.perfusion,
-                         d.surface,
-                         d.gas,
-                         d.ceiling,
-                         d.damage_log_rate,
-                         d.damage_energy,
-                         d.damage_from,
-                         d.burst,
-                         d.dry_current,
-                         d.wake,
-                         d.sleep,
-                         d.forget,
-                         m.tick})
-    hasher.add(v);
-  for (const int v : {d.bricks, d.awake, d.voids, d.period}) hasher.add(v);
-}
+void add_to_hash(core::Hasher& h, const HeatModel& m) noexcept { core::add_fields(h, m); }
 
 }  // namespace trocar::tissue

@@ -30,6 +30,8 @@
 #include <span>
 #include <vector>
 
+#include <trocar/core/body_id.hpp>
+#include <trocar/core/fields.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/core/tick.hpp>
 #include <trocar/numerics/vec3.hpp>
@@ -84,13 +86,32 @@ struct HeatModel : HeatDescription {
   double boiling_heat() const { return density * water * latent_heat; }   ///< to boil all water [J/m^3]
   double heat_per_volume(double w) const { return wet_heat() - water_heat() * (1 - w); }
   double cell_volume() const { return cell * cell * cell; }
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("cell", s.cell), v("density", s.density), v("heat_capacity", s.heat_capacity), v("conductivity", s.conductivity),
+        v("dry_conductivity", s.dry_conductivity), v("water", s.water), v("water_capacity", s.water_capacity),
+        v("latent_heat", s.latent_heat), v("perfusion", s.perfusion), v("surface", s.surface), v("gas", s.gas),
+        v("ceiling", s.ceiling), v("damage_log_rate", s.damage_log_rate), v("damage_energy", s.damage_energy),
+        v("damage_from", s.damage_from), v("burst", s.burst), v("dry_current", s.dry_current), v("wake", s.wake),
+        v("sleep", s.sleep), v("forget", s.forget), v("tick", s.tick), v("bricks", s.bricks), v("awake", s.awake),
+        v("voids", s.voids), v("period", s.period), v("step", s.step, core::kNotHashed),
+        v("rate", s.rate, core::kNotHashed), v("index_mask", s.index_mask, core::kNotHashed);
+  }
 };
 
 /// Place of a brick: 8 cells a side, in a body's rest frame.
 struct BrickKey {
-  std::int32_t body = 0, i = 0, j = 0, k = 0;
+  BodyId body = BodyId::strand(0);
+  std::int32_t i = 0, j = 0, k = 0;
   friend bool operator==(const BrickKey& a, const BrickKey& b) {
     return a.body == b.body && a.i == b.i && a.j == b.j && a.k == b.k;
+  }
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("body", s.body), v("i", s.i), v("j", s.j), v("k", s.k);
   }
 };
 
@@ -104,6 +125,13 @@ struct HeatBooks {
   double conducted = 0;  ///< to tissue that is not awake
   double dropped = 0;    ///< what was left in bricks that fell asleep
   double steam = 0;      ///< water boiled off [kg]
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("given", s.given), v("boiled", s.boiled), v("burnt", s.burnt), v("perfused", s.perfused), v("surface", s.surface),
+        v("conducted", s.conducted), v("dropped", s.dropped), v("steam", s.steam);
+  }
 };
 
 struct HeatState {
@@ -138,6 +166,19 @@ struct HeatState {
   std::vector<std::int32_t> index;  ///< hash table of the above; follows from them
   HeatBooks books;
   std::uint64_t tick = 0;
+
+  static constexpr bool kOwnHash = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("slot", s.slot), v("key", s.key, core::kLoose), v("cells", s.cells, core::kLoose),
+        v("water", s.water, core::kLoose), v("damage", s.damage, core::kLoose), v("peak", s.peak, core::kLoose),
+        v("owner", s.owner), v("u", s.u, core::kLoose), v("next", s.next, core::kLoose),
+        v("heat", s.heat, core::kLoose), v("due", s.due, core::kLoose), v("conduction", s.conduction, core::kLoose),
+        v("hottest", s.hottest, core::kLoose), v("marks", s.marks, core::kLoose), v("link", s.link, core::kLoose),
+        v("listed", s.listed), v("order", s.order, core::first(s.listed)), v("empties", s.empties),
+        v("oldest", s.oldest), v("empty", s.empty, core::first(s.empties)), v("books", s.books), v("tick", s.tick),
+        v("index", s.index, core::kNotHashed);
+  }
 };
 
 /// Scratch.
@@ -147,6 +188,11 @@ struct HeatWork {
   std::vector<float> boiled;          ///< (512) share of the water in this step
   std::vector<std::int32_t> touched;  ///< (kReachCells) cells of a source, slot x 512 + cell
   std::vector<float> weight;          ///< (kReachCells)
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("u", s.u), v("conduction", s.conduction), v("boiled", s.boiled), v("touched", s.touched), v("weight", s.weight);
+  }
 };
 inline constexpr int kReachCells = 16384;  ///< most that a source can reach
 
@@ -155,7 +201,7 @@ struct TissueShape {
   const void* context = nullptr;
   /// @param corner  lowest corner of the brick in the body's rest frame [m]
   /// @param tissue  (512) to be set to 1 where a cell's middle is tissue, else 0; x fastest
-  void (*fill)(const void* context, std::int32_t body, Vec3d corner, double cell,
+  void (*fill)(const void* context, BodyId body, Vec3d corner, double cell,
                std::span<std::uint8_t> tissue) noexcept = nullptr;  ///< none: all is tissue
 };
 
@@ -163,7 +209,7 @@ struct TissueShape {
 /// power of the distance, as current that spreads from a ball heats [Organ 1976], up to `reach` radii; more where
 /// tissue still has water that conducts.
 struct HeatSource {
-  std::int32_t body = 0;
+  BodyId body = BodyId::strand(0);
   std::int32_t by_current = 1;   ///< 0: contact heat (a hot tip), which does not care for water
   std::int32_t bursts = 0;       ///< 1: a continuous wave, under which tissue that boils bursts and parts
   Vec3d a{0, 0, 0}, b{0, 0, 0};  ///< rest frame [m]
@@ -192,7 +238,7 @@ struct HeatReport {
   std::int32_t first_bad = -1;  ///< index of the first source that was wrong
   double given = 0;             ///< by this tick's sources [J]
   double boiled = 0;            ///< water that boiled off in this tick [kg]
-  std::int32_t boiled_body = -1;
+  BodyId boiled_body;
   Vec3d boiled_at{0, 0, 0};  ///< where most of it did, rest frame of that body [m]
   int worked = 0;            ///< bricks computed in this tick
 };
@@ -223,18 +269,18 @@ struct HeatReading {
   float water = 1;                ///< share that is left
   float parted = 0;               ///< share of the cells around that have burst
 };
-HeatReading reading(const HeatModel& model, const HeatState& state, std::int32_t body, Vec3d at) noexcept;
+HeatReading reading(const HeatModel& model, const HeatState& state, BodyId body, Vec3d at) noexcept;
 
 /// Where an electrode was: a segment, or a point where a = b, in the body's rest frame [m].
 struct Treated {
   Vec3d a, b;
 };
 /// How far the farthest cell that has died (O >= 1) is from the nearest of these [m]; 0 where none has.
-double spread(const HeatModel& model, const HeatState& state, std::int32_t body,
+double spread(const HeatModel& model, const HeatState& state, BodyId body,
               std::span<const Treated> treated) noexcept;
 
 /// The box around all bricks of a body, for callers with many points; false if there are none.
-bool heated_box(const HeatModel& model, const HeatState& state, std::int32_t body, Vec3d& low, Vec3d& high) noexcept;
+bool heated_box(const HeatModel& model, const HeatState& state, BodyId body, Vec3d& low, Vec3d& high) noexcept;
 
 /// A exp(-Ea / R T) [1/s], 0 below damage_from.
 double damage_rate(const HeatDescription& description, double celsius) noexcept;

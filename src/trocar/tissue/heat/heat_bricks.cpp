@@ -9,7 +9,7 @@ std::uint32_t hash_of(const BrickKey& key) noexcept {
   std::uint64_t h = std::uint64_t(std::uint32_t(key.i)) * 0x9e3779b97f4a7c15ull;
   h ^= std::uint64_t(std::uint32_t(key.j)) * 0xbf58476d1ce4e5b9ull;
   h ^= std::uint64_t(std::uint32_t(key.k)) * 0x94d049bb133111ebull;
-  h ^= std::uint64_t(std::uint32_t(key.body)) * 0xd6e8feb86659fd93ull;
+  h ^= std::uint64_t(std::uint32_t(key.body.code())) * 0xd6e8feb86659fd93ull;
   return std::uint32_t((h ^ (h >> 32)) * 0x9e3779b1u >> 7);
 }
 

@@ -71,7 +71,7 @@ bool has_scar(const HeatState& s, std::size_t brick) {
 
 bool is_near(const BrickKey& key) {
   constexpr std::int32_t kFar = 1 << 20;
-  return key.body >= 0 && std::max({std::abs(key.i), std::abs(key.j), std::abs(key.k)}) < kFar;
+  return key.body.exists() && std::max({std::abs(key.i), std::abs(key.j), std::abs(key.k)}) < kFar;
 }
 
 /// The same way back; false where the bytes are no scars.

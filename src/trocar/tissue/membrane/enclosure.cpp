@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include <trocar/core/field_hash.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/tissue/membrane/enclosure.hpp>
 
@@ -60,10 +61,6 @@ void press_step(const Enclosure& e, double volume, double rate, double give, dou
   s.expected = volume + dt * (rate + dt * give * s.pressure);
 }
 
-void add_to_hash(core::Hasher& h, const Enclosure& e) noexcept {
-  h.add(std::int32_t(e.kind));
-  const double all[] = {e.pressure, e.bulk, e.density, e.volume};
-  h.add(all);
-}
+void add_to_hash(core::Hasher& h, const Enclosure& e) noexcept { core::add_fields(h, e); }
 
 }  // namespace trocar::tissue

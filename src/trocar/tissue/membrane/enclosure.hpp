@@ -22,6 +22,7 @@
 #include <cstdint>
 #include <span>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/numerics/vec3.hpp>
 
@@ -36,6 +37,12 @@ struct Enclosure {
   double bulk = 0;      ///< K of a liquid [Pa]
   double density = 0;   ///< of what is inside [kg/m^3]
   double volume = 0;    ///< V0 [m^3]; build() sets it
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("kind", s.kind), v("pressure", s.pressure, core::kWithNext), v("bulk", s.bulk, core::kWithNext),
+        v("density", s.density, core::kWithNext), v("volume", s.volume);
+  }
 };
 
 /// Part of a State.
@@ -46,6 +53,13 @@ struct EnclosureState {
   double tightness = 1;       ///< share of the pressure that is left since a leak began
   std::uint32_t leaking = 0;  ///< 1: the wall is open
   std::uint32_t unused = 0;   ///< keeps the hash free of padding
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("pressure", s.pressure), v("volume", s.volume), v("expected", s.expected), v("tightness", s.tightness),
+        v("leaking", s.leaking), v("unused", s.unused);
+  }
 };
 
 struct PressureLaw {

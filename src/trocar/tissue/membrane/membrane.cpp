@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/core/field_hash.hpp>
 #include <trocar/tissue/base/float4.hpp>
 #include <trocar/tissue/membrane/membrane.hpp>
 
@@ -198,42 +199,8 @@ MembraneEnergy energy(const MembraneModel& m, const MembraneState& s) {
   return e;
 }
 
-void add_to_hash(core::Hasher& h, const MembraneState& s) noexcept {
-  add_to_hash(h, s.network);
-  h.add(s.torn);
-  h.add(s.enclosure);
-}
+void add_to_hash(core::Hasher& h, const MembraneState& s) noexcept { core::add_fields(h, s); }
 
-void add_to_hash(core::Hasher& h, const MembraneModel& m) noexcept {
-  add_to_hash(h, m.network);
-  h.add(m.columns);
-  h.add(m.rows);
-  h.add(m.law);
-  h.add(m.thickness);
-  h.add(m.bend_steps);
-  add_to_hash(h, m.enclosure);
-  h.add(m.contents);
-  h.add(m.first_swell);
-  h.add(m.bend_first);
-  h.add(m.bend_triangle);
-  for (const BendStencil& b : m.bends) {
-    h.add(b.count);
-    h.add(b.node);
-    h.add(b.c);
-    h.add(b.k);
-  }
-  h.add(m.held_nodes);
-  h.add(m.border_first);
-  for (const BorderSpring& e : m.border_spring) {
-    h.add(e.spring);
-    h.add(e.other);
-    h.add(e.stiffness);
-    h.add(e.rest);
-    h.add(e.damping);
-  }
-  h.add(m.border_bending);
-  const double rest[] = {m.tick, m.bending_damping_time, m.gamma};
-  h.add(rest);
-}
+void add_to_hash(core::Hasher& h, const MembraneModel& m) noexcept { core::add_fields(h, m); }
 
 }  // namespace trocar::tissue

@@ -34,6 +34,7 @@
 #include <span>
 #include <vector>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/tissue/base/law.hpp>
 #include <trocar/tissue/membrane/enclosure.hpp>
@@ -67,6 +68,11 @@ struct BendStencil {
   std::array<std::int32_t, 5> node{};  ///< the middle, or the first corner of a cell, first
   std::array<float, 5> c{};            ///< difference weights [1/m^2]
   float k = 0;                         ///< share of D x area [N m^3]
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("count", s.count), v("node", s.node), v("c", s.c), v("k", s.k);
+  }
 };
 
 /// A spring at a held node.
@@ -75,6 +81,11 @@ struct BorderSpring {
   double stiffness = 0;  ///< k l [N]
   double rest = 0;       ///< l [m]
   double damping = 0;    ///< [N s/m]
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("spring", s.spring), v("other", s.other), v("stiffness", s.stiffness), v("rest", s.rest), v("damping", s.damping);
+  }
 };
 
 /// Const after build().
@@ -102,12 +113,30 @@ struct MembraneModel {
 
   int nodes() const { return network.nodes; }
   bool closed() const { return columns == 0; }
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("network", s.network), v("columns", s.columns), v("rows", s.rows), v("law", s.law), v("thickness", s.thickness),
+        v("bend_steps", s.bend_steps), v("enclosure", s.enclosure), v("contents", s.contents),
+        v("first_swell", s.first_swell), v("bend_first", s.bend_first), v("bend_triangle", s.bend_triangle),
+        v("bends", s.bends), v("held_nodes", s.held_nodes), v("border_first", s.border_first),
+        v("border_spring", s.border_spring), v("border_bending", s.border_bending), v("tick", s.tick, core::kWithNext),
+        v("bending_damping_time", s.bending_damping_time, core::kWithNext), v("gamma", s.gamma),
+        v("bend_limit", s.bend_limit, core::kNotHashed), v("triangles", s.triangles, core::kNotHashed),
+        v("bending_stiffness", s.bending_stiffness, core::kNotHashed),
+        v("settled_residual", s.settled_residual, core::kNotHashed);
+  }
 };
 
 struct MembraneState {
   NetworkState network;
   EnclosureState enclosure;
   std::vector<std::uint8_t> torn;  ///< (bends) 1 = a cut passes through its triangles
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("network", s.network), v("torn", s.torn), v("enclosure", s.enclosure);
+  }
 };
 
 /// A sum of forces on one row of the network [N], as registers hold it.
@@ -122,6 +151,12 @@ struct MembraneWork {
   std::vector<Vec3d> gradient;  ///< (nodes) of the enclosed volume [m^2]
   std::vector<Vec3d> weight;    ///< (nodes) of what is enclosed, where it presses [N]
   std::vector<Vec3f> reaction;  ///< of one bending step, as many as loads may come
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("network", s.network), v("force", s.force), v("place", s.place), v("gradient", s.gradient), v("weight", s.weight),
+        v("reaction", s.reaction);
+  }
 };
 
 /// What the sheet does to what holds a border node.

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <trocar/core/field_hash.hpp>
 #include <trocar/geometry/curves/polyline.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/tissue/network/force_wave.hpp>
@@ -163,13 +164,6 @@ void add_wave(const ForceWaveModel& m, const NodeView& nodes, double t, std::spa
   }
 }
 
-void add_to_hash(core::Hasher& h, const ForceWaveModel& m) noexcept {
-  for (const ForceWavePair& p : m.pairs) {
-    h.add(p.a), h.add(p.b);
-    for (const double v : {p.force, p.delay, p.sharp}) h.add(v);
-  }
-  h.add(m.nodes);
-  for (const double v : {m.period, m.first, m.cycle, m.active}) h.add(v);
-}
+void add_to_hash(core::Hasher& h, const ForceWaveModel& m) noexcept { core::add_fields(h, m); }
 
 }  // namespace trocar::tissue

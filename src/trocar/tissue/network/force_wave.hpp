@@ -24,6 +24,7 @@
 #include <span>
 #include <vector>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/tissue/network/node_view.hpp>
 
@@ -52,12 +53,23 @@ struct ForceWavePair {
   double force = 0;  ///< of each on the other at a crest [N]
   double delay = 0;  ///< tau [s]
   double sharp = 0;  ///< v / sigma [1/s]
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("a", s.a), v("b", s.b), v("force", s.force), v("delay", s.delay), v("sharp", s.sharp);
+  }
 };
 
 struct ForceWaveModel {
   std::vector<ForceWavePair> pairs;
   std::vector<std::int32_t> nodes;  ///< that forces can act on, ascending
   double period = 0, first = 0, cycle = 0, active = 1;
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("pairs", s.pairs), v("nodes", s.nodes), v("period", s.period), v("first", s.first), v("cycle", s.cycle),
+        v("active", s.active);
+  }
 };
 
 /// Compiles a wave for an organ.

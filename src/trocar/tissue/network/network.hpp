@@ -29,6 +29,7 @@
 #include <string>
 #include <vector>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/core/parallel.hpp>
 #include <trocar/numerics/vec3.hpp>
@@ -102,6 +103,25 @@ struct NetworkModel {
   float gravity_step[3] = {0, 0, 0};  ///< dt g / (1 + dt gamma) [m/s]
   float max_scale = 1;
   float opening = kOpeningTime;  ///< within which a collapsed cell is driven open [s]
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("nodes", s.nodes), v("origin", s.origin), v("row_of_node", s.row_of_node), v("slice_begin", s.slice_begin),
+        v("packs", s.packs), v("arrival_begin", s.arrival_begin), v("arrivals", s.arrivals),
+        v("law_packs", s.law_packs), v("p1", s.p1, core::kWithNext), v("p2", s.p2, core::kWithNext),
+        v("cap", s.cap, core::kWithNext), v("cap_slope", s.cap_slope, core::kWithNext),
+        v("decay", s.decay, core::kWithNext), v("max_scale", s.max_scale, core::kWithNext), v("opening", s.opening),
+        v("row_packs", s.row_packs), v("tet_packs", s.tet_packs), v("rest", s.rest), v("mass", s.mass),
+        v("fixed", s.fixed), v("substeps", s.substeps), v("bulk", s.bulk), v("dt", s.dt),
+        v("gravity_step", s.gravity_step), v("rows", s.rows, core::kNotHashed),
+        v("springs", s.springs, core::kNotHashed), v("node_of_row", s.node_of_row, core::kNotHashed),
+        v("lag", s.lag, core::kNotHashed), v("ring", s.ring, core::kNotHashed),
+        v("spring_nodes", s.spring_nodes, core::kNotHashed), v("spring_rest", s.spring_rest, core::kNotHashed),
+        v("place", s.place, core::kNotHashed), v("tets", s.tets, core::kNotHashed),
+        v("tet_begin", s.tet_begin, core::kNotHashed), v("tet_of_node", s.tet_of_node, core::kNotHashed),
+        v("tick", s.tick, core::kNotHashed), v("dt_limit", s.dt_limit, core::kNotHashed),
+        v("gamma", s.gamma, core::kNotHashed), v("gravity", s.gravity, core::kNotHashed);
+  }
 };
 
 struct NetworkState {
@@ -111,12 +131,23 @@ struct NetworkState {
   std::uint32_t version = 0;            ///< counts cuts and changes of scale; 0 = untouched
   std::uint32_t open_tets = 0;          ///< cells being pushed open
   std::uint32_t tick = 0;               ///< ticks made
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("nodes", s.nodes), v("scale", s.scale), v("tet_phase", s.tet_phase), v("version", s.version),
+        v("open_tets", s.open_tets), v("tick", s.tick);
+  }
 };
 
 /// Forces on their way from one end of a spring to the other, for one thread.
 struct ForceWork {
   std::vector<ForcePack> forces;  ///< (1 + ring)
   std::vector<ForceSum> sums;     ///< (lag + 1)
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("forces", s.forces), v("sums", s.sums);
+  }
 };
 
 /// Scratch: its contents between ticks do not matter.
@@ -128,6 +159,12 @@ struct NetworkWork {
   std::vector<int> open_tets;        ///< capacity: tets
   std::vector<std::uint8_t> folded;  ///< (rows)
   std::vector<std::uint16_t> below;  ///< (tet packs)
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("other", s.other), v("forces", s.forces), v("loaded", s.loaded), v("volume", s.volume),
+        v("open_tets", s.open_tets), v("folded", s.folded), v("below", s.below);
+  }
 };
 
 /// A force on one node during one tick, taken implicitly: f0 - k P (x - x0) - d P v with P = 1, or dir dir^T where dir

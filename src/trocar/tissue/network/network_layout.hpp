@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include <trocar/core/fields.hpp>
+
 namespace trocar::tissue {
 
 inline constexpr int kSlice = 16;  ///< rows per slice; every SIMD width divides it
@@ -12,6 +14,13 @@ inline constexpr int kSlice = 16;  ///< rows per slice; every SIMD width divides
 struct alignas(32) NodeState {
   float x = 0, y = 0, z = 0, zero0 = 0;
   float vx = 0, vy = 0, vz = 0, zero1 = 0;
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("x", s.x), v("y", s.y), v("z", s.z), v("zero0", s.zero0), v("vx", s.vx), v("vy", s.vy), v("vz", s.vz),
+        v("zero1", s.zero1);
+  }
 };
 
 /// 16 springs, each seen from one of its ends: one column of a slice. Padding has k l = 0 and points at its own row.

@@ -1,4 +1,5 @@
 // Reading and changing a network's State between ticks; its hash.
+#include <trocar/core/field_hash.hpp>
 #include <trocar/tissue/base/law.hpp>
 #include <trocar/tissue/network/network.hpp>
 
@@ -99,35 +100,8 @@ NetworkEnergy energy(const NetworkModel& m, const NetworkState& s) noexcept {
   return e;
 }
 
-void add_to_hash(core::Hasher& h, const NetworkState& s) noexcept {
-  h.add(s.nodes);
-  h.add(s.scale);
-  h.add(s.tet_phase);
-  h.add(s.version);
-  h.add(s.open_tets);
-  h.add(s.tick);
-}
+void add_to_hash(core::Hasher& h, const NetworkState& s) noexcept { core::add_fields(h, s); }
 
-void add_to_hash(core::Hasher& h, const NetworkModel& m) noexcept {
-  h.add(m.nodes);
-  h.add(m.origin);
-  h.add(m.row_of_node);
-  h.add(m.slice_begin);
-  h.add(m.packs);
-  h.add(m.arrival_begin);
-  h.add(m.arrivals);
-  h.add(m.law_packs);
-  const float one[] = {m.p1, m.p2, m.cap, m.cap_slope, m.decay, m.max_scale, m.opening};
-  h.add(one);
-  h.add(m.row_packs);
-  h.add(m.tet_packs);
-  h.add(m.rest);
-  h.add(m.mass);
-  h.add(m.fixed);
-  h.add(m.substeps);
-  add_to_hash(h, m.bulk);
-  h.add(m.dt);
-  h.add(m.gravity_step);
-}
+void add_to_hash(core::Hasher& h, const NetworkModel& m) noexcept { core::add_fields(h, m); }
 
 }  // namespace trocar::tissue

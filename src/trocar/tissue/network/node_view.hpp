@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/numerics/vec3.hpp>
 #include <trocar/tissue/network/network_layout.hpp>
 
@@ -26,6 +27,11 @@ struct NodeView {
   Vec3d velocity(int node) const noexcept {
     const NodeState& n = at(node);
     return {n.vx, n.vy, n.vz};
+  }
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("rows", s.rows), v("row_of_node", s.row_of_node), v("origin", s.origin);
   }
 };
 

@@ -10,6 +10,7 @@
 
 #include <span>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/tissue/network/network.hpp>
 
 namespace trocar::tissue {
@@ -19,6 +20,11 @@ struct Anchor {
   int node = 0;
   double k = 0;       ///< [N/m]
   Vec3d x0{0, 0, 0};  ///< rest point [m]; written by prestress()
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("node", s.node), v("k", s.k), v("x0", s.x0);
+  }
 };
 
 struct PrestressReport {

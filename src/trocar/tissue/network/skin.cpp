@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include <trocar/core/field_hash.hpp>
 #include <trocar/tissue/base/float4.hpp>
 #include <trocar/tissue/network/skin.hpp>
 
@@ -126,10 +127,6 @@ Vec3d skin_velocity(const NodeView& nodes, const Skin& skin, int vertex) noexcep
   return v;
 }
 
-void add_to_hash(core::Hasher& hasher, const Skin& skin) noexcept {
-  hasher.add(skin.weights);
-  hasher.add(skin.triangles);
-  hasher.add(skin.rest);
-}
+void add_to_hash(core::Hasher& hasher, const Skin& skin) noexcept { core::add_fields(hasher, skin); }
 
 }  // namespace trocar::tissue

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/tissue/network/node_view.hpp>
 
@@ -42,6 +43,14 @@ struct Skin {
   int size() const { return int(weights.size()); }
   /// Has the vertex a triangle? Bodies that can be cut keep vertices for the nodes inside them.
   bool at_surface(int vertex) const { return face_first[size_t(vertex)] < face_first[size_t(vertex) + 1]; }
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("weights", s.weights, core::FieldNote{.made_once = true}), v("triangles", s.triangles),
+        v("rest", s.rest, core::FieldNote{.made_once = true}), v("rest_normal", s.rest_normal, core::kMadeOnce),
+        v("neighbour_first", s.neighbour_first, core::kNotHashed), v("neighbour", s.neighbour, core::kNotHashed),
+        v("face_first", s.face_first, core::kNotHashed), v("face", s.face, core::kNotHashed);
+  }
 };
 
 struct Box {
@@ -65,6 +74,11 @@ struct Box {
   bool near_segment(Vec3d a, Vec3d b, double margin) const noexcept;
   bool near_box(const Box& other, float margin) const noexcept;
 
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("low", s.low), v("high", s.high);
+  }
+
  private:
   static double outside(double p, double low, double high) noexcept {
     return p < low ? low - p : (p > high ? p - high : 0.0);
@@ -77,6 +91,11 @@ struct SkinPose {
   std::vector<Box> block;       ///< per kSkinBlock vertices
   std::vector<Box> patch;       ///< per kSkinPatch vertices
   Box bounds;
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("position", s.position), v("block", s.block), v("patch", s.patch), v("bounds", s.bounds);
+  }
 };
 SkinPose make_pose(const Skin& skin);
 

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include <trocar/core/hash.hpp>
+#include <trocar/core/fields.hpp>
 #include <trocar/tissue/network/guard.hpp>
 
 namespace trocar::tissue {
@@ -37,14 +37,12 @@ struct Bulk {
   float most_answer = 0;     ///< of the nodes as built: 36 sum |dV/dx|^2 / (m V) [m/kg]; far stiffer ones are softened
   int impulses = 0;          ///< in a tick
   std::vector<float> built;  ///< (rows) volumes of nodes as built [m^3]
-};
 
-inline void add_to_hash(core::Hasher& h, const Bulk& b) noexcept {
-  h.add(b.kappa);
-  h.add(b.most_answer);
-  h.add(b.impulses);
-  h.add(b.built);
-}
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("kappa", s.kappa), v("most_answer", s.most_answer), v("impulses", s.impulses), v("built", s.built);
+  }
+};
 
 struct alignas(16) VolumeForce {
   float x = 0, y = 0, z = 0, zero = 0;  ///< [N]
@@ -57,6 +55,12 @@ struct VolumeWork {
   std::vector<float> pressure;       ///< (rows) kappa (J - 1) [Pa]
   std::vector<VolumeForce> force;    ///< (rows)
   void resize(std::size_t rows);
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("drawn", s.drawn), v("volume", s.volume), v("answer", s.answer), v("inverse_mass", s.inverse_mass),
+        v("pressure", s.pressure), v("force", s.force);
+  }
 };
 
 /// Notes what the drawn body says. @param weight  of the sub-step `weight_dt` [s], as the kernel has it

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/core/field_hash.hpp>
 #include <trocar/tissue/strand/strand.hpp>
 #include <trocar/tissue/strand/strand_band.hpp>
 
@@ -342,32 +343,8 @@ StrandEnergy energy(const StrandModel& m, const StrandState& s) {
   return total;
 }
 
-void add_to_hash(core::Hasher& h, const StrandState& s) noexcept {
-  h.add(s.x);
-  h.add(s.v);
-  h.add(s.scale);
-  h.add(s.alive);
-  h.add(s.foundation_scale);
-  if (!s.shrunk.empty()) h.add(s.shrunk);
-}
+void add_to_hash(core::Hasher& h, const StrandState& s) noexcept { core::add_fields(h, s); }
 
-void add_to_hash(core::Hasher& h, const StrandModel& m) noexcept {
-  h.add(m.tick);
-  h.add(m.law);
-  h.add(m.mass);
-  h.add(m.rest_length);
-  h.add(m.stretch);
-  h.add(m.bend);
-  h.add(m.bend_rest);
-  h.add(m.tangent_rest);
-  h.add(m.director_rest);
-  h.add(m.foundation);
-  h.add(m.foundation_point);
-  h.add(m.stiffening);
-  h.add(m.prescribed);
-  const double rest[] = {m.damping_time, m.foundation_damping_time, m.gamma};
-  h.add(rest);
-  h.add(m.gravity);
-}
+void add_to_hash(core::Hasher& h, const StrandModel& m) noexcept { core::add_fields(h, m); }
 
 }  // namespace trocar::tissue

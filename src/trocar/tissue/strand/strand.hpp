@@ -25,6 +25,7 @@
 #include <span>
 #include <vector>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/core/hash.hpp>
 #include <trocar/numerics/vec3.hpp>
 #include <trocar/tissue/base/law.hpp>
@@ -71,6 +72,19 @@ struct StrandModel {
   std::vector<int> prescribed_nodes;     ///< ascending; the order of `ends` and `end_reactions`
   double damping_time = 0, foundation_damping_time = 0, gamma = 0;
   Vec3d gravity{0, 0, 0};
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("tick", s.tick), v("law", s.law), v("mass", s.mass), v("rest_length", s.rest_length), v("stretch", s.stretch),
+        v("bend", s.bend), v("bend_rest", s.bend_rest), v("tangent_rest", s.tangent_rest),
+        v("director_rest", s.director_rest), v("foundation", s.foundation), v("foundation_point", s.foundation_point),
+        v("stiffening", s.stiffening), v("prescribed", s.prescribed),
+        v("damping_time", s.damping_time, core::kWithNext),
+        v("foundation_damping_time", s.foundation_damping_time, core::kWithNext), v("gamma", s.gamma),
+        v("gravity", s.gravity), v("nodes", s.nodes, core::kNotHashed), v("rest", s.rest, core::kNotHashed),
+        v("radius", s.radius, core::kNotHashed), v("lumen", s.lumen, core::kNotHashed),
+        v("prescribed_nodes", s.prescribed_nodes, core::kNotHashed);
+  }
 };
 
 struct StrandState {
@@ -79,6 +93,12 @@ struct StrandState {
   std::vector<std::uint8_t> alive;       ///< (n - 1) 0 = cut through
   std::vector<double> foundation_scale;  ///< (n) 1 as built, 0 = the sheet is cut there
   std::vector<double> shrunk;  ///< (n - 1) share of its rest length that heat has left of an element; or empty
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("x", s.x), v("v", s.v), v("scale", s.scale), v("alive", s.alive), v("foundation_scale", s.foundation_scale),
+        v("shrunk", s.shrunk, core::only_if(!s.shrunk.empty()));
+  }
 };
 
 struct StrandWork {
@@ -89,6 +109,12 @@ struct StrandWork {
   std::vector<double> columns;   ///< (3n x 3) for the tangent at one of them
   std::vector<Vec3d> direction;  ///< (n) of the chain at its inner nodes
   std::vector<Vec3d> bend_now;   ///< (n) R_i b_i
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("matrix", s.matrix), v("saved", s.saved), v("rhs", s.rhs), v("force", s.force), v("columns", s.columns),
+        v("direction", s.direction), v("bend_now", s.bend_now);
+  }
 };
 
 /// Where a prescribed node is at the end of this tick.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include <trocar/core/field_hash.hpp>
 #include <trocar/tissue/network/network_kernels.hpp>
 #include <trocar/tissue/network/network_loads.hpp>
 #include <trocar/tissue/network/stability.hpp>
@@ -16,14 +17,6 @@ using geometry::Tet;
 
 constexpr int kMostSprings = 192;  // of a node; build() refuses bodies that come near
 constexpr double kSafety = 0.9;    // of what the time step bears
-
-void add_to_hash(core::Hasher& h, const CuttableTets& b) noexcept {
-  h.add(b.rest);
-  h.add(b.source);
-  h.add(b.nodes);
-  h.add(b.cells);
-  h.add(b.across);
-}
 
 double volume(const CuttableTets& b, const Tet& c) noexcept {
   const auto x = [&](int i) { return b.rest[std::size_t(c[std::size_t(i)])]; };
@@ -336,7 +329,7 @@ std::uint64_t version_of(const CuttableModel& m, const CuttableTets& b) noexcept
   // Of all of it: two bodies of one Model that were cut differently never share scratch.
   if (b.nodes == m.own_nodes && b.across == m.drawn.across && b.rest == m.drawn.rest) return 0;
   core::Hasher h;
-  add_to_hash(h, b);
+  core::add_fields(h, b);
   const std::uint64_t hash = h.value();
   return hash == 0 || hash == ~0ull ? 1 : hash;
 }
@@ -426,31 +419,8 @@ double mass_of(const CuttableModel& m, const CuttableState& s, int node) noexcep
   return mass;
 }
 
-void add_to_hash(core::Hasher& h, const CuttableState& s) noexcept {
-  h.add(s.nodes);
-  add_to_hash(h, s.tets);
-  h.add(s.version);
-  h.add(s.volume);
-  h.add(s.tet_phase);
-  h.add(s.open_tets);
-  h.add(s.tick);
-}
+void add_to_hash(core::Hasher& h, const CuttableState& s) noexcept { core::add_fields(h, s); }
 
-void add_to_hash(core::Hasher& h, const CuttableModel& m) noexcept {
-  add_to_hash(h, m.drawn);
-  h.add(m.brings);
-  h.add(m.fixed);
-  h.add(m.row_of_node);
-  for (const Anchor& a : m.anchors) {
-    h.add(a.node);
-    h.add(a.k);
-    h.add(a.x0);
-  }
-  for (const int i : {m.own_nodes, m.own_rows, m.rows, m.packs, m.widest, m.substeps}) h.add(i);
-  for (const Vec3d v : {m.origin, m.gravity}) h.add(v);
-  for (const double d : {m.density, m.damping_time, m.gamma, m.tick, m.dt}) h.add(d);
-  add_to_hash(h, m.bulk);
-  for (const float f : {m.p1, m.p2, m.cap, m.cap_slope, m.opening}) h.add(f);
-}
+void add_to_hash(core::Hasher& h, const CuttableModel& m) noexcept { core::add_fields(h, m); }
 
 }  // namespace trocar::tissue

@@ -20,6 +20,7 @@
 #include <span>
 #include <vector>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/geometry/tets/tet_cut.hpp>
 #include <trocar/tissue/network/network.hpp>
 #include <trocar/tissue/network/prestress.hpp>
@@ -66,6 +67,17 @@ struct CuttableModel {
   float opening = kOpeningTime;           ///< within which a collapsed cell is driven open [s]
   int substeps = 1;
   double misfit = 0, residual = 0;  ///< of the springs' fit; of the drawn shape under gravity [N]
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("drawn", s.drawn), v("brings", s.brings), v("fixed", s.fixed), v("row_of_node", s.row_of_node),
+        v("anchors", s.anchors), v("own_nodes", s.own_nodes), v("own_rows", s.own_rows), v("rows", s.rows),
+        v("packs", s.packs), v("widest", s.widest), v("substeps", s.substeps), v("origin", s.origin),
+        v("gravity", s.gravity), v("density", s.density), v("damping_time", s.damping_time), v("gamma", s.gamma),
+        v("tick", s.tick), v("dt", s.dt), v("bulk", s.bulk), v("p1", s.p1), v("p2", s.p2), v("cap", s.cap),
+        v("cap_slope", s.cap_slope), v("opening", s.opening), v("dt_limit", s.dt_limit, core::kNotHashed),
+        v("misfit", s.misfit, core::kNotHashed), v("residual", s.residual, core::kNotHashed);
+  }
 };
 
 struct CuttableState {
@@ -76,6 +88,12 @@ struct CuttableState {
   std::vector<std::uint8_t> tet_phase;  ///< (cells) as GuardState::phase
   std::uint32_t open_tets = 0;          ///< cells being pushed open
   std::uint32_t tick = 0;               ///< ticks made
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("nodes", s.nodes), v("tets", s.tets), v("version", s.version), v("volume", s.volume), v("tet_phase", s.tet_phase),
+        v("open_tets", s.open_tets), v("tick", s.tick);
+  }
 };
 
 /// Scratch.
@@ -104,6 +122,16 @@ struct CuttableWork {
   std::vector<LoadedNode> loaded;    ///< (capacity)
   VolumeWork volume;                 ///< empty where there is no volume force
   geometry::CutWork cut;
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("made_for", s.made_for), v("other", s.other), v("packs", s.packs), v("row_packs", s.row_packs),
+        v("slice_begin", s.slice_begin), v("slices", s.slices), v("mass", s.mass), v("changed", s.changed),
+        v("bearable", s.bearable), v("fixed", s.fixed), v("begin", s.begin), v("around", s.around),
+        v("node_of_row", s.node_of_row), v("now", s.now), v("guarded", s.guarded), v("guarded_packs", s.guarded_packs),
+        v("part", s.part), v("parts", s.parts), v("largest_part", s.largest_part), v("open_tets", s.open_tets),
+        v("folded", s.folded), v("below", s.below), v("loaded", s.loaded), v("volume", s.volume), v("cut", s.cut);
+  }
 };
 
 /// Throws std::invalid_argument naming what is unsound, and where gravity cannot be borne.

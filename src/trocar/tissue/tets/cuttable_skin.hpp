@@ -9,6 +9,7 @@
 // Like the arrays of the kernel it follows from the State alone: it is scratch.
 #pragma once
 
+#include <trocar/core/fields.hpp>
 #include <trocar/tissue/network/skin.hpp>
 #include <trocar/tissue/tets/cuttable.hpp>
 
@@ -21,6 +22,11 @@ struct CuttableSkin {
   Skin skin;
   std::vector<std::uint8_t> inner;  ///< (triangles) 1: laid bare by a cut
   std::uint64_t made_for = ~0ull;   ///< CuttableState::version
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("skin", s.skin), v("inner", s.inner), v("made_for", s.made_for);
+  }
 };
 
 CuttableSkin make_skin(const CuttableModel& model);

@@ -29,10 +29,14 @@ std::string type_of(const Parameter& p) {
       return "strand";
     case ArgumentKind::mark:
       return "mark";
+    case ArgumentKind::marks:
+      return "list of marks";
     case ArgumentKind::vessel:
       return "vessel";
     case ArgumentKind::word:
       return "word";
+    case ArgumentKind::landmark:
+      return "landmark of the strand";
   }
   return "";
 }

@@ -1,19 +1,23 @@
 // A clip that has closed: on a strand or a vessel, or on nothing.
 #include <algorithm>
+#include <cmath>
 #include <span>
 
+#include <trocar/interactions/verbs/clip.hpp>
+#include <trocar/sim/stages/visibility.hpp>
 #include <trocar/training/events/registry.hpp>
-#include <trocar/training/exercise/hands.hpp>
+#include <trocar/training/observe/hands.hpp>
 #include <trocar/training/observe/liquid.hpp>
 
 namespace trocar::training {
 namespace {
 
-const interactions::Clip& clip_of(const Look& look, const Happening& h) { return look.state.clips[size_t(h.number)]; }
+const interactions::Clip& clip_of(const Look& look, const Happening& h) {
+  return h.foreseen ? *h.foreseen : look.state.clips[size_t(h.number)];
+}
 
-Happening happening(const Look& look, int number) {
-  const interactions::Clip& clip = look.state.clips[size_t(number)];
-  Happening h{clip.tool, clip.strand, number, nullptr, tip_of(look.model, look.state, size_t(clip.tool)), {}};
+Happening happening(const Look& look, const interactions::Clip& clip, int number) {
+  Happening h{clip.tool, BodyId::maybe(BodyKind::strand, clip.strand), number, nullptr, tip_of(look.model, look.state, size_t(clip.tool)), {}};
   h.where = h.tip;
   if (clip.strand < 0) {
     if (clip.vessel > 0) h.name = &look.model.vessels.list[size_t(clip.vessel - 1)].name;
@@ -32,7 +36,8 @@ class Clips final : public Noticer {
   Clips(const sim::Model&, const Arguments&) {}
   void tick(const Look& look, const sim::StepReport&, Happenings& out) override {
     for (; m_seen < look.state.clip_count; ++m_seen)
-      if (look.state.clips[size_t(m_seen)].dropped() == lost) out.add(happening(look, m_seen));
+      if (look.state.clips[size_t(m_seen)].dropped() == lost)
+        out.add(happening(look, look.state.clips[size_t(m_seen)], m_seen));
   }
 
  private:
@@ -48,23 +53,49 @@ const interactions::VesselClip* on_bleeder(const Look& look, const Happening& h)
   return at == closed.end() ? nullptr : &*at;
 }
 
+/// From the clip to the nearest stripe around its strand.
+Value to_mark(const Look& look, const Happening& h) {
+  Value nearest = kUnknown;
+  for (const sim::MarkModel& mark : look.model.marks) {
+    if (!mark.is_stripe() || h.body != BodyId::maybe(BodyKind::strand, mark.body)) continue;
+    const double off = std::fabs(mark.s - clip_of(look, h).s);
+    if (!nearest.known || off < nearest.number) nearest = off;
+  }
+  return nearest;
+}
+
+/// From the clip to the nearest one that was there before.
+Value to_clip(const Look& look, const Happening& h) {
+  Value nearest = kUnknown;
+  for (int i = 0; i < h.number; ++i) {
+    const interactions::Clip& other = look.state.clips[size_t(i)];
+    if (!h.body.exists() || h.body != BodyId::maybe(BodyKind::strand, other.strand)) continue;
+    const double off = std::fabs(other.s - clip_of(look, h).s);
+    if (!nearest.known || off < nearest.number) nearest = off;
+  }
+  return nearest;
+}
+
 std::vector<Attribute> attributes() {
   return {
       {"s_mm", "where on the strand, from its beginning; unknown on a bare vessel",
-       [](const Look& l, const Happening& h) { return h.body < 0 ? kUnknown : Value(clip_of(l, h).s); }},
+       [](const Look& l, const Happening& h) { return !h.body.exists() ? kUnknown : Value(clip_of(l, h).s); }},
       {"angle_deg", "off the cross-section",
        [](const Look& l, const Happening& h) -> Value { return clip_of(l, h).theta; }},
       {"cover", "share of the cross-section between the legs",
        [](const Look& l, const Happening& h) -> Value { return clip_of(l, h).cover; }},
+      {"to_mark_mm", "along the strand to the nearest stripe around it; unknown without any", to_mark},
+      {"to_clip_mm", "along the strand to the nearest clip that was there before; unknown without any", to_clip},
       {"closing_s", "how long the jaws took from half open",
-       [](const Look& l, const Happening& h) -> Value { return clip_of(l, h).closing_time; }},
+       [](const Look& l, const Happening& h) { return h.foreseen ? kUnknown : Value(clip_of(l, h).closing_time); }},
       {"tips_visible", "of the two jaw tips, when it closed",
        [](const Look& l, const Happening& h) -> Value { return double(clip_of(l, h).tips_visible); }, false, true},
       {"under_liquid", "the pool stood over the jaws",
        [](const Look& l, const Happening& h) -> Value { return l.model.wet.there && drowned(l.model, l.state, h.tip); },
        true},
       {"on_bleeder", "it closes the vessel that bleeds by itself",
-       [](const Look& l, const Happening& h) -> Value { return on_bleeder(l, h) != nullptr; }, true},
+       [](const Look& l, const Happening& h) { return h.foreseen ? kUnknown : Value(on_bleeder(l, h) != nullptr); },
+       true},
       {"bleeder_cover", "share of that vessel between the legs; unknown elsewhere",
        [](const Look& l, const Happening& h) {
          const auto* c = on_bleeder(l, h);
@@ -79,10 +110,37 @@ std::vector<Attribute> attributes() {
   };
 }
 
+/// What the clip would be if the applier closed now. It closes slowly, and what it would do to vessels is not known.
+bool foresee(const Look& look, int hand, Foreseen& out) {
+  const interactions::ToolModel& applier = look.model.tool(look.state, size_t(hand));
+  const interactions::ToolState& tool = look.state.tools[size_t(hand)];
+  if (applier.kind != interactions::ToolKind::clip_applier || !tool.armed) return false;
+  const interactions::ToolShape shape = interactions::shape_of(applier, tool.pose(), tool.aperture);
+  interactions::TissueView view;
+  view.strands = look.model.strand_bodies;
+  view.strand_states = look.state.strands;
+  out.clip = {};
+  interactions::fit_clip(applier, shape, view, out.clip);
+  if (out.clip.strand < 0) return false;
+  out.clip.tool = hand;
+  out.clip.closing_time = 3600;
+  out.clip.tips_visible = sim::jaw_tips_visible(look.model, look.state, hand);
+  out.happening = happening(look, out.clip, -1);
+  out.happening.foreseen = &out.clip;
+  return true;
+}
+
+std::string_view needs_applier(const sim::Model& model) {
+  return unless_there_is(model, interactions::ToolKind::clip_applier, "a clip applier");
+}
+
 }  // namespace
 
-const EventKind kClipped{
-    "clipped", {}, attributes(), "A clip closed on a strand or a vessel.", anywhere, &noticing<Clips<false>>, true};
-const EventKind kClipLost{"clip_lost", {}, {}, "A clip closed on nothing.", anywhere, &noticing<Clips<true>>};
+const EventKind kClipped{"clipped",     {},
+                         attributes(),  "A clip closed on a strand or a vessel.",
+                         needs_applier, &noticing<Clips<false>>,
+                         true,          EventKind::Hold::none,
+                         foresee};
+const EventKind kClipLost{"clip_lost", {}, {}, "A clip closed on nothing.", needs_applier, &noticing<Clips<true>>};
 
 }  // namespace trocar::training

@@ -2,18 +2,12 @@
 #include <cmath>
 
 #include <trocar/training/events/registry.hpp>
-#include <trocar/training/exercise/hands.hpp>
+#include <trocar/training/observe/hands.hpp>
 
 namespace trocar::training {
 namespace {
 
 const interactions::Cut& cut_of(const Look& look, const Happening& h) { return look.state.cuts[size_t(h.number)]; }
-
-std::int32_t body_of(const interactions::Cut& cut) {
-  if (cut.strand >= 0) return cut.strand;
-  if (cut.solid >= 0) return interactions::kSolidBase + cut.solid;
-  return cut.membrane >= 0 ? interactions::kMembraneBase + cut.membrane : kNoBody;
-}
 
 class Cuts final : public Noticer {
  public:
@@ -22,7 +16,7 @@ class Cuts final : public Noticer {
     for (; m_seen < look.state.cut_count; ++m_seen) {
       const interactions::Cut& cut = look.state.cuts[size_t(m_seen)];
       const Vec3d tip = tip_of(look.model, look.state, size_t(cut.tool));
-      Happening h{cut.tool, body_of(cut), m_seen, nullptr, tip, tip};
+      Happening h{cut.tool, cut.body(), m_seen, nullptr, tip, tip};
       h.name = name_of_body(look.model, h.body);
       if (cut.strand >= 0) {
         const interactions::StrandBody& body = look.model.strand_bodies[size_t(cut.strand)];
@@ -90,8 +84,12 @@ std::vector<Attribute> attributes() {
   };
 }
 
+std::string_view needs_scissors(const sim::Model& model) {
+  return unless_there_is(model, interactions::ToolKind::scissors, "scissors");
+}
+
 }  // namespace
 
-const EventKind kCut{"cut", {}, attributes(), "Scissors cut into a body.", anywhere, &noticing<Cuts>, true};
+const EventKind kCut{"cut", {}, attributes(), "Scissors cut into a body.", needs_scissors, &noticing<Cuts>, true};
 
 }  // namespace trocar::training

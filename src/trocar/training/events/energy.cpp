@@ -3,40 +3,26 @@
 #include <cmath>
 
 #include <trocar/training/events/registry.hpp>
-#include <trocar/training/exercise/energy_watch.hpp>
+#include <trocar/training/observe/energy_watch.hpp>
 
 namespace trocar::training {
 namespace {
 
-/// Of the vessel that bleeds, what carries it at that place. As holds number it.
-std::vector<std::int32_t> with_carrier(const sim::Model& model, std::vector<std::int32_t> bodies) {
+/// Of the vessel that bleeds, what carries it at that place.
+std::vector<BodyId> with_carrier(const sim::Model& model, std::vector<BodyId> bodies) {
   const sim::Bleeder& bleeder = model.vessels.bleeder;
   if (bleeder.vessel < 0) return bodies;
   const auto& points = model.vessels.list[size_t(bleeder.vessel)].path.points;
   const auto nearest = std::min_element(points.begin(), points.end(), [&](const auto& a, const auto& b) {
     return std::fabs(a.s - bleeder.s) < std::fabs(b.s - bleeder.s);
   });
-  const interactions::VesselHold& hold = nearest->hold;
-  switch (hold.kind) {
-    case interactions::VesselHold::space:
-      break;
-    case interactions::VesselHold::strand:
-      bodies.push_back(hold.index);
-      break;
-    case interactions::VesselHold::membrane:
-      bodies.push_back(interactions::kMembraneBase + hold.index);
-      break;
-    case interactions::VesselHold::organ:
-    case interactions::VesselHold::cell:
-      bodies.push_back(interactions::kSolidBase + hold.index);
-      break;
-  }
+  if (const BodyId carrier = nearest->hold.carrier(); carrier.exists()) bodies.push_back(carrier);
   return bodies;
 }
 
 class Watch : public Noticer {
  public:
-  Watch(std::vector<std::int32_t> targets, std::vector<std::int32_t> never)
+  Watch(std::vector<BodyId> targets, std::vector<BodyId> never)
       : m_watch(std::move(targets), std::move(never)) {}
 
  protected:

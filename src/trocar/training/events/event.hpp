@@ -8,16 +8,14 @@
 
 #include <trocar/sim/model/step_report.hpp>
 #include <trocar/training/facts/fact.hpp>
+#include <trocar/training/facts/happening.hpp>
 
 namespace trocar::training {
 
-struct Happening {
-  std::int32_t hand = -1;
-  std::int32_t body = kNoBody;        ///< as holds number bodies
-  std::int32_t number = -1;           ///< of a clip or a cut in the State's book
-  const std::string* name = nullptr;  ///< of the body or the vessel; null: none
-  Vec3d tip, where;                   ///< the instrument's tip; the place on the body, else the tip [m]
-  const char* detail = "";
+/// What would happen if a hand did now what it is about to do.
+struct Foreseen {
+  Happening happening;
+  interactions::Clip clip;  ///< that the happening points at
 };
 
 /// Those of one kind in a tick; what does not fit is not told.
@@ -46,6 +44,9 @@ struct Attribute {
 };
 
 struct EventKind {
+  /// Does it happen to what a hand holds, or held just before?
+  enum class Hold { none, now, before };
+
   std::string_view name;
   std::vector<Parameter> parameters;
   std::vector<Attribute> attributes;
@@ -53,7 +54,9 @@ struct EventKind {
   std::string_view (*lacks)(const sim::Model& model);
   std::unique_ptr<Noticer> (*watch)(const sim::Model& model, const Arguments& arguments);
   bool has_body = false;  ///< it happens to a body: rules may ask for "on"
-  bool of_hold = false;   ///< it happens to what a hand holds, or has just held
+  Hold of_hold = Hold::none;
+  /// What this hand is about to do; false: nothing of this kind. Null: it cannot be foreseen.
+  bool (*foresee)(const Look& look, int hand, Foreseen& out) = nullptr;
 };
 
 template <class N>
@@ -61,7 +64,10 @@ std::unique_ptr<Noticer> noticing(const sim::Model& model, const Arguments& argu
   return std::make_unique<N>(model, arguments);
 }
 
-/// The name of a body as holds number it; null for kNoBody.
-const std::string* name_of_body(const sim::Model& model, std::int32_t body);
+/// "a clip applier": for scenes in whose hands there is none of that kind; empty where there is.
+std::string_view unless_there_is(const sim::Model& model, interactions::ToolKind kind, std::string_view what);
+
+/// The name of a body; null for kNoBody.
+const std::string* name_of_body(const sim::Model& model, BodyId body);
 
 }  // namespace trocar::training

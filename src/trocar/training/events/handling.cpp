@@ -1,8 +1,8 @@
 // What hands do wrong, whatever an exercise is about: they pull or pinch too hard, strike each other, move or push in
 // where the camera does not look.
 #include <trocar/training/events/registry.hpp>
-#include <trocar/training/exercise/hands.hpp>
-#include <trocar/training/exercise/watches.hpp>
+#include <trocar/training/observe/hands.hpp>
+#include <trocar/training/observe/watches.hpp>
 
 namespace trocar::training {
 namespace {
@@ -112,7 +112,7 @@ const EventKind kOverpulled{"overpulled",
                             anywhere,
                             &noticing<Overpulled>,
                             false,
-                            true};
+                            EventKind::Hold::now};
 const EventKind kOverpinched{"overpinched",
                              {{"bowel", ArgumentKind::bodies, "bodies that bear little pinch"},
                               {"force_N", ArgumentKind::number, "a harder pinch is too hard", true, 0, 200},
@@ -122,11 +122,11 @@ const EventKind kOverpinched{"overpinched",
                              anywhere,
                              &noticing<Overpinched>,
                              false,
-                             true};
+                             EventKind::Hold::now};
 const EventKind kCollided{"collided", {{"speed_mm_s", ArgumentKind::number, "faster than this", true, 0, 1000}},
                           {},         "Two instruments strike each other; once a meeting.",
                           anywhere,   &noticing<Collided>,
-                          false,      true};
+                          false,      EventKind::Hold::now};
 const EventKind kMovedBlind{"moved_blind",
                             {{"depth_mm", ArgumentKind::number, "only deeper than this", true, 0, 290},
                              {"lasting_s", ArgumentKind::number, "for longer than this", true, 0, 60},

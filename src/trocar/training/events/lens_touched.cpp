@@ -1,23 +1,32 @@
 #include <trocar/sim/stages/visibility.hpp>
 #include <trocar/training/events/registry.hpp>
-#include <trocar/training/exercise/hands.hpp>
+#include <trocar/training/observe/hands.hpp>
 
 namespace trocar::training {
 namespace {
 
-/// Is a vertex of an organ's skin, or a node of a strand or a fold, that near to the lens?
-bool touches(const Look& look, Vec3d eye, double near, std::int32_t& body) {
+bool at_wall(const sim::Model& model, Vec3d eye, double near) {
+  for (const sim::WallModel& wall : model.walls) {
+    if (!wall.pose.bounds.near_segment(eye, eye, float(near))) continue;
+    for (const Vec3f& x : wall.skin.rest)
+      if (length(vec_cast<double>(x) - eye) < near) return true;
+  }
+  return false;
+}
+
+/// Is a vertex of an organ's skin or of a wall, or a node of a strand or a fold, that near to the lens?
+bool touches(const Look& look, Vec3d eye, double near, BodyId& body) {
   const sim::Model& model = look.model;
   for (int i = 0; i < model.organs(); ++i) {
     const tissue::NodeView nodes = nodes_of(model, look.state, i);
     const tissue::Skin& skin = model.skin(i);
     for (int v = 0; v < skin.size(); ++v)
-      if (length(tissue::skin_point(nodes, skin, v) - eye) < near) return body = interactions::kSolidBase + i, true;
+      if (length(tissue::skin_point(nodes, skin, v) - eye) < near) return body = BodyId::organ(size_t(i)), true;
   }
   for (size_t i = 0; i < model.strands.size(); ++i)
     for (const Vec3d& x : look.state.strands[i].x)
-      if (length(x - eye) < near) return body = std::int32_t(i), true;
-  return false;
+      if (length(x - eye) < near) return body = BodyId::strand(i), true;
+  return at_wall(model, eye, near);
 }
 
 class LensTouched final : public Noticer {
@@ -27,7 +36,7 @@ class LensTouched final : public Noticer {
     constexpr int kEvery = 5;  // samples: ten times a second
     if (++m_sample % kEvery != 0) return;
     const Vec3d eye = sim::scope_of(look.model, look.state).eye;
-    std::int32_t body = kNoBody;
+    BodyId body;
     const bool now = touches(look, eye, m_near, body);
     if (now && !m_touching) out.add({-1, body, -1, name_of_body(look.model, body), eye, eye});
     m_touching = now;
@@ -44,7 +53,7 @@ class LensTouched final : public Noticer {
 const EventKind kLensTouched{"lens_touched",
                              {{"within_mm", ArgumentKind::number, "so near is a touch", true, 0, 100}},
                              {},
-                             "The endoscope's lens comes this near to tissue; once until it is farther away.",
+                             "The endoscope's lens comes this near to tissue or a wall; once until it is farther away.",
                              anywhere,
                              &noticing<LensTouched>,
                              true};

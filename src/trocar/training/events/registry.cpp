@@ -8,6 +8,7 @@ constexpr const EventKind* kEvents[] = {
     &kParted,         &kClipped,         &kClipLost,   &kCut,           &kOverpulled,
     &kOverpinched,    &kCollided,        &kMovedBlind, &kInsertedBlind, &kActivated,
     &kIdleActivation, &kEnergyOffTarget, &kHotTip,     &kHeatSpread,    &kLensTouched,
+    &kMarkLost,       &kDropped,
 };
 
 }  // namespace

@@ -11,7 +11,7 @@ extern const EventKind kGrasped, kReleased, kSlipped, kExchanged, kTorn, kParted
 extern const EventKind kClipped, kClipLost, kCut;
 extern const EventKind kOverpulled, kOverpinched, kCollided, kMovedBlind, kInsertedBlind;
 extern const EventKind kActivated, kIdleActivation, kEnergyOffTarget, kHotTip, kHeatSpread;
-extern const EventKind kLensTouched;
+extern const EventKind kLensTouched, kMarkLost, kDropped;
 
 std::span<const EventKind* const> event_kinds();
 /// Null: there is none of that name.

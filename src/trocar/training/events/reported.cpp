@@ -1,7 +1,8 @@
 // What the step reports of hands: grasped, released, slipped, exchanged, torn, parted by current.
+#include <trocar/sim/model/bodies.hpp>
 #include <trocar/training/events/registry.hpp>
-#include <trocar/training/exercise/hands.hpp>
-#include <trocar/training/exercise/watches.hpp>
+#include <trocar/training/observe/hands.hpp>
+#include <trocar/training/observe/watches.hpp>
 
 namespace trocar::training {
 namespace {
@@ -15,7 +16,7 @@ class Reported final : public Noticer {
       const sim::Event& e = report.events[i];
       if (e.kind != kind) continue;
       const Vec3d tip = tip_of(look.model, look.state, size_t(e.tool));
-      const std::int32_t body = has_body ? e.index : kNoBody;
+      const BodyId body = has_body ? e.body() : kNoBody;
       out.add({e.tool, body, -1, name_of_body(look.model, body), tip, tip});
     }
   }
@@ -43,19 +44,25 @@ using sim::Event;
 
 }  // namespace
 
-const std::string* name_of_body(const sim::Model& model, std::int32_t body) {
-  if (body < 0) return nullptr;
-  if (body >= interactions::kMembraneBase) return &model.membranes[size_t(body - interactions::kMembraneBase)].name;
-  if (body >= interactions::kSolidBase) return &model.organ_name(body - interactions::kSolidBase);
-  return &model.strands[size_t(body)].name;
+std::string_view unless_there_is(const sim::Model& model, interactions::ToolKind kind, std::string_view what) {
+  for (const sim::HandModel& hand : model.hands)
+    for (const interactions::ToolModel& tool : hand.rack)
+      if (tool.kind == kind) return {};
+  return what;
+}
+
+const std::string* name_of_body(const sim::Model& model, BodyId body) {
+  return body.exists() ? &sim::name_of(model, body) : nullptr;
 }
 
 const EventKind kGrasped{
     "grasped", {}, {}, "Jaws took hold of a body.", anywhere, &noticing<Reported<Event::grasped, true>>, true};
 const EventKind kReleased{
     "released", {}, {}, "A hand let go of what it held.", anywhere, &noticing<Reported<Event::released, false>>};
-const EventKind kSlipped{
-    "slipped", {}, {}, "A grip slipped off.", anywhere, &noticing<Reported<Event::slipped, false>>, false, true};
+const EventKind kSlipped{"slipped", {},
+                         {},        "A grip slipped off.",
+                         anywhere,  &noticing<Reported<Event::slipped, false>>,
+                         false,     EventKind::Hold::before};
 const EventKind kExchanged{"exchanged", {},
                            {},          "Another instrument came into a trocar.",
                            anywhere,    &noticing<Reported<Event::exchanged, false>>};
@@ -65,6 +72,6 @@ const EventKind kTorn{
     "torn",   {},
     {},       "Tissue tore where it was pulled or pressed; told once a body for as long as it goes on.",
     anywhere, &noticing<Torn>,
-    false,    true};
+    false,    EventKind::Hold::now};
 
 }  // namespace trocar::training

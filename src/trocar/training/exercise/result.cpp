@@ -33,6 +33,7 @@ Json step_json(const StepStatus& s) {
   if (!s.side.empty()) j["side"] = s.side;
   j["done"] = s.done;
   if (s.missed) j["missed"] = true;
+  if (s.optional) j["optional"] = true;
   if (s.done || s.missed) j["at_s"] = s.at;
   return j;
 }
@@ -48,21 +49,15 @@ Json error_json(const ErrorMade& e) {
   return j;
 }
 
-Json thresholds_json(Exercise e) {
+Json limits_json(const Limits& limits) {
   Json j = Json::object();
-  const std::span<const ThresholdRow> rows = thresholds(e.kind);
-  for (size_t i = 0; i < rows.size(); ++i) {
-    const ThresholdRow& row = rows[i];
-    Json t = Json::object();
-    if (row.value) {
-      t["value"] = row.value(e) / row.unit;
-    } else {
-      const Range& range = row.range(e);
-      t["from"] = range.low / row.unit;
-      t["to"] = range.high / row.unit;
-    }
-    if (i < e.threshold_sources.size()) t["source"] = e.threshold_sources[i];
-    j[row.key] = t;
+  for (const Limit& l : limits) {
+    Json& t = j[l.name];
+    if (l.is_range)
+      t = {{"from", l.low}, {"to", l.high}};
+    else
+      t = {{"value", l.low}};
+    t["source"] = l.source;
   }
   return j;
 }
@@ -73,7 +68,7 @@ std::string Monitor::result_json() const {
   const Score s = score();
   Json j;
   j["exercise"] = m_exercise->name;
-  j["mode"] = m_board.mode() == Mode::assessed ? "assessed" : "familiarisation";
+  j["mode"] = m_board->mode() == Mode::assessed ? "assessed" : "familiarisation";
   j["finished"] = finished();
   j["passed"] = s.scored ? Json(s.passed) : Json(nullptr);
   j["score"] = score_json(*m_exercise, s);
@@ -82,7 +77,7 @@ std::string Monitor::result_json() const {
   for (const StepStatus& step : steps()) j["steps"].push_back(step_json(step));
   j["errors"] = Json::array();
   for (const ErrorMade& e : errors()) j["errors"].push_back(error_json(e));
-  m_judge->tell(j);
+  m_rules->tell(j);
   j["tools"] = Json::array();
   for (const ToolMetrics& t : m_tools)
     j["tools"].push_back({{"name", t.name},
@@ -90,7 +85,7 @@ std::string Monitor::result_json() const {
                           {"max_pull_N", t.max_pull},
                           {"max_at_trocar_N", t.max_on_wall},
                           {"max_by_hand_N", t.max_by_hand}});
-  j["thresholds"] = thresholds_json(*m_exercise);
+  j["thresholds"] = limits_json(m_exercise->limits);
   j["not_assessed"] = Json::array();
   for (const LaterError& l : m_exercise->later)
     j["not_assessed"].push_back({{"code", l.code}, {"name", l.name}, {"needs", l.needs}});

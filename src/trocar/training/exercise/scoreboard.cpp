@@ -9,15 +9,9 @@ Scoreboard::Scoreboard(const Exercise& exercise, Mode mode) : m_exercise(exercis
   m_errors.reserve(256);
 }
 
-int Scoreboard::add_step(const TaskText& text, const std::string& side, const std::string& title) {
-  StepStatus s;
-  s.name = title.empty() ? text.title : title + ": " + text.title;
-  s.hint = text.hint;
-  s.task = text.name;
-  s.side = side;
-  m_steps.push_back(std::move(s));
-  m_weight.push_back(text.weight);
-  m_true_for.push_back(0);
+int Scoreboard::add_step(StepStatus step, double weight) {
+  m_steps.push_back(std::move(step));
+  m_weight.push_back(weight);
   return int(m_steps.size()) - 1;
 }
 
@@ -35,40 +29,28 @@ void Scoreboard::missed(int i) {
   m_steps[size_t(i)].at = now();
 }
 
-void Scoreboard::latch(int i, bool condition, double hold, double dt) {
-  constexpr double kRounding = 1e-9;  // [s] in sums of samples
-  double& held = m_true_for[size_t(i)];
-  held = condition ? held + dt : 0;
-  if (condition && held >= hold - kRounding) done(i);
+void Scoreboard::undone(int i) {
+  if (!m_steps[size_t(i)].done) return;
+  m_steps[size_t(i)].done = false;
+  m_steps[size_t(i)].at = 0;
 }
 
 bool Scoreboard::finished() const {
-  return std::none_of(m_steps.begin(), m_steps.end(), [](const StepStatus& s) { return !s.done && !s.missed; });
+  return std::none_of(m_steps.begin(), m_steps.end(),
+                      [](const StepStatus& s) { return !s.done && !s.missed && !s.optional; });
 }
 
-void Scoreboard::make_error(const char* code, const std::string& side, Vec3d where, std::string detail) {
-  ErrorMade e;
-  e.code = code;
-  e.detail = std::move(detail);
-  e.side = side;
-  e.at = now();
-  e.where = where;
-  if (const Penalty* p = m_exercise.penalty(e.code)) {
-    e.name = p->name;
-    e.meaning = p->meaning;
-    e.hint = p->hint;
-    e.points = p->points;
-    e.fail = p->fail;
-  }
-  m_errors.push_back(std::move(e));
+void Scoreboard::make_error(const Penalty& p, const std::string& side, Vec3d where, std::string detail) {
+  m_errors.push_back({p.code, p.name, p.meaning, p.hint, std::move(detail), side, p.points, p.fail, now(), where});
 }
 
 Score Scoreboard::score(double seconds) const {
   Score s;
   double reached = 0, whole = 0;
   for (size_t i = 0; i < m_steps.size(); ++i) {
-    whole += m_weight[i];
-    reached += m_steps[i].done ? m_weight[i] : 0;
+    const bool done = m_steps[i].done;
+    whole += done || !m_steps[i].optional ? m_weight[i] : 0;
+    reached += done ? m_weight[i] : 0;
   }
   s.quality = whole > 0 ? reached / whole : 0;
   const double spare = m_exercise.longest_time - m_exercise.expert_time;

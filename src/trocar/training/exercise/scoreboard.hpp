@@ -1,8 +1,8 @@
 // The account of an attempt, whatever the exercise: which steps are done, which errors were made, what that is worth.
 //
 //   Scoreboard board(exercise, Mode::assessed);
-//   const int cut = board.add_step(exercise.text(Task::cut), "left", "Left");
-//   board.at(tick);  board.done(cut);  board.make_error("A1.6", "left", where);
+//   const int cut = board.add_step({"Left: Cut", hint, "cut", "left"}, 3, false);
+//   board.at(tick);  board.done(cut);  board.make_error(*exercise.penalty("A1.6"), "left", where);
 #pragma once
 
 #include <cstdint>
@@ -11,17 +11,9 @@
 
 #include <trocar/numerics/vec3.hpp>
 #include <trocar/training/exercise/exercise.hpp>
+#include <trocar/training/rules/step_status.hpp>
 
 namespace trocar::training {
-
-struct StepStatus {
-  std::string name, hint;
-  std::string task;  ///< "survey", "identify" ...
-  std::string side;  ///< "left", "right"; empty for what belongs to both
-  bool done = false;
-  bool missed = false;  ///< can no longer be done
-  double at = 0;        ///< when it was done or missed [s]
-};
 
 struct ErrorMade {
   std::string code, name, meaning, hint, detail, side;
@@ -46,8 +38,8 @@ class Scoreboard {
   /// @param exercise  outlives the board
   Scoreboard(const Exercise& exercise, Mode mode);
 
-  /// @param side, title  of the side that it belongs to; empty: of both  @return its number
-  int add_step(const TaskText& text, const std::string& side = {}, const std::string& title = {});
+  /// @param weight  in the score's quality  @return its number
+  int add_step(StepStatus step, double weight);
 
   /// Now it is this tick: what is told from here on happened in it.
   void at(std::uint64_t tick) { m_now = tick; }
@@ -55,15 +47,14 @@ class Scoreboard {
 
   void done(int step);    ///< unless it is already, or was missed
   void missed(int step);  ///< unless it was done
-  /// Completes a step when `condition` has held for `hold` seconds; asked every `dt` [s].
-  void latch(int step, bool condition, double hold, double dt);
-  void make_error(const char* code, const std::string& side, Vec3d where, std::string detail = {});
+  void undone(int step);  ///< if it was done
+  void make_error(const Penalty& penalty, const std::string& side, Vec3d where, std::string detail = {});
 
   const std::vector<StepStatus>& steps() const { return m_steps; }
   const std::vector<ErrorMade>& errors() const { return m_errors; }
   const StepStatus& step(int i) const { return m_steps[size_t(i)]; }
   bool open(int i) const { return !step(i).done && !step(i).missed; }
-  bool finished() const;  ///< every step is done or missed
+  bool finished() const;  ///< every step but the optional ones is done or missed
   Mode mode() const { return m_mode; }
   /// @param seconds  that the attempt took
   Score score(double seconds) const;
@@ -72,8 +63,7 @@ class Scoreboard {
   const Exercise& m_exercise;
   Mode m_mode;
   std::vector<StepStatus> m_steps;
-  std::vector<double> m_weight;    ///< (steps) in the score's quality
-  std::vector<double> m_true_for;  ///< (steps) how long each step's condition has held [s]
+  std::vector<double> m_weight;  ///< (steps) in the score's quality
   std::vector<ErrorMade> m_errors;
   std::uint64_t m_now = 0;
 };

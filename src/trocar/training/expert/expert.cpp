@@ -1,12 +1,10 @@
-#include <trocar/training/expert/bleeding_surgeon.hpp>
-#include <trocar/training/expert/surgeon.hpp>
+#include <trocar/training/expert/performer.hpp>
 
 namespace trocar::training {
 
-std::unique_ptr<Expert> make_expert(const Exercise& exercise, const sim::Model& model, const Manner& manner) {
-  if (exercise.kind == Exercise::Kind::bleeding_control)
-    return std::make_unique<BleedingSurgeon>(exercise, model, manner);
-  return std::make_unique<Surgeon>(exercise, model, manner);
+std::unique_ptr<Expert> make_expert(const Exercise& exercise, const sim::Model& model, const Manner& manner,
+                                    std::uint64_t seed) {
+  return std::make_unique<Performer>(model, read_demonstration(exercise, model, seed), manner);
 }
 
 }  // namespace trocar::training

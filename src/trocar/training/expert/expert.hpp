@@ -3,17 +3,18 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <trocar/sim/model/state.hpp>
+#include <trocar/sim/model/step_report.hpp>
 #include <trocar/training/exercise/exercise.hpp>
-#include <trocar/training/expert/arms.hpp>
+#include <trocar/training/operator/arms.hpp>
 
 namespace trocar::training {
 
-/// How an expert works. A flaw is the code of an error that it makes once (tests; empty: none).
+/// How an expert works.
 struct Manner {
   Tremor tremor;
-  std::string flaw;
 };
 
 class Expert {
@@ -22,14 +23,20 @@ class Expert {
 
   /// The hands for this tick.
   virtual sim::Input next(const sim::Model& model, const sim::State& state) = 0;
+  /// What the tick made of it.
+  virtual void after(const sim::Model&, const sim::State&, const sim::StepReport&) {}
   virtual bool done() const = 0;
   virtual bool gave_up() const = 0;
-  /// What it is doing, in words: "approach the ampulla".
+  /// What it is doing, in words: "approach the tissue".
   virtual const char* doing() const = 0;
+  /// What did not come off at first, when and why; the first hundred.
+  virtual const std::vector<std::string>& difficulties() const = 0;
 };
 
-/// The one who knows this kind of exercise. Throws core::BadInput when the scene lacks what the exercise names, or a
-/// hand the instrument it needs.
-std::unique_ptr<Expert> make_expert(const Exercise& exercise, const sim::Model& model, const Manner& manner = {});
+/// Who performs the exercise's demonstration. Throws core::BadInput when its file has none, or the scene lacks what it
+/// needs.
+/// @param seed  of the anatomy: draws sets "by_seed"
+std::unique_ptr<Expert> make_expert(const Exercise& exercise, const sim::Model& model, const Manner& manner = {},
+                                    std::uint64_t seed = 0);
 
 }  // namespace trocar::training

@@ -1,3 +1,4 @@
+#include <trocar/sim/model/bodies.hpp>
 #include <trocar/training/facts/argument.hpp>
 
 namespace trocar::training {
@@ -8,33 +9,21 @@ void add_names(const List& list, std::vector<std::string>& names) {
   for (const auto& item : list) names.push_back(item.name);
 }
 
-void add_organs(const sim::Model& model, std::vector<std::string>& names) {
-  for (int i = 0; i < model.organs(); ++i) names.push_back(model.organ_name(i));
-}
-
 bool find_body(const sim::Model& model, const std::string& name, std::int32_t& index, std::vector<std::string>& known) {
-  index = kNoBody;
-  if (const int s = model.strand_index(name); s >= 0) {
-    index = s;
-  } else if (const int o = model.organ_index(name); o >= 0) {
-    index = interactions::kSolidBase + o;
-  } else if (const int m = model.membrane_index(name); m >= 0) {
-    index = interactions::kMembraneBase + m;
-  } else {
-    for (const auto& fold : model.drawn_folds)
-      if (fold.name == name) return true;  // drawn only: nobody can hold it
-    add_names(model.strands, known);
-    add_organs(model, known);
-    add_names(model.membranes, known);
-    return false;
-  }
-  return true;
+  const BodyId body = sim::body_of(model, name);
+  index = body.code();
+  if (body.exists()) return true;
+  for (const auto& fold : model.drawn_folds)
+    if (fold.name == name) return true;  // drawn only: nobody can hold it
+  sim::visit_bodies(model, [&](auto ref) { known.push_back(model_of(model, ref).name); });
+  return false;
 }
 
 }  // namespace
 
 bool names_something(ArgumentKind kind) {
-  return kind != ArgumentKind::number && kind != ArgumentKind::range && kind != ArgumentKind::word;
+  return kind != ArgumentKind::number && kind != ArgumentKind::range && kind != ArgumentKind::word &&
+         kind != ArgumentKind::landmark;
 }
 
 std::string_view noun(ArgumentKind kind) {
@@ -51,11 +40,14 @@ std::string_view noun(ArgumentKind kind) {
     case ArgumentKind::bodies:
       return "body of the scene";
     case ArgumentKind::mark:
+    case ArgumentKind::marks:
       return "mark of the scene";
     case ArgumentKind::vessel:
       return "vessel of the scene";
     case ArgumentKind::word:
       return "word";
+    case ArgumentKind::landmark:
+      return "landmark";
   }
   return "";
 }
@@ -69,7 +61,7 @@ bool find_named(const sim::Model& model, ArgumentKind kind, const std::string& n
   } else if (kind == ArgumentKind::strand) {
     index = model.strand_index(name);
     add_names(model.strands, known);
-  } else if (kind == ArgumentKind::mark) {
+  } else if (kind == ArgumentKind::mark || kind == ArgumentKind::marks) {
     index = model.target_index(name);
     add_names(model.targets, known);
   } else {

@@ -13,15 +13,17 @@
 namespace trocar::training {
 
 enum class ArgumentKind {
-  number,  ///< in the unit that the parameter's name ends in
-  range,   ///< two of them
-  hand,    ///< a trocar's name -> number of the hand
-  strand,  ///< -> number of the strand
-  body,    ///< organ, strand or fold -> as holds number bodies; kNoBody: a fold that is drawn only
-  bodies,  ///< several
-  mark,    ///< something whose visibility the scene knows -> number of the target
-  vessel,  ///< -> its number
-  word,    ///< one of Parameter::words, or any
+  number,    ///< in the unit that the parameter's name ends in
+  range,     ///< two of them
+  hand,      ///< a trocar's name -> number of the hand
+  strand,    ///< -> number of the strand
+  body,      ///< organ, strand or fold -> its code (BodyId); kNoBody: a fold that is drawn only
+  bodies,    ///< several
+  mark,      ///< something whose visibility the scene knows -> number of the target
+  marks,     ///< several
+  vessel,    ///< -> its number
+  word,      ///< one of Parameter::words, or any
+  landmark,  ///< a word: of the strand that the parameter before it names
 };
 
 struct Parameter {
@@ -33,7 +35,7 @@ struct Parameter {
   std::vector<std::string> words = {};
 };
 
-inline constexpr std::int32_t kNoBody = -1;
+inline constexpr BodyId kNoBody;
 
 /// One parameter's value. What was not given is `given == false`.
 struct Argument {
@@ -41,9 +43,11 @@ struct Argument {
   std::int32_t index = -1;
   double low = 0, high = 0;  ///< SI; of a number both are it
   std::string word;
-  std::vector<std::int32_t> bodies;
+  std::vector<BodyId> bodies;
+  std::vector<std::int32_t> marks = {};
 
   bool operator==(const Argument&) const = default;
+  BodyId body() const { return BodyId::of_code(index); }
   double number() const { return low; }
   bool holds(double v) const { return v >= low && v <= high; }
 };

@@ -7,11 +7,13 @@ namespace {
 
 double in_m3(std::int64_t picolitres) { return fluids::kM3PerPicolitre * double(picolitres); }
 
-double lost_so_far(const sim::State& state) {
-  return in_m3(state.fluids.ledger.in[size_t(fluids::Source::kBled)].blood);
+/// What lay there when it began was lost before.
+double lost_so_far(const Look& look) {
+  return in_m3(look.state.fluids.ledger.in[size_t(fluids::Source::kBled)].blood -
+               look.model.wet.pool_at_start.blood);
 }
 
-Value lost(const Look& look, const Arguments&) { return lost_so_far(look.state); }
+Value lost(const Look& look, const Arguments&) { return lost_so_far(look); }
 Value pool(const Look& look, const Arguments&) {
   return in_m3(at(look.state.fluids.ledger, fluids::Place::kPool).total());
 }
@@ -22,7 +24,7 @@ class Flow final : public Observer {
   Flow(const sim::Model&, const Arguments&) {}
   void sample(const Look& look, double) override {
     double& second_ago = m_before[size_t(m_sample) % m_before.size()];
-    const double now = lost_so_far(look.state);
+    const double now = lost_so_far(look);
     m_flow = now - second_ago;
     second_ago = now;
     ++m_sample;
@@ -39,7 +41,7 @@ class Bleeding final : public Observer {
  public:
   Bleeding(const sim::Model&, const Arguments&) {}
   void sample(const Look& look, double) override {
-    if (m_began < 0 && lost_so_far(look.state) > 0) m_began = look.now();
+    if (m_began < 0 && lost_so_far(look) > 0) m_began = look.now();
   }
   Value value(const Look& look) const override { return m_began < 0 ? kUnknown : Value(look.now() - m_began); }
 

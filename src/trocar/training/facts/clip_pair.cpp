@@ -1,3 +1,4 @@
+#include <trocar/training/facts/happening.hpp>
 #include <trocar/training/facts/registry.hpp>
 #include <trocar/training/observe/clip_pair.hpp>
 
@@ -6,36 +7,28 @@ namespace {
 
 ClipPair::Span span(const Argument& a) { return {a.low, a.high}; }
 
-class Pair : public Observer {
+template <Value (*say)(const ClipPair&)>
+class Pair final : public Observer {
  public:
   Pair(const sim::Model&, const Arguments& a)
       : m_pair({span(a[1]), span(a[2]), span(a[3]), span(a[4]), a[5].number(), a[6].number(), a[7].number()},
                a[0].index) {}
   void happened(const Look& look) override { m_pair.update(look.state); }
+  Value value(const Look&) const override { return say(m_pair); }
+  Value foretold(const Look&, const Happening& h) const override {
+    if (!h.foreseen) return say(m_pair);
+    ClipPair with = m_pair;
+    with.take(*h.foreseen);
+    return say(with);
+  }
 
- protected:
+ private:
   ClipPair m_pair;
 };
-class FirstSet final : public Pair {
- public:
-  using Pair::Pair;
-  Value value(const Look&) const override { return m_pair.first_set(); }
-};
-class SecondSet final : public Pair {
- public:
-  using Pair::Pair;
-  Value value(const Look&) const override { return m_pair.second_set(); }
-};
-class Misplaced final : public Pair {
- public:
-  using Pair::Pair;
-  Value value(const Look&) const override { return m_pair.misplaced(); }
-};
-class Apart final : public Pair {
- public:
-  using Pair::Pair;
-  Value value(const Look&) const override { return m_pair.paired() ? Value(m_pair.apart()) : kUnknown; }
-};
+Value first_set(const ClipPair& p) { return p.first_set(); }
+Value second_set(const ClipPair& p) { return p.second_set(); }
+Value misplaced(const ClipPair& p) { return p.misplaced(); }
+Value apart(const ClipPair& p) { return p.paired() ? Value(p.apart()) : kUnknown; }
 
 std::vector<Parameter> parameters() {
   return {{"of", ArgumentKind::strand, "which tube"},
@@ -56,7 +49,7 @@ const Fact kClipsFirstSet{"clips.first_set",
                           1,
                           "A clip that is well set is where the first belongs, alone or with a second.",
                           anywhere,
-                          &remembering<FirstSet>,
+                          &remembering<Pair<first_set>>,
                           true};
 const Fact kClipsSecondSet{"clips.second_set",
                            parameters(),
@@ -64,7 +57,7 @@ const Fact kClipsSecondSet{"clips.second_set",
                            1,
                            "A clip that is well set is where the second belongs, alone or with a first.",
                            anywhere,
-                           &remembering<SecondSet>,
+                           &remembering<Pair<second_set>>,
                            true};
 const Fact kClipsMisplaced{"clips.misplaced",
                            parameters(),
@@ -72,10 +65,14 @@ const Fact kClipsMisplaced{"clips.misplaced",
                            1,
                            "The tube's last clip is well set, but makes no pair and is in no place of one.",
                            anywhere,
-                           &remembering<Misplaced>,
+                           &remembering<Pair<misplaced>>,
                            true};
-const Fact kClipsApart{
-    "clips.apart_mm", parameters(),       0, 1000, "Between the two clips of the pair. Unknown until there is one.",
-    anywhere,         &remembering<Apart>};
+const Fact kClipsApart{"clips.apart_mm",
+                       parameters(),
+                       0,
+                       1000,
+                       "Between the two clips of the pair. Unknown until there is one.",
+                       anywhere,
+                       &remembering<Pair<apart>>};
 
 }  // namespace trocar::training

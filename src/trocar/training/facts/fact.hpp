@@ -20,6 +20,8 @@
 
 namespace trocar::training {
 
+struct Happening;
+
 /// What there is to see at a tick.
 struct Look {
   const sim::Model& model;
@@ -35,6 +37,8 @@ class Observer {
   virtual void happened(const Look&) {}        ///< in ticks that report an event
   virtual void sample(const Look&, double) {}  ///< fifty times a second; how long since the last time [s]
   virtual Value value(const Look& look) const = 0;
+  /// What it would say if this happened now; for those whose memory events change.
+  virtual Value foretold(const Look& look, const Happening&) const { return value(look); }
 };
 
 struct Fact {
@@ -46,6 +50,8 @@ struct Fact {
   std::string_view (*lacks)(const sim::Model& model);
   std::unique_ptr<Observer> (*watch)(const sim::Model& model, const Arguments& arguments);
   bool is_truth = false;
+  /// Why these arguments can never be answered, for people ("expected ..., got ..."); empty: they can. Null: all can.
+  std::string (*refuses)(const sim::Model& model, const Arguments& arguments) = nullptr;
 };
 
 /// Every scene can answer it.

@@ -1,5 +1,5 @@
-#include <trocar/training/exercise/hands.hpp>
 #include <trocar/training/facts/registry.hpp>
+#include <trocar/training/observe/hands.hpp>
 
 namespace trocar::training {
 namespace {

@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include <trocar/training/exercise/hands.hpp>
 #include <trocar/training/facts/registry.hpp>
+#include <trocar/training/observe/hands.hpp>
 
 namespace trocar::training {
 namespace {
@@ -50,8 +50,8 @@ const Fact kHandHeldAt{"hand.held_at_mm",
 const Fact kHandHoldsBetween{"hand.holds_between",
                              {{"hand", ArgumentKind::hand, "whose jaws"},
                               {"strand", ArgumentKind::strand, "what they hold"},
-                              {"after", ArgumentKind::word, "landmark of the strand behind whose end"},
-                              {"before", ArgumentKind::word, "landmark before whose beginning"}},
+                              {"after", ArgumentKind::landmark, "landmark of the strand behind whose end"},
+                              {"before", ArgumentKind::landmark, "landmark before whose beginning"}},
                              0,
                              1,
                              "The jaws hold the strand between two of its landmarks.",

@@ -1,6 +1,6 @@
 #include <trocar/sim/stages/visibility.hpp>
-#include <trocar/training/exercise/hands.hpp>
 #include <trocar/training/facts/registry.hpp>
+#include <trocar/training/observe/hands.hpp>
 #include <trocar/training/observe/marks.hpp>
 
 namespace trocar::training {

@@ -6,7 +6,7 @@ namespace {
 /// The material point that a hand's electrode was last at.
 const sim::ElectrodeHand* touched(const Look& look, const Arguments& a) {
   const sim::ElectrodeHand& e = look.state.electrodes[size_t(a[0].index)];
-  return e.body >= 0 ? &e : nullptr;
+  return e.body.exists() ? &e : nullptr;
 }
 
 Value temperature(const Look& look, const Arguments& a) {

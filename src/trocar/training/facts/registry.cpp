@@ -4,14 +4,14 @@ namespace trocar::training {
 namespace {
 
 constexpr const Fact* kFacts[] = {
-    &kClock,          &kMarkInView,         &kMarkVisibleShare,   &kMarkOffCentre,    &kMarkDistance,
-    &kMarkFacing,     &kMarkUnderLiquid,    &kScopeHorizon,       &kHandPull,         &kHandPinch,
-    &kHandContact,    &kHandHolds,          &kHandHeldAt,         &kHandHoldsBetween, &kHandHas,
-    &kHandClipsLeft,  &kHandTipToMark,      &kHandTipToHand,      &kHandTipsInView,   &kHandDepth,
-    &kHandPath,       &kHandActive,         &kStrandStraightness, &kStrandSevered,    &kStrandFollowed,
-    &kStrandOccluded, &kStrandStumpsClosed, &kStrandStumpsInView, &kClipsFirstSet,    &kClipsSecondSet,
-    &kClipsMisplaced, &kClipsApart,         &kBloodLost,          &kBloodFlow,        &kBloodSince,
-    &kPoolVolume,     &kTissueTemperature,  &kTissueDeadBeyond,   &kBodyParted,
+    &kClock,          &kMarkInView,     &kMarkVisibleShare,   &kMarkSeenFor,        &kMarkOffCentre,
+    &kMarkDistance,   &kMarkFacing,     &kMarkUnderLiquid,    &kScopeHorizon,       &kHandPull,
+    &kHandPinch,      &kHandContact,    &kHandHolds,          &kHandHeldAt,         &kHandHoldsBetween,
+    &kHandHas,        &kHandClipsLeft,  &kHandTipToMark,      &kHandTipToHand,      &kHandTipsInView,
+    &kHandDepth,      &kHandPath,       &kHandActive,         &kStrandStraightness, &kStrandSevered,
+    &kStrandFollowed, &kStrandOccluded, &kStrandStumpsClosed, &kStrandStumpsInView, &kClipsFirstSet,
+    &kClipsSecondSet, &kClipsMisplaced, &kClipsApart,         &kBloodLost,          &kBloodFlow,
+    &kBloodSince,     &kPoolVolume,     &kTissueTemperature,  &kTissueDeadBeyond,   &kBodyParted,
 };
 
 }  // namespace

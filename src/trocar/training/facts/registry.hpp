@@ -8,7 +8,8 @@
 namespace trocar::training {
 
 extern const Fact kClock;
-extern const Fact kMarkInView, kMarkVisibleShare, kMarkOffCentre, kMarkDistance, kMarkFacing, kMarkUnderLiquid;
+extern const Fact kMarkInView, kMarkVisibleShare, kMarkSeenFor, kMarkOffCentre, kMarkDistance, kMarkFacing,
+    kMarkUnderLiquid;
 extern const Fact kScopeHorizon;
 extern const Fact kHandPull, kHandPinch, kHandContact, kHandHolds, kHandHeldAt, kHandHoldsBetween, kHandHas,
     kHandClipsLeft, kHandTipToMark, kHandTipToHand, kHandTipsInView, kHandDepth, kHandPath, kHandActive;

@@ -1,6 +1,6 @@
-#include <trocar/training/exercise/following.hpp>
-#include <trocar/training/exercise/hands.hpp>
 #include <trocar/training/facts/registry.hpp>
+#include <trocar/training/observe/following.hpp>
+#include <trocar/training/observe/hands.hpp>
 
 namespace trocar::training {
 namespace {
@@ -20,6 +20,13 @@ class Followed final : public Observer {
   Following m_following;
 };
 
+std::string no_fimbriae(const sim::Model& model, const Arguments& a) {
+  const auto& strand = model.strands[size_t(a[0].index)];
+  for (const sim::LandmarkModel& l : strand.landmarks)
+    if (l.name == "fimbria") return "";
+  return "expected a strand with a landmark \"fimbria\", got \"" + strand.name + "\", which has none";
+}
+
 }  // namespace
 
 const Fact kStrandFollowed{
@@ -35,6 +42,7 @@ const Fact kStrandFollowed{
     "It has been followed from its fimbriae back to there, with the eye or an instrument's tip.",
     anywhere,
     &remembering<Followed>,
-    true};
+    true,
+    no_fimbriae};
 
 }  // namespace trocar::training

@@ -1,6 +1,6 @@
-#include <trocar/training/exercise/hands.hpp>
-#include <trocar/training/exercise/lumen_check.hpp>
 #include <trocar/training/facts/registry.hpp>
+#include <trocar/training/observe/hands.hpp>
+#include <trocar/training/observe/lumen_check.hpp>
 
 namespace trocar::training {
 namespace {

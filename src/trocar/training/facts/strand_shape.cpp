@@ -1,5 +1,5 @@
-#include <trocar/training/exercise/hands.hpp>
 #include <trocar/training/facts/registry.hpp>
+#include <trocar/training/observe/hands.hpp>
 
 namespace trocar::training {
 namespace {
@@ -22,7 +22,7 @@ Value severed(const Look& look, const Arguments& a) {
 
 const Fact kStrandStraightness{"strand.straightness",
                                {{"of", ArgumentKind::strand, "which"},
-                                {"to", ArgumentKind::word, "landmark up to whose end; none: all of it", false}},
+                                {"to", ArgumentKind::landmark, "landmark up to whose end; none: all of it", false}},
                                0,
                                1,
                                "The chord over the length of the strand from its beginning, or of what is left of it "

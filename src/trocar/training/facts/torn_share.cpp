@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include <trocar/sim/model/bodies.hpp>
 #include <trocar/training/facts/registry.hpp>
 
 namespace trocar::training {
@@ -10,11 +11,10 @@ double share_of(const std::vector<std::uint8_t>& open) {
 }
 
 Value parted(const Look& look, const Arguments& a) {
-  const std::int32_t body = a[0].index;
-  if (body >= interactions::kMembraneBase) return share_of(look.state.torn[size_t(body - interactions::kMembraneBase)]);
-  if (body < interactions::kSolidBase) return kUnknown;
-  const size_t organ = size_t(body - interactions::kSolidBase);
-  return organ < look.state.parted.size() ? Value(share_of(look.state.parted[organ])) : kUnknown;
+  return sim::visit(look.model, a[0].body(), kUnknown,
+                    sim::Overloaded{[&](sim::MembraneRef fold) -> Value { return share_of(look.state.torn[fold.index]); },
+                                    [&](sim::SolidRef solid) -> Value { return share_of(look.state.parted[solid.index]); },
+                                    [](auto) { return kUnknown; }});
 }
 
 }  // namespace

@@ -12,14 +12,15 @@ bool ClipPair::are_a_pair(double inner, double outer) const {
 }
 
 void ClipPair::update(const sim::State& state) {
-  for (; m_seen < state.clip_count; ++m_seen) {
-    const interactions::Clip& clip = state.clips[size_t(m_seen)];
-    if (clip.strand < 0 || clip.strand != m_strand) continue;
-    m_misplaced = false;
-    if (!well_set(clip)) continue;
-    m_misplaced = !place(clip.s, fits(clip.s));
-    if (fits(clip.s)) m_counting[size_t(m_count++)] = clip.s;
-  }
+  for (; m_seen < state.clip_count; ++m_seen) take(state.clips[size_t(m_seen)]);
+}
+
+void ClipPair::take(const interactions::Clip& clip) {
+  if (clip.strand < 0 || clip.strand != m_strand) return;
+  m_misplaced = false;
+  if (!well_set(clip)) return;
+  m_misplaced = !place(clip.s, fits(clip.s));
+  if (fits(clip.s) && m_count < int(m_counting.size())) m_counting[size_t(m_count++)] = clip.s;
 }
 
 /// @return whether it belongs where it is

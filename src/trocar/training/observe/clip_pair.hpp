@@ -26,6 +26,8 @@ class ClipPair {
 
   /// Takes in the clips that have come since the last call.
   void update(const sim::State& state);
+  /// One more clip; of other strands nothing is kept.
+  void take(const interactions::Clip& clip);
 
   bool first_set() const { return m_first; }
   bool second_set() const { return m_second; }

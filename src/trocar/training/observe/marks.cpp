@@ -1,4 +1,4 @@
-#include <trocar/training/exercise/hands.hpp>
+#include <trocar/training/observe/hands.hpp>
 #include <trocar/training/observe/marks.hpp>
 
 namespace trocar::training {
@@ -18,6 +18,8 @@ Vec3d place_of_sample(const sim::Model& model, const sim::State& state, const si
 
 Vec3d place_of_mark(const sim::Model& model, const sim::State& state, int mark) {
   const sim::VisibilityTarget& target = model.targets[size_t(mark)];
+  if (target.kind == sim::VisibilityTarget::mark)
+    return sim::pose_of(model, state, model.marks[size_t(target.index)]).place;
   Vec3d sum{};
   for (int i = target.first; i < target.first + target.count; ++i)
     sum += place_of_sample(model, state, target, model.samples[size_t(i)]);
@@ -27,6 +29,10 @@ Vec3d place_of_mark(const sim::Model& model, const sim::State& state, int mark) 
 std::optional<Vec3d> normal_of_mark(const sim::Model& model, const sim::State& state, int mark) {
   constexpr double kCancel = 0.3;  // of the samples' normals: less is a surface that goes all around
   const sim::VisibilityTarget& target = model.targets[size_t(mark)];
+  if (target.kind == sim::VisibilityTarget::mark) {
+    const sim::MarkModel& m = model.marks[size_t(target.index)];
+    return m.is_stripe() ? std::nullopt : std::optional(sim::pose_of(model, state, m).normal);
+  }
   if (target.kind != sim::VisibilityTarget::organ || target.count == 0) return std::nullopt;
   const tissue::Skin& skin = model.skin(target.index);
   const tissue::NodeView nodes = nodes_of(model, state, target.index);

@@ -1,5 +1,5 @@
-// Marks: whatever of a scene its visibility targets name (an organ, a strand's landmark, a jaw, the bleeding place), as
-// a point in space, and how it lies in the picture.
+// Marks: whatever of a scene its visibility targets name (a drawn mark, an organ, a strand's landmark, a jaw, the
+// bleeding place), as a point in space, and how it lies in the picture.
 #pragma once
 
 #include <optional>
@@ -11,8 +11,8 @@ namespace trocar::training {
 
 /// The middle of a mark's samples [m].
 Vec3d place_of_mark(const sim::Model& model, const sim::State& state, int mark);
-/// Out of the surface that an organ's mark lies on; nothing for strands and instruments, which face every way, and for
-/// closed surfaces whose sides cancel.
+/// Where a disc faces, or out of an organ's surface; nothing for strands, stripes and instruments, which face every
+/// way, and for closed surfaces whose sides cancel.
 std::optional<Vec3d> normal_of_mark(const sim::Model& model, const sim::State& state, int mark);
 
 }  // namespace trocar::training

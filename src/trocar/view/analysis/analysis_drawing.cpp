@@ -18,10 +18,10 @@ render::DrawItem item_of(const FalseColourMesh& mesh, std::uint16_t part) {
 }  // namespace
 
 void AnalysisDrawing::list(const sim::State& state, const AnalysisOptions& o,
-                           const std::function<std::uint16_t(BodyKind, std::size_t)>& part_of, render::Frame& frame) {
+                           const std::function<std::uint16_t(Measured, std::size_t)>& part_of, render::Frame& frame) {
   // What lies inside shall be seen through what lies over it.
   const auto style = o.springs || o.pressure ? render::DrawStyle::transparent : render::DrawStyle::shaded;
-  const auto list_all = [&](const std::vector<FalseColourMesh>& meshes, BodyKind kind, bool lines) {
+  const auto list_all = [&](const std::vector<FalseColourMesh>& meshes, Measured kind, bool lines) {
     for (std::size_t i = 0; i < meshes.size(); ++i) {
       if (!meshes[i].there()) continue;
       render::DrawItem item = item_of(meshes[i], part_of(kind, i));
@@ -33,9 +33,9 @@ void AnalysisDrawing::list(const sim::State& state, const AnalysisOptions& o,
     }
   };
   const auto list_bodies = [&](const auto& of, bool lines) {
-    list_all(of.organs(), BodyKind::organ, lines);
-    list_all(of.strands(), BodyKind::strand, lines);
-    list_all(of.membranes(), BodyKind::membrane, lines);
+    list_all(of.organs(), Measured::organ, lines);
+    list_all(of.strands(), Measured::strand, lines);
+    list_all(of.membranes(), Measured::membrane, lines);
   };
   if (o.springs) {
     if (!m_springs) m_springs.emplace(*m_model);
@@ -50,11 +50,11 @@ void AnalysisDrawing::list(const sim::State& state, const AnalysisOptions& o,
   }
   if (!o.forces) return;
   m_arrows.update(forces_of(*m_model, state), o, *m_backend);
-  if (m_arrows.mesh().there()) frame.items.push_back(item_of(m_arrows.mesh(), part_of(BodyKind::tools, 0)));
+  if (m_arrows.mesh().there()) frame.items.push_back(item_of(m_arrows.mesh(), part_of(Measured::tools, 0)));
 }
 
 void AnalysisDrawing::list_vessels(const sim::State& state, const AnalysisOptions& o,
-                                   const std::function<std::uint16_t(BodyKind, std::size_t)>& part_of,
+                                   const std::function<std::uint16_t(Measured, std::size_t)>& part_of,
                                    render::Frame& frame) {
   const auto& all = m_model->vessels.list;
   if (m_vessels.empty())
@@ -75,7 +75,7 @@ void AnalysisDrawing::list_vessels(const sim::State& state, const AnalysisOption
       shown.buffer.paint[v] = paint_shown_as(colour_of_pressure(o, double(shown.value[v])));
     shown.show(*m_backend, changed);
     if (!shown.there()) continue;
-    frame.items.push_back(item_of(shown, part_of(m_are_veins[i] ? BodyKind::veins : BodyKind::arteries, 0)));
+    frame.items.push_back(item_of(shown, part_of(m_are_veins[i] ? Measured::veins : Measured::arteries, 0)));
   }
 }
 

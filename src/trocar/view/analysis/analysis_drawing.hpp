@@ -11,7 +11,7 @@
 namespace trocar::view {
 
 /// A body of the Model, as the numbers of parts are asked for.
-enum class BodyKind { organ, strand, membrane, arteries, veins, tools };
+enum class Measured { organ, strand, membrane, arteries, veins, tools };
 
 class AnalysisDrawing {
  public:
@@ -19,11 +19,11 @@ class AnalysisDrawing {
 
   /// Moves what is chosen to `state` and lists it. @param part_of  the number of a body's part in the frame's items
   void list(const sim::State& state, const AnalysisOptions& options,
-            const std::function<std::uint16_t(BodyKind, std::size_t)>& part_of, render::Frame& frame);
+            const std::function<std::uint16_t(Measured, std::size_t)>& part_of, render::Frame& frame);
 
  private:
   void list_vessels(const sim::State& state, const AnalysisOptions& options,
-                    const std::function<std::uint16_t(BodyKind, std::size_t)>& part_of, render::Frame& frame);
+                    const std::function<std::uint16_t(Measured, std::size_t)>& part_of, render::Frame& frame);
 
   const sim::Model* m_model;
   render::Backend* m_backend;

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include <trocar/interactions/instrument/lever.hpp>
+#include <trocar/numerics/portable.hpp>
 #include <trocar/view/analysis/force_arrows.hpp>
 
 namespace trocar::view {
@@ -43,7 +43,7 @@ struct Stick {
 /// @param lean  of the normals, along the arrow: 0 a rod's, far below it its back's
 void ring(MeshBuffer& b, const Stick& stick, Vec3d at, double radius, double lean) {
   for (std::uint32_t k = 0; k < kAround; ++k) {
-    const double angle = 2 * std::numbers::pi * k / kAround;
+    const double angle = 2 * portable::pi * k / kAround;
     const Vec3d out = std::cos(angle) * stick.axes[0] + std::sin(angle) * stick.axes[1];
     b.add(vec_cast<float>(at + radius * out), stick.paint);
     b.normals.push_back(vec_cast<float>(normalised(out + lean * stick.axes[2], out)));

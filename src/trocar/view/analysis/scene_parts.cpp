@@ -1,3 +1,4 @@
+#include <trocar/sim/model/bodies.hpp>
 #include <trocar/view/analysis/scene_parts.hpp>
 
 namespace trocar::view {
@@ -27,24 +28,30 @@ SceneParts::SceneParts(const sim::Model& model, const std::vector<std::string>& 
   for (const sim::HandModel& h : model.hands) add(h.name, PartGroup::instruments);
   first.scope = add("endoscope", PartGroup::instruments);
   first.clips = add("clips", PartGroup::clips);
-  if (!model.wet.there) return;
-  first.liquid = add("blood and water", PartGroup::fluids);
-  first.smoke = add("smoke", PartGroup::fluids);
+  first.mark = begins();
+  for (const sim::MarkModel& m : model.marks) add(m.name, PartGroup::marks);
+  if (model.wet.there) {
+    first.liquid = add("blood and water", PartGroup::fluids);
+    first.smoke = add("smoke", PartGroup::fluids);
+  }
+  first.object = begins();
+  interactions::visit_objects(model.objects,
+                              [&](auto, BodyId object) { add(sim::name_of(model, object), PartGroup::objects); });
 }
 
-std::uint16_t SceneParts::of(BodyKind kind, std::size_t i) const {
+std::uint16_t SceneParts::of(Measured kind, std::size_t i) const {
   switch (kind) {
-    case BodyKind::organ:
+    case Measured::organ:
       return std::uint16_t(first.organ + i);
-    case BodyKind::strand:
+    case Measured::strand:
       return std::uint16_t(first.tube + i);
-    case BodyKind::membrane:
+    case Measured::membrane:
       return std::uint16_t(first.membrane + i);
-    case BodyKind::arteries:
+    case Measured::arteries:
       return first.vessel;
-    case BodyKind::veins:
+    case Measured::veins:
       return std::uint16_t(first.vessel + vessel_kinds - 1);
-    case BodyKind::tools:
+    case Measured::tools:
       break;
   }
   return 0;

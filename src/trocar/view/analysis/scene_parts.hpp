@@ -12,7 +12,7 @@
 
 namespace trocar::view {
 
-enum class PartGroup { organs, tubes, folds, vessels, walls, instruments, clips, fluids };
+enum class PartGroup { organs, tubes, folds, vessels, walls, instruments, clips, marks, fluids, objects };
 
 /// Something that can be shown in another way than the rest, or not at all.
 struct ScenePart {
@@ -24,7 +24,7 @@ enum class PartStyle : std::uint8_t { shaded, transparent, wireframe, hidden };
 /// The number of the first part of each kind, from 1 on; part i of the list has number i + 1.
 struct FirstParts {
   std::uint16_t organ = 0, tube = 0, fold = 0, membrane = 0, vessel = 0, wall = 0, tool = 0;
-  std::uint16_t cavity = 0, scope = 0, clips = 0, liquid = 0, smoke = 0;
+  std::uint16_t cavity = 0, scope = 0, clips = 0, mark = 0, liquid = 0, smoke = 0, object = 0;
 };
 
 struct SceneParts {
@@ -36,7 +36,7 @@ struct SceneParts {
   SceneParts(const sim::Model& model, const std::vector<std::string>& vessel_kinds);
 
   /// 0: it has none.
-  std::uint16_t of(BodyKind kind, std::size_t i) const;
+  std::uint16_t of(Measured kind, std::size_t i) const;
   bool is_vessel(std::uint16_t part) const { return part >= first.vessel && part < first.vessel + vessel_kinds; }
 };
 

@@ -63,23 +63,23 @@ SpringLines::SpringLines(const sim::Model& model)
       m_edges_of(model.cuttables.size(), ~std::uint64_t(0)) {}
 
 void SpringLines::update(const sim::State& state, const AnalysisOptions& o, render::Backend& backend) {
-  for (std::size_t i = 0; i < m_model->solids.size(); ++i) {
-    Lines lines(o, m_organs[i]);
-    add_network(m_model->solids[i].network, state.solids[i], lines);
+  sim::visit_solids(*m_model, [&](auto r) {
+    Lines lines(o, m_organs[r.organ()]);
+    add_network(model_of(*m_model, r).network, state.solids[r.index], lines);
     lines.show(backend);
-  }
-  for (std::size_t i = 0; i < m_model->cuttables.size(); ++i) {
-    const tissue::CuttableState& now = state.cuttables[i];
-    if (m_edges_of[i] != now.version) m_edges[i] = edges_of(now.tets), m_edges_of[i] = now.version;
-    Lines lines(o, m_organs[m_model->solids.size() + i]);
-    const tissue::NodeView nodes = view_of(m_model->cuttables[i].body, now);
-    for (const auto& [a, b] : m_edges[i]) {
+  });
+  sim::visit_cuttables(*m_model, [&](auto r) {
+    const tissue::CuttableState& now = state.cuttables[r.index];
+    if (m_edges_of[r.index] != now.version) m_edges[r.index] = edges_of(now.tets), m_edges_of[r.index] = now.version;
+    Lines lines(o, m_organs[r.organ()]);
+    const tissue::NodeView nodes = view_of(model_of(*m_model, r).body, now);
+    for (const auto& [a, b] : m_edges[r.index]) {
       const double drawn = length(now.tets.rest[std::size_t(b)] - now.tets.rest[std::size_t(a)]);
       const Vec3d from = nodes.position(a), to = nodes.position(b);
       lines.add(from, to, drawn > 0 ? length(to - from) / drawn - 1 : 0);
     }
     lines.show(backend);
-  }
+  });
   for (std::size_t i = 0; i < m_strands.size(); ++i) {
     Lines lines(o, m_strands[i]);
     add_strand(m_model->strand_bodies[i].model, state.strands[i], lines);

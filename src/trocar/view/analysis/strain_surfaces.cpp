@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include <trocar/numerics/portable.hpp>
 #include <trocar/view/analysis/strain_surfaces.hpp>
 #include <trocar/view/analysis/surface_strain.hpp>
 
@@ -57,16 +57,16 @@ StrainSurfaces::StrainSurfaces(const sim::Model& model)
 }
 
 void StrainSurfaces::update(const sim::State& state, const AnalysisOptions& o, render::Backend& backend) {
-  for (std::size_t i = 0; i < m_model->solids.size(); ++i) update_solid(i, state, o, backend);
-  for (std::size_t i = 0; i < m_model->cuttables.size(); ++i) update_cuttable(i, state, o, backend);
+  sim::visit_organs(*m_model, [&](auto organ) { update_organ(organ, state, o, backend); });
   for (std::size_t i = 0; i < m_strands.size(); ++i) update_strand(i, state, o, backend);
   for (std::size_t i = 0; i < m_membranes.size(); ++i) update_membrane(i, state, o, backend);
 }
 
-void StrainSurfaces::update_solid(std::size_t i, const sim::State& state, const AnalysisOptions& o,
+void StrainSurfaces::update_organ(sim::SolidRef r, const sim::State& state, const AnalysisOptions& o,
                                   render::Backend& backend) {
-  const sim::SolidModel& solid = m_model->solids[i];
-  FalseColourMesh& mesh = m_organs[i];
+  const std::size_t i = r.index;
+  const sim::SolidModel& solid = model_of(*m_model, r);
+  FalseColourMesh& mesh = m_organs[r.organ()];
   tissue::SkinPose pose = tissue::make_pose(solid.fine);
   pose_skin(view_of(solid.network, state.solids[i]), solid.fine, pose);
   const bool changed = connect(solid.fine.triangles, state.parted[i], m_left_out[i], mesh.buffer);
@@ -76,11 +76,12 @@ void StrainSurfaces::update_solid(std::size_t i, const sim::State& state, const 
   mesh.show(backend, changed);
 }
 
-void StrainSurfaces::update_cuttable(std::size_t i, const sim::State& state, const AnalysisOptions& o,
-                                     render::Backend& backend) {
-  const tissue::CuttableModel& body = m_model->cuttables[i].body;
+void StrainSurfaces::update_organ(sim::CuttableRef r, const sim::State& state, const AnalysisOptions& o,
+                                  render::Backend& backend) {
+  const std::size_t i = r.index;
+  const tissue::CuttableModel& body = model_of(*m_model, r).body;
   const tissue::CuttableState& now = state.cuttables[i];
-  FalseColourMesh& mesh = m_organs[m_model->solids.size() + i];
+  FalseColourMesh& mesh = m_organs[r.organ()];
   const bool changed = m_skins[i].made_for != now.version || mesh.buffer.indices.empty();
   tissue::update(body, now, m_skins[i]);
   const std::size_t nodes = std::size_t(now.tets.nodes);
@@ -132,7 +133,7 @@ void StrainSurfaces::update_strand(std::size_t i, const sim::State& state, const
     across = normalised(across - dot(across, tangent) * tangent, any_perpendicular(tangent));
     for (int side = first ? 1 : 0; side < (last ? 1 : 2); ++side)  // the end of one element, the beginning of the next
       for (std::uint32_t k = 0; k < kAround; ++k) {
-        const double angle = 2 * std::numbers::pi * k / kAround;
+        const double angle = 2 * portable::pi * k / kAround;
         const Vec3d out = std::cos(angle) * across + std::sin(angle) * cross(tangent, across);
         mesh.buffer.positions.push_back(vec_cast<float>(now.x[node] + m_model->strands[i].outer[node] * out));
         mesh.buffer.normals.push_back(vec_cast<float>(out));

@@ -2,7 +2,7 @@
 // nodes, strands as plain tubes with one colour an element.
 #pragma once
 
-#include <trocar/sim/model/state.hpp>
+#include <trocar/sim/model/bodies.hpp>
 #include <trocar/view/analysis/analysis.hpp>
 #include <trocar/view/base/mesh_buffer.hpp>
 
@@ -35,8 +35,8 @@ class StrainSurfaces {
   const std::vector<FalseColourMesh>& membranes() const { return m_membranes; }
 
  private:
-  void update_solid(std::size_t i, const sim::State& state, const AnalysisOptions& o, render::Backend& backend);
-  void update_cuttable(std::size_t i, const sim::State& state, const AnalysisOptions& o, render::Backend& backend);
+  void update_organ(sim::SolidRef solid, const sim::State& state, const AnalysisOptions& o, render::Backend& backend);
+  void update_organ(sim::CuttableRef organ, const sim::State& state, const AnalysisOptions& o, render::Backend& backend);
   void update_membrane(std::size_t i, const sim::State& state, const AnalysisOptions& o, render::Backend& backend);
   void update_strand(std::size_t i, const sim::State& state, const AnalysisOptions& o, render::Backend& backend);
 

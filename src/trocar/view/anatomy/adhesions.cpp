@@ -11,7 +11,7 @@ namespace {
 constexpr double kNearest = 0.005, kFarthest = 0.04;  // [m] from what they begin on to what they end on
 constexpr double kCurtain = 0.018;                    // [m] shorter curtains would not be seen to span
 constexpr float kLevel = 0.1f;                        // sine: steeper ones would hang down to where blood gathers
-constexpr int kFromLarge = 3, kFromStill = 2;         // curtains, at most
+constexpr int kFromStill = 2;                         // curtains, at most
 constexpr float kSteepest = 0.6f;                     // sine: below an organ blood gathers, which would cut them off
 constexpr float kLate = 0.6f;                         // of the way: what is there already ...
 constexpr double kClear = 0.7;                        // sine: ... so flat over a wall would sink into it too soon
@@ -74,10 +74,11 @@ Adhesions::Adhesions(const std::vector<OrganDrawing>& organs, const sim::Model& 
     for (int k = 1; k <= 3; ++k) m_tubes.push_back(vec_cast<float>(end + (k * kFimbriae / 3) * onward));
   }
   for (std::size_t i = 0; i < organs.size(); ++i) {
-    const Look& own = look(model.solids[i].look);
+    const Look& own = look(model, model.solids[i].look);
     const tissue::Skin& skin = model.solids[i].fine;
-    if (own.fat_tags > 0) choose({int(i), skin.rest, skin.rest_normal, 150 + 37 * int(i), 1, true}, kFromLarge, walls);
-    choose({int(i), skin.rest, skin.rest_normal, 400 + 37 * int(i)}, own.adhesions, walls);
+    if (const int most = own.count(Look::Generator::curtains); most > 0)
+      choose({int(i), skin.rest, skin.rest_normal, 150 + 37 * int(i), 1, true}, most, walls);
+    choose({int(i), skin.rest, skin.rest_normal, 400 + 37 * int(i)}, own.count(Look::Generator::adhesions), walls);
   }
   for (std::size_t i = 0; i < still.size(); ++i)
     if (still[i].shape->size() > 0 && still[i].to_wall > 0)

@@ -226,8 +226,9 @@ std::vector<Vec3d> ground_of(const sim::Model& model, const tissue::Skin& large,
 
 BowelLoops bowel_loops(const sim::Model& model, const WallSurface& walls) {
   BowelLoops loops;
-  const auto large = std::find_if(model.solids.begin(), model.solids.end(),
-                                  [](const sim::SolidModel& s) { return look(s.look).fat_tags > 0; });
+  const auto large = std::find_if(model.solids.begin(), model.solids.end(), [&](const sim::SolidModel& s) {
+    return look(model, s.look).has(Look::Generator::bowel_loops);
+  });
   if (model.walls.empty() || large == model.solids.end()) return loops;
   const std::vector<Edge> edges = floor_of(model, model.walls.front().skin);
   if (edges.size() < 8) return loops;

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include <trocar/numerics/portable.hpp>
 #include <trocar/render/meshes/mesh_arrays.hpp>
 #include <trocar/view/anatomy/gut_line.hpp>
 #include <trocar/view/base/relief.hpp>
@@ -9,7 +9,6 @@
 namespace trocar::view {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kSides = kGutSides, kPasses = 80;
 constexpr double kTouch = 0.96;                // of both radii: touching walls flatten each other
 constexpr double kOnFloor = 0.8;               // of the radius above a wall
@@ -109,7 +108,8 @@ MeshBuffer gut(const GutLine& line, Vec3d up, int patch) {
     const double squeeze = 0.07 * waves({way, 0.1 * patch, 0}, 0.034) + 0.035 * waves({way, 0.2, 0.1 * patch}, 0.013);
     const std::uint32_t row = b.size();
     for (int k = 0; k < kSides; ++k) {
-      const double a = 2 * kPi * k / kSides - kPi;  // begins below, where nobody sees the patterns' seam
+      const double a =
+          2 * portable::pi * k / kSides - portable::pi;  // begins below, where nobody sees the patterns' seam
       const Vec3d dir = std::cos(a) * high + std::sin(a) * beside;
       const double crease =
           0.04 * bent * smooth(-0.1, 0.9, dot(dir, inward)) * waves({way, 0.3 * a * line.radius[i], 0}, 0.0095);

@@ -3,6 +3,7 @@
 
 #include <trocar/geometry/surfaces/point_grid.hpp>
 #include <trocar/render/meshes/mesh_arrays.hpp>
+#include <trocar/sim/model/bodies.hpp>
 #include <trocar/view/anatomy/liver_dome.hpp>
 
 namespace trocar::view {
@@ -91,7 +92,6 @@ void LiverDome::shade_behind(std::span<const Vec3f> positions, std::span<const V
 }
 
 void LiverDome::update(const sim::State& state) {
-  const auto solids = int(m_model->solids.size());
   const auto follow = [&](const auto& body, const auto& now) {
     if (!m_moved(now.nodes)) return;
     tissue::pose_skin(view_of(body, now), skin(), m_pose);
@@ -104,17 +104,18 @@ void LiverDome::update(const sim::State& state) {
     move(m_dome);
     move(m_falciform);
   };
-  if (m_organ < solids)
-    follow(m_model->solids[std::size_t(m_organ)].network, state.solids[std::size_t(m_organ)]);
-  else
-    follow(m_model->cuttables[std::size_t(m_organ - solids)].body, state.cuttables[std::size_t(m_organ - solids)]);
+  sim::visit_organ(
+      *m_model, std::size_t(m_organ),
+      sim::Overloaded{[&](sim::SolidRef r) { follow(model_of(*m_model, r).network, state.solids[r.index]); },
+                      [&](sim::CuttableRef r) { follow(model_of(*m_model, r).body, state.cuttables[r.index]); }});
 }
 
 void LiverDome::list(std::size_t part, const Listing& to) {
-  render::DrawItem dome = item(m_dome.mesh.handle(), look(m_model->organ_look(m_organ)), part);
+  render::DrawItem dome = item(m_dome.mesh.handle(), look(*m_model, m_model->organ_look(m_organ)), part);
   dome.material.two_sided = true;
   to.add(dome, m_dome.detail, m_dome.shape.positions);
-  to.add(item(m_falciform.mesh.handle(), look("falciform"), part), m_falciform.detail, m_falciform.shape.positions);
+  to.add(item(m_falciform.mesh.handle(), look(*m_model, "falciform"), part), m_falciform.detail,
+         m_falciform.shape.positions);
 }
 
 }  // namespace trocar::view

@@ -65,7 +65,7 @@ Ridge::Ridge(const sim::Model& model, const TubeDrawing& tube, int strand, const
     : m_body(&model.strand_bodies[std::size_t(strand)]),
       m_strand(strand),
       m_covered(!carries(model, strand)),
-      m_marks(model, strand) {
+      m_marks(model, BodyId::strand(std::size_t(strand))) {
   const tissue::StrandState rest = tissue::rest_state(m_body->model);
   const StrandPiece all{0, m_body->nodes() - 1, 0, m_body->length(), false, false};
   const StrandCurve curve(*m_body, rest, {&all, 1});

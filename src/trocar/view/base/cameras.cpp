@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include <trocar/numerics/portable.hpp>
 #include <trocar/view/base/cameras.hpp>
 
 namespace trocar::view {
@@ -57,7 +57,6 @@ EndoscopeLook room_look() {
 namespace {
 
 constexpr double kSteepest = 1.54, kNearest = 0.03, kFarthest = 1.5;  // [rad], [m]
-constexpr double kPi = std::numbers::pi;
 
 struct Box {
   Vec3d low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9};
@@ -76,7 +75,7 @@ Vec3d Orbit::eye() const {
 }
 
 void Orbit::turn(double by_yaw, double by_pitch) {
-  yaw = std::remainder(yaw + by_yaw, 2 * kPi);
+  yaw = std::remainder(yaw + by_yaw, 2 * portable::pi);
   pitch = std::clamp(pitch + by_pitch, -kSteepest, kSteepest);
 }
 

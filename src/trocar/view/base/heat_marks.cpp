@@ -23,7 +23,7 @@ std::vector<Vec3d> below_skin(const tissue::Skin& skin) {
   return places;
 }
 
-HeatMarks::HeatMarks(const sim::Model& model, std::int32_t body, std::vector<Vec3d> places)
+HeatMarks::HeatMarks(const sim::Model& model, BodyId body, std::vector<Vec3d> places)
     : m_model(&model), m_body(body), m_places(std::move(places)), m_burn(m_places.size(), 0) {}
 
 bool HeatMarks::stirred(const sim::State& state) {

@@ -17,7 +17,7 @@ class HeatMarks {
  public:
   /// @param body    as holds name it (interactions::Hold::body)
   /// @param places  of the vertices in that body's frame of heat [m], a little inside the tissue
-  HeatMarks(const sim::Model& model, std::int32_t body, std::vector<Vec3d> places = {});
+  HeatMarks(const sim::Model& model, BodyId body, std::vector<Vec3d> places = {});
 
   /// True where a burn has changed since the last time.
   bool update(const sim::State& state);
@@ -32,7 +32,7 @@ class HeatMarks {
   std::uint8_t smoothed(std::span<const std::size_t> there, std::span<const float> burn, Vec3d place) const;
 
   const sim::Model* m_model;
-  std::int32_t m_body;
+  BodyId m_body;
   std::vector<Vec3d> m_places;
   std::vector<std::uint8_t> m_burn;
   std::uint64_t m_tick = ~0ull;

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <trocar/geometry/surfaces/coarsen.hpp>
+#include <trocar/numerics/portable.hpp>
 #include <trocar/view/base/level_of_detail.hpp>
 
 namespace trocar::view {
@@ -77,7 +77,7 @@ double ring_distance(double error, double bend) { return std::sqrt(8 * bend * er
 std::uint32_t side_stride(double error, double radius, std::uint32_t sides) {
   std::uint32_t stride = 1;
   for (std::uint32_t wider = 2; sides % wider == 0 && sides / wider >= kLeastSides; wider *= 2)
-    if (radius * (1 - std::cos(std::numbers::pi * wider / sides)) <= error) stride = wider;
+    if (radius * (1 - std::cos(portable::pi * wider / sides)) <= error) stride = wider;
   return stride;
 }
 

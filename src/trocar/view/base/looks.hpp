@@ -1,31 +1,36 @@
-// What tissues and metals look like: a table of named presets, which scene files ask for by "look".
-//   render::Material m = look("uterus").material;
-// Colours are what calibrated pictures of laparoscopies show, read off as sRGB; sizes of patterns from anatomy.
+// What tissues and metals look like: the looks that the Model brings along (files under scenes/looks/), as materials.
+//   render::Material m = look(model, "uterus").material;
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include <trocar/render/frame/material.hpp>
+#include <trocar/sim/model/looks.hpp>
+#include <trocar/sim/model/model.hpp>
 #include <trocar/view/base/relief.hpp>
 
 namespace trocar::view {
 
 struct Look {
+  using Generator = sim::Surrounding::Generator;
+
   std::string name;
   render::Material material;
   bool translucent = false;
-  Relief relief;           ///< of solids
-  int fat_tags = 0;        ///< of large bowel
-  int adhesions = 0;       ///< strings and veils to the wall, at most
-  bool draped = false;     ///< peritoneum covers it and runs out on what is around
-  bool omentum = false;    ///< fat lies on the lowest part of such a wall
-  bool continued = false;  ///< only its lower edge is simulated: the rest is drawn (liver_dome.hpp)
+  bool moulded = false;                        ///< of a model: it goes into what holds it and does not grow out of it
+  Relief relief;                               ///< of solids
+  std::vector<sim::Surrounding> surroundings;  ///< anatomy that is drawn around such a body
+
+  /// How many of these are drawn around it, at most; 0: that generator is not named.
+  int count(Generator generator) const;
+  bool has(Generator generator) const { return count(generator) > 0; }
 };
 
-/// The preset of that name. An unknown name gives a neutral tissue and is reported once.
-const Look& look(const std::string& name);
-/// All of them, for galleries and tests.
-const std::vector<Look>& all_looks();
+/// The model's look of that name, as long as a Model with the same book lives. One that is not there gives a neutral
+/// tissue and is reported once.
+const Look& look(const sim::Model& model, const std::string& name);
+/// All of the model's.
+const std::vector<Look>& all_looks(const sim::Model& model);
 
 }  // namespace trocar::view

@@ -20,7 +20,7 @@ constexpr double kBulge = 0.2, kGathers = 0.1, kDrawnIn = 0.25;
 
 double leg_length(const Clip& clip) { return clip.length > 0 ? clip.length : kClipLength; }
 
-bool holds(const interactions::ToolState& tool, int body) {
+bool holds(const interactions::ToolState& tool, BodyId body) {
   const int n = std::min(tool.holds, interactions::kMaxHolds);
   return std::any_of(tool.hold, tool.hold + std::max(0, n), [body](const auto& h) { return h.body == body; });
 }
@@ -75,7 +75,7 @@ std::vector<ClipPress> clips_on(int strand, const sim::Model& model, const sim::
   return presses;
 }
 
-std::vector<JawPress> jaws_on(int body, const sim::Model& model, const sim::State& state) {
+std::vector<JawPress> jaws_on(BodyId body, const sim::Model& model, const sim::State& state) {
   std::vector<JawPress> presses;
   for (std::size_t t = 0; t < model.hands.size(); ++t) {
     const interactions::ToolState& tool = state.tools[t];

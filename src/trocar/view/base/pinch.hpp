@@ -31,8 +31,8 @@ inline constexpr double kClipLength = 0.0085;
 ClipPress press_of(const interactions::Clip& clip, const sim::Model& model, const sim::State& state);
 /// Clips on a strand.
 std::vector<ClipPress> clips_on(int strand, const sim::Model& model, const sim::State& state);
-/// Jaws that hold that body (a strand index, or a solid index + interactions::kSolidBase).
-std::vector<JawPress> jaws_on(int body, const sim::Model& model, const sim::State& state);
+/// Jaws that hold that body.
+std::vector<JawPress> jaws_on(BodyId body, const sim::Model& model, const sim::State& state);
 
 Vec3d pressed(Vec3d p, const ClipPress& press);
 Vec3d pressed(Vec3d p, const JawPress& press);

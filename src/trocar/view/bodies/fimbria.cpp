@@ -1,15 +1,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include <trocar/numerics/portable.hpp>
 #include <trocar/render/meshes/mesh_arrays.hpp>
 #include <trocar/view/bodies/fimbria.hpp>
 
 namespace trocar::view {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kRings = 25;             // along a frond ...
 constexpr int kCapRings = 6;           // ... of which so many round off its end
 constexpr double kThick = 0.00024;     // [m] half of a frond's thickness
@@ -72,7 +71,7 @@ double rose_of_bell(std::size_t row) { return row > kOuterRim ? 0.85 : 1.8 * kBe
 
 Vec3d outwards(double angle) { return {0, std::cos(angle), std::sin(angle)}; }
 Vec3d around(double angle) { return {0, -std::sin(angle), std::cos(angle)}; }
-double apart(double a, double b) { return std::fabs(std::remainder(a - b, 2 * kPi)); }
+double apart(double a, double b) { return std::fabs(std::remainder(a - b, 2 * portable::pi)); }
 double swing(int i, int k) { return 2 * varied(i, k) - 1; }
 
 /// Column of the rim at which its i-th frond begins: they are of unequal width.
@@ -85,14 +84,14 @@ int border(const FimbriaSite& site, int i) {
 double fold_at(const FimbriaSite& site, int column) {
   for (int i = 0; i <= kRimFronds; ++i) {
     const int from = border(site, i - 1 + kRimFronds) - kRimColumns, to = border(site, i);
-    if (column <= to) return -std::cos(2 * kPi * (column - from) / (to - from));
+    if (column <= to) return -std::cos(2 * portable::pi * (column - from) / (to - from));
   }
   return fold_at(site, column - kRimColumns);
 }
 
 Vec3d on_bell(const FimbriaSite& site, std::size_t row, int column) {
   const BellRow& r = kBell[row];
-  const double a = 2 * kPi * column / kRimColumns;
+  const double a = 2 * portable::pi * column / kRimColumns;
   // Its rim is uneven too.
   const double uneven =
       r.openness < 0.3 ? 0 : 3 * r.thin * (std::sin(2 * a + site.seed) + std::sin(5 * a + 3 * site.seed));
@@ -136,18 +135,18 @@ void set_width(Frond& f, double half) {
 Frond rim_frond(const FimbriaSite& site, int i) {
   Frond f = grown(site, kRim, i);
   const int from = border(site, i), to = i + 1 < kRimFronds ? border(site, i + 1) : border(site, 0) + kRimColumns;
-  f.angle = kPi * (from + to) / kRimColumns;
+  f.angle = portable::pi * (from + to) / kRimColumns;
   const std::vector<std::uint32_t> loop = root_loop(site, i);
   f.root = {};
   for (const std::uint32_t v : loop)
     f.root += on_bell(site, v / kRimColumns, int(v % kRimColumns)) / double(loop.size());
-  set_width(f, site.radius * kBell[kOuterRim].radius * kPi * (to - from) / kRimColumns);
+  set_width(f, site.radius * kBell[kOuterRim].radius * portable::pi * (to - from) / kRimColumns);
   return f;
 }
 
 Frond fold_frond(const FimbriaSite& site, const FrondRow& row, int i, int index) {
   Frond f = grown(site, row, index);
-  f.angle = 2 * kPi * (i + 0.35 * swing(f.seed, 3)) / row.count + 0.4 * row.count;
+  f.angle = 2 * portable::pi * (i + 0.35 * swing(f.seed, 3)) / row.count + 0.4 * row.count;
   f.root = site.radius * (row.along * Vec3d{1, 0, 0} + row.radius * outwards(f.angle));
   set_width(f, site.radius * row.half_width * (1 + 0.35 * swing(f.seed, 5)));
   return f;
@@ -179,7 +178,7 @@ using Spines = std::array<Spine, kRings + 1>;
 double along_frond(const Frond& f, int ring) {
   constexpr int body = kRings - kCapRings;
   if (ring <= body) return (1 - f.end) * ring / body;
-  return 1 - f.end + f.end * std::sin(0.5 * kPi * (ring - body) / kCapRings);
+  return 1 - f.end + f.end * std::sin(0.5 * portable::pi * (ring - body) / kCapRings);
 }
 
 void turn(Spine& s, double by) {
@@ -218,7 +217,7 @@ Spines landing(const Frond& f, const FimbriaSite& site) {
   Vec3d carried = side;
   for (int i = 0; i <= kRings; ++i) {
     const double t = along_frond(f, i), u = 1 - t;
-    const double aside = kSlack * std::sin(2 * kPi * t + f.seed) * smooth(0, 0.4, t) * smooth(1, 0.7, t);
+    const double aside = kSlack * std::sin(2 * portable::pi * t + f.seed) * smooth(0, 0.4, t) * smooth(1, 0.7, t);
     const Vec3d p =
         (u * u * (1 + 2 * t)) * a + (t * t * (3 - 2 * t)) * b + (u * u * t) * da - (t * t * u) * db + aside * side;
     const Vec3d along = normalised((6 * t * u) * (b - a) + (u * (1 - 3 * t)) * da + (t * (3 * t - 2)) * db, site.slide);
@@ -228,7 +227,7 @@ Spines landing(const Frond& f, const FimbriaSite& site) {
   // What it must turn about itself to lie flat at the end is shared out along it.
   const Spine& last = spine[kRings];
   const Vec3d lying = cross(-site.normal, last.along);
-  const double all = std::remainder(std::atan2(dot(lying, last.flat), dot(lying, last.across)), kPi);
+  const double all = std::remainder(std::atan2(dot(lying, last.flat), dot(lying, last.across)), portable::pi);
   for (int i = 0; i <= kRings; ++i) turn(spine[std::size_t(i)], all * smooth(0.1, 0.8, along_frond(f, i)));
   return spine;
 }
@@ -260,7 +259,7 @@ struct Corner {
 };
 
 Corner corner_of(std::size_t k, std::size_t count) {
-  const double a = 2 * kPi * (double(k) + 0.5) / double(count);
+  const double a = 2 * portable::pi * (double(k) + 0.5) / double(count);
   return {-std::cos(a), -std::sin(a)};
 }
 
@@ -279,7 +278,7 @@ Place place_on(const Frond& f, const Spines& spine, double span, int ring, Corne
   const double w = corner.across, u = along_frond(f, ring), tip = round_end(u, f.end);
   const int side = 2 * f.seed + (w > 0 ? 1 : 0);
   const double waves = std::min(span / kWave, kMostWaves) * (0.75 + 0.25 * varied(side, 21));
-  const double phase = 2 * kPi * (waves * (u + 0.05 * std::sin(6 * u + side)) + varied(side, 22));
+  const double phase = 2 * portable::pi * (waves * (u + 0.05 * std::sin(6 * u + side)) + varied(side, 22));
   const double loose = smooth(0.12, 0.5, u) * tip;
   const double up = std::sin(phase);
   const double across = w * f.half * belly(u) * tip * (1 + 0.24 * loose * std::sin(kLobes * phase + side));

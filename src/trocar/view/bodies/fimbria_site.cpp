@@ -1,3 +1,4 @@
+#include <trocar/sim/model/bodies.hpp>
 #include <trocar/view/bodies/fimbria_site.hpp>
 
 namespace trocar::view {
@@ -17,12 +18,12 @@ struct Touch {
 /// The organ nearest to the end of what the strand does not itself grow from.
 Touch nearest_organ(const sim::Model& model, const sim::StrandAnatomy& strand, Vec3d at) {
   Touch best;
-  for (std::size_t i = 0; i < model.solids.size(); ++i) {
-    if (strand.start.kind == sim::StrandEndModel::hosted && std::size_t(strand.start.organ) == i) continue;
-    const tissue::Skin& skin = model.solids[i].fine;
+  sim::visit_solids(model, [&](auto r) {
+    if (strand.start.kind == sim::StrandEndModel::hosted && std::size_t(strand.start.organ) == r.organ()) return;
+    const tissue::Skin& skin = model_of(model, r).fine;
     for (std::size_t v = 0; v < skin.rest.size(); ++v)
       if (const double d = length(vec_cast<double>(skin.rest[v]) - at); d < best.distance) best = {&skin, v, d};
-  }
+  });
   return best;
 }
 

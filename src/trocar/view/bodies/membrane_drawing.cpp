@@ -3,7 +3,6 @@
 
 #include <trocar/render/meshes/mesh_arrays.hpp>
 #include <trocar/view/base/fold_pattern.hpp>
-#include <trocar/view/base/looks.hpp>
 #include <trocar/view/bodies/membrane_drawing.hpp>
 
 namespace trocar::view {
@@ -38,11 +37,12 @@ Vec3d on_line(int fine, int count, At&& at) {
 
 MembraneDrawing::MembraneDrawing(const sim::Model& model, int membrane, render::Backend& backend, const Detail& detail)
     : m_membrane(&model.membranes[std::size_t(membrane)]),
+      m_look(&look(model, m_membrane->look)),
       m_index(membrane),
       m_columns((m_membrane->sheet.columns - 1) * kFine + 1),
       m_rows((m_membrane->sheet.rows - 1) * kFine + 1),
       m_torn(m_membrane->sheet.triangles.size(), 0),
-      m_marks(model, interactions::kMembraneBase + membrane, flat_places()) {
+      m_marks(model, BodyId::membrane(std::size_t(membrane)), flat_places()) {
   const tissue::MembraneState rest = tissue::rest_state(m_membrane->sheet);
   m_buffer.positions.resize(std::size_t(m_columns) * std::size_t(m_rows));
   place(rest);
@@ -71,7 +71,7 @@ std::vector<Vec3d> MembraneDrawing::flat_places() const {
 void MembraneDrawing::lay_pattern() {
   m_buffer.rest = m_buffer.positions;
   m_buffer.paint.clear();
-  const bool own = look(m_membrane->look).material.arcade;
+  const bool own = m_look->material.arcade;
   for (int r = 0; r < m_rows; ++r)
     for (int c = 0; c < m_columns; ++c) {
       const double s = m_membrane->from + (m_membrane->to - m_membrane->from) * c / (m_columns - 1);

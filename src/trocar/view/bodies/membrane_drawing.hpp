@@ -5,6 +5,7 @@
 #include <trocar/sim/model/state.hpp>
 #include <trocar/view/base/heat_marks.hpp>
 #include <trocar/view/base/level_of_detail.hpp>
+#include <trocar/view/base/looks.hpp>
 
 namespace trocar::view {
 
@@ -26,6 +27,7 @@ class MembraneDrawing {
       const;  ///< of the drawn vertices: between the body's nodes as drawn, without ripples
 
   const sim::MembraneBody* m_membrane;
+  const Look* m_look;
   int m_index, m_columns, m_rows;        ///< of the drawn grid
   std::vector<std::uint8_t> m_torn;      ///< as drawn last
   std::vector<std::uint8_t> m_edge;      ///< (drawn vertices) 1: of a tear

@@ -2,7 +2,6 @@
 #include <map>
 
 #include <trocar/render/meshes/mesh_arrays.hpp>
-#include <trocar/view/base/looks.hpp>
 #include <trocar/view/bodies/pouch_drawing.hpp>
 
 namespace trocar::view {
@@ -19,9 +18,10 @@ constexpr float kRounded = 0.75f;       // [Boubekeur & Alexa 2008]
 
 PouchDrawing::PouchDrawing(const sim::Model& model, int membrane, render::Backend& backend, const Detail& detail)
     : m_membrane(&model.membranes[std::size_t(membrane)]),
+      m_look(&look(model, m_membrane->look)),
       m_index(membrane),
       m_torn(m_membrane->sheet.triangles.size(), 0),
-      m_marks(model, interactions::kMembraneBase + membrane) {
+      m_marks(model, BodyId::membrane(std::size_t(membrane))) {
   for (const auto& t : m_membrane->sheet.triangles)
     for (int node : t) m_whole.push_back(std::uint32_t(node));
   divide();
@@ -35,7 +35,7 @@ PouchDrawing::PouchDrawing(const sim::Model& model, int membrane, render::Backen
   for (std::size_t i = 0; i < m_places.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k)
       flat[i] += double(m_places[i].share[k]) * m_membrane->sheet.network.rest[m_places[i].node[k]];
-  m_marks = HeatMarks(model, interactions::kMembraneBase + membrane, std::move(flat));
+  m_marks = HeatMarks(model, BodyId::membrane(std::size_t(membrane)), std::move(flat));
   coarsen(m_buffer, detail, kBends);
   m_mesh = OwnedMesh(backend, m_buffer.data());
 }
@@ -85,7 +85,7 @@ void PouchDrawing::connect(const std::vector<std::uint8_t>& torn) {
 /// Fat grows where it is held; a pattern of its own makes its border uneven.
 void PouchDrawing::paint() {
   const tissue::MembraneModel& sheet = m_membrane->sheet;
-  const Relief& relief = look(m_membrane->look).relief;
+  const Relief& relief = m_look->relief;
   m_buffer.paint.assign(m_places.size(), Paint{});
   for (std::size_t i = 0; i < m_places.size(); ++i) {
     const Vec3d p = vec_cast<double>(m_buffer.rest[i]);

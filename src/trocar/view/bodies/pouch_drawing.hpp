@@ -5,6 +5,7 @@
 #include <trocar/sim/model/state.hpp>
 #include <trocar/view/base/heat_marks.hpp>
 #include <trocar/view/base/level_of_detail.hpp>
+#include <trocar/view/base/looks.hpp>
 
 namespace trocar::view {
 
@@ -30,6 +31,7 @@ class PouchDrawing {
   void paint();
 
   const sim::MembraneBody* m_membrane;
+  const Look* m_look;
   int m_index;
   std::vector<std::uint8_t> m_torn;    ///< as drawn last
   std::vector<Place> m_places;         ///< (drawn vertices)

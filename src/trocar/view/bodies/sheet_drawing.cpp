@@ -335,7 +335,7 @@ Vec3d SheetDrawing::base_point(std::size_t i, const sim::State& state) const {
 /// Rest coordinates: those of a fold with an arcade are its own, others' are where it is drawn.
 void SheetDrawing::lay_pattern() {
   m_buffer.rest = m_buffer.positions;
-  if (!look(m_sheet->look).material.arcade) return;
+  if (!look(*m_model, m_sheet->look).material.arcade) return;
   for (std::size_t i = 0; i < m_hem_first; ++i) {
     const std::size_t c = i / kRows;
     const double v = double(i % kRows) / (kRows - 1);

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <numbers>
 
 #include <trocar/interactions/verbs/cut.hpp>
+#include <trocar/numerics/portable.hpp>
 #include <trocar/render/meshes/mesh_arrays.hpp>
 #include <trocar/view/bodies/fimbria_site.hpp>
 #include <trocar/view/bodies/tube_drawing.hpp>
@@ -15,7 +15,6 @@ using interactions::Cut;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kBlanched = 0.0030;   // [m] from a clip's middle: blood is pressed out of what its legs hold ...
 constexpr double kCongested = 0.0058;  // [m] ... and stands beside that
 constexpr double kShade = 0.0014;      // [m] beside a clip's legs, where little light comes
@@ -48,7 +47,7 @@ TubeDrawing::TubeDrawing(const sim::Model& model, int strand, const Detail& deta
       m_strand(&model.strands[std::size_t(strand)]),
       m_body(&model.strand_bodies[std::size_t(strand)]),
       m_index(strand),
-      m_marks(model, strand) {
+      m_marks(model, BodyId::strand(std::size_t(strand))) {
   const double thickest = *std::max_element(m_strand->outer.begin(), m_strand->outer.end());
   m_sides = thickest > 0.0022 ? 16 : 12;
   for (const sim::DetailLevel& level : detail.levels()) m_errors.push_back(level.error);
@@ -101,7 +100,7 @@ void TubeDrawing::update(const sim::State& state) {
   }
   const tissue::StrandState& now = state.strands[std::size_t(m_index)];
   const bool burnt = m_marks.stirred(state) || (changed && m_marks.any()), was_held = m_held;
-  const bool jaws = !jaws_on(m_index, *m_model, state).empty();
+  const bool jaws = !jaws_on(BodyId::strand(std::size_t(m_index)), *m_model, state).empty();
   if (!m_moved(now.x) && !changed && !burnt && !jaws && !was_held) return;
   ++m_version;
   const StrandCurve curve(*m_body, now, m_layout.pieces);
@@ -125,7 +124,7 @@ void TubeDrawing::burn(const sim::State& state) {
     const double r = 0.85 * std::min(row.radius, radius_at(row.s));
     for (int k = 0; k < (row.radius == 0 ? 1 : m_sides); ++k, ++v) {
       if (row.out > 0) continue;
-      const double a = 2 * kPi * k / m_sides;
+      const double a = 2 * portable::pi * k / m_sides;
       Paint& p = m_buffer.paint[v];
       p.burn = std::max(p.burn, m_marks.burn_at(state, {row.s, r * std::cos(a), r * std::sin(a)}));
     }
@@ -134,7 +133,7 @@ void TubeDrawing::burn(const sim::State& state) {
 
 bool TubeDrawing::press(const sim::State& state) {
   const std::vector<ClipPress> clips = clips_on(m_index, *m_model, state);
-  const std::vector<JawPress> jaws = jaws_on(m_index, *m_model, state);
+  const std::vector<JawPress> jaws = jaws_on(BodyId::strand(std::size_t(m_index)), *m_model, state);
   for (const ClipPress& clip : clips)
     for (Vec3f& p : m_buffer.positions) p = vec_cast<float>(pressed(vec_cast<double>(p), clip));
   for (const JawPress& held : jaws)
@@ -195,7 +194,7 @@ void TubeDrawing::shape_sections() {
   m_section.clear();
   for (const TubeRow& row : m_rows)
     for (int k = 0; k < (row.radius == 0 ? 1 : m_sides); ++k) {
-      const double a = 2 * kPi * k / m_sides;
+      const double a = 2 * portable::pi * k / m_sides;
       const double lobes = row.radius == 0 ? 0 : row.scallop * ragged(row.piece + m_index + row.turn, a);
       const double r = row.radius == 0 ? 0 : row.radius * (outline(row.s, a) + lobes);
       m_section.push_back(
@@ -213,7 +212,7 @@ void TubeDrawing::paint() {
     const bool on_tube = row.along == 0 && row.out == 0 && row.paint.blood == 0 && !m_baked.empty();
     const std::size_t baked = on_tube ? nearest_first(row.s) : 0;
     for (int k = 0; k < (row.radius == 0 ? 1 : m_sides); ++k) {
-      Paint p = paint_at(m_layout, row.s, 2 * kPi * k / m_sides, row.paint);
+      Paint p = paint_at(m_layout, row.s, 2 * portable::pi * k / m_sides, row.paint);
       if (on_tube) p = shaded(p, m_baked[baked + std::size_t(k)]);
       m_buffer.paint[v++] = p;
     }

@@ -62,6 +62,9 @@ class TubeDrawing {
   /// As it was last made: for the folds that hang on it, and for tests.
   const MeshBuffer& buffer() const { return m_buffer; }
   int sides() const { return m_sides; }
+  /// Rings (of `sides`) around it as it was last made, from one arc length to the other, `lift` above it [m]: for what
+  /// lies on it. Empty where it is cut between them.
+  std::vector<Vec3f> band(double from, double to, int rings, float lift) const;
   /// Rises whenever it is drawn anew: what follows it looks whether it has to.
   std::uint64_t version() const { return m_version; }
   bool burnt() const { return m_marks.any(); }

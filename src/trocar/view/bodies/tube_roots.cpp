@@ -1,14 +1,15 @@
 // Where a strand goes on below the surface of what holds it.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include <trocar/numerics/portable.hpp>
+#include <trocar/sim/model/bodies.hpp>
+#include <trocar/view/base/looks.hpp>
 #include <trocar/view/bodies/tube_drawing.hpp>
 
 namespace trocar::view {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kRootDepth = 1.6;      // radii below the organ's surface where it ends
 constexpr double kRootSlide = 0.022;    // [m] a ligament goes on along a wall ...
 constexpr double kRootBelow = 0.003;    // [m] ... to below its surface
@@ -30,7 +31,7 @@ TubeRow row_at(int piece, double s) {
 
 TubeRoot TubeDrawing::root_at(const StrandCurve& rest, bool at_start, const WallSurface* walls) const {
   const sim::StrandEndModel& end = at_start ? m_strand->start : m_strand->end;
-  if (end.kind == sim::StrandEndModel::free) return {};
+  if (end.kind == sim::StrandEndModel::free || look(*m_model, m_strand->look).moulded) return {};
   const CurveFrame f = rest.at(0, at_start ? 0 : m_body->length());
   const double radius = at_start ? m_strand->outer.front() : m_strand->outer.back();
   if (end.kind == sim::StrandEndModel::fixed) {
@@ -39,8 +40,8 @@ TubeRoot TubeDrawing::root_at(const StrandCurve& rest, bool at_start, const Wall
   }
   double nearest = 1;
   Vec3d at{}, normal{};
-  const std::size_t organ = std::size_t(end.organ);
-  const tissue::Skin& skin = organ < m_model->solids.size() ? m_model->solids[organ].fine : m_model->skin(end.organ);
+  const std::int32_t lattice = lattice_of(*m_model, end.organ);
+  const tissue::Skin& skin = lattice >= 0 ? m_model->solids[std::size_t(lattice)].fine : m_model->skin(end.organ);
   for (std::size_t i = 0; i < skin.rest.size(); ++i) {
     if (!skin.at_surface(int(i))) continue;
     const double d = length(vec_cast<double>(skin.rest[i]) - f.point);
@@ -84,8 +85,9 @@ TubeRoot TubeDrawing::root_in_wall(const CurveFrame& end, Vec3d onward, double r
 double TubeDrawing::neck_of(const StrandCurve& rest, bool at_start) const {
   const int node = at_start ? 0 : m_body->nodes() - 1;
   const sim::StrandEndModel& end = at_start ? m_strand->start : m_strand->end;
-  if (!hosted(node) || std::size_t(end.organ) >= m_model->solids.size()) return 0;
-  const tissue::Skin& skin = m_model->solids[std::size_t(end.organ)].fine;
+  const std::int32_t lattice = hosted(node) ? lattice_of(*m_model, end.organ) : -1;
+  if (lattice < 0) return 0;
+  const tissue::Skin& skin = m_model->solids[std::size_t(lattice)].fine;
   const double radius = m_strand->outer[std::size_t(node)];
   for (double far = 1.2 * radius; far < std::min(kNeckFar, 0.3 * m_body->length()); far += 0.0005) {
     const CurveFrame f = frame_of(row_at(0, at_start ? far : m_body->length() - far), rest);
@@ -104,6 +106,7 @@ double TubeDrawing::neck_of(const StrandCurve& rest, bool at_start) const {
 
 /// One that meets a wall head-on needs a collar there, too.
 double TubeDrawing::neck_at_wall(const StrandCurve& rest, bool at_start, const WallSurface& walls) const {
+  if (look(*m_model, m_strand->look).moulded) return 0;
   const double end = at_start ? 0 : m_body->length();
   const CurveFrame f = rest.at(0, end);
   const WallSurface::Place wall = walls.nearest(f.point);
@@ -128,7 +131,7 @@ void TubeDrawing::place_necks(const StrandCurve& curve) {
     neck.radius = radius_at(s);
     neck.ring.clear();
     for (int k = 0; k < m_sides; ++k) {
-      const double a = 2 * kPi * k / m_sides;
+      const double a = 2 * portable::pi * k / m_sides;
       neck.ring.push_back(vec_cast<float>(f.point + (neck.radius * outline(s, a)) *
                                                         (std::cos(a) * f.normal + std::sin(a) * f.binormal)));
     }

@@ -107,6 +107,33 @@ void TubeDrawing::add_piece(const Layout& layout, int piece) {
   add_end(piece);
 }
 
+std::vector<Vec3f> TubeDrawing::band(double from, double to, int rings, float lift) const {
+  const auto plain = [](const TubeRow& r) { return r.radius > 0 && r.along == 0 && r.out == 0; };
+  std::vector<Vec3f> out;
+  auto piece = m_rows.front().piece;  // of the first ring: a band that reaches over a cut is gone
+  for (int r = 0; r < rings; ++r) {
+    const double s = from + (to - from) * r / std::max(1, rings - 1);
+    std::size_t i = 1;
+    while (i < m_rows.size() && !(m_rows[i].piece == m_rows[i - 1].piece && plain(m_rows[i - 1]) && plain(m_rows[i]) &&
+                                  m_rows[i - 1].s <= s && s <= m_rows[i].s && m_rows[i].s > m_rows[i - 1].s))
+      ++i;
+    if (i == m_rows.size()) return {};
+    if (r == 0) piece = m_rows[i].piece;
+    if (m_rows[i].piece != piece) return {};
+    const auto w = float((s - m_rows[i - 1].s) / (m_rows[i].s - m_rows[i - 1].s));
+    const std::size_t first = out.size();
+    Vec3f middle{};
+    for (int k = 0; k < m_sides; ++k) {
+      const Vec3f a = m_buffer.positions[m_first[i - 1] + std::uint32_t(k)];
+      const Vec3f b = m_buffer.positions[m_first[i] + std::uint32_t(k)];
+      out.push_back((1 - w) * a + w * b);
+      middle += out.back() / float(m_sides);
+    }
+    for (std::size_t k = first; k < out.size(); ++k) out[k] += lift * normalised(out[k] - middle);
+  }
+  return out;
+}
+
 void TubeDrawing::connect() {
   m_buffer = {};
   m_first.clear();

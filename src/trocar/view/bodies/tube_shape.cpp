@@ -1,15 +1,14 @@
 // How wide a strand is drawn, and which way it goes: the simulated line and radius, made uneven.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include <trocar/numerics/portable.hpp>
 #include <trocar/view/bodies/fimbria.hpp>
 #include <trocar/view/bodies/tube_drawing.hpp>
 
 namespace trocar::view {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kRootFlare = 0.12;    // how much wider a strand is where it grows out of an organ
 constexpr double kThinsInWall = 0.6;   // share of the radius that one loses before a wall ...
 constexpr double kThinsFrom = 0.8;     // ... from here on along it
@@ -60,7 +59,7 @@ double TubeDrawing::bore(double s) const {
 /// And so is its way: it coils gently about the simulated line, one tube in long bends, the other in short ones.
 Vec3d TubeDrawing::coiled(double s, const CurveFrame& f) const {
   const double own = varied(m_index, 91), seed = 2.3 * m_index;
-  const double k = 2 * kPi * s * (0.7 + 0.7 * own), amount = kCoil * (1.25 - 0.4 * own) * winding(s);
+  const double k = 2 * portable::pi * s * (0.7 + 0.7 * own), amount = kCoil * (1.25 - 0.4 * own) * winding(s);
   if (amount <= 0) return {};
   const double a = std::sin(k / 0.0248 + seed) + 0.2 * std::sin(k / 0.0137 + 2 * seed),
                b = std::cos(k / 0.0291 + 1.4 * seed) + 0.2 * std::sin(k / 0.0153 + seed);
@@ -68,7 +67,7 @@ Vec3d TubeDrawing::coiled(double s, const CurveFrame& f) const {
 }
 
 double TubeDrawing::outline(double s, double angle) const {
-  const double k = 2 * kPi * s, seed = 1.7 * m_index;
+  const double k = 2 * portable::pi * s, seed = 1.7 * m_index;
   const int own = 500 + 7 * m_index;
   return 1 + 0.045 * swing(s / 0.0063 + 0.5 * std::sin(angle + seed), own) +
          0.03 * std::sin(2 * angle + 4 * swing(s / 0.019, own + 1) + seed) +

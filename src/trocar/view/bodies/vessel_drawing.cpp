@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include <trocar/numerics/portable.hpp>
 #include <trocar/view/bodies/vessel_drawing.hpp>
 
 namespace trocar::view {
@@ -341,7 +341,7 @@ void VesselDrawing::place_run(const Run& run, const sim::State& state) {
     if (run.cut_from) bloody = smooth(kBloody, 0, (s - run.from) * path.length);
     if (run.cut_to) bloody = std::max(bloody, smooth(kBloody, 0, (run.to - s) * path.length));
     for (std::uint32_t k = 0; k < kAround; ++k) {
-      const double angle = 2 * std::numbers::pi * k / kAround;
+      const double angle = 2 * portable::pi * k / kAround;
       const Vec3d out = std::cos(angle) * normal + std::sin(angle) * beside;
       const std::size_t vertex = run.first + i * kAround + k;
       m_buffer.positions[vertex] = vec_cast<float>(at + radius * out);

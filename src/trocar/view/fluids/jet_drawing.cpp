@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include <trocar/numerics/portable.hpp>
 #include <trocar/view/base/mesh_buffer.hpp>
 #include <trocar/view/fluids/film_splats.hpp>
 #include <trocar/view/fluids/jet_drawing.hpp>
@@ -171,7 +171,7 @@ void Strand::even_out() {
     for (int k = first; k <= last; ++k)
       volume += (k == first || k == last ? 0.5f : 1.0f) * m_nodes[std::size_t(k)].volume;
     const float far = length(m_nodes[std::size_t(last)].place - m_nodes[std::size_t(first)].place);
-    radius[std::size_t(i)] = std::sqrt(volume / (std::numbers::pi_v<float> * std::max(far, 1e-5f)));
+    radius[std::size_t(i)] = std::sqrt(volume / (float(portable::pi) * std::max(far, 1e-5f)));
   }
   for (int i = 0; i < count; ++i) {
     Node& n = m_nodes[std::size_t(i)];
@@ -265,7 +265,7 @@ void Strand::list_bead(const Neck& a, const Neck& b, Liquid& liquid) const {
   const float mean = 0.5f * (a.deep() + b.deep()), kept = (1 - kTorn * (1 + own(b.id, 55)) * round) / std::sqrt(1 - in);
   for (int j = 0; j < count; ++j) {
     const float w = (2 * float(j) + 1) / float(count) - 1, deep = w < 0 ? a.deep() : b.deep();
-    const float pinch = 0.5f - 0.5f * std::cos(std::numbers::pi_v<float> * w);
+    const float pinch = 0.5f - 0.5f * std::cos(float(portable::pi) * w);
     const float wave = 1 + kBulge * mean * (1 - pinch) - deep * pinch, ball = kBall * std::sqrt(1 - w * w);
     const float profile = (1 - round) * wave + round * ball;
     if (profile < kThinnest) continue;

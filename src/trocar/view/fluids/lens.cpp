@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <trocar/core/tick.hpp>
+#include <trocar/numerics/portable.hpp>
 #include <trocar/view/base/mesh_buffer.hpp>
 #include <trocar/view/fluids/lens.hpp>
 
@@ -63,7 +63,7 @@ void Lens::list(const fluids::SmokeModel& model, const fluids::SmokeState& state
     const float done = kStrokes * float(std::clamp(1 - state.wipe_left / model.wipe_time, 0.0, 1.0));
     stroke = std::min(std::floor(done), kStrokes - 1);
     soil.wipe = std::min(done - stroke, 1.0f);
-    if (int(stroke) % 2 == 1) soil.smear_angle += std::numbers::pi_v<float>;
+    if (int(stroke) % 2 == 1) soil.smear_angle += float(portable::pi);
     if (stroke > 0) soil.fog = 0;  // the first stroke has taken it
     if (stroke > 0) soil.smear = float(kSmearLeft);
   }

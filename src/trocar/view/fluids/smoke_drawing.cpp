@@ -122,7 +122,7 @@ void list_plumes(const sim::Model& model, const sim::State& state, render::Frame
   const Vec3d up = -1.0 * normalised(model.gravity, {0, 0, -1}), side = any_perpendicular(up), other = cross(up, side);
   for (std::size_t h = 0; h < state.electrodes.size(); ++h) {
     const sim::ElectrodeHand& hand = state.electrodes[h];
-    if (hand.body < 0 || !(hand.current.on_time > kSmokes)) continue;
+    if (!hand.body.exists() || !(hand.current.on_time > kSmokes)) continue;
     const double now = core::kTick * double(state.tick % 1000000) / kPlumeTime * kPuffs, first = std::floor(now);
     for (int k = 0; k < kPuffs; ++k) {
       const double age = (now - first + k) / kPuffs;  // 0 .. 1 of its time

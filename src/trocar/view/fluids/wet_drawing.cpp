@@ -48,7 +48,7 @@ WetDrawing::WetDrawing(const sim::Model& model)
   m_places.resize(std::size_t(model.wet.film.back()));
   m_sheer.resize(model.wet.film.size() - 1);
   for (std::size_t i = 0; i < model.membranes.size(); ++i)
-    m_sheer[m_surfaces.size() + i] = look(model.membranes[i].look).translucent;
+    m_sheer[m_surfaces.size() + i] = look(model, model.membranes[i].look).translucent;
   measure_places();
 }
 

@@ -1,15 +1,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include <trocar/numerics/portable.hpp>
 #include <trocar/view/base/pinch.hpp>
 #include <trocar/view/instruments/clip_shape.hpp>
 
 namespace trocar::view {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kGrooves = 5, kLegSteps = 3 * kGrooves, kBendSteps = 7;
 constexpr double kGrooveLeft = 0.76;  // of a leg's thickness, in its grooves
 constexpr double kChamfer = 0.00023;  // [m] its edges are bevelled
@@ -29,7 +28,7 @@ struct WirePlace {
 /// From the tip of one leg round the bend to the tip of the other.
 std::vector<WirePlace> wire(double leg, double gap) {
   const double bow = kClipHalfGap + 0.5 * kClipLegThickness, eye = 1.6 * bow, open = smooth(0, kSpread, gap);
-  const auto spread = [&](double z) { return 0.5 * gap * std::sin(0.5 * kPi * std::min(1.0, z / kSpread)); };
+  const auto spread = [&](double z) { return 0.5 * gap * std::sin(0.5 * portable::pi * std::min(1.0, z / kSpread)); };
   const auto askew = [&](double z) { return kAskew * (1 - open) * z / leg; };
   std::vector<WirePlace> half;
   const auto on_leg = [&](double z, double share) { half.push_back({{bow + spread(z), askew(z), z}, share}); };
@@ -37,7 +36,7 @@ std::vector<WirePlace> wire(double leg, double gap) {
   on_leg(leg - kTip, 1);
   for (int i = 1; i < kLegSteps; ++i) on_leg(eye + (leg - eye) * (1 - double(i) / kLegSteps), 1);
   for (int i = 0; i <= kBendSteps; ++i) {  // it does not close flat: an eye is left, wider than the legs are apart
-    const double a = 0.5 * kPi * i / kBendSteps, z = eye * (1 - std::sin(a));
+    const double a = 0.5 * portable::pi * i / kBendSteps, z = eye * (1 - std::sin(a));
     const double eye_wide = bow * std::cos(a) * (1 + 0.22 * std::sin(2 * a) * (1 - open));
     half.push_back({{eye_wide * (1 - 0.3 * open * std::sin(a)) + spread(z), askew(z), z}, 1});
   }

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include <trocar/numerics/portable.hpp>
 #include <trocar/view/instruments/instrument_shapes.hpp>
 #include <trocar/view/instruments/shapes.hpp>
 
@@ -12,7 +12,6 @@ using interactions::ToolKind;
 using interactions::ToolModel;
 using Joint = InstrumentPart::Joint;
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kAround = 40;
 constexpr double kCollarFrom = -0.0072;  // [m] where a hook's white collar begins
 // Blood is what clings there after work, burn what chars there: SceneView says how much of it is on an instrument.
@@ -120,11 +119,11 @@ Outline stadium(double from, double to, double half_width) {
     const double r = std::min(half_width, 0.45 * (to - from)), low = from + r, high = to - r;
     if (u < 0.4) return Vec3d{0, half_width, low + (high - low) * u / 0.4};
     if (u < 0.5) {
-      const double a = kPi * (u - 0.4) / 0.1;
+      const double a = portable::pi * (u - 0.4) / 0.1;
       return Vec3d{0, half_width * std::cos(a), high + r * std::sin(a)};
     }
     if (u < 0.9) return Vec3d{0, -half_width, high + (low - high) * (u - 0.5) / 0.4};
-    const double a = kPi * (1 + (u - 0.9) / 0.1);
+    const double a = portable::pi * (1 + (u - 0.9) / 0.1);
     return Vec3d{0, half_width * std::cos(a), low + r * std::sin(a)};
   };
 }
@@ -179,7 +178,8 @@ MeshBuffer bipolar_tine(const ToolModel& tool) {
     const double u = i / 20.0, z = -0.0045 + (0.84 * length + 0.0045) * u;
     const double flat = smooth(0.42, 0.62, u), out = 1 - 0.55 * smooth(0.75, 1, u);
     const double thick = (1 - flat) * 0.0008 + flat * 0.00045 * out;
-    const double at = (1 - flat) * (0.0010 + 0.0005 * std::sin(0.9 * kPi * u / 0.5)) + flat * (deep + 0.3 * thick);
+    const double at =
+        (1 - flat) * (0.0010 + 0.0005 * std::sin(0.9 * portable::pi * u / 0.5)) + flat * (deep + 0.3 * thick);
     const double wide = (1 - flat) * 0.00085 + flat * 0.74 * half * (1 - 0.3 * smooth(0.85, 1, u));
     sections.push_back({{at, 0, z}, {thick, 0, 0}, {0, wide, 0}, kClean});
   }
@@ -319,7 +319,7 @@ MeshBuffer irrigator_tube(const ToolModel& tool) {
                end = tool.jaw_length + 0.5 * tool.jaw_thickness;
   MeshBuffer b = open_shaft(tool, end, std::max(r - bore, 0.2 * r));
   for (int i = 0; i < 8; ++i)
-    merge(b, side_hole(r, (i + 0.5 * (i % 2)) * 0.5 * kPi, end - (i < 4 ? 0.004 : 0.0075), 0.0005));
+    merge(b, side_hole(r, (i + 0.5 * (i % 2)) * 0.5 * portable::pi, end - (i < 4 ? 0.004 : 0.0075), 0.0005));
   return b;
 }
 
@@ -328,7 +328,7 @@ MeshBuffer blunt_rod(const ToolModel& tool) {
   std::vector<TurnPoint> outline{
       {-tool.shaft_length, 0, kClean}, {-tool.shaft_length, r, kClean}, {-tool.shaft_length, r, kClean}};
   for (int i = 0; i <= 8; ++i) {
-    const double a = 0.5 * kPi * i / 8;
+    const double a = 0.5 * portable::pi * i / 8;
     outline.push_back({tip - r + r * std::sin(a), i == 8 ? 0 : r * std::cos(a), kClean});
   }
   return turned(outline, kAround);
@@ -344,7 +344,7 @@ MeshBuffer hook_wire(const ToolModel& tool) {
   std::vector<BarSection> sections{{-0.003 * z, r * x, r * y, kShaded}};
   for (const double u : {0.2, 0.6, 1.0}) sections.push_back({(u * (tip - turn)) * z, r * x, r * y, used(0.6 * u)});
   for (int i = 1; i <= 6; ++i) {
-    const double a = 0.5 * kPi * i / 6, c = std::cos(a), s = std::sin(a);
+    const double a = 0.5 * portable::pi * i / 6, c = std::cos(a), s = std::sin(a);
     const Vec3d across = c * x - s * z;
     sections.push_back({(turn * (1 - c)) * x + (tip - turn + turn * s) * z, (r * (1 - 0.12 * s)) * across,
                         (r * (1 + 0.1 * s)) * y, used(0.65 + 0.2 * s)});

@@ -39,7 +39,10 @@ float pressure_of(const interactions::ToolState& tool) {
 }  // namespace
 
 MetalDrawing::MetalDrawing(const sim::Model& model, const MeshBuffer& cavity, render::Backend& backend)
-    : m_model(&model), m_lining(lining(look("peritoneum").material, model)), m_clip_detail(levels_of(model, "clips")) {
+    : m_model(&model),
+      m_lining(lining(look(model, "peritoneum").material, model)),
+      m_clip_detail(levels_of(model, "clips")),
+      m_titanium(&look(model, "titanium")) {
   std::vector<PiercedWall> pierced;
   std::vector<std::vector<std::uint32_t>> indices;
   for (const sim::WallModel& w : model.walls) indices.push_back(flat_indices(w.skin));
@@ -58,7 +61,7 @@ std::vector<MetalDrawing::DrawnPart> MetalDrawing::made(const std::vector<Instru
                                                         render::Backend& backend) {
   std::vector<DrawnPart> drawn;
   for (const InstrumentPart& p : parts)
-    drawn.push_back({p.joint, &look(p.look), rigid(p.mesh, detail, backend), detail});
+    drawn.push_back({p.joint, &look(*m_model, p.look), rigid(p.mesh, detail, backend), detail});
   return drawn;
 }
 
@@ -115,7 +118,7 @@ void MetalDrawing::list_port_sites(const FirstParts& first, const Listing& to) {
   for (std::size_t h = 0; h < m_port_sites.size(); ++h) {
     const PortSite& site = m_port_sites[h];
     if (!site.mesh().id) continue;
-    render::DrawItem tent = item(site.mesh(), look(site.look()), first.cavity);
+    render::DrawItem tent = item(site.mesh(), look(*m_model, site.look()), first.cavity);
     tent.material.middle = m_lining.middle;
     tent.material.fibre_axis = m_lining.fibre_axis;
     to.add(tent, m_port_details[h], site.buffer().positions);

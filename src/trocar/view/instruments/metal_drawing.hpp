@@ -38,8 +38,7 @@ class MetalDrawing {
     int hand = -1, instrument = -1;  ///< of the hand's rack
     OwnedMesh mesh;
   };
-  static std::vector<DrawnPart> made(const std::vector<InstrumentPart>& parts, const Detail& detail,
-                                     render::Backend& backend);
+  std::vector<DrawnPart> made(const std::vector<InstrumentPart>& parts, const Detail& detail, render::Backend& backend);
   void make_hand(std::size_t hand, const std::vector<PiercedWall>& pierced, const sim::State& start,
                  render::Backend& backend);
   double drawn_aperture(const sim::State& state, std::size_t hand) const;
@@ -59,7 +58,7 @@ class MetalDrawing {
   std::vector<LoadedClip> m_loaded;
   std::map<double, RigidMesh> m_clips;  ///< closed ones, by their length [m]
   Detail m_clip_detail;
-  const Look* m_titanium = &look("titanium");
+  const Look* m_titanium;
 };
 
 }  // namespace trocar::view

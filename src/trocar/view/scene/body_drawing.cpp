@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/sim/model/bodies.hpp>
 #include <trocar/view/anatomy/bowel_loops.hpp>
 #include <trocar/view/anatomy/omentum.hpp>
 #include <trocar/view/bodies/cavity.hpp>
@@ -23,7 +24,7 @@ constexpr int kLoopToWall = 3;    // adhesions of the small bowel
 
 /// The look's unevenness, and a rise where each strand grows out.
 Relief relief_of(int organ, const sim::Model& model) {
-  Relief relief = look(model.organ_look(organ)).relief;
+  Relief relief = look(model, model.organ_look(organ)).relief;
   for (std::size_t i = 0; i < model.strands.size(); ++i) {
     const sim::StrandAnatomy& strand = model.strands[i];
     const std::vector<Vec3d>& rest = model.strand_bodies[i].model.rest;
@@ -52,14 +53,15 @@ std::vector<Paint> shaded(const render::OpennessBaker& baker, std::span<const Ve
 
 BodyDrawing::BodyDrawing(const sim::Model& model, render::Backend& backend)
     : m_model(&model),
-      m_wall_look(&look(model.walls.empty() ? "peritoneum" : model.walls.front().look)),
+      m_wall_look(&look(model, model.walls.empty() ? "peritoneum" : model.walls.front().look)),
       m_lining(lining(m_wall_look->material, model)) {
   const WallSurface walls(model);
   make_tubes(walls);
   make_cuttables(backend);
   m_bowel = bowel_loops(model, walls);
   for (int i = 0; i < model.organs(); ++i)
-    if (look(model.organ_look(i)).continued) m_livers.emplace_back(model, i, liver_shape(i), walls, backend);
+    if (look(model, model.organ_look(i)).has(Look::Generator::liver_dome))
+      m_livers.emplace_back(model, i, liver_shape(i), walls, backend);
   make_aprons(walls);
   const render::OpennessBaker baker = shading();
   for (CuttableDrawing& c : m_cuttables) c.shade(baker);
@@ -81,6 +83,7 @@ BodyDrawing::BodyDrawing(const sim::Model& model, render::Backend& backend)
   }
   make_vessels(backend);
   make_membranes(backend);
+  for (int i = 0; i < int(model.marks.size()); ++i) m_marks.emplace_back(model, i, backend);
 }
 
 /// As fine as the scene says for that part.
@@ -91,13 +94,15 @@ BodyDrawing::Fixed BodyDrawing::fixed(const MeshBuffer& shape, const std::string
 }
 
 LiverShape BodyDrawing::liver_shape(int organ) const {
-  const auto solids = int(m_model->solids.size());
-  if (organ >= solids) {
-    const CuttableDrawing& body = m_cuttables[std::size_t(organ - solids)];
-    return {body.positions(), body.indices()};
-  }
-  const tissue::Skin& body = m_model->solids[std::size_t(organ)].fine;
-  return {body.rest, flat_indices(body)};
+  return sim::visit_organ(*m_model, std::size_t(organ),
+                          sim::Overloaded{[&](sim::SolidRef r) {
+                                            const tissue::Skin& body = model_of(*m_model, r).fine;
+                                            return LiverShape{body.rest, flat_indices(body)};
+                                          },
+                                          [&](sim::CuttableRef r) {
+                                            const CuttableDrawing& body = m_cuttables[r.index];
+                                            return LiverShape{body.positions(), body.indices()};
+                                          }});
 }
 
 void BodyDrawing::make_tubes(const WallSurface& walls) {
@@ -108,12 +113,12 @@ void BodyDrawing::make_tubes(const WallSurface& walls) {
 }
 
 void BodyDrawing::make_cuttables(render::Backend& backend) {
-  for (std::size_t i = 0; i < m_model->cuttables.size(); ++i) {
-    const std::size_t organ = m_model->solids.size() + i;
-    m_cuttables.emplace_back(m_model->cuttables[i], relief_of(int(organ), *m_model), backend, m_model->gravity);
-    m_details.cuttables.emplace_back(levels_of(*m_model, m_model->cuttables[i].name));
-    m_cuttable_burns.emplace_back(*m_model, interactions::kSolidBase + std::int32_t(organ));
-  }
+  sim::visit_cuttables(*m_model, [&](auto r) {
+    const sim::CuttableOrgan& organ = model_of(*m_model, r);
+    m_cuttables.emplace_back(organ, relief_of(int(r.organ()), *m_model), backend, m_model->gravity);
+    m_details.cuttables.emplace_back(levels_of(*m_model, organ.name));
+    m_cuttable_burns.emplace_back(*m_model, r.id());
+  });
 }
 
 /// Everything shades everything else, as drawn.
@@ -121,11 +126,9 @@ render::OpennessBaker BodyDrawing::shading() const {
   std::vector<std::vector<std::uint32_t>> indices;
   for (const sim::SolidModel& s : m_model->solids) indices.push_back(flat_indices(s.fine));
   for (const sim::WallModel& w : m_model->walls) indices.push_back(flat_indices(w.skin));
-  const std::size_t solids = m_model->solids.size();
   std::vector<render::Occluder> occluders;
-  for (std::size_t i = 0; i < solids; ++i) occluders.push_back({m_model->solids[i].fine.rest, indices[i]});
-  for (std::size_t i = 0; i < m_model->walls.size(); ++i)
-    occluders.push_back({m_model->walls[i].skin.rest, indices[solids + i]});
+  for (const sim::SolidModel& s : m_model->solids) occluders.push_back({s.fine.rest, indices[occluders.size()]});
+  for (const sim::WallModel& w : m_model->walls) occluders.push_back({w.skin.rest, indices[occluders.size()]});
   for (const CuttableDrawing& c : m_cuttables) occluders.push_back({c.positions(), c.indices()});
   for (const TubeDrawing& t : m_tubes) occluders.push_back({t.drawn().positions, t.drawn().indices});
   for (const MeshBuffer* gut : {&m_bowel.small, &m_bowel.large, &m_bowel.omentum})
@@ -137,27 +140,27 @@ render::OpennessBaker BodyDrawing::shading() const {
 }
 
 void BodyDrawing::make_organs(const render::OpennessBaker& baker, render::Backend& backend) {
-  for (std::size_t i = 0; i < m_model->solids.size(); ++i) {
-    const sim::SolidModel& s = m_model->solids[i];
-    m_burns.emplace_back(*m_model, interactions::kSolidBase + std::int32_t(i), below_skin(s.fine));
+  sim::visit_solids(*m_model, [&](auto r) {
+    const sim::SolidModel& s = model_of(*m_model, r);
+    m_burns.emplace_back(*m_model, r.id(), below_skin(s.fine));
     m_details.organs.emplace_back(levels_of(*m_model, s.name));
-    m_organs.emplace_back(s, relief_of(int(i), *m_model), shaded(baker, s.fine.rest, s.fine.rest_normal), backend,
-                          m_details.organs.back());
-  }
+    m_organs.emplace_back(s, relief_of(int(r.organ()), *m_model), shaded(baker, s.fine.rest, s.fine.rest_normal),
+                          backend, m_details.organs.back());
+  });
 }
 
 void BodyDrawing::make_on_organs(const WallSurface& walls, render::Backend& backend) {
   for (int i = 0; i < int(m_organs.size()); ++i) {
     const sim::SolidModel& solid = m_model->solids[std::size_t(i)];
-    const int count = look(solid.look).fat_tags;
+    const int count = look(*m_model, solid.look).count(Look::Generator::fat_tags);
     if (count == 0) continue;
     m_details.fat.emplace_back(levels_of(*m_model, solid.name));
     m_fat.emplace_back(m_organs[std::size_t(i)], solid, count, m_model->gravity, backend, m_details.fat.back());
     m_fat_on.push_back(i);
   }
   for (int i = 0; i < int(m_organs.size()); ++i) {
-    const Look& covered = look(m_model->solids[std::size_t(i)].look);
-    if (!covered.draped) continue;
+    const Look& covered = look(*m_model, m_model->solids[std::size_t(i)].look);
+    if (!covered.has(Look::Generator::drape)) continue;
     m_details.drapes.emplace_back(levels_of(*m_model, "cavity"));
     m_drapes.emplace_back(*m_model, i, m_organs, backend, m_details.drapes.back());
     m_drape_look.push_back(&covered);
@@ -186,7 +189,7 @@ void BodyDrawing::make_wall(const sim::WallModel& wall, const render::OpennessBa
 void BodyDrawing::make_aprons(const WallSurface& walls) {
   for (std::size_t i = 0; i < m_model->walls.size(); ++i) {
     const sim::WallModel& wall = m_model->walls[i];
-    if (!look(wall.look).omentum) continue;
+    if (!look(*m_model, wall.look).has(Look::Generator::omentum)) continue;
     MeshBuffer apron = omentum_on(wall.skin, m_model->gravity);
     if (apron.size() == 0) continue;
     m_apron_shapes.push_back(std::move(apron));
@@ -277,7 +280,7 @@ void BodyDrawing::make_vessels(render::Backend& backend) {
     };
     if (!some(false) && !some(true)) continue;
     const Detail detail(levels_of(*m_model, veins ? "veins" : "arteries"));
-    m_vessel_look.push_back(&look(veins ? "vein" : "artery"));
+    m_vessel_look.push_back(&look(*m_model, veins ? "vein" : "artery"));
     for (const bool fold : {false, true}) {
       if (!some(fold)) continue;
       m_details.vessels.push_back(detail);
@@ -312,7 +315,7 @@ void BodyDrawing::list_ooze(render::Liquid& liquid) const {
 
 std::vector<std::string> BodyDrawing::vessel_kinds() const {
   std::vector<std::string> names;
-  for (const Look* l : m_vessel_look) names.emplace_back(l == &look("vein") ? "veins" : "arteries");
+  for (const Look* l : m_vessel_look) names.emplace_back(l == &look(*m_model, "vein") ? "veins" : "arteries");
   return names;
 }
 
@@ -343,10 +346,11 @@ void BodyDrawing::update(const sim::State& state) {
   for (MembraneDrawing& m : m_membranes) m.update(state);
   for (PouchDrawing& p : m_pouches) p.update(state);
   for (DrawnVessels& v : m_vessels) v.drawing.update(state);
+  for (MarkDrawing& m : m_marks) m.update(state, m_tubes);
 }
 
-bool BodyDrawing::held(std::size_t body) const {
-  return std::find(m_in_jaws.begin(), m_in_jaws.end(), std::int32_t(body)) != m_in_jaws.end();
+bool BodyDrawing::held(BodyId body) const {
+  return std::find(m_in_jaws.begin(), m_in_jaws.end(), body) != m_in_jaws.end();
 }
 
 bool BodyDrawing::is_wall(render::MeshHandle mesh) const {
@@ -363,32 +367,33 @@ DrawItem BodyDrawing::as_lining(DrawItem item) const {
 
 void BodyDrawing::list_surroundings(const FirstParts& first, const Listing& to) {
   to.add(m_cavity, as_lining(item({}, *m_wall_look, first.cavity)), m_details.cavity);
-  for (Fixed& apron : m_far_aprons) to.add(apron.mesh, item({}, look("omentum"), first.cavity), apron.detail);
-  if (m_loops) to.add(m_loops->mesh, item({}, look("small_bowel"), first.cavity), m_loops->detail);
-  if (m_lobe) to.add(m_lobe->mesh, item({}, look("omentum_border"), first.cavity), m_lobe->detail);
-  if (m_large_loop) to.add(m_large_loop->mesh, item({}, look("bowel"), first.cavity), m_large_loop->detail);
+  for (Fixed& apron : m_far_aprons) to.add(apron.mesh, item({}, look(*m_model, "omentum"), first.cavity), apron.detail);
+  if (m_loops) to.add(m_loops->mesh, item({}, look(*m_model, "small_bowel"), first.cavity), m_loops->detail);
+  if (m_lobe) to.add(m_lobe->mesh, item({}, look(*m_model, "omentum_border"), first.cavity), m_lobe->detail);
+  if (m_large_loop) to.add(m_large_loop->mesh, item({}, look(*m_model, "bowel"), first.cavity), m_large_loop->detail);
 }
 
 void BodyDrawing::list_walls(const FirstParts& first, const Listing& to) {
   for (std::size_t i = 0; i < m_walls.size(); ++i)
-    to.add(as_lining(item(m_walls[i].handle(), look(m_model->walls[i].look), first.wall + i)), m_details.walls[i],
-           m_model->walls[i].skin.rest);
+    to.add(as_lining(item(m_walls[i].handle(), look(*m_model, m_model->walls[i].look), first.wall + i)),
+           m_details.walls[i], m_model->walls[i].skin.rest);
 }
 
 void BodyDrawing::list(bool with_walls, const FirstParts& first, const Listing& to) {
   if (with_walls) list_walls(first, to);
   for (std::size_t i = 0; with_walls && i < m_aprons.size(); ++i)
-    to.add(m_aprons[i].mesh, item({}, look("omentum"), first.wall + m_apron_on[i]), m_aprons[i].detail);
+    to.add(m_aprons[i].mesh, item({}, look(*m_model, "omentum"), first.wall + m_apron_on[i]), m_aprons[i].detail);
   list_organs(with_walls, first, to);
   for (std::size_t i = 0; with_walls && i < m_livers.size(); ++i)  // without the wall that it lies on it would be a rag
     m_livers[i].list(first.organ + std::size_t(m_livers[i].organ()), to);
   list_tubes(with_walls, first, to);
   list_vessels(false, first, to);
   if (with_walls && m_adhesions->mesh().id)
-    to.add(item(m_adhesions->mesh(), look("adhesion"), first.cavity), m_details.adhesions,
+    to.add(item(m_adhesions->mesh(), look(*m_model, "adhesion"), first.cavity), m_details.adhesions,
            m_adhesions->buffer().positions);
   list_folds(with_walls, first, to);
   list_vessels(true, first, to);
+  for (std::size_t i = 0; i < m_marks.size(); ++i) m_marks[i].list(first.mark + i, to);
 }
 
 /// Those in folds come after these and let them shine through: they are seen within, soft and half veiled, whatever the
@@ -400,7 +405,7 @@ void BodyDrawing::list_vessels(bool in_folds, const FirstParts& first, const Lis
     const Look& own = *m_vessel_look[v.look];
     DrawItem drawn = item(v.drawing.mesh(), own, first.vessel + v.look);
     if (in_folds) {
-      const Look& veiled = look(own.name + "_in_fold");
+      const Look& veiled = look(*m_model, own.name + "_in_fold");
       drawn.material = veiled.material;
       drawn.translucent = true;
       drawn.nearer = kAfterFolds;
@@ -411,47 +416,47 @@ void BodyDrawing::list_vessels(bool in_folds, const FirstParts& first, const Lis
 
 void BodyDrawing::list_organs(bool with_walls, const FirstParts& first, const Listing& to) {
   for (std::size_t i = 0; i < m_organs.size(); ++i)
-    to.add(item(m_organs[i].mesh(), look(m_model->solids[i].look), first.organ + i), m_details.organs[i],
-           m_organs[i].positions(), m_burns[i].any() || m_organs[i].dented() || held(interactions::kSolidBase + i));
+    to.add(item(m_organs[i].mesh(), look(*m_model, m_model->solids[i].look), first.organ + i), m_details.organs[i],
+           m_organs[i].positions(), m_burns[i].any() || m_organs[i].dented() || held(BodyId::organ(i)));
   for (std::size_t i = 0; i < m_cuttables.size(); ++i) {
-    DrawItem& drawn =
-        to.add(item(m_cuttables[i].mesh(), look(m_model->cuttables[i].look), first.organ + m_organs.size() + i),
-               m_details.cuttables[i], m_cuttables[i].positions());
+    DrawItem& drawn = to.add(
+        item(m_cuttables[i].mesh(), look(*m_model, m_model->cuttables[i].look), first.organ + m_organs.size() + i),
+        m_details.cuttables[i], m_cuttables[i].positions());
     drawn.material.two_sided = m_cuttables[i].cut();  // what is cut off may lie inside out
   }
   for (std::size_t i = 0; with_walls && i < m_drapes.size(); ++i) {  // the wall's peritoneum
     DrawItem drape = item(m_drapes[i].mesh(), *m_drape_look[i], first.cavity);
     drape.material.two_sided = true;
-    drape.material.tint = look("peritoneum").material.colour;
+    drape.material.tint = look(*m_model, "peritoneum").material.colour;
     to.add(drape, m_details.drapes[i], m_drapes[i].buffer().positions);
   }
   for (std::size_t i = 0; i < m_fat.size(); ++i)
     if (m_fat[i].mesh().id)
-      to.add(item(m_fat[i].mesh(), look("fat"), first.organ + std::size_t(m_fat_on[i])), m_details.fat[i],
+      to.add(item(m_fat[i].mesh(), look(*m_model, "fat"), first.organ + std::size_t(m_fat_on[i])), m_details.fat[i],
              m_fat[i].buffer().positions);
 }
 
 void BodyDrawing::list_tubes(bool with_walls, const FirstParts& first, const Listing& to) {
   for (std::size_t i = 0; i < m_tubes.size(); ++i) {
     const sim::StrandAnatomy& strand = m_model->strands[i];
-    DrawItem& tube = to.add(item(m_tubes[i].mesh(), look(strand.look), first.tube + i), m_details.tubes[i],
-                            m_tubes[i].buffer().positions, m_tubes[i].burnt() || held(i));
+    DrawItem& tube = to.add(item(m_tubes[i].mesh(), look(*m_model, strand.look), first.tube + i), m_details.tubes[i],
+                            m_tubes[i].buffer().positions, m_tubes[i].burnt() || held(BodyId::strand(i)));
     if (strand.start.kind == sim::StrandEndModel::hosted && !strand.fimbriated)
-      tube.material.tint = look(m_model->organ_look(strand.start.organ)).material.colour;
+      tube.material.tint = look(*m_model, m_model->organ_look(strand.start.organ)).material.colour;
   }
   for (std::size_t i = 0; i < m_joints.size(); ++i) {
     const TubeJoint& j = m_joints[i];
     if (j.organ < 0 && !with_walls) continue;
-    const Look& onto = j.organ < 0 ? *m_wall_look : look(m_model->solids[std::size_t(j.organ)].look);
+    const Look& onto = j.organ < 0 ? *m_wall_look : look(*m_model, m_model->solids[std::size_t(j.organ)].look);
     // Made of what its organ is made of: it is shown, hidden and seen through with that.
     const std::size_t part = j.organ < 0 ? first.tube + j.tube : first.organ + std::size_t(j.organ);
     DrawItem joint = as_lining(item(j.joint.mesh(), onto, part));
-    if (j.organ >= 0) joint.material.tint = look(m_model->strands[j.tube].look).material.colour;
+    if (j.organ >= 0) joint.material.tint = look(*m_model, m_model->strands[j.tube].look).material.colour;
     to.add(joint, m_details.joints[i], j.joint.buffer().positions, j.organ >= 0 && m_burns[std::size_t(j.organ)].any());
   }
   for (std::size_t i = 0; with_walls && i < m_ridges.size(); ++i) {
     DrawItem ridge = as_lining(item(m_ridges[i].mesh(), *m_wall_look, first.tube + m_ridge_of[i]));
-    ridge.material.tint = look(m_model->strands[m_ridge_of[i]].look).material.colour;
+    ridge.material.tint = look(*m_model, m_model->strands[m_ridge_of[i]].look).material.colour;
     to.add(ridge, m_details.ridges[i], m_ridges[i].buffer().positions, m_tubes[m_ridge_of[i]].burnt());
   }
 }
@@ -459,16 +464,18 @@ void BodyDrawing::list_tubes(bool with_walls, const FirstParts& first, const Lis
 void BodyDrawing::list_folds(bool with_walls, const FirstParts& first, const Listing& to) {
   for (std::size_t i = 0; i < m_sheets.size(); ++i)
     if (with_walls || !m_sheets[i].has_hem())  // without the wall that it is lost on it would be a cloud
-      to.add(item(m_sheets[i].mesh(), look(m_model->drawn_folds[i].look), first.fold + i), m_details.sheets[i],
-             m_sheets[i].buffer().positions);
-  const auto look_of = [&](std::size_t membrane) -> const Look& { return look(m_model->membranes[membrane].look); };
+      to.add(item(m_sheets[i].mesh(), look(*m_model, m_model->drawn_folds[i].look), first.fold + i),
+             m_details.sheets[i], m_sheets[i].buffer().positions);
+  const auto look_of = [&](std::size_t membrane) -> const Look& {
+    return look(*m_model, m_model->membranes[membrane].look);
+  };
   for (std::size_t i = 0; i < m_membranes.size(); ++i)
     to.add(item(m_membranes[i].mesh(), look_of(m_membrane_of[i]), first.membrane + m_membrane_of[i]),
            m_details.membranes[i], m_membranes[i].buffer().positions,
-           m_membranes[i].burnt() || held(interactions::kMembraneBase + m_membrane_of[i]));
+           m_membranes[i].burnt() || held(BodyId::membrane(std::size_t(m_membrane_of[i]))));
   for (std::size_t i = 0; i < m_pouches.size(); ++i)
     to.add(item(m_pouches[i].mesh(), look_of(m_pouch_of[i]), first.membrane + m_pouch_of[i]), m_details.pouches[i],
-           m_pouches[i].buffer().positions, m_pouches[i].burnt() || held(interactions::kMembraneBase + m_pouch_of[i]));
+           m_pouches[i].buffer().positions, m_pouches[i].burnt() || held(BodyId::membrane(std::size_t(m_pouch_of[i]))));
 }
 
 }  // namespace trocar::view

@@ -18,6 +18,7 @@
 #include <trocar/view/base/heat_marks.hpp>
 #include <trocar/view/base/listing.hpp>
 #include <trocar/view/bodies/cuttable_drawing.hpp>
+#include <trocar/view/bodies/mark_drawing.hpp>
 #include <trocar/view/bodies/membrane_drawing.hpp>
 #include <trocar/view/bodies/organ_drawing.hpp>
 #include <trocar/view/bodies/pouch_drawing.hpp>
@@ -77,7 +78,7 @@ class BodyDrawing {
   void make_joints(const WallSurface& walls, render::Backend& backend);
   void make_vessels(render::Backend& backend);
   void make_membranes(render::Backend& backend);
-  bool held(std::size_t body) const;
+  bool held(BodyId body) const;
   void list_organs(bool with_walls, const FirstParts& first, const Listing& to);
   void list_tubes(bool with_walls, const FirstParts& first, const Listing& to);
   void list_folds(bool with_walls, const FirstParts& first, const Listing& to);
@@ -104,6 +105,7 @@ class BodyDrawing {
   std::vector<MembraneDrawing> m_membranes;
   std::vector<PouchDrawing> m_pouches;
   std::vector<std::size_t> m_membrane_of, m_pouch_of;  ///< their numbers in the Model
+  std::vector<MarkDrawing> m_marks;
   std::vector<DrawnVessels> m_vessels;
   std::vector<const Look*> m_vessel_look;
   /// What never moves.
@@ -128,7 +130,7 @@ class BodyDrawing {
         walls;
     Detail cavity, adhesions;
   } m_details;
-  std::vector<std::int32_t> m_in_jaws;  ///< bodies that are held (interactions::Hold::body)
+  std::vector<BodyId> m_in_jaws;  ///< bodies that are held
 };
 
 }  // namespace trocar::view

@@ -4,6 +4,7 @@
 #include <trocar/view/fluids/smoke_drawing.hpp>
 #include <trocar/view/fluids/wet_drawing.hpp>
 #include <trocar/view/instruments/metal_drawing.hpp>
+#include <trocar/view/objects/object_drawings.hpp>
 #include <trocar/view/scene/body_drawing.hpp>
 #include <trocar/view/scene/scene_view.hpp>
 
@@ -32,6 +33,7 @@ struct SceneView::Parts {
   const sim::Model& model;
   BodyDrawing body;
   MetalDrawing metal;
+  ObjectDrawings objects;
   SceneParts names;
   AnalysisDrawing analysis;
   std::optional<WetDrawing> wet;
@@ -41,6 +43,7 @@ struct SceneView::Parts {
       : model(of),
         body(of, backend),
         metal(of, body.cavity(), backend),
+        objects(of, backend),
         names(of, body.vessel_kinds()),
         analysis(of, backend) {
     if (model.wet.there) wet.emplace(model);
@@ -93,6 +96,7 @@ void SceneView::Parts::list(const sim::State& state, const ViewOptions& options,
   if (!inside)  // the cavity lies open: its walls are drawn where they turn their inner side to the eye
     for (DrawItem& drawn : frame.items)
       if (body.is_wall(drawn.mesh)) drawn.material.two_sided = false;
+  objects.list(first.object, to);
   metal.list_clips(state, first, to);
   if (!options.instruments) return;
   metal.list_tools(state, options.styles, first, to);
@@ -115,7 +119,7 @@ void SceneView::Parts::list_analysis(const sim::State& state, const AnalysisOpti
     if (i >= ghosts) items[i].translucent = false, items[i].style = render::DrawStyle::transparent;
   }
   analysis.list(
-      state, options, [this](BodyKind kind, std::size_t i) { return names.of(kind, i); }, to.frame);
+      state, options, [this](Measured kind, std::size_t i) { return names.of(kind, i); }, to.frame);
 }
 
 void SceneView::Parts::list_fluids(const sim::State& state, const ViewOptions& options, Frame& frame) {
@@ -144,6 +148,7 @@ Frame SceneView::frame(const sim::State& state, const ViewOptions& options) {
   Parts& p = *m_parts;
   p.body.update(state);
   p.metal.update(state);
+  p.objects.update(state);
   Frame frame;
   frame.tick = state.tick;
   frame.quality = options.quality;

@@ -1,0 +1,28 @@
+// What a scene compiles to and costs, and whether it hangs still: `trocar check` of scenes, organs and exercises.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <trocar/core/json.hpp>
+#include <trocar/sim/model/model.hpp>
+
+namespace trocar::app {
+
+/// Takes at most some ten seconds, however heavy the scene: what does not fit in is simulated for a shorter time, and
+/// the result says for how long.
+/// @param only  names of the bodies to list; empty: all
+/// @param fits  asked with the compiled scene: throws core::BadInput where something else is wrong with it
+/// @throws core::BadInput
+Json describe_scene(const std::filesystem::path& path, const std::vector<std::string>& only,
+                    const std::function<void(const sim::Model&)>& fits = {});
+
+inline constexpr const char* kSinks = "does not hang still";
+/// "good", "to mend" or kSinks.
+std::string verdict_of(const Json& scene);
+
+void print_scene(const Json& scene);
+
+}  // namespace trocar::app

@@ -1,0 +1,65 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <trocar/attempt/standing.hpp>
+#include <trocar/core/log.hpp>
+#include <trocar/sim/model/bodies.hpp>
+#include <trocar/sim/stages/step.hpp>
+
+namespace trocar::attempt {
+namespace {
+
+Standing::Organ look_at(const sim::Model& model, const sim::State& state, int organ) {
+  const std::span<const Vec3d> rest = sim::drawn_nodes(model, organ);
+  const tissue::NodeView now = nodes_of(model, state, organ);
+  Standing::Organ out{model.organ_name(organ), 0, {}};
+  for (std::size_t n = 0; n < rest.size(); ++n) {
+    const double off = length(now.position(int(n)) - rest[n]);
+    if (off <= out.off) continue;
+    out.off = off;
+    out.at = rest[n];
+    if (std::isnan(off)) break;  // the farthest of all
+  }
+  return out;
+}
+
+}  // namespace
+
+bool Standing::still() const {
+  return std::none_of(organs.begin(), organs.end(), [](const Organ& o) { return o.sinks(); });
+}
+
+Standing stand(const sim::Model& scene, std::uint64_t ticks, const std::function<bool()>& go_on) {
+  sim::Model model = scene;
+  model.motion = {};
+  model.vessels.bleeder.vessel = -1;
+  for (std::size_t i = 0; i < model.hands.size(); ++i)  // hands away
+    model.start.tools[i].depth = float(model.placed(i).limits.depth_min);
+  Standing out;
+  out.state = sim::initial_state(model);
+  sim::Work work = sim::make_work(model);
+  while (out.state.tick < ticks && go_on()) sim::step(model, model.start, out.state, work);
+  out.seconds = double(out.state.tick) * sim::kTick;
+  for (int organ = 0; organ < model.organs(); ++organ) out.organs.push_back(look_at(model, out.state, organ));
+  return out;
+}
+
+std::string in_words(const Standing& standing, const Standing::Organ& o) {
+  return fmt::format(
+      "{} does not hang still: {:.1f} mm off at ({:.1f}, {:.1f}, {:.1f}) mm after {:.2g} s at rest (a "
+      "stiffer or lighter tissue, larger cells or more anchors may hold it)",
+      o.name, 1e3 * o.off, 1e3 * o.at.x, 1e3 * o.at.y, 1e3 * o.at.z, standing.seconds);
+}
+
+void warn_of_sinking(const sim::Model& model) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point until = Clock::now() + std::chrono::seconds(1);
+  const Standing standing = stand(model, 500, [&] { return Clock::now() < until; });
+  for (const Standing::Organ& o : standing.organs)
+    if (o.sinks()) core::log::warn("{}", in_words(standing, o));
+}
+
+}  // namespace trocar::attempt

@@ -1,0 +1,201 @@
+#include <algorithm>
+#include <system_error>
+
+#include <trocar/scene/files/look_file.hpp>
+#include <trocar/scene/files/rows.hpp>
+
+namespace trocar::scene {
+
+namespace fs = std::filesystem;
+using sim::Look;
+using sim::Surrounding;
+
+namespace {
+
+const Table<Look::Relief>& relief() {
+  using R = Rows<Look::Relief>;
+  using L = Look::Relief;
+  static const Table<L> table{
+      "relief",
+      "Unevenness that mechanics do not have, made once, so that it rides on the tissue.",
+      {R::number("broad_mm", units::mm, &L::broad, 0, 20, "height of its larger waves, default {}"),
+       R::number("broad_size_mm", units::mm, &L::broad_size, 0.5, 200, "their length, default {}"),
+       R::number("fine_mm", units::mm, &L::fine, 0, 20, "height of its smaller waves, default {}"),
+       R::number("fine_size_mm", units::mm, &L::fine_size, 0.5, 200, "their length, default {}"),
+       R::integer("follicles", &L::follicles, 0, 100, "blisters, default {}"),
+       R::number("follicle_radius_mm", units::mm, &L::follicle_radius, 0.1, 20, "of the largest, default {}"),
+       R::integer("scars", &L::scars, 0, 100, "short pale furrows where follicles have burst, default {}"),
+       R::number("ripe_mm", units::mm, &L::ripe, 0, 20, "radius of one ripe follicle, default {}: none"),
+       R::number("lopsided_mm", units::mm, &L::lopsided, 0, 20,
+                 "flat and full places of a body as a whole, each body's own, default {}"),
+       R::number("haustra_mm", units::mm, &L::haustra, 0, 20, "height of a large gut's bulges, default {}"),
+       R::number("haustra_size_mm", units::mm, &L::haustra_size, 1, 200, "their distance, default {}")}};
+  return table;
+}
+
+const Choices<Surrounding::Generator> kGenerators{
+    {"fat_tags", Surrounding::Generator::fat_tags},      {"adhesions", Surrounding::Generator::adhesions},
+    {"curtains", Surrounding::Generator::curtains},      {"drape", Surrounding::Generator::drape},
+    {"omentum", Surrounding::Generator::omentum},        {"liver_dome", Surrounding::Generator::liver_dome},
+    {"bowel_loops", Surrounding::Generator::bowel_loops}};
+
+const Table<Surrounding>& surrounding() {
+  using R = Rows<Surrounding>;
+  static const Table<Surrounding> table{
+      "surrounding",
+      "Anatomy that is drawn only, around a body of this look.",
+      {needed(R::choice("generator", kGenerators, &Surrounding::generator,
+                        "fat_tags: cushions of fat on large bowel; adhesions: strings and veils to the wall; curtains: "
+                        "broad veils to it; drape: peritoneum covers the body and runs out on what is around; omentum: "
+                        "fat on the lowest part of such a wall; liver_dome: the rest of an organ of which only the "
+                        "lower edge is a body; bowel_loops: more bowel beside it, where a wall ends in a floor")),
+       R::integer("count", &Surrounding::count, 1, 200, "of fat_tags, adhesions, curtains, at most; default {}")}};
+  return table;
+}
+
+void check_surrounding(const JsonObject& o, Look& look, Context&) {
+  using G = Surrounding::Generator;
+  const Surrounding& now = look.surroundings.back();
+  const bool counted = now.generator == G::fat_tags || now.generator == G::adhesions || now.generator == G::curtains;
+  if (o.has("generator") && o.has("count") && !counted)
+    o.fault("count", fmt::format("expected a count of what is counted only, got one of {}", o.text("generator")));
+  for (std::size_t i = 0; i + 1 < look.surroundings.size(); ++i)
+    if (o.has("generator") && look.surroundings[i].generator == now.generator)
+      o.fault("generator", fmt::format("expected every generator once, got \"{}\" again", o.text("generator")));
+}
+
+std::vector<Row<Look>> colour_rows() {
+  using R = Rows<Look>;
+  return {
+      R::own(keys::name("inherits", "a look of the same folder: this one says what differs; default: from neutral")),
+      R::choice("surface", Choices<Look::Surface>{{"tissue", Look::Surface::tissue}, {"metal", Look::Surface::metal}},
+                &Look::surface, "default {}"),
+      R::vec3("colour", units::one, &Look::colour, 0, 255, "sRGB as read off a picture, default {}"),
+      R::vec3("patches", units::one, &Look::patches, 0, 255, "of broad patches, default {}"),
+      R::vec3("flecks", units::one, &Look::flecks, 0, 255, "of fine flecks, default {}"),
+      R::vec3("tint", units::one, &Look::tint, 0, 255,
+              "where something else shimmers through or grows out, default {}"),
+      R::number("mottle_size_mm", units::mm, &Look::mottle_size, 0.1, 500, "of patches, default {}"),
+      R::number("mottle", units::one, &Look::mottle, 0, 1, "how much of patches and flecks, default {}"),
+      R::number("lobule_size_mm", units::mm, &Look::lobule_size, 0, 100, "of lobules of fat, default {}: none"),
+      R::number("lobule_depth", units::one, &Look::lobule_depth, 0, 1, "how round they are shaded, default {}"),
+      R::number("lobule_contrast", units::one, &Look::lobule_contrast, 0, 1,
+                "how much darker their seams are, default {}"),
+      R::number("fibre_stretch", units::one, &Look::fibre_stretch, 1, 100,
+                "of patterns along its fibres, grinding marks; default {}"),
+      R::number("bump", units::one, &Look::bump, 0, 1, "fine unevenness, default {}")};
+}
+
+std::vector<Row<Look>> vessel_rows() {
+  using R = Rows<Look>;
+  return {R::own(keys::vec3("vessel_colour", 0, 255, "default: dark red"),
+                 [](const JsonObject& o, Look& l, Context&) {
+                   if (o.has("vessel_colour")) l.vessel_colour = o.vec3("vessel_colour");
+                 }),
+          R::number("vessels", units::one, &Look::vessels, 0, 4, "how much of them, default {}"),
+          R::number("vessel_tile_mm", units::mm, &Look::vessel_tile, 1, 1000,
+                    "edge of a tile of their picture, the largest is 1/85 of it wide; default {}"),
+          R::flag("arcade", &Look::arcade, "those of a fold: bows along it, vessel_tile_mm long; default {}"),
+          R::flag("lining", &Look::lining, "those of a cavity's wall: trunks with branches; default {}")};
+}
+
+std::vector<Row<Look>> film_rows() {
+  using R = Rows<Look>;
+  return {R::number("roughness", units::one, &Look::roughness, 0.02, 1, "of what is under the film, default {}"),
+          R::number("wetness", units::one, &Look::wetness, 0, 1, "0 dry, 1 film everywhere; default {}"),
+          R::number("film_roughness", units::one, &Look::film_roughness, 0.02, 0.5,
+                    "sharp: broken flecks, blunt: sheen; default {}"),
+          R::number("film_size_mm", units::mm, &Look::film_size, 0.1, 50, "length of the film's ripples, default {}"),
+          R::number("film_bump", units::one, &Look::film_bump, 0, 1, "how much they break highlights up, default {}"),
+          R::number("fresnel", units::one, &Look::fresnel, 0, 1, "what it mirrors straight on, default {}"),
+          R::vec3("wrap", units::one, &Look::wrap, 0, 1, "how far light goes round, red, green, blue; default {}"),
+          R::vec3("glow", units::one, &Look::glow, 0, 1, "colour of light through a thin rim, linear; default {}"),
+          R::number("glow_amount", units::one, &Look::glow_amount, 0, 1, "of that, default {}"),
+          R::number("alpha", units::one, &Look::alpha, 0, 1, "of what is translucent, facing the eye; default {}"),
+          R::number("rim_alpha", units::one, &Look::rim_alpha, 0, 1, "and edge on, default {}"),
+          R::flag("translucent", &Look::translucent, "what lies behind shines through, default {}"),
+          R::flag("moulded", &Look::moulded, "of a model: it does not grow out of what holds it, default {}"),
+          R::flag("two_sided", &Look::two_sided, "both sides are seen, default {}"),
+          R::number("scatter", units::one, &Look::scatter, 0, 1, "of metal: 0 bare, 1 ceramic or plastic; default {}"),
+          R::number("soil", units::one, &Look::soil, 0, 1, "of metal: share of blood and burn that shows, default {}")};
+}
+
+const Table<Look>& look_keys() {
+  using R = Rows<Look>;
+  static const Table<Look> table{"look", "What a surface looks like, and what anatomy is drawn around it.", [] {
+                                   std::vector<Row<Look>> rows = colour_rows();
+                                   for (const std::vector<Row<Look>>& more : {vessel_rows(), film_rows()})
+                                     rows.insert(rows.end(), more.begin(), more.end());
+                                   rows.push_back(R::object("relief", relief, &Look::relief, "default: smooth"));
+                                   rows.push_back(R::objects("surroundings", surrounding, &Look::surroundings, 0,
+                                                             "default: none", check_surrounding));
+                                   return of_file(std::move(rows));
+                                 }()};
+  return table;
+}
+
+constexpr std::size_t kMostInherited = 16;
+
+}  // namespace
+
+LookShelf::LookShelf(const std::vector<fs::path>& folders, std::vector<core::Fault>& faults, const MemoryFiles* memory)
+    : m_faults(faults), m_memory(memory) {
+  for (const fs::path& folder : folders) {
+    std::error_code error;
+    if (memory) {
+      for (const auto& [path, text] : *memory)
+        if (path.parent_path() == folder && path.extension() == ".json") m_files.emplace(path.stem().string(), path);
+      continue;
+    }
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+      if (entry.path().extension() == ".json") m_files.emplace(entry.path().stem().string(), entry.path());
+  }
+  auto book = std::make_shared<sim::Lookbook>();
+  for (const auto& [name, path] : m_files) {
+    Open open;
+    book->looks.push_back(look(name, open));
+  }
+  m_book = std::move(book);
+}
+
+std::vector<std::string> LookShelf::names() const {
+  std::vector<std::string> all;
+  for (const auto& [name, path] : m_files) all.push_back(name);
+  return all;
+}
+
+const Look& LookShelf::look(const std::string& name, Open& open) {
+  if (const auto read = m_read.find(name); read != m_read.end()) return read->second;
+  open.push_back(name);
+  const JsonDocument document = load_json(m_files.at(name), m_faults, m_memory);
+  const JsonObject o(document.root, look_keys(), document.file, m_faults);
+  Look look;
+  inherit(o, look, open);
+  look.name = name;
+  if (o.names("surroundings")) look.surroundings.clear();
+  std::vector<Reference> none;
+  Context context{{}, nullptr, none};
+  look_keys().read(o, look, context);
+  open.pop_back();
+  return m_read.emplace(name, std::move(look)).first->second;
+}
+
+void LookShelf::inherit(const JsonObject& o, Look& look, Open& open) {
+  if (!o.has("inherits")) return;
+  const std::string base = o.text("inherits");
+  std::string chain;
+  for (const std::string& name : open) chain += name + " -> ";
+  if (m_files.count(base) == 0)
+    o.fault("inherits", unknown_name("look", base, names()));
+  else if (std::find(open.begin(), open.end(), base) != open.end())
+    o.fault("inherits",
+            fmt::format("expected looks that do not inherit each other in a circle, got {}{}", chain, base));
+  else if (open.size() >= kMostInherited)
+    o.fault("inherits", fmt::format("expected at most {} looks that inherit each other, got more", kMostInherited));
+  else
+    look = this->look(base, open);
+}
+
+const Shape& look_shape() { return look_keys(); }
+
+}  // namespace trocar::scene

@@ -1,0 +1,258 @@
+// Keys of organ files: solids and walls, other organs that are part of them. Strands and what hangs on them:
+// fold_keys.cpp.
+#include <cmath>
+
+#include <trocar/scene/files/keys.hpp>
+#include <trocar/scene/files/reader_parts.hpp>
+
+namespace trocar::scene {
+namespace {
+
+double area(const Section& s) {
+  // of a super-ellipse: pi a b at exponent 2, towards 4 a b for a square (1 % good between)
+  return (4 - 1.717 / s.squareness) * length(cross(s.across, s.deep));
+}
+
+void check_section(const JsonObject& o, Section& s, Context&) {
+  for (const auto& [key, axis] : {std::pair{"across_mm", s.across}, std::pair{"deep_mm", s.deep}})
+    if (o.has(key) && !(length(axis) >= 1e-5)) o.fault(key, "expected a half axis of at least 0.01 mm, got none");
+  const double a = length(s.across), b = length(s.deep);
+  if (a > 0 && b > 0 && !(length(cross(s.across, s.deep)) >= 0.5 * a * b))
+    o.fault("deep_mm", "expected half axes at least 30 degrees apart, got nearly parallel ones");
+}
+
+const Table<Anchor>& anchor() {
+  using R = Rows<Anchor>;
+  static const Table<Anchor> table{
+      "anchor",
+      "The nodes within a ball are held where they are, rigidly or by springs.",
+      {needed(R::vec3("centre_mm", units::mm, &Anchor::centre, -kFar, kFar, "centre of the ball")),
+       needed(R::number("radius_mm", units::mm, &Anchor::radius, 0.1, 500, "radius of the ball")),
+       R::number("stiffness_N_m", units::one, &Anchor::stiffness, 0, 1e6,
+                 "of all springs together, default {}: rigid")}};
+  return table;
+}
+
+Row<TetSource> file_row() {
+  return needed(Rows<TetSource>::text("file", &TetSource::file, "its name, relative to this file"));
+}
+Row<TetSource> place_row() {
+  return Rows<TetSource>::vec3("place_mm", units::mm, &TetSource::place, -kFar, kFar,
+                               "where its origin goes, default {}");
+}
+
+const Table<TetSource>& tet_mesh() {
+  using R = Rows<TetSource>;
+  static const Table<TetSource> table{
+      "mesh",
+      "Tetrahedra from a file: Gmsh .msh or legacy VTK.",
+      {file_row(), R::number("unit_mm", units::mm, &TetSource::unit, 1e-6, 1e6, "unit of its coordinates, default {}"),
+       place_row()}};
+  return table;
+}
+
+const Table<TetSource>& voxel_body() {
+  using R = Rows<TetSource>;
+  static const Table<TetSource> table{
+      "voxels",
+      "What fills one label of a segmented volume: NRRD, as 3D Slicer saves it.",
+      {file_row(), needed(R::integer("label", &TetSource::label, 1, 65535, "the value of the organ's voxels")),
+       R::integer("smoothing", &TetSource::smoothing, 0, 16, "passes that take away the voxels' steps, default {}"),
+       place_row()}};
+  return table;
+}
+
+/// Bounds what compile would have to make of it, before it tries.
+void check_size(const JsonObject& o, const Solid& s) {
+  double volume = 0, skin = 0;
+  for (std::size_t i = 0; i + 1 < s.sections.size(); ++i) {
+    const Section &a = s.sections[i], &b = s.sections[i + 1];
+    const double height = length(b.centre - a.centre), top = area(a), bottom = area(b);
+    volume += height / 3 * (top + bottom + std::sqrt(top * bottom));
+    skin += height * 3 * (length(a.across) + length(a.deep) + length(b.across) + length(b.deep)) / 2;
+  }
+  const double nodes = 1.3 * volume / (s.cell * s.cell * s.cell);
+  if (o.has("cell_mm") && nodes > kMaxSolidNodes)
+    o.fault("cell_mm", fmt::format("expected a cell that fills the body with at most {} nodes, got about {:.3g}",
+                                   kMaxSolidNodes, nodes));
+  for (const auto& [key, edge] : {std::pair{"skin_edge_mm", s.skin_edge}, std::pair{"fine_edge_mm", s.fine_edge}})
+    if (o.has(key) && 2.3 * skin / (edge * edge) > kMaxTriangles)
+      o.fault(key, fmt::format("expected an edge that gives at most {} triangles, got about {:.3g}", kMaxTriangles,
+                               2.3 * skin / (edge * edge)));
+}
+
+/// One shape, and what belongs to it.
+void check_shape(const JsonObject& o, const Solid& s) {
+  int shapes = 0;
+  for (const char* key : {"sections", "mesh", "voxels"}) {
+    shapes += o.names(key);
+    if (o.names(key) && shapes == 2) o.fault(key, "expected one shape, got a second one");
+  }
+  if (shapes == 0) o.fault(o.at(), "expected a shape (sections, mesh or voxels), got none");
+  if (!o.names("mesh") && !o.names("cell_mm")) o.fault(o.at(), "expected \"cell_mm\", got none");
+  if (o.names("mesh") && o.names("cell_mm"))
+    o.fault("cell_mm", "expected no cell_mm beside a mesh, whose cells are as they are, got one");
+  const bool lattice = o.names("sections") && !s.cuttable;
+  for (const char* key : {"fibre", "fibre_ratio"})
+    if (o.names(key) && lattice)
+      o.fault(key, "expected fibres in tetrahedra only (mesh, voxels or cuttable), got some in a lattice");
+  if (o.names("fibre") && !(length(s.fibre) > 1e-6)) o.fault("fibre", "expected a direction, got none");
+  for (const char* key : {"skin_edge_mm", "fine_edge_mm"})
+    if (o.names(key) && !lattice)
+      o.fault(key, "expected skin edges for a lattice only, got one for tetrahedra, whose faces are the skin");
+}
+
+constexpr double kUsualCell = 0.005;  // [m] to go on with where the file says none
+
+void check_solid(const JsonObject& o, Solid& s, Context& c) {
+  if (!o.has("cell_mm")) s.cell = kUsualCell;
+  if (o.has("mesh")) s.cell = 0;
+  check_shape(o, s);
+  for (const JsonObject& mesh : o.objects("mesh")) c.reading->mesh_of(mesh, tet_mesh().made(mesh, c), c.folder, s);
+  for (const JsonObject& part : o.objects("voxels")) {
+    TetSource source;
+    source.label = 1;
+    voxel_body().read(part, source, c);
+    c.reading->voxels_of(part, std::move(source), c.folder, s);
+  }
+  if (!o.has("skin_edge_mm")) s.skin_edge = s.cell;
+  if (!o.has("fine_edge_mm")) s.fine_edge = s.skin_edge / 2;
+  if (!s.tets) check_size(o, s);
+}
+
+bool of_mesh(const Solid& s) { return s.tets && s.tets->label == 0; }
+bool of_voxels(const Solid& s) { return s.tets && s.tets->label > 0; }
+bool of_lattice(const Solid& s) { return !s.tets && !s.cuttable; }
+
+void check_wall(const JsonObject& o, Wall& w, Context&) {
+  double surface = 0;
+  for (int r = 0; r + 1 < w.rows; ++r)
+    for (int c = 0; c + 1 < w.columns; ++c) {
+      const Vec3d* p = w.net.data() + r * w.columns + c;
+      surface += length(cross(p[w.columns + 1] - p[0], p[w.columns] - p[1])) / 2;
+    }
+  if (o.has("edge_mm") && 2.3 * surface / (w.edge * w.edge) > kMaxTriangles)
+    o.fault("edge_mm", fmt::format("expected an edge that gives at most {} triangles, got about {:.3g}", kMaxTriangles,
+                                   2.3 * surface / (w.edge * w.edge)));
+}
+
+void read_net(const JsonObject& o, Wall& w, Context&) {
+  PointGrid grid = o.grid("net_mm");
+  w.rows = int(grid.rows);
+  w.columns = int(grid.columns);
+  for (const Vec3d& p : grid.points) w.net.push_back(p / 1000.0);
+}
+
+std::optional<JsonValue> written_net(const Wall& w, bool) {
+  std::vector<JsonValue> rows;
+  for (auto row = w.net.begin(); row != w.net.end(); row += w.columns)
+    rows.push_back(listed(std::vector<Vec3d>(row, row + w.columns), [](Vec3d p) { return written_by(units::mm, p); }));
+  return json_array(std::move(rows));
+}
+
+std::vector<Row<Description>> organ_rows() {
+  using R = Rows<Description>;
+  return {
+      R::own(keys::name("name", "what it is called")),
+      R::own(keys::includes(
+                 "organs", []() -> const Shape& { return organ_keys(); }, "organs that belong to it: files or objects"),
+             [](const JsonObject& o, Description&, Context& c) { c.reading->organs(o, c.folder); }),
+      R::objects("solids", solid, &Description::solids, 0, "volumetric organs"),
+      R::objects("strands", strand, &Description::strands, 0, "tubes and cords"),
+      R::objects("walls", wall, &Description::walls, 0, "surfaces that do not move"),
+      R::objects("sheets", sheet, &Description::sheets, 0, "folds that are only drawn"),
+      R::objects("membranes", membrane, &Description::membranes, 0, "folds that are bodies"),
+      R::objects("pouches", pouch, &Description::pouches, 0, "closed walls with something inside")};
+}
+
+}  // namespace
+
+const Table<Section>& section() {
+  using R = Rows<Section>;
+  static const Table<Section> table{
+      "section",
+      "A cross-section of a lofted body: a super-ellipse with two half-axis vectors.",
+      {needed(R::vec3("centre_mm", units::mm, &Section::centre, -kFar, kFar, "centre")),
+       needed(R::vec3("across_mm", units::mm, &Section::across, -500, 500, "first half axis")),
+       needed(R::vec3("deep_mm", units::mm, &Section::deep, -500, 500, "second half axis")),
+       R::number("squareness", units::one, &Section::squareness, 1, 10,
+                 "exponent of the super-ellipse, default {}: an ellipse")},
+      check_section};
+  return table;
+}
+
+const Table<Solid>& solid() {
+  using R = Rows<Solid>;
+  static const Table<Solid> table{
+      "solid",
+      "A volumetric organ. Its shape is one of: sections (a smooth loft), mesh, voxels. A loft is filled with an "
+      "elastic "
+      "lattice of cubic cells, or with tetrahedra where it is cuttable; the others are tetrahedra always.",
+      {needed(R::name("name", &Solid::name, "what scenes and exercises call it")),
+       needed(R::ref("tissue", Reference::To::tissue, &Solid::tissue, "its material")), look_row<Solid>(),
+       R::objects("sections", section, &Solid::sections, 2, "from one end to the other",
+                  [](const JsonObject& o, Solid& s, Context&) { check_last_section(o, s); }),
+       R::own(keys::object(
+                  "mesh", []() -> const Shape& { return tet_mesh(); }, "tetrahedra from a file"),
+              nullptr,
+              [](const Solid& s, bool) {
+                return of_mesh(s) ? std::optional<JsonValue>(tet_mesh().written(*s.tets)) : std::nullopt;
+              }),
+       R::own(
+           keys::object(
+               "voxels", []() -> const Shape& { return voxel_body(); }, "a label of a volume, filled with tetrahedra"),
+           nullptr,
+           [](const Solid& s, bool) {
+             return of_voxels(s) ? std::optional<JsonValue>(voxel_body().written(*s.tets)) : std::nullopt;
+           }),
+       R::number("cell_mm", units::mm, &Solid::cell, 0.1, 100, "edge of the lattice's cubes; needed but for a mesh")
+           .placed(&Solid::cell_at),
+       R::flag("cuttable", &Solid::cuttable, "can it be cut anywhere, so that pieces come off? default {}"),
+       R::vec3("fibre", units::one, &Solid::fibre, -1, 1, "direction of its fibres, default: none; not for a lattice"),
+       R::number("fibre_ratio", units::one, &Solid::fibre_ratio, 0.2, 5,
+                 "stiffness along the fibres over across, default {}"),
+       R::number("skin_edge_mm", units::mm, &Solid::skin_edge, 0.2, 100,
+                 "edge of the touched skin's triangles, default: cell_mm")
+           .only(of_lattice),
+       R::number("fine_edge_mm", units::mm, &Solid::fine_edge, 0.1, 100,
+                 "edge of the drawn skin's triangles, default: half of skin_edge_mm")
+           .only(of_lattice),
+       R::objects("anchors", anchor, &Solid::anchors, 0, "what holds it")},
+      check_solid};
+  return table;
+}
+
+const Table<Wall>& wall() {
+  using R = Rows<Wall>;
+  static const Table<Wall> table{
+      "wall",
+      "A surface that does not move: a NURBS patch over a net of control points; d/drow x d/dcolumn points to the free "
+      "side.",
+      {needed(R::name("name", &Wall::name, "what it is called")), look_row<Wall>(),
+       needed(R::own(keys::grid("net_mm", -kFar, kFar, 2, "rows of control points"), read_net, written_net)),
+       R::number("edge_mm", units::mm, &Wall::edge, 0.5, 200, "edge of its triangles, default {}")},
+      check_wall};
+  return table;
+}
+
+const Table<Description>& organ_keys() {
+  static const Table<Description> table{"organ", "Bodies that belong together, in the scene's frame.", organ_rows()};
+  return table;
+}
+const Table<Description>& organ_file_keys() {
+  static const Table<Description> table{"organ file", "Bodies that belong together, in the scene's frame.",
+                                        of_file(organ_rows())};
+  return table;
+}
+
+bool check_apart(const JsonObject& o, const char* key, const std::vector<Vec3d>& points) {
+  bool apart = true;
+  for (std::size_t i = 1; i < points.size(); ++i)
+    if (!(length(points[i] - points[i - 1]) >= 1e-5)) {
+      o.fault(o.at(key, i), "expected a point at least 0.01 mm from the one before, got the same place");
+      apart = false;
+    }
+  return apart;
+}
+
+}  // namespace trocar::scene

@@ -1,0 +1,91 @@
+// Solids from files of meshes and volumes.
+#include <fmt/format.h>
+
+#include <trocar/core/files.hpp>
+#include <trocar/geometry/formats/nrrd.hpp>
+#include <trocar/geometry/formats/tet_files.hpp>
+#include <trocar/geometry/tets/stuffing.hpp>
+#include <trocar/scene/files/reader_parts.hpp>
+
+namespace trocar::scene {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+void take(const JsonObject& o, TetSource source, Solid& s) {
+  if (source.mesh.cells.empty()) return o.fault("file", "expected cells with a volume, got flat ones only");
+  if (source.mesh.points.size() > std::size_t(kMaxSolidNodes) || source.mesh.cells.size() > std::size_t(kMaxSolidCells))
+    return o.fault("file", fmt::format("expected at most {} nodes and {} cells, got {} and {}", kMaxSolidNodes,
+                                       kMaxSolidCells, source.mesh.points.size(), source.mesh.cells.size()));
+  for (Vec3d& p : source.mesh.points) p += source.place;
+  s.tets = std::move(source);
+}
+
+}  // namespace
+
+std::optional<std::string> Reading::bytes_of(const JsonObject& o, const fs::path& folder) {
+  const fs::path named(o.text("file"));
+  if (!o.has("file")) return {};
+  if (named.empty() || named.is_absolute()) {
+    o.fault("file", fmt::format("expected a file name relative to this file, got \"{}\"", named.generic_string()));
+    return {};
+  }
+  if (m_library && !m_library->holds(folder / named)) {
+    o.fault("file", m_library->refusal(named.generic_string()));
+    return {};
+  }
+  if (++m_files > kMaxFiles) {
+    o.fault("file", fmt::format("expected at most {} files, got more", kMaxFiles));
+    return {};
+  }
+  const fs::path path = (folder / named).lexically_normal();
+  if (m_memory) {
+    const auto found = m_memory->find(path);
+    if (found != m_memory->end()) return found->second;
+    o.fault("file", fmt::format("expected the name of a file, got \"{}\"", named.generic_string()));
+    return {};
+  }
+  try {
+    return core::read_file(path, geometry::kMaxMeshBytes);
+  } catch (const core::BadInput& e) {
+    o.fault("file", e.faults().front().message + " (" + path.generic_string() + ")");
+    return {};
+  }
+}
+
+void Reading::mesh_of(const JsonObject& o, TetSource source, const fs::path& folder, Solid& s) {
+  const std::optional<std::string> bytes = bytes_of(o, folder);
+  if (!bytes) return;
+  try {
+    const std::string shown = (folder / source.file).lexically_normal().generic_string();
+    geometry::TetRepair repaired = geometry::repair(geometry::read_tets(*bytes, shown, source.unit).mesh);
+    for (const geometry::Mended& m : repaired.mended) source.doubts.push_back("mended: " + geometry::in_words(m));
+    for (const std::string& left : geometry::left_as_is(geometry::inspect(repaired.mesh)))
+      source.doubts.push_back("not mended: " + left);
+    source.mesh = std::move(repaired.mesh);
+  } catch (const core::BadInput& e) {
+    for (const core::Fault& f : e.faults()) tell(m_faults, f);
+    return;
+  }
+  take(o, std::move(source), s);
+}
+
+void Reading::voxels_of(const JsonObject& o, TetSource source, const fs::path& folder, Solid& s) {
+  const std::optional<std::string> bytes = bytes_of(o, folder);
+  if (!bytes) return;
+  try {
+    const std::string shown = (folder / source.file).lexically_normal().generic_string();
+    const geometry::Voxels voxels = geometry::read_nrrd(*bytes, shown);
+    source.mesh = geometry::stuffed(geometry::field_of_label(voxels, source.label, source.smoothing), s.cell,
+                                    {.most_cells = kMaxSolidCells, .largest_part = true});
+  } catch (const core::BadInput& e) {
+    for (const core::Fault& f : e.faults()) tell(m_faults, f);
+    return;
+  } catch (const std::invalid_argument& e) {
+    return o.fault("label", fmt::format("expected a label that can be filled with tetrahedra, got: {}", e.what()));
+  }
+  take(o, std::move(source), s);
+}
+
+}  // namespace trocar::scene

@@ -1,0 +1,30 @@
+#include <algorithm>
+
+#include <trocar/interactions/instrument/needle.hpp>
+#include <trocar/sim/bodies/carrying.hpp>
+
+namespace trocar::sim {
+
+void carry_along(const StepContext& c, const CarriedSkin& b) noexcept {
+  constexpr double kThin = 0.0005;  // [m]
+  for (size_t t = 0; t < c.model.hands.size(); ++t) {
+    const interactions::ToolShape& shape = c.work.shapes[t];
+    if (!interactions::meets_box(b.surface.pose->bounds, shape.part[interactions::kShaft].a, shape.frame.tip,
+                                 kNearSheet))
+      continue;
+    const interactions::ToolState& tool = c.state.tools[t];
+    std::array<std::int32_t, interactions::kMaxHolds> between;
+    size_t held = 0;
+    for (int h = 0; h < tool.holds; ++h)
+      if (tool.hold[h].body == b.body) between[held++] = tool.hold[h].element;
+    const interactions::Needles needles = interactions::needles_of(
+        c.work.shapes_before[t], shape, interactions::jaws_are_blunt(c.model.tool(c.state, t).kind),
+        std::max(kThin, b.thickness));
+    interactions::carry_along(needles,
+                              {*b.surface.skin, *b.surface.pose, b.open, b.fixed, {between.data(), held},
+                               b.surface.nodes.origin, b.rows},
+                              b.gap ? b.gap[t * b.each] : 0, kTick);
+  }
+}
+
+}  // namespace trocar::sim

@@ -1,0 +1,38 @@
+#include <trocar/sim/bodies/objects.hpp>
+
+namespace trocar::sim {
+namespace {
+
+/// f(kind, models, states, work) of every kind of object.
+template <class F>
+void for_kinds(StepContext& c, F&& f) noexcept {
+  interactions::ObjectKinds::for_each([&](auto kind) {
+    using K = decltype(kind);
+    f(kind, interactions::part_of<K>(c.model.objects), interactions::part_of<K>(c.state.objects),
+      interactions::part_of<K>(c.work.objects));
+  });
+}
+
+}  // namespace
+
+void hang_objects(StepContext& c) noexcept {
+  for_kinds(c, [](auto kind, const auto&, auto&, auto& work) { kind.clear(work); });
+}
+
+void touch_objects(StepContext& c, const HandContact& hand) noexcept {
+  const interactions::ObjectHand at{hand.tool, c.state.tools[hand.hand], hand.touching};
+  for_kinds(c,
+            [&at](auto kind, const auto& models, auto& states, auto& work) { kind.touch(models, states, at, work); });
+}
+
+void advance_objects(StepContext& c) noexcept {
+  for_kinds(c, [&c](auto kind, const auto& models, auto& states, auto& work) {
+    const tissue::StepReport r = kind.advance(models, c.model.gravity, kTick, c.model.cavity, states, work);
+    c.report.flags |= r.flags | (kind.overloaded(work) ? StepReport::kTooManyLoads : 0u);
+    if (r.fine() || c.report.first_bad_body.exists()) return;
+    c.report.first_bad_body = BodyId(kind.kKind, size_t(r.first_bad));
+    c.report.first_bad_index = 0;
+  });
+}
+
+}  // namespace trocar::sim

@@ -1,0 +1,74 @@
+#include <trocar/interactions/verbs/cut.hpp>
+#include <trocar/sim/bodies/breathing.hpp>
+#include <trocar/sim/bodies/containment.hpp>
+#include <trocar/sim/bodies/hanging.hpp>
+#include <trocar/sim/bodies/solid.hpp>
+#include <trocar/sim/bodies/turns.hpp>
+#include <trocar/tissue/failure/overstretch.hpp>
+
+namespace trocar::sim {
+
+void pose(StepContext& c, SolidRef s) noexcept {
+  const size_t i = s.organ();
+  tissue::pose_skin(c.work.nodes[i], *c.work.skins[i], c.work.poses[i]);
+  const SolidModel& solid = model_of(c.model, s);
+  c.work.surfaces[i] = {c.work.skins[i], &c.work.poses[i], c.work.nodes[i],
+                        can_tear(c.model, s) ? interactions::torn_beyond(solid.cell) : 0};
+}
+
+void hang(StepContext& c, SolidRef s) noexcept {
+  interactions::NetworkLoads& loads = c.work.organ_loads[s.organ()];
+  loads.clear();
+  hang(model_of(c.model, s).anchors, s.organ(), carried(c, s), loads);
+}
+
+void touch(StepContext& c, SolidRef s, HandContact& hand) noexcept {
+  interactions::tool_on_surface(hand.touching, s.id(), c.work.surfaces[s.organ()], c.work.organ_loads[s.organ()]);
+}
+
+std::span<const std::int32_t> pieces_of(const StepContext&, SolidRef) noexcept { return {}; }
+
+std::span<const std::uint8_t> folded_of(StepContext& c, SolidRef s) noexcept {
+  return folded_rows(model_of(c.model, s).network, c.state.solids[s.index], c.work.solid_work[s.index]);
+}
+
+void advance(StepContext& c, SolidRef s) noexcept {
+  interactions::NetworkLoads& loads = c.work.organ_loads[s.organ()];
+  loads.sort();
+  carry_held_nodes(c, s);
+  const tissue::Hands hands = loads.handled() ? tissue::Hands::on : tissue::Hands::off;
+  c.work.organ_reports[s.organ()] =
+      tissue::advance(model_of(c.model, s).network, loads.sorted, loads.reaction, c.state.solids[s.index],
+                      c.work.solid_work[s.index], nullptr, hands);
+  settle_held_nodes(c, s);
+}
+
+void contain(StepContext& c, SolidRef s) noexcept {
+  const tissue::NetworkModel& network = model_of(c.model, s).network;
+  turn_back(c.model.cavity, network.row_of_node, network.origin, c.state.tick, c.state.solids[s.index].nodes);
+}
+
+double wire_cut(const Model& m, SolidRef s) noexcept { return 0.6 * model_of(m, s).cell; }
+
+Parting cut(StepContext& c, SolidRef s, const geometry::Blade& blade) noexcept {
+  const SolidModel& solid = model_of(c.model, s);
+  const int severed = interactions::cut_organ(blade, solid.network, solid.fine, c.state.solids[s.index],
+                                              c.state.parted[s.index], c.work.parts);
+  return {severed > 0, blade, -1, severed};
+}
+
+bool can_tear(const Model& m, SolidRef s) noexcept { return model_of(m, s).failure_strain > 0; }
+
+Parting tear(StepContext& c, SolidRef s) noexcept {
+  const SolidModel& solid = model_of(c.model, s);
+  std::vector<std::uint8_t>& counters = c.state.overstretched_organs[s.organ()];
+  const tissue::Overstretch tear =
+      tissue::find_overstretch(tissue::springs_of(solid.network, c.state.solids[s.index]), solid.failure_strain,
+                               turn_of(c, s.organ()), counters, c.work.beyond);
+  return tear.found ? opened(cut(c, s, tear.blade()), counters) : Parting{};
+}
+
+tissue::StepReport report_of(const StepContext& c, SolidRef s) noexcept { return c.work.organ_reports[s.organ()]; }
+bool overloaded(const StepContext& c, SolidRef s) noexcept { return c.work.organ_loads[s.organ()].overflowed; }
+
+}  // namespace trocar::sim

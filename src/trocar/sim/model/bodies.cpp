@@ -1,0 +1,85 @@
+#include <trocar/sim/model/bodies.hpp>
+
+namespace trocar::sim {
+namespace {
+
+int places(const Model& m, SolidRef r) { return m.solids[r.index].skin.size(); }
+int places(const Model& m, CuttableRef r) { return m.cuttables[r.index].skin.skin.size(); }
+int places(const Model& m, StrandRef r) { return m.strand_bodies[r.index].nodes() - 1; }
+int places(const Model& m, MembraneRef r) { return m.membranes[r.index].sheet.nodes(); }
+
+}  // namespace
+
+bool has(const Model& model, BodyId body) noexcept {
+  bool found = false;
+  visit_bodies(model, [&](auto ref) { found = found || ref.id() == body; });
+  interactions::visit_objects(model.objects, [&](auto, BodyId id) { found = found || id == body; });
+  return found;
+}
+
+const std::string& name_of(const Model& model, BodyId body) {
+  static const std::string nothing = "nothing", wall = "a wall";
+  const std::string* name = body.is(BodyKind::wall) ? &wall : &nothing;
+  visit(model, body, [&](auto ref) { name = &model_of(model, ref).name; });
+  interactions::visit_object(body, [&](auto kind) {
+    name = &kind.name(interactions::part_of<decltype(kind)>(model.objects), body.index());
+  });
+  return *name;
+}
+
+BodyId body_of(const Model& model, const std::string& name) {
+  BodyId found;
+  visit_bodies(model, [&](auto ref) {
+    if (!found.exists() && model_of(model, ref).name == name) found = ref.id();
+  });
+  interactions::visit_objects(model.objects, [&](auto kind, BodyId id) {
+    if (!found.exists() && kind.name(interactions::part_of<decltype(kind)>(model.objects), id.index()) == name)
+      found = id;
+  });
+  return found;
+}
+
+std::int32_t lattice_of(const Model& model, int organ) noexcept {
+  return organ < int(model.solids.size()) ? organ : -1;
+}
+
+const CuttableOrgan& cuttable_of(const Model& model, int organ) noexcept {
+  return model.cuttables[size_t(organ) - model.solids.size()];
+}
+
+std::span<const Vec3d> drawn_nodes(const Model& model, int organ) noexcept {
+  const std::int32_t lattice = lattice_of(model, organ);
+  if (lattice >= 0) return model.solids[size_t(lattice)].network.rest;
+  const tissue::CuttableModel& body = cuttable_of(model, organ).body;
+  return {body.drawn.rest.data(), size_t(body.own_nodes)};
+}
+
+int places_on(const Model& model, BodyId body) {
+  if (!has(model, body)) return 0;
+  int count = visit(model, body, 0, [&](auto ref) { return places(model, ref); });
+  interactions::visit_object(body, [&](auto kind) {
+    count = kind.places(interactions::part_of<decltype(kind)>(model.objects), body.index());
+  });
+  return count;
+}
+
+const std::string& Model::organ_name(int organ) const {
+  return visit_organ(*this, size_t(organ),
+                     [this](auto ref) -> const std::string& { return model_of(*this, ref).name; });
+}
+const std::string& Model::organ_look(int organ) const {
+  return visit_organ(*this, size_t(organ),
+                     [this](auto ref) -> const std::string& { return model_of(*this, ref).look; });
+}
+const tissue::Skin& Model::skin(int organ) const {
+  const std::int32_t lattice = lattice_of(*this, organ);
+  return lattice >= 0 ? solids[size_t(lattice)].skin : cuttable_of(*this, organ).skin.skin;
+}
+
+tissue::NodeView nodes_of(const Model& model, const State& s, int organ) noexcept {
+  const size_t i = size_t(organ), lattices = model.solids.size();
+  return i < lattices ? view_of(model.solids[i].network, s.solids[i])
+                      : view_of(model.cuttables[i - lattices].body, s.cuttables[i - lattices]);
+}
+
+}  // namespace trocar::sim

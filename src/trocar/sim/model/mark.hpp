@@ -1,0 +1,54 @@
+// A mark: a small disc, or a stripe around a strand, that exercises look for or work at. It is seen and drawn, and
+// nothing feels it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include <trocar/core/fields.hpp>
+#include <trocar/interactions/couplings/strand_body.hpp>
+#include <trocar/numerics/vec3.hpp>
+
+namespace trocar::sim {
+
+struct Model;
+struct State;
+
+/// Const after compile. What lies on a wall is in space: walls do not move.
+struct MarkModel {
+  enum Carrier : std::int32_t { space, organ, strand } on = space;
+  std::string name, label, colour;       ///< the last two for the picture
+  std::int32_t body = -1;                ///< organ or strand
+  std::array<std::int32_t, 3> vertex{};  ///< of the organ's skin, around the disc's middle ...
+  Vec3d weight;                          ///< ... and how much each counts, sum 1
+  interactions::StrandPlace at;          ///< on a strand
+  double s = 0;                          ///< the same as arc length [m]
+  Vec3d place, normal{0, 0, 1};          ///< in space: middle [m] and where it faces, unit
+  double half = 0.0025;                  ///< radius of a disc, half the width of a stripe [m]
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("on", s.on), v("body", s.body), v("vertex", s.vertex), v("weight", s.weight), v("s", s.s), v("place", s.place),
+        v("normal", s.normal), v("half", s.half), v("name", s.name, core::kNotHashed),
+        v("label", s.label, core::kNotHashed), v("colour", s.colour, core::kNotHashed),
+        v("at", s.at, core::kNotHashed);
+  }
+
+  bool is_stripe() const noexcept { return on == strand; }
+};
+
+/// Samples by which one sees how much of a mark is in view: of a disc its middle and six points at 0.7 radii, of a
+/// stripe three places along the strand.
+inline constexpr int kDiscSamples = 7, kStripeSamples = 3;
+
+struct MarkPose {
+  Vec3d place;   ///< its middle [m]; of a stripe on the strand's middle line
+  Vec3d normal;  ///< where it faces, unit; of a stripe the strand's direction
+};
+MarkPose pose_of(const Model& model, const State& state, const MarkModel& mark) noexcept;
+
+/// Sample `k` of the mark [m]; of a stripe on the side towards the eye.
+Vec3d mark_sample(const Model& model, const State& state, const MarkModel& mark, int k, Vec3d eye) noexcept;
+
+}  // namespace trocar::sim

@@ -1,0 +1,214 @@
+// Reads an exercise file, with the files of common rules that it includes.
+#include <algorithm>
+#include <deque>
+#include <map>
+
+#include <fmt/format.h>
+
+#include <trocar/core/error.hpp>
+#include <trocar/scene/files/library.hpp>
+#include <trocar/training/exercise/rule_files.hpp>
+#include <trocar/training/exercise/rules.hpp>
+#include <trocar/training/exercise/scoreboard.hpp>
+
+namespace trocar::training {
+namespace {
+
+using scene::JsonObject;
+using scene::JsonValue;
+
+namespace fs = std::filesystem;
+
+class ExerciseReader {
+ public:
+  ExerciseReader(const fs::path& path, const scene::MemoryFiles* memory, Exercise& exercise, Faults& faults)
+      : m_path(path), m_memory(memory), m_exercise(exercise), m_faults(faults), m_library(path) {}
+
+  void read() {
+    m_exercise.file = m_path;
+    m_files.push_back(scene::load_json(m_path, m_faults, m_memory));
+    const scene::JsonDocument& document = m_files.back();
+    if (document.root.kind == JsonValue::Kind::broken || of_another_format(document)) return;
+    const JsonObject o(document.root, exercise_shape(), document.file, m_faults);
+    head(o);
+    score(o);
+    RuleFiles rules(m_exercise, m_faults);
+    includes(o, rules);
+    rules.read(o, document.file, true);
+    steps(o, document.file);
+    for (const JsonObject& d : o.objects("details")) m_exercise.details.push_back({d.value(), document.file});
+    if (const scene::JsonMember* d = document.root.find("demonstration"))
+      m_exercise.demonstration = {d->value, document.file};
+    for (const JsonObject& l : o.objects("later"))
+      m_exercise.later.push_back({l.text("code"), l.text("name"), l.text("needs")});
+    bounds(o);
+    words();
+    codes();
+    unused_limits();
+  }
+
+ private:
+  bool of_another_format(const scene::JsonDocument& document) {
+    const scene::JsonMember* format = document.root.find("format");
+    if (!format || format->value.kind != JsonValue::Kind::number || format->value.number >= 3) return false;
+    fault(document.file, format->value,
+          fmt::format("expected format 3, got {:g}: format 2 is not read any more: see docs/authoring_exercises.md",
+                      format->value.number));
+    return true;
+  }
+
+  void fault(const std::string& file, const JsonValue& at, std::string message) {
+    scene::tell(m_faults, {{file, at.line, at.column}, std::move(message)});
+  }
+
+  void head(const JsonObject& o) {
+    m_exercise.name = o.text("name");
+    m_exercise.title = o.text("title");
+    m_exercise.summary = o.text("summary");
+    m_exercise.order = o.integer("order", 1000);
+    m_exercise.scene = m_path.parent_path() / o.text("scene");
+    if (!m_memory && o.has("scene") && !m_library.holds(m_exercise.scene))
+      o.fault("scene", m_library.refusal(o.text("scene")));
+  }
+
+  void score(const JsonObject& o) {
+    Exercise& e = m_exercise;
+    e.hold_time = o.number("hold_s");
+    e.expert_time = o.number("expert_s");
+    e.longest_time = o.number("longest_s");
+    if (o.has("expert_s") && o.has("longest_s") && e.expert_time >= e.longest_time)
+      o.fault("longest_s", "expected more than expert_s, got less or the same");
+    e.pass_mark = o.number("pass_mark");
+    for (const JsonObject& s : o.objects("score")) {
+      e.quality_share = s.number("quality");
+      e.time_share = s.number("time");
+      e.motion_share = s.number("motion");
+      if (s.has("quality") && s.has("time") && e.quality_share + e.time_share <= 0)
+        s.fault("quality", "expected quality + time above 0, got none");
+    }
+  }
+
+  void includes(const JsonObject& o, RuleFiles& rules) {
+    const std::vector<std::string> names = o.texts("includes");
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const fs::path path = (m_path.parent_path() / names[i]).lexically_normal();
+      if (!m_memory && !m_library.holds(path)) {
+        o.fault(o.at("includes", i), m_library.refusal(names[i]));
+        continue;
+      }
+      m_files.push_back(scene::load_json(path, m_faults, m_memory));
+      const scene::JsonDocument& document = m_files.back();
+      if (document.root.kind == JsonValue::Kind::broken) continue;
+      rules.read(JsonObject(document.root, common_rules_shape(), document.file, m_faults), document.file, false);
+    }
+  }
+
+  void steps(const JsonObject& o, const std::string& file) {
+    double weights = 0;
+    for (const JsonObject& s : o.objects("steps")) {
+      StepText text{s.text("step"),        s.text("title"),    s.text("hint"),   s.text("for_each"),
+                    s.number("weight", 1), s.flag("optional"), {s.value(), file}};
+      if (m_exercise.step(text.name)) s.fault("step", "expected each step once, got \"" + text.name + "\" again");
+      weights += text.weight;
+      m_exercise.steps.push_back(std::move(text));
+    }
+    if (o.has("steps") && weights <= 0) o.fault("steps", "expected a weight above 0, got none");
+  }
+
+  void bounds(const JsonObject& o) {
+    if (m_exercise.sets.size() > std::size_t(kMaxSets))
+      o.fault("sets", fmt::format("expected at most {} sets, got {}", kMaxSets, m_exercise.sets.size()));
+  }
+
+  /// Limits go into what people are told of errors; steps are told with their elements, later.
+  void words() {
+    const Scope scope(m_exercise.limits, {});
+    for (Penalty& p : m_exercise.penalties)
+      for (std::string* text : {&p.name, &p.meaning, &p.hint}) *text = scope.text(*text);
+  }
+
+  void codes() {
+    std::vector<std::string> known;
+    for (const Penalty& p : m_exercise.penalties) known.push_back(p.code);
+    for (const Penalty& p : m_exercise.penalties) {
+      for (const std::vector<std::string>* list : {&p.implies, &p.may})
+        for (const std::string& code : *list)
+          if (!m_exercise.penalty(code)) fault_of(p, *list == p.may ? "may" : "implies", "error code", code, known);
+      std::vector<std::string> steps;
+      for (const StepText& s : m_exercise.steps) steps.push_back(s.name);
+      for (const std::vector<std::string>* list : {&p.leaves, &p.misses})
+        for (const std::string& step : *list)
+          if (!m_exercise.step(step.substr(0, step.find('('))))
+            fault_of(p, list == &p.leaves ? "leaves" : "misses", "step", step, steps);
+    }
+  }
+  void fault_of(const Penalty& p, const char* key, const char* what, const std::string& word,
+                const std::vector<std::string>& known) {
+    const scene::JsonMember* m = p.part.value.find(key);
+    fault(p.part.file, m ? m->value : p.part.value, scene::unknown_name(what, word, known));
+  }
+
+  /// A limit that decides nothing is a mistake: somebody believes in it.
+  void unused_limits() {
+    std::map<std::string, bool> used;
+    for (const Limit& l : m_exercise.limits) used[l.name] = false;
+    for (const scene::JsonDocument& d : m_files) note_references(d.root, used);
+    for (const Limit& l : m_exercise.limits)
+      if (!used[l.name])
+        scene::tell(m_faults, {l.at, fmt::format("expected a limit that something uses (\"${}\"), got none", l.name)});
+  }
+  static void note_references(const JsonValue& v, std::map<std::string, bool>& used) {
+    if (v.kind == JsonValue::Kind::string && v.text.size() > 1 && v.text[0] == '$')
+      if (const auto at = used.find(v.text.substr(1)); at != used.end()) at->second = true;
+    for (const JsonValue& item : v.items) note_references(item, used);
+    for (const scene::JsonMember& m : v.members) note_references(m.value, used);
+  }
+
+  const fs::path& m_path;
+  const scene::MemoryFiles* m_memory;
+  Exercise& m_exercise;
+  Faults& m_faults;
+  scene::Library m_library;
+  std::deque<scene::JsonDocument> m_files;  ///< they stay where they are
+};
+
+/// The first of those that say the same of the same place.
+void keep_each_once(Faults& faults) {
+  Faults kept;
+  for (core::Fault& f : faults) {
+    const auto same = [&f](const core::Fault& k) {
+      return k.at.line == f.at.line && k.at.column == f.at.column && k.at.file == f.at.file && k.message == f.message;
+    };
+    if (std::none_of(kept.begin(), kept.end(), same)) kept.push_back(std::move(f));
+  }
+  faults = std::move(kept);
+}
+
+}  // namespace
+
+Exercise read_exercise(const fs::path& path, Faults& faults, const scene::MemoryFiles* memory) {
+  Exercise e;
+  ExerciseReader(path, memory, e, faults).read();
+  if (!e.steps.empty()) {
+    Scoreboard board(e, Mode::assessed);
+    const Rules rules(e, nullptr, 0, board, faults);
+  }
+  keep_each_once(faults);
+  return e;
+}
+
+Exercise read_exercise(const fs::path& path, const scene::MemoryFiles* memory) {
+  Faults faults;
+  Exercise e = read_exercise(path, faults, memory);
+  if (!faults.empty()) throw core::BadInput(std::move(faults));
+  return e;
+}
+
+void check_in_scene(const Exercise& exercise, const sim::Model& model, Faults& faults) {
+  if (exercise.steps.empty()) return;
+  Scoreboard board(exercise, Mode::assessed);
+  const Rules rules(exercise, &model, 0, board, faults);
+  keep_each_once(faults);
+}
+
+}  // namespace trocar::training

@@ -1,0 +1,28 @@
+// Reads what exercise files and files of common rules have alike: limits, sets, errors. A file that is read after
+// another may make its limits and errors stricter; what would loosen them is a fault.
+#pragma once
+
+#include <trocar/training/exercise/exercise.hpp>
+
+namespace trocar::training {
+
+class RuleFiles {
+ public:
+  RuleFiles(Exercise& exercise, Faults& faults) : m_exercise(exercise), m_faults(faults) {}
+
+  /// @param own  the exercise's file, after all common ones
+  void read(const scene::JsonObject& file, const std::string& path, bool own);
+
+ private:
+  void limits(const scene::JsonObject& file, const std::string& path, bool own);
+  void limit(const scene::JsonMember& member, const std::string& path, bool own);
+  void sets(const scene::JsonObject& file, const std::string& path);
+  void errors(const scene::JsonObject& file, const std::string& path, bool own);
+  void make_stricter(Penalty& common, const scene::JsonObject& error, const std::string& path);
+
+  Exercise& m_exercise;
+  Faults& m_faults;
+  std::size_t m_common_limits = 0, m_common_errors = 0;
+};
+
+}  // namespace trocar::training

@@ -1,0 +1,267 @@
+// Makes rules of an exercise's steps and errors, in a scene or, to check them, without one.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include <trocar/scene/json/shape.hpp>
+#include <trocar/training/exercise/rules.hpp>
+
+namespace trocar::training {
+
+using scene::JsonValue;
+
+class RulesReader {
+ public:
+  RulesReader(Rules& rules, const Exercise& exercise, const sim::Model* model, Faults& faults)
+      : m_rules(rules), m_exercise(exercise), m_model(model), m_faults(faults) {}
+
+  void read() {
+    owners();
+    put_steps_on_board();
+    for (const Placed& p : m_placed) step(p);
+    cycles();
+    for (const Penalty& p : m_exercise.penalties) error(p);
+    if (m_rules.m_errors.size() > std::size_t(kMaxErrors))
+      whole(fmt::format("expected at most {} errors (one an element), got {}", kMaxErrors, m_rules.m_errors.size()));
+    details();
+  }
+
+ private:
+  /// A step of the board, and where it comes from.
+  struct Placed {
+    const StepText* text;
+    const Set* set;
+    const Element* element;
+  };
+
+  void whole(std::string message) { scene::tell(m_faults, {{m_exercise.file.string(), 0, 0}, std::move(message)}); }
+
+  Reading reading(const Scope& scope, const std::string& file) {
+    Reading r;
+    r.scope = &scope;
+    r.model = m_model;
+    r.facts = &m_rules.m_facts;
+    r.events = &m_rules.m_events;
+    r.steps = &m_rules.m_board.steps();
+    r.file = &file;
+    r.faults = &m_faults;
+    return r;
+  }
+
+  Scope scope_of(const Set* set, const Element* element) const {
+    return set ? m_rules.m_scope.at(*set, *element) : m_rules.m_scope;
+  }
+
+  /// Null: a fault has been told, or it is there once.
+  const Set* set_of(const std::string& name, const Part& part) {
+    if (name.empty()) return nullptr;
+    const Set* set = m_rules.m_scope.set(name);
+    if (set) return set;
+    std::vector<std::string> known;
+    for (const Set& s : m_rules.m_scope.sets()) known.push_back(s.name);
+    const scene::JsonMember* at = part.value.find("for_each");
+    reading(m_rules.m_scope, part.file).fault(at ? at->value : part.value, scene::unknown_name("set", name, known));
+    return nullptr;
+  }
+
+  /// Bodies by which it is known which element somebody works on.
+  void owners() {
+    for (const Set& set : m_rules.m_scope.sets()) {
+      if (set.elements.size() > std::size_t(kMaxElements))
+        reading(m_rules.m_scope, set.file)
+            .fault(set.at, fmt::format("expected at most {} elements, got {}", kMaxElements, set.elements.size()));
+      for (std::size_t i = 0; i < set.elements.size(); ++i)
+        for (const std::string& member : set.held) own(set, i, member);
+    }
+  }
+  void own(const Set& set, std::size_t element, const std::string& member) {
+    const Element& e = set.elements[element];
+    const Reading r = reading(m_rules.m_scope, set.file);
+    const JsonValue* value = e.member(member);
+    if (!value)
+      return r.fault(set.at,
+                     fmt::format("expected the member \"{}\" of \"{}\", as it is in held, got none", member, e.name));
+    for (const NameAt& n : r.names(*value)) {
+      std::int32_t code = -1;
+      std::vector<std::string> known;
+      if (!m_model) continue;
+      if (!find_named(*m_model, ArgumentKind::body, n.name, code, known))
+        scene::tell(m_faults, {n.at, scene::unknown_name(noun(ArgumentKind::body), n.name, known)});
+      else if (const BodyId body = BodyId::of_code(code); body.exists())
+        m_rules.m_guide.belongs(body, set.name, int(element), e.name);
+    }
+  }
+
+  /// Steps of one set that follow each other are shown an element after another.
+  void put_steps_on_board() {
+    const std::vector<StepText>& all = m_exercise.steps;
+    for (std::size_t i = 0; i < all.size();) {
+      std::size_t end = i + 1;
+      while (end < all.size() && !all[i].for_each.empty() && all[end].for_each == all[i].for_each) ++end;
+      const Set* set = set_of(all[i].for_each, all[i].part);
+      const int first = int(m_placed.size());
+      if (set)
+        for (const Element& e : set->elements)
+          for (std::size_t k = i; k < end; ++k) m_placed.push_back({&all[k], set, &e});
+      else
+        for (std::size_t k = i; k < end; ++k) m_placed.push_back({&all[k], nullptr, nullptr});
+      m_rules.m_guide.add({set ? set->name : "", first, int(end - i), set ? int(set->elements.size()) : 1});
+      i = end;
+    }
+    if (m_placed.size() > std::size_t(kMaxSteps))
+      whole(fmt::format("expected at most {} steps (one an element), got {}", kMaxSteps, m_placed.size()));
+    for (const Placed& p : m_placed) {
+      const Scope scope = scope_of(p.set, p.element);
+      StepStatus s;
+      s.name = scope.text(p.text->title);
+      if (p.element && p.text->title.find('{') == std::string::npos) s.name = p.element->title + ": " + s.name;
+      s.hint = scope.text(p.text->hint);
+      s.task = p.text->name;
+      s.side = p.element ? p.element->name : "";
+      s.optional = p.text->optional;
+      m_rules.m_board.add_step(std::move(s), p.text->weight);
+    }
+  }
+
+  void step(const Placed& p) {
+    const Scope scope = scope_of(p.set, p.element);
+    const Reading r = reading(scope, p.text->part.file);
+    const JsonValue& v = p.text->part.value;
+    StepRule rule;
+    rule.step = int(m_rules.m_steps.size());
+    if (const auto* m = v.find("after")) rule.after = steps_named(m->value, r, rule.step);
+    if (const auto* m = v.find("needs")) rule.needs = steps_named(m->value, r, rule.step);
+    if (const auto* m = v.find("when")) rule.when = read_condition(m->value, r);
+    if (const auto* m = v.find("missed_when")) rule.missed_when = read_condition(m->value, r);
+    if (const auto* m = v.find("undone_when")) rule.undone_when = read_condition(m->value, r);
+    if (const auto* m = v.find("on")) rule.on = act_of_step(m->value, r, p.text->name);
+    if (const auto* m = v.find("missed_on")) rule.missed_on = read_act(m->value, r);
+    rule.done_for.needs = m_exercise.hold_time;
+    rule.missed_for.needs = rule.undone_for.needs = m_exercise.hold_time;
+    if (const auto* m = v.find("for_s"))
+      if (const auto n = r.number(m->value, unit_of("for_s"), 0, 3600)) rule.done_for.needs = *n;
+    const bool when = v.find("when"), on = v.find("on");
+    if (!when && !on)
+      r.fault(v, fmt::format("expected when or on for the step \"{}\", got neither: nothing can make it true",
+                             p.text->name));
+    if (when && on)
+      r.fault(v.find("on")->value, "expected when or on, got both: a condition of an act is its \"while\"");
+    m_rules.m_steps.push_back(std::move(rule));
+  }
+
+  Act act_of_step(const JsonValue& v, const Reading& r, const std::string& name) {
+    const std::size_t before = m_faults.size();
+    Act act = read_act(v, r);
+    if (m_model && m_faults.size() == before && !act.possible())
+      r.fault(v, fmt::format("expected an event that can make the step \"{}\" true, got one on no body", name));
+    return act;
+  }
+
+  /// "previous", a step, or several.
+  std::vector<int> steps_named(const JsonValue& v, const Reading& r, int step) {
+    std::vector<int> all;
+    if (v.kind == JsonValue::Kind::array) {
+      for (const JsonValue& item : v.items)
+        for (const int i : steps_named(item, r, step)) all.push_back(i);
+    } else if (v.text == "previous") {
+      if (step > 0) all.push_back(step - 1);
+    } else {
+      all = same_element_first(v, r, step);
+    }
+    return all;
+  }
+  /// Within for_each a step of the same set means that of the same element.
+  std::vector<int> same_element_first(const JsonValue& v, const Reading& r, int step) {
+    std::vector<int> found = read_steps(v, r);
+    const std::string& side = m_rules.m_board.step(step).side;
+    if (side.empty() || v.text.find('(') != std::string::npos) return found;
+    std::vector<int> same;
+    for (const int i : found)
+      if (m_placed[std::size_t(i)].set == m_placed[std::size_t(step)].set && m_rules.m_board.step(i).side == side)
+        same.push_back(i);
+    return same.empty() ? found : same;
+  }
+
+  /// A step that comes after itself, by whatever way, never counts.
+  void cycles() {
+    const std::size_t n = m_rules.m_steps.size();
+    std::vector<int> seen(n, 0);  // 0: not yet, 1: on the way, 2: good
+    for (std::size_t i = 0; i < n; ++i)
+      if (leads_back(int(i), seen)) return;
+  }
+  bool leads_back(int i, std::vector<int>& seen) {
+    int& mine = seen[std::size_t(i)];
+    if (mine == 2) return false;
+    if (mine == 1) {
+      const Part& part = m_placed[std::size_t(i)].text->part;
+      reading(m_rules.m_scope, part.file)
+          .fault(part.value, fmt::format("expected steps in an order, got a circle of after and needs through \"{}\"",
+                                         m_placed[std::size_t(i)].text->name));
+      return true;
+    }
+    mine = 1;
+    const StepRule& rule = m_rules.m_steps[std::size_t(i)];
+    for (const std::vector<int>* list : {&rule.after, &rule.needs})
+      for (const int before : *list)
+        if (leads_back(before, seen)) return true;
+    mine = 2;
+    return false;
+  }
+
+  void error(const Penalty& p) {
+    const Set* set = set_of(p.for_each, p.part);
+    if (!set) return error(p, nullptr, nullptr);
+    for (const Element& e : set->elements) error(p, set, &e);
+  }
+
+  void error(const Penalty& p, const Set* set, const Element* element) {
+    const Scope scope = scope_of(set, element);
+    const Reading r = reading(scope, p.part.file);
+    const JsonValue& v = p.part.value;
+    ErrorRule rule;
+    rule.penalty = &p;
+    rule.side = element ? element->name : "";
+    if (const auto* m = v.find("on")) rule.on = read_act(m->value, r);
+    if (const auto* m = v.find("when")) rule.when = read_condition(m->value, r);
+    if (const auto* m = v.find("for_s"))
+      if (const auto n = r.number(m->value, unit_of("for_s"), 0, 3600)) rule.held.needs = *n;
+    if (const auto* m = v.find("once_per")) rule.once = m->value.text == "attempt";
+    if (const auto* m = v.find("detail")) rule.detail = scope.text(m->value.text);
+    if (!p.at.file.empty()) rule.mark = mark(p.at.value, reading(scope, p.at.file));
+    for (const std::string& step : p.misses) {
+      JsonValue name = v;
+      if (const auto* m = v.find("misses")) name = m->value;
+      name.kind = JsonValue::Kind::string;
+      name.text = step;
+      for (const int i : read_steps(name, r)) rule.misses.push_back(i);
+    }
+    m_rules.m_errors.push_back(std::move(rule));
+  }
+
+  int mark(const JsonValue& v, const Reading& r) {
+    const auto name = r.name(v);
+    std::int32_t index = -1;
+    std::vector<std::string> known;
+    if (name && m_model && !find_named(*m_model, ArgumentKind::mark, name->name, index, known))
+      scene::tell(m_faults, {name->at, scene::unknown_name(noun(ArgumentKind::mark), name->name, known)});
+    return index;
+  }
+
+  void details() {
+    m_rules.m_details.watch(m_rules.m_events);
+    for (const Part& part : m_exercise.details) m_rules.m_details.read(part, reading(m_rules.m_scope, part.file));
+  }
+
+  Rules& m_rules;
+  const Exercise& m_exercise;
+  const sim::Model* m_model;
+  Faults& m_faults;
+  std::vector<Placed> m_placed;
+};
+
+Rules::Rules(const Exercise& exercise, const sim::Model* model, std::uint64_t seed, Scoreboard& board, Faults& faults)
+    : m_exercise(exercise), m_board(board), m_scope(exercise.scope(model, seed, faults)) {
+  RulesReader(*this, m_exercise, model, faults).read();
+}
+
+}  // namespace trocar::training

@@ -1,0 +1,137 @@
+#include <algorithm>
+
+#include <trocar/core/tick.hpp>
+#include <trocar/sim/stages/visibility.hpp>
+#include <trocar/training/observe/hands.hpp>
+#include <trocar/training/observe/watches.hpp>
+
+namespace trocar::training {
+namespace {
+
+bool has(const std::vector<BodyId>& list, BodyId body) {
+  return std::find(list.begin(), list.end(), body) != list.end();
+}
+
+}  // namespace
+
+void PullWatch::update(const Handling& limits, const Tissues& tissues, const sim::Model& model, const sim::State& state,
+                       Mishaps& out) {
+  for (size_t h = 0; h < hands(model); ++h) {
+    const interactions::ToolState& tool = state.tools[h];
+    const bool delicate = tool.holds > 0 && has(tissues.delicate, tool.hold[0].body);
+    const double limit = delicate ? limits.pull_limit : limits.pull_limit_other;
+    const double before = m_over_for[h];
+    m_over_for[h] = tool.holds > 0 && norm(tool.pull) > limit ? before + sim::kTick : 0;
+    if (before < limits.pull_excursion && m_over_for[h] >= limits.pull_excursion)
+      out.add({"E1", int(h), tip_of(model, state, h), delicate ? "delicate tissue" : "other tissue"});
+  }
+}
+
+void TearWatch::update(const sim::Model& model, const sim::State& state, const sim::StepReport& report, Mishaps& out) {
+  constexpr std::uint64_t kGoesOn =
+      core::kTicksPerSecond;  // [ticks] without a tear, after which the next one is another
+  for (int i = 0; i < report.event_count; ++i) {
+    const sim::Event& e = report.events[i];
+    if (e.kind != sim::Event::torn) continue;
+    const auto known = std::find_if(m_torn.begin(), m_torn.end(), [&e](const Torn& t) { return t.body == e.body(); });
+    const bool goes_on = known != m_torn.end() && state.tick - known->tick < kGoesOn;
+    if (known == m_torn.end())
+      m_torn.push_back({e.body(), state.tick});
+    else
+      known->tick = state.tick;
+    if (!goes_on) out.add({"E1.2", e.tool, tip_of(model, state, size_t(e.tool)), ""});
+  }
+}
+
+void PinchWatch::update(const Handling& limits, const Tissues& tissues, const sim::Model& model,
+                        const sim::State& state, Mishaps& out) {
+  for (size_t h = 0; h < hands(model); ++h) {
+    const interactions::ToolState& tool = state.tools[h];
+    if (tool.holds == 0 || !has(tissues.bowel, tool.hold[0].body)) {
+      m_impulse[h] = 0;
+      m_told[h] = false;
+      continue;
+    }
+    m_impulse[h] += tool.pinch * sim::kTick;
+    const bool hard = tool.pinch > limits.pinch_limit, lasting = m_impulse[h] > limits.pinch_impulse;
+    if (m_told[h] || (!hard && !lasting)) continue;
+    m_told[h] = true;
+    out.add({"E2", int(h), tip_of(model, state, h), hard ? "force" : "force and time"});
+  }
+}
+
+SightWatch::SightWatch(const sim::Model& model) {
+  for (size_t h = 0; h < hands(model); ++h) {
+    const std::string& name = model.hands[h].name;
+    m_targets[h] = {{model.target_index(name + ".jaw_a"), model.target_index(name + ".jaw_b")},
+                    model.target_index(name + ".shaft")};
+  }
+}
+
+void SightWatch::update(const Handling& limits, const sim::Model& model, const sim::State& state,
+                        const std::array<Vec3d, sim::kMaxTools>& before, const std::array<Vec3d, sim::kMaxTools>& now,
+                        double dt, Mishaps& out) {
+  constexpr double kSmoothing = 0.15;  // [s]
+  for (size_t h = 0; h < hands(model); ++h) {
+    const Targets& t = m_targets[h];
+    m_velocity[h] += std::min(1.0, dt / kSmoothing) * ((now[h] - before[h]) / dt - m_velocity[h]);
+    const bool seen = sim::visible(model, state, t.jaw[0]) || sim::visible(model, state, t.jaw[1]);
+    const double depth = state.tools[h].depth;
+    if (seen || depth < limits.insertion_depth) {
+      if (seen && depth >= limits.insertion_depth) m_inserting[h] = false;
+      m_blind_for[h] = 0;
+      m_told[h] = false;
+      continue;
+    }
+    if (m_inserting[h] && !sim::visible(model, state, t.shaft)) {
+      m_inserting[h] = false;
+      out.add({"E13", int(h), now[h], ""});
+    }
+    // Drawing straight back is safe: the instrument has just been there.
+    const double speed = length(m_velocity[h]), back = dot(m_velocity[h], model.hands[h].port - now[h]) / depth;
+    if (speed > limits.blind_speed && back < 0.9 * speed) m_blind_for[h] += dt;
+    if (m_blind_for[h] <= limits.blind_time || m_told[h]) continue;
+    m_told[h] = true;
+    out.add({"E4.1", int(h), now[h], ""});
+  }
+}
+
+void CollisionWatch::update(const Handling& limits, const sim::Model& model, const sim::State& state, double dt,
+                            Mishaps& out) {
+  std::array<Parts, sim::kMaxTools> now;
+  for (size_t h = 0; h < hands(model); ++h) {
+    const interactions::ToolState& tool = state.tools[h];
+    const interactions::ToolShape shape = interactions::shape_of(model.tool(state, h), tool.pose(), tool.aperture);
+    for (size_t p = 0; p < now[h].size(); ++p) now[h][p] = shape.part[p];
+  }
+  constexpr double kApart = 0.002;  // [m] between two meetings
+  const auto velocity = [&](size_t hand, size_t part, double s) {
+    const collision::Capsule &a = m_before[hand][part], &b = now[hand][part];
+    return ((b.a + s * (b.b - b.a)) - (a.a + s * (a.b - a.a))) / dt;
+  };
+  for (size_t i = 0; i < hands(model); ++i)
+    for (size_t j = i + 1; j < hands(model); ++j) {
+      bool near = false, fast = false;
+      Vec3d where;
+      for (size_t p = 0; p < now[i].size(); ++p)
+        for (size_t q = 0; q < now[j].size(); ++q) {
+          Vec3f side{};
+          const collision::RodContact c = collision::touch(now[i][p], now[j][q], side);
+          if (c.depth <= -kApart) continue;
+          near = true;
+          if (c.depth <= 0) continue;
+          where = c.on_first;
+          if (m_begun && length(velocity(i, p, c.s) - velocity(j, q, c.t)) > limits.collision_speed) fast = true;
+        }
+      bool& told = m_touching[i][j];
+      if (fast && !told) {
+        told = true;
+        out.add({"E5", int(i), where, ""});
+      }
+      if (!near) told = false;
+    }
+  m_before = now;
+  m_begun = true;
+}
+
+}  // namespace trocar::training

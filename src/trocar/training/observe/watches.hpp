@@ -1,0 +1,108 @@
+// What the hands do wrong, whatever the exercise is about: pull or pinch too hard, lose their grip, move or push in
+// where the camera does not look, strike each other. Each watch is asked at its rate and notes mishaps;
+// events/handling.cpp makes events of them.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <trocar/sim/stages/step.hpp>
+
+namespace trocar::training {
+
+/// What counts as rough or careless, in SI.
+struct Handling {
+  double pull_limit = 0, pull_limit_other = 0, pull_excursion = 0;
+  double pinch_limit = 0, pinch_impulse = 0;
+  double blind_time = 0, blind_speed = 0;
+  double collision_speed = 0, insertion_depth = 0;
+};
+
+struct Mishap {
+  const char* code = "";
+  int hand = -1;
+  Vec3d where;
+  const char* detail = "";
+};
+
+/// Mishaps of one tick; what does not fit is not told.
+struct Mishaps {
+  std::array<Mishap, 16> list;
+  int count = 0;
+  void add(const Mishap& m) {
+    if (count < int(list.size())) list[size_t(count++)] = m;
+  }
+};
+
+/// Bodies of the scene that bear little.
+struct Tissues {
+  std::vector<BodyId> delicate, bowel;
+};
+
+/// E1: over-forces, one an excursion. Asked every tick.
+class PullWatch {
+ public:
+  void update(const Handling& limits, const Tissues& tissues, const sim::Model& model, const sim::State& state,
+              Mishaps& out);
+
+ private:
+  std::array<double, sim::kMaxTools> m_over_for{};
+};
+
+/// E1.2: tissue that tears, once a body for as long as it goes on tearing.
+class TearWatch {
+ public:
+  void update(const sim::Model& model, const sim::State& state, const sim::StepReport& report, Mishaps& out);
+
+ private:
+  struct Torn {
+    BodyId body;
+    std::uint64_t tick = 0;  ///< when last
+  };
+  std::vector<Torn> m_torn;
+};
+
+/// E2: bowel pinched too hard or too long, each once a hold. Asked every tick.
+class PinchWatch {
+ public:
+  void update(const Handling& limits, const Tissues& tissues, const sim::Model& model, const sim::State& state,
+              Mishaps& out);
+
+ private:
+  std::array<double, sim::kMaxTools> m_impulse{};
+  std::array<bool, sim::kMaxTools> m_told{};
+};
+
+/// E4.1 and E13: instruments that move, or are brought in, where the camera does not look.
+class SightWatch {
+ public:
+  explicit SightWatch(const sim::Model& model);
+  void exchanged(int hand) { m_inserting[size_t(hand)] = true; }
+  /// Once a sample of `dt` [s]; tips before and now.
+  void update(const Handling& limits, const sim::Model& model, const sim::State& state,
+              const std::array<Vec3d, sim::kMaxTools>& before, const std::array<Vec3d, sim::kMaxTools>& now, double dt,
+              Mishaps& out);
+
+ private:
+  struct Targets {
+    int jaw[2] = {-1, -1}, shaft = -1;
+  };
+  std::array<Targets, sim::kMaxTools> m_targets;
+  std::array<double, sim::kMaxTools> m_blind_for{};
+  std::array<Vec3d, sim::kMaxTools> m_velocity{};  ///< smoothed: a tremor is no motion [m/s]
+  std::array<bool, sim::kMaxTools> m_inserting{}, m_told{};
+};
+
+/// E5: instruments that strike each other, once a meeting.
+class CollisionWatch {
+ public:
+  void update(const Handling& limits, const sim::Model& model, const sim::State& state, double dt, Mishaps& out);
+
+ private:
+  using Parts = std::array<collision::Capsule, interactions::kToolParts>;
+  std::array<Parts, sim::kMaxTools> m_before{};
+  std::array<std::array<bool, sim::kMaxTools>, sim::kMaxTools> m_touching{};
+  bool m_begun = false;
+};
+
+}  // namespace trocar::training

@@ -1,0 +1,95 @@
+#include <algorithm>
+#include <cmath>
+
+#include <trocar/numerics/portable.hpp>
+#include <trocar/training/observe/hands.hpp>
+#include <trocar/training/operator/arms.hpp>
+
+namespace trocar::training {
+namespace {
+
+constexpr double kNear = 0.0006;  // [m] close enough
+constexpr double kSquare = 0.02;  // [rad] turned enough
+constexpr double kTurn = 1.5;     // [rad/s] of a wrist at work
+
+/// The jaws look the same after half a turn: the nearest of the equivalent rolls.
+double nearest_roll(double wanted, double now) {
+  while (wanted - now > 0.5 * portable::pi) wanted -= portable::pi;
+  while (wanted - now < -0.5 * portable::pi) wanted += portable::pi;
+  return wanted;
+}
+
+}  // namespace
+
+Arms::Arms(const sim::Model& model, const Tremor& tremor) : m_count(int(hands(model))) {
+  for (size_t h = 0; h < hands(model); ++h) {
+    const sim::ToolInput& in = model.start.tools[h];
+    Arm& arm = m_arm[h];
+    arm.port = model.hands[h].port;
+    arm.tip = kinematics::forward(arm.port, pose_of(in)).tip;
+    arm.roll = double(in.roll);
+    arm.handle = double(in.handle);
+  }
+  core::Random random(tremor.seed * 2654435761u + 17);
+  for (auto& hand : m_wave)
+    for (auto& axis : hand)
+      for (Wave& w : axis) w = {2 * portable::pi * random.uniform(8, 12), random.uniform(0, 2 * portable::pi)};
+  m_amplitude = tremor.rms * std::sqrt(2.0 / kWaves);
+}
+
+void Arms::begin_tick() {
+  for (Arm& arm : m_arm) arm.moving = false;
+}
+
+bool Arms::move(int hand, Vec3d goal, double speed) {
+  Arm& arm = m_arm[size_t(hand)];
+  const Vec3d way = goal - arm.tip;
+  const double distance = length(way);
+  const double pace = std::min(speed, 0.002 + 6.0 * distance) * sim::kTick;
+  arm.tip = distance <= pace ? goal : arm.tip + (pace / distance) * way;
+  arm.moving = arm.moving || distance > kNear;
+  return distance < kNear;
+}
+
+bool Arms::move_to_depth(int hand, double depth, double speed) {
+  const Arm& arm = m_arm[size_t(hand)];
+  return move(hand, arm.port + depth * normalised(arm.tip - arm.port), speed);
+}
+
+bool Arms::turn_across(int hand, Vec3d direction) {
+  Arm& arm = m_arm[size_t(hand)];
+  const kinematics::FulcrumPose pose = kinematics::inverse(arm.port, arm.tip, arm.roll);
+  const double wanted = nearest_roll(kinematics::roll_towards(pose, direction), arm.roll);
+  arm.roll += std::clamp(wanted - arm.roll, -kTurn * sim::kTick, kTurn * sim::kTick);
+  return std::fabs(wanted - arm.roll) < kSquare;
+}
+
+bool Arms::grip(int hand, double to, double seconds) {
+  double& handle = m_arm[size_t(hand)].handle;
+  const double pace = sim::kTick / seconds;
+  handle += std::clamp(to - handle, -pace, pace);
+  return std::fabs(handle - to) < 1e-9;
+}
+
+Vec3d Arms::tremor(int hand, std::uint64_t tick) const {
+  Vec3d sum;
+  if (m_amplitude == 0) return sum;
+  const double t = double(tick % 600'000) * sim::kTick;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const Wave& w : m_wave[size_t(hand)][size_t(axis)])
+      sum[axis] += m_amplitude * portable::sin(w.rate * t + w.phase);
+  return sum;
+}
+
+void Arms::fill(std::uint64_t tick, sim::Input& input) const {
+  for (int h = 0; h < m_count; ++h) {
+    const Arm& arm = m_arm[size_t(h)];
+    const kinematics::FulcrumPose pose = kinematics::inverse(arm.port, arm.tip + tremor(h, tick), arm.roll);
+    input.tools[h] = sim::tool_input(pose, float(arm.handle), arm.instrument);
+    input.pedals &= ~(sim::irrigates(h) | sim::sucks(h));
+    if (arm.coagulating) input.pedals |= sim::kBlue;
+    input.pedals |= (arm.irrigating ? sim::irrigates(h) : 0u) | (arm.sucking ? sim::sucks(h) : 0u);
+  }
+}
+
+}  // namespace trocar::training

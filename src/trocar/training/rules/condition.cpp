@@ -1,0 +1,257 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include <trocar/scene/json/shape.hpp>
+#include <trocar/training/facts/registry.hpp>
+#include <trocar/training/rules/arguments.hpp>
+#include <trocar/training/rules/condition.hpp>
+
+namespace trocar::training {
+
+using scene::JsonValue;
+
+Truth Condition::holds(const Look& look) const { return holds(look, nullptr); }
+Truth Condition::would_hold(const Look& look, const Happening& h) const { return holds(look, &h); }
+
+Truth Condition::holds(const Look& look, const Happening* h) const {
+  switch (m_kind) {
+    case Kind::none:
+      return Truth::yes;
+    case Kind::fact:
+      return m_test.of(h ? m_facts->foretold(m_watch, look, *h) : m_facts->value(m_watch, look));
+    case Kind::step:
+      return of_step(look);
+    case Kind::negation:
+      return negated(m_parts[0].holds(look, h));
+    case Kind::all:
+    case Kind::any:
+      break;
+  }
+  const Truth decides = m_kind == Kind::all ? Truth::no : Truth::yes;
+  Truth all = negated(decides);
+  for (const Condition& part : m_parts) {
+    const Truth t = part.holds(look, h);
+    if (t == decides) return t;
+    if (t == Truth::unknown) all = t;
+  }
+  return all;
+}
+
+Truth Condition::of_step(const Look& look) const {
+  const StepStatus& s = (*m_steps)[size_t(m_step)];
+  const bool is = m_is == StepIs::done ? s.done : m_is == StepIs::missed ? s.missed : !s.done && !s.missed;
+  if (!is || !m_since) return truth(is);
+  return m_test.of(look.now() - s.at);
+}
+
+namespace {
+
+bool complete(const Fact& fact, const Arguments& arguments) {
+  for (std::size_t i = 0; i < arguments.size(); ++i)
+    if (fact.parameters[i].needed && !arguments[i].given) return false;
+  return true;
+}
+
+}  // namespace
+
+FactAt read_fact(const JsonValue& v, std::vector<std::string> keys, const Reading& r) {
+  const scene::JsonMember* name = v.find("fact");
+  if (!name) {
+    r.fault(v, "expected a fact, got " + scene::shown(v));
+    return {};
+  }
+  const Fact* fact = find_fact(name->value.text);
+  if (!fact) {
+    std::vector<std::string> known;
+    for (const Fact* f : facts()) known.emplace_back(f->name);
+    r.fault(name->value, scene::unknown_name("fact", name->value.text, known));
+    return {};
+  }
+  keys.insert(keys.begin(), "fact");
+  for (const Parameter& p : fact->parameters) keys.emplace_back(p.name);
+  r.check_keys(v, fmt::format("\"{}\"", fact->name), keys);
+  const std::size_t before = r.faults->size();
+  const Arguments arguments = read_arguments(v, fact->parameters, fact->name, r);
+  if (r.model && !fact->lacks(*r.model).empty())
+    r.fault(name->value,
+            fmt::format("expected a scene with {} for \"{}\", got none", fact->lacks(*r.model), fact->name));
+  if (!r.model || !r.facts || r.faults->size() != before || !complete(*fact, arguments)) return {fact, -1};
+  if (const std::string why = fact->refuses ? fact->refuses(*r.model, arguments) : std::string(); !why.empty()) {
+    r.fault(v, why);
+    return {fact, -1};
+  }
+  return {fact, r.facts->watch(*fact, arguments, *r.model)};
+}
+
+class ConditionReader {
+ public:
+  explicit ConditionReader(const Reading& reading) : r(reading) {}
+
+  Condition read(const JsonValue& v) const {
+    if (v.kind == JsonValue::Kind::broken) return {};
+    if (v.kind == JsonValue::Kind::object) {
+      if (v.find("fact")) return fact(v);
+      if (v.find("step")) return step(v);
+      if (v.find("all")) return joined(v, "all", Condition::Kind::all);
+      if (v.find("any")) return joined(v, "any", Condition::Kind::any);
+      if (v.find("not")) return negation(v);
+    }
+    r.fault(v, "expected a condition: an object with fact, step, all, any or not, got " + scene::shown(v));
+    return {};
+  }
+
+ private:
+  Condition fact(const JsonValue& v) const {
+    Condition c;
+    const FactAt at = read_fact(v, test_keys(), r);
+    if (!at.fact) return c;
+    const auto test = read_test(v, {at.fact->name, at.fact->low, at.fact->high, at.fact->is_truth, false}, r);
+    if (at.watch < 0 || !test) return c;
+    c.m_kind = Condition::Kind::fact;
+    c.m_facts = r.facts;
+    c.m_watch = at.watch;
+    c.m_test = *test;
+    return c;
+  }
+
+  Condition step(const JsonValue& v) const {
+    Condition c;
+    r.check_keys(v, "a step's condition", {"step", "is", "since_s"});
+    c.m_step = read_step(v.find("step")->value, r);
+    if (const scene::JsonMember* is = v.find("is")) {
+      if (is->value.text == "missed")
+        c.m_is = Condition::StepIs::missed;
+      else if (is->value.text == "open")
+        c.m_is = Condition::StepIs::open;
+      else if (is->value.text != "done")
+        r.fault(is->value, scene::unknown_name("state of a step", is->value.text, {"done", "missed", "open"}));
+    }
+    if (const scene::JsonMember* since = v.find("since_s")) {
+      if (c.m_is == Condition::StepIs::open) r.fault(since->value, "expected a step that is done or missed, got open");
+      if (const auto test = read_short_test(since->value, {"since_s", 0, 36000, false, false}, r)) {
+        c.m_test = *test;
+        c.m_since = true;
+      }
+    }
+    if (c.m_step < 0 || !r.steps) return {};
+    c.m_kind = Condition::Kind::step;
+    c.m_steps = r.steps;
+    return c;
+  }
+
+  Condition joined(const JsonValue& v, const char* key, Condition::Kind kind) const {
+    Condition c;
+    c.m_kind = kind;
+    r.check_keys(v, "a condition", {key, "for_each"});
+    const JsonValue& list = v.find(key)->value;
+    if (list.kind != JsonValue::Kind::array || list.items.empty()) {
+      r.fault(list, "expected a list of conditions, got " + scene::shown(list));
+      return {};
+    }
+    const scene::JsonMember* each = v.find("for_each");
+    if (!each) {
+      for (const JsonValue& item : list.items) c.m_parts.push_back(read(item));
+      return c;
+    }
+    const Set* set = r.scope->set(each->value.text);
+    if (!set) {
+      std::vector<std::string> known;
+      for (const Set& s : r.scope->sets()) known.push_back(s.name);
+      r.fault(each->value, scene::unknown_name("set", each->value.text, known));
+      return {};
+    }
+    for (const Element& e : set->elements) {
+      const Scope inner = r.scope->at(*set, e);
+      const Reading reading = r.within(inner);
+      for (const JsonValue& item : list.items) c.m_parts.push_back(ConditionReader(reading).read(item));
+    }
+    return c;
+  }
+
+  Condition negation(const JsonValue& v) const {
+    Condition c;
+    c.m_kind = Condition::Kind::negation;
+    r.check_keys(v, "a condition", {"not"});
+    c.m_parts.push_back(read(v.find("not")->value));
+    return c;
+  }
+
+  const Reading& r;
+};
+
+Condition read_condition(const JsonValue& value, const Reading& reading) {
+  return ConditionReader(reading).read(value);
+}
+
+namespace {
+
+/// "identify($side)" -> "identify", "left". @return false: a fault has been told
+bool split(const JsonValue& value, const Reading& r, std::string& step, std::string& element) {
+  const std::size_t open = value.text.find('(');
+  step = value.text.substr(0, open);
+  element.clear();
+  if (value.kind != JsonValue::Kind::string || step.empty() ||
+      (open != std::string::npos && value.text.back() != ')')) {
+    r.fault(value, "expected a step (\"stop\", \"identify($side)\"), got " + scene::shown(value));
+    return false;
+  }
+  if (open == std::string::npos) return true;
+  JsonValue name = value;
+  name.text = value.text.substr(open + 1, value.text.size() - open - 2);
+  const auto found = r.name(name);
+  if (found) element = found->name;
+  return found.has_value();
+}
+
+/// Which elements it has only the scene can tell.
+bool waits_for_scene(const std::string& step, const Reading& r) {
+  if (r.model) return false;
+  const auto& sets = r.scope->sets();
+  const auto& steps = (*r.steps);
+  return std::any_of(sets.begin(), sets.end(), [](const Set& s) { return s.pending; }) &&
+         std::any_of(steps.begin(), steps.end(), [&step](const StepStatus& s) { return s.task == step; });
+}
+
+void unknown_step(const JsonValue& value, const std::string& step, const std::string& element, const Reading& r) {
+  if (waits_for_scene(step, r)) return;
+  std::vector<std::string> known;
+  for (const StepStatus& s : (*r.steps)) {
+    const std::string name = element.empty() ? s.task : s.side.empty() ? s.task : s.task + "(" + s.side + ")";
+    if (std::find(known.begin(), known.end(), name) == known.end()) known.push_back(name);
+  }
+  r.fault(value, scene::unknown_name("step", element.empty() ? step : step + "(" + element + ")", known));
+}
+
+}  // namespace
+
+int read_step(const JsonValue& value, const Reading& r) {
+  std::string step, element;
+  if (!split(value, r, step, element) || !r.steps) return -1;
+  int found = -1, count = 0;
+  for (int i = 0; i < int((*r.steps).size()); ++i) {
+    const StepStatus& s = (*r.steps)[size_t(i)];
+    if (s.task != step || (!element.empty() && s.side != element)) continue;
+    found = i;
+    ++count;
+  }
+  if (count == 1) return found;
+  if (count > 1)
+    r.fault(value, fmt::format("expected one step, got {}: name one as \"{}(ELEMENT)\"", count, step));
+  else
+    unknown_step(value, step, element, r);
+  return -1;
+}
+
+std::vector<int> read_steps(const JsonValue& value, const Reading& r) {
+  std::vector<int> found;
+  std::string step, element;
+  if (!split(value, r, step, element) || !r.steps) return found;
+  for (int i = 0; i < int((*r.steps).size()); ++i)
+    if (const StepStatus& s = (*r.steps)[size_t(i)]; s.task == step && (element.empty() || s.side == element))
+      found.push_back(i);
+  if (found.empty()) unknown_step(value, step, element, r);
+  return found;
+}
+
+}  // namespace trocar::training

@@ -1,0 +1,68 @@
+// A condition of an exercise file: facts held against limits, and steps, joined by all, any, not. Three-valued: a fact
+// about something that is gone is unknown, and then neither the condition nor its negation counts.
+//
+//   {"fact": "hand.pull_N", "hand": "suprapubic", "in": "$pull_N"}
+//   {"all": [...]}  {"any": [...]}  {"not": {...}}     either with "for_each": "side": once an element
+//   {"step": "identify($side)", "is": "done"}          also "missed", "open"; with "since_s" how long ago it was closed
+#pragma once
+
+#include <vector>
+
+#include <trocar/training/rules/test.hpp>
+#include <trocar/training/rules/watches.hpp>
+
+namespace trocar::training {
+
+class Condition {
+ public:
+  /// Is there one at all? One that is not there holds.
+  bool there() const { return m_kind != Kind::none; }
+  /// May be asked when the watches know the tick.
+  Truth holds(const Look& look) const;
+  /// The same if this happened now.
+  Truth would_hold(const Look& look, const Happening& happening) const;
+
+  /// The facts that it asks for, with their tests, however deep.
+  template <class Visit>
+  void each_fact(Visit&& visit) const {
+    if (m_kind == Kind::fact && m_watch >= 0) visit(m_watch, m_test);
+    for (const Condition& part : m_parts) part.each_fact(visit);
+  }
+
+ private:
+  enum class Kind { none, fact, step, all, any, negation };
+  enum class StepIs { done, missed, open };
+
+  friend class ConditionReader;
+  Truth holds(const Look& look, const Happening* happening) const;
+  Truth of_step(const Look& look) const;
+
+  Kind m_kind = Kind::none;
+  const FactWatches* m_facts = nullptr;
+  int m_watch = -1;
+  Test m_test;
+  const Steps* m_steps = nullptr;
+  int m_step = -1;
+  StepIs m_is = StepIs::done;
+  bool m_since = false;  ///< the test is of how long ago the step was closed
+  std::vector<Condition> m_parts;
+};
+
+/// What the value says; with faults a condition that may only be thrown away.
+Condition read_condition(const scene::JsonValue& value, const Reading& reading);
+
+/// A fact with its arguments. `watch`: its number; -1: a fault has been told, or there is no scene yet.
+struct FactAt {
+  const Fact* fact = nullptr;
+  int watch = -1;
+};
+/// @param keys  that the object may have beside "fact" and the arguments
+FactAt read_fact(const scene::JsonValue& object, std::vector<std::string> keys, const Reading& reading);
+
+/// The number of a step that a file names: "stop", "identify($side)", "see(niche_3)"; -1: a fault has been told, or the
+/// step's set waits for its scene.
+int read_step(const scene::JsonValue& value, const Reading& reading);
+/// The same where a name stands for the step of all elements: "first_clip".
+std::vector<int> read_steps(const scene::JsonValue& value, const Reading& reading);
+
+}  // namespace trocar::training

@@ -1,0 +1,17 @@
+#include <fmt/format.h>
+
+#include <trocar/training/rules/limits.hpp>
+
+namespace trocar::training {
+
+std::string Limit::shown() const {
+  return is_range ? fmt::format("{:g} to {:g}", low, high) : fmt::format("{:g}", low);
+}
+
+const Limit* find_limit(const Limits& limits, std::string_view name) {
+  for (const Limit& l : limits)
+    if (l.name == name) return &l;
+  return nullptr;
+}
+
+}  // namespace trocar::training

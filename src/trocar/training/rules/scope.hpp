@@ -1,0 +1,106 @@
+// What "$..." means at a place of an exercise file: a limit, a set, within `for_each` an element of the set or one of
+// its members. Whoever reads a part of the file (conditions, steps, demonstrations) is given a Reading: the scope
+// there, the scene, and where faults go.
+//
+//   "$first_clip_mm"   a limit
+//   "$side"            within for_each "side": the element's name; elsewhere: the names of all
+//   "$side.tube"       within for_each "side": its member; elsewhere: that member of all
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <trocar/sim/model/model.hpp>
+#include <trocar/training/rules/limits.hpp>
+#include <trocar/training/rules/sets.hpp>
+#include <trocar/training/rules/step_status.hpp>
+
+namespace trocar::training {
+
+using Faults = std::vector<core::Fault>;
+
+class Scope {
+ public:
+  Scope() = default;
+  Scope(Limits limits, Sets sets);
+
+  /// The same place within `for_each` of a set, at one of its elements. Both must be of this scope.
+  Scope at(const Set& set, const Element& element) const;
+
+  const Limits& limits() const { return m_names->limits; }
+  const Sets& sets() const { return m_names->sets; }
+  const Limit* limit(std::string_view name) const { return find_limit(limits(), name); }
+  const Set* set(std::string_view name) const { return find_set(sets(), name); }
+  /// The element that `for_each` of this set has come to; null outside of it.
+  const Element* bound(std::string_view set) const;
+
+  /// Puts limits and elements into a text for people: {clip_angle_deg}, {name}, {title}, {n}, {of} (the set's size) of
+  /// the innermost element.
+  std::string text(const std::string& pattern) const;
+  /// The title of what a name of the scene is called in the file's sets, else the name.
+  std::string title_of(const std::string& name) const;
+
+ private:
+  struct Names {
+    Limits limits;
+    Sets sets;
+  };
+  struct Bound {
+    const Set* set;
+    const Element* element;
+  };
+  std::shared_ptr<const Names> m_names = std::make_shared<Names>();
+  std::vector<Bound> m_bound;
+};
+
+class FactWatches;
+class EventWatches;
+
+/// A name, and where it stands.
+struct NameAt {
+  std::string name;
+  core::Location at;
+};
+
+/// A number or a range, in SI.
+struct Interval {
+  double low = 0, high = 0;
+  bool is_range = false;
+};
+
+/// With what a part of a file is read.
+struct Reading {
+  const Scope* scope = nullptr;
+  const sim::Model* model = nullptr;  ///< null: all is checked but what only a scene can tell
+  FactWatches* facts = nullptr;       ///< of the attempt; null with the model
+  EventWatches* events = nullptr;     ///< likewise
+  const Steps* steps = nullptr;       ///< of the attempt, for which conditions may ask
+  const std::string* file = nullptr;  ///< of the part that is read
+  Faults* faults = nullptr;
+  int depth = 0;  ///< of references within references
+
+  Reading within(const Scope& other) const {
+    Reading r = *this;
+    r.scope = &other;
+    return r;
+  }
+  void fault(const scene::JsonValue& at, std::string message) const;
+  core::Location at(const scene::JsonValue& value) const { return {*file, value.line, value.column}; }
+  /// Every key of the object is one of these, or a fault.
+  void check_keys(const scene::JsonValue& object, const std::string& what, const std::vector<std::string>& known) const;
+
+  /// What the value says: a number or [from, to], written there in `unit`, or a limit of that unit, or a number of an
+  /// element. Nothing: a fault has been told.
+  std::optional<Interval> interval(const scene::JsonValue& value, const Unit& unit) const;
+  std::optional<double> number(const scene::JsonValue& value, const Unit& unit) const;
+  /// The same within [low, high], in the unit.
+  std::optional<double> number(const scene::JsonValue& value, const Unit& unit, double low, double high) const;
+  /// Names: one, a list, "$element", "$element.member", "$set".
+  std::vector<NameAt> names(const scene::JsonValue& value) const;
+  /// Exactly one. Nothing: a fault has been told, or the set that it is of waits for its scene.
+  std::optional<NameAt> name(const scene::JsonValue& value) const;
+};
+
+}  // namespace trocar::training

@@ -1,0 +1,263 @@
+#include <algorithm>
+
+#include <trocar/interactions/verbs/clip.hpp>
+#include <trocar/numerics/portable.hpp>
+#include <trocar/training/skills/parameters.hpp>
+#include <trocar/training/skills/registry.hpp>
+
+namespace trocar::training {
+namespace {
+
+constexpr double kHalf = 0.42;  // handle of a half closed applier
+
+/// A clip on a strand: the legs go around it, are looked at half closed, and close slowly. Whoever does not see what he
+/// has to see, or has not all of it between the legs, draws back and tries elsewhere.
+class ClipAt final : public Skill {
+ public:
+  ClipAt(const sim::Model& model, const Given& given) : m_hand(given.hand()), m_strand(given("of").index) {
+    m_within = given("within_mm");
+    m_apart = given("apart_mm");
+    m_fixed = given("at_mm").given ? given("at_mm").number() : -1;
+    m_angle_low = given("angle_deg").given ? given("angle_deg").low : 0;
+    m_angle_high = given("angle_deg").given ? given("angle_deg").high : 15 * portable::pi / 180;
+    if (m_angle_low == m_angle_high) m_angle_low = 0;
+    m_cover = given.number("cover", 0.98);
+    m_closing = given.number("closing_s", 2.6);
+    m_inside = given("inside_mm").given ? given("inside_mm").number() : -1;
+    m_seen = given("seen").word.empty() ? "both" : given("seen").word;
+    m_away = given.says("look", "away");
+    m_length = model.strand_bodies[size_t(m_strand)].length();
+  }
+
+ private:
+  enum Phase { kReach, kEnter, kInspect, kClose, kOpen, kLeave };
+
+  void start(Operator& op, int tries) override {
+    m_place = place(op, tries);
+    m_spare = 0.001;
+    m_unseen = 0;
+    m_lost = nullptr;
+    m_clips_before = op.state().clip_count;
+  }
+
+  Progress work(Operator& op) override {
+    struct Row {
+      double patience;  ///< [s]
+      Phase otherwise;
+      const char* why;
+    };
+    static constexpr Row kRows[] = {{15, kLeave, "it did not get there"},
+                                    {8, kLeave, "the legs did not go around it"},
+                                    {8, kLeave, "the legs did not enclose it in view"},
+                                    {8, kOpen, "the clip did not close"},
+                                    {4, kLeave, nullptr},
+                                    {6, kLeave, nullptr}};
+    const Row& row = kRows[m_phase];
+    if (m_in_phase > row.patience) {
+      if (m_phase == kLeave) return leave_taken(op);
+      if (row.why) m_lost = row.why;
+      go(row.otherwise);
+    }
+    switch (m_phase) {
+      case kReach:
+        return reach(op);
+      case kEnter:
+        return enter(op);
+      case kInspect:
+        return inspect(op);
+      case kClose:
+        return close(op);
+      case kOpen:
+        return open(op);
+      default:
+        return leave(op);
+    }
+  }
+
+  Vec3d at(Operator& op) const { return op.point(m_strand, m_place); }
+  bool aim(Operator& op, double back, double speed) const {
+    return op.aim_at(m_hand, m_strand, m_place, inside(op), back, speed);
+  }
+
+  Progress reach(Operator& op) {
+    if (!op.still_presented(m_strand)) return fail("it is not held any more");
+    op.keep_postures(m_strand, m_place);
+    op.make_room(m_hand);
+    op.want(at(op));
+    const bool is_open = op.arms().grip(m_hand, 0, 0.5);
+    if (op.approach(m_hand, m_strand, m_place, inside(op), m_in_phase) && is_open) go(kEnter);
+    return Progress::working;
+  }
+
+  Progress enter(Operator& op) {
+    if (slipped(op)) return Progress::working;
+    op.keep_postures(m_strand, m_place);
+    op.want(at(op));
+    op.want(op.arm(m_hand).tip);
+    if (aim(op, 0, pace::kCareful)) go(kInspect);
+    return Progress::working;
+  }
+
+  Progress inspect(Operator& op) {
+    if (slipped(op)) return Progress::working;
+    op.keep_postures(m_strand, m_place);
+    look(op);
+    // Where a jaw's tip is hidden, another distance or side may show it, and a strand deeper between the legs.
+    m_unseen += op.sees_jaws(m_hand) ? 0 : sim::kTick;
+    m_seen_from = 0.052 + 0.008 * double(int(m_in_phase / 1.5) % 4);
+    op.from(m_seen_from);
+    if (m_in_phase > 0.5 && !op.sees_jaws(m_hand)) m_spare = std::max(0.0007, m_spare - 0.0003 * sim::kTick);
+    aim(op, 0, pace::kTrack);
+    // Half closed, the legs' tips show beyond the strand; a little further, if not.
+    const bool hidden = m_in_phase > 2 && !op.sees_jaws(m_hand);
+    const double wanted = kHalf + (hidden ? std::min(0.24, 0.06 * (m_in_phase - 2)) : 0);
+    if (!op.arms().grip(m_hand, std::max(wanted, op.arm(m_hand).handle), 1.6)) return Progress::working;
+    m_steady = fits(op) ? m_steady + sim::kTick : 0;
+    if (m_steady >= 0.15) go(kClose);
+    return Progress::working;
+  }
+
+  Progress close(Operator& op) {
+    look(op);
+    op.from(m_seen_from);
+    aim(op, 0, pace::kTrack);
+    if (op.arms().grip(m_hand, 1, m_closing) && op.state().clip_count != m_clips_before) go(kOpen);
+    return Progress::working;
+  }
+
+  Progress open(Operator& op) {
+    op.want(at(op));
+    if (op.arms().grip(m_hand, 0, 0.5)) go(kLeave);
+    return Progress::working;
+  }
+
+  Progress leave(Operator& op) {
+    op.want(at(op));
+    op.want(op.arm(m_hand).tip);
+    op.arms().grip(m_hand, 0, 0.5);
+    return aim(op, reach::kBefore, pace::kCareful) ? leave_taken(op) : Progress::working;
+  }
+
+  Progress leave_taken(Operator& op) {
+    if (op.state().clip_count != m_clips_before) return Progress::done;
+    return fail(m_lost ? m_lost : "no clip was set");
+  }
+
+  bool slipped(Operator& op) {
+    if (op.still_presented(m_strand)) return false;
+    m_lost = "it is not held any more";
+    go(kLeave);
+    return true;
+  }
+
+  /// Where the clip belongs: given, or in the middle of its range; a little nearer or farther after each failure, where
+  /// the lower leg may be seen behind the strand. With a sound clip on the strand already, as far from it as they
+  /// should be apart.
+  double place(Operator& op, int tries) const {
+    constexpr double kElsewhere[] = {0, 0.7, -0.7};  // of what the ranges leave
+    const double shift = 0.5 * kElsewhere[tries % 3];
+    if (m_fixed >= 0) return m_fixed;
+    if (m_within.given && m_apart.given)
+      if (const double other = sound_clip(op); other >= 0) {
+        const double apart = 0.5 * (m_apart.low + m_apart.high) + shift * (m_apart.high - m_apart.low);
+        const bool outwards = other < 0.5 * (m_within.low + m_within.high);
+        return std::clamp(other + (outwards ? apart : -apart), m_within.low, m_within.high);
+      }
+    if (m_within.given) return 0.5 * (m_within.low + m_within.high) + shift * (m_within.high - m_within.low);
+    return 0.5 * m_length;
+  }
+
+  double sound_clip(Operator& op) const {
+    for (int i = 0; i < op.state().clip_count; ++i) {
+      const interactions::Clip& c = op.state().clips[size_t(i)];
+      if (c.strand == m_strand && c.tips_visible == 2 && c.cover >= m_cover && c.theta <= m_angle_high) return c.s;
+    }
+    return -1;
+  }
+
+  double inside(Operator& op) const {
+    // The strand next to the clip's bend, so that both legs' tips come into view beyond it; nearer while they do not.
+    const interactions::ToolModel& t = op.tool(m_hand);
+    return m_inside >= 0 ? m_inside : t.jaw_length - t.clip_length + op.radius(m_strand, m_place) + m_spare;
+  }
+
+  void look(Operator& op) const {
+    if (m_away) {  // where the eye sees nothing of it
+      const Vec3d begin = op.point(m_strand, 0);
+      return op.want({-3 * begin.x, begin.y, begin.z});
+    }
+    // From the midline, if the legs' tips stay hidden: then they are seen past the strand, beside the picture's middle.
+    constexpr double kPatience = 3, kAside = 0.03;  // [s] [m]
+    const Vec3d there = at(op);
+    op.want(m_unseen > kPatience ? there - Vec3d{there.x > 0 ? kAside : -kAside, 0, 0} : there);
+  }
+
+  bool sees_enough(Operator& op) const {
+    if (m_seen == "whatever") return true;
+    if (m_seen == "not_both") return !op.sees_jaws(m_hand);
+    return m_seen == "one" ? op.sees_tip(m_hand) : op.sees_jaws(m_hand);
+  }
+
+  /// The whole strand between the legs, across, in view.
+  bool fits(Operator& op) const {
+    constexpr double kSurer = 0.035, kMore = 0.01;  // [rad] and share that are kept from the limits
+    const interactions::ToolModel& t = op.tool(m_hand);
+    const interactions::ToolState& now = op.tool_state(m_hand);
+    const interactions::ToolShape shape = interactions::shape_of(t, now.pose(), now.aperture);
+    const Vec3d local = interactions::to_jaw(shape, at(op));
+    const double cover =
+        interactions::leg_cover(local.z - (t.jaw_length - t.clip_length), op.radius(m_strand, m_place), t.clip_length);
+    const double square = std::fabs(dot(shape.frame.normal(), op.tangent(m_strand, m_place)));
+    const bool enclosed = m_cover <= 0 || (cover >= m_cover + kMore && std::fabs(local.x) < shape.half_gap);
+    const double askew = portable::acos(std::min(1.0, square));
+    const bool across = askew < m_angle_high - kSurer && (m_angle_low <= 0 || askew > m_angle_low + kSurer);
+    return enclosed && across && sees_enough(op);
+  }
+
+  int m_hand, m_strand;
+  Argument m_within, m_apart;
+  double m_fixed = -1, m_angle_low = 0, m_angle_high = 0, m_cover = 0.98, m_closing = 2.6, m_inside = -1, m_length = 0;
+  std::string m_seen;
+  bool m_away = false;
+  double m_place = 0;      ///< [m]
+  double m_spare = 0.001;  ///< between the strand and the clip's bend [m]
+  double m_unseen = 0;     ///< for how long the legs' tips have not been seen [s]
+  double m_seen_from = 0.06;
+  int m_clips_before = 0;
+  const char* m_lost = nullptr;
+};
+
+std::string lacks(const sim::Model& model, const Given& given) {
+  if (std::string lack = lacks_kind(model, given.hand(), interactions::ToolKind::clip_applier); !lack.empty())
+    return lack;
+  return Place::lacks(model, given);
+}
+
+}  // namespace
+
+const SkillKind kClipAt{
+    "clip_at",
+    "set a clip",
+    {hand_parameter("that has the clip applier"),
+     {"of", ArgumentKind::strand, "what is clipped"},
+     range_parameter("within_mm",
+                     "where the clip belongs, from the strand's beginning: its middle, elsewhere in it after "
+                     "each failure",
+                     0, 1000),
+     range_parameter("apart_mm", "how far from a sound clip that sits there already", 0, 1000),
+     number_parameter("at_mm", "or: just there", 0, 1000),
+     range_parameter("angle_deg", "how far off the cross-section it may be; a number: at most; 15", 0, 90),
+     number_parameter("cover", "share of the cross-section between the legs, at least; 0: whatever; 0.98", 0, 1),
+     number_parameter("closing_s", "of the handle from open to closed; 2.6", 0.05, 60),
+     number_parameter("inside_mm", "how far from the jaws' hinge the strand shall lie; next to the clip's bend", 0,
+                      100),
+     word_parameter("seen", "which of the legs' tips have to be in view before it closes; both",
+                    {"both", "one", "not_both", "whatever"}),
+     word_parameter("look", "where the camera looks meanwhile; there", {"there", "away"})},
+    60,
+    "Approaches a strand with the clip applier, takes it between the legs, looks at both tips half closed, closes "
+    "slowly, opens, and draws back.",
+    lacks,
+    &making<ClipAt>};
+
+}  // namespace trocar::training

@@ -1,0 +1,149 @@
+#include <algorithm>
+
+#include <trocar/training/skills/parameters.hpp>
+#include <trocar/training/skills/registry.hpp>
+
+namespace trocar::training {
+namespace {
+
+/// Scissors around a strand, closed in view. Half way between the two clips that are nearest to each other, unless a
+/// place is given.
+class CutAt final : public Skill {
+ public:
+  CutAt(const sim::Model& model, const Given& given)
+      : m_hand(given.hand()),
+        m_strand(given("of").index),
+        m_apart(given("apart_mm")),
+        m_fixed(given.number("at_mm", -1)),
+        m_beyond(given.number("beyond_clip_mm", -1)),
+        m_share(given.number("inside_share", 0.82)),  // near the blades' ends: spare what lies behind
+        m_closing(given.number("closing_s", 0.6)),
+        m_length(model.strand_bodies[size_t(m_strand)].length()) {}
+
+ private:
+  enum Phase { kReach, kEnter, kClose, kOpen, kLeave };
+
+  void start(Operator& op, int) override {
+    m_cuts_before = op.state().cut_count;
+    m_lost = nullptr;
+  }
+
+  Progress work(Operator& op) override {
+    static constexpr double kPatience[] = {15, 8, 4, 4, 6};  // [s]
+    if (m_in_phase > kPatience[m_phase]) {
+      if (m_phase == kLeave) return ended(op);
+      if (m_phase == kReach || m_phase == kEnter) m_lost = "it did not get there";
+      go(m_phase == kClose ? kOpen : kLeave);
+    }
+    switch (m_phase) {
+      case kReach:
+        return reach(op);
+      case kEnter:
+        return enter(op);
+      case kClose:
+        return close(op);
+      case kOpen:
+        op.want(at(op));
+        if (op.arms().grip(m_hand, 0, 0.5)) go(kLeave);
+        return Progress::working;
+      default:
+        return leave(op);
+    }
+  }
+
+  Vec3d at(Operator& op) const { return op.point(m_strand, m_place); }
+  double inside(Operator& op) const { return m_share * op.tool(m_hand).jaw_length; }
+
+  Progress reach(Operator& op) {
+    if (!op.still_presented(m_strand)) return fail("it is not held any more");
+    m_place = place(op);
+    op.keep_postures(m_strand, m_place);
+    op.make_room(m_hand);
+    op.want(at(op));
+    const bool open = op.arms().grip(m_hand, 0, 0.5);
+    if (op.approach(m_hand, m_strand, m_place, inside(op), m_in_phase) && open) go(kEnter);
+    return Progress::working;
+  }
+
+  Progress enter(Operator& op) {
+    op.make_room(m_hand);
+    op.want(at(op));
+    op.want(op.arm(m_hand).tip);
+    const double speed = m_in_phase < 3 ? pace::kCareful : pace::kTrack;
+    const bool there = op.aim_at(m_hand, m_strand, m_place, inside(op), 0, speed);
+    m_steady = there && op.sees_tip(m_hand) ? m_steady + sim::kTick : 0;
+    if (m_steady > 0.1) go(kClose);
+    return Progress::working;
+  }
+
+  Progress close(Operator& op) {
+    op.want(at(op));
+    op.aim_at(m_hand, m_strand, m_place, inside(op), 0, pace::kTrack);
+    if (op.arms().grip(m_hand, 1, m_closing)) go(kOpen);
+    return Progress::working;
+  }
+
+  Progress leave(Operator& op) {
+    Arms::Arm& arm = op.arm(m_hand);
+    op.want(at(op));
+    op.want(arm.tip);
+    op.arms().grip(m_hand, 0, 0.5);
+    if (m_in_phase < 1.5 * sim::kTick) m_left_from = arm.tip;
+    if (length(arm.tip - m_left_from) > 0.02 || m_in_phase > 3) return ended(op);
+    op.arms().move(m_hand, arm.tip + 0.01 * normalised(arm.port - arm.tip), pace::kCareful);
+    return Progress::working;
+  }
+
+  Progress ended(Operator& op) {
+    if (op.state().cut_count != m_cuts_before) return Progress::done;
+    return fail(m_lost ? m_lost : "nothing was cut");
+  }
+
+  double place(Operator& op) const {
+    if (m_fixed >= 0 && m_beyond < 0) return m_fixed;
+    double outermost = 0;
+    for (int i = 0; i < op.state().clip_count; ++i) {
+      const interactions::Clip& a = op.state().clips[size_t(i)];
+      if (a.strand != m_strand) continue;
+      outermost = std::max(outermost, a.s);
+      for (int j = i + 1; j < op.state().clip_count && m_beyond < 0; ++j) {
+        const interactions::Clip& b = op.state().clips[size_t(j)];
+        if (b.strand == m_strand && m_apart.holds(std::fabs(a.s - b.s))) return 0.5 * (a.s + b.s);
+      }
+    }
+    return m_beyond >= 0 ? outermost + m_beyond : 0.5 * m_length;
+  }
+
+  int m_hand, m_strand;
+  Argument m_apart;
+  double m_fixed, m_beyond, m_share, m_closing, m_length;
+  double m_place = 0;
+  Vec3d m_left_from;
+  int m_cuts_before = 0;
+  const char* m_lost = nullptr;
+};
+
+std::string lacks(const sim::Model& model, const Given& given) {
+  if (std::string lack = lacks_kind(model, given.hand(), interactions::ToolKind::scissors); !lack.empty()) return lack;
+  return Place::lacks(model, given);
+}
+
+}  // namespace
+
+const SkillKind kCutAt{
+    "cut_at",
+    "cut",
+    {hand_parameter("that has the scissors"),
+     {"of", ArgumentKind::strand, "what is cut"},
+     range_parameter("apart_mm", "half way between two clips that are so far apart", 0, 1000),
+     number_parameter("at_mm", "or: just there, from its beginning", 0, 1000),
+     number_parameter("beyond_clip_mm", "or: so far beyond the outermost clip", 0, 1000),
+     number_parameter("inside_share", "of the blades' length: how far from their hinge the strand shall lie; 0.82", 0,
+                      1),
+     number_parameter("closing_s", "of the handle from open to closed; 0.6", 0.05, 60)},
+    40,
+    "Approaches a strand with scissors, takes it between the blades, closes in view, opens, and draws back.",
+    lacks,
+    &making<CutAt>};
+
+}  // namespace trocar::training

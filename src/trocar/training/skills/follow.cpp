@@ -1,0 +1,67 @@
+#include <algorithm>
+
+#include <trocar/training/observe/following.hpp>
+#include <trocar/training/observe/hands.hpp>
+#include <trocar/training/skills/parameters.hpp>
+#include <trocar/training/skills/registry.hpp>
+
+namespace trocar::training {
+namespace {
+
+/// With the eye from the fimbriae inwards; if the eye is not enough, with an instrument's tip.
+class Follow final : public Skill {
+ public:
+  Follow(const sim::Model& model, const Given& given)
+      : m_hand(given.hand()),
+        m_strand(given("of").index),
+        m_fimbria(model.target_index(model.strands[size_t(m_strand)].name + ".fimbria")),
+        m_following({given("to_mm").number(), given.number("speed_mm_s", 0.03), given.number("gap_mm", 0.009),
+                     given.number("pause_s", 1), given.number("touch_mm", 0.01)},
+                    model, m_strand) {}
+
+ private:
+  Progress work(Operator& op) override {
+    constexpr int kSampleEvery = 20;  // ticks between looks along the tube
+    constexpr double kByHand = 9;     // [s] after which the instrument helps the eye
+    std::array<Vec3d, sim::kMaxTools> tips{};
+    for (int h = 0; h < op.arms().count(); ++h) tips[size_t(h)] = tip_of(op.model(), op.state(), size_t(h));
+    if (op.state().tick % kSampleEvery == 0)
+      m_following.update(op.model(), op.state(), {tips.data(), size_t(op.arms().count())}, kSampleEvery * sim::kTick);
+    if (m_following.done()) return Progress::done;
+    const Vec3d front = m_following.begun() ? op.point(m_strand, m_following.reached()) : op.middle_of(m_fimbria);
+    op.want(front);
+    if (m_following.begun()) op.want(op.point(m_strand, std::max(0.0, m_following.reached() - 0.015)));
+    if (m_in_phase > 0.4 * kByHand) op.make_room(m_hand);
+    if (m_in_phase < kByHand) return Progress::working;
+    op.arms().grip(m_hand, 1, 0.6);
+    op.want(op.arm(m_hand).tip);
+    if (op.sees_tip(m_hand) || m_in_phase < kByHand + 1)
+      op.arms().move(m_hand, front + Vec3d{0, 0, 0.0075}, 0.6 * pace::kTravel);
+    return Progress::working;
+  }
+
+  int m_hand, m_strand, m_fimbria;
+  Following m_following;
+};
+
+std::string lacks(const sim::Model& model, const Given& given) {
+  return lacks_landmark(model, given("of").index, "fimbria");
+}
+
+}  // namespace
+
+const SkillKind kFollow{"follow",
+                        "follow the tube from its fimbriae",
+                        {hand_parameter("whose tip helps where the eye is not enough"),
+                         {"of", ArgumentKind::strand, "a tube with a landmark \"fimbria\""},
+                         {"to_mm", ArgumentKind::number, "from its beginning: up to where"},
+                         {"speed_mm_s", ArgumentKind::number, "at most; 30", false, 1, 1000},
+                         {"gap_mm", ArgumentKind::number, "a covered stretch that may be skipped; 9", false},
+                         {"pause_s", ArgumentKind::number, "lost longer than this, it starts over; 1", false},
+                         {"touch_mm", ArgumentKind::number, "a tip this near follows as well as the eye; 10", false}},
+                        30,
+                        "Follows a tube from its fimbriae back to its beginning, with the eye or an instrument's tip.",
+                        lacks,
+                        &making<Follow>};
+
+}  // namespace trocar::training

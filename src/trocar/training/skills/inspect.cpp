@@ -1,0 +1,73 @@
+#include <algorithm>
+
+#include <trocar/training/observe/hands.hpp>
+#include <trocar/training/skills/parameters.hpp>
+#include <trocar/training/skills/registry.hpp>
+
+namespace trocar::training {
+namespace {
+
+/// A place from changing distances, for a time.
+class Inspect final : public Skill {
+ public:
+  Inspect(const sim::Model& model, const Given& given) : m_place(model, given), m_time(given.number("for_s", 2)) {}
+
+ private:
+  Progress work(Operator& op) override {
+    op.want(m_place.point(op, -1));
+    op.from(0.05 + 0.01 * double(int(m_in_phase / 4) % 4));
+    return m_in_phase > m_time ? Progress::done : Progress::working;
+  }
+  Place m_place;
+  double m_time;
+};
+
+/// Both ends that a cut has made, in view together.
+class InspectStumps final : public Skill {
+ public:
+  InspectStumps(const sim::Model& model, const Given& given);
+
+ private:
+  Progress work(Operator& op) override;
+  int m_strand, m_trace;
+  double m_time;
+};
+
+InspectStumps::InspectStumps(const sim::Model& model, const Given& given)
+    : m_strand(given("of").index),
+      m_trace(model.target_index(model.strands[size_t(m_strand)].name + ".trace")),
+      m_time(given.number("for_s", 2)) {}
+
+Progress InspectStumps::work(Operator& op) {
+  constexpr double kBeside = 0.003, kSure = 0.2;  // [m] of the cut; [s] longer
+  op.make_room(op.who_presents(m_strand));
+  const int cut = op.cut_element(m_strand);
+  if (cut < 0) return fail("it is not cut");
+  const interactions::StrandBody& body = op.model().strand_bodies[size_t(m_strand)];
+  op.want(op.point(m_strand, std::max(0.0, body.arc[size_t(cut)] - kBeside)));
+  op.want(op.point(m_strand, body.arc[size_t(cut) + 1] + kBeside));
+  op.from(0.05 + 0.01 * double(int(m_in_phase / 4) % 4));
+  const bool seen = stumps_in_view(op.model(), op.state(), m_trace, cut);
+  m_steady = seen ? m_steady + sim::kTick : 0;
+  return m_steady < m_time + kSure ? Progress::working : Progress::done;
+}
+
+}  // namespace
+
+const SkillKind kInspect{"inspect",
+                         "look at the place",
+                         place_parameters() + std::vector<Parameter>{number_parameter("for_s", "so long; 2", 0, 600)},
+                         60,
+                         "Looks at a place from changing distances.",
+                         Place::lacks,
+                         &making<Inspect>};
+const SkillKind kInspectStumps{"inspect_stumps",
+                               "look at the stumps",
+                               {{"of", ArgumentKind::strand, "what was cut"},
+                                number_parameter("for_s", "both in view for so long without a break; 2", 0, 60)},
+                               20,
+                               "Looks at both ends that a cut has made.",
+                               nothing,
+                               &making<InspectStumps>};
+
+}  // namespace trocar::training

@@ -1,0 +1,98 @@
+#include <trocar/training/observe/hands.hpp>
+#include <trocar/training/skills/parameters.hpp>
+#include <trocar/training/skills/registry.hpp>
+
+namespace trocar::training {
+namespace {
+
+/// Raises what is held until a place of it lies straight and across another instrument's shaft, under a gentle pull. It
+/// stays so while other skills work there.
+class Lift final : public Skill {
+ public:
+  Lift(const sim::Model& model, const Given& given) : m_hand(given.hand()), m_at(given.number("at_mm", 0)) {
+    m_aim.strand = given("of").index;
+    m_aim.beyond = stretch_of(model, m_aim.strand, given("after").word, "").from;
+    m_aim.across = given("across").index;
+    m_aim.pull_low = given("pull_N").low;
+    m_aim.pull_high = given("pull_N").high;
+    m_aim.slant = given.number("slant", 0);
+    m_inner = given.number("outwards_from_mm", m_at);
+    m_straightness = given.number("straightness", 0);
+    m_time = given.number("for_s", 0.2);
+  }
+
+ private:
+  void start(Operator& op, int) override {
+    const Operator::Target& target = op.target(m_hand);
+    m_held = target.strand == m_aim.strand ? target.s : m_aim.beyond;
+    op.posture(m_hand).begin(op, m_hand, m_aim, m_held, m_inner);
+  }
+  Progress work(Operator& op) override {
+    Posture& posture = op.posture(m_hand);
+    op.want(op.point(m_aim.strand, m_held));
+    op.want(op.point(m_aim.strand, m_at));
+    if (!posture.holding(op)) return fail("it slipped out of the jaws");
+    posture.keep(op, m_at);
+    const double slant = posture.slant(op, m_at), pull = posture.pull(op);
+    if (m_aim.slant > 0) {  // pushed down, the jaws leave the picture first
+      op.want(op.arm(m_hand).tip);
+      return slant > m_aim.slant - 0.02 ? Progress::done : Progress::working;
+    }
+    const bool good = std::fabs(slant) < 0.13 && pull > m_aim.pull_low + 0.08 && pull < 0.9 * m_aim.pull_high &&
+                      straightness_of(op.model(), op.state(), m_aim.strand, m_aim.beyond) > m_straightness + 0.002;
+    m_steady = good ? m_steady + sim::kTick : 0;
+    return m_steady > 2 * m_time ? Progress::done : Progress::working;
+  }
+
+  int m_hand;
+  double m_at, m_inner = 0, m_held = 0, m_straightness = 0, m_time = 0.2;
+  Posture::Aim m_aim;
+};
+
+/// Back to where it was taken.
+class Lower final : public Skill {
+ public:
+  Lower(const sim::Model&, const Given& given) : m_hand(given.hand()) {}
+
+ private:
+  Progress work(Operator& op) override {
+    const Posture& posture = op.posture(m_hand);
+    op.want(op.arm(m_hand).tip);
+    if (!posture.up()) return Progress::done;
+    return op.arms().move(m_hand, posture.from(), pace::kCareful) ? Progress::done : Progress::working;
+  }
+  int m_hand;
+};
+
+std::string lacks(const sim::Model& model, const Given& given) { return Place::lacks(model, given); }
+
+}  // namespace
+
+const SkillKind kLift{
+    "lift",
+    "lift the tissue",
+    {hand_parameter("that holds it"),
+     {"of", ArgumentKind::strand, "what it holds"},
+     {"after", ArgumentKind::landmark, "landmark behind whose end it is held; straight has to be what lies before",
+      false},
+     {"at_mm", ArgumentKind::number, "the place that others will work at, from its beginning", true, 0, 1000},
+     {"across", ArgumentKind::hand, "whose shaft it shall lie across"},
+     {"pull_N", ArgumentKind::range, "the pull that it is kept under", true, 0, 50},
+     number_parameter("straightness", "chord over length before `after`'s end, at least", 0, 1),
+     number_parameter("outwards_from_mm", "from here to the jaws is outwards; at_mm", 0, 1000),
+     number_parameter("for_s", "it has to lie so for twice as long; 0.2", 0, 60),
+     number_parameter("slant", "sine of the angle by which it shall dip along the other shaft instead; 0", 0, 1)},
+    15,
+    "Raises and draws what is held until a place of it lies across another instrument's shaft. Other skills that work "
+    "on this strand keep it so, until let_go.",
+    lacks,
+    &making<Lift>};
+const SkillKind kLower{"lower",
+                       "lay the tissue down",
+                       {hand_parameter("that holds it")},
+                       8,
+                       "Lays what was lifted back to where it was taken.",
+                       nothing,
+                       &making<Lower>};
+
+}  // namespace trocar::training

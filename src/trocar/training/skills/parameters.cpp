@@ -1,0 +1,125 @@
+#include <fmt/format.h>
+
+#include <trocar/training/observe/marks.hpp>
+#include <trocar/training/skills/parameters.hpp>
+
+namespace trocar::training {
+namespace {
+
+constexpr const char* kKinds[] = {"grasper",           "clip_applier", "scissors", "probe",
+                                  "suction_irrigator", "hook",         "bipolar"};
+
+}  // namespace
+
+const Argument& Given::operator()(std::string_view name) const {
+  static const Argument none;
+  for (size_t i = 0; i < m_kind->parameters.size() && i < m_arguments->size(); ++i)
+    if (m_kind->parameters[i].name == name) return (*m_arguments)[i];
+  return none;
+}
+
+double Given::number(std::string_view name, double otherwise) const {
+  const Argument& a = (*this)(name);
+  return a.given ? a.number() : otherwise;
+}
+
+std::vector<Parameter> place_parameters() {
+  return {{"of", ArgumentKind::strand, "the strand that the place is on", false},
+          {"at_mm", ArgumentKind::number, "from the strand's beginning", false, 0, 1000},
+          {"after", ArgumentKind::landmark, "landmark of the strand behind whose end the place is", false},
+          {"before", ArgumentKind::landmark, "landmark before whose beginning it is", false},
+          {"share", ArgumentKind::number, "of the way from `after` to `before`", false, 0, 1},
+          {"mark", ArgumentKind::mark, "a mark: its middle", false},
+          {"nearest_of", ArgumentKind::mark, "an organ: where it is nearest to the hand's trocar", false},
+          word_parameter("there", "what opens by itself: where it bleeds, or where what has run out stands deepest",
+                         {"bleeding", "pool"})};
+}
+
+std::vector<Parameter> operator+(std::vector<Parameter> a, std::vector<Parameter> b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+std::string lacks_kind(const sim::Model& model, int hand, interactions::ToolKind kind) {
+  for (const interactions::ToolModel& tool : model.hands[size_t(hand)].rack)
+    if (tool.kind == kind) return {};
+  return fmt::format("the rack at the trocar \"{}\" has no {}", model.hands[size_t(hand)].name, kKinds[size_t(kind)]);
+}
+
+std::string lacks_landmark(const sim::Model& model, int strand, const std::string& landmark) {
+  if (strand < 0) return {};
+  for (const sim::LandmarkModel& l : model.strands[size_t(strand)].landmarks)
+    if (l.name == landmark) return {};
+  return fmt::format("the strand \"{}\" has no landmark \"{}\"", model.strands[size_t(strand)].name, landmark);
+}
+
+Stretch stretch_of(const sim::Model& model, int strand, const std::string& after, const std::string& before) {
+  Stretch s{0, model.strand_bodies[size_t(strand)].length()};
+  for (const sim::LandmarkModel& l : model.strands[size_t(strand)].landmarks) {
+    if (l.name == after) s.from = l.to;
+    if (l.name == before) s.to = l.from;
+  }
+  return s;
+}
+
+Place::Place(const sim::Model& model, const Given& given) {
+  if (given("of").given) {
+    m_strand = given("of").index;
+    const Stretch between = stretch_of(model, m_strand, given("after").word, given("before").word);
+    const double share = given.number("share", 0.5);
+    m_s = given("at_mm").given ? given("at_mm").number() : between.from + (between.to - between.from) * share;
+  }
+  if (given("mark").given) m_mark = given("mark").index;
+  if (given("nearest_of").given) m_nearest = given("nearest_of").index;
+  m_bleeding = given.says("there", "bleeding");
+  m_pool = given.says("there", "pool");
+}
+
+namespace {
+
+Vec3d nearest_of(const Operator& op, int mark, Vec3d to) {
+  const int organ = op.model().targets[size_t(mark)].index;
+  const tissue::Skin& skin = op.model().skin(organ);
+  const tissue::NodeView nodes = nodes_of(op.model(), op.state(), organ);
+  Vec3d nearest = tissue::skin_point(nodes, skin, 0);
+  for (int v = 1; v < skin.size(); ++v)
+    if (const Vec3d p = tissue::skin_point(nodes, skin, v); length(p - to) < length(nearest - to)) nearest = p;
+  return nearest;
+}
+
+}  // namespace
+
+Vec3d Place::point(Operator& op, int hand) const {
+  const sim::Bleeder& bleeder = op.model().vessels.bleeder;
+  if (m_strand >= 0) return op.point(m_strand, m_s);
+  if (m_mark >= 0) return place_of_mark(op.model(), op.state(), m_mark);
+  if (m_nearest >= 0) return nearest_of(op, m_nearest, op.arm(hand).port);
+  if (m_pool && hand >= 0)
+    if (const std::optional<Vec3d> deepest = op.deepest_pool(hand)) return *deepest;
+  return bleeder.vessel >= 0 ? op.vessel_spot(bleeder.vessel, bleeder.s).place : op.arm(std::max(0, hand)).tip;
+}
+
+Vec3d Place::tangent(Operator& op) const {
+  const sim::Bleeder& bleeder = op.model().vessels.bleeder;
+  if (m_strand >= 0) return op.tangent(m_strand, m_s);
+  if (m_bleeding && bleeder.vessel >= 0) return op.vessel_spot(bleeder.vessel, bleeder.s).along;
+  return {1, 0, 0};
+}
+
+std::string Place::lacks(const sim::Model& model, const Given& given) {
+  if (!given("there").word.empty() && model.vessels.bleeder.vessel < 0) return "no vessel opens by itself";
+  if (given("nearest_of").given &&
+      model.targets[size_t(given("nearest_of").index)].kind != sim::VisibilityTarget::organ)
+    return fmt::format("\"{}\" is no organ", model.targets[size_t(given("nearest_of").index)].name);
+  if (given.says("there", "pool") && !model.wet.there) return "there are no fluids";
+  const Argument& of = given("of");
+  for (const char* landmark : {"after", "before"})
+    if (of.given && given(landmark).given)
+      if (std::string lack = lacks_landmark(model, of.index, given(landmark).word); !lack.empty()) return lack;
+  if (of.given && given("at_mm").given && given("at_mm").number() > model.strand_bodies[size_t(of.index)].length())
+    return fmt::format("the strand \"{}\" is only {:.1f} mm long", model.strands[size_t(of.index)].name,
+                       1e3 * model.strand_bodies[size_t(of.index)].length());
+  return {};
+}
+
+}  // namespace trocar::training

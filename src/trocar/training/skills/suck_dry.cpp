@@ -1,0 +1,53 @@
+#include <trocar/training/observe/hands.hpp>
+#include <trocar/training/skills/parameters.hpp>
+#include <trocar/training/skills/registry.hpp>
+
+namespace trocar::training {
+namespace {
+
+/// The pool through a suction-irrigator, where it stands deepest, until hardly anything is left.
+class SuckDry final : public Skill {
+ public:
+  SuckDry(const sim::Model& model, const Given& given)
+      : m_hand(given.hand()), m_place(model, given), m_left(given.number("left_mL", 0.5e-6)) {}
+
+ private:
+  Progress work(Operator& op) override {
+    constexpr double kTouches = 1;  // [N]
+    Arms::Arm& arm = op.arm(m_hand);
+    const std::optional<Vec3d> pool = op.deepest_pool(m_hand);
+    op.want(arm.tip);
+    op.want(pool ? *pool : m_place.point(op, m_hand));
+    const double left = fluids::kM3PerPicolitre * double(at(op.state().fluids.ledger, fluids::Place::kPool).total());
+    const bool pushes = norm(op.tool_state(m_hand).contact_force) > kTouches;
+    arm.sucking = pool && left >= m_left && !pushes && m_in_phase < 40;
+    if (!arm.sucking) return Progress::done;
+    op.arms().move(m_hand, *pool, pace::kCareful);
+    return Progress::working;
+  }
+
+  int m_hand;
+  Place m_place;
+  double m_left;
+};
+
+std::string lacks_suction(const sim::Model& model, const Given& given) {
+  if (!model.wet.there) return "there are no fluids";
+  return lacks_kind(model, given.hand(), interactions::ToolKind::suction_irrigator);
+}
+
+}  // namespace
+
+const SkillKind kSuckDry{
+    "suck_dry",
+    "suck the pool empty",
+    std::vector<Parameter>{hand_parameter("that has the suction-irrigator"),
+                           number_parameter("left_mL", "may be left; 0.5", 0, 1000)} +
+        place_parameters(),
+    60,
+    "Sucks where the pool stands deepest and can be reached, until hardly anything is left. The place "
+    "is looked at once there is nothing to be seen of it.",
+    lacks_suction,
+    &making<SuckDry>};
+
+}  // namespace trocar::training

@@ -1,0 +1,40 @@
+#include <trocar/training/observe/marks.hpp>
+#include <trocar/training/skills/parameters.hpp>
+#include <trocar/training/skills/registry.hpp>
+
+namespace trocar::training {
+namespace {
+
+/// A mark in the middle of the picture from a distance, as far as scope and trocar allow along its normal, the horizon
+/// level: what an oblique scope's light post and a camera's head are for.
+class View final : public Skill {
+ public:
+  View(const sim::Model&, const Given& given)
+      : m_mark(given("mark").index), m_distance(given.number("from_mm", 0.05)), m_time(given.number("for_s", 0)) {}
+
+ private:
+  Progress work(Operator& op) override {
+    const Vec3d at = place_of_mark(op.model(), op.state(), m_mark);
+    const std::optional<Vec3d> normal = normal_of_mark(op.model(), op.state(), m_mark);
+    op.camera().view(at, normal, m_distance);
+    m_steady = op.camera().settled() ? m_steady + sim::kTick : 0;
+    return m_steady > m_time ? Progress::done : Progress::working;
+  }
+  int m_mark;
+  double m_distance, m_time;
+};
+
+}  // namespace
+
+const SkillKind kView{"view",
+                      "look",
+                      {{"mark", ArgumentKind::mark, "what is looked at"},
+                       number_parameter("from_mm", "of the lens from it; 50", 10, 300),
+                       number_parameter("for_s", "so long with the picture at rest; 0", 0, 600)},
+                      30,
+                      "Brings a mark into the picture's middle, looking along its normal as far as scope and trocar "
+                      "allow, with a level horizon: light post and camera head are turned, too.",
+                      nothing,
+                      &making<View>};
+
+}  // namespace trocar::training

@@ -1,0 +1,182 @@
+// `trocar check` of scenes that can be compiled and are not good: what it says, and that it ends in some seconds.
+#include <filesystem>
+#include <fstream>
+#include <regex>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <trocar/core/error.hpp>
+
+#include "run_program.hpp"
+
+namespace trocar::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// A copy of the shipped scenes that a test may spoil.
+class Check : public testing::Test {
+ protected:
+  void SetUp() override {
+    m_folder = fs::temp_directory_path() / ("trocar_check_test_" + std::to_string(getpid()));
+    fs::remove_all(m_folder);
+    fs::create_directories(m_folder);
+    setenv("TROCAR_DATA", (m_folder / "data").c_str(), 1);
+    fs::copy(TROCAR_SOURCE_DIR "/scenes", m_folder / "scenes", fs::copy_options::recursive);
+  }
+  void TearDown() override { fs::remove_all(m_folder); }
+
+  fs::path scenes(const std::string& name) const { return m_folder / "scenes" / name; }
+
+  void replace(const std::string& file, const std::string& pattern, const std::string& by) const {
+    const std::string text = text_of(scenes(file));
+    const std::string changed = std::regex_replace(text, std::regex(pattern), by);
+    EXPECT_NE(changed, text) << pattern;
+    std::ofstream(scenes(file)) << changed;
+  }
+  /// A factor on every number of a key in a file.
+  void scale(const std::string& file, const std::string& key, double factor) const {
+    std::string text = text_of(scenes(file)), out;
+    const std::regex pattern("\"" + key + "\": ([0-9.]+)");
+    auto at = text.cbegin();
+    for (std::sregex_iterator m(text.begin(), text.end(), pattern), end; m != end; ++m) {
+      out.append(at, (*m)[1].first);
+      out += std::to_string(factor * std::stod((*m)[1]));
+      at = (*m)[1].second;
+    }
+    out.append(at, text.cend());
+    EXPECT_NE(out, text) << key;
+    std::ofstream(scenes(file)) << out;
+  }
+  Json checked(const std::string& scene, int exit) const {
+    const Outcome o = trocar({"check", scenes(scene).string(), "--json"});
+    EXPECT_EQ(o.exit, exit) << o.err;
+    return o.json()["files"][0];
+  }
+
+ private:
+  fs::path m_folder;
+};
+
+TEST_F(Check, ShippedScenesAreGood) {
+  for (const char* scene :
+       {"gynaecology/scene.json", "cutting/scene.json", "gallbladder/scene.json", "digestive/scene.json"}) {
+    const Json r = checked(scene, core::kDone);
+    EXPECT_EQ(r["verdict"], "good") << r["doubts"].dump() << r["sinks"].dump();
+    EXPECT_GT(r["stood_s"].get<double>(), 0);
+  }
+}
+
+TEST_F(Check, TissueTooHeavyForItsSpringsDoesNotHangStill) {
+  scale("tissues.json", "density_kg_m3", 10);
+  const Json r = checked("gynaecology/scene.json", core::kGoalNotReached);
+  EXPECT_EQ(r["verdict"], "does not hang still");
+  ASSERT_FALSE(r["sinks"].empty());
+  const std::string told = r["sinks"][0];
+  EXPECT_EQ(told.find("uterus does not hang still: "), 0u) << told;
+  EXPECT_NE(told.find("mm off at ("), std::string::npos) << told;
+  EXPECT_NE(told.find("more anchors may hold it"), std::string::npos) << told;
+  const Outcome o = trocar({"train", scenes("gynaecology/scene.json").string(), "--headless", "--input",
+                            "motion:" TROCAR_SOURCE_DIR "/no such file"});
+  EXPECT_NE(o.err.find("uterus does not hang still"), std::string::npos) << "train warns, too: " << o.err;
+}
+
+TEST_F(Check, AHeavySceneIsLookedAtForAShorterTimeAndSaysSo) {
+  for (const char* organ : {"uterus", "bladder", "rectosigmoid"})
+    scale(std::string("organs/") + organ + ".json", "cell_mm", 0.5);
+  replace("tissues.json", "\"young_Pa\": 30000,", "\"young_Pa\": 3e6,");
+  const Outcome o = trocar({"check", scenes("gynaecology/scene.json").string()});
+  EXPECT_NE(o.out.find("at rest only, so as to be done in some seconds"), std::string::npos) << o.out;
+  EXPECT_NE(o.out.find("too heavy to be trained with: it runs at 0."), std::string::npos) << o.out;
+  EXPECT_NE(o.err.find("scene.json: "), std::string::npos) << "what it is at: " << o.err;
+  EXPECT_NE(o.err.find(" s so far)"), std::string::npos) << o.err;
+}
+
+TEST_F(Check, AnInstrumentThatBeginsInsideAnOrganIsToldWithItsPlace) {
+  replace("gynaecology/scene.json", "\"tip_mm\": \\[26, -124, -75\\]", "\"tip_mm\": [-5, -165, -115]");
+  const Json r = checked("gynaecology/scene.json", core::kDone);
+  EXPECT_EQ(r["verdict"], "to mend");
+  ASSERT_EQ(r["doubts"].size(), 1u) << r["doubts"].dump();
+  const std::string told = r["doubts"][0];
+  EXPECT_NE(told.find("gynaecology/scene.json:"), std::string::npos) << told;
+  EXPECT_NE(told.find("expected the tip of 'grasper' outside of tissue, got one that begins "), std::string::npos)
+      << told;
+}
+
+/// A block of 2 x 2 x 2 cubes of 10 mm, six tetrahedra each, as Gmsh 1 writes it.
+std::string block_of_tets(const std::function<void(std::vector<std::array<int, 4>>&)>& spoil = {}) {
+  std::vector<std::array<int, 4>> cells;
+  const auto node = [](int i, int j, int k) { return 1 + i + 3 * j + 9 * k; };
+  constexpr int order[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+  for (int c = 0; c < 8; ++c)
+    for (const auto& axes : order) {
+      int at[3] = {c & 1, c >> 1 & 1, c >> 2};
+      std::array<int, 4> cell{node(at[0], at[1], at[2])};
+      for (size_t i = 0; i < 3; ++i) {
+        ++at[axes[i]];
+        cell[i + 1] = node(at[0], at[1], at[2]);
+      }
+      if ((axes[1] - axes[0] + 3) % 3 == 2) std::swap(cell[2], cell[3]);
+      cells.push_back(cell);
+    }
+  if (spoil) spoil(cells);
+  std::string text = "$NOD\n27\n";
+  for (int n = 0; n < 27; ++n)
+    text += std::to_string(n + 1) + " " + std::to_string(10 * (n % 3)) + " " + std::to_string(10 * (n / 3 % 3)) + " " +
+            std::to_string(10 * (n / 9)) + "\n";
+  text += "$ENDNOD\n$ELM\n" + std::to_string(cells.size()) + "\n";
+  for (size_t c = 0; c < cells.size(); ++c) {
+    text += std::to_string(c + 1) + " 4 1 1 4";
+    for (const int corner : cells[c]) text += " " + std::to_string(corner);
+    text += "\n";
+  }
+  return text + "$ENDELM\n";
+}
+
+/// The scene `cutting` with one organ from a mesh, hung up at its whole lower face.
+Json of_mesh(const fs::path& scenes, const std::string& mesh) {
+  std::ofstream(scenes / "cutting" / "block.msh") << mesh;
+  std::ofstream(scenes / "cutting" / "block.json") << R"({
+  "format": 1, "name": "block",
+  "solids": [{"name": "liver", "tissue": "liver", "mesh": {"file": "block.msh", "place_mm": [-10, -10, -110]},
+              "anchors": [{"centre_mm": [0, 0, -110], "radius_mm": 16}, {"centre_mm": [0, 0, -90], "radius_mm": 16}]}]
+})";
+  std::string text = text_of(scenes / "cutting" / "scene.json");
+  const auto from = text.find("\"organs\": ["), to = text.find(']', from);
+  text.replace(from, to - from, "\"organs\": [\"block.json\"");
+  std::ofstream(scenes / "cutting" / "scene.json") << text;
+  const Outcome o = trocar({"check", (scenes / "cutting" / "scene.json").string(), "--json"});
+  EXPECT_EQ(o.exit, core::kDone) << o.err;
+  return o.json()["files"][0];
+}
+
+TEST_F(Check, AScenesMeshIsLookedAtAsTheMeshAloneIs) {
+  const Json good = of_mesh(scenes(""), block_of_tets());
+  EXPECT_EQ(good["verdict"], "good") << good["doubts"].dump();
+  const Json spoilt = of_mesh(scenes(""), block_of_tets([](auto& cells) {
+                                std::swap(cells[5][0], cells[5][1]);
+                                cells.push_back(cells[9]);
+                              }));
+  EXPECT_EQ(spoilt["verdict"], "to mend");
+  const std::string told = spoilt["doubts"].dump();
+  EXPECT_NE(told.find("block.json:3:"), std::string::npos) << told;
+  EXPECT_NE(told.find("1 duplicate cell left out"), std::string::npos) << told;
+  EXPECT_NE(told.find("1 inverted cell turned"), std::string::npos) << told;
+}
+
+TEST_F(Check, AScenesMeshInPiecesIsToMend) {
+  const Json r = of_mesh(scenes(""), block_of_tets([](auto& cells) {
+                           cells.erase(cells.begin() + 6, cells.begin() + 42);  // two cubes in opposite corners
+                         }));
+  EXPECT_EQ(r["verdict"], "to mend");
+  EXPECT_NE(r["doubts"].dump().find("2 parts that share no face"), std::string::npos) << r["doubts"].dump();
+}
+
+}  // namespace
+}  // namespace trocar::app
