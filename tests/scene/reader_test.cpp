@@ -97,7 +97,7 @@ TEST(Reader, AGoodSceneReadsInMetresAndRadians) {
   EXPECT_EQ(d.walls[0].rows, 2);
   EXPECT_EQ(d.walls[0].net[3], (Vec3d{0.009, 0.009, 0}));
   EXPECT_EQ(d.sheets[0].base_organ, "ball");
-  EXPECT_EQ(d.instruments[0].kind, InstrumentKind::probe);
+  EXPECT_EQ(d.instruments[0].kind, interactions::ToolKind::probe);
   EXPECT_EQ(d.placements[0].instrument, "stick");
   EXPECT_EQ(d.scope_placement.port, "navel");
   EXPECT_NEAR(d.scope.field_of_view, 1.2217, 1e-4);
@@ -331,7 +331,7 @@ TEST(Reader, InstrumentsMustBeOfOneMind) {
 
 TEST(Reader, ElectrodesBelongToHooksAndForceps) {
   EXPECT_EQ(faults_of({{18, R"("instruments": [{"name": "stick", "kind": "probe", "electrode": @{}}],)"}}),
-            one("expected an electrode only in a hook or bipolar forceps, got one in a probe"));
+            one("expected an electrode only in a hook or bipolar, got one in a probe"));
   EXPECT_EQ(faults_of({{18, R"("instruments": [{"name": "stick", "kind": "hook", "electrode": {"radius_mm": @9}}],)"}}),
             one("expected a number in [0.5, 1.5] for \"radius_mm\", got 9"));
   EXPECT_EQ(faults_of({{18, R"("instruments": [{"name": "stick", "kind": "hook", "electrode": {"seals_mm": 1}}],)"}}),

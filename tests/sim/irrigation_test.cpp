@@ -29,7 +29,7 @@ const double kJet = 1005 * (1e-3 / 60) * (1e-3 / 60) / 7.07e-6;  // [N] rho Q^2 
 Model with_irrigator(Vec3d port, Vec3d tip, bool bleeding = false) {
   scene::Description d = small::description();
   if (!bleeding) d.vessels.clear();
-  scene::Instrument i = small::instrument("suction_irrigator", scene::InstrumentKind::suction_irrigator);
+  scene::Instrument i = small::instrument("suction_irrigator", interactions::ToolKind::suction_irrigator);
   i.jaw_length = 0.004;
   i.jaw_width = 0.005;
   i.jaw_thickness = 0.0018;

@@ -10,9 +10,9 @@ inline constexpr Vec3d kOnOrgan{-0.022, 0, 0.0118};  ///< of the hook's tip: 0.2
 
 inline scene::Description energy_description() {
   scene::Description d = description();
-  scene::Instrument bipolar = d.instruments[kGrasper], hook = instrument("hook", scene::InstrumentKind::hook);
+  scene::Instrument bipolar = d.instruments[kGrasper], hook = instrument("hook", interactions::ToolKind::hook);
   bipolar.name = "bipolar";
-  bipolar.kind = scene::InstrumentKind::bipolar;
+  bipolar.kind = interactions::ToolKind::bipolar;
   hook.jaw_length = 0.012;
   hook.jaw_width = 0.0015;
   hook.jaw_thickness = 0.0012;

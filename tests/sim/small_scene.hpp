@@ -108,7 +108,7 @@ inline scene::Membrane fold() {
   return m;
 }
 
-inline scene::Instrument instrument(const char* name, scene::InstrumentKind kind) {
+inline scene::Instrument instrument(const char* name, interactions::ToolKind kind) {
   scene::Instrument i;
   i.name = name;
   i.kind = kind;
@@ -171,17 +171,17 @@ inline scene::Description description() {
              {"b", {0.026, 0.03, kHeight}, 0.005, {}},
              {"c", {0.026, -0.03, kHeight}, 0.010, {}},
              {"eye", {0.03, 0.06, 0.08}, 0.010, {}}};
-  scene::Instrument grasper = instrument("grasper", scene::InstrumentKind::grasper);
+  scene::Instrument grasper = instrument("grasper", interactions::ToolKind::grasper);
   grasper.jaw_length = 0.022;
   grasper.jaw_width = 0.004;
   grasper.jaw_thickness = 0.0018;
   grasper.opening = 1.05;
-  scene::Instrument scissors = instrument("scissors", scene::InstrumentKind::scissors);
+  scene::Instrument scissors = instrument("scissors", interactions::ToolKind::scissors);
   scissors.jaw_length = 0.015;
   scissors.jaw_width = 0.0025;
   scissors.jaw_thickness = 0.0012;
   scissors.opening = 0.8;
-  scene::Instrument applier = instrument("clip_applier", scene::InstrumentKind::clip_applier);
+  scene::Instrument applier = instrument("clip_applier", interactions::ToolKind::clip_applier);
   applier.shaft_radius = 0.005;
   applier.jaw_length = 0.018;
   applier.jaw_width = 0.0045;

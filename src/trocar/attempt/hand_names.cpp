@@ -24,7 +24,7 @@ const interactions::ToolModel& held_by(const sim::Model& model, const sim::State
 }
 
 bool has_valves(const sim::Model& model, const sim::State& state, int h) {
-  return held_by(model, state, h).kind == interactions::ToolKind::suction_irrigator;
+  return held_by(model, state, h).can().irrigate;
 }
 
 std::string flow_in_words(const sim::State& state, int h) {

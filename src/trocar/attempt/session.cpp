@@ -186,8 +186,8 @@ void Session::collect_moments() {
   }
   for (size_t t = 0; t < model.hands.size(); ++t) {
     const interactions::ToolState& tool = m_state.tools[t];
-    const bool empty =
-        model.tool(m_state, t).kind == interactions::ToolKind::grasper && tool.holds == 0 && tool.aperture < 0.05;
+    const interactions::Abilities& can = model.tool(m_state, t).can();
+    const bool empty = can.grip && !can.coagulate && tool.holds == 0 && tool.aperture < 0.05;
     if (empty && !m_closed_empty[t])
       add_moment("closed-empty", int(t), model.tool(m_state, t).name + " closed on nothing");
     m_closed_empty[t] = empty;

@@ -236,8 +236,6 @@ double gap_of(const ToolShape& s) noexcept {
   return length(a.b - b.b) - a.radius - b.radius;
 }
 
-bool jaws_are_blunt(ToolKind kind) noexcept { return kind != ToolKind::clip_applier && kind != ToolKind::scissors; }
-
 Needles needles_of(const ToolShape& before, const ToolShape& now, bool blunt, double thin) noexcept {
   Needles r;
   const Capsule &s0 = before.part[kShaft], &s1 = now.part[kShaft];

@@ -42,10 +42,9 @@ struct Needles {
   Needle needle[3];
   int count = 0;
 };
-/// Legs of clip appliers and blades of scissors have none: they come astride of a tube whose fold lies across their
-/// way, and would push both out from between them as they close.
-bool jaws_are_blunt(ToolKind kind) noexcept;
-/// @param blunt  the jaws count, not the shaft alone
+/// @param blunt  the jaws count, not the shaft alone. Legs of clip appliers and blades of scissors do not
+///               (Abilities::blunt): they come astride of a tube whose fold lies across their way, and would push both
+///               out from between them as they close.
 /// @param thin   jaws that are nearer to each other than this count as closed [m]
 Needles needles_of(const ToolShape& before, const ToolShape& now, bool blunt, double thin) noexcept;
 

@@ -8,13 +8,12 @@
 #include <trocar/collision/rods.hpp>
 #include <trocar/core/body_id.hpp>
 #include <trocar/core/fields.hpp>
+#include <trocar/interactions/instrument/tool_kind.hpp>
 #include <trocar/kinematics/fulcrum.hpp>
 #include <trocar/tissue/heat/electrosurgery.hpp>
 #include <trocar/tissue/heat/electrosurgery_seal.hpp>
 
 namespace trocar::interactions {
-
-enum class ToolKind : std::int32_t { grasper, clip_applier, scissors, probe, suction_irrigator, hook, bipolar };
 
 /// What current leaves from: a hook's wire, the pads of bipolar jaws.
 struct ElectrodeModel {
@@ -45,6 +44,8 @@ struct ToolModel {
   double clip_length = 0;  ///< [m]
   std::int32_t clips = 0;  ///< in the magazine at the start
   ElectrodeModel electrode;
+
+  const Abilities& can() const noexcept { return about(kind).can; }
 
   template <class S, class V>
   static void fields(S& s, V&& v) {

@@ -153,8 +153,6 @@ void lose(ToolState& tool) noexcept {
   for (double& p : tool.pull) p = 0;
 }
 
-bool grips(ToolKind kind) noexcept { return kind == ToolKind::grasper || kind == ToolKind::bipolar; }
-
 /// A strand's element that was cut through or tore leaves the jaws: it is no place any more.
 void drop_parted(const TissueView& view, ToolState& tool) noexcept {
   const auto parted = [&view](const Hold& h) { return h.body.is(BodyKind::strand) && !is_whole(view, h); };
@@ -168,7 +166,7 @@ void drop_parted(const TissueView& view, ToolState& tool) noexcept {
 
 void update_grip(const ToolModel& model, const ToolShape& shape, const TissueView& view, ToolState& tool) noexcept {
   const double wanted = 1.0 - tool.handle;
-  if (!grips(model.kind)) {
+  if (!model.can().grip) {
     tool.aperture = wanted;
     tool.pinch = 0;
     return;

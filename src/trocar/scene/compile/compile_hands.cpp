@@ -4,31 +4,11 @@
 namespace trocar::scene {
 namespace {
 
-interactions::ToolKind tool_kind(InstrumentKind kind) {
-  switch (kind) {
-    case InstrumentKind::grasper:
-      return interactions::ToolKind::grasper;
-    case InstrumentKind::clip_applier:
-      return interactions::ToolKind::clip_applier;
-    case InstrumentKind::scissors:
-      return interactions::ToolKind::scissors;
-    case InstrumentKind::suction_irrigator:
-      return interactions::ToolKind::suction_irrigator;
-    case InstrumentKind::hook:
-      return interactions::ToolKind::hook;
-    case InstrumentKind::bipolar:
-      return interactions::ToolKind::bipolar;
-    case InstrumentKind::probe:
-      break;
-  }
-  return interactions::ToolKind::probe;
-}
-
 interactions::ElectrodeModel electrode_of(const Instrument& i) {
   interactions::ElectrodeModel out;
-  if (!has_electrode(i.kind)) return out;
+  if (!i.can().coagulate) return out;
   out.there = true;
-  if (i.kind == InstrumentKind::bipolar) out.current = tissue::bipolar_jaws();
+  if (i.can().bipolar) out.current = tissue::bipolar_jaws();
   out.current.radius = i.electrode.radius;
   out.current.efficiency = i.electrode.efficiency;
   out.current.stick_force = i.electrode.stick_force;
@@ -39,7 +19,7 @@ interactions::ElectrodeModel electrode_of(const Instrument& i) {
 interactions::ToolModel tool_of(const Instrument& i, Vec3d port) {
   interactions::ToolModel tool;
   tool.name = i.name;
-  tool.kind = tool_kind(i.kind);
+  tool.kind = i.kind;
   tool.port = port;
   tool.shaft_radius = i.shaft_radius;
   tool.shaft_length = i.shaft_length;

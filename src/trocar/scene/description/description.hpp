@@ -10,6 +10,7 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/geometry/tets/tet_mesh.hpp>
+#include <trocar/interactions/instrument/tool_kind.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/numerics/vec3.hpp>
 #include <trocar/scene/description/vessel_tree.hpp>
@@ -319,16 +320,10 @@ struct ElectrodeSetting {
   double seals = 0;          ///< largest outer diameter of vessels that it seals [m]; 0: 1 mm bare, 3 mm between jaws
 };
 
-enum class InstrumentKind { grasper, clip_applier, scissors, probe, suction_irrigator, hook, bipolar };
-
-inline bool has_electrode(InstrumentKind kind) {
-  return kind == InstrumentKind::hook || kind == InstrumentKind::bipolar;
-}
-
 /// An instrument's shape and grip. Jaws open symmetrically in the plane of the shaft axis and the opening direction.
 struct Instrument {
   std::string name, title;
-  InstrumentKind kind = InstrumentKind::probe;
+  interactions::ToolKind kind = interactions::ToolKind::probe;
   double shaft_radius = 0.0025, shaft_length = 0.310;
   double jaw_length = 0.020, jaw_width = 0.003, jaw_thickness = 0.0015;
   double opening = 1.0;     ///< full opening between the jaws [rad], or for parallel jaws
@@ -339,6 +334,8 @@ struct Instrument {
   int clips = 0;                ///< clips in the magazine
   ElectrodeSetting electrode;   ///< of hooks and bipolar forceps
   core::Location at;
+
+  const interactions::Abilities& can() const { return about(kind).can; }
 };
 
 struct Scope {

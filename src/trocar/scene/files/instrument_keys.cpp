@@ -19,13 +19,11 @@ const Table<ElectrodeSetting>& electrode() {
   return table;
 }
 
-const Choices<InstrumentKind> kKinds{{"grasper", InstrumentKind::grasper},
-                                     {"clip_applier", InstrumentKind::clip_applier},
-                                     {"scissors", InstrumentKind::scissors},
-                                     {"probe", InstrumentKind::probe},
-                                     {"suction_irrigator", InstrumentKind::suction_irrigator},
-                                     {"hook", InstrumentKind::hook},
-                                     {"bipolar", InstrumentKind::bipolar}};
+Choices<interactions::ToolKind> kinds() {
+  Choices<interactions::ToolKind> out;
+  for (const interactions::KindOfTool& k : interactions::kToolKinds) out.emplace_back(k.name, k.kind);
+  return out;
+}
 
 std::vector<Row<Instrument>> instrument_rows() {
   using R = Rows<Instrument>;
@@ -33,7 +31,7 @@ std::vector<Row<Instrument>> instrument_rows() {
   return {
       needed(R::name("name", &I::name, "what scenes call it")),
       R::text("title", &I::title, "one line for people"),
-      needed(R::choice("kind", kKinds, &I::kind, "what it does")),
+      needed(R::choice("kind", kinds(), &I::kind, "what it does")),
       R::number("shaft_diameter_mm", units::diameter, &I::shaft_radius, 1, 30, "default {}"),
       R::number("shaft_length_mm", units::mm, &I::shaft_length, 50, 1000,
                 "from the handle to the jaws' joint, default {}"),
@@ -50,19 +48,22 @@ std::vector<Row<Instrument>> instrument_rows() {
       R::number("clip_length_mm", units::mm, &I::clip_length, 0.5, 50, "of a closed clip, default {}"),
       R::integer("clips", &I::clips, 0, 1000, "in the magazine, default {}"),
       R::object("electrode", electrode, &I::electrode, "of a hook or bipolar forceps").only([](const I& i) {
-        return has_electrode(i.kind);
+        return i.can().coagulate;
       })};
 }
 
 void check_instrument(const JsonObject& o, Instrument& i, Context&) {
+  using interactions::Abilities;
   if (i.parallel_gap > 0 && !o.has("opening_deg")) i.opening = 0;
   const std::string kind = o.text("kind");
-  if (o.has("electrode") && o.has("kind") && !has_electrode(i.kind))
-    o.fault("electrode", fmt::format("expected an electrode only in a hook or bipolar forceps, got one in a {}", kind));
+  if (o.has("electrode") && o.has("kind") && !i.can().coagulate)
+    o.fault("electrode", fmt::format("expected an electrode only in a {}, got one in a {}",
+                                     kinds_that(&Abilities::coagulate), kind));
   if (i.parallel_gap > 0 && i.opening > 0)
     o.fault("opening_deg", "expected 0 or nothing beside parallel_gap_mm (jaws turn or stay parallel), got an angle");
-  if (i.clips > 0 && o.has("kind") && i.kind != InstrumentKind::clip_applier)
-    o.fault("clips", fmt::format("expected clips only in a clip_applier, got {} in a {}", i.clips, kind));
+  if (i.clips > 0 && o.has("kind") && !i.can().set_clips)
+    o.fault("clips", fmt::format("expected clips only in a {}, got {} in a {}", kinds_that(&Abilities::set_clips),
+                                 i.clips, kind));
 }
 
 }  // namespace

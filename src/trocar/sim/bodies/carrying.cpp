@@ -18,12 +18,11 @@ void carry_along(const StepContext& c, const CarriedSkin& b) noexcept {
     for (int h = 0; h < tool.holds; ++h)
       if (tool.hold[h].body == b.body) between[held++] = tool.hold[h].element;
     const interactions::Needles needles = interactions::needles_of(
-        c.work.shapes_before[t], shape, interactions::jaws_are_blunt(c.model.tool(c.state, t).kind),
-        std::max(kThin, b.thickness));
-    interactions::carry_along(needles,
-                              {*b.surface.skin, *b.surface.pose, b.open, b.fixed, {between.data(), held},
-                               b.surface.nodes.origin, b.rows},
-                              b.gap ? b.gap[t * b.each] : 0, kTick);
+        c.work.shapes_before[t], shape, c.model.tool(c.state, t).can().blunt(), std::max(kThin, b.thickness));
+    interactions::carry_along(
+        needles,
+        {*b.surface.skin, *b.surface.pose, b.open, b.fixed, {between.data(), held}, b.surface.nodes.origin, b.rows},
+        b.gap ? b.gap[t * b.each] : 0, kTick);
   }
 }
 

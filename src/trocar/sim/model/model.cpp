@@ -47,9 +47,7 @@ const interactions::ToolModel& Model::tool(const State& state, size_t hand) cons
 }
 
 bool Model::irrigates() const noexcept {
-  const auto has_bore = [](const interactions::ToolModel& t) {
-    return t.kind == interactions::ToolKind::suction_irrigator;
-  };
+  const auto has_bore = [](const interactions::ToolModel& t) { return t.can().irrigate; };
   const auto in_rack = [&](const HandModel& h) { return std::any_of(h.rack.begin(), h.rack.end(), has_bore); };
   return wet.there && std::any_of(hands.begin(), hands.end(), in_rack);
 }

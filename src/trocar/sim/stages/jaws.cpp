@@ -124,7 +124,7 @@ void work_jaws(StepContext& c) noexcept {
     if (held == 0 && tool.holds > 0) tell(c, Event::grasped, int(t), tool.hold[0].body);
     if (held > 0 && tool.holds == 0) tell_lost(c, t, slips);
     c.work.shapes[t] = interactions::shape_of(model, tool.pose(), tool.aperture);
-    if (model.kind == interactions::ToolKind::clip_applier) {
+    if (model.can().set_clips) {
       const int clips = tool.clips_left;
       const bool fired =
           update_clip_applier(model, c.work.shapes[t], int(t), view, s.strands,
@@ -136,7 +136,7 @@ void work_jaws(StepContext& c) noexcept {
       } else if (tool.clips_left < clips) {
         c.report.flags |= StepReport::kBookFull;
       }
-    } else if (model.kind == interactions::ToolKind::scissors) {
+    } else if (model.can().cut) {
       const int before = s.cut_count;
       cut_flesh(c, t);
       const bool armed = tool.armed != 0;

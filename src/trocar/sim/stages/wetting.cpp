@@ -31,10 +31,6 @@ void lay_out_bleeding(StepContext& c) noexcept {
   }
 }
 
-bool is_irrigator(const interactions::ToolModel& tool) noexcept {
-  return tool.kind == interactions::ToolKind::suction_irrigator;
-}
-
 fluids::Capsule part_of(const collision::Capsule& now, const collision::Capsule& was) noexcept {
   fluids::Capsule out;
   out.a = vec_cast<float>(now.a);
@@ -52,9 +48,9 @@ int lay_out_instruments(StepContext& c, int bodies) noexcept {
     const interactions::ToolModel& tool = c.model.tool(c.state, t);
     const interactions::ToolShape &now = c.work.shapes[t], &was = c.work.shapes_before[t];
     for (int k = 0; k < interactions::kToolParts; ++k) {
-      if (is_irrigator(tool) && k != interactions::kShaft) continue;
+      if (tool.can().irrigate && k != interactions::kShaft) continue;
       fluids::Capsule& out = c.work.wet_tools[n++];
-      out = is_irrigator(tool) ? tube_of(tool, now, was, kTick) : part_of(now.part[k], was.part[k]);
+      out = tool.can().irrigate ? tube_of(tool, now, was, kTick) : part_of(now.part[k], was.part[k]);
       out.body = bodies + int(t) * interactions::kToolParts + k;
     }
   }
@@ -66,7 +62,7 @@ void lay_out_valves(StepContext& c, const interactions::WetBodies& bodies) noexc
   c.work.valves = {};
   for (size_t t = 0; t < c.model.hands.size(); ++t) {
     const interactions::ToolModel& tool = c.model.tool(c.state, t);
-    if (!is_irrigator(tool) || c.input.tools[t].instrument != c.state.tools[t].instrument) continue;
+    if (!tool.can().irrigate || c.input.tools[t].instrument != c.state.tools[t].instrument) continue;
     const interactions::Bore bore = bore_of(tool, c.work.shapes[t], c.work.shapes_before[t], kTick);
     fluids::SuctionIrrigator& out = c.work.valves[t];
     out.tip = vec_cast<float>(bore.end);

@@ -17,7 +17,8 @@ const interactions::Clip& clip_of(const Look& look, const Happening& h) {
 }
 
 Happening happening(const Look& look, const interactions::Clip& clip, int number) {
-  Happening h{clip.tool, BodyId::maybe(BodyKind::strand, clip.strand), number, nullptr, tip_of(look.model, look.state, size_t(clip.tool)), {}};
+  Happening h{clip.tool, BodyId::maybe(BodyKind::strand, clip.strand),      number,
+              nullptr,   tip_of(look.model, look.state, size_t(clip.tool)), {}};
   h.where = h.tip;
   if (clip.strand < 0) {
     if (clip.vessel > 0) h.name = &look.model.vessels.list[size_t(clip.vessel - 1)].name;
@@ -114,7 +115,7 @@ std::vector<Attribute> attributes() {
 bool foresee(const Look& look, int hand, Foreseen& out) {
   const interactions::ToolModel& applier = look.model.tool(look.state, size_t(hand));
   const interactions::ToolState& tool = look.state.tools[size_t(hand)];
-  if (applier.kind != interactions::ToolKind::clip_applier || !tool.armed) return false;
+  if (!applier.can().set_clips || !tool.armed) return false;
   const interactions::ToolShape shape = interactions::shape_of(applier, tool.pose(), tool.aperture);
   interactions::TissueView view;
   view.strands = look.model.strand_bodies;
@@ -131,7 +132,7 @@ bool foresee(const Look& look, int hand, Foreseen& out) {
 }
 
 std::string_view needs_applier(const sim::Model& model) {
-  return unless_there_is(model, interactions::ToolKind::clip_applier, "a clip applier");
+  return unless_there_is(model, &interactions::Abilities::set_clips, "a clip applier");
 }
 
 }  // namespace

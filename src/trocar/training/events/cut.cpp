@@ -85,7 +85,7 @@ std::vector<Attribute> attributes() {
 }
 
 std::string_view needs_scissors(const sim::Model& model) {
-  return unless_there_is(model, interactions::ToolKind::scissors, "scissors");
+  return unless_there_is(model, &interactions::Abilities::cut, "scissors");
 }
 
 }  // namespace

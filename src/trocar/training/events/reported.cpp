@@ -44,10 +44,10 @@ using sim::Event;
 
 }  // namespace
 
-std::string_view unless_there_is(const sim::Model& model, interactions::ToolKind kind, std::string_view what) {
+std::string_view unless_there_is(const sim::Model& model, bool interactions::Abilities::*can, std::string_view what) {
   for (const sim::HandModel& hand : model.hands)
     for (const interactions::ToolModel& tool : hand.rack)
-      if (tool.kind == kind) return {};
+      if (tool.can().*can) return {};
   return what;
 }
 

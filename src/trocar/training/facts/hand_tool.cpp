@@ -3,28 +3,31 @@
 namespace trocar::training {
 namespace {
 
-constexpr const char* kKinds[] = {"grasper",           "clip_applier", "scissors", "probe",
-                                  "suction_irrigator", "hook",         "bipolar"};
+std::vector<std::string> kinds() {
+  std::vector<std::string> names;
+  for (const interactions::KindOfTool& k : interactions::kToolKinds) names.emplace_back(k.name);
+  return names;
+}
 
 Value has(const Look& look, const Arguments& a) {
-  return a[1].word == kKinds[size_t(look.model.tool(look.state, size_t(a[0].index)).kind)];
+  return a[1].word == about(look.model.tool(look.state, size_t(a[0].index)).kind).name;
 }
 Value clips_left(const Look& look, const Arguments& a) {
-  if (look.model.tool(look.state, size_t(a[0].index)).kind != interactions::ToolKind::clip_applier) return kUnknown;
+  if (!look.model.tool(look.state, size_t(a[0].index)).can().set_clips) return kUnknown;
   return double(look.state.tools[size_t(a[0].index)].clips_left);
 }
 
 }  // namespace
 
-const Fact kHandHas{"hand.has",
-                    {{"hand", ArgumentKind::hand, "which"},
-                     {"kind", ArgumentKind::word, "of instrument", true, 0, 0, {std::begin(kKinds), std::end(kKinds)}}},
-                    0,
-                    1,
-                    "The instrument in this trocar is of that kind.",
-                    anywhere,
-                    &stateless<has>,
-                    true};
+const Fact kHandHas{
+    "hand.has",
+    {{"hand", ArgumentKind::hand, "which"}, {"kind", ArgumentKind::word, "of instrument", true, 0, 0, kinds()}},
+    0,
+    1,
+    "The instrument in this trocar is of that kind.",
+    anywhere,
+    &stateless<has>,
+    true};
 const Fact kHandClipsLeft{"hand.clips_left",
                           {{"hand", ArgumentKind::hand, "that has a clip applier"}},
                           0,

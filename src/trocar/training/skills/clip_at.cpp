@@ -228,7 +228,7 @@ class ClipAt final : public Skill {
 };
 
 std::string lacks(const sim::Model& model, const Given& given) {
-  if (std::string lack = lacks_kind(model, given.hand(), interactions::ToolKind::clip_applier); !lack.empty())
+  if (std::string lack = lacks_tool(model, given.hand(), &interactions::Abilities::set_clips); !lack.empty())
     return lack;
   return Place::lacks(model, given);
 }

@@ -226,7 +226,7 @@ class ClipVessel final : public Skill {
 
 std::string lacks(const sim::Model& model, const Given& given) {
   if (model.vessels.bleeder.vessel < 0) return "no vessel opens by itself";
-  return lacks_kind(model, given.hand(), interactions::ToolKind::clip_applier);
+  return lacks_tool(model, given.hand(), &interactions::Abilities::set_clips);
 }
 
 }  // namespace

@@ -40,9 +40,8 @@ class Coagulate final : public Skill {
 
 std::string lacks_current(const sim::Model& model, const Given& given) {
   if (!model.energy.there) return "there is no current";
-  if (!lacks_kind(model, given.hand(), interactions::ToolKind::hook).empty() &&
-      !lacks_kind(model, given.hand(), interactions::ToolKind::bipolar).empty())
-    return lacks_kind(model, given.hand(), interactions::ToolKind::hook);
+  if (std::string lack = lacks_tool(model, given.hand(), &interactions::Abilities::coagulate); !lack.empty())
+    return lack;
   return Place::lacks(model, given);
 }
 }  // namespace

@@ -124,7 +124,7 @@ class CutAt final : public Skill {
 };
 
 std::string lacks(const sim::Model& model, const Given& given) {
-  if (std::string lack = lacks_kind(model, given.hand(), interactions::ToolKind::scissors); !lack.empty()) return lack;
+  if (std::string lack = lacks_tool(model, given.hand(), &interactions::Abilities::cut); !lack.empty()) return lack;
   return Place::lacks(model, given);
 }
 

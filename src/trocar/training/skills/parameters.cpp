@@ -4,13 +4,6 @@
 #include <trocar/training/skills/parameters.hpp>
 
 namespace trocar::training {
-namespace {
-
-constexpr const char* kKinds[] = {"grasper",           "clip_applier", "scissors", "probe",
-                                  "suction_irrigator", "hook",         "bipolar"};
-
-}  // namespace
-
 const Argument& Given::operator()(std::string_view name) const {
   static const Argument none;
   for (size_t i = 0; i < m_kind->parameters.size() && i < m_arguments->size(); ++i)
@@ -40,10 +33,11 @@ std::vector<Parameter> operator+(std::vector<Parameter> a, std::vector<Parameter
   return a;
 }
 
-std::string lacks_kind(const sim::Model& model, int hand, interactions::ToolKind kind) {
+std::string lacks_tool(const sim::Model& model, int hand, bool interactions::Abilities::*can) {
   for (const interactions::ToolModel& tool : model.hands[size_t(hand)].rack)
-    if (tool.kind == kind) return {};
-  return fmt::format("the rack at the trocar \"{}\" has no {}", model.hands[size_t(hand)].name, kKinds[size_t(kind)]);
+    if (tool.can().*can) return {};
+  return fmt::format("the rack at the trocar \"{}\" has no {}", model.hands[size_t(hand)].name,
+                     interactions::kinds_that(can));
 }
 
 std::string lacks_landmark(const sim::Model& model, int strand, const std::string& landmark) {

@@ -23,8 +23,8 @@ inline Parameter word_parameter(std::string_view name, std::string_view meaning,
 std::vector<Parameter> place_parameters();
 std::vector<Parameter> operator+(std::vector<Parameter> a, std::vector<Parameter> b);
 
-/// Where no instrument of this kind is in the hand's rack.
-std::string lacks_kind(const sim::Model& model, int hand, interactions::ToolKind kind);
+/// Where no instrument in the hand's rack can do that.
+std::string lacks_tool(const sim::Model& model, int hand, bool interactions::Abilities::*can);
 std::string lacks_landmark(const sim::Model& model, int strand, const std::string& landmark);
 
 /// A place as a skill's parameters say it.

@@ -33,7 +33,7 @@ class SuckDry final : public Skill {
 
 std::string lacks_suction(const sim::Model& model, const Given& given) {
   if (!model.wet.there) return "there are no fluids";
-  return lacks_kind(model, given.hand(), interactions::ToolKind::suction_irrigator);
+  return lacks_tool(model, given.hand(), &interactions::Abilities::irrigate);
 }
 
 }  // namespace
