@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/sim/stages/heating.hpp>
 #include <trocar/sim/stages/visibility.hpp>
+#include <trocar/sim/verbs/heating.hpp>
 #include <trocar/tissue/heat/heat_look.hpp>
 
 #include "small_energy.hpp"
@@ -252,7 +252,8 @@ Stump stump_of(double radius, std::uint32_t pedals) {
   t.input.pedals = 0;
   s.after = mean(300);
   std::printf("    outer %.2f mm: %.2f mL/min before, %.3f after; body %d, %.0f C, %d seals\n", 1e3 * s.outer, s.before,
-              s.after, t.state.electrodes[kHook].body.code(), t.state.electrodes[kHook].current.tip, t.state.seal_count);
+              s.after, t.state.electrodes[kHook].body.code(), t.state.electrodes[kHook].current.tip,
+              t.state.seal_count);
   return s;
 }
 

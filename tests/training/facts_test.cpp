@@ -424,8 +424,9 @@ TEST(Events, OfHandsAreWhatTheStepReports) {
   const struct {
     const EventKind& kind;
     sim::Event::Kind reported;
-  } all[] = {{kGrasped, sim::Event::grasped},     {kReleased, sim::Event::released}, {kSlipped, sim::Event::slipped},
-             {kExchanged, sim::Event::exchanged}, {kParted, sim::Event::parted},     {kTorn, sim::Event::torn}};
+  } all[] = {{*find_event("grasped"), sim::Event::grasped}, {*find_event("released"), sim::Event::released},
+             {*find_event("slipped"), sim::Event::slipped}, {*find_event("exchanged"), sim::Event::exchanged},
+             {*find_event("parted"), sim::Event::parted},   {kTorn, sim::Event::torn}};
   for (const auto& one : all) {
     Noticed n;
     n.watch(one.kind);

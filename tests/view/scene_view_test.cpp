@@ -17,9 +17,9 @@
 #include <trocar/render/gl/gl_context.hpp>
 #include <trocar/scene/compile/compile.hpp>
 #include <trocar/scene/files/reader.hpp>
-#include <trocar/sim/stages/heat_bodies.hpp>
 #include <trocar/sim/stages/step.hpp>
 #include <trocar/sim/stages/visibility.hpp>
+#include <trocar/sim/verbs/heat_bodies.hpp>
 #include <trocar/view/anatomy/fat_tags.hpp>
 #include <trocar/view/base/heat_marks.hpp>
 #include <trocar/view/base/looks.hpp>

@@ -89,8 +89,9 @@ const sim::StepReport& Session::advance(const sim::Input& input) {
   m_report = sim::step(m_lesson.model, input, m_state, m_work);
   m_flags |= m_report.flags;
   if (!m_report.fine())
-    m_broken = fmt::format("the tissue's motion failed in tick {} (body {}, node {}): a fault of the simulation",
-                           m_state.tick, sim::name_of(m_lesson.model, m_report.first_bad_body), m_report.first_bad_index);
+    m_broken =
+        fmt::format("the tissue's motion failed in tick {} (body {}, node {}): a fault of the simulation", m_state.tick,
+                    sim::name_of(m_lesson.model, m_report.first_bad_body), m_report.first_bad_index);
   for (size_t t = 0; t < m_lesson.model.hands.size(); ++t) {
     const Vec3d tip = training::tip_of(m_lesson.model, m_state, t);
     m_path[t] += length(tip - m_tip[t]);
@@ -144,45 +145,30 @@ void Session::add_moment(const char* what, int tool, std::string text) {
   m_moments.push_back({m_state.tick, what, tool, std::move(text)});
 }
 
+namespace {
+
+/// The body that an event is about: clips and cuts stand in the State's books.
+BodyId body_of(const sim::Event& e, const sim::State& s) {
+  if (e.kind == sim::Event::clipped) return BodyId::maybe(BodyKind::strand, s.clips[size_t(e.index)].strand);
+  if (e.kind == sim::Event::cut) return s.cuts[size_t(e.index)].body();
+  return e.body();
+}
+
+std::string in_words(const sim::Event& e, const sim::Model& model, const sim::State& s) {
+  const sim::EventWords& words = sim::words_of(e.kind);
+  return fmt::format(fmt::runtime(words.text), fmt::arg("tool", model.tool(s, size_t(e.tool)).name),
+                     fmt::arg("hand", model.hands[size_t(e.tool)].name),
+                     fmt::arg("body", words.has_body ? sim::name_of(model, body_of(e, s)) : std::string()));
+}
+
+}  // namespace
+
 void Session::collect_moments() {
-  using Kind = sim::Event::Kind;
   const sim::Model& model = m_lesson.model;
   for (int i = 0; i < m_report.event_count; ++i) {
     const sim::Event& e = m_report.events[i];
-    const std::string& who = model.tool(m_state, size_t(e.tool)).name;
     ++m_counts[size_t(e.kind)];
-    switch (e.kind) {
-      case Kind::none:
-        break;
-      case Kind::grasped:
-        add_moment("grasped", e.tool, fmt::format("{} grasped {}", who, sim::name_of(model, e.body())));
-        break;
-      case Kind::released:
-        add_moment("released", e.tool, who + " let go");
-        break;
-      case Kind::slipped:
-        add_moment("slipped", e.tool, who + " slipped");
-        break;
-      case Kind::clipped:
-        add_moment("clipped", e.tool,
-                   fmt::format("clip on {}", sim::name_of(model, BodyId::maybe(BodyKind::strand, m_state.clips[size_t(e.index)].strand))));
-        break;
-      case Kind::dropped_clip:
-        add_moment("clip-dropped", e.tool, "a clip closed on nothing");
-        break;
-      case Kind::exchanged:
-        add_moment("exchanged", e.tool, fmt::format("{}: {}", model.hands[size_t(e.tool)].name, who));
-        break;
-      case Kind::torn:
-        add_moment("torn", e.tool, sim::name_of(model, e.body()) + " tore");
-        break;
-      case Kind::parted:
-        add_moment("parted", e.tool, fmt::format("{} parted {}", who, sim::name_of(model, e.body())));
-        break;
-      case Kind::cut:
-        add_moment("cut", e.tool, fmt::format("{} cut {}", who, sim::name_of(model, m_state.cuts[size_t(e.index)].body())));
-        break;
-    }
+    if (e.kind != sim::Event::none) add_moment(sim::words_of(e.kind).name, e.tool, in_words(e, model, m_state));
   }
   for (size_t t = 0; t < model.hands.size(); ++t) {
     const interactions::ToolState& tool = m_state.tools[t];

@@ -103,7 +103,7 @@ class Session {
   std::vector<Moment> m_moments;
   std::array<Vec3d, sim::kMaxTools> m_tip;
   std::array<double, sim::kMaxTools> m_path{};
-  std::array<int, 10> m_counts{};  ///< by sim::Event::Kind
+  std::array<int, std::size(sim::kEventWords) + 1> m_counts{};  ///< by sim::Event::Kind
   std::uint32_t m_flags = 0;
   std::uint64_t m_inputs_hash = 0;
   std::string m_broken;

@@ -2,7 +2,7 @@
 #include <string>
 
 #include <trocar/scene/compile/compile_energy.hpp>
-#include <trocar/sim/stages/heat_bodies.hpp>
+#include <trocar/sim/verbs/heat_bodies.hpp>
 
 namespace trocar::scene {
 

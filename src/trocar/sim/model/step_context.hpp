@@ -1,4 +1,4 @@
-// What every stage of a step is given.
+// What every stage of a step is given, and how it tells what happened.
 #pragma once
 
 #include <trocar/sim/model/step_report.hpp>
@@ -13,5 +13,14 @@ struct StepContext {
   Work& work;
   StepReport& report;
 };
+
+inline void tell(StepContext& c, Event::Kind kind, int tool, int index) noexcept {
+  if (c.report.event_count < kMaxEvents - kRoomForTears) c.report.events[c.report.event_count++] = {kind, tool, index};
+}
+inline void tell(StepContext& c, Event::Kind kind, int tool, BodyId body) noexcept { tell(c, kind, tool, body.code()); }
+/// A grip has ended: tells whether it slipped, or the hand let go.
+inline void tell_lost(StepContext& c, size_t hand, int slips_before) noexcept {
+  tell(c, c.state.tools[hand].slipped > slips_before ? Event::slipped : Event::released, int(hand), -1);
+}
 
 }  // namespace trocar::sim

@@ -1,7 +1,9 @@
 // What a tick says about itself: what happened in it, and whether all is well.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
 
 #include <trocar/core/body_id.hpp>
 #include <trocar/tissue/base/report.hpp>
@@ -30,6 +32,28 @@ struct Event {
   /// The body that `index` says, of a kind of event that says one.
   BodyId body() const noexcept { return BodyId::of_code(index); }
 };
+
+/// A kind of event in words. A new kind of event is one line above and one here.
+struct EventWords {
+  Event::Kind kind;
+  const char* name;     ///< as lists of what happened have it
+  const char* text;     ///< of it: {tool}, its trocar as {hand}, {body}
+  const char* meaning;  ///< of the exercise event of that name; null: training/events looks at it more closely
+  bool has_body = false;
+};
+inline constexpr EventWords kEventWords[] = {
+    {Event::grasped, "grasped", "{tool} grasped {body}", "Jaws took hold of a body.", true},
+    {Event::released, "released", "{tool} let go", "A hand let go of what it held."},
+    {Event::slipped, "slipped", "{tool} slipped", "A grip slipped off."},
+    {Event::clipped, "clipped", "clip on {body}", nullptr, true},
+    {Event::dropped_clip, "clip-dropped", "a clip closed on nothing", nullptr},
+    {Event::cut, "cut", "{tool} cut {body}", nullptr, true},
+    {Event::exchanged, "exchanged", "{hand}: {tool}", "Another instrument came into a trocar."},
+    {Event::torn, "torn", "{body} tore", nullptr, true},
+    {Event::parted, "parted", "{tool} parted {body}", "Current cut a body.", true},
+};
+/// Of a kind that is not Event::none.
+constexpr const EventWords& words_of(Event::Kind kind) noexcept { return kEventWords[std::size_t(kind) - 1]; }
 inline constexpr int kMaxEvents = 24, kRoomForTears = 8;  ///< all; of those, only for tears
 
 /// What a tick says about itself. Flags of tissue::StepReport keep their meaning; the others are the step's own.

@@ -3,6 +3,7 @@
 
 #include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/recording/keyframe_check.hpp>
+#include <trocar/sim/verbs/verbs.hpp>
 
 namespace trocar::sim::keyframe {
 namespace {
@@ -51,19 +52,11 @@ bool sound(const Model& model, const State& s) {
     if (!sound(model, t < model.hands.size() ? int(model.hands[t].rack.size()) : 1, s.tools[t])) return false;
   for (float v : {s.scope.yaw, s.scope.pitch, s.scope.roll, s.scope.depth, s.scope.post})
     if (!(std::fabs(v) < 1e3f)) return false;
-  const auto names_strand = [&model](std::int32_t i, double place) {
-    return i >= -1 && i < std::int32_t(model.strands.size()) && std::isfinite(place);
-  };
-  for (int i = 0; i < s.clip_count; ++i)
-    if (!names_strand(s.clips[size_t(i)].strand, s.clips[size_t(i)].s) || s.clips[size_t(i)].vessel < 0 ||
-        s.clips[size_t(i)].vessel > std::int32_t(model.vessels.list.size()))
-      return false;
-  for (int i = 0; i < s.cut_count; ++i)
-    if (!names_strand(s.cuts[size_t(i)].strand, s.cuts[size_t(i)].s) || s.cuts[size_t(i)].solid < -1 ||
-        s.cuts[size_t(i)].solid >= model.organs() || s.cuts[size_t(i)].membrane < -1 ||
-        s.cuts[size_t(i)].membrane >= std::int32_t(model.membranes.size()) || !std::isfinite(s.cuts[size_t(i)].fold))
-      return false;
-  return true;
+  bool good = true;
+  visit_books(s, [&](auto verb, auto book) {
+    for (const auto& record : book.used()) good = good && verb.sound(model, record);
+  });
+  return good;
 }
 
 }  // namespace trocar::sim::keyframe

@@ -6,6 +6,7 @@
 #include <trocar/sim/recording/keyframe.hpp>
 #include <trocar/sim/recording/keyframe_bytes.hpp>
 #include <trocar/sim/recording/keyframe_check.hpp>
+#include <trocar/sim/verbs/verbs.hpp>
 #include <trocar/tissue/heat/heat_scars.hpp>
 
 namespace trocar::sim {
@@ -92,12 +93,11 @@ bool restore_display(const Model& model, const std::vector<std::uint8_t>& bytes,
   }
   in.take(&s.tools, 1);
   in.take(&s.scope, 1);
-  in.take(&s.clip_count, 1);
-  in.good = in.good && s.clip_count >= 0 && s.clip_count <= interactions::kMaxClips;
-  if (in.good) in.take(s.clips.data(), size_t(s.clip_count));
-  in.take(&s.cut_count, 1);
-  in.good = in.good && s.cut_count >= 0 && s.cut_count <= interactions::kMaxCuts;
-  if (in.good) in.take(s.cuts.data(), size_t(s.cut_count));
+  visit_books(s, [&in](auto, auto book) {
+    in.take(&book.count, 1);
+    in.good = in.good && book.count >= 0 && size_t(book.count) <= book.records.size();
+    if (in.good) in.take(book.used().data(), book.used().size());
+  });
   for (auto* bodies : {&s.parted, &s.torn})
     for (std::vector<std::uint8_t>& parted : *bodies) {
       std::uint32_t n = 0, triangle = 0;

@@ -2,6 +2,7 @@
 #include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/recording/keyframe.hpp>
 #include <trocar/sim/recording/keyframe_bytes.hpp>
+#include <trocar/sim/verbs/verbs.hpp>
 #include <trocar/tissue/heat/heat_scars.hpp>
 
 namespace trocar::sim {
@@ -60,10 +61,10 @@ std::vector<std::uint8_t> display_bytes(const Model& model, const State& s) {
   }
   put(out, &s.tools, 1);
   put(out, &s.scope, 1);
-  put(out, &s.clip_count, 1);
-  put(out, s.clips.data(), size_t(s.clip_count));
-  put(out, &s.cut_count, 1);
-  put(out, s.cuts.data(), size_t(s.cut_count));
+  visit_books(s, [&out](auto, auto book) {
+    put(out, &book.count, 1);
+    put(out, book.used().data(), book.used().size());
+  });
   for (const auto* bodies : {&s.parted, &s.torn})
     for (const std::vector<std::uint8_t>& parted : *bodies) {
       const std::vector<std::uint32_t> open = open_triangles(parted);

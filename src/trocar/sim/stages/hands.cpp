@@ -103,8 +103,4 @@ void move_hands(StepContext& c) noexcept {
   s.post = stepped(s.post, in.post, 0.008f);
 }
 
-void tell_lost(StepContext& c, size_t t, int slips_before) noexcept {
-  tell(c, c.state.tools[t].slipped > slips_before ? Event::slipped : Event::released, int(t), -1);
-}
-
 }  // namespace trocar::sim

@@ -1,4 +1,3 @@
-#include <trocar/sim/stages/hands.hpp>
 #include <trocar/sim/stages/reaction_forces.hpp>
 #include <trocar/sim/stages/stage.hpp>
 

@@ -1,4 +1,4 @@
-// What the stages of a step share: events, views of what the tick has, bodies shared out over threads.
+// What the stages of a step share: views of what the tick has, bodies shared out over threads.
 #pragma once
 
 #include <span>
@@ -6,11 +6,6 @@
 #include <trocar/sim/bodies/views.hpp>
 
 namespace trocar::sim {
-
-inline void tell(StepContext& c, Event::Kind kind, int tool, int index) noexcept {
-  if (c.report.event_count < kMaxEvents - kRoomForTears) c.report.events[c.report.event_count++] = {kind, tool, index};
-}
-inline void tell(StepContext& c, Event::Kind kind, int tool, BodyId body) noexcept { tell(c, kind, tool, body.code()); }
 
 /// Bodies in the given order, shared out over threads; they write nothing in common.
 template <class F>

@@ -1,20 +1,20 @@
 #include <trocar/sim/bodies/bodies.hpp>
-#include <trocar/sim/stages/adhesion.hpp>
 #include <trocar/sim/stages/bodies.hpp>
 #include <trocar/sim/stages/circulation.hpp>
 #include <trocar/sim/stages/contacts.hpp>
 #include <trocar/sim/stages/containing.hpp>
 #include <trocar/sim/stages/hands.hpp>
-#include <trocar/sim/stages/heating.hpp>
 #include <trocar/sim/stages/jaws.hpp>
 #include <trocar/sim/stages/motion.hpp>
 #include <trocar/sim/stages/posing.hpp>
 #include <trocar/sim/stages/reaction_forces.hpp>
-#include <trocar/sim/stages/scarring.hpp>
 #include <trocar/sim/stages/step.hpp>
 #include <trocar/sim/stages/tearing.hpp>
 #include <trocar/sim/stages/visibility.hpp>
 #include <trocar/sim/stages/wetting.hpp>
+#include <trocar/sim/verbs/adhesion.hpp>
+#include <trocar/sim/verbs/heating.hpp>
+#include <trocar/sim/verbs/scarring.hpp>
 
 namespace trocar::sim {
 namespace {

@@ -113,10 +113,6 @@ bool sees(const Model& model, const State& state, const Work& work, const Visibi
 
 }  // namespace
 
-kinematics::ScopeFrame scope_of(const Model& model, const State& state) noexcept {
-  return kinematics::scope_frame(model.scope.port, pose_of(state.scope), model.scope.angle, double(state.scope.post));
-}
-
 bool unoccluded(const Model& model, const State& state, const Work& work, Vec3d eye, Vec3d point, double margin,
                 int skip_tool, int skip_strand) noexcept {
   const Vec3d sight = point - eye;
@@ -149,22 +145,6 @@ void update_visibility(const Model& model, State& state, const Work& work) noexc
     const size_t i = size_t((state.tick * kLooksPerTick + std::uint64_t(k)) % model.samples.size());
     state.seen[i] = sees(model, state, work, model.samples[i], scope);
   }
-}
-
-double visible_share(const Model& model, const State& state, int target) noexcept {
-  const VisibilityTarget& t = model.targets[size_t(target)];
-  int seen = 0;
-  for (int i = t.first; i < t.first + t.count; ++i) seen += state.seen[size_t(i)];
-  return t.count > 0 ? double(seen) / t.count : 0.0;
-}
-
-int jaw_tips_visible(const Model& model, const State& state, int hand) noexcept {
-  int seen = 0;
-  for (size_t i = 0; i < model.targets.size(); ++i) {
-    const VisibilityTarget& t = model.targets[i];
-    if (t.kind == VisibilityTarget::jaw && t.index == hand) seen += visible(model, state, int(i));
-  }
-  return seen;
 }
 
 }  // namespace trocar::sim

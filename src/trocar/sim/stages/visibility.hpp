@@ -2,26 +2,15 @@
 // pixels or on the frame rate.
 #pragma once
 
+#include <trocar/sim/model/seen.hpp>
 #include <trocar/sim/model/work.hpp>
 
 namespace trocar::sim {
 
 inline constexpr int kLooksPerTick = 2;
 
-/// The scope's frame in this State.
-kinematics::ScopeFrame scope_of(const Model& model, const State& state) noexcept;
-
 /// Looks at the samples whose turn it is and notes in State::seen whether they are in view and unoccluded.
 void update_visibility(const Model& model, State& state, const Work& work) noexcept;
-
-/// Share of the target's samples that were seen when last looked at.
-double visible_share(const Model& model, const State& state, int target) noexcept;
-inline bool visible(const Model& model, const State& state, int target) noexcept {
-  return target >= 0 && visible_share(model, state, target) >= 0.5;
-}
-
-/// How many of the two jaw tips of that hand's instrument are in view.
-int jaw_tips_visible(const Model& model, const State& state, int hand) noexcept;
 
 /// Is the segment from `eye` to `point` free of organs, walls, strands and instruments? The last `margin` metres before
 /// the point do not count (it lies on a surface itself).

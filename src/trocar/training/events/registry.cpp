@@ -4,19 +4,25 @@ namespace trocar::training {
 namespace {
 
 constexpr const EventKind* kEvents[] = {
-    &kGrasped,        &kReleased,        &kSlipped,    &kExchanged,     &kTorn,
-    &kParted,         &kClipped,         &kClipLost,   &kCut,           &kOverpulled,
-    &kOverpinched,    &kCollided,        &kMovedBlind, &kInsertedBlind, &kActivated,
-    &kIdleActivation, &kEnergyOffTarget, &kHotTip,     &kHeatSpread,    &kLensTouched,
-    &kMarkLost,       &kDropped,
+    &kTorn,     &kClipped,    &kClipLost,      &kCut,       &kOverpulled,     &kOverpinched,
+    &kCollided, &kMovedBlind, &kInsertedBlind, &kActivated, &kIdleActivation, &kEnergyOffTarget,
+    &kHotTip,   &kHeatSpread, &kLensTouched,   &kMarkLost,  &kDropped,
 };
 
 }  // namespace
 
-std::span<const EventKind* const> event_kinds() { return kEvents; }
+std::span<const EventKind* const> event_kinds() {
+  static const std::vector<const EventKind*> all = [] {
+    std::vector<const EventKind*> list;
+    for (const EventKind& event : reported_events()) list.push_back(&event);
+    list.insert(list.end(), std::begin(kEvents), std::end(kEvents));
+    return list;
+  }();
+  return all;
+}
 
 const EventKind* find_event(std::string_view name) {
-  for (const EventKind* event : kEvents)
+  for (const EventKind* event : event_kinds())
     if (event->name == name) return event;
   return nullptr;
 }

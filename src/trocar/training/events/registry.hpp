@@ -7,8 +7,10 @@
 
 namespace trocar::training {
 
-extern const EventKind kGrasped, kReleased, kSlipped, kExchanged, kTorn, kParted;
-extern const EventKind kClipped, kClipLost, kCut;
+/// Those that the step reports and nobody looks at more closely: grasped, released, ...
+std::span<const EventKind> reported_events();
+
+extern const EventKind kTorn, kClipped, kClipLost, kCut;
 extern const EventKind kOverpulled, kOverpinched, kCollided, kMovedBlind, kInsertedBlind;
 extern const EventKind kActivated, kIdleActivation, kEnergyOffTarget, kHotTip, kHeatSpread;
 extern const EventKind kLensTouched, kMarkLost, kDropped;

@@ -1,4 +1,6 @@
-// What the step reports of hands: grasped, released, slipped, exchanged, torn, parted by current.
+// What the step reports of hands, as its list of events says (sim/model/step_report.hpp), and that tissue tore.
+#include <utility>
+
 #include <trocar/sim/model/bodies.hpp>
 #include <trocar/training/events/registry.hpp>
 #include <trocar/training/observe/hands.hpp>
@@ -55,19 +57,27 @@ const std::string* name_of_body(const sim::Model& model, BodyId body) {
   return body.exists() ? &sim::name_of(model, body) : nullptr;
 }
 
-const EventKind kGrasped{
-    "grasped", {}, {}, "Jaws took hold of a body.", anywhere, &noticing<Reported<Event::grasped, true>>, true};
-const EventKind kReleased{
-    "released", {}, {}, "A hand let go of what it held.", anywhere, &noticing<Reported<Event::released, false>>};
-const EventKind kSlipped{"slipped", {},
-                         {},        "A grip slipped off.",
-                         anywhere,  &noticing<Reported<Event::slipped, false>>,
-                         false,     EventKind::Hold::before};
-const EventKind kExchanged{"exchanged", {},
-                           {},          "Another instrument came into a trocar.",
-                           anywhere,    &noticing<Reported<Event::exchanged, false>>};
-const EventKind kParted{"parted", {}, {}, "Current cut a body.", anywhere, &noticing<Reported<Event::parted, true>>,
-                        true};
+namespace {
+
+template <std::size_t... i>
+std::vector<EventKind> reported(std::index_sequence<i...>) {
+  std::vector<EventKind> out;
+  const auto add = [&out](const sim::EventWords& e, auto watch) {
+    if (!e.meaning) return;
+    const EventKind::Hold of_hold = e.kind == Event::slipped ? EventKind::Hold::before : EventKind::Hold::none;
+    out.push_back({e.name, {}, {}, e.meaning, anywhere, watch, e.has_body, of_hold});
+  };
+  (add(sim::kEventWords[i], &noticing<Reported<sim::kEventWords[i].kind, sim::kEventWords[i].has_body>>), ...);
+  return out;
+}
+
+}  // namespace
+
+std::span<const EventKind> reported_events() {
+  static const std::vector<EventKind> all = reported(std::make_index_sequence<std::size(sim::kEventWords)>());
+  return all;
+}
+
 const EventKind kTorn{
     "torn",   {},
     {},       "Tissue tore where it was pulled or pressed; told once a body for as long as it goes on.",

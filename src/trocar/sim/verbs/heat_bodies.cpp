@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include <trocar/sim/model/bodies.hpp>
-#include <trocar/sim/stages/heat_bodies.hpp>
+#include <trocar/sim/verbs/heat_bodies.hpp>
 
 namespace trocar::sim {
 namespace {

@@ -2,9 +2,8 @@
 
 #include <trocar/numerics/portable.hpp>
 #include <trocar/sim/bodies/bodies.hpp>
-#include <trocar/sim/stages/circulation.hpp>
-#include <trocar/sim/stages/current_cut.hpp>
-#include <trocar/sim/stages/stage.hpp>
+#include <trocar/sim/bodies/vessel_wounds.hpp>
+#include <trocar/sim/verbs/current_cut.hpp>
 
 namespace trocar::sim {
 namespace {
@@ -79,7 +78,8 @@ void part_tissue(StepContext& c, size_t t, const ElectrodeTouch& touch) noexcept
   }
   hand.parted_body = body;
   hand.parted = touch.contact.a;
-  if (visit(c.model, body, false, [&](auto ref) { return part(c, t, touch, ref); })) tell(c, Event::parted, int(t), body);
+  if (visit(c.model, body, false, [&](auto ref) { return part(c, t, touch, ref); }))
+    tell(c, Event::parted, int(t), body);
 }
 
 }  // namespace trocar::sim

@@ -2,13 +2,13 @@
 #include <cmath>
 
 #include <trocar/interactions/verbs/electrode_contact.hpp>
-#include <trocar/sim/stages/adhesion.hpp>
-#include <trocar/sim/stages/current_cut.hpp>
-#include <trocar/sim/stages/heat_bodies.hpp>
-#include <trocar/sim/stages/heating.hpp>
-#include <trocar/sim/stages/scarring.hpp>
-#include <trocar/sim/stages/sealing.hpp>
-#include <trocar/sim/stages/stage.hpp>
+#include <trocar/sim/bodies/views.hpp>
+#include <trocar/sim/verbs/adhesion.hpp>
+#include <trocar/sim/verbs/current_cut.hpp>
+#include <trocar/sim/verbs/heat_bodies.hpp>
+#include <trocar/sim/verbs/heating.hpp>
+#include <trocar/sim/verbs/scarring.hpp>
+#include <trocar/sim/verbs/sealing.hpp>
 
 namespace trocar::sim {
 namespace {

@@ -2,10 +2,10 @@
 #include <array>
 
 #include <trocar/interactions/couplings/scarred_spring.hpp>
+#include <trocar/sim/bodies/views.hpp>
 #include <trocar/sim/model/bodies.hpp>
-#include <trocar/sim/stages/current_cut.hpp>
-#include <trocar/sim/stages/scarring.hpp>
-#include <trocar/sim/stages/stage.hpp>
+#include <trocar/sim/verbs/current_cut.hpp>
+#include <trocar/sim/verbs/scarring.hpp>
 #include <trocar/tissue/heat/heat_look.hpp>
 
 namespace trocar::sim {

@@ -1,6 +1,6 @@
 #include <trocar/interactions/verbs/adhesion.hpp>
-#include <trocar/sim/stages/adhesion.hpp>
-#include <trocar/sim/stages/stage.hpp>
+#include <trocar/sim/bodies/views.hpp>
+#include <trocar/sim/verbs/adhesion.hpp>
 
 namespace trocar::sim {
 namespace {

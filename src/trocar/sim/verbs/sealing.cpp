@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/sim/bodies/vessel_wounds.hpp>
 #include <trocar/sim/model/host_views.hpp>
-#include <trocar/sim/stages/circulation.hpp>
-#include <trocar/sim/stages/sealing.hpp>
+#include <trocar/sim/verbs/sealing.hpp>
 #include <trocar/tissue/heat/heat_look.hpp>
 
 namespace trocar::sim {

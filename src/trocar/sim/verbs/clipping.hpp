@@ -1,0 +1,19 @@
+// Clip appliers set clips.
+#pragma once
+
+#include <trocar/sim/model/step_context.hpp>
+#include <trocar/sim/verbs/book.hpp>
+
+namespace trocar::sim {
+
+struct Clipping {
+  static bool does(const interactions::ToolModel& tool) noexcept { return tool.can().set_clips; }
+  static void work(StepContext& context, std::size_t hand) noexcept;
+  template <class S>
+  static auto book(S& state) noexcept {
+    return Book{state.clips, state.clip_count};
+  }
+  static bool sound(const Model& model, const interactions::Clip& clip) noexcept;
+};
+
+}  // namespace trocar::sim

@@ -1,0 +1,19 @@
+// Scissors cut strands, lattices, folds and flesh, and open the vessels in them.
+#pragma once
+
+#include <trocar/sim/model/step_context.hpp>
+#include <trocar/sim/verbs/book.hpp>
+
+namespace trocar::sim {
+
+struct Cutting {
+  static bool does(const interactions::ToolModel& tool) noexcept { return tool.can().cut; }
+  static void work(StepContext& context, std::size_t hand) noexcept;
+  template <class S>
+  static auto book(S& state) noexcept {
+    return Book{state.cuts, state.cut_count};
+  }
+  static bool sound(const Model& model, const interactions::Cut& cut) noexcept;
+};
+
+}  // namespace trocar::sim

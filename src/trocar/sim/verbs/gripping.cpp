@@ -1,0 +1,17 @@
+#include <trocar/interactions/verbs/grasp.hpp>
+#include <trocar/sim/bodies/views.hpp>
+#include <trocar/sim/verbs/gripping.hpp>
+
+namespace trocar::sim {
+
+void Gripping::work(StepContext& c, std::size_t t) noexcept {
+  const interactions::ToolModel& model = c.model.tool(c.state, t);
+  interactions::ToolState& tool = c.state.tools[t];
+  const int held = tool.holds, slips = tool.slipped;
+  interactions::update_grip(model, c.work.shapes[t], tissue_of(c), tool);
+  if (held == 0 && tool.holds > 0) tell(c, Event::grasped, int(t), tool.hold[0].body);
+  if (held > 0 && tool.holds == 0) tell_lost(c, t, slips);
+  c.work.shapes[t] = interactions::shape_of(model, tool.pose(), tool.aperture);
+}
+
+}  // namespace trocar::sim
