@@ -53,7 +53,7 @@ bool sound(const Model& model, const State& s) {
   for (float v : {s.scope.yaw, s.scope.pitch, s.scope.roll, s.scope.depth, s.scope.post})
     if (!(std::fabs(v) < 1e3f)) return false;
   bool good = true;
-  visit_books(s, [&](auto verb, auto book) {
+  visit_books(model, s, [&](auto verb, auto book) {
     for (const auto& record : book.used()) good = good && verb.sound(model, record);
   });
   return good;

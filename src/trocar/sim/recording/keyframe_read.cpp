@@ -93,7 +93,7 @@ bool restore_display(const Model& model, const std::vector<std::uint8_t>& bytes,
   }
   in.take(&s.tools, 1);
   in.take(&s.scope, 1);
-  visit_books(s, [&in](auto, auto book) {
+  visit_books(model, s, [&in](auto, auto book) {
     in.take(&book.count, 1);
     in.good = in.good && book.count >= 0 && size_t(book.count) <= book.records.size();
     if (in.good) in.take(book.used().data(), book.used().size());

@@ -61,7 +61,7 @@ std::vector<std::uint8_t> display_bytes(const Model& model, const State& s) {
   }
   put(out, &s.tools, 1);
   put(out, &s.scope, 1);
-  visit_books(s, [&out](auto, auto book) {
+  visit_books(model, s, [&out](auto, auto book) {
     put(out, &book.count, 1);
     put(out, book.used().data(), book.used().size());
   });

@@ -9,6 +9,7 @@ namespace trocar::sim {
 struct Clipping {
   static bool does(const interactions::ToolModel& tool) noexcept { return tool.can().set_clips; }
   static void work(StepContext& context, std::size_t hand) noexcept;
+  static constexpr bool kInAll = true;
   template <class S>
   static auto book(S& state) noexcept {
     return Book{state.clips, state.clip_count};

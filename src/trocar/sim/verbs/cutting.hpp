@@ -9,6 +9,7 @@ namespace trocar::sim {
 struct Cutting {
   static bool does(const interactions::ToolModel& tool) noexcept { return tool.can().cut; }
   static void work(StepContext& context, std::size_t hand) noexcept;
+  static constexpr bool kInAll = true;
   template <class S>
   static auto book(S& state) noexcept {
     return Book{state.cuts, state.cut_count};
