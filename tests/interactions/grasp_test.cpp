@@ -31,7 +31,9 @@ struct Grip : small::Table {
     tip += by;
     steps(700);
   }
-  TissueView view() const { return {model.strand_bodies, state.strands, {work.surfaces.data(), size_t(model.organs())}}; }
+  TissueView view() const {
+    return {model.strand_bodies, state.strands, {work.surfaces.data(), size_t(model.organs())}};
+  }
 };
 
 sim::Model with_grasper(double pinch, double friction) {
@@ -54,6 +56,16 @@ TEST(Grasp, ClosingJawsHoldWhatLiesBetweenThem) {
   // At 56 mm of arc length: the strand begins at x = -1 mm.
   const double s = arc_at(g.model.strand_bodies[kTube], {tool.hold[0].element, double(tool.hold[0].weight)});
   EXPECT_NEAR(s, 0.056, 0.003);
+}
+
+TEST(Grasp, WhatCanGripHoldsAndNothingElseDoes) {
+  for (const KindOfTool& kind : kToolKinds) {
+    scene::Description d = small::description();
+    for (scene::Instrument& i : d.instruments)
+      if (i.name == "grasper") i.kind = kind.kind;
+    const sim::Model model = scene::compile(d);
+    EXPECT_EQ(Grip(model).tool(kGrasper).holds > 0, kind.can.grip) << kind.name;
+  }
 }
 
 TEST(Grasp, TissueKeepsTheJawsApartAndIsPinched) {

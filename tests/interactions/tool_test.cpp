@@ -38,6 +38,13 @@ TEST(ToolShape, ShaftAndJawsLieOnTheLineThroughThePort) {
   EXPECT_EQ(s.part[kShaft].radius, m.shaft_radius);
 }
 
+TEST(ToolKind, MessagesNameAllThatCanDoSomething) {
+  EXPECT_EQ(kinds_that(&Abilities::set_clips), "clip_applier");
+  EXPECT_EQ(kinds_that(&Abilities::coagulate), "hook or bipolar");
+  EXPECT_TRUE(about(ToolKind::dissector).can.blunt());
+  EXPECT_FALSE(about(ToolKind::scissors).can.blunt());
+}
+
 TEST(ToolShape, HingedJawsOpenByTheirAngleSymmetrically) {
   const ToolModel m = hinged();
   for (double aperture : {0.0, 0.3, 1.0}) {

@@ -641,6 +641,31 @@ TEST(InstrumentShapes, ASuctionIrrigatorEndsWhereItsBoreDoesAndHasHolesAroundIt)
   EXPECT_GE(dark_outside, 8 * 16);
 }
 
+TEST(InstrumentShapes, ADissectorsJawsBendTheSameWayAndMeetWhereStraightOnesWould) {
+  interactions::ToolModel tool;
+  tool.kind = interactions::ToolKind::dissector;
+  tool.jaw_length = 0.020;
+  tool.jaw_width = 0.003;
+  tool.jaw_thickness = 0.0016;
+  const interactions::ToolShape shape = shape_of(tool, {0, 0, 0, 0.1}, 0);
+  for (const InstrumentPart& part : instrument_parts(tool)) {
+    EXPECT_GT(geometry::volume(welded(part.mesh)), 0) << "it faces out";
+    if (part.joint == InstrumentPart::Joint::body) continue;
+    const Placement place = placement_of(part.joint, shape);
+    double least = 1, most = -1, tip = 0, end = 0;
+    for (const Vec3f& p : part.mesh.positions) {
+      const Vec3d at = to_jaw(shape, vec_cast<double>(place.rotation * p + place.translation));
+      least = std::min(least, at.y), most = std::max(most, at.y);
+      if (at.z > 0.0195) tip = std::max(tip, std::fabs(at.y));
+      end = std::max(end, at.z);
+      EXPECT_LT(std::fabs(at.y), 0.0012 + 0.0015) << "no further from the rod that touches than a clip is wide";
+    }
+    EXPECT_GT(most, -least + 0.0005) << "both to one side";
+    EXPECT_NEAR(end, tool.jaw_length, 1e-5);
+    EXPECT_LE(tip, 0.0012);
+  }
+}
+
 /// Does the ray along +x or -x through (y, z) of the jaw's frame meet the mesh?
 bool covers(const MeshBuffer& mesh, double y, double z) {
   for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {

@@ -22,6 +22,7 @@ enum class ToolKind : std::int32_t {
   suction_irrigator,
   hook,
   bipolar,
+  dissector,
 };
 
 /// Verbs that instruments do with what is at their tip. What jaws do is in sim/verbs.
@@ -50,6 +51,7 @@ inline constexpr KindOfTool kToolKinds[] = {
     {ToolKind::suction_irrigator, "suction_irrigator", {.irrigate = true}},
     {ToolKind::hook, "hook", {.coagulate = true}},
     {ToolKind::bipolar, "bipolar", {.grip = true, .coagulate = true, .bipolar = true}},
+    {ToolKind::dissector, "dissector", {.grip = true}},
 };
 
 constexpr const KindOfTool& about(ToolKind kind) noexcept { return kToolKinds[std::size_t(kind)]; }
