@@ -7,6 +7,7 @@
 
 #include <trocar/core/random.hpp>
 #include <trocar/scene/files/reader.hpp>
+#include <trocar/scene/files/writer.hpp>
 
 #include "files.hpp"
 
@@ -351,7 +352,8 @@ TEST(Reader, AllFaultsComeInOnePassInTheOrderOfTheFile) {
                  {5, R"({"name": "soft", "density_kg_m3": @-1, "young_Pa": @1e999, "source": "ours"}],)"},
                  {7, R"("solids": [{"name": "ball", "tissue": @"hard", "cell_mm": @0, "sections": [)"},
                  {20, R"("tools": [{"instrument": "stick", "port": @"none", "tip_mm": @[0, 0]}],)"}}),
-      (Faults{"expected a known key of a scene ($schema, format, name, title, gravity_m_s2, tissues, organs, vessels, "
+      (Faults{"expected a known key of a scene ($schema, format, name, like, title, gravity_m_s2, tissues, organs, "
+              "vessels, "
               "fluids, bleeder, energy, peristalsis, breathing, detail, marks, variation, instruments, ports, tools, "
               "scope, rigids), got "
               "\"titel\" (did "
@@ -460,6 +462,81 @@ TEST(Reader, FilesThatIncludeEachOtherInACircleAreAFault) {
                                                     in + "/a.json -> " + in + "/b.json -> " + in + "/a.json",
                                                 "1:26 expected files that do not include each other in a circle, got " +
                                                     in + "/self.json -> " + in + "/self.json"}));
+}
+
+// ---- a scene that is like another one -------------------------------------------------------------------------------
+
+TEST(Like, WhatASceneDoesNotSayIsAsInTheOneThatItIsLike) {
+  const Folder folder;
+  folder.write("scenes/organs/far.json", kOrgan);
+  folder.write("scenes/base/scene.json",
+               scene_with({{3, "\"name\": \"base\", \"title\": \"Base\", \"gravity_m_s2\": [0, 0, -1],"},
+                           {6, "\"organs\": [\"../organs/far.json\", {"}}));
+  const auto path = folder.write("scenes/small/scene.json",
+                                 "{\"format\": 1, \"name\": \"small\", \"like\": \"../base/scene.json\",\n"
+                                 "\"gravity_m_s2\": [0, 0, -2], \"tools\": [],\n"
+                                 "\"scope\": {\"port\": \"navel\", \"tip_mm\": [0, 0, -9], \"angle_deg\": 30}}");
+  ASSERT_EQ(told(faults_of_file(path)), Faults{});
+  EXPECT_EQ(kind_of_file(path), FileKind::scene);
+  const Description d = read_scene(path);
+  EXPECT_EQ(d.name, "small");
+  EXPECT_EQ(d.title, "Base");
+  EXPECT_EQ(d.file, path.generic_string());
+  EXPECT_EQ(d.gravity, (Vec3d{0, 0, -2}));
+  EXPECT_EQ(d.solids.size(), 2u) << "names are relative to the file that says them";
+  EXPECT_TRUE(d.placements.empty());
+  EXPECT_DOUBLE_EQ(d.scope_placement.tip.z, -0.009);
+  EXPECT_GT(d.scope.angle, 0.5);
+  EXPECT_EQ(write_scene(read_scene(folder.write("written.json", write_scene(d)))), write_scene(d)) << "whole";
+}
+
+TEST(Like, ManyMayStandInForOneAnother) {
+  const Folder folder;
+  folder.write("a.json", scene_with({{3, "\"name\": \"a\", \"title\": \"A\","}}));
+  folder.write("b.json", R"({"format": 1, "name": "b", "like": "a.json", "title": "B", "tools": []})");
+  const Description d = read_scene(folder.write("c.json", R"({"format": 1, "name": "c", "like": "b.json"})"));
+  EXPECT_EQ(d.title, "B");
+  EXPECT_TRUE(d.placements.empty());
+  EXPECT_EQ(d.solids.size(), 1u);
+}
+
+TEST(Like, FaultsAreToldWhereTheyStand) {
+  const Folder folder;
+  folder.write("base.json",
+               scene_with({{5, R"({"name": "soft", "density_kg_m3": -1, "young_Pa": 8000, "source": "x"}],)"},
+                           {20, "\"tools\": 3,"}}));
+  const auto path = folder.write("scene.json",
+                                 "{\"format\": 1, \"like\": \"base.json\",\n\"titel\": \"x\",\n"
+                                 "\"tools\": [{\"instrument\": \"stock\", \"port\": \"navel\",\n"
+                                 "\"tip_mm\": [0, 0, -60]}]}");
+  const std::vector<core::Fault> faults = faults_of_file(path);
+  const Faults all = told(faults);
+  ASSERT_EQ(all.size(), 5u);
+  EXPECT_EQ(all[0].substr(0, 28), "1:1 expected the key \"name\" ") << "its own";
+  EXPECT_EQ(all[1].substr(0, 30), "2:1 expected a known key of a ");
+  EXPECT_EQ(all[2], "3:26 expected a known instrument (stick), got \"stock\" (did you mean \"stick\"?)");
+  EXPECT_EQ(all[3], "5:35 expected a number in [1, 25000] for \"density_kg_m3\", got -1");
+  EXPECT_EQ(all[4], "20:10 expected an array for \"tools\", got 3");
+  EXPECT_EQ(faults[2].at.file, path.generic_string());
+  EXPECT_EQ(faults[3].at.file, (folder.path() / "base.json").generic_string());
+}
+
+TEST(Like, ACircleIsAFaultAndSoIsAFileThatIsNotThereOrLiesElsewhere) {
+  const Folder folder;
+  const std::string in = folder.path().generic_string();
+  const auto like = [](const std::string& name) {
+    return "{\"format\": 1, \"name\": \"x\",\n\"like\": \"" + name + "\"}";
+  };
+  folder.write("tree/b.json", like("a.json"));
+  const auto path = folder.write("tree/a.json", like("b.json"));
+  EXPECT_EQ(told(faults_of_file(path)), one("2:9 expected files that do not include each other in a circle, got " + in +
+                                            "/tree/a.json -> " + in + "/tree/b.json -> " + in + "/tree/a.json"));
+  EXPECT_EQ(told(faults_of_file(folder.write("tree/c.json", like("d.json")))),
+            one("2:9 expected the name of a file, got \"d.json\" (there is no file " + in + "/tree/d.json)"));
+  folder.write("elsewhere/base.json", scene_with({}));
+  const Faults refused = told(faults_of_file(folder.write("tree/e.json", like("../elsewhere/base.json"))));
+  ASSERT_EQ(refused.size(), 1u);
+  EXPECT_NE(refused[0].find("TROCAR_LIBRARY"), std::string::npos) << refused[0];
 }
 
 TEST(Reader, EndlessIncludesAreBounded) {

@@ -173,6 +173,51 @@ const Mistake kMistakes[] = {
          a.tick();
        }
      }},
+    {"E6", [](Attempt& a) { a.press(0.5); }},
+    {"E7", [](Attempt& a) { a.press(0.5, BodyId::strand(kCord)); }},
+    {"E7.1", [](Attempt& a) { a.press(0.1, pad(a)); }},
+    {"E7.2",
+     [](Attempt& a) {
+       sim::ElectrodeHand& hand = a.state.electrodes[0];
+       hand.current.now.hot_touch = 1;
+       hand.body = BodyId::strand(kCord);
+       a.seconds(1);
+     }},
+    {"E8",
+     [](Attempt& a) {
+       // a cell of the tube 10 mm from where it was treated
+       constexpr int kCells = 20;
+       a.press(0.1, BodyId::strand(kLeft));
+       a.state.heat.key[0] = {BodyId::strand(kLeft), kCells / tissue::kBrickSide, 0, 0};
+       a.state.heat.slot[0] = tissue::HeatState::kAsleep;
+       a.state.heat.cells[kCells % tissue::kBrickSide] = tissue::HeatState::kTissue;
+       a.state.heat.damage[kCells % tissue::kBrickSide] = 1;
+       a.seconds(1);
+     }},
+    {"E9.1", [](Attempt& a) { a.bleed(11, 1); }},
+    {"E9.2", [](Attempt& a) { a.bleed(51, 1); }},
+    {"E9", [](Attempt& a) { a.bleed(201, 1); }},
+    {"E9.3", [](Attempt& a) { a.bleed(0.02, 61); }},
+    {"E10",
+     [](Attempt& a) {
+       a.drown(two_sides::kApplier);
+       a.clip(a.good_clip(kLeft, 0.016));
+     },
+     "clip"},
+    {"E10",
+     [](Attempt& a) {
+       a.both_clips(kLeft);
+       a.drown(two_sides::kScissors);
+       a.cut(a.good_cut(kLeft));
+     },
+     "a cut"},
+    {"E10",
+     [](Attempt& a) {
+       a.one_side(kLeft);
+       a.one_side(two_sides::kRight, [](Attempt& before_the_check) { before_the_check.bleed(11, 1); });
+       a.seconds(61);
+     },
+     "left in the pool"},
     clip_mistake("A1.1", [](interactions::Clip& c) { c.s = 0.031; }),
     clip_mistake("A1.2", [](interactions::Clip& c) { c.s = 0.009; }),
     clip_mistake("A1.3", [](interactions::Clip& c) { c.cover = 0.9; }),

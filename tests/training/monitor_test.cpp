@@ -23,12 +23,12 @@ constexpr double kDegree = std::numbers::pi / 180;
 
 TEST(Monitor, APerfectAttemptEarnsAllPointsAndHasNoError) {
   Attempt a;
-  EXPECT_EQ(a.monitor.steps().size(), 13u);
+  EXPECT_EQ(a.monitor.steps().size(), 14u);
   EXPECT_EQ(a.monitor.current(), 0);
   a.all();
   EXPECT_TRUE(a.monitor.finished());
   EXPECT_EQ(a.codes(), std::vector<std::string>{});
-  EXPECT_EQ(a.monitor.current(), 13);
+  EXPECT_EQ(a.monitor.current(), 14);
   const Score score = a.monitor.score();
   EXPECT_DOUBLE_EQ(score.total, 100);
   EXPECT_TRUE(score.passed);
@@ -280,6 +280,35 @@ TEST(Monitor, TheCheckNeedsBothStumpsInViewAndClosed) {
   EXPECT_TRUE(a.done("check"));
 }
 
+TEST(Monitor, TheCheckWaitsUntilNothingBleeds) {
+  Attempt a;
+  a.up_to_clips(kLeft);
+  a.both_clips(kLeft);
+  a.cut(a.good_cut(kLeft));
+  a.bleed(0.1, 5);
+  EXPECT_FALSE(a.done("check")) << "6 mL/min";
+  a.seconds(2.9);  // a rate is that of a second
+  EXPECT_FALSE(a.done("check"));
+  a.seconds(0.3);
+  EXPECT_TRUE(a.done("check"));
+}
+
+TEST(Monitor, ItEndsWhenWhatHasRunOutIsSuckedOff) {
+  Attempt a;
+  a.survey();
+  a.identify();
+  a.one_side(kLeft);
+  EXPECT_FALSE(a.done("clear")) << "last of all";
+  a.one_side(kRight, [](Attempt& at) { at.bleed(12, 1); });
+  a.seconds(2);
+  EXPECT_TRUE(a.done("check", "right"));
+  EXPECT_FALSE(a.monitor.finished()) << "12 mL";
+  move(a.state.fluids.ledger, fluids::Place::kPool, fluids::Place::kSucked,
+       at(a.state.fluids.ledger, fluids::Place::kPool));
+  a.seconds(0.1);
+  EXPECT_TRUE(a.monitor.finished());
+}
+
 TEST(Monitor, ATubeIsOccludedByAWholeClipOrACutAndByNothingLess) {
   Attempt open;
   interactions::Clip partial = open.good_clip(kLeft, 0.016);
@@ -437,7 +466,7 @@ TEST(Monitor, ResultIsJsonThatSaysTheSame) {
   EXPECT_DOUBLE_EQ(j["score"]["total"].get<double>(), a.monitor.score().total);
   EXPECT_TRUE(j["score"]["motion"].is_null());
   EXPECT_DOUBLE_EQ(j["exercise_seconds"].get<double>(), a.monitor.seconds());
-  ASSERT_EQ(j["steps"].size(), 13u);
+  ASSERT_EQ(j["steps"].size(), 14u);
   for (const auto& step : j["steps"]) EXPECT_EQ(step["done"], true);
   ASSERT_EQ(j["errors"].size(), 1u);
   EXPECT_EQ(j["errors"][0]["code"], "E3");

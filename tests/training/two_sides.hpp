@@ -3,9 +3,12 @@
 // goes.
 #pragma once
 
+#include <functional>
+
 #include <nlohmann/json.hpp>
 
 #include <trocar/training/exercise/monitor.hpp>
+#include <trocar/training/observe/hands.hpp>
 
 #include "../sim/small_scene.hpp"
 #include "changed_exercise.hpp"
@@ -31,7 +34,8 @@ inline const sim::Model& model() {
     scene::Description d = small::description();
     d.strands = {tube("tube_left", 1), tube("tube_right", -1), small::cord()};
     d.membranes.clear();
-    d.vessels.clear();
+    d.vessels.clear();  // blood is what a test says
+    d.energy = scene::EnergySetting{};
     return scene::compile(d);
   }();
   return compiled;
@@ -75,6 +79,30 @@ struct Attempt {
   }
   void seconds(double s) {
     for (int i = 0; i < int(s * 1000 + 0.5); ++i) tick();
+  }
+  /// Blood runs into the pool. @param flow  [mL/s]
+  void bleed(double flow, double s) {
+    for (int i = 0; i < int(s * 1000 + 0.5); ++i) {
+      const auto bled = std::int64_t(flow / 1000 * double(fluids::kMillilitre));
+      receive(state.fluids.ledger, fluids::Source::kBled, fluids::Place::kPool, {.blood = bled});
+      tick();
+    }
+  }
+  /// A column of blood over the hand's tip.
+  void drown(int hand) {
+    const fluids::PoolModel& pool = model.wet.model.pool;
+    const fluids::PoolPoint at = locate(pool, training::tip_of(model, state, size_t(hand)));
+    pour(pool, at.i, at.j, {.blood = 1000 * std::int64_t(fluids::kMillilitre)}, state.fluids.pool);
+  }
+  /// A pedal is pressed; current flows through the body, if any.
+  void press(double s, BodyId body = {}) {
+    sim::ElectrodeHand& hand = state.electrodes[kGrasper];
+    hand.current.now.mode = tissue::EnergyMode::coag;
+    hand.current.now.flows = body.exists();
+    hand.body = body;
+    seconds(s);
+    hand.current.now = {};
+    tick();
   }
   void event(sim::Event::Kind kind, int tool, int index) {
     sim::StepReport report;
@@ -157,11 +185,13 @@ struct Attempt {
     identify();
     present(tube);
   }
-  void one_side(int tube) {
+  /// @param then  what happens before the stumps are looked at
+  void one_side(int tube, const std::function<void(Attempt&)>& then = nullptr) {
     present(tube);
     both_clips(tube);
     cut(good_cut(tube));
     let_go();
+    if (then) then(*this);
     seconds(2.1);
   }
   void all() {

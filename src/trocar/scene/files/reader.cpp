@@ -8,6 +8,7 @@
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/scene/files/reader_parts.hpp>
 #include <trocar/scene/files/vessel_file.hpp>
+#include <trocar/scene/json/like.hpp>
 
 namespace trocar::scene {
 
@@ -64,24 +65,59 @@ void Reading::include(const fs::path& path, const core::Location& from, const Sh
                               path.filename().generic_string(), path.generic_string()));
   m_open.emplace_back(canonical, path.generic_string());
   const JsonDocument document = load_json(path, m_faults, m_memory);
-  read(JsonObject(document.root, shape, document.file, m_faults), path.parent_path());
+  const bool is_like = shape.find(kLike) && document.root.find(kLike);
+  const Shape less = is_like ? like_another(shape) : Shape{};
+  read(JsonObject(document.root, is_like ? less : shape, document.file, m_faults), path.parent_path());
   m_open.pop_back();
+}
+
+void Reading::include_named(const JsonObject& o, const core::Location& at, const JsonValue& name,
+                            const fs::path& folder, const Shape& shape, const Read& read) {
+  const fs::path named(name.text);
+  if (named.empty() || named.is_absolute())
+    o.fault(at, fmt::format("expected a file name relative to this file, got {}", shown(name)));
+  else if (m_library && !m_library->holds(folder / named))
+    o.fault(at, m_library->refusal(name.text));
+  else
+    include((folder / named).lexically_normal(), at, shape, read);
 }
 
 void Reading::includes(const JsonObject& o, const char* key, const fs::path& folder, const Shape& shape,
                        const Read& read, const Read& read_here) {
   const std::vector<JsonValue>& items = o.values(key);
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    if (items[i].kind != JsonValue::Kind::string) continue;
-    const fs::path named(items[i].text);
-    if (named.empty() || named.is_absolute())
-      o.fault(o.at(key, i), fmt::format("expected a file name relative to this file, got {}", shown(items[i])));
-    else if (m_library && !m_library->holds(folder / named))
-      o.fault(o.at(key, i), m_library->refusal(items[i].text));
-    else
-      include((folder / named).lexically_normal(), o.at(key, i), shape, read);
-  }
+  for (std::size_t i = 0; i < items.size(); ++i)
+    if (items[i].kind == JsonValue::Kind::string) include_named(o, o.at(key, i), items[i], folder, shape, read);
   for (const JsonObject& object : o.objects(key)) read_here(object, folder);
+}
+
+void Reading::scene_file(const fs::path& path) {
+  std::vector<Layer> layers;
+  include(path, {path.generic_string(), 0, 0}, scene_file_keys(),
+          [&](const JsonObject& o, const fs::path& folder) { scene(o, folder, layers); });
+}
+
+void Reading::scene(const JsonObject& o, const fs::path& folder, std::vector<Layer>& layers) {
+  layers.push_back({o, folder});
+  bool read = false;  // with the layers below
+  if (o.has(kLike))
+    include_named(o, o.at(kLike), o.value().find(kLike)->value, folder, scene_file_keys(),
+                  [&](const JsonObject& below, const fs::path& its_folder) {
+                    read = true;
+                    scene(below, its_folder, layers);
+                  });
+  if (!read) scene_of(layers);
+}
+
+void Reading::scene_of(const std::vector<Layer>& layers) {
+  for (const Row<Description>& row : scene_file_keys().rows) {
+    const auto end = is_own(row.key.name) ? layers.begin() + 1 : layers.end();
+    const auto says = std::find_if(layers.begin(), end, [&](const Layer& l) { return l.o.names(row.key.name); });
+    const Layer& layer = says == end ? layers.front() : *says;
+    Context context{layer.folder, this, m_references};
+    if (row.read) row.read(layer.o, description, context);
+  }
+  Context context{layers.front().folder, this, m_references};
+  scene_file_keys().check(layers.front().o, description, context);
 }
 
 void Reading::instrument_file(const fs::path& path) {
@@ -135,7 +171,7 @@ FileKind kind_of_file(const fs::path& path, const MemoryFiles* memory) {
   const auto has = [&](const char* key) { return document.root.find(key) != nullptr; };
   if (path.parent_path().filename() == "looks") return FileKind::look;
   if (has("scene")) return FileKind::exercise;
-  if (has("scope") || has("ports") || has("tools")) return FileKind::scene;
+  if (has("like") || has("scope") || has("ports") || has("tools")) return FileKind::scene;
   if (has("vessels") || has("sources")) return FileKind::vessels;
   if (has("inherits") || has("colour") || has("surroundings")) return FileKind::look;
   if (has("kind")) return FileKind::instrument;

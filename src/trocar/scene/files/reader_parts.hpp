@@ -27,7 +27,7 @@ class Reading {
 
   Description description;
 
-  void scene_file(const std::filesystem::path& path) { file(path, scene_file_keys()); }
+  void scene_file(const std::filesystem::path& path);
   void organ_file(const std::filesystem::path& path) { file(path, organ_file_keys()); }
   void tissue_file(const std::filesystem::path& path) { file(path, tissue_file_keys()); }
   void instrument_file(const std::filesystem::path& path);
@@ -79,6 +79,16 @@ class Reading {
   }
   /// Reads the file at `path`, named at `from`.
   void include(const std::filesystem::path& path, const core::Location& from, const Shape& shape, const Read& read);
+  /// A scene's file, and below it those that it is like: each stands in for what the ones above do not say.
+  struct Layer {
+    JsonObject o;
+    std::filesystem::path folder;
+  };
+  void scene(const JsonObject& o, const std::filesystem::path& folder, std::vector<Layer>& layers);
+  void scene_of(const std::vector<Layer>& layers);
+  /// Reads the file that `o` names at `at`.
+  void include_named(const JsonObject& o, const core::Location& at, const JsonValue& name,
+                     const std::filesystem::path& folder, const Shape& shape, const Read& read);
   /// The items of an `includes` key: the files that are named by `read`, objects that stand there by `read_here`.
   void includes(const JsonObject& o, const char* key, const std::filesystem::path& folder, const Shape& shape,
                 const Read& read, const Read& read_here);

@@ -5,6 +5,7 @@
 #include <trocar/scene/files/keys.hpp>
 #include <trocar/scene/files/reader_parts.hpp>
 #include <trocar/scene/files/vessel_file.hpp>
+#include <trocar/scene/json/like.hpp>
 
 namespace trocar::scene {
 namespace {
@@ -240,6 +241,7 @@ std::vector<Row<Description>> scene_rows() {
   using D = Description;
   std::vector<Row<Description>> rows{
       needed(R::name("name", &D::name, "what exercises call it")),
+      R::own(keys::text(kLike, "a scene file: what this one does not say is as there, key by key")),
       R::text("title", &D::title, "one line for people"),
       R::vec3("gravity_m_s2", units::one, &D::gravity, -100, 100, "in the patient's frame, default {}"),
       included("tissues", tissue, &D::tissues, &Reading::tissues, "materials: tables in files, or rows"),

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include <trocar/scene/json/json_text.hpp>
+#include <trocar/scene/json/like.hpp>
 #include <trocar/scene/json/schema.hpp>
 
 namespace trocar::scene {
@@ -29,7 +30,7 @@ class Writer {
       if (key.required) required.push_back(json_text(key.name));
     }
     put(v, "properties", std::move(properties));
-    if (!required.empty()) put(v, "required", json_array(std::move(required)));
+    if (!required.empty()) put_required(v, shape, std::move(required));
     put(v, "additionalProperties", json_flag(false));
     return v;
   }
@@ -42,6 +43,18 @@ class Writer {
 
  private:
   std::vector<const Shape*> m_shapes;
+
+  static void put_required(JsonValue& v, const Shape& shape, std::vector<JsonValue> required) {
+    if (!shape.find(kLike)) return put(v, "required", json_array(std::move(required)));
+    std::vector<JsonValue> own;
+    for (const Key& key : like_another(shape).keys)
+      if (key.required) own.push_back(json_text(key.name));
+    own.push_back(json_text(kLike));
+    JsonValue whole = json_object(), less = json_object();
+    put(whole, "required", json_array(std::move(required)));
+    put(less, "required", json_array(std::move(own)));
+    put(v, "anyOf", json_array({std::move(whole), std::move(less)}));
+  }
 
   JsonValue reference(const Shape& shape) {
     const auto same = [&](const Shape* s) { return s->name == shape.name; };

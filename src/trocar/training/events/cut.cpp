@@ -3,6 +3,7 @@
 
 #include <trocar/training/events/registry.hpp>
 #include <trocar/training/observe/hands.hpp>
+#include <trocar/training/observe/liquid.hpp>
 
 namespace trocar::training {
 namespace {
@@ -79,6 +80,9 @@ std::vector<Attribute> attributes() {
       {"depth_mm", "how deep the blades went into the fold behind the strand, or into the fold", depth},
       {"tips_visible", "of the two jaw tips, when it was cut",
        [](const Look& l, const Happening& h) -> Value { return double(cut_of(l, h).tips_visible); }, false, true},
+      {"under_liquid", "the pool stood over the jaws",
+       [](const Look& l, const Happening& h) -> Value { return l.model.wet.there && drowned(l.model, l.state, h.tip); },
+       true},
       {"between_clips", "clips sit on the strand on both sides of the cut", between_clips, true},
       {"to_clip_mm", "from the strand's nearest clip; unknown without any", to_clip},
   };
