@@ -6,6 +6,7 @@
 #include <trocar/interactions/verbs/clip.hpp>
 #include <trocar/sim/stages/visibility.hpp>
 #include <trocar/training/events/registry.hpp>
+#include <trocar/training/observe/bleeder.hpp>
 #include <trocar/training/observe/hands.hpp>
 #include <trocar/training/observe/liquid.hpp>
 
@@ -17,7 +18,8 @@ const interactions::Clip& clip_of(const Look& look, const Happening& h) {
 }
 
 Happening happening(const Look& look, const interactions::Clip& clip, int number) {
-  Happening h{clip.tool, BodyId::maybe(BodyKind::strand, clip.strand), number, nullptr, tip_of(look.model, look.state, size_t(clip.tool)), {}};
+  Happening h{clip.tool, BodyId::maybe(BodyKind::strand, clip.strand),      number,
+              nullptr,   tip_of(look.model, look.state, size_t(clip.tool)), {}};
   h.where = h.tip;
   if (clip.strand < 0) {
     if (clip.vessel > 0) h.name = &look.model.vessels.list[size_t(clip.vessel - 1)].name;
@@ -104,7 +106,7 @@ std::vector<Attribute> attributes() {
       {"upstream", "on the heart's side of the bleeding place; unknown elsewhere",
        [](const Look& l, const Happening& h) {
          const auto* c = on_bleeder(l, h);
-         return c ? Value(c->s < l.model.vessels.bleeder.s) : kUnknown;
+         return c ? Value(on_hearts_side(l.model.vessels.bleeder, c->s)) : kUnknown;
        },
        true},
   };
