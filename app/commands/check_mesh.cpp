@@ -54,7 +54,7 @@ Json describe_mesh(const fs::path& path, double unit) {
   out["mesh"] = as_json(geometry::inspect(file.mesh));
   out["repairs"] = Json::array();
   for (const geometry::Mended& m : repaired.mended) out["repairs"].push_back(geometry::in_words(m));
-  out["left_as_is"] = geometry::left_as_is(mended);
+  out["left_as_is"] = geometry::left_as_is(repaired.mesh);
   if (!repaired.mended.empty()) out["repaired"] = as_json(mended);
   out["verdict"] = out["repairs"].empty() && out["left_as_is"].empty() ? "good" : "to mend";
   return out;

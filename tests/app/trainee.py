@@ -277,6 +277,7 @@ class Pad:
         """Goes from button to button by the cross until the focus is there, as told by the log."""
         self.eyes.where(widget, limit)
         time.sleep(0.5)
+        tried = set()
         for _ in range(60):
             self.eyes.read()
             at, goal = self.eyes.screen.get("focus"), self.eyes.screen["widgets"][widget]
@@ -284,7 +285,13 @@ class Pad:
                 return self.tap("a")
             here = self.eyes.screen["widgets"].get(at)
             dx, dy = (0, 99) if here is None else (goal[0] - here[0], goal[1] - here[1])
-            self.tap(("down" if dy > 0 else "up") if abs(dy) > 14 else ("right" if dx > 0 else "left"))
+            ways = ["down" if dy > 0 else "up", "right" if dx > 0 else "left"]
+            if abs(dy) <= 14:
+                ways.reverse()
+            # two columns: who is led up and down between two rows tries it sideways the next time
+            way = next((w for w in ways if (at, w) not in tried), ways[0])
+            tried.add((at, way))
+            self.tap(way)
             end = time.monotonic() + 3  # a slow picture shows the focus later: never two presses at once
             while self.eyes.screen.get("focus") == at and time.monotonic() < end:
                 time.sleep(0.05)

@@ -89,8 +89,9 @@ struct TetRepair {
 /// What comes out is sound(), with the same tolerance.
 TetRepair repair(const TetMesh& mesh, double tolerance = kMergeTolerance);
 
-/// What repair() left as it is, because there is more than one way to mend it, in words.
-std::vector<std::string> left_as_is(const TetFacts& mended);
+/// What repair() left as it is, because there is more than one way to mend it, in words. Also looks for cells that lie in
+/// each other (tet_overlap.hpp).
+std::vector<std::string> left_as_is(const TetMesh& mended);
 
 struct TetSurface {
   TriMesh mesh;           ///< facing outwards, also where cells are inverted

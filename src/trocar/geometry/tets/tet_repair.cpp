@@ -4,6 +4,7 @@
 
 #include <trocar/geometry/tets/tet_faces.hpp>
 #include <trocar/geometry/tets/tet_mesh.hpp>
+#include <trocar/geometry/tets/tet_overlap.hpp>
 
 namespace trocar::geometry {
 namespace {
@@ -122,13 +123,15 @@ TetRepair repair(const TetMesh& broken, double tolerance) {
   return out;
 }
 
-std::vector<std::string> left_as_is(const TetFacts& mended) {
+std::vector<std::string> left_as_is(const TetMesh& mended) {
+  const TetFacts facts = inspect(mended);
   std::vector<std::string> out;
-  if (mended.parts > 1) out.push_back(std::to_string(mended.parts) + " parts that share no face");
-  if (mended.odd_edges > 0)
-    out.push_back(std::to_string(mended.odd_edges) + " edge" + (mended.odd_edges == 1 ? "" : "s") +
+  if (facts.parts > 1) out.push_back(std::to_string(facts.parts) + " parts that share no face");
+  if (facts.odd_edges > 0)
+    out.push_back(std::to_string(facts.odd_edges) + " edge" + (facts.odd_edges == 1 ? "" : "s") +
                   " of the surface at which not exactly two of its triangles meet: cells that touch in an edge only, "
                   "or cracks");
+  if (const CellOverlaps overlaps = cell_overlaps(mended); overlaps.pairs > 0) out.push_back(in_words(overlaps));
   return out;
 }
 

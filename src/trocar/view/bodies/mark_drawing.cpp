@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include <trocar/numerics/portable.hpp>
 #include <trocar/render/meshes/mesh_arrays.hpp>
 #include <trocar/sim/model/state.hpp>
 #include <trocar/view/bodies/digits.hpp>
@@ -46,7 +47,7 @@ render::Material painted(const Dye& d) {
 
 /// Where a grid's point (-1..1 both) lies in a round disc, without a seam.              [Shirley & Chiu 97]
 Vec3d in_disc(double a, double b) {
-  const double pi = 3.14159265358979323846;
+  constexpr double pi = portable::pi;
   if (a == 0 && b == 0) return {};
   const bool steep = std::fabs(b) > std::fabs(a);
   const double r = steep ? b : a, angle = steep ? pi / 2 - pi / 4 * (a / b) : pi / 4 * (b / a);
