@@ -8,9 +8,10 @@
 #include <trocar/scene/compile/compile.hpp>
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/sim/model/bodies.hpp>
-#include <trocar/training/observe/hands.hpp>
 #include <trocar/training/exercise/monitor.hpp>
 #include <trocar/training/expert/expert.hpp>
+#include <trocar/training/facts/registry.hpp>
+#include <trocar/training/observe/hands.hpp>
 
 namespace trocar::training {
 namespace {
@@ -19,14 +20,34 @@ const Exercise& exercise() {
   static const Exercise e = read_exercise(TROCAR_SOURCE_DIR "/scenes/gynaecology/bleeding-control.json");
   return e;
 }
-const sim::Model& scene_model() {
-  static const sim::Model model = scene::compile(scene::read_scene(exercise().scene));
+
+/// The holes of the scene by number: the first is in an artery that wants clips, on either side; one is small; one lies
+/// under the pool.
+enum Place { kWide = 0, kSmall = 3, kCovered = 4 };
+
+sim::Model bleeding_at(Place place) {
+  scene::Description scene = scene::read_scene(exercise().scene);
+  scene.bleeder->which = place;
+  return scene::compile(scene);
+}
+const sim::Model& scene_model(Place place = kWide) {
+  static const sim::Model wide = bleeding_at(kWide), small = bleeding_at(kSmall), covered = bleeding_at(kCovered);
+  return place == kSmall ? small : place == kCovered ? covered : wide;
+}
+
+const sim::Model& scene_model_without_pool() {
+  static const sim::Model model = [] {
+    scene::Description scene = scene::read_scene(exercise().scene);
+    scene.fluids->pool_at_start = 0;
+    return scene::compile(scene);
+  }();
   return model;
 }
 
 /// An attempt whose State is what the test says.
 struct Attempt {
-  const sim::Model& model = scene_model();
+  explicit Attempt(Place place = kWide) : model(scene_model(place)) {}
+  const sim::Model& model;
   sim::State state = sim::initial_state(model);
   Monitor monitor{exercise(), model};
 
@@ -48,6 +69,16 @@ struct Attempt {
   void clear_pool() {
     move(state.fluids.ledger, fluids::Place::kPool, fluids::Place::kSucked,
          at(state.fluids.ledger, fluids::Place::kPool));
+    fluids::PoolState& pool = state.fluids.pool;
+    pool = sim::initial_state(scene_model_without_pool()).fluids.pool;
+  }
+  /// Heat has closed the artery there so well as it can.
+  void seal(double off = 0) {
+    interactions::VesselSeal& s = state.seals[size_t(state.seal_count++)];
+    s = {};
+    s.vessel = bleeder().vessel;
+    s.from = s.to = bleeder().s + off;
+    s.state.damage = 1e4;
   }
   interactions::Clip& clip(double off, double cover = 1, int vessel = -1) {
     interactions::Clip& c = state.clips[size_t(state.clip_count)];
@@ -79,16 +110,99 @@ TEST(BleedingControl, PassesWhoFindsClipsBothSidesClearsAndChecks) {
   EXPECT_TRUE(a.done("find"));
   a.clip(-0.05);
   a.pass(1, 0.3);
-  EXPECT_TRUE(a.done("clip"));
+  EXPECT_TRUE(a.done("close"));
   EXPECT_FALSE(a.done("stop")) << "it is fed from the other end, too";
   a.clip(0.05);
   a.pass(6);
   EXPECT_TRUE(a.done("stop"));
-  EXPECT_TRUE(a.done("clear")) << "1.3 mL in the pool";
   EXPECT_TRUE(a.done("check"));
+  EXPECT_FALSE(a.done("clear")) << "what lay there before is to be sucked away, too";
+  a.clear_pool();
+  a.pass(1);
   EXPECT_TRUE(a.monitor.finished());
   EXPECT_TRUE(a.monitor.errors().empty());
   EXPECT_TRUE(a.monitor.score().passed);
+}
+
+TEST(BleedingControl, ASmallArteryMayBeCoagulated) {
+  Attempt a(kSmall);
+  a.look(true);
+  a.pass(7, 0.2);
+  a.seal();
+  a.pass(6);
+  EXPECT_TRUE(a.done("close"));
+  EXPECT_TRUE(a.done("stop"));
+  a.clear_pool();
+  a.pass(1);
+  EXPECT_TRUE(a.monitor.finished());
+  EXPECT_TRUE(a.monitor.errors().empty());
+}
+
+TEST(BleedingControl, ASealBeyondThePlaceClosesNothing) {
+  Attempt a(kSmall);
+  a.pass(7, 0.2);
+  a.seal(0.05);
+  a.pass(6);
+  EXPECT_FALSE(a.done("close"));
+}
+
+TEST(BleedingControl, AWideArteryThatIsOnlyCoagulatedDoesNotPass) {
+  Attempt a;
+  a.look(true);
+  a.pass(7, 0.2);
+  a.seal();
+  a.pass(6);
+  a.clear_pool();
+  a.pass(6);
+  EXPECT_EQ(a.count("A3.5"), 1) << "once";
+  EXPECT_FALSE(a.done("close"));
+  EXPECT_FALSE(a.done("stop"));
+  EXPECT_FALSE(a.monitor.score().passed);
+}
+
+TEST(BleedingControl, AWideArteryMayBeCoagulatedOnceItIsClipped) {
+  Attempt a;
+  a.pass(7, 0.2);
+  a.clip(-0.05);
+  a.pass(1);
+  a.seal();
+  a.pass(6);
+  EXPECT_EQ(a.count("A3.5"), 0);
+  EXPECT_TRUE(a.done("stop"));
+}
+
+TEST(BleedingControl, APlaceUnderThePoolIsFoundOnceItIsFree) {
+  Attempt a(kCovered);
+  a.look(true);
+  a.pass(70, 0.01);
+  EXPECT_FALSE(a.done("find"));
+  EXPECT_EQ(a.count("E9.3"), 0) << "nobody can stop it there";
+  a.clear_pool();
+  a.pass(2, 0.01);
+  EXPECT_TRUE(a.done("find"));
+}
+
+TEST(BleedingControl, APlaceThatIsNeverFreedIsControlledTooLate) {
+  Attempt a(kCovered);
+  a.pass(124, 0.01);
+  EXPECT_EQ(a.count("E9.3"), 1);
+}
+
+TEST(BleedingControl, WhoCoagulatesUnderBloodHasMissedSuction) {
+  const auto missed = [](bool dry) {
+    Attempt a(kCovered);
+    if (dry) a.clear_pool();
+    const sim::VisibilityTarget& t = a.model.targets[size_t(a.model.target_index("bleeder"))];
+    const Vec3d at = place_of(a.model, a.state, a.model.samples[size_t(t.first)]);
+    const kinematics::FulcrumPose pose = kinematics::inverse(a.model.hands[0].port, at, 0);
+    interactions::ToolState& tool = a.state.tools[0];
+    tool.yaw = float(pose.yaw), tool.pitch = float(pose.pitch), tool.depth = float(pose.depth);
+    a.state.electrodes[0].current.now.mode = tissue::EnergyMode::coag;
+    a.pass(0.02);
+    return a.count("E10");
+  };
+  EXPECT_EQ(missed(false), 1);
+  EXPECT_EQ(missed(true), 0);
 }
 
 TEST(BleedingControl, FailsWhoseFirstClipLiesBeyondThePlace) {
@@ -97,7 +211,7 @@ TEST(BleedingControl, FailsWhoseFirstClipLiesBeyondThePlace) {
   a.clip(0.05);
   a.pass(1, 0.5);
   EXPECT_EQ(a.count("A3.1"), 1);
-  EXPECT_FALSE(a.done("clip"));
+  EXPECT_FALSE(a.done("close"));
   EXPECT_TRUE(a.monitor.score().failed);
 }
 
@@ -110,6 +224,48 @@ TEST(BleedingControl, TellsWhatIsWrongWithAClip) {
   a.clip(-0.05).strand = -1;  // closed on nothing
   a.pass(0.02);
   for (const char* code : {"A3.3", "A3.2", "A3.4", "E4.2", "E12"}) EXPECT_EQ(a.count(code), 1) << code;
+}
+
+TEST(BleederFacts, SayHowWideItIsAndWhatHasBeenDone) {
+  const Attempt small(kSmall);
+  const auto value = [](const Attempt& a, const Fact& fact, const Arguments& given = {}) {
+    return fact.watch(a.model, given)->value({a.model, a.state});
+  };
+  EXPECT_NEAR(value(small, kBleederCalibre).number, 0.0008, 1e-9);
+  EXPECT_NEAR(value(Attempt(), kBleederCalibre).number, 2 * (0.00065 - 0.0001 * 0.861), 1e-9);
+
+  Argument heart, beyond, cover;
+  heart.word = "heart", beyond.word = "beyond", cover.low = cover.high = 0.98;
+  Attempt a;
+  EXPECT_FALSE(value(a, kBleederClipped, {heart, cover}).number != 0);
+  a.clip(-0.05, 0.9);
+  EXPECT_FALSE(value(a, kBleederClipped, {heart, cover}).number != 0) << "too little of it";
+  a.clip(0.05);
+  EXPECT_FALSE(value(a, kBleederClipped, {heart, cover}).number != 0);
+  EXPECT_TRUE(value(a, kBleederClipped, {beyond, cover}).number != 0);
+  a.clip(-0.05);
+  EXPECT_TRUE(value(a, kBleederClipped, {heart, cover}).number != 0);
+  EXPECT_FALSE(value(a, kBleederSealed).number != 0);
+  a.seal();
+  EXPECT_TRUE(value(a, kBleederSealed).number != 0);
+  a.state.seals[0].state.damage = 10;
+  EXPECT_FALSE(value(a, kBleederSealed).number != 0) << "it would burst";
+}
+
+TEST(BleederFacts, CountTheTimeThatThePlaceStandsFree) {
+  Attempt a(kCovered);
+  const auto free = kBleederUncovered.watch(a.model, {});
+  const auto pass = [&](double seconds) {
+    for (int k = 0; k < int(seconds * 50); ++k) a.state.tick += 20, free->sample({a.model, a.state}, 0.02);
+    return free->value({a.model, a.state}).number;
+  };
+  EXPECT_EQ(pass(10), 0) << "under the pool";
+  a.clear_pool();
+  EXPECT_NEAR(pass(3), 3, 1e-9);
+  Attempt early;
+  const auto not_yet = kBleederUncovered.watch(early.model, {});
+  not_yet->sample({early.model, early.state}, 0.02);
+  EXPECT_EQ(not_yet->value({early.model, early.state}).number, 0) << "nothing bleeds yet";
 }
 
 TEST(BleedingControl, CountsBloodOnceABandAndFailsTheAttemptAtTheLast) {

@@ -6,6 +6,7 @@
 #include <trocar/interactions/verbs/clip.hpp>
 #include <trocar/sim/stages/visibility.hpp>
 #include <trocar/training/events/registry.hpp>
+#include <trocar/training/observe/bleeder.hpp>
 #include <trocar/training/observe/hands.hpp>
 #include <trocar/training/observe/liquid.hpp>
 
@@ -105,7 +106,7 @@ std::vector<Attribute> attributes() {
       {"upstream", "on the heart's side of the bleeding place; unknown elsewhere",
        [](const Look& l, const Happening& h) {
          const auto* c = on_bleeder(l, h);
-         return c ? Value(c->s < l.model.vessels.bleeder.s) : kUnknown;
+         return c ? Value(on_hearts_side(l.model.vessels.bleeder, c->s)) : kUnknown;
        },
        true},
   };

@@ -1,29 +1,21 @@
 // What current does where it should not. What carries the vessel that bleeds by itself may always be treated.
-#include <algorithm>
-#include <cmath>
-
 #include <trocar/training/events/registry.hpp>
+#include <trocar/training/observe/bleeder.hpp>
 #include <trocar/training/observe/energy_watch.hpp>
+#include <trocar/training/observe/hands.hpp>
+#include <trocar/training/observe/liquid.hpp>
 
 namespace trocar::training {
 namespace {
 
-/// Of the vessel that bleeds, what carries it at that place.
 std::vector<BodyId> with_carrier(const sim::Model& model, std::vector<BodyId> bodies) {
-  const sim::Bleeder& bleeder = model.vessels.bleeder;
-  if (bleeder.vessel < 0) return bodies;
-  const auto& points = model.vessels.list[size_t(bleeder.vessel)].path.points;
-  const auto nearest = std::min_element(points.begin(), points.end(), [&](const auto& a, const auto& b) {
-    return std::fabs(a.s - bleeder.s) < std::fabs(b.s - bleeder.s);
-  });
-  if (const BodyId carrier = nearest->hold.carrier(); carrier.exists()) bodies.push_back(carrier);
+  if (const BodyId carrier = carrier_of_bleeder(model); carrier.exists()) bodies.push_back(carrier);
   return bodies;
 }
 
 class Watch : public Noticer {
  public:
-  Watch(std::vector<BodyId> targets, std::vector<BodyId> never)
-      : m_watch(std::move(targets), std::move(never)) {}
+  Watch(std::vector<BodyId> targets, std::vector<BodyId> never) : m_watch(std::move(targets), std::move(never)) {}
 
  protected:
   void look_at(const Look& look, Mishaps& mishaps) { m_watch.update(m_limits, look.model, look.state, mishaps); }
@@ -110,11 +102,20 @@ class Activated final : public Noticer {
 
 std::string_view needs_energy(const sim::Model& model) { return model.energy.there ? "" : "energy"; }
 
+Value under_liquid(const Look& look, const Happening& h) {
+  return look.model.wet.there && drowned(look.model, look.state, tip_of(look.model, look.state, size_t(h.hand)));
+}
 Value critical(const Look&, const Happening& h) { return h.number == kCritical; }
 
 }  // namespace
 
-const EventKind kActivated{"activated", {}, {}, "A pedal was pressed.", needs_energy, &noticing<Activated>, true};
+const EventKind kActivated{"activated",
+                           {},
+                           {{"under_liquid", "the pool stood over its tip", under_liquid, true}},
+                           "A pedal was pressed.",
+                           needs_energy,
+                           &noticing<Activated>,
+                           true};
 const EventKind kIdleActivation{"idle_activation",
                                 {{"lasting_s", ArgumentKind::number, "for longer than this", true, 0, 60}},
                                 {},

@@ -17,6 +17,7 @@ extern const Fact kStrandStraightness, kStrandSevered, kStrandFollowed, kStrandO
     kStrandStumpsInView;
 extern const Fact kClipsFirstSet, kClipsSecondSet, kClipsMisplaced, kClipsApart;
 extern const Fact kBloodLost, kBloodFlow, kBloodSince, kPoolVolume;
+extern const Fact kBleederCalibre, kBleederClipped, kBleederSealed, kBleederUncovered;
 extern const Fact kTissueTemperature, kTissueDeadBeyond, kBodyParted;
 
 std::span<const Fact* const> facts();

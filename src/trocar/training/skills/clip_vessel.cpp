@@ -1,7 +1,9 @@
 #include <algorithm>
 
+#include <trocar/training/observe/bleeder.hpp>
 #include <trocar/training/skills/parameters.hpp>
 #include <trocar/training/skills/registry.hpp>
+#include <trocar/training/skills/vessel_carrier.hpp>
 
 namespace trocar::training {
 namespace {
@@ -25,12 +27,6 @@ class ClipVessel final : public Skill {
 
  private:
   enum Phase { kReach, kEnter, kInspect, kClose, kOpen, kLeave };
-  /// What the legs shall take.
-  struct Carrier {
-    Vec3d place, along;
-    double radius = 0;
-  };
-
   void start(Operator& op, int tries) override {
     m_tries = tries;
     m_lost = "no clip encloses it";
@@ -141,14 +137,7 @@ class ClipVessel final : public Skill {
     return std::clamp(bleeder(op).s + (m_upstream ? -off : off), 0.0, 1.0);
   }
 
-  bool has_clip(Operator& op) const {
-    const sim::Bleeder& b = bleeder(op);
-    for (int i = 0; i < op.state().vessel_clip_count; ++i) {
-      const interactions::VesselClip& c = op.state().vessel_clips[size_t(i)];
-      if (c.vessel == b.vessel && (c.s < b.s) == m_upstream && c.cover >= m_cover) return true;
-    }
-    return false;
-  }
+  bool has_clip(Operator& op) const { return bleeder_clipped(op.model(), op.state(), m_upstream, m_cover); }
 
   double inside(Operator& op) const {
     constexpr double kSpare = 0.0008;  // [m] between the carrier and the clip's bend
@@ -156,25 +145,7 @@ class ClipVessel final : public Skill {
     return m_inside >= 0 ? m_inside : t.jaw_length - t.clip_length + m_carrier.radius + kSpare;
   }
 
-  static Carrier on_strand(Operator& op, int strand, interactions::StrandPlace place) {
-    const interactions::StrandBody& body = op.model().strand_bodies[size_t(strand)];
-    const tissue::StrandState& state = op.state().strands[size_t(strand)];
-    return {interactions::point_at(body, state, place), interactions::tangent_at(body, state, place),
-            body.model.radius[size_t(place.element)]};
-  }
-
-  Carrier carrier(Operator& op) const {
-    const interactions::VesselSpot at = spot(op, place(op));
-    const interactions::VesselHold& hold = path(op).points[size_t(at.after)].hold;
-    if (hold.kind != interactions::VesselHold::strand)
-      return {at.place, at.along, path(op).points[size_t(at.after)].radius};
-    // The point before the place: what is left lies along the strand.
-    const interactions::StrandBody& body = op.model().strand_bodies[size_t(hold.index)];
-    const Carrier c = on_strand(op, hold.index, {hold.element, hold.w});
-    const double ahead = dot(at.place - c.place, c.along);
-    const double s = interactions::arc_at(body, {hold.element, hold.w}) + ahead;
-    return on_strand(op, hold.index, interactions::place_at(body, s));
-  }
+  VesselCarrier carrier(Operator& op) const { return carrier_at(op, bleeder(op).vessel, place(op)); }
 
   /// To where the carrier lay before the legs touched it: who follows tissue that they push drags it along.
   bool aim(Operator& op, double back, double speed) {
@@ -217,7 +188,7 @@ class ClipVessel final : public Skill {
   double m_beside, m_cover, m_closing, m_inside;
   bool m_careless, m_away;
   int m_tries = 0, m_clips_before = 0;
-  Carrier m_carrier;
+  VesselCarrier m_carrier;
   Vec3d m_aside{0, 0, 0};     ///< learnt from misses: where the legs must go instead [m]
   double m_unseen = 0;        ///< for how long no tip has been seen [s]
   double m_seen_from = 0.06;  ///< [m] where the camera saw the legs

@@ -4,10 +4,10 @@ namespace trocar::training {
 namespace {
 
 constexpr const SkillKind* kSkills[] = {
-    &kLookAround, &kLookAt,  &kView,      &kInspect, &kInspectStumps, &kHold,   &kWaitForBlood,
-    &kMakeRoom,   &kPutDown, &kTake,      &kBringIn, &kWithdraw,      &kFollow, &kApproach,
-    &kEnter,      &kGrasp,   &kClose,     &kLetGo,   &kLift,          &kLower,  &kClipAt,
-    &kClipVessel, &kCutAt,   &kCoagulate, &kSweep,   &kSuckDry,
+    &kLookAround, &kLookAt,  &kView,      &kInspect,         &kInspectStumps, &kHold,    &kWaitForBlood,
+    &kMakeRoom,   &kPutDown, &kTake,      &kBringIn,         &kWithdraw,      &kFollow,  &kApproach,
+    &kEnter,      &kGrasp,   &kClose,     &kLetGo,           &kLift,          &kLower,   &kClipAt,
+    &kClipVessel, &kCutAt,   &kCoagulate, &kCoagulateVessel, &kSweep,         &kSuckDry,
 };
 
 }  // namespace

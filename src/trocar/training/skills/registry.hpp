@@ -11,7 +11,7 @@ extern const SkillKind kLookAround, kLookAt, kView, kInspect, kInspectStumps;
 extern const SkillKind kHold, kWaitForBlood, kMakeRoom;
 extern const SkillKind kPutDown, kTake, kBringIn, kWithdraw;
 extern const SkillKind kFollow, kApproach, kEnter, kGrasp, kClose, kLetGo, kLift, kLower;
-extern const SkillKind kClipAt, kClipVessel, kCutAt, kCoagulate, kSweep, kSuckDry;
+extern const SkillKind kClipAt, kClipVessel, kCutAt, kCoagulate, kCoagulateVessel, kSweep, kSuckDry;
 
 std::span<const SkillKind* const> skills();
 /// Null: there is none of that name.

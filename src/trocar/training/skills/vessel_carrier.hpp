@@ -1,0 +1,16 @@
+// What jaws take when they shall close a vessel: the strand that carries it there, or the vessel itself.
+#pragma once
+
+#include <trocar/training/operator/operator.hpp>
+
+namespace trocar::training {
+
+struct VesselCarrier {
+  Vec3d place, along;  ///< its middle, and which way it runs there
+  double radius = 0;   ///< [m]
+};
+
+/// @param s  place of the vessel, 0 to 1 along it
+VesselCarrier carrier_at(Operator& op, int vessel, double s);
+
+}  // namespace trocar::training
