@@ -103,7 +103,7 @@ class CoagulateVessel final : public Skill {
 std::string lacks(const sim::Model& model, const Given& given) {
   if (!model.energy.there) return "there is no current";
   if (model.vessels.bleeder.vessel < 0) return "no vessel opens by itself";
-  return lacks_kind(model, given.hand(), interactions::ToolKind::bipolar);
+  return lacks_tool(model, given.hand(), &interactions::Abilities::bipolar);
 }
 
 }  // namespace
