@@ -424,18 +424,20 @@ class Trainee:
         `aside` [tan] to the right and upwards: not straight at them, so that the lens sees them from another side."""
         for _ in range(12):
             picture = self.eyes.pose["picture"]
-            port = picture["port_mm"]
-            ways = [add(p, port, -1) for p in points]
+            port, eye = picture["port_mm"], picture["eye_mm"]
+            ways = [add(p, eye, -1) for p in points]
             wanted = unit([sum(c) for c in zip(*map(unit, ways))])
             wanted = unit(add(add(wanted, picture["right"], aside[0]), picture["up"], aside[1]))
             cone = math.tan(0.36 * picture["field_rad"])
-            depth = 130.0
+            further = 130.0 - picture["depth_mm"]
             for way in ways:
                 ahead = dot(way, wanted)
                 beside = math.sqrt(max(0.0, dot(way, way) - ahead * ahead))
-                depth = min(depth, ahead - beside / cone, ahead - distance_mm)
-            further = max(14.0, depth) - picture["depth_mm"]
-            right, up = (math.asin(max(-1.0, min(1.0, dot(wanted, picture[d])))) for d in ("right", "up"))
+                further = min(further, ahead - beside / cone, ahead - distance_mm)
+            further = max(14.0 - picture["depth_mm"], further)
+            # The endoscope turns about its trocar, the lens with it: less than it seems from the lens is enough.
+            lever = sum(math.dist(p, eye) for p in points) / sum(math.dist(p, port) for p in points)
+            right, up = (lever * math.asin(max(-1.0, min(1.0, dot(wanted, picture[d])))) for d in ("right", "up"))
             if max(abs(right), abs(up)) < 0.04 and abs(further) < 5:
                 return
             self.lead("scope")

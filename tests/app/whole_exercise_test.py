@@ -60,6 +60,15 @@ class Surgeon(Trainee):
             goal = add(tool["tip_mm"], tool["shaft"], depth_mm - tool["depth_mm"])
             self.move(lambda: goal, 3, f"parking {hand}")
 
+    def survey(self):
+        """The endoscope looks elsewhere at first: towards the feet, both tubes at once, then each of them."""
+        courses = [[c[1:4] for c in self.eyes.pose["strands"][tube][::3]] for tube, *_ in SIDES]
+        for look in (courses[0] + courses[1], *courses):
+            self.show(look)
+            if self.eyes.within(4, lambda: self.step() >= 1):
+                return
+        self.await_step(1, "survey", 60)
+
     def identify(self, tube, grasper, number):
         """With the eye where the picture shows it all, else along the tube with the closed grasper."""
         course = self.eyes.pose["strands"][tube]
@@ -240,7 +249,7 @@ def operate(eyes, hands):
     surgeon = Surgeon(eyes, hands)
     eyes.operating = True
     try:
-        surgeon.await_step(1, "survey", 60)
+        surgeon.survey()
         for i, (tube, grasper, scissors, side) in enumerate(SIDES):
             surgeon.side(tube, grasper, scissors, side, 1 + STEPS_A_SIDE * i)
             print(f"{tube}: done at {eyes.pose['seconds']:.0f} s, {eyes.pose['tick']} ticks", flush=True)
