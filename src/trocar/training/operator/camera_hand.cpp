@@ -9,6 +9,7 @@ namespace {
 constexpr double kMargin = 0.72;                   // of the field's half angle
 constexpr double kTurn = 0.7, kWrist = 1.2;        // [rad/s]: of the shaft; of light post and camera head
 constexpr double kAdvance = 0.045;                 // [m/s]
+constexpr double kSide = 0.0125;                   // [m] from the midline, where it is half from above
 constexpr double kShallow = 0.012, kDeep = 0.130;  // [m] lens from the trocar
 
 double towards(double now, double wanted, double pace) { return now + std::clamp(wanted - now, -pace, pace); }
@@ -87,8 +88,11 @@ void CameraHand::show(std::span<const Vec3d> points, double distance) {
   double angle = 0, depth = kDeep, post = 0;
   if (m_angle > 0) {
     const Vec3d middle = m_port + mean_distance(m_port, points) * ahead;
+    // What lies in the middle is seen from above; what lies to a side from still farther out, across instruments that
+    // come from the front and from the other side.
+    const Vec3d from = m_plumb + Vec3d{(middle.x - m_port.x) / kSide, 0, 0};
     const Pose wanted =
-        pose_of_all(points, middle, m_port, m_cone, distance, [&](double off) { return pose_for(middle, {}, off); });
+        pose_of_all(points, middle, m_port, m_cone, distance, [&](double off) { return pose_for(middle, from, off); });
     angle = turn(m_axis, wanted.axis);
     post = turn_post(m_input, wanted.post);
     depth = wanted.depth;
