@@ -177,7 +177,7 @@ void Side::wrong_clip(const std::string& code) {
     clip().unset("within_mm").unset("apart_mm");
   }
   if (code == "A1.6") cut().set("beyond_clip_mm", 0.003);
-  if (code == "A1.7") cut().set("inside_share", (blades() - 0.005 - 0.0065) / blades());
+  if (code == "A1.7") cut().set("inside_share", (blades() - 0.005 - 0.0075) / blades());
   if (code == "A1.10") cut().set("inside_share", 1);
 }
 
