@@ -215,7 +215,7 @@ const Mistake kMistakes[] = {
      [](Attempt& a) {
        a.one_side(kLeft);
        a.one_side(two_sides::kRight, [](Attempt& before_the_check) { before_the_check.bleed(11, 1); });
-       a.seconds(61);
+       a.seconds(63);
      },
      "left in the pool"},
     clip_mistake("A1.1", [](interactions::Clip& c) { c.s = 0.031; }),

@@ -287,9 +287,9 @@ TEST(Monitor, TheCheckWaitsUntilNothingBleeds) {
   a.cut(a.good_cut(kLeft));
   a.bleed(0.1, 5);
   EXPECT_FALSE(a.done("check")) << "6 mL/min";
-  a.seconds(2.9);  // a rate is that of a second
+  a.seconds(2.8);  // a rate is that of a second
   EXPECT_FALSE(a.done("check"));
-  a.seconds(0.3);
+  a.seconds(0.5);
   EXPECT_TRUE(a.done("check"));
 }
 

@@ -61,8 +61,7 @@ void Reading::mesh_of(const JsonObject& o, TetSource source, const fs::path& fol
     const std::string shown = (folder / source.file).lexically_normal().generic_string();
     geometry::TetRepair repaired = geometry::repair(geometry::read_tets(*bytes, shown, source.unit).mesh);
     for (const geometry::Mended& m : repaired.mended) source.doubts.push_back("mended: " + geometry::in_words(m));
-    for (const std::string& left : geometry::left_as_is(repaired.mesh))
-      source.doubts.push_back("not mended: " + left);
+    for (const std::string& left : geometry::left_as_is(repaired.mesh)) source.doubts.push_back("not mended: " + left);
     source.mesh = std::move(repaired.mesh);
   } catch (const core::BadInput& e) {
     for (const core::Fault& f : e.faults()) tell(m_faults, f);
