@@ -9,7 +9,6 @@ namespace {
 constexpr double kMargin = 0.72;                   // of the field's half angle
 constexpr double kTurn = 0.7, kWrist = 1.2;        // [rad/s]: of the shaft; of light post and camera head
 constexpr double kAdvance = 0.045;                 // [m/s]
-constexpr double kSide = 0.0125;                   // [m] from the midline, where it is half from above
 constexpr double kShallow = 0.012, kDeep = 0.130;  // [m] lens from the trocar
 
 double towards(double now, double wanted, double pace) { return now + std::clamp(wanted - now, -pace, pace); }
@@ -82,15 +81,13 @@ CameraHand::CameraHand(const sim::Model& model) : m_port(model.scope.port), m_in
   m_cone = portable::sin(half) / portable::cos(half);
 }
 
-void CameraHand::show(std::span<const Vec3d> points, double distance) {
+void CameraHand::show(std::span<const Vec3d> points, double distance, double outwards) {
   if (points.empty()) return;
   const Vec3d ahead = normalised(mean_direction(m_port, points), m_axis);
   double angle = 0, depth = kDeep, post = 0;
   if (m_angle > 0) {
     const Vec3d middle = m_port + mean_distance(m_port, points) * ahead;
-    // What lies in the middle is seen from above; what lies to a side from still farther out, across instruments that
-    // come from the front and from the other side.
-    const Vec3d from = m_plumb + Vec3d{(middle.x - m_port.x) / kSide, 0, 0};
+    const Vec3d from = m_plumb + Vec3d{middle.x > m_port.x ? outwards : -outwards, 0, 0};
     const Pose wanted =
         pose_of_all(points, middle, m_port, m_cone, distance, [&](double off) { return pose_for(middle, from, off); });
     angle = turn(m_axis, wanted.axis);

@@ -61,6 +61,8 @@ class Operator {
   void want(Vec3d p);
   void want_all_of(int target);
   void from(double distance) { m_distance = distance; }  ///< of the lens to the nearest of it [m]
+  /// Of an oblique scope: from which side it looks (CameraHand::show).
+  void outwards(double share) { m_outwards = share; }
   void want_nothing() { m_point_count = 0; }
 
   // What hands do
@@ -102,7 +104,7 @@ class Operator {
   std::array<Posture, sim::kMaxTools> m_posture{};
   std::array<Vec3d, 8> m_points{};
   int m_point_count = 0;
-  double m_distance = 0;
+  double m_distance = 0, m_outwards = 0;
   sim::HostViews m_hosts;
   std::vector<Vec3d> m_line;  ///< of the vessel that was asked for last, as it lies in this tick
   int m_posed_vessel = -1;
