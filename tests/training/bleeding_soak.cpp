@@ -17,7 +17,7 @@ namespace trocar::training {
 namespace {
 
 /// Some of the scene's holes by number.
-enum Place { kWide = 0, kSmall = 3, kSmallDeep = 4, kPlaces = 6 };
+enum Place { kWide = 0, kNearWall = 2, kSmall = 3, kSmallDeep = 4, kPlaces = 6 };
 
 sim::Model bleeding_at(const Exercise& exercise, int place) {
   scene::Description scene = scene::read_scene(exercise.scene);
@@ -146,6 +146,7 @@ PlanTask burn_at_tube(const sim::Model& model, double seconds) {
 struct Case {
   const char* code;
   Spoil spoil;
+  int place = kWide;
 };
 void PrintTo(const Case& c, std::ostream* os) { *os << c.code; }
 
@@ -193,8 +194,10 @@ const Case kCases[] = {
     {"A3.1",
      [](const sim::Model&, Plan& p) {
        forget(p, "clip on the heart's side");
+       forget(p, "clear the pool");
        p.goal("clip beyond").tries = 1;
-     }},
+     },
+     kNearWall},  // near the ovary the tube hides the legs beyond the place
     {"A3.2",
      [](const sim::Model& m, Plan& p) {
        PlanTask wrong = PlanTask::of(kClipAt);
@@ -215,7 +218,7 @@ const Case kCases[] = {
 TEST(BleedingControl, WithTheFirstClipOnTheWrongSideItBleedsOnAndFails) {
   const Case* wrong =
       std::find_if(std::begin(kCases), std::end(kCases), [](const Case& c) { return std::string(c.code) == "A3.1"; });
-  const Attempt a(wrong->spoil);
+  const Attempt a(wrong->spoil, wrong->place);
   EXPECT_TRUE(a.made("A3.1"));
   EXPECT_FALSE(a.monitor.score().passed);
   EXPECT_GT(60e6 * a.flow, 5) << "[mL/min]";
@@ -229,7 +232,7 @@ bool has(const std::vector<std::string>& list, const std::string& word) {
 }
 
 TEST_P(BleedingFlaw, TriggersItsErrorAndOnlyWhatTheTableSaysItImplies) {
-  const Attempt a(GetParam().spoil);
+  const Attempt a(GetParam().spoil, GetParam().place);
   const std::string code = GetParam().code;
   const Penalty& p = *a.exercise.penalty(code);
   for (const ErrorMade& e : a.monitor.errors()) {
