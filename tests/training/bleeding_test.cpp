@@ -23,7 +23,7 @@ const Exercise& exercise() {
 
 /// The holes of the scene by number: the first is in an artery that wants clips, on either side; one is small; one lies
 /// under the pool.
-enum Place { kWide = 0, kSmall = 3, kCovered = 4 };
+enum Place { kWide = 0, kSmall = 3, kCovered = 5 };
 
 sim::Model bleeding_at(Place place) {
   scene::Description scene = scene::read_scene(exercise().scene);

@@ -36,7 +36,8 @@ class Uncovered final : public Observer {
 
 std::string_view needs_bleeder(const sim::Model& model) { return model.vessels.bleeder.vessel >= 0 ? "" : "bleeder"; }
 std::string_view needs_bleeder_and_pool(const sim::Model& model) {
-  return model.wet.there ? needs_bleeder(model) : "fluids";
+  if (!needs_bleeder(model).empty()) return needs_bleeder(model);
+  return model.wet.there ? "" : "fluids";
 }
 
 }  // namespace

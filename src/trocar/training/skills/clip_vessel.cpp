@@ -57,7 +57,7 @@ class ClipVessel final : public Skill {
     m_carrier = carrier(op);
     op.want(bleeding(op));
     op.want(spot(op, place(op)).place);
-    if (m_in_phase > 0.5) op.want(op.arm(m_hand).tip);
+    op.want(op.arm(m_hand).tip);
     m_clips_before = op.state().clip_count;
     m_unseen = 0;
     if (op.arms().grip(m_hand, 0, 0.5) && aim(op, reach::kBefore, pace::kTravel)) go(kEnter);

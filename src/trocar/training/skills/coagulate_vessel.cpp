@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include <trocar/training/observe/bleeder.hpp>
 #include <trocar/training/skills/parameters.hpp>
 #include <trocar/training/skills/registry.hpp>
@@ -7,7 +10,7 @@ namespace trocar::training {
 namespace {
 
 /// What carries the artery that bleeds between bipolar jaws, where it bleeds: held, coagulated until it is sealed, let
-/// go. Who does not get hold of it draws back and comes again a little deeper.
+/// go. Who has taken what lies beside it, or nothing, draws back and comes again there, or a little deeper.
 class CoagulateVessel final : public Skill {
  public:
   CoagulateVessel(const sim::Model&, const Given& given)
@@ -17,12 +20,15 @@ class CoagulateVessel final : public Skill {
         m_closed(given.number("to", 0.95)) {}
 
  private:
+  static constexpr double kMostShift = 0.010;  // [m]
   enum Phase { kReach, kEnter, kPinch, kPress, kOpen, kLeave };
 
   void start(Operator&, int tries) override {
-    m_tries = tries;
+    if (tries == 0) m_shift = m_missed = 0;
     m_lost = "the vessel is not sealed";
     m_sealed_for = 0;
+    m_taken = 0;
+    m_again = false;
   }
 
   Progress work(Operator& op) override {
@@ -56,9 +62,26 @@ class CoagulateVessel final : public Skill {
   Progress pinch(Operator& op) {
     constexpr double kFelt = 1.2;  // [s] until the jaws have closed on what they hold
     if (!op.arms().grip(m_hand, m_closed, 0.8) || m_in_phase < kFelt) return Progress::working;
-    if (op.tool_state(m_hand).holds > 0) return go(kPress), Progress::working;
-    give_up("the jaws have not taken it");
+    if (op.tool_state(m_hand).holds == 0) {
+      ++m_missed;
+      return come_again("the jaws have not taken it"), Progress::working;
+    }
+    const double beside = from_jaws(op);
+    if (std::fabs(beside) <= 0.35 * op.tool(m_hand).jaw_width) return go(kPress), Progress::working;
+    m_shift = std::clamp(m_shift + beside, -kMostShift, kMostShift);
+    come_again("the jaws have taken what lies beside the place");
     return Progress::working;
+  }
+
+  /// How far along what is held the place lies from the jaws' middle.
+  double from_jaws(Operator& op) const {
+    constexpr double kAcross = 0.3;  // less, and the jaws lie along it
+    const interactions::ToolState& tool = op.tool_state(m_hand);
+    const interactions::ToolShape shape = interactions::shape_of(op.tool(m_hand), tool.pose(), tool.aperture);
+    const VesselCarrier now = carrier_at(op, bleeder(op).vessel, bleeder(op).s);
+    const double across = dot(now.along, interactions::direction_from_jaw(shape, {0, 1, 0}));
+    if (std::fabs(across) < kAcross) return 0;
+    return interactions::to_jaw(shape, now.place).y / across;
   }
 
   Progress press(Operator& op) {
@@ -74,19 +97,26 @@ class CoagulateVessel final : public Skill {
     Arms::Arm& arm = op.arm(m_hand);
     const bool away = op.arms().move(m_hand, m_carrier.place + kAway * normalised(arm.port - arm.tip), pace::kCareful);
     if (!away && m_in_phase < 4) return Progress::working;
+    if (m_again) return m_again = false, go(kReach), Progress::working;
     return bleeder_sealed(op.model(), op.state()) ? Progress::done : fail(m_lost);
   }
 
+  /// Opens and draws back a little; gives up after so many times.
+  void come_again(const char* why) {
+    constexpr int kMost = 4;
+    m_again = ++m_taken < kMost;
+    give_up(why);
+  }
   void give_up(const char* why) {
     m_lost = why;
     go(kOpen);
   }
 
-  /// To where the carrier lay before the jaws touched it.
+  /// To where the carrier lay before the jaws touched it, and as much farther along it as they dragged it last time.
   bool aim(Operator& op, double back, double speed) {
-    constexpr double kDeeper = 0.0015;  // [m] with every failure
-    const double inside = m_share * op.tool(m_hand).jaw_length - kDeeper * double(m_tries % 4);
-    return op.aim(m_hand, m_carrier.place, m_carrier.along, inside, back, speed);
+    constexpr double kDeeper = 0.0015;  // [m] each time that they took nothing
+    const double inside = m_share * op.tool(m_hand).jaw_length - kDeeper * double(m_missed % 4);
+    return op.aim(m_hand, m_carrier.place + m_shift * m_carrier.along, m_carrier.along, inside, back, speed);
   }
 
   static const sim::Bleeder& bleeder(Operator& op) { return op.model().vessels.bleeder; }
@@ -94,7 +124,10 @@ class CoagulateVessel final : public Skill {
 
   int m_hand;
   double m_longest, m_share, m_closed;
-  int m_tries = 0;
+  int m_taken = 0;  ///< how often something else, or nothing
+  bool m_again = false;
+  int m_missed = 0;         ///< how often the jaws took nothing
+  double m_shift = 0;       ///< learnt from what lay beside the place [m]
   double m_sealed_for = 0;  ///< [s]
   VesselCarrier m_carrier;
   const char* m_lost = "";

@@ -10,16 +10,19 @@ namespace {
 /// A place from changing distances, for a time.
 class Inspect final : public Skill {
  public:
-  Inspect(const sim::Model& model, const Given& given) : m_place(model, given), m_time(given.number("for_s", 2)) {}
+  Inspect(const sim::Model& model, const Given& given)
+      : m_place(model, given), m_time(given.number("for_s", 2)), m_aside(given.number("aside_mm", 0)) {}
 
  private:
   Progress work(Operator& op) override {
-    op.want(m_place.point(op, -1));
+    const Vec3d at = m_place.point(op, -1);
+    op.want(at);
+    if (m_aside > 0) op.want(at - Vec3d{at.x > 0 ? m_aside : -m_aside, 0, 0});
     op.from(0.05 + 0.01 * double(int(m_in_phase / 4) % 4));
     return m_in_phase > m_time ? Progress::done : Progress::working;
   }
   Place m_place;
-  double m_time;
+  double m_time, m_aside;
 };
 
 /// Both ends that a cut has made, in view together.
@@ -54,13 +57,19 @@ Progress InspectStumps::work(Operator& op) {
 
 }  // namespace
 
-const SkillKind kInspect{"inspect",
-                         "look at the place",
-                         place_parameters() + std::vector<Parameter>{number_parameter("for_s", "so long; 2", 0, 600)},
-                         60,
-                         "Looks at a place from changing distances.",
-                         Place::lacks,
-                         &making<Inspect>};
+const SkillKind kInspect{
+    "inspect",
+    "look at the place",
+    place_parameters() +
+        std::vector<Parameter>{
+            number_parameter("for_s", "so long; 2", 0, 600),
+            number_parameter(
+                "aside_mm",
+                "so much beside it, towards the patient's middle, is shown, too: past what hangs over it; 0", 0, 200)},
+    60,
+    "Looks at a place from changing distances.",
+    Place::lacks,
+    &making<Inspect>};
 const SkillKind kInspectStumps{"inspect_stumps",
                                "look at the stumps",
                                {{"of", ArgumentKind::strand, "what was cut"},
