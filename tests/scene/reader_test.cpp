@@ -181,10 +181,11 @@ TEST(Reader, WrongTypesAreLocated) {
   EXPECT_EQ(faults_of({{18, R"("instruments": [{"name": "stick", "kind": "clip_applier", "clips": @1.5}],)"}}),
             one("expected a whole number in [0, 1000] for \"clips\", got 1.5"));
   EXPECT_EQ(faults_of({{12, R"("cuttable": @1,)"}}), one("expected true or false for \"cuttable\", got 1"));
-  EXPECT_EQ(
-      faults_of({{18, R"("instruments": [{"name": "stick", "kind": @"grapser"}],)"}}),
-      one("expected one of grasper, clip_applier, scissors, probe, suction_irrigator, hook, bipolar for \"kind\", got "
-          "\"grapser\" (did you mean \"grasper\"?)"));
+  std::string kinds;
+  for (const interactions::KindOfTool& k : interactions::kToolKinds)
+    kinds += (kinds.empty() ? "" : ", ") + std::string(k.name);
+  EXPECT_EQ(faults_of({{18, R"("instruments": [{"name": "stick", "kind": @"grapser"}],)"}}),
+            one("expected one of " + kinds + " for \"kind\", got \"grapser\" (did you mean \"grasper\"?)"));
 }
 
 TEST(Reader, ASceneThatIsNoObjectIsAFault) {

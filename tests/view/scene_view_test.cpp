@@ -660,7 +660,7 @@ TEST(InstrumentShapes, ADissectorsJawsBendTheSameWayAndMeetWhereStraightOnesWoul
       end = std::max(end, at.z);
       EXPECT_LT(std::fabs(at.y), 0.0012 + 0.0015) << "no further from the rod that touches than a clip is wide";
     }
-    EXPECT_GT(most, -least + 0.0005) << "both to one side";
+    EXPECT_GT(-least, most + 0.0005) << "both to one side";
     EXPECT_NEAR(end, tool.jaw_length, 1e-5);
     EXPECT_LE(tip, 0.0012);
   }

@@ -53,7 +53,8 @@ Vec3d on_triangle(const VesselHold& hold, const VesselHosts& hosts) noexcept {
 
 Vec3d in_cell(const VesselHold& hold, const VesselHosts& hosts) noexcept {
   const std::size_t organ = std::size_t(hold.index);
-  const geometry::Tet& cell = hosts.cuttables[organ]->tets.cells[std::size_t(hold.element)];
+  const geometry::Tet& cell =
+      hosts.cuttables[std::size_t(hosts.cuttable_of[organ])].tets.cells[std::size_t(hold.element)];
   Vec3d at;
   for (std::size_t k = 0; k < 4; ++k) at += hold.share[k] * hosts.organs[organ].position(cell[k]);
   return at;

@@ -83,8 +83,9 @@ struct VesselHosts {
   std::span<const StrandBody> strands;
   std::span<const tissue::StrandState> strand_states;
   std::span<const tissue::NodeView> organs;
-  std::span<const tissue::Skin* const> skins;               ///< (organs) of lattices: those that are touched
-  std::span<const tissue::CuttableState* const> cuttables;  ///< (organs) null: a lattice
+  std::span<const tissue::Skin* const> skins;  ///< (organs) of lattices: those that are touched
+  std::span<const tissue::CuttableState> cuttables;
+  std::span<const std::int32_t> cuttable_of;  ///< (organs) which of these it is; -1: a lattice
   std::span<const tissue::NodeView> membranes;
   std::span<const std::vector<std::uint8_t>> torn;  ///< (membranes)(triangles)
   std::span<const std::vector<Vec3d>> corners{};    ///< (organs)(skin vertices) as they are now, of those that carry

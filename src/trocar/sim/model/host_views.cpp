@@ -9,7 +9,8 @@ namespace trocar::sim {
 HostViews make_host_views(const Model& model) {
   HostViews v;
   v.organs.resize(size_t(model.organs()));
-  v.cuttables.resize(size_t(model.organs()));
+  v.cuttable_of.assign(size_t(model.organs()), -1);
+  visit_cuttables(model, [&](CuttableRef organ) { v.cuttable_of[organ.organ()] = std::int32_t(organ.index); });
   v.membranes.resize(model.membranes.size());
   for (int i = 0; i < model.organs(); ++i) v.skins.push_back(&model.skin(i));
   for (const Vessel& vessel : model.vessels.list) {
@@ -30,8 +31,8 @@ interactions::VesselHosts look_at_hosts(const Model& model, const State& state, 
   for (size_t i = 0; i < v.organs.size(); ++i) v.organs[i] = nodes_of(model, state, int(i));
   for (size_t i = 0; i < v.membranes.size(); ++i)
     v.membranes[i] = view_of(model.membranes[i].sheet.network, state.membranes[i].network);
-  visit_cuttables(model, [&](CuttableRef organ) { v.cuttables[organ.organ()] = &state.cuttables[organ.index]; });
-  return {model.strand_bodies, state.strands, v.organs, v.skins, v.cuttables, v.membranes, state.torn};
+  return {model.strand_bodies, state.strands, v.organs,    v.skins,
+          state.cuttables,     v.cuttable_of, v.membranes, state.torn};
 }
 
 interactions::VesselHosts look_at_hosts_of_all(const Model& model, const State& state, HostViews& v) noexcept {

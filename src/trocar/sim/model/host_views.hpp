@@ -12,7 +12,7 @@ namespace trocar::sim {
 struct HostViews {
   std::vector<tissue::NodeView> organs, membranes;
   std::vector<const tissue::Skin*> skins;  ///< (organs) those of lattices are touched; cells carry in the others
-  std::vector<const tissue::CuttableState*> cuttables;  ///< (organs) null: a lattice
+  std::vector<std::int32_t> cuttable_of;   ///< (organs) which of the cuttables it is; -1: a lattice
   /// Vertices of lattices' skins that carry vessels with a pulse, each once.
   struct Corner {
     std::int32_t organ = 0, vertex = 0;
@@ -23,7 +23,8 @@ struct HostViews {
   template <class S, class V>
   static void fields(S& s, V&& v) {
     v("organs", s.organs), v("membranes", s.membranes), v("skins", s.skins, core::kMadeOnce),
-        v("cuttables", s.cuttables), v("ridden", s.ridden, core::kMadeOnce), v("corners", s.corners);
+        v("cuttable_of", s.cuttable_of, core::kMadeOnce), v("ridden", s.ridden, core::kMadeOnce),
+        v("corners", s.corners);
   }
 };
 HostViews make_host_views(const Model& model);
