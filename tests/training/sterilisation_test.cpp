@@ -72,7 +72,7 @@ TEST(ObliqueCamera, BringsAPlaceIntoThePicturesMiddle) {
     const kinematics::ScopeFrame frame = shown({at}, 8);
     const Vec3d way = at - frame.eye;
     EXPECT_GT(dot(normalised(way), frame.forward), 0.999) << at.x;
-    EXPECT_NEAR(length(way), 0.06, 0.004) << at.x;
+    EXPECT_LT(length(way), 0.08) << at.x << ", as near as it can go";
     EXPECT_GT(frame.up.z, 0) << "the right way up";
   }
 }
