@@ -34,10 +34,10 @@ sim::Model patient(const std::string& code) {
     const char *code, *vessel;
     double diameter;  ///< [m]
   };
-  constexpr Hole kHoles[] = {{"E9.1", "tubal_left", 0.0008},
+  constexpr Hole kHoles[] = {{"E9.1", "tubal_left", 0.0007},
                              {"E9.3", "tubal_left", 0.0003},
-                             {"E9.2", "uterine_upper_left", 0.0014},
-                             {"E9", "uterine_upper_left", 0.0014}};
+                             {"E9.2", "uterine_upper_left", 0.0012},
+                             {"E9", "uterine_upper_left", 0.0012}};
   scene::Description d = scene::read_scene(shipped().scene);
   for (const Hole& hole : kHoles)
     if (code == hole.code)

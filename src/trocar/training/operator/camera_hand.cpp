@@ -81,15 +81,14 @@ CameraHand::CameraHand(const sim::Model& model) : m_port(model.scope.port), m_in
   m_cone = portable::sin(half) / portable::cos(half);
 }
 
-void CameraHand::show(std::span<const Vec3d> points, double distance, double outwards) {
+void CameraHand::show(std::span<const Vec3d> points, double distance, const std::optional<Vec3d>& facing) {
   if (points.empty()) return;
   const Vec3d ahead = normalised(mean_direction(m_port, points), m_axis);
   double angle = 0, depth = kDeep, post = 0;
   if (m_angle > 0) {
     const Vec3d middle = m_port + mean_distance(m_port, points) * ahead;
-    const Vec3d from = m_plumb + Vec3d{middle.x > m_port.x ? outwards : -outwards, 0, 0};
-    const Pose wanted =
-        pose_of_all(points, middle, m_port, m_cone, distance, [&](double off) { return pose_for(middle, from, off); });
+    const Pose wanted = pose_of_all(points, middle, m_port, m_cone, distance,
+                                    [&](double off) { return pose_for(middle, facing, off); });
     angle = turn(m_axis, wanted.axis);
     post = turn_post(m_input, wanted.post);
     depth = wanted.depth;

@@ -13,9 +13,8 @@ class CameraHand {
   explicit CameraHand(const sim::Model& model);
 
   /// One tick towards a view of all `points` with the nearest at least `distance` from the lens [m].
-  /// @param outwards  of an oblique scope: 0: it looks from above, 1: as much from still farther out, -1: from the
-  /// midline
-  void show(std::span<const Vec3d> points, double distance, double outwards = 0);
+  /// @param facing  of an oblique scope: out of what is seen, to where its lens shall be; none: upwards
+  void show(std::span<const Vec3d> points, double distance, const std::optional<Vec3d>& facing = {});
   /// One tick towards a view of `at` in the picture's middle, from `distance` [m], as far as scope and trocar allow
   /// along `facing` (unit, out of what is seen), the horizon level: light post and camera head turn, too.
   void view(Vec3d at, const std::optional<Vec3d>& facing, double distance);

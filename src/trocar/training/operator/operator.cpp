@@ -24,13 +24,13 @@ void Operator::begin_tick(const sim::Model& model, const sim::State& state) {
   m_state = &state;
   m_point_count = 0;
   m_distance = kDistance;
-  m_outwards = 0;
+  m_facing.reset();
   m_posed_vessel = -1;
   m_arms.begin_tick();
 }
 
 sim::Input Operator::end_tick() {
-  if (m_point_count > 0) m_camera.show({m_points.data(), size_t(m_point_count)}, m_distance, m_outwards);
+  if (m_point_count > 0) m_camera.show({m_points.data(), size_t(m_point_count)}, m_distance, m_facing);
   sim::Input input = m_model->start;
   m_arms.fill(m_state->tick, input);
   m_camera.fill(input);

@@ -61,8 +61,9 @@ class Operator {
   void want(Vec3d p);
   void want_all_of(int target);
   void from(double distance) { m_distance = distance; }  ///< of the lens to the nearest of it [m]
-  /// Of an oblique scope: from which side it looks (CameraHand::show).
-  void outwards(double share) { m_outwards = share; }
+  /// With an oblique scope from the side to which this hand's instrument points, so that its tip is on the near side of
+  /// what it works at; otherwise from above.
+  void across(int hand) { m_facing = m_arms[hand].tip - m_arms[hand].port; }
   void want_nothing() { m_point_count = 0; }
 
   // What hands do
@@ -104,7 +105,8 @@ class Operator {
   std::array<Posture, sim::kMaxTools> m_posture{};
   std::array<Vec3d, 8> m_points{};
   int m_point_count = 0;
-  double m_distance = 0, m_outwards = 0;
+  double m_distance = 0;
+  std::optional<Vec3d> m_facing;
   sim::HostViews m_hosts;
   std::vector<Vec3d> m_line;  ///< of the vessel that was asked for last, as it lies in this tick
   int m_posed_vessel = -1;

@@ -8,8 +8,7 @@
 namespace trocar::training {
 namespace {
 
-constexpr double kHalf = 0.42;         // handle of a half closed applier
-constexpr double kSidePatience = 2.4;  // [s] with a leg's tip hidden, then from another side
+constexpr double kHalf = 0.42;  // handle of a half closed applier
 
 /// A clip on a strand: the legs go around it, are looked at half closed, and close slowly. Whoever does not see what he
 /// has to see, or has not all of it between the legs, draws back and tries elsewhere.
@@ -59,6 +58,7 @@ class ClipAt final : public Skill {
       if (row.why) m_lost = row.why;
       go(row.otherwise);
     }
+    op.across(m_hand);
     switch (m_phase) {
       case kReach:
         return reach(op);
@@ -95,7 +95,6 @@ class ClipAt final : public Skill {
     op.keep_postures(m_strand, m_place);
     op.want(at(op));
     op.want(op.arm(m_hand).tip);
-    look_from_a_side(op);
     if (aim(op, 0, pace::kCareful)) go(kInspect);
     return Progress::working;
   }
@@ -106,7 +105,6 @@ class ClipAt final : public Skill {
     look(op);
     // Where a jaw's tip is hidden, another distance or side may show it, and a strand deeper between the legs.
     m_unseen += op.sees_jaws(m_hand) ? 0 : sim::kTick;
-    if (is_oblique(op) && m_unseen > kSidePatience) ++m_side, m_unseen = 0;
     m_seen_from = 0.052 + 0.008 * double(int(m_in_phase / 1.5) % 4);
     op.from(m_seen_from);
     if (m_in_phase > 0.5 && !op.sees_jaws(m_hand)) m_spare = std::max(0.0007, m_spare - 0.0003 * sim::kTick);
@@ -184,16 +182,7 @@ class ClipAt final : public Skill {
     return m_inside >= 0 ? m_inside : t.jaw_length - t.clip_length + op.radius(m_strand, m_place) + m_spare;
   }
 
-  static bool is_oblique(Operator& op) { return op.model().scope.angle > 0; }
-
-  /// An oblique scope shows the legs from farther out, across the applier; else from above, or from the midline.
-  void look_from_a_side(Operator& op) const {
-    constexpr double kSides[] = {2, 0, -2};
-    op.outwards(kSides[m_side % 3]);
-  }
-
   void look(Operator& op) const {
-    look_from_a_side(op);
     if (m_away) {  // where the eye sees nothing of it
       const Vec3d begin = op.point(m_strand, 0);
       return op.want({-3 * begin.x, begin.y, begin.z});
@@ -201,7 +190,7 @@ class ClipAt final : public Skill {
     // From the midline, if the legs' tips stay hidden: then they are seen past the strand, beside the picture's middle.
     constexpr double kPatience = 3, kAside = 0.03;  // [s] [m]
     const Vec3d there = at(op);
-    op.want(m_unseen > kPatience && !is_oblique(op) ? there - Vec3d{there.x > 0 ? kAside : -kAside, 0, 0} : there);
+    op.want(m_unseen > kPatience ? there - Vec3d{there.x > 0 ? kAside : -kAside, 0, 0} : there);
   }
 
   bool sees_enough(Operator& op) const {
@@ -233,7 +222,6 @@ class ClipAt final : public Skill {
   bool m_away = false;
   double m_place = 0;      ///< [m]
   double m_spare = 0.001;  ///< between the strand and the clip's bend [m]
-  int m_side = 0;          ///< from which the camera looks; kept from try to try
   double m_unseen = 0;     ///< for how long the legs' tips have not been seen [s]
   double m_seen_from = 0.06;
   int m_clips_before = 0;
