@@ -98,10 +98,12 @@ void forget(Plan& plan, std::string_view goal) {
         part.goals.end());
 }
 
-/// Nobody sucks afterwards; so the hand that would have stays where it is.
+/// No hand moves while the camera looks at the end: what is still judged then would be told as moved out of view.
+void keep_hands_still_at_the_end(Plan& plan) { plan.task("see that it stays dry", "inspect").meanwhile.clear(); }
+
 void leave_the_pool(Plan& plan) {
   forget(plan, "clear the pool");
-  plan.task("see that it stays dry", "inspect").meanwhile.clear();
+  keep_hands_still_at_the_end(plan);
 }
 
 /// Looks on until so much has run out, or for so long.
@@ -114,6 +116,7 @@ void wait(Plan& plan, double volume, double seconds = 0) {
 
 /// Takes the hook before anything bleeds and burns with it.
 void burn(Plan& plan, std::vector<PlanTask> where) {
+  keep_hands_still_at_the_end(plan);
   PlanGoal& first = plan.goal("see that it bleeds");
   PlanGoal& later = plan.goal("clear the pool");
   std::vector<PlanTask> all;
@@ -182,7 +185,8 @@ const Case kCases[] = {
     {"E7.2",
      [](const sim::Model& m, Plan& p) {
        burn(p, {burn_at_bleeding(2), burn_at_tube(m, 0)});
-     }},
+     },
+     kNearWall},
     {"E8", [](const sim::Model&, Plan& p) { burn(p, {burn_at_bleeding(8)}); }},
     {"E9.1", [](const sim::Model&, Plan& p) { wait(p, 10.5e-6); }},
     {"E9.2", [](const sim::Model&, Plan& p) { wait(p, 52.5e-6); }},
