@@ -406,9 +406,8 @@ TEST(Score, AnUnfinishedAttemptEarnsItsStepsByTheirWeightAndNoTime) {
   Attempt a;
   a.up_to_clips(kLeft);
   const auto weight = [](const char* step) { return exercise().step(step)->weight; };
-  double side = 0;
-  for (const StepText& t : exercise().steps) side += t.for_each.empty() ? 0 : t.weight;
-  const double whole = weight("survey") + 2 * side;
+  double whole = 0;
+  for (const StepText& t : exercise().steps) whole += (t.for_each.empty() ? 1 : 2) * t.weight;
   const double done = weight("survey") + 2 * weight("identify") + weight("present");
   const Score s = a.monitor.score();
   EXPECT_DOUBLE_EQ(s.quality, done / whole);
