@@ -304,9 +304,6 @@ TEST_P(Flaw, TriggersItsErrorAndOnlyWhatTheTableSaysItImplies) {
   for (const std::string& implied : p.implies) EXPECT_TRUE(has(made, implied)) << implied;
   EXPECT_EQ(monitor.score().failed, p.fail);
   std::printf("%s: %.1f mL of blood lost\n", code.c_str(), 1e6 * lost(s));
-  if (code == "E1.2") {
-    EXPECT_GT(lost(s), 0) << "the arcade tears with the fold that carries it";
-  }
 }
 
 std::string word(const testing::TestParamInfo<std::string>& info) {
