@@ -66,8 +66,8 @@ def check_flow_of_walls(frames):
         there = to_pixels(frames.camera(i - 1), to_world(frames.camera(i), frames.layer("depth", i)))
         want = numpy.stack([there[0] - column, there[1] - row], -1)[still]
         off = abs(want - flow).max(axis=-1)
-        # Depth is that of a texel whose middle is up to 0.7 px from the pixel's.
-        expect(numpy.percentile(off, 99) < 0.8, f"frame {i}: flow is off by {numpy.percentile(off, 99)} px")
+        # Depth is that of a texel whose middle is up to 0.7 px from the pixel's; what passes close to the lens goes far.
+        expect(numpy.percentile(off, 99) < max(0.8, 0.005 * abs(flow).max()), f"frame {i}: flow is off by {numpy.percentile(off, 99)} px")
         moved = max(moved, abs(flow).max())
     expect(moved > 3, "the camera did not move: nothing was tested")
 

@@ -62,5 +62,18 @@ TEST(Scope, LightPostTurnsTheViewAndHeadKeepsTheHorizon) {
   }
 }
 
+TEST(ScopeFrame, IsARotationAlsoWhereAnObliqueLensLooksStraightDown) {
+  const Vec3d port{0, 0, 0};
+  for (const double angle : {0.0, portable::pi / 6, portable::pi / 4})
+    for (double post = -3; post < 3; post += 0.25)
+      for (const Vec3d down : {Vec3d{0, 0, -1}, Vec3d{0.02, 0, -1}, Vec3d{0, -0.57735, -1}, Vec3d{0.57735, 0, -1}}) {
+        FulcrumPose pose = inverse(port, 0.05 * normalised(down), 0.3);
+        const ScopeFrame f = scope_frame(port, pose, angle, post);
+        for (const Vec3d& axis : {f.right, f.up, f.forward}) EXPECT_NEAR(length(axis), 1, 1e-9);
+        EXPECT_NEAR(dot(f.up, f.forward), 0, 1e-9);
+        EXPECT_NEAR(dot(f.right, f.up), 0, 1e-9);
+      }
+}
+
 }  // namespace
 }  // namespace trocar::kinematics

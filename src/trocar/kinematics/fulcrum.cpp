@@ -70,7 +70,8 @@ ScopeFrame scope_frame(Vec3d port, const FulcrumPose& pose, double angle, double
   // The camera head keeps the horizon: up is the patient's front as far as the view allows, then turned by the head.
   const Vec3d front{0, 0, 1};
   const Vec3d upright = front - dot(front, frame.forward) * frame.forward;
-  const Vec3d up0 = length(upright) > 0.02 ? normalised(upright) : normalised(tip.normal());
+  const Vec3d beside = tip.normal() - dot(tip.normal(), frame.forward) * frame.forward;
+  const Vec3d up0 = normalised(length(upright) > 0.02 ? upright : beside);
   const Vec3d right0 = cross(frame.forward, up0);
   const double ch = portable::cos(pose.roll), sh = portable::sin(pose.roll);
   frame.up = ch * up0 + sh * right0;
