@@ -1,5 +1,4 @@
-#include <nlohmann/json.hpp>
-
+#include <trocar/core/json.hpp>
 #include <trocar/training/events/catalogue.hpp>
 #include <trocar/training/events/registry.hpp>
 #include <trocar/training/facts/registry.hpp>
@@ -7,8 +6,6 @@
 
 namespace trocar::training {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr ArgumentKind kNamed[] = {ArgumentKind::hand, ArgumentKind::mark, ArgumentKind::strand, ArgumentKind::body,
                                    ArgumentKind::vessel};

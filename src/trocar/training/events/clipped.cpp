@@ -67,7 +67,7 @@ Value to_mark(const Look& look, const Happening& h) {
 }
 
 /// From the clip to the nearest one that was there before.
-Value to_clip(const Look& look, const Happening& h) {
+Value clip_to_clip(const Look& look, const Happening& h) {
   Value nearest = kUnknown;
   for (int i = 0; i < h.number; ++i) {
     const interactions::Clip& other = look.state.clips[size_t(i)];
@@ -78,7 +78,7 @@ Value to_clip(const Look& look, const Happening& h) {
   return nearest;
 }
 
-std::vector<Attribute> attributes() {
+std::vector<Attribute> clip_attributes() {
   return {
       {"s_mm", "where on the strand, from its beginning; unknown on a bare vessel",
        [](const Look& l, const Happening& h) { return !h.body.exists() ? kUnknown : Value(clip_of(l, h).s); }},
@@ -87,7 +87,7 @@ std::vector<Attribute> attributes() {
       {"cover", "share of the cross-section between the legs",
        [](const Look& l, const Happening& h) -> Value { return clip_of(l, h).cover; }},
       {"to_mark_mm", "along the strand to the nearest stripe around it; unknown without any", to_mark},
-      {"to_clip_mm", "along the strand to the nearest clip that was there before; unknown without any", to_clip},
+      {"to_clip_mm", "along the strand to the nearest clip that was there before; unknown without any", clip_to_clip},
       {"closing_s", "how long the jaws took from half open",
        [](const Look& l, const Happening& h) { return h.foreseen ? kUnknown : Value(clip_of(l, h).closing_time); }},
       {"tips_visible", "of the two jaw tips, when it closed",
@@ -139,7 +139,7 @@ std::string_view needs_applier(const sim::Model& model) {
 }  // namespace
 
 const EventKind kClipped{"clipped",     {},
-                         attributes(),  "A clip closed on a strand or a vessel.",
+                         clip_attributes(),  "A clip closed on a strand or a vessel.",
                          needs_applier, &noticing<Clips<false>>,
                          true,          EventKind::Hold::none,
                          foresee};

@@ -59,7 +59,7 @@ Value between_clips(const Look& look, const Happening& h) {
   return below && above;
 }
 
-Value to_clip(const Look& look, const Happening& h) {
+Value cut_to_clip(const Look& look, const Happening& h) {
   const double at = cut_of(look, h).s;
   Value nearest = kUnknown;
   each_clip(look, h, [&](double s) {
@@ -69,7 +69,7 @@ Value to_clip(const Look& look, const Happening& h) {
   return nearest;
 }
 
-std::vector<Attribute> attributes() {
+std::vector<Attribute> cut_attributes() {
   return {
       {"s_mm", "where on the strand, from its beginning; unknown on other bodies",
        [](const Look& l, const Happening& h) { return cut_of(l, h).strand < 0 ? kUnknown : Value(cut_of(l, h).s); }},
@@ -84,7 +84,7 @@ std::vector<Attribute> attributes() {
        [](const Look& l, const Happening& h) -> Value { return l.model.wet.there && drowned(l.model, l.state, h.tip); },
        true},
       {"between_clips", "clips sit on the strand on both sides of the cut", between_clips, true},
-      {"to_clip_mm", "from the strand's nearest clip; unknown without any", to_clip},
+      {"to_clip_mm", "from the strand's nearest clip; unknown without any", cut_to_clip},
   };
 }
 
@@ -94,6 +94,6 @@ std::string_view needs_scissors(const sim::Model& model) {
 
 }  // namespace
 
-const EventKind kCut{"cut", {}, attributes(), "Scissors cut into a body.", needs_scissors, &noticing<Cuts>, true};
+const EventKind kCut{"cut", {}, cut_attributes(), "Scissors cut into a body.", needs_scissors, &noticing<Cuts>, true};
 
 }  // namespace trocar::training

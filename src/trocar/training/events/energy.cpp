@@ -1,5 +1,6 @@
 // What current does where it should not. What carries the vessel that bleeds by itself may always be treated.
 #include <trocar/training/events/registry.hpp>
+#include <trocar/training/facts/needs.hpp>
 #include <trocar/training/observe/bleeder.hpp>
 #include <trocar/training/observe/energy_watch.hpp>
 #include <trocar/training/observe/hands.hpp>
@@ -62,9 +63,9 @@ class HotTip final : public Watch {
   }
 };
 
-class Spread final : public Watch {
+class SpreadWatch final : public Watch {
  public:
-  Spread(const sim::Model&, const Arguments& a) : Watch({}, {}) {
+  SpreadWatch(const sim::Model&, const Arguments& a) : Watch({}, {}) {
     m_limits.hook_spread = a[0].number();
     m_limits.bipolar_spread = a[1].number();
   }
@@ -99,8 +100,6 @@ class Activated final : public Noticer {
  private:
   std::array<bool, sim::kMaxTools> m_on{};
 };
-
-std::string_view needs_energy(const sim::Model& model) { return model.energy.there ? "" : "energy"; }
 
 Value under_liquid(const Look& look, const Happening& h) {
   return look.model.wet.there && drowned(look.model, look.state, tip_of(look.model, look.state, size_t(h.hand)));
@@ -142,6 +141,6 @@ const EventKind kHeatSpread{"heat_spread",
                             {},
                             "Tissue has died farther than that from where it was treated; once a body.",
                             needs_energy,
-                            &noticing<Spread>};
+                            &noticing<SpreadWatch>};
 
 }  // namespace trocar::training

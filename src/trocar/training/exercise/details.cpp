@@ -1,7 +1,6 @@
 #include <algorithm>
 
-#include <nlohmann/json.hpp>
-
+#include <trocar/core/json.hpp>
 #include <trocar/scene/json/shape.hpp>
 #include <trocar/training/exercise/details.hpp>
 #include <trocar/training/exercise/exercise.hpp>
@@ -9,7 +8,6 @@
 namespace trocar::training {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using scene::JsonValue;
 
 constexpr std::size_t kMostDone = 128;  // of acts that are told; a State's books hold fewer clips and cuts

@@ -4,12 +4,11 @@
 #include <trocar/sim/stages/visibility.hpp>
 #include <trocar/training/exercise/monitor.hpp>
 #include <trocar/training/observe/hands.hpp>
+#include <trocar/training/observe/sampling.hpp>
 
 namespace trocar::training {
 namespace {
 
-constexpr int kSampleEvery = 20;                       // ticks between looks at conditions and tips: 50 Hz
-constexpr double kSample = kSampleEvery * sim::kTick;  // [s]
 constexpr double kTrocarShare = 0.02;                  // of a tick in the mean of forces: over about 50 ms
 constexpr double kMoving = 0.005;                      // [m/s] slower is not a motion
 

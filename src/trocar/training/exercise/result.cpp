@@ -1,12 +1,10 @@
 // What is said of an attempt, as one JSON object.
-#include <nlohmann/json.hpp>
 
+#include <trocar/core/json.hpp>
 #include <trocar/training/exercise/monitor.hpp>
 
 namespace trocar::training {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json place_mm(Vec3d p) { return {p.x * 1000, p.y * 1000, p.z * 1000}; }
 

@@ -1,12 +1,11 @@
 #include <fmt/format.h>
 
 #include <trocar/training/expert/performer.hpp>
+#include <trocar/training/observe/sampling.hpp>
 
 namespace trocar::training {
 namespace {
 
-constexpr int kSampleEvery = 20;                       // ticks between looks of facts that remember: 50 Hz
-constexpr double kSample = kSampleEvery * sim::kTick;  // [s]
 constexpr size_t kMostDifficulties = 100;              // that are told
 
 }  // namespace

@@ -14,7 +14,7 @@ using scene::JsonMember;
 using scene::JsonValue;
 using Kind = JsonValue::Kind;
 
-constexpr double kShortest = 0.1, kLongest = 3600;  // [s] that anything may be asked to take
+constexpr double kShortest = 0.1, kLongestGoal = 3600;  // [s] that anything may be asked to take
 
 class PlanReader {
  public:
@@ -159,7 +159,7 @@ class PlanReader {
     const JsonMember* m = v.find(key);
     if (!m) return otherwise;
     const double least = std::string_view(key) == "at_most_s" ? kShortest : 0;
-    return r.number(m->value, unit_of(key), least, kLongest).value_or(otherwise);
+    return r.number(m->value, unit_of(key), least, kLongestGoal).value_or(otherwise);
   }
 
   const Reading& r;

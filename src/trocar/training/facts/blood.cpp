@@ -1,5 +1,6 @@
 #include <array>
 
+#include <trocar/training/facts/needs.hpp>
 #include <trocar/training/facts/registry.hpp>
 
 namespace trocar::training {
@@ -48,8 +49,6 @@ class Bleeding final : public Observer {
  private:
   double m_began = -1;
 };
-
-std::string_view needs_fluids(const sim::Model& model) { return model.wet.there ? "" : "fluids"; }
 
 }  // namespace
 

@@ -30,7 +30,7 @@ Value second_set(const ClipPair& p) { return p.second_set(); }
 Value misplaced(const ClipPair& p) { return p.misplaced(); }
 Value apart(const ClipPair& p) { return p.paired() ? Value(p.apart()) : kUnknown; }
 
-std::vector<Parameter> parameters() {
+std::vector<Parameter> pair_parameters() {
   return {{"of", ArgumentKind::strand, "which tube"},
           {"first_mm", ArgumentKind::range, "where the inner clip belongs, from the tube's beginning"},
           {"second_mm", ArgumentKind::range, "where the outer one belongs"},
@@ -44,7 +44,7 @@ std::vector<Parameter> parameters() {
 }  // namespace
 
 const Fact kClipsFirstSet{"clips.first_set",
-                          parameters(),
+                          pair_parameters(),
                           0,
                           1,
                           "A clip that is well set is where the first belongs, alone or with a second.",
@@ -52,7 +52,7 @@ const Fact kClipsFirstSet{"clips.first_set",
                           &remembering<Pair<first_set>>,
                           true};
 const Fact kClipsSecondSet{"clips.second_set",
-                           parameters(),
+                           pair_parameters(),
                            0,
                            1,
                            "A clip that is well set is where the second belongs, alone or with a first.",
@@ -60,7 +60,7 @@ const Fact kClipsSecondSet{"clips.second_set",
                            &remembering<Pair<second_set>>,
                            true};
 const Fact kClipsMisplaced{"clips.misplaced",
-                           parameters(),
+                           pair_parameters(),
                            0,
                            1,
                            "The tube's last clip is well set, but makes no pair and is in no place of one.",
@@ -68,7 +68,7 @@ const Fact kClipsMisplaced{"clips.misplaced",
                            &remembering<Pair<misplaced>>,
                            true};
 const Fact kClipsApart{"clips.apart_mm",
-                       parameters(),
+                       pair_parameters(),
                        0,
                        1000,
                        "Between the two clips of the pair. Unknown until there is one.",

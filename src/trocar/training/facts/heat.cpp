@@ -1,3 +1,4 @@
+#include <trocar/training/facts/needs.hpp>
 #include <trocar/training/facts/registry.hpp>
 
 namespace trocar::training {
@@ -25,8 +26,6 @@ Value dead_beyond(const Look& look, const Arguments& a) {
 Value active(const Look& look, const Arguments& a) {
   return look.state.electrodes[size_t(a[0].index)].current.now.mode != tissue::EnergyMode::off;
 }
-
-std::string_view needs_energy(const sim::Model& model) { return model.energy.there ? "" : "energy"; }
 
 std::vector<Parameter> hand() { return {{"hand", ArgumentKind::hand, "whose electrode"}}; }
 

@@ -1,3 +1,4 @@
+#include <trocar/training/facts/needs.hpp>
 #include <trocar/training/facts/registry.hpp>
 #include <trocar/training/observe/liquid.hpp>
 #include <trocar/training/observe/marks.hpp>
@@ -8,7 +9,6 @@ namespace {
 Value under(const Look& look, const Arguments& a) {
   return drowned(look.model, look.state, place_of_mark(look.model, look.state, a[0].index));
 }
-std::string_view needs_fluids(const sim::Model& model) { return model.wet.there ? "" : "fluids"; }
 
 }  // namespace
 

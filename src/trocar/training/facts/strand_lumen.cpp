@@ -40,7 +40,7 @@ class StumpsInView final : public Lumen {
   int m_trace;
 };
 
-std::vector<Parameter> parameters() {
+std::vector<Parameter> stump_parameters() {
   return {{"of", ArgumentKind::strand, "which tube"},
           {"cover", ArgumentKind::number, "share of the cross-section from which a clip closes it", true, 0, 1}};
 }
@@ -48,10 +48,10 @@ std::vector<Parameter> parameters() {
 }  // namespace
 
 const Fact kStrandOccluded{
-    "strand.occluded", parameters(),           0,   1, "No way leads through the tube from its beginning to its end.",
+    "strand.occluded", stump_parameters(),           0,   1, "No way leads through the tube from its beginning to its end.",
     anywhere,          &remembering<Occluded>, true};
 const Fact kStrandStumpsClosed{"strand.stumps_closed",
-                               parameters(),
+                               stump_parameters(),
                                0,
                                1,
                                "A clip that closes it sits on either side of every cut. Unknown before it is cut.",
@@ -59,7 +59,7 @@ const Fact kStrandStumpsClosed{"strand.stumps_closed",
                                &remembering<StumpsClosed>,
                                true};
 const Fact kStrandStumpsInView{"strand.stumps_in_view",
-                               parameters(),
+                               stump_parameters(),
                                0,
                                1,
                                "Both ends that the first cut made are in view. Unknown before it is cut.",

@@ -1,45 +1,41 @@
 #include <cmath>
 
-#include <nlohmann/json.hpp>
-
+#include <trocar/core/json.hpp>
+#include <trocar/training/metrics/known.hpp>
 #include <trocar/training/metrics/metrics.hpp>
 
 namespace trocar::training {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr const char* kForceNames[kForceKinds] = {"pull", "pinch", "contact"};
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 /// A count; whole, so that it is not written with a decimal point.
 Json count(double value) { return std::isfinite(value) ? Json(std::int64_t(value)) : Json(nullptr); }
 
 Json force_json(const ForceMetrics& f, double limit) {
   if (!std::isfinite(f.max)) return nullptr;  // not measured
-  return {{"max_N", number(f.max)},        {"mean_nonzero_N", number(f.mean_nonzero)},
-          {"rms_N", number(f.rms)},        {"impulse_Ns", number(f.impulse)},
-          {"volume_N3", number(f.volume)}, {"above_limit_s", number(f.above)},
-          {"limit_N", number(limit)}};
+  return {{"max_N", known(f.max)},        {"mean_nonzero_N", known(f.mean_nonzero)},
+          {"rms_N", known(f.rms)},        {"impulse_Ns", known(f.impulse)},
+          {"volume_N3", known(f.volume)}, {"above_limit_s", known(f.above)},
+          {"limit_N", known(limit)}};
 }
 
 Json hand_json(const HandMetrics& h, const std::array<double, kForceKinds>& limits) {
   Json j{{"name", h.name},
-         {"path_m", number(h.path)},
-         {"reference_path_m", number(h.reference)},
-         {"economy", number(h.economy)},
-         {"depth_m", number(h.depth)},
+         {"path_m", known(h.path)},
+         {"reference_path_m", known(h.reference)},
+         {"economy", known(h.economy)},
+         {"depth_m", known(h.depth)},
          {"depth_reversals", count(h.depth_reversals)},
          {"depth_reversals_near_target", count(h.depth_reversals_near)},
-         {"angular_path_rad", number(h.angular_path)},
-         {"mean_jerk", number(h.mean_jerk)},
-         {"ldlj", number(h.ldlj)},
-         {"sparc", number(h.sparc)},
+         {"angular_path_rad", known(h.angular_path)},
+         {"mean_jerk", known(h.mean_jerk)},
+         {"ldlj", known(h.ldlj)},
+         {"sparc", known(h.sparc)},
          {"movements", count(h.movements)},
-         {"idle_fraction", number(h.idle)},
-         {"mean_speed_m_per_s", number(h.mean_speed)},
-         {"peak_speed_m_per_s", number(h.peak_speed)}};
+         {"idle_fraction", known(h.idle)},
+         {"mean_speed_m_per_s", known(h.mean_speed)},
+         {"peak_speed_m_per_s", known(h.peak_speed)}};
   for (std::size_t k = 0; k < kForceKinds; ++k) j["forces"][kForceNames[k]] = force_json(h.forces[k], limits[k]);
   return j;
 }
@@ -50,16 +46,16 @@ Json bimanual_json(const Metrics& m) {
   for (const int h : {b.left, b.right})
     if (h >= 0) pair.push_back(m.hands[std::size_t(h)].name);
   return {{"hands", pair},
-          {"path_ratio", number(b.ratio)},
-          {"simultaneous_fraction", number(b.simultaneous)},
-          {"speed_correlation", number(b.speed_correlation)}};
+          {"path_ratio", known(b.ratio)},
+          {"simultaneous_fraction", known(b.simultaneous)},
+          {"speed_correlation", known(b.speed_correlation)}};
 }
 
 }  // namespace
 
 std::string metrics_json(const Metrics& m) {
-  Json j{{"sampling_hz", number(m.rate)}, {"low_pass_hz", kMotionCutoff}, {"from_s", number(m.from)},
-         {"to_s", number(m.to)},          {"time_s", number(m.time)},     {"duration_s", number(m.duration)},
+  Json j{{"sampling_hz", known(m.rate)}, {"low_pass_hz", kMotionCutoff}, {"from_s", known(m.from)},
+         {"to_s", known(m.to)},          {"time_s", known(m.time)},     {"duration_s", known(m.duration)},
          {"hands", Json::array()}};
   for (const HandMetrics& h : m.hands) j["hands"].push_back(hand_json(h, m.force_limits));
   j["both"] = hand_json(m.both, m.force_limits);

@@ -8,8 +8,8 @@
 namespace trocar::training {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kLongest = std::size_t(1) << 16;  // samples of one movement; bounds the spectrum's size
+constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kLongestSpectrum = std::size_t(1) << 16;  // samples of one movement; bounds the spectrum's size
 
 double peak_of(std::span<const double> speed) {
   double peak = 0;
@@ -22,7 +22,7 @@ double peak_of(std::span<const double> speed) {
 double dimensionless_jerk(std::span<const double> speed, double rate) {
   const std::size_t n = speed.size();
   const double peak = peak_of(speed);
-  if (n < 3 || !(peak > 0)) return kNone;
+  if (n < 3 || !(peak > 0)) return kUndefined;
   const double duration = double(n) / rate;
   double sum = 0;
   for (std::size_t i = 0; i + 2 < n; ++i) {
@@ -34,16 +34,16 @@ double dimensionless_jerk(std::span<const double> speed, double rate) {
 
 double log_dimensionless_jerk(std::span<const double> speed, double rate) {
   const double jerk = -dimensionless_jerk(speed, rate);
-  return jerk > 0 ? -portable::log(jerk) : kNone;
+  return jerk > 0 ? -portable::log(jerk) : kUndefined;
 }
 
 double spectral_arc_length(std::span<const double> speed, double rate, const SpectralArcSettings& settings) {
-  if (speed.size() < 2 || speed.size() > kLongest) return kNone;
+  if (speed.size() < 2 || speed.size() > kLongestSpectrum) return kUndefined;
   const std::size_t points = numerics::fft_size(speed.size()) << settings.pad_level;
   const std::vector<double> spectrum = numerics::magnitude_spectrum(speed, points);
   double largest = 0;
   for (const double m : spectrum) largest = m > largest ? m : largest;
-  if (!(largest > 0)) return kNone;
+  if (!(largest > 0)) return kUndefined;
 
   const double step = rate / double(points);
   std::size_t first = spectrum.size(), last = 0;
@@ -52,7 +52,7 @@ double spectral_arc_length(std::span<const double> speed, double rate, const Spe
     if (first == spectrum.size()) first = k;
     last = k;
   }
-  if (first >= last) return kNone;
+  if (first >= last) return kUndefined;
   const double across = 1 / double(last - first);  // frequencies are scaled to 0..1
   double length = 0;
   for (std::size_t k = first; k < last; ++k) {

@@ -1,23 +1,17 @@
-#include <cmath>
-
-#include <nlohmann/json.hpp>
-
+#include <trocar/core/json.hpp>
+#include <trocar/training/metrics/known.hpp>
 #include <trocar/training/metrics/study.hpp>
 
 namespace trocar::training {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 Json spread_json(const Spread& s) {
-  return {{"count", s.count},           {"min", number(s.least)}, {"q1", number(s.lower)},
-          {"median", number(s.median)}, {"q3", number(s.upper)},  {"max", number(s.most)}};
+  return {{"count", s.count},           {"min", known(s.least)}, {"q1", known(s.lower)},
+          {"median", known(s.median)}, {"q3", known(s.upper)},  {"max", known(s.most)}};
 }
 
 Json ranged_json(const Ranged& r) {
-  return {{"value", number(r.value)}, {"low", number(r.low)}, {"high", number(r.high)}};
+  return {{"value", known(r.value)}, {"low", known(r.low)}, {"high", known(r.high)}};
 }
 
 Json metric_json(const Study& study, const MetricStudy& m) {
@@ -26,7 +20,7 @@ Json metric_json(const Study& study, const MetricStudy& m) {
   j["by_person"] = Json::object();
   for (std::size_t p = 0; p < study.persons.size(); ++p) {
     j["by_person"][study.persons[p]] = spread_json(m.by_person[p]);
-    j["by_person"][study.persons[p]]["rho"] = number(m.person_rho[p]);
+    j["by_person"][study.persons[p]]["rho"] = known(m.person_rho[p]);
   }
   j["by_repetition"] = Json::array();
   for (const Spread& s : m.by_repetition) j["by_repetition"].push_back(spread_json(s));

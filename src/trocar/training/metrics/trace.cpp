@@ -23,7 +23,7 @@ TraceSample sample_of(const sim::Model& model, const sim::State& state, std::siz
   return rounded(sample);
 }
 
-TraceScope scope_of(const sim::Model& model, const sim::State& state) {
+TraceScope traced_scope(const sim::Model& model, const sim::State& state) {
   const kinematics::ScopeFrame frame =
       kinematics::scope_frame(model.scope.port, sim::pose_of(state.scope), model.scope.angle, double(state.scope.post));
   return rounded(TraceScope{frame.eye, frame.forward});
@@ -96,7 +96,7 @@ void TraceRecorder::update(const sim::Model& model, const sim::State& state, con
     m_trace.hands[h].samples.push_back(sample_of(model, state, h));
     m_trace.hands[h].samples.back().instrument = m_numbers[h][std::size_t(state.tools[h].instrument)];
   }
-  m_trace.scope.push_back(scope_of(model, state));
+  m_trace.scope.push_back(traced_scope(model, state));
 }
 
 }  // namespace trocar::training

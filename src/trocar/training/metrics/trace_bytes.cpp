@@ -75,9 +75,9 @@ class Writer {
 
 // --- reading ---
 
-class Reader {
+class BytesReader {
  public:
-  Reader(std::span<const std::uint8_t> bytes, const std::string& name) : m_bytes(bytes), m_name(name) {}
+  BytesReader(std::span<const std::uint8_t> bytes, const std::string& name) : m_bytes(bytes), m_name(name) {}
 
   Trace read() {
     head();
@@ -247,7 +247,7 @@ std::vector<std::uint8_t> to_bytes(const Trace& trace) {
 }
 
 Trace trace_from_bytes(std::span<const std::uint8_t> bytes, const std::string& name) {
-  return Reader(bytes, name).read();
+  return BytesReader(bytes, name).read();
 }
 
 }  // namespace trocar::training

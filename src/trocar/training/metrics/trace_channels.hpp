@@ -23,13 +23,13 @@ struct TraceChannel {
   void (*set)(Sample&, double);
 };
 
-inline constexpr std::int64_t kMaxSteps = std::int64_t(1) << 46;
+inline constexpr std::int64_t kMaxTraceSteps = std::int64_t(1) << 46;
 
 /// The nearest whole number of steps; 0 for what is not finite.
 inline std::int64_t steps_of(double value, double scale) {
   const double steps = std::floor(value * scale + 0.5);
-  if (!(steps > -double(kMaxSteps))) return steps < 0 ? -kMaxSteps : 0;  // the comparison is false for NaN, too
-  return steps < double(kMaxSteps) ? std::int64_t(steps) : kMaxSteps;
+  if (!(steps > -double(kMaxTraceSteps))) return steps < 0 ? -kMaxTraceSteps : 0;  // the comparison is false for NaN, too
+  return steps < double(kMaxTraceSteps) ? std::int64_t(steps) : kMaxTraceSteps;
 }
 /// Division, so that the value is the double nearest to the decimal number that CSV shows.
 inline double value_of(std::int64_t steps, double scale) { return double(steps) / scale; }
@@ -38,9 +38,9 @@ inline double value_of(std::int64_t steps, double scale) { return double(steps) 
 struct TraceSteps {
   double scale;
   int decimals, order;
-  std::int64_t most = kMaxSteps;
+  std::int64_t most = kMaxTraceSteps;
 };
-inline constexpr TraceSteps kPlaces{1e7, 7, 2}, kLoads{1e4, 4, 1}, kNumbers{1, 0, 1, std::int64_t(kMaxTraceNames)};
+inline constexpr TraceSteps kPlaceSteps{1e7, 7, 2}, kLoadSteps{1e4, 4, 1}, kNumberSteps{1, 0, 1, std::int64_t(kMaxTraceNames)};
 
 /// A channel whose number `Access`, a lambda without captures, finds in a sample.
 template <class Sample, class Access>
@@ -59,31 +59,31 @@ TraceChannel<Sample> channel(const char* name, TraceSteps steps, Access) {
 
 // clang-format off
 inline const std::array<TraceChannel<TraceSample>, 16> kHandChannels = {
-    channel<TraceSample>("x_m", kPlaces, [](auto& s) -> auto& { return s.tip.x; }),
-    channel<TraceSample>("y_m", kPlaces, [](auto& s) -> auto& { return s.tip.y; }),
-    channel<TraceSample>("z_m", kPlaces, [](auto& s) -> auto& { return s.tip.z; }),
-    channel<TraceSample>("qw", kPlaces, [](auto& s) -> auto& { return s.orientation.w; }),
-    channel<TraceSample>("qx", kPlaces, [](auto& s) -> auto& { return s.orientation.x; }),
-    channel<TraceSample>("qy", kPlaces, [](auto& s) -> auto& { return s.orientation.y; }),
-    channel<TraceSample>("qz", kPlaces, [](auto& s) -> auto& { return s.orientation.z; }),
-    channel<TraceSample>("handle", kLoads, [](auto& s) -> auto& { return s.handle; }),
-    channel<TraceSample>("pinch_N", kLoads, [](auto& s) -> auto& { return s.pinch; }),
-    channel<TraceSample>("pull_x_N", kLoads, [](auto& s) -> auto& { return s.pull.x; }),
-    channel<TraceSample>("pull_y_N", kLoads, [](auto& s) -> auto& { return s.pull.y; }),
-    channel<TraceSample>("pull_z_N", kLoads, [](auto& s) -> auto& { return s.pull.z; }),
-    channel<TraceSample>("contact_x_N", kLoads, [](auto& s) -> auto& { return s.contact.x; }),
-    channel<TraceSample>("contact_y_N", kLoads, [](auto& s) -> auto& { return s.contact.y; }),
-    channel<TraceSample>("contact_z_N", kLoads, [](auto& s) -> auto& { return s.contact.z; }),
-    channel<TraceSample>("instrument", kNumbers, [](auto& s) -> auto& { return s.instrument; }),
+    channel<TraceSample>("x_m", kPlaceSteps, [](auto& s) -> auto& { return s.tip.x; }),
+    channel<TraceSample>("y_m", kPlaceSteps, [](auto& s) -> auto& { return s.tip.y; }),
+    channel<TraceSample>("z_m", kPlaceSteps, [](auto& s) -> auto& { return s.tip.z; }),
+    channel<TraceSample>("qw", kPlaceSteps, [](auto& s) -> auto& { return s.orientation.w; }),
+    channel<TraceSample>("qx", kPlaceSteps, [](auto& s) -> auto& { return s.orientation.x; }),
+    channel<TraceSample>("qy", kPlaceSteps, [](auto& s) -> auto& { return s.orientation.y; }),
+    channel<TraceSample>("qz", kPlaceSteps, [](auto& s) -> auto& { return s.orientation.z; }),
+    channel<TraceSample>("handle", kLoadSteps, [](auto& s) -> auto& { return s.handle; }),
+    channel<TraceSample>("pinch_N", kLoadSteps, [](auto& s) -> auto& { return s.pinch; }),
+    channel<TraceSample>("pull_x_N", kLoadSteps, [](auto& s) -> auto& { return s.pull.x; }),
+    channel<TraceSample>("pull_y_N", kLoadSteps, [](auto& s) -> auto& { return s.pull.y; }),
+    channel<TraceSample>("pull_z_N", kLoadSteps, [](auto& s) -> auto& { return s.pull.z; }),
+    channel<TraceSample>("contact_x_N", kLoadSteps, [](auto& s) -> auto& { return s.contact.x; }),
+    channel<TraceSample>("contact_y_N", kLoadSteps, [](auto& s) -> auto& { return s.contact.y; }),
+    channel<TraceSample>("contact_z_N", kLoadSteps, [](auto& s) -> auto& { return s.contact.z; }),
+    channel<TraceSample>("instrument", kNumberSteps, [](auto& s) -> auto& { return s.instrument; }),
 };
 
 inline const std::array<TraceChannel<TraceScope>, 6> kScopeChannels = {
-    channel<TraceScope>("eye_x_m", kPlaces, [](auto& s) -> auto& { return s.eye.x; }),
-    channel<TraceScope>("eye_y_m", kPlaces, [](auto& s) -> auto& { return s.eye.y; }),
-    channel<TraceScope>("eye_z_m", kPlaces, [](auto& s) -> auto& { return s.eye.z; }),
-    channel<TraceScope>("forward_x", kPlaces, [](auto& s) -> auto& { return s.forward.x; }),
-    channel<TraceScope>("forward_y", kPlaces, [](auto& s) -> auto& { return s.forward.y; }),
-    channel<TraceScope>("forward_z", kPlaces, [](auto& s) -> auto& { return s.forward.z; }),
+    channel<TraceScope>("eye_x_m", kPlaceSteps, [](auto& s) -> auto& { return s.eye.x; }),
+    channel<TraceScope>("eye_y_m", kPlaceSteps, [](auto& s) -> auto& { return s.eye.y; }),
+    channel<TraceScope>("eye_z_m", kPlaceSteps, [](auto& s) -> auto& { return s.eye.z; }),
+    channel<TraceScope>("forward_x", kPlaceSteps, [](auto& s) -> auto& { return s.forward.x; }),
+    channel<TraceScope>("forward_y", kPlaceSteps, [](auto& s) -> auto& { return s.forward.y; }),
+    channel<TraceScope>("forward_z", kPlaceSteps, [](auto& s) -> auto& { return s.forward.z; }),
 };
 // clang-format on
 

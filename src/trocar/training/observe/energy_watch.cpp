@@ -10,10 +10,6 @@ constexpr double kApart = 0.0005;     // [m] places nearer to each other are one
 constexpr double kHotTouch = 0.1;     // [s] a hot tip that only brushes past does no harm. Our choice
 constexpr std::size_t kPlaces = 256;  // of a body; more are not told from each other by anyone
 
-bool has(const std::vector<BodyId>& bodies, BodyId body) {
-  return std::find(bodies.begin(), bodies.end(), body) != bodies.end();
-}
-
 }  // namespace
 
 EnergyWatch::EnergyWatch(std::vector<BodyId> targets, std::vector<BodyId> never)

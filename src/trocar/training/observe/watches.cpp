@@ -6,13 +6,6 @@
 #include <trocar/training/observe/watches.hpp>
 
 namespace trocar::training {
-namespace {
-
-bool has(const std::vector<BodyId>& list, BodyId body) {
-  return std::find(list.begin(), list.end(), body) != list.end();
-}
-
-}  // namespace
 
 void PullWatch::update(const Handling& limits, const Tissues& tissues, const sim::Model& model, const sim::State& state,
                        Mishaps& out) {

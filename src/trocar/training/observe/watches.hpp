@@ -3,6 +3,7 @@
 // events/handling.cpp makes events of them.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -33,6 +34,10 @@ struct Mishaps {
     if (count < int(list.size())) list[size_t(count++)] = m;
   }
 };
+
+inline bool has(const std::vector<BodyId>& list, BodyId body) {
+  return std::find(list.begin(), list.end(), body) != list.end();
+}
 
 /// Bodies of the scene that bear little.
 struct Tissues {

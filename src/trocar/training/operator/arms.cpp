@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kNear = 0.0006;  // [m] close enough
 constexpr double kSquare = 0.02;  // [rad] turned enough
-constexpr double kTurn = 1.5;     // [rad/s] of a wrist at work
+constexpr double kWristTurn = 1.5;     // [rad/s] of a wrist at work
 
 /// The jaws look the same after half a turn: the nearest of the equivalent rolls.
 double nearest_roll(double wanted, double now) {
@@ -60,7 +60,7 @@ bool Arms::turn_across(int hand, Vec3d direction) {
   Arm& arm = m_arm[size_t(hand)];
   const kinematics::FulcrumPose pose = kinematics::inverse(arm.port, arm.tip, arm.roll);
   const double wanted = nearest_roll(kinematics::roll_towards(pose, direction), arm.roll);
-  arm.roll += std::clamp(wanted - arm.roll, -kTurn * sim::kTick, kTurn * sim::kTick);
+  arm.roll += std::clamp(wanted - arm.roll, -kWristTurn * sim::kTick, kWristTurn * sim::kTick);
   return std::fabs(wanted - arm.roll) < kSquare;
 }
 

@@ -7,7 +7,7 @@ namespace trocar::training {
 namespace {
 
 constexpr double kMargin = 0.72;                   // of the field's half angle
-constexpr double kTurn = 0.7, kWrist = 1.2;        // [rad/s]: of the shaft; of light post and camera head
+constexpr double kShaftTurn = 0.7, kWrist = 1.2;        // [rad/s]: of the shaft; of light post and camera head
 constexpr double kAdvance = 0.045;                 // [m/s]
 constexpr double kShallow = 0.012, kDeep = 0.130;  // [m] lens from the trocar
 
@@ -22,7 +22,7 @@ double within_half_turn(double angle) {
 /// One tick's turn. @return how far it was from there [rad]
 double turn(Vec3d& axis, Vec3d wanted) {
   const Vec3d way = wanted - axis;
-  const double angle = length(way), most = std::min(kTurn, 0.01 + 5 * angle) * sim::kTick;
+  const double angle = length(way), most = std::min(kShaftTurn, 0.01 + 5 * angle) * sim::kTick;
   axis = angle <= most ? wanted : normalised(axis + (most / angle) * way);
   return angle;
 }

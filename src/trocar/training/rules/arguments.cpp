@@ -10,9 +10,9 @@ namespace {
 
 using scene::JsonValue;
 
-class Reader {
+class ArgumentReader {
  public:
-  Reader(const JsonValue& object, std::span<const Parameter> parameters, const Reading& reading)
+  ArgumentReader(const JsonValue& object, std::span<const Parameter> parameters, const Reading& reading)
       : m_object(object), m_parameters(parameters), r(reading) {}
 
   Argument read(const Parameter& p, const JsonValue& value) const {
@@ -101,7 +101,7 @@ class Reader {
 
 Arguments read_arguments(const JsonValue& object, std::span<const Parameter> parameters, std::string_view what,
                          const Reading& reading) {
-  const Reader reader(object, parameters, reading);
+  const ArgumentReader reader(object, parameters, reading);
   Arguments out;
   for (const Parameter& p : parameters) {
     const scene::JsonMember* m = object.find(p.name);

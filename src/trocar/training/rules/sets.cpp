@@ -14,11 +14,11 @@ using scene::JsonValue;
 using Kind = JsonValue::Kind;
 
 /// Patterns are asked for by one of these keys.
-struct Source {
+struct ElementSource {
   const char* key;
   ArgumentKind kind;
 };
-constexpr Source kSources[] = {
+constexpr ElementSource kElementSources[] = {
     {"marks", ArgumentKind::mark}, {"bodies", ArgumentKind::body}, {"hands", ArgumentKind::hand}};
 
 class SetReader {
@@ -40,7 +40,7 @@ class SetReader {
     const scene::JsonMember* list = value.find("elements");
     if (list) elements(list->value);
     bool made = list != nullptr;
-    for (const Source& source : kSources)
+    for (const ElementSource& source : kElementSources)
       if (const scene::JsonMember* pattern = value.find(source.key)) {
         if (made) fault(pattern->value, "expected one of elements, marks, bodies, hands, got several");
         made = true;

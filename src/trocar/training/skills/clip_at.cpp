@@ -8,8 +8,6 @@
 namespace trocar::training {
 namespace {
 
-constexpr double kHalf = 0.42;  // handle of a half closed applier
-
 /// A clip on a strand: the legs go around it, are looked at half closed, and close slowly. Whoever does not see what he
 /// has to see, or has not all of it between the legs, draws back and tries elsewhere.
 class ClipAt final : public Skill {
@@ -111,7 +109,7 @@ class ClipAt final : public Skill {
     aim(op, 0, pace::kTrack);
     // Half closed, the legs' tips show beyond the strand; a little further, if not.
     const bool hidden = m_in_phase > 2 && !op.sees_jaws(m_hand);
-    const double wanted = kHalf + (hidden ? std::min(0.24, 0.06 * (m_in_phase - 2)) : 0);
+    const double wanted = kHalfClosed + (hidden ? std::min(0.24, 0.06 * (m_in_phase - 2)) : 0);
     if (!op.arms().grip(m_hand, std::max(wanted, op.arm(m_hand).handle), 1.6)) return Progress::working;
     m_steady = fits(op) ? m_steady + sim::kTick : 0;
     if (m_steady >= 0.15) go(kClose);
@@ -228,7 +226,7 @@ class ClipAt final : public Skill {
   const char* m_lost = nullptr;
 };
 
-std::string lacks(const sim::Model& model, const Given& given) {
+std::string clip_at_lacks(const sim::Model& model, const Given& given) {
   if (std::string lack = lacks_tool(model, given.hand(), &interactions::Abilities::set_clips); !lack.empty())
     return lack;
   return Place::lacks(model, given);
@@ -258,7 +256,7 @@ const SkillKind kClipAt{
     60,
     "Approaches a strand with the clip applier, takes it between the legs, looks at both tips half closed, closes "
     "slowly, opens, and draws back.",
-    lacks,
+    clip_at_lacks,
     &making<ClipAt>};
 
 }  // namespace trocar::training

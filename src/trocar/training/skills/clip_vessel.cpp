@@ -8,8 +8,6 @@
 namespace trocar::training {
 namespace {
 
-constexpr double kHalf = 0.42;  // handle of a half closed applier
-
 /// A clip on the artery that bleeds, beside the place: around the strand that carries it, or around itself. Whoever
 /// does not get there, or sees no tip, draws back; what slid along a leg's end is met a little farther on that side
 /// next time.
@@ -84,7 +82,7 @@ class ClipVessel final : public Skill {
     m_seen_from = 0.052 + 0.008 * double(int(m_in_phase / 1.5) % 4);
     op.from(m_seen_from);
     aim(op, 0, pace::kTrack);
-    if (!op.arms().grip(m_hand, kHalf, 1.6)) return Progress::working;
+    if (!op.arms().grip(m_hand, kHalfClosed, 1.6)) return Progress::working;
     if (m_careless && m_in_phase > 4) return go(kClose), Progress::working;
     m_unseen += op.sees_tip(m_hand) ? 0 : sim::kTick;
     m_steady = op.sees_tip(m_hand) && !m_careless ? m_steady + sim::kTick : 0;
@@ -195,7 +193,7 @@ class ClipVessel final : public Skill {
   const char* m_lost = "";
 };
 
-std::string lacks(const sim::Model& model, const Given& given) {
+std::string clip_vessel_lacks(const sim::Model& model, const Given& given) {
   if (model.vessels.bleeder.vessel < 0) return "no vessel opens by itself";
   return lacks_tool(model, given.hand(), &interactions::Abilities::set_clips);
 }
@@ -218,7 +216,7 @@ const SkillKind kClipVessel{
     60,
     "Takes what carries the artery that bleeds between the clip applier's legs, looks, closes slowly, opens, draws "
     "back.",
-    lacks,
+    clip_vessel_lacks,
     &making<ClipVessel>};
 
 }  // namespace trocar::training

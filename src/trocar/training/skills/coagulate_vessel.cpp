@@ -133,7 +133,7 @@ class CoagulateVessel final : public Skill {
   const char* m_lost = "";
 };
 
-std::string lacks(const sim::Model& model, const Given& given) {
+std::string coagulate_vessel_lacks(const sim::Model& model, const Given& given) {
   if (!model.energy.there) return "there is no current";
   if (model.vessels.bleeder.vessel < 0) return "no vessel opens by itself";
   return lacks_tool(model, given.hand(), &interactions::Abilities::bipolar);
@@ -150,7 +150,7 @@ const SkillKind kCoagulateVessel{
     60,
     "Takes what carries the artery that bleeds between bipolar jaws, presses the blue pedal until it is sealed, opens, "
     "draws back.",
-    lacks,
+    coagulate_vessel_lacks,
     &making<CoagulateVessel>};
 
 }  // namespace trocar::training

@@ -123,7 +123,7 @@ class CutAt final : public Skill {
   const char* m_lost = nullptr;
 };
 
-std::string lacks(const sim::Model& model, const Given& given) {
+std::string cut_at_lacks(const sim::Model& model, const Given& given) {
   if (std::string lack = lacks_tool(model, given.hand(), &interactions::Abilities::cut); !lack.empty()) return lack;
   return Place::lacks(model, given);
 }
@@ -143,7 +143,7 @@ const SkillKind kCutAt{
      number_parameter("closing_s", "of the handle from open to closed; 0.6", 0.05, 60)},
     40,
     "Approaches a strand with scissors, takes it between the blades, closes in view, opens, and draws back.",
-    lacks,
+    cut_at_lacks,
     &making<CutAt>};
 
 }  // namespace trocar::training

@@ -2,6 +2,7 @@
 
 #include <trocar/training/observe/following.hpp>
 #include <trocar/training/observe/hands.hpp>
+#include <trocar/training/observe/sampling.hpp>
 #include <trocar/training/skills/parameters.hpp>
 #include <trocar/training/skills/registry.hpp>
 
@@ -21,12 +22,11 @@ class Follow final : public Skill {
 
  private:
   Progress work(Operator& op) override {
-    constexpr int kSampleEvery = 20;  // ticks between looks along the tube
     constexpr double kByHand = 9;     // [s] after which the instrument helps the eye
     std::array<Vec3d, sim::kMaxTools> tips{};
     for (int h = 0; h < op.arms().count(); ++h) tips[size_t(h)] = tip_of(op.model(), op.state(), size_t(h));
     if (op.state().tick % kSampleEvery == 0)
-      m_following.update(op.model(), op.state(), {tips.data(), size_t(op.arms().count())}, kSampleEvery * sim::kTick);
+      m_following.update(op.model(), op.state(), {tips.data(), size_t(op.arms().count())}, kSample);
     if (m_following.done()) return Progress::done;
     const Vec3d front = m_following.begun() ? op.point(m_strand, m_following.reached()) : op.middle_of(m_fimbria);
     op.want(front);
@@ -44,7 +44,7 @@ class Follow final : public Skill {
   Following m_following;
 };
 
-std::string lacks(const sim::Model& model, const Given& given) {
+std::string follow_lacks(const sim::Model& model, const Given& given) {
   return lacks_landmark(model, given("of").index, "fimbria");
 }
 
@@ -61,7 +61,7 @@ const SkillKind kFollow{"follow",
                          {"touch_mm", ArgumentKind::number, "a tip this near follows as well as the eye; 10", false}},
                         30,
                         "Follows a tube from its fimbriae back to its beginning, with the eye or an instrument's tip.",
-                        lacks,
+                        follow_lacks,
                         &making<Follow>};
 
 }  // namespace trocar::training

@@ -64,7 +64,7 @@ class Lower final : public Skill {
   int m_hand;
 };
 
-std::string lacks(const sim::Model& model, const Given& given) { return Place::lacks(model, given); }
+std::string lift_lacks(const sim::Model& model, const Given& given) { return Place::lacks(model, given); }
 
 }  // namespace
 
@@ -85,7 +85,7 @@ const SkillKind kLift{
     15,
     "Raises and draws what is held until a place of it lies across another instrument's shaft. Other skills that work "
     "on this strand keep it so, until let_go.",
-    lacks,
+    lift_lacks,
     &making<Lift>};
 const SkillKind kLower{"lower",
                        "lay the tissue down",

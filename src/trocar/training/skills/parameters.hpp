@@ -23,6 +23,9 @@ inline Parameter word_parameter(std::string_view name, std::string_view meaning,
 std::vector<Parameter> place_parameters();
 std::vector<Parameter> operator+(std::vector<Parameter> a, std::vector<Parameter> b);
 
+/// Handle of a half closed clip applier: its legs stand around what they will close, and can still be drawn off.
+inline constexpr double kHalfClosed = 0.42;
+
 /// Where no instrument in the hand's rack can do that.
 std::string lacks_tool(const sim::Model& model, int hand, bool interactions::Abilities::*can);
 std::string lacks_landmark(const sim::Model& model, int strand, const std::string& landmark);

@@ -2,16 +2,14 @@
 #include <array>
 #include <cmath>
 
-#include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include <trocar/core/json.hpp>
 #include <trocar/training/store/attempt.hpp>
 #include <trocar/training/store/json_fields.hpp>
 
 namespace trocar::training {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kModes[] = {"assessed", "familiarisation", "demonstration"};
 constexpr const char* kStates[] = {"running", "finished", "aborted", "interrupted"};

@@ -1,8 +1,8 @@
 // What a result and a recording know of the attempt that they come from.
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <trocar/core/hash.hpp>
+#include <trocar/core/json.hpp>
 #include <trocar/sim/model/model.hpp>
 #include <trocar/sim/recording/recording.hpp>
 #include <trocar/training/store/json_fields.hpp>
@@ -11,10 +11,6 @@
 namespace trocar::training {
 
 namespace fs = std::filesystem;
-
-namespace {
-using Json = nlohmann::json;
-}  // namespace
 
 void fill_from_result(const std::string& result, Attempt& a) {
   const Json in = Json::parse(result, nullptr, false);

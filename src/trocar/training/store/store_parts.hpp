@@ -21,7 +21,7 @@ inline constexpr const char* kWaitingTrace = ".attempt.trace";
 inline std::string bounded(const std::string& text) { return text.substr(0, kLongestText); }
 
 /// What row_of() reads, of attempt a and trainee t.
-inline constexpr const char* kColumns =
+inline constexpr const char* kAttemptColumns =
     "a.number, a.uuid, t.name, a.exercise, a.title, a.mode, a.seed, a.input, a.started, a.ended, a.state, a.score, "
     "a.passed, a.seconds, a.ticks, a.recording, a.result, a.program_version, a.model_hash, "
     "EXISTS (SELECT 1 FROM trace WHERE trace.attempt = a.number)";

@@ -19,7 +19,7 @@ std::vector<Attempt> Store::list(const AttemptFilter& filter) const {
     Query q(db, fmt::format("SELECT {}{}WHERE (?1 = '' OR t.name = ?1) AND (?2 = '' OR a.exercise = ?2) "
                             "AND (?3 IS NULL OR a.seed = ?3) AND (?4 IS NULL OR a.mode = ?4) "
                             "ORDER BY a.number DESC LIMIT ?5",
-                            kColumns, kFrom));
+                            kAttemptColumns, kFrom));
     q.bind(filter.trainee).bind(filter.exercise);
     q.bind(filter.seed ? std::optional<std::int64_t>(std::int64_t(*filter.seed)) : std::nullopt);
     q.bind(filter.mode ? std::optional<std::string>(name_of(*filter.mode)) : std::nullopt);
@@ -37,7 +37,7 @@ namespace {
 /// The only attempt that `condition` on ?1 holds for.
 template <class Value>
 std::optional<Attempt> only_one(Database& db, const char* condition, const Value& value) {
-  Query q(db, fmt::format("SELECT {}{}WHERE {} LIMIT 2", kColumns, kFrom, condition));
+  Query q(db, fmt::format("SELECT {}{}WHERE {} LIMIT 2", kAttemptColumns, kFrom, condition));
   if (!q.bind(value).next()) return std::nullopt;
   Attempt a = row_of(q);
   if (q.next()) return std::nullopt;

@@ -77,7 +77,7 @@ void Store::take_in_files(Database& db) {
 void Store::settle_running(Database& db) {
   std::vector<Attempt> rows;
   {
-    Query q(db, fmt::format("SELECT {}{}WHERE a.state = 'running' ORDER BY a.number", kColumns, kFrom));
+    Query q(db, fmt::format("SELECT {}{}WHERE a.state = 'running' ORDER BY a.number", kAttemptColumns, kFrom));
     while (q.next()) rows.push_back(row_of(q));
   }
   for (Attempt& a : rows) {
