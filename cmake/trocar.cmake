@@ -64,6 +64,12 @@ function(trocar_quick_build target)
   trocar_quick_options(${target})
 endfunction()
 
+# Reading headers is most of a build from nothing, so that a preset may have source files compiled in groups. Then the names
+# that a folder's files have for themselves must differ; files with options of their own are set apart.
+function(trocar_group target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${TROCAR_GROUPED} UNITY_BUILD_BATCH_SIZE 12)
+endfunction()
+
 # trocar_embed(TARGET HEADER NAMESPACE TYPE FUNCTION file...): the files' texts become a part of the library, in a source
 # file made by the build that defines `std::span<const TYPE> FUNCTION()` of HEADER (a TYPE is {name, text}).
 function(trocar_embed target header namespace type function)
@@ -89,6 +95,7 @@ function(trocar_module name)
     add_library(${target} STATIC ${sources})
     target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/src)
     target_link_libraries(${target} PUBLIC ${arg_DEPENDS} ${arg_LIBS})
+    trocar_group(${target})
     set_property(GLOBAL APPEND PROPERTY TROCAR_MODULES ${name})
   else()
     add_library(${target} INTERFACE)
@@ -125,6 +132,7 @@ function(trocar_test_executable target sources depends libs)
   target_link_libraries(${target} PRIVATE ${depends} ${libs} trocar_test_main)
   target_precompile_headers(${target} REUSE_FROM trocar_test_main)
   trocar_quick_options(${target})
+  trocar_group(${target})
   file(RELATIVE_PATH built ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR})  # tests/main.cpp goes to the source folder
   target_compile_definitions(${target} PRIVATE TROCAR_SOURCE_DIR="." TROCAR_BINARY_DIR="${built}")
 endfunction()

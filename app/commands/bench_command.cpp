@@ -137,7 +137,7 @@ Json bench_kernel() {
           {"ns_per_spring_and_substep", 1000 * s.median / visits}};
 }
 
-void print_for_people(const Json& r) {
+void print_bench(const Json& r) {
   if (r["name"] == "kernel") {
     fmt::print("kernel ({}): {} springs x {} sub-steps, {:.2f} ns per spring and sub-step\n",
                r["simd"].get<std::string>(), r["springs"].get<int>(), r["substeps"].get<int>(),
@@ -159,7 +159,7 @@ void print_for_people(const Json& r) {
   }
 }
 
-struct Options {
+struct BenchChoice {
   std::vector<std::string> names;
   std::string file, size = "800x600";
   double seconds = 30;
@@ -174,13 +174,13 @@ std::string exercise_of(const std::string& name) {
   return name;
 }
 
-Json bench_one(const std::string& name, const Options& o) {
+Json bench_one(const std::string& name, const BenchChoice& o) {
   if (o.picture) return bench_picture(exercise_of(name), o.seconds, o.pictures);
   if (name == "kernel") return bench_kernel();
   return bench_scene(exercise_of(name), o.seconds);
 }
 
-int bench(Options o) {
+int bench(BenchChoice o) {
   o.pictures.size = pictures::parse_size(o.size);
   if (o.names.empty())
     o.names = o.picture ? std::vector<std::string>{"gynaecology"} : std::vector<std::string>{"gynaecology", "kernel"};
@@ -191,7 +191,7 @@ int bench(Options o) {
     if (o.picture)
       print_picture_bench(results.back());
     else
-      print_for_people(results.back());
+      print_bench(results.back());
   }
   const Json all{{"benchmarks", results}};
   if (!o.file.empty()) {
@@ -206,7 +206,7 @@ int bench(Options o) {
 }  // namespace
 
 void add_bench(CLI::App& program, Chosen& chosen) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<BenchChoice>();
   CLI::App* c = program.add_subcommand("bench", "Measure what a tick costs, stage by stage, or a picture");
   c->footer(
       "Example:\n  trocar bench gynaecology --json bench.json\n"

@@ -39,14 +39,14 @@ double processor_ms() {
   return 1e3 * double(t.tv_sec) + 1e-6 * double(t.tv_nsec);
 }
 
-struct Cost {
+struct PassCost {
   double wall_ms = 0, processor_ms = 0;
 };
 
 /// What everything since it was made has cost.
 class Stopwatch {
  public:
-  Cost read() const {
+  PassCost read() const {
     return {std::chrono::duration<double, std::milli>(Clock::now() - m_wall).count(), processor_ms() - m_processor};
   }
 
@@ -89,7 +89,7 @@ class Easel {
   render::BackendStats stats() const { return m_backend->stats(); }
 
   /// Meshes as of the state, on their way to the driver; and what that has cost.
-  render::Frame meshes(const sim::State& state, render::Quality quality, Cost* cost = nullptr) {
+  render::Frame meshes(const sim::State& state, render::Quality quality, PassCost* cost = nullptr) {
     const Stopwatch watch;
     view::ViewOptions options;
     options.quality = quality;
@@ -120,7 +120,7 @@ class Easel {
     return parts;
   }
   /// A whole picture, as a window would draw it.
-  Cost whole(const sim::State& state, render::Quality quality) {
+  PassCost whole(const sim::State& state, render::Quality quality) {
     const Stopwatch watch;
     draw(meshes(state, quality), nullptr);
     glFinish();
@@ -189,7 +189,7 @@ Json bench_passes(Easel& easel, const std::vector<sim::State>& states) {
     std::map<std::string, Figures> figures;
     for (std::size_t i = 0; i < states.size(); ++i) {
       std::vector<render::PassCost> costs;
-      Cost meshes;
+      PassCost meshes;
       const render::Frame frame = easel.meshes(states[i], quality, &meshes);
       easel.draw(frame, &costs);
       if (i < std::size_t(kWarmUp)) continue;
@@ -220,7 +220,7 @@ Json bench_fineness(Easel& easel, const std::vector<sim::State>& states) {
     std::uint64_t triangles = 0;
     for (std::size_t i = 0; i < states.size(); ++i) {
       const Stopwatch watch;
-      Cost cost;
+      PassCost cost;
       const render::Frame frame = easel.meshes(states[i], {1, 2, coarser}, &cost);
       std::vector<render::PassCost> costs;
       const std::uint64_t before = easel.stats().triangles;
@@ -247,7 +247,7 @@ Json bench_qualities(Easel& easel, const std::vector<sim::State>& states) {
   for (const render::Quality& quality : render::quality_levels()) {
     std::vector<double> wall, processor;
     for (std::size_t i = 0; i < states.size(); ++i) {
-      const Cost cost = easel.whole(states[i], quality);
+      const PassCost cost = easel.whole(states[i], quality);
       if (i < std::size_t(kWarmUp)) continue;
       wall.push_back(cost.wall_ms);
       processor.push_back(cost.processor_ms);

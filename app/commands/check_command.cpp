@@ -111,7 +111,7 @@ Json check_one(const fs::path& path, double unit) {
   return out;
 }
 
-void print_for_people(const Json& r) {
+void print_checks(const Json& r) {
   fmt::print("{}: {}, {}\n", r["file"].get<std::string>(), r["kind"].get<std::string>(),
              r.value("verdict", std::string("good")));
   if (r["kind"] == "exercise") return print_exercise(r);
@@ -131,7 +131,7 @@ int check(const std::vector<std::string>& files, double unit, bool json) {
     try {
       results.push_back(check_one(file, unit));
       still = still && results.back().value("verdict", std::string()) != kSinks;
-      if (!json) print_for_people(results.back());
+      if (!json) print_checks(results.back());
     } catch (const core::BadInput& bad) {  // go on: all faults of all files in one pass
       faults.insert(faults.end(), bad.faults().begin(), bad.faults().end());
     }

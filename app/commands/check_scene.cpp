@@ -28,7 +28,7 @@ constexpr double kBodySeconds = 0.1;  // to time a body
 constexpr double kStandUntil = 6.5;   // from the beginning on: no more is simulated
 constexpr std::uint64_t kStandTicks = 1000;
 
-class Stopwatch {
+class Elapsed {
  public:
   double seconds() const { return std::chrono::duration<double>(Clock::now() - m_start).count(); }
 
@@ -63,9 +63,9 @@ Json describe(const scene::BodyReport& b) {
 /// Mean cost of a tick of the scene at rest, on this machine and one thread.
 double resting_tick(const sim::Model& model, sim::State& state, sim::Work& work) {
   constexpr int kWarm = 50, kTimed = 200;
-  const Stopwatch whole;
+  const Elapsed whole;
   for (int i = 0; i < kWarm && whole.seconds() < kTickSeconds / 4; ++i) sim::step(model, model.start, state, work);
-  const Stopwatch timed;
+  const Elapsed timed;
   int ticks = 0;
   do sim::step(model, model.start, state, work);
   while (++ticks < kTimed && whole.seconds() < kTickSeconds);
@@ -73,21 +73,21 @@ double resting_tick(const sim::Model& model, sim::State& state, sim::Work& work)
 }
 
 /// What one body takes by itself: memory of its Model, State and Work, and a tick at rest on this machine.
-struct Cost {
+struct BodyCost {
   std::size_t bytes = 0;
   double seconds = 0;
 };
 template <class BodyModel, class Advance>
-Cost cost_of(const BodyModel& model, Advance&& advance) {
+BodyCost cost_of(const BodyModel& model, Advance&& advance) {
   constexpr int kWarm = 20, kTimed = 60;
-  const Stopwatch whole;
+  const Elapsed whole;
   const std::size_t before = bytes_in_use();
   const BodyModel copy = model;
   auto state = rest_state(copy);
   auto work = make_work(copy);
-  Cost cost{bytes_in_use() - before, 0};
+  BodyCost cost{bytes_in_use() - before, 0};
   for (int i = 0; i < kWarm && whole.seconds() < kBodySeconds / 4; ++i) advance(copy, state, work);
-  const Stopwatch timed;
+  const Elapsed timed;
   int ticks = 0;
   do advance(copy, state, work);
   while (++ticks < kTimed && whole.seconds() < kBodySeconds);
@@ -96,10 +96,10 @@ Cost cost_of(const BodyModel& model, Advance&& advance) {
 }
 
 /// Of a body of the scene; contacts and loads come on top. Zero for walls, which neither move nor are copied.
-Cost cost_of(const sim::Model& model, const std::string& body) {
+BodyCost cost_of(const sim::Model& model, const std::string& body) {
   const auto unloaded = [](const auto& m, auto& s, auto& w) { advance(m, {}, {}, s, w); };
   return sim::visit(
-      model, sim::body_of(model, body), Cost{},
+      model, sim::body_of(model, body), BodyCost{},
       sim::Overloaded{[&](sim::SolidRef r) { return cost_of(model_of(model, r).network, unloaded); },
                       [&](sim::CuttableRef r) { return cost_of(model_of(model, r).body, unloaded); },
                       [&](sim::StrandRef r) {
@@ -126,7 +126,7 @@ Json describe(const sim::MotionModel& motion, const sim::Model& model) {
 
 Json describe(const scene::BodyReport& b, const sim::Model& model, const attempt::Standing& standing) {
   Json out = describe(b);
-  if (const Cost cost = cost_of(model, b.name); cost.bytes > 0) {
+  if (const BodyCost cost = cost_of(model, b.name); cost.bytes > 0) {
     out["memory_kb"] = cost.bytes / 1024;
     out["tick_us"] = cost.seconds * 1e6;
   }
@@ -153,7 +153,7 @@ void print_motion(const Json& motion) {
 
 Json describe_scene(const fs::path& path, const std::vector<std::string>& only,
                     const std::function<void(const sim::Model&)>& fits) {
-  const Stopwatch watch;
+  const Elapsed watch;
   StageTold told(path.string());
   told.at("compiling");
   scene::CompileReport report;

@@ -14,7 +14,7 @@
 namespace trocar::app {
 namespace {
 
-struct Options {
+struct ReplayChoice {
   std::string size, data, camera = "endoscope", stereo = "off", show, analysis, exercise, log;
   ReplayOptions replay;
   bool headless = false;
@@ -46,7 +46,7 @@ int say(const ReplayOptions& o, const Json& result, bool json) {
   return failed ? core::kGoalNotReached : core::kDone;
 }
 
-int replay(Options o, bool json) {
+int replay(ReplayChoice o, bool json) {
   if (!o.size.empty()) o.replay.size = pictures::parse_size(o.size);
   o.replay.camera = pictures::parse_camera(o.camera);
   pictures::check_data_rate(o.replay.data.rate);
@@ -73,7 +73,7 @@ int replay(Options o, bool json) {
 }  // namespace
 
 void add_replay(CLI::App& program, Chosen& chosen) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<ReplayChoice>();
   CLI::App* c =
       add_command(program, chosen, "replay", "Do a recording again: look at it, film it, verify it",
                   "trocar replay a.rec\n"

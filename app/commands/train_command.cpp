@@ -20,7 +20,7 @@
 namespace trocar::app {
 namespace {
 
-struct Options {
+struct TrainChoice {
   std::string exercise, input = "mouse", record, shots, video, report, data, size, stereo = "off", show, analysis,
                         trainee, log;
   double seconds = 0, data_rate = pictures::kDataRate;
@@ -57,7 +57,7 @@ void tell(const Json& result) {
     if (result.contains(key)) fmt::print("{}: {}\n", key, result[key].get<std::string>());
 }
 
-attempt::AttemptPlan plan_of(const Options& o) {
+attempt::AttemptPlan plan_of(const TrainChoice& o) {
   attempt::AttemptPlan plan;
   plan.trainee = o.trainee;
   plan.mode = o.familiarisation ? training::AttemptMode::familiarisation : attempt::mode_of_input(o.input);
@@ -67,7 +67,7 @@ attempt::AttemptPlan plan_of(const Options& o) {
   return plan;
 }
 
-Json train_headless(const Options& o, const attempt::Lesson& lesson, training::Store* store,
+Json train_headless(const TrainChoice& o, const attempt::Lesson& lesson, training::Store* store,
                     pictures::PictureSize size) {
   const std::unique_ptr<attempt::InputSource> source = attempt::make_source(lesson, o.input);
   attempt::Session session(lesson);
@@ -99,7 +99,7 @@ Json train_headless(const Options& o, const attempt::Lesson& lesson, training::S
   return result;
 }
 
-WindowOptions window_options(const Options& o, training::Store* store) {
+WindowOptions window_options(const TrainChoice& o, training::Store* store) {
   WindowOptions w;
   w.exercise = o.exercise;
   w.record = o.record;
@@ -114,7 +114,7 @@ WindowOptions window_options(const Options& o, training::Store* store) {
   return w;
 }
 
-int train(const Options& o, bool json) {
+int train(const TrainChoice& o, bool json) {
   const bool hands = o.input == "mouse" || o.input == "gamepad";
   if (o.headless && hands)
     throw core::BadInput({{{"--headless", 0, 0},
@@ -146,7 +146,7 @@ int train(const Options& o, bool json) {
 }  // namespace
 
 void add_train(CLI::App& program, Chosen& chosen) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<TrainChoice>();
   CLI::App* c = add_command(program, chosen, "train", "Do an exercise, in a window or headless",
                             "trocar train gynaecology/sterilisation\n"
                             "  trocar train gynaecology/sterilisation --input demo --headless --record a.rec --shots "

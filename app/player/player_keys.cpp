@@ -17,7 +17,7 @@ constexpr double kTurnRate = 1.4, kPanRate = 0.6, kZoomRate = 1.2;  // a second,
 constexpr double kScrubRate = 0.5;                                  // visible stretches a second, stick at its end
 constexpr double kDead = 0.15;                                      // share of a stick's way that is rest
 constexpr double kRepeatAfter = 0.4, kRepeatEvery = 0.08;           // [s]
-constexpr int kSecond = int(core::kTicksPerSecond);                 // [ticks]
+constexpr int kSecondOfTicks = int(core::kTicksPerSecond);                 // [ticks]
 
 constexpr double kTap = 0.05;  // [s] a key that was only tapped counts as held so long
 
@@ -69,7 +69,7 @@ constexpr int kCameraKeys[] = {GLFW_KEY_A, GLFW_KEY_D, GLFW_KEY_W, GLFW_KEY_S, G
                                GLFW_KEY_L, GLFW_KEY_I, GLFW_KEY_K, GLFW_KEY_E, GLFW_KEY_Q};
 
 void obey_key(TypedKey typed, PlayerCommands& c) {
-  const int step = typed.mods & GLFW_MOD_SHIFT ? kSecond : int(attempt::kFrameTicks);
+  const int step = typed.mods & GLFW_MOD_SHIFT ? kSecondOfTicks : int(attempt::kFrameTicks);
   switch (typed.key) {
     case GLFW_KEY_RIGHT:
       c.ticks += step;

@@ -26,9 +26,9 @@ void hush_libraries() {
 }
 
 /// An open device with every tone in a buffer.
-class Player {
+class Loudspeaker {
  public:
-  Player() {
+  Loudspeaker() {
     hush_libraries();
     m_device = alcOpenDevice(nullptr);
     if (!m_device) return;
@@ -42,7 +42,7 @@ class Player {
     }
     m_good = alGetError() == AL_NO_ERROR;
   }
-  ~Player() {
+  ~Loudspeaker() {
     if (m_good) {
       alDeleteSources(ALsizei(m_sources.size()), m_sources.data());
       alDeleteBuffers(ALsizei(m_buffers.size()), m_buffers.data());
@@ -51,8 +51,8 @@ class Player {
     if (m_context) alcDestroyContext(m_context);
     if (m_device) alcCloseDevice(m_device);
   }
-  Player(const Player&) = delete;
-  Player& operator=(const Player&) = delete;
+  Loudspeaker(const Loudspeaker&) = delete;
+  Loudspeaker& operator=(const Loudspeaker&) = delete;
 
   bool good() const { return m_good; }
   void play(Tone tone, float volume) {
@@ -97,8 +97,8 @@ void Sound::play(Tone tone) {
 }
 
 void Sound::loop() {
-  Player player;
-  m_audible.store(player.good());
+  Loudspeaker loudspeaker;
+  m_audible.store(loudspeaker.good());
   std::unique_lock lock(m_lock);
   while (!m_stop) {
     m_wake.wait(lock, [this] { return m_stop || !m_wanted.empty(); });
@@ -107,7 +107,7 @@ void Sound::loop() {
       m_wanted.pop_front();
       const float volume = m_volume.load();
       lock.unlock();  // a device may take its time: the window does not wait for it
-      if (player.good() && volume > 0) player.play(tone, volume);
+      if (loudspeaker.good() && volume > 0) loudspeaker.play(tone, volume);
       lock.lock();
     }
   }

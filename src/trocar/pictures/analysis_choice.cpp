@@ -11,7 +11,7 @@
 namespace trocar::pictures {
 namespace {
 
-[[noreturn]] void refuse(const std::string& what) { throw core::BadInput({{{"--analysis", 0, 0}, what}}); }
+[[noreturn]] void refuse_analysis(const std::string& what) { throw core::BadInput({{{"--analysis", 0, 0}, what}}); }
 
 }  // namespace
 
@@ -24,14 +24,14 @@ view::AnalysisOptions parse_analysis(const std::string& text) {
     const auto known = std::find_if(std::begin(kAnalysisQuantities), std::end(kAnalysisQuantities),
                                     [&name](const AnalysisQuantity& q) { return name == q.name; });
     if (known == std::end(kAnalysisQuantities))
-      refuse(fmt::format("expected springs, strain, forces or pressure, with commas between, got '{}'", item));
+      refuse_analysis(fmt::format("expected springs, strain, forces or pressure, with commas between, got '{}'", item));
     options.*known->shown = true;
     if (colon == std::string::npos) continue;
     double range = 0;
     char rest = 0;
     const bool read = std::sscanf(item.c_str() + colon, ":%lf%c", &range, &rest) == 1;
     if (!read || !(range >= known->least && range <= known->most))
-      refuse(fmt::format("expected {}:RANGE from {:g} to {:g}, got '{}'", name, known->least, known->most, item));
+      refuse_analysis(fmt::format("expected {}:RANGE from {:g} to {:g}, got '{}'", name, known->least, known->most, item));
     options.*known->range = range * known->unit;
   }
   return options;

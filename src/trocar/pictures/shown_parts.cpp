@@ -19,7 +19,7 @@ constexpr const char* kStyles[] = {"shaded", "transparent", "wireframe", "hidden
 constexpr const char* kGroups[] = {"organs",      "tubes", "folds", "vessels", "walls",
                                    "instruments", "clips", "marks", "fluids",  "objects"};
 
-[[noreturn]] void refuse(const std::string& what) { throw core::BadInput({{{"--show", 0, 0}, what}}); }
+[[noreturn]] void refuse_parts(const std::string& what) { throw core::BadInput({{{"--show", 0, 0}, what}}); }
 
 }  // namespace
 
@@ -34,7 +34,7 @@ ShownParts parse_show(const std::string& text) {
     const std::string style = equal == std::string::npos ? "" : item.substr(equal + 1);
     const auto known = std::find(std::begin(kStyles), std::end(kStyles), style);
     if (known == std::end(kStyles) || equal == 0)
-      refuse(fmt::format("expected PART=STYLE with STYLE one of {}, got '{}'", fmt::join(kStyles, ", "), item));
+      refuse_parts(fmt::format("expected PART=STYLE with STYLE one of {}, got '{}'", fmt::join(kStyles, ", "), item));
     shown.push_back({item.substr(0, equal), PartStyle(known - std::begin(kStyles))});
   }
   return shown;
@@ -50,7 +50,7 @@ std::vector<PartStyle> styles_of(const ShownParts& shown, const std::vector<view
     if (found) continue;
     std::vector<std::string> names(std::begin(kGroups), std::end(kGroups));
     for (const view::ScenePart& p : parts) names.push_back(p.name);
-    refuse(fmt::format("expected a part of the scene ({}), got '{}'", fmt::join(names, ", "), name));
+    refuse_parts(fmt::format("expected a part of the scene ({}), got '{}'", fmt::join(names, ", "), name));
   }
   return styles;
 }

@@ -164,7 +164,7 @@ void Video::add(const render::Image& image) {
   const std::uint8_t* data = image.rgb.data();
   std::size_t left = image.rgb.size();
   while (!m_broken && left > 0) {
-    const ssize_t written = write(m_pipe, data, left);
+    const ssize_t written = ::write(m_pipe, data, left);
     if (written < 0 && errno == EINTR) continue;
     if (written <= 0) {
       m_broken = true;

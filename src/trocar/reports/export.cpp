@@ -40,11 +40,6 @@ void flatten(const Json& value, const std::string& name, std::vector<std::pair<s
   }
 }
 
-Json result_of(const Attempt& a) {
-  Json r = Json::parse(a.result, nullptr, false);
-  return r.is_object() ? r : Json::object();
-}
-
 std::string figure(const Json& result, const char* pointer) {
   const Json::json_pointer at(pointer);
   return result.contains(at) && result[at].is_number() ? result[at].dump() : std::string();
@@ -55,6 +50,11 @@ constexpr const char* kFirst[] = {"number",      "uuid",        "trainee",   "ex
                                   "simulated_s", "exercise_s",  "errors",    "penalties"};
 
 }  // namespace
+
+Json result_of(const Attempt& a) {
+  Json r = Json::parse(a.result, nullptr, false);
+  return r.is_object() ? r : Json::object();
+}
 
 std::string csv_field(const std::string& text) {
   std::string out;

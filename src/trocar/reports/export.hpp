@@ -9,6 +9,9 @@
 
 namespace trocar::reports {
 
+/// An attempt's result as it was kept; an object without members where that is none.
+Json result_of(const training::Attempt& attempt);
+
 /// RFC 4180, UTF-8, a line of column names with units. Without `names` trainees are "T1", "T2", ... in the order in
 /// which they first appear. Columns of metrics are those that any of the attempts has.
 std::string attempts_csv(const std::vector<training::Attempt>& attempts, bool names);

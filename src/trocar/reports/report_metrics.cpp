@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <trocar/reports/export.hpp>
 #include <trocar/reports/report_data.hpp>
 #include <trocar/reports/report_metrics.hpp>
 #include <trocar/reports/report_svg.hpp>
@@ -54,11 +55,6 @@ std::string number(std::optional<double> v, double scale) {
   return std::fabs(x) >= 100  ? fmt::format("{:.0f}", x)
          : std::fabs(x) >= 10 ? fmt::format("{:.1f}", x)
                               : fmt::format("{:.2f}", x);
-}
-
-Json result_of(const training::Attempt& a) {
-  Json r = Json::parse(a.result, nullptr, false);
-  return r.is_object() ? r : Json::object();
 }
 
 /// Median and range of the attempts before this one.

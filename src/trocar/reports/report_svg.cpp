@@ -23,15 +23,6 @@ struct Span {
   bool empty() const { return low > high; }
 };
 
-/// 1, 2 or 5 times a power of ten, such that about `wanted` of them fit.
-double tick_step(double length, int wanted) {
-  const double rough = length / std::max(1, wanted);
-  const double power = std::pow(10, std::floor(std::log10(rough)));
-  for (const double m : {1.0, 2.0, 5.0})
-    if (rough <= m * power * 1.0001) return m * power;
-  return 10 * power;
-}
-
 std::vector<double> ticks(double from, double to, int wanted, bool whole) {
   std::vector<double> out;
   if (!(to > from)) return {from};
@@ -129,6 +120,14 @@ std::string legend(const std::vector<Series>& series) {
         "{}</span> ",
         s.style, escaped(s.name));
   return out + "</p>\n";
+}
+
+double tick_step(double length, int wanted) {
+  const double rough = length / std::max(1, wanted);
+  const double power = std::pow(10, std::floor(std::log10(rough)));
+  for (const double m : {1.0, 2.0, 5.0})
+    if (rough <= m * power * 1.0001) return m * power;
+  return 10 * power;
 }
 
 std::string svg(const Plot& p) {

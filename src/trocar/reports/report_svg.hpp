@@ -7,6 +7,9 @@
 
 namespace trocar::reports {
 
+/// 1, 2 or 5 times a power of ten, such that about `wanted` of them fit.
+double tick_step(double length, int wanted);
+
 struct Series {
   std::string name;
   std::vector<double> x, y;  ///< NaN interrupts the line

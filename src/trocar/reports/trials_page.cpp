@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <trocar/reports/page_template.hpp>
+#include <trocar/reports/report_svg.hpp>
 #include <trocar/reports/trials_page.hpp>
 
 namespace trocar::reports {
@@ -42,17 +43,6 @@ std::string heading(const MetricStudy& m) {
 }
 
 // --- drawings ---
-
-/// The step of 1, 2 or 5 times a power of ten that divides `range` into at most `wanted` parts.
-double tick_step(double range, int wanted) {
-  const double least = range / wanted;
-  double power = 1;
-  while (power > least) power /= 10;
-  while (power * 10 <= least) power *= 10;
-  for (const double factor : {1.0, 2.0, 5.0})
-    if (factor * power >= least) return factor * power;
-  return 10 * power;
-}
 
 /// Maps a repetition and a value to the drawing.
 struct Axes {

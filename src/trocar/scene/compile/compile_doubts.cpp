@@ -53,7 +53,7 @@ void look_inside(const sim::Model& model, Vec3d p, Inside& found) {
     if (m.sheet.closed()) look(m.name, m.skin);
 }
 
-void tell(const Inside& found, const core::Location& at, const std::string& what, std::vector<core::Fault>& doubts) {
+void tell_inside(const Inside& found, const core::Location& at, const std::string& what, std::vector<core::Fault>& doubts) {
   if (found.name.empty()) return;
   doubts.push_back(
       {at, fmt::format("expected the tip of '{}' outside of tissue, got one that begins {:.1f} mm inside "
@@ -73,11 +73,11 @@ void find_tips(const Description& d, const sim::Model& model, std::vector<core::
     Inside found;
     for (const Vec3d& tip : {shape.part[interactions::kJawA].b, shape.part[interactions::kJawB].b, shape.pivot})
       look_inside(model, tip, found);
-    tell(found, p.at, p.instrument, doubts);
+    tell_inside(found, p.at, p.instrument, doubts);
   }
   Inside found;
   look_inside(model, d.scope_placement.tip, found);
-  tell(found, d.scope_placement.at, "scope", doubts);
+  tell_inside(found, d.scope_placement.at, "scope", doubts);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace trocar::scene {
 namespace {
 
-constexpr double kReach = 0.010;  // [m] from a disc's place to what it lies on
+constexpr double kMarkReach = 0.010;  // [m] from a disc's place to what it lies on
 
 struct SkinPlace {
   std::array<std::int32_t, 3> vertex{};
@@ -45,9 +45,9 @@ void lay(const MarkSetting& setting, const sim::Model& model, sim::MarkModel& ma
   const tissue::Skin* skin = skin_of(model, setting.on, organ);
   if (!skin) return;  // the reader has told
   const SkinPlace at = nearest_on(*skin, setting.place);
-  if (at.distance > kReach)
+  if (at.distance > kMarkReach)
     faults.push_back({setting.at, fmt::format("expected a place within {:.0f} mm of \"{}\", got one {:.1f} mm away",
-                                              kReach * 1000, setting.on, at.distance * 1000)});
+                                              kMarkReach * 1000, setting.on, at.distance * 1000)});
   mark.place = at.point;
   if (!(length(setting.normal) > 0)) mark.normal = at.normal;
   if (organ < 0) return;

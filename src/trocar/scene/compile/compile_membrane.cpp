@@ -11,8 +11,7 @@ namespace trocar::scene {
 namespace {
 
 constexpr double kStretchDamping = 0.0004;  // [s] times stiffness; a fold is wet, but sub-steps pay for more
-constexpr double kBendingDamping = 0.0005;  // [s] times stiffness
-constexpr double kDrag = 1;                 // [1/s] against space, as solids: more would be honey
+constexpr double kFoldBendingDamping = 0.0005;  // [s] times stiffness
 
 constexpr int kMostFoldNodes = 20'000;
 
@@ -178,8 +177,8 @@ void compile_membrane(const Membrane& membrane, const Tissue& tissue, Vec3d grav
   d.law = {tissue.p1, tissue.p2, tissue.strain_cap};
   d.density = tissue.density;
   d.damping_time = kStretchDamping;
-  d.bending_damping_time = kBendingDamping;
-  d.global_damping = kDrag;
+  d.bending_damping_time = kFoldBendingDamping;
+  d.global_damping = kFoldDrag;
   d.gravity = gravity;
   try {
     out.sheet = tissue::build(d, sim::kTick);

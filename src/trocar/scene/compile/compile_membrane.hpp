@@ -8,6 +8,8 @@
 
 namespace trocar::scene {
 
+inline constexpr double kFoldDrag = 1;  ///< [1/s] against space, as solids: more would be honey
+
 /// Appends to Model::membranes. Solids and strands must be compiled before.
 void compile_membrane(const Membrane& membrane, const Tissue& tissue, Vec3d gravity, sim::Model& model,
                       std::vector<core::Fault>& faults, CompileReport* report);

@@ -10,9 +10,8 @@
 namespace trocar::scene {
 namespace {
 
-constexpr double kBendingDamping = 0.0001;  // [s] times stiffness: more would ask for steps of its own
+constexpr double kPouchBendingDamping = 0.0001;  // [s] times stiffness: more would ask for steps of its own
 constexpr double kPinchReach = 0.5;         // of the spacing of nodes
-constexpr double kDrag = 1;                 // [1/s] against space, as solids
 
 tissue::Enclosure enclosure_of(const Contents& c) {
   tissue::Enclosure e;
@@ -61,8 +60,8 @@ void compile_pouch(const Pouch& pouch, const Tissue& tissue, Vec3d gravity, sim:
   d.law = {tissue.p1, tissue.p2, tissue.strain_cap};
   d.density = tissue.density;
   d.damping_time = damping_time(tissue::network_of(d), tissue.damping_ms * 1e-3);
-  d.bending_damping_time = kBendingDamping;
-  d.global_damping = kDrag;
+  d.bending_damping_time = kPouchBendingDamping;
+  d.global_damping = kFoldDrag;
   d.gravity = gravity;
   d.enclosure = enclosure_of(pouch.contents);
   sim::MembraneBody out;

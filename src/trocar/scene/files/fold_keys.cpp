@@ -32,7 +32,7 @@ const Table<StrandStation>& station() {
   return table;
 }
 
-void check_station(const JsonObject& o, Strand& s, Context&) {
+void check_strand_station(const JsonObject& o, Strand& s, Context&) {
   StrandStation& now = s.stations.back();
   const double last = s.stations.size() > 1 ? s.stations[s.stations.size() - 2].s : -1;
   if (o.has("s_mm") && now.s <= last)
@@ -199,7 +199,7 @@ const Table<Strand>& strand() {
        needed(R::points("centreline_mm", units::mm, &Strand::centreline, -kFar, kFar, 2,
                         "points on its centre line, from start to end")),
        needed(
-           R::objects("stations", station, &Strand::stations, 1, "thickness along it, by rising s_mm", check_station)),
+           R::objects("stations", station, &Strand::stations, 1, "thickness along it, by rising s_mm", check_strand_station)),
        R::objects("landmarks", landmark, &Strand::landmarks, 0, "named stretches", check_landmark),
        R::object("start", strand_end, &Strand::start, "default: free"),
        R::object("end", strand_end, &Strand::end, "default: free"),

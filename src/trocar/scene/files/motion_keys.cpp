@@ -20,7 +20,7 @@ const Table<Station>& wave_station() {
   return table;
 }
 
-void check_station(const JsonObject& o, WaveSetting& w, Context&) {
+void check_wave_station(const JsonObject& o, WaveSetting& w, Context&) {
   const std::size_t n = w.stations.size();
   if (n > 1 && o.has("s_mm") && !(w.stations[n - 1].s > w.stations[n - 2].s))
     o.fault("s_mm", fmt::format("expected more than the station before, {} mm, got {}", 1000 * w.stations[n - 2].s,
@@ -111,7 +111,7 @@ const Table<WaveSetting>& wave() {
        R::points("centreline_mm", units::mm, &W::centreline, -kFar, kFar, 2,
                  "along the lumen, in the waves' direction, default: the centres of the solid's sections")
            .placed(&W::centreline_at),
-       needed(R::objects("stations", wave_station, &W::stations, 1, "by rising s_mm", check_station)),
+       needed(R::objects("stations", wave_station, &W::stations, 1, "by rising s_mm", check_wave_station)),
        needed(R::number("per_minute", units::one, &W::per_minute, 0.1, 60, "waves that begin")),
        R::number("width_mm", units::mm, &W::width, 1, 100, "sigma of a wave's Gaussian profile, default {}"),
        R::number("first_s", units::one, &W::first, 0, 36000,

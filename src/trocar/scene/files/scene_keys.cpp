@@ -177,7 +177,7 @@ const Table<EnergySetting>& energy() {
 }
 
 /// Everything that is named has its levels in one place.
-void check_detail(const JsonObject& o, Description& d, Context&) {
+void check_details(const JsonObject& o, Description& d, Context&) {
   const std::vector<std::string>& of = d.detail.back().of;
   const auto named = [](const std::vector<std::string>& names, std::size_t many, const std::string& name) {
     const auto end = names.begin() + std::ptrdiff_t(many);
@@ -253,7 +253,7 @@ std::vector<Row<Description>> scene_rows() {
       R::objects("peristalsis", wave, &D::peristalsis, 0, "waves of hollow organs, default none"),
       R::object("breathing", breathing, &D::breathing, "default none"),
       R::objects("detail", detail, &D::detail, 0, "how finely things are drawn, default: as far as one sees it",
-                 check_detail),
+                 check_details),
       R::objects("marks", mark, &D::marks, 0, "what exercises look for or work at, default none"),
       R::object("variation", variation, &D::variation, "what another seed makes different, default nothing"),
       included("instruments", instrument, &D::instruments, &Reading::instruments, "instruments: files or objects"),

@@ -13,8 +13,6 @@ using interactions::VesselPiece;
 
 using CutPlaces = std::array<double, interactions::kMaxOpenings>;
 
-const VesselPath& path_of(const StepContext& c, size_t v) noexcept { return c.model.vessels.list[v].path; }
-
 /// What lies between two cuts of a vessel within this way is not cut again.                          [m]  Our choice
 constexpr double kSliver = 0.001;
 

@@ -6,6 +6,9 @@
 
 namespace trocar::sim {
 
+inline const interactions::VesselPath& path_of(const StepContext& c, size_t vessel) noexcept {
+  return c.model.vessels.list[vessel].path;
+}
 /// Where a vessel is. One without a pulse is posed when somebody asks for the first time in a tick.
 const std::vector<Vec3d>& points_of(StepContext& context, size_t vessel) noexcept;
 

@@ -3,6 +3,7 @@
 
 #include <trocar/geometry/surfaces/nearest.hpp>
 #include <trocar/numerics/portable.hpp>
+#include <trocar/sim/bodies/vessel_wounds.hpp>
 #include <trocar/sim/stages/circulation.hpp>
 #include <trocar/sim/stages/stage.hpp>
 #include <trocar/sim/verbs/sealing.hpp>
@@ -14,8 +15,6 @@ using interactions::VesselHold;
 using interactions::VesselPath;
 
 using CutPlaces = std::array<double, interactions::kMaxOpenings>;
-
-const VesselPath& path_of(const StepContext& c, size_t v) noexcept { return c.model.vessels.list[v].path; }
 
 }  // namespace
 

@@ -4,7 +4,7 @@
 namespace trocar::sim {
 namespace {
 
-constexpr float kAround = 0.03f;  // [m]
+constexpr float kRoomAround = 0.03f;  // [m]
 
 void add(const tissue::Skin& skin, tissue::Box& box) {
   for (int v = 0; v < skin.size(); ++v)
@@ -24,7 +24,7 @@ tissue::Box cavity_around(const Model& model) {
   for (const WallModel& w : model.walls) add(w.skin, box);
   for (const HandModel& h : model.hands) box.add(vec_cast<float>(h.port));
   box.add(vec_cast<float>(model.scope.port));
-  const Vec3f more{kAround, kAround, kAround};
+  const Vec3f more{kRoomAround, kRoomAround, kRoomAround};
   return {box.low - more, box.high + more};
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 using interactions::ElectrodeTouch;
 
-constexpr double kAround = 0.008;  // [m] from an electrode to the middle of springs that it may change
+constexpr double kScarReach = 0.008;  // [m] from an electrode to the middle of springs that it may change
 constexpr float kTold = 0.005f;    // a spring that shrinks less stays as it is
 constexpr int kTurns = 8;          // steps of the heat in which all of a body is looked at
 constexpr std::array kAlong{0.1, 0.3, 0.5, 0.7, 0.9};
@@ -62,7 +62,7 @@ void note(StepContext& c, BodyId body, std::int32_t spring, const Change& change
   entry->stiff = std::max(entry->stiff, change.stiff);
 }
 
-bool near(Vec3d a, Vec3d b) noexcept { return dot(a - b, a - b) <= kAround * kAround; }
+bool near(Vec3d a, Vec3d b) noexcept { return dot(a - b, a - b) <= kScarReach * kScarReach; }
 
 /// The part of `count` whose turn it is.
 struct Turn {
