@@ -132,16 +132,15 @@ function(trocar_test_executable target sources depends libs)
   target_link_libraries(${target} PRIVATE ${depends} ${libs} trocar_test_main)
   target_precompile_headers(${target} REUSE_FROM trocar_test_main)
   trocar_quick_options(${target})
-  trocar_group(${target})
   file(RELATIVE_PATH built ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR})  # tests/main.cpp goes to the source folder
   target_compile_definitions(${target} PRIVATE TROCAR_SOURCE_DIR="." TROCAR_BINARY_DIR="${built}")
 endfunction()
 
-# trocar_test(NAME DEPENDS module... [LIBS target...] [LABEL unit|scene] [SHARDS n] [SOAK_SHARDS n]):
+# trocar_test(NAME [GROUPED] DEPENDS module... [LIBS target...] [LABEL unit|scene] [SHARDS n] [SOAK_SHARDS n]):
 #   tests/NAME/*_test.cpp -> NAME_test, entry NAME (NAME.1, NAME.2, ... of several shards) under LABEL
 #   tests/NAME/*_soak.cpp -> NAME_soak, entry NAME_soak under soak
 function(trocar_test name)
-  cmake_parse_arguments(arg "" "LABEL;SHARDS;SOAK_SHARDS" "DEPENDS;LIBS" ${ARGN})
+  cmake_parse_arguments(arg "GROUPED" "LABEL;SHARDS;SOAK_SHARDS" "DEPENDS;LIBS" ${ARGN})
   list(TRANSFORM arg_DEPENDS PREPEND trocar_)
   file(GLOB quick CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
   file(GLOB soak CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_soak.cpp)
@@ -154,6 +153,9 @@ function(trocar_test name)
   endforeach()
   if(quick)
     trocar_test_executable(${name}_test "${quick}" "${arg_DEPENDS}" "${arg_LIBS}")
+    if(arg_GROUPED)
+      trocar_group(${name}_test)
+    endif()
     trocar_test_entries(${name}_test ${name} ${arg_LABEL} ${arg_SHARDS})
   endif()
   if(soak)

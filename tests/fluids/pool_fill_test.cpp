@@ -11,12 +11,12 @@ namespace {
 constexpr int kWide = 32;
 
 /// Two hollows in a plate, the left one deeper, with a ridge between them.
-struct Plate {
-  PoolModel pool = build({.nx = kWide, .ny = kWide, .cell = 0.002});
+struct Hollows {
+  PoolModel pool = build(PoolDescription{.nx = kWide, .ny = kWide, .cell = 0.002});
   std::vector<float> floor = std::vector<float>(kWide * kWide, 0.030f);
   PoolState state = empty_pool(pool);
 
-  Plate() {
+  Hollows() {
     for (int j = 8; j < 24; ++j)
       for (int i = 4; i < 28; ++i) floor[size_t(j * kWide + i)] = i < 14 ? 0.0f : i < 18 ? 0.012f : 0.004f;
   }
@@ -27,7 +27,7 @@ struct Plate {
 };
 
 TEST(PoolFill, LiesLevelInTheDeepestHollowAndIsAllThere) {
-  Plate p;
+  Hollows p;
   const Mix in = p.poured(3);
   EXPECT_EQ(in.blood, 3 * kMillilitre);
   EXPECT_EQ(content(p.pool, p.state), in) << "to the picolitre";
@@ -37,14 +37,14 @@ TEST(PoolFill, LiesLevelInTheDeepestHollowAndIsAllThere) {
 }
 
 TEST(PoolFill, RunsOverARidgeAndStandsLevelInBothHollows) {
-  Plate p;
+  Hollows p;
   EXPECT_EQ(p.poured(20).blood, 20 * kMillilitre);
   EXPECT_GT(p.surface(6, 12), 0.012);
   for (const int i : {4, 10, 15, 20, 27}) EXPECT_NEAR(p.surface(i, 12), p.surface(6, 12), 1e-6);
 }
 
 TEST(PoolFill, StaysAsItLiesWhenTimeGoesOn) {
-  Plate p;
+  Hollows p;
   Ledger ledger;
   receive(ledger, Source::kBled, Place::kPool, p.poured(15));
   const PoolState before = p.state;
@@ -56,7 +56,7 @@ TEST(PoolFill, StaysAsItLiesWhenTimeGoesOn) {
 }
 
 TEST(PoolFill, WhatTheFieldHasNoRoomForIsNotPoured) {
-  Plate p;
+  Hollows p;
   const Mix in = p.poured(500);
   EXPECT_LT(in.blood, 500 * kMillilitre);
   EXPECT_EQ(content(p.pool, p.state), in);

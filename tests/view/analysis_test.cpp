@@ -14,11 +14,10 @@
 #include <trocar/view/scene/scene_view.hpp>
 
 #include "../sim/small_scene.hpp"
+#include "pelvis.hpp"
 
 namespace trocar::view {
 namespace {
-
-const render::Target kTarget = render::Target::off_screen(64, 48);
 
 // --- scales ---
 
@@ -223,11 +222,6 @@ ViewOptions all_of_it(ViewOptions::Camera camera) {
   options.camera = camera;
   options.analysis.springs = options.analysis.strain = options.analysis.forces = options.analysis.pressure = true;
   return options;
-}
-
-const sim::Model& bleeding() {
-  static const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/bleeding/scene.json"));
-  return model;
 }
 
 TEST(AnalysisView, EveryChoiceIsDrawableWithEveryCameraAndLeavesTheStateAlone) {

@@ -13,13 +13,10 @@
 #include <trocar/view/bodies/tube_drawing.hpp>
 #include <trocar/view/scene/scene_view.hpp>
 
+#include "pelvis.hpp"
+
 namespace trocar::view {
 namespace {
-
-const sim::Model& pelvis() {
-  static const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/gynaecology/scene.json"));
-  return model;
-}
 
 Detail two_levels() { return Detail({{0.05, 0.0001, 2}, {0.10, 0.0003, 1}}); }
 

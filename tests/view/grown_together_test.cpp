@@ -20,23 +20,14 @@
 #include <trocar/view/bodies/vessel_drawing.hpp>
 #include <trocar/view/scene/scene_view.hpp>
 
+#include "pelvis.hpp"
+
 namespace trocar::view {
 namespace {
 
-const sim::Model& pelvis() {
-  static const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/gynaecology/scene.json"));
-  return model;
-}
 const WallSurface& walls() {
   static const WallSurface surface(pelvis());
   return surface;
-}
-
-std::vector<OrganDrawing> drawn_organs(render::Backend& backend) {
-  std::vector<OrganDrawing> organs;
-  for (const sim::SolidModel& s : pelvis().solids)
-    organs.emplace_back(s, Relief{}, std::vector<Paint>(s.fine.rest.size()), backend);
-  return organs;
 }
 
 /// The nearest place on an organ's drawn skin, and the skin's normal there.

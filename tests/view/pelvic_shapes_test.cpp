@@ -19,13 +19,10 @@
 #include <trocar/view/bodies/fimbria.hpp>
 #include <trocar/view/bodies/tube_drawing.hpp>
 
+#include "pelvis.hpp"
+
 namespace trocar::view {
 namespace {
-
-const sim::Model& pelvis() {
-  static const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/gynaecology/scene.json"));
-  return model;
-}
 
 const BowelLoops& loops() {
   static const BowelLoops made = bowel_loops(pelvis(), WallSurface(pelvis()));

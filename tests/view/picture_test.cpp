@@ -25,25 +25,15 @@
 #include <trocar/view/instruments/shapes.hpp>
 #include <trocar/view/scene/scene_view.hpp>
 
+#include "pelvis.hpp"
+
 namespace trocar::view {
 namespace {
-
-const sim::Model& pelvis() {
-  static const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/gynaecology/scene.json"));
-  return model;
-}
 
 int solid_with_look(const std::string& name) {
   for (std::size_t i = 0; i < pelvis().solids.size(); ++i)
     if (pelvis().solids[i].look == name) return int(i);
   return -1;
-}
-
-std::vector<OrganDrawing> drawn_organs(render::Backend& backend) {
-  std::vector<OrganDrawing> organs;
-  for (const sim::SolidModel& s : pelvis().solids)
-    organs.emplace_back(s, Relief{}, std::vector<Paint>(s.fine.rest.size()), backend);
-  return organs;
 }
 
 float to_nearest(Vec3f p, std::span<const Vec3f> points) {

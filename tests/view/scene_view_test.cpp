@@ -33,14 +33,10 @@
 #include <trocar/view/instruments/port_site.hpp>
 #include <trocar/view/scene/scene_view.hpp>
 
+#include "pelvis.hpp"
+
 namespace trocar::view {
 namespace {
-
-const sim::Model& pelvis() {
-  static const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/gynaecology/scene.json"));
-  return model;
-}
-const render::Target kTarget = render::Target::off_screen(64, 48);
 
 void expect_drawable(SceneView& view, render::Backend& backend, const sim::State& state) {
   for (const auto camera : {ViewOptions::Camera::scope, ViewOptions::Camera::outside}) {
@@ -419,11 +415,6 @@ TEST(HeatMarks, BurnFromPaleOverTanToBlack) {
   EXPECT_EQ(burn_of(r), 180);
   r.peak = 250;
   EXPECT_EQ(burn_of(r), 255);
-}
-
-const sim::Model& bleeding() {
-  static const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/bleeding/scene.json"));
-  return model;
 }
 
 TEST(HeatMarks, WhatIsCoagulatedIsBurntThereAndNowhereElse) {

@@ -6,13 +6,10 @@
 #include <trocar/view/base/cameras.hpp>
 #include <trocar/view/scene/second_scope.hpp>
 
+#include "pelvis.hpp"
+
 namespace trocar::view {
 namespace {
-
-const sim::Model& pelvis() {
-  static const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/gynaecology/scene.json"));
-  return model;
-}
 
 TEST(SecondScope, StandsWhereNoOtherTrocarIsAndLooksAtTheScene) {
   const SecondScope second = second_scope_of(pelvis());
