@@ -10,7 +10,7 @@
 namespace trocar::geometry {
 namespace {
 
-constexpr GmshType kTypes[] = {
+constexpr GmshType kGmshTypes[] = {
     {1, 2, "lines"},        {2, 3, "triangles"},    {3, 4, "quadrangles"},  {4, 4, "tetrahedra"},
     {5, 8, "hexahedra"},    {6, 6, "prisms"},       {7, 5, "pyramids"},     {8, 3, "lines"},
     {9, 6, "triangles"},    {10, 9, "quadrangles"}, {11, 10, "tetrahedra"}, {12, 27, "hexahedra"},
@@ -25,7 +25,7 @@ constexpr GmshType kTypes[] = {
 }  // namespace
 
 const GmshType* gmsh_type(std::int64_t type) {
-  for (const GmshType& t : kTypes)
+  for (const GmshType& t : kGmshTypes)
     if (t.type == type) return &t;
   return nullptr;
 }

@@ -43,7 +43,7 @@ class GmshReader {
     const std::size_t at = m_in.at();
     const std::string name(m_in.word());
     if (name[0] != '$') {
-      m_in.fault(at, fmt::format("expected a section such as $Nodes, got {}", quoted(name)));
+      m_in.fault(at, fmt::format("expected a section such as $Nodes, got {}", in_quotes(name)));
       do m_in.skip_line();
       while (m_in.left() > 0 && m_in.peek_word().substr(0, 1) != "$");
       return;
@@ -85,10 +85,10 @@ class GmshReader {
     m_in.skip_space();
     const std::size_t at = m_in.at();
     if (is_read(name) && m_in.peek_word() != end)
-      m_in.fault(at, fmt::format("expected {}, got {}", quoted(end), m_in.shown(at)));
+      m_in.fault(at, fmt::format("expected {}, got {}", in_quotes(end), m_in.shown(at)));
     const std::size_t found = m_in.all().find(end, at);
     if (found == std::string_view::npos)
-      m_in.lose(m_in.all().size(), fmt::format("expected {}, got the end of the file", quoted(end)));
+      m_in.lose(m_in.all().size(), fmt::format("expected {}, got the end of the file", in_quotes(end)));
     m_in.go_to(found + end.size());
   }
 
@@ -101,7 +101,7 @@ class GmshReader {
     for (const int known : {20, 21, 22, 40, 41})
       if (10 * number > known - 0.5 && 10 * number < known + 0.5) m_parts.version = known;
     if (m_parts.version == 0)
-      m_in.lose(at, fmt::format("expected version 2.0 to 2.2, 4.0 or 4.1, got {}", quoted(version)));
+      m_in.lose(at, fmt::format("expected version 2.0 to 2.2, 4.0 or 4.1, got {}", in_quotes(version)));
     std::int64_t type = 0, size = 0;
     m_in.begin_value();
     at = m_in.at();

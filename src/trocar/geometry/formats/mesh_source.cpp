@@ -21,7 +21,7 @@ std::size_t word_end(std::string_view text, std::size_t at) {
 
 }  // namespace
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   constexpr std::size_t limit = 40;
   std::string out = "'";
   for (const char c : text.substr(0, limit)) out += c >= ' ' && c <= '~' ? c : '?';
@@ -89,7 +89,7 @@ std::string MeshSource::shown(std::size_t at) const {
   while (at < m_bytes.size() && is_blank(m_bytes[at])) ++at;
   if (at >= m_bytes.size()) return "the end of the file";
   if (m_bytes[at] == '\n') return "the end of the line";
-  return quoted(m_bytes.substr(at, word_end(m_bytes, at) - at));
+  return in_quotes(m_bytes.substr(at, word_end(m_bytes, at) - at));
 }
 
 bool MeshSource::number_word(std::string_view& text, std::size_t& at, const char* what) {
@@ -143,7 +143,7 @@ bool MeshSource::integer(std::int64_t& value, int width, const char* what) {
   if (number)
     value = *number;
   else
-    fault(at, fmt::format("expected {}, got {}", what, quoted(text)));
+    fault(at, fmt::format("expected {}, got {}", what, in_quotes(text)));
   return number.has_value();
 }
 
@@ -163,7 +163,7 @@ bool MeshSource::real(double& value, int width, const char* what) {
   if (!number_word(text, at, what)) return false;
   if (core::is_decimal(text)) value = core::to_double(text);
   if (core::is_decimal(text) && std::isfinite(value)) return true;
-  fault(at, fmt::format("expected {}, got {}", what, quoted(text)));
+  fault(at, fmt::format("expected {}, got {}", what, in_quotes(text)));
   value = 0;
   return false;
 }

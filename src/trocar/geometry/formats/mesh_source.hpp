@@ -88,6 +88,6 @@ class MeshSource {
 };
 
 /// Text from a file as a fault shows it: short, and nothing that a terminal would obey.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 }  // namespace trocar::geometry

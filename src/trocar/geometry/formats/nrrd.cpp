@@ -26,7 +26,7 @@ struct TypeName {
   const char* name;
   Type type;
 };
-constexpr TypeName kTypes[] = {
+constexpr TypeName kTypeNames[] = {
     {"int8", Type::int8},
     {"int8_t", Type::int8},
     {"signed char", Type::int8},
@@ -173,7 +173,7 @@ class HeaderReader {
   std::size_t m_end = 0;  ///< of the line that ends the header
 
   std::size_t place(std::string_view text) const { return std::size_t(text.data() - m_in.all().data()); }
-  std::string got() const { return m_value.empty() ? "nothing" : quoted(m_value); }
+  std::string got() const { return m_value.empty() ? "nothing" : in_quotes(m_value); }
 
   void require(bool there, const char* field) {
     if (!there && std::find(m_seen.begin(), m_seen.end(), field) == m_seen.end())
@@ -183,7 +183,7 @@ class HeaderReader {
   void magic() {
     const std::string_view first = m_in.line();
     if (first.size() == 8 && first.substr(0, 7) == "NRRD000" && first[7] >= '1' && first[7] <= '5') return;
-    m_in.lose(0, fmt::format("expected NRRD0001 to NRRD0005, got {}", quoted(first)));
+    m_in.lose(0, fmt::format("expected NRRD0001 to NRRD0005, got {}", in_quotes(first)));
   }
 
   /// False at the empty line that ends the header.
@@ -195,7 +195,7 @@ class HeaderReader {
     if (text[0] == '#') return true;
     const std::size_t colon = text.find(':');
     if (colon == std::string_view::npos)
-      m_in.lose(place(text), fmt::format("expected 'field: value', got {}", quoted(text)));
+      m_in.lose(place(text), fmt::format("expected 'field: value', got {}", in_quotes(text)));
     if (text.substr(colon, 2) == ":=") return true;  // notes of other programs
     m_value = text.substr(colon + 1);
     while (!m_value.empty() && (m_value[0] == ' ' || m_value[0] == '\t')) m_value.remove_prefix(1);
@@ -239,7 +239,7 @@ class HeaderReader {
 
   void type() {
     const std::string name = lower(m_value.substr(0, 40));
-    for (const TypeName& t : kTypes)
+    for (const TypeName& t : kTypeNames)
       if (name == t.name) m_header.type = t.type;
     if (!m_header.type)
       m_in.fault(m_at, fmt::format("expected a type from int8 to uint32, float or double, got {}", got()));
@@ -355,7 +355,7 @@ class HeaderReader {
   }
 
   void expected_at(std::size_t at, const char* what, std::string_view word) {
-    m_in.fault(at, fmt::format("expected {}, got {}", what, word.empty() ? m_in.shown(at) : quoted(word)));
+    m_in.fault(at, fmt::format("expected {}, got {}", what, word.empty() ? m_in.shown(at) : in_quotes(word)));
   }
 
   bool ends(Words& words) {

@@ -37,7 +37,8 @@ void VtkData::scalars() {
     m_values.in.lose(m_values.in.at(), fmt::format("expected 1 to 4 components, got {}", components));
   m_values.in.skip_line();
   if (m_values.word() != "lookup_table")
-    m_values.in.lose(m_values.in.at(), fmt::format("expected LOOKUP_TABLE of the scalars {}, got none", quoted(name)));
+    m_values.in.lose(m_values.in.at(),
+                     fmt::format("expected LOOKUP_TABLE of the scalars {}, got none", in_quotes(name)));
   array(name, *type, std::uint64_t(components), m_tuples);
 }
 

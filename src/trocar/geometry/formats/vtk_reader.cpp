@@ -30,7 +30,7 @@ class VtkReader {
     m_in.finish();
     m_out.notes = m_left_out.notes();
     if (!m_data.stopped().empty())
-      m_out.notes.push_back("what comes from " + quoted(m_data.stopped()) + " on is not read");
+      m_out.notes.push_back("what comes from " + in_quotes(m_data.stopped()) + " on is not read");
     return std::move(m_out);
   }
 

@@ -5,7 +5,7 @@
 namespace trocar::geometry {
 namespace {
 
-constexpr VtkType kTypes[] = {
+constexpr VtkType kVtkTypes[] = {
     {"float", 4, false, true},
     {"double", 8, false, true},
     {"int", 4, true, true},
@@ -53,7 +53,7 @@ std::string VtkValues::next_word() { return lower(in.peek_word().substr(0, 40));
 
 const VtkType* VtkValues::find_type() {
   const std::string name = word();
-  for (const VtkType& t : kTypes)
+  for (const VtkType& t : kVtkTypes)
     if (name == t.name) return &t;
   return nullptr;
 }

@@ -122,25 +122,25 @@ class Tessellator {
   // (Delaunay); unless it exists already or would fold the surface.
   void flip_edges() {
     auto& triangles = m_result.mesh.triangles;
-    struct Side {
+    struct FacedSide {
       int low, high, triangle, opposite;
     };
-    std::vector<Side> sides;
+    std::vector<FacedSide> sides;
     for (int t = 0; t < static_cast<int>(triangles.size()); ++t)
       for (int k = 0; k < 3; ++k) {
         const int a = triangles[t][k], b = triangles[t][(k + 1) % 3];
         sides.push_back({std::min(a, b), std::max(a, b), t, triangles[t][(k + 2) % 3]});
       }
-    std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
+    std::sort(sides.begin(), sides.end(), [](const FacedSide& x, const FacedSide& y) {
       if (x.low != y.low) return x.low < y.low;
       if (x.high != y.high) return x.high < y.high;
       return x.triangle < y.triangle;
     });
     std::set<std::array<int, 2>> known;
-    for (const Side& side : sides) known.insert({side.low, side.high});
+    for (const FacedSide& side : sides) known.insert({side.low, side.high});
     std::vector<char> changed(triangles.size(), 0);
     for (std::size_t i = 0; i + 1 < sides.size(); i += 2) {
-      const Side &one = sides[i], &two = sides[i + 1];
+      const FacedSide &one = sides[i], &two = sides[i + 1];
       if (changed[one.triangle] || changed[two.triangle]) continue;
       const std::array<int, 2> other{std::min(one.opposite, two.opposite), std::max(one.opposite, two.opposite)};
       if (known.count(other) || !worth_flipping(one.low, one.high, one.opposite, two.opposite)) continue;

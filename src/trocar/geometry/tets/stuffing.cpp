@@ -21,16 +21,16 @@
 namespace trocar::geometry {
 namespace {
 
-using Place = std::array<int, 3>;
+using LatticePoint = std::array<int, 3>;
 
 /// The ways along edges, upwards; the other seven are their opposites. The first three are long.
 constexpr int kWays = 7, kLongWays = 3;
-constexpr Place kWay[kWays] = {{2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {1, 1, 1}, {-1, 1, 1}, {1, -1, 1}, {1, 1, -1}};
+constexpr LatticePoint kWay[kWays] = {{2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {1, 1, 1}, {-1, 1, 1}, {1, -1, 1}, {1, 1, -1}};
 
 /// The points of the lattice: numbered corners first, then centres.
-class Lattice {
+class CentredLattice {
  public:
-  Lattice(const Bounds& box, double cell, double most_cubes) : m_cell(cell) {
+  CentredLattice(const Bounds& box, double cell, double most_cubes) : m_cell(cell) {
     double cubes = 1;
     for (int k = 0; k < 3; ++k) {
       const double extent = box.high[k] - box.low[k];
@@ -47,10 +47,10 @@ class Lattice {
   }
 
   int points() const { return m_points; }
-  const Place& cubes() const { return m_cubes; }
+  const LatticePoint& cubes() const { return m_cubes; }
 
   /// -1 outside.
-  int number(const Place& p) const {
+  int number(const LatticePoint& p) const {
     const int odd = p[0] & 1;
     const int nx = m_cubes[0] + 1 - odd, ny = m_cubes[1] + 1 - odd, nz = m_cubes[2] + 1 - odd;
     if (p[0] < 0 || p[1] < 0 || p[2] < 0) return -1;
@@ -58,24 +58,24 @@ class Lattice {
     if (i >= nx || j >= ny || k >= nz) return -1;
     return (odd ? m_corners : 0) + i + nx * (j + ny * k);
   }
-  Place place(int number) const {
+  LatticePoint place(int number) const {
     const int odd = number >= m_corners;
     const int nx = m_cubes[0] + 1 - odd, ny = m_cubes[1] + 1 - odd;
     if (odd) number -= m_corners;
     return {2 * (number % nx) + odd, 2 * (number / nx % ny) + odd, 2 * (number / nx / ny) + odd};
   }
-  Vec3d position(const Place& p) const {
+  Vec3d position(const LatticePoint& p) const {
     return m_low + (0.5 * m_cell) * Vec3d{double(p[0]), double(p[1]), double(p[2])};
   }
 
  private:
   double m_cell;
   Vec3d m_low;
-  Place m_cubes{};
+  LatticePoint m_cubes{};
   int m_corners = 0, m_points = 0;
 };
 
-Place step(const Place& p, int way, int sign) {
+LatticePoint step(const LatticePoint& p, int way, int sign) {
   return {p[0] + sign * kWay[way][0], p[1] + sign * kWay[way][1], p[2] + sign * kWay[way][2]};
 }
 
@@ -133,7 +133,7 @@ class Stuffing {
   const Field& m_field;
   StuffingOptions m_options;
   double m_cell;
-  Lattice m_lattice;
+  CentredLattice m_lattice;
   std::vector<double> m_value;                   ///< of points
   std::vector<signed char> m_side;               ///< of points: 1 inside, 0 on the surface, -1 outside
   std::vector<Vec3d> m_position;                 ///< of points
@@ -148,7 +148,7 @@ class Stuffing {
     m_side.resize(n);
     m_position.resize(n);
     for (int p = 0; p < n; ++p) m_position[p] = m_lattice.position(m_lattice.place(p));
-    const Place& cubes = m_lattice.cubes();
+    const LatticePoint& cubes = m_lattice.cubes();
     look_at({0, 0, 0}, {2 * cubes[0], 2 * cubes[1], 2 * cubes[2]});
     for (int p = 0; p < n; ++p) m_side[p] = m_value[p] > 0 ? 1 : (m_value[p] == 0 ? 0 : -1);
   }
@@ -156,22 +156,22 @@ class Stuffing {
   /// The values of the points between two places, these included. Where the surface is farther from the middle than the
   /// farthest of them and an edge more, they are all on the middle's side, and no edge from them is cut: then one value
   /// does for all.
-  void look_at(const Place& low, const Place& high) {
-    const Place extent{high[0] - low[0], high[1] - low[1], high[2] - low[2]};
+  void look_at(const LatticePoint& low, const LatticePoint& high) {
+    const LatticePoint extent{high[0] - low[0], high[1] - low[1], high[2] - low[2]};
     const int axis = int(std::max_element(extent.begin(), extent.end()) - extent.begin());
     if (extent[axis] < 4) return set_values(low, high, [&](int p) { return m_field.inside(m_position[p]); });
     const Vec3d a = m_lattice.position(low), b = m_lattice.position(high);
     const double middle = m_field.inside(0.5 * (a + b));
     if (std::fabs(middle) > m_field.steepest * (0.5 * length(b - a) + 1.01 * m_cell))
       return set_values(low, high, [&](int) { return middle; });
-    Place end = high, start = low;
+    LatticePoint end = high, start = low;
     end[axis] = low[axis] + extent[axis] / 2;
     start[axis] = end[axis] + 1;
     look_at(low, end);
     look_at(start, high);
   }
   template <class F>
-  void set_values(const Place& low, const Place& high, F&& value) {
+  void set_values(const LatticePoint& low, const LatticePoint& high, F&& value) {
     for (int z = low[2]; z <= high[2]; ++z)
       for (int y = low[1]; y <= high[1]; ++y)
         for (int x = low[0]; x <= high[0]; ++x) {
@@ -184,7 +184,7 @@ class Stuffing {
   void find_cuts() {
     m_row.assign(m_lattice.points(), -1);
     for (int p = 0; p < m_lattice.points(); ++p) {
-      const Place place = m_lattice.place(p);
+      const LatticePoint place = m_lattice.place(p);
       for (int way = 0; way < kWays; ++way) {
         const int q = m_lattice.number(step(place, way, 1));
         if (q < 0 || m_side[p] * m_side[q] >= 0) continue;
@@ -200,7 +200,7 @@ class Stuffing {
   }
 
   /// The cut between a point and its neighbour, and the share of the edge from the point; -1: none.
-  int cut_along(int p, const Place& place, int way, int sign, double& share) const {
+  int cut_along(int p, const LatticePoint& place, int way, int sign, double& share) const {
     const int q = m_lattice.number(step(place, way, sign));
     if (q < 0 || m_side[p] * m_side[q] >= 0) return -1;
     const int from = sign > 0 ? p : q;
@@ -214,7 +214,7 @@ class Stuffing {
   void move_points() {
     for (int p = 0; p < m_lattice.points(); ++p) {
       if (m_side[p] == 0) continue;
-      const Place place = m_lattice.place(p);
+      const LatticePoint place = m_lattice.place(p);
       int nearest = -1;
       double least = std::numeric_limits<double>::max();
       for (int way = 0; way < kWays; ++way)
@@ -236,8 +236,8 @@ class Stuffing {
 
   /// The node where the surface crosses the edge between two points on its two sides.
   int cut_between(int p, int q) const {
-    const Place a = m_lattice.place(p), b = m_lattice.place(q);
-    Place d{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+    const LatticePoint a = m_lattice.place(p), b = m_lattice.place(q);
+    LatticePoint d{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
     const bool swap = d[0] + d[1] + d[2] < 0;
     if (swap) d = {-d[0], -d[1], -d[2]};
     const int way = int(std::find(std::begin(kWay), std::end(kWay), d) - std::begin(kWay));
@@ -245,10 +245,10 @@ class Stuffing {
   }
 
   void fill() {
-    const Place& cubes = m_lattice.cubes();
+    const LatticePoint& cubes = m_lattice.cubes();
     for (int axis = 0; axis < 3; ++axis) {
       const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-      Place below{};  // the cube before the square
+      LatticePoint below{};  // the cube before the square
       for (below[2] = 0; below[2] < cubes[2] - (axis == 2); ++below[2])
         for (below[1] = 0; below[1] < cubes[1] - (axis == 1); ++below[1])
           for (below[0] = 0; below[0] < cubes[0] - (axis == 0); ++below[0]) around_square(below, axis, u, v);
@@ -256,14 +256,14 @@ class Stuffing {
   }
 
   /// The four cells on the square between a cube and the next along `axis`.
-  void around_square(const Place& below, int axis, int u, int v) {
-    const Place centre{2 * below[0] + 1, 2 * below[1] + 1, 2 * below[2] + 1};
-    Place next = centre;
+  void around_square(const LatticePoint& below, int axis, int u, int v) {
+    const LatticePoint centre{2 * below[0] + 1, 2 * below[1] + 1, 2 * below[2] + 1};
+    LatticePoint next = centre;
     next[axis] += 2;
     constexpr int kRound[5][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}};
     std::array<int, 5> corner{};
     for (int k = 0; k < 5; ++k) {
-      Place p = centre;
+      LatticePoint p = centre;
       p[axis] += 1;
       p[u] += kRound[k][0];
       p[v] += kRound[k][1];
@@ -341,8 +341,8 @@ class Stuffing {
   /// from p to the cut on q's edge, or that from q to the cut on p's? Both cells at the triangle find the same answer,
   /// and no prism gets three diagonals that go round it, which could not be filled.
   bool from_first(int p, int q, int s) const {
-    const Place a = m_lattice.place(p), b = m_lattice.place(q), c = m_lattice.place(s);
-    const auto long_edge = [](const Place& x, const Place& y) { return ((x[0] ^ y[0]) & 1) == 0; };
+    const LatticePoint a = m_lattice.place(p), b = m_lattice.place(q), c = m_lattice.place(s);
+    const auto long_edge = [](const LatticePoint& x, const LatticePoint& y) { return ((x[0] ^ y[0]) & 1) == 0; };
     if (!long_edge(a, b)) return long_edge(b, c);  // to the cut that is on a long edge
     const int beyond = (a[0] > c[0]) + (a[1] > c[1]) + (a[2] > c[2]);
     return beyond % 2 == 0;  // symmetric: the parity rule, odd for exactly one of p and q

@@ -5,6 +5,7 @@
 
 #include <trocar/geometry/tets/tet_cut.hpp>
 #include <trocar/geometry/tets/tet_faces.hpp>
+#include <trocar/geometry/tets/tet_volume.hpp>
 #include <trocar/numerics/portable.hpp>
 
 namespace trocar::geometry {
@@ -18,7 +19,7 @@ constexpr double kMostCosine = 0.98480775301220802;                        // of
 constexpr double kMostLoss = 0.005;
 constexpr double kSnapShares[] = {1, 0.5, 0.25};  // of the way, whatever fits first
 
-double volume6(const std::array<Vec3d, 4>& x) noexcept { return dot(x[1] - x[0], cross(x[2] - x[0], x[3] - x[0])); }
+double volume6(const std::array<Vec3d, 4>& x) noexcept { return geometry::volume6(x[0], x[1], x[2], x[3]); }
 
 /// Largest cosine of a cell's dihedral angles; 2 where it has no volume.
 double most_cosine(const std::array<Vec3d, 4>& x) noexcept {

@@ -26,7 +26,7 @@ bool sort_three(std::array<int, 3>& n) {
   return even;
 }
 
-using Place = std::array<std::int64_t, 3>;
+using CubePlace = std::array<std::int64_t, 3>;
 
 /// Kept nodes by the cube of a grid in which they lie. Kept nodes are more than a cube's side apart, so a cube holds a
 /// handful at most, and looking up is cheap whatever the points are.
@@ -56,10 +56,10 @@ class Cubes {
   /// The lowest-numbered kept node within `distance` (at most the side), or -1.
   int find(Vec3d p, double distance) const {
     int found = -1;
-    const Place middle = place(p);
+    const CubePlace middle = place(p);
     for (int dx = -1; dx <= 1; ++dx)
       for (int dy = -1; dy <= 1; ++dy) {
-        const Place from{middle[0] + dx, middle[1] + dy, middle[2] - 1}, to{from[0], from[1], middle[2] + 1};
+        const CubePlace from{middle[0] + dx, middle[1] + dy, middle[2] - 1}, to{from[0], from[1], middle[2] + 1};
         for (auto at = std::lower_bound(m_places.begin(), m_places.end(), from); at != m_places.end() && *at <= to;
              ++at)
           for (int node = m_first[at - m_places.begin()]; node >= 0; node = m_next[node])
@@ -69,7 +69,7 @@ class Cubes {
   }
 
  private:
-  Place place(Vec3d p) const {
+  CubePlace place(Vec3d p) const {
     const Vec3d at = (p - m_low) / m_side;
     return {std::int64_t(at.x), std::int64_t(at.y), std::int64_t(at.z)};
   }
@@ -77,9 +77,9 @@ class Cubes {
   const std::vector<Vec3d>& m_points;
   double m_side;
   Vec3d m_low{};
-  std::vector<Place> m_places;  ///< of cubes with nodes, sorted
-  std::vector<int> m_first;     ///< kept node of each cube ...
-  std::vector<int> m_next;      ///< ... and the next one in the same cube
+  std::vector<CubePlace> m_places;  ///< of cubes with nodes, sorted
+  std::vector<int> m_first;         ///< kept node of each cube ...
+  std::vector<int> m_next;          ///< ... and the next one in the same cube
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <trocar/geometry/tets/tet_cut.hpp>
 #include <trocar/geometry/tets/tet_faces.hpp>
 #include <trocar/geometry/tets/tet_mesh.hpp>
+#include <trocar/geometry/tets/tet_volume.hpp>
 
 namespace trocar::geometry {
 namespace {
@@ -99,8 +100,7 @@ void measure_cells(const TetMesh& mesh, TetFacts& facts) {
 
 double volume(const TetMesh& mesh, int cell) {
   const auto& [a, b, c, d] = mesh.cells[cell];
-  const Vec3d p = mesh.points[a];
-  return dot(mesh.points[b] - p, cross(mesh.points[c] - p, mesh.points[d] - p)) / 6.0;
+  return volume6(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]) / 6.0;
 }
 
 TetFacts inspect(const TetMesh& mesh, double tolerance) {

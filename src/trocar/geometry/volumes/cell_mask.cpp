@@ -31,19 +31,21 @@ CellMask empty_mask(std::span<const Vec3f> points, Triangles triangles, double c
 }
 
 /// Where a line along x meets a triangle, and whether it goes in (1) or out (-1) there.
-struct Crossing {
+struct LineCrossing {
   std::size_t line;
   double x;
   int way;
 };
 
 /// Twice the area of (a, b, p) in the plane y z.
-double turn(Vec3d a, Vec3d b, double y, double z) noexcept { return (b.y - a.y) * (z - a.z) - (b.z - a.z) * (y - a.y); }
+double twice_area_yz(Vec3d a, Vec3d b, double y, double z) noexcept {
+  return (b.y - a.y) * (z - a.z) - (b.z - a.z) * (y - a.y);
+}
 
 /// Lines through the middles of cells that meet triangle t. An edge is always looked at from its corner of the lower
 /// number, so that of two triangles at an edge exactly one has a line that passes through it.
 void cross(std::span<const Vec3f> points, const std::array<int, 3>& t, const CellMask& mask,
-           std::vector<Crossing>& out) {
+           std::vector<LineCrossing>& out) {
   Vec3d p[3];
   for (std::size_t c = 0; c < 3; ++c) p[c] = vec_cast<double>(points[std::size_t(t[c])]);
   const auto [y0, y1] = std::minmax({p[0].y, p[1].y, p[2].y});
@@ -60,7 +62,7 @@ void cross(std::span<const Vec3f> points, const std::array<int, 3>& t, const Cel
       for (std::size_t c = 0; c < 3; ++c) {
         const std::size_t d = (c + 1) % 3;
         const bool forward = t[c] < t[d];
-        const double area = forward ? turn(p[c], p[d], y, z) : turn(p[d], p[c], y, z);
+        const double area = forward ? twice_area_yz(p[c], p[d], y, z) : twice_area_yz(p[d], p[c], y, z);
         left += (area >= 0) == forward;
         weight[(c + 2) % 3] = forward ? area : -area;
       }
@@ -82,9 +84,9 @@ void fill(CellMask& mask, std::size_t line, double from, double to) {
 
 CellMask cells_inside(std::span<const Vec3f> points, Triangles triangles, double cell) {
   CellMask mask = empty_mask(points, triangles, cell, 0);
-  std::vector<Crossing> crossings;
+  std::vector<LineCrossing> crossings;
   for (const auto& t : triangles) cross(points, t, mask, crossings);
-  std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) {
+  std::sort(crossings.begin(), crossings.end(), [](const LineCrossing& a, const LineCrossing& b) {
     return a.line != b.line ? a.line < b.line : a.x != b.x ? a.x < b.x : a.way > b.way;
   });
   int depth = 0;

@@ -107,18 +107,20 @@ class TriangleTree {
 };
 
 /// Where a point is seen along the third axis, in steps of the fine grid.
-struct Place {
+struct GridPlace {
   std::int64_t x, y;
 };
 constexpr int kGridBits = 30;  // products of two differences and what lies between two of these fit in 64 bits
 
 /// Twice the signed area of (p, a, b) is above 0; on the line, as if p lay a little further along y, then back along x.
-bool to_the_left(Place p, Place a, Place b) {
+bool to_the_left(GridPlace p, GridPlace a, GridPlace b) {
   const std::int64_t area = (a.x - p.x) * (b.y - p.y) - (a.y - p.y) * (b.x - p.x);
   if (area != 0) return area > 0;
   return a.x < b.x || (a.x == b.x && a.y < b.y);
 }
-double area_of(Place p, Place a, Place b) { return double((a.x - p.x) * (b.y - p.y) - (a.y - p.y) * (b.x - p.x)); }
+double area_of(GridPlace p, GridPlace a, GridPlace b) {
+  return double((a.x - p.x) * (b.y - p.y) - (a.y - p.y) * (b.x - p.x));
+}
 
 /// How often the surface goes around a point.
 class Turns {
@@ -137,7 +139,7 @@ class Turns {
   int around(Vec3d p) const {
     for (int k = 0; k < 3; ++k)
       if (!(p[k] >= m_box.low[k] && p[k] <= m_box.high[k])) return 0;
-    const Place at = place(p);
+    const GridPlace at = place(p);
     int turns = 0;
     for (const int t : m_columns.row(column(at.x >> m_shift, at.y >> m_shift))) turns += crossed_above(t, at, p.z);
     return turns;
@@ -147,7 +149,7 @@ class Turns {
   const TriMesh& m_mesh;
   Bounds m_box;
   double m_step;
-  std::vector<Place> m_places;
+  std::vector<GridPlace> m_places;
   int m_shift, m_side;
   Csr m_columns;  ///< of triangles
 
@@ -166,7 +168,7 @@ class Turns {
     }
     return sum;
   }
-  Place place(Vec3d p) const {
+  GridPlace place(Vec3d p) const {
     return {std::int64_t((p.x - m_box.low.x) / m_step), std::int64_t((p.y - m_box.low.y) / m_step)};
   }
   int column(std::int64_t i, std::int64_t j) const { return int(i) + m_side * int(j); }
@@ -195,9 +197,9 @@ class Turns {
   }
 
   /// 1 where a ray upwards leaves the body through this triangle, -1 where it enters, 0 where it passes by.
-  int crossed_above(int t, Place p, double z) const {
+  int crossed_above(int t, GridPlace p, double z) const {
     const auto& [a, b, c] = m_mesh.triangles[t];
-    const Place pa = m_places[a], pb = m_places[b], pc = m_places[c];
+    const GridPlace pa = m_places[a], pb = m_places[b], pc = m_places[c];
     const bool left = to_the_left(p, pa, pb);
     if (left != to_the_left(p, pb, pc) || left != to_the_left(p, pc, pa)) return 0;
     const double wa = area_of(p, pb, pc), wb = area_of(p, pc, pa), wc = area_of(p, pa, pb), whole = wa + wb + wc;

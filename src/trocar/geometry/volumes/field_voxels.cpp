@@ -13,11 +13,11 @@
 namespace trocar::geometry {
 namespace {
 
-using Place = std::array<int, 3>;
+using VoxelPlace = std::array<int, 3>;
 
 /// The part of a volume that a field needs, as numbers that are above 0 inside.
 struct Crop {
-  Place low{}, size{};
+  VoxelPlace low{}, size{};
   std::vector<float> values;
 
   std::size_t index(int i, int j, int k) const {
@@ -42,10 +42,10 @@ void for_each_voxel(const Voxels& v, F&& f) {
 template <class Wanted>
 Crop room_around(const Voxels& voxels, int border, Wanted&& wanted) {
   constexpr int none = std::numeric_limits<int>::max();
-  Place low{none, none, none}, high{-1, -1, -1};
+  VoxelPlace low{none, none, none}, high{-1, -1, -1};
   for_each_voxel(voxels, [&](int i, int j, int k, double value) {
     if (!wanted(value)) return;
-    const Place p{i, j, k};
+    const VoxelPlace p{i, j, k};
     for (int a = 0; a < 3; ++a) {
       low[a] = std::min(low[a], p[a]);
       high[a] = std::max(high[a], p[a]);
@@ -106,7 +106,7 @@ struct Trilinear {
 
   double operator()(Vec3d p) const {
     const Vec3d q = to_voxels * (p - origin);
-    Place low{};
+    VoxelPlace low{};
     Vec3d share;
     for (int a = 0; a < 3; ++a) {
       const double at = std::clamp(q[a], 0.0, double(crop.size[a] - 1));

@@ -15,13 +15,13 @@ constexpr double kJitterX = 0.00217391, kJitterY = 0.00131718, kJitterZ = 0.0017
 
 constexpr double kMostPlaces = 8e6, kMostRays = 16e6;
 
-struct Crossing {
+struct RayCrossing {
   double height;
   int leaves;  // +1: the ray leaves the body here, -1: it enters
 };
 
 // Twice the signed area of (p, a, b) in the plane of the first two axes; exactly opposite for (p, b, a).
-double turn(Vec3d a, Vec3d b, double x, double y) { return (a.x - x) * (b.y - y) - (a.y - y) * (b.x - x); }
+double twice_area_xy(Vec3d a, Vec3d b, double x, double y) { return (a.x - x) * (b.y - y) - (a.y - y) * (b.x - x); }
 bool to_the_left(double area, Vec3d a, Vec3d b) {
   if (area != 0.0) return area > 0.0;
   return a.x < b.x || (a.x == b.x && a.y < b.y);
@@ -44,7 +44,7 @@ class Columns {
 
   bool inside(int i, int j, double z) const {
     int winding = 0;
-    for (const Crossing& crossing : m_crossings[i + std::size_t(m_nx) * j])
+    for (const RayCrossing& crossing : m_crossings[i + std::size_t(m_nx) * j])
       if (crossing.height > z) winding += crossing.leaves;
     return winding > 0;
   }
@@ -59,7 +59,7 @@ class Columns {
 
   void meet(int i, int j, Vec3d a, Vec3d b, Vec3d c) {
     const double x = x_of(i), y = y_of(j);
-    const double wa = turn(b, c, x, y), wb = turn(c, a, x, y), wc = turn(a, b, x, y);
+    const double wa = twice_area_xy(b, c, x, y), wb = twice_area_xy(c, a, x, y), wc = twice_area_xy(a, b, x, y);
     const bool left = to_the_left(wa, b, c);
     if (left != to_the_left(wb, c, a) || left != to_the_left(wc, a, b)) return;
     const double whole = wa + wb + wc;
@@ -68,7 +68,7 @@ class Columns {
   }
 
   int m_nx, m_ny, m_samples;
-  std::vector<std::vector<Crossing>> m_crossings;
+  std::vector<std::vector<RayCrossing>> m_crossings;
 };
 
 Lattice empty_lattice(const TriMesh& mesh, double cell, const Mat3d& frame) {
