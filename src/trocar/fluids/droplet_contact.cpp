@@ -9,7 +9,7 @@
 namespace trocar::fluids {
 namespace {
 
-bool finite(Vec3f p) {
+bool bounded(Vec3f p) {
   return std::fabs(p.x) < 1e3f && std::fabs(p.y) < 1e3f && std::fabs(p.z) < 1e3f;  // NaN is not
 }
 Vec3f position(const DropletState& s, int i) { return {s.x[i], s.y[i], s.z[i]}; }
@@ -152,7 +152,7 @@ void land(Moment& t, int i, const Contact& c) {
 }
 
 bool sound(const Contact& c, const DropletState& s) {
-  return c.body >= 0 && finite(c.point) && finite(c.normal) && finite(c.velocity) &&
+  return c.body >= 0 && bounded(c.point) && bounded(c.normal) && bounded(c.velocity) &&
          std::fabs(dot(c.normal, c.normal) - 1) < 0.01f && c.film < std::int32_t(s.film.size());
 }
 
@@ -385,7 +385,7 @@ FluidReport resolve(const DropletModel& m, std::span<const Capsule> capsules, Dr
 
 Mix draw_drops(const DropletModel&, Vec3f p, float radius, std::int64_t amount, DropletState& s) noexcept {
   Mix out;
-  if (!finite(p) || !(radius > 0)) return out;
+  if (!bounded(p) || !(radius > 0)) return out;
   bool any = false;
   for (int i = 0; i < s.count && amount > 0; ++i) {
     const float dx = s.x[i] - p.x, dy = s.y[i] - p.y, dz = s.z[i] - p.z;

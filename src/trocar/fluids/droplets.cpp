@@ -2,27 +2,25 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <stdexcept>
 
 #include <trocar/core/field_hash.hpp>
+#include <trocar/core/require.hpp>
 #include <trocar/fluids/droplets.hpp>
 #include <trocar/numerics/portable.hpp>
 
 namespace trocar::fluids {
 namespace {
 
-constexpr float kFastest = 20;   ///< no drop is born faster [m/s]
-constexpr float kFarthest = 10;  ///< nor lives beyond [m]
-constexpr int kMostBirths = 64;  ///< of an opening in a tick
+using core::require;
 
-void require(bool holds, const char* what) {
-  if (!holds) throw std::invalid_argument(what);
-}
+constexpr float kFastest = 20;       ///< no drop is born faster [m/s]
+constexpr float kFarthestDrop = 10;  ///< nor lives beyond [m]
+constexpr int kMostBirths = 64;      ///< of an opening in a tick
+
 bool power_of_two(int n) { return n > 0 && (n & (n - 1)) == 0; }
 Blood fresh(const DropletModel& m, const DropletState& s, const Outlet& o) {
   return {now_of(m, s), o.venous > 0 ? std::min(o.venous, 1.0f) : 0.0f};  // NaN counts as none
 }
-bool finite(Vec3f p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
 /// Cube root of a float in the normal range: exponent by a third, then Newton's steps.
 float cube_root(float a) {
@@ -183,7 +181,7 @@ void catch_lost(DropletState& s, DropletWork& w, Below& below, FluidReport& repo
   for (int k = 0; k < w.mover_count; ++k) {
     const std::int32_t i = w.movers[k];
     const float far = (size(w.to_x[i]) + size(w.to_y[i])) + size(w.to_z[i]);
-    if (far < kFarthest) continue;
+    if (far < kFarthestDrop) continue;
     report.note(FluidReport::kBadDroplet, i);
     detail::put_into_pool({s.x[i], s.y[i], s.z[i]}, widened(s.volume[i]), s.blood[i], Place::kDroplets, below);
     s.volume[i] = {};

@@ -1,18 +1,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 #include <trocar/core/field_hash.hpp>
 #include <trocar/core/poison.hpp>
+#include <trocar/core/require.hpp>
 #include <trocar/fluids/fluids.hpp>
 
 namespace trocar::fluids {
 namespace {
 
-void require(bool holds, const char* what) {
-  if (!holds) throw std::invalid_argument(what);
-}
+using core::require;
 
 double valve(double opened) { return opened > 0 ? std::min(opened, 1.0) : 0.0; }
 

@@ -1,18 +1,15 @@
 // The pool between its steps: where things are, pouring in, drawing off. The step itself is in pool_step.cpp.
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include <trocar/core/field_hash.hpp>
+#include <trocar/core/require.hpp>
 #include <trocar/fluids/pool.hpp>
 
 namespace trocar::fluids {
 namespace {
 
-void require(bool holds, const char* what) {
-  if (!holds) throw std::invalid_argument(what);
-}
-bool finite(Vec3d p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+using core::require;
 bool unit(Vec3d a) { return finite(a) && std::fabs(dot(a, a) - 1) < 1e-9; }
 
 std::int64_t held_by(const PoolState& s, int k) {

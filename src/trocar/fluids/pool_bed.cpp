@@ -6,8 +6,8 @@
 namespace trocar::fluids {
 namespace {
 
-constexpr double kUpright = 1e-6;  // [cells^2] a triangle that covers less from above raises nothing
-constexpr double kFarthest = 1e6;  // [cells], [m]: not finite, or not in a patient
+constexpr double kUpright = 1e-6;       // [cells^2] a triangle that covers less from above raises nothing
+constexpr double kBeyondPatient = 1e6;  // [cells], [m]: not finite, or not in a patient
 
 struct Span {
   int first = 0, last = 0;  ///< the last one not included
@@ -33,7 +33,7 @@ void raise_bed(const PoolModel& m, const std::array<Vec3d, 3>& p, int first, int
   if (!(area > kUpright)) return;
   for (const Vec3d& corner : p)
     for (int axis = 0; axis < 3; ++axis)
-      if (!(std::fabs(corner[axis]) < kFarthest)) return;
+      if (!(std::fabs(corner[axis]) < kBeyondPatient)) return;
   const Span rows = cells_between(p[0].y, p[1].y, p[2].y, {first, last});
   const Span columns = cells_between(p[0].x, p[1].x, p[2].x, {0, m.nx});
   for (int j = rows.first; j < rows.last; ++j)

@@ -10,7 +10,7 @@ namespace {
 constexpr std::int64_t kUnit = 1000;       // [pL] a nanolitre: less than a micrometre on a cell
 constexpr double kStep = 5e-5;             // [m] of a drop's place
 constexpr float kSpeed = 0.02f;            // [m/s] of a drop's speed, at most 127 of them
-constexpr double kFarthest = 10;           // [m] from the pool's corner
+constexpr double kFarthestShown = 10;      // [m] from the pool's corner
 constexpr std::uint64_t kHighest = 1000;   // steps of a drop above its surface
 constexpr std::size_t kLongestRun = 256;   // of smoke
 constexpr std::int64_t kMost = 1'000'000;  // units in a cell, a drop, a place: below 2^30 pL
@@ -144,8 +144,8 @@ void put_ground(const DropletState& d, std::size_t k, Writer& out) {
 }
 void put_drops(const Vec3d corner, const DropletState& d, Writer& out) {
   const auto shown = [&d](std::size_t k) {
-    return units_of(d.volume[k]).any() && std::fabs(d.x[k]) < kFarthest && std::fabs(d.y[k]) < kFarthest &&
-           std::fabs(d.z[k]) < kFarthest;
+    return units_of(d.volume[k]).any() && std::fabs(d.x[k]) < kFarthestShown && std::fabs(d.y[k]) < kFarthestShown &&
+           std::fabs(d.z[k]) < kFarthestShown;
   };
   std::size_t count = 0;
   for (std::size_t k = 0; k < std::size_t(d.count); ++k) count += shown(k);
@@ -176,7 +176,8 @@ void take_drops(const Vec3d corner, Reader& in, DropletState& d) {
   const std::uint64_t count = in.number(d.x.size());
   for (std::size_t k = 0; in.good && k < count; ++k) {
     double x[3];
-    for (int c = 0; c < 3; ++c) x[c] = corner[c] + kStep * double(in.either_sign(std::uint64_t(4 * kFarthest / kStep)));
+    for (int c = 0; c < 3; ++c)
+      x[c] = corner[c] + kStep * double(in.either_sign(std::uint64_t(4 * kFarthestShown / kStep)));
     d.x[k] = float(x[0]), d.y[k] = float(x[1]), d.z[k] = float(x[2]);
     d.vx[k] = speed_of(in.byte()), d.vy[k] = speed_of(in.byte()), d.vz[k] = speed_of(in.byte());
     d.volume[k] = take_units(in);

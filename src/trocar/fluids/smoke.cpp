@@ -1,18 +1,15 @@
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include <trocar/core/field_hash.hpp>
+#include <trocar/core/require.hpp>
 #include <trocar/fluids/smoke.hpp>
 #include <trocar/numerics/portable.hpp>
 
 namespace trocar::fluids {
 namespace {
 
-void require(bool holds, const char* what) {
-  if (!holds) throw std::invalid_argument(what);
-}
-bool finite(Vec3d p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+using core::require;
 
 /// Whole cell and share towards the next, both within the grid, of a coordinate in cells (0 = centre of the first).
 struct Place1 {

@@ -66,6 +66,10 @@ Vec3<T> any_perpendicular(Vec3<T> n) {
   const Vec3<T> helper = std::fabs(n.x) < T(0.7) ? Vec3<T>{1, 0, 0} : Vec3<T>{0, 1, 0};
   return normalised(cross(n, helper));
 }
+template <class T>
+bool finite(Vec3<T> a) {
+  return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+}
 template <class U, class T>
 constexpr Vec3<U> vec_cast(Vec3<T> a) {
   return {U(a.x), U(a.y), U(a.z)};

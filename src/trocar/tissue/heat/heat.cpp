@@ -1,20 +1,19 @@
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include <trocar/core/field_hash.hpp>
+#include <trocar/core/require.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/tissue/heat/heat_bricks.hpp>
 
 namespace trocar::tissue {
 namespace {
 
+using core::require;
+
 constexpr double kGasConstant = 8.314462618;  ///< [J/mol K]
 constexpr double kFarthest = 10;              ///< places beyond are refused [m]
 
-void require(bool holds, const char* what) {
-  if (!holds) throw std::invalid_argument(what);
-}
 bool positive(double v) { return v > 0 && v < 1e12; }
 bool not_negative(double v) { return v >= 0 && v < 1e12; }
 bool near(Vec3d p) noexcept {
@@ -35,18 +34,18 @@ double squared_distance(Vec3d a, Vec3d b, Vec3d p) noexcept {
 }
 
 /// What a source touches: cells and their weights in work.
-struct Reach {
+struct SourceReach {
   int cells = 0;
   double weight = 0, conducting = 0;  ///< sums of weights, of what conducts
   double resisting = 0, warmth = 0;   ///< of weight / conductance, of weight x u
   float hottest = 0;
 };
 
-struct Box {
+struct CellBox {
   int low[3], high[3];
 };
-Box around(const HeatSource& q, double far, double cell) noexcept {
-  Box box{};
+CellBox around(const HeatSource& q, double far, double cell) noexcept {
+  CellBox box{};
   for (int c = 0; c < 3; ++c) {
     box.low[c] = cell_of(std::min(q.a[c], q.b[c]) - far, cell);
     box.high[c] = cell_of(std::max(q.a[c], q.b[c]) + far, cell);
@@ -61,7 +60,7 @@ class Gathering {
       : m_model(m), m_source(q), m_state(s), m_work(w), m_flags(flags) {
     m_radius = std::max(q.radius, m.cell);
     m_far = m_radius * q.reach;
-    const Box box = around(q, m_far + 0.5 * m.cell, m.cell);
+    const CellBox box = around(q, m_far + 0.5 * m.cell, m.cell);
     for (int k = brick_of(box.low[2]); k <= brick_of(box.high[2]); ++k)
       for (int j = brick_of(box.low[1]); j <= brick_of(box.high[1]); ++j)
         for (int i = brick_of(box.low[0]); i <= brick_of(box.high[0]); ++i) {
@@ -69,10 +68,10 @@ class Gathering {
           if (slot >= 0) gather({q.body, i, j, k}, slot, box);
         }
   }
-  const Reach& result() const noexcept { return m_reach; }
+  const SourceReach& result() const noexcept { return m_reach; }
 
  private:
-  void gather(const BrickKey& key, std::int32_t slot, const Box& box) noexcept {
+  void gather(const BrickKey& key, std::int32_t slot, const CellBox& box) noexcept {
     const int first[3] = {key.i * kBrickSide, key.j * kBrickSide, key.k * kBrickSide};
     int low[3], high[3];
     for (int c = 0; c < 3; ++c) {
@@ -125,7 +124,7 @@ class Gathering {
   HeatWork& m_work;
   std::uint32_t& m_flags;
   double m_radius = 0, m_far = 0;
-  Reach m_reach;
+  SourceReach m_reach;
 };
 
 bool is_sound(const HeatSource& q) noexcept {
@@ -141,7 +140,7 @@ void give(const HeatModel& m, const HeatSource& q, int index, const TissueShape&
   };
   if (!is_sound(q)) return wrong(HeatReport::kBadSource);
   if (!(q.watts < 0 || q.watts > 0)) return;
-  const Reach reach = Gathering(m, q, shape, s, w, report.flags).result();
+  const SourceReach reach = Gathering(m, q, shape, s, w, report.flags).result();
   if (!(reach.conducting > 0)) return wrong(HeatReport::kMissed);
   const double joules = q.watts * m.tick;
   const float each = float(joules / (m.cell_volume() * reach.conducting));
@@ -244,7 +243,7 @@ HeatContact probe(const HeatModel& m, const HeatSource& source, const TissueShap
   q.watts = 0;
   if (!is_sound(q)) return contact;
   std::uint32_t flags = 0;
-  const Reach reach = Gathering(m, q, shape, s, w, flags).result();
+  const SourceReach reach = Gathering(m, q, shape, s, w, flags).result();
   if (!(reach.weight > 0)) return contact;
   contact.volume = reach.weight * m.cell_volume();
   contact.conductance = reach.weight / reach.resisting;

@@ -1,39 +1,19 @@
 // Which instruction set the network's kernels use.
-#include <cstdlib>
-#include <cstring>
-
+#include <trocar/core/instruction_set.hpp>
 #include <trocar/tissue/network/network.hpp>
 #include <trocar/tissue/network/network_kernels.hpp>
 
 namespace trocar::tissue {
 namespace {
 
-bool can_run(const KernelSet* set) {
-  if (!set) return false;
-#if defined(__x86_64__)
-  if (std::strcmp(set->name, "avx2") == 0) return __builtin_cpu_supports("avx2");
-  if (std::strcmp(set->name, "avx512") == 0) {
-    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-           __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw");
-  }
-#endif
-  return true;
-}
-
-/// The widest runnable set not above `wish` (null: no wish).
 const KernelSet* choose(const char* wish) {
   const KernelSet* sets[] = {kernels_avx512(), kernels_avx2(), kernels_sse2(), kernels_generic()};
   const char* names[] = {"avx512", "avx2", "sse2", "generic"};
-  int first = 0;
-  for (int i = 0; wish && i < 4; ++i)
-    if (std::strcmp(wish, names[i]) == 0) first = i;
-  for (int i = first; i < 4; ++i)
-    if (can_run(sets[i])) return sets[i];
-  return kernels_generic();
+  return core::widest(sets, names, wish, 0);
 }
 
 const KernelSet*& chosen() {
-  static const KernelSet* set = choose(std::getenv("TROCAR_SIMD"));
+  static const KernelSet* set = choose(core::wished_instruction_set());
   return set;
 }
 
@@ -45,7 +25,7 @@ const char* simd_name() noexcept { return kernels().name; }
 
 bool set_simd(const std::string& name) noexcept {
   for (const KernelSet* set : {kernels_generic(), kernels_sse2(), kernels_avx2(), kernels_avx512()}) {
-    if (set && name == set->name && can_run(set)) {
+    if (set && name == set->name && core::can_run(set)) {
       chosen() = set;
       return true;
     }
