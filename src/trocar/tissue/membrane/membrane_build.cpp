@@ -11,24 +11,26 @@
 namespace trocar::tissue {
 namespace {
 
-[[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument("membrane: expected " + what); }
+[[noreturn]] void refuse_membrane(const std::string& what) {
+  throw std::invalid_argument("membrane: expected " + what);
+}
 
 void check_closed(const MembraneDescription& d) {
-  if (d.columns != 0 || d.rows != 0) refuse("either a grid or triangles");
+  if (d.columns != 0 || d.rows != 0) refuse_membrane("either a grid or triangles");
   for (const auto& t : d.triangles)
     for (int i : t)
-      if (i < 0 || std::size_t(i) >= d.positions.size()) refuse("triangles of known nodes");
+      if (i < 0 || std::size_t(i) >= d.positions.size()) refuse_membrane("triangles of known nodes");
   const geometry::TriMesh mesh{d.positions, d.triangles};
-  if (!geometry::check_edges(mesh).closed()) refuse("triangles that close");
-  if (!(geometry::volume(mesh) > 0)) refuse("triangles that face outwards");
+  if (!geometry::check_edges(mesh).closed()) refuse_membrane("triangles that close");
+  if (!(geometry::volume(mesh) > 0)) refuse_membrane("triangles that face outwards");
 }
 
 void check_enclosure(const Enclosure& e, bool closed) {
   if (e.kind == Enclosure::none) return;
-  if (!closed) refuse("nothing enclosed by a sheet that is open");
-  if (!(e.density >= 0 && std::isfinite(e.pressure))) refuse("contents with a pressure and a density >= 0");
-  if (e.kind == Enclosure::liquid && !(e.bulk > 0)) refuse("a liquid with a bulk modulus > 0");
-  if (e.kind == Enclosure::gas && !(e.pressure > -kAtmosphere)) refuse("gas at an absolute pressure > 0");
+  if (!closed) refuse_membrane("nothing enclosed by a sheet that is open");
+  if (!(e.density >= 0 && std::isfinite(e.pressure))) refuse_membrane("contents with a pressure and a density >= 0");
+  if (e.kind == Enclosure::liquid && !(e.bulk > 0)) refuse_membrane("a liquid with a bulk modulus > 0");
+  if (e.kind == Enclosure::gas && !(e.pressure > -kAtmosphere)) refuse_membrane("gas at an absolute pressure > 0");
 }
 
 void check(const MembraneDescription& d, double tick) {
@@ -37,24 +39,25 @@ void check(const MembraneDescription& d, double tick) {
   if (closed)
     check_closed(d);
   else if (d.columns < 2 || d.rows < 2 || d.columns > 10000 || d.rows > 10000)
-    refuse("2 to 10000 columns and rows");
+    refuse_membrane("2 to 10000 columns and rows");
   const std::size_t n = closed ? d.positions.size() : std::size_t(d.columns) * std::size_t(d.rows);
-  if (d.positions.size() != n) refuse("columns x rows positions, got " + std::to_string(d.positions.size()));
-  if (!d.held.empty() && d.held.size() != n) refuse("no held flags, or one per node");
-  if (!(tick > 0)) refuse("tick > 0 s");
-  if (!(d.thickness > 0 && d.youngs_modulus > 0 && d.density > 0)) refuse("thickness, youngs_modulus, density > 0");
-  if (!d.law.monotone()) refuse("a law whose force grows with strain (P1^2 < 3 P2)");
-  if (!(d.damping_time >= 0 && d.bending_damping_time >= 0 && d.global_damping >= 0)) refuse("damping >= 0");
+  if (d.positions.size() != n) refuse_membrane("columns x rows positions, got " + std::to_string(d.positions.size()));
+  if (!d.held.empty() && d.held.size() != n) refuse_membrane("no held flags, or one per node");
+  if (!(tick > 0)) refuse_membrane("tick > 0 s");
+  if (!(d.thickness > 0 && d.youngs_modulus > 0 && d.density > 0))
+    refuse_membrane("thickness, youngs_modulus, density > 0");
+  if (!d.law.monotone()) refuse_membrane("a law whose force grows with strain (P1^2 < 3 P2)");
+  if (!(d.damping_time >= 0 && d.bending_damping_time >= 0 && d.global_damping >= 0)) refuse_membrane("damping >= 0");
 }
 
 /// A cell's corners, row by row, and its mean width, height and area.
-struct Cell {
+struct SheetCell {
   int a, b, c, d;  // (column, row), (column + 1, row), (column, row + 1), (column + 1, row + 1)
   double width, height, area, diagonal2;
 };
 
-Cell cell_at(const MembraneDescription& m, int column, int row) {
-  Cell e{};
+SheetCell cell_at(const MembraneDescription& m, int column, int row) {
+  SheetCell e{};
   e.a = row * m.columns + column, e.b = e.a + 1, e.c = e.a + m.columns, e.d = e.c + 1;
   const auto& x = m.positions;
   const auto far = [&](int i, int j) { return length(x[std::size_t(j)] - x[std::size_t(i)]); };
@@ -64,12 +67,13 @@ Cell cell_at(const MembraneDescription& m, int column, int row) {
   e.area = 0.5 * length(cross(across, down));
   e.diagonal2 = 0.5 * (dot(across, across) + dot(down, down));
   if (!(e.area > 1e-3 * e.width * e.height) || !(e.width > 1e-6 && e.height > 1e-6))
-    refuse("cells with an area, got none at column " + std::to_string(column) + ", row " + std::to_string(row));
+    refuse_membrane("cells with an area, got none at column " + std::to_string(column) + ", row " +
+                    std::to_string(row));
   return e;
 }
 
 /// The net's springs before they are described: k and the two nodes, summed over the cells that share them.
-struct Spring {
+struct NetSpring {
   int a, b;
   double k;
 };
@@ -109,7 +113,7 @@ double cotangent(const MembraneDescription& m, int at, int a, int b) {
   const Vec3d u = m.positions[std::size_t(a)] - m.positions[std::size_t(at)];
   const Vec3d v = m.positions[std::size_t(b)] - m.positions[std::size_t(at)];
   const double area = length(cross(u, v));
-  if (!(area > 1e-4 * length(u) * length(v))) refuse("triangles with an area");
+  if (!(area > 1e-4 * length(u) * length(v))) refuse_membrane("triangles with an area");
   return dot(u, v) / area;
 }
 
@@ -123,9 +127,9 @@ double area_of(const MembraneDescription& m, std::size_t t) {
 
 /// Equal tension T pulls along a triangle's side s with T s cot(facing angle) / 2, and T = E t e / (1 - nu) at the
 /// strain e. Sides that face wide angles on both sides keep a little.
-std::vector<Spring> springs_of_triangles(const MembraneDescription& m) {
+std::vector<NetSpring> springs_of_triangles(const MembraneDescription& m) {
   const double modulus = m.youngs_modulus * m.thickness;
-  std::vector<Spring> out;
+  std::vector<NetSpring> out;
   for (const Edge& e : edges_of(m)) {
     const double cot = cotangent(m, e.facing[0], e.a, e.b) + cotangent(m, e.facing[1], e.a, e.b);
     out.push_back({e.a, e.b, 0.5 * modulus / (1 - kSheetPoisson) * std::max(0.02, cot)});
@@ -136,14 +140,14 @@ std::vector<Spring> springs_of_triangles(const MembraneDescription& m) {
 /// With k_x = (3/8) E t (3 h/w - w/h), k_y the same turned, k_d = (3/16) E t d^2 / (w h) a rectangle of w x h has the
 /// plane-stress stiffness of E t and nu = 1/3. Beyond w/h = sqrt 3 one of them would be negative: it is kept above a
 /// twentieth.
-std::vector<Spring> springs_of(const MembraneDescription& m) {
+std::vector<NetSpring> springs_of(const MembraneDescription& m) {
   if (!m.triangles.empty()) return springs_of_triangles(m);
   const double modulus = m.youngs_modulus * m.thickness;
   const std::size_t n = m.positions.size();
   std::vector<double> along(n, 0.0), down(n, 0.0), first(n, 0.0), second(n, 0.0);  // at each node's own corner
   for (int r = 0; r + 1 < m.rows; ++r)
     for (int c = 0; c + 1 < m.columns; ++c) {
-      const Cell e = cell_at(m, c, r);
+      const SheetCell e = cell_at(m, c, r);
       const double kx = 0.375 * modulus * std::max(0.05, 3 * e.height / e.width - e.width / e.height);
       const double ky = 0.375 * modulus * std::max(0.05, 3 * e.width / e.height - e.height / e.width);
       const double kd = 0.1875 * modulus * e.diagonal2 / e.area;
@@ -151,7 +155,7 @@ std::vector<Spring> springs_of(const MembraneDescription& m) {
       down[std::size_t(e.a)] += 0.5 * ky, down[std::size_t(e.b)] += 0.5 * ky;
       first[std::size_t(e.a)] = second[std::size_t(e.a)] = kd;
     }
-  std::vector<Spring> out;
+  std::vector<NetSpring> out;
   for (int r = 0; r < m.rows; ++r)
     for (int c = 0; c < m.columns; ++c) {
       const int a = r * m.columns + c;
@@ -192,7 +196,7 @@ NetworkDescription network_of(const MembraneDescription& m) {
   for (std::size_t i = 0; i < m.held.size(); ++i) d.fixed[i] = m.held[i] ? kHeld : kFree;
   for (int r = 0; r + 1 < m.rows; ++r)
     for (int c = 0; c + 1 < m.columns; ++c) {
-      const Cell e = cell_at(m, c, r);
+      const SheetCell e = cell_at(m, c, r);
       for (int i : {e.a, e.b, e.c, e.d}) d.mass[std::size_t(i)] += 0.25 * m.density * m.thickness * e.area;
     }
   for (std::size_t t = 0; t < m.triangles.size(); ++t)
@@ -203,7 +207,7 @@ NetworkDescription network_of(const MembraneDescription& m) {
   for (double& each : d.mass) each = std::max(each, kLeastMass * mean);
   const std::vector<double> contents = contents_of(m);
   for (std::size_t i = 0; i < contents.size(); ++i) d.mass[i] += contents[i];
-  for (const Spring& s : springs_of(m)) {
+  for (const NetSpring& s : springs_of(m)) {
     SpringDescription e;
     e.a = s.a, e.b = s.b, e.k = s.k;
     e.rest_length = length(m.positions[std::size_t(s.b)] - m.positions[std::size_t(s.a)]);
@@ -272,7 +276,7 @@ void add_node_bends(const MembraneDescription& m, int column, int row, double st
   out.push_back(both);
 }
 
-BendStencil twist_of(const Cell& e, double stiffness) {
+BendStencil twist_of(const SheetCell& e, double stiffness) {
   BendStencil s;
   const double w = 1 / (e.width * e.height);
   add_weight(s, e.a, w);
@@ -304,7 +308,7 @@ std::vector<BendStencil> grid_bends(const MembraneDescription& m, double stiffne
   std::vector<BendStencil> all;
   for (int r = 0; r + 1 < m.rows; ++r)
     for (int c = 0; c + 1 < m.columns; ++c) {
-      const Cell e = cell_at(m, c, r);
+      const SheetCell e = cell_at(m, c, r);
       for (int i : {e.a, e.b, e.c, e.d}) area[std::size_t(i)] += 0.25 * e.area;
       all.push_back(twist_of(e, stiffness));
     }
@@ -471,7 +475,7 @@ void settle(double tick, NetworkDescription& net, MembraneModel& m) {
   for (std::size_t i = 0; i < net.mass.size(); ++i) weight = std::max(weight, net.mass[i] * length(net.gravity));
   weight = std::max(weight, std::fabs(m.enclosure.pressure) * area_of_node(net.positions, m));
   for (int t = 0; t < kSettleTicks; ++t) {
-    if (!advance(m, {}, {}, {}, s, w).fine()) refuse("a sheet that hangs still");
+    if (!advance(m, {}, {}, {}, s, w).fine()) refuse_membrane("a sheet that hangs still");
     const double now = kinetic(m, s);
     const bool slower = now < before;
     before = slower ? 0 : now;
@@ -514,8 +518,8 @@ MembraneModel build(const MembraneDescription& d, double tick) {
   fill_border(net, m);
   m.network = build(net, tick / m.bend_steps);
   if (double(m.bend_steps) * m.network.substeps > kMostSubsteps)
-    refuse("at most " + std::to_string(kMostSubsteps) +
-           " sub-steps a tick, which a wider spacing or a softer tissue needs");
+    refuse_membrane("at most " + std::to_string(kMostSubsteps) +
+                    " sub-steps a tick, which a wider spacing or a softer tissue needs");
   const bool loaded = dot(d.gravity, d.gravity) > 0 || m.enclosure.pressure != 0;
   if (d.settle && loaded && !m.held_nodes.empty()) settle(tick, net, m);
   m.enclosure.volume = volume_of(m.network.rest, m);

@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <string>
 
+#include <trocar/geometry/tets/tet_volume.hpp>
 #include <trocar/tissue/network/lattice_springs.hpp>
 
 namespace trocar::tissue {
@@ -20,11 +21,9 @@ constexpr int kDiagonals[12][2] = {{0, 3}, {1, 2}, {4, 7}, {5, 6}, {0, 5}, {1, 4
 // Four corners cut off and the middle; its edges are face diagonals, so its cells move only with springs.
 constexpr int kTets[5][4] = {{0, 1, 2, 4}, {3, 1, 7, 2}, {5, 1, 4, 7}, {6, 2, 7, 4}, {1, 2, 4, 7}};
 
-double volume6(Vec3d o, Vec3d a, Vec3d b, Vec3d c) { return dot(a - o, cross(b - o, c - o)); }
-
 double cell_volume(std::span<const Vec3d> x, const std::array<int, 8>& c) {
   double six = 0;
-  for (const auto& t : kTets) six += volume6(x[c[t[0]]], x[c[t[1]]], x[c[t[2]]], x[c[t[3]]]);
+  for (const auto& t : kTets) six += geometry::volume6(x[c[t[0]]], x[c[t[1]]], x[c[t[2]]], x[c[t[3]]]);
   return six / 6;
 }
 
@@ -65,7 +64,8 @@ LatticeNetwork lattice_network(std::span<const Vec3d> corners, std::span<const s
     add_cell_springs(corners, c, material.youngs_modulus * part, volume, shares);
     for (const auto& t : kTets) {
       const std::array<int, 4> tet{c[t[0]], c[t[1]], c[t[2]], c[t[3]]};
-      if (!(volume6(corners[tet[0]], corners[tet[1]], corners[tet[2]], corners[tet[3]]) > 0.05 * volume)) continue;
+      if (!(geometry::volume6(corners[tet[0]], corners[tet[1]], corners[tet[2]], corners[tet[3]]) > 0.05 * volume))
+        continue;
       d.tets.push_back(tet);
       out.cell_of_tet.push_back(int(i));
     }

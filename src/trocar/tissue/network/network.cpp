@@ -59,10 +59,10 @@ bool run_part(KernelArgs a, ForceWork& w, int first, int last) {
 }
 
 bool run_substep(const KernelArgs& a, std::vector<ForceWork>& w, core::ThreadPool* pool) {
-  constexpr int kMost = 64;
-  const int threads = pool ? std::min({pool->threads(), int(w.size()), kMost}) : 1;
+  constexpr int kMostThreads = 64;
+  const int threads = pool ? std::min({pool->threads(), int(w.size()), kMostThreads}) : 1;
   if (threads < 2 || a.slices < threads * kSlicesPerThread) return run_part(a, w[0], 0, a.slices);
-  bool fine[kMost];
+  bool fine[kMostThreads];
   core::run(*pool, threads, [&](int i) noexcept {
     const auto border = [&](int part) { return int(std::int64_t(a.slices) * part / threads); };
     fine[i] = run_part(a, w[std::size_t(i)], border(i), border(i + 1));

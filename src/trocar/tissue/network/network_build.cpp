@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include <trocar/geometry/tets/tet_volume.hpp>
 #include <trocar/tissue/base/law.hpp>
 #include <trocar/tissue/network/network.hpp>
 #include <trocar/tissue/network/stability.hpp>
@@ -18,8 +19,6 @@ constexpr std::size_t kWindow = 256;  // rows sorted by degree within such windo
 [[noreturn]] void refuse(const std::string& what, std::size_t index, const std::string& expected) {
   throw std::invalid_argument("network: " + what + " " + std::to_string(index) + ": expected " + expected);
 }
-
-double volume6(Vec3d o, Vec3d a, Vec3d b, Vec3d c) { return dot(a - o, cross(b - o, c - o)); }
 
 void check(const NetworkDescription& d, double tick) {
   const std::size_t n = d.positions.size();
@@ -47,7 +46,7 @@ void check(const NetworkDescription& d, double tick) {
     const auto& c = d.tets[t];
     if (!inside(c[0]) || !inside(c[1]) || !inside(c[2]) || !inside(c[3])) refuse("cell", t, "nodes that exist");
     const auto& x = d.positions;
-    if (!(volume6(x[c[0]], x[c[1]], x[c[2]], x[c[3]]) > 0)) refuse("cell", t, "positive volume");
+    if (!(geometry::volume6(x[c[0]], x[c[1]], x[c[2]], x[c[3]]) > 0)) refuse("cell", t, "positive volume");
   }
 }
 
@@ -341,7 +340,7 @@ void fill_tets(NetworkModel& m, const NetworkDescription& d) {
   m.tet_begin.assign(m.nodes + 1, 0);
   for (int t = 0; t < n; ++t) {
     const auto& c = d.tets[t];
-    const double six = volume6(d.positions[c[0]], d.positions[c[1]], d.positions[c[2]], d.positions[c[3]]);
+    const double six = geometry::volume6(d.positions[c[0]], d.positions[c[1]], d.positions[c[2]], d.positions[c[3]]);
     TetRest rest{};
     rest.rest6 = float(six);
     for (int i = 0; i < 4; ++i) {

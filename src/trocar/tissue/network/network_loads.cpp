@@ -32,7 +32,7 @@ Vec3d operator*(const Matrix6& a, Vec3d v) {
 }
 
 /// P u of a load.
-Vec3d along(const NodeLoad& l, Vec3d u) {
+Vec3d projected(const NodeLoad& l, Vec3d u) {
   if (is_zero(l.dir)) return u;
   const Vec3d n = vec_cast<double>(l.dir);
   return dot(n, u) * n;
@@ -133,7 +133,7 @@ void ImplicitLoads::add_matrices(LoadedNode& n) const noexcept {
     const double k = double(l.k);
     add_along(l, m.dt * (double(l.d) + m.dt * k), a);
     add_along(l, m.dt * k, n.stiffness);
-    n.impulse += m.dt * (vec_cast<double>(l.f0) + k * along(l, vec_cast<double>(l.x0) - m.origin));
+    n.impulse += m.dt * (vec_cast<double>(l.f0) + k * projected(l, vec_cast<double>(l.x0) - m.origin));
   }
   if (n.held != kFree) hold(n.held, a, n.coupling);
   n.inverse = inverse(a);
@@ -163,7 +163,7 @@ void ImplicitLoads::report(std::span<Vec3f> reactions) const noexcept {
       const NodeLoad& l = m_loads[std::size_t(i)];
       const Vec3d reach = (vec_cast<double>(l.x0) - m.origin) - x;
       reactions[std::size_t(i)] =
-          vec_cast<float>(vec_cast<double>(l.f0) + along(l, double(l.k) * reach - double(l.d) * v));
+          vec_cast<float>(vec_cast<double>(l.f0) + projected(l, double(l.k) * reach - double(l.d) * v));
     }
   }
 }

@@ -21,10 +21,10 @@ float dot(Float4 a, Float4 b) noexcept {
 }
 
 /// A cell as it is: edges from its first corner, and six times its volume and the volume's derivatives by its corners.
-struct Cell {
+struct CellNow {
   float volume6;
   Float4 by[4];
-  Cell(std::span<const NodeState> nodes, const TetRest& t) noexcept {
+  CellNow(std::span<const NodeState> nodes, const TetRest& t) noexcept {
     const Float4 o = corner(nodes, t, 0);
     const Float4 a = corner(nodes, t, 1) - o, b = corner(nodes, t, 2) - o, c = corner(nodes, t, 3) - o;
     by[1] = cross(b, c), by[2] = cross(c, a), by[3] = cross(a, b);
@@ -48,7 +48,7 @@ void sum_volumes(std::span<const TetRest> cells, std::span<const std::uint8_t> p
       for (int i = 0; i < 4; ++i) w.volume[std::size_t(row[i])] += cells[t].rest6 / 24;
       continue;
     }
-    const Cell cell(nodes, cells[t]);
+    const CellNow cell(nodes, cells[t]);
     float answer = 0;
     for (int i = 0; i < 4; ++i) answer += w.inverse_mass[std::size_t(row[i])] * dot(cell.by[i], cell.by[i]);
     for (int i = 0; i < 4; ++i) {
@@ -73,7 +73,7 @@ float share_of(float ratio) noexcept {
 }
 
 /// What a unit of pressure does to that of a cell's corners which gives way most.
-float liveliest(const Cell& cell, const int* row, const VolumeWork& w) noexcept {
+float liveliest(const CellNow& cell, const int* row, const VolumeWork& w) noexcept {
   float most2 = 0;
   for (int i = 0; i < 4; ++i) {
     const float lightness = w.inverse_mass[std::size_t(row[i])];
@@ -111,7 +111,7 @@ void sum_forces(std::span<const TetRest> cells, std::span<const std::uint8_t> ph
     if (gone(phase, t)) continue;
     const int* row = cells[t].row;
     const auto p = [&](int i) { return w.pressure[std::size_t(row[i])]; };
-    const Cell cell(nodes, cells[t]);
+    const CellNow cell(nodes, cells[t]);
     float push = -(share_of(cell.volume6 / cells[t].rest6) * ((p(0) + p(1)) + (p(2) + p(3)))) / 24;
     push = bounded(push, float(dt) * liveliest(cell, row, w));
     for (int i = 0; i < 4; ++i) {

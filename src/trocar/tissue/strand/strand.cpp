@@ -203,23 +203,23 @@ void report_loads(const StrandModel& m, std::span<const StrandLoad> loads, const
 }
 
 /// First and last row of the system that a node's rows touch.
-struct Reach {
+struct RowReach {
   int first, last;
 };
-Reach reach_of(const StrandModel& m, int node) {
+RowReach reach_of(const StrandModel& m, int node) {
   const int rows = 3 * m.nodes, low = 3 * node - kStrandBand, high = 3 * node + 2 + kStrandBand;
   return {low > 0 ? low : 0, high < rows ? high : rows - 1};
 }
 /// Entry (3 node + axis, j) of the matrix as it was before nodes were prescribed, for the k-th of them; j within its
 /// reach.
-double& saved_entry(StrandWork& w, int k, int axis, const Reach& reach, int j) {
+double& saved_entry(StrandWork& w, int k, int axis, const RowReach& reach, int j) {
   return w.saved[std::size_t((3 * k + axis) * kStrandReach + j - reach.first)];
 }
 
 void save_prescribed(const StrandModel& m, StrandWork& w) {
   for (int k = 0; k < int(m.prescribed_nodes.size()); ++k) {
     const int p = m.prescribed_nodes[k];
-    const Reach reach = reach_of(m, p);
+    const RowReach reach = reach_of(m, p);
     for (int axis = 0; axis < 3; ++axis) {
       for (int j = reach.first; j <= reach.last; ++j)
         saved_entry(w, k, axis, reach, j) = band_entry(w.matrix, 3 * p + axis, j);
@@ -230,7 +230,7 @@ void save_prescribed(const StrandModel& m, StrandWork& w) {
 
 /// The row of the untouched system at a prescribed node says what impulse its holder gave.
 Vec3d force_on_holder(const StrandModel& m, int k, StrandWork& w) {
-  const Reach reach = reach_of(m, m.prescribed_nodes[k]);
+  const RowReach reach = reach_of(m, m.prescribed_nodes[k]);
   Vec3d force;
   for (int axis = 0; axis < 3; ++axis) {
     double hold = -w.force[3 * k + axis];
@@ -244,7 +244,7 @@ Vec3d force_on_holder(const StrandModel& m, int k, StrandWork& w) {
 /// K_pp - K_pf K_ff^-1 K_fp. With L D L^T = K_ff only L y = K_fp has to be solved, from the first row where K_fp is.
 Mat3d tangent_at_holder(const StrandModel& m, int k, StrandWork& w) {
   const int p = m.prescribed_nodes[k], rows = 3 * m.nodes;
-  const Reach reach = reach_of(m, p);
+  const RowReach reach = reach_of(m, p);
   std::fill(w.columns.begin() + 3 * reach.first, w.columns.end(), 0.0);
   for (int axis = 0; axis < 3; ++axis)
     for (int j = reach.first; j <= reach.last; ++j)

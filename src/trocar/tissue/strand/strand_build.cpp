@@ -11,31 +11,31 @@
 namespace trocar::tissue {
 namespace {
 
-[[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument("strand: expected " + what); }
+[[noreturn]] void refuse_strand(const std::string& what) { throw std::invalid_argument("strand: expected " + what); }
 
 void check(const StrandDescription& d, double tick) {
   const std::size_t n = d.positions.size();
-  if (n < 3) refuse("at least 3 nodes, got " + std::to_string(n));
-  if (!(tick > 0)) refuse("tick > 0 s");
-  if (d.radius.size() != n - 1) refuse("one radius per element");
-  if (!d.lumen.empty() && d.lumen.size() != n - 1) refuse("no lumen, or one per element");
-  if (!d.added_mass.empty() && d.added_mass.size() != n) refuse("no added mass, or one per node");
-  if (!d.foundation.empty() && d.foundation.size() != n) refuse("no foundation, or one stiffness per node");
-  if (!d.prescribed.empty() && d.prescribed.size() != n) refuse("no prescribed flags, or one per node");
-  if (!(d.youngs_modulus > 0 && d.density > 0)) refuse("youngs_modulus > 0 and density > 0");
-  if (!d.law.monotone()) refuse("a law whose force grows with strain (P1^2 < 3 P2)");
+  if (n < 3) refuse_strand("at least 3 nodes, got " + std::to_string(n));
+  if (!(tick > 0)) refuse_strand("tick > 0 s");
+  if (d.radius.size() != n - 1) refuse_strand("one radius per element");
+  if (!d.lumen.empty() && d.lumen.size() != n - 1) refuse_strand("no lumen, or one per element");
+  if (!d.added_mass.empty() && d.added_mass.size() != n) refuse_strand("no added mass, or one per node");
+  if (!d.foundation.empty() && d.foundation.size() != n) refuse_strand("no foundation, or one stiffness per node");
+  if (!d.prescribed.empty() && d.prescribed.size() != n) refuse_strand("no prescribed flags, or one per node");
+  if (!(d.youngs_modulus > 0 && d.density > 0)) refuse_strand("youngs_modulus > 0 and density > 0");
+  if (!d.law.monotone()) refuse_strand("a law whose force grows with strain (P1^2 < 3 P2)");
   if (!(d.damping_time >= 0 && d.foundation_damping_time >= 0 && d.global_damping >= 0 &&
         d.foundation_stiffening >= 0 && d.lumen_density >= 0))
-    refuse("damping, stiffening and densities >= 0");
+    refuse_strand("damping, stiffening and densities >= 0");
   for (std::size_t e = 0; e + 1 < n; ++e) {
     const double inner = d.lumen.empty() ? 0 : d.lumen[e];
     if (!(d.radius[e] > 0 && inner >= 0 && inner < d.radius[e]))
-      refuse("0 <= lumen < radius at element " + std::to_string(e));
+      refuse_strand("0 <= lumen < radius at element " + std::to_string(e));
     if (!(length(d.positions[e + 1] - d.positions[e]) > 1e-9))
-      refuse("different positions at the ends of element " + std::to_string(e));
+      refuse_strand("different positions at the ends of element " + std::to_string(e));
   }
   for (std::size_t i = 0; i < d.foundation.size(); ++i)
-    if (!(d.foundation[i] >= 0)) refuse("foundation >= 0 at node " + std::to_string(i));
+    if (!(d.foundation[i] >= 0)) refuse_strand("foundation >= 0 at node " + std::to_string(i));
 }
 
 bool held(const StrandDescription& d, int node) {
@@ -104,7 +104,7 @@ void settle(StrandModel& m) {
   bool held = numerics::band_factor(rows, kStrandBand, a.data()) < 0;
   for (int r = 0; held && r < rows; ++r) held = a[numerics::band_at(kStrandBand, r, r)] > 1e-11 * before[r];
   if (!held)
-    refuse(
+    refuse_strand(
         "something that holds the strand up (two prescribed nodes at an end, ends at both sides, or a foundation), "
         "or prestress = false");
   numerics::band_solve(rows, kStrandBand, a.data(), u.data());
@@ -115,7 +115,7 @@ void settle(StrandModel& m) {
     const double tension = k * dot(normalised(m.rest[e + 1] - m.rest[e]), at(e + 1) - at(e));
     // EA stays what it is: tension = EA shape(l_drawn / l_rest - 1).
     const double strain = inverse_shape(m.law, tension / m.stretch[e]);
-    if (!(strain > -0.9)) refuse("a strand stiff enough to carry its weight at element " + std::to_string(e));
+    if (!(strain > -0.9)) refuse_strand("a strand stiff enough to carry its weight at element " + std::to_string(e));
     m.rest_length[e] = l / (1 + strain);
   }
   for (int i = 1; i + 1 < m.nodes; ++i) m.bend_rest[i] -= at(i - 1) - 2.0 * at(i) + at(i + 1);

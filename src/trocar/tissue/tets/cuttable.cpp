@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <trocar/core/field_hash.hpp>
+#include <trocar/geometry/tets/tet_volume.hpp>
 #include <trocar/tissue/network/network_kernels.hpp>
 #include <trocar/tissue/network/network_loads.hpp>
 #include <trocar/tissue/network/stability.hpp>
@@ -20,7 +21,7 @@ constexpr double kSafety = 0.9;    // of what the time step bears
 
 double volume(const CuttableTets& b, const Tet& c) noexcept {
   const auto x = [&](int i) { return b.rest[std::size_t(c[std::size_t(i)])]; };
-  return dot(x(1) - x(0), cross(x(2) - x(0), x(3) - x(0))) / 6;
+  return geometry::volume6(x(0), x(1), x(2), x(3)) / 6;
 }
 
 int index_in(const Tet& c, int value) noexcept {

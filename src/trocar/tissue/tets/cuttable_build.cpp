@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <string>
 
+#include <trocar/geometry/tets/tet_volume.hpp>
 #include <trocar/tissue/network/stability.hpp>
 #include <trocar/tissue/tets/cuttable.hpp>
 
@@ -11,12 +12,14 @@ namespace {
 
 constexpr int kMostSpringsOfNode = 150;  // leaves room for those that cuts double
 
-[[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument("cuttable body: expected " + what); }
+[[noreturn]] void refuse_cuttable(const std::string& what) {
+  throw std::invalid_argument("cuttable body: expected " + what);
+}
 
 double volume(const CuttableDescription& d, int cell) {
   const geometry::Tet& c = d.cells[std::size_t(cell)];
   const auto x = [&](int i) { return d.points[std::size_t(c[std::size_t(i)])]; };
-  return dot(x(1) - x(0), cross(x(2) - x(0), x(3) - x(0))) / 6;
+  return geometry::volume6(x(0), x(1), x(2), x(3)) / 6;
 }
 
 /// The spring along an edge, in the sorted first part of the list.
@@ -92,8 +95,8 @@ void place_rows(const NetworkModel& n, int spare, CuttableModel& m) {
 }  // namespace
 
 CuttableModel build(const CuttableDescription& d, double tick) {
-  if (d.spare_nodes < 0 || d.spare_nodes > 1'000'000) refuse("0 to 1,000,000 spare nodes");
-  if (!d.fixed.empty() && d.fixed.size() != d.points.size()) refuse("fixed flags for every point, or none");
+  if (d.spare_nodes < 0 || d.spare_nodes > 1'000'000) refuse_cuttable("0 to 1,000,000 spare nodes");
+  if (!d.fixed.empty() && d.fixed.size() != d.points.size()) refuse_cuttable("fixed flags for every point, or none");
   TetNetwork t = tet_network(d.points, d.cells, d.material, d.fibres);
   t.network.gravity = d.gravity;
   t.network.global_damping = d.global_damping;
@@ -103,8 +106,8 @@ CuttableModel build(const CuttableDescription& d, double tick) {
   for (const SpringDescription& s : t.network.springs)
     for (const int node : {s.a, s.b})
       if (++springs_at[std::size_t(node)] > kMostSpringsOfNode)
-        refuse("at most " + std::to_string(kMostSpringsOfNode) + " springs at node " + std::to_string(node) +
-               ", got more");
+        refuse_cuttable("at most " + std::to_string(kMostSpringsOfNode) + " springs at node " + std::to_string(node) +
+                        ", got more");
 
   CuttableModel m;
   m.drawn = geometry::cuttable(d.points, d.cells, d.spare_nodes);
@@ -113,7 +116,8 @@ CuttableModel build(const CuttableDescription& d, double tick) {
       !m.anchors.empty() || std::any_of(d.fixed.begin(), d.fixed.end(), [](auto f) { return f != kFree; });
   if (held && dot(d.gravity, d.gravity) > 0) {
     const PrestressReport report = prestress(t.network, m.anchors);
-    if (!report.converged || report.failed_springs > 0) refuse("a body that what holds it can hold against gravity");
+    if (!report.converged || report.failed_springs > 0)
+      refuse_cuttable("a body that what holds it can hold against gravity");
     m.residual = report.residual;
   }
   share_out(d, t, m);
