@@ -11,7 +11,6 @@ namespace trocar::vessels {
 namespace {
 
 constexpr double kUsualVolume = 5e-3;  // of blood in the patient that the loss response is for [m^3]
-constexpr double kPicolitre = 1e-15;   // [m^3]
 constexpr double kFastest = 0.04;      // (u / c)^2 up to which the flow carries waves along
 constexpr double kSteepest = 0.3;      // what a taper may change the flow by in a tick, of the flow
 constexpr double kMostCarried = 0.45;  // keeps the matrix dominant in long cells

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <trocar/numerics/portable.hpp>
+#include <trocar/vessels/connected.hpp>
 #include <trocar/vessels/graph.hpp>
 
 namespace trocar::vessels {
@@ -152,10 +153,7 @@ void check_settings(const VesselGraph& graph, Faults& faults) {
 struct Sets {
   std::vector<int> parent;
   explicit Sets(int n) : parent(std::size_t(n)) { std::iota(parent.begin(), parent.end(), 0); }
-  int root(int i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  }
+  int root(int i) { return vessels::root(parent, i); }
   bool join(int a, int b) {
     a = root(a), b = root(b);
     if (a == b) return false;

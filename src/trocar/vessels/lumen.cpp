@@ -2,6 +2,7 @@
 #include <cassert>
 #include <cstddef>
 
+#include <trocar/vessels/connected.hpp>
 #include <trocar/vessels/lumen.hpp>
 
 namespace trocar::vessels {
@@ -16,12 +17,6 @@ void mark_blocked(const LumenGraph& graph, std::span<std::int32_t> blocked) {
     if (names(clip.segment, blocked.size()) && clip.cover >= graph.closing_cover) blocked[clip.segment] = 1;
   for (const std::int32_t cut : graph.cuts)
     if (names(cut, blocked.size())) blocked[cut] = 1;
-}
-
-/// Representative of a node's connected part; halves the way for the next question.
-std::int32_t root(std::span<std::int32_t> parent, std::int32_t node) {
-  while (parent[node] != node) node = parent[node] = parent[parent[node]];
-  return node;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <cstddef>
 
 #include <trocar/numerics/portable.hpp>
+#include <trocar/vessels/connected.hpp>
 #include <trocar/vessels/sites.hpp>
 
 namespace trocar::vessels {
@@ -14,7 +15,6 @@ constexpr double kFloor = 1e-4;            // of an orifice's flow at 10 kPa: be
 constexpr double kOozes = 2000;            // how far below the pressure around it a vein oozes: 15 mmHg [Pa]
 constexpr double kFar = 0.05, kNear = 50;  // how far off an orifice may be: of its pressure, and [Pa]
 constexpr int kRounds = 4;                 // of Newton's method for the orifices of a chain
-constexpr double kPicolitre = 1e-15;       // [m^3]
 
 bool finite(double x) { return x - x == 0; }
 
@@ -112,11 +112,6 @@ void chain_up(FlowState& s, FlowWork& w) {
     }
     w.chains[w.chain_count++] = chain;
   }
-}
-
-int root(std::span<std::int32_t> part, int node) {
-  while (part[node] != node) node = part[node] = part[part[node]];
-  return node;
 }
 
 /// part_fed of each node's root: some source is in that part.

@@ -7,6 +7,8 @@
 
 namespace trocar::vessels {
 
+inline constexpr double kPicolitre = 1e-15;  ///< [m^3]
+
 /// What a cell's terms are at present.
 struct CellTerms {
   double inertia = 0;     ///< per its whole length [Pa s/m^3]
