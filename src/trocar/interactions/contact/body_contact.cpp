@@ -4,50 +4,36 @@
 #include <trocar/geometry/surfaces/nearest.hpp>
 #include <trocar/interactions/contact/body_contact.hpp>
 #include <trocar/interactions/contact/body_friction.hpp>
+#include <trocar/interactions/contact/body_push.hpp>
 
 namespace trocar::interactions {
 namespace {
 
-constexpr double kStiffness = 150;    // [N/m] per sample, implicit on both sides
-constexpr double kDamping = 0.05;     // [N s/m]
-constexpr double kQuickest = 0.0006;  // [m] a tick that two organs are moved apart
-constexpr double kDeepest = 0.010;    // [m] deeper than this is not contact but another side of the body
-constexpr double kBeside = 0.012;     // [m] farther than this from the nearest vertex, its plane says nothing
-constexpr double kJoined = 0.030;     // [m] drawn no farther apart than this, strands are joined by a fold
+constexpr double kJoined = 0.030;  // [m] drawn no farther apart than this, strands are joined by a fold
 
 bool touches(const Surface& surface, int vertex, Vec3d p, double depth) noexcept {
-  return depth > 0 && depth <= kDeepest && length(p - surface.position(vertex)) <= kBeside;
+  return depth > 0 && depth <= kDeepestContact && length(p - surface.position(vertex)) <= kFarthestContact;
 }
 
 /// Far from the last vertex that was nearest, and not yet its turn to be looked for again?
 bool waits(const Surface& surface, Vec3d p, std::uint64_t turn, int vertex) noexcept {
-  constexpr double kFar = 0.025;       // [m]
-  constexpr std::uint64_t kTurns = 8;  // in which nothing comes from there to here
-  return geometry::distance2(surface.position(vertex), p) > kFar * kFar && turn % kTurns != 0;
+  constexpr double kFar = 0.025;          // [m]
+  constexpr std::uint64_t kTurnsFar = 8;  // in which nothing comes from there to here
+  return geometry::distance2(surface.position(vertex), p) > kFar * kFar && turn % kTurnsFar != 0;
 }
 
 /// Looks for the vertex nearest to p from the last one on.
 /// @return is it near enough for contact?
 bool beside(const Surface& surface, Vec3d p, std::int32_t& vertex) noexcept {
-  constexpr double kBeside2 = kBeside * kBeside * 1.000001;
+  constexpr double kFarthest2 = kFarthestContact * kFarthestContact * 1.000001;
   vertex = walk_to_nearest(surface, vertex, p);
-  return geometry::distance2(surface.position(vertex), p) <= kBeside2;
+  return geometry::distance2(surface.position(vertex), p) <= kFarthest2;
 }
 
 /// Pushes surface vertex `v` along -n by the share of the depth that its body takes.
 void push_surface(const Surface& surface, int v, Vec3d n, double depth, NetworkLoads* loads) noexcept {
   if (!loads) return;
-  SkinLoad back;
-  back.k = kStiffness;
-  back.shift = -0.5 * std::min(depth, kQuickest) * n;
-  back.dir = n;
-  back.d = kDamping;
-  add_skin_load(surface.nodes, *surface.skin, v, back, {Owner::body, 0, 0}, *loads);
-}
-
-/// Where a wall is touched, nothing moves.
-Vec3d velocity_of(const Surface& surface, int v) noexcept {
-  return surface.moves() ? tissue::skin_velocity(surface.nodes, *surface.skin, v) : Vec3d{0, 0, 0};
+  push_skin(surface, v, -0.5 * std::min(depth, kQuickestApart) * n, n, kBodyStiffness, kBodyDamping, *loads);
 }
 
 }  // namespace
@@ -68,14 +54,14 @@ void strand_on_surface(const SurfacePair& pair, const StrandBody& body, const ti
     tissue::StrandLoad load;
     load.element = e;
     load.w = node == e ? 0.0 : 1.0;
-    load.k = kStiffness;
+    load.k = kBodyStiffness;
     load.dir = c.normal;
-    load.d = kDamping;
-    load.x0 = p + share * std::min(depth, kQuickest) * c.normal;
+    load.d = kBodyDamping;
+    load.x0 = p + share * std::min(depth, kQuickestApart) * c.normal;
     strand_loads.add(load, {Owner::body, 0, 0});
     push_surface(surface, nearest[i], c.normal, depth, surface_loads);
-    const Vec3d ours = state.v[size_t(node)], theirs = velocity_of(surface, nearest[i]);
-    const BodyRub rub = body_rub(kStiffness * share * std::min(depth, kQuickest), c.normal, ours, theirs);
+    const Vec3d ours = state.v[size_t(node)], theirs = surface.velocity(nearest[i]);
+    const BodyRub rub = body_rub(kBodyStiffness * share * std::min(depth, kQuickestApart), c.normal, ours, theirs);
     rub_strand(e, load.w, rub, theirs, strand_loads);
     if (surface_loads) rub_skin(surface, nearest[i], rub, ours, *surface_loads);
   }
@@ -95,15 +81,11 @@ void solid_on_surface(const SurfacePair& pair, const Surface& samples, const Sur
     const Clearance c = clearance_at(surface, nearest[i], p);
     const double depth = -c.distance - double(pair.overlap[i]);
     if (!touches(surface, nearest[i], p, depth) || surface.torn(nearest[i])) continue;
-    SkinLoad load;
-    load.k = kStiffness;
-    load.shift = share * std::min(depth, kQuickest) * c.normal;
-    load.dir = c.normal;
-    load.d = kDamping;
-    add_skin_load(samples.nodes, *samples.skin, v, load, {Owner::body, 0, 0}, sample_loads);
+    push_skin(samples, v, share * std::min(depth, kQuickestApart) * c.normal, c.normal, kBodyStiffness, kBodyDamping,
+              sample_loads);
     push_surface(surface, nearest[i], c.normal, depth, surface_loads);
-    const Vec3d ours = velocity_of(samples, v), theirs = velocity_of(surface, nearest[i]);
-    const BodyRub rub = body_rub(kStiffness * share * std::min(depth, kQuickest), c.normal, ours, theirs);
+    const Vec3d ours = samples.velocity(v), theirs = surface.velocity(nearest[i]);
+    const BodyRub rub = body_rub(kBodyStiffness * share * std::min(depth, kQuickestApart), c.normal, ours, theirs);
     rub_skin(samples, v, rub, theirs, sample_loads);
     if (surface_loads) rub_skin(surface, nearest[i], rub, ours, *surface_loads);
   }
@@ -180,16 +162,16 @@ void strand_on_strand(const StrandPair& pair, const StrandBody& a, const tissue:
     }
     const collision::RodContact c = collision::touch(rod(b, b_state, j), rod(a, a_state, i), side[size_t(i)]);
     const double deep = c.depth - double(pair.overlap[size_t(i)]);
-    if (deep <= 0 || deep > kDeepest) continue;
+    if (deep <= 0 || deep > kDeepestContact) continue;
     const double counts = share_of(a, i, b, j, c.normal);
     if (!(counts > 0)) {
       side[size_t(i)] = {0, 0, 0};
       continue;
     }
-    const double depth = std::min(deep, kQuickest);
+    const double depth = std::min(deep, kQuickestApart);
     tissue::StrandLoad on_a, on_b;
-    on_a.k = on_b.k = counts * kStiffness;
-    on_a.d = on_b.d = counts * kDamping;
+    on_a.k = on_b.k = counts * kBodyStiffness;
+    on_a.d = on_b.d = counts * kBodyDamping;
     on_a.dir = on_b.dir = c.normal;
     on_a.element = i;
     on_a.w = c.t;

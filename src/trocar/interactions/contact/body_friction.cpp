@@ -6,7 +6,6 @@
 namespace trocar::interactions {
 namespace {
 
-constexpr float kLeast = 0.05f;  // share of a contact below which a node feels no friction
 constexpr double kSlow = 0.005;  // [m/s] what a tick's forces may turn a slip of this speed is little
 
 }  // namespace
@@ -31,7 +30,7 @@ void rub_skin(const Surface& surface, int vertex, const BodyRub& rub, Vec3d agai
     load.dir = dir;
     load.d = rub.damping;
     load.f0 = (rub.damping * dot(against, dir)) * dir;
-    add_skin_load(surface.nodes, *surface.skin, vertex, load, {Owner::body, 0, 0}, loads, kLeast);
+    add_skin_load(surface.nodes, *surface.skin, vertex, load, {Owner::body, 0, 0}, loads, kLeastRubbed);
   }
 }
 

@@ -16,6 +16,7 @@ namespace trocar::interactions {
 
 inline constexpr double kBodyFriction = 0.05;  ///< mu [-]
 inline constexpr double kCreep = 0.0005;       ///< u0 [m/s]
+inline constexpr float kLeastRubbed = 0.05f;   ///< share of a contact below which a node feels no friction
 
 /// The dashpot of one contact. `damping` 0: there is none.
 struct BodyRub {

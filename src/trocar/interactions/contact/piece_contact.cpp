@@ -2,24 +2,22 @@
 
 #include <trocar/geometry/surfaces/nearest.hpp>
 #include <trocar/interactions/contact/body_friction.hpp>
+#include <trocar/interactions/contact/body_push.hpp>
 #include <trocar/interactions/contact/piece_contact.hpp>
 
 namespace trocar::interactions {
 namespace {
 
-constexpr double kStiffness = 150;    // [N/m] per vertex, implicit on both sides, as organs among each other
-constexpr double kDamping = 0.05;     // [N s/m]
-constexpr double kQuickest = 0.0006;  // [m] a tick that two pieces are moved apart
-constexpr double kReach = 0.008;      // [m] about a cell and a half: the nearest vertex is not farther
+constexpr double kPieceReach = 0.008;  // [m] about a cell and a half: the nearest vertex is not farther
 
 /// The nearest vertex of another piece within reach, or -1.
 int nearest_of_others(const Surface& surface, std::span<const std::int32_t> part, int vertex) noexcept {
   const tissue::SkinPose& pose = *surface.pose;
   const Vec3d p = surface.position(vertex);
-  double least = kReach * kReach;
+  double least = kPieceReach * kPieceReach;
   int best = -1;
   for (size_t b = 0; b < pose.block.size(); ++b) {
-    if (!pose.block[b].reaches(p, kReach)) continue;
+    if (!pose.block[b].reaches(p, kPieceReach)) continue;
     const int last = std::min(int(b + 1) * tissue::kSkinBlock, surface.skin->size());
     for (int v = int(b) * tissue::kSkinBlock; v < last; ++v) {
       if (part[size_t(v)] == part[size_t(vertex)]) continue;
@@ -32,23 +30,14 @@ int nearest_of_others(const Surface& surface, std::span<const std::int32_t> part
   return best;
 }
 
-void push(const Surface& surface, int vertex, Vec3d by, Vec3d n, NetworkLoads& loads) noexcept {
-  SkinLoad load;
-  load.k = kStiffness;
-  load.shift = by;
-  load.dir = n;
-  load.d = kDamping;
-  add_skin_load(surface.nodes, *surface.skin, vertex, load, {Owner::body, 0, 0}, loads);
-}
-
 /// Pushes two vertices apart along n, which points from the second to the first, and holds them back across it.
 void part_pair(const Surface& surface, int first, int second, double depth, Vec3d n, NetworkLoads& loads) noexcept {
-  const double half = 0.5 * std::min(depth, kQuickest);
-  push(surface, first, half * n, n, loads);
-  push(surface, second, -half * n, n, loads);
+  const double half = 0.5 * std::min(depth, kQuickestApart);
+  push_skin(surface, first, half * n, n, kBodyStiffness, kBodyDamping, loads);
+  push_skin(surface, second, -half * n, n, kBodyStiffness, kBodyDamping, loads);
   const Vec3d ours = tissue::skin_velocity(surface.nodes, *surface.skin, first);
   const Vec3d theirs = tissue::skin_velocity(surface.nodes, *surface.skin, second);
-  const BodyRub rub = body_rub(kStiffness * half, n, ours, theirs);
+  const BodyRub rub = body_rub(kBodyStiffness * half, n, ours, theirs);
   rub_skin(surface, first, rub, theirs, loads);
   rub_skin(surface, second, rub, ours, loads);
 }
@@ -74,7 +63,7 @@ void lip_on_lip(const Surface& surface, std::span<const std::int32_t> part, std:
     if (part[size_t(v)] != part[size_t(twin)] || !surface.skin->at_surface(v) || !surface.skin->at_surface(twin))
       continue;
     const Vec3d apart = surface.position(v) - surface.position(twin);
-    if (dot(apart, apart) > kReach * kReach) continue;
+    if (dot(apart, apart) > kPieceReach * kPieceReach) continue;
     // What the two normals have in common is the organ's own surface, where the cut comes out of it.
     const Vec3d across = surface.normal(twin) - surface.normal(v);
     if (!(dot(across, across) > 0.25)) continue;

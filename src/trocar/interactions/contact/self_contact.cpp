@@ -4,24 +4,22 @@
 
 #include <trocar/geometry/surfaces/nearest.hpp>
 #include <trocar/interactions/contact/body_friction.hpp>
+#include <trocar/interactions/contact/body_push.hpp>
 #include <trocar/interactions/contact/self_contact.hpp>
 
 namespace trocar::interactions {
 namespace {
 
-constexpr double kStiffness = 600;    // [N/m] per sample, implicit on both sides: few samples bear a whole limb
-constexpr double kDamping = 0.2;      // [N s/m]
-constexpr double kQuickest = 0.0006;  // [m] a tick that two parts are moved apart
-constexpr double kDeepest = 0.010;    // [m] deeper than this is not contact
-constexpr double kBeside = 0.012;     // [m] farther than this from the nearest vertex, its plane says nothing
-constexpr double kLook = 0.012;       // [m] how far ahead a sample looks
-constexpr double kAround = 0.0075;    // [m] of the middle of what it sees: vertices there are looked at
-constexpr double kForget = 0.015;     // [m]
-constexpr double kNear = 0.003;       // [m] above a vertex' plane: no triangle there can be touched
-constexpr double kFacing = -0.25;     // of the two normals' product, to be found
-constexpr std::uint64_t kTurns = 32;  // [ticks] in which all samples have looked
-constexpr std::uint64_t kSoon = 8;    // [ticks] the same where some part is near already
-constexpr double kDrawnGap = 0.0002;  // [m] parts drawn nearer than this may come nearer by as much
+constexpr double kLimbStiffness = 600;  // [N/m] per sample, implicit on both sides: few samples bear a whole limb
+constexpr double kLimbDamping = 0.2;    // [N s/m]
+constexpr double kLook = 0.012;         // [m] how far ahead a sample looks
+constexpr double kAround = 0.0075;      // [m] of the middle of what it sees: vertices there are looked at
+constexpr double kForget = 0.015;       // [m]
+constexpr double kUntouched = 0.003;    // [m] above a vertex' plane: no triangle there can be touched
+constexpr double kFacing = -0.25;       // of the two normals' product, to be found
+constexpr std::uint64_t kTurns = 32;    // [ticks] in which all samples have looked
+constexpr std::uint64_t kSoon = 8;      // [ticks] the same where some part is near already
+constexpr double kDrawnGap = 0.0002;    // [m] parts drawn nearer than this may come nearer by as much
 
 /// The nearest vertex of another part that the sample faces from outside, or -1.
 int look_ahead(const SelfPair& pair, const Surface& surface, std::size_t i) noexcept {
@@ -76,15 +74,6 @@ bool is_carried(const tissue::Skin& skin, int vertex, std::span<const std::uint8
   return false;
 }
 
-void push(const Surface& surface, int vertex, Vec3d by, Vec3d n, NetworkLoads& loads) noexcept {
-  SkinLoad load;
-  load.k = kStiffness;
-  load.shift = by;
-  load.dir = n;
-  load.d = kDamping;
-  add_skin_load(surface.nodes, *surface.skin, vertex, load, {Owner::body, 0, 0}, loads);
-}
-
 /// A sample that knows its vertex. @return that vertex as of now, -1 to forget it
 int keep_apart(const SelfPair& pair, const Surface& surface, std::size_t i, int known, NetworkLoads& loads) noexcept {
   const int v = pair.sample[i];
@@ -92,18 +81,18 @@ int keep_apart(const SelfPair& pair, const Surface& surface, std::size_t i, int 
   const int u = walk_beside(pair, surface, i, known, p);
   const double far2 = geometry::distance2(surface.position(u), p);
   if (!(far2 < kForget * kForget)) return -1;
-  if (clearance_at(surface, u, p).distance > kNear) return u;
+  if (clearance_at(surface, u, p).distance > kUntouched) return u;
   const Vec3d n = surface.normal(v);
   if (!(dot(n, surface.normal(u)) < 0)) return -1;
   const Clearance c = facing_clearance(surface, u, p, n);
   const double deep = -c.distance - double(pair.overlap[i]);
-  if (!(deep > 0) || deep > kDeepest || far2 > kBeside * kBeside) return u;
-  const double half = 0.5 * std::min(deep, kQuickest);
-  push(surface, v, half * c.normal, c.normal, loads);
-  push(surface, u, -half * c.normal, c.normal, loads);
+  if (!(deep > 0) || deep > kDeepestContact || far2 > kFarthestContact * kFarthestContact) return u;
+  const double half = 0.5 * std::min(deep, kQuickestApart);
+  push_skin(surface, v, half * c.normal, c.normal, kLimbStiffness, kLimbDamping, loads);
+  push_skin(surface, u, -half * c.normal, c.normal, kLimbStiffness, kLimbDamping, loads);
   const Vec3d ours = tissue::skin_velocity(surface.nodes, *surface.skin, v);
   const Vec3d theirs = tissue::skin_velocity(surface.nodes, *surface.skin, u);
-  const BodyRub rub = body_rub(kStiffness * half, c.normal, ours, theirs);
+  const BodyRub rub = body_rub(kLimbStiffness * half, c.normal, ours, theirs);
   rub_skin(surface, v, rub, theirs, loads);
   rub_skin(surface, u, rub, ours, loads);
   return u;

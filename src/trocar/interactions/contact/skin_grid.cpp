@@ -8,9 +8,9 @@
 namespace trocar::interactions {
 namespace {
 
-constexpr double kFinest = 0.004;   // [m] edge of a cell
-constexpr double kMostCells = 1e5;  // larger cells rather than more
-constexpr double kRounding = 1e-7;  // [m] far more than what rounding misplaces
+constexpr double kFinest = 0.004;       // [m] edge of a cell
+constexpr double kMostSkinCells = 1e5;  // larger cells rather than more
+constexpr double kRounding = 1e-7;      // [m] far more than what rounding misplaces
 
 double squared(double x) { return x * x; }
 
@@ -73,7 +73,7 @@ SkinGrid make_skin_grid(const tissue::Skin& skin, double reach) {
   Vec3d size = vec_cast<double>(bounds.high) + Vec3d{margin, margin, margin} - grid.origin;
   for (int k = 0; k < 3; ++k) size[k] = std::clamp(size[k], kFinest, 100.0);
   double edge = kFinest;
-  while (size.x * size.y * size.z > kMostCells * edge * edge * edge) edge *= 1.25;
+  while (size.x * size.y * size.z > kMostSkinCells * edge * edge * edge) edge *= 1.25;
   grid.per_cell = 1 / edge;
   for (int k = 0; k < 3; ++k) grid.cells[size_t(k)] = int(size[k] / edge) + 2;
   std::vector<std::vector<std::int32_t>> within(size_t(grid.cells[0]) * size_t(grid.cells[1]) * size_t(grid.cells[2]));

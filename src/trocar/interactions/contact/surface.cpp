@@ -10,6 +10,10 @@ Vec3d Surface::normal(int vertex) const noexcept {
   return moves() ? tissue::skin_normal(*skin, *pose, vertex) : vec_cast<double>(skin->rest_normal[size_t(vertex)]);
 }
 
+Vec3d Surface::velocity(int vertex) const noexcept {
+  return moves() ? tissue::skin_velocity(nodes, *skin, vertex) : Vec3d{0, 0, 0};
+}
+
 float torn_beyond(double cell) noexcept {
   constexpr double kTimes = 5;  // beyond the failure strain of all tissues
   return float(kTimes * std::sqrt(3.0) * cell);

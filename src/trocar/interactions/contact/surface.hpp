@@ -17,6 +17,7 @@ struct Surface {
   bool moves() const noexcept { return !nodes.empty(); }
   Vec3d position(int vertex) const noexcept { return vec_cast<double>(pose->position[size_t(vertex)]); }
   Vec3d normal(int vertex) const noexcept;
+  Vec3d velocity(int vertex) const noexcept;  ///< of a wall: none
   /// Is nothing there any more? Where a lattice tears, what carries a vertex goes apart and takes it along in between.
   bool torn(int vertex) const noexcept;
   /// The same for the edge between two neighbours.

@@ -9,12 +9,11 @@
 namespace trocar::interactions {
 namespace {
 
-constexpr double kStiffness = 3000;   // [N/m] per triangle, implicit: decides how firm, never how stable
-constexpr double kDamping = 0.02;     // [N s/m]
-constexpr double kQuickest = 0.0012;  // [m] a tick that a contact moves a sheet more than the instrument moves
-constexpr double kRemember = 0.002;   // [m] beyond touching, the side is still known
-constexpr double kDeepest = 0.006;    // [m] beyond this a rod that is not right over the triangle went around it
-constexpr double kLost = 0.025;       // [m] beyond this it is on the other side for good
+constexpr double kSheetStiffness = 3000;  // [N/m] per triangle, implicit: decides how firm, never how stable
+constexpr double kSheetDamping = 0.02;    // [N s/m]
+constexpr double kRemember = 0.002;       // [m] beyond touching, the side is still known
+constexpr double kDeepestRod = 0.006;     // [m] beyond this a rod that is not right over the triangle went around it
+constexpr double kLost = 0.025;           // [m] beyond this it is on the other side for good
 
 struct Corners {
   Vec3d a, b, c;
@@ -62,7 +61,7 @@ Meeting meet(const Capsule& rod, const Corners& t, double half_thickness, Vec3f&
     r.normal = known;
     r.depth = sum + poke(rod, t, known);
   }
-  if (r.depth > (over ? kLost : kDeepest)) {
+  if (r.depth > (over ? kLost : kDeepestRod)) {
     side = {0, 0, 0};
     r.depth = -1;
   }
@@ -122,8 +121,8 @@ void push(const Surface& surface, const std::array<int, 3>& triangle, const Meet
     if (share < 0.02) continue;
     tissue::NodeLoad load;
     load.node = triangle[k];
-    load.k = float(share * kStiffness);
-    load.d = float(share * kDamping);
+    load.k = float(share * kSheetStiffness);
+    load.d = float(share * kSheetDamping);
     load.dir = vec_cast<float>(touch.normal);
     load.x0 = vec_cast<float>(surface.position(triangle[k]) + depth * touch.normal);
     loads.add(load, tag);
@@ -249,7 +248,7 @@ void tool_on_sheet(Touching& c, const ToolState& tool_state, BodyId body, const 
       gap = std::min(gap, touch.distance);
       if (touch.depth <= -kGrazes) continue;
       const std::int32_t number = c.note(body, int(i), part);
-      const double depth = std::clamp(touch.depth, 0.0, kQuickest + way);
+      const double depth = std::clamp(touch.depth, 0.0, kQuickestPush + way);
       rub(c, number, c.anchored(body, int(i), part), surface, t, corners, touch, depth, loads);
       if (touch.depth > 0) push(surface, t, touch, depth, {Owner::tool_contact, c.tool, number}, loads);
     }

@@ -3,6 +3,7 @@
 
 #include <trocar/core/tick.hpp>
 #include <trocar/geometry/surfaces/nearest.hpp>
+#include <trocar/interactions/contact/body_friction.hpp>
 #include <trocar/interactions/contact/nearest_skin.hpp>
 #include <trocar/interactions/instrument/tool_contact.hpp>
 
@@ -11,16 +12,14 @@ namespace {
 
 constexpr double kSurfaceStiffness = 1500;  // [N/m] per skin vertex, implicit: decides how firm, never how stable
 constexpr double kStrandStiffness = 1500;   // [N/m] per strand element
-constexpr double kQuickest = 0.0012;        // [m] a tick that a contact moves a skin more than the instrument moves
-constexpr double kQuickestStrand = 0.003;   // [m] the same for a strand, which is light
-constexpr double kDamping = 0.3;            // [N s/m] along the contact normal
-constexpr double kBehind = 0.006;           // [m] how deep behind the surface an instrument is looked for
-constexpr double kDeepest = 0.025;          // [m] ... and still pushed out, if it is known to have come from outside
-constexpr double kNear = 0.0025;            // [m] from the instrument: noted
-constexpr float kLeast = 0.05f;             // share of a contact below which a node feels no friction
+constexpr double kQuickestStrand = 0.003;   // [m] kQuickestPush of a strand, which is light
+constexpr double kNormalDamping = 0.3;      // [N s/m] along the contact normal
+constexpr double kBehindSkin = 0.006;       // [m] how deep behind the surface an instrument is looked for
+constexpr double kDeepestTool = 0.025;      // [m] ... and still pushed out, if it is known to have come from outside
+constexpr double kNoted = 0.0025;           // [m] from the instrument: noted
 
 bool meets(const tissue::Box& box, const Capsule& rod) noexcept {
-  return meets_box(box, rod.a, rod.b, rod.radius + kBehind);
+  return meets_box(box, rod.a, rod.b, rod.radius + kBehindSkin);
 }
 
 }  // namespace
@@ -34,7 +33,7 @@ void push_vertex(const Touching& c, std::int32_t number, const Surface& surface,
   load.k = share * kSurfaceStiffness;
   load.shift = depth * n;
   load.dir = n;
-  load.d = share * kDamping;
+  load.d = share * kNormalDamping;
   add_skin_load(surface.nodes, *surface.skin, v, load, {Owner::tool_contact, c.tool, number}, loads);
 }
 
@@ -51,7 +50,7 @@ void rub_skin(const Touching& c, std::int32_t number, const Rub& rub, const Surf
     load.dir = rub.dir;
     load.f0 = (load.d * rub.speed) * rub.dir;
   }
-  add_skin_load(surface.nodes, *surface.skin, v, load, {Owner::tool_contact, c.tool, number}, loads, kLeast);
+  add_skin_load(surface.nodes, *surface.skin, v, load, {Owner::tool_contact, c.tool, number}, loads, kLeastRubbed);
 }
 
 void rub_vertex(Touching& c, std::int32_t number, const Surface& surface, int v, double depth, Vec3d n,
@@ -81,22 +80,22 @@ void touch_vertex(Touching& c, BodyId body, const Surface& surface, int v, int p
   const Capsule& rod = c.shape.part[part];
   const Vec3d p = surface.position(v), from = p - collision::nearest_on_axis(rod, p);
   const double distance = length(from);
-  if (distance > rod.radius + kDeepest) return;
+  if (distance > rod.radius + kDeepestTool) return;
   const Vec3d n = surface.normal(v);
   if (dot(from, n) <= 0) {
-    if (distance > rod.radius + kNear) return;
+    if (distance > rod.radius + kNoted) return;
   } else if (!was_near(c, body, surface, v) && !was_outside(c, part, surface, v, p, n)) {
     return;
   }
-  const collision::Push push = collision::push_out(rod, p, n, kDeepest);
-  if (push.depth <= 0 && dot(from, n) > 0 && distance > rod.radius + kNear) return;
+  const collision::Push push = collision::push_out(rod, p, n, kDeepestTool);
+  if (push.depth <= 0 && dot(from, n) > 0 && distance > rod.radius + kNoted) return;
   const std::int32_t number = c.note(body, v, part);
   if (push.depth <= 0) {
     if (dot(from, n) <= 0 && distance < rod.radius + kGrazes)
       rub_vertex(c, number, surface, v, 0, from / distance, loads);
     return;
   }
-  const double depth = std::min(push.depth, kQuickest + c.way(part));
+  const double depth = std::min(push.depth, kQuickestPush + c.way(part));
   rub_vertex(c, number, surface, v, depth, push.direction, loads);
   push_vertex(c, number, surface, v, depth, push.direction, 1, loads);
 }
@@ -112,11 +111,11 @@ void shaft_on_edge(Touching& c, BodyId body, const Surface& surface, int v, int 
   const Vec3d n = normalised((1 - near.t) * surface.normal(v) + near.t * surface.normal(u));
   const bool behind = dot(near.on_second - near.on_first, n) > 0;
   if (behind && !was_near(c, body, surface, v) && !was_outside(c, kShaft, surface, v, near.on_second, n)) return;
-  const collision::Push push = collision::push_out(rod, near.on_second, n, kDeepest);
+  const collision::Push push = collision::push_out(rod, near.on_second, n, kDeepestTool);
   if (push.depth <= 0) return;
   const std::int32_t element = skin.size() + k;
   const std::int32_t number = c.note(body, element, kShaft);
-  const double depth = std::min(push.depth, kQuickest + c.way(kShaft));
+  const double depth = std::min(push.depth, kQuickestPush + c.way(kShaft));
   const Touch* was = c.anchored(body, element, kShaft);
   const Vec3d velocity = (1 - near.t) * tissue::skin_velocity(surface.nodes, skin, v) +
                          near.t * tissue::skin_velocity(surface.nodes, skin, u);
@@ -142,7 +141,7 @@ void shaft_on_edges(Touching& c, BodyId body, const Surface& surface, int v, Net
 void part_on_surface(Touching& c, BodyId body, const Surface& surface, int part, NetworkLoads& loads) noexcept {
   const tissue::SkinPose& pose = *surface.pose;
   const Capsule& rod = c.shape.part[part];
-  const double reach2 = (rod.radius + kBehind) * (rod.radius + kBehind);
+  const double reach2 = (rod.radius + kBehindSkin) * (rod.radius + kBehindSkin);
   const auto within = [&](int v) {
     const Vec3d p = surface.position(v);
     return geometry::distance2(p, collision::nearest_on_axis(rod, p)) <= reach2;
@@ -172,18 +171,18 @@ void press(Touching& c, BodyId body, const Surface& surface, int ball, Vec3d p, 
   const Touch* was = c.last.find(body, element, kJawA);
   const bool known =
       was && was->vertex >= 0 && was->vertex < surface.skin->size() && surface.skin->at_surface(was->vertex);
-  int vertex = nearest_vertex_near(surface, p, radius + kBehind);
+  int vertex = nearest_vertex_near(surface, p, radius + kBehindSkin);
   if (known && was->anchored && vertex != was->vertex) vertex = walk_to_nearest(surface, was->vertex, p);
   if (vertex < 0 || surface.torn(vertex)) return;
   const SkinPoint at = nearest_skin_point(surface, vertex, p);
   const double above = dot(p - at.point, at.normal), far = length(p - at.point);
-  if (above >= 0 ? far > radius + kNear : far > kDeepest) return;
+  if (above >= 0 ? far > radius + kNoted : far > kDeepestTool) return;
   if (above < 0 && !known && !was_near(c, body, surface, vertex) && dot(before - at.point, at.normal) < 0) return;
   const std::int32_t number = c.note(body, element, kJawA, vertex);
   const double deep = radius - above;
   if (deep <= -kGrazes) return;
   const Vec3d n = -at.normal;
-  const double depth = std::clamp(deep, 0.0, kQuickest + c.way(kJawA));
+  const double depth = std::clamp(deep, 0.0, kQuickestPush + c.way(kJawA));
   rub_vertex(c, number, surface, vertex, depth, n, loads);
   if (deep <= 0) return;
   for (size_t k = 0; k < 3; ++k) {
@@ -199,7 +198,7 @@ void closed_jaws_on_surface(Touching& c, BodyId body, const Surface& surface, Ne
   if (length(a.b - b.b) > 2.5 * (a.radius + b.radius)) return;
   constexpr double kSpacing = 0.002;
   const double far = length(c.shape.frame.tip - c.shape.pivot);
-  if (!meets_box(surface.pose->bounds, c.shape.pivot, c.shape.frame.tip, kDeepest)) return;
+  if (!meets_box(surface.pose->bounds, c.shape.pivot, c.shape.frame.tip, kDeepestTool)) return;
   int ball = 0;
   for (double back = 0; back < far; back += kSpacing, ++ball)
     press(c, body, surface, ball, c.shape.frame.tip - back * c.shape.frame.axis(),
@@ -249,7 +248,7 @@ void channel(const ToolShape& shape, const BetweenJaws& where, double radius, in
   load.w = where.w;
   load.k = kStrandStiffness;
   load.dir = inward;
-  load.d = kDamping;
+  load.d = kNormalDamping;
   load.x0 = from_jaw(shape, where.local) + depth * inward;
   loads.add(load, tag);
 }
@@ -301,7 +300,7 @@ void push_strand(Touching& touching, BodyId strand, const tissue::StrandModel& m
   load.w = c.t;
   load.k = kStrandStiffness;
   load.dir = c.normal;
-  load.d = kDamping;
+  load.d = kNormalDamping;
   load.x0 = c.on_second + depth * c.normal;
   loads.add(load, tag);
 }

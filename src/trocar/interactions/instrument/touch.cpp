@@ -8,11 +8,11 @@
 namespace trocar::interactions {
 namespace {
 
-constexpr double kGive = 0.0002;  // [m] that a spring gives before the tissue slips
-constexpr float kShare = 0.1f;    // of the newest normal force in its average: about ten ticks
+constexpr double kGive = 0.0002;      // [m] that a spring gives before the tissue slips
+constexpr float kNewestShare = 0.1f;  // of the newest normal force in its average: about ten ticks
 // [N] that a contact spring can exert at most: 1500 N/m over the 4 mm that it may move tissue in a tick. Where tissue
 // cannot give way, friction's spring pushes along the normal, too: without this bound it would feed on itself.
-constexpr float kMostPress = 6;
+constexpr float kMostSpringPress = 6;
 constexpr float kMostAtWall = 1e6f;  // [N] no bound
 
 bool before_in_book(const Touch& a, const Touch& b) noexcept {
@@ -111,7 +111,7 @@ Rub Touching::rub(std::int32_t number, const Contact& c, Vec3d anchored_now) noe
   const PartFrame frame = frame_of(shape, t.part);
   for (int k = 0; k < 2; ++k) r.weight[k] = c.weight[k];
   const Touch* was = anchored(t.body, t.element, t.part);
-  if (was) t.force = (1 - kShare) * was->force;
+  if (was) t.force = (1 - kNewestShare) * was->force;
   if (!was || was->vertex != t.vertex) {
     put(t.anchor, into(frame, c.point));
     for (int k = 0; k < 2; ++k) t.weight[k] = float(c.weight[k]);
@@ -152,14 +152,14 @@ Rub Touching::rub(std::int32_t number, const Contact& c, Vec3d anchored_now) noe
 void press_on(TouchBook& next, std::int32_t number, Vec3d force) noexcept {
   if (number <= 0 || number > next.count) return;
   Touch& t = next.touch[number - 1];
-  t.force +=
-      kShare * float(force.x * double(t.normal[0]) + force.y * double(t.normal[1]) + force.z * double(t.normal[2]));
+  t.force += kNewestShare *
+             float(force.x * double(t.normal[0]) + force.y * double(t.normal[1]) + force.z * double(t.normal[2]));
 }
 
 void remember(const ToolState& tool, TouchBook& next, TouchBook& book) noexcept {
   std::sort(next.touch, next.touch + next.count, before_in_book);
   for (Touch* t = next.touch; t != next.touch + next.count; ++t)
-    t->force = std::clamp(t->force, 0.0f, t->body.is(BodyKind::wall) ? kMostAtWall : kMostPress);
+    t->force = std::clamp(t->force, 0.0f, t->body.is(BodyKind::wall) ? kMostAtWall : kMostSpringPress);
   std::copy(next.touch, next.touch + next.count, book.touch);
   start_here(tool, book);
   book.count = next.count;

@@ -20,6 +20,7 @@ namespace trocar::interactions {
 
 inline constexpr int kMaxTouches = 256;    ///< of one instrument
 inline constexpr double kGrazes = 0.0001;  ///< apart by less than this [m] friction is not over: contacts may bounce
+inline constexpr double kQuickestPush = 0.0012;  ///< [m] a tick that contacts move tissue beyond the instrument's way
 
 /// One point of a body near one part of an instrument. No padding.
 struct Touch {

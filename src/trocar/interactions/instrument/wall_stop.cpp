@@ -8,15 +8,15 @@
 namespace trocar::interactions {
 namespace {
 
-constexpr double kFromTrocar = 0.040;  // [m] of the shaft that no wall stops
-constexpr double kSpacing = 0.020;     // [m] of the points along the shaft that are tested
-constexpr double kReach = 0.012;       // [m] farther than this from its nearest vertex no wall touches a point
-constexpr double kBehind = 0.005;      // [m]
-constexpr double kBeside = 0.0015;     // [m] off the foot of the normal: past the wall's rim
-constexpr double kPress = 500;         // [N/m]
-constexpr double kMostPress = 15;      // [N]
-constexpr double kQuickest = 0.0006;   // [m] that the tip moves in a tick: what hands do, no jumps
-constexpr double kWithdraws = 0.0005;  // [m] farther out than it is: the hand draws back, and nothing holds it
+constexpr double kFromTrocar = 0.040;    // [m] of the shaft that no wall stops
+constexpr double kShaftSpacing = 0.020;  // [m] of the points along the shaft that are tested
+constexpr double kWallReach = 0.012;     // [m] farther than this from its nearest vertex no wall touches a point
+constexpr double kBehindWall = 0.005;    // [m]
+constexpr double kBesideFoot = 0.0015;   // [m] off the foot of the normal: past the wall's rim
+constexpr double kPress = 500;           // [N/m]
+constexpr double kMostStop = 15;         // [N]
+constexpr double kQuickestTip = 0.0006;  // [m] that the tip moves in a tick: what hands do, no jumps
+constexpr double kWithdraws = 0.0005;    // [m] farther out than it is: the hand draws back, and nothing holds it
 constexpr int kRounds = 4;
 
 struct Deepest {
@@ -35,7 +35,7 @@ struct Blocks {
 Blocks blocks_near(const Surface& wall, Vec3d start, Vec3d tip) noexcept {
   Blocks r;
   for (size_t b = 0; b < wall.pose->block.size() && !r.all; ++b) {
-    if (!meets_box(wall.pose->block[b], start, tip, kReach)) continue;
+    if (!meets_box(wall.pose->block[b], start, tip, kWallReach)) continue;
     r.all = r.count == Blocks::kMost;
     if (!r.all) r.block[size_t(r.count++)] = int(b);
   }
@@ -44,12 +44,12 @@ Blocks blocks_near(const Surface& wall, Vec3d start, Vec3d tip) noexcept {
 
 /// As nearest_vertex_near, of all walls' vertices within reach of the instrument.
 int nearest_of(const Surface& wall, const Blocks& blocks, Vec3d p) noexcept {
-  if (blocks.all) return nearest_vertex_near(wall, p, kReach);
+  if (blocks.all) return nearest_vertex_near(wall, p, kWallReach);
   int best = -1;
-  double least = kReach * kReach;
+  double least = kWallReach * kWallReach;
   for (int k = 0; k < blocks.count; ++k) {
     const int b = blocks.block[size_t(k)];
-    if (!wall.pose->block[size_t(b)].reaches(p, kReach)) continue;
+    if (!wall.pose->block[size_t(b)].reaches(p, kWallReach)) continue;
     const int last = std::min((b + 1) * tissue::kSkinBlock, wall.skin->size());
     for (int v = b * tissue::kSkinBlock; v < last; ++v) {
       const double d = geometry::distance2(wall.position(v), p);
@@ -67,8 +67,8 @@ void look_at(const Surface& wall, const Blocks& blocks, Vec3d p, double radius, 
   if (vertex < 0) return;
   const SkinPoint at = nearest_skin_point(wall, vertex, p);
   const double above = dot(p - at.point, at.normal), depth = radius - above;
-  if (above < -kBehind || depth <= deepest.depth) return;
-  if (length((p - at.point) - above * at.normal) > kBeside) return;
+  if (above < -kBehindWall || depth <= deepest.depth) return;
+  if (length((p - at.point) - above * at.normal) > kBesideFoot) return;
   deepest = {depth, along, tip, p, at.normal};
 }
 
@@ -76,11 +76,11 @@ Deepest deepest_of(const ToolModel& model, std::span<const Surface> walls, Vec3d
   Deepest deepest;
   const Vec3d tip = model.port + depth * axis, start = model.port + std::min(kFromTrocar, depth) * axis;
   for (const Surface& wall : walls) {
-    if (!wall.pose->bounds.near_segment(start, tip, kReach)) continue;
+    if (!wall.pose->bounds.near_segment(start, tip, kWallReach)) continue;
     const Blocks blocks = blocks_near(wall, start, tip);
     if (!blocks.all && blocks.count == 0) continue;
     look_at(wall, blocks, tip, model.jaw_thickness, depth, true, deepest);
-    for (double s = depth - model.jaw_length; s > kFromTrocar; s -= kSpacing)
+    for (double s = depth - model.jaw_length; s > kFromTrocar; s -= kShaftSpacing)
       look_at(wall, blocks, model.port + s * axis, model.shaft_radius, s, false, deepest);
   }
   return deepest;
@@ -95,8 +95,8 @@ Vec3d axis_of(const ToolModel& model, const kinematics::FulcrumPose& pose) noexc
 void slow_down(const ToolModel& model, const kinematics::FulcrumPose& before, ToolState& tool) noexcept {
   const double far =
       length(kinematics::forward(model.port, tool.pose()).tip - kinematics::forward(model.port, before).tip);
-  if (far <= kQuickest) return;
-  const double share = kQuickest / far;
+  if (far <= kQuickestTip) return;
+  const double share = kQuickestTip / far;
   tool.yaw = before.yaw + share * (tool.yaw - before.yaw);
   tool.pitch = before.pitch + share * (tool.pitch - before.pitch);
   tool.depth = before.depth + share * (tool.depth - before.depth);
@@ -131,7 +131,7 @@ WallStop stop_at_walls(const ToolModel& model, const kinematics::FulcrumPose& wa
   const double along = last.tip ? tool.depth : last.along, goal_along = last.tip ? goal.depth : last.along;
   stop.at = model.port + along * axis_of(model, tool.pose());
   const Vec3d there = model.port + goal_along * axis_of(model, goal);
-  stop.force = std::clamp(kPress * dot(stop.at - there, stop.normal), 0.0, kMostPress);
+  stop.force = std::clamp(kPress * dot(stop.at - there, stop.normal), 0.0, kMostStop);
   return stop;
 }
 

@@ -32,15 +32,15 @@ Mat3d inertia_of(const RigidModel& m, const RigidState& s) noexcept {
 /// u -> v x u
 Mat3d crossing(Vec3d v) noexcept { return {{{0, -v.z, v.y}, {v.z, 0, -v.x}, {-v.y, v.x, 0}}}; }
 
-constexpr double kSleeps = 0.25;   // [s] after which what lies still sleeps
-constexpr double kLies = 2e-4;     // [m/s] no point of it is faster
-constexpr double kBeside = 0.002;  // [m] what moves so near wakes it
-constexpr double kMoves = 1e-7;    // [m] in a tick
+constexpr double kSleeps = 0.25;        // [s] after which what lies still sleeps
+constexpr double kLies = 2e-4;          // [m/s] no point of it is faster
+constexpr double kWakesWithin = 0.002;  // [m] what moves so near wakes it
+constexpr double kMoves = 1e-7;         // [m] in a tick
 
 bool moves_beside(const RigidRod& rod, const RigidModel& m, const RigidState& s) noexcept {
   if (collision::way_of(rod.before, rod.now) < kMoves) return false;
   const Vec3d off = collision::nearest_on_axis(rod.now, s.x) - s.x;
-  const double far = m.reach + rod.now.radius + kBeside;
+  const double far = m.reach + rod.now.radius + kWakesWithin;
   return dot(off, off) < far * far;
 }
 
@@ -52,7 +52,7 @@ bool wakes(const RigidModels& models, const Rigid::States& states, size_t i, con
     if (moves_beside(rod, m, states[i])) return true;
   for (size_t j = 0; j < states.size(); ++j) {
     const Vec3d off = states[i].x - states[j].x;
-    const double far = m.reach + models.list[j].reach + kBeside;
+    const double far = m.reach + models.list[j].reach + kWakesWithin;
     if (j != i && work.awake[j] && dot(off, off) < far * far) return true;
   }
   return false;

@@ -8,11 +8,11 @@
 namespace trocar::interactions {
 namespace {
 
-constexpr double kNear = 0.0005;   // [m] beyond the way of a tick, contacts are there before beads touch
-constexpr double kQuickest = 1.0;  // [m/s] with which an instrument that has moved into a bead pushes it out
-constexpr double kSlowly = 0.02;   // [m/s] the same of walls and beads, which nothing should have moved into
-constexpr double kSinks = 2e-5;    // [m] that is left
-constexpr double kShare = 0.2;     // of what has sunk in, in a tick
+constexpr double kAhead = 0.0005;     // [m] beyond the way of a tick, contacts are there before beads touch
+constexpr double kQuickestOut = 1.0;  // [m/s] with which an instrument that has moved into a bead pushes it out
+constexpr double kSlowly = 0.02;      // [m/s] the same of walls and beads, which nothing should have moved into
+constexpr double kSinks = 2e-5;       // [m] that is left
+constexpr double kSunkShare = 0.2;    // of what has sunk in, in a tick
 constexpr int kSweeps = 40;
 constexpr double kStill = 1e-6;  // [m/s] a sweep that changes less is the last
 
@@ -70,11 +70,11 @@ class Finder {
  private:
   double near_of(size_t i) const noexcept {
     const RigidState& s = m_states[i];
-    return kNear + m_tick * (length(s.v) + m_models.list[i].reach * length(s.w));
+    return kAhead + m_tick * (length(s.v) + m_models.list[i].reach * length(s.w));
   }
   /// The gap that keeps what has sunk in from being thrown out.
   double held_off(double gap) const noexcept {
-    return gap >= 0 ? gap : -std::min(kShare * std::max(-gap - kSinks, 0.0), kSlowly * m_tick);
+    return gap >= 0 ? gap : -std::min(kSunkShare * std::max(-gap - kSinks, 0.0), kSlowly * m_tick);
   }
 
   void at_rod(size_t i, const RigidRod& rod, Vec3d p, double near) noexcept {
@@ -89,7 +89,7 @@ class Finder {
     const double gap = (passed ? -away : away) - rod.now.radius - m.radius;
     if (gap > near) return;
     const Vec3d up = passed ? -normal : normal;
-    RigidContact* c = add(i, p - m.radius * up, up, std::max(gap, -kQuickest * m_tick), m.friction);
+    RigidContact* c = add(i, p - m.radius * up, up, std::max(gap, -kQuickestOut * m_tick), m.friction);
     if (!c) return;
     c->drive = (now - was) / m_tick;
     c->tag = rod.tag;

@@ -7,7 +7,7 @@
 namespace trocar::interactions {
 namespace {
 
-constexpr std::int32_t kMostCells = 1 << 21;
+constexpr std::int32_t kMostWallCells = 1 << 21;
 
 /// Cells from one corner to another, both included.
 struct Cells {
@@ -55,8 +55,8 @@ void lay_out(WallGrid& g) {
   do {
     cells = 1;
     for (int k = 0; k < 3; ++k) cells *= double(g.size[size_t(k)] = std::int32_t(std::floor(whole[k] / g.cell)) + 1);
-    if (cells > kMostCells) g.cell *= 1.3;
-  } while (cells > kMostCells);
+    if (cells > kMostWallCells) g.cell *= 1.3;
+  } while (cells > kMostWallCells);
 }
 
 }  // namespace

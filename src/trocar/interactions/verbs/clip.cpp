@@ -8,9 +8,9 @@
 namespace trocar::interactions {
 namespace {
 
-constexpr double kOpenEnough = 0.8;   // aperture at which a fresh clip drops into the jaws
+constexpr double kOpenForClip = 0.8;  // aperture at which a fresh clip drops into the jaws
 constexpr double kHalfClosed = 0.5;   // closing time counts from here
-constexpr double kShut = 0.04;        // aperture at which the clip is set
+constexpr double kClipSet = 0.04;     // aperture at which the clip is set
 constexpr double kClipStiffness = 6;  // of a clipped element, times its own: titanium holds it straight
 
 struct Catch {
@@ -75,10 +75,10 @@ StrandPlace fit_clip(const ToolModel& model, const ToolShape& shape, const Tissu
 bool update_clip_applier(const ToolModel& model, const ToolShape& shape, int tool_index, const TissueView& view,
                          std::span<tissue::StrandState> strand_states, int tips_visible, std::uint64_t tick,
                          ToolState& tool, ClipBook book) noexcept {
-  if (tool.aperture > kOpenEnough && tool.clips_left > 0) tool.armed = 1;
+  if (tool.aperture > kOpenForClip && tool.clips_left > 0) tool.armed = 1;
   if (tool.aperture > kHalfClosed) tool.closed_for = 0;
   if (!tool.armed) return false;
-  if (tool.aperture > kShut) {
+  if (tool.aperture > kClipSet) {
     if (tool.aperture <= kHalfClosed) tool.closed_for += core::kTick;
     return false;
   }

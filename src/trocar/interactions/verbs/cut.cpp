@@ -8,17 +8,17 @@
 namespace trocar::interactions {
 namespace {
 
-constexpr double kOpenEnough = 0.5;  // aperture from which the blades can cut again ...
-constexpr double kOpenAgain = 0.9;   // ... and from which they can in a closing that was broken off
-constexpr double kShut = 0.2;        // aperture at which the blades have crossed
+constexpr double kOpenToCut = 0.5;      // aperture from which the blades can cut again ...
+constexpr double kOpenAgain = 0.9;      // ... and from which they can in a closing that was broken off
+constexpr double kBladesCrossed = 0.2;  // aperture at which the blades have crossed
 
 }  // namespace
 
 int update_scissors(const ToolModel& model, const ToolShape& shape, int tool_index, const TissueView& view,
                     std::span<tissue::StrandState> strand_states, int tips_visible, std::uint64_t tick, ToolState& tool,
                     CutBook book) noexcept {
-  if (tool.aperture > (tool.armed < 0 ? kOpenAgain : kOpenEnough) && tool.armed <= 0) tool.armed = 1;
-  if (!tool.armed || tool.aperture > kShut) return 0;
+  if (tool.aperture > (tool.armed < 0 ? kOpenAgain : kOpenToCut) && tool.armed <= 0) tool.armed = 1;
+  if (!tool.armed || tool.aperture > kBladesCrossed) return 0;
   tool.armed = 0;
   int made = 0;
   for (size_t s = 0; s < view.strands.size(); ++s) {

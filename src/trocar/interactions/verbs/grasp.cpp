@@ -22,7 +22,7 @@ struct Candidate {
   double along() const noexcept { return sum / found; }
 };
 
-void add(Candidate& c, BodyId body, int element, double w, Vec3d local) noexcept {
+void add_held(Candidate& c, BodyId body, int element, double w, Vec3d local) noexcept {
   c.sum += local.z;
   if (c.found++ % c.stride != 0) return;
   if (c.count == kMaxHolds) {
@@ -50,7 +50,7 @@ Candidate strand_between(const ToolModel& model, const ToolShape& shape, const T
       if (!view.strand_states[s].alive[size_t(e)]) continue;
       const BetweenJaws where = between_jaws(model, shape, body, view.strand_states[s], e);
       if (!where.inside || where.local.z > model.jaw_length || where.local.z < 0) continue;
-      add(c, BodyId::strand(s), e, where.w, where.local);
+      add_held(c, BodyId::strand(s), e, where.w, where.local);
       c.thickness = std::max(c.thickness, held_thickness(view, {BodyId::strand(s), e}));
     }
     if (c.count == 0) continue;
@@ -75,7 +75,7 @@ Candidate fold_between(const ToolModel& model, const ToolShape& shape, const Tis
         if (std::fabs(local.y) > 0.5 * model.jaw_width + 0.0015) continue;
         if (local.z < 0.25 * model.jaw_length || local.z > model.jaw_length + 0.0005) continue;
         if (std::fabs(local.x) > shape.half_opening(local.z) + 0.0008) continue;
-        add(c, BodyId::organ(o), v, 0, local);
+        add_held(c, BodyId::organ(o), v, 0, local);
       }
     }
     if (c.count < 2) continue;
@@ -99,7 +99,7 @@ Candidate sheet_between(const ToolModel& model, const ToolShape& shape, const Ti
       if (std::fabs(local.y) > 0.5 * model.jaw_width + 0.0015 + reach) continue;
       if (local.z < 0 || local.z > model.jaw_length + 0.0005 + reach) continue;
       if (std::fabs(local.x) > shape.half_opening(local.z) + 0.0005 + reach) continue;
-      add(c, BodyId::membrane(m), v, 0, local);
+      add_held(c, BodyId::membrane(m), v, 0, local);
     }
     if (c.count < 2) continue;
     c.thickness = held_thickness(view, c.hold[0]);
@@ -117,7 +117,7 @@ Candidate object_between(const ToolModel& model, const ToolShape& shape, const T
     using K = decltype(kind);
     Candidate c;
     K::between(part_of<K>(*view.objects.models), part_of<K>(*view.objects.states), body.index(), model, shape,
-               [&](std::int32_t place, Vec3d local) { add(c, body, place, 0, local); });
+               [&](std::int32_t place, Vec3d local) { add_held(c, body, place, 0, local); });
     if (c.count < 2) return;
     c.thickness = held_thickness(view, c.hold[0]);
     if (c.found > best.found) best = c;

@@ -9,19 +9,16 @@
 namespace trocar::interactions {
 namespace {
 
-using fluids::Contact;
-
-constexpr double kReach = kWetReach;
 // Where drops are too many to look so closely, in flight and on a surface, and the plane there is that of the nearest
 // vertex: on a ball of 15 mm it is up to 0.2 mm above the skin.                                          [m]  Our
 // choice
 constexpr double kCrowdFlies = 0.004, kCrowdRuns = 0.003;
-constexpr double kDeepest = 0.004;  // [m] a drop that is deeper inside did not come from outside
-constexpr double kLeaves = 0.003;   // [m] above its surface a running drop is on it no more
-constexpr double kStride = 0.0025;  // [m] of a way that is looked at at once
-constexpr double kParts = 0.1;      // [m/s] what goes away from a surface faster does not land on it.  Our choice
-constexpr float kSafe = 1e-5f;      // [m] more than boxes of floats lose by rounding
-constexpr int kPiece = 4;           // elements of a strand that share a bounding box
+constexpr double kDeepestDrop = 0.004;  // [m] a drop that is deeper inside did not come from outside
+constexpr double kLeaves = 0.003;       // [m] above its surface a running drop is on it no more
+constexpr double kStride = 0.0025;      // [m] of a way that is looked at at once
+constexpr double kParts = 0.1;          // [m/s] what goes away from a surface faster does not land on it.  Our choice
+constexpr float kSafe = 1e-5f;          // [m] more than boxes of floats lose by rounding
+constexpr int kPiece = 4;               // elements of a strand that share a bounding box
 
 /// A point beside a body: how far outside (negative: inside), and the plane there.
 struct Beside {
@@ -38,10 +35,6 @@ std::int32_t heaviest(const SkinPoint& p) noexcept {
   return p.vertex[most];
 }
 
-Vec3d velocity_of(const Surface& s, int vertex) noexcept {
-  return s.moves() ? tissue::skin_velocity(s.nodes, *s.skin, vertex) : Vec3d{};
-}
-
 /// Turns a fold's plane towards the side that `from` is on, and moves it to the fold's face there.
 void take_side(const SheetView& sheet, Vec3d from, Beside& b) noexcept {
   const double sign = dot(from - b.point, b.normal) < 0 ? -1 : 1;
@@ -55,7 +48,7 @@ Beside beside_element(const StrandBody& body, const tissue::StrandState& s, int 
   const std::size_t n = std::size_t(e);
   const Vec3d axis = s.x[n] + share * (s.x[n + 1] - s.x[n]), from = p - axis;
   const double far = length(from), radius = body.model.radius[n];
-  if (!(far > 1e-7) || far > radius + kReach) return {};
+  if (!(far > 1e-7) || far > radius + kWetReach) return {};
   const Vec3d normal = from / far;
   return {far - radius, axis + radius * normal, normal, s.v[n] + share * (s.v[n + 1] - s.v[n]), e + (share > 0.5)};
 }
@@ -90,7 +83,7 @@ class Scene {
     std::fill(m_work->normal_known.begin(), m_work->normal_known.end(), std::uint8_t(0));
     for (int body = 0; body < strands; ++body) m_work->bounds[std::size_t(body)] = surface(body).pose->bounds;
     for (std::size_t k = 0; k < b.strands.size(); ++k) bound_strand(k);
-    lay_out_blocks(float(m_crowd ? kCrowdFlies : kReach) + kSafe);
+    lay_out_blocks(float(m_crowd ? kCrowdFlies : kWetReach) + kSafe);
   }
 
   using Candidate = WetWork::Candidate;
@@ -111,28 +104,28 @@ class Scene {
     return {m_work->near.data(), bodies};
   }
 
-  Beside beside(int body, Vec3d from, Vec3d p) const noexcept { return beside({body, 0, 0}, from, p, kReach); }
+  Beside beside(int body, Vec3d from, Vec3d p) const noexcept { return beside({body, 0, 0}, from, p, kWetReach); }
   /// @param flies  to or from p: looks farther
   Beside beside(const Candidate& c, Vec3d from, Vec3d p, bool flies) const noexcept {
-    return beside(c, from, p, !m_crowd ? kReach : flies ? kCrowdFlies : kCrowdRuns);
+    return beside(c, from, p, !m_crowd ? kWetReach : flies ? kCrowdFlies : kCrowdRuns);
   }
   Beside beside_vertex(int body, int vertex, Vec3d p) const noexcept {
     const Surface& on = surface(body);
     if (m_crowd && body < sheets) {
       const Vec3d n = normal(body, vertex);
       const double off = dot(p - on.position(vertex), n);
-      return {off, p - off * n, n, velocity_of(on, vertex), vertex};
+      return {off, p - off * n, n, on.velocity(vertex), vertex};
     }
     SkinPoint near = nearest_on_faces(on, vertex, p);
     for (std::size_t k = 0; k < 3; ++k) near.normal += near.weights[int(k)] * normal(body, near.vertex[k]);
     near.normal = normalised(near.normal, normal(body, vertex));
     const int v = heaviest(near);
-    return {dot(p - near.point, near.normal), near.point, near.normal, velocity_of(on, v), v};
+    return {dot(p - near.point, near.normal), near.point, near.normal, on.velocity(v), v};
   }
   const Surface& surface(int body) const noexcept {
     return body < sheets ? b.surfaces[std::size_t(body)] : b.sheets[std::size_t(body - sheets)].surface;
   }
-  Contact contact(int body, const Beside& at) const noexcept {
+  fluids::Contact contact(int body, const Beside& at) const noexcept {
     return {vec_cast<float>(at.point), vec_cast<float>(at.normal), vec_cast<float>(at.velocity), body,
             b.first[std::size_t(body)] + at.film};
   }
@@ -232,7 +225,7 @@ class Scene {
       return best;
     }
     for (int piece = m_work->first_piece[k]; piece < m_work->first_piece[k + 1]; ++piece) {
-      if (!m_work->pieces[std::size_t(piece)].reaches(p, kReach)) continue;
+      if (!m_work->pieces[std::size_t(piece)].reaches(p, kWetReach)) continue;
       const int first = (piece - m_work->first_piece[k]) * kPiece;
       beside_elements(b.strands[k], b.states[k], first, std::min(first + kPiece, elements), p, best);
     }
@@ -259,7 +252,7 @@ class Scene {
 
 /// The first body that a drop of this radius meets on its way. A jet out of a vessel begins within the tissue that
 /// carries the vessel, and leaves it.
-Contact meet(const Scene& scene, Vec3d from, Vec3d to, Vec3d velocity, double radius) noexcept {
+fluids::Contact meet(const Scene& scene, Vec3d from, Vec3d to, Vec3d velocity, double radius) noexcept {
   const Vec3d way = to - from;
   const std::span<const WetWork::Candidate> near = scene.near(from, to);
   if (near.empty()) return {};
@@ -270,7 +263,7 @@ Contact meet(const Scene& scene, Vec3d from, Vec3d to, Vec3d velocity, double ra
     Beside most;
     for (const WetWork::Candidate& c : near) {
       const Beside b = scene.beside(c, from, p, true);
-      if (!b.there() || b.off > 0.5 * radius || b.off < -kDeepest || b.off > most.off) continue;
+      if (!b.there() || b.off > 0.5 * radius || b.off < -kDeepestDrop || b.off > most.off) continue;
       if (dot(velocity - b.velocity, b.normal) > kParts) continue;
       most = b;
       found = c.body;
@@ -292,7 +285,7 @@ Beside follow(const Scene& scene, int body, std::int32_t film, Vec3d p) noexcept
 }
 
 /// What a running drop is on now: its body, or another one that it has run into.
-Contact stay(const Scene& scene, const fluids::DropletState& s, int drop, Vec3d p) noexcept {
+fluids::Contact stay(const Scene& scene, const fluids::DropletState& s, int drop, Vec3d p) noexcept {
   const int body = s.body[std::size_t(drop)];
   const std::int32_t film = s.ground[std::size_t(drop)].film;
   if (body >= scene.b.count() || film < 0) return {};
@@ -304,11 +297,11 @@ Contact stay(const Scene& scene, const fluids::DropletState& s, int drop, Vec3d 
   for (const WetWork::Candidate& other : scene.near(p, p)) {
     if (other.body == body) continue;
     const Beside b = scene.beside(other, p, p, false);
-    if (!b.there() || b.off > 0.25 * radius || b.off < -kDeepest || b.off > best.off) continue;
+    if (!b.there() || b.off > 0.25 * radius || b.off < -kDeepestDrop || b.off > best.off) continue;
     best = b;
     found = other.body;
   }
-  return found < 0 ? Contact{} : scene.contact(found, best);
+  return found < 0 ? fluids::Contact{} : scene.contact(found, best);
 }
 
 Vec3d place_of(const std::vector<float>& x, const std::vector<float>& y, const std::vector<float>& z,
@@ -341,7 +334,7 @@ WetPlace wet_place(const WetBodies& bodies, Vec3d down, std::int32_t place) noex
   const Surface& surface = scene.surface(body);
   const bool sheet = body >= scene.sheets;
   const int v = sheet ? number / 2 : number;
-  WetPlace out{surface.position(v), surface.normal(v), velocity_of(surface, v), body};
+  WetPlace out{surface.position(v), surface.normal(v), surface.velocity(v), body};
   if (!sheet) return out;
   if (number % 2 == 1) out.normal = -out.normal;
   out.point += bodies.sheets[std::size_t(body - scene.sheets)].half_thickness * out.normal;
@@ -352,7 +345,7 @@ bool covered(const WetBodies& bodies, Vec3d p, double reach) noexcept {
   const Scene scene(bodies);
   for (int body = 0; body < bodies.count(); ++body) {
     const Beside b = scene.beside(body, p, p);
-    if (!b.there() || b.off > reach || b.off < -kDeepest) continue;
+    if (!b.there() || b.off > reach || b.off < -kDeepestDrop) continue;
     const Vec3d off = p - b.point, flat = off - dot(off, b.normal) * b.normal;
     if (dot(flat, flat) < reach * reach) return true;  // not past its border
   }
