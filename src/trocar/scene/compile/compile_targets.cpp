@@ -34,7 +34,24 @@ void add_trace(sim::Model& model, std::int32_t strand) {
              samples);
 }
 
-/// Where a vessel opens by itself: the place of its host that is next to it.
+/// The vertex at an organ's surface that was drawn nearest to a point inside it.
+std::int32_t surface_over(const tissue::Skin& skin, Vec3d inside) {
+  std::int32_t nearest = -1;
+  double least = 0;
+  for (std::int32_t v = 0; v < skin.size(); ++v) {
+    if (!skin.at_surface(v)) continue;
+    const double off = length(vec_cast<double>(skin.rest[size_t(v)]) - inside);
+    if (nearest < 0 || off < least) nearest = v, least = off;
+  }
+  return nearest;
+}
+
+/// The corner of a fold's triangle that is next to the place on it.
+std::int32_t nearest_corner(const interactions::VesselHold& hold) {
+  return hold.vertex[size_t(std::max_element(hold.share.begin(), hold.share.begin() + 3) - hold.share.begin())];
+}
+
+/// Where a vessel opens by itself: the place of its host that is next to it. Nothing can be told where it has none.
 void add_bleeder(sim::Model& model) {
   const sim::Bleeder& b = model.vessels.bleeder;
   if (b.vessel < 0) return;
@@ -47,6 +64,11 @@ void add_bleeder(sim::Model& model) {
     add_target(model, {sim::VisibilityTarget::strand, "bleeder", hold.index, 0, 0}, {{0, hold.element, hold.w}});
   if (hold.kind == interactions::VesselHold::organ)
     add_target(model, {sim::VisibilityTarget::organ, "bleeder", hold.index, 0, 0}, {{0, hold.vertex[0], 0}});
+  if (hold.kind == interactions::VesselHold::cell)
+    add_target(model, {sim::VisibilityTarget::organ, "bleeder", hold.index, 0, 0},
+               {{0, surface_over(model.skin(hold.index), nearest->drawn), 0}});
+  if (hold.kind == interactions::VesselHold::membrane)
+    add_target(model, {sim::VisibilityTarget::fold, "bleeder", hold.index, 0, 0}, {{0, nearest_corner(hold), 0}});
 }
 
 void add_mark(sim::Model& model, std::int32_t mark) {

@@ -291,9 +291,9 @@ struct ScopeModel {
 
 /// Something whose visibility the simulation knows: `visible` when at least half of its samples are seen.
 struct VisibilityTarget {
-  enum Kind : std::int32_t { jaw, shaft, strand, organ, mark } kind = jaw;
+  enum Kind : std::int32_t { jaw, shaft, strand, organ, mark, fold } kind = jaw;
   std::string name;                   ///< "tube_left.isthmus", "uterus", "left_lateral.jaw_a", "left_lateral.shaft"
-  std::int32_t index = 0;             ///< hand, strand, organ or mark
+  std::int32_t index = 0;             ///< hand, strand, organ, mark or membrane
   std::int32_t first = 0, count = 0;  ///< samples
 
   template <class S, class V>

@@ -62,6 +62,7 @@ Vec3d sample_point(const Model& model, const State& state, const Work& work, con
   }
   if (target.kind == VisibilityTarget::mark) return mark_sample(model, state, model.marks[i], sample.where, eye);
   if (target.kind == VisibilityTarget::organ) return work.surfaces[i].position(sample.where);
+  if (target.kind == VisibilityTarget::fold) return work.sheets[i].surface.position(sample.where);
   const interactions::StrandBody& body = model.strand_bodies[i];
   const Vec3d centre = point_at(body, state.strands[i], {sample.where, sample.w});
   return centre + body.model.radius[size_t(sample.where)] * normalised(eye - centre);

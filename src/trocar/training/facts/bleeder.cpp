@@ -35,8 +35,9 @@ class Uncovered final : public Observer {
 };
 
 std::string_view needs_bleeder(const sim::Model& model) { return model.vessels.bleeder.vessel >= 0 ? "" : "bleeder"; }
-std::string_view needs_bleeder_and_pool(const sim::Model& model) {
+std::string_view needs_bleeder_in_pool(const sim::Model& model) {
   if (!needs_bleeder(model).empty()) return needs_bleeder(model);
+  if (model.target_index("bleeder") < 0) return "a bleeder that can be told";  // nothing carries it
   return model.wet.there ? "" : "fluids";
 }
 
@@ -80,7 +81,7 @@ const Fact kBleederUncovered{"bleeder.uncovered_s",
                              36000,
                              "For how long, all in all, the place that opens by itself has been open without the pool "
                              "standing over it.",
-                             needs_bleeder_and_pool,
+                             needs_bleeder_in_pool,
                              &remembering<Uncovered>};
 
 }  // namespace trocar::training

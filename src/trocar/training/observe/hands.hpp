@@ -13,12 +13,15 @@ inline Vec3d tip_of(const sim::Model& model, const sim::State& state, size_t han
   return kinematics::forward(model.hands[hand].port, state.tools[hand].pose()).tip;
 }
 
-/// Where a strand's or an organ's sample is.
+/// Where a strand's, an organ's or a fold's sample is.
 inline Vec3d place_of(const sim::Model& model, const sim::State& state, const sim::VisibilitySample& sample) {
   const sim::VisibilityTarget& t = model.targets[size_t(sample.target)];
   const size_t i = size_t(t.index);
   if (t.kind == sim::VisibilityTarget::strand)
     return interactions::point_at(model.strand_bodies[i], state.strands[i], {sample.where, sample.w});
+  if (t.kind == sim::VisibilityTarget::fold)
+    return tissue::skin_point(view_of(model.membranes[i].sheet.network, state.membranes[i].network),
+                              model.membranes[i].skin, sample.where);
   return tissue::skin_point(nodes_of(model, state, t.index), model.skin(t.index), sample.where);
 }
 

@@ -6,7 +6,8 @@ namespace {
 
 Vec3d place_of_sample(const sim::Model& model, const sim::State& state, const sim::VisibilityTarget& target,
                       const sim::VisibilitySample& sample) {
-  if (target.kind == sim::VisibilityTarget::strand || target.kind == sim::VisibilityTarget::organ)
+  if (target.kind == sim::VisibilityTarget::strand || target.kind == sim::VisibilityTarget::organ ||
+      target.kind == sim::VisibilityTarget::fold)
     return place_of(model, state, sample);
   const Vec3d tip = tip_of(model, state, size_t(target.index));
   if (target.kind == sim::VisibilityTarget::jaw) return tip;

@@ -9,7 +9,7 @@
 
 namespace trocar::training {
 
-/// The middle of a mark's samples [m].
+/// The middle of a mark's samples [m]. @param mark  a target that is there
 Vec3d place_of_mark(const sim::Model& model, const sim::State& state, int mark);
 /// Where a disc faces, or out of an organ's surface; nothing for strands, stripes and instruments, which face every
 /// way, and for closed surfaces whose sides cancel.

@@ -47,13 +47,12 @@ class ArgumentReader {
     return a;
   }
 
-  /// The place that bleeds by itself is a mark where rays can ask for it: on a strand, or on the skin of an organ that
-  /// is not cut as a volume.
+  /// The place that bleeds by itself is a mark where rays can ask for it: where something carries the vessel.
   bool hidden_bleeder(ArgumentKind kind, const NameAt& n) const {
     if (kind != ArgumentKind::mark || n.name != "bleeder" || r.model->vessels.bleeder.vessel < 0) return false;
     scene::tell(*r.faults, {n.at,
-                            "expected a vessel that opens on a strand or on the skin of an organ, got one that a "
-                            "fold or an organ that is cut as a volume carries: nobody can tell whether it is seen"});
+                            "expected a vessel that opens where something carries it, got one that nothing carries "
+                            "there: nobody can tell whether it is seen"});
     return true;
   }
 
