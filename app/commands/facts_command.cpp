@@ -22,9 +22,14 @@ sim::Model compiled(const std::string& name) {
   return scene::compile(scene::read_scene(file));
 }
 
+std::string bounds(const Json& number) {
+  if (!number.contains("from")) return {};
+  return fmt::format(", {:g} to {:g}", number["from"].get<double>(), number["to"].get<double>());
+}
+
 void print_arguments(const Json& list) {
   for (const Json& a : list)
-    fmt::print("      {:16} {}: {}{}\n", a["name"].get<std::string>(), a["type"].get<std::string>(),
+    fmt::print("      {:16} {}{}: {}{}\n", a["name"].get<std::string>(), a["type"].get<std::string>(), bounds(a),
                a["meaning"].get<std::string>(), a.contains("optional") ? " (optional)" : "");
 }
 
@@ -32,7 +37,7 @@ void print_kinds(const char* heading, const Json& kinds) {
   fmt::print("{}\n", heading);
   for (const Json& k : kinds) {
     fmt::print("  {:24} {}{}{}\n", k["name"].get<std::string>(),
-               k.contains("type") ? "[" + k["type"].get<std::string>() + "] " : std::string(),
+               k.contains("type") ? "[" + k["type"].get<std::string>() + bounds(k) + "] " : std::string(),
                k["meaning"].get<std::string>(),
                k.contains("lacks") ? " NOT HERE: the scene has no " + k["lacks"].get<std::string>() : std::string());
     print_arguments(k["arguments"]);

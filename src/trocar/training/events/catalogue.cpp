@@ -61,11 +61,12 @@ Json fact_json(const Fact& fact) {
 Json event_json(const EventKind& event) {
   Json j{{"name", event.name}, {"meaning", event.meaning}, {"arguments", parameters(event.parameters)}};
   if (event.has_body) j["on"] = "a body";
-  Json attributes = Json::array();
-  for (const Attribute& a : event.attributes)
-    attributes.push_back(
-        {{"name", a.name}, {"type", a.is_truth ? "true or false" : unit_of(a.name).words}, {"meaning", a.meaning}});
-  j["attributes"] = std::move(attributes);
+  j["attributes"] = Json::array();
+  for (const Attribute& a : event.attributes) {
+    Json one{{"name", a.name}, {"type", a.is_truth ? "true or false" : unit_of(a.name).words}, {"meaning", a.meaning}};
+    if (!a.is_truth) one["from"] = a.low, one["to"] = a.high;
+    j["attributes"].push_back(std::move(one));
+  }
   return j;
 }
 

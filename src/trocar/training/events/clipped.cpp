@@ -81,34 +81,40 @@ Value clip_to_clip(const Look& look, const Happening& h) {
 std::vector<Attribute> clip_attributes() {
   return {
       {"s_mm", "where on the strand, from its beginning; unknown on a bare vessel",
-       [](const Look& l, const Happening& h) { return !h.body.exists() ? kUnknown : Value(clip_of(l, h).s); }},
+       [](const Look& l, const Happening& h) { return !h.body.exists() ? kUnknown : Value(clip_of(l, h).s); }, 0,
+       kLongest},
       {"angle_deg", "off the cross-section",
-       [](const Look& l, const Happening& h) -> Value { return clip_of(l, h).theta; }},
+       [](const Look& l, const Happening& h) -> Value { return clip_of(l, h).theta; }, 0, 90},
       {"cover", "share of the cross-section between the legs",
-       [](const Look& l, const Happening& h) -> Value { return clip_of(l, h).cover; }},
-      {"to_mark_mm", "along the strand to the nearest stripe around it; unknown without any", to_mark},
-      {"to_clip_mm", "along the strand to the nearest clip that was there before; unknown without any", clip_to_clip},
+       [](const Look& l, const Happening& h) -> Value { return clip_of(l, h).cover; }, 0, 1},
+      {"to_mark_mm", "along the strand to the nearest stripe around it; unknown without any", to_mark, 0,
+       kLongest},
+      {"to_clip_mm", "along the strand to the nearest clip that was there before; unknown without any", clip_to_clip, 0,
+       kLongest},
       {"closing_s", "how long the jaws took from half open",
-       [](const Look& l, const Happening& h) { return h.foreseen ? kUnknown : Value(clip_of(l, h).closing_time); }},
+       [](const Look& l, const Happening& h) { return h.foreseen ? kUnknown : Value(clip_of(l, h).closing_time); }, 0,
+       3600},
       {"tips_visible", "of the two jaw tips, when it closed",
-       [](const Look& l, const Happening& h) -> Value { return double(clip_of(l, h).tips_visible); }, false, true},
+       [](const Look& l, const Happening& h) -> Value { return double(clip_of(l, h).tips_visible); }, 0, 2, false,
+       true},
       {"under_liquid", "the pool stood over the jaws",
        [](const Look& l, const Happening& h) -> Value { return l.model.wet.there && drowned(l.model, l.state, h.tip); },
-       true},
+       0, 1, true},
       {"on_bleeder", "it closes the vessel that bleeds by itself",
        [](const Look& l, const Happening& h) { return h.foreseen ? kUnknown : Value(on_bleeder(l, h) != nullptr); },
-       true},
+       0, 1, true},
       {"bleeder_cover", "share of that vessel between the legs; unknown elsewhere",
        [](const Look& l, const Happening& h) {
          const auto* c = on_bleeder(l, h);
          return c ? Value(c->cover) : kUnknown;
-       }},
+       },
+       0, 1},
       {"upstream", "on the heart's side of the bleeding place; unknown elsewhere",
        [](const Look& l, const Happening& h) {
          const auto* c = on_bleeder(l, h);
          return c ? Value(on_hearts_side(l.model.vessels.bleeder, c->s)) : kUnknown;
        },
-       true},
+       0, 1, true},
   };
 }
 

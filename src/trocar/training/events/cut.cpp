@@ -72,19 +72,22 @@ Value cut_to_clip(const Look& look, const Happening& h) {
 std::vector<Attribute> cut_attributes() {
   return {
       {"s_mm", "where on the strand, from its beginning; unknown on other bodies",
-       [](const Look& l, const Happening& h) { return cut_of(l, h).strand < 0 ? kUnknown : Value(cut_of(l, h).s); }},
+       [](const Look& l, const Happening& h) { return cut_of(l, h).strand < 0 ? kUnknown : Value(cut_of(l, h).s); }, 0,
+       kLongest},
       {"fraction", "of the strand's cross-section that was cut; unknown on other bodies",
        [](const Look& l, const Happening& h) {
          return cut_of(l, h).strand < 0 ? kUnknown : Value(cut_of(l, h).fraction);
-       }},
-      {"depth_mm", "how deep the blades went into the fold behind the strand, or into the fold", depth},
+       },
+       0, 1},
+      {"depth_mm", "how deep the blades went into the fold behind the strand, or into the fold", depth, 0, kLongest},
       {"tips_visible", "of the two jaw tips, when it was cut",
-       [](const Look& l, const Happening& h) -> Value { return double(cut_of(l, h).tips_visible); }, false, true},
+       [](const Look& l, const Happening& h) -> Value { return double(cut_of(l, h).tips_visible); }, 0, 2, false,
+       true},
       {"under_liquid", "the pool stood over the jaws",
        [](const Look& l, const Happening& h) -> Value { return l.model.wet.there && drowned(l.model, l.state, h.tip); },
-       true},
-      {"between_clips", "clips sit on the strand on both sides of the cut", between_clips, true},
-      {"to_clip_mm", "from the strand's nearest clip; unknown without any", cut_to_clip},
+       0, 1, true},
+      {"between_clips", "clips sit on the strand on both sides of the cut", between_clips, 0, 1, true},
+      {"to_clip_mm", "from the strand's nearest clip; unknown without any", cut_to_clip, 0, kLongest},
   };
 }
 

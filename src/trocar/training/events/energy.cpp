@@ -110,7 +110,7 @@ Value critical(const Look&, const Happening& h) { return h.number == kCritical; 
 
 const EventKind kActivated{"activated",
                            {},
-                           {{"under_liquid", "the pool stood over its tip", under_liquid, true}},
+                           {{"under_liquid", "the pool stood over its tip", under_liquid, 0, 1, true}},
                            "A pedal was pressed.",
                            needs_energy,
                            &noticing<Activated>,
@@ -125,7 +125,7 @@ const EventKind kEnergyOffTarget{
     "energy_off_target",
     {{"targets", ArgumentKind::bodies, "bodies that may be treated beside what bleeds", false},
      {"never", ArgumentKind::bodies, "bodies where it is critical", false}},
-    {{"critical", "it is one of those where current never may go", critical, true}},
+    {{"critical", "it is one of those where current never may go", critical, 0, 1, true}},
     "Current goes through tissue that was not to be treated; once an activation.",
     needs_energy,
     &noticing<OffTarget>};

@@ -40,8 +40,11 @@ struct Attribute {
   std::string_view name;
   std::string_view meaning;
   Value (*value)(const Look& look, const Happening& h);
+  double low = 0, high = 1;  ///< that it can be, in the unit that its name ends in
   bool is_truth = false, is_count = false;
 };
+
+inline constexpr double kLongest = 1000;  ///< [mm] along or between strands
 
 struct EventKind {
   /// Does it happen to what a hand holds, or held just before?

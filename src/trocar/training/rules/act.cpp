@@ -85,7 +85,7 @@ class ActReader {
   void attributes(const JsonValue& v, const EventKind& event, Cause& c) const {
     for (const Attribute& a : event.attributes)
       if (const scene::JsonMember* m = v.find(a.name))
-        if (const auto test = read_short_test(m->value, {a.name, 0, 0, a.is_truth, a.is_count}, r))
+        if (const auto test = read_short_test(m->value, {a.name, a.low, a.high, a.is_truth, a.is_count}, r))
           c.attributes.push_back({&a, *test});
   }
 

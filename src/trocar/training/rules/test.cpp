@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -9,6 +10,27 @@ namespace {
 
 using scene::JsonValue;
 using Kind = JsonValue::Kind;
+
+/// Passes nothing that lies in [least, most].
+bool empty(const Test& t, double least, double most) {
+  if (t.of_size) least = std::max(least, 0.0);
+  return t.low > t.high || (t.low == t.high && (t.beyond_low || t.beyond_high)) || t.low > most ||
+         (t.beyond_low && t.low >= most) || t.high < least || (t.beyond_high && t.high <= least);
+}
+
+/// The test, if something that the number can be passes it. Nothing: a fault has been told.
+std::optional<Test> possible(const Test& test, const JsonValue& at, const Tested& tested, const Reading& r) {
+  constexpr double kAnything = std::numeric_limits<double>::infinity();
+  const Unit& unit = unit_of(tested.name);
+  const bool bounded = tested.low < tested.high;
+  const double least = bounded ? tested.low * unit.si : -kAnything;
+  const double most = bounded ? tested.high * unit.si : kAnything;
+  if (!empty(test, least, most)) return test;
+  r.fault(at, bounded ? fmt::format("expected what \"{}\" can be, {:g} to {:g}{}{}, got {}", tested.name, tested.low,
+                                    tested.high, unit.suffix.empty() ? "" : " ", unit.suffix, test.shown(unit, false))
+                      : fmt::format("expected what \"{}\" can be, got an empty range", tested.name));
+  return std::nullopt;
+}
 
 class TestReader {
  public:
@@ -33,7 +55,7 @@ class TestReader {
                fmt::format("expected what \"{}\" must be (min, max, above, below, in), got none", m_tested.name));
       return std::nullopt;
     }
-    return possible();
+    return possible(m_test, m_object, m_tested, r);
   }
 
  private:
@@ -82,23 +104,6 @@ class TestReader {
     m_said = true;
     m_test.low = i->low;
     m_test.high = i->high;
-  }
-
-  /// Something that the number can be passes it.
-  std::optional<Test> possible() {
-    const bool bounded = m_tested.low < m_tested.high;
-    const double least = bounded ? m_tested.low * m_unit.si : m_test.low;
-    const double most = bounded ? m_tested.high * m_unit.si : m_test.high;
-    const bool empty = m_test.low > m_test.high ||
-                       (m_test.low == m_test.high && (m_test.beyond_low || m_test.beyond_high)) || m_test.low > most ||
-                       (m_test.beyond_low && m_test.low >= most) || m_test.high < least ||
-                       (m_test.beyond_high && m_test.high <= least);
-    if (!empty) return m_test;
-    complain(m_object, bounded ? fmt::format("expected what \"{}\" can be, {:g} to {:g}{}{}, got {}", m_tested.name,
-                                             m_tested.low, m_tested.high, m_unit.suffix.empty() ? "" : " ",
-                                             m_unit.suffix, m_test.shown(m_unit, false))
-                               : fmt::format("expected what \"{}\" can be, got an empty range", m_tested.name));
-    return std::nullopt;
   }
 
   const JsonValue& m_object;
@@ -154,7 +159,7 @@ std::optional<Test> read_short_test(const JsonValue& value, const Tested& tested
   }
   test.low = i->low;
   test.high = i->high;
-  return test;
+  return possible(test, value, tested, r);
 }
 
 }  // namespace trocar::training
