@@ -5,6 +5,7 @@
 
 #include <trocar/scene/json/shape.hpp>
 #include <trocar/training/exercise/rules.hpp>
+#include <trocar/training/exercise/step_circles.hpp>
 
 namespace trocar::training {
 
@@ -19,7 +20,7 @@ class RulesReader {
     owners();
     put_steps_on_board();
     for (const Placed& p : m_placed) step(p);
-    cycles();
+    circles();
     for (const Penalty& p : m_exercise.penalties) error(p);
     if (m_rules.m_errors.size() > std::size_t(kMaxErrors))
       whole(fmt::format("expected at most {} errors (one an element), got {}", kMaxErrors, m_rules.m_errors.size()));
@@ -182,30 +183,21 @@ class RulesReader {
     return same.empty() ? found : same;
   }
 
-  /// A step that comes after itself, by whatever way, never counts.
-  void cycles() {
-    const std::size_t n = m_rules.m_steps.size();
-    std::vector<int> seen(n, 0);  // 0: not yet, 1: on the way, 2: good
-    for (std::size_t i = 0; i < n; ++i)
-      if (leads_back(int(i), seen)) return;
+  /// "cut" waits for "present", and "present" waits for "cut"
+  void circles() {
+    const std::vector<int> circle = circle_of(m_rules.m_steps);
+    if (circle.empty()) return;
+    std::string way;
+    for (std::size_t i = 0; i < circle.size(); ++i)
+      way += fmt::format("{}\"{}\" waits for ", i == 0 ? "" : ", and ", step_name(circle[i]));
+    way += circle.size() == 1 ? "itself" : fmt::format("\"{}\"", step_name(circle[0]));
+    const Part& part = m_placed[std::size_t(circle[0])].text->part;
+    reading(m_rules.m_scope, part.file)
+        .fault(part.value, "expected steps of which each can be done, got a circle: " + way);
   }
-  bool leads_back(int i, std::vector<int>& seen) {
-    int& mine = seen[std::size_t(i)];
-    if (mine == 2) return false;
-    if (mine == 1) {
-      const Part& part = m_placed[std::size_t(i)].text->part;
-      reading(m_rules.m_scope, part.file)
-          .fault(part.value, fmt::format("expected steps in an order, got a circle of after and needs through \"{}\"",
-                                         m_placed[std::size_t(i)].text->name));
-      return true;
-    }
-    mine = 1;
-    const StepRule& rule = m_rules.m_steps[std::size_t(i)];
-    for (const std::vector<int>* list : {&rule.after, &rule.needs})
-      for (const int before : *list)
-        if (leads_back(before, seen)) return true;
-    mine = 2;
-    return false;
+  std::string step_name(int step) const {
+    const StepStatus& s = m_rules.m_board.step(step);
+    return s.side.empty() ? s.task : s.task + "(" + s.side + ")";
   }
 
   void error(const Penalty& p) {

@@ -29,6 +29,14 @@ class Condition {
     for (const Condition& part : m_parts) part.each_fact(visit);
   }
 
+  /// The steps without which it cannot hold.
+  template <class Visit>
+  void each_needed_step(Visit&& visit) const {
+    if (m_kind == Kind::step && m_is == StepIs::done) visit(m_step);
+    if (m_kind == Kind::all || (m_kind == Kind::any && m_parts.size() == 1))
+      for (const Condition& part : m_parts) part.each_needed_step(visit);
+  }
+
  private:
   enum class Kind { none, fact, step, all, any, negation };
   enum class StepIs { done, missed, open };
