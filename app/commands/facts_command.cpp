@@ -39,7 +39,7 @@ void print_kinds(const char* heading, const Json& kinds) {
     fmt::print("  {:24} {}{}{}\n", k["name"].get<std::string>(),
                k.contains("type") ? "[" + k["type"].get<std::string>() + bounds(k) + "] " : std::string(),
                k["meaning"].get<std::string>(),
-               k.contains("lacks") ? " NOT HERE: the scene has no " + k["lacks"].get<std::string>() : std::string());
+               k.contains("lacks") ? " NOT HERE: it needs " + k["lacks"].get<std::string>() : std::string());
     print_arguments(k["arguments"]);
     if (k.contains("attributes")) print_arguments(k["attributes"]);
   }

@@ -35,22 +35,27 @@ struct Event {
 
 /// A kind of event in words. A new kind of event is one line above and one here.
 struct EventWords {
+  /// Without which it never happens: jaws that grip, a rack of several instruments, current.
+  enum Needs { nothing, grip, choice, current };
+
   Event::Kind kind;
   const char* name;     ///< as lists of what happened have it
   const char* text;     ///< of it: {tool}, its trocar as {hand}, {body}
   const char* meaning;  ///< of the exercise event of that name; null: training/events looks at it more closely
   bool has_body = false;
+  Needs needs = nothing;
 };
 inline constexpr EventWords kEventWords[] = {
-    {Event::grasped, "grasped", "{tool} grasped {body}", "Jaws took hold of a body.", true},
-    {Event::released, "released", "{tool} let go", "A hand let go of what it held."},
-    {Event::slipped, "slipped", "{tool} slipped", "A grip slipped off."},
+    {Event::grasped, "grasped", "{tool} grasped {body}", "Jaws took hold of a body.", true, EventWords::grip},
+    {Event::released, "released", "{tool} let go", "A hand let go of what it held.", false, EventWords::grip},
+    {Event::slipped, "slipped", "{tool} slipped", "A grip slipped off.", false, EventWords::grip},
     {Event::clipped, "clipped", "clip on {body}", nullptr, true},
     {Event::dropped_clip, "clip-dropped", "a clip closed on nothing", nullptr},
     {Event::cut, "cut", "{tool} cut {body}", nullptr, true},
-    {Event::exchanged, "exchanged", "{hand}: {tool}", "Another instrument came into a trocar."},
+    {Event::exchanged, "exchanged", "{hand}: {tool}", "Another instrument came into a trocar.", false,
+     EventWords::choice},
     {Event::torn, "torn", "{body} tore", nullptr, true},
-    {Event::parted, "parted", "{tool} parted {body}", "Current cut a body.", true},
+    {Event::parted, "parted", "{tool} parted {body}", "Current cut a body.", true, EventWords::current},
 };
 /// Of a kind that is not Event::none.
 constexpr const EventWords& words_of(Event::Kind kind) noexcept { return kEventWords[std::size_t(kind) - 1]; }

@@ -6,6 +6,7 @@
 #include <trocar/interactions/verbs/clip.hpp>
 #include <trocar/sim/stages/visibility.hpp>
 #include <trocar/training/events/registry.hpp>
+#include <trocar/training/facts/needs.hpp>
 #include <trocar/training/observe/bleeder.hpp>
 #include <trocar/training/observe/hands.hpp>
 #include <trocar/training/observe/liquid.hpp>
@@ -87,8 +88,7 @@ std::vector<Attribute> clip_attributes() {
        [](const Look& l, const Happening& h) -> Value { return clip_of(l, h).theta; }, 0, 90},
       {"cover", "share of the cross-section between the legs",
        [](const Look& l, const Happening& h) -> Value { return clip_of(l, h).cover; }, 0, 1},
-      {"to_mark_mm", "along the strand to the nearest stripe around it; unknown without any", to_mark, 0,
-       kLongest},
+      {"to_mark_mm", "along the strand to the nearest stripe around it; unknown without any", to_mark, 0, kLongest},
       {"to_clip_mm", "along the strand to the nearest clip that was there before; unknown without any", clip_to_clip, 0,
        kLongest},
       {"closing_s", "how long the jaws took from half open",
@@ -101,8 +101,8 @@ std::vector<Attribute> clip_attributes() {
        [](const Look& l, const Happening& h) -> Value { return l.model.wet.there && drowned(l.model, l.state, h.tip); },
        0, 1, true},
       {"on_bleeder", "it closes the vessel that bleeds by itself",
-       [](const Look& l, const Happening& h) { return h.foreseen ? kUnknown : Value(on_bleeder(l, h) != nullptr); },
-       0, 1, true},
+       [](const Look& l, const Happening& h) { return h.foreseen ? kUnknown : Value(on_bleeder(l, h) != nullptr); }, 0,
+       1, true},
       {"bleeder_cover", "share of that vessel between the legs; unknown elsewhere",
        [](const Look& l, const Happening& h) {
          const auto* c = on_bleeder(l, h);
@@ -138,16 +138,16 @@ bool foresee(const Look& look, int hand, Foreseen& out) {
   return true;
 }
 
-std::string_view needs_applier(const sim::Model& model) {
-  return unless_there_is(model, &interactions::Abilities::set_clips, "a clip applier");
-}
-
 }  // namespace
 
-const EventKind kClipped{"clipped",     {},
-                         clip_attributes(),  "A clip closed on a strand or a vessel.",
-                         needs_applier, &noticing<Clips<false>>,
-                         true,          EventKind::Hold::none,
+const EventKind kClipped{"clipped",
+                         {},
+                         clip_attributes(),
+                         "A clip closed on a strand or a vessel.",
+                         needs_applier,
+                         &noticing<Clips<false>>,
+                         true,
+                         EventKind::Hold::none,
                          foresee};
 const EventKind kClipLost{"clip_lost", {}, {}, "A clip closed on nothing.", needs_applier, &noticing<Clips<true>>};
 

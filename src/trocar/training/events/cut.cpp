@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <trocar/training/events/registry.hpp>
+#include <trocar/training/facts/needs.hpp>
 #include <trocar/training/observe/hands.hpp>
 #include <trocar/training/observe/liquid.hpp>
 
@@ -81,18 +82,13 @@ std::vector<Attribute> cut_attributes() {
        0, 1},
       {"depth_mm", "how deep the blades went into the fold behind the strand, or into the fold", depth, 0, kLongest},
       {"tips_visible", "of the two jaw tips, when it was cut",
-       [](const Look& l, const Happening& h) -> Value { return double(cut_of(l, h).tips_visible); }, 0, 2, false,
-       true},
+       [](const Look& l, const Happening& h) -> Value { return double(cut_of(l, h).tips_visible); }, 0, 2, false, true},
       {"under_liquid", "the pool stood over the jaws",
        [](const Look& l, const Happening& h) -> Value { return l.model.wet.there && drowned(l.model, l.state, h.tip); },
        0, 1, true},
       {"between_clips", "clips sit on the strand on both sides of the cut", between_clips, 0, 1, true},
       {"to_clip_mm", "from the strand's nearest clip; unknown without any", cut_to_clip, 0, kLongest},
   };
-}
-
-std::string_view needs_scissors(const sim::Model& model) {
-  return unless_there_is(model, &interactions::Abilities::cut, "scissors");
 }
 
 }  // namespace

@@ -67,9 +67,6 @@ std::unique_ptr<Noticer> noticing(const sim::Model& model, const Arguments& argu
   return std::make_unique<N>(model, arguments);
 }
 
-/// "a clip applier": for scenes in whose hands nothing can do that; empty where something can.
-std::string_view unless_there_is(const sim::Model& model, bool interactions::Abilities::*can, std::string_view what);
-
 /// The name of a body; null for kNoBody.
 const std::string* name_of_body(const sim::Model& model, BodyId body);
 

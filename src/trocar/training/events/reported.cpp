@@ -3,6 +3,7 @@
 
 #include <trocar/sim/model/bodies.hpp>
 #include <trocar/training/events/registry.hpp>
+#include <trocar/training/facts/needs.hpp>
 #include <trocar/training/observe/hands.hpp>
 #include <trocar/training/observe/watches.hpp>
 
@@ -46,18 +47,26 @@ using sim::Event;
 
 }  // namespace
 
-std::string_view unless_there_is(const sim::Model& model, bool interactions::Abilities::*can, std::string_view what) {
-  for (const sim::HandModel& hand : model.hands)
-    for (const interactions::ToolModel& tool : hand.rack)
-      if (tool.can().*can) return {};
-  return what;
-}
-
 const std::string* name_of_body(const sim::Model& model, BodyId body) {
   return body.exists() ? &sim::name_of(model, body) : nullptr;
 }
 
 namespace {
+
+using Lacks = std::string_view (*)(const sim::Model&);
+constexpr Lacks lacks_for(sim::EventWords::Needs needs) {
+  switch (needs) {
+    case sim::EventWords::grip:
+      return needs_grip;
+    case sim::EventWords::choice:
+      return needs_choice;
+    case sim::EventWords::current:
+      return needs_current;
+    case sim::EventWords::nothing:
+      break;
+  }
+  return anywhere;
+}
 
 template <std::size_t... i>
 std::vector<EventKind> reported(std::index_sequence<i...>) {
@@ -65,7 +74,7 @@ std::vector<EventKind> reported(std::index_sequence<i...>) {
   const auto add = [&out](const sim::EventWords& e, auto watch) {
     if (!e.meaning) return;
     const EventKind::Hold of_hold = e.kind == Event::slipped ? EventKind::Hold::before : EventKind::Hold::none;
-    out.push_back({e.name, {}, {}, e.meaning, anywhere, watch, e.has_body, of_hold});
+    out.push_back({e.name, {}, {}, e.meaning, lacks_for(e.needs), watch, e.has_body, of_hold});
   };
   (add(sim::kEventWords[i], &noticing<Reported<sim::kEventWords[i].kind, sim::kEventWords[i].has_body>>), ...);
   return out;

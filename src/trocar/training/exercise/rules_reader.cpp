@@ -188,9 +188,11 @@ class RulesReader {
     const std::vector<int> circle = circle_of(m_rules.m_steps);
     if (circle.empty()) return;
     std::string way;
-    for (std::size_t i = 0; i < circle.size(); ++i)
-      way += fmt::format("{}\"{}\" waits for ", i == 0 ? "" : ", and ", step_name(circle[i]));
-    way += circle.size() == 1 ? "itself" : fmt::format("\"{}\"", step_name(circle[0]));
+    for (std::size_t i = 0; i < circle.size(); ++i) {
+      const std::string next = '"' + step_name(circle[(i + 1) % circle.size()]) + '"';
+      way += fmt::format("{}\"{}\" waits for {}", i == 0 ? "" : ", and ", step_name(circle[i]),
+                         circle.size() == 1 ? "itself" : next);
+    }
     const Part& part = m_placed[std::size_t(circle[0])].text->part;
     reading(m_rules.m_scope, part.file)
         .fault(part.value, "expected steps of which each can be done, got a circle: " + way);

@@ -1,4 +1,5 @@
 #include <trocar/training/facts/happening.hpp>
+#include <trocar/training/facts/needs.hpp>
 #include <trocar/training/facts/registry.hpp>
 #include <trocar/training/observe/clip_pair.hpp>
 
@@ -48,7 +49,7 @@ const Fact kClipsFirstSet{"clips.first_set",
                           0,
                           1,
                           "A clip that is well set is where the first belongs, alone or with a second.",
-                          anywhere,
+                          needs_applier,
                           &remembering<Pair<first_set>>,
                           true};
 const Fact kClipsSecondSet{"clips.second_set",
@@ -56,7 +57,7 @@ const Fact kClipsSecondSet{"clips.second_set",
                            0,
                            1,
                            "A clip that is well set is where the second belongs, alone or with a first.",
-                           anywhere,
+                           needs_applier,
                            &remembering<Pair<second_set>>,
                            true};
 const Fact kClipsMisplaced{"clips.misplaced",
@@ -64,7 +65,7 @@ const Fact kClipsMisplaced{"clips.misplaced",
                            0,
                            1,
                            "The tube's last clip is well set, but makes no pair and is in no place of one.",
-                           anywhere,
+                           needs_applier,
                            &remembering<Pair<misplaced>>,
                            true};
 const Fact kClipsApart{"clips.apart_mm",
@@ -72,7 +73,7 @@ const Fact kClipsApart{"clips.apart_mm",
                        0,
                        1000,
                        "Between the two clips of the pair. Unknown until there is one.",
-                       anywhere,
+                       needs_applier,
                        &remembering<Pair<apart>>};
 
 }  // namespace trocar::training

@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+
+#include <trocar/training/facts/needs.hpp>
 #include <trocar/training/facts/registry.hpp>
 
 namespace trocar::training {
@@ -17,6 +20,22 @@ Value clips_left(const Look& look, const Arguments& a) {
   return double(look.state.tools[size_t(a[0].index)].clips_left);
 }
 
+std::string not_in_rack(const sim::Model& model, const Arguments& a) {
+  const sim::HandModel& hand = model.hands[size_t(a[0].index)];
+  std::string there;
+  for (const interactions::ToolModel& tool : hand.rack) {
+    if (a[1].word == about(tool.kind).name) return "";
+    there += (there.empty() ? "" : ", ") + std::string(about(tool.kind).name);
+  }
+  return fmt::format("expected a kind that the rack at the trocar \"{}\" holds ({}), got \"{}\"", hand.name, there,
+                     a[1].word);
+}
+std::string no_applier_in_rack(const sim::Model& model, const Arguments& a) {
+  const sim::HandModel& hand = model.hands[size_t(a[0].index)];
+  if (can_take(hand, &interactions::Abilities::set_clips)) return "";
+  return fmt::format("expected a hand with a clip applier, got \"{}\", whose rack holds none", hand.name);
+}
+
 }  // namespace
 
 const Fact kHandHas{
@@ -27,13 +46,16 @@ const Fact kHandHas{
     "The instrument in this trocar is of that kind.",
     anywhere,
     &stateless<has>,
-    true};
+    true,
+    not_in_rack};
 const Fact kHandClipsLeft{"hand.clips_left",
                           {{"hand", ArgumentKind::hand, "that has a clip applier"}},
                           0,
                           1000,
                           "Clips in its magazine. Unknown while another instrument is in the trocar.",
                           anywhere,
-                          &stateless<clips_left>};
+                          &stateless<clips_left>,
+                          false,
+                          no_applier_in_rack};
 
 }  // namespace trocar::training

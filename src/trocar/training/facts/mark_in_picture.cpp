@@ -1,5 +1,7 @@
 // Where a mark lies in the picture: how far from its middle, how far from the lens, how it faces it. All unknown while
 // the mark is not in view.
+#include <fmt/format.h>
+
 #include <trocar/numerics/portable.hpp>
 #include <trocar/sim/stages/visibility.hpp>
 #include <trocar/training/facts/registry.hpp>
@@ -32,6 +34,11 @@ Value facing(const Look& look, const Arguments& a) {
       normalised(sim::scope_of(look.model, look.state).eye - place_of_mark(look.model, look.state, a[0].index));
   return portable::atan2(length(cross(*normal, to_eye)), dot(*normal, to_eye));
 }
+std::string faces_every_way(const sim::Model& model, const Arguments& a) {
+  const sim::VisibilityTarget& target = model.targets[size_t(a[0].index)];
+  if (can_face(model, target)) return "";
+  return fmt::format("expected an organ or a disc, got \"{}\", which faces every way", target.name);
+}
 
 }  // namespace
 
@@ -51,12 +58,14 @@ const Fact kMarkDistance{"mark.distance_mm",
                          anywhere,
                          &stateless<distance>};
 const Fact kMarkFacing{"mark.facing_deg",
-                       {{"of", ArgumentKind::mark, "an organ that is looked at"}},
+                       {{"of", ArgumentKind::mark, "a disc or an organ that is looked at"}},
                        0,
                        180,
                        "Between the line from it to the lens and the direction in which its surface faces. Unknown "
                        "while it is not in view, and for what faces every way.",
                        anywhere,
-                       &stateless<facing>};
+                       &stateless<facing>,
+                       false,
+                       faces_every_way};
 
 }  // namespace trocar::training

@@ -45,10 +45,17 @@ std::vector<Parameter> stump_parameters() {
           {"cover", ArgumentKind::number, "share of the cross-section from which a clip closes it", true, 0, 1}};
 }
 
+std::string no_trace(const sim::Model& model, const Arguments& a) {
+  const sim::StrandAnatomy& strand = model.strands[size_t(a[0].index)];
+  if (!strand.landmarks.empty()) return "";
+  return "expected a strand with landmarks, whose stumps can be looked for, got \"" + strand.name +
+         "\", which has none";
+}
+
 }  // namespace
 
 const Fact kStrandOccluded{
-    "strand.occluded", stump_parameters(),           0,   1, "No way leads through the tube from its beginning to its end.",
+    "strand.occluded", stump_parameters(),     0,   1, "No way leads through the tube from its beginning to its end.",
     anywhere,          &remembering<Occluded>, true};
 const Fact kStrandStumpsClosed{"strand.stumps_closed",
                                stump_parameters(),
@@ -65,6 +72,7 @@ const Fact kStrandStumpsInView{"strand.stumps_in_view",
                                "Both ends that the first cut made are in view. Unknown before it is cut.",
                                anywhere,
                                &remembering<StumpsInView>,
-                               true};
+                               true,
+                               no_trace};
 
 }  // namespace trocar::training

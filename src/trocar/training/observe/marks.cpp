@@ -27,14 +27,18 @@ Vec3d place_of_mark(const sim::Model& model, const sim::State& state, int mark) 
   return target.count > 0 ? sum / double(target.count) : sum;
 }
 
+bool can_face(const sim::Model& model, const sim::VisibilityTarget& target) {
+  if (target.kind == sim::VisibilityTarget::mark) return !model.marks[size_t(target.index)].is_stripe();
+  return target.kind == sim::VisibilityTarget::organ;
+}
+
 std::optional<Vec3d> normal_of_mark(const sim::Model& model, const sim::State& state, int mark) {
   constexpr double kCancel = 0.3;  // of the samples' normals: less is a surface that goes all around
   const sim::VisibilityTarget& target = model.targets[size_t(mark)];
-  if (target.kind == sim::VisibilityTarget::mark) {
-    const sim::MarkModel& m = model.marks[size_t(target.index)];
-    return m.is_stripe() ? std::nullopt : std::optional(sim::pose_of(model, state, m).normal);
-  }
-  if (target.kind != sim::VisibilityTarget::organ || target.count == 0) return std::nullopt;
+  if (!can_face(model, target)) return std::nullopt;
+  if (target.kind == sim::VisibilityTarget::mark)
+    return sim::pose_of(model, state, model.marks[size_t(target.index)]).normal;
+  if (target.count == 0) return std::nullopt;
   const tissue::Skin& skin = model.skin(target.index);
   const tissue::NodeView nodes = nodes_of(model, state, target.index);
   Vec3d sum{};

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <trocar/training/facts/needs.hpp>
 #include <trocar/training/observe/marks.hpp>
 #include <trocar/training/skills/parameters.hpp>
 
@@ -34,8 +35,7 @@ std::vector<Parameter> operator+(std::vector<Parameter> a, std::vector<Parameter
 }
 
 std::string lacks_tool(const sim::Model& model, int hand, bool interactions::Abilities::*can) {
-  for (const interactions::ToolModel& tool : model.hands[size_t(hand)].rack)
-    if (tool.can().*can) return {};
+  if (can_take(model.hands[size_t(hand)], can)) return {};
   return fmt::format("the rack at the trocar \"{}\" has no {}", model.hands[size_t(hand)].name,
                      interactions::kinds_that(can));
 }
