@@ -263,8 +263,8 @@ TEST(Facts, AStrandIsStraightUntilItIsBentAndWholeUntilItIsCut) {
 
 TEST(Facts, ATubeIsFollowedFromItsFimbriaeAtAnEyesPace) {
   World w;
-  const auto followed = kStrandFollowed.watch(
-      w.model, {w.strand("tube_left"), number(0.02), number(0.03), number(0.009), number(1), number(0.01)});
+  const auto followed = kStrandFollowed.watch(w.model, {w.strand("tube_left"), word("fimbria"), number(0.02),
+                                                        number(0.03), number(0.009), number(1), number(0.01)});
   w.see("tube_left", true);
   for (int i = 0; i < 50; ++i) followed->sample(w.look(), 0.02);
   expect_value(followed->value(w.look()), 0);

@@ -20,10 +20,10 @@ class Watch : public Noticer {
 
  protected:
   void look_at(const Look& look, Mishaps& mishaps) { m_watch.update(m_limits, look.model, look.state, mishaps); }
-  static void pass(const Mishaps& mishaps, std::string_view code, Happenings& out, std::int32_t number = -1) {
+  static void pass(const Mishaps& mishaps, Mishap::Kind kind, Happenings& out, std::int32_t number = -1) {
     for (int i = 0; i < mishaps.count; ++i) {
       const Mishap& m = mishaps.list[size_t(i)];
-      if (m.code == code) out.add({m.hand, kNoBody, number, nullptr, m.where, m.where});
+      if (m.kind == kind) out.add({m.hand, kNoBody, number, nullptr, m.where, m.where});
     }
   }
   EnergyLimits m_limits;
@@ -36,7 +36,7 @@ class Idle final : public Watch {
   void tick(const Look& look, const sim::StepReport&, Happenings& out) override {
     Mishaps mishaps;
     look_at(look, mishaps);
-    pass(mishaps, "E6", out);
+    pass(mishaps, Mishap::idle, out);
   }
 };
 
@@ -48,8 +48,8 @@ class OffTarget final : public Watch {
   void tick(const Look& look, const sim::StepReport&, Happenings& out) override {
     Mishaps mishaps;
     look_at(look, mishaps);
-    pass(mishaps, "E7", out);
-    pass(mishaps, "E7.1", out, kCritical);
+    pass(mishaps, Mishap::off_target, out);
+    pass(mishaps, Mishap::never_there, out, kCritical);
   }
 };
 
@@ -59,7 +59,7 @@ class HotTip final : public Watch {
   void tick(const Look& look, const sim::StepReport&, Happenings& out) override {
     Mishaps mishaps;
     look_at(look, mishaps);
-    pass(mishaps, "E7.2", out);
+    pass(mishaps, Mishap::hot_tip, out);
   }
 };
 
@@ -78,7 +78,7 @@ class SpreadWatch final : public Watch {
     if (++m_sample % kEvery != 0) return;
     Mishaps mishaps;
     m_watch.look_at_spread(look.model, look.state, mishaps);
-    pass(mishaps, "E8", out);
+    pass(mishaps, Mishap::spread, out);
   }
 
  private:

@@ -7,10 +7,10 @@
 namespace trocar::training {
 namespace {
 
-void pass(const Mishaps& mishaps, std::string_view code, Happenings& out) {
+void pass(const Mishaps& mishaps, Mishap::Kind kind, Happenings& out) {
   for (int i = 0; i < mishaps.count; ++i) {
     const Mishap& m = mishaps.list[size_t(i)];
-    if (m.code == code) out.add({m.hand, kNoBody, -1, nullptr, m.where, m.where, m.detail});
+    if (m.kind == kind) out.add({m.hand, kNoBody, -1, nullptr, m.where, m.where, m.detail});
   }
 }
 
@@ -25,7 +25,7 @@ class Overpulled final : public Noticer {
   void tick(const Look& look, const sim::StepReport&, Happenings& out) override {
     Mishaps mishaps;
     m_watch.update(m_limits, m_tissues, look.model, look.state, mishaps);
-    pass(mishaps, "E1", out);
+    pass(mishaps, Mishap::overpulled, out);
   }
 
  private:
@@ -44,7 +44,7 @@ class Overpinched final : public Noticer {
   void tick(const Look& look, const sim::StepReport&, Happenings& out) override {
     Mishaps mishaps;
     m_watch.update(m_limits, m_tissues, look.model, look.state, mishaps);
-    pass(mishaps, "E2", out);
+    pass(mishaps, Mishap::overpinched, out);
   }
 
  private:
@@ -61,7 +61,7 @@ class Collided final : public Noticer {
     if (look.state.tick % kEvery != 0) return;
     Mishaps mishaps;
     m_watch.update(m_limits, look.model, look.state, kEvery * sim::kTick, mishaps);
-    pass(mishaps, "E5", out);
+    pass(mishaps, Mishap::collided, out);
   }
 
  private:
@@ -90,7 +90,7 @@ class Blind final : public Noticer {
     for (size_t h = 0; h < hands(look.model); ++h) now[h] = tip_of(look.model, look.state, h);
     Mishaps mishaps;
     m_watch.update(m_limits, look.model, look.state, m_before, now, dt, mishaps);
-    pass(mishaps, inserting ? "E13" : "E4.1", out);
+    pass(mishaps, inserting ? Mishap::inserted_blind : Mishap::moved_blind, out);
     m_before = now;
   }
 

@@ -8,7 +8,8 @@ namespace {
 class Followed final : public Observer {
  public:
   Followed(const sim::Model& model, const Arguments& a)
-      : m_following({a[1].number(), a[2].number(), a[3].number(), a[4].number(), a[5].number()}, model, a[0].index) {}
+      : m_following({a[2].number(), a[3].number(), a[4].number(), a[5].number(), a[6].number()}, model, a[0].index,
+                    a[1].word) {}
   void sample(const Look& look, double dt) override {
     std::array<Vec3d, sim::kMaxTools> tips{};
     for (size_t h = 0; h < hands(look.model); ++h) tips[h] = tip_of(look.model, look.state, h);
@@ -20,18 +21,12 @@ class Followed final : public Observer {
   Following m_following;
 };
 
-std::string no_fimbriae(const sim::Model& model, const Arguments& a) {
-  const auto& strand = model.strands[size_t(a[0].index)];
-  for (const sim::LandmarkModel& l : strand.landmarks)
-    if (l.name == "fimbria") return "";
-  return "expected a strand with a landmark \"fimbria\", got \"" + strand.name + "\", which has none";
-}
-
 }  // namespace
 
 const Fact kStrandFollowed{
     "strand.followed",
-    {{"of", ArgumentKind::strand, "a tube with a landmark \"fimbria\""},
+    {{"of", ArgumentKind::strand, "which"},
+     {"from", ArgumentKind::landmark, "of it: where following begins, a tube's fimbriae"},
      {"to_mm", ArgumentKind::number, "from its beginning: up to where"},
      {"speed_mm_s", ArgumentKind::number, "at most", true, 1, 1000},
      {"gap_mm", ArgumentKind::number, "a covered stretch that may be skipped"},
@@ -39,10 +34,9 @@ const Fact kStrandFollowed{
      {"touch_mm", ArgumentKind::number, "an instrument's tip this near follows as well as the eye"}},
     0,
     1,
-    "It has been followed from its fimbriae back to there, with the eye or an instrument's tip.",
+    "It has been followed from that landmark back to there, with the eye or an instrument's tip.",
     anywhere,
     &remembering<Followed>,
-    true,
-    no_fimbriae};
+    true};
 
 }  // namespace trocar::training

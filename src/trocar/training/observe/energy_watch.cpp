@@ -33,7 +33,7 @@ void EnergyWatch::update(const EnergyLimits& limits, const sim::Model& model, co
     a.idle_for += sim::kTick;
     if (a.told_idle || a.idle_for <= limits.idle_time) continue;
     a.told_idle = true;
-    out.add({"E6", int(h), tip_of(model, state, h), ""});
+    out.add({Mishap::idle, int(h), tip_of(model, state, h), ""});
   }
 }
 
@@ -42,13 +42,13 @@ void EnergyWatch::judge_touch(int hand, const sim::ElectrodeHand& electrode, Mis
   const double before = hot_for;
   const bool touches = electrode.current.now.hot_touch && electrode.body.exists() && !has(m_targets, electrode.body);
   hot_for = touches ? before + sim::kTick : 0;
-  if (before <= kHotTouch && hot_for > kHotTouch) out.add({"E7.2", hand, electrode.at, ""});
+  if (before <= kHotTouch && hot_for > kHotTouch) out.add({Mishap::hot_tip, hand, electrode.at, ""});
 }
 
 void EnergyWatch::judge_place(int hand, const sim::ElectrodeHand& electrode, Mishaps& out) {
   if (!electrode.body.exists() || has(m_targets, electrode.body)) return;
   m_activation[size_t(hand)].told_place = true;
-  out.add({has(m_never, electrode.body) ? "E7.1" : "E7", hand, electrode.at, ""});
+  out.add({has(m_never, electrode.body) ? Mishap::never_there : Mishap::off_target, hand, electrode.at, ""});
 }
 
 void EnergyWatch::note_place(int hand, const EnergyLimits& limits, const sim::Model& model, const sim::State& state) {
@@ -71,7 +71,7 @@ void EnergyWatch::look_at_spread(const sim::Model& model, const sim::State& stat
   for (Heated& h : m_heated) {
     if (h.told || tissue::spread(model.energy.heat, state.heat, h.body, h.places) <= h.allowed) continue;
     h.told = true;
-    out.add({"E8", h.hand, h.where, ""});
+    out.add({Mishap::spread, h.hand, h.where, ""});
   }
 }
 

@@ -1,7 +1,6 @@
-// What current does where it should not: a pedal that is pressed beside nothing (E6), current through tissue that was
-// not to be treated (E7) or never may be (E7.1), a tip still hot that touches such tissue (E7.2), heat that has killed
-// farther from the electrode than it may (E8).
-// Reads State only. Silent in scenes without energy.
+// What current does where it should not: a pedal that is pressed beside nothing, current through tissue that was not to
+// be treated or never may be, a tip still hot that touches such tissue, heat that has killed farther from the electrode
+// than it may. Reads State only. Silent in scenes without energy.
 #pragma once
 
 #include <array>
@@ -23,9 +22,9 @@ class EnergyWatch {
   /// @param targets  that may be treated  @param never  where it is critical
   EnergyWatch(std::vector<BodyId> targets, std::vector<BodyId> never);
 
-  /// Every tick: E6, E7, E7.1, each once an activation; E7.2 once a touch.
+  /// Every tick: pedals and current, each once an activation; hot tips, once a touch.
   void update(const EnergyLimits& limits, const sim::Model& model, const sim::State& state, Mishaps& out);
-  /// Now and then, as it takes up to a millisecond: E8, once a body.
+  /// Now and then, as it takes up to a millisecond: spread, once a body.
   void look_at_spread(const sim::Model& model, const sim::State& state, Mishaps& out);
 
  private:

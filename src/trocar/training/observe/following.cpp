@@ -5,11 +5,11 @@
 
 namespace trocar::training {
 
-Following::Following(const FollowingLimits& limits, const sim::Model& model, int strand)
+Following::Following(const FollowingLimits& limits, const sim::Model& model, int strand, const std::string& from)
     : m_limits(limits), m_strand(strand) {
   const std::string& name = model.strands[size_t(strand)].name;
   m_target = model.target_index(name + ".trace");
-  m_fimbria = model.target_index(name + ".fimbria");
+  m_from = model.target_index(name + "." + from);
   if (m_target < 0) return;
   const sim::VisibilityTarget& t = model.targets[size_t(m_target)];
   for (int i = t.first; i < t.first + t.count; ++i) {
@@ -18,7 +18,7 @@ Following::Following(const FollowingLimits& limits, const sim::Model& model, int
   }
   m_first = int(m_arc.size()) - 1;
   for (const sim::LandmarkModel& l : model.strands[size_t(strand)].landmarks)
-    if (l.name == "fimbria")
+    if (l.name == from)
       while (m_first > 0 && m_arc[size_t(m_first) - 1] >= l.from) --m_first;
 }
 
@@ -40,7 +40,7 @@ bool Following::followed(const sim::Model& model, const sim::State& state, std::
 void Following::update(const sim::Model& model, const sim::State& state, std::span<const Vec3d> tips, double dt) {
   if (m_done || m_arc.empty()) return;
   if (m_front < 0) {
-    if (!sim::visible(model, state, m_fimbria)) return;
+    if (!sim::visible(model, state, m_from)) return;
     m_front = m_first;
     m_credit = m_lost_for = 0;
   }

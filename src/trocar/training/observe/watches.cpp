@@ -16,7 +16,7 @@ void PullWatch::update(const Handling& limits, const Tissues& tissues, const sim
     const double before = m_over_for[h];
     m_over_for[h] = tool.holds > 0 && norm(tool.pull) > limit ? before + sim::kTick : 0;
     if (before < limits.pull_excursion && m_over_for[h] >= limits.pull_excursion)
-      out.add({"E1", int(h), tip_of(model, state, h), delicate ? "delicate tissue" : "other tissue"});
+      out.add({Mishap::overpulled, int(h), tip_of(model, state, h), delicate ? "delicate tissue" : "other tissue"});
   }
 }
 
@@ -32,7 +32,7 @@ void TearWatch::update(const sim::Model& model, const sim::State& state, const s
       m_torn.push_back({e.body(), state.tick});
     else
       known->tick = state.tick;
-    if (!goes_on) out.add({"E1.2", e.tool, tip_of(model, state, size_t(e.tool)), ""});
+    if (!goes_on) out.add({Mishap::torn, e.tool, tip_of(model, state, size_t(e.tool)), ""});
   }
 }
 
@@ -49,7 +49,7 @@ void PinchWatch::update(const Handling& limits, const Tissues& tissues, const si
     const bool hard = tool.pinch > limits.pinch_limit, lasting = m_impulse[h] > limits.pinch_impulse;
     if (m_told[h] || (!hard && !lasting)) continue;
     m_told[h] = true;
-    out.add({"E2", int(h), tip_of(model, state, h), hard ? "force" : "force and time"});
+    out.add({Mishap::overpinched, int(h), tip_of(model, state, h), hard ? "force" : "force and time"});
   }
 }
 
@@ -78,14 +78,14 @@ void SightWatch::update(const Handling& limits, const sim::Model& model, const s
     }
     if (m_inserting[h] && !sim::visible(model, state, t.shaft)) {
       m_inserting[h] = false;
-      out.add({"E13", int(h), now[h], ""});
+      out.add({Mishap::inserted_blind, int(h), now[h], ""});
     }
     // Drawing straight back is safe: the instrument has just been there.
     const double speed = length(m_velocity[h]), back = dot(m_velocity[h], model.hands[h].port - now[h]) / depth;
     if (speed > limits.blind_speed && back < 0.9 * speed) m_blind_for[h] += dt;
     if (m_blind_for[h] <= limits.blind_time || m_told[h]) continue;
     m_told[h] = true;
-    out.add({"E4.1", int(h), now[h], ""});
+    out.add({Mishap::moved_blind, int(h), now[h], ""});
   }
 }
 
@@ -119,7 +119,7 @@ void CollisionWatch::update(const Handling& limits, const sim::Model& model, con
       bool& told = m_touching[i][j];
       if (fast && !told) {
         told = true;
-        out.add({"E5", int(i), where, ""});
+        out.add({Mishap::collided, int(i), where, ""});
       }
       if (!near) told = false;
     }

@@ -20,7 +20,19 @@ struct Handling {
 };
 
 struct Mishap {
-  const char* code = "";
+  enum Kind {
+    overpulled,
+    torn,
+    overpinched,
+    moved_blind,
+    inserted_blind,
+    collided,
+    idle,         ///< a pedal is pressed beside nothing
+    off_target,   ///< current through tissue that was not to be treated
+    never_there,  ///< ... or that never may be
+    hot_tip,
+    spread,
+  } kind = overpulled;
   int hand = -1;
   Vec3d where;
   const char* detail = "";
@@ -44,7 +56,7 @@ struct Tissues {
   std::vector<BodyId> delicate, bowel;
 };
 
-/// E1: over-forces, one an excursion. Asked every tick.
+/// Over-forces, one an excursion. Asked every tick.
 class PullWatch {
  public:
   void update(const Handling& limits, const Tissues& tissues, const sim::Model& model, const sim::State& state,
@@ -54,7 +66,7 @@ class PullWatch {
   std::array<double, sim::kMaxTools> m_over_for{};
 };
 
-/// E1.2: tissue that tears, once a body for as long as it goes on tearing.
+/// Tissue that tears, once a body for as long as it goes on tearing.
 class TearWatch {
  public:
   void update(const sim::Model& model, const sim::State& state, const sim::StepReport& report, Mishaps& out);
@@ -67,7 +79,7 @@ class TearWatch {
   std::vector<Torn> m_torn;
 };
 
-/// E2: bowel pinched too hard or too long, each once a hold. Asked every tick.
+/// Bowel pinched too hard or too long, each once a hold. Asked every tick.
 class PinchWatch {
  public:
   void update(const Handling& limits, const Tissues& tissues, const sim::Model& model, const sim::State& state,
@@ -78,7 +90,7 @@ class PinchWatch {
   std::array<bool, sim::kMaxTools> m_told{};
 };
 
-/// E4.1 and E13: instruments that move, or are brought in, where the camera does not look.
+/// Instruments that move, or are brought in, where the camera does not look.
 class SightWatch {
  public:
   explicit SightWatch(const sim::Model& model);
@@ -98,7 +110,7 @@ class SightWatch {
   std::array<bool, sim::kMaxTools> m_inserting{}, m_told{};
 };
 
-/// E5: instruments that strike each other, once a meeting.
+/// Instruments that strike each other, once a meeting.
 class CollisionWatch {
  public:
   void update(const Handling& limits, const sim::Model& model, const sim::State& state, double dt, Mishaps& out);

@@ -9,26 +9,26 @@
 namespace trocar::training {
 namespace {
 
-/// With the eye from the fimbriae inwards; if the eye is not enough, with an instrument's tip.
+/// With the eye from a landmark inwards; if the eye is not enough, with an instrument's tip.
 class Follow final : public Skill {
  public:
   Follow(const sim::Model& model, const Given& given)
       : m_hand(given.hand()),
         m_strand(given("of").index),
-        m_fimbria(model.target_index(model.strands[size_t(m_strand)].name + ".fimbria")),
+        m_from(model.target_index(model.strands[size_t(m_strand)].name + "." + given("from").word)),
         m_following({given("to_mm").number(), given.number("speed_mm_s", 0.03), given.number("gap_mm", 0.009),
                      given.number("pause_s", 1), given.number("touch_mm", 0.01)},
-                    model, m_strand) {}
+                    model, m_strand, given("from").word) {}
 
  private:
   Progress work(Operator& op) override {
-    constexpr double kByHand = 9;     // [s] after which the instrument helps the eye
+    constexpr double kByHand = 9;  // [s] after which the instrument helps the eye
     std::array<Vec3d, sim::kMaxTools> tips{};
     for (int h = 0; h < op.arms().count(); ++h) tips[size_t(h)] = tip_of(op.model(), op.state(), size_t(h));
     if (op.state().tick % kSampleEvery == 0)
       m_following.update(op.model(), op.state(), {tips.data(), size_t(op.arms().count())}, kSample);
     if (m_following.done()) return Progress::done;
-    const Vec3d front = m_following.begun() ? op.point(m_strand, m_following.reached()) : op.middle_of(m_fimbria);
+    const Vec3d front = m_following.begun() ? op.point(m_strand, m_following.reached()) : op.middle_of(m_from);
     op.want(front);
     if (m_following.begun()) op.want(op.point(m_strand, std::max(0.0, m_following.reached() - 0.015)));
     if (m_in_phase > 0.4 * kByHand) op.make_room(m_hand);
@@ -40,27 +40,28 @@ class Follow final : public Skill {
     return Progress::working;
   }
 
-  int m_hand, m_strand, m_fimbria;
+  int m_hand, m_strand, m_from;
   Following m_following;
 };
 
 std::string follow_lacks(const sim::Model& model, const Given& given) {
-  return lacks_landmark(model, given("of").index, "fimbria");
+  return lacks_landmark(model, given("of").index, given("from").word);
 }
 
 }  // namespace
 
 const SkillKind kFollow{"follow",
-                        "follow the tube from its fimbriae",
+                        "follow the tube",
                         {hand_parameter("whose tip helps where the eye is not enough"),
-                         {"of", ArgumentKind::strand, "a tube with a landmark \"fimbria\""},
+                         {"of", ArgumentKind::strand, "which"},
+                         {"from", ArgumentKind::landmark, "of it: where following begins, a tube's fimbriae"},
                          {"to_mm", ArgumentKind::number, "from its beginning: up to where"},
                          {"speed_mm_s", ArgumentKind::number, "at most; 30", false, 1, 1000},
                          {"gap_mm", ArgumentKind::number, "a covered stretch that may be skipped; 9", false},
                          {"pause_s", ArgumentKind::number, "lost longer than this, it starts over; 1", false},
                          {"touch_mm", ArgumentKind::number, "a tip this near follows as well as the eye; 10", false}},
                         30,
-                        "Follows a tube from its fimbriae back to its beginning, with the eye or an instrument's tip.",
+                        "Follows a strand from a landmark back to its beginning, with the eye or an instrument's tip.",
                         follow_lacks,
                         &making<Follow>};
 
