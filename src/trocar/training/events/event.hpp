@@ -1,7 +1,7 @@
 // An event: something that happened in a tick, with attributes. Some are what the step reports (grasped, cut), some are
 // noticed by watching the State (pulled too hard for too long). Exercises name them to say which acts count.
 //
-// A new event is one file that defines an EventKind, and one line in registry.cpp.
+// A new event is one file that defines an EventKind, and one line in events.inl.
 #pragma once
 
 #include <array>

@@ -4,9 +4,9 @@ namespace trocar::training {
 namespace {
 
 constexpr const EventKind* kEvents[] = {
-    &kTorn,     &kClipped,    &kClipLost,      &kCut,       &kOverpulled,     &kOverpinched,
-    &kCollided, &kMovedBlind, &kInsertedBlind, &kActivated, &kIdleActivation, &kEnergyOffTarget,
-    &kHotTip,   &kHeatSpread, &kLensTouched,   &kMarkLost,  &kDropped,
+#define TROCAR_EVENT(name) &name,
+#include <trocar/training/events/events.inl>
+#undef TROCAR_EVENT
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// All events that exercises can be written with, one line each.
+// All events that exercises can be written with. A new one is a line in events.inl, and its file.
 #pragma once
 
 #include <span>
@@ -10,10 +10,9 @@ namespace trocar::training {
 /// Those that the step reports and nobody looks at more closely: grasped, released, ...
 std::span<const EventKind> reported_events();
 
-extern const EventKind kTorn, kClipped, kClipLost, kCut;
-extern const EventKind kOverpulled, kOverpinched, kCollided, kMovedBlind, kInsertedBlind;
-extern const EventKind kActivated, kIdleActivation, kEnergyOffTarget, kHotTip, kHeatSpread;
-extern const EventKind kLensTouched, kMarkLost, kDropped;
+#define TROCAR_EVENT(name) extern const EventKind name;
+#include <trocar/training/events/events.inl>
+#undef TROCAR_EVENT
 
 std::span<const EventKind* const> event_kinds();
 /// Null: there is none of that name.

@@ -2,7 +2,7 @@
 // that exercises are judged by. Facts never read pixels or clocks and never change the State. What a fact remembers
 // (how long something has bled, how far a tube was followed) is bounded and starts at nothing.
 //
-// A new fact is one file that defines a Fact, and one line in registry.cpp.
+// A new fact is one file that defines a Fact, and one line in facts.inl.
 //
 //   Value horizon(const Look& look, const Arguments&) { return ...; }
 //   extern const Fact kScopeHorizon{"scope.horizon_deg", {}, -180, 180, "how far the picture is turned ...",

@@ -11,6 +11,10 @@ namespace trocar::training {
 inline std::string_view needs_energy(const sim::Model& model) { return model.energy.there ? "" : "energy"; }
 inline std::string_view needs_fluids(const sim::Model& model) { return model.wet.there ? "" : "fluids"; }
 
+inline std::string_view needs_bleeder(const sim::Model& model) {
+  return model.vessels.bleeder.vessel >= 0 ? "" : "bleeder";
+}
+
 /// Is there an instrument in the hand's rack that can do that?
 inline bool can_take(const sim::HandModel& hand, bool interactions::Abilities::*can) {
   return std::any_of(hand.rack.begin(), hand.rack.end(),

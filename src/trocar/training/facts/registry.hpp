@@ -1,4 +1,4 @@
-// All facts that exercises can be written with, one line each.
+// All facts that exercises can be written with. A new one is a line in facts.inl, and its file.
 #pragma once
 
 #include <span>
@@ -7,18 +7,9 @@
 
 namespace trocar::training {
 
-extern const Fact kClock;
-extern const Fact kMarkInView, kMarkVisibleShare, kMarkSeenFor, kMarkOffCentre, kMarkDistance, kMarkFacing,
-    kMarkUnderLiquid;
-extern const Fact kScopeHorizon;
-extern const Fact kHandPull, kHandPinch, kHandContact, kHandHolds, kHandHeldAt, kHandHoldsBetween, kHandHas,
-    kHandClipsLeft, kHandTipToMark, kHandTipToHand, kHandTipsInView, kHandDepth, kHandPath, kHandActive;
-extern const Fact kStrandStraightness, kStrandSevered, kStrandFollowed, kStrandOccluded, kStrandStumpsClosed,
-    kStrandStumpsInView;
-extern const Fact kClipsFirstSet, kClipsSecondSet, kClipsMisplaced, kClipsApart;
-extern const Fact kBloodLost, kBloodFlow, kBloodSince, kPoolVolume;
-extern const Fact kBleederCalibre, kBleederClipped, kBleederSealed, kBleederUncovered;
-extern const Fact kTissueTemperature, kTissueDeadBeyond, kBodyParted;
+#define TROCAR_FACT(name) extern const Fact name;
+#include <trocar/training/facts/facts.inl>
+#undef TROCAR_FACT
 
 std::span<const Fact* const> facts();
 /// Null: there is none of that name.

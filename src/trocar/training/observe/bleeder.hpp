@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <vector>
 
 #include <trocar/sim/model/state.hpp>
 
@@ -39,6 +40,12 @@ inline BodyId carrier_of_bleeder(const sim::Model& model) {
     return std::fabs(p.s - b.s) < std::fabs(q.s - b.s);
   });
   return nearest->hold.carrier();
+}
+
+/// These bodies, and what carries the vessel that bleeds by itself: that may always be treated.
+inline std::vector<BodyId> with_carrier_of_bleeder(const sim::Model& model, std::vector<BodyId> bodies) {
+  if (const BodyId carrier = carrier_of_bleeder(model); carrier.exists()) bodies.push_back(carrier);
+  return bodies;
 }
 
 }  // namespace trocar::training

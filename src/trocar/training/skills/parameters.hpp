@@ -18,6 +18,10 @@ inline Parameter word_parameter(std::string_view name, std::string_view meaning,
   return {name, ArgumentKind::word, meaning, false, 0, 0, std::move(words)};
 }
 
+inline Parameter watch_parameter() {
+  return word_parameter("watch", "whether the camera shows the trocar's inner end meanwhile; as a rule", {"yes", "no"});
+}
+
 /// Where to: a strand's place (of, at_mm, or after, before and share), a mark, an organ where it is nearest to the
 /// hand's trocar, the place that bleeds, the pool.
 std::vector<Parameter> place_parameters();

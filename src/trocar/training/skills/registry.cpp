@@ -4,10 +4,9 @@ namespace trocar::training {
 namespace {
 
 constexpr const SkillKind* kSkills[] = {
-    &kLookAround, &kLookAt,  &kView,      &kInspect,         &kInspectStumps, &kHold,    &kWaitForBlood,
-    &kMakeRoom,   &kPutDown, &kTake,      &kBringIn,         &kWithdraw,      &kFollow,  &kApproach,
-    &kEnter,      &kGrasp,   &kClose,     &kLetGo,           &kLift,          &kLower,   &kClipAt,
-    &kClipVessel, &kCutAt,   &kCoagulate, &kCoagulateVessel, &kSweep,         &kSuckDry,
+#define TROCAR_SKILL(name) &name,
+#include <trocar/training/skills/skills.inl>
+#undef TROCAR_SKILL
 };
 
 }  // namespace

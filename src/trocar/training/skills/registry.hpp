@@ -1,4 +1,4 @@
-// All skills that demonstrations can be written with, one line each.
+// All skills that demonstrations can be written with. A new one is a line in skills.inl, and its file.
 #pragma once
 
 #include <span>
@@ -7,11 +7,9 @@
 
 namespace trocar::training {
 
-extern const SkillKind kLookAround, kLookAt, kView, kInspect, kInspectStumps;
-extern const SkillKind kHold, kWaitForBlood, kMakeRoom;
-extern const SkillKind kPutDown, kTake, kBringIn, kWithdraw;
-extern const SkillKind kFollow, kApproach, kEnter, kGrasp, kClose, kLetGo, kLift, kLower;
-extern const SkillKind kClipAt, kClipVessel, kCutAt, kCoagulate, kCoagulateVessel, kSweep, kSuckDry;
+#define TROCAR_SKILL(name) extern const SkillKind name;
+#include <trocar/training/skills/skills.inl>
+#undef TROCAR_SKILL
 
 std::span<const SkillKind* const> skills();
 /// Null: there is none of that name.

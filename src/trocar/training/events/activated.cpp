@@ -1,0 +1,39 @@
+#include <trocar/training/events/registry.hpp>
+#include <trocar/training/facts/needs.hpp>
+#include <trocar/training/observe/hands.hpp>
+#include <trocar/training/observe/liquid.hpp>
+
+namespace trocar::training {
+namespace {
+
+class Activated final : public Noticer {
+ public:
+  Activated(const sim::Model&, const Arguments&) {}
+  void tick(const Look& look, const sim::StepReport&, Happenings& out) override {
+    for (size_t h = 0; h < look.state.electrodes.size(); ++h) {
+      const sim::ElectrodeHand& e = look.state.electrodes[h];
+      const bool on = e.current.now.mode != tissue::EnergyMode::off;
+      if (on && !m_on[h]) out.add({std::int32_t(h), e.body, -1, name_of_body(look.model, e.body), e.at, e.at});
+      m_on[h] = on;
+    }
+  }
+
+ private:
+  std::array<bool, sim::kMaxTools> m_on{};
+};
+
+Value under_liquid(const Look& look, const Happening& h) {
+  return look.model.wet.there && drowned(look.model, look.state, tip_of(look.model, look.state, size_t(h.hand)));
+}
+
+}  // namespace
+
+const EventKind kActivated{"activated",
+                           {},
+                           {{"under_liquid", "the pool stood over its tip", under_liquid, 0, 1, true}},
+                           "A pedal was pressed.",
+                           needs_energy,
+                           &noticing<Activated>,
+                           true};
+
+}  // namespace trocar::training

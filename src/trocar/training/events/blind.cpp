@@ -1,0 +1,57 @@
+// An instrument moves, or goes in, where the camera does not look.
+#include <trocar/training/events/mishaps.hpp>
+#include <trocar/training/events/registry.hpp>
+#include <trocar/training/observe/hands.hpp>
+
+namespace trocar::training {
+namespace {
+
+template <bool inserting>
+class Blind final : public Noticer {
+ public:
+  Blind(const sim::Model& model, const Arguments& a) : m_watch(model) {
+    m_limits.insertion_depth = a[0].number();
+    if (!inserting) {
+      m_limits.blind_time = a[1].number();
+      m_limits.blind_speed = a[2].number();
+    }
+    const sim::State start = sim::initial_state(model);
+    for (size_t h = 0; h < hands(model); ++h) m_before[h] = tip_of(model, start, h);
+  }
+  void tick(const Look&, const sim::StepReport& report, Happenings&) override {
+    for (int i = 0; i < report.event_count; ++i)
+      if (report.events[i].kind == sim::Event::exchanged) m_watch.exchanged(report.events[i].tool);
+  }
+  void sample(const Look& look, double dt, Happenings& out) override {
+    std::array<Vec3d, sim::kMaxTools> now{};
+    for (size_t h = 0; h < hands(look.model); ++h) now[h] = tip_of(look.model, look.state, h);
+    Mishaps mishaps;
+    m_watch.update(m_limits, look.model, look.state, m_before, now, dt, mishaps);
+    pass(mishaps, inserting ? Mishap::inserted_blind : Mishap::moved_blind, out);
+    m_before = now;
+  }
+
+ private:
+  Handling m_limits;
+  SightWatch m_watch;
+  std::array<Vec3d, sim::kMaxTools> m_before{};
+};
+
+}  // namespace
+
+const EventKind kMovedBlind{"moved_blind",
+                            {{"depth_mm", ArgumentKind::number, "only deeper than this", true, 0, 290},
+                             {"lasting_s", ArgumentKind::number, "for longer than this", true, 0, 60},
+                             {"speed_mm_s", ArgumentKind::number, "faster than this", true, 0, 1000}},
+                            {},
+                            "An instrument moves where the camera does not look; once until it is seen.",
+                            anywhere,
+                            &noticing<Blind<false>>};
+const EventKind kInsertedBlind{"inserted_blind",
+                               {{"depth_mm", ArgumentKind::number, "so deep", true, 0, 290}},
+                               {},
+                               "A new instrument goes in with neither its tip nor its shaft in view.",
+                               anywhere,
+                               &noticing<Blind<true>>};
+
+}  // namespace trocar::training

@@ -1,0 +1,30 @@
+#include <trocar/training/events/mishaps.hpp>
+#include <trocar/training/events/registry.hpp>
+
+namespace trocar::training {
+namespace {
+
+class Collided final : public Noticer {
+ public:
+  Collided(const sim::Model&, const Arguments& a) { m_limits.collision_speed = a[0].number(); }
+  void tick(const Look& look, const sim::StepReport&, Happenings& out) override {
+    constexpr int kEvery = 4;  // ticks between looks at instruments against each other: 250 Hz
+    if (look.state.tick % kEvery != 0) return;
+    Mishaps mishaps;
+    m_watch.update(m_limits, look.model, look.state, kEvery * sim::kTick, mishaps);
+    pass(mishaps, Mishap::collided, out);
+  }
+
+ private:
+  Handling m_limits;
+  CollisionWatch m_watch;
+};
+
+}  // namespace
+
+const EventKind kCollided{"collided", {{"speed_mm_s", ArgumentKind::number, "faster than this", true, 0, 1000}},
+                          {},         "Two instruments strike each other; once a meeting.",
+                          anywhere,   &noticing<Collided>,
+                          false,      EventKind::Hold::now};
+
+}  // namespace trocar::training

@@ -1,0 +1,41 @@
+#include <trocar/training/events/mishaps.hpp>
+#include <trocar/training/events/registry.hpp>
+#include <trocar/training/facts/needs.hpp>
+#include <trocar/training/observe/bleeder.hpp>
+#include <trocar/training/observe/energy_watch.hpp>
+
+namespace trocar::training {
+namespace {
+
+constexpr std::int32_t kCritical = 1;  // as a happening's number
+
+class OffTarget final : public Noticer {
+ public:
+  OffTarget(const sim::Model& model, const Arguments& a)
+      : m_watch(with_carrier_of_bleeder(model, a[0].bodies), a[1].bodies) {}
+  void tick(const Look& look, const sim::StepReport&, Happenings& out) override {
+    Mishaps mishaps;
+    m_watch.update(m_limits, look.model, look.state, mishaps);
+    pass(mishaps, Mishap::off_target, out);
+    pass(mishaps, Mishap::never_there, out, kCritical);
+  }
+
+ private:
+  EnergyLimits m_limits;
+  EnergyWatch m_watch;
+};
+
+Value critical(const Look&, const Happening& h) { return h.number == kCritical; }
+
+}  // namespace
+
+const EventKind kEnergyOffTarget{
+    "energy_off_target",
+    {{"targets", ArgumentKind::bodies, "bodies that may be treated beside what bleeds", false},
+     {"never", ArgumentKind::bodies, "bodies where it is critical", false}},
+    {{"critical", "it is one of those where current never may go", critical, 0, 1, true}},
+    "Current goes through tissue that was not to be treated; once an activation.",
+    needs_energy,
+    &noticing<OffTarget>};
+
+}  // namespace trocar::training

@@ -1,0 +1,43 @@
+#include <trocar/training/events/mishaps.hpp>
+#include <trocar/training/events/registry.hpp>
+#include <trocar/training/facts/needs.hpp>
+#include <trocar/training/observe/energy_watch.hpp>
+
+namespace trocar::training {
+namespace {
+
+class HeatSpread final : public Noticer {
+ public:
+  HeatSpread(const sim::Model&, const Arguments& a) : m_watch({}, {}) {
+    m_limits.hook_spread = a[0].number();
+    m_limits.bipolar_spread = a[1].number();
+  }
+  void tick(const Look& look, const sim::StepReport&, Happenings&) override {
+    Mishaps of_others;
+    m_watch.update(m_limits, look.model, look.state, of_others);
+  }
+  void sample(const Look& look, double, Happenings& out) override {
+    constexpr int kEvery = 25;  // samples between looks, which are dear: twice a second
+    if (++m_sample % kEvery != 0) return;
+    Mishaps mishaps;
+    m_watch.look_at_spread(look.model, look.state, mishaps);
+    pass(mishaps, Mishap::spread, out);
+  }
+
+ private:
+  EnergyLimits m_limits;
+  EnergyWatch m_watch;
+  int m_sample = 0;
+};
+
+}  // namespace
+
+const EventKind kHeatSpread{"heat_spread",
+                            {{"hook_mm", ArgumentKind::number, "from a monopolar electrode's edge", true, 0, 100},
+                             {"bipolar_mm", ArgumentKind::number, "from bipolar jaws", true, 0, 100}},
+                            {},
+                            "Tissue has died farther than that from where it was treated; once a body.",
+                            needs_energy,
+                            &noticing<HeatSpread>};
+
+}  // namespace trocar::training

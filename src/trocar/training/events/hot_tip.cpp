@@ -1,0 +1,33 @@
+#include <trocar/training/events/mishaps.hpp>
+#include <trocar/training/events/registry.hpp>
+#include <trocar/training/facts/needs.hpp>
+#include <trocar/training/observe/bleeder.hpp>
+#include <trocar/training/observe/energy_watch.hpp>
+
+namespace trocar::training {
+namespace {
+
+class HotTip final : public Noticer {
+ public:
+  HotTip(const sim::Model& model, const Arguments& a) : m_watch(with_carrier_of_bleeder(model, a[0].bodies), {}) {}
+  void tick(const Look& look, const sim::StepReport&, Happenings& out) override {
+    Mishaps mishaps;
+    m_watch.update(m_limits, look.model, look.state, mishaps);
+    pass(mishaps, Mishap::hot_tip, out);
+  }
+
+ private:
+  EnergyLimits m_limits;
+  EnergyWatch m_watch;
+};
+
+}  // namespace
+
+const EventKind kHotTip{"hot_tip_touched",
+                        {{"targets", ArgumentKind::bodies, "bodies that may be touched beside what bleeds", false}},
+                        {},
+                        "A tip that is still hot touches tissue that was not to be treated; once a touch.",
+                        needs_energy,
+                        &noticing<HotTip>};
+
+}  // namespace trocar::training

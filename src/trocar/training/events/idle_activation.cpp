@@ -1,0 +1,32 @@
+#include <trocar/training/events/mishaps.hpp>
+#include <trocar/training/events/registry.hpp>
+#include <trocar/training/facts/needs.hpp>
+#include <trocar/training/observe/energy_watch.hpp>
+
+namespace trocar::training {
+namespace {
+
+class IdleActivation final : public Noticer {
+ public:
+  IdleActivation(const sim::Model&, const Arguments& a) : m_watch({}, {}) { m_limits.idle_time = a[0].number(); }
+  void tick(const Look& look, const sim::StepReport&, Happenings& out) override {
+    Mishaps mishaps;
+    m_watch.update(m_limits, look.model, look.state, mishaps);
+    pass(mishaps, Mishap::idle, out);
+  }
+
+ private:
+  EnergyLimits m_limits;
+  EnergyWatch m_watch;
+};
+
+}  // namespace
+
+const EventKind kIdleActivation{"idle_activation",
+                                {{"lasting_s", ArgumentKind::number, "for longer than this", true, 0, 60}},
+                                {},
+                                "A pedal is pressed while the electrode touches nothing; once an activation.",
+                                needs_energy,
+                                &noticing<IdleActivation>};
+
+}  // namespace trocar::training

@@ -1,0 +1,17 @@
+// What watches have noticed, as happenings.
+#pragma once
+
+#include <trocar/training/events/event.hpp>
+#include <trocar/training/observe/watches.hpp>
+
+namespace trocar::training {
+
+/// Those of one kind. @param number  that tells them from others of the event
+inline void pass(const Mishaps& mishaps, Mishap::Kind kind, Happenings& out, std::int32_t number = -1) {
+  for (int i = 0; i < mishaps.count; ++i) {
+    const Mishap& m = mishaps.list[size_t(i)];
+    if (m.kind == kind) out.add({m.hand, kNoBody, number, nullptr, m.where, m.where, m.detail});
+  }
+}
+
+}  // namespace trocar::training

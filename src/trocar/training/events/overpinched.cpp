@@ -1,0 +1,39 @@
+#include <trocar/training/events/mishaps.hpp>
+#include <trocar/training/events/registry.hpp>
+
+namespace trocar::training {
+namespace {
+
+class Overpinched final : public Noticer {
+ public:
+  Overpinched(const sim::Model&, const Arguments& a) {
+    m_tissues.bowel = a[0].bodies;
+    m_limits.pinch_limit = a[1].number();
+    m_limits.pinch_impulse = a[2].number();
+  }
+  void tick(const Look& look, const sim::StepReport&, Happenings& out) override {
+    Mishaps mishaps;
+    m_watch.update(m_limits, m_tissues, look.model, look.state, mishaps);
+    pass(mishaps, Mishap::overpinched, out);
+  }
+
+ private:
+  Handling m_limits;
+  Tissues m_tissues;
+  PinchWatch m_watch;
+};
+
+}  // namespace
+
+const EventKind kOverpinched{"overpinched",
+                             {{"bowel", ArgumentKind::bodies, "bodies that bear little pinch"},
+                              {"force_N", ArgumentKind::number, "a harder pinch is too hard", true, 0, 200},
+                              {"impulse_N_s", ArgumentKind::number, "pinch times time, at most"}},
+                             {},
+                             "A hand pinches one of these bodies too hard or for too long; once a hold.",
+                             anywhere,
+                             &noticing<Overpinched>,
+                             false,
+                             EventKind::Hold::now};
+
+}  // namespace trocar::training

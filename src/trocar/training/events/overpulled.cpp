@@ -1,0 +1,41 @@
+#include <trocar/training/events/mishaps.hpp>
+#include <trocar/training/events/registry.hpp>
+
+namespace trocar::training {
+namespace {
+
+class Overpulled final : public Noticer {
+ public:
+  Overpulled(const sim::Model&, const Arguments& a) {
+    m_tissues.delicate = a[0].bodies;
+    m_limits.pull_limit = a[1].number();
+    m_limits.pull_limit_other = a[2].number();
+    m_limits.pull_excursion = a[3].number();
+  }
+  void tick(const Look& look, const sim::StepReport&, Happenings& out) override {
+    Mishaps mishaps;
+    m_watch.update(m_limits, m_tissues, look.model, look.state, mishaps);
+    pass(mishaps, Mishap::overpulled, out);
+  }
+
+ private:
+  Handling m_limits;
+  Tissues m_tissues;
+  PullWatch m_watch;
+};
+
+}  // namespace
+
+const EventKind kOverpulled{"overpulled",
+                            {{"delicate", ArgumentKind::bodies, "bodies that bear less", false},
+                             {"delicate_N", ArgumentKind::number, "a harder pull on them is too hard", true, 0, 100},
+                             {"other_N", ArgumentKind::number, "a harder pull on any other body is", true, 0, 100},
+                             {"lasting_s", ArgumentKind::number, "from when on it counts", true, 0.001, 10}},
+                            {},
+                            "A hand pulls harder than tissue bears; once until it pulls less.",
+                            anywhere,
+                            &noticing<Overpulled>,
+                            false,
+                            EventKind::Hold::now};
+
+}  // namespace trocar::training

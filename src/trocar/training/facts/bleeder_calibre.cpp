@@ -1,0 +1,23 @@
+#include <trocar/training/facts/needs.hpp>
+#include <trocar/training/facts/registry.hpp>
+
+namespace trocar::training {
+namespace {
+
+Value calibre(const Look& look, const Arguments&) {
+  const sim::Bleeder& b = look.model.vessels.bleeder;
+  const vessels::FlowSegment& segment = look.model.vessels.flow.segments[size_t(b.vessel)];
+  return 2 * (segment.radius + segment.taper * b.s);
+}
+
+}  // namespace
+
+const Fact kBleederCalibre{"bleeder.calibre_mm",
+                           {},
+                           0,
+                           100,
+                           "Of the lumen of the vessel that opens by itself, at that place, as drawn.",
+                           needs_bleeder,
+                           &stateless<calibre>};
+
+}  // namespace trocar::training

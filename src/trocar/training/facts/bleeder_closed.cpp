@@ -1,0 +1,43 @@
+// What has been done about the vessel that opens by itself.
+#include <trocar/training/facts/needs.hpp>
+#include <trocar/training/facts/registry.hpp>
+#include <trocar/training/observe/bleeder.hpp>
+
+namespace trocar::training {
+namespace {
+
+Value clipped(const Look& look, const Arguments& a) {
+  return bleeder_clipped(look.model, look.state, a[0].word == "heart", a[1].number());
+}
+
+Value sealed(const Look& look, const Arguments&) { return bleeder_sealed(look.model, look.state); }
+
+}  // namespace
+
+const Fact kBleederClipped{
+    "bleeder.clipped",
+    {{"side",
+      ArgumentKind::word,
+      "of the place: where its blood comes from, or beyond it",
+      true,
+      0,
+      0,
+      {"heart", "beyond"}},
+     {"cover", ArgumentKind::number, "share of its width from which a clip closes it", true, 0, 1}},
+    0,
+    1,
+    "A clip closes the vessel that opens by itself on that side of the place.",
+    needs_bleeder,
+    &stateless<clipped>,
+    true};
+const Fact kBleederSealed{"bleeder.sealed",
+                          {},
+                          0,
+                          1,
+                          "Heat has closed the vessel that opens by itself, at the place or on the heart's side of it, "
+                          "so that it bears three times a systolic pressure.",
+                          needs_bleeder,
+                          &stateless<sealed>,
+                          true};
+
+}  // namespace trocar::training

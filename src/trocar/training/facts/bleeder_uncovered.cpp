@@ -1,0 +1,41 @@
+#include <trocar/training/facts/needs.hpp>
+#include <trocar/training/facts/registry.hpp>
+#include <trocar/training/observe/liquid.hpp>
+#include <trocar/training/observe/marks.hpp>
+
+namespace trocar::training {
+namespace {
+
+/// What stands under the pool cannot be controlled yet: that time does not count.
+class Uncovered final : public Observer {
+ public:
+  Uncovered(const sim::Model& model, const Arguments&) : m_mark(model.target_index("bleeder")) {}
+  void sample(const Look& look, double passed) override {
+    if (look.state.tick < look.model.vessels.bleeder.tick) return;
+    if (!drowned(look.model, look.state, place_of_mark(look.model, look.state, m_mark))) m_free += passed;
+  }
+  Value value(const Look&) const override { return m_free; }
+
+ private:
+  int m_mark;
+  double m_free = 0;  ///< [s]
+};
+
+std::string_view needs_bleeder_in_pool(const sim::Model& model) {
+  if (!needs_bleeder(model).empty()) return needs_bleeder(model);
+  if (model.target_index("bleeder") < 0) return "a bleeder that can be told";  // nothing carries it
+  return model.wet.there ? "" : "fluids";
+}
+
+}  // namespace
+
+const Fact kBleederUncovered{"bleeder.uncovered_s",
+                             {},
+                             0,
+                             36000,
+                             "For how long, all in all, the place that opens by itself has been open without the pool "
+                             "standing over it.",
+                             needs_bleeder_in_pool,
+                             &remembering<Uncovered>};
+
+}  // namespace trocar::training

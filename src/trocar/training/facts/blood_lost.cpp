@@ -1,0 +1,14 @@
+#include <trocar/training/facts/needs.hpp>
+#include <trocar/training/facts/registry.hpp>
+#include <trocar/training/observe/blood.hpp>
+
+namespace trocar::training {
+namespace {
+
+Value lost(const Look& look, const Arguments&) { return blood_lost(look.model, look.state); }
+
+}  // namespace
+
+const Fact kBloodLost{"blood.lost_mL", {}, 0, 1e4, "What has left vessels so far.", needs_fluids, &stateless<lost>};
+
+}  // namespace trocar::training

@@ -1,0 +1,21 @@
+#include <trocar/sim/stages/visibility.hpp>
+#include <trocar/training/facts/registry.hpp>
+
+namespace trocar::training {
+namespace {
+
+Value tips_in_view(const Look& look, const Arguments& a) {
+  return double(sim::jaw_tips_visible(look.model, look.state, a[0].index));
+}
+
+}  // namespace
+
+const Fact kHandTipsInView{"hand.tips_in_view",
+                           {{"hand", ArgumentKind::hand, "whose instrument"}},
+                           0,
+                           2,
+                           "How many of the instrument's two jaw tips are in view.",
+                           anywhere,
+                           &stateless<tips_in_view>};
+
+}  // namespace trocar::training

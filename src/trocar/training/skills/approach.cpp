@@ -1,0 +1,67 @@
+#include <array>
+
+#include <trocar/training/skills/parameters.hpp>
+#include <trocar/training/skills/registry.hpp>
+
+namespace trocar::training {
+namespace {
+
+/// Where a hand's jaws shall take a strand: at a place, at another one after each failure.
+double place_at_try(const sim::Model& model, const Given& given, int tries) {
+  constexpr double kElsewhere[] = {0, 0.12, -0.08, 0.20};  // of the stretch
+  if (given("at_mm").given) return given("at_mm").number();
+  const Stretch between = stretch_of(model, given("of").index, given("after").word, given("before").word);
+  const double share = given.number("share", 0.5) + kElsewhere[tries % 4];
+  return between.from + (between.to - between.from) * share;
+}
+
+/// Through the open to before the tissue, jaws open and turned across it, the camera on the tip.
+class Approach final : public Skill {
+ public:
+  Approach(const sim::Model& model, const Given& given) : m_hand(given.hand()), m_strand(given("of").index) {
+    for (int t = 0; t < 4; ++t) m_places[size_t(t)] = place_at_try(model, given, t);
+    m_share = given.number("inside_share", 0.6);
+  }
+
+ private:
+  void start(Operator& op, int tries) override {
+    op.posture(m_hand).end();
+    m_s = m_places[size_t(tries % 4)];
+  }
+  Progress work(Operator& op) override {
+    Operator::Target& target = op.target(m_hand);
+    target = {m_strand, m_s, m_share * op.tool(m_hand).jaw_length};
+    op.want(op.point(m_strand, m_s));
+    op.make_room(m_hand);
+    const bool open = op.arms().grip(m_hand, 0, 0.5);
+    const bool there = op.approach(m_hand, m_strand, m_s, target.inside, m_in_phase);
+    return there && open ? Progress::done : Progress::working;
+  }
+  int m_hand, m_strand;
+  double m_share, m_s = 0;
+  std::array<double, 4> m_places{};
+};
+
+std::vector<Parameter> on_strand() {
+  return {hand_parameter(),
+          {"of", ArgumentKind::strand, "the strand"},
+          {"at_mm", ArgumentKind::number, "where, from its beginning", false, 0, 1000},
+          {"after", ArgumentKind::landmark, "or: a landmark behind whose end the stretch begins", false},
+          {"before", ArgumentKind::landmark, "and one before whose beginning it ends", false},
+          {"share", ArgumentKind::number, "of that stretch; somewhere else near it after each failure", false, 0, 1}};
+}
+
+}  // namespace
+
+const SkillKind kApproach{
+    "approach",
+    "approach the tissue",
+    on_strand() +
+        std::vector<Parameter>{number_parameter(
+            "inside_share", "of the jaws' length: how far from their hinge the strand shall lie; 0.6", 0, 1)},
+    15,
+    "Goes through the open to before a place of a strand, jaws open and across it; the camera first.",
+    Place::lacks,
+    &making<Approach>};
+
+}  // namespace trocar::training

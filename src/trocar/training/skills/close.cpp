@@ -1,0 +1,33 @@
+#include <trocar/training/skills/parameters.hpp>
+#include <trocar/training/skills/registry.hpp>
+
+namespace trocar::training {
+namespace {
+
+/// A handle that closes wherever the jaws are.
+class Close final : public Skill {
+ public:
+  Close(const sim::Model&, const Given& given)
+      : m_hand(given.hand()), m_to(given.number("to", 1)), m_time(given.number("in_s", 1)) {}
+
+ private:
+  Progress work(Operator& op) override {
+    op.want(op.arm(m_hand).tip);
+    return op.arms().grip(m_hand, m_to, m_time) ? Progress::done : Progress::working;
+  }
+  int m_hand;
+  double m_to, m_time;
+};
+
+}  // namespace
+
+const SkillKind kClose{"close",
+                       "close the jaws",
+                       {hand_parameter(), number_parameter("to", "how far; 1", 0, 1),
+                        number_parameter("in_s", "from open to closed; 1", 0.05, 60)},
+                       20,
+                       "Closes the handle where the jaws are.",
+                       nothing,
+                       &making<Close>};
+
+}  // namespace trocar::training

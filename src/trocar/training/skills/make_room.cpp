@@ -1,0 +1,33 @@
+#include <trocar/training/skills/parameters.hpp>
+#include <trocar/training/skills/registry.hpp>
+
+namespace trocar::training {
+namespace {
+
+/// An instrument that others need not see goes out of the way, and so do all that hold nothing.
+class MakeRoom final : public Skill {
+ public:
+  MakeRoom(const sim::Model&, const Given& given) : m_but(given("hand").given ? given.hand() : -1) {}
+
+ private:
+  Progress work(Operator& op) override {
+    op.make_room(m_but);
+    for (int h = 0; h < op.arms().count(); ++h)
+      if (h != m_but && op.tool_state(h).holds == 0 && op.tool_state(h).depth > reach::kIdle + 0.001)
+        return Progress::working;
+    return Progress::done;
+  }
+  int m_but;
+};
+
+}  // namespace
+
+const SkillKind kMakeRoom{"make_room",
+                          "draw instruments back",
+                          {{"hand", ArgumentKind::hand, "that stays", false}},
+                          15,
+                          "All instruments that hold nothing go back to their trocars, but for one.",
+                          nothing,
+                          &making<MakeRoom>};
+
+}  // namespace trocar::training
