@@ -56,9 +56,8 @@ std::vector<Parameter> on_strand() {
 const SkillKind kApproach{
     "approach",
     "approach the tissue",
-    on_strand() +
-        std::vector<Parameter>{number_parameter(
-            "inside_share", "of the jaws' length: how far from their hinge the strand shall lie; 0.6", 0, 1)},
+    on_strand() + std::vector<Parameter>{number_parameter(
+                      "inside_share", "of the jaws' length: how far from their hinge the strand shall lie; 0.6", 0, 1)},
     15,
     "Goes through the open to before a place of a strand, jaws open and across it; the camera first.",
     Place::lacks,

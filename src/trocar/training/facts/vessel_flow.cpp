@@ -1,0 +1,44 @@
+#include <algorithm>
+#include <array>
+
+#include <trocar/training/facts/registry.hpp>
+
+namespace trocar::training {
+namespace {
+
+/// A pulse is no change: the mean of two seconds says what runs through.
+class VesselFlow final : public Observer {
+ public:
+  VesselFlow(const sim::Model&, const Arguments& a) : m_vessel(a[0].index) {}
+  void sample(const Look& look, double) override {
+    double& oldest = m_flows[size_t(m_samples++) % m_flows.size()];
+    const double now = vessels::read_wall(look.model.vessels.flow, look.state.flow, m_vessel, 0.5).flow;
+    m_sum += now - oldest;
+    oldest = now;
+  }
+  Value value(const Look&) const override {
+    if (m_samples == 0) return kUnknown;
+    return m_sum / double(std::min(size_t(m_samples), m_flows.size()));
+  }
+
+ private:
+  std::int32_t m_vessel;
+  std::array<double, 100> m_flows{};  ///< one a sample [m^3/s]
+  double m_sum = 0;
+  int m_samples = 0;
+};
+
+std::string_view needs_vessels(const sim::Model& model) { return model.vessels.there() ? "" : "vessels"; }
+
+}  // namespace
+
+const Fact kVesselFlow{"vessel.flow_mL_min",
+                       {{"of", ArgumentKind::vessel, "which"}},
+                       -1e4,
+                       1e4,
+                       "What flows through its middle, the way it is drawn, in the mean of the last two seconds; back "
+                       "below 0.",
+                       needs_vessels,
+                       &remembering<VesselFlow>};
+
+}  // namespace trocar::training
