@@ -38,7 +38,7 @@ struct World {
   sim::State state = sim::initial_state(model);
 
   explicit World(const sim::Model& of = two_sides::model()) : model(of) {}
-  Look look() const { return {model, state}; }
+  Moment moment() const { return {model, state}; }
   Argument named(ArgumentKind kind, const std::string& name) const {
     Argument a{true, -1, 0, 0, {}, {}};
     std::vector<std::string> known;
@@ -51,7 +51,7 @@ struct World {
 
   Value value(const Fact& fact, const Arguments& a) const {
     EXPECT_EQ(fact.parameters.size(), a.size()) << fact.name;
-    return fact.watch(model, a)->value(look());
+    return fact.watch(model, a)->value(moment());
   }
   void see(const std::string& name, bool seen) {
     for (const sim::VisibilityTarget& t : model.targets)
@@ -234,15 +234,15 @@ TEST(Facts, AHandHasAnInstrument) {
 TEST(Facts, ATipIsSomewhereAndHasComeAWay) {
   World w;
   const auto path = kHandPath.watch(w.model, {w.hand(kGrasper)});
-  expect_value(path->value(w.look()), 0);
+  expect_value(path->value(w.moment()), 0);
   const double depth = w.state.tools[kGrasper].depth;
   const double far = w.value(kHandTipToHand, {w.hand(kGrasper), w.hand(kScissors)}).number;
   EXPECT_GT(far, 0);
   w.state.tools[kGrasper].depth += 0.01;
-  path->sample(w.look(), 0.02);
+  path->sample(w.moment(), 0.02);
   w.state.tools[kGrasper].depth -= 0.01;
-  path->sample(w.look(), 0.02);
-  expect_value(path->value(w.look()), 0.02, 1e-9);
+  path->sample(w.moment(), 0.02);
+  expect_value(path->value(w.moment()), 0.02, 1e-9);
   expect_value(w.value(kHandDepth, {w.hand(kGrasper)}), depth);
   EXPECT_GT(w.value(kHandTipToMark, {w.hand(kGrasper), w.mark("pad")}).number, 0);
   expect_value(w.value(kHandTipsInView, {w.hand(kGrasper)}), 0);
@@ -266,10 +266,10 @@ TEST(Facts, ATubeIsFollowedFromItsFimbriaeAtAnEyesPace) {
   const auto followed = kStrandFollowed.watch(w.model, {w.strand("tube_left"), word("fimbria"), number(0.02),
                                                         number(0.03), number(0.009), number(1), number(0.01)});
   w.see("tube_left", true);
-  for (int i = 0; i < 50; ++i) followed->sample(w.look(), 0.02);
-  expect_value(followed->value(w.look()), 0);
-  for (int i = 0; i < 100; ++i) followed->sample(w.look(), 0.02);
-  expect_value(followed->value(w.look()), 1);
+  for (int i = 0; i < 50; ++i) followed->sample(w.moment(), 0.02);
+  expect_value(followed->value(w.moment()), 0);
+  for (int i = 0; i < 100; ++i) followed->sample(w.moment(), 0.02);
+  expect_value(followed->value(w.moment()), 1);
 }
 
 TEST(Facts, ALumenIsOpenUntilItIsClippedAndStumpsAreUnknownUntilItIsCut) {
@@ -278,28 +278,28 @@ TEST(Facts, ALumenIsOpenUntilItIsClippedAndStumpsAreUnknownUntilItIsCut) {
   const auto occluded = kStrandOccluded.watch(w.model, tube), closed = kStrandStumpsClosed.watch(w.model, tube),
              seen = kStrandStumpsInView.watch(w.model, tube);
   const auto happened = [&] {
-    for (Observer* o : {occluded.get(), closed.get(), seen.get()}) o->happened(w.look());
+    for (Observer* o : {occluded.get(), closed.get(), seen.get()}) o->happened(w.moment());
   };
   happened();
-  expect_value(occluded->value(w.look()), 0);
+  expect_value(occluded->value(w.moment()), 0);
   w.clip(kLeft, 0.016);
   happened();
-  expect_value(occluded->value(w.look()), 1);
-  EXPECT_UNKNOWN(closed->value(w.look()));
-  EXPECT_UNKNOWN(seen->value(w.look()));
+  expect_value(occluded->value(w.moment()), 1);
+  EXPECT_UNKNOWN(closed->value(w.moment()));
+  EXPECT_UNKNOWN(seen->value(w.moment()));
   interactions::Cut& cut = w.state.cuts[size_t(w.state.cut_count++)];
   cut = {};
   cut.s = 0.0205;
   cut.strand = kLeft;
   tissue::cut_element(w.state.strands[kLeft], interactions::place_at(w.model.strand_bodies[kLeft], cut.s).element);
   happened();
-  expect_value(closed->value(w.look()), 0);
-  expect_value(seen->value(w.look()), 0);
+  expect_value(closed->value(w.moment()), 0);
+  expect_value(seen->value(w.moment()), 0);
   w.clip(kLeft, 0.025);
   w.see("tube_left", true);
   happened();
-  expect_value(closed->value(w.look()), 1);
-  expect_value(seen->value(w.look()), 1);
+  expect_value(closed->value(w.moment()), 1);
+  expect_value(seen->value(w.moment()), 1);
 }
 
 /// Limits of a pair, as the sterilisation has them.
@@ -314,18 +314,18 @@ TEST(Facts, TwoClipsMakeAPairInEitherOrder) {
     const auto first = kClipsFirstSet.watch(w.model, pair_of(w)), second = kClipsSecondSet.watch(w.model, pair_of(w)),
                apart = kClipsApart.watch(w.model, pair_of(w));
     const auto happened = [&] {
-      for (Observer* o : {first.get(), second.get(), apart.get()}) o->happened(w.look());
+      for (Observer* o : {first.get(), second.get(), apart.get()}) o->happened(w.moment());
     };
     w.clip(kLeft, inner_first ? 0.016 : 0.025);
     happened();
-    expect_value(first->value(w.look()), inner_first);
-    expect_value(second->value(w.look()), !inner_first);
-    EXPECT_UNKNOWN(apart->value(w.look()));
+    expect_value(first->value(w.moment()), inner_first);
+    expect_value(second->value(w.moment()), !inner_first);
+    EXPECT_UNKNOWN(apart->value(w.moment()));
     w.clip(kLeft, inner_first ? 0.025 : 0.016);
     happened();
-    expect_value(first->value(w.look()), 1);
-    expect_value(second->value(w.look()), 1);
-    expect_value(apart->value(w.look()), 0.009);
+    expect_value(first->value(w.moment()), 1);
+    expect_value(second->value(w.moment()), 1);
+    expect_value(apart->value(w.moment()), 0.009);
   }
 }
 
@@ -333,17 +333,17 @@ TEST(Facts, AClipThatMakesNoPairIsMisplacedAndOneThatIsBadlySetDoesNotCount) {
   World w;
   const auto misplaced = kClipsMisplaced.watch(w.model, pair_of(w)), first = kClipsFirstSet.watch(w.model, pair_of(w));
   w.clip(kLeft, 0.016).cover = 0.5;
-  misplaced->happened(w.look());
-  first->happened(w.look());
-  expect_value(misplaced->value(w.look()), 0);
-  expect_value(first->value(w.look()), 0);
+  misplaced->happened(w.moment());
+  first->happened(w.moment());
+  expect_value(misplaced->value(w.moment()), 0);
+  expect_value(first->value(w.moment()), 0);
   w.clip(kLeft, 0.016);
   w.clip(kLeft, 0.018);
-  misplaced->happened(w.look());
-  expect_value(misplaced->value(w.look()), 1);
+  misplaced->happened(w.moment());
+  expect_value(misplaced->value(w.moment()), 1);
   w.clip(kLeft, 0.025);
-  misplaced->happened(w.look());
-  expect_value(misplaced->value(w.look()), 0);
+  misplaced->happened(w.moment());
+  expect_value(misplaced->value(w.moment()), 0);
 }
 
 TEST(Facts, FluidsAreForScenesThatHaveThem) {
@@ -352,17 +352,17 @@ TEST(Facts, FluidsAreForScenesThatHaveThem) {
     EXPECT_EQ(fact->lacks(w.model), w.model.wet.there ? "" : "fluids") << fact->name;
   w.state.tick = 2000;
   const auto flow = kBloodFlow.watch(w.model, {}), since = kBloodSince.watch(w.model, {});
-  EXPECT_UNKNOWN(since->value(w.look()));
+  EXPECT_UNKNOWN(since->value(w.moment()));
   receive(w.state.fluids.ledger, fluids::Source::kBled, fluids::Place::kPool, {.blood = 3 * fluids::kMillilitre});
-  flow->sample(w.look(), 0.02);
-  since->sample(w.look(), 0.02);
+  flow->sample(w.moment(), 0.02);
+  since->sample(w.moment(), 0.02);
   expect_value(w.value(kBloodLost, {}), 3e-6, 1e-12);
   expect_value(w.value(kPoolVolume, {}), 3e-6, 1e-12);
-  expect_value(flow->value(w.look()), 3e-6, 1e-12);
+  expect_value(flow->value(w.moment()), 3e-6, 1e-12);
   w.state.tick = 5000;
-  expect_value(since->value(w.look()), 3);
-  for (int i = 0; i < 50; ++i) flow->sample(w.look(), 0.02);
-  expect_value(flow->value(w.look()), 0);
+  expect_value(since->value(w.moment()), 3);
+  for (int i = 0; i < 50; ++i) flow->sample(w.moment(), 0.02);
+  expect_value(flow->value(w.moment()), 0);
   expect_value(w.value(kClock, {}), 5);
 }
 
@@ -401,8 +401,8 @@ struct Noticed : World {
     seen.count = 0;
     for (int i = 0; i < count; ++i) {
       ++state.tick;
-      noticer->tick(look(), report, seen);
-      if (state.tick % 20 == 0) noticer->sample(look(), 0.02, seen);
+      noticer->tick(moment(), report, seen);
+      if (state.tick % 20 == 0) noticer->sample(moment(), 0.02, seen);
     }
     return seen.count;
   }
@@ -414,7 +414,7 @@ struct Noticed : World {
   }
   Value attribute(const EventKind& kind, std::string_view name) const {
     for (const Attribute& a : kind.attributes)
-      if (a.name == name) return a.value(look(), seen.list[0]);
+      if (a.name == name) return a.value(moment(), seen.list[0]);
     ADD_FAILURE() << name;
     return kUnknown;
   }

@@ -293,9 +293,9 @@ struct ReadPlan {
     limits[0].is_range = true;
     const auto ends =
         scene::parse_json(R"([{"name": "near", "hand": "a"}, {"name": "far", "hand": "b"}])", file, faults);
-    const Scope scope(limits, {read_set("end", ends.root, file, model, 0, faults)});
-    Reading reading;
-    reading.scope = &scope;
+    const Names names(limits, {read_set("end", ends.root, file, model, 0, faults)});
+    RuleReading reading;
+    reading.named = &names;
     reading.model = model;
     reading.facts = model ? &watches : nullptr;
     reading.file = &file;

@@ -9,11 +9,11 @@ namespace {
 class Activated final : public Noticer {
  public:
   Activated(const sim::Model&, const Arguments&) {}
-  void tick(const Look& look, const sim::StepReport&, Happenings& out) override {
-    for (size_t h = 0; h < look.state.electrodes.size(); ++h) {
-      const sim::ElectrodeHand& e = look.state.electrodes[h];
+  void tick(const Moment& moment, const sim::StepReport&, Happenings& out) override {
+    for (size_t h = 0; h < moment.state.electrodes.size(); ++h) {
+      const sim::ElectrodeHand& e = moment.state.electrodes[h];
       const bool on = e.current.now.mode != tissue::EnergyMode::off;
-      if (on && !m_on[h]) out.add({std::int32_t(h), e.body, -1, name_of_body(look.model, e.body), e.at, e.at});
+      if (on && !m_on[h]) out.add({std::int32_t(h), e.body, -1, name_of_body(moment.model, e.body), e.at, e.at});
       m_on[h] = on;
     }
   }
@@ -22,8 +22,8 @@ class Activated final : public Noticer {
   std::array<bool, sim::kMaxTools> m_on{};
 };
 
-Value under_liquid(const Look& look, const Happening& h) {
-  return look.model.wet.there && drowned(look.model, look.state, tip_of(look.model, look.state, size_t(h.hand)));
+Value under_liquid(const Moment& moment, const Happening& h) {
+  return moment.model.wet.there && drowned(moment.model, moment.state, tip_of(moment.model, moment.state, size_t(h.hand)));
 }
 
 }  // namespace

@@ -18,15 +18,15 @@ class Blind final : public Noticer {
     const sim::State start = sim::initial_state(model);
     for (size_t h = 0; h < hands(model); ++h) m_before[h] = tip_of(model, start, h);
   }
-  void tick(const Look&, const sim::StepReport& report, Happenings&) override {
+  void tick(const Moment&, const sim::StepReport& report, Happenings&) override {
     for (int i = 0; i < report.event_count; ++i)
       if (report.events[i].kind == sim::Event::exchanged) m_watch.exchanged(report.events[i].tool);
   }
-  void sample(const Look& look, double dt, Happenings& out) override {
+  void sample(const Moment& moment, double dt, Happenings& out) override {
     std::array<Vec3d, sim::kMaxTools> now{};
-    for (size_t h = 0; h < hands(look.model); ++h) now[h] = tip_of(look.model, look.state, h);
+    for (size_t h = 0; h < hands(moment.model); ++h) now[h] = tip_of(moment.model, moment.state, h);
     Mishaps mishaps;
-    m_watch.update(m_limits, look.model, look.state, m_before, now, dt, mishaps);
+    m_watch.update(m_limits, moment.model, moment.state, m_before, now, dt, mishaps);
     pass(mishaps, inserting ? Mishap::inserted_blind : Mishap::moved_blind, out);
     m_before = now;
   }

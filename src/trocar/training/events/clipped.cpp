@@ -14,22 +14,22 @@
 namespace trocar::training {
 namespace {
 
-const interactions::Clip& clip_of(const Look& look, const Happening& h) {
-  return h.foreseen ? *h.foreseen : look.state.clips[size_t(h.number)];
+const interactions::Clip& clip_of(const Moment& moment, const Happening& h) {
+  return h.foreseen ? *h.foreseen : moment.state.clips[size_t(h.number)];
 }
 
-Happening happening(const Look& look, const interactions::Clip& clip, int number) {
+Happening happening(const Moment& moment, const interactions::Clip& clip, int number) {
   Happening h{clip.tool, BodyId::maybe(BodyKind::strand, clip.strand),      number,
-              nullptr,   tip_of(look.model, look.state, size_t(clip.tool)), {}};
+              nullptr,   tip_of(moment.model, moment.state, size_t(clip.tool)), {}};
   h.where = h.tip;
   if (clip.strand < 0) {
-    if (clip.vessel > 0) h.name = &look.model.vessels.list[size_t(clip.vessel - 1)].name;
+    if (clip.vessel > 0) h.name = &moment.model.vessels.list[size_t(clip.vessel - 1)].name;
     return h;
   }
   const size_t i = size_t(clip.strand);
-  h.name = &look.model.strands[i].name;
-  h.where = interactions::point_at(look.model.strand_bodies[i], look.state.strands[i],
-                                   interactions::place_at(look.model.strand_bodies[i], clip.s));
+  h.name = &moment.model.strands[i].name;
+  h.where = interactions::point_at(moment.model.strand_bodies[i], moment.state.strands[i],
+                                   interactions::place_at(moment.model.strand_bodies[i], clip.s));
   return h;
 }
 
@@ -37,10 +37,10 @@ template <bool lost>
 class Clips final : public Noticer {
  public:
   Clips(const sim::Model&, const Arguments&) {}
-  void tick(const Look& look, const sim::StepReport&, Happenings& out) override {
-    for (; m_seen < look.state.clip_count; ++m_seen)
-      if (look.state.clips[size_t(m_seen)].dropped() == lost)
-        out.add(happening(look, look.state.clips[size_t(m_seen)], m_seen));
+  void tick(const Moment& moment, const sim::StepReport&, Happenings& out) override {
+    for (; m_seen < moment.state.clip_count; ++m_seen)
+      if (moment.state.clips[size_t(m_seen)].dropped() == lost)
+        out.add(happening(moment, moment.state.clips[size_t(m_seen)], m_seen));
   }
 
  private:
@@ -48,32 +48,32 @@ class Clips final : public Noticer {
 };
 
 /// What the clip does to the vessel that bleeds by itself; null: nothing.
-const interactions::VesselClip* on_bleeder(const Look& look, const Happening& h) {
-  const auto closed = std::span(look.state.vessel_clips).first(size_t(look.state.vessel_clip_count));
+const interactions::VesselClip* on_bleeder(const Moment& moment, const Happening& h) {
+  const auto closed = std::span(moment.state.vessel_clips).first(size_t(moment.state.vessel_clip_count));
   const auto at = std::find_if(closed.begin(), closed.end(), [&](const interactions::VesselClip& c) {
-    return c.clip == h.number && c.vessel == look.model.vessels.bleeder.vessel;
+    return c.clip == h.number && c.vessel == moment.model.vessels.bleeder.vessel;
   });
   return at == closed.end() ? nullptr : &*at;
 }
 
 /// From the clip to the nearest stripe around its strand.
-Value to_mark(const Look& look, const Happening& h) {
+Value to_mark(const Moment& moment, const Happening& h) {
   Value nearest = kUnknown;
-  for (const sim::MarkModel& mark : look.model.marks) {
+  for (const sim::MarkModel& mark : moment.model.marks) {
     if (!mark.is_stripe() || h.body != BodyId::maybe(BodyKind::strand, mark.body)) continue;
-    const double off = std::fabs(mark.s - clip_of(look, h).s);
+    const double off = std::fabs(mark.s - clip_of(moment, h).s);
     if (!nearest.known || off < nearest.number) nearest = off;
   }
   return nearest;
 }
 
 /// From the clip to the nearest one that was there before.
-Value clip_to_clip(const Look& look, const Happening& h) {
+Value clip_to_clip(const Moment& moment, const Happening& h) {
   Value nearest = kUnknown;
   for (int i = 0; i < h.number; ++i) {
-    const interactions::Clip& other = look.state.clips[size_t(i)];
+    const interactions::Clip& other = moment.state.clips[size_t(i)];
     if (!h.body.exists() || h.body != BodyId::maybe(BodyKind::strand, other.strand)) continue;
-    const double off = std::fabs(other.s - clip_of(look, h).s);
+    const double off = std::fabs(other.s - clip_of(moment, h).s);
     if (!nearest.known || off < nearest.number) nearest = off;
   }
   return nearest;
@@ -82,58 +82,58 @@ Value clip_to_clip(const Look& look, const Happening& h) {
 std::vector<Attribute> clip_attributes() {
   return {
       {"s_mm", "where on the strand, from its beginning; unknown on a bare vessel",
-       [](const Look& l, const Happening& h) { return !h.body.exists() ? kUnknown : Value(clip_of(l, h).s); }, 0,
+       [](const Moment& m, const Happening& h) { return !h.body.exists() ? kUnknown : Value(clip_of(m, h).s); }, 0,
        kLongest},
       {"angle_deg", "off the cross-section",
-       [](const Look& l, const Happening& h) -> Value { return clip_of(l, h).theta; }, 0, 90},
+       [](const Moment& m, const Happening& h) -> Value { return clip_of(m, h).theta; }, 0, 90},
       {"cover", "share of the cross-section between the legs",
-       [](const Look& l, const Happening& h) -> Value { return clip_of(l, h).cover; }, 0, 1},
+       [](const Moment& m, const Happening& h) -> Value { return clip_of(m, h).cover; }, 0, 1},
       {"to_mark_mm", "along the strand to the nearest stripe around it; unknown without any", to_mark, 0, kLongest},
       {"to_clip_mm", "along the strand to the nearest clip that was there before; unknown without any", clip_to_clip, 0,
        kLongest},
       {"closing_s", "how long the jaws took from half open",
-       [](const Look& l, const Happening& h) { return h.foreseen ? kUnknown : Value(clip_of(l, h).closing_time); }, 0,
+       [](const Moment& m, const Happening& h) { return h.foreseen ? kUnknown : Value(clip_of(m, h).closing_time); }, 0,
        3600},
       {"tips_visible", "of the two jaw tips, when it closed",
-       [](const Look& l, const Happening& h) -> Value { return double(clip_of(l, h).tips_visible); }, 0, 2, false,
+       [](const Moment& m, const Happening& h) -> Value { return double(clip_of(m, h).tips_visible); }, 0, 2, false,
        true},
       {"under_liquid", "the pool stood over the jaws",
-       [](const Look& l, const Happening& h) -> Value { return l.model.wet.there && drowned(l.model, l.state, h.tip); },
+       [](const Moment& m, const Happening& h) -> Value { return m.model.wet.there && drowned(m.model, m.state, h.tip); },
        0, 1, true},
       {"on_bleeder", "it closes the vessel that bleeds by itself",
-       [](const Look& l, const Happening& h) { return h.foreseen ? kUnknown : Value(on_bleeder(l, h) != nullptr); }, 0,
+       [](const Moment& m, const Happening& h) { return h.foreseen ? kUnknown : Value(on_bleeder(m, h) != nullptr); }, 0,
        1, true},
       {"bleeder_cover", "share of that vessel between the legs; unknown elsewhere",
-       [](const Look& l, const Happening& h) {
-         const auto* c = on_bleeder(l, h);
+       [](const Moment& m, const Happening& h) {
+         const auto* c = on_bleeder(m, h);
          return c ? Value(c->cover) : kUnknown;
        },
        0, 1},
       {"upstream", "on the heart's side of the bleeding place; unknown elsewhere",
-       [](const Look& l, const Happening& h) {
-         const auto* c = on_bleeder(l, h);
-         return c ? Value(on_hearts_side(l.model.vessels.bleeder, c->s)) : kUnknown;
+       [](const Moment& m, const Happening& h) {
+         const auto* c = on_bleeder(m, h);
+         return c ? Value(on_hearts_side(m.model.vessels.bleeder, c->s)) : kUnknown;
        },
        0, 1, true},
   };
 }
 
 /// What the clip would be if the applier closed now. It closes slowly, and what it would do to vessels is not known.
-bool foresee(const Look& look, int hand, Foreseen& out) {
-  const interactions::ToolModel& applier = look.model.tool(look.state, size_t(hand));
-  const interactions::ToolState& tool = look.state.tools[size_t(hand)];
+bool foresee(const Moment& moment, int hand, Foreseen& out) {
+  const interactions::ToolModel& applier = moment.model.tool(moment.state, size_t(hand));
+  const interactions::ToolState& tool = moment.state.tools[size_t(hand)];
   if (!applier.can().set_clips || !tool.armed) return false;
   const interactions::ToolShape shape = interactions::shape_of(applier, tool.pose(), tool.aperture);
   interactions::TissueView view;
-  view.strands = look.model.strand_bodies;
-  view.strand_states = look.state.strands;
+  view.strands = moment.model.strand_bodies;
+  view.strand_states = moment.state.strands;
   out.clip = {};
   interactions::fit_clip(applier, shape, view, out.clip);
   if (out.clip.strand < 0) return false;
   out.clip.tool = hand;
   out.clip.closing_time = 3600;
-  out.clip.tips_visible = sim::jaw_tips_visible(look.model, look.state, hand);
-  out.happening = happening(look, out.clip, -1);
+  out.clip.tips_visible = sim::jaw_tips_visible(moment.model, moment.state, hand);
+  out.happening = happening(moment, out.clip, -1);
   out.happening.foreseen = &out.clip;
   return true;
 }

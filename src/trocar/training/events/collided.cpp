@@ -7,11 +7,11 @@ namespace {
 class Collided final : public Noticer {
  public:
   Collided(const sim::Model&, const Arguments& a) { m_limits.collision_speed = a[0].number(); }
-  void tick(const Look& look, const sim::StepReport&, Happenings& out) override {
+  void tick(const Moment& moment, const sim::StepReport&, Happenings& out) override {
     constexpr int kEvery = 4;  // ticks between looks at instruments against each other: 250 Hz
-    if (look.state.tick % kEvery != 0) return;
+    if (moment.state.tick % kEvery != 0) return;
     Mishaps mishaps;
-    m_watch.update(m_limits, look.model, look.state, kEvery * sim::kTick, mishaps);
+    m_watch.update(m_limits, moment.model, moment.state, kEvery * sim::kTick, mishaps);
     pass(mishaps, Mishap::collided, out);
   }
 

@@ -13,9 +13,9 @@ class OffTarget final : public Noticer {
  public:
   OffTarget(const sim::Model& model, const Arguments& a)
       : m_watch(with_carrier_of_bleeder(model, a[0].bodies), a[1].bodies) {}
-  void tick(const Look& look, const sim::StepReport&, Happenings& out) override {
+  void tick(const Moment& moment, const sim::StepReport&, Happenings& out) override {
     Mishaps mishaps;
-    m_watch.update(m_limits, look.model, look.state, mishaps);
+    m_watch.update(m_limits, moment.model, moment.state, mishaps);
     pass(mishaps, Mishap::off_target, out);
     pass(mishaps, Mishap::never_there, out, kCritical);
   }
@@ -25,7 +25,7 @@ class OffTarget final : public Noticer {
   EnergyWatch m_watch;
 };
 
-Value critical(const Look&, const Happening& h) { return h.number == kCritical; }
+Value critical(const Moment&, const Happening& h) { return h.number == kCritical; }
 
 }  // namespace
 

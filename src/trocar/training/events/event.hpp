@@ -31,15 +31,15 @@ struct Happenings {
 class Noticer {
  public:
   virtual ~Noticer() = default;
-  virtual void tick(const Look&, const sim::StepReport&, Happenings&) {}
-  virtual void sample(const Look&, double, Happenings&) {}  ///< fifty times a second; how long since the last time [s]
+  virtual void tick(const Moment&, const sim::StepReport&, Happenings&) {}
+  virtual void sample(const Moment&, double, Happenings&) {}  ///< fifty times a second; how long since the last time [s]
 };
 
 /// A number or a truth of one happening.
 struct Attribute {
   std::string_view name;
   std::string_view meaning;
-  Value (*value)(const Look& look, const Happening& h);
+  Value (*value)(const Moment& moment, const Happening& h);
   double low = 0, high = 1;  ///< that it can be, in the unit that its name ends in
   bool is_truth = false, is_count = false;
 };
@@ -59,7 +59,7 @@ struct EventKind {
   bool has_body = false;  ///< it happens to a body: rules may ask for "on"
   Hold of_hold = Hold::none;
   /// What this hand is about to do; false: nothing of this kind. Null: it cannot be foreseen.
-  bool (*foresee)(const Look& look, int hand, Foreseen& out) = nullptr;
+  bool (*foresee)(const Moment& moment, int hand, Foreseen& out) = nullptr;
 };
 
 template <class N>

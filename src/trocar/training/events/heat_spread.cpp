@@ -12,15 +12,15 @@ class HeatSpread final : public Noticer {
     m_limits.hook_spread = a[0].number();
     m_limits.bipolar_spread = a[1].number();
   }
-  void tick(const Look& look, const sim::StepReport&, Happenings&) override {
+  void tick(const Moment& moment, const sim::StepReport&, Happenings&) override {
     Mishaps of_others;
-    m_watch.update(m_limits, look.model, look.state, of_others);
+    m_watch.update(m_limits, moment.model, moment.state, of_others);
   }
-  void sample(const Look& look, double, Happenings& out) override {
+  void sample(const Moment& moment, double, Happenings& out) override {
     constexpr int kEvery = 25;  // samples between looks, which are dear: twice a second
     if (++m_sample % kEvery != 0) return;
     Mishaps mishaps;
-    m_watch.look_at_spread(look.model, look.state, mishaps);
+    m_watch.look_at_spread(moment.model, moment.state, mishaps);
     pass(mishaps, Mishap::spread, out);
   }
 

@@ -10,9 +10,9 @@ namespace {
 class HotTip final : public Noticer {
  public:
   HotTip(const sim::Model& model, const Arguments& a) : m_watch(with_carrier_of_bleeder(model, a[0].bodies), {}) {}
-  void tick(const Look& look, const sim::StepReport&, Happenings& out) override {
+  void tick(const Moment& moment, const sim::StepReport&, Happenings& out) override {
     Mishaps mishaps;
-    m_watch.update(m_limits, look.model, look.state, mishaps);
+    m_watch.update(m_limits, moment.model, moment.state, mishaps);
     pass(mishaps, Mishap::hot_tip, out);
   }
 

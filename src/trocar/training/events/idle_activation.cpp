@@ -9,9 +9,9 @@ namespace {
 class IdleActivation final : public Noticer {
  public:
   IdleActivation(const sim::Model&, const Arguments& a) : m_watch({}, {}) { m_limits.idle_time = a[0].number(); }
-  void tick(const Look& look, const sim::StepReport&, Happenings& out) override {
+  void tick(const Moment& moment, const sim::StepReport&, Happenings& out) override {
     Mishaps mishaps;
-    m_watch.update(m_limits, look.model, look.state, mishaps);
+    m_watch.update(m_limits, moment.model, moment.state, mishaps);
     pass(mishaps, Mishap::idle, out);
   }
 

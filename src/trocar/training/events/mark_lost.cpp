@@ -12,8 +12,8 @@ class MarkLost final : public Noticer {
       : m_mark(a[0].index), m_found(a[1].number()), m_held(a[2].number()), m_lasting(a[3].number()) {
     m_off_centre = kMarkOffCentre.watch(model, {a[0]});
   }
-  void sample(const Look& look, double dt, Happenings& out) override {
-    const Value off = m_off_centre->value(look);
+  void sample(const Moment& moment, double dt, Happenings& out) override {
+    const Value off = m_off_centre->value(moment);
     if (off.known) {
       m_gone = 0;
       m_in_middle = off.number <= m_found ? m_in_middle + dt : 0;
@@ -24,8 +24,8 @@ class MarkLost final : public Noticer {
     m_in_middle = 0;
     if (!m_had || m_gone < m_lasting) return;
     m_had = false;
-    const Vec3d at = place_of_mark(look.model, look.state, m_mark);
-    out.add({-1, kNoBody, -1, &look.model.targets[size_t(m_mark)].name, at, at});
+    const Vec3d at = place_of_mark(moment.model, moment.state, m_mark);
+    out.add({-1, kNoBody, -1, &moment.model.targets[size_t(m_mark)].name, at, at});
   }
 
  private:

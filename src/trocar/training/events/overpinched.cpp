@@ -11,9 +11,9 @@ class Overpinched final : public Noticer {
     m_limits.pinch_limit = a[1].number();
     m_limits.pinch_impulse = a[2].number();
   }
-  void tick(const Look& look, const sim::StepReport&, Happenings& out) override {
+  void tick(const Moment& moment, const sim::StepReport&, Happenings& out) override {
     Mishaps mishaps;
-    m_watch.update(m_limits, m_tissues, look.model, look.state, mishaps);
+    m_watch.update(m_limits, m_tissues, moment.model, moment.state, mishaps);
     pass(mishaps, Mishap::overpinched, out);
   }
 

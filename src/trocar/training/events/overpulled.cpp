@@ -12,9 +12,9 @@ class Overpulled final : public Noticer {
     m_limits.pull_limit_other = a[2].number();
     m_limits.pull_excursion = a[3].number();
   }
-  void tick(const Look& look, const sim::StepReport&, Happenings& out) override {
+  void tick(const Moment& moment, const sim::StepReport&, Happenings& out) override {
     Mishaps mishaps;
-    m_watch.update(m_limits, m_tissues, look.model, look.state, mishaps);
+    m_watch.update(m_limits, m_tissues, moment.model, moment.state, mishaps);
     pass(mishaps, Mishap::overpulled, out);
   }
 

@@ -14,13 +14,13 @@ template <sim::Event::Kind kind, bool has_body>
 class Reported final : public Noticer {
  public:
   Reported(const sim::Model&, const Arguments&) {}
-  void tick(const Look& look, const sim::StepReport& report, Happenings& out) override {
+  void tick(const Moment& moment, const sim::StepReport& report, Happenings& out) override {
     for (int i = 0; i < report.event_count; ++i) {
       const sim::Event& e = report.events[i];
       if (e.kind != kind) continue;
-      const Vec3d tip = tip_of(look.model, look.state, size_t(e.tool));
+      const Vec3d tip = tip_of(moment.model, moment.state, size_t(e.tool));
       const BodyId body = has_body ? e.body() : kNoBody;
-      out.add({e.tool, body, -1, name_of_body(look.model, body), tip, tip});
+      out.add({e.tool, body, -1, name_of_body(moment.model, body), tip, tip});
     }
   }
 };
@@ -29,10 +29,10 @@ class Reported final : public Noticer {
 class Torn final : public Noticer {
  public:
   Torn(const sim::Model&, const Arguments&) {}
-  void tick(const Look& look, const sim::StepReport& report, Happenings& out) override {
+  void tick(const Moment& moment, const sim::StepReport& report, Happenings& out) override {
     if (report.event_count == 0) return;
     Mishaps mishaps;
-    m_watch.update(look.model, look.state, report, mishaps);
+    m_watch.update(moment.model, moment.state, report, mishaps);
     for (int i = 0; i < mishaps.count; ++i) {
       const Mishap& m = mishaps.list[size_t(i)];
       out.add({m.hand, kNoBody, -1, nullptr, m.where, m.where});

@@ -19,24 +19,24 @@ Json number(double si, std::string_view name, bool is_truth) {
 
 }  // namespace
 
-void Details::read(const Part& part, const Reading& outer) {
-  Reading r = outer;
+void Details::read(const Part& part, const RuleReading& outer) {
+  RuleReading r = outer;
   r.file = &part.file;
   const scene::JsonMember* each = part.value.find("for_each");
   if (!each) return read_one(part.value, "", r);
-  const Set* set = r.scope->set(each->value.text);
+  const Set* set = r.named->set(each->value.text);
   if (!set) {
     std::vector<std::string> known;
-    for (const Set& s : r.scope->sets()) known.push_back(s.name);
+    for (const Set& s : r.named->sets()) known.push_back(s.name);
     return r.fault(each->value, scene::unknown_name("set", each->value.text, known));
   }
   for (const Element& e : set->elements) {
-    const Scope scope = r.scope->at(*set, e);
-    read_one(part.value, e.name, r.within(scope));
+    const Names names = r.named->at(*set, e);
+    read_one(part.value, e.name, r.within(names));
   }
 }
 
-void Details::read_one(const JsonValue& v, const std::string& side, const Reading& r) {
+void Details::read_one(const JsonValue& v, const std::string& side, const RuleReading& r) {
   const scene::JsonMember *name = v.find("detail"), *value = v.find("value"), *keep = v.find("keep"),
                           *w = v.find("while");
   if (!name || !value) return;  // told
@@ -55,10 +55,10 @@ void Details::read_one(const JsonValue& v, const std::string& side, const Readin
   if (t.watch >= 0) m_told.push_back(std::move(t));
 }
 
-void Details::sample(const Look& look) {
+void Details::sample(const Moment& moment) {
   for (Told& t : m_told) {
-    if (t.while_true.there() && t.while_true.holds(look) != Truth::yes) continue;
-    const Value v = t.facts->value(t.watch, look);
+    if (t.while_true.there() && t.while_true.holds(moment) != Truth::yes) continue;
+    const Value v = t.facts->value(t.watch, moment);
     if (t.keep == Keep::last) {
       t.known = v.known;
       t.value = v.number;
@@ -70,11 +70,11 @@ void Details::sample(const Look& look) {
   }
 }
 
-void Details::happened(int event, const Happening& h, const Look& look, const std::string& side, bool good) {
+void Details::happened(int event, const Happening& h, const Moment& moment, const std::string& side, bool good) {
   const EventKind* kind = m_events->all()[size_t(event)].event;
   if (kind->attributes.empty() || h.number < 0 || m_done.size() >= kMostDone) return;
-  Done d{kind, side, h.name ? *h.name : std::string(), look.now(), good, {}};
-  for (const Attribute& a : kind->attributes) d.attributes.push_back(a.value(look, h));
+  Done d{kind, side, h.name ? *h.name : std::string(), moment.now(), good, {}};
+  for (const Attribute& a : kind->attributes) d.attributes.push_back(a.value(moment, h));
   m_done.push_back(std::move(d));
 }
 

@@ -16,13 +16,13 @@ struct Part;
 class Details {
  public:
   /// One entry of an exercise's `details`, for every element of its set.
-  void read(const Part& part, const Reading& reading);
+  void read(const Part& part, const RuleReading& reading);
   /// Acts are told of these kinds of event.
   void watch(const EventWatches& events) { m_events = &events; }
 
-  void sample(const Look& look);
+  void sample(const Moment& moment);
   /// @param side  of what it happened to  @param good  no error was made by it
-  void happened(int event, const Happening& h, const Look& look, const std::string& side, bool good);
+  void happened(int event, const Happening& h, const Moment& moment, const std::string& side, bool good);
   void tell(nlohmann::ordered_json& result) const;
 
  private:
@@ -44,7 +44,7 @@ class Details {
     bool good = false;
     std::vector<Value> attributes;
   };
-  void read_one(const scene::JsonValue& value, const std::string& side, const Reading& reading);
+  void read_one(const scene::JsonValue& value, const std::string& side, const RuleReading& reading);
 
   std::vector<Told> m_told;
   std::vector<Done> m_done;

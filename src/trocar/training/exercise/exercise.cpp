@@ -19,7 +19,7 @@ double Exercise::limit(const std::string& limit_name, double otherwise) const {
   return l && !l->is_range ? l->si() : otherwise;
 }
 
-Scope Exercise::scope(const sim::Model* model, std::uint64_t seed, Faults& faults) const {
+Names Exercise::names(const sim::Model* model, std::uint64_t seed, Faults& faults) const {
   Sets made;
   for (const auto& [set_name, part] : sets)
     made.push_back(read_set(set_name, part.value, part.file, model, seed, faults));

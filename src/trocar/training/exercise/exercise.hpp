@@ -13,7 +13,7 @@
 
 #include <trocar/scene/json/shape.hpp>
 #include <trocar/training/rules/limits.hpp>
-#include <trocar/training/rules/scope.hpp>
+#include <trocar/training/rules/names.hpp>
 
 namespace trocar::training {
 
@@ -80,7 +80,7 @@ struct Exercise {
   /// Of a single number, in SI; what the exercise does not have is `otherwise`.
   double limit(const std::string& name, double otherwise) const;
   /// Names as a scene gives them. @param model  null: sets that are patterns wait for it
-  Scope scope(const sim::Model* model, std::uint64_t seed, Faults& faults) const;
+  Names names(const sim::Model* model, std::uint64_t seed, Faults& faults) const;
 };
 
 /// What a file of an exercise may say, and a file of common rules that exercises include.

@@ -122,9 +122,9 @@ class ExerciseReader {
 
   /// Limits go into what people are told of errors; steps are told with their elements, later.
   void words() {
-    const Scope scope(m_exercise.limits, {});
+    const Names names(m_exercise.limits, {});
     for (Penalty& p : m_exercise.penalties)
-      for (std::string* text : {&p.name, &p.meaning, &p.hint}) *text = scope.text(*text);
+      for (std::string* text : {&p.name, &p.meaning, &p.hint}) *text = names.text(*text);
   }
 
   void codes() {

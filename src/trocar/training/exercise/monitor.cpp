@@ -32,11 +32,11 @@ void Monitor::update(const sim::Model& model, const sim::State& state, const sim
   m_board->at(state.tick);
   if (m_moved) m_seconds = double(state.tick - m_first_motion) * sim::kTick;
   weigh_on_trocars(model, state);
-  const Look look{model, state};
-  m_rules->tick(look, report);
+  const Moment moment{model, state};
+  m_rules->tick(moment, report);
   if (state.tick % kSampleEvery != 0) return;
   measure(model, state);
-  m_rules->sample(look, kSample);
+  m_rules->sample(moment, kSample);
 }
 
 void Monitor::measure(const sim::Model& model, const sim::State& state) {

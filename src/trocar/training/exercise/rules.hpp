@@ -64,12 +64,12 @@ class Rules {
   Rules(const Rules&) = delete;
   Rules& operator=(const Rules&) = delete;
 
-  void tick(const Look& look, const sim::StepReport& report);
+  void tick(const Moment& moment, const sim::StepReport& report);
   /// @param dt  since the last time [s]
-  void sample(const Look& look, double dt);
+  void sample(const Moment& moment, double dt);
 
   /// Brings facts whose memory events change up to date, and judges nothing.
-  void look_at(const Look& look) { m_facts.tick(look, {}); }
+  void look_at(const Moment& moment) { m_facts.tick(moment, {}); }
 
   /// Number of the step to be shown next; the number of steps when none is left.
   int current() const { return m_guide.current(*this, m_board); }
@@ -77,7 +77,7 @@ class Rules {
   bool allowed(int step) const;
   void tell(nlohmann::ordered_json& result) const { m_details.tell(result); }
 
-  const Scope& scope() const { return m_scope; }
+  const Names& names() const { return m_names; }
   const std::vector<StepRule>& steps() const { return m_steps; }
   const std::vector<ErrorRule>& errors() const { return m_errors; }
   const FactWatches& facts() const { return m_facts; }
@@ -86,17 +86,17 @@ class Rules {
 
  private:
   friend class RulesReader;
-  void happened(int event, const Happening& h, const Look& look);
-  void note_holds(const Look& look);
-  const std::string& side_of(const Happening& h, const EventKind& kind, const Look& look) const;
+  void happened(int event, const Happening& h, const Moment& moment);
+  void note_holds(const Moment& moment);
+  const std::string& side_of(const Happening& h, const EventKind& kind, const Moment& moment) const;
   void make(ErrorRule& rule, const std::string& side, Vec3d where, std::string detail);
-  void watch_errors(const Look& look, double dt);
-  void watch_steps(const Look& look, double dt);
+  void watch_errors(const Moment& moment, double dt);
+  void watch_steps(const Moment& moment, double dt);
   void miss(const std::vector<int>& steps);
 
   const Exercise& m_exercise;
   Scoreboard& m_board;
-  Scope m_scope;
+  Names m_names;
   FactWatches m_facts;
   EventWatches m_events;
   std::vector<StepRule> m_steps;  ///< as on the board

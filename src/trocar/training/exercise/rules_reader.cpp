@@ -37,9 +37,9 @@ class RulesReader {
 
   void whole(std::string message) { scene::tell(m_faults, {{m_exercise.file.string(), 0, 0}, std::move(message)}); }
 
-  Reading reading(const Scope& scope, const std::string& file) {
-    Reading r;
-    r.scope = &scope;
+  RuleReading reading(const Names& names, const std::string& file) {
+    RuleReading r;
+    r.named = &names;
     r.model = m_model;
     r.facts = &m_rules.m_facts;
     r.events = &m_rules.m_events;
@@ -49,27 +49,27 @@ class RulesReader {
     return r;
   }
 
-  Scope scope_of(const Set* set, const Element* element) const {
-    return set ? m_rules.m_scope.at(*set, *element) : m_rules.m_scope;
+  Names names_at(const Set* set, const Element* element) const {
+    return set ? m_rules.m_names.at(*set, *element) : m_rules.m_names;
   }
 
   /// Null: a fault has been told, or it is there once.
   const Set* set_of(const std::string& name, const Part& part) {
     if (name.empty()) return nullptr;
-    const Set* set = m_rules.m_scope.set(name);
+    const Set* set = m_rules.m_names.set(name);
     if (set) return set;
     std::vector<std::string> known;
-    for (const Set& s : m_rules.m_scope.sets()) known.push_back(s.name);
+    for (const Set& s : m_rules.m_names.sets()) known.push_back(s.name);
     const scene::JsonMember* at = part.value.find("for_each");
-    reading(m_rules.m_scope, part.file).fault(at ? at->value : part.value, scene::unknown_name("set", name, known));
+    reading(m_rules.m_names, part.file).fault(at ? at->value : part.value, scene::unknown_name("set", name, known));
     return nullptr;
   }
 
   /// Bodies by which it is known which element somebody works on.
   void owners() {
-    for (const Set& set : m_rules.m_scope.sets()) {
+    for (const Set& set : m_rules.m_names.sets()) {
       if (set.elements.size() > std::size_t(kMaxElements))
-        reading(m_rules.m_scope, set.file)
+        reading(m_rules.m_names, set.file)
             .fault(set.at, fmt::format("expected at most {} elements, got {}", kMaxElements, set.elements.size()));
       for (std::size_t i = 0; i < set.elements.size(); ++i)
         for (const std::string& member : set.held) own(set, i, member);
@@ -77,7 +77,7 @@ class RulesReader {
   }
   void own(const Set& set, std::size_t element, const std::string& member) {
     const Element& e = set.elements[element];
-    const Reading r = reading(m_rules.m_scope, set.file);
+    const RuleReading r = reading(m_rules.m_names, set.file);
     const JsonValue* value = e.member(member);
     if (!value)
       return r.fault(set.at,
@@ -112,11 +112,11 @@ class RulesReader {
     if (m_placed.size() > std::size_t(kMaxSteps))
       whole(fmt::format("expected at most {} steps (one an element), got {}", kMaxSteps, m_placed.size()));
     for (const Placed& p : m_placed) {
-      const Scope scope = scope_of(p.set, p.element);
+      const Names names = names_at(p.set, p.element);
       StepStatus s;
-      s.name = scope.text(p.text->title);
+      s.name = names.text(p.text->title);
       if (p.element && p.text->title.find('{') == std::string::npos) s.name = p.element->title + ": " + s.name;
-      s.hint = scope.text(p.text->hint);
+      s.hint = names.text(p.text->hint);
       s.task = p.text->name;
       s.side = p.element ? p.element->name : "";
       s.optional = p.text->optional;
@@ -125,8 +125,8 @@ class RulesReader {
   }
 
   void step(const Placed& p) {
-    const Scope scope = scope_of(p.set, p.element);
-    const Reading r = reading(scope, p.text->part.file);
+    const Names names = names_at(p.set, p.element);
+    const RuleReading r = reading(names, p.text->part.file);
     const JsonValue& v = p.text->part.value;
     StepRule rule;
     rule.step = int(m_rules.m_steps.size());
@@ -150,7 +150,7 @@ class RulesReader {
     m_rules.m_steps.push_back(std::move(rule));
   }
 
-  Act act_of_step(const JsonValue& v, const Reading& r, const std::string& name) {
+  Act act_of_step(const JsonValue& v, const RuleReading& r, const std::string& name) {
     const std::size_t before = m_faults.size();
     Act act = read_act(v, r);
     if (m_model && m_faults.size() == before && !act.possible())
@@ -159,7 +159,7 @@ class RulesReader {
   }
 
   /// "previous", a step, or several.
-  std::vector<int> steps_named(const JsonValue& v, const Reading& r, int step) {
+  std::vector<int> steps_named(const JsonValue& v, const RuleReading& r, int step) {
     std::vector<int> all;
     if (v.kind == JsonValue::Kind::array) {
       for (const JsonValue& item : v.items)
@@ -172,7 +172,7 @@ class RulesReader {
     return all;
   }
   /// Within for_each a step of the same set means that of the same element.
-  std::vector<int> same_element_first(const JsonValue& v, const Reading& r, int step) {
+  std::vector<int> same_element_first(const JsonValue& v, const RuleReading& r, int step) {
     std::vector<int> found = read_steps(v, r);
     const std::string& side = m_rules.m_board.step(step).side;
     if (side.empty() || v.text.find('(') != std::string::npos) return found;
@@ -194,7 +194,7 @@ class RulesReader {
                          circle.size() == 1 ? "itself" : next);
     }
     const Part& part = m_placed[std::size_t(circle[0])].text->part;
-    reading(m_rules.m_scope, part.file)
+    reading(m_rules.m_names, part.file)
         .fault(part.value, "expected steps of which each can be done, got a circle: " + way);
   }
   std::string step_name(int step) const {
@@ -209,8 +209,8 @@ class RulesReader {
   }
 
   void error(const Penalty& p, const Set* set, const Element* element) {
-    const Scope scope = scope_of(set, element);
-    const Reading r = reading(scope, p.part.file);
+    const Names names = names_at(set, element);
+    const RuleReading r = reading(names, p.part.file);
     const JsonValue& v = p.part.value;
     ErrorRule rule;
     rule.penalty = &p;
@@ -220,8 +220,8 @@ class RulesReader {
     if (const auto* m = v.find("for_s"))
       if (const auto n = r.number(m->value, unit_of("for_s"), 0, 3600)) rule.held.needs = *n;
     if (const auto* m = v.find("once_per")) rule.once = m->value.text == "attempt";
-    if (const auto* m = v.find("detail")) rule.detail = scope.text(m->value.text);
-    if (!p.at.file.empty()) rule.mark = mark(p.at.value, reading(scope, p.at.file));
+    if (const auto* m = v.find("detail")) rule.detail = names.text(m->value.text);
+    if (!p.at.file.empty()) rule.mark = mark(p.at.value, reading(names, p.at.file));
     for (const std::string& step : p.misses) {
       JsonValue name = v;
       if (const auto* m = v.find("misses")) name = m->value;
@@ -232,7 +232,7 @@ class RulesReader {
     m_rules.m_errors.push_back(std::move(rule));
   }
 
-  int mark(const JsonValue& v, const Reading& r) {
+  int mark(const JsonValue& v, const RuleReading& r) {
     const auto name = r.name(v);
     std::int32_t index = -1;
     std::vector<std::string> known;
@@ -243,7 +243,7 @@ class RulesReader {
 
   void details() {
     m_rules.m_details.watch(m_rules.m_events);
-    for (const Part& part : m_exercise.details) m_rules.m_details.read(part, reading(m_rules.m_scope, part.file));
+    for (const Part& part : m_exercise.details) m_rules.m_details.read(part, reading(m_rules.m_names, part.file));
   }
 
   Rules& m_rules;
@@ -254,7 +254,7 @@ class RulesReader {
 };
 
 Rules::Rules(const Exercise& exercise, const sim::Model* model, std::uint64_t seed, Scoreboard& board, Faults& faults)
-    : m_exercise(exercise), m_board(board), m_scope(exercise.scope(model, seed, faults)) {
+    : m_exercise(exercise), m_board(board), m_names(exercise.names(model, seed, faults)) {
   RulesReader(*this, m_exercise, model, faults).read();
 }
 

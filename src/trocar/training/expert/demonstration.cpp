@@ -14,18 +14,18 @@ bool asks_for_steps(const scene::JsonValue& v) {
   return false;
 }
 
-/// With what the file's part is read: its scope in this scene must outlive the reading.
+/// With what the file's part is read: its names in this scene must outlive the reading.
 struct Source {
   Source(const Exercise& exercise, const sim::Model* model, std::uint64_t seed, Faults& all_faults)
-      : scope(exercise.scope(model, seed, all_faults)), faults(all_faults) {
-    reading.scope = &scope;
+      : names(exercise.names(model, seed, all_faults)), faults(all_faults) {
+    reading.named = &names;
     reading.model = model;
     reading.file = &exercise.demonstration.file;
     reading.faults = &faults;
   }
-  Scope scope;
+  Names names;
   Faults& faults;
-  Reading reading;
+  RuleReading reading;
 };
 
 }  // namespace
@@ -56,8 +56,8 @@ void check_demonstration(const Exercise& exercise, const sim::Model* model, Faul
     } catch (const core::BadInput&) {
       return;  // the rules' own faults come first
     }
-  Faults of_scope;  // told already by whoever read the exercise
-  Source source(exercise, model, seed, of_scope);
+  Faults of_names;  // told already by whoever read the exercise
+  Source source(exercise, model, seed, of_names);
   source.reading.faults = &faults;
   source.reading.facts = model ? &watches : nullptr;
   source.reading.steps = judge ? &judge->board().steps() : nullptr;

@@ -49,7 +49,7 @@ void Performer::stop(bool gave_up) {
 
 bool Performer::is_reached(const Goal& goal) const {
   if (goal.given_up) return true;
-  return goal.plan->until.there() ? goal.plan->until.holds(look()) == Truth::yes : goal.reached;
+  return goal.plan->until.there() ? goal.plan->until.holds(moment()) == Truth::yes : goal.reached;
 }
 
 void Performer::choose() {
@@ -93,7 +93,7 @@ void Performer::failed(const std::string& why) {
   Goal& goal = *m_goal;
   ++goal.failures;
   if (m_difficulties.size() < kMostDifficulties)
-    m_difficulties.push_back(fmt::format("{:.1f} s: {}{}: {}", look().now(), goal.plan->name,
+    m_difficulties.push_back(fmt::format("{:.1f} s: {}{}: {}", moment().now(), goal.plan->name,
                                          goal.plan->element.empty() ? "" : " (" + goal.plan->element + ")", why));
   if (goal.plan->tries > 0 && goal.failures >= goal.plan->tries) {
     goal.given_up = m_gave_up = true;
@@ -138,7 +138,7 @@ void Performer::work(double passed) {
   }
   for (Task& beside : task.meanwhile) beside.skill->tick(m_operator, passed);
   Progress how = task.skill->tick(m_operator, passed);
-  if (how == Progress::working && task.plan->until.there() && task.plan->until.holds(look()) == Truth::yes)
+  if (how == Progress::working && task.plan->until.there() && task.plan->until.holds(moment()) == Truth::yes)
     how = Progress::done;
   if (how != Progress::working) ended(how, fmt::format("{}: {}", task.plan->kind->name, task.skill->why()));
 }
@@ -156,7 +156,7 @@ sim::Input Performer::next(const sim::Model& model, const sim::State& state) {
 }
 
 void Performer::after(const sim::Model& model, const sim::State& state, const sim::StepReport& report) {
-  const Look now{model, state};
+  const Moment now{model, state};
   if (FactWatches* watches = m_demonstration.watches.get()) {
     watches->tick(now, report);
     if (state.tick % kSampleEvery == 0) watches->sample(now, kSample);

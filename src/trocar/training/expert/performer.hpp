@@ -50,7 +50,7 @@ class Performer final : public Expert {
   void stop(bool gave_up);
   const PlanPart& part() const { return m_plan.parts[m_part]; }
   std::vector<Task>& tasks() { return m_repairing ? m_goal->if_failed : m_goal->todo; }
-  Look look() const { return {m_operator.model(), m_operator.state()}; }
+  Moment moment() const { return {m_operator.model(), m_operator.state()}; }
 
   Demonstration m_demonstration;
   const Plan& m_plan;

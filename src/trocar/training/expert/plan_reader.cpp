@@ -18,7 +18,7 @@ constexpr double kShortest = 0.1, kLongestGoal = 3600;  // [s] that anything may
 
 class PlanReader {
  public:
-  explicit PlanReader(const Reading& reading) : r(reading) {}
+  explicit PlanReader(const RuleReading& reading) : r(reading) {}
 
   void read(const JsonValue& list, Plan& plan) const {
     if (!is_list(list, "goals and parts")) return;
@@ -56,10 +56,10 @@ class PlanReader {
     part.at_most = number(v, "at_most_s", part.at_most);
     part.pause = int(std::lround(number(v, "pause_s", 0) / sim::kTick));
     const JsonMember* each = v.find("for_each");
-    const Set* set = each ? r.scope->set(each->value.text) : nullptr;
+    const Set* set = each ? r.named->set(each->value.text) : nullptr;
     if (each && !set) {
       std::vector<std::string> known;
-      for (const Set& s : r.scope->sets()) known.push_back(s.name);
+      for (const Set& s : r.named->sets()) known.push_back(s.name);
       r.fault(each->value, scene::unknown_name("set", each->value.text, known));
     }
     if (!set) {
@@ -68,7 +68,7 @@ class PlanReader {
       return;
     }
     for (const Element& element : set->elements) {
-      const Scope inner = r.scope->at(*set, element);
+      const Names inner = r.named->at(*set, element);
       PlanPart of = part;
       of.element = element.name;
       PlanReader(r.within(inner)).goals(v.find("goals")->value, of);
@@ -90,7 +90,7 @@ class PlanReader {
     r.check_keys(v, "a goal", {"goal", "until", "tries", "do", "if_failed", "every"});
     const JsonMember* name = v.find("goal");
     if (name && name->value.kind == Kind::string)
-      g.name = r.scope->text(name->value.text);
+      g.name = r.named->text(name->value.text);
     else
       r.fault(v, "expected a goal: an object with goal and do, or a part with goals, got " + scene::shown(v));
     if (const JsonMember* until = v.find("until")) g.until = read_condition(until->value, r);
@@ -162,12 +162,12 @@ class PlanReader {
     return r.number(m->value, unit_of(key), least, kLongestGoal).value_or(otherwise);
   }
 
-  const Reading& r;
+  const RuleReading& r;
 };
 
 }  // namespace
 
-Plan read_plan(const JsonValue& demonstration, const Reading& reading) {
+Plan read_plan(const JsonValue& demonstration, const RuleReading& reading) {
   Plan plan;
   PlanReader(reading).read(demonstration, plan);
   return plan;

@@ -12,6 +12,6 @@ namespace trocar::training {
 ///           "meanwhile": [SKILL, ...]}
 /// Every fault is appended, also what the scene lacks for a skill. Without a model of the reading all is checked but
 /// what only a scene can tell, and the plan may only be thrown away.
-Plan read_plan(const scene::JsonValue& demonstration, const Reading& reading);
+Plan read_plan(const scene::JsonValue& demonstration, const RuleReading& reading);
 
 }  // namespace trocar::training

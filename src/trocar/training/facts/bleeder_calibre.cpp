@@ -4,9 +4,9 @@
 namespace trocar::training {
 namespace {
 
-Value calibre(const Look& look, const Arguments&) {
-  const sim::Bleeder& b = look.model.vessels.bleeder;
-  const vessels::FlowSegment& segment = look.model.vessels.flow.segments[size_t(b.vessel)];
+Value calibre(const Moment& moment, const Arguments&) {
+  const sim::Bleeder& b = moment.model.vessels.bleeder;
+  const vessels::FlowSegment& segment = moment.model.vessels.flow.segments[size_t(b.vessel)];
   return 2 * (segment.radius + segment.taper * b.s);
 }
 

@@ -6,11 +6,11 @@
 namespace trocar::training {
 namespace {
 
-Value clipped(const Look& look, const Arguments& a) {
-  return bleeder_clipped(look.model, look.state, a[0].word == "heart", a[1].number());
+Value clipped(const Moment& moment, const Arguments& a) {
+  return bleeder_clipped(moment.model, moment.state, a[0].word == "heart", a[1].number());
 }
 
-Value sealed(const Look& look, const Arguments&) { return bleeder_sealed(look.model, look.state); }
+Value sealed(const Moment& moment, const Arguments&) { return bleeder_sealed(moment.model, moment.state); }
 
 }  // namespace
 

@@ -10,11 +10,11 @@ namespace {
 class Uncovered final : public Observer {
  public:
   Uncovered(const sim::Model& model, const Arguments&) : m_mark(model.target_index("bleeder")) {}
-  void sample(const Look& look, double passed) override {
-    if (look.state.tick < look.model.vessels.bleeder.tick) return;
-    if (!drowned(look.model, look.state, place_of_mark(look.model, look.state, m_mark))) m_free += passed;
+  void sample(const Moment& moment, double passed) override {
+    if (moment.state.tick < moment.model.vessels.bleeder.tick) return;
+    if (!drowned(moment.model, moment.state, place_of_mark(moment.model, moment.state, m_mark))) m_free += passed;
   }
-  Value value(const Look&) const override { return m_free; }
+  Value value(const Moment&) const override { return m_free; }
 
  private:
   int m_mark;

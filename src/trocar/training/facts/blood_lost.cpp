@@ -5,7 +5,7 @@
 namespace trocar::training {
 namespace {
 
-Value lost(const Look& look, const Arguments&) { return blood_lost(look.model, look.state); }
+Value lost(const Moment& moment, const Arguments&) { return blood_lost(moment.model, moment.state); }
 
 }  // namespace
 

@@ -8,10 +8,10 @@ namespace {
 class Bleeding final : public Observer {
  public:
   Bleeding(const sim::Model&, const Arguments&) {}
-  void sample(const Look& look, double) override {
-    if (m_began < 0 && blood_lost(look.model, look.state) > 0) m_began = look.now();
+  void sample(const Moment& moment, double) override {
+    if (m_began < 0 && blood_lost(moment.model, moment.state) > 0) m_began = moment.now();
   }
-  Value value(const Look& look) const override { return m_began < 0 ? kUnknown : Value(look.now() - m_began); }
+  Value value(const Moment& moment) const override { return m_began < 0 ? kUnknown : Value(moment.now() - m_began); }
 
  private:
   double m_began = -1;

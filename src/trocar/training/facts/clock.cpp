@@ -3,7 +3,7 @@
 namespace trocar::training {
 namespace {
 
-Value seconds(const Look& look, const Arguments&) { return look.now(); }
+Value seconds(const Moment& moment, const Arguments&) { return moment.now(); }
 
 }  // namespace
 

@@ -4,7 +4,7 @@
 //
 // A new fact is one file that defines a Fact, and one line in facts.inl.
 //
-//   Value horizon(const Look& look, const Arguments&) { return ...; }
+//   Value horizon(const Moment& moment, const Arguments&) { return ...; }
 //   extern const Fact kScopeHorizon{"scope.horizon_deg", {}, -180, 180, "how far the picture is turned ...",
 //                                   anywhere, &stateless<horizon>};
 #pragma once
@@ -23,7 +23,7 @@ namespace trocar::training {
 struct Happening;
 
 /// What there is to see at a tick.
-struct Look {
+struct Moment {
   const sim::Model& model;
   const sim::State& state;
 
@@ -34,11 +34,11 @@ struct Look {
 class Observer {
  public:
   virtual ~Observer() = default;
-  virtual void happened(const Look&) {}        ///< in ticks that report an event
-  virtual void sample(const Look&, double) {}  ///< fifty times a second; how long since the last time [s]
-  virtual Value value(const Look& look) const = 0;
+  virtual void happened(const Moment&) {}        ///< in ticks that report an event
+  virtual void sample(const Moment&, double) {}  ///< fifty times a second; how long since the last time [s]
+  virtual Value value(const Moment& moment) const = 0;
   /// What it would say if this happened now; for those whose memory events change.
-  virtual Value foretold(const Look& look, const Happening&) const { return value(look); }
+  virtual Value foretold(const Moment& moment, const Happening&) const { return value(moment); }
 };
 
 struct Fact {
@@ -58,12 +58,12 @@ struct Fact {
 inline std::string_view anywhere(const sim::Model&) { return {}; }
 
 /// A fact without memory.
-template <Value (*fact)(const Look&, const Arguments&)>
+template <Value (*fact)(const Moment&, const Arguments&)>
 std::unique_ptr<Observer> stateless(const sim::Model&, const Arguments& arguments) {
   class Stateless final : public Observer {
    public:
     explicit Stateless(const Arguments& a) : m_arguments(a) {}
-    Value value(const Look& look) const override { return fact(look, m_arguments); }
+    Value value(const Moment& moment) const override { return fact(moment, m_arguments); }
 
    private:
     Arguments m_arguments;

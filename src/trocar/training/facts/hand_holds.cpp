@@ -6,23 +6,23 @@
 namespace trocar::training {
 namespace {
 
-Value holds(const Look& look, const Arguments& a) {
-  const interactions::ToolState& tool = look.state.tools[size_t(a[0].index)];
+Value holds(const Moment& moment, const Arguments& a) {
+  const interactions::ToolState& tool = moment.state.tools[size_t(a[0].index)];
   if (tool.holds == 0) return false;
   if (!a[1].given) return true;
   return std::find(a[1].bodies.begin(), a[1].bodies.end(), tool.hold[0].body) != a[1].bodies.end();
 }
 
-Value held_at(const Look& look, const Arguments& a) {
-  const double s = held_arc(look.model, look.state, size_t(a[0].index), a[1].index);
+Value held_at(const Moment& moment, const Arguments& a) {
+  const double s = held_arc(moment.model, moment.state, size_t(a[0].index), a[1].index);
   return s >= 0 ? Value(s) : kUnknown;
 }
 
-Value holds_between(const Look& look, const Arguments& a) {
-  const double s = held_arc(look.model, look.state, size_t(a[0].index), a[1].index);
+Value holds_between(const Moment& moment, const Arguments& a) {
+  const double s = held_arc(moment.model, moment.state, size_t(a[0].index), a[1].index);
   if (s < 0) return false;
   double from = 0, to = 1e9;
-  for (const sim::LandmarkModel& l : look.model.strands[size_t(a[1].index)].landmarks) {
+  for (const sim::LandmarkModel& l : moment.model.strands[size_t(a[1].index)].landmarks) {
     if (l.name == a[2].word) from = l.to;
     if (l.name == a[3].word) to = l.from;
   }

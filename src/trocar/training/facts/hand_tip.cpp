@@ -6,12 +6,12 @@
 namespace trocar::training {
 namespace {
 
-Value to_mark(const Look& look, const Arguments& a) {
-  return length(tip_of(look.model, look.state, size_t(a[0].index)) - place_of_mark(look.model, look.state, a[1].index));
+Value to_mark(const Moment& moment, const Arguments& a) {
+  return length(tip_of(moment.model, moment.state, size_t(a[0].index)) - place_of_mark(moment.model, moment.state, a[1].index));
 }
-Value to_hand(const Look& look, const Arguments& a) {
-  return length(tip_of(look.model, look.state, size_t(a[0].index)) -
-                tip_of(look.model, look.state, size_t(a[1].index)));
+Value to_hand(const Moment& moment, const Arguments& a) {
+  return length(tip_of(moment.model, moment.state, size_t(a[0].index)) -
+                tip_of(moment.model, moment.state, size_t(a[1].index)));
 }
 
 }  // namespace

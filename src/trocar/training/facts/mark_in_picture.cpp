@@ -10,28 +10,28 @@
 namespace trocar::training {
 namespace {
 
-Value off_centre(const Look& look, const Arguments& a) {
-  if (!sim::visible(look.model, look.state, a[0].index)) return kUnknown;
-  const kinematics::ScopeFrame scope = sim::scope_of(look.model, look.state);
-  const Vec3d to = place_of_mark(look.model, look.state, a[0].index) - scope.eye;
+Value off_centre(const Moment& moment, const Arguments& a) {
+  if (!sim::visible(moment.model, moment.state, a[0].index)) return kUnknown;
+  const kinematics::ScopeFrame scope = sim::scope_of(moment.model, moment.state);
+  const Vec3d to = place_of_mark(moment.model, moment.state, a[0].index) - scope.eye;
   const double ahead = dot(to, scope.forward);
   if (ahead <= 0) return kUnknown;
   const double aside = length(to - ahead * scope.forward);
-  const double half = 0.5 * look.model.scope.field_of_view;
+  const double half = 0.5 * moment.model.scope.field_of_view;
   return aside / ahead * portable::cos(half) / portable::sin(half);
 }
 
-Value distance(const Look& look, const Arguments& a) {
-  if (!sim::visible(look.model, look.state, a[0].index)) return kUnknown;
-  return length(place_of_mark(look.model, look.state, a[0].index) - sim::scope_of(look.model, look.state).eye);
+Value distance(const Moment& moment, const Arguments& a) {
+  if (!sim::visible(moment.model, moment.state, a[0].index)) return kUnknown;
+  return length(place_of_mark(moment.model, moment.state, a[0].index) - sim::scope_of(moment.model, moment.state).eye);
 }
 
-Value facing(const Look& look, const Arguments& a) {
-  if (!sim::visible(look.model, look.state, a[0].index)) return kUnknown;
-  const std::optional<Vec3d> normal = normal_of_mark(look.model, look.state, a[0].index);
+Value facing(const Moment& moment, const Arguments& a) {
+  if (!sim::visible(moment.model, moment.state, a[0].index)) return kUnknown;
+  const std::optional<Vec3d> normal = normal_of_mark(moment.model, moment.state, a[0].index);
   if (!normal) return kUnknown;
   const Vec3d to_eye =
-      normalised(sim::scope_of(look.model, look.state).eye - place_of_mark(look.model, look.state, a[0].index));
+      normalised(sim::scope_of(moment.model, moment.state).eye - place_of_mark(moment.model, moment.state, a[0].index));
   return portable::atan2(length(cross(*normal, to_eye)), dot(*normal, to_eye));
 }
 std::string faces_every_way(const sim::Model& model, const Arguments& a) {

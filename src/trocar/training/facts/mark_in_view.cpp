@@ -4,8 +4,8 @@
 namespace trocar::training {
 namespace {
 
-Value in_view(const Look& look, const Arguments& a) { return sim::visible(look.model, look.state, a[0].index); }
-Value share(const Look& look, const Arguments& a) { return sim::visible_share(look.model, look.state, a[0].index); }
+Value in_view(const Moment& moment, const Arguments& a) { return sim::visible(moment.model, moment.state, a[0].index); }
+Value share(const Moment& moment, const Arguments& a) { return sim::visible_share(moment.model, moment.state, a[0].index); }
 
 }  // namespace
 

@@ -6,8 +6,8 @@
 namespace trocar::training {
 namespace {
 
-Value under(const Look& look, const Arguments& a) {
-  return drowned(look.model, look.state, place_of_mark(look.model, look.state, a[0].index));
+Value under(const Moment& moment, const Arguments& a) {
+  return drowned(moment.model, moment.state, place_of_mark(moment.model, moment.state, a[0].index));
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 namespace trocar::training {
 namespace {
 
-Value pool(const Look& look, const Arguments&) {
-  return fluids::kM3PerPicolitre * double(at(look.state.fluids.ledger, fluids::Place::kPool).total());
+Value pool(const Moment& moment, const Arguments&) {
+  return fluids::kM3PerPicolitre * double(at(moment.state.fluids.ledger, fluids::Place::kPool).total());
 }
 
 }  // namespace

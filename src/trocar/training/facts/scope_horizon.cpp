@@ -5,12 +5,12 @@
 namespace trocar::training {
 namespace {
 
-Value horizon(const Look& look, const Arguments&) {
+Value horizon(const Moment& moment, const Arguments&) {
   constexpr double kSteep = 0.1;  // sine of the angle to the plumb line below which a picture has no horizon
-  const double g = length(look.model.gravity);
+  const double g = length(moment.model.gravity);
   if (g <= 0) return kUnknown;
-  const Vec3d up = -1 / g * look.model.gravity;
-  const kinematics::ScopeFrame scope = sim::scope_of(look.model, look.state);
+  const Vec3d up = -1 / g * moment.model.gravity;
+  const kinematics::ScopeFrame scope = sim::scope_of(moment.model, moment.state);
   const double x = dot(up, scope.right), y = dot(up, scope.up);
   if (x * x + y * y < kSteep * kSteep) return kUnknown;
   return portable::atan2(x, y);

@@ -10,13 +10,13 @@ namespace {
 class VesselFlow final : public Observer {
  public:
   VesselFlow(const sim::Model&, const Arguments& a) : m_vessel(a[0].index) {}
-  void sample(const Look& look, double) override {
+  void sample(const Moment& moment, double) override {
     double& oldest = m_flows[size_t(m_samples++) % m_flows.size()];
-    const double now = vessels::read_wall(look.model.vessels.flow, look.state.flow, m_vessel, 0.5).flow;
+    const double now = vessels::read_wall(moment.model.vessels.flow, moment.state.flow, m_vessel, 0.5).flow;
     m_sum += now - oldest;
     oldest = now;
   }
-  Value value(const Look&) const override {
+  Value value(const Moment&) const override {
     if (m_samples == 0) return kUnknown;
     return m_sum / double(std::min(size_t(m_samples), m_flows.size()));
   }

@@ -18,16 +18,16 @@ bool Cause::concerns(const sim::Model& model, const Happening& h) const {
   return named == (on == On::these);
 }
 
-bool Cause::matches(const Look& look, const Happening& h) const {
-  if (!concerns(look.model, h)) return false;
+bool Cause::matches(const Moment& moment, const Happening& h) const {
+  if (!concerns(moment.model, h)) return false;
   for (const AttributeTest& a : attributes)
-    if (a.test.of(a.attribute->value(look, h)) != Truth::yes) return false;
-  return while_true.holds(look) == Truth::yes;
+    if (a.test.of(a.attribute->value(moment, h)) != Truth::yes) return false;
+  return while_true.holds(moment) == Truth::yes;
 }
 
-const Cause* Act::of(int event, const Look& look, const Happening& h) const {
+const Cause* Act::of(int event, const Moment& moment, const Happening& h) const {
   for (const Cause& c : m_causes)
-    if (c.event == event && c.matches(look, h)) return &c;
+    if (c.event == event && c.matches(moment, h)) return &c;
   return nullptr;
 }
 
@@ -39,7 +39,7 @@ bool Act::possible() const {
 
 class ActReader {
  public:
-  ActReader(Act& act, const Reading& reading) : m_act(act), r(reading) {}
+  ActReader(Act& act, const RuleReading& reading) : m_act(act), r(reading) {}
 
   void read(const JsonValue& v) {
     if (v.kind == JsonValue::Kind::broken) return;
@@ -67,7 +67,7 @@ class ActReader {
     attributes(v, *event, c);
     if (const scene::JsonMember* on = v.find("on")) bodies(on->value, *event, c);
     if (const scene::JsonMember* w = v.find("while")) c.while_true = read_condition(w->value, r);
-    if (const scene::JsonMember* d = v.find("detail")) c.detail = r.scope->text(d->value.text);
+    if (const scene::JsonMember* d = v.find("detail")) c.detail = r.named->text(d->value.text);
     if (r.model && !event->lacks(*r.model).empty())
       r.fault(name, fmt::format("expected a scene with {} for \"{}\", got none", event->lacks(*r.model), event->name));
     if (r.model && r.events && r.faults->size() == before) c.event = r.events->watch(*event, arguments, *r.model);
@@ -110,10 +110,10 @@ class ActReader {
   }
 
   Act& m_act;
-  const Reading& r;
+  const RuleReading& r;
 };
 
-Act read_act(const JsonValue& value, const Reading& reading) {
+Act read_act(const JsonValue& value, const RuleReading& reading) {
   Act act;
   ActReader(act, reading).read(value);
   return act;

@@ -28,14 +28,14 @@ struct Cause {
   std::string detail;  ///< what results add; empty: nothing of its own
 
   bool concerns(const sim::Model& model, const Happening& h) const;
-  bool matches(const Look& look, const Happening& h) const;
+  bool matches(const Moment& moment, const Happening& h) const;
 };
 
 class Act {
  public:
   bool there() const { return !m_causes.empty(); }
   /// The first cause that what happened is one of; null: none.
-  const Cause* of(int event, const Look& look, const Happening& h) const;
+  const Cause* of(int event, const Moment& moment, const Happening& h) const;
   const std::vector<Cause>& causes() const { return m_causes; }
   /// Can it happen at all? Not where it is only asked for on no body.
   bool possible() const;
@@ -45,6 +45,6 @@ class Act {
   std::vector<Cause> m_causes;
 };
 
-Act read_act(const scene::JsonValue& value, const Reading& reading);
+Act read_act(const scene::JsonValue& value, const RuleReading& reading);
 
 }  // namespace trocar::training

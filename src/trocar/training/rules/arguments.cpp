@@ -12,7 +12,7 @@ using scene::JsonValue;
 
 class ArgumentReader {
  public:
-  ArgumentReader(const JsonValue& object, std::span<const Parameter> parameters, const Reading& reading)
+  ArgumentReader(const JsonValue& object, std::span<const Parameter> parameters, const RuleReading& reading)
       : m_object(object), m_parameters(parameters), r(reading) {}
 
   Argument read(const Parameter& p, const JsonValue& value) const {
@@ -80,7 +80,7 @@ class ArgumentReader {
       const scene::JsonMember* m = p.kind == ArgumentKind::strand && r.model ? m_object.find(p.name) : nullptr;
       if (!m) continue;
       Faults told_already;
-      Reading quiet = r;
+      RuleReading quiet = r;
       quiet.faults = &told_already;
       const auto strand = quiet.name(m->value);
       const int i = strand ? r.model->strand_index(strand->name) : -1;
@@ -93,13 +93,13 @@ class ArgumentReader {
 
   const JsonValue& m_object;
   std::span<const Parameter> m_parameters;
-  const Reading& r;
+  const RuleReading& r;
 };
 
 }  // namespace
 
 Arguments read_arguments(const JsonValue& object, std::span<const Parameter> parameters, std::string_view what,
-                         const Reading& reading) {
+                         const RuleReading& reading) {
   const ArgumentReader reader(object, parameters, reading);
   Arguments out;
   for (const Parameter& p : parameters) {

@@ -4,7 +4,7 @@
 #include <span>
 
 #include <trocar/training/facts/argument.hpp>
-#include <trocar/training/rules/scope.hpp>
+#include <trocar/training/rules/names.hpp>
 
 namespace trocar::training {
 
@@ -12,6 +12,6 @@ namespace trocar::training {
 /// names that the scene has not are faults.
 /// @param what  whose arguments they are, for people: "clips.first_set"
 Arguments read_arguments(const scene::JsonValue& object, std::span<const Parameter> parameters, std::string_view what,
-                         const Reading& reading);
+                         const RuleReading& reading);
 
 }  // namespace trocar::training

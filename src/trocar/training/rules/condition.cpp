@@ -11,19 +11,19 @@ namespace trocar::training {
 
 using scene::JsonValue;
 
-Truth Condition::holds(const Look& look) const { return holds(look, nullptr); }
-Truth Condition::would_hold(const Look& look, const Happening& h) const { return holds(look, &h); }
+Truth Condition::holds(const Moment& moment) const { return holds(moment, nullptr); }
+Truth Condition::would_hold(const Moment& moment, const Happening& h) const { return holds(moment, &h); }
 
-Truth Condition::holds(const Look& look, const Happening* h) const {
+Truth Condition::holds(const Moment& moment, const Happening* h) const {
   switch (m_kind) {
     case Kind::none:
       return Truth::yes;
     case Kind::fact:
-      return m_test.of(h ? m_facts->foretold(m_watch, look, *h) : m_facts->value(m_watch, look));
+      return m_test.of(h ? m_facts->foretold(m_watch, moment, *h) : m_facts->value(m_watch, moment));
     case Kind::step:
-      return of_step(look);
+      return of_step(moment);
     case Kind::negation:
-      return negated(m_parts[0].holds(look, h));
+      return negated(m_parts[0].holds(moment, h));
     case Kind::all:
     case Kind::any:
       break;
@@ -31,18 +31,18 @@ Truth Condition::holds(const Look& look, const Happening* h) const {
   const Truth decides = m_kind == Kind::all ? Truth::no : Truth::yes;
   Truth all = negated(decides);
   for (const Condition& part : m_parts) {
-    const Truth t = part.holds(look, h);
+    const Truth t = part.holds(moment, h);
     if (t == decides) return t;
     if (t == Truth::unknown) all = t;
   }
   return all;
 }
 
-Truth Condition::of_step(const Look& look) const {
+Truth Condition::of_step(const Moment& moment) const {
   const StepStatus& s = (*m_steps)[size_t(m_step)];
   const bool is = m_is == StepIs::done ? s.done : m_is == StepIs::missed ? s.missed : !s.done && !s.missed;
   if (!is || !m_since) return truth(is);
-  return m_test.of(look.now() - s.at);
+  return m_test.of(moment.now() - s.at);
 }
 
 namespace {
@@ -55,7 +55,7 @@ bool complete(const Fact& fact, const Arguments& arguments) {
 
 }  // namespace
 
-FactAt read_fact(const JsonValue& v, std::vector<std::string> keys, const Reading& r) {
+FactAt read_fact(const JsonValue& v, std::vector<std::string> keys, const RuleReading& r) {
   const scene::JsonMember* name = v.find("fact");
   if (!name) {
     r.fault(v, "expected a fact, got " + scene::shown(v));
@@ -86,7 +86,7 @@ FactAt read_fact(const JsonValue& v, std::vector<std::string> keys, const Readin
 
 class ConditionReader {
  public:
-  explicit ConditionReader(const Reading& reading) : r(reading) {}
+  explicit ConditionReader(const RuleReading& reading) : r(reading) {}
 
   Condition read(const JsonValue& v) const {
     if (v.kind == JsonValue::Kind::broken) return {};
@@ -154,16 +154,16 @@ class ConditionReader {
       for (const JsonValue& item : list.items) c.m_parts.push_back(read(item));
       return c;
     }
-    const Set* set = r.scope->set(each->value.text);
+    const Set* set = r.named->set(each->value.text);
     if (!set) {
       std::vector<std::string> known;
-      for (const Set& s : r.scope->sets()) known.push_back(s.name);
+      for (const Set& s : r.named->sets()) known.push_back(s.name);
       r.fault(each->value, scene::unknown_name("set", each->value.text, known));
       return {};
     }
     for (const Element& e : set->elements) {
-      const Scope inner = r.scope->at(*set, e);
-      const Reading reading = r.within(inner);
+      const Names inner = r.named->at(*set, e);
+      const RuleReading reading = r.within(inner);
       for (const JsonValue& item : list.items) c.m_parts.push_back(ConditionReader(reading).read(item));
     }
     return c;
@@ -177,17 +177,17 @@ class ConditionReader {
     return c;
   }
 
-  const Reading& r;
+  const RuleReading& r;
 };
 
-Condition read_condition(const JsonValue& value, const Reading& reading) {
+Condition read_condition(const JsonValue& value, const RuleReading& reading) {
   return ConditionReader(reading).read(value);
 }
 
 namespace {
 
 /// "identify($side)" -> "identify", "left". @return false: a fault has been told
-bool split(const JsonValue& value, const Reading& r, std::string& step, std::string& element) {
+bool split(const JsonValue& value, const RuleReading& r, std::string& step, std::string& element) {
   const std::size_t open = value.text.find('(');
   step = value.text.substr(0, open);
   element.clear();
@@ -205,15 +205,15 @@ bool split(const JsonValue& value, const Reading& r, std::string& step, std::str
 }
 
 /// Which elements it has only the scene can tell.
-bool waits_for_scene(const std::string& step, const Reading& r) {
+bool waits_for_scene(const std::string& step, const RuleReading& r) {
   if (r.model) return false;
-  const auto& sets = r.scope->sets();
+  const auto& sets = r.named->sets();
   const auto& steps = (*r.steps);
   return std::any_of(sets.begin(), sets.end(), [](const Set& s) { return s.pending; }) &&
          std::any_of(steps.begin(), steps.end(), [&step](const StepStatus& s) { return s.task == step; });
 }
 
-void unknown_step(const JsonValue& value, const std::string& step, const std::string& element, const Reading& r) {
+void unknown_step(const JsonValue& value, const std::string& step, const std::string& element, const RuleReading& r) {
   if (waits_for_scene(step, r)) return;
   std::vector<std::string> known;
   for (const StepStatus& s : (*r.steps)) {
@@ -225,7 +225,7 @@ void unknown_step(const JsonValue& value, const std::string& step, const std::st
 
 }  // namespace
 
-int read_step(const JsonValue& value, const Reading& r) {
+int read_step(const JsonValue& value, const RuleReading& r) {
   std::string step, element;
   if (!split(value, r, step, element) || !r.steps) return -1;
   int found = -1, count = 0;
@@ -243,7 +243,7 @@ int read_step(const JsonValue& value, const Reading& r) {
   return -1;
 }
 
-std::vector<int> read_steps(const JsonValue& value, const Reading& r) {
+std::vector<int> read_steps(const JsonValue& value, const RuleReading& r) {
   std::vector<int> found;
   std::string step, element;
   if (!split(value, r, step, element) || !r.steps) return found;

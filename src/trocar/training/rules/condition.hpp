@@ -18,9 +18,9 @@ class Condition {
   /// Is there one at all? One that is not there holds.
   bool there() const { return m_kind != Kind::none; }
   /// May be asked when the watches know the tick.
-  Truth holds(const Look& look) const;
+  Truth holds(const Moment& moment) const;
   /// The same if this happened now.
-  Truth would_hold(const Look& look, const Happening& happening) const;
+  Truth would_hold(const Moment& moment, const Happening& happening) const;
 
   /// The facts that it asks for, with their tests, however deep.
   template <class Visit>
@@ -42,8 +42,8 @@ class Condition {
   enum class StepIs { done, missed, open };
 
   friend class ConditionReader;
-  Truth holds(const Look& look, const Happening* happening) const;
-  Truth of_step(const Look& look) const;
+  Truth holds(const Moment& moment, const Happening* happening) const;
+  Truth of_step(const Moment& moment) const;
 
   Kind m_kind = Kind::none;
   const FactWatches* m_facts = nullptr;
@@ -57,7 +57,7 @@ class Condition {
 };
 
 /// What the value says; with faults a condition that may only be thrown away.
-Condition read_condition(const scene::JsonValue& value, const Reading& reading);
+Condition read_condition(const scene::JsonValue& value, const RuleReading& reading);
 
 /// A fact with its arguments. `watch`: its number; -1: a fault has been told, or there is no scene yet.
 struct FactAt {
@@ -65,12 +65,12 @@ struct FactAt {
   int watch = -1;
 };
 /// @param keys  that the object may have beside "fact" and the arguments
-FactAt read_fact(const scene::JsonValue& object, std::vector<std::string> keys, const Reading& reading);
+FactAt read_fact(const scene::JsonValue& object, std::vector<std::string> keys, const RuleReading& reading);
 
 /// The number of a step that a file names: "stop", "identify($side)", "see(niche_3)"; -1: a fault has been told, or the
 /// step's set waits for its scene.
-int read_step(const scene::JsonValue& value, const Reading& reading);
+int read_step(const scene::JsonValue& value, const RuleReading& reading);
 /// The same where a name stands for the step of all elements: "first_clip".
-std::vector<int> read_steps(const scene::JsonValue& value, const Reading& reading);
+std::vector<int> read_steps(const scene::JsonValue& value, const RuleReading& reading);
 
 }  // namespace trocar::training

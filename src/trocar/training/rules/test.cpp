@@ -19,7 +19,7 @@ bool empty(const Test& t, double least, double most) {
 }
 
 /// The test, if something that the number can be passes it. Nothing: a fault has been told.
-std::optional<Test> possible(const Test& test, const JsonValue& at, const Tested& tested, const Reading& r) {
+std::optional<Test> possible(const Test& test, const JsonValue& at, const Tested& tested, const RuleReading& r) {
   constexpr double kAnything = std::numeric_limits<double>::infinity();
   const Unit& unit = unit_of(tested.name);
   const bool bounded = tested.low < tested.high;
@@ -34,7 +34,7 @@ std::optional<Test> possible(const Test& test, const JsonValue& at, const Tested
 
 class TestReader {
  public:
-  TestReader(const JsonValue& object, const Tested& tested, const Reading& reading)
+  TestReader(const JsonValue& object, const Tested& tested, const RuleReading& reading)
       : m_object(object), m_tested(tested), r(reading), m_unit(unit_of(tested.name)) {}
 
   std::optional<Test> read() {
@@ -108,7 +108,7 @@ class TestReader {
 
   const JsonValue& m_object;
   const Tested& m_tested;
-  const Reading& r;
+  const RuleReading& r;
   const Unit& m_unit;
   Test m_test;
   bool m_said = false, m_bad = false;
@@ -130,11 +130,11 @@ const std::vector<std::string>& test_keys() {
   return keys;
 }
 
-std::optional<Test> read_test(const JsonValue& object, const Tested& tested, const Reading& reading) {
+std::optional<Test> read_test(const JsonValue& object, const Tested& tested, const RuleReading& reading) {
   return TestReader(object, tested, reading).read();
 }
 
-std::optional<Test> read_short_test(const JsonValue& value, const Tested& tested, const Reading& r) {
+std::optional<Test> read_short_test(const JsonValue& value, const Tested& tested, const RuleReading& r) {
   if (value.kind == Kind::broken) return std::nullopt;
   if (value.kind == Kind::object) {
     r.check_keys(value, fmt::format("\"{}\"", tested.name), test_keys());

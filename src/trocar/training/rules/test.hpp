@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <trocar/training/facts/value.hpp>
-#include <trocar/training/rules/scope.hpp>
+#include <trocar/training/rules/names.hpp>
 
 namespace trocar::training {
 
@@ -39,8 +39,8 @@ const std::vector<std::string>& test_keys();
 
 /// The test that an object's keys say. Nothing: a fault has been told, also where they say none or one that nothing can
 /// pass.
-std::optional<Test> read_test(const scene::JsonValue& object, const Tested& tested, const Reading& reading);
+std::optional<Test> read_test(const scene::JsonValue& object, const Tested& tested, const RuleReading& reading);
 /// Of an attribute: such an object, or in short a truth, a range, or a number that is counted.
-std::optional<Test> read_short_test(const scene::JsonValue& value, const Tested& tested, const Reading& reading);
+std::optional<Test> read_short_test(const scene::JsonValue& value, const Tested& tested, const RuleReading& reading);
 
 }  // namespace trocar::training

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <trocar/scene/json/shape.hpp>
-#include <trocar/training/rules/scope.hpp>
+#include <trocar/training/rules/names.hpp>
 
 namespace trocar::training {
 namespace {
@@ -22,10 +22,10 @@ struct Meaning {
 
 bool is_reference(const JsonValue& v) { return v.kind == Kind::string && v.text.size() > 1 && v.text[0] == '$'; }
 
-std::vector<std::string> referable(const Scope& scope) {
+std::vector<std::string> referable(const Names& names) {
   std::vector<std::string> known;
-  for (const Limit& l : scope.limits()) known.push_back(l.name);
-  for (const Set& s : scope.sets()) known.push_back(s.name);
+  for (const Limit& l : names.limits()) known.push_back(l.name);
+  for (const Set& s : names.sets()) known.push_back(s.name);
   return known;
 }
 
@@ -36,28 +36,28 @@ std::vector<std::string> members_of(const Element& e) {
 }
 
 /// Nothing: a fault has been told.
-std::optional<Meaning> meaning(const JsonValue& v, const Reading& r) {
+std::optional<Meaning> meaning(const JsonValue& v, const RuleReading& r) {
   if (v.kind == Kind::broken) return std::nullopt;
   if (!is_reference(v)) return Meaning{&v, r.file, nullptr, nullptr, {}};
   const std::size_t dot = v.text.find('.');
   const std::string name = v.text.substr(1, dot == std::string::npos ? dot : dot - 1);
   const std::string member = dot == std::string::npos ? "" : v.text.substr(dot + 1);
-  const Set* set = r.scope->set(name);
+  const Set* set = r.named->set(name);
   if (set) {
-    const Element* bound = r.scope->bound(name);
+    const Element* bound = r.named->bound(name);
     if (!bound) return Meaning{nullptr, &set->file, nullptr, set, member};
     const JsonValue* value = member.empty() ? &bound->self : bound->member(member);
     if (value) return Meaning{value, &set->file, nullptr, nullptr, {}};
     r.fault(v, scene::unknown_name("member of \"" + bound->name + "\"", member, members_of(*bound)));
     return std::nullopt;
   }
-  if (const Limit* limit = member.empty() ? r.scope->limit(name) : nullptr)
+  if (const Limit* limit = member.empty() ? r.named->limit(name) : nullptr)
     return Meaning{nullptr, nullptr, limit, nullptr, {}};
-  r.fault(v, scene::unknown_name("limit or set", name, referable(*r.scope)));
+  r.fault(v, scene::unknown_name("limit or set", name, referable(*r.named)));
   return std::nullopt;
 }
 
-std::optional<Interval> of_limit(const Limit& limit, const JsonValue& at, const Unit& unit, const Reading& r) {
+std::optional<Interval> of_limit(const Limit& limit, const JsonValue& at, const Unit& unit, const RuleReading& r) {
   if (limit.broken) return std::nullopt;
   if (limit.unit().suffix == unit.suffix) return Interval{limit.si_low(), limit.si_high(), limit.is_range};
   r.fault(at, fmt::format("expected a limit in the unit \"{}\" ({}), got \"{}\" ({})", unit.suffix, unit.words,
@@ -67,22 +67,22 @@ std::optional<Interval> of_limit(const Limit& limit, const JsonValue& at, const 
 
 }  // namespace
 
-Scope::Scope(Limits limits, Sets sets)
-    : m_names(std::make_shared<const Names>(Names{std::move(limits), std::move(sets)})) {}
+Names::Names(Limits limits, Sets sets)
+    : m_tables(std::make_shared<const Tables>(Tables{std::move(limits), std::move(sets)})) {}
 
-Scope Scope::at(const Set& set, const Element& element) const {
-  Scope inner = *this;
+Names Names::at(const Set& set, const Element& element) const {
+  Names inner = *this;
   inner.m_bound.push_back({&set, &element});
   return inner;
 }
 
-const Element* Scope::bound(std::string_view set) const {
+const Element* Names::bound(std::string_view set) const {
   for (std::size_t i = m_bound.size(); i-- > 0;)
     if (m_bound[i].set->name == set) return m_bound[i].element;
   return nullptr;
 }
 
-std::string Scope::text(const std::string& pattern) const {
+std::string Names::text(const std::string& pattern) const {
   std::string out;
   for (std::size_t i = 0; i < pattern.size(); ++i) {
     const std::size_t end = pattern[i] == '{' ? pattern.find('}', i) : std::string::npos;
@@ -107,32 +107,32 @@ std::string Scope::text(const std::string& pattern) const {
   return out;
 }
 
-std::string Scope::title_of(const std::string& name) const {
+std::string Names::title_of(const std::string& name) const {
   for (const Set& s : sets())
     for (const Element& e : s.elements)
       if (e.name == name && e.title != name) return e.title;
   return name;
 }
 
-void Reading::fault(const JsonValue& value, std::string message) const {
+void RuleReading::fault(const JsonValue& value, std::string message) const {
   scene::tell(*faults, {at(value), std::move(message)});
 }
 
-void Reading::check_keys(const JsonValue& object, const std::string& what,
+void RuleReading::check_keys(const JsonValue& object, const std::string& what,
                          const std::vector<std::string>& known) const {
   for (const scene::JsonMember& m : object.members)
     if (std::find(known.begin(), known.end(), m.key) == known.end())
       scene::tell(*faults, {{*file, m.line, m.column}, scene::unknown_name("key of " + what, m.key, known)});
 }
 
-std::optional<Interval> Reading::interval(const JsonValue& value, const Unit& unit) const {
+std::optional<Interval> RuleReading::interval(const JsonValue& value, const Unit& unit) const {
   const std::optional<Meaning> m = meaning(value, *this);
   if (!m) return std::nullopt;
   if (m->limit) return of_limit(*m->limit, value, unit, *this);
   const JsonValue* v = m->value;
   if (v && v->kind == Kind::number) return Interval{v->number * unit.si, v->number * unit.si, false};
   if (v && v->kind == Kind::array && v->items.size() == 2) {
-    Reading inner = *this;
+    RuleReading inner = *this;
     inner.file = m->file;
     const std::optional<double> from = inner.number(v->items[0], unit), to = inner.number(v->items[1], unit);
     if (!from || !to) return std::nullopt;
@@ -144,7 +144,7 @@ std::optional<Interval> Reading::interval(const JsonValue& value, const Unit& un
   return std::nullopt;
 }
 
-std::optional<double> Reading::number(const JsonValue& value, const Unit& unit) const {
+std::optional<double> RuleReading::number(const JsonValue& value, const Unit& unit) const {
   const std::optional<Interval> i = interval(value, unit);
   if (!i) return std::nullopt;
   if (!i->is_range) return i->low;
@@ -152,7 +152,7 @@ std::optional<double> Reading::number(const JsonValue& value, const Unit& unit) 
   return std::nullopt;
 }
 
-std::optional<double> Reading::number(const JsonValue& value, const Unit& unit, double low, double high) const {
+std::optional<double> RuleReading::number(const JsonValue& value, const Unit& unit, double low, double high) const {
   constexpr double kRounding = 1e-9;
   const std::optional<double> n = number(value, unit);
   if (!n || (*n >= low * unit.si - kRounding && *n <= high * unit.si + kRounding)) return n;
@@ -161,7 +161,7 @@ std::optional<double> Reading::number(const JsonValue& value, const Unit& unit, 
   return std::nullopt;
 }
 
-std::vector<NameAt> Reading::names(const JsonValue& value) const {
+std::vector<NameAt> RuleReading::names(const JsonValue& value) const {
   constexpr int kDeepest = 8;
   std::vector<NameAt> out;
   if (depth > kDeepest) {
@@ -177,7 +177,7 @@ std::vector<NameAt> Reading::names(const JsonValue& value) const {
         fault(value, scene::unknown_name("member of \"" + e.name + "\"", m->member, members_of(e)));
         continue;
       }
-      Reading inner = *this;
+      RuleReading inner = *this;
       inner.file = m->file;
       ++inner.depth;
       for (NameAt& n : inner.names(*v)) out.push_back(std::move(n));
@@ -188,7 +188,7 @@ std::vector<NameAt> Reading::names(const JsonValue& value) const {
     fault(value, "expected a name or a list of names, got " + scene::shown(value));
     return out;
   }
-  Reading inner = *this;
+  RuleReading inner = *this;
   inner.file = m->file;
   ++inner.depth;
   if (m->value->kind == Kind::string) return {{m->value->text, inner.at(*m->value)}};
@@ -197,7 +197,7 @@ std::vector<NameAt> Reading::names(const JsonValue& value) const {
   return out;
 }
 
-std::optional<NameAt> Reading::name(const JsonValue& value) const {
+std::optional<NameAt> RuleReading::name(const JsonValue& value) const {
   const std::size_t before = faults->size();
   std::vector<NameAt> all = names(value);
   if (all.size() == 1) return std::move(all[0]);

@@ -1,5 +1,5 @@
 // What "$..." means at a place of an exercise file: a limit, a set, within `for_each` an element of the set or one of
-// its members. Whoever reads a part of the file (conditions, steps, demonstrations) is given a Reading: the scope
+// its members. Whoever reads a part of the file (conditions, steps, demonstrations) is given a RuleReading: what is named
 // there, the scene, and where faults go.
 //
 //   "$first_clip_mm"   a limit
@@ -21,16 +21,16 @@ namespace trocar::training {
 
 using Faults = std::vector<core::Fault>;
 
-class Scope {
+class Names {
  public:
-  Scope() = default;
-  Scope(Limits limits, Sets sets);
+  Names() = default;
+  Names(Limits limits, Sets sets);
 
-  /// The same place within `for_each` of a set, at one of its elements. Both must be of this scope.
-  Scope at(const Set& set, const Element& element) const;
+  /// The same place within `for_each` of a set, at one of its elements. Both must be of these names.
+  Names at(const Set& set, const Element& element) const;
 
-  const Limits& limits() const { return m_names->limits; }
-  const Sets& sets() const { return m_names->sets; }
+  const Limits& limits() const { return m_tables->limits; }
+  const Sets& sets() const { return m_tables->sets; }
   const Limit* limit(std::string_view name) const { return find_limit(limits(), name); }
   const Set* set(std::string_view name) const { return find_set(sets(), name); }
   /// The element that `for_each` of this set has come to; null outside of it.
@@ -43,7 +43,7 @@ class Scope {
   std::string title_of(const std::string& name) const;
 
  private:
-  struct Names {
+  struct Tables {
     Limits limits;
     Sets sets;
   };
@@ -51,7 +51,7 @@ class Scope {
     const Set* set;
     const Element* element;
   };
-  std::shared_ptr<const Names> m_names = std::make_shared<Names>();
+  std::shared_ptr<const Tables> m_tables = std::make_shared<Tables>();
   std::vector<Bound> m_bound;
 };
 
@@ -71,8 +71,8 @@ struct Interval {
 };
 
 /// With what a part of a file is read.
-struct Reading {
-  const Scope* scope = nullptr;
+struct RuleReading {
+  const Names* named = nullptr;
   const sim::Model* model = nullptr;  ///< null: all is checked but what only a scene can tell
   FactWatches* facts = nullptr;       ///< of the attempt; null with the model
   EventWatches* events = nullptr;     ///< likewise
@@ -81,9 +81,9 @@ struct Reading {
   Faults* faults = nullptr;
   int depth = 0;  ///< of references within references
 
-  Reading within(const Scope& other) const {
-    Reading r = *this;
-    r.scope = &other;
+  RuleReading within(const Names& other) const {
+    RuleReading r = *this;
+    r.named = &other;
     return r;
   }
   void fault(const scene::JsonValue& at, std::string message) const;
