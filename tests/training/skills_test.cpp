@@ -208,7 +208,8 @@ using Log = std::vector<std::string>;
 
 TEST(Plans, GoalsComeInTheirOrderAndAFailedOneAgain) {
   Log log;
-  const Performance run(plan_of({goal("a", {act(log, "a1"), act(log, "a2", {false, true})}), goal("b", {act(log, "b")})}));
+  const Performance run(
+      plan_of({goal("a", {act(log, "a1"), act(log, "a2", {false, true})}), goal("b", {act(log, "b")})}));
   EXPECT_EQ(log, (Log{"a1", "a2", "a1", "a2", "b"}));
   EXPECT_FALSE(run.performer.gave_up());
   EXPECT_EQ(run.state.tick, 15u) << "no tick between tasks unless the part says so";

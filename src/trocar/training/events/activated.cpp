@@ -23,7 +23,8 @@ class Activated final : public Noticer {
 };
 
 Value under_liquid(const Moment& moment, const Happening& h) {
-  return moment.model.wet.there && drowned(moment.model, moment.state, tip_of(moment.model, moment.state, size_t(h.hand)));
+  return moment.model.wet.there &&
+         drowned(moment.model, moment.state, tip_of(moment.model, moment.state, size_t(h.hand)));
 }
 
 }  // namespace

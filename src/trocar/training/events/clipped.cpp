@@ -19,7 +19,7 @@ const interactions::Clip& clip_of(const Moment& moment, const Happening& h) {
 }
 
 Happening happening(const Moment& moment, const interactions::Clip& clip, int number) {
-  Happening h{clip.tool, BodyId::maybe(BodyKind::strand, clip.strand),      number,
+  Happening h{clip.tool, BodyId::maybe(BodyKind::strand, clip.strand),          number,
               nullptr,   tip_of(moment.model, moment.state, size_t(clip.tool)), {}};
   h.where = h.tip;
   if (clip.strand < 0) {
@@ -98,11 +98,13 @@ std::vector<Attribute> clip_attributes() {
        [](const Moment& m, const Happening& h) -> Value { return double(clip_of(m, h).tips_visible); }, 0, 2, false,
        true},
       {"under_liquid", "the pool stood over the jaws",
-       [](const Moment& m, const Happening& h) -> Value { return m.model.wet.there && drowned(m.model, m.state, h.tip); },
+       [](const Moment& m, const Happening& h) -> Value {
+         return m.model.wet.there && drowned(m.model, m.state, h.tip);
+       },
        0, 1, true},
       {"on_bleeder", "it closes the vessel that bleeds by itself",
-       [](const Moment& m, const Happening& h) { return h.foreseen ? kUnknown : Value(on_bleeder(m, h) != nullptr); }, 0,
-       1, true},
+       [](const Moment& m, const Happening& h) { return h.foreseen ? kUnknown : Value(on_bleeder(m, h) != nullptr); },
+       0, 1, true},
       {"bleeder_cover", "share of that vessel between the legs; unknown elsewhere",
        [](const Moment& m, const Happening& h) {
          const auto* c = on_bleeder(m, h);

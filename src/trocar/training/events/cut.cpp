@@ -9,7 +9,9 @@
 namespace trocar::training {
 namespace {
 
-const interactions::Cut& cut_of(const Moment& moment, const Happening& h) { return moment.state.cuts[size_t(h.number)]; }
+const interactions::Cut& cut_of(const Moment& moment, const Happening& h) {
+  return moment.state.cuts[size_t(h.number)];
+}
 
 class Cuts final : public Noticer {
  public:
@@ -73,8 +75,8 @@ Value cut_to_clip(const Moment& moment, const Happening& h) {
 std::vector<Attribute> cut_attributes() {
   return {
       {"s_mm", "where on the strand, from its beginning; unknown on other bodies",
-       [](const Moment& m, const Happening& h) { return cut_of(m, h).strand < 0 ? kUnknown : Value(cut_of(m, h).s); }, 0,
-       kLongest},
+       [](const Moment& m, const Happening& h) { return cut_of(m, h).strand < 0 ? kUnknown : Value(cut_of(m, h).s); },
+       0, kLongest},
       {"fraction", "of the strand's cross-section that was cut; unknown on other bodies",
        [](const Moment& m, const Happening& h) {
          return cut_of(m, h).strand < 0 ? kUnknown : Value(cut_of(m, h).fraction);
@@ -82,9 +84,12 @@ std::vector<Attribute> cut_attributes() {
        0, 1},
       {"depth_mm", "how deep the blades went into the fold behind the strand, or into the fold", depth, 0, kLongest},
       {"tips_visible", "of the two jaw tips, when it was cut",
-       [](const Moment& m, const Happening& h) -> Value { return double(cut_of(m, h).tips_visible); }, 0, 2, false, true},
+       [](const Moment& m, const Happening& h) -> Value { return double(cut_of(m, h).tips_visible); }, 0, 2, false,
+       true},
       {"under_liquid", "the pool stood over the jaws",
-       [](const Moment& m, const Happening& h) -> Value { return m.model.wet.there && drowned(m.model, m.state, h.tip); },
+       [](const Moment& m, const Happening& h) -> Value {
+         return m.model.wet.there && drowned(m.model, m.state, h.tip);
+       },
        0, 1, true},
       {"between_clips", "clips sit on the strand on both sides of the cut", between_clips, 0, 1, true},
       {"to_clip_mm", "from the strand's nearest clip; unknown without any", cut_to_clip, 0, kLongest},

@@ -32,8 +32,8 @@ class Dropped final : public Noticer {
       if (f.held || f.hand < 0 || f.still_for < kLies) continue;
       const double fallen = dot(now - f.from, down);
       if (fallen > m_least)
-        out.add({f.hand, f.body, -1, name_of_body(moment.model, f.body), tip_of(moment.model, moment.state, size_t(f.hand)),
-                 now});
+        out.add({f.hand, f.body, -1, name_of_body(moment.model, f.body),
+                 tip_of(moment.model, moment.state, size_t(f.hand)), now});
       f.hand = -1;
     }
   }

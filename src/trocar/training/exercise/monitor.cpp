@@ -9,8 +9,8 @@
 namespace trocar::training {
 namespace {
 
-constexpr double kTrocarShare = 0.02;                  // of a tick in the mean of forces: over about 50 ms
-constexpr double kMoving = 0.005;                      // [m/s] slower is not a motion
+constexpr double kTrocarShare = 0.02;  // of a tick in the mean of forces: over about 50 ms
+constexpr double kMoving = 0.005;      // [m/s] slower is not a motion
 
 }  // namespace
 

@@ -12,7 +12,9 @@ Value pinch(const Moment& moment, const Arguments& a) {
   const interactions::ToolState& tool = moment.state.tools[size_t(a[0].index)];
   return tool.holds > 0 ? Value(tool.pinch) : kUnknown;
 }
-Value contact(const Moment& moment, const Arguments& a) { return norm(moment.state.tools[size_t(a[0].index)].contact_force); }
+Value contact(const Moment& moment, const Arguments& a) {
+  return norm(moment.state.tools[size_t(a[0].index)].contact_force);
+}
 
 }  // namespace
 

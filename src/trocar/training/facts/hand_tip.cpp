@@ -7,7 +7,8 @@ namespace trocar::training {
 namespace {
 
 Value to_mark(const Moment& moment, const Arguments& a) {
-  return length(tip_of(moment.model, moment.state, size_t(a[0].index)) - place_of_mark(moment.model, moment.state, a[1].index));
+  return length(tip_of(moment.model, moment.state, size_t(a[0].index)) -
+                place_of_mark(moment.model, moment.state, a[1].index));
 }
 Value to_hand(const Moment& moment, const Arguments& a) {
   return length(tip_of(moment.model, moment.state, size_t(a[0].index)) -

@@ -5,7 +5,9 @@ namespace trocar::training {
 namespace {
 
 Value in_view(const Moment& moment, const Arguments& a) { return sim::visible(moment.model, moment.state, a[0].index); }
-Value share(const Moment& moment, const Arguments& a) { return sim::visible_share(moment.model, moment.state, a[0].index); }
+Value share(const Moment& moment, const Arguments& a) {
+  return sim::visible_share(moment.model, moment.state, a[0].index);
+}
 
 }  // namespace
 

@@ -11,10 +11,11 @@ double share_of(const std::vector<std::uint8_t>& open) {
 }
 
 Value parted(const Moment& moment, const Arguments& a) {
-  return sim::visit(moment.model, a[0].body(), kUnknown,
-                    sim::Overloaded{[&](sim::MembraneRef fold) -> Value { return share_of(moment.state.torn[fold.index]); },
-                                    [&](sim::SolidRef solid) -> Value { return share_of(moment.state.parted[solid.index]); },
-                                    [](auto) { return kUnknown; }});
+  return sim::visit(
+      moment.model, a[0].body(), kUnknown,
+      sim::Overloaded{[&](sim::MembraneRef fold) -> Value { return share_of(moment.state.torn[fold.index]); },
+                      [&](sim::SolidRef solid) -> Value { return share_of(moment.state.parted[solid.index]); },
+                      [](auto) { return kUnknown; }});
 }
 
 }  // namespace

@@ -119,7 +119,7 @@ void RuleReading::fault(const JsonValue& value, std::string message) const {
 }
 
 void RuleReading::check_keys(const JsonValue& object, const std::string& what,
-                         const std::vector<std::string>& known) const {
+                             const std::vector<std::string>& known) const {
   for (const scene::JsonMember& m : object.members)
     if (std::find(known.begin(), known.end(), m.key) == known.end())
       scene::tell(*faults, {{*file, m.line, m.column}, scene::unknown_name("key of " + what, m.key, known)});

@@ -1,6 +1,6 @@
 // What "$..." means at a place of an exercise file: a limit, a set, within `for_each` an element of the set or one of
-// its members. Whoever reads a part of the file (conditions, steps, demonstrations) is given a RuleReading: what is named
-// there, the scene, and where faults go.
+// its members. Whoever reads a part of the file (conditions, steps, demonstrations) is given a RuleReading: what is
+// named there, the scene, and where faults go.
 //
 //   "$first_clip_mm"   a limit
 //   "$side"            within for_each "side": the element's name; elsewhere: the names of all
