@@ -154,6 +154,26 @@ TEST(Visibility, TheFarSideOfAnOrganIsNotSeen) {
   EXPECT_GT(near_side, 0);
 }
 
+TEST(Visibility, AnOpenVesselInAFoldIsSeenWhereTheFoldIs) {
+  scene::Description d = small::description();
+  d.bleeder = scene::BleederSetting{};
+  d.bleeder->holes.push_back({"fold_artery", 0.5, 0.3e-3, {}});
+  const Model model = scene::compile(d);
+  const int target = model.target_index("bleeder");
+  ASSERT_GE(target, 0);
+  EXPECT_EQ(model.targets[size_t(target)].kind, VisibilityTarget::fold);
+  State state = initial_state(model);
+  Work work = make_work(model);
+  Input away = model.start;
+  away.scope.pitch = 1.3f;
+  for (const bool looks : {true, false}) {
+    for (size_t i = 0; i <= model.samples.size() + 1; ++i) step(model, looks ? model.start : away, state, work);
+    if (!looks)
+      for (int i = 0; i < 1000; ++i) step(model, away, state, work);
+    EXPECT_EQ(visible(model, state, target), looks);
+  }
+}
+
 TEST(Visibility, EverySampleIsLookedAtInTurn) {
   Placed p;
   std::vector<std::uint8_t> marker(p.state.seen.size(), 7);

@@ -105,6 +105,10 @@ TEST(Facts, HaveNamesUnitsBoundsAndMeaningsOfTheirOwn) {
     EXPECT_TRUE(names.insert(event->name).second) << event->name;
     EXPECT_FALSE(event->meaning.empty()) << event->name;
     EXPECT_EQ(find_event(event->name), event);
+    for (const Attribute& a : event->attributes) {
+      EXPECT_LT(a.low, a.high) << event->name << ", " << a.name;
+      EXPECT_FALSE(a.is_truth && a.is_count) << event->name << ", " << a.name;
+    }
   }
   EXPECT_GE(facts().size(), 30u);
   EXPECT_GE(event_kinds().size(), 12u);
@@ -272,6 +276,21 @@ TEST(Facts, ATubeIsFollowedFromItsFimbriaeAtAnEyesPace) {
   expect_value(followed->value(w.moment()), 1);
 }
 
+TEST(Facts, FollowingBeginsAtTheLandmarkThatIsNamed) {
+  World w;
+  const auto followed = [&w](const char* from) {
+    return kStrandFollowed.watch(w.model, {w.strand("tube_left"), word(from), number(0.02), number(0.03), number(0.009),
+                                           number(1), number(0.01)});
+  };
+  const auto from_fimbria = followed("fimbria"), from_ampulla = followed("ampulla");
+  w.see("tube_left", true);
+  w.see("tube_left.fimbria", false);
+  for (int i = 0; i < 200; ++i)
+    for (Observer* o : {from_fimbria.get(), from_ampulla.get()}) o->sample(w.moment(), 0.02);
+  expect_value(from_fimbria->value(w.moment()), 0);
+  expect_value(from_ampulla->value(w.moment()), 1);
+}
+
 TEST(Facts, ALumenIsOpenUntilItIsClippedAndStumpsAreUnknownUntilItIsCut) {
   World w;
   const Arguments tube{w.strand("tube_left"), number(0.98)};
@@ -364,6 +383,53 @@ TEST(Facts, FluidsAreForScenesThatHaveThem) {
   for (int i = 0; i < 50; ++i) flow->sample(w.moment(), 0.02);
   expect_value(flow->value(w.moment()), 0);
   expect_value(w.value(kClock, {}), 5);
+}
+
+/// The small scene, one of whose vessels opens by itself.
+sim::Model opening(const char* vessel, bool carried = true) {
+  scene::Description d = small::description();
+  for (scene::Vessel& v : d.vessels[0].vessels)
+    if (!carried) v.rides_on.clear(), v.rides_at.clear();
+  d.bleeder = scene::BleederSetting{};
+  d.bleeder->holes.push_back({vessel, 0.5, 0.3e-3, {}});
+  return scene::compile(d);
+}
+
+TEST(Facts, WhereAVesselOpensIsAMarkOnWhateverCarriesIt) {
+  for (const char* vessel : {"tube_artery", "fold_artery", "bar_artery"}) {
+    const sim::Model model = opening(vessel);
+    World w{model};
+    const Argument mark = w.mark("bleeder");
+    const interactions::VesselPath& path = model.vessels.list[size_t(model.vessel_index(vessel))].path;
+    EXPECT_LT(length(place_of_mark(model, w.state, mark.index) - path.points[path.points.size() / 2].drawn), 0.006)
+        << vessel;
+    EXPECT_EQ(kBleederUncovered.lacks(model), "") << vessel;
+    const auto free = kBleederUncovered.watch(model, {});
+    w.state.tick = model.vessels.bleeder.tick;
+    free->sample(w.moment(), 0.02);
+    expect_value(free->value(w.moment()), 0.02);
+  }
+}
+
+TEST(Facts, AVesselThatOpensWhereNothingCarriesItCannotBeTold) {
+  const sim::Model model = opening("tube_artery", false);
+  EXPECT_EQ(kBleederUncovered.lacks(model), "a bleeder that can be told");
+  EXPECT_EQ(kBleederCalibre.lacks(model), "");
+}
+
+TEST(Facts, WhatFlowsThroughAVesselIsAMeanOfSomeBeats) {
+  World w{small::model()};
+  const auto flow = kVesselFlow.watch(w.model, {w.named(ArgumentKind::vessel, "tube_artery")});
+  EXPECT_UNKNOWN(flow->value(w.moment()));
+  std::fill(w.state.flow.q.begin(), w.state.flow.q.end(), 2e-7);
+  for (int i = 0; i < 100; ++i) flow->sample(w.moment(), 0.02);
+  expect_value(flow->value(w.moment()), 2e-7, 1e-9);
+  std::fill(w.state.flow.q.begin(), w.state.flow.q.end(), 0.0);
+  for (int i = 0; i < 50; ++i) flow->sample(w.moment(), 0.02);
+  expect_value(flow->value(w.moment()), 1e-7, 1e-9);
+  for (int i = 0; i < 50; ++i) flow->sample(w.moment(), 0.02);
+  expect_value(flow->value(w.moment()), 0, 1e-9);
+  EXPECT_EQ(kVesselFlow.lacks(two_sides::model()), "vessels");
 }
 
 TEST(Facts, HeatIsUnknownWhereNoElectrodeWas) {
@@ -587,6 +653,8 @@ TEST(Catalogue, SaysWhatThereIsAndWhatASceneLacks) {
   EXPECT_EQ(all["facts"].size(), facts().size());
   EXPECT_EQ(all["events"].size(), event_kinds().size());
   EXPECT_FALSE(all.contains("names"));
+  for (const auto& event : all["events"])
+    for (const auto& a : event["attributes"]) EXPECT_EQ(a.contains("to"), a["type"] != "true or false") << a["name"];
   sim::Model dry = two_sides::model();
   dry.wet.there = false;
   const auto here = catalogue(&dry);

@@ -210,6 +210,111 @@ TEST(Rules, WhatTheSceneLacksIsAFaultAtItsPlace) {
   }
 }
 
+struct Hopeless {
+  const char* name;
+  const char* how;  ///< a step is done
+  void (*change)(sim::Model& scene);
+  const char* saying;
+};
+void PrintTo(const Hopeless& h, std::ostream* os) { *os << h.name; }
+
+class AStepThat : public testing::TestWithParam<Hopeless> {};
+
+TEST_P(AStepThat, TheSceneCanNeverMakeTrueIsAFaultAtItsPlace) {
+  const Exercise e = exercise_of(std::string(R"({"step": "do", "title": "Do", )") + GetParam().how + "}");
+  sim::Model model = two_sides::model();
+  if (GetParam().change) GetParam().change(model);
+  Faults faults;
+  check_in_scene(e, model, faults);
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_NE(faults[0].message.find(GetParam().saying), std::string::npos) << faults[0].message;
+  EXPECT_GT(faults[0].at.line, 0);
+  EXPECT_GT(faults[0].at.column, 0);
+}
+
+void only_probes(sim::Model& scene) {
+  for (sim::HandModel& hand : scene.hands)
+    for (interactions::ToolModel& tool : hand.rack) tool.kind = interactions::ToolKind::probe;
+}
+void one_instrument_each(sim::Model& scene) {
+  for (sim::HandModel& hand : scene.hands) hand.rack.resize(1);
+}
+void without_energy(sim::Model& scene) { scene.energy.there = false; }
+void with_a_stripe(sim::Model& scene) {
+  sim::MarkModel stripe;
+  stripe.name = "stripe";
+  stripe.on = sim::MarkModel::strand;
+  scene.targets.push_back({sim::VisibilityTarget::mark, "stripe", std::int32_t(scene.marks.size()), 0, 0});
+  scene.marks.push_back(stripe);
+}
+void with_a_drawn_fold(sim::Model& scene) { scene.drawn_folds.emplace_back().name = "veil"; }
+
+INSTANTIATE_TEST_SUITE_P(
+    Of, AStepThat,
+    testing::Values(
+        Hopeless{"GraspingWithoutJaws", R"("on": {"event": "grasped"})", only_probes, "an instrument that grips"},
+        Hopeless{"LettingGoWithoutJaws", R"("on": {"event": "released"})", only_probes, "an instrument that grips"},
+        Hopeless{"SlippingWithoutJaws", R"("on": {"event": "slipped"})", only_probes, "an instrument that grips"},
+        Hopeless{"ExchangingWithoutAChoice", R"("on": {"event": "exchanged"})", one_instrument_each, "a rack of several"},
+        Hopeless{"PartingWithoutEnergy", R"("on": {"event": "parted"})", without_energy, "scene with energy"},
+        Hopeless{"PartingWithoutAnElectrode", R"("on": {"event": "parted"})", nullptr, "an electrode"},
+        Hopeless{"AnInstrumentThatIsNotInTheRack", R"("when": {"fact": "hand.has", "hand": "a", "kind": "hook"})", nullptr,
+                 "the rack at the trocar \"a\" holds"},
+        Hopeless{"ClipsOfAHandWithoutAnApplier", R"("when": {"fact": "hand.clips_left", "hand": "a", "min": 1})", nullptr,
+                 "a hand with a clip applier"},
+        Hopeless{"AStripeThatFacesSomewhere", R"("when": {"fact": "mark.facing_deg", "of": "stripe", "max": 20})",
+                 with_a_stripe, "\"stripe\", which faces every way"},
+        Hopeless{"ATubeThatFacesSomewhere", R"("when": {"fact": "mark.facing_deg", "of": "tube_left.fimbria", "max": 20})",
+                 nullptr, "faces every way"},
+        Hopeless{"APairOfClipsWithoutAnApplier",
+                 R"("when": {"fact": "clips.first_set", "of": "tube_left", "first_mm": [12, 20], "second_mm": [18, 30],
+                             "apart_mm": [6, 12], "stretch_mm": [10, 30], "angle_deg": 15, "cover": 0.9, "closing_s": 1})",
+                 only_probes, "a clip applier"},
+        Hopeless{"StumpsOfAStrandWithoutLandmarks",
+                 R"("when": {"fact": "strand.stumps_in_view", "of": "cord", "cover": 0.9})", nullptr,
+                 "a strand with landmarks"},
+        Hopeless{"AnEventOnAFoldThatIsDrawnOnly", R"("on": {"event": "clipped", "on": "veil"})", with_a_drawn_fold,
+                 "got one on no body"},
+        Hopeless{"AnEventOnNobody", R"("on": {"event": "clipped", "on": []})", nullptr, "got one on no body"}),
+    [](const auto& of) { return of.param.name; });
+
+/// The first fault of these steps; empty: there is none.
+std::string fault_of(const std::string& steps) {
+  try {
+    exercise_of(steps);
+  } catch (const core::BadInput& bad) {
+    EXPECT_GT(bad.faults()[0].at.line, 0);
+    EXPECT_EQ(bad.faults().size(), 1u);
+    return bad.faults()[0].message;
+  }
+  return {};
+}
+std::string step_when(const char* name, const std::string& when) {
+  return std::string(R"({"step": ")") + name + R"(", "title": "t", "when": )" + when + "}";
+}
+
+TEST(Rules, StepsThatWaitForEachOtherAreAFault) {
+  const std::string late = R"({"fact": "attempt.time_s", "min": 1})";
+  const std::string circle = R"("a" waits for "b", and "b" waits for "a")";
+  const auto both = [](const std::string& a, const std::string& b) {
+    return fault_of(step_when("a", a) + "," + step_when("b", b));
+  };
+  const std::string of_a = R"({"step": "a"})", of_b = R"({"step": "b"})";
+  EXPECT_NE(both(of_b, of_a).find(circle), std::string::npos) << both(of_b, of_a);
+  EXPECT_NE(both(R"({"all": [)" + late + "," + of_b + "]}", of_a).find(circle), std::string::npos);
+  EXPECT_NE(fault_of(step_when("a", of_b) + "," + pulled("b", R"("after": "a")")).find(circle), std::string::npos);
+  EXPECT_NE(both(of_a, late).find(R"("a" waits for itself)"), std::string::npos);
+  const std::string clip = R"({"step": "a", "title": "t", "on": {"event": "clipped", "while": {"step": "a"}}})";
+  EXPECT_NE(fault_of(clip).find(R"("a" waits for itself)"), std::string::npos);
+}
+
+TEST(Rules, StepsThatCanBeDoneOtherwiseAreNoCircle) {
+  const std::string late = R"({"fact": "attempt.time_s", "min": 1})";
+  for (const char* other : {R"({"any": [{"step": "b"}, {"fact": "attempt.time_s", "min": 1}]})",
+                            R"({"not": {"step": "b"}})", R"({"step": "b", "is": "open"})"})
+    EXPECT_EQ(fault_of(step_when("a", other) + "," + step_when("b", R"({"step": "a"})")), "") << other;
+}
+
 TEST(Rules, ASetThatRefersToItselfIsAFault) {
   Faults faults;
   read_exercise(kChanged, faults,

@@ -158,6 +158,19 @@ TEST(Skills, WithdrawStopsAtItsDepth) {
   EXPECT_NEAR(run.state.tools[kGrasper].depth, 0.03, 0.002);
 }
 
+TEST(Skills, SweepPushesTheTubeAside) {
+  const auto away = [](const char* towards) {
+    PlanTask push = at_tube(kSweep, kGrasper, 0.06).set("by_mm", 0.012).set("towards", towards);
+    const Performance run(plan_of({goal("push", {push})}));
+    EXPECT_EQ(run.difficulties(), "");
+    EXPECT_GT(run.state.tools[kGrasper].handle, 0.9) << "closed";
+    const interactions::StrandBody& tube = run.model.strand_bodies[kTube];
+    return point_at(tube, run.state.strands[kTube], interactions::place_at(tube, 0.06)).y;
+  };
+  EXPECT_GT(away("head"), 0.004);
+  EXPECT_LT(away("feet"), -0.004);
+}
+
 TEST(Skills, ViewTurnsPostAndHeadUntilAnObliqueScopeLooksAlongTheNormal) {
   for (const double oblique : {0.0, 30.0}) {
     scene::Description d = small::description();
