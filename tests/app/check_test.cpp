@@ -1,8 +1,11 @@
-// `trocar check` of scenes that can be compiled and are not good: what it says, and that it ends in some seconds.
+// `trocar check` of scenes that can be compiled and are not good: what it says, and that it ends in some seconds. And
+// of exercises with a fault: its place, and what would be right.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <regex>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -176,6 +179,67 @@ TEST_F(Check, AScenesMeshInPiecesIsToMend) {
                          }));
   EXPECT_EQ(r["verdict"], "to mend");
   EXPECT_NE(r["doubts"].dump().find("2 parts that share no face"), std::string::npos) << r["doubts"].dump();
+}
+
+/// Rules of an exercise in the box of vessels; an '@' marks where a fault is expected.
+struct Faulty {
+  const char *name, *rules, *saying;
+};
+
+constexpr const char* kHead =
+    R"({"format": 3, "name": "faulty", "title": "Faulty", "scene": "../box_vessels/scene.json",
+"score": {"quality": 60, "time": 25, "motion": 15, "source": "ours"},
+"hold_s": 0.2, "expert_s": 10, "longest_s": 100, "pass_mark": 50,
+)";
+
+constexpr Faulty kFaulty[] = {
+    {"the scene lacks a fact",
+     R"("steps": [{"step": "a", "title": "A", "when": {"fact": @"blood.lost_mL", "max": 1}}])",
+     "a scene with fluids for \"blood.lost_mL\", got none"},
+    {"a wrong unit", R"("limits": {"long_s": {"value": 1, "source": "ours"}},
+"steps": [{"step": "a", "title": "A", "when": {"fact": "hand.depth_mm", "hand": "left", "min": @"$long_s"}}])",
+     "a limit in the unit \"mm\" (millimetres), got \"long_s\" (seconds)"},
+    {"no price", R"("steps": [{"step": "a", "title": "A", "on": {"event": "clipped"}}],
+"errors": [@{"code": "E", "name": "e", "meaning": "m", "source": "ours", "on": {"event": "grasped"}}])",
+     "a price for E: points, or fails: true, got none"},
+    {"nothing can make it true", R"("steps": [@{"step": "a", "title": "A"}])",
+     "when or on for the step \"a\", got neither: nothing can make it true"},
+    {"an event on no body", R"("steps": [{"step": "a", "title": "A", "on": @{"event": "clipped", "on": []}}])",
+     "an event that can make the step \"a\" true, got one on no body"},
+    {"a circle of after", R"("steps": [@{"step": "a", "title": "A", "after": "b", "on": {"event": "clipped"}},
+{"step": "b", "title": "B", "after": "a", "on": {"event": "clipped"}}])",
+     "got a circle: \"a\" waits for \"b\", and \"b\" waits for \"a\""},
+    {"a circle of when", R"("steps": [@{"step": "a", "title": "A", "when": {"step": "b"}},
+{"step": "b", "title": "B", "when": {"step": "a"}}])",
+     "got a circle: \"a\" waits for \"b\", and \"b\" waits for \"a\""},
+    {"an attribute out of bounds",
+     R"("steps": [{"step": "a", "title": "A", "on": {"event": "clipped", "angle_deg": @{"min": 500}}}])",
+     "what \"angle_deg\" can be, 0 to 90 deg, got at least 500"},
+    {"a count out of bounds",
+     R"("steps": [{"step": "a", "title": "A", "on": {"event": "clipped", "tips_visible": @3}}])",
+     "what \"tips_visible\" can be, 0 to 2, got 3"},
+};
+
+/// Takes the '@' out. @return "line:column" of where it stood
+std::string place_of_mark(std::string& text) {
+  const std::size_t at = text.find('@');
+  text.erase(at, 1);
+  const auto line = 1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(at), '\n');
+  return fmt::format("{}:{}", line, at - text.rfind('\n', at));
+}
+
+TEST_F(Check, AnExercisesFaultIsToldWithItsPlaceAndWhatWouldBeRight) {
+  for (const Faulty& faulty : kFaulty) {
+    std::string text = std::string(kHead) + faulty.rules + "}\n";
+    const std::string place = place_of_mark(text);
+    std::ofstream(scenes("basics/faulty.json")) << text;
+    const Outcome o = trocar({"check", scenes("basics/faulty.json").string()});
+    EXPECT_EQ(o.exit, core::kBadInput) << faulty.name;
+    EXPECT_NE(o.err.find("basics/faulty.json:" + place + ": expected "), std::string::npos)
+        << faulty.name << ", " << place << "\n"
+        << o.err;
+    EXPECT_NE(o.err.find(faulty.saying), std::string::npos) << faulty.name << "\n" << o.err;
+  }
 }
 
 }  // namespace
