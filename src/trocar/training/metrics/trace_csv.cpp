@@ -195,7 +195,7 @@ class CsvReader {
               "expected a decimal number, not too large, got " + shown(field));
       return value;
     };
-    const double time = value_of(steps(kTimeDecimals, kMaxSteps), kTimeScale);
+    const double time = value_of(steps(kTimeDecimals, kMaxTraceSteps), kTimeScale);
     if (m_rows == 0) m_trace.start = time;
     if (std::fabs(time - m_trace.time(m_rows)) > 0.25 / m_trace.rate)
       fault(1, fmt::format("expected the time {:.6f} s, as the rate says, got {}", m_trace.time(m_rows),
