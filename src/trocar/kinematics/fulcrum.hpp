@@ -3,6 +3,7 @@
 // so that at zero angles the shaft points to the patient's back. Jaws open along R (1,0,0).
 #pragma once
 
+#include <trocar/numerics/portable.hpp>
 #include <trocar/numerics/vec3.hpp>
 
 namespace trocar::kinematics {
@@ -26,7 +27,7 @@ struct TipFrame {
 struct FulcrumLimits {
   double angle = 1.45;                          ///< yaw and pitch, [rad]
   double depth_min = 0.005, depth_max = 0.290;  ///< [m]
-  double roll = 6.2831853071795864;             ///< [rad]
+  double roll = portable::two_pi;               ///< [rad]
 };
 
 /// Forward kinematics.

@@ -15,5 +15,6 @@ double exp(double x) noexcept;   ///< 0 below -708, clamps above 709
 double log(double x) noexcept;   ///< x > 0
 
 inline constexpr double pi = std::numbers::pi;  ///< the one that all of Trocar uses
+inline constexpr double two_pi = 2 * pi;
 
 }  // namespace trocar::portable
