@@ -9,8 +9,9 @@
 namespace trocar::view {
 namespace {
 
-constexpr std::uint32_t kAround = 10;
-constexpr double kThick = 0.0007, kHeadThick = 0.0018, kHeadLong = 0.0045;  // [m] radii, length of a full-grown arrow
+constexpr std::uint32_t kArrowAround = 10;
+constexpr double kArrowThick = 0.0007, kHeadThick = 0.0018,
+                 kHeadLong = 0.0045;  // [m] radii, length of a full-grown arrow
 
 void add_grip(const sim::Model& model, const sim::State& state, int hand, std::vector<ForceArrow>& to) {
   const interactions::ToolState& tool = state.tools[std::size_t(hand)];
@@ -42,8 +43,8 @@ struct Stick {
 
 /// @param lean  of the normals, along the arrow: 0 a rod's, far below it its back's
 void ring(MeshBuffer& b, const Stick& stick, Vec3d at, double radius, double lean) {
-  for (std::uint32_t k = 0; k < kAround; ++k) {
-    const double angle = 2 * portable::pi * k / kAround;
+  for (std::uint32_t k = 0; k < kArrowAround; ++k) {
+    const double angle = 2 * portable::pi * k / kArrowAround;
     const Vec3d out = std::cos(angle) * stick.axes[0] + std::sin(angle) * stick.axes[1];
     b.add(vec_cast<float>(at + radius * out), stick.paint);
     b.normals.push_back(vec_cast<float>(normalised(out + lean * stick.axes[2], out)));
@@ -60,13 +61,14 @@ void add_arrow(Vec3d tail, Vec3d tip, render::Paint paint, MeshBuffer& b) {
   const std::uint32_t first = b.size();
   constexpr double kBack = -1000, kCone = 0.4;
   ring(b, stick, tail, 0, kBack);
-  ring(b, stick, tail, kThick * grown, 0);
-  ring(b, stick, neck, kThick * grown, 0);
-  ring(b, stick, neck, kThick * grown, kBack);
+  ring(b, stick, tail, kArrowThick * grown, 0);
+  ring(b, stick, neck, kArrowThick * grown, 0);
+  ring(b, stick, neck, kArrowThick * grown, kBack);
   ring(b, stick, neck, kHeadThick * grown, kBack);
   ring(b, stick, neck, kHeadThick * grown, kCone);
   ring(b, stick, tip, 0, kCone);
-  for (std::uint32_t k = 0; k + 1 < 7; ++k) join_rows(b, first + k * kAround, first + (k + 1) * kAround, kAround, true);
+  for (std::uint32_t k = 0; k + 1 < 7; ++k)
+    join_rows(b, first + k * kArrowAround, first + (k + 1) * kArrowAround, kArrowAround, true);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 namespace trocar::view {
 namespace {
 
-constexpr std::uint32_t kAround = 12;
+constexpr std::uint32_t kStrainAround = 12;
 
 void paint_by_strain(const AnalysisOptions& o, FalseColourMesh& mesh) {
   mesh.buffer.paint.resize(mesh.value.size());
@@ -132,8 +132,8 @@ void StrainSurfaces::update_strand(std::size_t i, const sim::State& state, const
     const Vec3d tangent = normalised(now.x[last ? node : node + 1] - now.x[first ? node : node - 1], Vec3d{1, 0, 0});
     across = normalised(across - dot(across, tangent) * tangent, any_perpendicular(tangent));
     for (int side = first ? 1 : 0; side < (last ? 1 : 2); ++side)  // the end of one element, the beginning of the next
-      for (std::uint32_t k = 0; k < kAround; ++k) {
-        const double angle = 2 * portable::pi * k / kAround;
+      for (std::uint32_t k = 0; k < kStrainAround; ++k) {
+        const double angle = 2 * portable::pi * k / kStrainAround;
         const Vec3d out = std::cos(angle) * across + std::sin(angle) * cross(tangent, across);
         mesh.buffer.positions.push_back(vec_cast<float>(now.x[node] + m_model->strands[i].outer[node] * out));
         mesh.buffer.normals.push_back(vec_cast<float>(out));
@@ -141,7 +141,7 @@ void StrainSurfaces::update_strand(std::size_t i, const sim::State& state, const
       }
   }
   for (std::uint32_t e = 0; e + 1 < now.x.size(); ++e)
-    if (now.alive[e]) join_rows(mesh.buffer, 2 * e * kAround, (2 * e + 1) * kAround, kAround, true);
+    if (now.alive[e]) join_rows(mesh.buffer, 2 * e * kStrainAround, (2 * e + 1) * kStrainAround, kStrainAround, true);
   paint_by_strain(o, mesh);
   mesh.show(backend, mesh.buffer.indices != before);
 }

@@ -8,25 +8,25 @@
 namespace trocar::view {
 namespace {
 
-constexpr double kNearest = 0.005, kFarthest = 0.04;  // [m] from what they begin on to what they end on
-constexpr double kCurtain = 0.018;                    // [m] shorter curtains would not be seen to span
-constexpr float kLevel = 0.1f;                        // sine: steeper ones would hang down to where blood gathers
-constexpr int kFromStill = 2;                         // curtains, at most
-constexpr float kSteepest = 0.6f;                     // sine: below an organ blood gathers, which would cut them off
-constexpr float kLate = 0.6f;                         // of the way: what is there already ...
-constexpr double kClear = 0.7;                        // sine: ... so flat over a wall would sink into it too soon
-constexpr float kAim = 0.014f;                        // [m] outwards and up: what lies there is aimed at
-constexpr float kApart = 0.014f;                      // [m] between two
-constexpr float kOffSkin = 0.003f;                    // [m] a broad foot follows a gut that bends away below it
-constexpr float kSunk = 0.0012f;                      // [m] both ends, in what they hang on
-constexpr double kFoot = 0.30;                        // of the length: there it is lost in what it hangs on ...
+constexpr double kAdhesionNearest = 0.005, kAdhesionFarthest = 0.04;  // [m] from what they begin on to what they end on
+constexpr double kCurtain = 0.018;                                    // [m] shorter curtains would not be seen to span
+constexpr float kAdhesionLevel = 0.1f;     // sine: steeper ones would hang down to where blood gathers
+constexpr int kFromStill = 2;              // curtains, at most
+constexpr float kAdhesionSteepest = 0.6f;  // sine: below an organ blood gathers, which would cut them off
+constexpr float kLate = 0.6f;              // of the way: what is there already ...
+constexpr double kAdhesionClear = 0.7;     // sine: ... so flat over a wall would sink into it too soon
+constexpr float kAim = 0.014f;             // [m] outwards and up: what lies there is aimed at
+constexpr float kAdhesionApart = 0.014f;   // [m] between two
+constexpr float kOffSkin = 0.003f;         // [m] a broad foot follows a gut that bends away below it
+constexpr float kAdhesionSunk = 0.0012f;   // [m] both ends, in what they hang on
+constexpr double kFoot = 0.30;             // of the length: there it is lost in what it hangs on ...
 // Our choice, from the look of adhesions in endoscopic films.
-constexpr double kWhole = 0.42;         // openness from which the material's opacity counts in full (surface.frag)
-constexpr double kSheer = 0.46;         // of that, between strands
-constexpr double kCurtainSheer = 0.76;  // the same of a curtain
-constexpr double kFrayed = 0.1;         // of half the width
-constexpr double kCord = 0.84;          // of half the width: where a border is rolled up
-constexpr double kHem = 0.85;           // of half the width: where a veil's border is folded over
+constexpr double kAdhesionWhole = 0.42;  // openness from which the material's opacity counts in full (surface.frag)
+constexpr double kSheer = 0.46;          // of that, between strands
+constexpr double kCurtainSheer = 0.76;   // the same of a curtain
+constexpr double kAdhesionFrayed = 0.1;  // of half the width
+constexpr double kCord = 0.84;           // of half the width: where a border is rolled up
+constexpr double kHem = 0.85;            // of half the width: where a veil's border is folded over
 constexpr double kString = 0.2, kBroad = 0.34;  // waists
 constexpr double kVeilFoot = 0.18;              // ... and of a veil's length
 constexpr double kFimbriae = 0.014;             // [m] so long
@@ -46,7 +46,7 @@ Paint paint_at(double u, double v, double waist, double sheer, int seed) {
   const double end = std::min(u, 1 - u), border = std::fabs(v), side = v > 0 ? 1 : -1;
   const double ragged = 0.35 * std::sin(7 * v + 3) + 0.65, sides = kTongue * border * border * ragged;
   const double foot = smooth(0.3 * sides, (waist > kString ? kVeilFoot : kFoot) + sides, end);
-  const double frayed = border + kFrayed * std::sin(11 * u + seed + 2 * side) * std::sin(23 * u + 1.3 * seed);
+  const double frayed = border + kAdhesionFrayed * std::sin(11 * u + seed + 2 * side) * std::sin(23 * u + 1.3 * seed);
   const double broad = smooth(kString, kBroad, waist);  // 0: a string, which is denser
   const double soft = smooth(1.0, 0.7 + 0.14 * broad, frayed);
   const double across = v + 0.12 * std::sin(5 * u + seed);
@@ -58,7 +58,7 @@ Paint paint_at(double u, double v, double waist, double sheer, int seed) {
   const double veil = sheer * (broad + (1 - broad) * torn) * (0.55 + 0.45 * torn);
   const double web = std::max({veil, (0.85 - 0.3 * broad) * strands, (1 - broad) * cord, narrow, hem});
   const double dense = std::max({0.30 * strands, 0.42 * cord, 0.36 * narrow, 0.7 * hem});
-  return {to_byte(kWhole * foot * soft * web), 0, 0, to_byte(smooth(0.06, 0.4, end) * soft * dense)};
+  return {to_byte(kAdhesionWhole * foot * soft * web), 0, 0, to_byte(smooth(0.06, 0.4, end) * soft * dense)};
 }
 
 }  // namespace
@@ -128,18 +128,20 @@ void Adhesions::choose(const Source& source, int count, const WallSurface& walls
     const auto v = std::size_t(varied(seed, 3) * double(source.points.size() - 1));
     const Vec3f p = source.points[v], n = source.normals[v];
     const auto close = [&](const Veil& other) {
-      return other.on.organ == source.organ && length(other.on.points[other.from[kAcross / 2].vertex] - p) < kApart;
+      return other.on.organ == source.organ &&
+             length(other.on.points[other.from[kAcross / 2].vertex] - p) < kAdhesionApart;
     };
     if (std::any_of(m_veils.begin(), m_veils.end(), close)) continue;
     const Vec3d aim{varied(seed, 4) - 0.5, varied(seed, 5) - 0.5, varied(seed, 6) - 0.5};
     const WallSurface::Place wall = walls.nearest(vec_cast<double>(p + kAim * (n - m_down)) + 0.016 * aim);
     const Vec3f way = vec_cast<float>(wall.point) - p;
     const float far = length(way);
-    if (!wall.there || far < (source.curtains ? kCurtain : kNearest) || far > kFarthest || dot(way, n) < 0.35f * far)
+    if (!wall.there || far < (source.curtains ? kCurtain : kAdhesionNearest) || far > kAdhesionFarthest ||
+        dot(way, n) < 0.35f * far)
       continue;
-    if (dot(way, m_down) > (source.curtains ? kLevel : kSteepest) * far) continue;
+    if (dot(way, m_down) > (source.curtains ? kAdhesionLevel : kAdhesionSteepest) * far) continue;
     const Vec3d late = vec_cast<double>(p + kLate * way);
-    if (length(walls.nearest(late).point - late) < kClear * double((1 - kLate) * far)) continue;
+    if (length(walls.nearest(late).point - late) < kAdhesionClear * double((1 - kLate) * far)) continue;
     const Vec3f side = normalised(cross(way, m_down + 1.2f * vec_cast<float>(aim)), any_perpendicular(normalised(way)));
     const auto [half, waist] = width_of(source, seed);
     Veil veil{source, {}, {}, 0, 0, seed};
@@ -151,7 +153,7 @@ void Adhesions::choose(const Source& source, int count, const WallSurface& walls
       const Vec3f off = p + beside - source.points[vertex];
       veil.from[j] = {vertex, (kOffSkin / std::max(length(off), kOffSkin)) * off};
       const WallSurface::Place foot = walls.nearest(wall.point + 1.3 * vec_cast<double>(beside));
-      veil.to[j] = vec_cast<float>(foot.point) - kSunk * vec_cast<float>(foot.normal);
+      veil.to[j] = vec_cast<float>(foot.point) - kAdhesionSunk * vec_cast<float>(foot.normal);
     }
     if (clear(veil)) m_veils.push_back(veil);
   }
@@ -177,7 +179,7 @@ void Adhesions::place_veil(const Veil& veil, std::span<const Vec3f> points, std:
   for (std::size_t j = 0; j < kAcross; ++j) {
     const OnSkin& at = veil.from[j];
     const Vec3f n = normals[at.vertex];
-    from[j] = points[at.vertex] + at.beside - (dot(at.beside, n) + kSunk) * n;
+    from[j] = points[at.vertex] + at.beside - (dot(at.beside, n) + kAdhesionSunk) * n;
   }
   const Vec3f a = from[kAcross / 2], b = veil.to[kAcross / 2];
   const float far = length(b - a);

@@ -11,10 +11,10 @@
 namespace trocar::view {
 namespace {
 
-constexpr double kRadius = 0.0105;  // [m] of small bowel
-constexpr double kFloor = 0.35;     // cosine between up and the normal of what counts as a floor
-constexpr double kEnd = 0.016;      // [m] of the large bowel's end around its last vertex
-constexpr double kBack = 0.012;     // [m] that its continuation begins inside it
+constexpr double kRadius = 0.0105;   // [m] of small bowel
+constexpr double kFloor = 0.35;      // cosine between up and the normal of what counts as a floor
+constexpr double kEnd = 0.016;       // [m] of the large bowel's end around its last vertex
+constexpr double kLoopBack = 0.012;  // [m] that its continuation begins inside it
 
 /// A place on the border and across it.
 struct Edge {
@@ -131,14 +131,14 @@ GutEnd end_at(const tissue::Skin& skin, Vec3d tip) {
 GutLine large_bowel(const GutEnd& end, const Floor& floor) {
   const Vec3d up = floor.up_at(0.3);
   const Vec3d away = normalised(end.onward - 0.25 * up);
-  const Vec3d knots[] = {end.middle - kBack * end.onward,        end.middle,
+  const Vec3d knots[] = {end.middle - kLoopBack * end.onward,    end.middle,
                          end.middle + 0.02 * end.onward,         end.middle + 0.042 * away,
                          end.middle + 0.065 * away - 0.012 * up, end.middle + 0.085 * away - 0.05 * up};
   GutLine line;
   line.points = line_through(knots);
   for (std::size_t i = 0; i < line.points.size(); ++i) {
-    const double along = kGutStep * double(i) - kBack;  // inside its end first, then around it, as the next bulge
-    line.radius.push_back(end.radius * (0.8 + 0.18 * smooth(-0.6 * kBack, 0.004, along)) *
+    const double along = kGutStep * double(i) - kLoopBack;  // inside its end first, then around it, as the next bulge
+    line.radius.push_back(end.radius * (0.8 + 0.18 * smooth(-0.6 * kLoopBack, 0.004, along)) *
                           (1 + 0.07 * std::sin(6.283 * along / 0.027 - 0.4)));
     line.hold.push_back(1);
   }
@@ -148,14 +148,14 @@ GutLine large_bowel(const GutEnd& end, const Floor& floor) {
 /// At its other end the rectum goes on behind the womb and down below the floor of the pouch.
 GutLine rectum(const GutEnd& end, Vec3d up) {
   const Vec3d away = normalised(end.onward - dot(end.onward, up) * up, end.onward);
-  const Vec3d knots[] = {end.middle - kBack * end.onward,        end.middle,
+  const Vec3d knots[] = {end.middle - kLoopBack * end.onward,    end.middle,
                          end.middle + 0.012 * end.onward,        end.middle + 0.026 * away - 0.006 * up,
                          end.middle + 0.036 * away - 0.022 * up, end.middle + 0.04 * away - 0.05 * up};
   GutLine line;
   line.points = line_through(knots);
   for (std::size_t i = 0; i < line.points.size(); ++i) {
-    const double along = kGutStep * double(i) - kBack;
-    line.radius.push_back(end.radius * (0.8 + 0.18 * smooth(-0.6 * kBack, 0.004, along)));
+    const double along = kGutStep * double(i) - kLoopBack;
+    line.radius.push_back(end.radius * (0.8 + 0.18 * smooth(-0.6 * kLoopBack, 0.004, along)));
     line.hold.push_back(1);
   }
   return line;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/numerics/portable.hpp>
 #include <trocar/render/meshes/mesh_arrays.hpp>
 #include <trocar/view/anatomy/drape.hpp>
 #include <trocar/view/bodies/cavity.hpp>
@@ -8,15 +9,14 @@
 namespace trocar::view {
 namespace {
 
-constexpr int kSpokes = 72, kOnRings = 18, kRings = 38;  // on the organ; all
-constexpr std::size_t kTop = 5;                          // rings of its crown
-constexpr std::size_t kHemRows = 16;                     // that take on the wall's normal
-constexpr float kAway = 0.036f;     // [m] how far from the organ's rim its sheet reaches a wall, about
-constexpr float kOver = 0.0022f;    // [m] above the organ, whose relief is that high
-constexpr float kShoulder = 0.7f;   // [rad] how far the plane leans that touches the organ where the sheet leaves it
-constexpr float kSunk = 0.004f;     // [m] the hem below what it runs out on
-constexpr float kOnWall = 0.0015f;  // [m] ... or a wall
-constexpr double kTwoPi = 6.28318530717959;
+constexpr int kSpokes = 72, kOnRings = 18, kDrapeRings = 38;  // on the organ; all
+constexpr std::size_t kTop = 5;                               // rings of its crown
+constexpr std::size_t kDrapeHemRows = 16;                     // that take on the wall's normal
+constexpr float kAway = 0.036f;        // [m] how far from the organ's rim its sheet reaches a wall, about
+constexpr float kDrapeOver = 0.0022f;  // [m] above the organ, whose relief is that high
+constexpr float kShoulder = 0.7f;      // [rad] how far the plane leans that touches the organ where the sheet leaves it
+constexpr float kDrapeSunk = 0.004f;   // [m] the hem below what it runs out on
+constexpr float kOnWall = 0.0015f;     // [m] ... or a wall
 
 constexpr double kFolds = 0.0028, kFoldSize = 0.019;  // [m] depth of the furrows of an empty bladder's sheet, distance
 constexpr double kLifted = 0.6;                       // share of it that the folds stand above the sheet
@@ -63,7 +63,7 @@ Drape::Drape(const sim::Model& model, int solid, const std::vector<OrganDrawing>
   m_up = normalised(vec_cast<float>(model.scope.port) - centre, Vec3f{0, 1, 0});
   const Vec3f x = any_perpendicular(m_up), y = cross(m_up, x);
   for (int k = 0; k < kSpokes; ++k) {
-    const float a = float(kTwoPi * k / kSpokes);
+    const float a = float(portable::two_pi * k / kSpokes);
     Spoke spoke;
     spoke.out = std::cos(a) * x + std::sin(a) * y;
     // Where planes that lean more and more touch the organ: the sheet spans its hollows.
@@ -97,17 +97,17 @@ Drape::Drape(const sim::Model& model, int solid, const std::vector<OrganDrawing>
       if (organ >= 0 && std::count(m_follows.begin(), m_follows.end(), organ) == 0) m_follows.push_back(organ);
   }
   for (int k = 0; k < kSpokes; ++k)
-    for (int r = 0; r < kRings; ++r) m_buffer.add({});
+    for (int r = 0; r < kDrapeRings; ++r) m_buffer.add({});
   for (std::uint32_t k = 0; k < std::uint32_t(kSpokes); ++k)
-    join_rows(m_buffer, (k + 1) % kSpokes * kRings, k * kRings, kRings, false);
+    join_rows(m_buffer, (k + 1) % kSpokes * kDrapeRings, k * kDrapeRings, kDrapeRings, false);
   place(organs);
   m_buffer.rest = m_buffer.positions;
   fold();
   place(organs);
   for (int k = 0; k < kSpokes; ++k)
-    for (int r = 0; r < kRings; ++r) {
-      const std::size_t i = std::size_t(k * kRings + r);
-      const double w = double(r) / (kRings - 1);
+    for (int r = 0; r < kDrapeRings; ++r) {
+      const std::size_t i = std::size_t(k * kDrapeRings + r);
+      const double w = double(r) / (kDrapeRings - 1);
       const double wall = m_spokes[std::size_t(k)].hem.solid < 0 ? 1 : 0;  // on the womb it keeps its own
       // Goes over into the wall's colour; furrows lie in shade.
       const double deep = std::clamp(kLifted - double(m_fold[i]) / kFolds, 0.0, 1.0);
@@ -121,7 +121,7 @@ Drape::Drape(const sim::Model& model, int solid, const std::vector<OrganDrawing>
 
 void Drape::fold() {
   for (std::size_t i = 0; i < m_buffer.rest.size(); ++i) {
-    const double w = double(i % kRings) / (kRings - 1);
+    const double w = double(i % kDrapeRings) / (kDrapeRings - 1);
     m_fold.push_back(float(kFolds * (kLifted - furrow_at(vec_cast<double>(m_buffer.rest[i]))) * smooth(0.85, 0.3, w)));
   }
 }
@@ -137,7 +137,7 @@ void Drape::place(const std::vector<OrganDrawing>& organs) {
     } else {
       const OrganDrawing& other = organs[std::size_t(s.hem.solid)];
       m_hem.push_back(other.positions()[std::size_t(s.hem.vertex)] -
-                      kSunk * other.normals()[std::size_t(s.hem.vertex)]);
+                      kDrapeSunk * other.normals()[std::size_t(s.hem.vertex)]);
     }
   }
   for (std::vector<Vec3f>& ring : on) soften(ring, m_even, 5);
@@ -147,45 +147,46 @@ void Drape::place(const std::vector<OrganDrawing>& organs) {
       const float x = float(r) / float(kOnRings - 1) * float(kDrapeSupports - 1);
       const auto j = std::size_t(std::min(int(x), kDrapeSupports - 2));
       const float t = x - float(j), out = x / float(kDrapeSupports - 1);
-      m_buffer.positions[k * kRings + std::size_t(r)] =
-          (1 - t) * on[j][k] + t * on[j + 1][k] + kOver * normalised(out * m_spokes[k].out + m_up);
+      m_buffer.positions[k * kDrapeRings + std::size_t(r)] =
+          (1 - t) * on[j][k] + t * on[j + 1][k] + kDrapeOver * normalised(out * m_spokes[k].out + m_up);
     }
     // It leaves the organ on its tangent, to the hem.
-    const Vec3f b = m_buffer.positions[k * kRings + kOnRings - 1],
-                before = m_buffer.positions[k * kRings + kOnRings - 6];
+    const Vec3f b = m_buffer.positions[k * kDrapeRings + kOnRings - 1],
+                before = m_buffer.positions[k * kDrapeRings + kOnRings - 6];
     const Vec3f slope = normalised(b - before, m_spokes[k].out), way = m_hem[k] - b;
     // On a wall it ends along it, as a fillet does: an edge there would catch the light like the rim of a dish.
     const Hem& hem = m_spokes[k].hem;
     const Vec3f flat = hem.solid < 0 ? normalised(way - dot(way, hem.normal) * hem.normal, m_spokes[k].out)
                                      : normalised(way - 0.8f * dot(way, m_up) * m_up);
     const float reach = length(way);
-    for (int r = kOnRings; r < kRings; ++r) {
-      const float t = float(r - kOnRings + 1) / float(kRings - kOnRings), u = 1 - t;
+    for (int r = kOnRings; r < kDrapeRings; ++r) {
+      const float t = float(r - kOnRings + 1) / float(kDrapeRings - kOnRings), u = 1 - t;
       Vec3f p = (u * u * (1 + 2 * t)) * b + (t * t * (3 - 2 * t)) * m_hem[k] + (0.7f * reach * u * u * t) * slope -
                 (0.7f * reach * t * t * u) * flat;
       p += float(0.0011 * double(t * u) * 4 *
                  waves(vec_cast<double>(m_spokes[k].out) * 0.06 + Vec3d{0, 0, 0.01 * double(t)}, 0.02)) *
            m_up;
-      m_buffer.positions[k * kRings + std::size_t(r)] = p;
+      m_buffer.positions[k * kDrapeRings + std::size_t(r)] = p;
     }
   }
   // Along each spoke corners are rounded, too.
   for (int pass = 0; pass < 16; ++pass)
     for (std::size_t k = 0; k < m_spokes.size(); ++k)
-      for (std::size_t r = 1; r + 1 < kRings; ++r) {
-        Vec3f& p = m_buffer.positions[k * kRings + r];
-        p = 0.5f * p + 0.25f * (m_buffer.positions[k * kRings + r - 1] + m_buffer.positions[k * kRings + r + 1]);
+      for (std::size_t r = 1; r + 1 < kDrapeRings; ++r) {
+        Vec3f& p = m_buffer.positions[k * kDrapeRings + r];
+        p = 0.5f * p +
+            0.25f * (m_buffer.positions[k * kDrapeRings + r - 1] + m_buffer.positions[k * kDrapeRings + r + 1]);
       }
   round_top();
   for (std::size_t i = 0; i < m_fold.size(); ++i) m_buffer.positions[i] += m_fold[i] * m_up;
   render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);
   Vec3f crown{};
-  for (std::size_t k = 0; k < m_spokes.size(); ++k) crown += m_buffer.normals[k * kRings];
-  for (std::size_t k = 0; k < m_spokes.size(); ++k) m_buffer.normals[k * kRings] = normalised(crown, m_up);
+  for (std::size_t k = 0; k < m_spokes.size(); ++k) crown += m_buffer.normals[k * kDrapeRings];
+  for (std::size_t k = 0; k < m_spokes.size(); ++k) m_buffer.normals[k * kDrapeRings] = normalised(crown, m_up);
   for (std::size_t k = 0; k < m_spokes.size(); ++k)  // no seam: as the wall's at the hem
-    for (std::size_t r = kRings - kHemRows; r < kRings && m_spokes[k].hem.solid < 0; ++r) {
-      Vec3f& n = m_buffer.normals[k * kRings + r];
-      const float w = float(smooth(0, 1, double(r + kHemRows + 1 - kRings) / kHemRows));
+    for (std::size_t r = kDrapeRings - kDrapeHemRows; r < kDrapeRings && m_spokes[k].hem.solid < 0; ++r) {
+      Vec3f& n = m_buffer.normals[k * kDrapeRings + r];
+      const float w = float(smooth(0, 1, double(r + kDrapeHemRows + 1 - kDrapeRings) / kDrapeHemRows));
       const Vec3f hem = m_spokes[k].hem.normal;
       n = normalised((1 - w) * n + (dot(n, hem) < 0 ? -w : w) * hem, n);
     }
@@ -196,13 +197,13 @@ void Drape::place(const std::vector<OrganDrawing>& organs) {
 void Drape::round_top() {
   Vec3f middle{};
   for (std::size_t k = 0; k < m_spokes.size(); ++k)
-    middle += m_buffer.positions[k * kRings + kTop] / float(m_spokes.size());
+    middle += m_buffer.positions[k * kDrapeRings + kTop] / float(m_spokes.size());
   const float high = dot(m_buffer.positions[0] - middle, m_up);
   for (std::size_t k = 0; k < m_spokes.size(); ++k) {
-    const Vec3f rim = m_buffer.positions[k * kRings + kTop];
+    const Vec3f rim = m_buffer.positions[k * kDrapeRings + kTop];
     for (std::size_t r = 0; r < kTop; ++r) {
       const float t = float(r) / float(kTop);
-      m_buffer.positions[k * kRings + r] = middle + t * (rim - middle) + (high * (1 - t * t)) * m_up;
+      m_buffer.positions[k * kDrapeRings + r] = middle + t * (rim - middle) + (high * (1 - t * t)) * m_up;
     }
   }
 }

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <trocar/geometry/surfaces/nearest.hpp>
+#include <trocar/numerics/portable.hpp>
 #include <trocar/render/meshes/mesh_arrays.hpp>
 #include <trocar/view/anatomy/fat_tags.hpp>
 #include <trocar/view/anatomy/lobules.hpp>
@@ -10,15 +11,14 @@
 namespace trocar::view {
 namespace {
 
-constexpr double kTwoPi = 6.28318530717959;
-constexpr double kApart = 0.014;             // [m] between two tags of middle size
+constexpr double kTagApart = 0.014;          // [m] between two tags of middle size
 constexpr double kLow = -0.25, kHigh = 0.7;  // sine of the skin's slope: they hang on its sides
-constexpr double kSunk = 0.0012;             // [m] a tag's border lies below the skin
-constexpr float kAround = 0.03f;             // [m] skin around a tag's middle
-constexpr float kFarthest = 0.0032f;  // [m] that the skin may bend away below its base: none on the narrow rectum
-constexpr float kReach = 0.009f;      // [m] the same and an edge of the skin
-constexpr int kSides = 48, kRings = 18;
-constexpr double kTip = 0.34;  // of the way from the border to the middle: so far out it hangs the lowest
+constexpr double kTagSunk = 0.0012;          // [m] a tag's border lies below the skin
+constexpr float kTagAround = 0.03f;          // [m] skin around a tag's middle
+constexpr float kTagFarthest = 0.0032f;  // [m] that the skin may bend away below its base: none on the narrow rectum
+constexpr float kTagReach = 0.009f;      // [m] the same and an edge of the skin
+constexpr int kTagSides = 48, kTagRings = 18;
+constexpr double kTagTip = 0.34;  // of the way from the border to the middle: so far out it hangs the lowest
 
 Mat3f frame_at(const OrganDrawing& organ, std::uint32_t at, std::uint32_t beside) {
   const Vec3f n = organ.normals()[at], way = organ.positions()[beside] - organ.positions()[at];
@@ -27,12 +27,12 @@ Mat3f frame_at(const OrganDrawing& organ, std::uint32_t at, std::uint32_t beside
 }
 
 /// The skin that a tag may lie on.
-class Ground {
+class TagGround {
  public:
-  Ground(const OrganDrawing& organ, const tissue::Skin& skin, std::uint32_t at) : m_organ(&organ) {
+  TagGround(const OrganDrawing& organ, const tissue::Skin& skin, std::uint32_t at) : m_organ(&organ) {
     const Vec3f middle = organ.positions()[at];
     for (const auto& t : skin.triangles)
-      if (length(organ.positions()[std::size_t(t[0])] - middle) < kAround)
+      if (length(organ.positions()[std::size_t(t[0])] - middle) < kTagAround)
         m_triangles.push_back({std::uint32_t(t[0]), std::uint32_t(t[1]), std::uint32_t(t[2])});
   }
 
@@ -42,7 +42,7 @@ class Ground {
     float nearest = 1e9f;
     for (const auto& t : m_triangles) {
       const std::span<const Vec3f> x = m_organ->positions();
-      if (length(x[t[0]] - p) > kReach) continue;
+      if (length(x[t[0]] - p) > kTagReach) continue;
       const auto found = geometry::closest_on_triangle(p, x[t[0]], x[t[1]], x[t[2]]);
       if (found.distance2 >= nearest) continue;
       nearest = found.distance2;
@@ -89,11 +89,12 @@ struct Bulge {
 
 Bulge bulge(const Form& form, double turn, double t) {
   const double over = form.over(turn), steep = smooth(0, 0.6 * form.hang, over);
-  const double flat = smooth(0, 1, t), round = std::sin(0.25 * kTwoPi * std::min(1.0, t / 0.75));
+  const double flat = smooth(0, 1, t), round = std::sin(0.25 * portable::two_pi * std::min(1.0, t / 0.75));
   const double rise = (1 - steep) * flat + steep * round;
-  const double tip = t < kTip ? std::sin(0.25 * kTwoPi * t / kTip) : smooth(1, kTip, t);
+  const double tip = t < kTagTip ? std::sin(0.25 * portable::two_pi * t / kTagTip) : smooth(1, kTagTip, t);
   const double tongue = 0.65 + (form.tongue(turn) - 0.65) * tip * tip;
-  return {1 - t, -kSunk + (form.high + kSunk) * rise, over * tip * tongue, 1 - 0.5 * steep * smooth(kTip, 0, t)};
+  return {1 - t, -kTagSunk + (form.high + kTagSunk) * rise, over * tip * tongue,
+          1 - 0.5 * steep * smooth(kTagTip, 0, t)};
 }
 
 /// The shape on the skin as it lies now; where each of its vertices is above the skin.
@@ -104,13 +105,13 @@ struct Grown {
   bool fits = true;          ///< on the skin, all of it
 };
 
-void add(Grown& grown, const Form& form, const Ground& ground, const OrganDrawing& organ, Vec3f middle, double turn,
+void add(Grown& grown, const Form& form, const TagGround& ground, const OrganDrawing& organ, Vec3f middle, double turn,
          const Bulge& at) {
   const double r = at.out * form.border(turn);
   const Vec3f base = middle + vec_cast<float>(r * (std::cos(turn) * form.level + std::sin(turn) * form.low));
   const FatTags::OnSkin on = ground.below(base);
   const Vec3f skin = mixed(on, organ.positions()), n = normalised(mixed(on, organ.normals()));
-  grown.fits = grown.fits && dot(on.weight, on.weight) > 0 && length(skin - base) < kFarthest;
+  grown.fits = grown.fits && dot(on.weight, on.weight) > 0 && length(skin - base) < kTagFarthest;
   grown.shape.add(skin + float(at.high) * n + vec_cast<float>(at.over * form.down), {to_byte(at.openness), 0, 0, 0});
   grown.on.push_back(on);
   grown.high.push_back(at.high + 0.5 * at.over);
@@ -133,26 +134,26 @@ void make_lobes(Grown& grown) {
 }
 
 /// @param middle where it grows out, on the skin
-Grown grow(const Form& form, const Ground& ground, const OrganDrawing& organ, Vec3f middle) {
+Grown grow(const Form& form, const TagGround& ground, const OrganDrawing& organ, Vec3f middle) {
   Grown grown;
-  add(grown, form, ground, organ, middle, 0, {0, -kSunk, 0});  // closes it, below the skin
+  add(grown, form, ground, organ, middle, 0, {0, -kTagSunk, 0});  // closes it, below the skin
   std::uint32_t before = 0;
-  for (int i = 0; i < kRings; ++i) {
+  for (int i = 0; i < kTagRings; ++i) {
     const std::uint32_t row = grown.shape.size();
-    for (int k = 0; k < kSides; ++k) {
-      const double turn = kTwoPi * k / kSides;
-      add(grown, form, ground, organ, middle, turn, bulge(form, turn, double(i) / kRings));
+    for (int k = 0; k < kTagSides; ++k) {
+      const double turn = portable::two_pi * k / kTagSides;
+      add(grown, form, ground, organ, middle, turn, bulge(form, turn, double(i) / kTagRings));
     }
     if (!grown.fits) return grown;
     if (i == 0)
-      join_pole(grown.shape, row, kSides, before, false);
+      join_pole(grown.shape, row, kTagSides, before, false);
     else
-      join_rows(grown.shape, before, row, kSides, true);
+      join_rows(grown.shape, before, row, kTagSides, true);
     before = row;
   }
   const std::uint32_t top = grown.shape.size();
   add(grown, form, ground, organ, middle, 0, {0, form.high, 0});
-  join_pole(grown.shape, before, kSides, top, true);
+  join_pole(grown.shape, before, kTagSides, top, true);
   make_lobes(grown);
   return grown;
 }
@@ -185,9 +186,9 @@ FatTags::FatTags(const OrganDrawing& organ, const sim::SolidModel& solid, int co
     const double slope = -dot(normal, down);
     bool free = slope > kLow && slope < kHigh;
     for (std::size_t i = 0; free && i < m_tags.size(); ++i)
-      free = length(skin.rest[m_tags[i].at] - skin.rest[at]) > float(kApart * 0.5 * (size + sizes[i]));
+      free = length(skin.rest[m_tags[i].at] - skin.rest[at]) > float(kTagApart * 0.5 * (size + sizes[i]));
     if (!free) continue;
-    Grown grown = grow(form_of(down, normal, k, size), Ground(organ, skin, at), organ, organ.positions()[at]);
+    Grown grown = grow(form_of(down, normal, k, size), TagGround(organ, skin, at), organ, organ.positions()[at]);
     if (!grown.fits) continue;
     Tag tag{at, std::uint32_t(skin.neighbour[std::size_t(skin.neighbour_first[at])]), std::move(grown.on), {}};
     const Mat3f turn = transposed(frame_at(organ, tag.at, tag.beside));

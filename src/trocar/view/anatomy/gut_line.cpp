@@ -9,10 +9,10 @@
 namespace trocar::view {
 namespace {
 
-constexpr int kSides = kGutSides, kPasses = 80;
-constexpr double kTouch = 0.96;                // of both radii: touching walls flatten each other
-constexpr double kOnFloor = 0.8;               // of the radius above a wall
-constexpr double kAlong = 1.2, kRound = 0.85;  // patterns: shorter along the gut, longer around it
+constexpr int kPasses = 80;
+constexpr double kTouch = 0.96;                      // of both radii: touching walls flatten each other
+constexpr double kOnFloor = 0.8;                     // of the radius above a wall
+constexpr double kGutAlong = 1.2, kGutRound = 0.85;  // patterns: shorter along the gut, longer around it
 
 /// Two points of one line are neighbours, not in each other's way, when they are nearer than this along it [radii].
 constexpr double kOwnReach = 3.2;
@@ -107,17 +107,17 @@ MeshBuffer gut(const GutLine& line, Vec3d up, int patch) {
     const double bent = std::min(1.0, length(bend) / (kGutStep * kGutStep) * line.radius[i]);
     const double squeeze = 0.07 * waves({way, 0.1 * patch, 0}, 0.034) + 0.035 * waves({way, 0.2, 0.1 * patch}, 0.013);
     const std::uint32_t row = b.size();
-    for (int k = 0; k < kSides; ++k) {
+    for (int k = 0; k < kGutSides; ++k) {
       const double a =
-          2 * portable::pi * k / kSides - portable::pi;  // begins below, where nobody sees the patterns' seam
+          2 * portable::pi * k / kGutSides - portable::pi;  // begins below, where nobody sees the patterns' seam
       const Vec3d dir = std::cos(a) * high + std::sin(a) * beside;
       const double crease =
           0.04 * bent * smooth(-0.1, 0.9, dot(dir, inward)) * waves({way, 0.3 * a * line.radius[i], 0}, 0.0095);
       const double r = line.radius[i] * (1 + squeeze + crease + 0.03 * waves(p + 0.006 * dir, 0.015));
       b.add(vec_cast<float>(p + r * dir));
-      b.rest.push_back(vec_cast<float>(Vec3d{kAlong * way + 0.317 * patch, kRound * a * line.radius[i], 0}));
+      b.rest.push_back(vec_cast<float>(Vec3d{kGutAlong * way + 0.317 * patch, kGutRound * a * line.radius[i], 0}));
     }
-    if (i > 0) join_rows(b, row - kSides, row, kSides, true);
+    if (i > 0) join_rows(b, row - kGutSides, row, kGutSides, true);
   }
   render::vertex_normals(b.positions, b.indices, b.normals);
   return b;

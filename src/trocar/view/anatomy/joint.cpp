@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <trocar/geometry/surfaces/nearest.hpp>
+#include <trocar/numerics/portable.hpp>
 #include <trocar/render/meshes/mesh_arrays.hpp>
 #include <trocar/view/anatomy/joint.hpp>
 #include <trocar/view/bodies/cavity.hpp>
@@ -9,13 +10,13 @@
 namespace trocar::view {
 namespace {
 
-constexpr int kRows = 10;             // strand to organ
-constexpr double kSkirt = 0.0018;     // [m] of the organ's surface that the collar covers, and ...
-constexpr double kSkirtRadii = 1.1;   // ... so many of the strand's radii
-constexpr double kWallSkirt = 0.008;  // [m] the same of a wall
-constexpr double kSteepest = 0.55;    // sine of the flattest angle at which a strand is taken to meet the surface
-constexpr float kTucked = 0.0003f;    // [m] the border lies below the surface
-constexpr float kClear = 0.00015f;    // [m] the rest above it
+constexpr int kCollarRows = 10;           // strand to organ
+constexpr double kCollarSkirt = 0.0018;   // [m] of the organ's surface that the collar covers, and ...
+constexpr double kSkirtRadii = 1.1;       // ... so many of the strand's radii
+constexpr double kWallSkirt = 0.008;      // [m] the same of a wall
+constexpr double kCollarSteepest = 0.55;  // sine of the flattest angle at which a strand is taken to meet the surface
+constexpr float kCollarTucked = 0.0003f;  // [m] the border lies below the surface
+constexpr float kCollarClear = 0.00015f;  // [m] the rest above it
 
 template <class T>
 T mixed(const std::array<std::uint32_t, 3>& vertex, Vec3f share, std::span<const T> of) {
@@ -41,9 +42,9 @@ Joint::Foot Joint::foot_at(Vec3d p, const OrganDrawing& organ, const tissue::Ski
 Joint::Meeting Joint::meeting(const TubeNeck& neck, Vec3d at, Vec3d n) {
   // A flat approach is taken as less flat.
   Vec3d way = neck.along;
-  if (dot(way, -n) < kSteepest) {
+  if (dot(way, -n) < kCollarSteepest) {
     const Vec3d flat = normalised(way - dot(way, n) * n, any_perpendicular(n));
-    way = std::sqrt(1 - kSteepest * kSteepest) * flat - kSteepest * n;
+    way = std::sqrt(1 - kCollarSteepest * kCollarSteepest) * flat - kCollarSteepest * n;
   }
   return {neck.centre + (dot(at - neck.centre, n) / dot(way, n)) * way, n, way};
 }
@@ -63,7 +64,7 @@ Joint::Joint(const TubeDrawing& tube, bool at_start, const OrganDrawing& organ, 
   const Meeting m = meeting(neck, vec_cast<double>(mixed(middle.vertex, middle.share, organ.positions())),
                             normalised(vec_cast<double>(mixed(middle.vertex, middle.share, organ.normals()))));
   for (std::size_t k = 0; k < neck.ring.size(); ++k)
-    m_feet.push_back(foot_at(aside(m, neck, k, kSkirt + kSkirtRadii * neck.radius), organ, skin));
+    m_feet.push_back(foot_at(aside(m, neck, k, kCollarSkirt + kSkirtRadii * neck.radius), organ, skin));
   make(tube, &organ, backend, detail);
 }
 
@@ -74,7 +75,7 @@ Joint::Joint(const TubeDrawing& tube, bool at_start, const WallSurface& walls, r
   const WallSurface::Place middle = walls.nearest(neck.end);
   const Meeting m = meeting(neck, middle.point, middle.normal);
   for (std::size_t k = 0; k < neck.ring.size(); ++k) {
-    const double turn = 6.28318530717959 * double(k) / double(neck.ring.size());
+    const double turn = portable::two_pi * double(k) / double(neck.ring.size());
     const double uneven = 1 + 0.25 * std::sin(2 * turn + 900 * neck.end.x) + 0.12 * std::sin(3 * turn + 1);
     const WallSurface::Place at = walls.nearest(aside(m, neck, k, kWallSkirt * uneven));
     Foot foot;
@@ -86,9 +87,9 @@ Joint::Joint(const TubeDrawing& tube, bool at_start, const WallSurface& walls, r
 }
 
 void Joint::make(const TubeDrawing& tube, const OrganDrawing* organ, render::Backend& backend, const Detail& detail) {
-  for (int i = 0; i < kRows * m_sides; ++i) m_buffer.add({});
+  for (int i = 0; i < kCollarRows * m_sides; ++i) m_buffer.add({});
   const auto row = [this](int i) { return std::uint32_t(i * m_sides); };
-  for (int i = 0; i + 1 < kRows; ++i)
+  for (int i = 0; i + 1 < kCollarRows; ++i)
     join_rows(m_buffer, row(m_at_start ? i + 1 : i), row(m_at_start ? i : i + 1), std::uint32_t(m_sides), true);
   m_below.assign(m_buffer.positions.size(), 0);
   place(tube, organ);
@@ -129,12 +130,12 @@ void Joint::place(const TubeDrawing& tube, const OrganDrawing* organ) {
     }
     // What it goes over into: an organ's own colour, or fat here and there below a wall's peritoneum.
     const double below = organ ? 0 : fat_below(vec_cast<double>(foot[k]));
-    for (int i = 0; i < kRows; ++i) {
-      const float t = float(i) / float(kRows - 2), u = 1 - t;  // the last row is the tucked border
+    for (int i = 0; i < kCollarRows; ++i) {
+      const float t = float(i) / float(kCollarRows - 2), u = 1 - t;  // the last row is the tucked border
       const std::size_t v = std::size_t(i * m_sides) + k;
       Vec3f p = (u * u * (1 + 2 * t)) * inner + (t * t * (3 - 2 * t)) * foot[k] + (u * u * t * reach) * along -
-                (t * t * u * reach) * level + (kClear * t) * normal[k];
-      if (i == kRows - 1) p = foot[k] + 0.0008f * level - kTucked * normal[k];
+                (t * t * u * reach) * level + (kCollarClear * t) * normal[k];
+      if (i == kCollarRows - 1) p = foot[k] + 0.0008f * level - kCollarTucked * normal[k];
       m_buffer.positions[v] = p;
       const double w = std::min(1.0, double(t));
       const double under = organ ? organ->paint()[m_below[v]].burn / 255.0 : 0;
@@ -146,9 +147,9 @@ void Joint::place(const TubeDrawing& tube, const OrganDrawing* organ) {
   render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);
   for (std::size_t k = 0; k < std::size_t(m_sides); ++k) {  // no seams: as its neighbours'
     if (neck.there) m_buffer.normals[k] = normalised(neck.ring[k] - centre, m_buffer.normals[k]);
-    for (int i = kRows - 4; i < kRows; ++i) {
+    for (int i = kCollarRows - 4; i < kCollarRows; ++i) {
       Vec3f& n = m_buffer.normals[std::size_t(i * m_sides) + k];
-      const float w = std::min(1.0f, float(i - kRows + 5) / 3);
+      const float w = std::min(1.0f, float(i - kCollarRows + 5) / 3);
       n = normalised((1 - w) * n + w * normal[k], normal[k]);
     }
   }

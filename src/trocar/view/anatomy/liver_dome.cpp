@@ -9,12 +9,12 @@
 namespace trocar::view {
 namespace {
 
-constexpr double kWhole = 0.004, kNothing = 0.045;  // [m] from the body: goes all its way, none of it
-constexpr float kTornOff = 0.02f;                   // [m] what has moved much farther has come off and is not followed
+constexpr double kDomeWhole = 0.004, kNothing = 0.045;  // [m] from the body: goes all its way, none of it
+constexpr float kTornOff = 0.02f;  // [m] what has moved much farther has come off and is not followed
 
-constexpr float kCell = 0.006f;                     // [m] of the grid in which those places are found
+constexpr float kDomeCell = 0.006f;                 // [m] of the grid in which those places are found
 constexpr float kCoarse = 0.004f, kRecess = 0.07f;  // [m] what shades the recess above it, and from how far
-constexpr double kDeepest = 0.85;
+constexpr double kDomeDeepest = 0.85;
 
 }  // namespace
 
@@ -36,7 +36,7 @@ LiverDome::LiverDome(const sim::Model& model, int organ, const LiverShape& shape
 void LiverDome::tie(Part& part) const {
   std::vector<std::uint8_t> surface;
   for (int v = 0; v < skin().size(); ++v) surface.push_back(skin().at_surface(v) ? 1 : 0);
-  const geometry::PointGrid grid(skin().rest, kCell, surface);
+  const geometry::PointGrid grid(skin().rest, kDomeCell, surface);
   for (std::uint32_t i = 0; i < part.shape.size(); ++i) {
     Follow f;
     std::array<float, 3> far;
@@ -52,7 +52,7 @@ void LiverDome::tie(Part& part) const {
       });
       if (far[2] <= reach * reach || reach > float(kNothing)) break;
     }
-    const double share = smooth(kNothing, kWhole, std::sqrt(double(far[0])));
+    const double share = smooth(kNothing, kDomeWhole, std::sqrt(double(far[0])));
     if (!(share > 0)) continue;
     float sum = 0;
     for (std::size_t k = 0; k < 3; ++k) sum += f.share[k] = 1 / (far[k] + 1e-7f);
@@ -88,7 +88,7 @@ void LiverDome::shade_behind(std::span<const Vec3f> positions, std::span<const V
   std::vector<Paint> deep(positions.size());
   baker.bake(positions, normals, deep);
   for (std::size_t i = 0; i < deep.size(); ++i)
-    paint[i].openness = std::uint8_t(paint[i].openness * (1 - kDeepest + kDeepest * deep[i].openness / 255.0));
+    paint[i].openness = std::uint8_t(paint[i].openness * (1 - kDomeDeepest + kDomeDeepest * deep[i].openness / 255.0));
 }
 
 void LiverDome::update(const sim::State& state) {

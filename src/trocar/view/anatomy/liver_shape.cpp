@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include <trocar/numerics/portable.hpp>
 #include <trocar/render/meshes/mesh_arrays.hpp>
 #include <trocar/view/anatomy/liver_shape.hpp>
 #include <trocar/view/base/fair_surface.hpp>
@@ -12,23 +13,23 @@
 namespace trocar::view {
 namespace {
 
-constexpr double kStep = 0.003;    // [m] between columns and rows
-constexpr int kRows = 56;          // from the edge towards the head
-constexpr double kBeside = 0.06;   // [m] beyond the body to either side
-constexpr double kInset = 0.009;   // [m] of the body's ends, which are round: there the dome goes straight on
-constexpr double kTip = 0.002;     // [m] of them: nothing is to be told there
-constexpr double kDroops = 0.012;  // [m] beyond the body's ends its margin begins to sink
-constexpr double kFalls = -0.27;   // slope of the body's upper side from which on the dome takes over
-constexpr int kEvenJoin = 30;      // passes over the line where it does
-constexpr double kHold = 1, kLoose = 8e-6, kFirm = 6e-4;  // weights, see fairest()
-constexpr double kSunk = 0.00022;                         // [m] times (rings into the body)^2
-constexpr double kBehindWall = 0.003;                     // [m]
-constexpr int kOverlap = 3;                               // rings
-constexpr double kTucked = 0.0032, kTuckedTo = 0.012;     // [m] the ends of its margin into the body, up to there
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kLiverStep = 0.003;  // [m] between columns and rows
+constexpr int kLiverRows = 56;        // from the edge towards the head
+constexpr double kBeside = 0.06;      // [m] beyond the body to either side
+constexpr double kInset = 0.009;      // [m] of the body's ends, which are round: there the dome goes straight on
+constexpr double kLiverTip = 0.002;   // [m] of them: nothing is to be told there
+constexpr double kDroops = 0.012;     // [m] beyond the body's ends its margin begins to sink
+constexpr double kFalls = -0.27;      // slope of the body's upper side from which on the dome takes over
+constexpr int kEvenJoin = 30;         // passes over the line where it does
+constexpr double kLiverLoose = 8e-6, kFirm = 6e-4;          // weights, see fairest()
+constexpr double kLiverSunk = 0.00022;                      // [m] times (rings into the body)^2
+constexpr double kBehindWall = 0.003;                       // [m]
+constexpr int kLiverOverlap = 3;                            // rings
+constexpr double kLiverTucked = 0.0032, kTuckedTo = 0.012;  // [m] the ends of its margin into the body, up to there
+constexpr double kNoHeight = std::numeric_limits<double>::quiet_NaN();
 
 /// [m] from the edge to a row; the first ones lie close, as the margin is round.
-double offset_of(int row) { return row < 3 ? kStep * row * row / 6.0 : kStep * (row - 1.5); }
+double offset_of(int row) { return row < 3 ? kLiverStep * row * row / 6.0 : kLiverStep * (row - 1.5); }
 
 /// What a big organ is like, over the line where the dome begins: higher to the right (-x), lower to the left, and
 /// rolling over below the diaphragm.
@@ -81,13 +82,13 @@ void LiverShape::scan(std::span<const Vec3f> points, std::span<const std::uint32
     from = std::min(from, double(points[v].x));
     to = std::max(to, double(points[v].x));
   }
-  for (double x = from - kBeside; x < to + kBeside; x += kStep) m_columns.push_back({x, 1e9, 0, 0});
-  m_z.assign(m_columns.size() * std::size_t(kRows), kNone);
+  for (double x = from - kBeside; x < to + kBeside; x += kLiverStep) m_columns.push_back({x, 1e9, 0, 0});
+  m_z.assign(m_columns.size() * std::size_t(kLiverRows), kNoHeight);
   std::size_t begin = 0, end = 0;  // columns that meet the body at all
   for (std::size_t i = 0; i < m_columns.size(); ++i) {
     const double x = m_columns[i].x;
-    if (x > from + kTip && begin == 0) begin = i;
-    if (x < to - kTip) end = i;
+    if (x > from + kLiverTip && begin == 0) begin = i;
+    if (x < to - kLiverTip) end = i;
     if (x > from + kInset && m_first == 0) m_first = i;
     if (x < to - kInset) m_last = i;
   }
@@ -135,7 +136,7 @@ void LiverShape::scan(std::span<const Vec3f> points, std::span<const std::uint32
     for (std::size_t i = m_first; i <= m_last; ++i) {
       const double x = m_columns[i].x;
       if (x < std::min({a.x, b.x, c.x}) || x > std::max({a.x, b.x, c.x})) continue;
-      for (int k = 0; k < kRows; ++k) {
+      for (int k = 0; k < kLiverRows; ++k) {
         const double y = y_of(i, k);
         const double u = ((b.x - x) * (c.y - y) - (b.y - y) * (c.x - x)) / twice;
         const double v = ((c.x - x) * (a.y - y) - (c.y - y) * (a.x - x)) / twice;
@@ -153,7 +154,7 @@ void LiverShape::find_join() {
   std::vector<double> join(m_columns.size(), 0.0);
   for (std::size_t i = m_first; i <= m_last; ++i) {
     int k = 4;
-    while (k + 3 < kRows && !std::isnan(m_z[at(i, k + 2)]) &&
+    while (k + 3 < kLiverRows && !std::isnan(m_z[at(i, k + 2)]) &&
            (m_z[at(i, k + 2)] - m_z[at(i, k)]) > kFalls * (offset_of(k + 2) - offset_of(k)))
       ++k;
     join[i] = k;
@@ -186,22 +187,22 @@ void LiverShape::fair() {
   middle /= count, begins /= count, level /= count;
   const double half = 0.5 * (m_columns[m_last].x - m_columns[m_first].x);
   for (std::size_t i = 0; i < n; ++i)
-    for (int k = 0; k < kRows; ++k) {
+    for (int k = 0; k < kLiverRows; ++k) {
       const std::size_t p = at(i, k);
       const auto join = [&](std::size_t a, int b) { net[p].push_back(int(at(a, b))); };
       if (i > 0) join(i - 1, k);
       if (i + 1 < n) join(i + 1, k);
       if (k > 0) join(i, k - 1);
-      if (k + 1 < kRows) join(i, k + 1);
+      if (k + 1 < kLiverRows) join(i, k + 1);
       const Column& c = m_columns[i];
       wish[p] = level + wished(c.x - middle, y_of(i, k) - begins);
       const double aside = std::max(0.0, std::fabs(c.x - middle) - half);
       const double ahead = c.join > 0 ? offset_of(k) - offset_of(c.join) : 1.0;
       const double away = std::min(std::max(aside, ahead), std::hypot(aside, std::max(0.0, y_of(i, k) - begins)));
-      weight[p] = kLoose + kFirm * smooth(0.015, 0.07, away);
+      weight[p] = kLiverLoose + kFirm * smooth(0.015, 0.07, away);
       if (k < c.join && !std::isnan(m_z[p])) {
         wish[p] = m_z[p];
-        weight[p] = kHold;
+        weight[p] = kHeldFast;
         continue;
       }
       if (c.join > 0) continue;
@@ -209,7 +210,7 @@ void LiverShape::fair() {
       const std::size_t end = i < m_first ? m_first : m_last;
       const std::size_t inner = i < m_first ? m_first + 2 : m_last - 2;
       const double d = std::fabs(c.x - m_columns[end].x);
-      const double falls = (m_z[at(end, k)] - m_z[at(inner, k)]) / (2 * kStep);
+      const double falls = (m_z[at(end, k)] - m_z[at(inner, k)]) / (2 * kLiverStep);
       const double profile = m_z[at(end, k)] + std::clamp(falls, -0.4, 0.4) * d * std::exp(-d / 0.012);
       const double past = std::max(0.0, d - kDroops), droop = 0.6 * past * past / (0.02 + past);
       wish[p] -= droop * smooth(0.09, 0.02, offset_of(k));  // its ends sink into what is around, no point stands out
@@ -224,11 +225,11 @@ void LiverShape::fair() {
 }
 
 double LiverShape::height(double x, double y) const {
-  const double i = std::clamp((x - m_columns.front().x) / kStep, 0.0, double(m_columns.size()) - 1.001);
+  const double i = std::clamp((x - m_columns.front().x) / kLiverStep, 0.0, double(m_columns.size()) - 1.001);
   const auto c = std::size_t(i);
   const auto in_column = [&](std::size_t column) {
     int k = 0;
-    while (k + 2 < kRows && y_of(column, k + 1) < y) ++k;
+    while (k + 2 < kLiverRows && y_of(column, k + 1) < y) ++k;
     const double t = std::clamp((y - y_of(column, k)) / (y_of(column, k + 1) - y_of(column, k)), 0.0, 1.0);
     return m_z[at(column, k)] + t * (m_z[at(column, k + 1)] - m_z[at(column, k)]);
   };
@@ -241,24 +242,25 @@ MeshBuffer LiverShape::dome(const WallSurface& wall) const {
   const std::vector<int> depth = depths();
   const std::size_t n = m_columns.size();
   const auto within_body = [&](std::size_t i) {
-    return smooth(kStep, -kStep, std::max(m_columns[m_first].x - m_columns[i].x, m_columns[i].x - m_columns[m_last].x));
+    return smooth(kLiverStep, -kLiverStep,
+                  std::max(m_columns[m_first].x - m_columns[i].x, m_columns[i].x - m_columns[m_last].x));
   };
   for (std::size_t i = 0; i < n; ++i)
-    for (int k = 0; k < kRows; ++k) {
+    for (int k = 0; k < kLiverRows; ++k) {
       const double x = m_columns[i].x, y = y_of(i, k);
-      const double own = std::min(depth[at(i, k)], kOverlap + 1);
+      const double own = std::min(depth[at(i, k)], kLiverOverlap + 1);
       const double beyond = m_columns[i].join > 0
                                 ? y - y_of(i, m_columns[i].join)
                                 : std::min(offset_of(k), std::fabs(x - m_columns[i < m_first ? m_first : m_last].x));
       const double uneven = 0.0006 * waves({x, y, m_z[at(i, k)]}, 0.024) * smooth(0.002, 0.02, beyond);
-      const double tucked = kTucked * within_body(i) * smooth(kTuckedTo, 0, offset_of(k));
-      b.add(vec_cast<float>(Vec3d{x, y + tucked, m_z[at(i, k)] + uneven - kSunk * own * own}));
+      const double tucked = kLiverTucked * within_body(i) * smooth(kTuckedTo, 0, offset_of(k));
+      b.add(vec_cast<float>(Vec3d{x, y + tucked, m_z[at(i, k)] + uneven - kLiverSunk * own * own}));
     }
   const auto v = [&](std::size_t i, int k) { return std::uint32_t(at(i, k)); };
   for (std::size_t i = 0; i + 1 < n; ++i)
-    for (int k = 0; k + 1 < kRows; ++k) {
+    for (int k = 0; k + 1 < kLiverRows; ++k) {
       const int least = std::min({depth[at(i, k)], depth[at(i + 1, k)], depth[at(i, k + 1)], depth[at(i + 1, k + 1)]});
-      if (least < kOverlap) b.quad(v(i, k), v(i + 1, k), v(i + 1, k + 1), v(i, k + 1));
+      if (least < kLiverOverlap) b.quad(v(i, k), v(i + 1, k), v(i + 1, k + 1), v(i, k + 1));
     }
   // The lower side of the margin, beside the body.
   constexpr int kBelow = 6;
@@ -268,7 +270,7 @@ MeshBuffer LiverShape::dome(const WallSurface& wall) const {
       for (int k = 1; k <= kBelow; ++k) {
         const double off = offset_of(2 * k), thick = 0.0105 * std::sqrt(std::min(1.0, off / 0.03));
         b.add(vec_cast<float>(
-            Vec3d{m_columns[i].x, m_columns[i].low + off + kTucked * within_body(i), m_z[at(i, 0)] - thick}));
+            Vec3d{m_columns[i].x, m_columns[i].low + off + kLiverTucked * within_body(i), m_z[at(i, 0)] - thick}));
       }
     const auto low = [&](std::size_t i, int k) {
       return k == 0 ? v(i, 0) : begin + std::uint32_t(i - first) * kBelow + std::uint32_t(k - 1);
@@ -286,7 +288,7 @@ MeshBuffer LiverShape::dome(const WallSurface& wall) const {
 /// How far it is from there along the dome until that reaches the wall [m].
 double LiverShape::up_to_the_wall(std::size_t column, double begins, const WallSurface& wall) const {
   double y = begins + 0.01;
-  for (; y < y_of(column, kRows - 1); y += kStep) {
+  for (; y < y_of(column, kLiverRows - 1); y += kLiverStep) {
     const Vec3d p{m_columns[column].x, y, height(m_columns[column].x, y)};
     const WallSurface::Place place = wall.nearest(p);
     if (place.there && dot(p - place.point, place.normal) < 0.001) break;
@@ -346,7 +348,7 @@ MeshBuffer LiverShape::falciform(const WallSurface& wall) const {
     const double ends =
         (0.9 + 0.9 * smooth(0.5, 0.0, above)) * (1 - 0.65 * below);  // thickest where it leaves the liver
     for (int r = 0; r < kRound; ++r) {
-      const double a = 6.28318530717959 * r / kRound;
+      const double a = portable::two_pi * r / kRound;
       const Vec3d out = std::cos(a) * u + std::sin(a) * w;
       const double fat = waves(p + 0.004 * out, 0.009);
       const double radius = ends * (0.0015 + 0.0004 * waves(p + 0.01 * out, 0.013) + 0.0004 * fat);

@@ -10,9 +10,9 @@
 namespace trocar::view {
 namespace {
 
-constexpr double kReaches = 0.47;  // share of the wall's height up to which it lies, in the mean
-constexpr int kHalvings = 2;       // of the wall's edges: lobes are finer than its triangles
-constexpr double kMargin = 0.006;  // [m] beyond its border, below the wall
+constexpr double kReaches = 0.47;         // share of the wall's height up to which it lies, in the mean
+constexpr int kOmentumHalvings = 2;       // of the wall's edges: lobes are finer than its triangles
+constexpr double kOmentumMargin = 0.006;  // [m] beyond its border, below the wall
 
 /// How far inside its border a point lies [m]: tongues, frills on them. @param above the wall's lowest point [m]
 double inside(Vec3d p, double above, double whole) {
@@ -22,14 +22,14 @@ double inside(Vec3d p, double above, double whole) {
 }
 
 /// What the apron is like in a place.
-struct Fat {
+struct ApronFat {
   double thick = 0;   ///< [m]; below 0: under the wall
   double groove = 0;  ///< 1 between lobules
 };
 
 /// Broad swellings, lobes, and lobules on them, in places more, in places fewer; towards its border a thin, rounded
 /// lip. Beyond it lies below the wall.
-Fat fat_at(Vec3d p, double deep) {
+ApronFat apron_fat(Vec3d p, double deep) {
   if (deep <= 0) return {std::max(-0.0012, 0.5 * deep), 0};
   const double lip = 0.0015 * (1 - std::exp(-deep / 0.003));
   const double grown = smooth(0, 0.02, deep);
@@ -42,19 +42,19 @@ Fat fat_at(Vec3d p, double deep) {
           std::max(0.6 * (1 - lobe) * (1 - lobe), marked * (1 - lobule) * (1 - lobule))};
 }
 
-struct Point {
+struct ApronPoint {
   Vec3d p, n;
 };
 
 /// Triangles over points, each divided into four.
-struct Net {
-  std::vector<Point> points;
+struct ApronNet {
+  std::vector<ApronPoint> points;
   std::vector<std::array<int, 3>> triangles;
 
   void divide() {
     geometry::Quartered finer = geometry::quartered(triangles, int(points.size()));
     for (const auto& [a, b] : finer.halved) {
-      const Point &i = points[std::size_t(a)], &j = points[std::size_t(b)];
+      const ApronPoint &i = points[std::size_t(a)], &j = points[std::size_t(b)];
       points.push_back({0.5 * (i.p + j.p), normalised(i.n + j.n, i.n)});
     }
     triangles = std::move(finer.triangles);
@@ -62,7 +62,7 @@ struct Net {
 };
 
 /// Which part of a surface is covered.
-struct Ground {
+struct CoveredGround {
   Vec3d up;
   double lowest = 1e9, highest = -1e9;  ///< of the wall [m]
 
@@ -71,9 +71,10 @@ struct Ground {
 
 /// Adds what of a surface is covered at all, and a little more.
 void take(std::span<const Vec3f> points, std::span<const Vec3f> normals, std::span<const std::uint32_t> triangles,
-          const Ground& ground, Net& net) {
+          const CoveredGround& ground, ApronNet& net) {
   std::vector<std::uint8_t> covered(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) covered[i] = ground.inside_at(vec_cast<double>(points[i])) > -kMargin;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    covered[i] = ground.inside_at(vec_cast<double>(points[i])) > -kOmentumMargin;
   std::vector<int> number(points.size(), -1);
   for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {
     const std::span<const std::uint32_t> corners = triangles.subspan(t, 3);
@@ -91,8 +92,8 @@ void take(std::span<const Vec3f> points, std::span<const Vec3f> normals, std::sp
   }
 }
 
-Ground ground_of(const tissue::Skin& wall, Vec3d gravity) {
-  Ground ground{normalised(-1.0 * gravity, Vec3d{0, 0, 1})};
+CoveredGround ground_of(const tissue::Skin& wall, Vec3d gravity) {
+  CoveredGround ground{normalised(-1.0 * gravity, Vec3d{0, 0, 1})};
   for (const Vec3f& x : wall.rest) {
     ground.lowest = std::min(ground.lowest, dot(vec_cast<double>(x), ground.up));
     ground.highest = std::max(ground.highest, dot(vec_cast<double>(x), ground.up));
@@ -100,12 +101,12 @@ Ground ground_of(const tissue::Skin& wall, Vec3d gravity) {
   return ground;
 }
 
-MeshBuffer apron(Net net, const Ground& ground) {
+MeshBuffer apron(ApronNet net, const CoveredGround& ground) {
   MeshBuffer b;
-  for (int i = 0; i < kHalvings; ++i) net.divide();
-  for (const Point& point : net.points) {
+  for (int i = 0; i < kOmentumHalvings; ++i) net.divide();
+  for (const ApronPoint& point : net.points) {
     const double deep = ground.inside_at(point.p);
-    const Fat fat = fat_at(point.p, deep);
+    const ApronFat fat = apron_fat(point.p, deep);
     const double patch = smooth(0.2, 0.9, waves(point.p + Vec3d{0.3, 0.3, 0}, 0.03));
     Paint paint;
     paint.openness = to_byte((0.72 + 0.28 * smooth(0.001, 0.007, fat.thick)) * (1 - 0.45 * fat.groove));
@@ -120,8 +121,8 @@ MeshBuffer apron(Net net, const Ground& ground) {
 }  // namespace
 
 MeshBuffer omentum_on(const tissue::Skin& wall, Vec3d gravity) {
-  const Ground ground = ground_of(wall, gravity);
-  Net net;
+  const CoveredGround ground = ground_of(wall, gravity);
+  ApronNet net;
   if (!(ground.highest > ground.lowest)) return {};
   std::vector<std::uint32_t> triangles;
   for (const auto& t : wall.triangles)
@@ -131,8 +132,8 @@ MeshBuffer omentum_on(const tissue::Skin& wall, Vec3d gravity) {
 }
 
 MeshBuffer omentum_beyond(const tissue::Skin& wall, Vec3d gravity, const MeshBuffer& beyond) {
-  const Ground ground = ground_of(wall, gravity);
-  Net net;
+  const CoveredGround ground = ground_of(wall, gravity);
+  ApronNet net;
   if (ground.highest > ground.lowest) take(beyond.positions, beyond.normals, beyond.indices, ground, net);
   return apron(std::move(net), ground);
 }

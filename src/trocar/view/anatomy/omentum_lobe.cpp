@@ -9,16 +9,16 @@
 namespace trocar::view {
 namespace {
 
-constexpr std::size_t kRows = 32;    // from the border to the root
-constexpr double kNear = 0.009;      // [m] aside: farther points carry nothing
-constexpr double kCapRadius = 0.01;  // [m] each point carries it like a ball of that radius: no steps
-constexpr double kHighest = 0.06;    // [m] what is so far above is beside or over it, not below
-constexpr int kSlack = 14;           // passes: the more, the tauter it spans from one loop to the next
-constexpr double kTucked = 0.0022;   // [m] the border's underside below its upper one
-constexpr double kFinest = 1.7;      // rows crowd towards the border
+constexpr std::size_t kLobeRows = 32;   // from the border to the root
+constexpr double kLobeNear = 0.009;     // [m] aside: farther points carry nothing
+constexpr double kCapRadius = 0.01;     // [m] each point carries it like a ball of that radius: no steps
+constexpr double kHighest = 0.06;       // [m] what is so far above is beside or over it, not below
+constexpr int kLobeSlack = 14;          // passes: the more, the tauter it spans from one loop to the next
+constexpr double kLobeTucked = 0.0022;  // [m] the border's underside below its upper one
+constexpr double kFinest = 1.7;         // rows crowd towards the border
 
 /// How far from the border to the root a row lies, 0 .. 1.
-double share_of(std::size_t row) { return std::pow(double(row) / (kRows - 1), kFinest); }
+double share_of(std::size_t row) { return std::pow(double(row) / (kLobeRows - 1), kFinest); }
 
 /// Tongues and frills [m] outwards.
 double ragged(Vec3d p) {
@@ -27,13 +27,13 @@ double ragged(Vec3d p) {
 }
 
 /// What its fat is like in a place.
-struct Fat {
+struct LobeFat {
   double thick = 0;   ///< [m]
   double groove = 0;  ///< 1 between lobules
 };
 
 /// A thin sheet with unequal lobules in it, fewer of them in places; its border is a lip. @param deep [m] inside that
-Fat fat_at(Vec3d p, double deep) {
+LobeFat lobe_fat(Vec3d p, double deep) {
   const double lip = 0.0016 * (1 - std::exp(-deep / 0.0012)), grown = smooth(-0.002, 0.006, deep);
   const double marked = 0.45 + 0.55 * smooth(-0.5, 0.4, waves(p + Vec3d{0.2, 0.6, 0.4}, 0.034));
   const double lobe = lobules(p + Vec3d{0.4, 0.1, 0.2}, 0.015), lobule = lobules(p + Vec3d{0.1, 0.5, 0.3}, 0.0068);
@@ -41,7 +41,7 @@ Fat fat_at(Vec3d p, double deep) {
           std::max(0.55 * (1 - lobe) * (1 - lobe), marked * (1 - lobule) * (1 - lobule))};
 }
 
-Paint paint_of(const Fat& fat, double deep) {
+Paint paint_of(const LobeFat& fat, double deep) {
   Paint paint;
   paint.openness = to_byte(1 - 0.32 * fat.groove);
   paint.tint = to_byte(std::max(0.45 * fat.groove, 0.6 * smooth(0.005, 0, deep)));  // pinker: thin there
@@ -52,15 +52,15 @@ Paint paint_of(const Fat& fat, double deep) {
 class Sheet {
  public:
   Sheet(const LobeOutline& outline, std::span<const Vec3d> below, Vec3d up)
-      : m_columns(outline.border.size()), m_up(up), m_floor(m_columns * kRows), m_points(m_floor.size()) {
+      : m_columns(outline.border.size()), m_up(up), m_floor(m_columns * kLobeRows), m_points(m_floor.size()) {
     for (std::size_t j = 0; j < m_columns; ++j) {
       const Vec3d in = normalised(outline.root[j] - outline.border[j]);
       const Vec3d border = outline.border[j] - ragged(outline.border[j]) * in;
-      for (std::size_t i = 0; i < kRows; ++i)
+      for (std::size_t i = 0; i < kLobeRows; ++i)
         m_points[i * m_columns + j] = border + share_of(i) * (outline.root[j] - border);
     }
     lay(below);
-    for (int pass = 0; pass < kSlack; ++pass) span();
+    for (int pass = 0; pass < kLobeSlack; ++pass) span();
     for (std::size_t j = 0; j < m_columns; ++j) space_out(j);
   }
 
@@ -68,7 +68,7 @@ class Sheet {
     MeshBuffer b;
     for (const Vec3d& p : m_points) b.add(vec_cast<float>(p));
     const auto row = std::uint32_t(m_columns);
-    for (std::uint32_t i = 0; i + 1 < kRows; ++i) join_rows(b, i * row, (i + 1) * row, row, false);
+    for (std::uint32_t i = 0; i + 1 < kLobeRows; ++i) join_rows(b, i * row, (i + 1) * row, row, false);
     render::vertex_normals(b.positions, b.indices, b.normals);
     if (dot(vec_cast<double>(b.normals[b.size() / 2]), m_up) < 0) turn(b);
     for (std::size_t v = 0; v < m_points.size(); ++v) thicken(b, v);
@@ -86,8 +86,8 @@ class Sheet {
   void thicken(MeshBuffer& b, std::size_t v) const {
     const Vec3d p = m_points[v];
     const double deep = length(p - m_points[v % m_columns]);
-    const Fat fat = fat_at(p, deep);
-    const double out = v < m_columns ? -kTucked : fat.thick;
+    const LobeFat fat = lobe_fat(p, deep);
+    const double out = v < m_columns ? -kLobeTucked : fat.thick;
     b.positions[v] = vec_cast<float>(p + out * vec_cast<double>(b.normals[v]));
     b.paint[v] = paint_of(fat, deep);
   }
@@ -98,7 +98,7 @@ class Sheet {
       for (const Vec3d& q : below) {
         const Vec3d way = q - m_points[v];
         const double rise = dot(way, m_up), aside2 = dot(way, way) - rise * rise;
-        if (aside2 < kNear * kNear && rise < kHighest) high = std::max(high, rise - aside2 / (2 * kCapRadius));
+        if (aside2 < kLobeNear * kLobeNear && rise < kHighest) high = std::max(high, rise - aside2 / (2 * kCapRadius));
       }
       if (high > -1) m_points[v] += high * m_up;
       m_floor[v] = dot(m_points[v], m_up);
@@ -109,7 +109,7 @@ class Sheet {
   void span() {
     const std::vector<Vec3d> before = m_points;
     const auto high = [&](std::size_t i, std::size_t j) { return dot(before[i * m_columns + j], m_up); };
-    for (std::size_t i = 0; i + 1 < kRows; ++i)
+    for (std::size_t i = 0; i + 1 < kLobeRows; ++i)
       for (std::size_t j = 0; j < m_columns; ++j) {
         const double around = 0.25 * (high(i > 0 ? i - 1 : 1, j) + high(i + 1, j) + high(i, j > 0 ? j - 1 : 1) +
                                       high(i, j + 1 < m_columns ? j + 1 : j - 1));
@@ -122,11 +122,11 @@ class Sheet {
   void space_out(std::size_t j) {
     std::vector<Vec3d> before;
     std::vector<double> way{0};
-    for (std::size_t i = 0; i < kRows; ++i) before.push_back(m_points[i * m_columns + j]);
-    for (std::size_t i = 1; i < kRows; ++i) way.push_back(way.back() + length(before[i] - before[i - 1]));
-    for (std::size_t i = 0, k = 0; i < kRows; ++i) {
+    for (std::size_t i = 0; i < kLobeRows; ++i) before.push_back(m_points[i * m_columns + j]);
+    for (std::size_t i = 1; i < kLobeRows; ++i) way.push_back(way.back() + length(before[i] - before[i - 1]));
+    for (std::size_t i = 0, k = 0; i < kLobeRows; ++i) {
       const double far = share_of(i) * way.back();
-      while (k + 2 < kRows && way[k + 1] < far) ++k;
+      while (k + 2 < kLobeRows && way[k + 1] < far) ++k;
       const double t = (far - way[k]) / std::max(way[k + 1] - way[k], 1e-9);
       m_points[i * m_columns + j] = before[k] + t * (before[k + 1] - before[k]);
     }

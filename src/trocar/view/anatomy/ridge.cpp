@@ -10,31 +10,31 @@
 namespace trocar::view {
 namespace {
 
-constexpr int kRows = 12;          // ligament to wall
-constexpr double kStep = 0.0028;   // [m] between stations
-constexpr double kFrom = 0.10;     // share of the ligament where the fold below it begins ...
-constexpr double kDown = 0.72;     // ... and where it has come down to the wall
-constexpr double kWidest = 0.016;  // [m] from below the ligament to a flank's foot
-constexpr double kOver = 0.62;     // share of the ligament from where on its flanks close over it ...
-constexpr double kClosed = 0.86;   // ... and where they have
+constexpr int kRidgeRows = 12;         // ligament to wall
+constexpr double kRidgeStep = 0.0028;  // [m] between stations
+constexpr double kFrom = 0.10;         // share of the ligament where the fold below it begins ...
+constexpr double kDown = 0.72;         // ... and where it has come down to the wall
+constexpr double kWidest = 0.016;      // [m] from below the ligament to a flank's foot
+constexpr double kRidgeOver = 0.62;    // share of the ligament from where on its flanks close over it ...
+constexpr double kClosed = 0.86;       // ... and where they have
 constexpr double kOverAll = 0.12, kClosedAll = 0.32;  // the same where it carries nothing
 constexpr double kFromAll = -0.12, kDownAll = 0.24;
-constexpr double kLostOver = 0.034;      // [m] of wall along which a ridge goes down and is lost ...
-constexpr double kLostDepth = 0.0014;    // [m] ... below it
-constexpr double kShallow = 3.0;         // radii of the ligament that it rises above it before that
-constexpr double kShallowLaden = 0.4;    // the same of one that carries something
-constexpr double kFlatter = 1.2;         // and how much rounder it grows
-constexpr double kTurns = 8;             // radii above the wall where its sections begin to turn
-constexpr double kCrest = 1.15;          // radii from the ligament's axis to what covers it
-constexpr double kCovers = 1.32;         // radii from the axis: nearer than that it would not cover the ligament
-constexpr double kAround = 6.5;          // radii: how far its slope is that of the ligament's side
-constexpr double kAroundAll = 16;        // the same of one that carries nothing: broad shoulders
-constexpr double kWidestAll = 0.036;     // [m] and its feet
-constexpr double kHeadOn = 0.75;         // sine of the angle to the wall
-constexpr double kLoose = 0.0004;        // [m] what covers a ligament keeps off it
-constexpr double kTucked = 0.0012;       // [m] the border lies below the wall
-constexpr double kAtWall = 0.006;        // [m] nearer than that, down is the wall's normal
-constexpr int kInWall = 2, kGlide = 12;  // stations where the ligament is in the wall, and beyond its end
+constexpr double kLostOver = 0.034;           // [m] of wall along which a ridge goes down and is lost ...
+constexpr double kLostDepth = 0.0014;         // [m] ... below it
+constexpr double kShallow = 3.0;              // radii of the ligament that it rises above it before that
+constexpr double kShallowLaden = 0.4;         // the same of one that carries something
+constexpr double kFlatter = 1.2;              // and how much rounder it grows
+constexpr double kTurns = 8;                  // radii above the wall where its sections begin to turn
+constexpr double kCrest = 1.15;               // radii from the ligament's axis to what covers it
+constexpr double kCovers = 1.32;              // radii from the axis: nearer than that it would not cover the ligament
+constexpr double kRidgeAround = 6.5;          // radii: how far its slope is that of the ligament's side
+constexpr double kAroundAll = 16;             // the same of one that carries nothing: broad shoulders
+constexpr double kWidestAll = 0.036;          // [m] and its feet
+constexpr double kRidgeHeadOn = 0.75;         // sine of the angle to the wall
+constexpr double kRidgeLoose = 0.0004;        // [m] what covers a ligament keeps off it
+constexpr double kRidgeTucked = 0.0012;       // [m] the border lies below the wall
+constexpr double kAtWall = 0.006;             // [m] nearer than that, down is the wall's normal
+constexpr int kRidgeInWall = 2, kGlide = 12;  // stations where the ligament is in the wall, and beyond its end
 
 /// Is it what folds hang on, or does a vessel run in it?
 bool carries(const sim::Model& model, int strand) {
@@ -49,7 +49,7 @@ bool carries(const sim::Model& model, int strand) {
 }
 
 /// Of a row, from the ligament to the wall; the last is tucked in.
-double share_down(int row) { return std::min(1.0, double(row) / (kRows - 2)); }
+double share_down(int row) { return std::min(1.0, double(row) / (kRidgeRows - 2)); }
 
 /// A point that is at least so far from an axis.
 Vec3d outside(Vec3d p, Vec3d axis, Vec3d along, double far) {
@@ -70,7 +70,7 @@ Ridge::Ridge(const sim::Model& model, const TubeDrawing& tube, int strand, const
   const StrandPiece all{0, m_body->nodes() - 1, 0, m_body->length(), false, false};
   const StrandCurve curve(*m_body, rest, {&all, 1});
   const double length_of = m_body->length();
-  const int steps = std::max(6, int((1 - kFrom) * length_of / kStep));
+  const int steps = std::max(6, int((1 - kFrom) * length_of / kRidgeStep));
   for (int i = 0; i <= steps; ++i) {
     Station st;
     st.s = length_of * (kFrom + (1 - kFrom) * i / steps);
@@ -79,19 +79,19 @@ Ridge::Ridge(const sim::Model& model, const TubeDrawing& tube, int strand, const
     st.along = f.tangent;
     const auto node = std::size_t(place_at(*m_body, st.s).element);
     const std::vector<double>& outer = model.strands[std::size_t(strand)].outer;
-    st.radius = 1.06 * std::max(outer[node], outer[node + 1]) + kLoose;
+    st.radius = 1.06 * std::max(outer[node], outer[node + 1]) + kRidgeLoose;
     m_stations.push_back(st);
   }
   add_root(tube.end_root());
   add_glide(walls);
   find_feet(walls);
-  for (int i = 0; i < 2 * int(m_stations.size()) * kRows; ++i) m_buffer.add({});
+  for (int i = 0; i < 2 * int(m_stations.size()) * kRidgeRows; ++i) m_buffer.add({});
   const auto row = [this](std::size_t flank, std::size_t i) {
-    return std::uint32_t((flank * m_stations.size() + i) * kRows);
+    return std::uint32_t((flank * m_stations.size() + i) * kRidgeRows);
   };
   for (const std::size_t flank : {0u, 1u})
     for (std::size_t i = 0; i + 1 < m_stations.size(); ++i)
-      join_rows(m_buffer, row(flank, flank ? i : i + 1), row(flank, flank ? i + 1 : i), kRows, false);
+      join_rows(m_buffer, row(flank, flank ? i : i + 1), row(flank, flank ? i + 1 : i), kRidgeRows, false);
   place(curve);
   paint();
   m_buffer.rest = m_buffer.positions;
@@ -101,15 +101,15 @@ Ridge::Ridge(const sim::Model& model, const TubeDrawing& tube, int strand, const
 
 bool Ridge::meets_head_on(const sim::Model& model, const TubeDrawing& tube, int strand, const WallSurface& walls) {
   const TubeNeck& neck = tube.neck(false);
-  return neck.far > 0 && carries(model, strand) && dot(neck.along, walls.nearest(neck.end).normal) < -kHeadOn;
+  return neck.far > 0 && carries(model, strand) && dot(neck.along, walls.nearest(neck.end).normal) < -kRidgeHeadOn;
 }
 
 /// On along the ligament's way into the wall, which stays in space.
 void Ridge::add_root(const TubeRoot& root) {
   const Station last = m_stations.back();
   const Vec3d a = last.at, da = root.length * last.along, b = root.target, db = root.length * root.direction;
-  for (int i = 1; i <= kInWall; ++i) {
-    const double t = double(i) / kInWall, u = 1 - t;
+  for (int i = 1; i <= kRidgeInWall; ++i) {
+    const double t = double(i) / kRidgeInWall, u = 1 - t;
     Station st = last;
     st.beyond = true;
     st.at = (u * u * (1 + 2 * t)) * a + (t * t * (3 - 2 * t)) * b + (u * u * t) * da - (t * t * u) * db;
@@ -128,7 +128,7 @@ double Ridge::crest_above(const Station& st) const {
 void Ridge::add_glide(const WallSurface& walls) {
   const Station last = m_stations.back();
   Vec3d on = walls.nearest(last.at).point,
-        onward = on - walls.nearest(m_stations[m_stations.size() - 1 - kInWall - 3].at).point;
+        onward = on - walls.nearest(m_stations[m_stations.size() - 1 - kRidgeInWall - 3].at).point;
   onward = normalised(onward, last.along);
   for (int i = 1; i <= kGlide; ++i) {
     const WallSurface::Place wall = walls.nearest(on + (kLostOver / kGlide) * onward);
@@ -180,7 +180,7 @@ void Ridge::find_feet(const WallSurface& walls) {
   }
   for (Station& st : m_stations) {
     st.depth = m_covered ? smooth(kFromAll, kDownAll, st.s / to_wall) : smooth(kFrom, kDown, st.s / to_wall);
-    st.over = m_covered ? smooth(kOverAll, kClosedAll, st.s / to_wall) : smooth(kOver, kClosed, st.s / to_wall);
+    st.over = m_covered ? smooth(kOverAll, kClosedAll, st.s / to_wall) : smooth(kRidgeOver, kClosed, st.s / to_wall);
   }
   even_out(4, [](Station& st) -> Vec3d& { return st.side; });
   for (std::size_t i = 0; i < n; ++i) {
@@ -223,8 +223,8 @@ void Ridge::settle_beyond() {
 void Ridge::even_crest(std::size_t i) {
   const double over = smooth(0.8, 1, m_stations[i].over);
   if (over <= 0) return;
-  Vec3f& left = m_buffer.normals[i * kRows];
-  Vec3f& right = m_buffer.normals[(m_stations.size() + i) * kRows];
+  Vec3f& left = m_buffer.normals[i * kRidgeRows];
+  Vec3f& right = m_buffer.normals[(m_stations.size() + i) * kRidgeRows];
   const Vec3f mean = normalised(left + right, left);
   left = normalised((1 - float(over)) * left + float(over) * mean, left);
   right = normalised((1 - float(over)) * right + float(over) * mean, right);
@@ -237,18 +237,19 @@ void Ridge::place(const StrandCurve& curve) {
     int piece = int(pieces.size()) - 1;
     while (piece > 0 && pieces[std::size_t(piece)].from > st.s) --piece;
     const Vec3d at = (st.beyond ? st.at : curve.at(piece, st.s).point) + st.lift;
-    for (const int flank : {0, 1}) place_flank(st, at, flank, (std::size_t(flank) * m_stations.size() + i) * kRows);
+    for (const int flank : {0, 1})
+      place_flank(st, at, flank, (std::size_t(flank) * m_stations.size() + i) * kRidgeRows);
   }
   render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);
   for (std::size_t i = 0; i < m_stations.size(); ++i) even_crest(i);
   for (std::size_t i = 0; i < m_stations.size(); ++i)  // no seam: as the wall's, where it is down there
     for (const std::size_t flank : {0u, 1u}) {
       const Vec3f n = vec_cast<float>(m_stations[i].normal[flank]);
-      const std::size_t first = (flank * m_stations.size() + i) * kRows;
+      const std::size_t first = (flank * m_stations.size() + i) * kRidgeRows;
       const double down = smooth(0.9, 1, m_stations[i].depth);
-      for (std::size_t r = kRows - 4; r < kRows; ++r) {
+      for (std::size_t r = kRidgeRows - 4; r < kRidgeRows; ++r) {
         Vec3f& own = m_buffer.normals[first + r];
-        const float w = float(down) * std::min(1.0f, float(r + 5 - kRows) / 3);
+        const float w = float(down) * std::min(1.0f, float(r + 5 - kRidgeRows) / 3);
         if (dot(own, n) < 0) own = -own;
         own = normalised((1 - w) * own + w * n, n);
       }
@@ -272,15 +273,15 @@ void Ridge::place_flank(const Station& st, Vec3d at, int flank, std::size_t firs
   const Vec3d level = normalised(out - dot(out, n) * n, out);
   const double reach = length(end - top);
   // Narrow above, hollow below: it leaves the ligament around that and arrives flat on the wall.
-  const double round = std::min(reach, (m_covered ? kAroundAll : kAround) * st.radius);
+  const double round = std::min(reach, (m_covered ? kAroundAll : kRidgeAround) * st.radius);
   const Vec3d leaves = (reach + st.over * (round - reach)) *
                        normalised((0.49 + 0.5 * st.over) * out + (0.87 - 0.6 * st.over) * down),
               arrives = ((0.9 + 0.4 * st.over) * spread * reach) * level;
-  for (int r = 0; r < kRows; ++r) {
+  for (int r = 0; r < kRidgeRows; ++r) {
     const double t = share_down(r), u = 1 - t;
     Vec3d p = (u * u * (1 + 2 * t)) * top + (t * t * (3 - 2 * t)) * end + (u * u * t) * leaves - (t * t * u) * arrives;
     p = outside(p, at, st.along, kCovers * st.over * st.radius);
-    if (r == kRows - 1) p = end + spread * (0.002 * level - kTucked * n);
+    if (r == kRidgeRows - 1) p = end + spread * (0.002 * level - kRidgeTucked * n);
     const std::size_t v = first + std::size_t(r);
     m_buffer.positions[v] = vec_cast<float>(p);
   }
@@ -288,8 +289,8 @@ void Ridge::place_flank(const Station& st, Vec3d at, int flank, std::size_t firs
 
 void Ridge::paint() {
   for (std::size_t v = 0; v < m_buffer.paint.size(); ++v) {
-    const Station& st = m_stations[v / kRows % m_stations.size()];
-    const double t = share_down(int(v % kRows));
+    const Station& st = m_stations[v / kRidgeRows % m_stations.size()];
+    const double t = share_down(int(v % kRidgeRows));
     // The tint is the ligament's colour, which is near to that of the fat below a wall's peritoneum.
     const double own = (1 - 0.45 * smooth(0.5, 1, st.over)) * smooth(0.5 - 0.15 * st.over, 0, t) *
                        (st.beyond ? 0.5 : 1.0) * (m_covered ? 0.6 : 1.0);
@@ -310,9 +311,9 @@ void Ridge::burn(const sim::State& state) {
       most = std::max(most, m_marks.burn_at(state, {st.s, r * std::cos(a), r * std::sin(a)}));
     }
     for (const std::size_t flank : {0u, 1u})
-      for (std::size_t r = 0; r < kRows; ++r)
-        m_buffer.paint[(flank * m_stations.size() + i) * kRows + r].burn =
-            to_byte(st.over * most / 255.0 * smooth(0.5, 0.2, double(r) / kRows));
+      for (std::size_t r = 0; r < kRidgeRows; ++r)
+        m_buffer.paint[(flank * m_stations.size() + i) * kRidgeRows + r].burn =
+            to_byte(st.over * most / 255.0 * smooth(0.5, 0.2, double(r) / kRidgeRows));
   }
 }
 

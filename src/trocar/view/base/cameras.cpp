@@ -56,7 +56,7 @@ EndoscopeLook room_look() {
 
 namespace {
 
-constexpr double kSteepest = 1.54, kNearest = 0.03, kFarthest = 1.5;  // [rad], [m]
+constexpr double kCameraSteepest = 1.54, kCameraNearest = 0.03, kCameraFarthest = 1.5;  // [rad], [m]
 
 struct Box {
   Vec3d low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9};
@@ -76,7 +76,7 @@ Vec3d Orbit::eye() const {
 
 void Orbit::turn(double by_yaw, double by_pitch) {
   yaw = std::remainder(yaw + by_yaw, 2 * portable::pi);
-  pitch = std::clamp(pitch + by_pitch, -kSteepest, kSteepest);
+  pitch = std::clamp(pitch + by_pitch, -kCameraSteepest, kCameraSteepest);
 }
 
 void Orbit::pan(double right, double up) {
@@ -84,7 +84,7 @@ void Orbit::pan(double right, double up) {
   target += right * to_right + up * cross(backward, to_right);
 }
 
-void Orbit::zoom(double factor) { distance = std::clamp(distance * factor, kNearest, kFarthest); }
+void Orbit::zoom(double factor) { distance = std::clamp(distance * factor, kCameraNearest, kCameraFarthest); }
 
 Orbit orbit_around(const sim::Model& model) {
   Box box;

@@ -8,9 +8,9 @@ namespace trocar::view {
 namespace {
 
 using Values = std::vector<double>;
-using Net = std::vector<std::vector<int>>;
+using Neighbours = std::vector<std::vector<int>>;
 
-void bend(const Net& net, const Values& z, Values& bent) {
+void bend(const Neighbours& net, const Values& z, Values& bent) {
   for (std::size_t i = 0; i < z.size(); ++i) {
     double sum = 0;
     for (const int j : net[i]) sum += z[std::size_t(j)];
@@ -19,7 +19,7 @@ void bend(const Net& net, const Values& z, Values& bent) {
 }
 
 /// out = (L^T L + weight) z.
-void apply(const Net& net, std::span<const double> weight, const Values& z, Values& bent, Values& out) {
+void apply(const Neighbours& net, std::span<const double> weight, const Values& z, Values& bent, Values& out) {
   bend(net, z, bent);
   for (std::size_t i = 0; i < z.size(); ++i) out[i] = weight[i] * z[i] - (net[i].empty() ? 0 : bent[i]);
   for (std::size_t i = 0; i < z.size(); ++i)
@@ -30,8 +30,8 @@ double inner(const Values& a, const Values& b) { return std::inner_product(a.beg
 
 }  // namespace
 
-std::vector<double> fairest(const Net& neighbours, std::span<const double> wished, std::span<const double> weight,
-                            int passes) {
+std::vector<double> fairest(const Neighbours& neighbours, std::span<const double> wished,
+                            std::span<const double> weight, int passes) {
   const std::size_t n = wished.size();
   Values z(wished.begin(), wished.end()), bent(n), image(n), residual(n), scaled(n), way(n);
   apply(neighbours, weight, z, bent, image);

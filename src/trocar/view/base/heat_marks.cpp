@@ -5,8 +5,8 @@
 
 namespace trocar::view {
 
-constexpr float kBelow = 0.0003f;  // [m] skins' flat triangles cut through cells of the border
-constexpr double kMargin =
+constexpr float kHeatBelow = 0.0003f;  // [m] skins' flat triangles cut through cells of the border
+constexpr double kHeatMargin =
     0.0028;  // [m] so far around what is coagulated tissue is drawn paler than it was (our choice)
 constexpr double kSmoothing = 0.0044;  // [m]
 constexpr int kMostMargin = 100;       // Paint::burn: coagulated, no more
@@ -19,7 +19,7 @@ std::uint8_t burn_of(const tissue::HeatReading& reading) {
 std::vector<Vec3d> below_skin(const tissue::Skin& skin) {
   std::vector<Vec3d> places;
   for (std::size_t i = 0; i < skin.rest.size(); ++i)
-    places.push_back(vec_cast<double>(skin.rest[i] - kBelow * skin.rest_normal[i]));
+    places.push_back(vec_cast<double>(skin.rest[i] - kHeatBelow * skin.rest_normal[i]));
   return places;
 }
 
@@ -43,7 +43,7 @@ std::uint8_t HeatMarks::burn_at(const sim::State& state, Vec3d place) const {
   for (const double far : {0.3, 0.65})
     for (const Vec3d& way : kWays) {
       if (burn >= kMostMargin) return std::uint8_t(burn);
-      const int beside = std::min(at(place + far * kMargin * way), kMostMargin);
+      const int beside = std::min(at(place + far * kHeatMargin * way), kMostMargin);
       burn = std::max(burn, int((1 - far) * beside));
     }
   return std::uint8_t(burn);
@@ -66,7 +66,7 @@ bool HeatMarks::update(const sim::State& state) {
   if (!stirred(state)) return false;
   Vec3d low{0, 0, 0}, high{0, 0, 0};
   heated_box(m_model->energy.heat, state.heat, m_body, low, high);
-  low -= Vec3d{kMargin, kMargin, kMargin}, high += Vec3d{kMargin, kMargin, kMargin};
+  low -= Vec3d{kHeatMargin, kHeatMargin, kHeatMargin}, high += Vec3d{kHeatMargin, kHeatMargin, kHeatMargin};
   const auto inside = [&](Vec3d p) {
     return m_any && p.x >= low.x && p.y >= low.y && p.z >= low.z && p.x <= high.x && p.y <= high.y && p.z <= high.z;
   };

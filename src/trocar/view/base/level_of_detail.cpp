@@ -12,9 +12,9 @@ namespace {
 const std::vector<sim::DetailLevel> kDefault{
     {0.060, 0.00007, 2}, {0.120, 0.00015, 2}, {0.240, 0.0004, 0}, {0.600, 0.001, 0}};
 
-constexpr std::size_t kLooks = 96;     // points of a thing whose distance is looked at
-constexpr float kPaintLength = 1e-3f;  // [m] that a change of paint from none to all counts
-constexpr float kMargin = 0.25f;       // [rad] beside the picture
+constexpr std::size_t kLooks = 96;      // points of a thing whose distance is looked at
+constexpr float kPaintLength = 1e-3f;   // [m] that a change of paint from none to all counts
+constexpr float kDetailMargin = 0.25f;  // [rad] beside the picture
 constexpr std::uint32_t kLeastSides = 4;
 
 }  // namespace
@@ -40,7 +40,7 @@ DetailEye::DetailEye(const render::Camera& camera, double height, const render::
     : position(camera.position), forward(-camera.rotation.column(2)), index(eye) {
   const float half = camera.vertical_fov / 2;
   const float corner = std::atan(1.7f * std::tan(half));  // pictures are wider than high
-  edge = std::cos(std::min(corner + kMargin, 3.0f));
+  edge = std::cos(std::min(corner + kDetailMargin, 3.0f));
   scale = kReferenceHeight / (height * double(quality.render_scale)) * std::tan(double(half)) / kReferenceTangent *
           double(quality.coarser);
 }

@@ -16,7 +16,7 @@ Vec3d in_world(const double (&v)[3], const interactions::StrandFrame& f) {
 }
 
 // Shares of a tube's radius, our choice: how far it bulges and gathers beside a clip, and is drawn in between its legs.
-constexpr double kBulge = 0.2, kGathers = 0.1, kDrawnIn = 0.25;
+constexpr double kPinchBulge = 0.2, kGathers = 0.1, kPinchDrawnIn = 0.25;
 
 double leg_length(const Clip& clip) { return clip.length > 0 ? clip.length : kClipLength; }
 
@@ -97,9 +97,9 @@ Vec3d pressed(Vec3d p, const ClipPress& press) {
   const double near = 1 - std::clamp(beside / fade, 0.0, 1.0), amount = between * near * near * (1.5 - 0.5 * near);
   const double angle = std::atan2(x, z) + (dot(d, press.normal) > 0 ? 0.7 : 0);
   const double gathers = std::sin(4 * angle + 1) + 0.6 * std::sin(3 * angle + 2.4);
-  const double bulge = between * (4 * near * (1 - near) * kBulge + kGathers * gathers * smooth(0.05, 0.7, near));
+  const double bulge = between * (4 * near * (1 - near) * kPinchBulge + kGathers * gathers * smooth(0.05, 0.7, near));
   const double flattened = x * ((1 + bulge) * (1 - amount) + amount * std::min(1.0, press.flat));
-  double drawn_in = z * (1 + bulge * (1 - amount) - kDrawnIn * amount);
+  double drawn_in = z * (1 + bulge * (1 - amount) - kPinchDrawnIn * amount);
   if (z > press.low) drawn_in = std::max(drawn_in, press.low + 0.5 * rim);
   return p + (flattened - x) * press.open + (drawn_in - z) * press.axis;
 }

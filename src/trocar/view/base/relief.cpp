@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/numerics/portable.hpp>
 #include <trocar/view/base/relief.hpp>
 
 namespace trocar::view {
 namespace {
 
-constexpr double kTwoPi = 6.28318530717959;
 constexpr std::size_t kSlices = 16;
 constexpr double kBandHalf = 0.0028;                          // [m] half the width of a gut's band
 constexpr float kPatternAlong = 1.12f, kPatternRound = 0.9f;  // how fine a gut's patterns are
@@ -87,7 +87,7 @@ void add_scars(const Relief& relief, const tissue::Skin& skin, std::vector<float
   for (int k = 0; k < relief.scars; ++k) {
     const std::size_t v = std::size_t(varied(seed + k, 75) * double(skin.rest.size() - 1));
     const Vec3d n = vec_cast<double>(skin.rest_normal[v]), x = any_perpendicular(n), y = cross(n, x);
-    const double turn = kTwoPi * varied(seed + k, 76), half = 0.0022 * (0.4 + varied(seed + k, 77));
+    const double turn = portable::two_pi * varied(seed + k, 76), half = 0.0022 * (0.4 + varied(seed + k, 77));
     const Vec3d along = std::cos(turn) * x + std::sin(turn) * y;
     for (std::size_t i = 0; i < skin.rest.size(); ++i) {
       const Vec3d d = vec_cast<double>(skin.rest[i] - skin.rest[v]);
@@ -127,12 +127,12 @@ void add_haustra(const Relief& relief, const tissue::Skin& skin, std::vector<flo
     const double at = std::clamp((dot(p, axis) - low) / slice, 0.0, double(kSlices) - 1e-6);
     const auto k = std::size_t(at);
     const Vec3d from = p - (middle[k] + (at - double(k)) * (middle[k + 1] - middle[k]));
-    const double turn = std::atan2(dot(from, up), dot(from, right)) / kTwoPi + 0.5;  // 0..1
+    const double turn = std::atan2(dot(from, up), dot(from, right)) / portable::two_pi + 0.5;  // 0..1
     const double third = 3 * turn + 0.12 * waves(p, 0.05), away = std::fabs(third - std::round(third)) / 3;
-    const double band = smooth(kBandHalf + 0.0022, kBandHalf - 0.0006, away * kTwoPi * length(from));
+    const double band = smooth(kBandHalf + 0.0022, kBandHalf - 0.0006, away * portable::two_pi * length(from));
     const double along =
         dot(p, axis) / relief.haustra_size + 0.37 * std::floor(third) + 0.3 * waves(p, 2.5 * relief.haustra_size);
-    const double furrow = std::pow(0.5 + 0.5 * std::cos(kTwoPi * along), 5);
+    const double furrow = std::pow(0.5 + 0.5 * std::cos(portable::two_pi * along), 5);
     height[i] -= float(relief.haustra * (furrow * (1 - band) + 0.15 * band));
     paint[i].tint = std::max(paint[i].tint, to_byte(0.8 * band));
     paint[i].openness = std::uint8_t(paint[i].openness * (1 - 0.3 * furrow * (1 - band)));
@@ -151,7 +151,7 @@ void add_roots(const Relief& relief, const tissue::Skin& skin, std::vector<float
 }  // namespace
 
 double waves(Vec3d p, double size) {
-  const Vec3d q = (kTwoPi / size) * p;
+  const Vec3d q = (portable::two_pi / size) * p;
   const double a = std::sin(q.x + 1.3 * std::sin(0.71 * q.y + 0.5)) * std::cos(0.83 * q.y + 0.9 * std::sin(0.64 * q.z));
   const double b = std::sin(0.77 * q.z + 1.1 * std::cos(0.59 * q.x + 1.7) + 0.3 * q.y);
   return 0.6 * a + 0.4 * b;

@@ -13,10 +13,10 @@
 namespace trocar::view {
 namespace {
 
-constexpr int kHalvings = 5;                              // of an icosahedron's edges: 6 mm on average
-constexpr int kBelow = 3;                                 // rings of the cavity that lie below a wall
-constexpr double kSunk = 0.00015;                         // [m] times (rings from the wall's border)^2
-constexpr double kHold = 1, kNear = 1.5e-6, kFar = 4e-5;  // weights, see fairest()
+constexpr int kCavityHalvings = 5;                         // of an icosahedron's edges: 6 mm on average
+constexpr int kCavityBelow = 3;                            // rings of the cavity that lie below a wall
+constexpr double kCavitySunk = 0.00015;                    // [m] times (rings from the wall's border)^2
+constexpr double kCavityNear = 1.5e-6, kCavityFar = 4e-5;  // weights, see fairest()
 
 tissue::Box bounds_of(const sim::Model& model) {
   tissue::Box box;
@@ -115,7 +115,7 @@ struct Ball {
           else
             triangles.push_back({i, k, j});
         }
-    for (int i = 0; i < kHalvings; ++i) divide();
+    for (int i = 0; i < kCavityHalvings; ++i) divide();
   }
   void divide() {
     geometry::Quartered finer = geometry::quartered(triangles, int(points.size()));
@@ -204,19 +204,19 @@ MeshBuffer cavity_around(const sim::Model& model) {
   std::vector<double> wished(far.size()), weight(far.size());
   for (std::size_t i = 0; i < far.size(); ++i) {
     wished[i] = far[i] > 0 ? far[i] : length(cavity.at_direction(ball.points[i]) - cavity.middle);
-    weight[i] = far[i] > 0 ? kHold : kNear + kFar * smooth(2, 16, beyond[i]);
+    weight[i] = far[i] > 0 ? kHeldFast : kCavityNear + kCavityFar * smooth(2, 16, beyond[i]);
   }
   const std::vector<double> radius = model.walls.empty() ? wished : fairest(net, wished, weight);
   MeshBuffer b;
   std::vector<int> number(far.size(), -1);
   for (const auto& t : ball.triangles) {
-    const auto deep = [&](int v) { return below[std::size_t(v)] > kBelow; };
+    const auto deep = [&](int v) { return below[std::size_t(v)] > kCavityBelow; };
     if (deep(t[0]) || deep(t[1]) || deep(t[2])) continue;
     std::array<std::uint32_t, 3> corner{};
     for (std::size_t k = 0; k < 3; ++k) {
       const auto v = std::size_t(t[k]);
       if (number[v] < 0) {
-        const double sunk = kSunk * below[v] * below[v];
+        const double sunk = kCavitySunk * below[v] * below[v];
         const Vec3d p = cavity.middle + (radius[v] + sunk) * ball.points[v];
         number[v] = int(b.add(vec_cast<float>(p), Paint{255, 0, 0, to_byte(fat_below(p))}));
       }

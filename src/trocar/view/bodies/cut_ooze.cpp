@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/view/base/drawn_blood.hpp>
 #include <trocar/view/base/mesh_buffer.hpp>
 #include <trocar/view/base/relief.hpp>
 #include <trocar/view/bodies/cut_ooze.hpp>
@@ -9,25 +10,24 @@ namespace trocar::view {
 namespace {
 
 // Our choice, by eye.
-constexpr float kDark = 0.7f;          // venous, not yet clotted
 constexpr double kRunning = 0.35;      // share of the lip's vertices from which a run starts
-constexpr float kStep = 0.0011f;       // [m] between two links of a run
+constexpr float kOozeStep = 0.0011f;   // [m] between two links of a run
 constexpr float kShortest = 0.004f;    // [m]
-constexpr float kWide = 0.42e-3f;      // [m]
-constexpr float kThick = 20e-6f;       // [m] at the lip; it thins out on its way, and swells where it stops
+constexpr float kOozeWide = 0.42e-3f;  // [m]
+constexpr float kOozeThick = 20e-6f;   // [m] at the lip; it thins out on its way, and swells where it stops
 constexpr float kSheetWide = 0.0019f;  // [m] half of what a place of the lip wets below it
 constexpr double kSheetLong = 0.0075, kSheetWave = 0.005;  // [m] how far, unequally, from one place to the next
 constexpr float kBelowLip = 0.6e-3f;                       // [m] how far from the rim a run begins
-constexpr float kUnderside = 0.4f;                         // cosine between skin and fall at which blood drips
+constexpr float kOozeUnderside = 0.4f;                     // cosine between skin and fall at which blood drips
 constexpr float kMostLeft = 0.0018f;                       // [m] beyond the skin's last vertex it ends
-constexpr float kCut = 0.008f, kBrim = 0.0022f;            // [m] a cut's size; it spills this far above its lowest
+constexpr float kCutSize = 0.008f, kBrim = 0.0022f;        // [m] a cut's size; it spills this far above its lowest
 
-struct Place {
+struct SkinPlace {
   Vec3f position, normal;
 };
 
 /// Laid on the skin: on the plane of the vertex next to it. False where it has come to its end.
-bool on_skin(const CutSkin& skin, Place& place) {
+bool on_skin(const CutSkin& skin, SkinPlace& place) {
   float nearest = kMostLeft * kMostLeft;
   const Vec3f p = place.position;
   bool found = false;
@@ -41,21 +41,21 @@ bool on_skin(const CutSkin& skin, Place& place) {
   return found;
 }
 
-render::Splat film(const Place& from, const Place& to, float radius, float thick) {
+render::Splat film(const SkinPlace& from, const SkinPlace& to, float radius, float thick) {
   render::Splat s;
   s.kind = render::SplatKind::film;
   s.from = from.position, s.to = to.position;
   s.normal = normalised(from.normal + to.normal, from.normal);
   s.radius = radius;
   s.height = thick;
-  s.dark = kDark;
+  s.dark = kDrawnDark;
   return s;
 }
 
 /// What lies on the lip hardly reaches back into the cut, where its border would be a line across what is raw.
-Place below_lip(const CutSkin& skin, std::uint32_t v, Vec3f down) {
-  const Place lip{skin.position[v], skin.normal[v]};
-  Place below{lip.position + kBelowLip * (down - dot(down, lip.normal) * lip.normal), lip.normal};
+SkinPlace below_lip(const CutSkin& skin, std::uint32_t v, Vec3f down) {
+  const SkinPlace lip{skin.position[v], skin.normal[v]};
+  SkinPlace below{lip.position + kBelowLip * (down - dot(down, lip.normal) * lip.normal), lip.normal};
   return on_skin(skin, below) ? below : lip;
 }
 
@@ -65,17 +65,17 @@ bool at_rim(const CutSkin& skin, Vec3f p) {
 }
 
 /// A run that comes to a cut again is lost in it.
-void list_run(const CutSkin& skin, Place at, int own, render::Liquid& liquid, std::vector<Vec3f>& drips) {
+void list_run(const CutSkin& skin, SkinPlace at, int own, render::Liquid& liquid, std::vector<Vec3f>& drips) {
   const auto u = [own](int which) { return float(varied(own, which)); };
-  const float far = kShortest + (kOozeReach - kShortest) * u(1), wide = kWide * (0.7f + 1.3f * u(2) * u(2));
-  const int links = int(far / kStep);
+  const float far = kShortest + (kOozeReach - kShortest) * u(1), wide = kOozeWide * (0.7f + 1.3f * u(2) * u(2));
+  const int links = int(far / kOozeStep);
   const std::size_t before = liquid.splats.size();
   for (int n = 0; n < links; ++n) {
     const Vec3f fall = liquid.down - dot(liquid.down, at.normal) * at.normal;
     const Vec3f across = cross(at.normal, fall);
     const float wind = 0.45f * std::sin(0.55f * float(n) + 6 * u(3)) + 0.3f * (u(20 + n) - 0.5f);
-    Place next{at.position + kStep * (normalised(fall, Vec3f{}) + wind * across), at.normal};
-    if (!on_skin(skin, next) || dot(next.normal, liquid.down) > kUnderside) {
+    SkinPlace next{at.position + kOozeStep * (normalised(fall, Vec3f{}) + wind * across), at.normal};
+    if (!on_skin(skin, next) || dot(next.normal, liquid.down) > kOozeUnderside) {
       drips.push_back(at.position);
       return;
     }
@@ -85,7 +85,7 @@ void list_run(const CutSkin& skin, Place at, int own, render::Liquid& liquid, st
     }
     const float gone = float(n) / float(links), stops = n + 2 >= links ? 1.9f : 1.0f;
     liquid.splats.push_back(
-        film(at, next, wide * (1.15f - 0.45f * gone) * std::sqrt(stops), kThick * (1 - 0.7f * gone) * stops));
+        film(at, next, wide * (1.15f - 0.45f * gone) * std::sqrt(stops), kOozeThick * (1 - 0.7f * gone) * stops));
     at = next;
   }
 }
@@ -100,7 +100,7 @@ bool lowest(const CutSkin& skin, std::size_t i, Vec3f down) {
   const Vec3f p = skin.position[skin.rim[i]];
   return std::all_of(skin.rim.begin(), skin.rim.end(), [&](std::uint32_t other) {
     const Vec3f off = skin.position[other] - p;
-    return dot(off, off) > kCut * kCut || dot(off, down) < kBrim;
+    return dot(off, off) > kCutSize * kCutSize || dot(off, down) < kBrim;
   });
 }
 

@@ -10,8 +10,8 @@ namespace {
 // Our choice, by eye.
 constexpr int kAlongRims = 7;        // steps of a half towards the mean: a cell's edge is three of them long
 constexpr int kWithin = 6;           // ... of what is bare
-constexpr int kAround = 10;          // ... of the skin around
-constexpr float kRound = 0.012f;     // [m] how far from a rim it goes along
+constexpr int kCutAround = 10;       // ... of the skin around
+constexpr float kCutRound = 0.012f;  // [m] how far from a rim it goes along
 constexpr float kSamePlace = 1e-5f;  // [m] at rest: the two sides of a slit
 
 using Key = std::array<int, 6>;
@@ -94,7 +94,7 @@ void CutShape::keep_near(std::vector<Edge>& edges) {
   std::vector<int> renamed(m_kind.size(), -1);
   int kept = 0;
   for (std::size_t i = 0; i < m_kind.size(); ++i) {
-    if (m_kind[i] == Kind::skin && m_far[i] > kRound) continue;
+    if (m_kind[i] == Kind::skin && m_far[i] > kCutRound) continue;
     m_kind[std::size_t(kept)] = m_kind[i], m_far[std::size_t(kept)] = m_far[i];
     renamed[i] = kept++;
   }
@@ -157,9 +157,9 @@ void CutShape::smooth(std::span<Vec3f> positions) {
   for (int n = 0; n < kWithin; ++n) relax(0.5f, [](Kind kind) { return kind == Kind::bare; });
   // From here on places are ways: the skin takes over its neighbours'.
   for (std::size_t i = 0; i < m_kind.size(); ++i) m_place[i] -= m_shift[i];
-  for (int n = 0; n < kAround; ++n) relax(0.9f, [](Kind kind) { return kind == Kind::skin; });
+  for (int n = 0; n < kCutAround; ++n) relax(0.9f, [](Kind kind) { return kind == Kind::skin; });
   for (std::size_t i = 0; i < m_kind.size(); ++i)
-    if (m_kind[i] == Kind::skin) m_place[i] *= 1 - m_far[i] / kRound;
+    if (m_kind[i] == Kind::skin) m_place[i] *= 1 - m_far[i] / kCutRound;
   for (std::size_t i = 0; i < m_kind.size(); ++i) m_shift[i] += m_place[i];
   for (std::size_t v = 0; v < m_spot.size(); ++v)
     if (m_spot[v] >= 0) positions[v] = m_shift[std::size_t(m_spot[v])];

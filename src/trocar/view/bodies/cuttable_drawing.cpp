@@ -10,16 +10,17 @@
 namespace trocar::view {
 namespace {
 
-constexpr Paint kFlesh{220, 235, 0, 0};      // laid bare: raw, as solid right up to the skin as below it
-constexpr std::uint8_t kDeepOpenness = 150;  // ... at a cut's bottom: dark, but tissue, no hole
-constexpr Paint kEdge{235, 70, 0, 190};      // the capsule's cut edge, drawn back: a thin line of the look's tint ...
+constexpr Paint kCuttableFlesh{220, 235, 0, 0};  // laid bare: raw, as solid right up to the skin as below it
+constexpr std::uint8_t kDeepOpenness = 150;      // ... at a cut's bottom: dark, but tissue, no hole
+constexpr Paint kCuttableEdge{235, 70, 0,
+                              190};  // the capsule's cut edge, drawn back: a thin line of the look's tint ...
 constexpr double kEdgeHidden = 70, kEdgeWave = 0.0063;  // ... here and there below blood; [m]
 constexpr std::uint8_t kRimBlood = 70;                  // on the skin at a cut's rim, which is wet with it
 constexpr std::uint8_t kRimPale = 40;                   // ... and bled out: the look's tint
-constexpr float kCut = 0.0035f;               // [m] how far into a cut blood stands behind the lip that it spills over
+constexpr float kIntoCut = 0.0035f;           // [m] how far into a cut blood stands behind the lip that it spills over
 constexpr std::uint8_t kCover = 235;          // where what wells out of it covers that
 constexpr float kStains = 0.0014f;            // [m] how far from a cut its blood stains the skin
-constexpr float kLip = 0.0003f;               // [m] how far its lips are turned out ...
+constexpr float kCuttableLip = 0.0003f;       // [m] how far its lips are turned out ...
 constexpr float kLipAt = 0.0022f;             // [m] ... so far from the rim
 constexpr float kRough = 0.3f;                // slope of torn flesh, which breaks up what it mirrors
 constexpr std::uint8_t kLooseOpenness = 230;  // of pieces that have come off, which do not lie where they were baked
@@ -27,7 +28,7 @@ constexpr std::uint8_t kLoosePale = 60;       // their capsule has bled out
 constexpr float kGrain = 0.0007f;             // [m] torn lobules of what is bare
 constexpr float kGape = 0.0017f;              // [m] how far either side of a cut draws back
 constexpr float kDeepGape = 0.0008f;          // [m] ... below its mouth: a cleft, not a hole below a rim
-constexpr float kFrayed = 0.0006f;            // [m] how far a rim strays from the straight line of its cells
+constexpr float kCuttableFrayed = 0.0006f;    // [m] how far a rim strays from the straight line of its cells
 constexpr int kDrawnAlong = 3;                // rings of nodes that go with it
 
 /// Nodes at which the inside is bare: the skin ends there, so it has no relief that would leave a gap.
@@ -190,7 +191,7 @@ void CuttableDrawing::fray() {
     const Vec3d off{waves(p, 0.0081), waves(p + Vec3d{0.2, 0.5, 0.1}, 0.0077), waves(p + Vec3d{0.6, 0.3, 0.4}, 0.0073)};
     const Vec3d torn{waves(p, 0.0031), waves(p + Vec3d{0.1, 0.7, 0.2}, 0.0029),
                      waves(p + Vec3d{0.5, 0.2, 0.3}, 0.0033)};
-    m_pose.position[i] += kFrayed * vec_cast<float>(off + 0.5 * torn);
+    m_pose.position[i] += kCuttableFrayed * vec_cast<float>(off + 0.5 * torn);
   }
 }
 
@@ -211,11 +212,11 @@ void CuttableDrawing::paint_skin() {
       const Vec3d at = vec_cast<double>(m_skin.skin.rest[i]);
       const float mouth = at_rim(m_skin, m_mouth, i);
       m_height[i] = kGrain * (1 - mouth) * float(waves(at, 0.0027));
-      m_paint[i] = kFlesh;
-      m_paint[i].openness = std::uint8_t(float(kDeepOpenness) + mouth * float(kFlesh.openness - kDeepOpenness));
+      m_paint[i] = kCuttableFlesh;
+      m_paint[i].openness = std::uint8_t(float(kDeepOpenness) + mouth * float(kCuttableFlesh.openness - kDeepOpenness));
       if (m_shape.from_rim(i) <= 0) {
-        m_paint[i] = kEdge;
-        m_paint[i].blood = std::uint8_t(double(kEdge.blood) + kEdgeHidden * waves(at, kEdgeWave));
+        m_paint[i] = kCuttableEdge;
+        m_paint[i].blood = std::uint8_t(double(kCuttableEdge.blood) + kEdgeHidden * waves(at, kEdgeWave));
       }
       continue;
     }
@@ -232,7 +233,7 @@ void CuttableDrawing::paint_lip(std::size_t vertex, bool loose) {
   const float far = m_shape.from_rim(vertex), off = (far - kLipAt) / kLipAt;
   m_height[vertex] *= std::min(far / (2 * kLipAt), 1.0f);
   if (loose) return;
-  if (far > 0) m_height[vertex] += kLip * std::exp(-off * off);
+  if (far > 0) m_height[vertex] += kCuttableLip * std::exp(-off * off);
   const double stain = smooth(double(kStains), 0.0, double(far));
   const double wave = waves(vec_cast<double>(m_skin.skin.rest[vertex]), kEdgeWave);
   m_paint[vertex].blood = std::uint8_t(double(kRimBlood) * (1 + 0.6 * wave) * stain);
@@ -281,9 +282,9 @@ void CuttableDrawing::paint_blood() {
   }
   for (std::size_t i = 0; i < x.size() && !lip.empty(); ++i) {
     if (!m_skin.bare[i]) continue;
-    float far = kCut;
+    float far = kIntoCut;
     for (const std::uint32_t v : lip) far = std::min(far, length(x[v] - x[i]));
-    cover(i, smooth(double(kCut), 0.4 * double(kCut), double(far)));
+    cover(i, smooth(double(kIntoCut), 0.4 * double(kIntoCut), double(far)));
   }
 }
 

@@ -9,12 +9,12 @@
 namespace trocar::view {
 namespace {
 
-constexpr double kHalfStroke = 0.085, kWide = 0.6, kGap = 0.3;  // of a digit's height
+constexpr double kHalfStroke = 0.085, kDigitWide = 0.6, kGap = 0.3;  // of a digit's height
 
-struct Point {
+struct DigitPoint {
   double x, y;  ///< tenths of the height; a digit is six wide
 };
-using Stroke = std::vector<Point>;
+using Stroke = std::vector<DigitPoint>;
 
 const std::array<Stroke, 10>& strokes() {
   static const std::array<Stroke, 10> all{{
@@ -101,7 +101,7 @@ const std::array<Stroke, 10>& strokes() {
   return all;
 }
 
-double to_segment(Point p, Point a, Point b) {
+double to_segment(DigitPoint p, DigitPoint a, DigitPoint b) {
   const double ux = b.x - a.x, uy = b.y - a.y, whole = ux * ux + uy * uy;
   const double w = whole > 0 ? std::clamp(((p.x - a.x) * ux + (p.y - a.y) * uy) / whole, 0.0, 1.0) : 0;
   return std::hypot(p.x - a.x - w * ux, p.y - a.y - w * uy);
@@ -110,12 +110,12 @@ double to_segment(Point p, Point a, Point b) {
 }  // namespace
 
 double ink_at(const std::string& digits, double x, double y, double soft) {
-  const double wide = kWide * double(digits.size()) + kGap * (double(digits.size()) - 1);
+  const double wide = kDigitWide * double(digits.size()) + kGap * (double(digits.size()) - 1);
   double least = 1e9;
   for (std::size_t i = 0; i < digits.size(); ++i) {
     if (digits[i] < '0' || digits[i] > '9') continue;
     const Stroke& stroke = strokes()[std::size_t(digits[i] - '0')];
-    const Point at{10 * (x + 0.5 * wide - double(i) * (kWide + kGap)), 10 * (y + 0.5)};
+    const DigitPoint at{10 * (x + 0.5 * wide - double(i) * (kDigitWide + kGap)), 10 * (y + 0.5)};
     for (std::size_t k = 1; k < stroke.size(); ++k)
       least = std::min(least, 0.1 * to_segment(at, stroke[k - 1], stroke[k]));
   }

@@ -9,16 +9,16 @@
 namespace trocar::view {
 namespace {
 
-constexpr int kRings = 25;             // along a frond ...
-constexpr int kCapRings = 6;           // ... of which so many round off its end
-constexpr double kThick = 0.00024;     // [m] half of a frond's thickness
-constexpr double kWave = 0.0021;       // [m] from crest to crest of its frill
-constexpr double kMostWaves = 3.3;     // that its rings can follow
-constexpr double kFrill = 0.00058;     // [m] how far that goes to either side, at the most
-constexpr double kSlack = 0.0011;      // [m] by which one that reaches the ovary swings aside on its way
-constexpr double kLobes = 1.45;        // scallops of its edge a wave of its frill
-constexpr double kOwnRoot = 0.3;       // of its length: on it a frond goes over from the bell's shape to its own
-constexpr std::size_t kFoldSides = 6;  // vertices around a frond that grows out of a fold
+constexpr int kFrondRings = 25;          // along a frond ...
+constexpr int kCapRings = 6;             // ... of which so many round off its end
+constexpr double kFrondThick = 0.00024;  // [m] half of a frond's thickness
+constexpr double kFrondWave = 0.0021;    // [m] from crest to crest of its frill
+constexpr double kMostWaves = 3.3;       // that its rings can follow
+constexpr double kFrill = 0.00058;       // [m] how far that goes to either side, at the most
+constexpr double kFrondSlack = 0.0011;   // [m] by which one that reaches the ovary swings aside on its way
+constexpr double kLobes = 1.45;          // scallops of its edge a wave of its frill
+constexpr double kOwnRoot = 0.3;         // of its length: on it a frond goes over from the bell's shape to its own
+constexpr std::size_t kFoldSides = 6;    // vertices around a frond that grows out of a fold
 
 /// The bell beyond the tube's end, over its rim and down to the mouth: forwards and outwards, in radii of the end, how
 /// much light gets there, how thin it is, and how far out of it (inwards where negative) the folds stand that run on
@@ -47,11 +47,11 @@ struct FrondRow {
   double length, half_width;
   double lean, falls;  ///< [rad] at the root, and how much more at the tip
 };
-constexpr std::array<FrondRow, 2> kRows{
+constexpr std::array<FrondRow, 2> kFrondRows{
     {{16, 0.38, 0.89, 1.45, 0.25, 0.66, 0.55}, {9, 0.10, 0.69, 1.25, 0.22, 0.50, 0.20}}};
-static_assert(kRows[0].count + kRows[1].count == kFoldFronds);
-constexpr FrondRow kRim{kRimFronds, 0, 0, 1.20, 0, 0.70, 0.95};  // those of the rim: their roots are its own
-constexpr int kClump = 3;                                        // neighbours that cling together
+static_assert(kFrondRows[0].count + kFrondRows[1].count == kFoldFronds);
+constexpr FrondRow kFrondRim{kRimFronds, 0, 0, 1.20, 0, 0.70, 0.95};  // those of the rim: their roots are its own
+constexpr int kClump = 3;                                             // neighbours that cling together
 
 /// One frond: where it grows, how far, and how it bends.
 struct Frond {
@@ -72,12 +72,12 @@ double rose_of_bell(std::size_t row) { return row > kOuterRim ? 0.85 : 1.8 * kBe
 Vec3d outwards(double angle) { return {0, std::cos(angle), std::sin(angle)}; }
 Vec3d around(double angle) { return {0, -std::sin(angle), std::cos(angle)}; }
 double apart(double a, double b) { return std::fabs(std::remainder(a - b, 2 * portable::pi)); }
-double swing(int i, int k) { return 2 * varied(i, k) - 1; }
+double frond_swing(int i, int k) { return 2 * varied(i, k) - 1; }
 
 /// Column of the rim at which its i-th frond begins: they are of unequal width.
 int border(const FimbriaSite& site, int i) {
   constexpr int each = kRimColumns / kRimFronds;
-  return each * i + int(std::lround(1.45 * swing(1000 * site.seed + i % kRimFronds, 2)));
+  return each * i + int(std::lround(1.45 * frond_swing(1000 * site.seed + i % kRimFronds, 2)));
 }
 
 /// -1 between two fronds of the rim .. 1 in the middle of one.
@@ -117,11 +117,11 @@ Frond grown(const FimbriaSite& site, const FrondRow& row, int index) {
   const int clump = 1000 * site.seed + 500 + index / kClump;
   // Those of a clump lean the same way, and towards its middle.
   const double aside = index % kClump - 0.5 * (kClump - 1);
-  f.length = site.radius * row.length * (1 + 0.25 * swing(f.seed, 4) + 0.2 * swing(clump, 4));
-  f.lean = row.lean + 0.12 * swing(f.seed, 6);
-  f.falls = row.falls + 0.5 * swing(clump, 7) + 0.25 * swing(f.seed, 7);
-  f.sway = 0.3 * swing(clump, 8) + 0.2 * swing(f.seed, 8) - 0.35 * aside;
-  f.twist = 0.5 * swing(f.seed, 9);
+  f.length = site.radius * row.length * (1 + 0.25 * frond_swing(f.seed, 4) + 0.2 * frond_swing(clump, 4));
+  f.lean = row.lean + 0.12 * frond_swing(f.seed, 6);
+  f.falls = row.falls + 0.5 * frond_swing(clump, 7) + 0.25 * frond_swing(f.seed, 7);
+  f.sway = 0.3 * frond_swing(clump, 8) + 0.2 * frond_swing(f.seed, 8) - 0.35 * aside;
+  f.twist = 0.5 * frond_swing(f.seed, 9);
   f.root_lean = 0.66;
   f.reaches = 0;
   return f;
@@ -133,7 +133,7 @@ void set_width(Frond& f, double half) {
 }
 
 Frond rim_frond(const FimbriaSite& site, int i) {
-  Frond f = grown(site, kRim, i);
+  Frond f = grown(site, kFrondRim, i);
   const int from = border(site, i), to = i + 1 < kRimFronds ? border(site, i + 1) : border(site, 0) + kRimColumns;
   f.angle = portable::pi * (from + to) / kRimColumns;
   const std::vector<std::uint32_t> loop = root_loop(site, i);
@@ -146,16 +146,16 @@ Frond rim_frond(const FimbriaSite& site, int i) {
 
 Frond fold_frond(const FimbriaSite& site, const FrondRow& row, int i, int index) {
   Frond f = grown(site, row, index);
-  f.angle = 2 * portable::pi * (i + 0.35 * swing(f.seed, 3)) / row.count + 0.4 * row.count;
+  f.angle = 2 * portable::pi * (i + 0.35 * frond_swing(f.seed, 3)) / row.count + 0.4 * row.count;
   f.root = site.radius * (row.along * Vec3d{1, 0, 0} + row.radius * outwards(f.angle));
-  set_width(f, site.radius * row.half_width * (1 + 0.35 * swing(f.seed, 5)));
+  set_width(f, site.radius * row.half_width * (1 + 0.35 * frond_swing(f.seed, 5)));
   return f;
 }
 
 std::vector<Frond> fronds_of(const FimbriaSite& site) {
   std::vector<Frond> fronds;
   for (int i = 0; i < kRimFronds; ++i) fronds.push_back(rim_frond(site, i));
-  for (const FrondRow& row : kRows)
+  for (const FrondRow& row : kFrondRows)
     for (int i = 0; i < row.count; ++i) fronds.push_back(fold_frond(site, row, i, int(fronds.size())));
   if (!site.ovary) return fronds;
   const double to_ovary = std::atan2(site.land.z, site.land.y);
@@ -172,11 +172,11 @@ std::vector<Frond> fronds_of(const FimbriaSite& site) {
 struct Spine {
   Vec3d point, along, across, flat;  ///< unit; flat: out of the inner side
 };
-using Spines = std::array<Spine, kRings + 1>;
+using Spines = std::array<Spine, kFrondRings + 1>;
 
 /// Rings stand closer where its end is rounded off.
 double along_frond(const Frond& f, int ring) {
-  constexpr int body = kRings - kCapRings;
+  constexpr int body = kFrondRings - kCapRings;
   if (ring <= body) return (1 - f.end) * ring / body;
   return 1 - f.end + f.end * std::sin(0.5 * portable::pi * (ring - body) / kCapRings);
 }
@@ -191,7 +191,7 @@ Spines hanging(const Frond& f, const FimbriaSite& site) {
   Spines spine;
   const Vec3d out = outwards(f.angle), side = around(f.angle);
   Vec3d p = f.root;
-  for (int i = 0; i <= kRings; ++i) {
+  for (int i = 0; i <= kFrondRings; ++i) {
     const double u = along_frond(f, i), own = smooth(0, 0.5, u);
     const double bent = f.lean + f.falls * u + 0.45 * std::sin(5.5 * u + f.seed);
     const double lean = f.root_lean + own * (bent - f.root_lean);
@@ -202,7 +202,7 @@ Spines hanging(const Frond& f, const FimbriaSite& site) {
     const Vec3d across = normalised(side - dot(side, t) * t, any_perpendicular(t));
     spine[std::size_t(i)] = {p, t, across, cross(t, across)};
     turn(spine[std::size_t(i)], f.twist * u);
-    if (i < kRings) p += (f.length * (along_frond(f, i + 1) - u)) * t;
+    if (i < kFrondRings) p += (f.length * (along_frond(f, i + 1) - u)) * t;
   }
   return spine;
 }
@@ -215,9 +215,9 @@ Spines landing(const Frond& f, const FimbriaSite& site) {
   const Vec3d da = (1.1 * far) * (std::cos(f.lean) * Vec3d{1, 0, 0} + std::sin(f.lean) * out),
               db = (1.3 * far) * normalised(site.slide - 0.25 * site.normal, site.slide);
   Vec3d carried = side;
-  for (int i = 0; i <= kRings; ++i) {
+  for (int i = 0; i <= kFrondRings; ++i) {
     const double t = along_frond(f, i), u = 1 - t;
-    const double aside = kSlack * std::sin(2 * portable::pi * t + f.seed) * smooth(0, 0.4, t) * smooth(1, 0.7, t);
+    const double aside = kFrondSlack * std::sin(2 * portable::pi * t + f.seed) * smooth(0, 0.4, t) * smooth(1, 0.7, t);
     const Vec3d p =
         (u * u * (1 + 2 * t)) * a + (t * t * (3 - 2 * t)) * b + (u * u * t) * da - (t * t * u) * db + aside * side;
     const Vec3d along = normalised((6 * t * u) * (b - a) + (u * (1 - 3 * t)) * da + (t * (3 * t - 2)) * db, site.slide);
@@ -225,10 +225,10 @@ Spines landing(const Frond& f, const FimbriaSite& site) {
     spine[std::size_t(i)] = {p, along, carried, cross(along, carried)};
   }
   // What it must turn about itself to lie flat at the end is shared out along it.
-  const Spine& last = spine[kRings];
+  const Spine& last = spine[kFrondRings];
   const Vec3d lying = cross(-site.normal, last.along);
   const double all = std::remainder(std::atan2(dot(lying, last.flat), dot(lying, last.across)), portable::pi);
-  for (int i = 0; i <= kRings; ++i) turn(spine[std::size_t(i)], all * smooth(0.1, 0.8, along_frond(f, i)));
+  for (int i = 0; i <= kFrondRings; ++i) turn(spine[std::size_t(i)], all * smooth(0.1, 0.8, along_frond(f, i)));
   return spine;
 }
 
@@ -237,7 +237,7 @@ Spines spine_of(const Frond& f, const FimbriaSite& site) {
   if (f.reaches <= 0) return own;
   const Spines drawn = landing(f, site);
   if (f.reaches >= 1) return drawn;
-  for (int i = 0; i <= kRings; ++i) {
+  for (int i = 0; i <= kFrondRings; ++i) {
     Spine& s = own[std::size_t(i)];
     const Spine& d = drawn[std::size_t(i)];
     s.point = (1 - 0.6 * f.reaches) * s.point + (0.6 * f.reaches) * d.point;
@@ -266,24 +266,24 @@ Corner corner_of(std::size_t k, std::size_t count) {
 /// Half its width over that at its root: it has a belly, and tapers.
 double belly(double u) { return 1 + 0.55 * smooth(0.05, 0.45, u) - 0.85 * smooth(0.45, 1.0, u); }
 
-struct Place {
+struct FrondPlace {
   Vec3d offset;  ///< from the middle line [m]
   double dip;    ///< 0 .. 1: how deep in a fold of the frill
 };
 
 /// A frond's edges are longer than its middle: they swing to and fro across it in a soft frill, each by its own
 /// measure, and are scalloped.
-Place place_on(const Frond& f, const Spines& spine, double span, int ring, Corner corner) {
+FrondPlace place_on(const Frond& f, const Spines& spine, double span, int ring, Corner corner) {
   const Spine& s = spine[std::size_t(ring)];
   const double w = corner.across, u = along_frond(f, ring), tip = round_end(u, f.end);
   const int side = 2 * f.seed + (w > 0 ? 1 : 0);
-  const double waves = std::min(span / kWave, kMostWaves) * (0.75 + 0.25 * varied(side, 21));
+  const double waves = std::min(span / kFrondWave, kMostWaves) * (0.75 + 0.25 * varied(side, 21));
   const double phase = 2 * portable::pi * (waves * (u + 0.05 * std::sin(6 * u + side)) + varied(side, 22));
   const double loose = smooth(0.12, 0.5, u) * tip;
   const double up = std::sin(phase);
   const double across = w * f.half * belly(u) * tip * (1 + 0.24 * loose * std::sin(kLobes * phase + side));
-  const double edge = w * w, cup = 0.35 * swing(f.seed, 12) * f.half * edge * loose;
-  const double thick = kThick * tip * (1.1 - 0.5 * u);
+  const double edge = w * w, cup = 0.35 * frond_swing(f.seed, 12) * f.half * edge * loose;
+  const double thick = kFrondThick * tip * (1.1 - 0.5 * u);
   return {across * s.across + (kFrill * loose * edge * up + cup + corner.side * thick) * s.flat,
           std::max(0.0, (corner.side < 0 ? up : -up) * loose * edge)};
 }
@@ -316,7 +316,7 @@ void join_loops(MeshBuffer& b, const std::vector<std::uint32_t>& low, const std:
 Paint paint_on(const Frond& f, double u, Corner corner, double dip) {
   const double thin = 1 - round_end(u, f.end), edge = smooth(0.6, 1.0, std::fabs(corner.across));
   const double rim = std::max(edge, thin) * smooth(0.05, 0.4, u);
-  const double own = 0.75 + 0.2 * swing(f.seed, 31), root = rose_of_bell(kOuterRim);
+  const double own = 0.75 + 0.2 * frond_swing(f.seed, 31), root = rose_of_bell(kOuterRim);
   const double tint = root + smooth(0, 0.35, u) * (own - root);
   return painted((0.56 + 0.26 * rim + 0.44 * smooth(0.3, 0, u) * (1 - rim)) * (1 - 0.25 * dip),
                  (tint + (1 - tint) * 0.5 * dip) * (1 - 0.85 * rim));
@@ -329,19 +329,19 @@ void add_frond(MeshBuffer& b, const Frond& f, const FimbriaSite& site, std::vect
   for (std::size_t i = 1; i < spine.size(); ++i) span += length(spine[i].point - spine[i - 1].point);
   std::vector<Vec3d> root;
   for (const std::uint32_t v : row) root.push_back(vec_cast<double>(b.positions[v]) - spine[0].point);
-  for (int i = 1; i < kRings; ++i) {
+  for (int i = 1; i < kFrondRings; ++i) {
     const double u = along_frond(f, i), own = smooth(0, kOwnRoot, u);
     std::vector<std::uint32_t> next;
     for (std::size_t k = 0; k < row.size(); ++k) {
       const Corner corner = corner_of(k, row.size());
-      const Place place = place_on(f, spine, span, i, corner);
+      const FrondPlace place = place_on(f, spine, span, i, corner);
       const Vec3d offset = (1 - own) * root[k] + own * place.offset;
       next.push_back(b.add(vec_cast<float>(spine[std::size_t(i)].point + offset), paint_on(f, u, corner, place.dip)));
     }
     join_loops(b, row, next);
     row = std::move(next);
   }
-  const std::uint32_t tip = b.add(vec_cast<float>(spine[kRings].point), painted(1, 1));
+  const std::uint32_t tip = b.add(vec_cast<float>(spine[kFrondRings].point), painted(1, 1));
   join_pole(b, row.front(), std::uint32_t(row.size()), tip, true);
 }
 
@@ -349,10 +349,10 @@ void add_frond(MeshBuffer& b, const Frond& f, const FimbriaSite& site, std::vect
 std::vector<std::uint32_t> add_root(MeshBuffer& b, const Frond& f, const FimbriaSite& site) {
   const Spine s = spine_of(f, site)[0];
   std::vector<std::uint32_t> row;
-  const std::uint32_t pole = b.add(vec_cast<float>(s.point - kThick * s.along), painted(0.7, 0.2));
+  const std::uint32_t pole = b.add(vec_cast<float>(s.point - kFrondThick * s.along), painted(0.7, 0.2));
   for (std::size_t k = 0; k < kFoldSides; ++k) {
     const Corner c = corner_of(k, kFoldSides);
-    const Vec3d offset = (0.5 * f.half * c.across) * s.across + (0.5 * kThick * c.side) * s.flat;
+    const Vec3d offset = (0.5 * f.half * c.across) * s.across + (0.5 * kFrondThick * c.side) * s.flat;
     row.push_back(b.add(vec_cast<float>(s.point + offset), painted(0.7, 0.2)));
   }
   join_pole(b, row.front(), kFoldSides, pole, false);

@@ -4,15 +4,15 @@
 namespace trocar::view {
 namespace {
 
-constexpr double kReach = 0.019;   // [m] from the tube's end to the ovary, no farther
-constexpr double kSlide = 0.0035;  // [m] of the frond lie on it
+constexpr double kFimbriaReach = 0.019;  // [m] from the tube's end to the ovary, no farther
+constexpr double kSlide = 0.0035;        // [m] of the frond lie on it
 constexpr double kUpwards = 0.9;
-constexpr float kAbove = 0.0004f;
+constexpr float kAboveOvary = 0.0004f;
 
 struct Touch {
   const tissue::Skin* skin = nullptr;
   std::size_t vertex = 0;
-  double distance = kReach;
+  double distance = kFimbriaReach;
 };
 
 /// The organ nearest to the end of what the strand does not itself grow from.
@@ -53,7 +53,7 @@ FimbriaSite fimbria_site(const sim::Model& model, int strand, const CurveFrame& 
   const std::size_t on = nearest_vertex(*touch.skin, first + kSlide * slide);
   const Vec3f out = touch.skin->rest_normal[on];
   site.ovary = true;
-  site.land = local(vec_cast<double>(touch.skin->rest[on] + kAbove * out) - end.point);
+  site.land = local(vec_cast<double>(touch.skin->rest[on] + kAboveOvary * out) - end.point);
   site.normal = local(vec_cast<double>(out));
   site.slide = normalised(local(slide) - dot(local(slide), site.normal) * site.normal, local(slide));
   return site;

@@ -10,11 +10,11 @@ namespace trocar::view {
 namespace {
 
 constexpr int kGrid = 44;                                // cells along a disc's edge: 0.1 mm of one of 5 mm
-constexpr double kAbove = 0.00015;                       // [m] a disc above what it lies on
-constexpr double kBevel = 0.00012;                       // [m] by which its border falls
+constexpr double kMarkAbove = 0.00015;                   // [m] a disc above what it lies on
+constexpr double kMarkBevel = 0.00012;                   // [m] by which its border falls
 constexpr double kLabelHigh = 0.84, kLabelBeside = 0.7;  // of the radius: one digit, more of them
 constexpr double kRimFrom = 0.86, kRimTo = 0.93;         // of the radius: a thin ring
-constexpr int kRings = 5;                                // of a stripe
+constexpr int kMarkRings = 5;                            // of a stripe
 constexpr float kStripeLift = 0.00006f;                  // [m] above its tube
 
 struct Dye {
@@ -74,8 +74,8 @@ void MarkDrawing::make_disc() {
       const double out = length(p);
       const double rim = smooth(kRimFrom - soft, kRimFrom, out) * smooth(kRimTo + soft, kRimTo, out);
       const double ink = std::max(rim, ink_at(m_mark->label, p.x / size, p.y / size, 1.4 * soft / size));
-      const double down = i == 0 || j == 0 || i == kGrid || j == kGrid ? kBevel : 0;
-      m_flat.push_back(vec_cast<float>(Vec3d{radius * p.x, radius * p.y, kAbove - down}));
+      const double down = i == 0 || j == 0 || i == kGrid || j == kGrid ? kMarkBevel : 0;
+      m_flat.push_back(vec_cast<float>(Vec3d{radius * p.x, radius * p.y, kMarkAbove - down}));
       m_buffer.add({}, Paint{235, 0, 0, to_byte(ink)});
     }
   for (int j = 0; j < kGrid; ++j)
@@ -104,14 +104,15 @@ void MarkDrawing::place_disc(const sim::MarkPose& pose) {
 void MarkDrawing::place_stripe(const TubeDrawing& tube) {
   if (m_version == tube.version()) return;
   m_version = tube.version();
-  const std::vector<Vec3f> rings = tube.band(m_mark->s - m_mark->half, m_mark->s + m_mark->half, kRings, kStripeLift);
+  const std::vector<Vec3f> rings =
+      tube.band(m_mark->s - m_mark->half, m_mark->s + m_mark->half, kMarkRings, kStripeLift);
   m_there = !rings.empty();
   if (!m_there) return;
   const auto sides = std::uint32_t(tube.sides());
   const bool fresh = m_buffer.size() == 0;
   if (fresh) {
     for (const Vec3f& p : rings) m_buffer.add(p, Paint{235, 0, 0, 0});
-    for (std::uint32_t r = 0; r + 1 < std::uint32_t(kRings); ++r)
+    for (std::uint32_t r = 0; r + 1 < std::uint32_t(kMarkRings); ++r)
       join_rows(m_buffer, r * sides, (r + 1) * sides, sides, true);
     m_buffer.rest = rings;
   }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/numerics/portable.hpp>
 #include <trocar/render/meshes/mesh_arrays.hpp>
 #include <trocar/view/base/fold_pattern.hpp>
 #include <trocar/view/bodies/membrane_drawing.hpp>
@@ -8,14 +9,13 @@
 namespace trocar::view {
 namespace {
 
-constexpr int kFine = 3;                // drawn cells along each side of a cell of the body
-constexpr double kRipple = 0.0004;      // [m] of a fold that is slack
-constexpr double kFaded = 4;            // columns over which an end runs out
-constexpr double kRoot = 0.09;          // of its width, over which its root is lost in what it hangs on
-constexpr double kElsewhere = 0.0173;   // [m] one fold's pattern from the next one's
-constexpr float kRagged = 0.0005f;      // [m] how uneven a torn edge is
-constexpr std::uint8_t kTornPale = 44;  // it is whitish
-constexpr double kTwoPi = 6.28318530717959;
+constexpr int kFine = 3;                    // drawn cells along each side of a cell of the body
+constexpr double kMembraneRipple = 0.0004;  // [m] of a fold that is slack
+constexpr double kMembraneFaded = 4;        // columns over which an end runs out
+constexpr double kMembraneRoot = 0.09;      // of its width, over which its root is lost in what it hangs on
+constexpr double kElsewhere = 0.0173;       // [m] one fold's pattern from the next one's
+constexpr float kMembraneRagged = 0.0005f;  // [m] how uneven a torn edge is
+constexpr std::uint8_t kTornPale = 44;      // it is whitish
 
 /// Catmull-Rom between b and c.
 Vec3d between(Vec3d a, Vec3d b, Vec3d c, Vec3d d, double t) {
@@ -78,8 +78,8 @@ void MembraneDrawing::lay_pattern() {
       const double v = double(r) / (m_rows - 1);
       if (own) m_buffer.rest[std::size_t(r * m_columns + c)] = fold_rest(s + kElsewhere * m_index, v);
       Paint paint = fold_paint(s + kElsewhere * m_index, v);
-      const double beside = double(std::min(c, m_columns - 1 - c)) / kFaded;  // its ends are not seen as edges
-      const double rooted = smooth(1, 1 - kRoot, v);                          // nor is its root
+      const double beside = double(std::min(c, m_columns - 1 - c)) / kMembraneFaded;  // its ends are not seen as edges
+      const double rooted = smooth(1, 1 - kMembraneRoot, v);                          // nor is its root
       paint.openness = to_byte(paint.openness / 255.0 * smooth(-0.1, 1, beside) * (0.15 + 0.85 * rooted));
       paint.tint = to_byte(paint.tint / 255.0 * smooth(0, 1, beside));
       m_buffer.paint.push_back(paint);
@@ -126,8 +126,9 @@ void MembraneDrawing::place(const tissue::MembraneState& state) {
     const Vec3d across = normalised(cross(along, down));
     for (int r = 0; r < m_rows; ++r) {
       const double v = double(r) / (m_rows - 1), belly = 4 * v * (1 - v);
-      const double ripple = kRipple * belly * (0.2 + 0.8 * slack) *
-                            (std::sin(kTwoPi * s / 0.011 + 2.1 * v) + 0.2 * std::sin(kTwoPi * s / 0.0047 - 3 * v));
+      const double ripple =
+          kMembraneRipple * belly * (0.2 + 0.8 * slack) *
+          (std::sin(portable::two_pi * s / 0.011 + 2.1 * v) + 0.2 * std::sin(portable::two_pi * s / 0.0047 - 3 * v));
       const Vec3d p = on_line(r, rows, [&](int i) { return m_between[std::size_t(i * m_columns + c)]; });
       m_buffer.positions[std::size_t(r * m_columns + c)] = vec_cast<float>(p + ripple * across);
     }
@@ -138,7 +139,7 @@ void MembraneDrawing::place(const tissue::MembraneState& state) {
 void MembraneDrawing::fray() {
   for (std::size_t i = 0; i < m_edge.size(); ++i)
     if (m_edge[i])
-      for (int k = 0; k < 3; ++k) (&m_buffer.positions[i].x)[k] += kRagged * (2 * float(varied(int(i), k)) - 1);
+      for (int k = 0; k < 3; ++k) (&m_buffer.positions[i].x)[k] += kMembraneRagged * (2 * float(varied(int(i), k)) - 1);
 }
 
 void MembraneDrawing::update(const sim::State& state) {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr float kWoundDepth = 0.003f;  // [m] of a bite's bed
 constexpr float kBurnSinks = 0.0009f;  // [m] the middle of a burn, which has shrunk
-constexpr Paint kBed{140, 125, 0, 0}, kLip{190, 80, 0, 0};
+constexpr Paint kBed{140, 125, 0, 0}, kOrganLip{190, 80, 0, 0};
 
 }  // namespace
 
@@ -102,7 +102,7 @@ void OrganDrawing::open_wounds(std::span<const std::uint8_t> parted) {
     after[a] = b;
     before[b] = a;
     const std::uint32_t low_a = bed_of(a), low_b = bed_of(b);
-    const std::uint32_t high_a = copy(a, 0, kLip), high_b = copy(b, 0, kLip);
+    const std::uint32_t high_a = copy(a, 0, kOrganLip), high_b = copy(b, 0, kOrganLip);
     m_open.quad(low_a, high_a, high_b, low_b);
   }
   m_rim.clear();

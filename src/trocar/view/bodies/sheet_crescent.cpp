@@ -7,18 +7,18 @@
 namespace trocar::view {
 namespace {
 
-constexpr double kFarthest = 0.04;  // [m] from the strand to the wall
-constexpr double kBaseFar = 0.016;  // [m] from the fold's base to the wall, if it goes on to a ligament
-constexpr double kSunk = 0.0022;    // [m] the fold ends below the wall
-constexpr double kHollow = 0.55;    // of the border's span: how far it keeps to the strand, and to the wall
-constexpr double kUneven = 0.0014;  // [m] of the free border
-constexpr double kRim = 0.3;        // of the way to the border: there it thickens and pales
-constexpr double kLost = 0.18;      // of a column: there it goes over into the wall
-constexpr double kMeets = 0.4;      // of the border: there it has come down to a ligament
-constexpr double kFlat = 1.0;       // how much of the way to the wall's tangent it turns on arriving
-constexpr double kInWall = 0.007;   // [m] from the wall: a strand that ends there needs no crescent
-constexpr double kPucker = 0.0011;  // [m] soft folds that run from the strand to the wall
-constexpr double kContact = 0.35;   // how much darker it is where it meets that
+constexpr double kCrescentFarthest = 0.04;  // [m] from the strand to the wall
+constexpr double kBaseFar = 0.016;          // [m] from the fold's base to the wall, if it goes on to a ligament
+constexpr double kCrescentSunk = 0.0022;    // [m] the fold ends below the wall
+constexpr double kCrescentHollow = 0.55;    // of the border's span: how far it keeps to the strand, and to the wall
+constexpr double kUneven = 0.0014;          // [m] of the free border
+constexpr double kCrescentRim = 0.3;        // of the way to the border: there it thickens and pales
+constexpr double kLost = 0.18;              // of a column: there it goes over into the wall
+constexpr double kMeets = 0.4;              // of the border: there it has come down to a ligament
+constexpr double kFlat = 1.0;               // how much of the way to the wall's tangent it turns on arriving
+constexpr double kCrescentInWall = 0.007;   // [m] from the wall: a strand that ends there needs no crescent
+constexpr double kPucker = 0.0011;          // [m] soft folds that run from the strand to the wall
+constexpr double kContact = 0.35;           // how much darker it is where it meets that
 
 /// From the tip on the strand down to a ligament, and along that to the wall.
 Vec3d hung_border(double v, Vec3d tip, Vec3d along, std::span<const Vec3d> ligament) {
@@ -42,16 +42,16 @@ double wall_share(double u, double v) { return smooth(-0.3, 0.9, u) * (0.55 + 0.
 SheetCrescent::SheetCrescent(Vec3d base, std::span<const Vec3d> beside, std::span<const Vec3d> ligament,
                              const WallSurface& walls) {
   const WallSurface::Place below = walls.nearest(beside.back());
-  if (!below.there || length(below.point - beside.back()) < kInWall) return;
+  if (!below.there || length(below.point - beside.back()) < kCrescentInWall) return;
   const Vec3d tip = ligament.empty() ? beside.back() : ligament.back();
   const WallSurface::Place arrives = walls.nearest(tip);
-  if (length(arrives.point - tip) > kFarthest) return;
+  if (length(arrives.point - tip) > kCrescentFarthest) return;
   if (!ligament.empty() && length(walls.nearest(base).point - base) > kBaseFar) return;
   for (int k = 0; k <= kSteps; ++k) {
     const double u = double(k) / kSteps;
     const Vec3d straight = base + u * (arrives.point - base);
     const WallSurface::Place wall = walls.nearest(straight);
-    m_on_wall.push_back(straight + smooth(0, 0.4, u) * (wall.point - kSunk * wall.normal - straight));
+    m_on_wall.push_back(straight + smooth(0, 0.4, u) * (wall.point - kCrescentSunk * wall.normal - straight));
   }
   for (int pass = 0; pass < 4; ++pass)  // walls bend, and where they do the nearest place on them jumps
     for (std::size_t k = 1; k < kSteps; ++k)
@@ -62,7 +62,7 @@ SheetCrescent::SheetCrescent(Vec3d base, std::span<const Vec3d> beside, std::spa
 /// From the tip on the strand to the wall: it leaves along the one and arrives along the other.
 Vec3d SheetCrescent::free_border(double v, Vec3d tip, Vec3d along) const {
   const Vec3d end = m_on_wall.back(), onward = normalised(end - m_on_wall[kSteps - 2], along);
-  const double reach = kHollow * length(end - tip), u = 1 - v;
+  const double reach = kCrescentHollow * length(end - tip), u = 1 - v;
   const Vec3d a = tip - reach * along, b = end - reach * onward;
   const Vec3d p = (u * u * u) * tip + (3 * u * u * v) * a + (3 * u * v * v) * b + (v * v * v) * end;
   return p + (4 * u * v * kUneven * waves({0.05 * v, 0.3 * tip.x, 0.3 * tip.y}, 0.014)) * along;
@@ -115,7 +115,7 @@ Paint SheetCrescent::paint(int step, double v, bool hung) {
   const double u = double(step) / kSteps;
   const double wall = 1 - smooth(1 - kLost, 1, v) * smooth(0, 0.15, u);
   const double held = hung ? smooth(0.6 * kMeets, kMeets, v) : 0;  // on a ligament: no border
-  const double rim = (1 - held) * smooth(1 - kRim, 0.9, u);
+  const double rim = (1 - held) * smooth(1 - kCrescentRim, 0.9, u);
   // Thin, and yet an edge: nothing ends in a mist. What lies against a ligament is in its shade.
   const double edge = 1 - (0.45 + held * (kContact - 0.45)) * smooth(0.85, 1, u);
   const double walls = smooth(0.35, 0.9, v) * smooth(-0.2, 0.25, u), dense = hung ? wall_share(u, v) : 0;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/numerics/portable.hpp>
 #include <trocar/render/meshes/mesh_arrays.hpp>
 #include <trocar/view/base/fold_pattern.hpp>
 #include <trocar/view/base/looks.hpp>
@@ -9,39 +10,39 @@
 namespace trocar::view {
 namespace {
 
-constexpr int kRows = 11;             // strand to base
-constexpr double kStep = 0.0016;      // [m] between columns
-constexpr double kTear = 0.24;        // of the width, how deep a cut's gap goes
-constexpr double kTearReach = 0.012;  // [m] along the strand on either side
-constexpr double kRagged = 0.0011;    // [m] how uneven a torn edge is
-constexpr double kPaleEdge = 0.22;    // of kTearReach: whitish beside a tear
-constexpr double kSag = 0.10;         // of the width, where the fold is as drawn
-constexpr double kRipple = 0.0006;    // [m]
-constexpr std::size_t kFaded = 6;     // columns over which a free edge runs out
-constexpr int kBlended = 14;          // columns over which it takes on the colour of a wall that it goes on to
-constexpr int kMarginSteps = 4;       // columns between an edge and the organ it runs out on
-constexpr double kMarginFar = 0.012;  // [m] to that
+constexpr int kSheetRows = 11;           // strand to base
+constexpr double kSheetStep = 0.0016;    // [m] between columns
+constexpr double kTear = 0.24;           // of the width, how deep a cut's gap goes
+constexpr double kTearReach = 0.012;     // [m] along the strand on either side
+constexpr double kSheetRagged = 0.0011;  // [m] how uneven a torn edge is
+constexpr double kPaleEdge = 0.22;       // of kTearReach: whitish beside a tear
+constexpr double kSag = 0.10;            // of the width, where the fold is as drawn
+constexpr double kSheetRipple = 0.0006;  // [m]
+constexpr std::size_t kSheetFaded = 6;   // columns over which a free edge runs out
+constexpr int kBlended = 14;             // columns over which it takes on the colour of a wall that it goes on to
+constexpr int kMarginSteps = 4;          // columns between an edge and the organ it runs out on
+constexpr double kMarginFar = 0.012;     // [m] to that
 constexpr int kEvenPasses = 4;
 constexpr double kTopOffset = 0.3;       // radii of the strand: there the fold begins, well within it
 constexpr double kCrescent = 0.3;        // of the width: the margin's free border starts this far from the strand
 constexpr double kLigamentNear = 0.03;   // [m] from where the margin's border would be free
 constexpr double kLigamentAside = 0.12;  // of the ligament: how much farther along it the border arrives
 constexpr int kLigamentPoints = 8;
-constexpr int kHemRows = 7;         // from a base in the air to the wall
+constexpr int kSheetHemRows = 7;    // from a base in the air to the wall
 constexpr double kHemFar = 0.06;    // [m] at most
 constexpr double kHemSunk = 0.002;  // [m] below the wall
-constexpr double kTwoPi = 6.28318530717959;
 
 /// How much of the sheet there is beside a cut: it frays out into a ragged, soft edge and not along a line.
 double whole_beside_tear(double gap, double s, double v) {
-  const double ragged = 0.16 + 0.1 * std::sin(kTwoPi * v / 0.13 + 40 * s) + 0.06 * std::sin(kTwoPi * v / 0.051);
+  const double ragged =
+      0.16 + 0.1 * std::sin(portable::two_pi * v / 0.13 + 40 * s) + 0.06 * std::sin(portable::two_pi * v / 0.051);
   return 1 - smooth(ragged + 0.25, ragged, gap) * smooth(1.2 * kTear, 0.6 * kTear, v);
 }
 
 /// The hem is lost on the wall, along no line: sooner here, later there, and soonest at its ends.
 double hem_openness(std::size_t column, std::size_t columns, int row) {
-  const double t = double(row + 1) / kHemRows;
-  const double beside = double(std::min(column, columns - 1 - column)) / (2.0 * double(kFaded));
+  const double t = double(row + 1) / kSheetHemRows;
+  const double beside = double(std::min(column, columns - 1 - column)) / (2.0 * double(kSheetFaded));
   const double uneven = 0.12 * std::sin(0.9 * double(column)) + 0.1 * std::sin(0.37 * double(column) + 2);
   const double lost = smooth(0.3 + uneven, 0.92 + uneven, t);
   return (1 - lost) * (1 - smooth(0, 0.5, t) * smooth(1, 0, beside));
@@ -93,7 +94,7 @@ void SheetDrawing::lay_out(std::vector<StrandPiece> pieces) {
     const StrandPiece& p = m_pieces[std::size_t(i)];
     const double from = std::max(p.from, m_sheet->from), to = std::min(p.to, m_sheet->to);
     if (to <= from) continue;
-    const int steps = std::max(1, int(std::ceil((to - from) / kStep)));
+    const int steps = std::max(1, int(std::ceil((to - from) / kSheetStep)));
     const bool follows_cut = p.cut_start && from == p.from && !m_columns.empty();
     if (follows_cut) m_columns.back().twin = int(m_columns.size());
     for (int k = 0; k <= steps; ++k) {
@@ -113,11 +114,11 @@ void SheetDrawing::connect() {
   m_buffer.indices.clear();
   m_buffer.positions.clear();
   for (std::size_t c = 0; c < m_columns.size(); ++c)
-    for (int r = 0; r < kRows; ++r) {
-      const double v = double(r) / (kRows - 1);
+    for (int r = 0; r < kSheetRows; ++r) {
+      const double v = double(r) / (kSheetRows - 1);
       const double near = std::min(v, 1 - v);
       const std::size_t left = m_columns.size() - 1 - c;  // a free edge is not seen as one
-      const double end = beyond(true) == 0 && left < kFaded ? double(left) / kFaded : 1;
+      const double end = beyond(true) == 0 && left < kSheetFaded ? double(left) / kSheetFaded : 1;
       const double thin = m_hem.empty() ? near : v;  // goes on below its base
       // Pale where it is torn, and not beyond that: paint of burns hides how sheer a fold is.
       const double whole = whole_beside_tear(m_columns[c].gap, m_columns[c].s, v);
@@ -127,18 +128,19 @@ void SheetDrawing::connect() {
     }
   for (std::size_t c = 0; c + 1 < m_columns.size(); ++c) {
     if (m_columns[c].twin == int(c) + 1) continue;
-    join_rows(m_buffer, std::uint32_t(c * kRows), std::uint32_t((c + 1) * kRows), kRows, false);
+    join_rows(m_buffer, std::uint32_t(c * kSheetRows), std::uint32_t((c + 1) * kSheetRows), kSheetRows, false);
   }
   for (const bool at_end : {false, true}) connect_end(at_end);
   m_hem_first = m_buffer.size();
   if (m_hem.empty()) return;
   for (std::size_t c = 0; c < m_columns.size(); ++c)
-    for (int r = 0; r < kHemRows; ++r) m_buffer.add({}, {to_byte(hem_openness(c, m_columns.size(), r)), 0, 0, 0});
+    for (int r = 0; r < kSheetHemRows; ++r) m_buffer.add({}, {to_byte(hem_openness(c, m_columns.size(), r)), 0, 0, 0});
   const auto at = [this](std::size_t c, int r) {
-    return std::uint32_t(r == 0 ? c * kRows + kRows - 1 : m_hem_first + c * kHemRows + std::size_t(r - 1));
+    return std::uint32_t(r == 0 ? c * kSheetRows + kSheetRows - 1
+                                : m_hem_first + c * kSheetHemRows + std::size_t(r - 1));
   };
   for (std::size_t c = 0; c + 1 < m_columns.size(); ++c)
-    for (int r = 0; r < kHemRows && m_columns[c].twin != int(c) + 1; ++r)
+    for (int r = 0; r < kSheetHemRows && m_columns[c].twin != int(c) + 1; ++r)
       m_buffer.quad(at(c, r), at(c, r + 1), at(c + 1, r + 1), at(c + 1, r));
 }
 
@@ -152,13 +154,14 @@ double SheetDrawing::wall_tint(std::size_t columns_left, double v) const {
 void SheetDrawing::connect_end(bool at_end) {
   const int steps = beyond(at_end);
   m_beyond_first[at_end] = m_buffer.size();
-  std::uint32_t before = at_end ? std::uint32_t((m_columns.size() - 1) * kRows) : 0;
+  std::uint32_t before = at_end ? std::uint32_t((m_columns.size() - 1) * kSheetRows) : 0;
   for (int k = 1; k <= steps; ++k) {
     const std::uint32_t row = m_buffer.size();
-    for (int r = 0; r < kRows; ++r)
-      m_buffer.add({}, m_crescent[at_end] ? SheetCrescent::paint(k, double(r) / (kRows - 1), m_onto[at_end].strand >= 0)
-                                          : Paint{to_byte(1 - double(k) / kMarginSteps), 0, 0, 0});
-    join_rows(m_buffer, at_end ? before : row, at_end ? row : before, kRows, false);
+    for (int r = 0; r < kSheetRows; ++r)
+      m_buffer.add({}, m_crescent[at_end]
+                           ? SheetCrescent::paint(k, double(r) / (kSheetRows - 1), m_onto[at_end].strand >= 0)
+                           : Paint{to_byte(1 - double(k) / kMarginSteps), 0, 0, 0});
+    join_rows(m_buffer, at_end ? before : row, at_end ? row : before, kSheetRows, false);
     before = row;
   }
 }
@@ -169,8 +172,8 @@ void SheetDrawing::find_hem(const WallSurface& walls) {
   for (const sim::BasePoint& b : m_sheet->base)
     if (b.organ >= 0 || b.strand >= 0) return;
   for (std::size_t c = 0; c < m_columns.size(); ++c) {
-    const Vec3d top = vec_cast<double>(m_buffer.positions[c * kRows]),
-                base = vec_cast<double>(m_buffer.positions[c * kRows + kRows - 1]);
+    const Vec3d top = vec_cast<double>(m_buffer.positions[c * kSheetRows]),
+                base = vec_cast<double>(m_buffer.positions[c * kSheetRows + kSheetRows - 1]);
     m_hem.push_back(base + 0.6 * (base - top));
   }
   for (int pass = 0; pass < 10; ++pass)
@@ -187,15 +190,15 @@ void SheetDrawing::find_hem(const WallSurface& walls) {
 
 void SheetDrawing::place_hem() {
   for (std::size_t c = 0; c < m_columns.size(); ++c) {
-    const Vec3d before = vec_cast<double>(m_buffer.positions[c * kRows + kRows - 2]),
-                base = vec_cast<double>(m_buffer.positions[c * kRows + kRows - 1]);
+    const Vec3d before = vec_cast<double>(m_buffer.positions[c * kSheetRows + kSheetRows - 2]),
+                base = vec_cast<double>(m_buffer.positions[c * kSheetRows + kSheetRows - 1]);
     // The hem belongs to a place on the strand, not to a column: a cut may have added some.
     const double share = m_columns.size() > 1 ? double(c) / double(m_columns.size() - 1) : 0;
     const Vec3d to = m_hem[std::min(m_hem.size() - 1, std::size_t(share * double(m_hem.size() - 1) + 0.5))];
     const Vec3d leaves = (0.5 * length(to - base)) * normalised(base - before);
-    for (int r = 0; r < kHemRows; ++r) {
-      const double t = double(r + 1) / kHemRows, u = 1 - t;
-      m_buffer.positions[m_hem_first + c * kHemRows + std::size_t(r)] =
+    for (int r = 0; r < kSheetHemRows; ++r) {
+      const double t = double(r + 1) / kSheetHemRows, u = 1 - t;
+      m_buffer.positions[m_hem_first + c * kSheetHemRows + std::size_t(r)] =
           vec_cast<float>((u * u * (1 + 2 * t)) * base + (t * t * (3 - 2 * t)) * to + (u * u * t) * leaves);
     }
   }
@@ -221,7 +224,7 @@ std::vector<Vec3d> SheetDrawing::beside(bool at_end, const StrandCurve& curve) c
   const std::size_t c = at_end ? m_columns.size() - 1 : 0;
   const Column& column = m_columns[c];
   const StrandPiece& piece = m_pieces[std::size_t(column.piece)];
-  const Vec3d top = vec_cast<double>(m_buffer.positions[c * kRows]);
+  const Vec3d top = vec_cast<double>(m_buffer.positions[c * kSheetRows]);
   const Vec3d offset = top - curve.at(column.piece, column.s).point;
   std::vector<Vec3d> line;
   for (int k = 0; k <= SheetCrescent::kSteps; ++k) {
@@ -271,7 +274,7 @@ void SheetDrawing::find_crescent(bool at_end, const WallSurface& walls) {
   const std::size_t c = at_end ? m_columns.size() - 1 : 0;
   const std::vector<Vec3d> strand = beside(at_end, curve);
   m_onto[at_end] = ligament_near(strand.back());
-  SheetCrescent crescent(vec_cast<double>(m_buffer.positions[c * kRows + kRows - 1]), strand,
+  SheetCrescent crescent(vec_cast<double>(m_buffer.positions[c * kSheetRows + kSheetRows - 1]), strand,
                          ligament_points(at_end, rest), walls);
   if (crescent.there())
     m_crescent[at_end] = std::move(crescent);
@@ -282,10 +285,10 @@ void SheetDrawing::find_crescent(bool at_end, const WallSurface& walls) {
 void SheetDrawing::find_margin(bool at_end) {
   const std::size_t c = at_end ? m_columns.size() - 1 : 0, inner = at_end ? c - 1 : 1;
   std::vector<Margin> margin;
-  for (std::size_t r = 0; r < kRows; ++r) {
-    const std::size_t from = std::max(r, std::size_t(kCrescent * kRows));
-    const Vec3d p = vec_cast<double>(m_buffer.positions[c * kRows + from]);
-    const Vec3d out = normalised(p - vec_cast<double>(m_buffer.positions[inner * kRows + from]));
+  for (std::size_t r = 0; r < kSheetRows; ++r) {
+    const std::size_t from = std::max(r, std::size_t(kCrescent * kSheetRows));
+    const Vec3d p = vec_cast<double>(m_buffer.positions[c * kSheetRows + from]);
+    const Vec3d out = normalised(p - vec_cast<double>(m_buffer.positions[inner * kSheetRows + from]));
     double nearest = kMarginFar;
     Margin best;
     for (int organ = 0; organ < m_model->organs(); ++organ) {
@@ -301,27 +304,27 @@ void SheetDrawing::find_margin(bool at_end) {
     }
     if (best.vertex >= 0) margin.push_back(best);
   }
-  if (margin.size() == kRows) m_margin[at_end] = margin;
+  if (margin.size() == kSheetRows) m_margin[at_end] = margin;
 }
 
 void SheetDrawing::place_margin(const sim::State& state, bool at_end) {
-  const std::size_t edge = (at_end ? m_columns.size() - 1 : 0) * kRows, first = m_beyond_first[at_end];
-  for (std::size_t r = 0; r < kRows; ++r) {
+  const std::size_t edge = (at_end ? m_columns.size() - 1 : 0) * kSheetRows, first = m_beyond_first[at_end];
+  for (std::size_t r = 0; r < kSheetRows; ++r) {
     const Margin& m = m_margin[at_end][r];
     const Vec3d to = skin_now(*m_model, state, m.organ, m.vertex);
     const Vec3f from = m_buffer.positions[edge + r], step = vec_cast<float>(to) - from;
     for (int k = 1; k <= kMarginSteps; ++k)
-      m_buffer.positions[first + std::size_t(k - 1) * kRows + r] = from + (float(k) / kMarginSteps) * step;
+      m_buffer.positions[first + std::size_t(k - 1) * kSheetRows + r] = from + (float(k) / kMarginSteps) * step;
   }
 }
 
 void SheetDrawing::place_crescent(const sim::State& state, const StrandCurve& curve, bool at_end) {
-  const std::size_t edge = (at_end ? m_columns.size() - 1 : 0) * kRows;
+  const std::size_t edge = (at_end ? m_columns.size() - 1 : 0) * kSheetRows;
   const std::span<Vec3f> all(m_buffer.positions);
-  const std::size_t inner = at_end ? edge - kRows : edge + kRows;
-  m_crescent[at_end]->place(all.subspan(edge, kRows), all.subspan(inner, kRows), beside(at_end, curve),
+  const std::size_t inner = at_end ? edge - kSheetRows : edge + kSheetRows;
+  m_crescent[at_end]->place(all.subspan(edge, kSheetRows), all.subspan(inner, kSheetRows), beside(at_end, curve),
                             ligament_points(at_end, state),
-                            all.subspan(m_beyond_first[at_end], std::size_t(SheetCrescent::kSteps) * kRows));
+                            all.subspan(m_beyond_first[at_end], std::size_t(SheetCrescent::kSteps) * kSheetRows));
 }
 
 Vec3d SheetDrawing::base_point(std::size_t i, const sim::State& state) const {
@@ -337,12 +340,12 @@ void SheetDrawing::lay_pattern() {
   m_buffer.rest = m_buffer.positions;
   if (!look(*m_model, m_sheet->look).material.arcade) return;
   for (std::size_t i = 0; i < m_hem_first; ++i) {
-    const std::size_t c = i / kRows;
-    const double v = double(i % kRows) / (kRows - 1);
+    const std::size_t c = i / kSheetRows;
+    const double v = double(i % kSheetRows) / (kSheetRows - 1);
     const bool inside = c < m_columns.size(), first = !inside && i < m_beyond_first[1];
-    const std::size_t beyond = inside ? 0 : 1 + c - m_beyond_first[first ? 0 : 1] / kRows;
+    const std::size_t beyond = inside ? 0 : 1 + c - m_beyond_first[first ? 0 : 1] / kSheetRows;
     const double edge = inside ? m_columns[c].s : first ? m_columns.front().s : m_columns.back().s;
-    const double s = edge + (first ? -1.0 : 1.0) * kStep * double(beyond);
+    const double s = edge + (first ? -1.0 : 1.0) * kSheetStep * double(beyond);
     m_buffer.rest[i] = fold_rest(s, v);
     if (beyond > 0) continue;
     const std::uint8_t torn = m_buffer.paint[i].burn;
@@ -412,12 +415,12 @@ void SheetDrawing::even_out(std::vector<Vec3d>& of_columns) const {
 /// At a cut the two sides part near the strand and are one below: rows go over from their own shape to the mean, and
 /// the columns nearby follow.
 void SheetDrawing::close_tear(std::size_t c) {
-  for (std::size_t r = 0; r < kRows; ++r) {
-    const Vec3f a = m_buffer.positions[c * kRows + r], b = m_buffer.positions[(c + 1) * kRows + r];
-    const float joined = float(smooth(0, kTear, double(r) / (kRows - 1)));
+  for (std::size_t r = 0; r < kSheetRows; ++r) {
+    const Vec3f a = m_buffer.positions[c * kSheetRows + r], b = m_buffer.positions[(c + 1) * kSheetRows + r];
+    const float joined = float(smooth(0, kTear, double(r) / (kSheetRows - 1)));
     const Vec3f half = (0.5f * joined) * (b - a);
     const auto moved = [&](std::size_t k, Vec3f by) {
-      m_buffer.positions[k * kRows + r] += float(smooth(1, 0, m_columns[k].gap)) * by;
+      m_buffer.positions[k * kSheetRows + r] += float(smooth(1, 0, m_columns[k].gap)) * by;
     };
     for (std::size_t k = c + 1; k-- > 0 && m_columns[k].piece == m_columns[c].piece;) moved(k, half);
     for (std::size_t k = c + 1; k < m_columns.size() && m_columns[k].piece == m_columns[c + 1].piece; ++k)
@@ -426,7 +429,8 @@ void SheetDrawing::close_tear(std::size_t c) {
     const Vec3f apart = normalised(b - a, Vec3f{});
     for (const std::size_t k : {c, c + 1}) {
       const double shred = varied(int(k), int(r)) - 0.35 * (1 + std::sin(2.3 * double(r)));
-      m_buffer.positions[k * kRows + r] += (float(kRagged * shred) * (1 - joined) * (k == c ? 1.0f : -1.0f)) * apart;
+      m_buffer.positions[k * kSheetRows + r] +=
+          (float(kSheetRagged * shred) * (1 - joined) * (k == c ? 1.0f : -1.0f)) * apart;
     }
   }
 }
@@ -436,12 +440,13 @@ void SheetDrawing::place_column(std::size_t c, Vec3d top, Vec3d base, Vec3d acro
   const double slack = 1 - smooth(0.98, 1.25, width / std::max(m_rest_width[c], 1e-6));
   const Vec3d sag = slack * kSag * width * normalised(m_model->gravity, Vec3d{0, 0, -1});
   const double s = m_columns[c].s;
-  for (std::size_t r = 0; r < kRows; ++r) {
-    const double v = double(r) / (kRows - 1), belly = 4 * v * (1 - v);
-    const double ripple = kRipple * belly * (0.35 + slack) *
-                          (std::sin(kTwoPi * s / 0.011 + 2.1 * v) + 0.6 * std::sin(kTwoPi * s / 0.0047 - 3 * v));
+  for (std::size_t r = 0; r < kSheetRows; ++r) {
+    const double v = double(r) / (kSheetRows - 1), belly = 4 * v * (1 - v);
+    const double ripple =
+        kSheetRipple * belly * (0.35 + slack) *
+        (std::sin(portable::two_pi * s / 0.011 + 2.1 * v) + 0.6 * std::sin(portable::two_pi * s / 0.0047 - 3 * v));
     const Vec3d p = top + v * (base - top) + (belly * (0.6 + 0.4 * v)) * sag + ripple * across;
-    m_buffer.positions[c * kRows + r] = vec_cast<float>(p);
+    m_buffer.positions[c * kSheetRows + r] = vec_cast<float>(p);
   }
 }
 

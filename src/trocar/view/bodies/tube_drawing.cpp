@@ -20,7 +20,7 @@ constexpr double kCongested = 0.0058;  // [m] ... and stands beside that
 constexpr double kShade = 0.0014;      // [m] beside a clip's legs, where little light comes
 constexpr double kGathered = 0.0028;   // [m] from its middle: there it lies in small folds that run to the legs
 constexpr double kBloodied = 0.0026;   // [m] beside a cut
-constexpr int kFlesh = 20;             // of Paint's blood: a raw face has less where it is muscle and lining
+constexpr int kTubeFlesh = 20;         // of Paint's blood: a raw face has less where it is muscle and lining
 
 template <class T>
 bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
@@ -157,7 +157,7 @@ Paint TubeDrawing::paint_at(const Layout& layout, double s, double angle, Paint 
   for (const StrandPiece& piece : layout.pieces) {
     if (own.blood > 0) {  // a raw face has its own
       // Its pale flesh is hardly smeared: blood is on the edge and in the lumen.
-      const double bleeds = own.blood < kFlesh ? 0.25 : 1;
+      const double bleeds = own.blood < kTubeFlesh ? 0.25 : 1;
       const double uneven = 95 * oozes(angle) + 26 * ragged(m_index + 0.5, angle);
       p.blood = std::uint8_t(std::clamp(own.blood + bleeds * uneven, 4.0, 255.0));
       break;

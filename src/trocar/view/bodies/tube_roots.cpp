@@ -13,7 +13,7 @@ namespace {
 constexpr double kRootDepth = 1.6;      // radii below the organ's surface where it ends
 constexpr double kRootSlide = 0.022;    // [m] a ligament goes on along a wall ...
 constexpr double kRootBelow = 0.003;    // [m] ... to below its surface
-constexpr double kHeadOn = 0.5;         // sine of the angle to a wall above which a strand has a collar there ...
+constexpr double kRootHeadOn = 0.5;     // sine of the angle to a wall above which a strand has a collar there ...
 constexpr double kHeadOnDepth = 0.012;  // [m] ... behind which it ends
 constexpr double kWallNeck = 0.008;     // [m] ... from so far above it on
 constexpr double kNeckFar = 0.011;      // [m] from its end a strand's collar begins at most
@@ -69,7 +69,7 @@ TubeRoot TubeDrawing::root_in_wall(const CurveFrame& end, Vec3d onward, double r
   root.there = root.in_space = true;
   const WallSurface::Place wall = walls.nearest(end.point);
   const bool near = wall.there && length(wall.point - end.point) <= kRootReach;
-  if (!near || dot(onward, wall.normal) < -kHeadOn) {  // on into the dark
+  if (!near || dot(onward, wall.normal) < -kRootHeadOn) {  // on into the dark
     root.direction = onward;
     root.target = end.point + (near ? kHeadOnDepth : kRootReach) * onward;
   } else {
@@ -111,7 +111,7 @@ double TubeDrawing::neck_at_wall(const StrandCurve& rest, bool at_start, const W
   const CurveFrame f = rest.at(0, end);
   const WallSurface::Place wall = walls.nearest(f.point);
   const double steep = dot(at_start ? f.tangent : -f.tangent, wall.normal);
-  if (!wall.there || length(wall.point - f.point) > kRootReach || steep < kHeadOn) return 0;
+  if (!wall.there || length(wall.point - f.point) > kRootReach || steep < kRootHeadOn) return 0;
   const double above = dot(f.point - wall.point, wall.normal), far = (kWallNeck - above) / steep;
   return std::clamp(far, 0.002, 0.3 * m_body->length());
 }

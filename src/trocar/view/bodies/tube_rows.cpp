@@ -11,20 +11,20 @@ using interactions::Clip;
 
 namespace {
 
-constexpr double kStep = 0.0012;      // [m] between rings
+constexpr double kTubeStep = 0.0012;  // [m] between rings
 constexpr double kFineStep = 0.0004;  // [m] near a clip
 constexpr double kNearClip = 0.004;   // [m]
 constexpr double kNearCut = 0.003;    // [m] blood on it has a ragged border
 constexpr double kSlant = 0.85;       // scissors cut askew: how far a stump's near side lies back, in radii
 constexpr double kSlanted = 1.8;      // ... and how far along it, in radii
-constexpr double kTorn = 0.10, kTornFrom = 0.0012;  // share of the radius and [m]: how ragged its edge is
-constexpr double kBend = 0.01;                      // [m] radius with which tubes curve, for rings that are left out
+constexpr double kTornShare = 0.10, kTornFrom = 0.0012;  // share of the radius and [m]: how ragged its edge is
+constexpr double kTubeBend = 0.01;  // [m] radius with which tubes curve, for rings that are left out
 
 }  // namespace
 
 std::vector<double> TubeDrawing::stations(const Layout& layout, const StrandPiece& piece) const {
   std::vector<double> at;
-  const int steps = std::max(2, int(std::ceil((piece.to - piece.from) / kStep)));
+  const int steps = std::max(2, int(std::ceil((piece.to - piece.from) / kTubeStep)));
   for (int i = 0; i <= steps; ++i) at.push_back(piece.from + (piece.to - piece.from) * i / steps);
   for (const Clip& clip : layout.clips)
     for (double d = -kNearClip; d <= kNearClip; d += kFineStep)
@@ -53,7 +53,7 @@ void TubeDrawing::add_raw_face(int piece, bool at_start) {
     const double turn = 0.09 * double(rows.size());
     rows.push_back({piece, s, sign * along, radius, scallop, 0, false, paint, sign * kSlant, turn});
   };
-  row(0, r, kTorn, rim);
+  row(0, r, kTornShare, rim);
   row(0.09 * r, 0.97 * r, 0.18, muscle);
   row(0.17 * r, 0.90 * r, 0.20, muscle);
   row(0.20 * r, 0.86 * r, 0.20, mucosa);
@@ -101,7 +101,7 @@ void TubeDrawing::add_piece(const Layout& layout, int piece) {
     if (p.cut_end) slant += kSlant * smooth(kSlanted * r, 0, p.to - s);
     const double torn =
         std::max(p.cut_start ? smooth(kTornFrom, 0, s - p.from) : 0, p.cut_end ? smooth(kTornFrom, 0, p.to - s) : 0);
-    m_rows.push_back({piece, s, 0, r, kTorn * torn, 0, first && p.cut_start, {}, slant});
+    m_rows.push_back({piece, s, 0, r, kTornShare * torn, 0, first && p.cut_start, {}, slant});
     first = false;
   }
   add_end(piece);
@@ -209,7 +209,7 @@ void TubeDrawing::connect_coarsely() {
   for (const double error : m_errors) {
     MeshBuffer part;
     const std::uint32_t stride = side_stride(error, thickest, std::uint32_t(m_sides));
-    join(rows_apart(ring_distance(error, kBend)), stride, part);
+    join(rows_apart(ring_distance(error, kTubeBend)), stride, part);
     if (m_strand->fimbriated) join_fimbriae(m_buffer.size() - m_fimbriae.size(), stride, part);
     m_buffer.coarser.push_back(std::move(part.indices));
   }

@@ -17,7 +17,7 @@ constexpr double kIsthmus = 0.027;     // [m] of a uterine tube that is narrow a
 constexpr double kCoil = 0.0006;       // [m] its drawn line winds about the simulated one
 
 /// A smooth number in -1..1 along `x` whose swings differ in height and length: no even chain.
-double swing(double x, int seed) {
+double tube_swing(double x, int seed) {
   const double cell = std::floor(x), t = x - cell;
   const auto at = [&](double c) { return 2 * varied(int(c), seed) - 1; };
   return at(cell) + (at(cell + 1) - at(cell)) * (t * t * (3 - 2 * t));
@@ -52,8 +52,8 @@ double TubeDrawing::winding(double s) const {
 /// Its bore is uneven: wide places and waists that are drawn, not simulated.
 double TubeDrawing::bore(double s) const {
   const int seed = 300 + 7 * m_index;
-  const double ampulla = 0.13 * swing(s / 0.0117, seed) + 0.05 * swing(s / 0.0049, seed + 1);
-  return 1 + winding(s) * ampulla + 0.04 * swing(s / 0.0041, seed + 2);
+  const double ampulla = 0.13 * tube_swing(s / 0.0117, seed) + 0.05 * tube_swing(s / 0.0049, seed + 1);
+  return 1 + winding(s) * ampulla + 0.04 * tube_swing(s / 0.0041, seed + 2);
 }
 
 /// And so is its way: it coils gently about the simulated line, one tube in long bends, the other in short ones.
@@ -69,8 +69,8 @@ Vec3d TubeDrawing::coiled(double s, const CurveFrame& f) const {
 double TubeDrawing::outline(double s, double angle) const {
   const double k = 2 * portable::pi * s, seed = 1.7 * m_index;
   const int own = 500 + 7 * m_index;
-  return 1 + 0.045 * swing(s / 0.0063 + 0.5 * std::sin(angle + seed), own) +
-         0.03 * std::sin(2 * angle + 4 * swing(s / 0.019, own + 1) + seed) +
+  return 1 + 0.045 * tube_swing(s / 0.0063 + 0.5 * std::sin(angle + seed), own) +
+         0.03 * std::sin(2 * angle + 4 * tube_swing(s / 0.019, own + 1) + seed) +
          0.018 * std::sin(3 * angle - k / 0.0061 + 2 * seed);
 }
 

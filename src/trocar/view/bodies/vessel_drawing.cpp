@@ -7,25 +7,25 @@
 namespace trocar::view {
 namespace {
 
-constexpr std::uint32_t kAround = 8;
+constexpr std::uint32_t kVesselAround = 8;
 constexpr double kRing = 0.001;          // [m] from ring to ring
 constexpr double kClipWide = 0.0014;     // [m] a clip narrows the vessel so far to either side
-constexpr double kBend = 0.005;          // [m] radius with which vessels curve, for rings that are left out ...
+constexpr double kVesselBend = 0.005;    // [m] radius with which vessels curve, for rings that are left out ...
 constexpr double kBendInFold = 0.002;    // ... in a fold, where they wind
 constexpr double kBloody = 0.004;        // [m] of a stump
 constexpr double kMostShift = 0.35;      // of the radius, however large the gain
 constexpr double kNarrowed = 0.7;        // share of the radius that a clip takes
 constexpr double kTaper = 0.008;         // [m] over which a vessel that ends thins out ...
 constexpr double kTaperInFold = 0.016;   // ... in a fold
-constexpr double kThinnest = 0.2;        // share of the radius at such an end
+constexpr double kVesselThinnest = 0.2;  // share of the radius at such an end
 constexpr double kInFold = 0.8;          // share of the radius: half of it is in the fold
 constexpr double kSameNode = 0.0012;     // [m] ends that meet
-constexpr int kSofter = 8;               // passes that round the line's corners ...
+constexpr int kVesselSofter = 8;         // passes that round the line's corners ...
 constexpr int kSofterInFold = 22;        // ... in a fold, where nothing bends a vessel sharply
-constexpr int kWide = 15;                // of these reach twice as far
+constexpr int kVesselWide = 15;          // of these reach twice as far
 constexpr double kFade = 0.009;          // [m] over which one that ends in a fold is lost in it
 constexpr double kMeeting = 0.009;       // [m] beside a place where vessels of a fold meet, that is rounded ...
-constexpr double kDrawnIn = 0.6;         // ... by this share of the mean of the ways there ...
+constexpr double kVesselDrawnIn = 0.6;   // ... by this share of the mean of the ways there ...
 constexpr double kMostDrawnIn = 0.0045;  // [m] ... at most
 constexpr double kDives = 0.003;         // [m] seen of a vessel that leaves its fold
 constexpr double kNestled = 0.82;        // radii below an organ's surface: hardly a ridge
@@ -58,9 +58,9 @@ template <class Run>
 std::vector<Vec3d> drawn_line(const Run& run, const Curve& curve, const interactions::VesselPath& path) {
   std::vector<Vec3d> line, old;
   for (const double s : run.s) line.push_back(curve.at(s));
-  for (int pass = 0; pass < (in_a_fold(path) ? kSofterInFold : kSofter); ++pass) {
+  for (int pass = 0; pass < (in_a_fold(path) ? kSofterInFold : kVesselSofter); ++pass) {
     old = line;
-    const std::size_t wide = in_a_fold(path) && pass < kWide ? 2 : 1, n = line.size();
+    const std::size_t wide = in_a_fold(path) && pass < kVesselWide ? 2 : 1, n = line.size();
     for (std::size_t i = 1; i + 1 < n; ++i) {
       const std::size_t far = std::min({wide, i, n - 1 - i});
       line[i] = 0.5 * old[i] + 0.25 * (old[i - far] + old[i + far]);
@@ -98,7 +98,7 @@ double thinned(const Run& run, double s, double length, double taper) {
   double share = 1;
   if (run.fades_from) share = std::min(share, smooth(0, taper, (s - run.from) * length));
   if (run.fades_to) share = std::min(share, smooth(0, taper, (run.to - s) * length));
-  return kThinnest + (1 - kThinnest) * share;
+  return kVesselThinnest + (1 - kVesselThinnest) * share;
 }
 
 /// From where to where on the line it does not run below the peritoneum.
@@ -213,7 +213,7 @@ void VesselDrawing::lay_out(const sim::State& state) {
       if (way < 1e-4) continue;
       const int steps = std::max(2, int(way / kRing + 0.5));
       for (int i = 0; i <= steps; ++i) run.s.push_back(run.from + (run.to - run.from) * i / steps);
-      for (std::size_t i = 0; i < run.s.size() * kAround + 2; ++i) m_buffer.add({});
+      for (std::size_t i = 0; i < run.s.size() * kVesselAround + 2; ++i) m_buffer.add({});
       m_runs.push_back(std::move(run));
     }
   }
@@ -222,10 +222,10 @@ void VesselDrawing::lay_out(const sim::State& state) {
     MeshBuffer part;
     for (const Run& run : m_runs) {
       const interactions::VesselPath& path = m_model->vessels.list[std::size_t(run.vessel)].path;
-      const double bend = in_a_fold(path) ? kBendInFold : kBend;
+      const double bend = in_a_fold(path) ? kBendInFold : kVesselBend;
       const auto apart = std::max<std::size_t>(1, std::size_t(ring_distance(error, bend) / kRing));
       const double radius = std::max(vessel_radius(path, run.from), vessel_radius(path, run.to));
-      join(run, apart, side_stride(error, radius, kAround), part);
+      join(run, apart, side_stride(error, radius, kVesselAround), part);
     }
     m_buffer.coarser.push_back(std::move(part.indices));
   }
@@ -236,10 +236,10 @@ void VesselDrawing::lay_out(const sim::State& state) {
 /// Triangles of every so many rings and sides.
 void VesselDrawing::join(const Run& run, std::size_t rings_apart, std::uint32_t stride, MeshBuffer& into) const {
   const std::size_t last = run.s.size() - 1;
-  const auto ring = [&](std::size_t i) { return run.first + std::uint32_t(i) * kAround; };
+  const auto ring = [&](std::size_t i) { return run.first + std::uint32_t(i) * kVesselAround; };
   const std::uint32_t poles = ring(run.s.size());
-  for (std::uint32_t k = 0; k < kAround; k += stride) {
-    const std::uint32_t next = (k + stride) % kAround;
+  for (std::uint32_t k = 0; k < kVesselAround; k += stride) {
+    const std::uint32_t next = (k + stride) % kVesselAround;
     into.triangle(ring(0) + next, ring(0) + k, poles);
     for (std::size_t i = 0; i < last; i += rings_apart) {
       const std::size_t j = std::min(i + rings_apart, last);
@@ -288,7 +288,7 @@ void VesselDrawing::round_meetings() {
     for (const End& other : ends)
       if (length(other.place - end.place) < kSameNode) sum += other.arm, ++meeting;
     if (meeting < 2) continue;
-    Vec3d shift = (kDrawnIn / meeting) * sum;
+    Vec3d shift = (kVesselDrawnIn / meeting) * sum;
     shift = std::min(1.0, kMostDrawnIn / std::max(length(shift), 1e-9)) * shift;
     for (std::size_t i = 0; i < end.run->line.size(); ++i) {
       const std::size_t from_end = end.last ? end.run->line.size() - 1 - i : i;
@@ -340,10 +340,10 @@ void VesselDrawing::place_run(const Run& run, const sim::State& state) {
     double bloody = 0;
     if (run.cut_from) bloody = smooth(kBloody, 0, (s - run.from) * path.length);
     if (run.cut_to) bloody = std::max(bloody, smooth(kBloody, 0, (run.to - s) * path.length));
-    for (std::uint32_t k = 0; k < kAround; ++k) {
-      const double angle = 2 * portable::pi * k / kAround;
+    for (std::uint32_t k = 0; k < kVesselAround; ++k) {
+      const double angle = 2 * portable::pi * k / kVesselAround;
       const Vec3d out = std::cos(angle) * normal + std::sin(angle) * beside;
-      const std::size_t vertex = run.first + i * kAround + k;
+      const std::size_t vertex = run.first + i * kVesselAround + k;
       m_buffer.positions[vertex] = vec_cast<float>(at + radius * out);
       m_buffer.normals[vertex] = vec_cast<float>(out);
       m_buffer.paint[vertex].blood = to_byte(0.8 * bloody);
@@ -352,7 +352,7 @@ void VesselDrawing::place_run(const Run& run, const sim::State& state) {
     }
     if (i > 0 && i + 1 < run.s.size()) continue;
     const double end = i == 0 ? -1 : 1;
-    const std::size_t pole = run.first + run.s.size() * kAround + (i == 0 ? 0 : 1);
+    const std::size_t pole = run.first + run.s.size() * kVesselAround + (i == 0 ? 0 : 1);
     const bool cut = i == 0 ? run.cut_from : run.cut_to;  // the lumen shows as a dimple
     m_buffer.positions[pole] = vec_cast<float>(at + ((cut ? -0.5 : 0.5) * end * radius) * tangent);
     m_buffer.normals[pole] = vec_cast<float>(end * tangent);

@@ -6,8 +6,8 @@
 namespace trocar::view {
 namespace {
 
-constexpr float kCell = 0.008f;    // [m] about as long as an edge
-constexpr float kFarthest = 1e3f;  // [m] all of it, from wherever
+constexpr float kWallCell = 0.008f;    // [m] about as long as an edge
+constexpr float kWallFarthest = 1e3f;  // [m] all of it, from wherever
 
 }  // namespace
 
@@ -27,7 +27,7 @@ WallSurface::WallSurface(const sim::Model& model) {
     for (std::uint32_t k = 0; k < 3; ++k) m_faces[m_triangles[3 * t + k]].push_back(t);
   std::vector<std::uint8_t> used;
   for (const std::vector<std::uint32_t>& faces : m_faces) used.push_back(faces.empty() ? 0 : 1);
-  m_grid.emplace(m_points, kCell, used);
+  m_grid.emplace(m_points, kWallCell, used);
 }
 
 /// Ever wider around the place.
@@ -42,7 +42,7 @@ std::uint32_t WallSurface::nearest_vertex(Vec3f p) const {
       least = d2;
       best = i;
     });
-    if (least <= reach * reach || reach > kFarthest) return best;
+    if (least <= reach * reach || reach > kWallFarthest) return best;
   }
 }
 

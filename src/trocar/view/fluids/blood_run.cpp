@@ -9,15 +9,15 @@ namespace trocar::view {
 namespace {
 
 // Our choice, all of them: from the look of rivulets in endoscopic films.
-constexpr double kStep = 0.0011;               // [m] between two links
-constexpr int kLinks = 90;                     // at most
-constexpr double kSpeed = 0.016;               // [m/s] of its lower end
-constexpr double kLevel = 0.05;                // rise over run: blood stays there
-constexpr float kWet = 0.0004f;                // [m] so deep is the pool
-constexpr int kLook = 2;                       // cells to either side, from which the fall is taken
-constexpr float kWide = 0.62e-3f;              // [m]
-constexpr float kThick = 52e-6f;               // [m] above; it thins out on its way
-constexpr double kWinds = 0.45, kWave = 0.16;  // how far it strays, a share of its way; [1/mm]
+constexpr double kRunStep = 0.0011;               // [m] between two links
+constexpr int kRunLinks = 90;                     // at most
+constexpr double kSpeed = 0.016;                  // [m/s] of its lower end
+constexpr double kRunLevel = 0.05;                // rise over run: blood stays there
+constexpr float kWet = 0.0004f;                   // [m] so deep is the pool
+constexpr int kLook = 2;                          // cells to either side, from which the fall is taken
+constexpr float kRunWidth = 0.62e-3f;             // [m]
+constexpr float kRunThick = 52e-6f;               // [m] above; it thins out on its way
+constexpr double kWinds = 0.45, kRunWave = 0.16;  // how far it strays, a share of its way; [1/mm]
 
 /// A place of the floor, by metres along its axes.
 struct Footing {
@@ -47,23 +47,24 @@ Footing footing(const fluids::PoolModel& m, const fluids::PoolState& pool, std::
 void list_run(const BloodRun& run, const fluids::PoolModel& m, const fluids::PoolState& pool,
               std::span<const float> floor, render::Liquid& liquid) {
   double a = dot(run.wound - m.origin, m.u), b = dot(run.wound - m.origin, m.v);
-  const int links = std::min(kLinks, int(run.since * kSpeed / kStep));
+  const int links = std::min(kRunLinks, int(run.since * kSpeed / kRunStep));
   Footing at = footing(m, pool, floor, a, b);
   for (int n = 0; n < links && at.inside && !at.wet; ++n) {
     const double rise = std::hypot(at.along_u, at.along_v);
-    if (rise < kLevel) return;
-    const double level = kStep / std::hypot(1.0, rise), wind = kWinds * std::sin(kWave * 1e3 * kStep * n * 2 + 0.7);
+    if (rise < kRunLevel) return;
+    const double level = kRunStep / std::hypot(1.0, rise),
+                 wind = kWinds * std::sin(kRunWave * 1e3 * kRunStep * n * 2 + 0.7);
     a -= level / rise * (at.along_u - wind * at.along_v);
     b -= level / rise * (at.along_v + wind * at.along_u);
     const Footing next = footing(m, pool, floor, a, b);
     if (!next.inside) return;
-    const float gone = float(n) / float(kLinks), bulge = n + 2 >= links ? 1.5f : 1.0f;
+    const float gone = float(n) / float(kRunLinks), bulge = n + 2 >= links ? 1.5f : 1.0f;
     render::Splat s;
     s.kind = render::SplatKind::film;
     s.from = vec_cast<float>(at.point), s.to = vec_cast<float>(next.point);
     s.normal = vec_cast<float>(at.normal);
-    s.radius = kWide * bulge * (1 + 0.35f * own(std::uint32_t(n), 3));
-    s.height = kThick * (1 - 0.4f * gone) * (1 + 0.3f * own(std::uint32_t(n), 4));
+    s.radius = kRunWidth * bulge * (1 + 0.35f * own(std::uint32_t(n), 3));
+    s.height = kRunThick * (1 - 0.4f * gone) * (1 + 0.3f * own(std::uint32_t(n), 4));
     s.dark = run.dark;
     liquid.splats.push_back(s);
     at = next;

@@ -1,25 +1,25 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/view/base/drawn_blood.hpp>
 #include <trocar/view/fluids/drip_stains.hpp>
 
 namespace trocar::view {
 namespace {
 
 // Our choice, by eye.
-constexpr float kDark = 0.7f;                         // venous, not yet clotted
-constexpr float kFarthest = 0.15f;                    // [m] a drop falls
+constexpr float kStainFarthest = 0.15f;               // [m] a drop falls
 constexpr float kClearance = 0.004f;                  // [m] above the ground, from where patches are let down on it
 constexpr float kMerges = 0.005f;                     // [m] drops that land closer than this make one stain
-constexpr int kPatches = 4, kSpecks = 4;              // of a stain
+constexpr int kStainPatches = 4, kSpecks = 4;         // of a stain
 constexpr float kStain = 1.6e-3f, kSplash = 5.5e-3f;  // [m] how far they lie from its middle
 constexpr float kPatch = 0.9e-3f, kSpeck = 0.35e-3f;  // [m] radii
-constexpr float kThick = 34e-6f;                      // [m] of a patch
+constexpr float kStainThick = 34e-6f;                 // [m] of a patch
 constexpr float kRunsDown = 2.2f;                     // [patch radii] on a steep place
-constexpr float kStep = 1.2e-3f;                      // [m] between two links of a run
-constexpr int kLinks = 11, kMoreLinks = 3;            // of one drop's run, and for every other drop
+constexpr float kStainStep = 1.2e-3f;                 // [m] between two links of a run
+constexpr int kStainLinks = 11, kMoreLinks = 3;       // of one drop's run, and for every other drop
 constexpr float kRunWide = 0.75e-3f;                  // [m] half its width where it begins
-constexpr float kLevel = 0.06f;                       // slope on which it stands
+constexpr float kStainLevel = 0.06f;                  // slope on which it stands
 constexpr float kSoaked = 3.0f;                       // radii as far as it soaks around what lies
 constexpr float kSoakedThick = 1.8e-6f;               // [m] there: it stains and does not cover
 constexpr float kKeeps = 0.65f;                       // share of its direction that a run keeps from link to link
@@ -40,7 +40,7 @@ void DripStains::add_ground(const MeshBuffer& ground) {
 }
 
 bool DripStains::land(Vec3f from, Vec3f down, Landing& at) const {
-  float nearest = kFarthest;
+  float nearest = kStainFarthest;
   bool found = false;
   for (const Ground& g : m_grounds) {
     const geometry::SurfaceHit hit = geometry::first_hit(g.blocks, g.boxes, g.positions, from, down, nearest);
@@ -62,7 +62,7 @@ render::Splat DripStains::film(const Landing& from, Vec3f to, float radius, floa
   s.normal = from.normal;
   s.radius = radius;
   s.height = thick;
-  s.dark = kDark;
+  s.dark = kDrawnDark;
   return s;
 }
 
@@ -90,8 +90,8 @@ void DripStains::list_stain(Landing at, int own, float drops, render::Liquid& li
     const Vec3f runs = (kRunsDown * radius) * (down - dot(down, here.normal) * here.normal);
     lay(here, here.position + runs, wide, thick, liquid);
   };
-  for (int n = 0; n < kPatches; ++n) add(n, kStain * grown, kPatch * std::sqrt(grown), kThick);
-  for (int n = kPatches; n < kPatches + kSpecks; ++n) add(n, kSplash, kSpeck, 0.4f * kThick);
+  for (int n = 0; n < kStainPatches; ++n) add(n, kStain * grown, kPatch * std::sqrt(grown), kStainThick);
+  for (int n = kStainPatches; n < kStainPatches + kSpecks; ++n) add(n, kSplash, kSpeck, 0.4f * kStainThick);
   list_run(at, own, drops, liquid);
 }
 
@@ -99,20 +99,20 @@ void DripStains::list_stain(Landing at, int own, float drops, render::Liquid& li
 /// level.
 void DripStains::list_run(Landing at, int own, float drops, render::Liquid& liquid) const {
   const Vec3f down = liquid.down;
-  const int links = kLinks + int(kMoreLinks * std::min(drops, 4.0f) + 4 * varied(own, 301));
+  const int links = kStainLinks + int(kMoreLinks * std::min(drops, 4.0f) + 4 * varied(own, 301));
   Vec3f way{};
   for (int n = 0; n < links; ++n) {
     const Vec3f fall = down - dot(down, at.normal) * at.normal;
     way = kKeeps * way + (1 - kKeeps) * fall;
     Landing next;
     const float gone = float(n) / float(links);
-    const bool stands = length(way) < kLevel || n + 1 == links;
-    if (stands || !let_down(at.position + kStep * normalised(way, down), down, next)) {
-      lay(at, at.position, 2.2f * kRunWide, 0.8f * kThick, liquid);
+    const bool stands = length(way) < kStainLevel || n + 1 == links;
+    if (stands || !let_down(at.position + kStainStep * normalised(way, down), down, next)) {
+      lay(at, at.position, 2.2f * kRunWide, 0.8f * kStainThick, liquid);
       return;
     }
     const float wide = kRunWide * (1.3f - 0.6f * gone) * (0.75f + 0.5f * float(varied(own, 310 + n)));
-    lay(at, next.position, wide, kThick * (1 - 0.3f * gone), liquid);
+    lay(at, next.position, wide, kStainThick * (1 - 0.3f * gone), liquid);
     at = next;
   }
 }

@@ -11,7 +11,7 @@ namespace {
 constexpr float kRunThickness = 20e-6f;  // [m] of what a running drop leaves; where there is less it covers less
 constexpr float kWidestRun = 0.0032f;    // [m] ... and how wide: what lies beyond is drawn out downhill
 constexpr float kThinnestRun = 0.0008f;  // [m] ... and how narrow
-constexpr float kOverlap = 1.5f;         // a rivulet's length within a place over the place's edge: no gaps
+constexpr float kSplatOverlap = 1.5f;    // a rivulet's length within a place over the place's edge: no gaps
 constexpr float kWander = 0.0009f;       // [m]
 
 /// Rivulets do not run straight: how far aside of the steepest way one is at `p` [m].
@@ -30,8 +30,6 @@ float darkness(float now, fluids::Blood blood, const std::array<float, 3>& share
   return 1 - (1 - clot) * (1 - kVenous * blood.venous);
 }
 
-bool finite(Vec3f v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
 float own(std::uint32_t id, int which) { return 2 * float(varied(int(id & 0xffffff), which)) - 1; }
 
 float film_height(float volume, float radius, float tail) {
@@ -43,7 +41,7 @@ render::Splat stain(const FilmPlace& place, float volume, float own, Vec3f down)
   const Vec3f fall = down - dot(down, place.normal) * place.normal;
   const float steep = length(fall), covered = std::min(place.area, volume / kRunThickness);
   const Vec3f along = steep > 1e-3f ? (1 / steep) * fall : Vec3f{0, 0, 0}, across = cross(place.normal, along);
-  const float round = std::sqrt(covered), through = std::max(kOverlap * std::sqrt(place.area), round);
+  const float round = std::sqrt(covered), through = std::max(kSplatOverlap * std::sqrt(place.area), round);
   const float far = round + std::min(2 * steep, 1.0f) * (through - round);
   const float width = std::clamp(covered / far * (0.7f + 0.6f * own), kThinnestRun, kWidestRun);
   const Vec3f half = (0.5f * std::max(far - width, 0.0f)) * along;

@@ -31,8 +31,6 @@ inline Vec3f speed(const fluids::DropletState& d, std::int32_t i) {
   return {d.vx[k], d.vy[k], d.vz[k]};
 }
 
-bool finite(Vec3f v);
-
 /// -1 .. 1, a drop's own.
 float own(std::uint32_t id, int which);
 

@@ -22,17 +22,17 @@ constexpr float kSecondNeck = 0.25f;              // share of beads that tear in
 constexpr float kLater = 1.3f;                    // ... so many times of growth later
 constexpr float kHangTogether = 0.6f;             // share of beads that never part from the next: ligaments
 constexpr float kAnywhere = 0.40f;                // in beads: how far a neck is from the middle between two
-constexpr float kBulge = 0.25f;                   // in column radii: what necks lose, middles win
+constexpr float kJetBulge = 0.25f;                // in column radii: what necks lose, middles win
 constexpr float kDrawsIn = 0.15f;                 // of its length: a bead that has come off becomes rounder
 constexpr float kBall = 0.85f;                    // in column radii: such a bead's half width, before it is torn
-constexpr float kTorn = 0.3f;                     // of that: what most lose to drops too small to show
+constexpr float kJetTorn = 0.3f;                  // of that: what most lose to drops too small to show
 constexpr int kMostRods = 14;                     // that a bead is drawn as
-constexpr float kThinnest = 0.14f;                // in column radii: of threads that show
-constexpr float kRagged = 0.32f;                  // of a column's radius
+constexpr float kJetThinnest = 0.14f;             // in column radii: of threads that show
+constexpr float kJetRagged = 0.32f;               // of a column's radius
 constexpr float kPulse = 0.32f;                   // of a column's radius: it does not leave evenly
 constexpr float kUsual = 1.5f;                    // [m/s] pressure that drives blood quicker widens its hole
 constexpr float kSprayed = 0.45f;                 // share of a jet's radius that spray takes, far off
-constexpr float kFar = 0.035f;                    // [m]
+constexpr float kJetFar = 0.035f;                 // [m]
 constexpr float kShutter = 4.0e-3f;               // [s] a camera's: what flies is a streak
 constexpr float kGreen = 18e-6f;                  // [m] of blood lets 1/e of green light through, there and back
 constexpr float kWag = 0.13f;                     // how far a jet strays aside, a share of its way ...
@@ -52,11 +52,11 @@ constexpr float kRainShows = 0.45f;        // of their radius: the rest are drop
 constexpr float kRainSpread = 4.0f;        // in radii of the large one
 constexpr float kFootThick = 180e-6f;      // [m] of the pool it wells up from
 constexpr float kThinnestFoot = 0.25e-3f;  // [m]
-constexpr float kRoot = 0.4e-3f;           // [m] above its hole a jet begins: round, below it is the pit
+constexpr float kJetRoot = 0.4e-3f;        // [m] above its hole a jet begins: round, below it is the pit
 constexpr float kFreshJet = 0.006f;        // [m] blood that has come less far shows where its hole is
 constexpr float kLongestLink = 9.0f;       // in radii: drops hang together up to here
 constexpr float kRod = 1.5f;               // in radii: about how long one is
-constexpr float kStep = 1.1f;              // in radii: rods with such gaps, round ends left out, make one (splat.frag)
+constexpr float kJetStep = 1.1f;           // in radii: rods with such gaps, round ends left out, make one (splat.frag)
 
 /// How far a jet's blood has come since it left its vessel [m]; 0 of other fluids, which do not know it and hang
 /// together better.
@@ -180,7 +180,7 @@ void Strand::even_out() {
     if (n.way > 0) {
       n.radius *= std::clamp(length(n.velocity) / kUsual, 0.8f, 1.2f);
       n.radius *= 1 + kPulse * pulse(n.id) * std::min(n.way / kWavers, 1.0f);
-      n.radius *= 1 - kSprayed * float(smooth(0, double(kFar), double(n.way)));
+      n.radius *= 1 - kSprayed * float(smooth(0, double(kJetFar), double(n.way)));
     } else {
       // Other fluids: as far as it is drawn out.
       n.grown = 3.5f + 4 * std::min(kColumn - n.radius / most, 0.0f);
@@ -196,7 +196,7 @@ void Strand::find_necks() {
   const Node& youngest = m_nodes.front();
   const float step = length(corner(1) - corner(0));
   if (youngest.way > 0 && youngest.way < kFreshJet)
-    m_necks.push_back({-(youngest.way - kRoot) / step, -youngest.grown - 9, youngest.id});
+    m_necks.push_back({-(youngest.way - kJetRoot) / step, -youngest.grown - 9, youngest.id});
   else
     m_necks.push_back(end(-0.5f, 41));
   for (std::size_t k = 0; k < m_nodes.size(); ++k) {
@@ -262,21 +262,22 @@ void Strand::list_bead(const Neck& a, const Neck& b, Liquid& liquid) const {
   const float thick = radius(middle), whole = (1 - in) * length(at(b.at) - at(a.at));
   const float smeared = n.way > 0 ? std::min(free, 1.0f) * kShutter * length(n.velocity) : 0.0f, all = whole + smeared;
   const int count = std::clamp(int(std::ceil(all / (kRod * thick))), 1, kMostRods);
-  const float mean = 0.5f * (a.deep() + b.deep()), kept = (1 - kTorn * (1 + own(b.id, 55)) * round) / std::sqrt(1 - in);
+  const float mean = 0.5f * (a.deep() + b.deep()),
+              kept = (1 - kJetTorn * (1 + own(b.id, 55)) * round) / std::sqrt(1 - in);
   for (int j = 0; j < count; ++j) {
     const float w = (2 * float(j) + 1) / float(count) - 1, deep = w < 0 ? a.deep() : b.deep();
     const float pinch = 0.5f - 0.5f * std::cos(float(portable::pi) * w);
-    const float wave = 1 + kBulge * mean * (1 - pinch) - deep * pinch, ball = kBall * std::sqrt(1 - w * w);
+    const float wave = 1 + kJetBulge * mean * (1 - pinch) - deep * pinch, ball = kBall * std::sqrt(1 - w * w);
     const float profile = (1 - round) * wave + round * ball;
-    if (profile < kThinnest) continue;
+    if (profile < kJetThinnest) continue;
     Splat s;
-    s.radius = thick * kept * profile * (1 + kRagged * std::min(n.grown / 3, 1.0f) * own(b.id, 60 + j));
+    s.radius = thick * kept * profile * (1 + kJetRagged * std::min(n.grown / 3, 1.0f) * own(b.id, 60 + j));
     s.height = s.radius;
     // The shutter smears it: what is behind it shows through for a part of the time.
     if (smeared > 0) s.height = covering(0.5f * all * (1 - std::fabs(w)) / std::min(smeared, whole), s.radius);
     const float u = middle + half * w * all / length(at(b.at) - at(a.at));
     const Vec3f tangent = normalised(at(u + 0.1f) - at(u - 0.1f), along), p = at(u) + off;
-    const Vec3f rod = (0.5f * std::max(all / float(count) - kStep * s.radius, 0.0f)) * tangent;
+    const Vec3f rod = (0.5f * std::max(all / float(count) - kJetStep * s.radius, 0.0f)) * tangent;
     s.from = p - rod, s.to = p + rod;
     s.share = n.share, s.dark = n.dark;
     liquid.splats.push_back(s);
@@ -301,7 +302,7 @@ void Strand::list_spray(const Neck& neck, Liquid& liquid) const {
 
 /// What the air tears off a column's sides: thin threads along the flight, more and farther out on the way.
 void Strand::list_threads(const Node& n, Liquid& liquid) const {
-  const double torn = smooth(double(kFirstThread), double(kFar), double(n.way));
+  const double torn = smooth(double(kFirstThread), double(kJetFar), double(n.way));
   const int count = int(float(kMostThreads) * float(torn) + float(varied(int(n.id & 0xffffff), 160)));
   const Vec3f along = normalised(n.velocity, Vec3f{0, 0, 1});
   for (int k = 0; k < count && torn > 0; ++k) {

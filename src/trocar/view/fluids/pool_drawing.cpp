@@ -10,10 +10,10 @@ namespace {
 
 using render::Liquid;
 
-constexpr float kWetDepth = 60e-6f;   // [m] at which a cell of the pool counts as wet
-constexpr int kMargin = 6;            // cells around the wet ones
-constexpr float kOverhang = 0.004f;   // [m] a floor so far above the level is an organ with room below it
-constexpr std::uint32_t kNone = ~0u;  // a corner without a vertex
+constexpr float kWetDepth = 60e-6f;       // [m] at which a cell of the pool counts as wet
+constexpr int kPoolMargin = 6;            // cells around the wet ones
+constexpr float kOverhang = 0.004f;       // [m] a floor so far above the level is an organ with room below it
+constexpr std::uint32_t kNoVertex = ~0u;  // a corner without a vertex
 
 /// Three by three, 1 2 1, in place.
 void smooth_once(std::vector<float>& field, std::vector<float>& scratch, int width, int height) {
@@ -50,8 +50,8 @@ bool PoolDrawing::find_window(const fluids::PoolState& pool) {
     m_window = {};
     return false;
   }
-  i0 = std::max(i0 - kMargin, 0), j0 = std::max(j0 - kMargin, 0);
-  i1 = std::min(i1 + kMargin, m.nx - 1), j1 = std::min(j1 + kMargin, m.ny - 1);
+  i0 = std::max(i0 - kPoolMargin, 0), j0 = std::max(j0 - kPoolMargin, 0);
+  i1 = std::min(i1 + kPoolMargin, m.nx - 1), j1 = std::min(j1 + kPoolMargin, m.ny - 1);
   m_window = {i0, j0, i1 - i0 + 1, j1 - j0 + 1};
   return true;
 }
@@ -59,7 +59,7 @@ bool PoolDrawing::find_window(const fluids::PoolState& pool) {
 /// Around what is known.
 void PoolDrawing::spread_level() {
   const int w = m_window.width, h = m_window.height;
-  for (int ring = 0; ring < kMargin + 1; ++ring) {
+  for (int ring = 0; ring < kPoolMargin + 1; ++ring) {
     std::vector<float>& next = m_scratch;
     next.assign(m_known.begin(), m_known.end());
     for (int j = 0; j < h; ++j)
@@ -115,7 +115,7 @@ std::uint32_t PoolDrawing::corner(const FluidSight& sight, int i, int j, Liquid&
   const float now = now_of(m_model->droplets, sight.state.droplets);
   const auto cell = [w](int a, int b) { return std::size_t(b) * w + a; };
   std::uint32_t& at_corner = m_corner[cell(i, j)];
-  if (at_corner != kNone) return at_corner;
+  if (at_corner != kNoVertex) return at_corner;
   at_corner = std::uint32_t(liquid.sheet.size());
   const int west = std::max(i - 1, 0), east = std::min(i + 1, w - 1);
   const int south = std::max(j - 1, 0), north = std::min(j + 1, h - 1);
@@ -147,7 +147,7 @@ void PoolDrawing::list_sheet(const FluidSight& sight, Liquid& liquid) {
   smooth_fields(sight.state.pool, sight.floor);
   const int w = m_window.width, h = m_window.height;
   if (w < 2 || h < 2) return;
-  m_corner.assign(m_window.size(), kNone);
+  m_corner.assign(m_window.size(), kNoVertex);
   const auto cell = [w](int i, int j) { return std::size_t(j) * w + i; };
   for (int j = 0; j + 1 < h; ++j)
     for (int i = 0; i + 1 < w; ++i) {

@@ -25,7 +25,7 @@ constexpr float kTongues = 0.55f;                               // of blocks tha
 constexpr float kShortTongue = 0.003f, kLongTongue = 0.0085f;   // [m]
 constexpr float kTongueWide = 0.00055f;                         // [m] half of it
 constexpr float kTongueThick = 1.5f, kThickestTongue = 26e-6f;  // over the film's; [m]
-constexpr int kBends = 3;
+constexpr int kPoolRunBends = 3;
 
 float smooth_step(float x) { return float(smooth(0.0, 1.0, double(x))); }
 
@@ -37,9 +37,9 @@ void list_tongue(const Splat& stain, std::uint32_t id, Liquid& liquid) {
   s.radius = kTongueWide * (1 + 0.4f * own(id, 62));
   s.height = std::min(kTongueThick * stain.height, kThickestTongue);
   s.to = 0.5f * (stain.from + stain.to);
-  for (int bend = 0; bend < kBends; ++bend) {
+  for (int bend = 0; bend < kPoolRunBends; ++bend) {
     s.from = s.to;
-    s.to = s.from + (far / kBends) * (along + 0.2f * own(id, 63 + bend) * across);
+    s.to = s.from + (far / kPoolRunBends) * (along + 0.2f * own(id, 63 + bend) * across);
     liquid.splats.push_back(s);
   }
   s.from = s.to;

@@ -18,7 +18,7 @@ constexpr double kPlumeDense = 0.85;
 constexpr double kPlumeFoot = 0.0013, kPlumeThin = 0.005;  // [m] radius at the tip; and at which it is half as dense
 constexpr double kSmokes = 0.15;                           // [s] of current until tissue smokes
 
-constexpr float kClear = 0.01f;  // [g/m^3] everywhere below it: nothing to be seen
+constexpr float kSmokeClear = 0.01f;  // [g/m^3] everywhere below it: nothing to be seen
 
 // The veil: our choice, by eye.
 constexpr float kVeilWide = 0.060f;   // [m] its spread
@@ -100,7 +100,7 @@ void add_veil(float fog, render::SmokeVolume& smoke) {
 void list_smoke(const fluids::SmokeModel& model, const fluids::SmokeState& state, render::Frame& frame) {
   frame.smoke.density.clear();
   const auto densest = std::max_element(state.density.begin(), state.density.end());
-  if (densest == state.density.end() || !(*densest > kClear)) return;
+  if (densest == state.density.end() || !(*densest > kSmokeClear)) return;
   render::SmokeVolume& smoke = frame.smoke;
   smoke.origin = vec_cast<float>(model.origin);
   smoke.cell = float(model.cell);

@@ -45,9 +45,9 @@ MeshBuffer bipolar_paddle(const ToolModel& tool) {
 
 std::vector<InstrumentPart> bipolar_parts(const ToolModel& tool) {
   std::vector<InstrumentPart> parts;
-  parts.push_back({Joint::body, "insulated", shaft(tool, -0.0105)});
-  parts.push_back({Joint::body, "ceramic", insulator(tool, -0.0105, -0.003, 0.92 * tool.shaft_radius)});
-  for (const Joint jaw : {Joint::jaw_a, Joint::jaw_b}) {
+  parts.push_back({PartJoint::body, "insulated", shaft(tool, -0.0105)});
+  parts.push_back({PartJoint::body, "ceramic", insulator(tool, -0.0105, -0.003, 0.92 * tool.shaft_radius)});
+  for (const PartJoint jaw : {PartJoint::jaw_a, PartJoint::jaw_b}) {
     parts.push_back({jaw, "ceramic", bipolar_tine(tool)});
     parts.push_back({jaw, "steel", bipolar_paddle(tool)});
   }

@@ -40,9 +40,9 @@ MeshBuffer applier_jaw(const ToolModel& tool) {
 
 std::vector<InstrumentPart> clip_applier_parts(const ToolModel& tool) {
   std::vector<InstrumentPart> parts;
-  parts.push_back({Joint::body, "steel", open_shaft(tool, -0.002, 0.0008)});
-  parts.push_back({Joint::jaw_a, "matte_steel", applier_jaw(tool)});
-  parts.push_back({Joint::jaw_b, "matte_steel", applier_jaw(tool)});
+  parts.push_back({PartJoint::body, "steel", open_shaft(tool, -0.002, 0.0008)});
+  parts.push_back({PartJoint::jaw_a, "matte_steel", applier_jaw(tool)});
+  parts.push_back({PartJoint::jaw_b, "matte_steel", applier_jaw(tool)});
   return parts;
 }
 

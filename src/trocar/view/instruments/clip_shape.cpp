@@ -12,12 +12,12 @@ namespace {
 constexpr int kGrooves = 5, kLegSteps = 3 * kGrooves, kBendSteps = 7;
 constexpr double kGrooveLeft = 0.76;  // of a leg's thickness, in its grooves
 constexpr double kChamfer = 0.00023;  // [m] its edges are bevelled
-constexpr double kTip = 0.00022;      // [m] and so are its tips
+constexpr double kClipTip = 0.00022;  // [m] and so are its tips
 constexpr double kSpread = 0.0042;    // [m] an open one is a chevron down to here, from there its legs are parallel
 constexpr double kBendWider = 0.12;   // share by which the wire is flattened where it was bent
 constexpr double kAskew = 0.00011;    // [m] tips that met never lie quite on each other
 // Bevels are bright beside what is between them; little light comes between the legs.
-const Paint kBevel{255, 0, 0, 0}, kOutside{215, 0, 0, 0}, kInside{60, 0, 0, 40};
+const Paint kClipBevel{255, 0, 0, 0}, kOutside{215, 0, 0, 0}, kInside{60, 0, 0, 40};
 
 /// A place on the middle line of the wire, and the share of the full section it has there.
 struct WirePlace {
@@ -33,7 +33,7 @@ std::vector<WirePlace> wire(double leg, double gap) {
   std::vector<WirePlace> half;
   const auto on_leg = [&](double z, double share) { half.push_back({{bow + spread(z), askew(z), z}, share}); };
   on_leg(leg, 0.62);
-  on_leg(leg - kTip, 1);
+  on_leg(leg - kClipTip, 1);
   for (int i = 1; i < kLegSteps; ++i) on_leg(eye + (leg - eye) * (1 - double(i) / kLegSteps), 1);
   for (int i = 0; i <= kBendSteps; ++i) {  // it does not close flat: an eye is left, wider than the legs are apart
     const double a = 0.5 * portable::pi * i / kBendSteps, z = eye * (1 - std::sin(a));
@@ -100,7 +100,7 @@ MeshBuffer clip_shape(double leg_length, double gap) {
       const double in = q.x > 0 ? (2 * left - 1) * q.x : q.x;
       const Vec3f p = vec_cast<float>(at(i) + (half * in) * inwards + (wide * q.y) * y);
       for (int k = 0; k < (twice ? 2 : 1); ++k)
-        b.add(p, q.x > 0.5 ? kInside : c >= kDomed || (c != 1 && k == int(c / 2)) ? kBevel : kOutside);
+        b.add(p, q.x > 0.5 ? kInside : c >= kDomed || (c != 1 && k == int(c / 2)) ? kClipBevel : kOutside);
     }
     return row;
   };

@@ -9,16 +9,16 @@ namespace {
 
 using namespace metal;
 
-constexpr double kBow = 0.0012;     // [m] the jaws' bow off the straight rods that the mechanics have for them
-constexpr double kTip = 0.002;      // [m] across the closed tips
-constexpr double kTeeth = 0.0009;   // [m] from one tooth to the next
-constexpr double kGroove = 0.0002;  // [m] between the teeth
+constexpr double kBow = 0.0012;          // [m] the jaws' bow off the straight rods that the mechanics have for them
+constexpr double kDissectorTip = 0.002;  // [m] across the closed tips
+constexpr double kTeeth = 0.0009;        // [m] from one tooth to the next
+constexpr double kGroove = 0.0002;       // [m] between the teeth
 
 /// Both jaws bend the same way, beside the plane that they open in; joint and tips are where straight jaws have them.
 Vec3d bowed(double u, double length) { return {0, 4 * kBow * u * (1 - u), u * length}; }
 
 double half_width(const ToolModel& tool, double u) {
-  return 0.5 * (tool.jaw_width + (kTip - tool.jaw_width) * smooth(0.15, 0.95, u));
+  return 0.5 * (tool.jaw_width + (kDissectorTip - tool.jaw_width) * smooth(0.15, 0.95, u));
 }
 
 /// The jaw's back, half round: thick at the joint, slender and blunt at its tip.
@@ -62,10 +62,10 @@ MeshBuffer jaw(const ToolModel& tool, float side) {
 
 std::vector<InstrumentPart> dissector_parts(const ToolModel& tool) {
   std::vector<InstrumentPart> parts;
-  parts.push_back({Joint::body, "insulated", shaft(tool, kHingeFrom)});
-  parts.push_back({Joint::body, "steel", hinge(tool.shaft_radius)});
-  parts.push_back({Joint::jaw_a, "steel", jaw(tool, 1)});
-  parts.push_back({Joint::jaw_b, "steel", jaw(tool, -1)});
+  parts.push_back({PartJoint::body, "insulated", shaft(tool, kHingeFrom)});
+  parts.push_back({PartJoint::body, "steel", hinge(tool.shaft_radius)});
+  parts.push_back({PartJoint::jaw_a, "steel", jaw(tool, 1)});
+  parts.push_back({PartJoint::jaw_b, "steel", jaw(tool, -1)});
   return parts;
 }
 

@@ -72,10 +72,10 @@ MeshBuffer grasper_jaw(const ToolModel& tool) {
 
 std::vector<InstrumentPart> grasper_parts(const ToolModel& tool) {
   std::vector<InstrumentPart> parts;
-  parts.push_back({Joint::body, "insulated", shaft(tool, kHingeFrom)});
-  parts.push_back({Joint::body, "steel", hinge(tool.shaft_radius)});
-  parts.push_back({Joint::jaw_a, "steel", grasper_jaw(tool)});
-  parts.push_back({Joint::jaw_b, "steel", grasper_jaw(tool)});
+  parts.push_back({PartJoint::body, "insulated", shaft(tool, kHingeFrom)});
+  parts.push_back({PartJoint::body, "steel", hinge(tool.shaft_radius)});
+  parts.push_back({PartJoint::jaw_a, "steel", grasper_jaw(tool)});
+  parts.push_back({PartJoint::jaw_b, "steel", grasper_jaw(tool)});
   return parts;
 }
 

@@ -36,9 +36,9 @@ MeshBuffer hook_wire(const ToolModel& tool) {
 
 std::vector<InstrumentPart> hook_parts(const ToolModel& tool) {
   std::vector<InstrumentPart> parts;
-  parts.push_back({Joint::body, "insulated", shaft(tool, kCollarFrom)});
-  parts.push_back({Joint::body, "ceramic", insulator(tool, kCollarFrom, 0, 0.55 * tool.shaft_radius)});
-  parts.push_back({Joint::body, "steel", hook_wire(tool)});
+  parts.push_back({PartJoint::body, "insulated", shaft(tool, kCollarFrom)});
+  parts.push_back({PartJoint::body, "ceramic", insulator(tool, kCollarFrom, 0, 0.55 * tool.shaft_radius)});
+  parts.push_back({PartJoint::body, "steel", hook_wire(tool)});
   return parts;
 }
 

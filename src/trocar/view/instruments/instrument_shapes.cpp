@@ -32,14 +32,14 @@ std::vector<InstrumentPart> sleeve_parts(double radius, double reach, double fro
   for (Vec3f& p : b.positions)
     if (p.z > float(end - 0.02)) p.z += float(slant) * p.x;
   std::vector<InstrumentPart> parts;
-  parts.push_back({Joint::body, "sleeve", std::move(b)});
+  parts.push_back({PartJoint::body, "sleeve", std::move(b)});
   return parts;
 }
 
 std::vector<InstrumentPart> scope_parts(double radius) {
   std::vector<InstrumentPart> parts;
   const double r = radius;
-  parts.push_back({Joint::body, "steel",
+  parts.push_back({PartJoint::body, "steel",
                    turned({{-0.31, 0, kClean},
                            {-0.31, r, kClean},
                            {-0.31, r, kClean},
@@ -54,11 +54,11 @@ std::vector<InstrumentPart> scope_parts(double radius) {
   return parts;
 }
 
-Placement placement_of(Joint joint, const interactions::ToolShape& shape) {
+Placement placement_of(PartJoint joint, const interactions::ToolShape& shape) {
   const Vec3d axis = shape.frame.axis(), open = shape.frame.opening();
-  const double side = joint == Joint::jaw_b ? -1 : 1;
+  const double side = joint == PartJoint::jaw_b ? -1 : 1;
   Vec3d x = side * open, z = axis, origin = shape.pivot;
-  if (joint != Joint::body) {
+  if (joint != PartJoint::body) {
     const double c = 1 / std::sqrt(1 + shape.tangent * shape.tangent), s = c * shape.tangent;
     z = c * axis + (side * s) * open;
     x = side * (c * open) - s * axis;

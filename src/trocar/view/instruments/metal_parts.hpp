@@ -8,7 +8,7 @@
 namespace trocar::view::metal {
 
 using interactions::ToolModel;
-using Joint = InstrumentPart::Joint;
+using PartJoint = InstrumentPart::Joint;
 
 inline constexpr int kAround = 40;
 // Blood is what clings there after work, burn what chars there: SceneView says how much of it is on an instrument.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trocar/numerics/portable.hpp>
 #include <trocar/render/meshes/mesh_arrays.hpp>
 #include <trocar/view/bodies/cavity.hpp>
 #include <trocar/view/instruments/port_site.hpp>
@@ -8,29 +9,28 @@
 namespace trocar::view {
 namespace {
 
-constexpr double kTwoPi = 6.28318530717959;
-constexpr int kSides = 40, kRows = 14;  // from inside the slit to the untouched wall
-constexpr int kLip = 2;                 // the row that is the slit's rim
-constexpr double kBehind = 0.09;        // [m] how far before and behind its port a wall is looked for
-constexpr double kTent = 0.0042;        // [m] how far the peritoneum is drawn in along the sleeve ...
-constexpr double kAround = 0.013;       // [m] ... and how far around it
-constexpr double kLap = 0.0008;         // [m] how far it stands off the wall at least
-constexpr double kClear = 0.0006;       // [m] that the tent bulges off the sleeve
-constexpr double kMostSlope = 0.012;    // [m] that the wall leaves its plane there
-constexpr double kProud = 0.0003;       // [m] that it stands before the wall near the slit, which would cut through it
-constexpr double kSunk = 0.0002;        // [m] of the outermost row under the wall: no border shows
-constexpr double kFlattest = 0.3;       // cosine: a sleeve that lies flatter on the wall is not followed
+constexpr int kPortSides = 40, kPortRows = 14;  // from inside the slit to the untouched wall
+constexpr int kPortLip = 2;                     // the row that is the slit's rim
+constexpr double kBehind = 0.09;                // [m] how far before and behind its port a wall is looked for
+constexpr double kTent = 0.0042;                // [m] how far the peritoneum is drawn in along the sleeve ...
+constexpr double kPortAround = 0.013;           // [m] ... and how far around it
+constexpr double kLap = 0.0008;                 // [m] how far it stands off the wall at least
+constexpr double kPortClear = 0.0006;           // [m] that the tent bulges off the sleeve
+constexpr double kMostSlope = 0.012;            // [m] that the wall leaves its plane there
+constexpr double kProud = 0.0003;     // [m] that it stands before the wall near the slit, which would cut through it
+constexpr double kPortSunk = 0.0002;  // [m] of the outermost row under the wall: no border shows
+constexpr double kFlattest = 0.3;     // cosine: a sleeve that lies flatter on the wall is not followed
 
 /// 0 at the rim of the slit, 1 where the wall is untouched.
-double outwards(int row) { return std::max(0.0, double(row - kLip) / (kRows - 1 - kLip)); }
+double share_outwards(int row) { return std::max(0.0, double(row - kPortLip) / (kPortRows - 1 - kPortLip)); }
 
 Paint paint_of(int row, int side) {
-  const double wave = 0.5 + 0.5 * varied(side / 2, 7), x = outwards(row);
+  const double wave = 0.5 + 0.5 * varied(side / 2, 7), x = share_outwards(row);
   Paint p;
-  p.openness = row < kLip ? std::uint8_t(row == 0 ? 6 : 20) : to_byte(0.16 + 0.84 * smooth(0, 0.5, x));
+  p.openness = row < kPortLip ? std::uint8_t(row == 0 ? 6 : 20) : to_byte(0.16 + 0.84 * smooth(0, 0.5, x));
   // Most of the rim is clean; here and there a thin dark line of blood.
   const double bled = smooth(0.45, 0.85, 0.5 + 0.5 * varied(side / 5, 11));
-  p.blood = row < kLip ? to_byte(0.1 + 0.3 * bled) : to_byte(0.3 * bled * (1 - smooth(0, 0.04 + 0.1 * wave, x)));
+  p.blood = row < kPortLip ? to_byte(0.1 + 0.3 * bled) : to_byte(0.3 * bled * (1 - smooth(0, 0.04 + 0.1 * wave, x)));
   return p;
 }
 
@@ -93,15 +93,15 @@ PortSite::PortSite(Vec3d port, Vec3d axis, double radius, std::span<const Pierce
   if (dot(m_normal, axis) < kFlattest) return;
   m_u = normalised(cross(m_normal, Vec3d{0.3, 0.5, 0.8}), Vec3d{1, 0, 0});
   m_v = cross(m_normal, m_u);
-  const auto lists = near_to(m_centre, radius / kFlattest + kAround + kMostSlope, walls);
+  const auto lists = near_to(m_centre, radius / kFlattest + kPortAround + kMostSlope, walls);
   std::vector<PiercedWall> near(walls.begin(), walls.end());
   for (std::size_t w = 0; w < near.size(); ++w) near[w].indices = lists[w];
-  for (int row = 0; row < kRows; ++row)
-    for (int k = 0; k < kSides; ++k) {
-      const double angle = kTwoPi * k / kSides, x = outwards(row);
+  for (int row = 0; row < kPortRows; ++row)
+    for (int k = 0; k < kPortSides; ++k) {
+      const double angle = portable::two_pi * k / kPortSides, x = share_outwards(row);
       const Vec3d way = std::cos(angle) * m_u + std::sin(angle) * m_v;
       const double footprint = radius / length(way - dot(way, axis) * axis);  // of a sleeve that comes in aslant
-      const double far = footprint * (0.84 + 0.1 * std::min(row, kLip)) + kAround * x;
+      const double far = footprint * (0.84 + 0.1 * std::min(row, kPortLip)) + kPortAround * x;
       const Vec3d aside = m_centre + far * way;
       const auto on = last_crossing(near, aside, m_normal, -kMostSlope, kMostSlope);
       m_base.push_back(on ? on->point : aside);
@@ -111,8 +111,8 @@ PortSite::PortSite(Vec3d port, Vec3d axis, double radius, std::span<const Pierce
       m_shape.paint.back().tint = to_byte(fat_below(m_base.back()));
       m_shape.rest.push_back(vec_cast<float>(m_base.back()));
     }
-  for (int row = 0; row + 1 < kRows; ++row)
-    join_rows(m_shape, std::uint32_t((row + 1) * kSides), std::uint32_t(row * kSides), kSides, true);
+  for (int row = 0; row + 1 < kPortRows; ++row)
+    join_rows(m_shape, std::uint32_t((row + 1) * kPortSides), std::uint32_t(row * kPortSides), kPortSides, true);
   shape(axis);
   coarsen(m_shape, detail, kBends);
   m_mesh = OwnedMesh(backend, m_shape.data());
@@ -120,11 +120,11 @@ PortSite::PortSite(Vec3d port, Vec3d axis, double radius, std::span<const Pierce
 
 /// Of the wall at rest over its plane, so far from the hole's middle towards a side [m].
 double PortSite::wall_height(int side, double away) const {
-  const auto base = [&](int row) { return m_base[std::size_t(row * kSides + side)] - m_centre; };
-  const double angle = kTwoPi * side / kSides;
+  const auto base = [&](int row) { return m_base[std::size_t(row * kPortSides + side)] - m_centre; };
+  const double angle = portable::two_pi * side / kPortSides;
   const Vec3d aside = std::cos(angle) * m_u + std::sin(angle) * m_v;
   int row = 0;
-  while (row + 2 < kRows && dot(base(row + 1), aside) < away) ++row;
+  while (row + 2 < kPortRows && dot(base(row + 1), aside) < away) ++row;
   const double near = dot(base(row), aside), far = dot(base(row + 1), aside);
   const double t = std::clamp((away - near) / std::max(far - near, 1e-9), 0.0, 1.0);
   return (1 - t) * dot(base(row), m_normal) + t * dot(base(row + 1), m_normal);
@@ -134,30 +134,30 @@ void PortSite::shape(Vec3d axis) {
   m_axis = axis;
   const double steep = dot(axis, m_normal);
   const Vec3d hole = m_port + (dot(m_centre - m_port, m_normal) / steep) * axis;
-  for (int row = 0; row < kRows; ++row) {
-    const double x = outwards(row), drawn = (1 - x) * (1 - x) * (1 - 0.35 * x);  // steep at the sleeve
-    for (int k = 0; k < kSides; ++k) {
-      const double angle = kTwoPi * k / kSides, c = std::cos(angle), s = std::sin(angle);
+  for (int row = 0; row < kPortRows; ++row) {
+    const double x = share_outwards(row), drawn = (1 - x) * (1 - x) * (1 - 0.35 * x);  // steep at the sleeve
+    for (int k = 0; k < kPortSides; ++k) {
+      const double angle = portable::two_pi * k / kPortSides, c = std::cos(angle), s = std::sin(angle);
       const Vec3d aside = c * m_u + s * m_v;
       const Vec3d across = normalised(aside - dot(aside, axis) * axis, m_u);
-      const double slit = row < kLip ? -0.05 : 0.16 * c * c * c * c;  // gapes to both sides
+      const double slit = row < kPortLip ? -0.05 : 0.16 * c * c * c * c;  // gapes to both sides
       // Under a sleeve that leans over it the wall only laps against it.
       const double least = (kLap - m_radius * dot(across, m_normal)) / steep;
       const double drawn_in = std::max(kTent * (1 + 0.12 * std::sin(3 * angle + 1)), least);
-      const double high = drawn_in - kTent * 0.4 * std::max(0, kLip - row);
+      const double high = drawn_in - kTent * 0.4 * std::max(0, kPortLip - row);
       const Vec3d at_sleeve = hole + high * axis + (m_radius * (1.02 + slit)) * across;
       const double folds = 0.0003 * std::sin(11 * angle + 2 * std::sin(2 * angle)) * drawn * (1 - drawn) * 4;
-      const std::size_t i = std::size_t(row * kSides + k);
-      Vec3d p =
-          drawn * at_sleeve + (1 - drawn) * m_base[i] + folds * m_normal + (4 * kClear * drawn * (1 - drawn)) * across;
+      const std::size_t i = std::size_t(row * kPortSides + k);
+      Vec3d p = drawn * at_sleeve + (1 - drawn) * m_base[i] + folds * m_normal +
+                (4 * kPortClear * drawn * (1 - drawn)) * across;
       const double short_of = wall_height(k, dot(p - m_centre, aside)) + kProud * (1 - x) - dot(p - m_centre, m_normal);
-      if (row >= kLip) p += std::max(short_of, 0.0) * m_normal;
-      m_shape.positions[i] = vec_cast<float>(p - (kSunk * x * x * x) * m_normal);
+      if (row >= kPortLip) p += std::max(short_of, 0.0) * m_normal;
+      m_shape.positions[i] = vec_cast<float>(p - (kPortSunk * x * x * x) * m_normal);
     }
   }
   render::vertex_normals(m_shape.positions, m_shape.indices, m_shape.normals);
   for (std::size_t i = 0; i < m_shape.normals.size(); ++i) {  // towards the border as the wall's: no seam
-    const float wall = float(smooth(0.35, 0.9, outwards(int(i) / kSides)));
+    const float wall = float(smooth(0.35, 0.9, share_outwards(int(i) / kPortSides)));
     m_shape.normals[i] = normalised((1 - wall) * m_shape.normals[i] + wall * m_wall_normal[i], m_wall_normal[i]);
   }
 }

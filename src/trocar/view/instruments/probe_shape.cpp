@@ -24,7 +24,7 @@ MeshBuffer blunt_rod(const ToolModel& tool) {
 
 std::vector<InstrumentPart> probe_parts(const ToolModel& tool) {
   std::vector<InstrumentPart> parts;
-  parts.push_back({Joint::body, "steel", blunt_rod(tool)});
+  parts.push_back({PartJoint::body, "steel", blunt_rod(tool)});
   return parts;
 }
 

@@ -1,18 +1,17 @@
 #include <cmath>
 
+#include <trocar/numerics/portable.hpp>
 #include <trocar/view/instruments/shapes.hpp>
 
 namespace trocar::view {
 namespace {
-
-constexpr double kTwoPi = 6.28318530717959;
 
 /// Points around a super-ellipse, from round (2 corners shaped 1) to a box whose edges are slightly broken.
 std::vector<Vec3d> rim(double roundness, int count) {
   std::vector<Vec3d> points;
   const double power = 0.12 + 0.88 * roundness;
   for (int i = 0; i < count; ++i) {
-    const double a = kTwoPi * (i + 0.5) / count, c = std::cos(a), s = std::sin(a);
+    const double a = portable::two_pi * (i + 0.5) / count, c = std::cos(a), s = std::sin(a);
     points.push_back(
         {std::copysign(std::pow(std::fabs(c), power), c), std::copysign(std::pow(std::fabs(s), power), s), 0});
   }
@@ -37,7 +36,7 @@ MeshBuffer turned(const std::vector<TurnPoint>& outline, int sides) {
     const std::uint32_t first = b.size();
     const bool pole = p.radius == 0;
     for (int k = 0; k < (pole ? 1 : sides); ++k) {
-      const double a = kTwoPi * k / sides;
+      const double a = portable::two_pi * k / sides;
       b.add(vec_cast<float>(Vec3d{p.radius * std::cos(a), p.radius * std::sin(a), p.z}), p.paint);
     }
     const bool edge = i > 0 && outline[i - 1].z == p.z && outline[i - 1].radius == p.radius;

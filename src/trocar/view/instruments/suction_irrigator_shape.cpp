@@ -35,7 +35,7 @@ MeshBuffer irrigator_tube(const ToolModel& tool) {
 
 std::vector<InstrumentPart> suction_irrigator_parts(const ToolModel& tool) {
   std::vector<InstrumentPart> parts;
-  parts.push_back({Joint::body, "matte_steel", irrigator_tube(tool)});
+  parts.push_back({PartJoint::body, "matte_steel", irrigator_tube(tool)});
   return parts;
 }
 

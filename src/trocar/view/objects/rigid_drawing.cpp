@@ -10,25 +10,25 @@ namespace {
 using interactions::Rigid;
 using interactions::RigidModel;
 
-constexpr int kAround = 20, kAlong = 4;  // points around what it is made of; along, between two beads
+constexpr int kRigidAround = 20, kRigidAlong = 4;  // points around what it is made of; along, between two beads
 
 /// A closed tube about z through the beads.
 MeshBuffer ring_shape(const RigidModel& m) {
   MeshBuffer b;
   const double middle = length(m.beads.front());
-  const int rows = int(m.beads.size()) * kAlong;
+  const int rows = int(m.beads.size()) * kRigidAlong;
   for (int i = 0; i < rows; ++i) {
     const double turn = 2 * portable::pi * i / rows;
     const Vec3d out{portable::cos(turn), portable::sin(turn), 0};
-    for (int k = 0; k < kAround; ++k) {
-      const double a = 2 * portable::pi * k / kAround;
+    for (int k = 0; k < kRigidAround; ++k) {
+      const double a = 2 * portable::pi * k / kRigidAround;
       const Vec3d up = portable::cos(a) * out + portable::sin(a) * Vec3d{0, 0, 1};
       b.add(vec_cast<float>(middle * out + m.radius * up));
       b.normals.push_back(vec_cast<float>(up));
     }
   }
   for (int i = 0; i < rows; ++i)
-    join_rows(b, std::uint32_t((i + 1) % rows * kAround), std::uint32_t(i * kAround), kAround, true);
+    join_rows(b, std::uint32_t((i + 1) % rows * kRigidAround), std::uint32_t(i * kRigidAround), kRigidAround, true);
   return b;
 }
 
@@ -44,7 +44,7 @@ MeshBuffer rod_shape(double length, double radius) {
     const double a = 0.5 * portable::pi * i / kRound;
     outline.push_back({length + radius * portable::sin(a), radius * portable::cos(a), {}});
   }
-  return turned(outline, kAround);
+  return turned(outline, kRigidAround);
 }
 
 MeshBuffer line_shape(const RigidModel& m) {

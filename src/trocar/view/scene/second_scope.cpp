@@ -6,12 +6,12 @@
 namespace trocar::view {
 namespace {
 
-constexpr double kFirstDepth = 0.06, kShallowest = 0.02, kDeepest = 0.20;  // [m] of the tip in the body
+constexpr double kFirstDepth = 0.06, kShallowest = 0.02, kScopeDeepest = 0.20;  // [m] of the tip in the body
 
 kinematics::FulcrumLimits limits() {
   kinematics::FulcrumLimits l;
   l.depth_min = kShallowest;
-  l.depth_max = kDeepest;
+  l.depth_max = kScopeDeepest;
   return l;
 }
 
