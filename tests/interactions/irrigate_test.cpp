@@ -52,7 +52,7 @@ TEST(Irrigator, NoDropIsBornInsideItsTube) {
 
 TEST(WetTarget, EveryPlaceOfFilmBelongsToOneBodyAndNothingElseToAny) {
   const std::vector<std::int32_t> first{0, 5, 5, 11, 14};  // an organ of 5 vertices, an empty wall, a fold, a strand
-  const auto target = [&](int body, int place) { return target_of(first, 2, 1, body, place); };
+  const auto target = [&](int body, int place) { return target_of(first, {2, 1}, body, place); };
   EXPECT_EQ(target(0, 4).kind, WetTarget::surface);
   EXPECT_EQ(target(0, 4).vertex, 4);
   EXPECT_EQ(target(2, 8).kind, WetTarget::sheet);

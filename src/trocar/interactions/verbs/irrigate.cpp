@@ -26,14 +26,15 @@ fluids::Capsule tube_of(const ToolModel& tool, const ToolShape& now, const ToolS
   return tube;
 }
 
-WetTarget target_of(std::span<const std::int32_t> first, int surfaces, int sheets, std::int32_t body,
+WetTarget target_of(std::span<const std::int32_t> first, const WetOrder& order, std::int32_t body,
                     std::int32_t place) noexcept {
   if (body < 0 || body + 1 >= std::int32_t(first.size())) return {};
   const std::int32_t number = place - first[std::size_t(body)];
   if (number < 0 || place >= first[std::size_t(body) + 1]) return {};
-  if (body < surfaces) return {WetTarget::surface, body, number};
-  if (body < surfaces + sheets) return {WetTarget::sheet, body - surfaces, number / 2};
-  return {WetTarget::strand, body - surfaces - sheets, number};
+  const std::int32_t index = std::int32_t(order.index(body));
+  if (order.is_surface(body)) return {WetTarget::surface, index, number};
+  if (order.is_sheet(body)) return {WetTarget::sheet, index, number / 2};
+  return {WetTarget::strand, index, number};
 }
 
 }  // namespace trocar::interactions

@@ -2,7 +2,7 @@
 //
 //   const Bore bore = bore_of(tool, shape, before, tick);
 //   valve.blocked = covered(bodies, bore.end, kPlugs);                  // tissue plugs a port that it is so near to
-//   const WetTarget hit = target_of(first, surfaces, sheets, impact.body, impact.film);   // in the next tick
+//   const WetTarget hit = target_of(first, order, impact.body, impact.film);   // in the next tick
 //
 // Drops move when tissue has moved: what they push, it feels in the next tick (sim::State::impacts).
 #pragma once
@@ -31,7 +31,7 @@ struct WetTarget {
   std::int32_t vertex = 0;  ///< of the skin; node of a fold or strand
 };
 /// @param first  film_places(...)
-WetTarget target_of(std::span<const std::int32_t> first, int surfaces, int sheets, std::int32_t body,
+WetTarget target_of(std::span<const std::int32_t> first, const WetOrder& order, std::int32_t body,
                     std::int32_t place) noexcept;
 
 }  // namespace trocar::interactions

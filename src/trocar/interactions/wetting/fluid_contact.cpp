@@ -70,18 +70,17 @@ void beside_elements(const StrandBody& body, const tissue::StrandState& s, int f
 class Scene {
  public:
   const WetBodies& b;
-  const int sheets, strands;  // the first body of that kind
+  const WetOrder order;
 
   explicit Scene(const WetBodies& bodies, WetWork* work = nullptr, bool crowd = false) noexcept
       : b(bodies),
-        sheets(int(bodies.surfaces.size())),
-        strands(sheets + int(bodies.sheets.size())),
-        m_walls(sheets - int(bodies.grids.size())),
+        order(bodies.order()),
+        m_walls(int(bodies.surfaces.size()) - int(bodies.grids.size())),
         m_work(work),
         m_crowd(crowd) {
     if (!m_work) return;
     std::fill(m_work->normal_known.begin(), m_work->normal_known.end(), std::uint8_t(0));
-    for (int body = 0; body < strands; ++body) m_work->bounds[std::size_t(body)] = surface(body).pose->bounds;
+    for (int body = 0; !order.is_strand(body); ++body) m_work->bounds[std::size_t(body)] = surface(body).pose->bounds;
     for (std::size_t k = 0; k < b.strands.size(); ++k) bound_strand(k);
     lay_out_blocks(float(m_crowd ? kCrowdFlies : kWetReach) + kSafe);
   }
@@ -111,7 +110,7 @@ class Scene {
   }
   Beside beside_vertex(int body, int vertex, Vec3d p) const noexcept {
     const Surface& on = surface(body);
-    if (m_crowd && body < sheets) {
+    if (m_crowd && order.is_surface(body)) {
       const Vec3d n = normal(body, vertex);
       const double off = dot(p - on.position(vertex), n);
       return {off, p - off * n, n, on.velocity(vertex), vertex};
@@ -123,7 +122,7 @@ class Scene {
     return {dot(p - near.point, near.normal), near.point, near.normal, on.velocity(v), v};
   }
   const Surface& surface(int body) const noexcept {
-    return body < sheets ? b.surfaces[std::size_t(body)] : b.sheets[std::size_t(body - sheets)].surface;
+    return order.is_surface(body) ? b.surfaces[order.index(body)] : b.sheets[order.index(body)].surface;
   }
   fluids::Contact contact(int body, const Beside& at) const noexcept {
     return {vec_cast<float>(at.point), vec_cast<float>(at.normal), vec_cast<float>(at.velocity), body,
@@ -169,7 +168,7 @@ class Scene {
     m_work->blocks.count = 0;
     const std::size_t room = m_work->blocks.body.size() - std::size_t(b.count());  // besides one a body
     for (int body = 0; body < b.count(); ++body) {
-      const bool whole = body >= strands || is_still(body);
+      const bool whole = order.is_strand(body) || is_still(body);
       const std::size_t n = whole ? 0 : surface(body).pose->block.size();
       if (whole || std::size_t(m_work->blocks.count) + n > room) {  // a cut may have made more than there is room for
         add_block(body, -1, m_work->bounds[std::size_t(body)], more);
@@ -182,7 +181,7 @@ class Scene {
   Vec3d normal(int body, int vertex) const noexcept {
     const Surface& on = surface(body);
     if (!m_work || !on.moves()) return on.normal(vertex);
-    const std::size_t place = std::size_t(b.first[std::size_t(body)] + (body < sheets ? vertex : 2 * vertex));
+    const std::size_t place = std::size_t(b.first[std::size_t(body)] + (order.is_surface(body) ? vertex : 2 * vertex));
     if (place >= std::size_t(b.first[std::size_t(body) + 1])) return on.normal(vertex);  // a cut has made it
     if (m_work->normal_known[place] == 0) {
       m_work->normal[place] = on.normal(vertex);
@@ -190,11 +189,11 @@ class Scene {
     }
     return m_work->normal[place];
   }
-  bool is_still(int body) const noexcept { return body >= m_walls && body < sheets; }
+  bool is_still(int body) const noexcept { return body >= m_walls && order.is_surface(body); }
   /// Of which blocks: those of the candidate, or all if it has none.
   Beside beside(const Candidate& c, Vec3d from, Vec3d p, double reach) const noexcept {
-    if (c.body < sheets) return beside_surface(c, p, reach);
-    return c.body < strands ? beside_sheet(c, from, p, reach) : beside_strand(std::size_t(c.body - strands), p);
+    if (order.is_surface(c.body)) return beside_surface(c, p, reach);
+    return order.is_sheet(c.body) ? beside_sheet(c, from, p, reach) : beside_strand(order.index(c.body), p);
   }
   int nearest_vertex(const Candidate& c, const Surface& on, Vec3d p, double reach) const noexcept {
     if (is_still(c.body)) return b.grids[std::size_t(c.body - m_walls)].nearest(*on.skin, p);
@@ -214,7 +213,7 @@ class Scene {
     if (!found.there()) return found;
     const Vec3d flat = (p - found.point) - dot(p - found.point, found.normal) * found.normal;
     if (dot(flat, flat) > 1e-6) return {};  // past its border
-    take_side(b.sheets[std::size_t(body - sheets)], from, found);
+    take_side(b.sheets[order.index(body)], from, found);
     return found;
   }
   Beside beside_strand(std::size_t k, Vec3d p) const noexcept {
@@ -234,7 +233,7 @@ class Scene {
   /// Boxes around a strand and its pieces, larger by its radius and what rounding may misplace.
   void bound_strand(std::size_t k) noexcept {
     const StrandBody& body = b.strands[k];
-    tissue::Box& whole = m_work->bounds[std::size_t(strands) + k] = {};
+    tissue::Box& whole = m_work->bounds[std::size_t(order.strand(k))] = {};
     for (int piece = m_work->first_piece[k]; piece < m_work->first_piece[k + 1]; ++piece) {
       tissue::Box& box = m_work->pieces[std::size_t(piece)] = {};
       const int first = (piece - m_work->first_piece[k]) * kPiece, last = std::min(first + kPiece, body.nodes() - 1);
@@ -275,12 +274,12 @@ fluids::Contact meet(const Scene& scene, Vec3d from, Vec3d to, Vec3d velocity, d
 
 /// Where the surface is that a drop runs on, looked for from where it was.
 Beside follow(const Scene& scene, int body, std::int32_t film, Vec3d p) noexcept {
-  if (body >= scene.strands) return scene.beside(body, p, p);
+  if (scene.order.is_strand(body)) return scene.beside(body, p, p);
   const Surface& surface = scene.surface(body);
-  const bool sheet = body >= scene.sheets;
+  const bool sheet = scene.order.is_sheet(body);
   const int start = sheet ? film / 2 : film;
   Beside b = scene.beside_vertex(body, walk_to_nearest(surface, start, p), p);
-  if (sheet) take_side(scene.b.sheets[std::size_t(body - scene.sheets)], p, b);
+  if (sheet) take_side(scene.b.sheets[scene.order.index(body)], p, b);
   return b;
 }
 
@@ -326,18 +325,18 @@ WetPlace wet_place(const WetBodies& bodies, Vec3d down, std::int32_t place) noex
   const int body = scene.body_of(place);
   if (body < 0) return {};
   const int number = place - bodies.first[std::size_t(body)];
-  if (body >= scene.strands) {
-    const std::size_t k = std::size_t(body - scene.strands), node = std::size_t(number);
+  if (scene.order.is_strand(body)) {
+    const std::size_t k = scene.order.index(body), node = std::size_t(number);
     const double radius = bodies.strands[k].model.radius[std::min(node, std::size_t(bodies.strands[k].nodes() - 2))];
     return {bodies.states[k].x[node] + radius * down, down, bodies.states[k].v[node], body};
   }
   const Surface& surface = scene.surface(body);
-  const bool sheet = body >= scene.sheets;
+  const bool sheet = scene.order.is_sheet(body);
   const int v = sheet ? number / 2 : number;
   WetPlace out{surface.position(v), surface.normal(v), surface.velocity(v), body};
   if (!sheet) return out;
   if (number % 2 == 1) out.normal = -out.normal;
-  out.point += bodies.sheets[std::size_t(body - scene.sheets)].half_thickness * out.normal;
+  out.point += bodies.sheets[scene.order.index(body)].half_thickness * out.normal;
   return out;
 }
 

@@ -4,7 +4,7 @@
 //   WetBodies bodies{surfaces, sheets, strands, states, first, grids};  // first: film_places(...), once
 //   answer_drops(bodies, down, state.droplets, work.droplets, wet);     // between fluids' begin_tick and finish_tick
 //
-// A body's number is its place in that order: surfaces, sheets, strands. Places of film are skin vertices; a fold has
+// Bodies are numbered in that order (wet_order.hpp). Places of film are skin vertices; a fold has
 // two a node, above and below; a strand one a node.
 #pragma once
 
@@ -17,6 +17,7 @@
 #include <trocar/interactions/contact/skin_grid.hpp>
 #include <trocar/interactions/couplings/strand_body.hpp>
 #include <trocar/interactions/instrument/membrane_contact.hpp>
+#include <trocar/interactions/wetting/wet_order.hpp>
 
 namespace trocar::interactions {
 
@@ -28,6 +29,7 @@ struct WetBodies {
   std::span<const std::int32_t> first;          ///< (bodies + 1) where a body's places of film begin
   std::span<const SkinGrid> grids{};            ///< of the last surfaces, which never move; may be empty
 
+  WetOrder order() const noexcept { return {surfaces.size(), sheets.size()}; }
   int count() const noexcept { return int(surfaces.size() + sheets.size() + strands.size()); }
 };
 

@@ -165,10 +165,10 @@ void press_strand(StepContext& c, size_t i, int node, const Push& push) noexcept
 
 void press_with_drops(StepContext& c) noexcept {
   using interactions::WetTarget;
+  const interactions::WetOrder order{size_t(c.model.surfaces()), c.model.membranes.size()};
   for (int i = 0; i < c.state.impact_count; ++i) {
     const fluids::Impact& hit = c.state.impacts[size_t(i)];
-    const WetTarget at = interactions::target_of(c.model.wet.film, c.model.surfaces(), int(c.model.membranes.size()),
-                                                 hit.body, hit.film);
+    const WetTarget at = interactions::target_of(c.model.wet.film, order, hit.body, hit.film);
     const Push push(hit);
     if (at.kind == WetTarget::surface) press_surface(c, size_t(at.index), at.vertex, push);
     if (at.kind == WetTarget::sheet) press_sheet(c, size_t(at.index), at.vertex, push);

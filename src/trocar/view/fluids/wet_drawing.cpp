@@ -47,8 +47,9 @@ WetDrawing::WetDrawing(const sim::Model& model)
   m_sheets.resize(model.membranes.size());
   m_places.resize(std::size_t(model.wet.film.back()));
   m_sheer.resize(model.wet.film.size() - 1);
+  const interactions::WetOrder order(m_surfaces.size(), m_sheets.size());
   for (std::size_t i = 0; i < model.membranes.size(); ++i)
-    m_sheer[m_surfaces.size() + i] = look(model, model.membranes[i].look).translucent;
+    m_sheer[std::size_t(order.sheet(i))] = look(model, model.membranes[i].look).translucent;
   measure_places();
 }
 
