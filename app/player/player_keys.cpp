@@ -17,7 +17,7 @@ constexpr double kTurnRate = 1.4, kPanRate = 0.6, kZoomRate = 1.2;  // a second,
 constexpr double kScrubRate = 0.5;                                  // visible stretches a second, stick at its end
 constexpr double kDead = 0.15;                                      // share of a stick's way that is rest
 constexpr double kRepeatAfter = 0.4, kRepeatEvery = 0.08;           // [s]
-constexpr int kSecondOfTicks = int(core::kTicksPerSecond);                 // [ticks]
+constexpr int kSecondOfTicks = int(core::kTicksPerSecond);          // [ticks]
 
 constexpr double kTap = 0.05;  // [s] a key that was only tapped counts as held so long
 

@@ -31,7 +31,8 @@ view::AnalysisOptions parse_analysis(const std::string& text) {
     char rest = 0;
     const bool read = std::sscanf(item.c_str() + colon, ":%lf%c", &range, &rest) == 1;
     if (!read || !(range >= known->least && range <= known->most))
-      refuse_analysis(fmt::format("expected {}:RANGE from {:g} to {:g}, got '{}'", name, known->least, known->most, item));
+      refuse_analysis(
+          fmt::format("expected {}:RANGE from {:g} to {:g}, got '{}'", name, known->least, known->most, item));
     options.*known->range = range * known->unit;
   }
   return options;

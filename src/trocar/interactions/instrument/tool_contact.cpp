@@ -256,7 +256,8 @@ void channel(const ToolShape& shape, const BetweenJaws& where, double radius, in
 constexpr int kBetween = kToolParts;  // where others note a part: it runs between the jaws
 
 /// Nothing gets between jaws that are closed; what was there when they closed stays.
-bool may_be_between(const Touching& c, const BetweenJaws& where, const StrandBody& body, BodyId strand, int e) noexcept {
+bool may_be_between(const Touching& c, const BetweenJaws& where, const StrandBody& body, BodyId strand,
+                    int e) noexcept {
   constexpr double kSqueezed = 0.35;
   if (c.shape.half_opening(std::max(where.local.z, 0.0)) >= kSqueezed * body.model.radius[size_t(e)]) return true;
   for (int near = e - 1; near <= e + 1; ++near)
@@ -343,7 +344,8 @@ bool near_jaws(const Reach& r, Vec3d a, double length2, double radius) noexcept 
 }  // namespace
 
 void tool_on_strand(const ToolModel& model, Touching& touching, const ToolState& tool_state, const StrandBody& body,
-                    BodyId strand, const tissue::StrandState& state, std::span<Vec3f> side, StrandLoads& loads) noexcept {
+                    BodyId strand, const tissue::StrandState& state, std::span<Vec3f> side,
+                    StrandLoads& loads) noexcept {
   const ToolShape& shape = touching.shape;
   const auto is_held = [&](int element) {
     for (int h = 0; h < tool_state.holds; ++h)

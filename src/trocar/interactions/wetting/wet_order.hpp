@@ -1,5 +1,5 @@
-// The numbers by which fluids know bodies: surfaces (organs, then walls), sheets of folds, strands, one after the other.
-// Only this says which number is whose.
+// The numbers by which fluids know bodies: surfaces (organs, then walls), sheets of folds, strands, one after the
+// other. Only this says which number is whose.
 #pragma once
 
 #include <cstddef>

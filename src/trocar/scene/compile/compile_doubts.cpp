@@ -53,7 +53,8 @@ void look_inside(const sim::Model& model, Vec3d p, Inside& found) {
     if (m.sheet.closed()) look(m.name, m.skin);
 }
 
-void tell_inside(const Inside& found, const core::Location& at, const std::string& what, std::vector<core::Fault>& doubts) {
+void tell_inside(const Inside& found, const core::Location& at, const std::string& what,
+                 std::vector<core::Fault>& doubts) {
   if (found.name.empty()) return;
   doubts.push_back(
       {at, fmt::format("expected the tip of '{}' outside of tissue, got one that begins {:.1f} mm inside "

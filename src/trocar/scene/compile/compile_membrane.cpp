@@ -10,7 +10,7 @@
 namespace trocar::scene {
 namespace {
 
-constexpr double kStretchDamping = 0.0004;  // [s] times stiffness; a fold is wet, but sub-steps pay for more
+constexpr double kStretchDamping = 0.0004;      // [s] times stiffness; a fold is wet, but sub-steps pay for more
 constexpr double kFoldBendingDamping = 0.0005;  // [s] times stiffness
 
 constexpr int kMostFoldNodes = 20'000;

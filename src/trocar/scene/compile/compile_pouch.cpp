@@ -11,7 +11,7 @@ namespace trocar::scene {
 namespace {
 
 constexpr double kPouchBendingDamping = 0.0001;  // [s] times stiffness: more would ask for steps of its own
-constexpr double kPinchReach = 0.5;         // of the spacing of nodes
+constexpr double kPinchReach = 0.5;              // of the spacing of nodes
 
 tissue::Enclosure enclosure_of(const Contents& c) {
   tissue::Enclosure e;

@@ -198,8 +198,8 @@ const Table<Strand>& strand() {
        needed(R::ref("tissue", Reference::To::tissue, &Strand::tissue, "its material")), look_row<Strand>(),
        needed(R::points("centreline_mm", units::mm, &Strand::centreline, -kFar, kFar, 2,
                         "points on its centre line, from start to end")),
-       needed(
-           R::objects("stations", station, &Strand::stations, 1, "thickness along it, by rising s_mm", check_strand_station)),
+       needed(R::objects("stations", station, &Strand::stations, 1, "thickness along it, by rising s_mm",
+                         check_strand_station)),
        R::objects("landmarks", landmark, &Strand::landmarks, 0, "named stretches", check_landmark),
        R::object("start", strand_end, &Strand::start, "default: free"),
        R::object("end", strand_end, &Strand::end, "default: free"),

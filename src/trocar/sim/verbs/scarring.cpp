@@ -14,8 +14,8 @@ namespace {
 using interactions::ElectrodeTouch;
 
 constexpr double kScarReach = 0.008;  // [m] from an electrode to the middle of springs that it may change
-constexpr float kTold = 0.005f;    // a spring that shrinks less stays as it is
-constexpr int kTurns = 8;          // steps of the heat in which all of a body is looked at
+constexpr float kTold = 0.005f;       // a spring that shrinks less stays as it is
+constexpr int kTurns = 8;             // steps of the heat in which all of a body is looked at
 constexpr std::array kAlong{0.1, 0.3, 0.5, 0.7, 0.9};
 
 // ---- what heat leaves

@@ -55,7 +55,7 @@ Json bimanual_json(const Metrics& m) {
 
 std::string metrics_json(const Metrics& m) {
   Json j{{"sampling_hz", known(m.rate)}, {"low_pass_hz", kMotionCutoff}, {"from_s", known(m.from)},
-         {"to_s", known(m.to)},          {"time_s", known(m.time)},     {"duration_s", known(m.duration)},
+         {"to_s", known(m.to)},          {"time_s", known(m.time)},      {"duration_s", known(m.duration)},
          {"hands", Json::array()}};
   for (const HandMetrics& h : m.hands) j["hands"].push_back(hand_json(h, m.force_limits));
   j["both"] = hand_json(m.both, m.force_limits);

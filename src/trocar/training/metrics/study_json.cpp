@@ -6,7 +6,7 @@ namespace trocar::training {
 namespace {
 
 Json spread_json(const Spread& s) {
-  return {{"count", s.count},           {"min", known(s.least)}, {"q1", known(s.lower)},
+  return {{"count", s.count},          {"min", known(s.least)}, {"q1", known(s.lower)},
           {"median", known(s.median)}, {"q3", known(s.upper)},  {"max", known(s.most)}};
 }
 

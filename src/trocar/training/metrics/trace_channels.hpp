@@ -28,7 +28,8 @@ inline constexpr std::int64_t kMaxTraceSteps = std::int64_t(1) << 46;
 /// The nearest whole number of steps; 0 for what is not finite.
 inline std::int64_t steps_of(double value, double scale) {
   const double steps = std::floor(value * scale + 0.5);
-  if (!(steps > -double(kMaxTraceSteps))) return steps < 0 ? -kMaxTraceSteps : 0;  // the comparison is false for NaN, too
+  if (!(steps > -double(kMaxTraceSteps)))
+    return steps < 0 ? -kMaxTraceSteps : 0;  // the comparison is false for NaN, too
   return steps < double(kMaxTraceSteps) ? std::int64_t(steps) : kMaxTraceSteps;
 }
 /// Division, so that the value is the double nearest to the decimal number that CSV shows.
@@ -40,7 +41,8 @@ struct TraceSteps {
   int decimals, order;
   std::int64_t most = kMaxTraceSteps;
 };
-inline constexpr TraceSteps kPlaceSteps{1e7, 7, 2}, kLoadSteps{1e4, 4, 1}, kNumberSteps{1, 0, 1, std::int64_t(kMaxTraceNames)};
+inline constexpr TraceSteps kPlaceSteps{1e7, 7, 2}, kLoadSteps{1e4, 4, 1},
+    kNumberSteps{1, 0, 1, std::int64_t(kMaxTraceNames)};
 
 /// A channel whose number `Access`, a lambda without captures, finds in a sample.
 template <class Sample, class Access>

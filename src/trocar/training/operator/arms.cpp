@@ -8,9 +8,9 @@
 namespace trocar::training {
 namespace {
 
-constexpr double kNear = 0.0006;  // [m] close enough
-constexpr double kSquare = 0.02;  // [rad] turned enough
-constexpr double kWristTurn = 1.5;     // [rad/s] of a wrist at work
+constexpr double kNear = 0.0006;    // [m] close enough
+constexpr double kSquare = 0.02;    // [rad] turned enough
+constexpr double kWristTurn = 1.5;  // [rad/s] of a wrist at work
 
 /// The jaws look the same after half a turn: the nearest of the equivalent rolls.
 double nearest_roll(double wanted, double now) {

@@ -7,7 +7,7 @@ namespace trocar::training {
 namespace {
 
 constexpr double kMargin = 0.72;                   // of the field's half angle
-constexpr double kShaftTurn = 0.7, kWrist = 1.2;        // [rad/s]: of the shaft; of light post and camera head
+constexpr double kShaftTurn = 0.7, kWrist = 1.2;   // [rad/s]: of the shaft; of light post and camera head
 constexpr double kAdvance = 0.045;                 // [m/s]
 constexpr double kShallow = 0.012, kDeep = 0.130;  // [m] lens from the trocar
 

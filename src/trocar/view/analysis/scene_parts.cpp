@@ -39,14 +39,27 @@ SceneParts::SceneParts(const sim::Model& model, const std::vector<std::string>& 
                               [&](auto, BodyId object) { add(sim::name_of(model, object), PartGroup::objects); });
 }
 
+std::size_t FirstParts::of(BodyId body) const {
+  switch (body.kind()) {
+    case BodyKind::organ:
+      return organ + body.index();
+    case BodyKind::strand:
+      return tube + body.index();
+    case BodyKind::membrane:
+      return membrane + body.index();
+    default:
+      return 0;
+  }
+}
+
 std::uint16_t SceneParts::of(Measured kind, std::size_t i) const {
   switch (kind) {
     case Measured::organ:
-      return std::uint16_t(first.organ + i);
+      return std::uint16_t(first.of(BodyId::organ(i)));
     case Measured::strand:
-      return std::uint16_t(first.tube + i);
+      return std::uint16_t(first.of(BodyId::strand(i)));
     case Measured::membrane:
-      return std::uint16_t(first.membrane + i);
+      return std::uint16_t(first.of(BodyId::membrane(i)));
     case Measured::arteries:
       return first.vessel;
     case Measured::veins:

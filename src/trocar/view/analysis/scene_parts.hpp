@@ -25,6 +25,9 @@ enum class PartStyle : std::uint8_t { shaded, transparent, wireframe, hidden };
 struct FirstParts {
   std::uint16_t organ = 0, tube = 0, fold = 0, membrane = 0, vessel = 0, wall = 0, tool = 0;
   std::uint16_t cavity = 0, scope = 0, clips = 0, mark = 0, liquid = 0, smoke = 0, object = 0;
+
+  /// Of a body of tissue. 0: it has none.
+  std::size_t of(BodyId body) const;
 };
 
 struct SceneParts {

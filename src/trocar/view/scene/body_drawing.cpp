@@ -385,7 +385,7 @@ void BodyDrawing::list(bool with_walls, const FirstParts& first, const Listing& 
     to.add(m_aprons[i].mesh, item({}, look(*m_model, "omentum"), first.wall + m_apron_on[i]), m_aprons[i].detail);
   list_organs(with_walls, first, to);
   for (std::size_t i = 0; with_walls && i < m_livers.size(); ++i)  // without the wall that it lies on it would be a rag
-    m_livers[i].list(first.organ + std::size_t(m_livers[i].organ()), to);
+    m_livers[i].list(first.of(BodyId::organ(std::size_t(m_livers[i].organ()))), to);
   list_tubes(with_walls, first, to);
   list_vessels(false, first, to);
   if (with_walls && m_adhesions->mesh().id)
@@ -416,14 +416,15 @@ void BodyDrawing::list_vessels(bool in_folds, const FirstParts& first, const Lis
 
 void BodyDrawing::list_organs(bool with_walls, const FirstParts& first, const Listing& to) {
   for (std::size_t i = 0; i < m_organs.size(); ++i)
-    to.add(item(m_organs[i].mesh(), look(*m_model, m_model->solids[i].look), first.organ + i), m_details.organs[i],
-           m_organs[i].positions(), m_burns[i].any() || m_organs[i].dented() || held(BodyId::organ(i)));
-  for (std::size_t i = 0; i < m_cuttables.size(); ++i) {
-    DrawItem& drawn = to.add(
-        item(m_cuttables[i].mesh(), look(*m_model, m_model->cuttables[i].look), first.organ + m_organs.size() + i),
-        m_details.cuttables[i], m_cuttables[i].positions());
-    drawn.material.two_sided = m_cuttables[i].cut();  // what is cut off may lie inside out
-  }
+    to.add(item(m_organs[i].mesh(), look(*m_model, m_model->solids[i].look), first.of(BodyId::organ(i))),
+           m_details.organs[i], m_organs[i].positions(),
+           m_burns[i].any() || m_organs[i].dented() || held(BodyId::organ(i)));
+  sim::visit_cuttables(*m_model, [&](sim::CuttableRef organ) {
+    CuttableDrawing& shape = m_cuttables[organ.index];
+    DrawItem& drawn = to.add(item(shape.mesh(), look(*m_model, model_of(*m_model, organ).look), first.of(organ.id())),
+                             m_details.cuttables[organ.index], shape.positions());
+    drawn.material.two_sided = shape.cut();  // what is cut off may lie inside out
+  });
   for (std::size_t i = 0; with_walls && i < m_drapes.size(); ++i) {  // the wall's peritoneum
     DrawItem drape = item(m_drapes[i].mesh(), *m_drape_look[i], first.cavity);
     drape.material.two_sided = true;
@@ -432,15 +433,16 @@ void BodyDrawing::list_organs(bool with_walls, const FirstParts& first, const Li
   }
   for (std::size_t i = 0; i < m_fat.size(); ++i)
     if (m_fat[i].mesh().id)
-      to.add(item(m_fat[i].mesh(), look(*m_model, "fat"), first.organ + std::size_t(m_fat_on[i])), m_details.fat[i],
-             m_fat[i].buffer().positions);
+      to.add(item(m_fat[i].mesh(), look(*m_model, "fat"), first.of(BodyId::organ(std::size_t(m_fat_on[i])))),
+             m_details.fat[i], m_fat[i].buffer().positions);
 }
 
 void BodyDrawing::list_tubes(bool with_walls, const FirstParts& first, const Listing& to) {
   for (std::size_t i = 0; i < m_tubes.size(); ++i) {
     const sim::StrandAnatomy& strand = m_model->strands[i];
-    DrawItem& tube = to.add(item(m_tubes[i].mesh(), look(*m_model, strand.look), first.tube + i), m_details.tubes[i],
-                            m_tubes[i].buffer().positions, m_tubes[i].burnt() || held(BodyId::strand(i)));
+    DrawItem& tube =
+        to.add(item(m_tubes[i].mesh(), look(*m_model, strand.look), first.of(BodyId::strand(i))), m_details.tubes[i],
+               m_tubes[i].buffer().positions, m_tubes[i].burnt() || held(BodyId::strand(i)));
     if (strand.start.kind == sim::StrandEndModel::hosted && !strand.fimbriated)
       tube.material.tint = look(*m_model, m_model->organ_look(strand.start.organ)).material.colour;
   }
@@ -449,13 +451,14 @@ void BodyDrawing::list_tubes(bool with_walls, const FirstParts& first, const Lis
     if (j.organ < 0 && !with_walls) continue;
     const Look& onto = j.organ < 0 ? *m_wall_look : look(*m_model, m_model->solids[std::size_t(j.organ)].look);
     // Made of what its organ is made of: it is shown, hidden and seen through with that.
-    const std::size_t part = j.organ < 0 ? first.tube + j.tube : first.organ + std::size_t(j.organ);
+    const std::size_t part =
+        j.organ < 0 ? first.of(BodyId::strand(j.tube)) : first.of(BodyId::organ(std::size_t(j.organ)));
     DrawItem joint = as_lining(item(j.joint.mesh(), onto, part));
     if (j.organ >= 0) joint.material.tint = look(*m_model, m_model->strands[j.tube].look).material.colour;
     to.add(joint, m_details.joints[i], j.joint.buffer().positions, j.organ >= 0 && m_burns[std::size_t(j.organ)].any());
   }
   for (std::size_t i = 0; with_walls && i < m_ridges.size(); ++i) {
-    DrawItem ridge = as_lining(item(m_ridges[i].mesh(), *m_wall_look, first.tube + m_ridge_of[i]));
+    DrawItem ridge = as_lining(item(m_ridges[i].mesh(), *m_wall_look, first.of(BodyId::strand(m_ridge_of[i]))));
     ridge.material.tint = look(*m_model, m_model->strands[m_ridge_of[i]].look).material.colour;
     to.add(ridge, m_details.ridges[i], m_ridges[i].buffer().positions, m_tubes[m_ridge_of[i]].burnt());
   }
@@ -470,12 +473,13 @@ void BodyDrawing::list_folds(bool with_walls, const FirstParts& first, const Lis
     return look(*m_model, m_model->membranes[membrane].look);
   };
   for (std::size_t i = 0; i < m_membranes.size(); ++i)
-    to.add(item(m_membranes[i].mesh(), look_of(m_membrane_of[i]), first.membrane + m_membrane_of[i]),
+    to.add(item(m_membranes[i].mesh(), look_of(m_membrane_of[i]), first.of(BodyId::membrane(m_membrane_of[i]))),
            m_details.membranes[i], m_membranes[i].buffer().positions,
            m_membranes[i].burnt() || held(BodyId::membrane(std::size_t(m_membrane_of[i]))));
   for (std::size_t i = 0; i < m_pouches.size(); ++i)
-    to.add(item(m_pouches[i].mesh(), look_of(m_pouch_of[i]), first.membrane + m_pouch_of[i]), m_details.pouches[i],
-           m_pouches[i].buffer().positions, m_pouches[i].burnt() || held(BodyId::membrane(std::size_t(m_pouch_of[i]))));
+    to.add(item(m_pouches[i].mesh(), look_of(m_pouch_of[i]), first.of(BodyId::membrane(m_pouch_of[i]))),
+           m_details.pouches[i], m_pouches[i].buffer().positions,
+           m_pouches[i].burnt() || held(BodyId::membrane(std::size_t(m_pouch_of[i]))));
 }
 
 }  // namespace trocar::view
