@@ -14,7 +14,7 @@
 #include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/stages/step.hpp>
 
-#include "commands/stage_told.hpp"
+#include "commands/progress_notice.hpp"
 
 namespace trocar::app {
 
@@ -154,7 +154,7 @@ void print_motion(const Json& motion) {
 Json describe_scene(const fs::path& path, const std::vector<std::string>& only,
                     const std::function<void(const sim::Model&)>& fits) {
   const Elapsed watch;
-  StageTold told(path.string());
+  ProgressNotice told(path.string());
   told.at("compiling");
   scene::CompileReport report;
   const std::size_t before = bytes_in_use();

@@ -42,7 +42,7 @@ std::string window_title(const attempt::Lesson& lesson) {
 
 }  // namespace
 
-AttemptWindow::AttemptWindow(Stage& stage, const attempt::Lesson& lesson, const attempt::AttemptPlan& plan)
+AttemptWindow::AttemptWindow(TrainerWindow& stage, const attempt::Lesson& lesson, const attempt::AttemptPlan& plan)
     : m_stage(stage),
       m_lesson(lesson),
       m_plan(plan),
@@ -119,7 +119,7 @@ Choice AttemptWindow::run() {
 
 /// Does time stand still?
 bool AttemptWindow::stands_still() const {
-  return m_paused || m_hint || m_over || m_stage.overlay() != Stage::Overlay::none;
+  return m_paused || m_hint || m_over || m_stage.overlay() != TrainerWindow::Overlay::none;
 }
 
 void AttemptWindow::hold(const std::string& why) {
@@ -196,7 +196,7 @@ void AttemptWindow::look_at_keys() {
     layout = after(layout);
     m_stage.keep_settings();
   }
-  if (m_stage.overlay() != Stage::Overlay::none || m_over || m_hint || m_display || m_views) return;
+  if (m_stage.overlay() != TrainerWindow::Overlay::none || m_over || m_hint || m_display || m_views) return;
   const bool back = window.keys().back, pause = window.keys().pause;
   if (m_rack && back) {
     m_rack = false;
@@ -336,7 +336,7 @@ void AttemptWindow::draw_scene(const attempt::Snapshot& now) {
 
 void AttemptWindow::draw_over(const attempt::Snapshot& now, Choice& choice) {
   choice = Choice::none;  // what was chosen in the last picture has been done
-  if (m_stage.overlay() != Stage::Overlay::none) return;
+  if (m_stage.overlay() != TrainerWindow::Overlay::none) return;
   const bool gamepad = m_stage.window.gamepads().present();
   if (m_over) {
     choice = draw_result(m_result, mode_text(), m_stage.options.store != nullptr, m_stage.reports.say());
@@ -361,8 +361,8 @@ void AttemptWindow::draw_over(const attempt::Snapshot& now, Choice& choice) {
   if (choice == Choice::resume) m_paused = false, m_why_paused.clear();
   if (choice == Choice::display) m_display = true;
   if (choice == Choice::views) m_views = true;
-  if (choice == Choice::settings) m_stage.open(Stage::Overlay::settings);
-  if (choice == Choice::help) m_stage.open(Stage::Overlay::help);
+  if (choice == Choice::settings) m_stage.open(TrainerWindow::Overlay::settings);
+  if (choice == Choice::help) m_stage.open(TrainerWindow::Overlay::help);
   if (choice == Choice::report) m_stage.reports.open(m_stage.options.store, m_log.attempt().uuid);
 }
 

@@ -19,7 +19,7 @@ namespace trocar::app {
 class AttemptWindow {
  public:
   /// @param plan.input "mouse" or "gamepad": hands; else a source, see make_source()
-  AttemptWindow(Stage& stage, const attempt::Lesson& lesson, const attempt::AttemptPlan& plan);
+  AttemptWindow(TrainerWindow& stage, const attempt::Lesson& lesson, const attempt::AttemptPlan& plan);
   ~AttemptWindow() { m_stage.close_elsewhere(); }
 
   Choice run();
@@ -52,7 +52,7 @@ class AttemptWindow {
   std::optional<training::Foretold> outlook(const attempt::Snapshot& now);
   double now_seconds() const;
 
-  Stage& m_stage;
+  TrainerWindow& m_stage;
   const attempt::Lesson& m_lesson;
   attempt::AttemptPlan m_plan;
   attempt::Session m_session;

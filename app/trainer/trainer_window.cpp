@@ -26,7 +26,7 @@ pictures::PictureSize first_size(const WindowOptions& options, const Settings& s
 
 }  // namespace
 
-Stage::Stage(const WindowOptions& o)
+TrainerWindow::TrainerWindow(const WindowOptions& o)
     : options(o),
       settings(read_settings(settings_file(), setting_faults)),
       window("Trocar", first_size(o, settings), two_eyes(settings).mode == render::StereoMode::quad_buffer),
@@ -40,7 +40,7 @@ Stage::Stage(const WindowOptions& o)
   core::log::info("drawing with {}", context->description());
 }
 
-Stage::~Stage() {
+TrainerWindow::~TrainerWindow() {
   if (!options.size) {
     const pictures::PictureSize size = window.size_to_keep();
     settings.window_width = std::clamp(size.width, kLeastWidth, kMostPixels);
@@ -49,9 +49,9 @@ Stage::~Stage() {
   keep_settings();
 }
 
-bool Stage::wants_to_close() const { return window.wants_to_close() || attempt::interrupted(); }
+bool TrainerWindow::wants_to_close() const { return window.wants_to_close() || attempt::interrupted(); }
 
-view::SceneView& Stage::view_of(const attempt::Lesson& lesson) {
+view::SceneView& TrainerWindow::view_of(const attempt::Lesson& lesson) {
   if (m_viewed != &lesson) {
     m_view.reset();
     m_view = std::make_unique<view::SceneView>(lesson.model, *backend);
@@ -62,30 +62,30 @@ view::SceneView& Stage::view_of(const attempt::Lesson& lesson) {
   return *m_view;
 }
 
-void Stage::drop_view() {
+void TrainerWindow::drop_view() {
   m_view.reset();
   m_viewed = nullptr;
 }
 
-void Stage::open(Overlay overlay) {
+void TrainerWindow::open(Overlay overlay) {
   if (overlay == Overlay::settings) m_before = settings;
   m_overlay = overlay;
 }
 
-pictures::TwoEyes Stage::eyes() const {
+pictures::TwoEyes TrainerWindow::eyes() const {
   pictures::TwoEyes eyes = two_eyes(settings);
   if (eyes.mode == render::StereoMode::quad_buffer && !window.has_quad_buffers()) eyes.mode.reset();
   return eyes;
 }
 
-void Stage::draw_eye(const render::Frame& frame) {
+void TrainerWindow::draw_eye(const render::Frame& frame) {
   render::draw_frame(*backend, frame, m_scene_part);
   if (m_scene_mirrored) mirror(m_scene_part);
   if (m_over_scene) m_over_scene();
 }
 
-void Stage::draw_scene(const render::Frame& frame, const render::Target& part, bool through_scope,
-                       std::function<void()> over) {
+void TrainerWindow::draw_scene(const render::Frame& frame, const render::Target& part, bool through_scope,
+                               std::function<void()> over) {
   m_scene_part = part;
   m_scene_mirrored = through_scope && settings.mirrored_picture;
   m_over_scene = std::move(over);
@@ -98,7 +98,7 @@ void Stage::draw_scene(const render::Frame& frame, const render::Target& part, b
 }
 
 /// All of the window once more for the other eye, then both on one screen. Panels and menus lie on it.
-void Stage::draw_other_eye() {
+void TrainerWindow::draw_other_eye() {
   const render::Target whole = render::Target::window(window.width(), window.height());
   backend->keep_eye(render::Eye::left, whole);
   if (m_other_eye) {
@@ -110,11 +110,11 @@ void Stage::draw_other_eye() {
   m_other_eye.reset();
 }
 
-pictures::PictureSize Stage::size_elsewhere() const {
+pictures::PictureSize TrainerWindow::size_elsewhere() const {
   return m_second ? pictures::PictureSize{m_second->width(), m_second->height()} : pictures::PictureSize{0, 0};
 }
 
-void Stage::show_elsewhere(LayoutChoice& choice, const PaneCanvas* canvas, const view::Legend& legend) {
+void TrainerWindow::show_elsewhere(LayoutChoice& choice, const PaneCanvas* canvas, const view::Legend& legend) {
   if (m_second && m_second->wants_to_close()) choice.elsewhere.reset();
   if (choice.elsewhere.has_value() != m_second.has_value())
     log.event("second-window", {{"open", choice.elsewhere.has_value()}});
@@ -128,19 +128,19 @@ void Stage::show_elsewhere(LayoutChoice& choice, const PaneCanvas* canvas, const
   }
 }
 
-void Stage::begin_picture(bool hands) {
+void TrainerWindow::begin_picture(bool hands) {
   window.capture_pointer(hands);
   window.draw_pointer(eyes().on());
   window.begin_picture();
   if (window.keys().help) open(m_overlay == Overlay::help ? Overlay::none : Overlay::help);
 }
 
-void Stage::apply_settings() {
+void TrainerWindow::apply_settings() {
   window.set_text_size(settings.text_size);
   sound.set_volume(settings.volume);
 }
 
-void Stage::keep_settings() {
+void TrainerWindow::keep_settings() {
   try {
     write_settings(settings_file(), settings);
   } catch (const core::EnvironmentLacks& lacks) {
@@ -149,7 +149,7 @@ void Stage::keep_settings() {
   }
 }
 
-void Stage::draw_overlay() {
+void TrainerWindow::draw_overlay() {
   if (m_overlay == Overlay::none) return;
   const bool back = window.keys().back;
   if (m_overlay == Overlay::help) {
@@ -163,7 +163,7 @@ void Stage::draw_overlay() {
   m_overlay = Overlay::none;
 }
 
-void Stage::end_picture(const std::string& name, const fs::path& pictures) {
+void TrainerWindow::end_picture(const std::string& name, const fs::path& pictures) {
   if (m_overlay != Overlay::none) static_cast<void>(ui::take_widgets());  // what lies under it cannot be reached
   const std::string shown = m_overlay == Overlay::help ? "help" : m_overlay == Overlay::settings ? "settings" : name;
   draw_overlay();
@@ -176,7 +176,7 @@ void Stage::end_picture(const std::string& name, const fs::path& pictures) {
 }
 
 /// What an eye would find on the screen: told when it has changed.
-void Stage::log_widgets(const std::string& screen) {
+void TrainerWindow::log_widgets(const std::string& screen) {
   const std::vector<ui::Widget> widgets = ui::take_widgets();
   if (!log.on()) return;
   Json list = Json::object();
@@ -192,7 +192,7 @@ void Stage::log_widgets(const std::string& screen) {
   }
 }
 
-void Stage::save_picture(const fs::path& stem) {
+void TrainerWindow::save_picture(const fs::path& stem) {
   fs::path file = stem;
   file.replace_extension(fmt::format("{:03}.png", m_pictures++));
   try {

@@ -21,12 +21,12 @@
 
 namespace trocar::app {
 
-class Stage {
+class TrainerWindow {
  public:
-  explicit Stage(const WindowOptions& options);
-  ~Stage();  ///< keeps the window's size
-  Stage(const Stage&) = delete;
-  Stage& operator=(const Stage&) = delete;
+  explicit TrainerWindow(const WindowOptions& options);
+  ~TrainerWindow();  ///< keeps the window's size
+  TrainerWindow(const TrainerWindow&) = delete;
+  TrainerWindow& operator=(const TrainerWindow&) = delete;
 
   const WindowOptions& options;
   std::vector<core::Fault> setting_faults;

@@ -32,7 +32,7 @@ class Preview {
     if (m_texture != 0) glDeleteTextures(1, &m_texture);
   }
   /// Draws it once per lesson.
-  unsigned of(Stage& stage, const attempt::Lesson& lesson) {
+  unsigned of(TrainerWindow& stage, const attempt::Lesson& lesson) {
     if (m_lesson == &lesson) return m_texture;
     m_lesson = &lesson;
     const sim::State state = sim::initial_state(lesson.model);
@@ -136,7 +136,7 @@ class Trainer {
 
   const WindowOptions m_options;
   bool m_direct;
-  Stage m_stage;
+  TrainerWindow m_stage;
   attempt::LessonShelf m_shelf;
   std::vector<attempt::ExerciseEntry> m_exercises;
   int m_selected = 0;
@@ -190,8 +190,8 @@ void Trainer::take_answer(const StartAnswer& answer) {
   std::int64_t report_of = answer.report_of;
   if (answer.choice == StartChoice::report && !m_past.attempts.empty()) report_of = m_past.attempts.front().number;
   if (report_of != 0) m_stage.reports.open(m_stage.options.store, std::to_string(report_of));
-  if (answer.choice == StartChoice::settings) m_stage.open(Stage::Overlay::settings);
-  if (answer.choice == StartChoice::help) m_stage.open(Stage::Overlay::help);
+  if (answer.choice == StartChoice::settings) m_stage.open(TrainerWindow::Overlay::settings);
+  if (answer.choice == StartChoice::help) m_stage.open(TrainerWindow::Overlay::help);
 }
 
 /// Until an exercise is to begin, or the window is closed.
@@ -232,7 +232,7 @@ StartChoice Trainer::start_screen() {
                                m_stage.sound.audible(),
                                m_stage.reports.say()};
     StartAnswer answer;
-    if (m_stage.overlay() == Stage::Overlay::none) answer = draw_start(content, m_memory);
+    if (m_stage.overlay() == TrainerWindow::Overlay::none) answer = draw_start(content, m_memory);
     take_answer(answer);
     m_stage.end_picture("start", attempt::data_folder() / "start");
     if (answer.choice == StartChoice::quit) return StartChoice::quit;

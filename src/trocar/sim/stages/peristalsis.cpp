@@ -1,4 +1,4 @@
-#include <trocar/sim/stages/motion.hpp>
+#include <trocar/sim/stages/peristalsis.hpp>
 #include <trocar/sim/stages/stage.hpp>
 
 namespace trocar::sim {

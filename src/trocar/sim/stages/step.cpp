@@ -1,11 +1,11 @@
 #include <trocar/sim/bodies/bodies.hpp>
-#include <trocar/sim/stages/bodies.hpp>
+#include <trocar/sim/stages/advancing.hpp>
 #include <trocar/sim/stages/circulation.hpp>
 #include <trocar/sim/stages/contacts.hpp>
 #include <trocar/sim/stages/containing.hpp>
 #include <trocar/sim/stages/hands.hpp>
 #include <trocar/sim/stages/jaws.hpp>
-#include <trocar/sim/stages/motion.hpp>
+#include <trocar/sim/stages/peristalsis.hpp>
 #include <trocar/sim/stages/posing.hpp>
 #include <trocar/sim/stages/reaction_forces.hpp>
 #include <trocar/sim/stages/step.hpp>

@@ -46,7 +46,7 @@ void discharge(const ElectrodeDescription& e, double set, const ElectrodeContact
   if (d.flows) add_source(q, d.tissue, model, d);
 }
 
-void stick(const ElectrodeDescription& e, double celsius, double dt, ElectrodeState& s) noexcept {
+void adhere(const ElectrodeDescription& e, double celsius, double dt, ElectrodeState& s) noexcept {
   const double wanted = std::clamp((celsius - e.sticks_from) / (e.sticks_fully - e.sticks_from), 0.0, 1.0);
   if (wanted > s.stuck) s.stuck += (wanted - s.stuck) * std::min(dt / kStickTime, 1.0);
 }
@@ -60,7 +60,7 @@ double touch(const ElectrodeDescription& e, const ElectrodeContact& c, double pr
   q.by_current = 0;
   const HeatContact met = probe(model, q, shape, heat, work);
   if (!(met.volume > 0)) return 0;
-  stick(e, met.hottest, dt, s);
+  adhere(e, met.hottest, dt, s);
   const double watts = e.tip_contact * pressed * (s.tip - met.temperature);
   add_source(q, watts, model, d);
   return watts;

@@ -32,8 +32,8 @@ class Noticer {
  public:
   virtual ~Noticer() = default;
   virtual void tick(const Moment&, const sim::StepReport&, Happenings&) {}
-  virtual void sample(const Moment&, double, Happenings&) {
-  }  ///< fifty times a second; how long since the last time [s]
+  /// Fifty times a second; how long since the last time [s].
+  virtual void sample(const Moment&, double, Happenings&) {}
 };
 
 /// A number or a truth of one happening.

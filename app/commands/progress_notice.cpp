@@ -1,4 +1,4 @@
-#include "commands/stage_told.hpp"
+#include "commands/progress_notice.hpp"
 
 #include <chrono>
 #include <utility>
@@ -7,9 +7,9 @@
 
 namespace trocar::app {
 
-StageTold::StageTold(std::string what) : m_what(std::move(what)), m_thread([this] { tell(); }) {}
+ProgressNotice::ProgressNotice(std::string what) : m_what(std::move(what)), m_thread([this] { tell(); }) {}
 
-StageTold::~StageTold() {
+ProgressNotice::~ProgressNotice() {
   {
     const std::lock_guard lock(m_lock);
     m_over = true;
@@ -18,12 +18,12 @@ StageTold::~StageTold() {
   m_thread.join();
 }
 
-void StageTold::at(const std::string& stage) {
+void ProgressNotice::at(const std::string& stage) {
   const std::lock_guard lock(m_lock);
   m_stage = stage;
 }
 
-void StageTold::tell() {
+void ProgressNotice::tell() {
   std::unique_lock lock(m_lock);
   for (int seconds = 1; !m_ends.wait_for(lock, std::chrono::seconds(seconds == 1 ? 1 : 2), [this] { return m_over; });
        seconds += 2)

@@ -1,5 +1,5 @@
 #include <trocar/sim/bodies/bodies.hpp>
-#include <trocar/sim/stages/bodies.hpp>
+#include <trocar/sim/stages/advancing.hpp>
 #include <trocar/sim/stages/posing.hpp>
 #include <trocar/sim/stages/stage.hpp>
 

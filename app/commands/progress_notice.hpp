@@ -1,7 +1,7 @@
 // Says on stderr what a command is at, once it has taken a second, and every other second from then on.
 //
-//   StageTold told("scene.json");
-//   told.at("compiling");
+//   ProgressNotice notice("scene.json");
+//   notice.at("compiling");
 #pragma once
 
 #include <condition_variable>
@@ -11,12 +11,12 @@
 
 namespace trocar::app {
 
-class StageTold {
+class ProgressNotice {
  public:
-  explicit StageTold(std::string what);
-  ~StageTold();
-  StageTold(const StageTold&) = delete;
-  StageTold& operator=(const StageTold&) = delete;
+  explicit ProgressNotice(std::string what);
+  ~ProgressNotice();
+  ProgressNotice(const ProgressNotice&) = delete;
+  ProgressNotice& operator=(const ProgressNotice&) = delete;
 
   void at(const std::string& stage);
 
