@@ -36,6 +36,10 @@ struct BaseOf<fluids::DropletModel> {
   using type = fluids::DropletDescription;
 };
 template <>
+struct BaseOf<fluids::SmokeModel> {
+  using type = fluids::SmokeDescription;
+};
+template <>
 struct BaseOf<fluids::PoolModel> {
   using type = fluids::PoolDescription;
 };
@@ -75,7 +79,14 @@ Listing listing_of() {
   return listing;
 }
 
+/// A number, a point, a rotation or a body's number: what is no struct of fields.
+template <class F>
+constexpr bool is_value = core::detail::Number<F> || core::detail::Point<F> || core::detail::Coded<F> ||
+                          std::is_pointer_v<F> || std::is_same_v<F, Mat3d>;
+
 /// Goes through a struct's list, and the lists of all that its fields are made of.
+/// @tparam scratch  plain numbers in structs of their own need no list: they are only ever spoilt, as bytes
+template <bool scratch>
 class Completeness {
  public:
   template <class T>
@@ -124,7 +135,8 @@ class Completeness {
     if constexpr (core::Listed<F>)
       check<F>(name);
     else
-      static_assert(std::is_trivially_copyable_v<F>, "this struct needs a list of its fields");
+      static_assert(is_value<F> || (scratch && std::is_trivially_copyable_v<F>),
+                    "this struct needs a list of its fields");
   }
 
   std::set<const void*> m_seen;
@@ -368,11 +380,12 @@ Work used_work(const Model& m, int ticks) {
 }  // namespace
 
 TEST(Fields, EveryStructOfModelStateAndWorkNamesAllOfItsFields) {
-  Completeness all;
-  all.check<State>("State");
-  all.check<Model>("Model");
-  all.check<Work>("Work");
-  EXPECT_GT(all.structs(), 120u);
+  Completeness<false> kept;
+  kept.check<State>("State");
+  kept.check<Model>("Model");
+  Completeness<true> scratch;
+  scratch.check<Work>("Work");
+  EXPECT_GT(kept.structs() + scratch.structs(), 120u);
   static_assert(core::Listed<tissue::Box>, "a list that is private is none");
 }
 

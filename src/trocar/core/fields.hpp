@@ -15,8 +15,9 @@
 //   };
 //
 // The order of a list is that of the hash; it changes no bit to add a field that is not hashed. Lists make the same
-// calls for every value: what a value decides goes into a field's note. A struct that has no list is treated as its
-// bytes, and tests/sim/fields_test.cpp refuses one that is more than that, and a list from which a field is missing.
+// calls for every value: what a value decides goes into a field's note. tests/sim/fields_test.cpp refuses a struct of a
+// State or a Model that has no list, and a list from which a field is missing. In scratch a struct of plain numbers is
+// its bytes and needs none.
 #pragma once
 
 #include <cstddef>

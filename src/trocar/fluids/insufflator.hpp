@@ -17,6 +17,12 @@ struct Insufflator {
   double flow = 20e-3 / 60;              ///< at most; 20 L/min as of a usual one [m^3/s]
   double band = 3 * 133.322;             ///< it gives all of it from this far below the set pressure: our choice [Pa]
   double compliance = 0.3e-3 / 133.322;  ///< C, 0.3 L/mmHg: our choice for a relaxed wall [m^3/Pa]
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("set", s.set), v("flow", s.flow), v("band", s.band), v("compliance", s.compliance);
+  }
 };
 struct CavityGas {
   double pressure = 0;  ///< [Pa]

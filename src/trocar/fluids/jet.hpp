@@ -9,6 +9,8 @@
 
 #include <cmath>
 
+#include <trocar/core/fields.hpp>
+
 namespace trocar::fluids {
 
 inline constexpr double kSharpOrifice = 0.61;  ///< discharge coefficient Cd
@@ -30,6 +32,14 @@ struct Lines {
   double gas_flow = 25e-3 / 60;          ///< or 25 L/min of gas [m^3/s]
   double nozzle_area = 7.07e-6;          ///< 3 mm bore [m^2]
   double capture_radius = 5e-3;          ///< [m]
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("irrigation_flow", s.irrigation_flow), v("bag_pressure", s.bag_pressure), v("vacuum", s.vacuum),
+        v("liquid_flow", s.liquid_flow), v("gas_flow", s.gas_flow), v("nozzle_area", s.nozzle_area),
+        v("capture_radius", s.capture_radius);
+  }
 };
 
 /// Flow through a line whose resistance is that of turbulence, Q ~ sqrt(dp), with a valve that opens from 0 to 1.

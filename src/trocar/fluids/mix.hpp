@@ -64,6 +64,12 @@ Blood mean(Blood a, std::int64_t volume_a, Blood b, std::int64_t volume_b) noexc
 /// Densities of the species at 37 C [kg/m^3].
 struct Densities {
   double blood = 1060, saline = 1005, bile = 1010;
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("blood", s.blood), v("saline", s.saline), v("bile", s.bile);
+  }
 };
 constexpr double mass(const Mix& m, const Densities& rho) {  ///< [kg]
   return kM3PerPicolitre * (rho.blood * double(m.blood) + rho.saline * double(m.saline) + rho.bile * double(m.bile));

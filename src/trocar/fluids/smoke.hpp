@@ -47,6 +47,15 @@ struct SmokeDescription {
 struct SmokeModel : SmokeDescription {
   double tick = core::kTick;  ///< [s]
   int cells() const { return nx * ny * nz; }
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("origin", s.origin), v("nx", s.nx), v("ny", s.ny), v("nz", s.nz), v("cell", s.cell), v("tau_still", s.tau_still),
+        v("tau_sucked", s.tau_sucked), v("rise_thin", s.rise_thin), v("rise_thick", s.rise_thick), v("thick", s.thick),
+        v("spread", s.spread), v("kappa", s.kappa), v("fog_gain", s.fog_gain), v("fog_tau", s.fog_tau),
+        v("wipe_time", s.wipe_time), v("warm_lens", s.warm_lens), v("cold_lens", s.cold_lens),
+        v("on_memory", s.on_memory), v("period", s.period), v("tick", s.tick);
+  }
 };
 
 struct SmokeState {

@@ -3,6 +3,7 @@
 // so that at zero angles the shaft points to the patient's back. Jaws open along R (1,0,0).
 #pragma once
 
+#include <trocar/core/fields.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/numerics/vec3.hpp>
 
@@ -28,6 +29,12 @@ struct FulcrumLimits {
   double angle = 1.45;                          ///< yaw and pitch, [rad]
   double depth_min = 0.005, depth_max = 0.290;  ///< [m]
   double roll = portable::two_pi;               ///< [rad]
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("angle", s.angle), v("depth_min", s.depth_min), v("depth_max", s.depth_max), v("roll", s.roll);
+  }
 };
 
 /// Forward kinematics.

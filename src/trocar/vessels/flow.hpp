@@ -42,6 +42,14 @@ struct FlowCell {
   double loss = 0;                ///< K rho / 2 of this cell's share [kg/m^3]
   double carried = 0;             ///< 2 rho dx A_ref give / dt: what the flow carries along [kg/m^2 s .. /Pa]
   double courant = 0;             ///< dt / dx [s/m]
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("a", s.a), v("b", s.b), v("rest", s.rest), v("give", s.give), v("area_a", s.area_a), v("area_b", s.area_b),
+        v("area", s.area), v("inertia", s.inertia), v("friction", s.friction), v("loss", s.loss),
+        v("carried", s.carried), v("courant", s.courant);
+  }
 };
 
 struct FlowSegment {

@@ -16,6 +16,12 @@ struct LossResponse {
   double loss = 0;             ///< [m^3]
   double mean = 1, pulse = 1;  ///< of the mean pressure, of the pulse pressure
   double rate = 1;             ///< of the heart rate
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("loss", s.loss), v("mean", s.mean), v("pulse", s.pulse), v("rate", s.rate);
+  }
 };
 
 struct Heart {

@@ -65,6 +65,12 @@ struct RigidState {
   Quatd q;           ///< its own axes -> the scene's
   Vec3d v, w;        ///< [m/s], [rad/s] about the scene's axes
   double still = 0;  ///< for how long it has lain still; it sleeps then until something comes near that moves [s]
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("x", s.x), v("q", s.q), v("v", s.v), v("w", s.w), v("still", s.still);
+  }
 };
 static_assert(sizeof(RigidState) == 14 * sizeof(double), "no padding");
 

@@ -17,6 +17,12 @@ struct WallGrid {
     Vec3d a, b, c;
     Vec3d normal;  ///< to the free side, unit
     std::int32_t wall = 0, reserved = 0;
+
+    static constexpr bool kAsBytes = true;
+    template <class S, class V>
+    static void fields(S& s, V&& v) {
+      v("a", s.a), v("b", s.b), v("c", s.c), v("normal", s.normal), v("wall", s.wall), v("reserved", s.reserved);
+    }
   };
   std::vector<Triangle> triangles;
   double cell = 0;   ///< [m]

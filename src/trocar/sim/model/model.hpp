@@ -129,6 +129,11 @@ struct BasePoint {
   std::int32_t vertex = -1;
   std::int32_t strand = -1;  ///< ... or on this strand, or (both -1) on space
   interactions::StrandPlace place;
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("rest", s.rest), v("organ", s.organ), v("vertex", s.vertex), v("strand", s.strand), v("place", s.place);
+  }
 };
 
 /// A thin fold, drawn between a strand and its base; mechanically it is the strand's foundation.
@@ -187,6 +192,11 @@ struct DetailLevel {
   double from = 0;   ///< [m] in a picture 600 px high through a lens of 70 degrees
   double error = 0;  ///< [m] by which its surface may depart from the full one
   int surface = 2;   ///< how much of its patterns is drawn, as render::Quality::detail
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("from", s.from), v("error", s.error), v("surface", s.surface);
+  }
 };
 struct DrawnDetail {
   std::string name;  ///< as in the scene

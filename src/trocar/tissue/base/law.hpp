@@ -11,6 +11,8 @@
 //   double force = k * l * law.shape(r / l - 1);
 #pragma once
 
+#include <trocar/core/fields.hpp>
+
 namespace trocar::tissue {
 
 template <class Real>
@@ -18,6 +20,12 @@ struct SpringLawT {
   Real p1 = 0;         ///< linear shape factor P1 [-]
   Real p2 = 0;         ///< quadratic shape factor P2 [-]
   Real cap = Real(1);  ///< strain beyond which the law goes on linearly [-], > 0
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("p1", s.p1), v("p2", s.p2), v("cap", s.cap);
+  }
 
   /// Shape function [-]: force = k l shape(eps). Free of branches: min and sign only.
   constexpr Real shape(Real eps) const {

@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <span>
 
+#include <trocar/core/fields.hpp>
 #include <trocar/numerics/mat3.hpp>
 #include <trocar/numerics/vec3.hpp>
 #include <trocar/tissue/network/network_layout.hpp>
@@ -25,6 +26,12 @@ namespace trocar::tissue {
 struct TetRest {
   int row[4];
   float rest6;  ///< six times its volume as drawn [m^3]
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("row", s.row), v("rest6", s.rest6);
+  }
 };
 inline constexpr double kCollapsed = 0.1;     ///< share of the rest volume below which a cell is pushed open
 inline constexpr float kOpeningTime = 1e-3f;  ///< with which it takes its shape again, at least [s]

@@ -29,6 +29,12 @@ struct alignas(64) HalfEdgePack {
   float inv_rest[kSlice];        ///< 1/l [1/m]
   float stiffness[kSlice];       ///< k l [N]
   float damping[kSlice];         ///< [N s/m]
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("offset", s.offset), v("inv_rest", s.inv_rest), v("stiffness", s.stiffness), v("damping", s.damping);
+  }
 };
 
 /// Forces of 16 springs as the kernel leaves them for their other ends [N]; lane i lies in kSlotOfLane[i].
@@ -41,6 +47,12 @@ constexpr int kSlotOfLane[kSlice] = {0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 
 /// Where 16 rows find the force of a spring that its other end has evaluated. Padding points at 0, where no force is.
 struct alignas(64) ArrivalPack {
   std::uint32_t offset[kSlice];  ///< byte offset in KernelArgs::forces
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("offset", s.offset);
+  }
 };
 
 /// Sum of the forces of the springs that 16 rows evaluate themselves [N].
@@ -51,17 +63,36 @@ struct alignas(64) ForceSum {
 /// Shape factors per spring, only where springs of a body differ.
 struct alignas(64) LawPack {
   float p1[kSlice], p2[kSlice], cap[kSlice], cap_slope[kSlice];
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("p1", s.p1), v("p2", s.p2), v("cap", s.cap), v("cap_slope", s.cap_slope);
+  }
 };
 
 /// dt B / (m (1 + dt gamma)) per axis, for 16 rows.
 struct alignas(64) RowPack {
   float wx[kSlice], wy[kSlice], wz[kSlice];
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("wx", s.wx), v("wy", s.wy), v("wz", s.wz);
+  }
 };
 
 /// 16 protected cells: their corners, and the six-fold volume below which they are pushed open.
 struct alignas(64) TetPack {
   std::uint32_t offset[4][kSlice];  ///< byte offsets of the corners
   float limit6[kSlice];             ///< [m^3]; padding: -infinity
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("corner0", s.offset[0]), v("corner1", s.offset[1]), v("corner2", s.offset[2]), v("corner3", s.offset[3]),
+        v("limit6", s.limit6);
+  }
 };
 
 /// What one sub-step reads and writes.

@@ -21,6 +21,12 @@ struct SkinWeights {
   std::array<int, 8> row{};   ///< where their State is
   std::array<float, 8> weight{};
 
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("node", s.node), v("row", s.row), v("weight", s.weight);
+  }
+
   /// Of a vertex that is a node.
   static SkinWeights at(int node, int row) {
     SkinWeights w;

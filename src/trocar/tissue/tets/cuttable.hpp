@@ -45,6 +45,12 @@ struct CuttableDescription {
 struct CellSprings {
   float edge[6], edge_ratio[6];
   float cross[4], cross_ratio[4];  ///< across the face opposite to a corner: this cell's half
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("edge", s.edge), v("edge_ratio", s.edge_ratio), v("cross", s.cross), v("cross_ratio", s.cross_ratio);
+  }
 };
 inline constexpr int kFreeColumns = 4;  ///< of a slice of rows, for springs that a cut adds
 inline constexpr int kCellEdges[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
