@@ -1,9 +1,8 @@
-// How the sterilisation begins: outside the pelvis. And how an oblique endoscope is led there.
+// How the sterilisation begins: outside the pelvis, with an oblique endoscope, and what it takes to see into it.
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include <trocar/numerics/portable.hpp>
 #include <trocar/scene/compile/compile.hpp>
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/sim/stages/step.hpp>
@@ -51,25 +50,15 @@ TEST(Sterilisation, WhatIsNeededForBleedingIsInTheRacks) {
   EXPECT_TRUE(model().vessels.there() && model().wet.there && model().energy.there);
 }
 
-/// The same with an endoscope of 30 degrees.
-const sim::Model& oblique() {
-  static const sim::Model made = [] {
-    scene::Description d = scene::read_scene(exercise().scene);
-    d.scope.angle = portable::pi / 6;
-    return scene::compile(d);
-  }();
-  return made;
-}
-
 /// Where the lens is and where it looks, after so long [s] of showing these points.
 kinematics::ScopeFrame shown(std::initializer_list<Vec3d> points, double seconds) {
-  CameraHand camera(oblique());
-  sim::Input input = oblique().start;
+  CameraHand camera(model());
+  sim::Input input = model().start;
   for (int t = 0; t < int(1000 * seconds); ++t) camera.show({points.begin(), points.size()}, 0.06);
   camera.fill(input);
   EXPECT_TRUE(camera.settled());
   const sim::ScopeInput& s = input.scope;
-  return kinematics::scope_frame(oblique().scope.port, {s.yaw, s.pitch, s.roll, s.depth}, oblique().scope.angle, s.post);
+  return kinematics::scope_frame(model().scope.port, {s.yaw, s.pitch, s.roll, s.depth}, model().scope.angle, s.post);
 }
 
 TEST(ObliqueCamera, BringsAPlaceIntoThePicturesMiddle) {
@@ -86,7 +75,7 @@ TEST(ObliqueCamera, StandsBackUntilAllIsInThePicture) {
   const std::initializer_list<Vec3d> all{{0, -0.17, -0.11}, {0.045, -0.14, -0.11}, {-0.045, -0.14, -0.11}};
   const kinematics::ScopeFrame frame = shown(all, 8);
   for (const Vec3d& p : all)
-    EXPECT_GT(dot(normalised(p - frame.eye), frame.forward), std::cos(0.5 * oblique().scope.field_of_view)) << p.x;
+    EXPECT_GT(dot(normalised(p - frame.eye), frame.forward), std::cos(0.5 * model().scope.field_of_view)) << p.x;
 }
 
 }  // namespace
