@@ -20,6 +20,7 @@ import time
 from pathlib import Path
 
 EXERCISE = "gynaecology/sterilisation"
+FILLING = 7  # [s] an attempt that fills the small disk and the small files
 LOST_AT_MOST = 1000  # ticks: what a killed program may take with it
 
 
@@ -174,7 +175,7 @@ def broken(trocar):
 
 
 def two_at_once(trocar):
-    runs = [trocar.train(f"both-{i}", 8, f"trainee {i}") for i in range(2)]  # long enough to be seen on a busy machine
+    runs = [trocar.train(f"both-{i}", 5, f"trainee {i}") for i in range(2)]  # long enough to be seen on a busy machine
     seen_running = 0
     while any(run.poll() is None for run in runs):
         seen_running = max(seen_running, sum(a["state"] == "running" for a in trocar.attempts()))
@@ -196,17 +197,17 @@ def full_disk(program, folder):
         return
     try:
         trocar = Trocar(program, disk)
-        run = trocar.train("filling", 20)
+        run = trocar.train("filling", FILLING)
         out, err = run.communicate()
         check(run.returncode in (0, 1), err)
         check("No space left" in err, f"a full disk is not told:\n{err}")
         result = json.loads(out)
         check(any("No space left" in n for n in result["notices"]), "the result does not tell of the full disk")
         a = trocar.attempts()[0]
-        check(a["state"] == "finished" and a["ticks"] == 20000, f"full disk: {a}")
+        check(a["state"] == "finished" and a["ticks"] == 1000 * FILLING, f"full disk: {a}")
         replayed = json.loads(trocar.run("replay", trocar.recording("filling"), "--json"))
-        check(replayed["ticks"] > 1000, "the recording of a full disk replays as far as it reaches")
-        print(f"full disk: told, the result is kept, {replayed['ticks']} of 20000 ticks recorded", flush=True)
+        check(1000 < replayed["ticks"] < 1000 * FILLING, "the recording of a full disk replays as far as it reaches")
+        print(f"full disk: told, the result is kept, {replayed['ticks']} of {1000 * FILLING} ticks recorded", flush=True)
     finally:
         subprocess.run(["umount", "-l", disk], check=False)
 
@@ -215,15 +216,15 @@ def small_files(program, folder):
     """No file may grow beyond some kilobytes (ulimit -f): told, and the result is kept all the same."""
     trocar = Trocar(program, Path(folder) / "limited")
     limit = 100 * 1024
-    run = trocar.train("limited", 20, before=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
+    run = trocar.train("limited", FILLING, before=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
     out, err = run.communicate()
     check(run.returncode in (0, 1, 3), f"with small files only, it ended with {run.returncode}: {err}")
     check("File too large" in err, f"files that may not grow are not told:\n{err}")
     result = json.loads(out)
-    check(result["ticks"] == 20000, f"with small files only: {result['ticks']} ticks")
+    check(result["ticks"] == 1000 * FILLING, f"with small files only: {result['ticks']} ticks")
     check(any("File too large" in n for n in result["notices"]), "the result does not tell of the small files")
     a = trocar.attempts()[0]
-    check(a["state"] == "finished" and a["ticks"] == 20000, f"small files: {a}")
+    check(a["state"] == "finished" and a["ticks"] == 1000 * FILLING, f"small files: {a}")
     print("small files: told, the result is kept", flush=True)
 
 

@@ -13,7 +13,7 @@ import sys
 import tempfile
 import time
 
-SECONDS = 2.0
+SECONDS = 1.4
 
 
 def run(program, *words, **options):
@@ -54,25 +54,25 @@ def check_films(program, folder, recording):
     expect(not os.path.exists(film + ".part"), "a part of the film was left behind")
 
     slow = os.path.join(folder, "b.mkv")
-    out = run(program, "replay", recording, "--video", slow, "--size", "320x240", "--from", "0.5", "--to", "1",
+    out = run(program, "replay", recording, "--video", slow, "--size", "320x240", "--from", "0.5", "--to", "0.8",
               "--slow", "0.25", "--camera", "free:120,40,350")
     expect(out.returncode == 0, out.stderr)
-    check_film(slow, 2.0, 320, 240)
+    check_film(slow, 1.2, 320, 240)
 
 
 def check_shots(program, folder, recording):
     sizes = set()
-    for camera in ("endoscope", "front", "side", "above", "surgeon", "free:30,60,300"):
+    for camera in ("endoscope", "side", "surgeon", "free:30,60,300"):
         shots = os.path.join(folder, "shots-" + camera.replace(":", "-"))
-        out = run(program, "replay", recording, "--shots", shots, "--camera", camera, "--from", "1", "--to", "1.2",
+        out = run(program, "replay", recording, "--shots", shots, "--camera", camera, "--from", "1", "--to", "1.1",
                   "--size", "320x240", "--json")
         expect(out.returncode == 0, out.stderr)
         index = json.load(open(os.path.join(shots, "index.json"), encoding="utf-8"))["pictures"]
         expect(len(index) >= 2, f"{camera}: {len(index)} pictures")
         for picture in index:
-            expect(1 <= picture["seconds"] <= 1.2, f"{camera}: a picture of {picture['seconds']} s")
+            expect(1 <= picture["seconds"] <= 1.1, f"{camera}: a picture of {picture['seconds']} s")
         sizes.add(open(os.path.join(shots, index[0]["file"]), "rb").read())
-    expect(len(sizes) == 6, "two cameras give the same picture")
+    expect(len(sizes) == 4, "two cameras give the same picture")
 
 
 def check_refusals(program, folder, recording):

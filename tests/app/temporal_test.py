@@ -74,11 +74,11 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         recording = os.path.join(folder, "a.rec")
         done = run(program, "train", "gynaecology/sterilisation", "--input", "demo", "--headless", "--no-store",
-                   "--seconds", 9.6, "--record", recording)
+                   "--seconds", 8.6, "--record", recording)
         expect(done.returncode in (0, 1), done.stderr)
         counted = numpy.zeros(3, int)
         # The endoscope looks around and goes near; then a grasper takes the tube and pulls it.
-        for name, begin, end in [("camera", 0.2, 2.6), ("pull", 5.6, 9.4)]:
+        for name, begin, end in [("camera", 1.2, 2.6), ("pull", 6.4, 8.4)]:
             data = os.path.join(folder, name)
             done = run(program, "replay", recording, "--data", data, "--data-rate", 25, "--from", begin, "--to", end,
                        "--size", "400x300")

@@ -16,6 +16,7 @@ METRES_PER_NOTCH = 2e-3
 ROLL_PER_PIXEL = 8e-3
 VIEW_PER_PIXEL = 1e-3
 STICK_SPEED, STICK_ROLL, STICK_VIEW = 0.05, 2.0, 0.6
+POST_SPEED = 1.0          # [rad/s]
 
 
 FAR = 4e-3  # [m] nearer than this a hand on a stick slows down
@@ -132,6 +133,11 @@ class Eyes:
         return math.dist(points[0][1:4], points[-1][1:4]) / way
 
 
+def pace(eyes):
+    """Of simulated to real time: in slow motion hands are slow, too."""
+    return max(0.15, min(1.0, eyes.pose["speed"])) if eyes.pose else 1.0
+
+
 def xdo(*words):
     subprocess.run(["xdotool", *map(str, words)], check=True, stdout=subprocess.DEVNULL)
 
@@ -198,6 +204,12 @@ class MouseAndKeys:
     def look(self, right, up):
         xdo("mousemove_relative", "--", round(right / VIEW_PER_PIXEL), round(-up / VIEW_PER_PIXEL))
 
+    def turn_post(self, angle):
+        """The light post of the endoscope, which is led."""
+        xdo("keydown", "r")
+        time.sleep(angle / POST_SPEED / pace(self.eyes))
+        xdo("keyup", "r")
+
     def roll(self, angle):
         """Clockwise as the hand sees it: a drag with the right button, held long enough to be no click."""
         xdo("mousedown", 3)
@@ -252,8 +264,11 @@ class Pad:
         self.trigger = 0.0
         self.send()
 
-    def send(self, lx=0.0, ly=0.0, rx=0.0, ry=0.0, lt=0.0, buttons=""):
-        print(f"{lx:.3f} {ly:.3f} {rx:.3f} {ry:.3f} {lt:.3f} {self.trigger:.3f} {buttons}".strip(), file=self.pipe)
+    def send(self, lx=0.0, ly=0.0, rx=0.0, ry=0.0, lt=0.0, rt=0.0, buttons=""):
+        """The trigger is the handle; at the endoscope, where it turns the light post, the finger is off it."""
+        leads_scope = self.eyes.pose is not None and self.eyes.pose["led"] == "scope"
+        trigger = rt if leads_scope else self.trigger
+        print(f"{lx:.3f} {ly:.3f} {rx:.3f} {ry:.3f} {lt:.3f} {trigger:.3f} {buttons}".strip(), file=self.pipe)
 
     def tap(self, button):
         self.send(buttons=button)
@@ -266,8 +281,7 @@ class Pad:
 
     def hold(self, seconds, **sticks):
         self.send(**sticks)
-        speed = self.eyes.pose["speed"] if self.eyes.pose else 1.0  # in slow motion hands are slow, too
-        time.sleep(seconds / max(0.15, min(1.0, speed)))
+        time.sleep(seconds / pace(self.eyes))
         self.send()
 
     def unplug(self):
@@ -344,6 +358,9 @@ class Pad:
 
     def look(self, right, up):
         self.push(STICK_VIEW, 0.1, lx=right, ly=-up)
+
+    def turn_post(self, angle):
+        self.hold(angle / POST_SPEED, rt=1.0)
 
     def roll(self, angle):
         self.push(STICK_ROLL, 0.5, rx=angle)

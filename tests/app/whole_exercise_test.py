@@ -149,17 +149,28 @@ class Surgeon(Trainee):
         return math.acos(min(1.0, abs(dot(cross(tool["shaft"], tool["opening"]), self.eyes.point(tube, s)[1]))))
 
     def see_both_tips(self, at):
-        """Both legs' tips must be seen when the clip closes: nearer, from farther off or from aside, if need be."""
-        looks = [(55.0, (0.0, 0.0))] + [(75.0, (0.18 * x, 0.18 * y)) for x, y in ((0, -1), (0, 0), (0, 1), (1, 0), (-1, 0))]
-        for look in (None, *looks):
-            if look:
+        """Both legs' tips must be seen when the clip closes: nearer, from farther off, from aside or with the light post
+        turned, so that the oblique lens sees them from another side, if need be."""
+        straight = [(55.0, (0.0, 0.0)), (75.0, (0.0, -0.18)), (75.0, (0.0, 0.18))]
+        aside = [(75.0, (0.0, 0.0)), (75.0, (0.18, 0.0)), (75.0, (-0.18, 0.0))]
+        if self.tips_are_seen():
+            return True
+        for quarter, looks in enumerate((straight, straight, straight, straight, aside)):
+            if quarter > 0:
+                self.lead("scope")
+                self.hands.turn_post(math.pi / 2)
+                self.settled()
+            for look in looks:
                 self.show([at, self.eyes.tool(APPLIER)["tip_mm"]], *look)
                 self.lead(APPLIER)
                 self.hands.take_up()
-            self.eyes.later(0.25)
-            if all(self.eyes.tool(APPLIER)["seen"]):
-                return True
+                if self.tips_are_seen():
+                    return True
         return False
+
+    def tips_are_seen(self):
+        self.eyes.later(0.25)
+        return all(self.eyes.tool(APPLIER)["seen"])
 
     def clip(self, tube, s):
         """Half closed it looks whether tube and tips are where they belong, then it closes."""
@@ -172,6 +183,8 @@ class Surgeon(Trainee):
             self.move(self.before(APPLIER, tube, s, inside, 0), 0.6, "the tube between the legs")
             if self.see_both_tips(self.eyes.point(tube, s)[0]) and self.off_square(tube, s) < 0.21:
                 break
+        self.hands.close_slowly(0.8)
+        self.see_both_tips(self.eyes.point(tube, s)[0])  # nearly closed they may have gone behind the tube
         self.hands.close_slowly(1.0)
         self.eyes.wait("the clip", lambda: len(self.eyes.pose["clips"]) > before, 60)
         self.hands.open_up()

@@ -108,14 +108,14 @@ const Session& session() {
 /// Of the last first_difference(): the field that differs, its value in the session and here.
 std::string differing_field;
 
-/// Steps on through the session's inputs; `before` runs before every tick. Returns the first mark that differs, in
-/// ticks, or 0.
+/// Steps on through the session's inputs, at most to tick `until`; `before` runs before every tick. Returns the first mark
+/// that differs, in ticks, or 0.
 template <class Before>
-std::uint64_t first_difference(State& s, Work& w, Before&& before) {
+std::uint64_t first_difference(State& s, Work& w, Before&& before, std::uint64_t until = ~std::uint64_t{}) {
   const Session& r = session();
   const Model& m = small::model();
   differing_field.clear();
-  while (s.tick < r.inputs.size()) {
+  while (s.tick < std::min(until, std::uint64_t(r.inputs.size()))) {
     before(s, w);
     step(m, r.inputs[s.tick], s, w);
     if (s.tick % kMark != 0 || hash_of(s) == r.hash[s.tick / kMark - 1]) continue;
@@ -203,7 +203,8 @@ TEST(State, SavedAtAnyTickAndGoneOnWithInAnotherWorkIsTheSame) {
   for (State& from : saved) {
     const std::uint64_t at = from.tick;
     Work fresh = make_work(m);
-    EXPECT_EQ(first_difference(from, fresh), 0u) << "saved at tick " << at << ", " << differing_field;
+    const std::uint64_t until = at < 1000 ? at + 1000 : at + 600;
+    EXPECT_EQ(first_difference(from, fresh, [](State&, Work&) {}, until), 0u) << "saved at tick " << at << ", " << differing_field;
   }
 }
 
@@ -482,7 +483,7 @@ TEST_P(Abuse, WildHandsLeaveTheTissueFiniteAndNear) {
   Input in = m.start;
   double worst = 0, energy = 0;
   int grasps = 0;
-  for (int t = 0; t < 10000; ++t) {
+  for (int t = 0; t < 6000; ++t) {
     in = t % 2000 < 1000 ? wild(random, in) : tearing(random, in, m.start);
     const StepReport report = step(m, in, s, w);
     ASSERT_TRUE(report.fine()) << "tick " << t << " body " << report.first_bad_body.code();
