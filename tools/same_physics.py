@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Do two builds of Trocar compute the same? Both do the same operations headless, and all that they recorded is compared.
 
-    tools/same_physics.py BEFORE AFTER [--seeds N] [--jobs N] [--hands FILE[#OPERATOR/TRIAL]]... [--work DIR]
+    tools/same_physics.py BEFORE AFTER [--seeds N] [--jobs N] [--only WORDS] [--hands FILE[#OPERATOR/TRIAL]]... [--work DIR]
         BEFORE, AFTER  two programs `trocar`, as built from two commits
         --seeds        anatomies 0 .. N-1 of every demonstration (default 20)
+        --only         operations with these words in their name
         --hands        recorded hands for the scenes without a task (docs/motion_input.md)
 
 Operations: every exercise's demonstration on every seed; every scene without a task under each of the recorded hands, and
@@ -131,13 +132,14 @@ def main():
     parser.add_argument("after")
     parser.add_argument("--seeds", type=int, default=20)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--only", default="")
     parser.add_argument("--hands", action="append", default=[])
     parser.add_argument("--work", type=Path, default=Path("build/same_physics"))
     args = parser.parse_args()
     programs = [str(Path(p).resolve()) for p in (args.before, args.after)]
     args.work.mkdir(parents=True, exist_ok=True)
     listing = run(programs[0], ["list", "--json"], args.work)
-    todo = list(operations(listing, args.seeds, args.hands))
+    todo = [o for o in operations(listing, args.seeds, args.hands) if args.only in o[0]]
     failed, differ = 0, 0
     with concurrent.futures.ThreadPoolExecutor(args.jobs) as pool:
         for name, difference, told in pool.map(lambda o: compare(o, programs, args.work), todo):
