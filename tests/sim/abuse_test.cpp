@@ -25,7 +25,7 @@ TEST(Abuse, ALiverThatCanBeCutBearsItAndReturnsToItsShape) {
   const sim::Model model =
       abuse::untearable(scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/cutting/scene.json")));
   abuse::Attack attack(model, 4);
-  const abuse::Round r = attack.round(0, 1.5, 3500);
+  const abuse::Round r = attack.round(0, 4, 2500);
   std::printf("%d grasps, at most %.3f J and %.1f N, %.2f %% off after the rest\n", r.grasps, r.most_energy,
               r.most_force, 100 * r.worst().share);
   EXPECT_EQ(r.first_bad_tick, 0u) << "flags " << r.flags;
@@ -38,7 +38,7 @@ TEST(Abuse, ALiverThatCanBeCutBearsItAndReturnsToItsShape) {
 TEST(Abuse, ALiverCutAtRandomStaysFinite) {
   const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/cutting/scene.json"));
   abuse::Attack attack(model, 5, true);
-  const abuse::Round r = attack.round(0, 3, 0);
+  const abuse::Round r = attack.round(0, 6, 0);
   std::printf("%d cuts, at most %.3f J and %.1f N\n", attack.state().cut_count, r.most_energy, r.most_force);
   EXPECT_EQ(r.first_bad_tick, 0u) << "flags " << r.flags;
   EXPECT_GT(attack.state().cut_count, 0);
@@ -64,7 +64,7 @@ TEST(Abuse, WildFeetOnPedalsAndValvesLeaveNumbersFiniteAndTheAccountExact) {
   const sim::Model& model = bleeding();
   abuse::Attack attack(model, 8, true);
   for (int round = 0; round < 2; ++round) {
-    const abuse::Round r = attack.round(size_t(round), 1, 0);
+    const abuse::Round r = attack.round(size_t(round), 1.5, 0);
     EXPECT_EQ(r.first_bad_tick, 0u) << r.organ << ", flags " << r.flags;
     EXPECT_LT(r.most_energy, 5) << "[J] " << r.organ;
     EXPECT_EQ(abuse::broken(model, attack.state()), "") << r.organ;
@@ -106,7 +106,7 @@ TEST(Abuse, AFilledGallbladderBearsItAndKeepsItsContents) {
   const sim::Model model =
       abuse::untearable(scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/gallbladder/scene.json")));
   abuse::Attack attack(model, 6);
-  const abuse::Round r = attack.round(abuse::number_of(model, "gallbladder"), 1.5, 3500);
+  const abuse::Round r = attack.round(abuse::number_of(model, "gallbladder"), 4, 2500);
   EXPECT_EQ(r.organ, "gallbladder");
   std::printf("%d grasps, at most %.3f J and %.1f N, %.2f %% off after the rest\n", r.grasps, r.most_energy,
               r.most_force, 100 * r.worst().share);
