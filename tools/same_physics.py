@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Do two builds of Trocar compute the same? Both do the same operations headless, and all that they recorded is compared.
 
-    tools/same_physics.py BEFORE AFTER [--seeds N] [--jobs N] [--only WORDS] [--hands FILE[#OPERATOR/TRIAL]]... [--work DIR]
+    tools/same_physics.py BEFORE AFTER [--seeds N] [--jobs N] [--only WORDS] [--work DIR]
+                          [--hands FILE[#OPERATOR/TRIAL]]...
         BEFORE, AFTER  two programs `trocar`, as built from two commits
         --seeds        anatomies 0 .. N-1 of every demonstration (default 20)
         --only         operations with these words in their name
