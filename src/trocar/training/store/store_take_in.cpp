@@ -90,7 +90,9 @@ void Store::settle_running(Database& db) {
         fill_from_recording(a.recording, there))
       a = there;
     Transaction one(db);
-    if (state_in(db, a.uuid) == AttemptState::running && !AttemptLock::is_held(m_folder, a.uuid)) write_row(db, a);
+    // Between our reading the rows and asking for its lock it may have ended in its own program, as it should.
+    if (state_in(db, a.uuid) != AttemptState::running || AttemptLock::is_held(m_folder, a.uuid)) continue;
+    write_row(db, a);
     one.commit();
     if (a.state == AttemptState::interrupted)
       notice(fmt::format("attempt {} was interrupted: the program ended without saying so; {}", a.number,
