@@ -108,7 +108,7 @@ endfunction()
 # is made once; or, where that takes long, SHARDS that run beside each other. Results go to test-results/ENTRY.json.
 function(trocar_test_entries target name label shards)
   set(seconds 1800)
-  if(label STREQUAL soak)
+  if("${label}" STREQUAL "soak")  # unquoted, soak would be the list of files of that name
     set(seconds 3600)
   endif()
   foreach(shard RANGE 1 ${shards})

@@ -30,8 +30,9 @@ std::string plain(std::string name) {
 /// Of one scene's folder: "007-exchanged.png" is "exchanged".
 std::set<std::string> drawn_in(const fs::path& folder) {
   std::ifstream in(folder / "index.json");
+  const Json index = Json::parse(in);
   std::set<std::string> names;
-  for (const Json& picture : Json::parse(in)["pictures"]) {
+  for (const Json& picture : index["pictures"]) {
     const auto file = picture["file"].get<std::string>();
     names.insert(file.substr(4, file.size() - 8));
   }

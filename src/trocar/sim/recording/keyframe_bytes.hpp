@@ -40,7 +40,7 @@ struct Source {
   void take(T* data, size_t count) {
     const size_t n = count * sizeof(T);
     good = good && bytes.size() - at >= n;
-    if (!good) return;
+    if (!good || n == 0) return;  // nothing may have no place
     std::memcpy(data, bytes.data() + at, n);
     at += n;
   }
