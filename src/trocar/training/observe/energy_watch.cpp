@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kApart = 0.0005;     // [m] places nearer to each other are one
 constexpr double kHotTouch = 0.1;     // [s] a hot tip that only brushes past does no harm. Our choice
+constexpr double kHotApart = 0.5;     // [s] without a touch, and the next one is another: tips bounce. Our choice
 constexpr std::size_t kPlaces = 256;  // of a body; more are not told from each other by anyone
 
 }  // namespace
@@ -38,11 +39,14 @@ void EnergyWatch::update(const EnergyLimits& limits, const sim::Model& model, co
 }
 
 void EnergyWatch::judge_touch(int hand, const sim::ElectrodeHand& electrode, Mishaps& out) {
-  double& hot_for = m_hot_for[size_t(hand)];
-  const double before = hot_for;
+  HotTip& tip = m_hot[size_t(hand)];
   const bool touches = electrode.current.now.hot_touch && electrode.body.exists() && !has(m_targets, electrode.body);
-  hot_for = touches ? before + sim::kTick : 0;
-  if (before <= kHotTouch && hot_for > kHotTouch) out.add({Mishap::hot_tip, hand, electrode.at, ""});
+  tip.touches_for = touches ? tip.touches_for + sim::kTick : 0;
+  tip.away_for = touches ? 0 : tip.away_for + sim::kTick;
+  if (tip.away_for >= kHotApart) tip.told = false;
+  if (tip.told || tip.touches_for <= kHotTouch) return;
+  tip.told = true;
+  out.add({Mishap::hot_tip, hand, electrode.at, ""});
 }
 
 void EnergyWatch::judge_place(int hand, const sim::ElectrodeHand& electrode, Mishaps& out) {

@@ -32,6 +32,11 @@ class EnergyWatch {
     double idle_for = 0;  ///< [s]
     bool told_idle = false, told_place = false;
   };
+  /// A tip that is hot: for how long it has touched, and since when it has not [s].
+  struct HotTip {
+    double touches_for = 0, away_for = 0;
+    bool told = false;
+  };
   /// A body that was treated: where, and how far from there it may die.
   struct Heated {
     BodyId body;
@@ -47,7 +52,7 @@ class EnergyWatch {
 
   std::vector<BodyId> m_targets, m_never;
   std::array<Activation, sim::kMaxTools> m_activation{};
-  std::array<double, sim::kMaxTools> m_hot_for{};  ///< that a hot tip has been touching [s]
+  std::array<HotTip, sim::kMaxTools> m_hot{};
   std::vector<Heated> m_heated;
 };
 
