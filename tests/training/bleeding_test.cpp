@@ -396,6 +396,9 @@ TEST(EnergyWatch, AHotTipMayTouchWhatCarriesTheArteryAndNothingElseForLong) {
   EXPECT_EQ(e.count("E7.2"), 1) << "once a touch";
   EXPECT_FALSE(e.monitor.score().failed);
   touch(sim::body_of(e.model, "tube_left"), 0.2);
+  EXPECT_EQ(e.count("E7.2"), 1) << "a tip that bounces touches once";
+  for (int t = 0; t < 500; ++t) e.release();
+  touch(sim::body_of(e.model, "tube_left"), 0.2);
   EXPECT_EQ(e.count("E7.2"), 2);
 }
 
