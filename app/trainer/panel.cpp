@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <trocar/attempt/hand_names.hpp>
-#include <trocar/numerics/portable.hpp>
 
 #include "shell/ui.hpp"
 #include "trainer/generator.hpp"
@@ -16,7 +15,6 @@ namespace {
 
 using ui::Mark;
 
-constexpr double kDegree = portable::pi / 180;
 constexpr float kNarrowest = 250, kWidest = 340, kShare = 0.27f;
 
 std::string clock_text(double seconds) {
