@@ -46,6 +46,7 @@ soak=(
 dev=(
   clang-format clang-tidy libc++-dev libc++abi-dev
   libfcl-dev           # what the surface search is measured beside, with Bullet
+  libsuitesparse-dev libopenblas-dev  # what condensing an organ is measured beside: CHOLMOD, LAPACK
 )
 
 list_only=false
