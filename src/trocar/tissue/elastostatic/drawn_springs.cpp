@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include <trocar/tissue/base/law.hpp>
 #include <trocar/tissue/elastostatic/drawn_springs.hpp>
 
 namespace trocar::tissue {
