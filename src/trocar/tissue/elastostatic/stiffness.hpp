@@ -45,7 +45,7 @@ class StiffnessBuilder {
 
   /// The tangent of springs as they are drawn: k s'(eps) along, tension over length across, the push of those that are
   /// pressed together (negative) as well: the dynamic network has it, and without it blocks that stand under their own
-  /// weight come out up to a third too stiff sideways. What buckles so has a K that is not positive (NotHeld).
+  /// weight come out up to ten times too stiff sideways. What buckles so has a K that is not positive (NotHeld).
   /// @throws std::out_of_range for nodes that are not there
   void add_springs(std::span<const SpringDescription> springs);
   /// Isotropic springs to space.
