@@ -3,16 +3,14 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/scene/compile/compile.hpp>
-#include <trocar/scene/files/reader.hpp>
+#include "shipped.hpp"
 
 using namespace trocar;
 
 TEST(Abuse, OrgansBearSomeSecondsAndReturnToTheirShape) {
-  const sim::Model model =
-      abuse::untearable(scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/gynaecology/scene.json")));
+  const sim::Model model = abuse::untearable(shipped("gynaecology"));
   abuse::Attack attack(model, 3);
-  const abuse::Round r = attack.round(abuse::number_of(model, "tube_left"), 3);
+  const abuse::Round r = attack.round(abuse::number_of(model, "tube_left"), 3, 2500);
   EXPECT_EQ(r.first_bad_tick, 0u) << "flags " << r.flags;
   EXPECT_GT(r.grasps, 0);
   EXPECT_TRUE(r.let_go);
@@ -22,8 +20,7 @@ TEST(Abuse, OrgansBearSomeSecondsAndReturnToTheirShape) {
 }
 
 TEST(Abuse, ALiverThatCanBeCutBearsItAndReturnsToItsShape) {
-  const sim::Model model =
-      abuse::untearable(scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/cutting/scene.json")));
+  const sim::Model model = abuse::untearable(shipped("cutting"));
   abuse::Attack attack(model, 4);
   const abuse::Round r = attack.round(0, 4, 2500);
   std::printf("%d grasps, at most %.3f J and %.1f N, %.2f %% off after the rest\n", r.grasps, r.most_energy,
@@ -36,7 +33,7 @@ TEST(Abuse, ALiverThatCanBeCutBearsItAndReturnsToItsShape) {
 }
 
 TEST(Abuse, ALiverCutAtRandomStaysFinite) {
-  const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/cutting/scene.json"));
+  const sim::Model& model = shipped("cutting");
   abuse::Attack attack(model, 5, true);
   const abuse::Round r = attack.round(0, 6, 0);
   std::printf("%d cuts, at most %.3f J and %.1f N\n", attack.state().cut_count, r.most_energy, r.most_force);
@@ -46,7 +43,7 @@ TEST(Abuse, ALiverCutAtRandomStaysFinite) {
 }
 
 TEST(Abuse, TissueThatTearsStaysFinite) {
-  const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/gynaecology/scene.json"));
+  const sim::Model& model = shipped("gynaecology");
   abuse::Attack attack(model, 3);
   const abuse::Round r = attack.round(abuse::number_of(model, "tube_left"), 2.5, 0);
   std::printf("%d tears, at most %.3f J and %.1f N\n", r.tears, r.most_energy, r.most_force);
@@ -55,13 +52,8 @@ TEST(Abuse, TissueThatTearsStaysFinite) {
   EXPECT_LT(r.most_energy, 5) << "[J]";
 }
 
-const sim::Model& bleeding() {
-  static const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/bleeding/scene.json"));
-  return model;
-}
-
 TEST(Abuse, WildFeetOnPedalsAndValvesLeaveNumbersFiniteAndTheAccountExact) {
-  const sim::Model& model = bleeding();
+  const sim::Model& model = shipped("bleeding");
   abuse::Attack attack(model, 8, true);
   for (int round = 0; round < 2; ++round) {
     const abuse::Round r = attack.round(size_t(round), 1.5, 0);
@@ -80,7 +72,7 @@ TEST(Abuse, WildFeetOnPedalsAndValvesLeaveNumbersFiniteAndTheAccountExact) {
 }
 
 TEST(Abuse, HandsThatJumpWithAnyBitsOfPedalsLeaveNumbersFiniteAndTheAccountExact) {
-  const sim::Model& model = bleeding();
+  const sim::Model& model = shipped("bleeding");
   sim::State s = sim::initial_state(model);
   sim::Work w = sim::make_work(model);
   core::Random random(10);
@@ -103,8 +95,7 @@ TEST(Abuse, HandsThatJumpWithAnyBitsOfPedalsLeaveNumbersFiniteAndTheAccountExact
 }
 
 TEST(Abuse, AFilledGallbladderBearsItAndKeepsItsContents) {
-  const sim::Model model =
-      abuse::untearable(scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/gallbladder/scene.json")));
+  const sim::Model model = abuse::untearable(shipped("gallbladder"));
   abuse::Attack attack(model, 6);
   const abuse::Round r = attack.round(abuse::number_of(model, "gallbladder"), 4, 2500);
   EXPECT_EQ(r.organ, "gallbladder");
@@ -121,7 +112,7 @@ TEST(Abuse, AFilledGallbladderBearsItAndKeepsItsContents) {
 
 /// Shreds beside a shaft that goes through an organ once flew off three times as fast tick by tick.
 TEST(Abuse, AnInstrumentDrivenThroughALiverLeavesNumbersFinite) {
-  const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/gallbladder/scene.json"));
+  const sim::Model& model = shipped("gallbladder");
   sim::State s = sim::initial_state(model);
   sim::Work w = sim::make_work(model);
   sim::Input in = model.start;

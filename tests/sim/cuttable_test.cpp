@@ -3,7 +3,7 @@
 
 #include <trocar/sim/recording/keyframe.hpp>
 
-#include "small_scene.hpp"
+#include "session.hpp"
 
 using namespace trocar;
 using namespace trocar::sim;
@@ -12,7 +12,7 @@ namespace {
 
 const tissue::CuttableModel& bar() { return small::model().cuttables[0].body; }
 
-/// The work of small::Hands to its end, and from where the bar was cut.
+/// Of the work that session.hpp records: its end, and where the bar was cut.
 struct Story {
   State hanging, before, after, end;  ///< untouched; around the tick of the cut; when all is done
   std::vector<Event> cuts;
@@ -21,23 +21,19 @@ struct Story {
 const Story& story() {
   static const Story told = [] {
     Story r;
-    const Model& m = small::model();
-    State s = initial_state(m);
-    Work w = make_work(m);
-    small::Hands hands(m);
-    while (!hands.done()) {
-      const Input input = hands.next(s);
-      const State last = s;
-      if (s.tick == 4400) r.hanging = s;
-      const StepReport report = step(m, input, s, w);
-      for (int e = 0; e < report.event_count; ++e) {
-        if (report.events[e].kind != Event::cut) continue;
-        r.cuts.push_back(report.events[e]);
-        r.before = last;
-        r.after = s;
+    const laws::Session& work = laws::session();
+    Work w = make_work(small::model());
+    r.hanging = work.states[4400 / laws::kMark - 1];
+    r.end = work.states.back();
+    for (const std::uint64_t cut : work.cut) {  // again from the mark before it
+      r.after = work.states[(cut - 1) / laws::kMark - 1];
+      while (r.after.tick < cut) {
+        r.before = r.after;
+        const StepReport report = step(small::model(), work.inputs[r.after.tick], r.after, w);
+        for (int e = 0; e < report.event_count; ++e)
+          if (report.events[e].kind == Event::cut) r.cuts.push_back(report.events[e]);
       }
     }
-    r.end = s;
     return r;
   }();
   return told;

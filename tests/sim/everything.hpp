@@ -125,6 +125,12 @@ inline scene::Description description(int drops = 8192) {
   return d;
 }
 
+/// Compiled once for all tests of a folder.
+inline const sim::Model& model() {
+  static const sim::Model compiled = scene::compile(description());
+  return compiled;
+}
+
 /// Drops at `wanted` of which about a third fly, above and on the organs.
 class Rain {
  public:

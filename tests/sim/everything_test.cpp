@@ -20,10 +20,7 @@ namespace {
 constexpr int kDrops = 3000;
 constexpr std::uint64_t kTicks = 1000, kMiddle = 750;
 
-const Model& model() {
-  static const Model compiled = scene::compile(everything::description());
-  return compiled;
-}
+const Model& model() { return everything::model(); }
 
 /// Drops, a pool, and a lens that is fogged already, so that it is wiped from the first time on.
 State start() {

@@ -14,6 +14,7 @@
 
 #include "everything.hpp"
 #include "field_count.hpp"
+#include "shipped.hpp"
 #include "small_energy.hpp"
 
 using namespace trocar;
@@ -263,10 +264,7 @@ class Changes {
 };
 
 /// A scene with everything, some moments after it began: blood, water, heat, clips and cuts.
-const Model& everything_model() {
-  static const Model compiled = scene::compile(everything::description());
-  return compiled;
-}
+const Model& everything_model() { return everything::model(); }
 
 struct Lively {
   State state;
@@ -291,19 +289,10 @@ Lively lively_small(std::uint64_t ticks) {
   return l;
 }
 
-const Model& digestive_model() {
-  static const Model compiled = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/digestive/scene.json"));
-  return compiled;
-}
-const Model& gallbladder_model() {
-  static const Model compiled = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/gallbladder/scene.json"));
-  return compiled;
-}
+const Model& digestive_model() { return shipped("digestive"); }
+const Model& gallbladder_model() { return shipped("gallbladder"); }
 
-const Model& pegs_model() {
-  static const Model compiled = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/peg_transfer/scene.json"));
-  return compiled;
-}
+const Model& pegs_model() { return shipped("peg_transfer"); }
 
 // ---- Poison -----------------------------------------------------------------------------------------------------
 

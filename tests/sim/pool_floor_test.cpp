@@ -4,20 +4,17 @@
 
 #include <gtest/gtest.h>
 
-#include <trocar/scene/compile/compile.hpp>
-#include <trocar/scene/files/reader.hpp>
 #include <trocar/sim/model/pool_floor.hpp>
 #include <trocar/sim/stages/step.hpp>
+
+#include "shipped.hpp"
 
 namespace trocar::sim {
 namespace {
 
 constexpr double kLifted = 0.006;  // [m]
 
-const Model& pelvis() {
-  static const Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/bleeding/scene.json"));
-  return model;
-}
+const Model& pelvis() { return shipped("bleeding"); }
 
 void lift(const Model& model, int organ, double by, State& s) {
   const tissue::NetworkModel& network = model.solids[size_t(organ)].network;

@@ -10,6 +10,7 @@
 #include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/recording/keyframe.hpp>
 
+#include "shipped.hpp"
 #include "small_scene.hpp"
 
 using namespace trocar;
@@ -80,7 +81,7 @@ struct Lifted : small::Table {
 };
 
 TEST(Rigid, ARingAtRestStays) {
-  const Model m = scene::compile(board());
+  const Model& m = shipped("peg_transfer");
   State s = initial_state(m);
   Work w = make_work(m);
   for (int i = 0; i < 500; ++i) step(m, m.start, s, w);
@@ -186,7 +187,7 @@ TEST(Rigid, ARingGoesFromHandToHand) {
 }
 
 TEST(Rigid, NothingThatHandsDoThrowsItOutOrMakesItNaN) {
-  const Model m = scene::compile(board());
+  const Model& m = shipped("peg_transfer");
   small::Table t(m);
   core::Random random(9);
   for (int round = 0; round < 60; ++round) {
@@ -208,7 +209,7 @@ TEST(Rigid, NothingThatHandsDoThrowsItOutOrMakesItNaN) {
 }
 
 TEST(Rigid, AKeyframeHasIt) {
-  const Model m = scene::compile(board());
+  const Model& m = shipped("peg_transfer");
   State s = initial_state(m), shown = initial_state(m);
   ring(s, 2).x = {0.01, 0.08, -0.05};
   ring(s, 2).q = normalised(Quatd{0.5, 0.1, 0.7, -0.2});

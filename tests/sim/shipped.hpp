@@ -1,0 +1,21 @@
+// The shipped scenes as they are, each compiled once for all tests of the folder.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include <trocar/scene/compile/compile.hpp>
+#include <trocar/scene/files/reader.hpp>
+
+namespace trocar {
+
+/// @param name  of its folder in scenes/
+inline const sim::Model& shipped(const std::string& name) {
+  static std::map<std::string, sim::Model> compiled;
+  const auto known = compiled.find(name);
+  if (known != compiled.end()) return known->second;
+  return compiled.emplace(name, scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/" + name + "/scene.json")))
+      .first->second;
+}
+
+}  // namespace trocar
