@@ -227,8 +227,10 @@ TEST_F(StoreTest, AnothersRecordingUnderTheSameNameIsNotTaken) {
   EXPECT_FALSE(store.find(a.uuid)->score.has_value());
 }
 
+constexpr int kShort = 200;  // [ms] of patience, where another's lock does not go away
+
 TEST_F(StoreTest, ALockedDatabaseCostsNothing) {
-  Store store(folder());
+  Store store(folder(), kShort);
   Attempt a = attempt();
   AttemptLock lock = store.begin(a);
   a.trace = {9, 8, 7};
@@ -247,6 +249,26 @@ TEST_F(StoreTest, ALockedDatabaseCostsNothing) {
   EXPECT_EQ(again.find(a.uuid)->score, 87.5);
   EXPECT_EQ(again.find(a.uuid)->trace, a.trace);
   EXPECT_FALSE(fs::exists(kept.file)) << "taken in";
+}
+
+TEST_F(StoreTest, AnotherThatWritesForAMomentIsWaitedFor) {
+  Store store(folder());
+  Attempt a = attempt();
+  AttemptLock lock = store.begin(a);
+  finish(a);
+  Kept kept;
+  {
+    Database other(database(), Database::Access::write);
+    auto all = std::make_unique<Transaction>(other);
+    std::thread moment([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(300));
+      all.reset();
+    });
+    kept = store.end(a, lock);
+    moment.join();
+  }
+  EXPECT_TRUE(kept.in_database);
+  EXPECT_TRUE(store.notices().empty());
 }
 
 TEST_F(StoreTest, AReadOnlyFolderCostsNothingAndCanBeRead) {
@@ -479,7 +501,7 @@ TEST_F(StoreTest, WhatIsForgottenIsNowhereInTheFiles) {
 
 TEST_F(StoreTest, WhatAnotherProgramStillReadsIsForgottenAllTheSameAndSaidToBeInTheFile) {
   Attempt a = attempt();
-  Store store(folder());
+  Store store(folder(), kShort);
   make(store, a);
   a.recording = record(a, 10, kResult).string();
   store.update(a);

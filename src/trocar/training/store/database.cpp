@@ -5,7 +5,6 @@
 namespace trocar::training {
 namespace {
 
-constexpr int kPatience = 5000;               // [ms] for another program that writes
 constexpr int kLargestValue = 128 * 1000000;  // [B] of a text or blob, whoever wrote it
 
 /// A path as SQLite's URI wants it: with what has a meaning there written as %XX.
@@ -38,7 +37,8 @@ void refuse_what_is_no_file(const std::filesystem::path& path) {
 DatabaseFault::DatabaseFault(const std::string& what, int code) : std::runtime_error(what), m_code(code & 0xff) {}
 bool DatabaseFault::damaged() const { return m_code == SQLITE_CORRUPT || m_code == SQLITE_NOTADB; }
 
-Database::Database(const std::filesystem::path& path, Access access) : m_path(path.string()) {
+Database::Database(const std::filesystem::path& path, Access access, int patience)
+    : m_path(path.string()), m_patience(patience) {
   const std::filesystem::path absolute = std::filesystem::absolute(path);
   refuse_what_is_no_file(absolute);
   const bool writes = access == Access::write;
@@ -64,7 +64,7 @@ Database::Database(const std::filesystem::path& path, Access access) : m_path(pa
 bool Database::open(const std::string& uri, int flags) {
   if (sqlite3_open_v2(uri.c_str(), &m_handle, flags | SQLITE_OPEN_URI, nullptr) != SQLITE_OK) return false;
   sqlite3_extended_result_codes(m_handle, 1);
-  sqlite3_busy_timeout(m_handle, kPatience);
+  sqlite3_busy_timeout(m_handle, m_patience);
   sqlite3_limit(m_handle, SQLITE_LIMIT_LENGTH, kLargestValue);
   sqlite3_db_config(m_handle, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
   sqlite3_db_config(m_handle, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);

@@ -36,8 +36,9 @@ class Database {
     write,  ///< made if it is not there
     read,   ///< also from a folder that cannot be written
   };
-  /// Waits up to five seconds for others that write.  @throws DatabaseFault
-  Database(const std::filesystem::path& path, Access access);
+  static constexpr int kPatience = 5000;  ///< [ms]
+  /// @param patience  [ms] it waits at most so long for others that write  @throws DatabaseFault
+  Database(const std::filesystem::path& path, Access access, int patience = kPatience);
   ~Database();
   Database(const Database&) = delete;
   Database& operator=(const Database&) = delete;
@@ -52,6 +53,7 @@ class Database {
 
   sqlite3* m_handle = nullptr;
   std::string m_path;
+  int m_patience;
 };
 
 class Query {

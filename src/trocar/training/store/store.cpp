@@ -17,7 +17,7 @@ std::string whole_reason(const std::string& what, const fs::path& kept) {
 
 }  // namespace
 
-Store::Store(fs::path folder) : m_folder(std::move(folder)) {
+Store::Store(fs::path folder, int patience) : m_folder(std::move(folder)), m_patience(patience) {
   make_own_folder(m_folder);  // names are nobody else's business
   open();
 }
@@ -34,7 +34,7 @@ void Store::notice(const std::string& text) {
 std::string Store::put(Attempt& attempt) {
   for (int round = 0; round < 2; ++round) {
     try {
-      Database db(database(), Database::Access::write);
+      Database db(database(), Database::Access::write, m_patience);
       make_durable(db);
       migrate(db);
       Transaction one(db);
@@ -70,7 +70,7 @@ void Store::update(Attempt& attempt) {
 
 void Store::withdraw(const Attempt& attempt, AttemptLock& lock) {
   try {
-    Database db(database(), Database::Access::write);
+    Database db(database(), Database::Access::write, m_patience);
     make_durable(db);
     Query(db, "DELETE FROM attempt WHERE uuid = ?").bind(attempt.uuid).done();
   } catch (const DatabaseFault& fault) {
@@ -81,7 +81,7 @@ void Store::withdraw(const Attempt& attempt, AttemptLock& lock) {
 
 void Store::recording_moved(const fs::path& from, const fs::path& to) {
   try {
-    Database db(database(), Database::Access::write);
+    Database db(database(), Database::Access::write, m_patience);
     make_durable(db);
     migrate(db);
     Query(db, "UPDATE attempt SET recording = ? WHERE recording = ?")

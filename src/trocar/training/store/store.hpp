@@ -70,7 +70,8 @@ class Store {
  public:
   /// Opens FOLDER/sessions.sqlite (made if need be), brings it up to date, repairs it, takes in results that waited,
   /// and marks as interrupted what runs without a living program.
-  explicit Store(std::filesystem::path folder);
+  /// @param patience  [ms] how long it waits for another program that writes
+  explicit Store(std::filesystem::path folder, int patience = 5000);
   ~Store();
 
   /// A new row, state running; sets number, and uuid where it is empty. Without a database the attempt goes on all the
@@ -125,6 +126,7 @@ class Store {
   std::string put(Attempt& attempt);
 
   std::filesystem::path m_folder;
+  int m_patience;  ///< [ms]
   std::vector<std::string> m_notices;
   bool m_writable = false;
 };

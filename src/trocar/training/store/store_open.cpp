@@ -39,7 +39,7 @@ void Store::open() {
     try {
       std::error_code error;
       const bool fresh = !fs::exists(database(), error);
-      Database db(database(), Database::Access::write);
+      Database db(database(), Database::Access::write, m_patience);
       make_durable(db);
       check(db);
       migrate(db);
@@ -69,7 +69,7 @@ void Store::check(Database& db) {
 
 bool Store::damaged() {
   try {
-    Database db(database(), Database::Access::write);
+    Database db(database(), Database::Access::write, m_patience);
     make_durable(db);
     check(db);
     migrate(db);

@@ -15,7 +15,7 @@ std::vector<Attempt> Store::list(const AttemptFilter& filter) const {
   std::error_code error;
   if (!fs::exists(database(), error)) return out;
   try {
-    Database db(database(), Database::Access::read);
+    Database db(database(), Database::Access::read, m_patience);
     Query q(db, fmt::format("SELECT {}{}WHERE (?1 = '' OR t.name = ?1) AND (?2 = '' OR a.exercise = ?2) "
                             "AND (?3 IS NULL OR a.seed = ?3) AND (?4 IS NULL OR a.mode = ?4) "
                             "ORDER BY a.number DESC LIMIT ?5",
@@ -61,7 +61,7 @@ std::optional<Attempt> Store::find(const std::string& name) const {
   std::error_code error;
   if (name.empty() || !fs::exists(database(), error)) return std::nullopt;
   try {
-    Database db(database(), Database::Access::read);
+    Database db(database(), Database::Access::read, m_patience);
     std::optional<Attempt> a = find_row(db, name);
     if (!a) return std::nullopt;
     Query t(db, "SELECT samples FROM trace WHERE attempt = ?");
@@ -78,7 +78,7 @@ std::vector<std::string> Store::trainees() const {
   std::error_code error;
   if (!fs::exists(database(), error)) return out;
   try {
-    Database db(database(), Database::Access::read);
+    Database db(database(), Database::Access::read, m_patience);
     Query q(db,
             "SELECT t.name FROM attempt a JOIN trainee t ON t.id = a.trainee GROUP BY t.id "
             "ORDER BY max(a.number) DESC");
@@ -112,7 +112,7 @@ Store::Forgotten Store::forget(const std::string& trainee) {
     if (!a.recording.empty()) recordings.push_back(a.recording);
   }
   try {
-    Database db(database(), Database::Access::write);
+    Database db(database(), Database::Access::write, m_patience);
     make_durable(db);
     migrate(db);
     {

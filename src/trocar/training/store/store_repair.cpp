@@ -26,7 +26,7 @@ void Store::repair(const std::string& what) {
   for (const char* tail : {"-wal", "-shm"}) fs::rename(database().string() + tail, aside.string() + tail, error);
   notice(fmt::format("the session store was damaged ({}): it is set aside as {} and built anew", what, aside.string()));
   try {
-    Database db(database(), Database::Access::write);
+    Database db(database(), Database::Access::write, m_patience);
     make_durable(db);
     migrate(db);
     salvage(db, aside);
