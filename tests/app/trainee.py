@@ -145,6 +145,7 @@ def xdo(*words):
 class MouseAndKeys:
     """Screens by mouse and keys, instruments by mouse and keys."""
     name = "mouse and keys"
+    stride_mm = 12.0  # the endoscope along its shaft before one looks again: as many notches as a finger turns at once
 
     def __init__(self, eyes):
         self.eyes, self.locked = eyes, False
@@ -201,8 +202,9 @@ class MouseAndKeys:
             time.sleep(0.15)
             xdo("keyup", "shift")
 
-    def look(self, right, up):
+    def look(self, right, up, inwards=0.0):
         xdo("mousemove_relative", "--", round(right / VIEW_PER_PIXEL), round(-up / VIEW_PER_PIXEL))
+        self.inwards(inwards)
 
     def turn_post(self, angle):
         """The light post of the endoscope, which is led."""
@@ -258,6 +260,7 @@ class MouseAndKeys:
 class Pad:
     """The same by a gamepad alone. One line a picture is read, so every press lasts at least one picture."""
     name = "gamepad"
+    stride_mm = 30.0
 
     def __init__(self, eyes, pipe):
         self.eyes, self.pipe = eyes, open(pipe, "w", buffering=1, encoding="utf-8")
@@ -342,13 +345,16 @@ class Pad:
         return 0.0 if share < 1e-4 else 0.12 + 0.88 * math.sqrt(min(1.0, share))
 
     def push(self, most, slow, **ways):
-        """Sticks by these ways, each of a full speed of `most`: for short ways gently, for a third of a second at least."""
-        longest = max(abs(w) for w in ways.values())
-        if longest < 1e-3 * slow:
+        """Sticks by these ways, each of a full speed of `most`."""
+        self.push_each({axis: (way, most, slow) for axis, way in ways.items()})
+
+    def push_each(self, ways):
+        """Sticks by (way, full speed, short way) each: for short ways gently, for a third of a second at least."""
+        if all(abs(way) < 1e-3 * slow for way, _, slow in ways.values()):
             return
-        seconds = max(0.35, longest / most, 0.7 * min(1.0, longest / slow))
+        seconds = max(max(0.35, abs(way) / most, 0.7 * min(1.0, abs(way) / slow)) for way, most, slow in ways.values())
         self.hold(seconds, **{axis: math.copysign(self.tilt(abs(way) / (most * seconds)), way)
-                              for axis, way in ways.items()})
+                              for axis, (way, most, _) in ways.items()})
 
     def tip(self, right, up, inwards):
         self.push(STICK_SPEED, FAR, lx=right, ly=-up, ry=-inwards)
@@ -356,8 +362,9 @@ class Pad:
     def inwards(self, metres):
         self.push(STICK_SPEED, FAR, ry=-metres)
 
-    def look(self, right, up):
-        self.push(STICK_VIEW, 0.1, lx=right, ly=-up)
+    def look(self, right, up, inwards=0.0):
+        """Both sticks at once: a push lasts as long for two ways as for one."""
+        self.push_each({"lx": (right, STICK_VIEW, 0.1), "ly": (-up, STICK_VIEW, 0.1), "ry": (-inwards, STICK_SPEED, FAR)})
 
     def turn_post(self, angle):
         self.hold(angle / POST_SPEED, rt=1.0)
@@ -458,9 +465,9 @@ class Trainee:
             if max(abs(right), abs(up)) < 0.04 and abs(further) < 5:
                 return
             self.lead("scope")
-            self.hands.look(right, up)
-            if max(abs(right), abs(up)) < 0.3 and abs(further) > 3:
-                self.hands.inwards(1e-3 * max(-12.0, min(12.0, further)))
+            stride = max(-self.hands.stride_mm, min(self.hands.stride_mm, further))
+            goes = max(abs(right), abs(up)) < 0.3 and abs(further) > 3
+            self.hands.look(right, up, 1e-3 * stride if goes else 0.0)
             self.settled()
 
     def move(self, goal, tolerance_mm, what, limit=120):
