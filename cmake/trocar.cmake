@@ -106,7 +106,8 @@ endfunction()
 
 # Entries of ctest for an executable of GoogleTest cases: one for all of them, so that what they share (a compiled scene)
 # is made once; or, where that takes long, SHARDS that run beside each other. Results go to test-results/ENTRY.json.
-function(trocar_test_entries target name label shards)
+# SECONDS is about how long it takes: the longest begin first, so that none is left to run alone at the end.
+function(trocar_test_entries target name label shards seconds_about)
   set(seconds 1800)
   if("${label}" STREQUAL "soak")  # unquoted, soak would be the list of files of that name
     set(seconds 3600)
@@ -121,7 +122,8 @@ function(trocar_test_entries target name label shards)
     set(environment GTEST_BRIEF=1 GTEST_OUTPUT=json:${PROJECT_BINARY_DIR}/test-results/${entry}.json
                     GTEST_TOTAL_SHARDS=${shards} GTEST_SHARD_INDEX=${index} TROCAR_TEST_SECONDS=${seconds})
     math(EXPR killed "${seconds} + 60")
-    set_tests_properties(${entry} PROPERTIES LABELS ${label} TIMEOUT ${killed} ENVIRONMENT "${environment}")
+    set_tests_properties(${entry} PROPERTIES LABELS ${label} TIMEOUT ${killed} COST ${seconds_about}
+                                               ENVIRONMENT "${environment}")
   endforeach()
   set_property(GLOBAL APPEND PROPERTY TROCAR_TEST_TARGETS ${target})
 endfunction()
@@ -136,15 +138,16 @@ function(trocar_test_executable target sources depends libs)
   target_compile_definitions(${target} PRIVATE TROCAR_SOURCE_DIR="." TROCAR_BINARY_DIR="${built}")
 endfunction()
 
-# trocar_test(NAME [GROUPED] DEPENDS module... [LIBS target...] [LABEL unit|scene] [SHARDS n] [SOAK_SHARDS n]):
+# trocar_test(NAME [GROUPED] DEPENDS module... [LIBS target...] [LABEL unit|scene] [SHARDS n] [SOAK_SHARDS n]
+#             [SECONDS n]):
 #   tests/NAME/*_test.cpp -> NAME_test, entry NAME (NAME.1, NAME.2, ... of several shards) under LABEL
 #   tests/NAME/*_soak.cpp -> NAME_soak, entry NAME_soak under soak
 function(trocar_test name)
-  cmake_parse_arguments(arg "GROUPED" "LABEL;SHARDS;SOAK_SHARDS" "DEPENDS;LIBS" ${ARGN})
+  cmake_parse_arguments(arg "GROUPED" "LABEL;SHARDS;SOAK_SHARDS;SECONDS" "DEPENDS;LIBS" ${ARGN})
   list(TRANSFORM arg_DEPENDS PREPEND trocar_)
   file(GLOB quick CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
   file(GLOB soak CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_soak.cpp)
-  foreach(given LABEL=unit SHARDS=1 SOAK_SHARDS=1)
+  foreach(given LABEL=unit SHARDS=1 SOAK_SHARDS=1 SECONDS=1)
     string(REPLACE "=" ";" given ${given})
     list(GET given 0 key)
     if(NOT arg_${key})
@@ -159,11 +162,11 @@ function(trocar_test name)
         target_compile_options(${name}_test PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
       endif()
     endif()
-    trocar_test_entries(${name}_test ${name} ${arg_LABEL} ${arg_SHARDS})
+    trocar_test_entries(${name}_test ${name} ${arg_LABEL} ${arg_SHARDS} ${arg_SECONDS})
   endif()
   if(soak)
     trocar_test_executable(${name}_soak "${soak}" "${arg_DEPENDS}" "${arg_LIBS}")
-    trocar_test_entries(${name}_soak ${name}_soak soak ${arg_SOAK_SHARDS})
+    trocar_test_entries(${name}_soak ${name}_soak soak ${arg_SOAK_SHARDS} 1)
   endif()
 endfunction()
 
