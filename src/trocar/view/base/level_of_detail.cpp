@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <mutex>
+#include <unordered_map>
 
+#include <trocar/core/hash.hpp>
 #include <trocar/geometry/surfaces/coarsen.hpp>
 #include <trocar/numerics/portable.hpp>
 #include <trocar/view/base/level_of_detail.hpp>
@@ -16,6 +19,40 @@ constexpr std::size_t kLooks = 96;      // points of a thing whose distance is l
 constexpr float kPaintLength = 1e-3f;   // [m] that a change of paint from none to all counts
 constexpr float kDetailMargin = 0.25f;  // [rad] beside the picture
 constexpr std::uint32_t kLeastSides = 4;
+constexpr std::size_t kMostKept = 256;  // meshes: of a scene or two
+
+using Lists = std::vector<std::vector<std::uint32_t>>;
+
+/// All that coarser lists depend on.
+struct Uncoarsened {
+  std::vector<Vec3f> positions, notes;
+  std::vector<std::uint32_t> indices;
+  std::vector<double> errors;
+  double longest_edge = 0;
+
+  bool operator==(const Uncoarsened&) const = default;
+  std::uint64_t hash() const {
+    const auto of = [](const auto& list, std::uint64_t seed) {
+      return core::hash_bytes(list.data(), list.size() * sizeof list[0], seed);
+    };
+    return of(indices, of(notes, of(positions, 0)));
+  }
+};
+
+/// Half of the time that a scene takes to be prepared for drawing goes into coarsening, and who tries an exercise again
+/// has the same meshes: what was made once is kept.
+Lists kept_or_coarsened(Uncoarsened mesh) {
+  static std::mutex mutex;
+  static std::unordered_map<std::uint64_t, std::pair<Uncoarsened, Lists>> kept;
+  const std::lock_guard lock(mutex);
+  const std::uint64_t hash = mesh.hash();
+  const auto known = kept.find(hash);
+  if (known != kept.end() && known->second.first == mesh) return known->second.second;
+  if (kept.size() >= kMostKept) kept.clear();
+  Lists lists = geometry::coarsened(mesh.positions, mesh.indices, mesh.notes, mesh.errors, mesh.longest_edge);
+  kept.insert_or_assign(hash, std::pair(std::move(mesh), lists));
+  return lists;
+}
 
 }  // namespace
 
@@ -60,12 +97,12 @@ std::vector<std::vector<std::uint32_t>> coarser_lists(std::span<const Vec3f> pos
                                                       std::span<const Paint> paint, const Detail& detail,
                                                       double longest_edge) {
   if (detail.levels().empty()) return {};
-  std::vector<Vec3f> notes;
+  Uncoarsened mesh{{positions.begin(), positions.end()}, {}, {indices.begin(), indices.end()}, {}, longest_edge};
   for (const Paint& p : paint)
-    notes.push_back((kPaintLength / 255) * Vec3f{float(p.openness), float(p.tint), float(p.blood) + float(p.burn)});
-  std::vector<double> errors;
-  for (const sim::DetailLevel& level : detail.levels()) errors.push_back(level.error);
-  return geometry::coarsened(positions, indices, notes, errors, longest_edge);
+    mesh.notes.push_back((kPaintLength / 255) *
+                         Vec3f{float(p.openness), float(p.tint), float(p.blood) + float(p.burn)});
+  for (const sim::DetailLevel& level : detail.levels()) mesh.errors.push_back(level.error);
+  return kept_or_coarsened(std::move(mesh));
 }
 
 void coarsen(MeshBuffer& mesh, const Detail& detail, double longest_edge) {
