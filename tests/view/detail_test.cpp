@@ -49,6 +49,41 @@ TEST(Detail, WithoutLevelsEverythingIsThere) {
   EXPECT_EQ(detail.surface(0), 2);
 }
 
+/// A flat square of 20 x 20 places 1 mm apart.
+struct Square {
+  std::vector<Vec3f> positions;
+  std::vector<std::uint32_t> indices;
+  std::vector<Paint> paint = std::vector<Paint>(400);
+  Square() {
+    for (std::uint32_t i = 0; i < 400; ++i) positions.push_back({0.001f * float(i % 20), 0.001f * float(i / 20), 0});
+    for (std::uint32_t j = 0; j < 19; ++j)
+      for (std::uint32_t i = 0; i < 19; ++i) {
+        const std::uint32_t a = 20 * j + i;
+        indices.insert(indices.end(), {a, a + 1, a + 20, a + 1, a + 21, a + 20});
+      }
+  }
+  std::vector<std::vector<std::uint32_t>> coarser(const Detail& detail, double longest = 0.01) const {
+    return coarser_lists(positions, indices, paint, detail, longest);
+  }
+};
+
+TEST(Detail, WhatWasCoarsenedBeforeIsNotTakenForAnother) {
+  const Detail two = two_levels(), finer({{0.05, 0.00001, 2}});
+  Square square;
+  const auto first = square.coarser(two);
+  ASSERT_EQ(first.size(), 2u);
+  EXPECT_LT(first[0].size(), square.indices.size() / 2);
+  EXPECT_EQ(square.coarser(two), first) << "again";
+  EXPECT_EQ(square.coarser(finer).size(), 1u);
+  EXPECT_GT(square.coarser(two, 0.002)[0].size(), first[0].size()) << "shorter edges";
+  for (std::size_t i = 0; i < 400; i += 2) square.paint[i].tint = 255;
+  EXPECT_GT(square.coarser(two)[0].size(), first[0].size()) << "painted";
+  square.paint = Square().paint;
+  for (std::size_t i = 0; i < 400; i += 2) square.positions[i].z = 0.003f;
+  EXPECT_GT(square.coarser(two)[0].size(), first[0].size()) << "rough";
+  EXPECT_EQ(Square().coarser(two), first);
+}
+
 TEST(DetailEye, AThingChangesAtTheSameSizeInPixels) {
   render::Camera camera;
   camera.vertical_fov = float(70 * std::numbers::pi / 180);
