@@ -106,8 +106,10 @@ void leave_the_pool(Plan& plan) {
   keep_hands_still_at_the_end(plan);
 }
 
-/// Looks on until so much has run out, or for so long.
+/// Looks on until so much has run out, or for so long. The pool is left: who clears so large a one has to go at it twice,
+/// and moves out of view meanwhile (E4.1).
 void wait(Plan& plan, double volume, double seconds = 0) {
+  leave_the_pool(plan);
   flaws::replace(first_look(plan), [volume, seconds](Operator& op, double now) {
     return lost(op.model(), op.state()) > volume && now > seconds ? Progress::done : Progress::working;
   });
@@ -187,7 +189,11 @@ const Case kCases[] = {
        burn(p, {burn_at_bleeding(2), burn_at_tube(m, 0)});
      },
      kNearWall},
-    {"E8", [](const sim::Model&, Plan& p) { burn(p, {burn_at_bleeding(8)}); }},
+    {"E8",
+     [](const sim::Model&, Plan& p) {
+       burn(p, {burn_at_bleeding(8)});
+       leave_the_pool(p);
+     }},
     {"E9.1", [](const sim::Model&, Plan& p) { wait(p, 10.5e-6); }},
     {"E9.2", [](const sim::Model&, Plan& p) { wait(p, 52.5e-6); }},
     {"E9.3", [](const sim::Model&, Plan& p) { wait(p, 0, 68); }},

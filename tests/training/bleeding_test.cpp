@@ -402,6 +402,26 @@ TEST(EnergyWatch, AHotTipMayTouchWhatCarriesTheArteryAndNothingElseForLong) {
   EXPECT_EQ(e.count("E7.2"), 2);
 }
 
+TEST(EnergyWatch, WhatWasBurntIsTouchedAnewOnlyOnceTheTipHasLeftIt) {
+  Electrode e;
+  const BodyId tube = sim::body_of(e.model, "tube_left");
+  const auto touch = [&e](BodyId body, double seconds) {
+    e.hand.current.now = {};
+    e.hand.current.now.hot_touch = 1;
+    e.hand.body = body;
+    for (int t = 0; t < int(seconds * 1000 + 0.5); ++t) ++e.state.tick, e.monitor.update(e.model, e.state, {});
+  };
+  e.press(0.5, true, tube);
+  touch(tube, 1);  // the pedal is up, and the tip still there
+  EXPECT_EQ(e.count("E7"), 1);
+  EXPECT_EQ(e.count("E7.2"), 0) << "told by what the current did";
+  touch(sim::body_of(e.model, "uterus"), 0.2);
+  EXPECT_EQ(e.count("E7.2"), 1) << "another one";
+  for (int t = 0; t < 500; ++t) e.release();
+  touch(tube, 0.2);
+  EXPECT_EQ(e.count("E7.2"), 2) << "back again, still hot";
+}
+
 TEST(EnergyWatch, TissueMayDieSoFarFromTheElectrode) {
   const auto told = [](double beyond) {
     Electrode e;

@@ -40,7 +40,12 @@ void EnergyWatch::update(const EnergyLimits& limits, const sim::Model& model, co
 
 void EnergyWatch::judge_touch(int hand, const sim::ElectrodeHand& electrode, Mishaps& out) {
   HotTip& tip = m_hot[size_t(hand)];
-  const bool touches = electrode.current.now.hot_touch && electrode.body.exists() && !has(m_targets, electrode.body);
+  const bool hot = electrode.current.now.hot_touch && electrode.body.exists();
+  const bool flows = electrode.current.now.flows;
+  if (flows) tip.treated = electrode.body;
+  tip.left_for = flows || (hot && electrode.body == tip.treated) ? 0 : tip.left_for + sim::kTick;
+  if (tip.left_for >= kHotApart) tip.treated = {};
+  const bool touches = hot && electrode.body != tip.treated && !has(m_targets, electrode.body);
   tip.touches_for = touches ? tip.touches_for + sim::kTick : 0;
   tip.away_for = touches ? 0 : tip.away_for + sim::kTick;
   if (tip.away_for >= kHotApart) tip.told = false;

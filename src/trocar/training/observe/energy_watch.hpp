@@ -32,10 +32,13 @@ class EnergyWatch {
     double idle_for = 0;  ///< [s]
     bool told_idle = false, told_place = false;
   };
-  /// A tip that is hot: for how long it has touched, and since when it has not [s].
+  /// A tip that is hot: for how long it has touched, and since when it has not [s]. What current has just gone through
+  /// is judged by that: not until the tip has left it is it touched anew.
   struct HotTip {
     double touches_for = 0, away_for = 0;
     bool told = false;
+    BodyId treated;
+    double left_for = 0;  ///< that body [s]
   };
   /// A body that was treated: where, and how far from there it may die.
   struct Heated {
