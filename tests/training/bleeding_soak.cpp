@@ -106,8 +106,8 @@ void leave_the_pool(Plan& plan) {
   keep_hands_still_at_the_end(plan);
 }
 
-/// Looks on until so much has run out, or for so long. The pool is left: who clears so large a one has to go at it twice,
-/// and moves out of view meanwhile (E4.1).
+/// Looks on until so much has run out, or for so long. The pool is left: who clears so large a one has to go at it
+/// twice, and moves out of view meanwhile (E4.1).
 void wait(Plan& plan, double volume, double seconds = 0) {
   leave_the_pool(plan);
   flaws::replace(first_look(plan), [volume, seconds](Operator& op, double now) {
