@@ -19,6 +19,13 @@ class Running : public testing::EmptyTestEventListener {
   }
 };
 
+/// GoogleTest's results have no words for why a case was skipped: they become a property of it (tools/test_summary.py).
+class Skips : public testing::EmptyTestEventListener {
+  void OnTestPartResult(const testing::TestPartResult& result) override {
+    if (result.skipped()) testing::Test::RecordProperty("why", result.message());
+  }
+};
+
 /// Only what a signal handler may do.
 void say(const char* text) {
   std::size_t length = 0;
@@ -49,6 +56,7 @@ int main(int argc, char** argv) {
   std::filesystem::current_path(TROCAR_CHECKOUT);  // first: parameters of cases are read when GoogleTest begins
   testing::InitGoogleTest(&argc, argv);
   testing::UnitTest::GetInstance()->listeners().Append(new Running);
+  testing::UnitTest::GetInstance()->listeners().Append(new Skips);
   name_what_dies();
   return RUN_ALL_TESTS();
 }

@@ -31,7 +31,7 @@ def cases_of(path):
             if case.get("failures"):
                 yield name, "failed", ""
             elif case.get("result") == "SKIPPED":
-                yield name, "skipped", reason_of(" ".join(s.get("message", "") for s in case.get("skipped", [])))
+                yield name, "skipped", reason_of(case.get("why", ""))
             elif case.get("status") == "RUN":
                 yield name, "passed", ""
 
