@@ -216,6 +216,18 @@ inline const sim::Model& bare() {
   return compiled;
 }
 
+/// The same with organs that answer at once: the organ held rigidly, the pad on springs, and the bar, which hands
+/// itself over when it is cut.
+inline scene::Description static_description() {
+  scene::Description d = description();
+  for (scene::Solid& s : d.solids) s.solver = scene::Solver::elastostatic;
+  return d;
+}
+inline const sim::Model& statics() {
+  static const sim::Model compiled = scene::compile(static_description());
+  return compiled;
+}
+
 /// Hands that do the whole work in six seconds, faster than anybody should: they look at the State like a surgeon.
 class Hands {
  public:

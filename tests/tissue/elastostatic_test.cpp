@@ -51,7 +51,8 @@ struct Block {
       for (int i = 0; i < kFrameFields; ++i)
         append(answer({loads.begin() + i * 3 * n, loads.begin() + (i + 1) * 3 * n}), fields);
     }
-    model = make_elastostatic(d.positions, network.row_of_node, network.origin, kept, c, fields, d.gravity, 1e-3);
+    model = make_elastostatic({d.positions, d.fixed, network.row_of_node, network.origin, d.gravity}, kept, c, fields,
+                              1e-3);
     rows = tissue::rest_state(network).nodes;
     state = tissue::rest_state(model);
     work = make_work(model, 512);

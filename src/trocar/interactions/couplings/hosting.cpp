@@ -86,7 +86,7 @@ void host_loads(const HostPatch& patch, const tissue::StrandReaction& reaction, 
     load.d = float(d);
     const Vec3d v = counted_on(nodes.velocity(patch.node[i]));
     load.f0 = vec_cast<float>(share * (reaction.force - patch.drawn_pull) + d * v);
-    loads.add(load, {Owner::strand_end, strand, 0});
+    loads.add(load, {Owner::strand_end, strand, 0}, i > 0);
   }
 }
 

@@ -22,6 +22,7 @@ void NetworkLoads::reserve(std::size_t capacity) {
   gathered.reserve(capacity);
   sorted.reserve(capacity);
   tag.reserve(capacity);
+  point.reserve(capacity);
   order.reserve(capacity);
   owner.reserve(capacity);
   reaction.reserve(capacity);
@@ -30,16 +31,24 @@ void NetworkLoads::reserve(std::size_t capacity) {
 void NetworkLoads::clear() noexcept {
   gathered.clear();
   tag.clear();
+  point.clear();
   overflowed = false;
 }
 
-void NetworkLoads::add(const tissue::NodeLoad& load, Tag t) noexcept {
+void NetworkLoads::add(const tissue::NodeLoad& load, Tag t, bool share) noexcept {
   if (gathered.size() == gathered.capacity()) {
     overflowed = true;
     return;
   }
   gathered.push_back(load);
   tag.push_back(t);
+  point.push_back(share && !point.empty() ? point.back() : std::int32_t(point.size()));
+}
+
+void NetworkLoads::keep_order() noexcept {
+  sorted.assign(gathered.begin(), gathered.end());
+  owner.assign(tag.begin(), tag.end());
+  reaction.assign(sorted.size(), Vec3f{});
 }
 
 void NetworkLoads::sort() noexcept {
@@ -99,6 +108,7 @@ void add_skin_load(const tissue::NodeView& nodes, const tissue::Skin& skin, int 
                    NetworkLoads& loads, float least) noexcept {
   const tissue::SkinWeights& w = skin.weights[std::size_t(vertex)];
   const Vec3f origin = vec_cast<float>(nodes.origin);
+  bool another = false;
   for (std::size_t j = 0; j < 8; ++j) {
     const float share = w.weight[j];
     if (share < least) continue;
@@ -110,7 +120,8 @@ void add_skin_load(const tissue::NodeView& nodes, const tissue::Skin& skin, int 
     node.x0 = Vec3f{n.x, n.y, n.z} + origin + vec_cast<float>(load.shift);
     node.dir = vec_cast<float>(load.dir);
     node.d = share * float(load.d);
-    loads.add(node, tag);
+    loads.add(node, tag, another);
+    another = true;
   }
 }
 

@@ -24,6 +24,7 @@ struct Tag {
 struct NetworkLoads {
   std::vector<tissue::NodeLoad> gathered, sorted;
   std::vector<Tag> tag;
+  std::vector<std::int32_t> point;   ///< of gathered[i]: loads with the same number are shares of one point's load
   std::vector<std::uint64_t> order;  ///< node << 32 | place in gathered, ascending
   std::vector<Tag> owner;            ///< of sorted[i]; anchors and strand ends on one node are one load: nobody asks
   std::vector<Vec3f> reaction;       ///< of sorted[i]
@@ -31,14 +32,16 @@ struct NetworkLoads {
 
   void reserve(std::size_t capacity);
   void clear() noexcept;
-  void add(const tissue::NodeLoad& load, Tag t) noexcept;
+  /// @param share  it is a share of the same point's load as the one before it
+  void add(const tissue::NodeLoad& load, Tag t, bool share = false) noexcept;
   void sort() noexcept;
+  void keep_order() noexcept;     ///< instead, for bodies that take points: `sorted` is what was gathered
   bool handled() const noexcept;  ///< an instrument touches or holds it
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("gathered", s.gathered), v("sorted", s.sorted), v("tag", s.tag), v("order", s.order), v("owner", s.owner),
-        v("reaction", s.reaction), v("overflowed", s.overflowed);
+    v("gathered", s.gathered), v("sorted", s.sorted), v("tag", s.tag), v("point", s.point), v("order", s.order),
+        v("owner", s.owner), v("reaction", s.reaction), v("overflowed", s.overflowed);
   }
 };
 

@@ -6,6 +6,7 @@
 #include <trocar/scene/compile/compile.hpp>
 #include <trocar/scene/compile/compile_contacts.hpp>
 #include <trocar/scene/compile/compile_doubts.hpp>
+#include <trocar/scene/compile/compile_elastostatic.hpp>
 #include <trocar/scene/compile/compile_energy.hpp>
 #include <trocar/scene/compile/compile_fluids.hpp>
 #include <trocar/scene/compile/compile_hands.hpp>
@@ -19,6 +20,7 @@
 #include <trocar/scene/description/capacity.hpp>
 #include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/stages/containing.hpp>
+#include <trocar/tissue/elastostatic/drawn_springs.hpp>
 
 namespace trocar::scene {
 namespace {
@@ -52,13 +54,7 @@ interactions::HostPatch patch_on(const sim::Model& model, int organ, Vec3d at) {
   }
   const sim::CuttableOrgan& c = sim::cuttable_of(model, organ);
   const size_t nodes = size_t(c.body.own_nodes);
-  std::vector<double> mass(nodes, 0.0);
-  for (const geometry::Tet& cell : c.body.drawn.cells) {
-    const auto x = [&](size_t k) { return c.body.drawn.rest[size_t(cell[k])]; };
-    const double quarter = c.body.density / 24 * dot(x(1) - x(0), cross(x(2) - x(0), x(3) - x(0)));
-    for (const std::int32_t node : cell) mass[size_t(node)] += quarter;
-  }
-  return interactions::make_patch({c.body.drawn.rest.data(), nodes}, mass, at, reach(c.cell));
+  return interactions::make_patch({c.body.drawn.rest.data(), nodes}, tissue::drawn_masses(c.body), at, reach(c.cell));
 }
 
 sim::StrandEndModel compile_end(const StrandEnd& end, Vec3d at, const sim::Model& model, Faults& faults) {
@@ -251,6 +247,8 @@ sim::Model compile(const Description& d, CompileReport* report) {
   compile_motion(d, model, faults);
   compile_marks(d, model, faults);
   compile_hands(d, model, faults);
+  if (!faults.empty()) throw core::BadInput(faults);
+  compile_elastostatic(d, model, faults, report);
   if (!faults.empty()) throw core::BadInput(faults);
   compile_contacts(model);
   compile_targets(model);

@@ -27,8 +27,22 @@ struct BodyReport {
   double residual = 0;           ///< unbalanced force left in the drawn shape [N]
   double prestrain = 0;          ///< largest strain that the prestress put in
 };
+/// What an organ that answers at once was made with.
+struct ComplianceReport {
+  std::string organ;
+  int nodes = 0, kept = 0;  ///< all; those with a compliance
+  double bytes = 0;         ///< of what is kept in memory and on disk
+  double most_bytes = 0;    ///< that making it takes, roughly
+  double seconds = 0;       ///< that making or reading it took
+  bool computed = false;    ///< else it was in the cache
+  std::string file;         ///< in the cache; empty: it could not be kept there
+  std::string note;         ///< what was wrong with the cache
+};
 struct CompileReport {
   std::vector<BodyReport> bodies;
+  std::vector<ComplianceReport> compliances;
+  /// Told of what takes long: which organ, and the share that is done, 0 to 1. From the compiling thread; may be empty.
+  std::function<void(const std::string& organ, double share)> said;
   std::vector<core::Fault> doubts;  ///< what can be built and is hardly meant: see compile_doubts.hpp
 };
 

@@ -75,6 +75,13 @@ struct TetSource {
   std::vector<std::string> doubts;  ///< what was mended, and what has several ways to be
 };
 
+/// How an organ is solved: step by step (its spring network), or at once (tissue/elastostatic).
+enum class Solver { dynamic_network, elastostatic };
+/// What the elastostatic solver's stiffness is made of.
+enum class Elasticity { springs, tetrahedra };
+/// What an elastostatic organ does that has turned further than its solver is good for.
+enum class BeyondLinear { warn, hand_over };
+
 /// A volumetric organ: a spline loft or tetrahedra from a file. A loft is filled with an elastic lattice of cubic
 /// cells, or with tetrahedra where it can be cut.
 struct Solid {
@@ -88,7 +95,13 @@ struct Solid {
   double skin_edge = 0;    ///< contact skin's edge length [m]
   double fine_edge = 0;    ///< drawn skin's edge length [m]
   std::vector<Anchor> anchors;
-  core::Location at, cell_at;
+  Solver solver = Solver::dynamic_network;
+  Elasticity elasticity = Elasticity::springs;
+  double beyond_angle = portable::pi / 18;  ///< turn of the whole organ [rad]
+  BeyondLinear beyond = BeyondLinear::warn;
+  core::Location at, cell_at, solver_at;
+
+  bool answers_at_once() const { return solver == Solver::elastostatic; }
 };
 
 struct StrandStation {

@@ -97,6 +97,9 @@ void check_shape(const JsonObject& o, const Solid& s) {
     if (o.names(key) && lattice)
       o.fault(key, "expected fibres in tetrahedra only (mesh, voxels or cuttable), got some in a lattice");
   if (o.names("fibre") && !(length(s.fibre) > 1e-6)) o.fault("fibre", "expected a direction, got none");
+  for (const char* key : {"elasticity", "beyond_deg", "beyond"})
+    if (o.names(key) && !s.answers_at_once())
+      o.fault(key, "expected \"solver\": \"static\" beside it, got an organ that is solved step by step");
   for (const char* key : {"skin_edge_mm", "fine_edge_mm"})
     if (o.names(key) && !lattice)
       o.fault(key, "expected skin edges for a lattice only, got one for tetrahedra, whose faces are the skin");
@@ -217,7 +220,21 @@ const Table<Solid>& solid() {
        R::number("fine_edge_mm", units::mm, &Solid::fine_edge, 0.1, 100,
                  "edge of the drawn skin's triangles, default: half of skin_edge_mm")
            .only(of_lattice),
-       R::objects("anchors", anchor, &Solid::anchors, 0, "what holds it")},
+       R::objects("anchors", anchor, &Solid::anchors, 0, "what holds it"),
+       R::choice("solver", Choices<Solver>{{"dynamic", Solver::dynamic_network}, {"static", Solver::elastostatic}},
+                 &Solid::solver,
+                 "dynamic: springs and masses, step by step; static: linear elastostatics, which answers at once and "
+                 "knows no inertia; default {}")
+           .placed(&Solid::solver_at),
+       R::choice("elasticity",
+                 Choices<Elasticity>{{"springs", Elasticity::springs}, {"tetrahedra", Elasticity::tetrahedra}},
+                 &Solid::elasticity,
+                 "of a static solver: of the organ's springs, as the dynamic one has them, or of linear tetrahedra; "
+                 "default {}"),
+       R::number("beyond_deg", units::deg, &Solid::beyond_angle, 0.1, 180,
+                 "of a static solver: turn of the whole organ that is too much for it, default {}"),
+       R::choice("beyond", Choices<BeyondLinear>{{"warn", BeyondLinear::warn}, {"hand_over", BeyondLinear::hand_over}},
+                 &Solid::beyond, "what it does then: say so, or go over to the dynamic solver for good; default {}")},
       check_solid};
   return table;
 }

@@ -4,6 +4,7 @@
 #include <trocar/sim/bodies/containment.hpp>
 #include <trocar/sim/bodies/cuttable.hpp>
 #include <trocar/sim/bodies/hanging.hpp>
+#include <trocar/sim/bodies/static_organ.hpp>
 #include <trocar/sim/bodies/turns.hpp>
 #include <trocar/tissue/failure/overstretch.hpp>
 
@@ -24,6 +25,7 @@ void pose_again(StepContext& c, CuttableRef r) noexcept {
 void hang(StepContext& c, CuttableRef r) noexcept {
   interactions::NetworkLoads& loads = c.work.organ_loads[r.organ()];
   loads.clear();
+  if (answers_at_once(c, r.organ())) return;  // the springs that hang it are in its compliance
   hang(model_of(c.model, r).body.anchors, r.organ(), carried(c, r), loads);
 }
 
@@ -50,15 +52,23 @@ std::span<const std::uint8_t> folded_of(StepContext& c, CuttableRef r) noexcept 
 }
 
 void advance(StepContext& c, CuttableRef r) noexcept {
+  if (advance_at_once(c, r)) return;
   interactions::NetworkLoads& loads = c.work.organ_loads[r.organ()];
   loads.sort();
   carry_held_nodes(c, r);
+  before_network(c, r);
   const tissue::Hands hands = loads.handled() ? tissue::Hands::on : tissue::Hands::off;
-  c.work.organ_reports[r.organ()] =
-      tissue::advance(model_of(c.model, r).body, loads.sorted, loads.reaction, c.state.cuttables[r.index],
-                      c.work.cuttable_work[r.index], hands);
+  c.work.organ_reports[r.organ()] = tissue::advance(model_of(c.model, r).body, loads.sorted, loads.reaction,
+                                                    c.state.cuttables[r.index], c.work.cuttable_work[r.index], hands);
+  after_network(c, r);
   settle_held_nodes(c, r);
-  carry_along(c, {r.id(), c.work.surfaces[r.organ()], {}, c.work.cuttable_work[r.index].fixed, 0, nullptr, 0,
+  carry_along(c, {r.id(),
+                  c.work.surfaces[r.organ()],
+                  {},
+                  c.work.cuttable_work[r.index].fixed,
+                  0,
+                  nullptr,
+                  0,
                   c.state.cuttables[r.index].nodes});
 }
 
@@ -70,8 +80,10 @@ void contain(StepContext& c, CuttableRef r) noexcept {
 double wire_cut(const Model& m, CuttableRef r) noexcept { return 0.6 * model_of(m, r).cell; }
 
 Parting cut(StepContext& c, CuttableRef r, const geometry::Blade& blade) noexcept {
+  place_inner_nodes(c, r);
   const geometry::CutResult book =
       tissue::cut(model_of(c.model, r).body, blade, c.state.cuttables[r.index], c.work.cuttable_work[r.index]);
+  if (book.snapped + book.parted > 0) hand_over(c, r);
   if (book.full) c.report.flags |= StepReport::kBookFull;
   return {book.parted > 0, blade, -1, book.snapped + book.parted};
 }
@@ -81,10 +93,14 @@ bool can_tear(const Model& m, CuttableRef r) noexcept { return model_of(m, r).fa
 Parting tear(StepContext& c, CuttableRef r) noexcept {
   const CuttableOrgan& organ = model_of(c.model, r);
   std::vector<std::uint8_t>& counters = c.state.overstretched_organs[r.organ()];
+  place_inner_nodes(c, r);
   const tissue::Overstretch tear = tissue::find_overstretch(
       tissue::springs_of(organ.body, c.state.cuttables[r.index], c.work.cuttable_work[r.index]), organ.failure_strain,
       turn_of(c, r.organ()), counters, c.work.beyond);
-  return tear.found ? opened(cut(c, r, tear.blade(1.0)), counters) : Parting{};
+  if (!tear.found) return {};
+  if (!answers_at_once(c, r.organ())) return opened(cut(c, r, tear.blade(1.0)), counters);
+  hand_over(c, r);  // whether it tears is for the network to say
+  return {};
 }
 
 tissue::StepReport report_of(const StepContext& c, CuttableRef r) noexcept { return c.work.organ_reports[r.organ()]; }

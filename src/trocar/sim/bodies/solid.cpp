@@ -3,6 +3,7 @@
 #include <trocar/sim/bodies/containment.hpp>
 #include <trocar/sim/bodies/hanging.hpp>
 #include <trocar/sim/bodies/solid.hpp>
+#include <trocar/sim/bodies/static_organ.hpp>
 #include <trocar/sim/bodies/turns.hpp>
 #include <trocar/tissue/failure/overstretch.hpp>
 
@@ -19,6 +20,7 @@ void pose(StepContext& c, SolidRef s) noexcept {
 void hang(StepContext& c, SolidRef s) noexcept {
   interactions::NetworkLoads& loads = c.work.organ_loads[s.organ()];
   loads.clear();
+  if (answers_at_once(c, s.organ())) return;  // the springs that hang it are in its compliance
   hang(model_of(c.model, s).anchors, s.organ(), carried(c, s), loads);
 }
 
@@ -33,13 +35,16 @@ std::span<const std::uint8_t> folded_of(StepContext& c, SolidRef s) noexcept {
 }
 
 void advance(StepContext& c, SolidRef s) noexcept {
+  if (advance_at_once(c, s)) return;
   interactions::NetworkLoads& loads = c.work.organ_loads[s.organ()];
   loads.sort();
   carry_held_nodes(c, s);
+  before_network(c, s);
   const tissue::Hands hands = loads.handled() ? tissue::Hands::on : tissue::Hands::off;
   c.work.organ_reports[s.organ()] =
       tissue::advance(model_of(c.model, s).network, loads.sorted, loads.reaction, c.state.solids[s.index],
                       c.work.solid_work[s.index], nullptr, hands);
+  after_network(c, s);
   settle_held_nodes(c, s);
 }
 
@@ -52,8 +57,10 @@ double wire_cut(const Model& m, SolidRef s) noexcept { return 0.6 * model_of(m, 
 
 Parting cut(StepContext& c, SolidRef s, const geometry::Blade& blade) noexcept {
   const SolidModel& solid = model_of(c.model, s);
+  place_inner_nodes(c, s);
   const int severed = interactions::cut_organ(blade, solid.network, solid.fine, c.state.solids[s.index],
                                               c.state.parted[s.index], c.work.parts);
+  if (severed > 0) hand_over(c, s);
   return {severed > 0, blade, -1, severed};
 }
 
@@ -62,10 +69,14 @@ bool can_tear(const Model& m, SolidRef s) noexcept { return model_of(m, s).failu
 Parting tear(StepContext& c, SolidRef s) noexcept {
   const SolidModel& solid = model_of(c.model, s);
   std::vector<std::uint8_t>& counters = c.state.overstretched_organs[s.organ()];
+  place_inner_nodes(c, s);
   const tissue::Overstretch tear =
       tissue::find_overstretch(tissue::springs_of(solid.network, c.state.solids[s.index]), solid.failure_strain,
                                turn_of(c, s.organ()), counters, c.work.beyond);
-  return tear.found ? opened(cut(c, s, tear.blade()), counters) : Parting{};
+  if (!tear.found) return {};
+  if (!answers_at_once(c, s.organ())) return opened(cut(c, s, tear.blade()), counters);
+  hand_over(c, s);  // whether it tears is for the network to say
+  return {};
 }
 
 tissue::StepReport report_of(const StepContext& c, SolidRef s) noexcept { return c.work.organ_reports[s.organ()]; }

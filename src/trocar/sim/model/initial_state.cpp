@@ -33,6 +33,7 @@ State drawn_bodies(const Model& model) {
     s.membranes.push_back(tissue::rest_state(m.sheet));
     s.torn.emplace_back(m.sheet.triangles.size(), std::uint8_t(0));
   }
+  for (const StaticOrgan& o : model.statics) s.statics.push_back({tissue::rest_state(o.solver), 0});
   s.objects = interactions::start_of(model.objects);
   return s;
 }

@@ -24,6 +24,7 @@
 #include <trocar/sim/model/input.hpp>
 #include <trocar/sim/model/mark.hpp>
 #include <trocar/sim/model/motion.hpp>
+#include <trocar/sim/model/static_organ.hpp>
 #include <trocar/tissue/heat/electrosurgery.hpp>
 #include <trocar/tissue/network/prestress.hpp>
 #include <trocar/tissue/tets/cuttable_skin.hpp>
@@ -330,6 +331,7 @@ struct Model {
   Vec3d gravity;
   std::vector<SolidModel> solids;
   std::vector<CuttableOrgan> cuttables;
+  std::vector<StaticOrgan> statics;  ///< those of both that answer at once
   std::vector<StrandAnatomy> strands;
   std::vector<interactions::StrandBody>
       strand_bodies;  ///< (strands) their mechanics, side by side as interactions want them
@@ -383,7 +385,8 @@ struct Model {
         v("strand_pairs", s.strand_pairs), v("self_pairs", s.self_pairs), v("samples", s.samples), v("marks", s.marks),
         v("vessels", s.vessels, core::only_if(s.vessels.there())), v("wet", s.wet, core::only_if(s.wet.there)),
         v("energy", s.energy, core::only_if(s.energy.there)), v("motion", s.motion, core::only_if(s.motion.there())),
-        v("objects", s.objects), v("name", s.name, core::kNotHashed), v("file", s.file, core::kNotHashed),
+        v("objects", s.objects), v("statics", s.statics, core::only_if(!s.statics.empty())),
+        v("name", s.name, core::kNotHashed), v("file", s.file, core::kNotHashed),
         v("drawn_folds", s.drawn_folds, core::kNotHashed), v("nearest_at_start", s.nearest_at_start, core::kNotHashed),
         v("targets", s.targets, core::kNotHashed), v("looks", s.looks, core::kNotHashed),
         v("drawn_detail", s.drawn_detail, core::kNotHashed), v("hash", s.hash, core::kNotHashed);

@@ -60,6 +60,7 @@ struct State {
   std::uint64_t tick = 0;  ///< ticks made
   std::vector<tissue::NetworkState> solids;
   std::vector<tissue::CuttableState> cuttables;
+  std::vector<StaticOrganState> statics;
   std::vector<tissue::StrandState> strands;
   std::vector<tissue::MembraneState> membranes;
   interactions::ObjectStates objects;
@@ -123,7 +124,8 @@ struct State {
         v("scarred", s.scarred, core::FieldNote{.hashed = heats, .first = s.scarred_count}),
         v("fluids", s.fluids, core::only_if(wet)), v("pool_floor", s.pool_floor, core::only_if(wet)),
         v("valves", s.valves, core::only_if(irrigates)), v("impact_count", s.impact_count, core::only_if(irrigates)),
-        v("impacts", s.impacts, core::FieldNote{.hashed = irrigates, .first = s.impact_count}), v("objects", s.objects);
+        v("impacts", s.impacts, core::FieldNote{.hashed = irrigates, .first = s.impact_count}), v("objects", s.objects),
+        v("statics", s.statics, core::only_if(!s.statics.empty()));
   }
 };
 

@@ -34,6 +34,11 @@ void order_bodies(const Model& model, Work& w) {
   w.skin_order = by_cost(skins);
 }
 
+size_t rows_of_organ(const Model& model, size_t organ) {
+  const size_t lattices = model.solids.size();
+  return size_t(organ < lattices ? model.solids[organ].network.rows : model.cuttables[organ - lattices].body.rows);
+}
+
 }  // namespace
 
 Work make_work(const Model& model, core::ThreadPool* pool) {
@@ -56,6 +61,11 @@ Work make_work(const Model& model, core::ThreadPool* pool) {
     const size_t scars = model.energy.there ? kScarLoads * size_t(kMaxScarred) : 0;
     w.organ_loads.emplace_back().reserve(kOrganLoads + c.body.anchors.size() + scars);
     w.beyond.resize(std::max(w.beyond.size(), size_t(c.body.rows)));
+  }
+  for (const StaticOrgan& o : model.statics) {
+    const interactions::NetworkLoads& loads = w.organ_loads[size_t(o.organ)];
+    w.static_work.push_back({tissue::make_work(o.solver, int(loads.gathered.capacity())), {}});
+    w.static_work.back().before.resize(rows_of_organ(model, size_t(o.organ)));
   }
   w.nodes.resize(size_t(model.organs()));
   for (const interactions::StrandBody& b : model.strand_bodies) {

@@ -39,6 +39,7 @@ struct Work {
   std::vector<interactions::StrandLoads> strand_loads;
   std::vector<tissue::NetworkWork> solid_work;
   std::vector<tissue::CuttableWork> cuttable_work;
+  std::vector<StaticOrganWork> static_work;
   std::vector<tissue::StrandWork> strand_work;
   std::vector<std::array<tissue::StrandEnd, 2>> ends;  ///< (strands)
   std::vector<std::array<tissue::StrandReaction, 2>> end_reactions;
@@ -86,8 +87,8 @@ struct Work {
     v("pool", s.pool, core::kMadeOnce), v("poses", s.poses), v("surfaces", s.surfaces), v("shapes", s.shapes),
         v("shapes_before", s.shapes_before), v("touches", s.touches), v("wall_stops", s.wall_stops),
         v("organ_loads", s.organ_loads), v("strand_loads", s.strand_loads), v("solid_work", s.solid_work),
-        v("cuttable_work", s.cuttable_work), v("strand_work", s.strand_work), v("ends", s.ends),
-        v("end_reactions", s.end_reactions), v("parts", s.parts), v("beyond", s.beyond),
+        v("cuttable_work", s.cuttable_work), v("static_work", s.static_work), v("strand_work", s.strand_work),
+        v("ends", s.ends), v("end_reactions", s.end_reactions), v("parts", s.parts), v("beyond", s.beyond),
         v("organ_reports", s.organ_reports), v("strand_reports", s.strand_reports),
         v("membrane_reports", s.membrane_reports), v("sheet_poses", s.sheet_poses), v("sheets", s.sheets),
         v("sheet_gaps", s.sheet_gaps), v("membrane_loads", s.membrane_loads), v("membrane_work", s.membrane_work),

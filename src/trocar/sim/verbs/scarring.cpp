@@ -2,6 +2,7 @@
 #include <array>
 
 #include <trocar/interactions/couplings/scarred_spring.hpp>
+#include <trocar/sim/bodies/static_organ.hpp>
 #include <trocar/sim/bodies/views.hpp>
 #include <trocar/sim/model/bodies.hpp>
 #include <trocar/sim/verbs/current_cut.hpp>
@@ -85,8 +86,16 @@ void scar_springs(StepContext& c, const tissue::NetworkModel& m, BodyId body, Ve
 
 Vec3d middle_of(const ElectrodeTouch& touch) noexcept { return 0.5 * (touch.contact.a + touch.contact.b); }
 
+/// Springs that heat has changed are no longer those of a precomputed compliance.
+template <class Ref>
+void hand_over_if_scarred(StepContext& c, Ref organ) noexcept {
+  for (int i = 0; i < c.state.scarred_count; ++i)
+    if (c.state.scarred[size_t(i)].body == organ.id()) return hand_over(c, organ);
+}
+
 void scar(StepContext& c, const ElectrodeTouch& touch, SolidRef solid) noexcept {
   scar_springs(c, model_of(c.model, solid).network, solid.id(), middle_of(touch));
+  hand_over_if_scarred(c, solid);
 }
 void scar(StepContext& c, const ElectrodeTouch& touch, MembraneRef membrane) noexcept {
   scar_springs(c, model_of(c.model, membrane).sheet.network, membrane.id(), middle_of(touch));
@@ -107,6 +116,7 @@ void scar(StepContext& c, const ElectrodeTouch& touch, CuttableRef organ) noexce
            return i == 0 ? middle : 0.5 * (middle + drawn.rest[size_t(drawn.cells[t][size_t(i - 1)])]);
          }));
   }
+  hand_over_if_scarred(c, organ);
 }
 
 /// Coagulated strands: their step is implicit, so that any stiffness is stable. What was cut in part stays weak.

@@ -12,6 +12,7 @@ struct StepReport {
     kInverted = 2,   ///< volume protection is at work on at least one cell: nothing to do, unless it lasts
     kBadLoad =
         4,  ///< a load names a node or element that does not exist or is not finite (left out), or is out of order
+    kBeyondLinear = 16,  ///< an elastostatic organ has turned too far for it: expect its forces and shape to be off
     kIndefinite = 8,  ///< a strand's matrix lost a pivot (non-finite or negative stiffness given): state not advanced
   };
   std::uint32_t flags = kFine;

@@ -64,6 +64,16 @@ std::vector<SpringDescription> drawn_springs(const CuttableModel& m) {
   return out;
 }
 
+std::vector<double> drawn_masses(const CuttableModel& m) {
+  std::vector<double> mass(std::size_t(m.own_nodes), 0.0);
+  for (const geometry::Tet& cell : m.drawn.cells) {
+    const auto x = [&](std::size_t k) { return m.drawn.rest[std::size_t(cell[k])]; };
+    const double quarter = m.density / 24 * dot(x(1) - x(0), cross(x(2) - x(0), x(3) - x(0)));
+    for (const std::int32_t node : cell) mass[std::size_t(node)] += quarter;
+  }
+  return mass;
+}
+
 std::vector<std::array<int, 4>> drawn_cells(const NetworkModel& m) {
   std::vector<std::array<int, 4>> out;
   for (const TetRest& t : m.tets) {

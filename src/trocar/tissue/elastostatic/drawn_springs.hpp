@@ -12,6 +12,9 @@ namespace trocar::tissue {
 std::vector<SpringDescription> drawn_springs(const NetworkModel& model);
 std::vector<SpringDescription> drawn_springs(const CuttableModel& model);
 
+/// (own nodes) What they weigh, uncut [kg].
+std::vector<double> drawn_masses(const CuttableModel& model);
+
 /// The cells whose volume the body keeps, as corners.
 std::vector<std::array<int, 4>> drawn_cells(const NetworkModel& model);
 std::vector<std::array<int, 4>> drawn_cells(const CuttableModel& model);

@@ -17,6 +17,41 @@ Vec3d to_world(const ElastostaticModel& m, const OrganFrame& f, Vec3d from_centr
   return m.centre + f.shift + rotate(turn_of(f), from_centre);
 }
 
+/// Those whose turn it is, of every so many.
+void place_inner(const ElastostaticModel& m, const ElastostaticState& s, std::size_t first, std::size_t every,
+                 std::span<NodeState> rows) noexcept {
+  for (std::size_t i = first; i < m.inner.size(); i += every) {
+    const InnerNode& inner = m.inner[i];
+    Vec3d u{0, 0, 0};
+    for (std::size_t k = 0; k < inner.slot.size(); ++k) u += double(inner.weight[k]) * displaced(s.u, inner.slot[k]);
+    const Vec3d x = to_world(m, s.frame, inner.rest - m.centre + u) - m.origin;
+    rows[std::size_t(inner.row)] = {float(x.x), float(x.y), float(x.z), 0, 0, 0};
+  }
+}
+
+/// The nearest kept nodes, by the inverse square of their distance.
+InnerNode inner_node(const ElastostaticModel& m, const DrawnOrgan& organ, std::size_t node) {
+  InnerNode out;
+  out.node = std::int32_t(node);
+  out.row = organ.row_of_node[node];
+  out.rest = organ.points[node];
+  if (!organ.held.empty() && organ.held[node] == kHeld) return out;
+  std::vector<std::pair<double, std::int32_t>> near;
+  for (std::size_t i = 0; i < m.rest.size(); ++i) {
+    const Vec3d way = m.rest[i] - out.rest;
+    near.emplace_back(dot(way, way), std::int32_t(i));
+  }
+  const std::size_t count = std::min(near.size(), out.slot.size());
+  std::partial_sort(near.begin(), near.begin() + std::ptrdiff_t(count), near.end());
+  double sum = 0;
+  for (std::size_t k = 0; k < count; ++k) sum += 1 / near[k].first;
+  for (std::size_t k = 0; k < count; ++k) {
+    out.slot[k] = near[k].second;
+    out.weight[k] = float(1 / (near[k].first * sum));
+  }
+  return out;
+}
+
 /// A tick of one organ.
 class Tick {
  public:
@@ -25,6 +60,7 @@ class Tick {
       : m(model), m_loads(loads), m_point(point), m_carried(carried), s(state), w(work) {}
 
   StepReport make(std::span<Vec3f> reactions, std::span<NodeState> rows) noexcept {
+    if (rests()) return m_report;
     m_before = s.frame;
     if (!m.floats()) s.frame.shift = m_carried.shift;
     gather();
@@ -36,6 +72,11 @@ class Tick {
   }
 
  private:
+  bool rests() const noexcept {
+    const Vec3d way = s.frame.shift - m_carried.shift;
+    return s.still && m_loads.empty() && way.x == 0 && way.y == 0 && way.z == 0;
+  }
+
   Vec3d local(Vec3d v) const noexcept { return rotate(conjugate(turn_of(s.frame)), v); }
   /// The displacement that puts a node at a place in the world.
   Vec3d displacement_to(Vec3d place, Vec3d rest) const noexcept {
@@ -120,6 +161,10 @@ class Tick {
     for (int i = 0; i < kFrameFields; ++i)
       if (factor[i] != 0) add_column(m.frame_fields.data() + std::ptrdiff_t(i) * m.stride, factor[i]);
   }
+  void no_columns() noexcept {
+    w.column.clear();
+    w.factor.clear();
+  }
   void add_column(const float* column, double factor) noexcept {
     w.column.push_back(column);
     w.factor.push_back(float(factor));
@@ -131,13 +176,12 @@ class Tick {
   }
   void add_up(std::vector<float>& to) noexcept {
     field_kernels().add_columns(m.stride, int(w.column.size()), w.column.data(), w.factor.data(), to.data());
-    w.column.clear();
-    w.factor.clear();
   }
 
   /// Where everything goes that no spring or hand holds: u' = (1 - s) u + s C f.
   void go_without_hands() noexcept {
     std::fill(w.start.begin(), w.start.end(), 0.0f);
+    no_columns();
     add_fields();
     add_forces();
     add_up(w.start);
@@ -149,6 +193,7 @@ class Tick {
     most = std::sqrt(most);
     m_share = kShare;
     while (m_share * most > kQuickestReturn && m_share > 1e-4) m_share *= 0.5;
+    if (m_loads.empty() && !m.floats() && most < kAsDrawn) m_share = 1;
     const float share = float(m_share);
     for (std::size_t i = 0; i < w.next.size(); ++i) w.next[i] = s.u[i] + share * (w.start[i] - s.u[i]);
   }
@@ -168,6 +213,7 @@ class Tick {
     for (const LoadPoint& p : w.points)
       for (int t = p.first; t < p.first + p.count; ++t)
         add_force(w.terms[std::size_t(t)].slot, (m_share * double(w.terms[std::size_t(t)].weight)) * p.force);
+    no_columns();
     add_forces();
     add_up(w.next);
   }
@@ -228,7 +274,13 @@ class Tick {
       m_report.flags |= StepReport::kNonFinite;
       m_report.first_bad = m.kept[std::size_t(i)];
     }
+    const Vec3d way = s.frame.shift - before.shift;
+    s.still = !m.floats() && m_loads.empty() && m_share == 1 && way.x == 0 && way.y == 0 && way.z == 0;
     std::swap(s.u, w.next);
+    s.turns = (s.turns + 1) % kInnerTurns;
+    place_inner(m, s, s.turns, kInnerTurns, rows);
+    // what is still is not placed again
+    if (s.still) place_inner_nodes(m, s, rows);
   }
 
   const ElastostaticModel& m;
@@ -260,19 +312,20 @@ std::vector<double> frame_loads(std::span<const Vec3d> points, std::span<const d
   return f;
 }
 
-ElastostaticModel make_elastostatic(std::span<const Vec3d> points, std::span<const int> row_of_node, Vec3d origin,
-                                    std::span<const int> kept, std::span<const float> compliance,
-                                    std::span<const float> fields, Vec3d gravity, double tick) {
+ElastostaticModel make_elastostatic(const DrawnOrgan& organ, std::span<const int> kept,
+                                    std::span<const float> compliance, std::span<const float> fields, double tick) {
   ElastostaticModel m;
   m.kept.assign(kept.begin(), kept.end());
-  m.slot.assign(points.size(), -1);
+  m.slot.assign(organ.points.size(), -1);
   const std::size_t n = kept.size();
   for (std::size_t i = 0; i < n; ++i) {
     m.slot[std::size_t(kept[i])] = std::int32_t(i);
-    m.row.push_back(row_of_node[std::size_t(kept[i])]);
-    m.rest.push_back(points[std::size_t(kept[i])]);
+    m.row.push_back(organ.row_of_node[std::size_t(kept[i])]);
+    m.rest.push_back(organ.points[std::size_t(kept[i])]);
     m.centre += m.rest.back() / double(n);
   }
+  for (std::size_t i = 0; i < organ.points.size(); ++i)
+    if (m.slot[i] < 0) m.inner.push_back(inner_node(m, organ, i));
   m.stride = (3 * int(n) + kFieldPack - 1) / kFieldPack * kFieldPack;
   const auto laid_out = [&](std::span<const float> from) {
     std::vector<float> to(from.size() / (3 * n) * std::size_t(m.stride), 0.0f);
@@ -289,8 +342,8 @@ ElastostaticModel make_elastostatic(std::span<const Vec3d> points, std::span<con
       for (int b = 0; b < 3; ++b) inertia.m[a][b] += (a == b ? all : 0.0) - r[a] * r[b];
   }
   m.inverse_inertia = inverse(inertia);
-  m.origin = origin;
-  m.gravity = gravity;
+  m.origin = organ.origin;
+  m.gravity = organ.gravity;
   m.tick = tick;
   return m;
 }
@@ -320,6 +373,10 @@ StepReport advance(const ElastostaticModel& model, std::span<const NodeLoad> loa
                    std::span<Vec3f> reactions, CarriedBy carried, ElastostaticState& state, std::span<NodeState> rows,
                    ElastostaticWork& work) noexcept {
   return Tick(model, loads, point, carried, state, work).make(reactions, rows);
+}
+
+void place_inner_nodes(const ElastostaticModel& m, const ElastostaticState& s, std::span<NodeState> rows) noexcept {
+  place_inner(m, s, 0, 1, rows);
 }
 
 Vec3d place_of(const ElastostaticModel& m, const ElastostaticState& s, int slot) noexcept {

@@ -32,6 +32,22 @@ namespace trocar::tissue {
 inline constexpr int kFrameFields = 15;            ///< springs to space seen from a turned frame: 9 + 3; gravity: 3
 inline constexpr double kShare = 1.0 / 6;          ///< s: of the way in a tick                             Our choice
 inline constexpr double kQuickestReturn = 0.0002;  ///< [m] a tick without a hand                           Our choice
+inline constexpr double kAsDrawn = 1e-9;           ///< [m] nothing is left of a displacement smaller than this
+inline constexpr int kInnerTurns = 16;             ///< ticks in which all nodes that are not kept are placed
+
+/// A node that is not kept: displaced as the kept ones around it are. Only for what looks inside, and as a start for
+/// whoever moves the organ next; the solution needs none of it.
+struct InnerNode {
+  std::int32_t node = -1, row = -1;
+  std::array<std::int32_t, 8> slot{};
+  std::array<float, 8> weight{};  ///< all zero: held
+  Vec3d rest;                     ///< drawn [m]
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("node", s.node), v("row", s.row), v("slot", s.slot), v("weight", s.weight), v("rest", s.rest);
+  }
+};
 
 /// Const. Nodes are those of the organ's description; `n` of them are kept.
 struct ElastostaticModel {
@@ -39,6 +55,7 @@ struct ElastostaticModel {
   std::vector<std::int32_t> slot;   ///< (nodes) place among the kept; -1: an inner node
   std::vector<std::int32_t> row;    ///< (n) where its NodeState is
   std::vector<Vec3d> rest;          ///< (n) drawn [m]
+  std::vector<InnerNode> inner;     ///< (nodes - n)
   std::vector<float> compliance;    ///< (3 n columns x stride) [m/N]
   std::vector<float> frame_fields;  ///< (kFrameFields x stride), or empty: something is held rigidly
   int stride = 0;                   ///< 3 n in whole packs
@@ -54,9 +71,9 @@ struct ElastostaticModel {
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("kept", s.kept), v("slot", s.slot), v("row", s.row), v("rest", s.rest), v("compliance", s.compliance),
-        v("frame_fields", s.frame_fields), v("stride", s.stride), v("origin", s.origin), v("centre", s.centre),
-        v("inverse_inertia", s.inverse_inertia), v("gravity", s.gravity), v("tick", s.tick);
+    v("kept", s.kept), v("slot", s.slot), v("row", s.row), v("rest", s.rest), v("inner", s.inner),
+        v("compliance", s.compliance), v("frame_fields", s.frame_fields), v("stride", s.stride), v("origin", s.origin),
+        v("centre", s.centre), v("inverse_inertia", s.inverse_inertia), v("gravity", s.gravity), v("tick", s.tick);
   }
 };
 
@@ -74,11 +91,13 @@ struct OrganFrame {
 struct ElastostaticState {
   std::vector<float> u;  ///< (stride) displacements in the frame [m]
   OrganFrame frame;
-  double turn = 0;  ///< of the organ as a whole, beside its frame's [rad]
+  double turn = 0;          ///< of the organ as a whole, beside its frame's [rad]
+  std::uint32_t turns = 0;  ///< whose turn it is of the inner nodes
+  std::int32_t still = 0;   ///< 1: it lies as it was drawn, and its rows say so
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("u", s.u), v("frame", s.frame), v("turn", s.turn);
+    v("u", s.u), v("frame", s.frame), v("turn", s.turn), v("turns", s.turns), v("still", s.still);
   }
 };
 
@@ -105,10 +124,17 @@ struct ElastostaticWork {
 std::vector<double> frame_loads(std::span<const Vec3d> points, std::span<const double> mass,
                                 std::span<const Anchor> anchors, Vec3d centre);
 
+/// What make_elastostatic() needs of an organ as it is drawn.
+struct DrawnOrgan {
+  std::span<const Vec3d> points;       ///< (nodes) [m]
+  std::span<const std::uint8_t> held;  ///< (nodes) Held bits, or empty
+  std::span<const int> row_of_node;    ///< (nodes)
+  Vec3d origin;                        ///< of NodeState positions [m]
+  Vec3d gravity;                       ///< [m/s^2]
+};
 /// @param compliance  (3 kept x 3 kept) by columns, @param fields (15 x 3 kept) or empty: as condense() gives them
-ElastostaticModel make_elastostatic(std::span<const Vec3d> points, std::span<const int> row_of_node, Vec3d origin,
-                                    std::span<const int> kept, std::span<const float> compliance,
-                                    std::span<const float> fields, Vec3d gravity, double tick);
+ElastostaticModel make_elastostatic(const DrawnOrgan& organ, std::span<const int> kept,
+                                    std::span<const float> compliance, std::span<const float> fields, double tick);
 ElastostaticState rest_state(const ElastostaticModel& model);
 /// @param most_loads  of a tick
 ElastostaticWork make_work(const ElastostaticModel& model, int most_loads);
@@ -119,13 +145,18 @@ struct CarriedBy {
 };
 
 /// One tick. Loads as for a network but in any order; those that are shares of one point of the skin follow each other
-/// with the same number in `point`. Loads on inner nodes are left out (kBadLoad). Writes the rows of kept nodes.
+/// with the same number in `point`. Loads on inner nodes are left out (kBadLoad). Writes the rows of kept nodes, and of
+/// a part of the others. An organ that is held rigidly, lies as drawn and has no loads costs nothing.
 /// @param point       (loads) of which point a load is a share
 /// @param reactions   (loads) force that each exerted on its node [N]
 /// @return kBadLoad in flags also where points were left without force
 StepReport advance(const ElastostaticModel& model, std::span<const NodeLoad> loads, std::span<const std::int32_t> point,
                    std::span<Vec3f> reactions, CarriedBy carried, ElastostaticState& state, std::span<NodeState> rows,
                    ElastostaticWork& work) noexcept;
+
+/// All rows of nodes that are not kept.
+void place_inner_nodes(const ElastostaticModel& model, const ElastostaticState& state,
+                       std::span<NodeState> rows) noexcept;
 
 /// Place of a kept node in the world [m].
 Vec3d place_of(const ElastostaticModel& model, const ElastostaticState& state, int slot) noexcept;
