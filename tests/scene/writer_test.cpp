@@ -46,7 +46,8 @@ bool same(const std::vector<T>& a, const std::vector<T>& b) {
 }
 bool same(const Solid& a, const Solid& b) {
   return a.name == b.name && a.tissue == b.tissue && a.look == b.look && same(a.sections, b.sections) &&
-         a.cell == b.cell && a.skin_edge == b.skin_edge && a.fine_edge == b.fine_edge && same(a.anchors, b.anchors);
+         a.cell == b.cell && a.solver == b.solver && a.elasticity == b.elasticity && a.beyond_angle == b.beyond_angle &&
+         a.beyond == b.beyond && a.skin_edge == b.skin_edge && a.fine_edge == b.fine_edge && same(a.anchors, b.anchors);
 }
 bool same(const Strand& a, const Strand& b) {
   return a.name == b.name && a.tissue == b.tissue && a.look == b.look && a.centreline == b.centreline &&
