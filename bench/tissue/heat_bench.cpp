@@ -40,8 +40,8 @@ struct Hook {
     const double angle = speed * 1e-3 * t++ / 5e-3;
     const Vec3d at{5e-3 * std::cos(angle), 5e-3 * std::sin(angle), -0.1e-3};
     const TissueShape shape{nullptr, fill_below};
-    const Discharge d =
-        energise(e, panel, {.yellow = false, .blue = true}, {.body = BodyId::strand(0), .a = at, .b = at}, m, shape, s, w, es);
+    const Discharge d = energise(e, panel, {.yellow = false, .blue = true},
+                                 {.body = BodyId::strand(0), .a = at, .b = at}, m, shape, s, w, es);
     flags |= advance(m, d.span(), shape, s, w).flags;
   }
 };

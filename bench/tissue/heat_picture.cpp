@@ -61,7 +61,8 @@ int main(int argc, char** argv) {
     for (int i = 0; i < kWidth; ++i) {
       const double x = (i - kWidth / 2) * kPixel;
       const Vec3d at = j < kCut ? Vec3d{x, (kCut / 2 - j) * kPixel, -1e-4} : Vec3d{x, 0, -(j - kCut) * kPixel};
-      const Vec3f c = j == kCut ? Vec3f{} : colour(look(reading(tissue.m, tissue.s, BodyId::strand(0), at)), {0.62f, 0.28f, 0.25f});
+      const Vec3f c =
+          j == kCut ? Vec3f{} : colour(look(reading(tissue.m, tissue.s, BodyId::strand(0), at)), {0.62f, 0.28f, 0.25f});
       for (const float v : {c.x, c.y, c.z}) picture.rgb.push_back(std::uint8_t(v * 255 + 0.5f));
     }
   render::write_png(argv[1], picture);

@@ -8,6 +8,8 @@
 namespace trocar::tissue {
 namespace {
 
+constexpr double kRoot3 = 1.7320508075688772;
+
 Quatd turn_of(const OrganFrame& f) noexcept { return {f.w, f.x, f.y, f.z}; }
 Vec3d displaced(std::span<const float> u, int slot) noexcept {
   const float* p = u.data() + 3 * slot;
@@ -90,7 +92,7 @@ class Tick {
 
   /// Known forces by node, and points of the springs among the loads.
   void gather() noexcept {
-    std::fill(w.force.begin(), w.force.end(), 0.0f);
+    no_forces();
     w.terms.clear();
     w.points.clear();
     w.first_load.clear();
@@ -144,9 +146,19 @@ class Tick {
     p.give = 1 / all;
   }
 
+  void no_forces() noexcept {
+    w.loaded.clear();
+    std::fill(w.is_loaded.begin(), w.is_loaded.end(), std::uint8_t(0));
+  }
   void add_force(int slot, Vec3d f) noexcept {
-    float* to = w.force.data() + 3 * slot;
-    to[0] += float(f.x), to[1] += float(f.y), to[2] += float(f.z);
+    if (f.x == 0 && f.y == 0 && f.z == 0) return;
+    float* const begin = w.force.data() + 3 * slot;
+    if (!w.is_loaded[std::size_t(slot)]) {
+      w.is_loaded[std::size_t(slot)] = 1;
+      w.loaded.push_back(slot);
+      std::fill_n(begin, 3, 0.0f);
+    }
+    begin[0] += float(f.x), begin[1] += float(f.y), begin[2] += float(f.z);
   }
 
   void add_fields() noexcept {
@@ -170,9 +182,10 @@ class Tick {
     w.factor.push_back(float(factor));
   }
   void add_forces() noexcept {
-    for (int i = 0; i < 3 * m.nodes(); ++i)
-      if (w.force[std::size_t(i)] != 0)
-        add_column(m.compliance.data() + std::ptrdiff_t(i) * m.stride, double(w.force[std::size_t(i)]));
+    for (const std::int32_t slot : w.loaded)
+      for (int axis = 0; axis < 3; ++axis)
+        if (const float f = w.force[std::size_t(3 * slot + axis)]; f != 0)
+          add_column(m.view().column(slot, axis), double(f));
   }
   void add_up(std::vector<float>& to) noexcept {
     field_kernels().add_columns(m.stride, int(w.column.size()), w.column.data(), w.factor.data(), to.data());
@@ -185,12 +198,9 @@ class Tick {
     add_fields();
     add_forces();
     add_up(w.start);
-    double most = 0;
-    for (int i = 0; i < m.nodes(); ++i) {
-      const Vec3d way = displaced(w.start, i) - displaced(s.u, i);
-      most = std::max(most, dot(way, way));
-    }
-    most = std::sqrt(most);
+    float way = 0;
+    for (std::size_t i = 0; i < w.start.size(); ++i) way = std::max(way, std::fabs(w.start[i] - s.u[i]));
+    const double most = kRoot3 * double(way);  // along one axis; at most that in space
     m_share = kShare;
     while (m_share * most > kQuickestReturn && m_share > 1e-4) m_share *= 0.5;
     if (m_loads.empty() && !m.floats() && most < kAsDrawn) m_share = 1;
@@ -209,7 +219,7 @@ class Tick {
     }
     if (solve(m.view(), m_share, w.terms, w.now, w.points, w.load_case) < int(w.points.size()))
       m_report.flags |= StepReport::kBadLoad;
-    std::fill(w.force.begin(), w.force.end(), 0.0f);
+    no_forces();
     for (const LoadPoint& p : w.points)
       for (int t = p.first; t < p.first + p.count; ++t)
         add_force(w.terms[std::size_t(t)].slot, (m_share * double(w.terms[std::size_t(t)].weight)) * p.force);
@@ -233,8 +243,10 @@ class Tick {
     }
   }
 
-  /// The rigid part of the displacements goes into the frame of an organ that floats, and is told of one that is held.
+  /// The rigid part of the displacements goes into the frame of an organ that floats, and is told of one that is held,
+  /// now and then.
   void take_out_rigid_motion() noexcept {
+    if (!m.floats() && s.turns != 0) return;
     Vec3d shift{0, 0, 0}, moment{0, 0, 0};
     for (int i = 0; i < m.nodes(); ++i) {
       const Vec3d u = displaced(w.next, i);
@@ -261,12 +273,16 @@ class Tick {
     const OrganFrame before = m_before;
     const Quatd was = turn_of(before);
     take_out_rigid_motion();
-    const Quatd is = turn_of(s.frame);
+    const bool turned = m.floats();
+    const Mat3d from_turn = to_mat3(was), to_turn = to_mat3(turn_of(s.frame));
+    const Vec3d start = m.centre - m.origin;
+    const double per_tick = 1 / m.tick;
     for (int i = 0; i < m.nodes(); ++i) {
       const Vec3d r = m.rest[std::size_t(i)] - m.centre;
-      const Vec3d from = before.shift + rotate(was, r + displaced(s.u, i));
-      const Vec3d to = s.frame.shift + rotate(is, r + displaced(w.next, i));
-      const Vec3d x = m.centre + to - m.origin, v = (to - from) / m.tick;
+      Vec3d from = r + displaced(s.u, i), to = r + displaced(w.next, i);
+      if (turned) from = from_turn * from, to = to_turn * to;
+      from += before.shift, to += s.frame.shift;
+      const Vec3d x = start + to, v = per_tick * (to - from);
       NodeState& n = rows[std::size_t(m.row[std::size_t(i)])];
       n.x = float(x.x), n.y = float(x.y), n.z = float(x.z);
       n.vx = float(v.x), n.vy = float(v.y), n.vz = float(v.z);
@@ -359,6 +375,8 @@ ElastostaticWork make_work(const ElastostaticModel& m, int most_loads) {
   w.start.resize(std::size_t(m.stride));
   w.next.resize(std::size_t(m.stride));
   w.force.resize(3 * m.kept.size());
+  w.loaded.reserve(m.kept.size());
+  w.is_loaded.resize(m.kept.size());
   w.column.reserve(3 * m.kept.size() + kFrameFields);
   w.factor.reserve(3 * m.kept.size() + kFrameFields);
   w.terms.reserve(std::size_t(most_loads));

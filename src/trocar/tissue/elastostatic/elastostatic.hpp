@@ -102,10 +102,12 @@ struct ElastostaticState {
 };
 
 struct ElastostaticWork {
-  std::vector<float> start, next;    ///< (stride)
-  std::vector<float> force;          ///< (3 n) [N]
-  std::vector<const float*> column;  ///< (3 n + fields) to be added ...
-  std::vector<float> factor;         ///< ... times this
+  std::vector<float> start, next;       ///< (stride)
+  std::vector<float> force;             ///< (3 n) [N]
+  std::vector<std::int32_t> loaded;     ///< kept nodes on which there is any, in the order in which they were met
+  std::vector<std::uint8_t> is_loaded;  ///< (n)
+  std::vector<const float*> column;     ///< (3 n + fields) to be added ...
+  std::vector<float> factor;            ///< ... times this
   std::vector<PointTerm> terms;
   std::vector<LoadPoint> points;
   std::vector<Vec3d> now;                ///< (points)
@@ -114,9 +116,9 @@ struct ElastostaticWork {
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("start", s.start), v("next", s.next), v("force", s.force), v("column", s.column), v("factor", s.factor),
-        v("terms", s.terms), v("points", s.points), v("now", s.now), v("first_load", s.first_load),
-        v("load_case", s.load_case);
+    v("start", s.start), v("next", s.next), v("force", s.force), v("loaded", s.loaded), v("is_loaded", s.is_loaded),
+        v("column", s.column), v("factor", s.factor), v("terms", s.terms), v("points", s.points), v("now", s.now),
+        v("first_load", s.first_load), v("load_case", s.load_case);
   }
 };
 

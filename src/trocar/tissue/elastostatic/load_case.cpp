@@ -116,15 +116,21 @@ class Case {
       for (int i = j; i < m_n; i += point(i).unknowns()) {
         const LoadPoint &p = point(i), &q = point(j);
         between(p, q, block);
+        if (!p.along() && !q.along()) {
+          for (int y = 0; y < 3; ++y)
+            for (int x = 0; x < 3; ++x) a(i + x, j + y) = m_share * block[x][y];
+          continue;
+        }
         for (int y = 0; y < q.unknowns(); ++y)
           for (int x = 0; x < p.unknowns(); ++x) {
             const Vec3d to = direction(j + y), from = direction(i + x);
             double sum = 0;
             for (int r = 0; r < 3; ++r) sum += from[r] * (block[r][0] * to.x + block[r][1] * to.y + block[r][2] * to.z);
             a(i + x, j + y) = m_share * sum;
-            a(j + y, i + x) = m_share * sum;
           }
       }
+    for (int j = 0; j < m_n; ++j)
+      for (int i = 0; i < j; ++i) a(i, j) = a(j, i);
   }
 
   void find_forces() noexcept {
