@@ -71,9 +71,9 @@ void keep_cells(const sim::Model& model, int organ, const interactions::VesselHo
 std::vector<int> kept_nodes(const sim::Model& model, int organ, const OrganAsDrawn& d) {
   std::vector<std::uint8_t> kept(d.points.size(), 0);
   for (const tissue::Skin* skin : d.skins)
-    for (const tissue::SkinWeights& w : skin->weights)
-      for (std::size_t k = 0; k < 8; ++k)
-        if (w.weight[k] > 0) keep(w.node[k], kept);
+    for (int v = 0; v < skin->size(); ++v)
+      for (std::size_t k = 0; k < 8 && skin->at_surface(v); ++k)
+        if (skin->weights[std::size_t(v)].weight[k] > 0) keep(skin->weights[std::size_t(v)].node[k], kept);
   for (const sim::StrandAnatomy& strand : model.strands)
     for (const sim::StrandEndModel* end : {&strand.start, &strand.end})
       if (end->organ == organ)
