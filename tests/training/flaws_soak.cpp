@@ -87,6 +87,7 @@ class Side {
   void wrong_force(const std::string& code);
   void wrong_hands(const std::string& code);
   void wrong_clip(const std::string& code);
+  void cuts_along_the_fold();
   void wrong_current(const std::string& code);
   void looks_on(const std::string& code);
   void not_identified();
@@ -177,8 +178,18 @@ void Side::wrong_clip(const std::string& code) {
     clip().unset("within_mm").unset("apart_mm");
   }
   if (code == "A1.6") cut().set("beyond_clip_mm", 0.003);
-  if (code == "A1.7") cut().set("inside_share", (blades() - 0.005 - 0.0075) / blades());
+  if (code == "A1.7") cuts_along_the_fold();
   if (code == "A1.10") cut().set("inside_share", 1);
+}
+
+/// With scissors in the applier's place, the tube deep between the blades. From the side the fold hangs over the lower
+/// blade, which pulls it out: one closing hardly gets 5 mm into it, though the tube stands against the shaft's end.
+void Side::cuts_along_the_fold() {
+  constexpr double kFromHinge = 0.0055;  // [m]
+  std::vector<PlanTask> todo = goal("scissors at hand").todo;
+  for (PlanTask& task : todo) task.set_index("hand", applier);
+  todo.push_back(cut().set_index("hand", applier).set("inside_share", kFromHinge / blades()));
+  goal("cut").todo = std::move(todo);
 }
 
 /// At the tube's middle, where current may go.
