@@ -1,0 +1,88 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <trocar/attempt/free_way.hpp>
+#include <trocar/numerics/portable.hpp>
+#include <trocar/pictures/pictures.hpp>
+#include <trocar/pictures/solver_pictures.hpp>
+
+namespace trocar::pictures {
+namespace {
+
+constexpr double kTilt = 0.9;    // of the view from the surface's normal [rad]
+constexpr double kAway = 2.0;    // of the eye, in sizes of the organ
+constexpr double kFov = 0.7;     // [rad]
+constexpr int kDirections = 12;  // that are tried
+constexpr double kRay = 0.006;   // [m] nearer to the eye's ray than this, something hides the place
+
+/// The next of 1, 2, 3, 5 times a power of ten [mm -> m]: a scale's end that people can halve.
+double round_up(double metres) {
+  double unit = 1e-5;
+  for (;; unit *= 10)
+    for (const double k : {1.0, 2.0, 3.0, 5.0})
+      if (k * unit >= metres) return k * unit;
+}
+
+/// The eye that sees the place best.
+view::ViewOptions camera_at(const sim::Model& model, int organ, Vec3d place, Vec3d out) {
+  const std::vector<Vec3d> others = attempt::drawn_points_but(model, organ);
+  const Vec3d side = any_perpendicular(out), other = cross(out, side);
+  const double away = kAway * attempt::organ_size(model, organ);
+  view::ViewOptions options;
+  int fewest = -1;
+  for (int k = 0; k < kDirections; ++k) {
+    const double turn = 2 * portable::pi * k / kDirections;
+    const Vec3d way = std::cos(kTilt) * out + std::sin(kTilt) * (std::cos(turn) * side + std::sin(turn) * other);
+    const int near = attempt::points_near(others, place + 0.01 * out, place + away * way, kRay);
+    if (fewest >= 0 && near >= fewest) continue;
+    fewest = near;
+    options.eye = place + away * way;
+  }
+  options.camera = view::ViewOptions::Camera::outside;
+  options.target = place;
+  options.up = out;
+  options.outside_fov = kFov;
+  options.walls = false;
+  return options;
+}
+
+std::shared_ptr<const view::OrganBeside> beside_of(const sim::Model& model, const sim::State& state, int organ) {
+  auto beside = std::make_shared<view::OrganBeside>();
+  beside->organ = organ;
+  beside->skin = attempt::OrganSkin(model, organ).at(state);
+  tissue::SkinPose pose = tissue::make_pose(model.skin(organ));
+  pose.position = model.skin(organ).rest;
+  tissue::pose_skin(nodes_of(model, state, organ), model.skin(organ), pose);
+  beside->outline = std::move(pose.position);
+  return beside;
+}
+
+}  // namespace
+
+std::vector<SolverPicture> draw_solvers(const attempt::SolverPair& pair, const attempt::SolverComparison& comparison,
+                                        const std::filesystem::path& folder, PictureSize size) {
+  if (comparison.samples().empty()) return {};
+  const sim::Model& model = pair.dynamic->model;
+  const attempt::SolverSample worst = comparison.summary().worst;
+  const tissue::Skin& skin = attempt::OrganSkin(model, pair.organ).skin();
+  const Vec3d place = vec_cast<double>(skin.rest[std::size_t(worst.vertex)]);
+  view::ViewOptions look =
+      camera_at(model, pair.organ, place, vec_cast<double>(skin.rest_normal[std::size_t(worst.vertex)]));
+  Pictures pictures(model, size);
+  std::vector<SolverPicture> drawn;
+  const auto add = [&](const char* file, std::string text) {
+    render::write_png((folder / file).string(), pictures.still(comparison.dynamic_state(), look));
+    drawn.push_back({file, std::move(text)});
+  };
+  add("plain.png", fmt::format("as the dynamic solver has it, {:.2f} s", worst.seconds));
+  look.beside = beside_of(pair.at_once->model, comparison.static_state(), pair.organ);
+  look.analysis.solvers = look.analysis.forces = true;
+  look.analysis.apart_most = round_up(worst.largest);
+  add("apart.png", fmt::format("the same in colours of the distance, up to {:.2f} mm, with the static one's outline",
+                               1e3 * worst.largest));
+  return drawn;
+}
+
+}  // namespace trocar::pictures
