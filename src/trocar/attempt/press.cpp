@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 
@@ -13,13 +14,14 @@ namespace trocar::attempt {
 namespace {
 
 constexpr double kAbove = 0.015;                                           // of the skin, where the way down begins [m]
-constexpr double kBackTo = 0.06;                                           // depth at which instruments swing [m]
+constexpr double kBackTo = 0.04;                                           // depth at which instruments swing [m]
 constexpr double kQuick = 0.25, kSlow = 0.05, kInward = 0.010;             // [m/s]
 constexpr double kTurn = 1.5;                                              // [rad/s]
 constexpr int kSteps = 5;                                                  // in which it goes in
 constexpr int kHold = 200, kHoldLast = 600, kSettled = 100, kAfter = 300;  // [ticks]
-constexpr double kFacing = 0.3;                                            // at least: flatter, it slides off
-constexpr double kBeside = 0.001, kOwn = 0.008;                            // clear of others; of itself [m]
+constexpr double kThroughWall = 0.05;            // of the way lies in the wall around the trocar [m]
+constexpr double kFacing = 0.3;                  // at least: flatter, it slides off
+constexpr double kBeside = 0.001, kOwn = 0.008;  // clear of others; of itself [m]
 
 bool allowed(const interactions::ToolModel& tool, Vec3d tip) {
   const kinematics::FulcrumPose wanted = kinematics::inverse(tool.port, tip, 0);
@@ -27,16 +29,21 @@ bool allowed(const interactions::ToolModel& tool, Vec3d tip) {
   return wanted.yaw == can.yaw && wanted.pitch == can.pitch && wanted.depth == can.depth;
 }
 
-bool is_clear(const std::vector<Vec3d>& others, const tissue::Skin& own, const interactions::ToolModel& tool,
-              Vec3d at) {
-  const double wide = tool.shaft_radius + kBeside;
-  if (points_near(others, tool.port, at, wide) > 0) return false;
-  for (const Vec3f& q : own.rest) {
-    const Vec3d p = vec_cast<double>(q);
-    if (length(p - at) > kOwn && off_segment(p, tool.port, at) < tool.shaft_radius) return false;
+/// What lies on an instrument's way.
+struct Obstacles {
+  std::vector<DrawnPoint> others, walls;
+  const tissue::Skin& own;
+
+  bool clear(const interactions::ToolModel& tool, Vec3d at) const {
+    const double wide = tool.shaft_radius + kBeside;
+    const Vec3d inside = tool.port + kThroughWall * normalised(at - tool.port);
+    if (points_near(others, tool.port, at, wide) > 0 || points_near(walls, inside, at, wide) > 0) return false;
+    return std::none_of(own.rest.begin(), own.rest.end(), [&](Vec3f q) {
+      const Vec3d p = vec_cast<double>(q);
+      return length(p - at) > kOwn && off_segment(p, tool.port, at) < tool.shaft_radius;
+    });
   }
-  return true;
-}
+};
 
 std::span<const std::uint8_t> held_of(const sim::Model& model, int organ) {
   const std::int32_t lattice = sim::lattice_of(model, organ);
@@ -52,25 +59,36 @@ bool gives_way(std::span<const std::uint8_t> held, const tissue::SkinWeights& w)
 }
 
 struct Candidate {
-  int vertex = -1;
-  double facing = 0;  ///< cosine between normal and the way to the trocar
+  int triangle = -1;
+  Vec3d at, out;      ///< its middle [m], its normal
+  double facing = 0;  ///< cosine between the normal and the way to the trocar
 };
-/// Vertices that the hand's instrument can press in by `depth`, best first.
+Candidate candidate(const tissue::Skin& skin, int triangle, Vec3d port) {
+  const std::array<int, 3>& t = skin.triangles[std::size_t(triangle)];
+  Vec3d corner[3];
+  for (std::size_t k = 0; k < 3; ++k) corner[k] = vec_cast<double>(skin.rest[std::size_t(t[k])]);
+  const Vec3d at = (corner[0] + corner[1] + corner[2]) / 3.0;
+  const Vec3d out = normalised(cross(corner[1] - corner[0], corner[2] - corner[0]));
+  return {triangle, at, out, dot(out, normalised(port - at))};
+}
+
+/// Triangles that the hand's instrument can press in by `depth`, best first.
 std::vector<Candidate> candidates(const sim::Model& model, int organ, int hand, double depth) {
   const tissue::Skin& skin = model.skin(organ);
   const interactions::ToolModel& tool = model.placed(std::size_t(hand));
   const std::span<const std::uint8_t> held = held_of(model, organ);
   std::vector<Candidate> found;
-  for (int v = 0; v < skin.size(); ++v) {
-    if (!skin.at_surface(v) || !gives_way(held, skin.weights[std::size_t(v)])) continue;
-    const Vec3d at = vec_cast<double>(skin.rest[std::size_t(v)]),
-                out = vec_cast<double>(skin.rest_normal[std::size_t(v)]);
-    const double facing = dot(out, normalised(tool.port - at));
-    if (facing > kFacing && allowed(tool, at + kAbove * out) && allowed(tool, at - depth * out))
-      found.push_back({v, facing});
+  for (int t = 0; t < int(skin.triangles.size()); ++t) {
+    const std::array<int, 3>& corner = skin.triangles[std::size_t(t)];
+    if (!std::all_of(corner.begin(), corner.end(),
+                     [&](int v) { return gives_way(held, skin.weights[std::size_t(v)]); }))
+      continue;
+    const Candidate c = candidate(skin, t, tool.port);
+    if (c.facing > kFacing && allowed(tool, c.at + kAbove * c.out) && allowed(tool, c.at - depth * c.out))
+      found.push_back(c);
   }
   std::sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
-    return a.facing > b.facing || (a.facing == b.facing && a.vertex < b.vertex);
+    return a.facing > b.facing || (a.facing == b.facing && a.triangle < b.triangle);
   });
   return found;
 }
@@ -84,15 +102,11 @@ std::vector<int> hands_in_order(const sim::Model& model) {
   return hands;
 }
 
-Press press_at(const sim::Model& model, int organ, int hand, int vertex, double depth, bool clear) {
-  const tissue::Skin& skin = model.skin(organ);
-  return {organ,
-          hand,
-          vertex,
-          vec_cast<double>(skin.rest[std::size_t(vertex)]),
-          vec_cast<double>(skin.rest_normal[std::size_t(vertex)]),
-          depth,
-          clear};
+Vec3d middle_of(const sim::Model& model, const sim::State& state, int organ, int triangle) {
+  Vec3d sum;
+  for (const int v : model.skin(organ).triangles[std::size_t(triangle)])
+    sum += tissue::skin_point(nodes_of(model, state, organ), model.skin(organ), v);
+  return sum / 3.0;
 }
 
 }  // namespace
@@ -105,15 +119,17 @@ double organ_size(const sim::Model& model, int organ) {
 }
 
 Press plan_press(const sim::Model& model, int organ, double depth) {
-  const std::vector<Vec3d> others = drawn_points_but(model, organ);
+  const Obstacles obstacles{drawn_points_but(model, organ), wall_points(model), model.skin(organ)};
   Press blocked;
   for (const int hand : hands_in_order(model)) {
     const std::vector<Candidate> found = candidates(model, organ, hand, depth);
     for (const Candidate& c : found) {
-      const Press press = press_at(model, organ, hand, c.vertex, depth, true);
-      if (is_clear(others, model.skin(organ), model.placed(std::size_t(hand)), press.at)) return press;
+      const interactions::ToolModel& tool = model.placed(std::size_t(hand));
+      const bool clear = obstacles.clear(tool, c.at) && obstacles.clear(tool, c.at + kAbove * c.out);
+      const Press press{organ, hand, c.triangle, c.at, c.out, depth, clear};
+      if (clear) return press;
+      if (blocked.hand < 0) blocked = press;
     }
-    if (!found.empty() && blocked.hand < 0) blocked = press_at(model, organ, hand, found.front().vertex, depth, false);
   }
   if (blocked.hand >= 0) return blocked;
   throw core::BadInput({{{"--organ", 0, 0},
@@ -128,7 +144,7 @@ PressSource::PressSource(const sim::Model& model, const Press& press)
       m_press(press),
       m_input(model.start),
       m_pose(pose_of(model.start.tools[std::size_t(press.hand)])),
-      m_front(0.5 * model.placed(std::size_t(press.hand)).jaw_thickness),
+      m_front(model.placed(std::size_t(press.hand)).jaw_thickness),
       m_touched(press.at) {}
 
 void PressSource::go_on(Phase phase) {
@@ -187,8 +203,7 @@ bool PressSource::next(const sim::State& state, sim::Input& input) {
     }
     case Phase::down: {
       m_offset -= kSlow * sim::kTick;
-      const Vec3d skin =
-          tissue::skin_point(nodes_of(m_model, state, m_press.organ), m_model.skin(m_press.organ), m_press.vertex);
+      const Vec3d skin = middle_of(m_model, state, m_press.organ, m_press.triangle);
       if (m_offset > m_front + dot(skin - m_press.at, m_press.out)) break;
       m_touched = skin;
       m_offset = 0;
@@ -220,6 +235,7 @@ Json PressSource::describe() const {
   return {{"instrument", m_model.placed(std::size_t(m_press.hand)).name},
           {"trocar", m_model.hands[std::size_t(m_press.hand)].name},
           {"depth_mm", 1e3 * m_press.depth},
+          {"facing", dot(m_press.out, normalised(m_model.hands[std::size_t(m_press.hand)].port - m_press.at))},
           {"at_mm", {1e3 * m_press.at.x, 1e3 * m_press.at.y, 1e3 * m_press.at.z}},
           {"clear", m_press.clear}};
 }

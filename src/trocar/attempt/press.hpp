@@ -1,4 +1,5 @@
-// Hands for whoever wants to know how an organ gives way: one instrument goes to where the organ faces its trocar best,
+// Hands for whoever wants to know how an organ gives way: one instrument goes to where the organ faces its trocar best
+// (the middle of a triangle, as a thin tip slips off vertices),
 // presses in along the surface's inward normal in steps, holds, and withdraws. All others stay where they were placed.
 //
 //   PressSource hands(model, plan_press(model, organ, 0.05 * organ_size(model, organ)));
@@ -14,14 +15,14 @@ double organ_size(const sim::Model& model, int organ);
 
 struct Press {
   int organ = -1, hand = -1;
-  int vertex = -1;    ///< of the skin that is touched
-  Vec3d at;           ///< where that is drawn [m]
+  int triangle = -1;  ///< of the skin that is touched
+  Vec3d at;           ///< its middle, as drawn [m]
   Vec3d out;          ///< unit, the surface's normal there
   double depth = 0;   ///< how far the instrument's front goes in, from where it touches [m]
   bool clear = true;  ///< nothing that is drawn lies on its way
 };
-/// The first hand that can reach, at the free vertex whose normal points to its trocar best and to which the way is
-/// clear.
+/// The first hand that can reach, at the triangle that gives way whose normal points to its trocar best and to which
+/// the way is clear.
 /// @throws core::BadInput where none can
 Press plan_press(const sim::Model& model, int organ, double depth);
 

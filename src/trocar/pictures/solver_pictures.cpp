@@ -11,35 +11,37 @@
 namespace trocar::pictures {
 namespace {
 
-constexpr double kTilt = 0.9;    // of the view from the surface's normal [rad]
-constexpr double kAway = 2.0;    // of the eye, in sizes of the organ
-constexpr double kFov = 0.7;     // [rad]
-constexpr int kDirections = 12;  // that are tried
-constexpr double kRay = 0.006;   // [m] nearer to the eye's ray than this, something hides the place
+constexpr double kTilts[] = {0.9, 0.6};  // of the view from the surface's normal [rad]; those before are nicer
+constexpr double kAway = 2.0;            // of the eye, in sizes of the organ
+constexpr double kFov = 0.7;             // [rad]
+constexpr int kDirections = 12;          // that are tried
+constexpr double kRay = 0.3;  // in sizes of the organ: nearer to the line of sight than this, something hides it
 
-/// The next of 1, 2, 3, 5 times a power of ten [mm -> m]: a scale's end that people can halve.
+/// A round number that is not below: a scale's end [m].
 double round_up(double metres) {
   double unit = 1e-5;
   for (;; unit *= 10)
-    for (const double k : {1.0, 2.0, 3.0, 5.0})
+    for (const double k : {1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.5})
       if (k * unit >= metres) return k * unit;
 }
 
 /// The eye that sees the place best.
 view::ViewOptions camera_at(const sim::Model& model, int organ, Vec3d place, Vec3d out) {
-  const std::vector<Vec3d> others = attempt::drawn_points_but(model, organ);
+  const std::vector<attempt::DrawnPoint> others = attempt::drawn_points_but(model, organ);
   const Vec3d side = any_perpendicular(out), other = cross(out, side);
   const double away = kAway * attempt::organ_size(model, organ);
+  const double ray = kRay * attempt::organ_size(model, organ);
   view::ViewOptions options;
   int fewest = -1;
-  for (int k = 0; k < kDirections; ++k) {
-    const double turn = 2 * portable::pi * k / kDirections;
-    const Vec3d way = std::cos(kTilt) * out + std::sin(kTilt) * (std::cos(turn) * side + std::sin(turn) * other);
-    const int near = attempt::points_near(others, place + 0.01 * out, place + away * way, kRay);
-    if (fewest >= 0 && near >= fewest) continue;
-    fewest = near;
-    options.eye = place + away * way;
-  }
+  for (const double tilt : kTilts)
+    for (int k = 0; k < kDirections; ++k) {
+      const double turn = 2 * portable::pi * k / kDirections;
+      const Vec3d way = std::cos(tilt) * out + std::sin(tilt) * (std::cos(turn) * side + std::sin(turn) * other);
+      const int near = attempt::points_near(others, place + ray * out, place + away * way, ray);
+      if (fewest >= 0 && near >= fewest) continue;
+      fewest = near;
+      options.eye = place + away * way;
+    }
   options.camera = view::ViewOptions::Camera::outside;
   options.target = place;
   options.up = out;
@@ -78,7 +80,7 @@ std::vector<SolverPicture> draw_solvers(const attempt::SolverPair& pair, const a
   };
   add("plain.png", fmt::format("as the dynamic solver has it, {:.2f} s", worst.seconds));
   look.beside = beside_of(pair.at_once->model, comparison.static_state(), pair.organ);
-  look.analysis.solvers = look.analysis.forces = true;
+  look.analysis.solvers = true;
   look.analysis.apart_most = round_up(worst.largest);
   add("apart.png", fmt::format("the same in colours of the distance, up to {:.2f} mm, with the static one's outline",
                                1e3 * worst.largest));

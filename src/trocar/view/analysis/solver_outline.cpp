@@ -6,7 +6,7 @@ namespace trocar::view {
 namespace {
 
 constexpr float kNearer = 0.06f;       // share of the way to the eye that wires come nearer, so that nothing hides them
-constexpr float kHalfWidth = 0.0008f;  // of a wire, seen from 1 m [m]
+constexpr float kHalfWidth = 0.0006f;  // of a wire, seen from 1 m [m]
 
 Vec3f normal_of(const std::vector<Vec3f>& at, const std::array<int, 3>& t) {
   const Vec3f a = at[std::size_t(t[0])];
