@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <trocar/attempt/lesson.hpp>
-#include <trocar/attempt/organ_solver.hpp>
+#include <trocar/attempt/solver_beside.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/json.hpp>
 

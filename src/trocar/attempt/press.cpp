@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kAbove = 0.015;                                           // of the skin, where the way down begins [m]
 constexpr double kBackTo = 0.04;                                           // depth at which instruments swing [m]
-constexpr double kQuick = 0.25, kSlow = 0.05, kInward = 0.010;             // [m/s]
+constexpr double kQuick = 0.25, kGently = 0.05, kInward = 0.010;           // [m/s]
 constexpr double kTurn = 1.5;                                              // [rad/s]
 constexpr int kSteps = 5;                                                  // in which it goes in
 constexpr int kHold = 200, kHoldLast = 600, kSettled = 100, kAfter = 300;  // [ticks]
@@ -202,7 +202,7 @@ bool PressSource::next(const sim::State& state, sim::Input& input) {
       break;
     }
     case Phase::down: {
-      m_offset -= kSlow * sim::kTick;
+      m_offset -= kGently * sim::kTick;
       const Vec3d skin = middle_of(m_model, state, m_press.organ, m_press.triangle);
       if (m_offset > m_front + dot(skin - m_press.at, m_press.out)) break;
       m_touched = skin;
@@ -214,8 +214,8 @@ bool PressSource::next(const sim::State& state, sim::Input& input) {
       go_in();
       break;
     case Phase::out:
-      m_offset = pace(m_offset, kAbove, kSlow);
-      if (m_offset == kAbove && m_ticks > kAfter + int(kAbove / (kSlow * sim::kTick))) go_on(Phase::over);
+      m_offset = pace(m_offset, kAbove, kGently);
+      if (m_offset == kAbove && m_ticks > kAfter + int(kAbove / (kGently * sim::kTick))) go_on(Phase::over);
       break;
     case Phase::over:
       return false;

@@ -1,5 +1,8 @@
-#include <trocar/attempt/organ_solver.hpp>
+#include <algorithm>
+
 #include <trocar/attempt/solver_beside.hpp>
+#include <trocar/core/error.hpp>
+#include <trocar/scene/json/shape.hpp>
 #include <trocar/sim/model/bodies.hpp>
 
 namespace trocar::attempt {
@@ -12,8 +15,26 @@ const tissue::Skin& drawn_skin(const sim::Model& model, int organ) {
 
 }  // namespace
 
-OrganSkin::OrganSkin(const sim::Model& model, int organ)
-    : m_model(&model), m_organ(organ), m_skin(&drawn_skin(model, organ)), m_pose(tissue::make_pose(*m_skin)) {
+std::vector<std::string> organ_names(const scene::Description& scene) {
+  std::vector<std::string> names;
+  for (const scene::Solid& s : scene.solids) names.push_back(s.name);
+  return names;
+}
+
+void set_solver(scene::Description& scene, const std::string& organ, scene::Solver solver, const std::string& asked) {
+  const auto named = [&organ](const scene::Solid& s) { return s.name == organ; };
+  const auto found = std::find_if(scene.solids.begin(), scene.solids.end(), named);
+  if (found == scene.solids.end())
+    throw core::BadInput({{{asked, 0, 0}, scene::unknown_name("organ", organ, organ_names(scene))}});
+  found->solver = solver;
+  if (found->solver_at.file.empty()) found->solver_at = found->at;  // its file says nothing of a solver: faults, here
+}
+
+OrganSkin::OrganSkin(const sim::Model& model, int organ, Which which)
+    : m_model(&model),
+      m_organ(organ),
+      m_skin(which == Which::drawn ? &drawn_skin(model, organ) : &model.skin(organ)),
+      m_pose(tissue::make_pose(*m_skin)) {
   m_pose.position = m_skin->rest;
 }
 
@@ -39,7 +60,8 @@ SolverBeside::SolverBeside(const sim::Model& model, int organ, int threads)
       m_state(sim::initial_state(model)),
       m_work(sim::make_work(model, &m_pool)),
       m_organ(organ),
-      m_skin(model, organ) {}
+      m_skin(model, organ),
+      m_outline(model, organ, OrganSkin::Which::touched) {}
 
 void SolverBeside::advance(const sim::Input& input) { m_flags |= sim::step(m_model, input, m_state, m_work).flags; }
 

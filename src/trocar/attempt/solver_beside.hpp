@@ -17,11 +17,20 @@
 
 namespace trocar::attempt {
 
-/// Where the drawn skin of an organ is. Vertices of what a cut adds are left out: they have no counterpart.
+/// Another solver for an organ than its file says, before the scene is compiled.
+/// @param asked  what named the organ, for faults: an option
+/// @throws core::BadInput with what there is, where there is no such organ
+void set_solver(scene::Description& scene, const std::string& organ, scene::Solver solver,
+                const std::string& asked = "--organ");
+std::vector<std::string> organ_names(const scene::Description& scene);
+
+/// Where a skin of an organ is, the drawn one or the coarser one that is touched. Vertices of what a cut adds are left
+/// out: they have no counterpart.
 class OrganSkin {
  public:
+  enum class Which { drawn, touched };
   /// `model` must outlive it.
-  OrganSkin(const sim::Model& model, int organ);
+  OrganSkin(const sim::Model& model, int organ, Which which = Which::drawn);
   /// (vertices) [m]; those that are not at the surface stay as drawn.
   const std::vector<Vec3f>& at(const sim::State& state);
   const tissue::Skin& skin() const { return *m_skin; }
@@ -49,8 +58,9 @@ class SolverBeside {
   const sim::Model& model() const { return m_model; }
   const sim::State& state() const { return m_state; }
   int organ() const { return m_organ; }
-  const std::vector<Vec3f>& skin() { return m_skin.at(m_state); }  ///< (vertices) [m]
-  std::uint32_t flags() const { return m_flags; }                  ///< of all ticks so far
+  const std::vector<Vec3f>& skin() { return m_skin.at(m_state); }        ///< (vertices) [m]
+  const std::vector<Vec3f>& outline() { return m_outline.at(m_state); }  ///< (vertices of what is touched) [m]
+  std::uint32_t flags() const { return m_flags; }                        ///< of all ticks so far
 
  private:
   const sim::Model& m_model;
@@ -58,7 +68,7 @@ class SolverBeside {
   sim::State m_state;
   sim::Work m_work;
   int m_organ;
-  OrganSkin m_skin;
+  OrganSkin m_skin, m_outline;
   std::uint32_t m_flags = 0;
 };
 

@@ -3,7 +3,6 @@
 #include <limits>
 
 #include <trocar/attempt/interrupt.hpp>
-#include <trocar/attempt/organ_solver.hpp>
 #include <trocar/attempt/progress.hpp>
 #include <trocar/attempt/solver_comparison.hpp>
 #include <trocar/core/tick.hpp>
@@ -116,16 +115,6 @@ SolverComparison compare_solvers(const SolverPair& pair, InputSource& source, do
     beside.advance(input);
     comparison.after_tick(state, beside.state(), settled && settled());
     progress.at(state.tick);
-    if (getenv("DBG") && state.tick % 40 == 0)
-      for (size_t t = 0; t < dynamic.hands.size(); ++t) {
-        auto& f = state.tools[t].contact_force;
-        fprintf(stderr, "%lu tool %zu f %.2f %.2f %.2f depth %.4f :", state.tick, t, f[0], f[1], f[2],
-                state.tools[t].depth);
-        for (int k = 0; k < state.touches[t].count; ++k)
-          fprintf(stderr, " %s/%d/%d", sim::name_of(dynamic, state.touches[t].touch[k].body).c_str(),
-                  state.touches[t].touch[k].element, state.touches[t].touch[k].part);
-        fprintf(stderr, "\n");
-      }
   }
   return comparison;
 }

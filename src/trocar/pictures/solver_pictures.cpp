@@ -54,10 +54,7 @@ std::shared_ptr<const view::OrganBeside> beside_of(const sim::Model& model, cons
   auto beside = std::make_shared<view::OrganBeside>();
   beside->organ = organ;
   beside->skin = attempt::OrganSkin(model, organ).at(state);
-  tissue::SkinPose pose = tissue::make_pose(model.skin(organ));
-  pose.position = model.skin(organ).rest;
-  tissue::pose_skin(nodes_of(model, state, organ), model.skin(organ), pose);
-  beside->outline = std::move(pose.position);
+  beside->outline = attempt::OrganSkin(model, organ, attempt::OrganSkin::Which::touched).at(state);
   return beside;
 }
 
