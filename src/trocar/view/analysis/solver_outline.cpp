@@ -7,13 +7,14 @@ namespace {
 
 constexpr float kNearer = 0.06f;       // share of the way to the eye that wires come nearer, so that nothing hides them
 constexpr float kHalfWidth = 0.0006f;  // of a wire, seen from 1 m [m]
+constexpr float kFinest = 0.025f;      // [rad] mean edge: finer ones hide the colours
 
 Vec3f normal_of(const std::vector<Vec3f>& at, const std::array<int, 3>& t) {
   const Vec3f a = at[std::size_t(t[0])];
   return cross(at[std::size_t(t[1])] - a, at[std::size_t(t[2])] - a);
 }
 
-/// Edges of triangles that face the eye, each once.
+/// Edges of triangles that face the eye, each once for each of them, in order.
 std::vector<std::array<int, 2>> facing_edges(const tissue::Skin& skin, const std::vector<Vec3f>& at, Vec3f eye) {
   std::vector<std::array<int, 2>> edges;
   for (const std::array<int, 3>& t : skin.triangles) {
@@ -24,8 +25,24 @@ std::vector<std::array<int, 2>> facing_edges(const tissue::Skin& skin, const std
     }
   }
   std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return edges;
+}
+
+/// Only those of one facing triangle: the silhouette.
+void keep_silhouette(std::vector<std::array<int, 2>>& edges) {
+  std::vector<std::array<int, 2>> once;
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    if ((i == 0 || edges[i - 1] != edges[i]) && (i + 1 == edges.size() || edges[i + 1] != edges[i]))
+      once.push_back(edges[i]);
+  edges = std::move(once);
+}
+
+/// So far away that wires would lie side by side and hide the colours?
+bool is_far(const std::vector<std::array<int, 2>>& edges, const std::vector<Vec3f>& at, Vec3f eye) {
+  float seen = 0;
+  for (const auto& [a, b] : edges)
+    seen += length(at[std::size_t(a)] - at[std::size_t(b)]) / length(eye - at[std::size_t(a)]);
+  return seen < kFinest * float(edges.size());
 }
 
 /// A wire as a band that faces the eye, as wide from afar as from near.
@@ -74,7 +91,10 @@ void SolverOutline::update_wires(const OrganBeside& beside, Vec3f eye, render::B
   const std::vector<std::uint32_t> before = std::exchange(m_wires.buffer.indices, {});
   m_wires.buffer.positions.clear(), m_wires.buffer.paint.clear();
   const Paint paint = paint_shown_as(kOtherSolver);
-  for (const auto& [a, b] : facing_edges(m_model->skin(beside.organ), beside.outline, eye))
+  std::vector<std::array<int, 2>> edges = facing_edges(m_model->skin(beside.organ), beside.outline, eye);
+  if (is_far(edges, beside.outline, eye)) keep_silhouette(edges);
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  for (const auto& [a, b] : edges)
     add_wire(m_wires.buffer, beside.outline[std::size_t(a)], beside.outline[std::size_t(b)], eye, paint);
   m_wires.show(backend, m_wires.buffer.indices.size() != before.size());
 }

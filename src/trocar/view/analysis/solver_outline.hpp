@@ -1,6 +1,6 @@
 // One organ as two solvers have it (analysis.hpp): the surface that is drawn, coloured by how far each vertex is from
 // where the other solver has it, and the other one's outline as wires. Wires are drawn over everything, those that face
-// the eye, so that they show on whichever side of the surface they lie.
+// the eye, so that they show on whichever side of the surface they lie; from afar only the silhouette.
 #pragma once
 
 #include <trocar/sim/model/bodies.hpp>
