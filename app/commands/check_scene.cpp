@@ -157,6 +157,9 @@ Json describe_scene(const fs::path& path, const std::vector<std::string>& only,
   ProgressNotice told(path.string());
   told.at("compiling");
   scene::CompileReport report;
+  report.said = [&told](const std::string& organ, double share) {
+    told.at(fmt::format("making the static solver of '{}', {:.0f} %", organ, 100 * share));
+  };
   const std::size_t before = bytes_in_use();
   const sim::Model model = scene::compile(scene::read_scene(path), &report);
   const std::size_t with_model = bytes_in_use();

@@ -35,5 +35,7 @@ void add_bench(CLI::App& program, Chosen& chosen);
 void add_gallery(CLI::App& program, Chosen& chosen);
 void add_report(CLI::App& program, Chosen& chosen);
 void add_trials(CLI::App& program, Chosen& chosen);
+void add_precompute(CLI::App& program, Chosen& chosen);
+void add_compare(CLI::App& program, Chosen& chosen);
 
 }  // namespace trocar::app

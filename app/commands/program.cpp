@@ -70,6 +70,8 @@ int run_program(int argc, const char* const* argv) {
   add_bench(program, chosen);
   add_report(program, chosen);
   add_trials(program, chosen);
+  add_precompute(program, chosen);
+  add_compare(program, chosen);
   const std::string first = argv[1];
   if (!first.empty() && first[0] != '-') {
     Chosen check;

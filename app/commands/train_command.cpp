@@ -4,6 +4,7 @@
 #include <trocar/attempt/attempt_log.hpp>
 #include <trocar/attempt/interrupt.hpp>
 #include <trocar/attempt/paths.hpp>
+#include <trocar/attempt/solver_beside.hpp>
 #include <trocar/attempt/sources.hpp>
 #include <trocar/attempt/standing.hpp>
 #include <trocar/core/error.hpp>
@@ -22,7 +23,7 @@ namespace {
 
 struct TrainChoice {
   std::string exercise, input = "mouse", record, shots, video, report, data, size, stereo = "off", show, analysis,
-                        trainee, log;
+                        trainee, log, beside;
   double seconds = 0, data_rate = pictures::kDataRate;
   std::uint64_t seed = 0;
   bool headless = false, familiarisation = false, no_store = false;
@@ -99,7 +100,8 @@ Json train_headless(const TrainChoice& o, const attempt::Lesson& lesson, trainin
   return result;
 }
 
-WindowOptions window_options(const TrainChoice& o, training::Store* store) {
+WindowOptions window_options(const TrainChoice& o, training::Store* store,
+                             std::shared_ptr<const attempt::Lesson> other) {
   WindowOptions w;
   w.exercise = o.exercise;
   w.record = o.record;
@@ -111,6 +113,8 @@ WindowOptions window_options(const TrainChoice& o, training::Store* store) {
   w.seconds = o.seconds;
   w.familiarisation = o.familiarisation;
   w.store = store;
+  w.beside = o.beside;
+  w.other_solver = std::move(other);
   return w;
 }
 
@@ -122,16 +126,22 @@ int train(const TrainChoice& o, bool json) {
   if (o.exercise.empty() && (o.headless || !hands))
     throw core::BadInput({{{"train", 0, 0}, "expected an exercise (see trocar list), got none"}});
   // Faults are told before anything is begun.
+  if (!o.beside.empty() && (o.headless || o.exercise.empty()))
+    throw core::BadInput({{{"--beside", 0, 0},
+                           "expected an exercise in a window with it; without one, trocar compare says how far both "
+                           "solvers are apart"}});
   pictures::check_data_rate(o.data_rate);
   static_cast<void>(pictures::parse_stereo(o.stereo)), static_cast<void>(pictures::parse_show(o.show));
   static_cast<void>(pictures::parse_analysis(o.analysis));
   const pictures::PictureSize size = pictures::parse_size(o.size.empty() ? "800x600" : o.size);
   std::unique_ptr<attempt::Lesson> lesson = o.exercise.empty() ? nullptr : attempt::load_lesson(o.exercise, o.seed);
   if (lesson) attempt::warn_of_sinking(lesson->model);
+  std::shared_ptr<const attempt::Lesson> other;
+  if (!o.beside.empty()) other = attempt::load_beside(o.exercise, o.seed, o.beside, "--beside");
   std::unique_ptr<training::Store> store;
   if (!o.no_store) store = std::make_unique<training::Store>(attempt::data_folder());
   Json result = o.headless ? train_headless(o, *lesson, store.get(), size)
-                           : run_window(std::move(lesson), window_options(o, store.get()));
+                           : run_window(std::move(lesson), window_options(o, store.get(), std::move(other)));
   if (result.is_null()) return core::kDone;  // the window was closed before anything was begun
   if (!o.report.empty() && !o.headless) result["report"] = reports::write_report(o.report, result, store.get());
   if (json)
@@ -173,6 +183,8 @@ void add_train(CLI::App& program, Chosen& chosen) {
   c->add_option("--seed", options->seed, "vary the anatomy by this number; 0: as drawn")
       ->capture_default_str()
       ->transform(whole_number(0, kLargestSeed));
+  c->add_option("--beside", options->beside,
+                "in the window: this organ's other solver runs beside, and the analysis shows how far both are apart");
   c->add_flag("--no-store", options->no_store, "leave nothing in the session store");
   c->add_option("--seconds", options->seconds, "stop after so much simulated time")
       ->check(number_above(0, kLongestRun, "s"));

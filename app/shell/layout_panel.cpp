@@ -58,6 +58,10 @@ void draw_analysis(Panes& panes) {
     first = false;
     ui::checkbox(q.name, panes.cameras.analysis.*q.shown);
   }
+  if (panes.beside) {
+    ImGui::SameLine(0, 14 * ui::scale());
+    ui::checkbox("solvers", panes.cameras.analysis.solvers);
+  }
   ImGui::SameLine(0, 14 * ui::scale());
   ui::checkbox("through the endoscope", panes.cameras.analysis_from_endoscope);
 }

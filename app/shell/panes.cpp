@@ -95,6 +95,7 @@ view::ViewOptions Panes::options(PaneShows shows) const {
     case PaneShows::analysis:
       if (!cameras.analysis_from_endoscope) o = pictures::view_of(cameras.analysis_orbit), o.walls = false;
       o.analysis = cameras.analysis;
+      o.beside = beside;
       break;
   }
   o.eye_index = kOutsideEye;

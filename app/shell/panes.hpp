@@ -12,6 +12,7 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 
 #include <trocar/pictures/picture_size.hpp>
 #include <trocar/render/backend/backend.hpp>
@@ -52,6 +53,7 @@ class Panes {
     friend bool operator==(const Pane&, const Pane&) = default;
   };
   PaneCameras cameras;
+  std::shared_ptr<const view::OrganBeside> beside;  ///< for analysis.solvers; null: no other solver runs beside
 
   /// @param elsewhere  size of the second window, where there is one [px]
   void lay_out(const LayoutChoice& choice, const Area& whole, float scale, pictures::PictureSize elsewhere = {0, 0});

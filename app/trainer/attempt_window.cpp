@@ -56,9 +56,26 @@ AttemptWindow::AttemptWindow(TrainerWindow& stage, const attempt::Lesson& lesson
   } else {
     m_source = attempt::make_source(lesson, plan.input);
   }
+  run_beside();
   m_gamepad_used = plan.input == "gamepad";
   if (m_session.monitor()) m_steps = m_session.monitor()->steps();
   stage.window.set_title(window_title(lesson));
+}
+
+/// The other solver of an organ, where this is the exercise that it was asked for.
+void AttemptWindow::run_beside() {
+  const auto& other = m_stage.options.other_solver;
+  if (!other || other->name != m_lesson.name || other->seed != m_lesson.seed) return;
+  m_beside = std::make_unique<attempt::SolverBeside>(other->model, other->model.organ_index(m_stage.options.beside));
+  m_session.run_beside(m_beside.get());
+  m_panes.cameras.analysis.solvers = true;
+  m_panes.cameras.analysis.strain = m_panes.cameras.analysis.forces = false;
+}
+
+void AttemptWindow::show_beside(const attempt::Snapshot& now) {
+  if (!m_beside || now.beside_skin.empty()) return;
+  m_panes.beside = std::make_shared<const view::OrganBeside>(
+      view::OrganBeside{m_beside->organ(), now.beside_skin, now.beside_outline});
 }
 
 double AttemptWindow::now_seconds() const {
@@ -265,6 +282,7 @@ void AttemptWindow::ask_for_the_eye(const attempt::Snapshot& now) {
 }
 
 void AttemptWindow::draw_panes(const attempt::Snapshot& now) {
+  show_beside(now);
   const render::Quality quality = m_stage.governor.quality();
   view::SceneView& view = m_stage.view_of(m_lesson);
   m_panes.draw_others({view, *m_stage.backend, now.state, now.state.tick, quality, m_styles}, false);
@@ -293,11 +311,9 @@ void AttemptWindow::tell_views(const LayoutChoice& choice) {
     if (!p.elsewhere)
       panes.push_back({{"shows", name_of(p.shows)}, {"area", {p.area.x, p.area.y, p.area.width, p.area.height}}});
   const PaneCameras& cameras = m_panes.cameras;
-  const Json line{{"layout", name_of(choice.layout)},
-                  {"panes", panes},
-                  {"outside_yaw", cameras.outside.yaw},
-                  {"second_yaw", cameras.second.pose.yaw},
-                  {"pressure", cameras.analysis.pressure}};
+  const Json line{{"layout", name_of(choice.layout)},      {"panes", panes},
+                  {"outside_yaw", cameras.outside.yaw},    {"second_yaw", cameras.second.pose.yaw},
+                  {"pressure", cameras.analysis.pressure}, {"solvers", cameras.analysis.solvers}};
   if (std::string text = line.dump(); text != m_told_views) {
     m_told_views = std::move(text);
     m_stage.log.event("views", line);

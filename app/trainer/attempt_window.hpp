@@ -41,6 +41,8 @@ class AttemptWindow {
   void log_rate(const attempt::Snapshot& now);
   void draw_scene(const attempt::Snapshot& now);
   void draw_panes(const attempt::Snapshot& now);
+  void run_beside();
+  void show_beside(const attempt::Snapshot& now);
   void tell_views(const LayoutChoice& choice);
   void draw_over(const attempt::Snapshot& now, Choice& choice);
   void draw_the_rack(const attempt::Snapshot& now);
@@ -55,6 +57,7 @@ class AttemptWindow {
   TrainerWindow& m_stage;
   const attempt::Lesson& m_lesson;
   attempt::AttemptPlan m_plan;
+  std::unique_ptr<attempt::SolverBeside> m_beside;  ///< null: no other solver runs beside
   attempt::Session m_session;
   attempt::AttemptLog m_log;
   std::unique_ptr<attempt::HandPilot> m_pilot;

@@ -18,10 +18,12 @@ struct WindowOptions {
   std::string trainee;          ///< empty: the last one
   std::string input = "mouse";  ///< mouse or gamepad: hands, by whatever device; or a source: see make_source()
   std::string log;              ///< JSON lines of events; empty: $TROCAR_WINDOW_LOG, or none
-  std::optional<pictures::PictureSize> size;  ///< nothing: as last time
-  double seconds = 0;                         ///< 0: no limit
-  bool familiarisation = false;               ///< no score
-  training::Store* store = nullptr;           ///< null: nothing is kept but recordings that were asked for
+  std::optional<pictures::PictureSize> size;            ///< nothing: as last time
+  double seconds = 0;                                   ///< 0: no limit
+  bool familiarisation = false;                         ///< no score
+  training::Store* store = nullptr;                     ///< null: nothing is kept but recordings that were asked for
+  std::string beside;                                   ///< organ whose other solver runs beside; empty: none
+  std::shared_ptr<const attempt::Lesson> other_solver;  ///< the exercise with it
 };
 
 /// Opens the window: with a lesson straight in the exercise, without one on the start screen. Returns the last

@@ -49,7 +49,8 @@ class Program : public testing::Test {
   fs::path m_folder;
 };
 
-const std::vector<std::string> kCommands{"train", "replay", "check", "gallery", "list", "bench", "report"};
+const std::vector<std::string> kCommands{"train", "replay", "check",      "gallery", "list",
+                                         "bench", "report", "precompute", "compare"};
 
 TEST_F(Program, EveryCommandHasHelpWithAnExample) {
   for (const std::string& command : kCommands) {

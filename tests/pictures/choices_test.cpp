@@ -81,7 +81,8 @@ TEST(AnalysisChoice, NamesQuantitiesAndTheirRanges) {
   EXPECT_NEAR(o.strain_range, 0.35, 1e-12);
   EXPECT_NEAR(o.force_length, 0.005, 1e-12);
   EXPECT_NEAR(o.pressure_most, 120, 1e-12);
-  for (const char* bad : {"stress", "strain:", "strain:0", "strain:x", "strain:1e9", "forces:5mm", "strain forces"})
+  for (const char* bad :
+       {"stress", "strain:", "strain:0", "strain:x", "strain:1e9", "forces:5mm", "strain forces", "solvers"})
     EXPECT_THROW(static_cast<void>(pictures::parse_analysis(bad)), core::BadInput) << bad;
 }
 

@@ -121,6 +121,29 @@ TEST(Analysis, AStrandThatIsStretchedByTenPercentHasTheColourOfTenPercent) {
   EXPECT_FALSE(painted_as(paint_shown_as(ten_percent), colour_on(Scale::diverging, 0.45)));
 }
 
+TEST(Analysis, AnotherSolversOutlineThatIsAMillimetreAwayColoursTheOrganWithOneMillimetre) {
+  const auto backend = render::make_null_backend();
+  const sim::Model& model = small::model();
+  const tissue::Skin &drawn = model.solids[1].fine, &touched = model.solids[1].skin;
+  OrganBeside beside{1, drawn.rest, touched.rest};
+  for (Vec3f& p : beside.skin) p.z += 0.001f;
+  for (Vec3f& p : beside.outline) p.z += 0.001f;
+  AnalysisOptions options;
+  options.apart_most = 0.004;
+  SolverOutline outline(model);
+  const auto wires_from = [&](float height) {
+    outline.update(sim::initial_state(model), beside, options, {0.05f, 0, height}, *backend);
+    return outline.wires().buffer.indices.size();
+  };
+  const std::size_t near = wires_from(0.06f);
+  ASSERT_TRUE(outline.surface().there() && outline.wires().there());
+  for (std::size_t v = 0; v < outline.surface().value.size(); ++v) {
+    ASSERT_NEAR(outline.surface().value[v], 0.001f, 1e-5f);
+    ASSERT_TRUE(painted_as(outline.surface().buffer.paint[v], colour_on(Scale::sequential, 0.25)));
+  }
+  EXPECT_LT(wires_from(1.0f), near / 2) << "from afar the silhouette alone";
+}
+
 TEST(Analysis, AnOrganThatIsStretchedAsAWholeHasThatStrainEverywhere) {
   const auto backend = render::make_null_backend();
   sim::State state = sim::initial_state(small::model());
@@ -314,6 +337,11 @@ TEST(AnalysisLegend, SaysEveryQuantityThatIsShownWithItsUnit) {
   EXPECT_NE(legend.bars[1].title.find("[mmHg]"), std::string::npos);
   ASSERT_EQ(legend.keys.size(), 3u);
   for (const Legend::Key& k : legend.keys) EXPECT_NE(k.text.find("mm/N"), std::string::npos);
+  AnalysisOptions solvers;
+  solvers.solvers = true;
+  EXPECT_NE(legend_of(solvers).bars.at(0).title.find("[mm]"), std::string::npos);
+  EXPECT_EQ(legend_of(solvers).bars.at(0).ticks.back(), "2");
+  EXPECT_EQ(legend_of(solvers).keys.size(), 1u);
 }
 
 }  // namespace

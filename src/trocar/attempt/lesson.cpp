@@ -4,6 +4,7 @@
 
 #include <trocar/attempt/lesson.hpp>
 #include <trocar/attempt/paths.hpp>
+#include <trocar/attempt/progress.hpp>
 #include <trocar/attempt/sources.hpp>
 #include <trocar/core/error.hpp>
 #include <trocar/core/log.hpp>
@@ -33,6 +34,11 @@ bool is_exercise(const std::filesystem::path& path) {
 }
 
 std::unique_ptr<Lesson> load_lesson(const std::string& exercise, std::uint64_t seed) {
+  return load_adapted(exercise, seed, {});
+}
+
+std::unique_ptr<Lesson> load_adapted(const std::string& exercise, std::uint64_t seed, const Adapt& adapt,
+                                     scene::CompileReport* given) {
   const auto started = std::chrono::steady_clock::now();
   auto lesson = std::make_unique<Lesson>();
   lesson->name = exercise;
@@ -48,8 +54,11 @@ std::unique_ptr<Lesson> load_lesson(const std::string& exercise, std::uint64_t s
   if (!lesson->exercise) lesson->title = description.title;
   lesson->seed = seed;
   scene::vary(description, seed);
+  if (adapt) adapt(description);
   core::log::info("compiling {}", lesson->scene.string());
-  scene::CompileReport report;
+  scene::CompileReport own;
+  scene::CompileReport& report = given ? *given : own;
+  if (!report.said) report.said = told_of_solvers();
   lesson->model = scene::compile(description, &report);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - started;
   // An exercise that does not fit its scene is told here, not when somebody starts it.

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include <trocar/core/json.hpp>
+#include <trocar/scene/compile/compile.hpp>
 #include <trocar/sim/stages/step.hpp>
 #include <trocar/training/exercise/monitor.hpp>
 
@@ -44,5 +46,12 @@ bool is_exercise(const std::filesystem::path& path);
 /// @param seed varies the anatomy within its healthy range; 0: as drawn. A recording's header holds it.
 /// @throws core::BadInput, core::EnvironmentLacks
 std::unique_ptr<Lesson> load_lesson(const std::string& exercise, std::uint64_t seed = 0);
+
+/// Changes a scene before it is compiled; may throw core::BadInput.
+using Adapt = std::function<void(scene::Description&)>;
+/// The same of a scene that `adapt` has changed, after its anatomy was varied.
+/// @param report  what the compiler said; where its said() is empty, what takes long is told on stderr
+std::unique_ptr<Lesson> load_adapted(const std::string& exercise, std::uint64_t seed, const Adapt& adapt,
+                                     scene::CompileReport* report = nullptr);
 
 }  // namespace trocar::attempt

@@ -123,6 +123,10 @@ void Live::publish() {
   } else {
     s.seconds = double(s.state.tick) * sim::kTick;
   }
+  if (SolverBeside* beside = m_session.beside()) {
+    s.beside_skin = beside->skin();
+    s.beside_outline = beside->outline();
+  }
   s.speed = m_speed;
   s.finished = m_finished;
   m_published.publish();

@@ -26,6 +26,7 @@ struct Snapshot {
   double seconds = 0;     ///< on the exercise's clock
   double speed = 1;       ///< simulated per real time in the last quarter of a second
   bool finished = false;  ///< the exercise is done, the source is dry, or the physics has failed
+  std::vector<Vec3f> beside_skin = {}, beside_outline = {};  ///< of Session::beside(); empty: none runs
 };
 
 class Live {

@@ -1,8 +1,11 @@
-// A line on stderr every few seconds of wall time, for loops that simulate without a window.
+// A line on stderr every few seconds of wall time, for what takes long without a window: loops that simulate, and
+// static solvers of organs while they are made.
 #pragma once
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
+#include <string>
 
 namespace trocar::attempt {
 
@@ -20,5 +23,8 @@ class Progress {
   std::uint64_t m_first, m_last;
   Clock::time_point m_start = Clock::now(), m_told = m_start;
 };
+
+/// For scene::CompileReport::said.
+std::function<void(const std::string& organ, double share)> told_of_solvers();
 
 }  // namespace trocar::attempt

@@ -93,6 +93,7 @@ const sim::StepReport& Session::advance(const sim::Input& input) {
   if (m_writer) m_writer->tick(m_state.tick, input);
   m_inputs_hash = core::hash_bytes(&input, sizeof input, m_inputs_hash);
   m_report = sim::step(m_lesson.model, input, m_state, m_work);
+  if (m_beside) m_beside->advance(input);
   m_flags |= m_report.flags;
   if (!m_report.fine())
     m_broken =

@@ -14,6 +14,7 @@
 #include <optional>
 
 #include <trocar/attempt/lesson.hpp>
+#include <trocar/attempt/solver_beside.hpp>
 #include <trocar/core/parallel.hpp>
 #include <trocar/sim/recording/recording.hpp>
 #include <trocar/sim/stages/step.hpp>
@@ -40,6 +41,9 @@ class Session {
   void record(const std::filesystem::path& path, const training::Attempt& attempt);
   /// False: getting to know the exercise, without score and verdict. Before the first tick.
   void set_scored(bool scored);
+  /// From now on that simulation gets the same inputs. Null: none. It must outlive the session's ticks.
+  void run_beside(SolverBeside* beside) { m_beside = beside; }
+  SolverBeside* beside() { return m_beside; }
 
   /// One tick. Does nothing more once the physics has failed (see broken()).
   const sim::StepReport& advance(const sim::Input& input);
@@ -97,6 +101,7 @@ class Session {
   mutable std::mutex m_failure_lock;
   std::string m_recording_failure;
   bool m_scored = true;
+  SolverBeside* m_beside = nullptr;
   training::TraceRecorder m_trace;
   double m_exercise_from = -1;  ///< simulated time at which the exercise's clock began; below 0: not yet [s]
   std::vector<KeptMoment> m_kept;

@@ -23,6 +23,10 @@ view::AnalysisOptions parse_analysis(const std::string& text) {
     const std::string name = item.substr(0, colon);
     const auto known = std::find_if(std::begin(kAnalysisQuantities), std::end(kAnalysisQuantities),
                                     [&name](const AnalysisQuantity& q) { return name == q.name; });
+    if (name == "solvers")  // of the analysis view all the same, but not of any scene
+      refuse_analysis(
+          "expected springs, strain, forces or pressure, got 'solvers', for which another simulation has to "
+          "run beside: trocar compare draws it");
     if (known == std::end(kAnalysisQuantities))
       refuse_analysis(fmt::format("expected springs, strain, forces or pressure, with commas between, got '{}'", item));
     options.*known->shown = true;

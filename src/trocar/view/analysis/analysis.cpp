@@ -38,6 +38,13 @@ Legend::Bar pressure_bar(const AnalysisOptions& o) {
   return bar;
 }
 
+Legend::Bar distance_bar(const AnalysisOptions& o) {
+  Legend::Bar bar{"distance between both solvers [mm]", colours_of(Scale::sequential), {}};
+  for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0})
+    bar.ticks.push_back(number("%.3g", 1e3 * share * o.apart_most));
+  return bar;
+}
+
 }  // namespace
 
 Colour colour_of_pressure(const AnalysisOptions& o, double pressure) {
@@ -60,6 +67,10 @@ Legend legend_of(const AnalysisOptions& o) {
   Legend legend;
   if (o.springs || o.strain) legend.bars.push_back(strain_bar(o));
   if (o.pressure) legend.bars.push_back(pressure_bar(o));
+  if (o.solvers) {
+    legend.bars.push_back(distance_bar(o));
+    legend.keys.push_back({kOtherSolver, "outline of the other solver"});
+  }
   if (o.forces) {
     const std::string length = ", " + number("%.3g", 1e3 * o.force_length) + " mm/N";
     legend.keys.push_back({colour_of(ForceKind::grip), "jaws pull at tissue" + length});

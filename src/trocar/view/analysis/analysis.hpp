@@ -7,6 +7,9 @@
 //             (tubes, ligaments) against the rest lengths of their elements
 //   forces    arrows of what instruments do to tissue, and of what trocars do to the abdominal wall
 //   pressure  vessels coloured by the blood's pressure in them, also where they run below the peritoneum
+//   solvers   an organ coloured by how far its other solver has it elsewhere, with that one's outline as wires; only
+//   where
+//             a second simulation runs beside (ViewOptions::beside)
 // Forces of contact are kept by the State as normal forces averaged over some ten ticks, and as one sum for each
 // instrument with friction; forces between organs are Work and cannot be shown.
 //
@@ -22,12 +25,13 @@
 namespace trocar::view {
 
 struct AnalysisOptions {
-  bool springs = false, strain = false, forces = false, pressure = false;
+  bool springs = false, strain = false, forces = false, pressure = false, solvers = false;
   double strain_range = 0.2;    ///< strain of the scale's ends [-]
   double force_length = 0.010;  ///< of an arrow [m/N]
   double pressure_most = 120;   ///< at the scale's end [mmHg]
+  double apart_most = 0.002;    ///< distance of both solvers at the scale's end [m]
 
-  bool on() const { return springs || strain || forces || pressure; }
+  bool on() const { return springs || strain || forces || pressure || solvers; }
   friend bool operator==(const AnalysisOptions&, const AnalysisOptions&) = default;
 };
 
@@ -36,6 +40,19 @@ inline Colour colour_of_strain(const AnalysisOptions& o, double strain) {
 }
 /// @param pressure  [Pa]
 Colour colour_of_pressure(const AnalysisOptions& o, double pressure);
+
+/// @param distance  of both solvers [m]
+inline Colour colour_of_distance(const AnalysisOptions& o, double distance) {
+  return colour_on(Scale::sequential, distance / o.apart_most);
+}
+inline constexpr Colour kOtherSolver{0.90f, 0.30f, 0.05f};  ///< its wires: vermilion, which is on no sequential scale
+
+/// An organ as another simulation has it, whose solver for it is another one.
+struct OrganBeside {
+  int organ = -1;
+  std::vector<Vec3f> skin;     ///< (vertices of the drawn skin) [m]
+  std::vector<Vec3f> outline;  ///< (vertices of the skin that is touched) [m]
+};
 
 /// What arrows say, told apart by lightness, too.
 enum class ForceKind { grip, touch, trocar };

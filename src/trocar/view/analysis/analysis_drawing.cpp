@@ -17,13 +17,14 @@ render::DrawItem item_of(const FalseColourMesh& mesh, std::uint16_t part) {
 
 }  // namespace
 
-void AnalysisDrawing::list(const sim::State& state, const AnalysisOptions& o,
+void AnalysisDrawing::list(const sim::State& state, const AnalysisOptions& o, const OrganBeside* beside,
                            const std::function<std::uint16_t(Measured, std::size_t)>& part_of, render::Frame& frame) {
   // What lies inside shall be seen through what lies over it.
   const auto style = o.springs || o.pressure ? render::DrawStyle::transparent : render::DrawStyle::shaded;
   const auto list_all = [&](const std::vector<FalseColourMesh>& meshes, Measured kind, bool lines) {
     for (std::size_t i = 0; i < meshes.size(); ++i) {
       if (!meshes[i].there()) continue;
+      if (!lines && o.solvers && beside && kind == Measured::organ && int(i) == beside->organ) continue;
       render::DrawItem item = item_of(meshes[i], part_of(kind, i));
       if (lines)
         item.material.shading = render::Shading::unlit;
@@ -48,9 +49,21 @@ void AnalysisDrawing::list(const sim::State& state, const AnalysisOptions& o,
     m_surfaces->update(state, o, *m_backend);
     list_bodies(*m_surfaces, false);
   }
+  if (o.solvers && beside) list_solvers(state, o, *beside, part_of(Measured::organ, std::size_t(beside->organ)), frame);
   if (!o.forces) return;
   m_arrows.update(forces_of(*m_model, state), o, *m_backend);
   if (m_arrows.mesh().there()) frame.items.push_back(item_of(m_arrows.mesh(), part_of(Measured::tools, 0)));
+}
+
+void AnalysisDrawing::list_solvers(const sim::State& state, const AnalysisOptions& o, const OrganBeside& beside,
+                                   std::uint16_t part, render::Frame& frame) {
+  if (!m_solvers) m_solvers.emplace(*m_model);
+  m_solvers->update(state, beside, o, frame.camera.position, *m_backend);
+  if (m_solvers->surface().there()) frame.items.push_back(item_of(m_solvers->surface(), part));
+  if (!m_solvers->wires().there()) return;
+  render::DrawItem wires = item_of(m_solvers->wires(), part);
+  wires.material.shading = render::Shading::unlit;
+  frame.items.push_back(wires);
 }
 
 void AnalysisDrawing::list_vessels(const sim::State& state, const AnalysisOptions& o,

@@ -50,7 +50,7 @@ struct SceneView::Parts {
   }
   void aim(const sim::State& state, const ViewOptions& options, Frame& frame) const;
   void list(const sim::State& state, const ViewOptions& options, Frame& frame);
-  void list_analysis(const sim::State& state, const AnalysisOptions& options, bool with_walls, const Listing& to);
+  void list_analysis(const sim::State& state, const ViewOptions& options, bool with_walls, const Listing& to);
   void list_fluids(const sim::State& state, const ViewOptions& options, Frame& frame);
 };
 
@@ -88,7 +88,7 @@ void SceneView::Parts::list(const sim::State& state, const ViewOptions& options,
   const Listing to{frame, eye};
   const FirstParts& first = names.first;
   if (measured) {
-    list_analysis(state, options.analysis, inside || options.walls, to);
+    list_analysis(state, options, inside || options.walls, to);
   } else {
     if (inside) body.list_surroundings(first, to);
     body.list(inside || options.walls, first, to);
@@ -107,19 +107,25 @@ void SceneView::Parts::list(const sim::State& state, const ViewOptions& options,
 }
 
 /// Walls as grey clay. Where neither surfaces nor springs show where tissue is, its ghost does.
-void SceneView::Parts::list_analysis(const sim::State& state, const AnalysisOptions& options, bool with_walls,
+void SceneView::Parts::list_analysis(const sim::State& state, const ViewOptions& shown, bool with_walls,
                                      const Listing& to) {
+  const AnalysisOptions& options = shown.analysis;
+  const OrganBeside* beside = options.solvers ? shown.beside.get() : nullptr;
   std::vector<DrawItem>& items = to.frame.items;
   if (with_walls) body.list_walls(names.first, to);
   const std::size_t ghosts = items.size();
   if (!options.strain && !options.springs) body.list(false, names.first, to);
   if (options.pressure) std::erase_if(items, [&](const DrawItem& i) { return names.is_vessel(i.part); });
+  if (beside)
+    std::erase_if(items, [part = names.of(Measured::organ, std::size_t(beside->organ))](const DrawItem& i) {
+      return i.part == part;
+    });
   for (std::size_t i = 0; i < items.size(); ++i) {
     items[i].material = clay(items[i].material);
     if (i >= ghosts) items[i].translucent = false, items[i].style = render::DrawStyle::transparent;
   }
   analysis.list(
-      state, options, [this](Measured kind, std::size_t i) { return names.of(kind, i); }, to.frame);
+      state, options, beside, [this](Measured kind, std::size_t i) { return names.of(kind, i); }, to.frame);
 }
 
 void SceneView::Parts::list_fluids(const sim::State& state, const ViewOptions& options, Frame& frame) {

@@ -43,10 +43,11 @@ struct ViewOptions {
   double outside_fov = 0.7;                                          ///< [rad] of the picture's height
   bool walls = true;  ///< outside: false leaves out what encloses the scene
   bool instruments = true;
-  bool metering = true;                     ///< false: exposed as its memory says, which stays as it is
-  std::vector<PartStyle> styles;            ///< of SceneView::parts(); those beyond its end are shaded
-  std::optional<SecondScope> second_scope;  ///< there is one: seen from outside; its own picture shows the first one
-  AnalysisOptions analysis;                 ///< anything on: figures in colour, in a plain camera's light
+  bool metering = true;                       ///< false: exposed as its memory says, which stays as it is
+  std::vector<PartStyle> styles;              ///< of SceneView::parts(); those beyond its end are shaded
+  std::optional<SecondScope> second_scope;    ///< there is one: seen from outside; its own picture shows the first one
+  AnalysisOptions analysis;                   ///< anything on: figures in colour, in a plain camera's light
+  std::shared_ptr<const OrganBeside> beside;  ///< for analysis.solvers; null: no other solver runs beside
   render::Quality quality;
   double picture_height = 600;  ///< [px] how finely things are drawn depends on it (detail.hpp)
   int eye_index = 0;            ///< 0..7: each picture has its own exposure memory
