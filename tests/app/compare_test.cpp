@@ -65,6 +65,12 @@ TEST_F(Compare, AnUnknownOrganIsBadInputWithASuggestion) {
   }
 }
 
+TEST_F(Compare, BesideAnAttemptNeedsAWindow) {
+  const Outcome o = trocar({"train", "gynaecology", "--headless", "--input", "demo", "--beside", "bladder"});
+  EXPECT_EQ(o.exit, core::kBadInput);
+  EXPECT_NE(o.err.find("--beside: expected an exercise in a window"), std::string::npos) << o.err;
+}
+
 TEST_F(Compare, AnOrganInWhichWavesRunHasNoStaticSolver) {
   const Outcome o = trocar({"compare", "digestive", "--organ", "stomach", "--out", file("out")});
   EXPECT_EQ(o.exit, core::kBadInput);

@@ -13,11 +13,13 @@
 namespace trocar::attempt {
 namespace {
 
-constexpr double kAbove = 0.015;                                           // of the skin, where the way down begins [m]
-constexpr double kBackTo = 0.04;                                           // depth at which instruments swing [m]
-constexpr double kQuick = 0.25, kGently = 0.05, kInward = 0.010;           // [m/s]
-constexpr double kTurn = 1.5;                                              // [rad/s]
-constexpr int kSteps = 5;                                                  // in which it goes in
+constexpr double kAbove = 0.015;                                  // of the skin, where the way down begins [m]
+constexpr double kBackTo = 0.04;                                  // depth at which instruments swing [m]
+constexpr double kQuick = 0.25, kGently = 0.05, kInward = 0.010;  // [m/s]
+constexpr double kTurn = 1.5;                                     // [rad/s]
+constexpr double kClosing = 4;                                    // [1/s] of the handle
+constexpr double kThere = 1e-9;  // [m] or [rad]: rounding may keep a step from ending at its goal to the bit
+constexpr int kSteps = 5;        // in which it goes in
 constexpr int kHold = 200, kHoldLast = 600, kSettled = 100, kAfter = 300;  // [ticks]
 constexpr double kThroughWall = 0.05;            // of the way lies in the wall around the trocar [m]
 constexpr double kFacing = 0.3;                  // at least: flatter, it slides off
@@ -102,6 +104,11 @@ std::vector<int> hands_in_order(const sim::Model& model) {
   return hands;
 }
 
+/// A tick from one figure towards another. @param speed  [1/s] of its unit
+double paced(double from, double to, double speed) {
+  return from + std::clamp(to - from, -speed * sim::kTick, speed * sim::kTick);
+}
+
 Vec3d middle_of(const sim::Model& model, const sim::State& state, int organ, int triangle) {
   Vec3d sum;
   for (const int v : model.skin(organ).triangles[std::size_t(triangle)])
@@ -156,10 +163,9 @@ void PressSource::go_on(Phase phase) {
 bool PressSource::turn_to(Vec3d target) {
   const kinematics::FulcrumPose goal =
       kinematics::inverse(m_model.hands[std::size_t(m_press.hand)].port, target, m_pose.roll);
-  const double most = kTurn * sim::kTick;
-  m_pose.yaw += std::clamp(goal.yaw - m_pose.yaw, -most, most);
-  m_pose.pitch += std::clamp(goal.pitch - m_pose.pitch, -most, most);
-  return m_pose.yaw == goal.yaw && m_pose.pitch == goal.pitch;
+  m_pose.yaw = paced(m_pose.yaw, goal.yaw, kTurn);
+  m_pose.pitch = paced(m_pose.pitch, goal.pitch, kTurn);
+  return std::fabs(m_pose.yaw - goal.yaw) < kThere && std::fabs(m_pose.pitch - goal.pitch) < kThere;
 }
 
 /// A tick of the steps in. Each step's way is followed by a rest.
@@ -177,56 +183,61 @@ bool PressSource::settled() const {
   return m_phase == Phase::in && m_ticks > last - kSettled;
 }
 
-bool PressSource::next(const sim::State& state, sim::Input& input) {
-  const Vec3d port = m_model.hands[std::size_t(m_press.hand)].port;
+/// Back along the shaft, over to where it will go in, forth to above the skin.
+void PressSource::go_there() {
   const Vec3d above = m_press.at + kAbove * m_press.out;
-  const auto pace = [](double from, double to, double speed) {
-    return from + std::clamp(to - from, -speed * sim::kTick, speed * sim::kTick);
-  };
-  ++m_ticks;
-  switch (m_phase) {
-    case Phase::back: {
-      const double to = std::min(double(m_model.start.tools[std::size_t(m_press.hand)].depth), kBackTo);
-      m_pose.depth = pace(m_pose.depth, to, kQuick);
-      if (m_pose.depth == to) go_on(Phase::swing);
-      break;
-    }
-    case Phase::swing:
-      if (turn_to(above)) go_on(Phase::forth);
-      break;
-    case Phase::forth: {
-      const double to = length(above - port);
-      m_pose.depth = pace(m_pose.depth, to, kQuick);
-      m_offset = kAbove;
-      if (m_pose.depth == to) go_on(Phase::down);
-      break;
-    }
-    case Phase::down: {
-      m_offset -= kGently * sim::kTick;
-      const Vec3d skin = middle_of(m_model, state, m_press.organ, m_press.triangle);
-      if (m_offset > m_front + dot(skin - m_press.at, m_press.out)) break;
-      m_touched = skin;
-      m_offset = 0;
-      go_on(Phase::in);
-      break;
-    }
-    case Phase::in:
-      go_in();
-      break;
-    case Phase::out:
-      m_offset = pace(m_offset, kAbove, kGently);
-      if (m_offset == kAbove && m_ticks > kAfter + int(kAbove / (kGently * sim::kTick))) go_on(Phase::over);
-      break;
-    case Phase::over:
-      return false;
+  const double start = double(m_model.start.tools[std::size_t(m_press.hand)].depth);
+  if (m_phase == Phase::swing) {
+    if (turn_to(above)) go_on(Phase::forth);
+    return;
   }
-  if (m_phase == Phase::down)  // the tip, along the normal above where the skin was drawn
+  const double to =
+      m_phase == Phase::back ? std::min(start, kBackTo) : length(above - m_model.hands[std::size_t(m_press.hand)].port);
+  m_pose.depth = paced(m_pose.depth, to, kQuick);
+  if (std::fabs(m_pose.depth - to) > kThere) return;
+  m_offset = kAbove;
+  go_on(m_phase == Phase::back ? Phase::swing : Phase::down);
+}
+
+/// Towards the skin, until the front is there.
+void PressSource::go_down(const sim::State& state) {
+  m_offset -= kGently * sim::kTick;
+  const Vec3d skin = middle_of(m_model, state, m_press.organ, m_press.triangle);
+  if (m_offset > m_front + dot(skin - m_press.at, m_press.out)) return;
+  m_touched = skin;
+  m_offset = 0;
+  go_on(Phase::in);
+}
+
+void PressSource::go_out() {
+  m_offset = paced(m_offset, kAbove, kGently);
+  if (m_offset > kAbove - kThere && m_ticks > kAfter + int(kAbove / (kGently * sim::kTick))) go_on(Phase::over);
+}
+
+/// Along the normal the tip's place is what counts: above the skin as drawn, then from where it touched.
+void PressSource::aim() {
+  const Vec3d port = m_model.hands[std::size_t(m_press.hand)].port;
+  if (m_phase == Phase::down)
     m_pose = kinematics::inverse(port, m_press.at + m_offset * m_press.out, m_pose.roll);
   else if (m_phase == Phase::in || m_phase == Phase::out)
     m_pose = kinematics::inverse(port, m_touched + (m_front + m_offset) * m_press.out, m_pose.roll);
+}
+
+bool PressSource::next(const sim::State& state, sim::Input& input) {
+  ++m_ticks;
+  if (m_phase == Phase::over) return false;
+  if (m_phase == Phase::out)
+    go_out();
+  else if (m_phase == Phase::in)
+    go_in();
+  else if (m_phase == Phase::down)
+    go_down(state);
+  else
+    go_there();
+  aim();
   const bool closes = !m_model.placed(std::size_t(m_press.hand)).can().set_clips;
   sim::ToolInput& tool = m_input.tools[std::size_t(m_press.hand)];
-  tool = sim::tool_input(m_pose, closes ? float(pace(double(tool.handle), 1, 4)) : tool.handle);
+  tool = sim::tool_input(m_pose, closes ? float(paced(double(tool.handle), 1, kClosing)) : tool.handle);
   input = m_input;
   return true;
 }

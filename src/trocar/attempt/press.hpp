@@ -39,7 +39,11 @@ class PressSource : public InputSource {
   enum class Phase { back, swing, forth, down, in, out, over };
   void go_on(Phase phase);
   bool turn_to(Vec3d target);
+  void go_there();
+  void go_down(const sim::State& state);
   void go_in();
+  void go_out();
+  void aim();
 
   const sim::Model& m_model;
   Press m_press;
