@@ -1,5 +1,8 @@
 // Organs that answer at once, in the step: what others see of them, and how they are handed over to their networks.
+#include <filesystem>
+
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <trocar/core/parallel.hpp>
 #include <trocar/core/random.hpp>
@@ -178,6 +181,44 @@ TEST(StaticOrgan, TurnedTooFarItSaysSo) {
   table.carry(small::kGrasper, {-0.014, 0, 0.022}, {-0.014, 0, 0.0095}, 0.02);
   EXPECT_NE(table.flags & tissue::StepReport::kBeyondLinear, 0u);
   EXPECT_TRUE(organ_state(table.state, kOrgan).at_once());
+}
+
+TEST(StaticOrgan, RecordedHandsAreVerified) {
+  // Grasp, lift, clips, the tube cut through, and the bar, which is handed over by that.
+  const Model& m = small::statics();
+  const std::filesystem::path file =
+      std::filesystem::path(testing::TempDir()) / ("trocar_static_" + std::to_string(getpid()) + ".rec");
+  {
+    RecordingHeader header;
+    header.model_hash = m.hash;
+    RecordingWriter writer(file, header);
+    State s = initial_state(m);
+    Work w = make_work(m);
+    small::Hands hands(m);
+    while (!hands.done()) {
+      const Input input = hands.next(s);
+      writer.tick(s.tick, input);
+      step(m, input, s, w);
+      if (s.tick % kHashEvery == 0) writer.hash(s.tick, hash_of(s));
+    }
+    writer.finish("{}");
+    EXPECT_FALSE(organ_state(s, kBarStatic).at_once());
+  }
+  const Recording r = read_recording(file);
+  std::filesystem::remove(file);
+  ASSERT_TRUE(r.complete);
+  const Model again = scene::compile(small::static_description());
+  ASSERT_EQ(again.hash, r.header.model_hash);
+  State s = initial_state(again);
+  Work w = make_work(again);
+  std::size_t mark = 0;
+  for (const Input& input : r.inputs) {
+    step(again, input, s, w);
+    if (mark == r.hashes.size() || r.hashes[mark].tick != s.tick) continue;
+    EXPECT_EQ(r.hashes[mark++].hash, hash_of(s)) << s.tick;
+  }
+  EXPECT_EQ(mark, r.hashes.size());
+  EXPECT_GT(mark, 50u);
 }
 
 TEST(StaticOrgan, ThreadsScratchAndASavedStateChangeNoBit) {

@@ -97,7 +97,7 @@ struct Solid {
   std::vector<Anchor> anchors;
   Solver solver = Solver::dynamic_network;
   Elasticity elasticity = Elasticity::springs;
-  double beyond_angle = portable::pi / 18;  ///< turn of the whole organ [rad]
+  double beyond_angle = portable::pi / 18;  ///< tissue::ElastostaticState::turn [rad]
   BeyondLinear beyond = BeyondLinear::warn;
   core::Location at, cell_at, solver_at;
 

@@ -231,8 +231,10 @@ const Table<Solid>& solid() {
                  &Solid::elasticity,
                  "of a static solver: of the organ's springs, as the dynamic one has them, or of linear tetrahedra; "
                  "default {}"),
-       R::number("beyond_deg", units::deg, &Solid::beyond_angle, 0.1, 180,
-                 "of a static solver: turn of the whole organ that is too much for it, default {}"),
+       R::number(
+           "beyond_deg", units::deg, &Solid::beyond_angle, 0.1, 180,
+           "of a static solver: turn of the whole organ, or largest displacement beside that over the organ's size "
+           "(57.3 degrees: as large as it), that is too much for it, default {}"),
        R::choice("beyond", Choices<BeyondLinear>{{"warn", BeyondLinear::warn}, {"hand_over", BeyondLinear::hand_over}},
                  &Solid::beyond, "what it does then: say so, or go over to the dynamic solver for good; default {}")},
       check_solid};

@@ -17,7 +17,7 @@ inline constexpr std::uint32_t kFadeTicks = 100;  ///< in which the difference b
 struct StaticOrgan {
   std::int32_t organ = -1;
   tissue::ElastostaticModel solver;
-  double beyond = 0;        ///< turn of the organ as a whole that is too much for it [rad]
+  double beyond = 0;        ///< ElastostaticState::turn that is too much for it [rad]
   bool hands_over = false;  ///< then; else it is only told
 
   template <class S, class V>

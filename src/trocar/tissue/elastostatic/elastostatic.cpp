@@ -243,36 +243,59 @@ class Tick {
     }
   }
 
-  /// The rigid part of the displacements goes into the frame of an organ that floats, and is told of one that is held,
-  /// now and then.
-  void take_out_rigid_motion() noexcept {
-    if (!m.floats() && s.turns != 0) return;
-    Vec3d shift{0, 0, 0}, moment{0, 0, 0};
+  struct Rigid {
+    Vec3d shift{0, 0, 0}, turn{0, 0, 0};
+    Vec3d at(Vec3d from_centre) const noexcept { return shift + cross(turn, from_centre); }
+  };
+  Rigid rigid_part() const noexcept {
+    Rigid rigid;
+    Vec3d moment{0, 0, 0};
     for (int i = 0; i < m.nodes(); ++i) {
       const Vec3d u = displaced(w.next, i);
-      shift += u;
+      rigid.shift += u;
       moment += cross(m.rest[std::size_t(i)] - m.centre, u);
     }
-    shift = shift / double(m.nodes());
-    const Vec3d turn = m.inverse_inertia * moment;
-    s.turn = length(turn);
-    if (!m.floats()) return;
-    const Quatd by = quat_from_rotation_vector(turn);
-    s.frame.shift += rotate(turn_of(s.frame), shift);
+    rigid.shift = rigid.shift / double(m.nodes());
+    rigid.turn = m.inverse_inertia * moment;
+    return rigid;
+  }
+
+  /// Of the displacements beside a rigid motion, over the organ's size [rad].
+  double bend(const Rigid& beside) const noexcept {
+    double most = 0;
+    for (int i = 0; i < m.nodes(); ++i) {
+      const Vec3d u = displaced(w.next, i) - beside.at(m.rest[std::size_t(i)] - m.centre);
+      most = std::max(most, dot(u, u));
+    }
+    return std::sqrt(most) / m.spread;
+  }
+
+  /// How far it has turned and bent, now and then.
+  void take_its_measure() noexcept {
+    if (s.turns != 0) return;
+    const Rigid rigid = m.floats() ? Rigid{} : rigid_part();
+    s.turn = std::max(length(rigid.turn), bend(rigid));
+  }
+
+  /// The rigid part of the displacements goes into the frame of an organ that floats.
+  void take_out_rigid_motion() noexcept {
+    const Rigid rigid = rigid_part();
+    const Quatd by = quat_from_rotation_vector(rigid.turn);
+    s.frame.shift += rotate(turn_of(s.frame), rigid.shift);
     const Quatd now = normalised(turn_of(s.frame) * by);
     s.frame.w = now.w, s.frame.x = now.x, s.frame.y = now.y, s.frame.z = now.z;
     for (int i = 0; i < m.nodes(); ++i) {
       const Vec3d r = m.rest[std::size_t(i)] - m.centre;
-      const Vec3d u = rotate(conjugate(by), r + displaced(w.next, i) - shift) - r;
+      const Vec3d u = rotate(conjugate(by), r + displaced(w.next, i) - rigid.shift) - r;
       for (int k = 0; k < 3; ++k) w.next[std::size_t(3 * i + k)] = float(u[k]);
     }
-    s.turn = 0;
   }
 
   void write(std::span<NodeState> rows) noexcept {
     const OrganFrame before = m_before;
     const Quatd was = turn_of(before);
-    take_out_rigid_motion();
+    if (m.floats()) take_out_rigid_motion();
+    take_its_measure();
     const bool turned = m.floats();
     const Mat3d from_turn = to_mat3(was), to_turn = to_mat3(turn_of(s.frame));
     const Vec3d start = m.centre - m.origin;
@@ -351,13 +374,16 @@ ElastostaticModel make_elastostatic(const DrawnOrgan& organ, std::span<const int
   m.compliance = laid_out(compliance);
   if (!fields.empty()) m.frame_fields = laid_out(fields);
   Mat3d inertia{};
+  double squares = 0;
   for (const Vec3d& x : m.rest) {
     const Vec3d r = x - m.centre;
     const double all = dot(r, r);
+    squares += all;
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b) inertia.m[a][b] += (a == b ? all : 0.0) - r[a] * r[b];
   }
   m.inverse_inertia = inverse(inertia);
+  m.spread = std::sqrt(squares / double(n));
   m.origin = organ.origin;
   m.gravity = organ.gravity;
   m.tick = tick;

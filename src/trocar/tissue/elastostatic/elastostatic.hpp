@@ -61,6 +61,7 @@ struct ElastostaticModel {
   int stride = 0;                   ///< 3 n in whole packs
   Vec3d origin;                     ///< of NodeState positions [m]
   Vec3d centre;                     ///< mean of rest [m]
+  double spread = 0;                ///< root of the mean square distance from there [m]
   Mat3d inverse_inertia;            ///< of unit masses at rest, about the centre [1/m^2]
   Vec3d gravity;                    ///< [m/s^2]
   double tick = 0;                  ///< [s]
@@ -73,7 +74,8 @@ struct ElastostaticModel {
   static void fields(S& s, V&& v) {
     v("kept", s.kept), v("slot", s.slot), v("row", s.row), v("rest", s.rest), v("inner", s.inner),
         v("compliance", s.compliance), v("frame_fields", s.frame_fields), v("stride", s.stride), v("origin", s.origin),
-        v("centre", s.centre), v("inverse_inertia", s.inverse_inertia), v("gravity", s.gravity), v("tick", s.tick);
+        v("centre", s.centre), v("spread", s.spread), v("inverse_inertia", s.inverse_inertia), v("gravity", s.gravity),
+        v("tick", s.tick);
   }
 };
 
@@ -91,7 +93,9 @@ struct OrganFrame {
 struct ElastostaticState {
   std::vector<float> u;  ///< (stride) displacements in the frame [m]
   OrganFrame frame;
-  double turn = 0;          ///< of the organ as a whole, beside its frame's [rad]
+  /// How far the answer is from a small one: turn of the organ as a whole beside its frame's, or the largest
+  /// displacement beside that over ElastostaticModel::spread, whichever is more. Anew every kInnerTurns ticks [rad].
+  double turn = 0;
   std::uint32_t turns = 0;  ///< whose turn it is of the inner nodes
   std::int32_t still = 0;   ///< 1: it lies as it was drawn, and its rows say so
 
