@@ -199,7 +199,7 @@ class Surgeon(Trainee):
         s = next(0.5 * (a + b) for a, b in zip(clips, clips[1:]) if 6 < b - a < 12)
         cuts = self.eyes.pose["cuts"]
         self.park(APPLIER)
-        inside = lambda: 0.84 * self.eyes.tool(scissors)["jaw_mm"]  # over the whole tube, yet not far into the fold
+        inside = lambda: 0.87 * self.eyes.tool(scissors)["jaw_mm"]  # over the whole tube, yet not far into the fold
         self.reach(scissors, tube, s, inside, "cutting")
         if not any(self.eyes.tool(scissors)["seen"]):
             self.show([self.eyes.point(tube, s)[0], self.eyes.tool(scissors)["tip_mm"]])
