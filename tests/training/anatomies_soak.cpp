@@ -34,8 +34,8 @@ void expect_passes(const char* exercise, std::uint64_t seed) {
   for (const StepStatus& step : monitor.steps()) EXPECT_TRUE(step.done) << step.name;
   for (const ErrorMade& error : monitor.errors()) std::printf("%s at %.1f s\n", error.code.c_str(), error.at);
   const Score score = monitor.score();
-  std::printf("%s, seed %d: S %.1f Q %.3f T %.3f penalties %.0f, %.0f s\n", exercise, int(seed), score.total, score.quality,
-              score.time, score.penalties, monitor.seconds());
+  std::printf("%s, seed %d: S %.1f Q %.3f T %.3f penalties %.0f, %.0f s\n", exercise, int(seed), score.total,
+              score.quality, score.time, score.penalties, monitor.seconds());
   EXPECT_TRUE(score.passed);
   EXPECT_GE(score.total, 80);
 }
