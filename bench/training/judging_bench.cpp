@@ -23,5 +23,6 @@ void judge(benchmark::State& bench, const char* file) {
 }
 BENCHMARK_CAPTURE(judge, Sterilisation, "gynaecology/sterilisation.json")->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(judge, BleedingControl, "gynaecology/bleeding-control.json")->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(judge, ClipAndCut, "cholecystectomy/clip-and-cut.json")->Unit(benchmark::kMicrosecond);
 
 }  // namespace

@@ -1,5 +1,7 @@
 // The scripted surgeon passes, with at least 80 points, whatever the anatomy: tubes up to a fifth longer or shorter,
 // lying elsewhere, tissue up to a fifth softer or stiffer, and with a hand that trembles.
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include <trocar/scene/compile/compile.hpp>
@@ -14,11 +16,8 @@ using namespace trocar::training;
 
 namespace {
 
-class Anatomy : public testing::TestWithParam<int> {};
-
-TEST_P(Anatomy, TheSurgeonPassesOnBothSides) {
-  const std::uint64_t seed = std::uint64_t(GetParam());
-  const Exercise e = read_exercise(TROCAR_SOURCE_DIR "/scenes/gynaecology/sterilisation.json");
+void expect_passes(const char* exercise, std::uint64_t seed) {
+  const Exercise e = read_exercise(std::string(TROCAR_SOURCE_DIR "/scenes/") + exercise);
   scene::Description d = scene::read_scene(e.scene);
   scene::vary(d, seed);
   const sim::Model m = scene::compile(d);
@@ -35,11 +34,22 @@ TEST_P(Anatomy, TheSurgeonPassesOnBothSides) {
   for (const StepStatus& step : monitor.steps()) EXPECT_TRUE(step.done) << step.name;
   for (const ErrorMade& error : monitor.errors()) std::printf("%s at %.1f s\n", error.code.c_str(), error.at);
   const Score score = monitor.score();
-  std::printf("seed %d: S %.1f Q %.3f T %.3f penalties %.0f, %.0f s\n", GetParam(), score.total, score.quality,
-              score.time, score.penalties, monitor.seconds());
+  std::printf("%s, seed %d: S %.1f Q %.3f T %.3f penalties %.0f, %.0f s\n", exercise, int(seed), score.total,
+              score.quality, score.time, score.penalties, monitor.seconds());
   EXPECT_TRUE(score.passed);
   EXPECT_GE(score.total, 80);
 }
+
+class Anatomy : public testing::TestWithParam<int> {};
+TEST_P(Anatomy, TheSurgeonPassesOnBothSides) {
+  expect_passes("gynaecology/sterilisation.json", std::uint64_t(GetParam()));
+}
 INSTANTIATE_TEST_SUITE_P(Seeds, Anatomy, testing::Range(1, 21));
+
+class GallbladderAnatomy : public testing::TestWithParam<int> {};
+TEST_P(GallbladderAnatomy, TheSurgeonClipsAndDividesBothCords) {
+  expect_passes("cholecystectomy/clip-and-cut.json", std::uint64_t(GetParam()));
+}
+INSTANTIATE_TEST_SUITE_P(Seeds, GallbladderAnatomy, testing::Range(0, 6));
 
 }  // namespace
