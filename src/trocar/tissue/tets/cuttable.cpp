@@ -106,7 +106,8 @@ class Assembler {
       for (std::size_t i = 0; i < 4; ++i) cell.row[i] = m.row_of_node[std::size_t(b.cells[t][i])];
       put_cell(cell, kCollapsed * six, int(t) % kSlice, w.guarded_packs[t / kSlice]);
     }
-    if (m.bulk.impulses > 0) note_volumes(w.guarded, w.row_packs, m.dt, w.volume);
+    if (m.bulk.impulses > 0)
+      note_volumes(w.guarded, m.bulk, {w.row_packs.data(), std::size_t(w.slices)}, m.dt, w.volume_cells);
     for (int i = 0; i < b.nodes; ++i) w.part[std::size_t(i)] = i;
     for (const Tet& c : b.cells)
       for (std::size_t i = 1; i < 4; ++i) join(c[0], c[i]);
@@ -354,7 +355,7 @@ StepReport advance(const CuttableModel& m, std::span<const NodeLoad> loads, std:
   bool fine = true;
   for (int i = 0; i < m.substeps; ++i) {
     if (m.bulk.impulses > 0 && i % (m.substeps / m.bulk.impulses) == 0)
-      push_volumes(w.guarded, {}, m.bulk, m.tick / m.bulk.impulses, w.row_packs, m.dt, s.nodes, w.volume);
+      push_volumes(w.volume_cells, {}, m.bulk, m.tick / m.bulk.impulses, m.dt, s.nodes, w.volume);
     args.in = s.nodes.data();
     args.out = w.other.data();
     fine = kernels().substep(args, 0, w.slices) && fine;

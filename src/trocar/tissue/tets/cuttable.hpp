@@ -126,7 +126,8 @@ struct CuttableWork {
   std::vector<std::uint8_t> folded;  ///< (rows)
   std::vector<std::uint16_t> below;  ///< (packs of cells)
   std::vector<LoadedNode> loaded;    ///< (capacity)
-  VolumeWork volume;                 ///< empty where there is no volume force
+  VolumeCells volume_cells;          ///< empty where there is no volume force
+  VolumeWork volume;                 ///< the same
   geometry::CutWork cut;
 
   template <class S, class V>
@@ -136,7 +137,8 @@ struct CuttableWork {
         v("bearable", s.bearable), v("fixed", s.fixed), v("begin", s.begin), v("around", s.around),
         v("node_of_row", s.node_of_row), v("now", s.now), v("guarded", s.guarded), v("guarded_packs", s.guarded_packs),
         v("part", s.part), v("parts", s.parts), v("largest_part", s.largest_part), v("open_tets", s.open_tets),
-        v("folded", s.folded), v("below", s.below), v("loaded", s.loaded), v("volume", s.volume), v("cut", s.cut);
+        v("folded", s.folded), v("below", s.below), v("loaded", s.loaded), v("volume_cells", s.volume_cells),
+        v("volume", s.volume), v("cut", s.cut);
   }
 };
 
