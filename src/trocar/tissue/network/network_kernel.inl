@@ -100,12 +100,13 @@ TROCAR_INLINE bool all_lanes(I fine) {
 /// Every spring from both its ends.
 bool substep_twice(const KernelArgs& arg, int first, int last) {
   const Law law{all(arg.p1), all(arg.p2), all(arg.cap), all(arg.cap_slope)};
+  const int* const ends = arg.slice_end ? arg.slice_end : arg.slice_begin + 1;
   I fine = ~I{};
   for (int s = first; s < last; ++s) {
     for (int part = 0; part < kSlice; part += W) {
       const Lanes own = load_rows(arg.in, std::uint32_t(s * kSlice + part));
       Triple sum{};
-      for_columns<true, false>(arg, law, own, arg.slice_begin[s], arg.slice_begin[s + 1], part,
+      for_columns<true, false>(arg, law, own, arg.slice_begin[s], ends[s], part,
                                [&](const Triple& f) { sum = sum + f; });
       move_rows(arg, own, sum, s, part, fine);
     }

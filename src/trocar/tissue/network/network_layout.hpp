@@ -146,15 +146,18 @@ struct VolumeArgs {
   const CornerPack* corners = nullptr;
   const float* rest6 = nullptr;         ///< as drawn [m^3]
   const std::uint8_t* phase = nullptr;  ///< (cells) kGone: counts as it was drawn; null: none is gone
+  const int* cell = nullptr;            ///< (whole packs) whose phase that is; -1: none
   const CellPack* around = nullptr;
   const int* around_begin = nullptr;  ///< (slices + 1) first pack of each slice
+  const int* last_pack = nullptr;     ///< (slices) of corners that a slice's rows need
+  const int* last_slice = nullptr;    ///< (packs) of rows that a pack's cells need
   const Quad* weight = nullptr;       ///< (rows) as RowPack; w: 1/m
   const float* drawn = nullptr;       ///< (rows) volume of the node [m^3]
   const float* kappa = nullptr;       ///< (rows) 0: it does not press [Pa]
   float most_answer = 0;              ///< beyond it a node presses less; 0: whatever it is
   float dt = 0;                       ///< for which the impulse stands [s]
   float times = 0;                    ///< dt over that of the weights
-  int cells = 0, slices = 0;
+  int packs = 0, slices = 0;
 
   NodeState* nodes = nullptr;
   float* node_answer = nullptr;  ///< (rows) out: sum |dV/dx|^2 / m over the node's volume as drawn
@@ -173,6 +176,7 @@ struct KernelArgs {
   const float* scale = nullptr;   ///< null: all whole
   const RowPack* rows = nullptr;
   const int* slice_begin = nullptr;
+  const int* slice_end = nullptr;  ///< null: where the next one begins
   float p1 = 0, p2 = 0, cap = 1, cap_slope = 1;
   float decay = 1;
   float gravity_step[3] = {0, 0, 0};

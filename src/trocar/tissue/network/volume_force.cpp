@@ -13,14 +13,50 @@ constexpr float kWhole = 0.75f;   // of its volume as built must a node have to 
 
 std::size_t packs_of(std::size_t cells) noexcept { return (cells + kSlice - 1) / kSlice; }
 
+int lowest_row(const TetRest& t) noexcept { return *std::min_element(t.row, t.row + 4); }
+int highest_row(const TetRest& t) noexcept { return *std::max_element(t.row, t.row + 4); }
+
+/// In the order of their lowest rows, so that what a slice of rows and a pack of cells have of each other is near.
+void order_cells(std::span<const TetRest> cells, VolumeCells& v) noexcept {
+  std::fill(v.count.begin(), v.count.end(), 0);
+  for (const TetRest& t : cells) ++v.count[std::size_t(lowest_row(t))];
+  int before = 0;
+  for (int& n : v.count) {
+    const int here = n;
+    n = before;
+    before += here;
+  }
+  std::fill(v.cell.begin(), v.cell.end(), -1);
+  for (std::size_t t = 0; t < cells.size(); ++t) {
+    v.place[t] = v.count[std::size_t(lowest_row(cells[t]))]++;
+    v.cell[std::size_t(v.place[t])] = int(t);
+  }
+}
+
 void put_corners(std::span<const TetRest> cells, VolumeCells& v) noexcept {
   if (!cells.empty()) v.corners.back() = {};
+  std::fill(v.rest6.begin(), v.rest6.end(), 1.0f);
   for (std::size_t t = 0; t < cells.size(); ++t) {
+    const std::size_t at = std::size_t(v.place[t]);
     for (int i = 0; i < 4; ++i)
-      v.corners[t / kSlice].offset[i][t % kSlice] = std::uint32_t(cells[t].row[i]) * std::uint32_t(sizeof(Quad));
-    v.rest6[t] = cells[t].rest6;
+      v.corners[at / kSlice].offset[i][at % kSlice] = std::uint32_t(cells[t].row[i]) * std::uint32_t(sizeof(Quad));
+    v.rest6[at] = cells[t].rest6;
   }
-  std::fill(v.rest6.begin() + std::ptrdiff_t(cells.size()), v.rest6.end(), 1.0f);
+}
+
+/// What needs what, for whoever takes it in turns.
+void find_last(std::span<const TetRest> cells, VolumeCells& v) noexcept {
+  std::fill(v.last_pack.begin(), v.last_pack.end(), 0);
+  std::fill(v.last_slice.begin(), v.last_slice.end(), 0);
+  for (std::size_t t = 0; t < cells.size(); ++t) {
+    const int pack = v.place[t] / kSlice;
+    for (const int row : cells[t].row) {
+      int& last = v.last_pack[std::size_t(row / kSlice)];
+      last = std::max(last, pack);
+    }
+    int& last = v.last_slice[std::size_t(pack)];
+    last = std::max(last, highest_row(cells[t]) / kSlice);
+  }
 }
 
 void sum_drawn(std::span<const TetRest> cells, VolumeCells& v) noexcept {
@@ -57,18 +93,20 @@ void list_around(std::span<const TetRest> cells, VolumeCells& v) noexcept {
   std::fill(v.around.begin(), v.around.begin() + v.begin.back(), CellPack{});
   std::fill(v.count.begin(), v.count.end(), 0);
   for (std::size_t t = 0; t < cells.size(); ++t) {
-    const std::size_t pack = t / kSlice, slot = std::size_t(kSlotOfLane[t % kSlice]);
+    const std::size_t at = std::size_t(v.place[t]), pack = at / kSlice, slot = std::size_t(kSlotOfLane[at % kSlice]);
     for (std::size_t i = 0; i < 4; ++i) {
       const std::size_t row = std::size_t(cells[t].row[i]), lane = row % kSlice;
-      CellPack& at = v.around[std::size_t(v.begin[row / kSlice] + v.count[row]++)];
-      at.answer[lane] = std::uint32_t(((1 + pack) * kSlice + slot) * sizeof(Quad));
-      at.force[lane] = std::uint32_t(((1 + 4 * pack + i) * kSlice + slot) * sizeof(Quad));
+      CellPack& column = v.around[std::size_t(v.begin[row / kSlice] + v.count[row]++)];
+      column.answer[lane] = std::uint32_t(((1 + pack) * kSlice + slot) * sizeof(Quad));
+      column.force[lane] = std::uint32_t(((1 + 4 * pack + i) * kSlice + slot) * sizeof(Quad));
     }
   }
 }
 
 void note_cells(std::span<const TetRest> cells, const Bulk& bulk, VolumeCells& v) noexcept {
+  order_cells(cells, v);
   put_corners(cells, v);
+  find_last(cells, v);
   sum_drawn(cells, v);
   choose_pressing(bulk, v);
   list_around(cells, v);
@@ -84,7 +122,10 @@ VolumeArgs volume_args(const VolumeCells& v, const Bulk& bulk, std::span<NodeSta
   a.drawn = v.drawn.data();
   a.kappa = v.kappa.data();
   a.most_answer = kStiffer * bulk.most_answer;
-  a.cells = v.cells;
+  a.last_pack = v.last_pack.data();
+  a.last_slice = v.last_slice.data();
+  a.cell = v.cell.data();
+  a.packs = int(v.corners.size());
   a.slices = v.slices;
   a.nodes = nodes.data();
   a.node_answer = w.node_answer.data();
@@ -102,6 +143,10 @@ void VolumeCells::resize(std::size_t of_cells, std::size_t rows, std::size_t col
   rest6.resize(packs_of(of_cells) * kSlice);
   around.resize(columns);
   begin.resize(rows / kSlice + 1);
+  last_pack.resize(rows / kSlice);
+  last_slice.resize(packs_of(of_cells));
+  cell.resize(packs_of(of_cells) * kSlice);
+  place.resize(of_cells);
   count.resize(rows);
   drawn.resize(rows);
   kappa.resize(rows);
@@ -131,7 +176,7 @@ ColumnCount columns_of(std::span<const TetRest> cells, std::size_t rows) {
 
 void note_volumes(std::span<const TetRest> cells, const Bulk& bulk, std::span<const RowPack> weight, double weight_dt,
                   VolumeCells& v) noexcept {
-  v.cells = int(cells.size()), v.slices = int(weight.size());
+  v.slices = int(weight.size());
   note_cells(cells, bulk, v);
   for (std::size_t row = 0; row < weight.size() * kSlice; ++row) {
     const RowPack& p = weight[row / kSlice];
@@ -159,7 +204,7 @@ class ForceField {
       : m_bulk(bulk), m_nodes(rest.begin(), rest.end()) {
     m_cells.resize(cells.size(), rest.size(), columns_of(cells, rest.size()).all);
     m_work.resize(cells.size(), rest.size());
-    m_cells.cells = int(cells.size()), m_cells.slices = int(rest.size() / kSlice);
+    m_cells.slices = int(rest.size() / kSlice);
     sum_drawn(cells, m_cells);
     bulk.built = m_cells.drawn;
     note_cells(cells, bulk, m_cells);

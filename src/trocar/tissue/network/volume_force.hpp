@@ -46,11 +46,15 @@ struct Bulk {
 
 /// A body's cells as the kernels read them (network_layout.hpp): follows from the cells and the rows' weights alone.
 struct VolumeCells {
-  int cells = 0, slices = 0;        ///< in use
+  int slices = 0;                   ///< in use
   std::vector<CornerPack> corners;  ///< (cells in whole packs)
   std::vector<float> rest6;         ///< (the same) [m^3]
   std::vector<CellPack> around;     ///< capacity: columns
   std::vector<int> begin;           ///< (slices + 1) of `around`
+  std::vector<int> last_pack;       ///< (slices) as in VolumeArgs
+  std::vector<int> last_slice;      ///< (packs) the same
+  std::vector<int> cell;            ///< (whole packs) which it is, -1: none: cells lie in the order of their rows
+  std::vector<int> place;           ///< (cells) where it is
   std::vector<int> count;           ///< (rows) cells at a node
   std::vector<float> drawn;         ///< (rows) volume of a node as drawn [m^3]
   std::vector<float> kappa;         ///< (rows) 0: it does not press [Pa]
@@ -61,8 +65,9 @@ struct VolumeCells {
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("cells", s.cells), v("slices", s.slices), v("corners", s.corners), v("rest6", s.rest6), v("around", s.around),
-        v("begin", s.begin), v("count", s.count), v("drawn", s.drawn), v("kappa", s.kappa), v("weight", s.weight);
+    v("slices", s.slices), v("corners", s.corners), v("rest6", s.rest6), v("around", s.around), v("begin", s.begin),
+        v("last_pack", s.last_pack), v("last_slice", s.last_slice), v("cell", s.cell), v("place", s.place),
+        v("count", s.count), v("drawn", s.drawn), v("kappa", s.kappa), v("weight", s.weight);
   }
 };
 

@@ -42,7 +42,10 @@ TROCAR_INLINE CellsNow cells_now(const VolumeArgs& arg, int pack, int part) {
 TROCAR_INLINE I gone(const VolumeArgs& arg, int first) {
   I mask{};
   if (!arg.phase) return mask;
-  for (int i = 0; i < W; ++i) mask[i] = first + i < arg.cells && arg.phase[first + i] == kGone ? -1 : 0;
+  for (int i = 0; i < W; ++i) {
+    const int cell = arg.cell[first + i];
+    mask[i] = cell >= 0 && arg.phase[cell] == kGone ? -1 : 0;
+  }
   return mask;
 }
 
@@ -152,13 +155,21 @@ TROCAR_INLINE void set_out(const VolumeArgs& arg) {
   }
 }
 
+/// A look at all cells, pressures of all rows, a push of all cells, all rows kicked: each as soon as what it needs is
+/// there, which is little before, as cells lie in the order of their rows. So it is in the cache.
 void run_press(const VolumeArgs& arg) noexcept {
-  const int packs = (arg.cells + kSlice - 1) / kSlice;
+  int settled = 0, pushed = 0, kicked = 0;
   set_out(arg);
-  for (int p = 0; p < packs; ++p) look_at_cells(arg, p);
-  for (int s = 0; s < arg.slices; ++s) settle_pressures(arg, s);
-  for (int p = 0; p < packs; ++p) push_corners(arg, p);
-  for (int s = 0; s < arg.slices; ++s) kick_rows(arg, s);
+  for (int looked = 0; looked < arg.packs; ++looked) {
+    look_at_cells(arg, looked);
+    for (; settled < arg.slices && arg.last_pack[settled] <= looked; ++settled) {
+      settle_pressures(arg, settled);
+      for (; pushed < arg.packs && arg.last_slice[pushed] <= settled; ++pushed) {
+        push_corners(arg, pushed);
+        for (; kicked < arg.slices && arg.last_pack[kicked] <= pushed; ++kicked) kick_rows(arg, kicked);
+      }
+    }
+  }
 }
 
 }  // namespace

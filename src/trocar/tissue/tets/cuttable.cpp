@@ -229,6 +229,7 @@ class Assembler {
       // The last slice will take more doubles.
       if (w.slices == all - 1 && w.slices >= m.own_rows / kSlice) width = std::max(width, m.widest);
       w.slice_begin[std::size_t(w.slices) + 1] = std::min(first + width + kFreeColumns, m.packs);
+      w.slice_end[std::size_t(w.slices)] = first;
       for (int lane = 0; lane < kSlice; ++lane)
         if (!write_row(w.slices * kSlice + lane)) hold_row(w.slices * kSlice + lane);
     }
@@ -252,6 +253,8 @@ class Assembler {
       for (; used < springs.count; ++used) put(w.packs[std::size_t(first + used)], lane, node, springs.spring[used]);
     }
     for (int c = used; c < width; ++c) pad(w.packs[std::size_t(first + c)], row);
+    int& end = w.slice_end[std::size_t(s)];
+    end = std::max(end, first + used);
     return true;
   }
   /// There is no room for its springs, which takes more cuts than there are spare nodes for: it stays where it is.
@@ -290,6 +293,7 @@ KernelArgs kernel_args(const CuttableModel& m, const CuttableWork& w) noexcept {
   a.packs = w.packs.data();
   a.rows = w.row_packs.data();
   a.slice_begin = w.slice_begin.data();
+  a.slice_end = w.slice_end.data();
   a.p1 = m.p1, a.p2 = m.p2, a.cap = m.cap, a.cap_slope = m.cap_slope;
   const double decay = 1 / (1 + m.dt * m.gamma);
   a.decay = float(decay);

@@ -173,6 +173,7 @@ CuttableWork make_work(const CuttableModel& m) {
   w.packs.resize(std::size_t(m.packs));
   w.row_packs.resize(std::size_t(m.rows / kSlice));
   w.slice_begin.resize(std::size_t(m.rows / kSlice) + 1);
+  w.slice_end.resize(std::size_t(m.rows / kSlice));
   w.mass.resize(nodes);
   w.bearable.resize(nodes);
   w.changed.resize(nodes);
