@@ -437,8 +437,8 @@ TEST(Fields, PoisonReachesEveryArrayOfWork) {
   spoilt.through(lively.work, "Work");
   EXPECT_GT(spoilt.arrays.size(), 150u);
   const std::string sheets = "Work.membrane_work.network.";  // have no cells, and so neither guard nor volume force
-  for (const char* of_cells : {"open_tets", "below", "volume.drawn", "volume.volume", "volume.answer",
-                               "volume.inverse_mass", "volume.pressure", "volume.force"})
+  for (const char* of_cells : {"open_tets", "below", "volume.places", "volume.answers", "volume.forces",
+                               "volume.bounds", "volume.node_answer"})
     EXPECT_EQ(spoilt.arrays.erase(sheets + of_cells), 1u) << of_cells;
   EXPECT_EQ(spoilt.arrays.erase("Work.objects.rigid.holds"), 1u) << "as many as jaws hold points of a ring";
   for (const auto& [path, filled] : spoilt.arrays) EXPECT_TRUE(filled) << path << " was empty in all scenes";

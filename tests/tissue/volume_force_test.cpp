@@ -1,11 +1,14 @@
 // Nearly incompressible bodies: E and nu are what was asked for, bending does not lock, and what is squeezed bulges.
 #include <cmath>
+#include <cstring>
 
 #include <gtest/gtest.h>
 
 #include <trocar/core/random.hpp>
 #include <trocar/tissue/network/lattice_springs.hpp>
 #include <trocar/tissue/tets/cuttable.hpp>
+
+#include "volume_force_reference.hpp"
 
 namespace trocar::tissue {
 namespace {
@@ -147,7 +150,7 @@ TEST(VolumeForce, ItNeitherPushesNorTurnsTheBodyAsAWhole) {
     p = {p.x * 1.05, p.y * 1.02 + 0.1 * p.x, p.z * 1.04};
     set_position(b.model, b.state, i, p);
   }
-  push_volumes(b.work.guarded, {}, b.model.bulk, 1e-3, b.work.row_packs, b.model.dt, b.state.nodes, b.work.volume);
+  push_volumes(b.work.volume_cells, {}, b.model.bulk, 1e-3, b.model.dt, b.state.nodes, b.work.volume);
   Vec3d push, turn;
   double size = 0;
   for (int i = 0; i < b.model.own_nodes; ++i) {
@@ -159,6 +162,61 @@ TEST(VolumeForce, ItNeitherPushesNorTurnsTheBodyAsAWhole) {
   EXPECT_GT(size, 0);
   EXPECT_LT(length(push), 1e-5 * size);
   EXPECT_LT(length(turn), 1e-5 * size * 0.03);
+}
+
+/// A bar in disorder: cells pressed flat, turned inside out and blown up among the others, some axes held.
+Bar disordered_bar() {
+  Bar b(5, 3, 4, 0.45);
+  b.hold(kHeldX, [](Vec3d p) { return p.x < 1e-9; });
+  b.hold(kHeld, [](Vec3d p) { return p.z < 1e-9 && p.y < 1e-9; });
+  b.d.spare_nodes = 40;
+  b.start();
+  b.ticks(1);
+  core::Random random(17);
+  for (int i = 0; i < b.model.own_nodes; ++i) {
+    const double far = i % 7 ? 0.2 : 1.5;
+    const Vec3d off = far * kCell * Vec3d{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+    set_position(b.model, b.state, i, b.d.points[size_t(i)] + off);
+  }
+  return b;
+}
+
+/// Against the plain loop, with every instruction set.
+void expect_reference(const Bar& b, std::span<const std::uint8_t> phase) {
+  const std::string usual = simd_name();
+  const std::span<const RowPack> weight(b.work.row_packs.data(), size_t(b.work.slices));
+  std::vector<NodeState> expected = b.state.nodes;
+  test::VolumeReference(b.work.guarded, phase, b.model.bulk, weight, b.model.dt).push(5e-4, expected);
+  EXPECT_NE(std::memcmp(expected.data(), b.state.nodes.data(), expected.size() * sizeof(NodeState)), 0);
+  for (const char* name : {"generic", "sse2", "avx2", "avx512"}) {
+    if (!set_simd(name)) continue;
+    std::vector<NodeState> nodes = b.state.nodes;
+    VolumeWork work = b.work.volume;
+    push_volumes(b.work.volume_cells, phase, b.model.bulk, 5e-4, b.model.dt, nodes, work);
+    EXPECT_EQ(std::memcmp(expected.data(), nodes.data(), expected.size() * sizeof(NodeState)), 0) << name;
+  }
+  set_simd(usual);
+}
+
+TEST(VolumeForce, EveryInstructionSetGivesTheBitsOfThePlainLoop) {
+  const Bar b = disordered_bar();
+  expect_reference(b, {});
+  std::vector<std::uint8_t> phase(b.work.guarded.size(), 0);
+  for (size_t t = 0; t < phase.size(); t += 3) phase[t] = t % 2 ? kGone : 5;
+  expect_reference(b, phase);
+}
+
+TEST(VolumeForce, ACutBodyGetsTheBitsOfThePlainLoop) {
+  Bar b = disordered_bar();
+  for (int i = 0; i < b.model.own_nodes; ++i) set_position(b.model, b.state, i, b.d.points[size_t(i)]);
+  geometry::Blade blade;
+  blade.corners = 4;
+  const double x = 2.4 * kCell;
+  blade.corner = {Vec3d{x, -1, -1}, Vec3d{x, 1, -1}, Vec3d{x, 1, 2.5 * kCell}, Vec3d{x, -1, 2.5 * kCell}};
+  ASSERT_GT(cut(b.model, blade, b.state, b.work).parted, 0);
+  b.ticks(20);
+  ASSERT_GT(b.state.tets.nodes, b.model.own_nodes);
+  expect_reference(b, {});
 }
 
 TEST(VolumeForce, AnUndampedBodysMotionStaysBounded) {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include <trocar/geometry/surfaces/nearest.hpp>
 #include <trocar/interactions/instrument/needle.hpp>
@@ -10,6 +11,7 @@ namespace {
 constexpr double kClear = 0.00005;   // [m] before the needle's end
 constexpr double kFarthest = 0.003;  // [m] that a node is driven at a time
 constexpr double kLeastFree = 0.1;   // share of a triangle's free nodes in the place that is pierced
+constexpr double kRounding = 1e-7;   // [m]
 constexpr int kMostCarried = 128;
 constexpr int kMostRounds = 16, kMostDrives = 4;
 
@@ -87,12 +89,51 @@ Hit pierced(Vec3d end, Vec3d dir, double length, Vec3d a, Vec3d b, Vec3d c) noex
   return {on.hit && on.t <= length, on.t, on.weights};
 }
 
+/// Triangles that a needle may be near to, ascending.
+struct NearList {
+  static constexpr int kMost = 2048;
+  std::array<int, kMost> triangle;
+  int count = 0;
+  bool all = false;  ///< they are too many to list
+
+  void add(int t) noexcept {
+    if (count == kMost)
+      all = true;
+    else
+      triangle[std::size_t(count++)] = t;
+  }
+};
+
+/// Those whose first corner lies in a box that comes nearer to the needle than `margin`.
+void list_near(const Needle& needle, const Carried& body, double margin, NearList& list) noexcept {
+  const Vec3d from = needle.end0 - needle.length * needle.dir0;
+  const auto near = [&](const tissue::Box& box) { return meets_box(box, needle.end0, from, margin); };
+  const int patches = int(body.before.patch.size()), in_block = tissue::kSkinBlock / tissue::kSkinPatch;
+  for (int p = 0; p < patches; ++p) {
+    if (p % in_block == 0 && !near(body.before.block[std::size_t(p / in_block)])) {
+      p += in_block - 1;
+      continue;
+    }
+    if (!near(body.before.patch[std::size_t(p)])) continue;
+    const int last = std::min((p + 1) * tissue::kSkinPatch, body.skin.size());
+    for (int v = p * tissue::kSkinPatch; v < last; ++v)
+      for (int i = body.skin.face_first[std::size_t(v)]; i < body.skin.face_first[std::size_t(v) + 1]; ++i) {
+        const int t = body.skin.face[std::size_t(i)];
+        if (body.skin.triangles[std::size_t(t)][0] == v) list.add(t);
+      }
+  }
+  std::sort(list.triangle.begin(), list.triangle.begin() + list.count);
+}
+
 /// One needle and one body in one tick.
 class Zone {
  public:
-  /// @param reach  [m] that needle and body together have moved
-  Zone(const Needle& needle, const Carried& body, bool jaws, double reach, double tick) noexcept
-      : m_needle(needle), m_frames(frames_of(needle)), m_body(body), m_jaws(jaws), m_reach(reach), m_tick(tick) {}
+  /// @param reach  [m] that needle and body together have moved  @param side  the longest of a triangle [m]
+  Zone(const Needle& needle, const Carried& body, bool jaws, double reach, double side, double tick) noexcept
+      : m_needle(needle), m_frames(frames_of(needle)), m_body(body), m_jaws(jaws), m_reach(reach), m_tick(tick) {
+    const double most = reach + kFarthest;  // which it may become
+    list_near(needle, body, std::sqrt(2 * (most * most + side * side)) + kRounding, m_near);
+  }
 
   int carry() noexcept {
     for (int round = 0; round < kMostRounds && one_round(); ++round) {
@@ -102,14 +143,10 @@ class Zone {
 
   bool impales() const noexcept {
     const Needle& n = m_needle;
-    for (std::size_t i = 0; i < m_body.skin.triangles.size(); ++i) {
-      if (!m_body.open.empty() && m_body.open[i]) continue;
-      const std::array<int, 3>& t = m_body.skin.triangles[i];
-      if (!near(t)) continue;
+    return any_near([&](const std::array<int, 3>& t) {
       const Hit hit = pierced(n.end0, n.dir0, n.length, before(t[0]), before(t[1]), before(t[2]));
-      if (hit.hit && hit.deep > kImpaled) return true;
-    }
-    return false;
+      return hit.hit && hit.deep > kImpaled;
+    });
   }
 
  private:
@@ -162,13 +199,25 @@ class Zone {
     return geometry::distance2(a, m_needle.end0 - u * m_needle.dir0) < 2 * (m_reach * m_reach + size2);
   }
 
-  bool one_round() noexcept {
-    bool more = false;
-    for (std::size_t i = 0; i < m_body.skin.triangles.size(); ++i) {
+  /// Until ends(triangle), in the order of the triangles that are there and near.
+  template <class Ends>
+  bool any_near(Ends&& ends) const noexcept {
+    const int count = m_near.all ? int(m_body.skin.triangles.size()) : m_near.count;
+    for (int k = 0; k < count; ++k) {
+      const std::size_t i = std::size_t(m_near.all ? k : m_near.triangle[std::size_t(k)]);
       if (!m_body.open.empty() && m_body.open[i]) continue;
       const std::array<int, 3>& t = m_body.skin.triangles[i];
-      if (near(t)) more = look_at(t) || more;
+      if (near(t) && ends(t)) return true;
     }
+    return false;
+  }
+
+  bool one_round() noexcept {
+    bool more = false;
+    any_near([&](const std::array<int, 3>& t) {
+      more = look_at(t) || more;
+      return false;
+    });
     return more;
   }
 
@@ -211,6 +260,7 @@ class Zone {
   const bool m_jaws;
   double m_reach;
   const double m_tick;
+  NearList m_near;
   std::array<Taken, kMostCarried> m_taken;
   int m_count = 0, m_drives = 0;
 };
@@ -272,24 +322,37 @@ double way_of(const Carried& body) noexcept {
   return std::sqrt(double(most2)) + 1e-6;  // rounding
 }
 
+/// The longest side of a triangle at its first corner, as the tick began [m].
+double side_of(const Carried& body) noexcept {
+  const auto at = [&](int v) { return body.before.position[std::size_t(v)]; };
+  float most2 = 0;
+  for (const std::array<int, 3>& t : body.skin.triangles) {
+    const Vec3f a = at(t[0]), p = at(t[1]) - a, q = at(t[2]) - a;
+    most2 = std::max({most2, dot(p, p), dot(q, q)});
+  }
+  return std::sqrt(double(most2)) + 1e-6;  // rounding
+}
+
 }  // namespace
 
-int carry_along(const Needles& needles, const Carried& body, double gap, double tick) noexcept {
-  double moved = -1;
-  std::array<double, 3> reach{};  // 0: too far away
+int carry_along(const Needles& needles, const Carried& body, double gap, double tick, CarriedExtent& extent) noexcept {
+  std::array<std::optional<Zone>, 4> zone;
   for (int i = 0; i < needles.count; ++i) {
     const Needle& n = needles.needle[i];
     const double way = way_of(n);
-    if (moved < 0) moved = way_of(body);
+    if (extent.way < 0) extent.way = way_of(body);
+    const double moved = extent.way;
     if (gap > 2 * way + moved) continue;
     if (!meets_box(body.before.bounds, n.end0, n.end0 - n.length * n.dir0, way + moved)) continue;
+    if (extent.side < 0) extent.side = side_of(body);
+    zone[std::size_t(i)].emplace(n, body, i > 0, way + moved, extent.side, tick);
     // What one part of the instrument has impaled comes off over the others.
-    if (Zone(n, body, i > 0, way + moved, tick).impales()) return 0;
-    reach[std::size_t(i)] = way + moved;
+    if (zone[std::size_t(i)]->impales()) return 0;
   }
   int sum = 0;
-  for (int i = 0; i < needles.count; ++i)
-    if (reach[std::size_t(i)] > 0) sum += Zone(needles.needle[i], body, i > 0, reach[std::size_t(i)], tick).carry();
+  for (std::optional<Zone>& each : zone)
+    if (each) sum += each->carry();
+  if (sum > 0) extent.way = -1;  // what was carried has another way
   return sum;
 }
 

@@ -63,11 +63,17 @@ struct Carried {
   std::span<tissue::NodeState> rows;
 };
 
+/// What all instruments ask of a body in a tick, once one has asked; negative: not known yet.
+struct CarriedExtent {
+  double way = -1;   ///< the longest of a node at the surface [m]
+  double side = -1;  ///< the longest of a triangle, from its first corner, as the tick began [m]
+};
+
 /// Nodes that the instrument's axis would have passed through go with it.
 /// @param gap  the instrument's axes, where they are now, and the body, where it was before the tick, were at least
 /// this
 ///             far apart [m]: where nothing has moved so far, nothing is looked at
 /// @return how many were carried along
-int carry_along(const Needles& needles, const Carried& body, double gap, double tick) noexcept;
+int carry_along(const Needles& needles, const Carried& body, double gap, double tick, CarriedExtent& extent) noexcept;
 
 }  // namespace trocar::interactions

@@ -7,6 +7,7 @@ namespace trocar::sim {
 
 void carry_along(const StepContext& c, const CarriedSkin& b) noexcept {
   constexpr double kThin = 0.0005;  // [m]
+  interactions::CarriedExtent extent;
   for (size_t t = 0; t < c.model.hands.size(); ++t) {
     const interactions::ToolShape& shape = c.work.shapes[t];
     if (!interactions::meets_box(b.surface.pose->bounds, shape.part[interactions::kShaft].a, shape.frame.tip,
@@ -22,7 +23,7 @@ void carry_along(const StepContext& c, const CarriedSkin& b) noexcept {
     interactions::carry_along(
         needles,
         {*b.surface.skin, *b.surface.pose, b.open, b.fixed, {between.data(), held}, b.surface.nodes.origin, b.rows},
-        b.gap ? b.gap[t * b.each] : 0, kTick);
+        b.gap ? b.gap[t * b.each] : 0, kTick, extent);
   }
 }
 

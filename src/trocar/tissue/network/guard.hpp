@@ -35,8 +35,6 @@ struct TetRest {
 };
 inline constexpr double kCollapsed = 0.1;     ///< share of the rest volume below which a cell is pushed open
 inline constexpr float kOpeningTime = 1e-3f;  ///< with which it takes its shape again, at least [s]
-/// A cell's phase counts, while it is pushed open, the ticks for which it has been at rest or without hands.
-inline constexpr std::uint8_t kOldestFold = 200, kGone = 255;
 
 /// Puts a cell into a lane of a pack. @param limit6  six-fold volume below which it has collapsed [m^3]
 inline void put_cell(const TetRest& cell, double limit6, int lane, TetPack& pack) noexcept {

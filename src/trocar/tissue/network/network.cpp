@@ -92,10 +92,9 @@ StepReport advance(const NetworkModel& m, std::span<const NodeLoad> loads, std::
   if (guard.at_work()) report.flags |= StepReport::kInverted;
   KernelArgs args = kernel_args(m, s);
   bool fine = true;
-  if (m.bulk.impulses > 0) note_volumes(m.tets, m.row_packs, m.dt, w.volume);
   for (int i = 0; i < m.substeps; ++i) {
     if (m.bulk.impulses > 0 && i % (m.substeps / m.bulk.impulses) == 0)
-      push_volumes(m.tets, s.tet_phase, m.bulk, m.tick / m.bulk.impulses, m.row_packs, m.dt, s.nodes, w.volume);
+      push_volumes(m.volume_cells, s.tet_phase, m.bulk, m.tick / m.bulk.impulses, m.dt, s.nodes, w.volume);
     args.in = s.nodes.data();
     args.out = w.other.data();
     fine = run_substep(args, w.forces, pool) && fine;

@@ -93,6 +93,7 @@ struct NetworkModel {
   std::vector<int> tet_begin;                    ///< (nodes + 1) into tet_of_node
   std::vector<int> tet_of_node;                  ///< cells at a node
   Bulk bulk;                                     ///< the volume force; its impulses divide the sub-steps
+  VolumeCells volume_cells;                      ///< empty where there is none
   double tick = 0;                               ///< [s]
   int substeps = 1;
   double dt = 0;        ///< tick / substeps [s]
@@ -119,8 +120,9 @@ struct NetworkModel {
         v("spring_nodes", s.spring_nodes, core::kNotHashed), v("spring_rest", s.spring_rest, core::kNotHashed),
         v("place", s.place, core::kNotHashed), v("tets", s.tets, core::kNotHashed),
         v("tet_begin", s.tet_begin, core::kNotHashed), v("tet_of_node", s.tet_of_node, core::kNotHashed),
-        v("tick", s.tick, core::kNotHashed), v("dt_limit", s.dt_limit, core::kNotHashed),
-        v("gamma", s.gamma, core::kNotHashed), v("gravity", s.gravity, core::kNotHashed);
+        v("volume_cells", s.volume_cells, core::kNotHashed), v("tick", s.tick, core::kNotHashed),
+        v("dt_limit", s.dt_limit, core::kNotHashed), v("gamma", s.gamma, core::kNotHashed),
+        v("gravity", s.gravity, core::kNotHashed);
   }
 };
 

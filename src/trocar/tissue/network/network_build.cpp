@@ -407,6 +407,10 @@ NetworkModel build(const NetworkDescription& d, double tick) {
   m.decay = float(decay);
   for (int i = 0; i < 3; ++i) m.gravity_step[i] = float(m.dt * d.gravity[i] * decay);
   fill_rows(m);
+  if (m.bulk.impulses > 0) {
+    m.volume_cells.resize(m.tets.size(), std::size_t(m.rows), columns_of(m.tets, std::size_t(m.rows)).all);
+    note_volumes(m.tets, m.bulk, m.row_packs, m.dt, m.volume_cells);
+  }
   return m;
 }
 
@@ -436,7 +440,7 @@ NetworkWork make_work(const NetworkModel& m, int threads) {
   w.open_tets.resize(m.tets.size());
   w.folded.resize(m.rows);
   w.below.resize(m.tet_packs.size());
-  if (m.bulk.impulses > 0) w.volume.resize(std::size_t(m.rows));
+  if (m.bulk.impulses > 0) w.volume.resize(m.tets.size(), std::size_t(m.rows));
   return w;
 }
 

@@ -95,6 +95,78 @@ struct alignas(64) TetPack {
   }
 };
 
+/// Four floats that are loaded whole.
+struct alignas(16) Quad {
+  float x = 0, y = 0, z = 0, w = 0;
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("x", s.x), v("y", s.y), v("z", s.z), v("w", s.w);
+  }
+};
+
+/// Corners of 16 cells.
+struct alignas(64) CornerPack {
+  std::uint32_t offset[4][kSlice];  ///< byte offsets in an array of Quads, by row
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("corner0", s.offset[0]), v("corner1", s.offset[1]), v("corner2", s.offset[2]), v("corner3", s.offset[3]);
+  }
+};
+
+/// A cell at each of 16 rows: where it has left its answer and what it does to that corner. Padding points at 0, where
+/// nothing is.
+struct alignas(64) CellPack {
+  std::uint32_t answer[kSlice];  ///< byte offset in VolumeArgs::answers
+  std::uint32_t force[kSlice];   ///< byte offset in VolumeArgs::forces
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("answer", s.answer), v("force", s.force);
+  }
+};
+
+/// What 16 cells keep from the first look at them to the push.
+struct alignas(64) CellBounds {
+  float share[kSlice];  ///< of its pressure that a cell has, by how far it is from its drawn volume
+  float speed[kSlice];  ///< of its liveliest corner, for a unit of pressure [m/s/Pa]
+};
+
+/// A cell's phase counts, while it is pushed open, the ticks for which it has been at rest or without hands.
+inline constexpr std::uint8_t kOldestFold = 200, kGone = 255;
+
+/// What one impulse of the volume force reads and writes (volume_force.hpp). Cells sit in lanes. What a cell does to
+/// its corners it puts down, 16 cells in the order of kSlotOfLane, and each row picks up what its cells have left, in
+/// their order: no scatter.
+struct VolumeArgs {
+  const CornerPack* corners = nullptr;
+  const float* rest6 = nullptr;         ///< as drawn [m^3]
+  const std::uint8_t* phase = nullptr;  ///< (cells) kGone: counts as it was drawn; null: none is gone
+  const int* cell = nullptr;            ///< (whole packs) whose phase that is; -1: none
+  const CellPack* around = nullptr;
+  const int* around_begin = nullptr;  ///< (slices + 1) first pack of each slice
+  const int* last_pack = nullptr;     ///< (slices) of corners that a slice's rows need
+  const int* last_slice = nullptr;    ///< (packs) of rows that a pack's cells need
+  const Quad* weight = nullptr;       ///< (rows) as RowPack; w: 1/m
+  const float* drawn = nullptr;       ///< (rows) volume of the node [m^3]
+  const float* kappa = nullptr;       ///< (rows) 0: it does not press [Pa]
+  float most_answer = 0;              ///< beyond it a node presses less; 0: whatever it is
+  float dt = 0;                       ///< for which the impulse stands [s]
+  float times = 0;                    ///< dt over that of the weights
+  int packs = 0, slices = 0;
+
+  NodeState* nodes = nullptr;
+  float* node_answer = nullptr;  ///< (rows) out: sum |dV/dx|^2 / m over the node's volume as drawn
+  Quad* places = nullptr;        ///< (rows) scratch
+  ForcePack* answers = nullptr;  ///< (1 + packs) scratch: nothing, then what the cells of a pack say
+  ForcePack* forces = nullptr;   ///< (1 + 4 packs) scratch: nothing, then what they do, a corner after the other
+  CellBounds* bounds = nullptr;  ///< (packs) scratch
+};
+
 /// What one sub-step reads and writes.
 struct KernelArgs {
   const NodeState* in = nullptr;
@@ -104,6 +176,7 @@ struct KernelArgs {
   const float* scale = nullptr;   ///< null: all whole
   const RowPack* rows = nullptr;
   const int* slice_begin = nullptr;
+  const int* slice_end = nullptr;  ///< null: where the next one begins
   float p1 = 0, p2 = 0, cap = 1, cap_slope = 1;
   float decay = 1;
   float gravity_step[3] = {0, 0, 0};
@@ -126,6 +199,8 @@ struct KernelSet {
   /// below[i] = bit mask of the cells of pack first + i whose six-fold volume is under their limit.
   void (*find_collapsed)(const NodeState* nodes, const TetPack* packs, int first, int last,
                          std::uint16_t* below) noexcept = nullptr;
+  /// One impulse of the volume force.
+  void (*press)(const VolumeArgs&) noexcept = nullptr;
 };
 
 /// Null where not compiled for this target.

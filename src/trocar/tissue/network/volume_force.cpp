@@ -2,165 +2,244 @@
 #include <cmath>
 
 #include <trocar/tissue/base/float4.hpp>
+#include <trocar/tissue/network/network_kernels.hpp>
 #include <trocar/tissue/network/volume_force.hpp>
 
 namespace trocar::tissue {
 namespace {
 
-Float4 corner(std::span<const NodeState> nodes, const TetRest& c, int i) noexcept {
-  return load4(&nodes[std::size_t(c.row[i])].x);
-}
-Float4 cross(Float4 a, Float4 b) noexcept {
-  const Float4 a1 = __builtin_shufflevector(a, a, 1, 2, 0, 3), b1 = __builtin_shufflevector(b, b, 1, 2, 0, 3);
-  const Float4 c = a * b1 - a1 * b;
-  return __builtin_shufflevector(c, c, 1, 2, 0, 3);
-}
-float dot(Float4 a, Float4 b) noexcept {
-  const Float4 c = a * b;
-  return (c[0] + c[1]) + c[2];
-}
+constexpr float kStiffer = 0.5f;  // of the stiffest node as built: one that answers more is pressed less
+constexpr float kWhole = 0.75f;   // of its volume as built must a node have to press
 
-/// A cell as it is: edges from its first corner, and six times its volume and the volume's derivatives by its corners.
-struct CellNow {
-  float volume6;
-  Float4 by[4];
-  CellNow(std::span<const NodeState> nodes, const TetRest& t) noexcept {
-    const Float4 o = corner(nodes, t, 0);
-    const Float4 a = corner(nodes, t, 1) - o, b = corner(nodes, t, 2) - o, c = corner(nodes, t, 3) - o;
-    by[1] = cross(b, c), by[2] = cross(c, a), by[3] = cross(a, b);
-    by[0] = -(by[1] + by[2] + by[3]);
-    volume6 = dot(a, by[1]);
+std::size_t packs_of(std::size_t cells) noexcept { return (cells + kSlice - 1) / kSlice; }
+
+int lowest_row(const TetRest& t) noexcept { return *std::min_element(t.row, t.row + 4); }
+int highest_row(const TetRest& t) noexcept { return *std::max_element(t.row, t.row + 4); }
+
+/// In the order of their lowest rows, so that what a slice of rows and a pack of cells have of each other is near.
+void order_cells(std::span<const TetRest> cells, VolumeCells& v) noexcept {
+  std::fill(v.count.begin(), v.count.end(), 0);
+  for (const TetRest& t : cells) ++v.count[std::size_t(lowest_row(t))];
+  int before = 0;
+  for (int& n : v.count) {
+    const int here = n;
+    n = before;
+    before += here;
   }
-};
-
-bool gone(std::span<const std::uint8_t> phase, std::size_t cell) noexcept {
-  return !phase.empty() && phase[cell] == kGone;
-}
-
-/// Every node's volume, and how stiffly it answers its pressure: the sum of |dV/dx|^2 / m over its cells.
-void sum_volumes(std::span<const TetRest> cells, std::span<const std::uint8_t> phase, std::span<const NodeState> nodes,
-                 VolumeWork& w) noexcept {
-  std::fill(w.volume.begin(), w.volume.end(), 0.0f);
-  std::fill(w.answer.begin(), w.answer.end(), 0.0f);
+  std::fill(v.cell.begin(), v.cell.end(), -1);
   for (std::size_t t = 0; t < cells.size(); ++t) {
-    const int* row = cells[t].row;
-    if (gone(phase, t)) {  // counts as it was drawn: it neither presses nor is pressed
-      for (int i = 0; i < 4; ++i) w.volume[std::size_t(row[i])] += cells[t].rest6 / 24;
-      continue;
-    }
-    const CellNow cell(nodes, cells[t]);
-    float answer = 0;
-    for (int i = 0; i < 4; ++i) answer += w.inverse_mass[std::size_t(row[i])] * dot(cell.by[i], cell.by[i]);
-    for (int i = 0; i < 4; ++i) {
-      w.volume[std::size_t(row[i])] += cell.volume6 / 24;
-      w.answer[std::size_t(row[i])] += answer;
-    }
+    v.place[t] = v.count[std::size_t(lowest_row(cells[t]))]++;
+    v.cell[std::size_t(v.place[t])] = int(t);
   }
-  for (std::size_t row = 0; row < w.answer.size(); ++row)
-    if (w.drawn[row] > 0) w.answer[row] /= w.drawn[row];
 }
 
-constexpr float kLeast = 0.5f, kMost = 2;     // of J: beyond, cells are the guard's and the law's business
-constexpr float kCrushed = 0.2f, kBurst = 4;  // of a cell's volume: beyond, nothing presses on it any more
-constexpr float kStiffer = 0.5f;              // of the stiffest node as built: one that answers more is pressed less
-constexpr float kQuickest = 0.5f;             // of what one cell gives a node in an impulse [m/s]
-constexpr float kWhole = 0.75f;               // of its volume as built must a node have to press
-
-/// What is drawn out far has large faces: pressure on them would drive it on.
-float share_of(float ratio) noexcept {
-  const float least = (ratio - kCrushed) / (kLeast - kCrushed), most = (kBurst - ratio) / (kBurst - kMost);
-  return std::max(std::min({least, most, 1.0f}), 0.0f);
-}
-
-/// What a unit of pressure does to that of a cell's corners which gives way most.
-float liveliest(const CellNow& cell, const int* row, const VolumeWork& w) noexcept {
-  float most2 = 0;
-  for (int i = 0; i < 4; ++i) {
-    const float lightness = w.inverse_mass[std::size_t(row[i])];
-    most2 = std::max(most2, lightness * lightness * dot(cell.by[i], cell.by[i]));
+void put_corners(std::span<const TetRest> cells, VolumeCells& v) noexcept {
+  if (!cells.empty()) v.corners.back() = {};
+  std::fill(v.rest6.begin(), v.rest6.end(), 1.0f);
+  for (std::size_t t = 0; t < cells.size(); ++t) {
+    const std::size_t at = std::size_t(v.place[t]);
+    for (int i = 0; i < 4; ++i)
+      v.corners[at / kSlice].offset[i][at % kSlice] = std::uint32_t(cells[t].row[i]) * std::uint32_t(sizeof(Quad));
+    v.rest6[at] = cells[t].rest6;
   }
-  return std::sqrt(most2);
 }
 
-float bounded(float push, float answer) noexcept {
-  const float speed = std::fabs(push) * answer;
-  return speed > kQuickest ? push * (kQuickest / speed) : push;
+/// What needs what, for whoever takes it in turns.
+void find_last(std::span<const TetRest> cells, VolumeCells& v) noexcept {
+  std::fill(v.last_pack.begin(), v.last_pack.end(), 0);
+  std::fill(v.last_slice.begin(), v.last_slice.end(), 0);
+  for (std::size_t t = 0; t < cells.size(); ++t) {
+    const int pack = v.place[t] / kSlice;
+    for (const int row : cells[t].row) {
+      int& last = v.last_pack[std::size_t(row / kSlice)];
+      last = std::max(last, pack);
+    }
+    int& last = v.last_slice[std::size_t(pack)];
+    last = std::max(last, highest_row(cells[t]) / kSlice);
+  }
+}
+
+void sum_drawn(std::span<const TetRest> cells, VolumeCells& v) noexcept {
+  std::fill(v.drawn.begin(), v.drawn.end(), 0.0f);
+  for (const TetRest& t : cells)
+    for (const int row : t.row) v.drawn[std::size_t(row)] += t.rest6 / 24;
 }
 
 /// At wounds and in shreds cells share their pressure with few others: they would answer it faster than impulses allow.
-bool whole(const Bulk& bulk, const VolumeWork& w, std::size_t row) noexcept {
-  return row < bulk.built.size() && w.drawn[row] > kWhole * bulk.built[row];
+void choose_pressing(const Bulk& bulk, VolumeCells& v) noexcept {
+  for (std::size_t row = 0; row < v.kappa.size(); ++row) {
+    const bool whole = row < bulk.built.size() && v.drawn[row] > kWhole * bulk.built[row];
+    v.kappa[row] = whole ? float(bulk.kappa) : 0.0f;
+  }
 }
 
-/// @param dt  for which the forces will act [s]
-void sum_forces(std::span<const TetRest> cells, std::span<const std::uint8_t> phase, const Bulk& bulk, double dt,
-                std::span<const NodeState> nodes, VolumeWork& w) noexcept {
-  sum_volumes(cells, phase, nodes, w);
-  const float bound = kStiffer * bulk.most_answer;
-  for (std::size_t row = 0; row < w.pressure.size(); ++row) {
-    if (!whole(bulk, w, row)) {
-      w.pressure[row] = 0;
-      continue;
-    }
-    const float j = std::min(std::max(w.volume[row] / w.drawn[row], kLeast), kMost);
-    const float soft = w.answer[row] > bound && bound > 0 ? bound / w.answer[row] : 1;
-    w.pressure[row] = soft * float(bulk.kappa) * (j - 1);
-  }
-  std::fill(w.force.begin(), w.force.end(), VolumeForce{});
+void count_cells(std::span<const TetRest> cells, std::span<int> count) noexcept {
+  std::fill(count.begin(), count.end(), 0);
+  for (const TetRest& t : cells)
+    for (const int row : t.row) ++count[std::size_t(row)];
+}
+
+int widest_of(std::span<const int> count, std::size_t slice) noexcept {
+  const auto first = count.begin() + std::ptrdiff_t(slice * kSlice);
+  return *std::max_element(first, first + kSlice);
+}
+
+/// Every row's cells, in ascending order: their order is that of the sums.
+void list_around(std::span<const TetRest> cells, VolumeCells& v) noexcept {
+  count_cells(cells, v.count);
+  v.begin[0] = 0;
+  for (std::size_t s = 0; s + 1 < v.begin.size(); ++s)
+    v.begin[s + 1] = std::min(v.begin[s] + widest_of(v.count, s), int(v.around.size()));
+  std::fill(v.around.begin(), v.around.begin() + v.begin.back(), CellPack{});
+  std::fill(v.count.begin(), v.count.end(), 0);
   for (std::size_t t = 0; t < cells.size(); ++t) {
-    if (gone(phase, t)) continue;
-    const int* row = cells[t].row;
-    const auto p = [&](int i) { return w.pressure[std::size_t(row[i])]; };
-    const CellNow cell(nodes, cells[t]);
-    float push = -(share_of(cell.volume6 / cells[t].rest6) * ((p(0) + p(1)) + (p(2) + p(3)))) / 24;
-    push = bounded(push, float(dt) * liveliest(cell, row, w));
-    for (int i = 0; i < 4; ++i) {
-      float* const at = &w.force[std::size_t(row[i])].x;
-      const Float4 sum = load4(at) + push * cell.by[i];
-      std::memcpy(at, &sum, sizeof sum);
+    const std::size_t at = std::size_t(v.place[t]), pack = at / kSlice, slot = std::size_t(kSlotOfLane[at % kSlice]);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::size_t row = std::size_t(cells[t].row[i]), lane = row % kSlice;
+      CellPack& column = v.around[std::size_t(v.begin[row / kSlice] + v.count[row]++)];
+      column.answer[lane] = std::uint32_t(((1 + pack) * kSlice + slot) * sizeof(Quad));
+      column.force[lane] = std::uint32_t(((1 + 4 * pack + i) * kSlice + slot) * sizeof(Quad));
     }
   }
+}
+
+void note_cells(std::span<const TetRest> cells, const Bulk& bulk, VolumeCells& v) noexcept {
+  order_cells(cells, v);
+  put_corners(cells, v);
+  find_last(cells, v);
+  sum_drawn(cells, v);
+  choose_pressing(bulk, v);
+  list_around(cells, v);
+}
+
+VolumeArgs volume_args(const VolumeCells& v, const Bulk& bulk, std::span<NodeState> nodes, VolumeWork& w) noexcept {
+  VolumeArgs a;
+  a.corners = v.corners.data();
+  a.rest6 = v.rest6.data();
+  a.around = v.around.data();
+  a.around_begin = v.begin.data();
+  a.weight = v.weight.data();
+  a.drawn = v.drawn.data();
+  a.kappa = v.kappa.data();
+  a.most_answer = kStiffer * bulk.most_answer;
+  a.last_pack = v.last_pack.data();
+  a.last_slice = v.last_slice.data();
+  a.cell = v.cell.data();
+  a.packs = int(v.corners.size());
+  a.slices = v.slices;
+  a.nodes = nodes.data();
+  a.node_answer = w.node_answer.data();
+  a.places = w.places.data();
+  a.answers = w.answers.data();
+  a.forces = w.forces.data();
+  a.bounds = w.bounds.data();
+  return a;
 }
 
 }  // namespace
 
-void VolumeWork::resize(std::size_t rows) {
-  for (auto* values : {&drawn, &volume, &answer, &inverse_mass, &pressure}) values->resize(rows);
-  force.resize(rows);
+void VolumeCells::resize(std::size_t of_cells, std::size_t rows, std::size_t columns) {
+  corners.resize(packs_of(of_cells));
+  rest6.resize(packs_of(of_cells) * kSlice);
+  around.resize(columns);
+  begin.resize(rows / kSlice + 1);
+  last_pack.resize(rows / kSlice);
+  last_slice.resize(packs_of(of_cells));
+  cell.resize(packs_of(of_cells) * kSlice);
+  place.resize(of_cells);
+  count.resize(rows);
+  drawn.resize(rows);
+  kappa.resize(rows);
+  weight.resize(rows);
 }
 
-void note_volumes(std::span<const TetRest> cells, std::span<const RowPack> weight, double weight_dt,
-                  VolumeWork& w) noexcept {
-  std::fill(w.drawn.begin(), w.drawn.end(), 0.0f);
-  for (const TetRest& t : cells)
-    for (const int row : t.row) w.drawn[std::size_t(row)] += t.rest6 / 24;
-  for (std::size_t row = 0; row < w.inverse_mass.size(); ++row) {
+void VolumeWork::resize(std::size_t cells, std::size_t rows) {
+  const std::size_t packs = packs_of(cells);
+  places.resize(rows);
+  answers.resize(1 + packs);
+  forces.resize(1 + 4 * packs);
+  bounds.resize(packs);
+  node_answer.resize(rows);
+}
+
+ColumnCount columns_of(std::span<const TetRest> cells, std::size_t rows) {
+  std::vector<int> count(rows);
+  count_cells(cells, count);
+  ColumnCount columns;
+  for (std::size_t s = 0; s < rows / kSlice; ++s) {
+    const std::size_t width = std::size_t(widest_of(count, s));
+    columns.all += width;
+    columns.widest = std::max(columns.widest, width);
+  }
+  return columns;
+}
+
+void note_volumes(std::span<const TetRest> cells, const Bulk& bulk, std::span<const RowPack> weight, double weight_dt,
+                  VolumeCells& v) noexcept {
+  v.slices = int(weight.size());
+  note_cells(cells, bulk, v);
+  for (std::size_t row = 0; row < weight.size() * kSlice; ++row) {
     const RowPack& p = weight[row / kSlice];
     const std::size_t lane = row % kSlice;
-    w.inverse_mass[row] = std::max({p.wx[lane], p.wy[lane], p.wz[lane]}) / float(weight_dt);
+    const float lightness = std::max({p.wx[lane], p.wy[lane], p.wz[lane]}) / float(weight_dt);
+    v.weight[row] = {p.wx[lane], p.wy[lane], p.wz[lane], lightness};
   }
 }
 
-void push_volumes(std::span<const TetRest> cells, std::span<const std::uint8_t> phase, const Bulk& bulk, double dt,
-                  std::span<const RowPack> weight, double weight_dt, std::span<NodeState> nodes,
-                  VolumeWork& w) noexcept {
-  sum_forces(cells, phase, bulk, dt, nodes, w);
-  const float times = float(dt / weight_dt);
-  for (std::size_t row = 0; row < w.force.size(); ++row) {
-    const RowPack& pack = weight[row / kSlice];
-    const std::size_t lane = row % kSlice;
-    NodeState& n = nodes[row];
-    n.vx += times * pack.wx[lane] * w.force[row].x;
-    n.vy += times * pack.wy[lane] * w.force[row].y;
-    n.vz += times * pack.wz[lane] * w.force[row].z;
-  }
+void push_volumes(const VolumeCells& noted, std::span<const std::uint8_t> phase, const Bulk& bulk, double dt,
+                  double weight_dt, std::span<NodeState> nodes, VolumeWork& w) noexcept {
+  VolumeArgs args = volume_args(noted, bulk, nodes, w);
+  args.phase = phase.empty() ? nullptr : phase.data();
+  args.dt = float(dt);
+  args.times = float(dt / weight_dt);
+  kernels().press(args);
 }
 
 namespace {
 
-Vec3d force_on(const VolumeWork& w, std::size_t row) noexcept {
-  const VolumeForce& f = w.force[row];
-  return {double(f.x), double(f.y), double(f.z)};
+/// A body as built whose nodes get their forces as velocities.
+class ForceField {
+ public:
+  ForceField(std::span<const TetRest> cells, std::span<const NodeState> rest, std::span<const double> mass, Bulk& bulk)
+      : m_bulk(bulk), m_nodes(rest.begin(), rest.end()) {
+    m_cells.resize(cells.size(), rest.size(), columns_of(cells, rest.size()).all);
+    m_work.resize(cells.size(), rest.size());
+    m_cells.slices = int(rest.size() / kSlice);
+    sum_drawn(cells, m_cells);
+    bulk.built = m_cells.drawn;
+    note_cells(cells, bulk, m_cells);
+    for (std::size_t row = 0; row < mass.size(); ++row)
+      m_cells.weight[row] = {1, 1, 1, mass[row] > 0 ? float(1 / mass[row]) : 0};
+  }
+  std::vector<NodeState>& nodes() noexcept { return m_nodes; }
+  std::span<const float> answers() const noexcept { return m_work.node_answer; }
+  void evaluate() noexcept {
+    for (NodeState& n : m_nodes) n.vx = n.vy = n.vz = 0;
+    VolumeArgs args = volume_args(m_cells, m_bulk, m_nodes, m_work);
+    args.times = 1;
+    kernels().press(args);
+  }
+  Vec3d force(std::size_t row) const noexcept {
+    const NodeState& n = m_nodes[row];
+    return {double(n.vx), double(n.vy), double(n.vz)};
+  }
+
+ private:
+  const Bulk& m_bulk;
+  std::vector<NodeState> m_nodes;
+  VolumeCells m_cells;
+  VolumeWork m_work;
+};
+
+double shortest_edge(std::span<const TetRest> cells, std::span<const NodeState> rest) noexcept {
+  double edge = 1;
+  for (const TetRest& t : cells)
+    for (int i = 1; i < 4; ++i) {
+      const auto corner = [&](int k) { return load4(&rest[std::size_t(t.row[k])].x); };
+      const Float4 e = corner(i) - corner(0), square = e * e;
+      edge = std::min(edge, std::sqrt(double((square[0] + square[1]) + square[2])));
+    }
+  return edge;
 }
 
 }  // namespace
@@ -169,26 +248,16 @@ Bulk bulk_of(std::span<const TetRest> cells, std::span<const NodeState> rest, st
              double kappa, double tick) {
   Bulk bulk{kappa, 0, 0, {}};
   if (!(kappa > 0)) return bulk;
-  VolumeWork w;
-  w.resize(rest.size());
-  for (const TetRest& t : cells)
-    for (const int row : t.row) w.drawn[std::size_t(row)] += t.rest6 / 24;
-  bulk.built = w.drawn;
-  for (std::size_t row = 0; row < mass.size(); ++row) w.inverse_mass[row] = mass[row] > 0 ? float(1 / mass[row]) : 0;
-  sum_volumes(cells, {}, rest, w);
-  for (const float a : w.answer) bulk.most_answer = std::max(bulk.most_answer, a);
+  ForceField field(cells, rest, mass, bulk);
+  field.evaluate();
+  for (const float a : field.answers()) bulk.most_answer = std::max(bulk.most_answer, a);
 
-  double edge = 1;  // about the shortest of the cells
-  for (const TetRest& t : cells)
-    for (int i = 1; i < 4; ++i) {
-      const Float4 e = corner(rest, t, i) - corner(rest, t, 0);
-      edge = std::min(edge, std::sqrt(double(dot(e, e))));
-    }
+  const double edge = shortest_edge(cells, rest);  // about
   // Power iteration on the mass-weighted stiffness, by small displacements of a rough start.
   std::vector<Vec3d> mode(rest.size());
   for (std::size_t i = 0; i < mode.size(); ++i) mode[i] = {i % 2 ? 1.0 : -1.0, i % 3 ? 1.0 : -1.0, i % 5 ? 1.0 : -1.0};
   double lambda = 0;
-  std::vector<NodeState> moved(rest.begin(), rest.end());
+  std::vector<NodeState>& moved = field.nodes();
   for (int round = 0; round < 60; ++round) {
     double most = 0;
     for (const Vec3d& d : mode) most = std::max({most, std::fabs(d.x), std::fabs(d.y), std::fabs(d.z)});
@@ -198,13 +267,13 @@ Bulk bulk_of(std::span<const TetRest> cells, std::span<const NodeState> rest, st
       const Vec3d d = scale * mode[i];
       moved[i].x = rest[i].x + float(d.x), moved[i].y = rest[i].y + float(d.y), moved[i].z = rest[i].z + float(d.z);
     }
-    sum_forces(cells, {}, bulk, 0, moved, w);
+    field.evaluate();
     double along = 0, size = 0;
     for (std::size_t i = 0; i < mode.size(); ++i) {
       const Vec3d d = scale * mode[i];
-      along -= dot(d, force_on(w, i));
+      along -= dot(d, field.force(i));
       size += mass[i] * dot(d, d);
-      mode[i] = mass[i] > 0 ? (-1 / mass[i]) * force_on(w, i) : Vec3d{};
+      mode[i] = mass[i] > 0 ? (-1 / mass[i]) * field.force(i) : Vec3d{};
     }
     if (size > 0) lambda = std::max(lambda, along / size);
   }

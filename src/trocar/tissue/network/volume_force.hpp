@@ -44,34 +44,62 @@ struct Bulk {
   }
 };
 
-struct alignas(16) VolumeForce {
-  float x = 0, y = 0, z = 0, zero = 0;  ///< [N]
-};
-
-struct VolumeWork {
-  std::vector<float> drawn, volume;  ///< (rows) of a node, as drawn and now [m^3]
-  std::vector<float> answer;         ///< (rows) as Bulk::most_answer
-  std::vector<float> inverse_mass;   ///< (rows) [1/kg], 0: held
-  std::vector<float> pressure;       ///< (rows) kappa (J - 1) [Pa]
-  std::vector<VolumeForce> force;    ///< (rows)
-  void resize(std::size_t rows);
+/// A body's cells as the kernels read them (network_layout.hpp): follows from the cells and the rows' weights alone.
+struct VolumeCells {
+  int slices = 0;                   ///< in use
+  std::vector<CornerPack> corners;  ///< (cells in whole packs)
+  std::vector<float> rest6;         ///< (the same) [m^3]
+  std::vector<CellPack> around;     ///< capacity: columns
+  std::vector<int> begin;           ///< (slices + 1) of `around`
+  std::vector<int> last_pack;       ///< (slices) as in VolumeArgs
+  std::vector<int> last_slice;      ///< (packs) the same
+  std::vector<int> cell;            ///< (whole packs) which it is, -1: none: cells lie in the order of their rows
+  std::vector<int> place;           ///< (cells) where it is
+  std::vector<int> count;           ///< (rows) cells at a node
+  std::vector<float> drawn;         ///< (rows) volume of a node as drawn [m^3]
+  std::vector<float> kappa;         ///< (rows) 0: it does not press [Pa]
+  std::vector<Quad> weight;         ///< (rows) as RowPack; w: 1/m [1/kg]
+  /// @param columns  how many packs of cells all slices together have at most: columns_of() of the body as built, and
+  ///                 as many as the widest slice has for every spare one
+  void resize(std::size_t of_cells, std::size_t rows, std::size_t columns);
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("drawn", s.drawn), v("volume", s.volume), v("answer", s.answer), v("inverse_mass", s.inverse_mass),
-        v("pressure", s.pressure), v("force", s.force);
+    v("slices", s.slices), v("corners", s.corners), v("rest6", s.rest6), v("around", s.around), v("begin", s.begin),
+        v("last_pack", s.last_pack), v("last_slice", s.last_slice), v("cell", s.cell), v("place", s.place),
+        v("count", s.count), v("drawn", s.drawn), v("kappa", s.kappa), v("weight", s.weight);
   }
 };
 
-/// Notes what the drawn body says. @param weight  of the sub-step `weight_dt` [s], as the kernel has it
-void note_volumes(std::span<const TetRest> cells, std::span<const RowPack> weight, double weight_dt,
-                  VolumeWork& work) noexcept;
+struct ColumnCount {
+  std::size_t all = 0, widest = 0;
+};
+ColumnCount columns_of(std::span<const TetRest> cells, std::size_t rows);
+
+/// Scratch.
+struct VolumeWork {
+  std::vector<Quad> places;        ///< (rows)
+  std::vector<ForcePack> answers;  ///< (1 + packs of cells)
+  std::vector<ForcePack> forces;   ///< (1 + 4 packs)
+  std::vector<CellBounds> bounds;  ///< (packs)
+  std::vector<float> node_answer;  ///< (rows) as Bulk::most_answer, after an impulse
+  void resize(std::size_t cells, std::size_t rows);
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("places", s.places), v("answers", s.answers), v("forces", s.forces), v("bounds", s.bounds),
+        v("node_answer", s.node_answer);
+  }
+};
+
+/// Makes the kernels' arrays. @param weight  of the slices in use, for the sub-step `weight_dt` [s]
+void note_volumes(std::span<const TetRest> cells, const Bulk& bulk, std::span<const RowPack> weight, double weight_dt,
+                  VolumeCells& noted) noexcept;
 
 /// One impulse of `dt` [s] to nodes that are free.
-/// @param cells   drawn, upright  @param phase  (cells) kGone: left out; or empty
-void push_volumes(std::span<const TetRest> cells, std::span<const std::uint8_t> phase, const Bulk& bulk, double dt,
-                  std::span<const RowPack> weight, double weight_dt, std::span<NodeState> nodes,
-                  VolumeWork& work) noexcept;
+/// @param noted  for cells that are upright as drawn  @param phase  (cells) kGone: left out; or empty
+void push_volumes(const VolumeCells& noted, std::span<const std::uint8_t> phase, const Bulk& bulk, double dt,
+                  double weight_dt, std::span<NodeState> nodes, VolumeWork& work) noexcept;
 
 /// How many impulses a body wants: by the fastest of its oscillations, found by iteration.
 /// @param mass  (rows) [kg], 0: no node; held nodes count as free, which is on the safe side

@@ -106,7 +106,8 @@ class Assembler {
       for (std::size_t i = 0; i < 4; ++i) cell.row[i] = m.row_of_node[std::size_t(b.cells[t][i])];
       put_cell(cell, kCollapsed * six, int(t) % kSlice, w.guarded_packs[t / kSlice]);
     }
-    if (m.bulk.impulses > 0) note_volumes(w.guarded, w.row_packs, m.dt, w.volume);
+    if (m.bulk.impulses > 0)
+      note_volumes(w.guarded, m.bulk, {w.row_packs.data(), std::size_t(w.slices)}, m.dt, w.volume_cells);
     for (int i = 0; i < b.nodes; ++i) w.part[std::size_t(i)] = i;
     for (const Tet& c : b.cells)
       for (std::size_t i = 1; i < 4; ++i) join(c[0], c[i]);
@@ -228,6 +229,7 @@ class Assembler {
       // The last slice will take more doubles.
       if (w.slices == all - 1 && w.slices >= m.own_rows / kSlice) width = std::max(width, m.widest);
       w.slice_begin[std::size_t(w.slices) + 1] = std::min(first + width + kFreeColumns, m.packs);
+      w.slice_end[std::size_t(w.slices)] = first;
       for (int lane = 0; lane < kSlice; ++lane)
         if (!write_row(w.slices * kSlice + lane)) hold_row(w.slices * kSlice + lane);
     }
@@ -251,6 +253,8 @@ class Assembler {
       for (; used < springs.count; ++used) put(w.packs[std::size_t(first + used)], lane, node, springs.spring[used]);
     }
     for (int c = used; c < width; ++c) pad(w.packs[std::size_t(first + c)], row);
+    int& end = w.slice_end[std::size_t(s)];
+    end = std::max(end, first + used);
     return true;
   }
   /// There is no room for its springs, which takes more cuts than there are spare nodes for: it stays where it is.
@@ -289,6 +293,7 @@ KernelArgs kernel_args(const CuttableModel& m, const CuttableWork& w) noexcept {
   a.packs = w.packs.data();
   a.rows = w.row_packs.data();
   a.slice_begin = w.slice_begin.data();
+  a.slice_end = w.slice_end.data();
   a.p1 = m.p1, a.p2 = m.p2, a.cap = m.cap, a.cap_slope = m.cap_slope;
   const double decay = 1 / (1 + m.dt * m.gamma);
   a.decay = float(decay);
@@ -354,7 +359,7 @@ StepReport advance(const CuttableModel& m, std::span<const NodeLoad> loads, std:
   bool fine = true;
   for (int i = 0; i < m.substeps; ++i) {
     if (m.bulk.impulses > 0 && i % (m.substeps / m.bulk.impulses) == 0)
-      push_volumes(w.guarded, {}, m.bulk, m.tick / m.bulk.impulses, w.row_packs, m.dt, s.nodes, w.volume);
+      push_volumes(w.volume_cells, {}, m.bulk, m.tick / m.bulk.impulses, m.dt, s.nodes, w.volume);
     args.in = s.nodes.data();
     args.out = w.other.data();
     fine = kernels().substep(args, 0, w.slices) && fine;

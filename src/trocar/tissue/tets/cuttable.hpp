@@ -109,6 +109,7 @@ struct CuttableWork {
   std::vector<HalfEdgePack> packs;
   std::vector<RowPack> row_packs;
   std::vector<int> slice_begin;
+  std::vector<int> slice_end;  ///< of the columns in use: those that wait for cuts cost nothing
   int slices = 0;
   std::vector<double> mass;           ///< (capacity) [kg]
   std::vector<std::uint8_t> changed;  ///< (capacity) by the last cut
@@ -126,17 +127,19 @@ struct CuttableWork {
   std::vector<std::uint8_t> folded;  ///< (rows)
   std::vector<std::uint16_t> below;  ///< (packs of cells)
   std::vector<LoadedNode> loaded;    ///< (capacity)
-  VolumeWork volume;                 ///< empty where there is no volume force
+  VolumeCells volume_cells;          ///< empty where there is no volume force
+  VolumeWork volume;                 ///< the same
   geometry::CutWork cut;
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
     v("made_for", s.made_for), v("other", s.other), v("packs", s.packs), v("row_packs", s.row_packs),
-        v("slice_begin", s.slice_begin), v("slices", s.slices), v("mass", s.mass), v("changed", s.changed),
-        v("bearable", s.bearable), v("fixed", s.fixed), v("begin", s.begin), v("around", s.around),
-        v("node_of_row", s.node_of_row), v("now", s.now), v("guarded", s.guarded), v("guarded_packs", s.guarded_packs),
-        v("part", s.part), v("parts", s.parts), v("largest_part", s.largest_part), v("open_tets", s.open_tets),
-        v("folded", s.folded), v("below", s.below), v("loaded", s.loaded), v("volume", s.volume), v("cut", s.cut);
+        v("slice_begin", s.slice_begin), v("slice_end", s.slice_end), v("slices", s.slices), v("mass", s.mass),
+        v("changed", s.changed), v("bearable", s.bearable), v("fixed", s.fixed), v("begin", s.begin),
+        v("around", s.around), v("node_of_row", s.node_of_row), v("now", s.now), v("guarded", s.guarded),
+        v("guarded_packs", s.guarded_packs), v("part", s.part), v("parts", s.parts), v("largest_part", s.largest_part),
+        v("open_tets", s.open_tets), v("folded", s.folded), v("below", s.below), v("loaded", s.loaded),
+        v("volume_cells", s.volume_cells), v("volume", s.volume), v("cut", s.cut);
   }
 };
 

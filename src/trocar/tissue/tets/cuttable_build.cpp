@@ -151,6 +151,21 @@ CuttableState rest_state(const CuttableModel& m) {
   return s;
 }
 
+namespace {
+
+/// Cuts share a node's cells out between it and its doubles: no slice grows, and one of doubles is no wider than the
+/// widest.
+void make_room_for_volumes(const CuttableModel& m, CuttableWork& w) {
+  const std::size_t cells = m.drawn.cells.size(), rows = std::size_t(m.rows), own = std::size_t(m.own_rows);
+  for (std::size_t t = 0; t < cells; ++t)
+    for (std::size_t i = 0; i < 4; ++i) w.guarded[t].row[i] = m.row_of_node[std::size_t(m.drawn.cells[t][i])];
+  const ColumnCount columns = columns_of(w.guarded, own);
+  w.volume_cells.resize(cells, rows, columns.all + (rows - own) / kSlice * columns.widest);
+  w.volume.resize(cells, rows);
+}
+
+}  // namespace
+
 CuttableWork make_work(const CuttableModel& m) {
   CuttableWork w;
   const std::size_t nodes = m.drawn.rest.size();
@@ -158,6 +173,7 @@ CuttableWork make_work(const CuttableModel& m) {
   w.packs.resize(std::size_t(m.packs));
   w.row_packs.resize(std::size_t(m.rows / kSlice));
   w.slice_begin.resize(std::size_t(m.rows / kSlice) + 1);
+  w.slice_end.resize(std::size_t(m.rows / kSlice));
   w.mass.resize(nodes);
   w.bearable.resize(nodes);
   w.changed.resize(nodes);
@@ -173,7 +189,7 @@ CuttableWork make_work(const CuttableModel& m) {
   w.folded.resize(std::size_t(m.rows));
   w.below.resize(w.guarded_packs.size());
   w.loaded.resize(nodes);
-  if (m.bulk.impulses > 0) w.volume.resize(std::size_t(m.rows));
+  if (m.bulk.impulses > 0) make_room_for_volumes(m, w);
   w.cut = geometry::make_work(m.drawn);
   return w;
 }
