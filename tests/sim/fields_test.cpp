@@ -387,6 +387,7 @@ TEST(Fields, EveryFieldOfAStateThatIsListedCountsInItsHash) {
   Changes::Fields changed, listed;
   State states[] = {lively_everything().state, lively_small(2600).state, initial_state(gallbladder_model()),
                     initial_state(pegs_model()), initial_state(small::statics())};
+  states[2].bonds.emplace_back(1);
   for (State& state : states) {
     Changes changes([&] { return hash_of(state); }, changed);
     changes.through(state, "State");
@@ -403,6 +404,7 @@ TEST(Fields, EveryFieldOfAModelThatIsListedCountsInItsSeal) {
       Model model = *m;
       model.vessels.bleeder.vessel = 0;  // what no scene has is hashed as well where it is there
       model.wet.pool_at_start.saline = 1;
+      model.bonds.emplace_back().bonds.emplace_back();
       const auto sealed = [&] {
         seal(model);
         return model.hash;

@@ -30,30 +30,40 @@ Vec3d held_place(const BorderHold& hold, const Holders& holders) noexcept {
   return hold.offset;
 }
 
+Vec3d held_velocity(const BorderHold& hold, const Holders& holders) noexcept {
+  const std::size_t i = std::size_t(hold.index);
+  if (hold.kind == BorderHold::organ) return skin_velocity(holders.nodes[i], *holders.skins[i], hold.vertex);
+  if (hold.kind != BorderHold::strand) return {};
+  const tissue::StrandState& s = holders.strand_states[i];
+  const std::size_t e = std::size_t(hold.place.element);
+  return s.v[e] + bearing(hold.place, s) * (s.v[e + 1] - s.v[e]);
+}
+
+void bear(const BorderHold& hold, Vec3d force, double d, const Holders& holders, std::span<StrandLoads> strand_loads,
+          std::span<NetworkLoads> organ_loads) noexcept {
+  const std::size_t i = std::size_t(hold.index);
+  if (hold.kind == BorderHold::strand) {
+    tissue::StrandLoad load;
+    load.element = hold.place.element;
+    load.w = bearing(hold.place, holders.strand_states[i]);
+    load.d = d;
+    load.f0 = force + d * held_velocity(hold, holders);
+    strand_loads[i].add(load, {Owner::body, 0, 0});
+  } else if (hold.kind == BorderHold::organ) {
+    SkinLoad load;
+    load.d = d;
+    load.f0 = force + d * counted_on(held_velocity(hold, holders));
+    add_skin_load(holders.nodes[i], *holders.skins[i], hold.vertex, load, {Owner::strand_end, 0, 0}, organ_loads[i]);
+  }
+}
+
 void border_loads(std::span<const BorderHold> holds, std::span<const tissue::BorderPull> pulls,
                   const tissue::MembraneModel& sheet, const tissue::MembraneState& state, const Holders& holders,
                   double dt, std::span<StrandLoads> strand_loads, std::span<NetworkLoads> organ_loads) noexcept {
   for (std::size_t h = 0; h < holds.size(); ++h) {
-    const BorderHold& hold = holds[h];
-    if (hold.kind == BorderHold::space) continue;
-    const std::size_t i = std::size_t(hold.index);
-    const Vec3d force = pulls[h].force - whole_share(sheet, state, h) * hold.drawn_pull;
-    const double d = added_damping(pulls[h], dt);
-    if (hold.kind == BorderHold::strand) {
-      const tissue::StrandState& s = holders.strand_states[i];
-      const std::size_t e = std::size_t(hold.place.element);
-      tissue::StrandLoad load;
-      load.element = hold.place.element;
-      load.w = bearing(hold.place, s);
-      load.d = d;
-      load.f0 = force + d * (s.v[e] + load.w * (s.v[e + 1] - s.v[e]));
-      strand_loads[i].add(load, {Owner::body, 0, 0});
-    } else {
-      SkinLoad load;
-      load.d = d;
-      load.f0 = force + d * counted_on(skin_velocity(holders.nodes[i], *holders.skins[i], hold.vertex));
-      add_skin_load(holders.nodes[i], *holders.skins[i], hold.vertex, load, {Owner::strand_end, 0, 0}, organ_loads[i]);
-    }
+    if (holds[h].kind == BorderHold::space) continue;
+    const Vec3d force = pulls[h].force - whole_share(sheet, state, h) * holds[h].drawn_pull;
+    bear(holds[h], force, added_damping(pulls[h], dt), holders, strand_loads, organ_loads);
   }
 }
 

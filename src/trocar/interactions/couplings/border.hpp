@@ -44,6 +44,12 @@ struct Holders {
 
 /// Where the node shall be: on its holder as that is now.
 Vec3d held_place(const BorderHold& hold, const Holders& holders) noexcept;
+/// How fast its holder moves there [m/s].
+Vec3d held_velocity(const BorderHold& hold, const Holders& holders) noexcept;
+
+/// Gives a force to the holder, and a resistance `d` to changes of its velocity there [N s/m]. Nothing to space.
+void bear(const BorderHold& hold, Vec3d force, double d, const Holders& holders, std::span<StrandLoads> strand_loads,
+          std::span<NetworkLoads> organ_loads) noexcept;
 
 /// What a border node resists its holder's changes of velocity with [N s/m].
 double added_damping(const tissue::BorderPull& pull, double dt) noexcept;

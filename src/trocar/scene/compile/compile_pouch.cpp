@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -25,19 +26,76 @@ tissue::Enclosure enclosure_of(const Contents& c) {
   return e;
 }
 
-/// Nodes within the held places.
-std::vector<std::uint8_t> held_nodes(const Pouch& pouch, const std::vector<Vec3d>& positions,
-                                     std::vector<core::Fault>& faults) {
-  std::vector<std::uint8_t> held(positions.size(), 0);
-  for (const Anchor& place : pouch.held) {
+/// Nodes within the places.
+std::vector<std::uint8_t> nodes_within(const std::vector<Anchor>& places, const std::string& pouch,
+                                       const std::vector<Vec3d>& positions, std::vector<core::Fault>& faults) {
+  std::vector<std::uint8_t> within(positions.size(), 0);
+  for (const Anchor& place : places) {
     bool any = false;
     for (size_t i = 0; i < positions.size(); ++i)
-      if (length(positions[i] - place.centre) <= place.radius) held[i] = 1, any = true;
+      if (length(positions[i] - place.centre) <= place.radius) within[i] = 1, any = true;
     if (!any)
       faults.push_back(
-          {place.at, fmt::format("expected a place that holds at least one node of '{}', got none", pouch.name)});
+          {place.at, fmt::format("expected a place that holds at least one node of '{}', got none", pouch)});
   }
-  return held;
+  return within;
+}
+
+/// A third of its triangles' areas [m^2].
+std::vector<double> areas_of_nodes(const std::vector<Vec3d>& positions,
+                                   const std::vector<std::array<int, 3>>& triangles) {
+  std::vector<double> area(positions.size(), 0.0);
+  for (const auto& t : triangles) {
+    const Vec3d a = positions[size_t(t[0])], b = positions[size_t(t[1])], c = positions[size_t(t[2])];
+    for (int i : t) area[size_t(i)] += length(cross(b - a, c - a)) / 6;
+  }
+  return area;
+}
+
+/// The sets of bonds of a pouch that is yet to be built: which nodes they tie, and to what. A node that is held, or
+/// tied already, stays so.
+std::vector<interactions::BondSet> bonds_of(const Pouch& pouch, const tissue::MembraneDescription& d,
+                                            const sim::Model& model, std::vector<core::Fault>& faults) {
+  std::vector<interactions::BondSet> sets;
+  std::vector<std::uint8_t> taken = d.held;
+  const std::vector<double> area = areas_of_nodes(d.positions, d.triangles);
+  for (const BondSetting& setting : pouch.bonds) {
+    interactions::BondSet set;
+    set.name = setting.name;
+    set.membrane = std::int32_t(model.membranes.size());
+    set.law = tissue::CohesiveLaw::of(setting.toughness, setting.opens);
+    const std::vector<std::uint8_t> within = nodes_within(setting.places, pouch.name, d.positions, faults);
+    for (size_t i = 0; i < within.size(); ++i) {
+      if (!within[i] || taken[i]) continue;
+      const interactions::BorderHold hold = hold_near(setting.on, setting.reach, d.positions[i], model);
+      if (hold.kind == interactions::BorderHold::space) continue;
+      taken[i] = 1;
+      set.bonds.push_back({std::int32_t(i), hold, area[i]});
+    }
+    if (set.bonds.empty())
+      faults.push_back({setting.at, fmt::format("expected a node of '{}' in the places of \"{}\" that is free and at "
+                                                "most {} mm from what it is tied to, got none",
+                                                pouch.name, setting.name, 1000 * setting.reach)});
+    if (model.bonds_index(setting.name) >= 0)
+      faults.push_back({setting.at, fmt::format("expected every name of bonds once, got \"{}\" again", setting.name)});
+    sets.push_back(std::move(set));
+  }
+  return sets;
+}
+
+/// The wall as it hangs with its bonds whole, which bear what the wall does to them there.
+tissue::MembraneModel build_wall(const tissue::MembraneDescription& d, std::vector<interactions::BondSet>& sets) {
+  if (sets.empty()) return tissue::build(d, sim::kTick);
+  std::vector<std::uint8_t> tied(d.positions.size(), 0);
+  for (const interactions::BondSet& set : sets)
+    for (const interactions::Bond& bond : set.bonds) tied[size_t(bond.node)] = 1;
+  tissue::TiedMembrane wall = tissue::build_tied(d, tied, sim::kTick);
+  std::vector<Vec3d> pull(d.positions.size());
+  for (size_t i = 0, k = 0; i < tied.size(); ++i)
+    if (tied[i]) pull[i] = wall.pull[k++];
+  for (interactions::BondSet& set : sets)
+    for (interactions::Bond& bond : set.bonds) bond.hold.drawn_pull = pull[size_t(bond.node)];
+  return std::move(wall.model);
 }
 
 }  // namespace
@@ -50,7 +108,7 @@ void compile_pouch(const Pouch& pouch, const Tissue& tissue, Vec3d gravity, sim:
   tissue::MembraneDescription d;
   d.positions = wall.positions;
   d.triangles = wall.triangles;
-  d.held = held_nodes(pouch, d.positions, faults);
+  d.held = nodes_within(pouch.held, pouch.name, d.positions, faults);
   if (std::count(d.held.begin(), d.held.end(), 1) == 0) {
     faults.push_back({pouch.at, "expected '" + pouch.name + "' to be held somewhere, got no held node"});
     return;
@@ -64,13 +122,14 @@ void compile_pouch(const Pouch& pouch, const Tissue& tissue, Vec3d gravity, sim:
   d.global_damping = kFoldDrag;
   d.gravity = gravity;
   d.enclosure = enclosure_of(pouch.contents);
+  std::vector<interactions::BondSet> bonds = bonds_of(pouch, d, model, faults);
   sim::MembraneBody out;
   out.name = pouch.name;
   out.look = pouch.look;
   out.tissue = pouch.tissue;
   out.cuttable = pouch.cuttable;
   out.failure_strain = tissue.failure_strain;
-  out.sheet = tissue::build(d, sim::kTick);
+  out.sheet = build_wall(d, bonds);
   for (int node : out.sheet.held_nodes)
     out.holds.push_back(hold_near(pouch.held_on, pouch.held_reach, d.positions[size_t(node)], model));
   note_drawn_pulls(out);
@@ -79,6 +138,7 @@ void compile_pouch(const Pouch& pouch, const Tissue& tissue, Vec3d gravity, sim:
   out.depth.assign(size_t(out.sheet.nodes()), 0.0f);
   if (report) add_report(out, *report);
   model.membranes.push_back(std::move(out));
+  std::move(bonds.begin(), bonds.end(), std::back_inserter(model.bonds));
 } catch (const std::invalid_argument& e) {
   faults.push_back({pouch.at, "pouch '" + pouch.name + "': expected a wall that can be built, got: " + e.what()});
 }

@@ -172,6 +172,18 @@ struct Membrane {
   core::Location at, spacing_at;
 };
 
+/// Loose tissue between a pouch's wall and what it lies on, that can be parted (interactions/couplings/bonds.hpp): at
+/// the wall's nodes in `places` that are within `reach` of one of the bodies `on`.
+struct BondSetting {
+  std::string name;
+  std::vector<Anchor> places;   ///< centre and radius
+  std::vector<std::string> on;  ///< solids and strands
+  double reach = 0.006;         ///< [m]
+  double toughness = 50;        ///< [J/m^2]
+  double opens = 0.005;         ///< [m]
+  core::Location at;
+};
+
 /// What a pouch is filled with.
 struct Contents {
   enum Kind { nothing, constant, liquid, gas } kind = nothing;
@@ -190,6 +202,7 @@ struct Pouch {
   std::vector<Anchor> held;
   std::vector<std::string> held_on;  ///< solids and strands
   double held_reach = 0.004;         ///< [m]
+  std::vector<BondSetting> bonds;
   Contents contents;
   bool cuttable = true;
   core::Location at, spacing_at;

@@ -119,6 +119,8 @@ void bend(Pouch& pouch, const Warp& warp) {
     s.centre = warp(s.centre);
   }
   for (Anchor& a : pouch.held) a.centre = warp(a.centre);
+  for (BondSetting& bonds : pouch.bonds)
+    for (Anchor& place : bonds.places) place.centre = warp(place.centre);
 }
 
 double chords(const std::vector<Vec3d>& points) {

@@ -248,6 +248,24 @@ const Table<Membrane>& membrane() {
   return table;
 }
 
+const Table<BondSetting>& bond_setting() {
+  using R = Rows<BondSetting>;
+  static const Table<BondSetting> table{
+      "bonds",
+      "Loose tissue between a pouch's wall and what it lies on: it holds, and parts when it is pulled, pushed or cut.",
+      {needed(R::name("name", &BondSetting::name, "what exercises call it")),
+       needed(R::objects("places", held_place, &BondSetting::places, 1, "where the wall is tied")),
+       needed(R::refs("on", Reference::To::solid_or_strand, &BondSetting::on,
+                      "solids and strands that it is tied to, where they are near")),
+       R::number("reach_mm", units::mm, &BondSetting::reach, 0.1, 100,
+                 "how near that is, from a strand's surface or a skin, default {}"),
+       R::number("toughness_J_m2", units::one, &BondSetting::toughness, 0.1, 1e5,
+                 "what it takes to part a square metre, default {}"),
+       R::number("opens_mm", units::mm, &BondSetting::opens, 0.2, 100,
+                 "how far it opens until nothing holds, default {}")}};
+  return table;
+}
+
 const Table<Pouch>& pouch() {
   using R = Rows<Pouch>;
   static const Table<Pouch> table{
@@ -265,6 +283,7 @@ const Table<Pouch>& pouch() {
                "solids and strands that hold it where they are near; elsewhere it stays in place"),
        R::number("held_reach_mm", units::mm, &Pouch::held_reach, 0.1, 100,
                  "how near that is, from a strand's surface or a skin, default {}"),
+       R::objects("bonds", bond_setting, &Pouch::bonds, 0, "what ties the wall and can be parted"),
        R::object("contents", contents, &Pouch::contents, "default: nothing presses").only([](const Pouch& p) {
          return p.contents.kind != Contents::nothing;
        }),

@@ -34,6 +34,7 @@ State drawn_bodies(const Model& model) {
     s.torn.emplace_back(m.sheet.triangles.size(), std::uint8_t(0));
   }
   for (const StaticOrgan& o : model.statics) s.statics.push_back({tissue::rest_state(o.solver), 0});
+  for (const interactions::BondSet& set : model.bonds) s.bonds.emplace_back(set.bonds.size());
   s.objects = interactions::start_of(model.objects);
   return s;
 }

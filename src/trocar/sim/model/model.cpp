@@ -39,6 +39,7 @@ int Model::organ_index(const std::string& organ) const {
 int Model::membrane_index(const std::string& membrane) const { return find_name(membranes, membrane); }
 int Model::strand_index(const std::string& strand) const { return find_name(strands, strand); }
 int Model::vessel_index(const std::string& vessel) const { return find_name(vessels.list, vessel); }
+int Model::bonds_index(const std::string& of) const { return find_name(bonds, of); }
 int Model::hand_index(const std::string& trocar) const { return find_name(hands, trocar); }
 int HandModel::find(const std::string& instrument) const { return find_name(rack, instrument); }
 

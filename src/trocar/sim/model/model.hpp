@@ -15,6 +15,7 @@
 #include <trocar/interactions/contact/self_contact.hpp>
 #include <trocar/interactions/contact/skin_grid.hpp>
 #include <trocar/interactions/contact/surface.hpp>
+#include <trocar/interactions/couplings/bonds.hpp>
 #include <trocar/interactions/couplings/border.hpp>
 #include <trocar/interactions/couplings/hosting.hpp>
 #include <trocar/interactions/couplings/strand_body.hpp>
@@ -338,6 +339,7 @@ struct Model {
   std::vector<WallModel> walls;
   std::vector<DrawnFold> drawn_folds;
   std::vector<MembraneBody> membranes;
+  std::vector<interactions::BondSet> bonds;
   interactions::ObjectModels objects;
   VesselsModel vessels;
   WetModel wet;
@@ -375,6 +377,7 @@ struct Model {
   int membrane_index(const std::string& membrane) const;  ///< -1 if there is none
   int target_index(const std::string& target) const;      ///< -1 if there is none
   int vessel_index(const std::string& vessel) const;      ///< -1 if there is none
+  int bonds_index(const std::string& bonds) const;        ///< -1 if there are none
   int hand_index(const std::string& trocar) const;        ///< -1 if there is none
 
   template <class S, class V>
@@ -386,10 +389,11 @@ struct Model {
         v("vessels", s.vessels, core::only_if(s.vessels.there())), v("wet", s.wet, core::only_if(s.wet.there)),
         v("energy", s.energy, core::only_if(s.energy.there)), v("motion", s.motion, core::only_if(s.motion.there())),
         v("objects", s.objects), v("statics", s.statics, core::only_if(!s.statics.empty())),
-        v("name", s.name, core::kNotHashed), v("file", s.file, core::kNotHashed),
-        v("drawn_folds", s.drawn_folds, core::kNotHashed), v("nearest_at_start", s.nearest_at_start, core::kNotHashed),
-        v("targets", s.targets, core::kNotHashed), v("looks", s.looks, core::kNotHashed),
-        v("drawn_detail", s.drawn_detail, core::kNotHashed), v("hash", s.hash, core::kNotHashed);
+        v("bonds", s.bonds, core::only_if(!s.bonds.empty())), v("name", s.name, core::kNotHashed),
+        v("file", s.file, core::kNotHashed), v("drawn_folds", s.drawn_folds, core::kNotHashed),
+        v("nearest_at_start", s.nearest_at_start, core::kNotHashed), v("targets", s.targets, core::kNotHashed),
+        v("looks", s.looks, core::kNotHashed), v("drawn_detail", s.drawn_detail, core::kNotHashed),
+        v("hash", s.hash, core::kNotHashed);
   }
 };
 

@@ -63,6 +63,7 @@ struct State {
   std::vector<StaticOrganState> statics;
   std::vector<tissue::StrandState> strands;
   std::vector<tissue::MembraneState> membranes;
+  std::vector<std::vector<interactions::BondState>> bonds;  ///< (sets of bonds)(bonds)
   interactions::ObjectStates objects;
   std::array<interactions::ToolState, kMaxTools> tools;
   std::array<std::int32_t, kMaxTools * kMaxRack> magazine{};  ///< clips in instruments that are put down, hand by hand
@@ -125,7 +126,8 @@ struct State {
         v("fluids", s.fluids, core::only_if(wet)), v("pool_floor", s.pool_floor, core::only_if(wet)),
         v("valves", s.valves, core::only_if(irrigates)), v("impact_count", s.impact_count, core::only_if(irrigates)),
         v("impacts", s.impacts, core::FieldNote{.hashed = irrigates, .first = s.impact_count}), v("objects", s.objects),
-        v("statics", s.statics, core::only_if(!s.statics.empty()));
+        v("statics", s.statics, core::only_if(!s.statics.empty())),
+        v("bonds", s.bonds, core::only_if(!s.bonds.empty()));
   }
 };
 

@@ -82,6 +82,7 @@ std::vector<std::uint8_t> display_bytes(const Model& model, const State& s) {
     kind.shown(interactions::part_of<decltype(kind)>(s.objects),
                [&out](const auto* values, size_t n) { put(out, values, n); });
   });
+  for (const auto& bonds : s.bonds) put(out, bonds.data(), bonds.size());
   return out;
 }
 

@@ -1,4 +1,5 @@
 #include <trocar/sim/bodies/bodies.hpp>
+#include <trocar/sim/bodies/bonds.hpp>
 #include <trocar/sim/stages/advancing.hpp>
 #include <trocar/sim/stages/circulation.hpp>
 #include <trocar/sim/stages/contacts.hpp>
@@ -50,6 +51,7 @@ constexpr Stage kStages[] = {
     {"beat", beat},
     {"press with drops", press_with_drops},
     {"pull on borders", pull_on_borders},
+    {"pull on bonds", pull_on_bonds},
     {"advance strands", advance_strands},
     {"advance organs", advance_organs},
     {"advance membranes", advance_membranes},

@@ -168,6 +168,15 @@ struct BorderPull {
 
 /// Compiles a sheet. Throws std::invalid_argument saying what is unsound.
 MembraneModel build(const MembraneDescription& description, double tick);
+
+/// A sheet that was let hang with some more of its nodes held, which are free in the model: bonds tie them.
+struct TiedMembrane {
+  MembraneModel model;
+  std::vector<Vec3d> pull;  ///< (tied nodes, ascending) what the drawn sheet asks of who ties them, on them [N]
+};
+/// @param tied  per node: 1 = held while it settles, free afterwards
+TiedMembrane build_tied(const MembraneDescription& description, std::span<const std::uint8_t> tied, double tick);
+
 /// Its masses and springs, not yet damped: for linear solves.
 NetworkDescription network_of(const MembraneDescription& description);
 MembraneState rest_state(const MembraneModel& model);

@@ -491,9 +491,8 @@ void settle(double tick, NetworkDescription& net, MembraneModel& m) {
   m.enclosure.kind = kind;
 }
 
-}  // namespace
-
-MembraneModel build(const MembraneDescription& d, double tick) {
+/// @param hung  where its nodes are as it hangs; empty: as described, or let hang here
+MembraneModel build_at(const MembraneDescription& d, double tick, std::span<const Vec3d> hung) {
   check(d, tick);
   NetworkDescription net = network_of(d);
   MembraneModel m;
@@ -521,10 +520,41 @@ MembraneModel build(const MembraneDescription& d, double tick) {
     refuse_membrane("at most " + std::to_string(kMostSubsteps) +
                     " sub-steps a tick, which a wider spacing or a softer tissue needs");
   const bool loaded = dot(d.gravity, d.gravity) > 0 || m.enclosure.pressure != 0;
-  if (d.settle && loaded && !m.held_nodes.empty()) settle(tick, net, m);
+  if (!hung.empty()) {
+    net.positions.assign(hung.begin(), hung.end());
+    m.network = build(net, tick / m.bend_steps);
+  } else if (d.settle && loaded && !m.held_nodes.empty()) {
+    settle(tick, net, m);
+  }
   m.enclosure.volume = volume_of(m.network.rest, m);
   m.first_swell = swell_of_a_step(m);
   return m;
+}
+
+}  // namespace
+
+MembraneModel build(const MembraneDescription& description, double tick) { return build_at(description, tick, {}); }
+
+TiedMembrane build_tied(const MembraneDescription& description, std::span<const std::uint8_t> tied, double tick) {
+  MembraneDescription all_held = description;
+  all_held.held.resize(description.positions.size(), 0);
+  for (std::size_t i = 0; i < tied.size(); ++i) all_held.held[i] |= tied[i];
+  const MembraneModel hung = build(all_held, tick);
+  MembraneWork work = make_work(hung);
+  std::vector<BorderPull> pulls(hung.held_nodes.size());
+  border_pulls(hung, rest_state(hung), work, pulls);
+
+  TiedMembrane out;
+  for (std::size_t h = 0; h < pulls.size(); ++h) {
+    const std::size_t node = std::size_t(hung.held_nodes[h]);
+    if (!tied[node]) continue;
+    // Of what is enclosed the nodes have the inertia; its weight is in the border's pull.
+    const double own = hung.network.mass[node] - (hung.contents.empty() ? 0 : hung.contents[node]);
+    out.pull.push_back(pulls[h].force + own * description.gravity);
+  }
+  out.model = build_at(description, tick, hung.network.rest);
+  out.model.settled_residual = hung.settled_residual;
+  return out;
 }
 
 MembraneState rest_state(const MembraneModel& m) {

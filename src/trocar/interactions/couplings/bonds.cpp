@@ -1,0 +1,67 @@
+#include <trocar/core/field_hash.hpp>
+#include <trocar/interactions/couplings/bonds.hpp>
+
+namespace trocar::interactions {
+namespace {
+
+constexpr double kBondDamping = 1e-3;  // [s] times stiffness, ours: loose tissue swings out at once
+
+}  // namespace
+
+double BondSet::area() const noexcept {
+  double sum = 0;
+  for (const Bond& bond : bonds) sum += bond.area;
+  return sum;
+}
+
+Vec3d opening_of(const Bond& bond, const BondedSheet& sheet, const Holders& holders) noexcept {
+  return tissue::position(sheet.model.network, sheet.state.network, bond.node) - held_place(bond.hold, holders);
+}
+
+void bond_loads(const BondSet& set, std::span<BondState> states, const BondedSheet& sheet, const Holders& holders,
+                double dt, std::span<StrandLoads> strand_loads, std::span<NetworkLoads> organ_loads) noexcept {
+  for (std::size_t i = 0; i < set.bonds.size(); ++i) {
+    const Bond& bond = set.bonds[i];
+    BondState& state = states[i];
+    if (!state.holds()) {
+      bear(bond.hold, -bond.hold.drawn_pull, 0, holders, strand_loads, organ_loads);
+      continue;
+    }
+    const Vec3d x = tissue::position(sheet.model.network, sheet.state.network, bond.node);
+    const Vec3d v = counted_on(tissue::velocity(sheet.model.network, sheet.state.network, bond.node));
+    const Vec3d at = held_place(bond.hold, holders), moves = counted_on(held_velocity(bond.hold, holders));
+    const double damage = tissue::damage_after(set.law, double(state.damage), length(x - at), dt);
+    if (damage > double(state.damage) && state.cause == BondState::whole) state.cause = BondState::pulled;
+    state.damage = float(damage);
+    const double whole = 1 - double(state.damage), k = whole * set.law.stiffness() * bond.area, d = kBondDamping * k;
+
+    tissue::NodeLoad load;
+    load.node = bond.node;
+    load.k = float(k);
+    load.d = float(d);
+    load.x0 = vec_cast<float>(at + dt * moves);
+    load.f0 = vec_cast<float>(d * moves - whole * bond.hold.drawn_pull);
+    sheet.loads.add(load, {Owner::anchor, 0, 0});
+
+    const Vec3d pull = k * (x - at) + d * (v - moves) - (1 - whole) * bond.hold.drawn_pull;
+    bear(bond.hold, pull, 0.35 * k * dt + 0.6 * d, holders, strand_loads, organ_loads);
+  }
+}
+
+double energy_spent(const BondSet& set, std::span<const BondState> states) noexcept {
+  double sum = 0;
+  for (std::size_t i = 0; i < set.bonds.size(); ++i)
+    sum += set.bonds[i].area * tissue::spent(set.law, double(states[i].damage));
+  return sum;
+}
+
+double holding_share(const BondSet& set, std::span<const BondState> states) noexcept {
+  double left = 0;
+  for (std::size_t i = 0; i < set.bonds.size(); ++i) left += (1 - double(states[i].damage)) * set.bonds[i].area;
+  const double all = set.area();
+  return all > 0 ? left / all : 0;
+}
+
+void add_to_hash(core::Hasher& hasher, const BondSet& set) noexcept { core::add_fields(hasher, set); }
+
+}  // namespace trocar::interactions

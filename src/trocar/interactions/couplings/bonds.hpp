@@ -1,0 +1,85 @@
+// Bonds: loose tissue between the wall of a pouch and what it lies on, that parts when it is pulled apart: a
+// gallbladder in its bed. Each ties a node of the wall to a place on an organ or a strand, by a cohesive law
+// (tissue/failure/cohesive.hpp) in all directions alike: also pressed in and shifted along it resists, as what fills
+// the gap does.
+//
+// The node bears its bond implicitly, whatever its stiffness; the holder as it bears a fold's border (border.hpp): the
+// force as it is when the tick begins, and a resistance to changes of its speed.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include <trocar/core/fields.hpp>
+#include <trocar/interactions/couplings/border.hpp>
+#include <trocar/tissue/failure/cohesive.hpp>
+
+namespace trocar::interactions {
+
+/// Const after compile.
+struct Bond {
+  std::int32_t node = -1;  ///< of the wall
+  BorderHold hold;         ///< never space; drawn_pull: the wall's on the bond, as drawn
+  double area = 0;         ///< that it stands for [m^2]
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("node", s.node), v("hold", s.hold), v("area", s.area);
+  }
+};
+
+/// Bonds of one kind, with a name: "bed".
+struct BondSet {
+  std::string name;
+  std::int32_t membrane = -1;
+  tissue::CohesiveLaw law;
+  std::vector<Bond> bonds;
+
+  double area() const noexcept;  ///< of all [m^2]
+
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("membrane", s.membrane), v("law", s.law), v("bonds", s.bonds), v("name", s.name, core::kNotHashed);
+  }
+};
+
+/// What a bond has been through. It never heals.
+struct BondState {
+  enum Cause : std::int32_t { whole, pulled, cut };
+  float damage = 0;            ///< 0 .. 1
+  std::int32_t cause = whole;  ///< of most of it
+
+  bool holds() const noexcept { return damage < 1; }
+
+  static constexpr bool kAsBytes = true;
+  template <class S, class V>
+  static void fields(S& s, V&& v) {
+    v("damage", s.damage), v("cause", s.cause);
+  }
+};
+
+/// The wall that a set of bonds ties.
+struct BondedSheet {
+  const tissue::MembraneModel& model;
+  const tissue::MembraneState& state;
+  NetworkLoads& loads;
+};
+
+/// How far a bond is from where it was drawn [m].
+Vec3d opening_of(const Bond& bond, const BondedSheet& sheet, const Holders& holders) noexcept;
+
+/// What damage has come in the last tick, and the loads of the next on wall and holders.
+/// @param states  (bonds)
+void bond_loads(const BondSet& set, std::span<BondState> states, const BondedSheet& sheet, const Holders& holders,
+                double dt, std::span<StrandLoads> strand_loads, std::span<NetworkLoads> organ_loads) noexcept;
+
+/// What has been spent on parting them [J].
+double energy_spent(const BondSet& set, std::span<const BondState> states) noexcept;
+
+/// Share of the set's area that still holds, 0 .. 1.
+double holding_share(const BondSet& set, std::span<const BondState> states) noexcept;
+
+void add_to_hash(core::Hasher& hasher, const BondSet& set) noexcept;
+
+}  // namespace trocar::interactions

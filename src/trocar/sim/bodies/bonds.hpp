@@ -1,0 +1,15 @@
+// Bonds: what ties walls to what they lie on, and comes apart (interactions/couplings/bonds.hpp).
+#pragma once
+
+#include <trocar/geometry/tets/blade.hpp>
+#include <trocar/sim/model/step_context.hpp>
+
+namespace trocar::sim {
+
+/// Stage: bonds pull, and give way where they are opened too far.
+void pull_on_bonds(StepContext& context) noexcept;
+
+/// Bonds between whose ends the blade passes hold no more. @return how many
+int sever_bonds(StepContext& context, const geometry::Blade& blade) noexcept;
+
+}  // namespace trocar::sim

@@ -1,0 +1,144 @@
+// A gallbladder that is tied to its bed by bonds: it hangs as drawn, parts where it is pulled or cut, and never grows
+// together again. Under the laws of the step.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <trocar/scene/compile/compile.hpp>
+#include <trocar/scene/files/reader.hpp>
+#include <trocar/sim/bodies/bonds.hpp>
+#include <trocar/sim/recording/keyframe.hpp>
+#include <trocar/sim/stages/step.hpp>
+
+using namespace trocar;
+using namespace trocar::sim;
+
+namespace {
+
+constexpr int kGrasper = 0;
+
+/// The shipped scene; what held the wall in its bed are bonds now.
+Model bonded_gallbladder() {
+  scene::Description d = scene::read_scene(TROCAR_SOURCE_DIR "/scenes/gallbladder/scene.json");
+  scene::Pouch& pouch = d.pouches.at(0);
+  scene::BondSetting bed;
+  bed.name = "bed";
+  bed.on = {"liver"};
+  bed.places.assign(pouch.held.begin(), pouch.held.end() - 1);
+  pouch.held.erase(pouch.held.begin(), pouch.held.end() - 1);
+  pouch.bonds = {bed};
+  return scene::compile(d);
+}
+const Model& model() {
+  static const Model made = bonded_gallbladder();
+  return made;
+}
+double share(const State& s) { return interactions::holding_share(model().bonds[0], s.bonds[0]); }
+
+/// A grasper takes the fundus and draws it away from the liver.
+Input pulling(int tick) {
+  const Model& m = model();
+  const Vec3d centre{-0.021, 0.097, -0.108}, port = m.hands[kGrasper].port, along = normalised(centre - port);
+  const Vec3d from = centre - 0.05 * along, to = centre - 0.0085 * along;
+  Vec3d tip = from + std::min(1.0, tick / 350.0) * (to - from);
+  tip += std::clamp(tick - 700, 0, 2000) * Vec3d{0, -8e-6, -8e-6};
+  Input input = m.start;
+  input.tools[kGrasper] = tool_input(kinematics::inverse(port, tip, double(input.tools[kGrasper].roll)),
+                                     float(std::clamp((tick - 250) / 300.0, 0.0, 0.98)));
+  return input;
+}
+
+struct Story {
+  std::vector<std::uint64_t> hashes;
+  std::vector<double> shares;
+  State end;
+};
+Story told(bool hard = false, int threads = 1) {
+  const Model& m = model();
+  core::ThreadPool pool(threads);
+  Story story;
+  State s = initial_state(m);
+  Work w = make_work(m, &pool);
+  for (int tick = 0; tick < 2700; ++tick) {
+    EXPECT_TRUE(step(m, pulling(tick), s, w).fine()) << tick;
+    story.shares.push_back(share(s));
+    if (tick % 50 == 0) story.hashes.push_back(hash_of(s));
+    if (!hard) continue;
+    if (tick % 10 == 0) poison(w);
+    if (tick % 97 == 0) {
+      const State copy = s;
+      s = copy;
+      w = make_work(m, &pool);
+    }
+  }
+  story.end = s;
+  return story;
+}
+const Story& pulled() {
+  static const Story made = told();
+  return made;
+}
+
+}  // namespace
+
+TEST(BondedPouch, ItHangsAsDrawnAndNoBondGivesWay) {
+  const Model& m = model();
+  ASSERT_EQ(m.bonds.size(), 1u);
+  EXPECT_GT(m.bonds[0].bonds.size(), 15u);
+  State s = initial_state(m);
+  Work w = make_work(m);
+  double worst = 0;
+  const tissue::MembraneModel& wall = m.membranes[0].sheet;
+  for (int tick = 0; tick < 1000; ++tick) {
+    ASSERT_TRUE(step(m, m.start, s, w).fine()) << tick;
+    for (int i = 0; i < wall.nodes(); ++i)
+      worst = std::max(worst, length(position(wall.network, s.membranes[0].network, i) - wall.network.rest[size_t(i)]));
+  }
+  RecordProperty("moved_mm", std::to_string(1e3 * worst));
+  EXPECT_LT(worst, 0.0006);
+  EXPECT_EQ(share(s), 1);
+  EXPECT_NEAR(s.membranes[0].enclosure.pressure, 1000, 60);
+}
+
+TEST(BondedPouch, PulledAtItsFundusItPeelsOffItsBedAndNothingHeals) {
+  const Story& story = pulled();
+  EXPECT_EQ(story.shares[600], 1) << "being grasped opens nothing";
+  EXPECT_LT(story.shares.back(), 0.8);
+  EXPECT_TRUE(std::is_sorted(story.shares.rbegin(), story.shares.rend()));
+  const std::vector<interactions::BondState>& bonds = story.end.bonds[0];
+  EXPECT_TRUE(std::any_of(bonds.begin(), bonds.end(), [](const auto& b) { return !b.holds(); }));
+  for (const interactions::BondState& bond : bonds)
+    EXPECT_EQ(bond.cause, bond.damage > 0 ? interactions::BondState::pulled : interactions::BondState::whole);
+}
+
+TEST(BondedPouch, ABladeBetweenWallAndLiverPartsWhatItCrosses) {
+  const Model& m = model();
+  State s = initial_state(m);
+  Work w = make_work(m);
+  StepReport report = step(m, m.start, s, w);
+  StepContext context{m, m.start, s, w, report};
+  const interactions::Bond& bond = m.bonds[0].bonds[m.bonds[0].bonds.size() / 2];
+  const Vec3d node = position(m.membranes[0].sheet.network, s.membranes[0].network, bond.node);
+  const Vec3d out = normalised(bond.hold.offset);
+  const int severed = sever_bonds(context, geometry::square_blade(node - 0.5 * bond.hold.offset, out, 0.006));
+  EXPECT_GE(severed, 1);
+  EXPECT_LT(size_t(severed), m.bonds[0].bonds.size());
+  EXPECT_LT(share(s), 1);
+  EXPECT_EQ(sever_bonds(context, geometry::square_blade({0, 0, 0.05}, {0, 0, 1}, 0.006)), 0);
+  for (int tick = 0; tick < 300; ++tick) ASSERT_TRUE(step(m, m.start, s, w).fine());
+}
+
+TEST(BondedPouch, KeyframesShowWhatHasParted) {
+  State shown = initial_state(model());
+  const std::vector<std::uint8_t> bytes = display_bytes(model(), pulled().end);
+  ASSERT_TRUE(restore_display(model(), bytes, shown));
+  EXPECT_EQ(share(shown), share(pulled().end));
+  std::vector<std::uint8_t> hostile = bytes;
+  std::fill(hostile.end() - 8, hostile.end(), std::uint8_t(0xff));
+  EXPECT_FALSE(restore_display(model(), hostile, shown)) << "a damage that is no number";
+}
+
+TEST(BondedPouch, PoisonedScratchAndCopiesChangeNoBit) { EXPECT_EQ(told(true).hashes, pulled().hashes); }
+
+TEST(BondedPouch, TwoThreadsGiveTheSameBits) { EXPECT_EQ(told(false, 2).hashes, pulled().hashes); }
