@@ -46,7 +46,7 @@ struct BondSet {
 
 /// What a bond has been through. It never heals.
 struct BondState {
-  enum Cause : std::int32_t { whole, pulled, cut };
+  enum Cause : std::int32_t { whole, pulled, cut, burnt };
   float damage = 0;            ///< 0 .. 1
   std::int32_t cause = whole;  ///< of most of it
 

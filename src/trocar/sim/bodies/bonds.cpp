@@ -1,8 +1,15 @@
+#include <algorithm>
+
+#include <trocar/geometry/surfaces/nearest.hpp>
 #include <trocar/sim/bodies/bonds.hpp>
 #include <trocar/sim/bodies/views.hpp>
 
 namespace trocar::sim {
 namespace {
+
+// Loose tissue is a few threads and much water: what current does to it is not computed but said.
+constexpr double kBurns = 0.0022;   // [m] from the electrode.                   Our choice
+constexpr double kBurnTime = 0.15;  // [s] until such a bond has parted.         Our choice
 
 interactions::BondedSheet sheet_of(StepContext& c, const interactions::BondSet& set) noexcept {
   const size_t m = size_t(set.membrane);
@@ -18,11 +25,12 @@ void pull_on_bonds(StepContext& c) noexcept {
                              c.work.strand_loads, c.work.organ_loads);
 }
 
-int sever_bonds(StepContext& c, const geometry::Blade& blade) noexcept {
-  const geometry::BladePlane plane(blade);
-  if (!plane.flat) return 0;
+namespace {
+
+/// f(state, foot, node) of all bonds that hold: where they are rooted, and the wall's node.
+template <class F>
+void for_whole_bonds(StepContext& c, F&& f) noexcept {
   const interactions::Holders holders = holders_of(c);
-  int severed = 0;
   for (size_t i = 0; i < c.model.bonds.size(); ++i) {
     const interactions::BondSet& set = c.model.bonds[i];
     const interactions::BondedSheet sheet = sheet_of(c, set);
@@ -30,14 +38,33 @@ int sever_bonds(StepContext& c, const geometry::Blade& blade) noexcept {
       const interactions::Bond& bond = set.bonds[b];
       interactions::BondState& state = c.state.bonds[i][b];
       if (!state.holds()) continue;
-      const Vec3d foot = held_place(bond.hold, holders) - bond.hold.offset;
-      const Vec3d node = tissue::position(sheet.model.network, sheet.state.network, bond.node);
-      if (!plane.crosses(foot, node)) continue;
-      state = {1, interactions::BondState::cut};
-      ++severed;
+      f(state, held_place(bond.hold, holders) - bond.hold.offset,
+        tissue::position(sheet.model.network, sheet.state.network, bond.node));
     }
   }
+}
+
+}  // namespace
+
+int sever_bonds(StepContext& c, const geometry::Blade& blade) noexcept {
+  const geometry::BladePlane plane(blade);
+  if (!plane.flat) return 0;
+  int severed = 0;
+  for_whole_bonds(c, [&](interactions::BondState& state, Vec3d foot, Vec3d node) {
+    if (!plane.crosses(foot, node)) return;
+    state = {1, interactions::BondState::cut};
+    ++severed;
+  });
   return severed;
+}
+
+void burn_bonds(StepContext& c, Vec3d electrode, double dt) noexcept {
+  for_whole_bonds(c, [&](interactions::BondState& state, Vec3d foot, Vec3d node) {
+    const double w = geometry::closest_on_segment(electrode, foot, node);
+    if (length(electrode - (foot + w * (node - foot))) > kBurns) return;
+    state.damage = std::min(1.0f, state.damage + float(dt / kBurnTime));
+    state.cause = interactions::BondState::burnt;
+  });
 }
 
 }  // namespace trocar::sim

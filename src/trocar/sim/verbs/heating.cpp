@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <trocar/interactions/verbs/electrode_contact.hpp>
+#include <trocar/sim/bodies/bonds.hpp>
 #include <trocar/sim/bodies/views.hpp>
 #include <trocar/sim/verbs/adhesion.hpp>
 #include <trocar/sim/verbs/current_cut.hpp>
@@ -70,6 +71,7 @@ void work_electrode(StepContext& c, size_t t, int& used) noexcept {
   if (touch.contact.gap == 0) begin_adhesion(c, t, touch, hand);
   seal_vessels(c, t, touch);
   scar_tissue(c, touch);
+  if (d.flows) burn_bonds(c, touch.place, double(energy.heat.period) * kTick);
   if (d.flows && tissue::curve_of(d.mode).bursts) part_tissue(c, t, touch);
 }
 

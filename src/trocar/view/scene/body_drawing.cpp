@@ -303,6 +303,7 @@ void BodyDrawing::make_membranes(render::Backend& backend) {
       m_membrane_of.push_back(i);
     }
   }
+  for (std::size_t i = 0; i < m_model->bonds.size(); ++i) m_bonds.emplace_back(*m_model, i, backend);
 }
 
 void BodyDrawing::list_ooze(render::Liquid& liquid) const {
@@ -345,6 +346,7 @@ void BodyDrawing::update(const sim::State& state) {
   for (SheetDrawing& s : m_sheets) s.update(state);
   for (MembraneDrawing& m : m_membranes) m.update(state);
   for (PouchDrawing& p : m_pouches) p.update(state);
+  for (BondDrawing& b : m_bonds) b.update(state);
   for (DrawnVessels& v : m_vessels) v.drawing.update(state);
   for (MarkDrawing& m : m_marks) m.update(state, m_tubes);
 }
@@ -480,6 +482,8 @@ void BodyDrawing::list_folds(bool with_walls, const FirstParts& first, const Lis
     to.add(item(m_pouches[i].mesh(), look_of(m_pouch_of[i]), first.of(BodyId::membrane(m_pouch_of[i]))),
            m_details.pouches[i], m_pouches[i].buffer().positions,
            m_pouches[i].burnt() || held(BodyId::membrane(std::size_t(m_pouch_of[i]))));
+  for (const BondDrawing& b : m_bonds)
+    to.add(item(b.mesh(), look(*m_model, "adhesion"), first.of(BodyId::membrane(b.membrane()))));
 }
 
 }  // namespace trocar::view

@@ -17,6 +17,7 @@
 #include <trocar/view/anatomy/ridge.hpp>
 #include <trocar/view/base/heat_marks.hpp>
 #include <trocar/view/base/listing.hpp>
+#include <trocar/view/bodies/bond_drawing.hpp>
 #include <trocar/view/bodies/cuttable_drawing.hpp>
 #include <trocar/view/bodies/mark_drawing.hpp>
 #include <trocar/view/bodies/membrane_drawing.hpp>
@@ -105,6 +106,7 @@ class BodyDrawing {
   std::vector<MembraneDrawing> m_membranes;
   std::vector<PouchDrawing> m_pouches;
   std::vector<std::size_t> m_membrane_of, m_pouch_of;  ///< their numbers in the Model
+  std::vector<BondDrawing> m_bonds;
   std::vector<MarkDrawing> m_marks;
   std::vector<DrawnVessels> m_vessels;
   std::vector<const Look*> m_vessel_look;

@@ -1,0 +1,93 @@
+#include <algorithm>
+#include <cmath>
+
+#include <trocar/numerics/portable.hpp>
+#include <trocar/render/meshes/mesh_arrays.hpp>
+#include <trocar/view/bodies/bond_drawing.hpp>
+
+namespace trocar::view {
+namespace {
+
+constexpr int kThreads = 4;                         // of a bond
+constexpr std::uint32_t kRings = 5, kSides = 4;     // of a thread
+constexpr double kThin = 0.00009, kThick = 0.0004;  // [m] radius in its middle, and where it spreads
+constexpr double kSpread = 0.0016;                  // [m] how far from its bond a thread may stand
+constexpr double kBow = 0.18;                       // of its length, to the side
+constexpr double kShred = 0.0012;                   // [m] what is left of one on either side
+constexpr std::uint32_t kEach = kRings * kSides;
+
+interactions::Holders holders_of(const sim::Model& model, const sim::State& state, std::vector<tissue::NodeView>& nodes,
+                                 std::vector<const tissue::Skin*>& skins) {
+  for (int i = 0; i < model.organs(); ++i) {
+    nodes.push_back(sim::nodes_of(model, state, i));
+    skins.push_back(&model.skin(i));
+  }
+  return {model.strand_bodies, state.strands, nodes, skins};
+}
+
+/// Across `along`, as far as `reach`, another way for every number.
+Vec3d scatter(Vec3d along, double reach, int i, int k) {
+  const Vec3d u = any_perpendicular(along), v = cross(along, u);
+  return reach * ((2 * varied(i, k) - 1) * u + (2 * varied(i, k + 100) - 1) * v);
+}
+
+}  // namespace
+
+BondDrawing::BondDrawing(const sim::Model& model, std::size_t set, render::Backend& backend)
+    : m_model(&model), m_set(&model.bonds[set]), m_index(set) {
+  for (std::size_t i = 0; i < m_set->bonds.size() * kThreads; ++i) {
+    const std::uint32_t first = m_buffer.size();
+    for (std::uint32_t v = 0; v < kEach; ++v) m_buffer.add({}, Paint{235, 0, 0, 0});
+    for (std::uint32_t r = 0; r + 1 < kRings; ++r)
+      join_rows(m_buffer, first + r * kSides, first + (r + 1) * kSides, kSides, true);
+  }
+  place(sim::initial_state(model));
+  m_buffer.rest = m_buffer.positions;
+  m_mesh = OwnedMesh(backend, m_buffer.data());
+}
+
+void BondDrawing::update(const sim::State& state) {
+  place(state);
+  m_mesh.move(m_buffer.positions, m_buffer.normals);
+}
+
+/// Spread where it is rooted, thin between, bowed to the side.
+void BondDrawing::lay_thread(std::uint32_t first, Vec3d from, Vec3d to, Vec3d aside) {
+  const Vec3d way = to - from, along = normalised(way, Vec3d{0, 0, 1});
+  const Vec3d u = any_perpendicular(along), v = cross(along, u);
+  for (std::uint32_t r = 0; r < kRings; ++r) {
+    const double s = double(r) / (kRings - 1), out = 2 * s - 1, swell = out * out * out * out;
+    const double radius = std::min(kThin + (kThick - kThin) * swell, 0.5 * length(way) + 1e-5);
+    const Vec3d middle = from + s * way + (1 - out * out) * kBow * length(way) * aside;
+    for (std::uint32_t k = 0; k < kSides; ++k) {
+      const double turn = 2 * portable::pi * k / kSides;
+      m_buffer.positions[first + r * kSides + k] =
+          vec_cast<float>(middle + radius * (std::cos(turn) * u + std::sin(turn) * v));
+    }
+  }
+}
+
+void BondDrawing::place(const sim::State& state) {
+  std::vector<tissue::NodeView> nodes;
+  std::vector<const tissue::Skin*> skins;
+  const interactions::Holders holders = holders_of(*m_model, state, nodes, skins);
+  const tissue::NetworkModel& wall = m_model->membranes[membrane()].sheet.network;
+  for (std::size_t i = 0; i < m_set->bonds.size(); ++i) {
+    const interactions::Bond& bond = m_set->bonds[i];
+    const Vec3d foot = held_place(bond.hold, holders) - bond.hold.offset;
+    const Vec3d node = tissue::position(wall, state.membranes[membrane()].network, bond.node);
+    const Vec3d along = normalised(node - foot, Vec3d{0, 0, 1});
+    for (int k = 0; k < kThreads; ++k) {
+      const int number = int(i) * kThreads + k;
+      Vec3d from = foot + scatter(along, kSpread, number, 1), to = node + scatter(along, kSpread, number, 2);
+      if (!state.bonds[m_index][i].holds()) {
+        const Vec3d shred = std::min(kShred, 0.4 * length(to - from)) * normalised(to - from, along);
+        (k % 2 ? from : to) = k % 2 ? to - shred : from + shred;
+      }
+      lay_thread(std::uint32_t(number) * kEach, from, to, scatter(along, 1, number, 3));
+    }
+  }
+  render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);
+}
+
+}  // namespace trocar::view
