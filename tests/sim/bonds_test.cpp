@@ -142,3 +142,19 @@ TEST(BondedPouch, KeyframesShowWhatHasParted) {
 TEST(BondedPouch, PoisonedScratchAndCopiesChangeNoBit) { EXPECT_EQ(told(true).hashes, pulled().hashes); }
 
 TEST(BondedPouch, TwoThreadsGiveTheSameBits) { EXPECT_EQ(told(false, 2).hashes, pulled().hashes); }
+
+TEST(BondedPouch, BondsDoNotDriveAnOrganThatIsLighterThanTheirStiffness) {
+  const Model m = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/gallbladder_bed/scene.json"));
+  ASSERT_EQ(m.bonds.size(), 1u);
+  const int liver = m.organ_index("liver");
+  State s = initial_state(m);
+  Work w = make_work(m);
+  for (int tick = 0; tick < 1500; ++tick) ASSERT_TRUE(step(m, m.start, s, w).fine()) << tick;
+  double worst = 0;
+  const tissue::NodeView nodes = nodes_of(m, s, liver);
+  for (int i = 0; i < m.solids[size_t(liver)].network.nodes; ++i)
+    worst = std::max(worst, length(nodes.position(i) - m.solids[size_t(liver)].network.rest[size_t(i)]));
+  RecordProperty("moved_mm", std::to_string(1e3 * worst));
+  EXPECT_LT(worst, 0.0006);
+  EXPECT_EQ(interactions::holding_share(m.bonds[0], s.bonds[0]), 1);
+}

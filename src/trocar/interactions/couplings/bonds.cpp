@@ -4,7 +4,7 @@
 namespace trocar::interactions {
 namespace {
 
-constexpr double kBondDamping = 1e-3;  // [s] times stiffness, ours: loose tissue swings out at once
+constexpr double kBondDamping = 2e-4;  // [s] times stiffness, ours: loose tissue swings out at once
 
 }  // namespace
 
@@ -39,12 +39,12 @@ void bond_loads(const BondSet& set, std::span<BondState> states, const BondedShe
     load.node = bond.node;
     load.k = float(k);
     load.d = float(d);
-    load.x0 = vec_cast<float>(at + dt * moves);
+    load.x0 = vec_cast<float>(at + 0.5 * dt * moves);  // where the holder is on the average: else they drive each other
     load.f0 = vec_cast<float>(d * moves - whole * bond.hold.drawn_pull);
     sheet.loads.add(load, {Owner::anchor, 0, 0});
 
     const Vec3d pull = k * (x - at) + d * (v - moves) - (1 - whole) * bond.hold.drawn_pull;
-    bear(bond.hold, pull, 0.35 * k * dt + 0.6 * d, holders, strand_loads, organ_loads);
+    bear(bond.hold, pull, k * dt + 2 * d, holders, strand_loads, organ_loads);
   }
 }
 

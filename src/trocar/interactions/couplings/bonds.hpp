@@ -3,8 +3,10 @@
 // (tissue/failure/cohesive.hpp) in all directions alike: also pressed in and shifted along it resists, as what fills
 // the gap does.
 //
-// The node bears its bond implicitly, whatever its stiffness; the holder as it bears a fold's border (border.hpp): the
-// force as it is when the tick begins, and a resistance to changes of its speed.
+// The node bears its bond implicitly, whatever its stiffness; the holder the force as it is when the tick begins, and a
+// resistance to changes of its speed. A light node is each time where its holder was about to be a tick before; with
+// that, a holder of mass m that resists with r dt is stable from m + r dt >= k dt^2 + 2 d dt on, so r = k dt + 2 d holds
+// the lightest.
 #pragma once
 
 #include <span>
