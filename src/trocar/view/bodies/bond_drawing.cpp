@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <trocar/numerics/portable.hpp>
 #include <trocar/render/meshes/mesh_arrays.hpp>
@@ -51,12 +52,13 @@ void BondDrawing::update(const sim::State& state) {
   m_mesh.move(m_buffer.positions, m_buffer.normals);
 }
 
-/// Spread where it is rooted, thin between, bowed to the side.
-void BondDrawing::lay_thread(std::uint32_t first, Vec3d from, Vec3d to, Vec3d aside) {
+/// Spread where it is rooted, thin elsewhere, bowed to the side.
+void BondDrawing::lay_thread(std::uint32_t first, Vec3d from, Vec3d to, Vec3d aside, bool rooted_at_both_ends) {
   const Vec3d way = to - from, along = normalised(way, Vec3d{0, 0, 1});
   const Vec3d u = any_perpendicular(along), v = cross(along, u);
   for (std::uint32_t r = 0; r < kRings; ++r) {
-    const double s = double(r) / (kRings - 1), out = 2 * s - 1, swell = out * out * out * out;
+    const double s = double(r) / (kRings - 1), out = 2 * s - 1,
+                 swell = out < 0 || rooted_at_both_ends ? out * out * out * out : 0;
     const double radius = std::min(kThin + (kThick - kThin) * swell, 0.5 * length(way) + 1e-5);
     const Vec3d middle = from + s * way + (1 - out * out) * kBow * length(way) * aside;
     for (std::uint32_t k = 0; k < kSides; ++k) {
@@ -80,11 +82,12 @@ void BondDrawing::place(const sim::State& state) {
     for (int k = 0; k < kThreads; ++k) {
       const int number = int(i) * kThreads + k;
       Vec3d from = foot + scatter(along, kSpread, number, 1), to = node + scatter(along, kSpread, number, 2);
-      if (!state.bonds[m_index][i].holds()) {
-        const Vec3d shred = std::min(kShred, 0.4 * length(to - from)) * normalised(to - from, along);
-        (k % 2 ? from : to) = k % 2 ? to - shred : from + shred;
+      const bool holds = state.bonds[m_index][i].holds();
+      if (!holds) {
+        if (k % 2) std::swap(from, to);
+        to = from + std::min(kShred, 0.4 * length(to - from)) * normalised(to - from, along);
       }
-      lay_thread(std::uint32_t(number) * kEach, from, to, scatter(along, 1, number, 3));
+      lay_thread(std::uint32_t(number) * kEach, from, to, scatter(along, 1, number, 3), holds);
     }
   }
   render::vertex_normals(m_buffer.positions, m_buffer.indices, m_buffer.normals);

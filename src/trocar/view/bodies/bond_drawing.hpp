@@ -20,7 +20,7 @@ class BondDrawing {
 
  private:
   void place(const sim::State& state);
-  void lay_thread(std::uint32_t first, Vec3d from, Vec3d to, Vec3d aside);
+  void lay_thread(std::uint32_t first, Vec3d from, Vec3d to, Vec3d aside, bool rooted_at_both_ends);
 
   const sim::Model* m_model;
   const interactions::BondSet* m_set;
