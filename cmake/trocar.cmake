@@ -32,6 +32,7 @@ endif()
 if(TROCAR_SANITIZE)
   add_compile_options(-fsanitize=${TROCAR_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${TROCAR_SANITIZE})
+  add_compile_definitions(TROCAR_SANITIZED)
 endif()
 
 if(TROCAR_FUZZ)  # coverage for libFuzzer in every module; what is undefined in conversions counts, too

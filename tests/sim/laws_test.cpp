@@ -17,14 +17,6 @@
 #include "session.hpp"
 #include "small_energy.hpp"
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define TROCAR_SANITIZED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define TROCAR_SANITIZED 1
-#endif
-#endif
-
 // Every way to the heap is counted while `counting` is set: the C library's entries are replaced, operator new calls
 // them. A sanitizer has replaced them itself.
 namespace {

@@ -6,6 +6,7 @@
 
 #include <trocar/core/error.hpp>
 #include <trocar/render/gl/gl_context.hpp>
+#include <trocar/render/gl/gl_driver_guard.hpp>
 
 namespace trocar::render {
 
@@ -129,6 +130,7 @@ std::string gl_string(GLenum name) {
 }  // namespace
 
 void GlContext::check_version() {
+  link_driver_guard();
   GLint major = 0, minor = 0;
   glGetIntegerv(GL_MAJOR_VERSION, &major);
   glGetIntegerv(GL_MINOR_VERSION, &minor);
