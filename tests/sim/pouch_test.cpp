@@ -148,14 +148,36 @@ TEST(Pouch, ABladeThroughItsWallOpensItAndItRunsOut) {
   EXPECT_GT(cut.severed, 2);
   EXPECT_GT(torn_triangles(s, 0), 2);
   EXPECT_EQ(s.membranes[0].enclosure.leaking, 1u);
-  double last = s.membranes[0].enclosure.tightness;
+  double last = s.membranes[0].enclosure.left;
   for (int tick = 0; tick < 1500; ++tick) {
     ASSERT_TRUE(step(m, m.start, s, w).fine()) << tick;
-    EXPECT_LE(s.membranes[0].enclosure.tightness, last);
-    last = s.membranes[0].enclosure.tightness;
+    EXPECT_LE(s.membranes[0].enclosure.left, last);
+    last = s.membranes[0].enclosure.left;
   }
-  EXPECT_EQ(s.membranes[0].enclosure.pressure, 0);
+  EXPECT_LT(s.membranes[0].enclosure.pressure, 100);
+  EXPECT_LT(last, 0.9) << "the hole is large";
   EXPECT_GT(s.membranes[0].enclosure.volume, 0.3 * m.membranes[0].sheet.enclosure.volume) << "the wall stands";
+}
+
+TEST(Pouch, WhatRunsOutOfAnOpenGallbladderIsInTheAccountToThePicolitre) {
+  const Model m = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/cholecystectomy/scene.json"));
+  const size_t wall = size_t(
+      std::find_if(m.membranes.begin(), m.membranes.end(), [](const MembraneBody& b) { return b.sheet.closed(); }) -
+      m.membranes.begin());
+  ASSERT_LT(wall, m.membranes.size());
+  const MembraneBody& gallbladder = m.membranes[wall];
+  State s = initial_state(m);
+  Work w = make_work(m);
+  const tissue::NetworkModel& net = gallbladder.sheet.network;
+  const Vec3d at = *std::min_element(net.rest.begin(), net.rest.end(), [](Vec3d a, Vec3d b) { return a.z > b.z; });
+  const geometry::Blade blade = geometry::square_blade(at, {1, 0, 0}, 0.008);
+  interactions::cut_membrane(blade, gallbladder.sheet, gallbladder.depth, s.membranes[wall], s.torn[wall], w.parts);
+  for (int tick = 0; tick < 800; ++tick) ASSERT_TRUE(step(m, m.start, s, w).fine()) << tick;
+  const double lost = (1 - s.membranes[wall].enclosure.left) * gallbladder.sheet.enclosure.volume;
+  const std::int64_t booked = s.fluids.ledger.in[size_t(fluids::Source::kBled)].bile;
+  EXPECT_GT(lost, 0.2e-6);
+  EXPECT_NEAR(double(booked), lost / fluids::kM3PerPicolitre, 1);
+  EXPECT_TRUE(audit(m.wet.model, s.fluids));
 }
 
 TEST(Pouch, ScissorsThatCloseOnItsTautWallOpenItAndItRunsOut) {
@@ -165,7 +187,8 @@ TEST(Pouch, ScissorsThatCloseOnItsTautWallOpenItAndItRunsOut) {
     const Story story = told(strong(), way, 1600);
     EXPECT_TRUE(told_of(story, Event::cut, {})) << depth;
     EXPECT_EQ(story.end.membranes[0].enclosure.leaking, 1u) << depth;
-    EXPECT_LT(story.end.membranes[0].enclosure.pressure, 30) << depth;
+    EXPECT_LT(story.end.membranes[0].enclosure.pressure, 900) << depth;
+    EXPECT_LT(story.end.membranes[0].enclosure.left, 1) << depth;
   }
 }
 
@@ -187,7 +210,7 @@ TEST(Pouch, GraspedAtItsFundusAndPulledTooFarItTearsAndRunsOut) {
   EXPECT_TRUE(told_of(story, Event::torn, BodyId::membrane(0)));
   EXPECT_GT(torn_triangles(story.end, 0), 0);
   EXPECT_EQ(story.end.membranes[0].enclosure.leaking, 1u);
-  EXPECT_LT(story.end.membranes[0].enclosure.tightness, 0.5);
+  EXPECT_LT(story.end.membranes[0].enclosure.left, 0.95);
 }
 
 TEST(Pouch, PoisonedScratchAndCopiesChangeNoBit) {

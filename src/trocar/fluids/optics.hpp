@@ -22,9 +22,9 @@ struct Optics {
   Rgb arterial{0.8e3, 28e3, 24e3};  ///< absorption of whole blood [1/m]
   Rgb venous{1.06e3, 27e3, 20e3};   ///< [1/m]
   Rgb saline{0, 0, 0};              ///< [1/m]
-  Rgb bile{0.15e3, 0.25e3, 1.6e3};  ///< [1/m]
+  Rgb bile{0.40e3, 0.62e3, 4.5e3};  ///< of a gallbladder's, golden in a film, olive in depth [1/m]; our choice
   Rgb deep_blood{0.12, 0.006, 0.007};
-  Rgb deep_bile{0.18, 0.17, 0.010};
+  Rgb deep_bile{0.115, 0.095, 0.006};
 };
 
 /// At one wavelength, as tabulated: the narrow figure for 630 nm, where the camera's channel is broad.

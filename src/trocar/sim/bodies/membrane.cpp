@@ -60,6 +60,7 @@ void advance(StepContext& c, MembraneRef r) noexcept {
   loads.sort();
   c.work.membrane_reports[i] = tissue::advance(m.sheet, c.work.targets[i], loads.sorted, loads.reaction,
                                                c.state.membranes[i], c.work.membrane_work[i]);
+  c.work.leaks[i] = tissue::leak(m.sheet, c.state.torn[i], c.work.membrane_work[i], c.state.membranes[i]);
   carry_along(c, {r.id(), c.work.sheets[i].surface, c.state.torn[i], m.sheet.network.fixed, m.sheet.thickness,
                   c.work.sheet_gaps.data() + i, c.model.membranes.size(), c.state.membranes[i].network.nodes});
 }
@@ -84,10 +85,9 @@ bool can_tear(const Model& m, MembraneRef r) noexcept { return model_of(m, r).fa
 Parting tear(StepContext& c, MembraneRef r) noexcept {
   const MembraneBody& m = model_of(c.model, r);
   std::vector<std::uint8_t>& counters = c.state.overstretched_membranes[r.index];
-  const tissue::Overstretch tear =
-      tissue::find_overstretch(tissue::springs_of(m.sheet.network, c.state.membranes[r.index].network),
-                               m.failure_strain, turn_of(c, size_t(c.model.organs()) + r.index), counters,
-                               c.work.beyond);
+  const tissue::Overstretch tear = tissue::find_overstretch(
+      tissue::springs_of(m.sheet.network, c.state.membranes[r.index].network), m.failure_strain,
+      turn_of(c, size_t(c.model.organs()) + r.index), counters, c.work.beyond);
   return tear.found ? opened(cut(c, r, tear.blade()), counters) : Parting{};
 }
 

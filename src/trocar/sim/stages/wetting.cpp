@@ -31,6 +31,22 @@ void lay_out_bleeding(StepContext& c) noexcept {
   }
 }
 
+/// What runs out of pouches, as bile, in the last places: with so many wounds that they are taken it leaves with those.
+void lay_out_leaks(StepContext& c) noexcept {
+  size_t place = c.work.wounds.size();
+  for (size_t i = 0; i < c.work.leaks.size() && place > 0; ++i) {
+    if (c.model.membranes[i].sheet.enclosure.kind == tissue::Enclosure::none) continue;
+    fluids::Outlet& o = c.work.wounds[--place];
+    const tissue::Leak& leak = c.work.leaks[i];
+    if (leak.picolitres == 0 || c.model.membranes[i].sheet.enclosure.kind == tissue::Enclosure::gas) continue;
+    o.flow.bile += leak.picolitres;
+    if (o.area > 0) continue;
+    o.position = vec_cast<float>(leak.place);
+    o.direction = vec_cast<float>(leak.direction);
+    o.area = leak.area;
+  }
+}
+
 fluids::Capsule part_of(const collision::Capsule& now, const collision::Capsule& was) noexcept {
   fluids::Capsule out;
   out.a = vec_cast<float>(now.a);
@@ -179,6 +195,7 @@ void press_with_drops(StepContext& c) noexcept {
 void move_fluids(StepContext& c) noexcept {
   if (!c.model.wet.there) return;
   lay_out_bleeding(c);
+  lay_out_leaks(c);
   const interactions::WetBodies bodies = wet_bodies(c);
   const int tools = lay_out_instruments(c, bodies.count());
   lay_out_valves(c, bodies);

@@ -6,14 +6,14 @@
 
 namespace trocar::tissue {
 
-PressureLaw pressure_at(const Enclosure& e, double volume) noexcept {
+PressureLaw pressure_at(const Enclosure& e, double volume, double left) noexcept {
   const double v = std::max(volume, 0.05 * e.volume);
-  if (e.kind == Enclosure::liquid) return {e.pressure + e.bulk * (e.volume - v) / e.volume, e.bulk / e.volume};
+  if (e.kind == Enclosure::liquid) return {e.pressure + e.bulk * (left * e.volume - v) / e.volume, e.bulk / e.volume};
   if (e.kind == Enclosure::gas) {
-    const double inside = (e.pressure + kAtmosphere) * e.volume / v;
+    const double inside = (e.pressure + kAtmosphere) * left * e.volume / v;
     return {inside - kAtmosphere, inside / v};
   }
-  return {e.kind == Enclosure::constant ? e.pressure : 0, 0};
+  return {e.kind == Enclosure::constant ? left * e.pressure : 0, 0};
 }
 
 double pressure_energy(const Enclosure& e, double volume) noexcept {
@@ -51,12 +51,10 @@ EnclosedVolume enclosed_volume(std::span<const std::array<int, 3>> triangles, st
 }
 
 void press_step(const Enclosure& e, double volume, double rate, double give, double dt, EnclosureState& s) noexcept {
-  if (s.leaking) s.tightness *= 1 / (1 + dt / kLeakTime);
-  if (s.tightness < 1e-3) s.tightness = 0;
   const double others = volume - s.expected;
-  const PressureLaw now = pressure_at(e, volume);
-  const double p = s.tightness * now.pressure, fall = s.tightness * now.fall;
-  s.pressure = (p - fall * (dt * rate + others)) / (1 + fall * dt * dt * give);
+  const PressureLaw now = pressure_at(e, volume, s.left);
+  s.pressure = (now.pressure - now.fall * (dt * rate + others)) / (1 + now.fall * dt * dt * give);
+  if (s.leaking) s.pressure = std::max(s.pressure, 0.0);  // below it gas comes in, and nothing pulls on the wall
   s.volume = volume;
   s.expected = volume + dt * (rate + dt * give * s.pressure);
 }

@@ -14,8 +14,8 @@
 // V this is one equation for one number, a rank-one stiffness inverted as in [Sherman & Morrison 50]; no bulk modulus,
 // however large, asks for a shorter step, and at rest p is that of the law.
 //
-// Once its wall is cut or torn open, what is inside runs out: all pressure dies away with kLeakTime, wherever the hole
-// is and however large. The inertia of what ran out stays on the wall.
+// Once its wall is cut or torn open, what is inside runs out by the hole's size (leak.hpp): the law goes on with what
+// is left. The inertia of what ran out stays on the wall.
 #pragma once
 
 #include <array>
@@ -29,7 +29,6 @@
 namespace trocar::tissue {
 
 inline constexpr double kAtmosphere = 101325;  ///< [Pa]
-inline constexpr double kLeakTime = 0.15;      ///< [s]; our choice
 
 struct Enclosure {
   enum Kind : std::int32_t { none, constant, liquid, gas } kind = none;
@@ -50,14 +49,14 @@ struct EnclosureState {
   double pressure = 0;        ///< at the centre, of the last step [Pa]
   double volume = 0;          ///< where that step began [m^3]
   double expected = 0;        ///< at that step's end, were there nothing but the pressure and what moves on [m^3]
-  double tightness = 1;       ///< share of the pressure that is left since a leak began
+  double left = 1;            ///< share of V0 that has not run out
   std::uint32_t leaking = 0;  ///< 1: the wall is open
   std::uint32_t unused = 0;   ///< keeps the hash free of padding
 
   static constexpr bool kAsBytes = true;
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("pressure", s.pressure), v("volume", s.volume), v("expected", s.expected), v("tightness", s.tightness),
+    v("pressure", s.pressure), v("volume", s.volume), v("expected", s.expected), v("left", s.left),
         v("leaking", s.leaking), v("unused", s.unused);
   }
 };
@@ -67,7 +66,8 @@ struct PressureLaw {
   double fall = 0;      ///< -dp/dV [Pa/m^3] >= 0
 };
 /// At the volume V; volumes below a twentieth of V0 count as that.
-PressureLaw pressure_at(const Enclosure& enclosure, double volume) noexcept;
+/// @param left  share of V0 that is still inside
+PressureLaw pressure_at(const Enclosure& enclosure, double volume, double left = 1) noexcept;
 /// -integral of p dV from V0 to V [J].
 double pressure_energy(const Enclosure& enclosure, double volume) noexcept;
 

@@ -74,8 +74,8 @@ void kick(const MembraneModel& m, MembraneState& s, const std::vector<RowForce>&
 /// Volume, its gradient, and how what is enclosed presses with its weight.
 EnclosedVolume look_inside(const MembraneModel& m, const MembraneState& s, MembraneWork& w) noexcept {
   for (int i = 0; i < m.nodes(); ++i) w.place[std::size_t(i)] = position(m.network, s.network, i);
-  return enclosed_volume(m.triangles, w.place, w.gradient,
-                         (s.enclosure.tightness * m.enclosure.density) * m.network.gravity, w.weight);
+  return enclosed_volume(m.triangles, w.place, w.gradient, (s.enclosure.left * m.enclosure.density) * m.network.gravity,
+                         w.weight);
 }
 
 /// v += dt f / m at a free node.

@@ -1,0 +1,19 @@
+#include <trocar/training/facts/needs.hpp>
+#include <trocar/training/facts/registry.hpp>
+
+namespace trocar::training {
+namespace {
+
+/// What lay in the pool when the scene began was spilled before.
+Value spilled(const Moment& moment, const Arguments&) {
+  const std::int64_t out = moment.state.fluids.ledger.in[size_t(fluids::Source::kBled)].bile;
+  return fluids::kM3PerPicolitre * double(out - moment.model.wet.pool_at_start.bile);
+}
+
+}  // namespace
+
+const Fact kBileSpilled{
+    "bile.spilled_mL",  {}, 0, 1e4, "What has run out of pouches that are open, so far.", needs_fluids,
+    &stateless<spilled>};
+
+}  // namespace trocar::training
