@@ -22,6 +22,10 @@ std::string scene_with(const std::string& marks) {
                      {"centre_mm": [0, 0, -56], "across_mm": [10, 0, 0], "deep_mm": [0, 10, 0]}]}],
       "strands": [{"name": "cord", "tissue": "soft", "centreline_mm": [[20, 0, -50], [40, 0, -50], [60, 0, -50]],
         "stations": [{"s_mm": 0, "radius_mm": 2}], "start": {"fixed": true}, "end": {"fixed": true}}],
+      "pouches": [{"name": "sac", "tissue": "soft", "thickness_mm": 1, "spacing_mm": 5,
+        "held": [{"centre_mm": [-30, 0, -50], "radius_mm": 10}],
+        "sections": [{"centre_mm": [-30, 0, -45], "across_mm": [8, 0, 0], "deep_mm": [0, 8, 0]},
+                     {"centre_mm": [-30, 0, -55], "across_mm": [8, 0, 0], "deep_mm": [0, 8, 0]}]}],
       "walls": [{"name": "floor", "net_mm": [[[-80, 80, -70], [80, 80, -70]], [[-80, -80, -70], [80, -80, -70]]]}]}],
     )" + marks +
          R"(
@@ -79,6 +83,17 @@ TEST(Marks, GoAlongWithWhatTheyLieOn) {
   for (Vec3d& x : state.strands[0].x) x.y += 0.002;
   EXPECT_NEAR(length(pose_of(model, state, model.marks[0]).place - before[0] - Vec3d{0.003, 0, 0}), 0, 1e-6);
   EXPECT_NEAR(length(pose_of(model, state, model.marks[1]).place - before[1] - Vec3d{0, 0.002, 0}), 0, 1e-9);
+}
+
+TEST(Marks, LieOnPouchesAndGoAlong) {
+  const sim::Model model = with(R"({"name": "belly", "on": "sac", "place_mm": [-22, 0, -50]})");
+  sim::State state = sim::initial_state(model);
+  const sim::MarkPose before = pose_of(model, state, model.marks[0]);
+  EXPECT_NEAR(before.place.x, -0.022, 0.001);
+  EXPECT_GT(before.normal.x, 0.9) << "out of the pouch";
+  for (tissue::NodeState& node : state.membranes[0].network.nodes) node.z += 0.004f;
+  EXPECT_NEAR(length(pose_of(model, state, model.marks[0]).place - before.place - Vec3d{0, 0, 0.004}), 0, 1e-6);
+  EXPECT_GE(model.target_index("sac"), 0) << "seen as a whole, too";
 }
 
 TEST(Marks, ChangeTheHashOfTheirSceneOnly) {

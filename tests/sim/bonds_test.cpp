@@ -8,6 +8,7 @@
 #include <trocar/scene/compile/compile.hpp>
 #include <trocar/scene/files/reader.hpp>
 #include <trocar/sim/bodies/bonds.hpp>
+#include <trocar/sim/bodies/views.hpp>
 #include <trocar/sim/recording/keyframe.hpp>
 #include <trocar/sim/stages/step.hpp>
 
@@ -157,4 +158,32 @@ TEST(BondedPouch, BondsDoNotDriveAnOrganThatIsLighterThanTheirStiffness) {
   RecordProperty("moved_mm", std::to_string(1e3 * worst));
   EXPECT_LT(worst, 0.0006);
   EXPECT_EQ(interactions::holding_share(m.bonds[0], s.bonds[0]), 1);
+}
+
+TEST(BondedPouch, WhereItWasTornOffBloodOozesUntilThatIsCoagulated) {
+  const Model m = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/gallbladder_bed/scene.json"));
+  const interactions::BondSet& bed = m.bonds.at(0);
+  State s = initial_state(m);
+  Work w = make_work(m);
+  const auto bled = [&] { return s.fluids.ledger.in[size_t(fluids::Source::kBled)].blood; };
+  for (int tick = 0; tick < 100; ++tick) ASSERT_TRUE(step(m, m.start, s, w).fine());
+  EXPECT_EQ(bled(), 0);
+
+  for (interactions::BondState& bond : s.bonds[0]) bond = {1, interactions::BondState::pulled};
+  const int ticks = int(bed.bonds.size()) * 20;
+  for (int tick = 0; tick < ticks; ++tick) ASSERT_TRUE(step(m, m.start, s, w).fine());
+  const double expected = bed.oozes * bed.area() * ticks * kTick;
+  EXPECT_NEAR(fluids::kM3PerPicolitre * double(bled()) / expected, 1, 0.001);
+  EXPECT_EQ(bled(), s.flow.bled);
+  EXPECT_TRUE(audit(m.wet.model, s.fluids));
+
+  StepReport report;
+  StepContext context{m, m.start, s, w, report};
+  const interactions::Holders holders = holders_of(context);
+  for (const interactions::Bond& bond : bed.bonds)
+    burn_bonds(context, held_place(bond.hold, holders) - bond.hold.offset, 0.001);
+  for (const interactions::BondState& bond : s.bonds[0]) EXPECT_FALSE(bond.raw());
+  const std::int64_t before = bled();
+  for (int tick = 0; tick < 200; ++tick) ASSERT_TRUE(step(m, m.start, s, w).fine());
+  EXPECT_EQ(bled(), before);
 }

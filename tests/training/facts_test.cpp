@@ -660,7 +660,7 @@ TEST(Catalogue, SaysWhatThereIsAndWhatASceneLacks) {
   const auto here = catalogue(&dry);
   int lacking = 0;
   for (const auto& fact : here["facts"]) lacking += fact.contains("lacks") && fact["lacks"] == "fluids";
-  EXPECT_EQ(lacking, 5);
+  EXPECT_EQ(lacking, 6);
   const auto strands = here["names"]["strand"].get<std::vector<std::string>>();
   EXPECT_EQ(strands, (std::vector<std::string>{"tube_left", "tube_right", "cord"}));
 }

@@ -5,8 +5,8 @@
 //
 // The node bears its bond implicitly, whatever its stiffness; the holder the force as it is when the tick begins, and a
 // resistance to changes of its speed. A light node is each time where its holder was about to be a tick before; with
-// that, a holder of mass m that resists with r dt is stable from m + r dt >= k dt^2 + 2 d dt on, so r = k dt + 2 d holds
-// the lightest.
+// that, a holder of mass m that resists with r dt is stable from m + r dt >= k dt^2 + 2 d dt on, so r = k dt + 2 d
+// holds the lightest.
 #pragma once
 
 #include <span>
@@ -37,12 +37,14 @@ struct BondSet {
   std::int32_t membrane = -1;
   tissue::CohesiveLaw law;
   std::vector<Bond> bonds;
+  double oozes = 0;  ///< blood from what it was torn or cut off, until that is burnt [m/s: m^3/s a m^2]
 
   double area() const noexcept;  ///< of all [m^2]
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("membrane", s.membrane), v("law", s.law), v("bonds", s.bonds), v("name", s.name, core::kNotHashed);
+    v("membrane", s.membrane), v("law", s.law), v("bonds", s.bonds), v("oozes", s.oozes, core::only_if(s.oozes > 0)),
+        v("name", s.name, core::kNotHashed);
   }
 };
 
@@ -53,6 +55,8 @@ struct BondState {
   std::int32_t cause = whole;  ///< of most of it
 
   bool holds() const noexcept { return damage < 1; }
+  /// Is there an open surface where it was?
+  bool raw() const noexcept { return !holds() && cause != burnt; }
 
   static constexpr bool kAsBytes = true;
   template <class S, class V>

@@ -31,18 +31,23 @@ SkinPlace nearest_on(const tissue::Skin& skin, Vec3d p) {
   return best;
 }
 
-/// Null: it is neither an organ nor a wall.
-const tissue::Skin* skin_of(const sim::Model& model, const std::string& name, std::int32_t& organ) {
-  organ = model.organ_index(name);
-  if (organ >= 0) return &model.skin(organ);
+/// Null: it is neither an organ nor a wall nor a pouch.
+const tissue::Skin* skin_of(const sim::Model& model, const std::string& name, sim::MarkModel& mark) {
+  mark.body = model.organ_index(name);
+  mark.on = sim::MarkModel::organ;
+  if (mark.body >= 0) return &model.skin(mark.body);
+  mark.on = sim::MarkModel::membrane;
+  for (const sim::MembraneBody& membrane : model.membranes)
+    if (++mark.body; membrane.name == name && membrane.sheet.closed()) return &membrane.skin;
+  mark.body = -1;
+  mark.on = sim::MarkModel::space;  // walls do not move
   for (const sim::WallModel& wall : model.walls)
     if (wall.name == name) return &wall.skin;
   return nullptr;
 }
 
 void lay(const MarkSetting& setting, const sim::Model& model, sim::MarkModel& mark, std::vector<core::Fault>& faults) {
-  std::int32_t organ = -1;
-  const tissue::Skin* skin = skin_of(model, setting.on, organ);
+  const tissue::Skin* skin = skin_of(model, setting.on, mark);
   if (!skin) return;  // the reader has told
   const SkinPlace at = nearest_on(*skin, setting.place);
   if (at.distance > kMarkReach)
@@ -50,9 +55,7 @@ void lay(const MarkSetting& setting, const sim::Model& model, sim::MarkModel& ma
                                               kMarkReach * 1000, setting.on, at.distance * 1000)});
   mark.place = at.point;
   if (!(length(setting.normal) > 0)) mark.normal = at.normal;
-  if (organ < 0) return;
-  mark.on = sim::MarkModel::organ;
-  mark.body = organ;
+  if (mark.body < 0) return;
   mark.vertex = at.vertex;
   mark.weight = at.weight;
 }

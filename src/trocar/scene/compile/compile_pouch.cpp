@@ -52,6 +52,8 @@ std::vector<double> areas_of_nodes(const std::vector<Vec3d>& positions,
   return area;
 }
 
+constexpr double kMillilitrePerMinuteAndSquareCentimetre = 1e-6 / 60 / 1e-4;  // [m/s]
+
 /// The sets of bonds of a pouch that is yet to be built: which nodes they tie, and to what. A node that is held, or
 /// tied already, stays so.
 std::vector<interactions::BondSet> bonds_of(const Pouch& pouch, const tissue::MembraneDescription& d,
@@ -64,6 +66,7 @@ std::vector<interactions::BondSet> bonds_of(const Pouch& pouch, const tissue::Me
     set.name = setting.name;
     set.membrane = std::int32_t(model.membranes.size());
     set.law = tissue::CohesiveLaw::of(setting.toughness, setting.opens);
+    set.oozes = setting.oozes * kMillilitrePerMinuteAndSquareCentimetre;
     const std::vector<std::uint8_t> within = nodes_within(setting.places, pouch.name, d.positions, faults);
     for (size_t i = 0; i < within.size(); ++i) {
       if (!within[i] || taken[i]) continue;

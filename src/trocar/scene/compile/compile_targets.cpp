@@ -34,6 +34,18 @@ void add_trace(sim::Model& model, std::int32_t strand) {
              samples);
 }
 
+/// Sixteen vertices of its surface.
+std::vector<sim::VisibilitySample> all_around(const tissue::Skin& skin) {
+  constexpr size_t kSamples = 16;
+  std::vector<std::int32_t> outside;
+  for (int v = 0; v < skin.size(); ++v)
+    if (skin.at_surface(v)) outside.push_back(v);
+  std::vector<sim::VisibilitySample> samples;
+  for (size_t k = 0; k < kSamples; ++k)
+    samples.push_back({0, outside[(2 * k + 1) * outside.size() / (2 * kSamples)], 0});
+  return samples;
+}
+
 /// The vertex at an organ's surface that was drawn nearest to a point inside it.
 std::int32_t surface_over(const tissue::Skin& skin, Vec3d inside) {
   std::int32_t nearest = -1;
@@ -97,16 +109,11 @@ void compile_targets(sim::Model& model) {
     }
   for (size_t i = 0; i < model.strands.size(); ++i)
     if (!model.strands[i].landmarks.empty()) add_trace(model, std::int32_t(i));
-  for (int i = 0; i < model.organs(); ++i) {
-    std::vector<sim::VisibilitySample> samples;
-    std::vector<std::int32_t> outside;
-    for (int v = 0; v < model.skin(i).size(); ++v)
-      if (model.skin(i).at_surface(v)) outside.push_back(v);
-    constexpr size_t kSamples = 16;
-    for (size_t k = 0; k < kSamples; ++k)
-      samples.push_back({0, outside[(2 * k + 1) * outside.size() / (2 * kSamples)], 0});
-    add_target(model, {sim::VisibilityTarget::organ, model.organ_name(i), i, 0, 0}, samples);
-  }
+  for (int i = 0; i < model.organs(); ++i)
+    add_target(model, {sim::VisibilityTarget::organ, model.organ_name(i), i, 0, 0}, all_around(model.skin(i)));
+  for (size_t i = 0; i < model.membranes.size(); ++i)
+    if (const sim::MembraneBody& m = model.membranes[i]; m.sheet.closed())
+      add_target(model, {sim::VisibilityTarget::fold, m.name, std::int32_t(i), 0, 0}, all_around(m.skin));
   add_bleeder(model);
   for (size_t i = 0; i < model.marks.size(); ++i) add_mark(model, std::int32_t(i));
 }

@@ -181,6 +181,7 @@ struct BondSetting {
   double reach = 0.006;         ///< [m]
   double toughness = 50;        ///< [J/m^2]
   double opens = 0.005;         ///< [m]
+  double oozes = 0;             ///< [mL/min/cm^2] where it has parted
   core::Location at;
 };
 

@@ -262,7 +262,10 @@ const Table<BondSetting>& bond_setting() {
        R::number("toughness_J_m2", units::one, &BondSetting::toughness, 0.1, 1e5,
                  "what it takes to part a square metre, default {}"),
        R::number("opens_mm", units::mm, &BondSetting::opens, 0.2, 100,
-                 "how far it opens until nothing holds, default {}")}};
+                 "how far it opens until nothing holds, default {}"),
+       R::number("oozes_mL_min_cm2", units::one, &BondSetting::oozes, 0, 100,
+                 "blood from the raw surface that it leaves when it is torn or cut, until that is coagulated, "
+                 "default {}")}};
   return table;
 }
 

@@ -43,10 +43,10 @@ const Table<MarkSetting>& mark() {
   using M = MarkSetting;
   static const Table<M> table{
       "mark",
-      "A disc, in space or on a body or wall, or a stripe around a strand: seen by exercises, felt by nothing.",
+      "A disc, in space or on a body, pouch or wall, or a stripe around a strand: seen by exercises, felt by nothing.",
       {needed(R::name("name", &M::name, "what exercises call it")),
        R::ref("on", Reference::To::marked, &M::on,
-              "solid or wall that a disc lies on, strand that a stripe goes around; default: a disc in space"),
+              "solid, pouch or wall that a disc lies on, strand that a stripe goes around; default: a disc in space"),
        R::vec3("place_mm", units::mm, &M::place, -kFar, kFar,
                "middle of a disc; on something: the nearest place of that")
            .only(is_disc),

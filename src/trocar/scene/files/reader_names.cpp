@@ -36,7 +36,7 @@ const char* noun(Reference::To to) {
     case Reference::To::drawn:
       return "body, wall, instrument, port, cavity, endoscope, arteries or veins";
     case Reference::To::marked:
-      return "solid, wall or strand";
+      return "solid, wall, strand or pouch";
   }
   return "";
 }
@@ -118,6 +118,7 @@ std::vector<std::string> Reading::names(Reference::To to) const {
   if (to == To::strand || to == To::solid_or_strand) add_names(description.strands, all);
   if (to == To::marked) {
     add_names(description.solids, all), add_names(description.walls, all), add_names(description.strands, all);
+    add_names(description.pouches, all);
   }
   if (to == To::vessel)
     for (const VesselTree& tree : description.vessels) add_names(tree.vessels, all);

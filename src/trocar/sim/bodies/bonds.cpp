@@ -27,18 +27,16 @@ void pull_on_bonds(StepContext& c) noexcept {
 
 namespace {
 
-/// f(state, foot, node) of all bonds that hold: where they are rooted, and the wall's node.
+/// f(state, foot, node) of all bonds, parted ones among them: where they are rooted, and the wall's node.
 template <class F>
-void for_whole_bonds(StepContext& c, F&& f) noexcept {
+void for_bonds(StepContext& c, F&& f) noexcept {
   const interactions::Holders holders = holders_of(c);
   for (size_t i = 0; i < c.model.bonds.size(); ++i) {
     const interactions::BondSet& set = c.model.bonds[i];
     const interactions::BondedSheet sheet = sheet_of(c, set);
     for (size_t b = 0; b < set.bonds.size(); ++b) {
       const interactions::Bond& bond = set.bonds[b];
-      interactions::BondState& state = c.state.bonds[i][b];
-      if (!state.holds()) continue;
-      f(state, held_place(bond.hold, holders) - bond.hold.offset,
+      f(c.state.bonds[i][b], held_place(bond.hold, holders) - bond.hold.offset,
         tissue::position(sheet.model.network, sheet.state.network, bond.node));
     }
   }
@@ -50,8 +48,8 @@ int sever_bonds(StepContext& c, const geometry::Blade& blade) noexcept {
   const geometry::BladePlane plane(blade);
   if (!plane.flat) return 0;
   int severed = 0;
-  for_whole_bonds(c, [&](interactions::BondState& state, Vec3d foot, Vec3d node) {
-    if (!plane.crosses(foot, node)) return;
+  for_bonds(c, [&](interactions::BondState& state, Vec3d foot, Vec3d node) {
+    if (!state.holds() || !plane.crosses(foot, node)) return;
     state = {1, interactions::BondState::cut};
     ++severed;
   });
@@ -59,12 +57,26 @@ int sever_bonds(StepContext& c, const geometry::Blade& blade) noexcept {
 }
 
 void burn_bonds(StepContext& c, Vec3d electrode, double dt) noexcept {
-  for_whole_bonds(c, [&](interactions::BondState& state, Vec3d foot, Vec3d node) {
+  for_bonds(c, [&](interactions::BondState& state, Vec3d foot, Vec3d node) {
+    if (!state.holds()) {  // what is left of it on the holder
+      if (length(electrode - foot) <= kBurns) state.cause = interactions::BondState::burnt;
+      return;
+    }
     const double w = geometry::closest_on_segment(electrode, foot, node);
     if (length(electrode - (foot + w * (node - foot))) > kBurns) return;
     state.damage = std::min(1.0f, state.damage + float(dt / kBurnTime));
     state.cause = interactions::BondState::burnt;
   });
+}
+
+Ooze ooze_from_bonds(StepContext& c, size_t i) noexcept {
+  const interactions::BondSet& set = c.model.bonds[i];
+  const std::size_t turn = std::size_t(c.state.tick % set.bonds.size());
+  const interactions::Bond& bond = set.bonds[turn];
+  if (!c.state.bonds[i][turn].raw() || bond.hold.kind != interactions::BorderHold::organ) return {};
+  const double flow = set.oozes * bond.area * kTick * double(set.bonds.size());  // [m^3]
+  return {held_place(bond.hold, holders_of(c)) - bond.hold.offset,
+          c.model.wet.film[size_t(bond.hold.index)] + bond.hold.vertex, std::int64_t(flow / fluids::kM3PerPicolitre)};
 }
 
 }  // namespace trocar::sim

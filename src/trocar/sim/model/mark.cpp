@@ -10,9 +10,7 @@ constexpr double kOut = 0.7;                   // radii: where a disc's outer sa
 constexpr double kHalf = 0.86602540378443865;  // sine of 60 degrees
 
 /// Out of the triangle, and the point of it.
-MarkPose on_skin(const Model& model, const State& state, const MarkModel& mark) noexcept {
-  const tissue::Skin& skin = model.skin(mark.body);
-  const tissue::NodeView nodes = nodes_of(model, state, mark.body);
+MarkPose on_skin(const tissue::Skin& skin, const tissue::NodeView& nodes, const MarkModel& mark) noexcept {
   const Vec3d a = tissue::skin_point(nodes, skin, mark.vertex[0]), b = tissue::skin_point(nodes, skin, mark.vertex[1]),
               c = tissue::skin_point(nodes, skin, mark.vertex[2]);
   return {mark.weight.x * a + mark.weight.y * b + mark.weight.z * c, normalised(cross(b - a, c - a), mark.normal)};
@@ -22,7 +20,11 @@ MarkPose on_skin(const Model& model, const State& state, const MarkModel& mark) 
 
 MarkPose pose_of(const Model& model, const State& state, const MarkModel& mark) noexcept {
   if (mark.on == MarkModel::space) return {mark.place, mark.normal};
-  if (mark.on == MarkModel::organ) return on_skin(model, state, mark);
+  if (mark.on == MarkModel::organ) return on_skin(model.skin(mark.body), nodes_of(model, state, mark.body), mark);
+  if (mark.on == MarkModel::membrane) {
+    const MembraneBody& m = model.membranes[size_t(mark.body)];
+    return on_skin(m.skin, view_of(m.sheet.network, state.membranes[size_t(mark.body)].network), mark);
+  }
   const interactions::StrandBody& body = model.strand_bodies[size_t(mark.body)];
   const tissue::StrandState& strand = state.strands[size_t(mark.body)];
   return {interactions::point_at(body, strand, mark.at), interactions::tangent_at(body, strand, mark.at)};

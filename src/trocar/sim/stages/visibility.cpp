@@ -75,6 +75,9 @@ bool faces_eye(const Model& model, const State& state, const Work& work, const V
     const MarkModel& mark = model.marks[size_t(target.index)];
     return mark.is_stripe() || dot(pose_of(model, state, mark).normal, eye - point) > 0;
   }
+  if (target.kind == VisibilityTarget::fold)  // of a closed wall one side only is outside
+    return !model.membranes[size_t(target.index)].sheet.closed() ||
+           dot(work.sheets[size_t(target.index)].surface.normal(sample.where), eye - point) > 0;
   if (target.kind != VisibilityTarget::organ) return true;
   return dot(work.surfaces[size_t(target.index)].normal(sample.where), eye - point) > 0;
 }

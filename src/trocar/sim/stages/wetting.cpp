@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include <trocar/interactions/verbs/irrigate.hpp>
+#include <trocar/sim/bodies/bonds.hpp>
 #include <trocar/sim/model/pool_floor.hpp>
 #include <trocar/sim/stages/stage.hpp>
 #include <trocar/sim/stages/visibility.hpp>
@@ -31,9 +32,10 @@ void lay_out_bleeding(StepContext& c) noexcept {
   }
 }
 
-/// What runs out of pouches, as bile, in the last places: with so many wounds that they are taken it leaves with those.
-void lay_out_leaks(StepContext& c) noexcept {
-  size_t place = c.work.wounds.size();
+// What follows are in the last places: with so many wounds that they are taken it leaves with those.
+
+/// What runs out of pouches, as bile. @return the next free place, counted down
+size_t lay_out_leaks(StepContext& c, size_t place) noexcept {
   for (size_t i = 0; i < c.work.leaks.size() && place > 0; ++i) {
     if (c.model.membranes[i].sheet.enclosure.kind == tissue::Enclosure::none) continue;
     fluids::Outlet& o = c.work.wounds[--place];
@@ -44,6 +46,22 @@ void lay_out_leaks(StepContext& c) noexcept {
     o.position = vec_cast<float>(leak.place);
     o.direction = vec_cast<float>(leak.direction);
     o.area = leak.area;
+  }
+  return place;
+}
+
+/// What oozes where bonds were.
+void lay_out_oozing(StepContext& c, size_t place) noexcept {
+  for (size_t i = 0; i < c.model.bonds.size() && place > 0; ++i) {
+    if (!(c.model.bonds[i].oozes > 0)) continue;
+    fluids::Outlet& o = c.work.wounds[--place];
+    const Ooze ooze = ooze_from_bonds(c, i);
+    if (ooze.picolitres == 0) continue;
+    o.flow.blood += ooze.picolitres;
+    c.state.flow.bled += ooze.picolitres;
+    if (o.area > 0) continue;
+    o.position = vec_cast<float>(ooze.place);
+    o.film = ooze.film;
   }
 }
 
@@ -195,7 +213,7 @@ void press_with_drops(StepContext& c) noexcept {
 void move_fluids(StepContext& c) noexcept {
   if (!c.model.wet.there) return;
   lay_out_bleeding(c);
-  lay_out_leaks(c);
+  lay_out_oozing(c, lay_out_leaks(c, c.work.wounds.size()));
   const interactions::WetBodies bodies = wet_bodies(c);
   const int tools = lay_out_instruments(c, bodies.count());
   lay_out_valves(c, bodies);

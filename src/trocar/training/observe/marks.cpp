@@ -29,8 +29,25 @@ Vec3d place_of_mark(const sim::Model& model, const sim::State& state, int mark) 
 
 bool can_face(const sim::Model& model, const sim::VisibilityTarget& target) {
   if (target.kind == sim::VisibilityTarget::mark) return !model.marks[size_t(target.index)].is_stripe();
+  if (target.kind == sim::VisibilityTarget::fold) return model.membranes[size_t(target.index)].sheet.closed();
   return target.kind == sim::VisibilityTarget::organ;
 }
+
+namespace {
+
+struct LivingSkin {
+  const tissue::Skin& skin;
+  tissue::NodeView nodes;
+  Vec3d operator()(int vertex) const { return tissue::skin_point(nodes, skin, vertex); }
+};
+LivingSkin skin_of(const sim::Model& model, const sim::State& state, const sim::VisibilityTarget& target) {
+  if (target.kind == sim::VisibilityTarget::organ)
+    return {model.skin(target.index), nodes_of(model, state, target.index)};
+  const sim::MembraneBody& m = model.membranes[size_t(target.index)];
+  return {m.skin, view_of(m.sheet.network, state.membranes[size_t(target.index)].network)};
+}
+
+}  // namespace
 
 std::optional<Vec3d> normal_of_mark(const sim::Model& model, const sim::State& state, int mark) {
   constexpr double kCancel = 0.3;  // of the samples' normals: less is a surface that goes all around
@@ -39,16 +56,15 @@ std::optional<Vec3d> normal_of_mark(const sim::Model& model, const sim::State& s
   if (target.kind == sim::VisibilityTarget::mark)
     return sim::pose_of(model, state, model.marks[size_t(target.index)]).normal;
   if (target.count == 0) return std::nullopt;
-  const tissue::Skin& skin = model.skin(target.index);
-  const tissue::NodeView nodes = nodes_of(model, state, target.index);
+  const LivingSkin at = skin_of(model, state, target);
   Vec3d sum{};
   for (int i = target.first; i < target.first + target.count; ++i) {
     const int v = model.samples[size_t(i)].where;
     Vec3d around{};
-    for (int k = skin.face_first[size_t(v)]; k < skin.face_first[size_t(v) + 1]; ++k) {
-      const auto& t = skin.triangles[size_t(skin.face[size_t(k)])];
-      const Vec3d a = tissue::skin_point(nodes, skin, t[0]);
-      around += cross(tissue::skin_point(nodes, skin, t[1]) - a, tissue::skin_point(nodes, skin, t[2]) - a);
+    for (int k = at.skin.face_first[size_t(v)]; k < at.skin.face_first[size_t(v) + 1]; ++k) {
+      const auto& t = at.skin.triangles[size_t(at.skin.face[size_t(k)])];
+      const Vec3d a = at(t[0]);
+      around += cross(at(t[1]) - a, at(t[2]) - a);
     }
     sum += normalised(around);
   }

@@ -1,0 +1,62 @@
+#include <algorithm>
+
+#include <trocar/training/observe/hands.hpp>
+#include <trocar/training/skills/parameters.hpp>
+#include <trocar/training/skills/registry.hpp>
+
+namespace trocar::training {
+namespace {
+
+Vec3d direction_of(const std::string& where) {
+  if (where == "up") return {0, 0, 1};
+  if (where == "down") return {0, 0, -1};
+  if (where == "head") return {0, 1, 0};
+  if (where == "left") return {1, 0, 0};
+  if (where == "right") return {-1, 0, 0};
+  return {0, -1, 0};
+}
+
+/// Draws what is held, no harder than it shall, and keeps the jaws where that has come to.
+class Draw final : public Skill {
+ public:
+  Draw(const sim::Model&, const Given& given)
+      : m_hand(given.hand()),
+        m_direction(direction_of(given("towards").word)),
+        m_far(given.number("by_mm", 0.02)),
+        m_speed(given.number("speed_mm_s", 0.008)),
+        m_most(given.number("pull_N", 3)) {}
+
+ private:
+  void start(Operator& op, int) override {
+    m_from = op.arm(m_hand).tip;
+    m_way = 0;
+  }
+  Progress work(Operator& op) override {
+    Arms::Arm& arm = op.arm(m_hand);
+    op.want(arm.tip);
+    if (op.tool_state(m_hand).holds == 0) return fail("it slipped out of the jaws");
+    if (norm(op.tool_state(m_hand).pull) < m_most) m_way = std::min(m_way + m_speed * sim::kTick, m_far);
+    const bool there = op.arms().move(m_hand, m_from + m_way * m_direction, pace::kCareful);
+    return there && m_way >= m_far ? Progress::done : Progress::working;
+  }
+
+  int m_hand;
+  Vec3d m_direction, m_from;
+  double m_far, m_speed, m_most, m_way = 0;
+};
+
+}  // namespace
+
+const SkillKind kDraw{
+    "draw",
+    "draw what is held",
+    {hand_parameter("that holds it"),
+     word_parameter("towards", "where to, of the patient", {"feet", "head", "up", "down", "left", "right"}),
+     number_parameter("by_mm", "how far; 20", 0, 200), number_parameter("speed_mm_s", "at most; 8", 0.1, 100),
+     number_parameter("pull_N", "it waits while it pulls harder; 3", 0, 50)},
+    30,
+    "Draws what the jaws hold, and waits while that pulls too hard.",
+    nothing,
+    &making<Draw>};
+
+}  // namespace trocar::training
