@@ -159,7 +159,9 @@ void choose_of_both(int hand, BothHands& hands) {
   lead_side(side >= 0 ? side : hands.used, hand, hands);
 }
 
-void back_to_hands(BothHands& hands) { hands.state.led = hands.pair[std::size_t(hands.used)]; }
+void back_to_hands(BothHands& hands) {
+  hands.state.led = hands.state.last_instrument = hands.pair[std::size_t(hands.used)];
+}
 
 void choose_for_mouse(int hand, BothHands& hands) {
   if (side_of(hand, hands) == 1 - hands.mouse) exchange(hands);
