@@ -73,10 +73,11 @@ const char* leader_of(const PanelContent& c, int side) {
   return side == c.both->mouse ? "mouse" : "keys";
 }
 
-void draw_leaders(const PanelContent& c) {
-  if (!c.both) return;
+/// Costs no line of its own: the panel is full.
+std::string hands_heading(const PanelContent& c) {
+  if (!c.both) return "Hands";
   const auto of = [&](int side) { return fmt::format("{} {}", c.both->pair[size_t(side)] + 1, leader_of(c, side)); };
-  ui::text(fmt::format("both at once: {}, {}", of(devices::kLeft), of(devices::kRight)), ui::kBlue);
+  return fmt::format("Both: {}, {}", of(devices::kLeft), of(devices::kRight));
 }
 
 void draw_hand(const PanelContent& c, int h) {
@@ -149,7 +150,6 @@ void draw_lens(const PanelContent& c) {
 }
 
 void draw_hands(const PanelContent& c) {
-  draw_leaders(c);
   for (int h = 0; h < attempt::hand_count(c.lesson.model); ++h) {
     draw_hand(c, h);
     draw_slowly(c, h);
@@ -244,7 +244,7 @@ void draw_panel(const PanelContent& c, float left, float width, float height) {
   ImGui::PopStyleVar();
   draw_time(c);
   draw_now(c);
-  ui::heading("Hands");
+  ui::heading(hands_heading(c));
   draw_hands(c);
   ImGui::Dummy({0, 2 * ui::scale()});
   draw_pull(c);
@@ -353,7 +353,7 @@ Choice draw_help(bool gamepad, bool left_handed, bool& both) {
   ui::begin_middle("help", gamepad ? 1120 : 980);
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   const bool columns = size.x > 760 * ui::scale();
-  const float gap = 16 * ui::scale(), whole = ImGui::GetContentRegionAvail().x;
+  const float gap = 16 * ui::scale(), whole = ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ScrollbarSize;
   const float width = columns ? 0.5f * (whole - gap) : whole;
   const float room = 0.97f * size.y - 92 * ui::scale();
   ui::title(both ? "Both hands at once" : "Keys and buttons");

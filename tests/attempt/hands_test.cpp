@@ -158,6 +158,15 @@ TEST(HandPilot, BothTipsGoWhereTheirSticksGoInThePictureInOneSample) {
   EXPECT_NEAR(dot(moved_right, view.right), 0, 1e-6);
 }
 
+TEST(HandPilot, SidesAreTheSameWhereTheEndoscopeBeginsWithALookTheOtherWay) {
+  const std::unique_ptr<attempt::Lesson> lesson = attempt::load_lesson("sterilisation");
+  const sim::Model& model = lesson->model;
+  const kinematics::ScopeFrame first =
+      kinematics::scope_frame(model.scope.port, pose_of(model.start.scope), model.scope.angle, 0);
+  ASSERT_LT(dot(model.hands[1].port - model.hands[0].port, first.right), 0);
+  EXPECT_EQ(attempt::HandPilot(model).both().pair, attempt::HandPilot(scene().model).both().pair);
+}
+
 TEST(HandPilot, OneHandClosesWhileTheOtherMovesAndBothKeepTheirGripsWhileOneLooks) {
   const sim::State state = sim::initial_state(scene().model);
   attempt::HandPilot pilot(scene().model);

@@ -35,13 +35,15 @@ HandPilot::HandPilot(const sim::Model& model) : m_model(model), m_input(model.st
   place_sides();
 }
 
-/// Of the first two hands the left one is that whose trocar lies further to the left in the first picture.
+/// Of the first two hands the left one is that whose trocar lies further to the left for who looks from the endoscope's
+/// trocar at the instruments, upright: the first picture may look elsewhere, even the other way.
 void HandPilot::place_sides() {
   if (m_model.hands.size() < 2) return;
-  const sim::ScopeInput& start = m_model.start.scope;
-  const kinematics::ScopeFrame view =
-      kinematics::scope_frame(m_model.scope.port, pose_of(start), m_model.scope.angle, double(start.post));
-  if (dot(m_model.hands[1].port - m_model.hands[0].port, view.right) < 0) m_hands.pair = {1, 0};
+  Vec3d ahead;
+  for (std::size_t h = 0; h < m_model.hands.size(); ++h)
+    ahead += kinematics::forward(m_model.hands[h].port, pose_of(m_model.start.tools[h])).tip - m_model.scope.port;
+  const Vec3d right = cross(m_model.gravity, ahead);
+  if (dot(m_model.hands[1].port - m_model.hands[0].port, right) < 0) m_hands.pair = {1, 0};
 }
 
 void HandPilot::set(const devices::HandSettings& settings) {

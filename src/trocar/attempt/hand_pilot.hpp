@@ -1,6 +1,6 @@
 // From what mouse, keyboard and gamepad did to the Input of the simulation: the led tip, or both led tips, go where the
-// hand goes in the picture (inverse fulcrum kinematics), everything else keeps pose and grip. Which of two hands is the
-// left one is seen in the picture as it is at the beginning.
+// hand goes in the picture (inverse fulcrum kinematics), everything else keeps pose and grip. Of the first two hands
+// the left one is that at the left for who looks at the instruments.
 //
 //   HandPilot pilot(model);
 //   mailbox.put(pilot.lead(sample, published_state));     // once per picture
