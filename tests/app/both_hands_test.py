@@ -4,7 +4,7 @@
     tools/with_xvfb.sh python3 tests/app/both_hands_test.py PATH/TO/trocar [--gamepad] [FOLDER]
 
 Both tips move in the same time, one closes its jaws while the other moves, the endoscope turns while both stay; then the
-mode is left again, and one hand moves alone. The settings remember it. Exit: 0 passed, 1 failed, 77 something to run it
+mode is left by the rack, and one hand moves alone. The settings remember it. Exit: 0 passed, 1 failed, 77 something to run it
 with is missing.
 """
 import json
@@ -160,8 +160,16 @@ def remembered(room):
         return json.load(file)["both_hands"]
 
 
-def switch(room, hands, on):
-    hands.toggle()
+def toggle_in_rack(room, on):
+    """The way of those who have the mouse alone, and of gamepads without a free finger."""
+    room.hands.rack()
+    room.eyes.on("rack")
+    room.hands.press(f"both hands: {'off' if on else 'on'} (H)")
+    room.eyes.on("exercise")
+
+
+def switch(room, toggle, on):
+    toggle()
     room.eyes.wait("the mode to change", lambda: bool(room.eyes.pose["both"]) == on, 20)
     if remembered(room) != on or not room.eyes.happened("both-hands", on=on):
         raise Failed(f"that both hands are led ({on}) is neither remembered nor told")
@@ -218,7 +226,7 @@ def endoscope_turns(eyes, hands, *pair):
 def one_again(room, hands):
     eyes = room.eyes
     grips = [t["handle"] for t in eyes.pose["tools"]]
-    switch(room, hands, False)
+    switch(room, lambda: toggle_in_rack(room, False), False)
     if any(abs(t["handle"] - grip) > 0.01 for t, grip in zip(eyes.pose["tools"], grips)):
         raise Failed("leaving the mode moved a handle")
     led, alone = eyes.pose["led"], Watch(eyes)
@@ -227,13 +235,15 @@ def one_again(room, hands):
     if alone.way(led) < MOVED_MM or any(alone.way(name) > STILL_MM for name in resting):
         raise Failed(f"not {led} alone moved: {[(t, alone.way(t)) for t in [led, *resting]]}")
     print(f"one again: {led} moved {alone.way(led):.1f} mm; {eyes.pose['tick']} ticks")
+    switch(room, hands.toggle, True)
+    switch(room, hands.toggle, False)
 
 
 def two_hands(room):
     eyes = room.eyes
     begin(room)
     hands = PadAtOnce(eyes, room.hands) if isinstance(room.hands, Pad) else MouseAndKeysAtOnce(eyes)
-    switch(room, hands, True)
+    switch(room, hands.toggle, True)
     pair = eyes.pose["both"]
     if pair["left"] == pair["right"] or pair["mouse"] != pair["right"]:
         raise Failed(f"no pair: {pair}")
