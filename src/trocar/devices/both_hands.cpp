@@ -127,13 +127,9 @@ bool both_shoulders(const HandSample& sample) {
   return sample.gamepad.has(Button::left_shoulder) && sample.gamepad.has(Button::right_shoulder);
 }
 
-/// H, or Y with both shoulders held. That Y is not the rack's, however long it is held.
-bool asks_for_the_other_mode(HandSample& sample, BothHands& hands) {
-  const bool chord = both_shoulders(sample) && went_down(Button::y, sample, hands.last);
-  hands.chord = sample.gamepad.has(Button::y) && (hands.chord || chord);
-  hands.last = sample;
-  if (hands.chord) sample.gamepad.set(Button::y, false);
-  return chord || sample.pressed.has(Key::h);
+/// H, or Y with both shoulders held. @param last  the sample before
+bool asks_for_the_other_mode(const HandSample& sample, const HandSample& last) {
+  return sample.pressed.has(Key::h) || (both_shoulders(sample) && went_down(Button::y, sample, last));
 }
 
 void let_go(HandState& side) {
@@ -310,19 +306,18 @@ bool leads_both(const HandSettings& settings, const BothHands& hands) noexcept {
 }
 
 HandCommands lead(const HandSettings& settings, const HandSample& given, BothHands& hands) noexcept {
-  const HandSample last = hands.last;
-  HandSample sample = given;
-  if (asks_for_the_other_mode(sample, hands) && instruments_of(settings) >= 2) {
+  const HandSample last = std::exchange(hands.last, given);
+  if (asks_for_the_other_mode(given, last) && instruments_of(settings) >= 2) {
     lead_both(settings, !hands.on, hands);
-    take_up(settings, given, hands);
+    take_up(settings, given, hands);  // that Y is old, and not the rack's
   }
   HandCommands commands;
   if (!leads_both(settings, hands)) {
     hands.looking = false;
-    commands.add(lead(settings, sample, hands.state));
+    commands.add(lead(settings, given, hands.state));
     return commands;
   }
-  sample = as_meant(settings, sample);
+  const HandSample sample = as_meant(settings, given);
   choose_pair(settings, sample, last, hands);
   if (went_down(Button::left_stick, sample, last)) hands.state.fine = !hands.state.fine;
   hands.looking = hands.state.led == kScope || both_shoulders(sample);

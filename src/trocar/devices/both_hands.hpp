@@ -39,7 +39,6 @@ struct BothHands {
   std::array<HandState, 2> side;  ///< of each hand's share of the samples
   HandState scope;
   std::array<bool, 2> away{};  ///< this stick led something else and comes to rest first
-  bool chord = false;          ///< Y went down with both shoulders and is not the rack's
   HandSample last;             ///< as given, to notice presses
 };
 
