@@ -11,9 +11,9 @@
 //
 // The gamepad: a stick moves its side's tip, and while that side's shoulder is held goes deeper and back and rolls;
 // triggers close the jaws of their sides, the cross to the left and to the right locks them (or opens the water), up
-// and down give the hand last used another place. Both shoulders held: the left stick looks, the right one goes along
-// the shaft and turns the picture, and both hands keep pose and grip; a stick comes to rest before it leads its hand
-// again.
+// and down put another instrument in the place of the one last used. Both shoulders held: the left stick looks, the
+// right one goes along the shaft and turns the picture, and both hands keep pose and grip; a stick comes to rest before
+// it leads its hand again.
 //
 // Mouse and keys: Tab exchanges them; a number is the hand that the mouse is to lead, and one that is not of the pair
 // takes the mouse's hand's place; 0 or C takes the endoscope for all devices until a hand is chosen again.
