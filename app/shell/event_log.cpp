@@ -71,6 +71,16 @@ Json courses(const sim::Model& model, const sim::State& state) {
   return out;
 }
 
+/// Who is at the left, at the right, what the mouse leads, and whether the endoscope is led just now.
+Json pair_of(const sim::Model& model, const devices::BothHands* both) {
+  if (!both) return nullptr;
+  const auto name = [&](int side) { return model.hands[size_t(both->pair[size_t(side)])].name; };
+  return {{"left", name(devices::kLeft)},
+          {"right", name(devices::kRight)},
+          {"mouse", name(both->mouse)},
+          {"looking", both->looking}};
+}
+
 }  // namespace
 
 std::string EventLog::path_of(const std::string& given) {
@@ -102,7 +112,7 @@ void EventLog::moment(const sim::Model& model, const attempt::Moment& moment) {
   event(moment.what, details);
 }
 
-void EventLog::pose(const sim::Model& model, const attempt::Snapshot& now, int led) {
+void EventLog::pose(const sim::Model& model, const attempt::Snapshot& now, int led, const devices::BothHands* both) {
   const sim::State& state = now.state;
   if (!m_file || (state.tick < m_next_pose && state.tick >= m_last_tick)) return;
   m_last_tick = state.tick;
@@ -139,6 +149,7 @@ void EventLog::pose(const sim::Model& model, const attempt::Snapshot& now, int l
                  {"speed", now.speed},
                  {"step", now.current_step},
                  {"led", led < 0 ? "scope" : model.hands[size_t(led)].name},
+                 {"both", pair_of(model, both)},
                  {"picture",
                   {{"port_mm", millimetres(model.scope.port)},
                    {"depth_mm", 1000 * double(state.scope.depth)},

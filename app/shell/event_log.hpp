@@ -13,6 +13,7 @@
 #include <string>
 
 #include <trocar/attempt/live.hpp>
+#include <trocar/devices/both_hands.hpp>
 #include <trocar/kinematics/fulcrum.hpp>
 
 namespace trocar::app {
@@ -27,7 +28,8 @@ class EventLog {
   void event(const std::string& name, const Json& details = Json::object());
   void moment(const sim::Model& model, const attempt::Moment& moment);
   /// At most ten times a second of simulated time. @param led instrument, or -1 for the scope
-  void pose(const sim::Model& model, const attempt::Snapshot& now, int led);
+  /// @param both  null while one hand is led
+  void pose(const sim::Model& model, const attempt::Snapshot& now, int led, const devices::BothHands* both = nullptr);
   bool on() const { return m_file != nullptr; }
   /// Empty, or why lines are missing from the file (the disk is full): told on stderr when it began.
   const std::string& failure() const { return m_failure; }

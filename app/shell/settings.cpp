@@ -32,6 +32,7 @@ const scene::Shape& settings_shape() {
       "What a person has chosen for the trainer's window.",
       {scene::needed(keys::format(1)),
        keys::flag("left_handed", "mouse buttons, gamepad sides, order of the hands"),
+       keys::flag("both_hands", "two instruments are led at once"),
        keys::number("mouse", kLeastSense, kMostSense, "sensitivity"),
        keys::number("wheel", kLeastSense, kMostSense, "sensitivity"),
        keys::number("keyboard", kLeastSense, kMostSense, "sensitivity"),
@@ -43,7 +44,8 @@ const scene::Shape& settings_shape() {
        keys::flag("mirrored_picture", "left and right of the picture exchanged"),
        keys::choice("stereo", pictures::stereo_names(), "pictures for two eyes"),
        keys::number("eye_distance_mm", pictures::kLeastBase, pictures::kMostBase, "between the two eyes"),
-       keys::number("convergence_mm", pictures::kLeastConvergence, pictures::kMostConvergence, "to what lies on the screen"),
+       keys::number("convergence_mm", pictures::kLeastConvergence, pictures::kMostConvergence,
+                    "to what lies on the screen"),
        keys::flag("swap_eyes", "for screens that have them the other way round"),
        keys::choice("layout", names_in(kLayoutNames), "of the window's panes"),
        keys::choice("pane_1", names_in(kPaneNames), "what the first pane shows"),
@@ -86,6 +88,7 @@ Settings read_settings(const fs::path& file, std::vector<core::Fault>& faults, c
   const scene::JsonDocument document = scene::load_json(file, faults, memory);
   const scene::JsonObject o(document.root, settings_shape(), document.file, faults);
   s.left_handed = o.flag("left_handed", s.left_handed);
+  s.both_hands = o.flag("both_hands", s.both_hands);
   s.mouse = o.number("mouse", s.mouse);
   s.wheel = o.number("wheel", s.wheel);
   s.keyboard = o.number("keyboard", s.keyboard);
@@ -112,6 +115,7 @@ Settings read_settings(const fs::path& file, std::vector<core::Fault>& faults, c
 std::string settings_text(const Settings& s) {
   const Json json{{"format", 1},
                   {"left_handed", s.left_handed},
+                  {"both_hands", s.both_hands},
                   {"mouse", s.mouse},
                   {"wheel", s.wheel},
                   {"keyboard", s.keyboard},

@@ -22,6 +22,7 @@ namespace trocar::app {
 struct Settings {
   bool left_handed = false;
   double mouse = 1, wheel = 1, keyboard = 1, gamepad = 1;  ///< sensitivities, 1 = usual, kLeastSense..kMostSense
+  bool both_hands = false;                                 ///< two instruments are led at once
   bool invert_x = false, invert_y = false;                 ///< instrument: moves against the hand, as real handles do
   bool invert_view_x = false, invert_view_y = false;       ///< endoscope
   bool mirrored_picture = false;                           ///< left and right exchanged

@@ -67,6 +67,7 @@ constexpr KeyPair kKeys[] = {
     {GLFW_KEY_X, devices::Key::x},
     {GLFW_KEY_B, devices::Key::b},
     {GLFW_KEY_N, devices::Key::n},
+    {GLFW_KEY_H, devices::Key::h},
     {GLFW_KEY_SPACE, devices::Key::space},
     {GLFW_KEY_LEFT_SHIFT, devices::Key::shift},
     {GLFW_KEY_RIGHT_SHIFT, devices::Key::shift},

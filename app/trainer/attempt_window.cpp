@@ -52,6 +52,7 @@ AttemptWindow::AttemptWindow(TrainerWindow& stage, const attempt::Lesson& lesson
   if (by_hand(plan.input)) {
     m_pilot = std::make_unique<attempt::HandPilot>(lesson.model);
     m_pilot->set(hand_settings(stage.settings, 0));
+    m_pilot->lead_both(stage.settings.both_hands);
     m_hint = stage.settings.show_hint;
   } else {
     m_source = attempt::make_source(lesson, plan.input);
@@ -234,12 +235,23 @@ void AttemptWindow::lead(attempt::Live& live, const attempt::Snapshot& now) {
   } else {
     if (m_was_still) {
       m_pilot->set(hand_settings(m_stage.settings, 0));
+      m_pilot->lead_both(m_stage.settings.both_hands);
       m_pilot->take_up(sample);
     }
     live.put(m_pilot->lead(sample, now.state));
-    if (m_pilot->command().rack) m_rack = true;
+    if (m_pilot->asks_for_rack()) m_rack = true;
+    keep_mode();
   }
   m_was_still = still;
+}
+
+/// One hand or both, as it was chosen last, is what the next attempt begins with.
+void AttemptWindow::keep_mode() {
+  const bool both = m_pilot->both().on;
+  if (both == m_stage.settings.both_hands) return;
+  m_stage.settings.both_hands = both;
+  m_stage.keep_settings();
+  m_stage.log.event("both-hands", {{"on", both}});
 }
 
 void AttemptWindow::tell(attempt::Live& live) {
@@ -253,7 +265,8 @@ void AttemptWindow::tell(attempt::Live& live) {
     m_told_warning = warning;
     m_feedback.add(ui::Mark::warning, warning, now.seconds, now_seconds());
   }
-  m_stage.log.pose(m_lesson.model, now, m_pilot ? m_pilot->hands().led : 0);
+  const bool both = m_pilot && m_pilot->leads_both();
+  m_stage.log.pose(m_lesson.model, now, m_pilot ? m_pilot->hands().led : 0, both ? &m_pilot->both() : nullptr);
 }
 
 void AttemptWindow::warn_of_pull(const attempt::Snapshot& now) {
@@ -276,7 +289,9 @@ void AttemptWindow::ask_for_the_eye(const attempt::Snapshot& now) {
   const bool gamepad = m_gamepad_used && m_stage.window.gamepads().present();
   m_feedback.add(ui::Mark::warning,
                  fmt::format("{}: out of view. Turn the endoscope ({}) towards it, and it comes in", name,
-                             gamepad ? "shoulder button" : "key 0"),
+                             !gamepad                ? "key 0"
+                             : m_pilot->leads_both() ? "both shoulders held"
+                                                     : "shoulder button"),
                  now.seconds, now_seconds());
   m_stage.log.event("waits-for-eye", {{"tick", now.state.tick}, {"tool", m_lesson.model.hands[size_t(waits)].name}});
 }
@@ -337,6 +352,7 @@ void AttemptWindow::draw_scene(const attempt::Snapshot& now) {
   const PanelContent content{m_lesson,
                              now,
                              m_pilot ? &m_pilot->hands() : nullptr,
+                             m_pilot && m_pilot->leads_both() ? &m_pilot->both() : nullptr,
                              m_plan.input == "demo" ? "the scripted surgeon" : m_plan.input,
                              m_log.attempt().trainee,
                              mode_text(),
@@ -357,7 +373,7 @@ void AttemptWindow::draw_over(const attempt::Snapshot& now, Choice& choice) {
   if (m_over) {
     choice = draw_result(m_result, mode_text(), m_stage.options.store != nullptr, m_stage.reports.say());
   } else if (m_hint) {
-    if (draw_hint(gamepad, m_hint_again) == Choice::resume) {
+    if (draw_hint(gamepad, m_pilot->leads_both(), m_hint_again) == Choice::resume) {
       m_hint = false;
       m_stage.settings.show_hint = m_hint_again;
       m_stage.keep_settings();
@@ -385,15 +401,18 @@ void AttemptWindow::draw_over(const attempt::Snapshot& now, Choice& choice) {
 void AttemptWindow::draw_the_rack(const attempt::Snapshot& now) {
   const Window& window = m_stage.window;
   const float picture = float(window.width()) - panel_width(float(window.width()), window.scale());
-  const RackChoice c = draw_rack(m_lesson.model, now.state, m_pilot->hands(), picture);
+  const RackChoice c = draw_rack(m_lesson.model, now.state, m_pilot->both(), picture);
   if (c.hand != -2) m_pilot->choose(c.hand);
   if (c.instrument >= 0) m_pilot->take(c.instrument);
   if (c.panel_keys != 0) m_pilot->press(c.panel_keys);
   if (c.insert) m_pilot->insert();
   if (c.ratchet) m_pilot->toggle_ratchet();
   if (c.fine) m_pilot->toggle_fine();
+  if (c.exchange) m_pilot->exchange();
+  if (c.both) m_pilot->lead_both(!m_pilot->both().on);
+  keep_mode();
   if (c.pause) hold("");
-  if (c.close || c.instrument >= 0 || c.insert || c.ratchet || c.fine) m_rack = false;
+  if (c.close || c.instrument >= 0 || c.insert || c.ratchet || c.fine || c.exchange || c.both) m_rack = false;
 }
 
 void AttemptWindow::end(attempt::Live& live, Ending ending) {

@@ -34,6 +34,7 @@ class AttemptWindow {
   void hold(const std::string& why);
   bool stands_still() const;
   void lead(attempt::Live& live, const attempt::Snapshot& now);
+  void keep_mode();
   void tell(attempt::Live& live);
   void warn_of_pull(const attempt::Snapshot& now);
   void ask_for_the_eye(const attempt::Snapshot& now);

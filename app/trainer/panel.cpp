@@ -60,10 +60,30 @@ void draw_now(const PanelContent& c) {
   ImGui::PopStyleColor();
 }
 
+/// Is hand `h` led just now, alone or as one of two?
+bool leads(const PanelContent& c, int h) {
+  if (!c.hands) return false;
+  if (!c.both) return c.hands->led == h;
+  return !c.both->looking && (c.both->pair[devices::kLeft] == h || c.both->pair[devices::kRight] == h);
+}
+
+/// What leads this side of both.
+const char* leader_of(const PanelContent& c, int side) {
+  if (c.gamepad) return side == devices::kLeft ? "left stick" : "right stick";
+  return side == c.both->mouse ? "mouse" : "keys";
+}
+
+/// Costs no line of its own: the panel is full.
+std::string hands_heading(const PanelContent& c) {
+  if (!c.both) return "Hands";
+  const auto of = [&](int side) { return fmt::format("{} {}", c.both->pair[size_t(side)] + 1, leader_of(c, side)); };
+  return fmt::format("Both: {}, {}", of(devices::kLeft), of(devices::kRight));
+}
+
 void draw_hand(const PanelContent& c, int h) {
   const interactions::ToolState& tool = c.now.state.tools[size_t(h)];
   const interactions::ToolModel& held = attempt::held_by(c.lesson.model, c.now.state, h);
-  const bool led = c.hands && c.hands->led == h;
+  const bool led = leads(c, h);
   std::string about = attempt::in_words(held.name);
   if (held.clips > 0) about += fmt::format(", {} clips", tool.clips_left);
   std::string state;
@@ -88,18 +108,26 @@ void draw_hand(const PanelContent& c, int h) {
 
 /// A clip wants to be closed slowly, and no device does so unasked.
 void draw_slowly(const PanelContent& c, int h) {
-  if (!c.hands || c.hands->led != h || attempt::held_by(c.lesson.model, c.now.state, h).clips == 0) return;
+  if (!leads(c, h) || attempt::held_by(c.lesson.model, c.now.state, h).clips == 0) return;
   ui::text(c.hands->fine ? "fine motion is on: the jaws close slowly"
            : c.gamepad   ? "close slowly: press the left stick, then pull"
                          : "close slowly: hold Shift, too",
            ui::kOrange);
 }
 
+const char* valves_of(const PanelContent& c, int h) {
+  if (!c.both)
+    return c.gamepad ? "right trigger: suction, left trigger: water" : "D or left button: suction, A or right: water";
+  const int side = c.both->pair[devices::kLeft] == h ? devices::kLeft : devices::kRight;
+  if (c.gamepad)
+    return side == devices::kLeft ? "left trigger: suction, cross left: water"
+                                  : "right trigger: suction, cross right: water";
+  return side == c.both->mouse ? "left button: suction, right: water" : "D: suction, A: water";
+}
+
 /// Two buttons that no other instrument has.
 void draw_valves(const PanelContent& c, int h) {
-  if (!c.hands || c.hands->led != h || !attempt::has_valves(c.lesson.model, c.now.state, h)) return;
-  ui::text(c.gamepad ? "right trigger: suction, left trigger: water" : "D or left button: suction, A or right: water",
-           ui::kOrange);
+  if (leads(c, h) && attempt::has_valves(c.lesson.model, c.now.state, h)) ui::text(valves_of(c, h), ui::kOrange);
 }
 
 /// Where the fluids are, two to a line.
@@ -128,7 +156,7 @@ void draw_hands(const PanelContent& c) {
     draw_valves(c, h);
   }
   if (!c.hands) return ui::text("led by " + c.input, ui::kGrey);
-  const bool scope = c.hands->led == devices::kScope;
+  const bool scope = c.both ? c.both->looking : c.hands->led == devices::kScope;
   ui::mark(scope ? Mark::now : Mark::note);
   ui::text("0 endoscope", scope ? ui::kWhite : ui::kGrey);
 }
@@ -216,7 +244,7 @@ void draw_panel(const PanelContent& c, float left, float width, float height) {
   ImGui::PopStyleVar();
   draw_time(c);
   draw_now(c);
-  ui::heading("Hands");
+  ui::heading(hands_heading(c));
   draw_hands(c);
   ImGui::Dummy({0, 2 * ui::scale()});
   draw_pull(c);
@@ -285,18 +313,29 @@ void key_table(devices::Device device, const char* name, float width) {
   ImGui::EndTable();
 }
 
-}  // namespace
+/// What is different while both hands are led.
+void both_tables(bool gamepad, float width, bool columns, float gap) {
+  const auto table = [width](const char* name, bool pad) {
+    ImGui::BeginGroup();
+    ui::text(name, ui::kBlue);
+    if (ImGui::BeginTable(name, 2, ImGuiTableFlags_None, {width, 0})) {
+      ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthStretch, 0.36f);
+      ImGui::TableSetupColumn("action", ImGuiTableColumnFlags_WidthStretch, 0.64f);
+      for (const devices::HelpLine& h : devices::help_both())
+        if ((h.device == devices::Device::gamepad) == pad) key_row(h.keys, h.action);
+      ImGui::EndTable();
+    }
+    ImGui::EndGroup();
+  };
+  table("Mouse and keyboard", false);
+  if (gamepad) {
+    if (columns) ImGui::SameLine(0, gap);
+    table("Gamepad", true);
+  }
+  ui::text("All else is as it is for one hand.", ui::kGrey);
+}
 
-Choice draw_help(bool gamepad, bool left_handed) {
-  Choice choice = Choice::none;
-  ui::begin_middle("help", gamepad ? 1120 : 980);
-  const ImVec2 size = ImGui::GetIO().DisplaySize;
-  const bool columns = size.x > 760 * ui::scale();
-  const float gap = 16 * ui::scale(), whole = ImGui::GetContentRegionAvail().x;
-  const float width = columns ? 0.5f * (whole - gap) : whole;
-  const float room = 0.97f * size.y - 92 * ui::scale();
-  ui::title("Keys and buttons");
-  ImGui::BeginChild("tables", {0, std::min(room - 20 * ui::scale(), (gamepad ? 620.0f : 470.0f) * ui::scale())}, false);
+void one_tables(bool gamepad, float width, bool columns, float gap) {
   ImGui::BeginGroup();
   key_table(devices::Device::keyboard, "Keyboard", width);
   ImGui::EndGroup();
@@ -305,16 +344,67 @@ Choice draw_help(bool gamepad, bool left_handed) {
   key_table(devices::Device::mouse, "Mouse", width);
   if (gamepad) key_table(devices::Device::gamepad, "Gamepad", width);
   ImGui::EndGroup();
+}
+
+}  // namespace
+
+Choice draw_help(bool gamepad, bool left_handed, bool& both) {
+  Choice choice = Choice::none;
+  ui::begin_middle("help", gamepad ? 1120 : 980);
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  const bool columns = size.x > 760 * ui::scale();
+  const float gap = 16 * ui::scale(), whole = ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ScrollbarSize;
+  const float width = columns ? 0.5f * (whole - gap) : whole;
+  const float room = 0.97f * size.y - 92 * ui::scale();
+  ui::title(both ? "Both hands at once" : "Keys and buttons");
+  ImGui::BeginChild("tables", {0, std::min(room - 20 * ui::scale(), (gamepad ? 620.0f : 470.0f) * ui::scale())}, false);
+  both ? both_tables(gamepad, width, columns, gap) : one_tables(gamepad, width, columns, gap);
   if (left_handed)
-    ui::text("Left-handed: mouse buttons, gamepad sides and the order of the hands are exchanged.", ui::kGrey);
+    ui::text(both ? "Left-handed: mouse buttons, what looks and the order of the hands are exchanged."
+                  : "Left-handed: mouse buttons, gamepad sides and the order of the hands are exchanged.",
+             ui::kGrey);
   ImGui::EndChild();
   if (ui::button("Close help", {.width = 180, .primary = true})) choice = Choice::resume;
   ImGui::SetItemDefaultFocus();
+  ImGui::SameLine();
+  if (ui::button(both ? "One hand at a time" : "Both hands at once", {.width = 180})) both = !both;
   ImGui::End();
   return choice;
 }
 
-Choice draw_hint(bool gamepad, bool& again) {
+namespace {
+
+struct HintTexts {
+  const char *lead, *lead_how, *jaws_how;
+};
+
+HintTexts hint_texts(bool gamepad, bool both) {
+  if (both && gamepad)
+    return {"You lead both hands at once.",
+            "Each stick moves its side's tip; with that side's shoulder held it goes deeper and back and rolls. Both "
+            "shoulders: the endoscope. Both and Y: one hand again.",
+            "Each trigger closes its side's jaws, the cross to that side locks and unlocks. Y: another instrument."};
+  if (both)
+    return {
+        "You lead both hands at once.",
+        "The mouse moves one tip, its wheel goes deeper and back; arrow keys, W and S lead the other. Tab exchanges "
+        "them, 0: the endoscope, H: one hand again.",
+        "Left button and G close; a right click meanwhile and Space lock. X or a click with the wheel: another "
+        "instrument."};
+  if (gamepad)
+    return {"You lead one hand at a time; the others stay as they are.",
+            "Shoulder buttons: the previous, the next hand. Left stick moves its tip, right stick goes deeper and "
+            "back and rolls. Both shoulders and Y: both hands at once.",
+            "Right trigger closes, left trigger locks and unlocks. Y: another instrument."};
+  return {"You lead one hand at a time; the others stay as they are.",
+          "Keys 1, 2, 3 choose it, 0 the endoscope. The mouse or the arrow keys move its tip, the wheel or W and "
+          "S go deeper and back. H: both hands at once.",
+          "Left button or G closes, Space locks and unlocks. X or a click with the wheel: another instrument."};
+}
+
+}  // namespace
+
+Choice draw_hint(bool gamepad, bool both, bool& again) {
   Choice choice = Choice::none;
   ui::begin_middle("hint", 640);
   ui::title("Three things to know");
@@ -328,15 +418,9 @@ Choice draw_hint(bool gamepad, bool& again) {
     ImGui::EndGroup();
     ImGui::Dummy({0, 4 * ui::scale()});
   };
-  point("1", "You lead one hand at a time; the others stay as they are.",
-        gamepad
-            ? "Shoulder buttons: the previous, the next hand. Left stick moves its tip, right stick goes deeper and "
-              "back and rolls."
-            : "Keys 1, 2, 3 choose it, 0 the endoscope. The mouse or the arrow keys move its tip, the wheel or W and "
-              "S go deeper and back.");
-  point("2", "Close the jaws, and lock them to keep what they hold.",
-        gamepad ? "Right trigger closes, left trigger locks and unlocks. Y: another instrument."
-                : "Left button or G closes, Space locks and unlocks. X or a click with the wheel: another instrument.");
+  const HintTexts texts = hint_texts(gamepad, both);
+  point("1", texts.lead, texts.lead_how);
+  point("2", "Close the jaws, and lock them to keep what they hold.", texts.jaws_how);
   point("3", "What to do next stands at the right, in the blue box.",
         gamepad ? "Start pauses. Back shows all buttons." : "P pauses. F1 shows all keys.");
   if (ui::button("Begin", {.width = 180, .height = 34, .primary = true})) choice = Choice::resume;
@@ -378,10 +462,28 @@ std::uint32_t draw_panel_keys(const tissue::GeneratorPanel& p) {
   return keys;
 }
 
+/// One hand, or both; of both: what the mouse leads.
+void draw_mode(const sim::Model& model, const devices::BothHands& both, RackChoice& choice) {
+  if (attempt::hand_count(model) < 2) return;
+  if (ui::button(both.on ? "both hands: on (H)" : "both hands: off (H)")) choice.both = true;
+  ImGui::SameLine();
+  if (!both.on) return;
+  if (ui::button(fmt::format("mouse: hand {} (Tab)", both.pair[size_t(both.mouse)] + 1))) choice.exchange = true;
+  ImGui::SameLine();
+}
+
+std::string rack_question(const sim::Model& model, const devices::BothHands& both) {
+  const int count = attempt::hand_count(model);
+  if (!both.on || count < 2) return "Time goes on. Which hand do you lead?";
+  return fmt::format("Time goes on. You lead hands {} and {}. Which of them do you mean?{}", both.pair[0] + 1,
+                     both.pair[1] + 1, count > 2 ? " A third one takes its place." : "");
+}
+
 }  // namespace
 
-RackChoice draw_rack(const sim::Model& model, const sim::State& state, const devices::HandState& hands,
+RackChoice draw_rack(const sim::Model& model, const sim::State& state, const devices::BothHands& both,
                      float picture_width) {
+  const devices::HandState& hands = both.state;
   RackChoice choice;
   const float width = std::min(640 * ui::scale(), 0.97f * picture_width);
   ImGui::SetNextWindowPos({0.5f * picture_width, 12 * ui::scale()}, ImGuiCond_Always, {0.5f, 0});
@@ -390,7 +492,7 @@ RackChoice draw_rack(const sim::Model& model, const sim::State& state, const dev
   ImGui::Begin("rack", nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
-  ui::text("Time goes on. Which hand do you lead?", ui::kGrey);
+  ui::text(rack_question(model, both), ui::kGrey);
   for (int h = 0; h <= attempt::hand_count(model); ++h) {
     const bool scope = h == attempt::hand_count(model);
     const int hand = scope ? devices::kScope : h;
@@ -417,7 +519,7 @@ RackChoice draw_rack(const sim::Model& model, const sim::State& state, const dev
     ImGui::SameLine();
   }
   if (ui::button(hands.fine ? "fine motion: on" : "fine motion: off")) choice.fine = true;
-  ImGui::SameLine();
+  draw_mode(model, both, choice);
   if (ui::button("pause (P)")) choice.pause = true;
   ImGui::SameLine();
   if (ui::button("go on (Esc)")) choice.close = true;

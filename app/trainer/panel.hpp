@@ -19,6 +19,7 @@ struct PanelContent {
   const attempt::Lesson& lesson;
   const attempt::Snapshot& now;
   const devices::HandState* hands = nullptr;  ///< null: a source leads, named by `input`
+  const devices::BothHands* both = nullptr;   ///< null: not both hands are led
   std::string input, trainee;
   std::string mode;                         ///< "familiarisation: no score", or empty
   std::vector<training::StepStatus> steps;  ///< names and hints; done and now come from the snapshot
@@ -36,10 +37,11 @@ void draw_notices(const Feedback& feedback, double now, float picture_width, flo
 
 enum class Choice { none, resume, restart, finish, settings, display, views, help, report, start_screen, quit };
 
-/// All keys and buttons of the devices that are there. Resume closes it.
-Choice draw_help(bool gamepad, bool left_handed);
+/// All keys and buttons of the devices that are there. Resume closes it. @param both in/out: those of both hands at
+/// once
+Choice draw_help(bool gamepad, bool left_handed, bool& both);
 /// The three things to know. @param again in/out: show it before the next attempt, too
-Choice draw_hint(bool gamepad, bool& again);
+Choice draw_hint(bool gamepad, bool both, bool& again);
 /// Pause menu. `why` is said where it was not asked for; `recording` is said, so that people find it.
 /// @param display  how things are shown may be chosen: not while it counts
 Choice draw_pause(const std::string& why, const std::string& recording, bool scored, bool display);
@@ -49,11 +51,12 @@ Choice draw_result(const Json& result, const std::string& mode, bool report, con
 /// The rack: which hand, which instrument in it; and the generator's panel where there is one.
 struct RackChoice {
   bool close = false, pause = false, insert = false, ratchet = false, fine = false;
-  int hand = -2;                 ///< lead this one (devices::kScope: the endoscope); -2: no choice
-  int instrument = -1;           ///< for the led hand
-  std::uint32_t panel_keys = 0;  ///< tissue::PanelKey bits pressed
+  bool both = false, exchange = false;  ///< the other of: one hand, both; of both: what the mouse leads
+  int hand = -2;                        ///< lead this one (devices::kScope: the endoscope); -2: no choice
+  int instrument = -1;                  ///< for the led hand
+  std::uint32_t panel_keys = 0;         ///< tissue::PanelKey bits pressed
 };
-RackChoice draw_rack(const sim::Model& model, const sim::State& state, const devices::HandState& hands,
+RackChoice draw_rack(const sim::Model& model, const sim::State& state, const devices::BothHands& both,
                      float picture_width);
 
 }  // namespace trocar::app

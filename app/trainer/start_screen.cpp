@@ -291,6 +291,7 @@ bool draw_settings(Settings& s, const Settings& before, bool sound, bool quad_bu
   ImGui::BeginChild("list", {0, std::min(room, 500 * ui::scale())}, false, ImGuiWindowFlags_NavFlattened);
   ui::text("Hands", ui::kBlue);
   ui::checkbox("left-handed: mouse buttons, gamepad sides, order of the hands exchanged", s.left_handed);
+  ui::checkbox("both hands at once, where a scene has two (H, or both shoulders and Y)", s.both_hands);
   ui::slider("mouse", s.mouse, kLeastSense, kMostSense, "x %.2f", true);
   ui::slider("mouse wheel", s.wheel, kLeastSense, kMostSense, "x %.2f", true);
   ui::slider("keyboard", s.keyboard, kLeastSense, kMostSense, "x %.2f", true);

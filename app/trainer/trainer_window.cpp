@@ -69,6 +69,7 @@ void TrainerWindow::drop_view() {
 
 void TrainerWindow::open(Overlay overlay) {
   if (overlay == Overlay::settings) m_before = settings;
+  if (overlay == Overlay::help) m_help_on_both = settings.both_hands;
   m_overlay = overlay;
 }
 
@@ -153,7 +154,8 @@ void TrainerWindow::draw_overlay() {
   if (m_overlay == Overlay::none) return;
   const bool back = window.keys().back;
   if (m_overlay == Overlay::help) {
-    if (draw_help(window.gamepads().present(), settings.left_handed) != Choice::none || back) m_overlay = Overlay::none;
+    const Choice choice = draw_help(window.gamepads().present(), settings.left_handed, m_help_on_both);
+    if (choice != Choice::none || back) m_overlay = Overlay::none;
     return;
   }
   const bool closed = draw_settings(settings, m_before, sound.audible(), window.has_quad_buffers());

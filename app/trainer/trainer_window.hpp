@@ -80,6 +80,7 @@ class TrainerWindow {
   std::unique_ptr<view::SceneView> m_view;
   const attempt::Lesson* m_viewed = nullptr;
   Overlay m_overlay = Overlay::none;
+  bool m_help_on_both = false;  ///< the page that help shows
   std::optional<SecondWindow> m_second;
   Settings m_before;
   std::string m_logged;

@@ -34,7 +34,7 @@ class SettingsFile : public testing::Test {
 
 TEST_F(SettingsFile, WhatIsWrittenIsReadAgain) {
   Settings s;
-  s.left_handed = s.invert_x = s.mirrored_picture = true;
+  s.left_handed = s.both_hands = s.invert_x = s.mirrored_picture = true;
   s.mouse = 1.7;
   s.volume = 0.25;
   s.text_size = 1.4;

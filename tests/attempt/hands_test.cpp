@@ -136,6 +136,64 @@ TEST(HandPilot, TheOthersKeepPoseAndGrip) {
   EXPECT_NE(after.tools[1].yaw, before.tools[1].yaw);
 }
 
+TEST(HandPilot, BothTipsGoWhereTheirSticksGoInThePictureInOneSample) {
+  const sim::State state = sim::initial_state(scene().model);
+  const kinematics::ScopeFrame view = sim::scope_of(scene().model, state);
+  attempt::HandPilot pilot(scene().model);
+  pilot.lead_both(true);
+  pilot.lead(mouse(0, 0), state);
+  const auto [left, right] = pilot.both().pair;
+  const auto aside = [&](int hand) { return dot(scene().model.hands[size_t(hand)].port, view.right); };
+  EXPECT_LT(aside(left), aside(right)) << "each stick is on the side of its trocar";
+  devices::HandSample sticks = mouse(0, 0);
+  sticks.gamepad.left_x = 1;
+  sticks.gamepad.right_y = -1;
+  const sim::Input before = scene().model.start, after = pilot.lead(sticks, state);
+  const Vec3d moved_left = commanded(after, left) - commanded(before, left);
+  const Vec3d moved_right = commanded(after, right) - commanded(before, right);
+  const double step = 0.016 * double(pilot.settings().stick_speed);
+  EXPECT_NEAR(dot(moved_left, view.right), step, 1e-6);
+  EXPECT_NEAR(dot(moved_left, view.up), 0, 1e-6);
+  EXPECT_NEAR(dot(moved_right, view.up), step, 1e-6);
+  EXPECT_NEAR(dot(moved_right, view.right), 0, 1e-6);
+}
+
+TEST(HandPilot, SidesAreTheSameWhereTheEndoscopeBeginsWithALookTheOtherWay) {
+  const std::unique_ptr<attempt::Lesson> lesson = attempt::load_lesson("sterilisation");
+  const sim::Model& model = lesson->model;
+  const kinematics::ScopeFrame first =
+      kinematics::scope_frame(model.scope.port, pose_of(model.start.scope), model.scope.angle, 0);
+  ASSERT_LT(dot(model.hands[1].port - model.hands[0].port, first.right), 0);
+  EXPECT_EQ(attempt::HandPilot(model).both().pair, attempt::HandPilot(scene().model).both().pair);
+}
+
+TEST(HandPilot, OneHandClosesWhileTheOtherMovesAndBothKeepTheirGripsWhileOneLooks) {
+  const sim::State state = sim::initial_state(scene().model);
+  attempt::HandPilot pilot(scene().model);
+  pilot.lead_both(true);
+  pilot.lead(mouse(0, 0), state);
+  const auto [left, right] = pilot.both().pair;
+  devices::HandSample sample = mouse(0, 0);
+  sample.gamepad.left_trigger = 1;
+  sample.gamepad.right_x = 1;
+  sim::Input input;
+  for (int i = 0; i < 60; ++i) input = pilot.lead(sample, state);
+  EXPECT_EQ(input.tools[left].handle, 1.0f);
+  EXPECT_EQ(input.tools[right].handle, scene().model.start.tools[right].handle);
+  sample.gamepad = {};
+  sample.gamepad.set(devices::Button::left_shoulder);
+  sample.gamepad.set(devices::Button::right_shoulder);
+  sample.gamepad.left_x = 1;
+  const sim::Input looked = pilot.lead(sample, state);
+  EXPECT_NE(looked.scope.yaw, input.scope.yaw);
+  for (const int hand : {left, right}) {
+    EXPECT_EQ(looked.tools[hand].yaw, input.tools[hand].yaw);
+    EXPECT_EQ(looked.tools[hand].pitch, input.tools[hand].pitch);
+    EXPECT_EQ(looked.tools[hand].depth, input.tools[hand].depth);
+    EXPECT_EQ(looked.tools[hand].handle, input.tools[hand].handle);
+  }
+}
+
 TEST(HandPilot, AnInsertionWaitsUnderTheTrocarUntilItIsSeen) {
   sim::State state = sim::initial_state(scene().model);
   attempt::HandPilot pilot(scene().model);

@@ -31,7 +31,19 @@ Vec3d as_vector(const std::array<float, 3>& a) { return {double(a[0]), double(a[
 
 HandPilot::HandPilot(const sim::Model& model) : m_model(model), m_input(model.start) {
   m_settings.instruments = std::max(1, int(model.hands.size()));
-  for (std::size_t t = 0; t < model.hands.size(); ++t) m_hands.handle[t] = model.start.tools[t].handle;
+  for (std::size_t t = 0; t < model.hands.size(); ++t) m_hands.state.handle[t] = model.start.tools[t].handle;
+  place_sides();
+}
+
+/// Of the first two hands the left one is that whose trocar lies further to the left for who looks from the endoscope's
+/// trocar at the instruments, upright: the first picture may look elsewhere, even the other way.
+void HandPilot::place_sides() {
+  if (m_model.hands.size() < 2) return;
+  Vec3d ahead;
+  for (std::size_t h = 0; h < m_model.hands.size(); ++h)
+    ahead += kinematics::forward(m_model.hands[h].port, pose_of(m_model.start.tools[h])).tip - m_model.scope.port;
+  const Vec3d right = cross(m_model.gravity, ahead);
+  if (dot(m_model.hands[1].port - m_model.hands[0].port, right) < 0) m_hands.pair = {1, 0};
 }
 
 void HandPilot::set(const devices::HandSettings& settings) {
@@ -41,7 +53,8 @@ void HandPilot::set(const devices::HandSettings& settings) {
 }
 
 void HandPilot::choose(int hand) {
-  if (hand == devices::kScope || (hand >= 0 && hand < int(m_model.hands.size()))) devices::choose(hand, m_hands);
+  if (hand == devices::kScope || (hand >= 0 && hand < int(m_model.hands.size())))
+    devices::choose(m_settings, hand, m_hands);
 }
 
 bool HandPilot::changing(int hand, const sim::State& state) const {
@@ -49,30 +62,34 @@ bool HandPilot::changing(int hand, const sim::State& state) const {
 }
 
 void HandPilot::take(int instrument) {
-  const int hand = m_hands.led;
+  const int hand = hands().led;
   if (hand == devices::kScope || instrument < 0 || instrument >= int(m_model.hands[size_t(hand)].rack.size())) return;
   if (m_input.tools[hand].instrument == instrument) return;
   m_input.tools[hand].instrument = instrument;
   m_input.tools[hand].depth = float(kParked);
-  m_hands.handle[size_t(hand)] = 0;
-  m_hands.ratchet[size_t(hand)] = false;
+  m_hands.state.handle[size_t(hand)] = 0;
+  m_hands.state.ratchet[size_t(hand)] = false;
   m_inserting[size_t(hand)] = false;
 }
 
-void HandPilot::insert() {
-  if (m_hands.led != devices::kScope) m_inserting[size_t(m_hands.led)] = true;
+void HandPilot::insert(int hand) {
+  if (hand != devices::kScope) m_inserting[size_t(hand)] = true;
 }
 
 const sim::Input& HandPilot::lead(const devices::HandSample& sample, const sim::State& state) {
-  for (int h = 0; h < hand_count(m_model); ++h) m_hands.valves[size_t(h)] = has_valves(m_model, state, h);
-  m_command = devices::lead(m_settings, sample, m_hands);
-  if (m_command.insert) insert();
+  for (int h = 0; h < hand_count(m_model); ++h) m_hands.state.valves[size_t(h)] = has_valves(m_model, state, h);
   const kinematics::ScopeFrame view = sim::scope_of(m_model, state);
-  if (m_command.led == devices::kScope)
-    move_scope(m_command.scope, view);
-  else if (m_command.led < int(m_model.hands.size()))
-    move_tool(m_command, view, state);
-  m_input.pedals = pedals_of(m_command) | take_panel_keys();
+  m_asks_for_rack = false;
+  m_input.pedals = take_panel_keys();
+  for (const devices::HandCommand& command : devices::lead(m_settings, sample, m_hands)) {
+    if (command.insert) insert(command.led);
+    if (command.led == devices::kScope)
+      move_scope(command.scope, view);
+    else if (command.led < int(m_model.hands.size()))
+      move_tool(command, view, state);
+    m_input.pedals |= pedals_of(command);
+    m_asks_for_rack |= command.rack;
+  }
   go_on(sample.dt, state);
   return m_input;
 }
@@ -88,7 +105,7 @@ std::uint32_t HandPilot::take_panel_keys() { return std::exchange(m_panel_keys, 
 void HandPilot::go_on(float dt, const sim::State& state) {
   for (int h = 0; h < int(m_model.hands.size()); ++h) {
     if (m_inserting[size_t(h)]) move_in(h, std::min(dt, 0.1f), state);
-    m_input.tools[h].handle = m_hands.handle[size_t(h)];
+    m_input.tools[h].handle = m_hands.state.handle[size_t(h)];
   }
 }
 

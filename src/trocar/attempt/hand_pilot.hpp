@@ -1,5 +1,6 @@
-// From what mouse, keyboard and gamepad did to the Input of the simulation: the led tip goes where the hand goes in the
-// picture (inverse fulcrum kinematics), everything else keeps pose and grip.
+// From what mouse, keyboard and gamepad did to the Input of the simulation: the led tip, or both led tips, go where the
+// hand goes in the picture (inverse fulcrum kinematics), everything else keeps pose and grip. Of the first two hands
+// the left one is that at the left for who looks at the instruments.
 //
 //   HandPilot pilot(model);
 //   mailbox.put(pilot.lead(sample, published_state));     // once per picture
@@ -10,8 +11,8 @@
 // that nobody sees: insert() waits within the hollow under the trocar until the endoscope shows it.
 #pragma once
 
+#include <trocar/devices/both_hands.hpp>
 #include <trocar/devices/follower.hpp>
-#include <trocar/devices/mouse_keyboard.hpp>
 #include <trocar/sim/model/state.hpp>
 
 namespace trocar::attempt {
@@ -24,14 +25,18 @@ class HandPilot {
   const sim::Input& lead(const devices::HandSample& sample, const sim::State& state);
   /// Nobody's hand moves anything, but what runs by itself (an insertion) goes on for `dt` seconds.
   const sim::Input& rest(float dt, const sim::State& state);
-  const devices::HandCommand& command() const { return m_command; }  ///< of the last lead()
+  bool asks_for_rack() const { return m_asks_for_rack; }  ///< in the last lead()
 
-  void choose(int hand);      ///< lead this one, or devices::kScope
-  void take(int instrument);  ///< the led hand wants this one of its rack
-  void insert();              ///< the led hand's instrument comes into the view by itself; any motion stops it
+  /// Both hands at once, or one. Where the scene has no two, one is led.
+  void lead_both(bool on) { devices::lead_both(m_settings, on, m_hands); }
+  bool leads_both() const { return devices::leads_both(m_settings, m_hands); }
+  void exchange() { devices::exchange(m_hands); }  ///< of both: what mouse and keys lead
+  void choose(int hand);                           ///< lead this one, or devices::kScope
+  void take(int instrument);                       ///< the led hand wants this one of its rack
+  void insert() { insert(hands().led); }  ///< the led hand's comes into the view by itself; any motion stops it
   void press(std::uint32_t panel_keys) { m_panel_keys |= panel_keys; }  ///< tissue::PanelKey bits, once
-  void toggle_ratchet() { devices::toggle_ratchet(m_hands); }
-  void toggle_fine() { m_hands.fine = !m_hands.fine; }
+  void toggle_ratchet() { devices::toggle_ratchet(m_hands.state); }
+  void toggle_fine() { m_hands.state.fine = !m_hands.state.fine; }
   bool changing(int hand, const sim::State& state) const;  ///< its instrument
   bool inserting(int hand) const { return m_inserting[size_t(hand)]; }
   /// Does its insertion go on only when it is seen?
@@ -40,11 +45,14 @@ class HandPilot {
   /// After a pause or a lost device: nothing that is held down now acts, every handle keeps its grip.
   void take_up(const devices::HandSample& sample) { devices::take_up(m_settings, sample, m_hands); }
 
-  const devices::HandState& hands() const { return m_hands; }
+  const devices::HandState& hands() const { return m_hands.state; }
+  const devices::BothHands& both() const { return m_hands; }
   const devices::HandSettings& settings() const { return m_settings; }
   void set(const devices::HandSettings& settings);  ///< the number of instruments stays
 
  private:
+  void insert(int hand);
+  void place_sides();
   void move_tool(const devices::HandCommand& command, const kinematics::ScopeFrame& view, const sim::State& state);
   void move_scope(const devices::ScopeMotion& motion, const kinematics::ScopeFrame& view);
   void move_in(int hand, float dt, const sim::State& state);
@@ -53,8 +61,8 @@ class HandPilot {
 
   const sim::Model& m_model;
   devices::HandSettings m_settings;
-  devices::HandState m_hands;
-  devices::HandCommand m_command;
+  devices::BothHands m_hands;
+  bool m_asks_for_rack = false;
   sim::Input m_input;
   std::uint32_t m_panel_keys = 0;  ///< pressed since the last sample
   std::array<bool, sim::kMaxTools> m_inserting{}, m_unseen{};

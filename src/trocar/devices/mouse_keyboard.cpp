@@ -3,17 +3,19 @@
 #include <utility>
 
 #include <trocar/devices/mouse_keyboard.hpp>
+#include <trocar/devices/readings.hpp>
 
 namespace trocar::devices {
 namespace {
 
 constexpr std::array<const char*, std::size_t(Key::count)> kKeyNames = {
-    "Tab", "1", "2", "3", "4", "0",     "C", "Left", "Right", "Up",    "Down", "PageUp", "PageDown", "W", "S",
-    "Q",   "E", "R", "F", "G", "Enter", "V", "X",    "Space", "Shift", "A",    "D",      "T",        "B", "N"};
+    "Tab", "1", "2", "3", "4",     "0", "C", "Left",  "Right", "Up", "Down", "PageUp", "PageDown", "W", "S", "Q",
+    "E",   "R", "F", "G", "Enter", "V", "X", "Space", "Shift", "A",  "D",    "T",      "B",        "N", "H"};
 
 constexpr HelpLine kHelp[] = {
     {Device::keyboard, "1 2 3 4, Tab", "lead this hand, the next one; the others keep pose and grip"},
     {Device::keyboard, "0 C", "lead the endoscope; the arrows turn the view"},
+    {Device::keyboard, "H", "both hands at once: on, off"},
     {Device::keyboard, "Left Right Up Down", "tip sideways, up and down in the picture"},
     {Device::keyboard, "W S, PageUp PageDown", "deeper (away from you), back"},
     {Device::keyboard, "Q E", "roll the instrument, or the endoscope's picture"},
@@ -32,7 +34,7 @@ constexpr HelpLine kHelp[] = {
     {Device::mouse, "right drag", "roll the instrument, or the endoscope's picture"},
     {Device::mouse, "left held, right click", "lock the jaws; the same again: unlock"},
     {Device::mouse, "left, right button", "of a suction-irrigator: suction, water"},
-    {Device::mouse, "middle or right click", "choose hand, instrument, fine motion, pause"},
+    {Device::mouse, "middle or right click", "choose hand, both hands, instrument, fine motion, pause"},
     {Device::mouse, "side buttons", "lead the previous, the next hand"},
     {Device::gamepad, "left stick", "tip sideways, up and down; endoscope: where it looks"},
     {Device::gamepad, "cross, left stick pressed", "the same, fine; everything fine: on, off"},
@@ -43,14 +45,12 @@ constexpr HelpLine kHelp[] = {
     {Device::gamepad, "B", "wipe the lens"},
     {Device::gamepad, "A, right stick pressed", "foot switch: blue, coagulates; yellow, cuts"},
     {Device::gamepad, "shoulders", "lead the previous, the next hand, the endoscope among them"},
+    {Device::gamepad, "both shoulders and Y", "both hands at once: on, off"},
     {Device::gamepad, "Y", "another instrument for this hand, another hand"},
     {Device::gamepad, "X", "bring the instrument into the view"},
 };
 
-constexpr float kLongestSample = 0.1f, kTriggerPressed = 0.5f, kTriggerTouched = 0.02f, kFirstSpeed = 0.2f;
-
-/// A broken device may send anything; what is no number is rest.
-float finite(float value) { return std::isfinite(value) ? value : 0.0f; }
+constexpr float kLongestSample = 0.1f, kFirstSpeed = 0.2f;
 
 /// A stick's way without its rest zone, the middle part made gentle.
 float shaped(float way, float dead) {
@@ -92,20 +92,15 @@ void choose_neighbour(int step, int instruments, HandState& state) {
   choose(there == instruments ? kScope : there, state);
 }
 
-bool went_down(Button b, const HandSample& now, const HandState& state) {
-  return now.gamepad.has(b) && !state.last.gamepad.has(b);
-}
-
 void choose_led(const HandSettings& settings, int instruments, const HandSample& sample, HandState& state) {
-  constexpr Key kNumbers[kMaxHands] = {Key::one, Key::two, Key::three, Key::four};
   for (int i = 0; i < instruments; ++i)
-    if (sample.pressed.has(kNumbers[i])) choose(settings.left_handed ? instruments - 1 - i : i, state);
+    if (sample.pressed.has(kNumberKeys[i])) choose(settings.left_handed ? instruments - 1 - i : i, state);
   if (sample.pressed.has(Key::tab)) choose_next_instrument(instruments, state);
   if (sample.pressed.has(Key::zero) || sample.pressed.has(Key::c)) choose(kScope, state);
   const bool previous = sample.back_button && !state.last.back_button;
   const bool next = sample.forward_button && !state.last.forward_button;
-  if (previous || went_down(Button::left_shoulder, sample, state)) choose_neighbour(-1, instruments, state);
-  if (next || went_down(Button::right_shoulder, sample, state)) choose_neighbour(+1, instruments, state);
+  if (previous || went_down(Button::left_shoulder, sample, state.last)) choose_neighbour(-1, instruments, state);
+  if (next || went_down(Button::right_shoulder, sample, state.last)) choose_neighbour(+1, instruments, state);
 }
 
 // --- what it does ---
@@ -196,10 +191,6 @@ bool right_tapped(const HandSettings& settings, const HandSample& sample, HandSt
   return tapped;
 }
 
-bool squeezes(const HandSample& sample) {
-  return sample.left_button || sample.held.has(Key::g) || sample.held.has(Key::enter);
-}
-
 /// What closes jaws opens the suction, what rolls or locks them opens the water: a tube needs neither.
 void open_valves(const HandSample& sample, HandState& state, HandCommand& command) {
   const Gamepad& pad = sample.gamepad;
@@ -265,7 +256,7 @@ void take_up(const HandSettings& settings, const HandSample& sample, HandState& 
 HandCommand lead(const HandSettings& settings, const HandSample& given, HandState& state) noexcept {
   const HandSample sample = as_right_handed(settings, given);
   choose_led(settings, std::clamp(settings.instruments, 1, kMaxHands), sample, state);
-  if (went_down(Button::left_stick, sample, state)) state.fine = !state.fine;
+  if (went_down(Button::left_stick, sample, state.last)) state.fine = !state.fine;
   const Scaled s = scaled(settings, sample, state);
   const bool tapped = right_tapped(settings, sample, state);
   const bool trigger =
@@ -274,8 +265,8 @@ HandCommand lead(const HandSettings& settings, const HandSample& given, HandStat
   HandCommand command;
   command.led = state.led;
   command.rack = sample.pressed.has(Key::x) || (sample.middle_button && !state.last.middle_button) ||
-                 went_down(Button::y, sample, state) || (tapped && jaws && !sample.left_button);
-  command.insert = sample.pressed.has(Key::v) || went_down(Button::x, sample, state);
+                 went_down(Button::y, sample, state.last) || (tapped && jaws && !sample.left_button);
+  command.insert = sample.pressed.has(Key::v) || went_down(Button::x, sample, state.last);
   command.wipe = sample.held.has(Key::t) || sample.pressed.has(Key::t) || sample.gamepad.has(Button::b);
   command.blue = sample.held.has(Key::b) || sample.gamepad.has(Button::a);
   command.yellow = sample.held.has(Key::n) || sample.gamepad.has(Button::right_stick);

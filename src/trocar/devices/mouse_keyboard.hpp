@@ -10,7 +10,8 @@
 //   if (command.irrigate) open that valve of the led one
 //   if (command.rack) show which hands and instruments there are to choose from
 //
-// help() is the table of keys that the window and the README show.
+// help() is the table of keys that the window and the README show. Two hands that move at the same time:
+// both_hands.hpp.
 #pragma once
 
 #include <array>
@@ -55,6 +56,7 @@ enum class Key : std::uint8_t {
   t,
   b,
   n,
+  h,
   count
 };
 const char* name_of(Key key) noexcept;  ///< as help() writes it
