@@ -220,7 +220,7 @@ struct MarkSetting {
   std::string label, colour;
   core::Location at;
 };
-inline constexpr std::array<const char*, 6> kMarkColours{"white", "yellow", "orange", "green", "blue", "black"};
+inline constexpr std::array<const char*, 7> kMarkColours{"white", "yellow", "orange", "green", "blue", "black", "none"};
 
 struct Port {
   std::string name;

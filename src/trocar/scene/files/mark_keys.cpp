@@ -60,7 +60,7 @@ const Table<MarkSetting>& mark() {
               }),
        R::text("label", &M::label, "written on a disc: at most three digits, default none"),
        R::own(
-           keys::choice("colour", {kMarkColours.begin(), kMarkColours.end()}, "default white"),
+           keys::choice("colour", {kMarkColours.begin(), kMarkColours.end()}, "none: it is not drawn; default white"),
            [](const JsonObject& o, M& m, Context&) { m.colour = o.text("colour"); },
            [](const M& m, bool) { return json_text(m.colour); })},
       check_mark};

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include <trocar/sim/model/seen.hpp>
@@ -18,7 +20,7 @@ class PartBonds final : public Skill {
         m_raw(given.says("also", "raw")) {}
 
  private:
-  enum Phase { kReach, kPress, kOff };
+  enum Phase { kAbove, kReach, kPress, kAway, kOff };
 
   struct Spot {
     Vec3d foot, node;
@@ -38,17 +40,21 @@ class PartBonds final : public Skill {
   /// Is there work for the electrode?
   bool wanted(const interactions::BondState& s) const { return s.holds() || (m_raw && s.raw()); }
 
-  /// The one that is drawn open most; -1: there is none.
-  int next(const Operator& op) const {
+  /// The one that is drawn open most, of those that have not been tried since all were; -1: there is none.
+  int next(const Operator& op) {
     const std::vector<interactions::Bond>& bonds = op.model().bonds[size_t(m_set)].bonds;
     int best = -1;
     double most = -1;
     for (size_t i = 0; i < bonds.size(); ++i) {
-      if (!wanted(op.state().bonds[size_t(m_set)][i])) continue;
+      if (m_tried[i] || !wanted(op.state().bonds[size_t(m_set)][i])) continue;
       const Spot at = spot(op, bonds[i]);
       const double open = length(at.node - at.foot - bonds[i].hold.offset);
       if (open > most) most = open, best = int(i);
     }
+    if (best < 0)
+      std::fill(m_tried.begin(), m_tried.end(), std::uint8_t(0));
+    else
+      m_tried[size_t(best)] = 1;
     return best;
   }
   bool enough(const Operator& op) const {
@@ -59,35 +65,54 @@ class PartBonds final : public Skill {
     return interactions::holding_share(op.model().bonds[size_t(m_set)], states) <= m_left;
   }
 
+  void start(Operator& op, int) override {
+    m_tried.assign(op.model().bonds[size_t(m_set)].bonds.size(), 0);
+    m_bond = -1;
+  }
   Progress work(Operator& op) override {
-    constexpr double kFar = 5, kLongest = 2.5, kTouch = 0.4, kBack = 0.006, kDeeper = 0.0015;  // [s] [m]
     Arms::Arm& arm = op.arm(m_hand);
-    if (m_phase != kOff && (enough(op) || (m_bond = m_phase == kPress ? m_bond : next(op)) < 0)) go(kOff);
     op.want(arm.tip);
-    if (m_phase == kOff) {
-      arm.coagulating = false;
-      return op.arms().move_to_depth(m_hand, reach::kBroughtIn, pace::kTravel) ? Progress::done : Progress::working;
+    if (m_bond < 0 && m_phase != kOff && (enough(op) || (m_bond = next(op)) < 0)) {
+      if (enough(op)) go(kOff);
+      return Progress::working;
     }
-    const Spot at = spot(op, op.model().bonds[size_t(m_set)].bonds[size_t(m_bond)]);
+    if (m_phase == kOff)
+      return op.arms().move_to_depth(m_hand, reach::kBroughtIn, pace::kTravel) ? Progress::done : Progress::working;
+    work_at(op, arm, spot(op, op.model().bonds[size_t(m_set)].bonds[size_t(m_bond)]));
+    return Progress::working;
+  }
+  void work_at(Operator& op, Arms::Arm& arm, const Spot& at) {
+    constexpr double kTouches = 0.25;                    // [N] tissue that is pushed gives way
+    constexpr double kBefore = 0.010, kDeeper = 0.0015;  // [m]
+    constexpr double kFar = 4, kTouch = 0.15, kLongest = 1.2, kEvery = 0.4, kOffIt = 0.1;  // [s]
+    const interactions::BondState& state = op.state().bonds[size_t(m_set)][size_t(m_bond)];
     const Vec3d along = normalised(at.foot - arm.port);
     op.want(at.foot);
-    if (m_phase == kReach) {
-      const bool there = op.arms().move(m_hand, at.foot + kDeeper * along, pace::kCareful);
-      if (there || norm(op.tool_state(m_hand).contact_force) > 0.15 || m_in_phase > kFar) go(kPress);
-    } else {
-      const interactions::BondState& state = op.state().bonds[size_t(m_set)][size_t(m_bond)];
-      arm.coagulating = m_in_phase > kTouch && wanted(state) && m_in_phase < kLongest;
-      if (!arm.coagulating && m_in_phase > kTouch) {
-        op.arms().move(m_hand, at.foot - kBack * along, pace::kCareful);
-        if (m_in_phase > kLongest || !wanted(state)) go(kReach);
-      }
+    switch (m_phase) {
+      case kAbove:
+        if (op.arms().move(m_hand, at.foot - kBefore * along, pace::kCareful) || m_in_phase > kFar) go(kReach);
+        break;
+      case kReach:
+        if (op.arms().move(m_hand, at.foot + kDeeper * along, pace::kCareful) || m_in_phase > kFar ||
+            norm(op.tool_state(m_hand).contact_force) > kTouches)
+          go(kPress);
+        break;
+      case kPress:
+        m_steady = norm(op.tool_state(m_hand).contact_force) > 0 ? 0 : m_steady + sim::kTick;  // off the tissue
+        arm.coagulating = m_in_phase > kTouch && m_in_phase < kLongest && m_steady < kOffIt && wanted(state);
+        if (m_in_phase > kLongest || (m_in_phase > kEvery && !wanted(state))) go(kAway);
+        break;
+      default:
+        if (!op.arms().move(m_hand, at.foot - kBefore * along, pace::kCareful) && m_in_phase < kFar) break;
+        m_bond = -1;
+        go(kAbove);
     }
-    return Progress::working;
   }
 
   int m_hand, m_set, m_bond = -1;
   double m_left;
   bool m_raw;
+  std::vector<std::uint8_t> m_tried;  ///< (bonds)
 };
 
 std::string lacks_bonds(const sim::Model& model, const Given& given) {

@@ -132,6 +132,7 @@ void MarkDrawing::update(const sim::State& state, std::span<const TubeDrawing> t
 }
 
 void MarkDrawing::list(std::size_t part, const Listing& to) const {
+  if (m_mark->colour == "none") return;
   if (!m_there) return;
   render::DrawItem drawn;
   drawn.mesh = m_mesh.handle();
