@@ -43,7 +43,7 @@ struct BondSet {
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("membrane", s.membrane), v("law", s.law), v("bonds", s.bonds), v("oozes", s.oozes, core::only_if(s.oozes > 0)),
+    v("membrane", s.membrane), v("law", s.law), v("bonds", s.bonds), v("oozes", s.oozes),
         v("name", s.name, core::kNotHashed);
   }
 };
