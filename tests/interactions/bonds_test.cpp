@@ -57,7 +57,7 @@ struct Strip {
   Vec3d pull(Vec3d way) {
     for (Vec3d& target : targets) target += way;
     loads.clear();
-    const BondedSheet tied{sheet, state, loads};
+    const BondedNodes tied{sheet.network, state.network, loads};
     bond_loads(set, bonds, tied, {}, kTick, {}, {});
     loads.sort();
     EXPECT_FALSE(loads.overflowed);

@@ -16,6 +16,7 @@ enum class BodyKind : std::int16_t {
   organ = 1,
   membrane = 2,
   rigid = 3,
+  fat = 4,
 };
 
 struct BodyKindName {
@@ -27,6 +28,7 @@ inline constexpr BodyKindName kBodyKinds[] = {
     {BodyKind::organ, "organ", "organs", "a volume with a skin: a lattice, or tetrahedra that can be cut"},
     {BodyKind::membrane, "membrane", "membranes", "a fold, or the wall of a pouch"},
     {BodyKind::rigid, "rigid object", "rigid objects", "a ring or a rod that does not bend, and is no tissue"},
+    {BodyKind::fat, "fat", "bodies of fat", "lobules between ducts and vessels, which come apart"},
 };
 
 /// A body by its kind and its number among its kind. Four bytes; their order is by kind, then number.

@@ -14,11 +14,11 @@ double BondSet::area() const noexcept {
   return sum;
 }
 
-Vec3d opening_of(const Bond& bond, const BondedSheet& sheet, const Holders& holders) noexcept {
-  return tissue::position(sheet.model.network, sheet.state.network, bond.node) - held_place(bond.hold, holders);
+Vec3d opening_of(const Bond& bond, const BondedNodes& nodes, const Holders& holders) noexcept {
+  return tissue::position(nodes.model, nodes.state, bond.node) - held_place(bond.hold, holders);
 }
 
-void bond_loads(const BondSet& set, std::span<BondState> states, const BondedSheet& sheet, const Holders& holders,
+void bond_loads(const BondSet& set, std::span<BondState> states, const BondedNodes& nodes, const Holders& holders,
                 double dt, std::span<StrandLoads> strand_loads, std::span<NetworkLoads> organ_loads) noexcept {
   for (std::size_t i = 0; i < set.bonds.size(); ++i) {
     const Bond& bond = set.bonds[i];
@@ -27,8 +27,8 @@ void bond_loads(const BondSet& set, std::span<BondState> states, const BondedShe
       bear(bond.hold, -bond.hold.drawn_pull, 0, holders, strand_loads, organ_loads);
       continue;
     }
-    const Vec3d x = tissue::position(sheet.model.network, sheet.state.network, bond.node);
-    const Vec3d v = counted_on(tissue::velocity(sheet.model.network, sheet.state.network, bond.node));
+    const Vec3d x = tissue::position(nodes.model, nodes.state, bond.node);
+    const Vec3d v = counted_on(tissue::velocity(nodes.model, nodes.state, bond.node));
     const Vec3d at = held_place(bond.hold, holders), moves = counted_on(held_velocity(bond.hold, holders));
     const double damage = tissue::damage_after(set.law, double(state.damage), length(x - at), dt);
     if (damage > double(state.damage) && state.cause == BondState::whole) state.cause = BondState::pulled;
@@ -41,7 +41,7 @@ void bond_loads(const BondSet& set, std::span<BondState> states, const BondedShe
     load.d = float(d);
     load.x0 = vec_cast<float>(at + 0.5 * dt * moves);  // where the holder is on the average: else they drive each other
     load.f0 = vec_cast<float>(d * moves - whole * bond.hold.drawn_pull);
-    sheet.loads.add(load, {Owner::anchor, 0, 0});
+    nodes.loads.add(load, {Owner::anchor, 0, 0});
 
     const Vec3d pull = k * (x - at) + d * (v - moves) - (1 - whole) * bond.hold.drawn_pull;
     bear(bond.hold, pull, k * dt + 2 * d, holders, strand_loads, organ_loads);

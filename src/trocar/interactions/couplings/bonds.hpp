@@ -34,7 +34,7 @@ struct Bond {
 /// Bonds of one kind, with a name: "bed".
 struct BondSet {
   std::string name;
-  std::int32_t membrane = -1;
+  std::int32_t membrane = -1;  ///< whose nodes; -1: not a membrane's
   tissue::CohesiveLaw law;
   std::vector<Bond> bonds;
   double oozes = 0;  ///< blood from what it was torn or cut off, until that is burnt [m/s: m^3/s a m^2]
@@ -65,19 +65,19 @@ struct BondState {
   }
 };
 
-/// The wall that a set of bonds ties.
-struct BondedSheet {
-  const tissue::MembraneModel& model;
-  const tissue::MembraneState& state;
+/// What a set of bonds ties: nodes of a wall, or lobules of fat.
+struct BondedNodes {
+  const tissue::NetworkModel& model;
+  const tissue::NetworkState& state;
   NetworkLoads& loads;
 };
 
 /// How far a bond is from where it was drawn [m].
-Vec3d opening_of(const Bond& bond, const BondedSheet& sheet, const Holders& holders) noexcept;
+Vec3d opening_of(const Bond& bond, const BondedNodes& nodes, const Holders& holders) noexcept;
 
 /// What damage has come in the last tick, and the loads of the next on wall and holders.
 /// @param states  (bonds)
-void bond_loads(const BondSet& set, std::span<BondState> states, const BondedSheet& sheet, const Holders& holders,
+void bond_loads(const BondSet& set, std::span<BondState> states, const BondedNodes& nodes, const Holders& holders,
                 double dt, std::span<StrandLoads> strand_loads, std::span<NetworkLoads> organ_loads) noexcept;
 
 /// What has been spent on parting them [J].

@@ -1,4 +1,5 @@
-// Objects: bodies that are no tissue, brought in, moved and put down. A kind of object is a class that brings its
+// Objects: bodies that bring everything with them: what is no tissue and is moved and put down, and tissue of a kind
+// of its own. A kind of object is a class that brings its
 // model, state, work and all operations with it (rigid.hpp shows which); whatever deals with objects, from the step to
 // the recording, goes through this list. A new kind is its own files, a line here and one in core/body_id.hpp, one in
 // scene/objects/object_scenes.hpp and one in view/objects/object_drawings.hpp.
@@ -6,35 +7,39 @@
 
 #include <trocar/core/fields.hpp>
 #include <trocar/core/kind_list.hpp>
+#include <trocar/interactions/objects/fat.hpp>
 #include <trocar/interactions/objects/rigid.hpp>
 
 namespace trocar::interactions {
 
-using ObjectKinds = core::KindList<Rigid>;
+using ObjectKinds = core::KindList<Rigid, Fat>;
 
 /// All of them, a member a kind, which the kind's part() names. Kinds that a scene lacks are not in its hashes.
 struct ObjectModels {
   RigidModels rigid;
+  FatBodies fat;
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("rigid", s.rigid, core::only_if(!s.rigid.list.empty()));
+    v("rigid", s.rigid, core::only_if(!s.rigid.list.empty())), v("fat", s.fat, core::only_if(!s.fat.list.empty()));
   }
 };
 struct ObjectStates {
   std::vector<RigidState> rigid;
+  std::vector<FatBodyState> fat;
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("rigid", s.rigid, core::only_if(!s.rigid.empty()));
+    v("rigid", s.rigid, core::only_if(!s.rigid.empty())), v("fat", s.fat, core::only_if(!s.fat.empty()));
   }
 };
 struct ObjectWork {
   RigidWork rigid;
+  FatWorks fat;
 
   template <class S, class V>
   static void fields(S& s, V&& v) {
-    v("rigid", s.rigid);
+    v("rigid", s.rigid), v("fat", s.fat);
   }
 };
 

@@ -127,6 +127,7 @@ struct RigidWork {
 /// The kind, as object_kinds.hpp lists it.
 struct Rigid {
   static constexpr BodyKind kKind = BodyKind::rigid;
+  static constexpr bool kHard = true;  ///< it keeps its shape between jaws, and lies where it is put down
   using Models = RigidModels;
   using States = std::vector<RigidState>;
   using Work = RigidWork;
@@ -150,11 +151,12 @@ struct Rigid {
   template <class Add>
   static void between(const Models& models, const States& states, size_t i, const ToolModel& tool,
                       const ToolShape& shape, Add&& add) noexcept;
-  static Vec3d middle(const States& states, size_t i) noexcept { return states[i].x; }
+  static Vec3d middle(const Models&, const States& states, size_t i) noexcept { return states[i].x; }
   static Vec3d point(const Models& models, const States& states, const Hold& hold) noexcept;
   static double thickness(const Models& models, const Hold& hold) noexcept {
     return 2 * models.list[hold.body.index()].radius;
   }
+  static bool whole(const States&, const Hold&) noexcept { return true; }
   static void pull(const Models& models, const States& states, const Hold& hold, Vec3d target, HoldLaw law, Tag tag,
                    Work& work) noexcept;
   /// @param cavity  nothing leaves it
@@ -165,9 +167,12 @@ struct Rigid {
   template <class Account>
   static void account(const Work& work, double tick, Account&& account) noexcept;
 
+  /// Is it in the way of a sight? Objects are small, and nothing is looked for behind them.
+  static bool hides(const Models&, const States&, Vec3d, Vec3d) noexcept { return false; }
+
   /// What a keyframe holds of them.
   template <class States_, class F>
-  static void shown(States_& states, F&& f) {
+  static void shown(const Models&, States_& states, F&& f) {
     f(states.data(), states.size());
   }
   static bool sound(const States& states) noexcept;

@@ -153,9 +153,9 @@ void lose(ToolState& tool) noexcept {
   for (double& p : tool.pull) p = 0;
 }
 
-/// A strand's element that was cut through or tore leaves the jaws: it is no place any more.
+/// A strand's element that was cut through or tore, a lobule that has boiled away: it is no place any more.
 void drop_parted(const TissueView& view, ToolState& tool) noexcept {
-  const auto parted = [&view](const Hold& h) { return h.body.is(BodyKind::strand) && !is_whole(view, h); };
+  const auto parted = [&view](const Hold& h) { return !h.body.is(BodyKind::organ) && !is_whole(view, h); };
   const auto end = std::remove_if(tool.hold, tool.hold + tool.holds, parted);
   tool.holds = std::int32_t(end - tool.hold);
   if (tool.holds > 0) return;

@@ -81,8 +81,8 @@ bool whole(const OnOrgan& on, const Hold& hold) noexcept {
 }
 bool whole(const OnMembrane&, const Hold&) noexcept { return true; }
 template <class K>
-bool whole(const OnObject<K>&, const Hold&) noexcept {
-  return true;
+bool whole(const OnObject<K>& on, const Hold& hold) noexcept {
+  return K::whole(on.states, hold);
 }
 
 double thickness(const OnStrand& on, const Hold& hold) noexcept {

@@ -36,7 +36,9 @@ Vec3d held_point(const TissueView& view, const Hold& hold) noexcept;
 Vec3d drawn_point(const TissueView& view, const Hold& hold) noexcept;
 /// Does it keep its shape between jaws? Objects do.
 inline bool is_hard(BodyId body) noexcept {
-  return visit_object(body, [](auto) {});
+  bool hard = false;
+  visit_object(body, [&hard](auto kind) { hard = kind.kHard; });
+  return hard;
 }
 /// Is it a place of its body any more?
 bool is_whole(const TissueView& view, const Hold& hold) noexcept;

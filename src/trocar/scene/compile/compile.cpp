@@ -239,7 +239,7 @@ sim::Model compile(const Description& d, CompileReport* report) {
     const Tissue* tissue = find_tissue(d, pouch.tissue);
     if (tissue) compile_pouch(pouch, *tissue, d.gravity, model, faults, report);
   }
-  ObjectScenes::for_each([&](auto kind) { kind.compile(settings_of(kind, d.objects), model); });
+  ObjectScenes::for_each([&](auto kind) { kind.compile(settings_of(kind, d.objects), model, faults); });
   for (const Sheet& sheet : d.sheets) model.drawn_folds.push_back(compile_sheet(sheet, model));
   compile_vessels(d, model, faults, report);
   compile_fluids(d, model, faults);

@@ -18,9 +18,6 @@ void compile_membrane(const Membrane& membrane, const Tissue& tissue, Vec3d grav
 void compile_pouch(const Pouch& pouch, const Tissue& tissue, Vec3d gravity, sim::Model& model,
                    std::vector<core::Fault>& faults, CompileReport* report);
 
-/// The body of those named that is nearest to p and within reach, and the place on it; else space.
-interactions::BorderHold hold_near(const std::vector<std::string>& names, double reach, Vec3d p,
-                                   const sim::Model& model);
 /// The sheet's nodes as a skin: one vertex a node.
 tissue::Skin skin_of(const tissue::MembraneModel& sheet);
 /// What the sheet does to its holders in the drawn shape.

@@ -7,6 +7,7 @@
 #include <trocar/geometry/surfaces/loft.hpp>
 #include <trocar/scene/compile/compile_membrane.hpp>
 #include <trocar/scene/compile/compile_parts.hpp>
+#include <trocar/sim/model/hold_near.hpp>
 
 namespace trocar::scene {
 namespace {

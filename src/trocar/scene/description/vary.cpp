@@ -217,6 +217,7 @@ void bend(Description& d, const Warp& warp) {
   }
   for (Sheet& sheet : d.sheets) bend_fold(sheet);
   for (Membrane& membrane : d.membranes) bend_fold(membrane);
+  ObjectScenes::for_each([&](auto kind) { kind.bend(settings_of(kind, d.objects), warp); });
 }
 
 }  // namespace

@@ -6,11 +6,12 @@
 #include <vector>
 
 #include <trocar/core/kind_list.hpp>
+#include <trocar/scene/objects/fat_scene.hpp>
 #include <trocar/scene/objects/rigid_scene.hpp>
 
 namespace trocar::scene {
 
-using ObjectScenes = core::KindList<RigidScene>;
+using ObjectScenes = core::KindList<RigidScene, FatScene>;
 
 namespace objects {
 template <class K>

@@ -121,7 +121,7 @@ RigidSetting RigidScene::read(const JsonObject& o) {
   return s;
 }
 
-void RigidScene::compile(const std::vector<Setting>& settings, sim::Model& model) {
+void RigidScene::compile(const std::vector<Setting>& settings, sim::Model& model, std::vector<core::Fault>&) {
   if (settings.empty()) return;
   interactions::RigidModels& out = interactions::part_of<interactions::Rigid>(model.objects);
   double thickest = 0;

@@ -1,6 +1,7 @@
 // Rigid objects as scene files have them: rings, and chains of beads.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -34,7 +35,8 @@ struct RigidScene {
   static Key row();  ///< of scene files
   static Setting read(const JsonObject& o);
   static JsonValue written(const Setting& setting) { return setting.text; }
-  static void compile(const std::vector<Setting>& settings, sim::Model& model);
+  static void bend(std::vector<Setting>&, const std::function<Vec3d(Vec3d)>&) {}  ///< no part of the anatomy
+  static void compile(const std::vector<Setting>& settings, sim::Model& model, std::vector<core::Fault>& faults);
 };
 
 }  // namespace trocar::scene

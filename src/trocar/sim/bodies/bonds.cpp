@@ -11,9 +11,9 @@ namespace {
 constexpr double kBurns = 0.0022;   // [m] from the electrode.                   Our choice
 constexpr double kBurnTime = 0.15;  // [s] until such a bond has parted.         Our choice
 
-interactions::BondedSheet sheet_of(StepContext& c, const interactions::BondSet& set) noexcept {
+interactions::BondedNodes nodes_of(StepContext& c, const interactions::BondSet& set) noexcept {
   const size_t m = size_t(set.membrane);
-  return {c.model.membranes[m].sheet, c.state.membranes[m], c.work.membrane_loads[m]};
+  return {c.model.membranes[m].sheet.network, c.state.membranes[m].network, c.work.membrane_loads[m]};
 }
 
 }  // namespace
@@ -21,7 +21,7 @@ interactions::BondedSheet sheet_of(StepContext& c, const interactions::BondSet& 
 void pull_on_bonds(StepContext& c) noexcept {
   const interactions::Holders holders = holders_of(c);
   for (size_t i = 0; i < c.model.bonds.size(); ++i)
-    interactions::bond_loads(c.model.bonds[i], c.state.bonds[i], sheet_of(c, c.model.bonds[i]), holders, kTick,
+    interactions::bond_loads(c.model.bonds[i], c.state.bonds[i], nodes_of(c, c.model.bonds[i]), holders, kTick,
                              c.work.strand_loads, c.work.organ_loads);
 }
 
@@ -33,11 +33,11 @@ void for_bonds(StepContext& c, F&& f) noexcept {
   const interactions::Holders holders = holders_of(c);
   for (size_t i = 0; i < c.model.bonds.size(); ++i) {
     const interactions::BondSet& set = c.model.bonds[i];
-    const interactions::BondedSheet sheet = sheet_of(c, set);
+    const interactions::BondedNodes nodes = nodes_of(c, set);
     for (size_t b = 0; b < set.bonds.size(); ++b) {
       const interactions::Bond& bond = set.bonds[b];
       f(c.state.bonds[i][b], held_place(bond.hold, holders) - bond.hold.offset,
-        tissue::position(sheet.model.network, sheet.state.network, bond.node));
+        tissue::position(nodes.model, nodes.state, bond.node));
     }
   }
 }

@@ -86,6 +86,7 @@ Work make_work(const Model& model, core::ThreadPool* pool) {
   for (const MembraneBody& m : model.membranes) {
     w.sheet_poses.push_back(tissue::make_pose(m.skin));
     w.membrane_loads.emplace_back().reserve(kMembraneLoads);
+    w.membrane_models.push_back(&m.sheet);
     w.membrane_work.push_back(tissue::make_work(m.sheet, kMembraneLoads));
     w.pulls.emplace_back(m.holds.size());
     w.targets.emplace_back(m.holds.size());

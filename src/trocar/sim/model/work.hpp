@@ -52,6 +52,7 @@ struct Work {
   std::vector<double> sheet_gaps;               ///< (hands x membranes) apart by at least this much [m]
   std::vector<interactions::NetworkLoads> membrane_loads;
   std::vector<tissue::MembraneWork> membrane_work;
+  std::vector<const tissue::MembraneModel*> membrane_models;  ///< (membranes) of the Model
   std::vector<tissue::Leak> leaks;  ///< (membranes) of this tick
   interactions::ObjectWork objects;
   std::vector<std::vector<tissue::BorderPull>> pulls;  ///< (membranes)(held nodes)
@@ -94,6 +95,7 @@ struct Work {
         v("organ_reports", s.organ_reports), v("strand_reports", s.strand_reports),
         v("membrane_reports", s.membrane_reports), v("sheet_poses", s.sheet_poses), v("sheets", s.sheets),
         v("sheet_gaps", s.sheet_gaps), v("membrane_loads", s.membrane_loads), v("membrane_work", s.membrane_work),
+        v("membrane_models", s.membrane_models, core::kMadeOnce),
         v("leaks", s.leaks), v("objects", s.objects), v("pulls", s.pulls), v("targets", s.targets),
         v("wave_force", s.wave_force), v("hosts", s.hosts), v("vessel_points", s.vessel_points),
         v("vessel_posed", s.vessel_posed), v("flow", s.flow), v("open", s.open), v("closed", s.closed),

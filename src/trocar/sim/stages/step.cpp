@@ -1,5 +1,6 @@
 #include <trocar/sim/bodies/bodies.hpp>
 #include <trocar/sim/bodies/bonds.hpp>
+#include <trocar/sim/bodies/fat.hpp>
 #include <trocar/sim/stages/advancing.hpp>
 #include <trocar/sim/stages/circulation.hpp>
 #include <trocar/sim/stages/contacts.hpp>
@@ -52,6 +53,7 @@ constexpr Stage kStages[] = {
     {"press with drops", press_with_drops},
     {"pull on borders", pull_on_borders},
     {"pull on bonds", pull_on_bonds},
+    {"pull on fat", pull_on_fat},
     {"advance strands", advance_strands},
     {"advance organs", advance_organs},
     {"advance membranes", advance_membranes},

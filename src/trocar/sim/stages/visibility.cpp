@@ -3,6 +3,7 @@
 #include <trocar/collision/rods.hpp>
 #include <trocar/geometry/surfaces/nearest.hpp>
 #include <trocar/numerics/portable.hpp>
+#include <trocar/sim/bodies/fat.hpp>
 #include <trocar/sim/stages/visibility.hpp>
 
 namespace trocar::sim {
@@ -125,7 +126,7 @@ bool unoccluded(const Model& model, const State& state, const Work& work, Vec3d 
   const Vec3d end = eye + (1.0 - margin / distance) * sight;
   for (size_t s = 0; s < size_t(model.organs()); ++s)
     if (hits_surface(work.surfaces[s], eye, end)) return false;
-  if (behind_wall(model, eye, end)) return false;
+  if (behind_wall(model, eye, end) || behind_fat(model, state, eye, end)) return false;
   for (size_t s = 0; s < model.strand_bodies.size(); ++s) {
     if (int(s) == skip_strand) continue;
     const tissue::StrandState& strand = state.strands[s];

@@ -5,6 +5,7 @@
 #include <trocar/interactions/verbs/cut.hpp>
 #include <trocar/sim/bodies/bodies.hpp>
 #include <trocar/sim/bodies/bonds.hpp>
+#include <trocar/sim/bodies/fat.hpp>
 #include <trocar/sim/bodies/vessel_wounds.hpp>
 #include <trocar/sim/bodies/views.hpp>
 #include <trocar/sim/model/seen.hpp>
@@ -101,12 +102,14 @@ void open_with_strands(StepContext& c, size_t t, int first_cut) noexcept {
 void cut_flesh(StepContext& c, size_t t) noexcept {
   const auto closed = [](const MembraneBody& m) { return m.sheet.closed(); };
   const bool walls = std::any_of(c.model.membranes.begin(), c.model.membranes.end(), closed);
-  if (c.model.cuttables.empty() && c.model.bonds.empty() && !walls) return;
+  const bool fat = has_fat(c.model);
+  if (c.model.cuttables.empty() && c.model.bonds.empty() && !walls && !fat) return;
   const std::optional<geometry::Blade> blade =
       interactions::sweep_of_blades(c.model.tool(c.state, t), c.work.shapes[t], c.state.tools[t]);
   if (!blade) return;
   cut_cuttables(c, t, *blade);
   sever_bonds(c, *blade);
+  if (fat) sever_fat(c, *blade);
   if (walls) cut_folds(c, t, *blade, true);
 }
 

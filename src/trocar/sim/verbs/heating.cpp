@@ -3,6 +3,7 @@
 
 #include <trocar/interactions/verbs/electrode_contact.hpp>
 #include <trocar/sim/bodies/bonds.hpp>
+#include <trocar/sim/bodies/fat.hpp>
 #include <trocar/sim/bodies/views.hpp>
 #include <trocar/sim/verbs/adhesion.hpp>
 #include <trocar/sim/verbs/current_cut.hpp>
@@ -17,6 +18,7 @@ namespace {
 using interactions::ElectrodeTouch;
 
 constexpr double kWarmTip = 0.5;  // [K] off 37 C: what is less warms nothing
+constexpr double kInFat = 0.0005;   // [m] of a lobule's middle from the wire: it is in the fat, whatever lies behind.  Ours
 constexpr double kStill = 0.01;   // of ElectrodeState::stuck
 
 /// Is there anything to compute of this hand's electrode?
@@ -49,6 +51,33 @@ ElectrodeTouch touch_of(const StepContext& c, size_t t, tissue::EnergyMode mode)
   return touch;
 }
 
+/// Fat that the wire of a monopolar electrode is in, and nothing else.
+FatTouch fat_of(const StepContext& c, size_t t, const ElectrodeTouch& touch, tissue::EnergyMode mode) noexcept {
+  const interactions::ElectrodeModel& electrode = c.model.tool(c.state, t).electrode;
+  if (!has_fat(c.model) || electrode.current.bipolar || !at_work(c.state.electrodes[t], mode)) return {};
+  const FatTouch fat = fat_at(c, t);
+  const bool bare = touch.contact.body.exists() && touch.contact.gap == 0;
+  return bare && fat.there() && fat.apart > kInFat ? FatTouch{} : fat;
+}
+
+/// Fat keeps its heat by itself; loose tissue at the wire shrivels with it.
+void work_in_fat(StepContext& c, size_t t, const FatTouch& fat, const tissue::FootSwitch& pedals) noexcept {
+  ElectrodeHand& hand = electrode_of(c, t);
+  const EnergyModel& energy = c.model.energy;
+  const tissue::HeatContact met = fat_contact(c, fat);
+  const tissue::Discharge d =
+      tissue::energise_apart(c.model.tool(c.state, t).electrode.current, c.state.panel, pedals, {}, met, energy.heat,
+                             c.state.heat, hand.current);
+  c.work.current_flows = c.work.current_flows || d.flows;
+  hand.body = BodyId(BodyKind::fat, size_t(fat.body));
+  hand.at = fat.place;
+  if (!d.flows) return;
+  const double dt = double(energy.heat.period) * kTick;
+  burn_bonds(c, fat.place, dt);
+  c.work.steam.at = fat.place;
+  c.work.steam.kilograms += warm_fat(c, fat, d.tissue * dt);
+}
+
 /// One hand's electrode in one tick. @param used  entries of Work::heat_sources so far
 void work_electrode(StepContext& c, size_t t, int& used) noexcept {
   ElectrodeHand& hand = electrode_of(c, t);
@@ -58,7 +87,10 @@ void work_electrode(StepContext& c, size_t t, int& used) noexcept {
   const tissue::FootSwitch pedals = foot_switch(c.input);
   const bool works = c.state.heat.tick % std::uint64_t(energy.heat.period) == 0;
   ElectrodeTouch touch;
-  if (works) touch = touch_of(c, t, tissue::asked_mode(electrode.current, c.state.panel, pedals));
+  const tissue::EnergyMode mode = tissue::asked_mode(electrode.current, c.state.panel, pedals);
+  if (works) touch = touch_of(c, t, mode);
+  if (const FatTouch fat = works ? fat_of(c, t, touch, mode) : FatTouch{}; fat.there())
+    return work_in_fat(c, t, fat, pedals);
   const tissue::Discharge d = tissue::energise(electrode.current, c.state.panel, pedals, touch.contact, energy.heat,
                                                tissue_shape(c.model), c.state.heat, c.work.heat, hand.current);
   for (const tissue::HeatSource& source : d.span()) c.work.heat_sources[size_t(used++)] = source;
@@ -77,7 +109,6 @@ void work_electrode(StepContext& c, size_t t, int& used) noexcept {
 
 /// Steam leaves where the electrode is that makes it.
 void note_steam(StepContext& c, const tissue::HeatReport& report) noexcept {
-  c.work.steam = {};
   if (!(report.boiled > 0)) return;
   int from = -1;
   for (size_t t = 0; t < c.state.electrodes.size(); ++t) {
@@ -86,7 +117,7 @@ void note_steam(StepContext& c, const tissue::HeatReport& report) noexcept {
   }
   if (from < 0) return;
   c.work.steam.at = c.state.electrodes[size_t(from)].at;
-  c.work.steam.kilograms = report.boiled;
+  c.work.steam.kilograms += report.boiled;
 }
 
 }  // namespace

@@ -28,13 +28,9 @@ void add_source(HeatSource q, double watts, const HeatModel& model, Discharge& d
   d.sources[d.count++] = q;
 }
 
-void discharge(const ElectrodeDescription& e, double set, const ElectrodeContact& c, double pressed,
-               const HeatModel& model, const TissueShape& shape, HeatState& heat, HeatWork& work,
-               Discharge& d) noexcept {
-  const EnergyCurve curve = curve_of(d.mode);
-  if (c.gap > curve.gap) return;
-  const HeatSource q = source_of(e, c, curve);
-  const HeatContact met = probe(model, q, shape, heat, work);
+/// Into what the electrode meets there.
+void flow(const ElectrodeDescription& e, double set, const ElectrodeContact& c, double pressed, const EnergyCurve& curve,
+          const HeatContact& met, Discharge& d) noexcept {
   if (!(met.volume > 0)) return;
   const double g = std::max(met.conductance, 1e-3);
   const double contact = e.wet * kMillimetre / (e.radius * curve.focus * pressed * g);
@@ -43,6 +39,15 @@ void discharge(const ElectrodeDescription& e, double set, const ElectrodeContact
   const double across = c.gap > 0 ? 1 - 0.5 * c.gap / curve.gap : 1.0;
   d.tissue = e.efficiency * d.output * across * 0.5 * (1 + g);
   d.flows = d.output > 0;
+}
+
+void discharge(const ElectrodeDescription& e, double set, const ElectrodeContact& c, double pressed,
+               const HeatModel& model, const TissueShape& shape, HeatState& heat, HeatWork& work,
+               Discharge& d) noexcept {
+  const EnergyCurve curve = curve_of(d.mode);
+  if (c.gap > curve.gap) return;
+  const HeatSource q = source_of(e, c, curve);
+  flow(e, set, c, pressed, curve, probe(model, q, shape, heat, work), d);
   if (d.flows) add_source(q, d.tissue, model, d);
 }
 
@@ -142,6 +147,27 @@ Discharge energise(const ElectrodeDescription& e, const GeneratorPanel& panel, F
   s.joules += d.tissue * dt;
   const double to_tissue = touches ? touch(e, contact, pressed, dt, model, shape, heat, work, s, d) : 0.0;
   d.hot_touch = touches && d.mode == EnergyMode::off && s.tip > kHotTip;
+  d.tear_force = e.stick_force * s.stuck;
+  s.tip += dt / e.tip_capacity * (e.tip_share * d.output - to_tissue - e.tip_air * (s.tip - kBodyHeat));
+  s.now = d;
+  return d;
+}
+
+Discharge energise_apart(const ElectrodeDescription& e, const GeneratorPanel& panel, FootSwitch pedals,
+                         const ElectrodeContact& contact, const HeatContact& met, const HeatModel& model,
+                         const HeatState& heat, ElectrodeState& s) noexcept {
+  Discharge d;
+  if (heat.tick % std::uint64_t(model.period) != 0) {
+    static_cast<DischargeFigures&>(d) = s.now;
+    return d;
+  }
+  d.mode = asked_mode(e, panel, pedals);
+  const double pressed = std::clamp(contact.pressed, 0.1, 1.0), dt = model.step;
+  s.on_time = d.mode == EnergyMode::off ? 0 : s.on_time + dt;
+  if (d.mode != EnergyMode::off) flow(e, set_watts(panel, d.mode), contact, pressed, curve_of(d.mode), met, d);
+  s.joules += d.tissue * dt;
+  const double to_tissue = e.tip_contact * pressed * (s.tip - met.temperature);
+  d.hot_touch = d.mode == EnergyMode::off && s.tip > kHotTip;
   d.tear_force = e.stick_force * s.stuck;
   s.tip += dt / e.tip_capacity * (e.tip_share * d.output - to_tissue - e.tip_air * (s.tip - kBodyHeat));
   s.now = d;

@@ -160,6 +160,12 @@ Discharge energise(const ElectrodeDescription& electrode, const GeneratorPanel& 
                    const ElectrodeContact& contact, const HeatModel& heat_model, const TissueShape& shape,
                    HeatState& heat, HeatWork& work, ElectrodeState& state) noexcept;
 
+/// The same at tissue that keeps its heat by itself, outside the grid: nothing is left there, `tissue` is what it gets.
+/// @param met  what the electrode meets there; a volume of 0: nothing
+Discharge energise_apart(const ElectrodeDescription& electrode, const GeneratorPanel& panel, FootSwitch pedals,
+                         const ElectrodeContact& contact, const HeatContact& met, const HeatModel& heat_model,
+                         const HeatState& heat, ElectrodeState& state) noexcept;
+
 /// What stuck was torn off, or washed off.
 inline void tear_off(ElectrodeState& state) noexcept { state.stuck = 0; }
 

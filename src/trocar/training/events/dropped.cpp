@@ -20,7 +20,9 @@ struct Fall {
 class Dropped final : public Noticer {
  public:
   Dropped(const sim::Model& model, const Arguments& a) : m_least(a[0].number()) {
-    interactions::visit_objects(model.objects, [this](auto, BodyId id) { m_falls.emplace_back().body = id; });
+    interactions::visit_objects(model.objects, [this](auto kind, BodyId id) {
+      if (kind.kHard) m_falls.emplace_back().body = id;
+    });
   }
   void tick(const Moment& moment, const sim::StepReport&, Happenings& out) override {
     const Vec3d down = normalised(moment.model.gravity, {0, 0, -1});
@@ -44,7 +46,8 @@ class Dropped final : public Noticer {
   static Vec3d place_of(const Moment& moment, BodyId body) {
     Vec3d at;
     interactions::visit_object(body, [&](auto kind) {
-      at = kind.middle(interactions::part_of<decltype(kind)>(moment.state.objects), body.index());
+      at = kind.middle(interactions::part_of<decltype(kind)>(moment.model.objects),
+                       interactions::part_of<decltype(kind)>(moment.state.objects), body.index());
     });
     return at;
   }
@@ -73,7 +76,7 @@ Value in_view(const Moment& moment, const Happening& h) {
 
 std::string_view needs_objects(const sim::Model& model) {
   bool any = false;
-  interactions::visit_objects(model.objects, [&any](auto, BodyId) { any = true; });
+  interactions::visit_objects(model.objects, [&any](auto kind, BodyId) { any = any || kind.kHard; });
   return any ? "" : "objects";
 }
 

@@ -3,13 +3,14 @@
 
 #include <tuple>
 
+#include <trocar/view/objects/fat_drawing.hpp>
 #include <trocar/view/objects/rigid_drawing.hpp>
 
 namespace trocar::view {
 
 class ObjectDrawings {
  public:
-  ObjectDrawings(const sim::Model& model, render::Backend& backend) : m_all(RigidDrawing(model, backend)) {}
+  ObjectDrawings(const sim::Model& model, render::Backend& backend) : m_all(RigidDrawing(model, backend), FatDrawing(model, backend)) {}
 
   void update(const sim::State& state) {
     std::apply([&](auto&... kind) { (kind.update(state), ...); }, m_all);
@@ -20,7 +21,7 @@ class ObjectDrawings {
   }
 
  private:
-  std::tuple<RigidDrawing> m_all;
+  std::tuple<RigidDrawing, FatDrawing> m_all;
 };
 
 }  // namespace trocar::view

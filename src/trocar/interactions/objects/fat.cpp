@@ -1,0 +1,215 @@
+#include <algorithm>
+#include <cmath>
+
+#include <trocar/interactions/objects/fat.hpp>
+
+namespace trocar::interactions {
+namespace {
+
+constexpr double kContact = 300;        // [N/m] a lobule at an instrument, implicit
+constexpr double kContactDamped = 0.02; // [N s/m]
+constexpr double kQuickest = 0.0012;    // [m] a tick, beyond the instrument's way
+constexpr double kSlips = 0.005;        // [m/s] above it friction is Coulomb's, below it viscous
+constexpr double kCompressed = 0.6;     // thickness between jaws that just hold it, of its diameter
+constexpr float kStays = 10;            // [N s/m] what is gone is nowhere: its node is kept where it was
+constexpr size_t kLoadsPerLobule = 12;
+
+/// A lobule that a part of an instrument presses on.
+void push(const Capsule& rod, double way, Vec3d rod_velocity, double friction, Tag tag, int lobule, Vec3d p, Vec3d v,
+          double radius, NetworkLoads& loads) noexcept {
+  const Vec3d off = p - collision::nearest_on_axis(rod, p);
+  const double apart = length(off), depth = rod.radius + radius - apart;
+  if (depth <= 0) return;
+  const Vec3d n = normalised(off, any_perpendicular(normalised(rod.b - rod.a, Vec3d{0, 0, 1})));
+  const double counts = std::min(depth, kQuickest + way);
+  tissue::NodeLoad load;
+  load.node = lobule;
+  load.k = float(kContact);
+  load.d = float(kContactDamped);
+  load.dir = vec_cast<float>(n);
+  load.x0 = vec_cast<float>(p + counts * n);
+  load.f0 = vec_cast<float>(kContactDamped * dot(rod_velocity, n) * n);
+  loads.add(load, tag);
+  const Vec3d slip = v - rod_velocity, across = slip - dot(slip, n) * n;
+  tissue::NodeLoad rub;
+  rub.node = lobule;
+  rub.d = float(friction * kContact * counts / std::max(length(across), kSlips));
+  rub.f0 = vec_cast<float>(double(rub.d) * rod_velocity);
+  loads.add(rub, tag);
+}
+
+bool holds_lobule(const ToolState& tool, BodyId body, int lobule) noexcept {
+  for (int i = 0; i < tool.holds; ++i)
+    if (tool.hold[i].body == body && tool.hold[i].element == lobule) return true;
+  return false;
+}
+
+void touch_part(const tissue::FatModel& m, const tissue::FatState& s, BodyId body, const ObjectHand& hand, int part,
+                NetworkLoads& loads) noexcept {
+  const Capsule& rod = hand.touching.shape.part[part];
+  const Capsule& was = hand.touching.before.part[part];
+  const double reach = rod.radius + m.radius;
+  const Vec3d velocity = (0.5 / core::kTick) * ((rod.a - was.a) + (rod.b - was.b));
+  const Tag tag{Owner::tool_contact, hand.touching.tool, 0};
+  for (int n = 0; n < m.lobules(); ++n) {
+    if (s.lobules[size_t(n)].gone()) continue;
+    const Vec3d p = tissue::position(m, s, n);
+    const Vec3d off = p - collision::nearest_on_axis(rod, p);
+    if (dot(off, off) > reach * reach || (part != kShaft && holds_lobule(hand.state, body, n))) continue;
+    push(rod, hand.touching.way(part), velocity, hand.tool.rubbing, tag, n, p, tissue::velocity(m, s, n), m.radius,
+         loads);
+  }
+}
+
+/// Could the instrument be at any of them?
+bool is_near(const tissue::FatModel& m, const tissue::FatState& s, const ToolShape& shape) noexcept {
+  const Vec3d from = shape.part[kShaft].a, to = shape.frame.tip;
+  for (int n = 0; n < m.lobules(); n += 8) {  // those between them are not far
+    const Vec3d p = tissue::position(m, s, n), off = p - collision::nearest_on_axis({from, to, 0}, p);
+    if (dot(off, off) < 0.03 * 0.03) return true;
+  }
+  return false;
+}
+
+void stay(const tissue::FatState& s, NetworkLoads& loads) noexcept {
+  if (s.gone == 0) return;
+  for (size_t n = 0; n < s.lobules.size(); ++n) {
+    if (!s.lobules[n].gone()) continue;
+    tissue::NodeLoad load;
+    load.node = int(n);
+    load.d = kStays;
+    loads.add(load, {Owner::anchor, 0, 0});
+  }
+}
+
+void keep_in(const tissue::Box& cavity, const tissue::FatModel& m, tissue::FatState& s) noexcept {
+  for (int n = 0; n < m.lobules(); ++n) {
+    Vec3d p = tissue::position(m, s, n);
+    bool outside = false;
+    for (int c = 0; c < 3; ++c) {
+      const double inside = std::clamp(p[c], double(cavity.low[c]), double(cavity.high[c]));
+      outside = outside || inside != p[c];
+      p[c] = inside;
+    }
+    if (!outside) continue;
+    tissue::set_position(m.network, s.network, n, p);
+    tissue::set_velocity(m.network, s.network, n, {});
+  }
+}
+
+}  // namespace
+
+Fat::States Fat::start(const Models& models) {
+  States states;
+  for (const FatBody& b : models.list)
+    states.push_back({tissue::rest_state(b.fat), std::vector<BondState>(b.roots.bonds.size()),
+                      std::vector<BondState>(b.ties.size())});
+  return states;
+}
+
+Fat::Work Fat::make_work(const Models& models, int) {
+  Work w;
+  for (const FatBody& b : models.list) {
+    FatBodyWork& one = w.list.emplace_back();
+    one.fat = tissue::make_work(b.fat);
+    one.loads.reserve(kLoadsPerLobule * size_t(b.fat.lobules()) + b.roots.bonds.size() + b.ties.size());
+  }
+  return w;
+}
+
+void Fat::clear(Work& work) noexcept {
+  for (FatBodyWork& w : work.list) w.loads.clear();
+}
+
+void Fat::touch(const Models& models, const States& states, const ObjectHand& hand, Work& work) noexcept {
+  for (size_t i = 0; i < models.list.size(); ++i) {
+    const tissue::FatModel& m = models.list[i].fat;
+    if (!is_near(m, states[i].fat, hand.touching.shape)) continue;
+    for (int part = 0; part < kToolParts; ++part)
+      touch_part(m, states[i].fat, BodyId(kKind, i), hand, part, work.list[i].loads);
+  }
+}
+
+Vec3d Fat::middle(const Models& models, const States& states, size_t i) noexcept {
+  const tissue::FatModel& m = models.list[i].fat;
+  Vec3d sum;
+  for (int n = 0; n < m.lobules(); ++n) sum += tissue::position(m, states[i].fat, n);
+  return sum / double(std::max(1, m.lobules()));
+}
+
+Vec3d Fat::point(const Models& models, const States& states, const Hold& hold) noexcept {
+  const size_t i = hold.body.index();
+  return tissue::position(models.list[i].fat, states[i].fat, hold.element);
+}
+
+double Fat::thickness(const Models& models, const Hold& hold) noexcept {
+  return 2 * kCompressed * models.list[hold.body.index()].fat.radius;
+}
+
+bool Fat::whole(const States& states, const Hold& hold) noexcept {
+  return !states[hold.body.index()].fat.lobules[size_t(hold.element)].gone();
+}
+
+void Fat::pull(const Models&, const States& states, const Hold& hold, Vec3d target, HoldLaw law, Tag tag,
+               Work& work) noexcept {
+  if (!whole(states, hold)) return;
+  tissue::NodeLoad load;
+  load.node = hold.element;
+  load.k = float(law.stiffness);
+  load.d = float(law.damping);
+  load.x0 = vec_cast<float>(target);
+  work.list[hold.body.index()].loads.add(load, tag);
+}
+
+tissue::StepReport Fat::advance(const Models& models, Vec3d, double, const tissue::Box& cavity, States& states,
+                                Work& work) noexcept {
+  tissue::StepReport report;
+  for (size_t i = 0; i < models.list.size(); ++i) {
+    const tissue::FatModel& m = models.list[i].fat;
+    FatBodyWork& w = work.list[i];
+    stay(states[i].fat, w.loads);
+    w.loads.sort();
+    const tissue::StepReport r = tissue::advance(m, w.loads.sorted, w.loads.reaction, states[i].fat, w.fat);
+    keep_in(cavity, m, states[i].fat);
+    if (r.fine() || !report.fine()) continue;
+    report = r;
+    report.first_bad = int(i);
+  }
+  return report;
+}
+
+bool Fat::overloaded(const Work& work) noexcept {
+  return std::any_of(work.list.begin(), work.list.end(), [](const FatBodyWork& w) { return w.loads.overflowed; });
+}
+
+bool Fat::hides(const Models& models, const States& states, Vec3d from, Vec3d to) noexcept {
+  const collision::Capsule sight{from, to, 0};
+  for (size_t i = 0; i < models.list.size(); ++i) {
+    const tissue::FatModel& m = models.list[i].fat;
+    for (int n = 0; n < m.lobules(); ++n) {
+      if (states[i].fat.lobules[size_t(n)].gone()) continue;
+      const Vec3d p = tissue::position(m, states[i].fat, n), off = p - collision::nearest_on_axis(sight, p);
+      if (dot(off, off) < m.radius * m.radius) return true;
+    }
+  }
+  return false;
+}
+
+bool Fat::sound(const States& states) noexcept {
+  for (const FatBodyState& s : states)
+    for (const tissue::NodeState& n : s.fat.network.nodes)
+      if (!(std::fabs(n.x) < 10 && std::fabs(n.y) < 10 && std::fabs(n.z) < 10)) return false;
+  return true;
+}
+
+void Fat::blend(const States& a, const States& b, double f, States& out) noexcept {
+  const auto mixed = [f](float from, float to) { return from + float(f) * (to - from); };
+  for (size_t i = 0; i < out.size(); ++i)
+    for (size_t n = 0; n < out[i].fat.network.nodes.size(); ++n) {
+      const tissue::NodeState &from = a[i].fat.network.nodes[n], &to = b[i].fat.network.nodes[n];
+      tissue::NodeState& at = out[i].fat.network.nodes[n];
+      at.x = mixed(from.x, to.x), at.y = mixed(from.y, to.y), at.z = mixed(from.z, to.z);
+    }
+}
+
+}  // namespace trocar::interactions

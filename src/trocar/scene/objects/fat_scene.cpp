@@ -1,0 +1,173 @@
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include <trocar/geometry/surfaces/nearest.hpp>
+#include <trocar/numerics/portable.hpp>
+#include <trocar/scene/objects/fat_filling.hpp>
+#include <trocar/scene/objects/fat_scene.hpp>
+#include <trocar/sim/model/hold_near.hpp>
+
+namespace trocar::scene {
+namespace {
+
+constexpr double kFatFar = 2000;       // [mm]
+constexpr int kMostLobules = 4000;  // of one body: what a tick bears
+
+const Shape& fill_shape() {
+  static const Shape shape{"fill",
+                           "A thick line.",
+                           {needed(keys::points("line_mm", -kFatFar, kFatFar, 1, "its middle; one point: a ball")),
+                            needed(keys::number("radius_mm", 1, 100, "half its thickness"))}};
+  return shape;
+}
+
+const Shape& fat_shape() {
+  static const Shape shape{
+      "fat",
+      "Fat and areolar tissue: lobules that septa tie to each other, and that hold on what they lie on. They are teased "
+      "apart, cut, coagulated and boiled away.",
+      {needed(keys::name("name", "what exercises call it")), keys::text("look", "its surface in the picture, default \"fat\""),
+       needed(keys::objects("fills", fill_shape, 1, "where it is, as far as nothing else is there")),
+       keys::texts("on", "strands, solids and pouches that it holds on, where they are near"),
+       keys::number("reach_mm", 0.2, 20, "how near that is, default 3"),
+       keys::number("spacing_mm", 1, 10, "of its lobules, default 2.5"),
+       keys::number("young_Pa", 100, 1e5, "small-strain modulus, default 3000"),
+       keys::number("opens", 0.2, 5, "strain at which a septum is gone, default 1.2"),
+       keys::number("serosa_N_m", 0, 1000, "modulus times thickness of the serosa over its free faces, default 50; 0: none"),
+       keys::number("serosa_opens", 0.2, 5, "strain at which that has torn, default 1"),
+       keys::number("toughness_J_m2", 0.1, 1000, "of what holds it on others, default 15"),
+       keys::number("holds_to_mm", 0.5, 20, "how far that opens until nothing holds, default 4"),
+       keys::number("water", 0.05, 0.95, "share of its mass that boils away before it is gone, default 0.3"),
+       keys::number("density_kg_m3", 500, 1500, "default 920")}};
+  return shape;
+}
+
+tissue::FatDescription described(const FatSetting& s, const FatFilling& filling, const sim::Model& model) {
+  tissue::FatDescription d;
+  d.lobules = filling.lobules;
+  d.free = filling.free;
+  d.spacing = s.spacing;
+  d.material = s.material;
+  d.gravity = model.gravity;
+  return d;
+}
+
+interactions::BondSet roots_of(const FatSetting& s, const FatFilling& filling, const sim::Model& model) {
+  interactions::BondSet set;
+  set.name = s.name;
+  set.law = tissue::CohesiveLaw::of(s.toughness, s.opens);
+  const double area = s.spacing * s.spacing / std::sqrt(2.0);
+  for (std::size_t i = 0; i < filling.lobules.size(); ++i) {
+    const interactions::BorderHold hold = hold_near(s.on, s.reach, filling.lobules[i], model);
+    if (hold.kind != interactions::BorderHold::space) set.bonds.push_back({std::int32_t(i), hold, area});
+  }
+  return set;
+}
+
+/// What is on no strand and no organ, and near a wall.
+std::vector<interactions::FatTie> ties_of(const FatSetting& s, const FatFilling& filling,
+                                          const interactions::BondSet& roots, const sim::Model& model) {
+  std::vector<std::uint8_t> rooted(filling.lobules.size(), 0);
+  for (const interactions::Bond& b : roots.bonds) rooted[std::size_t(b.node)] = 1;
+  std::vector<interactions::FatTie> ties;
+  for (std::size_t m = 0; m < model.membranes.size(); ++m) {
+    const sim::MembraneBody& wall = model.membranes[m];
+    if (std::find(s.on.begin(), s.on.end(), wall.name) == s.on.end()) continue;
+    const std::vector<Vec3d>& rest = wall.sheet.network.rest;
+    for (std::size_t i = 0; i < filling.lobules.size(); ++i) {
+      if (rooted[i]) continue;
+      double nearest = s.reach;
+      int node = -1;
+      for (const auto& t : wall.sheet.triangles) {
+        const Vec3d a = rest[std::size_t(t[0])], b = rest[std::size_t(t[1])], c = rest[std::size_t(t[2])];
+        const auto on = geometry::closest_on_triangle(filling.lobules[i], a, b, c);
+        const double apart = length(filling.lobules[i] - on.point);
+        if (apart >= nearest) continue;
+        nearest = apart;
+        node = t[0];
+        for (int k : t)
+          if (length(rest[std::size_t(k)] - on.point) < length(rest[std::size_t(node)] - on.point)) node = k;
+      }
+      if (node < 0) continue;
+      ties.push_back({std::int32_t(i), std::int32_t(m), node, filling.lobules[i] - rest[std::size_t(node)],
+                      s.spacing * s.spacing / std::sqrt(2.0)});
+      rooted[i] = 1;
+    }
+  }
+  return ties;
+}
+
+void compile_one(const FatSetting& s, sim::Model& model, std::vector<core::Fault>& faults) try {
+  for (const std::string& name : s.on)
+    if (model.strand_index(name) < 0 && model.organ_index(name) < 0 && model.membrane_index(name) < 0)
+      faults.push_back({s.at, fmt::format("expected \"on\" to name strands, solids and pouches, got \"{}\"", name)});
+  const FatFilling filling = filled(s, model);
+  if (filling.lobules.empty() || int(filling.lobules.size()) > kMostLobules) {
+    faults.push_back({s.at, fmt::format("expected room for 1 to {} lobules of {} mm in \"{}\", got {}", kMostLobules,
+                                        1000 * s.spacing, s.name, filling.lobules.size())});
+    return;
+  }
+  interactions::FatBody body;
+  body.name = s.name;
+  body.look = s.look;
+  body.roots = roots_of(s, filling, model);
+  body.ties = ties_of(s, filling, body.roots, model);
+  if (body.roots.bonds.empty() && body.ties.empty()) {
+    faults.push_back({s.at, fmt::format("expected something of \"on\" within {} mm of \"{}\", got nothing to hold on",
+                                        1000 * s.reach, s.name)});
+    return;
+  }
+  body.fat = tissue::build(described(s, filling, model), sim::kTick);
+  interactions::part_of<interactions::Fat>(model.objects).list.push_back(std::move(body));
+} catch (const std::invalid_argument& e) {
+  faults.push_back({s.at, "fat \"" + s.name + "\": expected a body that can be built, got: " + e.what()});
+}
+
+}  // namespace
+
+Key FatScene::row() {
+  Key row = keys::objects(kKey, fat_shape, 0, "fat between other bodies, default none");
+  row.max_count = 16;
+  return row;
+}
+
+FatSetting FatScene::read(const JsonObject& o) {
+  FatSetting s;
+  s.name = o.text("name");
+  s.look = o.text("look", "fat");
+  for (const JsonObject& fill : o.objects("fills")) {
+    FatSetting::Fill& f = s.fills.emplace_back();
+    for (const Vec3d& p : fill.points("line_mm")) f.line.push_back(p / 1000.0);
+    f.radius = fill.number("radius_mm", 1) / 1000;
+  }
+  s.on = o.texts("on");
+  s.reach = o.number("reach_mm", 1000 * s.reach) / 1000;
+  s.spacing = o.number("spacing_mm", 1000 * s.spacing) / 1000;
+  s.toughness = o.number("toughness_J_m2", s.toughness);
+  s.opens = o.number("holds_to_mm", 1000 * s.opens) / 1000;
+  s.material.young = o.number("young_Pa", s.material.young);
+  s.material.yields = 0.5 * o.number("opens", s.material.opens);
+  s.material.opens = o.number("opens", s.material.opens);
+  s.material.serosa = o.number("serosa_N_m", s.material.serosa);
+  s.material.serosa_opens = o.number("serosa_opens", s.material.serosa_opens);
+  s.material.water = o.number("water", s.material.water);
+  s.material.density = o.number("density_kg_m3", s.material.density);
+  s.at = o.at();
+  s.text = o.value();
+  return s;
+}
+
+void FatScene::bend(std::vector<Setting>& settings, const std::function<Vec3d(Vec3d)>& warp) {
+  for (FatSetting& s : settings)
+    for (FatSetting::Fill& f : s.fills)
+      for (Vec3d& p : f.line) p = warp(p);
+}
+
+void FatScene::compile(const std::vector<Setting>& settings, sim::Model& model, std::vector<core::Fault>& faults) {
+  for (const FatSetting& s : settings) compile_one(s, model, faults);
+}
+
+}  // namespace trocar::scene

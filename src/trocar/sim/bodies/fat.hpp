@@ -1,0 +1,34 @@
+// Fat in a step: what it holds on, what parts it, and current that goes into it (interactions/objects/fat.hpp).
+#pragma once
+
+#include <trocar/geometry/tets/blade.hpp>
+#include <trocar/sim/model/step_context.hpp>
+
+namespace trocar::sim {
+
+bool has_fat(const Model& model) noexcept;
+
+/// Stage: roots and ties of fat pull, and give way where they are opened too far.
+void pull_on_fat(StepContext& context) noexcept;
+
+/// Septa, roots and ties that the blade passes hold no more. @return how many
+int sever_fat(StepContext& context, const geometry::Blade& blade) noexcept;
+
+/// A lobule that a bare wire touches.
+struct FatTouch {
+  int body = -1, lobule = -1;
+  Vec3d place;      ///< its middle [m]
+  double apart = 0; ///< of its middle from the wire's axis [m]
+  bool there() const noexcept { return lobule >= 0; }
+};
+FatTouch fat_at(const StepContext& context, std::size_t hand) noexcept;
+
+/// What an electrode meets there.
+tissue::HeatContact fat_contact(const StepContext& context, const FatTouch& touch) noexcept;
+/// Gives it what current brings. @return water that has boiled off [kg]
+double warm_fat(StepContext& context, const FatTouch& touch, double joules) noexcept;
+
+/// Does a lobule lie between the two points?
+bool behind_fat(const Model& model, const State& state, Vec3d from, Vec3d to) noexcept;
+
+}  // namespace trocar::sim

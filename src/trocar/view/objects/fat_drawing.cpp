@@ -1,0 +1,117 @@
+#include <algorithm>
+#include <cmath>
+
+#include <trocar/numerics/portable.hpp>
+#include <trocar/view/objects/fat_drawing.hpp>
+
+namespace trocar::view {
+namespace {
+
+using interactions::Fat;
+
+constexpr float kCell = 0.0008f;                       // [m] of the grid that the surface is taken from
+constexpr double kReach = 1.15;                        // of a lobule's bell, in spacings
+constexpr float kMoves = 2e-5f;                        // [m] less is not drawn anew
+constexpr double kBlanched = 100, kCharred = 215;      // Paint::burn of what is coagulated, and of what is about to go
+constexpr double kThreadFrom = 1.7, kThreadTo = 8;     // spacings between which a septum is seen as a thread
+constexpr double kThin = 0.00008, kThick = 0.0005;     // [m] a thread's radius in its middle and at its ends
+constexpr std::uint32_t kRings = 5, kSides = 4;        // of a thread
+constexpr std::size_t kMostThreads = 400;
+
+std::uint8_t burn_of(const tissue::FatModel& m, const tissue::Lobule& l) {
+  if (!l.coagulated()) return 0;
+  const double dry = l.boiled / (m.material.water * m.mass);
+  return to_byte((kBlanched + (kCharred - kBlanched) * dry) / 255);
+}
+
+/// Thick where it leaves a lobule, thin in between.
+void add_thread(Vec3d from, Vec3d to, Vec3d rest, std::uint8_t burn, MeshBuffer& b) {
+  const Vec3d along = normalised(to - from, Vec3d{0, 0, 1}), u = any_perpendicular(along), v = cross(along, u);
+  const std::uint32_t first = b.size();
+  for (std::uint32_t r = 0; r < kRings; ++r) {
+    const double s = double(r) / (kRings - 1), out = 2 * s - 1;
+    const double radius = kThin + (kThick - kThin) * out * out * out * out;
+    for (std::uint32_t k = 0; k < kSides; ++k) {
+      const double turn = 2 * portable::pi * k / kSides;
+      const Vec3d side = std::cos(turn) * u + std::sin(turn) * v;
+      b.add(vec_cast<float>(from + s * (to - from) + radius * side), Paint{.burn = burn, .tint = 90});
+      b.normals.push_back(vec_cast<float>(side));
+      b.rest.push_back(vec_cast<float>(rest + 0.001 * side));
+    }
+  }
+  for (std::uint32_t r = 0; r + 1 < kRings; ++r) join_rows(b, first + r * kSides, first + (r + 1) * kSides, kSides, true);
+}
+
+void add_threads(const tissue::FatModel& m, const tissue::FatState& s, MeshBuffer& b) {
+  std::size_t threads = 0;
+  for (int i = 0; i < m.septa() && threads < kMostThreads; ++i) {
+    if (holding(m, s, i) <= 0) continue;
+    const int a = septum_end(m, i, 0), c = septum_end(m, i, 1);
+    const Vec3d from = position(m, s, a), to = position(m, s, c);
+    const double apart = length(to - from) / m.spacing;
+    if (apart < kThreadFrom || apart > kThreadTo) continue;
+    add_thread(from, to, m.network.rest[std::size_t(a)], burn_of(m, s.lobules[std::size_t(a)]), b);
+    ++threads;
+  }
+}
+
+}  // namespace
+
+FatDrawing::FatDrawing(const sim::Model& model, render::Backend& backend) : m_surface(kCell) {
+  for (const interactions::FatBody& body : interactions::part_of<Fat>(model.objects).list) {
+    Drawn& d = m_bodies.emplace_back();
+    d.body = &body;
+    d.look = &look(model, body.look);
+    draw(d, tissue::rest_state(body.fat));
+    d.mesh = OwnedMesh(backend, m_buffer.data());
+  }
+}
+
+bool FatDrawing::moved(const Drawn& d, const tissue::FatState& s) {
+  for (std::size_t i = 0; i < d.shown.size(); ++i) {
+    const Vec3f off = vec_cast<float>(position(d.body->fat, s, int(i))) - d.shown[i];
+    if (dot(off, off) > kMoves * kMoves || d.marks[i] != s.lobules[i].marks) return true;
+  }
+  return false;
+}
+
+void FatDrawing::draw(Drawn& d, const tissue::FatState& s) {
+  const tissue::FatModel& m = d.body->fat;
+  d.shown.clear(), d.marks.clear(), m_lobules.clear();
+  for (int i = 0; i < m.lobules(); ++i) {
+    const tissue::Lobule& l = s.lobules[std::size_t(i)];
+    const Vec3d p = position(m, s, i), rest = m.network.rest[std::size_t(i)];
+    d.shown.push_back(vec_cast<float>(p));
+    d.marks.push_back(l.marks);
+    if (l.gone() || length(p - rest) > 0.08) continue;  // what has fallen so far is out of sight
+    const double size = 1 + 0.16 * (2 * varied(i, 5) - 1);
+    m_lobules.push_back({vec_cast<float>(p), vec_cast<float>(rest), float(size * kReach * m.spacing), burn_of(m, l)});
+  }
+  m_buffer = {};
+  m_surface.draw(m_lobules, m_buffer);
+  add_threads(m, s, m_buffer);
+  d.any = !m_buffer.indices.empty();
+  if (d.any) return;
+  for (int k = 0; k < 3; ++k) {  // a mesh has at least a triangle
+    m_buffer.add({});
+    m_buffer.normals.push_back({0, 0, 1});
+    m_buffer.rest.push_back({});
+  }
+  m_buffer.triangle(0, 1, 2);
+}
+
+void FatDrawing::update(const sim::State& state) {
+  const Fat::States& now = interactions::part_of<Fat>(state.objects);
+  for (std::size_t i = 0; i < m_bodies.size(); ++i) {
+    if (!moved(m_bodies[i], now[i].fat)) continue;
+    draw(m_bodies[i], now[i].fat);
+    m_bodies[i].mesh.replace(m_buffer.data());
+  }
+}
+
+void FatDrawing::list(std::size_t first, const Listing& to) {
+  for (std::size_t i = 0; i < m_bodies.size(); ++i)
+    if (m_bodies[i].any) to.add(item(m_bodies[i].mesh.handle(), *m_bodies[i].look, first + i));
+}
+
+}  // namespace trocar::view
