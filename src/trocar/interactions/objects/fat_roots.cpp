@@ -8,7 +8,7 @@ namespace trocar::interactions {
 namespace {
 
 constexpr double kTieDamping = 2e-4;   // [s] times stiffness, as of bonds
-constexpr double kWarms = 1.6;         // of a spacing: lobules so near to where current enters share its heat.  Ours
+constexpr double kWarms = 1.2;         // spacings: lobules so near to where current enters share its heat.  Ours
 
 bool coagulated(const FatBodyState& s, int lobule) noexcept { return s.fat.lobules[size_t(lobule)].coagulated(); }
 
@@ -121,7 +121,8 @@ double warm_fat(const FatBody& body, int lobule, double joules, FatBodyState& s)
   const Vec3d middle = tissue::position(body.fat, s.fat, lobule);
   const double reach = kWarms * body.fat.spacing;
   const auto share = [&](int n) {
-    return std::max(0.0, 1 - length(tissue::position(body.fat, s.fat, n) - middle) / reach);
+    const double near = std::max(0.0, 1 - length(tissue::position(body.fat, s.fat, n) - middle) / reach);
+    return near * near;
   };
   double all = 0, boiled = 0;
   for (int n = 0; n < body.fat.lobules(); ++n)

@@ -40,7 +40,7 @@ const Shape& fat_shape() {
        keys::number("serosa_opens", 0.2, 5, "strain at which that has torn, default 1"),
        keys::number("toughness_J_m2", 0.1, 1000, "of what holds it on others, default 15"),
        keys::number("holds_to_mm", 0.5, 20, "how far that opens until nothing holds, default 4"),
-       keys::number("water", 0.05, 0.95, "share of its mass that boils away before it is gone, default 0.3"),
+       keys::number("water", 0.05, 0.95, "share of its mass that boils away before it is gone, default 0.15"),
        keys::number("density_kg_m3", 500, 1500, "default 920")}};
   return shape;
 }

@@ -7,7 +7,8 @@ namespace {
 
 using interactions::Fat;
 
-constexpr double kFatConducts = 0.3;  // beside wet tissue: fat is a poor conductor.  Our choice
+constexpr double kFatConducts = 0.3;  // beside wet tissue: fat is a poor conductor.                Our choice
+constexpr double kDryConducts = 0.3;  // of that: what has dried is crossed by sparks.              Our choice
 
 /// f(body, state, work) of every body of fat.
 template <class F>
@@ -54,7 +55,7 @@ FatTouch fat_at(const StepContext& c, std::size_t hand) noexcept {
       const int lobule = interactions::lobule_at(bodies[i], states[i], wire);
       if (lobule < 0) return;
       const Vec3d place = tissue::position(bodies[i].fat, states[i].fat, lobule);
-      const double apart = length(place - collision::nearest_on_axis(wire, place)) - wire.radius;
+      const double apart = length(place - collision::nearest_on_axis(wire, place)) - bodies[i].fat.radius;
       if (!best.there() || apart < best.apart) best = {int(i), lobule, place, apart};
     };
     interactions::Capsule wire = shape.part[interactions::kJawA];
@@ -70,7 +71,7 @@ tissue::HeatContact fat_contact(const StepContext& c, const FatTouch& touch) noe
   const tissue::FatState& s = interactions::part_of<Fat>(c.state.objects)[std::size_t(touch.body)].fat;
   const double wet = 1 - s.lobules[std::size_t(touch.lobule)].boiled / (m.material.water * m.mass);
   const double celsius = tissue::temperature(m, s, touch.lobule);
-  return {m.volume, kFatConducts * wet, celsius, celsius};
+  return {m.volume, kFatConducts * (kDryConducts + (1 - kDryConducts) * wet), celsius, celsius};
 }
 
 double warm_fat(StepContext& c, const FatTouch& touch, double joules) noexcept {

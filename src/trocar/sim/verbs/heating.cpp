@@ -18,7 +18,6 @@ namespace {
 using interactions::ElectrodeTouch;
 
 constexpr double kWarmTip = 0.5;  // [K] off 37 C: what is less warms nothing
-constexpr double kInFat = 0.0005;   // [m] of a lobule's middle from the wire: it is in the fat, whatever lies behind.  Ours
 constexpr double kStill = 0.01;   // of ElectrodeState::stuck
 
 /// Is there anything to compute of this hand's electrode?
@@ -51,13 +50,15 @@ ElectrodeTouch touch_of(const StepContext& c, size_t t, tissue::EnergyMode mode)
   return touch;
 }
 
-/// Fat that the wire of a monopolar electrode is in, and nothing else.
+/// Fat that the wire of a monopolar electrode is in, unless it is deeper in something else.
 FatTouch fat_of(const StepContext& c, size_t t, const ElectrodeTouch& touch, tissue::EnergyMode mode) noexcept {
   const interactions::ElectrodeModel& electrode = c.model.tool(c.state, t).electrode;
   if (!has_fat(c.model) || electrode.current.bipolar || !at_work(c.state.electrodes[t], mode)) return {};
   const FatTouch fat = fat_at(c, t);
-  const bool bare = touch.contact.body.exists() && touch.contact.gap == 0;
-  return bare && fat.there() && fat.apart > kInFat ? FatTouch{} : fat;
+  if (!touch.contact.body.exists() || touch.contact.gap > 0) return fat;
+  const interactions::ToolShape& shape = c.work.shapes[t];
+  const Vec3d off = touch.place - collision::nearest_on_axis({shape.pivot, shape.frame.tip, 0}, touch.place);
+  return length(off) < fat.apart ? FatTouch{} : fat;
 }
 
 /// Fat keeps its heat by itself; loose tissue at the wire shrivels with it.

@@ -36,7 +36,7 @@ struct FatMaterial {
   double opens = 1.2;       ///< strain at which it is gone
   double serosa = 50;       ///< Young's modulus times thickness [N/m]; 0: none
   double serosa_opens = 1;  ///< strain at which it is gone
-  double water = 0.3;       ///< share of its mass
+  double water = 0.15;      ///< share of its mass
   double damping = 0.002;   ///< along springs, times their stiffness [s]
 
   template <class S, class V>

@@ -1,0 +1,99 @@
+// What a dissection has bared: facts of fat.
+#include <algorithm>
+
+#include <trocar/training/facts/registry.hpp>
+#include <trocar/training/observe/fat.hpp>
+#include <trocar/training/observe/marks.hpp>
+
+namespace trocar::training {
+namespace {
+
+constexpr double kAcross = 0.012;  // [m] how far sights go to both sides of a window's plane
+
+std::string_view needs_fat(const sim::Model& model) {
+  return interactions::part_of<interactions::Fat>(model.objects).list.empty() ? "fat" : "";
+}
+
+/// Looked at ten times a second: what is asked there costs more than a tick should.
+template <double (*figure)(const sim::Model&, const sim::State&, const Arguments&)>
+class Figure final : public Observer {
+ public:
+  Figure(const sim::Model&, const Arguments& a) : m_arguments(a) {}
+  void sample(const Moment& moment, double) override {
+    if (m_turn++ % kTurns == 0) m_value = figure(moment.model, moment.state, m_arguments);
+  }
+  Value value(const Moment&) const override { return m_turn > 0 ? Value(m_value) : kUnknown; }
+
+ private:
+  static constexpr int kTurns = 5;
+  Arguments m_arguments;
+  int m_turn = 0;
+  double m_value = 0;
+};
+
+double left(const sim::Model& model, const sim::State& state, const Arguments& a) {
+  return fat_left(model, state, a[0].body());
+}
+
+double bared(const sim::Model& model, const sim::State& state, const Arguments& a) {
+  return bared_length(model, state, a[0].index);
+}
+
+double open(const sim::Model& model, const sim::State& state, const Arguments& a) {
+  std::array<Vec3d, 3> corners;
+  for (std::size_t i = 0; i < 3; ++i) corners[i] = place_of_mark(model, state, a[i].index);
+  return open_share(model, state, corners, kAcross);
+}
+
+double bridges(const sim::Model& model, const sim::State& state, const Arguments& a) {
+  const std::vector<BodyId> to = bridged_from(model, state, a[0].body());
+  return double(std::count_if(to.begin(), to.end(), [&a](BodyId body) {
+    return std::find(a[1].bodies.begin(), a[1].bodies.end(), body) == a[1].bodies.end();
+  }));
+}
+
+std::string no_fat(const sim::Model&, const Arguments& a) {
+  return a[0].body().is(BodyKind::fat) ? "" : "expected fat, got another body";
+}
+
+}  // namespace
+
+const Fact kFatLeft{"fat.left_share",
+                    {{"of", ArgumentKind::body, "which fat"}},
+                    0,
+                    1,
+                    "The share of its volume that has not boiled away.",
+                    needs_fat,
+                    &remembering<Figure<left>>,
+                    false,
+                    &no_fat};
+
+const Fact kStrandBared{"strand.bared_mm",
+                        {{"of", ArgumentKind::strand, "a duct or a vessel in fat"}},
+                        0,
+                        1000,
+                        "The longest stretch along which no fat lies on it in at least seven of eight sectors around.",
+                        needs_fat,
+                        &remembering<Figure<bared>>};
+
+const Fact kWindowOpen{"window.open_share",
+                       {{"a", ArgumentKind::mark, "a corner of the window"},
+                        {"b", ArgumentKind::mark, "another"},
+                        {"c", ArgumentKind::mark, "the third"}},
+                       0,
+                       1,
+                       "The share of 64 sights through the triangle between three marks, from 12 mm before it to 12 mm "
+                       "behind it, that no fat is in the way of.",
+                       needs_fat,
+                       &remembering<Figure<open>>};
+
+const Fact kFatBridges{"fat.bridges",
+                       {{"from", ArgumentKind::body, "a body that fat lies on"},
+                        {"but", ArgumentKind::bodies, "bodies that do not count", false}},
+                       0,
+                       1000,
+                       "The number of bodies that fat, lobule by lobule, still ties to this one.",
+                       needs_fat,
+                       &remembering<Figure<bridges>>};
+
+}  // namespace trocar::training

@@ -1,0 +1,172 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include <trocar/geometry/surfaces/nearest.hpp>
+#include <trocar/interactions/verbs/electrode_contact.hpp>
+#include <trocar/sim/model/bodies.hpp>
+#include <trocar/training/observe/fat.hpp>
+#include <trocar/training/observe/hands.hpp>
+#include <trocar/training/skills/parameters.hpp>
+#include <trocar/training/skills/registry.hpp>
+
+namespace trocar::training {
+namespace {
+
+using interactions::Fat;
+
+/// An electrode from lobule to lobule, from the trocar's side inwards, each until it is gone; then back.
+class ClearFat final : public Skill {
+ public:
+  ClearFat(const sim::Model&, const Given& given)
+      : m_hand(given.hand()),
+        m_fat(given("fat").body()),
+        m_bared(given("bare").bodies),
+        m_left(given.number("left_share", 0)),
+        m_most(int(given.number("most", 1000))) {}
+
+ private:
+  enum Phase { kAbove, kReach, kPress, kAway };
+
+  const interactions::FatBody& body(const Operator& op) const {
+    return interactions::part_of<Fat>(op.model().objects).list[m_fat.index()];
+  }
+  const interactions::FatBodyState& state(const Operator& op) const {
+    return interactions::part_of<Fat>(op.state().objects)[m_fat.index()];
+  }
+  Vec3d place(const Operator& op, int lobule) const { return position(body(op).fat, state(op).fat, lobule); }
+  bool gone(const Operator& op, int lobule) const { return state(op).fat.lobules[size_t(lobule)].gone(); }
+
+  void start(Operator& op, int) override {
+    m_tried.assign(size_t(body(op).fat.lobules()), 0);
+    m_lobule = -1;
+    m_done = 0;
+  }
+
+  /// Does it lie on a tube that is to stay in its fat?
+  bool spared(const Operator& op, Vec3d p) const {
+    constexpr double kOff = 0.0045;  // [m]
+    for (size_t i = 0; i < op.model().strand_bodies.size(); ++i) {
+      if (std::find(m_bared.begin(), m_bared.end(), BodyId::strand(i)) != m_bared.end()) continue;
+      const std::vector<Vec3d>& x = op.state().strands[i].x;
+      const std::vector<double>& radius = op.model().strand_bodies[i].model.radius;
+      for (size_t e = 0; e + 1 < x.size(); ++e)
+        if (length(p - (x[e] + geometry::closest_on_segment(p, x[e], x[e + 1]) * (x[e + 1] - x[e]))) < radius[e] + kOff)
+          return true;
+    }
+    return false;
+  }
+
+  /// The outermost of those that have not been tried, near to where the hook is.
+  int next(Operator& op) {
+    constexpr double kNear = 0.5;                  // what the way there counts beside the depth
+    constexpr double kAstray = 0.03;               // [m] from where it was drawn: it has come off
+    const Arms::Arm& arm = op.arm(m_hand);
+    int best = -1;
+    double least = 0;
+    for (int n = 0; n < body(op).fat.lobules(); ++n) {
+      if (gone(op, n) || m_tried[size_t(n)]) continue;
+      const Vec3d p = place(op, n);
+      if (length(p - body(op).fat.network.rest[size_t(n)]) > kAstray || spared(op, p)) continue;
+      const double cost = length(p - arm.port) + kNear * length(p - arm.tip);
+      if (best < 0 || cost < least) least = cost, best = n;
+    }
+    if (best >= 0) m_tried[size_t(best)] = 1;
+    return best;
+  }
+
+  /// What the wire is at, if that is to go.
+  int at_wire(Operator& op) const {
+    const Arms::Arm& arm = op.arm(m_hand);
+    const Vec3d back = interactions::kBareWire * normalised(arm.port - arm.tip);
+    const double radius = 0.5 * op.tool(m_hand).jaw_thickness;
+    const int n = interactions::lobule_at(body(op), state(op), {arm.tip + back, arm.tip, radius});
+    return n >= 0 && !spared(op, place(op, n)) ? n : -1;
+  }
+
+  Progress work(Operator& op) override {
+    Arms::Arm& arm = op.arm(m_hand);
+    op.want(arm.tip);
+    if (m_phase == kAway) {
+      op.want(m_last);
+      return op.arms().move_to_depth(m_hand, reach::kBroughtIn, pace::kTravel) ? Progress::done : Progress::working;
+    }
+    if (m_lobule < 0) {
+      const bool enough = m_done >= m_most || fat_left(op.model(), op.state(), m_fat) <= m_left;
+      m_lobule = enough ? -1 : next(op);
+      if (m_lobule < 0) go(kAway);
+      return Progress::working;
+    }
+    m_last = place(op, m_lobule);
+    op.want(m_last);
+    work_at(op, arm);
+    return Progress::working;
+  }
+
+  void work_at(Operator& op, Arms::Arm& arm) {
+    constexpr double kTouches = 0.004;                                   // [N]
+    constexpr double kBefore = 0.006, kDeeper = 0.001;                   // [m]
+    constexpr double kFar = 2, kTouch = 0.02, kLongest = 3, kOff = 0.12;  // [s]
+    const Vec3d along = normalised(m_last - arm.port);
+    const double force = norm(op.tool_state(m_hand).contact_force);
+    switch (m_phase) {
+      case kAbove:
+        if (length(arm.tip - m_last) < 2 * kBefore || op.arms().move(m_hand, m_last - kBefore * along, pace::kCareful) ||
+            m_in_phase > kFar)
+          go(kReach);
+        break;
+      case kReach:
+        if (op.arms().move(m_hand, m_last + kDeeper * along, pace::kCareful) || force > kTouches || m_in_phase > kFar)
+          press(op);
+        break;
+      default:
+        m_steady = force > 0 ? 0 : m_steady + sim::kTick;
+        arm.coagulating = m_in_phase > kTouch && m_steady < kOff && !gone(op, m_lobule);
+        if (force < kTouches) op.arms().move(m_hand, m_last + kDeeper * along, pace::kCareful);
+        if (!gone(op, m_lobule) && m_in_phase < kLongest) break;
+        m_done += gone(op, m_lobule);
+        press(op);
+    }
+  }
+  /// Goes on with what the wire is at; lifts it where there is no more.
+  void press(Operator& op) {
+    const int was = m_lobule;
+    m_lobule = at_wire(op);
+    if (m_lobule == was && m_phase == kPress) m_lobule = -1;  // it does not go
+    m_steady = 0;
+    if (m_lobule < 0) op.arm(m_hand).coagulating = false;
+    go(m_lobule < 0 ? kAbove : kPress);
+  }
+
+  int m_hand;
+  BodyId m_fat;
+  std::vector<BodyId> m_bared;
+  double m_left;
+  int m_most, m_lobule = -1, m_done = 0;
+  Vec3d m_last;
+  std::vector<std::uint8_t> m_tried;  ///< (lobules)
+};
+
+std::string lacks_fat(const sim::Model& model, const Given& given) {
+  if (!given("fat").body().is(BodyKind::fat)) return "that is no fat";
+  if (!model.energy.there) return "there is no current";
+  return lacks_tool(model, given.hand(), &interactions::Abilities::coagulate);
+}
+
+}  // namespace
+
+const SkillKind kClearFat{
+    "clear_fat",
+    "clear fat away",
+    {hand_parameter("that has a hook"),
+     {"fat", ArgumentKind::body, "which"},
+     {"bare", ArgumentKind::bodies, "strands that are to be bared: fat on others is left", false},
+     number_parameter("left_share", "until no more of its volume is left; 0", 0, 1),
+     number_parameter("most", "lobules in one go; all", 1, 10000)},
+    400,
+    "Brings an electrode to the outermost lobule of fat, presses the blue pedal until it has boiled away, and goes on to "
+    "the next; then draws back.",
+    lacks_fat,
+    &making<ClearFat>};
+
+}  // namespace trocar::training

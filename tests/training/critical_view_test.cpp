@@ -1,0 +1,149 @@
+// What makes the critical view of safety, in States that are written by hand: every predicate holds when it should, and
+// none while fat is left where it must not be.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <trocar/scene/compile/compile.hpp>
+#include <trocar/scene/files/reader.hpp>
+#include <trocar/training/observe/fat.hpp>
+#include <trocar/training/observe/marks.hpp>
+
+namespace trocar::training {
+namespace {
+
+using interactions::BondState;
+using interactions::Fat;
+using tissue::Lobule;
+
+const sim::Model& calot() {
+  static const sim::Model model = scene::compile(scene::read_scene(TROCAR_SOURCE_DIR "/scenes/calot/scene.json"));
+  return model;
+}
+
+struct Triangle {
+  const sim::Model& model = calot();
+  sim::State state = sim::initial_state(model);
+
+  const interactions::FatBody& body() const { return interactions::part_of<Fat>(model.objects).list.front(); }
+  interactions::FatBodyState& fat() { return interactions::part_of<Fat>(state.objects).front(); }
+  const interactions::FatBodyState& fat() const { return interactions::part_of<Fat>(state.objects).front(); }
+  Vec3d place(int lobule) const { return position(body().fat, fat().fat, lobule); }
+
+  void remove(int lobule) {
+    Lobule& l = fat().fat.lobules[std::size_t(lobule)];
+    if (l.gone()) return;
+    l.marks |= Lobule::kGone;
+    ++fat().fat.gone;
+    for (int i = 0; i < body().fat.septa(); ++i)
+      if (septum_end(body().fat, i, 0) == lobule || septum_end(body().fat, i, 1) == lobule)
+        tissue::cut_spring(body().fat.network, fat().fat.network, i);
+    for (std::size_t i = 0; i < body().roots.bonds.size(); ++i)
+      if (body().roots.bonds[i].node == lobule) fat().roots[i] = {1, BondState::burnt};
+    for (std::size_t i = 0; i < body().ties.size(); ++i)
+      if (body().ties[i].lobule == lobule) fat().ties[i] = {1, BondState::burnt};
+  }
+  /// All but those that `stays(place)` asks to keep.
+  template <class F>
+  void clear_but(F&& stays) {
+    for (int n = 0; n < body().fat.lobules(); ++n)
+      if (!stays(place(n))) remove(n);
+  }
+  void clear() {
+    clear_but([](Vec3d) { return false; });
+  }
+
+  int strand(const char* name) const { return model.strand_index(name); }
+  double bared(const char* name) const { return bared_length(model, state, strand(name)); }
+  std::array<Vec3d, 3> window() const {
+    std::array<Vec3d, 3> corners;
+    const char* names[] = {"duct_end", "artery_end", "duct_middle"};
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t t = 0; t < model.targets.size(); ++t)
+        if (model.targets[t].name == names[i]) corners[i] = place_of_mark(model, state, int(t));
+    return corners;
+  }
+  double open() const { return open_share(model, state, window(), 0.012); }
+  std::vector<BodyId> bridged() const {
+    return bridged_from(model, state, BodyId::membrane(std::size_t(model.membrane_index("gallbladder"))));
+  }
+};
+
+}  // namespace
+
+TEST(CriticalView, NothingOfItIsThereBeforeTheDissection) {
+  Triangle t;
+  EXPECT_LT(t.bared("cystic_duct"), 0.008);
+  EXPECT_LT(t.open(), 0.1);
+  EXPECT_FALSE(t.bridged().empty());
+}
+
+TEST(CriticalView, AllOfItIsThereWithoutFat) {
+  Triangle t;
+  t.clear();
+  EXPECT_NEAR(t.bared("cystic_duct"), t.model.strand_bodies[std::size_t(t.strand("cystic_duct"))].length(), 0.002);
+  EXPECT_EQ(t.open(), 1);
+  EXPECT_TRUE(t.bridged().empty());
+  EXPECT_EQ(fat_left(t.model, t.state, BodyId(BodyKind::fat, 0)), 0);
+}
+
+TEST(CriticalView, FatBeforeOrBehindTheWindowClosesIt) {
+  for (const double side : {1.0, -1.0}) {
+    Triangle t;
+    const std::array<Vec3d, 3> w = t.window();
+    const Vec3d normal = normalised(cross(w[1] - w[0], w[2] - w[0])), middle = (w[0] + w[1] + w[2]) / 3.0;
+    int kept = -1;
+    double most = 0;
+    for (int n = 0; n < t.body().fat.lobules(); ++n) {
+      const Vec3d off = t.place(n) - middle;
+      const double height = side * dot(off, normal), aside = length(off - dot(off, normal) * normal);
+      if (aside < 0.0025 && height > most && height < 0.011) most = height, kept = n;
+    }
+    if (kept < 0) continue;  // on that side none is far from the plane
+    for (int n = 0; n < t.body().fat.lobules(); ++n)
+      if (n != kept) t.remove(n);
+    EXPECT_LT(t.open(), 1) << "a lobule " << 1000 * most << " mm off on side " << side;
+  }
+}
+
+TEST(CriticalView, OneSectorOfACordMayBeCoveredTwoMayNot) {
+  Triangle t;
+  t.clear();
+  const int duct = t.strand("cystic_duct");
+  const interactions::StrandBody& body = t.model.strand_bodies[std::size_t(duct)];
+  const interactions::StrandPlace middle = interactions::place_at(body, 0.5 * body.length());
+  const interactions::StrandFrame frame = frame_at(body, t.state.strands[std::size_t(duct)], middle);
+  const Vec3d at = point_at(body, t.state.strands[std::size_t(duct)], middle);
+  const double off = body.model.radius[std::size_t(middle.element)] + 0.001;
+  const auto put = [&](int lobule, double turn) {
+    tissue::set_position(t.body().fat.network, t.fat().fat.network, lobule,
+                         at + off * (std::cos(turn) * frame.normal + std::sin(turn) * frame.binormal));
+    t.fat().fat.lobules[std::size_t(lobule)].marks = 0;
+  };
+  put(0, 0.4);
+  EXPECT_NEAR(t.bared("cystic_duct"), body.length(), 0.002);
+  put(1, 2.0);
+  EXPECT_LT(t.bared("cystic_duct"), 0.6 * body.length());
+}
+
+TEST(CriticalView, FatThatStillLeadsSomewhereIsABridge) {
+  Triangle t;
+  const std::size_t all = t.bridged().size();
+  EXPECT_GT(all, 0u);
+  // every way from the gallbladder parts when its ties do
+  for (BondState& tie : t.fat().ties) tie = {1, BondState::cut};
+  const auto is_gallbladder_tied = !t.bridged().empty();
+  EXPECT_FALSE(is_gallbladder_tied);
+  EXPECT_GT(fat_left(t.model, t.state, BodyId(BodyKind::fat, 0)), 0.99) << "all of it is still there";
+}
+
+TEST(CriticalView, TheFactsNeverHoldWhileALobuleIsLeftInTheWindowsMiddle) {
+  Triangle t;
+  const std::array<Vec3d, 3> w = t.window();
+  const Vec3d middle = (w[0] + w[1] + w[2]) / 3.0;
+  t.clear_but([&](Vec3d p) { return length(p - middle) < 0.006; });
+  EXPECT_LT(t.open(), 0.9);
+}
+
+}  // namespace trocar::training
