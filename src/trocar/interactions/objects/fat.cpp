@@ -6,12 +6,12 @@
 namespace trocar::interactions {
 namespace {
 
-constexpr double kContact = 300;        // [N/m] a lobule at an instrument, implicit
-constexpr double kContactDamped = 0.02; // [N s/m]
-constexpr double kQuickest = 0.0012;    // [m] a tick, beyond the instrument's way
-constexpr double kSlips = 0.005;        // [m/s] above it friction is Coulomb's, below it viscous
-constexpr double kCompressed = 0.6;     // thickness between jaws that just hold it, of its diameter
-constexpr float kStays = 10;            // [N s/m] what is gone is nowhere: its node is kept where it was
+constexpr double kContact = 300;         // [N/m] a lobule at an instrument, implicit
+constexpr double kContactDamped = 0.02;  // [N s/m]
+constexpr double kQuickest = 0.0012;     // [m] a tick, beyond the instrument's way
+constexpr double kSlips = 0.005;         // [m/s] above it friction is Coulomb's, below it viscous
+constexpr double kCompressed = 0.6;      // thickness between jaws that just hold it, of its diameter
+constexpr float kStays = 10;             // [N s/m] what is gone is nowhere: its node is kept where it was
 constexpr size_t kLoadsPerLobule = 12;
 
 /// A lobule that a part of an instrument presses on.

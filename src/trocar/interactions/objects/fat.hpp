@@ -137,13 +137,12 @@ struct Fat {
 };
 
 /// Roots and ties pull on lobules and on what they hold on, and give way.
-void pull_on_fat(const FatBody& body, FatBodyState& state, const Holders& holders, const TiedWalls& walls,
-                 double dt, FatBodyWork& work, std::span<StrandLoads> strand_loads,
-                 std::span<NetworkLoads> organ_loads) noexcept;
+void pull_on_fat(const FatBody& body, FatBodyState& state, const Holders& holders, const TiedWalls& walls, double dt,
+                 FatBodyWork& work, std::span<StrandLoads> strand_loads, std::span<NetworkLoads> organ_loads) noexcept;
 
 /// Septa, roots and ties between whose ends the blade passes hold no more. @return how many
-int sever_fat(const FatBody& body, const geometry::Blade& blade, const Holders& holders,
-              const TiedWalls& walls, FatBodyState& state) noexcept;
+int sever_fat(const FatBody& body, const geometry::Blade& blade, const Holders& holders, const TiedWalls& walls,
+              FatBodyState& state) noexcept;
 
 /// The lobule at an electrode: nearest to the bare wire, and touching it. -1: none
 int lobule_at(const FatBody& body, const FatBodyState& state, const Capsule& wire) noexcept;
@@ -171,8 +170,7 @@ void Fat::between(const Models& models, const States& states, size_t i, const To
 template <class Account>
 void Fat::account(const Work& work, double /*tick*/, Account&& account) noexcept {
   for (const FatBodyWork& w : work.list)
-    for (size_t i = 0; i < w.loads.sorted.size(); ++i)
-      account(w.loads.owner[i], vec_cast<double>(w.loads.reaction[i]));
+    for (size_t i = 0; i < w.loads.sorted.size(); ++i) account(w.loads.owner[i], vec_cast<double>(w.loads.reaction[i]));
 }
 
 template <class States_, class F>

@@ -7,8 +7,8 @@
 namespace trocar::interactions {
 namespace {
 
-constexpr double kTieDamping = 2e-4;   // [s] times stiffness, as of bonds
-constexpr double kWarms = 1.2;         // spacings: lobules so near to where current enters share its heat.  Ours
+constexpr double kTieDamping = 2e-4;  // [s] times stiffness, as of bonds
+constexpr double kWarms = 1.2;        // spacings: lobules so near to where current enters share its heat.  Ours
 
 bool coagulated(const FatBodyState& s, int lobule) noexcept { return s.fat.lobules[size_t(lobule)].coagulated(); }
 
@@ -83,12 +83,11 @@ void pull_on_fat(const FatBody& body, FatBodyState& s, const Holders& holders, c
   weaken_roots(body, nodes, holders, dt, s);
   bond_loads(body.roots, s.roots, nodes, holders, dt, strand_loads, organ_loads);
   for (size_t i = 0; i < body.ties.size(); ++i)
-    if (s.ties[i].holds())
-      tie_loads(body, body.ties[i], walls, dt, s, s.ties[i], w.loads);
+    if (s.ties[i].holds()) tie_loads(body, body.ties[i], walls, dt, s, s.ties[i], w.loads);
 }
 
-int sever_fat(const FatBody& body, const geometry::Blade& blade, const Holders& holders,
-              const TiedWalls& walls, FatBodyState& s) noexcept {
+int sever_fat(const FatBody& body, const geometry::Blade& blade, const Holders& holders, const TiedWalls& walls,
+              FatBodyState& s) noexcept {
   const geometry::BladePlane plane(blade);
   if (!plane.flat) return 0;
   int severed = tissue::sever(body.fat, plane, s.fat);

@@ -203,6 +203,21 @@ sim::DrawnFold compile_sheet(const Sheet& sheet, const sim::Model& model) {
   return out;
 }
 
+void report_fat(const sim::Model& model, CompileReport& report) {
+  for (const interactions::FatBody& body : interactions::part_of<interactions::Fat>(model.objects).list) {
+    BodyReport r;
+    r.name = body.name;
+    r.kind = "fat";
+    r.nodes = body.fat.lobules();
+    r.springs = body.fat.septa();
+    r.substeps = body.fat.network.substeps;
+    r.dt_limit = body.fat.network.dt_limit;
+    r.mass = body.fat.lobules() * body.fat.mass;
+    r.volume = body.fat.lobules() * body.fat.volume;
+    report.bodies.push_back(r);
+  }
+}
+
 void note_detail(const Description& d, sim::Model& model) {
   for (const DetailSetting& setting : d.detail) {
     std::vector<sim::DetailLevel> levels;
@@ -240,6 +255,7 @@ sim::Model compile(const Description& d, CompileReport* report) {
     if (tissue) compile_pouch(pouch, *tissue, d.gravity, model, faults, report);
   }
   ObjectScenes::for_each([&](auto kind) { kind.compile(settings_of(kind, d.objects), model, faults); });
+  if (report) report_fat(model, *report);
   for (const Sheet& sheet : d.sheets) model.drawn_folds.push_back(compile_sheet(sheet, model));
   compile_vessels(d, model, faults, report);
   compile_fluids(d, model, faults);

@@ -15,7 +15,7 @@ namespace trocar::scene {
 
 /// What a body compiled to, for `trocar check`.
 struct BodyReport {
-  std::string name, kind;        ///< "solid", "strand", "membrane", "pouch", "wall", "vessels"
+  std::string name, kind;        ///< "solid", "strand", "membrane", "pouch", "fat", "wall", "vessels"
   int nodes = 0, springs = 0;    ///< elements for a strand, triangles for a wall; of vessels: cells of flow, segments
   int substeps = 0;              ///< per tick; 0: implicit or fixed
   double dt_limit = 0;           ///< sufficient stability limit [s]

@@ -100,7 +100,8 @@ std::vector<Vec3d> lattice_in(const FatSetting& s, const Others& others) {
   Vec3d low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9};
   for (const FatSetting::Fill& f : s.fills)
     for (const Vec3d& p : f.line)
-      for (int c = 0; c < 3; ++c) low[c] = std::min(low[c], p[c] - f.radius), high[c] = std::max(high[c], p[c] + f.radius);
+      for (int c = 0; c < 3; ++c)
+        low[c] = std::min(low[c], p[c] - f.radius), high[c] = std::max(high[c], p[c] + f.radius);
   const double half = s.spacing / std::sqrt(2.0);  // of the cube's edge
   std::vector<Vec3d> out;
   const auto steps = [&](int c) { return int(std::min(1000.0, (high[c] - low[c]) / half)); };

@@ -13,7 +13,7 @@
 namespace trocar::scene {
 namespace {
 
-constexpr double kFatFar = 2000;       // [mm]
+constexpr double kFatFar = 2000;    // [mm]
 constexpr int kMostLobules = 4000;  // of one body: what a tick bears
 
 const Shape& fill_shape() {
@@ -27,16 +27,19 @@ const Shape& fill_shape() {
 const Shape& fat_shape() {
   static const Shape shape{
       "fat",
-      "Fat and areolar tissue: lobules that septa tie to each other, and that hold on what they lie on. They are teased "
+      "Fat and areolar tissue: lobules that septa tie to each other, and that hold on what they lie on. They are "
+      "teased "
       "apart, cut, coagulated and boiled away.",
-      {needed(keys::name("name", "what exercises call it")), keys::text("look", "its surface in the picture, default \"fat\""),
+      {needed(keys::name("name", "what exercises call it")),
+       keys::text("look", "its surface in the picture, default \"fat\""),
        needed(keys::objects("fills", fill_shape, 1, "where it is, as far as nothing else is there")),
        keys::texts("on", "strands, solids and pouches that it holds on, where they are near"),
        keys::number("reach_mm", 0.2, 20, "how near that is, default 3"),
        keys::number("spacing_mm", 1, 10, "of its lobules, default 2.5"),
        keys::number("young_Pa", 100, 1e5, "small-strain modulus, default 3000"),
        keys::number("opens", 0.2, 5, "strain at which a septum is gone, default 1.2"),
-       keys::number("serosa_N_m", 0, 1000, "modulus times thickness of the serosa over its free faces, default 50; 0: none"),
+       keys::number("serosa_N_m", 0, 1000,
+                    "modulus times thickness of the serosa over its free faces, default 50; 0: none"),
        keys::number("serosa_opens", 0.2, 5, "strain at which that has torn, default 1"),
        keys::number("toughness_J_m2", 0.1, 1000, "of what holds it on others, default 15"),
        keys::number("holds_to_mm", 0.5, 20, "how far that opens until nothing holds, default 4"),

@@ -31,7 +31,8 @@ bool has_fat(const Model& model) noexcept { return !interactions::part_of<Fat>(m
 void pull_on_fat(StepContext& c) noexcept {
   if (!has_fat(c.model)) return;
   const interactions::Holders holders = holders_of(c);
-  for_fat(c, [&](const interactions::FatBody& body, interactions::FatBodyState& state, interactions::FatBodyWork& work) {
+  for_fat(c, [&](const interactions::FatBody& body, interactions::FatBodyState& state,
+                 interactions::FatBodyWork& work) {
     interactions::pull_on_fat(body, state, holders, walls_of(c), kTick, work, c.work.strand_loads, c.work.organ_loads);
   });
 }

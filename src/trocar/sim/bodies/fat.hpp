@@ -17,7 +17,7 @@ int sever_fat(StepContext& context, const geometry::Blade& blade) noexcept;
 /// A lobule that a bare wire touches.
 struct FatTouch {
   int body = -1, lobule = -1;
-  Vec3d place;      ///< its middle [m]
+  Vec3d place;       ///< its middle [m]
   double apart = 0;  ///< of its surface from the wire's axis; below 0: the wire is in it [m]
   bool there() const noexcept { return lobule >= 0; }
 };

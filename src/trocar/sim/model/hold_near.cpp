@@ -3,8 +3,7 @@
 
 namespace trocar::sim {
 
-interactions::BorderHold hold_near(const std::vector<std::string>& names, double reach, Vec3d p,
-                                   const Model& model) {
+interactions::BorderHold hold_near(const std::vector<std::string>& names, double reach, Vec3d p, const Model& model) {
   interactions::BorderHold best;
   best.offset = p;
   double nearest = reach;

@@ -53,7 +53,7 @@ struct Work {
   std::vector<interactions::NetworkLoads> membrane_loads;
   std::vector<tissue::MembraneWork> membrane_work;
   std::vector<const tissue::MembraneModel*> membrane_models;  ///< (membranes) of the Model
-  std::vector<tissue::Leak> leaks;  ///< (membranes) of this tick
+  std::vector<tissue::Leak> leaks;                            ///< (membranes) of this tick
   interactions::ObjectWork objects;
   std::vector<std::vector<tissue::BorderPull>> pulls;  ///< (membranes)(held nodes)
   std::vector<std::vector<Vec3d>> targets;             ///< (membranes)(held nodes)
@@ -95,17 +95,16 @@ struct Work {
         v("organ_reports", s.organ_reports), v("strand_reports", s.strand_reports),
         v("membrane_reports", s.membrane_reports), v("sheet_poses", s.sheet_poses), v("sheets", s.sheets),
         v("sheet_gaps", s.sheet_gaps), v("membrane_loads", s.membrane_loads), v("membrane_work", s.membrane_work),
-        v("membrane_models", s.membrane_models, core::kMadeOnce),
-        v("leaks", s.leaks), v("objects", s.objects), v("pulls", s.pulls), v("targets", s.targets),
-        v("wave_force", s.wave_force), v("hosts", s.hosts), v("vessel_points", s.vessel_points),
-        v("vessel_posed", s.vessel_posed), v("flow", s.flow), v("open", s.open), v("closed", s.closed),
-        v("flows", s.flows), v("walls", s.walls), v("busy", s.busy), v("impact_at", s.impact_at), v("bleeds", s.bleeds),
-        v("bleed_count", s.bleed_count), v("heat", s.heat), v("heat_sources", s.heat_sources), v("steam", s.steam),
-        v("current_flows", s.current_flows), v("fluids", s.fluids), v("wet", s.wet), v("wounds", s.wounds),
-        v("wet_tools", s.wet_tools), v("valves", s.valves), v("nodes", s.nodes), v("cuttable_skins", s.cuttable_skins),
-        v("skins", s.skins, core::kMadeOnce), v("organ_order", s.organ_order, core::kMadeOnce),
-        v("strand_order", s.strand_order, core::kMadeOnce), v("membrane_order", s.membrane_order, core::kMadeOnce),
-        v("skin_order", s.skin_order, core::kMadeOnce);
+        v("membrane_models", s.membrane_models, core::kMadeOnce), v("leaks", s.leaks), v("objects", s.objects),
+        v("pulls", s.pulls), v("targets", s.targets), v("wave_force", s.wave_force), v("hosts", s.hosts),
+        v("vessel_points", s.vessel_points), v("vessel_posed", s.vessel_posed), v("flow", s.flow), v("open", s.open),
+        v("closed", s.closed), v("flows", s.flows), v("walls", s.walls), v("busy", s.busy), v("impact_at", s.impact_at),
+        v("bleeds", s.bleeds), v("bleed_count", s.bleed_count), v("heat", s.heat), v("heat_sources", s.heat_sources),
+        v("steam", s.steam), v("current_flows", s.current_flows), v("fluids", s.fluids), v("wet", s.wet),
+        v("wounds", s.wounds), v("wet_tools", s.wet_tools), v("valves", s.valves), v("nodes", s.nodes),
+        v("cuttable_skins", s.cuttable_skins), v("skins", s.skins, core::kMadeOnce),
+        v("organ_order", s.organ_order, core::kMadeOnce), v("strand_order", s.strand_order, core::kMadeOnce),
+        v("membrane_order", s.membrane_order, core::kMadeOnce), v("skin_order", s.skin_order, core::kMadeOnce);
   }
 };
 

@@ -66,9 +66,8 @@ void work_in_fat(StepContext& c, size_t t, const FatTouch& fat, const tissue::Fo
   ElectrodeHand& hand = electrode_of(c, t);
   const EnergyModel& energy = c.model.energy;
   const tissue::HeatContact met = fat_contact(c, fat);
-  const tissue::Discharge d =
-      tissue::energise_apart(c.model.tool(c.state, t).electrode.current, c.state.panel, pedals, {}, met, energy.heat,
-                             c.state.heat, hand.current);
+  const tissue::Discharge d = tissue::energise_apart(c.model.tool(c.state, t).electrode.current, c.state.panel, pedals,
+                                                     {}, met, energy.heat, c.state.heat, hand.current);
   c.work.current_flows = c.work.current_flows || d.flows;
   hand.body = BodyId(BodyKind::fat, size_t(fat.body));
   hand.at = fat.place;

@@ -6,8 +6,8 @@ namespace trocar::tissue {
 namespace {
 
 constexpr double kBody = 37, kCoagulates = 60, kBoils = 100;  // [C]
-constexpr double kFatCapacity = 2700;                        // of fat with its water [J/kg K]
-constexpr double kFatWaterBoils = 2.26e6;                       // of water [J/kg]
+constexpr double kFatCapacity = 2700;                         // of fat with its water [J/kg K]
+constexpr double kFatWaterBoils = 2.26e6;                     // of water [J/kg]
 constexpr double kCools = 3;                                  // [s] to its neighbours and blood.  Our choice
 constexpr std::uint64_t kTurns = 8;                           // ticks until a septum is looked at again
 

@@ -1,6 +1,6 @@
-// Fat and the loose areolar tissue in it, as surgeons meet it around ducts and vessels: lobules of some millimetres that
-// septa tie to their neighbours, on its free faces covered by serosa. It is teased apart, cut, coagulated and boiled
-// away, lobule by lobule.
+// Fat and the loose areolar tissue in it, as surgeons meet it around ducts and vessels: lobules of some millimetres
+// that septa tie to their neighbours, on its free faces covered by serosa. It is teased apart, cut, coagulated and
+// boiled away, lobule by lobule.
 //
 //   septa   springs of a network (tissue/network/network.hpp) between neighbours. Each holds by a cohesive law
 //           (tissue/failure/cohesive.hpp): what has been opened does not heal. Between lobules of a free face the
@@ -47,17 +47,17 @@ struct FatMaterial {
 };
 
 struct FatDescription {
-  std::vector<Vec3d> lobules;          ///< middles [m]
-  std::vector<std::uint8_t> free;      ///< (lobules) 1: on a free face, under serosa
-  std::vector<std::uint8_t> held;      ///< (lobules) 1: does not move in space; may be empty
-  double spacing = 0.0025;             ///< of lobules [m]
+  std::vector<Vec3d> lobules;      ///< middles [m]
+  std::vector<std::uint8_t> free;  ///< (lobules) 1: on a free face, under serosa
+  std::vector<std::uint8_t> held;  ///< (lobules) 1: does not move in space; may be empty
+  double spacing = 0.0025;         ///< of lobules [m]
   FatMaterial material;
   Vec3d gravity{0, 0, 0};
 };
 
 /// Const after build().
 struct FatModel {
-  NetworkModel network;               ///< a node a lobule, a spring a septum
+  NetworkModel network;  ///< a node a lobule, a spring a septum
   FatMaterial material;
   double spacing = 0;                 ///< [m]
   double radius = 0;                  ///< of a lobule, as it is touched [m]

@@ -7,8 +7,8 @@
 namespace trocar::tissue {
 namespace {
 
-constexpr double kNeighbour = 1.25;    // lobules tie to those within so many spacings
-constexpr double kStepShare = 1.0 / 7; // of the undamped limit that damping may take, as of organs
+constexpr double kNeighbour = 1.25;     // lobules tie to those within so many spacings
+constexpr double kStepShare = 1.0 / 7;  // of the undamped limit that damping may take, as of organs
 
 /// Of a septum: a face-centred lattice of central springs has about this stiffness for a given modulus.
 double septum_stiffness(double young, double spacing) { return young * spacing / std::sqrt(2.0); }
@@ -65,7 +65,8 @@ FatModel build(const FatDescription& d, double tick) {
   for (SpringDescription& s : net.springs) s.damping = damping * s.k;
   m.network = build(net, tick);
   m.septum = law_of(septum_stiffness(d.material.young, d.spacing), d.material.yields, d.material.opens, d.spacing);
-  m.serosa = law_of(serosa_stiffness(d.material.serosa), 0.7 * d.material.serosa_opens, d.material.serosa_opens, d.spacing);
+  m.serosa =
+      law_of(serosa_stiffness(d.material.serosa), 0.7 * d.material.serosa_opens, d.material.serosa_opens, d.spacing);
   return m;
 }
 

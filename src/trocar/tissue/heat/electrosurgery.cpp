@@ -20,7 +20,9 @@ HeatSource source_of(const ElectrodeDescription& e, const ElectrodeContact& c, c
   return q;
 }
 
-bool is_near(const ElectrodeContact& c) noexcept { return c.body.exists() && c.gap >= 0 && c.gap < 1 && c.pressed >= 0; }
+bool is_near(const ElectrodeContact& c) noexcept {
+  return c.body.exists() && c.gap >= 0 && c.gap < 1 && c.pressed >= 0;
+}
 
 /// A source for all the ticks until the next one.
 void add_source(HeatSource q, double watts, const HeatModel& model, Discharge& d) noexcept {
@@ -29,8 +31,8 @@ void add_source(HeatSource q, double watts, const HeatModel& model, Discharge& d
 }
 
 /// Into what the electrode meets there.
-void flow(const ElectrodeDescription& e, double set, const ElectrodeContact& c, double pressed, const EnergyCurve& curve,
-          const HeatContact& met, Discharge& d) noexcept {
+void flow(const ElectrodeDescription& e, double set, const ElectrodeContact& c, double pressed,
+          const EnergyCurve& curve, const HeatContact& met, Discharge& d) noexcept {
   if (!(met.volume > 0)) return;
   const double g = std::max(met.conductance, 1e-3);
   const double contact = e.wet * kMillimetre / (e.radius * curve.focus * pressed * g);

@@ -77,7 +77,8 @@ class Together {
 };
 
 BodyId holder(const BorderHold& hold) {
-  return hold.kind == BorderHold::strand ? BodyId::strand(std::size_t(hold.index)) : BodyId::organ(std::size_t(hold.index));
+  return hold.kind == BorderHold::strand ? BodyId::strand(std::size_t(hold.index))
+                                         : BodyId::organ(std::size_t(hold.index));
 }
 
 /// f(lobule, body) of all that a body of fat still holds on.
@@ -86,8 +87,7 @@ void for_holds(const FatBody& body, const FatBodyState& s, F&& f) {
   for (std::size_t i = 0; i < body.roots.bonds.size(); ++i)
     if (s.roots[i].holds()) f(std::size_t(body.roots.bonds[i].node), holder(body.roots.bonds[i].hold));
   for (std::size_t i = 0; i < body.ties.size(); ++i)
-    if (s.ties[i].holds())
-      f(std::size_t(body.ties[i].lobule), BodyId::membrane(std::size_t(body.ties[i].membrane)));
+    if (s.ties[i].holds()) f(std::size_t(body.ties[i].lobule), BodyId::membrane(std::size_t(body.ties[i].membrane)));
 }
 
 void add_bridged(const FatBody& body, const FatBodyState& s, BodyId from, std::vector<BodyId>& out) {
@@ -111,8 +111,7 @@ double bared_length(const sim::Model& model, const sim::State& state, int strand
   Sectors sectors(model, state, strand);
   for_fat(model, state, [&](const FatBody& body, const FatBodyState& s) {
     for (int n = 0; n < body.fat.lobules(); ++n)
-      if (!s.fat.lobules[std::size_t(n)].gone())
-        sectors.cover(position(body.fat, s.fat, n), kNear * body.fat.spacing);
+      if (!s.fat.lobules[std::size_t(n)].gone()) sectors.cover(position(body.fat, s.fat, n), kNear * body.fat.spacing);
   });
   return sectors.longest();
 }

@@ -8,7 +8,8 @@
 
 namespace trocar::training {
 
-/// A strand is bare at a place where it is free in so many of eight sectors around it.       shared figures: docs/fat.md
+/// A strand is bare at a place where it is free in so many of eight sectors around it.       shared figures:
+/// docs/fat.md
 inline constexpr int kSectors = 8, kBareSectors = 7;
 
 /// The longest stretch of a strand along which it is bare [m].

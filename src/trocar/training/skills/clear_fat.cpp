@@ -59,8 +59,8 @@ class ClearFat final : public Skill {
 
   /// The outermost of those that have not been tried, near to where the hook is.
   int next(Operator& op) {
-    constexpr double kNear = 0.5;                  // what the way there counts beside the depth
-    constexpr double kAstray = 0.03;               // [m] from where it was drawn: it has come off
+    constexpr double kNear = 0.5;     // what the way there counts beside the depth
+    constexpr double kAstray = 0.03;  // [m] from where it was drawn: it has come off
     const Arms::Arm& arm = op.arm(m_hand);
     int best = -1;
     double least = 0;
@@ -75,13 +75,28 @@ class ClearFat final : public Skill {
     return best;
   }
 
-  /// What the wire is at, if that is to go.
-  int at_wire(Operator& op) const {
+  interactions::Capsule wire(Operator& op) const {
     const Arms::Arm& arm = op.arm(m_hand);
     const Vec3d back = interactions::kBareWire * normalised(arm.port - arm.tip);
-    const double radius = 0.5 * op.tool(m_hand).jaw_thickness;
-    const int n = interactions::lobule_at(body(op), state(op), {arm.tip + back, arm.tip, radius});
+    return {arm.tip + back, arm.tip, 0.5 * op.tool(m_hand).jaw_thickness};
+  }
+  /// What the wire is at, if that is to go.
+  int at_wire(Operator& op) const {
+    const int n = interactions::lobule_at(body(op), state(op), wire(op));
     return n >= 0 && !spared(op, place(op, n)) ? n : -1;
+  }
+  /// Is the wire off every tube? Sparks jump to what is nearer.
+  bool off_tubes(Operator& op) const {
+    constexpr double kApart = 0.0017;  // [m] of the wire's axis
+    const interactions::Capsule w = wire(op);
+    for (size_t i = 0; i < op.model().strand_bodies.size(); ++i) {
+      const std::vector<Vec3d>& x = op.state().strands[i].x;
+      for (size_t e = 0; e + 1 < x.size(); ++e) {
+        const auto near = geometry::closest_segments(w.a, w.b, x[e], x[e + 1]);
+        if (length(near.on_second - near.on_first) < op.model().strand_bodies[i].model.radius[e] + kApart) return false;
+      }
+    }
+    return true;
   }
 
   Progress work(Operator& op) override {
@@ -104,15 +119,15 @@ class ClearFat final : public Skill {
   }
 
   void work_at(Operator& op, Arms::Arm& arm) {
-    constexpr double kTouches = 0.004;                                   // [N]
-    constexpr double kBefore = 0.006, kDeeper = 0.001;                   // [m]
-    constexpr double kFar = 2, kTouch = 0.02, kLongest = 3, kOff = 0.12;  // [s]
+    constexpr double kTouches = 0.004;                    // [N]
+    constexpr double kBefore = 0.006, kDeeper = 0.001;    // [m]
+    constexpr double kFar = 2, kLongest = 3, kOff = 0.5;  // [s]
     const Vec3d along = normalised(m_last - arm.port);
     const double force = norm(op.tool_state(m_hand).contact_force);
     switch (m_phase) {
       case kAbove:
-        if (length(arm.tip - m_last) < 2 * kBefore || op.arms().move(m_hand, m_last - kBefore * along, pace::kCareful) ||
-            m_in_phase > kFar)
+        if (length(arm.tip - m_last) < 2 * kBefore ||
+            op.arms().move(m_hand, m_last - kBefore * along, pace::kCareful) || m_in_phase > kFar)
           go(kReach);
         break;
       case kReach:
@@ -120,10 +135,10 @@ class ClearFat final : public Skill {
           press(op);
         break;
       default:
-        m_steady = force > 0 ? 0 : m_steady + sim::kTick;
-        arm.coagulating = m_in_phase > kTouch && m_steady < kOff && !gone(op, m_lobule);
+        arm.coagulating = at_wire(op) >= 0 && off_tubes(op);
+        m_steady = arm.coagulating ? 0 : m_steady + sim::kTick;
         if (force < kTouches) op.arms().move(m_hand, m_last + kDeeper * along, pace::kCareful);
-        if (!gone(op, m_lobule) && m_in_phase < kLongest) break;
+        if (!gone(op, m_lobule) && m_in_phase < kLongest && m_steady < kOff) break;
         m_done += gone(op, m_lobule);
         press(op);
     }
@@ -155,18 +170,18 @@ std::string lacks_fat(const sim::Model& model, const Given& given) {
 
 }  // namespace
 
-const SkillKind kClearFat{
-    "clear_fat",
-    "clear fat away",
-    {hand_parameter("that has a hook"),
-     {"fat", ArgumentKind::body, "which"},
-     {"bare", ArgumentKind::bodies, "strands that are to be bared: fat on others is left", false},
-     number_parameter("left_share", "until no more of its volume is left; 0", 0, 1),
-     number_parameter("most", "lobules in one go; all", 1, 10000)},
-    400,
-    "Brings an electrode to the outermost lobule of fat, presses the blue pedal until it has boiled away, and goes on to "
-    "the next; then draws back.",
-    lacks_fat,
-    &making<ClearFat>};
+const SkillKind kClearFat{"clear_fat",
+                          "clear fat away",
+                          {hand_parameter("that has a hook"),
+                           {"fat", ArgumentKind::body, "which"},
+                           {"bare", ArgumentKind::bodies, "strands that are to be bared: fat on others is left", false},
+                           number_parameter("left_share", "until no more of its volume is left; 0", 0, 1),
+                           number_parameter("most", "lobules in one go; all", 1, 10000)},
+                          400,
+                          "Brings an electrode to the outermost lobule of fat, presses the blue pedal until it has "
+                          "boiled away, and goes on to "
+                          "the next; then draws back.",
+                          lacks_fat,
+                          &making<ClearFat>};
 
 }  // namespace trocar::training

@@ -9,13 +9,13 @@ namespace {
 
 using interactions::Fat;
 
-constexpr float kCell = 0.0008f;                       // [m] of the grid that the surface is taken from
-constexpr double kReach = 1.15;                        // of a lobule's bell, in spacings
-constexpr float kMoves = 2e-5f;                        // [m] less is not drawn anew
-constexpr double kBlanched = 100, kCharred = 215;      // Paint::burn of what is coagulated, and of what is about to go
-constexpr double kThreadFrom = 1.7, kThreadTo = 8;     // spacings between which a septum is seen as a thread
-constexpr double kThin = 0.00008, kThick = 0.0005;     // [m] a thread's radius in its middle and at its ends
-constexpr std::uint32_t kRings = 5, kSides = 4;        // of a thread
+constexpr float kCell = 0.0008f;                    // [m] of the grid that the surface is taken from
+constexpr double kReach = 1.15;                     // of a lobule's bell, in spacings
+constexpr float kMoves = 2e-5f;                     // [m] less is not drawn anew
+constexpr double kBlanched = 100, kCharred = 215;   // Paint::burn of what is coagulated, and of what is about to go
+constexpr double kThreadFrom = 1.7, kThreadTo = 8;  // spacings between which a septum is seen as a thread
+constexpr double kThin = 0.00008, kThick = 0.0005;  // [m] a thread's radius in its middle and at its ends
+constexpr std::uint32_t kRings = 5, kSides = 4;     // of a thread
 constexpr std::size_t kMostThreads = 400;
 
 std::uint8_t burn_of(const tissue::FatModel& m, const tissue::Lobule& l) {
@@ -39,7 +39,8 @@ void add_thread(Vec3d from, Vec3d to, Vec3d rest, std::uint8_t burn, MeshBuffer&
       b.rest.push_back(vec_cast<float>(rest + 0.001 * side));
     }
   }
-  for (std::uint32_t r = 0; r + 1 < kRings; ++r) join_rows(b, first + r * kSides, first + (r + 1) * kSides, kSides, true);
+  for (std::uint32_t r = 0; r + 1 < kRings; ++r)
+    join_rows(b, first + r * kSides, first + (r + 1) * kSides, kSides, true);
 }
 
 void add_threads(const tissue::FatModel& m, const tissue::FatState& s, MeshBuffer& b) {

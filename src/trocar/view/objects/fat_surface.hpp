@@ -13,9 +13,9 @@
 namespace trocar::view {
 
 struct DrawnLobule {
-  Vec3f place, rest;       ///< [m] now, and as drawn: patterns go with that
-  float reach = 0;         ///< of its bell [m]
-  std::uint8_t burn = 0;   ///< Paint::burn
+  Vec3f place, rest;      ///< [m] now, and as drawn: patterns go with that
+  float reach = 0;        ///< of its bell [m]
+  std::uint8_t burn = 0;  ///< Paint::burn
 };
 
 class FatSurface {

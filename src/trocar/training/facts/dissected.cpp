@@ -1,5 +1,7 @@
-// What a dissection has bared: facts of fat.
+// What a dissection has parted and bared: facts of bonds and of fat.
 #include <algorithm>
+
+#include <fmt/format.h>
 
 #include <trocar/training/facts/registry.hpp>
 #include <trocar/training/observe/fat.hpp>
@@ -31,7 +33,7 @@ class Figure final : public Observer {
   double m_value = 0;
 };
 
-double left(const sim::Model& model, const sim::State& state, const Arguments& a) {
+double volume_left(const sim::Model& model, const sim::State& state, const Arguments& a) {
   return fat_left(model, state, a[0].body());
 }
 
@@ -39,7 +41,7 @@ double bared(const sim::Model& model, const sim::State& state, const Arguments& 
   return bared_length(model, state, a[0].index);
 }
 
-double open(const sim::Model& model, const sim::State& state, const Arguments& a) {
+double window_open(const sim::Model& model, const sim::State& state, const Arguments& a) {
   std::array<Vec3d, 3> corners;
   for (std::size_t i = 0; i < 3; ++i) corners[i] = place_of_mark(model, state, a[i].index);
   return open_share(model, state, corners, kAcross);
@@ -56,7 +58,33 @@ std::string no_fat(const sim::Model&, const Arguments& a) {
   return a[0].body().is(BodyKind::fat) ? "" : "expected fat, got another body";
 }
 
+Value bonds_left(const Moment& moment, const Arguments& a) {
+  const int set = moment.model.bonds_index(a[0].word);
+  if (set < 0) return kUnknown;
+  return interactions::holding_share(moment.model.bonds[size_t(set)], moment.state.bonds[size_t(set)]);
+}
+
+std::string_view needs_bonds(const sim::Model& model) { return model.bonds.empty() ? "bonds of a pouch" : ""; }
+
+std::string unknown_bonds(const sim::Model& model, const Arguments& a) {
+  if (model.bonds_index(a[0].word) >= 0) return {};
+  std::string known;
+  for (const interactions::BondSet& set : model.bonds) known += (known.empty() ? "" : ", ") + set.name;
+  return fmt::format("expected bonds of the scene ({}), got \"{}\"", known, a[0].word);
+}
+
 }  // namespace
+
+const Fact kBondsLeft{"bonds.left_share",
+                      {{"of", ArgumentKind::word, "bonds of a pouch, by their name"}},
+                      0,
+                      1,
+                      "The share of the bonds' area that still holds: 1 before anything has been dissected, 0 when all "
+                      "of it is free.",
+                      needs_bonds,
+                      &stateless<bonds_left>,
+                      false,
+                      &unknown_bonds};
 
 const Fact kFatLeft{"fat.left_share",
                     {{"of", ArgumentKind::body, "which fat"}},
@@ -64,7 +92,7 @@ const Fact kFatLeft{"fat.left_share",
                     1,
                     "The share of its volume that has not boiled away.",
                     needs_fat,
-                    &remembering<Figure<left>>,
+                    &remembering<Figure<volume_left>>,
                     false,
                     &no_fat};
 
@@ -85,7 +113,7 @@ const Fact kWindowOpen{"window.open_share",
                        "The share of 64 sights through the triangle between three marks, from 12 mm before it to 12 mm "
                        "behind it, that no fat is in the way of.",
                        needs_fat,
-                       &remembering<Figure<open>>};
+                       &remembering<Figure<window_open>>};
 
 const Fact kFatBridges{"fat.bridges",
                        {{"from", ArgumentKind::body, "a body that fat lies on"},
