@@ -13,8 +13,8 @@ using interactions::Fat;
 using interactions::FatBody;
 using interactions::FatBodyState;
 
-constexpr double kAlong = 0.001;  // [m] between places of a strand that are looked at
-constexpr double kNear = 0.6;     // spacings from a strand's surface: a lobule whose middle is so near lies on it
+constexpr double kStride = 0.001;  // [m] between places of a strand that are looked at
+constexpr double kOnIt = 0.6;     // spacings from a strand's surface: a lobule whose middle is so near lies on it
 constexpr int kRows = 8;          // of sights: 64 in a triangle
 
 /// f(body, state) of all fat.
@@ -30,11 +30,11 @@ class Sectors {
   Sectors(const sim::Model& model, const sim::State& state, int strand)
       : m_body(model.strand_bodies[std::size_t(strand)]),
         m_state(state.strands[std::size_t(strand)]),
-        m_covered(std::size_t(m_body.length() / kAlong) + 1, 0) {}
+        m_covered(std::size_t(m_body.length() / kStride) + 1, 0) {}
 
   void cover(Vec3d p, double reach) {
     for (std::size_t i = 0; i < m_covered.size(); ++i) {
-      const interactions::StrandPlace at = interactions::place_at(m_body, double(i) * kAlong);
+      const interactions::StrandPlace at = interactions::place_at(m_body, double(i) * kStride);
       const interactions::StrandFrame frame = frame_at(m_body, m_state, at);
       const Vec3d off = p - point_at(m_body, m_state, at);
       const double y = dot(off, frame.normal), z = dot(off, frame.binormal);
@@ -53,7 +53,7 @@ class Sectors {
       run = covered <= kSectors - kBareSectors ? run + 1 : 0;
       most = std::max(most, run);
     }
-    return std::max(0, most - 1) * kAlong;
+    return std::max(0, most - 1) * kStride;
   }
 
  private:
@@ -111,7 +111,7 @@ double bared_length(const sim::Model& model, const sim::State& state, int strand
   Sectors sectors(model, state, strand);
   for_fat(model, state, [&](const FatBody& body, const FatBodyState& s) {
     for (int n = 0; n < body.fat.lobules(); ++n)
-      if (!s.fat.lobules[std::size_t(n)].gone()) sectors.cover(position(body.fat, s.fat, n), kNear * body.fat.spacing);
+      if (!s.fat.lobules[std::size_t(n)].gone()) sectors.cover(position(body.fat, s.fat, n), kOnIt * body.fat.spacing);
   });
   return sectors.longest();
 }
