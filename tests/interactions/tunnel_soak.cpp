@@ -10,8 +10,8 @@ using namespace trocar;
 namespace {
 
 /// @return how many were passed
-int passages(trials::Kind kind, int count) {
-  trials::Trials trials(kind, 2026);
+int passages(trials::Kind kind, int count, trials::With with = trials::With::grasper) {
+  trials::Trials trials(kind, 2026, with);
   int stabs = 0, passed_stabs = 0, passed_sweeps = 0, sank = 0, touched = 0;
   for (int i = 0; i < count; ++i) {
     const trials::Trials::Result r = trials.trial(i);
@@ -32,5 +32,9 @@ TEST(TunnelSoak, OrgansOfALatticeAreNotPassed) { EXPECT_EQ(passages(trials::Kind
 TEST(TunnelSoak, OrgansOfTetrahedraAreNotPassed) { EXPECT_EQ(passages(trials::Kind::cells, 20'000), 0); }
 TEST(TunnelSoak, StrandsAreNotPassed) { EXPECT_EQ(passages(trials::Kind::strand, 40'000), 0); }
 TEST(TunnelSoak, FoldsAreNotPassed) { EXPECT_EQ(passages(trials::Kind::fold, 20'000), 0); }
+TEST(TunnelSoak, NothingIsPassedByAHookWithAFoot) {
+  for (const trials::Kind kind : {trials::Kind::organ, trials::Kind::cells, trials::Kind::strand, trials::Kind::fold})
+    EXPECT_EQ(passages(kind, 2'000, trials::With::hook), 0);
+}
 
 }  // namespace
